@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * catalog - catalog.def expanded to enums, instance structs and const tables.
+ *
+ * Whoever must know what a word is asks its row; no other file names a single
+ * word but the function that does its work.
+ */
+#ifndef BASE_CATALOG_H
+#define BASE_CATALOG_H
+
+#include "engine/base/iec.h"
+
+/* One number space for all that can stand in a cell. */
+enum word {
+#define ELEM(id, ...) ELEM_##id,
+#include "engine/catalog.def"
+#define FB(id, ...) FB_##id,
+#include "engine/catalog.def"
+#define FN(id, ...) FN_##id,
+#include "engine/catalog.def"
+	WORD_COUNT
+};
+
+enum op {
+#define OP(id, ...) OP_##id,
+#include "engine/catalog.def"
+	OP_COUNT
+};
+
+enum vm_op {
+#define VM(id, ...) VM_##id,
+#include "engine/catalog.def"
+	VM_COUNT
+};
+
+/* The memory of an instance. A BOOL is a byte of 0 or 1, TIME is ns. Layouts are
+ * the same on every little-endian target with natural alignment. */
+#define IEC_CTYPE_BOOL uint8_t
+#define IEC_CTYPE_INT  int16_t
+#define IEC_CTYPE_TIME int64_t
+#define FB_IN(fb, pin, type, doc)  IEC_CTYPE_##type pin;
+#define FB_OUT(fb, pin, type, doc) IEC_CTYPE_##type pin;
+#define FB_VAR(fb, pin, type)      IEC_CTYPE_##type pin;
+#define FB(id, family, doc, pins)  struct fb_##id { pins };
+#include "engine/catalog.def"
+
+enum word_kind { WORD_ELEM, WORD_FB, WORD_FN };
+
+enum place {
+	PLACE_NONE,   /* an empty cell                                       */
+	PLACE_WIRE,   /* joins its two ends                                  */
+	PLACE_SERIES, /* power in, power out                                 */
+	PLACE_BOX,    /* like series; may stand last, and is then an output  */
+	PLACE_LAST,   /* power in only                                       */
+	PLACE_PIN,    /* a further row of the box above                      */
+};
+
+enum operand_kind {
+	OPND_NONE, OPND_BOOL_R, OPND_BOOL_W, OPND_ANY_R, OPND_ANY_W,
+	OPND_LABEL, OPND_INSTANCE, OPND_EXPR, OPND_ASSIGN, OPND_PIN,
+};
+
+enum edge { EDGE_NONE, EDGE_RISING, EDGE_FALLING };
+
+/* Modifiers of an IL operator (IEC 61131-3 table 51). */
+enum op_modifier { MOD_N = 1, MOD_C = 2, MOD_PAREN = 4 };
+
+enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR };
+
+struct word_pin {
+	const char *name;
+	enum pin_dir dir;
+	enum iec_type type;  /* of an FB pin; IEC_NONE for a function's        */
+	uint8_t classes;     /* of a function's pin: enum iec_class, or'ed     */
+	uint16_t offset;     /* of an FB pin in its struct                     */
+	const char *doc;
+};
+
+enum fn_result { RESULT_SAME, RESULT_BOOL };
+
+struct word_row {
+	const char *id;      /* "CONTACT_NC"                                   */
+	const char *word;    /* as the rung file spells it: "NC", "TON"        */
+	const char *glyph;   /* three characters, its strokes; boxes: ""       */
+	const char *family;  /* of the palette                                 */
+	const char *doc;
+	enum word_kind kind;
+	enum place place;
+	enum operand_kind operand;
+	enum edge edge;
+	enum op first, next; /* IL at the rail, and behind others              */
+	bool negate;
+	enum fn_result result;
+	uint8_t most_inputs; /* of a function                                  */
+	uint8_t pin_count;
+	const struct word_pin *pin; /* of a function: inputs only              */
+	uint16_t size;       /* bytes of an FB instance                        */
+};
+
+/** word_row - the row of a word. Lives for ever. Scan-safe: yes. */
+const struct word_row *word_row(enum word word);
+/** word_find - the word a file spells so (any case); WORD_COUNT: none. */
+enum word word_find(const char *text, size_t len);
+/** word_pin_find - index of a pin (any case) in the row; a function's INn past
+ * its named pins too, up to most_inputs; -1: none. PIN_VAR is never found. */
+int word_pin_find(const struct word_row *row, const char *name, size_t len);
+/** word_first_bool - index of its first Boolean pin of @dir, -1: none. */
+int word_first_bool(const struct word_row *row, enum pin_dir dir);
+
+struct op_row {
+	const char *word;
+	enum operand_kind operand;
+	uint8_t modifiers;   /* enum op_modifier, or'ed                        */
+	const char *doc;
+};
+const struct op_row *op_row(enum op op);
+/** op_find - OP_COUNT: none. */
+enum op op_find(const char *text, size_t len);
+
+struct vm_row {
+	const char *word, *doc;
+};
+const struct vm_row *vm_row(enum vm_op op);
+
+struct sys_row {
+	const char *name;    /* "SYS_FIRST_SCAN"                               */
+	const char *address; /* "%SMX0.1"                                      */
+	enum iec_type type;
+	const char *doc;
+};
+enum sys_id {
+#define SYS(id, ...) SYS_##id,
+#include "engine/catalog.def"
+	SYS_COUNT
+};
+const struct sys_row *sys_row(enum sys_id id);
+#endif

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * iec - the types, values, areas and direct addresses of IEC 61131-3.
+ *
+ * Types and areas are rows of catalog.def. It knows nothing of programs, and it
+ * reads no clock: a TIME is 64-bit nanoseconds inside.
+ */
+#ifndef BASE_IEC_H
+#define BASE_IEC_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* IEC 61131-3 table 10; the order is the order of implicit widening. */
+enum iec_type {
+	IEC_NONE,
+#define TYPE(id, ctype, size, class, low, high) IEC_##id,
+#include "engine/catalog.def"
+	IEC_TYPE_COUNT
+};
+
+/* Generic types (IEC 61131-3 figure 5) are sets of these classes. */
+enum iec_class {
+	CLASS_BOOL = 1, CLASS_BITS = 2, CLASS_SIGNED = 4, CLASS_UNSIGNED = 8,
+	CLASS_REAL = 16, CLASS_TIME = 32,
+};
+#define ANY_INT   (CLASS_SIGNED | CLASS_UNSIGNED)
+#define ANY_NUM   (ANY_INT | CLASS_REAL)
+#define ANY_MAGNITUDE (ANY_NUM | CLASS_TIME)
+#define ANY_BIT   (CLASS_BOOL | CLASS_BITS)
+#define ANY_ELEMENTARY (ANY_MAGNITUDE | ANY_BIT)
+
+/* A value of any elementary type; which member holds it is told by its class:
+ * r for CLASS_REAL, i for all others (BOOL 0/1, bits and unsigned zero-extended,
+ * signed sign-extended, TIME in ns). */
+union iec_value {
+	int64_t i;
+	double r;
+};
+
+struct iec_type_row {
+	const char *word;    /* "INT"                                          */
+	uint8_t size;        /* bytes; BOOL 1                                  */
+	uint8_t class;       /* one enum iec_class                             */
+	int64_t low, high;   /* smallest and largest value; integers only      */
+};
+/** iec_type_row - the row of a type; IEC_NONE has an empty one. */
+const struct iec_type_row *iec_type_row(enum iec_type type);
+/** iec_type_find - IEC_NONE if @word (any case) names no elementary type. */
+enum iec_type iec_type_find(const char *word, size_t len);
+
+/**
+ * iec_can_widen - may @from stand where @to is wanted, without a conversion?
+ *
+ * Only when every value of @from is a value of @to (IEC 61131-3 ed. 3 figure 12):
+ * SINT→INT→DINT, USINT→UINT→UDINT, unsigned into a larger signed, up to 16 bits
+ * into REAL, BYTE→WORD→DWORD. The type itself always.   Scan-safe: yes.
+ */
+bool iec_can_widen(enum iec_type from, enum iec_type to);
+
+enum iec_area {
+	AREA_NONE,
+#define AREA(id, letters, bytes, access, doc) AREA_##id,
+#include "engine/catalog.def"
+	AREA_COUNT
+};
+enum iec_access { ACCESS_READ, ACCESS_WRITE }; /* what a program may do */
+
+struct iec_area_row {
+	const char *letters; /* "I"                                            */
+	uint32_t bytes;
+	enum iec_access access;
+	uint32_t offset;     /* of its first byte in a process image           */
+	const char *doc;
+};
+const struct iec_area_row *iec_area_row(enum iec_area area);
+#define IEC_AREA_BYTES_MAX 65536u
+/** iec_areas_size - bytes of all areas together, laid out one after another. */
+uint32_t iec_areas_size(void);
+
+struct iec_addr {
+	enum iec_area area;  /* AREA_NONE: no address                          */
+	uint8_t bits;        /* 1, 8, 16, 32 or 64                             */
+	uint8_t bit;         /* 0..7, of bits == 1                             */
+	uint32_t byte;       /* from the start of the area                     */
+};
+
+enum iec_addr_result { ADDR_OK, ADDR_NONE, ADDR_RANGE };
+/**
+ * iec_addr_parse - a direct address such as %IX0.3, %MW4, I3, Q10, V0.3, SM0.5
+ *
+ * Short forms (without `%`) too: I3 is bit 3 of the inputs, B5 is M5.
+ * Returns ADDR_NONE when the text is no address, ADDR_RANGE when it is one that
+ * lies outside its area (a bit above 7, an odd size).   Scan-safe: yes.
+ */
+enum iec_addr_result iec_addr_parse(const char *text, size_t len,
+				    struct iec_addr *out);
+/** iec_addr_print - canonical "%QX1.2"; returns as snprintf. */
+int iec_addr_print(struct iec_addr addr, char *out, size_t size);
+/** iec_addr_type - BOOL, BYTE, WORD or DWORD by its width. */
+enum iec_type iec_addr_type(struct iec_addr addr);
+
+/**
+ * iec_load, iec_store - a typed value in memory (little-endian, any alignment)
+ *
+ * iec_store keeps the low bits of a value that does not fit.  Scan-safe: yes.
+ */
+union iec_value iec_load(const void *memory, enum iec_type type);
+void iec_store(void *memory, enum iec_type type, union iec_value value);
+
+/**
+ * iec_value_print - a value as traces show it
+ *
+ * BOOL 0 or 1; integers and bit strings decimal; REAL the shortest text that
+ * reads back; TIME in milliseconds with as many decimals as it takes.
+ * Returns as snprintf.   Scan-safe: no.
+ */
+int iec_value_print(enum iec_type type, union iec_value value, char *out,
+		    size_t size);
+
+#endif

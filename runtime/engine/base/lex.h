@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * lex - one scanner for every text of the engine.
+ *
+ * Rung files, IL, expressions, I/O maps, scripts and scenarios are read with it.
+ * It cannot read past its end, needs no NUL and knows no keywords: any bytes give
+ * tokens, the odd ones TOKEN_BAD. It allocates nothing.
+ */
+#ifndef BASE_LEX_H
+#define BASE_LEX_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum token_kind {
+	TOKEN_END,        /* end of the text                                   */
+	TOKEN_NEWLINE,    /* only when lex->newlines                           */
+	TOKEN_NAME,       /* letters, digits, _, UTF-8; not a digit first.
+			     Dots inside belong to it: Runout.Q               */
+	TOKEN_NUMBER,     /* any literal but a string: 12, 16#FF, T#1s, 1.5E3,
+			     also a time such as 10ms, 2.5s                   */
+	TOKEN_ADDRESS,    /* %IX0.3                                           */
+	TOKEN_STRING,     /* "…" with $" $$ $N $L $R $T inside                */
+	TOKEN_COMMENT,    /* (* … *) nested or // …; only when lex->comments,
+			     else skipped                                     */
+	TOKEN_SYMBOL,     /* := => <= >= <> ** or one character               */
+	TOKEN_BAD,        /* control or invalid UTF-8 byte, open string or
+			     comment; goes on behind it                       */
+};
+
+struct token {
+	enum token_kind kind;
+	const char *text;  /* borrowed from the source                         */
+	size_t len;        /* bytes; string and comment with their delimiters  */
+	int line, column;  /* 1-based; column in bytes                         */
+	bool space_before; /* blanks or a comment stand before it              */
+};
+
+struct lex {
+	const char *at, *end, *line_start;
+	int line;
+	bool newlines, comments; /* set after lex_init if they are wanted      */
+	struct token token;      /* the one under the cursor                   */
+};
+
+/** lex_init - before the first token of @len bytes; skips a UTF-8 BOM. */
+void lex_init(struct lex *lex, const char *text, size_t len);
+/** lex_next - steps to the next token and returns its kind. Always ends. */
+enum token_kind lex_next(struct lex *lex);
+/** lex_is - is the token this word (any case) or symbol? */
+bool lex_is(const struct lex *lex, const char *word);
+/** lex_accept - if lex_is, step over it. */
+bool lex_accept(struct lex *lex, const char *word);
+/** lex_skip_line - steps to the first token of the next line. */
+void lex_skip_line(struct lex *lex);
+
+/** utf8_valid - are all @len bytes valid UTF-8 without NUL? Gives the offset of
+ * the first bad byte through @bad (may be NULL). */
+bool utf8_valid(const char *text, size_t len, size_t *bad);
+/** utf8_width - columns a terminal needs: 2 for East Asian wide, 0 for
+ * combining, 1 else. @text is valid UTF-8. */
+int utf8_width(const char *text, size_t len);
+#endif

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * limits - every bound of the engine, in one place.
+ *
+ * A bound that stands anywhere else is a mistake. All of them are checked when
+ * a program is loaded, so that the scan needs no check of its own.
+ */
+#ifndef BASE_LIMITS_H
+#define BASE_LIMITS_H
+
+#define LIMIT_COLS        64        /* columns of a rung                      */
+#define LIMIT_ROWS        256       /* rows of a rung                         */
+#define LIMIT_DIAGS       100       /* diagnostics kept; the rest are counted */
+#define LIMIT_NAME        255       /* bytes of a name                        */
+#define LIMIT_ARG         48        /* bytes of a diagnostic's argument       */
+#define LIMIT_TEXT        (64u << 20) /* bytes of one source file             */
+#define LIMIT_RUNGS       50000     /* rungs of one POU                       */
+#define LIMIT_POUS        1024      /* POUs of one project                    */
+#define LIMIT_VARS        200000    /* variables of one project               */
+#define LIMIT_ARGS        16        /* parameters written at one box          */
+#define LIMIT_FN_INPUTS   8         /* inputs of an extensible function       */
+#define LIMIT_EXPR_DEPTH  64        /* nesting of an expression               */
+#define LIMIT_EXPR_NODES  512       /* operands and operators of one          */
+#define LIMIT_IL_DEPTH    64        /* open parentheses of an IL list         */
+#define LIMIT_IMAGE       (64u << 20) /* bytes of a code image                */
+#define LIMIT_DATA        (8u << 20)  /* bytes of a program's data            */
+#define LIMIT_BUDGET      10000000  /* instructions of one scan               */
+#define LIMIT_FORCES      256       /* forced variables at one time           */
+#define LIMIT_IO_POINTS   4096      /* lines of an I/O map                    */
+
+#endif

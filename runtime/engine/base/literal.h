@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * literal - constants as IEC 61131-3 writes them (tables 5 to 7).
+ *
+ * `12 -7 1_000 2#1010 8#17 16#FF TRUE 1.5E-3 T#1h2m3.5s INT#16#7F`. Both ways:
+ * text to value and value to canonical text. It refuses to round silently.
+ */
+#ifndef BASE_LITERAL_H
+#define BASE_LITERAL_H
+
+#include "engine/base/iec.h"
+
+enum literal_result {
+	LITERAL_OK,
+	LITERAL_NONE,  /* not a literal at all                               */
+	LITERAL_BAD,   /* begins like one and is not, such as 2#3 or T#5x    */
+	LITERAL_RANGE, /* does not fit its own type or 64 bits               */
+};
+
+struct literal {
+	enum iec_type type;    /* IEC_NONE: an untyped number, fits where it can */
+	bool real;             /* untyped with a point or exponent               */
+	union iec_value value; /* r when real or type REAL, else i               */
+};
+
+/**
+ * literal_parse - the constant that all @len bytes of @text spell
+ *
+ * TIME is rounded to no less than 1 ns; finer is LITERAL_RANGE.
+ * Owns: nothing.   Scan-safe: no (strtod).   Fails: as the result says.
+ */
+enum literal_result literal_parse(const char *text, size_t len,
+				  struct literal *out);
+
+/**
+ * literal_fit - the literal as a value of @type
+ *
+ * Fails: false if it is not of that type or out of its range.
+ */
+bool literal_fit(const struct literal *literal, enum iec_type type,
+		 union iec_value *out);
+
+/** literal_print_time - "T#1h2m3s500ms" of nanoseconds; as snprintf. */
+int literal_print_time(int64_t ns, char *out, size_t size);
+/** literal_print - a value as source text of its type: TRUE, 5, 1.5, T#3s. */
+int literal_print(enum iec_type type, union iec_value value, char *out,
+		  size_t size);
+#endif

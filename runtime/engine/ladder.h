@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * ladder - the facade of libladder.a: from a file to something that runs.
+ *
+ * Programs include this, model/, scan/ and base/ headers and nothing else of the
+ * engine but view/ and trial/. It prints nothing and exits never.
+ */
+#ifndef ENGINE_LADDER_H
+#define ENGINE_LADDER_H
+
+#include "engine/base/diag.h"
+#include "engine/model/project.h"
+#include "engine/scan/resource.h"
+
+#define LADDER_VERSION "0.1.0"
+
+struct ladder;
+
+/** ladder_new - nothing loaded. Owns: the caller, ladder_free(). NULL: no memory. */
+struct ladder *ladder_new(void);
+void ladder_free(struct ladder *ladder);
+
+/**
+ * ladder_load - reads a rung file or a code image
+ * @path: told apart by its first bytes, not by its name. Must stay valid.
+ *
+ * On failure nothing is loaded and ladder_diags() says why.   Scan-safe: no.
+ */
+bool ladder_load(struct ladder *ladder, const char *path);
+/** ladder_load_text - the same from memory; @file names it in diagnostics. */
+bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
+		      size_t len);
+/** ladder_could_read - false after a load that could not read the file at all
+ * (exit status 2 of the command line). */
+bool ladder_could_read(const struct ladder *ladder);
+
+/**
+ * ladder_build - checks what was loaded and translates it to a code image
+ *
+ * Gives every error and warning of check/ and translate/. After it ladder_program()
+ * is there. Of a loaded image it only verifies.
+ */
+bool ladder_build(struct ladder *ladder);
+
+/* All of these live until the next load or ladder_free(). */
+struct diag_list *ladder_diags(struct ladder *ladder);
+struct project *ladder_project(struct ladder *ladder); /* NULL: an image    */
+const struct program *ladder_program(const struct ladder *ladder); /* NULL  */
+const void *ladder_image(const struct ladder *ladder, size_t *len);
+/** ladder_il - the instruction list of POU @pou (what LD became, or as written);
+ * NULL before ladder_build. */
+const struct il *ladder_il(const struct ladder *ladder, int pou);
+/** ladder_memory - bytes taken by project, translation and image. */
+size_t ladder_memory(const struct ladder *ladder);
+
+/**
+ * ladder_write - the canonical text of the project
+ * @len: gets its length without the closing NUL
+ * Owns: the caller, free().   Fails: NULL when memory is out.
+ */
+char *ladder_write(struct ladder *ladder, size_t *len);
+
+/**
+ * ladder_read_file - a whole regular file
+ * @limit: bytes at most
+ * Owns: the caller, free(). NULL and a diagnostic (with errno's text) on failure.
+ */
+char *ladder_read_file(const char *path, size_t limit, size_t *len,
+		       struct diag_list *diags);
+/**
+ * ladder_save_file - replaces a file atomically: temporary file beside it,
+ * fsync, rename, fsync of the folder. Keeps the mode of an old file.
+ * Fails: false and a diagnostic; the old file is intact.
+ */
+bool ladder_save_file(const char *path, const void *bytes, size_t len,
+		      struct diag_list *diags);
+#endif

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * expr - infix expressions with the operators and precedence of IEC 61131-3
+ * table 55, as a tree.
+ *
+ * Used by [ … ] cells and by scenarios. It parses and prints; types are found
+ * later. Precedence, strongest first: ( ), - NOT, * / MOD, + -, < > <= >=, = <>,
+ * AND &, XOR, OR. All binary operators bind to the left.
+ */
+#ifndef MODEL_EXPR_H
+#define MODEL_EXPR_H
+
+#include "engine/base/catalog.h"
+#include "engine/base/diag.h"
+#include "engine/base/lex.h"
+
+enum expr_op {
+	EXPR_NAME,      /* text: a name, a pin or a direct address            */
+	EXPR_LITERAL,   /* text: a constant                                   */
+	EXPR_NEG, EXPR_NOT,
+	EXPR_FN,        /* fn: ADD SUB MUL DIV MOD GT GE EQ LE LT NE          */
+	EXPR_AND, EXPR_XOR, EXPR_OR,
+};
+
+struct expr_node {
+	enum expr_op op;
+	enum word fn;          /* of EXPR_FN                                  */
+	const char *text;      /* borrowed from the source                    */
+	uint16_t len;
+	int16_t left, right;   /* nodes; -1: none. Children come before       */
+};
+
+struct expr {
+	struct expr_node node[LIMIT_EXPR_NODES];
+	int count;
+	int root;
+	const char *target;    /* of `target := expression`; NULL: none       */
+	size_t target_len;
+};
+
+/**
+ * expr_parse - the expression at the lexer, up to the first token past it
+ * @lex: stands on its first token; afterwards on the one that ends it
+ * @out: caller's memory (about 16 KB: not on a small stack)
+ *
+ * Owns: nothing; texts are borrowed from the source.   Scan-safe: no.
+ * Fails: false and one diagnostic with @place and the column.
+ */
+bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
+		struct diag place);
+/** expr_parse_text - a whole text: `expression` or `target := expression`. */
+bool expr_parse_text(const char *text, size_t len, struct expr *out,
+		     struct diag_list *diags, struct diag place);
+#endif

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * il - an instruction list (IEC 61131-3 chapter 3.2) as data.
+ *
+ * What LD becomes and what a user writes are the same list. It knows operators and
+ * their order, not what operands mean: check/check_il.h finds that out.
+ */
+#ifndef MODEL_IL_H
+#define MODEL_IL_H
+
+#include "engine/base/catalog.h"
+#include "engine/base/names.h"
+
+enum il_kind {
+	IL_OP,       /* an operator of the catalogue: op, modifiers, operand   */
+	IL_FN,       /* a function as operator on the result: ADD 5            */
+	IL_CLOSE,    /* )                                                      */
+	IL_LABEL,    /* Name:                                                  */
+	IL_CALL,     /* a function with formal parameters; arguments follow    */
+	IL_ARG_IN,   /* PIN := operand                                         */
+	IL_ARG_OUT,  /* PIN => operand                                         */
+	IL_COMMENT,  /* (* … *)                                                */
+};
+
+struct il_line {
+	uint8_t kind;        /* enum il_kind                                   */
+	uint8_t op;          /* enum op of IL_OP                               */
+	uint8_t modifiers;   /* enum op_modifier                               */
+	uint8_t spare;
+	uint16_t word;       /* enum word: the function of IL_FN, IL_CALL      */
+	uint16_t row, col;   /* 1-based cell it comes from; 0: none            */
+	uint32_t rung;       /* 1-based; 0: none                               */
+	uint32_t operand;    /* string id; label name; comment text            */
+	uint32_t pin;        /* string id of IL_ARG_*                          */
+	uint32_t line;       /* in the source; 0: none                         */
+};
+
+struct il {
+	struct arena *arena;
+	struct il_line *line;
+	int count;
+};
+
+/** il_add - appends a copy. Fails: NULL when memory is out. Scan-safe: no. */
+struct il_line *il_add(struct il *il, struct il_line line);
+#endif

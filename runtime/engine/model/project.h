@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * project - what a rung file says: variables, POUs, rungs.
+ *
+ * Owns everything in it through one arena, but for the rungs, which an editor
+ * exchanges one by one (rung_free). It holds what was written, right or wrong.
+ */
+#ifndef MODEL_PROJECT_H
+#define MODEL_PROJECT_H
+
+#include "engine/model/il.h"
+#include "engine/model/rung.h"
+#include "engine/model/vars.h"
+
+enum pou_language { LANGUAGE_LD, LANGUAGE_IL };
+
+struct pou {
+	uint32_t name;          /* string id                                   */
+	enum pou_language language;
+	struct var_table vars;  /* locals                                      */
+	struct rung **rung;     /* of LD; malloc'ed vector of malloc'ed rungs  */
+	int rung_count;
+	struct il il;           /* of IL                                       */
+	uint32_t comment;       /* above it                                    */
+	uint32_t tail;          /* comments before its END_PROGRAM             */
+	const char *file;       /* it stands in; borrowed from the arena       */
+	int line;
+	uint8_t included;       /* 1: of a file named by INCLUDE               */
+};
+
+/* What stood where in the file, so that writing keeps the order. */
+enum part_kind { PART_VARS, PART_POU, PART_VIEW, PART_INCLUDE };
+struct part {
+	enum part_kind kind;
+	int index;              /* var block of globals, or POU                */
+	uint32_t text;          /* string id: VIEW … END_VIEW whole; file name */
+	uint32_t comment;       /* above it                                    */
+	uint8_t included;       /* came from another file: not written         */
+};
+
+struct project {
+	struct arena arena;
+	struct names names;
+	const char *file;
+	uint32_t title;         /* PROJECT "…"                                 */
+	uint32_t head;          /* comments above PROJECT or the first part    */
+	uint32_t tail;          /* comments at the end                         */
+	struct var_table globals;
+	struct pou *pou;
+	int pou_count;
+	struct part *part;
+	int part_count;
+};
+
+/** project_new - an empty project.
+ * Owns: the caller, project_free().   Fails: NULL when memory is out. */
+struct project *project_new(const char *file);
+void project_free(struct project *project);
+
+/* Rungs of a POU: @at 0-based. The project takes over the rung it is given. */
+bool project_add_rung(struct pou *pou, int at, struct rung *rung);
+/** project_take_rung - removes it; the caller owns what is returned. */
+struct rung *project_take_rung(struct pou *pou, int at);
+bool project_move_rung(struct pou *pou, int from, int to);
+/** project_text - the string of an id. */
+const char *project_text(const struct project *project, uint32_t id);
+#endif

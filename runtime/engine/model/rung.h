@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rung - one grid of ladder: cells, links, and the edits an editor makes.
+ *
+ * A rung is plain data in one block: strings are ids of the project's table, so
+ * a copy is one memcpy and undo keeps the old block. It knows places, not
+ * meaning: that is model/network.h and check/.
+ *
+ * Bars: row r has the bars 0 … cols. Bar 0 of every row is the left rail; cell
+ * (r, c) stands between bar c and bar c+1. `link` of a cell joins the bar at its
+ * right end with the same bar of the row above.
+ */
+#ifndef MODEL_RUNG_H
+#define MODEL_RUNG_H
+
+#include "engine/base/catalog.h"
+#include "engine/base/limits.h"
+
+struct cell {
+	uint16_t word;    /* enum word; ELEM_EMPTY 0                           */
+	uint8_t link;     /* 1: right end joined to the row above             */
+	uint8_t spare;    /* 0                                                 */
+	uint32_t operand; /* string id: operand, instance, expression, label,
+			     pin of a PIN row; 0: none                         */
+	uint32_t args;    /* string id: "PT:=T#3s CV=>Count", canonical text   */
+	uint32_t comment; /* string id: with its delimiters; 0: none           */
+};
+
+struct rung {
+	uint32_t label;   /* string id; 0: none                                */
+	uint32_t title;   /* string id: the quoted text after the label        */
+	uint32_t comment; /* string id: comments above it, with delimiters     */
+	uint32_t line;    /* of its RUNG word in the file; 0: not from a file  */
+	uint16_t rows, cols;
+	uint8_t off;      /* 1: kept, but not checked and not run              */
+	uint8_t spare[3];
+	struct cell cell[]; /* rows * cols, row by row                         */
+};
+
+/**
+ * rung_new - an empty rung of @rows x @cols cells
+ *
+ * Owns: the caller, rung_free().   Scan-safe: no.
+ * Fails: NULL when a size is 0 or beyond its limit, or memory is out. So do all
+ * functions here that return a rung; the rung they were given is unchanged.
+ */
+struct rung *rung_new(int rows, int cols);
+void rung_free(struct rung *rung);
+struct rung *rung_copy(const struct rung *rung);
+size_t rung_size(const struct rung *rung); /* bytes of the block */
+/** rung_equal - same grid and texts; the line in the file does not count. */
+bool rung_equal(const struct rung *a, const struct rung *b);
+
+/** rung_cell - @row, @col 0-based and inside the rung. */
+struct cell *rung_cell(struct rung *rung, int row, int col);
+const struct cell *rung_at(const struct rung *rung, int row, int col);
+
+/* Edits that change the size give a new rung; rows and columns are 0-based, an
+ * insertion comes before @at (0 … count). Deleting the last row or column fails. */
+struct rung *rung_insert_row(const struct rung *rung, int at);
+struct rung *rung_delete_row(const struct rung *rung, int at);
+struct rung *rung_move_row(const struct rung *rung, int from, int to);
+struct rung *rung_insert_column(const struct rung *rung, int at);
+struct rung *rung_delete_column(const struct rung *rung, int at);
+struct rung *rung_move_column(const struct rung *rung, int from, int to);
+/** rung_trim - without the empty rows and columns at its end (at least 1x1). */
+struct rung *rung_trim(const struct rung *rung);
+/** rung_resize - cut or padded with empty cells. */
+struct rung *rung_resize(const struct rung *rung, int rows, int cols);
+
+/* Edits in place; false (and nothing changed) outside the rung. */
+bool rung_set_cell(struct rung *rung, int row, int col, struct cell cell);
+bool rung_clear_cell(struct rung *rung, int row, int col);
+/** rung_move_cell - the element moves, links stay where they are. */
+bool rung_move_cell(struct rung *rung, int row, int col, int to_row, int to_col);
+/** rung_insert_cell - shifts @row right from @col up to the next empty cell or
+ * wire, which it swallows; false if there is none. */
+bool rung_insert_cell(struct rung *rung, int row, int col);
+/** rung_delete_cell - the cell becomes a wire between elements, else empty. */
+bool rung_delete_cell(struct rung *rung, int row, int col);
+/** rung_set_link - false in row 0. */
+bool rung_set_link(struct rung *rung, int row, int col, bool link);
+/** rung_height - rows of the box at (row, col): 1 + PIN cells below it. */
+int rung_height(const struct rung *rung, int row, int col);
+#endif

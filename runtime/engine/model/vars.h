@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * vars - declared variables, as IEC 61131-3 tables 16 to 18 have them.
+ *
+ * A table holds the globals of a project or the locals of a POU, in the order of
+ * declaration. Where a variable lives in memory is decided in translate/.
+ */
+#ifndef MODEL_VARS_H
+#define MODEL_VARS_H
+
+#include "engine/base/catalog.h"
+#include "engine/base/names.h"
+
+enum var_flag { VAR_RETAIN = 1, VAR_CONSTANT = 2, VAR_GLOBAL_WORD = 4 };
+
+struct var {
+	uint32_t name;       /* string id, as written                          */
+	uint32_t fold;       /* names_fold of it                               */
+	enum iec_type type;  /* IEC_NONE for an instance                       */
+	enum word fb;        /* an FB_ word, of an instance                    */
+	struct iec_addr at;  /* area AREA_NONE: no AT                          */
+	bool has_init;
+	union iec_value init; /* of its type                                   */
+	uint32_t init_text;  /* string id: as written (16#FF stays so)         */
+	uint32_t at_text;    /* string id: canonical address                   */
+	uint32_t comment;    /* string id: trailing, with delimiters           */
+	int line;
+};
+
+/* One VAR … END_VAR; canonical files keep blocks apart. */
+struct var_block {
+	uint8_t flags;       /* enum var_flag                                  */
+	uint32_t comment;    /* above it                                       */
+	int first, count;    /* in the table                                   */
+	int line;
+};
+
+struct var_table {
+	struct var *var;
+	int count;
+	struct var_block *block;
+	int block_count;
+};
+
+/** vars_flags - of the block that var number @index stands in. */
+uint8_t vars_flags(const struct var_table *table, int index);
+/** vars_find - index by folded name, -1: none. Linear in small tables; large
+ * ones are looked up through struct scope (check/scope.h). */
+int vars_find(const struct var_table *table, uint32_t fold);
+#endif

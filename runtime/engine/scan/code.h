@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * code - the format of a code image, and the verifier that lets it in.
+ *
+ * A program is data: little-endian 32-bit words, position-independent, bounded,
+ * with a checksum. Whatever bytes it is given, code_open() either refuses them or
+ * gives a program that the VM can run without one check at run time. It does not
+ * translate and does not run.
+ *
+ * Data memory (`m`): the areas of catalog.def, one after another, from 0 to
+ * iec_areas_size(); then the program's own data up to `data_size`. Offset
+ * CODE_FALSE holds a constant 0 and CODE_TRUE a constant 1. A BOOL is a byte of 0
+ * or 1. Operands of instructions are words of 24 bits offset and 8 bits type.
+ *
+ * Instructions (a word `op | n << 8`, then operand words):
+ *   END                              n = 0
+ *   LUT n   n × (a, b, c, d)         m[d] = bit (a + 2b + 4c) of the table in the
+ *                                    top 8 bits of word d; a, b, c are offsets
+ *   BITGET bit  byte, dst            BITPUT bit  src, byte
+ *   COPY        en, dst, src         types in the top 8 bits; widens
+ *   CMP  rel    dst, left, right     rel 0..5 as enum cmp; compared as the wider
+ *   FN  k | type << 8                en, eno, dst, k words of inputs, with
+ *       (n = k + 8·…, see below)     the function's word in `fn`
+ *   FB  word    instance             enum word in n; offset of its struct
+ *   JMP         target               word index in the section, of an
+ *   JMPC        target, cond         instruction's first word
+ */
+#ifndef SCAN_CODE_H
+#define SCAN_CODE_H
+
+#include "engine/base/catalog.h"
+#include "engine/base/diag.h"
+
+#define CODE_MAGIC   "RUNGCODE"
+#define CODE_VERSION 1u
+
+enum code_section_kind {
+	CODE_PROGRAMS = 1, /* struct code_program each                         */
+	CODE_LAYOUT,       /* struct code_run each: what lies where in data    */
+	CODE_INIT,         /* (offset, bytes, data padded to 4) each           */
+	CODE_BITS,         /* struct code_bits each: bits that live a byte each */
+	CODE_TEXT,         /* instructions                                     */
+	/* From here on a target may drop sections; not part of the identity. */
+	CODE_WATCH,        /* instructions that also store the power of cells  */
+	CODE_SYMBOLS,      /* struct code_symbol each                          */
+	CODE_POWER,        /* struct code_power each, ordered by place         */
+	CODE_PLACES,       /* struct code_place each, ordered by code offset   */
+	CODE_STRINGS,      /* NUL-ended strings                                */
+	CODE_SECTION_COUNT
+};
+
+struct code_section { uint32_t offset, size; }; /* bytes from the start      */
+
+struct code_header {
+	char magic[8];
+	uint32_t version;
+	uint32_t size;      /* of the whole image in bytes                     */
+	uint32_t crc;       /* CRC-32C of all behind this word                 */
+	uint32_t data_size; /* bytes of data memory                            */
+	uint32_t retain_offset, retain_size; /* retained variables' range      */
+	uint32_t budget;    /* instructions a scan may take                    */
+	uint32_t spare;     /* 0 */
+	struct code_section section[CODE_SECTION_COUNT];
+};
+
+struct code_program {   /* run in this order                               */
+	uint32_t text, text_words;   /* word index in CODE_TEXT, length      */
+	uint32_t watch, watch_words; /* in CODE_WATCH; 0 words: none         */
+	uint32_t name;               /* offset in CODE_STRINGS               */
+};
+
+enum code_run_kind { RUN_VALUES, RUN_CONSTANTS, RUN_INSTANCE };
+struct code_run {       /* ordered by offset, no overlap                   */
+	uint32_t offset;
+	uint8_t kind;   /* enum code_run_kind                              */
+	uint8_t type;   /* enum iec_type of RUN_VALUES, RUN_CONSTANTS      */
+	uint16_t word;  /* enum word of RUN_INSTANCE                       */
+	uint32_t count; /* of values one after another, or of instances    */
+};
+
+struct code_bits {      /* bits first … first+count-1 of an area live at
+			   slot … slot+count-1, a byte each               */
+	uint32_t area, first, count, slot;
+};
+
+struct code_symbol {    /* in order of declaration                         */
+	uint32_t name;  /* in CODE_STRINGS                                 */
+	uint32_t pou;   /* name of its POU in CODE_STRINGS; 0: global      */
+	uint32_t where; /* offset in m; or bit number in `area`            */
+	uint8_t type;   /* enum iec_type; IEC_NONE: an instance            */
+	uint8_t area;   /* not AREA_NONE: a BOOL at that bit of an area    */
+	uint16_t word;  /* FB of an instance                               */
+	uint32_t flags; /* enum symbol_flag                                */
+};
+enum symbol_flag { SYMBOL_CONSTANT = 1, SYMBOL_RETAIN = 2, SYMBOL_HIDDEN = 4 };
+
+struct code_power {     /* the cell-to-power map                           */
+	uint16_t pou;   /* index in CODE_PROGRAMS                          */
+	uint16_t row, col; /* 1-based                                      */
+	uint16_t spare;
+	uint32_t rung;  /* 1-based                                         */
+	uint32_t in;    /* offset in m: power at its left end              */
+	uint32_t out;   /* offset in m: power it lets through              */
+};
+
+struct code_place {     /* from this word of CODE_TEXT on                  */
+	uint32_t text;
+	uint32_t pou, rung; /* index in CODE_PROGRAMS; 1-based             */
+	uint16_t row, col;  /* 1-based; 0: none                            */
+};
+
+#define CODE_OFFSET_BITS 24
+#define CODE_OFFSET(word) ((word) & 0xffffffu)
+#define CODE_TYPE(word)   ((word) >> CODE_OFFSET_BITS)
+#define CODE_OPERAND(type, offset) ((uint32_t)(type) << 24 | (offset))
+#define CODE_FALSE_AT(areas) (areas)     /* first byte behind the areas    */
+#define CODE_TRUE_AT(areas)  ((areas) + 1)
+
+/* A code image that was let in: pointers into bytes that the caller keeps. */
+struct program {
+	const struct code_header *header;
+	const uint8_t *base;
+	const struct code_program *entry;
+	const struct code_run *run;
+	const struct code_bits *bits;
+	const struct code_symbol *symbol;
+	const struct code_power *power;
+	const struct code_place *place;
+	const uint32_t *text, *watch;
+	const char *string;
+	uint32_t entry_count, run_count, bits_count, symbol_count, power_count,
+		 place_count, text_words, watch_words, string_bytes;
+	uint8_t sha256[32];    /* identity: code and data layout           */
+};
+
+/**
+ * code_open - verifies an image and gives access to it
+ * @bytes:   aligned to 8; kept by the caller as long as @out is used
+ * @scratch: @len bytes at least LIMIT_DATA in size are not needed: the verifier
+ *           takes what it needs from here; freed by the caller
+ *
+ * Checks checksum, version, sections, data layout, every operand (in range, of
+ * the right type, not a constant when written), every jump target, and that the
+ * code ends. Loops are bounded by the budget at run time.
+ * Owns: nothing.   Scan-safe: no.
+ * Fails: false, a row of diag.def in @why and the byte offset in @where.
+ */
+bool code_open(const void *bytes, size_t len, struct program *out,
+	       enum diag_id *why, size_t *where);
+
+/** code_words - words of the instruction at @code: 1 + its operands. */
+uint32_t code_words(const uint32_t *code);
+/** code_print - one instruction as text, e.g. "lut  b100 b101 b102 -> b103".
+ * @n: which of the n parts of a LUT. Returns as snprintf. */
+int code_print(const struct program *program, const uint32_t *code, uint32_t n,
+	       char *out, size_t size);
+#endif

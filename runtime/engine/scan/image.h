@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * image - the process image: %I %Q %M …, a program's data, and forcing.
+ *
+ * One block of memory. The program sees it; drivers see only the areas, packed as
+ * IEC 61131-3 has them. Bits that the program uses live a byte each and are packed
+ * and unpacked at the edges of the scan (image_begin, image_end). It does not run
+ * anything and does not know a clock.
+ */
+#ifndef SCAN_IMAGE_H
+#define SCAN_IMAGE_H
+
+#include "engine/scan/code.h"
+
+/* Where a value is: a typed place in memory, or one bit of an area. */
+struct location {
+	enum iec_type type;     /* IEC_NONE: nowhere                         */
+	enum iec_area area;     /* AREA_NONE: at `where` in memory           */
+	uint32_t where;         /* offset in memory, or bit number of area   */
+	bool constant;
+};
+
+struct force {
+	struct location at;
+	union iec_value value, aside; /* aside: what the program wrote        */
+};
+
+struct image {
+	uint8_t *memory;        /* program->header->data_size bytes + 8       */
+	const struct program *program;
+	struct force force[LIMIT_FORCES];
+	int force_count;
+};
+
+/** image_memory_size - bytes that image_init wants for @program. */
+size_t image_memory_size(const struct program *program);
+
+/**
+ * image_init - the image as a cold start has it
+ * @memory: caller's, image_memory_size() bytes, aligned to 8; borrowed
+ *
+ * All zero but for initial values. Forces are gone.
+ * Owns: nothing.   Scan-safe: yes.   Fails: never.
+ */
+void image_init(struct image *image, const struct program *program, void *memory);
+
+/** image_begin - edge before the program: forces, bits of areas a byte each. */
+void image_begin(struct image *image);
+/** image_end - edge behind the program: forces, bits of areas packed. */
+void image_end(struct image *image);
+
+/**
+ * image_area - the packed bytes of an area, for drivers
+ *
+ * Inputs are read from it by image_begin, outputs are in it after image_end.
+ * Owns: the image.   Scan-safe: yes.
+ */
+uint8_t *image_area(struct image *image, enum iec_area area);
+
+/* One bit of an area between scans, wherever it lives. @bit from the area's start;
+ * outside the area: false, nothing changes.   Scan-safe: yes. */
+bool image_get_bit(const struct image *image, enum iec_area area, uint32_t bit);
+bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
+		   bool value);
+
+/** image_locate - where a direct address lives in this image. */
+struct location image_locate(const struct image *image, struct iec_addr addr);
+/** image_find - where a variable or address lives, by its name in the source:
+ * `Motor`, `Main.Motor`, `Runout.Q`, `%QX0.0`, `Q3`. type IEC_NONE: unknown.
+ * Scan-safe: no. */
+struct location image_find(const struct image *image, const char *name,
+			   size_t len);
+
+/* A value between scans. Setting a location of an input, output or marker is
+ * what the next image_begin (inputs) or the program sees.  Scan-safe: yes. */
+union iec_value image_get(const struct image *image, struct location at);
+bool image_set(struct image *image, struct location at, union iec_value value);
+
+/**
+ * image_force - hold a value at both edges of every scan until image_unforce()
+ *
+ * What the program wrote is kept aside and reappears on release.
+ * Owns: nothing.   Scan-safe: yes.
+ * Fails: false if @at is nowhere or constant, or LIMIT_FORCES are held.
+ */
+bool image_force(struct image *image, struct location at, union iec_value value);
+bool image_unforce(struct image *image, struct location at);
+bool image_is_forced(const struct image *image, struct location at);
+
+/* The symbols of the image, for whoever shows or records variables. */
+struct symbol {
+	const char *name;       /* "Motor", "Runout.Q"; lives with the program */
+	struct location at;
+	uint32_t flags;         /* enum symbol_flag                           */
+	bool is_input;          /* FB input pin                               */
+};
+/**
+ * image_next_symbol - steps through all declared variables; instances are given
+ * pin by pin, as "Name.PIN"
+ * @cursor: {0} to begin with; its text buffer backs symbol.name until the next call
+ */
+struct symbol_cursor { uint32_t index, pin; char text[2 * LIMIT_NAME + 64]; };
+bool image_next_symbol(const struct image *image, struct symbol_cursor *cursor,
+		       struct symbol *out);
+#endif

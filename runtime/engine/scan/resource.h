@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * resource - a controller at work: state, scan, system bits, faults.
+ *
+ * (IEC 61131-3: a RESOURCE runs programs.) The one way to run a scan, for the
+ * daemon, the simulator and the tests alike. It reads no clock and moves no pin.
+ */
+#ifndef SCAN_RESOURCE_H
+#define SCAN_RESOURCE_H
+
+#include "engine/scan/vm.h"
+
+enum resource_state { STATE_STOP, STATE_RUN, STATE_FAULT };
+
+struct fault_place {
+	const char *pou;        /* name, or ""; lives with the program        */
+	uint32_t rung, row, col; /* 1-based; 0: unknown                       */
+};
+
+struct resource {
+	struct image image;
+	struct vm vm;
+	enum resource_state state;
+	enum fault fault;            /* first one since the reset             */
+	struct fault_place fault_at;
+	uint64_t scans;              /* since resource_start                  */
+	int64_t start_ns;            /* time of the first scan                */
+	uint32_t errors_before;      /* errors when this scan began           */
+	struct fault_place error_at; /* the first operation that failed       */
+	bool watch;                  /* run the instrumented section          */
+	/* Told by the caller before a scan; shown as SYS_ bits and words. */
+	bool late, io_fault;
+	uint32_t scan_us, scan_max_us;
+};
+
+/** resource_init - in STOP, image as at a cold start. @memory as image_init. */
+void resource_init(struct resource *resource, const struct program *program,
+		   void *memory);
+/** resource_start - to RUN with a cold image; clears a latched fault. */
+void resource_start(struct resource *resource);
+/** resource_stop - to STOP. The caller drives the safe outputs. */
+void resource_stop(struct resource *resource);
+/** resource_fail - to FAULT, latched; the first cause is kept. */
+void resource_fail(struct resource *resource, enum fault fault);
+
+/**
+ * resource_scan - one scan at @now_ns: system bits, forces, programs, forces
+ * @now_ns: monotonic; not before that of the scan before
+ *
+ * Inputs must be in the image; outputs are in it afterwards. In STOP and FAULT it
+ * does nothing. Scan-safe: yes, it is the scan.
+ * Fails: false and STATE_FAULT when a program faults.
+ */
+bool resource_scan(struct resource *resource, int64_t now_ns);
+
+/**
+ * resource_power - power of a cell in the last scan, when `watch` was on
+ * @in, @out: power at its left end and what it lets through
+ * Fails: false if the map lacks the cell.   Scan-safe: yes (a search).
+ */
+bool resource_power(const struct resource *resource, uint32_t pou, uint32_t rung,
+		    uint32_t row, uint32_t col, bool *in, bool *out);
+/** resource_place - POU, rung and cell of a word of CODE_TEXT. */
+struct fault_place resource_place(const struct program *program, uint32_t text);
+#endif

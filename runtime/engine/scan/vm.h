@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * vm - runs the instructions of a verified program. The one switch.
+ *
+ * It trusts the verifier and checks nothing but the budget. It allocates nothing,
+ * prints nothing and reads no clock: the time is an argument.
+ */
+#ifndef SCAN_VM_H
+#define SCAN_VM_H
+
+#include "engine/scan/image.h"
+
+enum fault {
+	FAULT_NONE,
+	FAULT_BUDGET,   /* program loops: watchdog                            */
+	FAULT_WATCHDOG, /* scan too late or too long (cycle)                  */
+	FAULT_IO,       /* a line did not answer three times (hal)            */
+	FAULT_CODE,     /* the image changed under our hands                  */
+	FAULT_COUNT
+};
+/** fault_text - "instruction budget exceeded"; lives for ever. */
+const char *fault_text(enum fault fault);
+
+struct vm {
+	uint8_t *memory;
+	const struct program *program;
+	int64_t now_ns;
+	uint32_t budget;       /* left for this scan                          */
+	uint32_t errors;       /* operations that failed, since the start     */
+	uint32_t error_text;   /* word index in CODE_TEXT of the first one    */
+	uint32_t fault_text;   /* word index where it stopped                 */
+};
+
+/**
+ * vm_run - runs one program of the image once
+ * @entry: index of the program
+ * @watch: run the instrumented section
+ *
+ * Scan-safe: yes; at most vm->budget instructions, no recursion.
+ * Fails: FAULT_BUDGET; the image holds what was written until then.
+ */
+enum fault vm_run(struct vm *vm, uint32_t entry, bool watch);
+
+/* What the functions of fn_*.c and blocks of fb_*.c get. */
+enum fn_status {
+	FN_OK,
+	FN_WRAPPED,    /* stored, but ENO FALSE and counted                   */
+	FN_FAILED,     /* not stored, ENO FALSE, counted                      */
+};
+struct fn_args {
+	enum iec_type type;    /* the common type of the inputs               */
+	uint32_t count;
+	union iec_value in[LIMIT_FN_INPUTS];
+	union iec_value out;
+};
+#define FN(id, ...) enum fn_status fn_##id(struct fn_args *args);
+#include "engine/catalog.def"
+#define FB(id, ...) void fb_##id##_step(struct fb_##id *fb, int64_t now_ns);
+#include "engine/catalog.def"
+#endif

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * text - rung files to projects and back. docs/rung-file.md is the grammar.
+ *
+ * Reading judges form only: words, places, limits. What a name means is found in
+ * check/. Writing gives the one canonical form.
+ */
+#ifndef TEXT_TEXT_H
+#define TEXT_TEXT_H
+
+#include "engine/base/diag.h"
+#include "engine/model/project.h"
+
+/* Where INCLUDE gets its files from. */
+struct text_source {
+	/** Gives the text of @name as written behind INCLUDE in @from, malloc'ed,
+	 * or NULL after a diagnostic. */
+	char *(*load)(void *context, const char *from, const char *name,
+		      size_t *len, struct diag_list *diags, struct diag place);
+	void *context;
+};
+
+/**
+ * text_read - reads a rung file into an empty project
+ * @source: NULL: INCLUDE is kept, but what it names is not read (ladder fmt)
+ *
+ * Goes on after an error to find the next. With an error the project must not be
+ * used but for its names. Owns: @project.   Scan-safe: no.
+ * Fails: false when it added an error.
+ */
+bool text_read(struct project *project, const char *file, const char *text,
+	       size_t len, const struct text_source *source,
+	       struct diag_list *diags);
+
+/**
+ * text_write - the canonical text of a project (parts of included files left out)
+ * Owns: the caller, free(); NUL-ended, @len without it.   Fails: NULL: no memory.
+ */
+char *text_write(const struct project *project, size_t *len);
+
+/* For the clipboard, undo and tests: one rung, and one cell. */
+/** text_read_rung - from `RUNG …` rows; malloc'ed, the caller rung_free()s it. */
+struct rung *text_read_rung(struct project *project, const char *text, size_t len,
+			    struct diag_list *diags);
+/** text_write_rung - canonical rows and head; malloc'ed, NULL: no memory. */
+char *text_write_rung(const struct project *project, const struct rung *rung);
+/** text_write_cell - `NO Open`, without comment; returns as snprintf. */
+int text_write_cell(const struct project *project, const struct cell *cell,
+		    char *out, size_t size);
+#endif

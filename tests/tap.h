@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * tap - the few lines a unit test needs to speak TAP.
+ *
+ * Include it in one file a program. CHECK never stops the test; tap_done() prints
+ * the plan, and a program that checked nothing fails.
+ */
+#ifndef TESTS_TAP_H
+#define TESTS_TAP_H
+
+#include <stdio.h>
+#include <string.h>
+
+static int tap_count, tap_failed;
+
+static inline int tap_check(int good, const char *what, const char *file, int line)
+{
+	tap_count++;
+	printf("%sok %d - %s\n", good ? "" : "not ", tap_count, what);
+	if (!good) {
+		tap_failed++;
+		printf("# %s:%d\n", file, line);
+	}
+	return good;
+}
+#define CHECK(condition) tap_check(!!(condition), #condition, __FILE__, __LINE__)
+#define CHECK_AS(condition, what) tap_check(!!(condition), what, __FILE__, __LINE__)
+#define CHECK_TEXT(got, want) do { \
+	if (!tap_check(strcmp((got), (want)) == 0, #got, __FILE__, __LINE__)) \
+		printf("# got:  %s\n# want: %s\n", (got), (want)); \
+} while (0)
+
+static inline int tap_done(void)
+{
+	printf("1..%d\n", tap_count);
+	return tap_count == 0 || tap_failed;
+}
+#endif
