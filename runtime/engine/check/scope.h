@@ -46,8 +46,9 @@ struct scope *scope_new(struct project *project, struct arena *arena);
  * @why:  when it has none: DIAG_UNKNOWN_NAME, DIAG_NO_PIN, DIAG_BAD_ADDRESS,
  *        DIAG_BAD_LITERAL or DIAG_LITERAL_RANGE
  *
- * Remembered by id: asking again is one load.   Scan-safe: no.
- * Fails: NULL.
+ * Remembered by POU and id: asking again is one look into a hash.
+ * Owns: the arena of scope_new().   Scan-safe: no.
+ * Fails: NULL; @why is DIAG_NO_MEMORY when memory is out.
  */
 const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 				 uint32_t text, enum diag_id *why);

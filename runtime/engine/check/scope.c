@@ -1,0 +1,349 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * scope - from the text of an operand to what it means.
+ *
+ * Two open hashes: the declared names of all tables, and the answers given so far
+ * by (POU, string id). It reports nothing: who asks knows the place and says it.
+ */
+#include "engine/check/scope.h"
+
+#include <string.h>
+#include <strings.h>
+
+/* A declaration; table 0 is the globals, POU number n has n + 1. */
+struct declared {
+	uint32_t table, fold; /* fold 0: a free slot                           */
+	int index;            /* of the first declaration of this name         */
+	uint8_t flags;        /* of its VAR block                              */
+};
+
+/* An answer; the string id counts from 1, so that 0 is a free slot. */
+struct answer {
+	uint32_t table, text;
+	const struct meaning *meaning;
+	enum diag_id why;
+};
+
+struct scope {
+	struct project *project;
+	struct arena *arena;
+	struct declared *declared;
+	uint32_t declared_mask;
+	struct answer *answer;
+	uint32_t answer_mask, answers;
+};
+
+#define FIRST_ANSWERS 256u
+
+static uint32_t mix(uint32_t table, uint32_t id)
+{
+	uint32_t hash = id * 2654435761u ^ table * 2246822519u;
+
+	return hash ^ hash >> 15;
+}
+
+/* The slot of a name, or the free one where it belongs. */
+static struct declared *declared_slot(const struct scope *scope, uint32_t table,
+				      uint32_t fold)
+{
+	uint32_t at = mix(table, fold) & scope->declared_mask;
+	struct declared *slot = &scope->declared[at];
+
+	while (slot->fold && (slot->fold != fold || slot->table != table)) {
+		at = (at + 1) & scope->declared_mask;
+		slot = &scope->declared[at];
+	}
+	return slot;
+}
+
+static void declare_table(struct scope *scope, uint32_t table,
+			  const struct var_table *vars)
+{
+	int block = 0;
+
+	for (int i = 0; i < vars->count; i++) {
+		const struct var *var = &vars->var[i];
+		struct declared *slot;
+
+		while (block + 1 < vars->block_count &&
+		       vars->block[block + 1].first <= i)
+			block++;
+		slot = declared_slot(scope, table, var->fold);
+		if (!var->fold || slot->fold)
+			continue;
+		*slot = (struct declared){ .table = table, .fold = var->fold,
+					   .index = i };
+		if (block < vars->block_count)
+			slot->flags = vars->block[block].flags;
+	}
+}
+
+struct scope *scope_new(struct project *project, struct arena *arena)
+{
+	struct scope *scope = arena_alloc(arena, sizeof(*scope));
+	size_t names = (size_t)project->globals.count;
+	uint32_t size = 16;
+
+	if (!scope)
+		return NULL;
+	for (int i = 0; i < project->pou_count; i++)
+		names += (size_t)project->pou[i].vars.count;
+	while (size < names * 2)
+		size *= 2;
+	scope->project = project;
+	scope->arena = arena;
+	scope->declared_mask = size - 1;
+	scope->answer_mask = FIRST_ANSWERS - 1;
+	scope->declared = arena_alloc(arena, size * sizeof(struct declared));
+	scope->answer = arena_alloc(arena,
+				    FIRST_ANSWERS * sizeof(struct answer));
+	if (!scope->declared || !scope->answer)
+		return NULL;
+	declare_table(scope, 0, &project->globals);
+	for (int i = 0; i < project->pou_count; i++)
+		declare_table(scope, (uint32_t)i + 1, &project->pou[i].vars);
+	return scope;
+}
+
+static const struct var_table *table_of(const struct scope *scope,
+					uint32_t table)
+{
+	return table ? &scope->project->pou[table - 1].vars :
+		       &scope->project->globals;
+}
+
+static uint32_t table_number(const struct scope *scope, const struct pou *pou)
+{
+	return pou ? (uint32_t)(pou - scope->project->pou) + 1 : 0;
+}
+
+int scope_duplicate(struct scope *scope, const struct pou *pou, int index)
+{
+	uint32_t table = table_number(scope, pou);
+	uint32_t fold = table_of(scope, table)->var[index].fold;
+	const struct declared *slot;
+
+	if (!fold)
+		return -1;
+	slot = declared_slot(scope, table, fold);
+	return slot->fold && slot->index < index ? slot->index : -1;
+}
+
+/* A local of this name, else a global; NULL: neither. */
+static const struct declared *find_declared(const struct scope *scope,
+					    uint32_t table, uint32_t fold)
+{
+	const struct declared *slot;
+
+	if (!fold)
+		return NULL;
+	slot = declared_slot(scope, table, fold);
+	if (!slot->fold && table)
+		slot = declared_slot(scope, 0, fold);
+	return slot->fold ? slot : NULL;
+}
+
+static bool may_write(struct iec_addr addr)
+{
+	return addr.area == AREA_NONE ||
+	       iec_area_row(addr.area)->access == ACCESS_WRITE;
+}
+
+static void mean_variable(const struct scope *scope, const struct declared *slot,
+			  struct meaning *out)
+{
+	const struct var *var =
+		&table_of(scope, slot->table)->var[slot->index];
+
+	out->pou = slot->table ? &scope->project->pou[slot->table - 1] : NULL;
+	out->var = var;
+	out->index = slot->index;
+	out->addr = var->at;
+	out->type = var->type;
+	out->constant = slot->flags & VAR_CONSTANT;
+	out->writable = !out->constant && may_write(var->at);
+	out->kind = MEANING_VARIABLE;
+	if (var->type == IEC_NONE && var->fb) {
+		out->kind = MEANING_INSTANCE;
+		out->writable = false;
+	}
+}
+
+/* `Instance.PIN`; false leaves @out as it was. */
+static bool mean_pin(const struct scope *scope, uint32_t table, const char *text,
+		     size_t len, struct meaning *out, enum diag_id *why)
+{
+	const char *dot = memchr(text, '.', len);
+	struct names *names = &scope->project->names;
+	const struct declared *slot;
+	const struct word_row *row;
+	struct meaning whole = { 0 };
+	uint32_t id;
+	int pin;
+
+	if (!dot)
+		return false;
+	id = names_intern(names, text, (size_t)(dot - text));
+	slot = find_declared(scope, table, names_fold(names, id));
+	if (!slot)
+		return false;
+	mean_variable(scope, slot, &whole);
+	if (whole.kind != MEANING_INSTANCE)
+		return false;
+	*why = DIAG_NO_PIN;
+	row = word_row(whole.var->fb);
+	pin = word_pin_find(row, dot + 1, len - (size_t)(dot + 1 - text));
+	if (pin < 0)
+		return false;
+	*out = whole;
+	out->kind = MEANING_PIN;
+	out->pin = pin;
+	out->type = row->pin[pin].type;
+	out->writable = row->pin[pin].dir == PIN_IN;
+	return true;
+}
+
+static bool mean_system(const char *text, size_t len, struct meaning *out)
+{
+	if (len < 4 || strncasecmp(text, "SYS_", 4) != 0)
+		return false;
+	for (int i = 0; i < SYS_COUNT; i++) {
+		const struct sys_row *row = sys_row((enum sys_id)i);
+
+		if (strlen(row->name) != len ||
+		    strncasecmp(row->name, text, len) != 0)
+			continue;
+		out->kind = MEANING_ADDRESS;
+		iec_addr_parse(row->address, strlen(row->address), &out->addr);
+		out->type = row->type;
+		out->writable = may_write(out->addr);
+		return true;
+	}
+	return false;
+}
+
+static bool mean_literal(const char *text, size_t len, struct meaning *out,
+			 enum diag_id *why)
+{
+	switch (literal_parse(text, len, &out->literal)) {
+	case LITERAL_OK:
+		out->kind = MEANING_LITERAL;
+		out->type = out->literal.type;
+		return true;
+	case LITERAL_BAD:
+		*why = DIAG_BAD_LITERAL;
+		return false;
+	case LITERAL_RANGE:
+		*why = DIAG_LITERAL_RANGE;
+		return false;
+	case LITERAL_NONE:
+		return false;
+	}
+	return false;
+}
+
+static bool mean_address(const char *text, size_t len, struct meaning *out,
+			 enum diag_id *why)
+{
+	enum iec_addr_result result = iec_addr_parse(text, len, &out->addr);
+
+	if (result == ADDR_OK) {
+		out->kind = MEANING_ADDRESS;
+		out->type = iec_addr_type(out->addr);
+		out->writable = may_write(out->addr);
+		return true;
+	}
+	out->addr = (struct iec_addr){ .area = AREA_NONE };
+	if (result == ADDR_RANGE || *text == '%')
+		*why = DIAG_BAD_ADDRESS;
+	return false;
+}
+
+/* Declared names first, then system names, pins, constants and addresses. */
+static bool mean(const struct scope *scope, uint32_t table, uint32_t id,
+		 struct meaning *out, enum diag_id *why)
+{
+	struct names *names = &scope->project->names;
+	const char *text = names_text(names, id);
+	size_t len = names_len(names, id);
+	const struct declared *slot;
+
+	*why = DIAG_UNKNOWN_NAME;
+	slot = find_declared(scope, table, names_fold(names, id));
+	if (slot) {
+		mean_variable(scope, slot, out);
+		return true;
+	}
+	return mean_system(text, len, out) ||
+	       mean_pin(scope, table, text, len, out, why) ||
+	       mean_literal(text, len, out, why) ||
+	       mean_address(text, len, out, why);
+}
+
+static struct answer *answer_slot(const struct scope *scope, uint32_t table,
+				  uint32_t text)
+{
+	uint32_t at = mix(table, text) & scope->answer_mask;
+	struct answer *slot = &scope->answer[at];
+
+	while (slot->text && (slot->text != text || slot->table != table)) {
+		at = (at + 1) & scope->answer_mask;
+		slot = &scope->answer[at];
+	}
+	return slot;
+}
+
+static bool grow_answers(struct scope *scope)
+{
+	const struct answer *old = scope->answer;
+	uint32_t size = scope->answer_mask + 1;
+	struct answer *wide = arena_alloc(scope->arena,
+					  2 * size * sizeof(*wide));
+
+	if (!wide)
+		return false;
+	scope->answer = wide;
+	scope->answer_mask = 2 * size - 1;
+	for (uint32_t i = 0; i < size; i++)
+		if (old[i].text)
+			*answer_slot(scope, old[i].table, old[i].text) = old[i];
+	return true;
+}
+
+/* Answers a new question and remembers the answer. */
+static struct answer *give_answer(struct scope *scope, uint32_t table,
+				  uint32_t text)
+{
+	struct meaning *out = arena_alloc(scope->arena, sizeof(*out));
+	struct answer *slot;
+	enum diag_id why;
+
+	if (!out)
+		return NULL;
+	if (scope->answers * 2 > scope->answer_mask && !grow_answers(scope))
+		return NULL;
+	if (!mean(scope, table, text, out, &why))
+		out = NULL;
+	slot = answer_slot(scope, table, text);
+	*slot = (struct answer){ .table = table, .text = text, .meaning = out,
+				 .why = why };
+	scope->answers++;
+	return slot;
+}
+
+const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
+				 uint32_t text, enum diag_id *why)
+{
+	uint32_t table = table_number(scope, pou);
+	struct answer *slot;
+
+	if (!text) {
+		*why = DIAG_UNKNOWN_NAME;
+		return NULL;
+	}
+	slot = answer_slot(scope, table, text);
+	if (!slot->text)
+		slot = give_answer(scope, table, text);
+	*why = slot ? slot->why : DIAG_NO_MEMORY;
+	return slot ? slot->meaning : NULL;
+}
