@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * view - a project as text for people: drawings, differences, lists, words.
+ *
+ * Everything goes to a sink and nothing is changed. It judges nothing: a wrong
+ * rung is drawn as it stands. What it prints of a user's text holds no control
+ * characters but newlines.
+ */
+#ifndef VIEW_VIEW_H
+#define VIEW_VIEW_H
+
+#include "engine/base/sink.h"
+#include "engine/model/project.h"
+
+struct view_show_options {
+	bool ascii;   /* - | + instead of box characters                       */
+	int width;    /* narrower rungs are stretched to so many columns; 0: no */
+};
+
+/**
+ * view_show - draws rungs with box characters
+ * @pou:     index in the project; -1: all POUs
+ * @rung:    1-based number in its POU; 0: all
+ * @options: NULL: Unicode, not stretched
+ *
+ * A POU in IL is printed as its list. Rungs wider than a terminal run wide.
+ * Returns the rungs drawn (a POU in IL counts as one); 0: there is no such rung;
+ * -1: memory is out.   Scan-safe: no.
+ */
+int view_show(const struct project *project, int pou, int rung,
+	      const struct view_show_options *options, const struct sink *sink);
+
+/**
+ * view_diff - what differs from project @a to project @b, in words, a line each
+ * @json: an array of objects instead
+ *
+ * `Main rung 3 (Seal) cell (2,1): NO Motor -> NC Motor`. Rungs are matched by
+ * longest common subsequence, then by content, label and likeness.
+ * Returns the number of differences; 0: their canonical text is the same;
+ * -1: memory is out.   Scan-safe: no.
+ */
+int view_diff(const struct project *a, const struct project *b, bool json,
+	      const struct sink *sink);
+
+/* A variable that translation added to those of its POU. */
+struct view_temporary {
+	uint32_t name;      /* string id                                       */
+	enum iec_type type; /* IEC_NONE: an instance                           */
+	enum word fb;       /* of an instance                                  */
+};
+
+/**
+ * view_print_il - a whole POU as `PROGRAM Name IL … END_PROGRAM`
+ * @names: the strings of all ids
+ * @name:  string id of the POU's name
+ * @vars:  its own variables
+ * @il:    what to print; the text reads again to the same list
+ *
+ * Scan-safe: no.   Fails: never, but for what the sink does.
+ */
+void view_print_il(const struct names *names, uint32_t name,
+		   const struct var_table *vars,
+		   const struct view_temporary *temporary, int temporary_count,
+		   const struct il *il, const struct sink *sink);
+
+/**
+ * view_words - elements, boxes, instructions, types, areas and system names
+ * @word: one of them, any case, with its details; NULL: all, a line each
+ * @json: an object (one word: an array of what has that name)
+ *
+ * Returns how many were listed; 0: there is no such word.   Scan-safe: no.
+ */
+int view_words(const char *word, bool json, const struct sink *sink);
+/** view_words_markdown - the whole of docs/words.md. */
+void view_words_markdown(const struct sink *sink);
+
+#endif
