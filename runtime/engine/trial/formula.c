@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * formula - expressions of scenarios. One pass over terms that stand in order, so
+ * there is no recursion whatever a file holds. It writes nothing to the image.
+ */
+#include "engine/trial/formula.h"
+#include "engine/trial/value.h"
+
+#include <math.h>
+#include <string.h>
+
+static enum formula_kind kind_of(enum iec_type type)
+{
+	switch (iec_type_row(type)->class) {
+	case CLASS_BOOL:
+		return KIND_BOOL;
+	case CLASS_REAL:
+		return KIND_REAL;
+	case CLASS_TIME:
+		return KIND_TIME;
+	default:
+		return KIND_INT;
+	}
+}
+
+static bool complain(struct diag_list *diags, struct diag place,
+		     enum diag_id id, const char *line_start,
+		     const struct expr_node *at)
+{
+	place.id = id;
+	if (at->text)
+		place.column = (int)(at->text - line_start) + 1;
+	return diag_add(diags, place, "%.*s", at->len < 60 ? (int)at->len : 60,
+			at->text ? at->text : "");
+}
+
+/* A constant: any literal, or a time without T#. */
+static bool take_literal(struct formula_term *term, const char *text,
+			 size_t len, enum diag_id *why)
+{
+	struct literal literal;
+	int64_t ns;
+	enum literal_result result = literal_parse(text, len, &literal);
+
+	if (result == LITERAL_OK) {
+		term->value = literal.value;
+		if (literal.type == IEC_NONE)
+			term->kind = literal.real ? KIND_REAL : KIND_INT;
+		else
+			term->kind = (uint8_t)kind_of(literal.type);
+		return true;
+	}
+	*why = result == LITERAL_RANGE ? DIAG_LITERAL_RANGE : DIAG_BAD_LITERAL;
+	if (value_parse_time(text, len, 0, &ns) != LITERAL_OK)
+		return false;
+	term->kind = KIND_TIME;
+	term->value.i = ns;
+	return true;
+}
+
+static bool take_leaf(const struct image *image, const struct expr_node *from,
+		      struct formula_term *term, struct arena *arena,
+		      enum diag_id *why)
+{
+	term->op = EXPR_LITERAL;
+	if (from->op == EXPR_LITERAL)
+		return take_literal(term, from->text, from->len, why);
+	term->at = value_find(image, from->text, from->len);
+	if (term->at.type == IEC_NONE) {
+		if (take_literal(term, from->text, from->len, why))
+			return true;
+		*why = DIAG_UNKNOWN_NAME;
+		return false;
+	}
+	term->op = EXPR_NAME;
+	term->kind = (uint8_t)kind_of(term->at.type);
+	term->name = arena_copy(arena, from->text, from->len);
+	*why = DIAG_NO_MEMORY;
+	return term->name != NULL;
+}
+
+static bool is_compare(enum word fn)
+{
+	return word_row(fn)->result == RESULT_BOOL;
+}
+
+/* The kind of an operation on two kinds; false: they do not go together. */
+static bool join_kinds(struct formula_term *term, uint8_t left, uint8_t right)
+{
+	bool time = left == KIND_TIME || right == KIND_TIME;
+	bool both = left == KIND_TIME && right == KIND_TIME;
+
+	if (time && !both)
+		return false;
+	if (is_compare(term->fn)) {
+		term->kind = KIND_BOOL;
+		return true;
+	}
+	if (time) {
+		term->kind = KIND_TIME;
+		return term->fn == FN_ADD || term->fn == FN_SUB;
+	}
+	bool real = left == KIND_REAL || right == KIND_REAL;
+
+	term->kind = real ? KIND_REAL : KIND_INT;
+	return !real || term->fn != FN_MOD;
+}
+
+static bool take_operation(const struct formula *formula,
+			   struct formula_term *term, enum diag_id *why)
+{
+	const struct formula_term *left = &formula->term[term->left];
+	const struct formula_term *right =
+		term->right < 0 ? left : &formula->term[term->right];
+
+	*why = DIAG_WRONG_TYPE;
+	if (term->op == EXPR_FN)
+		return join_kinds(term, left->kind, right->kind);
+	if (term->op == EXPR_NEG) {
+		term->kind = left->kind;
+		return left->kind != KIND_BOOL;
+	}
+	*why = DIAG_NOT_BOOL;
+	term->kind = KIND_BOOL;
+	return left->kind == KIND_BOOL && right->kind == KIND_BOOL;
+}
+
+/* The text to blame for an operation: its first operand's. */
+static const struct expr_node *blame(const struct expr *expr, int at)
+{
+	int steps = 0;
+
+	while (!expr->node[at].text && expr->node[at].left >= 0 &&
+	       steps++ < LIMIT_EXPR_NODES)
+		at = expr->node[at].left;
+	return &expr->node[at];
+}
+
+struct formula *formula_new(const struct image *image, const struct expr *expr,
+			    struct arena *arena, const char *line_start,
+			    struct diag_list *diags, struct diag place)
+{
+	struct formula *formula = arena_alloc(arena, sizeof(*formula));
+	size_t size = sizeof(*formula->term) * (size_t)expr->count;
+
+	if (formula)
+		formula->term = arena_alloc(arena, size);
+	if (!formula || !formula->term) {
+		complain(diags, place, DIAG_NO_MEMORY, line_start,
+			 &(struct expr_node){ .text = NULL });
+		return NULL;
+	}
+	formula->constant = true;
+	formula->count = expr->count;
+	formula->root = expr->root;
+	for (int i = 0; i < expr->count; i++) {
+		const struct expr_node *from = &expr->node[i];
+		struct formula_term *term = &formula->term[i];
+		enum diag_id why = DIAG_SYNTAX;
+		bool leaf = from->op == EXPR_NAME || from->op == EXPR_LITERAL;
+
+		term->op = (uint8_t)from->op;
+		term->fn = (uint16_t)from->fn;
+		term->left = from->left;
+		term->right = from->right;
+		if (leaf ? !take_leaf(image, from, term, arena, &why) :
+			   !take_operation(formula, term, &why)) {
+			complain(diags, place, why, line_start, blame(expr, i));
+			return NULL;
+		}
+		formula->constant &= term->op != EXPR_NAME;
+	}
+	return formula;
+}
+
+static double as_real(const struct formula_term *term)
+{
+	return term->kind == KIND_REAL ? term->value.r : (double)term->value.i;
+}
+
+static bool compare(struct formula_term *term, const struct formula_term *left,
+		    const struct formula_term *right)
+{
+	bool less, equal;
+
+	if (left->kind == KIND_REAL || right->kind == KIND_REAL) {
+		float a = (float)as_real(left), b = (float)as_real(right);
+
+		less = a < b;
+		equal = a >= b && a <= b;
+	} else {
+		less = left->value.i < right->value.i;
+		equal = left->value.i == right->value.i;
+	}
+	if (term->fn == FN_LT)
+		term->value.i = less;
+	else if (term->fn == FN_LE)
+		term->value.i = less || equal;
+	else if (term->fn == FN_EQ)
+		term->value.i = equal;
+	else if (term->fn == FN_NE)
+		term->value.i = !equal;
+	else if (term->fn == FN_GE)
+		term->value.i = !less;
+	else
+		term->value.i = !less && !equal;
+	return true;
+}
+
+static bool divide(struct formula_term *term, int64_t a, int64_t b)
+{
+	if (b == 0 || (a == INT64_MIN && b == -1))
+		return false;
+	term->value.i = term->fn == FN_DIV ? a / b : a % b;
+	return true;
+}
+
+static bool calculate(struct formula_term *term, const struct formula_term *left,
+		      const struct formula_term *right)
+{
+	if (term->kind != KIND_REAL) {
+		int64_t a = left->value.i, b = right->value.i;
+
+		if (term->fn == FN_ADD)
+			return !__builtin_add_overflow(a, b, &term->value.i);
+		if (term->fn == FN_SUB)
+			return !__builtin_sub_overflow(a, b, &term->value.i);
+		if (term->fn == FN_MUL)
+			return !__builtin_mul_overflow(a, b, &term->value.i);
+		return divide(term, a, b);
+	}
+	double a = as_real(left), b = as_real(right);
+
+	if (term->fn == FN_ADD)
+		term->value.r = a + b;
+	else if (term->fn == FN_SUB)
+		term->value.r = a - b;
+	else if (term->fn == FN_MUL)
+		term->value.r = a * b;
+	else
+		term->value.r = a / b;
+	return isfinite(term->value.r);
+}
+
+static bool negate(struct formula_term *term, const struct formula_term *left)
+{
+	if (term->kind == KIND_REAL) {
+		term->value.r = -left->value.r;
+		return true;
+	}
+	return !__builtin_sub_overflow(INT64_C(0), left->value.i,
+				       &term->value.i);
+}
+
+static bool evaluate(struct formula *formula, struct formula_term *term,
+		     const struct image *image)
+{
+	const struct formula_term *left = &formula->term[
+		term->left < 0 ? 0 : term->left];
+	const struct formula_term *right = &formula->term[
+		term->right < 0 ? 0 : term->right];
+
+	switch ((enum expr_op)term->op) {
+	case EXPR_NAME:
+		term->value = image_get(image, term->at);
+		return true;
+	case EXPR_LITERAL:
+		return true;
+	case EXPR_NEG:
+		return negate(term, left);
+	case EXPR_NOT:
+		term->value.i = !left->value.i;
+		return true;
+	case EXPR_FN:
+		return is_compare(term->fn) ? compare(term, left, right) :
+					      calculate(term, left, right);
+	case EXPR_AND:
+		term->value.i = left->value.i && right->value.i;
+		return true;
+	case EXPR_XOR:
+		term->value.i = !left->value.i != !right->value.i;
+		return true;
+	case EXPR_OR:
+		term->value.i = left->value.i || right->value.i;
+		return true;
+	}
+	return false;
+}
+
+bool formula_value(struct formula *formula, const struct image *image,
+		   union iec_value *out)
+{
+	for (int i = 0; i < formula->count; i++)
+		if (!evaluate(formula, &formula->term[i], image))
+			return false;
+	*out = formula->term[formula->root].value;
+	return true;
+}
+
+enum formula_kind formula_kind(const struct formula *formula)
+{
+	return (enum formula_kind)formula->term[formula->root].kind;
+}
+
+bool formula_can_set(const struct formula *formula, enum iec_type type)
+{
+	enum formula_kind from = formula_kind(formula), to = kind_of(type);
+
+	if (from == to)
+		return true;
+	if (from == KIND_TIME || to == KIND_TIME || from == KIND_REAL)
+		return false;
+	return from == KIND_INT || to == KIND_INT;
+}
+
+bool formula_fit(enum formula_kind kind, union iec_value value,
+		 enum iec_type type, union iec_value *out)
+{
+	const struct iec_type_row *row = iec_type_row(type);
+
+	*out = value;
+	if (row->class == CLASS_REAL) {
+		if (kind != KIND_REAL)
+			out->r = (double)value.i;
+		out->r = (double)(float)out->r;
+		return isfinite(out->r);
+	}
+	return value.i >= row->low && value.i <= row->high;
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * formula - the value of an expression over a process image, between scans.
+ *
+ * Scenarios ask with it what a program did. It is not the evaluator of a program:
+ * that is the VM, which a trial must not repeat. Kinds are wider than types: any
+ * integer or bit string is 64 bits, TIME is ns; REAL compares as a float.
+ */
+#ifndef TRIAL_FORMULA_H
+#define TRIAL_FORMULA_H
+
+#include "engine/base/arena.h"
+#include "engine/model/expr.h"
+#include "engine/scan/image.h"
+
+enum formula_kind { KIND_BOOL, KIND_INT, KIND_REAL, KIND_TIME };
+
+struct formula_term {
+	uint8_t op;            /* enum expr_op                               */
+	uint8_t kind;          /* enum formula_kind of the value             */
+	uint16_t fn;           /* enum word of EXPR_FN                       */
+	int16_t left, right;
+	struct location at;    /* of EXPR_NAME                               */
+	const char *name;      /* of EXPR_NAME; in the arena                 */
+	union iec_value value; /* of a literal; else of the last evaluation  */
+};
+
+struct formula {
+	struct formula_term *term; /* children before parents                */
+	int count, root;
+	bool constant;             /* speaks of no variable                  */
+};
+
+/**
+ * formula_new - gives names places and checks kinds
+ * @expr:       what expr_parse gave
+ * @line_start: of the source line, for columns
+ *
+ * BOOL counts as 0 or 1 beside numbers; TIME meets only TIME.
+ * Owns: @arena.   Scan-safe: no.   Fails: NULL and a diagnostic.
+ */
+struct formula *formula_new(const struct image *image, const struct expr *expr,
+			    struct arena *arena, const char *line_start,
+			    struct diag_list *diags, struct diag place);
+
+/**
+ * formula_value - the value now
+ * @out: r of KIND_REAL, else i
+ *
+ * Scan-safe: no.   Fails: false on overflow or division by zero.
+ */
+bool formula_value(struct formula *formula, const struct image *image,
+		   union iec_value *out);
+enum formula_kind formula_kind(const struct formula *formula);
+/** formula_can_set - may its value be stored at @type? Ranges apart. */
+bool formula_can_set(const struct formula *formula, enum iec_type type);
+/** formula_fit - its value as one of @type; false if it is out of range. */
+bool formula_fit(enum formula_kind kind, union iec_value value,
+		 enum iec_type type, union iec_value *out);
+#endif

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * scenario - runs the steps of a scenario in virtual time and reports what did not
+ * hold. It decides nothing else: a program that prints TAP is around it.
+ */
+#include "engine/trial/scenario.h"
+
+#include <string.h>
+
+struct run {
+	const struct scenario_file *file;
+	struct scenario *scenario;
+	struct resource *resource;
+	const struct sink *out;
+	int64_t now_ns;
+	uint64_t scan;
+	int next;             /* first step whose time has not come           */
+	int first_open;       /* no open step stands before it                */
+	bool held;
+};
+
+static void print_time(const struct sink *out, int64_t ns)
+{
+	char text[40];
+
+	iec_value_print(IEC_TIME, (union iec_value){ .i = ns }, text,
+			sizeof(text));
+	sink_text(out, text);
+}
+
+/* One earlier scan, with the variables that @formula speaks of. */
+static void print_scan(const struct run *run, const struct formula *formula,
+		       uint64_t scan)
+{
+	const struct scenario *scenario = run->scenario;
+
+	sink_printf(run->out, "#   %llu t=", (unsigned long long)scan);
+	print_time(run->out, (int64_t)scan * scenario->period_ns);
+	for (int i = 0; i < scenario->watch_count; i++) {
+		const struct scenario_watch *watch = &scenario->watch[i];
+		bool named = false;
+		char text[40];
+
+		for (int k = 0; k < formula->count && !named; k++)
+			named = formula->term[k].op == EXPR_NAME &&
+				formula->term[k].at.where == watch->at.where &&
+				formula->term[k].at.area == watch->at.area &&
+				formula->term[k].at.type == watch->at.type;
+		if (!named)
+			continue;
+		iec_value_print(watch->at.type,
+				watch->past[scan % SCENARIO_HISTORY], text,
+				sizeof(text));
+		sink_text(run->out, " ");
+		sink_text(run->out, watch->name);
+		sink_text(run->out, "=");
+		sink_text(run->out, text);
+	}
+	sink_text(run->out, "\n");
+}
+
+static void report(struct run *run, const struct scenario_step *step,
+		   const char *what)
+{
+	uint64_t first = run->scan < SCENARIO_HISTORY ?
+			       1 : run->scan - SCENARIO_HISTORY + 1;
+
+	run->held = false;
+	sink_text(run->out, "# ");
+	sink_text(run->out, run->file->file);
+	sink_printf(run->out, ":%d: at ", step->line);
+	print_time(run->out, run->now_ns);
+	sink_text(run->out, " ms: ");
+	sink_text(run->out, what);
+	sink_text(run->out, ": ");
+	sink_write(run->out, step->text, (size_t)step->text_len);
+	sink_text(run->out, "\n");
+	if (step->verb == VERB_SET)
+		return;
+	for (uint64_t scan = first; scan <= run->scan; scan++)
+		print_scan(run, step->formula, scan);
+}
+
+static void apply(struct run *run, const struct scenario_step *step)
+{
+	struct image *image = &run->resource->image;
+	union iec_value value;
+
+	if (formula_value(step->formula, image, &value) &&
+	    formula_fit(formula_kind(step->formula), value, step->target.type,
+			&value))
+		image_set(image, step->target, value);
+	else
+		report(run, step, "value out of range");
+}
+
+/* Settings that are due act; expectations that are due are open from now on. */
+static void begin_scan(struct run *run)
+{
+	struct scenario *scenario = run->scenario;
+
+	while (run->next < scenario->step_count) {
+		struct scenario_step *step = &scenario->step[run->next];
+
+		if (step->verb == VERB_ALWAYS || step->verb == VERB_NEVER) {
+			run->next++;
+			continue;
+		}
+		if (step->at_ns > run->now_ns)
+			break;
+		if (step->verb == VERB_SET)
+			apply(run, step);
+		else
+			step->open = true;
+		run->next++;
+	}
+}
+
+static void remember(struct run *run)
+{
+	struct scenario *scenario = run->scenario;
+
+	for (int i = 0; i < scenario->watch_count; i++) {
+		struct scenario_watch *watch = &scenario->watch[i];
+
+		watch->past[run->scan % SCENARIO_HISTORY] =
+			image_get(&run->resource->image, watch->at);
+	}
+}
+
+static void judge(struct run *run, struct scenario_step *step)
+{
+	int64_t left_ns = step->at_ns + step->span_ns - run->now_ns;
+	union iec_value value;
+	bool known = formula_value(step->formula, &run->resource->image, &value);
+	bool good = known && (value.i != 0) != (step->verb == VERB_NEVER);
+	bool more = false;
+
+	switch (step->verb) {
+	case VERB_SET:
+		return;
+	case VERB_EXPECT:
+		break;
+	case VERB_WITHIN:
+		more = !good && left_ns >= run->scenario->period_ns;
+		break;
+	case VERB_FOR:
+		more = good && left_ns > run->scenario->period_ns;
+		break;
+	case VERB_ALWAYS:
+	case VERB_NEVER:
+		more = good;
+		break;
+	}
+	if (more)
+		return;
+	step->open = false;
+	if (!good)
+		report(run, step, known ? "not so" : "cannot be computed");
+}
+
+static void judge_all(struct run *run)
+{
+	struct scenario *scenario = run->scenario;
+	int last_open = run->first_open;
+	bool first = true;
+
+	for (int i = run->first_open; i < scenario->step_count; i++) {
+		struct scenario_step *step = &scenario->step[i];
+
+		if (step->open)
+			judge(run, step);
+		if (!step->open && first && i < run->next)
+			last_open = i + 1;
+		else
+			first = false;
+	}
+	run->first_open = last_open;
+}
+
+static bool is_done(const struct run *run)
+{
+	const struct scenario *scenario = run->scenario;
+
+	if (run->next < scenario->step_count)
+		return false;
+	for (int i = run->first_open; i < scenario->step_count; i++) {
+		const struct scenario_step *step = &scenario->step[i];
+
+		if (step->open && step->verb != VERB_ALWAYS &&
+		    step->verb != VERB_NEVER)
+			return false;
+	}
+	return true;
+}
+
+static void open_steps(struct scenario *scenario)
+{
+	for (int i = 0; i < scenario->step_count; i++) {
+		struct scenario_step *step = &scenario->step[i];
+
+		step->open = step->verb == VERB_ALWAYS ||
+			     step->verb == VERB_NEVER;
+	}
+}
+
+static void report_fault(struct run *run)
+{
+	const struct fault_place *at = &run->resource->fault_at;
+
+	run->held = false;
+	sink_text(run->out, "# ");
+	sink_text(run->out, run->file->file);
+	sink_printf(run->out, ":%d: at ", run->scenario->line);
+	print_time(run->out, run->now_ns);
+	sink_text(run->out, " ms: the program stopped with a fault: ");
+	sink_text(run->out, fault_text(run->resource->fault));
+	if (at->pou && *at->pou) {
+		sink_text(run->out, ": ");
+		sink_text(run->out, at->pou);
+		sink_printf(run->out, " rung %u", at->rung);
+	}
+	sink_text(run->out, "\n");
+}
+
+bool scenario_run(const struct scenario_file *file, int index,
+		  struct resource *resource, const struct sink *out)
+{
+	struct run run = { .file = file, .scenario = &file->scenario[index],
+			   .resource = resource, .out = out, .held = true };
+
+	open_steps(run.scenario);
+	resource_start(resource);
+	do {
+		run.scan++;
+		run.now_ns += run.scenario->period_ns;
+		begin_scan(&run);
+		if (!resource_scan(resource, run.now_ns)) {
+			report_fault(&run);
+			return false;
+		}
+		remember(&run);
+		judge_all(&run);
+	} while (!is_done(&run));
+	return run.held;
+}

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * scenario - what a program must do, as the person who ordered it would say it.
+ *
+ *   scenario "stop wins over start"        # any number in a file
+ *     period 10ms                          # 10ms if it is not said
+ *     at 0ms     Open = 1, Stop = 0        # set before the first scan at t >= 0
+ *     at 20ms    expect Motor = 1          # looked at after that scan
+ *     at 1s      Stop = 1
+ *     within 10ms expect Motor = 0         # in a scan of [1s, 1s + 10ms]
+ *     for 2s     expect Motor = 0          # in every scan of [1s, 1s + 2s)
+ *     always     not (Up and Down)         # after every scan of the scenario
+ *     never      Heater and not Fan
+ *
+ * One statement a line, indented as you like; words in any case; comments behind
+ * `#` or `//` or in (* *). Lines without `at` belong to the `at` before them, those before
+ * the first one to 0; times must not go back. The first scan is at t = period; a
+ * scenario ends when all is decided.
+ */
+#ifndef TRIAL_SCENARIO_H
+#define TRIAL_SCENARIO_H
+
+#include "engine/base/sink.h"
+#include "engine/scan/resource.h"
+#include "engine/trial/formula.h"
+
+#define SCENARIO_SCANS_MAX 100000000 /* of one scenario, so that it ends      */
+#define SCENARIO_HISTORY 8           /* scans shown behind a failure          */
+
+enum scenario_verb {
+	VERB_SET, VERB_EXPECT, VERB_WITHIN, VERB_FOR, VERB_ALWAYS, VERB_NEVER,
+};
+
+struct scenario_step {
+	enum scenario_verb verb;
+	int line;
+	int64_t at_ns, span_ns;
+	struct location target;  /* of VERB_SET                               */
+	struct formula *formula;
+	const char *text;        /* as written, borrowed from the source      */
+	int text_len;
+	bool open;               /* while it runs: not decided yet            */
+};
+
+struct scenario_watch {
+	const char *name;
+	struct location at;
+	union iec_value past[SCENARIO_HISTORY];
+};
+
+struct scenario {
+	const char *name;        /* in the arena, without its quotes          */
+	int line;
+	int64_t period_ns;       /* 0: not said yet                           */
+	struct scenario_step *step;
+	int step_count;
+	struct scenario_watch *watch; /* variables that expectations speak of */
+	int watch_count;
+};
+
+struct scenario_file {
+	const char *file;
+	struct scenario *scenario;
+	int count;
+};
+
+/**
+ * scenario_read - reads a scenario file for a program
+ * @file:  names it in diagnostics and reports; outlives @out
+ * @text:  borrowed as long as @out
+ * @image: of the program, which gives names their places
+ *
+ * Owns: @arena.   Scan-safe: no.
+ * Fails: false and a diagnostic for each error.
+ */
+bool scenario_read(const char *file, const char *text, size_t len,
+		   const struct image *image, struct arena *arena,
+		   struct scenario_file *out, struct diag_list *diags);
+
+/**
+ * scenario_run - runs one scenario from a cold start
+ * @resource: of the same program; it is started here
+ * @out:      gets a report of what failed, each line with `# ` before it
+ *
+ * Returns whether everything held.   Scan-safe: no.
+ */
+bool scenario_run(const struct scenario_file *file, int index,
+		  struct resource *resource, const struct sink *out);
+#endif

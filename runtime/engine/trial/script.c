@@ -1,0 +1,354 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * script - stimulus scripts. Each is read twice by the same code: once to find all
+ * its errors, once to run. It keeps nothing of a line but four numbers.
+ */
+#include "engine/trial/script.h"
+#include "engine/trial/value.h"
+
+#include "engine/base/lex.h"
+
+#include <string.h>
+
+#define REPEAT_MAX 1000000000
+
+struct script {
+	const char *file;
+	const char *at, *end; /* of the line                                 */
+	const char *line_start;
+	int line;
+	int64_t now_ns, period_ns;
+	uint64_t scan;
+	struct resource *resource;
+	struct trace *trace;
+	struct diag_list *diags;
+	bool dry;             /* find errors only                            */
+	bool scanned;         /* a scan stands above this line               */
+};
+
+/* What a line asks for besides its settings. */
+struct stroke {
+	int64_t step_ns;      /* -1: a period                                */
+	int64_t repeat;
+	bool quiet;
+};
+
+struct script_word {
+	const char *text;
+	size_t len;
+};
+
+static bool next_word(struct script *script, struct script_word *word)
+{
+	const char *at = script->at;
+
+	while (at < script->end && (*at == ' ' || *at == '\t'))
+		at++;
+	word->text = at;
+	if (at == script->end || *at == '#')
+		return false;
+	while (at < script->end && *at != ' ' && *at != '\t')
+		at++;
+	word->len = (size_t)(at - word->text);
+	script->at = at;
+	return true;
+}
+
+static struct diag place_of(const struct script *script, const char *at)
+{
+	return (struct diag){ .file = script->file, .line = script->line,
+			      .column = (int)(at - script->line_start) + 1 };
+}
+
+static bool complain(struct script *script, enum diag_id id, struct script_word word)
+{
+	struct diag place = place_of(script, word.text);
+
+	place.id = id;
+	return diag_add(script->diags, place, "%.*s",
+			(int)(word.len < 60 ? word.len : 60), word.text);
+}
+
+static bool is_word(struct script_word word, const char *want)
+{
+	size_t i = 0;
+
+	for (; i < word.len && want[i]; i++) {
+		char c = word.text[i];
+
+		if (c >= 'A' && c <= 'Z')
+			c = (char)(c + 32);
+		if (c != want[i])
+			return false;
+	}
+	return i == word.len && !want[i];
+}
+
+static bool take_time(struct script *script, struct script_word word, size_t skip,
+		      int64_t *ns)
+{
+	enum literal_result result = value_parse_time(
+		word.text + skip, word.len - skip, VALUE_MS, ns);
+
+	if (result == LITERAL_OK)
+		return true;
+	return complain(script, result == LITERAL_RANGE ? DIAG_LITERAL_RANGE :
+							  DIAG_BAD_LITERAL,
+			word);
+}
+
+static bool take_repeat(struct script *script, struct script_word word, int64_t *count)
+{
+	int64_t n = 0;
+
+	for (size_t i = 1; i < word.len; i++) {
+		if (word.text[i] < '0' || word.text[i] > '9')
+			return complain(script, DIAG_BAD_LITERAL, word);
+		n = n * 10 + (word.text[i] - '0');
+		if (n > REPEAT_MAX)
+			return complain(script, DIAG_LITERAL_RANGE, word);
+	}
+	if (!n)
+		return complain(script, DIAG_LITERAL_RANGE, word);
+	*count = n;
+	return true;
+}
+
+static bool take_setting(struct script *script, struct script_word word)
+{
+	struct setting setting;
+
+	if (!setting_parse(&script->resource->image, word.text, word.len,
+			   &setting, script->diags,
+			   place_of(script, word.text)))
+		return false;
+	if (!script->dry)
+		image_set(&script->resource->image, setting.at, setting.value);
+	return true;
+}
+
+static bool take_word(struct script *script, struct script_word word,
+		      struct stroke *stroke)
+{
+	if (memchr(word.text, '=', word.len))
+		return take_setting(script, word);
+	if (is_word(word, "."))
+		return true;
+	if (is_word(word, "quiet")) {
+		stroke->quiet = true;
+		return true;
+	}
+	if (word.text[0] == '+')
+		return take_time(script, word, 1, &stroke->step_ns);
+	if ((word.text[0] == 'x' || word.text[0] == 'X') && word.len > 1 &&
+	    word.text[1] >= '0' && word.text[1] <= '9')
+		return take_repeat(script, word, &stroke->repeat);
+	return complain(script, DIAG_SYNTAX, word);
+}
+
+bool script_fault(const struct resource *resource, const char *file, int line,
+		  struct diag_list *diags)
+{
+	struct diag place = {
+		.id = DIAG_FAULT, .file = file, .line = line,
+		.pou = resource->fault_at.pou,
+		.rung = (int)resource->fault_at.rung,
+		.row = (int)resource->fault_at.row,
+		.col = (int)resource->fault_at.col,
+	};
+
+	if (place.pou && !*place.pou)
+		place.pou = NULL;
+	return diag_add(diags, place, "%s", fault_text(resource->fault));
+}
+
+/* The scans of one line. */
+static bool run_stroke(struct script *script, const struct stroke *stroke,
+		       struct script_word first)
+{
+	int64_t step = stroke->step_ns < 0 ? script->period_ns : stroke->step_ns;
+
+	for (int64_t i = 1; i <= stroke->repeat; i++) {
+		if (script->now_ns > VALUE_TIME_MAX)
+			return complain(script, DIAG_LITERAL_RANGE, first);
+		script->now_ns += step;
+		script->scan++;
+		bool good = resource_scan(script->resource, script->now_ns);
+
+		if (!stroke->quiet || i == stroke->repeat || !good)
+			trace_scan(script->trace, script->scan, script->now_ns);
+		if (trace_stopped(script->trace))
+			return false;
+		if (!good)
+			return script_fault(script->resource, script->file,
+					    script->line, script->diags);
+	}
+	return true;
+}
+
+static bool scan_line(struct script *script)
+{
+	struct stroke stroke = { -1, 1, false };
+	struct script_word word, first = { script->at, 0 };
+	bool good = true, any = false;
+
+	while (next_word(script, &word)) {
+		if (!any)
+			first = word;
+		any = true;
+		good = take_word(script, word, &stroke) && good;
+	}
+	if (!any || !good)
+		return good;
+	script->scanned = true;
+	return script->dry || run_stroke(script, &stroke, first);
+}
+
+static bool set_columns(struct script *script, struct script_word head)
+{
+	struct script_word word;
+	bool any = false, good = true;
+
+	if (script->scanned && script->trace->form != TRACE_LINES)
+		return complain(script, DIAG_MISPLACED, head);
+	trace_clear(script->trace);
+	while (next_word(script, &word)) {
+		any = true;
+		good = trace_show(script->trace, word.text, word.len,
+				  script->diags,
+				  place_of(script, word.text)) && good;
+	}
+	if (!any && !trace_show_all(script->trace))
+		return complain(script, DIAG_NO_MEMORY, head);
+	return good;
+}
+
+static bool set_period(struct script *script, struct script_word head)
+{
+	struct diag place = place_of(script, head.text);
+	struct script_word word;
+	int64_t ns;
+
+	place.id = DIAG_EXPECTED;
+	if (!next_word(script, &word))
+		return diag_add(script->diags, place, "a time behind @period");
+	if (!take_time(script, word, 0, &ns))
+		return false;
+	if (!ns)
+		return complain(script, DIAG_LITERAL_RANGE, word);
+	script->period_ns = ns;
+	return true;
+}
+
+static void echo(struct script *script)
+{
+	while (script->at < script->end && *script->at == ' ')
+		script->at++;
+	if (!script->dry)
+		trace_note(script->trace, script->at,
+			   (size_t)(script->end - script->at));
+	script->at = script->end;
+}
+
+static bool directive(struct script *script)
+{
+	struct script_word head, rest;
+	bool good = true;
+
+	next_word(script, &head);
+	if (is_word(head, "@print"))
+		return set_columns(script, head);
+	if (is_word(head, "@echo")) {
+		echo(script);
+		return true;
+	}
+	if (is_word(head, "@period"))
+		good = set_period(script, head);
+	else if (!is_word(head, "@reset"))
+		return complain(script, DIAG_UNKNOWN_WORD, head);
+	else if (!script->dry)
+		resource_start(script->resource);
+	if (good && next_word(script, &rest))
+		return complain(script, DIAG_SYNTAX, rest);
+	return good;
+}
+
+/* Goes on behind an error when dry; stops at it when not. */
+static bool read_lines(struct script *script, const char *text, size_t len)
+{
+	const char *at = text, *end = text + len;
+	bool good = true;
+
+	script->line = 0;
+	script->now_ns = 0;
+	script->scan = 0;
+	script->scanned = false;
+	while (at < end && (good || script->dry)) {
+		const char *newline = memchr(at, '\n', (size_t)(end - at));
+		const char *stop = newline ? newline : end;
+
+		script->line++;
+		script->line_start = script->at = at;
+		script->end = stop > at && stop[-1] == '\r' ? stop - 1 : stop;
+		while (script->at < script->end &&
+		       (*script->at == ' ' || *script->at == '\t'))
+			script->at++;
+		bool command = script->at < script->end && *script->at == '@';
+
+		good = (command ? directive(script) : scan_line(script)) && good;
+		at = newline ? newline + 1 : end;
+	}
+	return good;
+}
+
+/* Control characters would reach a terminal through the trace. */
+static bool check_bytes(struct script *script, const char *text, size_t len)
+{
+	size_t bad = 0;
+	bool valid = utf8_valid(text, len, &bad);
+	size_t at = 0;
+
+	script->line = 1;
+	script->line_start = text;
+	for (; at < (valid ? len : bad); at++) {
+		unsigned char c = (unsigned char)text[at];
+
+		if (c == '\n') {
+			script->line++;
+			script->line_start = text + at + 1;
+		} else if ((c < 32 && c != '\t' && c != '\r') || c == 127) {
+			return complain(script, DIAG_BAD_BYTE,
+					(struct script_word){ text + at, 0 });
+		}
+	}
+	return valid || complain(script, DIAG_BAD_UTF8,
+				 (struct script_word){ text + at, 0 });
+}
+
+bool script_run(const char *file, const char *text, size_t len,
+		int64_t period_ns, struct resource *resource,
+		struct trace *trace, struct diag_list *diags)
+{
+	struct script script = { .file = file, .resource = resource,
+				 .trace = trace, .diags = diags, .dry = true };
+
+	if (len >= 3 && !memcmp(text, "\xef\xbb\xbf", 3)) {
+		text += 3;
+		len -= 3;
+	}
+	if (!check_bytes(&script, text, len))
+		return false;
+	resource_start(resource);
+	script.period_ns = period_ns;
+	if (!read_lines(&script, text, len))
+		return false;
+	trace_clear(trace);
+	if (!trace_show_all(trace))
+		return complain(&script, DIAG_NO_MEMORY, (struct script_word){ text, 0 });
+	script.dry = false;
+	script.period_ns = period_ns;
+	bool good = read_lines(&script, text, len);
+
+	trace_end(trace);
+	return good && !trace_stopped(trace);
+}

@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * trace - the columns of a trace and its plain lines; the other forms are in
+ * trace_form.c. It compares with what it showed last, not with the scan before,
+ * so that a hidden scan loses no change.
+ */
+#include "engine/trial/trace.h"
+#include "engine/trial/trace_form.h"
+#include "engine/trial/value.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#define RANGE_MAX 65536 /* columns of one range */
+
+void trace_init(struct trace *trace, const struct image *image, const struct sink *out,
+		enum trace_form form, bool changes)
+{
+	memset(trace, 0, sizeof(*trace));
+	arena_init(&trace->arena);
+	trace->image = image;
+	trace->out = out;
+	trace->form = form;
+	trace->changes = changes;
+	trace->stamp_ns = -1;
+}
+
+void trace_free(struct trace *trace)
+{
+	arena_free(&trace->arena);
+	trace->column = NULL;
+	trace->count = 0;
+}
+
+void trace_clear(struct trace *trace)
+{
+	arena_reset(&trace->arena);
+	trace->column = NULL;
+	trace->count = 0;
+}
+
+static bool add_column(struct trace *trace, const char *name, size_t len,
+		       struct location at)
+{
+	char *copy = arena_copy(&trace->arena, name, len);
+	struct trace_column *column;
+
+	if (!copy)
+		return false;
+	column = arena_push(&trace->arena, &trace->column, &trace->count,
+			    sizeof(*column));
+	if (!column)
+		return false;
+	column->name = copy;
+	column->at = at;
+	if (trace->begun)
+		column->last = image_get(trace->image, at);
+	return true;
+}
+
+bool trace_show_all(struct trace *trace)
+{
+	struct symbol_cursor cursor = { 0 };
+	struct symbol symbol;
+
+	while (image_next_symbol(trace->image, &cursor, &symbol)) {
+		if (symbol.flags & SYMBOL_HIDDEN)
+			continue;
+		if (!add_column(trace, symbol.name, strlen(symbol.name),
+				symbol.at))
+			return false;
+	}
+	return true;
+}
+
+static bool complain(struct diag_list *diags, struct diag place,
+		     enum diag_id id, const char *text, size_t len)
+{
+	place.id = id;
+	return diag_add(diags, place, "%.*s", (int)(len < 60 ? len : 60), text);
+}
+
+static bool show_one(struct trace *trace, const char *name, size_t len,
+		     struct diag_list *diags, struct diag place)
+{
+	struct location at = value_find(trace->image, name, len);
+
+	if (at.type == IEC_NONE)
+		return complain(diags, place, DIAG_UNKNOWN_NAME, name, len);
+	if (!add_column(trace, name, len, at))
+		return complain(diags, place, DIAG_NO_MEMORY, "", 0);
+	return true;
+}
+
+/* Bytes before the number that @text ends with; *number is -1 without one. */
+static size_t split_number(const char *text, size_t len, long *number)
+{
+	size_t stem = len;
+
+	while (stem && text[stem - 1] >= '0' && text[stem - 1] <= '9')
+		stem--;
+	*number = stem == len || len - stem > 6 ? -1 : 0;
+	for (size_t i = stem; *number >= 0 && i < len; i++)
+		*number = *number * 10 + (text[i] - '0');
+	return stem;
+}
+
+static bool show_numbers(struct trace *trace, const char *stem, size_t len,
+			 long first, long last, struct diag_list *diags,
+			 struct diag place)
+{
+	char name[LIMIT_NAME + 1];
+
+	if (last < first || last - first >= RANGE_MAX)
+		return complain(diags, place, DIAG_LITERAL_RANGE, stem, len);
+	for (long i = first; i <= last; i++) {
+		int n = snprintf(name, sizeof(name), "%.*s%ld", (int)len, stem,
+				 i);
+
+		if (n < 0 || (size_t)n >= sizeof(name))
+			return complain(diags, place, DIAG_NAME_TOO_LONG, stem,
+					len);
+		if (!show_one(trace, name, (size_t)n, diags, place))
+			return false;
+	}
+	return true;
+}
+
+static bool same_place(struct location a, struct location b)
+{
+	return a.type == b.type && a.area == b.area && a.where == b.where;
+}
+
+static bool show_declared(struct trace *trace, struct location first,
+			  struct location last, struct diag_list *diags,
+			  struct diag place)
+{
+	struct symbol_cursor cursor = { 0 };
+	struct symbol symbol;
+	bool inside = false;
+
+	while (image_next_symbol(trace->image, &cursor, &symbol)) {
+		if (symbol.flags & SYMBOL_HIDDEN)
+			continue;
+		inside = inside || same_place(symbol.at, first);
+		if (!inside)
+			continue;
+		if (!add_column(trace, symbol.name, strlen(symbol.name),
+				symbol.at))
+			return complain(diags, place, DIAG_NO_MEMORY, "", 0);
+		if (same_place(symbol.at, last))
+			return true;
+	}
+	return complain(diags, place, DIAG_LITERAL_RANGE, "", 0);
+}
+
+bool trace_show(struct trace *trace, const char *text, size_t len,
+		struct diag_list *diags, struct diag place)
+{
+	const char *dots = NULL;
+	long first, last;
+
+	for (size_t i = 0; i + 1 < len && !dots; i++)
+		if (text[i] == '.' && text[i + 1] == '.')
+			dots = text + i;
+	if (!dots)
+		return show_one(trace, text, len, diags, place);
+	size_t left = (size_t)(dots - text), right = len - left - 2;
+	size_t stem = split_number(text, left, &first);
+	size_t other = split_number(dots + 2, right, &last);
+
+	if (first >= 0 && last >= 0 &&
+	    (!other || (other == stem && !memcmp(text, dots + 2, stem))))
+		return show_numbers(trace, text, stem, first, last, diags,
+				    place);
+	struct location from = value_find(trace->image, text, left);
+	struct location to = value_find(trace->image, dots + 2, right);
+
+	if (from.type == IEC_NONE)
+		return complain(diags, place, DIAG_UNKNOWN_NAME, text, left);
+	if (to.type == IEC_NONE)
+		return complain(diags, place, DIAG_UNKNOWN_NAME, dots + 2,
+				right);
+	return show_declared(trace, from, to, diags, place);
+}
+
+bool trace_update(struct trace_column *column, union iec_value value)
+{
+	bool same = column->at.type == IEC_REAL ?
+			    !memcmp(&value.r, &column->last.r, sizeof(value.r)) :
+			    value.i == column->last.i;
+
+	column->last = value;
+	return !same;
+}
+
+static void write_lines(struct trace *trace, uint64_t scan, int64_t now_ns)
+{
+	char text[64];
+	union iec_value time = { .i = now_ns };
+	bool any = false;
+
+	iec_value_print(IEC_TIME, time, text, sizeof(text));
+	if (!trace->changes) {
+		sink_printf(trace->out, "%llu t=%s", (unsigned long long)scan,
+			   text);
+		any = true;
+	}
+	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
+		struct trace_column *column = &trace->column[i];
+		union iec_value value = image_get(trace->image, column->at);
+
+		if (!trace_update(column, value) && trace->changes)
+			continue;
+		if (!any)
+			sink_printf(trace->out, "%llu t=%s",
+				   (unsigned long long)scan, text);
+		any = true;
+		sink_text(trace->out, " ");
+		sink_text(trace->out, column->name);
+		iec_value_print(column->at.type, value, text + 32, 32);
+		sink_text(trace->out, "=");
+		sink_text(trace->out, text + 32);
+	}
+	if (any)
+		sink_text(trace->out, "\n");
+}
+
+void trace_scan(struct trace *trace, uint64_t scan, int64_t now_ns)
+{
+	if (trace->form == TRACE_LINES)
+		write_lines(trace, scan, now_ns);
+	else if (trace->form == TRACE_CSV)
+		trace_csv(trace, scan, now_ns);
+	else
+		trace_vcd(trace, now_ns);
+	trace->begun = true;
+}
+
+bool trace_stopped(const struct trace *trace)
+{
+	return trace->stop && *trace->stop;
+}
+
+void trace_note(struct trace *trace, const char *text, size_t len)
+{
+	if (trace->form == TRACE_CSV)
+		return;
+	if (trace->form == TRACE_VCD) {
+		trace_vcd_note(trace, text, len);
+		return;
+	}
+	sink_text(trace->out, "# ");
+	sink_write(trace->out, text, len);
+	sink_text(trace->out, "\n");
+}
+
+void trace_end(struct trace *trace)
+{
+	if (trace->begun)
+		return;
+	if (trace->form == TRACE_CSV)
+		trace_csv_head(trace);
+	else if (trace->form == TRACE_VCD)
+		trace_vcd_head(trace);
+	trace->begun = true;
+}

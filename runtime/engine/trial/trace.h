@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * trace - what the variables of a program were after each scan, as text.
+ *
+ * Lines for people and tests, CSV for spreadsheets, VCD for wave viewers. It looks
+ * at an image and writes to a sink; it runs nothing.
+ *
+ *   12 t=120 Motor=1 Runout.ET=20.5      scan, time in ms, values
+ */
+#ifndef TRIAL_TRACE_H
+#define TRIAL_TRACE_H
+
+#include "engine/base/arena.h"
+#include "engine/base/diag.h"
+#include "engine/scan/image.h"
+#include "engine/base/sink.h"
+
+enum trace_form { TRACE_LINES, TRACE_CSV, TRACE_VCD };
+
+struct trace_column {
+	const char *name;      /* in the trace's arena                       */
+	struct location at;
+	union iec_value last;  /* as shown last; 0 to begin with             */
+};
+
+struct trace {
+	struct arena arena;
+	const struct image *image;
+	const struct sink *out;
+	enum trace_form form;
+	bool changes;          /* lines and CSV: only what changed           */
+	const bool *stop;      /* set by the caller after trace_init, or NULL:
+				  when it is true, whoever runs scans ends   */
+	bool begun;            /* the head of CSV or VCD is written          */
+	int64_t stamp_ns;      /* VCD: time written last                     */
+	struct trace_column *column;
+	int count;
+};
+
+/**
+ * trace_init - a trace without columns
+ * @image, @out: borrowed while the trace is used
+ *
+ * Owns: the trace, trace_free().   Scan-safe: no.   Fails: never.
+ */
+void trace_init(struct trace *trace, const struct image *image, const struct sink *out,
+		enum trace_form form, bool changes);
+void trace_free(struct trace *trace);
+
+/** trace_clear - no columns. */
+void trace_clear(struct trace *trace);
+/** trace_show_all - a column for every declared variable, instances pin by pin;
+ * hidden ones left out. Fails: false when memory is out. */
+bool trace_show_all(struct trace *trace);
+/**
+ * trace_show - columns for `Motor`, `%Q0..7`, `Lamp1..Lamp8`, `First..Last`
+ *
+ * A range counts up the number at the end of its first name, or, between two
+ * names without one in common, takes the declarations from one to the other.
+ * Owns: nothing.   Scan-safe: no.   Fails: false and a diagnostic at @place.
+ */
+bool trace_show(struct trace *trace, const char *text, size_t len,
+		struct diag_list *diags, struct diag place);
+
+/**
+ * trace_scan - shows the image after scan number @scan at @now_ns
+ *
+ * Scan-safe: no.   Fails: never; what the sink cannot take is its own matter.
+ */
+void trace_scan(struct trace *trace, uint64_t scan, int64_t now_ns);
+/** trace_note - a remark: `# text` (lines), $comment (VCD), nothing in CSV. */
+void trace_note(struct trace *trace, const char *text, size_t len);
+/** trace_stopped - has the caller had enough? */
+bool trace_stopped(const struct trace *trace);
+/** trace_end - the head, if no scan wrote it. */
+void trace_end(struct trace *trace);
+#endif

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * value - reads times, names and values. It changes no image: that is up to
+ * whoever runs the trial.
+ */
+#include "engine/trial/value.h"
+
+#include <string.h>
+
+static const struct {
+	char word[4];
+	int64_t ns;
+} units[] = {
+	{ "d", 86400 * INT64_C(1000000000) },
+	{ "h", 3600 * INT64_C(1000000000) },
+	{ "min", 60 * INT64_C(1000000000) },
+	{ "ms", 1000000 },
+	{ "m", 60 * INT64_C(1000000000) },
+	{ "us", 1000 },
+	{ "ns", 1 },
+	{ "s", 1000000000 },
+};
+
+static char lower(char c)
+{
+	return c >= 'A' && c <= 'Z' ? (char)(c + 32) : c;
+}
+
+static bool is_digit(char c)
+{
+	return c >= '0' && c <= '9';
+}
+
+/* The unit at *at, which is stepped over; 0: none. */
+static int64_t take_unit(const char **at, const char *end)
+{
+	for (size_t i = 0; i < sizeof(units) / sizeof(units[0]); i++) {
+		size_t len = strlen(units[i].word), n = 0;
+
+		while (n < len && *at + n < end &&
+		       lower((*at)[n]) == units[i].word[n])
+			n++;
+		if (n == len) {
+			*at += len;
+			return units[i].ns;
+		}
+	}
+	return 0;
+}
+
+/* Adds @digits (of the fraction when @scale shrinks) to *sum. */
+static enum literal_result add_fraction(const char *at, const char *end,
+					int64_t scale, int64_t *sum)
+{
+	for (; at < end; at++) {
+		int digit = *at - '0';
+
+		if (digit && scale % 10)
+			return LITERAL_RANGE;
+		scale /= 10;
+		*sum += digit * scale;
+		if (digit && !scale)
+			return LITERAL_RANGE;
+	}
+	return LITERAL_OK;
+}
+
+static enum literal_result add_whole(const char *at, const char *end,
+				     int64_t scale, int64_t *sum)
+{
+	int64_t whole = 0;
+
+	for (; at < end; at++) {
+		whole = whole * 10 + (*at - '0');
+		if (whole > VALUE_TIME_MAX / scale)
+			return LITERAL_RANGE;
+	}
+	*sum += whole * scale;
+	return *sum > VALUE_TIME_MAX ? LITERAL_RANGE : LITERAL_OK;
+}
+
+/* One number with its unit; *at steps over it. */
+static enum literal_result add_part(const char **at, const char *end,
+				    int64_t bare, int64_t *sum, bool *last)
+{
+	const char *whole = *at, *point, *digits;
+
+	while (*at < end && is_digit(**at))
+		(*at)++;
+	point = *at;
+	if (*at < end && **at == '.') {
+		(*at)++;
+		*last = true;
+	}
+	digits = *at;
+	while (*at < end && is_digit(**at))
+		(*at)++;
+	if (point == whole || (*last && digits == *at))
+		return LITERAL_BAD;
+	const char *digits_end = *at;
+	int64_t scale = take_unit(at, end);
+
+	if (!scale && *at == end) {
+		scale = bare;
+		*last = true;
+	}
+	if (!scale)
+		return LITERAL_BAD;
+	enum literal_result result = add_whole(whole, point, scale, sum);
+
+	if (result != LITERAL_OK)
+		return result;
+	result = add_fraction(digits, digits_end, scale, sum);
+	return result == LITERAL_OK && *sum > VALUE_TIME_MAX ? LITERAL_RANGE :
+							       result;
+}
+
+enum literal_result value_parse_time(const char *text, size_t len,
+				     int64_t unit_ns, int64_t *ns)
+{
+	const char *at = text, *end = text + len;
+	int64_t sum = 0;
+	bool last = false, first = true;
+
+	if (memchr(text, '#', len)) {
+		struct literal literal;
+		enum literal_result result = literal_parse(text, len, &literal);
+
+		if (result != LITERAL_OK)
+			return result;
+		if (literal.type != IEC_TIME)
+			return LITERAL_BAD;
+		*ns = literal.value.i;
+		return *ns < 0 || *ns > VALUE_TIME_MAX ? LITERAL_RANGE :
+							 LITERAL_OK;
+	}
+	do {
+		if (last)
+			return LITERAL_BAD;
+		enum literal_result result =
+			add_part(&at, end, first ? unit_ns : 0, &sum, &last);
+
+		if (result != LITERAL_OK)
+			return result;
+		first = false;
+	} while (at < end);
+	*ns = sum;
+	return LITERAL_OK;
+}
+
+static bool is_true_word(const char *text, size_t len, const char *word)
+{
+	if (len != strlen(word))
+		return false;
+	for (size_t i = 0; i < len; i++)
+		if (lower(text[i]) != word[i])
+			return false;
+	return true;
+}
+
+bool value_parse(enum iec_type type, const char *text, size_t len,
+		 union iec_value *out, enum diag_id *why)
+{
+	struct literal literal;
+	enum literal_result result;
+
+	*why = DIAG_BAD_LITERAL;
+	if (!len)
+		return false;
+	if (type == IEC_BOOL && (is_true_word(text, len, "true") ||
+				 is_true_word(text, len, "false"))) {
+		out->i = len == 4;
+		return true;
+	}
+	if (type == IEC_TIME && is_digit(*text)) {
+		result = value_parse_time(text, len, VALUE_MS, &out->i);
+		if (result == LITERAL_RANGE)
+			*why = DIAG_LITERAL_RANGE;
+		return result == LITERAL_OK;
+	}
+	result = literal_parse(text, len, &literal);
+	if (result == LITERAL_NONE || result == LITERAL_BAD)
+		return false;
+	*why = DIAG_LITERAL_RANGE;
+	return result == LITERAL_OK && literal_fit(&literal, type, out);
+}
+
+struct location value_find(const struct image *image, const char *name,
+			   size_t len)
+{
+	struct location at = image_find(image, name, len);
+
+	if (at.type == IEC_NONE && len > 1 && *name == '%')
+		at = image_find(image, name + 1, len - 1);
+	return at;
+}
+
+bool setting_parse(const struct image *image, const char *text, size_t len,
+		   struct setting *out, struct diag_list *diags,
+		   struct diag place)
+{
+	const char *equals = memchr(text, '=', len);
+	size_t name = equals ? (size_t)(equals - text) : 0;
+	enum diag_id why;
+
+	if (!name) {
+		place.id = DIAG_EXPECTED;
+		return diag_add(diags, place, "NAME=VALUE, not %.*s",
+				(int)(len < 40 ? len : 40), text);
+	}
+	out->at = value_find(image, text, name);
+	if (out->at.type == IEC_NONE || out->at.constant) {
+		place.id = out->at.constant ? DIAG_WRITE_CONSTANT :
+					      DIAG_UNKNOWN_NAME;
+		return diag_add(diags, place, "%.*s",
+				(int)(name < 60 ? name : 60), text);
+	}
+	len -= name + 1;
+	if (!value_parse(out->at.type, equals + 1, len, &out->value, &why)) {
+		place.id = why;
+		if (place.column)
+			place.column += (int)name + 1;
+		return diag_add(diags, place, "%.*s",
+				(int)(len < 60 ? len : 60), equals + 1);
+	}
+	return true;
+}
