@@ -347,3 +347,36 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 	*why = slot ? slot->why : DIAG_NO_MEMORY;
 	return slot ? slot->meaning : NULL;
 }
+
+bool scope_add(struct scope *scope, const struct pou *pou, const struct var *var,
+	       int index)
+{
+	uint32_t table = table_number(scope, pou);
+	struct meaning *out = arena_alloc(scope->arena, sizeof(*out));
+	struct answer *slot;
+
+	if (!out ||
+	    (scope->answers * 2 > scope->answer_mask && !grow_answers(scope)))
+		return false;
+	out->kind = MEANING_VARIABLE;
+	out->type = var->type;
+	out->pou = pou;
+	out->var = var;
+	out->index = index;
+	out->writable = true;
+	slot = answer_slot(scope, table, var->name);
+	scope->answers += !slot->text;
+	*slot = (struct answer){ .table = table, .text = var->name,
+				 .meaning = out };
+	return true;
+}
+
+struct project *scope_project(const struct scope *scope)
+{
+	return scope->project;
+}
+
+const char *scope_text(const struct scope *scope, uint32_t id)
+{
+	return names_text(&scope->project->names, id);
+}

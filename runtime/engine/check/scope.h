@@ -55,4 +55,15 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 /** scope_duplicate - an earlier declaration of the same name in the same table,
  * or -1. */
 int scope_duplicate(struct scope *scope, const struct pou *pou, int index);
+/**
+ * scope_add - declares a temporary that translation makes, after all others
+ * @var:   lives as long as the scope; only its exact spelling is found
+ * @index: behind the declared variables of the POU's table
+ * Scan-safe: no.   Fails: false when memory is out.
+ */
+bool scope_add(struct scope *scope, const struct pou *pou, const struct var *var,
+	       int index);
+struct project *scope_project(const struct scope *scope);
+/** scope_text - the string of an id. */
+const char *scope_text(const struct scope *scope, uint32_t id);
 #endif

@@ -12,22 +12,23 @@
  * CODE_FALSE holds a constant 0 and CODE_TRUE a constant 1. A BOOL is a byte of 0
  * or 1. Operands of instructions are words of 24 bits offset and 8 bits type.
  *
- * Instructions (a word `op | n << 8`, then operand words):
- *   END                              n = 0
- *   LUT n   n × (a, b, c, d)         m[d] = bit (a + 2b + 4c) of the table in the
- *                                    top 8 bits of word d; a, b, c are offsets
- *   BITGET bit  byte, dst            BITPUT bit  src, byte
- *   COPY        en, dst, src         types in the top 8 bits; widens
- *   CMP  rel    dst, left, right     rel 0..5 as enum cmp; compared as the wider
- *   FN  k | type << 8                en, eno, dst, k words of inputs, with
- *       (n = k + 8·…, see below)     the function's word in `fn`
- *   FB  word    instance             enum word in n; offset of its struct
- *   JMP         target               word index in the section, of an
- *   JMPC        target, cond         instruction's first word
+ * Instructions: a word `op | n << 8`, then operand words:
+ *   END
+ *   LUT    n × (a, b, c, d)     m[d] = bit (a + 2b + 4c) of the table in the top
+ *                               8 bits of word d; a, b, c are offsets of BOOLs
+ *   BITGET byte, dst            n: bit 0..7
+ *   BITPUT src, byte            n: bit 0..7
+ *   COPY   en, dst, src         types in the top 8 bits of dst and src; widens
+ *   CMP    dst, left, right     n: enum cmp; types of left and right on top
+ *   FN     fn, en, eno, dst, inputs …   n: type | inputs << 8; en, eno BOOLs
+ *   FB     instance             n: enum word of the block
+ *   JMP    target               word index in the section, of an instruction
+ *   JMPC   target, cond         that begins in the same program
  */
 #ifndef SCAN_CODE_H
 #define SCAN_CODE_H
 
+#include "engine/base/arena.h"
 #include "engine/base/catalog.h"
 #include "engine/base/diag.h"
 
@@ -133,11 +134,13 @@ struct program {
 	uint8_t sha256[32];    /* identity: code and data layout           */
 };
 
+/* n of CMP. */
+enum cmp { CMP_GT, CMP_GE, CMP_EQ, CMP_LE, CMP_LT, CMP_NE, CMP_COUNT };
+
 /**
  * code_open - verifies an image and gives access to it
  * @bytes:   aligned to 8; kept by the caller as long as @out is used
- * @scratch: @len bytes at least LIMIT_DATA in size are not needed: the verifier
- *           takes what it needs from here; freed by the caller
+ * @scratch: what the verifier allocates from; may be freed afterwards
  *
  * Checks checksum, version, sections, data layout, every operand (in range, of
  * the right type, not a constant when written), every jump target, and that the
@@ -145,13 +148,13 @@ struct program {
  * Owns: nothing.   Scan-safe: no.
  * Fails: false, a row of diag.def in @why and the byte offset in @where.
  */
-bool code_open(const void *bytes, size_t len, struct program *out,
-	       enum diag_id *why, size_t *where);
+bool code_open(const void *bytes, size_t len, struct arena *scratch,
+	       struct program *out, enum diag_id *why, size_t *where);
 
 /** code_words - words of the instruction at @code: 1 + its operands. */
 uint32_t code_words(const uint32_t *code);
-/** code_print - one instruction as text, e.g. "lut  b100 b101 b102 -> b103".
- * @n: which of the n parts of a LUT. Returns as snprintf. */
-int code_print(const struct program *program, const uint32_t *code, uint32_t n,
-	       char *out, size_t size);
+/** code_print - one instruction as text, e.g. "lut     8a b100 b101 b102 -> b103"
+ * @code: of a verified program
+ * @part: which of the n parts of a LUT, 0-based; else 0. Returns as snprintf. */
+int code_print(const uint32_t *code, uint32_t part, char *out, size_t size);
 #endif

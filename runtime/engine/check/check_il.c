@@ -1,0 +1,521 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check_il - walks an instruction list with the type of its current result.
+ */
+#include "engine/check/check_il.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+/* The current result (IEC 61131-3 3.2.2): nothing, a type, or a constant that
+ * has no type yet. */
+struct result {
+	bool there;
+	enum iec_type type;
+	const struct literal *literal;
+};
+
+struct il_check {
+	struct scope *scope;
+	const struct pou *pou;
+	const struct il *il;
+	enum iec_type *types;
+	struct diag_list *diags;
+	uint8_t *label;        /* by folded name: is it a label?            */
+	uint32_t label_count;
+	struct result now;
+	struct result open[LIMIT_IL_DEPTH]; /* left of each open parenthesis */
+	int depth;
+};
+
+enum iec_type types_join(enum iec_type a, enum iec_type b)
+{
+	if (a == IEC_NONE || (b != IEC_NONE && iec_can_widen(a, b)))
+		return b;
+	if (b == IEC_NONE || iec_can_widen(b, a))
+		return a;
+	for (int type = IEC_NONE + 1; type < IEC_TYPE_COUNT; type++)
+		if (iec_can_widen(a, (enum iec_type)type) &&
+		    iec_can_widen(b, (enum iec_type)type))
+			return (enum iec_type)type;
+	return IEC_TYPE_COUNT;
+}
+
+static bool report(struct il_check *c, const struct il_line *line,
+		   enum diag_id id, const char *arg)
+{
+	struct diag place = {
+		.id = id, .file = c->pou->file, .line = (int)line->line,
+		.pou = scope_text(c->scope, c->pou->name),
+		.rung = (int)line->rung, .row = line->row, .col = line->col,
+	};
+
+	return diag_add(c->diags, place, "%s", arg);
+}
+
+static bool report_types(struct il_check *c, const struct il_line *line,
+			 enum iec_type from, enum iec_type to)
+{
+	char text[LIMIT_ARG];
+
+	snprintf(text, sizeof(text), "%s and %s", iec_type_row(from)->word,
+		 iec_type_row(to)->word);
+	return report(c, line, DIAG_NEEDS_CONVERSION, text);
+}
+
+static const char *operand_text(struct il_check *c, const struct il_line *line)
+{
+	return scope_text(c->scope, line->operand);
+}
+
+static const struct meaning *find(struct il_check *c, const struct il_line *line)
+{
+	enum diag_id why = DIAG_UNKNOWN_NAME;
+	const struct meaning *m = scope_find(c->scope, c->pou, line->operand,
+					     &why);
+
+	if (!m)
+		report(c, line, why, operand_text(c, line));
+	return m;
+}
+
+/* The operand as a value to read; NULL after a diagnostic. */
+static const struct meaning *value_of(struct il_check *c,
+				      const struct il_line *line)
+{
+	const struct meaning *m = find(c, line);
+
+	if (m && m->kind == MEANING_INSTANCE) {
+		report(c, line, DIAG_INSTANCE_AS_VALUE, operand_text(c, line));
+		return NULL;
+	}
+	return m;
+}
+
+static struct result result_of(const struct meaning *m)
+{
+	struct result out = { .there = true, .type = m->type };
+
+	if (m->kind == MEANING_LITERAL && m->type == IEC_NONE)
+		out.literal = &m->literal;
+	return out;
+}
+
+/* Can the value go to @to? An untyped constant must fit. */
+static bool can_store(struct il_check *c, const struct il_line *line,
+		      struct result from, enum iec_type to)
+{
+	union iec_value value;
+
+	if (from.literal) {
+		if (literal_fit(from.literal, to, &value))
+			return true;
+		return report(c, line, from.literal->real == (to == IEC_REAL) ?
+			      DIAG_LITERAL_RANGE : DIAG_WRONG_TYPE,
+			      iec_type_row(to)->word);
+	}
+	if (iec_can_widen(from.type, to))
+		return true;
+	return report_types(c, line, from.type, to);
+}
+
+static bool can_write(struct il_check *c, const struct il_line *line,
+		      const struct meaning *m)
+{
+	if (m->kind == MEANING_LITERAL || m->constant)
+		return report(c, line, DIAG_WRITE_CONSTANT, operand_text(c, line));
+	if (!m->writable)
+		return report(c, line, m->kind == MEANING_PIN ?
+			      DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT,
+			      operand_text(c, line));
+	return true;
+}
+
+static bool need_result(struct il_check *c, const struct il_line *line)
+{
+	return c->now.there ||
+	       report(c, line, DIAG_IL_NO_RESULT, operand_text(c, line));
+}
+
+static bool need_bool(struct il_check *c, const struct il_line *line,
+		      struct result result, const char *what)
+{
+	union iec_value value;
+
+	if (result.type == IEC_BOOL ||
+	    (result.literal && literal_fit(result.literal, IEC_BOOL, &value)))
+		return true;
+	return report(c, line, DIAG_NOT_BOOL, what);
+}
+
+static bool check_load(struct il_check *c, const struct il_line *line)
+{
+	const struct meaning *m = value_of(c, line);
+
+	/* After an error: a result that complains no more. */
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
+	if (!m)
+		return false;
+	c->now = result_of(m);
+	return !(line->modifiers & MOD_N) ||
+	       need_bool(c, line, c->now, operand_text(c, line));
+}
+
+static bool check_store(struct il_check *c, const struct il_line *line)
+{
+	const struct meaning *m = value_of(c, line);
+	bool bits = line->op != OP_ST || line->modifiers & MOD_N;
+
+	if (!m || !need_result(c, line) || !can_write(c, line, m))
+		return false;
+	if (bits && (!need_bool(c, line, c->now, "result") ||
+		     !need_bool(c, line, result_of(m), operand_text(c, line))))
+		return false;
+	return can_store(c, line, c->now, m->type);
+}
+
+static bool check_logic(struct il_check *c, const struct il_line *line)
+{
+	if (!need_result(c, line) || !need_bool(c, line, c->now, "result"))
+		return false;
+	if (line->modifiers & MOD_PAREN) {
+		if (c->depth == LIMIT_IL_DEPTH)
+			return report(c, line, DIAG_TOO_DEEP, "(");
+		c->open[c->depth++] = c->now;
+		c->now.there = false;
+		if (!line->operand)
+			return true;
+	}
+	const struct meaning *m = value_of(c, line);
+
+	if (!m)
+		return false;
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
+	if (line->modifiers & MOD_PAREN) {
+		c->now = result_of(m); /* AND( Level, then GT 10 */
+		return true;
+	}
+	return need_bool(c, line, result_of(m), operand_text(c, line));
+}
+
+static bool check_close(struct il_check *c, const struct il_line *line)
+{
+	bool good = need_result(c, line) && need_bool(c, line, c->now, "result");
+
+	if (c->depth == 0)
+		return report(c, line, DIAG_IL_CLOSE_PAREN, ")");
+	c->depth--;
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
+	return good;
+}
+
+static bool is_label(struct il_check *c, uint32_t name)
+{
+	uint32_t fold = names_fold(&scope_project(c->scope)->names, name);
+
+	return fold && fold < c->label_count && c->label[fold];
+}
+
+/* JMP and RET: with C the result must be there, without it nothing goes on. */
+static bool check_flow(struct il_check *c, const struct il_line *line)
+{
+	bool good = true;
+
+	if (c->depth > 0)
+		good = report(c, line, DIAG_IL_OPEN_PAREN, op_row(line->op)->word);
+	if (line->op == OP_JMP && !is_label(c, line->operand))
+		good = report(c, line, DIAG_NO_LABEL, operand_text(c, line));
+	if (line->modifiers & MOD_C)
+		return need_result(c, line) &&
+		       need_bool(c, line, c->now, "result") && good;
+	c->now.there = false;
+	return good;
+}
+
+static bool check_not(struct il_check *c, const struct il_line *line)
+{
+	return need_result(c, line) && need_bool(c, line, c->now, "result");
+}
+
+/* ---- functions and calls ---- */
+
+/* The inputs' common type, and whether the function takes it. */
+static bool check_inputs(struct il_check *c, const struct il_line *line,
+			 const struct result *in, int count,
+			 enum iec_type *common)
+{
+	const struct word_row *row = word_row((enum word)line->word);
+	enum iec_type type = IEC_NONE;
+	bool real = false;
+	union iec_value value;
+
+	for (int i = 0; i < count; i++) {
+		enum iec_type join = types_join(type, in[i].type);
+
+		if (join == IEC_TYPE_COUNT)
+			return report_types(c, line, type, in[i].type);
+		type = join;
+		real |= in[i].literal && in[i].literal->real;
+	}
+	if (type == IEC_NONE)
+		type = real ? IEC_REAL : IEC_DINT;
+	if (!(row->pin[0].classes & iec_type_row(type)->class))
+		return report(c, line, DIAG_WRONG_TYPE, iec_type_row(type)->word);
+	for (int i = 0; i < count; i++)
+		if (in[i].literal && !literal_fit(in[i].literal, type, &value))
+			return report(c, line, real == (type == IEC_REAL) ?
+				      DIAG_LITERAL_RANGE : DIAG_WRONG_TYPE,
+				      iec_type_row(type)->word);
+	*common = type;
+	return true;
+}
+
+static enum iec_type fn_type(const struct il_line *line, enum iec_type common)
+{
+	return word_row((enum word)line->word)->result == RESULT_BOOL ?
+	       IEC_BOOL : common;
+}
+
+/* A function on the current result: ADD 5. */
+static bool check_fn(struct il_check *c, const struct il_line *line,
+		     enum iec_type *common)
+{
+	const struct word_row *row = word_row((enum word)line->word);
+	struct result in[2] = { c->now };
+	int count = 1;
+
+	if (!need_result(c, line))
+		return false;
+	if (line->operand) {
+		const struct meaning *m = value_of(c, line);
+
+		if (!m)
+			return false;
+		in[count++] = result_of(m);
+	}
+	if (count < row->pin_count || count > row->most_inputs)
+		return report(c, line, DIAG_MISSING_INPUT, row->word);
+	if (!check_inputs(c, line, in, count, common))
+		return false;
+	c->now = (struct result){
+		.there = true, .type = fn_type(line, *common),
+	};
+	return true;
+}
+
+/* ADD(EN := …, IN1 := …, ENO => …, OUT => …): the lines behind @at. */
+static bool check_call(struct il_check *c, int at, enum iec_type *common)
+{
+	const struct il_line *line = &c->il->line[at];
+	const struct word_row *row = word_row((enum word)line->word);
+	struct result in[LIMIT_FN_INPUTS] = { { false, IEC_NONE, NULL } };
+	struct result out;
+	int count = 0, last = 0;
+	bool good = true;
+
+	for (int i = at + 1; i < c->il->count &&
+	     c->il->line[i].kind == IL_ARG_IN; i++) {
+		const struct il_line *arg = &c->il->line[i];
+		const char *pin = scope_text(c->scope, arg->pin);
+		const struct meaning *m = value_of(c, arg);
+		int index = word_pin_find(row, pin, strlen(pin));
+
+		if (!m) {
+			good = false;
+		} else if (strcasecmp(pin, "EN") == 0) {
+			good &= need_bool(c, arg, result_of(m),
+					  operand_text(c, arg));
+		} else if (index < 0 || index >= LIMIT_FN_INPUTS) {
+			good = report(c, arg, DIAG_NO_PIN, pin);
+		} else {
+			count += !in[index].there;
+			in[index] = result_of(m);
+			last = index > last ? index : last;
+		}
+	}
+	if (!good)
+		return false;
+	if (count < row->pin_count || count != last + 1)
+		return report(c, line, DIAG_MISSING_INPUT, row->word);
+	if (!check_inputs(c, line, in, count, common))
+		return false;
+	out = (struct result){ .there = true, .type = fn_type(line, *common) };
+	for (int i = at + 1; i < c->il->count &&
+	     c->il->line[i].kind >= IL_ARG_IN; i++) {
+		const struct il_line *arg = &c->il->line[i];
+		const char *pin = scope_text(c->scope, arg->pin);
+		const struct meaning *m;
+
+		if (arg->kind != IL_ARG_OUT)
+			continue;
+		m = value_of(c, arg);
+		if (!m || !can_write(c, arg, m))
+			good = false;
+		else if (strcasecmp(pin, "ENO") == 0)
+			good &= need_bool(c, arg, result_of(m),
+					  operand_text(c, arg));
+		else if (strcasecmp(pin, "OUT") == 0)
+			good &= can_store(c, arg, out, m->type);
+		else
+			good = report(c, arg, DIAG_NO_PIN, pin);
+	}
+	c->now.there = false;
+	return good;
+}
+
+static bool check_pin(struct il_check *c, const struct word_row *row,
+		      const struct il_line *arg)
+{
+	const char *name = scope_text(c->scope, arg->pin);
+	int index = word_pin_find(row, name, strlen(name));
+	const struct meaning *m = value_of(c, arg);
+	const struct word_pin *pin;
+
+	if (!m)
+		return false;
+	if (index < 0)
+		return report(c, arg, DIAG_NO_PIN, name);
+	pin = &row->pin[index];
+	if ((pin->dir == PIN_IN) != (arg->kind == IL_ARG_IN))
+		return report(c, arg, DIAG_PIN_DIRECTION, name);
+	if (pin->dir == PIN_IN)
+		return can_store(c, arg, result_of(m), pin->type);
+	return can_write(c, arg, m) &&
+	       can_store(c, arg, (struct result){ true, pin->type, NULL },
+			 m->type);
+}
+
+static bool check_cal(struct il_check *c, int at)
+{
+	const struct il_line *line = &c->il->line[at];
+	const struct meaning *m = find(c, line);
+	bool good = true;
+
+	if (!m)
+		return false;
+	if (m->kind != MEANING_INSTANCE)
+		return report(c, line, DIAG_NOT_INSTANCE, operand_text(c, line));
+	if (line->modifiers & MOD_C)
+		good = need_result(c, line) &&
+		       need_bool(c, line, c->now, "result");
+	for (int i = at + 1; i < c->il->count &&
+	     c->il->line[i].kind >= IL_ARG_IN &&
+	     c->il->line[i].kind <= IL_ARG_OUT; i++)
+		good &= check_pin(c, word_row(m->var->fb), &c->il->line[i]);
+	c->now.there = false;
+	return good;
+}
+
+/* ---- the walk ---- */
+
+static bool check_op(struct il_check *c, int at)
+{
+	const struct il_line *line = &c->il->line[at];
+
+	if (line->modifiers & ~op_row((enum op)line->op)->modifiers)
+		return report(c, line, DIAG_IL_MODIFIER,
+			      op_row((enum op)line->op)->word);
+	switch ((enum op)line->op) {
+	case OP_LD:
+		return check_load(c, line);
+	case OP_ST:
+	case OP_S:
+	case OP_R:
+		return check_store(c, line);
+	case OP_AND:
+	case OP_OR:
+	case OP_XOR:
+		return check_logic(c, line);
+	case OP_NOT:
+		return check_not(c, line);
+	case OP_JMP:
+	case OP_RET:
+		return check_flow(c, line);
+	case OP_CAL:
+		return check_cal(c, at);
+	case OP_COUNT:
+		break;
+	}
+	return false;
+}
+
+static bool check_line(struct il_check *c, int at, enum iec_type *type)
+{
+	const struct il_line *line = &c->il->line[at];
+	bool good = true;
+
+	switch ((enum il_kind)line->kind) {
+	case IL_OP:
+		good = check_op(c, at);
+		break;
+	case IL_FN:
+		return check_fn(c, line, type);
+	case IL_CALL:
+		return check_call(c, at, type);
+	case IL_CLOSE:
+		good = check_close(c, line);
+		break;
+	case IL_LABEL:
+		if (c->depth > 0)
+			good = report(c, line, DIAG_IL_OPEN_PAREN,
+				      operand_text(c, line));
+		c->depth = 0;
+		c->now.there = false;
+		break;
+	case IL_ARG_IN:
+	case IL_ARG_OUT:
+	case IL_COMMENT:
+		break;
+	}
+	*type = c->now.type;
+	return good;
+}
+
+/* One byte a folded name. Two labels of one name are an error. */
+static bool find_labels(struct il_check *c, struct arena *scratch)
+{
+	struct names *names = &scope_project(c->scope)->names;
+	bool good = true;
+
+	for (int i = 0; i < c->il->count; i++)
+		if (c->il->line[i].kind == IL_LABEL)
+			names_fold(names, c->il->line[i].operand);
+	c->label_count = (uint32_t)names->count;
+	c->label = arena_alloc(scratch, c->label_count);
+	if (!c->label)
+		return false;
+	for (int i = 0; i < c->il->count; i++) {
+		const struct il_line *line = &c->il->line[i];
+		uint32_t fold;
+
+		if (line->kind != IL_LABEL)
+			continue;
+		fold = names_fold(names, line->operand);
+		if (c->label[fold] && c->pou->language == LANGUAGE_IL)
+			good = report(c, line, DIAG_DUPLICATE_LABEL,
+				      operand_text(c, line));
+		c->label[fold] = 1;
+	}
+	return good;
+}
+
+bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
+	      struct arena *scratch, enum iec_type *types,
+	      struct diag_list *diags)
+{
+	struct il_check c = {
+		.scope = scope, .pou = pou, .il = il, .types = types,
+		.diags = diags,
+	};
+	bool good = find_labels(&c, scratch);
+
+	if (!c.label)
+		return false;
+	for (int i = 0; i < il->count; i++)
+		good &= check_line(&c, i, &types[i]);
+	if (c.depth > 0 && il->count > 0)
+		good = report(&c, &il->line[il->count - 1], DIAG_IL_OPEN_PAREN,
+			      "(");
+	return good;
+}

@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * image - areas, bits that live a byte each, forces. Names are in symbols.c.
+ */
+#include "engine/scan/image.h"
+
+#include <string.h>
+
+/* Loads may read 8 bytes from the last value on. */
+#define IMAGE_TAIL 8
+
+size_t image_memory_size(const struct program *program)
+{
+	return (size_t)program->header->data_size + IMAGE_TAIL;
+}
+
+static void load_init(struct image *image)
+{
+	const struct code_header *header = image->program->header;
+	const struct code_section *at = &header->section[CODE_INIT];
+	const uint8_t *base = image->program->base + at->offset;
+	const uint32_t *word = (const void *)base;
+	const uint32_t *end = word + at->size / 4;
+
+	while (word < end) {
+		memcpy(image->memory + word[0], word + 2, word[1]);
+		word += 2 + (word[1] + 3) / 4;
+	}
+}
+
+/* Bits with an initial value start in their bytes; areas must agree. */
+static void pack_all(struct image *image)
+{
+	const struct program *program = image->program;
+
+	for (uint32_t i = 0; i < program->bits_count; i++) {
+		const struct code_bits *bits = &program->bits[i];
+
+		for (uint32_t k = 0; k < bits->count; k++)
+			image_set_bit(image, (enum iec_area)bits->area,
+				      bits->first + k,
+				      image->memory[bits->slot + k]);
+	}
+}
+
+void image_init(struct image *image, const struct program *program, void *memory)
+{
+	uint32_t areas = iec_areas_size();
+
+	image->memory = memory;
+	image->program = program;
+	image->force_count = 0;
+	memset(memory, 0, image_memory_size(program));
+	load_init(image);
+	image->memory[CODE_FALSE_AT(areas)] = 0;
+	image->memory[CODE_TRUE_AT(areas)] = 1;
+	pack_all(image);
+}
+
+uint8_t *image_area(struct image *image, enum iec_area area)
+{
+	return image->memory + iec_area_row(area)->offset;
+}
+
+/* The memory of one bit of an area: its own byte, or NULL when it is packed. */
+static uint8_t *bit_slot(const struct image *image, enum iec_area area,
+			 uint32_t bit)
+{
+	const struct program *program = image->program;
+	uint32_t low = 0, high = program->bits_count;
+
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+		const struct code_bits *bits = &program->bits[middle];
+
+		if (bits->area > area ||
+		    (bits->area == area && bits->first > bit))
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	if (low == 0)
+		return NULL;
+	const struct code_bits *bits = &program->bits[low - 1];
+
+	if (bits->area != area || bit - bits->first >= bits->count)
+		return NULL;
+	return image->memory + bits->slot + (bit - bits->first);
+}
+
+static bool inside(enum iec_area area, uint32_t bit)
+{
+	return area > AREA_NONE && area < AREA_COUNT &&
+	       bit / 8 < iec_area_row(area)->bytes;
+}
+
+static void set_packed(uint8_t *byte, uint32_t bit, bool value)
+{
+	*byte = (uint8_t)((*byte & ~(1u << bit)) | (uint32_t)value << bit);
+}
+
+bool image_get_bit(const struct image *image, enum iec_area area, uint32_t bit)
+{
+	const uint8_t *slot;
+
+	if (!inside(area, bit))
+		return false;
+	slot = bit_slot(image, area, bit);
+	if (slot)
+		return *slot;
+	return image->memory[iec_area_row(area)->offset + bit / 8] >> bit % 8 & 1;
+}
+
+bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
+		   bool value)
+{
+	uint8_t *slot;
+
+	if (!inside(area, bit))
+		return false;
+	slot = bit_slot(image, area, bit);
+	if (slot)
+		*slot = value;
+	set_packed(&image->memory[iec_area_row(area)->offset + bit / 8], bit % 8,
+		   value);
+	return true;
+}
+
+/* Eight bits of a byte that all live a byte each: the common case at the edges of
+ * the scan, without a loop. Bit k of @byte goes to byte k. */
+static void unpack8(uint8_t *slot, uint8_t byte)
+{
+	uint64_t spread = ((uint64_t)byte * 0x0101010101010101u) &
+			  0x8040201008040201u;
+
+	spread = (((spread + 0x7f7f7f7f7f7f7f7fu) | spread) >> 7) &
+		 0x0101010101010101u;
+	memcpy(slot, &spread, 8);
+}
+
+static uint8_t pack8(const uint8_t *slot)
+{
+	uint64_t spread;
+
+	memcpy(&spread, slot, 8);
+	return (uint8_t)((spread * 0x0102040810204080u) >> 56);
+}
+
+static void unpack(uint8_t *m, const uint8_t *area, const struct code_bits *bits)
+{
+	uint32_t k = 0;
+
+	for (; k < bits->count; k++) {
+		uint32_t bit = bits->first + k;
+
+		if (bit % 8 == 0 && bits->count - k >= 8) {
+			unpack8(m + bits->slot + k, area[bit / 8]);
+			k += 7;
+			continue;
+		}
+		m[bits->slot + k] = area[bit / 8] >> bit % 8 & 1;
+	}
+}
+
+static void pack(const uint8_t *m, uint8_t *area, const struct code_bits *bits)
+{
+	for (uint32_t k = 0; k < bits->count; k++) {
+		uint32_t bit = bits->first + k;
+
+		if (bit % 8 == 0 && bits->count - k >= 8) {
+			area[bit / 8] = pack8(m + bits->slot + k);
+			k += 7;
+			continue;
+		}
+		set_packed(&area[bit / 8], bit % 8, m[bits->slot + k]);
+	}
+}
+
+/* Areas that only the program writes need no unpacking: their bytes are theirs
+ * alone, and image_set_bit() writes both. */
+void image_begin(struct image *image)
+{
+	const struct program *program = image->program;
+
+	for (uint32_t i = 0; i < program->bits_count; i++) {
+		const struct code_bits *bits = &program->bits[i];
+		const struct iec_area_row *row =
+			iec_area_row((enum iec_area)bits->area);
+
+		if (row->access == ACCESS_READ)
+			unpack(image->memory, image->memory + row->offset, bits);
+	}
+	for (int i = 0; i < image->force_count; i++)
+		image_set(image, image->force[i].at, image->force[i].value);
+}
+
+void image_end(struct image *image)
+{
+	const struct program *program = image->program;
+
+	for (int i = 0; i < image->force_count; i++) {
+		struct force *force = &image->force[i];
+		union iec_value written;
+
+		/* The very value it is held at may be nobody's writing. */
+		written = image_get(image, force->at);
+		if (written.i != force->value.i)
+			force->aside = written;
+		image_set(image, force->at, force->value);
+	}
+	for (uint32_t i = 0; i < program->bits_count; i++) {
+		const struct code_bits *bits = &program->bits[i];
+		const struct iec_area_row *row =
+			iec_area_row((enum iec_area)bits->area);
+
+		if (row->access == ACCESS_WRITE)
+			pack(image->memory, image->memory + row->offset, bits);
+	}
+}
+
+union iec_value image_get(const struct image *image, struct location at)
+{
+	union iec_value value = { .i = 0 };
+
+	if (at.type == IEC_NONE)
+		return value;
+	if (at.area == AREA_NONE)
+		return iec_load(image->memory + at.where, at.type);
+	value.i = image_get_bit(image, at.area, at.where);
+	return value;
+}
+
+bool image_set(struct image *image, struct location at, union iec_value value)
+{
+	if (at.type == IEC_NONE || at.constant)
+		return false;
+	if (at.area != AREA_NONE)
+		return image_set_bit(image, at.area, at.where, value.i != 0);
+	if (at.type == IEC_BOOL)
+		value.i = value.i != 0;
+	iec_store(image->memory + at.where, at.type, value);
+	return true;
+}
+
+static struct force *find_force(const struct image *image, struct location at)
+{
+	for (int i = 0; i < image->force_count; i++) {
+		const struct force *force = &image->force[i];
+
+		if (force->at.area == at.area && force->at.where == at.where &&
+		    force->at.type == at.type)
+			return (struct force *)force;
+	}
+	return NULL;
+}
+
+bool image_force(struct image *image, struct location at, union iec_value value)
+{
+	struct force *force = find_force(image, at);
+
+	if (at.type == IEC_NONE || at.constant)
+		return false;
+	if (!force) {
+		if (image->force_count == LIMIT_FORCES)
+			return false;
+		force = &image->force[image->force_count++];
+		force->at = at;
+		force->aside = image_get(image, at);
+	}
+	force->value = value;
+	return true;
+}
+
+bool image_unforce(struct image *image, struct location at)
+{
+	struct force *force = find_force(image, at);
+
+	if (!force)
+		return false;
+	image_set(image, at, force->aside);
+	*force = image->force[--image->force_count];
+	return true;
+}
+
+bool image_is_forced(const struct image *image, struct location at)
+{
+	return find_force(image, at) != NULL;
+}

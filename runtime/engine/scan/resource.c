@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * resource - the states of a controller and its one scan.
+ */
+#include "engine/scan/resource.h"
+
+#include <string.h>
+
+#define MS_NS INT64_C(1000000)
+
+static void begin_cold(struct resource *resource)
+{
+	const struct program *program = resource->image.program;
+
+	image_init(&resource->image, program, resource->image.memory);
+	memset(&resource->vm, 0, sizeof(resource->vm));
+	resource->vm.memory = resource->image.memory;
+	resource->vm.program = program;
+	resource->scans = 0;
+	resource->start_ns = 0;
+	resource->errors_before = 0;
+	resource->fault = FAULT_NONE;
+	memset(&resource->fault_at, 0, sizeof(resource->fault_at));
+	memset(&resource->error_at, 0, sizeof(resource->error_at));
+	resource->late = false;
+	resource->scan_us = resource->scan_max_us = 0;
+}
+
+void resource_init(struct resource *resource, const struct program *program,
+		   void *memory)
+{
+	memset(resource, 0, sizeof(*resource));
+	resource->image.program = program;
+	resource->image.memory = memory;
+	begin_cold(resource);
+	resource->state = STATE_STOP;
+}
+
+void resource_start(struct resource *resource)
+{
+	begin_cold(resource);
+	resource->io_fault = false;
+	resource->state = STATE_RUN;
+}
+
+void resource_stop(struct resource *resource)
+{
+	if (resource->state == STATE_RUN)
+		resource->state = STATE_STOP;
+}
+
+void resource_fail(struct resource *resource, enum fault fault)
+{
+	if (resource->fault == FAULT_NONE)
+		resource->fault = fault;
+	resource->state = STATE_FAULT;
+}
+
+/* TRUE in the first half of each period since the start. */
+static bool clock_bit(int64_t since_ns, int64_t period_ms)
+{
+	return since_ns % (period_ms * MS_NS) < period_ms * MS_NS / 2;
+}
+
+static void store32(uint8_t *at, uint32_t value)
+{
+	memcpy(at, &value, sizeof(value));
+}
+
+/* System bits and words, rules R5 of the reliability design. Addresses are rows
+ * of catalog.def: SMX0.x, SMX1.x, SMD4, SMD8, SMD12. */
+static void write_system(struct resource *resource, int64_t now_ns)
+{
+	uint8_t *sm = image_area(&resource->image, AREA_SM);
+	int64_t since = now_ns - resource->start_ns;
+	bool failed = resource->vm.errors != resource->errors_before;
+
+	sm[0] = (uint8_t)(1u << 0 | (resource->scans == 0) << 1 |
+			  clock_bit(since, 60000) << 4 |
+			  clock_bit(since, 1000) << 5 |
+			  clock_bit(since, 100) << 6);
+	sm[1] = (uint8_t)((resource->image.force_count > 0) << 0 |
+			  resource->late << 1 | resource->io_fault << 2 |
+			  failed << 3);
+	store32(sm + 4, resource->scan_us);
+	store32(sm + 8, resource->scan_max_us);
+	store32(sm + 12, resource->vm.errors);
+	resource->errors_before = resource->vm.errors;
+}
+
+struct fault_place resource_place(const struct program *program, uint32_t text)
+{
+	struct fault_place out = { .pou = "" };
+	uint32_t low = 0, high = program->place_count;
+
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+
+		if (program->place[middle].text > text)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	if (low == 0)
+		return out;
+	const struct code_place *place = &program->place[low - 1];
+
+	if (program->string_bytes)
+		out.pou = program->string + program->entry[place->pou].name;
+	out.rung = place->rung;
+	out.row = place->row;
+	out.col = place->col;
+	return out;
+}
+
+bool resource_scan(struct resource *resource, int64_t now_ns)
+{
+	const struct program *program = resource->image.program;
+	bool watch = resource->watch && program->watch_words;
+	struct vm *vm = &resource->vm;
+	uint32_t errors = vm->errors;
+
+	if (resource->state != STATE_RUN)
+		return false;
+	if (resource->scans == 0)
+		resource->start_ns = now_ns;
+	write_system(resource, now_ns);
+	image_begin(&resource->image);
+	vm->now_ns = now_ns;
+	vm->budget = program->header->budget;
+	for (uint32_t i = 0; i < program->entry_count; i++) {
+		enum fault fault = vm_run(vm, i, watch);
+
+		if (fault != FAULT_NONE) {
+			resource_fail(resource, fault);
+			if (!watch)
+				resource->fault_at = resource_place(program,
+							vm->fault_text);
+			break;
+		}
+	}
+	if (errors == 0 && vm->errors && !watch)
+		resource->error_at = resource_place(program, vm->error_text);
+	image_end(&resource->image);
+	resource->scans++;
+	return resource->state == STATE_RUN;
+}
+
+/* Orders places; row and col are small, POUs and rungs have their limits. */
+static uint64_t place_key(uint64_t pou, uint64_t rung, uint32_t row,
+			  uint32_t col)
+{
+	return pou << 48 | (rung & 0x3fffff) << 26 | row << 13 | col;
+}
+
+bool resource_power(const struct resource *resource, uint32_t pou, uint32_t rung,
+		    uint32_t row, uint32_t col, bool *in, bool *out)
+{
+	const struct program *program = resource->image.program;
+	uint64_t want = place_key(pou, rung, row, col);
+	uint32_t low = 0, high = program->power_count;
+
+	if (row > LIMIT_ROWS || col > LIMIT_COLS || row == 0 || col == 0)
+		return false;
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+		const struct code_power *at = &program->power[middle];
+		uint64_t have = place_key(at->pou, at->rung, at->row, at->col);
+
+		if (have == want) {
+			*in = resource->image.memory[at->in];
+			*out = resource->image.memory[at->out];
+			return true;
+		}
+		if (have > want)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	return false;
+}

@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * vm - the one switch. It refuses nothing: code_open() has refused before.
+ */
+#include "engine/scan/vm.h"
+
+#include <string.h>
+
+typedef enum fn_status (*fn_call)(struct fn_args *args);
+typedef void (*fb_call)(void *fb, int64_t now_ns);
+
+/* Calls through the catalogue: a row without its function does not link. */
+#define FB(id, ...) static void step_##id(void *fb, int64_t now_ns) \
+	{ fb_##id##_step(fb, now_ns); }
+#include "engine/catalog.def"
+
+static const fb_call fb_table[WORD_COUNT] = {
+#define FB(id, ...) [FB_##id] = step_##id,
+#include "engine/catalog.def"
+};
+
+static const fn_call fn_table[WORD_COUNT] = {
+#define FN(id, ...) [FN_##id] = fn_##id,
+#include "engine/catalog.def"
+};
+
+const char *fault_text(enum fault fault)
+{
+	static const char *const text[FAULT_COUNT] = {
+		[FAULT_NONE] = "none",
+		[FAULT_BUDGET] = "instruction budget of the scan exceeded",
+		[FAULT_WATCHDOG] = "watchdog: scan too late or too long",
+		[FAULT_IO] = "inputs or outputs do not answer",
+		[FAULT_CODE] = "program damaged in memory",
+	};
+
+	return fault < FAULT_COUNT ? text[fault] : "unknown";
+}
+
+/* Every network of contacts ends here: n bits, each a truth table of three
+ * others. Without branches, so that its time does not depend on the inputs.
+ * Index 0..7, because the verifier lets only 0 and 1 into a BOOL. */
+static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
+{
+	const uint32_t *end = pc + 4 * (size_t)n;
+
+	for (; pc != end; pc += 4) {
+		uint32_t i = m[pc[0]] + 2u * m[pc[1]] + 4u * m[pc[2]];
+		uint32_t d = pc[3];
+
+		m[CODE_OFFSET(d)] = d >> ((24u + i) & 31u) & 1u;
+	}
+	return pc;
+}
+
+static union iec_value operand(const uint8_t *m, uint32_t word)
+{
+	return iec_load(m + CODE_OFFSET(word), (enum iec_type)CODE_TYPE(word));
+}
+
+static bool is_real(uint32_t word)
+{
+	return CODE_TYPE(word) == IEC_REAL;
+}
+
+/* An operand as REAL arithmetic needs it: integers of 16 bits are exact. */
+static double operand_real(const uint8_t *m, uint32_t word)
+{
+	union iec_value value = operand(m, word);
+
+	return is_real(word) ? value.r : (double)value.i;
+}
+
+static void run_copy(uint8_t *m, const uint32_t *pc)
+{
+	union iec_value value = operand(m, pc[2]);
+
+	if (is_real(pc[1]) && !is_real(pc[2]))
+		value.r = (double)value.i;
+	iec_store(m + CODE_OFFSET(pc[1]), (enum iec_type)CODE_TYPE(pc[1]),
+		  value);
+}
+
+#define COMPARE(rel, a, b) \
+	((rel) == CMP_GT ? (a) > (b) : (rel) == CMP_GE ? (a) >= (b) : \
+	 (rel) == CMP_EQ ? (a) == (b) : (rel) == CMP_LE ? (a) <= (b) : \
+	 (rel) == CMP_LT ? (a) < (b) : (a) != (b))
+
+static bool run_cmp(const uint8_t *m, const uint32_t *pc, uint32_t rel)
+{
+	if (is_real(pc[1]) || is_real(pc[2])) {
+		double a = operand_real(m, pc[1]), b = operand_real(m, pc[2]);
+
+		return COMPARE(rel, a, b);
+	}
+	int64_t a = operand(m, pc[1]).i, b = operand(m, pc[2]).i;
+
+	return COMPARE(rel, a, b);
+}
+
+/* True when it ran without an error. */
+static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
+{
+	struct fn_args args;
+	enum fn_status status;
+	bool real = (n & 0xff) == IEC_REAL;
+
+	args.type = (enum iec_type)(n & 0xff);
+	args.count = n >> 8;
+	for (uint32_t i = 0; i < args.count; i++)
+		if (real)
+			args.in[i].r = operand_real(m, pc[4 + i]);
+		else
+			args.in[i] = operand(m, pc[4 + i]);
+	status = fn_table[pc[0]](&args);
+	if (status != FN_FAILED) {
+		if (is_real(pc[3]) && !real)
+			args.out.r = (double)args.out.i;
+		iec_store(m + CODE_OFFSET(pc[3]),
+			  (enum iec_type)CODE_TYPE(pc[3]), args.out);
+	}
+	return status == FN_OK;
+}
+
+static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
+{
+	if (vm->errors++ == 0)
+		vm->error_text = (uint32_t)(pc - base);
+}
+
+/* A jump costs what it goes back over; forward ones end by themselves. */
+static bool spend(struct vm *vm, const uint32_t *from, const uint32_t *to)
+{
+	uint32_t cost = to <= from ? (uint32_t)(from - to) : 0;
+
+	if (cost > vm->budget)
+		return false;
+	vm->budget -= cost;
+	return true;
+}
+
+enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
+{
+	const struct program *program = vm->program;
+	const struct code_program *at = &program->entry[entry];
+	const uint32_t *base = watch ? program->watch : program->text;
+	const uint32_t *pc = base + (watch ? at->watch : at->text);
+	uint8_t *m = vm->memory;
+
+	for (;;) {
+		uint32_t word = *pc, n = word >> 8;
+
+		switch ((enum vm_op)(word & 0xff)) {
+		case VM_END:
+			return FAULT_NONE;
+		case VM_LUT:
+			pc = run_lut(m, pc + 1, n);
+			break;
+		case VM_BITGET:
+			m[pc[2]] = m[pc[1]] >> n & 1u;
+			pc += 3;
+			break;
+		case VM_BITPUT:
+			m[pc[2]] = (uint8_t)((m[pc[2]] & ~(1u << n)) |
+					     (uint32_t)m[pc[1]] << n);
+			pc += 3;
+			break;
+		case VM_COPY:
+			if (m[pc[1]])
+				run_copy(m, pc + 1);
+			pc += 4;
+			break;
+		case VM_CMP:
+			m[pc[1]] = run_cmp(m, pc + 1, n);
+			pc += 4;
+			break;
+		case VM_FN:
+			if (!m[pc[2]])
+				m[pc[3]] = 0;
+			else if (!(m[pc[3]] = run_fn(m, pc + 1, n)))
+				count_error(vm, pc, base);
+			pc += 5 + (n >> 8);
+			break;
+		case VM_FB:
+			fb_table[n](m + pc[1], vm->now_ns);
+			pc += 2;
+			break;
+		case VM_JMP:
+			if (!spend(vm, pc, base + pc[1]))
+				goto out_of_budget;
+			pc = base + pc[1];
+			break;
+		case VM_JMPC:
+			if (!m[pc[2]]) {
+				pc += 3;
+				break;
+			}
+			if (!spend(vm, pc, base + pc[1]))
+				goto out_of_budget;
+			pc = base + pc[1];
+			break;
+		case VM_COUNT:
+			return FAULT_CODE;
+		}
+	}
+out_of_budget:
+	vm->fault_text = (uint32_t)(pc - base);
+	return FAULT_BUDGET;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * temps - names for what a ladder has no name for.
+ *
+ * _Tn: a BOOL inside one rung, reused by the next; _Nn: a number likewise; _En:
+ * the memory of an edge; _Pn: power of a cell for whoever watches. Users cannot
+ * declare such names in LD.
+ */
+#ifndef TRANSLATE_TEMPS_H
+#define TRANSLATE_TEMPS_H
+
+#include "engine/translate/translate.h"
+
+struct temps {
+	struct translation *translation;
+	struct unit *unit;
+	int bools, edges, powers;         /* used: in the rung, in the POU    */
+	int numbers[IEC_TYPE_COUNT];      /* used in the rung, by type        */
+	uint32_t *bool_name, *edge_name, *power_name;
+	int bool_count, edge_count, power_count;
+	uint32_t *number_name[IEC_TYPE_COUNT];
+	int number_count[IEC_TYPE_COUNT];
+	int numbers_made;
+};
+
+/** temps_rung - what belongs to one rung may be used anew. */
+void temps_rung(struct temps *temps);
+/* The next name of its kind, a string id; 0 when memory is out. */
+uint32_t temps_bool(struct temps *temps);
+uint32_t temps_edge(struct temps *temps);
+uint32_t temps_power(struct temps *temps);
+uint32_t temps_number(struct temps *temps, enum iec_type type);
+#endif

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * translate - from a checked project to a code image.
+ *
+ * LD becomes IL (ld_to_il), IL becomes instructions (assemble). Twice for LD: the
+ * list that runs and is shown, and one that also stores the power of every cell.
+ * It assumes that check/ found no error in what it is given.
+ */
+#ifndef TRANSLATE_TRANSLATE_H
+#define TRANSLATE_TRANSLATE_H
+
+#include "engine/check/scope.h"
+#include "engine/scan/code.h"
+
+/* Power at a cell: names of the variables that hold it; 0: the left rail. */
+struct power_note {
+	uint32_t rung;      /* 1-based                                        */
+	uint16_t row, col;  /* 1-based                                        */
+	uint32_t in, out;   /* string ids                                     */
+};
+
+/* A POU on its way. */
+struct unit {
+	const struct pou *pou;
+	struct il il;           /* what runs                                  */
+	struct il watch;        /* what runs while somebody watches; LD only  */
+	enum iec_type *types, *watch_types; /* a line, from check_il          */
+	struct var **temp;      /* temporaries, in order of their first use   */
+	int temp_count;
+	struct power_note *power;
+	int power_count;
+};
+
+struct translation {
+	struct project *project;
+	struct scope *scope;
+	struct arena *arena;    /* lives as long as the result                */
+	struct diag_list *diags;
+	struct unit *unit;      /* one a POU                                  */
+	int unit_count;
+};
+
+/**
+ * ld_to_il - the instruction list of a ladder POU
+ * @skip:    a byte a rung; rungs with 1 are left out (they have errors)
+ * @watch:   the instrumented list; call it without first
+ * @scratch: emptied and used
+ *
+ * Adds to unit->il or unit->watch, unit->temp and unit->power.
+ * Owns: translation->arena.   Scan-safe: no.   Fails: false when memory is out.
+ */
+bool ld_to_il(struct translation *translation, struct unit *unit,
+	      const uint8_t *skip, bool watch, struct arena *scratch);
+
+/**
+ * assemble - the code image of all units
+ * @out: the image, 8-aligned, of *@len bytes
+ *
+ * Owns: translation->arena.   Scan-safe: no.
+ * Fails: NULL after a diagnostic (limits, memory).
+ */
+void *assemble(struct translation *translation, size_t *len);
+
+/** is_temporary - is this a name that translation makes: _T1 _N1 _E1 _P1? */
+bool is_temporary(const char *name, char letter);
+#endif
