@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * formula - the walker's own computing of [ … ] cells.
+ *
+ * An expression is a chain of functions in the order of its tree, left before
+ * right: the first gets EN from the power of the cell, each other from the ENO
+ * of the one before. Only the parser is the engine's.
+ */
+#include "tests/walker/inside.h"
+
+#include <string.h>
+
+struct term {
+	enum expr_op op;
+	enum word fn;
+	int left, right;
+	enum iec_type type;     /* of its value; IEC_NONE: untyped literal    */
+	enum iec_type inputs;   /* common type of what an operation works on  */
+	struct placed placed;   /* of a leaf                                  */
+	struct value value;     /* of the last run                            */
+};
+
+struct formula {
+	bool assigns;
+	struct placed target;
+	int root, count;
+	struct term *term;
+};
+
+static bool is_leaf(const struct term *term)
+{
+	return term->op == EXPR_NAME || term->op == EXPR_LITERAL;
+}
+
+/* A minus before a number is part of the number. */
+static void fold_sign(struct term *term, struct term *left)
+{
+	if (term->op != EXPR_NEG || left->op != EXPR_LITERAL ||
+	    left->type != IEC_NONE)
+		return;
+	term->op = EXPR_LITERAL;
+	term->type = IEC_NONE;
+	term->placed = left->placed;
+	if (left->placed.literal.real)
+		term->placed.literal.value.r = -left->placed.literal.value.r;
+	else
+		term->placed.literal.value.i = -left->placed.literal.value.i;
+}
+
+static bool type_term(struct walker *walker, struct formula *formula,
+		      struct term *term)
+{
+	struct term *left = term->left < 0 ? NULL : &formula->term[term->left];
+	struct term *right =
+		term->right < 0 ? NULL : &formula->term[term->right];
+	enum iec_type types[2] = { IEC_NONE, IEC_NONE };
+
+	if (is_leaf(term))
+		return term->placed.kind != PLACED_NOWHERE;
+	if (left)
+		types[0] = left->type;
+	if (right)
+		types[1] = right->type;
+	if (left && !right) {
+		fold_sign(term, left);
+		if (is_leaf(term))
+			return true;
+	}
+	term->inputs = wide_type(types, 2);
+	if (term->inputs == IEC_NONE) {
+		walker->why = "an operation on constants alone, or mixed types";
+		return false;
+	}
+	term->type = term->op == EXPR_FN &&
+		     word_row(term->fn)->result == RESULT_BOOL ?
+		     IEC_BOOL : term->inputs;
+	return true;
+}
+
+static bool make_terms(struct walker *walker, const struct pou *pou,
+		       const struct expr *expr, struct formula *formula)
+{
+	formula->term = arena_alloc(&walker->arena, (size_t)expr->count *
+				    sizeof(*formula->term));
+	if (!formula->term)
+		return false;
+	formula->count = expr->count;
+	formula->root = expr->root;
+	for (int i = 0; i < expr->count; i++) {
+		const struct expr_node *from = &expr->node[i];
+		struct term *term = &formula->term[i];
+
+		term->op = from->op;
+		term->fn = from->fn;
+		term->left = from->left;
+		term->right = from->right;
+		if (is_leaf(term)) {
+			term->placed = walker_place(walker, pou, from->text,
+						    from->len);
+			term->type = term->placed.type;
+			/* TRUE and FALSE are names to the parser, maybe. */
+			if (term->placed.kind == PLACED_LITERAL)
+				term->op = EXPR_LITERAL;
+		}
+		if (!type_term(walker, formula, term))
+			return false;
+	}
+	return true;
+}
+
+struct formula *formula_new(struct walker *walker, const struct pou *pou,
+			    const char *text)
+{
+	struct formula *formula =
+		arena_alloc(&walker->arena, sizeof(*formula));
+	static const struct diag nowhere;
+	struct diag_list diags;
+	struct expr expr;
+
+	diag_init(&diags);
+	walker->why = "an expression";
+	if (!formula || !expr_parse_text(text, strlen(text), &expr, &diags,
+					 nowhere))
+		return NULL;
+	formula->assigns = expr.target;
+	if (expr.target) {
+		formula->target = walker_place(walker, pou, expr.target,
+					       expr.target_len);
+		if (formula->target.kind == PLACED_NOWHERE)
+			return NULL;
+	}
+	return make_terms(walker, pou, &expr, formula) ? formula : NULL;
+}
+
+bool formula_assigns(const struct formula *formula)
+{
+	return formula->assigns;
+}
+
+struct run {
+	struct walker *walker;
+	struct formula *formula;
+	bool enabled;           /* ENO of the operation before                */
+};
+
+/* One operation on values that are there; a failed or disabled one leaves its
+ * value as it was, and nobody uses it then. */
+static void operate(struct run *run, struct term *term, struct value a,
+		    struct value b)
+{
+	struct value in[2] = { a, b };
+	enum outcome outcome = OUTCOME_GOOD;
+
+	if (!run->enabled)
+		return;
+	switch (term->op) {
+	case EXPR_AND:
+		term->value = value_bool(a.i && b.i);
+		break;
+	case EXPR_OR:
+		term->value = value_bool(a.i || b.i);
+		break;
+	case EXPR_XOR:
+		term->value = value_bool(!a.i != !b.i);
+		break;
+	case EXPR_NOT:
+		term->value = value_bool(!a.i);
+		break;
+	case EXPR_NEG:
+		in[1] = a;
+		in[0] = (struct value){ .type = a.type };
+		outcome = value_compute(FN_SUB, in, 2, &term->value);
+		break;
+	case EXPR_FN:
+		outcome = value_compute(term->fn, in, 2, &term->value);
+		break;
+	case EXPR_NAME:
+	case EXPR_LITERAL:
+		break;
+	}
+	if (outcome != OUTCOME_GOOD) {
+		run->walker->errors++;
+		run->enabled = false;
+	}
+}
+
+/* Depth is bounded by LIMIT_EXPR_DEPTH of the parser. */
+static struct value compute(struct run *run, int at, enum iec_type type)
+{
+	struct term *term = &run->formula->term[at];
+	struct value left = { 0 }, right = { 0 };
+
+	if (is_leaf(term))
+		return placed_read(&term->placed, type);
+	if (term->left >= 0)
+		left = compute(run, term->left, term->inputs);
+	if (term->right >= 0)
+		right = compute(run, term->right, term->inputs);
+	operate(run, term, left, right);
+	return type == IEC_NONE ? term->value : value_widen(term->value, type);
+}
+
+bool formula_run(struct walker *walker, struct formula *formula, bool power)
+{
+	struct run run = { walker, formula, power };
+	struct value value;
+
+	if (!formula->assigns) {
+		value = compute(&run, formula->root, IEC_BOOL);
+		return power && run.enabled && value_is_true(value);
+	}
+	value = compute(&run, formula->root, formula->target.type);
+	/* The store is the last link of the chain. */
+	if (run.enabled)
+		placed_write(&formula->target, value);
+	return run.enabled;
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * inside - what the parts of the walker share. Nobody else includes it.
+ */
+#ifndef WALKER_INSIDE_H
+#define WALKER_INSIDE_H
+
+#include "engine/base/arena.h"
+#include "engine/base/literal.h"
+#include "engine/model/expr.h"
+#include "tests/walker/walker.h"
+
+#define PINS_MAX 16
+
+/* An instance of a function block. */
+struct block {
+	enum word fb;
+	struct value pin[PINS_MAX]; /* by pin number of its row              */
+	int64_t start_ns;
+	bool busy, spent;           /* timing; pulse over, IN still TRUE     */
+	bool was, was_too;          /* levels of the call before             */
+};
+
+/* A declared variable. */
+struct variable {
+	const struct pou *pou;      /* NULL: global                          */
+	const struct var *var;
+	struct value value;         /* when it has neither AT nor pins       */
+	struct block *block;
+	bool constant;
+};
+
+/* Where an operand is read and written. */
+enum place_kind { PLACED_NOWHERE, PLACED_VALUE, PLACED_AREA, PLACED_LITERAL };
+struct placed {
+	enum place_kind kind;
+	enum iec_type type;         /* IEC_NONE: an untyped literal          */
+	struct value *value;
+	uint8_t *byte;
+	uint8_t bit;                /* of a BOOL in an area                  */
+	struct literal literal;
+};
+
+struct walker {
+	struct project *project;
+	struct arena arena;
+	struct variable *variable;
+	int variable_count;
+	uint8_t *area[AREA_COUNT];
+	int64_t now_ns;
+	uint64_t scans;
+	uint32_t errors, errors_before;
+	uint32_t steps;
+	struct walked_pou *pou;
+	const char *why;            /* of what cannot be walked              */
+};
+
+/* value.c */
+enum outcome { OUTCOME_GOOD, OUTCOME_WRAPPED, OUTCOME_FAILED };
+/** wide_type - the one among the types that holds all others; IEC_NONE: none. */
+enum iec_type wide_type(const enum iec_type *type, int count);
+struct value value_widen(struct value value, enum iec_type type);
+bool value_is_true(struct value value);
+struct value value_bool(bool level);
+/** value_compute - one function on inputs of one type. */
+enum outcome value_compute(enum word fn, const struct value *in, int count,
+			   struct value *out);
+
+/* place.c */
+bool walker_declare(struct walker *walker);
+/** walker_place - what an operand names; PLACED_NOWHERE: the walker cannot. */
+struct placed walker_place(struct walker *walker, const struct pou *pou,
+			   const char *text, size_t len);
+/** placed_read - as @type; a literal takes it, all else is widened to it.
+ * IEC_NONE: as it is. */
+struct value placed_read(const struct placed *placed, enum iec_type type);
+void placed_write(const struct placed *placed, struct value value);
+
+/* blocks.c */
+int block_pin(const struct block *block, const char *name);
+void block_call(struct block *block, int64_t now_ns);
+
+/* formula.c */
+struct formula;
+/** formula_new - an expression ready to be computed; NULL: cannot. */
+struct formula *formula_new(struct walker *walker, const struct pou *pou,
+			    const char *text);
+bool formula_assigns(const struct formula *formula);
+/** formula_run - computes it with @power at its first EN; stores its target.
+ * Gives what it lets through. */
+bool formula_run(struct walker *walker, struct formula *formula, bool power);
+#endif

@@ -1,0 +1,390 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * walker - evaluates rungs over the grid, in the two phases of
+ * docs/language.md: everything but coils, then coils.
+ */
+#include "tests/walker/grid.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define STEPS_MAX 1000000u
+
+static bool make_pou(struct walker *walker, const struct pou *pou,
+		     struct walked_pou *out)
+{
+	out->pou = pou;
+	if (pou->language != LANGUAGE_LD) {
+		walker->why = "a POU in IL";
+		return false;
+	}
+	out->rung = arena_alloc(&walker->arena, (size_t)pou->rung_count *
+				sizeof(*out->rung) + 1);
+	if (!out->rung)
+		return false;
+	for (int i = 0; i < pou->rung_count; i++)
+		if (!pou->rung[i]->off &&
+		    !grid_make(walker, pou, pou->rung[i], &out->rung[i]))
+			return false;
+	return true;
+}
+
+static bool make_all(struct walker *walker)
+{
+	struct project *project = walker->project;
+
+	walker->pou = arena_alloc(&walker->arena, (size_t)project->pou_count *
+				  sizeof(*walker->pou) + 1);
+	if (!walker->pou || !walker_declare(walker))
+		return false;
+	for (int i = 0; i < project->pou_count; i++)
+		if (!make_pou(walker, &project->pou[i], &walker->pou[i]))
+			return false;
+	return true;
+}
+
+struct walker *walker_new(struct project *project, const char **why)
+{
+	struct walker *walker = calloc(1, sizeof(*walker));
+
+	*why = "out of memory";
+	if (!walker)
+		return NULL;
+	arena_init(&walker->arena);
+	walker->project = project;
+	walker->why = *why;
+	if (!make_all(walker)) {
+		*why = walker->why;
+		walker_free(walker);
+		return NULL;
+	}
+	return walker;
+}
+
+void walker_free(struct walker *walker)
+{
+	if (!walker)
+		return;
+	arena_free(&walker->arena);
+	free(walker);
+}
+
+uint8_t *walker_area(struct walker *walker, enum iec_area area)
+{
+	return walker->area[area];
+}
+
+uint32_t walker_errors(const struct walker *walker)
+{
+	return walker->errors;
+}
+
+static bool net_power(const struct walked_rung *walked, int net)
+{
+	if (net == GRID_RAIL(walked))
+		return true;
+	for (int i = 0; i < walked->count; i++)
+		if (walked->element[i].out == net && walked->element[i].done &&
+		    walked->element[i].power_out)
+			return true;
+	return false;
+}
+
+static bool call_block(struct walker *walker, struct walked_rung *walked,
+		       struct walked *at, bool power)
+{
+	const struct word_row *row = word_row(at->word);
+	struct value *pin = at->block->pin;
+
+	pin[word_first_bool(row, PIN_IN)] = value_bool(power);
+	for (int i = 0; i < at->parameter_count; i++) {
+		const struct parameter *from = &at->parameter[i];
+
+		if (from->net >= 0)
+			pin[from->pin] = value_bool(net_power(walked,
+							      from->net));
+		else if (!from->output)
+			pin[from->pin] = placed_read(&from->placed,
+						     pin[from->pin].type);
+	}
+	block_call(at->block, walker->now_ns);
+	for (int i = 0; i < at->parameter_count; i++)
+		if (at->parameter[i].output)
+			placed_write(&at->parameter[i].placed,
+				     pin[at->parameter[i].pin]);
+	return value_is_true(pin[word_first_bool(row, PIN_OUT)]);
+}
+
+static bool call_function(struct walker *walker, struct walked_rung *walked,
+			  struct walked *at, bool power)
+{
+	struct value in[LIMIT_FN_INPUTS] = { { 0 } }, out = { 0 };
+	enum outcome outcome;
+	int count = 0;
+
+	if (!power)
+		return false;
+	for (int i = 0; i < at->parameter_count; i++) {
+		const struct parameter *from = &at->parameter[i];
+
+		if (from->output)
+			continue;
+		in[from->pin] = from->net >= 0 ?
+			value_bool(net_power(walked, from->net)) :
+			placed_read(&from->placed, at->inputs);
+		count++;
+	}
+	outcome = value_compute(at->word, in, count, &out);
+	if (outcome != OUTCOME_GOOD)
+		walker->errors++;
+	for (int i = 0; i < at->parameter_count; i++)
+		if (at->parameter[i].output && outcome != OUTCOME_FAILED)
+			placed_write(&at->parameter[i].placed, out);
+	if (word_row(at->word)->result == RESULT_BOOL)
+		return value_is_true(out);
+	return outcome == OUTCOME_GOOD;
+}
+
+static bool contact(struct walked *at, bool power)
+{
+	bool level = value_is_true(placed_read(&at->operand, IEC_BOOL));
+	bool before = at->memory;
+
+	at->memory = level;
+	if (at->word == ELEM_CONTACT_NO)
+		return power && level;
+	if (at->word == ELEM_CONTACT_NC)
+		return power && !level;
+	if (at->word == ELEM_CONTACT_P)
+		return power && level && !before;
+	return power && !level && before;
+}
+
+static bool is_output(const struct walked *at)
+{
+	const struct word_row *row = word_row(at->word);
+
+	if (row->place == PLACE_LAST)
+		return true;
+	return !at->read && (row->kind != WORD_ELEM ||
+			     (at->formula && formula_assigns(at->formula)));
+}
+
+static bool acts_last(const struct walked *at)
+{
+	return word_row(at->word)->place == PLACE_LAST ||
+	       (!at->read && at->formula && formula_assigns(at->formula));
+}
+
+/* Phase 1 of one element, its feeders being done. */
+static void pass(struct walker *walker, struct walked_rung *walked,
+		 struct walked *at)
+{
+	bool power = net_power(walked, at->in);
+
+	at->power_in = power;
+	at->power_out = false;
+	at->done = true;
+	walker->steps++;
+	if (acts_last(at))
+		return;
+	if (at->block)
+		at->power_out = call_block(walker, walked, at, power);
+	else if (word_row(at->word)->kind == WORD_FN)
+		at->power_out = call_function(walker, walked, at, power);
+	else if (at->formula)
+		at->power_out = formula_run(walker, at->formula, power);
+	else if (at->word == ELEM_NOT)
+		at->power_out = !power;
+	else
+		at->power_out = contact(at, power);
+}
+
+/* Depth: a path of a rung, at most its elements; grids of tests are small. */
+static void visit(struct walker *walker, struct walked_rung *walked,
+		  struct walked *at)
+{
+	if (at->done)
+		return;
+	for (int i = 0; i < walked->count; i++)
+		if (walked->element[i].out == at->in &&
+		    at->in != GRID_RAIL(walked))
+			visit(walker, walked, &walked->element[i]);
+	for (int j = 0; j < at->parameter_count; j++)
+		for (int i = 0; i < walked->count; i++)
+			if (at->parameter[j].net >= 0 &&
+			    at->parameter[j].net != GRID_RAIL(walked) &&
+			    walked->element[i].out == at->parameter[j].net)
+				visit(walker, walked, &walked->element[i]);
+	pass(walker, walked, at);
+}
+
+static void drive(struct walker *walker, struct walked *at)
+{
+	bool power = at->power_in, before = at->memory;
+	const struct placed *to = &at->operand;
+
+	if (at->word == ELEM_COIL)
+		placed_write(to, value_bool(power));
+	else if (at->word == ELEM_COIL_NOT)
+		placed_write(to, value_bool(!power));
+	else if (at->word == ELEM_COIL_SET && power)
+		placed_write(to, value_bool(true));
+	else if (at->word == ELEM_COIL_RESET && power)
+		placed_write(to, value_bool(false));
+	else if (at->word == ELEM_COIL_P)
+		placed_write(to, value_bool(power && !before));
+	else if (at->word == ELEM_COIL_N)
+		placed_write(to, value_bool(!power && before));
+	else if (at->formula)
+		at->power_out = formula_run(walker, at->formula, power);
+	at->memory = power;
+}
+
+#define RUNG_NEXT -1
+#define RUNG_LEAVE -2
+/* Gives the rung to go on at, RUNG_NEXT or RUNG_LEAVE. */
+static int walk_rung(struct walker *walker, struct walked_rung *walked)
+{
+	walked->scan = walker->scans;
+	walked->stopped = walked->count;
+	for (int i = 0; i < walked->count; i++)
+		walked->element[i].done = false;
+	for (int i = 0; i < walked->count; i++)
+		if (is_output(&walked->element[i]))
+			visit(walker, walked, &walked->element[i]);
+	for (int i = 0; i < walked->count; i++) {
+		struct walked *at = &walked->element[i];
+		bool jump = at->word == ELEM_JUMP || at->word == ELEM_RETURN;
+
+		if (!jump && acts_last(at))
+			drive(walker, at);
+		if (!jump || !at->power_in)
+			continue;
+		walked->stopped = i;
+		return at->word == ELEM_JUMP ? at->target : RUNG_LEAVE;
+	}
+	return RUNG_NEXT;
+}
+
+static bool walk_pou(struct walker *walker, struct walked_pou *walked)
+{
+	for (int i = 0; i < walked->pou->rung_count;) {
+		int next = RUNG_NEXT;
+
+		if (++walker->steps > STEPS_MAX)
+			return false;
+		if (walked->rung[i].rung)
+			next = walk_rung(walker, &walked->rung[i]);
+		if (next == RUNG_LEAVE)
+			break;
+		i = next == RUNG_NEXT ? i + 1 : next;
+	}
+	return true;
+}
+
+static void set_system(struct walker *walker, enum sys_id id, int64_t value)
+{
+	const char *name = sys_row(id)->name;
+	struct placed placed = walker_place(walker, NULL, name, strlen(name));
+
+	placed_write(&placed, (struct value){ .type = placed.type,
+					      .i = value });
+}
+
+bool walker_scan(struct walker *walker, int64_t now_ns)
+{
+	walker->now_ns = now_ns;
+	walker->steps = 0;
+	set_system(walker, SYS_ALWAYS_ON, 1);
+	set_system(walker, SYS_FIRST_SCAN, walker->scans == 0);
+	set_system(walker, SYS_MATH_ERROR,
+		   walker->errors != walker->errors_before);
+	set_system(walker, SYS_ERRORS, walker->errors);
+	walker->errors_before = walker->errors;
+	walker->scans++;
+	for (int i = 0; i < walker->project->pou_count; i++)
+		if (!walk_pou(walker, &walker->pou[i]))
+			return false;
+	return true;
+}
+
+/* Number @index among the variable's values; false past its last. */
+static bool value_of(struct walker *walker, const struct variable *variable,
+		     int pin, char *name, size_t size, struct value *out)
+{
+	const struct project *project = walker->project;
+	const char *pou = variable->pou ?
+		project_text(project, variable->pou->name) : "";
+	const char *own = project_text(project, variable->var->name);
+	const struct word_row *row;
+	struct placed placed;
+
+	snprintf(name, size, "%s%s%s", pou, *pou ? "." : "", own);
+	if (!variable->block) {
+		placed = walker_place(walker, variable->pou, own, strlen(own));
+		*out = placed_read(&placed, IEC_NONE);
+		return pin == 0;
+	}
+	row = word_row(variable->block->fb);
+	if (pin >= row->pin_count)
+		return false;
+	snprintf(name, size, "%s%s%s.%s", pou, *pou ? "." : "", own,
+		 row->pin[pin].name);
+	*out = variable->block->pin[pin];
+	return true;
+}
+
+bool walker_var(struct walker *walker, int index, struct walker_var *out)
+{
+	for (int i = 0; i < walker->variable_count; i++) {
+		const struct variable *at = &walker->variable[i];
+		int count = !at->block ? 1 :
+			    word_row(at->block->fb)->pin_count;
+
+		if (index >= count) {
+			index -= count;
+			continue;
+		}
+		out->constant = at->constant || (at->block &&
+			word_row(at->block->fb)->pin[index].dir == PIN_VAR);
+		return value_of(walker, at, index, out->name,
+				sizeof(out->name), &out->value);
+	}
+	return false;
+}
+
+static enum walker_power element_power(const struct walked_rung *walked,
+				       int index, bool *in, bool *out)
+{
+	const struct walked *at = &walked->element[index];
+
+	*in = at->power_in;
+	*out = at->power_out;
+	if (word_row(at->word)->place == PLACE_LAST)
+		return POWER_IN_ONLY;
+	return acts_last(at) && index > walked->stopped ? POWER_IN_ONLY :
+							  POWER_BOTH;
+}
+
+enum walker_power walker_power(const struct walker *walker, int pou, int rung,
+			       int row, int col, bool *in, bool *out)
+{
+	const struct walked_rung *walked = &walker->pou[pou].rung[rung - 1];
+	const struct cell *cell;
+
+	if (!walked->rung || walked->scan != walker->scans)
+		return POWER_UNKNOWN;
+	for (int i = 0; i < walked->count; i++)
+		if (walked->element[i].row == row - 1 &&
+		    walked->element[i].col == col - 1)
+			return element_power(walked, i, in, out);
+	cell = rung_at(walked->rung, row - 1, col - 1);
+	*in = net_power(walked, grid_net(walked, row - 1, col - 1));
+	*out = *in;
+	if (cell->word == ELEM_WIRE)
+		return POWER_BOTH;
+	return cell->word == ELEM_PIN && cell->operand ? POWER_IN_ONLY :
+							 POWER_UNKNOWN;
+}

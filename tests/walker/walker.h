@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * walker - a second evaluator of ladder, there to disagree with the first.
+ *
+ * It walks the grid of a project as docs/language.md tells it, slowly and in
+ * plain sight: its own nets, timers, arithmetic and variables. It shares parsers
+ * and the catalogue with the engine, and no line of evaluation. It checks
+ * nothing: only projects that ladder_build() let in may be walked.
+ */
+#ifndef WALKER_WALKER_H
+#define WALKER_WALKER_H
+
+#include "engine/model/project.h"
+
+struct walker;
+
+/* A value as the walker keeps it: r of REAL, i of all others. */
+struct value {
+	enum iec_type type;
+	int64_t i;
+	float r;
+};
+
+/**
+ * walker_new - all variables at their initial values
+ * @project: borrowed; must have passed ladder_build(). Its names may grow.
+ *
+ * Owns: the caller, walker_free().
+ * Fails: NULL when memory is out or the project holds what it cannot walk;
+ * @why then gets a text.
+ */
+struct walker *walker_new(struct project *project, const char **why);
+void walker_free(struct walker *walker);
+
+/** walker_scan - one scan; false when it took more steps than a scan may. */
+bool walker_scan(struct walker *walker, int64_t now_ns);
+
+/** walker_area - the bytes of an area; inputs are set here before a scan. */
+uint8_t *walker_area(struct walker *walker, enum iec_area area);
+
+/** walker_errors - operations that failed so far. */
+uint32_t walker_errors(const struct walker *walker);
+
+/* One declared variable, or one pin of an instance. */
+struct walker_var {
+	char name[128];      /* "Motor", "Main.Motor", "Runout.Q"            */
+	struct value value;
+	bool constant;
+};
+/** walker_var - number @index in order of declaration; false past the last. */
+bool walker_var(struct walker *walker, int index, struct walker_var *out);
+
+enum walker_power { POWER_UNKNOWN, POWER_IN_ONLY, POWER_BOTH };
+/**
+ * walker_power - power of a cell, 1-based rung, row and column as drawn
+ *
+ * POWER_UNKNOWN when its rung did not run in the last scan or the cell carries
+ * none; POWER_IN_ONLY of a cell that lets nothing through by its kind, or did
+ * not act because a jump came first.
+ */
+enum walker_power walker_power(const struct walker *walker, int pou, int rung,
+			       int row, int col, bool *in, bool *out);
+#endif
