@@ -9,6 +9,7 @@
 #define CHECK_CHECK_H
 
 #include "engine/base/diag.h"
+#include "engine/check/scope.h"
 #include "engine/model/network.h"
 #include "engine/model/project.h"
 
@@ -17,19 +18,26 @@
  * @pou:     name of its POU, for diagnostics
  * @number:  1-based number of the rung
  * @network: its graph
+ * @scratch: some memory a rung; the caller resets it between rungs
  *
- * LD201 … LD214. Scan-safe: no.   Fails: false when it added an error.
+ * LD201 … LD214; a rung that is OFF is good. A fault is told once, where it
+ * begins: what only follows from it is not told.
+ * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.
  */
 bool check_rung(const struct project *project, const struct pou *pou, int number,
 		const struct rung *rung, const struct network *network,
-		struct diag_list *diags);
+		struct arena *scratch, struct diag_list *diags);
 
 /**
  * check_names - declarations, labels, instances, uses of variables in a project
+ * @scope:   of the project
+ * @scratch: some memory a project; dead afterwards
  *
  * Unknown and duplicate names, labels, AT types, writes to inputs and constants,
  * coils in two places, instances called twice, never written, never read,
- * unreachable rungs.   Fails: false when it added an error.
+ * unreachable rungs. Of an IL POU it only counts the uses: check_il() judges it.
+ * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.
  */
-bool check_names(struct project *project, struct diag_list *diags);
+bool check_names(struct scope *scope, struct arena *scratch,
+		 struct diag_list *diags);
 #endif
