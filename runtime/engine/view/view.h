@@ -66,7 +66,7 @@ void view_print_il(const struct names *names, uint32_t name,
 /**
  * view_words - elements, boxes, instructions, types, areas and system names
  * @word: one of them, any case, with its details; NULL: all, a line each
- * @json: an object (one word: an array of what has that name)
+ * @json: an array of objects; each has kind, word and doc, most have more
  *
  * Returns how many were listed; 0: there is no such word.   Scan-safe: no.
  */

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * diff - what the parts of the comparison of two projects share.
+ *
+ * Used inside view/ only: diff.c compares projects, POUs and variables, diff_rung.c
+ * rungs, diff_match.c finds what belongs together, diff_say.c puts it into words.
+ */
+#ifndef VIEW_DIFF_H
+#define VIEW_DIFF_H
+
+#include "engine/base/sink.h"
+#include "engine/model/project.h"
+
+#define DIFF_LIMIT 1500      /* insertions and deletions looked for at most   */
+#define DIFF_CANDIDATES 64   /* rungs of a gap looked at for likeness         */
+
+struct diff {
+	const struct project *a, *b;
+	const struct sink *sink;
+	bool json;
+	bool failed;               /* memory is out                            */
+	int count;                 /* differences so far                       */
+	struct arena arena;        /* scratch                                  */
+	struct names names;        /* strings of both projects, by one id      */
+	struct sink_memory bytes;  /* scratch: a rung or line made comparable  */
+	char from[1024], to[1024]; /* scratch: texts of two cells or lines     */
+};
+
+/* One difference; what is NULL or 0 is not said. */
+struct difference {
+	const char *pou, *label;
+	int rung, row, col, line;  /* 1-based                                  */
+	const char *kind;          /* "variable", "view section"               */
+	const char *subject;       /* its name, or the element in a cell       */
+	const char *property;      /* "address"                                */
+	const char *from, *to;     /* either may be "": nothing                */
+	const char *change;        /* "added", when there is no from and to    */
+};
+
+/** diff_say - puts it out and counts it. */
+void diff_say(struct diff *diff, struct difference what);
+/** diff_texts - says @what when the texts differ; they become from and to. */
+void diff_texts(struct diff *diff, struct difference what, const char *property,
+		const char *from, const char *to);
+
+/**
+ * diff_match - the longest common subsequence
+ * @match: of each of the @a_count: its index in @b, or -1
+ *
+ * Beyond DIFF_LIMIT changes only what stands at the same index is matched.
+ * Fails: false when memory is out.
+ */
+bool diff_match(struct arena *arena, const uint32_t *a, int a_count,
+		const uint32_t *b, int b_count, int *match);
+
+/** diff_id - one id for the same bytes; 0 and diff->failed: memory is out. */
+uint32_t diff_id(struct diff *diff, const char *text, size_t len);
+/** diff_name - one id for all spellings of a name in either project. */
+uint32_t diff_name(struct diff *diff, const char *name);
+
+void diff_rungs(struct diff *diff, const struct pou *a, const struct pou *b);
+void diff_il(struct diff *diff, const struct pou *a, const struct pou *b);
+
+#endif

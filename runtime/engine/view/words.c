@@ -1,0 +1,374 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * words - lists every word of the catalogue, or tells all about one.
+ *
+ * It only walks the tables: a new row shows up here by itself.
+ */
+#include "engine/view/words.h"
+
+#include "engine/view/view.h"
+
+#include <inttypes.h>
+#include <string.h>
+#include <strings.h>
+
+const char *words_kind(enum words_kind kind)
+{
+	static const char *const name[WORDS_KIND_COUNT] = {
+		"element", "function block", "function", "IL operator", "type",
+		"area", "system name",
+	};
+	return name[kind];
+}
+
+const char *words_operand(enum operand_kind kind)
+{
+	switch (kind) {
+	case OPND_NONE:
+		return "";
+	case OPND_BOOL_R:
+		return "a BOOL";
+	case OPND_BOOL_W:
+		return "a BOOL it writes";
+	case OPND_ANY_R:
+		return "a value";
+	case OPND_ANY_W:
+		return "a variable it writes";
+	case OPND_LABEL:
+		return "a label";
+	case OPND_INSTANCE:
+		return "an instance";
+	case OPND_EXPR:
+		return "an expression";
+	case OPND_ASSIGN:
+		return "variable := expression";
+	case OPND_PIN:
+		return "a pin";
+	}
+	return "";
+}
+
+const char *words_classes(uint8_t classes)
+{
+	static const struct {
+		const char *name;
+		uint8_t classes;
+	} generic[] = {
+		{ "ANY_ELEMENTARY", ANY_ELEMENTARY },
+		{ "ANY_MAGNITUDE", ANY_MAGNITUDE }, { "ANY_NUM", ANY_NUM },
+		{ "ANY_INT", ANY_INT }, { "ANY_BIT", ANY_BIT },
+		{ "BOOL", CLASS_BOOL }, { "REAL", CLASS_REAL },
+		{ "TIME", CLASS_TIME },
+	};
+
+	for (size_t i = 0; i < sizeof(generic) / sizeof(generic[0]); i++)
+		if (generic[i].classes == classes)
+			return generic[i].name;
+	return "ANY";
+}
+
+/* ---- all tables as one row of entries ---- */
+
+static void word_entry(int word, struct words_entry *out)
+{
+	const struct word_row *row = word_row((enum word)word);
+
+	out->kind = row->kind == WORD_FB ? WORDS_BLOCK :
+		    row->kind == WORD_FN ? WORDS_FUNCTION : WORDS_ELEMENT;
+	out->word = row->word;
+	out->family = row->family[0] ? row->family : NULL;
+	out->doc = row->doc;
+	out->row = row;
+}
+
+static void op_entry(int op, struct words_entry *out)
+{
+	out->kind = WORDS_OPERATOR;
+	out->op = op_row((enum op)op);
+	out->word = out->op->word;
+	out->doc = out->op->doc;
+}
+
+static void type_entry(int type, struct words_entry *out)
+{
+	out->kind = WORDS_TYPE;
+	out->type = iec_type_row((enum iec_type)type);
+	out->word = out->type->word;
+}
+
+static void area_entry(int area, struct words_entry *out)
+{
+	out->kind = WORDS_AREA;
+	out->area = iec_area_row((enum iec_area)area);
+	out->word = out->area->letters;
+	out->doc = out->area->doc;
+}
+
+static void sys_entry(int sys, struct words_entry *out)
+{
+	out->kind = WORDS_SYSTEM;
+	out->sys = sys_row((enum sys_id)sys);
+	out->type = iec_type_row(out->sys->type);
+	out->word = out->sys->name;
+	out->doc = out->sys->doc;
+}
+
+bool words_at(int index, struct words_entry *out)
+{
+	/* The empty cell has no word, and type and area 0 are "none". */
+	static const struct {
+		void (*fill)(int number, struct words_entry *out);
+		int first, end;
+	} table[] = {
+		{ word_entry, ELEM_EMPTY + 1, WORD_COUNT },
+		{ op_entry, 0, OP_COUNT },
+		{ type_entry, IEC_NONE + 1, IEC_TYPE_COUNT },
+		{ area_entry, AREA_NONE + 1, AREA_COUNT },
+		{ sys_entry, 0, SYS_COUNT },
+	};
+
+	memset(out, 0, sizeof(*out));
+	out->doc = "";
+	for (size_t i = 0; i < sizeof(table) / sizeof(table[0]); i++) {
+		int count = table[i].end - table[i].first;
+
+		if (index < count) {
+			table[i].fill(table[i].first + index, out);
+			return true;
+		}
+		index -= count;
+	}
+	return false;
+}
+
+/* ---- notes ---- */
+
+static void note_operator(const struct op_row *op, const struct sink *sink)
+{
+	const char *word = op->word;
+
+	sink_text(sink, word);
+	if (op->modifiers & MOD_C)
+		sink_printf(sink, " %sC %sCN", word, word);
+	else if (op->modifiers & MOD_N)
+		sink_printf(sink, " %sN", word);
+	if (op->modifiers & MOD_PAREN)
+		sink_printf(sink, " %s( %sN(", word, word);
+}
+
+static void note_type(const struct iec_type_row *type, const struct sink *sink)
+{
+	sink_printf(sink, "%d byte%s", type->size, type->size == 1 ? "" : "s");
+	if (type->class == CLASS_REAL)
+		sink_text(sink, ", about 7 digits");
+	else if (type->class == CLASS_TIME)
+		sink_text(sink, ", in nanoseconds");
+	else
+		sink_printf(sink, ", %" PRId64 " to %" PRId64, type->low,
+			    type->high);
+}
+
+static void note_element(const struct word_row *row, const struct sink *sink)
+{
+	const char *operand = words_operand(row->operand);
+
+	sink_text(sink, operand);
+	if (row->place == PLACE_LAST)
+		sink_text(sink, *operand ? ", last in its row" :
+					   "last in its row");
+	if (row->edge != EDGE_NONE)
+		sink_text(sink, ", one memory a cell");
+}
+
+static void note_function(const struct word_row *row, const struct sink *sink)
+{
+	int named = row->pin_count;
+
+	if (row->most_inputs > named)
+		sink_printf(sink, "%d to %d inputs, ", named, row->most_inputs);
+	else
+		sink_printf(sink, "%d input%s, ", named, named == 1 ? "" : "s");
+	sink_text(sink, row->result == RESULT_BOOL ?
+		  "a BOOL that gates the power" : "result of their type");
+}
+
+static void note_block(const struct word_row *row, const struct sink *sink)
+{
+	const char *gap = "";
+
+	for (int i = 0; i < row->pin_count; i++) {
+		if (row->pin[i].dir == PIN_VAR)
+			continue;
+		sink_printf(sink, "%s%s %s", gap, row->pin[i].name,
+			    iec_type_row(row->pin[i].type)->word);
+		gap = ", ";
+	}
+}
+
+void words_note(const struct words_entry *entry, const struct sink *sink)
+{
+	switch (entry->kind) {
+	case WORDS_ELEMENT:
+		note_element(entry->row, sink);
+		break;
+	case WORDS_BLOCK:
+		note_block(entry->row, sink);
+		break;
+	case WORDS_FUNCTION:
+		note_function(entry->row, sink);
+		break;
+	case WORDS_OPERATOR:
+		note_operator(entry->op, sink);
+		break;
+	case WORDS_TYPE:
+		note_type(entry->type, sink);
+		break;
+	case WORDS_AREA:
+		sink_printf(sink, "%u bytes, programs %s", entry->area->bytes,
+			    entry->area->access == ACCESS_READ ?
+			    "only read it" : "read and write it");
+		break;
+	case WORDS_SYSTEM:
+		sink_printf(sink, "%s %s", entry->sys->address,
+			    entry->type->word);
+		break;
+	case WORDS_KIND_COUNT:
+		break;
+	}
+}
+
+/* ---- text ---- */
+
+static void list_line(const struct words_entry *entry, const struct sink *sink)
+{
+	sink_printf(sink, "  %-16s ", entry->word);
+	if (entry->kind == WORDS_ELEMENT)
+		sink_printf(sink, "%s  ", entry->row->glyph);
+	if (entry->kind == WORDS_TYPE)
+		words_note(entry, sink);
+	else
+		sink_text(sink, entry->doc);
+	sink_text(sink, "\n");
+}
+
+static void pin_lines(const struct word_row *row, const struct sink *sink)
+{
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+		if (pin->dir == PIN_VAR)
+			continue;
+		sink_printf(sink, "  %-3s %-4s %-14s %s\n",
+			    pin->dir == PIN_IN ? "in" : "out", pin->name,
+			    pin->type != IEC_NONE ?
+			    iec_type_row(pin->type)->word :
+			    words_classes(pin->classes), pin->doc);
+	}
+}
+
+static void one_word(const struct words_entry *entry, const struct sink *sink)
+{
+	sink_printf(sink, "%s: %s", entry->word, words_kind(entry->kind));
+	if (entry->family)
+		sink_printf(sink, " (%s)", entry->family);
+	if (*entry->doc)
+		sink_printf(sink, ": %s", entry->doc);
+	sink_text(sink, "\n");
+	if (entry->kind == WORDS_ELEMENT)
+		sink_printf(sink, "  drawn %s\n", entry->row->glyph);
+	if (entry->kind != WORDS_BLOCK) {
+		sink_text(sink, "  ");
+		words_note(entry, sink);
+		sink_text(sink, "\n");
+	}
+	if (entry->row)
+		pin_lines(entry->row, sink);
+}
+
+/* ---- JSON ---- */
+
+static void json_field(const struct sink *sink, const char *name,
+		       const char *value)
+{
+	sink_printf(sink, ", \"%s\": ", name);
+	sink_json_text(sink, value);
+}
+
+static void json_pins(const struct word_row *row, const struct sink *sink)
+{
+	const char *gap = "";
+
+	sink_text(sink, ", \"pins\": [");
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+		if (pin->dir == PIN_VAR)
+			continue;
+		sink_printf(sink, "%s{\"pin\": \"%s\"", gap, pin->name);
+		json_field(sink, "direction", pin->dir == PIN_IN ? "in" : "out");
+		json_field(sink, "type", pin->type != IEC_NONE ?
+			   iec_type_row(pin->type)->word :
+			   words_classes(pin->classes));
+		json_field(sink, "doc", pin->doc);
+		sink_text(sink, "}");
+		gap = ", ";
+	}
+	sink_text(sink, "]");
+}
+
+static void json_entry(const struct words_entry *entry, const struct sink *sink)
+{
+	sink_text(sink, "{\"kind\": ");
+	sink_json_text(sink, words_kind(entry->kind));
+	json_field(sink, "word", entry->word);
+	json_field(sink, "doc", entry->doc);
+	if (entry->family)
+		json_field(sink, "family", entry->family);
+	if (entry->kind == WORDS_ELEMENT) {
+		json_field(sink, "glyph", entry->row->glyph);
+		json_field(sink, "operand", words_operand(entry->row->operand));
+	}
+	if (entry->kind == WORDS_BLOCK || entry->kind == WORDS_FUNCTION)
+		json_pins(entry->row, sink);
+	if (entry->kind == WORDS_FUNCTION)
+		sink_printf(sink, ", \"most_inputs\": %d",
+			    entry->row->most_inputs);
+	if (entry->kind == WORDS_TYPE)
+		sink_printf(sink, ", \"bytes\": %d", entry->type->size);
+	if (entry->area)
+		sink_printf(sink, ", \"bytes\": %u, \"writable\": %s",
+			    entry->area->bytes,
+			    entry->area->access == ACCESS_WRITE ? "true" :
+								  "false");
+	if (entry->sys) {
+		json_field(sink, "address", entry->sys->address);
+		json_field(sink, "type", entry->type->word);
+	}
+	sink_text(sink, "}");
+}
+
+int view_words(const char *word, bool json, const struct sink *sink)
+{
+	enum words_kind kind = WORDS_KIND_COUNT;
+	struct words_entry entry;
+	int found = 0;
+
+	sink_text(sink, json ? "[" : "");
+	for (int i = 0; words_at(i, &entry); i++) {
+		if (word && strcasecmp(entry.word, word) != 0)
+			continue;
+		if (json) {
+			sink_text(sink, found ? ",\n " : "\n ");
+			json_entry(&entry, sink);
+		} else if (word) {
+			one_word(&entry, sink);
+		} else {
+			if (entry.kind != kind)
+				sink_printf(sink, "%s%ss\n", found ? "\n" : "",
+					    words_kind(entry.kind));
+			list_line(&entry, sink);
+		}
+		kind = entry.kind;
+		found++;
+	}
+	sink_text(sink, json ? "\n]\n" : "");
+	return found;
+}

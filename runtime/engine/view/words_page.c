@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * words_page - the page docs/words.md, made from the catalogue so that it cannot
+ * be older than the program. It explains nothing that a row does not say.
+ */
+#include "engine/view/view.h"
+#include "engine/view/words.h"
+
+#include <string.h>
+
+static const char *heading(enum words_kind kind)
+{
+	switch (kind) {
+	case WORDS_ELEMENT:
+		return "Elements of a rung";
+	case WORDS_BLOCK:
+		return "Function blocks";
+	case WORDS_FUNCTION:
+		return "Functions";
+	case WORDS_OPERATOR:
+		return "Operators of the instruction list";
+	case WORDS_TYPE:
+		return "Types";
+	case WORDS_AREA:
+		return "Areas of direct addresses";
+	case WORDS_SYSTEM:
+		return "System names";
+	case WORDS_KIND_COUNT:
+		break;
+	}
+	return "";
+}
+
+static const char *columns(enum words_kind kind)
+{
+	switch (kind) {
+	case WORDS_ELEMENT:
+		return "| word | drawn | family | stands with | power, action |\n"
+		       "|---|---|---|---|---|\n";
+	case WORDS_TYPE:
+		return "| type | size and range |\n|---|---|\n";
+	case WORDS_AREA:
+		return "| letters | size and use | what it is |\n|---|---|---|\n";
+	case WORDS_SYSTEM:
+		return "| name | address and type | what it is |\n|---|---|---|\n";
+	case WORDS_OPERATOR:
+		return "| operator | forms | operand | what it does |\n"
+		       "|---|---|---|---|\n";
+	case WORDS_BLOCK:
+	case WORDS_FUNCTION:
+	case WORDS_KIND_COUNT:
+		break;
+	}
+	return "";
+}
+
+/* A bar would end the column of a Markdown table. */
+static void in_table(const struct sink *sink, const char *text)
+{
+	for (; *text; text++) {
+		if (*text == '|')
+			sink_text(sink, "\\");
+		sink_write(sink, text, 1);
+	}
+}
+
+static void code(const struct sink *sink, const char *text)
+{
+	sink_text(sink, "`");
+	in_table(sink, text);
+	sink_text(sink, "`");
+}
+
+static void box(const struct words_entry *entry, const struct sink *sink)
+{
+	const struct word_row *row = entry->row;
+
+	sink_printf(sink, "\n### %s: %s\n\n", entry->word, entry->doc);
+	sink_printf(sink, "%s, ", entry->family);
+	if (entry->kind == WORDS_BLOCK)
+		sink_printf(sink, "%u bytes an instance", (unsigned)row->size);
+	else
+		words_note(entry, sink);
+	sink_text(sink, ".\n\n| pin | way | type | what it is |\n"
+			"|---|---|---|---|\n");
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+
+		if (pin->dir == PIN_VAR)
+			continue;
+		sink_printf(sink, "| `%s` | %s | %s | ", pin->name,
+			    pin->dir == PIN_IN ? "in" : "out",
+			    pin->type != IEC_NONE ?
+			    iec_type_row(pin->type)->word :
+			    words_classes(pin->classes));
+		in_table(sink, pin->doc);
+		sink_text(sink, " |\n");
+	}
+}
+
+static void table_line(const struct words_entry *entry, const struct sink *sink)
+{
+	sink_text(sink, "| ");
+	code(sink, entry->word);
+	if (entry->kind == WORDS_ELEMENT) {
+		sink_text(sink, " | ");
+		code(sink, entry->row->glyph);
+		sink_printf(sink, " | %s",
+			    entry->family ? entry->family : "");
+	}
+	sink_text(sink, " | ");
+	words_note(entry, sink);
+	if (entry->kind == WORDS_OPERATOR)
+		sink_printf(sink, " | %s", words_operand(entry->op->operand));
+	if (*entry->doc) {
+		sink_text(sink, " | ");
+		in_table(sink, entry->doc);
+	}
+	sink_text(sink, " |\n");
+}
+
+void view_words_markdown(const struct sink *sink)
+{
+	enum words_kind kind = WORDS_KIND_COUNT;
+	struct words_entry entry;
+
+	sink_text(sink, "# Words\n\n"
+		"Every word a program can use. This page is made by `make words` "
+		"from `runtime/engine/catalog.def`;\nchange it there. How the "
+		"words are put together is told in [rung-file.md](rung-file.md), "
+		"when\nthey are evaluated in [language.md](language.md).\n");
+	for (int i = 0; words_at(i, &entry); i++) {
+		if (entry.kind != kind)
+			sink_printf(sink, "\n## %s\n%s%s", heading(entry.kind),
+				    *columns(entry.kind) ? "\n" : "",
+				    columns(entry.kind));
+		kind = entry.kind;
+		if (kind == WORDS_BLOCK || kind == WORDS_FUNCTION)
+			box(&entry, sink);
+		else
+			table_line(&entry, sink);
+	}
+}
