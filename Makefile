@@ -38,8 +38,11 @@ $(BUILD)/unit/%: $(BUILD)/tests/unit/%.o $(BUILD)/libladder.a
 unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
+words: $(BUILD)/unit/test_words ## write docs/words.md anew from the catalogue
+	$< --print > docs/words.md
+
 clean: ## remove everything that was built
 	rm -rf $(BUILD)
 help: ## list the targets
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  %-14s %s\n", $$1, $$2}' Makefile
-.PHONY: all unit clean help
+.PHONY: all unit words clean help

@@ -42,26 +42,20 @@ int view_show(const struct project *project, int pou, int rung,
 int view_diff(const struct project *a, const struct project *b, bool json,
 	      const struct sink *sink);
 
-/* A variable that translation added to those of its POU. */
-struct view_temporary {
-	uint32_t name;      /* string id                                       */
-	enum iec_type type; /* IEC_NONE: an instance                           */
-	enum word fb;       /* of an instance                                  */
-};
-
 /**
  * view_print_il - a whole POU as `PROGRAM Name IL … END_PROGRAM`
  * @names: the strings of all ids
  * @name:  string id of the POU's name
  * @vars:  its own variables
+ * @temps: variables that translation added, @temp_count of them; those that @il
+ *         does not use are left out
  * @il:    what to print; the text reads again to the same list
  *
  * Scan-safe: no.   Fails: never, but for what the sink does.
  */
 void view_print_il(const struct names *names, uint32_t name,
-		   const struct var_table *vars,
-		   const struct view_temporary *temporary, int temporary_count,
-		   const struct il *il, const struct sink *sink);
+		   const struct var_table *vars, struct var *const *temps,
+		   int temp_count, const struct il *il, const struct sink *sink);
 
 /**
  * view_words - elements, boxes, instructions, types, areas and system names
