@@ -54,10 +54,13 @@ bool lex_accept(struct lex *lex, const char *word);
 /** lex_skip_line - steps to the first token of the next line. */
 void lex_skip_line(struct lex *lex);
 
+/** utf8_length - bytes of the first character, 1 to 4; 0 when @text is empty or
+ * does not begin with a valid one. Scan-safe: yes. So are both below. */
+size_t utf8_length(const char *text, size_t len);
 /** utf8_valid - are all @len bytes valid UTF-8 without NUL? Gives the offset of
  * the first bad byte through @bad (may be NULL). */
 bool utf8_valid(const char *text, size_t len, size_t *bad);
 /** utf8_width - columns a terminal needs: 2 for East Asian wide, 0 for
- * combining, 1 else. @text is valid UTF-8. */
+ * combining, 1 else, also for a byte that is not valid. */
 int utf8_width(const char *text, size_t len);
 #endif

@@ -40,6 +40,14 @@ enum literal_result literal_parse(const char *text, size_t len,
 bool literal_fit(const struct literal *literal, enum iec_type type,
 		 union iec_value *out);
 
+/**
+ * literal_parse_duration - a time without its T#, as scenarios write it
+ * @ns: nanoseconds of `10ms`, `2.5s`, `1m30s`; never negative
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false; also finer than 1 ns.
+ */
+bool literal_parse_duration(const char *text, size_t len, int64_t *ns);
+
 /** literal_print_time - "T#1h2m3s500ms" of nanoseconds; as snprintf. */
 int literal_print_time(int64_t ns, char *out, size_t size);
 /** literal_print - a value as source text of its type: TRUE, 5, 1.5, T#3s. */

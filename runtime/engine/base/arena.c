@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * arena - one growing block of memory a project, freed whole.
+ *
+ * The only place of the engine's loader that asks the system for memory. It
+ * refuses sizes that overflow, and never moves what it has given.
+ */
+#include "engine/base/arena.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct arena_chunk {
+	struct arena_chunk *next; /* older                                   */
+	size_t size, used;        /* bytes behind this header                */
+	size_t last;              /* offset of the last allocation           */
+	uint64_t bytes[];         /* a type with the strictest alignment     */
+};
+
+#define ALIGN     8u
+#define CHUNK_MIN 4000u
+#define CHUNK_MAX 256000u
+
+void arena_init(struct arena *arena)
+{
+	*arena = (struct arena){ 0 };
+}
+
+static void free_chunks(struct arena_chunk *chunk)
+{
+	while (chunk) {
+		struct arena_chunk *next = chunk->next;
+
+		free(chunk);
+		chunk = next;
+	}
+}
+
+void arena_free(struct arena *arena)
+{
+	free_chunks(arena->chunk);
+	arena_init(arena);
+}
+
+void arena_reset(struct arena *arena)
+{
+	struct arena_chunk *chunk = arena->chunk;
+
+	if (chunk) {
+		free_chunks(chunk->next);
+		chunk->next = NULL;
+		chunk->used = chunk->last = 0;
+		arena->reserved = sizeof(*chunk) + chunk->size;
+	}
+	arena->used = 0;
+	arena->failed = false;
+}
+
+static bool add_chunk(struct arena *arena, size_t wanted)
+{
+	struct arena_chunk *chunk;
+	size_t size = CHUNK_MIN;
+
+	if (arena->chunk)
+		size = arena->chunk->size * 2;
+	if (size > CHUNK_MAX)
+		size = CHUNK_MAX;
+	if (size < wanted)
+		size = wanted;
+	if (size > SIZE_MAX - sizeof(*chunk))
+		return false;
+	chunk = malloc(sizeof(*chunk) + size);
+	if (!chunk)
+		return false;
+	chunk->next = arena->chunk;
+	chunk->size = size;
+	chunk->used = chunk->last = 0;
+	arena->chunk = chunk;
+	arena->reserved += sizeof(*chunk) + size;
+	return true;
+}
+
+/* Bytes that are not zeroed yet; @align is a power of two up to ALIGN. */
+static void *take(struct arena *arena, size_t size, size_t align)
+{
+	struct arena_chunk *chunk = arena->chunk;
+	size_t at = chunk ? (chunk->used + align - 1) & ~(align - 1) : 0;
+
+	if (arena->failed)
+		return NULL;
+	if (!chunk || at > chunk->size || size > chunk->size - at) {
+		if (!add_chunk(arena, size)) {
+			arena->failed = true;
+			return NULL;
+		}
+		chunk = arena->chunk;
+		at = 0;
+	}
+	chunk->last = at;
+	chunk->used = at + size;
+	arena->used += size;
+	return (char *)chunk->bytes + at;
+}
+
+void *arena_alloc(struct arena *arena, size_t size)
+{
+	void *memory = take(arena, size, ALIGN);
+
+	if (memory && size)
+		memset(memory, 0, size);
+	return memory;
+}
+
+/* Is there room to make @old, the last allocation, @size bytes long? */
+static bool extends(const struct arena *arena, const void *old, size_t size)
+{
+	const struct arena_chunk *chunk = arena->chunk;
+
+	return chunk && old == (const char *)chunk->bytes + chunk->last &&
+	       size <= chunk->size - chunk->last;
+}
+
+void *arena_grow(struct arena *arena, void *old, size_t old_size,
+		 size_t new_size)
+{
+	size_t keep = old_size < new_size ? old_size : new_size;
+	char *memory;
+
+	if (!old)
+		return arena_alloc(arena, new_size);
+	if (arena->failed)
+		return NULL;
+	if (extends(arena, old, new_size)) {
+		struct arena_chunk *chunk = arena->chunk;
+		size_t end = chunk->last + new_size;
+
+		if (end > chunk->used) {
+			arena->used += end - chunk->used;
+			chunk->used = end;
+		}
+		memory = old;
+	} else {
+		memory = take(arena, new_size, ALIGN);
+		if (!memory)
+			return NULL;
+		if (keep)
+			memcpy(memory, old, keep);
+	}
+	if (new_size > keep)
+		memset(memory + keep, 0, new_size - keep);
+	return memory;
+}
+
+char *arena_copy(struct arena *arena, const char *text, size_t len)
+{
+	char *copy;
+
+	if (len == SIZE_MAX)
+		arena->failed = true;
+	copy = take(arena, len + 1, 1);
+	if (!copy)
+		return NULL;
+	if (len)
+		memcpy(copy, text, len);
+	copy[len] = '\0';
+	return copy;
+}
+
+/* Full at 0, 8, 16, 32 …: then the capacity is used up. */
+static bool is_full(size_t count)
+{
+	return count == 0 || (count >= 8 && (count & (count - 1)) == 0);
+}
+
+void *arena_push(struct arena *arena, void *vector, int *count, size_t size)
+{
+	size_t used = (size_t)*count;
+	char *first;
+
+	/* @vector is any T **: read and written as bytes, so that no aliasing
+	 * rule is broken. */
+	memcpy(&first, vector, sizeof(first));
+	if (is_full(used)) {
+		size_t room = used ? used * 2 : 8;
+
+		if (room > (size_t)INT32_MAX || size > SIZE_MAX / room) {
+			arena->failed = true;
+			return NULL;
+		}
+		first = arena_grow(arena, first, used * size, room * size);
+		if (!first)
+			return NULL;
+		memcpy(vector, &first, sizeof(first));
+	}
+	*count += 1;
+	return first + used * size;
+}

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * catalog - the rows of catalog.def as const tables.
+ *
+ * It only answers what a row says; what a word does stands in scan/.
+ */
+#include "engine/base/catalog.h"
+#include "engine/base/ascii.h"
+
+#define FB_IN(fb, pin, type, doc) \
+	{ #pin, PIN_IN, IEC_##type, 0, offsetof(struct fb_##fb, pin), doc },
+#define FB_OUT(fb, pin, type, doc) \
+	{ #pin, PIN_OUT, IEC_##type, 0, offsetof(struct fb_##fb, pin), doc },
+#define FB_VAR(fb, pin, type) \
+	{ #pin, PIN_VAR, IEC_##type, 0, offsetof(struct fb_##fb, pin), "" },
+#define FB(id, family, doc, pins) \
+	static const struct word_pin pins_##id[] = { pins };
+#define FN_IN(pin, classes, doc) { #pin, PIN_IN, IEC_NONE, classes, 0, doc },
+#define FN(id, family, doc, result, most, pins) \
+	static const struct word_pin pins_##id[] = { pins };
+#include "engine/catalog.def"
+
+#define PINS(id) .pin = pins_##id, \
+	.pin_count = sizeof(pins_##id) / sizeof(pins_##id[0])
+
+/* The IL columns of an FB are those of its call, of an FN those of its result. */
+static const struct word_row words[WORD_COUNT] = {
+#define ELEM(id_, word_, glyph_, family_, place_, operand_, edge_, first_, next_, \
+	     negate_, doc_) \
+	[ELEM_##id_] = { .id = #id_, .word = word_, .glyph = glyph_, \
+		.family = family_, .doc = doc_, .kind = WORD_ELEM, \
+		.place = place_, .operand = operand_, .edge = edge_, \
+		.first = OP_##first_, .next = OP_##next_, .negate = negate_ },
+#define FB(id_, family_, doc_, pins) \
+	[FB_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
+		.family = family_, .doc = doc_, .kind = WORD_FB, \
+		.place = PLACE_BOX, .operand = OPND_INSTANCE, \
+		.first = OP_CAL, .next = OP_CAL, PINS(id_), \
+		.size = sizeof(struct fb_##id_) },
+#define FN(id_, family_, doc_, result_, most_, pins) \
+	[FN_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
+		.family = family_, .doc = doc_, .kind = WORD_FN, \
+		.place = PLACE_BOX, .operand = OPND_NONE, \
+		.first = OP_LD, .next = OP_AND, .result = result_, \
+		.most_inputs = most_, PINS(id_) },
+#include "engine/catalog.def"
+};
+
+/* Only what begins with a letter is a word a user can write by name. */
+static const uint8_t word_length[WORD_COUNT] = {
+#define ELEM(id, word, ...) [ELEM_##id] = sizeof(word) - 1,
+#define FB(id, ...) [FB_##id] = sizeof(#id) - 1,
+#define FN(id, ...) [FN_##id] = sizeof(#id) - 1,
+#include "engine/catalog.def"
+};
+
+static const struct op_row ops[OP_COUNT] = {
+#define OP(id, operand, modifiers, doc) \
+	[OP_##id] = { #id, operand, modifiers, doc },
+#include "engine/catalog.def"
+};
+
+static const struct vm_row vm_rows[VM_COUNT] = {
+#define VM(id, word, doc) [VM_##id] = { word, doc },
+#include "engine/catalog.def"
+};
+
+static const struct sys_row sys_rows[SYS_COUNT] = {
+#define SYS(id, address, type, doc) \
+	[SYS_##id] = { "SYS_" #id, address, IEC_##type, doc },
+#include "engine/catalog.def"
+};
+
+const struct word_row *word_row(enum word word)
+{
+	return &words[word < WORD_COUNT ? word : ELEM_EMPTY];
+}
+
+enum word word_find(const char *text, size_t len)
+{
+	char first = len ? ascii_upper(text[0]) : '\0';
+
+	if (first < 'A' || first > 'Z')
+		return WORD_COUNT;
+	for (int i = 0; i < WORD_COUNT; i++)
+		if (word_length[i] == len && words[i].word[0] == first &&
+		    ascii_same(words[i].word, text, len))
+			return (enum word)i;
+	return WORD_COUNT;
+}
+
+/* INn of an extensible function, behind its named pins: its index or -1. */
+static int find_further_input(const struct word_row *row, const char *name,
+			      size_t len)
+{
+	int number = 0;
+
+	if (len < 3 || len > 4 || !ascii_same("IN", name, 2) || name[2] == '0')
+		return -1;
+	for (size_t i = 2; i < len; i++) {
+		if (name[i] < '0' || name[i] > '9')
+			return -1;
+		number = number * 10 + (name[i] - '0');
+	}
+	if (number <= row->pin_count || number > row->most_inputs)
+		return -1;
+	return number - 1;
+}
+
+int word_pin_find(const struct word_row *row, const char *name, size_t len)
+{
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+
+		if (pin->dir != PIN_VAR && ascii_is(pin->name, name, len))
+			return i;
+	}
+	return find_further_input(row, name, len);
+}
+
+int word_first_bool(const struct word_row *row, enum pin_dir dir)
+{
+	for (int i = 0; i < row->pin_count; i++)
+		if (row->pin[i].dir == dir && row->pin[i].type == IEC_BOOL)
+			return i;
+	return -1;
+}
+
+const struct op_row *op_row(enum op op)
+{
+	static const struct op_row none = { "", OPND_NONE, 0, "" };
+
+	return op < OP_COUNT ? &ops[op] : &none;
+}
+
+enum op op_find(const char *text, size_t len)
+{
+	for (int i = 0; i < OP_COUNT; i++)
+		if (ascii_is(ops[i].word, text, len))
+			return (enum op)i;
+	return OP_COUNT;
+}
+
+const struct vm_row *vm_row(enum vm_op op)
+{
+	static const struct vm_row none = { "", "" };
+
+	return op < VM_COUNT ? &vm_rows[op] : &none;
+}
+
+const struct sys_row *sys_row(enum sys_id id)
+{
+	static const struct sys_row none = { "", "", IEC_NONE, "" };
+
+	return id < SYS_COUNT ? &sys_rows[id] : &none;
+}

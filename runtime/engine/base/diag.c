@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * diag - what is wrong with a program text, as data with a place.
+ *
+ * Texts and codes are rows of diag.def. It shows no control characters and no
+ * broken UTF-8, whatever a hostile file holds, and it prints nothing itself.
+ */
+#include "engine/base/diag.h"
+#include "engine/base/lex.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+struct diag_row {
+	const char *code, *text;
+	enum diag_severity severity;
+};
+
+static const struct diag_row rows[DIAG_COUNT] = {
+#define DIAG(id, code, severity, text) [DIAG_##id] = { code, text, severity },
+#include "engine/diag.def"
+};
+
+void diag_init(struct diag_list *list)
+{
+	list->count = list->dropped = list->errors = 0;
+}
+
+/* C0, DEL and C1: a terminal might act on them. */
+static bool is_control(const char *at, size_t len)
+{
+	unsigned char c = (unsigned char)at[0];
+
+	return c < 0x20 || c == 0x7f ||
+	       (c == 0xc2 && len > 1 && (unsigned char)at[1] < 0xa0);
+}
+
+/* Whole characters of @text, as many as @out of LIMIT_ARG bytes takes. */
+static void copy_clean(char *out, const char *text)
+{
+	size_t left = strlen(text), used = 0;
+
+	while (left) {
+		size_t len = utf8_length(text, left);
+		bool shown = len && !is_control(text, len);
+
+		if (used + (shown ? len : 1) >= LIMIT_ARG)
+			break;
+		if (shown)
+			memcpy(out + used, text, len);
+		else
+			out[used] = '?';
+		used += shown ? len : 1;
+		text += len ? len : 1;
+		left -= len ? len : 1;
+	}
+	out[used] = '\0';
+}
+
+bool diag_add(struct diag_list *list, struct diag place, const char *arg, ...)
+{
+	bool error = diag_severity(place.id) == SEVERITY_ERROR;
+	char text[LIMIT_ARG + 4]; /* room to end the last whole character    */
+	struct diag *added;
+	va_list args;
+
+	list->errors += error;
+	if (list->count == LIMIT_DIAGS) {
+		list->dropped++;
+		return !error;
+	}
+	va_start(args, arg);
+	if (vsnprintf(text, sizeof(text), arg, args) < 0)
+		text[0] = '\0';
+	va_end(args);
+	added = &list->diag[list->count++];
+	*added = place;
+	copy_clean(added->arg, text);
+	return !error;
+}
+
+const char *diag_code(enum diag_id id)
+{
+	return id < DIAG_COUNT ? rows[id].code : "LD000";
+}
+
+enum diag_severity diag_severity(enum diag_id id)
+{
+	return id < DIAG_COUNT ? rows[id].severity : SEVERITY_ERROR;
+}
+
+const char *diag_text(enum diag_id id)
+{
+	return id < DIAG_COUNT ? rows[id].text : "";
+}
+
+struct out {
+	char *text;
+	size_t size, len;
+};
+
+static void put(struct out *out, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+
+static void put(struct out *out, const char *format, ...)
+{
+	bool room = out->len < out->size;
+	va_list args;
+	int len;
+
+	va_start(args, format);
+	len = vsnprintf(room ? out->text + out->len : NULL,
+			room ? out->size - out->len : 0, format, args);
+	va_end(args);
+	if (len > 0)
+		out->len += (size_t)len;
+}
+
+int diag_print(const struct diag *diag, char *out, size_t size)
+{
+	struct out to = { out, size, 0 };
+	bool error = diag_severity(diag->id) == SEVERITY_ERROR;
+
+	if (size)
+		out[0] = '\0';
+	if (diag->file)
+		put(&to, "%s:", diag->file);
+	if (diag->file && diag->line > 0)
+		put(&to, "%d:", diag->line);
+	if (diag->file && diag->line > 0 && diag->column > 0)
+		put(&to, "%d:", diag->column);
+	if (diag->file)
+		put(&to, " ");
+	/* With a line, the POU is clear; an unsaved rung has none. */
+	if (diag->line <= 0 && diag->pou)
+		put(&to, "%s: ", diag->pou);
+	if (diag->rung > 0 && diag->row > 0)
+		put(&to, "rung %d (%d,%d): ", diag->rung, diag->row, diag->col);
+	else if (diag->rung > 0)
+		put(&to, "rung %d: ", diag->rung);
+	put(&to, "%s %s: %s", error ? "error" : "warning", diag_code(diag->id),
+	    diag_text(diag->id));
+	if (diag->arg[0])
+		put(&to, ": %s", diag->arg);
+	return (int)to.len;
+}

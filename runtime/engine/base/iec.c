@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * iec - the types, areas and direct addresses of IEC 61131-3, without printing.
+ *
+ * What the scan needs of them: this file uses no libc but memory functions, so
+ * that the smallest target links it. Text of values is in iec_print.c.
+ */
+#include "engine/base/iec.h"
+#include "engine/base/ascii.h"
+
+#include <string.h>
+
+/* Values lie in memory as the program image has them: little-endian. */
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+	       "a big-endian target needs iec_load and iec_store to swap");
+
+static const struct iec_type_row types[IEC_TYPE_COUNT] = {
+	[IEC_NONE] = { "", 0, 0, 0, 0 },
+#define TYPE(id, ctype, size, class, low, high) \
+	[IEC_##id] = { #id, size, class, low, high },
+#include "engine/catalog.def"
+};
+
+/* An area begins where the one before it ends. */
+enum area_start {
+#define AREA(id, letters, bytes, access, doc) \
+	START_##id, LAST_##id = START_##id + (bytes) - 1,
+#include "engine/catalog.def"
+	START_END
+};
+_Static_assert(START_END <= IEC_AREA_BYTES_MAX, "areas are too large");
+
+static const struct iec_area_row areas[AREA_COUNT] = {
+	[AREA_NONE] = { "", 0, ACCESS_READ, 0, "" },
+#define AREA(id, letters, bytes, access, doc) \
+	[AREA_##id] = { letters, bytes, access, START_##id, doc },
+#include "engine/catalog.def"
+};
+
+const struct iec_type_row *iec_type_row(enum iec_type type)
+{
+	return &types[type < IEC_TYPE_COUNT ? type : IEC_NONE];
+}
+
+enum iec_type iec_type_find(const char *word, size_t len)
+{
+	for (int i = IEC_NONE + 1; i < IEC_TYPE_COUNT; i++)
+		if (ascii_is(types[i].word, word, len))
+			return (enum iec_type)i;
+	return IEC_NONE;
+}
+
+bool iec_can_widen(enum iec_type from, enum iec_type to)
+{
+	const struct iec_type_row *a = iec_type_row(from);
+	const struct iec_type_row *b = iec_type_row(to);
+
+	if (from == to)
+		return true;
+	if (a->class == 0)
+		return false;
+	if (b->class == CLASS_REAL)
+		return (a->class & ANY_INT) && a->size <= 2;
+	if (a->size >= b->size)
+		return false;
+	if (a->class == CLASS_BITS || a->class == CLASS_SIGNED)
+		return b->class == a->class;
+	return a->class == CLASS_UNSIGNED && (b->class & ANY_INT);
+}
+
+const struct iec_area_row *iec_area_row(enum iec_area area)
+{
+	return &areas[area < AREA_COUNT ? area : AREA_NONE];
+}
+
+uint32_t iec_areas_size(void)
+{
+	return START_END;
+}
+
+/* What is left of an address text. */
+struct rest {
+	const char *at, *end;
+};
+
+/* The area whose letters are the longest that match. */
+static enum iec_area take_area(struct rest *rest)
+{
+	size_t left = (size_t)(rest->end - rest->at), best = 0;
+	enum iec_area found = AREA_NONE;
+
+	for (int i = AREA_NONE + 1; i < AREA_COUNT; i++) {
+		size_t len = ascii_prefix(areas[i].letters, rest->at, left);
+
+		if (len > best) {
+			best = len;
+			found = (enum iec_area)i;
+		}
+	}
+	rest->at += best;
+	return found;
+}
+
+/* Digits; a number beyond every area stays beyond it. False: none. */
+static bool take_number(struct rest *rest, uint32_t *out)
+{
+	const char *start = rest->at;
+	uint32_t number = 0;
+
+	for (; rest->at != rest->end && ascii_digit(*rest->at); rest->at++)
+		if (number < IEC_AREA_BYTES_MAX * 8)
+			number = number * 10 + (uint32_t)(*rest->at - '0');
+	*out = number;
+	return rest->at != start;
+}
+
+/* Bits of a size letter; 0: there is none. */
+static uint8_t take_size(struct rest *rest)
+{
+	static const char letters[] = "XBWDL";
+	static const uint8_t bits[] = { 1, 8, 16, 32, 64 };
+
+	if (rest->at == rest->end)
+		return 0;
+	for (size_t i = 0; i < sizeof(bits); i++)
+		if (ascii_upper(*rest->at) == letters[i]) {
+			rest->at++;
+			return bits[i];
+		}
+	return 0;
+}
+
+static enum iec_addr_result check_range(struct iec_addr addr, uint32_t bit)
+{
+	uint32_t size = areas[addr.area].bytes;
+	uint32_t need = addr.bits == 1 ? 1 : addr.bits / 8u;
+
+	if (bit > 7 || addr.bits > 32)
+		return ADDR_RANGE;
+	return addr.byte < size && need <= size - addr.byte ? ADDR_OK :
+							      ADDR_RANGE;
+}
+
+/* Analog areas (AI, AQ, XAI, XAQ) hold words. */
+static bool is_analog(enum iec_area area)
+{
+	for (const char *at = areas[area].letters; *at; at++)
+		if (*at == 'A')
+			return true;
+	return false;
+}
+
+/* AI3 is the fourth word, I3 is bit 3. */
+static void place_short(struct iec_addr *addr, uint32_t number, uint32_t *bit)
+{
+	if (is_analog(addr->area)) {
+		addr->bits = 16;
+		addr->byte = number * 2;
+	} else {
+		addr->bits = 1;
+		addr->byte = number / 8;
+		*bit = number % 8;
+	}
+}
+
+static enum iec_addr_result parse_marker_bit(struct rest rest,
+					     struct iec_addr *out)
+{
+	uint32_t number, bit = 0;
+
+	rest.at++;
+	if (!take_number(&rest, &number) || rest.at != rest.end)
+		return ADDR_NONE;
+	*out = (struct iec_addr){ .area = AREA_M };
+	place_short(out, number, &bit);
+	out->bit = (uint8_t)bit;
+	return check_range(*out, bit);
+}
+
+enum iec_addr_result iec_addr_parse(const char *text, size_t len,
+				    struct iec_addr *out)
+{
+	struct rest rest = { text, text + len };
+	bool percent = len > 1 && text[0] == '%';
+	struct iec_addr addr = { 0 };
+	uint32_t number, bit = 0;
+	bool dot = false;
+
+	rest.at += percent;
+	*out = addr;
+	if (len == 0)
+		return ADDR_NONE;
+	if (!percent && ascii_upper(*rest.at) == 'B')
+		return parse_marker_bit(rest, out);
+	addr.area = take_area(&rest);
+	addr.bits = take_size(&rest);
+	if (addr.area == AREA_NONE || (addr.bits == 64 && !percent) ||
+	    !take_number(&rest, &number))
+		return ADDR_NONE;
+	if (rest.at != rest.end && *rest.at == '.') {
+		rest.at++;
+		dot = true;
+		if (!take_number(&rest, &bit))
+			return ADDR_NONE;
+	}
+	if (rest.at != rest.end)
+		return ADDR_NONE;
+	addr.byte = number;
+	if (dot && addr.bits > 1)
+		return ADDR_RANGE;
+	if (dot)
+		addr.bits = 1;
+	else if (addr.bits == 1) {
+		addr.byte = number / 8;
+		bit = number % 8;
+	} else if (addr.bits == 0)
+		place_short(&addr, number, &bit);
+	addr.bit = (uint8_t)(bit & 7);
+	if (check_range(addr, bit) != ADDR_OK)
+		return ADDR_RANGE;
+	*out = addr;
+	return ADDR_OK;
+}
+
+enum iec_type iec_addr_type(struct iec_addr addr)
+{
+	if (addr.area == AREA_NONE)
+		return IEC_NONE;
+	switch (addr.bits) {
+	case 1:
+		return IEC_BOOL;
+	case 8:
+		return IEC_BYTE;
+	case 16:
+		return IEC_WORD;
+	case 32:
+		return IEC_DWORD;
+	default:
+		return IEC_NONE;
+	}
+}
+
+/* One case a row of catalog.def; `class` is a constant in each. */
+union iec_value iec_load(const void *memory, enum iec_type type)
+{
+	union iec_value value = { .i = 0 };
+
+	switch (type) {
+#define TYPE(id, ctype, size, class, low, high) \
+	case IEC_##id: { \
+		ctype raw; \
+		memcpy(&raw, memory, sizeof(raw)); \
+		if ((class) == CLASS_REAL) \
+			value.r = (double)raw; \
+		else \
+			value.i = (int64_t)raw; \
+		break; \
+	}
+#include "engine/catalog.def"
+	case IEC_NONE:
+	case IEC_TYPE_COUNT:
+		break;
+	}
+	return value;
+}
+
+void iec_store(void *memory, enum iec_type type, union iec_value value)
+{
+	switch (type) {
+#define TYPE(id, ctype, size, class, low, high) \
+	case IEC_##id: { \
+		ctype raw = (class) == CLASS_REAL ? (ctype)value.r : \
+			    (class) == CLASS_BOOL ? (ctype)(value.i & 1) : \
+						    (ctype)value.i; \
+		memcpy(memory, &raw, sizeof(raw)); \
+		break; \
+	}
+#include "engine/catalog.def"
+	case IEC_NONE:
+	case IEC_TYPE_COUNT:
+		break;
+	}
+}

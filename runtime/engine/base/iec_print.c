@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * iec_print - values and addresses as text (see iec.h).
+ *
+ * The same bytes on every machine: printf and strtof follow the user's language,
+ * so no decimal point of theirs is ever used. Not for the scan.
+ */
+#include "engine/base/iec.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int iec_addr_print(struct iec_addr addr, char *out, size_t size)
+{
+	const char *letters = iec_area_row(addr.area)->letters;
+	char width = addr.bits == 8 ? 'B' : addr.bits == 16 ? 'W' :
+		     addr.bits == 32 ? 'D' : 'L';
+
+	if (addr.area == AREA_NONE)
+		return snprintf(out, size, "%s", "");
+	if (addr.bits == 1)
+		return snprintf(out, size, "%%%sX%" PRIu32 ".%d", letters,
+				addr.byte, addr.bit);
+	return snprintf(out, size, "%%%s%c%" PRIu32, letters, width, addr.byte);
+}
+
+/* A number as its significant digits: 0.d1d2d3… x 10^(exponent + 1). */
+struct decimal {
+	char digit[12];
+	int count, exponent;
+};
+
+/* The digits of "%.Ne", whatever stands for its decimal point. */
+static void split(struct decimal *out, double value, int count)
+{
+	char text[40];
+	const char *at = text;
+
+	snprintf(text, sizeof(text), "%.*e", count - 1, fabs(value));
+	out->count = 0;
+	for (; *at && *at != 'e'; at++)
+		if (*at >= '0' && *at <= '9' && out->count < count)
+			out->digit[out->count++] = *at;
+	out->exponent = *at ? (int)strtol(at + 1, NULL, 10) : 0;
+}
+
+static bool reads_back(const struct decimal *decimal, float value)
+{
+	char text[40];
+
+	snprintf(text, sizeof(text), "%.*se%d", decimal->count, decimal->digit,
+		 decimal->exponent - (decimal->count - 1));
+	return strtof(text, NULL) == value;
+}
+
+/* As "%.Ng" does it: fixed for exponents from -4 up to the digits, else with e. */
+static int print_decimal(const struct decimal *decimal, const char *sign,
+			 int precision, char *out, size_t size)
+{
+	const char *digit = decimal->digit;
+	int count = decimal->count, exponent = decimal->exponent;
+	int whole = exponent + 1;
+
+	while (count > 1 && digit[count - 1] == '0')
+		count--;
+	if (exponent < -4 || exponent >= precision)
+		return snprintf(out, size, "%s%c%s%.*se%c%02d", sign, digit[0],
+				count > 1 ? "." : "", count - 1, digit + 1,
+				exponent < 0 ? '-' : '+', abs(exponent));
+	if (whole <= 0)
+		return snprintf(out, size, "%s0.%.*s%.*s", sign, -whole,
+				"0000", count, digit);
+	if (whole >= count)
+		return snprintf(out, size, "%s%.*s%.*s", sign, count, digit,
+				whole - count, "000000000");
+	return snprintf(out, size, "%s%.*s.%.*s", sign, whole, digit,
+			count - whole, digit + whole);
+}
+
+static int print_real(float value, char *out, size_t size)
+{
+	const char *sign = signbit(value) ? "-" : "";
+	struct decimal decimal = { .count = 0 };
+	int precision = 6;
+
+	if (isnan(value))
+		return snprintf(out, size, "nan");
+	if (isinf(value))
+		return snprintf(out, size, "%sinf", sign);
+	if (value == 0)
+		return snprintf(out, size, "%s0", sign);
+	for (; precision <= 9; precision++) {
+		split(&decimal, (double)value, precision);
+		if (reads_back(&decimal, fabsf(value)))
+			break;
+	}
+	return print_decimal(&decimal, sign, precision < 9 ? precision : 9, out,
+			     size);
+}
+
+static int print_time(int64_t ns, char *out, size_t size)
+{
+	uint64_t size_ns = ns < 0 ? 0 - (uint64_t)ns : (uint64_t)ns;
+	const char *sign = ns < 0 ? "-" : "";
+	uint64_t ms = size_ns / 1000000, below = size_ns % 1000000;
+	int decimals = 6;
+
+	if (below == 0)
+		return snprintf(out, size, "%s%" PRIu64, sign, ms);
+	for (; below % 10 == 0; below /= 10)
+		decimals--;
+	return snprintf(out, size, "%s%" PRIu64 ".%0*" PRIu64, sign, ms,
+			decimals, below);
+}
+
+int iec_value_print(enum iec_type type, union iec_value value, char *out,
+		    size_t size)
+{
+	switch ((enum iec_class)iec_type_row(type)->class) {
+	case CLASS_REAL:
+		return print_real((float)value.r, out, size);
+	case CLASS_TIME:
+		return print_time(value.i, out, size);
+	case CLASS_BOOL:
+	case CLASS_BITS:
+	case CLASS_SIGNED:
+	case CLASS_UNSIGNED:
+		return snprintf(out, size, "%" PRId64, value.i);
+	}
+	return snprintf(out, size, "%s", "");
+}
