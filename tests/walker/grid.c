@@ -136,7 +136,8 @@ static bool make_box(struct walker *walker, const struct pou *pou,
 	enum iec_type type[LIMIT_FN_INPUTS] = { IEC_NONE };
 
 	walker->why = "a box";
-	at->parameter = arena_alloc(&walker->arena, (LIMIT_ARGS + LIMIT_ROWS) *
+	at->parameter = arena_alloc(&walker->arena, (size_t)(LIMIT_ARGS +
+				    walked->rung->rows) *
 				    sizeof(*at->parameter));
 	if (!at->parameter || !fed_pins(walker, walked, at) ||
 	    !written_pins(walker, pou, at,

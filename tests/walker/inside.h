@@ -27,7 +27,6 @@ struct variable {
 	const struct var *var;
 	struct value value;         /* when it has neither AT nor pins       */
 	struct block *block;
-	bool constant;
 };
 
 /* Where an operand is read and written. */
@@ -41,11 +40,19 @@ struct placed {
 	struct literal literal;
 };
 
+/* A value that others may look at, and the name they know it by. */
+struct shown {
+	char name[128];
+	struct placed placed;
+};
+
 struct walker {
 	struct project *project;
 	struct arena arena;
 	struct variable *variable;
 	int variable_count;
+	struct shown *shown;
+	int shown_count;
 	uint8_t *area[AREA_COUNT];
 	int64_t now_ns;
 	uint64_t scans;

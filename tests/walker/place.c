@@ -7,6 +7,7 @@
  */
 #include "tests/walker/inside.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -56,7 +57,6 @@ static bool declare_table(struct walker *walker, const struct pou *pou,
 
 		at->pou = pou;
 		at->var = var;
-		at->constant = vars_flags(table, i) & VAR_CONSTANT;
 		at->value = initial(var);
 		if (var->type == IEC_NONE) {
 			at->block = new_block(walker, var->fb);
@@ -66,6 +66,57 @@ static bool declare_table(struct walker *walker, const struct pou *pou,
 			there = at_address(walker, var->at, var->type);
 			placed_write(&there, at->value);
 		}
+	}
+	return true;
+}
+
+static struct placed of_variable(struct walker *walker,
+				 struct variable *variable)
+{
+	const struct var *var = variable->var;
+
+	if (variable->block)
+		return (struct placed){ .kind = PLACED_NOWHERE };
+	if (var->at.area != AREA_NONE)
+		return at_address(walker, var->at, var->type);
+	return (struct placed){ .kind = PLACED_VALUE, .type = var->type,
+				.value = &variable->value };
+}
+
+static void show(struct walker *walker, struct variable *variable,
+		 const struct word_pin *pin, struct value *value)
+{
+	struct shown *out = &walker->shown[walker->shown_count++];
+	const char *pou = variable->pou ? project_text(walker->project,
+					variable->pou->name) : "";
+
+	snprintf(out->name, sizeof(out->name), "%s%s%s%s%s", pou,
+		 *pou ? "." : "",
+		 project_text(walker->project, variable->var->name),
+		 pin ? "." : "", pin ? pin->name : "");
+	out->placed = pin ? (struct placed){ .kind = PLACED_VALUE,
+					     .type = pin->type, .value = value } :
+			    of_variable(walker, variable);
+}
+
+static bool show_all(struct walker *walker)
+{
+	walker->shown = arena_alloc(&walker->arena,
+				    (size_t)walker->variable_count * PINS_MAX *
+				    sizeof(*walker->shown) + 1);
+	if (!walker->shown)
+		return false;
+	for (int i = 0; i < walker->variable_count; i++) {
+		struct variable *at = &walker->variable[i];
+		const struct word_row *row =
+			at->block ? word_row(at->block->fb) : NULL;
+
+		if (!row)
+			show(walker, at, NULL, NULL);
+		for (int p = 0; row && p < row->pin_count; p++)
+			if (row->pin[p].dir != PIN_VAR)
+				show(walker, at, &row->pin[p],
+				     &at->block->pin[p]);
 	}
 	return true;
 }
@@ -93,7 +144,7 @@ bool walker_declare(struct walker *walker)
 		if (!declare_table(walker, &project->pou[i],
 				   &project->pou[i].vars))
 			return false;
-	return true;
+	return show_all(walker);
 }
 
 static struct variable *find_in(struct walker *walker, const struct pou *pou,
@@ -116,19 +167,6 @@ static struct variable *find(struct walker *walker, const struct pou *pou,
 	struct variable *local = pou ? find_in(walker, pou, text, len) : NULL;
 
 	return local ? local : find_in(walker, NULL, text, len);
-}
-
-static struct placed of_variable(struct walker *walker,
-				 struct variable *variable)
-{
-	const struct var *var = variable->var;
-
-	if (variable->block)
-		return (struct placed){ .kind = PLACED_NOWHERE };
-	if (var->at.area != AREA_NONE)
-		return at_address(walker, var->at, var->type);
-	return (struct placed){ .kind = PLACED_VALUE, .type = var->type,
-				.value = &variable->value };
 }
 
 static struct placed of_pin(struct walker *walker, const struct pou *pou,

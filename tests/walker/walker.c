@@ -5,7 +5,6 @@
  */
 #include "tests/walker/grid.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -310,49 +309,19 @@ bool walker_scan(struct walker *walker, int64_t now_ns)
 	return true;
 }
 
-/* Number @index among the variable's values; false past its last. */
-static bool value_of(struct walker *walker, const struct variable *variable,
-		     int pin, char *name, size_t size, struct value *out)
+int walker_count(const struct walker *walker)
 {
-	const struct project *project = walker->project;
-	const char *pou = variable->pou ?
-		project_text(project, variable->pou->name) : "";
-	const char *own = project_text(project, variable->var->name);
-	const struct word_row *row;
-	struct placed placed;
-
-	snprintf(name, size, "%s%s%s", pou, *pou ? "." : "", own);
-	if (!variable->block) {
-		placed = walker_place(walker, variable->pou, own, strlen(own));
-		*out = placed_read(&placed, IEC_NONE);
-		return pin == 0;
-	}
-	row = word_row(variable->block->fb);
-	if (pin >= row->pin_count)
-		return false;
-	snprintf(name, size, "%s%s%s.%s", pou, *pou ? "." : "", own,
-		 row->pin[pin].name);
-	*out = variable->block->pin[pin];
-	return true;
+	return walker->shown_count;
 }
 
-bool walker_var(struct walker *walker, int index, struct walker_var *out)
+const char *walker_name(const struct walker *walker, int index)
 {
-	for (int i = 0; i < walker->variable_count; i++) {
-		const struct variable *at = &walker->variable[i];
-		int count = !at->block ? 1 :
-			    word_row(at->block->fb)->pin_count;
+	return walker->shown[index].name;
+}
 
-		if (index >= count) {
-			index -= count;
-			continue;
-		}
-		out->constant = at->constant || (at->block &&
-			word_row(at->block->fb)->pin[index].dir == PIN_VAR);
-		return value_of(walker, at, index, out->name,
-				sizeof(out->name), &out->value);
-	}
-	return false;
+struct value walker_value(const struct walker *walker, int index)
+{
+	return placed_read(&walker->shown[index].placed, IEC_NONE);
 }
 
 static enum walker_power element_power(const struct walked_rung *walked,

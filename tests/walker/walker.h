@@ -41,14 +41,11 @@ uint8_t *walker_area(struct walker *walker, enum iec_area area);
 /** walker_errors - operations that failed so far. */
 uint32_t walker_errors(const struct walker *walker);
 
-/* One declared variable, or one pin of an instance. */
-struct walker_var {
-	char name[128];      /* "Motor", "Main.Motor", "Runout.Q"            */
-	struct value value;
-	bool constant;
-};
-/** walker_var - number @index in order of declaration; false past the last. */
-bool walker_var(struct walker *walker, int index, struct walker_var *out);
+/* Declared variables, each pin of an instance as one of its own, in order of
+ * declaration: "Motor", "Main.Motor", "Runout.Q". */
+int walker_count(const struct walker *walker);
+const char *walker_name(const struct walker *walker, int index);
+struct value walker_value(const struct walker *walker, int index);
 
 enum walker_power { POWER_UNKNOWN, POWER_IN_ONLY, POWER_BOTH };
 /**

@@ -1,0 +1,469 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * random - networks of random shape, column by column.
+ *
+ * Power is led from bar to bar: each live row gets an element, a wire, or ends
+ * where another row carries its net on; links join what stands one above the
+ * other. That gives series, parallels, splits and bridges alike. What breaks a
+ * rule of topology is thrown away.
+ */
+#include "tests/walker/random.h"
+
+#include <stdio.h>
+#include <string.h>
+
+void random_seed(struct random_source *source, uint64_t seed)
+{
+	source->state = seed * 0x9e3779b97f4a7c15u + 0x2545f4914f6cdd1du;
+	if (!source->state)
+		source->state = 1;
+	for (int i = 0; i < 8; i++)
+		random_next(source);
+}
+
+uint32_t random_next(struct random_source *source)
+{
+	source->state ^= source->state >> 12;
+	source->state ^= source->state << 25;
+	source->state ^= source->state >> 27;
+	return (uint32_t)(source->state * 0x2545f4914f6cdd1du >> 32);
+}
+
+uint32_t random_below(struct random_source *source, uint32_t n)
+{
+	return (uint32_t)((uint64_t)random_next(source) * n >> 32);
+}
+
+bool random_chance(struct random_source *source, uint32_t percent)
+{
+	return random_below(source, 100) < percent;
+}
+
+#define BARS (RANDOM_ROWS * (RANDOM_COLS + 1))
+struct sketch {
+	const struct random_rung *rung;
+	int net[BARS];
+	bool fed[BARS], read[BARS]; /* by net                                 */
+};
+
+static int bar_at(const struct sketch *sketch, int row, int bar)
+{
+	return row * (sketch->rung->cols + 1) + bar;
+}
+
+static int root_of(const struct sketch *sketch, int bar)
+{
+	while (sketch->net[bar] != bar)
+		bar = sketch->net[bar];
+	return bar;
+}
+
+static int net_at(const struct sketch *sketch, int row, int bar)
+{
+	return root_of(sketch, bar_at(sketch, row, bar));
+}
+
+static void join(struct sketch *sketch, int a, int b)
+{
+	a = root_of(sketch, a);
+	b = root_of(sketch, b);
+	sketch->net[a > b ? a : b] = a < b ? a : b;
+}
+
+static bool has_left(const struct random_cell *cell)
+{
+	return cell->kind != RANDOM_EMPTY && cell->kind != RANDOM_BLANK;
+}
+
+static bool is_through(const struct random_cell *cell)
+{
+	return cell->kind == RANDOM_SERIES || cell->kind == RANDOM_BOX;
+}
+
+static bool is_below(const struct random_cell *cell)
+{
+	return cell->kind == RANDOM_PIN || cell->kind == RANDOM_BLANK;
+}
+
+/* Is anything but a link at this bar? */
+static bool bar_is_used(const struct random_rung *rung, int row, int bar)
+{
+	bool left = bar > 0 && (rung->cell[row][bar - 1].kind == RANDOM_WIRE ||
+				is_through(&rung->cell[row][bar - 1]));
+
+	return left || (bar < rung->cols && has_left(&rung->cell[row][bar]));
+}
+
+static bool links_are_sound(const struct random_rung *rung)
+{
+	for (int row = 0; row < rung->rows; row++) {
+		for (int col = 0; col < rung->cols; col++) {
+			const struct random_cell *cell = &rung->cell[row][col];
+			bool more = row + 1 < rung->rows &&
+				    rung->cell[row + 1][col].link;
+			bool up = row > 0 && rung->cell[row - 1][col].link;
+
+			if (!cell->link)
+				continue;
+			if (row == 0 || is_below(cell) ||
+			    cell->kind == RANDOM_LAST ||
+			    is_below(&rung->cell[row - 1][col]) ||
+			    rung->cell[row - 1][col].kind == RANDOM_LAST)
+				return false;
+			if (!more && !bar_is_used(rung, row, col + 1))
+				return false;
+			if (!up && !bar_is_used(rung, row - 1, col + 1))
+				return false;
+		}
+	}
+	return true;
+}
+
+static void find_nets(struct sketch *sketch)
+{
+	const struct random_rung *rung = sketch->rung;
+
+	for (int i = 0; i < BARS; i++)
+		sketch->net[i] = i;
+	for (int row = 0; row < rung->rows; row++) {
+		join(sketch, bar_at(sketch, row, 0), 0);
+		for (int col = 0; col < rung->cols; col++) {
+			const struct random_cell *cell = &rung->cell[row][col];
+			int right = bar_at(sketch, row, col + 1);
+
+			if (cell->kind == RANDOM_WIRE)
+				join(sketch, right - 1, right);
+			if (cell->link && row > 0)
+				join(sketch, right,
+				     bar_at(sketch, row - 1, col + 1));
+		}
+	}
+}
+
+/* Nets that power can reach, round by round: what feeds a net must be fed
+ * before. A cycle never gets its turn. */
+static bool everything_is_fed(struct sketch *sketch)
+{
+	const struct random_rung *rung = sketch->rung;
+	bool passed[RANDOM_ROWS][RANDOM_COLS] = { { false } };
+	int waiting[BARS] = { 0 };
+	bool moved = true, all = true;
+
+	for (int row = 0; row < rung->rows; row++)
+		for (int col = 0; col < rung->cols; col++)
+			if (is_through(&rung->cell[row][col]))
+				waiting[net_at(sketch, row, col + 1)]++;
+	sketch->fed[0] = true;
+	if (waiting[0])
+		return false;
+	while (moved) {
+		moved = false;
+		for (int i = 0; i < rung->rows * rung->cols; i++) {
+			int row = i / rung->cols, col = i % rung->cols, out;
+			bool ready = true;
+
+			if (!is_through(&rung->cell[row][col]) ||
+			    passed[row][col])
+				continue;
+			for (int r = row; r < rung->rows && (r == row ||
+			     is_below(&rung->cell[r][col])); r++)
+				if (has_left(&rung->cell[r][col])) {
+					int in = net_at(sketch, r, col);
+
+					ready &= sketch->fed[in] && !waiting[in];
+				}
+			if (!ready)
+				continue;
+			passed[row][col] = moved = true;
+			out = net_at(sketch, row, col + 1);
+			waiting[out]--;
+			sketch->fed[out] = true;
+		}
+	}
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		int row = i / rung->cols, col = i % rung->cols;
+
+		if (has_left(&rung->cell[row][col]))
+			all &= sketch->fed[net_at(sketch, row, col)] &&
+			       !waiting[net_at(sketch, row, col)];
+	}
+	return all;
+}
+
+bool random_sound(const struct random_rung *rung)
+{
+	struct sketch sketch = { .rung = rung };
+	int outputs = 0;
+
+	if (!links_are_sound(rung))
+		return false;
+	find_nets(&sketch);
+	if (!everything_is_fed(&sketch))
+		return false;
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		int row = i / rung->cols, col = i % rung->cols;
+		const struct random_cell *cell = &rung->cell[row][col];
+
+		if (has_left(cell) && cell->kind != RANDOM_WIRE)
+			sketch.read[net_at(&sketch, row, col)] = true;
+	}
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		int row = i / rung->cols, col = i % rung->cols;
+		const struct random_cell *cell = &rung->cell[row][col];
+		bool read = sketch.read[net_at(&sketch, row, col + 1)];
+
+		outputs += cell->kind == RANDOM_LAST ||
+			   (cell->kind == RANDOM_BOX && !read);
+		if (!read && (cell->link || cell->kind == RANDOM_WIRE ||
+			      cell->kind == RANDOM_SERIES))
+			return false;
+	}
+	return outputs > 0;
+}
+
+struct drawing {
+	struct random_source *source;
+	struct random_rung *rung;
+	bool live[RANDOM_ROWS];  /* power may come at the bar left of `col`    */
+	int col, later;
+};
+
+/* A box at this row; false when its pins find no room. */
+static bool draw_box(struct drawing *drawing, int row)
+{
+	struct random_cell *cell = &drawing->rung->cell[row][drawing->col];
+	const char *pin[3];
+	int fed, blank = random_chance(drawing->source, 10);
+
+	fed = random_box(drawing->source, cell->text, sizeof(cell->text), pin);
+	if (cell->text[0] == '[' || fed == 0)
+		blank = 0;
+	if (row + fed + blank >= drawing->rung->rows)
+		return false;
+	for (int i = 0; i < fed; i++)
+		if (!drawing->live[row + 1 + i])
+			return false;
+	cell->kind = RANDOM_BOX;
+	for (int i = 1; i <= fed + blank; i++) {
+		struct random_cell *below =
+			&drawing->rung->cell[row + i][drawing->col];
+
+		below->kind = i <= fed ? RANDOM_PIN : RANDOM_BLANK;
+		snprintf(below->text, sizeof(below->text), ".%s",
+			 i <= fed ? pin[i - 1] : "");
+	}
+	return true;
+}
+
+static void draw_cell(struct drawing *drawing, int row)
+{
+	struct random_cell *cell = &drawing->rung->cell[row][drawing->col];
+	struct random_source *source = drawing->source;
+	bool last = drawing->col == drawing->rung->cols - 1;
+
+	if (cell->kind != RANDOM_EMPTY || !drawing->live[row])
+		return;
+	if (random_chance(source, last ? 12 : 18) && draw_box(drawing, row))
+		return;
+	memset(cell->text, 0, sizeof(cell->text));
+	if (last ? random_chance(source, 75) : random_chance(source, 5)) {
+		cell->kind = RANDOM_LAST;
+		random_last(source, drawing->later, cell->text,
+			    sizeof(cell->text));
+	} else if (!last && random_chance(source, 55)) {
+		cell->kind = RANDOM_SERIES;
+		random_series(source, cell->text, sizeof(cell->text));
+	} else if (!last && random_chance(source, 60)) {
+		cell->kind = RANDOM_WIRE;
+	}
+}
+
+static void draw_column(struct drawing *drawing)
+{
+	struct random_rung *rung = drawing->rung;
+	int col = drawing->col;
+
+	for (int row = 0; row < rung->rows; row++)
+		draw_cell(drawing, row);
+	for (int row = 0; row < rung->rows; row++) {
+		const struct random_cell *cell = &rung->cell[row][col];
+
+		drawing->live[row] = is_through(cell) ||
+				     cell->kind == RANDOM_WIRE;
+	}
+	for (int row = 1; row < rung->rows && col + 1 < rung->cols; row++) {
+		struct random_cell *cell = &rung->cell[row][col];
+		const struct random_cell *above = &rung->cell[row - 1][col];
+
+		if (is_below(cell) || is_below(above) ||
+		    cell->kind == RANDOM_LAST || above->kind == RANDOM_LAST)
+			continue;
+		cell->link = (drawing->live[row] || drawing->live[row - 1]) &&
+			     random_chance(drawing->source, 35);
+		if (cell->link)
+			drawing->live[row] = drawing->live[row - 1] = true;
+	}
+}
+
+static void draw_rung(struct random_source *source, struct random_rung *rung,
+		      int later)
+{
+	struct drawing drawing = { .source = source, .rung = rung,
+				   .later = later };
+	int pou = rung->pou, label = rung->label, tries = 0;
+	int rows = 1, cols = 2;
+
+	do {
+		/* A large shape is hard to meet: insist for a while. */
+		if (tries++ % 100 == 0) {
+			rows = 1 + (int)random_below(source, RANDOM_ROWS);
+			cols = 2 + (int)random_below(source, RANDOM_COLS - 1);
+		}
+		memset(rung, 0, sizeof(*rung));
+		rung->pou = pou;
+		rung->label = label;
+		rung->rows = rows;
+		rung->cols = cols;
+		for (int row = 0; row < rung->rows; row++)
+			drawing.live[row] = row == 0 ||
+					    random_chance(source, 70);
+		for (int col = 0; col < rung->cols; col++) {
+			drawing.col = col;
+			draw_column(&drawing);
+		}
+	} while (!random_sound(rung));
+}
+
+static void set_cell(struct random_rung *rung, int col, enum random_kind kind,
+		     const char *text)
+{
+	rung->rows = 1;
+	rung->cols = col + 1;
+	rung->cell[0][col].kind = kind;
+	snprintf(rung->cell[0][col].text, RANDOM_TEXT, "%s", text);
+}
+
+/* Three rungs around some others: a loop that counts, bounded by its counter. */
+static void make_loop(struct random_program *program)
+{
+	struct random_rung *first = &program->rung[0];
+	struct random_rung *back = &program->rung[program->rungs - 2];
+	struct random_rung *clear = &program->rung[program->rungs - 1];
+
+	memset(first->cell, 0, sizeof(first->cell));
+	memset(back->cell, 0, sizeof(back->cell));
+	memset(clear->cell, 0, sizeof(clear->cell));
+	set_cell(first, 0, RANDOM_BOX, "[ loop_a := loop_a + 1 ]");
+	set_cell(back, 0, RANDOM_SERIES, "[ loop_a < 3 ]");
+	set_cell(back, 1, RANDOM_LAST, "JMP L1");
+	set_cell(clear, 0, RANDOM_BOX, "[ loop_a := 0 ]");
+	first->label = 1;
+}
+
+void random_make(struct random_program *program, uint64_t seed)
+{
+	struct random_source source;
+	int second;
+
+	random_seed(&source, seed);
+	memset(program, 0, sizeof(*program));
+	program->rungs = 1 + (int)random_below(&source, 8);
+	second = random_chance(&source, 15) ? program->rungs / 2 + 1 :
+					      program->rungs;
+	for (int i = 0; i < program->rungs; i++) {
+		struct random_rung *rung = &program->rung[i];
+		int end = i < second ? second : program->rungs;
+		int later = i + 1 < end ?
+			i + 2 + (int)random_below(&source, (uint32_t)(end - i - 1)) :
+			0;
+
+		rung->pou = i >= second;
+		draw_rung(&source, rung, random_chance(&source, 60) ? later : 0);
+	}
+	for (int i = 0; i < program->rungs; i++)
+		program->rung[i].label = i + 1;
+	if (program->rungs >= 4 && second == program->rungs &&
+	    random_chance(&source, 15))
+		make_loop(program);
+}
+
+struct page {
+	char *out;
+	size_t size, used;
+};
+
+static void add(struct page *page, const char *text)
+{
+	size_t len = strlen(text);
+
+	if (page->used + len + 1 > page->size)
+		len = page->size - page->used - 1;
+	memcpy(page->out + page->used, text, len);
+	page->used += len;
+	page->out[page->used] = '\0';
+}
+
+static bool is_aimed_at(const struct random_program *program, int label)
+{
+	char text[24];
+
+	snprintf(text, sizeof(text), "JMP L%d", label);
+	for (int i = 0; i < program->rungs; i++)
+		for (int row = 0; row < RANDOM_ROWS; row++)
+			for (int col = 0; col < RANDOM_COLS; col++)
+				if (strcmp(program->rung[i].cell[row][col].text,
+					   text) == 0)
+					return true;
+	return false;
+}
+
+static void print_rung(const struct random_program *program,
+		       const struct random_rung *rung, struct page *page)
+{
+	char text[24];
+
+	add(page, "RUNG");
+	if (rung->label && is_aimed_at(program, rung->label)) {
+		snprintf(text, sizeof(text), " L%d", rung->label);
+		add(page, text);
+	}
+	add(page, "\n");
+	for (int row = 0; row < rung->rows; row++) {
+		add(page, "  |");
+		for (int col = 0; col < rung->cols; col++) {
+			const struct random_cell *cell = &rung->cell[row][col];
+
+			add(page, " ");
+			add(page, cell->kind == RANDOM_WIRE ? "---" :
+				  cell->text);
+			add(page, cell->link ? " ^|" : " |");
+		}
+		add(page, "\n");
+	}
+}
+
+size_t random_print(const struct random_program *program, char *out,
+		    size_t size)
+{
+	static const char *const head[] = { "PROGRAM Main LD\n",
+					    "END_PROGRAM\nPROGRAM Other LD\n"
+					    "VAR\n  bool_b : BOOL;\n"
+					    "  int_b : INT;\nEND_VAR\n" };
+	char body[48 * 1024];
+	struct page page = { body, sizeof(body), 0 };
+	struct page whole = { out, size, 0 };
+	int pou = 0;
+
+	add(&page, head[0]);
+	for (int i = 0; i < program->rungs; i++) {
+		if (program->rung[i].pou != pou)
+			add(&page, head[1]);
+		pou = program->rung[i].pou;
+		print_rung(program, &program->rung[i], &page);
+	}
+	add(&page, "END_PROGRAM\n");
+	add(&whole, "RUNGBOARD 1\n");
+	whole.used += random_declare(body, out + whole.used, size - whole.used);
+	add(&whole, body);
+	return whole.used;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * random - valid ladder programs by the thousand, from a seed.
+ *
+ * A program is kept as a grid of cell texts, so that a failing one can be cut
+ * down cell by cell. It makes programs; it does not run or judge them beyond
+ * the rules of topology.
+ */
+#ifndef WALKER_RANDOM_H
+#define WALKER_RANDOM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define RANDOM_ROWS  6
+#define RANDOM_COLS  8
+#define RANDOM_TEXT  112
+#define RANDOM_RUNGS 12
+
+enum random_kind {
+	RANDOM_EMPTY, RANDOM_WIRE, RANDOM_SERIES, RANDOM_BOX, RANDOM_LAST,
+	RANDOM_PIN,   /* a further row of the box above, fed by a branch      */
+	RANDOM_BLANK, /* one without a pin                                    */
+};
+
+struct random_cell {
+	enum random_kind kind;
+	bool link;
+	char text[RANDOM_TEXT];
+};
+
+struct random_rung {
+	int pou;
+	int label;     /* 1-based number of its label; 0: none               */
+	int rows, cols;
+	struct random_cell cell[RANDOM_ROWS][RANDOM_COLS];
+};
+
+struct random_program {
+	int rungs;
+	struct random_rung rung[RANDOM_RUNGS];
+};
+
+/* xorshift64*: the same numbers on every machine. */
+struct random_source {
+	uint64_t state;
+};
+void random_seed(struct random_source *source, uint64_t seed);
+uint32_t random_next(struct random_source *source);
+/** random_below - 0 … @n - 1. */
+uint32_t random_below(struct random_source *source, uint32_t n);
+bool random_chance(struct random_source *source, uint32_t percent);
+
+/** random_make - a program; the same for the same seed. */
+void random_make(struct random_program *program, uint64_t seed);
+/** random_print - its text with just the declarations it uses; length. */
+size_t random_print(const struct random_program *program, char *out,
+		    size_t size);
+/** random_sound - does the rung keep the rules of topology? */
+bool random_sound(const struct random_rung *rung);
+
+/* words.c: the text of one cell. @later: label a jump may go to; 0: none. */
+void random_series(struct random_source *source, char *out, size_t size);
+void random_last(struct random_source *source, int later, char *out,
+		 size_t size);
+/** random_box - gives the pins it wants fed, from the top down. */
+int random_box(struct random_source *source, char *out, size_t size,
+	       const char *pin[3]);
+/** random_declare - declarations of the variables that stand in @body. */
+size_t random_declare(const char *body, char *out, size_t size);
+#endif

@@ -1,0 +1,439 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * words - random contents of cells: contacts, coils, boxes, expressions.
+ *
+ * A pool of variables of every type, with initial values near the limits; the
+ * declarations of those that a program uses are printed in front of it.
+ */
+#include "tests/walker/random.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+struct pool_row {
+	const char *name, *type, *rest; /* rest: AT … or := …                 */
+	bool input;                     /* may not be written                 */
+	bool direct;                    /* an address: not declared           */
+};
+
+static const struct pool_row pool[] = {
+	{ "bool_a", "BOOL", "", 0, 0 }, { "bool_b", "BOOL", "", 0, 0 },
+	{ "bool_c", "BOOL", ":= TRUE", 0, 0 }, { "bool_d", "BOOL", "", 0, 0 },
+	{ "in_a", "BOOL", "AT %IX0.0", 1, 0 },
+	{ "in_b", "BOOL", "AT %IX0.1", 1, 0 },
+	{ "in_c", "BOOL", "AT %IX1.7", 1, 0 },
+	{ "out_a", "BOOL", "AT %QX0.0", 0, 0 },
+	{ "out_b", "BOOL", "AT %QX1.3", 0, 0 },
+	{ "mark_a", "BOOL", "AT %MX0.1", 0, 0 },
+	{ "mark_b", "BOOL", "AT %MX1.7", 0, 0 },
+	{ "mark_c", "BOOL", "AT %MX20.0", 0, 0 },
+	{ "%IX0.0", "BOOL", "", 1, 1 }, { "%IX0.5", "BOOL", "", 1, 1 },
+	{ "%IX2.3", "BOOL", "", 1, 1 }, { "%QX0.0", "BOOL", "", 0, 1 },
+	{ "%QX0.7", "BOOL", "", 0, 1 }, { "%MX0.1", "BOOL", "", 0, 1 },
+	{ "%MX3.2", "BOOL", "", 0, 1 }, { "%MX20.1", "BOOL", "", 0, 1 },
+	{ "SYS_FIRST_SCAN", "BOOL", "", 1, 1 },
+	{ "SYS_ALWAYS_ON", "BOOL", "", 1, 1 },
+	{ "SYS_MATH_ERROR", "BOOL", "", 1, 1 },
+	{ "ton_a.Q", "BOOL", "", 1, 0 }, { "tof_a.Q", "BOOL", "", 1, 0 },
+	{ "ctu_a.Q", "BOOL", "", 1, 0 }, { "sr_a.Q1", "BOOL", "", 1, 0 },
+	{ "sint_a", "SINT", ":= 126", 0, 0 }, { "sint_b", "SINT", ":= -128", 0, 0 },
+	{ "int_a", "INT", ":= 32766", 0, 0 }, { "int_b", "INT", ":= 3", 0, 0 },
+	{ "int_m", "INT", "AT %MW0", 0, 0 }, { "int_i", "INT", "AT %IW2", 1, 0 },
+	{ "ctu_a.CV", "INT", "", 1, 0 },
+	{ "dint_a", "DINT", ":= 2147483640", 0, 0 },
+	{ "dint_b", "DINT", ":= -1", 0, 0 },
+	{ "dint_m", "DINT", "AT %MD0", 0, 0 },
+	{ "usint_a", "USINT", ":= 250", 0, 0 }, { "usint_b", "USINT", "", 0, 0 },
+	{ "usint_m", "USINT", "AT %MB0", 0, 0 },
+	{ "usint_i", "USINT", "AT %IB1", 1, 0 },
+	{ "uint_a", "UINT", ":= 65533", 0, 0 }, { "uint_b", "UINT", ":= 2", 0, 0 },
+	{ "udint_a", "UDINT", ":= 4294967290", 0, 0 },
+	{ "udint_b", "UDINT", "", 0, 0 },
+	{ "byte_a", "BYTE", ":= 16#A5", 0, 0 }, { "%MB1", "BYTE", "", 0, 1 },
+	{ "%IB0", "BYTE", "", 1, 1 },
+	{ "word_a", "WORD", "", 0, 0 }, { "word_m", "WORD", "AT %MW1", 0, 0 },
+	{ "%QW0", "WORD", "", 0, 1 },
+	{ "dword_a", "DWORD", "", 0, 0 }, { "%MD4", "DWORD", "", 0, 1 },
+	{ "real_a", "REAL", ":= 1.5", 0, 0 },
+	{ "real_b", "REAL", ":= 3.0E38", 0, 0 },
+	{ "time_a", "TIME", ":= T#20ms", 0, 0 }, { "time_b", "TIME", "", 0, 0 },
+	{ "ton_a.ET", "TIME", "", 1, 0 },
+};
+#define POOL (sizeof(pool) / sizeof(*pool))
+
+static const char *const instance[][2] = {
+	{ "ton_a", "TON" }, { "ton_b", "TON" }, { "tof_a", "TOF" },
+	{ "tof_b", "TOF" }, { "tp_a", "TP" }, { "tp_b", "TP" },
+	{ "ctu_a", "CTU" }, { "ctu_b", "CTU" }, { "ctd_a", "CTD" },
+	{ "ctud_a", "CTUD" }, { "sr_a", "SR" }, { "sr_b", "SR" },
+	{ "rs_a", "RS" }, { "rt_a", "R_TRIG" }, { "ft_a", "F_TRIG" },
+	{ "ft_b", "F_TRIG" },
+};
+#define INSTANCES (sizeof(instance) / sizeof(*instance))
+
+/* What an operation of type `type` may also take: it is widened. */
+static const char *const narrower[][2] = {
+	{ "INT", "SINT" }, { "INT", "USINT" }, { "DINT", "INT" },
+	{ "DINT", "UINT" }, { "DINT", "SINT" }, { "UINT", "USINT" },
+	{ "UDINT", "UINT" }, { "REAL", "INT" }, { "REAL", "SINT" },
+	{ "WORD", "BYTE" }, { "DWORD", "WORD" }, { "DWORD", "BYTE" },
+};
+
+static const struct {
+	const char *type, *text[7];
+} literals[] = {
+	{ "SINT", { "1", "3", "127", "SINT#-128", "0", "SINT#-1", "100" } },
+	{ "INT", { "1", "2", "7", "32767", "INT#-32768", "0", "INT#-1" } },
+	{ "DINT", { "1", "10", "65536", "2147483647", "0", "DINT#-1",
+		    "DINT#-2147483648" } },
+	{ "USINT", { "1", "2", "255", "0", "16", "200", "5" } },
+	{ "UINT", { "1", "2", "65535", "0", "16#FF", "256", "3" } },
+	{ "UDINT", { "1", "2", "4294967295", "0", "65536", "65535", "9" } },
+	{ "BYTE", { "16#0F", "0", "255", "1", "2#1010", "7", "16" } },
+	{ "WORD", { "16#FF00", "0", "65535", "1", "2", "256", "3" } },
+	{ "DWORD", { "16#FFFF0000", "0", "1", "2", "65535", "65536", "7" } },
+	{ "REAL", { "1.5", "0.0", "3.25", "1.0E38", "2.0", "0.1", "1.0E-3" } },
+	{ "TIME", { "T#1ms", "T#0s", "T#20ms", "T#1s", "T#15ms", "T#5ms",
+		    "T#1h" } },
+	{ "BOOL", { "TRUE", "FALSE", "TRUE", "FALSE", "TRUE", "FALSE",
+		    "TRUE" } },
+};
+
+static const char *const numbers[] = {
+	"SINT", "INT", "INT", "DINT", "DINT", "USINT", "UINT", "UDINT", "INT",
+	"REAL", "TIME",
+};
+
+static const char *any_number(struct random_source *source)
+{
+	return numbers[random_below(source, sizeof(numbers) / sizeof(*numbers))];
+}
+
+/* A variable of just this type; the pool has at least one of each. */
+static const char *variable(struct random_source *source, const char *type,
+			    bool write)
+{
+	for (;;) {
+		const struct pool_row *row =
+			&pool[random_below(source, (uint32_t)POOL)];
+
+		if (strcmp(row->type, type) == 0 && !(write && row->input))
+			return row->name;
+	}
+}
+
+static const char *literal(struct random_source *source, const char *type)
+{
+	size_t i = 0;
+
+	while (strcmp(literals[i].type, type) != 0)
+		i++;
+	return literals[i].text[random_below(source, 7)];
+}
+
+/* Something that may stand beside a value of @type in one operation. */
+static const char *beside(struct random_source *source, const char *type)
+{
+	size_t count = sizeof(narrower) / sizeof(*narrower);
+	size_t i = random_below(source, (uint32_t)count);
+
+	if (random_chance(source, 40))
+		return literal(source, type);
+	if (random_chance(source, 40) && strcmp(narrower[i][0], type) == 0)
+		return variable(source, narrower[i][1], false);
+	return variable(source, type, false);
+}
+
+struct builder {
+	struct random_source *source;
+	char *out;
+	size_t size, used;
+};
+
+static void put(struct builder *builder, const char *format, ...)
+{
+	size_t left = builder->size - builder->used;
+	va_list args;
+	int n;
+
+	va_start(args, format);
+	n = vsnprintf(builder->out + builder->used, left, format, args);
+	va_end(args);
+	builder->used += n < 0 ? 0 : (size_t)n < left ? (size_t)n : left - 1;
+}
+
+static bool near_full(const struct builder *builder)
+{
+	return builder->used > RANDOM_TEXT * 2 / 5;
+}
+
+/* A value of exactly @type; @tight: it stands where it needs parentheses. */
+static void number(struct builder *builder, const char *type, int depth,
+		   bool tight)
+{
+	struct random_source *source = builder->source;
+	const char *ops = strcmp(type, "TIME") == 0 ? "+-" :
+			  strcmp(type, "REAL") == 0 ? "+-*/" : "+-*/M";
+	char op = ops[random_below(source, (uint32_t)strlen(ops))];
+	bool swap = random_chance(source, 20);
+
+	if (depth == 0 || near_full(builder)) {
+		put(builder, "%s", variable(source, type, false));
+		return;
+	}
+	if (tight)
+		put(builder, "(");
+	if (swap)
+		put(builder, "%s", beside(source, type));
+	else
+		number(builder, type, depth - 1, true);
+	put(builder, op == 'M' ? " MOD " : " %c ", op);
+	if (swap || random_chance(source, 30))
+		number(builder, type, depth - 1, true);
+	else
+		put(builder, "%s", beside(source, type));
+	if (tight)
+		put(builder, ")");
+}
+
+static void relation(struct builder *builder, int depth)
+{
+	static const char *const rel[] = { "<", ">", "<=", ">=", "=", "<>" };
+	static const char *const bits[] = { "BYTE", "WORD", "DWORD", "BOOL" };
+	struct random_source *source = builder->source;
+	bool plain = random_chance(source, 20);
+	const char *type = plain ? bits[random_below(source, 4)] :
+				   any_number(source);
+
+	number(builder, type, plain ? 0 : depth, false);
+	put(builder, " %s ", rel[random_below(source, 6)]);
+	put(builder, "%s", beside(source, type));
+}
+
+static void truth(struct builder *builder, int depth)
+{
+	static const char *const op[] = { "AND", "OR", "XOR", "&" };
+	struct random_source *source = builder->source;
+
+	if (depth == 0 || near_full(builder)) {
+		put(builder, "%s", variable(source, "BOOL", false));
+	} else if (random_chance(source, 45)) {
+		put(builder, "(");
+		relation(builder, depth - 1);
+		put(builder, ")");
+	} else if (random_chance(source, 25)) {
+		put(builder, "NOT (");
+		truth(builder, depth - 1);
+		put(builder, ")");
+	} else {
+		put(builder, "(");
+		truth(builder, depth - 1);
+		put(builder, " %s ", op[random_below(source, 4)]);
+		truth(builder, depth - 1);
+		put(builder, ")");
+	}
+}
+
+void random_series(struct random_source *source, char *out, size_t size)
+{
+	static const char *const contact[] = { "NO", "NO", "NC", "P", "N" };
+	struct builder builder = { source, out, size, 0 };
+
+	if (random_chance(source, 12)) {
+		put(&builder, "NOT");
+	} else if (random_chance(source, 25)) {
+		put(&builder, "[ ");
+		if (random_chance(source, 60))
+			relation(&builder, 2);
+		else
+			truth(&builder, 3);
+		put(&builder, " ]");
+	} else {
+		put(&builder, "%s %s", contact[random_below(source, 5)],
+		    variable(source, "BOOL", false));
+	}
+}
+
+static void assignment(struct builder *builder)
+{
+	struct random_source *source = builder->source;
+	const char *type = any_number(source);
+	size_t count = sizeof(narrower) / sizeof(*narrower);
+	size_t i = random_below(source, (uint32_t)count);
+
+	if (random_chance(source, 20)) {
+		put(builder, "[ %s := ", variable(source, "BOOL", true));
+		truth(builder, 2);
+	} else if (random_chance(source, 15)) {
+		put(builder, "[ %s := ",
+		    variable(source, narrower[i][0], true));
+		put(builder, "%s", variable(source, narrower[i][1], false));
+	} else if (random_chance(source, 10)) {
+		put(builder, "[ %s := %s", variable(source, type, true),
+		    literal(source, type));
+	} else {
+		put(builder, "[ %s := ", variable(source, type, true));
+		number(builder, type, 2, false);
+	}
+	put(builder, " ]");
+}
+
+void random_last(struct random_source *source, int later, char *out, size_t size)
+{
+	static const char *const coil[] = {
+		"COIL", "COIL", "COIL", "COILNOT", "S", "R", "COILP", "COILN",
+	};
+	struct builder builder = { source, out, size, 0 };
+
+	if (later && random_chance(source, 15))
+		put(&builder, "JMP L%d", later);
+	else if (random_chance(source, 3))
+		put(&builder, "RET");
+	else if (random_chance(source, 20))
+		assignment(&builder);
+	else
+		put(&builder, "%s %s", coil[random_below(source, 8)],
+		    variable(source, "BOOL", true));
+}
+
+static void function(struct builder *builder)
+{
+	static const char *const word[] = {
+		"ADD", "ADD", "SUB", "MUL", "DIV", "MOD", "MOVE", "GT", "LE",
+		"EQ", "NE",
+	};
+	struct random_source *source = builder->source;
+	const char *fn = word[random_below(source, 11)];
+	const char *type = any_number(source);
+	bool many = strcmp(fn, "ADD") == 0 || strcmp(fn, "MUL") == 0;
+	bool compare = strchr("GLEN", *fn);
+	int count = many ? 2 + (int)random_below(source, 3) : 2;
+
+	if (strcmp(type, "TIME") == 0 && strchr("MD", *fn))
+		type = "INT";
+	if (strcmp(type, "REAL") == 0 && strcmp(fn, "MOD") == 0)
+		type = "DINT";
+	if (strcmp(fn, "MOVE") == 0) {
+		put(builder, "MOVE IN:=%s", variable(source, type, false));
+	} else {
+		put(builder, "%s IN1:=%s", fn, variable(source, type, false));
+		for (int i = 2; i <= count; i++)
+			put(builder, " IN%d:=%s", i, beside(source, type));
+	}
+	if (!compare)
+		put(builder, " OUT=>%s", variable(source, type, true));
+	else if (random_chance(source, 30))
+		put(builder, " OUT=>%s", variable(source, "BOOL", true));
+}
+
+/* A Boolean input: fed by a branch, written, or left alone. */
+static int bool_pin(struct builder *builder, const char *name,
+		    const char *pin[3], int fed)
+{
+	struct random_source *source = builder->source;
+
+	if (random_chance(source, 55))
+		pin[fed++] = name;
+	else if (random_chance(source, 60))
+		put(builder, " %s:=%s", name, variable(source, "BOOL", false));
+	return fed;
+}
+
+static int block(struct builder *builder, const char *pin[3])
+{
+	struct random_source *source = builder->source;
+	const char *const *which = instance[random_below(source, INSTANCES)];
+	const char *fb = which[1];
+	int fed = 0;
+
+	put(builder, "%s %s", fb, which[0]);
+	if (*fb == 'T') {
+		put(builder, " PT:=%s", random_chance(source, 10) ?
+		    "T#0s" : random_chance(source, 30) ? "T#25ms" : "T#10ms");
+		if (random_chance(source, 20))
+			put(builder, " ET=>%s", variable(source, "TIME", true));
+	} else if (strcmp(fb, "CTU") == 0) {
+		fed = bool_pin(builder, "R", pin, fed);
+	} else if (strcmp(fb, "CTD") == 0) {
+		fed = bool_pin(builder, "LD", pin, fed);
+	} else if (strcmp(fb, "CTUD") == 0) {
+		fed = bool_pin(builder, "CD", pin, fed);
+		fed = bool_pin(builder, "R", pin, fed);
+		fed = bool_pin(builder, "LD", pin, fed);
+	} else if (strcmp(fb, "SR") == 0) {
+		fed = bool_pin(builder, "R", pin, fed);
+	} else if (strcmp(fb, "RS") == 0) {
+		fed = bool_pin(builder, "R1", pin, fed);
+	}
+	if (*fb == 'C') {
+		put(builder, " PV:=%s", random_chance(source, 80) ? "2" :
+		    variable(source, "INT", false));
+		if (random_chance(source, 20))
+			put(builder, " CV=>%s", variable(source, "INT", true));
+	}
+	if (random_chance(source, 15))
+		put(builder, " %s=>%s", *fb == 'S' || fb[1] == 'S' ? "Q1" :
+		    strcmp(fb, "CTUD") == 0 ? "QU" : "Q",
+		    variable(source, "BOOL", true));
+	return fed;
+}
+
+int random_box(struct random_source *source, char *out, size_t size,
+	       const char *pin[3])
+{
+	struct builder builder = { source, out, size, 0 };
+
+	if (random_chance(source, 15)) {
+		assignment(&builder);
+		return 0;
+	}
+	if (random_chance(source, 5)) {
+		put(&builder, "EQ OUT=>%s", variable(source, "BOOL", true));
+		pin[0] = "IN1";
+		pin[1] = "IN2";
+		return 2;
+	}
+	if (random_chance(source, 45)) {
+		function(&builder);
+		return 0;
+	}
+	return block(&builder, pin);
+}
+
+/* Does @name stand in @body as a word of its own? */
+static bool is_used(const char *body, const char *name)
+{
+	size_t len = strcspn(name, ".");
+
+	for (const char *at = body; (at = strstr(at, name)) != NULL; at += len)
+		if (at > body && strchr(" (=>", at[-1]) &&
+		    strchr(" .)", at[len]))
+			return true;
+	return false;
+}
+
+size_t random_declare(const char *body, char *out, size_t size)
+{
+	struct builder builder = { NULL, out, size, 0 };
+
+	put(&builder, "VAR\n");
+	if (is_used(body, "loop_a"))
+		put(&builder, "  loop_a : INT;\n");
+	for (size_t i = 0; i < POOL; i++) {
+		const struct pool_row *row = &pool[i];
+		bool at = *row->rest == 'A';
+
+		if (row->direct || strchr(row->name, '.') ||
+		    !is_used(body, row->name))
+			continue;
+		put(&builder, "  %s %s : %s %s;\n", row->name,
+		    at ? row->rest : "", row->type, at ? "" : row->rest);
+	}
+	for (size_t i = 0; i < INSTANCES; i++)
+		if (is_used(body, instance[i][0]))
+			put(&builder, "  %s : %s;\n", instance[i][0],
+			    instance[i][1]);
+	put(&builder, "END_VAR\n");
+	return builder.used;
+}
