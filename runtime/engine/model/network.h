@@ -35,7 +35,7 @@ struct network {
 	int element_count;
 	struct network_pin *pin;
 	int pin_count;
-	/* Elements that lead into net n, in reading order:
+	/* Elements that lead into net n (coils too), in reading order:
 	 * feeder[first_feeder[n]] … feeder[first_feeder[n + 1] - 1]. */
 	int *first_feeder, *feeder;
 	/* Elements and pins that read it: counts. */

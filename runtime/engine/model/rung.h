@@ -55,8 +55,11 @@ bool rung_equal(const struct rung *a, const struct rung *b);
 struct cell *rung_cell(struct rung *rung, int row, int col);
 const struct cell *rung_at(const struct rung *rung, int row, int col);
 
-/* Edits that change the size give a new rung; rows and columns are 0-based, an
- * insertion comes before @at (0 … count). Deleting the last row or column fails. */
+/* Edits of whole rows and columns give a new rung; rows and columns are 0-based,
+ * an insertion comes before @at (0 … count). Deleting the only row or column
+ * fails. What was joined stays joined: a new row passes links on, a new column
+ * gets wires, the links of a deleted column go to the bar before it, and a row
+ * moved inside its branch stays in it. A box goes with its pin rows. */
 struct rung *rung_insert_row(const struct rung *rung, int at);
 struct rung *rung_delete_row(const struct rung *rung, int at);
 struct rung *rung_move_row(const struct rung *rung, int from, int to);
@@ -68,13 +71,16 @@ struct rung *rung_trim(const struct rung *rung);
 /** rung_resize - cut or padded with empty cells. */
 struct rung *rung_resize(const struct rung *rung, int rows, int cols);
 
-/* Edits in place; false (and nothing changed) outside the rung. */
+/* Edits in place; false (and nothing changed) outside the rung. Scan-safe: yes. */
 bool rung_set_cell(struct rung *rung, int row, int col, struct cell cell);
+/** rung_clear_cell - nothing but its link stays; a box goes with its pin rows. */
 bool rung_clear_cell(struct rung *rung, int row, int col);
-/** rung_move_cell - the element moves, links stay where they are. */
+/** rung_move_cell - the element moves (a box with its pin rows), links stay where
+ * they are; false if it does not fit there. What was there is overwritten. */
 bool rung_move_cell(struct rung *rung, int row, int col, int to_row, int to_col);
 /** rung_insert_cell - shifts @row right from @col up to the next empty cell or
- * wire, which it swallows; false if there is none. */
+ * wire, which it swallows; @col becomes a wire. False if there is none, or a box
+ * of several rows stands in the way. */
 bool rung_insert_cell(struct rung *rung, int row, int col);
 /** rung_delete_cell - the cell becomes a wire between elements, else empty. */
 bool rung_delete_cell(struct rung *rung, int row, int col);

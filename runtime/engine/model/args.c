@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * args - the parameters written at a box, taken apart.
+ *
+ * Reads the canonical text the readers keep; blanks around := and => are allowed.
+ * What is malformed ends the list: the readers have reported it before.
+ */
+#include "engine/model/args.h"
+#include "engine/base/ascii.h"
+
+static const char *skip_blanks(const char *at)
+{
+	while (*at == ' ' || *at == '\t')
+		at++;
+	return at;
+}
+
+bool args_next(const char **at, struct arg *out)
+{
+	const char *text = skip_blanks(*at);
+
+	out->pin = text;
+	while (*text && *text != ' ' && *text != ':' && *text != '=')
+		text++;
+	out->pin_len = (size_t)(text - out->pin);
+	text = skip_blanks(text);
+	out->output = text[0] == '=' && text[1] == '>';
+	if (out->pin_len == 0 ||
+	    (!out->output && (text[0] != ':' || text[1] != '=')))
+		return false;
+	text = skip_blanks(text + 2);
+	out->value = text;
+	while (*text && *text != ' ' && *text != '\t')
+		text++;
+	out->value_len = (size_t)(text - out->value);
+	if (out->value_len == 0)
+		return false;
+	*at = text;
+	return true;
+}
+
+bool args_find(const char *text, const char *pin, size_t pin_len,
+	       struct arg *out)
+{
+	while (args_next(&text, out))
+		if (out->pin_len == pin_len &&
+		    ascii_same(out->pin, pin, pin_len))
+			return true;
+	return false;
+}

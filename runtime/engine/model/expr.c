@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * expr - infix expressions of IEC 61131-3 table 55, as a tree.
+ *
+ * Two stacks instead of recursion, so that no text can exhaust the machine's own.
+ * It judges neither names nor types.
+ */
+#include "engine/model/expr.h"
+#include "engine/base/ascii.h"
+
+#define PENDING (LIMIT_EXPR_DEPTH * 3) /* operators that wait for a right side */
+
+struct operator {
+	const char *word;
+	uint8_t strength; /* binds stronger than those with less             */
+	uint8_t op;       /* enum expr_op                                    */
+	uint16_t fn;      /* enum word of EXPR_FN                            */
+};
+
+enum { OPERATOR_PAREN, OPERATOR_NEG, OPERATOR_NOT, OPERATOR_BINARY };
+static const struct operator operators[] = {
+	[OPERATOR_PAREN] = { "(", 0, 0, 0 },
+	[OPERATOR_NEG] = { "-", 8, EXPR_NEG, 0 },
+	[OPERATOR_NOT] = { "NOT", 8, EXPR_NOT, 0 },
+	[OPERATOR_BINARY] = { "*", 7, EXPR_FN, FN_MUL },
+	{ "/", 7, EXPR_FN, FN_DIV },   { "MOD", 7, EXPR_FN, FN_MOD },
+	{ "+", 6, EXPR_FN, FN_ADD },   { "-", 6, EXPR_FN, FN_SUB },
+	{ "<", 5, EXPR_FN, FN_LT },    { ">", 5, EXPR_FN, FN_GT },
+	{ "<=", 5, EXPR_FN, FN_LE },   { ">=", 5, EXPR_FN, FN_GE },
+	{ "=", 4, EXPR_FN, FN_EQ },    { "<>", 4, EXPR_FN, FN_NE },
+	{ "AND", 3, EXPR_AND, 0 },     { "&", 3, EXPR_AND, 0 },
+	{ "XOR", 2, EXPR_XOR, 0 },     { "OR", 1, EXPR_OR, 0 },
+};
+#define OPERATORS (int)(sizeof(operators) / sizeof(*operators))
+
+struct parser {
+	struct lex *lex;
+	struct expr *out;
+	struct diag_list *diags;
+	struct diag place;
+	int shift;         /* column of the text's first byte, less 1; -1: none */
+	int opened;        /* ( not closed yet                               */
+	int nested;        /* ( and signs that wait                          */
+	int pending_count;
+	int value_count;
+	uint8_t pending[PENDING];
+	int16_t value[PENDING + 1];
+};
+
+/* Reports @id at the token; false. A token that ends the text has no words. */
+static bool refuse(struct parser *parser, enum diag_id id)
+{
+	const struct token *token = &parser->lex->token;
+	size_t len = token->kind == TOKEN_NEWLINE ? 0 : token->len;
+
+	parser->place.id = id;
+	if (parser->shift >= 0)
+		parser->place.column = token->column + parser->shift;
+	return diag_add(parser->diags, parser->place, "%.*s",
+			(int)(len < LIMIT_ARG ? len : LIMIT_ARG), token->text);
+}
+
+static bool add_node(struct parser *parser, struct expr_node node)
+{
+	struct expr *out = parser->out;
+
+	if (out->count == LIMIT_EXPR_NODES || parser->value_count > PENDING)
+		return refuse(parser, DIAG_EXPR_TOO_DEEP);
+	out->node[out->count] = node;
+	parser->value[parser->value_count++] = (int16_t)out->count++;
+	return true;
+}
+
+/* Gives the operator on top its operands. */
+static bool reduce(struct parser *parser)
+{
+	int which = parser->pending[--parser->pending_count];
+	const struct operator *operator = &operators[which];
+	struct expr_node node = { .op = (enum expr_op)operator->op,
+				  .fn = (enum word)operator->fn,
+				  .left = -1, .right = -1 };
+
+	if (which >= OPERATOR_BINARY)
+		node.right = parser->value[--parser->value_count];
+	else
+		parser->nested--;
+	node.left = parser->value[--parser->value_count];
+	return add_node(parser, node);
+}
+
+/* All that waits and binds at least as strongly as @strength; stops at a (. */
+static bool reduce_to(struct parser *parser, int strength)
+{
+	while (parser->pending_count) {
+		int top = parser->pending[parser->pending_count - 1];
+
+		if (top == OPERATOR_PAREN || operators[top].strength < strength)
+			break;
+		if (!reduce(parser))
+			return false;
+	}
+	return true;
+}
+
+static bool push(struct parser *parser, int which)
+{
+	if (which < OPERATOR_BINARY && ++parser->nested > LIMIT_EXPR_DEPTH)
+		return refuse(parser, DIAG_EXPR_TOO_DEEP);
+	if (parser->pending_count == PENDING)
+		return refuse(parser, DIAG_EXPR_TOO_DEEP);
+	parser->pending[parser->pending_count++] = (uint8_t)which;
+	lex_next(parser->lex);
+	return true;
+}
+
+static bool is_operand(const struct lex *lex)
+{
+	switch (lex->token.kind) {
+	case TOKEN_NUMBER:
+	case TOKEN_ADDRESS:
+		return true;
+	case TOKEN_NAME:
+		return !lex_is(lex, "AND") && !lex_is(lex, "OR") &&
+		       !lex_is(lex, "XOR") && !lex_is(lex, "MOD");
+	case TOKEN_END:
+	case TOKEN_NEWLINE:
+	case TOKEN_STRING:
+	case TOKEN_COMMENT:
+	case TOKEN_SYMBOL:
+	case TOKEN_BAD:
+		break;
+	}
+	return false;
+}
+
+static bool take_operand(struct parser *parser)
+{
+	const struct lex *lex = parser->lex;
+	const struct token *token = &lex->token;
+	bool literal = token->kind == TOKEN_NUMBER || lex_is(lex, "TRUE") ||
+		       lex_is(lex, "FALSE");
+	struct expr_node node = {
+		.op = literal ? EXPR_LITERAL : EXPR_NAME,
+		.text = token->text, .len = (uint16_t)token->len,
+		.left = -1, .right = -1,
+	};
+
+	if (!is_operand(lex))
+		return refuse(parser, DIAG_BAD_EXPRESSION);
+	if (token->len > LIMIT_NAME)
+		return refuse(parser, DIAG_NAME_TOO_LONG);
+	if (!add_node(parser, node))
+		return false;
+	lex_next(parser->lex);
+	return true;
+}
+
+/* Signs and ( as many as there are, then a name or a constant. */
+static bool take_prefix_and_operand(struct parser *parser)
+{
+	for (;;) {
+		int which;
+
+		if (lex_is(parser->lex, "("))
+			which = OPERATOR_PAREN;
+		else if (lex_is(parser->lex, "-"))
+			which = OPERATOR_NEG;
+		else if (lex_is(parser->lex, "NOT"))
+			which = OPERATOR_NOT;
+		else
+			return take_operand(parser);
+		if (!push(parser, which))
+			return false;
+		parser->opened += which == OPERATOR_PAREN;
+	}
+}
+
+static bool close_parens(struct parser *parser)
+{
+	while (parser->opened && lex_is(parser->lex, ")")) {
+		if (!reduce_to(parser, 1))
+			return false;
+		parser->pending_count--;
+		parser->opened--;
+		parser->nested--;
+		lex_next(parser->lex);
+	}
+	return true;
+}
+
+/* The binary operator at the cursor; -1: none, the expression ends. */
+static int binary_at(const struct lex *lex)
+{
+	if (lex->token.kind != TOKEN_SYMBOL && lex->token.kind != TOKEN_NAME)
+		return -1;
+	for (int i = OPERATOR_BINARY; i < OPERATORS; i++)
+		if (lex_is(lex, operators[i].word))
+			return i;
+	return -1;
+}
+
+static bool parse(struct parser *parser)
+{
+	for (;;) {
+		int which;
+
+		if (!take_prefix_and_operand(parser) || !close_parens(parser))
+			return false;
+		which = binary_at(parser->lex);
+		if (which < 0)
+			break;
+		if (!reduce_to(parser, operators[which].strength) ||
+		    !push(parser, which))
+			return false;
+	}
+	if (parser->opened || lex_is(parser->lex, "**") ||
+	    lex_is(parser->lex, "("))
+		return refuse(parser, DIAG_BAD_EXPRESSION);
+	if (!reduce_to(parser, 1))
+		return false;
+	parser->out->root = parser->value[0];
+	return true;
+}
+
+/* Not zeroed whole: the stacks are filled before they are read. */
+static void parser_init(struct parser *parser, struct lex *lex,
+			struct expr *out, struct diag_list *diags,
+			struct diag place)
+{
+	parser->lex = lex;
+	parser->out = out;
+	parser->diags = diags;
+	parser->place = place;
+	parser->shift = 0;
+	parser->opened = parser->nested = 0;
+	parser->pending_count = parser->value_count = 0;
+	out->count = 0;
+	out->root = -1;
+	out->target = NULL;
+	out->target_len = 0;
+}
+
+bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
+		struct diag place)
+{
+	struct parser parser;
+
+	parser_init(&parser, lex, out, diags, place);
+	return parse(&parser);
+}
+
+/* `target :=`, if the text begins so; else the lexer stands where it stood. */
+static void take_target(struct lex *lex, struct expr *out)
+{
+	struct lex start = *lex;
+
+	if (lex->token.kind != TOKEN_NAME && lex->token.kind != TOKEN_ADDRESS)
+		return;
+	lex_next(lex);
+	if (lex_accept(lex, ":=")) {
+		out->target = start.token.text;
+		out->target_len = start.token.len;
+	} else {
+		*lex = start;
+	}
+}
+
+bool expr_parse_text(const char *text, size_t len, struct expr *out,
+		     struct diag_list *diags, struct diag place)
+{
+	struct parser parser;
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	lex_next(&lex);
+	parser_init(&parser, &lex, out, diags, place);
+	parser.shift = place.column - 1;
+	take_target(&lex, out);
+	if (!parse(&parser))
+		return false;
+	if (lex.token.kind != TOKEN_END)
+		return refuse(&parser, DIAG_BAD_EXPRESSION);
+	return true;
+}

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * project - what a rung file says: variables, POUs, rungs.
+ *
+ * Keeps what readers and editors put in. It neither reads files nor checks that
+ * what it holds makes sense.
+ */
+#include "engine/model/project.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct project *project_new(const char *file)
+{
+	struct project *project = calloc(1, sizeof(*project));
+
+	if (!project)
+		return NULL;
+	arena_init(&project->arena);
+	names_init(&project->names, &project->arena);
+	if (!file)
+		file = "";
+	project->file = arena_copy(&project->arena, file, strlen(file));
+	if (project->arena.failed) {
+		project_free(project);
+		return NULL;
+	}
+	return project;
+}
+
+void project_free(struct project *project)
+{
+	if (!project)
+		return;
+	for (int i = 0; i < project->pou_count; i++) {
+		struct pou *pou = &project->pou[i];
+
+		for (int at = 0; at < pou->rung_count; at++)
+			rung_free(pou->rung[at]);
+		free(pou->rung);
+	}
+	arena_free(&project->arena);
+	free(project);
+}
+
+/* Capacity is the next power of two from 8 up. */
+static bool has_room(struct pou *pou)
+{
+	size_t count = (size_t)pou->rung_count;
+	size_t room = count ? count * 2 : 8;
+	struct rung **rung;
+
+	if (count && (count < 8 || (count & (count - 1))))
+		return true;
+	rung = realloc(pou->rung, room * sizeof(struct rung *));
+	if (!rung)
+		return false;
+	pou->rung = rung;
+	return true;
+}
+
+bool project_add_rung(struct pou *pou, int at, struct rung *rung)
+{
+	if (!rung || at < 0 || at > pou->rung_count ||
+	    pou->rung_count >= LIMIT_RUNGS || !has_room(pou))
+		return false;
+	memmove(pou->rung + at + 1, pou->rung + at,
+		(size_t)(pou->rung_count - at) * sizeof(struct rung *));
+	pou->rung[at] = rung;
+	pou->rung_count++;
+	return true;
+}
+
+struct rung *project_take_rung(struct pou *pou, int at)
+{
+	struct rung *rung;
+
+	if (at < 0 || at >= pou->rung_count)
+		return NULL;
+	rung = pou->rung[at];
+	pou->rung_count--;
+	memmove(pou->rung + at, pou->rung + at + 1,
+		(size_t)(pou->rung_count - at) * sizeof(struct rung *));
+	if (pou->rung_count == 0) {
+		free(pou->rung);
+		pou->rung = NULL;
+	}
+	return rung;
+}
+
+bool project_move_rung(struct pou *pou, int from, int to)
+{
+	struct rung *rung;
+
+	if (from < 0 || from >= pou->rung_count || to < 0 ||
+	    to >= pou->rung_count)
+		return false;
+	rung = pou->rung[from];
+	if (from < to)
+		memmove(pou->rung + from, pou->rung + from + 1,
+			(size_t)(to - from) * sizeof(struct rung *));
+	else
+		memmove(pou->rung + to + 1, pou->rung + to,
+			(size_t)(from - to) * sizeof(struct rung *));
+	pou->rung[to] = rung;
+	return true;
+}
+
+const char *project_text(const struct project *project, uint32_t id)
+{
+	return names_text(&project->names, id);
+}

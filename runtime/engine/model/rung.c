@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rung - one grid of ladder: its memory and the edits that change its size.
+ *
+ * An edit keeps circuits whole where that is possible and makes a new rung, so
+ * that undo keeps the old one. It does not know what a rung means. Edits in place
+ * are in rung_cell.c.
+ */
+#include "engine/model/rung.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static size_t block_size(int rows, int cols)
+{
+	return sizeof(struct rung) +
+	       (size_t)rows * (size_t)cols * sizeof(struct cell);
+}
+
+struct rung *rung_new(int rows, int cols)
+{
+	struct rung *rung;
+
+	if (rows < 1 || rows > LIMIT_ROWS || cols < 1 || cols > LIMIT_COLS)
+		return NULL;
+	rung = calloc(1, block_size(rows, cols));
+	if (!rung)
+		return NULL;
+	rung->rows = (uint16_t)rows;
+	rung->cols = (uint16_t)cols;
+	return rung;
+}
+
+void rung_free(struct rung *rung)
+{
+	free(rung);
+}
+
+size_t rung_size(const struct rung *rung)
+{
+	return block_size(rung->rows, rung->cols);
+}
+
+struct rung *rung_copy(const struct rung *rung)
+{
+	struct rung *copy = malloc(rung_size(rung));
+
+	if (copy)
+		memcpy(copy, rung, rung_size(rung));
+	return copy;
+}
+
+bool rung_equal(const struct rung *a, const struct rung *b)
+{
+	return a->label == b->label && a->title == b->title &&
+	       a->comment == b->comment && a->off == b->off &&
+	       a->rows == b->rows && a->cols == b->cols &&
+	       memcmp(a->cell, b->cell,
+		      rung_size(a) - sizeof(struct rung)) == 0;
+}
+
+struct cell *rung_cell(struct rung *rung, int row, int col)
+{
+	return &rung->cell[(size_t)row * rung->cols + (size_t)col];
+}
+
+const struct cell *rung_at(const struct rung *rung, int row, int col)
+{
+	return &rung->cell[(size_t)row * rung->cols + (size_t)col];
+}
+
+/* An empty grid of another size with the same label, title and comment. */
+static struct rung *new_like(const struct rung *rung, int rows, int cols)
+{
+	struct rung *made = rung_new(rows, cols);
+
+	if (!made)
+		return NULL;
+	made->label = rung->label;
+	made->title = rung->title;
+	made->comment = rung->comment;
+	made->line = rung->line;
+	made->off = rung->off;
+	return made;
+}
+
+static void copy_row(struct rung *to, int to_row, const struct rung *from,
+		     int from_row)
+{
+	memcpy(rung_cell(to, to_row, 0), rung_at(from, from_row, 0),
+	       from->cols * sizeof(struct cell));
+}
+
+/* The new row passes on what joins the rows above and below it, and makes a box
+ * taller that it cuts. */
+struct rung *rung_insert_row(const struct rung *rung, int at)
+{
+	struct rung *made;
+
+	if (at < 0 || at > rung->rows)
+		return NULL;
+	made = new_like(rung, rung->rows + 1, rung->cols);
+	if (!made)
+		return NULL;
+	for (int row = 0; row < rung->rows; row++)
+		copy_row(made, row < at ? row : row + 1, rung, row);
+	for (int col = 0; col < rung->cols && at > 0 && at < rung->rows; col++) {
+		const struct cell *below = rung_at(rung, at, col);
+		struct cell *cell = rung_cell(made, at, col);
+
+		cell->link = below->link;
+		if (below->word == ELEM_PIN)
+			cell->word = ELEM_PIN;
+	}
+	return made;
+}
+
+/* Takes the pin rows of a box away that begin at (@row, @col). */
+static void drop_pins(struct rung *rung, int row, int col)
+{
+	for (; row < rung->rows; row++) {
+		struct cell *cell = rung_cell(rung, row, col);
+		uint8_t link = cell->link;
+
+		if (cell->word != ELEM_PIN)
+			break;
+		*cell = (struct cell){ .link = link };
+	}
+}
+
+/* Rows above and below stay joined where both were joined to the one that goes;
+ * a box goes whole. */
+struct rung *rung_delete_row(const struct rung *rung, int at)
+{
+	struct rung *made;
+
+	if (at < 0 || at >= rung->rows)
+		return NULL;
+	made = new_like(rung, rung->rows - 1, rung->cols);
+	if (!made)
+		return NULL;
+	for (int row = 0; row < made->rows; row++)
+		copy_row(made, row, rung, row < at ? row : row + 1);
+	for (int col = 0; col < rung->cols && at < made->rows; col++) {
+		struct cell *below = rung_cell(made, at, col);
+
+		below->link = at > 0 && below->link &&
+			      rung_at(rung, at, col)->link;
+		if (rung_height(rung, at, col) > 1)
+			drop_pins(made, at, col);
+	}
+	return made;
+}
+
+static bool is_linked(const struct rung *rung, int row, int col)
+{
+	return row > 0 && row < rung->rows && rung_at(rung, row, col)->link;
+}
+
+/* Do links join row @from with row @to at the right end of @col? */
+static bool is_joined(const struct rung *rung, int from, int to, int col)
+{
+	int top = from < to ? from : to, bottom = from < to ? to : from;
+
+	while (bottom > top && is_linked(rung, bottom, col))
+		bottom--;
+	return bottom == top;
+}
+
+/* The links of one column after row @from went to @to. Inside its branch the
+ * links stay where they are; else it leaves one branch as a deleted row does and
+ * comes into another as an inserted one. */
+static void move_links(struct rung *made, const struct rung *rung, int from,
+		       int to, int col)
+{
+	if (is_joined(rung, from, to, col)) {
+		for (int row = 0; row < rung->rows; row++)
+			rung_cell(made, row, col)->link =
+				rung_at(rung, row, col)->link;
+		return;
+	}
+	if (from + 1 < rung->rows)
+		rung_cell(made, from < to ? from : from + 1, col)->link =
+			is_linked(rung, from, col) &&
+			is_linked(rung, from + 1, col);
+	rung_cell(made, to, col)->link =
+		to > 0 && is_linked(made, to + 1, col);
+}
+
+struct rung *rung_move_row(const struct rung *rung, int from, int to)
+{
+	struct rung *made;
+
+	if (from < 0 || from >= rung->rows || to < 0 || to >= rung->rows)
+		return NULL;
+	made = rung_copy(rung);
+	if (!made || from == to)
+		return made;
+	for (int row = 0; row < made->rows; row++) {
+		int source = row < to ? row : row - 1;
+
+		if (row == to)
+			copy_row(made, row, rung, from);
+		else
+			copy_row(made, row, rung,
+				 source < from ? source : source + 1);
+	}
+	for (int col = 0; col < rung->cols; col++)
+		move_links(made, rung, from, to, col);
+	return made;
+}
+
+static bool is_empty(const struct cell *cell)
+{
+	return cell->word == ELEM_EMPTY && !cell->link && !cell->comment;
+}
+
+/* Does something reach bar @bar of @row from its left, above or below? */
+static bool bar_is_used(const struct rung *rung, int row, int bar)
+{
+	const struct cell *left;
+
+	if (bar == 0)
+		return true;
+	left = rung_at(rung, row, bar - 1);
+	return left->word != ELEM_EMPTY || left->link ||
+	       (row + 1 < rung->rows && rung_at(rung, row + 1, bar - 1)->link);
+}
+
+/* Must the new column carry power to the old cell (@row, @at)? */
+static bool needs_wire(const struct rung *rung, int row, int at)
+{
+	const struct cell *right;
+
+	if (at == rung->cols)
+		return false;
+	right = rung_at(rung, row, at);
+	if (right->word == ELEM_EMPTY ||
+	    (right->word == ELEM_PIN && !right->operand))
+		return false;
+	return bar_is_used(rung, row, at);
+}
+
+struct rung *rung_insert_column(const struct rung *rung, int at)
+{
+	struct rung *made;
+
+	if (at < 0 || at > rung->cols)
+		return NULL;
+	made = new_like(rung, rung->rows, rung->cols + 1);
+	if (!made)
+		return NULL;
+	for (int row = 0; row < rung->rows; row++) {
+		struct cell *to = rung_cell(made, row, 0);
+		const struct cell *from = rung_at(rung, row, 0);
+
+		memcpy(to, from, (size_t)at * sizeof(*to));
+		memcpy(to + at + 1, from + at,
+		       (size_t)(rung->cols - at) * sizeof(*to));
+		if (needs_wire(rung, row, at))
+			to[at].word = ELEM_WIRE;
+	}
+	return made;
+}
+
+/* The bars on both sides become one, with the links of both. */
+struct rung *rung_delete_column(const struct rung *rung, int at)
+{
+	struct rung *made;
+
+	if (at < 0 || at >= rung->cols)
+		return NULL;
+	made = new_like(rung, rung->rows, rung->cols - 1);
+	if (!made)
+		return NULL;
+	for (int row = 0; row < rung->rows; row++) {
+		struct cell *to = rung_cell(made, row, 0);
+		const struct cell *from = rung_at(rung, row, 0);
+
+		memcpy(to, from, (size_t)at * sizeof(*to));
+		memcpy(to + at, from + at + 1,
+		       (size_t)(made->cols - at) * sizeof(*to));
+		if (at > 0 && from[at].link)
+			to[at - 1].link = 1;
+	}
+	return made;
+}
+
+struct rung *rung_move_column(const struct rung *rung, int from, int to)
+{
+	struct rung *made;
+
+	if (from < 0 || from >= rung->cols || to < 0 || to >= rung->cols)
+		return NULL;
+	made = rung_copy(rung);
+	for (int row = 0; made && row < made->rows; row++) {
+		struct cell *cell = rung_cell(made, row, 0);
+		struct cell moved = cell[from];
+
+		if (from < to)
+			memmove(cell + from, cell + from + 1,
+				(size_t)(to - from) * sizeof(*cell));
+		else
+			memmove(cell + to + 1, cell + to,
+				(size_t)(from - to) * sizeof(*cell));
+		cell[to] = moved;
+	}
+	return made;
+}
+
+struct rung *rung_resize(const struct rung *rung, int rows, int cols)
+{
+	struct rung *made = new_like(rung, rows, cols);
+	int keep = cols < rung->cols ? cols : rung->cols;
+
+	for (int row = 0; made && row < rows && row < rung->rows; row++)
+		memcpy(rung_cell(made, row, 0), rung_at(rung, row, 0),
+		       (size_t)keep * sizeof(struct cell));
+	return made;
+}
+
+struct rung *rung_trim(const struct rung *rung)
+{
+	int rows = 1, cols = 1;
+
+	for (int row = 0; row < rung->rows; row++)
+		for (int col = 0; col < rung->cols; col++) {
+			if (is_empty(rung_at(rung, row, col)))
+				continue;
+			rows = row + 1;
+			if (col + 1 > cols)
+				cols = col + 1;
+		}
+	return rung_resize(rung, rows, cols);
+}
