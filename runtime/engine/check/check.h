@@ -31,6 +31,8 @@ bool check_rung(const struct project *project, const struct pou *pou, int number
 /**
  * check_names - declarations, labels, instances, uses of variables in a project
  * @scope:   of the project
+ * @bad:     NULL, or for each POU NULL or a byte a rung; set to 1 for a rung that
+ *           has an error, so that translation can leave it out
  * @scratch: some memory a project; dead afterwards
  *
  * Unknown and duplicate names, labels, AT types, writes to inputs and constants,
@@ -38,6 +40,6 @@ bool check_rung(const struct project *project, const struct pou *pou, int number
  * unreachable rungs. Of an IL POU it only counts the uses: check_il() judges it.
  * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.
  */
-bool check_names(struct scope *scope, struct arena *scratch,
-		 struct diag_list *diags);
+bool check_names(struct scope *scope, uint8_t *const *bad,
+		 struct arena *scratch, struct diag_list *diags);
 #endif

@@ -10,10 +10,10 @@
  */
 #include "engine/check/check.h"
 
+#include "engine/base/ascii.h"
 #include "engine/model/args.h"
 
 #include <string.h>
-#include <strings.h>
 
 struct net_mark {
 	int last_bar;   /* rightmost bar at which an element feeds the net     */
@@ -184,14 +184,14 @@ static void check_grid(struct rung_check *c)
 
 /* What is wrong with pin @name having a row of its own; DIAG_COUNT: nothing. */
 static enum diag_id judge_pin(const struct word_row *row, const char *name,
-			      int index)
+			      size_t len, int index)
 {
 	const struct word_pin *pin;
 
-	if (row->kind == WORD_FN && strcasecmp(name, "EN") == 0)
+	if (row->kind == WORD_FN && ascii_is("EN", name, len))
 		return DIAG_PIN_FIRST;
-	if (row->kind == WORD_FN && (strcasecmp(name, "ENO") == 0 ||
-				     strcasecmp(name, "OUT") == 0))
+	if (row->kind == WORD_FN && (ascii_is("ENO", name, len) ||
+				     ascii_is("OUT", name, len)))
 		return DIAG_PIN_NOT_BOOL;
 	if (index < 0)
 		return DIAG_PIN_UNKNOWN;
@@ -228,7 +228,7 @@ static void check_pin(struct rung_check *c, const struct network_element *e,
 	const char *name = project_text(c->project, pin->operand);
 	size_t len = strlen(name);
 	int index = word_pin_find(row, name, len);
-	enum diag_id wrong = judge_pin(row, name, index);
+	enum diag_id wrong = judge_pin(row, name, len, index);
 	const struct cell *box = cell_at(c, e->row, e->col);
 	struct arg arg;
 

@@ -7,8 +7,9 @@
  */
 #include "engine/check/scope.h"
 
+#include "engine/base/ascii.h"
+
 #include <string.h>
-#include <strings.h>
 
 /* A declaration; table 0 is the globals, POU number n has n + 1. */
 struct declared {
@@ -205,13 +206,12 @@ static bool mean_pin(const struct scope *scope, uint32_t table, const char *text
 
 static bool mean_system(const char *text, size_t len, struct meaning *out)
 {
-	if (len < 4 || strncasecmp(text, "SYS_", 4) != 0)
+	if (len < 4 || !ascii_same(text, "SYS_", 4))
 		return false;
 	for (int i = 0; i < SYS_COUNT; i++) {
 		const struct sys_row *row = sys_row((enum sys_id)i);
 
-		if (strlen(row->name) != len ||
-		    strncasecmp(row->name, text, len) != 0)
+		if (!ascii_is(row->name, text, len))
 			continue;
 		out->kind = MEANING_ADDRESS;
 		iec_addr_parse(row->address, strlen(row->address), &out->addr);

@@ -1,0 +1,481 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check_names - declarations, labels, and whether what is declared is used.
+ *
+ * Every table is asked by folded name or index, so that the cost is linear in the
+ * project. What stands in the cells is looked at by check_operand; types over the
+ * instruction list are check_il's.
+ */
+#include "engine/base/ascii.h"
+#include "engine/check/check.h"
+#include "engine/check/check_operand.h"
+
+#include <string.h>
+
+/* What a folded name is, apart from a variable. A number of a POU is 1-based. */
+struct mark {
+	int pou;        /* POU of this name                                    */
+	int label_pou;  /* POU in which it was a label last                    */
+	int target_pou; /* POU in which a jump named it last                   */
+	bool reserved;
+};
+
+struct names_check {
+	struct scope *scope;
+	struct project *project;
+	struct arena *scratch;
+	struct diag_list *diags;
+	struct uses uses;
+	struct expr *expr;
+	struct mark *mark; /* by folded name, for those there were at first    */
+	uint32_t marks;
+	int *end;          /* numbers of rungs that never fall through         */
+	int ends;
+	bool good;
+};
+
+static const char *text_of(const struct names_check *c, uint32_t id)
+{
+	return project_text(c->project, id);
+}
+
+/* @pou NULL: among the globals. */
+static void report_line(struct names_check *c, enum diag_id id,
+			const struct pou *pou, int line, const char *arg)
+{
+	struct diag place = {
+		.id = id, .line = line,
+		.file = pou ? pou->file : c->project->file,
+		.pou = pou ? text_of(c, pou->name) : NULL,
+	};
+
+	c->good &= diag_add(c->diags, place, "%s", arg);
+}
+
+/* @number 1-based; @row and @col 0-based, -1: the whole rung. */
+static bool report_rung(struct names_check *c, enum diag_id id,
+			const struct pou *pou, int number, int row, int col,
+			uint32_t arg)
+{
+	struct diag place = {
+		.id = id, .file = pou->file, .pou = text_of(c, pou->name),
+		.line = (int)pou->rung[number - 1]->line,
+		.rung = number, .row = row + 1, .col = col + 1,
+	};
+	bool good = diag_add(c->diags, place, "%s", text_of(c, arg));
+
+	c->good &= good;
+	return good;
+}
+
+/* ---- marks ---- */
+
+static struct mark *mark_of(struct names_check *c, uint32_t fold)
+{
+	return fold && fold < c->marks ? &c->mark[fold] : NULL;
+}
+
+static const char *const keywords[] = {
+	"RUNGBOARD", "PROJECT", "INCLUDE", "VAR", "VAR_GLOBAL", "RETAIN",
+	"CONSTANT", "AT", "END_VAR", "PROGRAM", "LD", "IL", "END_PROGRAM",
+	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
+};
+#define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
+#define RESERVED_COUNT (KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
+
+/* Reserved word number @i, in any order; "" for none. */
+static const char *reserved_word(int i)
+{
+	if (i < KEYWORDS)
+		return keywords[i];
+	i -= KEYWORDS;
+	if (i < (int)WORD_COUNT)
+		return word_row((enum word)i)->word;
+	i -= (int)WORD_COUNT;
+	if (i < (int)OP_COUNT)
+		return op_row((enum op)i)->word;
+	return iec_type_row((enum iec_type)(i - (int)OP_COUNT))->word;
+}
+
+static uint32_t fold_text(struct names_check *c, const char *text)
+{
+	struct names *names = &c->project->names;
+
+	return names_fold(names, names_intern(names, text, strlen(text)));
+}
+
+/* All names that will be asked for get their folded id, then the table is made. */
+static bool make_marks(struct names_check *c)
+{
+	struct names *names = &c->project->names;
+
+	for (int i = 0; i < RESERVED_COUNT; i++)
+		fold_text(c, reserved_word(i));
+	for (int i = 0; i < c->project->pou_count; i++) {
+		const struct pou *pou = &c->project->pou[i];
+
+		names_fold(names, pou->name);
+		for (int k = 0; k < pou->rung_count; k++)
+			names_fold(names, pou->rung[k]->label);
+	}
+	c->marks = (uint32_t)names->count;
+	c->mark = arena_alloc(c->scratch, c->marks * sizeof(*c->mark));
+	if (!c->mark)
+		return false;
+	for (int i = 0; i < RESERVED_COUNT; i++) {
+		struct mark *mark = mark_of(c, fold_text(c, reserved_word(i)));
+
+		if (mark)
+			mark->reserved = true;
+	}
+	return true;
+}
+
+/* `_T12`: translation makes names of this form. */
+static bool is_generated(const char *name)
+{
+	if (name[0] != '_' || ascii_upper(name[1]) < 'A' ||
+	    ascii_upper(name[1]) > 'Z' || !name[2])
+		return false;
+	for (name += 2; ascii_digit(*name); name++)
+		;
+	return !*name;
+}
+
+static bool is_reserved(struct names_check *c, const char *name, uint32_t fold)
+{
+	const struct mark *mark = mark_of(c, fold);
+
+	return (mark && mark->reserved) || is_generated(name) ||
+	       (strlen(name) >= 4 && ascii_same(name, "SYS_", 4)) ||
+	       strchr(name, '.');
+}
+
+/* ---- declarations ---- */
+
+static bool fits(const struct var *var)
+{
+	unsigned int bits = iec_type_row(var->type)->size * 8u;
+
+	return var->at.bits == (var->type == IEC_BOOL ? 1 : bits);
+}
+
+static void check_var(struct names_check *c, const struct pou *pou,
+		      const struct var_table *table, int index, uint8_t flags)
+{
+	const struct var *var = &table->var[index];
+	const char *name = text_of(c, var->name);
+	const struct mark *mark = mark_of(c, var->fold);
+	struct iec_addr addr;
+
+	if (scope_duplicate(c->scope, pou, index) >= 0 ||
+	    (!pou && mark && mark->pou))
+		report_line(c, DIAG_DUPLICATE_NAME, pou, var->line, name);
+	if (is_reserved(c, name, var->fold))
+		report_line(c, DIAG_RESERVED_NAME, pou, var->line, name);
+	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
+		report_line(c, DIAG_SHADOWS_ADDRESS, pou, var->line, name);
+	if (var->at.area != AREA_NONE && !fits(var))
+		report_line(c, DIAG_AT_TYPE, pou, var->line, name);
+	if (flags & VAR_CONSTANT && !var->has_init)
+		report_line(c, DIAG_CONSTANT_NO_VALUE, pou, var->line, name);
+}
+
+static void check_table(struct names_check *c, const struct pou *pou,
+			const struct var_table *table)
+{
+	for (int i = 0; i < table->block_count; i++) {
+		const struct var_block *block = &table->block[i];
+
+		if (block->flags & VAR_RETAIN)
+			report_line(c, DIAG_RETAIN_IGNORED, pou, block->line, "");
+		for (int k = 0; k < block->count; k++)
+			check_var(c, pou, table, block->first + k, block->flags);
+	}
+}
+
+static void check_pous(struct names_check *c)
+{
+	struct project *project = c->project;
+
+	if (project->pou_count == 0)
+		report_line(c, DIAG_NO_PROGRAM, NULL, 0, "");
+	for (int i = 0; i < project->pou_count; i++) {
+		const struct pou *pou = &project->pou[i];
+		uint32_t fold = names_fold(&project->names, pou->name);
+		struct mark *mark = mark_of(c, fold);
+		const char *name = text_of(c, pou->name);
+
+		if (is_reserved(c, name, fold))
+			report_line(c, DIAG_RESERVED_NAME, pou, pou->line, name);
+		if (mark && mark->pou)
+			report_line(c, DIAG_DUPLICATE_NAME, pou, pou->line, name);
+		else if (mark)
+			mark->pou = i + 1;
+	}
+}
+
+/* ---- labels and reach ---- */
+
+static bool is_flow(enum word word)
+{
+	return word_row(word)->next == OP_JMP || word_row(word)->next == OP_RET;
+}
+
+/* Only bare wire between the rail and this cell, in its own row. */
+static bool is_at_rail(const struct rung *rung, int row, int col)
+{
+	while (col > 0 && rung_at(rung, row, col - 1)->word == ELEM_WIRE)
+		col--;
+	return col == 0;
+}
+
+static bool check_label(struct names_check *c, int number, int rung_number)
+{
+	const struct pou *pou = &c->project->pou[number - 1];
+	uint32_t label = pou->rung[rung_number - 1]->label;
+	struct mark *mark = mark_of(c, names_fold(&c->project->names, label));
+	bool good = true;
+
+	if (!mark)
+		return true;
+	if (mark->label_pou == number)
+		good = report_rung(c, DIAG_DUPLICATE_LABEL, pou, rung_number,
+				   -1, -1, label);
+	if (is_generated(text_of(c, label)))
+		good = report_rung(c, DIAG_RESERVED_NAME, pou, rung_number, -1,
+				   -1, label);
+	mark->label_pou = number;
+	return good;
+}
+
+/* Jumps of a rung: their labels, and whether the rung always ends with one. */
+static bool check_jumps(struct names_check *c, int number, int rung_number)
+{
+	const struct pou *pou = &c->project->pou[number - 1];
+	const struct rung *rung = pou->rung[rung_number - 1];
+	bool good = true, ends = false;
+
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		const struct cell *cell = &rung->cell[i];
+		int row = i / rung->cols, col = i % rung->cols;
+		struct mark *mark;
+
+		if (!is_flow((enum word)cell->word))
+			continue;
+		ends |= is_at_rail(rung, row, col);
+		if (word_row((enum word)cell->word)->operand != OPND_LABEL)
+			continue;
+		mark = mark_of(c, names_fold(&c->project->names, cell->operand));
+		if (mark && mark->label_pou == number)
+			mark->target_pou = number;
+		else
+			good = report_rung(c, DIAG_NO_LABEL, pou, rung_number,
+					   row, col, cell->operand);
+	}
+	if (ends) {
+		int *end = arena_push(c->scratch, &c->end, &c->ends,
+				      sizeof(*c->end));
+
+		if (end)
+			*end = rung_number;
+	}
+	return good;
+}
+
+/* The rungs behind one that always ends, up to the next label jumped to. */
+static void check_reach(struct names_check *c, int number)
+{
+	const struct pou *pou = &c->project->pou[number - 1];
+	int told = 0;
+
+	for (int i = 0; i < c->ends; i++) {
+		if (c->end[i] <= told)
+			continue;
+		for (int k = c->end[i] + 1; k <= pou->rung_count; k++) {
+			const struct rung *rung = pou->rung[k - 1];
+			const struct mark *mark = mark_of(c,
+				names_fold(&c->project->names, rung->label));
+
+			if (rung->off)
+				continue;
+			if (mark && mark->target_pou == number)
+				break;
+			told = k;
+			report_rung(c, DIAG_UNREACHABLE, pou, k, -1, -1,
+				    rung->label);
+		}
+	}
+}
+
+static void mark_bad(uint8_t *bad, int rung_number, bool good)
+{
+	if (bad && !good)
+		bad[rung_number - 1] = 1;
+}
+
+static void check_ladder(struct names_check *c, int number, uint8_t *bad)
+{
+	const struct pou *pou = &c->project->pou[number - 1];
+	struct operand_check operands = {
+		.scope = c->scope, .project = c->project, .uses = &c->uses,
+		.expr = c->expr, .diags = c->diags, .pou = pou,
+	};
+
+	c->ends = 0;
+	c->end = NULL;
+	for (int i = 1; i <= pou->rung_count; i++)
+		if (!pou->rung[i - 1]->off)
+			mark_bad(bad, i, check_label(c, number, i));
+	for (int i = 1; i <= pou->rung_count; i++) {
+		if (pou->rung[i - 1]->off)
+			continue;
+		mark_bad(bad, i, check_jumps(c, number, i));
+		operands.rung = pou->rung[i - 1];
+		operands.number = i;
+		mark_bad(bad, i, check_operands(&operands));
+		c->good &= operands.good;
+	}
+	check_reach(c, number);
+}
+
+/* ---- uses ---- */
+
+static unsigned int use_of_operand(enum operand_kind operand)
+{
+	switch (operand) {
+	case OPND_BOOL_R:
+	case OPND_ANY_R:
+	case OPND_EXPR:
+		return USE_READ;
+	case OPND_BOOL_W:
+	case OPND_ANY_W:
+		return USE_WRITTEN;
+	case OPND_INSTANCE:
+		return USE_CALLED;
+	case OPND_NONE:
+	case OPND_LABEL:
+	case OPND_ASSIGN:
+	case OPND_PIN:
+		return 0;
+	}
+	return 0;
+}
+
+static unsigned int use_of_line(const struct il_line *line)
+{
+	switch ((enum il_kind)line->kind) {
+	case IL_OP:
+		return use_of_operand(op_row((enum op)line->op)->operand);
+	case IL_FN:
+	case IL_ARG_IN:
+		return USE_READ;
+	case IL_ARG_OUT:
+		return USE_WRITTEN;
+	case IL_CALL:
+	case IL_CLOSE:
+	case IL_LABEL:
+	case IL_COMMENT:
+		return 0;
+	}
+	return 0;
+}
+
+/* Only notes the uses; check_il says what is wrong with them. */
+static void note_il(struct names_check *c, const struct pou *pou)
+{
+	for (int i = 0; i < pou->il.count; i++) {
+		const struct il_line *line = &pou->il.line[i];
+		unsigned int use = use_of_line(line);
+		const struct meaning *m;
+		enum diag_id why;
+
+		if (!use || !line->operand)
+			continue;
+		m = scope_find(c->scope, pou, line->operand, &why);
+		if (m && uses_add(&c->uses, m, use))
+			report_line(c, DIAG_INSTANCE_TWICE, pou,
+				    (int)line->line, text_of(c, line->operand));
+	}
+}
+
+/* What a declared variable lacks; DIAG_COUNT: nothing. What stands at an address
+ * may be read from outside; an instance counts as written by its call. */
+static enum diag_id judge_use(const struct var *var, unsigned int use,
+			      uint8_t flags)
+{
+	bool outside = var->at.area != AREA_NONE;
+	bool given = var->has_init || flags & VAR_CONSTANT ||
+		     (outside &&
+		      iec_area_row(var->at.area)->access == ACCESS_READ);
+
+	if (use & USE_CALLED)
+		return DIAG_COUNT;
+	if (!use)
+		return DIAG_UNUSED;
+	if (var->type == IEC_NONE)
+		return DIAG_NEVER_WRITTEN;
+	if (!(use & USE_WRITTEN) && !given)
+		return DIAG_NEVER_WRITTEN;
+	return use & USE_READ || outside ? DIAG_COUNT : DIAG_NEVER_READ;
+}
+
+static void check_uses(struct names_check *c, int table_number)
+{
+	const struct pou *pou = table_number ?
+				&c->project->pou[table_number - 1] : NULL;
+	const struct var_table *table = pou ? &pou->vars : &c->project->globals;
+
+	for (int i = 0; i < table->block_count; i++) {
+		const struct var_block *block = &table->block[i];
+
+		for (int k = block->first; k < block->first + block->count; k++) {
+			const struct var *var = &table->var[k];
+			unsigned int use = uses_of(&c->uses, table_number, k,
+						   var->at);
+			enum diag_id lack = judge_use(var, use, block->flags);
+
+			if (lack != DIAG_COUNT &&
+			    scope_duplicate(c->scope, pou, k) < 0)
+				report_line(c, lack, pou, var->line,
+					    text_of(c, var->name));
+		}
+	}
+}
+
+static void check_bodies(struct names_check *c, uint8_t *const *bad)
+{
+	for (int i = 0; i < c->project->pou_count; i++) {
+		const struct pou *pou = &c->project->pou[i];
+
+		check_table(c, pou, &pou->vars);
+		if (pou->language == LANGUAGE_IL)
+			note_il(c, pou);
+		else
+			check_ladder(c, i + 1, bad ? bad[i] : NULL);
+	}
+}
+
+bool check_names(struct scope *scope, uint8_t *const *bad,
+		 struct arena *scratch, struct diag_list *diags)
+{
+	struct names_check c = {
+		.scope = scope, .project = scope_project(scope),
+		.scratch = scratch, .diags = diags, .good = true,
+	};
+
+	c.expr = arena_alloc(scratch, sizeof(*c.expr));
+	if (!c.expr || !make_marks(&c) ||
+	    !uses_init(&c.uses, c.project, scratch)) {
+		report_line(&c, DIAG_NO_MEMORY, NULL, 0, "");
+		return false;
+	}
+	check_pous(&c);
+	check_table(&c, NULL, &c.project->globals);
+	check_bodies(&c, bad);
+	for (int i = 0; i <= c.project->pou_count; i++)
+		check_uses(&c, i);
+	if (scratch->failed)
+		report_line(&c, DIAG_NO_MEMORY, NULL, 0, "");
+	return c.good;
+}

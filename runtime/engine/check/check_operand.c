@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check_operand - every name in a cell: known, of the right kind, writable.
+ *
+ * What it finds good it notes in uses. It judges no labels and no topology.
+ */
+#include "engine/check/check_operand.h"
+
+#include "engine/base/ascii.h"
+#include "engine/model/args.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A cell of the rung, 0-based. */
+struct spot {
+	int row, col;
+};
+
+static bool report(struct operand_check *c, enum diag_id id, struct spot at,
+		   const char *arg)
+{
+	struct diag place = {
+		.id = id, .file = c->pou->file, .line = (int)c->rung->line,
+		.pou = project_text(c->project, c->pou->name),
+		.rung = c->number, .row = at.row + 1, .col = at.col + 1,
+	};
+	bool good = diag_add(c->diags, place, "%s", arg);
+
+	c->good &= good;
+	return good;
+}
+
+/* The meaning of @id, or NULL after a diagnostic. */
+static const struct meaning *find(struct operand_check *c, struct spot at,
+				  uint32_t id)
+{
+	enum diag_id why = DIAG_UNKNOWN_NAME;
+	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
+
+	if (!m)
+		report(c, why, at, project_text(c->project, id));
+	return m;
+}
+
+static uint32_t intern(struct operand_check *c, const char *text, size_t len)
+{
+	return names_intern(&c->project->names, text, len);
+}
+
+/* A name whose value is asked for. NULL after a diagnostic. */
+static const struct meaning *read_name(struct operand_check *c, struct spot at,
+				       uint32_t id)
+{
+	const struct meaning *m = find(c, at, id);
+
+	if (!m)
+		return NULL;
+	if (m->kind == MEANING_INSTANCE) {
+		report(c, DIAG_INSTANCE_AS_VALUE, at,
+		       project_text(c->project, id));
+		return NULL;
+	}
+	uses_add(c->uses, m, USE_READ);
+	return m;
+}
+
+/* Why a program cannot write here; DIAG_COUNT: it can. */
+static enum diag_id write_fault(const struct meaning *m)
+{
+	if (m->kind == MEANING_INSTANCE)
+		return DIAG_INSTANCE_AS_VALUE;
+	if (m->constant)
+		return DIAG_WRITE_CONSTANT;
+	if (m->writable)
+		return DIAG_COUNT;
+	return m->kind == MEANING_PIN ? DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT;
+}
+
+/* @always: written at every evaluation, as a coil does; two such places fight. */
+static const struct meaning *write_name(struct operand_check *c, struct spot at,
+					uint32_t id, bool always)
+{
+	const struct meaning *m = find(c, at, id);
+	enum diag_id fault;
+
+	if (!m)
+		return NULL;
+	fault = write_fault(m);
+	if (fault != DIAG_COUNT) {
+		report(c, fault, at, project_text(c->project, id));
+		return NULL;
+	}
+	if (uses_add(c->uses, m, always ? USE_WRITTEN | USE_COIL : USE_WRITTEN))
+		report(c, DIAG_COIL_TWICE, at, project_text(c->project, id));
+	return m;
+}
+
+static void check_bool(struct operand_check *c, struct spot at, uint32_t id,
+		       const struct meaning *m)
+{
+	if (m && m->type != IEC_BOOL)
+		report(c, DIAG_NOT_BOOL, at, project_text(c->project, id));
+}
+
+/* ---- expressions ---- */
+
+static void check_expression(struct operand_check *c, struct spot at,
+			     uint32_t id)
+{
+	struct names *names = &c->project->names;
+	const char *text = names_text(names, id);
+	struct expr *expr = c->expr;
+	struct diag place = {
+		.file = c->pou->file, .line = (int)c->rung->line,
+		.pou = project_text(c->project, c->pou->name),
+		.rung = c->number, .row = at.row + 1, .col = at.col + 1,
+	};
+
+	if (!expr_parse_text(text, names_len(names, id), expr, c->diags, place)) {
+		c->good = false;
+		return;
+	}
+	for (int i = 0; i < expr->count; i++) {
+		const struct expr_node *part = &expr->node[i];
+
+		if (part->op == EXPR_NAME)
+			read_name(c, at, intern(c, part->text, part->len));
+		else if (part->op == EXPR_LITERAL)
+			find(c, at, intern(c, part->text, part->len));
+	}
+	if (expr->target)
+		write_name(c, at, intern(c, expr->target, expr->target_len),
+			   false);
+}
+
+/* ---- boxes ---- */
+
+/* What is wrong with the pin of a parameter; DIAG_COUNT: nothing. Functions have
+ * EN, ENO and OUT beside the inputs of their row. */
+static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
+{
+	int index = word_pin_find(row, arg->pin, arg->pin_len);
+	bool output;
+
+	if (index >= 0 && row->kind == WORD_FN)
+		output = false;
+	else if (index >= 0)
+		output = row->pin[index].dir == PIN_OUT;
+	else if (row->kind != WORD_FN)
+		return DIAG_NO_PIN;
+	else if (ascii_is("EN", arg->pin, arg->pin_len))
+		output = false;
+	else if (ascii_is("ENO", arg->pin, arg->pin_len) ||
+		 ascii_is("OUT", arg->pin, arg->pin_len))
+		output = true;
+	else
+		return DIAG_NO_PIN;
+	return output == arg->output ? DIAG_COUNT : DIAG_PIN_DIRECTION;
+}
+
+static void check_args(struct operand_check *c, struct spot at,
+		       const struct cell *cell)
+{
+	const struct word_row *row = word_row((enum word)cell->word);
+	const char *next = project_text(c->project, cell->args);
+	struct arg arg;
+
+	while (args_next(&next, &arg)) {
+		enum diag_id wrong = judge_pin(row, &arg);
+		uint32_t value = intern(c, arg.value, arg.value_len);
+
+		if (wrong != DIAG_COUNT)
+			report(c, wrong, at, project_text(c->project,
+				intern(c, arg.pin, arg.pin_len)));
+		else if (arg.output)
+			write_name(c, at, value, row->kind == WORD_FB);
+		else
+			read_name(c, at, value);
+	}
+}
+
+/* Bit i is set for input i of a function that a parameter or a pin row feeds. */
+static unsigned int connected_inputs(const struct operand_check *c,
+				     struct spot at, const struct cell *cell)
+{
+	const struct word_row *row = word_row((enum word)cell->word);
+	const char *next = project_text(c->project, cell->args);
+	unsigned int inputs = 0;
+	struct arg arg;
+	int pin;
+
+	while (args_next(&next, &arg)) {
+		pin = word_pin_find(row, arg.pin, arg.pin_len);
+		if (pin >= 0)
+			inputs |= 1u << pin;
+	}
+	for (int i = at.row + 1; i < c->rung->rows; i++) {
+		const struct cell *below = rung_at(c->rung, i, at.col);
+		const char *name = project_text(c->project, below->operand);
+
+		if (below->word != ELEM_PIN)
+			break;
+		pin = word_pin_find(row, name, strlen(name));
+		if (pin >= 0)
+			inputs |= 1u << pin;
+	}
+	return inputs;
+}
+
+/* A function needs all its named inputs, and of the others no gap. */
+static void check_inputs(struct operand_check *c, struct spot at,
+			 const struct cell *cell)
+{
+	const struct word_row *row = word_row((enum word)cell->word);
+	unsigned int inputs = connected_inputs(c, at, cell);
+	char name[24];
+
+	for (int i = 0; i < row->pin_count || inputs >> i; i++) {
+		if (inputs >> i & 1)
+			continue;
+		if (i < row->pin_count)
+			snprintf(name, sizeof(name), "%s", row->pin[i].name);
+		else
+			snprintf(name, sizeof(name), "IN%d", i + 1);
+		report(c, DIAG_MISSING_INPUT, at, name);
+		return;
+	}
+}
+
+static void check_instance(struct operand_check *c, struct spot at,
+			   const struct cell *cell)
+{
+	const struct meaning *m = find(c, at, cell->operand);
+	const char *name = project_text(c->project, cell->operand);
+
+	if (!m)
+		return;
+	if (m->kind != MEANING_INSTANCE || m->var->fb != (enum word)cell->word)
+		report(c, DIAG_NOT_INSTANCE, at, name);
+	else if (uses_add(c->uses, m, USE_CALLED))
+		report(c, DIAG_INSTANCE_TWICE, at, name);
+}
+
+static void check_element(struct operand_check *c, struct spot at,
+			  const struct cell *cell)
+{
+	const struct word_row *row = word_row((enum word)cell->word);
+
+	switch (row->operand) {
+	case OPND_BOOL_R:
+		check_bool(c, at, cell->operand,
+			   read_name(c, at, cell->operand));
+		break;
+	case OPND_BOOL_W:
+		check_bool(c, at, cell->operand,
+			   write_name(c, at, cell->operand,
+				      row->next == OP_ST));
+		break;
+	case OPND_EXPR:
+	case OPND_ASSIGN:
+		check_expression(c, at, cell->operand);
+		break;
+	case OPND_INSTANCE:
+		check_instance(c, at, cell);
+		break;
+	case OPND_ANY_R:
+	case OPND_ANY_W:
+	case OPND_NONE:
+	case OPND_LABEL:
+	case OPND_PIN:
+		break;
+	}
+	if (cell->args)
+		check_args(c, at, cell);
+	if (row->kind == WORD_FN)
+		check_inputs(c, at, cell);
+}
+
+bool check_operands(struct operand_check *c)
+{
+	const struct rung *rung = c->rung;
+	const struct cell *cell = rung->cell;
+
+	c->good = true;
+	for (int row = 0; row < rung->rows; row++) {
+		for (int col = 0; col < rung->cols; col++, cell++) {
+			struct spot at = { row, col };
+
+			if (cell->word != ELEM_EMPTY && cell->word != ELEM_WIRE)
+				check_element(c, at, cell);
+		}
+	}
+	return c->good;
+}
