@@ -8,6 +8,7 @@
 #ifndef VIEW_DIFF_H
 #define VIEW_DIFF_H
 
+#include "engine/base/limits.h"
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
 
@@ -24,6 +25,7 @@ struct diff {
 	struct names names;        /* strings of both projects, by one id      */
 	struct sink_memory bytes;  /* scratch: a rung or line made comparable  */
 	char from[1024], to[1024]; /* scratch: texts of two cells or lines     */
+	char subject[2 * LIMIT_NAME], pin[LIMIT_NAME + 1]; /* scratch: names    */
 };
 
 /* One difference; what is NULL or 0 is not said. */

@@ -271,12 +271,11 @@ static void compare_arg(struct diff *diff, struct difference what,
 			const struct arg *a, const struct arg *b)
 {
 	const struct arg *pin = a ? a : b;
-	char name[LIMIT_NAME + 1];
 
-	snprintf(name, sizeof(name), "%.*s", (int)pin->pin_len, pin->pin);
+	snprintf(diff->pin, sizeof(diff->pin), "%.*s", (int)pin->pin_len, pin->pin);
 	value_text(a, diff->from, sizeof(diff->from));
 	value_text(b, diff->to, sizeof(diff->to));
-	diff_texts(diff, what, name, diff->from, diff->to);
+	diff_texts(diff, what, diff->pin, diff->from, diff->to);
 }
 
 static void compare_args(struct diff *diff, struct difference what,
@@ -285,16 +284,15 @@ static void compare_args(struct diff *diff, struct difference what,
 	const char *in_a = project_text(diff->a, a->args);
 	const char *in_b = project_text(diff->b, b->args);
 	const char *at = in_a;
-	char box[2 * LIMIT_NAME];
 	struct arg arg, other;
 	int before = diff->count;
 
-	snprintf(box, sizeof(box), "%s %s", word_row(a->word)->word,
+	snprintf(diff->subject, sizeof(diff->subject), "%s %s", word_row(a->word)->word,
 		 project_text(diff->a, a->operand));
-	size_t end = strlen(box);
-	if (box[end - 1] == ' ')
-		box[end - 1] = '\0';
-	what.subject = box;
+	size_t end = strlen(diff->subject);
+	if (end > 0 && diff->subject[end - 1] == ' ')
+		diff->subject[end - 1] = '\0';
+	what.subject = diff->subject;
 	while (args_next(&at, &arg)) {
 		bool found = args_find(in_b, arg.pin, arg.pin_len, &other);
 		compare_arg(diff, what, &arg, found ? &other : NULL);

@@ -550,9 +550,9 @@ static int show_pou(struct draw *draw, const struct pou *pou, int rung, int want
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)
 			return 0;
-		view_print_il(&draw->project->names, pou->name, &pou->vars, NULL,
-			      0, &pou->il, draw->sink);
-		return 1;
+		return view_print_il(&draw->project->names, pou->name,
+				     &pou->vars, NULL, 0, &pou->il,
+				     draw->sink) ? 1 : -1;
 	}
 	if (rung == 0) {
 		sink_text(draw->sink, "PROGRAM ");
@@ -568,7 +568,7 @@ int view_show(const struct project *project, int pou, int rung,
 	struct draw *draw = calloc(1, sizeof(*draw));
 	int first = pou < 0 ? 0 : pou;
 	int end = pou < 0 ? project->pou_count : pou + 1;
-	int drawn = 0;
+	int drawn = 0, more = 0;
 
 	if (!draw)
 		return -1;
@@ -577,12 +577,13 @@ int view_show(const struct project *project, int pou, int rung,
 	draw->strokes = options && options->ascii ? &ascii : &unicode;
 	if (end > project->pou_count)
 		end = project->pou_count;
-	for (int i = first; i < end; i++) {
+	for (int i = first; i < end && more >= 0; i++) {
 		if (drawn > 0)
 			sink_text(sink, "\n");
-		drawn += show_pou(draw, &project->pou[i], rung,
-				  options ? options->width : 0);
+		more = show_pou(draw, &project->pou[i], rung,
+				options ? options->width : 0);
+		drawn += more;
 	}
 	free(draw);
-	return drawn;
+	return more < 0 ? -1 : drawn;
 }

@@ -51,11 +51,12 @@ int view_diff(const struct project *a, const struct project *b, bool json,
  *         does not use are left out
  * @il:    what to print; the text reads again to the same list
  *
- * Scan-safe: no.   Fails: never, but for what the sink does.
+ * Scan-safe: no.   Fails: false when memory is out; nothing was put out.
  */
-void view_print_il(const struct names *names, uint32_t name,
+bool view_print_il(const struct names *names, uint32_t name,
 		   const struct var_table *vars, struct var *const *temps,
-		   int temp_count, const struct il *il, const struct sink *sink);
+		   int temp_count, const struct il *il,
+		   const struct sink *sink);
 
 /**
  * view_words - elements, boxes, instructions, types, areas and system names
