@@ -70,14 +70,12 @@ static void report_cell(struct rung_check *c, enum diag_id id, int row, int col)
 	       word_row((enum word)cell->word)->word);
 }
 
+/* May rows of pins stand below it? */
 static bool is_box(enum word word)
 {
-	return word_row(word)->kind != WORD_ELEM;
-}
+	const struct word_row *row = word_row(word);
 
-static bool may_be_last(enum word word)
-{
-	return is_box(word) || word_row(word)->place == PLACE_BOX;
+	return row->place == PLACE_BOX || row->operand == OPND_EXPR;
 }
 
 /* ---- loose ends of the grid ---- */
@@ -252,7 +250,7 @@ static void check_power_pin(struct rung_check *c, const struct network_element *
 	const char *name;
 	struct arg arg;
 
-	if (row->kind == WORD_FB && first < 0)
+	if (row->kind == WORD_ELEM || (row->kind == WORD_FB && first < 0))
 		return;
 	name = row->kind == WORD_FN ? "EN" : row->pin[first].name;
 	if (cell->args && args_find(project_text(c->project, cell->args), name,
@@ -267,6 +265,11 @@ static bool is_last(const struct network_element *e)
 	return word_row((enum word)e->word)->place == PLACE_LAST;
 }
 
+static bool may_be_last(const struct network_element *e)
+{
+	return word_row((enum word)e->word)->place == PLACE_BOX;
+}
+
 static bool is_shorted(const struct network_element *e)
 {
 	return e->in == e->out || e->out == NET_RAIL;
@@ -277,8 +280,8 @@ static bool has_output(const struct network *network)
 	for (int i = 0; i < network->element_count; i++) {
 		const struct network_element *e = &network->element[i];
 
-		if (is_last(e) || (may_be_last((enum word)e->word) &&
-				   network->reader_count[e->out] == 0))
+		if (is_last(e) ||
+		    (may_be_last(e) && network->reader_count[e->out] == 0))
 			return true;
 	}
 	return false;
@@ -306,8 +309,7 @@ static void check_element(struct rung_check *c, int number)
 		out->last_bar = e->col + 1;
 		out->feeder = number;
 	}
-	if (c->outputs && !read && !out->said && !is_last(e) &&
-	    !may_be_last((enum word)e->word))
+	if (c->outputs && !read && !out->said && !is_last(e) && !may_be_last(e))
 		report_cell(c, DIAG_OPEN_RIGHT, e->row, e->col);
 }
 
