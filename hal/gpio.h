@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * gpio - what the two versions of libgpiod have in common, below a driver.
+ *
+ * gpiod_v1.c and gpiod_v2.c each say how a chip is opened and what a line is;
+ * gpio_find.c looks for lines with it. Nobody else includes this.
+ */
+#ifndef HAL_GPIO_H
+#define HAL_GPIO_H
+
+#include "hal/drivers.h"
+
+#define GPIO_OWNER "ladderd" /* how others see who has a line             */
+#define GPIO_TEXT  40        /* the kernel's names have at most 31 bytes   */
+
+struct gpio_chip {
+	void *chip;              /* of libgpiod                            */
+	char label[GPIO_TEXT];
+	uint32_t lines;
+};
+
+struct gpio_line {
+	char name[GPIO_TEXT];    /* "": none                               */
+	char owner[GPIO_TEXT];   /* "": nobody, or somebody without a name */
+	bool used, output;
+};
+
+/* Given by the version of libgpiod. 0 or -errno.  Scan-safe: no. */
+int gpio_chip_open(const char *path, struct gpio_chip *out);
+void gpio_chip_close(struct gpio_chip *chip);
+int gpio_chip_line(struct gpio_chip *chip, uint32_t offset,
+		   struct gpio_line *out);
+
+/* Given by gpio_find.c. */
+bool gpio_find(const struct io_point *point, const char *dev,
+	       struct line_at *out, struct trouble *why);
+bool gpio_list(const char *dev,
+	       void (*visit)(void *context, const struct line_seen *line),
+	       void *context, struct trouble *why);
+/** gpio_path - "/dev/gpiochip3". */
+void gpio_path(const char *dev, int chip, char *out, size_t size);
+/** gpio_text - copies a text that may be NULL, clipped. */
+void gpio_text(char *out, const char *text);
+/** gpio_refused - why a chip or request could not be had, from -errno. */
+bool gpio_refused(struct trouble *why, const char *path, int error);
+/** gpio_blame - the same for a request: finds the line that is in use. */
+bool gpio_blame(struct trouble *why, const struct request *request,
+		struct gpio_chip *chip, const char *path, int error);
+#endif

@@ -1,0 +1,334 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * gpio_find - looks for lines on the chips of this machine, by name, or by the
+ * label of their chip and an offset, and says what is in the way. Chip numbers
+ * move between boots, so they are looked up each time and never stored.
+ */
+#include "hal/gpio.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <grp.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define CHIP_PREFIX "gpiochip"
+#define CHIP_LAST   9999
+#define PATH_BYTES  256
+
+void gpio_path(const char *dev, int chip, char *out, size_t size)
+{
+	snprintf(out, size, "%s/" CHIP_PREFIX "%d", dev, chip);
+}
+
+void gpio_text(char *out, const char *text)
+{
+	snprintf(out, GPIO_TEXT, "%s", text ? text : "");
+}
+
+/* 7 of "gpiochip7"; -1: no name of a chip. */
+static int chip_number(const char *name)
+{
+	size_t prefix = strlen(CHIP_PREFIX);
+	int number = 0;
+
+	if (strncmp(name, CHIP_PREFIX, prefix) != 0 || !name[prefix])
+		return -1;
+	for (name += prefix; *name; name++) {
+		if (*name < '0' || *name > '9' || number > CHIP_LAST)
+			return -1;
+		number = number * 10 + (*name - '0');
+	}
+	return number;
+}
+
+/* Where a symbolic link of /dev leads, as Raspberry Pi OS has them; a chip must
+ * not be seen under two numbers. -1: @number is no link. */
+static int link_target(const char *dev, int number)
+{
+	char path[PATH_BYTES], target[PATH_BYTES];
+	const char *name;
+	ssize_t len;
+
+	gpio_path(dev, number, path, sizeof(path));
+	len = readlink(path, target, sizeof(target) - 1);
+	if (len < 0)
+		return -1;
+	target[len] = 0;
+	name = strrchr(target, '/');
+	return chip_number(name ? name + 1 : target);
+}
+
+static bool is_link(const char *dev, int number)
+{
+	char path[PATH_BYTES];
+	struct stat status;
+
+	gpio_path(dev, number, path, sizeof(path));
+	return lstat(path, &status) == 0 && S_ISLNK(status.st_mode);
+}
+
+/* No chip any more, or none at all. */
+static bool is_gone(int error)
+{
+	return error == -ENOENT || error == -ENODEV || error == -ENXIO ||
+	       error == -ENOTTY;
+}
+
+/* The next chip in the order of numbers; -1: that was the last. */
+static int chip_after(const char *dev, int last)
+{
+	DIR *folder = opendir(dev);
+	const struct dirent *entry;
+	int best = -1;
+
+	if (!folder)
+		return -1;
+	while ((entry = readdir(folder)) != NULL) {
+		int number = chip_number(entry->d_name);
+
+		if (number > last && (best < 0 || number < best) &&
+		    !is_link(dev, number))
+			best = number;
+	}
+	closedir(folder);
+	return best;
+}
+
+static void group_of(const char *path, char *out, size_t size)
+{
+	struct stat status;
+	const struct group *group;
+
+	if (stat(path, &status) != 0) {
+		snprintf(out, size, "?");
+		return;
+	}
+	group = getgrgid(status.st_gid);
+	if (group)
+		snprintf(out, size, "%s", group->gr_name);
+	else
+		snprintf(out, size, "%u", (unsigned)status.st_gid);
+}
+
+bool gpio_refused(struct trouble *why, const char *path, int error)
+{
+	char group[32];
+	const char *name = strrchr(path, '/');
+
+	if (error == -EACCES || error == -EPERM) {
+		group_of(path, group, sizeof(group));
+		return trouble_set(why, DIAG_IO_PERMISSION, "%s, group %s",
+				   name ? name + 1 : path, group);
+	}
+	return trouble_set(why, DIAG_IO_REQUEST, "%s: %s",
+			   name ? name + 1 : path, strerror(-error));
+}
+
+static bool busy(struct trouble *why, const struct io_point *point,
+		 const struct gpio_line *line)
+{
+	char name[LIMIT_ARG];
+
+	io_line_print(point, name, sizeof(name));
+	return trouble_set(why, DIAG_IO_BUSY, "%.26s, by %.16s", name,
+			   line->owner[0] ? line->owner : "the kernel");
+}
+
+bool gpio_blame(struct trouble *why, const struct request *request,
+		struct gpio_chip *chip, const char *path, int error)
+{
+	struct gpio_line line;
+
+	gpio_refused(why, path, error);
+	for (uint32_t i = 0; error == -EBUSY && i < request->count; i++) {
+		if (gpio_chip_line(chip, request->line[i].at.offset, &line) ||
+		    !line.used)
+			continue;
+		trouble_set(why, DIAG_IO_BUSY, "by %.40s",
+			    line.owner[0] ? line.owner : "the kernel");
+		why->line = i;
+		break;
+	}
+	return false;
+}
+
+/* What a search has seen so far. */
+struct search {
+	const struct io_point *point;
+	const char *dev;
+	int hits;
+	struct line_at at;       /* the first hit                          */
+	int second;              /* chip of the second hit                 */
+	struct gpio_line line;   /* at the first hit                       */
+	int denied;              /* a chip that may not be opened; -1      */
+	int denied_error;
+	uint32_t lines;          /* of the chip that was asked for         */
+};
+
+static void hit(struct search *search, int chip, uint32_t offset,
+		const struct gpio_line *line)
+{
+	if (search->hits++ == 0) {
+		search->at = (struct line_at){ chip, offset };
+		search->line = *line;
+	} else if (search->hits == 2) {
+		search->second = chip;
+	}
+}
+
+static void search_names(struct search *search, struct gpio_chip *chip,
+			 int number)
+{
+	struct gpio_line line;
+
+	for (uint32_t i = 0; i < chip->lines; i++)
+		if (gpio_chip_line(chip, i, &line) == 0 &&
+		    strcmp(line.name, search->point->line) == 0)
+			hit(search, number, i, &line);
+}
+
+static void search_offset(struct search *search, struct gpio_chip *chip,
+			  int number)
+{
+	const struct io_point *point = search->point;
+	struct gpio_line line = { .used = false };
+
+	search->lines = chip->lines;
+	if (point->offset < chip->lines &&
+	    gpio_chip_line(chip, point->offset, &line) != 0)
+		return;
+	hit(search, number, point->offset, &line);
+}
+
+/* gpiochip7, /dev/gpiochip7: by its number; -1: @text is a label. */
+static int wanted_number(const char *text, const char *dev)
+{
+	size_t prefix = strlen(dev);
+	int number, target;
+
+	if (strncmp(text, dev, prefix) == 0 && text[prefix] == '/')
+		text += prefix + 1;
+	else if (strncmp(text, "/dev/", 5) == 0)
+		text += 5;
+	number = chip_number(text);
+	target = number >= 0 ? link_target(dev, number) : -1;
+	return target >= 0 ? target : number;
+}
+
+static void search_chip(struct search *search, int number, int wanted)
+{
+	const struct io_point *point = search->point;
+	struct gpio_chip chip;
+	char path[PATH_BYTES];
+	int error;
+
+	if (wanted >= 0 && wanted != number)
+		return;
+	gpio_path(search->dev, number, path, sizeof(path));
+	error = gpio_chip_open(path, &chip);
+	if (error) {
+		if (search->denied < 0 && !is_gone(error)) {
+			search->denied = number;
+			search->denied_error = error;
+		}
+		return;
+	}
+	if (point->line)
+		search_names(search, &chip, number);
+	else if (wanted >= 0 || strcmp(chip.label, point->chip) == 0)
+		search_offset(search, &chip, number);
+	gpio_chip_close(&chip);
+}
+
+static bool not_found(const struct search *search, struct trouble *why)
+{
+	char path[PATH_BYTES];
+
+	if (search->denied >= 0) {
+		gpio_path(search->dev, search->denied, path, sizeof(path));
+		return gpio_refused(why, path, search->denied_error);
+	}
+	if (search->point->line)
+		return trouble_set(why, DIAG_IO_NO_LINE, "%s",
+				   search->point->line);
+	return trouble_set(why, DIAG_IO_NO_CHIP, "%s", search->point->chip);
+}
+
+bool gpio_find(const struct io_point *point, const char *dev,
+	       struct line_at *out, struct trouble *why)
+{
+	struct search search = { .point = point, .dev = dev, .denied = -1 };
+	int wanted = point->chip ? wanted_number(point->chip, dev) : -1;
+
+	for (int number = chip_after(dev, -1); number >= 0;
+	     number = chip_after(dev, number))
+		search_chip(&search, number, wanted);
+	if (search.hits == 0)
+		return not_found(&search, why);
+	if (search.hits > 1 && point->chip)
+		return trouble_set(why, DIAG_IO_CHIP_AMBIGUOUS, "%s",
+				   point->chip);
+	if (search.hits > 1)
+		return trouble_set(why, DIAG_IO_LINE_AMBIGUOUS,
+				   "%.20s, on gpiochip%d, %d", point->line,
+				   search.at.chip, search.second);
+	if (point->chip && point->offset >= search.lines)
+		return trouble_set(why, DIAG_IO_NO_LINE, "%.20s %u of %u",
+				   point->chip, (unsigned)point->offset,
+				   (unsigned)search.lines);
+	if (search.line.used)
+		return busy(why, point, &search.line);
+	*out = search.at;
+	return true;
+}
+
+static void list_chip(struct gpio_chip *chip, int number,
+		      void (*visit)(void *context,
+				    const struct line_seen *line),
+		      void *context)
+{
+	char name[sizeof(CHIP_PREFIX) + 12];
+	struct gpio_line line;
+
+	snprintf(name, sizeof(name), CHIP_PREFIX "%d", number);
+	for (uint32_t i = 0; i < chip->lines; i++) {
+		struct line_seen seen = {
+			.chip = name, .label = chip->label, .offset = i,
+			.name = line.name, .owner = line.owner,
+		};
+
+		if (gpio_chip_line(chip, i, &line) != 0)
+			continue;
+		seen.used = line.used;
+		seen.output = line.output;
+		visit(context, &seen);
+	}
+}
+
+bool gpio_list(const char *dev,
+	       void (*visit)(void *context, const struct line_seen *line),
+	       void *context, struct trouble *why)
+{
+	bool good = true;
+
+	for (int number = chip_after(dev, -1); number >= 0;
+	     number = chip_after(dev, number)) {
+		struct gpio_chip chip;
+		char path[PATH_BYTES];
+		int error;
+
+		gpio_path(dev, number, path, sizeof(path));
+		error = gpio_chip_open(path, &chip);
+		if (error) {
+			if (!is_gone(error))
+				good = gpio_refused(why, path, error);
+			continue;
+		}
+		list_chip(&chip, number, visit, context);
+		gpio_chip_close(&chip);
+	}
+	return good;
+}

@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * hal - moves levels between requests and the process image, once a scan. It
+ * allocates nothing and opens nothing; hal_open.c does.
+ */
+#include "hal/request.h"
+
+void request_failed(struct hal *hal, struct hal_request *request)
+{
+	hal->failed++;
+	request->dirty = true;
+	if (request->failures < HAL_FAILURES)
+		request->failures++;
+}
+
+void request_worked(struct hal_request *request)
+{
+	request->failures = 0;
+}
+
+bool request_in_fault(const struct hal_request *request)
+{
+	return request->failures >= HAL_FAILURES;
+}
+
+static enum hal_quality quality_of(const struct hal_request *request)
+{
+	if (request_in_fault(request))
+		return QUALITY_FAULT;
+	return request->failures ? QUALITY_STALE : QUALITY_GOOD;
+}
+
+enum hal_quality hal_quality(const struct hal *hal)
+{
+	enum hal_quality worst = QUALITY_GOOD;
+
+	for (uint32_t i = 0; i < hal->request_count; i++)
+		if (quality_of(&hal->request[i]) > worst)
+			worst = quality_of(&hal->request[i]);
+	return worst;
+}
+
+/* A change counts once it has been seen for the debounce time of its line. */
+static uint64_t debounce(struct hal_request *request, uint64_t level,
+			 int64_t now_ns)
+{
+	uint64_t changed = (level ^ request->value) & request->debounced;
+
+	request->differs &= changed;
+	for (uint32_t i = 0; changed >> i; i++) {
+		uint64_t mask = UINT64_C(1) << i;
+		int64_t wait_ns = request->ask.line[i].point->debounce_ns;
+
+		if (changed & mask && !(request->differs & mask)) {
+			request->differs |= mask;
+			request->differs_ns[i] = now_ns;
+		}
+		if (changed & mask && now_ns - request->differs_ns[i] < wait_ns)
+			level ^= mask;
+		if (i == REQUEST_LINES - 1)
+			break;
+	}
+	return level;
+}
+
+static void scatter(const struct hal_request *request, uint8_t *area)
+{
+	for (uint32_t i = 0; i < request->ask.count; i++) {
+		const struct hal_bit *bit = &request->bit[i];
+
+		if (request->value >> i & 1)
+			area[bit->byte] |= bit->mask;
+		else
+			area[bit->byte] &= (uint8_t)~bit->mask;
+	}
+}
+
+static uint64_t gather(const struct hal_request *request, const uint8_t *area)
+{
+	uint64_t value = 0;
+
+	for (uint32_t i = 0; i < request->ask.count; i++) {
+		const struct hal_bit *bit = &request->bit[i];
+
+		value |= (uint64_t)!!(area[bit->byte] & bit->mask) << i;
+	}
+	return value;
+}
+
+static void read_request(struct hal *hal, struct hal_request *request,
+			 int64_t now_ns)
+{
+	uint64_t level;
+
+	if (request->ask.driver->read(&request->ask, &level) < 0) {
+		request_failed(hal, request);
+		return;
+	}
+	request_worked(request);
+	level ^= request->invert;
+	request->value = request->debounced ?
+			 debounce(request, level, now_ns) : level;
+}
+
+bool ReadPhysicalInputs(struct hal *hal, struct image *image, int64_t now_ns)
+{
+	uint8_t *area = image_area(image, AREA_I);
+	bool good = true;
+
+	for (uint32_t i = 0; i < hal->request_count; i++) {
+		struct hal_request *request = &hal->request[i];
+
+		if (!request->ask.output) {
+			if (!request_in_fault(request))
+				read_request(hal, request, now_ns);
+			scatter(request, area);
+		}
+		good = good && !request_in_fault(request);
+	}
+	return good;
+}
+
+static void trace_changes(const struct hal *hal,
+			  const struct hal_request *request, uint64_t value)
+{
+	uint64_t changed = value ^ request->value;
+
+	for (uint32_t i = 0; i < request->ask.count; i++)
+		if (changed >> i & 1)
+			hal->trace(hal->trace_context,
+				   request->ask.line[i].point, value >> i & 1);
+}
+
+static bool write_request(struct hal *hal, struct hal_request *request,
+			  uint64_t value)
+{
+	if (request->ask.driver->write(&request->ask,
+				       value ^ request->invert) < 0) {
+		request_failed(hal, request);
+		return false;
+	}
+	request_worked(request);
+	if (hal->trace)
+		trace_changes(hal, request, value);
+	request->value = value;
+	request->dirty = false;
+	return true;
+}
+
+/* The first call after an opening only starts the clock of the refresh: the line
+ * shows its safe value since it was taken. */
+static bool must_write(struct hal_request *request, uint64_t value,
+		       int64_t now_ns)
+{
+	if (!request->written) {
+		request->written = true;
+		request->written_ns = now_ns;
+	}
+	return request->dirty || value != request->value ||
+	       now_ns - request->written_ns >= HAL_REFRESH_NS;
+}
+
+bool WritePhysicalOutputs(struct hal *hal, struct image *image, int64_t now_ns)
+{
+	const uint8_t *area = image_area(image, AREA_Q);
+	bool good = true;
+
+	for (uint32_t i = 0; i < hal->request_count; i++) {
+		struct hal_request *request = &hal->request[i];
+
+		if (request->ask.output && !request_in_fault(request) &&
+		    !hal->held) {
+			uint64_t value = gather(request, area);
+
+			if (must_write(request, value, now_ns) &&
+			    write_request(hal, request, value))
+				request->written_ns = now_ns;
+		}
+		good = good && !request_in_fault(request);
+	}
+	return good;
+}
+
+/* A request in fault is tried too, and stays in fault: only hal_reopen() ends
+ * that, so that a line that comes and goes does not come back by itself. */
+bool hal_write_safe(struct hal *hal)
+{
+	bool good = true;
+
+	hal->held = 1;
+	for (uint32_t i = 0; i < hal->request_count; i++) {
+		struct hal_request *request = &hal->request[i];
+		bool fault = request_in_fault(request);
+
+		if (!request->ask.output || !request->is_open)
+			continue;
+		if (!write_request(hal, request, request->safe))
+			good = false;
+		if (fault)
+			request->failures = HAL_FAILURES;
+	}
+	return good;
+}
+
+void hal_release(struct hal *hal)
+{
+	hal->held = 0;
+}
+
+struct request *hal_find(struct hal *hal, struct iec_addr addr, uint32_t *line)
+{
+	for (uint32_t i = 0; i < hal->request_count; i++) {
+		struct request *ask = &hal->request[i].ask;
+
+		for (uint32_t k = 0; k < ask->count; k++) {
+			struct iec_addr at = ask->line[k].point->addr;
+
+			if (at.area == addr.area && at.byte == addr.byte &&
+			    at.bit == addr.bit) {
+				*line = k;
+				return ask;
+			}
+		}
+	}
+	return NULL;
+}
+
+enum hal_quality hal_point_quality(const struct hal *hal, int index)
+{
+	const struct io_point *point = &hal->map->point[index];
+
+	for (uint32_t i = 0; i < hal->request_count; i++) {
+		const struct request *ask = &hal->request[i].ask;
+
+		for (uint32_t k = 0; k < ask->count; k++)
+			if (ask->line[k].point == point)
+				return quality_of(&hal->request[i]);
+	}
+	return QUALITY_GOOD;
+}

@@ -1,0 +1,509 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * iomap - reads the I/O map. A line is an address, a driver and options; words
+ * are separated by blanks. It goes on after an error to find the next one, and
+ * refuses what contradicts itself: an address, a line or an option twice.
+ */
+#include "hal/drivers.h"
+
+#include "engine/base/lex.h"
+#include "engine/base/literal.h"
+
+#include <stdio.h>
+#include <string.h>
+
+struct reader {
+	struct lex lex;
+	struct iomap map;
+	struct arena *arena;
+	struct diag_list *diags;
+	int errors;              /* of this text                              */
+	uint8_t *taken[2];       /* addresses of inputs, outputs: a bit each  */
+};
+
+/* Tokens without a blank between them: `chip=pinctrl-bcm2711` is one word. */
+struct word {
+	const char *text;
+	size_t len;
+	int line, column;
+	bool bad;
+};
+
+enum option_for { FOR_BOTH, FOR_INPUT, FOR_OUTPUT };
+
+struct option {
+	const char *name;
+	enum option_for use;
+	bool has_value;
+	/* False: the value is bad. */
+	bool (*set)(struct reader *reader, struct io_point *point,
+		    const char *value, size_t len);
+};
+
+static bool at_line_end(const struct reader *reader)
+{
+	enum token_kind kind = reader->lex.token.kind;
+
+	return kind == TOKEN_END || kind == TOKEN_NEWLINE ||
+	       lex_is(&reader->lex, "#");
+}
+
+static bool next_word(struct reader *reader, struct word *out)
+{
+	const struct token *token = &reader->lex.token;
+	const char *end;
+
+	if (at_line_end(reader))
+		return false;
+	out->text = token->text;
+	out->line = token->line;
+	out->column = token->column;
+	out->bad = false;
+	do {
+		end = token->text + token->len;
+		out->bad = out->bad || token->kind == TOKEN_BAD;
+		lex_next(&reader->lex);
+	} while (token->kind != TOKEN_END && token->kind != TOKEN_NEWLINE &&
+		 !token->space_before && token->text == end);
+	out->len = (size_t)(end - out->text);
+	return true;
+}
+
+static bool complain(struct reader *reader, enum diag_id id,
+		     const struct word *word)
+{
+	struct diag place = {
+		.id = id, .file = reader->map.file,
+		.line = word->line, .column = word->column,
+	};
+
+	reader->errors++;
+	return diag_add(reader->diags, place, "%.*s",
+			(int)(word->len < LIMIT_ARG ? word->len : LIMIT_ARG),
+			word->text);
+}
+
+static bool same_word(const char *text, size_t len, const char *word)
+{
+	if (strlen(word) != len)
+		return false;
+	for (size_t i = 0; i < len; i++) {
+		char c = text[i];
+
+		if (c >= 'A' && c <= 'Z')
+			c = (char)(c - 'A' + 'a');
+		if (c != word[i])
+			return false;
+	}
+	return true;
+}
+
+enum driver_id driver_find(const char *word, size_t len)
+{
+	int id = 0;
+
+	while (id < DRIVER_COUNT &&
+	       !same_word(word, len, driver_row((enum driver_id)id)->word))
+		id++;
+	return (enum driver_id)id;
+}
+
+/* A name, bare or between quotes ($" and $$ inside). NULL: it is none. */
+static char *read_name(struct reader *reader, const char *value, size_t len)
+{
+	char *name;
+	size_t out = 0;
+	bool quoted = len > 0 && value[0] == '"';
+
+	if (quoted && (len < 2 || value[len - 1] != '"'))
+		return NULL;
+	if (quoted) {
+		value++;
+		len -= 2;
+	}
+	if (len == 0 || len > LIMIT_NAME)
+		return NULL;
+	name = arena_copy(reader->arena, value, len);
+	for (size_t i = 0; name && i < len; i++) {
+		if (!quoted && value[i] == '"')
+			return NULL;
+		if (quoted && value[i] == '$' && ++i == len)
+			return NULL;
+		name[out++] = value[i];
+	}
+	if (name)
+		name[out] = 0;
+	return name;
+}
+
+static bool set_line(struct reader *reader, struct io_point *point,
+		     const char *value, size_t len)
+{
+	point->line = read_name(reader, value, len);
+	return point->line != NULL;
+}
+
+static bool set_chip(struct reader *reader, struct io_point *point,
+		     const char *value, size_t len)
+{
+	point->chip = read_name(reader, value, len);
+	return point->chip != NULL;
+}
+
+static bool set_offset(struct reader *reader, struct io_point *point,
+		       const char *value, size_t len)
+{
+	uint32_t offset = 0;
+
+	(void)reader;
+	for (size_t i = 0; i < len; i++) {
+		if (value[i] < '0' || value[i] > '9')
+			return false;
+		offset = offset * 10 + (uint32_t)(value[i] - '0');
+		if (offset > IO_OFFSET_MAX)
+			return false;
+	}
+	point->offset = offset;
+	return len > 0;
+}
+
+static bool set_debounce(struct reader *reader, struct io_point *point,
+			 const char *value, size_t len)
+{
+	char text[40];
+	struct literal time;
+
+	(void)reader;
+	if (len > sizeof(text) - 3)
+		return false;
+	snprintf(text, sizeof(text), "T#%.*s", (int)len, value);
+	if (literal_parse(text, len + 2, &time) != LITERAL_OK ||
+	    time.type != IEC_TIME || time.value.i < 0 ||
+	    time.value.i > IO_DEBOUNCE_MAX_NS)
+		return false;
+	point->debounce_ns = time.value.i;
+	return true;
+}
+
+static bool set_safe(struct reader *reader, struct io_point *point,
+		     const char *value, size_t len)
+{
+	(void)reader;
+	point->safe = len == 1 && value[0] == '1';
+	return len == 1 && (value[0] == '0' || value[0] == '1');
+}
+
+static bool set_active_low(struct reader *reader, struct io_point *point,
+			   const char *value, size_t len)
+{
+	(void)reader, (void)value, (void)len;
+	point->active_low = true;
+	return true;
+}
+
+#define SETTER(name, member, constant)                                        \
+	static bool name(struct reader *reader, struct io_point *point,       \
+			 const char *value, size_t len)                       \
+	{                                                                     \
+		(void)reader, (void)value, (void)len;                         \
+		point->member = constant;                                     \
+		return true;                                                  \
+	}
+SETTER(set_pull_up, bias, BIAS_UP)
+SETTER(set_pull_down, bias, BIAS_DOWN)
+SETTER(set_no_pull, bias, BIAS_NONE)
+SETTER(set_push_pull, drive, DRIVE_PUSH_PULL)
+SETTER(set_open_drain, drive, DRIVE_OPEN_DRAIN)
+SETTER(set_open_source, drive, DRIVE_OPEN_SOURCE)
+
+/* The three pulls exclude each other, and so do the three drives. */
+enum { FIRST_PULL = 6, FIRST_DRIVE = 9, OPTION_COUNT = 12 };
+static const struct option options[OPTION_COUNT] = {
+	{ "line",        FOR_BOTH,   true,  set_line },
+	{ "chip",        FOR_BOTH,   true,  set_chip },
+	{ "offset",      FOR_BOTH,   true,  set_offset },
+	{ "debounce",    FOR_INPUT,  true,  set_debounce },
+	{ "safe",        FOR_OUTPUT, true,  set_safe },
+	{ "active-low",  FOR_BOTH,   false, set_active_low },
+	{ "pull-up",     FOR_BOTH,   false, set_pull_up },
+	{ "pull-down",   FOR_BOTH,   false, set_pull_down },
+	{ "no-pull",     FOR_BOTH,   false, set_no_pull },
+	{ "push-pull",   FOR_OUTPUT, false, set_push_pull },
+	{ "open-drain",  FOR_OUTPUT, false, set_open_drain },
+	{ "open-source", FOR_OUTPUT, false, set_open_source },
+};
+enum { OPTION_LINE, OPTION_CHIP, OPTION_OFFSET };
+
+/* Options that may not stand beside option @i, itself included, a bit each. */
+static unsigned against(int i)
+{
+	if (i == OPTION_LINE)
+		return 1u << OPTION_LINE | 1u << OPTION_CHIP |
+		       1u << OPTION_OFFSET;
+	if (i == OPTION_CHIP || i == OPTION_OFFSET)
+		return 1u << OPTION_LINE | 1u << i;
+	if (i >= FIRST_DRIVE)
+		return 7u << FIRST_DRIVE;
+	if (i >= FIRST_PULL)
+		return 7u << FIRST_PULL;
+	return 1u << i;
+}
+
+static bool read_option(struct reader *reader, struct io_point *point,
+			const struct word *word, unsigned *seen)
+{
+	const char *equal = memchr(word->text, '=', word->len);
+	size_t name = equal ? (size_t)(equal - word->text) : word->len;
+	const char *value = equal ? equal + 1 : NULL;
+	int i = 0;
+
+	while (i < OPTION_COUNT &&
+	       !same_word(word->text, name, options[i].name))
+		i++;
+	if (i == OPTION_COUNT)
+		return complain(reader, DIAG_IO_OPTION, word);
+	if (*seen & against(i))
+		return complain(reader, DIAG_IO_CONFLICT, word);
+	*seen |= 1u << i;
+	if ((options[i].use == FOR_INPUT && point->output) ||
+	    (options[i].use == FOR_OUTPUT && !point->output))
+		return complain(reader, DIAG_IO_DIRECTION, word);
+	if (options[i].has_value != (value != NULL) ||
+	    !options[i].set(reader, point, value,
+			    value ? word->len - name - 1 : 0))
+		return complain(reader, DIAG_IO_VALUE, word);
+	return true;
+}
+
+static bool read_address(struct reader *reader, struct io_point *point,
+			 const struct word *word)
+{
+	uint8_t *taken, mask;
+
+	if (iec_addr_parse(word->text, word->len, &point->addr) != ADDR_OK ||
+	    point->addr.bits != 1 ||
+	    (point->addr.area != AREA_I && point->addr.area != AREA_Q))
+		return complain(reader, DIAG_IO_ADDRESS, word);
+	point->output = point->addr.area == AREA_Q;
+	taken = &reader->taken[point->output][point->addr.byte];
+	mask = (uint8_t)(1u << point->addr.bit);
+	if (*taken & mask)
+		return complain(reader, DIAG_IO_TWICE, word);
+	*taken |= mask;
+	return true;
+}
+
+static bool same_text(const char *a, const char *b)
+{
+	return a && b && strcmp(a, b) == 0;
+}
+
+/* The same line by the same spelling; by different ones hal_open() sees it. */
+static bool check_twice(struct reader *reader, const struct io_point *point,
+			const struct word *word)
+{
+	for (int i = 0; i < reader->map.count; i++) {
+		const struct io_point *other = &reader->map.point[i];
+
+		if (other == point || other->driver != point->driver ||
+		    !driver_row(point->driver)->needs_line)
+			continue;
+		if (same_text(other->line, point->line) ||
+		    (same_text(other->chip, point->chip) &&
+		     other->offset == point->offset))
+			return complain(reader, other->output == point->output ?
+					DIAG_IO_LINE_TWICE : DIAG_IO_BOTH_WAYS,
+					word);
+	}
+	return true;
+}
+
+static bool check_line(struct reader *reader, const struct io_point *point,
+		       const struct word *word, unsigned seen)
+{
+	bool by_chip = seen & 1u << OPTION_CHIP;
+	bool by_offset = seen & 1u << OPTION_OFFSET;
+
+	if (by_chip != by_offset ||
+	    (driver_row(point->driver)->needs_line &&
+	     !(seen & 1u << OPTION_LINE) && !by_chip))
+		return complain(reader, DIAG_IO_MISSING_LINE, word);
+	return check_twice(reader, point, word);
+}
+
+static void skip_words(struct reader *reader)
+{
+	struct word word;
+
+	while (next_word(reader, &word))
+		;
+}
+
+static void read_point(struct reader *reader, const struct word *address)
+{
+	struct io_point point = {
+		.text_line = address->line, .text_column = address->column,
+	};
+	struct io_point *kept;
+	struct word driver, word;
+	unsigned seen = 0;
+	int before = reader->errors;
+
+	read_address(reader, &point, address);
+	if (!next_word(reader, &driver)) {
+		complain(reader, DIAG_IO_SYNTAX, address);
+		return;
+	}
+	point.driver = driver_find(driver.text, driver.len);
+	if (point.driver == DRIVER_COUNT) {
+		complain(reader, DIAG_IO_DRIVER, &driver);
+		skip_words(reader);
+		return;
+	}
+	while (next_word(reader, &word))
+		read_option(reader, &point, &word, &seen);
+	if (reader->errors != before ||
+	    !check_line(reader, &point, address, seen))
+		return;
+	if (reader->map.count == LIMIT_IO_POINTS) {
+		complain(reader, DIAG_TOO_MANY, address);
+		return;
+	}
+	kept = arena_push(reader->arena, &reader->map.point, &reader->map.count,
+			  sizeof(*kept));
+	if (kept)
+		*kept = point;
+}
+
+static void read_board(struct reader *reader)
+{
+	struct word word;
+
+	if (!lex_accept(&reader->lex, "BOARD")) {
+		word = (struct word){ "", 0, reader->lex.token.line,
+				      reader->lex.token.column, false };
+		complain(reader, DIAG_IO_NO_BOARD, &word);
+		return;
+	}
+	if (!next_word(reader, &word)) {
+		word = (struct word){ "BOARD", 5, reader->lex.token.line, 1,
+				      false };
+		complain(reader, DIAG_IO_NO_BOARD, &word);
+		return;
+	}
+	reader->map.board = word.bad || word.text[0] != '"' ? NULL :
+		read_name(reader, word.text, word.len);
+	if (!reader->map.board)
+		complain(reader, DIAG_IO_NO_BOARD, &word);
+	else if (next_word(reader, &word))
+		complain(reader, DIAG_IO_SYNTAX, &word);
+	skip_words(reader);
+}
+
+static bool skip_empty(struct reader *reader)
+{
+	for (;;) {
+		if (reader->lex.token.kind == TOKEN_END)
+			return false;
+		if (reader->lex.token.kind == TOKEN_NEWLINE)
+			lex_next(&reader->lex);
+		else if (lex_is(&reader->lex, "#"))
+			lex_skip_line(&reader->lex);
+		else
+			return true;
+	}
+}
+
+static void read_lines(struct reader *reader)
+{
+	struct word word;
+
+	if (skip_empty(reader))
+		read_board(reader);
+	while (skip_empty(reader) && !reader->arena->failed) {
+		next_word(reader, &word);
+		if (word.bad) {
+			complain(reader, DIAG_IO_SYNTAX, &word);
+			skip_words(reader);
+		} else {
+			read_point(reader, &word);
+		}
+	}
+}
+
+/* Bytes that no text has are refused before a line is read. */
+static bool check_bytes(struct reader *reader, const char *text, size_t len)
+{
+	struct diag place = { .file = reader->map.file };
+	size_t bad;
+
+	if (len == 0) {
+		place.id = DIAG_EMPTY_FILE;
+		return diag_add(reader->diags, place, "%s", "");
+	}
+	if (len > LIMIT_TEXT) {
+		place.id = DIAG_TOO_LARGE;
+		return diag_add(reader->diags, place, "%s", "");
+	}
+	if (utf8_valid(text, len, &bad))
+		return true;
+	place.id = DIAG_BAD_UTF8;
+	place.line = place.column = 1;
+	for (size_t i = 0; i < bad; i++) {
+		place.column++;
+		if (text[i] == '\n') {
+			place.line++;
+			place.column = 1;
+		}
+	}
+	return diag_add(reader->diags, place, "%s", "");
+}
+
+bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
+		const char *text, size_t len, struct diag_list *diags)
+{
+	struct reader reader = {
+		.map = { .file = file, .board = "", .dev = "/dev" },
+		.arena = arena, .diags = diags,
+	};
+
+	*map = reader.map;
+	if (!check_bytes(&reader, text, len))
+		return false;
+	reader.taken[0] = arena_alloc(arena, iec_area_row(AREA_I)->bytes);
+	reader.taken[1] = arena_alloc(arena, iec_area_row(AREA_Q)->bytes);
+	lex_init(&reader.lex, text, len);
+	reader.lex.newlines = true;
+	lex_next(&reader.lex);
+	if (!arena->failed)
+		read_lines(&reader);
+	if (arena->failed)
+		return diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY,
+						      .file = file }, "%s", "");
+	if (reader.errors)
+		return false;
+	if (!reader.map.board || !reader.map.board[0])
+		return diag_add(diags, (struct diag){ .id = DIAG_IO_NO_BOARD,
+				.file = file, .line = 1 }, "%s", "");
+	*map = reader.map;
+	return true;
+}
+
+struct diag io_place(const struct iomap *map, const struct io_point *point,
+		     enum diag_id id)
+{
+	return (struct diag){
+		.id = id, .file = map->file,
+		.line = point->text_line, .column = point->text_column,
+	};
+}
+
+int io_line_print(const struct io_point *point, char *out, size_t size)
+{
+	if (point->line)
+		return snprintf(out, size, "%s", point->line);
+	if (point->chip)
+		return snprintf(out, size, "%s %u", point->chip,
+				(unsigned)point->offset);
+	return iec_addr_print(point->addr, out, size);
+}

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim - a real driver without a pin. An input shows what its owner set, and until
+ * then its pull: 1 with pull-up, else 0. An output keeps what was written.
+ */
+#include "hal/sim.h"
+
+#include <string.h>
+
+struct sim_state {
+	uint64_t level;
+	int error;
+	bool used; /* levels outlive a close and an open, as on a wire */
+};
+
+static bool sim_open(struct request *request, struct trouble *why)
+{
+	struct sim_state *state = request->state;
+
+	if (state->error)
+		return trouble_set(why, DIAG_IO_REQUEST, "%s",
+				   strerror(state->error));
+	if (request->output) {
+		state->level = request->first;
+		return true;
+	}
+	for (uint32_t i = 0; i < request->count && !state->used; i++)
+		if (request->line[i].point->bias == BIAS_UP)
+			state->level |= UINT64_C(1) << i;
+	state->used = true;
+	return true;
+}
+
+static void sim_close(struct request *request)
+{
+	(void)request;
+}
+
+static int sim_read(struct request *request, uint64_t *levels)
+{
+	const struct sim_state *state = request->state;
+
+	*levels = state->level;
+	return -state->error;
+}
+
+static int sim_write(struct request *request, uint64_t levels)
+{
+	struct sim_state *state = request->state;
+
+	if (state->error)
+		return -state->error;
+	state->level = levels;
+	return 0;
+}
+
+void sim_set(struct request *request, uint32_t line, bool level)
+{
+	struct sim_state *state = request->state;
+	uint64_t mask = UINT64_C(1) << line;
+
+	state->level = level ? state->level | mask : state->level & ~mask;
+}
+
+bool sim_get(const struct request *request, uint32_t line)
+{
+	const struct sim_state *state = request->state;
+
+	return state->level >> line & 1;
+}
+
+void sim_fail(struct request *request, int error)
+{
+	struct sim_state *state = request->state;
+
+	state->error = error;
+}
+
+const struct driver driver_sim = {
+	.word = "sim", .doc = "levels held in memory; no pin is touched",
+	.state_size = sizeof(struct sim_state),
+	.open = sim_open, .close = sim_close,
+	.read = sim_read, .write = sim_write,
+};

@@ -1,0 +1,426 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * suite - what every gpio driver must do, against fake chips that count calls.
+ *
+ * Built once with each version of libgpiod that the project knows. It checks what
+ * the kernel would see: which calls, in which order, how many, with which flags.
+ */
+#include "tests/hal/bench.h"
+
+static void test_order(void)
+{
+	struct bench b;
+
+	chips();
+	CHECK(bench_open(&b, "BOARD \"x\"\n%QX0.0 gpio line=OUT0 safe=1\n"
+			 "%IX0.0 gpio line=IN0\n%IX0.1 gpio line=IN1\n"
+			 "%QX0.1 gpio chip=panel offset=101\n"));
+	CHECK(b.hal.request_count == 2);
+	CHECK(fake.takes == 2 && fake.reads == 1 && fake.writes == 0);
+	CHECK_AS(strchr(fake.calls, 'I') < strchr(fake.calls, 'O'),
+		 "inputs are taken before outputs");
+	CHECK_AS(strchr(fake.calls, 'r') < strchr(fake.calls, 'O'),
+		 "inputs have answered before an output is taken");
+	CHECK_AS(level("OUT0") == 1 && level("OUT1") == 0,
+		 "outputs begin with their safe values");
+	fake_clear_calls();
+	fake.chip[0].line[1].level = 1;
+	CHECK(scan(&b, 0));
+	CHECK(!input(&b, 0) && input(&b, 1));
+	CHECK_TEXT(fake.calls, "rw");
+	CHECK(fake.reads == 1 && fake.writes == 1);
+	CHECK_AS(level("OUT0") == 0, "the program's value after the first scan");
+	fake_clear_calls();
+	hal_close(&b.hal);
+	CHECK_AS(level("OUT0") == 1 && level("OUT1") == 0,
+		 "safe values are written before lines are given back");
+	CHECK(strchr(fake.calls, 'w') < strchr(fake.calls, 'x'));
+	CHECK(fake.releases == 2 && fake.opens == fake.closes);
+	CHECK_AS(fake.settings == 0, "all objects of libgpiod are freed");
+	bench_end(&b);
+}
+
+static void test_changes(void)
+{
+	struct bench b;
+
+	chips();
+	CHECK(bench_open(&b, "BOARD \"x\"\n%QX0.0 gpio line=OUT0\n"
+			 "%QX0.1 gpio line=OUT1\n%QX9.0 gpio line=FAR0\n"));
+	CHECK(b.hal.request_count == 2);
+	scan(&b, 0);
+	CHECK_AS(fake.writes == 0, "nothing to write: all are as they began");
+	output(&b, 1, true);
+	scan(&b, 10 * MS);
+	CHECK_AS(fake.writes == 1, "only the request that changed is written");
+	CHECK(level("OUT0") == 0 && level("OUT1") == 1);
+	for (int i = 2; i < 100; i++)
+		scan(&b, i * 10 * MS);
+	CHECK_AS(fake.writes == 1, "unchanged outputs are not written");
+	scan(&b, 1000 * MS);
+	CHECK_AS(fake.writes == 2, "refresh of the request not written so far");
+	scan(&b, 1009 * MS);
+	CHECK(fake.writes == 2);
+	scan(&b, 1010 * MS);
+	CHECK_AS(fake.writes == 3, "refresh a second after its last write");
+	output(&b, 72, true);
+	fake.chip[0].line[101].level = 0;
+	scan(&b, 2010 * MS);
+	CHECK_AS(level("OUT1") == 1, "a refresh puts a disturbed line right");
+	CHECK(level("FAR0") == 1);
+	bench_end(&b);
+}
+
+static void test_failed_reads(void)
+{
+	struct bench b;
+
+	chips();
+	CHECK(bench_open(&b, "BOARD \"x\"\n%IX0.0 gpio line=IN0\n"
+			 "%QX0.0 gpio line=OUT0 safe=1\n"));
+	fake.chip[0].line[0].level = 1;
+	CHECK(scan(&b, 0) && input(&b, 0));
+	fake.read_error = EIO;
+	fake.chip[0].line[0].level = 0;
+	CHECK_AS(scan(&b, 1) && input(&b, 0), "a failed read keeps the value");
+	CHECK(hal_quality(&b.hal) == QUALITY_STALE);
+	CHECK(hal_point_quality(&b.hal, 0) == QUALITY_STALE);
+	CHECK(hal_point_quality(&b.hal, 1) == QUALITY_GOOD);
+	CHECK(scan(&b, 2));
+	fake.read_error = 0;
+	CHECK_AS(scan(&b, 3) && !input(&b, 0), "a good read ends the count");
+	CHECK(hal_quality(&b.hal) == QUALITY_GOOD);
+	fake.read_error = EIO;
+	CHECK(scan(&b, 4) && scan(&b, 5));
+	CHECK_AS(!scan(&b, 6), "the third failure in a row is a fault");
+	CHECK(hal_quality(&b.hal) == QUALITY_FAULT && b.hal.failed == 5);
+	fake_clear_calls();
+	CHECK(!scan(&b, 7));
+	CHECK_AS(fake.reads == 0, "a line in fault is not asked again");
+	CHECK_AS(!hal_reopen(&b.hal), "it still does not answer");
+	fake.read_error = 0;
+	CHECK_AS(!scan(&b, 8), "and does not come back by itself");
+	CHECK_AS(hal_reopen(&b.hal) && b.hal.reopened == 1, "until reopened");
+	CHECK(scan(&b, 9) && hal_quality(&b.hal) == QUALITY_GOOD);
+	bench_end(&b);
+}
+
+static void test_failed_writes(void)
+{
+	struct bench b;
+
+	chips();
+	CHECK(bench_open(&b, "BOARD \"x\"\n%QX0.0 gpio line=OUT0\n"));
+	output(&b, 0, true);
+	fake.write_error = EIO;
+	CHECK(scan(&b, 0) && scan(&b, 1));
+	CHECK_AS(fake.writes == 2, "a write that failed is tried again");
+	fake.write_error = 0;
+	CHECK(scan(&b, 2) && level("OUT0") == 1);
+	output(&b, 0, false);
+	fake.write_error = EIO;
+	CHECK(scan(&b, 3) && scan(&b, 4) && !scan(&b, 5));
+	CHECK(!hal_write_safe(&b.hal));
+	fake.write_error = 0;
+	CHECK_AS(hal_write_safe(&b.hal) && level("OUT0") == 0,
+		 "safe values are tried on a line in fault too");
+	CHECK_AS(hal_quality(&b.hal) == QUALITY_FAULT, "which stays in fault");
+	CHECK(hal_reopen(&b.hal));
+	bench_end(&b);
+}
+
+static void test_unplug(void)
+{
+	struct bench b;
+
+	chips();
+	CHECK(bench_open(&b, "BOARD \"x\"\n%IX0.0 gpio line=IN0\n"
+			 "%QX0.0 gpio line=OUT0 safe=1\n"));
+	output(&b, 0, true);
+	scan(&b, 0);
+	fake_unplug(0);
+	for (int i = 1; i < 4; i++)
+		scan(&b, i);
+	CHECK(hal_quality(&b.hal) == QUALITY_FAULT);
+	hal_write_safe(&b.hal);
+	CHECK_AS(!hal_reopen(&b.hal), "the chip is gone");
+	/* It comes back with another number and its lines at their reset level. */
+	fake.chip[2] = fake.chip[0];
+	fake.chip[2].present = true;
+	fake.chip[2].line[100].level = 0;
+	hal_write_safe(&b.hal);
+	hal_write_safe(&b.hal);
+	CHECK_AS(hal_reopen(&b.hal), "found again under another number");
+	CHECK_AS(fake.chip[2].line[100].level == 1, "with its safe value");
+	CHECK_AS(b.hal.held, "outputs are still held");
+	output(&b, 0, false);
+	scan(&b, 5);
+	CHECK(fake.chip[2].line[100].level == 1);
+	hal_release(&b.hal);
+	scan(&b, 6);
+	CHECK(fake.chip[2].line[100].level == 0);
+	bench_end(&b);
+}
+
+static void test_hold(void)
+{
+	struct bench b;
+
+	chips();
+	CHECK(bench_open(&b, "BOARD \"x\"\n%QX0.0 gpio line=OUT0\n"
+			 "%QX0.1 gpio line=OUT1 active-low safe=1\n"
+			 "%QX0.2 gpio line=OUT2 active-low\n"));
+	CHECK_AS(level("OUT1") == 0 && level("OUT2") == 1,
+		 "safe is the program's value; the line shows it inverted");
+	output(&b, 0, true);
+	output(&b, 2, true);
+	scan(&b, 0);
+	CHECK(level("OUT0") == 1 && level("OUT1") == 1 && level("OUT2") == 0);
+	CHECK(hal_write_safe(&b.hal));
+	CHECK(level("OUT0") == 0 && level("OUT1") == 0 && level("OUT2") == 1);
+	fake_clear_calls();
+	scan(&b, 2000 * MS);
+	CHECK_AS(fake.writes == 0, "held outputs are not written by a scan");
+	hal_release(&b.hal);
+	scan(&b, 2001 * MS);
+	CHECK(level("OUT0") == 1 && level("OUT1") == 1 && level("OUT2") == 0);
+	bench_end(&b);
+}
+
+static void test_flags(void)
+{
+	struct bench b;
+	const struct fake_line *line = fake.chip[0].line;
+
+	chips();
+	CHECK(bench_open(&b, "BOARD \"x\"\n"
+			 "%IX0.0 gpio line=IN0 pull-up active-low\n"
+			 "%IX0.1 gpio line=IN1 pull-down\n"
+			 "%IX0.2 gpio line=IN2 no-pull\n"
+			 "%IX0.3 gpio line=IN3\n"
+			 "%QX0.0 gpio line=OUT0 open-drain pull-up\n"
+			 "%QX0.1 gpio line=OUT1 open-source\n"
+			 "%QX0.2 gpio line=OUT2 push-pull\n"));
+	CHECK(line[0].bias == 'u' && line[1].bias == 'd');
+	CHECK(line[2].bias == 'n' && line[3].bias == '-');
+	CHECK(line[100].drive == 'o' && line[100].bias == 'u');
+	CHECK(line[101].drive == 's' && line[102].drive == '-');
+	CHECK_TEXT(line[0].owner, "ladderd");
+	CHECK(b.hal.request_count == (driver_gpio.same_flags ? 7 : 2));
+	fake_clear_calls();
+	fake.chip[0].line[1].level = 1;
+	scan(&b, 0);
+	CHECK_AS(input(&b, 0) && input(&b, 1) && !input(&b, 2),
+		 "active low: the low level is TRUE");
+	CHECK(fake.reads == (driver_gpio.same_flags ? 4 : 1));
+	bench_end(&b);
+}
+
+static void test_many(void)
+{
+	struct bench b;
+	char text[8192];
+	size_t len = (size_t)snprintf(text, sizeof(text), "BOARD \"x\"\n");
+
+	for (int i = 0; i < 70; i++) {
+		len += (size_t)snprintf(text + len, sizeof(text) - len,
+			"%%IX%d.%d gpio line=IN%d\n", i / 8, i % 8, i);
+		len += (size_t)snprintf(text + len, sizeof(text) - len,
+			"%%QX%d.%d gpio line=OUT%d\n", i / 8, i % 8, i);
+	}
+	chips();
+	CHECK(bench_open(&b, text));
+	CHECK_AS(b.hal.request_count == 4, "64 lines a request at most");
+	fake_clear_calls();
+	fake.chip[0].line[63].level = fake.chip[0].line[69].level = 1;
+	output(&b, 0, true);
+	output(&b, 63, true);
+	output(&b, 64, true);
+	CHECK(scan(&b, 0));
+	CHECK(fake.reads == 2 && fake.writes == 2);
+	CHECK(input(&b, 63) && input(&b, 69) && !input(&b, 62) &&
+	      !input(&b, 64));
+	CHECK(level("OUT0") == 1 && level("OUT63") == 1 &&
+	      level("OUT64") == 1 && level("OUT62") == 0);
+	CHECK(b.hal.bytes > 0 && b.hal.bytes <= hal_memory(&b.map));
+	bench_end(&b);
+}
+
+static void test_debounce(void)
+{
+	struct bench b;
+	int *key = &fake.chip[0].line[0].level;
+
+	chips();
+	*key = 1;
+	CHECK(bench_open(&b, "BOARD \"x\"\n%IX0.0 gpio line=IN0 debounce=5ms\n"
+			 "%IX0.1 gpio line=IN1\n"));
+	scan(&b, 100 * MS);
+	CHECK_AS(input(&b, 0), "the first value counts at once");
+	*key = 0;
+	scan(&b, 101 * MS);
+	fake.chip[0].line[1].level = 1;
+	scan(&b, 105 * MS);
+	CHECK_AS(input(&b, 0) && input(&b, 1), "4 ms are not enough");
+	*key = 1;
+	scan(&b, 106 * MS);
+	*key = 0;
+	scan(&b, 107 * MS);
+	scan(&b, 112 * MS - 1);
+	CHECK_AS(input(&b, 0), "a bounce starts the time again");
+	scan(&b, 112 * MS);
+	CHECK_AS(!input(&b, 0), "exactly 5 ms are enough");
+	bench_end(&b);
+}
+
+static void test_places(void)
+{
+	struct bench b;
+
+	chips();
+	fake.chip[1].line[3].name = "IN0";
+	CHECK(refused(&b, "%IX0.0 gpio line=IN0",
+		      "LD509: two lines have this name; give chip and offset: "
+		      "IN0, on gpiochip0, 1"));
+	CHECK(refused(&b, "%IX0.0 gpio line=NOPE",
+		      "LD508: no such line on this machine: NOPE"));
+	CHECK(refused(&b, "%IX0.0 gpio chip=nope offset=1",
+		      "LD512: no such GPIO chip on this machine: nope"));
+	CHECK(refused(&b, "%IX0.0 gpio chip=panel offset=200",
+		      "LD508: no such line on this machine: panel 200 of 200"));
+	CHECK(refused(&b, "%IX0.0 gpio chip=gpiochip7 offset=1",
+		      "LD512: no such GPIO chip on this machine: gpiochip7"));
+	fake.chip[1].label = "panel";
+	CHECK(refused(&b, "%IX0.0 gpio chip=panel offset=1",
+		      "LD521: two chips have this label; use line names: "
+		      "panel"));
+	CHECK(refused(&b, "%IX0.0 gpio line=IN1\n"
+			  "%IX0.1 gpio chip=gpiochip0 offset=1",
+		      "LD507: line stands twice in the map: gpiochip0 1, as in "
+		      "line 2"));
+	CHECK(refused(&b, "%QX0.0 gpio line=IN1\n"
+			  "%IX0.1 gpio chip=/dev/gpiochip0 offset=1",
+		      "LD518: line is used as an input and as an output: "
+		      "/dev/gpiochip0 1, as in line 2"));
+	CHECK_AS(fake.takes == 0 && fake.opens == fake.closes,
+		 "a map that is refused touches no line");
+}
+
+static void test_owners(void)
+{
+	struct bench b;
+
+	chips();
+	fake.chip[0].line[1].used = true;
+	fake.chip[0].line[1].owner = "spi0 CS0";
+	CHECK(refused(&b, "%IX0.0 gpio line=IN1",
+		      "LD510: line is in use by another owner: IN1, by "
+		      "spi0 CS0"));
+	fake.chip[0].line[1].owner = NULL;
+	CHECK(refused(&b, "%QX0.0 gpio line=IN1",
+		      "LD510: line is in use by another owner: IN1, by "
+		      "the kernel"));
+	CHECK(fake.takes == 0);
+	fake.take_error = EINVAL;
+	CHECK(refused(&b, "%QX0.0 gpio line=OUT0",
+		      "LD513: the kernel refused this line: OUT0: gpiochip0: "
+		      "Invalid argument"));
+	fake.take_error = 0;
+	fake.read_error = EIO;
+	CHECK(refused(&b, "%IX0.0 gpio line=IN0\n%QX0.0 gpio line=OUT0 safe=1",
+		      "LD522: line does not answer: IN0: Input/output error"));
+	CHECK_AS(level("OUT0") == 0, "and no output was taken");
+	fake.read_error = 0;
+	fake.chip[0].open_error = EACCES;
+	CHECK(refused_like(&b, "%IX0.0 gpio line=IN0",
+		"LD511: no permission for this chip; join the group that owns "
+		"it: gpiochip0, group "));
+	CHECK_AS(!strchr(b.text, '?'), "the group is named");
+	CHECK(refused_like(&b, "%IX0.0 gpio chip=panel offset=0",
+		"LD511: no permission for this chip"));
+	CHECK(fake.opens == fake.closes && fake.settings == 0);
+}
+
+/* Raspberry Pi OS has links from old numbers to new ones. */
+static void test_links(void)
+{
+	struct bench b;
+	char path[250];
+
+	chips();
+	snprintf(path, sizeof(path), "%s/gpiochip9", bench_dev());
+	CHECK(symlink("gpiochip0", path) == 0);
+	CHECK_AS(bench_open(&b, "BOARD \"x\"\n%IX0.0 gpio line=IN0\n"
+			    "%IX0.1 gpio chip=gpiochip9 offset=5\n"),
+		 "a link is not a second chip, and may be named");
+	CHECK(b.hal.request_count == 1);
+	unlink(path);
+	bench_end(&b);
+}
+
+static int seen_lines, seen_used;
+static void visit(void *context, const struct line_seen *line)
+{
+	(void)context;
+	seen_lines++;
+	seen_used += line->used;
+	if (line->offset == 1 && strcmp(line->chip, "gpiochip0") == 0) {
+		CHECK_TEXT(line->label, "panel");
+		CHECK_TEXT(line->name, "IN1");
+		CHECK_TEXT(line->owner, "spi");
+	}
+}
+
+static void test_list(void)
+{
+	struct bench b;
+
+	chips();
+	fake.chip[0].line[1].used = true;
+	fake.chip[0].line[1].owner = "spi";
+	bench_begin(&b);
+	CHECK(hal_list(bench_dev(), visit, NULL, &b.diags));
+	CHECK(seen_lines == 208 && seen_used == 1);
+	fake.chip[0].open_error = EACCES;
+	CHECK(!hal_list(bench_dev(), visit, NULL, &b.diags));
+	CHECK_AS(seen_lines == 216, "the other chip is listed all the same");
+	CHECK(b.diags.diag[0].id == DIAG_IO_PERMISSION);
+	bench_end(&b);
+}
+
+static void test_check(void)
+{
+	struct bench b;
+
+	chips();
+	bench_begin(&b);
+	CHECK(bench_map(&b, "BOARD \"x\"\n%IX0.0 gpio line=IN0\n"
+			"%QX0.0 gpio line=NOPE\n%QX0.1 gpio line=NOPE2\n"));
+	CHECK(!hal_check(&b.map, &b.arena, &b.diags));
+	CHECK_AS(b.diags.errors == 2, "every error of the map is told");
+	CHECK(b.diags.diag[1].line == 4 && b.diags.diag[1].column == 1);
+	CHECK(fake.takes == 0 && fake.opens == fake.closes);
+	bench_end(&b);
+}
+
+int main(void)
+{
+	if (!bench_dev())
+		return 1;
+	test_order();
+	test_changes();
+	test_failed_reads();
+	test_failed_writes();
+	test_unplug();
+	test_hold();
+	test_flags();
+	test_many();
+	test_debounce();
+	test_places();
+	test_owners();
+	test_links();
+	test_list();
+	test_check();
+	bench_remove_dev();
+	return tap_done();
+}
