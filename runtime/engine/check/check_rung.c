@@ -160,6 +160,7 @@ static void check_pin_row(struct rung_check *c, int row, int col)
 	while (up >= 0 && !is_box(word_at(c, up, col)))
 		up--;
 	report_cell(c, up >= 0 ? DIAG_BOX_CUT : DIAG_PIN_WITHOUT_BOX, row, col);
+	c->net[network_net(c->network, row, col)].said = true;
 }
 
 static void check_grid(struct rung_check *c)
