@@ -1,0 +1,149 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# What the documents show is true. Each ```rung block is a whole file that checks
+# without an error, is canonical and runs; each ```console block is typed again and
+# must answer as printed. It does not judge prose.
+#
+# A second word on a fence (```rung lamp.rung, ```text steps) is a file name: the block is
+# written under it, so that later commands find it. Each document has a folder of
+# its own with a copy of ladders/ in it. In shown output, `…` stands for any text in a
+# line, and alone in a line for any lines.
+use strict;
+use warnings;
+use utf8;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname basename);
+use File::Temp qw(tempdir);
+use Test::More;
+
+binmode $_, ':encoding(UTF-8)'
+	for *STDOUT, Test::More->builder->output, Test::More->builder->failure_output;
+
+my $top = abs_path(dirname(__FILE__) . '/..');
+my $build = abs_path($ENV{BUILD} // "$top/build");
+$ENV{PATH} = "$build:$ENV{PATH}";
+$ENV{LC_ALL} = 'C.UTF-8';
+delete @ENV{qw(COLUMNS NO_COLOR CLICOLOR_FORCE)};
+
+sub read_text {
+	my ($path) = @_;
+	open my $in, '<:encoding(UTF-8)', $path or die "$path: $!";
+	local $/;
+	return <$in>;
+}
+
+sub write_text {
+	my ($path, $text) = @_;
+	open my $out, '>:encoding(UTF-8)', $path or die "$path: $!";
+	print $out $text;
+	close $out or die "$path: $!";
+}
+
+sub run_in {
+	my ($folder, $command) = @_;
+	write_text("$folder/.command", $command);
+	my $pid = open my $from, '-|:encoding(UTF-8)', 'sh', '-c',
+		'cd "$1" && exec 2>&1 </dev/null && . ./.command', 'sh', $folder;
+	die "sh: $!" if !$pid;
+	local $/;
+	my $text = <$from> // '';
+	close $from;
+	return ($text, $? >> 8, $? & 127);
+}
+
+# The blocks of a document: what the fence says, where it stands, its text.
+sub blocks_of {
+	my ($path) = @_;
+	my (@blocks, $open);
+	my $line = 0;
+	for (split /\n/, read_text($path), -1) {
+		$line++;
+		if (!$open && /^```(\S*)\s*(\S*)/) {
+			$open = { kind => $1, name => $2, line => $line, text => '' };
+		} elsif ($open && /^```\s*$/) {
+			push @blocks, $open;
+			undef $open;
+		} elsif ($open) {
+			$open->{text} .= "$_\n";
+		}
+	}
+	ok(!$open, basename($path) . ': every fence is closed');
+	return @blocks;
+}
+
+sub check_rung {
+	my ($folder, $file, $where) = @_;
+	write_text("$folder/.one", ".\n");
+	for my $command ("ladder check $file", "ladder fmt --check $file",
+			 "ladder trace $file .one") {
+		my ($text, $status, $signal) = run_in($folder, $command);
+		ok($status == 0 && $signal == 0, "$where: $command")
+			or diag("status $status, signal $signal\n$text");
+	}
+}
+
+# A regular expression that the shown text is.
+sub pattern_of {
+	my ($shown) = @_;
+	my $pattern = '';
+	for (split /(?<=\n)/, $shown) {
+		if (/^\s*…\s*$/) {
+			$pattern .= '(?:.*\n)*?';
+			next;
+		}
+		s/\s+\n\z/\n/;
+		$pattern .= join '[^\n]*', map { quotemeta } split /…/, $_, -1;
+	}
+	return qr/\A$pattern\z/;
+}
+
+sub check_console {
+	my ($folder, $block, $where) = @_;
+	my @steps;
+	my $line = $block->{line};
+	for (split /(?<=\n)/, $block->{text}) {
+		$line++;
+		if (/^\$ (.*)\n/) {
+			push @steps, { command => $1, shown => '', line => $line };
+		} elsif (@steps) {
+			$steps[-1]{shown} .= $_;
+		} else {
+			fail("$where: a console block begins with \$");
+		}
+	}
+	ok(@steps > 0, "$where: has commands");
+	for my $step (@steps) {
+		my ($text, undef, $signal) = run_in($folder, $step->{command});
+		$text =~ s/[ \t]+$//mg;
+		ok($signal == 0 && $text =~ pattern_of($step->{shown}),
+		   "$where:$step->{line}: $step->{command}")
+			or diag("signal $signal, answers\n$text");
+	}
+}
+
+my %count = (rung => 0, console => 0);
+for my $path (glob("$top/docs/*.md"), "$top/README.md") {
+	my $folder = tempdir(CLEANUP => 1);
+	my $doc = basename($path);
+	my $number = 0;
+
+	system('cp', '-R', "$top/ladders", "$folder/ladders") == 0
+		or die 'cannot copy ladders/';
+	for my $block (blocks_of($path)) {
+		my $kind = $block->{kind};
+		my $name = $block->{name};
+
+		$name = sprintf 'block%d.rung', ++$number
+			if $kind eq 'rung' && $name eq '';
+		write_text("$folder/$name", $block->{text}) if $name ne '';
+		$count{$kind}++ if exists $count{$kind};
+		check_rung($folder, $name, "$doc:$block->{line}")
+			if $kind eq 'rung';
+		check_console($folder, $block, $doc) if $kind eq 'console';
+	}
+}
+# A parser that finds nothing would be content with everything.
+cmp_ok($count{rung}, '>=', 20, 'examples were found');
+cmp_ok($count{console}, '>=', 10, 'commands were found');
+done_testing();
