@@ -11,10 +11,22 @@
 
 struct lines {
 	char *text;        /* cut into lines, NUL-ended                        */
-	const char **line;
+	char **line;
 	uint32_t *id;
 	int count;
 };
+
+/* Operands stand aligned: how far must make no difference. */
+static char *one_blank(char *line)
+{
+	char *begin = line + strspn(line, " "), *to = begin;
+
+	for (const char *from = begin; *from; from++)
+		if (*from != ' ' || from[1] != ' ')
+			*to++ = *from;
+	*to = '\0';
+	return begin;
+}
 
 static bool cut_lines(struct diff *diff, struct lines *lines)
 {
@@ -23,7 +35,7 @@ static bool cut_lines(struct diff *diff, struct lines *lines)
 	while (at) {
 		*at++ = '\0';
 		char *end = strchr(at, '\n');
-		const char **line;
+		char **line;
 
 		/* The last line is END_PROGRAM. */
 		if (!end || end[1] == '\0')
@@ -32,9 +44,11 @@ static bool cut_lines(struct diff *diff, struct lines *lines)
 				  sizeof(*line));
 		if (!line)
 			return false;
-		*line = at + strspn(at, " ");
+		*line = at;
 		at = end;
 	}
+	if (at)
+		*at = '\0';
 	return true;
 }
 
@@ -54,9 +68,12 @@ static bool make_lines(struct diff *diff, const struct project *project,
 		return false;
 	lines->id = arena_alloc(&diff->arena, (size_t)(lines->count + 1) *
 					      sizeof(*lines->id));
-	for (int i = 0; lines->id && i < lines->count; i++)
-		lines->id[i] = diff_id(diff, lines->line[i],
-				       strlen(lines->line[i]));
+	for (int i = 0; lines->id && i < lines->count; i++) {
+		char *line = one_blank(lines->line[i]);
+
+		lines->line[i] = line;
+		lines->id[i] = diff_id(diff, line, strlen(line));
+	}
 	return lines->id && !diff->failed;
 }
 

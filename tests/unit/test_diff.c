@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_diff - two programs and what is said of them.
+ */
+#include "engine/model/project.h"
+#include "engine/text/text.h"
+#include "engine/view/diff.h"
+#include "engine/view/view.h"
+#include "tests/tap.h"
+
+#include <stdlib.h>
+
+static struct sink_memory memory;
+static struct diag_list diags;
+static int count;
+
+static struct project *read_text(const char *body)
+{
+	struct project *project = project_new("test.rung");
+	size_t size = strlen(body) + 40;
+	char *text = malloc(size);
+
+	snprintf(text, size, "RUNGBOARD 1\n%s", body);
+	diag_init(&diags);
+	CHECK_AS(text_read(project, "test.rung", text, strlen(text), NULL,
+			   &diags), "the program can be read");
+	free(text);
+	return project;
+}
+
+static const char *compare(const char *a, const char *b, bool json)
+{
+	struct project *x = read_text(a), *y = read_text(b);
+	struct sink sink = sink_to_memory(&memory);
+
+	sink_memory_free(&memory);
+	count = view_diff(x, y, json, &sink);
+	project_free(x);
+	project_free(y);
+	return sink_memory_text(&memory);
+}
+
+static const char *rungs(const char *a, const char *b)
+{
+	static char x[20000], y[20000];
+
+	snprintf(x, sizeof(x), "PROGRAM Main LD\n%sEND_PROGRAM\n", a);
+	snprintf(y, sizeof(y), "PROGRAM Main LD\n%sEND_PROGRAM\n", b);
+	return compare(x, y, false);
+}
+
+static void test_cells(void)
+{
+	const char *seal = "RUNG Seal\n| NO Open | NC Stop | COIL M |\n"
+			   "| NO M ^|\n";
+	const char *got;
+
+	CHECK_TEXT(rungs(seal, seal), "");
+	CHECK(count == 0);
+	got = rungs(seal, "RUNG Seal\n| NO Open | NC Stop | COIL M |\n"
+			  "| NC M ^|\n");
+	CHECK_TEXT(got, "Main rung 1 (Seal) cell (2,1): NO M -> NC M\n");
+	CHECK(count == 1);
+	got = rungs(seal, "RUNG Seal \"keeps on\"\n"
+			  "| NO Open | NC Stop (* red *) | COIL M |\n| NO M |\n");
+	CHECK_TEXT(got,
+		   "Main rung 1 (Seal): title nothing -> keeps on\n"
+		   "Main rung 1 (Seal) cell (1,2): comment nothing -> "
+		   "(* red *)\n"
+		   "Main rung 1 (Seal) cell (2,1): link removed\n");
+	CHECK(count == 3);
+	got = rungs("RUNG\n| NO A | TON T PT:=T#3s ET=>E | COIL M |\n",
+		    "RUNG OFF\n| NO A | TON T PT:=T#5s Q=>F |\n");
+	CHECK_TEXT(got,
+		   "Main rung 1: switched off\n"
+		   "Main rung 1 cell (1,2) TON T: PT T#3s -> T#5s\n"
+		   "Main rung 1 cell (1,2) TON T: ET => E -> nothing\n"
+		   "Main rung 1 cell (1,2) TON T: Q nothing -> => F\n"
+		   "Main rung 1 cell (1,3): COIL M -> nothing\n");
+	CHECK(count == 5);
+}
+
+#define R(n) "RUNG\n| NO I" #n " | COIL Q" #n " |\n"
+#define L(n) "RUNG L" #n "\n| NO I" #n " | COIL Q" #n " |\n"
+
+static void test_rungs(void)
+{
+	CHECK_TEXT(rungs(R(1) R(2) R(3), R(1) R(9) R(2) R(3)),
+		   "Main rung 2: added\n");
+	CHECK_TEXT(rungs(R(1) R(2) R(3), R(1) R(3)), "Main rung 2: removed\n");
+	CHECK_TEXT(rungs(R(1) R(2) R(3) R(4), R(2) R(3) R(4) R(1)),
+		   "Main rung 1: moved to rung 4\n");
+	CHECK_TEXT(rungs(L(1) R(2) R(3) R(4),
+			 R(2) R(3) R(4) "RUNG L1\n| NO X | COIL Y |\n"),
+		   "Main rung 1 (L1): moved to rung 4\n"
+		   "Main rung 1 (L1) cell (1,1): NO I1 -> NO X\n"
+		   "Main rung 1 (L1) cell (1,2): COIL Q1 -> COIL Y\n");
+	/* In one gap: one became another, one is new, one has gone. */
+	CHECK_TEXT(rungs(R(1) R(2) R(3), R(1) R(7) "RUNG\n| NC I2 | COIL Q2 |\n"),
+		   "Main rung 2: added\n"
+		   "Main rung 2 cell (1,1): NO I2 -> NC I2\n"
+		   "Main rung 3: removed\n");
+	CHECK(count == 3);
+	CHECK_TEXT(rungs("", R(1) R(2)),
+		   "Main rung 1: added\nMain rung 2: added\n");
+	CHECK_TEXT(rungs(R(1) R(1) R(1), R(1)),
+		   "Main rung 2: removed\nMain rung 3: removed\n");
+}
+
+static void test_variables(void)
+{
+	const char *got = compare(
+		"PROJECT \"one\"\nVAR\nMotor AT %QX0.0 : BOOL;\nSpare : INT;\n"
+		"Level : INT := 5;\nD : TON;\nEND_VAR\n",
+		"PROJECT \"two\"\nVAR\nMOTOR AT %QX0.1 : BOOL; (* pump *)\n"
+		"Level : DINT := 6;\nLamp : BOOL;\nD : TOF;\nEND_VAR\n", false);
+
+	CHECK_TEXT(got,
+		   "project: title one -> two\n"
+		   "variable Motor: name Motor -> MOTOR\n"
+		   "variable Motor: address %QX0.0 -> %QX0.1\n"
+		   "variable Motor: comment nothing -> (* pump *)\n"
+		   "variable Spare: removed\n"
+		   "variable Level: type INT -> DINT\n"
+		   "variable Level: initial value 5 -> 6\n"
+		   "variable D: type TON -> TOF\n"
+		   "variable Lamp: added\n");
+	CHECK(count == 9);
+	CHECK_TEXT(compare("VAR RETAIN\nA : BOOL;\nEND_VAR\n",
+			   "VAR\nA : BOOL;\nEND_VAR\n", false),
+		   "variable A: block RETAIN -> nothing\n");
+	/* The order alone. */
+	CHECK_TEXT(compare("VAR\nA : BOOL;\nB : BOOL;\nEND_VAR\n",
+			   "VAR\nB : BOOL;\nA : BOOL;\nEND_VAR\n", false),
+		   "order, layout or comments: changed\n");
+	CHECK(count == 1);
+}
+
+static void test_pous(void)
+{
+	CHECK_TEXT(compare("PROGRAM A LD\nEND_PROGRAM\nPROGRAM B LD\nVAR\n"
+			   "X : BOOL;\nEND_VAR\nEND_PROGRAM\n",
+			   "PROGRAM C LD\nEND_PROGRAM\nPROGRAM B LD\n"
+			   "END_PROGRAM\n", false),
+		   "program A: removed\nB variable X: removed\n"
+		   "program C: added\n");
+	CHECK_TEXT(compare("PROGRAM A IL\nLD X\nAND Y\nST Z\nLD V\nEND_PROGRAM\n",
+			   "PROGRAM A IL\nLD X\nANDN Y\nST Z\nEND_PROGRAM\n",
+			   false),
+		   "A line 2: AND Y -> ANDN Y\nA line 4 LD V: removed\n");
+	CHECK(count == 2);
+	CHECK_TEXT(compare("VIEW\nx\nEND_VIEW\n", "VIEW\ny\nEND_VIEW\n", false),
+		   "VIEW section: changed\n");
+}
+
+static void test_json(void)
+{
+	CHECK_TEXT(compare("PROGRAM M LD\n" L(1) "END_PROGRAM\n",
+			   "PROGRAM M LD\n" "RUNG L1\n| NC I1 | COIL Q1 |\n"
+			   "END_PROGRAM\n", true),
+		   "[\n {\"pou\": \"M\", \"rung\": 1, \"label\": \"L1\", "
+		   "\"row\": 1, \"col\": 1, \"change\": \"changed\", "
+		   "\"from\": \"NO I1\", \"to\": \"NC I1\"}\n]\n");
+	CHECK_TEXT(compare("", "", true), "[]\n");
+}
+
+/* Many rungs: a few changes are found, a whole other program does not hang. */
+static void test_large(void)
+{
+	enum { RUNGS = 5000, SIZE = RUNGS * 60 };
+	char *a = calloc(SIZE, 1), *b = calloc(SIZE, 1);
+	size_t x = 0, y = 0;
+
+	x += (size_t)snprintf(a, SIZE, "PROGRAM M LD\n");
+	y += (size_t)snprintf(b, SIZE, "PROGRAM M LD\n");
+	for (int i = 0; i < RUNGS; i++) {
+		x += (size_t)snprintf(a + x, SIZE - x,
+				      "RUNG\n| NO A%d | COIL B%d |\n", i, i);
+		if (i != 100)
+			y += (size_t)snprintf(b + y, SIZE - y,
+				"RUNG\n| N%c A%d | COIL B%d |\n",
+				i == 4000 ? 'C' : 'O', i, i);
+	}
+	snprintf(a + x, SIZE - x, "END_PROGRAM\n");
+	snprintf(b + y, SIZE - y, "END_PROGRAM\n");
+	CHECK_TEXT(compare(a, b, false),
+		   "M rung 101: removed\n"
+		   "M rung 4001 cell (1,1): NO A4000 -> NC A4000\n");
+	y = (size_t)snprintf(b, SIZE, "PROGRAM M LD\n");
+	for (int i = 0; i < RUNGS; i++)
+		y += (size_t)snprintf(b + y, SIZE - y,
+				      "RUNG\n| NO C%d | COIL D%d |\n", i, i);
+	snprintf(b + y, SIZE - y, "END_PROGRAM\n");
+	compare(a, b, false);
+	CHECK(count == 2 * RUNGS);
+	free(a);
+	free(b);
+}
+
+static void test_match(void)
+{
+	static uint32_t a[4000], b[3000];
+	static int match[4000];
+	uint32_t seed = 7;
+	struct arena arena;
+	bool rising = true, equal = true;
+	int last = -1, found = 0;
+
+	for (int i = 0; i < 4000; i++) {
+		seed = seed * 1664525u + 1013904223u;
+		a[i] = seed >> 24;
+	}
+	for (int i = 0; i < 3000; i++) {
+		seed = seed * 1664525u + 1013904223u;
+		b[i] = (seed >> 20) % 8 ? a[i + 3] : seed >> 24;
+	}
+	arena_init(&arena);
+	CHECK(diff_match(&arena, a, 3000, b, 3000, match));
+	for (int i = 0; i < 3000; i++) {
+		if (match[i] < 0)
+			continue;
+		rising = rising && match[i] > last;
+		equal = equal && a[i] == b[match[i]];
+		last = match[i];
+		found++;
+	}
+	CHECK(rising && equal && found > 2500);
+	CHECK(diff_match(&arena, a, 0, b, 5, match));
+	arena_free(&arena);
+}
+
+int main(void)
+{
+	test_cells();
+	test_rungs();
+	test_variables();
+	test_pous();
+	test_json();
+	test_large();
+	test_match();
+	sink_memory_free(&memory);
+	return tap_done();
+}
