@@ -50,6 +50,9 @@ const void *ladder_image(const struct ladder *ladder, size_t *len);
 /** ladder_il - the instruction list of POU @pou (what LD became, or as written);
  * NULL before ladder_build. */
 const struct il *ladder_il(const struct ladder *ladder, int pou);
+/** ladder_temporaries - variables that translation added to POU @pou. */
+struct var *const *ladder_temporaries(const struct ladder *ladder, int pou,
+				      int *count);
 /** ladder_memory - bytes taken by project, translation and image. */
 size_t ladder_memory(const struct ladder *ladder);
 
@@ -63,7 +66,7 @@ char *ladder_write(struct ladder *ladder, size_t *len);
 /**
  * ladder_read_file - a whole regular file
  * @limit: bytes at most
- * Owns: the caller, free(). NULL and a diagnostic (with errno's text) on failure.
+ * Owns: the caller, free(). NULL and a diagnostic (with errno's text; @diags may be NULL) on failure.
  */
 char *ladder_read_file(const char *path, size_t limit, size_t *len,
 		       struct diag_list *diags);

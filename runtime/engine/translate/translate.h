@@ -19,6 +19,8 @@ struct power_note {
 	uint32_t in, out;   /* string ids                                     */
 };
 
+struct temps;
+
 /* A POU on its way. */
 struct unit {
 	const struct pou *pou;
@@ -27,6 +29,7 @@ struct unit {
 	enum iec_type *types, *watch_types; /* a line, from check_il          */
 	struct var **temp;      /* temporaries, in order of their first use   */
 	int temp_count;
+	struct temps *temps;    /* names in use; of LD                        */
 	struct power_note *power;
 	int power_count;
 };

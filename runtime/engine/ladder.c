@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * ladder - from a file to something that runs, in the one order there is.
+ *
+ * read, check, translate, verify. What it made it owns; it prints nothing.
+ */
+#include "engine/ladder.h"
+
+#include "engine/check/check.h"
+#include "engine/check/check_il.h"
+#include "engine/text/text.h"
+#include "engine/translate/translate.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct ladder {
+	struct diag_list diags;
+	struct project *project;
+	struct arena arena;       /* of the translation                     */
+	struct arena scratch;
+	struct translation translation;
+	void *loaded;             /* a code image as it was read            */
+	const void *image;
+	size_t image_len;
+	struct program program;
+	bool built, unreadable;
+};
+
+struct ladder *ladder_new(void)
+{
+	struct ladder *ladder = calloc(1, sizeof(*ladder));
+
+	if (ladder) {
+		arena_init(&ladder->arena);
+		arena_init(&ladder->scratch);
+		diag_init(&ladder->diags);
+	}
+	return ladder;
+}
+
+static void unload(struct ladder *ladder)
+{
+	project_free(ladder->project);
+	ladder->project = NULL;
+	arena_free(&ladder->arena);
+	arena_free(&ladder->scratch);
+	free(ladder->loaded);
+	ladder->loaded = NULL;
+	ladder->image = NULL;
+	ladder->image_len = 0;
+	ladder->built = false;
+	memset(&ladder->translation, 0, sizeof(ladder->translation));
+	memset(&ladder->program, 0, sizeof(ladder->program));
+}
+
+void ladder_free(struct ladder *ladder)
+{
+	if (!ladder)
+		return;
+	unload(ladder);
+	free(ladder);
+}
+
+static bool no_memory(struct ladder *ladder, const char *file)
+{
+	struct diag place = { .id = DIAG_NO_MEMORY, .file = file };
+
+	for (int i = 0; i < ladder->diags.count; i++)
+		if (ladder->diags.diag[i].id == DIAG_NO_MEMORY)
+			return false;
+	return diag_add(&ladder->diags, place, "%s", "");
+}
+
+/* ---- loading ---- */
+
+/* A file beside the one that names it. */
+static char *load_include(void *context, const char *from, const char *name,
+			  size_t *len, struct diag_list *diags,
+			  struct diag place)
+{
+	const char *slash = strrchr(from, '/');
+	size_t folder = slash ? (size_t)(slash - from) + 1 : 0;
+	size_t size = folder + strlen(name) + 1;
+	char *path, *text;
+	int before = diags->errors;
+
+	(void)context;
+	if (name[0] == '/')
+		folder = 0;
+	path = malloc(size);
+	if (!path) {
+		place.id = DIAG_NO_MEMORY;
+		diag_add(diags, place, "%s", "");
+		return NULL;
+	}
+	memcpy(path, from, folder);
+	memcpy(path + folder, name, strlen(name) + 1);
+	text = ladder_read_file(path, LIMIT_TEXT, len, NULL);
+	if (!text && diags->errors == before) {
+		place.id = DIAG_BAD_INCLUDE;
+		diag_add(diags, place, "%s", name);
+	}
+	free(path);
+	return text;
+}
+
+static bool is_image(const void *bytes, size_t len)
+{
+	size_t magic = strlen(CODE_MAGIC);
+
+	return len >= magic && memcmp(bytes, CODE_MAGIC, magic) == 0;
+}
+
+static bool open_image(struct ladder *ladder, const char *file,
+		       const void *bytes, size_t len)
+{
+	struct diag place = { .id = DIAG_IMAGE_DAMAGED, .file = file };
+	size_t where;
+
+	if (code_open(bytes, len, &ladder->scratch, &ladder->program, &place.id,
+		      &where)) {
+		ladder->image = bytes;
+		ladder->image_len = len;
+		return true;
+	}
+	memset(&ladder->program, 0, sizeof(ladder->program));
+	if (place.id == DIAG_NO_MEMORY)
+		return no_memory(ladder, file);
+	return diag_add(&ladder->diags, place, "byte %zu", where);
+}
+
+static bool load_bytes(struct ladder *ladder, const char *file,
+		       const void *bytes, size_t len)
+{
+	struct text_source source = { .load = load_include };
+	bool good;
+
+	if (is_image(bytes, len)) {
+		ladder->loaded = malloc(len);
+		if (!ladder->loaded)
+			return no_memory(ladder, file);
+		memcpy(ladder->loaded, bytes, len);
+		return open_image(ladder, file, ladder->loaded, len);
+	}
+	ladder->project = project_new(file);
+	if (!ladder->project)
+		return no_memory(ladder, file);
+	good = text_read(ladder->project, file, bytes, len, &source,
+			 &ladder->diags);
+	if (ladder->project->arena.failed)
+		good = no_memory(ladder, file);
+	return good;
+}
+
+/* Keeps the diagnostics' names: the project goes only when nothing points into
+ * it. So a project with errors stays until the next load, but is not given out. */
+bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
+		      size_t len)
+{
+	unload(ladder);
+	diag_init(&ladder->diags);
+	ladder->unreadable = false;
+	return load_bytes(ladder, file, text, len) &&
+	       ladder->diags.errors == 0;
+}
+
+bool ladder_load(struct ladder *ladder, const char *path)
+{
+	size_t len;
+	char *bytes;
+	bool good;
+
+	unload(ladder);
+	diag_init(&ladder->diags);
+	bytes = ladder_read_file(path, LIMIT_TEXT, &len, &ladder->diags);
+	ladder->unreadable = !bytes;
+	if (!bytes)
+		return false;
+	good = load_bytes(ladder, path, bytes, len);
+	free(bytes);
+	return good && ladder->diags.errors == 0;
+}
+
+bool ladder_could_read(const struct ladder *ladder)
+{
+	return !ladder->unreadable;
+}
+
+/* ---- building ---- */
+
+/* Topology; an erring rung gets a 1 and is left out of translation. */
+static bool check_pou(struct ladder *ladder, const struct pou *pou, uint8_t *bad)
+{
+	struct network network;
+
+	for (int i = 0; i < pou->rung_count; i++) {
+		if (pou->rung[i]->off)
+			continue;
+		arena_reset(&ladder->scratch);
+		if (!network_make(pou->rung[i], &ladder->scratch, &network))
+			return no_memory(ladder, pou->file);
+		if (!check_rung(ladder->project, pou, i + 1, pou->rung[i],
+				&network, &ladder->scratch, &ladder->diags))
+			bad[i] = 1;
+		if (ladder->scratch.failed)
+			return no_memory(ladder, pou->file);
+	}
+	return true;
+}
+
+/* A byte a rung, by POU: 1 where an error stands. NULL: no memory. */
+static uint8_t **check_all(struct ladder *ladder)
+{
+	struct project *project = ladder->project;
+	size_t count = (size_t)project->pou_count + 1;
+	uint8_t **bad = arena_alloc(&ladder->arena, count * sizeof(*bad));
+
+	for (int i = 0; bad && i < project->pou_count; i++) {
+		bad[i] = arena_alloc(&ladder->arena,
+				     (size_t)project->pou[i].rung_count + 1);
+		if (!bad[i] || !check_pou(ladder, &project->pou[i], bad[i]))
+			return NULL;
+	}
+	arena_reset(&ladder->scratch);
+	if (bad)
+		check_names(ladder->translation.scope, bad, &ladder->scratch,
+			    &ladder->diags);
+	return ladder->scratch.failed || project->arena.failed ? NULL : bad;
+}
+
+/* The list of a POU, as it runs or as it is watched, and its types. */
+static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
+		      const uint8_t *bad)
+{
+	struct translation *t = &ladder->translation;
+	struct il *il = watch ? &unit->watch : &unit->il;
+	enum iec_type **types = watch ? &unit->watch_types : &unit->types;
+
+	if (unit->pou->language == LANGUAGE_IL)
+		*il = unit->pou->il;
+	else if (!ld_to_il(t, unit, bad, watch, &ladder->scratch))
+		return no_memory(ladder, unit->pou->file);
+	*types = arena_alloc(&ladder->arena,
+			     ((size_t)il->count + 1) * sizeof(**types));
+	if (!*types)
+		return no_memory(ladder, unit->pou->file);
+	arena_reset(&ladder->scratch);
+	check_il(t->scope, unit->pou, il, &ladder->scratch, *types,
+		 &ladder->diags);
+	return true;
+}
+
+static bool make_units(struct ladder *ladder, uint8_t *const *bad)
+{
+	struct translation *t = &ladder->translation;
+
+	for (int i = 0; i < t->unit_count; i++) {
+		struct unit *unit = &t->unit[i];
+
+		unit->pou = &ladder->project->pou[i];
+		if (!make_list(ladder, unit, false, bad[i]))
+			return false;
+		if (ladder->diags.errors == 0 &&
+		    unit->pou->language == LANGUAGE_LD &&
+		    !make_list(ladder, unit, true, bad[i]))
+			return false;
+	}
+	return true;
+}
+
+static bool begin_translation(struct ladder *ladder)
+{
+	struct translation *t = &ladder->translation;
+
+	t->project = ladder->project;
+	t->arena = &ladder->arena;
+	t->diags = &ladder->diags;
+	t->scope = scope_new(ladder->project, &ladder->arena);
+	t->unit_count = ladder->project->pou_count;
+	t->unit = arena_alloc(&ladder->arena, ((size_t)t->unit_count + 1) *
+			      sizeof(*t->unit));
+	return t->scope && t->unit;
+}
+
+bool ladder_build(struct ladder *ladder)
+{
+	struct project *project = ladder->project;
+	uint8_t **bad;
+
+	if (!project || ladder->built || ladder->diags.errors)
+		return ladder->program.header && ladder->diags.errors == 0;
+	ladder->built = true;
+	if (!begin_translation(ladder))
+		return no_memory(ladder, project->file);
+	bad = check_all(ladder);
+	if (!bad)
+		return no_memory(ladder, project->file);
+	if (!make_units(ladder, bad) || ladder->diags.errors)
+		return false;
+	ladder->image = assemble(&ladder->translation, &ladder->image_len);
+	if (!ladder->image)
+		return ladder->diags.errors ? false :
+		       no_memory(ladder, project->file);
+	arena_reset(&ladder->scratch);
+	return open_image(ladder, project->file, ladder->image,
+			  ladder->image_len);
+}
+
+/* ---- what there is ---- */
+
+struct diag_list *ladder_diags(struct ladder *ladder)
+{
+	return &ladder->diags;
+}
+
+struct project *ladder_project(struct ladder *ladder)
+{
+	return ladder->project;
+}
+
+const struct program *ladder_program(const struct ladder *ladder)
+{
+	return ladder->program.header ? &ladder->program : NULL;
+}
+
+const void *ladder_image(const struct ladder *ladder, size_t *len)
+{
+	*len = ladder->image_len;
+	return ladder->image;
+}
+
+const struct il *ladder_il(const struct ladder *ladder, int pou)
+{
+	if (pou < 0 || pou >= ladder->translation.unit_count)
+		return NULL;
+	return &ladder->translation.unit[pou].il;
+}
+
+struct var *const *ladder_temporaries(const struct ladder *ladder, int pou,
+				      int *count)
+{
+	const struct unit *unit;
+
+	*count = 0;
+	if (pou < 0 || pou >= ladder->translation.unit_count)
+		return NULL;
+	unit = &ladder->translation.unit[pou];
+	*count = unit->temp_count;
+	return unit->temp;
+}
+
+size_t ladder_memory(const struct ladder *ladder)
+{
+	size_t project = ladder->project ? ladder->project->arena.reserved : 0;
+
+	return project + ladder->arena.reserved + ladder->scratch.reserved;
+}
+
+char *ladder_write(struct ladder *ladder, size_t *len)
+{
+	return ladder->project ? text_write(ladder->project, len) : NULL;
+}

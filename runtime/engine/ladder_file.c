@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * ladder_file - whole files in, whole files out.
+ *
+ * A save is complete or the old file stays as it was: a temporary file beside it,
+ * fsync, rename, fsync of the folder. It never writes into a file in place.
+ */
+#define _XOPEN_SOURCE 700 /* realpath, mkstemp */
+#include "engine/ladder.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char *fail(struct diag_list *diags, enum diag_id id, const char *path,
+		  int error)
+{
+	struct diag place = { .id = id, .file = path };
+
+	if (diags)
+		diag_add(diags, place, "%s", error ? strerror(error) : "");
+	return NULL;
+}
+
+/* Reads until the end or one byte beyond @limit: pipes have no size. */
+static char *read_all(int fd, size_t limit, size_t *len)
+{
+	size_t room = 65536, used = 0;
+	char *bytes = malloc(room + 1);
+
+	while (bytes) {
+		ssize_t got = read(fd, bytes + used, room - used);
+		char *more;
+
+		if (got < 0 && errno == EINTR)
+			continue;
+		if (got < 0) {
+			free(bytes);
+			return NULL;
+		}
+		used += (size_t)got;
+		if (got == 0 || used > limit)
+			break;
+		if (used < room)
+			continue;
+		room *= 2;
+		more = realloc(bytes, room + 1);
+		if (!more)
+			free(bytes);
+		bytes = more;
+	}
+	if (!bytes) {
+		errno = ENOMEM;
+		return NULL;
+	}
+	bytes[used] = '\0';
+	*len = used;
+	return bytes;
+}
+
+char *ladder_read_file(const char *path, size_t limit, size_t *len,
+		       struct diag_list *diags)
+{
+	int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+	struct stat status;
+	char *bytes;
+	int error;
+
+	if (fd < 0)
+		return fail(diags, DIAG_CANNOT_READ, path, errno);
+	if (fstat(fd, &status) < 0 || !S_ISREG(status.st_mode)) {
+		close(fd);
+		return fail(diags, DIAG_NOT_A_FILE, path, 0);
+	}
+	bytes = read_all(fd, limit, len);
+	error = errno;
+	close(fd);
+	if (!bytes)
+		return fail(diags, error == ENOMEM ? DIAG_NO_MEMORY :
+			    DIAG_CANNOT_READ, path, error);
+	if (*len > limit) {
+		free(bytes);
+		return fail(diags, DIAG_TOO_LARGE, path, 0);
+	}
+	return bytes;
+}
+
+static int write_all(int fd, const char *bytes, size_t len)
+{
+	while (len > 0) {
+		ssize_t put = write(fd, bytes, len);
+
+		if (put < 0 && errno == EINTR)
+			continue;
+		if (put < 0)
+			return -errno;
+		bytes += put;
+		len -= (size_t)put;
+	}
+	return 0;
+}
+
+/* The new name in the folder must survive a power cut too. */
+static int sync_folder(const char *path)
+{
+	const char *slash = strrchr(path, '/');
+	size_t len = slash ? (size_t)(slash - path) + 1 : 0;
+	char *folder = malloc(len + 2);
+	int fd, result = 0;
+
+	if (!folder)
+		return -ENOMEM;
+	memcpy(folder, len ? path : ".", len ? len : 1);
+	folder[len ? len : 1] = '\0';
+	fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+	free(folder);
+	if (fd < 0)
+		return -errno;
+	if (fsync(fd) < 0 && errno != EINVAL)
+		result = -errno;
+	close(fd);
+	return result;
+}
+
+static int replace(const char *path, const char *temporary, int fd,
+		   const void *bytes, size_t len)
+{
+	struct stat old;
+	mode_t mode = 0644;
+	int result;
+
+	if (stat(path, &old) == 0)
+		mode = old.st_mode & 0777;
+	result = write_all(fd, bytes, len);
+	if (result == 0 && (fchmod(fd, mode) < 0 || fsync(fd) < 0))
+		result = -errno;
+	if (close(fd) < 0 && result == 0)
+		result = -errno;
+	if (result == 0 && rename(temporary, path) < 0)
+		result = -errno;
+	if (result < 0)
+		unlink(temporary);
+	else
+		result = sync_folder(path);
+	return result;
+}
+
+bool ladder_save_file(const char *path, const void *bytes, size_t len,
+		      struct diag_list *diags)
+{
+	static const char suffix[] = ".XXXXXX";
+	char *real = realpath(path, NULL); /* through a link: the file itself */
+	const char *target = real ? real : path;
+	size_t size = strlen(target);
+	char *temporary = malloc(size + sizeof(suffix));
+	int fd, result;
+
+	if (!temporary) {
+		free(real);
+		fail(diags, DIAG_NO_MEMORY, path, 0);
+		return false;
+	}
+	memcpy(temporary, target, size);
+	memcpy(temporary + size, suffix, sizeof(suffix));
+	fd = mkstemp(temporary);
+	result = fd < 0 ? -errno : replace(target, temporary, fd, bytes, len);
+	free(temporary);
+	free(real);
+	if (result < 0)
+		fail(diags, DIAG_CANNOT_WRITE, path, -result);
+	return result == 0;
+}

@@ -1,0 +1,563 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * assemble_unit - walks an instruction list with the current result in hand.
+ *
+ * Bits stay truth tables as long as nothing they read is written; before that
+ * they are stored (list_protect). Types were checked before; nothing is judged here.
+ */
+#include "engine/translate/lists.h"
+
+#define TABLE_AND 0x8
+#define TABLE_OR  0xe
+#define TABLE_XOR 0x6
+
+const struct meaning *list_meaning(struct list *list, uint32_t operand)
+{
+	enum diag_id why;
+
+	return scope_find(list->as->translation->scope, list->pou, operand, &why);
+}
+
+void list_place(struct list *list)
+{
+	struct assembler *as = list->as;
+	const struct il_line *line = &list->il->line[list->at];
+	struct code_place *place;
+
+	if (as->text != &as->code)
+		return;
+	place = arena_push(as->arena, &as->place, &as->place_count,
+			   sizeof(*place));
+	if (!place) {
+		as->failed = true;
+		return;
+	}
+	*place = (struct code_place){
+		.text = (uint32_t)as->text->count,
+		.pou = (uint32_t)(list->unit - as->translation->unit),
+		.rung = line->rung, .row = line->row, .col = line->col,
+	};
+}
+
+/* ---- values that wait ---- */
+
+static struct pending *find_pending(struct list *list, int var)
+{
+	for (int i = 0; i < list->pending_count; i++)
+		if (list->pending[i].var == var)
+			return &list->pending[i];
+	return NULL;
+}
+
+static void drop_pending(struct list *list, struct pending *pending)
+{
+	*pending = list->pending[--list->pending_count];
+}
+
+static struct bits set_aside(struct list *list, struct bits value)
+{
+	uint32_t slot = scratch_new(list->as);
+
+	bits_store(list->as, &value, slot);
+	return bits_leaf(slot);
+}
+
+void list_protect(struct list *list, uint32_t offset, uint32_t size)
+{
+	if (list->now.kind == RESULT_BITS &&
+	    bits_reads(&list->now.bits, offset, size))
+		list->now.bits = set_aside(list, list->now.bits);
+	for (int i = 0; i < list->depth; i++)
+		if (bits_reads(&list->opened[i].left, offset, size))
+			list->opened[i].left =
+				set_aside(list, list->opened[i].left);
+	for (int i = 0; i < list->pending_count; i++)
+		if (bits_reads(&list->pending[i].value, offset, size))
+			list->pending[i].value =
+				set_aside(list, list->pending[i].value);
+}
+
+void list_keep_all(struct list *list)
+{
+	for (int i = 0; i < list->depth; i++)
+		list->opened[i].left = set_aside(list, list->opened[i].left);
+	for (int i = 0; i < list->pending_count; i++)
+		list->pending[i].value = set_aside(list,
+						   list->pending[i].value);
+}
+
+static struct spot spot_of(struct list *list, const struct meaning *m)
+{
+	return layout_spot(list->as, m);
+}
+
+/* The variable's own memory: what is there counts from now on. */
+static struct bits settle(struct list *list, struct pending *pending,
+			  const struct meaning *m)
+{
+	struct spot spot = spot_of(list, m);
+	struct bits value = pending->value;
+
+	drop_pending(list, pending);
+	list_protect(list, spot.offset, 1);
+	bits_store(list->as, &value, spot.offset);
+	return bits_leaf(spot.offset);
+}
+
+static struct bits read_temp(struct list *list, int var, const struct meaning *m)
+{
+	struct pending *pending = find_pending(list, var);
+	struct bits value;
+
+	if (!pending)
+		return bits_leaf(spot_of(list, m).offset);
+	value = pending->value;
+	pending->left--;
+	if (pending->left > 0 && value.count > 1)
+		return settle(list, pending, m);
+	if (pending->left <= 0)
+		drop_pending(list, pending);
+	return value;
+}
+
+struct bits list_bits(struct list *list, const struct meaning *m)
+{
+	int var = list_temp(list, m);
+	struct spot spot;
+	uint32_t slot;
+
+	if (m->kind == MEANING_LITERAL)
+		return bits_constant(m->literal.value.i != 0);
+	if (var >= 0)
+		return read_temp(list, var, m);
+	spot = spot_of(list, m);
+	if (!spot.packed)
+		return bits_leaf(spot.offset);
+	slot = scratch_new(list->as);
+	emit_op(list->as, VM_BITGET, spot.bit);
+	emit(list->as, spot.offset);
+	emit(list->as, slot);
+	return bits_leaf(slot);
+}
+
+uint32_t list_slot(struct list *list, const struct bits *value)
+{
+	uint32_t areas = iec_areas_size();
+	struct bits kept;
+
+	if (value->count == 0)
+		return value->table & 1 ? CODE_TRUE_AT(areas)
+					: CODE_FALSE_AT(areas);
+	kept = bits_keep(list->as, value);
+	return kept.leaf[0];
+}
+
+/* A temporary: kept as a value, unless nobody reads it. */
+static void write_temp(struct list *list, int var, const struct bits *value)
+{
+	struct pending *pending = find_pending(list, var);
+	int reads = list->reads[list->at];
+
+	if (pending)
+		drop_pending(list, pending);
+	if (reads == 0)
+		return;
+	if (list->pending_count == PENDING_MAX) { /* then in its own memory */
+		struct meaning m = { .kind = MEANING_VARIABLE,
+			.type = IEC_BOOL, .pou = list->pou, .index = var };
+		struct spot spot = spot_of(list, &m);
+
+		list_protect(list, spot.offset, 1);
+		bits_store(list->as, value, spot.offset);
+		return;
+	}
+	list->pending[list->pending_count++] = (struct pending){
+		.var = var, .left = reads, .value = *value,
+	};
+}
+
+void list_write_bits(struct list *list, const struct meaning *m,
+		     const struct bits *value)
+{
+	int var = list_temp(list, m);
+	struct spot spot;
+	struct bits copy = *value;
+
+	if (var >= 0) {
+		write_temp(list, var, value);
+		return;
+	}
+	spot = spot_of(list, m);
+	if (spot.packed) {
+		uint32_t slot = list_slot(list, value);
+
+		emit_op(list->as, VM_BITPUT, spot.bit);
+		emit(list->as, slot);
+		emit(list->as, spot.offset);
+		return;
+	}
+	list_protect(list, spot.offset, 1);
+	bits_store(list->as, &copy, spot.offset);
+}
+
+/* ---- numbers ---- */
+
+uint32_t list_number(struct list *list, const struct meaning *m,
+		     enum iec_type type)
+{
+	union iec_value value = { .i = 0 };
+	struct spot spot;
+
+	if (m->kind == MEANING_LITERAL) {
+		if (m->type != IEC_NONE)
+			type = m->type;
+		literal_fit(&m->literal, type, &value);
+		return CODE_OPERAND(type, layout_constant(list->as, type, value));
+	}
+	if (m->type == IEC_BOOL) {
+		struct bits bits = list_bits(list, m);
+
+		return CODE_OPERAND(IEC_BOOL, list_slot(list, &bits));
+	}
+	spot = spot_of(list, m);
+	return CODE_OPERAND(spot.type, spot.offset);
+}
+
+void list_copy(struct list *list, uint32_t to, uint32_t from)
+{
+	emit_op(list->as, VM_COPY, 0);
+	emit(list->as, CODE_TRUE_AT(iec_areas_size()));
+	emit(list->as, to);
+	emit(list->as, from);
+}
+
+/* Does the next line still use the result? */
+static bool result_goes_on(const struct list *list)
+{
+	for (int i = list->at + 1; i < list->il->count; i++) {
+		const struct il_line *line = &list->il->line[i];
+
+		if (line->kind == IL_COMMENT)
+			continue;
+		return line->kind == IL_FN || line->kind == IL_CLOSE ||
+		       (line->kind == IL_OP && line->op != OP_LD);
+	}
+	return false;
+}
+
+static void store_number(struct list *list, const struct meaning *m)
+{
+	struct il_result *now = &list->now;
+	struct spot spot = spot_of(list, m);
+	uint32_t to = CODE_OPERAND(spot.type, spot.offset);
+	union iec_value value = { .i = 0 };
+
+	if (now->kind == RESULT_LITERAL) {
+		literal_fit(now->literal, m->type, &value);
+		if (m->kind == MEANING_PIN && layout_written_once(list->as, m)) {
+			if (list->as->text == &list->as->code)
+				layout_init(list->as, spot.offset, m->type, value);
+			return;
+		}
+		list_copy(list, to, CODE_OPERAND(m->type,
+			layout_constant(list->as, m->type, value)));
+		return;
+	}
+	if (!now->own && result_goes_on(list)) {
+		enum iec_type type = (enum iec_type)CODE_TYPE(now->operand);
+		uint32_t slot = layout_tail(list->as, RUN_VALUES, type);
+
+		list_copy(list, CODE_OPERAND(type, slot), now->operand);
+		now->operand = CODE_OPERAND(type, slot);
+		now->own = true;
+	}
+	list_copy(list, to, now->operand);
+}
+
+/* ---- operators ---- */
+
+static void load(struct list *list, const struct il_line *line)
+{
+	const struct meaning *m = list_meaning(list, line->operand);
+
+	list->now = (struct il_result){ .kind = RESULT_NUMBER };
+	if (m->type == IEC_BOOL) {
+		list->now.kind = RESULT_BITS;
+		list->now.bits = list_bits(list, m);
+		if (line->modifiers & MOD_N)
+			list->now.bits = bits_not(list->now.bits);
+	} else if (m->kind == MEANING_LITERAL) {
+		list->now.kind = RESULT_LITERAL;
+		list->now.literal = &m->literal;
+	} else {
+		list->now.operand = list_number(list, m, m->type);
+	}
+}
+
+/* An untyped 0 or 1 where a bit is wanted. */
+static void as_bits(struct list *list)
+{
+	if (list->now.kind == RESULT_LITERAL)
+		list->now = (struct il_result){
+			.kind = RESULT_BITS,
+			.bits = bits_constant(list->now.literal->value.i != 0),
+		};
+}
+
+static void store(struct list *list, const struct il_line *line)
+{
+	const struct meaning *m = list_meaning(list, line->operand);
+	struct bits value;
+
+	if (m->type != IEC_BOOL) {
+		store_number(list, m);
+		return;
+	}
+	as_bits(list);
+	value = list->now.bits;
+	if (line->modifiers & MOD_N)
+		value = bits_not(value);
+	if (list_temp(list, m) >= 0 || spot_of(list, m).packed) {
+		list_write_bits(list, m, &value);
+		return;
+	}
+	/* From now on the result is what was stored: one leaf. */
+	list->now.kind = RESULT_NONE;
+	list_write_bits(list, m, &value);
+	list->now.kind = RESULT_BITS;
+	list->now.bits = bits_leaf(spot_of(list, m).offset);
+	if (line->modifiers & MOD_N)
+		list->now.bits = bits_not(list->now.bits);
+}
+
+static void set_reset(struct list *list, const struct il_line *line)
+{
+	const struct meaning *m = list_meaning(list, line->operand);
+	struct bits old = list_bits(list, m), value;
+
+	as_bits(list);
+	/* S: old or now. R: old and not now. */
+	value = bits_combine(list->as, old, list->now.bits,
+			     line->op == OP_S ? TABLE_OR : 0x2);
+	list_write_bits(list, m, &value);
+}
+
+static uint8_t table_of(uint8_t op)
+{
+	return op == OP_AND ? TABLE_AND : op == OP_OR ? TABLE_OR : TABLE_XOR;
+}
+
+static void logic(struct list *list, const struct il_line *line)
+{
+	struct bits right;
+
+	as_bits(list);
+	if (line->modifiers & MOD_PAREN) {
+		list->opened[list->depth++] = (struct opened){
+			.left = list->now.bits, .op = line->op,
+			.modifiers = line->modifiers,
+		};
+		list->now.kind = RESULT_NONE;
+		if (line->operand) {
+			struct il_line first = *line;
+
+			first.modifiers = 0;
+			load(list, &first);
+		}
+		return;
+	}
+	right = list_bits(list, list_meaning(list, line->operand));
+	if (line->modifiers & MOD_N)
+		right = bits_not(right);
+	list->now.bits = bits_combine(list->as, list->now.bits, right,
+				      table_of(line->op));
+}
+
+static void close_paren(struct list *list)
+{
+	struct opened *open = &list->opened[--list->depth];
+	struct bits right;
+
+	as_bits(list);
+	right = list->now.bits;
+	if (open->modifiers & MOD_N)
+		right = bits_not(right);
+	list->now.kind = RESULT_BITS;
+	list->now.bits = bits_combine(list->as, open->left, right,
+				      table_of(open->op));
+}
+
+/* ---- jumps ---- */
+
+static uint32_t fold(struct list *list, uint32_t name)
+{
+	return names_fold(&list->as->translation->project->names, name);
+}
+
+static void add_fixup(struct list *list, uint32_t name)
+{
+	uint32_t word = (uint32_t)list->as->text->count;
+
+	emit(list->as, 0);
+	if (!arena_push(list->as->arena, &list->fixup, &list->fixup_count,
+			sizeof(*list->fixup))) {
+		list->as->failed = true;
+		return;
+	}
+	list->fixup[list->fixup_count - 1].word = word;
+	list->fixup[list->fixup_count - 1].fold = name ? fold(list, name) : 0;
+}
+
+/* JMP and RET; the fold 0 stands for the end of the list. */
+static void flow(struct list *list, const struct il_line *line)
+{
+	uint32_t target = line->op == OP_JMP ? line->operand : 0;
+	struct bits condition;
+	uint32_t slot = 0;
+
+	if (line->modifiers & MOD_C) {
+		as_bits(list);
+		condition = list->now.bits;
+		if (line->modifiers & MOD_N)
+			condition = bits_not(condition);
+		slot = list_slot(list, &condition);
+		if (!(line->modifiers & MOD_N))
+			list->now.bits = bits_leaf(slot);
+	}
+	list_place(list);
+	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP, 0);
+	add_fixup(list, target);
+	if (line->modifiers & MOD_C)
+		emit(list->as, slot);
+}
+
+static void set_label(struct list *list, const struct il_line *line)
+{
+	uint32_t id = fold(list, line->operand);
+
+	list->as->open_lut = -1;
+	list->now.kind = RESULT_NONE;
+	list->pending_count = 0;
+	if (id < list->label_count)
+		list->label[id] = (uint32_t)list->as->text->count + 1;
+}
+
+static void patch(struct list *list, uint32_t end)
+{
+	for (int i = 0; i < list->fixup_count; i++) {
+		uint32_t at = list->fixup[i].fold ?
+			list->label[list->fixup[i].fold] - 1 : end;
+
+		list->as->text->word[list->fixup[i].word] = at;
+	}
+}
+
+/* ---- the walk ---- */
+
+/* Between statements nothing waits in scratch slots: they are free again. */
+static void begin_statement(struct list *list)
+{
+	if (list->depth == 0 && list->pending_count == 0)
+		list->as->scratch_used = 0;
+}
+
+static void assemble_op(struct list *list, const struct il_line *line)
+{
+	switch ((enum op)line->op) {
+	case OP_LD:
+		begin_statement(list);
+		load(list, line);
+		break;
+	case OP_ST:
+		store(list, line);
+		break;
+	case OP_S:
+	case OP_R:
+		set_reset(list, line);
+		break;
+	case OP_AND:
+	case OP_OR:
+	case OP_XOR:
+		logic(list, line);
+		break;
+	case OP_NOT:
+		as_bits(list);
+		list->now.bits = bits_not(list->now.bits);
+		break;
+	case OP_JMP:
+	case OP_RET:
+		flow(list, line);
+		break;
+	case OP_CAL:
+		list_cal(list);
+		break;
+	case OP_COUNT:
+		break;
+	}
+}
+
+static void assemble_line(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+
+	switch ((enum il_kind)line->kind) {
+	case IL_OP:
+		assemble_op(list, line);
+		break;
+	case IL_FN:
+		list_fn(list, line);
+		break;
+	case IL_CLOSE:
+		close_paren(list);
+		break;
+	case IL_LABEL:
+		set_label(list, line);
+		break;
+	case IL_CALL:
+		list_call(list);
+		break;
+	case IL_ARG_IN:
+	case IL_ARG_OUT:
+	case IL_COMMENT:
+		break;
+	}
+}
+
+static bool find_labels(struct list *list)
+{
+	struct names *names = &list->as->translation->project->names;
+
+	for (int i = 0; i < list->il->count; i++)
+		if (list->il->line[i].kind == IL_LABEL)
+			fold(list, list->il->line[i].operand);
+	list->label_count = (uint32_t)names->count;
+	list->label = arena_alloc(list->as->arena,
+				  list->label_count * sizeof(*list->label));
+	return list->label != NULL;
+}
+
+bool assemble_unit(struct assembler *as, int unit, bool watch)
+{
+	const struct unit *u = &as->translation->unit[unit];
+	struct list *list = arena_alloc(as->arena, sizeof(*list));
+	uint32_t end;
+
+	if (!list)
+		return false;
+	list->as = as;
+	list->unit = u;
+	list->pou = u->pou;
+	list->il = watch && u->watch.count ? &u->watch : &u->il;
+	list->types = watch && u->watch.count ? u->watch_types : u->types;
+	as->open_lut = -1;
+	as->scratch_used = 0;
+	if (!find_labels(list) || !list_count_reads(list))
+		return false;
+	for (; list->at < list->il->count && !as->failed; list->at++)
+		assemble_line(list);
+	end = (uint32_t)as->text->count;
+	emit_op(as, VM_END, 0);
+	if (!as->failed)
+		patch(list, end);
+	return !as->failed;
+}

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * assembler - what the parts of the assembler share.
+ *
+ * Private to translate/. layout decides where everything lies, fuse keeps bits as
+ * truth tables until they must be stored, assemble walks the lists, pack_image
+ * writes the result.
+ */
+#ifndef TRANSLATE_ASSEMBLER_H
+#define TRANSLATE_ASSEMBLER_H
+
+#include "engine/translate/translate.h"
+
+/* Where a value lies in data memory. */
+struct spot {
+	enum iec_type type;
+	uint32_t offset;
+	bool packed;        /* one bit of the byte at offset                  */
+	uint8_t bit;
+};
+
+/* Vectors that grow in the arena of the result. */
+struct words { uint32_t *word; int count; };
+
+/* A bit that has not been stored: a truth table of up to three BOOLs. */
+struct bits {
+	uint8_t count, table;
+	uint32_t leaf[3];
+};
+
+struct assembler {
+	struct translation *translation;
+	struct arena *arena;
+	bool failed;
+
+	/* layout */
+	struct code_run *run;
+	int run_count;
+	struct code_bits *bit_run;
+	int bit_run_count;
+	uint32_t data_size, retain_offset, retain_size;
+	uint32_t **offset;         /* by table (0 globals, unit + 1), index   */
+	uint8_t *byte_packed;      /* a byte an area byte                     */
+	uint32_t *bit_slot;        /* by area bit; 0: none                    */
+	struct words init;         /* offset, bytes, data …                   */
+	uint32_t *constant;        /* open hash: index + 1 in constant_key    */
+	struct constant_key *constant_key;
+	int constant_count;
+	uint32_t constant_mask;
+	uint8_t *pin_writes;       /* by instance pin number                  */
+	uint32_t **first_pin;      /* by table, index: number of its pin 0    */
+
+	/* output of one section */
+	struct words *text;
+	struct words code, watch;
+	int open_lut;              /* word index of a LUT that may go on; -1  */
+	struct code_place *place;
+	int place_count;
+	struct code_program *entry;
+
+	/* slots that are free again at the next statement */
+	uint32_t *scratch;
+	int scratch_count, scratch_used;
+	uint32_t sink[IEC_TYPE_COUNT];
+};
+
+struct constant_key { enum iec_type type; int64_t bits; uint32_t offset; };
+
+/* ---- layout.c ---- */
+/** layout_make - a place for every variable, bit and instance in use. */
+bool layout_make(struct assembler *as);
+/** layout_spot - where the value of @meaning lies; not for literals. */
+struct spot layout_spot(const struct assembler *as, const struct meaning *m);
+/** layout_constant - a constant's place, made once a value. */
+uint32_t layout_constant(struct assembler *as, enum iec_type type,
+			 union iec_value value);
+/** layout_tail - a new place behind all others; for scratch and sinks. */
+uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
+		     enum iec_type type);
+/** layout_init - an initial value at an offset. */
+void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
+		 union iec_value value);
+/** layout_count_pins - counts the writes to every instance pin. */
+bool layout_count_pins(struct assembler *as);
+/** layout_pin_is_constant - is this pin written in one place only? */
+bool layout_written_once(const struct assembler *as, const struct meaning *pin);
+/** layout_table - index of the table a meaning belongs to. */
+int layout_table(const struct assembler *as, const struct meaning *m);
+
+/* ---- fuse.c ---- */
+struct bits bits_constant(bool value);
+struct bits bits_leaf(uint32_t offset);
+struct bits bits_not(struct bits a);
+bool bits_is_leaf(const struct bits *a);
+bool bits_reads(const struct bits *a, uint32_t offset, uint32_t size);
+/** bits_combine - @table2: truth table of (a, b) in bits 0 … 3, index a + 2b.
+ * Stores a part first when there are more than three leaves. */
+struct bits bits_combine(struct assembler *as, struct bits a, struct bits b,
+			 uint8_t table2);
+/** bits_store - the instruction that stores @a at @offset. */
+void bits_store(struct assembler *as, const struct bits *a, uint32_t offset);
+/** bits_keep - @a stored in a scratch slot, as a leaf. */
+struct bits bits_keep(struct assembler *as, const struct bits *a);
+/** emit - one word of code. */
+void emit(struct assembler *as, uint32_t word);
+void emit_op(struct assembler *as, enum vm_op op, uint32_t n);
+uint32_t scratch_new(struct assembler *as);
+
+/* ---- assemble_unit.c ---- */
+/** assemble_unit - the instructions of one list, with END behind them. */
+bool assemble_unit(struct assembler *as, int unit, bool watch);
+
+/* ---- pack_image.c ---- */
+void *pack_image(struct assembler *as, size_t *len);
+
+/** words_push - appends a word. */
+void words_push(struct assembler *as, struct words *words, uint32_t word);
+#endif

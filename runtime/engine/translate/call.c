@@ -1,0 +1,352 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * call - functions and function blocks of an instruction list.
+ */
+#include "engine/translate/lists.h"
+
+#include <string.h>
+#include <strings.h>
+
+#define TRUE_SLOT  CODE_TRUE_AT(iec_areas_size())
+
+static const char *pin_text(const struct list *list, const struct il_line *arg)
+{
+	return scope_text(list->as->translation->scope, arg->pin);
+}
+
+/* Where a result goes that nobody wants. */
+static uint32_t sink(struct assembler *as, enum iec_type type)
+{
+	if (!as->sink[type])
+		as->sink[type] = layout_tail(as, RUN_VALUES, type);
+	return as->sink[type];
+}
+
+/* ---- functions on the result ---- */
+
+static bool is_compare(enum word word)
+{
+	return word_row(word)->result == RESULT_BOOL;
+}
+
+/* The rows of the comparisons are in the order of enum cmp. */
+static uint32_t relation(enum word word)
+{
+	static const enum word order[CMP_COUNT] = {
+		[CMP_GT] = (enum word)FN_GT, [CMP_GE] = (enum word)FN_GE,
+		[CMP_EQ] = (enum word)FN_EQ, [CMP_LE] = (enum word)FN_LE,
+		[CMP_LT] = (enum word)FN_LT, [CMP_NE] = (enum word)FN_NE,
+	};
+	uint32_t rel = 0;
+
+	while (rel < CMP_COUNT - 1 && order[rel] != word)
+		rel++;
+	return rel;
+}
+
+/* The current result as an operand of @type. */
+static uint32_t result_operand(struct list *list, enum iec_type type)
+{
+	struct il_result *now = &list->now;
+	union iec_value value = { .i = 0 };
+
+	if (now->kind == RESULT_LITERAL) {
+		if (now->literal->type != IEC_NONE)
+			type = now->literal->type;
+		literal_fit(now->literal, type, &value);
+		return CODE_OPERAND(type, layout_constant(list->as, type, value));
+	}
+	if (now->kind == RESULT_BITS)
+		return CODE_OPERAND(IEC_BOOL, list_slot(list, &now->bits));
+	return now->operand;
+}
+
+static void compare(struct list *list, const struct il_line *line,
+		    uint32_t left, uint32_t right)
+{
+	uint32_t slot = scratch_new(list->as);
+
+	emit_op(list->as, VM_CMP, relation((enum word)line->word));
+	emit(list->as, slot);
+	emit(list->as, left);
+	emit(list->as, right);
+	list->now = (struct il_result){
+		.kind = RESULT_BITS, .bits = bits_leaf(slot),
+	};
+}
+
+/* A function that fails leaves its result as it was: the left operand. */
+void list_fn(struct list *list, const struct il_line *line)
+{
+	enum iec_type type = list->types[list->at];
+	uint32_t right = 0, count = 1, left, slot;
+
+	left = result_operand(list, type);
+	if (line->operand) {
+		right = list_number(list, list_meaning(list, line->operand), type);
+		count = 2;
+	}
+	if (is_compare((enum word)line->word)) {
+		compare(list, line, left, right);
+		return;
+	}
+	slot = layout_tail(list->as, RUN_VALUES, type);
+	list_copy(list, CODE_OPERAND(type, slot), left);
+	list_place(list);
+	emit_op(list->as, VM_FN, (uint32_t)type | count << 8);
+	emit(list->as, line->word);
+	emit(list->as, TRUE_SLOT);
+	emit(list->as, sink(list->as, IEC_BOOL));
+	emit(list->as, CODE_OPERAND(type, slot));
+	emit(list->as, CODE_OPERAND(type, slot));
+	if (count == 2)
+		emit(list->as, right);
+	list->now = (struct il_result){
+		.kind = RESULT_NUMBER, .own = true,
+		.operand = CODE_OPERAND(type, slot),
+	};
+	if (type == IEC_BOOL)
+		list->now = (struct il_result){
+			.kind = RESULT_BITS, .bits = bits_leaf(slot),
+		};
+}
+
+/* ---- functions with formal parameters ---- */
+
+/* A BOOL that an instruction writes: in place, or beside it and put there. */
+struct target {
+	const struct meaning *m;
+	uint32_t slot;
+	bool beside;
+};
+
+static struct target bool_target(struct list *list, const struct meaning *m,
+				 bool keep)
+{
+	struct target out = { .m = m };
+	struct spot spot;
+
+	if (!m) {
+		out.slot = sink(list->as, IEC_BOOL);
+		return out;
+	}
+	spot = layout_spot(list->as, m);
+	out.beside = spot.packed || list_temp(list, m) >= 0;
+	if (!out.beside) {
+		out.slot = spot.offset;
+		return out;
+	}
+	out.slot = scratch_new(list->as);
+	if (keep) { /* not written when EN is FALSE */
+		struct bits old = list_bits(list, m);
+
+		bits_store(list->as, &old, out.slot);
+	}
+	return out;
+}
+
+static void finish_target(struct list *list, const struct target *target)
+{
+	struct bits value = bits_leaf(target->slot);
+
+	if (target->m && target->beside)
+		list_write_bits(list, target->m, &value);
+}
+
+struct call {
+	uint32_t en, input[LIMIT_FN_INPUTS];
+	int count;
+	const struct meaning *eno, *out;
+	int eno_line, out_line;
+};
+
+static bool is_arg(const struct list *list, int at)
+{
+	return at < list->il->count && (list->il->line[at].kind == IL_ARG_IN ||
+					list->il->line[at].kind == IL_ARG_OUT);
+}
+
+static void read_args(struct list *list, const struct word_row *row,
+		      enum iec_type type, struct call *call)
+{
+	for (int i = list->at + 1; is_arg(list, i); i++) {
+		const struct il_line *arg = &list->il->line[i];
+		const struct meaning *m = list_meaning(list, arg->operand);
+		const char *pin = pin_text(list, arg);
+		struct bits bits;
+		int index;
+
+		if (strcasecmp(pin, "ENO") == 0) {
+			call->eno = m;
+			call->eno_line = i;
+		} else if (strcasecmp(pin, "OUT") == 0) {
+			call->out = m;
+			call->out_line = i;
+		} else if (strcasecmp(pin, "EN") == 0) {
+			bits = list_bits(list, m);
+			call->en = list_slot(list, &bits);
+		} else {
+			index = word_pin_find(row, pin, strlen(pin));
+			if (index < 0 || index >= LIMIT_FN_INPUTS)
+				continue;
+			call->input[index] = list_number(list, m, type);
+			call->count = index >= call->count ? index + 1
+							   : call->count;
+		}
+	}
+}
+
+/* The temporary keeps its value under the line that stores it. */
+static void finish_at(struct list *list, const struct target *target, int line)
+{
+	int at = list->at;
+
+	list->at = line;
+	finish_target(list, target);
+	list->at = at;
+}
+
+void list_call(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+	const struct word_row *row = word_row((enum word)line->word);
+	enum iec_type type = list->types[list->at];
+	enum iec_type result = row->result == RESULT_BOOL ? IEC_BOOL : type;
+	struct call call = { .en = TRUE_SLOT };
+	struct target eno, out = { .m = NULL };
+	uint32_t to;
+
+	read_args(list, row, type, &call);
+	eno = bool_target(list, call.eno, false);
+	if (call.out && call.out->type == IEC_BOOL) {
+		out = bool_target(list, call.out, true);
+		to = CODE_OPERAND(IEC_BOOL, out.slot);
+	} else if (call.out) {
+		struct spot spot = layout_spot(list->as, call.out);
+
+		to = CODE_OPERAND(spot.type, spot.offset);
+	} else {
+		to = CODE_OPERAND(result, sink(list->as, result));
+	}
+	list_protect(list, eno.slot, 1);
+	list_protect(list, CODE_OFFSET(to), 1);
+	list_place(list);
+	emit_op(list->as, VM_FN, (uint32_t)type | (uint32_t)call.count << 8);
+	emit(list->as, line->word);
+	emit(list->as, call.en);
+	emit(list->as, eno.slot);
+	emit(list->as, to);
+	for (int i = 0; i < call.count; i++)
+		emit(list->as, call.input[i]);
+	list->now.kind = RESULT_NONE;
+	if (call.eno)
+		finish_at(list, &eno, call.eno_line);
+	if (out.m)
+		finish_at(list, &out, call.out_line);
+}
+
+/* ---- function blocks ---- */
+
+/* PIN := value, as LD value, ST Instance.PIN would be. */
+static void feed_pin(struct list *list, const struct meaning *instance,
+		     const struct il_line *arg)
+{
+	const struct word_row *row = word_row(instance->var->fb);
+	const struct meaning *m = list_meaning(list, arg->operand);
+	struct meaning pin = *instance;
+	const char *name = pin_text(list, arg);
+	union iec_value value = { .i = 0 };
+	struct bits bits;
+	uint32_t to;
+
+	pin.kind = MEANING_PIN;
+	pin.pin = word_pin_find(row, name, strlen(name));
+	pin.type = row->pin[pin.pin].type;
+	to = layout_spot(list->as, &pin).offset;
+	if (m->kind == MEANING_LITERAL && layout_written_once(list->as, &pin)) {
+		literal_fit(&m->literal, pin.type, &value);
+		if (list->as->text == &list->as->code)
+			layout_init(list->as, to, pin.type, value);
+		return;
+	}
+	if (pin.type == IEC_BOOL) {
+		bits = list_bits(list, m);
+		list_protect(list, to, 1);
+		bits_store(list->as, &bits, to);
+		return;
+	}
+	list_copy(list, CODE_OPERAND(pin.type, to),
+		  list_number(list, m, pin.type));
+}
+
+/* PIN => variable. */
+static void take_pin(struct list *list, const struct meaning *instance,
+		     const struct il_line *arg)
+{
+	const struct word_row *row = word_row(instance->var->fb);
+	const struct meaning *m = list_meaning(list, arg->operand);
+	struct meaning pin = *instance;
+	const char *name = pin_text(list, arg);
+	struct bits bits;
+	struct spot spot;
+
+	pin.kind = MEANING_PIN;
+	pin.pin = word_pin_find(row, name, strlen(name));
+	pin.type = row->pin[pin.pin].type;
+	spot = layout_spot(list->as, &pin);
+	if (pin.type == IEC_BOOL) {
+		bits = bits_leaf(spot.offset);
+		list_write_bits(list, m, &bits);
+		return;
+	}
+	list_copy(list, list_number(list, m, m->type),
+		  CODE_OPERAND(pin.type, spot.offset));
+}
+
+/* CALC is a jump over the call. */
+static int skip_call(struct list *list, const struct il_line *line)
+{
+	struct bits skip = list->now.bits;
+	int at;
+
+	list_keep_all(list);
+	if (!(line->modifiers & MOD_N))
+		skip = bits_not(skip);
+	uint32_t slot = list_slot(list, &skip);
+
+	emit_op(list->as, VM_JMPC, 0);
+	at = list->as->text->count;
+	emit(list->as, 0);
+	emit(list->as, slot);
+	return at;
+}
+
+void list_cal(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+	const struct meaning *instance = list_meaning(list, line->operand);
+	enum word fb = instance->var->fb;
+	uint32_t offset = layout_spot(list->as, instance).offset;
+	int skip = -1;
+
+	list_protect(list, offset, word_row(fb)->size);
+	if (line->modifiers & MOD_C)
+		skip = skip_call(list, line);
+	for (int i = list->at + 1; is_arg(list, i); i++)
+		if (list->il->line[i].kind == IL_ARG_IN)
+			feed_pin(list, instance, &list->il->line[i]);
+	list_place(list);
+	emit_op(list->as, VM_FB, (uint32_t)fb);
+	emit(list->as, offset);
+	for (int i = list->at + 1, at = list->at; is_arg(list, i); i++)
+		if (list->il->line[i].kind == IL_ARG_OUT) {
+			list->at = i;
+			take_pin(list, instance, &list->il->line[i]);
+			list->at = at;
+		}
+	if (skip >= 0) {
+		list->as->open_lut = -1;
+		list->as->text->word[skip] = (uint32_t)list->as->text->count;
+	}
+	list->now.kind = RESULT_NONE;
+}

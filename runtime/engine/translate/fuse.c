@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * fuse - bits as truth tables of up to three BOOLs, until they must be stored.
+ *
+ * Whatever contacts, branches and inverters stand between, three inputs are one
+ * instruction; and instructions that follow each other share one LUT word. It knows
+ * no patterns, only tables.
+ */
+#include "engine/translate/assembler.h"
+
+void emit(struct assembler *as, uint32_t word)
+{
+	words_push(as, as->text, word);
+}
+
+void emit_op(struct assembler *as, enum vm_op op, uint32_t n)
+{
+	as->open_lut = -1;
+	emit(as, (uint32_t)op | n << 8);
+}
+
+uint32_t scratch_new(struct assembler *as)
+{
+	uint32_t *slot;
+
+	if (as->scratch_used < as->scratch_count)
+		return as->scratch[as->scratch_used++];
+	slot = arena_push(as->arena, &as->scratch, &as->scratch_count,
+			  sizeof(*slot));
+	if (!slot) {
+		as->failed = true;
+		return CODE_FALSE_AT(iec_areas_size());
+	}
+	as->scratch_used++;
+	return *slot = layout_tail(as, RUN_VALUES, IEC_BOOL);
+}
+
+struct bits bits_constant(bool value)
+{
+	return (struct bits){ .table = value ? 0xff : 0x00 };
+}
+
+struct bits bits_leaf(uint32_t offset)
+{
+	uint32_t areas = iec_areas_size();
+
+	if (offset == CODE_TRUE_AT(areas) || offset == CODE_FALSE_AT(areas))
+		return bits_constant(offset == CODE_TRUE_AT(areas));
+	return (struct bits){ .count = 1, .table = 0xaa, .leaf = { offset } };
+}
+
+struct bits bits_not(struct bits a)
+{
+	a.table = (uint8_t)~a.table;
+	return a;
+}
+
+bool bits_is_leaf(const struct bits *a)
+{
+	return a->count == 1 && a->table == 0xaa;
+}
+
+bool bits_reads(const struct bits *a, uint32_t offset, uint32_t size)
+{
+	for (int i = 0; i < a->count; i++)
+		if (a->leaf[i] - offset < size)
+			return true;
+	return false;
+}
+
+/* Leaves of both; -1 when there are more than three. */
+static int join(const struct bits *a, const struct bits *b, uint32_t leaf[3])
+{
+	int count = a->count;
+
+	for (int i = 0; i < a->count; i++)
+		leaf[i] = a->leaf[i];
+	for (int i = 0; i < b->count; i++) {
+		int k = 0;
+
+		while (k < count && leaf[k] != b->leaf[i])
+			k++;
+		if (k < count)
+			continue;
+		if (count == 3)
+			return -1;
+		leaf[count++] = b->leaf[i];
+	}
+	return count;
+}
+
+/* The value of @a when the joined leaves have the bits of @index. */
+static unsigned look_up(const struct bits *a, const uint32_t leaf[3], int count,
+			unsigned index)
+{
+	unsigned own = 0;
+
+	for (int i = 0; i < a->count; i++)
+		for (int k = 0; k < count; k++)
+			if (leaf[k] == a->leaf[i])
+				own |= (index >> k & 1u) << i;
+	return a->table >> own & 1u;
+}
+
+struct bits bits_combine(struct assembler *as, struct bits a, struct bits b,
+			 uint8_t table2)
+{
+	struct bits out = { .count = 0 };
+	int count;
+
+	while ((count = join(&a, &b, out.leaf)) < 0) {
+		if (a.count >= b.count)
+			a = bits_keep(as, &a);
+		else
+			b = bits_keep(as, &b);
+	}
+	out.count = (uint8_t)count;
+	for (unsigned index = 0; index < 8; index++) {
+		unsigned left = look_up(&a, out.leaf, count, index);
+		unsigned right = look_up(&b, out.leaf, count, index);
+
+		out.table |= (uint8_t)((table2 >> (left + 2 * right) & 1u)
+				       << index);
+	}
+	return out;
+}
+
+void bits_store(struct assembler *as, const struct bits *a, uint32_t offset)
+{
+	uint32_t none = CODE_FALSE_AT(iec_areas_size());
+
+	if (bits_is_leaf(a) && a->leaf[0] == offset)
+		return;
+	if (as->open_lut >= 0) {
+		as->text->word[as->open_lut] += 1u << 8;
+	} else {
+		int at = as->text->count;
+
+		emit_op(as, VM_LUT, 1);
+		as->open_lut = at;
+	}
+	for (int i = 0; i < 3; i++)
+		emit(as, i < a->count ? a->leaf[i] : none);
+	emit(as, (uint32_t)a->table << 24 | offset);
+}
+
+struct bits bits_keep(struct assembler *as, const struct bits *a)
+{
+	uint32_t slot;
+
+	if (bits_is_leaf(a))
+		return *a;
+	slot = scratch_new(as);
+	bits_store(as, a, slot);
+	return bits_leaf(slot);
+}

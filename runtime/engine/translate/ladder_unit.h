@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * ladder_unit - what the parts of the LD translation share: one rung in work.
+ *
+ * Private to translate/. ld_to_il walks rungs, ld_power turns nets and elements
+ * into IL, ld_box does boxes and ld_expr expressions.
+ */
+#ifndef TRANSLATE_LADDER_UNIT_H
+#define TRANSLATE_LADDER_UNIT_H
+
+#include "engine/model/expr.h"
+#include "engine/model/network.h"
+#include "engine/translate/temps.h"
+
+/* What an element lets through, once it has been evaluated. */
+struct element_state {
+	bool seen;         /* evaluated, or being so                          */
+	bool negate;
+	bool powered;      /* `leaf` holds its power already                  */
+	uint32_t leaf;     /* operand that decides; 0: NOT, or an output      */
+};
+
+struct net_state {
+	bool seen, prepared;
+	uint32_t temp;     /* variable that holds its power; 0: none          */
+};
+
+struct ld {
+	struct translation *translation;
+	struct unit *unit;
+	struct temps *temps;
+	struct arena *scratch;
+	struct il *il;
+	bool watch, failed;
+	const struct rung *rung;
+	struct network network;
+	struct element_state *element;
+	struct net_state *net;
+	int *evaluated;    /* elements in order of evaluation                 */
+	int evaluated_count;
+	uint32_t number;   /* of the rung, 1-based                            */
+	uint16_t row, col; /* place of the next instruction, 1-based          */
+	bool open;         /* a parenthesis waits for its first operand       */
+	uint8_t open_op;
+	uint32_t true_id, en_id, eno_id, out_id;
+	uint8_t *target;   /* by folded label: does a jump lead here?         */
+	uint32_t target_count;
+	struct expr *expr;
+	struct diag_list *ignored; /* of texts that were read before          */
+};
+
+/* ---- ld_power.c: instructions, nets, leaves ---- */
+/** ld_emit - one operator; places it at the present cell. */
+void ld_emit(struct ld *ld, enum op op, uint8_t modifiers, uint32_t operand);
+void ld_emit_line(struct ld *ld, struct il_line line);
+/** ld_place - following instructions come from this cell (0-based). */
+void ld_place(struct ld *ld, int row, int col);
+/** ld_prepare - gives every net that several read, and that @net needs, a
+ * temporary. @readers of @net itself are served now. No result may be open. */
+void ld_prepare(struct ld *ld, int net, int readers);
+/** ld_load - instructions whose result is the power of @net. */
+void ld_load(struct ld *ld, int net);
+/** ld_operand - a variable or TRUE that holds the power of @net; makes one. */
+uint32_t ld_operand(struct ld *ld, int net);
+/** ld_store_new - stores the result in a new temporary and returns it. */
+uint32_t ld_store_new(struct ld *ld);
+/** ld_freeze - before @operand is written: whatever read it before keeps its
+ * value in a temporary. */
+void ld_freeze(struct ld *ld, uint32_t operand);
+/** ld_settle - while watching: power of an element or net in a variable. */
+void ld_settle_element(struct ld *ld, int element);
+void ld_settle_net(struct ld *ld, int net);
+
+/* ---- ld_box.c ---- */
+/** ld_box - a function or function block at its place in phase 1. */
+void ld_box(struct ld *ld, int element);
+
+/* ---- ld_expr.c ---- */
+/** ld_compare - [ … ]: sets the element's leaf. */
+void ld_compare(struct ld *ld, int element);
+/** ld_assign - [ … := … ]: stores; sets the element's leaf to ENO. */
+void ld_assign(struct ld *ld, int element);
+/** ld_call - begins a formal call; ld_arg adds to it. */
+void ld_call(struct ld *ld, enum word function);
+void ld_arg(struct ld *ld, bool output, uint32_t pin, uint32_t operand);
+#endif

@@ -1,0 +1,502 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * layout - where every variable, bit, instance and constant lies.
+ *
+ * Retained values first, then bits of areas that live a byte each, BOOLs, numbers
+ * by type, instances. A bit of an area lives a byte each unless some byte or word
+ * access overlays it. Constants and scratch come last, as they are needed.
+ */
+#include "engine/translate/assembler.h"
+
+#include <string.h>
+
+void words_push(struct assembler *as, struct words *words, uint32_t word)
+{
+	uint32_t *slot = arena_push(as->arena, &words->word, &words->count,
+				    sizeof(*slot));
+
+	if (slot)
+		*slot = word;
+	else
+		as->failed = true;
+}
+
+/* ---- runs ---- */
+
+static uint32_t place(struct assembler *as, struct code_run want, uint32_t size,
+		      uint32_t align)
+{
+	uint32_t offset = (as->data_size + align - 1) / align * align;
+	struct code_run *last = as->run_count ?
+		&as->run[as->run_count - 1] : NULL;
+
+	if (offset > LIMIT_DATA - size) {
+		struct diag diag = { .id = DIAG_DATA_TOO_LARGE,
+			.file = as->translation->project->file };
+
+		if (!as->failed)
+			diag_add(as->translation->diags, diag, "%u bytes",
+				 (unsigned)LIMIT_DATA);
+		as->failed = true;
+		return as->data_size - 1;
+	}
+	as->data_size = offset + size;
+	if (last && last->kind == want.kind && last->type == want.type &&
+	    last->word == want.word &&
+	    last->offset + last->count * size == offset) {
+		last->count++;
+		return offset;
+	}
+	last = arena_push(as->arena, &as->run, &as->run_count, sizeof(*last));
+	if (!last) {
+		as->failed = true;
+		return offset;
+	}
+	*last = want;
+	last->offset = offset;
+	last->count = 1;
+	return offset;
+}
+
+static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
+			    enum iec_type type)
+{
+	struct code_run run = { .kind = (uint8_t)kind, .type = (uint8_t)type };
+	uint32_t size = iec_type_row(type)->size;
+
+	return place(as, run, size, size);
+}
+
+static uint32_t place_instance(struct assembler *as, enum word fb)
+{
+	struct code_run run = { .kind = RUN_INSTANCE, .word = (uint16_t)fb };
+
+	return place(as, run, word_row(fb)->size, 8);
+}
+
+uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
+		     enum iec_type type)
+{
+	return place_value(as, kind, type);
+}
+
+/* ---- initial values and constants ---- */
+
+void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
+		 union iec_value value)
+{
+	uint32_t size = iec_type_row(type)->size, bytes[2] = { 0, 0 };
+
+	iec_store(bytes, type, value);
+	if (!bytes[0] && !bytes[1])
+		return;
+	words_push(as, &as->init, offset);
+	words_push(as, &as->init, size);
+	words_push(as, &as->init, bytes[0]);
+	if (size > 4)
+		words_push(as, &as->init, bytes[1]);
+}
+
+static uint32_t constant_hash(enum iec_type type, int64_t bits)
+{
+	uint64_t hash = ((uint64_t)bits ^ (uint64_t)type << 56) *
+			0x9e3779b97f4a7c15u;
+
+	return (uint32_t)(hash >> 32);
+}
+
+static bool grow_constants(struct assembler *as)
+{
+	uint32_t size = as->constant_mask ? (as->constant_mask + 1) * 2 : 64;
+	uint32_t *table = arena_alloc(as->arena, size * sizeof(*table));
+
+	if (!table)
+		return false;
+	as->constant = table;
+	as->constant_mask = size - 1;
+	for (int i = 0; i < as->constant_count; i++) {
+		const struct constant_key *key = &as->constant_key[i];
+		uint32_t at = constant_hash(key->type, key->bits);
+
+		while (table[at & as->constant_mask])
+			at++;
+		table[at & as->constant_mask] = (uint32_t)i + 1;
+	}
+	return true;
+}
+
+uint32_t layout_constant(struct assembler *as, enum iec_type type,
+			 union iec_value value)
+{
+	uint32_t areas = iec_areas_size(), at;
+	struct constant_key *key;
+
+	if (type == IEC_BOOL)
+		return value.i ? CODE_TRUE_AT(areas) : CODE_FALSE_AT(areas);
+	if ((uint32_t)as->constant_count * 2 >= as->constant_mask &&
+	    !grow_constants(as)) {
+		as->failed = true;
+		return areas;
+	}
+	at = constant_hash(type, value.i);
+	for (; as->constant[at & as->constant_mask]; at++) {
+		key = &as->constant_key[as->constant[at & as->constant_mask] - 1];
+		if (key->type == type && key->bits == value.i)
+			return key->offset;
+	}
+	key = arena_push(as->arena, &as->constant_key, &as->constant_count,
+			 sizeof(*key));
+	if (!key) {
+		as->failed = true;
+		return areas;
+	}
+	as->constant[at & as->constant_mask] = (uint32_t)as->constant_count;
+	*key = (struct constant_key){ type, value.i,
+		place_value(as, RUN_CONSTANTS, type) };
+	layout_init(as, key->offset, type, value);
+	return key->offset;
+}
+
+/* ---- tables ---- */
+
+int layout_table(const struct assembler *as, const struct meaning *m)
+{
+	return m->pou ? (int)(m->pou - as->translation->project->pou) + 1 : 0;
+}
+
+static const struct var_table *table_vars(const struct assembler *as, int table)
+{
+	struct project *project = as->translation->project;
+
+	return table ? &project->pou[table - 1].vars : &project->globals;
+}
+
+/* Declared variables, then temporaries. */
+static int table_size(const struct assembler *as, int table)
+{
+	int temps = table ? as->translation->unit[table - 1].temp_count : 0;
+
+	return table_vars(as, table)->count + temps;
+}
+
+static const struct var *table_var(const struct assembler *as, int table,
+				   int index)
+{
+	const struct var_table *vars = table_vars(as, table);
+
+	if (index < vars->count)
+		return &vars->var[index];
+	return as->translation->unit[table - 1].temp[index - vars->count];
+}
+
+static bool is_power(const struct assembler *as, const struct var *var)
+{
+	return is_temporary(names_text(&as->translation->project->names,
+				       var->name), 'P');
+}
+
+/* ---- bits of areas ---- */
+
+static uint32_t area_byte(struct iec_addr addr)
+{
+	return iec_area_row(addr.area)->offset + addr.byte;
+}
+
+static void use_address(struct assembler *as, uint8_t *used,
+			struct iec_addr addr)
+{
+	if (addr.area == AREA_NONE)
+		return;
+	if (addr.bits == 1)
+		used[area_byte(addr)] |= (uint8_t)(1u << addr.bit);
+	else
+		memset(as->byte_packed + area_byte(addr), 1, addr.bits / 8u);
+}
+
+static void use_list(struct assembler *as, uint8_t *used, const struct pou *pou,
+		     const struct il *il)
+{
+	enum diag_id why;
+
+	for (int i = 0; i < il->count; i++) {
+		const struct meaning *m;
+
+		if (il->line[i].kind == IL_COMMENT ||
+		    il->line[i].kind == IL_LABEL || !il->line[i].operand)
+			continue;
+		m = scope_find(as->translation->scope, pou, il->line[i].operand,
+			       &why);
+		if (m && m->kind != MEANING_LITERAL && m->kind != MEANING_PIN)
+			use_address(as, used, m->addr);
+	}
+}
+
+static void add_bit(struct assembler *as, int area, uint32_t bit, uint32_t slot)
+{
+	struct code_bits *last = as->bit_run_count ?
+		&as->bit_run[as->bit_run_count - 1] : NULL;
+
+	as->bit_slot[iec_area_row((enum iec_area)area)->offset * 8 + bit] = slot;
+	if (last && last->area == (uint32_t)area &&
+	    last->first + last->count == bit && last->slot + last->count == slot) {
+		last->count++;
+		return;
+	}
+	last = arena_push(as->arena, &as->bit_run, &as->bit_run_count,
+			  sizeof(*last));
+	if (last)
+		*last = (struct code_bits){ (uint32_t)area, bit, 1, slot };
+	else
+		as->failed = true;
+}
+
+static bool place_bits(struct assembler *as)
+{
+	struct translation *t = as->translation;
+	uint8_t *used = arena_alloc(as->arena, iec_areas_size());
+
+	as->byte_packed = arena_alloc(as->arena, iec_areas_size());
+	as->bit_slot = arena_alloc(as->arena,
+				   iec_areas_size() * 8u * sizeof(uint32_t));
+	if (!used || !as->byte_packed || !as->bit_slot)
+		return false;
+	for (int table = 0; table <= t->unit_count; table++)
+		for (int i = 0; i < table_vars(as, table)->count; i++)
+			if (table_var(as, table, i)->at.bits != 1)
+				use_address(as, used, table_var(as, table, i)->at);
+	for (int i = 0; i < t->unit_count; i++)
+		use_list(as, used, t->unit[i].pou, &t->unit[i].il);
+	for (int area = 1; area < AREA_COUNT; area++) {
+		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
+
+		for (uint32_t bit = 0; bit < row->bytes * 8; bit++)
+			if (used[row->offset + bit / 8] >> bit % 8 & 1 &&
+			    !as->byte_packed[row->offset + bit / 8])
+				add_bit(as, area, bit,
+					place_value(as, RUN_VALUES, IEC_BOOL));
+	}
+	return true;
+}
+
+/* ---- variables ---- */
+
+static void place_var(struct assembler *as, int table, int index, bool retain)
+{
+	const struct var *var = table_var(as, table, index);
+	bool declared = index < table_vars(as, table)->count;
+	bool is_retain = declared &&
+		vars_flags(table_vars(as, table), index) & VAR_RETAIN;
+	bool constant = declared &&
+		vars_flags(table_vars(as, table), index) & VAR_CONSTANT;
+	uint32_t *offset = &as->offset[table][index];
+
+	if (*offset || var->at.area != AREA_NONE || is_retain != retain)
+		return;
+	*offset = var->type == IEC_NONE ? place_instance(as, var->fb) :
+		  place_value(as, constant ? RUN_CONSTANTS : RUN_VALUES,
+			      var->type);
+	if (var->has_init && var->type != IEC_NONE)
+		layout_init(as, *offset, var->type, var->init);
+}
+
+/* All variables of one type (IEC_NONE: instances) that are not placed yet. */
+static void place_type(struct assembler *as, enum iec_type type, bool retain,
+		       bool power)
+{
+	for (int table = 0; table <= as->translation->unit_count; table++)
+		for (int i = 0; i < table_size(as, table); i++) {
+			const struct var *var = table_var(as, table, i);
+			bool temp = i >= table_vars(as, table)->count;
+
+			if (var->type == type &&
+			    (temp && is_power(as, var)) == power)
+				place_var(as, table, i, retain);
+		}
+}
+
+static void place_all(struct assembler *as, bool retain)
+{
+	for (int type = IEC_BOOL; type < IEC_TYPE_COUNT; type++)
+		place_type(as, (enum iec_type)type, retain, false);
+	place_type(as, IEC_NONE, retain, false);
+}
+
+/* Initial values of variables with AT: in the area, or in the bit's own byte. */
+static bool init_located(struct assembler *as)
+{
+	uint8_t *packed = arena_alloc(as->arena, iec_areas_size());
+
+	if (!packed)
+		return false;
+	for (int table = 0; table <= as->translation->unit_count; table++)
+		for (int i = 0; i < table_vars(as, table)->count; i++) {
+			const struct var *var = table_var(as, table, i);
+			uint32_t bit, slot;
+
+			if (!var->has_init || var->at.area == AREA_NONE)
+				continue;
+			if (var->at.bits != 1) {
+				layout_init(as, area_byte(var->at), var->type,
+					    var->init);
+				continue;
+			}
+			bit = area_byte(var->at) * 8 + var->at.bit;
+			slot = as->bit_slot[bit];
+			if (slot)
+				layout_init(as, slot, IEC_BOOL, var->init);
+			else if (var->init.i)
+				packed[bit / 8] |= (uint8_t)(1u << var->at.bit);
+		}
+	for (uint32_t i = 0; i < iec_areas_size(); i++)
+		if (packed[i])
+			layout_init(as, i, IEC_BYTE,
+				    (union iec_value){ .i = packed[i] });
+	return true;
+}
+
+static bool make_tables(struct assembler *as)
+{
+	int tables = as->translation->unit_count + 1;
+
+	as->offset = arena_alloc(as->arena, (size_t)tables * sizeof(uint32_t *));
+	if (!as->offset)
+		return false;
+	for (int table = 0; table < tables; table++) {
+		size_t size = (size_t)table_size(as, table) + 1;
+
+		as->offset[table] = arena_alloc(as->arena,
+						size * sizeof(uint32_t));
+		if (!as->offset[table])
+			return false;
+	}
+	return true;
+}
+
+bool layout_make(struct assembler *as)
+{
+	as->data_size = iec_areas_size();
+	place_value(as, RUN_CONSTANTS, IEC_BOOL); /* CODE_FALSE */
+	place_value(as, RUN_CONSTANTS, IEC_BOOL); /* CODE_TRUE  */
+	if (!make_tables(as))
+		return false;
+	as->data_size = (as->data_size + 7) / 8 * 8;
+	as->retain_offset = as->data_size;
+	place_all(as, true);
+	as->retain_size = as->data_size - as->retain_offset;
+	if (!place_bits(as))
+		return false;
+	place_all(as, false);
+	place_type(as, IEC_BOOL, false, true);
+	return init_located(as) && layout_count_pins(as) && !as->failed;
+}
+
+struct spot layout_spot(const struct assembler *as, const struct meaning *m)
+{
+	struct spot spot = { .type = m->type };
+
+	if (m->kind == MEANING_PIN) {
+		spot.offset = as->offset[layout_table(as, m)][m->index] +
+			      word_row(m->var->fb)->pin[m->pin].offset;
+	} else if (m->addr.area == AREA_NONE) {
+		spot.offset = as->offset[layout_table(as, m)][m->index];
+	} else if (m->addr.bits != 1) {
+		spot.offset = area_byte(m->addr);
+	} else {
+		spot.offset = as->bit_slot[area_byte(m->addr) * 8 + m->addr.bit];
+		if (!spot.offset) {
+			spot.packed = true;
+			spot.offset = area_byte(m->addr);
+			spot.bit = m->addr.bit;
+		}
+	}
+	return spot;
+}
+
+/* ---- pins that always get the same constant ---- */
+
+static uint8_t *pin_count(const struct assembler *as, const struct meaning *m)
+{
+	uint32_t first = as->first_pin[layout_table(as, m)][m->index];
+
+	return &as->pin_writes[first + (uint32_t)m->pin];
+}
+
+static void count_write(struct assembler *as, const struct meaning *m)
+{
+	uint8_t *count = pin_count(as, m);
+
+	if (*count < 2)
+		++*count;
+}
+
+static void count_list(struct assembler *as, const struct unit *unit)
+{
+	struct scope *scope = as->translation->scope;
+	const struct meaning *instance = NULL;
+	enum diag_id why;
+
+	for (int i = 0; i < unit->il.count; i++) {
+		const struct il_line *line = &unit->il.line[i];
+		const struct meaning *m = NULL;
+
+		if (line->kind == IL_OP || line->kind == IL_ARG_OUT)
+			m = line->operand ? scope_find(scope, unit->pou,
+						       line->operand, &why) : NULL;
+		if (line->kind == IL_OP)
+			instance = m && m->kind == MEANING_INSTANCE ? m : NULL;
+		if (line->kind == IL_CALL)
+			instance = NULL;
+		if (m && m->kind == MEANING_PIN &&
+		    (line->kind == IL_ARG_OUT ||
+		     op_row((enum op)line->op)->operand == OPND_ANY_W ||
+		     op_row((enum op)line->op)->operand == OPND_BOOL_W))
+			count_write(as, m);
+		if (line->kind == IL_ARG_IN && instance) {
+			struct meaning pin = *instance;
+			const char *name = scope_text(scope, line->pin);
+
+			pin.pin = word_pin_find(word_row(pin.var->fb), name,
+						strlen(name));
+			if (pin.pin >= 0)
+				count_write(as, &pin);
+		}
+	}
+}
+
+bool layout_count_pins(struct assembler *as)
+{
+	int tables = as->translation->unit_count + 1;
+	uint32_t pins = 0;
+
+	as->first_pin = arena_alloc(as->arena,
+				    (size_t)tables * sizeof(uint32_t *));
+	if (!as->first_pin)
+		return false;
+	for (int table = 0; table < tables; table++) {
+		int size = table_vars(as, table)->count;
+		uint32_t *first = arena_alloc(as->arena, ((size_t)size + 1) *
+					      sizeof(*first));
+
+		if (!first)
+			return false;
+		as->first_pin[table] = first;
+		for (int i = 0; i < size; i++) {
+			const struct var *var = table_var(as, table, i);
+
+			first[i] = pins;
+			if (var->type == IEC_NONE)
+				pins += word_row(var->fb)->pin_count;
+		}
+	}
+	as->pin_writes = arena_alloc(as->arena, pins + 1u);
+	if (!as->pin_writes)
+		return false;
+	for (int i = 0; i < as->translation->unit_count; i++)
+		count_list(as, &as->translation->unit[i]);
+	return true;
+}
+
+bool layout_written_once(const struct assembler *as, const struct meaning *pin)
+{
+	return *pin_count(as, pin) == 1;
+}

@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * ld_expr - [ … ] cells as IL: a chain of functions.
+ *
+ * Every operation that can fail gets EN from the ENO of the one before, the first
+ * from the power of the cell. So an expression is what the same boxes would be.
+ */
+#include "engine/translate/ladder_unit.h"
+
+#include "engine/check/check_il.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* A part of an expression that has been computed. */
+struct value {
+	uint32_t operand;
+	enum iec_type type;     /* IEC_NONE: a constant without a type        */
+};
+
+struct chain {
+	struct ld *ld;
+	const struct expr *expr;
+	int net;                /* power of the cell                          */
+	uint32_t en;            /* of the next operation; 0: none so far      */
+	bool can_fail;
+};
+
+static uint32_t intern(struct chain *c, const char *text, size_t len)
+{
+	uint32_t id = names_intern(&c->ld->translation->project->names, text,
+				   len);
+
+	if (!id)
+		c->ld->failed = true;
+	return id;
+}
+
+static const struct meaning *meaning(struct chain *c, uint32_t operand)
+{
+	enum diag_id why;
+
+	return scope_find(c->ld->translation->scope, c->ld->unit->pou, operand,
+			  &why);
+}
+
+static enum iec_type type_of(struct chain *c, uint32_t operand)
+{
+	const struct meaning *m = meaning(c, operand);
+
+	return m ? m->type : IEC_NONE;
+}
+
+/* Type of a part; constants without a type take that of their neighbours. */
+static enum iec_type infer(struct chain *c, int index)
+{
+	const struct expr_node *node = &c->expr->node[index];
+	enum iec_type left, right;
+
+	switch (node->op) {
+	case EXPR_NAME:
+	case EXPR_LITERAL:
+		return type_of(c, intern(c, node->text, node->len));
+	case EXPR_NEG:
+		return infer(c, node->left);
+	case EXPR_NOT:
+	case EXPR_AND:
+	case EXPR_XOR:
+	case EXPR_OR:
+		return IEC_BOOL;
+	case EXPR_FN:
+		break;
+	}
+	if (word_row(node->fn)->result == RESULT_BOOL)
+		return IEC_BOOL;
+	left = infer(c, node->left);
+	right = infer(c, node->right);
+	left = types_join(left, right);
+	return left == IEC_TYPE_COUNT ? right : left;
+}
+
+static struct value compute(struct chain *c, int index, enum iec_type hint,
+			    uint32_t target);
+
+/* A constant; with its type in front when nothing beside it tells the type. */
+static struct value constant(struct chain *c, const char *text, size_t len,
+			     bool negative, enum iec_type hint)
+{
+	char out[LIMIT_NAME + 32];
+	const char *word = iec_type_row(hint)->word;
+	struct value value = { 0, IEC_NONE };
+	bool prefix = hint != IEC_NONE && !memchr(text, '#', len);
+	int size = snprintf(out, sizeof(out), "%s%s%s%.*s", prefix ? word : "",
+			    prefix ? "#" : "", negative ? "-" : "", (int)len,
+			    text);
+
+	if (size < 0 || (size_t)size >= sizeof(out))
+		c->ld->failed = true;
+	else
+		value.operand = intern(c, out, (size_t)size);
+	value.type = value.operand ? type_of(c, value.operand) : IEC_NONE;
+	return value;
+}
+
+static uint32_t power(struct chain *c)
+{
+	if (!c->en)
+		c->en = ld_operand(c->ld, c->net);
+	c->can_fail = true;
+	return c->en;
+}
+
+/* One function of two inputs; @target 0: into a temporary of @type. */
+static struct value operate(struct chain *c, enum word fn, struct value left,
+			    struct value right, enum iec_type type,
+			    uint32_t target)
+{
+	struct ld *ld = c->ld;
+	const struct word_row *row = word_row(fn);
+	uint32_t en = power(c), eno = temps_bool(ld->temps);
+	struct value out = { target, type };
+
+	if (!target)
+		out.operand = temps_number(ld->temps, type);
+	ld_call(ld, fn);
+	ld_arg(ld, false, ld->en_id, en);
+	ld_arg(ld, false, intern(c, row->pin[0].name, strlen(row->pin[0].name)),
+	       left.operand);
+	if (right.operand)
+		ld_arg(ld, false, intern(c, row->pin[1].name,
+					 strlen(row->pin[1].name)),
+		       right.operand);
+	ld_arg(ld, true, ld->eno_id, eno);
+	ld_arg(ld, true, ld->out_id, out.operand);
+	c->en = eno;
+	return out;
+}
+
+static struct value compute_neg(struct chain *c, const struct expr_node *node,
+				enum iec_type hint, uint32_t target)
+{
+	const struct expr_node *inner = &c->expr->node[node->left];
+	struct value zero, value;
+
+	if (inner->op == EXPR_LITERAL && !target)
+		return constant(c, inner->text, inner->len, true, hint);
+	value = compute(c, node->left, hint, 0);
+	zero = value.type == IEC_TIME ? constant(c, "T#0s", 4, false, IEC_NONE)
+				      : constant(c, "0", 1, false, IEC_NONE);
+	return operate(c, FN_SUB, zero, value, value.type ? value.type : hint,
+		       target);
+}
+
+/* An input beside one of @type: a bare constant takes that type by itself, an
+ * operation on constants must be told. */
+static struct value compute_side(struct chain *c, int index, enum iec_type type)
+{
+	const struct expr_node *node = &c->expr->node[index];
+
+	if (node->op == EXPR_NEG)
+		node = &c->expr->node[node->left];
+	return compute(c, index, node->op == EXPR_LITERAL ? IEC_NONE : type, 0);
+}
+
+static struct value compute_compare(struct chain *c,
+				    const struct expr_node *node)
+{
+	enum iec_type type = types_join(infer(c, node->left),
+					infer(c, node->right));
+	struct value left, right, out = { 0, IEC_BOOL };
+	struct il_line line = { .kind = IL_FN, .word = (uint16_t)node->fn };
+
+	if (type == IEC_TYPE_COUNT)
+		type = IEC_NONE;
+	left = compute_side(c, node->left, type);
+	right = compute_side(c, node->right, type);
+	ld_emit(c->ld, OP_LD, 0, left.operand);
+	line.operand = right.operand;
+	ld_emit_line(c->ld, line);
+	out.operand = ld_store_new(c->ld);
+	return out;
+}
+
+static struct value compute_logic(struct chain *c, const struct expr_node *node)
+{
+	struct value left = compute(c, node->left, IEC_NONE, 0);
+	struct value right, out = { 0, IEC_BOOL };
+
+	if (node->op == EXPR_NOT) {
+		ld_emit(c->ld, OP_LD, 0, left.operand);
+		ld_emit(c->ld, OP_NOT, 0, 0);
+	} else {
+		right = compute(c, node->right, IEC_NONE, 0);
+		ld_emit(c->ld, OP_LD, 0, left.operand);
+		ld_emit(c->ld, node->op == EXPR_AND ? OP_AND :
+			       node->op == EXPR_OR ? OP_OR : OP_XOR, 0,
+			right.operand);
+	}
+	out.operand = ld_store_new(c->ld);
+	return out;
+}
+
+static struct value compute_fn(struct chain *c, const struct expr_node *node,
+			       int index, enum iec_type hint, uint32_t target)
+{
+	enum iec_type type = infer(c, index);
+	struct value left, right;
+
+	if (word_row(node->fn)->result == RESULT_BOOL)
+		return compute_compare(c, node);
+	if (type) {
+		left = compute_side(c, node->left, type);
+		right = compute_side(c, node->right, type);
+	} else {
+		left = compute(c, node->left, hint, 0);
+		right = compute(c, node->right, hint, 0);
+		type = hint ? hint : types_join(left.type, right.type);
+	}
+	if (type == IEC_NONE || type == IEC_TYPE_COUNT)
+		type = IEC_DINT;
+	return operate(c, node->fn, left, right, type, target);
+}
+
+/* Depth is bounded by LIMIT_EXPR_DEPTH, which the parser keeps. */
+static struct value compute(struct chain *c, int index, enum iec_type hint,
+			    uint32_t target)
+{
+	const struct expr_node *node = &c->expr->node[index];
+	struct value value = { 0, IEC_NONE };
+
+	switch (node->op) {
+	case EXPR_NAME:
+		value.operand = intern(c, node->text, node->len);
+		value.type = type_of(c, value.operand);
+		return value;
+	case EXPR_LITERAL:
+		return constant(c, node->text, node->len, false, hint);
+	case EXPR_NEG:
+		return compute_neg(c, node, hint, target);
+	case EXPR_FN:
+		return compute_fn(c, node, index, hint, target);
+	case EXPR_NOT:
+	case EXPR_AND:
+	case EXPR_XOR:
+	case EXPR_OR:
+		return compute_logic(c, node);
+	}
+	return value;
+}
+
+static bool parse(struct ld *ld, int element)
+{
+	const struct network_element *at = &ld->network.element[element];
+	const struct names *names = &ld->translation->project->names;
+	uint32_t id = rung_at(ld->rung, at->row, at->col)->operand;
+	struct diag place = { .id = DIAG_BAD_EXPRESSION };
+
+	if (expr_parse_text(names_text(names, id), names_len(names, id),
+			    ld->expr, ld->ignored, place))
+		return true;
+	ld->failed = true;
+	return false;
+}
+
+void ld_compare(struct ld *ld, int element)
+{
+	const struct network_element *at = &ld->network.element[element];
+	struct element_state *state = &ld->element[element];
+	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in };
+	struct value value;
+
+	if (!parse(ld, element))
+		return;
+	ld_place(ld, at->row, at->col);
+	value = compute(&c, ld->expr->root, IEC_NONE, 0);
+	ld_emit(ld, OP_LD, 0, value.operand);
+	if (c.can_fail) {
+		ld_emit(ld, OP_AND, 0, c.en);
+		state->powered = true;
+	}
+	state->leaf = ld_store_new(ld);
+}
+
+void ld_assign(struct ld *ld, int element)
+{
+	const struct network_element *at = &ld->network.element[element];
+	struct chain c = { .ld = ld, .expr = ld->expr, .net = at->in };
+	struct value value;
+	uint32_t target;
+
+	if (!parse(ld, element))
+		return;
+	ld_place(ld, at->row, at->col);
+	target = intern(&c, ld->expr->target, ld->expr->target_len);
+	ld_freeze(ld, target);
+	value = compute(&c, ld->expr->root, type_of(&c, target), target);
+	if (value.operand != target ||
+	    ld->expr->node[ld->expr->root].op == EXPR_NAME) {
+		struct value none = { 0, IEC_NONE };
+
+		operate(&c, FN_MOVE, value, none, value.type, target);
+	}
+	ld->element[element].leaf = c.en;
+	ld->element[element].powered = true;
+}

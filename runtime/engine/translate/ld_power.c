@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * ld_power - nets and elements as IL, readable where that is possible.
+ *
+ * A net that one element reads is written in place, with parentheses; one that
+ * several read is computed once into a temporary. What is read early and written
+ * before it is used is kept aside (ld_freeze).
+ */
+#include "engine/translate/ladder_unit.h"
+
+void ld_place(struct ld *ld, int row, int col)
+{
+	ld->row = (uint16_t)(row + 1);
+	ld->col = (uint16_t)(col + 1);
+}
+
+void ld_emit_line(struct ld *ld, struct il_line line)
+{
+	line.rung = ld->number;
+	line.row = ld->row;
+	line.col = ld->col;
+	line.line = ld->rung->line;
+	if (!il_add(ld->il, line))
+		ld->failed = true;
+}
+
+void ld_emit(struct ld *ld, enum op op, uint8_t modifiers, uint32_t operand)
+{
+	struct il_line line = {
+		.kind = IL_OP, .op = (uint8_t)op, .modifiers = modifiers,
+		.operand = operand,
+	};
+
+	if (ld->open) {
+		struct il_line open = {
+			.kind = IL_OP, .op = ld->open_op,
+			.modifiers = MOD_PAREN,
+		};
+
+		ld->open = false;
+		if (op == OP_LD && !modifiers) {
+			open.operand = operand; /* OR( Motor */
+			ld_emit_line(ld, open);
+			return;
+		}
+		ld_emit_line(ld, open);
+	}
+	ld_emit_line(ld, line);
+}
+
+static uint8_t negation(const struct element_state *state)
+{
+	return state->negate ? MOD_N : 0;
+}
+
+/* Is the element's power one operand, perhaps negated? */
+static bool is_single(const struct ld *ld, int element)
+{
+	const struct element_state *state = &ld->element[element];
+
+	return state->leaf &&
+	       (state->powered || ld->network.element[element].in == NET_RAIL);
+}
+
+static void load_element(struct ld *ld, int element)
+{
+	const struct element_state *state = &ld->element[element];
+	const struct network_element *at = &ld->network.element[element];
+
+	ld_place(ld, at->row, at->col);
+	if (is_single(ld, element)) {
+		ld_emit(ld, OP_LD, negation(state), state->leaf);
+		return;
+	}
+	ld_load(ld, at->in);
+	ld_place(ld, at->row, at->col);
+	if (state->leaf)
+		ld_emit(ld, OP_AND, negation(state), state->leaf);
+	else
+		ld_emit(ld, OP_NOT, 0, 0);
+}
+
+static void or_element(struct ld *ld, int element)
+{
+	const struct element_state *state = &ld->element[element];
+	struct il_line close = { .kind = IL_CLOSE };
+
+	if (is_single(ld, element)) {
+		const struct network_element *at = &ld->network.element[element];
+
+		ld_place(ld, at->row, at->col);
+		ld_emit(ld, OP_OR, negation(state), state->leaf);
+		return;
+	}
+	ld->open = true;
+	ld->open_op = OP_OR;
+	load_element(ld, element);
+	ld_emit_line(ld, close);
+}
+
+void ld_load(struct ld *ld, int net)
+{
+	const struct network *n = &ld->network;
+	int first = n->first_feeder[net], end = n->first_feeder[net + 1];
+
+	if (net == NET_RAIL || ld->net[net].temp || first == end) {
+		ld_emit(ld, OP_LD, 0, net != NET_RAIL && ld->net[net].temp ?
+			ld->net[net].temp : ld->true_id);
+		return;
+	}
+	load_element(ld, n->feeder[first]);
+	for (int i = first + 1; i < end; i++)
+		or_element(ld, n->feeder[i]);
+}
+
+uint32_t ld_store_new(struct ld *ld)
+{
+	uint32_t name = temps_bool(ld->temps);
+
+	if (!name)
+		ld->failed = true;
+	ld_emit(ld, OP_ST, 0, name);
+	return name;
+}
+
+/* The one operand that a net's power is, or 0. */
+static uint32_t single_operand(const struct ld *ld, int net)
+{
+	const struct network *n = &ld->network;
+	int first = n->first_feeder[net];
+
+	if (net == NET_RAIL)
+		return ld->true_id;
+	if (ld->net[net].temp)
+		return ld->net[net].temp;
+	if (n->first_feeder[net + 1] != first + 1)
+		return 0;
+	if (is_single(ld, n->feeder[first]) &&
+	    !ld->element[n->feeder[first]].negate)
+		return ld->element[n->feeder[first]].leaf;
+	return 0;
+}
+
+void ld_prepare(struct ld *ld, int net, int readers)
+{
+	const struct network *n = &ld->network;
+
+	if (net == NET_RAIL || ld->net[net].prepared)
+		return;
+	ld->net[net].prepared = true;
+	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++)
+		if (!ld->element[n->feeder[i]].powered)
+			ld_prepare(ld, n->element[n->feeder[i]].in, 1);
+	if (n->reader_count[net] > readers && !single_operand(ld, net)) {
+		ld_load(ld, net);
+		ld->net[net].temp = ld_store_new(ld);
+	}
+}
+
+uint32_t ld_operand(struct ld *ld, int net)
+{
+	uint32_t operand;
+
+	ld_prepare(ld, net, 1);
+	operand = single_operand(ld, net);
+	if (operand)
+		return operand;
+	ld_load(ld, net);
+	return ld->net[net].temp = ld_store_new(ld);
+}
+
+/* ---- keeping aside ---- */
+
+static bool bytes_overlap(struct iec_addr a, struct iec_addr b)
+{
+	uint32_t a_end = a.byte + (a.bits + 7u) / 8;
+	uint32_t b_end = b.byte + (b.bits + 7u) / 8;
+
+	if (a.area != b.area || a.area == AREA_NONE)
+		return false;
+	if (a.bits == 1 && b.bits == 1)
+		return a.byte == b.byte && a.bit == b.bit;
+	return a.byte < b_end && b.byte < a_end;
+}
+
+static bool is_var(const struct meaning *m)
+{
+	return m->kind == MEANING_VARIABLE || m->kind == MEANING_INSTANCE ||
+	       m->kind == MEANING_PIN;
+}
+
+/* Can a write to @a change what is read from @b? */
+static bool touches(const struct meaning *a, const struct meaning *b)
+{
+	if (is_var(a) && is_var(b) && a->var == b->var)
+		return a->kind != MEANING_PIN || b->kind != MEANING_PIN ||
+		       a->pin == b->pin;
+	return bytes_overlap(a->addr, b->addr);
+}
+
+static const struct meaning *meaning(struct ld *ld, uint32_t operand)
+{
+	enum diag_id why;
+
+	return scope_find(ld->translation->scope, ld->unit->pou, operand, &why);
+}
+
+void ld_freeze(struct ld *ld, uint32_t operand)
+{
+	const struct meaning *write = meaning(ld, operand);
+
+	for (int i = 0; write && i < ld->evaluated_count; i++) {
+		struct element_state *state = &ld->element[ld->evaluated[i]];
+		const struct meaning *read;
+
+		if (!state->leaf)
+			continue;
+		read = meaning(ld, state->leaf);
+		if (!read || !touches(write, read))
+			continue;
+		ld_emit(ld, OP_LD, 0, state->leaf);
+		state->leaf = ld_store_new(ld);
+	}
+}
+
+/* ---- watching ---- */
+
+static uint32_t store_power(struct ld *ld)
+{
+	uint32_t name = temps_power(ld->temps);
+
+	if (!name)
+		ld->failed = true;
+	ld_emit(ld, OP_ST, 0, name);
+	return name;
+}
+
+void ld_settle_net(struct ld *ld, int net)
+{
+	if (!ld->watch || net == NET_RAIL || ld->net[net].temp)
+		return;
+	ld_load(ld, net);
+	ld->net[net].temp = store_power(ld);
+}
+
+void ld_settle_element(struct ld *ld, int element)
+{
+	const struct network_element *at = &ld->network.element[element];
+	struct element_state *state = &ld->element[element];
+	enum place place = word_row((enum word)at->word)->place;
+
+	if (!ld->watch || place == PLACE_LAST)
+		return;
+	if (!state->leaf && at->word == ELEM_ASSIGN)
+		return;
+	load_element(ld, element);
+	*state = (struct element_state){
+		.seen = true, .powered = true, .leaf = store_power(ld),
+	};
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * lists - one instruction list on its way to instructions.
+ *
+ * Private to the assembler: assemble_unit walks the lines, temps_use.c counts how
+ * often a temporary is read, call.c does calls.
+ */
+#ifndef TRANSLATE_LISTS_H
+#define TRANSLATE_LISTS_H
+
+#include "engine/translate/assembler.h"
+
+/* The current result of IEC 61131-3: nothing, a bit, a number in memory, or a
+ * constant without a type. */
+enum result_kind { RESULT_NONE, RESULT_BITS, RESULT_NUMBER, RESULT_LITERAL };
+struct il_result {
+	enum result_kind kind;
+	struct bits bits;
+	uint32_t operand;             /* typed, of RESULT_NUMBER              */
+	bool own;                     /* the number is a scratch value        */
+	const struct literal *literal;
+};
+
+/* A temporary whose bit has not been stored. */
+struct pending {
+	int var;
+	int left;                     /* reads to come                        */
+	struct bits value;
+};
+#define PENDING_MAX 64
+
+struct opened {
+	struct bits left;
+	uint8_t op, modifiers;
+};
+
+struct list {
+	struct assembler *as;
+	const struct unit *unit;
+	const struct pou *pou;
+	const struct il *il;
+	const enum iec_type *types;
+	int at;                       /* the line in work                     */
+	struct il_result now;
+	struct opened opened[LIMIT_IL_DEPTH];
+	int depth;
+	uint8_t *fleeting;            /* by variable: never kept over a label */
+	int *reads;                   /* by line of a store: reads to come    */
+	struct pending pending[PENDING_MAX];
+	int pending_count;
+	uint32_t *label;              /* by folded name: word index + 1       */
+	uint32_t label_count;
+	struct { uint32_t word, fold; } *fixup;
+	int fixup_count;
+};
+
+/* ---- temps_use.c ---- */
+/** list_count_reads - which temporaries need no memory, and how often each value
+ * of theirs is read. Fails: false when memory is out. */
+bool list_count_reads(struct list *list);
+/** list_temp - variable index if this operand is a fleeting temporary, else -1. */
+int list_temp(const struct list *list, const struct meaning *m);
+
+/* ---- assemble_unit.c ---- */
+const struct meaning *list_meaning(struct list *list, uint32_t operand);
+/** list_protect - before @size bytes at @offset are written: values that read
+ * them are stored first. */
+void list_protect(struct list *list, uint32_t offset, uint32_t size);
+/** list_keep_all - everything that waits is stored, before a jump over code. */
+void list_keep_all(struct list *list);
+/** list_bits - a BOOL operand as a value. */
+struct bits list_bits(struct list *list, const struct meaning *m);
+/** list_write_bits - stores a bit where @m says. */
+void list_write_bits(struct list *list, const struct meaning *m,
+		     const struct bits *value);
+/** list_number - a number operand as a typed word; constants as @type. */
+uint32_t list_number(struct list *list, const struct meaning *m,
+		     enum iec_type type);
+/** list_slot - a BOOL's offset that holds @value now. */
+uint32_t list_slot(struct list *list, const struct bits *value);
+/** list_copy - COPY, always enabled. */
+void list_copy(struct list *list, uint32_t to, uint32_t from);
+/** list_place - the next instruction comes from this line's cell. */
+void list_place(struct list *list);
+
+/* ---- call.c ---- */
+/** list_fn - a function on the result: ADD 5. */
+void list_fn(struct list *list, const struct il_line *line);
+/** list_call - a function with formal parameters; the lines behind it too. */
+void list_call(struct list *list);
+/** list_cal - a call of an instance; the lines behind it too. */
+void list_cal(struct list *list);
+#endif

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * pack_image - writes what the assembler made as a code image.
+ */
+#include "engine/translate/assembler.h"
+
+#include "engine/base/digest.h"
+
+#include <string.h>
+
+/* The maps that are made only here. */
+struct maps {
+	char *string;
+	int string_count;
+	struct code_symbol *symbol;
+	int symbol_count;
+	struct code_power *power;
+	int power_count;
+};
+
+static uint32_t add_string(struct assembler *as, struct maps *maps,
+			   const char *text, size_t len)
+{
+	uint32_t at = (uint32_t)maps->string_count;
+
+	for (size_t i = 0; i <= len; i++) {
+		char *slot = arena_push(as->arena, &maps->string,
+					&maps->string_count, 1);
+
+		if (!slot) {
+			as->failed = true;
+			return 0;
+		}
+		*slot = i < len ? text[i] : '\0';
+	}
+	return at;
+}
+
+static uint32_t add_name(struct assembler *as, struct maps *maps, uint32_t id)
+{
+	const struct names *names = &as->translation->project->names;
+
+	return add_string(as, maps, names_text(names, id), names_len(names, id));
+}
+
+static void add_symbol(struct assembler *as, struct maps *maps,
+		       const struct pou *pou, uint32_t pou_name,
+		       const struct var *var, int index, uint8_t flags)
+{
+	const struct names *names = &as->translation->project->names;
+	struct meaning m = {
+		.kind = MEANING_VARIABLE, .type = var->type, .pou = pou,
+		.var = var, .index = index, .addr = var->at,
+	};
+	struct spot spot = layout_spot(as, &m);
+	struct code_symbol *symbol = arena_push(as->arena, &maps->symbol,
+						&maps->symbol_count,
+						sizeof(*symbol));
+
+	if (!symbol) {
+		as->failed = true;
+		return;
+	}
+	*symbol = (struct code_symbol){
+		.name = add_name(as, maps, var->name), .pou = pou_name,
+		.where = spot.offset, .type = (uint8_t)var->type,
+		.word = (uint16_t)(var->type == IEC_NONE ? var->fb : 0),
+	};
+	if (var->at.area != AREA_NONE && var->at.bits == 1) {
+		symbol->area = (uint8_t)var->at.area;
+		symbol->where = var->at.byte * 8 + var->at.bit;
+	}
+	if (flags & VAR_CONSTANT)
+		symbol->flags |= SYMBOL_CONSTANT;
+	if (flags & VAR_RETAIN)
+		symbol->flags |= SYMBOL_RETAIN;
+	if (is_temporary(names_text(names, var->name), 'T') ||
+	    is_temporary(names_text(names, var->name), 'N') ||
+	    is_temporary(names_text(names, var->name), 'E'))
+		symbol->flags |= SYMBOL_HIDDEN;
+}
+
+static void add_table(struct assembler *as, struct maps *maps,
+		      const struct pou *pou, const struct var_table *vars)
+{
+	uint32_t pou_name = pou ? add_name(as, maps, pou->name) : 0;
+	int block = 0;
+
+	for (int i = 0; i < vars->count; i++) {
+		while (block + 1 < vars->block_count &&
+		       vars->block[block + 1].first <= i)
+			block++;
+		add_symbol(as, maps, pou, pou_name, &vars->var[i], i,
+			   vars->block_count ? vars->block[block].flags : 0);
+	}
+}
+
+static uint32_t power_offset(struct assembler *as, const struct pou *pou,
+			     uint32_t name)
+{
+	const struct meaning *m;
+	enum diag_id why;
+
+	if (!name)
+		return CODE_TRUE_AT(iec_areas_size());
+	m = scope_find(as->translation->scope, pou, name, &why);
+	if (!m || m->kind == MEANING_LITERAL)
+		return CODE_TRUE_AT(iec_areas_size());
+	return layout_spot(as, m).offset;
+}
+
+static void add_power(struct assembler *as, struct maps *maps)
+{
+	for (int i = 0; i < as->translation->unit_count; i++) {
+		const struct unit *unit = &as->translation->unit[i];
+
+		for (int k = 0; k < unit->power_count; k++) {
+			const struct power_note *note = &unit->power[k];
+			struct code_power *power = arena_push(as->arena,
+				&maps->power, &maps->power_count, sizeof(*power));
+
+			if (!power) {
+				as->failed = true;
+				return;
+			}
+			*power = (struct code_power){
+				.pou = (uint16_t)i, .rung = note->rung,
+				.row = note->row, .col = note->col,
+				.in = power_offset(as, unit->pou, note->in),
+				.out = power_offset(as, unit->pou, note->out),
+			};
+		}
+	}
+}
+
+static bool make_maps(struct assembler *as, struct maps *maps)
+{
+	struct project *project = as->translation->project;
+
+	add_string(as, maps, "", 0); /* offset 0: no POU */
+	for (int i = 0; i < as->translation->unit_count; i++)
+		as->entry[i].name = add_name(as, maps, project->pou[i].name);
+	add_table(as, maps, NULL, &project->globals);
+	for (int i = 0; i < as->translation->unit_count; i++)
+		add_table(as, maps, &project->pou[i], &project->pou[i].vars);
+	add_power(as, maps);
+	return !as->failed;
+}
+
+/* What goes into each section. */
+struct piece { const void *bytes; size_t size; };
+
+static void *write_pieces(struct assembler *as, const struct piece *piece,
+			  size_t *len)
+{
+	struct code_header *header;
+	size_t size = sizeof(*header), covered;
+	uint8_t *image;
+
+	for (int i = 1; i < CODE_SECTION_COUNT; i++)
+		size += (piece[i].size + 7) / 8 * 8;
+	if (size > LIMIT_IMAGE) {
+		struct diag place = { .id = DIAG_CODE_TOO_LARGE,
+			.file = as->translation->project->file };
+
+		diag_add(as->translation->diags, place, "%zu bytes", size);
+		return NULL;
+	}
+	image = arena_alloc(as->arena, size);
+	if (!image)
+		return NULL;
+	header = (void *)image;
+	memcpy(header->magic, CODE_MAGIC, sizeof(header->magic));
+	header->version = CODE_VERSION;
+	header->size = (uint32_t)size;
+	header->data_size = as->data_size;
+	header->retain_offset = as->retain_offset;
+	header->retain_size = as->retain_size;
+	header->budget = LIMIT_BUDGET;
+	*len = size;
+	size = sizeof(*header);
+	for (int i = 1; i < CODE_SECTION_COUNT; i++) {
+		header->section[i].offset = (uint32_t)size;
+		header->section[i].size = (uint32_t)piece[i].size;
+		if (piece[i].size)
+			memcpy(image + size, piece[i].bytes, piece[i].size);
+		size += (piece[i].size + 7) / 8 * 8;
+	}
+	covered = offsetof(struct code_header, crc) + 4;
+	header->crc = digest_crc32c(0, image + covered, size - covered);
+	return image;
+}
+
+#define PIECE(pointer, count) \
+	{ (pointer), (size_t)(count) * sizeof(*(pointer)) }
+
+void *pack_image(struct assembler *as, size_t *len)
+{
+	struct maps *maps = arena_alloc(as->arena, sizeof(*maps));
+
+	if (!maps || !make_maps(as, maps))
+		return NULL;
+	const struct piece piece[CODE_SECTION_COUNT] = {
+		[CODE_PROGRAMS] = PIECE(as->entry, as->translation->unit_count),
+		[CODE_LAYOUT] = PIECE(as->run, as->run_count),
+		[CODE_INIT] = PIECE(as->init.word, as->init.count),
+		[CODE_BITS] = PIECE(as->bit_run, as->bit_run_count),
+		[CODE_TEXT] = PIECE(as->code.word, as->code.count),
+		[CODE_WATCH] = PIECE(as->watch.word, as->watch.count),
+		[CODE_SYMBOLS] = PIECE(maps->symbol, maps->symbol_count),
+		[CODE_POWER] = PIECE(maps->power, maps->power_count),
+		[CODE_PLACES] = PIECE(as->place, as->place_count),
+		[CODE_STRINGS] = PIECE(maps->string, maps->string_count),
+	};
+
+	return write_pieces(as, piece, len);
+}
