@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_diag - messages keep their place, their codes are unique, and hostile
+ * arguments cannot reach a terminal.
+ */
+#include "engine/base/diag.h"
+#include "engine/base/lex.h"
+#include "tests/tap.h"
+
+static struct diag_list list;
+
+static void prints(void)
+{
+	struct diag place = { .id = DIAG_NOT_LAST, .file = "pump.rung",
+			      .line = 14, .rung = 3, .row = 2, .col = 5 };
+	char text[200], cut[10];
+	int len;
+
+	diag_init(&list);
+	CHECK(!diag_add(&list, place, "%s", "%QX0.1"));
+	len = diag_print(&list.diag[0], text, sizeof(text));
+	CHECK_TEXT(text, "pump.rung:14: rung 3 (2,5): error LD203: "
+			 "must be last on its branch: %QX0.1");
+	CHECK(len == (int)strlen(text));
+	CHECK(diag_print(&list.diag[0], cut, sizeof(cut)) == len);
+	CHECK_TEXT(cut, "pump.rung");
+	CHECK(diag_print(&list.diag[0], NULL, 0) == len);
+
+	place = (struct diag){ .id = DIAG_COIL_TWICE, .file = "a", .line = 2,
+			       .column = 7 };
+	CHECK_AS(diag_add(&list, place, "%s", ""), "a warning is no failure");
+	diag_print(&list.diag[1], text, sizeof(text));
+	CHECK_TEXT(text, "a:2:7: warning LD310: "
+			 "written by coils in two places; the last one wins");
+	place = (struct diag){ .id = DIAG_EMPTY_RUNG, .pou = "Main", .rung = 4 };
+	diag_add(&list, place, "%s", "");
+	diag_print(&list.diag[2], text, sizeof(text));
+	CHECK_TEXT(text, "Main: rung 4: error LD207: rung is empty");
+	place = (struct diag){ .id = DIAG_EMPTY_FILE, .file = "b.rung" };
+	diag_add(&list, place, "%s", "");
+	diag_print(&list.diag[3], text, sizeof(text));
+	CHECK_TEXT(text, "b.rung: error LD101: file is empty");
+	CHECK(list.count == 4 && list.errors == 3);
+}
+
+static const char *argument(const char *text)
+{
+	struct diag place = { .id = DIAG_SYNTAX, .arg = "ignored" };
+
+	diag_init(&list);
+	diag_add(&list, place, "%s", text);
+	return list.diag[0].arg;
+}
+
+static void cleans_arguments(void)
+{
+	char text[300] = "";
+
+	CHECK_TEXT(argument(""), "");
+	CHECK_TEXT(argument("a\033[2Jb\n\x7f"), "a?[2Jb??");
+	CHECK_TEXT(argument("\xc2\x9bx"), "?x");
+	CHECK_TEXT(argument("\xff" "a\xc3"), "?a?");
+	CHECK_TEXT(argument("T\xc3\xbcr"), "T\xc3\xbcr");
+	memset(text, 'x', 250);
+	CHECK(strlen(argument(text)) == LIMIT_ARG - 1);
+	for (int lead = 0; lead < 4; lead++) {
+		const char *arg;
+		size_t len = (size_t)lead;
+
+		memset(text, 0, sizeof(text));
+		memset(text, 'x', len);
+		for (; len < 100; len += 4)
+			memcpy(text + len, "\xf0\x9f\x94\xa7", 4);
+		arg = argument(text);
+		CHECK_AS(utf8_valid(arg, strlen(arg), NULL) &&
+			 strlen(arg) > LIMIT_ARG - 5,
+			 "clipped at a whole character");
+	}
+}
+
+static void counts_beyond_its_limit(void)
+{
+	struct diag error = { .id = DIAG_SYNTAX };
+	struct diag warning = { .id = DIAG_UNUSED };
+
+	diag_init(&list);
+	for (int i = 0; i < LIMIT_DIAGS + 10; i++)
+		diag_add(&list, error, "%d", i);
+	CHECK(diag_add(&list, warning, "%s", "x"));
+	CHECK(list.count == LIMIT_DIAGS);
+	CHECK(list.dropped == 11);
+	CHECK(list.errors == LIMIT_DIAGS + 10);
+	CHECK_TEXT(list.diag[LIMIT_DIAGS - 1].arg, "99");
+}
+
+static void codes_are_unique(void)
+{
+	bool unique = true, shaped = true;
+
+	for (int i = 0; i < DIAG_COUNT; i++) {
+		const char *code = diag_code((enum diag_id)i);
+
+		shaped &= strlen(code) == 5 && strncmp(code, "LD", 2) == 0 &&
+			  strspn(code + 2, "0123456789") == 3 &&
+			  diag_text((enum diag_id)i)[0] != '\0';
+		for (int k = 0; k < i; k++)
+			unique &= strcmp(code, diag_code((enum diag_id)k)) != 0;
+	}
+	CHECK(unique);
+	CHECK(shaped);
+	CHECK_TEXT(diag_code(DIAG_COUNT), "LD000");
+	CHECK(diag_severity(DIAG_COUNT) == SEVERITY_ERROR);
+	CHECK_TEXT(diag_text(DIAG_COUNT), "");
+	CHECK(diag_severity(DIAG_NEVER_READ) == SEVERITY_WARNING);
+}
+
+int main(void)
+{
+	prints();
+	cleans_arguments();
+	counts_beyond_its_limit();
+	codes_are_unique();
+	return tap_done();
+}
