@@ -62,7 +62,8 @@ static void test_cells(void)
 	CHECK_TEXT(got, "Main rung 1 (Seal) cell (2,1): NO M -> NC M\n");
 	CHECK(count == 1);
 	got = rungs(seal, "RUNG Seal \"keeps on\"\n"
-			  "| NO Open | NC Stop (* red *) | COIL M |\n| NO M |\n");
+			  "| NO Open | NC Stop (* red *) | COIL M |\n"
+			  "| NO M |\n");
 	CHECK_TEXT(got,
 		   "Main rung 1 (Seal): title nothing -> keeps on\n"
 		   "Main rung 1 (Seal) cell (1,2): comment nothing -> "
@@ -96,7 +97,8 @@ static void test_rungs(void)
 		   "Main rung 1 (L1) cell (1,1): NO I1 -> NO X\n"
 		   "Main rung 1 (L1) cell (1,2): COIL Q1 -> COIL Y\n");
 	/* In one gap: one became another, one is new, one has gone. */
-	CHECK_TEXT(rungs(R(1) R(2) R(3), R(1) R(7) "RUNG\n| NC I2 | COIL Q2 |\n"),
+	CHECK_TEXT(rungs(R(1) R(2) R(3),
+			 R(1) R(7) "RUNG\n| NC I2 | COIL Q2 |\n"),
 		   "Main rung 2: added\n"
 		   "Main rung 2 cell (1,1): NO I2 -> NC I2\n"
 		   "Main rung 3: removed\n");
@@ -144,7 +146,8 @@ static void test_pous(void)
 			   "END_PROGRAM\n", false),
 		   "program A: removed\nB variable X: removed\n"
 		   "program C: added\n");
-	CHECK_TEXT(compare("PROGRAM A IL\nLD X\nAND Y\nST Z\nLD V\nEND_PROGRAM\n",
+	CHECK_TEXT(compare("PROGRAM A IL\nLD X\nAND Y\nST Z\nLD V\n"
+			   "END_PROGRAM\n",
 			   "PROGRAM A IL\nLD X\nANDN Y\nST Z\nEND_PROGRAM\n",
 			   false),
 		   "A line 2: AND Y -> ANDN Y\nA line 4 LD V: removed\n");

@@ -14,7 +14,8 @@ static struct sink_memory memory;
 static struct diag_list diags;
 static int drawn;
 
-static const char *show(const char *pous, int pou, int rung, bool ascii, int width)
+static const char *show(const char *pous, int pou, int rung, bool ascii,
+			int width)
 {
 	static char text[100000];
 	struct view_show_options options = { ascii, width };
@@ -106,7 +107,7 @@ static void test_outputs(void)
 	" │               │    Two   │\n"
 	" │               ├────( )───┤\n"
 	" │               └──<RET>   │\n");
-	/* Not last on its branch: drawn as it stands, with no way to the rail. */
+	/* Not last on its branch: drawn as it stands, no way to the rail. */
 	CHECK_TEXT(rung("RUNG\n| COIL A | NO B |\n"),
 	" │   A       B    │\n"
 	"1├──( )─────┤ ├───│\n");

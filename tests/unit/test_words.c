@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_words - the word list against the catalogue, and docs/words.md against both.
+ * test_words - the word list against the catalogue, and docs/words.md against
+ * both.
  *
  * `test_words --print` puts out the page instead; `make words` keeps it so.
  */
@@ -67,9 +68,11 @@ static void test_one(void)
 		   "AND: IL operator: result and operand\n"
 		   "  AND ANDN AND( ANDN(\n");
 	CHECK_TEXT(words("JMP", false, &count) + strlen(
-		   "JMP: element (Flow): goes on at a rung's label while powered\n"
+		   "JMP: element (Flow): goes on at a rung's label "
+		   "while powered\n"
 		   "  drawn >>>\n  a label, last in its row\n"),
-		   "JMP: IL operator: goes on at a label; C: if TRUE; CN: if FALSE\n"
+		   "JMP: IL operator: goes on at a label; "
+		   "C: if TRUE; CN: if FALSE\n"
 		   "  JMP JMPC JMPCN\n");
 	CHECK_TEXT(words("nonsense", false, &count), "");
 	CHECK(count == 0);

@@ -2,9 +2,9 @@
  *
  * sink - where text goes that the library writes for people or programs.
  *
- * The library prints nothing itself: a caller hands it a sink (its stdout, a file,
- * memory) and decides there what a failed write means. A sink keeps no lines and
- * adds nothing of its own.
+ * The library prints nothing itself: a caller hands it a sink (its stdout, a
+ * file, memory) and decides there what a failed write means. A sink keeps no
+ * lines and adds nothing of its own.
  */
 #ifndef BASE_SINK_H
 #define BASE_SINK_H
@@ -40,9 +40,9 @@ void sink_json_text(const struct sink *sink, const char *text);
 
 /* A sink that grows in memory, for tests and for comparing. */
 struct sink_memory {
-	char *text;   /* NUL-ended; NULL: nothing was written yet              */
+	char *text;   /* NUL-ended; NULL: nothing was written yet             */
 	size_t len, size;
-	bool failed;  /* memory was out: the text is not whole                 */
+	bool failed;  /* memory was out: the text is not whole                */
 };
 
 /** sink_memory_init - empty. Give it back with sink_memory_free. */

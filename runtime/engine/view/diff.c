@@ -2,8 +2,9 @@
  *
  * diff - two projects compared: names, variables, POUs, kept sections.
  *
- * What the parts do not find, such as another order of declarations, shows in the
- * canonical texts, which are compared last: no difference means the same text.
+ * What the parts do not find, such as another order of declarations, shows in
+ * the canonical texts, which are compared last: no difference means the same
+ * text.
  */
 #include "engine/view/diff.h"
 #include "engine/text/text.h"
@@ -130,7 +131,8 @@ static void compare_vars(struct diff *diff, const char *pou,
 
 /* ---- POUs ---- */
 
-static const struct pou *pou_named(const struct project *project, const char *name)
+static const struct pou *pou_named(const struct project *project,
+				   const char *name)
 {
 	for (int i = 0; i < project->pou_count; i++)
 		if (strcasecmp(project_text(project, project->pou[i].name),
@@ -153,7 +155,8 @@ static void compare_pou(struct diff *diff, const struct pou *a,
 	diff_texts(diff, what, "name", name, project_text(diff->b, b->name));
 	diff_texts(diff, what, "comment", project_text(diff->a, a->comment),
 		   project_text(diff->b, b->comment));
-	diff_texts(diff, what, "closing comment", project_text(diff->a, a->tail),
+	diff_texts(diff, what, "closing comment",
+		   project_text(diff->a, a->tail),
 		   project_text(diff->b, b->tail));
 	compare_vars(diff, name, &a->vars, &b->vars);
 	if (a->language != b->language)
@@ -233,7 +236,8 @@ static void compare_texts(struct diff *diff)
 		diff->failed = true;
 	else if (a_len != b_len || memcmp(a, b, a_len) != 0)
 		diff_say(diff, (struct difference){
-			.kind = "order, layout or comments", .change = "changed",
+			.kind = "order, layout or comments",
+			.change = "changed",
 		});
 	free(a);
 	free(b);

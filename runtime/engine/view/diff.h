@@ -2,8 +2,9 @@
  *
  * diff - what the parts of the comparison of two projects share.
  *
- * Used inside view/ only: diff.c compares projects, POUs and variables, diff_rung.c
- * rungs, diff_match.c finds what belongs together, diff_say.c puts it into words.
+ * Used inside view/ only: diff.c compares projects, POUs and variables,
+ * diff_rung.c rungs, diff_match.c finds what belongs together, diff_say.c puts
+ * it into words.
  */
 #ifndef VIEW_DIFF_H
 #define VIEW_DIFF_H
@@ -19,24 +20,24 @@ struct diff {
 	const struct project *a, *b;
 	const struct sink *sink;
 	bool json;
-	bool failed;               /* memory is out                            */
-	int count;                 /* differences so far                       */
-	struct arena arena;        /* scratch                                  */
-	struct names names;        /* strings of both projects, by one id      */
-	struct sink_memory bytes;  /* scratch: a rung or line made comparable  */
-	char from[1024], to[1024]; /* scratch: texts of two cells or lines     */
-	char subject[2 * LIMIT_NAME], pin[LIMIT_NAME + 1]; /* scratch: names    */
+	bool failed;               /* memory is out                           */
+	int count;                 /* differences so far                      */
+	struct arena arena;        /* scratch                                 */
+	struct names names;        /* strings of both projects, by one id     */
+	struct sink_memory bytes;  /* scratch: a rung or line made comparable */
+	char from[1024], to[1024]; /* scratch: texts of two cells or lines    */
+	char subject[2 * LIMIT_NAME], pin[LIMIT_NAME + 1]; /* scratch: names  */
 };
 
 /* One difference; what is NULL or 0 is not said. */
 struct difference {
 	const char *pou, *label;
-	int rung, row, col, line;  /* 1-based                                  */
-	const char *kind;          /* "variable", "view section"               */
-	const char *subject;       /* its name, or the element in a cell       */
-	const char *property;      /* "address"                                */
-	const char *from, *to;     /* either may be "": nothing                */
-	const char *change;        /* "added", when there is no from and to    */
+	int rung, row, col, line;  /* 1-based                                 */
+	const char *kind;          /* "variable", "view section"              */
+	const char *subject;       /* its name, or the element in a cell      */
+	const char *property;      /* "address"                               */
+	const char *from, *to;     /* either may be "": nothing               */
+	const char *change;        /* "added", when there is no from and to   */
 };
 
 /** diff_say - puts it out and counts it. */

@@ -10,7 +10,7 @@
 #include <string.h>
 
 struct lines {
-	char *text;        /* cut into lines, NUL-ended                        */
+	char *text;        /* cut into lines, NUL-ended                       */
 	char **line;
 	uint32_t *id;
 	int count;
@@ -107,7 +107,8 @@ void diff_il(struct diff *diff, const struct pou *a, const struct pou *b)
 	struct lines x = { 0 }, y = { 0 };
 	int i = 0, j = 0, *match = NULL;
 
-	if (make_lines(diff, diff->a, a, &x) && make_lines(diff, diff->b, b, &y))
+	if (make_lines(diff, diff->a, a, &x) &&
+	    make_lines(diff, diff->b, b, &y))
 		match = arena_alloc(&diff->arena, (size_t)(x.count + 1) *
 						  sizeof(int));
 	if (!match || !diff_match(&diff->arena, x.id, x.count, y.id, y.count,

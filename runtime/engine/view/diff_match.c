@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * diff_match - longest common subsequence by E. W. Myers' greedy method ("An O(ND)
- * difference algorithm and its variations", 1986), with a bound on its work.
+ * diff_match - longest common subsequence by E. W. Myers' greedy method ("An
+ * O(ND) difference algorithm and its variations", 1986), with a bound on its
+ * work.
  *
  * It compares numbers only; equal numbers mean equal rungs or lines.
  */
@@ -13,14 +14,15 @@ struct search {
 	struct arena *arena;
 	const uint32_t *a, *b;
 	int a_count, b_count;
-	int *reach;      /* by diagonal: how far in a; [-limit-1 … limit+1]    */
-	int **trace;     /* reach after 0, 1, 2 … changes, middle at [changes] */
+	int *reach;      /* by diagonal: how far in a; [-limit-1 … limit+1]   */
+	int **trace;     /* reach after 0, 1, 2 … changes; middle: [changes] */
 };
 
 static bool came_down(const int *reach, int diagonal, int changes)
 {
 	return diagonal == -changes ||
-	       (diagonal != changes && reach[diagonal - 1] < reach[diagonal + 1]);
+	       (diagonal != changes &&
+		reach[diagonal - 1] < reach[diagonal + 1]);
 }
 
 static int slide(const struct search *search, int x, int y)

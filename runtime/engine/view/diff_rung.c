@@ -2,8 +2,8 @@
  *
  * diff_rung - which rungs of two POUs belong together, and how those differ.
  *
- * Rungs that are the same in order come first; then the same rung elsewhere, the
- * same label, and a rung of much the same content in the same gap.
+ * Rungs that are the same in order come first; then the same rung elsewhere,
+ * the same label, and a rung of much the same content in the same gap.
  */
 #include "engine/view/diff.h"
 #include "engine/model/args.h"
@@ -15,10 +15,10 @@
 struct pairing {
 	struct diff *diff;
 	const struct pou *a, *b;
-	int *to_b, *to_a;     /* partner of each rung, -1: none                */
-	int *gap_a, *gap_b;   /* partner-in-order that stands before, by b; -1 */
+	int *to_b, *to_a;     /* partner of each rung, -1: none               */
+	int *gap_a, *gap_b;   /* last partner in order before it, by b; -1 */
 	uint32_t *id_a, *id_b;
-	bool *moved;          /* of rungs of a                                 */
+	bool *moved;          /* of rungs of a                                */
 };
 
 static const struct cell nothing;
@@ -174,8 +174,8 @@ static bool pair_by_key(struct pairing *pairs, const uint32_t *key_a,
 static uint32_t *labels_of(struct diff *diff, const struct project *project,
 			   const struct pou *pou)
 {
-	uint32_t *key = arena_alloc(&diff->arena, (size_t)(pou->rung_count + 1) *
-						  sizeof(*key));
+	size_t size = (size_t)(pou->rung_count + 1) * sizeof(uint32_t);
+	uint32_t *key = arena_alloc(&diff->arena, size);
 
 	if (!key)
 		diff->failed = true;
@@ -272,7 +272,8 @@ static void compare_arg(struct diff *diff, struct difference what,
 {
 	const struct arg *pin = a ? a : b;
 
-	snprintf(diff->pin, sizeof(diff->pin), "%.*s", (int)pin->pin_len, pin->pin);
+	snprintf(diff->pin, sizeof(diff->pin), "%.*s", (int)pin->pin_len,
+		 pin->pin);
 	value_text(a, diff->from, sizeof(diff->from));
 	value_text(b, diff->to, sizeof(diff->to));
 	diff_texts(diff, what, diff->pin, diff->from, diff->to);
@@ -287,7 +288,8 @@ static void compare_args(struct diff *diff, struct difference what,
 	struct arg arg, other;
 	int before = diff->count;
 
-	snprintf(diff->subject, sizeof(diff->subject), "%s %s", word_row(a->word)->word,
+	snprintf(diff->subject, sizeof(diff->subject), "%s %s",
+		 word_row(a->word)->word,
 		 project_text(diff->a, a->operand));
 	size_t end = strlen(diff->subject);
 	if (end > 0 && diff->subject[end - 1] == ' ')

@@ -31,7 +31,8 @@ static void say_side(const struct sink *sink, const char *text)
 }
 
 /* A word of the place, with a blank before all but the first. */
-static void say_word(const struct sink *sink, const char **gap, const char *word)
+static void say_word(const struct sink *sink, const char **gap,
+		     const char *word)
 {
 	if (!word || !*word)
 		return;
@@ -116,7 +117,8 @@ static void say_json(const struct sink *sink, const struct difference *what)
 	json_field(sink, &gap, "kind", what->kind);
 	json_field(sink, &gap, "subject", what->subject);
 	json_field(sink, &gap, "property", what->property);
-	json_field(sink, &gap, "change", what->change ? what->change : "changed");
+	json_field(sink, &gap, "change",
+		   what->change ? what->change : "changed");
 	json_field(sink, &gap, "from", what->from);
 	json_field(sink, &gap, "to", what->to);
 	sink_text(sink, "}");

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * draw - what one rung's drawing needs to know; shared by show.c and show_box.c.
+ * draw - what one rung's drawing needs to know; shared by show.c and
+ * show_box.c.
  *
- * Used inside view/ only. Every text line is put out from left to right; nothing is
- * painted over, so the drawing needs no canvas and wide characters keep their place.
+ * Used inside view/ only. Every text line is put out from left to right;
+ * nothing is painted over, so the drawing needs no canvas and wide characters
+ * keep their place.
  */
 #ifndef VIEW_DRAW_H
 #define VIEW_DRAW_H
@@ -15,19 +17,19 @@
 enum { JOIN_UP = 1, JOIN_DOWN = 2, JOIN_LEFT = 4, JOIN_RIGHT = 8 };
 
 struct strokes {
-	const char *joint[16];      /* by the ways that meet                   */
+	const char *joint[16];      /* by the ways that meet                  */
 	const char *across, *rail, *off_rail, *open, *close;
-	const char *corner[4];      /* of a box: top left, right, bottom …     */
-	const char *side;           /* of a box, where nothing is joined       */
-	const char *more;           /* stands for what was clipped             */
+	const char *corner[4];      /* of a box: top left, right, bottom …    */
+	const char *side;           /* of a box, where nothing is joined      */
+	const char *more;           /* stands for what was clipped            */
 };
 
-#define DRAW_CLIP 48                /* columns of a name or value              */
-#define DRAW_CLIP_TEXT 160          /* columns of an expression                */
-#define BOX_PINS (LIMIT_ARGS + 8)   /* written ones and those of the row       */
+#define DRAW_CLIP 48                /* columns of a name or value             */
+#define DRAW_CLIP_TEXT 160          /* columns of an expression               */
+#define BOX_PINS (LIMIT_ARGS + 8)   /* written ones and those of the row      */
 
 struct box_pin {
-	const char *name, *value;   /* borrowed; value NULL: not connected     */
+	const char *name, *value;   /* borrowed; value NULL: not connected    */
 	size_t name_len, value_len;
 };
 struct box_side {
@@ -38,11 +40,11 @@ struct box {
 	const struct word_row *row;
 	const struct cell *cell;
 	const char *args;
-	int top, last, col;         /* rows and column it covers               */
+	int top, last, col;         /* rows and column it covers              */
 	const char *power_in, *power_out;
-	struct box_side in, out;    /* but for the pins that carry power       */
-	int lead, inner, tail;      /* columns: before, between, behind sides  */
-	int need;                   /* columns of the cell                     */
+	struct box_side in, out;    /* but for the pins that carry power      */
+	int lead, inner, tail;      /* columns: before, between, behind sides */
+	int need;                   /* columns of the cell                    */
 };
 
 struct draw {
@@ -50,14 +52,14 @@ struct draw {
 	const struct rung *rung;
 	const struct sink *sink;
 	const struct strokes *strokes;
-	int number;                 /* of the rung                             */
-	int margin;                 /* columns before the left rail            */
+	int number;                 /* of the rung                            */
+	int margin;                 /* columns before the left rail           */
 	int width[LIMIT_COLS];
-	int above[LIMIT_ROWS], below[LIMIT_ROWS]; /* lines round a power line  */
-	int y[LIMIT_ROWS];          /* of the power line                       */
+	int above[LIMIT_ROWS], below[LIMIT_ROWS]; /* lines round a power line */
+	int y[LIMIT_ROWS];          /* of the power line                      */
 	int trail[LIMIT_ROWS];      /* column from which power runs to the right
-				       rail; LIMIT_COLS: none                  */
-	struct box box;             /* the one that is drawn just now          */
+				       rail; LIMIT_COLS: none                 */
+	struct box box;             /* the one that is drawn just now         */
 };
 
 void draw_blank(const struct draw *draw, int count);

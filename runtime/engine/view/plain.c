@@ -13,7 +13,8 @@
 static size_t character(const char *text, size_t len, bool *odd)
 {
 	unsigned char first = (unsigned char)text[0];
-	size_t size = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+	size_t size = first < 0x80 ? 1 : first < 0xe0 ? 2 :
+		      first < 0xf0 ? 3 : 4;
 
 	*odd = first < 0x20 || first == 0x7f;
 	if (*odd || size == 1)

@@ -2,8 +2,8 @@
  *
  * plain - a user's text made fit for a terminal: measured, clipped, harmless.
  *
- * Used inside view/ only. Control characters and broken bytes are shown as `?`, so
- * that no comment can move a cursor. It wraps nothing.
+ * Used inside view/ only. Control characters and broken bytes are shown as `?`,
+ * so that no comment can move a cursor. It wraps nothing.
  */
 #ifndef VIEW_PLAIN_H
 #define VIEW_PLAIN_H
@@ -25,9 +25,8 @@ void plain_write(const struct sink *sink, const char *text, size_t len);
 void plain_text(const struct sink *sink, const char *text);
 
 /**
- * plain_comment_line - the next line of a comment, without delimiters and blanks
- * @at:  start with *at = the comment; moves on
- * @len: gets its bytes
+ * plain_comment_line - the next line of a comment, without delimiters and
+ * blanks @at:  start with *at = the comment; moves on @len: gets its bytes
  * Returns it, borrowed; NULL at the end. Empty lines are left out.
  */
 const char *plain_comment_line(const char **at, size_t *len);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * print_il - a POU in IL, whatever it was written in, as a text that reads again.
+ * print_il - a POU in IL, whatever it was written in, as a text that reads
+ * again.
  *
- * It has no syntax of its own: it makes a project of that one POU and lets text/
- * write it. Globals are not part of it.
+ * It has no syntax of its own: it makes a project of that one POU and lets
+ * text/ write it. Globals are not part of it.
  */
 #include "engine/view/view.h"
 

@@ -129,7 +129,8 @@ bool draw_goes_right(const struct draw *draw, int row, int col)
 		return true;
 	/* An output leads nowhere, unless somebody joined something to it. */
 	return goes_left(draw, row, col + 1) ||
-	       linked_up(draw, row, col + 1) || linked_up(draw, row + 1, col + 1);
+	       linked_up(draw, row, col + 1) ||
+	       linked_up(draw, row + 1, col + 1);
 }
 
 static const char *joint(const struct draw *draw, int row, int bar)
@@ -151,8 +152,8 @@ static const char *joint(const struct draw *draw, int row, int bar)
 	return draw->strokes->joint[ways];
 }
 
-/* Power of an output that stands free at the end of its row goes on to the right
- * rail, as it is drawn on paper. */
+/* Power of an output that stands free at the end of its row goes on to the
+ * right rail, as it is drawn on paper. */
 static int trail_of(const struct draw *draw, int row)
 {
 	const struct rung *rung = draw->rung;
@@ -421,7 +422,8 @@ static void draw_cell(struct draw *draw, int row, int col, int line)
 		draw_glyph(draw, row, col);
 }
 
-static const char *bar_stroke(const struct draw *draw, int row, int bar, int line)
+static const char *bar_stroke(const struct draw *draw, int row, int bar,
+			      int line)
 {
 	const struct strokes *strokes = draw->strokes;
 
@@ -527,7 +529,8 @@ static int digits(int number)
 	return count;
 }
 
-static int show_ld(struct draw *draw, const struct pou *pou, int rung, int wanted)
+static int show_ld(struct draw *draw, const struct pou *pou, int rung,
+		   int wanted)
 {
 	int first = rung ? rung - 1 : 0;
 	int end = rung ? rung : pou->rung_count;
@@ -545,7 +548,8 @@ static int show_ld(struct draw *draw, const struct pou *pou, int rung, int wante
 	return end - first;
 }
 
-static int show_pou(struct draw *draw, const struct pou *pou, int rung, int wanted)
+static int show_pou(struct draw *draw, const struct pou *pou, int rung,
+		    int wanted)
 {
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)

@@ -2,9 +2,9 @@
  *
  * show_box - draws a function or function block as a box.
  *
- * The pins that carry power stand in the rows the rung file gives them; all others
- * follow below, with what is connected beside them. It measures and draws, and
- * does not say whether a parameter makes sense.
+ * The pins that carry power stand in the rows the rung file gives them; all
+ * others follow below, with what is connected beside them. It measures and
+ * draws, and does not say whether a parameter makes sense.
  */
 #include "engine/view/draw.h"
 #include "engine/model/args.h"
@@ -304,8 +304,8 @@ static void pin_line(const struct draw *draw, int line)
 	if (row == box->top)
 		left = box->power_in;
 	else if (row > 0)
-		left = project_text(draw->project,
-				    rung_at(draw->rung, row, box->col)->operand);
+		left = project_text(draw->project, rung_at(draw->rung, row,
+							   box->col)->operand);
 	left_len = strlen(left);
 	bool fed = *left || row == box->top;
 

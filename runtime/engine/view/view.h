@@ -13,8 +13,8 @@
 #include "engine/model/project.h"
 
 struct view_show_options {
-	bool ascii;   /* - | + instead of box characters                       */
-	int width;    /* narrower rungs are stretched to so many columns; 0: no */
+	bool ascii;   /* - | + instead of box characters                      */
+	int width;    /* narrower rungs are stretched to it, in columns; 0: no */
 };
 
 /**
@@ -24,8 +24,8 @@ struct view_show_options {
  * @options: NULL: Unicode, not stretched
  *
  * A POU in IL is printed as its list. Rungs wider than a terminal run wide.
- * Returns the rungs drawn (a POU in IL counts as one); 0: there is no such rung;
- * -1: memory is out.   Scan-safe: no.
+ * Returns the rungs drawn (a POU in IL counts as one); 0: there is no such
+ * rung; -1: memory is out.   Scan-safe: no.
  */
 int view_show(const struct project *project, int pou, int rung,
 	      const struct view_show_options *options, const struct sink *sink);

@@ -303,7 +303,8 @@ static void json_pins(const struct word_row *row, const struct sink *sink)
 		if (pin->dir == PIN_VAR)
 			continue;
 		sink_printf(sink, "%s{\"pin\": \"%s\"", gap, pin->name);
-		json_field(sink, "direction", pin->dir == PIN_IN ? "in" : "out");
+		json_field(sink, "direction",
+			   pin->dir == PIN_IN ? "in" : "out");
 		json_field(sink, "type", pin->type != IEC_NONE ?
 			   iec_type_row(pin->type)->word :
 			   words_classes(pin->classes));

@@ -2,8 +2,8 @@
  *
  * words - one row of the catalogue, of whatever kind, as the word list sees it.
  *
- * Used inside view/ only: words.c lists them as text and JSON, words_page.c as the
- * page docs/words.md. It holds no words itself.
+ * Used inside view/ only: words.c lists them as text and JSON, words_page.c as
+ * the page docs/words.md. It holds no words itself.
  */
 #ifndef VIEW_WORDS_H
 #define VIEW_WORDS_H
@@ -18,12 +18,12 @@ enum words_kind {
 
 struct words_entry {
 	enum words_kind kind;
-	const char *word;           /* as one writes it                        */
-	const char *family;         /* NULL: none                              */
-	const char *doc;            /* "": words_note says it all              */
-	const struct word_row *row; /* of an element, block or function        */
+	const char *word;           /* as one writes it                       */
+	const char *family;         /* NULL: none                             */
+	const char *doc;            /* "": words_note says it all             */
+	const struct word_row *row; /* of an element, block or function       */
 	const struct op_row *op;
-	const struct iec_type_row *type; /* of a type or system name           */
+	const struct iec_type_row *type; /* of a type or system name          */
 	const struct iec_area_row *area;
 	const struct sys_row *sys;
 };
@@ -36,7 +36,7 @@ const char *words_kind(enum words_kind kind);
 const char *words_operand(enum operand_kind kind);
 /** words_classes - "ANY_NUM" of the classes of a function's pin. */
 const char *words_classes(uint8_t classes);
-/** words_note - a short line of facts, such as `LD LDN` or `2 bytes, 0 … 65535`. */
+/** words_note - a short line of facts, such as `LD LDN` or `1 byte, 0 to 1`. */
 void words_note(const struct words_entry *entry, const struct sink *sink);
 
 #endif

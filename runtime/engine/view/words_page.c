@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * words_page - the page docs/words.md, made from the catalogue so that it cannot
- * be older than the program. It explains nothing that a row does not say.
+ * words_page - the page docs/words.md, made from the catalogue so that it
+ * cannot be older than the program. It explains nothing that a row does not
+ * say.
  */
 #include "engine/view/view.h"
 #include "engine/view/words.h"
@@ -35,14 +36,16 @@ static const char *columns(enum words_kind kind)
 {
 	switch (kind) {
 	case WORDS_ELEMENT:
-		return "| word | drawn | family | stands with | power, action |\n"
+		return "| word | drawn | family | stands with | effect |\n"
 		       "|---|---|---|---|---|\n";
 	case WORDS_TYPE:
 		return "| type | size and range |\n|---|---|\n";
 	case WORDS_AREA:
-		return "| letters | size and use | what it is |\n|---|---|---|\n";
+		return "| letters | size and use | what it is |\n"
+		       "|---|---|---|\n";
 	case WORDS_SYSTEM:
-		return "| name | address and type | what it is |\n|---|---|---|\n";
+		return "| name | address and type | what it is |\n"
+		       "|---|---|---|\n";
 	case WORDS_OPERATOR:
 		return "| operator | forms | operand | what it does |\n"
 		       "|---|---|---|---|\n";
@@ -125,10 +128,11 @@ void view_words_markdown(const struct sink *sink)
 	struct words_entry entry;
 
 	sink_text(sink, "# Words\n\n"
-		"Every word a program can use. This page is made by `make words` "
-		"from `runtime/engine/catalog.def`;\nchange it there. How the "
-		"words are put together is told in [rung-file.md](rung-file.md), "
-		"when\nthey are evaluated in [language.md](language.md).\n");
+		"Every word a program can use. This page is made by "
+		"`make words` from `runtime/engine/catalog.def`;\nchange it "
+		"there. How the words are put together is told in "
+		"[rung-file.md](rung-file.md), when\nthey are evaluated "
+		"in [language.md](language.md).\n");
 	for (int i = 0; words_at(i, &entry); i++) {
 		if (entry.kind != kind)
 			sink_printf(sink, "\n## %s\n%s%s", heading(entry.kind),
