@@ -41,6 +41,79 @@ unit: $(UNIT) ## build and run the unit tests
 words: $(BUILD)/unit/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md
 
+# ---- HAL and runtime: the gpio driver is for the libgpiod that is here ----
+GPIOD    ?= $(shell $(PKG_CONFIG) --modversion libgpiod 2>/dev/null | cut -d. -f1)
+GPIO_C   := $(if $(filter 1 2,$(GPIOD)),hal/gpiod_v$(GPIOD).c hal/gpio_find.c,hal/gpiod_none.c)
+GPIO_LIB := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
+HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/sim.c
+HAL      := $(call obj,$(HAL_CORE) $(GPIO_C))
+LADDERD  := $(call obj,$(wildcard runtime/ladderd/*.c))
+$(HAL) $(LADDERD): WARN += $(FRAME)
+
+all: $(BUILD)/ladderd
+$(BUILD)/ladderd: $(LADDERD) $(HAL) $(BUILD)/libladder.a
+	@$(if $(filter 1 2,$(GPIOD)),true,echo 'libgpiod is not here: ladderd gets the sim driver only')
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
+
+# Both gpio drivers against fakes of their libgpiod: one suite, built twice.
+HAL_TEST := $(BUILD)/tests/hal
+HAL_FAKE  = $(call obj,$(HAL_CORE)) $(HAL_TEST)/v$(1)/gpiod_v$(1).o \
+            $(HAL_TEST)/v$(1)/gpio_find.o $(HAL_TEST)/v$(1)/fake_v$(1).o $(HAL_TEST)/fake.o
+$(HAL_TEST)/v1/%.o: hal/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) -std=c11 -Itests/hal/fake_v1 $(CPPFLAGS) $(WARN) $(FRAME) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(HAL_TEST)/v2/%.o: hal/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) -std=c11 -Itests/hal/fake_v2 $(CPPFLAGS) $(WARN) $(FRAME) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(HAL_TEST)/v1/%.o: tests/hal/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) -std=c11 -Itests/hal/fake_v1 $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(HAL_TEST)/v2/%.o: tests/hal/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) -std=c11 -Itests/hal/fake_v2 $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(HAL_TEST)/suite_v%: $(HAL_TEST)/v%/suite.o $(BUILD)/libladder.a Makefile
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+$(HAL_TEST)/suite_v1: $(call HAL_FAKE,1)
+$(HAL_TEST)/suite_v2: $(call HAL_FAKE,2)
+$(HAL_TEST)/map: $(call obj,tests/hal/map.c tests/hal/fake.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+HAL_TESTS := $(HAL_TEST)/map $(HAL_TEST)/suite_v1 $(HAL_TEST)/suite_v2
+hal-tests: $(HAL_TESTS) ## both gpio drivers against fake chips; ladderd from outside
+	prove -e '' $(HAL_TESTS)
+.PRECIOUS: $(HAL_TEST)/v1/%.o $(HAL_TEST)/v2/%.o
+.PHONY: hal-tests
+# ---- end of HAL and runtime ----
+
+# ---- the command line: ladder, its man pages ----
+LADDER := $(call obj,$(wildcard runtime/ladder/*.c))
+all: $(BUILD)/ladder
+$(BUILD)/ladder: $(LADDER) $(HAL) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
+
+# From the rows of runtime/ladder/commands.c. A cross build needs its own ladder.
+man: $(BUILD)/ladder ## the man pages, in build/man/
+	@mkdir -p $(BUILD)/man
+	@$(BUILD)/ladder help --man >$(BUILD)/man/ladder.1
+	@for c in $$($(BUILD)/ladder help --names); do \
+	  $(BUILD)/ladder help --man $$c >$(BUILD)/man/ladder-$$c.1 || exit 1; done
+install: install-ladder ## install under $(DESTDIR)$(prefix)
+install-ladder: $(BUILD)/ladder man
+	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/share/man/man1
+	install -m 755 $(BUILD)/ladder $(DESTDIR)$(prefix)/bin/ladder
+	install -m 644 $(BUILD)/man/*.1 $(DESTDIR)$(prefix)/share/man/man1/
+cli-tests: $(BUILD)/ladder ## the command line from outside
+	LADDER=$(BUILD)/ladder prove tests/cli.t
+.PHONY: man install install-ladder cli-tests
+# ---- end of the command line ----
+
+# ---- golden cases ----
+golden: $(BUILD)/ladder ## every case of tests/golden, byte by byte
+	LADDER=$(BUILD)/ladder prove tests/golden.t
+bless: $(BUILD)/ladder ## rewrite what CASE=name expects and show the difference
+	@LADDER=$(BUILD)/ladder perl tests/golden.t --bless $(CASE)
+.PHONY: golden bless
+# ---- end of golden cases ----
+
 clean: ## remove everything that was built
 	rm -rf $(BUILD)
 help: ## list the targets

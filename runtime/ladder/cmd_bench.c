@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_bench - `ladder bench`: how long a program takes here. It measures; it
+ * judges nothing and never fails because a machine is slow.
+ */
+#include "ladder/report.h"
+#include "ladder/tty.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define PERIOD_NS 10000000
+#define BATCH_NS  20000   /* a steady sample takes at least so long          */
+#define LOADS     5       /* of which the fastest counts                     */
+
+struct figure {
+	double least, median, longest; /* ns a scan                           */
+};
+
+enum measure { BODY_STEADY, BODY_RANDOM, SCAN_STEADY, SCAN_RANDOM, MEASURES };
+static const char *const measure_name[MEASURES] = {
+	"body, steady", "body, random", "scan, steady", "scan, random",
+};
+static const char *const measure_key[MEASURES] = {
+	"body_steady", "body_random", "scan_steady", "scan_random",
+};
+
+struct bench {
+	struct call *call;
+	struct machine machine;
+	struct resource *resource;
+	double *sample;
+	int64_t scans, now_ns;
+	int64_t load_ns, build_ns;
+	double clock_ns;         /* what reading the clock itself takes       */
+	uint64_t random;
+	int rungs;
+	struct figure figure[MEASURES];
+};
+
+static uint64_t next_random(struct bench *bench)
+{
+	uint64_t x = bench->random;
+
+	x ^= x << 13;
+	x ^= x >> 7;
+	x ^= x << 17;
+	return bench->random = x;
+}
+
+static void set_inputs(struct bench *bench)
+{
+	uint8_t *area = image_area(&bench->resource->image, AREA_I);
+	uint32_t size = iec_area_row(AREA_I)->bytes;
+
+	for (uint32_t at = 0; at + 8 <= size; at += 8) {
+		uint64_t bits = next_random(bench);
+
+		memcpy(area + at, &bits, sizeof(bits));
+	}
+}
+
+static bool run_body(struct bench *bench)
+{
+	struct resource *resource = bench->resource;
+	const struct program *program = resource->image.program;
+	bool good = true;
+
+	resource->vm.now_ns = bench->now_ns += PERIOD_NS;
+	resource->vm.budget = program->header->budget;
+	for (uint32_t i = 0; i < program->entry_count; i++)
+		good = vm_run(&resource->vm, i, false) == FAULT_NONE && good;
+	return good;
+}
+
+static bool run_once(struct bench *bench, bool body)
+{
+	if (body)
+		return run_body(bench);
+	return resource_scan(bench->resource, bench->now_ns += PERIOD_NS);
+}
+
+/* One sample of @batch scans; negative: the program faulted. */
+static double take_sample(struct bench *bench, bool body, int64_t batch)
+{
+	bool good = true;
+	int64_t start, took;
+
+	if (body)
+		image_begin(&bench->resource->image);
+	start = tty_now();
+	for (int64_t i = 0; i < batch; i++)
+		good = run_once(bench, body) && good;
+	took = tty_now() - start;
+	if (body)
+		image_end(&bench->resource->image);
+	if (!good)
+		return -1;
+	double ns = ((double)took - bench->clock_ns) / (double)batch;
+
+	return ns > 0 ? ns : 0;
+}
+
+static int order(const void *a, const void *b)
+{
+	double x = *(const double *)a, y = *(const double *)b;
+
+	return (x > y) - (x < y);
+}
+
+/* Random inputs change before every scan, steady ones never: those are measured
+ * many scans at a time, because a clock is slower than a small program. */
+static bool measure(struct bench *bench, enum measure which)
+{
+	bool body = which == BODY_STEADY || which == BODY_RANDOM;
+	bool random = which == BODY_RANDOM || which == SCAN_RANDOM;
+	int64_t batch = 1, count = bench->scans;
+
+	resource_start(bench->resource);
+	resource_scan(bench->resource, bench->now_ns += PERIOD_NS);
+	for (int i = 0; i < 100; i++)
+		take_sample(bench, body, 1);
+	if (!random) {
+		double once = take_sample(bench, body, 16);
+
+		batch = once < 1 ? BATCH_NS : 1 + (int64_t)(BATCH_NS / once);
+		count = 1 + bench->scans / batch;
+		count = count < 51 ? 51 : count;
+		count = count > bench->scans ? bench->scans : count;
+	}
+	for (int64_t i = 0; i < count; i++) {
+		if (random)
+			set_inputs(bench);
+		bench->sample[i] = take_sample(bench, body, batch);
+		if (bench->sample[i] < 0)
+			return false;
+	}
+	qsort(bench->sample, (size_t)count, sizeof(double), order);
+	bench->figure[which] = (struct figure){
+		bench->sample[0], bench->sample[count / 2],
+		bench->sample[count - 1],
+	};
+	return true;
+}
+
+static void measure_clock(struct bench *bench)
+{
+	bench->clock_ns = 1e9;
+	for (int i = 0; i < 1000; i++) {
+		int64_t start = tty_now(), took = tty_now() - start;
+
+		if ((double)took < bench->clock_ns)
+			bench->clock_ns = (double)took;
+	}
+}
+
+static void measure_load(struct bench *bench, const char *path)
+{
+	bench->load_ns = bench->build_ns = INT64_MAX;
+	for (int i = 0; i < LOADS; i++) {
+		struct ladder *ladder = ladder_new();
+		int64_t start = tty_now(), loaded, built;
+		bool good = ladder && ladder_load(ladder, path);
+
+		loaded = tty_now();
+		good = good && ladder_build(ladder);
+		built = tty_now();
+		ladder_free(ladder);
+		if (!good)
+			continue;
+		if (loaded - start < bench->load_ns)
+			bench->load_ns = loaded - start;
+		if (built - loaded < bench->build_ns)
+			bench->build_ns = built - loaded;
+	}
+}
+
+static int count_rungs(const struct machine *machine)
+{
+	const struct project *project = ladder_project(machine->ladder);
+	const struct program *program = ladder_program(machine->ladder);
+	int count = 0;
+
+	for (int i = 0; project && i < project->pou_count; i++)
+		for (int k = 0; k < project->pou[i].rung_count; k++)
+			count += !project->pou[i].rung[k]->off;
+	for (uint32_t i = 0; !project && i < program->place_count; i++)
+		count += i == 0 ||
+			 program->place[i].rung != program->place[i - 1].rung ||
+			 program->place[i].pou != program->place[i - 1].pou;
+	return count;
+}
+
+static void print_text(const struct bench *bench)
+{
+	const struct program *program = ladder_program(bench->machine.ladder);
+	const struct sink *out = &bench->call->out;
+
+	sink_printf(out, "rungs   %d\n", bench->rungs);
+	sink_printf(out, "image   %u bytes\n", program->header->size);
+	sink_printf(out, "memory  %zu bytes to load, %zu to run\n",
+		    ladder_memory(bench->machine.ladder),
+		    image_memory_size(program));
+	sink_printf(out, "load    %.3f ms to read, %.3f ms to check and "
+		    "translate\n", (double)bench->load_ns / 1e6,
+		    (double)bench->build_ns / 1e6);
+	sink_printf(out, "\n%-14s%33s%36s\n%-14s%11s%11s%11s%14s%11s%11s\n", "",
+		    "ns a scan", "ns a rung", "", "least", "median", "longest",
+		    "least", "median", "longest");
+	for (int i = 0; i < MEASURES; i++) {
+		const struct figure *f = &bench->figure[i];
+		double n = bench->rungs ? bench->rungs : 1;
+
+		sink_printf(out, "%-14s%11.1f%11.1f%11.1f", measure_name[i],
+			    f->least, f->median, f->longest);
+		if (bench->rungs)
+			sink_printf(out, "%14.2f%11.2f%11.2f", f->least / n,
+				    f->median / n, f->longest / n);
+		sink_text(out, "\n");
+	}
+}
+
+static void print_json(const struct bench *bench)
+{
+	const struct program *program = ladder_program(bench->machine.ladder);
+	const struct sink *out = &bench->call->out;
+
+	sink_text(out, "{\"file\": ");
+	sink_json_text(out, bench->call->arg[0]);
+	sink_printf(out, ", \"version\": \"%s\", \"rungs\": %d, \"scans\": %lld, "
+		    "\"image_bytes\": %u, ", LADDER_VERSION, bench->rungs,
+		    (long long)bench->scans, program->header->size);
+	sink_printf(out, "\"load_bytes\": %zu, \"run_bytes\": %zu, "
+		    "\"read_ns\": %lld, \"build_ns\": %lld",
+		    ladder_memory(bench->machine.ladder),
+		    image_memory_size(program), (long long)bench->load_ns,
+		    (long long)bench->build_ns);
+	for (int i = 0; i < MEASURES; i++) {
+		const struct figure *f = &bench->figure[i];
+
+		sink_printf(out, ",\n \"%s_ns\": {\"min\": %.1f, "
+			    "\"median\": %.1f, \"max\": %.1f}",
+			    measure_key[i], f->least, f->median, f->longest);
+	}
+	sink_text(out, "}\n");
+}
+
+static enum status run(struct bench *bench)
+{
+	const char *path = bench->call->arg[0];
+
+	bench->resource = &bench->machine.resource;
+	bench->random = 88172645463325252u;
+	bench->sample = calloc((size_t)bench->scans, sizeof(double));
+	if (!bench->sample)
+		return report_no_memory(path);
+	bench->rungs = count_rungs(&bench->machine);
+	measure_clock(bench);
+	measure_load(bench, path);
+	for (int i = 0; i < MEASURES; i++)
+		if (!measure(bench, (enum measure)i)) {
+			report_diag((struct diag){ .id = DIAG_FAULT,
+						   .file = path }, "%s",
+				    fault_text(FAULT_BUDGET));
+			return STATUS_NO;
+		}
+	if (call_flag(bench->call, "--json"))
+		print_json(bench);
+	else
+		print_text(bench);
+	return STATUS_GOOD;
+}
+
+enum status cmd_bench(struct call *call)
+{
+	struct bench bench = { .call = call };
+	enum status status;
+
+	if (!report_count(call, "--scans", 2000, 10000000, &bench.scans))
+		return STATUS_WRONG;
+	status = machine_open(&bench.machine, call->arg[0]);
+	if (status == STATUS_GOOD)
+		status = run(&bench);
+	free(bench.sample);
+	machine_close(&bench.machine);
+	return status;
+}

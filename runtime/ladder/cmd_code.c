@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_code - `ladder code` and `ladder build`: the code image as text and as a
+ * file. The image is what was verified, byte for byte.
+ */
+#include "ladder/report.h"
+
+#include "engine/base/digest.h"
+
+#include <stdlib.h>
+
+static const char *const section_name[CODE_SECTION_COUNT] = {
+	[CODE_PROGRAMS] = "programs", [CODE_LAYOUT] = "layout",
+	[CODE_INIT] = "initial values", [CODE_BITS] = "bits",
+	[CODE_TEXT] = "instructions", [CODE_WATCH] = "instructions, watched",
+	[CODE_SYMBOLS] = "symbols", [CODE_POWER] = "power of cells",
+	[CODE_PLACES] = "places", [CODE_STRINGS] = "strings",
+};
+
+static void print_sizes(const struct program *program, const struct sink *out)
+{
+	const struct code_header *header = program->header;
+	char sha[65];
+
+	digest_hex(program->sha256, 32, sha);
+	sink_printf(out, "identity      %s\n", sha);
+	sink_printf(out, "image         %u bytes, version %u\n", header->size,
+		    header->version);
+	for (int i = 1; i < CODE_SECTION_COUNT; i++)
+		sink_printf(out, "  %7u %s\n", header->section[i].size,
+			    section_name[i]);
+	sink_printf(out, "data          %u bytes, of them %u retained\n",
+		    header->data_size, header->retain_size);
+	sink_printf(out, "budget        %u instructions a scan\n",
+		    header->budget);
+}
+
+static bool is_jump(uint32_t word)
+{
+	return (word & 0xff) == VM_JMP || (word & 0xff) == VM_JMPC;
+}
+
+/* Prints one program; counts its instructions, each part of a LUT as one. */
+static uint32_t print_program(const struct program *program,
+			      const struct code_program *entry,
+			      const struct call *call, bool *loops)
+{
+	const uint32_t *text = program->text;
+	uint32_t at = entry->text, end = at + entry->text_words, count = 0;
+	char line[512];
+
+	sink_printf(&call->out, "\nprogram ");
+	sink_text(&call->out, program->string_bytes ?
+			      program->string + entry->name : "?");
+	sink_text(&call->out, "\n");
+	while (at < end && !call->out_failed) {
+		uint32_t word = text[at], n = word >> 8;
+		uint32_t parts = (word & 0xff) == VM_LUT ? n : 1;
+
+		for (uint32_t i = 0; i < parts; i++) {
+			code_print(text + at, i, line, sizeof(line));
+			if (i)
+				sink_text(&call->out, "          ");
+			else
+				sink_printf(&call->out, "%8u  ", at);
+			sink_text(&call->out, line);
+			sink_text(&call->out, "\n");
+		}
+		if (is_jump(word) && text[at + 1] <= at)
+			*loops = true;
+		count += parts;
+		at += code_words(text + at);
+	}
+	return count;
+}
+
+static void print_code(const struct call *call, const struct program *program)
+{
+	uint32_t count = 0;
+	bool loops = false;
+
+	print_sizes(program, &call->out);
+	for (uint32_t i = 0; i < program->entry_count; i++)
+		count += print_program(program, &program->entry[i], call,
+				       &loops);
+	if (loops)
+		sink_printf(&call->out, "\nworst case    loops: %u "
+			    "instructions, and what the budget of %u allows\n",
+			    count, program->header->budget);
+	else
+		sink_printf(&call->out, "\nworst case    %u instructions\n",
+			    count);
+}
+
+enum status cmd_code(struct call *call)
+{
+	struct machine machine;
+	enum status status = machine_open(&machine, call->arg[0]);
+
+	if (status == STATUS_GOOD)
+		print_code(call, ladder_program(machine.ladder));
+	machine_close(&machine);
+	return status;
+}
+
+static enum status save(const struct ladder *ladder, const char *path)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	size_t len = 0;
+	const void *image = ladder_image(ladder, &len);
+	bool good;
+
+	if (!diags)
+		return report_no_memory(path);
+	diag_init(diags);
+	good = ladder_save_file(path, image, len, diags);
+	report_diags(diags);
+	free(diags);
+	return good ? STATUS_GOOD : STATUS_WRONG;
+}
+
+enum status cmd_build(struct call *call)
+{
+	const char *path = call_option(call, "-o");
+	struct machine machine;
+	enum status status;
+
+	if (!path || !*path)
+		return report_usage(call, "-o OUT is missing");
+	status = machine_open(&machine, call->arg[0]);
+	if (status == STATUS_GOOD)
+		status = save(machine.ladder, path);
+	machine_close(&machine);
+	return status;
+}

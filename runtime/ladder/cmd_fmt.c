@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_fmt - `ladder fmt`: rung files in canonical form. A file with an error, or
+ * one that is canonical already, is not touched.
+ */
+#include "ladder/report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static enum status write_file(const char *path, const char *text, size_t len)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	bool good;
+
+	if (!diags)
+		return report_no_memory(path);
+	diag_init(diags);
+	good = ladder_save_file(path, text, len, diags);
+	report_diags(diags);
+	free(diags);
+	return good ? STATUS_GOOD : STATUS_WRONG;
+}
+
+static enum status compare(struct call *call, const char *path,
+			   const char *text, size_t len)
+{
+	size_t old_len;
+	char *old = report_read(path, &old_len);
+
+	if (!old)
+		return STATUS_WRONG;
+	bool same = old_len == len && !memcmp(old, text, len);
+
+	free(old);
+	if (same)
+		return STATUS_GOOD;
+	if (!call_flag(call, "--check"))
+		return write_file(path, text, len);
+	sink_text(&call->out, path);
+	sink_text(&call->out, "\n");
+	return STATUS_NO;
+}
+
+static enum status format_loaded(struct call *call, struct ladder *ladder,
+				 const char *path)
+{
+	enum status status;
+	size_t len;
+	char *text;
+
+	if (!ladder_project(ladder)) {
+		report_diag((struct diag){ .id = DIAG_NOT_RUNGBOARD,
+					   .file = path }, "%s", "");
+		return STATUS_NO;
+	}
+	text = ladder_write(ladder, &len);
+	if (!text)
+		return report_no_memory(path);
+	status = compare(call, path, text, len);
+	free(text);
+	return status;
+}
+
+static enum status format_one(struct call *call, const char *path)
+{
+	struct ladder *ladder = ladder_new();
+	enum status status;
+
+	if (!ladder)
+		return report_no_memory(path);
+	status = report_load(ladder, path, false);
+	if (status == STATUS_GOOD)
+		status = format_loaded(call, ladder, path);
+	ladder_free(ladder);
+	return status;
+}
+
+enum status cmd_fmt(struct call *call)
+{
+	enum status worst = STATUS_GOOD;
+
+	for (int i = 0; i < call->arg_count && !call->out_failed; i++) {
+		enum status status = format_one(call, call->arg[i]);
+
+		if (status > worst)
+			worst = status;
+	}
+	return worst;
+}

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_run - `ladder run`: a program on simulated pins, at the pace of the wall
+ * clock. A live table in a terminal, plain lines elsewhere. It moves no real pin.
+ */
+#include "ladder/live.h"
+#include "ladder/tty.h"
+
+#include "engine/trial/script.h"
+#include "engine/trial/trace.h"
+#include "engine/trial/value.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static enum status tell_fault(const struct board *board, const char *path)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+
+	if (!diags)
+		return report_no_memory(path);
+	diag_init(diags);
+	script_fault(board->resource, path, 0, diags);
+	report_diags(diags);
+	free(diags);
+	return STATUS_NO;
+}
+
+static bool add_columns(struct trace *trace, const struct board *board)
+{
+	struct diag place = { .file = "ladder run" };
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	bool good = diags && trace_show_all(trace);
+
+	/* Bits that have no name are shown by their address. */
+	for (int side = 0; side < 2 && good; side++) {
+		const struct lamps *lamps = side ? &board->output :
+						   &board->input;
+
+		for (int i = 0; i < lamps->count && good; i++)
+			if (!*lamps->lamp[i].name)
+				good = trace_show(trace, lamps->lamp[i].address,
+						  strlen(lamps->lamp[i].address),
+						  diags, place);
+	}
+	free(diags);
+	return good;
+}
+
+/* One line for every scan that changes something, at once. */
+static enum status run_plain(struct call *call, struct board *board,
+			     struct pace *pace)
+{
+	struct trace trace;
+	bool good = true;
+
+	trace_init(&trace, &board->resource->image, &call->out, TRACE_LINES,
+		   true);
+	if (!add_columns(&trace, board)) {
+		trace_free(&trace);
+		return report_no_memory(call->arg[0]);
+	}
+	tty_watch_signals();
+	pace_start(pace, tty_now());
+	while (good && !tty_stopped() && !pace_is_over(pace)) {
+		int64_t wait = pace_wait(pace, tty_now());
+
+		if (wait > 0) {
+			tty_sleep(wait);
+			continue;
+		}
+		good = board_scan(board, pace_step(pace));
+		trace_scan(&trace, pace->scans, pace->now_ns);
+		if (!report_flush(call))
+			break;
+	}
+	trace_free(&trace);
+	return good ? STATUS_GOOD : tell_fault(board, call->arg[0]);
+}
+
+static enum status apply_settings(struct call *call, struct board *board)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct image *image = &board->resource->image;
+	struct diag place = { .file = "--set" };
+
+	if (!diags)
+		return report_no_memory(place.file);
+	diag_init(diags);
+	for (int i = 0; i < call->given_count; i++) {
+		const char *text = call->given[i].value;
+		struct setting setting;
+
+		if (strcmp(call->given[i].row->name, "--set") != 0)
+			continue;
+		if (setting_parse(image, text, strlen(text), &setting, diags,
+				  place))
+			board_set(board, setting.at, setting.value);
+	}
+	bool good = !diags->errors;
+
+	report_diags(diags);
+	free(diags);
+	return good ? STATUS_GOOD : STATUS_WRONG;
+}
+
+static enum status take_pace(struct call *call, struct pace *pace)
+{
+	const char *speed = call_option(call, "--speed");
+	double times = 1;
+	int64_t scans;
+	char *end;
+
+	if (!report_period(call, "--period", 10 * VALUE_MS, &pace->period_ns) ||
+	    !report_count(call, "--scans", 0, INT64_MAX / 2, &scans))
+		return STATUS_WRONG;
+	if (speed) {
+		times = strtod(speed, &end);
+		if (end == speed || *end || !(times >= 1e-6 && times <= 1e9))
+			return report_usage(call, "--speed wants a number "
+					    "such as 10, not %.12s", speed);
+	}
+	pace->most = (uint64_t)scans;
+	pace->wall_period_ns = (double)pace->period_ns / times;
+	return STATUS_GOOD;
+}
+
+static enum status run(struct call *call, struct machine *machine,
+		       struct pace *pace)
+{
+	struct board *board = calloc(1, sizeof(*board));
+	enum status status;
+
+	if (!board)
+		return report_no_memory(call->arg[0]);
+	status = board_open(board, machine, call_option(call, "--io"));
+	if (status == STATUS_GOOD)
+		status = apply_settings(call, board);
+	if (status == STATUS_GOOD && tty_is() && !call_flag(call, "--plain")) {
+		const struct project *project = ladder_project(machine->ladder);
+
+		status = live_run(call, board, pace, project ?
+				  project_text(project, project->title) : "");
+		if (board->resource->state == STATE_FAULT)
+			status = tell_fault(board, call->arg[0]);
+	} else if (status == STATUS_GOOD) {
+		status = run_plain(call, board, pace);
+	}
+	board_close(board);
+	free(board);
+	return status;
+}
+
+enum status cmd_run(struct call *call)
+{
+	struct pace pace = { 0 };
+	struct machine machine;
+	enum status status = take_pace(call, &pace);
+
+	if (status != STATUS_GOOD)
+		return status;
+	status = machine_open(&machine, call->arg[0]);
+	if (status == STATUS_GOOD)
+		status = run(call, &machine, &pace);
+	machine_close(&machine);
+	return status;
+}

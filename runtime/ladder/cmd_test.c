@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_test - `ladder test`: scenario files, run against the programs beside them,
+ * as TAP. A scenario file without its program is a failed test, not a skipped one.
+ */
+#include "ladder/report.h"
+#include "ladder/paths.h"
+
+#include "engine/trial/scenario.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct tap {
+	struct call *call;
+	int count, failed;
+};
+
+/* A result line; `#` would begin a directive. Backslash escapes, as TAP 13 has. */
+static void print_result(struct tap *tap, bool good, const char *path,
+			 const char *name)
+{
+	const struct sink *out = &tap->call->out;
+
+	tap->count++;
+	tap->failed += !good;
+	sink_printf(out, "%sok %d - ", good ? "" : "not ", tap->count);
+	for (int part = 0; part < 2; part++) {
+		const char *text = part ? name : path;
+
+		if (part)
+			sink_text(out, ": ");
+		for (; *text; text++) {
+			if (*text == '#' || *text == '\\')
+				sink_text(out, "\\");
+			sink_write(out, text, 1);
+		}
+	}
+	sink_text(out, "\n");
+}
+
+/* Comment lines must follow the result line, so they wait here. */
+static void run_one(struct tap *tap, struct machine *machine,
+		    const struct scenario_file *file, int index)
+{
+	struct sink_memory comments;
+
+	sink_memory_init(&comments);
+	struct sink sink = sink_to_memory(&comments);
+	bool good = scenario_run(file, index, &machine->resource, &sink);
+
+	print_result(tap, good, file->file, file->scenario[index].name);
+	sink_text(&tap->call->out, sink_memory_text(&comments));
+	sink_memory_free(&comments);
+}
+
+static bool run_text(struct tap *tap, struct machine *machine, const char *path,
+		     const char *text, size_t len)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct scenario_file file;
+	struct arena arena;
+	bool good = false;
+
+	if (!diags)
+		return false;
+	diag_init(diags);
+	arena_init(&arena);
+	good = scenario_read(path, text, len, &machine->resource.image, &arena,
+			     &file, diags);
+	report_diags(diags);
+	for (int i = 0; good && i < file.count && !tap->call->out_failed; i++)
+		run_one(tap, machine, &file, i);
+	arena_free(&arena);
+	free(diags);
+	return good;
+}
+
+/* One scenario file with its program. */
+static void run_file(struct tap *tap, const char *path)
+{
+	char *program = path_with_ending(path, ".rung");
+	struct machine machine = { 0 };
+	char *text = NULL;
+	size_t len;
+
+	if (!program || machine_open(&machine, program) != STATUS_GOOD) {
+		print_result(tap, false, path, "its program is good");
+	} else {
+		text = report_read(path, &len);
+		if (!text || !run_text(tap, &machine, path, text, len))
+			print_result(tap, false, path, "can be read");
+	}
+	free(text);
+	machine_close(&machine);
+	free(program);
+}
+
+enum status cmd_test(struct call *call)
+{
+	struct tap tap = { .call = call };
+	struct paths paths = { 0 };
+	enum status status = STATUS_GOOD;
+
+	for (int i = 0; i < call->arg_count; i++)
+		if (!paths_collect(&paths, call->arg[i], ".scn", ".rung"))
+			status = STATUS_WRONG;
+	if (status == STATUS_GOOD && !paths.count)
+		status = report_usage(call, "no scenario files here");
+	for (int i = 0; status == STATUS_GOOD && i < paths.count; i++)
+		if (!call->out_failed)
+			run_file(&tap, paths.path[i]);
+	if (status == STATUS_GOOD) {
+		sink_printf(&call->out, "1..%d\n", tap.count);
+		status = tap.failed ? STATUS_NO : STATUS_GOOD;
+	}
+	paths_free(&paths);
+	return status;
+}

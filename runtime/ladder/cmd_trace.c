@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_trace - `ladder trace`: a stimulus script in virtual time, and what the
+ * variables were. The clock of the machine is not read.
+ */
+#include "ladder/report.h"
+
+#include "engine/trial/script.h"
+#include "engine/trial/value.h"
+
+#include <stdlib.h>
+
+static enum status run(struct call *call, struct machine *machine,
+		       enum trace_form form, int64_t period_ns)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct trace trace;
+	size_t len;
+	char *text = report_read(call->arg[1], &len);
+	enum status status = STATUS_WRONG;
+
+	if (text && diags) {
+		diag_init(diags);
+		trace_init(&trace, &machine->resource.image, &call->out, form,
+			   call_flag(call, "--changes"));
+		trace.stop = &call->out_failed;
+		status = script_run(call->arg[1], text, len, period_ns,
+				    &machine->resource, &trace, diags) ?
+				 STATUS_GOOD : STATUS_NO;
+		trace_free(&trace);
+		report_diags(diags);
+	} else if (text) {
+		report_no_memory(call->arg[1]);
+	}
+	free(text);
+	free(diags);
+	return status;
+}
+
+enum status cmd_trace(struct call *call)
+{
+	bool csv = call_flag(call, "--csv"), vcd = call_flag(call, "--vcd");
+	struct machine machine;
+	enum status status;
+	int64_t period_ns;
+
+	if (csv && vcd)
+		return report_usage(call, "--csv and --vcd exclude each other");
+	if (!report_period(call, "--period", 10 * VALUE_MS, &period_ns))
+		return STATUS_WRONG;
+	status = machine_open(&machine, call->arg[0]);
+	if (status == STATUS_GOOD)
+		status = run(call, &machine, csv ? TRACE_CSV :
+			     vcd ? TRACE_VCD : TRACE_LINES, period_ns);
+	machine_close(&machine);
+	return status;
+}

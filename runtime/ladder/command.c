@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * command - takes a command line apart by the command's row. It knows no command
+ * by name, and abbreviates no option.
+ */
+#include "ladder/command.h"
+#include "ladder/report.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const struct command_row *command_find(const char *name)
+{
+	const struct command_row *row = command_table();
+
+	while (row->name && strcmp(row->name, name) != 0)
+		row++;
+	return row->name ? row : NULL;
+}
+
+static const struct option_row *find_option(const struct command_row *row,
+					    const char *text, size_t len)
+{
+	for (int i = 0; i < COMMAND_OPTIONS && row->option[i].name; i++)
+		if (strlen(row->option[i].name) == len &&
+		    !memcmp(row->option[i].name, text, len))
+			return &row->option[i];
+	return NULL;
+}
+
+static bool wrong(const struct call *call, const char *what, const char *text)
+{
+	report_usage(call, "%s %.30s", what, text);
+	return false;
+}
+
+/* One option at argv[*i], its value in the same word or the next. */
+static bool take_option(struct call *call, int argc, char **argv, int *i)
+{
+	const char *text = argv[*i], *equals = strchr(text, '=');
+	size_t len = equals ? (size_t)(equals - text) : strlen(text);
+	const struct option_row *row = find_option(call->row, text, len);
+	struct given *given = &call->given[call->given_count];
+
+	if (!row)
+		return wrong(call, "unknown option", text);
+	if (call->given_count == COMMAND_GIVEN)
+		return wrong(call, "too many options:", text);
+	if (!row->value && equals)
+		return wrong(call, "this option takes no value:", text);
+	given->row = row;
+	given->value = equals ? equals + 1 : NULL;
+	if (row->value && !equals) {
+		if (*i + 1 == argc)
+			return wrong(call, "this option needs a value:", text);
+		given->value = argv[++*i];
+	}
+	call->given_count++;
+	return true;
+}
+
+bool command_parse(struct call *call, int argc, char **argv)
+{
+	bool options = true;
+
+	call->arg = argv;
+	for (int i = 0; i < argc; i++) {
+		if (options && !strcmp(argv[i], "--")) {
+			options = false;
+		} else if (options && argv[i][0] == '-' && argv[i][1]) {
+			if (!take_option(call, argc, argv, &i))
+				return false;
+		} else {
+			call->arg[call->arg_count++] = argv[i];
+		}
+	}
+	if (call->arg_count < call->row->least)
+		return wrong(call, "what is missing:", call->row->arguments);
+	if (call->row->most >= 0 && call->arg_count > call->row->most)
+		return wrong(call, "too many arguments:",
+			     call->arg[call->row->most]);
+	return true;
+}
+
+const char *call_option(const struct call *call, const char *name)
+{
+	const char *value = NULL;
+
+	for (int i = 0; i < call->given_count; i++)
+		if (!strcmp(call->given[i].row->name, name))
+			value = call->given[i].value;
+	return value;
+}
+
+bool call_flag(const struct call *call, const char *name)
+{
+	for (int i = 0; i < call->given_count; i++)
+		if (!strcmp(call->given[i].row->name, name))
+			return true;
+	return false;
+}

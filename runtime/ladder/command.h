@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * command - a command of `ladder` as one row, and one call of it.
+ *
+ * The row is all there is: arguments are parsed by it, --help and the man page
+ * are printed from it. A command reads its call and returns an exit status; it
+ * never ends the program itself.
+ */
+#ifndef LADDER_COMMAND_H
+#define LADDER_COMMAND_H
+
+#include "engine/base/sink.h"
+#include "engine/ladder.h"
+
+#define COMMAND_OPTIONS 8
+#define COMMAND_GIVEN 256 /* options on one command line                      */
+
+/* Exit status, a contract (ARCHITECTURE.md, "The command line"). */
+enum status { STATUS_GOOD, STATUS_NO, STATUS_WRONG };
+
+struct option_row {
+	const char *name;   /* "--json", "-o"                                 */
+	const char *value;  /* "N"; NULL: it takes none                       */
+	const char *doc;
+};
+
+struct call;
+
+struct command_row {
+	const char *name;
+	const char *arguments; /* "FILE..."                                   */
+	const char *purpose;   /* one line                                    */
+	const char *text;      /* more of it, for --help and the man page     */
+	const char *example;   /* lines of shell                              */
+	int least, most;       /* arguments; most -1: any number              */
+	enum status (*run)(struct call *call);
+	struct option_row option[COMMAND_OPTIONS];
+};
+
+struct given {
+	const struct option_row *row;
+	const char *value;
+};
+
+struct call {
+	const struct command_row *row;
+	char **arg;            /* the arguments without options               */
+	int arg_count;
+	struct given given[COMMAND_GIVEN];
+	int given_count;
+	struct sink out;       /* the results: standard output                */
+	bool out_failed;       /* a write to it failed                        */
+};
+
+/** command_table - all rows, the last one without a name. */
+const struct command_row *command_table(void);
+/** command_find - NULL: there is no such command. */
+const struct command_row *command_find(const char *name);
+
+/**
+ * command_parse - takes the options out of @argv
+ * @argv: behind the command's name; reordered, borrowed by @call
+ *
+ * Fails: false after a message about wrong usage.
+ */
+bool command_parse(struct call *call, int argc, char **argv);
+/** call_option - what an option was given last; NULL: not given. */
+const char *call_option(const struct call *call, const char *name);
+/** call_flag - was an option without a value given? */
+bool call_flag(const struct call *call, const char *name);
+
+/** command_help - what --help prints. NULL row: of `ladder` itself. */
+void command_help(const struct command_row *row, const struct sink *out);
+/** command_man - the man page, in roff. NULL row: of `ladder` itself. */
+void command_man(const struct command_row *row, const struct sink *out);
+
+enum status cmd_check(struct call *call);
+enum status cmd_fmt(struct call *call);
+enum status cmd_show(struct call *call);
+enum status cmd_il(struct call *call);
+enum status cmd_code(struct call *call);
+enum status cmd_build(struct call *call);
+enum status cmd_run(struct call *call);
+enum status cmd_trace(struct call *call);
+enum status cmd_test(struct call *call);
+enum status cmd_bench(struct call *call);
+enum status cmd_words(struct call *call);
+enum status cmd_diff(struct call *call);
+enum status cmd_io(struct call *call);
+enum status cmd_help(struct call *call);
+#endif

@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * live - the live table. It shows about 20 pictures a second however fast scans
+ * go, and toggles switches; the program itself it leaves to board_scan().
+ */
+#include "ladder/live.h"
+#include "ladder/screen.h"
+#include "ladder/tty.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FRAME_NS  50000000  /* 20 pictures a second                          */
+#define BEHIND_NS 250000000 /* more than that is not made up for             */
+#define KEY_RESET 18        /* Ctrl-R                                        */
+
+/* s and q have their own meaning. */
+static const char keys[] = "123456789abcdefghijklmnoprtuvwxyz";
+
+struct live {
+	struct board *board;
+	struct pace *pace;
+	struct screen screen;
+	const char *file, *title;
+	bool utf8, paused;
+	int64_t scan_ns, scan_max_ns;
+	int64_t drawn_ns;
+};
+
+void pace_start(struct pace *pace, int64_t wall_ns)
+{
+	pace->wall_start_ns = wall_ns;
+	pace->ticks = 0;
+}
+
+int64_t pace_wait(struct pace *pace, int64_t wall_ns)
+{
+	double due = (pace->ticks + 1) * pace->wall_period_ns;
+	double wait = due - (double)(wall_ns - pace->wall_start_ns);
+
+	if (wait < -BEHIND_NS && wait < -pace->wall_period_ns) {
+		pace_start(pace, wall_ns);
+		wait = 0;
+	}
+	return wait > 1e9 ? 1000000000 : (int64_t)wait;
+}
+
+int64_t pace_step(struct pace *pace)
+{
+	pace->ticks++;
+	pace->scans++;
+	pace->now_ns += pace->period_ns;
+	return pace->now_ns;
+}
+
+bool pace_is_over(const struct pace *pace)
+{
+	return pace->most && pace->scans >= pace->most;
+}
+
+static void put_time(struct screen *screen, int64_t ns)
+{
+	char text[32];
+
+	snprintf(text, sizeof(text), "%.2f s", (double)ns / 1e9);
+	screen_put(screen, STYLE_PLAIN, text);
+}
+
+static void put_state(struct live *live)
+{
+	struct screen *screen = &live->screen;
+	const struct resource *resource = live->board->resource;
+	char text[96];
+
+	if (resource->state == STATE_FAULT) {
+		screen_put(screen, STYLE_BAD, " FAULT: ");
+		screen_put(screen, STYLE_BAD, fault_text(resource->fault));
+		snprintf(text, sizeof(text), ", rung %u (%u,%u)",
+			 resource->fault_at.rung, resource->fault_at.row,
+			 resource->fault_at.col);
+		screen_put(screen, STYLE_BAD, text);
+		return;
+	}
+	screen_put(screen, live->paused ? STYLE_BOLD : STYLE_GOOD,
+		   live->paused ? " PAUSE" : " RUN");
+	snprintf(text, sizeof(text), "   scan %llu   t ",
+		 (unsigned long long)live->pace->scans);
+	screen_put(screen, STYLE_PLAIN, text);
+	put_time(screen, live->pace->now_ns);
+	snprintf(text, sizeof(text), "   period %g ms   scan time %.1f us, "
+		 "longest %.1f us", (double)live->pace->period_ns / 1e6,
+		 (double)live->scan_ns / 1e3, (double)live->scan_max_ns / 1e3);
+	screen_put(screen, STYLE_DIM, text);
+}
+
+static void put_lamp(struct live *live, const struct lamp *lamp, char key,
+		     int col, int limit)
+{
+	struct screen *screen = &live->screen;
+	bool on = image_get_bit(&live->board->resource->image, lamp->at.area,
+				lamp->at.where);
+	char text[8];
+
+	screen_column(screen, col, limit);
+	snprintf(text, sizeof(text), " %c ", key);
+	screen_put(screen, STYLE_DIM, text);
+	if (live->utf8)
+		screen_put(screen, on ? STYLE_GOOD : STYLE_DIM,
+			   on ? "\u25cf" : "\u25cb");
+	else
+		screen_put(screen, on ? STYLE_GOOD : STYLE_DIM, on ? "*" : "o");
+	screen_put(screen, on ? STYLE_BOLD : STYLE_PLAIN, on ? " 1 " : " 0 ");
+	screen_put(screen, STYLE_PLAIN, *lamp->name ? lamp->name :
+						      lamp->address);
+	if (*lamp->name) {
+		screen_put(screen, STYLE_DIM, " ");
+		screen_put(screen, STYLE_DIM, lamp->address);
+	}
+	if (*lamp->line) {
+		screen_put(screen, STYLE_DIM, " ");
+		screen_put(screen, STYLE_DIM, lamp->line);
+	}
+}
+
+/* Rows that the tables of lamps may take: some are kept for what is below. */
+static int lamp_rows(const struct live *live, int *left_out)
+{
+	const struct board *board = live->board;
+	int rows = board->input.count > board->output.count ?
+			   board->input.count : board->output.count;
+	int room = live->screen.height - 4;
+
+	if (room < 1)
+		room = 1;
+	*left_out = rows > room ? rows - room + 1 : 0;
+	return rows > room ? room - 1 : rows;
+}
+
+static bool put_lamps(struct live *live)
+{
+	const struct board *board = live->board;
+	int half = live->screen.width / 2, left_out;
+	int rows = lamp_rows(live, &left_out);
+	char text[48];
+
+	screen_put(&live->screen, STYLE_BOLD, " INPUTS");
+	screen_column(&live->screen, half, live->screen.width);
+	screen_put(&live->screen, STYLE_BOLD, " OUTPUTS");
+	for (int i = 0; i < rows; i++) {
+		if (!screen_line(&live->screen))
+			return false;
+		if (i < board->input.count)
+			put_lamp(live, &board->input.lamp[i],
+				 i < (int)sizeof(keys) - 1 ? keys[i] : ' ', 0,
+				 half);
+		if (i < board->output.count)
+			put_lamp(live, &board->output.lamp[i], ' ', half,
+				 live->screen.width);
+	}
+	if (left_out) {
+		if (!screen_line(&live->screen))
+			return false;
+		snprintf(text, sizeof(text), " %d more rows", left_out);
+		screen_put(&live->screen, STYLE_DIM, text);
+	}
+	return screen_line(&live->screen);
+}
+
+static void put_variable(struct live *live, const struct moving *moving,
+			 int col, int limit)
+{
+	char text[40];
+
+	screen_column(&live->screen, col, limit);
+	screen_put(&live->screen, STYLE_PLAIN, " ");
+	screen_put(&live->screen, STYLE_PLAIN, moving->name);
+	iec_value_print(moving->at.type, moving->last, text, sizeof(text));
+	screen_put(&live->screen, STYLE_DIM, " = ");
+	screen_put(&live->screen, STYLE_BOLD, text);
+	if (moving->at.type == IEC_TIME)
+		screen_put(&live->screen, STYLE_DIM, " ms");
+}
+
+/* Only variables that have moved since the start, in order of declaration. */
+static void put_variables(struct live *live)
+{
+	const struct board *board = live->board;
+	struct screen *screen = &live->screen;
+	int columns = screen->width >= 96 ? 3 : screen->width >= 50 ? 2 : 1;
+	int width = screen->width / columns, shown = 0;
+
+	for (int i = 0; i < board->moving_count; i++) {
+		const struct moving *moving = &board->moving[i];
+		int col = shown % columns * width;
+
+		if (!moving->moved)
+			continue;
+		if (!col) {
+			if (screen->row + 2 >= screen->height ||
+			    !screen_line(screen))
+				return;
+			if (!shown) {
+				screen_put(screen, STYLE_BOLD, " VARIABLES");
+				if (!screen_line(screen))
+					return;
+			}
+		}
+		put_variable(live, moving, col, col + width);
+		shown++;
+	}
+}
+
+static void put_keys(struct live *live)
+{
+	struct screen *screen = &live->screen;
+
+	while (screen->row + 1 < screen->height)
+		screen_line(screen);
+	screen_put(screen, STYLE_DIM, " keys: 1-9 a-z toggle inputs, space "
+		   "pause, s one scan, Ctrl-R restart, q quit");
+}
+
+static bool draw(struct live *live)
+{
+	struct screen *screen = &live->screen;
+	int width, height;
+
+	tty_size(&width, &height);
+	screen_begin(screen, width, height);
+	screen_put(screen, STYLE_TITLE, " Rungboard ");
+	screen_put(screen, STYLE_TITLE, live->file);
+	screen_put(screen, STYLE_TITLE, *live->title ? "  " : "");
+	screen_put(screen, STYLE_TITLE, live->title);
+	screen_put(screen, STYLE_TITLE, " ");
+	if (screen_line(screen)) {
+		put_state(live);
+		if (screen_line(screen) && screen_line(screen) &&
+		    put_lamps(live))
+			put_variables(live);
+		if (screen->row < screen->height)
+			put_keys(live);
+	}
+	screen_end(screen);
+	return tty_draw(sink_memory_text(&screen->frame), screen->frame.len);
+}
+
+static void note_moves(struct board *board)
+{
+	for (int i = 0; i < board->moving_count; i++) {
+		struct moving *moving = &board->moving[i];
+		union iec_value value = image_get(&board->resource->image,
+						  moving->at);
+
+		if (memcmp(&value, &moving->last, sizeof(value)) != 0)
+			moving->moved = true;
+		moving->last = value;
+	}
+}
+
+static void scan(struct live *live)
+{
+	int64_t start = tty_now(), took;
+	struct resource *resource = live->board->resource;
+
+	board_scan(live->board, pace_step(live->pace));
+	took = tty_now() - start;
+	live->scan_ns = took;
+	if (took > live->scan_max_ns)
+		live->scan_max_ns = took;
+	resource->scan_us = (uint32_t)(took / 1000);
+	resource->scan_max_us = (uint32_t)(live->scan_max_ns / 1000);
+}
+
+static void restart(struct live *live)
+{
+	board_start(live->board);
+	live->scan_max_ns = 0;
+}
+
+/* False: quit. */
+static bool take_key(struct live *live, int key)
+{
+	const char *at = key > 0 && key < 128 ? strchr(keys, key) : NULL;
+
+	if (key == 'q' || key == 'Q' || key == -2)
+		return false;
+	if (at && *at)
+		board_toggle(live->board, (int)(at - keys));
+	else if (key == ' ')
+		live->paused = !live->paused;
+	else if (key == KEY_RESET)
+		restart(live);
+	else if (key == 's') {
+		live->paused = true;
+		if (!pace_is_over(live->pace))
+			scan(live);
+	} else {
+		return true;
+	}
+	if (live->paused || key == ' ')
+		pace_start(live->pace, tty_now());
+	live->drawn_ns = 0; /* show at once what the key did */
+	return true;
+}
+
+static bool is_idle(const struct live *live)
+{
+	return live->paused ||
+	       live->board->resource->state != STATE_RUN;
+}
+
+/* True: a picture was due, and could be drawn or not. */
+static bool show(struct live *live)
+{
+	int64_t now = tty_now();
+
+	if (live->drawn_ns && now - live->drawn_ns < FRAME_NS)
+		return true;
+	live->drawn_ns = now;
+	note_moves(live->board);
+	return draw(live);
+}
+
+static void loop(struct live *live)
+{
+	bool going = show(live);
+
+	pace_start(live->pace, tty_now());
+	while (going && !tty_stopped() && !pace_is_over(live->pace)) {
+		int64_t wait = FRAME_NS;
+
+		if (!is_idle(live)) {
+			int64_t due = pace_wait(live->pace, tty_now());
+
+			if (due <= 0)
+				scan(live);
+			wait = due <= 0 ? 0 : due < FRAME_NS ? due : FRAME_NS;
+		}
+		going = take_key(live, tty_key(wait)) && show(live);
+	}
+}
+
+enum status live_run(struct call *call, struct board *board, struct pace *pace,
+		     const char *title)
+{
+	struct live live = { .board = board, .pace = pace, .title = title,
+			     .file = call->arg[0], .utf8 = tty_utf8() };
+
+	live.screen.colour = !getenv("NO_COLOR");
+	tty_watch_signals();
+	if (!tty_open()) {
+		tty_close();
+		return report_usage(call, "this terminal cannot be used");
+	}
+	loop(&live);
+	tty_close();
+	screen_free(&live.screen);
+	sink_printf(&call->out, "stopped after %llu scans, longest %.1f us\n",
+		    (unsigned long long)pace->scans,
+		    (double)live.scan_max_ns / 1e3);
+	return board->resource->state == STATE_FAULT ? STATUS_NO : STATUS_GOOD;
+}

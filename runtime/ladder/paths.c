@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * paths - looks for files by their ending. Links are followed, so depth is bounded.
+ */
+#include "ladder/paths.h"
+#include "ladder/report.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#define DEPTH_MAX 8
+
+static bool complain(const char *path, enum diag_id id, const char *why)
+{
+	report_diag((struct diag){ .id = id, .file = path }, "%s", why);
+	return false;
+}
+
+static bool has_ending(const char *path, const char *ending)
+{
+	size_t len = strlen(path), tail = strlen(ending);
+
+	return len > tail && !strcmp(path + len - tail, ending);
+}
+
+char *path_with_ending(const char *path, const char *ending)
+{
+	const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+	size_t stem = dot && (!slash || dot > slash + 1) && dot > path ?
+			      (size_t)(dot - path) : strlen(path);
+	size_t size = stem + strlen(ending) + 1;
+	char *out = malloc(size);
+
+	if (out)
+		snprintf(out, size, "%.*s%s", (int)stem, path, ending);
+	return out;
+}
+
+/* Takes over @copy. */
+static bool add(struct paths *paths, char *copy)
+{
+	char **grown = NULL;
+
+	if (copy)
+		grown = realloc(paths->path, sizeof(*grown) *
+				(size_t)(paths->count + 1));
+	if (!grown) {
+		free(copy);
+		return complain("ladder", DIAG_NO_MEMORY, "");
+	}
+	paths->path = grown;
+	paths->path[paths->count++] = copy;
+	return true;
+}
+
+static int order(const void *a, const void *b)
+{
+	return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static char *join(const char *folder, const char *name)
+{
+	size_t len = strlen(folder);
+	bool slash = len && folder[len - 1] == '/';
+	size_t size = len + strlen(name) + 2;
+	char *out = malloc(size);
+
+	if (out)
+		snprintf(out, size, "%s%s%s", folder, slash ? "" : "/", name);
+	return out;
+}
+
+static bool search(struct paths *paths, const char *folder, const char *ending,
+		   int depth);
+
+static bool search_name(struct paths *paths, const char *folder,
+			const char *name, const char *ending, int depth)
+{
+	char *path = join(folder, name);
+	struct stat status;
+	bool good = true;
+
+	if (!path)
+		return complain(folder, DIAG_NO_MEMORY, "");
+	if (stat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
+		good = depth >= DEPTH_MAX ||
+		       search(paths, path, ending, depth + 1);
+	} else if (has_ending(name, ending)) {
+		return add(paths, path);
+	}
+	free(path);
+	return good;
+}
+
+static bool search(struct paths *paths, const char *folder, const char *ending,
+		   int depth)
+{
+	DIR *dir = opendir(folder);
+	const struct dirent *entry;
+	int first = paths->count;
+	bool good = true;
+
+	if (!dir)
+		return complain(folder, DIAG_CANNOT_READ, strerror(errno));
+	while (good && (entry = readdir(dir)))
+		if (entry->d_name[0] != '.')
+			good = search_name(paths, folder, entry->d_name, ending,
+					   depth);
+	closedir(dir);
+	if (paths->count > first)
+		qsort(paths->path + first, (size_t)(paths->count - first),
+		      sizeof(*paths->path), order);
+	return good;
+}
+
+bool paths_collect(struct paths *paths, const char *path, const char *ending,
+		   const char *other)
+{
+	struct stat status;
+
+	if (stat(path, &status) != 0)
+		return complain(path, DIAG_CANNOT_READ, strerror(errno));
+	if (S_ISDIR(status.st_mode))
+		return search(paths, path, ending, 1);
+	if (has_ending(path, other)) {
+		char *beside = path_with_ending(path, ending);
+		bool there = beside && stat(beside, &status) == 0;
+
+		if (!there)
+			complain(beside ? beside : path, DIAG_CANNOT_READ,
+				 strerror(errno));
+		else
+			return add(paths, beside);
+		free(beside);
+		return false;
+	}
+	if (!has_ending(path, ending))
+		return complain(path, DIAG_NOT_A_FILE,
+				"wanted: .scn, .rung or a folder");
+	char *copy = malloc(strlen(path) + 1);
+
+	if (copy)
+		memcpy(copy, path, strlen(path) + 1);
+	return add(paths, copy);
+}
+
+void paths_free(struct paths *paths)
+{
+	for (int i = 0; i < paths->count; i++)
+		free(paths->path[i]);
+	free(paths->path);
+	paths->path = NULL;
+	paths->count = 0;
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * paths - the scenario files that a command line means: files, programs, folders.
+ *
+ * It looks into folders, at most eight deep, and opens no file.
+ */
+#ifndef LADDER_PATHS_H
+#define LADDER_PATHS_H
+
+#include <stdbool.h>
+
+struct paths {
+	char **path;  /* sorted within each folder                            */
+	int count;
+};
+
+/** path_with_ending - @path with another ending (or one more, if it has none).
+ * Owns: the caller, free(). NULL: no memory. */
+char *path_with_ending(const char *path, const char *ending);
+
+/**
+ * paths_collect - adds what @path means
+ * @ending: of files that are wanted; a folder is searched for them
+ * @other:  a file of this ending stands for the one beside it
+ *
+ * Owns: @paths, paths_free().
+ * Fails: false after a diagnostic (nothing there, no memory).
+ */
+bool paths_collect(struct paths *paths, const char *path, const char *ending,
+		   const char *other);
+void paths_free(struct paths *paths);
+#endif

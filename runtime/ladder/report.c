@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * report - loading and telling. Standard error is written here and nowhere else.
+ */
+#include "ladder/report.h"
+
+#include "engine/trial/value.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void complain_output(struct call *call)
+{
+	if (!call->out_failed)
+		report_diag((struct diag){ .id = DIAG_CANNOT_PRINT,
+					   .file = "standard output" },
+			    "%s", strerror(errno));
+	call->out_failed = true;
+}
+
+static void write_out(void *context, const char *text, size_t len)
+{
+	struct call *call = context;
+
+	if (!call->out_failed && fwrite(text, 1, len, stdout) != len)
+		complain_output(call);
+}
+
+void report_open(struct call *call)
+{
+	call->out = (struct sink){ write_out, call };
+	call->out_failed = false;
+}
+
+bool report_flush(struct call *call)
+{
+	if (!call->out_failed && fflush(stdout) != 0)
+		complain_output(call);
+	return !call->out_failed;
+}
+
+static void print_diag(const struct diag *diag)
+{
+	char line[2048];
+
+	diag_print(diag, line, sizeof(line));
+	fprintf(stderr, "%s\n", line);
+}
+
+static void print_with(struct diag place, const char *format, va_list list)
+{
+	char arg[LIMIT_ARG * 4];
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+
+	vsnprintf(arg, sizeof(arg), format, list);
+	if (!diags)
+		return;
+	diag_init(diags);
+	diag_add(diags, place, "%s", arg);
+	print_diag(&diags->diag[0]);
+	free(diags);
+}
+
+void report_diag(struct diag place, const char *format, ...)
+{
+	va_list list;
+
+	va_start(list, format);
+	print_with(place, format, list);
+	va_end(list);
+}
+
+enum status report_usage(const struct call *call, const char *format, ...)
+{
+	struct diag place = { .id = DIAG_USAGE, .file = "ladder" };
+	char name[40];
+	va_list list;
+
+	if (call && call->row) {
+		snprintf(name, sizeof(name), "ladder %s", call->row->name);
+		place.file = name;
+	}
+	va_start(list, format);
+	print_with(place, format, list);
+	va_end(list);
+	return STATUS_WRONG;
+}
+
+void report_diags(const struct diag_list *diags)
+{
+	for (int i = 0; i < diags->count; i++)
+		print_diag(&diags->diag[i]);
+	if (diags->dropped)
+		report_diag((struct diag){ .id = DIAG_TOO_MANY,
+					   .file = diags->diag[0].file },
+			    "%d more, not shown", diags->dropped);
+}
+
+static void json_number(const char *name, int value, const struct sink *out)
+{
+	if (value)
+		sink_printf(out, ", \"%s\": %d", name, value);
+}
+
+static void json_diag(const struct diag *diag, const struct sink *out)
+{
+	bool error = diag_severity(diag->id) == SEVERITY_ERROR;
+
+	sink_printf(out, "{\"code\": \"%s\", \"severity\": \"%s\", \"text\": ",
+		    diag_code(diag->id), error ? "error" : "warning");
+	sink_json_text(out, diag_text(diag->id));
+	if (diag->arg[0]) {
+		sink_text(out, ", \"arg\": ");
+		sink_json_text(out, diag->arg);
+	}
+	if (diag->file) {
+		sink_text(out, ", \"file\": ");
+		sink_json_text(out, diag->file);
+	}
+	json_number("line", diag->line, out);
+	if (diag->pou) {
+		sink_text(out, ", \"pou\": ");
+		sink_json_text(out, diag->pou);
+	}
+	json_number("rung", diag->rung, out);
+	json_number("row", diag->row, out);
+	json_number("col", diag->col, out);
+	json_number("column", diag->column, out);
+	sink_text(out, "}");
+}
+
+void report_json_diags(const struct diag_list *diags, const struct sink *out)
+{
+	sink_text(out, "[");
+	for (int i = 0; i < diags->count; i++) {
+		sink_text(out, i ? ",\n  " : "\n  ");
+		json_diag(&diags->diag[i], out);
+	}
+	sink_text(out, diags->count ? "\n]" : "]");
+}
+
+enum status report_no_memory(const char *path)
+{
+	report_diag((struct diag){ .id = DIAG_NO_MEMORY, .file = path }, "%s",
+		    "");
+	return STATUS_WRONG;
+}
+
+enum status report_load(struct ladder *ladder, const char *path, bool build)
+{
+	bool good = ladder_load(ladder, path);
+
+	if (good && build)
+		good = ladder_build(ladder);
+	report_diags(ladder_diags(ladder));
+	if (good)
+		return STATUS_GOOD;
+	return ladder_could_read(ladder) ? STATUS_NO : STATUS_WRONG;
+}
+
+enum status machine_open(struct machine *machine, const char *path)
+{
+	enum status status;
+
+	memset(machine, 0, sizeof(*machine));
+	machine->ladder = ladder_new();
+	if (!machine->ladder)
+		return report_no_memory(path);
+	status = report_load(machine->ladder, path, true);
+	if (status != STATUS_GOOD)
+		return status;
+	const struct program *program = ladder_program(machine->ladder);
+
+	machine->memory = calloc(1, image_memory_size(program) + 8);
+	if (!machine->memory)
+		return report_no_memory(path);
+	resource_init(&machine->resource, program, machine->memory);
+	return STATUS_GOOD;
+}
+
+void machine_close(struct machine *machine)
+{
+	free(machine->memory);
+	ladder_free(machine->ladder);
+	machine->memory = NULL;
+	machine->ladder = NULL;
+}
+
+bool report_period(const struct call *call, const char *option,
+		   int64_t preset_ns, int64_t *ns)
+{
+	const char *text = call_option(call, option);
+
+	*ns = preset_ns;
+	if (!text)
+		return true;
+	if (value_parse_time(text, strlen(text), VALUE_MS, ns) == LITERAL_OK &&
+	    *ns > 0)
+		return true;
+	report_usage(call, "%s wants a time such as 10ms, not %.12s", option,
+		     text);
+	return false;
+}
+
+bool report_count(const struct call *call, const char *option, int64_t preset,
+		  int64_t most, int64_t *count)
+{
+	const char *text = call_option(call, option);
+	char *end;
+
+	*count = preset;
+	if (!text)
+		return true;
+	errno = 0;
+	long long number = strtoll(text, &end, 10);
+
+	*count = number;
+	if (*text >= '0' && *text <= '9' && !*end && !errno && number >= 1 &&
+	    number <= most)
+		return true;
+	report_usage(call, "%s wants a number from 1 on, not %.12s", option,
+		     text);
+	return false;
+}
+
+static char *read_stdin(size_t *len)
+{
+	size_t size = 65536, used = 0;
+	char *text = malloc(size), *grown;
+
+	while (text) {
+		used += fread(text + used, 1, size - used, stdin);
+		if (used < size || size >= LIMIT_TEXT)
+			break;
+		grown = realloc(text, size *= 2);
+		if (!grown)
+			free(text);
+		text = grown;
+	}
+	if (text && (ferror(stdin) || used == size)) {
+		free(text);
+		text = NULL;
+	}
+	if (!text)
+		report_diag((struct diag){ .id = DIAG_CANNOT_READ,
+					   .file = "-" }, "%s", "");
+	*len = used;
+	return text;
+}
+
+char *report_read(const char *path, size_t *len)
+{
+	struct diag_list *diags;
+	char *text;
+
+	if (!strcmp(path, "-"))
+		return read_stdin(len);
+	diags = calloc(1, sizeof(*diags));
+	if (!diags) {
+		report_no_memory(path);
+		return NULL;
+	}
+	diag_init(diags);
+	text = ladder_read_file(path, LIMIT_TEXT, len, diags);
+	report_diags(diags);
+	free(diags);
+	return text;
+}
