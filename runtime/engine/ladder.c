@@ -24,7 +24,7 @@ struct ladder {
 	const void *image;
 	size_t image_len;
 	struct program program;
-	bool built, unreadable;
+	bool built, unreadable, watch;
 };
 
 struct ladder *ladder_new(void)
@@ -182,6 +182,11 @@ bool ladder_load(struct ladder *ladder, const char *path)
 	return good && ladder->diags.errors == 0;
 }
 
+void ladder_watch(struct ladder *ladder, bool watch)
+{
+	ladder->watch = watch;
+}
+
 bool ladder_could_read(const struct ladder *ladder)
 {
 	return !ladder->unreadable;
@@ -261,7 +266,7 @@ static bool make_units(struct ladder *ladder, uint8_t *const *bad)
 		unit->pou = &ladder->project->pou[i];
 		if (!make_list(ladder, unit, false, bad[i]))
 			return false;
-		if (ladder->diags.errors == 0 &&
+		if (ladder->watch && ladder->diags.errors == 0 &&
 		    unit->pou->language == LANGUAGE_LD &&
 		    !make_list(ladder, unit, true, bad[i]))
 			return false;
@@ -298,7 +303,8 @@ bool ladder_build(struct ladder *ladder)
 		return no_memory(ladder, project->file);
 	if (!make_units(ladder, bad) || ladder->diags.errors)
 		return false;
-	ladder->image = assemble(&ladder->translation, &ladder->image_len);
+	ladder->image = assemble(&ladder->translation, ladder->watch,
+				 &ladder->image_len);
 	if (!ladder->image)
 		return ladder->diags.errors ? false :
 		       no_memory(ladder, project->file);

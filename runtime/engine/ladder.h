@@ -34,6 +34,10 @@ bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
  * (exit status 2 of the command line). */
 bool ladder_could_read(const struct ladder *ladder);
 
+/** ladder_watch - should ladder_build also make the instrumented section, so that
+ * the power of every cell can be read? Off at first; holds for later builds. */
+void ladder_watch(struct ladder *ladder, bool watch);
+
 /**
  * ladder_build - checks what was loaded and translates it to a code image
  *

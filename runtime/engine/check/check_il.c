@@ -251,15 +251,17 @@ static bool check_inputs(struct il_check *c, const struct il_line *line,
 	union iec_value value;
 
 	for (int i = 0; i < count; i++) {
-		enum iec_type join = types_join(type, in[i].type);
+		bool point = in[i].literal && in[i].literal->real;
+		enum iec_type own = point ? IEC_REAL : in[i].type;
+		enum iec_type join = types_join(type, own);
 
 		if (join == IEC_TYPE_COUNT)
-			return report_types(c, line, type, in[i].type);
+			return report_types(c, line, type, own);
 		type = join;
-		real |= in[i].literal && in[i].literal->real;
+		real |= point;
 	}
 	if (type == IEC_NONE)
-		type = real ? IEC_REAL : IEC_DINT;
+		type = IEC_DINT;
 	if (!(row->pin[0].classes & iec_type_row(type)->class))
 		return report(c, line, DIAG_WRONG_TYPE, iec_type_row(type)->word);
 	for (int i = 0; i < count; i++)

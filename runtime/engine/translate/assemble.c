@@ -24,7 +24,7 @@ static bool assemble_section(struct assembler *as, bool watch)
 	return true;
 }
 
-void *assemble(struct translation *translation, size_t *len)
+void *assemble(struct translation *translation, bool watch, size_t *len)
 {
 	struct assembler *as = arena_alloc(translation->arena, sizeof(*as));
 
@@ -35,7 +35,7 @@ void *assemble(struct translation *translation, size_t *len)
 	as->entry = arena_alloc(as->arena, ((size_t)translation->unit_count + 1) *
 				sizeof(*as->entry));
 	if (!as->entry || !layout_make(as) || !assemble_section(as, false) ||
-	    !assemble_section(as, true))
+	    (watch && !assemble_section(as, true)))
 		return NULL;
 	return pack_image(as, len);
 }

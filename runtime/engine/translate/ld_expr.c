@@ -48,6 +48,8 @@ static enum iec_type type_of(struct chain *c, uint32_t operand)
 {
 	const struct meaning *m = meaning(c, operand);
 
+	if (m && m->kind == MEANING_LITERAL && m->literal.real)
+		return IEC_REAL; /* a point makes it one */
 	return m ? m->type : IEC_NONE;
 }
 

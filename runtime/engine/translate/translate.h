@@ -57,12 +57,13 @@ bool ld_to_il(struct translation *translation, struct unit *unit,
 
 /**
  * assemble - the code image of all units
- * @out: the image, 8-aligned, of *@len bytes
+ * @watch: with the instrumented section
+ * @len:   gets its bytes; the image is aligned to 8
  *
  * Owns: translation->arena.   Scan-safe: no.
  * Fails: NULL after a diagnostic (limits, memory).
  */
-void *assemble(struct translation *translation, size_t *len);
+void *assemble(struct translation *translation, bool watch, size_t *len);
 
 /** is_temporary - is this a name that translation makes: _T1 _N1 _E1 _P1? */
 bool is_temporary(const char *name, char letter);
