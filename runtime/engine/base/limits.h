@@ -14,6 +14,7 @@
 #define LIMIT_NAME        255       /* bytes of a name                        */
 #define LIMIT_ARG         48        /* bytes of a diagnostic's argument       */
 #define LIMIT_TEXT        (64u << 20) /* bytes of one source file             */
+#define LIMIT_INCLUDES    8         /* files that include one another         */
 #define LIMIT_RUNGS       50000     /* rungs of one POU                       */
 #define LIMIT_POUS        1024      /* POUs of one project                    */
 #define LIMIT_VARS        200000    /* variables of one project               */

@@ -9,6 +9,7 @@
 #define TEXT_TEXT_H
 
 #include "engine/base/diag.h"
+#include "engine/base/sink.h"
 #include "engine/model/project.h"
 
 /* Where INCLUDE gets its files from. */
@@ -37,6 +38,14 @@ bool text_read(struct project *project, const char *file, const char *text,
  * Owns: the caller, free(); NUL-ended, @len without it.   Fails: NULL: no memory.
  */
 char *text_write(const struct project *project, size_t *len);
+
+/** text_write_vars - VAR … END_VAR, every block of @table. Scan-safe: no. */
+void text_write_vars(const struct names *names, const struct var_table *table,
+		     const struct sink *sink);
+/** text_write_il - an instruction list; it reads again to the same list, its
+ * lines numbered anew. Scan-safe: no. */
+void text_write_il(const struct names *names, const struct il *il,
+		   const struct sink *sink);
 
 /* For the clipboard, undo and tests: one rung, and one cell. */
 /** text_read_rung - from `RUNG …` rows; malloc'ed, the caller rung_free()s it. */

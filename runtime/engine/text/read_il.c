@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_il - an instruction list as a user writes it, one instruction a line.
+ *
+ * It knows operators, modifiers and the two forms of a call. Parentheses and
+ * results are followed in check/ and translate/, not here.
+ */
+#include "engine/text/reader.h"
+
+#include "engine/base/ascii.h"
+
+static bool add_line(struct reader *r, struct il_line line)
+{
+	if (il_add(r->il, line))
+		return true;
+	r->no_memory = true;
+	return false;
+}
+
+/* ---- operators ---- */
+
+/* ANDN is AND with N, JMPCN is JMP with C and N. */
+static enum op find_operator(const struct token *token, uint8_t *modifiers)
+{
+	enum op op = op_find(token->text, token->len);
+	size_t len = token->len;
+
+	*modifiers = 0;
+	if (op == OP_COUNT && len > 1 &&
+	    ascii_upper(token->text[len - 1]) == 'N') {
+		*modifiers |= MOD_N;
+		op = op_find(token->text, --len);
+	}
+	if (op == OP_COUNT && len > 1 &&
+	    ascii_upper(token->text[len - 1]) == 'C') {
+		*modifiers |= MOD_C;
+		op = op_find(token->text, --len);
+	}
+	return op;
+}
+
+/* N alone has no meaning where C may stand: JMPN. */
+static bool may_have(enum op op, uint8_t modifiers)
+{
+	const uint8_t can = op_row(op)->modifiers;
+
+	if (modifiers & ~can)
+		return false;
+	return !(can & MOD_C) || modifiers != MOD_N;
+}
+
+/* ---- calls with formal parameters ---- */
+
+static bool read_args(struct reader *r)
+{
+	buffer_clear(&r->text);
+	r->arg_count = 0;
+	reader_step(r);
+	while (!reader_is(r, ')')) {
+		if (!reader_arg(r))
+			return false;
+		reader_step(r);
+		if (reader_is(r, ')'))
+			break;
+		if (!reader_is(r, ','))
+			return reader_fail_word(r, DIAG_EXPECTED, ", or )");
+		reader_step(r);
+	}
+	return true;
+}
+
+static bool add_args(struct reader *r, const struct il_line *call)
+{
+	if (!add_line(r, *call))
+		return false;
+	for (int i = 0; i < r->arg_count; i++) {
+		const struct read_arg *arg = &r->arg[i];
+		const char *text = r->text.text;
+
+		if (!add_line(r, (struct il_line){
+				.kind = arg->output ? IL_ARG_OUT : IL_ARG_IN,
+				.pin = reader_intern(r, text + arg->pin_at,
+						     arg->pin_len),
+				.operand = reader_intern(r,
+							 text + arg->value_at,
+							 arg->value_len),
+				.line = call->line }))
+			return false;
+	}
+	return true;
+}
+
+/* The cursor stands on `(`. Comments between the parameters move above. */
+static bool read_call(struct reader *r, const struct il_line *call)
+{
+	r->across_lines = true;
+	bool good = read_args(r) && add_args(r, call);
+
+	r->across_lines = false;
+	if (good)
+		reader_next(r);
+	return good;
+}
+
+/* ---- instructions ---- */
+
+static bool read_operand(struct reader *r, const struct token *word,
+			 struct il_line *line)
+{
+	buffer_clear(&r->text);
+	if (!reader_value(r, true, word))
+		return false;
+	line->operand = buffer_take(r, &r->text);
+	if (!add_line(r, *line))
+		return false;
+	reader_next(r);
+	return true;
+}
+
+static bool read_function(struct reader *r, const struct token *word,
+			  struct il_line line)
+{
+	reader_next(r);
+	if (reader_is(r, '(')) {
+		line.kind = IL_CALL;
+		return read_call(r, &line);
+	}
+	return read_operand(r, word, &line);
+}
+
+/* `AND( A` is `AND(` and `LD A`. */
+static bool read_open(struct reader *r, const struct token *word,
+		      struct il_line line)
+{
+	line.modifiers |= MOD_PAREN;
+	reader_next(r);
+	if (!add_line(r, line))
+		return false;
+	reader_next(r);
+	if (reader_at_end(r))
+		return true;
+	line.op = OP_LD;
+	line.modifiers = 0;
+	return read_operand(r, word, &line);
+}
+
+static bool read_label_operand(struct reader *r, const struct token *word,
+			       struct il_line line)
+{
+	reader_next(r);
+	if (r->lex.token.kind != TOKEN_NAME)
+		return reader_fail(r, DIAG_MISSING_OPERAND, word->text,
+				   word->len);
+	if (!reader_name(r, "name", &line.operand))
+		return false;
+	if (line.op == OP_CAL && reader_peek(r, "(")) {
+		reader_next(r);
+		return read_call(r, &line);
+	}
+	if (!add_line(r, line))
+		return false;
+	reader_next(r);
+	return true;
+}
+
+static bool read_operator(struct reader *r, struct il_line line)
+{
+	const struct token word = r->lex.token;
+	const struct op_row *row = op_row((enum op)line.op);
+
+	if (!may_have((enum op)line.op, line.modifiers))
+		return reader_fail_token(r, DIAG_IL_MODIFIER);
+	if ((row->modifiers & MOD_PAREN) && reader_peek(r, "("))
+		return read_open(r, &word, line);
+	if (row->operand == OPND_LABEL || row->operand == OPND_INSTANCE)
+		return read_label_operand(r, &word, line);
+	if (row->operand == OPND_NONE && !add_line(r, line))
+		return false;
+	reader_next(r);
+	return row->operand == OPND_NONE || read_operand(r, &word, &line);
+}
+
+static bool read_instruction(struct reader *r)
+{
+	const struct token token = r->lex.token;
+	struct il_line line = { .line = (uint32_t)token.line };
+	enum op op;
+
+	if (reader_is(r, ')')) {
+		line.kind = IL_CLOSE;
+		if (!add_line(r, line))
+			return false;
+		reader_next(r);
+		return true;
+	}
+	if (token.kind != TOKEN_NAME)
+		return reader_fail_token(r, DIAG_SYNTAX);
+	op = find_operator(&token, &line.modifiers);
+	if (op != OP_COUNT) {
+		line.kind = IL_OP;
+		line.op = (uint8_t)op;
+		return read_operator(r, line);
+	}
+	const enum word word = word_find(token.text, token.len);
+
+	if (word == WORD_COUNT || word_row(word)->kind != WORD_FN)
+		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
+	line.kind = IL_FN;
+	line.word = (uint16_t)word;
+	line.modifiers = 0;
+	return read_function(r, &token, line);
+}
+
+static bool read_label(struct reader *r)
+{
+	struct il_line line = { .kind = IL_LABEL,
+				.line = (uint32_t)r->lex.token.line };
+
+	if (!reader_name(r, "label", &line.operand))
+		return false;
+	reader_next(r);
+	if (!add_line(r, line))
+		return false;
+	reader_next(r);
+	return true;
+}
+
+/* A faulty call may go on in lines that end with a comma. */
+static void skip_instruction(struct reader *r)
+{
+	bool more = true;
+
+	while (more && r->lex.token.kind != TOKEN_END) {
+		more = false;
+		while (!reader_at_end(r)) {
+			more = reader_is(r, ',');
+			reader_next(r);
+		}
+		if (more)
+			reader_next(r);
+	}
+}
+
+static void read_line(struct reader *r)
+{
+	bool good = true;
+
+	if (r->lex.token.kind == TOKEN_NAME && reader_peek(r, ":"))
+		good = read_label(r);
+	if (good && !reader_at_end(r))
+		good = read_instruction(r);
+	if (good)
+		reader_end_line(r);
+	else
+		skip_instruction(r);
+}
+
+/* Comments that stood before the first line, or before VAR blocks. */
+static void keep_first_comments(struct reader *r)
+{
+	uint32_t comment = buffer_take(r, &r->above);
+
+	if (comment)
+		add_line(r, (struct il_line){ .kind = IL_COMMENT,
+					      .operand = comment });
+}
+
+void read_il(struct reader *r, struct pou *pou)
+{
+	r->il = &pou->il;
+	keep_first_comments(r);
+	r->comments = COMMENT_IL;
+	for (;;) {
+		reader_skip_newlines(r);
+		if (r->lex.token.kind == TOKEN_END || read_ends_block(r) ||
+		    r->no_memory)
+			break;
+		/* What is longer than the budget of a scan can never run. */
+		if (pou->il.count >= LIMIT_BUDGET) {
+			reader_fail_word(r, DIAG_TOO_MANY, "instructions");
+			r->lex.at = r->lex.end;
+			reader_next(r);
+			break;
+		}
+		read_line(r);
+	}
+	r->comments = COMMENT_ABOVE;
+	r->il = NULL;
+}

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_operand - names, strings, values and parameters, as cells, declarations
+ * and instruction lists have them alike.
+ *
+ * It judges their form only; what a name means is found in check/.
+ */
+#include "engine/text/reader.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/literal.h"
+
+#include <string.h>
+
+/* A name may carry a pin behind a dot; each part has its own limit. */
+static bool check_length(struct reader *r)
+{
+	const char *text = r->lex.token.text;
+	size_t len = r->lex.token.len;
+	const char *dot = memchr(text, '.', len);
+	size_t head = dot ? (size_t)(dot - text) : len;
+
+	if (head > LIMIT_NAME || len - head > LIMIT_NAME + 1)
+		return reader_fail_token(r, DIAG_NAME_TOO_LONG);
+	return true;
+}
+
+bool reader_name(struct reader *r, const char *wanted, uint32_t *id)
+{
+	const struct token *token = &r->lex.token;
+
+	if (token->kind != TOKEN_NAME || memchr(token->text, '.', token->len))
+		return reader_fail_word(r, DIAG_EXPECTED, wanted);
+	if (!check_length(r))
+		return false;
+	*id = reader_intern(r, token->text, token->len);
+	return true;
+}
+
+/* What stands behind $ in a string; 0: nothing known. */
+static char escape(char c)
+{
+	switch (ascii_upper(c)) {
+	case '$':
+	case '"':
+		return c;
+	case 'N':
+	case 'L':
+		return '\n';
+	case 'R':
+		return '\r';
+	case 'T':
+		return '\t';
+	default:
+		return 0;
+	}
+}
+
+bool reader_string(struct reader *r, uint32_t *id)
+{
+	const char *at = r->lex.token.text + 1;
+	const char *end = at + r->lex.token.len - 2;
+
+	buffer_clear(&r->text);
+	while (at < end) {
+		const char *dollar = memchr(at, '$', (size_t)(end - at));
+		const char *stop = dollar ? dollar : end;
+
+		buffer_add(r, &r->text, at, (size_t)(stop - at));
+		at = stop;
+		if (at == end)
+			break;
+		char c = at + 1 < end ? escape(at[1]) : 0;
+		if (c == 0)
+			return reader_fail(r, DIAG_SYNTAX, at,
+					   at + 1 < end ? 2 : 1);
+		buffer_add(r, &r->text, &c, 1);
+		at += 2;
+	}
+	*id = buffer_take(r, &r->text);
+	return true;
+}
+
+static bool check_constant(struct reader *r, const char *text, size_t len)
+{
+	struct literal literal;
+
+	switch (literal_parse(text, len, &literal)) {
+	case LITERAL_OK:
+		return true;
+	case LITERAL_RANGE:
+		return reader_fail(r, DIAG_LITERAL_RANGE, text, len);
+	case LITERAL_NONE:
+	case LITERAL_BAD:
+		break;
+	}
+	return reader_fail(r, DIAG_BAD_LITERAL, text, len);
+}
+
+bool reader_value(struct reader *r, bool constant, const struct token *word)
+{
+	const struct token *token = &r->lex.token;
+	size_t from = r->text.len;
+	struct iec_addr addr;
+
+	if (constant && reader_is(r, '-')) {
+		buffer_add(r, &r->text, "-", 1);
+		reader_step(r);
+		if (token->kind != TOKEN_NUMBER)
+			return reader_fail_token(r, DIAG_BAD_LITERAL);
+	}
+	buffer_add(r, &r->text, token->text, token->len);
+	if (token->kind == TOKEN_NAME)
+		return check_length(r);
+	if (token->kind == TOKEN_ADDRESS) {
+		if (iec_addr_parse(token->text, token->len, &addr) != ADDR_OK)
+			return reader_fail_token(r, DIAG_BAD_ADDRESS);
+		return true;
+	}
+	if (token->kind == TOKEN_NUMBER && constant)
+		return r->no_memory ||
+		       check_constant(r, r->text.text + from,
+				      r->text.len - from);
+	return reader_fail(r, DIAG_MISSING_OPERAND, word->text, word->len);
+}
+
+/* Pins are words of the catalogue: upper case. */
+static bool add_pin(struct reader *r)
+{
+	const struct token *token = &r->lex.token;
+
+	if (token->len > LIMIT_NAME)
+		return reader_fail_token(r, DIAG_NAME_TOO_LONG);
+	for (size_t i = 0; i < token->len; i++) {
+		char c = ascii_upper(token->text[i]);
+
+		buffer_add(r, &r->text, &c, 1);
+	}
+	return !r->no_memory;
+}
+
+bool reader_pin(struct reader *r, uint32_t *id)
+{
+	buffer_clear(&r->text);
+	if (!add_pin(r))
+		return false;
+	*id = buffer_take(r, &r->text);
+	return true;
+}
+
+static bool is_twice(const struct reader *r, const struct read_arg *arg)
+{
+	const char *pin = r->text.text + arg->pin_at;
+
+	for (int i = 0; i < r->arg_count; i++)
+		if (r->arg[i].pin_len == arg->pin_len &&
+		    !memcmp(r->text.text + r->arg[i].pin_at, pin, arg->pin_len))
+			return true;
+	return false;
+}
+
+bool reader_arg(struct reader *r)
+{
+	struct token pin = r->lex.token;
+	struct read_arg arg = { 0 };
+
+	if (pin.kind != TOKEN_NAME || memchr(pin.text, '.', pin.len))
+		return reader_fail_token(r, DIAG_EXTRA_TEXT);
+	if (r->arg_count == LIMIT_ARGS)
+		return reader_fail_word(r, DIAG_TOO_MANY, "parameters");
+	if (r->text.len > 0)
+		buffer_add(r, &r->text, " ", 1);
+	arg.pin_at = r->text.len;
+	arg.pin_len = pin.len;
+	if (!add_pin(r))
+		return false;
+	if (is_twice(r, &arg))
+		return reader_fail_token(r, DIAG_DUPLICATE_ARG);
+	reader_step(r);
+	arg.output = lex_is(&r->lex, "=>");
+	if (!arg.output && !lex_is(&r->lex, ":="))
+		return reader_fail(r, DIAG_EXTRA_TEXT, pin.text, pin.len);
+	buffer_add(r, &r->text, arg.output ? "=>" : ":=", 2);
+	reader_step(r);
+	arg.value_at = r->text.len;
+	if (!reader_value(r, !arg.output, &pin))
+		return false;
+	arg.value_len = r->text.len - arg.value_at;
+	r->arg[r->arg_count++] = arg;
+	return true;
+}

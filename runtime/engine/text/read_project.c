@@ -1,0 +1,503 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_project - a rung file from its first line to its last: parts, includes,
+ * and the POUs' frames.
+ *
+ * It opens no file: what INCLUDE names comes from the caller. Declarations, rungs
+ * and instruction lists have readers of their own.
+ */
+#include "engine/text/reader.h"
+
+#include "engine/base/ascii.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the first lines ---- */
+
+static bool is_number(const struct token *token)
+{
+	for (size_t i = 0; i < token->len; i++)
+		if (!ascii_digit(token->text[i]))
+			return false;
+	return token->kind == TOKEN_NUMBER;
+}
+
+static bool read_first_line(struct reader *r)
+{
+	reader_skip_newlines(r);
+	reader_next(r);
+	if (!is_number(&r->lex.token) || r->lex.token.text[0] == '0')
+		return reader_fail_word(r, DIAG_NOT_RUNGBOARD, "");
+	if (!lex_is(&r->lex, "1"))
+		return reader_fail_token(r, DIAG_NEWER_VERSION);
+	reader_next(r);
+	reader_end_line(r);
+	return true;
+}
+
+static void read_title(struct reader *r)
+{
+	uint32_t title = 0;
+
+	if (!lex_is(&r->lex, "PROJECT"))
+		return;
+	reader_next(r);
+	if (r->lex.token.kind != TOKEN_STRING)
+		reader_fail_word(r, DIAG_EXPECTED, "title in \"…\"");
+	else if (reader_string(r, &title))
+		reader_next(r);
+	reader_end_line(r);
+	if (r->outer || title == 0)
+		return;
+	r->project->title = title;
+	r->project->head = buffer_take(r, &r->above);
+}
+
+/* ---- parts ---- */
+
+static void add_part(struct reader *r, struct part part)
+{
+	struct project *project = r->project;
+	struct part *slot = arena_push(&project->arena, &project->part,
+				       &project->part_count, sizeof(part));
+
+	part.included = r->outer != NULL;
+	if (slot)
+		*slot = part;
+	else
+		r->no_memory = true;
+}
+
+/* Behind the line whose first word is END_VIEW; NULL: there is none. */
+static const char *find_view_end(struct lex *lex)
+{
+	static const char word[] = "END_VIEW";
+	const size_t len = sizeof(word) - 1;
+	const char *at = lex->at;
+
+	while ((at = memchr(at, '\n', (size_t)(lex->end - at)))) {
+		at++;
+		lex->line++;
+		lex->line_start = at;
+		while (at < lex->end && (*at == ' ' || *at == '\t'))
+			at++;
+		if ((size_t)(lex->end - at) >= len &&
+		    ascii_same(at, word, len)) {
+			at += len;
+			if (at == lex->end || *at == '\n' || *at == ' ' ||
+			    *at == '\t' || *at == '/' || *at == '(')
+				return at;
+		}
+	}
+	return NULL;
+}
+
+/* What stands between VIEW and END_VIEW is the editor's; it is kept as it is. */
+static void read_view(struct reader *r)
+{
+	const struct token view = r->lex.token;
+	struct part part = { .kind = PART_VIEW };
+	const char *end = find_view_end(&r->lex);
+
+	if (!end) {
+		reader_fail_open(r, &view);
+		r->lex.at = r->lex.end;
+	} else {
+		r->lex.at = end;
+		part.text = reader_intern(r, view.text,
+					  (size_t)(end - view.text));
+	}
+	part.comment = buffer_take(r, &r->above);
+	add_part(r, part);
+	reader_next(r);
+	reader_end_line(r);
+}
+
+static void read_global_vars(struct reader *r)
+{
+	struct part part = { .kind = PART_VARS,
+			     .index = r->project->globals.block_count };
+
+	read_vars(r, &r->project->globals, true);
+	if (r->project->globals.block_count > part.index)
+		add_part(r, part);
+}
+
+/* ---- INCLUDE ---- */
+
+static bool read_file(struct reader *r, const char *text, size_t len);
+
+/* The name as seen from where this file stands. */
+static const char *join_path(struct reader *r, const char *name)
+{
+	const char *slash = strrchr(r->place.file, '/');
+	size_t head = slash && name[0] != '/' ?
+		      (size_t)(slash - r->place.file) + 1 : 0;
+
+	buffer_clear(&r->text);
+	buffer_add(r, &r->text, r->place.file, head);
+	buffer_add(r, &r->text, name, strlen(name));
+	char *path = arena_copy(&r->project->arena, r->text.text, r->text.len);
+
+	buffer_clear(&r->text);
+	return path;
+}
+
+/* Not itself, not what includes it, and not too deep. */
+static bool may_include(const struct reader *r, const char *path)
+{
+	int depth = 0;
+
+	for (; r; r = r->outer)
+		if (!strcmp(r->place.file, path) || ++depth > LIMIT_INCLUDES)
+			return false;
+	return true;
+}
+
+static void read_included(struct reader *r, const char *path, const char *text,
+			  size_t len)
+{
+	struct reader *inner = reader_new(r->project, path, r->diags);
+
+	if (!inner) {
+		r->no_memory = true;
+		return;
+	}
+	inner->outer = r;
+	inner->source = r->source;
+	inner->total = r->total;
+	read_file(inner, text, len);
+	r->no_memory |= inner->no_memory;
+	reader_free(inner);
+}
+
+static void include_file(struct reader *r, uint32_t name, struct diag place)
+{
+	const char *text_name = names_text(&r->project->names, name);
+	const char *path = join_path(r, text_name);
+	size_t len = 0;
+
+	if (!path || r->no_memory) {
+		r->no_memory = true;
+		return;
+	}
+	place.id = DIAG_BAD_INCLUDE;
+	if (!may_include(r, path)) {
+		diag_add(r->diags, place, "%.96s", text_name);
+		return;
+	}
+	char *text = r->source->load(r->source->context, r->place.file,
+				     text_name, &len, r->diags, place);
+	if (!text)
+		return;
+	/* Files that name each other many times must not take for ever. */
+	*r->total += len + 1024;
+	if (*r->total > LIMIT_TEXT)
+		diag_add(r->diags, place, "%.96s", text_name);
+	else
+		read_included(r, path, text, len);
+	free(text);
+}
+
+static void read_include(struct reader *r)
+{
+	struct part part = { .kind = PART_INCLUDE };
+	struct diag place = r->place;
+
+	place.line = r->lex.token.line;
+	place.column = r->lex.token.column;
+	reader_next(r);
+	if (r->lex.token.kind != TOKEN_STRING)
+		reader_fail_word(r, DIAG_EXPECTED, "file name in \"…\"");
+	else if (reader_string(r, &part.text) && part.text == 0)
+		reader_fail_word(r, DIAG_EXPECTED, "file name in \"…\"");
+	else
+		reader_next(r);
+	if (part.text == 0) {
+		reader_skip_line(r);
+		return;
+	}
+	reader_end_line(r);
+	part.comment = buffer_take(r, &r->above);
+	add_part(r, part);
+	if (r->source)
+		include_file(r, part.text, place);
+}
+
+/* ---- POUs ---- */
+
+bool read_ends_block(const struct reader *r)
+{
+	static const char *const words[] = {
+		"PROGRAM", "END_PROGRAM", "RUNG", "VAR", "VAR_GLOBAL",
+		"INCLUDE", "VIEW", "PROJECT",
+	};
+
+	if (r->lex.token.kind != TOKEN_NAME)
+		return false;
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (lex_is(&r->lex, words[i]))
+			return !reader_peek(r, ":") && !reader_peek(r, ",") &&
+			       !reader_peek(r, "AT");
+	return false;
+}
+
+/* A word or a sign where a part, a rung or a declaration should begin. */
+static void skip_odd_line(struct reader *r)
+{
+	if (r->lex.token.kind == TOKEN_NAME)
+		reader_fail_token(r, read_ends_block(r) ||
+				  lex_is(&r->lex, "END_VAR") ||
+				  lex_is(&r->lex, "END_VIEW") ?
+				  DIAG_MISPLACED : DIAG_UNKNOWN_WORD);
+	else
+		reader_fail_token(r, reader_is(r, '|') ? DIAG_MISPLACED :
+						       DIAG_SYNTAX);
+	reader_skip_line(r);
+}
+
+static bool is_vars(const struct reader *r)
+{
+	return lex_is(&r->lex, "VAR") || lex_is(&r->lex, "VAR_GLOBAL");
+}
+
+static size_t rung_cells(const struct rung *rung)
+{
+	return (size_t)rung->rows * rung->cols;
+}
+
+static void add_rung(struct reader *r, struct pou *pou)
+{
+	bool full = pou->rung_count == LIMIT_RUNGS ||
+		    r->all_cells > LIMIT_TEXT / 4;
+
+	if (full && r->place.rung <= pou->rung_count + 1)
+		reader_fail_word(r, DIAG_TOO_MANY, "rungs");
+	struct rung *rung = read_rung(r);
+
+	if (!rung)
+		return;
+	r->all_cells += full ? 0 : rung_cells(rung);
+	if (!full && project_add_rung(pou, pou->rung_count, rung))
+		return;
+	r->no_memory |= !full;
+	rung_free(rung);
+}
+
+/* Up to END_PROGRAM or to a word that cannot stand in a program. */
+static void read_rungs(struct reader *r, struct pou *pou)
+{
+	for (;;) {
+		reader_skip_newlines(r);
+		if (r->lex.token.kind == TOKEN_END)
+			return;
+		if (lex_is(&r->lex, "RUNG")) {
+			r->place.rung++;
+			add_rung(r, pou);
+		} else if (is_vars(r)) {
+			if (r->place.rung > 0)
+				reader_fail_token(r, DIAG_MISPLACED);
+			read_vars(r, &pou->vars, false);
+		} else if (read_ends_block(r)) {
+			return;
+		} else {
+			skip_odd_line(r);
+		}
+	}
+}
+
+static void read_program_line(struct reader *r, struct pou *pou)
+{
+	reader_next(r);
+	if (!reader_name(r, "name of the program", &pou->name)) {
+		reader_skip_line(r);
+		return;
+	}
+	reader_next(r);
+	r->place.pou = names_text(&r->project->names, pou->name);
+	if (lex_is(&r->lex, "IL"))
+		pou->language = LANGUAGE_IL;
+	if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD"))
+		reader_next(r);
+	reader_end_line(r);
+}
+
+static void read_program_body(struct reader *r, struct pou *pou)
+{
+	if (pou->language == LANGUAGE_LD) {
+		read_rungs(r, pou);
+		return;
+	}
+	for (reader_skip_newlines(r); is_vars(r); reader_skip_newlines(r))
+		read_vars(r, &pou->vars, false);
+	read_il(r, pou);
+}
+
+static void read_program(struct reader *r)
+{
+	struct project *project = r->project;
+	struct part part = { .kind = PART_POU, .index = project->pou_count };
+	struct token head = r->lex.token;
+	struct pou *pou = NULL;
+
+	if (project->pou_count == LIMIT_POUS)
+		reader_fail_word(r, DIAG_TOO_MANY, "programs");
+	else
+		pou = arena_push(&project->arena, &project->pou,
+				 &project->pou_count, sizeof(*pou));
+	if (!pou) {
+		r->no_memory |= project->pou_count < LIMIT_POUS;
+		r->lex.at = r->lex.end;
+		reader_next(r);
+		return;
+	}
+	*pou = (struct pou){ .file = r->place.file, .line = head.line,
+			     .included = r->outer != NULL };
+	pou->il.arena = &project->arena;
+	add_part(r, part);
+	read_program_line(r, pou);
+	pou->comment = buffer_take(r, &r->above);
+	read_program_body(r, pou);
+	r->place.rung = 0;
+	pou->tail = buffer_take(r, &r->above);
+	if (lex_is(&r->lex, "END_PROGRAM")) {
+		reader_next(r);
+		r->place.pou = NULL;
+		reader_end_line(r);
+		return;
+	}
+	reader_fail_open(r, &head);
+	r->place.pou = NULL;
+}
+
+/* ---- the file ---- */
+
+static void read_parts(struct reader *r)
+{
+	for (;;) {
+		reader_skip_newlines(r);
+		if (r->lex.token.kind == TOKEN_END || r->no_memory)
+			return;
+		if (is_vars(r))
+			read_global_vars(r);
+		else if (lex_is(&r->lex, "PROGRAM"))
+			read_program(r);
+		else if (lex_is(&r->lex, "VIEW"))
+			read_view(r);
+		else if (lex_is(&r->lex, "INCLUDE"))
+			read_include(r);
+		else
+			skip_odd_line(r);
+	}
+}
+
+/* Without a right first line nothing else would make sense. */
+static bool has_first_line(struct reader *r, const char *text, size_t len)
+{
+	lex_init(&r->lex, text, len);
+	r->lex.newlines = true;
+	r->lex.comments = true;
+	do
+		lex_next(&r->lex);
+	while (r->lex.token.kind == TOKEN_NEWLINE ||
+	       r->lex.token.kind == TOKEN_COMMENT);
+	if (r->lex.token.kind == TOKEN_END) {
+		r->lex.token.line = r->lex.token.column = 0;
+		return reader_fail_word(r, DIAG_EMPTY_FILE, "");
+	}
+	if (!lex_is(&r->lex, "RUNGBOARD"))
+		return reader_fail_word(r, DIAG_NOT_RUNGBOARD, "");
+	return true;
+}
+
+static bool read_file(struct reader *r, const char *text, size_t len)
+{
+	if (len > LIMIT_TEXT) /* no line yet: the whole file */
+		return reader_fail_word(r, DIAG_TOO_LARGE, "");
+	if (!has_first_line(r, text, len))
+		return false;
+	char *copy = reader_open(r, text, len);
+
+	if (read_first_line(r)) {
+		reader_skip_newlines(r);
+		read_title(r);
+		read_parts(r);
+		if (!r->outer)
+			r->project->tail = buffer_take(r, &r->above);
+	}
+	free(copy);
+	return true;
+}
+
+/* Out of memory is said once, however often it happened. */
+static void fail_memory(const struct project *project, const char *file,
+			bool failed, struct diag_list *diags)
+{
+	struct diag place = { .id = DIAG_NO_MEMORY, .file = file };
+
+	if (failed || project->arena.failed)
+		diag_add(diags, place, "%s", "");
+}
+
+bool text_read(struct project *project, const char *file, const char *text,
+	       size_t len, const struct text_source *source,
+	       struct diag_list *diags)
+{
+	const int errors = diags->errors;
+	size_t total = len;
+	const char *name = arena_copy(&project->arena, file, strlen(file));
+	struct reader *r = name ? reader_new(project, name, diags) : NULL;
+
+	if (r) {
+		r->source = source;
+		r->total = &total;
+		read_file(r, text, len);
+	}
+	fail_memory(project, file, !r || r->no_memory, diags);
+	reader_free(r);
+	return diags->errors == errors;
+}
+
+/* A comment behind the rung has no other place than above it. */
+static uint32_t join_lines(struct reader *r, uint32_t comment)
+{
+	const char *text = names_text(&r->project->names, comment);
+
+	buffer_clear(&r->text);
+	buffer_add(r, &r->text, text, strlen(text));
+	if (comment)
+		buffer_add(r, &r->text, "\n", 1);
+	buffer_add(r, &r->text, r->above.text, r->above.len);
+	return buffer_take(r, &r->text);
+}
+
+struct rung *text_read_rung(struct project *project, const char *text,
+			    size_t len, struct diag_list *diags)
+{
+	const int errors = diags->errors;
+	struct reader *r = reader_new(project, "", diags);
+	struct rung *rung = NULL;
+	char *copy = NULL;
+
+	if (r && len <= LIMIT_TEXT) {
+		r->place.rung = 1;
+		copy = reader_open(r, text, len);
+		reader_skip_newlines(r);
+		if (lex_is(&r->lex, "RUNG"))
+			rung = read_rung(r);
+		else
+			reader_fail_word(r, DIAG_EXPECTED, "RUNG");
+		if (rung && r->lex.token.kind != TOKEN_END)
+			reader_fail_token(r, DIAG_SYNTAX);
+		if (rung && r->above.len > 0)
+			rung->comment = join_lines(r, rung->comment);
+	}
+	fail_memory(project, "", !r || r->no_memory, diags);
+	free(copy);
+	reader_free(r);
+	if (diags->errors == errors)
+		return rung;
+	rung_free(rung);
+	return NULL;
+}

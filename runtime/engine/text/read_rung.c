@@ -1,0 +1,372 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_rung - RUNG and its rows: cells, bars, links, boxes, expressions.
+ *
+ * A cell is read word by word, never by cutting at bars, so that a comment may
+ * hold one. Whether what was drawn makes sense is found in check/.
+ */
+#include "engine/text/reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- cells ---- */
+
+/* `---`; longer ones are taken too. */
+static bool read_wire(struct reader *r, struct cell *cell)
+{
+	const char *text = r->lex.token.text;
+
+	if (r->lex.end - text < 3 || memcmp(text, "---", 3) != 0)
+		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
+	do
+		reader_next(r);
+	while (reader_is(r, '-') && !r->lex.token.space_before);
+	cell->word = ELEM_WIRE;
+	return true;
+}
+
+static bool read_pin(struct reader *r, struct cell *cell)
+{
+	const struct token *token = &r->lex.token;
+
+	cell->word = ELEM_PIN;
+	reader_next(r);
+	if (token->kind != TOKEN_NAME || token->space_before)
+		return true;
+	if (memchr(token->text, '.', token->len))
+		return reader_fail_token(r, DIAG_EXTRA_TEXT);
+	if (!reader_pin(r, &cell->operand))
+		return false;
+	reader_next(r);
+	return true;
+}
+
+static bool read_args(struct reader *r, struct cell *cell)
+{
+	buffer_clear(&r->text);
+	r->arg_count = 0;
+	while (!reader_at_end(r) && !reader_is(r, '|') && !reader_is(r, '^')) {
+		if (!reader_arg(r))
+			return false;
+		reader_next(r);
+	}
+	cell->args = buffer_take(r, &r->text);
+	return true;
+}
+
+/* `:=` at its top makes it an assignment: read with a cursor of its own, so
+ * that an error has the right column. Gives the word; WORD_COUNT: an error. */
+static enum word check_expression(struct reader *r)
+{
+	struct diag place = r->place;
+	struct lex lex = r->lex, ahead;
+	enum word word = ELEM_COMPARE;
+
+	lex.comments = false;
+	lex_next(&lex);
+	ahead = lex;
+	lex_next(&ahead);
+	place.line = lex.token.line;
+	place.column = lex.token.column;
+	place.id = DIAG_BAD_EXPRESSION;
+	if (lex_is(&ahead, ":=")) {
+		word = ELEM_ASSIGN;
+		if (lex.token.kind != TOKEN_NAME &&
+		    lex.token.kind != TOKEN_ADDRESS) {
+			diag_add(r->diags, place, ":=");
+			return WORD_COUNT;
+		}
+		lex = ahead;
+		lex_next(&lex);
+		place.column = lex.token.column;
+	}
+	if (!expr_parse(&lex, &r->expr, r->diags, place))
+		return WORD_COUNT;
+	if (lex_is(&lex, "]"))
+		return word;
+	place.column = lex.token.column;
+	diag_add(r->diags, place, "%.*s",
+		 lex.token.len > LIMIT_ARG ? LIMIT_ARG : (int)lex.token.len,
+		 lex.token.text);
+	return WORD_COUNT;
+}
+
+/* Kept as text, one blank where there were some. */
+static bool read_expression(struct reader *r, struct cell *cell)
+{
+	const struct token *token = &r->lex.token;
+	const enum word word = check_expression(r);
+	size_t note = r->note.len;
+
+	if (word == WORD_COUNT)
+		return false;
+	cell->word = (uint16_t)word;
+	buffer_clear(&r->text);
+	reader_next(r);
+	while (!reader_is(r, ']')) {
+		if (r->text.len > 0 &&
+		    (token->space_before || note != r->note.len))
+			buffer_add(r, &r->text, " ", 1);
+		note = r->note.len;
+		buffer_add(r, &r->text, token->text, token->len);
+		reader_next(r);
+	}
+	cell->operand = buffer_take(r, &r->text);
+	reader_next(r);
+	return true;
+}
+
+/* The operand or instance behind a word. A box without an instance would take
+ * its first parameter for one. */
+static bool read_operand(struct reader *r, struct cell *cell,
+			 const struct word_row *row, const struct token *word)
+{
+	const struct token *token = &r->lex.token;
+	bool plain = row->kind == WORD_FB || row->operand == OPND_LABEL;
+
+	if ((token->kind != TOKEN_NAME && token->kind != TOKEN_ADDRESS) ||
+	    (row->kind == WORD_FB &&
+	     (reader_peek(r, ":=") || reader_peek(r, "=>"))))
+		return reader_fail(r, DIAG_MISSING_OPERAND, word->text,
+				   word->len);
+	if (plain && !reader_name(r, "name", &cell->operand))
+		return false;
+	if (!plain) {
+		buffer_clear(&r->text);
+		if (!reader_value(r, false, word))
+			return false;
+		cell->operand = buffer_take(r, &r->text);
+	}
+	reader_next(r);
+	return true;
+}
+
+static bool read_word(struct reader *r, struct cell *cell)
+{
+	const struct token token = r->lex.token;
+	const enum word word = word_find(token.text, token.len);
+
+	if (word == WORD_COUNT)
+		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
+	const struct word_row *row = word_row(word);
+
+	cell->word = (uint16_t)word;
+	reader_next(r);
+	if (row->kind == WORD_FN)
+		return read_args(r, cell);
+	if (row->kind == WORD_ELEM && row->operand == OPND_NONE)
+		return true;
+	if (!read_operand(r, cell, row, &token))
+		return false;
+	return row->kind != WORD_FB || read_args(r, cell);
+}
+
+static bool read_element(struct reader *r, struct cell *cell)
+{
+	if (reader_at_end(r) || reader_is(r, '|') || reader_is(r, '^'))
+		return true;
+	if (r->lex.token.kind == TOKEN_NAME)
+		return read_word(r, cell);
+	if (reader_is(r, '-'))
+		return read_wire(r, cell);
+	if (reader_is(r, '.'))
+		return read_pin(r, cell);
+	if (reader_is(r, '['))
+		return read_expression(r, cell);
+	return reader_fail_token(r, DIAG_UNKNOWN_WORD);
+}
+
+/* ---- rows ---- */
+
+static void skip_cell(struct reader *r)
+{
+	while (!reader_at_end(r) && !reader_is(r, '|'))
+		reader_next(r);
+}
+
+static bool read_link(struct reader *r, struct cell *cell)
+{
+	if (!reader_is(r, '^'))
+		return true;
+	if (r->place.row == 1)
+		return reader_fail_token(r, DIAG_MISPLACED);
+	reader_next(r);
+	if (!reader_is(r, '|'))
+		return reader_fail_word(r, DIAG_EXTRA_TEXT, "^");
+	cell->link = 1;
+	return true;
+}
+
+/* Up to its closing bar, or to the end of the line if there is none. */
+static void read_cell(struct reader *r, struct cell *cell)
+{
+	if (!read_element(r, cell) || !read_link(r, cell)) {
+		skip_cell(r);
+		return;
+	}
+	if (reader_is(r, '|'))
+		return;
+	if (!reader_at_end(r)) {
+		reader_fail_token(r, DIAG_EXTRA_TEXT);
+		skip_cell(r);
+	} else if (cell->word != ELEM_EMPTY) {
+		reader_fail_word(r, DIAG_BAD_ROW, "");
+	}
+}
+
+static void push_cell(struct reader *r, const struct cell *cell)
+{
+	if (r->cell_count == r->cell_size) {
+		int size = r->cell_size ? 2 * r->cell_size : 64;
+		struct cell *grown = realloc(r->cell,
+					     (size_t)size * sizeof(*grown));
+		if (!grown) {
+			r->no_memory = true;
+			return;
+		}
+		r->cell = grown;
+		r->cell_size = size;
+	}
+	r->cell[r->cell_count++] = *cell;
+}
+
+/* The cursor stands behind the first bar. */
+static void read_cells(struct reader *r)
+{
+	for (int col = 0; ; col++) {
+		struct cell cell = { 0 };
+
+		if (reader_at_end(r))
+			return;
+		if (col == LIMIT_COLS) {
+			reader_fail_word(r, DIAG_TOO_MANY_COLS, "");
+			reader_skip_line(r);
+			return;
+		}
+		r->place.col = col + 1;
+		read_cell(r, &cell);
+		if (reader_at_end(r))
+			return;
+		cell.comment = buffer_take_cell(r, &r->note);
+		push_cell(r, &cell);
+		reader_next(r);
+	}
+}
+
+static void read_row(struct reader *r)
+{
+	const int first = r->cell_count, errors = r->diags->errors;
+
+	r->comments = COMMENT_CELL;
+	r->place.row = r->rows + 1;
+	r->place.col = 0;
+	reader_next(r);
+	read_cells(r);
+	r->place.col = 0;
+	if (r->cell_count == first && r->diags->errors == errors)
+		reader_fail_word(r, DIAG_BAD_ROW, "");
+	/* A comment behind the last bar belongs to the last cell. */
+	if (r->note.len > 0 && r->cell_count > first) {
+		struct cell *last = &r->cell[r->cell_count - 1];
+		uint32_t id = buffer_take_cell(r, &r->note);
+		const char *text = names_text(&r->project->names, id);
+
+		buffer_add(r, &r->note, text, strlen(text));
+		last->comment = comment_join(r, last->comment, &r->note);
+	}
+	buffer_clear(&r->note);
+	r->comments = COMMENT_ABOVE;
+	r->row_cols[r->rows++] = (uint8_t)(r->cell_count - first);
+}
+
+/* ---- rungs ---- */
+
+static void read_head(struct reader *r, struct rung *head)
+{
+	head->line = (uint32_t)r->lex.token.line;
+	reader_next(r);
+	if (lex_is(&r->lex, "OFF")) {
+		head->off = 1;
+		reader_next(r);
+	}
+	if (r->lex.token.kind == TOKEN_NAME) {
+		if (!reader_name(r, "label", &head->label)) {
+			reader_skip_line(r);
+			return;
+		}
+		reader_next(r);
+	}
+	if (r->lex.token.kind == TOKEN_STRING &&
+	    reader_string(r, &head->title))
+		reader_next(r);
+	reader_end_line(r);
+}
+
+/* Comments between rows move above the rung, in their order. */
+static void keep_above(struct reader *r)
+{
+	if (r->above.len == 0)
+		return;
+	if (r->rung_note.len > 0)
+		buffer_add(r, &r->rung_note, "\n", 1);
+	buffer_add(r, &r->rung_note, r->above.text, r->above.len);
+	buffer_clear(&r->above);
+}
+
+static struct rung *make_rung(struct reader *r, const struct rung *head)
+{
+	const struct cell *from = r->cell;
+	int rows = r->rows ? r->rows : 1, cols = 1;
+
+	for (int i = 0; i < r->rows; i++)
+		if (r->row_cols[i] > cols)
+			cols = r->row_cols[i];
+	struct rung *rung = r->no_memory ? NULL : rung_new(rows, cols);
+
+	if (!rung) {
+		r->no_memory = true;
+		return NULL;
+	}
+	rung->label = head->label;
+	rung->title = head->title;
+	rung->line = head->line;
+	rung->off = head->off;
+	rung->comment = buffer_take(r, &r->rung_note);
+	for (int i = 0; i < r->rows; i++) {
+		if (r->row_cols[i] > 0)
+			memcpy(rung_cell(rung, i, 0), from,
+			       r->row_cols[i] * sizeof(*from));
+		from += r->row_cols[i];
+	}
+	return rung;
+}
+
+struct rung *read_rung(struct reader *r)
+{
+	struct rung head = { 0 };
+
+	r->rows = 0;
+	r->cell_count = 0;
+	buffer_clear(&r->rung_note);
+	read_head(r, &head);
+	keep_above(r);
+	bool over = false;
+
+	for (;;) {
+		reader_skip_newlines(r);
+		if (!reader_is(r, '|'))
+			break;
+		keep_above(r);
+		if (r->rows < LIMIT_ROWS) {
+			read_row(r);
+			continue;
+		}
+		if (!over)
+			reader_fail_word(r, DIAG_TOO_MANY_ROWS, "");
+		over = true;
+		reader_skip_line(r);
+	}
+	r->place.row = r->place.col = 0;
+	return make_rung(r, &head);
+}

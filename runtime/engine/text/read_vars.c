@@ -1,0 +1,264 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_vars - VAR … END_VAR: names, addresses, types, initial values.
+ *
+ * A constant must fit its type here already; whether a name was declared before,
+ * or an address fits its type, is found in check/.
+ */
+#include "engine/text/reader.h"
+
+#include "engine/base/literal.h"
+
+
+static bool add_name(struct reader *r, struct var_table *table)
+{
+	uint32_t name = 0;
+
+	if (!reader_name(r, "name of a variable", &name))
+		return false;
+	if (r->project->globals.count == LIMIT_VARS ||
+	    table->count == LIMIT_VARS)
+		return reader_fail_word(r, DIAG_TOO_MANY, "variables");
+	struct var *var = arena_push(&r->project->arena, &table->var,
+				     &table->count, sizeof(*var));
+
+	if (!var) {
+		r->no_memory = true;
+		return false;
+	}
+	*var = (struct var){ .name = name, .line = r->lex.token.line };
+	var->fold = names_fold(&r->project->names, name);
+	reader_step(r);
+	return true;
+}
+
+static bool read_names(struct reader *r, struct var_table *table)
+{
+	if (!add_name(r, table))
+		return false;
+	while (reader_is(r, ',')) {
+		reader_step(r);
+		if (!add_name(r, table))
+			return false;
+	}
+	return true;
+}
+
+static bool read_at(struct reader *r, struct var *var)
+{
+	const struct token *token = &r->lex.token;
+	char text[32];
+
+	if (!lex_is(&r->lex, "AT"))
+		return true;
+	reader_step(r);
+	if (token->kind != TOKEN_ADDRESS && token->kind != TOKEN_NAME)
+		return reader_fail_word(r, DIAG_EXPECTED, "address");
+	switch (iec_addr_parse(token->text, token->len, &var->at)) {
+	case ADDR_OK:
+		break;
+	case ADDR_RANGE:
+		return reader_fail_token(r, DIAG_BAD_ADDRESS);
+	case ADDR_NONE:
+		if (token->kind == TOKEN_ADDRESS)
+			return reader_fail_token(r, DIAG_BAD_ADDRESS);
+		return reader_fail_word(r, DIAG_EXPECTED, "address");
+	}
+	int len = iec_addr_print(var->at, text, sizeof(text));
+
+	var->at_text = reader_intern(r, text, (size_t)len);
+	reader_step(r);
+	return true;
+}
+
+static bool read_type(struct reader *r, struct var *var)
+{
+	const struct token *token = &r->lex.token;
+
+	if (!reader_is(r, ':'))
+		return reader_fail_word(r, DIAG_EXPECTED, ":");
+	reader_step(r);
+	if (token->kind != TOKEN_NAME)
+		return reader_fail_word(r, DIAG_EXPECTED, "type");
+	var->type = iec_type_find(token->text, token->len);
+	if (var->type == IEC_NONE) {
+		var->fb = word_find(token->text, token->len);
+		if (var->fb == WORD_COUNT || word_row(var->fb)->kind != WORD_FB)
+			return reader_fail_token(r, DIAG_BAD_TYPE);
+		if (var->at_text)
+			return reader_fail_word(r, DIAG_MISPLACED, "AT");
+	}
+	reader_step(r);
+	return true;
+}
+
+/* Would it fit if only it were smaller? Then it is of the right kind. */
+static bool is_kind(const struct literal *literal, enum iec_type type)
+{
+	if (literal->type != IEC_NONE)
+		return literal->type == type;
+	return iec_type_row(type)->class != CLASS_TIME && !literal->real;
+}
+
+static bool check_init(struct reader *r, struct var *var, const char *text,
+		       size_t len)
+{
+	struct literal literal;
+	bool kind = true;
+
+	switch (literal_parse(text, len, &literal)) {
+	case LITERAL_OK:
+		if (literal_fit(&literal, var->type, &var->init))
+			return true;
+		kind = is_kind(&literal, var->type);
+		break;
+	case LITERAL_RANGE:
+		break;
+	case LITERAL_NONE:
+	case LITERAL_BAD:
+		kind = false;
+		break;
+	}
+	return reader_fail(r, kind ? DIAG_LITERAL_RANGE : DIAG_BAD_LITERAL,
+			   text, len);
+}
+
+static bool read_init(struct reader *r, struct var *var)
+{
+	const struct token *token = &r->lex.token;
+
+	if (!lex_is(&r->lex, ":="))
+		return true;
+	if (var->type == IEC_NONE)
+		return reader_fail_token(r, DIAG_MISPLACED);
+	reader_step(r);
+	buffer_clear(&r->text);
+	if (reader_is(r, '-')) {
+		buffer_add(r, &r->text, "-", 1);
+		reader_step(r);
+	}
+	if (token->kind != TOKEN_NUMBER && token->kind != TOKEN_NAME)
+		return reader_fail_word(r, DIAG_EXPECTED, "constant");
+	buffer_add(r, &r->text, token->text, token->len);
+	if (r->no_memory ||
+	    !check_init(r, var, r->text.text, r->text.len))
+		return false;
+	var->has_init = true;
+	var->init_text = buffer_take(r, &r->text);
+	reader_step(r);
+	return true;
+}
+
+static bool read_declaration(struct reader *r, struct var_table *table)
+{
+	const int first = table->count;
+	struct var like = { 0 };
+
+	if (!read_names(r, table))
+		return false;
+	if (table->count - first > 1 && lex_is(&r->lex, "AT"))
+		return reader_fail_token(r, DIAG_MISPLACED);
+	if (!read_at(r, &like) || !read_type(r, &like) || !read_init(r, &like))
+		return false;
+	if (!reader_is(r, ';'))
+		return reader_fail_word(r, DIAG_EXPECTED, ";");
+	for (int i = first; i < table->count; i++) {
+		like.name = table->var[i].name;
+		like.fold = table->var[i].fold;
+		like.line = table->var[i].line;
+		table->var[i] = like;
+	}
+	/* A comment on the rest of the line is this one's. */
+	reader_next(r);
+	table->var[table->count - 1].comment = buffer_take(r, &r->note);
+	return true;
+}
+
+/* To the next declaration, which may stand on this line. */
+static void skip_declaration(struct reader *r)
+{
+	while (!reader_at_end(r) && !lex_is(&r->lex, "END_VAR")) {
+		bool last = reader_is(r, ';');
+
+		reader_next(r);
+		if (last)
+			return;
+	}
+}
+
+static void read_declarations(struct reader *r, struct var_table *table)
+{
+	for (;;) {
+		reader_skip_newlines(r);
+		if (r->lex.token.kind == TOKEN_END || r->no_memory ||
+		    lex_is(&r->lex, "END_VAR") || read_ends_block(r))
+			return;
+		r->across_lines = true;
+		bool good = read_declaration(r, table);
+
+		r->across_lines = false;
+		if (!good)
+			skip_declaration(r);
+	}
+}
+
+static uint8_t read_flags(struct reader *r, bool global)
+{
+	uint8_t flags = lex_is(&r->lex, "VAR_GLOBAL") ? VAR_GLOBAL_WORD : 0;
+
+	if (flags && !global)
+		reader_fail_token(r, DIAG_MISPLACED);
+	for (;;) {
+		reader_next(r);
+		if (lex_is(&r->lex, "RETAIN"))
+			flags |= VAR_RETAIN;
+		else if (lex_is(&r->lex, "CONSTANT"))
+			flags |= VAR_CONSTANT;
+		else
+			return flags;
+	}
+}
+
+/* Comments that no declaration follows go to the last one, or to the block. */
+static void keep_last_comments(struct reader *r, struct var_table *table,
+			       struct var_block *block)
+{
+	uint32_t *id = block->count > 0 ?
+		       &table->var[table->count - 1].comment : &block->comment;
+
+	*id = comment_join(r, *id, &r->note);
+}
+
+static void close_block(struct reader *r, const struct token *head)
+{
+	if (lex_is(&r->lex, "END_VAR")) {
+		reader_next(r);
+		reader_end_line(r);
+		return;
+	}
+	reader_fail_open(r, head);
+}
+
+void read_vars(struct reader *r, struct var_table *table, bool global)
+{
+	const struct token head = r->lex.token;
+	struct var_block block = { .first = table->count, .line = head.line };
+
+	block.flags = read_flags(r, global);
+	block.comment = buffer_take(r, &r->above);
+	r->comments = COMMENT_NOTE;
+	read_declarations(r, table);
+	block.count = table->count - block.first;
+	if (r->note.len > 0)
+		keep_last_comments(r, table, &block);
+	r->comments = COMMENT_ABOVE;
+	struct var_block *slot = arena_push(&r->project->arena, &table->block,
+					    &table->block_count,
+					    sizeof(block));
+
+	if (slot)
+		*slot = block;
+	else
+		r->no_memory = true;
+	close_block(r, &head);
+}

@@ -1,0 +1,428 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * reader - steps through a rung file and keeps its comments.
+ *
+ * It knows tokens, names, values and parameters, not what a part or a rung is
+ * made of: that is in read_*.c.
+ */
+#include "engine/text/reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct reader *reader_new(struct project *project, const char *file,
+			  struct diag_list *diags)
+{
+	struct reader *r = calloc(1, sizeof(*r));
+
+	if (!r)
+		return NULL;
+	r->project = project;
+	r->diags = diags;
+	r->place.file = file;
+	return r;
+}
+
+void reader_free(struct reader *r)
+{
+	if (!r)
+		return;
+	free(r->above.text);
+	free(r->note.text);
+	free(r->rung_note.text);
+	free(r->text.text);
+	free(r->cell);
+	free(r);
+}
+
+/* ---- diagnostics ---- */
+
+static bool fail_at(struct reader *r, enum diag_id id, int line, int column,
+		    const char *arg, size_t len)
+{
+	struct diag place = r->place;
+
+	/* Out of memory is said at the end, and nothing that follows from it. */
+	if (r->no_memory)
+		return false;
+	place.id = id;
+	place.line = line;
+	place.column = column;
+	return diag_add(r->diags, place, "%.*s",
+			len > 2 * LIMIT_ARG ? 2 * LIMIT_ARG : (int)len, arg);
+}
+
+bool reader_fail(struct reader *r, enum diag_id id, const char *arg, size_t len)
+{
+	return fail_at(r, id, r->lex.token.line, r->lex.token.column, arg, len);
+}
+
+bool reader_fail_word(struct reader *r, enum diag_id id, const char *arg)
+{
+	return reader_fail(r, id, arg, strlen(arg));
+}
+
+bool reader_fail_token(struct reader *r, enum diag_id id)
+{
+	if (r->lex.token.kind == TOKEN_NEWLINE)
+		return reader_fail_word(r, id, "end of line");
+	if (r->lex.token.kind == TOKEN_END)
+		return reader_fail_word(r, id, "end of file");
+	return reader_fail(r, id, r->lex.token.text, r->lex.token.len);
+}
+
+void reader_fail_open(struct reader *r, const struct token *head)
+{
+	fail_at(r, DIAG_OPEN_BLOCK, head->line, head->column, head->text,
+		head->len);
+}
+
+/* ---- text that grows ---- */
+
+void buffer_add(struct reader *r, struct buffer *b, const char *text,
+		size_t len)
+{
+	if (len >= b->size - b->len) {
+		size_t size = b->size ? b->size : 128;
+
+		while (size - b->len <= len)
+			size *= 2;
+		char *grown = realloc(b->text, size);
+		if (!grown) {
+			r->no_memory = true;
+			return;
+		}
+		b->text = grown;
+		b->size = size;
+	}
+	if (len > 0)
+		memcpy(b->text + b->len, text, len);
+	b->len += len;
+}
+
+void buffer_clear(struct buffer *b)
+{
+	b->len = 0;
+	b->slash_len = 0;
+}
+
+uint32_t reader_intern(struct reader *r, const char *text, size_t len)
+{
+	uint32_t id = len > 0 ? names_intern(&r->project->names, text, len) : 0;
+
+	if (len > 0 && id == 0)
+		r->no_memory = true;
+	return id;
+}
+
+uint32_t buffer_take(struct reader *r, struct buffer *b)
+{
+	uint32_t id = reader_intern(r, b->text, b->len);
+
+	buffer_clear(b);
+	return id;
+}
+
+/* ---- comments ---- */
+
+static bool is_blank(char c)
+{
+	return c == ' ' || c == '\t' || c == '\n';
+}
+
+/* Does a comment begin or end at @text? Inside another it must not. */
+static bool is_mark(const char *text, size_t len)
+{
+	return len >= 2 && ((text[0] == '*' && text[1] == ')') ||
+			    (text[0] == '(' && text[1] == '*'));
+}
+
+/* The // at the end of @b becomes (* … *), so that text may follow it. */
+static void slash_close(struct reader *r, struct buffer *b)
+{
+	const char *text = b->slash + 2;
+	size_t len = b->slash_len;
+
+	if (len == 0)
+		return;
+	len -= 2;
+	b->slash_len = 0;
+	b->len = b->slash_at;
+	buffer_add(r, b, "(*", 2);
+	if (len > 0 && !is_blank(text[0]))
+		buffer_add(r, b, " ", 1);
+	for (size_t i = 0; i < len; i++) {
+		buffer_add(r, b, text + i, 1);
+		if (is_mark(text + i, len - i))
+			buffer_add(r, b, " ", 1);
+	}
+	buffer_add(r, b, " *)", 3);
+}
+
+/* A comment in a cell has no newline: each, with the blanks around, is one. */
+static void add_flat(struct reader *r, struct buffer *b, const char *text,
+		     size_t len)
+{
+	size_t at = 0;
+
+	while (at < len) {
+		size_t end = at;
+		bool newline = false;
+
+		while (end < len && !is_blank(text[end]))
+			end++;
+		buffer_add(r, b, text + at, end - at);
+		at = end;
+		for (; end < len && is_blank(text[end]); end++)
+			newline |= text[end] == '\n';
+		if (newline)
+			buffer_add(r, b, " ", 1);
+		else
+			buffer_add(r, b, text + at, end - at);
+		at = end;
+	}
+}
+
+static void comment_add(struct reader *r, struct buffer *b, const char *text,
+			size_t len, enum comment_place place)
+{
+	bool line = place != COMMENT_ABOVE;
+
+	if (line)
+		slash_close(r, b);
+	if (b->len > 0)
+		buffer_add(r, b, line ? " " : "\n", 1);
+	if (text[1] == '/') {
+		while (is_blank(text[len - 1]))
+			len--;
+		b->slash = text;
+		b->slash_len = line ? len : 0;
+		b->slash_at = b->len;
+	}
+	if (place == COMMENT_CELL)
+		add_flat(r, b, text, len);
+	else
+		buffer_add(r, b, text, len);
+}
+
+uint32_t buffer_take_cell(struct reader *r, struct buffer *b)
+{
+	slash_close(r, b);
+	return buffer_take(r, b);
+}
+
+uint32_t comment_join(struct reader *r, uint32_t id, struct buffer *b)
+{
+	struct buffer all = { 0 };
+	struct lex lex;
+
+	if (id == 0 || b->len == 0)
+		return b->len ? buffer_take(r, b) : id;
+	lex_init(&lex, names_text(&r->project->names, id),
+		 names_len(&r->project->names, id));
+	lex.comments = true;
+	while (lex_next(&lex) == TOKEN_COMMENT)
+		comment_add(r, &all, lex.token.text, lex.token.len,
+			    COMMENT_NOTE);
+	slash_close(r, &all);
+	buffer_add(r, &all, " ", 1);
+	buffer_add(r, &all, b->text, b->len);
+	buffer_clear(b);
+	id = reader_intern(r, all.text, all.len);
+	free(all.text);
+	return id;
+}
+
+static void comment_keep(struct reader *r)
+{
+	const struct token *token = &r->lex.token;
+	size_t len = token->len;
+
+	switch (r->comments) {
+	case COMMENT_ABOVE:
+		comment_add(r, &r->above, token->text, len, COMMENT_ABOVE);
+		return;
+	case COMMENT_NOTE:
+	case COMMENT_CELL:
+		comment_add(r, &r->note, token->text, len, r->comments);
+		return;
+	case COMMENT_IL:
+		while (token->text[1] == '/' && is_blank(token->text[len - 1]))
+			len--;
+		if (!il_add(r->il, (struct il_line){
+				.kind = IL_COMMENT,
+				.operand = reader_intern(r, token->text, len),
+				.line = (uint32_t)token->line }))
+			r->no_memory = true;
+		return;
+	}
+}
+
+/* ---- stepping ---- */
+
+static void fail_bad(struct reader *r)
+{
+	char first = r->lex.token.text[0];
+
+	if (first == '"' || first == '(')
+		reader_fail_token(r, DIAG_OPEN_STRING);
+	else
+		reader_fail_word(r, DIAG_BAD_BYTE, "");
+}
+
+void reader_next(struct reader *r)
+{
+	for (;;) {
+		enum token_kind kind = lex_next(&r->lex);
+
+		if (kind == TOKEN_COMMENT)
+			comment_keep(r);
+		else if (kind == TOKEN_BAD)
+			fail_bad(r);
+		else
+			return;
+	}
+}
+
+void reader_step(struct reader *r)
+{
+	reader_next(r);
+	if (r->across_lines)
+		reader_skip_newlines(r);
+}
+
+bool reader_is(const struct reader *r, char symbol)
+{
+	return r->lex.token.kind == TOKEN_SYMBOL && r->lex.token.len == 1 &&
+	       r->lex.token.text[0] == symbol;
+}
+
+bool reader_peek(const struct reader *r, const char *symbol)
+{
+	struct lex ahead = r->lex;
+
+	ahead.comments = false;
+	lex_next(&ahead);
+	return lex_is(&ahead, symbol);
+}
+
+bool reader_at_end(const struct reader *r)
+{
+	return r->lex.token.kind == TOKEN_NEWLINE ||
+	       r->lex.token.kind == TOKEN_END;
+}
+
+void reader_skip_line(struct reader *r)
+{
+	while (!reader_at_end(r))
+		reader_next(r);
+}
+
+void reader_skip_newlines(struct reader *r)
+{
+	while (r->lex.token.kind == TOKEN_NEWLINE)
+		reader_next(r);
+}
+
+void reader_end_line(struct reader *r)
+{
+	if (!reader_at_end(r))
+		reader_fail_token(r, DIAG_SYNTAX);
+	reader_skip_line(r);
+}
+
+/* ---- bytes ---- */
+
+static bool is_control(const char *text, size_t at, size_t len)
+{
+	unsigned char byte = (unsigned char)text[at];
+
+	if (byte >= 0x20)
+		return byte == 0x7f;
+	if (byte == '\r')
+		return at + 1 >= len || text[at + 1] != '\n';
+	return byte != '\n' && byte != '\t';
+}
+
+static bool is_clean(const char *text, size_t len)
+{
+	for (size_t i = 0; i < len; i++) {
+		unsigned char byte = (unsigned char)text[i];
+
+		if ((byte < 0x20 && byte != '\n' && byte != '\t') ||
+		    byte == 0x7f)
+			return false;
+	}
+	return utf8_valid(text, len, NULL);
+}
+
+/* Copies without CR; a control character becomes a blank, the first of a line
+ * is reported. */
+static size_t copy_clean(struct reader *r, char *copy, const char *text,
+			 size_t len)
+{
+	size_t out = 0, start = 0;
+	int line = 1, told = 0;
+
+	for (size_t i = 0; i < len; i++) {
+		copy[out] = text[i];
+		if (is_control(text, i, len)) {
+			copy[out] = ' ';
+			if (told != line)
+				fail_at(r, DIAG_BAD_BYTE, line,
+					(int)(i - start) + 1, "", 0);
+			told = line;
+		} else if (text[i] == '\r') {
+			continue;
+		} else if (text[i] == '\n') {
+			line++;
+			start = i + 1;
+		}
+		out++;
+	}
+	return out;
+}
+
+static void blank_bad_utf8(struct reader *r, char *text, size_t len)
+{
+	size_t at = 0, start = 0, bad = 0, from = 0;
+	int line = 1, told = 0;
+
+	while (from < len && !utf8_valid(text + from, len - from, &bad)) {
+		bad += from;
+		for (; at < bad; at++) {
+			if (text[at] != '\n')
+				continue;
+			line++;
+			start = at + 1;
+		}
+		if (told != line)
+			fail_at(r, DIAG_BAD_UTF8, line, (int)(bad - start) + 1,
+				"", 0);
+		told = line;
+		text[bad] = ' ';
+		from = bad + 1;
+	}
+}
+
+char *reader_open(struct reader *r, const char *text, size_t len)
+{
+	char *copy = NULL;
+
+	if (!is_clean(text, len)) {
+		copy = malloc(len + 1);
+		if (!copy) {
+			r->no_memory = true;
+			len = 0;
+		} else {
+			len = copy_clean(r, copy, text, len);
+			blank_bad_utf8(r, copy, len);
+			text = copy;
+		}
+	}
+	lex_init(&r->lex, text, len);
+	r->lex.newlines = true;
+	r->lex.comments = true;
+	reader_next(r);
+	return copy;
+}

@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * reader - what the files that read a rung file share: the cursor, the place
+ * that diagnostics name, and where comments go.
+ *
+ * Only text/read_*.c include it. A reader lives on the heap while one file is
+ * read; all that is kept goes into the project, nothing points into the source.
+ */
+#ifndef TEXT_READER_H
+#define TEXT_READER_H
+
+#include "engine/base/diag.h"
+#include "engine/base/lex.h"
+#include "engine/model/expr.h"
+#include "engine/model/project.h"
+#include "engine/text/text.h"
+
+/* Text that grows; of comments it remembers a `//` at its end, which must be
+ * rewritten as (* … *) if more follows on the line. */
+struct buffer {
+	char *text;
+	size_t len, size;
+	const char *slash;  /* the last comment, if it was one of //          */
+	size_t slash_len, slash_at;
+};
+
+/* Where the comments go that the cursor passes. */
+enum comment_place {
+	COMMENT_ABOVE, /* the next part, rung or end: one a line              */
+	COMMENT_NOTE,  /* a declaration: behind it, on one line               */
+	COMMENT_CELL,  /* a cell: as above, without any newline               */
+	COMMENT_IL,    /* a line of the list of its own                       */
+};
+
+struct read_arg {
+	size_t pin_at, pin_len, value_at, value_len; /* in reader.text        */
+	bool output;
+};
+
+struct reader {
+	struct lex lex;
+	struct project *project;
+	struct diag_list *diags;
+	const struct text_source *source;
+	const struct reader *outer; /* the file that includes this one        */
+	size_t *total;              /* bytes read, included files too         */
+	struct diag place;          /* file, POU, rung, row and column so far */
+	enum comment_place comments;
+	bool across_lines;          /* reader_step passes ends of lines       */
+	bool no_memory;
+	struct buffer above, note, rung_note, text;
+	struct read_arg arg[LIMIT_ARGS];
+	int arg_count;
+	struct il *il;              /* of the POU, for COMMENT_IL             */
+	struct cell *cell;          /* of the rung being read, row by row     */
+	int cell_count, cell_size;
+	size_t all_cells;           /* of the file                            */
+	uint8_t row_cols[LIMIT_ROWS];
+	int rows;
+	struct expr expr;
+};
+
+/** reader_new - before the first token; NULL: no memory. Owns: the caller. */
+struct reader *reader_new(struct project *project, const char *file,
+			  struct diag_list *diags);
+void reader_free(struct reader *r);
+
+/**
+ * reader_open - puts the cursor on the first token of @text
+ *
+ * Returns the copy it had to make of a text with CR LF or bad bytes (LD104 and
+ * LD105), which the caller frees after reading; NULL: @text itself is read.
+ */
+char *reader_open(struct reader *r, const char *text, size_t len);
+
+/** reader_next - the next token that is no comment. */
+void reader_next(struct reader *r);
+/** reader_step - the same, past ends of lines where they mean nothing. */
+void reader_step(struct reader *r);
+bool reader_is(const struct reader *r, char symbol);
+/** reader_peek - does @symbol follow the token under the cursor? */
+bool reader_peek(const struct reader *r, const char *symbol);
+/** reader_at_end - at the end of the line or of the file? */
+bool reader_at_end(const struct reader *r);
+void reader_skip_line(struct reader *r);
+void reader_skip_newlines(struct reader *r);
+/** reader_end_line - anything but the end of the line here is an error. */
+void reader_end_line(struct reader *r);
+
+/** reader_fail - a diagnostic at the cursor. Returns false. */
+bool reader_fail(struct reader *r, enum diag_id id, const char *arg,
+		 size_t len);
+/** reader_fail_word - the same with a NUL-ended argument. */
+bool reader_fail_word(struct reader *r, enum diag_id id, const char *arg);
+/** reader_fail_token - the same about the token under the cursor. */
+bool reader_fail_token(struct reader *r, enum diag_id id);
+
+/** reader_fail_open - the block that began at @head is not closed. */
+void reader_fail_open(struct reader *r, const struct token *head);
+
+void buffer_add(struct reader *r, struct buffer *b, const char *text,
+		size_t len);
+void buffer_clear(struct buffer *b);
+/** buffer_take - string id of what is in it; it is empty afterwards. */
+uint32_t buffer_take(struct reader *r, struct buffer *b);
+/** buffer_take_cell - the same for comments of a cell: none of them is a //. */
+uint32_t buffer_take_cell(struct reader *r, struct buffer *b);
+/** comment_join - string id of the comments of @id and, behind them, of @b. */
+uint32_t comment_join(struct reader *r, uint32_t id, struct buffer *b);
+uint32_t reader_intern(struct reader *r, const char *text, size_t len);
+
+/* These check what stands under the cursor and leave it there, so that a
+ * comment behind it is not passed too early. */
+/** reader_name - a plain name. Fails: false and a diagnostic. */
+bool reader_name(struct reader *r, const char *wanted, uint32_t *id);
+/** reader_string - the text inside a string, escapes resolved. */
+bool reader_string(struct reader *r, uint32_t *id);
+/** reader_value - appends a name, an address or (if @constant) a constant to
+ * r->text, and leaves the cursor on its last token. @word needs it. */
+bool reader_value(struct reader *r, bool constant, const struct token *word);
+/** reader_pin - the name of a pin, in upper case. */
+bool reader_pin(struct reader *r, uint32_t *id);
+/** reader_arg - appends `PIN:=value` to r->text and to r->arg, likewise. */
+bool reader_arg(struct reader *r);
+
+/* One file each. */
+void read_vars(struct reader *r, struct var_table *table, bool global);
+struct rung *read_rung(struct reader *r);
+void read_il(struct reader *r, struct pou *pou);
+/** read_ends_block - does a line begin here that never stands inside VAR or an
+ * instruction list? A name or label that is spelled so is none. */
+bool read_ends_block(const struct reader *r);
+#endif

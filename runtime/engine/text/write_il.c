@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * write_il - an instruction list as text that reads again to the same list.
+ *
+ * One instruction a line, labels and lone comments at its beginning, formal calls
+ * whole on one line.
+ */
+#include "engine/text/writer.h"
+
+#include "engine/text/text.h"
+
+#include <string.h>
+
+static bool is_arg(const struct il_line *line)
+{
+	return line->kind == IL_ARG_IN || line->kind == IL_ARG_OUT;
+}
+
+/* Operands stand in a column of their own. */
+static void write_padded(const struct sink *sink, const char *word,
+			 const char *modifier)
+{
+	const int len = (int)(strlen(word) + strlen(modifier));
+
+	sink_text(sink, word);
+	sink_text(sink, modifier);
+	sink_repeat(sink, " ", len < 5 ? 6 - len : 1);
+}
+
+static void write_args(const struct sink *sink, const struct names *names,
+		       const struct il_line *arg, int count)
+{
+	sink_text(sink, "(");
+	for (int i = 0; i < count; i++) {
+		sink_text(sink, i > 0 ? ", " : "");
+		write_id(sink, names, arg[i].pin);
+		sink_text(sink, arg[i].kind == IL_ARG_OUT ? " => " : " := ");
+		write_id(sink, names, arg[i].operand);
+	}
+	sink_text(sink, ")");
+}
+
+static void write_operator(const struct sink *sink, const struct names *names,
+			   const struct il_line *line)
+{
+	const char *word = op_row((enum op)line->op)->word;
+	const char *modifier = "";
+
+	if ((line->modifiers & MOD_C) && (line->modifiers & MOD_N))
+		modifier = "CN";
+	else if (line->modifiers & MOD_C)
+		modifier = "C";
+	else if (line->modifiers & MOD_N)
+		modifier = "N";
+	if (line->operand && !(line->modifiers & MOD_PAREN)) {
+		write_padded(sink, word, modifier);
+		write_id(sink, names, line->operand);
+		return;
+	}
+	sink_text(sink, word);
+	sink_text(sink, modifier);
+	if (line->modifiers & MOD_PAREN)
+		sink_text(sink, "(");
+	/* The list may hold AND( with its first operand, as the standard has. */
+	if (line->operand) {
+		sink_text(sink, " ");
+		write_id(sink, names, line->operand);
+	}
+}
+
+static void write_line(const struct sink *sink, const struct names *names,
+		       const struct il_line *line, int args)
+{
+	const char *word = word_row((enum word)line->word)->word;
+
+	switch ((enum il_kind)line->kind) {
+	case IL_OP:
+		sink_text(sink, "  ");
+		write_operator(sink, names, line);
+		if (args > 0)
+			write_args(sink, names, line + 1, args);
+		return;
+	case IL_FN:
+		sink_text(sink, "  ");
+		write_padded(sink, word, "");
+		write_id(sink, names, line->operand);
+		return;
+	case IL_CALL:
+		sink_text(sink, "  ");
+		sink_text(sink, word);
+		write_args(sink, names, line + 1, args);
+		return;
+	case IL_CLOSE:
+		sink_text(sink, "  )");
+		return;
+	case IL_LABEL:
+		write_id(sink, names, line->operand);
+		sink_text(sink, ":");
+		return;
+	case IL_COMMENT:
+		write_id(sink, names, line->operand);
+		return;
+	case IL_ARG_IN:
+	case IL_ARG_OUT:
+		return;
+	}
+}
+
+void text_write_il(const struct names *names, const struct il *il,
+		   const struct sink *sink)
+{
+	uint32_t last = 0; /* line in the source of the instruction before    */
+
+	for (int i = 0; i < il->count; i++) {
+		const struct il_line *line = &il->line[i];
+		int args = 0;
+
+		while (i + 1 < il->count && is_arg(&il->line[i + 1])) {
+			args++;
+			i++;
+		}
+		/* A comment behind an instruction has the line of it. */
+		if (line->kind == IL_COMMENT && last && line->line == last)
+			sink_text(sink, " ");
+		else if (line != il->line)
+			sink_text(sink, "\n");
+		if (line->kind != IL_COMMENT)
+			last = line->line;
+		write_line(sink, names, line, args);
+	}
+	if (il->count > 0)
+		sink_text(sink, "\n");
+}

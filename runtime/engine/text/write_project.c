@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * write_project - a project as its one canonical text.
+ *
+ * What was read from included files is left out: it stands in those.
+ */
+#include "engine/text/writer.h"
+
+#include "engine/base/lex.h"
+#include "engine/base/literal.h"
+#include "engine/text/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void write_id(const struct sink *sink, const struct names *names, uint32_t id)
+{
+	sink_write(sink, names_text(names, id), names_len(names, id));
+}
+
+void write_above(const struct sink *sink, const struct names *names,
+		 uint32_t comment)
+{
+	if (!comment)
+		return;
+	write_id(sink, names, comment);
+	sink_text(sink, "\n");
+}
+
+static const char *escape(char c)
+{
+	switch (c) {
+	case '"':
+		return "$\"";
+	case '$':
+		return "$$";
+	case '\n':
+		return "$N";
+	case '\r':
+		return "$R";
+	case '\t':
+		return "$T";
+	default:
+		return NULL;
+	}
+}
+
+void write_string(const struct sink *sink, const char *text, size_t len)
+{
+	size_t plain = 0;
+
+	sink_text(sink, "\"");
+	for (size_t i = 0; i < len; i++) {
+		const char *with = escape(text[i]);
+
+		if (!with)
+			continue;
+		sink_write(sink, text + plain, i - plain);
+		sink_text(sink, with);
+		plain = i + 1;
+	}
+	sink_write(sink, text + plain, len - plain);
+	sink_text(sink, "\"");
+}
+
+int write_width(const struct names *names, uint32_t id)
+{
+	return utf8_width(names_text(names, id), names_len(names, id));
+}
+
+/* ---- declarations ---- */
+
+struct widths {
+	int name, at;
+};
+
+static struct widths measure(const struct names *names,
+			     const struct var *var, int count)
+{
+	struct widths widths = { 0, 0 };
+
+	for (int i = 0; i < count; i++) {
+		int name = write_width(names, var[i].name);
+		int at = write_width(names, var[i].at_text);
+
+		widths.name = name > widths.name ? name : widths.name;
+		widths.at = at > widths.at ? at : widths.at;
+	}
+	return widths;
+}
+
+static void write_init(const struct sink *sink, const struct names *names,
+		       const struct var *var)
+{
+	char text[64];
+
+	if (!var->has_init)
+		return;
+	sink_text(sink, " := ");
+	if (var->init_text) {
+		write_id(sink, names, var->init_text);
+		return;
+	}
+	literal_print(var->type, var->init, text, sizeof(text));
+	sink_text(sink, text);
+}
+
+static void write_var(const struct sink *sink, const struct names *names,
+		      const struct var *var, const struct widths *widths)
+{
+	const int name = write_width(names, var->name);
+
+	sink_text(sink, "  ");
+	write_id(sink, names, var->name);
+	sink_repeat(sink, " ", widths->name - name);
+	if (var->at_text) {
+		sink_text(sink, " AT ");
+		write_id(sink, names, var->at_text);
+		sink_repeat(sink, " ",
+			    widths->at - write_width(names, var->at_text));
+	}
+	sink_text(sink, " : ");
+	sink_text(sink, var->type == IEC_NONE ? word_row(var->fb)->word :
+					      iec_type_row(var->type)->word);
+	write_init(sink, names, var);
+	sink_text(sink, ";");
+	if (var->comment) {
+		sink_text(sink, " ");
+		write_id(sink, names, var->comment);
+	}
+	sink_text(sink, "\n");
+}
+
+static void write_block(const struct sink *sink, const struct names *names,
+			const struct var_table *table, int index)
+{
+	const struct var_block *block = &table->block[index];
+	const struct var *var = table->var + block->first;
+	const struct widths widths = measure(names, var, block->count);
+
+	write_above(sink, names, block->comment);
+	sink_text(sink, block->flags & VAR_GLOBAL_WORD ? "VAR_GLOBAL" : "VAR");
+	if (block->flags & VAR_RETAIN)
+		sink_text(sink, " RETAIN");
+	if (block->flags & VAR_CONSTANT)
+		sink_text(sink, " CONSTANT");
+	sink_text(sink, "\n");
+	for (int i = 0; i < block->count; i++)
+		write_var(sink, names, &var[i], &widths);
+	sink_text(sink, "END_VAR\n");
+}
+
+void text_write_vars(const struct names *names, const struct var_table *table,
+		     const struct sink *sink)
+{
+	for (int i = 0; i < table->block_count; i++)
+		write_block(sink, names, table, i);
+}
+
+/* ---- parts ---- */
+
+static void write_pou(const struct sink *sink, const struct names *names,
+		      const struct pou *pou)
+{
+	write_above(sink, names, pou->comment);
+	sink_text(sink, "PROGRAM ");
+	write_id(sink, names, pou->name);
+	sink_text(sink, pou->language == LANGUAGE_IL ? " IL\n" : " LD\n");
+	text_write_vars(names, &pou->vars, sink);
+	for (int i = 0; i < pou->rung_count; i++)
+		write_rung(sink, names, pou->rung[i]);
+	if (pou->language == LANGUAGE_IL)
+		text_write_il(names, &pou->il, sink);
+	write_above(sink, names, pou->tail);
+	sink_text(sink, "END_PROGRAM\n");
+}
+
+static void write_part(const struct sink *sink, const struct project *project,
+		       const struct part *part)
+{
+	const struct names *names = &project->names;
+
+	write_above(sink, names, part->comment);
+	switch (part->kind) {
+	case PART_VARS:
+		write_block(sink, names, &project->globals, part->index);
+		break;
+	case PART_POU:
+		write_pou(sink, names, &project->pou[part->index]);
+		break;
+	case PART_VIEW:
+		write_id(sink, names, part->text);
+		sink_text(sink, "\n");
+		break;
+	case PART_INCLUDE:
+		sink_text(sink, "INCLUDE ");
+		write_string(sink, names_text(names, part->text),
+			     names_len(names, part->text));
+		sink_text(sink, "\n");
+		break;
+	}
+}
+
+/* Without a title there is no PROJECT line to stand above: the head then goes to
+ * the first part, where reading finds it. */
+static void write_all(const struct sink *sink, const struct project *project)
+{
+	const struct names *names = &project->names;
+	uint32_t head = project->head;
+
+	sink_text(sink, "RUNGBOARD 1\n");
+	if (project->title) {
+		write_above(sink, names, head);
+		head = 0;
+		sink_text(sink, "PROJECT ");
+		write_string(sink, names_text(names, project->title),
+			     names_len(names, project->title));
+		sink_text(sink, "\n");
+	}
+	for (int i = 0; i < project->part_count; i++) {
+		if (project->part[i].included)
+			continue;
+		sink_text(sink, "\n");
+		write_above(sink, names, head);
+		head = 0;
+		write_part(sink, project, &project->part[i]);
+	}
+	if (!head && !project->tail)
+		return;
+	sink_text(sink, "\n");
+	write_above(sink, names, head);
+	write_above(sink, names, project->tail);
+}
+
+char *text_write(const struct project *project, size_t *len)
+{
+	struct sink_memory memory;
+
+	sink_memory_init(&memory);
+	const struct sink sink = sink_to_memory(&memory);
+
+	write_all(&sink, project);
+	if (memory.failed) {
+		sink_memory_free(&memory);
+		return NULL;
+	}
+	*len = memory.len;
+	return memory.text;
+}

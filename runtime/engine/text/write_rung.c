@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * write_rung - a rung as rows of cells between aligned bars.
+ *
+ * Widths are those a terminal shows, so that bars stay aligned behind Chinese
+ * comments. It writes what stands in the grid, right or wrong.
+ */
+#include "engine/text/writer.h"
+
+#include "engine/base/lex.h"
+#include "engine/text/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void write_behind(const struct sink *sink, const struct names *names,
+			 uint32_t id)
+{
+	if (!id)
+		return;
+	sink_text(sink, " ");
+	write_id(sink, names, id);
+}
+
+static void write_element(const struct sink *sink, const struct names *names,
+			  const struct cell *cell, const struct word_row *row)
+{
+	switch (row->operand) {
+	case OPND_EXPR:
+	case OPND_ASSIGN:
+		sink_text(sink, "[");
+		write_behind(sink, names, cell->operand);
+		sink_text(sink, " ]");
+		return;
+	case OPND_PIN:
+		sink_text(sink, row->word);
+		write_id(sink, names, cell->operand);
+		return;
+	case OPND_NONE:
+	case OPND_BOOL_R:
+	case OPND_BOOL_W:
+	case OPND_ANY_R:
+	case OPND_ANY_W:
+	case OPND_LABEL:
+	case OPND_INSTANCE:
+		sink_text(sink, row->word);
+		write_behind(sink, names, cell->operand);
+		write_behind(sink, names, cell->args);
+		return;
+	}
+}
+
+void write_cell(const struct sink *sink, const struct names *names,
+		const struct cell *cell)
+{
+	if (cell->word != ELEM_EMPTY && cell->word < WORD_COUNT)
+		write_element(sink, names, cell,
+			      word_row((enum word)cell->word));
+}
+
+/* With its comment, and the blank before a link. */
+static void write_whole(const struct sink *sink, const struct names *names,
+			const struct cell *cell)
+{
+	write_cell(sink, names, cell);
+	if (cell->comment) {
+		if (cell->word != ELEM_EMPTY)
+			sink_text(sink, " ");
+		write_id(sink, names, cell->comment);
+	}
+	if (cell->link && (cell->word != ELEM_EMPTY || cell->comment))
+		sink_text(sink, " ");
+}
+
+/* ---- widths ---- */
+
+static void count_width(void *context, const char *text, size_t len)
+{
+	*(int *)context += utf8_width(text, len);
+}
+
+static int cell_width(const struct names *names, const struct cell *cell)
+{
+	int width = 0;
+	const struct sink sink = { count_width, &width };
+
+	write_whole(&sink, names, cell);
+	return width;
+}
+
+static bool is_blank(const struct cell *cell)
+{
+	return cell->word == ELEM_EMPTY && !cell->link && !cell->comment;
+}
+
+/* Cells of a row up to the last one that says something; one at least. */
+static int row_cols(const struct rung *rung, int row)
+{
+	int cols = rung->cols;
+
+	while (cols > 1 && is_blank(rung_at(rung, row, cols - 1)))
+		cols--;
+	return cols;
+}
+
+/* An empty rung of one row is written without it. */
+static int rows_to_write(const struct rung *rung)
+{
+	if (rung->rows == 1 && row_cols(rung, 0) == 1 &&
+	    is_blank(rung_at(rung, 0, 0)))
+		return 0;
+	return rung->rows;
+}
+
+/* ---- rows ---- */
+
+static void write_row(const struct sink *sink, const struct names *names,
+		      const struct rung *rung, int row, const int *widths)
+{
+	const int cols = row_cols(rung, row);
+
+	sink_text(sink, "  |");
+	for (int col = 0; col < cols; col++) {
+		const struct cell *cell = rung_at(rung, row, col);
+
+		sink_text(sink, " ");
+		write_whole(sink, names, cell);
+		sink_repeat(sink, " ", widths[col] - cell_width(names, cell));
+		sink_text(sink, cell->link ? "^|" : " |");
+	}
+	sink_text(sink, "\n");
+}
+
+static void write_rows(const struct sink *sink, const struct names *names,
+		       const struct rung *rung)
+{
+	const int rows = rows_to_write(rung);
+	int widths[LIMIT_COLS] = { 0 };
+
+	for (int row = 0; row < rows; row++) {
+		for (int col = 0; col < rung->cols; col++) {
+			int width = cell_width(names, rung_at(rung, row, col));
+
+			if (width > widths[col])
+				widths[col] = width;
+		}
+	}
+	for (int row = 0; row < rows; row++)
+		write_row(sink, names, rung, row, widths);
+}
+
+void write_rung(const struct sink *sink, const struct names *names,
+		const struct rung *rung)
+{
+	write_above(sink, names, rung->comment);
+	sink_text(sink, rung->off ? "RUNG OFF" : "RUNG");
+	write_behind(sink, names, rung->label);
+	if (rung->title) {
+		sink_text(sink, " ");
+		write_string(sink, names_text(names, rung->title),
+			     names_len(names, rung->title));
+	}
+	sink_text(sink, "\n");
+	write_rows(sink, names, rung);
+}
+
+/* ---- one rung, one cell ---- */
+
+char *text_write_rung(const struct project *project, const struct rung *rung)
+{
+	struct sink_memory memory;
+
+	sink_memory_init(&memory);
+	const struct sink sink = sink_to_memory(&memory);
+
+	write_rung(&sink, &project->names, rung);
+	if (memory.failed)
+		sink_memory_free(&memory);
+	return memory.text;
+}
+
+struct bounded {
+	char *out;
+	size_t size, len; /* len counts what did not fit, too                 */
+};
+
+static void write_bounded(void *context, const char *text, size_t len)
+{
+	struct bounded *bounded = context;
+
+	if (bounded->len + 1 < bounded->size) {
+		size_t room = bounded->size - 1 - bounded->len;
+		size_t part = len < room ? len : room;
+
+		memcpy(bounded->out + bounded->len, text, part);
+		bounded->out[bounded->len + part] = '\0';
+	}
+	bounded->len += len;
+}
+
+int text_write_cell(const struct project *project, const struct cell *cell,
+		    char *out, size_t size)
+{
+	struct bounded bounded = { out, size, 0 };
+	const struct sink sink = { write_bounded, &bounded };
+
+	if (size > 0)
+		out[0] = '\0';
+	write_cell(&sink, &project->names, cell);
+	return (int)bounded.len;
+}

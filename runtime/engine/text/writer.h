@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * writer - what the files that write the canonical text share.
+ *
+ * Everything goes to a sink in whole strings; nothing is judged or left out.
+ */
+#ifndef TEXT_WRITER_H
+#define TEXT_WRITER_H
+
+#include "engine/base/sink.h"
+#include "engine/model/project.h"
+
+/** write_id - the string of @id. */
+void write_id(const struct sink *sink, const struct names *names, uint32_t id);
+/** write_above - comments and a newline, or nothing. */
+void write_above(const struct sink *sink, const struct names *names,
+		 uint32_t comment);
+/** write_string - "…" with its escapes. */
+void write_string(const struct sink *sink, const char *text, size_t len);
+/** write_width - columns the string of @id takes. */
+int write_width(const struct names *names, uint32_t id);
+
+/** write_rung - comments, RUNG line and rows. */
+void write_rung(const struct sink *sink, const struct names *names,
+		const struct rung *rung);
+/** write_cell - an element, without comment. */
+void write_cell(const struct sink *sink, const struct names *names,
+		const struct cell *cell);
+#endif
