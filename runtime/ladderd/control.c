@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * control - text for people and scripts: `word: value` lines. No allocation, no
+ * stdio stream.
+ */
+#include "ladderd/control.h"
+
+#include "engine/base/digest.h"
+
+#include <poll.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define BLOCK_BYTES 780 /* less than a pipe takes at once */
+
+struct block {
+	char text[BLOCK_BYTES];
+	size_t len;
+};
+
+static void add(struct block *block, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+
+static void add(struct block *block, const char *format, ...)
+{
+	size_t room = sizeof(block->text) - block->len;
+	va_list args;
+	int len;
+
+	va_start(args, format);
+	len = vsnprintf(block->text + block->len, room, format, args);
+	va_end(args);
+	if (len > 0)
+		block->len += (size_t)len < room ? (size_t)len : room - 1;
+}
+
+static void put(int fd, const char *text, size_t len, bool wait)
+{
+	struct pollfd ready = { .fd = fd, .events = POLLOUT };
+	ssize_t done;
+
+	if (!wait && poll(&ready, 1, 0) != 1)
+		return;
+	while (len > 0 && (done = write(fd, text, len)) > 0) {
+		text += done;
+		len -= (size_t)done;
+		if (!wait)
+			return;
+	}
+}
+
+/* Microseconds with one decimal, without floating point. */
+static void add_us(struct block *block, const char *word, int64_t ns)
+{
+	add(block, "%s %lld.%lld us", word, (long long)(ns / 1000),
+	    (long long)(ns % 1000 / 100));
+}
+
+static void add_times(struct block *block, const char *word,
+		      const struct stats *stats)
+{
+	add_us(block, word, stats->last_ns);
+	add_us(block, ", mean", stats_mean(stats));
+	add_us(block, ", max", stats->max_ns);
+	add_us(block, ", p99", stats_p99(stats));
+	add(block, "\n");
+}
+
+static void add_place(struct block *block, const struct fault_place *at)
+{
+	if (at->rung == 0)
+		return;
+	add(block, ", %.60s rung %u", at->pou, (unsigned)at->rung);
+	if (at->row)
+		add(block, " (%u,%u)", (unsigned)at->row, (unsigned)at->col);
+}
+
+static void add_state(struct block *block, const struct resource *resource)
+{
+	static const char *const state[] = {
+		[STATE_STOP] = "STOP", [STATE_RUN] = "RUN",
+		[STATE_FAULT] = "FAULT",
+	};
+
+	add(block, "state: %s\nfault: %s", state[resource->state],
+	    resource->fault == FAULT_NONE ? "none" :
+					    fault_text(resource->fault));
+	add_place(block, &resource->fault_at);
+	add(block, "\nerrors: %u", (unsigned)resource->vm.errors);
+	add_place(block, &resource->error_at);
+	add(block, "\nforces: %d\n", resource->image.force_count);
+}
+
+static void add_io(struct block *block, const struct hal *hal)
+{
+	static const char *const quality[] = {
+		[QUALITY_GOOD] = "good", [QUALITY_STALE] = "stale",
+		[QUALITY_FAULT] = "fault",
+	};
+
+	add(block, "io: %s, %d lines in %u requests, %llu calls failed, "
+	    "%llu reopened\n", quality[hal_quality(hal)], hal->map->count,
+	    (unsigned)hal->request_count, (unsigned long long)hal->failed,
+	    (unsigned long long)hal->reopened);
+}
+
+void control_status(const struct cycle *cycle, bool wait)
+{
+	const struct program *program = cycle->resource.image.program;
+	struct block block = { .len = 0 };
+	char hash[65];
+
+	digest_hex(program->sha256, sizeof(program->sha256), hash);
+	add_state(&block, &cycle->resource);
+	add(&block, "scans: %llu\n", (unsigned long long)cycle->scans);
+	add_us(&block, "period:", cycle->period_ns);
+	add_times(&block, "\nscan: last", &cycle->scan);
+	add_times(&block, "wake-up: last", &cycle->wake);
+	add(&block, "late: %llu\nresets: %llu\n",
+	    (unsigned long long)cycle->late,
+	    (unsigned long long)cycle->resets);
+	add_io(&block, &cycle->hal);
+	add(&block, "board: %.60s\nprogram: %s\n\n", cycle->board, hash);
+	put(STDOUT_FILENO, block.text, block.len, wait);
+}
+
+void control_tell(const char *text)
+{
+	struct block block = { .len = 0 };
+
+	add(&block, "ladderd: %s\n", text);
+	put(STDERR_FILENO, block.text, block.len, false);
+}
+
+void control_tell_fault(const struct cycle *cycle)
+{
+	const struct resource *resource = &cycle->resource;
+	struct block block = { .len = 0 };
+
+	add(&block, "ladderd: FAULT, outputs are safe: %s",
+	    fault_text(resource->fault));
+	add_place(&block, &resource->fault_at);
+	add(&block, "\n");
+	put(STDERR_FILENO, block.text, block.len, false);
+}
+
+void control_trace(void *context, const struct io_point *point, bool value)
+{
+	char text[24] = "%QX";
+	size_t len = 3;
+	uint32_t byte = point->addr.byte, unit = 1;
+
+	(void)context;
+	while (byte / unit >= 10)
+		unit *= 10;
+	for (; unit > 0; unit /= 10)
+		text[len++] = (char)('0' + byte / unit % 10);
+	text[len++] = '.';
+	text[len++] = (char)('0' + point->addr.bit);
+	text[len++] = ' ';
+	text[len++] = value ? '1' : '0';
+	text[len++] = '\n';
+	put(STDERR_FILENO, text, len, false);
+}

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cycle - absolute deadlines, the two thresholds of the watchdog, the latched
+ * fault. A fault holds the safe outputs until a reset, and a reset works only when
+ * all lines answer.
+ */
+#include "ladderd/control.h"
+
+#include <errno.h>
+#include <time.h>
+
+#define SLICE_NS 100000000  /* longest sleep without a look at requests */
+#define TEND_NS  1000000000 /* lines in FAULT are looked after so often */
+#define SECOND   INT64_C(1000000000)
+
+static int64_t clock_now(void)
+{
+	struct timespec now;
+
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return now.tv_sec * SECOND + now.tv_nsec;
+}
+
+static void enter_fault(struct cycle *cycle, enum fault fault)
+{
+	resource_fail(&cycle->resource, fault);
+	hal_write_safe(&cycle->hal);
+	cycle->tended_ns = clock_now();
+	control_tell_fault(cycle);
+	notify_send(&cycle->notify, "STATUS=FAULT, outputs are safe");
+}
+
+/* Lines in FAULT: a safe value that did not arrive is tried again, and so is
+ * taking a line that was lost. */
+static void tend_lines(struct cycle *cycle, int64_t now_ns)
+{
+	if (now_ns - cycle->tended_ns < TEND_NS)
+		return;
+	cycle->tended_ns = now_ns;
+	hal_write_safe(&cycle->hal);
+	if (hal_quality(&cycle->hal) == QUALITY_FAULT)
+		hal_reopen(&cycle->hal);
+}
+
+static void reset(struct cycle *cycle)
+{
+	struct resource *resource = &cycle->resource;
+
+	if (resource->state != STATE_FAULT) {
+		control_tell("not in FAULT, nothing to reset");
+		return;
+	}
+	if ((hal_quality(&cycle->hal) == QUALITY_FAULT &&
+	     !hal_reopen(&cycle->hal)) || !hal_write_safe(&cycle->hal)) {
+		control_tell("no reset: a line does not answer");
+		return;
+	}
+	resource_stop(resource);
+	resource_start(resource);
+	cycle->monitor.tripped = 0;
+	cycle->late_row = 0;
+	cycle->resets++;
+	hal_release(&cycle->hal);
+	control_tell("reset, RUN");
+	notify_send(&cycle->notify, "STATUS=RUN");
+}
+
+static void serve_requests(struct cycle *cycle)
+{
+	struct requests *requests = cycle->requests;
+
+	if (requests->status) {
+		requests->status = 0;
+		control_status(cycle, false);
+	}
+	if (requests->reset) {
+		requests->reset = 0;
+		reset(cycle);
+	}
+}
+
+/* Gives what happened during the reads, the program and the writes of a scan. */
+static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
+{
+	struct resource *resource = &cycle->resource;
+	struct image *image = &resource->image;
+
+	if (!ReadPhysicalInputs(&cycle->hal, image, now_ns))
+		return FAULT_IO;
+	resource->io_fault = hal_quality(&cycle->hal) != QUALITY_GOOD;
+	if (!resource_scan(resource, now_ns))
+		return resource->fault;
+	if (cycle->monitor.tripped)
+		return FAULT_WATCHDOG;
+	return WritePhysicalOutputs(&cycle->hal, image, now_ns) ? FAULT_NONE :
+								  FAULT_IO;
+}
+
+static void count_late(struct cycle *cycle, int64_t *due_ns, int64_t end_ns)
+{
+	int64_t missed;
+
+	*due_ns += cycle->period_ns;
+	cycle->resource.late = end_ns >= *due_ns;
+	if (!cycle->resource.late) {
+		cycle->late_row = 0;
+		return;
+	}
+	missed = (end_ns - *due_ns) / cycle->period_ns + 1;
+	*due_ns += missed * cycle->period_ns;
+	cycle->late += (uint64_t)missed;
+	cycle->late_row++;
+}
+
+static void scan_once(struct cycle *cycle, int64_t *due_ns)
+{
+	struct resource *resource = &cycle->resource;
+	int64_t begin_ns = clock_now(), took_ns;
+	enum fault fault;
+
+	stats_add(&cycle->wake, begin_ns - *due_ns);
+	monitor_begin(&cycle->monitor);
+	fault = scan_lines(cycle, begin_ns);
+	monitor_end(&cycle->monitor);
+	took_ns = clock_now() - begin_ns;
+	stats_add(&cycle->scan, took_ns);
+	cycle->scans++;
+	resource->scan_us = (uint32_t)(took_ns / 1000);
+	if (resource->scan_us > resource->scan_max_us)
+		resource->scan_max_us = resource->scan_us;
+	count_late(cycle, due_ns, begin_ns + took_ns);
+	if (fault == FAULT_NONE &&
+	    (cycle->monitor.tripped || cycle->late_row >= cycle->watchdog ||
+	     took_ns >= cycle->watchdog * cycle->period_ns))
+		fault = FAULT_WATCHDOG;
+	if (fault != FAULT_NONE)
+		enter_fault(cycle, fault);
+}
+
+/* Sleeps until @due_ns, awake for requests. */
+static void wait_until(struct cycle *cycle, int64_t due_ns)
+{
+	for (;;) {
+		int64_t now_ns = clock_now(), until_ns = due_ns;
+		struct timespec until;
+
+		notify_feed(&cycle->notify, now_ns);
+		serve_requests(cycle);
+		if (cycle->requests->stop || now_ns >= due_ns)
+			return;
+		if (until_ns - now_ns > SLICE_NS)
+			until_ns = now_ns + SLICE_NS;
+		until.tv_sec = until_ns / SECOND;
+		until.tv_nsec = until_ns % SECOND;
+		cycle->clock_error = clock_nanosleep(CLOCK_MONOTONIC,
+						     TIMER_ABSTIME, &until,
+						     NULL);
+		if (cycle->clock_error == EINTR)
+			cycle->clock_error = 0;
+		if (cycle->clock_error)
+			return;
+	}
+}
+
+static bool is_done(const struct cycle *cycle)
+{
+	if (cycle->requests->stop || cycle->clock_error)
+		return true;
+	if (!cycle->most_scans)
+		return false;
+	return cycle->scans >= cycle->most_scans ||
+	       cycle->resource.state == STATE_FAULT;
+}
+
+int cycle_run(struct cycle *cycle)
+{
+	int64_t due_ns = clock_now();
+	bool ready = false, was_fault = false;
+
+	resource_start(&cycle->resource);
+	while (!is_done(cycle)) {
+		if (cycle->resource.state == STATE_RUN) {
+			if (was_fault)
+				due_ns = clock_now();
+			was_fault = false;
+			scan_once(cycle, &due_ns);
+		} else {
+			was_fault = true;
+			tend_lines(cycle, clock_now());
+			due_ns = clock_now() + SLICE_NS;
+		}
+		if (!ready)
+			notify_send(&cycle->notify, "READY=1");
+		ready = true;
+		if (!is_done(cycle))
+			wait_until(cycle, due_ns);
+	}
+	notify_send(&cycle->notify, "STOPPING=1");
+	serve_requests(cycle);
+	resource_stop(&cycle->resource);
+	return cycle->resource.state == STATE_FAULT || cycle->clock_error;
+}

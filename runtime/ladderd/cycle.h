@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cycle - one scan after the other, each at its absolute time.
+ *
+ * The only place of the runtime that reads a clock. It never catches up: periods
+ * that were missed are counted and left out. It allocates nothing and opens
+ * nothing but lines that were lost, and those only in FAULT.
+ */
+#ifndef LADDERD_CYCLE_H
+#define LADDERD_CYCLE_H
+
+#include "engine/scan/resource.h"
+#include "ladderd/notify.h"
+#include "ladderd/safe.h"
+#include "ladderd/stats.h"
+
+struct cycle {
+	struct resource resource;
+	struct hal hal;
+	struct monitor monitor;
+	struct notify notify;
+	struct requests *requests;
+	const char *board;
+	int64_t period_ns;
+	int64_t watchdog;      /* periods: late in a row, or of one scan      */
+	uint64_t most_scans;   /* 0: until it is stopped                      */
+	/* Since the daemon began. */
+	uint64_t scans;
+	uint64_t late;         /* periods that were left out                  */
+	uint64_t resets;       /* of a latched fault                          */
+	int64_t late_row;      /* scans in a row that were late               */
+	struct stats scan, wake;
+	int64_t tended_ns;     /* lines, in FAULT                             */
+	int clock_error;       /* errno of a clock that does not work         */
+};
+
+/**
+ * cycle_run - scans until a stop is asked for, or most_scans are done
+ *
+ * The HAL is open, its outputs are safe, the resource is initialised. Afterwards
+ * it is in STOP or FAULT; the caller drives the safe outputs (hal_close).
+ * Returns the exit status: 1 if it ended in FAULT, else 0.
+ */
+int cycle_run(struct cycle *cycle);
+#endif

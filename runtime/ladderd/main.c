@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * main - ladderd, the runtime: loads a program and an I/O map, takes the lines,
+ * scans until it is told to stop, and leaves safe outputs behind. It has no
+ * network and needs no user but the one that may open the lines.
+ */
+#include "hal/drivers.h"
+#include "ladderd/control.h"
+#include "ladderd/load.h"
+#include "ladderd/options.h"
+
+#include <errno.h>
+#include <sched.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+
+#define STACK_BYTES 8192 /* of the scan; frames are bounded by the build */
+
+struct daemon {
+	struct options options;
+	struct load load;
+	struct cycle cycle;
+};
+
+static void print_diags(const struct diag_list *list)
+{
+	char text[600];
+
+	for (int i = 0; i < list->count; i++) {
+		diag_print(&list->diag[i], text, sizeof(text));
+		fprintf(stderr, "%s\n", text);
+	}
+	if (list->dropped)
+		fprintf(stderr, "ladderd: %d more\n", list->dropped);
+}
+
+static void print_all_diags(const struct daemon *daemon)
+{
+	if (daemon->load.ladder)
+		print_diags(ladder_diags(daemon->load.ladder));
+	print_diags(&daemon->load.diags);
+}
+
+static void print_memory(const struct daemon *daemon)
+{
+	const struct load *load = &daemon->load;
+	const struct program *program = ladder_program(load->ladder);
+	size_t code;
+
+	ladder_image(load->ladder, &code);
+	printf("code: %zu bytes\n", code);
+	printf("data: %zu bytes\n", image_memory_size(program));
+	printf("hal: at most %zu bytes, %d lines\n", hal_memory(&load->map),
+	       load->map.count);
+	printf("runtime: %zu bytes\n", sizeof(*daemon) + SAFE_STACK_BYTES);
+	printf("stack: at most %d bytes\n", STACK_BYTES);
+	printf("loaded text and translation: %zu bytes\n",
+	       ladder_memory(load->ladder));
+}
+
+/* Memory was written while loading, deeper stack used than a scan needs: what is
+ * locked now is there. A target that cannot lock (no MMU) says ENOSYS. */
+static void make_real_time(int priority)
+{
+	struct sched_param wanted = { .sched_priority = priority };
+
+	if (sched_setscheduler(0, SCHED_FIFO, &wanted) != 0)
+		fprintf(stderr, "ladderd: no real-time priority: %s\n",
+			strerror(errno));
+	if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0 && errno != ENOSYS)
+		fprintf(stderr, "ladderd: memory is not locked: %s\n",
+			strerror(errno));
+}
+
+static int run_lines(struct daemon *daemon)
+{
+	struct cycle *cycle = &daemon->cycle;
+	int error, status = 1;
+
+	error = monitor_start(&cycle->monitor, &cycle->hal, cycle->requests,
+			      cycle->watchdog * cycle->period_ns);
+	if (error) {
+		fprintf(stderr, "ladderd: no watchdog timer: %s\n",
+			strerror(-error));
+		return status;
+	}
+	status = cycle_run(cycle);
+	monitor_stop(&cycle->monitor);
+	hal_write_safe(&cycle->hal);
+	if (cycle->clock_error)
+		fprintf(stderr, "ladderd: no clock: %s\n",
+			strerror(cycle->clock_error));
+	if (cycle->most_scans)
+		control_status(cycle, true);
+	return status;
+}
+
+static int run(struct daemon *daemon)
+{
+	const struct options *options = &daemon->options;
+	struct load *load = &daemon->load;
+	struct cycle *cycle = &daemon->cycle;
+	const struct program *program = ladder_program(load->ladder);
+	void *memory = arena_alloc(&load->arena, image_memory_size(program));
+	void *stack = arena_alloc(&load->arena, SAFE_STACK_BYTES);
+	int status, error;
+
+	if (!memory || !stack) {
+		fprintf(stderr, "ladderd: out of memory\n");
+		return 1;
+	}
+	resource_init(&cycle->resource, program, memory);
+	cycle->board = load->map.board;
+	cycle->period_ns = options->period_ns;
+	cycle->watchdog = options->watchdog;
+	cycle->most_scans = options->scans;
+	cycle->requests = requests_listen();
+	error = notify_open(&cycle->notify);
+	if (error)
+		fprintf(stderr, "ladderd: NOTIFY_SOCKET: %s\n",
+			strerror(-error));
+	if (!hal_open(&cycle->hal, &load->map, &load->arena, &load->diags)) {
+		print_diags(&load->diags);
+		notify_close(&cycle->notify);
+		return 1;
+	}
+	if (options->trace_io)
+		cycle->hal.trace = control_trace;
+	safe_on_crash(&cycle->hal, stack);
+	if (options->priority)
+		make_real_time(options->priority);
+	status = run_lines(daemon);
+	safe_on_crash(NULL, NULL);
+	hal_close(&cycle->hal);
+	notify_close(&cycle->notify);
+	return status;
+}
+
+static int load_and_run(struct daemon *daemon)
+{
+	const struct options *options = &daemon->options;
+	struct load *load = &daemon->load;
+	bool good = load_files(load, options->file, options->map);
+
+	if (good && options->check)
+		good = hal_supported(&load->map, &load->diags);
+	print_all_diags(daemon);
+	diag_init(&load->diags);
+	if (!good)
+		return load->unreadable ? 2 : 1;
+	if (!options->check)
+		return run(daemon);
+	print_memory(daemon);
+	return fflush(stdout) == 0 ? 0 : 1;
+}
+
+int main(int argc, char **argv)
+{
+	struct daemon *daemon = calloc(1, sizeof(*daemon));
+	int status;
+
+	if (!daemon) {
+		fprintf(stderr, "ladderd: out of memory\n");
+		return 1;
+	}
+	if (!options_read(&daemon->options, argc, argv)) {
+		fprintf(stderr, "ladderd: %s: %s\nTry `ladderd --help`.\n",
+			daemon->options.wrong, daemon->options.why);
+		status = 2;
+	} else if (daemon->options.help) {
+		status = fputs(options_help(), stdout) < 0;
+	} else if (daemon->options.version) {
+		status = printf("ladderd %s, gpio through libgpiod: %s\n",
+				LADDER_VERSION, gpio_version()) < 0;
+	} else {
+		status = load_and_run(daemon);
+		load_free(&daemon->load);
+	}
+	free(daemon);
+	return status;
+}

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * safe - signal handlers: requests from outside, the watchdog's timer, crashes.
+ * A handler reaches its own two objects below and what the timer points to.
+ */
+#define _XOPEN_SOURCE 700 /* sigaltstack */
+
+#include "ladderd/safe.h"
+
+#include <errno.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Signals have no argument: these are the only objects with static storage that
+ * change. */
+static struct requests requests;
+static struct hal *volatile crash_hal;
+
+static void on_request(int signal_number)
+{
+	if (signal_number == SIGUSR1)
+		requests.status = 1;
+	else if (signal_number == SIGHUP)
+		requests.reset = 1;
+	else
+		requests.stop = 1;
+}
+
+static void listen_to(int signal_number, void (*handler)(int))
+{
+	struct sigaction action;
+
+	memset(&action, 0, sizeof(action));
+	action.sa_handler = handler;
+	sigemptyset(&action.sa_mask);
+	sigaction(signal_number, &action, NULL);
+}
+
+struct requests *requests_listen(void)
+{
+	listen_to(SIGINT, on_request);
+	listen_to(SIGTERM, on_request);
+	listen_to(SIGUSR1, on_request);
+	listen_to(SIGHUP, on_request);
+	listen_to(SIGPIPE, SIG_IGN);
+	return &requests;
+}
+
+/* The first tick that sees a scan starts its time; the second one after it finds
+ * the limit gone. */
+static void on_tick(int signal_number, siginfo_t *about, void *context)
+{
+	struct monitor *monitor;
+	int error = errno;
+
+	(void)signal_number, (void)context;
+	if (about->si_code != SI_TIMER)
+		return;
+	monitor = about->si_value.sival_ptr;
+	if (!(monitor->scan & 1) || monitor->scan != monitor->seen) {
+		monitor->seen = monitor->scan;
+		monitor->still = 0;
+	} else if (++monitor->still >= 2) {
+		monitor->tripped = 1;
+		hal_write_safe(monitor->hal);
+		if (monitor->requests->stop)
+			_exit(1);
+	}
+	errno = error;
+}
+
+int monitor_start(struct monitor *monitor, struct hal *hal,
+		  const struct requests *asked, int64_t limit_ns)
+{
+	struct sigaction action;
+	struct sigevent event;
+	struct itimerspec tick;
+
+	memset(monitor, 0, sizeof(*monitor));
+	monitor->hal = hal;
+	monitor->requests = asked;
+	memset(&action, 0, sizeof(action));
+	action.sa_sigaction = on_tick;
+	action.sa_flags = SA_SIGINFO | SA_RESTART;
+	sigemptyset(&action.sa_mask);
+	if (sigaction(SIGALRM, &action, NULL) != 0)
+		return -errno;
+	memset(&event, 0, sizeof(event));
+	event.sigev_notify = SIGEV_SIGNAL;
+	event.sigev_signo = SIGALRM;
+	event.sigev_value.sival_ptr = monitor;
+	if (timer_create(CLOCK_MONOTONIC, &event, &monitor->timer) != 0)
+		return -errno;
+	tick.it_value.tv_sec = limit_ns / 2 / 1000000000;
+	tick.it_value.tv_nsec = limit_ns / 2 % 1000000000;
+	tick.it_interval = tick.it_value;
+	return timer_settime(monitor->timer, 0, &tick, NULL) ? -errno : 0;
+}
+
+void monitor_stop(struct monitor *monitor)
+{
+	timer_delete(monitor->timer);
+}
+
+void monitor_begin(struct monitor *monitor)
+{
+	monitor->scan = (monitor->scan + 1) & 0xffff;
+}
+
+void monitor_end(struct monitor *monitor)
+{
+	monitor->scan = (monitor->scan + 1) & 0xffff;
+}
+
+/* The action was set back to the default before the handler ran. */
+static void on_crash(int signal_number)
+{
+	struct hal *hal = crash_hal;
+
+	crash_hal = NULL;
+	if (hal)
+		hal_write_safe(hal);
+	raise(signal_number);
+}
+
+void safe_on_crash(struct hal *hal, void *stack)
+{
+	static const int deadly[] = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
+	stack_t alternate = { .ss_sp = stack, .ss_size = SAFE_STACK_BYTES };
+	struct sigaction action;
+
+	crash_hal = stack ? hal : NULL;
+	if (!stack || sigaltstack(&alternate, NULL) != 0)
+		return;
+	memset(&action, 0, sizeof(action));
+	action.sa_handler = on_crash;
+	action.sa_flags = (int)(SA_RESETHAND | SA_NODEFER | SA_ONSTACK);
+	sigemptyset(&action.sa_mask);
+	for (size_t i = 0; i < sizeof(deadly) / sizeof(deadly[0]); i++)
+		sigaction(deadly[i], &action, NULL);
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * stats - counts times in buckets: below 16 ns one each, above it eight to every
+ * doubling, up to some 18 minutes.
+ */
+#include "ladderd/stats.h"
+
+#define EXACT   16
+#define OCTAVE0 4 /* log2 of EXACT */
+
+static unsigned bucket_of(uint64_t ns)
+{
+	unsigned octave, bucket;
+
+	if (ns < EXACT)
+		return (unsigned)ns;
+	octave = 63u - (unsigned)__builtin_clzll(ns);
+	bucket = EXACT + (octave - OCTAVE0) * 8 +
+		 (unsigned)(ns >> (octave - 3) & 7);
+	return bucket < STATS_BUCKETS ? bucket : STATS_BUCKETS - 1;
+}
+
+/* The largest time that falls into a bucket. */
+static int64_t bucket_end(unsigned bucket)
+{
+	unsigned octave;
+
+	if (bucket < EXACT)
+		return bucket;
+	octave = OCTAVE0 + (bucket - EXACT) / 8;
+	return ((int64_t)(8 + (bucket - EXACT) % 8 + 1) << (octave - 3)) - 1;
+}
+
+void stats_add(struct stats *stats, int64_t ns)
+{
+	if (ns < 0)
+		ns = 0;
+	stats->last_ns = ns;
+	stats->sum_ns += ns;
+	stats->count++;
+	if (ns > stats->max_ns)
+		stats->max_ns = ns;
+	stats->bucket[bucket_of((uint64_t)ns)]++;
+}
+
+int64_t stats_mean(const struct stats *stats)
+{
+	return stats->count ? stats->sum_ns / (int64_t)stats->count : 0;
+}
+
+int64_t stats_p99(const struct stats *stats)
+{
+	uint64_t above = stats->count / 100; /* this many may have taken longer */
+	uint64_t seen = 0;
+
+	for (unsigned i = STATS_BUCKETS; i-- > 0;) {
+		seen += stats->bucket[i];
+		if (seen > above)
+			return bucket_end(i) < stats->max_ns ? bucket_end(i) :
+							       stats->max_ns;
+	}
+	return 0;
+}
