@@ -166,15 +166,18 @@ static void place_short(struct iec_addr *addr, uint32_t number, uint32_t *bit)
 static enum iec_addr_result parse_marker_bit(struct rest rest,
 					     struct iec_addr *out)
 {
+	struct iec_addr addr = { .area = AREA_M };
 	uint32_t number, bit = 0;
 
 	rest.at++;
 	if (!take_number(&rest, &number) || rest.at != rest.end)
 		return ADDR_NONE;
-	*out = (struct iec_addr){ .area = AREA_M };
-	place_short(out, number, &bit);
-	out->bit = (uint8_t)bit;
-	return check_range(*out, bit);
+	place_short(&addr, number, &bit);
+	addr.bit = (uint8_t)bit;
+	if (check_range(addr, bit) != ADDR_OK)
+		return ADDR_RANGE;
+	*out = addr;
+	return ADDR_OK;
 }
 
 enum iec_addr_result iec_addr_parse(const char *text, size_t len,

@@ -157,9 +157,8 @@ static const char *skip_number(const char *start, const char *at,
 	}
 }
 
-/* Behind the closing quote; NULL: the line ends first, *@stop is there. */
-static const char *skip_string(const char *at, const char *end,
-			       const char **stop)
+/* Behind the closing quote; NULL: the line ends first. */
+static const char *skip_string(const char *at, const char *end)
 {
 	for (at++; at != end && *at != '\n'; at++) {
 		if (*at == '"')
@@ -167,7 +166,6 @@ static const char *skip_string(const char *at, const char *end,
 		if (*at == '$' && end - at >= 2 && at[1] != '\n')
 			at++;
 	}
-	*stop = at;
 	return NULL;
 }
 
@@ -223,22 +221,21 @@ static size_t symbol_length(const char *at, const char *end)
 /* Comments, strings, addresses and symbols; gives the kind and moves lex->at. */
 static enum token_kind scan_symbol(struct lex *lex)
 {
-	const char *at = lex->at, *end = lex->end, *stop = end;
+	const char *at = lex->at, *end = lex->end, *close;
 	size_t left = (size_t)(end - at);
 
 	if (left >= 2 && at[0] == '(' && at[1] == '*') {
-		stop = skip_comment(lex, at);
-		lex->at = stop ? stop : end;
-		return stop ? TOKEN_COMMENT : TOKEN_BAD;
+		close = skip_comment(lex, at);
+		lex->at = close ? close : end;
+		return close ? TOKEN_COMMENT : TOKEN_BAD;
 	}
 	if (left >= 2 && at[0] == '/' && at[1] == '/') {
 		lex->at = line_end(at, end);
 		return TOKEN_COMMENT;
 	}
 	if (*at == '"') {
-		const char *close = skip_string(at, end, &stop);
-
-		lex->at = close ? close : line_end(at, stop);
+		close = skip_string(at, end);
+		lex->at = close ? close : line_end(at, end);
 		return close ? TOKEN_STRING : TOKEN_BAD;
 	}
 	if (*at == '%' && left >= 2 && class_at(at + 1) == IS_LETTER) {

@@ -320,7 +320,9 @@ static enum literal_result parse_typed(enum iec_type type, struct rest rest,
 	result = parse_number(rest, &untyped);
 	if (result != LITERAL_OK)
 		return result;
-	if (untyped.real && type != IEC_REAL)
+	if (type == IEC_REAL ? memchr(rest.at, '#', (size_t)(rest.end -
+							     rest.at)) != NULL :
+			       untyped.real)
 		return LITERAL_BAD;
 	return literal_fit(&untyped, type, &out->value) ? LITERAL_OK :
 							  LITERAL_RANGE;

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_iec - types widen as the standard says, addresses read and print, values
+ * survive memory, and text of values is the same everywhere.
+ */
+#include "engine/base/iec.h"
+#include "tests/tap.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static void types(void)
+{
+	CHECK(iec_type_find("bool", 4) == IEC_BOOL);
+	CHECK(iec_type_find("Dword", 5) == IEC_DWORD);
+	CHECK(iec_type_find("INTX", 3) == IEC_INT);
+	CHECK(iec_type_find("IN", 2) == IEC_NONE);
+	CHECK(iec_type_find("", 0) == IEC_NONE);
+	CHECK(iec_type_find("LREAL", 5) == IEC_NONE);
+	CHECK(iec_type_row(IEC_UINT)->high == 65535);
+	CHECK(iec_type_row(IEC_SINT)->low == -128);
+	CHECK(iec_type_row(IEC_TIME)->size == 8);
+	CHECK(iec_type_row(IEC_NONE)->size == 0);
+	CHECK(iec_type_row(IEC_TYPE_COUNT)->class == 0);
+}
+
+/* The whole table: rows from, columns to, in the order of the enum. */
+static void widening(void)
+{
+	static const char *const table[] = {
+		/* to: BOOL BYTE WORD DWORD SINT INT DINT USINT UINT UDINT REAL
+		 * TIME */
+		/* BOOL */ "100000000000", /* BYTE */  "011100000000",
+		/* WORD */ "001100000000", /* DWORD */ "000100000000",
+		/* SINT */ "000011100010", /* INT */   "000001100010",
+		/* DINT */ "000000100000", /* USINT */ "000001111110",
+		/* UINT */ "000000101110", /* UDINT */ "000000000100",
+		/* REAL */ "000000000010", /* TIME */  "000000000001",
+	};
+	int wrong = 0;
+
+	for (int from = IEC_BOOL; from < IEC_TYPE_COUNT; from++)
+		for (int to = IEC_BOOL; to < IEC_TYPE_COUNT; to++) {
+			bool want = table[from - 1][to - 1] == '1';
+
+			wrong += iec_can_widen((enum iec_type)from,
+					       (enum iec_type)to) != want;
+		}
+	CHECK(wrong == 0);
+	CHECK(!iec_can_widen(IEC_NONE, IEC_INT));
+	CHECK(!iec_can_widen(IEC_INT, IEC_NONE));
+}
+
+static void areas(void)
+{
+	uint32_t at = 0;
+	bool joined = true;
+
+	for (int i = AREA_NONE + 1; i < AREA_COUNT; i++) {
+		const struct iec_area_row *row = iec_area_row((enum iec_area)i);
+
+		joined &= row->offset == at && row->bytes > 0 && row->letters[0];
+		at += row->bytes;
+	}
+	CHECK_AS(joined, "one area behind the other");
+	CHECK(iec_areas_size() == at);
+	CHECK(at <= IEC_AREA_BYTES_MAX);
+	CHECK(iec_area_row(AREA_NONE)->bytes == 0);
+	CHECK(iec_area_row(AREA_COUNT)->bytes == 0);
+	CHECK(iec_area_row(AREA_SM)->access == ACCESS_READ);
+}
+
+static void addresses(void)
+{
+	static const struct {
+		const char *text;
+		enum iec_addr_result result;
+		const char *print;
+	} table[] = {
+		{ "%IX0.3", ADDR_OK, "%IX0.3" }, { "%I0.3", ADDR_OK, "%IX0.3" },
+		{ "I0.3", ADDR_OK, "%IX0.3" },   { "I3", ADDR_OK, "%IX0.3" },
+		{ "Q10", ADDR_OK, "%QX1.2" },    { "q10", ADDR_OK, "%QX1.2" },
+		{ "M5", ADDR_OK, "%MX0.5" },     { "B5", ADDR_OK, "%MX0.5" },
+		{ "MB0", ADDR_OK, "%MB0" },      { "MW4", ADDR_OK, "%MW4" },
+		{ "%md4", ADDR_OK, "%MD4" },     { "V0.3", ADDR_OK, "%VX0.3" },
+		{ "VB35", ADDR_OK, "%VB35" },    { "VW36", ADDR_OK, "%VW36" },
+		{ "VD40", ADDR_OK, "%VD40" },    { "S5", ADDR_OK, "%SX0.5" },
+		{ "SM0.5", ADDR_OK, "%SMX0.5" }, { "SMD8", ADDR_OK, "%SMD8" },
+		{ "SB1", ADDR_OK, "%SB1" },      { "AI3", ADDR_OK, "%AIW6" },
+		{ "AQ0", ADDR_OK, "%AQW0" },     { "AIW6", ADDR_OK, "%AIW6" },
+		{ "XI9", ADDR_OK, "%XIX1.1" },   { "XAQ2", ADDR_OK, "%XAQW4" },
+		{ "%XIX0.1", ADDR_OK, "%XIX0.1" }, { "%MW1", ADDR_OK, "%MW1" },
+		{ "%IB511", ADDR_OK, "%IB511" }, { "I4095", ADDR_OK, "%IX511.7" },
+		{ "%MX3", ADDR_OK, "%MX0.3" },
+		{ "%IB512", ADDR_RANGE, "" },    { "%IW511", ADDR_RANGE, "" },
+		{ "%ID509", ADDR_RANGE, "" },    { "I4096", ADDR_RANGE, "" },
+		{ "%IX0.8", ADDR_RANGE, "" },    { "%MW4.3", ADDR_RANGE, "" },
+		{ "%ML0", ADDR_RANGE, "" },      { "B65536", ADDR_RANGE, "" },
+		{ "%MB99999999999999999999", ADDR_RANGE, "" },
+		{ "%IX0.99999999999999", ADDR_RANGE, "" },
+		{ "%MX4294967296.0", ADDR_RANGE, "" },
+		{ "", ADDR_NONE, "" },      { "%", ADDR_NONE, "" },
+		{ "I", ADDR_NONE, "" },     { "%IX", ADDR_NONE, "" },
+		{ "Motor", ADDR_NONE, "" }, { "M1x", ADDR_NONE, "" },
+		{ "T37", ADDR_NONE, "" },   { "IN1", ADDR_NONE, "" },
+		{ "B", ADDR_NONE, "" },     { "B0.3", ADDR_NONE, "" },
+		{ "%B5", ADDR_NONE, "" },   { "ML0", ADDR_NONE, "" },
+		{ "%IX0.", ADDR_NONE, "" }, { "%IX.3", ADDR_NONE, "" },
+		{ "%IX0.3.1", ADDR_NONE, "" }, { "%IX-1", ADDR_NONE, "" },
+		{ "%%IX0.3", ADDR_NONE, "" }, { "%IX0 ", ADDR_NONE, "" },
+		{ "XYZ", ADDR_NONE, "" },   { "5", ADDR_NONE, "" },
+	};
+
+	for (size_t i = 0; i < sizeof(table) / sizeof(*table); i++) {
+		struct iec_addr addr;
+		char text[32];
+		enum iec_addr_result result =
+			iec_addr_parse(table[i].text, strlen(table[i].text),
+				       &addr);
+
+		iec_addr_print(addr, text, sizeof(text));
+		CHECK_AS(result == table[i].result &&
+			 strcmp(text, table[i].print) == 0, table[i].text);
+	}
+}
+
+static void address_types(void)
+{
+	struct iec_addr addr;
+
+	iec_addr_parse("%IX0.3", 6, &addr);
+	CHECK(iec_addr_type(addr) == IEC_BOOL);
+	iec_addr_parse("%IB0", 4, &addr);
+	CHECK(iec_addr_type(addr) == IEC_BYTE);
+	iec_addr_parse("%IW0", 4, &addr);
+	CHECK(iec_addr_type(addr) == IEC_WORD);
+	iec_addr_parse("%ID0", 4, &addr);
+	CHECK(iec_addr_type(addr) == IEC_DWORD);
+	iec_addr_parse("x", 1, &addr);
+	CHECK(iec_addr_type(addr) == IEC_NONE);
+	addr = (struct iec_addr){ AREA_M, 64, 0, 0 };
+	CHECK(iec_addr_type(addr) == IEC_NONE);
+}
+
+static void memory(void)
+{
+	uint8_t bytes[12];
+	bool good = true;
+
+	for (int type = IEC_BOOL; type < IEC_TYPE_COUNT; type++) {
+		const struct iec_type_row *row = iec_type_row((enum iec_type)type);
+		union iec_value value = { .i = row->low };
+
+		if (row->class == CLASS_REAL)
+			value.r = -1.5;
+		memset(bytes, 0xee, sizeof(bytes));
+		iec_store(bytes + 1, (enum iec_type)type, value);
+		good &= bytes[0] == 0xee && bytes[1 + row->size] == 0xee;
+		good &= iec_load(bytes + 1, (enum iec_type)type).i == value.i;
+		if (row->class == CLASS_REAL)
+			continue;
+		value.i = row->high;
+		iec_store(bytes + 1, (enum iec_type)type, value);
+		good &= iec_load(bytes + 1, (enum iec_type)type).i == row->high;
+	}
+	CHECK_AS(good, "every type, unaligned, within its bytes");
+	iec_store(bytes, IEC_DWORD, (union iec_value){ .i = 0x01020304 });
+	CHECK_AS(bytes[0] == 4 && bytes[3] == 1, "little-endian");
+	iec_store(bytes, IEC_INT, (union iec_value){ .i = 0x18001 });
+	CHECK_AS(iec_load(bytes, IEC_INT).i == -32767, "keeps the low bits");
+	iec_store(bytes, IEC_BOOL, (union iec_value){ .i = 3 });
+	CHECK_AS(bytes[0] == 1, "a BOOL in memory is 0 or 1");
+	CHECK(iec_load(bytes, IEC_NONE).i == 0);
+	bytes[0] = 0x77;
+	iec_store(bytes, IEC_NONE, (union iec_value){ .i = 3 });
+	CHECK(bytes[0] == 0x77);
+}
+
+static const char *real(double value)
+{
+	static char text[40];
+
+	iec_value_print(IEC_REAL, (union iec_value){ .r = value }, text,
+			sizeof(text));
+	return text;
+}
+
+static const char *whole(enum iec_type type, int64_t value)
+{
+	static char text[40];
+
+	iec_value_print(type, (union iec_value){ .i = value }, text,
+			sizeof(text));
+	return text;
+}
+
+static void prints(void)
+{
+	char cut[4];
+
+	CHECK_TEXT(real(0), "0");
+	CHECK_TEXT(real(-0.0), "-0");
+	CHECK_TEXT(real(1), "1");
+	CHECK_TEXT(real(0.1f), "0.1");
+	CHECK_TEXT(real(-2.5), "-2.5");
+	CHECK_TEXT(real(100000), "100000");
+	CHECK_TEXT(real(1e6), "1e+06");
+	CHECK_TEXT(real(1e-5f), "1e-05");
+	CHECK_TEXT(real(0.0001f), "0.0001");
+	CHECK_TEXT(real(16777216), "16777216");
+	CHECK_TEXT(real(1.0f / 3), "0.33333334");
+	CHECK_TEXT(real(3.4028234663852886e38), "3.4028235e+38");
+	CHECK_TEXT(real((double)INFINITY), "inf");
+	CHECK_TEXT(real(-(double)INFINITY), "-inf");
+	CHECK_TEXT(real((double)NAN), "nan");
+	CHECK_TEXT(whole(IEC_BOOL, 1), "1");
+	CHECK_TEXT(whole(IEC_INT, -32768), "-32768");
+	CHECK_TEXT(whole(IEC_DWORD, 4294967295), "4294967295");
+	CHECK_TEXT(whole(IEC_TIME, 1500000000), "1500");
+	CHECK_TEXT(whole(IEC_TIME, 250000), "0.25");
+	CHECK_TEXT(whole(IEC_TIME, 25), "0.000025");
+	CHECK_TEXT(whole(IEC_TIME, -1000001), "-1.000001");
+	CHECK_TEXT(whole(IEC_TIME, INT64_MIN), "-9223372036854.775808");
+	CHECK_TEXT(whole(IEC_NONE, 5), "");
+	CHECK(iec_value_print(IEC_DINT, (union iec_value){ .i = 123456 }, cut,
+			      sizeof(cut)) == 6);
+	CHECK_TEXT(cut, "123");
+}
+
+/* Random bit patterns of a float read back as the same float. */
+static void reals_read_back(void)
+{
+	uint32_t seed = 12345;
+	int wrong = 0;
+
+	for (int i = 0; i < 20000; i++) {
+		float value;
+
+		seed = seed * 1664525u + 1013904223u;
+		memcpy(&value, &seed, sizeof(value));
+		if (!isfinite(value))
+			continue;
+		wrong += strtof(real((double)value), NULL) != value;
+	}
+	CHECK(wrong == 0);
+}
+
+int main(void)
+{
+	types();
+	widening();
+	areas();
+	addresses();
+	address_types();
+	memory();
+	prints();
+	reals_read_back();
+	return tap_done();
+}
