@@ -132,8 +132,9 @@ enum fn_status fn_DIV(struct fn_args *args)
 
 enum fn_status fn_MOD(struct fn_args *args)
 {
-	if (indivisible(args))
+	if (args->in[1].i == 0)
 		return FN_FAILED;
-	args->out.i = args->in[0].i % args->in[1].i;
+	/* By -1 nothing remains; the machine would trap on MIN % -1. */
+	args->out.i = args->in[1].i == -1 ? 0 : args->in[0].i % args->in[1].i;
 	return FN_OK;
 }

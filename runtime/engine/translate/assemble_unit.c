@@ -254,7 +254,8 @@ static void store_number(struct list *list, const struct meaning *m)
 
 	if (now->kind == RESULT_LITERAL) {
 		literal_fit(now->literal, m->type, &value);
-		if (m->kind == MEANING_PIN && layout_written_once(list->as, m)) {
+		if (m->kind == MEANING_PIN && list->straight &&
+		    layout_only_stored(list->as, m)) {
 			if (list->as->text == &list->as->code)
 				layout_init(list->as, spot.offset, m->type, value);
 			return;
@@ -425,6 +426,7 @@ static void flow(struct list *list, const struct il_line *line)
 			list->now.bits = bits_leaf(slot);
 	}
 	list_place(list);
+	list->straight = false;
 	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP, 0);
 	add_fixup(list, target);
 	if (line->modifiers & MOD_C)
@@ -436,6 +438,7 @@ static void set_label(struct list *list, const struct il_line *line)
 	uint32_t id = fold(list, line->operand);
 
 	list->as->open_lut = -1;
+	list->straight = false;
 	list->now.kind = RESULT_NONE;
 	list->pending_count = 0;
 	if (id < list->label_count)
@@ -549,6 +552,7 @@ bool assemble_unit(struct assembler *as, int unit, bool watch)
 	list->pou = u->pou;
 	list->il = watch && u->watch.count ? &u->watch : &u->il;
 	list->types = watch && u->watch.count ? u->watch_types : u->types;
+	list->straight = true;
 	as->open_lut = -1;
 	as->scratch_used = 0;
 	if (!find_labels(list) || !list_count_reads(list))

@@ -80,10 +80,11 @@ uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
 /** layout_init - an initial value at an offset. */
 void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
 		 union iec_value value);
-/** layout_count_pins - counts the writes to every instance pin. */
+/** layout_count_pins - counts the uses of every instance pin. */
 bool layout_count_pins(struct assembler *as);
-/** layout_pin_is_constant - is this pin written in one place only? */
-bool layout_written_once(const struct assembler *as, const struct meaning *pin);
+/** layout_only_stored - is one store all that is ever done with this pin? Then a
+ * constant may be its initial value instead, if that store runs in every scan. */
+bool layout_only_stored(const struct assembler *as, const struct meaning *pin);
 /** layout_table - index of the table a meaning belongs to. */
 int layout_table(const struct assembler *as, const struct meaning *m);
 

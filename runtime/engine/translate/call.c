@@ -263,7 +263,8 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 	pin.pin = word_pin_find(row, name, strlen(name));
 	pin.type = row->pin[pin.pin].type;
 	to = layout_spot(list->as, &pin).offset;
-	if (m->kind == MEANING_LITERAL && layout_written_once(list->as, &pin)) {
+	if (m->kind == MEANING_LITERAL && list->straight &&
+	    layout_only_stored(list->as, &pin)) {
 		literal_fit(&m->literal, pin.type, &value);
 		if (list->as->text == &list->as->code)
 			layout_init(list->as, to, pin.type, value);
@@ -330,8 +331,10 @@ void list_cal(struct list *list)
 	int skip = -1;
 
 	list_protect(list, offset, word_row(fb)->size);
-	if (line->modifiers & MOD_C)
+	if (line->modifiers & MOD_C) {
 		skip = skip_call(list, line);
+		list->straight = false;
+	}
 	for (int i = list->at + 1; is_arg(list, i); i++)
 		if (list->il->line[i].kind == IL_ARG_IN)
 			feed_pin(list, instance, &list->il->line[i]);

@@ -421,12 +421,14 @@ static uint8_t *pin_count(const struct assembler *as, const struct meaning *m)
 	return &as->pin_writes[first + (uint32_t)m->pin];
 }
 
-static void count_write(struct assembler *as, const struct meaning *m)
+/* One store counts one, any other use two: then it is not the only one. */
+static void count_use(struct assembler *as, const struct meaning *m, bool store)
 {
 	uint8_t *count = pin_count(as, m);
 
-	if (*count < 2)
-		++*count;
+	*count = (uint8_t)(*count + (store ? 1 : 2));
+	if (*count > 2)
+		*count = 2;
 }
 
 static void count_list(struct assembler *as, const struct unit *unit)
@@ -439,18 +441,16 @@ static void count_list(struct assembler *as, const struct unit *unit)
 		const struct il_line *line = &unit->il.line[i];
 		const struct meaning *m = NULL;
 
-		if (line->kind == IL_OP || line->kind == IL_ARG_OUT)
-			m = line->operand ? scope_find(scope, unit->pou,
-						       line->operand, &why) : NULL;
+		if (line->operand && line->kind != IL_LABEL &&
+		    line->kind != IL_COMMENT)
+			m = scope_find(scope, unit->pou, line->operand, &why);
 		if (line->kind == IL_OP)
 			instance = m && m->kind == MEANING_INSTANCE ? m : NULL;
 		if (line->kind == IL_CALL)
 			instance = NULL;
-		if (m && m->kind == MEANING_PIN &&
-		    (line->kind == IL_ARG_OUT ||
-		     op_row((enum op)line->op)->operand == OPND_ANY_W ||
-		     op_row((enum op)line->op)->operand == OPND_BOOL_W))
-			count_write(as, m);
+		if (m && m->kind == MEANING_PIN)
+			count_use(as, m, line->kind == IL_OP &&
+				  line->op == OP_ST);
 		if (line->kind == IL_ARG_IN && instance) {
 			struct meaning pin = *instance;
 			const char *name = scope_text(scope, line->pin);
@@ -458,7 +458,7 @@ static void count_list(struct assembler *as, const struct unit *unit)
 			pin.pin = word_pin_find(word_row(pin.var->fb), name,
 						strlen(name));
 			if (pin.pin >= 0)
-				count_write(as, &pin);
+				count_use(as, &pin, true);
 		}
 	}
 }
@@ -496,7 +496,7 @@ bool layout_count_pins(struct assembler *as)
 	return true;
 }
 
-bool layout_written_once(const struct assembler *as, const struct meaning *pin)
+bool layout_only_stored(const struct assembler *as, const struct meaning *pin)
 {
 	return *pin_count(as, pin) == 1;
 }

@@ -176,6 +176,12 @@ static void act_flow(struct ld *ld, int element)
 		operand_of(ld, element));
 }
 
+static void act_assign(struct ld *ld, int element)
+{
+	ld_assign(ld, element);
+	ld_settle_element(ld, element);
+}
+
 /* Outputs from @first on that share one result. */
 static int group_size(const struct ld *ld, const int *actor, int first,
 		      int count)
@@ -203,7 +209,7 @@ static void act(struct ld *ld, const int *actor, int count)
 			if (row->operand == OPND_BOOL_W)
 				ld_freeze(ld, operand_of(ld, actor[i + k]));
 		if (row->operand == OPND_ASSIGN)
-			ld_assign(ld, actor[i]);
+			act_assign(ld, actor[i]);
 		else if (row->edge != EDGE_NONE)
 			act_edge(ld, actor[i]);
 		else if (is_plain(ld, actor[i]))
@@ -255,8 +261,7 @@ static void note_rung(struct ld *ld)
 					element++;
 					continue;
 				}
-				if (!is_actor(ld, element) &&
-				    ld->element[element].leaf)
+				if (ld->element[element].leaf)
 					out = ld->element[element].leaf;
 				element++;
 			}

@@ -44,6 +44,7 @@ struct list {
 	struct il_result now;
 	struct opened opened[LIMIT_IL_DEPTH];
 	int depth;
+	bool straight;                /* no label or jump so far: every scan  */
 	uint8_t *fleeting;            /* by variable: never kept over a label */
 	int *reads;                   /* by line of a store: reads to come    */
 	struct pending pending[PENDING_MAX];
