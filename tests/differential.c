@@ -3,7 +3,9 @@
  * differential - the engine and the walker run the same random programs, and
  * every variable, output, marker and cell's power must be the same.
  *
- *   differential [--seed S] [--count N] [--long] [--refused]
+ *   differential [--seed S] [--count N] [--long] [--refused] [--values]
+ *
+ * --values leaves out the power of cells, --refused tells why a program was not built.
  *
  * A program on which they differ is cut down to the smallest that still does,
  * and printed with its seed. It decides nothing about who is right: that is
@@ -36,6 +38,7 @@ struct duel {
 	struct side side[2];  /* plain; watched                              */
 	uint64_t seed;
 	int scan;
+	bool values;          /* the power of cells does not count           */
 	char why[256];
 };
 
@@ -59,6 +62,8 @@ static bool same_values(struct duel *duel, int side)
 		double a = real ? theirs.r : (double)theirs.i;
 		double b = real ? (double)mine.r : (double)mine.i;
 
+		if (!walker_is_settled(duel->walker, i))
+			continue;
 		if (real ? a != b && (a == a || b == b) : theirs.i != mine.i) {
 			differ(duel, side, walker_name(duel->walker, i), a, b);
 			return false;
@@ -150,7 +155,7 @@ static bool same_scan(struct duel *duel, struct random_source *source,
 			return false;
 		}
 	}
-	return !random_chance(source, 50) || same_power(duel);
+	return duel->values || !random_chance(source, 50) || same_power(duel);
 }
 
 static void change_inputs(struct duel *duel, struct random_source *source)
@@ -237,6 +242,8 @@ static enum verdict fight(struct duel *duel, const char *text, size_t len)
 	return set_up(duel) && run_duel(duel) ? AGREE : DISAGREE;
 }
 
+static bool values_only;
+
 /* One whole comparison; @why gets the reason when it is not AGREE. */
 static enum verdict judge(const struct random_program *program, uint64_t seed,
 			  char *why, size_t size)
@@ -248,7 +255,10 @@ static enum verdict judge(const struct random_program *program, uint64_t seed,
 
 	memset(&duel, 0, sizeof(duel));
 	duel.seed = seed;
+	duel.values = values_only;
 	duel.ladder = ladder_new();
+	if (duel.ladder)
+		ladder_watch(duel.ladder, true);
 	if (duel.ladder)
 		verdict = fight(&duel, text, len);
 	snprintf(why, size, "%s", duel.why);
@@ -366,6 +376,8 @@ static bool read_options(int argc, char **argv, struct options *options)
 			options->endless = true;
 		else if (strcmp(argv[i], "--refused") == 0)
 			options->show_refused = true;
+		else if (strcmp(argv[i], "--values") == 0)
+			values_only = true;
 		else if (more && strcmp(argv[i], "--seed") == 0)
 			options->seed = strtoull(argv[++i], NULL, 10);
 		else if (more && strcmp(argv[i], "--count") == 0)
@@ -385,7 +397,7 @@ int main(int argc, char **argv)
 
 	if (!read_options(argc, argv, &options)) {
 		fprintf(stderr, "usage: differential [--seed S] [--count N] "
-			"[--long] [--refused]\n");
+			"[--long] [--refused] [--values]\n");
 		return 2;
 	}
 	if (options.endless) {

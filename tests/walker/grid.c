@@ -213,8 +213,8 @@ static bool make_element(struct walker *walker, const struct pou *pou,
 		return at->target >= 0;
 	case OPND_EXPR:
 	case OPND_ASSIGN:
-		at->formula = formula_new(walker, pou, text);
-		return at->formula;
+		at->expression = expression_new(walker, pou, text);
+		return at->expression;
 	case OPND_NONE:
 		return true;
 	case OPND_ANY_R:

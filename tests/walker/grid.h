@@ -22,7 +22,7 @@ struct walked {
 	bool read;            /* somebody reads the power behind it           */
 	struct placed operand;
 	struct block *block;
-	struct formula *formula;
+	struct expression *expression;
 	struct parameter *parameter;
 	int parameter_count;
 	enum iec_type inputs; /* common type of a function                    */

@@ -19,6 +19,7 @@ struct block {
 	int64_t start_ns;
 	bool busy, spent;           /* timing; pulse over, IN still TRUE     */
 	bool was, was_too;          /* levels of the call before             */
+	bool called;                /* since the start                       */
 };
 
 /* A declared variable. */
@@ -44,6 +45,7 @@ struct placed {
 struct shown {
 	char name[128];
 	struct placed placed;
+	const struct block *block;  /* whose input pin it is; else NULL       */
 };
 
 struct walker {
@@ -87,13 +89,13 @@ void placed_write(const struct placed *placed, struct value value);
 int block_pin(const struct block *block, const char *name);
 void block_call(struct block *block, int64_t now_ns);
 
-/* formula.c */
-struct formula;
-/** formula_new - an expression ready to be computed; NULL: cannot. */
-struct formula *formula_new(struct walker *walker, const struct pou *pou,
+/* expression.c */
+struct expression;
+/** expression_new - an expression ready to be computed; NULL: cannot. */
+struct expression *expression_new(struct walker *walker, const struct pou *pou,
 			    const char *text);
-bool formula_assigns(const struct formula *formula);
-/** formula_run - computes it with @power at its first EN; stores its target.
+bool expression_assigns(const struct expression *expression);
+/** expression_run - computes it with @power at its first EN; stores its target.
  * Gives what it lets through. */
-bool formula_run(struct walker *walker, struct formula *formula, bool power);
+bool expression_run(struct walker *walker, struct expression *expression, bool power);
 #endif

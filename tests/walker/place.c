@@ -97,6 +97,8 @@ static void show(struct walker *walker, struct variable *variable,
 	out->placed = pin ? (struct placed){ .kind = PLACED_VALUE,
 					     .type = pin->type, .value = value } :
 			    of_variable(walker, variable);
+	if (pin && pin->dir == PIN_IN)
+		out->block = variable->block;
 }
 
 static bool show_all(struct walker *walker)

@@ -44,6 +44,8 @@ struct sketch {
 	const struct random_rung *rung;
 	int net[BARS];
 	bool fed[BARS], read[BARS]; /* by net                                 */
+	int from[BARS], to[BARS];   /* rightmost bar that feeds it, leftmost
+				       that reads it                          */
 };
 
 static int bar_at(const struct sketch *sketch, int row, int bar)
@@ -113,6 +115,35 @@ static bool links_are_sound(const struct random_rung *rung)
 			if (!more && !bar_is_used(rung, row, col + 1))
 				return false;
 			if (!up && !bar_is_used(rung, row - 1, col + 1))
+				return false;
+		}
+	}
+	return true;
+}
+
+static bool bar_is_linked(const struct random_rung *rung, int row, int bar)
+{
+	return bar > 0 && (rung->cell[row][bar - 1].link ||
+			   (row + 1 < rung->rows &&
+			    rung->cell[row + 1][bar - 1].link));
+}
+
+/* A wire goes on at both its ends. */
+static bool wires_are_sound(const struct random_rung *rung)
+{
+	for (int row = 0; row < rung->rows; row++) {
+		for (int col = 0; col < rung->cols; col++) {
+			bool left, right;
+
+			if (rung->cell[row][col].kind != RANDOM_WIRE)
+				continue;
+			left = col == 0 || bar_is_linked(rung, row, col) ||
+			       rung->cell[row][col - 1].kind == RANDOM_WIRE ||
+			       is_through(&rung->cell[row][col - 1]);
+			right = bar_is_linked(rung, row, col + 1) ||
+				(col + 1 < rung->cols &&
+				 has_left(&rung->cell[row][col + 1]));
+			if (!left || !right)
 				return false;
 		}
 	}
@@ -190,15 +221,40 @@ static bool everything_is_fed(struct sketch *sketch)
 	return all;
 }
 
+/* Nowhere may power have to flow from right to left along a wire. */
+static bool all_flows_right(struct sketch *sketch)
+{
+	const struct random_rung *rung = sketch->rung;
+
+	for (int i = 0; i < BARS; i++)
+		sketch->to[i] = RANDOM_COLS + 1;
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		int row = i / rung->cols, col = i % rung->cols;
+		const struct random_cell *cell = &rung->cell[row][col];
+		int in = net_at(sketch, row, col);
+		int out = net_at(sketch, row, col + 1);
+
+		if (has_left(cell) && cell->kind != RANDOM_WIRE &&
+		    col < sketch->to[in])
+			sketch->to[in] = col;
+		if (is_through(cell) && col + 1 > sketch->from[out])
+			sketch->from[out] = col + 1;
+	}
+	for (int i = 0; i < BARS; i++)
+		if (sketch->from[i] > sketch->to[i])
+			return false;
+	return true;
+}
+
 bool random_sound(const struct random_rung *rung)
 {
 	struct sketch sketch = { .rung = rung };
 	int outputs = 0;
 
-	if (!links_are_sound(rung))
+	if (!links_are_sound(rung) || !wires_are_sound(rung))
 		return false;
 	find_nets(&sketch);
-	if (!everything_is_fed(&sketch))
+	if (!everything_is_fed(&sketch) || !all_flows_right(&sketch))
 		return false;
 	for (int i = 0; i < rung->rows * rung->cols; i++) {
 		int row = i / rung->cols, col = i % rung->cols;

@@ -107,6 +107,7 @@ static bool call_block(struct walker *walker, struct walked_rung *walked,
 			pin[from->pin] = placed_read(&from->placed,
 						     pin[from->pin].type);
 	}
+	at->block->called = true;
 	block_call(at->block, walker->now_ns);
 	for (int i = 0; i < at->parameter_count; i++)
 		if (at->parameter[i].output)
@@ -167,13 +168,13 @@ static bool is_output(const struct walked *at)
 	if (row->place == PLACE_LAST)
 		return true;
 	return !at->read && (row->kind != WORD_ELEM ||
-			     (at->formula && formula_assigns(at->formula)));
+			     (at->expression && expression_assigns(at->expression)));
 }
 
 static bool acts_last(const struct walked *at)
 {
 	return word_row(at->word)->place == PLACE_LAST ||
-	       (!at->read && at->formula && formula_assigns(at->formula));
+	       (!at->read && at->expression && expression_assigns(at->expression));
 }
 
 /* Phase 1 of one element, its feeders being done. */
@@ -192,8 +193,8 @@ static void pass(struct walker *walker, struct walked_rung *walked,
 		at->power_out = call_block(walker, walked, at, power);
 	else if (word_row(at->word)->kind == WORD_FN)
 		at->power_out = call_function(walker, walked, at, power);
-	else if (at->formula)
-		at->power_out = formula_run(walker, at->formula, power);
+	else if (at->expression)
+		at->power_out = expression_run(walker, at->expression, power);
 	else if (at->word == ELEM_NOT)
 		at->power_out = !power;
 	else
@@ -236,8 +237,8 @@ static void drive(struct walker *walker, struct walked *at)
 		placed_write(to, value_bool(power && !before));
 	else if (at->word == ELEM_COIL_N)
 		placed_write(to, value_bool(!power && before));
-	else if (at->formula)
-		at->power_out = formula_run(walker, at->formula, power);
+	else if (at->expression)
+		at->power_out = expression_run(walker, at->expression, power);
 	at->memory = power;
 }
 
@@ -322,6 +323,13 @@ const char *walker_name(const struct walker *walker, int index)
 struct value walker_value(const struct walker *walker, int index)
 {
 	return placed_read(&walker->shown[index].placed, IEC_NONE);
+}
+
+bool walker_is_settled(const struct walker *walker, int index)
+{
+	const struct block *block = walker->shown[index].block;
+
+	return !block || block->called;
 }
 
 static enum walker_power element_power(const struct walked_rung *walked,

@@ -46,6 +46,9 @@ uint32_t walker_errors(const struct walker *walker);
 int walker_count(const struct walker *walker);
 const char *walker_name(const struct walker *walker, int index);
 struct value walker_value(const struct walker *walker, int index);
+/** walker_is_settled - false of the input pin of a block that was never called:
+ * what stands there before is not said. */
+bool walker_is_settled(const struct walker *walker, int index);
 
 enum walker_power { POWER_UNKNOWN, POWER_IN_ONLY, POWER_BOTH };
 /**

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * formula - the walker's own computing of [ … ] cells.
+ * expression - the walker's own computing of [ … ] cells.
  *
  * An expression is a chain of functions in the order of its tree, left before
  * right: the first gets EN from the power of the cell, each other from the ENO
@@ -20,7 +20,7 @@ struct term {
 	struct value value;     /* of the last run                            */
 };
 
-struct formula {
+struct expression {
 	bool assigns;
 	struct placed target;
 	int root, count;
@@ -47,12 +47,12 @@ static void fold_sign(struct term *term, struct term *left)
 		term->placed.literal.value.i = -left->placed.literal.value.i;
 }
 
-static bool type_term(struct walker *walker, struct formula *formula,
+static bool type_term(struct walker *walker, struct expression *expression,
 		      struct term *term)
 {
-	struct term *left = term->left < 0 ? NULL : &formula->term[term->left];
+	struct term *left = term->left < 0 ? NULL : &expression->term[term->left];
 	struct term *right =
-		term->right < 0 ? NULL : &formula->term[term->right];
+		term->right < 0 ? NULL : &expression->term[term->right];
 	enum iec_type types[2] = { IEC_NONE, IEC_NONE };
 
 	if (is_leaf(term))
@@ -78,17 +78,17 @@ static bool type_term(struct walker *walker, struct formula *formula,
 }
 
 static bool make_terms(struct walker *walker, const struct pou *pou,
-		       const struct expr *expr, struct formula *formula)
+		       const struct expr *expr, struct expression *expression)
 {
-	formula->term = arena_alloc(&walker->arena, (size_t)expr->count *
-				    sizeof(*formula->term));
-	if (!formula->term)
+	expression->term = arena_alloc(&walker->arena, (size_t)expr->count *
+				    sizeof(*expression->term));
+	if (!expression->term)
 		return false;
-	formula->count = expr->count;
-	formula->root = expr->root;
+	expression->count = expr->count;
+	expression->root = expr->root;
 	for (int i = 0; i < expr->count; i++) {
 		const struct expr_node *from = &expr->node[i];
-		struct term *term = &formula->term[i];
+		struct term *term = &expression->term[i];
 
 		term->op = from->op;
 		term->fn = from->fn;
@@ -102,45 +102,46 @@ static bool make_terms(struct walker *walker, const struct pou *pou,
 			if (term->placed.kind == PLACED_LITERAL)
 				term->op = EXPR_LITERAL;
 		}
-		if (!type_term(walker, formula, term))
+		if (!type_term(walker, expression, term))
 			return false;
 	}
 	return true;
 }
 
-struct formula *formula_new(struct walker *walker, const struct pou *pou,
+struct expression *expression_new(struct walker *walker, const struct pou *pou,
 			    const char *text)
 {
-	struct formula *formula =
-		arena_alloc(&walker->arena, sizeof(*formula));
+	struct expression *expression =
+		arena_alloc(&walker->arena, sizeof(*expression));
 	static const struct diag nowhere;
 	struct diag_list diags;
 	struct expr expr;
 
 	diag_init(&diags);
 	walker->why = "an expression";
-	if (!formula || !expr_parse_text(text, strlen(text), &expr, &diags,
+	if (!expression || !expr_parse_text(text, strlen(text), &expr, &diags,
 					 nowhere))
 		return NULL;
-	formula->assigns = expr.target;
+	expression->assigns = expr.target;
 	if (expr.target) {
-		formula->target = walker_place(walker, pou, expr.target,
+		expression->target = walker_place(walker, pou, expr.target,
 					       expr.target_len);
-		if (formula->target.kind == PLACED_NOWHERE)
+		if (expression->target.kind == PLACED_NOWHERE)
 			return NULL;
 	}
-	return make_terms(walker, pou, &expr, formula) ? formula : NULL;
+	return make_terms(walker, pou, &expr, expression) ? expression : NULL;
 }
 
-bool formula_assigns(const struct formula *formula)
+bool expression_assigns(const struct expression *expression)
 {
-	return formula->assigns;
+	return expression->assigns;
 }
 
 struct run {
 	struct walker *walker;
-	struct formula *formula;
+	struct expression *expression;
 	bool enabled;           /* ENO of the operation before                */
+	const struct term *wrapped; /* the operation that overflowed          */
 };
 
 /* One operation on values that are there; a failed or disabled one leaves its
@@ -181,13 +182,15 @@ static void operate(struct run *run, struct term *term, struct value a,
 	if (outcome != OUTCOME_GOOD) {
 		run->walker->errors++;
 		run->enabled = false;
+		if (outcome == OUTCOME_WRAPPED)
+			run->wrapped = term;
 	}
 }
 
 /* Depth is bounded by LIMIT_EXPR_DEPTH of the parser. */
 static struct value compute(struct run *run, int at, enum iec_type type)
 {
-	struct term *term = &run->formula->term[at];
+	struct term *term = &run->expression->term[at];
 	struct value left = { 0 }, right = { 0 };
 
 	if (is_leaf(term))
@@ -200,18 +203,18 @@ static struct value compute(struct run *run, int at, enum iec_type type)
 	return type == IEC_NONE ? term->value : value_widen(term->value, type);
 }
 
-bool formula_run(struct walker *walker, struct formula *formula, bool power)
+bool expression_run(struct walker *walker, struct expression *expression, bool power)
 {
-	struct run run = { walker, formula, power };
+	struct run run = { walker, expression, power, NULL };
 	struct value value;
 
-	if (!formula->assigns) {
-		value = compute(&run, formula->root, IEC_BOOL);
+	if (!expression->assigns) {
+		value = compute(&run, expression->root, IEC_BOOL);
 		return power && run.enabled && value_is_true(value);
 	}
-	value = compute(&run, formula->root, formula->target.type);
-	/* The store is the last link of the chain. */
-	if (run.enabled)
-		placed_write(&formula->target, value);
+	value = compute(&run, expression->root, expression->target.type);
+	/* The last operation stores; a result that wrapped is stored too. */
+	if (run.enabled || run.wrapped == &expression->term[expression->root])
+		placed_write(&expression->target, value);
 	return run.enabled;
 }

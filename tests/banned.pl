@@ -1,0 +1,167 @@
+#!/usr/bin/env perl
+# SPDX-License-Identifier: MIT
+# banned - what the house does not want to see in its sources, a TAP line a rule.
+#
+# It reads text, not syntax: comments and strings are taken out first where a rule
+# is about code. Tests keep the rules of size and heading, not those of calls.
+use strict;
+use warnings;
+use File::Find;
+use FindBin;
+
+chdir "$FindBin::Bin/.." or die;
+my (@files, $n, $failed);
+find({ no_chdir => 1, wanted => sub {
+	push @files, $_ if -f && /\.(c|h|def)$/;
+} }, grep { -d } qw(runtime hal editor-gtk tests));
+@files = sort @files;
+
+sub say_rule {
+	my ($text, @bad) = @_;
+
+	$n++;
+	printf "%sok %d - %s\n", @bad ? "not " : "", $n, $text;
+	print "#   $_\n" for @bad;
+	$failed = 1 if @bad;
+}
+
+my (%text, %code);
+for my $file (@files) {
+	open my $in, '<:raw', $file or die "$file: $!";
+	local $/;
+	$text{$file} = <$in>;
+	my $code = $text{$file};
+	# Comments and strings away, lines kept.
+	$code =~ s{(/\*.*?\*/|//[^\n]*|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*')}
+		{my $x = $1; my $q = substr($x, 0, 1);
+		 $x =~ s/[^\n]//g; $q eq '"' ? qq("$x") : $q eq "'" ? "0$x" : " $x"}gse;
+	$code{$file} = $code;
+}
+
+# Places where a pattern stands in the code of files that are chosen.
+sub places {
+	my ($pattern, $choose) = @_;
+	my @bad;
+
+	for my $file (grep { $choose->($_) } @files) {
+		my $line = 0;
+		for (split /\n/, $code{$file}) {
+			$line++;
+			push @bad, "$file:$line: $1" if /($pattern)/;
+		}
+	}
+	return @bad;
+}
+
+my $house = sub { $_[0] !~ m{^tests/} };
+my $library = sub { $_[0] =~ m{^runtime/engine/} };
+my $all = sub { 1 };
+
+say_rule("no unbounded string functions",
+	 places(qr/\b(?:strcpy|strcat|sprintf|vsprintf|gets|strtok|stpcpy|scanf|sscanf|fscanf)\s*\(/, $all));
+say_rule("no atoi and its kind",
+	 places(qr/\b(?:atoi|atol|atoll|atof)\s*\(/, $all));
+say_rule("no alloca", places(qr/\balloca\s*\(/, $all));
+say_rule("no typedef of a struct or enum",
+	 places(qr/\btypedef\s+(?:struct|enum|union)\b/, $house));
+say_rule("the library does not print or exit",
+	 places(qr/\b(?:printf|puts|putchar|perror|exit|_exit|abort|system|popen|fork)\s*\(/, $library));
+say_rule("the scan reads no clock, takes no lock, allocates nothing",
+	 places(qr/\b(?:clock_gettime|gettimeofday|time|malloc|calloc|realloc|free|pthread_\w+|fopen|write|read)\s*\(/,
+		sub { $_[0] =~ m{^runtime/engine/scan/} }));
+say_rule("no fork, no dlopen on a board",
+	 places(qr/\b(?:fork|vfork|dlopen|mprotect|execv\w*|execl\w*)\s*\(/,
+		sub { $_[0] =~ m{^(?:runtime/engine/base|runtime/engine/scan|hal|runtime/ladderd)/} }));
+
+# Names: words that say nothing. As a whole word or a part between underscores,
+# where something is declared; struct members of a library are not ours.
+my @words;
+for my $file (grep { $house->($_) } @files) {
+	my $line = 0;
+	for (split /\n/, $code{$file}) {
+		$line++;
+		while (/\b(?:struct|enum|union|void|int|bool|char|long|unsigned|double|float|size_t|u?int(?:8|16|32|64)_t)\s+\**(\w+)/g) {
+			my $name = $1;
+			push @words, "$file:$line: $name"
+				if $name =~ /(?:^|_)(?:item|data|info|manager|helper|util|utils|handle|node|process)s?(?:_|$)/
+				&& $name !~ /^(?:data_size|(?:add_|expr_)node)$/ # a parse tree has nodes
+				&& $name !~ /^gpiod_/;
+		}
+	}
+}
+say_rule("names say what a thing is", @words);
+
+say_rule("every source says its licence on its first line",
+	 grep { (split /\n/, $text{$_})[0] !~ /SPDX-License-Identifier: \S+/ }
+	 grep { !m{^tests/hal/fake_v} } @files);
+say_rule("every source opens with why it exists",
+	 grep { $text{$_} !~ m{\A/\*\s*SPDX[^\n]*(?:\*/\s*/\*|\n \*\n \*)\s*\S} } @files);
+say_rule("no file is longer than 600 lines",
+	 map { "$_: " . ($text{$_} =~ tr/\n//) }
+	 grep { ($text{$_} =~ tr/\n//) > 600 } @files);
+say_rule("no blanks at line ends",
+	 map { my $f = $_; my $l = 0;
+	       map { $l++; /[ \t]$/ ? "$f:$l" : () } split /\n/, $text{$f} } @files);
+say_rule("tabs indent",
+	 map { my $f = $_; my $l = 0;
+	       map { $l++; /^ {8}/ ? "$f:$l" : () } split /\n/, $code{$f} }
+	 grep { !/\.def$/ } @files);
+say_rule("no unnamed TODO",
+	 map { my $f = $_; my $l = 0;
+	       map { $l++; /\b(?:TODO|FIXME|XXX)\b/ ? "$f:$l" : () }
+	       split /\n/, $text{$f} } @files);
+
+# A function: a line that begins at the margin, then `{` at the margin.
+my @long;
+for my $file (grep { /\.c$/ } @files) {
+	my ($line, $start, $name, $last) = (0, 0, "", "");
+	for (split /\n/, $code{$file}) {
+		$line++;
+		$last = $1 if /^\w[^;]*?(\w+)\(/;
+		($start, $name) = ($line, $last) if /^\{/;
+		if (/^\}/ && $start) {
+			my $size = $line - $start - 1;
+			push @long, "$file:$start: $name: $size lines"
+				if $size > 80 && !($file =~ m{scan/vm\.c$});
+			$start = 0;
+		}
+	}
+}
+say_rule("no function is longer than 80 lines", @long);
+
+my @ifdef;
+for my $file (grep { /\.c$/ && $house->($_) } @files) {
+	my ($line, $inside) = (0, 0);
+	for (split /\n/, $code{$file}) {
+		$line++;
+		$inside = 1 if /^\{/;
+		$inside = 0 if /^\}/;
+		push @ifdef, "$file:$line" if $inside && /^\s*#\s*if/;
+	}
+}
+say_rule("no #ifdef inside a function", @ifdef);
+
+my @path;
+for my $file (@files) {
+	my $line = 0;
+	for (split /\n/, $text{$file}) {
+		$line++;
+		push @path, "$file:$line" if m{/work/|/home/\w|\.\./shared};
+	}
+}
+say_rule("no path of somebody's machine", @path);
+
+# Scan-safe is never left out of a public function's comment in scan/.
+my @safe;
+for my $file (grep { m{^runtime/engine/scan/.*\.h$} } @files) {
+	while ($text{$file} =~ m{/\*\*(.*?)\*/}gs) {
+		my $comment = $1;
+		my $line = 1 + (substr($text{$file}, 0, $-[0]) =~ tr/\n//);
+		push @safe, "$file:$line" if $comment !~ /Scan-safe|live[s]? (?:for ever|with)/i
+			&& $comment =~ /^\s*\*?\s*\w+ -/ && $comment =~ /\n/;
+	}
+}
+say_rule("public functions of scan/ say whether a scan may call them", @safe);
+
+print "1..$n\n";
+exit($failed ? 1 : 0);

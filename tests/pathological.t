@@ -1,0 +1,251 @@
+#!/usr/bin/env perl
+# SPDX-License-Identifier: MIT
+# pathological - what bad input gets: the real programs on files that no person
+# writes. Each must end soon, say why with a place, and leave stdout clean.
+#
+# BUILD names the folder of the programs.
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Temp qw(tempdir);
+use FindBin;
+use POSIX qw(:sys_wait_h);
+
+my $root = abs_path("$FindBin::Bin/..");
+my $build = $ENV{BUILD} || "build";
+$build = "$root/$build" unless $build =~ m{^/};
+my $ladder = "$build/ladder";
+my $daemon = "$build/ladderd";
+my $dir = tempdir(CLEANUP => 1);
+chdir $dir or die;
+my ($n, $failed) = (0, 0);
+# Generous: it catches a program that hangs, not one that is slow.
+my $guard = $ENV{GUARD_S} || 60;
+
+sub check {
+	my ($good, $text, @why) = @_;
+
+	$n++;
+	print $good ? "" : "not ", "ok $n - $text\n";
+	return if $good;
+	$failed = 1;
+	print map { "#   $_\n" } map { split /\n/ } @why;
+}
+
+sub write_file {
+	my ($name, $bytes) = @_;
+
+	open my $out, '>:raw', $name or die "$name: $!";
+	print $out $bytes;
+	close $out or die;
+	return $name;
+}
+
+sub read_file {
+	my ($name) = @_;
+
+	open my $in, '<:raw', $name or return "";
+	local $/;
+	my $bytes = <$in>;
+	return defined $bytes ? $bytes : "";
+}
+
+# Exit status (or "signal N", "hangs"), stdout, stderr.
+sub run {
+	my ($stdout, @command) = @_;
+	my $pid = fork;
+
+	die unless defined $pid;
+	if (!$pid) {
+		open STDIN, '<', '/dev/null';
+		open STDOUT, '>', $stdout || 'out' or POSIX::_exit(126);
+		open STDERR, '>', 'err' or POSIX::_exit(126);
+		exec { $command[0] } @command or POSIX::_exit(127);
+	}
+	my $end = time + $guard;
+	my $slept = 0.002;
+	while (waitpid($pid, WNOHANG) == 0) {
+		if (time > $end) {
+			kill 'KILL', $pid;
+			waitpid $pid, 0;
+			return ("hangs", "", read_file('err'));
+		}
+		select undef, undef, undef, $slept;
+		$slept *= 2 if $slept < 0.05;
+	}
+	my $status = $? & 127 ? "signal " . ($? & 127) : $? >> 8;
+	return ($status, $stdout ? "" : read_file('out'), read_file('err'));
+}
+
+# Runs it and looks at all that a refusal must have.
+sub refused {
+	my ($text, $want, $name, @command) = @_;
+	my ($status, $out, $err) = run(undef, @command);
+	my $shown = $err =~ s/^((?:.*\n){6}).*/$1/sr;
+
+	check($status eq $want, "$text: exit $want", "exit $status", $shown);
+	check($out eq "", "$text: nothing on stdout", substr($out, 0, 200));
+	check($err =~ /^\Q$name\E(?::\d+)?(?::\d+)?: .*(?:error|warning) LD\d\d\d: \S/m,
+	      "$text: a message with a place", $shown);
+	check((() = $err =~ /\n/g) <= 110 && length $err < 40000,
+	      "$text: at most a hundred of them", length $err);
+}
+
+my $good = <<'END';
+RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | COIL Motor |
+END_PROGRAM
+END
+write_file("good.rung", $good);
+write_file("good.script", "Start=1\n.\n");
+write_file("good.io", "BOARD \"sim\"\n%IX0.0 sim\n%QX0.0 sim\n");
+my ($status, $out, $err) = run(undef, $ladder, "check", "good.rung");
+check($status eq "0", "a good file is good", $err);
+
+my %file = (
+	"empty" => "",
+	"cut in half" => substr(read_file("$root/ladders/garage-door.rung"), 0,
+		length(read_file("$root/ladders/garage-door.rung")) / 2),
+	"binary" => join("", map { chr(($_ * 167 + ($_ >> 3)) & 255) } 0 .. 20000),
+	"a million of one character" => "|" x 1_000_000,
+	"a million letters" => "a" x 1_000_000,
+	"a million blanks" => " " x 1_000_000,
+	"a million newlines" => "\n" x 1_000_000,
+	"a million open comments" => "RUNGBOARD 1\n" . "(*" x 500_000,
+	"a million parentheses" => "RUNGBOARD 1\nPROGRAM P LD\nRUNG\n  | [ "
+		. "(" x 1_000_000 . " ] | COIL Q0 |\nEND_PROGRAM\n",
+	"NUL bytes" => $good =~ s/Start/St\0rt/r,
+	"all NUL" => "\0" x 100_000,
+	"invalid UTF-8" => $good =~ s/Start/St\xff\xfert/gr,
+	"a surrogate" => $good =~ s/Motor/M\xed\xa0\x80r/gr,
+	"an open string" => "RUNGBOARD 1\nPROJECT \"garage\n",
+	"a newer version" => $good =~ s/RUNGBOARD 1/RUNGBOARD 2/r,
+	"a version out of this world" => $good =~ s/RUNGBOARD 1/"RUNGBOARD " . "9" x 400/er,
+	"a name of 10,000 characters" => $good =~ s/Motor/"M" x 10_000/ger,
+	"numbers out of range" => $good =~ s/: BOOL;\n  Motor/: BOOL;\n  N : INT := 99999;\n  L : DINT := 123456789012345678901234567890;\n  T : TIME := T#999999999999d;\n  Motor/r,
+	"an address out of range" => $good =~ s/%QX0.0/%QX99999999999.0/r,
+	"a bit out of range" => $good =~ s/%QX0.0/%QX0.9/r,
+	"65 columns" => $good =~ s/\| NO Start \|/"|" . " NO Start |" x 70/er,
+	"300 rows" => $good =~ s/(  \| NO Start.*\n)/$1 . "  | NO Start ^|\n" x 300/er,
+	"no end" => $good =~ s/END_PROGRAM\n//r,
+	"no bars" => $good =~ s/\|//gr,
+	"a carriage return in the middle" => $good =~ s/Start AT/Start\rAT/r,
+	"an image that is only its name" => "RUNGCODE",
+	"a damaged image" => "RUNGCODE" . "\x01\0\0\0" . "\xff" x 500,
+);
+my @readers = (["check"], ["fmt", "--check"], ["show"], ["il"], ["code"]);
+for my $text (sort keys %file) {
+	my $name = write_file("bad.rung", $file{$text});
+	refused("$text: ladder check", 1, $name, $ladder, "check", $name);
+	next if length $file{$text} > 500_000 && $ENV{QUICK};
+	for my $command (["fmt"], ["show"], ["il"], ["code"]) {
+		my ($status, $out, $err) = run(undef, $ladder, @$command, $name);
+		# A code image has no text to format or draw: that is wrong usage.
+		my $image = $file{$text} =~ /^RUNGCODE/;
+		check($status eq "1" || ($status eq "2" && $image) ||
+		      ($status eq "0" && $command->[0] =~ /fmt|show|il/ &&
+		       $file{$text} =~ /^RUNGBOARD 1\n/),
+		      "$text: ladder @$command: ends in order", "exit $status", substr($err, 0, 300));
+		check($out eq "" || $status eq "0", "$text: ladder @$command: nothing on stdout",
+		      substr($out, 0, 200));
+		check(length $err || $status eq "0", "$text: ladder @$command: says why");
+		check(read_file($name) eq $file{$text}, "$text: ladder @$command: the file is as it was")
+			if $status ne "0";
+	}
+	my ($status, $out, $err) = run(undef, $ladder, "trace", $name, "good.script");
+	check($status =~ /^[12]$/ && $out eq "" && length $err,
+	      "$text: ladder trace refuses", "exit $status", substr($err, 0, 300));
+	($status, $out, $err) = run(undef, $ladder, "test", $name);
+	check($status =~ /^[012]$/, "$text: ladder test ends in order", "exit $status", substr($err, 0, 300));
+	next unless -x $daemon;
+	($status, $out, $err) = run(undef, $daemon, $name, "--io", "good.io", "--check");
+	check($status =~ /^[12]$/ && $err =~ /LD\d\d\d/, "$text: ladderd --check refuses",
+	      "exit $status", substr($err, 0, 300));
+}
+
+# CRLF is what some editors write: it is read.
+write_file("crlf.rung", $good =~ s/\n/\r\n/gr);
+($status, $out, $err) = run(undef, $ladder, "check", "crlf.rung");
+check($status eq "0", "CRLF is read", "exit $status", $err);
+
+# 100,000 rungs: more than one POU may have, and soon refused or read.
+write_file("many.rung", $good =~ s/RUNG\n.*\n/"RUNG\n  | NO Start | COIL Motor |\n" x 100_000/er);
+refused("100,000 rungs: ladder check", 1, "many.rung", $ladder, "check", "many.rung");
+
+# What cannot be read at all: 2.
+mkdir "folder";
+refused("a directory: ladder check", 2, "folder", $ladder, "check", "folder");
+refused("no such file: ladder check", 2, "nowhere.rung", $ladder, "check", "nowhere.rung");
+for my $command (qw(fmt show il code)) {
+	my ($status, $out, $err) = run(undef, $ladder, $command, "nowhere.rung");
+	check($status eq "2" && $out eq "" && $err =~ /nowhere\.rung/,
+	      "no such file: ladder $command: exit 2", "exit $status", $err);
+}
+write_file("secret.rung", $good);
+chmod 0, "secret.rung";
+if (open my $in, '<', "secret.rung") {
+	check(1, "an unreadable file # SKIP nothing is unreadable to this user");
+} else {
+	refused("an unreadable file: ladder check", 2, "secret.rung", $ladder, "check", "secret.rung");
+}
+($status, $out, $err) = run(undef, $ladder, "check", "/dev/zero");
+check($status eq "2", "a device: ladder check: exit 2", "exit $status", $err);
+
+# Scripts, scenarios and maps that are no text.
+for my $text ("empty", "binary", "all NUL", "a million letters", "invalid UTF-8") {
+	write_file("bad.script", $file{$text});
+	my ($status, $out, $err) = run(undef, $ladder, "trace", "good.rung", "bad.script");
+	check($text eq "empty" ? $status =~ /^[01]$/ : $status eq "1",
+	      "$text as a script: exit 1", "exit $status", substr($err, 0, 300));
+	check($out eq "" || $status eq "0", "$text as a script: nothing on stdout");
+	check($status eq "0" || $err =~ /bad\.script(:\d+)?.*LD\d\d\d/,
+	      "$text as a script: a message with a place", substr($err, 0, 300));
+	write_file("good.scn", $file{$text});
+	($status, $out, $err) = run(undef, $ladder, "test", "good.rung");
+	check($text eq "empty" ? $status =~ /^[012]$/ : $status =~ /^[12]$/,
+	      "$text as a scenario: refused", "exit $status", substr("$out$err", 0, 300));
+	unlink "good.scn";
+	next unless -x $daemon;
+	write_file("bad.io", $file{$text});
+	($status, $out, $err) = run(undef, $daemon, "good.rung", "--io", "bad.io", "--check");
+	check($text eq "empty" || ($status =~ /^[12]$/ && $err =~ /bad\.io(:\d+)?.*LD\d\d\d/),
+	      "$text as a map: refused with a place", "exit $status", substr($err, 0, 300));
+}
+
+# A full disk while writing: the old file stays.
+if (-e "/dev/full") {
+	my ($status, undef, $err) = run("/dev/full", $ladder, "show", "good.rung");
+	check($status =~ /^[12]$/ && length $err, "a full disk behind stdout is told", "exit $status", $err);
+}
+my $ugly = $good =~ s/  \| NO Start/|    NO   Start/r;
+write_file("ugly.rung", $ugly);
+my $limited = fork;
+if (!$limited) {
+	# No file may grow beyond nothing: as a full disk does, write() fails.
+	$SIG{XFSZ} = 'IGNORE';
+	open STDOUT, '>', '/dev/null';
+	open STDERR, '>', '/dev/null';
+	{ exec "sh", "-c", q{trap "" XFSZ; ulimit -f 0; exec "$@"}, "sh", $ladder, "fmt", "ugly.rung" }
+	POSIX::_exit(127);
+}
+waitpid $limited, 0;
+check($? >> 8 == 1 || $? >> 8 == 2, "fmt on a full disk fails in order", "status $?");
+check(read_file("ugly.rung") eq $ugly, "fmt on a full disk leaves the old file");
+check(!grep { !/^(?:bad|good|ugly|crlf|many|secret)\.|^(?:folder|out|err)$/ }
+	map { s{.*/}{}r } glob("*"), "fmt on a full disk leaves nothing else", glob("*"));
+
+# A closed pipe ends the program, quietly.
+($status, $out, $err) = run(undef, 'sh', '-c',
+	'for i in 1 2 3; do "$0" show "$1" || exit; done | true; exit 0', $ladder, "good.rung");
+check($status eq "0" && $err !~ /Sanitizer|Assertion/, "a closed pipe", $err);
+
+print "1..$n\n";
+exit $failed;

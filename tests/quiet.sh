@@ -1,0 +1,73 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# quiet - what runs in a scan asks nothing of the system, and the library keeps no
+# state of its own.
+#
+# scan/ linked with the few files of base/ that it needs may leave open only
+# mem*, libm and the compiler's helpers. BUILD names the folder of the objects.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+BUILD=${BUILD:-build} CROSS=${CROSS:-}
+LD=${LD:-${CROSS}ld} NM=${NM:-${CROSS}nm}
+objects=$BUILD/runtime/engine
+n=0 failed=0
+say() {
+	n=$((n + 1))
+	if [ "$1" -eq 0 ]; then echo "ok $n - $2"; return; fi
+	failed=1
+	echo "not ok $n - $2"
+	printf '%s\n' "$3" | sed '/^$/d; s/^/#   /'
+}
+
+# Files of scan/ that run in a scan; the others look at an image between scans
+# (symbols by name, text of an instruction, the verifier) and may use more.
+between='code|code_print|symbols'
+scan=
+for object in "$objects"/scan/*.o; do
+	name=$(basename "$object" .o)
+	printf '%s' "$name" | grep -Eqx "$between" || scan="$scan $object"
+done
+whole=$(mktemp) || exit 1
+trap 'rm -f "$whole"' EXIT
+
+libm='acosf?|asinf?|atanf?|atan2f?|cosf?|expf?|fabsf?|fmodf?|logf?|log10f?|powf?|sinf?|sqrtf?|tanf?|truncf?|rintf?|lrintf?|llrintf?|nearbyintf?|isnanf?|isinff?|finitef?|__isnanf?|__isinff?|__finitef?|__fpclassifyf?'
+helpers='__aeabi_[a-z0-9]*|__u?divdi3|__u?moddi3|__u?divmoddi4|__(mul|add|sub|neg)v[sd]i3|__stack_chk_fail|__stack_chk_guard|_GLOBAL_OFFSET_TABLE_|__(mulo|ashl|ashr|lshr|mul)[a-z0-9]*|__(fix|float)[a-z0-9]*|__popcount[a-z0-9]*|__gnu_[a-z0-9_]*'
+# shellcheck disable=SC2086
+if $LD -r -o "$whole" $scan "$objects"/base/iec.o "$objects"/base/catalog.o \
+	"$objects"/base/digest.o 2>/dev/null; then
+	# Text and literals of iec.c and catalog.c serve readers, not scans.
+	open=$($NM -u "$whole" | awk '{print $NF}' |
+	       grep -Evx "mem(cpy|move|set|cmp|chr)|$libm|$helpers|snprintf|strlen|strchr|strcmp|strncmp|strcasecmp|strncasecmp|code_[a-z]*|literal_[a-z]*")
+	[ -z "$open" ]; say $? "scan/ leaves only mem*, libm and helpers open" "$open"
+else
+	say 1 "scan/, iec, catalog and digest can be linked" "$LD -r failed"
+fi
+
+# The same for each file that runs in a scan, alone and without exception: what it
+# calls is mem*, libm, a helper, or a function of scan/ and base/.
+own=$($NM --defined-only "$objects"/scan/*.o "$objects"/base/iec.o \
+	"$objects"/base/catalog.o "$objects"/base/digest.o 2>/dev/null |
+      awk 'NF == 3 && $2 ~ /[TRDB]/ {print $3}' | sort -u | paste -sd '|' -)
+for object in $scan; do
+	open=$($NM -u "$object" | awk '{print $NF}' |
+	       grep -Evx "mem(cpy|move|set|cmp|chr)|$libm|$helpers|$own")
+	[ -z "$open" ]; say $? "$(basename "$object" .o) is quiet" "$open"
+done
+
+# No mutable globals anywhere in the library and the HAL.
+for where in "$BUILD/libladder.a" "$BUILD"/hal/*.o; do
+	[ -f "$where" ] || continue
+	state=$($NM "$where" 2>/dev/null |
+		awk '/:$/ {file = $0} NF == 3 && $2 ~ /^[bBdDcCsSgG]$/ {print file, $3}' |
+		grep -v '__odr_asan\|__gcov\|__llvm\|\.rel\.ro')
+	# Tables of pointers need relocation: `d` in a read-only section is const.
+	state=$(printf '%s\n' "$state" | while read -r file name; do
+		[ -n "$name" ] || continue
+		${CROSS}objdump -t "$where" 2>/dev/null |
+		grep -E " (\.data\.rel\.ro[^ ]*|\.rodata[^ ]*)	.* $name\$" >/dev/null ||
+		echo "$file $name"
+	done)
+	[ -z "$state" ]; say $? "$(basename "$where") has no mutable globals" "$state"
+done
+echo "1..$n"
+exit $failed
