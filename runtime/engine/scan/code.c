@@ -366,7 +366,7 @@ static bool check_lut(const struct verifier *v, const uint32_t *at, uint32_t n)
 {
 	for (uint32_t i = 0; i < n; i++, at += 4)
 		if (!reads_bool(v, at[0]) || !reads_bool(v, at[1]) ||
-		    !reads_bool(v, at[2]) || !writes_bool(v, CODE_OFFSET(at[3])))
+		    !reads_bool(v, at[2]) || !writes_bool(v, at[3] >> 8))
 			return false;
 	return n > 0;
 }

@@ -14,8 +14,8 @@
  *
  * Instructions: a word `op | n << 8`, then operand words:
  *   END
- *   LUT    n × (a, b, c, d)     m[d] = bit (a + 2b + 4c) of the table in the top
- *                               8 bits of word d; a, b, c are offsets of BOOLs
+ *   LUT    n × (a, b, c, d)     m[d >> 8] = bit (a + 2b + 4c) of the table in the
+ *                               low 8 bits of d; a, b, c are offsets of BOOLs
  *   BITGET byte, dst            n: bit 0..7
  *   BITPUT src, byte            n: bit 0..7
  *   COPY   en, dst, src         types in the top 8 bits of dst and src; widens

@@ -6,20 +6,16 @@
  * as it was; a REAL result that is infinite or not a number does too. Nothing
  * here can trap.
  */
+#include "engine/scan/value.h"
 #include "engine/scan/vm.h"
 
 #include <math.h>
 
-/* The int64 result of a sum or product (@overflow: beyond even that), cut to the
- * type. The store keeps the low bits, which is the wrap. */
+/* A sum or product (@overflow: beyond even 64 bits), cut to the type. */
 static enum fn_status fit(struct fn_args *args, bool overflow, int64_t value)
 {
-	const struct iec_type_row *row = iec_type_row(args->type);
-
-	args->out.i = value;
-	if (overflow || value < row->low || value > row->high)
-		return FN_WRAPPED;
-	return FN_OK;
+	args->out.i = value_wrap(args->type, value);
+	return overflow || args->out.i != value ? FN_WRAPPED : FN_OK;
 }
 
 static enum fn_status fit_real(struct fn_args *args, double value)
@@ -38,17 +34,8 @@ enum fn_status fn_MOVE(struct fn_args *args)
 	return FN_OK;
 }
 
-/* More than two inputs are a chain; a step that wraps marks the whole. Each step
- * is cut to the type, as a row of boxes would do it. */
-static int64_t wrap(enum iec_type type, int64_t value)
-{
-	union iec_value cut = { .i = value };
-	uint8_t memory[8];
-
-	iec_store(memory, type, cut);
-	return iec_load(memory, type).i;
-}
-
+/* More than two inputs are a chain, as a row of boxes would be; a step that wraps
+ * marks the whole. */
 enum fn_status fn_ADD(struct fn_args *args)
 {
 	enum fn_status status = FN_OK;
@@ -64,12 +51,10 @@ enum fn_status fn_ADD(struct fn_args *args)
 	for (uint32_t i = 1; i < args->count; i++) {
 		bool over = __builtin_add_overflow(sum, args->in[i].i, &sum);
 
-		if (fit(args, over, sum) != FN_OK) {
+		if (fit(args, over, sum) != FN_OK)
 			status = FN_WRAPPED;
-			sum = wrap(args->type, sum);
-		}
+		sum = args->out.i;
 	}
-	args->out.i = sum;
 	return status;
 }
 
@@ -99,12 +84,10 @@ enum fn_status fn_MUL(struct fn_args *args)
 	for (uint32_t i = 1; i < args->count; i++) {
 		bool over = __builtin_mul_overflow(value, args->in[i].i, &value);
 
-		if (fit(args, over, value) != FN_OK) {
+		if (fit(args, over, value) != FN_OK)
 			status = FN_WRAPPED;
-			value = wrap(args->type, value);
-		}
+		value = args->out.i;
 	}
-	args->out.i = value;
 	return status;
 }
 

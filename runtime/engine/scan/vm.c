@@ -2,6 +2,7 @@
  *
  * vm - the one switch. It refuses nothing: code_open() has refused before.
  */
+#include "engine/scan/value.h"
 #include "engine/scan/vm.h"
 
 #include <string.h>
@@ -37,25 +38,28 @@ const char *fault_text(enum fault fault)
 	return fault < FAULT_COUNT ? text[fault] : "unknown";
 }
 
-/* Every network of contacts ends here: n bits, each a truth table of three
+/* Every network of contacts ends here: a bit that is a truth table of three
  * others. Without branches, so that its time does not depend on the inputs.
  * Index 0..7, because the verifier lets only 0 and 1 into a BOOL. */
-static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
+static inline void look_up(uint8_t *m, const uint32_t *pc)
 {
-	const uint32_t *end = pc + 4 * (size_t)n;
+	uint32_t i = m[pc[0]] + 2u * m[pc[1]] + 4u * m[pc[2]];
+	uint32_t d = pc[3];
 
-	for (; pc != end; pc += 4) {
-		uint32_t i = m[pc[0]] + 2u * m[pc[1]] + 4u * m[pc[2]];
-		uint32_t d = pc[3];
-
-		m[CODE_OFFSET(d)] = d >> ((24u + i) & 31u) & 1u;
-	}
-	return pc;
+	m[d >> 8] = d >> (i & 31u) & 1u;
 }
 
-static union iec_value operand(const uint8_t *m, uint32_t word)
+static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
-	return iec_load(m + CODE_OFFSET(word), (enum iec_type)CODE_TYPE(word));
+	for (; n >= 4; n -= 4, pc += 16) {
+		look_up(m, pc);
+		look_up(m, pc + 4);
+		look_up(m, pc + 8);
+		look_up(m, pc + 12);
+	}
+	for (; n > 0; n--, pc += 4)
+		look_up(m, pc);
+	return pc;
 }
 
 static bool is_real(uint32_t word)
@@ -63,22 +67,32 @@ static bool is_real(uint32_t word)
 	return CODE_TYPE(word) == IEC_REAL;
 }
 
-/* An operand as REAL arithmetic needs it: integers of 16 bits are exact. */
-static double operand_real(const uint8_t *m, uint32_t word)
+static int64_t integer(const uint8_t *m, uint32_t word)
 {
-	union iec_value value = operand(m, word);
+	return value_integer(m + CODE_OFFSET(word), CODE_TYPE(word));
+}
 
-	return is_real(word) ? value.r : (double)value.i;
+/* An operand as REAL arithmetic needs it: integers of 16 bits are exact. */
+static double real(const uint8_t *m, uint32_t word)
+{
+	return is_real(word) ? value_real(m + CODE_OFFSET(word))
+			     : (double)integer(m, word);
+}
+
+static void put(uint8_t *m, uint32_t word, union iec_value value)
+{
+	value_put(m + CODE_OFFSET(word), CODE_TYPE(word), value);
 }
 
 static void run_copy(uint8_t *m, const uint32_t *pc)
 {
-	union iec_value value = operand(m, pc[2]);
+	union iec_value value;
 
-	if (is_real(pc[1]) && !is_real(pc[2]))
-		value.r = (double)value.i;
-	iec_store(m + CODE_OFFSET(pc[1]), (enum iec_type)CODE_TYPE(pc[1]),
-		  value);
+	if (is_real(pc[1]))
+		value.r = real(m, pc[2]);
+	else
+		value.i = integer(m, pc[2]);
+	put(m, pc[1], value);
 }
 
 #define COMPARE(rel, a, b) \
@@ -89,11 +103,11 @@ static void run_copy(uint8_t *m, const uint32_t *pc)
 static bool run_cmp(const uint8_t *m, const uint32_t *pc, uint32_t rel)
 {
 	if (is_real(pc[1]) || is_real(pc[2])) {
-		double a = operand_real(m, pc[1]), b = operand_real(m, pc[2]);
+		double a = real(m, pc[1]), b = real(m, pc[2]);
 
 		return COMPARE(rel, a, b);
 	}
-	int64_t a = operand(m, pc[1]).i, b = operand(m, pc[2]).i;
+	int64_t a = integer(m, pc[1]), b = integer(m, pc[2]);
 
 	return COMPARE(rel, a, b);
 }
@@ -103,21 +117,20 @@ static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
 	struct fn_args args;
 	enum fn_status status;
-	bool real = (n & 0xff) == IEC_REAL;
+	bool in_real = (n & 0xff) == IEC_REAL;
 
 	args.type = (enum iec_type)(n & 0xff);
 	args.count = n >> 8;
 	for (uint32_t i = 0; i < args.count; i++)
-		if (real)
-			args.in[i].r = operand_real(m, pc[4 + i]);
+		if (in_real)
+			args.in[i].r = real(m, pc[4 + i]);
 		else
-			args.in[i] = operand(m, pc[4 + i]);
+			args.in[i].i = integer(m, pc[4 + i]);
 	status = fn_table[pc[0]](&args);
 	if (status != FN_FAILED) {
-		if (is_real(pc[3]) && !real)
+		if (is_real(pc[3]) && !in_real)
 			args.out.r = (double)args.out.i;
-		iec_store(m + CODE_OFFSET(pc[3]),
-			  (enum iec_type)CODE_TYPE(pc[3]), args.out);
+		put(m, pc[3], args.out);
 	}
 	return status == FN_OK;
 }
