@@ -15,7 +15,8 @@ struct arena_chunk {
 	struct arena_chunk *next; /* older                                   */
 	size_t size, used;        /* bytes behind this header                */
 	size_t last;              /* offset of the last allocation           */
-	uint64_t bytes[];         /* a type with the strictest alignment     */
+	size_t dirty;             /* bytes from here on are still zero       */
+	uint64_t bytes[];         /* of the strictest alignment              */
 };
 
 #define ALIGN     8u
@@ -70,15 +71,29 @@ static bool add_chunk(struct arena *arena, size_t wanted)
 		size = wanted;
 	if (size > SIZE_MAX - sizeof(*chunk))
 		return false;
-	chunk = malloc(sizeof(*chunk) + size);
+	chunk = calloc(1, sizeof(*chunk) + size);
 	if (!chunk)
 		return false;
 	chunk->next = arena->chunk;
 	chunk->size = size;
-	chunk->used = chunk->last = 0;
 	arena->chunk = chunk;
 	arena->reserved += sizeof(*chunk) + size;
 	return true;
+}
+
+/* Zeroes @memory, which lies in the newest chunk, up to @size bytes. What the
+ * system gave is zero already and is not touched: large tables cost little until
+ * they are filled. */
+static void zero(struct arena *arena, void *memory, size_t size)
+{
+	struct arena_chunk *chunk = arena->chunk;
+	size_t from = (size_t)((char *)memory - (char *)chunk->bytes);
+	size_t to = from + size < chunk->dirty ? from + size : chunk->dirty;
+
+	if (from < to)
+		memset(memory, 0, to - from);
+	if (from + size > chunk->dirty)
+		chunk->dirty = from + size;
 }
 
 /* Bytes that are not zeroed yet; @align is a power of two up to ALIGN. */
@@ -107,8 +122,8 @@ void *arena_alloc(struct arena *arena, size_t size)
 {
 	void *memory = take(arena, size, ALIGN);
 
-	if (memory && size)
-		memset(memory, 0, size);
+	if (memory)
+		zero(arena, memory, size);
 	return memory;
 }
 
@@ -147,8 +162,7 @@ void *arena_grow(struct arena *arena, void *old, size_t old_size,
 		if (keep)
 			memcpy(memory, old, keep);
 	}
-	if (new_size > keep)
-		memset(memory + keep, 0, new_size - keep);
+	zero(arena, memory + keep, new_size - keep);
 	return memory;
 }
 
@@ -161,9 +175,9 @@ char *arena_copy(struct arena *arena, const char *text, size_t len)
 	copy = take(arena, len + 1, 1);
 	if (!copy)
 		return NULL;
+	zero(arena, copy + len, 1);
 	if (len)
 		memcpy(copy, text, len);
-	copy[len] = '\0';
 	return copy;
 }
 

@@ -211,7 +211,7 @@ static size_t symbol_length(const char *at, const char *end)
 {
 	static const char pairs[][3] = { ":=", "=>", "<=", ">=", "<>", "**" };
 
-	if (end - at >= 2)
+	if (end - at >= 2 && (at[1] == '=' || at[1] == '>' || at[1] == '*'))
 		for (size_t i = 0; i < sizeof(pairs) / sizeof(*pairs); i++)
 			if (at[0] == pairs[i][0] && at[1] == pairs[i][1])
 				return 2;

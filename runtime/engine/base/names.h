@@ -47,7 +47,8 @@ size_t names_len(const struct names *names, uint32_t id);
 /**
  * names_fold - the id that all spellings of a name share (ASCII case ignored)
  *
- * Computed once a string.   Scan-safe: no.   Fails: 0 when memory is out.
+ * It is that of the spelling that came first.   Scan-safe: no.
+ * Fails: 0 for the empty string and ids that are none.
  */
 uint32_t names_fold(struct names *names, uint32_t id);
 
