@@ -312,14 +312,12 @@ static void test_operands(void)
 	forget();
 	declare("A", IEC_BOOL, ELEM_EMPTY, "%IX0.0");
 	declare("T", IEC_NONE, FB_TON, NULL);
-	CHECK_TEXT(name("| NO A | CTU T |"),
-		   "LD309(1,2)T LD325(0,0)T");
-	CHECK_TEXT(name("| NO T | COIL A |"),
-		   "LD308(1,1)T LD304(1,2)A LD325(0,0)A LD325(0,0)T");
+	CHECK_TEXT(name("| NO A | CTU T |"), "LD309(1,2)T");
+	CHECK_TEXT(name("| NO T | COIL A |"), "LD308(1,1)T LD304(1,2)A");
 	CHECK_TEXT(name("| NO A | TON T PT:=X Q:=A Z:=1 ET=>A |"),
 		   "LD301(1,2)X LD320(1,2)Q LD319(1,2)Z LD304(1,2)A");
 	CHECK_TEXT(name("| NO T.Q | COIL T.Q |"),
-		   "LD320(1,2)T.Q LD325(0,0)A LD312(0,0)T");
+		   "LD320(1,2)T.Q LD325(0,0)A");
 	CHECK_TEXT(name("| NO A | TON T | COIL %QB0 |"), "LD324(1,3)%QB0");
 	CHECK_TEXT(name("| NO A | TON T | ADD IN1:=1 OUT=>QB0 |"),
 		   "LD321(1,3)IN2");

@@ -144,7 +144,7 @@ static void test_literals(struct scope *scope)
 static void test_many(struct scope *scope)
 {
 	const struct meaning *first[2000];
-	char text[16];
+	char text[32];
 	bool same = true, right = true;
 
 	for (int i = 0; i < 2000; i++) {

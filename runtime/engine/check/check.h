@@ -24,20 +24,22 @@
  * begins: what only follows from it is not told.
  * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.
  */
-bool check_rung(const struct project *project, const struct pou *pou, int number,
-		const struct rung *rung, const struct network *network,
+bool check_rung(const struct project *project, const struct pou *pou,
+		int number, const struct rung *rung,
+		const struct network *network,
 		struct arena *scratch, struct diag_list *diags);
 
 /**
  * check_names - declarations, labels, instances, uses of variables in a project
  * @scope:   of the project
- * @bad:     NULL, or for each POU NULL or a byte a rung; set to 1 for a rung that
- *           has an error, so that translation can leave it out
+ * @bad:     NULL, or for each POU NULL or a byte a rung; set to 1 for a rung
+ *           that has an error, so that translation can leave it out
  * @scratch: some memory a project; dead afterwards
  *
- * Unknown and duplicate names, labels, AT types, writes to inputs and constants,
- * coils in two places, instances called twice, never written, never read,
- * unreachable rungs. Of an IL POU it only counts the uses: check_il() judges it.
+ * Unknown and duplicate names, labels, AT types, writes to inputs and
+ * constants, coils in two places, instances called twice, never written, never
+ * read, unreachable rungs. Of an IL POU it only counts the uses: check_il()
+ * judges it.
  * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.
  */
 bool check_names(struct scope *scope, uint8_t *const *bad,

@@ -2,9 +2,9 @@
  *
  * check_names - declarations, labels, and whether what is declared is used.
  *
- * Every table is asked by folded name or index, so that the cost is linear in the
- * project. What stands in the cells is looked at by check_operand; types over the
- * instruction list are check_il's.
+ * Every table is asked by folded name or index, so that the cost is linear in
+ * the project. What stands in the cells is looked at by check_operand; types
+ * over the instruction list are check_il's.
  */
 #include "engine/base/ascii.h"
 #include "engine/check/check.h"
@@ -14,9 +14,9 @@
 
 /* What a folded name is, apart from a variable. A number of a POU is 1-based. */
 struct mark {
-	int pou;        /* POU of this name                                    */
-	int label_pou;  /* POU in which it was a label last                    */
-	int target_pou; /* POU in which a jump named it last                   */
+	int pou;        /* POU of this name */
+	int label_pou;  /* POU in which it was a label last */
+	int target_pou; /* POU in which a jump named it last */
 	bool reserved;
 };
 
@@ -27,9 +27,9 @@ struct names_check {
 	struct diag_list *diags;
 	struct uses uses;
 	struct expr *expr;
-	struct mark *mark; /* by folded name, for those there were at first    */
+	struct mark *mark; /* by folded name, for those there were at first */
 	uint32_t marks;
-	int *end;          /* numbers of rungs that never fall through         */
+	int *end;          /* numbers of rungs that never fall through */
 	int ends;
 	bool good;
 };
@@ -81,7 +81,8 @@ static const char *const keywords[] = {
 	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
 };
 #define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
-#define RESERVED_COUNT (KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
+#define RESERVED_COUNT \
+	(KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
 
 /* Reserved word number @i, in any order; "" for none. */
 static const char *reserved_word(int i)
@@ -104,7 +105,8 @@ static uint32_t fold_text(struct names_check *c, const char *text)
 	return names_fold(names, names_intern(names, text, strlen(text)));
 }
 
-/* All names that will be asked for get their folded id, then the table is made. */
+/* All names that will be asked for get their folded id, then the table is
+ * made. */
 static bool make_marks(struct names_check *c)
 {
 	struct names *names = &c->project->names;
@@ -146,7 +148,7 @@ static bool is_reserved(struct names_check *c, const char *name, uint32_t fold)
 {
 	const struct mark *mark = mark_of(c, fold);
 
-	return (mark && mark->reserved) || is_generated(name) ||
+	return (mark && mark->reserved) ||
 	       (strlen(name) >= 4 && ascii_same(name, "SYS_", 4)) ||
 	       strchr(name, '.');
 }
@@ -171,7 +173,9 @@ static void check_var(struct names_check *c, const struct pou *pou,
 	if (scope_duplicate(c->scope, pou, index) >= 0 ||
 	    (!pou && mark && mark->pou))
 		report_line(c, DIAG_DUPLICATE_NAME, pou, var->line, name);
-	if (is_reserved(c, name, var->fold))
+	/* What `ladder il` prints declares its temporaries. */
+	if (is_reserved(c, name, var->fold) ||
+	    (is_generated(name) && !(pou && pou->language == LANGUAGE_IL)))
 		report_line(c, DIAG_RESERVED_NAME, pou, var->line, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
 		report_line(c, DIAG_SHADOWS_ADDRESS, pou, var->line, name);
@@ -188,9 +192,11 @@ static void check_table(struct names_check *c, const struct pou *pou,
 		const struct var_block *block = &table->block[i];
 
 		if (block->flags & VAR_RETAIN)
-			report_line(c, DIAG_RETAIN_IGNORED, pou, block->line, "");
+			report_line(c, DIAG_RETAIN_IGNORED, pou, block->line,
+				    "");
 		for (int k = 0; k < block->count; k++)
-			check_var(c, pou, table, block->first + k, block->flags);
+			check_var(c, pou, table, block->first + k,
+				  block->flags);
 	}
 }
 
@@ -207,9 +213,11 @@ static void check_pous(struct names_check *c)
 		const char *name = text_of(c, pou->name);
 
 		if (is_reserved(c, name, fold))
-			report_line(c, DIAG_RESERVED_NAME, pou, pou->line, name);
+			report_line(c, DIAG_RESERVED_NAME, pou, pou->line,
+				    name);
 		if (mark && mark->pou)
-			report_line(c, DIAG_DUPLICATE_NAME, pou, pou->line, name);
+			report_line(c, DIAG_DUPLICATE_NAME, pou, pou->line,
+				    name);
 		else if (mark)
 			mark->pou = i + 1;
 	}
@@ -266,7 +274,8 @@ static bool check_jumps(struct names_check *c, int number, int rung_number)
 		ends |= is_at_rail(rung, row, col);
 		if (word_row((enum word)cell->word)->operand != OPND_LABEL)
 			continue;
-		mark = mark_of(c, names_fold(&c->project->names, cell->operand));
+		mark = mark_of(c, names_fold(&c->project->names,
+					     cell->operand));
 		if (mark && mark->label_pou == number)
 			mark->target_pou = number;
 		else
@@ -399,8 +408,9 @@ static void note_il(struct names_check *c, const struct pou *pou)
 	}
 }
 
-/* What a declared variable lacks; DIAG_COUNT: nothing. What stands at an address
- * may be read from outside; an instance counts as written by its call. */
+/* What a declared variable lacks; DIAG_COUNT: nothing. What stands at an
+ * address may be read from outside; an instance counts as written by its
+ * call. */
 static enum diag_id judge_use(const struct var *var, unsigned int use,
 			      uint8_t flags)
 {
@@ -414,7 +424,7 @@ static enum diag_id judge_use(const struct var *var, unsigned int use,
 	if (!use)
 		return DIAG_UNUSED;
 	if (var->type == IEC_NONE)
-		return DIAG_NEVER_WRITTEN;
+		return use & USE_WRITTEN ? DIAG_COUNT : DIAG_NEVER_WRITTEN;
 	if (!(use & USE_WRITTEN) && !given)
 		return DIAG_NEVER_WRITTEN;
 	return use & USE_READ || outside ? DIAG_COUNT : DIAG_NEVER_READ;
@@ -429,7 +439,9 @@ static void check_uses(struct names_check *c, int table_number)
 	for (int i = 0; i < table->block_count; i++) {
 		const struct var_block *block = &table->block[i];
 
-		for (int k = block->first; k < block->first + block->count; k++) {
+		int end = block->first + block->count;
+
+		for (int k = block->first; k < end; k++) {
 			const struct var *var = &table->var[k];
 			unsigned int use = uses_of(&c->uses, table_number, k,
 						   var->at);
@@ -475,7 +487,7 @@ bool check_names(struct scope *scope, uint8_t *const *bad,
 	check_bodies(&c, bad);
 	for (int i = 0; i <= c.project->pou_count; i++)
 		check_uses(&c, i);
-	if (scratch->failed)
+	if (scratch->failed || c.project->arena.failed)
 		report_line(&c, DIAG_NO_MEMORY, NULL, 0, "");
 	return c.good;
 }

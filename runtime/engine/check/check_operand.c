@@ -48,6 +48,16 @@ static uint32_t intern(struct operand_check *c, const char *text, size_t len)
 	return names_intern(&c->project->names, text, len);
 }
 
+/* What is named wrongly is at least not unused: one mistake, one message. */
+static const struct meaning *refuse(struct operand_check *c, enum diag_id id,
+				    struct spot at, uint32_t name,
+				    const struct meaning *m)
+{
+	report(c, id, at, project_text(c->project, name));
+	uses_add(c->uses, m, USE_READ | USE_WRITTEN);
+	return NULL;
+}
+
 /* A name whose value is asked for. NULL after a diagnostic. */
 static const struct meaning *read_name(struct operand_check *c, struct spot at,
 				       uint32_t id)
@@ -56,11 +66,8 @@ static const struct meaning *read_name(struct operand_check *c, struct spot at,
 
 	if (!m)
 		return NULL;
-	if (m->kind == MEANING_INSTANCE) {
-		report(c, DIAG_INSTANCE_AS_VALUE, at,
-		       project_text(c->project, id));
-		return NULL;
-	}
+	if (m->kind == MEANING_INSTANCE)
+		return refuse(c, DIAG_INSTANCE_AS_VALUE, at, id, m);
 	uses_add(c->uses, m, USE_READ);
 	return m;
 }
@@ -70,14 +77,15 @@ static enum diag_id write_fault(const struct meaning *m)
 {
 	if (m->kind == MEANING_INSTANCE)
 		return DIAG_INSTANCE_AS_VALUE;
-	if (m->constant)
+	if (m->constant || m->kind == MEANING_LITERAL)
 		return DIAG_WRITE_CONSTANT;
 	if (m->writable)
 		return DIAG_COUNT;
 	return m->kind == MEANING_PIN ? DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT;
 }
 
-/* @always: written at every evaluation, as a coil does; two such places fight. */
+/* @always: written at every evaluation, as a coil does; two such places
+ * fight. */
 static const struct meaning *write_name(struct operand_check *c, struct spot at,
 					uint32_t id, bool always)
 {
@@ -87,10 +95,8 @@ static const struct meaning *write_name(struct operand_check *c, struct spot at,
 	if (!m)
 		return NULL;
 	fault = write_fault(m);
-	if (fault != DIAG_COUNT) {
-		report(c, fault, at, project_text(c->project, id));
-		return NULL;
-	}
+	if (fault != DIAG_COUNT)
+		return refuse(c, fault, at, id, m);
 	if (uses_add(c->uses, m, always ? USE_WRITTEN | USE_COIL : USE_WRITTEN))
 		report(c, DIAG_COIL_TWICE, at, project_text(c->project, id));
 	return m;
@@ -117,7 +123,8 @@ static void check_expression(struct operand_check *c, struct spot at,
 		.rung = c->number, .row = at.row + 1, .col = at.col + 1,
 	};
 
-	if (!expr_parse_text(text, names_len(names, id), expr, c->diags, place)) {
+	if (!expr_parse_text(text, names_len(names, id), expr, c->diags,
+			     place)) {
 		c->good = false;
 		return;
 	}
@@ -136,8 +143,8 @@ static void check_expression(struct operand_check *c, struct spot at,
 
 /* ---- boxes ---- */
 
-/* What is wrong with the pin of a parameter; DIAG_COUNT: nothing. Functions have
- * EN, ENO and OUT beside the inputs of their row. */
+/* What is wrong with the pin of a parameter; DIAG_COUNT: nothing. Functions
+ * have EN, ENO and OUT beside the inputs of their row. */
 static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
 {
 	int index = word_pin_find(row, arg->pin, arg->pin_len);
@@ -237,7 +244,7 @@ static void check_instance(struct operand_check *c, struct spot at,
 	if (!m)
 		return;
 	if (m->kind != MEANING_INSTANCE || m->var->fb != (enum word)cell->word)
-		report(c, DIAG_NOT_INSTANCE, at, name);
+		refuse(c, DIAG_NOT_INSTANCE, at, cell->operand, m);
 	else if (uses_add(c->uses, m, USE_CALLED))
 		report(c, DIAG_INSTANCE_TWICE, at, name);
 }

@@ -2,11 +2,11 @@
  *
  * check_rung - can power flow through this rung as it is drawn?
  *
- * It looks at the grid for loose ends and boxes, and at the network for elements
- * that are cut off, shorted or turned round. Names mean nothing here.
+ * It looks at the grid for loose ends and boxes, and at the network for
+ * elements that are cut off, shorted or turned round. Names mean nothing here.
  *
- * Only the place where a fault begins is told: of a chain that hangs in the air,
- * its first element; of a chain that leads nowhere, its last.
+ * Only the place where a fault begins is told: of a chain that hangs in the
+ * air, its first element; of a chain that leads nowhere, its last.
  */
 #include "engine/check/check.h"
 
@@ -16,10 +16,10 @@
 #include <string.h>
 
 struct net_mark {
-	int last_bar;   /* rightmost bar at which an element feeds the net     */
-	int feeder;     /* that element                                        */
-	bool said;      /* a loose end of this net was told already            */
-	bool wired;     /* a wire belongs to it                                */
+	int last_bar;   /* rightmost bar at which an element feeds the net */
+	int feeder;     /* that element */
+	bool said;      /* a loose end of this net was told already */
+	bool wired;     /* a wire belongs to it */
 };
 
 struct rung_check {
@@ -31,7 +31,7 @@ struct rung_check {
 	struct arena *scratch;
 	struct diag_list *diags;
 	struct net_mark *net;
-	bool outputs;   /* without one, nothing is said of what leads nowhere  */
+	bool outputs;   /* without one, nothing is said of what leads nowhere */
 	bool good;
 };
 
@@ -149,7 +149,8 @@ static void check_wire(struct rung_check *c, int row, int col)
 	mark->said = true;
 }
 
-/* A `.` row whose box is not directly above it; told for the first of several. */
+/* A `.` row whose box is not directly above it; told for the first of
+ * several. */
 static void check_pin_row(struct rung_check *c, int row, int col)
 {
 	enum word above = word_at(c, row - 1, col);
@@ -205,7 +206,8 @@ static enum diag_id judge_pin(const struct word_row *row, const char *name,
 }
 
 static bool pin_row_before(const struct rung_check *c,
-			   const struct network_element *e, int number, int index)
+			   const struct network_element *e, int number,
+			   int index)
 {
 	const struct word_row *row = word_row((enum word)e->word);
 
@@ -243,7 +245,8 @@ static void check_pin(struct rung_check *c, const struct network_element *e,
 }
 
 /* The pin that takes the power of the box's row cannot be a parameter too. */
-static void check_power_pin(struct rung_check *c, const struct network_element *e)
+static void check_power_pin(struct rung_check *c,
+			    const struct network_element *e)
 {
 	const struct cell *cell = cell_at(c, e->row, e->col);
 	const struct word_row *row = word_row((enum word)e->word);
@@ -317,9 +320,9 @@ static void check_element(struct rung_check *c, int number)
 /* ---- backwards ----
  *
  * An element feeds its net at the bar of its right end; an element or pin that
- * reads the net at a bar left of it would need power to flow right to left. When
- * the reader leads round to the feeder again, the net is a bare wire beside what
- * lies between: a short circuit. Else two branches are mixed. */
+ * reads the net at a bar left of it would need power to flow right to left.
+ * When the reader leads round to the feeder again, the net is a bare wire
+ * beside what lies between: a short circuit. Else two branches are mixed. */
 
 /* Elements that no order of evaluation can reach: on a ring, or behind one. */
 struct ring {
@@ -368,8 +371,11 @@ static void ring_fill(struct ring *ring, const struct network *n)
 		const struct network_element *e = &n->element[i];
 
 		ring->reader[--ring->first[e->in]] = i;
-		for (int k = 0; k < e->pins; k++)
-			ring->reader[--ring->first[n->pin[e->first_pin + k].in]] = i;
+		for (int k = 0; k < e->pins; k++) {
+			int net = n->pin[e->first_pin + k].in;
+
+			ring->reader[--ring->first[net]] = i;
+		}
 	}
 }
 
@@ -440,7 +446,8 @@ static void check_direction(struct rung_check *c)
 		if (!is_shorted(e))
 			check_reader(c, &ring, i, e->in, e->row, e->col);
 		for (int k = 0; k < e->pins; k++) {
-			const struct network_pin *pin = &n->pin[e->first_pin + k];
+			const struct network_pin *pin =
+				&n->pin[e->first_pin + k];
 
 			check_reader(c, &ring, i, pin->in, pin->row, pin->col);
 		}
@@ -455,8 +462,9 @@ static bool has_wire(const struct rung *rung)
 	return false;
 }
 
-bool check_rung(const struct project *project, const struct pou *pou, int number,
-		const struct rung *rung, const struct network *network,
+bool check_rung(const struct project *project, const struct pou *pou,
+		int number, const struct rung *rung,
+		const struct network *network,
 		struct arena *scratch, struct diag_list *diags)
 {
 	struct rung_check c = {

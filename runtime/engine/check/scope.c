@@ -2,8 +2,9 @@
  *
  * scope - from the text of an operand to what it means.
  *
- * Two open hashes: the declared names of all tables, and the answers given so far
- * by (POU, string id). It reports nothing: who asks knows the place and says it.
+ * Two open hashes: the declared names of all tables, and the answers given so
+ * far by (POU, string id). It reports nothing: who asks knows the place and
+ * says it.
  */
 #include "engine/check/scope.h"
 
@@ -13,9 +14,9 @@
 
 /* A declaration; table 0 is the globals, POU number n has n + 1. */
 struct declared {
-	uint32_t table, fold; /* fold 0: a free slot                           */
-	int index;            /* of the first declaration of this name         */
-	uint8_t flags;        /* of its VAR block                              */
+	uint32_t table, fold; /* fold 0: a free slot */
+	int index;            /* of the first declaration of this name */
+	uint8_t flags;        /* of its VAR block */
 };
 
 /* An answer; the string id counts from 1, so that 0 is a free slot. */
@@ -150,8 +151,8 @@ static bool may_write(struct iec_addr addr)
 	       iec_area_row(addr.area)->access == ACCESS_WRITE;
 }
 
-static void mean_variable(const struct scope *scope, const struct declared *slot,
-			  struct meaning *out)
+static void mean_variable(const struct scope *scope,
+			  const struct declared *slot, struct meaning *out)
 {
 	const struct var *var =
 		&table_of(scope, slot->table)->var[slot->index];
@@ -171,8 +172,9 @@ static void mean_variable(const struct scope *scope, const struct declared *slot
 }
 
 /* `Instance.PIN`; false leaves @out as it was. */
-static bool mean_pin(const struct scope *scope, uint32_t table, const char *text,
-		     size_t len, struct meaning *out, enum diag_id *why)
+static bool mean_pin(const struct scope *scope, uint32_t table,
+		     const char *text, size_t len, struct meaning *out,
+		     enum diag_id *why)
 {
 	const char *dot = memchr(text, '.', len);
 	struct names *names = &scope->project->names;
@@ -348,8 +350,8 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 	return slot ? slot->meaning : NULL;
 }
 
-bool scope_add(struct scope *scope, const struct pou *pou, const struct var *var,
-	       int index)
+bool scope_add(struct scope *scope, const struct pou *pou,
+	       const struct var *var, int index)
 {
 	uint32_t table = table_number(scope, pou);
 	struct meaning *out = arena_alloc(scope->arena, sizeof(*out));

@@ -3,7 +3,8 @@
  * scope - what an operand's text means inside a POU.
  *
  * Locals win over globals, declared names over SYS_ names and over short
- * addresses. One hash a project, so that 100,000 names cost no more than ten each.
+ * addresses. One hash a project, so that 100,000 names cost no more than ten
+ * each.
  */
 #ifndef CHECK_SCOPE_H
 #define CHECK_SCOPE_H
@@ -61,8 +62,8 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index);
  * @index: behind the declared variables of the POU's table
  * Scan-safe: no.   Fails: false when memory is out.
  */
-bool scope_add(struct scope *scope, const struct pou *pou, const struct var *var,
-	       int index);
+bool scope_add(struct scope *scope, const struct pou *pou,
+	       const struct var *var, int index);
 struct project *scope_project(const struct scope *scope);
 /** scope_text - the string of an id. */
 const char *scope_text(const struct scope *scope, uint32_t id);

@@ -2,8 +2,8 @@
  *
  * uses - flags for each declared variable, and bit maps of the process image.
  *
- * The maps make overlap free of charge: whoever touches %MW0 touches its 16 bits.
- * It knows no rungs and no diagnostics.
+ * The maps make overlap free of charge: whoever touches %MW0 touches its 16
+ * bits. It knows no rungs and no diagnostics.
  */
 #include "engine/check/uses.h"
 
@@ -81,7 +81,8 @@ static uint8_t *flags_of(struct uses *uses, const struct meaning *meaning)
 	return &uses->flags[uses->base[table] + meaning->index];
 }
 
-bool uses_add(struct uses *uses, const struct meaning *meaning, unsigned int use)
+bool uses_add(struct uses *uses, const struct meaning *meaning,
+	      unsigned int use)
 {
 	unsigned int once = use & (USE_COIL | USE_CALLED);
 	bool again = false;

@@ -40,7 +40,8 @@ bool uses_init(struct uses *uses, const struct project *project,
  *
  * True when this is the second coil or the second call of the same place: once.
  */
-bool uses_add(struct uses *uses, const struct meaning *meaning, unsigned int use);
+bool uses_add(struct uses *uses, const struct meaning *meaning,
+	      unsigned int use);
 
 /** uses_of - what is done with a declared variable: its own flags and those of
  * its address. @table 0: globals, else number of the POU + 1. */

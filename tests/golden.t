@@ -1,0 +1,160 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# golden.t - runs every case of tests/golden and compares byte by byte.
+#
+# A case is a folder with main.rung and at least one of
+#   expected.diag   what `ladder check` says on standard error
+#   expected.il     what `ladder il` prints
+#   expected.trace  what `ladder trace main.rung stimulus` prints
+# The cases together must show every message of diag.def and trace every word of
+# catalog.def. `--bless CASE` rewrites what a case expects and shows the difference:
+# a person reads it. It decides nothing about right and wrong itself.
+use strict;
+use warnings;
+use Cwd qw(abs_path getcwd);
+use File::Basename qw(dirname basename);
+use File::Temp qw(tempfile);
+use Test::More;
+
+my $tests = abs_path(dirname(__FILE__));
+my $engine = "$tests/../runtime/engine";
+my $ladder = abs_path($ENV{LADDER} || "$tests/../build/ladder");
+
+my %command = (
+	diag  => ['check', 'main.rung'],
+	il    => ['il', 'main.rung'],
+	trace => ['trace', 'main.rung', 'stimulus'],
+);
+
+sub slurp {
+	my ($path) = @_;
+	open my $in, '<:raw', $path or return undef;
+	local $/;
+	my $text = <$in>;
+	return defined $text ? $text : '';
+}
+
+# Runs one command of a case in its folder: standard output, error, exit status.
+sub run_case {
+	my ($dir, @args) = @_;
+	my ($out, $out_name) = tempfile(UNLINK => 1);
+	my ($err, $err_name) = tempfile(UNLINK => 1);
+	my $pid = fork;
+	die "fork: $!" unless defined $pid;
+	if (!$pid) {
+		chdir $dir or exit 126;
+		open STDIN, '<', '/dev/null';
+		open STDOUT, '>&', $out;
+		open STDERR, '>&', $err;
+		exec $ladder, @args or exit 127;
+	}
+	waitpid $pid, 0;
+	my $status = $? & 127 ? -1 : $? >> 8;
+	return (slurp($out_name), slurp($err_name), $status);
+}
+
+# What kind @_ gives now: the text and whether the exit status is the right one.
+sub produce {
+	my ($dir, $kind) = @_;
+	my ($out, $err, $status) = run_case($dir, @{$command{$kind}});
+	my $text = $kind eq 'diag' ? $err : $out;
+	my $wanted = $kind eq 'diag' && $err =~ /: error LD/ ? 1 : 0;
+	return ($text, $status == $wanted, $status);
+}
+
+sub cases {
+	return sort map { dirname($_) } glob("$tests/golden/*/main.rung");
+}
+
+sub bless_case {
+	my ($dir) = @_;
+	my @kinds = grep { -e "$dir/expected.$_" } sort keys %command;
+	push @kinds, 'trace' if -e "$dir/stimulus" && !grep { $_ eq 'trace' } @kinds;
+	@kinds = ('diag') unless @kinds;
+	for my $kind (@kinds) {
+		my ($text, $good, $status) = produce($dir, $kind);
+		my $path = "$dir/expected.$kind";
+		my ($new, $new_name) = tempfile(UNLINK => 1);
+		binmode $new;
+		print $new $text;
+		close $new;
+		print "$path: exit status $status\n" unless $good;
+		system 'diff', '-u', '-N', '--label', "$path (before)", '--label',
+			"$path (now)", $path, $new_name;
+		open my $to, '>:raw', $path or die "$path: $!\n";
+		print $to $text;
+		close $to or die "$path: $!\n";
+	}
+}
+
+if (@ARGV && $ARGV[0] eq '--bless') {
+	shift;
+	die "which case? make bless CASE=name\n" unless @ARGV;
+	for my $name (@ARGV) {
+		-e "$tests/golden/$name/main.rung" or die "no case $name\n";
+		bless_case("$tests/golden/$name");
+	}
+	exit 0;
+}
+
+# A case shows a word where it can run: in a file that is traced.
+sub traced_text {
+	my $text = '';
+	for my $dir (cases()) {
+		$text .= slurp("$dir/main.rung") if -e "$dir/expected.trace";
+	}
+	$text =~ s/\(\*.*?\*\)//gs;
+	$text =~ s/"[^"\n]*"//g;
+	return $text;
+}
+
+# How the row of a word looks in a rung file; undef: it cannot be written.
+sub pattern {
+	my ($kind, $id, $word) = @_;
+	return qr/:\s*\Q$id\E\b/ if $kind eq 'TYPE';
+	return qr/^\s*(?:\w+:\s*)?\Q$id\E(?:C|N|CN)?\b(?!\s*:)/m if $kind eq 'OP';
+	return qr/\|\s*\Q$id\E\s/ if $kind ne 'ELEM';
+	return undef if $word eq '';
+	return qr/\|\s*\[(?![^\]]*:=)/ if $word eq '[ ]';
+	return qr/\|\s*\[[^\]]*:=/ if $word eq '[:=]';
+	return qr/\|\s*\.\w/ if $word eq '.';
+	return qr/\|\s*\Q$word\E[\s|]/;
+}
+
+sub missing_words {
+	my $traced = traced_text();
+	my @missing;
+	for my $row (split /\n/, slurp("$engine/catalog.def")) {
+		next unless $row =~ /^(TYPE|ELEM|FB|FN|OP)\((\w+),\s*(?:"([^"]*)")?/;
+		my ($kind, $id, $word) = ($1, $2, defined $3 ? $3 : '');
+		next if $id eq 'id';
+		my $pattern = pattern($kind, $id, $word);
+		push @missing, "$kind $id" if defined $pattern && $traced !~ $pattern;
+	}
+	return @missing;
+}
+
+# Not to be shown by a small text: of the system (LD0), of I/O maps (LD5), of code
+# images (LD61), and of programs of many megabytes.
+my $elsewhere = qr/^LD(?:0|5|61|606|607)/;
+
+sub missing_codes {
+	my $shown = join '', map { slurp("$_/expected.diag") // '' } cases();
+	my @codes = slurp("$engine/diag.def") =~ /^DIAG\(\w+,\s*"(LD\d+)"/mg;
+	return grep { !/$elsewhere/ && $shown !~ / $_: / } @codes;
+}
+
+for my $dir (cases()) {
+	my $name = basename($dir);
+	my @kinds = grep { -e "$dir/expected.$_" } sort keys %command;
+	ok(@kinds > 0, "$name expects something");
+	for my $kind (@kinds) {
+		my ($text, $good, $status) = produce($dir, $kind);
+		is($text, slurp("$dir/expected.$kind"), "$name: $kind");
+		ok($good, "$name: $kind: exit status $status");
+	}
+}
+is_deeply([missing_codes()], [], 'every message has a case');
+is_deeply([missing_words()], [], 'every word has a case that is traced');
+done_testing();
