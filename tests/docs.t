@@ -3,7 +3,7 @@
 #
 # What the documents show is true. Each ```rung block is a whole file that checks
 # without an error, is canonical and runs; each ```console block is typed again and
-# must answer as printed. It does not judge prose.
+# must answer as printed; what a link names is there. It does not judge prose.
 #
 # A second word on a fence (```rung lamp.rung, ```text steps) is a file name: the block is
 # written under it, so that later commands find it. Each document has a folder of
@@ -122,7 +122,18 @@ sub check_console {
 	}
 }
 
+sub check_links {
+	my ($path) = @_;
+	my $text = read_text($path);
+	while ($text =~ /\]\(([^)#\s]+)[^)]*\)/g) {
+		my $link = $1;
+		next if $link =~ /^\w+:/;
+		ok(-e dirname($path) . "/$link", basename($path) . " links to $link");
+	}
+}
+
 my %count = (rung => 0, console => 0);
+check_links($_) for glob("$top/docs/*.md"), glob("$top/*.md");
 for my $path (glob("$top/docs/*.md"), "$top/README.md") {
 	my $folder = tempdir(CLEANUP => 1);
 	my $doc = basename($path);

@@ -1,0 +1,106 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# Every program in ladders/ is good, canonical and does what its scenarios say, and
+# the scenarios are worth something: they notice nearly every contact that is turned
+# round or bridged. A sample is found by its name; there is no list.
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname basename);
+use File::Temp qw(tempdir);
+use Test::More;
+
+my $top = abs_path(dirname(__FILE__) . '/..');
+my $build = abs_path($ENV{BUILD} // "$top/build");
+my $ladder = $ENV{LADDER} ? abs_path($ENV{LADDER}) : "$build/ladder";
+my $folder = tempdir(CLEANUP => 1);
+my $noticed_least = 0.9; # interlocks that stand twice cannot be noticed
+
+sub run {
+	my (@command) = @_;
+	my $pid = open my $from, '-|';
+	die "fork: $!" if !defined $pid;
+	if (!$pid) {
+		open STDERR, '>&', \*STDOUT or die;
+		exec @command or die "$command[0]: $!";
+	}
+	local $/;
+	my $text = <$from> // '';
+	close $from;
+	return ($?, $text);
+}
+
+sub read_text {
+	my ($path) = @_;
+	open my $in, '<', $path or die "$path: $!";
+	local $/;
+	return <$in>;
+}
+
+sub write_text {
+	my ($path, $text) = @_;
+	open my $out, '>', $path or die "$path: $!";
+	print $out $text;
+	close $out or die "$path: $!";
+}
+
+# The program once for each contact and each way to break it.
+sub broken {
+	my ($text) = @_;
+	my @lines = split /\n/, $text, -1;
+	my %turned = (NO => 'NC', NC => 'NO');
+	my @all;
+	for my $i (0 .. $#lines) {
+		next if $lines[$i] !~ /^\s*\|/;
+		while ($lines[$i] =~ /\| \K(NO|NC) [\w.%]+/g) {
+			my ($word, $at, $end) = ($1, $-[0], $+[0]);
+			for my $with ($turned{$word}
+				      . substr($lines[$i], $at + 2, $end - $at - 2),
+				      '---') {
+				my @copy = @lines;
+				substr($copy[$i], $at, $end - $at) = $with;
+				push @all, { line => $i + 1, row => $copy[$i],
+					     text => join("\n", @copy) };
+			}
+		}
+	}
+	return @all;
+}
+
+my ($made, $noticed) = (0, 0);
+my @programs = glob("$top/ladders/*.rung");
+for my $program (@programs) {
+	my $name = basename($program, '.rung');
+	my $scenarios = $program =~ s/\.rung$/.scn/r;
+	my ($status, $text) = run($ladder, 'check', $program);
+
+	ok($status == 0 && $text !~ /warning|error/, "$name: good, no warning")
+		or diag($text);
+	($status, $text) = run($ladder, 'fmt', '--check', $program);
+	is($status, 0, "$name: canonical") or diag($text);
+	($status, $text) = run($ladder, 'test', $scenarios);
+	is($status, 0, "$name: does what its scenarios say") or diag($text);
+	my $count = () = $text =~ /^ok /mg;
+	cmp_ok($count, '>=', 3, "$name: has scenarios");
+
+	write_text("$folder/$name.scn", read_text($scenarios));
+	my @missed;
+	my $of = 0;
+	for my $broken (broken(read_text($program))) {
+		write_text("$folder/$name.rung", $broken->{text});
+		($status, $text) = run($ladder, 'check', "$folder/$name.rung");
+		next if $status; # not a program any more
+		$of++;
+		($status, $text) = run($ladder, 'test', "$folder/$name.scn");
+		push @missed, "$broken->{line}: $broken->{row}" if !$status;
+	}
+	$made += $of;
+	$noticed += $of - @missed;
+	cmp_ok(@missed, '<', $of / 2, "$name: its scenarios notice broken contacts")
+		or diag(join "\n", @missed);
+}
+cmp_ok(@programs, '>=', 8, 'the samples were found');
+cmp_ok($noticed, '>=', $noticed_least * $made,
+       "broken contacts are noticed: $noticed of $made");
+done_testing();
