@@ -141,7 +141,7 @@ void bits_store(struct assembler *as, const struct bits *a, uint32_t offset)
 	}
 	for (int i = 0; i < 3; i++)
 		emit(as, i < a->count ? a->leaf[i] : none);
-	emit(as, (uint32_t)a->table << 24 | offset);
+	emit(as, offset << 8 | a->table);
 }
 
 struct bits bits_keep(struct assembler *as, const struct bits *a)
