@@ -16,6 +16,10 @@ WARN     := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes \
 # Frames under 1 KB in what runs on a board (STYLE: an 8 KB stack).
 FRAME    := $(if $(findstring sanitize,$(CFLAGS)),,-Wframe-larger-than=1024)
 
+# What a program does not call is left out of it (ladderd: 200 KB at most).
+LEAN     := -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables
+LEAN_LD  := -Wl,--gc-sections
+
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
 ENGINE   := $(wildcard runtime/engine/*.c runtime/engine/*/*.c)
 SMALL    := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
@@ -28,7 +32,7 @@ $(BUILD)/libladder.a: $(call obj,$(ENGINE))
 
 $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c11 $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(CC) -std=c11 $(CPPFLAGS) $(WARN) $(LEAN) $(CFLAGS) -MMD -MP -c -o $@ $<
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
 
 UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_*.c))
@@ -53,7 +57,7 @@ $(HAL) $(LADDERD): WARN += $(FRAME)
 all: $(BUILD)/ladderd
 $(BUILD)/ladderd: $(LADDERD) $(HAL) $(BUILD)/libladder.a
 	@$(if $(filter 1 2,$(GPIOD)),true,echo 'libgpiod is not here: ladderd gets the sim driver only')
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
 
 # Both gpio drivers against fakes of their libgpiod: one suite, built twice.
 HAL_TEST := $(BUILD)/tests/hal
@@ -77,9 +81,13 @@ $(HAL_TEST)/suite_v1: $(call HAL_FAKE,1)
 $(HAL_TEST)/suite_v2: $(call HAL_FAKE,2)
 $(HAL_TEST)/map: $(call obj,tests/hal/map.c tests/hal/fake.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+$(HAL_TEST)/ladderd_v%: $(LADDERD) $(HAL_TEST)/v%/daemon_fake.o $(BUILD)/libladder.a Makefile
+	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=opendir -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+$(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,1)
+$(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,2)
 HAL_TESTS := $(HAL_TEST)/map $(HAL_TEST)/suite_v1 $(HAL_TEST)/suite_v2
-hal-tests: $(HAL_TESTS) ## both gpio drivers against fake chips; ladderd from outside
-	prove -e '' $(HAL_TESTS)
+hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(HAL_TEST)/ladderd_v1 $(HAL_TEST)/ladderd_v2 ## both gpio drivers against fake chips; ladderd from outside
+	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t
 .PRECIOUS: $(HAL_TEST)/v1/%.o $(HAL_TEST)/v2/%.o
 .PHONY: hal-tests
 # ---- end of HAL and runtime ----
@@ -113,6 +121,49 @@ bless: $(BUILD)/ladder ## rewrite what CASE=name expects and show the difference
 	@LADDER=$(BUILD)/ladder perl tests/golden.t --bless $(CASE)
 .PHONY: golden bless
 # ---- end of golden cases ----
+
+# ---- second evaluator, fuzz targets, exhaustion, house checks ----
+# Programs that speak TAP, and scripts that do; `check` runs both lists.
+BIN       := $(BUILD)/tests/bin
+FUZZ      := read code script scenario iomap
+WALKER    := $(call obj,$(wildcard tests/walker/*.c))
+TESTS_BIN := $(addprefix $(BIN)/,differential iec_cases exhaustion $(FUZZ:%=fuzz_%))
+TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
+HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
+
+$(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
+$(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
+$(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
+$(BIN)/exhaustion: LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free
+FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(BUILD)/tests/walker/random.o $(BUILD)/tests/walker/words.o
+$(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
+$(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
+$(BIN)/fuzz_iomap: $(call obj,$(HAL_CORE) hal/gpiod_none.c)
+$(TESTS_BIN): $(BUILD)/libladder.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+
+house: $(BUILD)/libladder.a $(HAL) ## floors, headers, quiet, banned: the rules of the house
+	BUILD=$(BUILD) CROSS=$(CROSS) CC='$(CC)' prove -e '' $(HOUSE)
+differential: $(BIN)/differential ## engine and walker run 20,000 random programs
+	$<
+check-long: $(BIN)/differential ## the same from a new seed, as long as you like
+	$< --long
+pathological: $(BUILD)/ladder $(BUILD)/ladderd ## what bad input gets
+	BUILD=$(BUILD) prove -e '' tests/pathological.t
+# With clang's libFuzzer: make fuzz TARGET=read SECONDS=600
+TARGET  ?= read
+SECONDS ?= 60
+FUZZ_CC ?= clang
+FUZZ_FLAGS := -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
+fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap SECONDS=60
+	@mkdir -p $(BUILD)/fuzz/$(TARGET)
+	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
+	$(FUZZ_CC) -std=c11 $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
+	  $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(ENGINE) -lm
+	$(BUILD)/fuzz/fuzz_$(TARGET) -max_total_time=$(SECONDS) -timeout=25 -max_len=20000 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/$(TARGET)
+.PHONY: house differential check-long pathological fuzz
+# ---- end of second evaluator … house checks ----
 
 clean: ## remove everything that was built
 	rm -rf $(BUILD)

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * daemon_fake - ladderd over fake chips, for the ways out of RUN that need a line
+ * to fail or a driver to hang. The environment says what happens:
+ *   FAKE_DEV      folder that stands for /dev
+ *   FAKE_FAIL_AT  reads fail from this one on, FAKE_HEAL_AT: until this one
+ *   FAKE_HANG_AT  this read never returns
+ *   FAKE_CRASH_AT this read ends in SIGSEGV
+ */
+#include "tests/hal/fake.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+DIR *__real_opendir(const char *path);
+DIR *__wrap_opendir(const char *path);
+
+DIR *__wrap_opendir(const char *path)
+{
+	const char *dev = getenv("FAKE_DEV");
+
+	return __real_opendir(dev && strcmp(path, "/dev") == 0 ? dev : path);
+}
+
+static long number(const char *name)
+{
+	const char *text = getenv(name);
+
+	return text ? strtol(text, NULL, 10) : 0;
+}
+
+static void at_read(void)
+{
+	long fail = number("FAKE_FAIL_AT"), heal = number("FAKE_HEAL_AT");
+	long reads = fake.reads;
+
+	fake.read_error = fail && reads >= fail && !(heal && reads >= heal) ?
+			  EIO : 0;
+	if (number("FAKE_CRASH_AT") == reads)
+		raise(SIGSEGV);
+	while (number("FAKE_HANG_AT") && reads == number("FAKE_HANG_AT"))
+		pause();
+}
+
+static void set_up(void)
+{
+	static const char *const names[] = { "IN0", "IN1", "OUT0", "OUT1" };
+
+	if (fake.chip[0].present)
+		return;
+	fake.chip[0].label = "panel";
+	fake.chip[0].lines = 4;
+	fake.chip[0].present = true;
+	for (int i = 0; i < 4; i++)
+		fake.chip[0].line[i].name = names[i];
+	fake.chip[0].line[0].level = 1;
+}
+
+__attribute__((constructor)) static void begin(void)
+{
+	fake_at_open = set_up;
+	fake_at_read = at_read;
+}

@@ -1,0 +1,373 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# ladderd.t - the runtime from outside: arguments, files, signals, status, and that
+# each way out of RUN leaves the safe values. Pins are the sim driver's, or fake
+# chips where a line must fail. It asserts order and values, never a time.
+use strict;
+use warnings;
+use Test::More;
+use File::Temp qw(tempdir);
+use IO::Socket::UNIX;
+use POSIX qw(:sys_wait_h);
+use Time::HiRes qw(sleep time);
+
+my $build = $ENV{BUILD} || 'build';
+my $ladderd = "$build/ladderd";
+my $dir = tempdir(CLEANUP => 1);
+delete @ENV{qw(NOTIFY_SOCKET WATCHDOG_USEC WATCHDOG_PID)};
+
+sub put {
+	my ($name, $text) = @_;
+	open my $file, '>', "$dir/$name" or die "$name: $!";
+	print $file $text;
+	close $file;
+	return "$dir/$name";
+}
+
+sub get {
+	my ($name) = @_;
+	open my $file, '<', "$dir/$name" or return '';
+	local $/;
+	my $text = <$file>;
+	return defined $text ? $text : '';
+}
+
+# Starts a daemon; its output goes to the files out and err.
+sub start {
+	my ($program, @args) = @_;
+	unlink "$dir/out", "$dir/err";
+	my $pid = fork;
+	die "fork: $!" unless defined $pid;
+	if (!$pid) {
+		open STDOUT, '>', "$dir/out" or die;
+		open STDERR, '>', "$dir/err" or die;
+		open STDIN, '<', '/dev/null' or die;
+		exec $program, @args;
+		die "exec: $!";
+	}
+	return $pid;
+}
+
+# Waits until a file has what is wanted; generous, and only a hang waits long.
+sub until_has {
+	my ($name, $want) = @_;
+	for (1 .. 1500) {
+		return 1 if get($name) =~ $want;
+		sleep 0.02;
+	}
+	return 0;
+}
+
+# Exit status, or "signal N", or "hangs".
+sub finish {
+	my ($pid) = @_;
+	for (1 .. 1500) {
+		if (waitpid($pid, WNOHANG) == $pid) {
+			my $signal = $? & 127;
+			return $signal ? "signal $signal" : $? >> 8;
+		}
+		sleep 0.02;
+	}
+	kill 'KILL', $pid;
+	waitpid $pid, 0;
+	return 'hangs';
+}
+
+sub run { return finish(start(@_)); }
+
+# What outputs show at last, from the trace: "%QX0.0 1".
+sub levels {
+	my %level = @_;
+	for (split /\n/, get('err')) {
+		$level{$1} = $2 if /^%Q(X\S+) ([01])$/;
+	}
+	return \%level;
+}
+
+my $rung = put('seal.rung', <<'END');
+RUNGBOARD 1
+PROJECT "Seal"
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Brake AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | ---       | COIL Motor |
+  | NO Motor^|
+RUNG
+  | NC Start | ---       | COIL Brake |
+END_PROGRAM
+END
+my $loop = put('loop.rung', <<'END');
+RUNGBOARD 1
+PROJECT "Loop"
+
+VAR
+  Motor AT %QX0.0 : BOOL;
+  Brake AT %QX0.1 : BOOL;
+  Slow : TON;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO SYS_ALWAYS_ON | COIL Motor |
+RUNG
+  | NO SYS_ALWAYS_ON | R Brake |
+RUNG
+  | NO SYS_ALWAYS_ON | TON Slow PT:=T#100ms | --- | JMP Again |
+RUNG Done
+  | NO SYS_ALWAYS_ON | RET |
+RUNG Again
+  | NO Motor | NC Brake | COIL Motor |
+RUNG
+  | NO SYS_ALWAYS_ON | JMP Again |
+END_PROGRAM
+END
+my $map = put('sim.io', <<'END');
+BOARD "on a table"
+%IX0.0 sim pull-up
+%QX0.0 sim
+%QX0.1 sim safe=1
+END
+my $gpio = put('gpio.io', <<'END');
+BOARD "fake panel"
+%IX0.0 gpio line=IN0
+%QX0.0 gpio line=OUT0
+%QX0.1 gpio line=OUT1 safe=1
+END
+
+sub is_safe {
+	my ($what) = @_;
+	my $level = levels();
+	is_deeply($level, { 'X0.0' => 0, 'X0.1' => 1 }, "$what: safe values");
+}
+my @traced = ('--trace-io', '--watchdog', '200');
+
+# ---- arguments and files ----
+is(run($ladderd, '--help'), 0, '--help');
+like(get('out'), qr/^Usage: ladderd FILE --io MAP.*Example: /s, 'its text');
+is(run($ladderd, '--version'), 0, '--version');
+like(get('out'), qr/^ladderd \d+\.\d+\.\d+, gpio through libgpiod: \S+\n$/,
+	'its text');
+for (['no arguments'], ['no map', $rung], ['no file', '--io', $map],
+     ['two files', $rung, $rung, '--io', $map],
+     ['unknown option', $rung, '--io', $map, '--fast'],
+     ['no value', $rung, '--io', $map, '--period'],
+     ['period without a unit', $rung, '--io', $map, '--period', '10'],
+     ['period too short', $rung, '--io', $map, '--period=99us'],
+     ['period too long', $rung, '--io', $map, '--period=61s'],
+     ['watchdog 0', $rung, '--io', $map, '--watchdog', '0'],
+     ['priority 50', $rung, '--io', $map, '--rt', '50'],
+     ['scans 0', $rung, '--io', $map, '--scans', '0'],
+     ['scans too large', $rung, '--io', $map, '--scans', '9' x 30],
+     ['value of a flag', $rung, '--io', $map, '--check=1']) {
+	my ($what, @args) = @$_;
+	is(run($ladderd, @args), 2, "wrong usage: $what");
+	like(get('err'), qr/^ladderd: .*--help/s, 'says so');
+}
+for (['no such program', "$dir/none.rung", $map, 2, qr/none\.rung/],
+     ['no such map', $rung, "$dir/none.io", 2, qr/none\.io/],
+     ['a folder', $dir, $map, 2, qr/\S/],
+     ['empty program', put('e.rung', ''), $map, 1, qr/e\.rung.*LD101/],
+     ['binary program', put('b.rung', "\0\1\2" x 99), $map, 1, qr/b\.rung/],
+     ['empty map', $rung, put('e.io', ''), 1, qr/e\.io.*LD101/],
+     ['bad map', $rung, put('b.io', "BOARD \"x\"\n%QX0.0 sim fast\n"), 1,
+      qr/b\.io:2:12: error LD504: unknown option: fast/],
+     ['bad program', put('n.rung', "RUNGBOARD 1\nPROJECT \"x\"\n\nPROGRAM M ".
+      "LD\nRUNG\n  | NO Nope | COIL Nope2 |\nEND_PROGRAM\n"), $map, 1,
+      qr/n\.rung.*LD301/]) {
+	my ($what, $file, $io, $status, $text) = @$_;
+	is(run($ladderd, $file, '--io', $io, @traced), $status, $what);
+	like(get('err'), $text, "$what: says where");
+	unlike(get('err'), qr/^%Q/m, "$what: no pin is touched");
+	is(get('out'), '', "$what: nothing on stdout");
+}
+my $half = put('half.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim\n");
+is(run($ladderd, $rung, '--io', $half, '--scans', '1'), 0, 'an output less');
+like(get('err'), qr/half\.io.*warning LD515.*Brake/, 'is a warning');
+
+is(run($ladderd, $rung, '--io', $map, '--check', @traced), 0, '--check');
+like(get('out'), qr/^code: \d+ bytes\ndata: \d+ bytes\nhal: at most \d+ /,
+	'prints the memory needed');
+is(get('err'), '', 'and does nothing');
+is(run($ladderd, $rung, '--io', $gpio, '--check'),
+	`$ladderd --version` =~ /none/ ? 1 : 0, '--check opens no chip');
+
+# ---- scans and the status block ----
+is(run($ladderd, $rung, '--io', $map, '--period', '1ms', '--scans', '25',
+	@traced), 0, '--scans');
+my $status = get('out');
+like($status, qr/^scans: 25$/m, 'so many');
+like($status, qr/^fault: none$/m, 'without a fault');
+like($status, qr/^$_: /m, "status has $_")
+	for qw(state errors forces scans period scan wake-up late io board);
+like($status, qr/^program: [0-9a-f]{64}\n\n$/m, 'and the SHA-256');
+like(get('err'), qr/^%QX0\.0 1\n%QX0\.1 0\n/, 'outputs follow the program');
+is_safe('after --scans');
+
+# A code image runs like its rung file.
+SKIP: {
+	skip 'ladder is not built here', 2 unless -x "$build/ladder";
+	is(system("$build/ladder", 'build', $rung, '-o', "$dir/seal.rungc"), 0,
+		'ladder build');
+	is(run($ladderd, "$dir/seal.rungc", '--io', $map, '--scans', '3'), 0,
+		'a code image');
+}
+
+# ---- ways out: signals ----
+for my $signal (qw(TERM INT)) {
+	my $pid = start($ladderd, $rung, '--io', $map, @traced);
+	ok(until_has('err', qr/^%QX0\.1 0$/m), 'runs');
+	kill 'USR1', $pid;
+	ok(until_has('out', qr/\n\n/), 'SIGUSR1 gives a status');
+	like(get('out'), qr/^state: RUN\n/, 'RUN');
+	kill 'HUP', $pid;
+	ok(until_has('err', qr/nothing to reset/), 'SIGHUP in RUN');
+	kill 'ALRM', $pid; # from outside: not the watchdog's
+	kill $signal, $pid;
+	is(finish($pid), 0, "SIG$signal: exit 0");
+	is_safe("SIG$signal");
+	is(scalar(() = get('out') =~ /\n\n/g), 1, 'one status block');
+}
+{
+	my $pid = start($ladderd, $rung, '--io', $map, @traced);
+	until_has('err', qr/^%QX0\.1 0$/m);
+	kill 'SEGV', $pid;
+	like(finish($pid), qr/^(signal 11|1)$/, 'a crash is not hidden');
+	is_safe('crash');
+}
+
+# ---- ways out: fault in the program ----
+{
+	my $pid = start($ladderd, $loop, '--io', $map, @traced, '--period',
+		'50ms', '--watchdog', '1000');
+	ok(until_has('err', qr/FAULT/), 'an endless loop is a FAULT');
+	like(get('err'), qr/^%QX0\.0 1\n.*^ladderd: FAULT, outputs are safe: .*Main rung 6/ms,
+		'which names POU and rung');
+	is_safe('fault in the program');
+	kill 'USR1', $pid;
+	ok(until_has('out', qr/\n\n/), 'status of a FAULT');
+	like(get('out'), qr/^state: FAULT\nfault: .*Main rung 6/, 'has its place');
+	kill 'HUP', $pid;
+	ok(until_has('err', qr/reset, RUN/), 'SIGHUP resets it');
+	ok(until_has('err', qr/reset, RUN.*FAULT/s), 'and it comes again');
+	kill 'TERM', $pid;
+	is(finish($pid), 1, 'the exit status is then 1');
+	is_safe('after it');
+	is(run($ladderd, $loop, '--io', $map, '--scans', '1000', @traced), 1,
+		'--scans ends at a FAULT');
+	is_safe('and');
+}
+
+# ---- ways out: lines that fail, scans that hang, on both libgpiods ----
+for my $version (1, 2) {
+	my $fake = "$build/tests/hal/ladderd_v$version";
+	local $ENV{FAKE_DEV} = "$dir/dev";
+	mkdir "$dir/dev";
+	put('dev/gpiochip0', '');
+	is(run($fake, $rung, '--io', $gpio, '--scans', '20', @traced), 0,
+		"v$version: runs");
+	is_safe("v$version");
+	{
+		local $ENV{FAKE_FAIL_AT} = 10;
+		local $ENV{FAKE_HEAL_AT} = 14;
+		my $pid = start($fake, $rung, '--io', $gpio, @traced);
+		ok(until_has('err', qr/FAULT/), "v$version: a lost line");
+		is_safe("v$version: I/O fault");
+		kill 'HUP', $pid;
+		ok(until_has('err', qr/a line does not answer|reset/),
+			'reset while it is lost');
+		for (1 .. 20) {
+			last if get('err') =~ /reset, RUN/;
+			kill 'HUP', $pid;
+			sleep 0.1;
+		}
+		like(get('err'), qr/reset, RUN\n(.*\n)*%QX0\.0 1$/m,
+			'reset when it is back');
+		kill 'USR1', $pid;
+		until_has('out', qr/\n\n/);
+		like(get('out'), qr/^resets: 1\nio: good.* 1 reopened$/m,
+			'status knows');
+		kill 'TERM', $pid;
+		is(finish($pid), 0, 'a reset fault is forgotten');
+	}
+	{
+		local $ENV{FAKE_HANG_AT} = 10;
+		my $pid = start($fake, $rung, '--io', $gpio, '--trace-io',
+			'--watchdog', '20');
+		ok(until_has('err', qr/^%QX0\.1 1$/m),
+			"v$version: the watchdog acts though the scan hangs");
+		is_safe("v$version: watchdog");
+		kill 'TERM', $pid;
+		is(finish($pid), 1, 'and it can be ended');
+		is_safe('then');
+	}
+	{
+		local $ENV{FAKE_CRASH_AT} = 10;
+		like(run($fake, $rung, '--io', $gpio, @traced),
+			qr/^(signal 11|1)$/, "v$version: a crash in a scan");
+		is_safe("v$version: crash");
+	}
+	my $wrong = put('wrong.io', "BOARD \"x\"\n%QX0.0 gpio line=OUT9\n");
+	is(run($fake, $rung, '--io', $wrong, @traced), 1, 'no such line');
+	like(get('err'), qr/wrong\.io:2:1: error LD508.*OUT9/, 'is named');
+}
+
+# ---- a service manager that listens ----
+for my $name ("$dir/notify", "\0ladderd-test-$$") {
+	my $socket = IO::Socket::UNIX->new(Type => SOCK_DGRAM, Local => $name);
+	SKIP: {
+		skip "no such socket here: $!", 2 unless $socket;
+		local $ENV{NOTIFY_SOCKET} = $name =~ /^\0(.*)/ ? "\@$1" : $name;
+		local $ENV{WATCHDOG_USEC} = 100000;
+		is(run($ladderd, $rung, '--io', $map, '--scans', '30'), 0,
+			'with NOTIFY_SOCKET');
+		my @said;
+		$socket->blocking(0);
+		while (defined $socket->recv(my $text, 200)) {
+			last if $text eq '';
+			push @said, $text;
+		}
+		like(join(' ', @said),
+			qr/^(WATCHDOG=1 )?READY=1 (WATCHDOG=1 )+STOPPING=1$/,
+			'READY, WATCHDOG, STOPPING');
+	}
+}
+
+# ---- a reader that does not read, and one that went away ----
+{
+	pipe my $read, my $write or die;
+	my $pid = fork;
+	if (!$pid) {
+		open STDOUT, '>&', $write or die;
+		open STDERR, '>', "$dir/err" or die;
+		exec $ladderd, $rung, '--io', $map, @traced;
+	}
+	close $write;
+	until_has('err', qr/^%QX0\.1 0$/m);
+	for (1 .. 200) {
+		kill 'USR1', $pid;
+		sleep 0.005;
+	}
+	kill 'TERM', $pid;
+	is(finish($pid), 0, 'a full pipe does not stop it');
+	close $read;
+	pipe $read, $write or die;
+	close $read;
+	$pid = fork;
+	if (!$pid) {
+		open STDOUT, '>&', $write or die;
+		open STDERR, '>', "$dir/err" or die;
+		exec $ladderd, $rung, '--io', $map, '--scans', '5', @traced;
+	}
+	close $write;
+	is(finish($pid), 0, 'nor a closed one');
+	is_safe('closed pipe');
+}
+
+done_testing();
