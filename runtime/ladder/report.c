@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * report - loading and telling. Standard error is written here and nowhere else.
+ * report - loading and telling. Standard error is written here and nowhere
+ * else.
  */
 #include "ladder/report.h"
 
@@ -94,9 +95,9 @@ void report_diags(const struct diag_list *diags)
 	for (int i = 0; i < diags->count; i++)
 		print_diag(&diags->diag[i]);
 	if (diags->dropped)
-		report_diag((struct diag){ .id = DIAG_TOO_MANY,
+		report_diag((struct diag){ .id = DIAG_MORE,
 					   .file = diags->diag[0].file },
-			    "%d more, not shown", diags->dropped);
+			    "%d more", diags->dropped);
 }
 
 static void json_number(const char *name, int value, const struct sink *out)

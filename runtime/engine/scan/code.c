@@ -6,31 +6,11 @@
  * there as what. Then each instruction is held against the marks. It repairs
  * nothing and guesses nothing.
  */
-#include "engine/scan/code.h"
+#include "engine/scan/verify.h"
 
 #include "engine/base/digest.h"
 
-#include <stdio.h>
 #include <string.h>
-
-/* Marks: MARK_TYPE + type at the first byte of a value; read-only ones too. */
-enum mark {
-	MARK_NONE, MARK_INSIDE, MARK_AREA_READ, MARK_AREA_WRITE,
-	MARK_VALUE = 32, MARK_FIXED = 64,
-};
-
-struct verifier {
-	struct program *program;
-	struct arena *scratch;
-	uint8_t *mark;         /* one a byte of data memory                 */
-	uint32_t data_size, areas;
-	size_t where;          /* byte offset of what broke a rule          */
-};
-
-static bool value_type(uint32_t type)
-{
-	return type > IEC_NONE && type < IEC_TYPE_COUNT;
-}
 
 static uint32_t type_size(uint32_t type)
 {
@@ -51,10 +31,10 @@ static bool in_area(const struct verifier *v, uint32_t offset, uint32_t size,
 	return true;
 }
 
-static bool can_use(const struct verifier *v, uint32_t offset, uint32_t type,
+bool verify_use(const struct verifier *v, uint32_t offset, uint32_t type,
 		    bool write)
 {
-	if (!value_type(type) || offset >= v->data_size ||
+	if (!verify_is_type(type) || offset >= v->data_size ||
 	    v->data_size - offset < type_size(type))
 		return false;
 	if (v->mark[offset] == MARK_VALUE + type)
@@ -65,24 +45,35 @@ static bool can_use(const struct verifier *v, uint32_t offset, uint32_t type,
 	       in_area(v, offset, type_size(type), write);
 }
 
-static bool can_read(const struct verifier *v, uint32_t operand)
+bool verify_refuse(struct verifier *v, const void *at)
 {
-	return can_use(v, CODE_OFFSET(operand), CODE_TYPE(operand), false);
+	v->where = (size_t)((const uint8_t *)at - v->program->base);
+	return false;
 }
 
-static bool can_write(const struct verifier *v, uint32_t operand)
+bool verify_instance(const struct program *p, uint32_t offset, uint32_t word)
 {
-	return can_use(v, CODE_OFFSET(operand), CODE_TYPE(operand), true);
-}
+	uint32_t low = 0, high = p->run_count;
 
-static bool reads_bool(const struct verifier *v, uint32_t offset)
-{
-	return can_use(v, offset, IEC_BOOL, false);
-}
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+		const struct code_run *run = &p->run[middle];
 
-static bool writes_bool(const struct verifier *v, uint32_t offset)
-{
-	return can_use(v, offset, IEC_BOOL, true);
+		if (run->offset > offset)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	if (low == 0)
+		return false;
+	const struct code_run *run = &p->run[low - 1];
+	uint32_t size;
+
+	if (run->kind != RUN_INSTANCE || run->word != word)
+		return false;
+	size = word_row((enum word)word)->size;
+	return (offset - run->offset) % size == 0 &&
+	       (offset - run->offset) / size < run->count;
 }
 
 /* ---- header and sections ---- */
@@ -156,12 +147,6 @@ static void find_sections(struct program *p)
 	p->string_bytes = section(p, CODE_STRINGS, &at), p->string = at;
 }
 
-static bool refuse(struct verifier *v, const void *at)
-{
-	v->where = (size_t)((const uint8_t *)at - v->program->base);
-	return false;
-}
-
 /* ---- data layout ---- */
 
 static void mark_instance(struct verifier *v, uint32_t offset,
@@ -194,17 +179,17 @@ static bool mark_run(struct verifier *v, const struct code_run *run,
 	uint32_t size, align;
 
 	if (run->kind > RUN_INSTANCE || run->offset < *end)
-		return refuse(v, run);
+		return verify_refuse(v, run);
 	if (instance ? run->word >= WORD_COUNT ||
 		       word_row((enum word)run->word)->kind != WORD_FB
-		     : !value_type(run->type))
-		return refuse(v, run);
+		     : !verify_is_type(run->type))
+		return verify_refuse(v, run);
 	size = instance ? word_row((enum word)run->word)->size
 			: type_size(run->type);
 	align = instance ? 8 : size;
 	if (run->offset % align || run->offset > v->data_size ||
 	    run->count > (v->data_size - run->offset) / size)
-		return refuse(v, run);
+		return verify_refuse(v, run);
 	for (uint32_t i = 0; i < run->count; i++)
 		if (instance)
 			mark_instance(v, run->offset + i * size,
@@ -234,7 +219,7 @@ static bool check_layout(struct verifier *v)
 	    p->header->retain_offset > v->data_size ||
 	    p->header->retain_size > v->data_size - p->header->retain_offset ||
 	    p->header->budget > LIMIT_BUDGET)
-		return refuse(v, p->header);
+		return verify_refuse(v, p->header);
 	return true;
 }
 
@@ -249,12 +234,12 @@ static bool check_init_bytes(struct verifier *v, uint32_t offset,
 		if (mark >= MARK_VALUE) {
 			size = type_size(mark % MARK_VALUE);
 			if (mark % MARK_VALUE == IEC_BOOL && bytes[0] > 1)
-				return refuse(v, bytes);
+				return verify_refuse(v, bytes);
 		} else if (mark != MARK_AREA_READ && mark != MARK_AREA_WRITE) {
-			return refuse(v, bytes);
+			return verify_refuse(v, bytes);
 		}
 		if (size > len)
-			return refuse(v, bytes);
+			return verify_refuse(v, bytes);
 		offset += size;
 		bytes += size;
 		len -= size;
@@ -273,7 +258,7 @@ static bool check_init(struct verifier *v)
 
 		if (left < 2 || at[1] > (left - 2) * 4 || at[0] > v->data_size ||
 		    at[1] > v->data_size - at[0])
-			return refuse(v, at);
+			return verify_refuse(v, at);
 		if (!check_init_bytes(v, at[0], (const uint8_t *)(at + 2), at[1]))
 			return false;
 		words = 2 + (at[1] + 3) / 4;
@@ -293,222 +278,18 @@ static bool check_bits(struct verifier *v)
 		uint32_t most;
 
 		if (bits->area <= AREA_NONE || bits->area >= AREA_COUNT)
-			return refuse(v, bits);
+			return verify_refuse(v, bits);
 		most = iec_area_row((enum iec_area)bits->area)->bytes * 8;
 		if (bits->area < area || (bits->area == area && bits->first < end) ||
 		    bits->first > most || bits->count > most - bits->first ||
 		    bits->slot >= v->data_size ||
 		    bits->count > v->data_size - bits->slot)
-			return refuse(v, bits);
+			return verify_refuse(v, bits);
 		for (uint32_t k = 0; k < bits->count; k++)
 			if (v->mark[bits->slot + k] != MARK_VALUE + IEC_BOOL)
-				return refuse(v, bits);
+				return verify_refuse(v, bits);
 		area = bits->area;
 		end = bits->first + bits->count;
-	}
-	return true;
-}
-
-/* ---- instructions ---- */
-
-uint32_t code_words(const uint32_t *code)
-{
-	uint32_t n = *code >> 8;
-
-	switch ((enum vm_op)(*code & 0xff)) {
-	case VM_LUT:
-		return 1 + 4 * n;
-	case VM_COPY:
-	case VM_CMP:
-		return 4;
-	case VM_FN:
-		return 5 + (n >> 8);
-	case VM_BITGET:
-	case VM_BITPUT:
-	case VM_JMPC:
-		return 3;
-	case VM_FB:
-	case VM_JMP:
-		return 2;
-	case VM_END:
-	case VM_COUNT:
-		break;
-	}
-	return 1;
-}
-
-static bool is_instance(const struct program *p, uint32_t offset, uint32_t word)
-{
-	uint32_t low = 0, high = p->run_count;
-
-	while (low < high) {
-		uint32_t middle = low + (high - low) / 2;
-		const struct code_run *run = &p->run[middle];
-
-		if (run->offset > offset)
-			high = middle;
-		else
-			low = middle + 1;
-	}
-	if (low == 0)
-		return false;
-	const struct code_run *run = &p->run[low - 1];
-	uint32_t size;
-
-	if (run->kind != RUN_INSTANCE || run->word != word)
-		return false;
-	size = word_row((enum word)word)->size;
-	return (offset - run->offset) % size == 0 &&
-	       (offset - run->offset) / size < run->count;
-}
-
-static bool check_lut(const struct verifier *v, const uint32_t *at, uint32_t n)
-{
-	for (uint32_t i = 0; i < n; i++, at += 4)
-		if (!reads_bool(v, at[0]) || !reads_bool(v, at[1]) ||
-		    !reads_bool(v, at[2]) || !writes_bool(v, at[3] >> 8))
-			return false;
-	return n > 0;
-}
-
-/* Is @from a type that COPY and FN may take where @to is wanted? */
-static bool converts(uint32_t from, uint32_t to)
-{
-	return value_type(from) && value_type(to) &&
-	       iec_can_widen((enum iec_type)from, (enum iec_type)to);
-}
-
-static bool check_fn(const struct verifier *v, const uint32_t *at, uint32_t n)
-{
-	uint32_t type = n & 0xff, count = n >> 8;
-	const struct word_row *row;
-	uint32_t result;
-
-	if (at[0] >= WORD_COUNT || !value_type(type))
-		return false;
-	row = word_row((enum word)at[0]);
-	if (row->kind != WORD_FN || count < row->pin_count ||
-	    count > row->most_inputs ||
-	    !(row->pin[0].classes & iec_type_row((enum iec_type)type)->class))
-		return false;
-	result = row->result == RESULT_BOOL ? IEC_BOOL : type;
-	if (!reads_bool(v, at[1]) || !writes_bool(v, at[2]) ||
-	    !can_write(v, at[3]) || !converts(result, CODE_TYPE(at[3])))
-		return false;
-	for (uint32_t i = 0; i < count; i++)
-		if (!can_read(v, at[4 + i]) ||
-		    !converts(CODE_TYPE(at[4 + i]), type))
-			return false;
-	return true;
-}
-
-static bool check_bit(const struct verifier *v, const uint32_t *at, uint32_t op,
-		      uint32_t n)
-{
-	if (n > 7)
-		return false;
-	if (op == VM_BITGET)
-		return can_use(v, at[0], IEC_BYTE, false) && writes_bool(v, at[1]);
-	return reads_bool(v, at[0]) && can_use(v, at[1], IEC_BYTE, true);
-}
-
-/* One instruction; jumps are looked at later. */
-static bool check_code(const struct verifier *v, const uint32_t *code)
-{
-	uint32_t op = *code & 0xff, n = *code >> 8;
-	const uint32_t *at = code + 1;
-
-	switch ((enum vm_op)op) {
-	case VM_END:
-	case VM_JMP:
-		return n == 0;
-	case VM_JMPC:
-		return n == 0 && reads_bool(v, at[1]);
-	case VM_LUT:
-		return check_lut(v, at, n);
-	case VM_BITGET:
-	case VM_BITPUT:
-		return check_bit(v, at, op, n);
-	case VM_COPY:
-		return n == 0 && reads_bool(v, at[0]) && can_write(v, at[1]) &&
-		       can_read(v, at[2]) &&
-		       converts(CODE_TYPE(at[2]), CODE_TYPE(at[1]));
-	case VM_CMP:
-		return n < CMP_COUNT && writes_bool(v, at[0]) &&
-		       can_read(v, at[1]) && can_read(v, at[2]);
-	case VM_FN:
-		return check_fn(v, at, n);
-	case VM_FB:
-		return n < WORD_COUNT && is_instance(v->program, at[0], n);
-	case VM_COUNT:
-		break;
-	}
-	return false;
-}
-
-/* code_words() of hostile bytes: no overflow of a huge n. */
-static uint32_t words_needed(const uint32_t *code)
-{
-	bool many = (*code & 0xff) == VM_LUT || (*code & 0xff) == VM_FN;
-
-	if (many && *code >> 8 > LIMIT_IMAGE / 16)
-		return UINT32_MAX;
-	return code_words(code);
-}
-
-/* The instructions of one program: each whole and right, the last one leaves,
- * jumps land on instructions. @starts has a byte a word. */
-static bool check_text(struct verifier *v, const uint32_t *base, uint32_t first,
-		       uint32_t words, uint8_t *starts)
-{
-	uint32_t last = VM_COUNT;
-
-	for (uint32_t at = 0; at < words; at += code_words(base + first + at)) {
-		const uint32_t *code = base + first + at;
-
-		if ((*code & 0xff) >= VM_COUNT ||
-		    words_needed(code) > words - at || !check_code(v, code))
-			return refuse(v, code);
-		starts[at] = 1;
-		last = *code & 0xff;
-	}
-	if (last != VM_END && last != VM_JMP)
-		return refuse(v, base + first);
-	for (uint32_t at = 0; at < words; at += code_words(base + first + at)) {
-		const uint32_t *code = base + first + at;
-		uint32_t op = *code & 0xff;
-
-		if ((op == VM_JMP || op == VM_JMPC) &&
-		    (code[1] < first || code[1] - first >= words ||
-		     !starts[code[1] - first]))
-			return refuse(v, code);
-	}
-	memset(starts, 0, words);
-	return true;
-}
-
-static bool check_programs(struct verifier *v)
-{
-	const struct program *p = v->program;
-	uint32_t most = p->text_words > p->watch_words ? p->text_words
-						       : p->watch_words;
-	uint8_t *starts = arena_alloc(v->scratch, most + 1u);
-
-	if (!starts)
-		return false;
-	for (uint32_t i = 0; i < p->entry_count; i++) {
-		const struct code_program *e = &p->entry[i];
-
-		if (e->text > p->text_words || e->text_words > p->text_words - e->text ||
-		    e->watch > p->watch_words ||
-		    e->watch_words > p->watch_words - e->watch ||
-		    (p->string_bytes && e->name >= p->string_bytes))
-			return refuse(v, e);
-		if (!check_text(v, p->text, e->text, e->text_words, starts))
-			return false;
-		if (p->watch_words &&
-		    !check_text(v, p->watch, e->watch, e->watch_words, starts))
-			return false;
 	}
 	return true;
 }
@@ -526,8 +307,8 @@ static bool check_symbol(const struct verifier *v, const struct code_symbol *s)
 		       s->where / 8 <
 		       iec_area_row((enum iec_area)s->area)->bytes;
 	if (s->type == IEC_NONE)
-		return s->word < WORD_COUNT && is_instance(p, s->where, s->word);
-	return can_use(v, s->where, s->type, false);
+		return s->word < WORD_COUNT && verify_instance(p, s->where, s->word);
+	return verify_use(v, s->where, s->type, false);
 }
 
 static bool check_maps(struct verifier *v)
@@ -535,18 +316,18 @@ static bool check_maps(struct verifier *v)
 	const struct program *p = v->program;
 
 	if (p->string_bytes && p->string[p->string_bytes - 1] != '\0')
-		return refuse(v, p->string);
+		return verify_refuse(v, p->string);
 	for (uint32_t i = 0; i < p->symbol_count; i++)
 		if (!check_symbol(v, &p->symbol[i]))
-			return refuse(v, &p->symbol[i]);
+			return verify_refuse(v, &p->symbol[i]);
 	for (uint32_t i = 0; i < p->power_count; i++)
-		if (!reads_bool(v, p->power[i].in) ||
-		    !reads_bool(v, p->power[i].out))
-			return refuse(v, &p->power[i]);
+		if (!verify_use(v, p->power[i].in, IEC_BOOL, false) ||
+		    !verify_use(v, p->power[i].out, IEC_BOOL, false))
+			return verify_refuse(v, &p->power[i]);
 	for (uint32_t i = 0; i < p->place_count; i++)
 		if (p->place[i].text >= p->text_words ||
 		    p->place[i].pou >= p->entry_count)
-			return refuse(v, &p->place[i]);
+			return verify_refuse(v, &p->place[i]);
 	return true;
 }
 
@@ -593,7 +374,7 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
 		return false;
 	*why = DIAG_IMAGE_REFUSED;
 	if (check_layout(&v) && check_init(&v) && check_bits(&v) &&
-	    check_programs(&v) && check_maps(&v)) {
+	    verify_programs(&v) && check_maps(&v)) {
 		identify(out);
 		return true;
 	}

@@ -151,10 +151,12 @@ enum cmp { CMP_GT, CMP_GE, CMP_EQ, CMP_LE, CMP_LT, CMP_NE, CMP_COUNT };
 bool code_open(const void *bytes, size_t len, struct arena *scratch,
 	       struct program *out, enum diag_id *why, size_t *where);
 
-/** code_words - words of the instruction at @code: 1 + its operands. */
+/** code_words - words of the instruction at @code: 1 + its operands.
+ * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);
 /** code_print - one instruction as text, e.g. "lut     8a b100 b101 b102 -> b103"
  * @code: of a verified program
- * @part: which of the n parts of a LUT, 0-based; else 0. Returns as snprintf. */
+ * @part: which of the n parts of a LUT, 0-based; else 0
+ * Returns as snprintf.   Scan-safe: no. */
 int code_print(const uint32_t *code, uint32_t part, char *out, size_t size);
 #endif

@@ -98,6 +98,8 @@ struct symbol {
  * image_next_symbol - steps through all declared variables; instances are given
  * pin by pin, as "Name.PIN"
  * @cursor: {0} to begin with; its text buffer backs symbol.name until the next call
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false behind the last one.
  */
 struct symbol_cursor { uint32_t index, pin; char text[2 * LIMIT_NAME + 64]; };
 bool image_next_symbol(const struct image *image, struct symbol_cursor *cursor,

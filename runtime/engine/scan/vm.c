@@ -7,20 +7,17 @@
 
 #include <string.h>
 
-typedef enum fn_status (*fn_call)(struct fn_args *args);
-typedef void (*fb_call)(void *fb, int64_t now_ns);
-
 /* Calls through the catalogue: a row without its function does not link. */
 #define FB(id, ...) static void step_##id(void *fb, int64_t now_ns) \
 	{ fb_##id##_step(fb, now_ns); }
 #include "engine/catalog.def"
 
-static const fb_call fb_table[WORD_COUNT] = {
+static void (*const fb_table[WORD_COUNT])(void *fb, int64_t now_ns) = {
 #define FB(id, ...) [FB_##id] = step_##id,
 #include "engine/catalog.def"
 };
 
-static const fn_call fn_table[WORD_COUNT] = {
+static enum fn_status (*const fn_table[WORD_COUNT])(struct fn_args *) = {
 #define FN(id, ...) [FN_##id] = fn_##id,
 #include "engine/catalog.def"
 };

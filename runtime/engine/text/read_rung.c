@@ -362,6 +362,7 @@ struct rung *read_rung(struct reader *r)
 			read_row(r);
 			continue;
 		}
+		r->place.row = r->place.col = 0;
 		if (!over)
 			reader_fail_word(r, DIAG_TOO_MANY_ROWS, "");
 		over = true;

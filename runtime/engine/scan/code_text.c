@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * code_text - the verifier's look at instructions: each whole, its operands in
+ * range and of the right type, jumps onto instructions, an end at the end.
+ *
+ * Loops are not looked for: the budget ends them.
+ */
+#include "engine/scan/verify.h"
+
+#include <string.h>
+
+static bool can_read(const struct verifier *v, uint32_t operand)
+{
+	return verify_use(v, CODE_OFFSET(operand), CODE_TYPE(operand), false);
+}
+
+static bool can_write(const struct verifier *v, uint32_t operand)
+{
+	return verify_use(v, CODE_OFFSET(operand), CODE_TYPE(operand), true);
+}
+
+static bool reads_bool(const struct verifier *v, uint32_t offset)
+{
+	return verify_use(v, offset, IEC_BOOL, false);
+}
+
+static bool writes_bool(const struct verifier *v, uint32_t offset)
+{
+	return verify_use(v, offset, IEC_BOOL, true);
+}
+
+/* ---- instructions ---- */
+
+uint32_t code_words(const uint32_t *code)
+{
+	uint32_t n = *code >> 8;
+
+	switch ((enum vm_op)(*code & 0xff)) {
+	case VM_LUT:
+		return 1 + 4 * n;
+	case VM_COPY:
+	case VM_CMP:
+		return 4;
+	case VM_FN:
+		return 5 + (n >> 8);
+	case VM_BITGET:
+	case VM_BITPUT:
+	case VM_JMPC:
+		return 3;
+	case VM_FB:
+	case VM_JMP:
+		return 2;
+	case VM_END:
+	case VM_COUNT:
+		break;
+	}
+	return 1;
+}
+
+static bool check_lut(const struct verifier *v, const uint32_t *at, uint32_t n)
+{
+	for (uint32_t i = 0; i < n; i++, at += 4)
+		if (!reads_bool(v, at[0]) || !reads_bool(v, at[1]) ||
+		    !reads_bool(v, at[2]) || !writes_bool(v, at[3] >> 8))
+			return false;
+	return n > 0;
+}
+
+/* Is @from a type that COPY and FN may take where @to is wanted? */
+static bool converts(uint32_t from, uint32_t to)
+{
+	return verify_is_type(from) && verify_is_type(to) &&
+	       iec_can_widen((enum iec_type)from, (enum iec_type)to);
+}
+
+static bool check_fn(const struct verifier *v, const uint32_t *at, uint32_t n)
+{
+	uint32_t type = n & 0xff, count = n >> 8;
+	const struct word_row *row;
+	uint32_t result;
+
+	if (at[0] >= WORD_COUNT || !verify_is_type(type))
+		return false;
+	row = word_row((enum word)at[0]);
+	if (row->kind != WORD_FN || count < row->pin_count ||
+	    count > row->most_inputs ||
+	    !(row->pin[0].classes & iec_type_row((enum iec_type)type)->class))
+		return false;
+	result = row->result == RESULT_BOOL ? IEC_BOOL : type;
+	if (!reads_bool(v, at[1]) || !writes_bool(v, at[2]) ||
+	    !can_write(v, at[3]) || !converts(result, CODE_TYPE(at[3])))
+		return false;
+	for (uint32_t i = 0; i < count; i++)
+		if (!can_read(v, at[4 + i]) ||
+		    !converts(CODE_TYPE(at[4 + i]), type))
+			return false;
+	return true;
+}
+
+static bool check_bit(const struct verifier *v, const uint32_t *at, uint32_t op,
+		      uint32_t n)
+{
+	if (n > 7)
+		return false;
+	if (op == VM_BITGET)
+		return verify_use(v, at[0], IEC_BYTE, false) && writes_bool(v, at[1]);
+	return reads_bool(v, at[0]) && verify_use(v, at[1], IEC_BYTE, true);
+}
+
+/* One instruction; jumps are looked at later. */
+static bool check_code(const struct verifier *v, const uint32_t *code)
+{
+	uint32_t op = *code & 0xff, n = *code >> 8;
+	const uint32_t *at = code + 1;
+
+	switch ((enum vm_op)op) {
+	case VM_END:
+	case VM_JMP:
+		return n == 0;
+	case VM_JMPC:
+		return n == 0 && reads_bool(v, at[1]);
+	case VM_LUT:
+		return check_lut(v, at, n);
+	case VM_BITGET:
+	case VM_BITPUT:
+		return check_bit(v, at, op, n);
+	case VM_COPY:
+		return n == 0 && reads_bool(v, at[0]) && can_write(v, at[1]) &&
+		       can_read(v, at[2]) &&
+		       converts(CODE_TYPE(at[2]), CODE_TYPE(at[1]));
+	case VM_CMP:
+		return n < CMP_COUNT && writes_bool(v, at[0]) &&
+		       can_read(v, at[1]) && can_read(v, at[2]);
+	case VM_FN:
+		return check_fn(v, at, n);
+	case VM_FB:
+		return n < WORD_COUNT && verify_instance(v->program, at[0], n);
+	case VM_COUNT:
+		break;
+	}
+	return false;
+}
+
+/* code_words() of hostile bytes: no overflow of a huge n. */
+static uint32_t words_needed(const uint32_t *code)
+{
+	bool many = (*code & 0xff) == VM_LUT || (*code & 0xff) == VM_FN;
+
+	if (many && *code >> 8 > LIMIT_IMAGE / 16)
+		return UINT32_MAX;
+	return code_words(code);
+}
+
+/* The instructions of one program: each whole and right, the last one leaves,
+ * jumps land on instructions. @starts has a byte a word. */
+static bool check_text(struct verifier *v, const uint32_t *base, uint32_t first,
+		       uint32_t words, uint8_t *starts)
+{
+	uint32_t last = VM_COUNT;
+
+	for (uint32_t at = 0; at < words; at += code_words(base + first + at)) {
+		const uint32_t *code = base + first + at;
+
+		if ((*code & 0xff) >= VM_COUNT ||
+		    words_needed(code) > words - at || !check_code(v, code))
+			return verify_refuse(v, code);
+		starts[at] = 1;
+		last = *code & 0xff;
+	}
+	if (last != VM_END && last != VM_JMP)
+		return verify_refuse(v, base + first);
+	for (uint32_t at = 0; at < words; at += code_words(base + first + at)) {
+		const uint32_t *code = base + first + at;
+		uint32_t op = *code & 0xff;
+
+		if ((op == VM_JMP || op == VM_JMPC) &&
+		    (code[1] < first || code[1] - first >= words ||
+		     !starts[code[1] - first]))
+			return verify_refuse(v, code);
+	}
+	memset(starts, 0, words);
+	return true;
+}
+
+bool verify_programs(struct verifier *v)
+{
+	const struct program *p = v->program;
+	uint32_t most = p->text_words > p->watch_words ? p->text_words
+						       : p->watch_words;
+	uint8_t *starts = arena_alloc(v->scratch, most + 1u);
+
+	if (!starts)
+		return false;
+	for (uint32_t i = 0; i < p->entry_count; i++) {
+		const struct code_program *e = &p->entry[i];
+
+		if (e->text > p->text_words || e->text_words > p->text_words - e->text ||
+		    e->watch > p->watch_words ||
+		    e->watch_words > p->watch_words - e->watch ||
+		    (p->string_bytes && e->name >= p->string_bytes))
+			return verify_refuse(v, e);
+		if (!check_text(v, p->text, e->text, e->text_words, starts))
+			return false;
+		if (p->watch_words &&
+		    !check_text(v, p->watch, e->watch, e->watch_words, starts))
+			return false;
+	}
+	return true;
+}
+

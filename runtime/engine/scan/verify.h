@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * verify - what the two halves of the verifier share.
+ *
+ * Private to scan/. code.c looks at header, data layout and maps, code_text.c at
+ * instructions.
+ */
+#ifndef SCAN_VERIFY_H
+#define SCAN_VERIFY_H
+
+#include "engine/scan/code.h"
+
+/* Marks: MARK_TYPE + type at the first byte of a value; read-only ones too. */
+enum mark {
+	MARK_NONE, MARK_INSIDE, MARK_AREA_READ, MARK_AREA_WRITE,
+	MARK_VALUE = 32, MARK_FIXED = 64,
+};
+
+struct verifier {
+	struct program *program;
+	struct arena *scratch;
+	uint8_t *mark;         /* one a byte of data memory                 */
+	uint32_t data_size, areas;
+	size_t where;          /* byte offset of what broke a rule          */
+};
+
+/* May a value of @type be read, or written, at this offset? Scan-safe: yes. */
+bool verify_use(const struct verifier *v, uint32_t offset, uint32_t type,
+		bool write);
+/** verify_instance - is there an instance of this FB word at the offset? */
+bool verify_instance(const struct program *p, uint32_t offset, uint32_t word);
+/** verify_refuse - notes the place of what broke a rule; false. */
+bool verify_refuse(struct verifier *v, const void *at);
+/** verify_programs - the instructions of all programs. */
+bool verify_programs(struct verifier *v);
+
+static inline bool verify_is_type(uint32_t type)
+{
+	return type > IEC_NONE && type < IEC_TYPE_COUNT;
+}
+#endif
