@@ -3,7 +3,7 @@
  * exhaustion - memory runs out at the 1st, 2nd, 3rd … allocation, until loading,
  * building and writing succeed.
  *
- *   exhaustion FILE…
+ *   exhaustion [FILE…]
  *
  * Linked with --wrap, so that every allocation of the engine comes by here. Each
  * failure must be told as LD001, and nothing may be left behind.
@@ -149,18 +149,27 @@ static void starve(const char *file, const char *text, size_t len)
 	CHECK_AS(lies == 0, what);
 }
 
+static void starve_file(const char *path)
+{
+	struct diag_list diags;
+	size_t len;
+	char *text;
+
+	diag_init(&diags);
+	text = ladder_read_file(path, LIMIT_TEXT, &len, &diags);
+	if (CHECK_AS(text, path))
+		starve(path, text, len);
+	free(text);
+}
+
 int main(int argc, char **argv)
 {
-	for (int i = 1; i < argc; i++) {
-		struct diag_list diags;
-		size_t len;
-		char *text;
-
-		diag_init(&diags);
-		text = ladder_read_file(argv[i], LIMIT_TEXT, &len, &diags);
-		if (CHECK_AS(text, argv[i]))
-			starve(argv[i], text, len);
-		free(text);
+	for (int i = 1; i < argc; i++)
+		starve_file(argv[i]);
+	if (argc == 1) {
+		starve_file("ladders/garage-door.rung");
+		starve_file("tests/fuzz/corpus/code/random-100.rung");
+		starve_file("tests/fuzz/corpus/code/il.rung");
 	}
 	return tap_done();
 }

@@ -43,7 +43,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 
 	if (!ladder_load_text(ladder, "fuzz.rung", bytes, len)) {
 		fuzz_expect(diags->errors > 0, "a refused file has an error");
-		fuzz_expect(!ladder_project(ladder), "nothing is half loaded");
+		fuzz_expect(!ladder_program(ladder), "nothing is half loaded");
 	} else if (ladder_project(ladder)) {
 		write_twice(ladder);
 		fuzz_expect(ladder_build(ladder) == (diags->errors == 0),

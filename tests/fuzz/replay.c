@@ -2,8 +2,9 @@
  *
  * replay - runs a fuzz target over its saved corpus, without libFuzzer.
  *
- *   fuzz_X [--rounds N] [--seed S] [--write FOLDER] FOLDER…
+ *   fuzz_X [--rounds N] [--seed S] [--write FOLDER] [FOLDER…]
  *
+ * Without a folder: tests/fuzz/corpus/X and the samples. FUZZ_ROUNDS is N.
  * Every file of the folders is one TAP line; then N mutations of them follow
  * with a fixed seed, so that each `make check` fuzzes a little. --write puts the
  * seeds as the target wants them into a folder, for libFuzzer to begin with. A
@@ -20,6 +21,7 @@
 
 #define INPUT_MAX (1u << 20)
 #define SEEDS_MAX 512
+#define ROUNDS 20000   /* mutations, unless said otherwise                    */
 #define STUCK_S 60    /* a generous guard against hanging, of one input      */
 
 struct seed {
@@ -156,6 +158,34 @@ static size_t mutate_once(struct random_source *source,
 	}
 }
 
+/* For images: words change in their places, by a little or to another's value. */
+static void change_word(struct random_source *source, uint8_t *bytes, size_t len)
+{
+	uint32_t words = (uint32_t)(len / 4), word, other;
+	size_t at = random_below(source, words) * 4u;
+
+	memcpy(&word, bytes + at, 4);
+	memcpy(&other, bytes + random_below(source, words) * 4u, 4);
+	switch (random_below(source, 5)) {
+	case 0:
+		word = other;
+		break;
+	case 1:
+		word += random_below(source, 9) - 4;
+		break;
+	case 2:
+		word ^= 1u << random_below(source, 32);
+		break;
+	case 3:
+		word = (word & 0xff000000u) | (other & 0xffffffu);
+		break;
+	default:
+		word = (word & 0xffffffu) | (other & 0xff000000u);
+		break;
+	}
+	memcpy(bytes + at, &word, 4);
+}
+
 static void mutate(const struct corpus *corpus, long rounds, uint64_t start)
 {
 	static uint8_t bytes[INPUT_MAX + 64];
@@ -166,13 +196,18 @@ static void mutate(const struct corpus *corpus, long rounds, uint64_t start)
 		const struct seed *seed = &corpus->seed[
 			random_below(&source, (uint32_t)corpus->count)];
 		uint32_t changes = 1 + random_below(&source, 6);
+		bool words = random_chance(&source, 50);
 		size_t len = seed->len;
 
 		if (len > 64 * 1024)
 			continue;
 		memcpy(bytes, seed->bytes, len);
-		while (changes--)
-			len = mutate_once(&source, corpus, bytes, len);
+		while (changes--) {
+			if (words && len >= 4)
+				change_word(&source, bytes, len);
+			else
+				len = mutate_once(&source, corpus, bytes, len);
+		}
 		try_input(bytes, len);
 	}
 	CHECK_AS(1, "mutations");
@@ -195,12 +230,25 @@ static void write_seeds(const struct corpus *corpus, const char *folder)
 	}
 }
 
+/* The folder of the target that this program was linked with. */
+static void read_own(struct corpus *corpus, const char *program)
+{
+	const char *name = strrchr(program, '_');
+	char path[256];
+
+	snprintf(path, sizeof(path), "tests/fuzz/corpus/%s",
+		 name ? name + 1 : "");
+	read_folder(corpus, path);
+	read_folder(corpus, strcmp(path, "tests/fuzz/corpus/iomap") == 0 ?
+			    "ladders/boards" : "ladders");
+}
+
 int main(int argc, char **argv)
 {
 	static struct corpus corpus;
-	const char *folder = NULL;
+	const char *folder = NULL, *wish = getenv("FUZZ_ROUNDS");
 	uint64_t seed = 1;
-	long rounds = 0;
+	long rounds = wish ? strtol(wish, NULL, 10) : ROUNDS;
 
 	signal(SIGABRT, on_crash);
 	signal(SIGSEGV, on_crash);
@@ -217,6 +265,8 @@ int main(int argc, char **argv)
 		else
 			read_folder(&corpus, argv[i]);
 	}
+	if (corpus.count == 0)
+		read_own(&corpus, argv[0]);
 	if (folder)
 		write_seeds(&corpus, folder);
 	else
