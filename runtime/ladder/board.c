@@ -90,9 +90,10 @@ static bool add_declared(struct board *board)
 	while (good && image_next_symbol(image, &cursor, &symbol)) {
 		if (symbol.flags & (SYMBOL_HIDDEN | SYMBOL_CONSTANT))
 			continue;
-		good = lamps_of(board, symbol.at) ?
-			add_lamp(board, symbol.at, symbol.name) :
-			add_moving(board, &symbol);
+		if (lamps_of(board, symbol.at))
+			good = add_lamp(board, symbol.at, symbol.name);
+		else if (!symbol.is_input)
+			good = add_moving(board, &symbol);
 	}
 	return good;
 }
@@ -155,7 +156,7 @@ static enum status read_map(struct board *board, const char *path)
 	return good ? STATUS_GOOD : STATUS_NO;
 }
 
-/* What the wire of a switch shows: its level is low when the line is inverted. */
+/* What the wire of a switch shows: TRUE is low when the line is inverted. */
 static void move_wire(struct board *board, const struct lamp *lamp)
 {
 	struct iec_addr addr = address_of(lamp->at);

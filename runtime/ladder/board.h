@@ -40,7 +40,7 @@ struct board {
 	struct iomap map;
 	struct hal hal;
 	struct lamps input, output;
-	struct moving *moving; /* every other variable                       */
+	struct moving *moving; /* every other variable, but for input pins   */
 	int moving_count;
 };
 

@@ -227,9 +227,10 @@ static void print_json(const struct bench *bench)
 
 	sink_text(out, "{\"file\": ");
 	sink_json_text(out, bench->call->arg[0]);
-	sink_printf(out, ", \"version\": \"%s\", \"rungs\": %d, \"scans\": %lld, "
-		    "\"image_bytes\": %u, ", LADDER_VERSION, bench->rungs,
-		    (long long)bench->scans, program->header->size);
+	sink_printf(out, ", \"version\": \"%s\", \"rungs\": %d, "
+		    "\"scans\": %lld, \"image_bytes\": %u, ",
+		    LADDER_VERSION, bench->rungs, (long long)bench->scans,
+		    program->header->size);
 	sink_printf(out, "\"load_bytes\": %zu, \"run_bytes\": %zu, "
 		    "\"read_ns\": %lld, \"build_ns\": %lld",
 		    ladder_memory(bench->machine.ladder),

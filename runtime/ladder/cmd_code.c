@@ -8,6 +8,7 @@
 #include "engine/base/digest.h"
 
 #include <stdlib.h>
+#include <sys/stat.h>
 
 static const char *const section_name[CODE_SECTION_COUNT] = {
 	[CODE_PROGRAMS] = "programs", [CODE_LAYOUT] = "layout",
@@ -119,6 +120,18 @@ static enum status save(const struct ladder *ladder, const char *path)
 	return good ? STATUS_GOOD : STATUS_WRONG;
 }
 
+/* A device, a pipe or a folder must not be replaced by a file. */
+static bool is_in_the_way(const char *path)
+{
+	struct stat status;
+
+	if (stat(path, &status) != 0 || S_ISREG(status.st_mode))
+		return false;
+	report_diag((struct diag){ .id = DIAG_NOT_A_FILE, .file = path }, "%s",
+		    "");
+	return true;
+}
+
 enum status cmd_build(struct call *call)
 {
 	const char *path = call_option(call, "-o");
@@ -127,6 +140,8 @@ enum status cmd_build(struct call *call)
 
 	if (!path || !*path)
 		return report_usage(call, "-o OUT is missing");
+	if (is_in_the_way(path))
+		return STATUS_WRONG;
 	status = machine_open(&machine, call->arg[0]);
 	if (status == STATUS_GOOD)
 		status = save(machine.ladder, path);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_fmt - `ladder fmt`: rung files in canonical form. A file with an error, or
- * one that is canonical already, is not touched.
+ * cmd_fmt - `ladder fmt`: rung files in canonical form. A file with an error,
+ * or one that is canonical already, is not touched.
  */
 #include "ladder/report.h"
 

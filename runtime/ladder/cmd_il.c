@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_il - `ladder il`: the instruction list that runs, as a rung file of IL POUs.
+ * cmd_il - `ladder il`: the instruction list that runs, as a rung file of IL
+ * POUs.
  *
  * The project in memory gets the lists that translation made in place of its
  * rungs, and is written by the one writer; so what is shown can be read again.
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Those of @temp that the list speaks of, in @out; the others serve watching. */
+/* Those of @temp that the list speaks of; the others serve watching. */
 static int pick_used(const struct project *project, const struct il *il,
 		     struct var *const *temp, int count, struct var *out)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_io - `ladder io`: the lines of this machine, and whether a map fits them. It
- * takes no line and changes none.
+ * cmd_io - `ladder io`: the lines of this machine, and whether a map fits
+ * them. It takes no line and changes none.
  */
 #include "ladder/report.h"
 
@@ -79,7 +79,8 @@ static enum status list_lines(struct call *call, struct diag_list *diags)
 	return good ? STATUS_GOOD : STATUS_NO;
 }
 
-static bool is_wrong(const struct diag_list *diags, const struct io_point *point)
+static bool is_wrong(const struct diag_list *diags,
+		     const struct io_point *point)
 {
 	for (int i = 0; i < diags->count; i++)
 		if (diags->diag[i].line == point->text_line)

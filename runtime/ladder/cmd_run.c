@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * cmd_run - `ladder run`: a program on simulated pins, at the pace of the wall
- * clock. A live table in a terminal, plain lines elsewhere. It moves no real pin.
+ * clock. A live table in a terminal, plain lines elsewhere. It moves no real
+ * pin.
  */
 #include "ladder/live.h"
 #include "ladder/tty.h"
@@ -37,11 +38,13 @@ static bool add_columns(struct trace *trace, const struct board *board)
 		const struct lamps *lamps = side ? &board->output :
 						   &board->input;
 
-		for (int i = 0; i < lamps->count && good; i++)
+		for (int i = 0; i < lamps->count && good; i++) {
+			const char *text = lamps->lamp[i].address;
+
 			if (!*lamps->lamp[i].name)
-				good = trace_show(trace, lamps->lamp[i].address,
-						  strlen(lamps->lamp[i].address),
+				good = trace_show(trace, text, strlen(text),
 						  diags, place);
+		}
 	}
 	free(diags);
 	return good;

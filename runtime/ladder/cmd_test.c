@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_test - `ladder test`: scenario files, run against the programs beside them,
- * as TAP. A scenario file without its program is a failed test, not a skipped one.
+ * cmd_test - `ladder test`: scenario files, run against the programs beside
+ * them, as TAP. A scenario file without its program is a failed test, not a
+ * skipped one.
  */
 #include "ladder/report.h"
 #include "ladder/paths.h"
@@ -17,7 +18,8 @@ struct tap {
 	int count, failed;
 };
 
-/* A result line; `#` would begin a directive. Backslash escapes, as TAP 13 has. */
+/* A result line; `#` would begin a directive. Backslash escapes, as TAP 13
+ * has. */
 static void print_result(struct tap *tap, bool good, const char *path,
 			 const char *name)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_view - `ladder show`, `diff` and `words`: what view/ prints, with the exit
- * status of the command line around it.
+ * cmd_view - `ladder show`, `diff` and `words`: what view/ prints, with the
+ * exit status of the command line around it.
  */
 #include "ladder/report.h"
 

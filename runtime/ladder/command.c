@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * command - takes a command line apart by the command's row. It knows no command
- * by name, and abbreviates no option.
+ * command - takes a command line apart by the command's row. It knows no
+ * command by name, and abbreviates no option.
  */
 #include "ladder/command.h"
 #include "ladder/report.h"

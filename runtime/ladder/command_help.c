@@ -10,16 +10,16 @@
 #include <string.h>
 
 static const char exit_status[] =
-	"0 good, also with warnings; 1 the answer is no (errors in a text, a test "
-	"failed, files differ); 2 wrong usage, a file that cannot be read at all, "
-	"or a result that cannot be written.";
+	"0 good, also with warnings; 1 the answer is no (errors in a text, a "
+	"test failed, files differ); 2 wrong usage, a file that cannot be read "
+	"at all, or a result that cannot be written.";
 
 static const char about[] =
-	"Rungboard's command line: checks, shows, runs and tests ladder programs "
-	"(rung files). Results go to standard output, diagnostics to standard "
-	"error.";
+	"Rungboard's command line: checks, shows, runs and tests ladder "
+	"programs (rung files). Results go to standard output, diagnostics "
+	"to standard error.";
 
-/* Words of @text broken into lines of at most 76 columns, each behind @indent. */
+/* Words of @text in lines of at most 76 columns, each behind @indent. */
 static void print_wrapped(const char *text, const char *indent,
 			  const struct sink *out)
 {
@@ -129,11 +129,14 @@ static void roff(const char *text, const struct sink *out)
 static void man_head(const char *name, const char *purpose,
 		     const struct sink *out)
 {
-	bool own = *name != '\0';
+	const char *dash = *name ? "-" : "";
 
-	sink_printf(out, ".TH \"LADDER%s%s\" 1 \"\" \"Rungboard %s\" "
-		    "\"Rungboard\"\n.SH NAME\nladder%s%s \\- ",
-		    own ? "-" : "", name, LADDER_VERSION, own ? "-" : "", name);
+	sink_printf(out, ".TH \"LADDER%s", dash);
+	for (const char *at = name; *at; at++)
+		sink_printf(out, "%c", *at >= 'a' && *at <= 'z' ? *at - 32 :
+								  *at);
+	sink_printf(out, "\" 1 \"\" \"Rungboard %s\" \"Rungboard\"\n"
+		    ".SH NAME\nladder%s%s \\- ", LADDER_VERSION, dash, name);
 	roff(purpose, out);
 	sink_text(out, "\n");
 }

@@ -7,8 +7,8 @@
 
 #include "ladder/board.h"
 
-/* When scans are due. Program time stands on the grid of the period, whatever the
- * clock on the wall does: when the machine cannot keep up, it goes slower. */
+/* When scans are due. Program time stands on the grid of the period, whatever
+ * the clock on the wall does: when the machine cannot keep up, it goes slower. */
 struct pace {
 	int64_t period_ns;   /* of program time                              */
 	double wall_period_ns; /* the same on the wall: period / speed       */

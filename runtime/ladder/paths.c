@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * paths - looks for files by their ending. Links are followed, so depth is bounded.
+ * paths - looks for files by their ending. Links are followed, so depth is
+ * bounded.
  */
 #include "ladder/paths.h"
 #include "ladder/report.h"

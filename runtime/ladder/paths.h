@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * paths - the scenario files that a command line means: files, programs, folders.
+ * paths - the scenario files that a command line means: files, programs,
+ * folders.
  *
  * It looks into folders, at most eight deep, and opens no file.
  */

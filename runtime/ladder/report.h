@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * report - what all commands share: loading a program and telling what is wrong.
+ * report - what all commands share: loading a program and telling what is
+ * wrong.
  *
- * Results go to call->out (standard output), diagnostics to standard error, one a
- * line in the form of diag_print. It never ends the program.
+ * Results go to call->out (standard output), diagnostics to standard error,
+ * one a line in the form of diag_print. It never ends the program.
  */
 #ifndef LADDER_REPORT_H
 #define LADDER_REPORT_H

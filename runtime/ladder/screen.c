@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * screen - frames made of ECMA-48 sequences that every terminal of the last forty
- * years knows. It asks no terminal database.
+ * screen - frames made of ECMA-48 sequences that every terminal of the last
+ * forty years knows. It asks no terminal database.
  */
 #include "ladder/screen.h"
 

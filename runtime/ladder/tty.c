@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * tty - termios, signals and the clock, for `ladder run` only. Its few statics are
- * what a signal handler must reach.
+ * tty - termios, signals and the clock, for `ladder run` only. Its few statics
+ * are what a signal handler must reach.
  */
 #include "ladder/tty.h"
 

@@ -2,8 +2,8 @@
  *
  * tty - a terminal in raw mode, which is always given back as it was.
  *
- * Keys come one by one without echo, and the screen is a second one. Whatever ends
- * the program, signals too, restores both. It draws nothing.
+ * Keys come one by one without echo, and the screen is a second one. Whatever
+ * ends the program, signals too, restores both. It draws nothing.
  */
 #ifndef LADDER_TTY_H
 #define LADDER_TTY_H
@@ -16,7 +16,7 @@
 bool tty_is(void);
 /** tty_utf8 - does the locale write UTF-8? */
 bool tty_utf8(void);
-/** tty_watch_signals - SIGINT, SIGTERM, SIGHUP, SIGQUIT ask to stop from now. */
+/** tty_watch_signals - SIGINT, SIGTERM, SIGHUP, SIGQUIT ask to stop. */
 void tty_watch_signals(void);
 /** tty_stopped - has one of them come? */
 bool tty_stopped(void);

@@ -91,8 +91,8 @@ static void test_report(void)
 	CHECK(strstr(run(S "expect 1 / Level = 1\n"), "cannot be computed"));
 	CHECK(strstr(run(S "at 0 Level = 30000\nat 20ms Level = Level * 2\n"
 			 "expect TRUE\n"), "value out of range: "));
-	CHECK(strstr(run(S "Heat = 200.0\nexpect TRUE\n"),
-		     "# s.scn:1: at 10 ms: the program stopped with a fault: "));
+	CHECK(strstr(run(S "Heat = 200.0\nexpect TRUE\n"), "# s.scn:1: at 10 "
+		     "ms: the program stopped with a fault: "));
 }
 
 static void test_values(void)

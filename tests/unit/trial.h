@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * trial - the little program that tests of trial/ run, and a place for its output.
+ * trial - the little program that tests of trial/ run, and a place for its
+ * output.
  */
 #ifndef TESTS_TRIAL_H
 #define TESTS_TRIAL_H
@@ -8,7 +9,9 @@
 #include "engine/base/sink.h"
 #include "engine/ladder.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const char trial_source[] =
 	"RUNGBOARD 1\n"

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * formula - expressions of scenarios. One pass over terms that stand in order, so
- * there is no recursion whatever a file holds. It writes nothing to the image.
+ * formula - expressions of scenarios. One pass over terms that stand in order,
+ * so there is no recursion whatever a file holds. It writes nothing to the
+ * image.
  */
 #include "engine/trial/formula.h"
 #include "engine/trial/value.h"
@@ -215,7 +216,8 @@ static bool divide(struct formula_term *term, int64_t a, int64_t b)
 	return true;
 }
 
-static bool calculate(struct formula_term *term, const struct formula_term *left,
+static bool calculate(struct formula_term *term,
+		      const struct formula_term *left,
 		      const struct formula_term *right)
 {
 	if (term->kind != KIND_REAL) {

@@ -2,9 +2,10 @@
  *
  * formula - the value of an expression over a process image, between scans.
  *
- * Scenarios ask with it what a program did. It is not the evaluator of a program:
- * that is the VM, which a trial must not repeat. Kinds are wider than types: any
- * integer or bit string is 64 bits, TIME is ns; REAL compares as a float.
+ * Scenarios ask with it what a program did. It is not the evaluator of a
+ * program: that is the VM, which a trial must not repeat. Kinds are wider than
+ * types: any integer or bit string is 64 bits, TIME is ns; REAL compares as a
+ * float.
  */
 #ifndef TRIAL_FORMULA_H
 #define TRIAL_FORMULA_H

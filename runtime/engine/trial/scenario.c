@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario - runs the steps of a scenario in virtual time and reports what did not
- * hold. It decides nothing else: a program that prints TAP is around it.
+ * scenario - runs the steps of a scenario in virtual time and reports what did
+ * not hold. It decides nothing else: a program that prints TAP is around it.
  */
 #include "engine/trial/scenario.h"
 
@@ -131,8 +131,9 @@ static void remember(struct run *run)
 static void judge(struct run *run, struct scenario_step *step)
 {
 	int64_t left_ns = step->at_ns + step->span_ns - run->now_ns;
+	const struct image *image = &run->resource->image;
 	union iec_value value;
-	bool known = formula_value(step->formula, &run->resource->image, &value);
+	bool known = formula_value(step->formula, image, &value);
 	bool good = known && (value.i != 0) != (step->verb == VERB_NEVER);
 	bool more = false;
 

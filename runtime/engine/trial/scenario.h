@@ -4,7 +4,7 @@
  *
  *   scenario "stop wins over start"        # any number in a file
  *     period 10ms                          # 10ms if it is not said
- *     at 0ms     Open = 1, Stop = 0        # set before the first scan at t >= 0
+ *     at 0ms     Open = 1, Stop = 0        # before the first scan at t >= 0
  *     at 20ms    expect Motor = 1          # looked at after that scan
  *     at 1s      Stop = 1
  *     within 10ms expect Motor = 0         # in a scan of [1s, 1s + 10ms]
@@ -12,10 +12,10 @@
  *     always     not (Up and Down)         # after every scan of the scenario
  *     never      Heater and not Fan
  *
- * One statement a line, indented as you like; words in any case; comments behind
- * `#` or `//` or in (* *). Lines without `at` belong to the `at` before them, those before
- * the first one to 0; times must not go back. The first scan is at t = period; a
- * scenario ends when all is decided.
+ * One statement a line, indented as you like; words in any case; comments
+ * behind `#` or `//` or in (* *). Lines without `at` belong to the `at` before
+ * them, those before the first one to 0; times must not go back. The first
+ * scan is at t = period; a scenario ends when all is decided.
  */
 #ifndef TRIAL_SCENARIO_H
 #define TRIAL_SCENARIO_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * scenario_read - scenario files to steps. It finds every error it can, a line each,
- * and runs nothing.
+ * scenario_read - scenario files to steps. It finds every error it can, a line
+ * each, and runs nothing.
  */
 #include "engine/trial/scenario.h"
 #include "engine/trial/value.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * script - stimulus scripts. Each is read twice by the same code: once to find all
- * its errors, once to run. It keeps nothing of a line but four numbers.
+ * script - stimulus scripts. Each is read twice by the same code: once to find
+ * all its errors, once to run. It keeps nothing of a line but four numbers.
  */
 #include "engine/trial/script.h"
 #include "engine/trial/value.h"
@@ -60,7 +60,8 @@ static struct diag place_of(const struct script *script, const char *at)
 			      .column = (int)(at - script->line_start) + 1 };
 }
 
-static bool complain(struct script *script, enum diag_id id, struct script_word word)
+static bool complain(struct script *script, enum diag_id id,
+		     struct script_word word)
 {
 	struct diag place = place_of(script, word.text);
 
@@ -84,8 +85,8 @@ static bool is_word(struct script_word word, const char *want)
 	return i == word.len && !want[i];
 }
 
-static bool take_time(struct script *script, struct script_word word, size_t skip,
-		      int64_t *ns)
+static bool take_time(struct script *script, struct script_word word,
+		      size_t skip, int64_t *ns)
 {
 	enum literal_result result = value_parse_time(
 		word.text + skip, word.len - skip, VALUE_MS, ns);
@@ -97,7 +98,8 @@ static bool take_time(struct script *script, struct script_word word, size_t ski
 			word);
 }
 
-static bool take_repeat(struct script *script, struct script_word word, int64_t *count)
+static bool take_repeat(struct script *script, struct script_word word,
+			int64_t *count)
 {
 	int64_t n = 0;
 
@@ -166,7 +168,8 @@ bool script_fault(const struct resource *resource, const char *file, int line,
 static bool run_stroke(struct script *script, const struct stroke *stroke,
 		       struct script_word first)
 {
-	int64_t step = stroke->step_ns < 0 ? script->period_ns : stroke->step_ns;
+	int64_t step = stroke->step_ns < 0 ? script->period_ns :
+					     stroke->step_ns;
 
 	for (int64_t i = 1; i <= stroke->repeat; i++) {
 		if (script->now_ns > VALUE_TIME_MAX)
@@ -295,7 +298,8 @@ static bool read_lines(struct script *script, const char *text, size_t len)
 			script->at++;
 		bool command = script->at < script->end && *script->at == '@';
 
-		good = (command ? directive(script) : scan_line(script)) && good;
+		if (!(command ? directive(script) : scan_line(script)))
+			good = false;
 		at = newline ? newline + 1 : end;
 	}
 	return good;
@@ -344,7 +348,8 @@ bool script_run(const char *file, const char *text, size_t len,
 		return false;
 	trace_clear(trace);
 	if (!trace_show_all(trace))
-		return complain(&script, DIAG_NO_MEMORY, (struct script_word){ text, 0 });
+		return complain(&script, DIAG_NO_MEMORY,
+				(struct script_word){ text, 0 });
 	script.dry = false;
 	script.period_ns = period_ns;
 	bool good = read_lines(&script, text, len);

@@ -26,10 +26,9 @@
  * @resource:  freshly initialised; it is started here
  * @trace:     shows the scans; without @print it shows everything declared
  *
- * Each scan first moves the clock on, from 0, then runs at that time.
- * Owns: nothing.   Scan-safe: no.
- * Fails: false after a diagnostic (a text error, or DIAG_FAULT of the program), or,
- * without one, when trace_stopped().
+ * Each scan first moves the clock on, from 0, then runs at that time. Owns:
+ * nothing.   Scan-safe: no. Fails: false after a diagnostic (a text error, or
+ * DIAG_FAULT of the program), or, without one, when trace_stopped().
  */
 bool script_run(const char *file, const char *text, size_t len,
 		int64_t period_ns, struct resource *resource,

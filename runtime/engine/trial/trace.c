@@ -13,8 +13,8 @@
 
 #define RANGE_MAX 65536 /* columns of one range */
 
-void trace_init(struct trace *trace, const struct image *image, const struct sink *out,
-		enum trace_form form, bool changes)
+void trace_init(struct trace *trace, const struct image *image,
+		const struct sink *out, enum trace_form form, bool changes)
 {
 	memset(trace, 0, sizeof(*trace));
 	arena_init(&trace->arena);
@@ -187,8 +187,8 @@ bool trace_show(struct trace *trace, const char *text, size_t len,
 bool trace_update(struct trace_column *column, union iec_value value)
 {
 	bool same = column->at.type == IEC_REAL ?
-			    !memcmp(&value.r, &column->last.r, sizeof(value.r)) :
-			    value.i == column->last.i;
+		!memcmp(&value.r, &column->last.r, sizeof(value.r)) :
+		value.i == column->last.i;
 
 	column->last = value;
 	return !same;

@@ -2,8 +2,8 @@
  *
  * trace - what the variables of a program were after each scan, as text.
  *
- * Lines for people and tests, CSV for spreadsheets, VCD for wave viewers. It looks
- * at an image and writes to a sink; it runs nothing.
+ * Lines for people and tests, CSV for spreadsheets, VCD for wave viewers. It
+ * looks at an image and writes to a sink; it runs nothing.
  *
  *   12 t=120 Motor=1 Runout.ET=20.5      scan, time in ms, values
  */
@@ -43,8 +43,8 @@ struct trace {
  *
  * Owns: the trace, trace_free().   Scan-safe: no.   Fails: never.
  */
-void trace_init(struct trace *trace, const struct image *image, const struct sink *out,
-		enum trace_form form, bool changes);
+void trace_init(struct trace *trace, const struct image *image,
+		const struct sink *out, enum trace_form form, bool changes);
 void trace_free(struct trace *trace);
 
 /** trace_clear - no columns. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * trace_form - the trace as CSV (RFC 4180) and as VCD (IEEE 1364 clause 18), for
- * spreadsheets and wave viewers. A head names the columns once, so they cannot
- * change under way.
+ * trace_form - the trace as CSV (RFC 4180) and as VCD (IEEE 1364 clause 18),
+ * for spreadsheets and wave viewers. A head names the columns once, so they
+ * cannot change under way.
  */
 #include "engine/trial/trace_form.h"
 
@@ -47,7 +47,7 @@ void trace_csv(struct trace *trace, uint64_t scan, int64_t now_ns)
 	sink_text(trace->out, "\r\n");
 }
 
-/* The identifier of a column: a number to the base 94 in printable characters. */
+/* The identifier of a column: a number to the base 94, in printables. */
 static void vcd_id(int column, char out[8])
 {
 	int n = 0;
@@ -97,8 +97,9 @@ void trace_vcd_head(struct trace *trace)
 		bool real = column->at.type == IEC_REAL;
 
 		vcd_id(i, id);
-		sink_printf(trace->out, "$var %s %d %s ", real ? "real" : "wire",
-			   real ? 64 : vcd_width(column->at.type), id);
+		sink_printf(trace->out, "$var %s %d %s ",
+			    real ? "real" : "wire",
+			    real ? 64 : vcd_width(column->at.type), id);
 		sink_text(trace->out, column->name);
 		sink_text(trace->out, " $end\n");
 	}

@@ -17,7 +17,8 @@
 #define VALUE_MS INT64_C(1000000)
 
 /**
- * value_parse_time - a time that is not negative: `10ms`, `2.5s`, `1m30s`, `T#3s`
+ * value_parse_time - a time that is not negative: `10ms`, `2.5s`, `1m30s`,
+ * `T#3s`
  * @unit_ns: what a bare number counts; 0: a unit is needed
  * @ns:      the time in ns, at most VALUE_TIME_MAX
  *
@@ -30,9 +31,9 @@ enum literal_result value_parse_time(const char *text, size_t len,
 /**
  * value_parse - a constant of a known type
  *
- * TIME may be a bare number of ms, as traces show it; BOOL is 0, 1, TRUE, FALSE.
- * Owns: nothing.   Scan-safe: no.
- * Fails: false; DIAG_BAD_LITERAL or DIAG_LITERAL_RANGE in @why.
+ * TIME may be a bare number of ms, as traces show it; BOOL is 0, 1, TRUE,
+ * FALSE. Owns: nothing.   Scan-safe: no. Fails: false; DIAG_BAD_LITERAL or
+ * DIAG_LITERAL_RANGE in @why.
  */
 bool value_parse(enum iec_type type, const char *text, size_t len,
 		 union iec_value *out, enum diag_id *why);

@@ -1,0 +1,352 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# cli - the command line from outside, with the real binary: exit status, what is on
+# standard output and what on standard error, bad input, JSON, full disks, closed
+# pipes. It does not test what programs do: that is for the scenarios.
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Temp qw(tempdir);
+use JSON::PP;
+use POSIX qw(mkfifo);
+use Test::More;
+use Time::HiRes qw(sleep time);
+
+my $ladder = abs_path($ENV{LADDER} // 'build/ladder');
+my $dir = tempdir(CLEANUP => 1);
+my $diag = qr/^\S.*: (?:error|warning) LD\d{3}: /;
+chdir $dir or die;
+
+sub put { my ($name, $text) = @_; open my $f, '>:raw', $name or die; print $f $text; close $f or die }
+sub get { my ($name) = @_; open my $f, '<:raw', $name or die; local $/; my $text = <$f>; close $f; $text }
+
+# Exit status, standard output, standard error.
+sub run {
+	my (@args) = @_;
+	my $in = ref $args[0] ? ${shift @args} : '';
+	put('.in', $in);
+	open my $stdin, '<', '.in' or die;
+	my $pid = fork // die;
+	if (!$pid) {
+		open STDIN, '<&', $stdin; open STDOUT, '>', '.out'; open STDERR, '>', '.err';
+		exec $ladder, @args or die;
+	}
+	local $SIG{ALRM} = sub { kill 9, $pid };
+	alarm 20; waitpid $pid, 0; my $status = $?; alarm 0;
+	return ($status & 127 ? "signal $status" : $status >> 8, get('.out'), get('.err'));
+}
+# Every line on standard error is a diagnostic.
+sub pure { my ($err) = @_; !grep { $_ !~ $diag } split /\n/, $err }
+sub is_run {
+	my ($want, $what, $args, $in) = @_;
+	my ($status, $out, $err) = run(defined $in ? \$in : (), @$args);
+	is($status, $want, "$what: exit $want") or diag("$out$err");
+	ok(pure($err), "$what: only diagnostics on standard error") or diag($err);
+	return ($out, $err);
+}
+
+put('good.rung', <<'END');
+RUNGBOARD 1
+PROJECT "Good"
+
+VAR
+  Open  AT %IX0.0 : BOOL;
+  Stop  AT %IX0.1 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG Seal "holds itself"
+  | NO Open   | NC Stop | COIL Motor |
+  | NO Motor ^|
+END_PROGRAM
+END
+(my $ugly = get('good.rung')) =~ s/  \| NO Open   \|/| NO Open|/;
+put('ugly.rung', $ugly);
+(my $bad = get('good.rung')) =~ s/NC Stop/NC Stopp/;
+put('bad.rung', $bad);
+(my $other = get('good.rung')) =~ s/NC Stop/NO Stop/;
+put('other.rung', $other);
+put('broken.rung', "RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO\n");
+put('loop.rung', "RUNGBOARD 1\nPROGRAM Main LD\nRUNG A\n  | NO I0 | JMP A |\nEND_PROGRAM\n");
+put('good.script', "\@print Motor\nOpen=1\nOpen=0 x2\nStop=1\n");
+put('good.scn', "scenario \"holds\"\n  at 0 Open = 1\n  at 20ms Open = 0\n  at 1s expect Motor\n");
+put('map.io', "BOARD \"none\"\n%IX0.0 sim active-low\n%QX0.0 sim\n");
+
+# ---- the program itself ----
+my ($out, $err) = is_run(0, '--version', ['--version']);
+like($out, qr/^ladder \d+\.\d+\.\d+\n$/, '--version prints it');
+($out) = is_run(0, '--help', ['--help']);
+my @commands = $out =~ /^  ([a-z]+)  +\S.*$/mg;
+is_deeply([sort grep { $_ ne 'help' } @commands],
+	  [sort qw(check fmt show il code build run trace test bench words diff io)], 'all commands are there');
+($out, $err) = is_run(2, 'no command', []);
+is($out, '', 'no command: nothing on standard output');
+is_run(2, 'unknown command', ['frobnicate']);
+for my $command (@commands) {
+	my ($help) = is_run(0, "$command --help", [$command, '--help']);
+	like($help, qr/^Usage: ladder $command /, "$command --help: usage");
+	like($help, qr/^Example:\n  .*ladder \Q$command\E/m, "$command --help: an example of it");
+	my ($same) = is_run(0, "help $command", ['help', $command]);
+	is($same, $help, "help $command says the same");
+	my ($man) = is_run(0, "man page of $command", ['help', '--man', $command]);
+	like($man, qr/^\.TH "LADDER-\U$command\E" 1 /, "man page of $command has a title");
+	is_run(2, "$command --nonsense", [$command, '--nonsense']);
+	if ($command !~ /^(?:words|io|help)$/) {
+		($out, $err) = is_run(2, "$command without a file", [$command]);
+		is($out, '', "$command without a file: no result");
+	}
+}
+is_run(2, 'too many arguments', ['il', 'good.rung', 'good.rung']);
+is_run(2, 'an option without its value', ['trace', 'good.rung', 'good.script', '--period']);
+is_run(2, 'a value for an option without', ['check', '--json=1', 'good.rung']);
+put('--json', $bad);
+is_run(1, 'a name like an option, behind --', ['check', '--', '--json']);
+
+# ---- bad input, for every command that reads a program ----
+my %inputs = (
+	empty => '', nul => "RUNGBOARD 1\n\0\0", binary => join('', map { chr($_ * 7 % 256) } 1 .. 4096),
+	half => substr(get('good.rung'), 0, 150), utf8 => "RUNGBOARD 1\nPROJECT \"\xff\xfe\"\n",
+	newer => "RUNGBOARD 99\n", long => 'a' x 1_000_000, bars => "RUNGBOARD 1\nPROGRAM M LD\nRUNG\n" . ('|' x 100_000),
+	name => "RUNGBOARD 1\nVAR\n  " . ('n' x 10_000) . " : BOOL;\nEND_VAR\n", range => "RUNGBOARD 1\nVAR\n A : INT := 99999999999999999999;\nEND_VAR\n",
+	code => "RUNGCODE" . ("\xff" x 200),
+);
+my %with = (trace => ['good.script'], build => ['-o', 'out.rungc'], diff => ['good.rung'], run => ['--scans', '1']);
+for my $name (sort keys %inputs) {
+	put("in-$name", $inputs{$name});
+	for my $command (qw(check fmt show il code build run trace bench diff)) {
+		next if $command ne 'check' && $name =~ /^(?:long|bars|binary|name)$/;
+		my ($status, $out, $err) = run($command, "in-$name", @{$with{$command} || []});
+		ok($status eq ($command eq 'diff' ? 2 : 1), "$command of $name: refused") or diag("$status: $err");
+		ok($err =~ /error LD\d{3}/ && pure($err), "$command of $name: says why") or diag($err);
+	}
+	is(get("in-$name"), $inputs{$name}, "$name: still what it was");
+}
+ok(!-e 'out.rungc', 'no image was built of bad input');
+for my $path ('nothing-here.rung', '.') {
+	for my $command (qw(check fmt show il code run bench)) {
+		my ($out, $err) = is_run(2, "$command $path", [$command, $path, @{$with{$command} || []}]);
+		like($err, qr/^\Q$path\E: error LD00/, "$command $path: says so");
+		unlike($out, qr/good/, "$command $path: no result");
+	}
+}
+put('crlf.rung', get('good.rung') =~ s/\n/\r\n/gr);
+is_run(0, 'CRLF', ['check', 'crlf.rung']);
+
+# ---- check ----
+($out, $err) = is_run(0, 'check', ['check', 'good.rung']);
+is($out, "good.rung: good\n", 'check: the sum');
+($out, $err) = is_run(1, 'check of an error', ['check', 'good.rung', 'bad.rung']);
+like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: .*Stopp$/m, 'check: file, line, rung, cell, code, name');
+like($out, qr/^good\.rung: good\nbad\.rung: 1 error/, 'check: a line for each file');
+($out, $err) = is_run(1, 'check --json', ['check', '--json', 'good.rung', 'bad.rung']);
+my $json = decode_json($out);
+is($err, '', 'check --json: nothing on standard error');
+ok($json->[0]{good} && !@{$json->[0]{diagnostics}}, 'check --json: the good file');
+my ($first) = grep { $_->{severity} eq 'error' } @{$json->[1]{diagnostics}};
+is_deeply([@$first{qw(code file rung row col)}], ['LD301', 'bad.rung', 1, 1, 2], 'check --json: the place');
+($out) = is_run(2, 'check --json of no file', ['check', '--json', 'nowhere']);
+is(decode_json($out)->[0]{diagnostics}[0]{code}, 'LD002', 'check --json: no file');
+put(qq(we"ird\n\x01.rung), $bad);
+(undef, $out) = run('check', '--json', qq(we"ird\n\x01.rung));
+ok(eval { decode_json($out) }, 'check --json of a weird name') or diag($@);
+
+# ---- fmt ----
+my $canonical = get('good.rung');
+($out) = is_run(1, 'fmt --check', ['fmt', '--check', 'good.rung', 'ugly.rung']);
+is($out, "ugly.rung\n", 'fmt --check names the file');
+is(get('ugly.rung'), $ugly, 'fmt --check changes nothing');
+chmod 0640, 'ugly.rung';
+($out) = is_run(0, 'fmt', ['fmt', 'good.rung', 'ugly.rung']);
+is($out, '', 'fmt is silent');
+is(get('ugly.rung'), $canonical, 'fmt makes it canonical');
+is((stat 'ugly.rung')[2] & 0777, 0640, 'fmt keeps the mode');
+is_run(0, 'fmt --check afterwards', ['fmt', '--check', 'ugly.rung']);
+my $mtime = (stat 'good.rung')[9];
+utime 1, 1, 'good.rung';
+is_run(0, 'fmt of a canonical file', ['fmt', 'good.rung']);
+is((stat 'good.rung')[9], 1, 'fmt does not touch a canonical file');
+is_run(1, 'fmt of an error', ['fmt', 'broken.rung']);
+SKIP: {
+	skip 'root may write everywhere', 3 if $> == 0;
+	mkdir 'ro'; put('ro/ugly.rung', $ugly); chmod 0555, 'ro';
+	is_run(2, 'fmt in a read-only folder', ['fmt', 'ro/ugly.rung']);
+	is(get('ro/ugly.rung'), $ugly, 'and the file is what it was');
+	chmod 0755, 'ro';
+}
+
+# ---- show, il, code, build, diff, words ----
+($out) = is_run(0, 'show', ['show', 'good.rung']);
+like($out, qr/Open.*Stop.*Motor/s, 'show draws the rung');
+is_run(0, 'show of a label', ['show', 'good.rung', 'Seal']);
+is_run(0, 'show of POU:NUMBER', ['show', 'good.rung', 'Main:1']);
+($out) = is_run(2, 'show of no rung', ['show', 'good.rung', '7']);
+is($out, '', 'show of no rung: nothing');
+($out) = is_run(0, 'show --ascii', ['show', '--ascii', 'good.rung']);
+unlike($out, qr/[^\x00-\x7f]/, 'show --ascii is ASCII');
+($out) = is_run(0, 'il', ['il', 'good.rung']);
+put('il.rung', $out);
+like($out, qr/^RUNGBOARD 1\n.*^PROGRAM Main IL\n.*^  LD +Open\n.*^END_PROGRAM\n\z/ms, 'il is a whole file');
+is_run(0, 'check of the il', ['check', 'il.rung']);
+($out) = is_run(0, 'code', ['code', 'good.rung']);
+like($out, qr/^identity +[0-9a-f]{64}\n.*worst case +[1-9]/ms, 'code: identity and worst case');
+my ($identity) = $out =~ /^identity +(\w+)/;
+($out) = is_run(0, 'code of the il', ['code', 'il.rung']);
+like($out, qr/^identity +$identity$/m, 'the il gives the same code');
+($out) = is_run(0, 'code of a loop', ['code', 'loop.rung']);
+like($out, qr/loops/, 'code: says that it loops');
+is_run(0, 'build', ['build', 'good.rung', '-o', 'good.rungc']);
+($out) = is_run(0, 'code of the image', ['code', 'good.rungc']);
+like($out, qr/^identity +$identity$/m, 'the image has the same identity');
+($out) = is_run(0, 'trace of the image', ['trace', 'good.rungc', 'good.script']);
+my ($direct) = is_run(0, 'trace', ['trace', 'good.rung', 'good.script']);
+is($out, $direct, 'the image does the same');
+is_run(1, 'il of an image', ['il', 'good.rungc']);
+is_run(1, 'show of an image', ['show', 'good.rungc']);
+is_run(1, 'fmt of an image', ['fmt', 'good.rungc']);
+is_run(2, 'build without -o', ['build', 'good.rung']);
+is_run(2, 'build into no folder', ['build', 'good.rung', '-o', 'nowhere/good.rungc']);
+my $image = get('good.rungc');
+for my $at (0, 9, 13, 17, 60, 200, length($image) - 1) {
+	put('damaged.rungc', substr($image, 0, $at) . chr(ord(substr $image, $at, 1) ^ 0x55) . substr($image, $at + 1));
+	is_run(1, "image damaged at $at", ['code', 'damaged.rungc']);
+}
+put('cut.rungc', substr($image, 0, 100));
+is_run(1, 'image cut', ['run', 'cut.rungc', '--scans', '1']);
+($out) = is_run(0, 'diff of the same', ['diff', 'good.rung', 'good.rung']);
+is($out, '', 'diff of the same: nothing');
+($out) = is_run(1, 'diff', ['diff', 'good.rung', 'other.rung']);
+like($out, qr/Stop/, 'diff names it');
+($out) = is_run(1, 'diff --json', ['diff', '--json', 'good.rung', 'other.rung']);
+is(scalar @{decode_json($out)}, 1, 'diff --json: one difference');
+($out) = is_run(0, 'diff --json of the same', ['diff', '--json', 'good.rung', 'good.rung']);
+is(scalar @{decode_json($out)}, 0, 'diff --json of the same: none');
+is_run(2, 'diff with an error', ['diff', 'good.rung', 'broken.rung']);
+($out) = is_run(0, 'words', ['words', 'ton']);
+like($out, qr/TON.*\bPT\b.*\bET\b/s, 'words tells the pins');
+($out) = is_run(1, 'words of none', ['words', 'nonsense']);
+is($out, '', 'words of none: nothing');
+($out) = is_run(0, 'words --json', ['words', '--json']);
+ok(decode_json($out), 'words --json is JSON');
+
+# ---- trace ----
+is($direct, "1 t=10 Motor=1\n2 t=20 Motor=1\n3 t=30 Motor=1\n4 t=40 Motor=0\n", 'trace');
+($out) = is_run(0, 'trace of standard input', ['trace', 'good.rung', '-', '--changes', '--period', '2.5'], "\@print Motor\n.\nOpen=1\n.\n");
+is($out, "2 t=5 Motor=1\n", 'trace --changes --period');
+($out) = is_run(0, 'trace --csv', ['trace', 'good.rung', 'good.script', '--csv']);
+like($out, qr/^scan,t_ms,Motor\r\n1,10,1\r\n/, 'trace --csv');
+($out) = is_run(0, 'trace --vcd', ['trace', 'good.rung', 'good.script', '--vcd']);
+like($out, qr/^\$timescale 1ns \$end\n.*^\$enddefinitions \$end\n.*^#10000000\n1!\n/ms, 'trace --vcd');
+is_run(2, 'trace --csv --vcd', ['trace', 'good.rung', 'good.script', '--csv', '--vcd']);
+($out, $err) = is_run(1, 'trace of a bad script', ['trace', 'good.rung', '-'], "Open=1\nOpen=5\n");
+is($out, '', 'a bad script is not begun');
+like($err, qr/^-:2:6: error LD116: /, 'a bad script: line and code');
+($out, $err) = is_run(1, 'trace of a loop', ['trace', 'loop.rung', '-'], "\@print %I0\n.\n%I0=1\n");
+like($err, qr/^-:3: .*error LD008: .*budget/, 'trace of a loop: the fault');
+is_run(2, 'trace without a script', ['trace', 'good.rung', 'nothing']);
+
+# ---- test ----
+($out, $err) = is_run(0, 'test', ['test', 'good.scn']);
+is($out, "ok 1 - good.scn: holds\n1..1\n", 'test prints TAP');
+($out) = is_run(0, 'test of a program', ['test', 'good.rung']);
+is($out, "ok 1 - good.scn: holds\n1..1\n", 'test of a program');
+mkdir 'sub'; mkdir 'sub/below';
+put('sub/good.rung', $canonical); put('sub/below/a.rung', $canonical);
+put('sub/good.scn', "scenario \"a # b\"\nat 20ms expect Motor\n"); put('sub/below/a.scn', get('good.scn'));
+($out) = is_run(1, 'test of a folder', ['test', 'sub']);
+like($out, qr/^ok 1 - sub\/below\/a\.scn: holds\nnot ok 2 - sub\/good\.scn: a \\# b\n# sub\/good\.scn:2: at 20 ms: .*\n#   1 t=10 Motor=0\n#   2 t=20 Motor=0\n1\.\.2\n\z/, 'test of a folder');
+($out) = is_run(1, 'test of an image', ['test', 'sub/good.scn', 'good.scn']);
+like($out, qr/^not ok 1 .*^ok 2 /ms, 'test goes on behind a failure');
+put('alone.scn', get('good.scn'));
+($out) = is_run(1, 'scenarios without a program', ['test', 'alone.scn']);
+like($out, qr/^not ok 1 - alone\.scn: its program is good\n1\.\.1\n/, 'scenarios without a program fail');
+is_run(2, 'test of nothing', ['test', 'nowhere']);
+is_run(2, 'a program without scenarios', ['test', 'bad.rung']);
+mkdir 'empty';
+is_run(2, 'a folder without scenarios', ['test', 'empty']);
+put('wrong.rung', $canonical); put('wrong.scn', "scenario \"x\"\nexpect Nothing\n");
+($out, $err) = is_run(1, 'a wrong scenario', ['test', 'wrong.scn']);
+like($err, qr/^wrong\.scn:2:8: error LD301: .*Nothing/, 'a wrong scenario: place and name');
+
+# ---- bench, io ----
+($out) = is_run(0, 'bench', ['bench', 'good.rung', '--scans', '60']);
+like($out, qr/^rungs +1\n.*^body, steady +\d/ms, 'bench prints a table');
+($out) = is_run(0, 'bench --json', ['bench', 'good.rung', '--scans', '60', '--json']);
+$json = decode_json($out);
+ok($json->{$_}{min} <= $json->{$_}{median} && $json->{$_}{median} <= $json->{$_}{max}, "bench --json: $_")
+	for qw(body_steady_ns body_random_ns scan_steady_ns scan_random_ns);
+is_run(2, "bench --scans $_", ['bench', 'good.rung', '--scans', $_]) for '0', '-1', 'x', '5x', '99999999999999999999';
+($out) = is_run(0, 'io of a map', ['io', 'map.io']);
+like($out, qr/^%IX0\.0 .*good\n%QX0\.0 .*good\n\z/m, 'io of a map: its lines');
+($out) = is_run(0, 'io --json', ['io', '--json', 'map.io']);
+is(decode_json($out)->{points}[0]{address}, '%IX0.0', 'io --json');
+put('bad.io', "BOARD \"x\"\n%IX0.0 nonsense\n");
+($out, $err) = is_run(1, 'io of a bad map', ['io', 'bad.io']);
+like($err, qr/^bad\.io:2:8: error LD503: /, 'io of a bad map: place');
+is_run(2, 'io of no map', ['io', 'nowhere.io']);
+my ($listed, $lines) = run('io', '--json');
+ok($listed =~ /^[01]$/ && decode_json($lines), 'io --json lists this machine');
+
+# ---- run ----
+($out) = is_run(0, 'run', ['run', 'good.rung', '--scans', '3', '--period', '1ms', '--set', 'I0=1']);
+is($out, "1 t=1 Open=1 Motor=1\n", 'run in a pipe: a line for every change');
+($out) = is_run(0, 'run --speed', ['run', 'good.rung', '--scans', '100', '--speed', '1000', '--set', 'Open=1', '--set=Stop=1']);
+is($out, "1 t=10 Open=1 Stop=1\n", 'run --speed: program time is the same');
+($out) = is_run(0, 'run --io', ['run', 'good.rung', '--io', 'map.io', '--scans', '2', '--period', '1ms', '--set', 'Open=1']);
+is($out, "1 t=1 Open=1 Motor=1\n", 'run --io: switches are not inverted twice');
+is_run(2, "run $_->[0] $_->[1]", ['run', 'good.rung', @$_, '--scans', '1'])
+	for ['--period', '0'], ['--period', '5parsec'], ['--speed', '0'], ['--speed', 'x'], ['--speed', 'nan'], ['--set', 'Nothing=1'],
+	    ['--set', 'Open'], ['--set', 'Open=7'];
+is_run(2, 'run --scans 0', ['run', 'good.rung', '--scans', '0']);
+is_run(2, 'run with no map', ['run', 'good.rung', '--io', 'nowhere', '--scans', '1']);
+is_run(1, 'run with a bad map', ['run', 'good.rung', '--io', 'bad.io', '--scans', '1']);
+($out, $err) = is_run(1, 'run of a loop', ['run', 'loop.rung', '--set', 'I0=1', '--scans', '5']);
+like($err, qr/LD008/, 'run of a loop: the fault');
+for my $signal (qw(INT TERM)) {
+	my $pid = fork // die;
+	if (!$pid) { open STDOUT, '>', '.out'; open STDIN, '<', '/dev/null'; exec $ladder, 'run', 'good.rung', '--set', 'Open=1' or die }
+	for (1 .. 100) { sleep 0.02; last if -s '.out' }
+	kill $signal, $pid; waitpid $pid, 0;
+	is($?, 0, "run ends well with SIG$signal");
+	is(get('.out'), "1 t=10 Open=1 Motor=1\n", "SIG$signal: the lines are there");
+}
+
+# ---- a result that cannot be written ----
+SKIP: {
+	skip 'no /dev/full', 1 if !-c '/dev/full';
+	for my $args (['--help'], ['check', 'good.rung'], ['show', 'good.rung'], ['il', 'good.rung'], ['code', 'good.rung'], ['words'],
+		      ['trace', 'good.rung', 'good.script'], ['test', 'good.scn'], ['run', 'good.rung', '--set', 'Open=1', '--scans', '3']) {
+		my $pid = fork // die;
+		if (!$pid) { open STDOUT, '>', '/dev/full'; open STDERR, '>', '.err'; exec $ladder, @$args or die }
+		waitpid $pid, 0;
+		is($? >> 8, 2, "@$args on a full disk: exit 2");
+		like(get('.err'), qr/^standard output: error LD006: .*No space/, "@$args on a full disk: says so");
+	}
+}
+# As a full disk: no file may grow. What was there must still be there.
+put('old.rungc', 'old'); put('ugly.rung', $ugly);
+for my $args (['build', 'good.rung', '-o', 'old.rungc'], ['fmt', 'ugly.rung']) {
+	my $what = "$args->[0] on a full disk";
+	my $status = system 'sh', '-c', "trap '' XFSZ; ulimit -f 0; exec \Q$ladder\E @$args 2>/dev/null";
+	is($status >> 8, 2, "$what: exit 2");
+}
+is(get('old.rungc'), 'old', 'build on a full disk: the old file is intact');
+is(get('ugly.rung'), $ugly, 'fmt on a full disk: the old file is intact');
+ok(!(grep { /^(?:old|ugly)\.rungc?\../ } glob '*'), 'no temporary file is left behind');
+is_run(2, 'build over a folder', ['build', 'good.rung', '-o', 'sub']);
+mkfifo('pipe', 0600);
+is_run(2, 'build over what is no file', ['build', 'good.rung', '-o', 'pipe']);
+ok(-p 'pipe', 'build leaves it alone');
+for my $args ([qw(words)], ['trace', 'good.rung', '-']) {
+	put('many', ". x100000\n");
+	pipe my $read, my $write or die;
+	my $pid = fork // die;
+	if (!$pid) { open STDIN, '<', 'many'; open STDOUT, '>&', $write; open STDERR, '>', '.err'; close $read; close $write; exec $ladder, @$args or die }
+	close $write; close $read;
+	waitpid $pid, 0;
+	is($?, 2 << 8, "$args->[0] into a closed pipe: exit 2, no signal");
+	like(get('.err'), qr/^standard output: error LD006: .*\n\z/, "$args->[0] into a closed pipe: says so once");
+}
+chdir '/';
+done_testing();
