@@ -26,6 +26,10 @@
 
 enum verdict { AGREE, DISAGREE, REFUSED, UNWALKED };
 
+#ifndef DIFFERENTIAL_COUNT
+#define DIFFERENTIAL_COUNT 20000
+#endif
+
 struct side {
 	struct resource resource;
 	void *memory;
@@ -315,6 +319,43 @@ static bool shrink_cells(struct random_program *program, uint64_t seed, int at)
 	return false;
 }
 
+static void drop_row(struct random_rung *rung, int at)
+{
+	rung->rows--;
+	memmove(rung->cell[at], rung->cell[at + 1],
+		(size_t)(rung->rows - at) * sizeof(rung->cell[0]));
+}
+
+static void drop_column(struct random_rung *rung, int at)
+{
+	rung->cols--;
+	for (int row = 0; row < rung->rows; row++)
+		memmove(&rung->cell[row][at], &rung->cell[row][at + 1],
+			(size_t)(rung->cols - at) * sizeof(rung->cell[0][0]));
+}
+
+/* Without one of its rows or columns. */
+static bool shrink_grid(struct random_program *program, uint64_t seed, int at)
+{
+	static struct random_program trial;
+	struct random_rung *rung = &program->rung[at];
+
+	for (int i = 0; i < rung->rows + rung->cols; i++) {
+		if (i < rung->rows ? rung->rows == 1 : rung->cols == 1)
+			continue;
+		trial = *program;
+		if (i < rung->rows)
+			drop_row(&trial.rung[at], i);
+		else
+			drop_column(&trial.rung[at], i - rung->rows);
+		if (random_sound(&trial.rung[at]) && still_fails(&trial, seed)) {
+			*program = trial;
+			return true;
+		}
+	}
+	return false;
+}
+
 static bool shrink_once(struct random_program *program, uint64_t seed)
 {
 	static struct random_program trial;
@@ -327,19 +368,10 @@ static bool shrink_once(struct random_program *program, uint64_t seed)
 			return true;
 		}
 	}
-	for (int i = 0; i < program->rungs; i++) {
-		trial = *program;
-		if (trial.rung[i].rows > 1) {
-			trial.rung[i].rows--;
-			if (random_sound(&trial.rung[i]) &&
-			    still_fails(&trial, seed)) {
-				*program = trial;
-				return true;
-			}
-		}
-		if (shrink_cells(program, seed, i))
+	for (int i = 0; i < program->rungs; i++)
+		if (shrink_grid(program, seed, i) ||
+		    shrink_cells(program, seed, i))
 			return true;
-	}
 	return false;
 }
 
@@ -390,7 +422,7 @@ static bool read_options(int argc, char **argv, struct options *options)
 
 int main(int argc, char **argv)
 {
-	struct options options = { .seed = 1, .count = 20000 };
+	struct options options = { .seed = 1, .count = DIFFERENTIAL_COUNT };
 	static struct random_program program;
 	uint64_t got[4] = { 0 }, seed;
 	char why[256];

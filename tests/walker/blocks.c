@@ -39,9 +39,15 @@ static bool rises(bool now, bool *was)
 	return rising;
 }
 
+/* A time before now cannot be waited for. */
+static int64_t preset(const struct block *block)
+{
+	return get(block, "PT") > 0 ? get(block, "PT") : 0;
+}
+
 static void call_ton(struct block *block, int64_t now_ns)
 {
-	int64_t pt = get(block, "PT"), et;
+	int64_t pt = preset(block), et;
 
 	if (!get(block, "IN")) {
 		block->busy = false;
@@ -60,7 +66,7 @@ static void call_ton(struct block *block, int64_t now_ns)
 
 static void call_tof(struct block *block, int64_t now_ns)
 {
-	int64_t pt = get(block, "PT"), et;
+	int64_t pt = preset(block), et;
 	bool in = get(block, "IN");
 
 	if (in) {
@@ -83,7 +89,7 @@ static void call_tof(struct block *block, int64_t now_ns)
 
 static void call_tp(struct block *block, int64_t now_ns)
 {
-	int64_t pt = get(block, "PT"), et;
+	int64_t pt = preset(block), et;
 	bool in = get(block, "IN");
 
 	if (!block->busy && !block->spent && in) {

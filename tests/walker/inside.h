@@ -56,7 +56,7 @@ struct walker {
 	struct shown *shown;
 	int shown_count;
 	uint8_t *area[AREA_COUNT];
-	int64_t now_ns;
+	int64_t now_ns, start_ns;
 	uint64_t scans;
 	uint32_t errors, errors_before;
 	uint32_t steps;

@@ -302,6 +302,10 @@ bool walker_scan(struct walker *walker, int64_t now_ns)
 	set_system(walker, SYS_MATH_ERROR,
 		   walker->errors != walker->errors_before);
 	set_system(walker, SYS_ERRORS, walker->errors);
+	if (walker->scans == 0)
+		walker->start_ns = now_ns;
+	set_system(walker, SYS_CLOCK_1S,
+		   (now_ns - walker->start_ns) % 1000000000 < 500000000);
 	walker->errors_before = walker->errors;
 	walker->scans++;
 	for (int i = 0; i < walker->project->pou_count; i++)

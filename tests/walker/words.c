@@ -37,10 +37,14 @@ static const struct pool_row pool[] = {
 	{ "SYS_MATH_ERROR", "BOOL", "", 1, 1 },
 	{ "ton_a.Q", "BOOL", "", 1, 0 }, { "tof_a.Q", "BOOL", "", 1, 0 },
 	{ "ctu_a.Q", "BOOL", "", 1, 0 }, { "sr_a.Q1", "BOOL", "", 1, 0 },
+	{ "ctu_b.R", "BOOL", "", 0, 0 }, { "ft_b.Q", "BOOL", "", 1, 0 },
+	{ "const_b", "BOOL", ":= TRUE", 1, 0 },
+	{ "SYS_CLOCK_1S", "BOOL", "", 1, 1 },
 	{ "sint_a", "SINT", ":= 126", 0, 0 }, { "sint_b", "SINT", ":= -128", 0, 0 },
 	{ "int_a", "INT", ":= 32766", 0, 0 }, { "int_b", "INT", ":= 3", 0, 0 },
 	{ "int_m", "INT", "AT %MW0", 0, 0 }, { "int_i", "INT", "AT %IW2", 1, 0 },
-	{ "ctu_a.CV", "INT", "", 1, 0 },
+	{ "ctu_a.CV", "INT", "", 1, 0 }, { "ctud_a.CV", "INT", "", 1, 0 },
+	{ "ctd_a.PV", "INT", "", 0, 0 }, { "const_i", "INT", ":= 5", 1, 0 },
 	{ "dint_a", "DINT", ":= 2147483640", 0, 0 },
 	{ "dint_b", "DINT", ":= -1", 0, 0 },
 	{ "dint_m", "DINT", "AT %MD0", 0, 0 },
@@ -58,7 +62,8 @@ static const struct pool_row pool[] = {
 	{ "real_a", "REAL", ":= 1.5", 0, 0 },
 	{ "real_b", "REAL", ":= 3.0E38", 0, 0 },
 	{ "time_a", "TIME", ":= T#20ms", 0, 0 }, { "time_b", "TIME", "", 0, 0 },
-	{ "ton_a.ET", "TIME", "", 1, 0 },
+	{ "ton_a.ET", "TIME", "", 1, 0 }, { "tof_b.PT", "TIME", "", 0, 0 },
+	{ "tp_b.ET", "TIME", "", 1, 0 },
 };
 #define POOL (sizeof(pool) / sizeof(*pool))
 
@@ -79,6 +84,8 @@ static const char *const narrower[][2] = {
 	{ "UDINT", "UINT" }, { "REAL", "INT" }, { "REAL", "SINT" },
 	{ "WORD", "BYTE" }, { "DWORD", "WORD" }, { "DWORD", "BYTE" },
 };
+
+#define PLAIN_NARROWER 9 /* of them numbers, the rest bits                   */
 
 static const struct {
 	const char *type, *text[7];
@@ -269,6 +276,10 @@ static void assignment(struct builder *builder)
 		put(builder, "[ %s := ",
 		    variable(source, narrower[i][0], true));
 		put(builder, "%s", variable(source, narrower[i][1], false));
+	} else if (random_chance(source, 15) && i < PLAIN_NARROWER) {
+		put(builder, "[ %s := ",
+		    variable(source, narrower[i][0], true));
+		number(builder, narrower[i][1], 2, false);
 	} else if (random_chance(source, 10)) {
 		put(builder, "[ %s := %s", variable(source, type, true),
 		    literal(source, type));
@@ -309,11 +320,14 @@ static void function(struct builder *builder)
 	bool many = strcmp(fn, "ADD") == 0 || strcmp(fn, "MUL") == 0;
 	bool compare = strchr("GLEN", *fn);
 	int count = many ? 2 + (int)random_below(source, 3) : 2;
+	uint32_t wide = random_below(source, PLAIN_NARROWER);
 
 	if (strcmp(type, "TIME") == 0 && strchr("MD", *fn))
 		type = "INT";
 	if (strcmp(type, "REAL") == 0 && strcmp(fn, "MOD") == 0)
 		type = "DINT";
+	if (strcmp(fn, "MOVE") == 0 && random_chance(source, 30))
+		type = random_chance(source, 50) ? "WORD" : "BOOL";
 	if (strcmp(fn, "MOVE") == 0) {
 		put(builder, "MOVE IN:=%s", variable(source, type, false));
 	} else {
@@ -321,6 +335,9 @@ static void function(struct builder *builder)
 		for (int i = 2; i <= count; i++)
 			put(builder, " IN%d:=%s", i, beside(source, type));
 	}
+	if (!compare && random_chance(source, 15) &&
+	    strcmp(type, narrower[wide][1]) == 0)
+		type = narrower[wide][0];
 	if (!compare)
 		put(builder, " OUT=>%s", variable(source, type, true));
 	else if (random_chance(source, 30))
@@ -349,8 +366,10 @@ static int block(struct builder *builder, const char *pin[3])
 
 	put(builder, "%s %s", fb, which[0]);
 	if (*fb == 'T') {
-		put(builder, " PT:=%s", random_chance(source, 10) ?
-		    "T#0s" : random_chance(source, 30) ? "T#25ms" : "T#10ms");
+		if (random_chance(source, 90))
+			put(builder, " PT:=%s", random_chance(source, 10) ?
+			    "T#0s" : random_chance(source, 10) ? "time_a" :
+			    random_chance(source, 30) ? "T#25ms" : "T#10ms");
 		if (random_chance(source, 20))
 			put(builder, " ET=>%s", variable(source, "TIME", true));
 	} else if (strcmp(fb, "CTU") == 0) {
@@ -367,8 +386,9 @@ static int block(struct builder *builder, const char *pin[3])
 		fed = bool_pin(builder, "R1", pin, fed);
 	}
 	if (*fb == 'C') {
-		put(builder, " PV:=%s", random_chance(source, 80) ? "2" :
-		    variable(source, "INT", false));
+		if (random_chance(source, 90))
+			put(builder, " PV:=%s", random_chance(source, 80) ? "2" :
+			    variable(source, "INT", false));
 		if (random_chance(source, 20))
 			put(builder, " CV=>%s", variable(source, "INT", true));
 	}
@@ -413,6 +433,11 @@ static bool is_used(const char *body, const char *name)
 	return false;
 }
 
+static bool is_constant(const struct pool_row *row)
+{
+	return strncmp(row->name, "const_", 6) == 0;
+}
+
 size_t random_declare(const char *body, char *out, size_t size)
 {
 	struct builder builder = { NULL, out, size, 0 };
@@ -425,6 +450,7 @@ size_t random_declare(const char *body, char *out, size_t size)
 		bool at = *row->rest == 'A';
 
 		if (row->direct || strchr(row->name, '.') ||
+		    is_constant(row) ||
 		    !is_used(body, row->name))
 			continue;
 		put(&builder, "  %s %s : %s %s;\n", row->name,
@@ -435,5 +461,9 @@ size_t random_declare(const char *body, char *out, size_t size)
 			put(&builder, "  %s : %s;\n", instance[i][0],
 			    instance[i][1]);
 	put(&builder, "END_VAR\n");
+	for (size_t i = 0; i < POOL; i++)
+		if (is_constant(&pool[i]) && is_used(body, pool[i].name))
+			put(&builder, "VAR CONSTANT\n  %s : %s %s;\nEND_VAR\n",
+			    pool[i].name, pool[i].type, pool[i].rest);
 	return builder.used;
 }
