@@ -165,6 +165,29 @@ fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|scri
 .PHONY: house differential check-long pathological fuzz
 # ---- end of second evaluator … house checks ----
 
+# ---- everything ----
+# One list for prove. A second build with sanitizers runs the tests that read and
+# run what strangers write.
+SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined
+ASAN     := $(BUILD)/asan
+ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
+            $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%))
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh
+BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN)
+
+tests: all man $(BUILT) $(HAL_TEST)/ladderd_v1 $(HAL_TEST)/ladderd_v2
+asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
+	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
+	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd
+check: tests asan ## build, then every test
+	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \
+	  prove -j$$(nproc) -e '' $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
+bench: $(BUILD)/ladder $(BUILD)/ladderd ## speed, load time and size, as a table
+	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh
+.SECONDARY:
+.PHONY: tests asan check bench
+# ---- end of everything ----
+
 clean: ## remove everything that was built
 	rm -rf $(BUILD)
 help: ## list the targets

@@ -1,0 +1,58 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+#
+# bench - the figures of `make bench`: speed, load time and size, as a table with
+# the commit and the machine it was run on. It judges nothing: a busy machine gives
+# other figures, a table of another machine says nothing about this one.
+set -eu
+
+build=${BUILD:-build}
+cc=${CC:-cc}
+ladder=$build/ladder
+tmp=$(mktemp -d)
+trap 'rm -rf "$tmp"' EXIT
+
+# field FILE NAME: a number of the JSON that `ladder bench --json` wrote.
+field() { tr -d '\n' <"$1" | sed -n "s/.*\"$2\": \([0-9.]*\).*/\1/p"; }
+median() { tr -d '\n' <"$1" | sed -n "s/.*\"$2\": {[^}]*\"median\": \([0-9.]*\).*/\1/p"; }
+per() { awk -v a="$1" -v b="$2" -v f="$3" 'BEGIN { printf f, a / b }'; }
+
+commit=$(git rev-parse --short HEAD 2>/dev/null || echo 'no commit')
+git diff --quiet HEAD 2>/dev/null || commit="$commit with changes"
+cpu=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo 2>/dev/null | head -n 1)
+echo "Commit $commit, $("$cc" --version | head -n 1), ${cpu:-$(uname -m)}."
+echo 'Medians. body: the program alone; scan: with the edges of the scan.'
+echo
+echo '| program | rungs | body, steady ns/rung | body, random ns/rung | scan, steady ns/rung | read ms | check and translate ms | memory to load MB | code bytes/rung | with maps bytes/rung |'
+echo '|---|---|---|---|---|---|---|---|---|---|'
+for kind in seal mixed dense; do
+	for n in 1000 10000; do
+		[ "$kind$n" = dense10000 ] && continue
+		perl "$(dirname "$0")/programs.pl" $kind $n >"$tmp/p.rung"
+		"$ladder" bench --json "$tmp/p.rung" >"$tmp/p.json" 2>/dev/null
+		body=$(median "$tmp/p.json" body_steady_ns)
+		random=$(median "$tmp/p.json" body_random_ns)
+		scan=$(median "$tmp/p.json" scan_steady_ns)
+		code=$(field "$tmp/p.json" code_bytes)
+		image=$(field "$tmp/p.json" image_bytes)
+		echo "| $kind | $n | $(per "$body" $n %.2f) | $(per "$random" $n %.2f)" \
+			"| $(per "$scan" $n %.2f)" \
+			"| $(per "$(field "$tmp/p.json" read_ns)" 1000000 %.2f)" \
+			"| $(per "$(field "$tmp/p.json" build_ns)" 1000000 %.2f)" \
+			"| $(per "$(field "$tmp/p.json" load_bytes)" 1000000 %.1f)" \
+			"| $(per "$code" $n %.0f) | $(per "$image" $n %.0f) |"
+	done
+done
+perl "$(dirname "$0")/programs.pl" empty 1 >"$tmp/p.rung"
+"$ladder" bench --json "$tmp/p.rung" >"$tmp/p.json" 2>/dev/null
+echo
+echo "One whole scan of a program of one rung: $(median "$tmp/p.json" scan_steady_ns) ns."
+if [ -x "$build/ladderd" ]; then
+	cp "$build/ladderd" "$tmp/ladderd"
+	${STRIP:-strip} "$tmp/ladderd"
+	echo "ladderd, stripped: $(wc -c <"$tmp/ladderd") bytes."
+fi
+echo
+echo 'Seal-in rungs elsewhere, one 2-core x86 machine, steady / random inputs, ns a rung'
+echo '(public sources of each project, built with their own tools): matiec and gcc -O2 0.83 / 5.7;'
+echo 'ClassicLadder 104.'

@@ -1,0 +1,33 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+#
+# compilers - every source compiles without a warning with gcc and with clang.
+#
+# The build has done it with its own compiler and flags; here only the syntax is
+# looked at, so that the other compiler costs seconds.
+set -u
+flags='-std=c11 -I. -Iruntime -Itests -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wshadow
+	-Wstrict-prototypes -Wmissing-prototypes -Wswitch-enum -Wvla -Werror -fsyntax-only'
+n=0
+status=0
+for cc in gcc clang; do
+	n=$((n + 1))
+	if ! command -v $cc >/dev/null; then
+		echo "ok $n - $cc # SKIP $cc is not installed"
+		continue
+	fi
+	log=$(mktemp)
+	# The gpio drivers are compiled against both libgpiods by the HAL tests.
+	find runtime hal tests -name '*.c' ! -name 'gpiod_v*.c' ! -path 'tests/hal/*' ! -name 'gpio_find.c' |
+		xargs -P 2 -n 8 $cc $flags >"$log" 2>&1
+	if [ $? -eq 0 ]; then
+		echo "ok $n - $cc has nothing to say"
+	else
+		echo "not ok $n - $cc has nothing to say"
+		sed 's/^/# /' "$log" | head -n 40
+		status=1
+	fi
+	rm -f "$log"
+done
+echo "1..$n"
+exit $status
