@@ -141,7 +141,7 @@ static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 /* A jump costs what it goes back over; forward ones end by themselves. */
 static bool spend(struct vm *vm, const uint32_t *from, const uint32_t *to)
 {
-	uint32_t cost = to <= from ? (uint32_t)(from - to) : 0;
+	uint32_t cost = to <= from ? (uint32_t)(from - to) + 1 : 0;
 
 	if (cost > vm->budget)
 		return false;

@@ -254,12 +254,6 @@ static void store_number(struct list *list, const struct meaning *m)
 
 	if (now->kind == RESULT_LITERAL) {
 		literal_fit(now->literal, m->type, &value);
-		if (m->kind == MEANING_PIN && list->straight &&
-		    layout_only_stored(list->as, m)) {
-			if (list->as->text == &list->as->code)
-				layout_init(list->as, spot.offset, m->type, value);
-			return;
-		}
 		list_copy(list, to, CODE_OPERAND(m->type,
 			layout_constant(list->as, m->type, value)));
 		return;

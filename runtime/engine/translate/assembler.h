@@ -82,8 +82,9 @@ void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
 		 union iec_value value);
 /** layout_count_pins - counts the uses of every instance pin. */
 bool layout_count_pins(struct assembler *as);
-/** layout_only_stored - is one store all that is ever done with this pin? Then a
- * constant may be its initial value instead, if that store runs in every scan. */
+/** layout_only_stored - is a parameter of the only call all that is ever done with
+ * this pin? Then a constant may be its initial value instead, if that call runs in
+ * every scan: nobody can tell. */
 bool layout_only_stored(const struct assembler *as, const struct meaning *pin);
 /** layout_table - index of the table a meaning belongs to. */
 int layout_table(const struct assembler *as, const struct meaning *m);

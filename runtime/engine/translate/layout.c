@@ -421,14 +421,31 @@ static uint8_t *pin_count(const struct assembler *as, const struct meaning *m)
 	return &as->pin_writes[first + (uint32_t)m->pin];
 }
 
-/* One store counts one, any other use two: then it is not the only one. */
-static void count_use(struct assembler *as, const struct meaning *m, bool store)
+/* A parameter of a call counts one, any other use two: then it is not alone. */
+static void count_use(struct assembler *as, const struct meaning *m,
+		      bool parameter)
 {
 	uint8_t *count = pin_count(as, m);
 
-	*count = (uint8_t)(*count + (store ? 1 : 2));
+	*count = (uint8_t)(*count + (parameter ? 1 : 2));
 	if (*count > 2)
 		*count = 2;
+}
+
+/* Calls of an instance are counted behind its pins. */
+static struct meaning calls_of(const struct meaning *instance)
+{
+	struct meaning calls = *instance;
+
+	calls.pin = word_row(instance->var->fb)->pin_count;
+	return calls;
+}
+
+static void count_call(struct assembler *as, const struct meaning *instance)
+{
+	struct meaning calls = calls_of(instance);
+
+	count_use(as, &calls, true);
 }
 
 static void count_list(struct assembler *as, const struct unit *unit)
@@ -449,8 +466,9 @@ static void count_list(struct assembler *as, const struct unit *unit)
 		if (line->kind == IL_CALL)
 			instance = NULL;
 		if (m && m->kind == MEANING_PIN)
-			count_use(as, m, line->kind == IL_OP &&
-				  line->op == OP_ST);
+			count_use(as, m, false);
+		if (line->kind == IL_OP && instance)
+			count_call(as, instance);
 		if (line->kind == IL_ARG_IN && instance) {
 			struct meaning pin = *instance;
 			const char *name = scope_text(scope, line->pin);
@@ -485,7 +503,7 @@ bool layout_count_pins(struct assembler *as)
 
 			first[i] = pins;
 			if (var->type == IEC_NONE)
-				pins += word_row(var->fb)->pin_count;
+				pins += word_row(var->fb)->pin_count + 1u;
 		}
 	}
 	as->pin_writes = arena_alloc(as->arena, pins + 1u);
@@ -498,5 +516,7 @@ bool layout_count_pins(struct assembler *as)
 
 bool layout_only_stored(const struct assembler *as, const struct meaning *pin)
 {
-	return *pin_count(as, pin) == 1;
+	struct meaning calls = calls_of(pin);
+
+	return *pin_count(as, pin) == 1 && *pin_count(as, &calls) == 1;
 }
