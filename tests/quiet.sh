@@ -21,7 +21,7 @@ say() {
 
 # Files of scan/ that run in a scan; the others look at an image between scans
 # (symbols by name, text of an instruction, the verifier) and may use more.
-between='code|code_print|symbols'
+between='code|code_[a-z]*|symbols'
 scan=
 for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
@@ -42,12 +42,12 @@ else
 	say 1 "scan/, iec, catalog and digest can be linked" "$LD -r failed"
 fi
 
-# The three that look at an image between scans: no more than text and an arena.
-for name in code code_print symbols; do
+# Those that look at an image between scans: no more than text and an arena.
+for name in code code_print code_text symbols; do
 	object=$objects/scan/$name.o
 	[ -f "$object" ] || continue
 	open=$($NM -u "$object" | awk '{print $NF}' |
-	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|chr|n?cmp|n?casecmp)|arena_[a-z]*|(iec|word|digest|code|image|vm_row|sys)[a-z0-9_]*")
+	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|chr|n?cmp|n?casecmp)|arena_[a-z]*|(iec|word|digest|code|verify|image|vm_row|sys)[a-z0-9_]*")
 	[ -z "$open" ]; say $? "$name, between scans, asks the system for nothing" "$open"
 done
 
