@@ -243,7 +243,7 @@ static bool check_not(struct il_check *c, const struct il_line *line)
 /* The inputs' common type, and whether the function takes it. */
 static bool check_inputs(struct il_check *c, const struct il_line *line,
 			 const struct result *in, int count,
-			 enum iec_type *common)
+			 enum iec_type hint, enum iec_type *common)
 {
 	const struct word_row *row = word_row((enum word)line->word);
 	enum iec_type type = IEC_NONE;
@@ -260,8 +260,8 @@ static bool check_inputs(struct il_check *c, const struct il_line *line,
 		type = join;
 		real |= point;
 	}
-	if (type == IEC_NONE)
-		type = IEC_DINT;
+	if (type == IEC_NONE) /* constants only: as the result wants them */
+		type = hint ? hint : IEC_DINT;
 	if (!(row->pin[0].classes & iec_type_row(type)->class))
 		return report(c, line, DIAG_WRONG_TYPE, iec_type_row(type)->word);
 	for (int i = 0; i < count; i++)
@@ -298,12 +298,39 @@ static bool check_fn(struct il_check *c, const struct il_line *line,
 	}
 	if (count < row->pin_count || count > row->most_inputs)
 		return report(c, line, DIAG_MISSING_INPUT, row->word);
-	if (!check_inputs(c, line, in, count, common))
+	if (!check_inputs(c, line, in, count, IEC_NONE, common))
 		return false;
 	c->now = (struct result){
 		.there = true, .type = fn_type(line, *common),
 	};
 	return true;
+}
+
+static bool is_arg(const struct il_check *c, int at)
+{
+	return at < c->il->count && (c->il->line[at].kind == IL_ARG_IN ||
+				     c->il->line[at].kind == IL_ARG_OUT);
+}
+
+/* Type of the variable behind OUT =>, where that is the type of the inputs too. */
+static enum iec_type out_type(struct il_check *c, int at)
+{
+	const struct il_line *line = &c->il->line[at];
+	enum diag_id why;
+
+	if (word_row((enum word)line->word)->result == RESULT_BOOL)
+		return IEC_NONE;
+	for (int i = at + 1; is_arg(c, i); i++) {
+		const struct il_line *arg = &c->il->line[i];
+		const struct meaning *m;
+
+		if (arg->kind != IL_ARG_OUT ||
+		    strcasecmp(scope_text(c->scope, arg->pin), "OUT") != 0)
+			continue;
+		m = scope_find(c->scope, c->pou, arg->operand, &why);
+		return m ? m->type : IEC_NONE;
+	}
+	return IEC_NONE;
 }
 
 /* ADD(EN := …, IN1 := …, ENO => …, OUT => …): the lines behind @at. */
@@ -316,13 +343,15 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	int count = 0, last = 0;
 	bool good = true;
 
-	for (int i = at + 1; i < c->il->count &&
-	     c->il->line[i].kind == IL_ARG_IN; i++) {
+	for (int i = at + 1; is_arg(c, i); i++) {
 		const struct il_line *arg = &c->il->line[i];
 		const char *pin = scope_text(c->scope, arg->pin);
-		const struct meaning *m = value_of(c, arg);
 		int index = word_pin_find(row, pin, strlen(pin));
+		const struct meaning *m;
 
+		if (arg->kind != IL_ARG_IN)
+			continue;
+		m = value_of(c, arg);
 		if (!m) {
 			good = false;
 		} else if (strcasecmp(pin, "EN") == 0) {
@@ -340,11 +369,10 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 		return false;
 	if (count < row->pin_count || count != last + 1)
 		return report(c, line, DIAG_MISSING_INPUT, row->word);
-	if (!check_inputs(c, line, in, count, common))
+	if (!check_inputs(c, line, in, count, out_type(c, at), common))
 		return false;
 	out = (struct result){ .there = true, .type = fn_type(line, *common) };
-	for (int i = at + 1; i < c->il->count &&
-	     c->il->line[i].kind >= IL_ARG_IN; i++) {
+	for (int i = at + 1; is_arg(c, i); i++) {
 		const struct il_line *arg = &c->il->line[i];
 		const char *pin = scope_text(c->scope, arg->pin);
 		const struct meaning *m;
@@ -401,9 +429,7 @@ static bool check_cal(struct il_check *c, int at)
 	if (line->modifiers & MOD_C)
 		good = need_result(c, line) &&
 		       need_bool(c, line, c->now, "result");
-	for (int i = at + 1; i < c->il->count &&
-	     c->il->line[i].kind >= IL_ARG_IN &&
-	     c->il->line[i].kind <= IL_ARG_OUT; i++)
+	for (int i = at + 1; is_arg(c, i); i++)
 		good &= check_pin(c, word_row(m->var->fb), &c->il->line[i]);
 	c->now.there = false;
 	return good;
