@@ -18,11 +18,13 @@ FRAME    := $(if $(findstring sanitize,$(CFLAGS)),,-Wframe-larger-than=1024)
 
 # What a program does not call is left out of it (ladderd: 200 KB at most).
 LEAN     := -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables
-LEAN_LD  := -Wl,--gc-sections
+LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
 
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
 ENGINE   := $(wildcard runtime/engine/*.c runtime/engine/*/*.c)
 SMALL    := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
+# What runs once a load is better small than fast.
+$(call obj,$(wildcard runtime/engine/check/*.c runtime/engine/text/*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
 
 all: $(BUILD)/libladder.a ## build everything that can be built here
 
@@ -32,7 +34,7 @@ $(BUILD)/libladder.a: $(call obj,$(ENGINE))
 
 $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c11 $(CPPFLAGS) $(WARN) $(LEAN) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(CC) -std=c11 $(CPPFLAGS) $(WARN) $(LEAN) $(CFLAGS) $(COLD) -MMD -MP -c -o $@ $<
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
 
 UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_*.c))
@@ -134,14 +136,14 @@ HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
-$(BIN)/exhaustion: LDFLAGS += -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free
+$(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free
 FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(BUILD)/tests/walker/random.o $(BUILD)/tests/walker/words.o
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
 $(BIN)/fuzz_iomap: $(call obj,$(HAL_CORE) hal/gpiod_none.c)
 $(TESTS_BIN): $(BUILD)/libladder.a
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 
 house: $(BUILD)/libladder.a $(HAL) ## floors, headers, quiet, banned: the rules of the house
 	BUILD=$(BUILD) CROSS=$(CROSS) CC='$(CC)' prove -e '' $(HOUSE)

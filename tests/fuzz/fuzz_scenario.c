@@ -26,26 +26,25 @@ static bool is_short(const struct scenario *scenario)
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 {
-	struct sandbox sandbox;
+	struct sandbox *sandbox;
 	struct diag_list diags;
 	struct scenario_file file = { 0 };
 	struct arena arena;
 
 	if (len > 4096)
 		return 0;
-	sandbox_open(&sandbox);
+	sandbox = sandbox_open();
 	diag_init(&diags);
 	arena_init(&arena);
 	if (!scenario_read("fuzz.scn", (const char *)bytes, len,
-			   &sandbox.resource.image, &arena, &file, &diags)) {
+			   &sandbox->resource.image, &arena, &file, &diags)) {
 		fuzz_expect(diags.errors > 0, "a refused file has an error");
 		file.count = 0;
 	}
 	for (int i = 0; i < file.count && i < 8; i++)
 		if (is_short(&file.scenario[i]))
-			scenario_run(&file, i, &sandbox.resource,
-				     &sandbox.sink);
+			scenario_run(&file, i, &sandbox->resource,
+				     &sandbox->sink);
 	arena_free(&arena);
-	sandbox_close(&sandbox);
 	return 0;
 }

@@ -26,21 +26,20 @@ static bool is_long(const uint8_t *bytes, size_t len)
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 {
-	struct sandbox sandbox;
+	struct sandbox *sandbox;
 	struct diag_list diags;
 	struct trace trace;
 
 	if (is_long(bytes, len) || len > 4096)
 		return 0;
-	sandbox_open(&sandbox);
+	sandbox = sandbox_open();
 	diag_init(&diags);
-	trace_init(&trace, &sandbox.resource.image, &sandbox.sink,
+	trace_init(&trace, &sandbox->resource.image, &sandbox->sink,
 		   (enum trace_form)(len % 3), len & 1);
 	if (!script_run("fuzz.script", (const char *)bytes, len, 10000000,
-			&sandbox.resource, &trace, &diags))
+			&sandbox->resource, &trace, &diags))
 		fuzz_expect(diags.errors > 0, "a refused script has an error");
 	trace_end(&trace);
 	trace_free(&trace);
-	sandbox_close(&sandbox);
 	return 0;
 }

@@ -8,7 +8,7 @@
  * Every file of the folders is one TAP line; then N mutations of them follow
  * with a fixed seed, so that each `make check` fuzzes a little. --write puts the
  * seeds as the target wants them into a folder, for libFuzzer to begin with. A
- * crash stops it: the mutation that did it is left in crash-replay.
+ * crash stops it: the input that did it is left beside the program, fuzz_X.crash.
  */
 #include "tests/fuzz/fuzz.h"
 #include "tests/tap.h"
@@ -38,10 +38,11 @@ struct corpus {
 /* For the handler: the input under test. */
 static const uint8_t *current;
 static size_t current_len;
+static char crash_path[1024];
 
 static void on_crash(int number)
 {
-	FILE *file = fopen("crash-replay", "wb");
+	FILE *file = fopen(crash_path, "wb");
 
 	if (file) {
 		fwrite(current, 1, current_len, file);
@@ -250,6 +251,7 @@ int main(int argc, char **argv)
 	uint64_t seed = 1;
 	long rounds = wish ? strtol(wish, NULL, 10) : ROUNDS;
 
+	snprintf(crash_path, sizeof(crash_path), "%.1000s.crash", argv[0]);
 	signal(SIGABRT, on_crash);
 	signal(SIGSEGV, on_crash);
 	signal(SIGALRM, on_crash);

@@ -6,7 +6,6 @@
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static const char text[] =
 	"RUNGBOARD 1\n"
@@ -44,26 +43,22 @@ static void swallow(void *context, const char *bytes, size_t len)
 		sum = (char)(sum ^ bytes[i]);
 }
 
-void sandbox_open(struct sandbox *sandbox)
+struct sandbox *sandbox_open(void)
 {
-	const struct program *program;
+	static struct sandbox sandbox = { .sink.write = swallow };
+	static struct ladder *ladder;
+	static void *memory;
 	size_t size;
 
-	memset(sandbox, 0, sizeof(*sandbox));
-	sandbox->sink.write = swallow;
-	sandbox->ladder = ladder_new();
-	fuzz_expect(sandbox->ladder && ladder_load_text(sandbox->ladder,
-		    "sandbox.rung", text, sizeof(text) - 1) &&
-		    ladder_build(sandbox->ladder), "the sandbox is built");
-	program = ladder_program(sandbox->ladder);
-	size = (image_memory_size(program) + 7) / 8 * 8;
-	sandbox->memory = aligned_alloc(8, size);
-	fuzz_expect(sandbox->memory != NULL, "memory");
-	resource_init(&sandbox->resource, program, sandbox->memory);
-}
-
-void sandbox_close(struct sandbox *sandbox)
-{
-	free(sandbox->memory);
-	ladder_free(sandbox->ladder);
+	if (!ladder) {
+		ladder = ladder_new();
+		fuzz_expect(ladder && ladder_load_text(ladder, "sandbox.rung",
+			    text, sizeof(text) - 1) && ladder_build(ladder),
+			    "the sandbox is built");
+		size = image_memory_size(ladder_program(ladder));
+		memory = aligned_alloc(8, (size + 7) / 8 * 8);
+		fuzz_expect(memory != NULL, "memory");
+	}
+	resource_init(&sandbox.resource, ladder_program(ladder), memory);
+	return &sandbox;
 }

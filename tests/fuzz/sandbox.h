@@ -9,13 +9,10 @@
 #include "engine/ladder.h"
 
 struct sandbox {
-	struct ladder *ladder;
 	struct resource resource;
-	void *memory;
 	struct sink sink;  /* swallows what is written                        */
 };
 
-/** sandbox_open - the program, built and at a cold start. */
-void sandbox_open(struct sandbox *sandbox);
-void sandbox_close(struct sandbox *sandbox);
+/** sandbox_open - the program at a cold start; built once and kept. */
+struct sandbox *sandbox_open(void);
 #endif
