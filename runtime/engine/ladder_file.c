@@ -157,8 +157,15 @@ bool ladder_save_file(const char *path, const void *bytes, size_t len,
 	const char *target = real ? real : path;
 	size_t size = strlen(target);
 	char *temporary = malloc(size + sizeof(suffix));
+	struct stat old;
 	int fd, result;
 
+	if (stat(target, &old) == 0 && !S_ISREG(old.st_mode)) {
+		free(real);
+		free(temporary);
+		fail(diags, DIAG_NOT_A_FILE, path, 0);
+		return false;
+	}
 	if (!temporary) {
 		free(real);
 		fail(diags, DIAG_NO_MEMORY, path, 0);

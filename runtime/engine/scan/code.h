@@ -93,7 +93,11 @@ struct code_symbol {    /* in order of declaration                         */
 	uint16_t word;  /* FB of an instance                               */
 	uint32_t flags; /* enum symbol_flag                                */
 };
-enum symbol_flag { SYMBOL_CONSTANT = 1, SYMBOL_RETAIN = 2, SYMBOL_HIDDEN = 4 };
+enum symbol_flag {
+	SYMBOL_CONSTANT = 1, SYMBOL_RETAIN = 2,
+	SYMBOL_HIDDEN = 4, /* a temporary: not shown                       */
+	SYMBOL_SHARED = 8, /* a name that stands in several tables         */
+};
 
 struct code_power {     /* the cell-to-power map                           */
 	uint16_t pou;   /* index in CODE_PROGRAMS                          */

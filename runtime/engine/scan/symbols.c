@@ -128,23 +128,15 @@ struct location image_find(const struct image *image, const char *name,
 }
 
 /* A local is shown by its bare name unless another symbol has it too. */
-static bool needs_pou(const struct program *p, const struct code_symbol *symbol)
+static bool needs_pou(const struct code_symbol *symbol)
 {
-	const char *name = p->string + symbol->name;
-
-	if (!symbol->pou)
-		return false;
-	for (uint32_t i = 0; i < p->symbol_count; i++)
-		if (&p->symbol[i] != symbol &&
-		    is_name(p->string + p->symbol[i].name, name, strlen(name)))
-			return true;
-	return false;
+	return symbol->pou && symbol->flags & SYMBOL_SHARED;
 }
 
 static void print_name(const struct program *p, const struct code_symbol *symbol,
 		       const char *pin, struct symbol_cursor *cursor)
 {
-	bool pou = needs_pou(p, symbol);
+	bool pou = needs_pou(symbol);
 
 	snprintf(cursor->text, sizeof(cursor->text), "%.255s%s%.255s%s%.40s",
 		 pou ? p->string + symbol->pou : "", pou ? "." : "",

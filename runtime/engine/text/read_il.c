@@ -128,19 +128,15 @@ static bool read_function(struct reader *r, const struct token *word,
 	return read_operand(r, word, &line);
 }
 
-/* `AND( A` is `AND(` and `LD A`. */
+/* `AND(`, or `AND( A` with the first operand of what stands inside. */
 static bool read_open(struct reader *r, const struct token *word,
 		      struct il_line line)
 {
 	line.modifiers |= MOD_PAREN;
 	reader_next(r);
-	if (!add_line(r, line))
-		return false;
 	reader_next(r);
 	if (reader_at_end(r))
-		return true;
-	line.op = OP_LD;
-	line.modifiers = 0;
+		return add_line(r, line);
 	return read_operand(r, word, &line);
 }
 

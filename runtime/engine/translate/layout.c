@@ -250,6 +250,15 @@ static void add_bit(struct assembler *as, int area, uint32_t bit, uint32_t slot)
 		as->failed = true;
 }
 
+static void place_byte(struct assembler *as, int area, uint32_t byte,
+		       uint8_t used)
+{
+	for (uint32_t bit = 0; bit < 8; bit++)
+		if (used >> bit & 1)
+			add_bit(as, area, byte * 8 + bit,
+				place_value(as, RUN_VALUES, IEC_BOOL));
+}
+
 static bool place_bits(struct assembler *as)
 {
 	struct translation *t = as->translation;
@@ -269,11 +278,11 @@ static bool place_bits(struct assembler *as)
 	for (int area = 1; area < AREA_COUNT; area++) {
 		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
 
-		for (uint32_t bit = 0; bit < row->bytes * 8; bit++)
-			if (used[row->offset + bit / 8] >> bit % 8 & 1 &&
-			    !as->byte_packed[row->offset + bit / 8])
-				add_bit(as, area, bit,
-					place_value(as, RUN_VALUES, IEC_BOOL));
+		for (uint32_t byte = 0; byte < row->bytes; byte++)
+			if (used[row->offset + byte] &&
+			    !as->byte_packed[row->offset + byte])
+				place_byte(as, area, byte,
+					   used[row->offset + byte]);
 	}
 	return true;
 }

@@ -11,7 +11,8 @@
 /* The maps that are made only here. */
 struct maps {
 	char *string;
-	int string_count;
+	size_t string_used, string_size;
+	uint8_t *declared;   /* by folded name: in how many tables, up to 2 */
 	struct code_symbol *symbol;
 	int symbol_count;
 	struct code_power *power;
@@ -21,19 +22,24 @@ struct maps {
 static uint32_t add_string(struct assembler *as, struct maps *maps,
 			   const char *text, size_t len)
 {
-	uint32_t at = (uint32_t)maps->string_count;
+	size_t used = maps->string_used, size = maps->string_size;
 
-	for (size_t i = 0; i <= len; i++) {
-		char *slot = arena_push(as->arena, &maps->string,
-					&maps->string_count, 1);
+	if (used + len + 1 > size) {
+		size = 2 * size + len + 64;
+		char *more = arena_grow(as->arena, maps->string,
+					maps->string_size, size);
 
-		if (!slot) {
+		if (!more) {
 			as->failed = true;
 			return 0;
 		}
-		*slot = i < len ? text[i] : '\0';
+		maps->string = more;
+		maps->string_size = size;
 	}
-	return at;
+	memcpy(maps->string + used, text, len);
+	maps->string[used + len] = '\0';
+	maps->string_used = used + len + 1;
+	return (uint32_t)used;
 }
 
 static uint32_t add_name(struct assembler *as, struct maps *maps, uint32_t id)
@@ -74,6 +80,8 @@ static void add_symbol(struct assembler *as, struct maps *maps,
 		symbol->flags |= SYMBOL_CONSTANT;
 	if (flags & VAR_RETAIN)
 		symbol->flags |= SYMBOL_RETAIN;
+	if (maps->declared[var->fold] > 1)
+		symbol->flags |= SYMBOL_SHARED;
 	if (is_temporary(names_text(names, var->name), 'T') ||
 	    is_temporary(names_text(names, var->name), 'N') ||
 	    is_temporary(names_text(names, var->name), 'E'))
@@ -133,10 +141,23 @@ static void add_power(struct assembler *as, struct maps *maps)
 	}
 }
 
+static void count_names(struct maps *maps, const struct var_table *vars)
+{
+	for (int i = 0; i < vars->count; i++)
+		if (maps->declared[vars->var[i].fold] < 2)
+			maps->declared[vars->var[i].fold]++;
+}
+
 static bool make_maps(struct assembler *as, struct maps *maps)
 {
 	struct project *project = as->translation->project;
 
+	maps->declared = arena_alloc(as->arena, (size_t)project->names.count + 1);
+	if (!maps->declared)
+		return false;
+	count_names(maps, &project->globals);
+	for (int i = 0; i < as->translation->unit_count; i++)
+		count_names(maps, &project->pou[i].vars);
 	add_string(as, maps, "", 0); /* offset 0: no POU */
 	for (int i = 0; i < as->translation->unit_count; i++)
 		as->entry[i].name = add_name(as, maps, project->pou[i].name);
@@ -210,7 +231,7 @@ void *pack_image(struct assembler *as, size_t *len)
 		[CODE_SYMBOLS] = PIECE(maps->symbol, maps->symbol_count),
 		[CODE_POWER] = PIECE(maps->power, maps->power_count),
 		[CODE_PLACES] = PIECE(as->place, as->place_count),
-		[CODE_STRINGS] = PIECE(maps->string, maps->string_count),
+		[CODE_STRINGS] = PIECE(maps->string, maps->string_used),
 	};
 
 	return write_pieces(as, piece, len);
