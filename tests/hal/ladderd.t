@@ -198,6 +198,15 @@ is(get('err'), '', 'and does nothing');
 is(run($ladderd, $rung, '--io', $gpio, '--check'),
 	`$ladderd --version` =~ /none/ ? 1 : 0, '--check opens no chip');
 
+# The maps of docs/boards.md, and that each of them stands there.
+for my $board (sort glob 'ladders/boards/*.io') {
+	is(run("$build/tests/hal/ladderd_v1", $rung, '--io', $board, '--check'),
+		0, $board);
+	my ($name) = $board =~ m{([^/]+)$};
+	open my $doc, '<', 'docs/boards.md' or die;
+	ok((grep { /\Q$name\E/ } <$doc>) > 0, "$name is described");
+}
+
 # ---- scans and the status block ----
 is(run($ladderd, $rung, '--io', $map, '--period', '1ms', '--scans', '25',
 	@traced), 0, '--scans');
