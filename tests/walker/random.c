@@ -414,6 +414,7 @@ static void make_loop(struct random_program *program)
 	set_cell(back, 1, RANDOM_LAST, "JMP L1");
 	set_cell(clear, 0, RANDOM_BOX, "[ loop_a := 0 ]");
 	first->label = 1;
+	first->off = back->off = clear->off = false;
 }
 
 void random_make(struct random_program *program, uint64_t seed)
@@ -438,6 +439,8 @@ void random_make(struct random_program *program, uint64_t seed)
 	}
 	for (int i = 0; i < program->rungs; i++)
 		program->rung[i].label = i + 1;
+	program->rung[random_below(&source, (uint32_t)program->rungs)].off =
+		random_chance(&source, 10);
 	if (program->rungs >= 4 && second == program->rungs &&
 	    random_chance(&source, 15))
 		make_loop(program);
@@ -476,10 +479,11 @@ static bool is_aimed_at(const struct random_program *program, int label)
 static void print_rung(const struct random_program *program,
 		       const struct random_rung *rung, struct page *page)
 {
+	bool aimed = rung->label && is_aimed_at(program, rung->label);
 	char text[24];
 
-	add(page, "RUNG");
-	if (rung->label && is_aimed_at(program, rung->label)) {
+	add(page, rung->off && !aimed ? "RUNG OFF" : "RUNG");
+	if (aimed) {
 		snprintf(text, sizeof(text), " L%d", rung->label);
 		add(page, text);
 	}

@@ -33,6 +33,7 @@ struct random_cell {
 struct random_rung {
 	int pou;
 	int label;     /* 1-based number of its label; 0: none               */
+	bool off;
 	int rows, cols;
 	struct random_cell cell[RANDOM_ROWS][RANDOM_COLS];
 };
