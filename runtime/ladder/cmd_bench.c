@@ -197,7 +197,8 @@ static void print_text(const struct bench *bench)
 	const struct sink *out = &bench->call->out;
 
 	sink_printf(out, "rungs   %d\n", bench->rungs);
-	sink_printf(out, "image   %u bytes\n", program->header->size);
+	sink_printf(out, "image   %zu bytes, %u with names and maps\n",
+		    code_strip(program->header, NULL), program->header->size);
 	sink_printf(out, "memory  %zu bytes to load, %zu to run\n",
 		    ladder_memory(bench->machine.ladder),
 		    image_memory_size(program));
@@ -228,9 +229,9 @@ static void print_json(const struct bench *bench)
 	sink_text(out, "{\"file\": ");
 	sink_json_text(out, bench->call->arg[0]);
 	sink_printf(out, ", \"version\": \"%s\", \"rungs\": %d, "
-		    "\"scans\": %lld, \"image_bytes\": %u, ",
+		    "\"scans\": %lld, \"code_bytes\": %zu, \"image_bytes\": %u, ",
 		    LADDER_VERSION, bench->rungs, (long long)bench->scans,
-		    program->header->size);
+		    code_strip(program->header, NULL), program->header->size);
 	sink_printf(out, "\"load_bytes\": %zu, \"run_bytes\": %zu, "
 		    "\"read_ns\": %lld, \"build_ns\": %lld",
 		    ladder_memory(bench->machine.ladder),

@@ -104,20 +104,38 @@ enum status cmd_code(struct call *call)
 	return status;
 }
 
-static enum status save(const struct ladder *ladder, const char *path)
+static enum status save_bytes(const void *bytes, size_t len, const char *path)
 {
 	struct diag_list *diags = calloc(1, sizeof(*diags));
-	size_t len = 0;
-	const void *image = ladder_image(ladder, &len);
 	bool good;
 
 	if (!diags)
 		return report_no_memory(path);
 	diag_init(diags);
-	good = ladder_save_file(path, image, len, diags);
+	good = ladder_save_file(path, bytes, len, diags);
 	report_diags(diags);
 	free(diags);
 	return good ? STATUS_GOOD : STATUS_WRONG;
+}
+
+static enum status save(const struct ladder *ladder, bool small,
+			const char *path)
+{
+	size_t len = 0;
+	const void *image = ladder_image(ladder, &len);
+	enum status status;
+	void *stripped;
+
+	if (!small)
+		return save_bytes(image, len, path);
+	len = code_strip(image, NULL);
+	stripped = malloc(len);
+	if (!stripped)
+		return report_no_memory(path);
+	code_strip(image, stripped);
+	status = save_bytes(stripped, len, path);
+	free(stripped);
+	return status;
 }
 
 /* A device, a pipe or a folder must not be replaced by a file. */
@@ -144,7 +162,7 @@ enum status cmd_build(struct call *call)
 		return STATUS_WRONG;
 	status = machine_open(&machine, call->arg[0]);
 	if (status == STATUS_GOOD)
-		status = save(machine.ladder, path);
+		status = save(machine.ladder, call_flag(call, "--small"), path);
 	machine_close(&machine);
 	return status;
 }

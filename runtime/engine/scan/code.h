@@ -158,6 +158,14 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);
+/**
+ * code_strip - the same image without the maps, for small targets
+ * @image: a verified one
+ * @out:   caller's, aligned to 8, at least as large as the result; NULL: none
+ *
+ * Owns: nothing.   Scan-safe: no.   Returns the bytes of the result.
+ */
+size_t code_strip(const void *image, void *out);
 /** code_print - one instruction as text, e.g. "lut     8a b100 b101 b102 -> b103"
  * @code: of a verified program
  * @part: which of the n parts of a LUT, 0-based; else 0
