@@ -21,9 +21,11 @@ static const char *const section_name[CODE_SECTION_COUNT] = {
 static void print_sizes(const struct program *program, const struct sink *out)
 {
 	const struct code_header *header = program->header;
+	uint8_t identity[32];
 	char sha[65];
 
-	digest_hex(program->sha256, 32, sha);
+	code_identity(program, identity);
+	digest_hex(identity, sizeof(identity), sha);
 	sink_printf(out, "identity      %s\n", sha);
 	sink_printf(out, "image         %u bytes, version %u\n", header->size,
 		    header->version);

@@ -5,7 +5,6 @@
  */
 #include "ladderd/control.h"
 
-#include "engine/base/digest.h"
 
 #include <poll.h>
 #include <stdarg.h>
@@ -108,11 +107,8 @@ static void add_io(struct block *block, const struct hal *hal)
 
 void control_status(const struct cycle *cycle, bool wait)
 {
-	const struct program *program = cycle->resource.image.program;
 	struct block block = { .len = 0 };
-	char hash[65];
 
-	digest_hex(program->sha256, sizeof(program->sha256), hash);
 	add_state(&block, &cycle->resource);
 	add(&block, "scans: %llu\n", (unsigned long long)cycle->scans);
 	add_us(&block, "period:", cycle->period_ns);
@@ -122,7 +118,8 @@ void control_status(const struct cycle *cycle, bool wait)
 	    (unsigned long long)cycle->late,
 	    (unsigned long long)cycle->resets);
 	add_io(&block, &cycle->hal);
-	add(&block, "board: %.60s\nprogram: %s\n\n", cycle->board, hash);
+	add(&block, "board: %.60s\nprogram: %s\n\n", cycle->board,
+	    cycle->identity);
 	put(STDOUT_FILENO, block.text, block.len, wait);
 }
 

@@ -21,6 +21,7 @@ struct cycle {
 	struct notify notify;
 	struct requests *requests;
 	const char *board;
+	char identity[65];   /* SHA-256 of the program, hex               */
 	int64_t period_ns;
 	int64_t watchdog;      /* periods: late in a row, or of one scan      */
 	uint64_t most_scans;   /* 0: until it is stopped                      */

@@ -4,6 +4,7 @@
  * scans until it is told to stop, and leaves safe outputs behind. It has no
  * network and needs no user but the one that may open the lines.
  */
+#include "engine/base/digest.h"
 #include "hal/drivers.h"
 #include "ladderd/control.h"
 #include "ladderd/load.h"
@@ -105,6 +106,7 @@ static int run(struct daemon *daemon)
 	const struct program *program = ladder_program(load->ladder);
 	void *memory = arena_alloc(&load->arena, image_memory_size(program));
 	void *stack = arena_alloc(&load->arena, SAFE_STACK_BYTES);
+	uint8_t identity[32];
 	int status, error;
 
 	if (!memory || !stack) {
@@ -112,6 +114,8 @@ static int run(struct daemon *daemon)
 		return 1;
 	}
 	resource_init(&cycle->resource, program, memory);
+	code_identity(program, identity);
+	digest_hex(identity, sizeof(identity), cycle->identity);
 	cycle->board = load->map.board;
 	cycle->period_ns = options->period_ns;
 	cycle->watchdog = options->watchdog;

@@ -331,8 +331,7 @@ static bool check_maps(struct verifier *v)
 	return true;
 }
 
-/* Identity: code and data layout; not the maps a target may drop. */
-static void identify(struct program *p)
+void code_identity(const struct program *p, uint8_t out[32])
 {
 	struct digest_sha256 sha;
 	const struct code_header *h = p->header;
@@ -346,7 +345,7 @@ static void identify(struct program *p)
 	for (int kind = CODE_LAYOUT; kind <= CODE_TEXT; kind++)
 		digest_sha256_add(&sha, p->base + h->section[kind].offset,
 				  h->section[kind].size);
-	digest_sha256_end(&sha, p->sha256);
+	digest_sha256_end(&sha, out);
 }
 
 bool code_open(const void *bytes, size_t len, struct arena *scratch,
@@ -374,10 +373,8 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
 		return false;
 	*why = DIAG_IMAGE_REFUSED;
 	if (check_layout(&v) && check_init(&v) && check_bits(&v) &&
-	    verify_programs(&v) && check_maps(&v)) {
-		identify(out);
+	    verify_programs(&v) && check_maps(&v))
 		return true;
-	}
 	if (scratch->failed)
 		*why = DIAG_NO_MEMORY;
 	*where = v.where;

@@ -135,7 +135,6 @@ struct program {
 	const char *string;
 	uint32_t entry_count, run_count, bits_count, symbol_count, power_count,
 		 place_count, text_words, watch_words, string_bytes;
-	uint8_t sha256[32];    /* identity: code and data layout           */
 };
 
 /* n of CMP. */
@@ -158,6 +157,9 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);
+/** code_identity - SHA-256 of what runs: code and data layout, without the maps a
+ * target may drop. @out gets 32 bytes. Scan-safe: no (slow). */
+void code_identity(const struct program *program, uint8_t out[32]);
 /**
  * code_strip - the same image without the maps, for small targets
  * @image: a verified one
