@@ -24,7 +24,7 @@ struct ladder {
 	const void *image;
 	size_t image_len;
 	struct program program;
-	bool built, unreadable, watch;
+	bool loaded, built, unreadable, watch;
 };
 
 struct ladder *ladder_new(void)
@@ -49,7 +49,7 @@ static void unload(struct ladder *ladder)
 	ladder->loaded = NULL;
 	ladder->image = NULL;
 	ladder->image_len = 0;
-	ladder->built = false;
+	ladder->loaded = ladder->built = false;
 	memset(&ladder->translation, 0, sizeof(ladder->translation));
 	memset(&ladder->program, 0, sizeof(ladder->program));
 }
@@ -161,15 +161,15 @@ bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
 	unload(ladder);
 	diag_init(&ladder->diags);
 	ladder->unreadable = false;
-	return load_bytes(ladder, file, text, len) &&
-	       ladder->diags.errors == 0;
+	ladder->loaded = load_bytes(ladder, file, text, len) &&
+			 ladder->diags.errors == 0;
+	return ladder->loaded;
 }
 
 bool ladder_load(struct ladder *ladder, const char *path)
 {
 	size_t len;
 	char *bytes;
-	bool good;
 
 	unload(ladder);
 	diag_init(&ladder->diags);
@@ -177,9 +177,10 @@ bool ladder_load(struct ladder *ladder, const char *path)
 	ladder->unreadable = !bytes;
 	if (!bytes)
 		return false;
-	good = load_bytes(ladder, path, bytes, len);
+	ladder->loaded = load_bytes(ladder, path, bytes, len) &&
+			 ladder->diags.errors == 0;
 	free(bytes);
-	return good && ladder->diags.errors == 0;
+	return ladder->loaded;
 }
 
 void ladder_watch(struct ladder *ladder, bool watch)
@@ -322,7 +323,7 @@ struct diag_list *ladder_diags(struct ladder *ladder)
 
 struct project *ladder_project(struct ladder *ladder)
 {
-	return ladder->project;
+	return ladder->loaded ? ladder->project : NULL;
 }
 
 const struct program *ladder_program(const struct ladder *ladder)
@@ -365,5 +366,6 @@ size_t ladder_memory(const struct ladder *ladder)
 
 char *ladder_write(struct ladder *ladder, size_t *len)
 {
-	return ladder->project ? text_write(ladder->project, len) : NULL;
+	return ladder->loaded && ladder->project ?
+	       text_write(ladder->project, len) : NULL;
 }

@@ -140,11 +140,12 @@ static bool is_mark(const char *text, size_t len)
 /* The // at the end of @b becomes (* … *), so that text may follow it. */
 static void slash_close(struct reader *r, struct buffer *b)
 {
-	const char *text = b->slash + 2;
+	const char *text = b->slash;
 	size_t len = b->slash_len;
 
 	if (len == 0)
 		return;
+	text += 2;
 	len -= 2;
 	b->slash_len = 0;
 	b->len = b->slash_at;
