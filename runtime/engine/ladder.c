@@ -24,7 +24,7 @@ struct ladder {
 	const void *image;
 	size_t image_len;
 	struct program program;
-	bool loaded, built, unreadable, watch;
+	bool good, built, unreadable, watch; /* good: the last load was */
 };
 
 struct ladder *ladder_new(void)
@@ -49,7 +49,7 @@ static void unload(struct ladder *ladder)
 	ladder->loaded = NULL;
 	ladder->image = NULL;
 	ladder->image_len = 0;
-	ladder->loaded = ladder->built = false;
+	ladder->good = ladder->built = false;
 	memset(&ladder->translation, 0, sizeof(ladder->translation));
 	memset(&ladder->program, 0, sizeof(ladder->program));
 }
@@ -161,9 +161,9 @@ bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
 	unload(ladder);
 	diag_init(&ladder->diags);
 	ladder->unreadable = false;
-	ladder->loaded = load_bytes(ladder, file, text, len) &&
-			 ladder->diags.errors == 0;
-	return ladder->loaded;
+	ladder->good = load_bytes(ladder, file, text, len) &&
+		       ladder->diags.errors == 0;
+	return ladder->good;
 }
 
 bool ladder_load(struct ladder *ladder, const char *path)
@@ -177,10 +177,10 @@ bool ladder_load(struct ladder *ladder, const char *path)
 	ladder->unreadable = !bytes;
 	if (!bytes)
 		return false;
-	ladder->loaded = load_bytes(ladder, path, bytes, len) &&
-			 ladder->diags.errors == 0;
+	ladder->good = load_bytes(ladder, path, bytes, len) &&
+		       ladder->diags.errors == 0;
 	free(bytes);
-	return ladder->loaded;
+	return ladder->good;
 }
 
 void ladder_watch(struct ladder *ladder, bool watch)
@@ -323,7 +323,7 @@ struct diag_list *ladder_diags(struct ladder *ladder)
 
 struct project *ladder_project(struct ladder *ladder)
 {
-	return ladder->loaded ? ladder->project : NULL;
+	return ladder->good ? ladder->project : NULL;
 }
 
 const struct program *ladder_program(const struct ladder *ladder)
@@ -366,6 +366,6 @@ size_t ladder_memory(const struct ladder *ladder)
 
 char *ladder_write(struct ladder *ladder, size_t *len)
 {
-	return ladder->loaded && ladder->project ?
+	return ladder->good && ladder->project ?
 	       text_write(ladder->project, len) : NULL;
 }
