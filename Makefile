@@ -174,7 +174,7 @@ SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%))
-TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN)
 
 tests: all man $(BUILT) $(HAL_TEST)/ladderd_v1 $(HAL_TEST)/ladderd_v2

@@ -18,9 +18,9 @@ for cc in gcc clang; do
 	fi
 	log=$(mktemp)
 	# The gpio drivers are compiled against both libgpiods by the HAL tests.
-	find runtime hal tests -name '*.c' ! -name 'gpiod_v*.c' ! -path 'tests/hal/*' ! -name 'gpio_find.c' |
-		xargs -P 2 -n 8 $cc $flags >"$log" 2>&1
-	if [ $? -eq 0 ]; then
+	# shellcheck disable=SC2086
+	if find runtime hal tests -name '*.c' ! -name 'gpiod_v*.c' ! -path 'tests/hal/*' \
+		! -name 'gpio_find.c' -print0 | xargs -0 -P 2 -n 8 $cc $flags >"$log" 2>&1; then
 		echo "ok $n - $cc has nothing to say"
 	else
 		echo "not ok $n - $cc has nothing to say"
