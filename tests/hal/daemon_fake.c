@@ -4,6 +4,7 @@
  * to fail or a driver to hang. The environment says what happens:
  *   FAKE_DEV      folder that stands for /dev
  *   FAKE_FAIL_AT  reads fail from this one on, FAKE_HEAL_AT: until this one
+ *   FAKE_SLOW_AT  reads take 15 ms from this one on
  *   FAKE_HANG_AT  this read never returns
  *   FAKE_CRASH_AT this read ends in SIGSEGV
  */
@@ -14,6 +15,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 DIR *__real_opendir(const char *path);
@@ -33,6 +35,15 @@ static long number(const char *name)
 	return text ? strtol(text, NULL, 10) : 0;
 }
 
+/* The whole time, whatever signals come. */
+static void be_slow(void)
+{
+	struct timespec left = { 0, 15000000 };
+
+	while (nanosleep(&left, &left) != 0)
+		;
+}
+
 static void at_read(void)
 {
 	long fail = number("FAKE_FAIL_AT"), heal = number("FAKE_HEAL_AT");
@@ -40,6 +51,8 @@ static void at_read(void)
 
 	fake.read_error = fail && reads >= fail && !(heal && reads >= heal) ?
 			  EIO : 0;
+	if (number("FAKE_SLOW_AT") && reads >= number("FAKE_SLOW_AT"))
+		be_slow();
 	if (number("FAKE_CRASH_AT") == reads)
 		raise(SIGSEGV);
 	while (number("FAKE_HANG_AT") && reads == number("FAKE_HANG_AT"))

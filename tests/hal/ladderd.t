@@ -317,6 +317,18 @@ for my $version (1, 2) {
 		is_safe('then');
 	}
 	{
+		local $ENV{FAKE_SLOW_AT} = 5;
+		is(run($fake, $rung, '--io', $gpio, '--scans', '20', @traced), 0,
+			"v$version: late scans are no FAULT");
+		get('out') =~ /^late: (\d+)$/m;
+		ok($1 >= 15, 'but each is counted');
+		is(run($fake, $rung, '--io', $gpio, '--trace-io', '--scans', '500',
+			'--watchdog', '3'), 1, 'three in a row are one');
+		like(get('out'), qr/^state: FAULT\nfault: .*watchdog/,
+			'which says so');
+		is_safe('late');
+	}
+	{
 		local $ENV{FAKE_CRASH_AT} = 10;
 		like(run($fake, $rung, '--io', $gpio, @traced),
 			qr/^(signal 11|1)$/, "v$version: a crash in a scan");
