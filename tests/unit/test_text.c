@@ -289,7 +289,7 @@ static void test_il(void)
 	canonical(IL("Loop: ld A (* x *)\n and( B\n )\n jmpc Loop\n"
 		     "cal Delay ( in:=Go, (* y *)\n pt:=T#3s, // z\n q=>Done )\n"
 		     "CAL D()\nadd() (* w *)\n"),
-		  IL("Loop:\n  LD    A (* x *)\n  AND(\n  LD    B\n  )\n"
+		  IL("Loop:\n  LD    A (* x *)\n  AND( B\n  )\n"
 		     "  JMPC  Loop\n(* y *)\n// z\n"
 		     "  CAL   Delay(IN := Go, PT := T#3s, Q => Done)\n"
 		     "  CAL   D\n  ADD() (* w *)\n"));

@@ -9,6 +9,8 @@
 
 #include "engine/base/ascii.h"
 
+#include <string.h>
+
 static bool add_line(struct reader *r, struct il_line line)
 {
 	if (il_add(r->il, line))
@@ -132,12 +134,21 @@ static bool read_function(struct reader *r, const struct token *word,
 static bool read_open(struct reader *r, const struct token *word,
 		      struct il_line line)
 {
+	int at = r->il->count;
+
 	line.modifiers |= MOD_PAREN;
 	reader_next(r);
+	if (!add_line(r, line)) /* before a comment behind it */
+		return false;
 	reader_next(r);
 	if (reader_at_end(r))
-		return add_line(r, line);
-	return read_operand(r, word, &line);
+		return true;
+	if (!read_operand(r, word, &line))
+		return false;
+	r->il->count--; /* the one with the operand takes its place */
+	memmove(&r->il->line[at], &r->il->line[at + 1],
+		(size_t)(r->il->count - at) * sizeof(line));
+	return true;
 }
 
 static bool read_label_operand(struct reader *r, const struct token *word,
