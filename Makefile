@@ -13,8 +13,8 @@ CFLAGS   ?= -O2 -g
 CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L
 WARN     := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes \
             -Wswitch-enum -Wvla $(WERROR)
-# Frames under 1 KB in what runs on a board (STYLE: an 8 KB stack).
-FRAME    := $(if $(findstring sanitize,$(CFLAGS)),,-Wframe-larger-than=1024)
+# Frames under 1 KB in what runs on a board: it may have a stack of 8 KB.
+FRAME    := $(if $(filter -O2 -Os,$(CFLAGS)),-Wframe-larger-than=1024)
 
 # What a program does not call is left out of it (ladderd: 200 KB at most).
 LEAN     := -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables
@@ -23,6 +23,7 @@ LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
 ENGINE   := $(wildcard runtime/engine/*.c runtime/engine/*/*.c)
 SMALL    := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
+$(call obj,$(ENGINE)): WARN += $(FRAME)
 # What runs once a load is better small than fast.
 $(call obj,$(wildcard runtime/engine/check/*.c runtime/engine/text/*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
 

@@ -254,6 +254,8 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 	arena_reset(&ladder->scratch);
 	check_il(t->scope, unit->pou, il, &ladder->scratch, *types,
 		 &ladder->diags);
+	if (ladder->scratch.failed || ladder->project->arena.failed)
+		return no_memory(ladder, unit->pou->file);
 	return true;
 }
 

@@ -25,7 +25,7 @@ struct il_check {
 	uint8_t *label;        /* by folded name: is it a label?            */
 	uint32_t label_count;
 	struct result now;
-	struct result open[LIMIT_IL_DEPTH]; /* left of each open parenthesis */
+	struct result *open; /* left of each open parenthesis               */
 	int depth;
 };
 
@@ -538,7 +538,8 @@ bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
 	};
 	bool good = find_labels(&c, scratch);
 
-	if (!c.label)
+	c.open = arena_alloc(scratch, LIMIT_IL_DEPTH * sizeof(*c.open));
+	if (!c.label || !c.open)
 		return false;
 	for (int i = 0; i < il->count; i++)
 		good &= check_line(&c, i, &types[i]);

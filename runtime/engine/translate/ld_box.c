@@ -163,18 +163,18 @@ static void box_function(struct ld *ld, int element)
 	struct element_state *state = &ld->element[element];
 	const char *args = args_of(ld, element);
 	bool compare = row->result == RESULT_BOOL;
-	uint32_t operand[LIMIT_ROWS], en, eno = temps_bool(ld->temps);
+	uint32_t operand[LIMIT_FN_INPUTS], en, eno = temps_bool(ld->temps);
 	uint32_t result = compare ? temps_bool(ld->temps) : 0;
 	struct arg out;
 
 	freeze_outputs(ld, args);
 	en = ld_operand(ld, at->in);
-	for (int i = 0; i < at->pins && i < LIMIT_ROWS; i++)
+	for (int i = 0; i < at->pins && i < LIMIT_FN_INPUTS; i++)
 		operand[i] = ld_operand(ld,
 					ld->network.pin[at->first_pin + i].in);
 	ld_call(ld, (enum word)at->word);
 	ld_arg(ld, false, ld->en_id, en);
-	for (int i = 0; i < at->pins && i < LIMIT_ROWS; i++)
+	for (int i = 0; i < at->pins && i < LIMIT_FN_INPUTS; i++)
 		ld_arg(ld, false, ld->network.pin[at->first_pin + i].operand,
 		       operand[i]);
 	write_args(ld, args, false);
