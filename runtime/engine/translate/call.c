@@ -30,18 +30,11 @@ static bool is_compare(enum word word)
 }
 
 /* The rows of the comparisons are in the order of enum cmp. */
+_Static_assert(FN_NE - FN_GT == CMP_NE, "rows of catalog.def and enum cmp");
+
 static uint32_t relation(enum word word)
 {
-	static const enum word order[CMP_COUNT] = {
-		[CMP_GT] = (enum word)FN_GT, [CMP_GE] = (enum word)FN_GE,
-		[CMP_EQ] = (enum word)FN_EQ, [CMP_LE] = (enum word)FN_LE,
-		[CMP_LT] = (enum word)FN_LT, [CMP_NE] = (enum word)FN_NE,
-	};
-	uint32_t rel = 0;
-
-	while (rel < CMP_COUNT - 1 && order[rel] != word)
-		rel++;
-	return rel;
+	return (uint32_t)word - FN_GT;
 }
 
 /* The current result as an operand of @type. */

@@ -247,11 +247,11 @@ void ld_settle_element(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
 	struct element_state *state = &ld->element[element];
-	enum place place = word_row((enum word)at->word)->place;
+	const struct word_row *row = word_row((enum word)at->word);
 
-	if (!ld->watch || place == PLACE_LAST)
+	if (!ld->watch || row->place == PLACE_LAST)
 		return;
-	if (!state->leaf && at->word == ELEM_ASSIGN)
+	if (!state->leaf && row->operand == OPND_ASSIGN)
 		return;
 	load_element(ld, element);
 	*state = (struct element_state){

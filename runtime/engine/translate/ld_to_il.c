@@ -25,15 +25,16 @@ static bool is_unread(const struct ld *ld, int element)
 /* What acts in phase 2. */
 static bool is_actor(const struct ld *ld, int element)
 {
-	if (ld->network.element[element].word == ELEM_ASSIGN)
+	const struct word_row *row = row_of(ld, element);
+
+	if (row->operand == OPND_ASSIGN)
 		return is_unread(ld, element);
-	return row_of(ld, element)->place == PLACE_LAST;
+	return row->place == PLACE_LAST;
 }
 
 static bool is_output(const struct ld *ld, int element)
 {
-	bool box = row_of(ld, element)->kind != WORD_ELEM ||
-		   ld->network.element[element].word == ELEM_ASSIGN;
+	bool box = row_of(ld, element)->place == PLACE_BOX;
 
 	return is_actor(ld, element) || (box && is_unread(ld, element));
 }
