@@ -363,18 +363,31 @@ for my $name ("$dir/notify", "\0ladderd-test-$$") {
 # ---- a reader that does not read, and one that went away ----
 {
 	pipe my $read, my $write or die;
+	my $blink = put('blink.rung', <<'END');
+RUNGBOARD 1
+PROJECT "Blink"
+
+PROGRAM Main LD
+RUNG
+  | NO SYS_CLOCK_100MS | COIL Q0 |
+END_PROGRAM
+END
+	unlink "$dir/err";
 	my $pid = fork;
 	if (!$pid) {
 		open STDOUT, '>&', $write or die;
 		open STDERR, '>', "$dir/err" or die;
-		exec $ladderd, $rung, '--io', $map, @traced;
+		exec $ladderd, $blink, '--io', $map, @traced;
 	}
 	close $write;
-	until_has('err', qr/^%QX0\.1 0$/m);
+	until_has('err', qr/^%QX0\.0 1$/m);
 	for (1 .. 200) {
 		kill 'USR1', $pid;
 		sleep 0.005;
 	}
+	my $before = get('err');
+	ok(until_has('err', qr/^\Q$before\E(%QX0\.0 [01]\n){5}/),
+		'it scans on beside a full pipe');
 	kill 'TERM', $pid;
 	is(finish($pid), 0, 'a full pipe does not stop it');
 	close $read;
