@@ -3,8 +3,9 @@
  * drivers - what hal.c asks of a driver: four functions that move raw levels.
  *
  * A driver knows chips, offsets and requests. It does not know addresses,
- * inversion, debounce or safe values, and it prints nothing: hal.c has these once
- * for all drivers. One request is moved by one call, and that is one system call.
+ * inversion, debounce or safe values, and it prints nothing: hal.c has these
+ * once for all drivers. One request is moved by one call, and that is one
+ * system call.
  */
 #ifndef HAL_DRIVERS_H
 #define HAL_DRIVERS_H
@@ -13,7 +14,8 @@
 
 #define REQUEST_LINES 64 /* at most, in one request: a bit each of a uint64_t */
 
-/* What is wrong with a line, from a driver that does not know the map's text. */
+/* What is wrong with a line, from a driver that does not know the map's
+ * text. */
 struct trouble {
 	enum diag_id id;
 	uint32_t line;         /* index in the request it belongs to          */
@@ -73,7 +75,8 @@ struct driver {
 	int (*read)(struct request *request, uint64_t *levels);
 	int (*write)(struct request *request, uint64_t levels);
 
-	/* Of drivers whose lines must be looked for; else NULL. Scan-safe: no. */
+	/* Of drivers whose lines must be looked for; else NULL. Scan-safe:
+	 * no. */
 	bool (*find)(const struct io_point *point, const char *dev,
 		     struct line_at *out, struct trouble *why);
 	bool (*list)(const char *dev,

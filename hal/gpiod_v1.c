@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * gpiod_v1 - the gpio driver over libgpiod 1.6 (Debian 12). A request has one set
- * of flags there, and its chip stays open as long as it has the lines.
+ * gpiod_v1 - the gpio driver over libgpiod 1.6 (Debian 12). A request has one
+ * set of flags there, and its chip stays open as long as it has the lines.
  */
 #include "hal/gpio.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * gpiod_v2 - the gpio driver over libgpiod 2.x (Debian 13). Each line of a request
- * has settings of its own, and a request lives on without its chip.
+ * gpiod_v2 - the gpio driver over libgpiod 2.x (Debian 13). Each line of a
+ * request has settings of its own, and a request lives on without its chip.
  */
 #include "hal/gpio.h"
 

@@ -147,8 +147,8 @@ static bool write_request(struct hal *hal, struct hal_request *request,
 	return true;
 }
 
-/* The first call after an opening only starts the clock of the refresh: the line
- * shows its safe value since it was taken. */
+/* The first call after an opening only starts the clock of the refresh: the
+ * line shows its safe value since it was taken. */
 static bool must_write(struct hal_request *request, uint64_t value,
 		       int64_t now_ns)
 {

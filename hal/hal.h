@@ -2,10 +2,10 @@
  *
  * hal - the pins of a board, behind two calls a scan.
  *
- * It turns an I/O map into requests of drivers and moves levels between them and
- * the process image. Inversion, debounce, failed reads and safe values are here,
- * once for all drivers. It reads no clock, starts no thread and decides nothing:
- * a fault of a line is told to the caller, who stops the program.
+ * It turns an I/O map into requests of drivers and moves levels between them
+ * and the process image. Inversion, debounce, failed reads and safe values are
+ * here, once for all drivers. It reads no clock, starts no thread and decides
+ * nothing: a fault of a line is told to the caller, who stops the program.
  */
 #ifndef HAL_HAL_H
 #define HAL_HAL_H
@@ -47,8 +47,8 @@ struct hal {
  *         (a libgpiod may, while hal_reopen() runs)
  *
  * First finds every line, and touches nothing unless all are there, free, and
- * named once. Takes inputs first and reads them once, so that the first scan sees
- * real values; then outputs, which begin with their safe values.
+ * named once. Takes inputs first and reads them once, so that the first scan
+ * sees real values; then outputs, which begin with their safe values.
  * Owns: the caller, hal_close().   Scan-safe: no.
  * Fails: false and an error for each line; all lines are given back.
  */
@@ -98,7 +98,8 @@ bool hal_reopen(struct hal *hal);
 
 /** hal_quality - the worst of all points. Scan-safe: yes. */
 enum hal_quality hal_quality(const struct hal *hal);
-/** hal_point_quality - of point @index of the map. Scan-safe: yes (a search). */
+/** hal_point_quality - of point @index of the map. Scan-safe: yes (a
+ * search). */
 enum hal_quality hal_point_quality(const struct hal *hal, int index);
 /** hal_find - request and bit of an address, e.g. for sim_set(); NULL: none. */
 struct request *hal_find(struct hal *hal, struct iec_addr addr, uint32_t *line);
@@ -122,7 +123,8 @@ bool hal_check(const struct iomap *map, struct arena *scratch,
  *
  * struct line_seen is in hal/drivers.h and lives during the call.
  * Owns: nothing.   Scan-safe: no.
- * Fails: false and a diagnostic for what could not be opened; the rest is given.
+ * Fails: false and a diagnostic for what could not be opened; the rest is
+ * given.
  */
 bool hal_list(const char *dev,
 	      void (*visit)(void *context, const struct line_seen *line),

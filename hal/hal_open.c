@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * hal_open - finds the lines of a map, groups them into requests and takes them.
- * All of it happens before the first scan or while nothing runs; it moves no level
- * but for the first read and the safe values.
+ * hal_open - finds the lines of a map, groups them into requests and takes
+ * them. All of it happens before the first scan or while nothing runs; it moves
+ * no level but for the first read and the safe values.
  */
 #include "hal/request.h"
 
@@ -377,7 +377,8 @@ bool hal_list(const char *dev,
 				.id = DIAG_IO_NO_DRIVER, .file = driver->word },
 				"%s", driver->word);
 		else if (driver->list &&
-			 !driver->list(dev ? dev : "/dev", visit, context, &why))
+			 !driver->list(dev ? dev : "/dev", visit, context,
+				       &why))
 			good = diag_add(diags, (struct diag){
 				.id = why.id, .file = dev ? dev : "/dev" },
 				"%s", why.text);

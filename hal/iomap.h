@@ -3,8 +3,9 @@
  * iomap - the text that says which pin an address of a program is.
  *
  * It reads a `.io` file and checks all that can be checked without the machine:
- * every error with line and column, and no half map on an error. It opens no chip
- * and does not know whether a line exists. docs/boards.md describes the text.
+ * every error with line and column, and no half map on an error. It opens no
+ * chip and does not know whether a line exists. docs/boards.md describes the
+ * text.
  */
 #ifndef HAL_IOMAP_H
 #define HAL_IOMAP_H

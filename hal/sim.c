@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim - a real driver without a pin. An input shows what its owner set, and until
- * then its pull: 1 with pull-up, else 0. An output keeps what was written.
+ * sim - a real driver without a pin. An input shows what its owner set, and
+ * until then its pull: 1 with pull-up, else 0. An output keeps what was
+ * written.
  */
 #include "hal/sim.h"
 

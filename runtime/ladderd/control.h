@@ -21,7 +21,7 @@ void control_status(const struct cycle *cycle, bool wait);
 void control_tell(const char *text);
 /** control_tell_fault - the same with the fault and its place. */
 void control_tell_fault(const struct cycle *cycle);
-/** control_trace - "%QX0.0 1" on stderr; for struct hal. Scan-safe: yes, also in
- * a signal handler. */
+/** control_trace - "%QX0.0 1" on stderr; for struct hal. Scan-safe: yes, also
+ * in a signal handler. */
 void control_trace(void *context, const struct io_point *point, bool value);
 #endif

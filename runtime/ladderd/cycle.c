@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * cycle - absolute deadlines, the two thresholds of the watchdog, the latched
- * fault. A fault holds the safe outputs until a reset, and a reset works only when
- * all lines answer.
+ * fault. A fault holds the safe outputs until a reset, and a reset works only
+ * when all lines answer.
  */
 #include "ladderd/control.h"
 
@@ -79,7 +79,8 @@ static void serve_requests(struct cycle *cycle)
 	}
 }
 
-/* Gives what happened during the reads, the program and the writes of a scan. */
+/* Gives what happened during the reads, the program and the writes of a
+ * scan. */
 static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
 {
 	struct resource *resource = &cycle->resource;

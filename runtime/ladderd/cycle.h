@@ -2,9 +2,9 @@
  *
  * cycle - one scan after the other, each at its absolute time.
  *
- * The only place of the runtime that reads a clock. It never catches up: periods
- * that were missed are counted and left out. It allocates nothing and opens
- * nothing but lines that were lost, and those only in FAULT.
+ * The only place of the runtime that reads a clock. It never catches up:
+ * periods that were missed are counted and left out. It allocates nothing and
+ * opens nothing but lines that were lost, and those only in FAULT.
  */
 #ifndef LADDERD_CYCLE_H
 #define LADDERD_CYCLE_H
@@ -38,8 +38,9 @@ struct cycle {
 /**
  * cycle_run - scans until a stop is asked for, or most_scans are done
  *
- * The HAL is open, its outputs are safe, the resource is initialised. Afterwards
- * it is in STOP or FAULT; the caller drives the safe outputs (hal_close).
+ * The HAL is open, its outputs are safe, the resource is initialised.
+ * Afterwards it is in STOP or FAULT; the caller drives the safe outputs
+ * (hal_close).
  * Returns the exit status: 1 if it ended in FAULT, else 0.
  */
 int cycle_run(struct cycle *cycle);

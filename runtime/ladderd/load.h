@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * load - a program and its I/O map from their files, checked against each other.
+ * load - a program and its I/O map from their files, checked against each
+ * other.
  *
  * Touches no pin. What is wrong is in two lists of diagnostics for the caller.
  */

@@ -61,8 +61,8 @@ static void print_memory(const struct daemon *daemon)
 	       ladder_memory(load->ladder));
 }
 
-/* Memory was written while loading, deeper stack used than a scan needs: what is
- * locked now is there. A target that cannot lock (no MMU) says ENOSYS. */
+/* Memory was written while loading, deeper stack used than a scan needs: what
+ * is locked now is there. A target that cannot lock (no MMU) says ENOSYS. */
 static void make_real_time(int priority)
 {
 	struct sched_param wanted = { .sched_priority = priority };

@@ -52,7 +52,7 @@ int notify_open(struct notify *notify)
 	notify->to.sun_family = AF_UNIX;
 	memcpy(notify->to.sun_path, path, len);
 	if (path[0] == '@')
-		notify->to.sun_path[0] = 0; /* an abstract name, without a NUL */
+		notify->to.sun_path[0] = 0; /* abstract, without a NUL */
 	notify->to_len = (socklen_t)(offsetof(struct sockaddr_un, sun_path) +
 				     len + (path[0] == '/'));
 	notify->fd = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);

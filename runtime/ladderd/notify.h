@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * notify - tells a service manager how it is: READY, STOPPING, WATCHDOG, STATUS,
- * in the public protocol of sd_notify(3). Without NOTIFY_SOCKET it does nothing.
+ * notify - tells a service manager how it is: READY, STOPPING, WATCHDOG,
+ * STATUS, in the public protocol of sd_notify(3). Without NOTIFY_SOCKET it does
+ * nothing.
  */
 #ifndef LADDERD_NOTIFY_H
 #define LADDERD_NOTIFY_H

@@ -46,8 +46,8 @@ struct requests *requests_listen(void)
 	return &requests;
 }
 
-/* The first tick that sees a scan starts its time; the second one after it finds
- * the limit gone. */
+/* The first tick that sees a scan starts its time; the second one after it
+ * finds the limit gone. */
 static void on_tick(int signal_number, siginfo_t *about, void *context)
 {
 	struct monitor *monitor;
@@ -125,7 +125,8 @@ static void on_crash(int signal_number)
 
 void safe_on_crash(struct hal *hal, void *stack)
 {
-	static const int deadly[] = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
+	static const int deadly[] = { SIGSEGV, SIGBUS, SIGFPE, SIGILL,
+				      SIGABRT };
 	stack_t alternate = { .ss_sp = stack, .ss_size = SAFE_STACK_BYTES };
 	struct sigaction action;
 

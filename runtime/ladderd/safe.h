@@ -3,9 +3,9 @@
  * safe - the safe state when a scan hangs or the daemon itself is broken.
  *
  * A timer signal looks whether a scan stands still. It is a signal and not a
- * thread because targets without an MMU may have no threads, and because it needs
- * no lock: it runs in the thread that hangs. It decides nothing else; late scans
- * are judged by cycle.c.
+ * thread because targets without an MMU may have no threads, and because it
+ * needs no lock: it runs in the thread that hangs. It decides nothing else;
+ * late scans are judged by cycle.c.
  */
 #ifndef LADDERD_SAFE_H
 #define LADDERD_SAFE_H
@@ -36,8 +36,8 @@ struct monitor {
 /**
  * monitor_start - from now on a scan that takes @limit_ns is made safe
  *
- * Within @limit_ns and half of it: hal_write_safe(), again at every further tick,
- * and if a stop was asked for in the meantime, exit with status 1.
+ * Within @limit_ns and half of it: hal_write_safe(), again at every further
+ * tick, and if a stop was asked for in the meantime, exit with status 1.
  * Owns: the caller, monitor_stop(); @monitor must not move.   Scan-safe: no.
  * Fails: -errno.
  */

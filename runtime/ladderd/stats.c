@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * stats - counts times in buckets: below 16 ns one each, above it eight to every
- * doubling, up to some 18 minutes.
+ * stats - counts times in buckets: below 16 ns one each, above it eight to
+ * every doubling, up to some 18 minutes.
  */
 #include "ladderd/stats.h"
 
@@ -50,7 +50,7 @@ int64_t stats_mean(const struct stats *stats)
 
 int64_t stats_p99(const struct stats *stats)
 {
-	uint64_t above = stats->count / 100; /* this many may have taken longer */
+	uint64_t above = stats->count / 100; /* so many may be longer */
 	uint64_t seen = 0;
 
 	for (unsigned i = STATS_BUCKETS; i-- > 0;) {

@@ -3,7 +3,8 @@
  * stats - how long something took, over all scans, in a fixed amount of memory.
  *
  * Exact for last, mean and maximum; the 99th percentile comes from a histogram
- * whose steps are an eighth of their value. It keeps no list and reads no clock.
+ * whose steps are an eighth of their value. It keeps no list and reads no
+ * clock.
  */
 #ifndef LADDERD_STATS_H
 #define LADDERD_STATS_H

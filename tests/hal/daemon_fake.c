@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * daemon_fake - ladderd over fake chips, for the ways out of RUN that need a line
- * to fail or a driver to hang. The environment says what happens:
+ * daemon_fake - ladderd over fake chips, for the ways out of RUN that need a
+ * line to fail or a driver to hang. The environment says what happens:
  *   FAKE_DEV      folder that stands for /dev
  *   FAKE_FAIL_AT  reads fail from this one on, FAKE_HEAL_AT: until this one
  *   FAKE_SLOW_AT  reads take 15 ms from this one on

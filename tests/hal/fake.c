@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * fake - the chips of a test. It does what the kernel would: refuses lines that
- * are in use, fails after an unplugging, and gives a returning chip no old request.
+ * are in use, fails after an unplugging, and gives a returning chip no old
+ * request.
  */
 #include "tests/hal/fake.h"
 

@@ -2,8 +2,8 @@
  *
  * fake - chips that exist in a test only, under both fakes of libgpiod.
  *
- * fake_v1.c and fake_v2.c translate the public calls of a libgpiod to these; the
- * suite sets chips up, counts calls and makes them fail.
+ * fake_v1.c and fake_v2.c translate the public calls of a libgpiod to these;
+ * the suite sets chips up, counts calls and makes them fail.
  */
 #ifndef TESTS_HAL_FAKE_H
 #define TESTS_HAL_FAKE_H

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * fake_v2 - libgpiod 2.x as far as hal/gpiod_v2.c calls it, over the fake chips.
+ * fake_v2 - libgpiod 2.x as far as hal/gpiod_v2.c calls it, over the fake
+ * chips.
  */
 #include "tests/hal/fake.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * map - the I/O map's reader: what it takes, and every way to refuse; and the sim
- * driver, which needs no fake.
+ * map - the I/O map's reader: what it takes, and every way to refuse; and the
+ * sim driver, which needs no fake.
  */
 #include "hal/sim.h"
 #include "tests/hal/bench.h"

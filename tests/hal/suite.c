@@ -2,8 +2,9 @@
  *
  * suite - what every gpio driver must do, against fake chips that count calls.
  *
- * Built once with each version of libgpiod that the project knows. It checks what
- * the kernel would see: which calls, in which order, how many, with which flags.
+ * Built once with each version of libgpiod that the project knows. It checks
+ * what the kernel would see: which calls, in which order, how many, with which
+ * flags.
  */
 #include "tests/hal/bench.h"
 
@@ -29,7 +30,7 @@ static void test_order(void)
 	CHECK(!input(&b, 0) && input(&b, 1));
 	CHECK_TEXT(fake.calls, "rw");
 	CHECK(fake.reads == 1 && fake.writes == 1);
-	CHECK_AS(level("OUT0") == 0, "the program's value after the first scan");
+	CHECK_AS(level("OUT0") == 0, "the program's value after a scan");
 	fake_clear_calls();
 	hal_close(&b.hal);
 	CHECK_AS(level("OUT0") == 1 && level("OUT1") == 0,
@@ -144,7 +145,8 @@ static void test_unplug(void)
 	CHECK(hal_quality(&b.hal) == QUALITY_FAULT);
 	hal_write_safe(&b.hal);
 	CHECK_AS(!hal_reopen(&b.hal), "the chip is gone");
-	/* It comes back with another number and its lines at their reset level. */
+	/* It comes back with another number and its lines at their reset
+	 * level. */
 	fake.chip[2] = fake.chip[0];
 	fake.chip[2].present = true;
 	fake.chip[2].line[100].level = 0;
