@@ -107,14 +107,30 @@ man: $(BUILD)/ladder ## the man pages, in build/man/
 	@$(BUILD)/ladder help --man >$(BUILD)/man/ladder.1
 	@for c in $$($(BUILD)/ladder help --names); do \
 	  $(BUILD)/ladder help --man $$c >$(BUILD)/man/ladder-$$c.1 || exit 1; done
-install: install-ladder ## install under $(DESTDIR)$(prefix)
+install: install-ladder install-ladderd ## install under $(DESTDIR)$(prefix)
 install-ladder: $(BUILD)/ladder man
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/share/man/man1
 	install -m 755 $(BUILD)/ladder $(DESTDIR)$(prefix)/bin/ladder
 	install -m 644 $(BUILD)/man/*.1 $(DESTDIR)$(prefix)/share/man/man1/
+# ladderd's page is what its --help says. The unit and its defaults go where
+# Debian looks for them.
+$(BUILD)/man/ladderd.8: $(BUILD)/ladderd
+	@mkdir -p $(@D)
+	@{ printf '.TH LADDERD 8 "" "Rungboard" "Rungboard"\n.SH NAME\nladderd \\- runs a ladder program on the pins of this machine\n'; \
+	  printf '.SH SYNOPSIS\n.B ladderd\n.I FILE\n.B \\-\\-io\n.I MAP\n[OPTION]...\n.SH DESCRIPTION\n.nf\n'; \
+	  $< --help | sed -e '1d' -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; printf '.fi\n.SH SEE ALSO\n.BR ladder (1)\n'; } >$@
+man: $(BUILD)/man/ladderd.8
+unitdir ?= /lib/systemd/system
+install-ladderd: $(BUILD)/ladderd $(BUILD)/man/ladderd.8
+	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/share/man/man8 \
+	  $(DESTDIR)$(unitdir) $(DESTDIR)/etc/default
+	install -m 755 $(BUILD)/ladderd $(DESTDIR)$(prefix)/bin/ladderd
+	install -m 644 $(BUILD)/man/ladderd.8 $(DESTDIR)$(prefix)/share/man/man8/
+	sed 's|/usr/[a-z/]*ladderd |$(prefix)/bin/ladderd |' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
+	test -e $(DESTDIR)/etc/default/ladderd || install -m 644 packaging/ladderd.default $(DESTDIR)/etc/default/ladderd
 cli-tests: $(BUILD)/ladder ## the command line from outside
 	LADDER=$(BUILD)/ladder prove tests/cli.t
-.PHONY: man install install-ladder cli-tests
+.PHONY: man install install-ladder install-ladderd cli-tests
 # ---- end of the command line ----
 
 # ---- golden cases ----

@@ -27,7 +27,7 @@ if command -v shellcheck >/dev/null; then
 	say $? 'shellcheck has nothing to say' "$log"
 fi
 if command -v mandoc >/dev/null; then
-	for page in "$BUILD"/man/*.1; do
+	for page in "$BUILD"/man/*.[18]; do
 		log=$(mandoc -T lint -W error "$page" 2>&1)
 		say $? "$(basename "$page") is a good man page" "$log"
 	done
