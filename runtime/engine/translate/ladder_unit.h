@@ -18,6 +18,7 @@ struct element_state {
 	bool negate;
 	bool powered;      /* `leaf` holds its power already                  */
 	uint32_t leaf;     /* operand that decides; 0: NOT, or an output      */
+	int next;          /* of those that read the same place; -1: last     */
 };
 
 struct net_state {
@@ -36,8 +37,8 @@ struct ld {
 	struct network network;
 	struct element_state *element;
 	struct net_state *net;
-	int *evaluated;    /* elements in order of evaluation                 */
-	int evaluated_count;
+	int *reader;       /* by place: the element that read it last; -1     */
+	uint32_t reader_mask;
 	uint32_t number;   /* of the rung, 1-based                            */
 	uint16_t row, col; /* place of the next instruction, 1-based          */
 	bool open;         /* a parenthesis waits for its first operand       */
@@ -67,6 +68,8 @@ uint32_t ld_store_new(struct ld *ld);
 /** ld_freeze - before @operand is written: whatever read it before keeps its
  * value in a temporary. */
 void ld_freeze(struct ld *ld, uint32_t operand);
+/** ld_read - an element has been evaluated: ld_freeze will find it. */
+void ld_read(struct ld *ld, int element);
 /** ld_settle - while watching: power of an element or net in a variable. */
 void ld_settle_element(struct ld *ld, int element);
 void ld_settle_net(struct ld *ld, int net);

@@ -205,22 +205,57 @@ static const struct meaning *meaning(struct ld *ld, uint32_t operand)
 	return scope_find(ld->translation->scope, ld->unit->pou, operand, &why);
 }
 
-void ld_freeze(struct ld *ld, uint32_t operand)
+/* Readers are kept by place, so that a write looks at few of them: eight bytes of
+ * an area, or a variable. A wide read may begin in the eight bytes before. */
+static uint32_t place_key(const struct meaning *m)
 {
-	const struct meaning *write = meaning(ld, operand);
+	if (m->addr.area != AREA_NONE)
+		return (uint32_t)m->addr.area << 16 | m->addr.byte / 8;
+	return (uint32_t)((uintptr_t)m->var >> 4) * 2654435761u;
+}
 
-	for (int i = 0; write && i < ld->evaluated_count; i++) {
-		struct element_state *state = &ld->element[ld->evaluated[i]];
-		const struct meaning *read;
+static void freeze_at(struct ld *ld, const struct meaning *write, uint32_t key)
+{
+	int at = ld->reader[key & ld->reader_mask];
 
-		if (!state->leaf)
-			continue;
-		read = meaning(ld, state->leaf);
+	for (; at >= 0; at = ld->element[at].next) {
+		struct element_state *state = &ld->element[at];
+		const struct meaning *read = meaning(ld, state->leaf);
+
 		if (!read || !touches(write, read))
 			continue;
 		ld_emit(ld, OP_LD, 0, state->leaf);
 		state->leaf = ld_store_new(ld);
 	}
+}
+
+void ld_freeze(struct ld *ld, uint32_t operand)
+{
+	const struct meaning *write = meaning(ld, operand);
+	uint32_t key;
+
+	if (!write)
+		return;
+	key = place_key(write);
+	freeze_at(ld, write, key);
+	if (write->addr.area == AREA_NONE)
+		return;
+	freeze_at(ld, write, key - 1);
+	freeze_at(ld, write, key + 1);
+}
+
+void ld_read(struct ld *ld, int element)
+{
+	struct element_state *state = &ld->element[element];
+	const struct meaning *read = state->leaf ? meaning(ld, state->leaf)
+						 : NULL;
+	int *head;
+
+	if (!read)
+		return;
+	head = &ld->reader[place_key(read) & ld->reader_mask];
+	state->next = *head;
+	*head = element;
 }
 
 /* ---- watching ---- */
@@ -256,5 +291,6 @@ void ld_settle_element(struct ld *ld, int element)
 	load_element(ld, element);
 	*state = (struct element_state){
 		.seen = true, .powered = true, .leaf = store_power(ld),
+		.next = state->next,
 	};
 }

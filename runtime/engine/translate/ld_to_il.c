@@ -72,7 +72,6 @@ static void evaluate(struct ld *ld, int element)
 	const struct word_row *row = row_of(ld, element);
 
 	ld_place(ld, at->row, at->col);
-	ld->evaluated[ld->evaluated_count++] = element;
 	if (is_actor(ld, element))
 		return;
 	if (row->kind != WORD_ELEM)
@@ -87,6 +86,7 @@ static void evaluate(struct ld *ld, int element)
 		state->leaf = operand_of(ld, element);
 	state->negate = row->negate;
 	ld_settle_element(ld, element);
+	ld_read(ld, element);
 }
 
 static void visit_net(struct ld *ld, int net);
@@ -270,6 +270,20 @@ static void note_rung(struct ld *ld)
 		}
 }
 
+/* One list of readers for about every element, at most 4096 of them. */
+static bool prepare_readers(struct ld *ld)
+{
+	uint32_t size = 4;
+
+	while (size < 4096 && size < (uint32_t)ld->network.element_count)
+		size *= 2;
+	ld->reader_mask = size - 1;
+	ld->reader = arena_alloc(ld->scratch, size * sizeof(*ld->reader));
+	for (uint32_t i = 0; ld->reader && i < size; i++)
+		ld->reader[i] = -1;
+	return ld->reader;
+}
+
 static bool prepare_rung(struct ld *ld)
 {
 	const struct network *n = &ld->network;
@@ -279,13 +293,10 @@ static bool prepare_rung(struct ld *ld)
 		return false;
 	ld->element = arena_alloc(ld->scratch, ((size_t)n->element_count + 1) *
 				  sizeof(*ld->element));
-	ld->evaluated = arena_alloc(ld->scratch, ((size_t)n->element_count + 1) *
-				    sizeof(*ld->evaluated));
 	ld->net = arena_alloc(ld->scratch,
 			      ((size_t)n->net_count + 1) * sizeof(*ld->net));
-	ld->evaluated_count = 0;
 	temps_rung(ld->temps);
-	return ld->element && ld->evaluated && ld->net;
+	return ld->element && ld->net && prepare_readers(ld);
 }
 
 static void translate_rung(struct ld *ld)
