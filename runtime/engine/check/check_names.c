@@ -84,14 +84,19 @@ static const char *const keywords[] = {
 #define RESERVED_COUNT \
 	(KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
 
-/* Reserved word number @i, in any order; "" for none. */
+/* Reserved word number @i, in any order; "" for none. Words of contacts and coils
+ * are free: N may be a number, P a pump; a cell always begins with its word. */
 static const char *reserved_word(int i)
 {
+	const struct word_row *row;
+
 	if (i < KEYWORDS)
 		return keywords[i];
 	i -= KEYWORDS;
-	if (i < (int)WORD_COUNT)
-		return word_row((enum word)i)->word;
+	if (i < (int)WORD_COUNT) {
+		row = word_row((enum word)i);
+		return row->kind == WORD_ELEM ? "" : row->word;
+	}
 	i -= (int)WORD_COUNT;
 	if (i < (int)OP_COUNT)
 		return op_row((enum op)i)->word;
