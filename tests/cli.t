@@ -14,6 +14,7 @@ use Test::More;
 use Time::HiRes qw(sleep time);
 
 my $ladder = abs_path($ENV{LADDER} // 'build/ladder');
+my $root = abs_path('.');
 my $dir = tempdir(CLEANUP => 1);
 my $diag = qr/^\S.*: (?:error|warning) LD\d{3}: /;
 chdir $dir or die;
@@ -268,6 +269,23 @@ is_run(2, 'a folder without scenarios', ['test', 'empty']);
 put('wrong.rung', $canonical); put('wrong.scn', "scenario \"x\"\nexpect Nothing\n");
 ($out, $err) = is_run(1, 'a wrong scenario', ['test', 'wrong.scn']);
 like($err, qr/^wrong\.scn:2:8: error LD301: .*Nothing/, 'a wrong scenario: place and name');
+
+my $locals = "VAR\n  X : BOOL;\n  T : TON;\nEND_VAR\nRUNG\n  | NO I0 | TON T PT:=T#0s | COIL X |\nRUNG\n  | NO X | COIL";
+put('locals.rung', "RUNGBOARD 1\nPROGRAM A LD\n$locals Q0 |\nEND_PROGRAM\nPROGRAM B LD\n$locals Q1 |\nEND_PROGRAM\n");
+put('locals.scn', "scenario \"x\"\nat 0ms I0 = 1\nexpect A.X and b.t.q\n");
+is_run(0, 'a local with its program', ['test', 'locals.scn']);
+put('locals.scn', "scenario \"x\"\nat 0ms X = 1\nexpect T.Q\n");
+($out, $err) = is_run(1, 'a local of which program', ['test', 'locals.scn']);
+like($err, qr/^locals\.scn:2:8: error LD327: .*: X\n.*:3:8: error LD327: .*: T\.Q$/m, 'a local of which program: place and name');
+($out, $err) = is_run(1, 'trace: of which program', ['trace', 'locals.rung', '-'], "\@print A.X X\nT.PT=5\n");
+is(() = $err =~ /error LD327/g, 2, 'trace: of which program');
+is_run(2, 'run: of which program', ['run', 'locals.rung', '--set', 'X=1', '--scans', '1']);
+
+# ---- the examples of --help name files that are there ----
+for my $name (qw(check fmt show il code build run trace test bench words diff io)) {
+	($out) = is_run(0, "$name --help", [$name, '--help']);
+	is_deeply([grep { !-e "$root/$_" } $out =~ m{\b(ladders/[\w./-]*)}g], [], "$name --help: files of the example");
+}
 
 # ---- bench, io ----
 ($out) = is_run(0, 'bench', ['bench', 'good.rung', '--scans', '60']);

@@ -170,15 +170,19 @@ static bool put_lamps(struct live *live)
 static void put_variable(struct live *live, const struct moving *moving,
 			 int col, int limit)
 {
+	bool time = moving->at.type == IEC_TIME;
 	char text[40];
 
-	screen_column(&live->screen, col, limit);
+	iec_value_print(moving->at.type, moving->last, text, sizeof(text));
+	/* A long name gives way to the value, which is what people watch. */
+	screen_column(&live->screen, col,
+		      limit - (int)strlen(text) - (time ? 6 : 3));
 	screen_put(&live->screen, STYLE_PLAIN, " ");
 	screen_put(&live->screen, STYLE_PLAIN, moving->name);
-	iec_value_print(moving->at.type, moving->last, text, sizeof(text));
+	screen_column(&live->screen, col, limit);
 	screen_put(&live->screen, STYLE_DIM, " = ");
 	screen_put(&live->screen, STYLE_BOLD, text);
-	if (moving->at.type == IEC_TIME)
+	if (time)
 		screen_put(&live->screen, STYLE_DIM, " ms");
 }
 

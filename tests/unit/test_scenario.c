@@ -133,7 +133,7 @@ static void test_wrong(void)
 	CHECK_TEXT(run(S "expect Level\n"), "LD324:2:8");
 	CHECK_TEXT(run(S "expect Level + 1 = Delay.ET\n"), "LD303:2:8");
 	CHECK_TEXT(run(S "expect Motor Motor\n"), "LD106:2:14");
-	CHECK_TEXT(run(S "at 5 expect Motor\n"), "LD115:2:4");
+	CHECK_TEXT(run(S "at 5 expect Motor\n"), "LD107:2:4");
 	CHECK_TEXT(run(S "at x expect Motor\n"), "LD107:2:4");
 	CHECK_TEXT(run(S "at 2s expect Motor\nat 1s expect Motor\n"),
 		   "LD126:3:7");

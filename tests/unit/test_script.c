@@ -181,6 +181,11 @@ static void test_vcd(void)
 		   "b0000000000000000 \"\nr0 #\n$end\n#10000000\n1!\n"
 		   "b0000000000000111 \"\nr1.5 #\n#20000000\n"
 		   "b0000000000001110 \"\n");
+	const char *quiet = run_form("@print Motor\nOpen=1\n. x3\n", TRACE_VCD,
+				     false);
+
+	CHECK_AS(strstr(quiet, "#10000000\n1!\n#40000000\n"),
+		 "the wave is as long as the run, also when nothing changes");
 }
 
 static void test_wrong(void)

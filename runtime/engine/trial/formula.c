@@ -66,11 +66,13 @@ static bool take_leaf(const struct image *image, const struct expr_node *from,
 	term->op = EXPR_LITERAL;
 	if (from->op == EXPR_LITERAL)
 		return take_literal(term, from->text, from->len, why);
-	term->at = value_find(image, from->text, from->len);
+	enum diag_id missing;
+
+	term->at = value_find(image, from->text, from->len, &missing);
 	if (term->at.type == IEC_NONE) {
 		if (take_literal(term, from->text, from->len, why))
 			return true;
-		*why = DIAG_UNKNOWN_NAME;
+		*why = missing;
 		return false;
 	}
 	term->op = EXPR_NAME;

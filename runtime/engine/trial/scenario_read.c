@@ -96,10 +96,10 @@ static bool take_time(struct reader *reader, int64_t *ns)
 		result = LITERAL_OK;
 		*ns = 0;
 	}
+	if (result == LITERAL_RANGE)
+		return complain_here(reader, DIAG_LITERAL_RANGE);
 	if (result != LITERAL_OK)
-		return complain_here(reader, result == LITERAL_RANGE ?
-						     DIAG_LITERAL_RANGE :
-						     DIAG_BAD_LITERAL);
+		return complain(reader, DIAG_EXPECTED, "a time such as 10ms");
 	step_over(reader);
 	return true;
 }
@@ -216,17 +216,18 @@ static bool take_setting(struct reader *reader)
 	struct token name = reader->lex.token;
 	struct diag place = place_of(reader);
 	struct location target;
+	enum diag_id why;
 
 	if (name.kind != TOKEN_NAME && name.kind != TOKEN_ADDRESS)
 		return complain_here(reader, DIAG_SYNTAX);
-	target = value_find(reader->image, name.text, name.len);
+	target = value_find(reader->image, name.text, name.len, &why);
 	step_over(reader);
 	if (!accept(reader, "=") && !accept(reader, ":=")) {
 		place.id = DIAG_EXPECTED;
 		return diag_add(reader->diags, place, "NAME = VALUE or expect");
 	}
 	if (target.type == IEC_NONE) {
-		place.id = DIAG_UNKNOWN_NAME;
+		place.id = why;
 		return diag_add(reader->diags, place, "%.*s",
 				name.len < 60 ? (int)name.len : 60, name.text);
 	}

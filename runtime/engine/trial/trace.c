@@ -83,10 +83,11 @@ static bool complain(struct diag_list *diags, struct diag place,
 static bool show_one(struct trace *trace, const char *name, size_t len,
 		     struct diag_list *diags, struct diag place)
 {
-	struct location at = value_find(trace->image, name, len);
+	enum diag_id why;
+	struct location at = value_find(trace->image, name, len, &why);
 
 	if (at.type == IEC_NONE)
-		return complain(diags, place, DIAG_UNKNOWN_NAME, name, len);
+		return complain(diags, place, why, name, len);
 	if (!add_column(trace, name, len, at))
 		return complain(diags, place, DIAG_NO_MEMORY, "", 0);
 	return true;
@@ -173,14 +174,15 @@ bool trace_show(struct trace *trace, const char *text, size_t len,
 	    (!other || (other == stem && !memcmp(text, dots + 2, stem))))
 		return show_numbers(trace, text, stem, first, last, diags,
 				    place);
-	struct location from = value_find(trace->image, text, left);
-	struct location to = value_find(trace->image, dots + 2, right);
+	enum diag_id why;
+	struct location from = value_find(trace->image, text, left, &why);
 
 	if (from.type == IEC_NONE)
-		return complain(diags, place, DIAG_UNKNOWN_NAME, text, left);
+		return complain(diags, place, why, text, left);
+	struct location to = value_find(trace->image, dots + 2, right, &why);
+
 	if (to.type == IEC_NONE)
-		return complain(diags, place, DIAG_UNKNOWN_NAME, dots + 2,
-				right);
+		return complain(diags, place, why, dots + 2, right);
 	return show_declared(trace, from, to, diags, place);
 }
 
@@ -257,6 +259,10 @@ void trace_note(struct trace *trace, const char *text, size_t len)
 
 void trace_end(struct trace *trace)
 {
+	/* How long nothing changed at the end, or a viewer would not show it. */
+	if (trace->begun && trace->form == TRACE_VCD &&
+	    trace->last_ns > trace->stamp_ns)
+		sink_printf(trace->out, "#%lld\n", (long long)trace->last_ns);
 	if (trace->begun)
 		return;
 	if (trace->form == TRACE_CSV)

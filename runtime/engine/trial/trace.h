@@ -33,6 +33,7 @@ struct trace {
 				  when it is true, whoever runs scans ends   */
 	bool begun;            /* the head of CSV or VCD is written          */
 	int64_t stamp_ns;      /* VCD: time written last                     */
+	int64_t last_ns;       /* VCD: time of the last scan                 */
 	struct trace_column *column;
 	int count;
 };
@@ -72,6 +73,6 @@ void trace_scan(struct trace *trace, uint64_t scan, int64_t now_ns);
 void trace_note(struct trace *trace, const char *text, size_t len);
 /** trace_stopped - has the caller had enough? */
 bool trace_stopped(const struct trace *trace);
-/** trace_end - the head, if no scan wrote it. */
+/** trace_end - the head, if no scan wrote it; of VCD, when the last scan was. */
 void trace_end(struct trace *trace);
 #endif

@@ -115,6 +115,7 @@ void trace_vcd(struct trace *trace, int64_t now_ns)
 {
 	if (!trace->begun)
 		trace_vcd_head(trace);
+	trace->last_ns = now_ns;
 	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
 		struct trace_column *column = &trace->column[i];
 

@@ -5,6 +5,8 @@
  */
 #include "engine/trial/value.h"
 
+#include "engine/base/ascii.h"
+
 #include <string.h>
 
 static const struct {
@@ -185,11 +187,44 @@ bool value_parse(enum iec_type type, const char *text, size_t len,
 	return result == LITERAL_OK && literal_fit(&literal, type, out);
 }
 
+static bool is_head(const char *word, const char *text, size_t len)
+{
+	return strlen(word) == len && ascii_same(word, text, len);
+}
+
+/* A bare name of locals in several programs, and of nothing that all see. */
+static bool is_ambiguous(const struct program *p, const char *name, size_t len)
+{
+	const char *dot = memchr(name, '.', len);
+	size_t head = dot ? (size_t)(dot - name) : len;
+	bool local = false;
+
+	for (uint32_t i = 0; i < p->symbol_count; i++) {
+		const struct code_symbol *symbol = &p->symbol[i];
+
+		if (symbol->pou && is_head(p->string + symbol->pou, name, head))
+			return false;
+		if (!(symbol->flags & SYMBOL_SHARED) ||
+		    !is_head(p->string + symbol->name, name, head))
+			continue;
+		if (!symbol->pou)
+			return false;
+		local = true;
+	}
+	return local;
+}
+
 struct location value_find(const struct image *image, const char *name,
-			   size_t len)
+			   size_t len, enum diag_id *why)
 {
 	struct location at = image_find(image, name, len);
 
+	*why = DIAG_UNKNOWN_NAME;
+	if (at.type != IEC_NONE && is_ambiguous(image->program, name, len)) {
+		*why = DIAG_AMBIGUOUS_NAME;
+		at.type = IEC_NONE;
+		return at;
+	}
 	if (at.type == IEC_NONE && len > 1 && *name == '%')
 		at = image_find(image, name + 1, len - 1);
 	return at;
@@ -208,10 +243,9 @@ bool setting_parse(const struct image *image, const char *text, size_t len,
 		return diag_add(diags, place, "NAME=VALUE, not %.*s",
 				(int)(len < 40 ? len : 40), text);
 	}
-	out->at = value_find(image, text, name);
+	out->at = value_find(image, text, name, &why);
 	if (out->at.type == IEC_NONE || out->at.constant) {
-		place.id = out->at.constant ? DIAG_WRITE_CONSTANT :
-					      DIAG_UNKNOWN_NAME;
+		place.id = out->at.type == IEC_NONE ? why : DIAG_WRITE_CONSTANT;
 		return diag_add(diags, place, "%.*s",
 				(int)(name < 60 ? name : 60), text);
 	}

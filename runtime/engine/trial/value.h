@@ -38,10 +38,16 @@ enum literal_result value_parse_time(const char *text, size_t len,
 bool value_parse(enum iec_type type, const char *text, size_t len,
 		 union iec_value *out, enum diag_id *why);
 
-/** value_find - image_find, which also takes a short address with its percent
- * sign (%I0, %Q7) as traces have it. Scan-safe: no. */
+/**
+ * value_find - image_find, which also takes a short address with its percent
+ * sign (%I0, %Q7) as traces have it
+ *
+ * A local that several programs have must be named with its program.
+ * Owns: nothing.   Scan-safe: no. Fails: IEC_NONE; DIAG_UNKNOWN_NAME or
+ * DIAG_AMBIGUOUS_NAME in @why.
+ */
 struct location value_find(const struct image *image, const char *name,
-			   size_t len);
+			   size_t len, enum diag_id *why);
 
 struct setting {
 	struct location at;
