@@ -206,6 +206,12 @@ is($out, $direct, 'the image does the same');
 is_run(1, 'il of an image', ['il', 'good.rungc']);
 is_run(1, 'show of an image', ['show', 'good.rungc']);
 is_run(1, 'fmt of an image', ['fmt', 'good.rungc']);
+is_run(0, 'build --small', ['build', '--small', 'good.rung', '-o', 'small.rungc']);
+($out) = is_run(0, 'diff of an image and its small one', ['diff', 'good.rungc', 'small.rungc']);
+is($out, '', 'diff of an image and its small one: nothing');
+is_run(0, 'diff of a program and its image', ['diff', 'good.rung', 'good.rungc']);
+($out) = is_run(1, 'diff of a program and an image of another', ['diff', 'other.rung', 'good.rungc']);
+is($out, "the code images differ\n", 'diff of a program and an image of another');
 is_run(2, 'build without -o', ['build', 'good.rung']);
 is_run(2, 'build into no folder', ['build', 'good.rung', '-o', 'nowhere/good.rungc']);
 my $image = get('good.rungc');
@@ -365,6 +371,18 @@ for my $args ([qw(words)], ['trace', 'good.rung', '-']) {
 	waitpid $pid, 0;
 	is($?, 2 << 8, "$args->[0] into a closed pipe: exit 2, no signal");
 	like(get('.err'), qr/^standard output: error LD006: .*\n\z/, "$args->[0] into a closed pipe: says so once");
+}
+
+# ---- the live view: what people see when a program stops with a fault ----
+SKIP: {
+	skip 'no script(1) to make a terminal', 3 unless grep { -x "$_/script" } split /:/, $ENV{PATH};
+	my $moving = 'AVeryLongNameForAMotorInTheBasement';
+	put('loop.rung', "RUNGBOARD 1\nVAR\n  $moving : BOOL;\nEND_VAR\nPROGRAM Main LD\nRUNG L\n  | NO I0 | S Q0 |\n  |      ^| S $moving |\nRUNG\n  | NO I0 | JMP L |\nEND_PROGRAM\n");
+	put('loop.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim safe=0\n%QX0.1 sim safe=1\n");
+	my $screen = `(sleep 0.5; printf q; sleep 1) | NO_COLOR=1 LC_ALL=C script -qc 'stty cols 60 rows 20; \Q$ladder\E run loop.rung --io loop.io --set I0=1' /dev/null`;
+	like($screen, qr/FAULT: instruction budget/, 'live: a fault is told');
+	like($screen, qr/o 0 %QX0\.0.*\* 1 %QX0\.1/s, 'live: in a fault outputs have their safe values');
+	like($screen, qr/ AVeryLong\w+ = 1/, 'live: a long name leaves room for the value');
 }
 chdir '/';
 done_testing();

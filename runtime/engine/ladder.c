@@ -11,6 +11,7 @@
 #include "engine/text/text.h"
 #include "engine/translate/translate.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -96,10 +97,12 @@ static char *load_include(void *context, const char *from, const char *name,
 	}
 	memcpy(path, from, folder);
 	memcpy(path + folder, name, strlen(name) + 1);
+	errno = 0;
 	text = ladder_read_file(path, LIMIT_TEXT, len, NULL);
 	if (!text && diags->errors == before) {
 		place.id = DIAG_BAD_INCLUDE;
-		diag_add(diags, place, "%s", name);
+		diag_add(diags, place, "%.60s: %s", name,
+			 errno ? strerror(errno) : "not a file of text");
 	}
 	free(path);
 	return text;

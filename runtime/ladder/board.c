@@ -233,6 +233,23 @@ void board_set(struct board *board, struct location at, union iec_value value)
 	image_set(&board->resource->image, at, value);
 }
 
+bool board_is_on(const struct board *board, const struct lamp *lamp)
+{
+	struct iec_addr addr = address_of(lamp->at);
+
+	if (board->resource->state != STATE_FAULT || addr.area != AREA_Q)
+		return image_get_bit(&board->resource->image, lamp->at.area,
+				     lamp->at.where);
+	for (int i = 0; board->mapped && i < board->map.count; i++) {
+		const struct io_point *point = &board->map.point[i];
+
+		if (point->addr.area == addr.area &&
+		    point->addr.byte == addr.byte && point->addr.bit == addr.bit)
+			return point->safe;
+	}
+	return false;
+}
+
 void board_toggle(struct board *board, int index)
 {
 	if (index < 0 || index >= board->input.count)

@@ -57,6 +57,8 @@ void board_close(struct board *board);
 void board_start(struct board *board);
 /** board_set - a variable; a switch if it is an input. */
 void board_set(struct board *board, struct location at, union iec_value value);
+/** board_is_on - what a lamp shows: in a FAULT outputs have their safe values. */
+bool board_is_on(const struct board *board, const struct lamp *lamp);
 /** board_toggle - switch number @index. */
 void board_toggle(struct board *board, int index);
 /** board_scan - inputs, one scan, outputs. False: the program is in FAULT. */

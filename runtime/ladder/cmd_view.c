@@ -5,6 +5,7 @@
  */
 #include "ladder/report.h"
 
+#include "engine/scan/code.h"
 #include "engine/view/view.h"
 
 #include <stdlib.h>
@@ -115,15 +116,22 @@ enum status cmd_show(struct call *call)
 	return status;
 }
 
-static enum status compare(struct call *call, const struct ladder *a,
-			   const struct ladder *b)
+/* Where one of them is an image: do they run the same code on the same data? */
+static enum status compare(struct call *call, struct ladder *a,
+			   struct ladder *b)
 {
-	size_t a_len = 0, b_len = 0;
-	const void *first = ladder_image(a, &a_len);
-	const void *second = ladder_image(b, &b_len);
+	struct ladder *both[] = { a, b };
+	uint8_t identity[2][32];
 	bool json = call_flag(call, "--json");
-	bool same = a_len == b_len && first && second &&
-		    !memcmp(first, second, a_len);
+
+	for (int i = 0; i < 2; i++) {
+		if (!ladder_program(both[i]) && !ladder_build(both[i])) {
+			report_diags(ladder_diags(both[i]));
+			return STATUS_WRONG;
+		}
+		code_identity(ladder_program(both[i]), identity[i]);
+	}
+	bool same = !memcmp(identity[0], identity[1], sizeof(identity[0]));
 
 	if (json)
 		sink_text(&call->out, same ? "[]\n" :
@@ -138,10 +146,8 @@ static enum status diff(struct call *call, struct ladder *a, struct ladder *b)
 	struct project *first = ladder_project(a), *second = ladder_project(b);
 	bool json = call_flag(call, "--json");
 
-	if (!first && !second)
-		return compare(call, a, b);
 	if (!first || !second)
-		return no_project(call->arg[first != NULL]);
+		return compare(call, a, b);
 	int count = view_diff(first, second, json, &call->out);
 
 	if (count < 0)

@@ -98,8 +98,7 @@ static void put_lamp(struct live *live, const struct lamp *lamp, char key,
 		     int col, int limit)
 {
 	struct screen *screen = &live->screen;
-	bool on = image_get_bit(&live->board->resource->image, lamp->at.area,
-				lamp->at.where);
+	bool on = board_is_on(live->board, lamp);
 	char text[8];
 
 	screen_column(screen, col, limit);

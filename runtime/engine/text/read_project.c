@@ -184,7 +184,8 @@ static void include_file(struct reader *r, uint32_t name, struct diag place)
 	}
 	place.id = DIAG_BAD_INCLUDE;
 	if (!may_include(r, path)) {
-		diag_add(r->diags, place, "%.96s", text_name);
+		diag_add(r->diags, place, "%.64s: includes itself or too deep",
+			 text_name);
 		return;
 	}
 	char *text = r->source->load(r->source->context, r->place.file,
@@ -194,7 +195,7 @@ static void include_file(struct reader *r, uint32_t name, struct diag place)
 	/* Files that name each other many times must not take for ever. */
 	*r->total += len + 1024;
 	if (*r->total > LIMIT_TEXT)
-		diag_add(r->diags, place, "%.96s", text_name);
+		diag_add(r->diags, place, "%.70s: too much text", text_name);
 	else
 		read_included(r, path, text, len);
 	free(text);

@@ -190,7 +190,8 @@ static bool read_link(struct reader *r, struct cell *cell)
 	if (!reader_is(r, '^'))
 		return true;
 	if (r->place.row == 1)
-		return reader_fail_token(r, DIAG_MISPLACED);
+		return reader_fail_word(r, DIAG_LINK_NOWHERE,
+					"no row is above the first");
 	reader_next(r);
 	if (!reader_is(r, '|'))
 		return reader_fail_word(r, DIAG_EXTRA_TEXT, "^");
