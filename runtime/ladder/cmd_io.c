@@ -73,7 +73,7 @@ static enum status list_lines(struct call *call, struct diag_list *diags)
 	} else {
 		report_diags(diags);
 		if (!list.count && good)
-			sink_printf(&call->out, "no GPIO lines here (%s)\n",
+			sink_printf(&call->out, "no GPIO lines here (libgpiod: %s)\n",
 				    gpio_version());
 	}
 	return good ? STATUS_GOOD : STATUS_NO;
