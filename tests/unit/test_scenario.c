@@ -129,7 +129,8 @@ static void test_wrong(void)
 	CHECK_TEXT(run("scenario\nexpect Motor\n"), "LD107:1:9");
 	CHECK_TEXT(run(S "at 0 Open = 1\n"), "LD107:1:0");
 	CHECK_TEXT(run(S "expect Nothing\n"), "LD301:2:8");
-	CHECK_TEXT(run(S "expect Motor and Level\n"), "LD324:2:8");
+	CHECK_TEXT(run(S "expect Motor and Level\n"), "LD324:2:18");
+	CHECK_TEXT(run(S "expect Level and Motor\n"), "LD324:2:8");
 	CHECK_TEXT(run(S "expect Level\n"), "LD324:2:8");
 	CHECK_TEXT(run(S "expect Level + 1 = Delay.ET\n"), "LD303:2:8");
 	CHECK_TEXT(run(S "expect Motor Motor\n"), "LD106:2:14");

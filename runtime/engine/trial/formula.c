@@ -128,11 +128,18 @@ static bool take_operation(const struct formula *formula,
 	return left->kind == KIND_BOOL && right->kind == KIND_BOOL;
 }
 
-/* The text to blame for an operation: its first operand's. */
-static const struct expr_node *blame(const struct expr *expr, int at)
+/* The text to blame for an operation: of its first operand, or of the second
+ * if that alone is not BOOL and has to be. */
+static const struct expr_node *blame(const struct formula *formula,
+				     const struct expr *expr, int at,
+				     enum diag_id why)
 {
+	const struct expr_node *from = &expr->node[at];
 	int steps = 0;
 
+	if (why == DIAG_NOT_BOOL && from->right >= 0 &&
+	    formula->term[from->left].kind == KIND_BOOL)
+		at = from->right;
 	while (!expr->node[at].text && expr->node[at].left >= 0 &&
 	       steps++ < LIMIT_EXPR_NODES)
 		at = expr->node[at].left;
@@ -168,7 +175,8 @@ struct formula *formula_new(const struct image *image, const struct expr *expr,
 		term->right = from->right;
 		if (leaf ? !take_leaf(image, from, term, arena, &why) :
 			   !take_operation(formula, term, &why)) {
-			complain(diags, place, why, line_start, blame(expr, i));
+			complain(diags, place, why, line_start,
+				 blame(formula, expr, i, why));
 			return NULL;
 		}
 		formula->constant &= term->op != EXPR_NAME;
