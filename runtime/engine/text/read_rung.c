@@ -128,8 +128,11 @@ static bool read_operand(struct reader *r, struct cell *cell,
 	if ((token->kind != TOKEN_NAME && token->kind != TOKEN_ADDRESS) ||
 	    (row->kind == WORD_FB &&
 	     (reader_peek(r, ":=") || reader_peek(r, "=>"))))
-		return reader_fail(r, DIAG_MISSING_OPERAND, word->text,
-				   word->len);
+		return row->kind == WORD_FB ?
+			reader_fail_word(r, DIAG_MISSING_OPERAND,
+					 "the name of its instance") :
+			reader_fail(r, DIAG_MISSING_OPERAND, word->text,
+				    word->len);
 	if (plain && !reader_name(r, "name", &cell->operand))
 		return false;
 	if (!plain) {
