@@ -344,7 +344,8 @@ const void *ladder_image(const struct ladder *ladder, size_t *len)
 
 const struct il *ladder_il(const struct ladder *ladder, int pou)
 {
-	if (pou < 0 || pou >= ladder->translation.unit_count)
+	if (!ladder->translation.unit || pou < 0 ||
+	    pou >= ladder->translation.unit_count)
 		return NULL;
 	return &ladder->translation.unit[pou].il;
 }
@@ -355,7 +356,8 @@ struct var *const *ladder_temporaries(const struct ladder *ladder, int pou,
 	const struct unit *unit;
 
 	*count = 0;
-	if (pou < 0 || pou >= ladder->translation.unit_count)
+	if (!ladder->translation.unit || pou < 0 ||
+	    pou >= ladder->translation.unit_count)
 		return NULL;
 	unit = &ladder->translation.unit[pou];
 	*count = unit->temp_count;

@@ -104,7 +104,8 @@ static int write_all(int fd, const char *bytes, size_t len)
 	return 0;
 }
 
-/* The new name in the folder must survive a power cut too. */
+/* The new name in the folder must survive a power cut too. A folder that may be
+ * written but not read cannot be told so; the file is there all the same. */
 static int sync_folder(const char *path)
 {
 	const char *slash = strrchr(path, '/');
@@ -119,7 +120,7 @@ static int sync_folder(const char *path)
 	fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 	free(folder);
 	if (fd < 0)
-		return -errno;
+		return errno == EACCES ? 0 : -errno;
 	if (fsync(fd) < 0 && errno != EINVAL)
 		result = -errno;
 	close(fd);

@@ -25,8 +25,7 @@ struct il_check {
 	uint8_t *label;        /* by folded name: is it a label?            */
 	uint32_t label_count;
 	struct result now;
-	struct result *open; /* left of each open parenthesis               */
-	int depth;
+	int depth;           /* of open parentheses; what stands left is a bit */
 };
 
 enum iec_type types_join(enum iec_type a, enum iec_type b)
@@ -57,10 +56,12 @@ static bool report(struct il_check *c, const struct il_line *line,
 static bool report_types(struct il_check *c, const struct il_line *line,
 			 enum iec_type from, enum iec_type to)
 {
+	const char *operand = line->operand ?
+		scope_text(c->scope, line->operand) : "";
 	char text[LIMIT_ARG];
 
-	snprintf(text, sizeof(text), "%s and %s", iec_type_row(from)->word,
-		 iec_type_row(to)->word);
+	snprintf(text, sizeof(text), "%s and %s%s%.24s", iec_type_row(from)->word,
+		 iec_type_row(to)->word, *operand ? ": " : "", operand);
 	return report(c, line, DIAG_NEEDS_CONVERSION, text);
 }
 
@@ -102,6 +103,35 @@ static struct result result_of(const struct meaning *m)
 	return out;
 }
 
+/* An untyped constant that is no value of @to: out of its range, or of another
+ * kind; then with an example of the right one. */
+static bool report_constant(struct il_check *c, const struct il_line *line,
+			    const struct literal *literal, enum iec_type to)
+{
+	static const struct { uint8_t class; const char *like; } kind[] = {
+		{ CLASS_BOOL, "TRUE" }, { CLASS_TIME, "T#5s" },
+		{ CLASS_REAL, "1.5" }, { ANY_INT | CLASS_BITS, "5" },
+	};
+	const struct iec_type_row *row = iec_type_row(to);
+	char text[LIMIT_ARG];
+	int k = 0;
+
+	if (row->class & (ANY_NUM | CLASS_BITS) &&
+	    (!literal->real || row->class == CLASS_REAL))
+		return report(c, line, DIAG_LITERAL_RANGE, row->word);
+	while (!(kind[k].class & row->class))
+		k++;
+	snprintf(text, sizeof(text), "must be %s, such as %s", row->word,
+		 kind[k].like);
+	return report(c, line, DIAG_WRONG_CONSTANT, text);
+}
+
+/* After an error was told: a result that fits everywhere. */
+static bool is_unknown(struct result result)
+{
+	return result.there && result.type == IEC_NONE && !result.literal;
+}
+
 /* Can the value go to @to? An untyped constant must fit. */
 static bool can_store(struct il_check *c, const struct il_line *line,
 		      struct result from, enum iec_type to)
@@ -111,10 +141,10 @@ static bool can_store(struct il_check *c, const struct il_line *line,
 	if (from.literal) {
 		if (literal_fit(from.literal, to, &value))
 			return true;
-		return report(c, line, from.literal->real == (to == IEC_REAL) ?
-			      DIAG_LITERAL_RANGE : DIAG_WRONG_TYPE,
-			      iec_type_row(to)->word);
+		return report_constant(c, line, from.literal, to);
 	}
+	if (is_unknown(from))
+		return false;
 	if (iec_can_widen(from.type, to))
 		return true;
 	return report_types(c, line, from.type, to);
@@ -146,6 +176,8 @@ static bool need_bool(struct il_check *c, const struct il_line *line,
 	if (result.type == IEC_BOOL ||
 	    (result.literal && literal_fit(result.literal, IEC_BOOL, &value)))
 		return true;
+	if (is_unknown(result))
+		return false;
 	return report(c, line, DIAG_NOT_BOOL, what);
 }
 
@@ -157,9 +189,10 @@ static bool check_load(struct il_check *c, const struct il_line *line)
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!m)
 		return false;
+	if (line->modifiers & MOD_N)
+		return need_bool(c, line, result_of(m), operand_text(c, line));
 	c->now = result_of(m);
-	return !(line->modifiers & MOD_N) ||
-	       need_bool(c, line, c->now, operand_text(c, line));
+	return true;
 }
 
 static bool check_store(struct il_check *c, const struct il_line *line)
@@ -177,26 +210,26 @@ static bool check_store(struct il_check *c, const struct il_line *line)
 
 static bool check_logic(struct il_check *c, const struct il_line *line)
 {
-	if (!need_result(c, line) || !need_bool(c, line, c->now, "result"))
-		return false;
+	bool good = need_result(c, line) && need_bool(c, line, c->now, "result");
+
 	if (line->modifiers & MOD_PAREN) {
 		if (c->depth == LIMIT_IL_DEPTH)
 			return report(c, line, DIAG_TOO_DEEP, "(");
-		c->open[c->depth++] = c->now;
+		c->depth++;
 		c->now.there = false;
 		if (!line->operand)
-			return true;
+			return good;
 	}
 	const struct meaning *m = value_of(c, line);
 
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!m)
 		return false;
-	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (line->modifiers & MOD_PAREN) {
 		c->now = result_of(m); /* AND( Level, then GT 10 */
-		return true;
+		return good;
 	}
-	return need_bool(c, line, result_of(m), operand_text(c, line));
+	return need_bool(c, line, result_of(m), operand_text(c, line)) && good;
 }
 
 static bool check_close(struct il_check *c, const struct il_line *line)
@@ -235,7 +268,10 @@ static bool check_flow(struct il_check *c, const struct il_line *line)
 
 static bool check_not(struct il_check *c, const struct il_line *line)
 {
-	return need_result(c, line) && need_bool(c, line, c->now, "result");
+	bool good = need_result(c, line) && need_bool(c, line, c->now, "result");
+
+	c->now = (struct result){ .there = true, .type = IEC_BOOL };
+	return good;
 }
 
 /* ---- functions and calls ---- */
@@ -247,7 +283,6 @@ static bool check_inputs(struct il_check *c, const struct il_line *line,
 {
 	const struct word_row *row = word_row((enum word)line->word);
 	enum iec_type type = IEC_NONE;
-	bool real = false;
 	union iec_value value;
 
 	for (int i = 0; i < count; i++) {
@@ -255,20 +290,24 @@ static bool check_inputs(struct il_check *c, const struct il_line *line,
 		enum iec_type own = point ? IEC_REAL : in[i].type;
 		enum iec_type join = types_join(type, own);
 
+		if (is_unknown(in[i]))
+			return false;
 		if (join == IEC_TYPE_COUNT)
 			return report_types(c, line, type, own);
 		type = join;
-		real |= point;
 	}
 	if (type == IEC_NONE) /* constants only: as the result wants them */
 		type = hint ? hint : IEC_DINT;
-	if (!(row->pin[0].classes & iec_type_row(type)->class))
-		return report(c, line, DIAG_WRONG_TYPE, iec_type_row(type)->word);
+	if (!(row->pin[0].classes & iec_type_row(type)->class)) {
+		char text[LIMIT_ARG];
+
+		snprintf(text, sizeof(text), "%s does not take %s", row->word,
+			 iec_type_row(type)->word);
+		return report(c, line, DIAG_WRONG_TYPE, text);
+	}
 	for (int i = 0; i < count; i++)
 		if (in[i].literal && !literal_fit(in[i].literal, type, &value))
-			return report(c, line, real == (type == IEC_REAL) ?
-				      DIAG_LITERAL_RANGE : DIAG_WRONG_TYPE,
-				      iec_type_row(type)->word);
+			return report_constant(c, line, in[i].literal, type);
 	*common = type;
 	return true;
 }
@@ -289,6 +328,8 @@ static bool check_fn(struct il_check *c, const struct il_line *line,
 
 	if (!need_result(c, line))
 		return false;
+	c->now = (struct result){ .there = true, .type = row->result ==
+		RESULT_BOOL ? IEC_BOOL : IEC_NONE };
 	if (line->operand) {
 		const struct meaning *m = value_of(c, line);
 
@@ -538,8 +579,7 @@ bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
 	};
 	bool good = find_labels(&c, scratch);
 
-	c.open = arena_alloc(scratch, LIMIT_IL_DEPTH * sizeof(*c.open));
-	if (!c.label || !c.open)
+	if (!c.label)
 		return false;
 	for (int i = 0; i < il->count; i++)
 		good &= check_line(&c, i, &types[i]);

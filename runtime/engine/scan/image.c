@@ -176,6 +176,20 @@ static void pack(const uint8_t *m, uint8_t *area, const struct code_bits *bits)
 	}
 }
 
+/* Forces, at both edges. What anybody else wrote since the last one is kept
+ * aside; the very value it is held at may be nobody's writing. */
+static void hold(struct image *image)
+{
+	for (int i = 0; i < image->force_count; i++) {
+		struct force *force = &image->force[i];
+		union iec_value written = image_get(image, force->at);
+
+		if (written.i != force->value.i)
+			force->aside = written;
+		image_set(image, force->at, force->value);
+	}
+}
+
 /* Areas that only the program writes need no unpacking: their bytes are theirs
  * alone, and image_set_bit() writes both. */
 void image_begin(struct image *image)
@@ -190,24 +204,13 @@ void image_begin(struct image *image)
 		if (row->access == ACCESS_READ)
 			unpack(image->memory, image->memory + row->offset, bits);
 	}
-	for (int i = 0; i < image->force_count; i++)
-		image_set(image, image->force[i].at, image->force[i].value);
+	hold(image);
 }
 
 void image_end(struct image *image)
 {
 	const struct program *program = image->program;
 
-	for (int i = 0; i < image->force_count; i++) {
-		struct force *force = &image->force[i];
-		union iec_value written;
-
-		/* The very value it is held at may be nobody's writing. */
-		written = image_get(image, force->at);
-		if (written.i != force->value.i)
-			force->aside = written;
-		image_set(image, force->at, force->value);
-	}
 	for (uint32_t i = 0; i < program->bits_count; i++) {
 		const struct code_bits *bits = &program->bits[i];
 		const struct iec_area_row *row =
@@ -216,6 +219,7 @@ void image_end(struct image *image)
 		if (row->access == ACCESS_WRITE)
 			pack(image->memory, image->memory + row->offset, bits);
 	}
+	hold(image);
 }
 
 union iec_value image_get(const struct image *image, struct location at)
@@ -230,6 +234,25 @@ union iec_value image_get(const struct image *image, struct location at)
 	return value;
 }
 
+/* Bits below a byte or word that was written: those that live a byte each. */
+static void spread(struct image *image, uint32_t where, uint32_t size)
+{
+	for (int area = 1; area < AREA_COUNT; area++) {
+		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
+		uint32_t first = (where - row->offset) * 8;
+
+		if (where < row->offset || where >= row->offset + row->bytes)
+			continue;
+		for (uint32_t bit = first; bit < first + size * 8; bit++) {
+			uint8_t *slot = bit_slot(image, (enum iec_area)area, bit);
+
+			if (slot)
+				*slot = image->memory[row->offset + bit / 8] >>
+					bit % 8 & 1;
+		}
+	}
+}
+
 bool image_set(struct image *image, struct location at, union iec_value value)
 {
 	if (at.type == IEC_NONE || at.constant)
@@ -239,6 +262,7 @@ bool image_set(struct image *image, struct location at, union iec_value value)
 	if (at.type == IEC_BOOL)
 		value.i = value.i != 0;
 	iec_store(image->memory + at.where, at.type, value);
+	spread(image, at.where, iec_type_row(at.type)->size);
 	return true;
 }
 
@@ -267,7 +291,9 @@ bool image_force(struct image *image, struct location at, union iec_value value)
 		force->at = at;
 		force->aside = image_get(image, at);
 	}
-	force->value = value;
+	/* As it can be held: a REAL rounded, a number cut to its type. */
+	image_set(image, at, value);
+	force->value = image_get(image, at);
 	return true;
 }
 

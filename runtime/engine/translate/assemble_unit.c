@@ -276,7 +276,7 @@ static void load(struct list *list, const struct il_line *line)
 	const struct meaning *m = list_meaning(list, line->operand);
 
 	list->now = (struct il_result){ .kind = RESULT_NUMBER };
-	if (m->type == IEC_BOOL) {
+	if (m->type == IEC_BOOL || line->modifiers & MOD_N) {
 		list->now.kind = RESULT_BITS;
 		list->now.bits = list_bits(list, m);
 		if (line->modifiers & MOD_N)
@@ -289,14 +289,20 @@ static void load(struct list *list, const struct il_line *line)
 	}
 }
 
-/* An untyped 0 or 1 where a bit is wanted. */
-static void as_bits(struct list *list)
+/* An untyped 0 or 1 where a bit is wanted; it may be a number later. */
+struct bits list_now_bits(const struct list *list)
 {
 	if (list->now.kind == RESULT_LITERAL)
-		list->now = (struct il_result){
-			.kind = RESULT_BITS,
-			.bits = bits_constant(list->now.literal->value.i != 0),
-		};
+		return bits_constant(list->now.literal->value.i != 0);
+	return list->now.bits;
+}
+
+/* From now on it is a bit for good. */
+static void as_bits(struct list *list)
+{
+	list->now = (struct il_result){
+		.kind = RESULT_BITS, .bits = list_now_bits(list),
+	};
 }
 
 static void store(struct list *list, const struct il_line *line)
@@ -308,11 +314,11 @@ static void store(struct list *list, const struct il_line *line)
 		store_number(list, m);
 		return;
 	}
-	as_bits(list);
-	value = list->now.bits;
+	value = list_now_bits(list);
 	if (line->modifiers & MOD_N)
 		value = bits_not(value);
-	if (list_temp(list, m) >= 0 || spot_of(list, m).packed) {
+	if (list->now.kind == RESULT_LITERAL || list_temp(list, m) >= 0 ||
+	    spot_of(list, m).packed) {
 		list_write_bits(list, m, &value);
 		return;
 	}
@@ -330,9 +336,8 @@ static void set_reset(struct list *list, const struct il_line *line)
 	const struct meaning *m = list_meaning(list, line->operand);
 	struct bits old = list_bits(list, m), value;
 
-	as_bits(list);
 	/* S: old or now. R: old and not now. */
-	value = bits_combine(list->as, old, list->now.bits,
+	value = bits_combine(list->as, old, list_now_bits(list),
 			     line->op == OP_S ? TABLE_OR : 0x2);
 	list_write_bits(list, m, &value);
 }
@@ -411,8 +416,7 @@ static void flow(struct list *list, const struct il_line *line)
 	uint32_t slot = 0;
 
 	if (line->modifiers & MOD_C) {
-		as_bits(list);
-		condition = list->now.bits;
+		condition = list_now_bits(list);
 		if (line->modifiers & MOD_N)
 			condition = bits_not(condition);
 		slot = list_slot(list, &condition);

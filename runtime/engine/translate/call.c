@@ -300,7 +300,7 @@ static void take_pin(struct list *list, const struct meaning *instance,
 /* CALC is a jump over the call. */
 static int skip_call(struct list *list, const struct il_line *line)
 {
-	struct bits skip = list->now.bits;
+	struct bits skip = list_now_bits(list);
 	int at;
 
 	list_keep_all(list);

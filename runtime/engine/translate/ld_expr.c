@@ -84,6 +84,16 @@ static enum iec_type infer(struct chain *c, int index)
 static struct value compute(struct chain *c, int index, enum iec_type hint,
 			    uint32_t target);
 
+/* Is this a constant that @type has? If not, the plain one is told about. */
+static bool fits(const char *text, size_t len, enum iec_type type)
+{
+	struct literal literal;
+	union iec_value value;
+
+	return literal_parse(text, len, &literal) == LITERAL_OK &&
+	       literal_fit(&literal, type, &value);
+}
+
 /* A constant; with its type in front when nothing beside it tells the type. */
 static struct value constant(struct chain *c, const char *text, size_t len,
 			     bool negative, enum iec_type hint)
@@ -91,7 +101,8 @@ static struct value constant(struct chain *c, const char *text, size_t len,
 	char out[LIMIT_NAME + 32];
 	const char *word = iec_type_row(hint)->word;
 	struct value value = { 0, IEC_NONE };
-	bool prefix = hint != IEC_NONE && !memchr(text, '#', len);
+	bool prefix = hint != IEC_NONE && !memchr(text, '#', len) &&
+		      fits(text, len, hint);
 	int size = snprintf(out, sizeof(out), "%s%s%s%.*s", prefix ? word : "",
 			    prefix ? "#" : "", negative ? "-" : "", (int)len,
 			    text);
@@ -144,7 +155,7 @@ static struct value compute_neg(struct chain *c, const struct expr_node *node,
 	const struct expr_node *inner = &c->expr->node[node->left];
 	struct value zero, value;
 
-	if (inner->op == EXPR_LITERAL && !target)
+	if (inner->op == EXPR_LITERAL && !memchr(inner->text, '#', inner->len))
 		return constant(c, inner->text, inner->len, true, hint);
 	value = compute(c, node->left, hint, 0);
 	zero = value.type == IEC_TIME ? constant(c, "T#0s", 4, false, IEC_NONE)
@@ -275,11 +286,12 @@ void ld_compare(struct ld *ld, int element)
 		return;
 	ld_place(ld, at->row, at->col);
 	value = compute(&c, ld->expr->root, IEC_NONE, 0);
+	state->leaf = value.operand;
+	if (!c.can_fail)
+		return;
 	ld_emit(ld, OP_LD, 0, value.operand);
-	if (c.can_fail) {
-		ld_emit(ld, OP_AND, 0, c.en);
-		state->powered = true;
-	}
+	ld_emit(ld, OP_AND, 0, c.en);
+	state->powered = true;
 	state->leaf = ld_store_new(ld);
 }
 

@@ -69,6 +69,8 @@ const struct meaning *list_meaning(struct list *list, uint32_t operand);
 void list_protect(struct list *list, uint32_t offset, uint32_t size);
 /** list_keep_all - everything that waits is stored, before a jump over code. */
 void list_keep_all(struct list *list);
+/** list_now_bits - the current result as a bit; it stays what it is. */
+struct bits list_now_bits(const struct list *list);
 /** list_bits - a BOOL operand as a value. */
 struct bits list_bits(struct list *list, const struct meaning *m);
 /** list_write_bits - stores a bit where @m says. */

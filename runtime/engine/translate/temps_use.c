@@ -7,7 +7,7 @@
  */
 #include "engine/translate/lists.h"
 
-#include <string.h>
+#include <strings.h>
 
 /* What a line does with the variable it names. */
 enum use { USE_NONE, USE_READ, USE_WRITE, USE_BOTH };
@@ -75,14 +75,19 @@ static void mark_names(struct list *list)
 	}
 }
 
-/* Does the argument belong to a CALC or CALCN? */
+/* May the argument stay as it was? Behind CALC and CALCN, and OUT of a function,
+ * whose EN may be FALSE; ENO is always written. */
 static bool is_conditional(const struct list *list, int at)
 {
+	const struct scope *scope = list->as->translation->scope;
+	const char *pin = scope_text(scope, list->il->line[at].pin);
+
 	while (at > 0 && (list->il->line[at].kind == IL_ARG_IN ||
 			  list->il->line[at].kind == IL_ARG_OUT))
 		at--;
-	return list->il->line[at].kind == IL_OP &&
-	       list->il->line[at].modifiers & MOD_C;
+	if (list->il->line[at].kind == IL_CALL)
+		return strcasecmp(pin, "ENO") != 0;
+	return list->il->line[at].modifiers & MOD_C;
 }
 
 /* @stored: by variable, line + 1 of its last store in this block. */

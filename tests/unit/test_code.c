@@ -1,0 +1,546 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_code - the verifier: a good image is let in, and every kind of damage is
+ * refused, with the right message and a place.
+ */
+#include "engine/base/digest.h"
+#include "tests/unit/rig.h"
+
+static const char source[] =
+	"VAR\n"
+	"  Go AT %IX0.0 : BOOL;\n"
+	"  Lamp AT %QX0.0 : BOOL;\n"
+	"  Count : INT := 3;\n"
+	"  Total : DINT;\n"
+	"  Heat  : REAL := 1.5;\n"
+	"  Wait  : TIME := T#1s;\n"
+	"  On    : BOOL := TRUE;\n"
+	"  Delay : TON;\n"
+	"  More  : TON;\n"
+	"END_VAR\n"
+	"VAR CONSTANT\n  Seven : INT := 7;\nEND_VAR\n"
+	"PROGRAM First IL\n"
+	"  LD Go\n  OR M8\n  ANDN On\n  ST Lamp\n"
+	"  LD %MB1\n  ST %QB4\n  LD Lamp\n  ST M9\n"
+	"  LD Count\n  GT Seven\n  JMPC Past\n"
+	"  ADD(EN := Go, IN1 := Count, IN2 := 1, ENO => On, OUT => Total)\n"
+	"  CAL Delay(IN := Go, PT := Wait)\n  CAL More(IN := Go)\n"
+	"Past:\n  LD Heat\n  ADD 1\n  ST Heat\n  JMP Out\nOut:\n"
+	"  LD Go\n  ST On\n"
+	"END_PROGRAM\n"
+	"PROGRAM Second LD\nRUNG\n  | NO Go | TON Delay | COIL Q9 |\nEND_PROGRAM\n";
+
+static uint8_t *good, *image; /* image: a copy to be damaged */
+static size_t len;
+static size_t where;
+
+static struct code_header *header(void)
+{
+	return (void *)image;
+}
+
+static void *section(enum code_section_kind kind)
+{
+	return image + header()->section[kind].offset;
+}
+
+static void *last_of(enum code_section_kind kind, size_t unit)
+{
+	const struct code_section *at = &header()->section[kind];
+
+	return image + at->offset + at->size - unit;
+}
+
+static void fresh(void)
+{
+	memcpy(image, good, len);
+}
+
+static void seal(void)
+{
+	size_t covered = offsetof(struct code_header, crc) + 4;
+
+	header()->crc = digest_crc32c(0, image + covered, len - covered);
+}
+
+static bool open_bytes(size_t size, enum diag_id *why)
+{
+	struct arena scratch;
+	struct program program;
+	bool open;
+
+	arena_init(&scratch);
+	open = code_open(image, size, &scratch, &program, why, &where);
+	arena_free(&scratch);
+	return open;
+}
+
+/* Is the damaged copy, with a right checksum, refused by the verifier? */
+static bool refused(void)
+{
+	enum diag_id why = DIAG_COUNT;
+	bool open;
+
+	seal();
+	open = open_bytes(len, &why);
+	fresh();
+	return !open && why == DIAG_IMAGE_REFUSED;
+}
+
+static bool damaged(size_t size, enum diag_id want)
+{
+	enum diag_id why = DIAG_COUNT;
+	bool open = open_bytes(size, &why);
+
+	fresh();
+	return !open && why == want;
+}
+
+/* The first instruction with this operation of the first program. */
+static uint32_t *find(enum vm_op op)
+{
+	const struct code_program *entry = section(CODE_PROGRAMS);
+	uint32_t *text = section(CODE_TEXT);
+
+	for (uint32_t at = 0; at < entry->text_words; at += code_words(text + at))
+		if ((text[at] & 0xff) == op)
+			return text + at;
+	CHECK_AS(false, vm_row(op)->word);
+	return text;
+}
+
+/* ---- header and sections ---- */
+
+static void refuses_headers(void)
+{
+	enum diag_id why;
+
+	CHECK(open_bytes(len, &why));
+	CHECK(damaged(0, DIAG_IMAGE_MAGIC) && damaged(7, DIAG_IMAGE_MAGIC));
+	CHECK(damaged(8, DIAG_IMAGE_DAMAGED));
+	CHECK(damaged(sizeof(struct code_header) - 1, DIAG_IMAGE_DAMAGED));
+	CHECK(damaged(sizeof(struct code_header), DIAG_IMAGE_DAMAGED));
+	CHECK(damaged(len - 1, DIAG_IMAGE_DAMAGED));
+	CHECK(damaged(len - 8, DIAG_IMAGE_DAMAGED));
+	image[0] ^= 1;
+	CHECK(damaged(len, DIAG_IMAGE_MAGIC));
+	header()->version++;
+	CHECK(damaged(len, DIAG_IMAGE_VERSION));
+	header()->crc ^= 1;
+	CHECK(damaged(len, DIAG_IMAGE_DAMAGED));
+	for (size_t at = offsetof(struct code_header, data_size); at < len; at++) {
+		image[at] ^= 0x40;
+		if (!damaged(len, DIAG_IMAGE_DAMAGED))
+			CHECK_AS(false, "a flipped bit anywhere is seen");
+	}
+}
+
+static void refuses_sections(void)
+{
+	for (int kind = 1; kind < CODE_SECTION_COUNT; kind++) {
+		header()->section[kind].offset = (uint32_t)len + 4;
+		seal();
+		CHECK(damaged(len, DIAG_IMAGE_DAMAGED));
+		header()->section[kind].size = UINT32_MAX - 3;
+		seal();
+		CHECK(damaged(len, DIAG_IMAGE_DAMAGED));
+		header()->section[kind].offset = 8;
+		seal();
+		CHECK(damaged(len, DIAG_IMAGE_DAMAGED));
+		header()->section[kind].offset += 2;
+		seal();
+		CHECK(damaged(len, DIAG_IMAGE_DAMAGED));
+	}
+	header()->section[CODE_TEXT].size -= 2;
+	seal();
+	CHECK(damaged(len, DIAG_IMAGE_DAMAGED));
+}
+
+static void refuses_bounds(void)
+{
+	header()->data_size = LIMIT_DATA + 1;
+	CHECK(refused() && where == offsetof(struct code_header, data_size));
+	header()->data_size = UINT32_MAX;
+	CHECK(refused());
+	header()->data_size = iec_areas_size() + 1;
+	CHECK(refused());
+	header()->data_size -= 8;
+	CHECK_AS(refused(), "the layout reaches behind the data");
+	header()->budget = LIMIT_BUDGET + 1;
+	CHECK(refused());
+	header()->retain_size = UINT32_MAX;
+	CHECK(refused());
+	header()->retain_offset = header()->data_size + 1;
+	CHECK(refused());
+}
+
+/* ---- data ---- */
+
+static struct code_run *run_of(enum code_run_kind kind, int skip)
+{
+	struct code_run *run = section(CODE_LAYOUT);
+
+	while (run->kind != kind || skip-- > 0)
+		run++;
+	return run;
+}
+
+static void refuses_layouts(void)
+{
+	run_of(RUN_INSTANCE, 0)->kind = RUN_INSTANCE + 1;
+	CHECK(refused());
+	run_of(RUN_VALUES, 0)->type = IEC_NONE;
+	CHECK(refused());
+	run_of(RUN_VALUES, 0)->type = IEC_TYPE_COUNT;
+	CHECK(refused());
+	run_of(RUN_VALUES, 0)->offset -= 4;
+	CHECK_AS(refused(), "overlap, or wrong order");
+	run_of(RUN_VALUES, 0)->offset = 0;
+	CHECK_AS(refused(), "values in an area");
+	run_of(RUN_VALUES, 0)->count = UINT32_MAX;
+	CHECK(refused());
+	run_of(RUN_VALUES, 0)->offset = UINT32_MAX;
+	CHECK(refused());
+	run_of(RUN_INSTANCE, 0)->offset += 4;
+	CHECK_AS(refused(), "not aligned");
+	run_of(RUN_INSTANCE, 0)->word = WORD_COUNT;
+	CHECK(refused());
+	run_of(RUN_INSTANCE, 0)->word = FN_ADD;
+	CHECK_AS(refused(), "a function has no instances");
+	run_of(RUN_INSTANCE, 0)->word = FB_TOF;
+	CHECK_AS(refused(), "the code calls a TON there");
+	run_of(RUN_INSTANCE, 0)->count--;
+	CHECK_AS(refused(), "the second one is called");
+	run_of(RUN_CONSTANTS, 0)->kind = RUN_VALUES;
+	CHECK_AS(refused(), "0 and 1 are constants");
+	header()->section[CODE_LAYOUT].size -= sizeof(struct code_run);
+	CHECK_AS(refused(), "what the last run held is used");
+}
+
+static void refuses_initial_values(void)
+{
+	uint32_t *init = section(CODE_INIT);
+	const uint32_t *end = init + header()->section[CODE_INIT].size / 4;
+	uint32_t *on = NULL;
+
+	init[0] = header()->data_size;
+	CHECK(refused());
+	init[1] = UINT32_MAX;
+	CHECK(refused());
+	init[1] = header()->data_size;
+	CHECK(refused());
+	init[0] = iec_areas_size() + 3;
+	CHECK_AS(refused(), "where nothing lies");
+	header()->section[CODE_INIT].size -= 4;
+	CHECK_AS(refused(), "cut in half");
+	init[1] = 1;
+	init[0] = run_of(RUN_INSTANCE, 0)->offset +
+		  (uint32_t)offsetof(struct fb_TON, running);
+	CHECK_AS(refused(), "inside an instance");
+	for (; init < end; init += 2 + (init[1] + 3) / 4)
+		if (init[1] == 1 && init[2] == 1)
+			on = init;
+	if (CHECK_AS(on != NULL, "a BOOL begins TRUE")) {
+		on[2] = 2;
+		CHECK_AS(refused(), "a BOOL is 0 or 1");
+	}
+}
+
+static void refuses_bits(void)
+{
+	struct code_bits *bits = section(CODE_BITS);
+
+	bits->area = AREA_NONE;
+	CHECK(refused());
+	bits->area = AREA_COUNT;
+	CHECK(refused());
+	bits->area = AREA_XAQ;
+	CHECK_AS(refused(), "wrong order");
+	bits->first = iec_area_row(AREA_I)->bytes * 8;
+	CHECK(refused());
+	bits->first = UINT32_MAX;
+	CHECK(refused());
+	bits->count = UINT32_MAX;
+	CHECK(refused());
+	bits->slot = header()->data_size;
+	CHECK(refused());
+	bits->slot = 0;
+	CHECK_AS(refused(), "bits in an area");
+	bits->slot = CODE_FALSE_AT(iec_areas_size());
+	CHECK_AS(refused(), "on a constant");
+	bits[1] = bits[0];
+	CHECK_AS(refused(), "the same bit twice");
+}
+
+/* ---- code ---- */
+
+static void refuses_programs(void)
+{
+	struct code_program *entry = section(CODE_PROGRAMS);
+
+	entry->text = UINT32_MAX;
+	CHECK(refused());
+	entry->text_words = UINT32_MAX;
+	CHECK(refused());
+	entry->text_words = 0;
+	CHECK_AS(refused(), "without END");
+	entry->text_words--;
+	CHECK_AS(refused(), "END is cut off");
+	entry->text++;
+	CHECK(refused());
+	entry->watch = 1;
+	CHECK(refused());
+	entry->watch_words = 1;
+	CHECK(refused());
+	entry->name = header()->section[CODE_STRINGS].size;
+	CHECK(refused());
+	*find(VM_END) = VM_END | 1u << 8;
+	CHECK(refused());
+	*find(VM_END) = VM_COUNT;
+	CHECK(refused());
+	*find(VM_END) = 0xff;
+	CHECK(refused());
+	*find(VM_END) = VM_LUT | 0xffffffu << 8;
+	CHECK(refused());
+	*find(VM_END) = VM_FN | 0xffffffu << 8;
+	CHECK(refused());
+	*find(VM_END) = VM_JMPC;
+	CHECK(refused());
+}
+
+/* One word of an instruction changed: @word from its first one. */
+static bool refuses(enum vm_op op, int word, uint32_t value)
+{
+	find(op)[word] = value;
+	return refused();
+}
+
+static uint32_t spot_of(enum code_run_kind kind, enum iec_type type)
+{
+	const struct code_run *run = section(CODE_LAYOUT);
+
+	while (run->kind != kind || run->type != type)
+		run++;
+	return run->offset;
+}
+
+static void refuses_bit_operands(void)
+{
+	const uint32_t outside[] = { header()->data_size, UINT32_MAX, 0x1000000, 0,
+		spot_of(RUN_VALUES, IEC_INT), run_of(RUN_INSTANCE, 0)->offset + 1 };
+	const uint32_t none = CODE_FALSE_AT(iec_areas_size());
+	const uint32_t q = run_of(RUN_INSTANCE, 0)->offset +
+			   (uint32_t)offsetof(struct fb_TON, Q);
+
+	for (int i = 0; i < 5; i++)
+		for (int word = 1; word <= 3; word++)
+			CHECK(refuses(VM_LUT, word, outside[i]));
+	CHECK(refuses(VM_LUT, 4, none << 8) && refuses(VM_LUT, 4, q << 8));
+	CHECK(refuses(VM_LUT, 4, 0xffffff00) && refuses(VM_LUT, 4, 0));
+	CHECK(refuses(VM_LUT, 0, VM_LUT) && refuses(VM_LUT, 0, VM_LUT | 0x7fffff00));
+	CHECK(refuses(VM_BITGET, 0, VM_BITGET | 8u << 8));
+	CHECK(refuses(VM_BITPUT, 0, VM_BITPUT | 8u << 8));
+	CHECK(refuses(VM_BITGET, 1, outside[0]) && refuses(VM_BITGET, 2, none));
+	CHECK(refuses(VM_BITGET, 1, none) && refuses(VM_BITPUT, 2, none));
+	CHECK(refuses(VM_BITPUT, 1, outside[0]) && refuses(VM_BITPUT, 2, outside[1]));
+	CHECK_AS(refuses(VM_BITPUT, 2, 0), "inputs are not written");
+	CHECK(refuses(VM_JMPC, 2, outside[0]) && refuses(VM_JMPC, 2, 0));
+	CHECK(refuses(VM_JMPC, 0, VM_JMPC | 1u << 8));
+}
+
+static void refuses_number_operands(void)
+{
+	const uint32_t real = CODE_OPERAND(IEC_REAL, spot_of(RUN_VALUES, IEC_REAL));
+	const uint32_t dint = CODE_OPERAND(IEC_DINT, spot_of(RUN_VALUES, IEC_DINT));
+	const uint32_t seven = CODE_OPERAND(IEC_INT,
+					    spot_of(RUN_CONSTANTS, IEC_INT));
+	const uint32_t input = CODE_OPERAND(IEC_BYTE, 0);
+
+	CHECK(refuses(VM_COPY, 1, UINT32_MAX) && refuses(VM_COPY, 1, 0));
+	CHECK(refuses(VM_COPY, 2, seven) && refuses(VM_COPY, 2, input));
+	CHECK(refuses(VM_COPY, 2, 5) && refuses(VM_COPY, 3, 5));
+	CHECK(refuses(VM_COPY, 3, CODE_OPERAND(IEC_TYPE_COUNT, 0)));
+	CHECK_AS(refuses(VM_COPY, 3, real), "REAL does not become BYTE");
+	CHECK_AS(refuses(VM_COPY, 3, CODE_OPERAND(IEC_INT, CODE_OFFSET(dint))),
+		 "not as another type");
+	CHECK_AS(refuses(VM_COPY, 3, CODE_OPERAND(IEC_DWORD, 510)),
+		 "from one area into the next");
+	CHECK(refuses(VM_COPY, 0, VM_COPY | 1u << 8));
+	CHECK(refuses(VM_CMP, 0, VM_CMP | CMP_COUNT << 8));
+	CHECK(refuses(VM_CMP, 1, CODE_TRUE_AT(iec_areas_size())));
+	CHECK(refuses(VM_CMP, 2, 0) && refuses(VM_CMP, 3, UINT32_MAX));
+	CHECK(refuses(VM_FN, 1, WORD_COUNT) && refuses(VM_FN, 1, FB_TON));
+	CHECK(refuses(VM_FN, 1, UINT32_MAX) && refuses(VM_FN, 1, FN_MOVE));
+	CHECK(refuses(VM_FN, 2, 0) && refuses(VM_FN, 3, 0));
+	CHECK(refuses(VM_FN, 3, CODE_TRUE_AT(iec_areas_size())));
+	CHECK(refuses(VM_FN, 4, seven) && refuses(VM_FN, 4, UINT32_MAX));
+	CHECK(refuses(VM_FN, 5, real) && refuses(VM_FN, 6, 0));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_BOOL | 2u << 8) << 8));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_TYPE_COUNT | 2u << 8) << 8));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_DINT | 1u << 8) << 8));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_DINT | 9u << 8) << 8));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_REAL | 2u << 8) << 8));
+	CHECK(refuses(VM_FB, 1, 0) && refuses(VM_FB, 1, UINT32_MAX));
+	CHECK(refuses(VM_FB, 1, find(VM_FB)[1] + 8));
+	CHECK(refuses(VM_FB, 0, VM_FB | (uint32_t)FB_TOF << 8));
+	CHECK(refuses(VM_FB, 0, VM_FB | 0xffffffu << 8));
+}
+
+static void refuses_jumps(void)
+{
+	const struct code_program *entry = section(CODE_PROGRAMS);
+	uint32_t target = find(VM_JMPC)[1];
+
+	CHECK_AS(refuses(VM_JMPC, 1, target + 1), "into an instruction");
+	CHECK(refuses(VM_JMPC, 1, UINT32_MAX) && refuses(VM_JMP, 1, target - 1));
+	CHECK_AS(refuses(VM_JMP, 1, entry[1].text), "into another program");
+	CHECK(refuses(VM_JMP, 1, header()->section[CODE_TEXT].size / 4));
+	find(VM_JMPC)[1] = 0;
+	seal();
+	enum diag_id why;
+	CHECK_AS(open_bytes(len, &why), "backwards is for the budget to judge");
+	fresh();
+}
+
+/* ---- maps ---- */
+
+static void refuses_maps(void)
+{
+	struct code_symbol *symbol = section(CODE_SYMBOLS);
+	struct code_power *power = section(CODE_POWER);
+	struct code_place *place = section(CODE_PLACES);
+	uint32_t strings = header()->section[CODE_STRINGS].size;
+	int count = (int)(header()->section[CODE_SYMBOLS].size / sizeof(*symbol));
+
+	CHECK(header()->section[CODE_POWER].size > 0 && count > 5);
+	symbol->name = strings;
+	CHECK(refused());
+	symbol->pou = UINT32_MAX;
+	CHECK(refused());
+	symbol->area = AREA_COUNT;
+	CHECK(refused());
+	symbol->type = IEC_INT; /* Go, a bit of an area */
+	CHECK(refused());
+	symbol->where = 512 * 8;
+	CHECK(refused());
+	symbol[2].type = IEC_DINT;
+	CHECK(refused());
+	symbol[2].type = 200;
+	CHECK(refused());
+	symbol[2].where = UINT32_MAX;
+	CHECK(refused());
+	symbol[2].type = IEC_NONE;
+	CHECK_AS(refused(), "no instance is there");
+	symbol[7].word = WORD_COUNT;
+	CHECK(refused());
+	symbol[7].where += 8;
+	CHECK(refused());
+	symbol[7].word = FB_TP;
+	CHECK(refused());
+	power->in = UINT32_MAX;
+	CHECK(refused());
+	power->out = spot_of(RUN_VALUES, IEC_INT);
+	CHECK(refused());
+	place->text = UINT32_MAX;
+	CHECK(refused());
+	place->pou = 2;
+	CHECK(refused());
+	*(char *)last_of(CODE_STRINGS, 1) = 'x';
+	CHECK_AS(refused(), "the last string does not end");
+}
+
+/* A word beyond the catalogue in a symbol that is no instance means nothing. */
+static void takes_odd_symbols(void)
+{
+	struct code_symbol *symbol = section(CODE_SYMBOLS);
+	struct arena scratch;
+	struct program program;
+	struct symbol_cursor cursor = { 0, 0, "" };
+	struct symbol out;
+	struct image img = { .program = &program };
+	enum diag_id why;
+	int count = 0;
+
+	symbol[2].word = UINT16_MAX;
+	seal();
+	arena_init(&scratch);
+	CHECK(code_open(image, len, &scratch, &program, &why, &where));
+	img.memory = calloc(1, image_memory_size(&program));
+	image_init(&img, &program, img.memory);
+	while (image_next_symbol(&img, &cursor, &out))
+		count++;
+	CHECK(count == 8 + 2 * 4);
+	CHECK(image_find(&img, "Count", 5).type == IEC_INT);
+	free(img.memory);
+	arena_free(&scratch);
+	fresh();
+}
+
+static void identity(const void *bytes, size_t size, uint8_t out[32])
+{
+	struct arena scratch;
+	struct program program;
+	enum diag_id why;
+
+	arena_init(&scratch);
+	memset(out, 0, 32);
+	if (CHECK(code_open(bytes, size, &scratch, &program, &why, &where)))
+		code_identity(&program, out);
+	arena_free(&scratch);
+}
+
+static void drops_maps(void)
+{
+	uint8_t whole[32], bare[32];
+	struct code_program *entry = section(CODE_PROGRAMS);
+	size_t size = code_strip(image, NULL);
+	void *small = aligned_alloc(8, (size + 7) / 8 * 8);
+
+	identity(image, len, whole);
+	for (int kind = CODE_WATCH; kind < CODE_SECTION_COUNT; kind++)
+		header()->section[kind].size = 0;
+	for (int i = 0; i < 2; i++)
+		entry[i].watch = entry[i].watch_words = 0;
+	seal();
+	identity(image, len, bare);
+	CHECK(memcmp(whole, bare, 32) == 0);
+	fresh();
+	CHECK(small && code_strip(image, small) == size && size < len);
+	identity(small, size, bare);
+	CHECK(memcmp(whole, bare, 32) == 0);
+	free(small);
+	find(VM_LUT)[4] ^= 1;
+	seal();
+	identity(image, len, bare);
+	CHECK_AS(memcmp(whole, bare, 32) != 0, "a changed table is another program");
+	fresh();
+}
+
+int main(void)
+{
+	struct rig rig;
+
+	if (rig_open(&rig, source, true)) {
+		good = (void *)(uintptr_t)ladder_image(rig.ladder, &len);
+		image = aligned_alloc(8, (len + 7) / 8 * 8);
+		if (!image)
+			abort();
+		fresh();
+		refuses_headers();
+		refuses_sections();
+		refuses_bounds();
+		refuses_layouts();
+		refuses_initial_values();
+		refuses_bits();
+		refuses_programs();
+		refuses_bit_operands();
+		refuses_number_operands();
+		refuses_jumps();
+		refuses_maps();
+		takes_odd_symbols();
+		drops_maps();
+		free(image);
+	}
+	rig_close(&rig);
+	return tap_done();
+}
