@@ -59,7 +59,7 @@ static bool report_rung(struct names_check *c, enum diag_id id,
 {
 	struct diag place = {
 		.id = id, .file = pou->file, .pou = text_of(c, pou->name),
-		.line = (int)pou->rung[number - 1]->line,
+		.line = rung_line(pou->rung[number - 1], row + 1),
 		.rung = number, .row = row + 1, .col = col + 1,
 	};
 	bool good = diag_add(c->diags, place, "%s", text_of(c, arg));

@@ -21,7 +21,7 @@ static bool report(struct operand_check *c, enum diag_id id, struct spot at,
 		   const char *arg)
 {
 	struct diag place = {
-		.id = id, .file = c->pou->file, .line = (int)c->rung->line,
+		.id = id, .file = c->pou->file, .line = rung_line(c->rung, at.row + 1),
 		.pou = project_text(c->project, c->pou->name),
 		.rung = c->number, .row = at.row + 1, .col = at.col + 1,
 	};
@@ -118,7 +118,7 @@ static void check_expression(struct operand_check *c, struct spot at,
 	const char *text = names_text(names, id);
 	struct expr *expr = c->expr;
 	struct diag place = {
-		.file = c->pou->file, .line = (int)c->rung->line,
+		.file = c->pou->file, .line = rung_line(c->rung, at.row + 1),
 		.pou = project_text(c->project, c->pou->name),
 		.rung = c->number, .row = at.row + 1, .col = at.col + 1,
 	};

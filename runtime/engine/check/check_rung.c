@@ -52,7 +52,7 @@ static void report(struct rung_check *c, enum diag_id id, int row, int col,
 		   const char *arg)
 {
 	struct diag place = {
-		.id = id, .file = c->pou->file, .line = (int)c->rung->line,
+		.id = id, .file = c->pou->file, .line = rung_line(c->rung, row + 1),
 		.pou = project_text(c->project, c->pou->name),
 		.rung = c->number, .row = row + 1, .col = col + 1,
 	};

@@ -59,6 +59,13 @@ bool rung_equal(const struct rung *a, const struct rung *b)
 		      rung_size(a) - sizeof(struct rung)) == 0;
 }
 
+int rung_line(const struct rung *rung, int row)
+{
+	if (!rung->line || rung->gaps)
+		return (int)rung->line;
+	return (int)rung->line + row;
+}
+
 struct cell *rung_cell(struct rung *rung, int row, int col)
 {
 	return &rung->cell[(size_t)row * rung->cols + (size_t)col];
@@ -80,6 +87,7 @@ static struct rung *new_like(const struct rung *rung, int rows, int cols)
 	made->title = rung->title;
 	made->comment = rung->comment;
 	made->line = rung->line;
+	made->gaps = rung->gaps;
 	made->off = rung->off;
 	return made;
 }

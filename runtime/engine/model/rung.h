@@ -33,7 +33,8 @@ struct rung {
 	uint32_t line;    /* of its RUNG word in the file; 0: not from a file  */
 	uint16_t rows, cols;
 	uint8_t off;      /* 1: kept, but not checked and not run              */
-	uint8_t spare[3];
+	uint8_t gaps;     /* 1: its rows do not stand line below line          */
+	uint8_t spare[2];
 	struct cell cell[]; /* rows * cols, row by row                         */
 };
 
@@ -86,6 +87,9 @@ bool rung_insert_cell(struct rung *rung, int row, int col);
 bool rung_delete_cell(struct rung *rung, int row, int col);
 /** rung_set_link - false in row 0. */
 bool rung_set_link(struct rung *rung, int row, int col, bool link);
+/** rung_line - line of @row (1-based; 0: the RUNG word) in the file the rung was
+ * read from; of the RUNG word when its rows have gaps; 0: not from a file. */
+int rung_line(const struct rung *rung, int row);
 /** rung_height - rows of the box at (row, col): 1 + PIN cells below it. */
 int rung_height(const struct rung *rung, int row, int col);
 #endif

@@ -336,6 +336,7 @@ static struct rung *make_rung(struct reader *r, const struct rung *head)
 	rung->title = head->title;
 	rung->line = head->line;
 	rung->off = head->off;
+	rung->gaps = head->gaps;
 	rung->comment = buffer_take(r, &r->rung_note);
 	for (int i = 0; i < r->rows; i++) {
 		if (r->row_cols[i] > 0)
@@ -362,6 +363,9 @@ struct rung *read_rung(struct reader *r)
 		if (!reader_is(r, '|'))
 			break;
 		keep_above(r);
+		if ((uint32_t)r->lex.token.line !=
+		    head.line + (uint32_t)r->rows + 1)
+			head.gaps = 1;
 		if (r->rows < LIMIT_ROWS) {
 			read_row(r);
 			continue;

@@ -19,7 +19,7 @@ void ld_emit_line(struct ld *ld, struct il_line line)
 	line.rung = ld->number;
 	line.row = ld->row;
 	line.col = ld->col;
-	line.line = ld->rung->line;
+	line.line = (uint32_t)rung_line(ld->rung, ld->row);
 	if (!il_add(ld->il, line))
 		ld->failed = true;
 }
