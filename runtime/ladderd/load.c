@@ -68,6 +68,44 @@ static void check_mapped(struct load *load)
 	}
 }
 
+static bool is_named(const struct program *program, uint32_t area, uint32_t bit)
+{
+	for (uint32_t i = 0; i < program->symbol_count; i++)
+		if (program->symbol[i].area == area &&
+		    program->symbol[i].where == bit)
+			return true;
+	return false;
+}
+
+/* The same for bits that the program uses by their address. */
+static void check_addresses(struct load *load)
+{
+	const struct program *program = ladder_program(load->ladder);
+
+	for (uint32_t i = 0; i < program->bits_count; i++) {
+		const struct code_bits *bits = &program->bits[i];
+		uint32_t end = bits->first + bits->count;
+
+		if (bits->area != AREA_I && bits->area != AREA_Q)
+			continue;
+		for (uint32_t bit = bits->first; bit < end; bit++) {
+			struct iec_addr at = {
+				.area = (enum iec_area)bits->area, .bits = 1,
+				.byte = bit / 8, .bit = bit % 8,
+			};
+			char text[24];
+
+			if (is_mapped(&load->map, bits->area, bit) ||
+			    is_named(program, bits->area, bit))
+				continue;
+			iec_addr_print(at, text, sizeof(text));
+			diag_add(&load->diags, (struct diag){
+				.id = DIAG_IO_NOT_MAPPED,
+				.file = load->map.file }, "%s", text);
+		}
+	}
+}
+
 bool load_files(struct load *load, const char *file, const char *map)
 {
 	bool good;
@@ -83,6 +121,7 @@ bool load_files(struct load *load, const char *file, const char *map)
 	if (!load_map(load, map) || !good)
 		return false;
 	check_mapped(load);
+	check_addresses(load);
 	return true;
 }
 

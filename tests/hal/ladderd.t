@@ -190,6 +190,12 @@ for (['no such program', "$dir/none.rung", $map, 2, qr/none\.rung/],
 my $half = put('half.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim\n");
 is(run($ladderd, $rung, '--io', $half, '--scans', '1'), 0, 'an output less');
 like(get('err'), qr/half\.io.*warning LD515.*Brake/, 'is a warning');
+my $bare = put('bare.rung', "RUNGBOARD 1\n\nPROGRAM M LD\nRUNG\n".
+	       "  | NO I0 | NO %IX5.0 | COIL %QX7.0 |\nEND_PROGRAM\n");
+is(run($ladderd, $bare, '--io', $half, '--scans', '1'), 0, 'bare addresses');
+like(get('err'), qr/LD515.*: %IX5\.0\n.*LD515.*: %QX7\.0\n/,
+     'those without a line are told');
+unlike(get('err'), qr/%IX0\.0/, 'those with one are not');
 
 is(run($ladderd, $rung, '--io', $map, '--check', @traced), 0, '--check');
 like(get('out'), qr/^code: \d+ bytes\ndata: \d+ bytes\nhal: at most \d+ /,
