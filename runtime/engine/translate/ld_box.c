@@ -172,6 +172,7 @@ static void box_function(struct ld *ld, int element)
 	for (int i = 0; i < at->pins && i < LIMIT_FN_INPUTS; i++)
 		operand[i] = ld_operand(ld,
 					ld->network.pin[at->first_pin + i].in);
+	ld_place(ld, at->row, at->col); /* an error is the box's own */
 	ld_call(ld, (enum word)at->word);
 	ld_arg(ld, false, ld->en_id, en);
 	for (int i = 0; i < at->pins && i < LIMIT_FN_INPUTS; i++)

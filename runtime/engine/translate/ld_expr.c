@@ -117,8 +117,13 @@ static struct value constant(struct chain *c, const char *text, size_t len,
 
 static uint32_t power(struct chain *c)
 {
-	if (!c->en)
+	if (!c->en) {
+		uint16_t row = c->ld->row, col = c->ld->col;
+
 		c->en = ld_operand(c->ld, c->net);
+		c->ld->row = row; /* an error is the cell's own */
+		c->ld->col = col;
+	}
 	c->can_fail = true;
 	return c->en;
 }
