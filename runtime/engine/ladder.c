@@ -280,6 +280,19 @@ static bool make_units(struct ladder *ladder, uint8_t *const *bad)
 	return true;
 }
 
+static bool warn_of_pins(struct ladder *ladder)
+{
+	struct translation *t = &ladder->translation;
+	struct il_pou *list = arena_alloc(&ladder->arena,
+		((size_t)t->unit_count + 1) * sizeof(*list));
+
+	for (int i = 0; list && i < t->unit_count; i++)
+		list[i] = (struct il_pou){ t->unit[i].pou, &t->unit[i].il };
+	arena_reset(&ladder->scratch);
+	return list && check_pins(t->scope, list, t->unit_count,
+				  &ladder->scratch, &ladder->diags);
+}
+
 static bool begin_translation(struct ladder *ladder)
 {
 	struct translation *t = &ladder->translation;
@@ -309,6 +322,8 @@ bool ladder_build(struct ladder *ladder)
 		return no_memory(ladder, project->file);
 	if (!make_units(ladder, bad) || ladder->diags.errors)
 		return false;
+	if (!warn_of_pins(ladder))
+		return no_memory(ladder, project->file);
 	ladder->image = assemble(&ladder->translation, ladder->watch,
 				 &ladder->image_len);
 	if (!ladder->image)

@@ -31,4 +31,16 @@ enum iec_type types_join(enum iec_type a, enum iec_type b);
 bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
 	      struct arena *scratch, enum iec_type *types,
 	      struct diag_list *diags);
+
+/* A POU and the list it runs. */
+struct il_pou { const struct pou *pou; const struct il *il; };
+
+/**
+ * check_pins - warns of inputs such as PT that no program ever gives a value
+ * @list: all POUs of the project, free of errors
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false when memory is out.
+ */
+bool check_pins(struct scope *scope, const struct il_pou *list, int count,
+		struct arena *scratch, struct diag_list *diags);
 #endif
