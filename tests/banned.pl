@@ -69,6 +69,10 @@ say_rule("the library does not print or exit",
 say_rule("the scan reads no clock, takes no lock, allocates nothing",
 	 places(qr/\b(?:clock_gettime|gettimeofday|time|malloc|calloc|realloc|free|pthread_\w+|fopen|write|read)\s*\(/,
 		sub { $_[0] =~ m{^runtime/engine/scan/} }));
+# On one board long has 4 bytes, on another 8.
+say_rule("the scan's numbers are of one size everywhere",
+	 places(qr/\b(?:long|wchar_t|time_t|intmax_t|ptrdiff_t)\b/,
+		sub { $_[0] =~ m{^runtime/engine/scan/} }));
 say_rule("no fork, no dlopen on a board",
 	 places(qr/\b(?:fork|vfork|dlopen|mprotect|execv\w*|execl\w*)\s*\(/,
 		sub { $_[0] =~ m{^(?:runtime/engine/base|runtime/engine/scan|hal|runtime/ladderd)/} }));

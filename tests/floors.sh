@@ -64,6 +64,9 @@ check_room() { # room allowed…
 $file includes $path"
 		done
 		for path in $(sed -n 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*<\([^>]*\)>.*/\1/p' "$file"); do
+			# Our own files come with " ", where the table sees them.
+			[ ! -f "runtime/$path" ] && [ ! -f "$path" ] || bad="$bad
+$file includes <$path>"
 			for row in $foreign; do
 				case $path in "${row%%:*}"*)
 					[ "$room" = "${row#*:}" ] || bad="$bad

@@ -43,9 +43,9 @@ else
 fi
 
 # Those that look at an image between scans: no more than text and an arena.
-for name in code code_print code_text symbols; do
-	object=$objects/scan/$name.o
-	[ -f "$object" ] || continue
+for object in "$objects"/scan/*.o; do
+	name=$(basename "$object" .o)
+	printf '%s' "$name" | grep -Eqx "$between" || continue
 	open=$($NM -u "$object" | awk '{print $NF}' |
 	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|chr|n?cmp|n?casecmp)|arena_[a-z]*|(iec|word|digest|code|verify|image|vm_row|sys)[a-z0-9_]*")
 	[ -z "$open" ]; say $? "$name, between scans, asks the system for nothing" "$open"
@@ -55,7 +55,7 @@ done
 for where in "$BUILD/libladder.a" "$BUILD"/hal/*.o; do
 	[ -f "$where" ] || continue
 	state=$($NM "$where" 2>/dev/null |
-		awk '/:$/ {file = $0} NF == 3 && $2 ~ /^[bBdDcCsSgG]$/ {print file, $3}' |
+		awk -v file="$(basename "$where"):" '/:$/ {file = $0} NF == 3 && $2 ~ /^[bBdDcCsSgG]$/ {print file, $3}' |
 		grep -v '__odr_asan\|__gcov\|__llvm\|\.rel\.ro')
 	# Tables of pointers need relocation: `d` in a read-only section is const.
 	state=$(printf '%s\n' "$state" | while read -r file name; do
