@@ -146,7 +146,7 @@ bless: $(BUILD)/ladder ## rewrite what CASE=name expects and show the difference
 BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential iec_cases exhaustion $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential iec_cases exhaustion saving $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
@@ -154,6 +154,8 @@ $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free
+$(BIN)/saving: $(BUILD)/tests/saving.o
+$(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
 FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(BUILD)/tests/walker/random.o $(BUILD)/tests/walker/words.o
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
@@ -186,8 +188,8 @@ fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|scri
 
 # ---- everything ----
 # One list for prove. A second build with sanitizers runs the tests that read and
-# run what strangers write.
-SANITIZE := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined
+# run what strangers write. Their char is unsigned, as it is on ARM.
+SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-recover=undefined
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%))
