@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_verify - a small code image made by hand, and one wrong word at a time:
+ * the verifier refuses each. A rule that it forgets fails here by name.
+ */
+#include "engine/base/digest.h"
+#include "engine/scan/code.h"
+#include "tests/tap.h"
+
+#include <stdlib.h>
+
+/* What the image is made of. Offsets count from the end of the areas. */
+struct draft {
+	struct code_header header;
+	struct code_program entry[1];
+	struct code_run run[5];
+	uint32_t init[9];
+	struct code_bits bits[2];
+	uint32_t text[48];
+	struct code_symbol symbol[4];
+	struct code_power power[1];
+	struct code_place place[2];
+	char string[16];
+	uint32_t text_words;
+};
+
+enum {
+	FLAG = 8,       /* eight BOOLs                                       */
+	NUMBER = 16,    /* two DINTs                                         */
+	FIXED = 24,     /* a constant DINT                                   */
+	COUNTER = 32,   /* two CTUs                                          */
+};
+
+/* Where each instruction of the draft begins. */
+enum {
+	AT_LUT = 0, AT_BITGET = 5, AT_BITPUT = 8, AT_COPY = 11, AT_CMP = 15,
+	AT_FN = 19, AT_FB = 26, AT_JMPC = 28, AT_JMP = 31, AT_END = 33,
+	WORDS = 34,
+};
+
+static uint32_t own(uint32_t offset)
+{
+	return iec_areas_size() + offset;
+}
+
+static uint32_t own_as(enum iec_type type, uint32_t offset)
+{
+	return CODE_OPERAND(type, own(offset));
+}
+
+static uint32_t op(enum vm_op code, uint32_t n)
+{
+	return (uint32_t)code | n << 8;
+}
+
+/* Areas end at a multiple of 8, so that all above lie as their types want. */
+static void draft_layout(struct draft *d)
+{
+	uint32_t size = word_row(FB_CTU)->size;
+
+	d->run[0] = (struct code_run){ own(0), RUN_CONSTANTS, IEC_BOOL, 0, 2 };
+	d->run[1] = (struct code_run){ own(FLAG), RUN_VALUES, IEC_BOOL, 0, 8 };
+	d->run[2] = (struct code_run){ own(NUMBER), RUN_VALUES, IEC_DINT, 0, 2 };
+	d->run[3] = (struct code_run){ own(FIXED), RUN_CONSTANTS, IEC_DINT, 0, 1 };
+	d->run[4] = (struct code_run){ own(COUNTER), RUN_INSTANCE, 0, FB_CTU, 2 };
+	d->header.data_size = own(COUNTER) + 2 * size;
+	d->header.budget = 1000;
+	memcpy(d->init, (uint32_t[]){ own(FLAG), 1, 1, own(NUMBER), 4, 77,
+				      own(FIXED), 4, 5 }, sizeof(d->init));
+	d->bits[0] = (struct code_bits){ AREA_I, 0, 2, own(FLAG) };
+	d->bits[1] = (struct code_bits){ AREA_Q, 0, 2, own(FLAG + 2) };
+}
+
+static void draft_text(struct draft *d)
+{
+	uint32_t text[WORDS] = {
+		op(VM_LUT, 1), own(FLAG), own(FLAG + 1), own(1),
+		own(FLAG + 2) << 8 | 0x80,
+		op(VM_BITGET, 7), iec_area_row(AREA_M)->offset, own(FLAG + 4),
+		op(VM_BITPUT, 7), own(FLAG), iec_area_row(AREA_M)->offset,
+		op(VM_COPY, 0), own(1), own_as(IEC_DINT, NUMBER),
+		own_as(IEC_DINT, FIXED),
+		op(VM_CMP, CMP_NE), own(FLAG + 5), own_as(IEC_DINT, NUMBER),
+		own_as(IEC_DINT, FIXED),
+		op(VM_FN, IEC_DINT | 2 << 8), FN_ADD, own(1), own(FLAG + 6),
+		own_as(IEC_DINT, NUMBER), own_as(IEC_DINT, NUMBER + 4),
+		own_as(IEC_DINT, FIXED),
+		op(VM_FB, FB_CTU), own(COUNTER),
+		op(VM_JMPC, 0), AT_END, own(FLAG),
+		op(VM_JMP, 0), AT_END,
+		op(VM_END, 0),
+	};
+
+	memcpy(d->text, text, sizeof(text));
+	d->text_words = WORDS;
+	d->entry[0] = (struct code_program){ .text_words = WORDS, .name = 1 };
+}
+
+static void draft_maps(struct draft *d)
+{
+	memcpy(d->string, "\0Main\0Flag\0N\0C\0", 16);
+	d->symbol[0] = (struct code_symbol){ 6, 0, own(FLAG), IEC_BOOL, 0, 0, 0 };
+	d->symbol[1] = (struct code_symbol){ 11, 1, own(NUMBER), IEC_DINT, 0, 0, 0 };
+	d->symbol[2] = (struct code_symbol){ 13, 0, own(COUNTER), IEC_NONE, 0,
+					     FB_CTU, 0 };
+	d->symbol[3] = (struct code_symbol){ 6, 0, 3, IEC_BOOL, AREA_M, 0, 0 };
+	d->power[0] = (struct code_power){ 0, 1, 1, 0, 1, own(1), own(FLAG) };
+	d->place[0] = (struct code_place){ AT_LUT, 0, 1, 1, 1 };
+	d->place[1] = (struct code_place){ AT_FN, 0, 2, 1, 1 };
+}
+
+static void draft_good(struct draft *d)
+{
+	memset(d, 0, sizeof(*d));
+	memcpy(d->header.magic, CODE_MAGIC, sizeof(d->header.magic));
+	d->header.version = CODE_VERSION;
+	draft_layout(d);
+	draft_text(d);
+	draft_maps(d);
+}
+
+static void add(uint8_t *bytes, uint32_t *len, int kind, const void *from,
+		uint32_t size)
+{
+	struct code_header *header = (void *)bytes;
+
+	header->section[kind] = (struct code_section){ *len, size };
+	memcpy(bytes + *len, from, size);
+	*len += (size + 3) / 4 * 4;
+}
+
+static void seal(uint8_t *bytes, uint32_t len)
+{
+	struct code_header *header = (void *)bytes;
+	size_t covered = offsetof(struct code_header, crc) + 4;
+
+	header->size = len;
+	header->crc = digest_crc32c(0, bytes + covered, len - covered);
+}
+
+static uint32_t pack(const struct draft *d, uint8_t *bytes)
+{
+	uint32_t len = sizeof(d->header);
+
+	memcpy(bytes, &d->header, sizeof(d->header));
+	add(bytes, &len, CODE_PROGRAMS, d->entry, sizeof(d->entry));
+	add(bytes, &len, CODE_LAYOUT, d->run, sizeof(d->run));
+	add(bytes, &len, CODE_INIT, d->init, sizeof(d->init));
+	add(bytes, &len, CODE_BITS, d->bits, sizeof(d->bits));
+	add(bytes, &len, CODE_TEXT, d->text, d->text_words * 4);
+	add(bytes, &len, CODE_WATCH, d->text, 0);
+	add(bytes, &len, CODE_SYMBOLS, d->symbol, sizeof(d->symbol));
+	add(bytes, &len, CODE_POWER, d->power, sizeof(d->power));
+	add(bytes, &len, CODE_PLACES, d->place, sizeof(d->place));
+	add(bytes, &len, CODE_STRINGS, d->string, sizeof(d->string));
+	seal(bytes, len);
+	return len;
+}
+
+static enum diag_id judge_bytes(const void *bytes, uint32_t len)
+{
+	struct program program;
+	struct arena scratch;
+	enum diag_id why = DIAG_COUNT;
+	size_t where;
+	bool good;
+
+	arena_init(&scratch);
+	good = code_open(bytes, len, &scratch, &program, &why, &where);
+	arena_free(&scratch);
+	return good ? DIAG_COUNT : why;
+}
+
+static enum diag_id judge(const struct draft *d)
+{
+	uint64_t room[256];
+
+	return judge_bytes(room, pack(d, (uint8_t *)room));
+}
+
+/* The good draft with @change made to it. */
+#define REFUSED(change) do { \
+	struct draft d; \
+	draft_good(&d); \
+	change; \
+	CHECK_AS(judge(&d) == DIAG_IMAGE_REFUSED, #change); \
+} while (0)
+
+static void test_good(void)
+{
+	struct draft d;
+
+	draft_good(&d);
+	CHECK_AS(judge(&d) == DIAG_COUNT, "the image is good as it stands");
+	d.place[1].text = WORDS - 1;
+	CHECK_AS(judge(&d) == DIAG_COUNT, "a place at the last word");
+	d.text_words = d.entry[0].text_words = AT_END;
+	d.text[AT_JMPC + 1] = d.text[AT_JMP + 1] = AT_LUT;
+	d.place[1].text = AT_LUT;
+	CHECK_AS(judge(&d) == DIAG_COUNT, "an end that jumps back");
+}
+
+static void test_layout(void)
+{
+	REFUSED(d.run[2].offset = own(FLAG));
+	REFUSED(d.run[2].count = 3); /* over the constant */
+	REFUSED(d.run[2].offset = own(NUMBER) + 2);
+	REFUSED(d.run[4].offset = own(COUNTER) + 4);
+	REFUSED(d.run[0].type = IEC_BYTE);
+	REFUSED(d.run[0].kind = RUN_VALUES);
+	REFUSED(d.run[0].count = 1);
+	REFUSED(d.run[1].kind = 3);
+	REFUSED(d.run[1].type = IEC_NONE);
+	REFUSED(d.run[1].type = IEC_TYPE_COUNT);
+	REFUSED(d.run[4].word = FN_ADD);
+	REFUSED(d.run[4].word = WORD_COUNT);
+	REFUSED(d.run[4].count = 3);
+	REFUSED(d.run[4].count = UINT32_MAX);
+	REFUSED(d.header.data_size--);
+	REFUSED(d.header.data_size = own(1));
+	REFUSED(d.header.data_size = LIMIT_DATA + 1);
+	REFUSED(d.header.retain_offset = d.header.data_size + 1);
+	REFUSED(d.header.retain_size = d.header.data_size + 1);
+	REFUSED(d.header.budget = LIMIT_BUDGET + 1);
+}
+
+static void test_init(void)
+{
+	REFUSED(d.init[2] = 2);
+	REFUSED(d.init[2] = 3);
+	REFUSED(d.init[0] = own(FLAG + 7); d.init[1] = 2; d.init[2] = 0);
+	REFUSED(d.init[3] = own(NUMBER) + 1);
+	REFUSED(d.init[3] = own(2));
+	REFUSED(d.init[4] = 3);
+	REFUSED(d.init[6] = d.header.data_size);
+	REFUSED(d.init[7] = 400);
+	REFUSED(d.init[7] = UINT32_MAX);
+	REFUSED(d.init[6] = own(COUNTER) + word_row(FB_CTU)->size - 1);
+}
+
+static void test_bits(void)
+{
+	REFUSED(d.bits[0].area = AREA_NONE);
+	REFUSED(d.bits[1].area = AREA_COUNT);
+	REFUSED(d.bits[1].area = AREA_I);
+	REFUSED(d.bits[0].area = AREA_M);
+	REFUSED(d.bits[1].first = iec_area_row(AREA_Q)->bytes * 8u - 1);
+	REFUSED(d.bits[1].first = UINT32_MAX);
+	REFUSED(d.bits[1].slot = own(0));
+	REFUSED(d.bits[1].slot = own(NUMBER));
+	REFUSED(d.bits[1].slot = own(FLAG + 7));
+	REFUSED(d.bits[1].slot = d.header.data_size);
+	REFUSED(d.bits[1].count = 7);
+}
+
+static void test_operands(void)
+{
+	uint32_t input = iec_area_row(AREA_I)->offset;
+
+	REFUSED(d.text[AT_LUT] = op(VM_LUT, 0));
+	REFUSED(d.text[AT_LUT + 1] = own(NUMBER));
+	REFUSED(d.text[AT_LUT + 2] = own(2));
+	REFUSED(d.text[AT_LUT + 3] = d.header.data_size);
+	REFUSED(d.text[AT_LUT + 4] = own(1) << 8 | 0x80);
+	REFUSED(d.text[AT_LUT + 4] = own(NUMBER) << 8 | 0x80);
+	REFUSED(d.text[AT_BITGET] = op(VM_BITGET, 8));
+	REFUSED(d.text[AT_BITGET + 1] = own(FLAG));
+	REFUSED(d.text[AT_BITGET + 2] = own(0));
+	REFUSED(d.text[AT_BITPUT] = op(VM_BITPUT, 8));
+	REFUSED(d.text[AT_BITPUT + 1] = own(NUMBER));
+	REFUSED(d.text[AT_BITPUT + 2] = input);
+	REFUSED(d.text[AT_COPY] = op(VM_COPY, 1));
+	REFUSED(d.text[AT_COPY + 1] = own(NUMBER));
+	REFUSED(d.text[AT_COPY + 2] = own_as(IEC_DINT, FIXED));
+	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, input));
+	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_INT, iec_area_row(AREA_M)->offset));
+	REFUSED(d.text[AT_COPY + 2] = own_as(IEC_INT, NUMBER));
+	REFUSED(d.text[AT_COPY + 3] = own_as(IEC_DINT, FLAG));
+	REFUSED(d.text[AT_COPY + 3] = own_as(IEC_TYPE_COUNT, FIXED));
+	/* Across the end of an area, and of memory. */
+	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, iec_areas_size() - 3));
+	REFUSED(d.text[AT_COPY + 3] = CODE_OPERAND(IEC_DINT, d.header.data_size - 2));
+	REFUSED(d.text[AT_CMP] = op(VM_CMP, CMP_COUNT));
+	REFUSED(d.text[AT_CMP + 1] = own(1));
+	REFUSED(d.text[AT_CMP + 2] = own_as(IEC_INT, NUMBER));
+	REFUSED(d.text[AT_CMP + 3] = own_as(IEC_NONE, FIXED));
+}
+
+static void test_calls(void)
+{
+	uint32_t size = word_row(FB_CTU)->size;
+
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_DINT | 1 << 8));
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_BOOL | 2 << 8));
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_INT | 2 << 8));
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_TYPE_COUNT | 2 << 8));
+	REFUSED(d.text[AT_FN + 1] = FB_CTU);
+	REFUSED(d.text[AT_FN + 1] = WORD_COUNT);
+	REFUSED(d.text[AT_FN + 1] = FN_MOVE);
+	REFUSED(d.text[AT_FN + 2] = own(NUMBER));
+	REFUSED(d.text[AT_FN + 3] = own(1));
+	REFUSED(d.text[AT_FN + 4] = own_as(IEC_DINT, FIXED));
+	REFUSED(d.text[AT_FN + 5] = own_as(IEC_BOOL, FLAG));
+	REFUSED(d.text[AT_FB] = op(VM_FB, FB_CTD));
+	REFUSED(d.text[AT_FB] = op(VM_FB, WORD_COUNT));
+	REFUSED(d.text[AT_FB + 1] = own(COUNTER) + 1);
+	REFUSED(d.text[AT_FB + 1] = own(COUNTER) - size);
+	REFUSED(d.run[4].count = 1; d.text[AT_FB + 1] = own(COUNTER) + size);
+	REFUSED(d.text[AT_FB + 1] = own(COUNTER) + 2 * size);
+	REFUSED(d.text[AT_FB + 1] = own(FLAG));
+}
+
+static void test_flow(void)
+{
+	REFUSED(d.text[AT_JMPC + 1] = AT_LUT + 1);
+	REFUSED(d.text[AT_JMPC + 1] = WORDS);
+	REFUSED(d.text[AT_JMPC + 2] = own(NUMBER));
+	REFUSED(d.text[AT_JMP + 1] = AT_END - 1);
+	REFUSED(d.text[AT_JMP + 1] = UINT32_MAX);
+	REFUSED(d.text[AT_JMP] = op(VM_JMP, 1));
+	REFUSED(d.text[AT_END] = op(VM_END, 1));
+	REFUSED(d.text[AT_END] = op(VM_COUNT, 0));
+	REFUSED(d.text[AT_END] = op(VM_FB, FB_CTU));
+	REFUSED(d.text[AT_END] = op(VM_LUT, 1));
+	REFUSED(d.text[AT_LUT] = op(VM_LUT, 0xffffff));
+	/* A jump without its target; what lies behind it could be one. */
+	REFUSED(d.text[AT_END] = op(VM_JMP, 0); d.symbol[0].name = AT_BITPUT);
+	/* Programs that run out of their end: after a block, a copy, a jump
+	 * that may not jump. */
+	REFUSED(d.entry[0].text_words = AT_FN;
+		d.place[1].text = 0);
+	REFUSED(d.text_words = d.entry[0].text_words = AT_JMPC;
+		d.place[1].text = 0);
+	REFUSED(d.text_words = d.entry[0].text_words = AT_JMP;
+		d.text[AT_JMPC + 1] = 0; d.place[1].text = 0);
+	REFUSED(d.entry[0].text_words = 0);
+	REFUSED(d.entry[0].text_words = WORDS + 1);
+	REFUSED(d.entry[0].text = WORDS + 1);
+	REFUSED(d.entry[0].watch_words = 1);
+	REFUSED(d.entry[0].name = sizeof(d.string));
+}
+
+static void test_maps(void)
+{
+	REFUSED(d.string[sizeof(d.string) - 1] = 'x');
+	REFUSED(d.symbol[0].name = sizeof(d.string));
+	REFUSED(d.symbol[1].pou = sizeof(d.string));
+	REFUSED(d.symbol[0].where = own(NUMBER));
+	REFUSED(d.symbol[1].type = IEC_TYPE_COUNT);
+	REFUSED(d.symbol[2].word = FB_CTD);
+	REFUSED(d.symbol[2].where++);
+	REFUSED(d.symbol[3].area = AREA_COUNT);
+	REFUSED(d.symbol[3].type = IEC_DINT);
+	REFUSED(d.symbol[3].where = iec_area_row(AREA_M)->bytes * 8u);
+	REFUSED(d.power[0].in = own(NUMBER));
+	REFUSED(d.power[0].out = d.header.data_size);
+	REFUSED(d.place[1].text = WORDS);
+	REFUSED(d.place[1].pou = 1);
+}
+
+static void test_header(void)
+{
+	struct draft d;
+	uint64_t room[256];
+	struct code_header *header = (void *)room;
+	uint32_t len;
+
+	draft_good(&d);
+	len = pack(&d, (uint8_t *)room);
+	CHECK(judge_bytes(room, len) == DIAG_COUNT);
+	CHECK(judge_bytes(room, len - 4) == DIAG_IMAGE_DAMAGED);
+	CHECK(judge_bytes(room, sizeof(*header) - 1) == DIAG_IMAGE_DAMAGED);
+	CHECK(judge_bytes(room, 7) == DIAG_IMAGE_MAGIC);
+	header->version++;
+	CHECK(judge_bytes(room, len) == DIAG_IMAGE_VERSION);
+	header->version--;
+	((uint8_t *)room)[len - 1] ^= 1;
+	CHECK_AS(judge_bytes(room, len) == DIAG_IMAGE_DAMAGED,
+		 "one bit of the last byte");
+	for (int kind = 1; kind < CODE_SECTION_COUNT; kind++) {
+		len = pack(&d, (uint8_t *)room);
+		header->section[kind].offset = len + 4;
+		seal((uint8_t *)room, len);
+		CHECK_AS(judge_bytes(room, len) == DIAG_IMAGE_DAMAGED,
+			 "a section behind the end");
+		len = pack(&d, (uint8_t *)room);
+		header->section[kind].size = len;
+		seal((uint8_t *)room, len);
+		CHECK_AS(judge_bytes(room, len) == DIAG_IMAGE_DAMAGED,
+			 "a section that is too long");
+		len = pack(&d, (uint8_t *)room);
+		header->section[kind].offset = 0;
+		seal((uint8_t *)room, len);
+		CHECK_AS(judge_bytes(room, len) == DIAG_IMAGE_DAMAGED,
+			 "a section in the header");
+	}
+}
+
+int main(void)
+{
+	test_good();
+	test_header();
+	test_layout();
+	test_init();
+	test_bits();
+	test_operands();
+	test_calls();
+	test_flow();
+	test_maps();
+	return tap_done();
+}
