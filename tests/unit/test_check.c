@@ -192,6 +192,8 @@ static void test_wrong_ways(void)
 	CHECK_TEXT(topology("| NO A | COIL B |\n| ---^|"), "LD204(1,1)A");
 	CHECK_TEXT(topology("| NO A | NO B | COIL C |\n| --- | ---^|"),
 		   "LD204(1,2)B");
+	CHECK_TEXT(topology("| NO A | NO B | COIL C |\n| NO D | NO E^|\n"
+			    "| --- | ---^|"), "LD204(1,2)B LD204(2,2)E");
 	CHECK_TEXT(topology("| NO A | NO B | NO C | COIL D |\n"
 			    "|^| --- | ---^|"), "LD204(1,3)C");
 	CHECK_TEXT(topology("| NO A | NO B | COIL C |\n|^| ---^|"),

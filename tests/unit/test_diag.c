@@ -95,7 +95,7 @@ static void counts_beyond_its_limit(void)
 
 static void codes_are_unique(void)
 {
-	bool unique = true, shaped = true;
+	bool unique = true, differ = true, shaped = true;
 
 	for (int i = 0; i < DIAG_COUNT; i++) {
 		const char *code = diag_code((enum diag_id)i);
@@ -103,10 +103,15 @@ static void codes_are_unique(void)
 		shaped &= strlen(code) == 5 && strncmp(code, "LD", 2) == 0 &&
 			  strspn(code + 2, "0123456789") == 3 &&
 			  diag_text((enum diag_id)i)[0] != '\0';
-		for (int k = 0; k < i; k++)
+		for (int k = 0; k < i; k++) {
+			const char *text = diag_text((enum diag_id)k);
+
 			unique &= strcmp(code, diag_code((enum diag_id)k)) != 0;
+			differ &= strcmp(text, diag_text((enum diag_id)i)) != 0;
+		}
 	}
 	CHECK(unique);
+	CHECK_AS(differ, "no two messages say the same");
 	CHECK(shaped);
 	CHECK_TEXT(diag_code(DIAG_COUNT), "LD000");
 	CHECK(diag_severity(DIAG_COUNT) == SEVERITY_ERROR);

@@ -229,6 +229,92 @@ static void test_limits(void)
 	free(text.at);
 }
 
+/* A file of @before, then @count times @more, then @behind. */
+static enum diag_id repeated(const char *before, const char *more, int count,
+			     const char *behind)
+{
+	struct text text = { 0 };
+	enum diag_id out = DIAG_COUNT;
+
+	add(&text, before);
+	add_many(&text, more, count);
+	add(&text, behind);
+	if (!read_text(text.at))
+		out = diags.diag[0].id;
+	free(text.at);
+	return out;
+}
+
+static void test_more_limits(void)
+{
+#define VARS "RUNGBOARD 1\nVAR\nA"
+	CHECK(repeated(VARS, ",A", LIMIT_VARS - 1, ":BOOL;\nEND_VAR\n") ==
+	      DIAG_COUNT);
+	CHECK(repeated(VARS, ",A", LIMIT_VARS, ":BOOL;\nEND_VAR\n") ==
+	      DIAG_TOO_MANY);
+#define UNIT "PROGRAM P\nEND_PROGRAM\n"
+	CHECK(repeated("RUNGBOARD 1\n", UNIT, LIMIT_POUS, "") == DIAG_COUNT);
+	CHECK(repeated("RUNGBOARD 1\n", UNIT, LIMIT_POUS + 1, "") ==
+	      DIAG_TOO_MANY);
+#define CELL "RUNGBOARD 1\nPROGRAM P\nRUNG\n| TON T1 P"
+	CHECK(repeated(CELL, "P", LIMIT_NAME - 1, ":=5 |\nEND_PROGRAM\n") ==
+	      DIAG_COUNT);
+	CHECK(repeated(CELL, "P", LIMIT_NAME, ":=5 |\nEND_PROGRAM\n") ==
+	      DIAG_NAME_TOO_LONG);
+#define PIN "RUNGBOARD 1\nPROGRAM P\nRUNG\n| NO T1.P"
+	CHECK(repeated(PIN, "P", LIMIT_NAME - 1, " |\nEND_PROGRAM\n") ==
+	      DIAG_COUNT);
+	CHECK(repeated(PIN, "P", LIMIT_NAME, " |\nEND_PROGRAM\n") ==
+	      DIAG_NAME_TOO_LONG);
+}
+
+/* The bytes behind the first ones are never looked at: calloc() does not even
+ * have them. */
+static void test_too_large(void)
+{
+	char *bytes = calloc(1, LIMIT_TEXT + 1u);
+
+	if (!CHECK(bytes != NULL))
+		return;
+	memcpy(bytes, "RUNGBOARD 1\n", 12);
+	CHECK(!read_bytes(bytes, LIMIT_TEXT + 1u));
+	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_TOO_LARGE);
+	free(bytes);
+}
+
+/* A source whose every file is large. */
+static char *load_large(void *context, const char *from, const char *name,
+			size_t *len, struct diag_list *list,
+			struct diag place)
+{
+	char *text = malloc(*(size_t *)context);
+
+	(void)from, (void)name, (void)list, (void)place;
+	*len = text ? *(size_t *)context : 0;
+	if (text)
+		memset(text, 'x', *len);
+	return text;
+}
+
+static void test_include_total(void)
+{
+	size_t size = LIMIT_TEXT / 4;
+	const struct text_source source = { load_large, &size };
+	static const char text[] = "RUNGBOARD 1\nINCLUDE \"a\"\n"
+		"INCLUDE \"b\"\nINCLUDE \"c\"\nINCLUDE \"d\"\n";
+	int large = 0;
+
+	project_free(project);
+	project = project_new("t.rung");
+	diag_init(&diags);
+	CHECK(!text_read(project, "t.rung", text, sizeof(text) - 1, &source,
+			 &diags));
+	for (int i = 0; i < diags.count; i++)
+		large += diags.diag[i].id == DIAG_BAD_INCLUDE;
+	CHECK_AS(large == 1 && diags.count == 4,
+		 "three files are read, the fourth is too much");
+}
+
 /* Ten million bytes of one piece, in several places: an answer, and soon. */
 static void test_monotonous(void)
 {
@@ -312,6 +398,9 @@ int main(void)
 	test_il_errors();
 	test_expression_errors();
 	test_limits();
+	test_more_limits();
+	test_too_large();
+	test_include_total();
 	test_monotonous();
 	test_cut_and_changed();
 	project_free(project);

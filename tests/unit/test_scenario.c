@@ -69,6 +69,10 @@ static void test_times(void)
 	CHECK(strstr(run(S "at 1s Open=1\nfor 21ms expect Level < 15\n"),
 		     "at 1020 ms: not so:"));
 	CHECK_TEXT(run(S "at 1s for 0 expect Level = 0\n"), "held");
+	/* What is still open is not forgotten behind what is judged. */
+	CHECK(strstr(run(S "at 10ms within 50ms expect Lamp\n"
+			 "at 20ms expect not Motor\nat 30ms expect not Lamp\n"),
+		     "at 60 ms: not so: at 10ms within 50ms expect Lamp"));
 }
 
 static void test_report(void)
