@@ -4,7 +4,9 @@
  * line to fail or a driver to hang. The environment says what happens:
  *   FAKE_DEV      folder that stands for /dev
  *   FAKE_FAIL_AT  reads fail from this one on, FAKE_HEAL_AT: until this one
+ *   FAKE_DEAF_AT  writes fail from this one on, FAKE_HEAR_AT: until this one
  *   FAKE_SLOW_AT  reads take 15 ms from this one on
+ *   FAKE_SLOW_MS  or as long as this; FAKE_SLOW_EACH: but only every so many
  *   FAKE_HANG_AT  this read never returns
  *   FAKE_CRASH_AT this read ends in SIGSEGV
  */
@@ -38,10 +40,26 @@ static long number(const char *name)
 /* The whole time, whatever signals come. */
 static void be_slow(void)
 {
-	struct timespec left = { 0, 15000000 };
+	long ms = number("FAKE_SLOW_MS");
+	struct timespec left = { 0, (ms ? ms : 15) * 1000000 };
 
 	while (nanosleep(&left, &left) != 0)
 		;
+}
+
+static bool is_slow(long reads)
+{
+	long from = number("FAKE_SLOW_AT"), each = number("FAKE_SLOW_EACH");
+
+	return from && reads >= from && (!each || reads % each == 0);
+}
+
+static void at_write(void)
+{
+	long deaf = number("FAKE_DEAF_AT"), hear = number("FAKE_HEAR_AT");
+
+	fake.write_error = deaf && fake.writes >= deaf &&
+			   !(hear && fake.writes >= hear) ? EIO : 0;
 }
 
 static void at_read(void)
@@ -51,7 +69,7 @@ static void at_read(void)
 
 	fake.read_error = fail && reads >= fail && !(heal && reads >= heal) ?
 			  EIO : 0;
-	if (number("FAKE_SLOW_AT") && reads >= number("FAKE_SLOW_AT"))
+	if (is_slow(reads))
 		be_slow();
 	if (number("FAKE_CRASH_AT") == reads)
 		raise(SIGSEGV);
@@ -77,4 +95,5 @@ __attribute__((constructor)) static void begin(void)
 {
 	fake_at_open = set_up;
 	fake_at_read = at_read;
+	fake_at_write = at_write;
 }

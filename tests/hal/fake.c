@@ -13,6 +13,7 @@
 struct fake fake;
 void (*fake_at_read)(void);
 void (*fake_at_open)(void);
+void (*fake_at_write)(void);
 
 void fake_reset(void)
 {
@@ -141,6 +142,8 @@ int fake_write(const struct fake_request *request, const int *values)
 {
 	note('w');
 	fake.writes++;
+	if (fake_at_write)
+		fake_at_write();
 	if (answer(request, fake.write_error))
 		return -1;
 	for (size_t i = 0; i < request->count; i++)

@@ -65,4 +65,5 @@ int fake_write(const struct fake_request *request, const int *values);
 /* Called at each read by a test that wants to; see daemon_fake.c. */
 extern void (*fake_at_read)(void);
 extern void (*fake_at_open)(void);
+extern void (*fake_at_write)(void);
 #endif

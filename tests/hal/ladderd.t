@@ -141,6 +141,41 @@ BOARD "fake panel"
 %QX0.1 gpio line=OUT1 safe=1
 END
 
+# Motor is switched on in the very scan that never ends.
+my $once = put('once.rung', <<'END');
+RUNGBOARD 1
+PROJECT "Once"
+
+VAR
+  Motor AT %QX0.0 : BOOL;
+  Brake AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO SYS_ALWAYS_ON | --- | COIL Motor |
+  |                 ^| NO Brake | COIL Brake |
+RUNG Again
+  | NO SYS_ALWAYS_ON | JMP Again |
+END_PROGRAM
+END
+my $told = put('told.rung', <<'END');
+RUNGBOARD 1
+PROJECT "Told"
+
+VAR
+  Motor AT %QX0.0 : BOOL;
+  Brake AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO SYS_IO_FAULT | S Motor |
+RUNG
+  | NO SYS_ALWAYS_ON | COIL Brake |
+END_PROGRAM
+END
+
 sub is_safe {
 	my ($what) = @_;
 	my $level = levels();
@@ -277,6 +312,10 @@ for my $signal (qw(TERM INT)) {
 	is(run($ladderd, $loop, '--io', $map, '--scans', '1000', @traced), 1,
 		'--scans ends at a FAULT');
 	is_safe('and');
+	is(run($ladderd, $once, '--io', $map, '--scans', '1', @traced), 1,
+		'a fault in the first scan');
+	unlike(get('err'), qr/^%QX0\.0 1$/m,
+		'what a scan wrote that did not end is never at a line');
 }
 
 # ---- ways out: lines that fail, scans that hang, on both libgpiods ----
@@ -332,7 +371,50 @@ for my $version (1, 2) {
 			'--watchdog', '3'), 1, 'three in a row are one');
 		like(get('out'), qr/^state: FAULT\nfault: .*watchdog/,
 			'which says so');
+		my ($scans) = get('out') =~ /^scans: (\d+)/m;
+		ok($scans <= 6, 'at the third') or diag("scans: $scans");
 		is_safe('late');
+	}
+	{
+		local $ENV{FAKE_SLOW_AT} = 1;
+		local $ENV{FAKE_SLOW_MS} = 60;
+		local $ENV{FAKE_SLOW_EACH} = 2;
+		is(run($fake, $rung, '--io', $gpio, '--scans', '12', '--period',
+			'50ms', '--watchdog', '4'), 0,
+			"v$version: late scans that are not in a row");
+		get('out') =~ /^late: (\d+)$/m;
+		ok($1 >= 5, 'are counted only') or diag(get('out'));
+	}
+	{
+		local $ENV{FAKE_FAIL_AT} = 5;
+		local $ENV{FAKE_HEAL_AT} = 6;
+		is(run($fake, $told, '--io', $gpio, '--scans', '20', @traced), 0,
+			"v$version: a read that fails once is no FAULT");
+		like(get('err'), qr/^%QX0\.0 1$/m, 'but the program is told');
+	}
+	{
+		# The first write is the program's; all others stay without answer.
+		local $ENV{FAKE_DEAF_AT} = 2;
+		my $pid = start($fake, $loop, '--io', $gpio, @traced, '--period',
+			'50ms', '--watchdog', '1000');
+		ok(until_has('err', qr/FAULT/), "v$version: deaf outputs");
+		kill 'HUP', $pid;
+		ok(until_has('err', qr/a line does not answer|reset, RUN/),
+			'an answer to the reset');
+		unlike(get('err'), qr/reset, RUN/, 'no reset without safe outputs');
+		kill 'KILL', $pid;
+		finish($pid);
+	}
+	{
+		local $ENV{FAKE_DEAF_AT} = 2;
+		local $ENV{FAKE_HEAR_AT} = 4;
+		my $pid = start($fake, $loop, '--io', $gpio, @traced, '--period',
+			'50ms', '--watchdog', '1000');
+		ok(until_has('err', qr/FAULT(.*\n)*%QX0\.0 0$/m),
+			"v$version: safe values are tried until they arrive");
+		is_safe('then');
+		kill 'TERM', $pid;
+		finish($pid);
 	}
 	{
 		local $ENV{FAKE_CRASH_AT} = 10;

@@ -132,6 +132,34 @@ static void test_hostile(void)
 	free(text);
 }
 
+static enum diag_id first_of(const char *text, size_t len)
+{
+	struct bench b;
+	enum diag_id out;
+
+	bench_begin(&b);
+	out = iomap_read(&b.map, &b.arena, "test.io", text, len, &b.diags) ?
+	      DIAG_COUNT : b.diags.diag[0].id;
+	bench_end(&b);
+	return out;
+}
+
+static void test_lengths(void)
+{
+	char text[LIMIT_NAME + 100];
+	char *large = calloc(1, LIMIT_TEXT + 1u);
+
+	for (int more = 0; more < 2; more++) {
+		int len = snprintf(text, sizeof(text),
+				   "BOARD \"x\"\n%%IX0.0 gpio line=%0*d\n",
+				   LIMIT_NAME + more, 0);
+
+		CHECK((first_of(text, (size_t)len) == DIAG_COUNT) == !more);
+	}
+	CHECK(large && first_of(large, LIMIT_TEXT + 1u) == DIAG_TOO_LARGE);
+	free(large);
+}
+
 static void test_limit(void)
 {
 	struct bench b;
@@ -225,6 +253,7 @@ int main(void)
 	test_refusals();
 	test_goes_on();
 	test_hostile();
+	test_lengths();
 	test_limit();
 	test_sim();
 	test_no_gpio();

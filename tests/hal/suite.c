@@ -120,6 +120,15 @@ static void test_failed_writes(void)
 	CHECK(scan(&b, 2) && level("OUT0") == 1);
 	output(&b, 0, false);
 	fake.write_error = EIO;
+	scan(&b, 2);
+	fake.write_error = 0;
+	output(&b, 0, true);
+	fake_clear_calls();
+	CHECK(scan(&b, 2));
+	CHECK_AS(fake.writes == 1,
+		 "nobody knows what a write that failed left: it is made good");
+	output(&b, 0, false);
+	fake.write_error = EIO;
 	CHECK(scan(&b, 3) && scan(&b, 4) && !scan(&b, 5));
 	CHECK(!hal_write_safe(&b.hal));
 	fake.write_error = 0;
