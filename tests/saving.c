@@ -116,10 +116,10 @@ static int count_files(bool clear)
 	return count;
 }
 
+static struct diag_list diags;
+
 static bool save(int failing, int killing)
 {
-	static struct diag_list diags;
-
 	memset(calls, 0, sizeof(calls));
 	step = 0;
 	fail_at = failing;
@@ -161,6 +161,10 @@ static void test_errors(void)
 		put_old();
 	}
 	CHECK_AS(failing > 10 && failing < STEPS_MAX, "each call failed once");
+	CHECK_AS(look() == 'n' && count_files(false) == 1,
+		 "the folder could not be synced: the new file is there");
+	CHECK_AS(diags.count == 1 && diags.errors == 0 &&
+		 diags.diag[0].id == DIAG_NOT_SYNCED, "and a warning says so");
 	is_short = false;
 }
 

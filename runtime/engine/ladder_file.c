@@ -145,8 +145,6 @@ static int replace(const char *path, const char *temporary, int fd,
 		result = -errno;
 	if (result < 0)
 		unlink(temporary);
-	else
-		result = sync_folder(path);
 	return result;
 }
 
@@ -176,9 +174,11 @@ bool ladder_save_file(const char *path, const void *bytes, size_t len,
 	memcpy(temporary + size, suffix, sizeof(suffix));
 	fd = mkstemp(temporary);
 	result = fd < 0 ? -errno : replace(target, temporary, fd, bytes, len);
-	free(temporary);
-	free(real);
 	if (result < 0)
 		fail(diags, DIAG_CANNOT_WRITE, path, -result);
+	else if (sync_folder(target) < 0) /* the new file is there already */
+		fail(diags, DIAG_NOT_SYNCED, path, 0);
+	free(temporary);
+	free(real);
 	return result == 0;
 }

@@ -425,10 +425,10 @@ bool ld_to_il(struct translation *translation, struct unit *unit,
 		ld.rung = unit->pou->rung[i];
 		ld.number = (uint32_t)i + 1;
 		ld.row = ld.col = 0;
-		if (ld.rung->off && !ld.rung->label)
+		if (ld.rung->off)
 			continue;
-		head(&ld);
-		if (ld.rung->off || skip[i])
+		head(&ld); /* a label counts even if the rung has errors */
+		if (skip[i])
 			continue;
 		if (!prepare_rung(&ld))
 			return false;
