@@ -24,6 +24,17 @@ void ld_emit_line(struct ld *ld, struct il_line line)
 		ld->failed = true;
 }
 
+/* Was it stored just now? Then it is the result still. */
+static bool is_result(const struct ld *ld, uint32_t operand)
+{
+	const struct il_line *last = ld->il->count ?
+		&ld->il->line[ld->il->count - 1] : NULL;
+
+	return last && last->kind == IL_OP && last->op == OP_ST &&
+	       !last->modifiers && last->operand == operand &&
+	       last->rung == ld->number;
+}
+
 void ld_emit(struct ld *ld, enum op op, uint8_t modifiers, uint32_t operand)
 {
 	struct il_line line = {
@@ -31,6 +42,8 @@ void ld_emit(struct ld *ld, enum op op, uint8_t modifiers, uint32_t operand)
 		.operand = operand,
 	};
 
+	if (op == OP_LD && !modifiers && !ld->open && is_result(ld, operand))
+		return;
 	if (ld->open) {
 		struct il_line open = {
 			.kind = IL_OP, .op = ld->open_op,
