@@ -1,0 +1,435 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_translate - ladders become lists as a person would write them, and run as
+ * the language document says; the printed list is the same program.
+ */
+#include "engine/text/text.h"
+#include "engine/view/view.h"
+#include "tests/unit/rig.h"
+
+#include <dirent.h>
+
+static const char declared[] =
+	"VAR\n  A AT %IX0.0 : BOOL;\n  B AT %IX0.1 : BOOL;\n  C AT %IX0.2 : BOOL;\n"
+	"  D AT %IX0.3 : BOOL;\n  X, Y, Z : BOOL;\n  N, M : INT;\n  T : TIME;\n"
+	"  Raw AT %MW4 : INT;\n"
+	"  Delay : TON;\n  Up : CTUD;\nEND_VAR\n";
+
+static char text[200000];
+
+static const char *program(const char *language, const char *body)
+{
+	snprintf(text, sizeof(text), "%sPROGRAM Main %s\n%s\nEND_PROGRAM\n",
+		 declared, language, body);
+	return text;
+}
+
+static bool ladder(struct rig *rig, const char *rungs, bool watch)
+{
+	return rig_open(rig, program("LD", rungs), watch);
+}
+
+static bool list(struct rig *rig, const char *lines)
+{
+	return rig_open(rig, program("IL", lines), false);
+}
+
+/* ---- the text ---- */
+
+/* The list of these rungs, lines joined by |, without blanks and comments. */
+static const char *lines(const char *rungs)
+{
+	static char out[4000];
+	struct sink_memory memory;
+	struct sink sink;
+	struct rig rig;
+	size_t len = 0;
+
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	out[0] = '\0';
+	if (ladder(&rig, rungs, false)) {
+		text_write_il(&ladder_project(rig.ladder)->names,
+			      ladder_il(rig.ladder, 0), &sink);
+		sink_text(&sink, "\n");
+		for (const char *line = strtok(memory.text, "\n"); line;
+		     line = strtok(NULL, "\n")) {
+			if (strstr(line, "(* rung"))
+				continue;
+			line += strspn(line, " ");
+			len += (size_t)snprintf(out + len, sizeof(out) - len,
+						"%s%s", len ? "|" : "", line);
+		}
+		/* One blank between words. */
+		for (char *at = out; (at = strstr(at, "  ")) != NULL;)
+			memmove(at, at + 1, strlen(at));
+	}
+	sink_memory_free(&memory);
+	rig_close(&rig);
+	return out;
+}
+
+static void writes_contacts_and_coils(void)
+{
+	CHECK_TEXT(lines("RUNG\n | NO A | NC B | COIL X |\n | NO X ^|\n"),
+		   "LD A|OR X|ANDN B|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | COIL X |\n | ^| COILNOT Y |\n | ^| S Z |\n"),
+		   "LD A|ST X|STN Y|S Z");
+	CHECK_TEXT(lines("RUNG\n | NO A | NO B | COIL X |\n"
+			 " | NO C ^| ^| NO D | COIL Y |\n"),
+		   "LD A|OR C|AND B|ST _T1|ST X|LD _T1|AND D|ST Y");
+	CHECK_TEXT(lines("RUNG\n | NC A | NO B | COIL X |\n | NO C | NC D ^|\n"
+			 " | NC B | --- ^|\n"),
+		   "LDN A|AND B|OR( C|ANDN D|)|ORN B|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | NOT | COIL X |\n"), "LD A|NOT|ST X");
+	CHECK_TEXT(lines("RUNG\n | COIL X |\n"), "LD TRUE|ST X");
+	CHECK_TEXT(lines("RUNG\n | P A | COIL X |\n"),
+		   "LD A|ANDN _E1|ST _T1|LD A|ST _E1|LD _T1|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | COILN X |\n"),
+		   "LD A|ST _T1|LD _E1|ANDN _T1|ST X|LD _T1|ST _E1");
+	CHECK_TEXT(lines("RUNG OFF\n | NO A | COIL X |\nRUNG\n | NO B | COIL Y |\n"),
+		   "LD B|ST Y");
+}
+
+static void writes_flow_and_boxes(void)
+{
+	CHECK_TEXT(lines("RUNG\n | NO A | NC B | JMP Far |\nRUNG Far\n | NO A | RET |\n"),
+		   "LD A|ANDN B|JMPC Far|Far:|LD A|RETC");
+	CHECK_TEXT(lines("RUNG\n | JMP Far |\nRUNG Far\n | RET |\n"),
+		   "JMP Far|Far:|RET");
+	CHECK_TEXT(lines("RUNG Unused\n | NO A | COIL X |\n"), "LD A|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | [ N > 5 ] | COIL X |\n"),
+		   "LD N|GT 5|ST _T1|LD A|AND _T1|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | [ N := N + M * 2 ] |\n"),
+		   "MUL(EN := A, IN1 := M, IN2 := 2, ENO => _T1, OUT => _N1)|"
+		   "ADD(EN := _T1, IN1 := N, IN2 := _N1, ENO => _T2, OUT => N)");
+	CHECK_TEXT(lines("RUNG\n | [ N := -5 ] |\n"),
+		   "MOVE(EN := TRUE, IN := INT#-5, ENO => _T1, OUT => N)");
+	CHECK_TEXT(lines("RUNG\n | NO A | TON Delay PT:=T#1s ET=>T | COIL X |\n"),
+		   "LD A|ST Delay.IN|CAL Delay(PT := T#1s, ET => T)|LD Delay.Q|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | CTUD Up PV:=5 | COIL X |\n | NC B | .CD |\n"
+			 " | NO C | .R |\n"),
+		   "LD A|ST Up.CU|LDN B|ST Up.CD|LD C|ST Up.R|CAL Up(PV := 5)|"
+		   "LD Up.QU|ST X");
+	CHECK_TEXT(lines("RUNG\n | NO A | GT IN1:=N IN2:=M | COIL X |\n"),
+		   "LD N|GT M|ST _T1|LD A|AND _T1|ST X");
+}
+
+/* ---- values a rung began with ---- */
+
+static void keeps_old_values(void)
+{
+	struct rig rig;
+
+	/* A coil above a contact of the same variable. */
+	if (ladder(&rig, "RUNG\n | NO A | COIL X |\n | NO X | COIL Y |\n"
+		   " | NC X | NO A | COIL Z |\n", false)) {
+		rig_set(&rig, "A", 1);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "X") == 1);
+		CHECK(rig_get(&rig, "Y") == 0 && rig_get(&rig, "Z") == 1);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "Y") == 1);
+		CHECK(rig_get(&rig, "Z") == 0);
+	}
+	rig_close(&rig);
+	/* A box that writes what a branch above has read. */
+	if (ladder(&rig, "RUNG\n | NO X | --- | --- | COIL Y |\n"
+		   " | ^| NO A | MOVE IN:=FALSE OUT=>X | COIL Z |\n", false)) {
+		rig_set(&rig, "X", 1);
+		rig_set(&rig, "A", 1);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "X") == 0);
+		CHECK(rig_get(&rig, "Y") == 1 && rig_get(&rig, "Z") == 1);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "Y") == 0);
+	}
+	rig_close(&rig);
+	/* A word that lies over a contact's bit. */
+	if (ladder(&rig, "RUNG\n | NO M33 | --- | COIL Y |\n"
+		   " | NO A | MOVE IN:=16#0000 OUT=>%MW4 | COIL Z |\n", false)) {
+		rig_set(&rig, "M33", 1);
+		rig_set(&rig, "A", 1);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "M33") == 0);
+		CHECK(rig_get(&rig, "Y") == 1 && rig_get(&rig, "Z") == 1);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "Y") == 0);
+	}
+	rig_close(&rig);
+	/* An instance called below what reads its pin. */
+	if (ladder(&rig, "RUNG\n | NO Delay.Q | --- | COIL Y |\n"
+		   " | NO A | TON Delay PT:=T#0s | COIL Z |\n", false)) {
+		rig_set(&rig, "A", 1);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "Z") == 1);
+		CHECK(rig_get(&rig, "Y") == 0 && rig_scan(&rig));
+		CHECK(rig_get(&rig, "Y") == 1);
+	}
+	rig_close(&rig);
+}
+
+/* Outputs of boxes into bits that a byte overlays, and into each other's inputs. */
+static void writes_packed_bits(void)
+{
+	struct rig rig;
+
+	if (ladder(&rig, "RUNG\n | NO A | MOVE IN:=B OUT=>%MX2.3 ENO=>%MX2.4 | COIL X |\n"
+		   "RUNG\n | NO C | GT IN1:=N IN2:=5 OUT=>%MX2.5 ENO=>%MX2.6 |\n"
+		   "RUNG\n | NO A | CTUD Up PV:=1 QD=>%MX2.7 | COIL %MX2.0 |\n"
+		   "RUNG\n | [ %MB2 > 0 ] | COIL Z |\n", false)) {
+		CHECK(rig_scan(&rig) && rig_get(&rig, "%MB2") == 0x80);
+		rig_set(&rig, "A", 1);
+		rig_set(&rig, "B", 1);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "%MB2") == 0x19);
+		CHECK(rig_get(&rig, "Z") == 1 && rig_get(&rig, "X") == 1);
+		rig_set(&rig, "A", 0);
+		rig_set(&rig, "C", 1);
+		rig_set(&rig, "N", 6);
+		CHECK(rig_scan(&rig));
+		CHECK_AS(rig_get(&rig, "%MB2") == 0x69, "OUT stays, ENO goes");
+		rig_set(&rig, "C", 0);
+		rig_set(&rig, "N", 0);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "%MB2") == 0x29);
+	}
+	rig_close(&rig);
+}
+
+/* ---- lists ---- */
+
+/* One scan of a list; then what a variable is. */
+static int64_t after(const char *body, const char *name)
+{
+	struct rig rig;
+	int64_t value = INT64_MIN;
+
+	if (list(&rig, body)) {
+		rig_set(&rig, "A", 1);
+		rig_set(&rig, "N", 20);
+		if (rig_scan(&rig))
+			value = rig_get(&rig, name);
+	}
+	rig_close(&rig);
+	return value;
+}
+
+static void runs_operators(void)
+{
+	CHECK(after("LDN 0\nST X", "X") == 1 && after("LDN 1\nST X", "X") == 0);
+	CHECK(after("LD 1\nST X\nST M", "M") == 1);
+	CHECK(after("LD 1\nS X\nST M", "X") == 1);
+	CHECK(after("LD 0\nJMPC L\nST M\nLD 5\nST M\nL:", "M") == 5);
+	CHECK(after("LD 1\nJMPCN L\nLD 7\nST M\nL:", "M") == 7);
+	CHECK(after("LD 1\nNOT\nSTN X", "X") == 1);
+	CHECK(after("LD 0\nAND X\nSTN Y", "Y") == 1);
+	CHECK(after("LD A\nXOR B\nST X", "X") == 1);
+	CHECK(after("LD A\nXORN( A\nNOT\n)\nST X", "X") == 0);
+	CHECK(after("LD A\nXOR(\nLDN B\nNOT\n)\nST X", "X") == 1);
+	CHECK(after("LD A\nANDN(\nLD N\nGT 50\n)\nST X", "X") == 1);
+	CHECK(after("LD B\nOR( N\nGT 10\nAND A\n)\nST X", "X") == 1);
+	CHECK(after("LD A\nAND( 1\n)\nST X", "X") == 1);
+	CHECK(after("LD N\nST M\nST Up.PV", "Up.PV") == 20);
+	CHECK(after("LD N\nADD 1\nST N\nST M\nADD 1\nST N", "N") == 22);
+	CHECK(after("LD N\nADD 1\nST N\nST M\nADD 1\nST N", "M") == 21);
+	CHECK(after("LD N\nDIV 0\nST M", "M") == 20);
+	CHECK(after("LD A\nRETC\nST X", "X") == 0);
+	CHECK(after("LD A\nRETCN\nST X", "X") == 1);
+	CHECK(after("LD A\nST X\nRETC", "X") == 1);
+	CHECK(after("LD A\nST X\nR X\nST Y", "Y") == 1);
+	CHECK(after("LD A\nST X\nR X\nST Y", "X") == 0);
+	CHECK(after("LD A\nST X\nLD B\nST X\nLD X\nST Y", "Y") == 0);
+}
+
+/* Both sides of a word that is stored over what was loaded. */
+static void keeps_loaded_numbers(void)
+{
+	struct rig rig;
+
+	if (list(&rig, "LD %MW0\nST %MW1\nST %MW4")) {
+		rig_set(&rig, "%MW0", 0x1234);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "%MW4") == 0x1234);
+		CHECK(rig_get(&rig, "%MW1") == 0x1234);
+	}
+	rig_close(&rig);
+}
+
+static void runs_calls(void)
+{
+	CHECK(after("LD 1\nCALC Up(CU := 1, CV => M)", "M") == 1);
+	CHECK(after("LD 0\nCALC Up(CU := 1, CV => M)", "M") == 0);
+	CHECK(after("LD 0\nCALCN Up(CU := 1, CV => M)", "M") == 1);
+	CHECK(after("LD A\nCALC Up(CU := TRUE, PV := INT#3)", "Up.PV") == 3);
+	CHECK(after("LD A\nCALCN Up(CU := TRUE, PV := 3)", "Up.PV") == 0);
+	CHECK(after("LD A\nST Up.CU\nCAL Up\nLD Up.CV\nST M", "M") == 1);
+	CHECK(after("CAL Delay(IN := A, PT := T#0s, Q => X)", "X") == 1);
+	CHECK(after("MOVE(EN := B, IN := 5, OUT => M)", "M") == 0);
+	CHECK(after("MOVE(EN := A, IN := SINT#5, OUT => M, ENO => X)", "M") == 5);
+	CHECK(after("DIV(IN1 := N, IN2 := M, OUT => N, ENO => X)\nLDN X\nST Y", "Y") == 1);
+	CHECK(after("ADD(IN1 := N, IN2 := 1, IN3 := 1, IN4 := INT#8, OUT => M)", "M") == 30);
+	CHECK(after("GT(IN1 := N, IN2 := 19, OUT => X)", "X") == 1);
+}
+
+/* Names that translation uses too: a list may declare and use them. */
+static int64_t with_temporaries(const char *body)
+{
+	static char whole[2000];
+
+	snprintf(whole, sizeof(whole), "VAR\n  _T1, _T2 : BOOL;\nEND_VAR\n%s", body);
+	return after(whole, "Y");
+}
+
+static void runs_temporaries(void)
+{
+	CHECK(with_temporaries("LD A\nST _T1\nLD _T1\nST Y") == 1);
+	CHECK(with_temporaries("LD A\nST _T1\nLD _T1\nAND _T1\nANDN B\nST Y") == 1);
+	CHECK_AS(with_temporaries("LD TRUE\nST _T1\n"
+				  "MOVE(EN := FALSE, IN := FALSE, OUT => _T1)\n"
+				  "LD _T1\nST Y") == 1, "OUT stays without EN");
+	CHECK(with_temporaries("LD A\nST _T1\nLD B\nCALC Up(QU => _T1)\n"
+			       "LD _T1\nST Y") == 1);
+	CHECK(with_temporaries("LD A\nST _T1\nLD B\nJMPC L\nLD FALSE\nST _T1\n"
+			       "L:\nLD _T1\nST Y") == 0);
+	CHECK(with_temporaries("LD A\nST _T1\nLD A\nJMPC L\nLD FALSE\nST _T1\n"
+			       "L:\nLD _T1\nST Y") == 1);
+	CHECK(with_temporaries("LD A\nST _T1\nLD B\nR _T1\nLD _T1\nST Y") == 1);
+	CHECK(with_temporaries("LD X\nOR A\nST _T1\nLD B\nST X\nLD _T1\nST Y") == 1);
+	CHECK(with_temporaries("LD X\nORN X\nST _T1\nLD A\nST X\nLD _T1\nAND X\n"
+			       "ST _T2\nLD _T1\nAND _T2\nST Y") == 1);
+	CHECK(with_temporaries("MOVE(EN := A, IN := 1, OUT => N, ENO => _T1)\n"
+			       "LD _T1\nST Y") == 1);
+}
+
+/* 64 parentheses, and 300 contacts in a row. */
+static void runs_large_lists(void)
+{
+	static char body[20000];
+
+	strcpy(body, "LD B\n");
+	for (int i = 0; i < LIMIT_IL_DEPTH; i++)
+		strcat(body, i % 2 ? "OR( B\n" : "ORN( A\n");
+	for (int i = 0; i < LIMIT_IL_DEPTH; i++)
+		strcat(body, ")\n");
+	strcat(body, "ST Y");
+	/* ORN( A OR( B ORN( A … ))): NOT (A OR …) all the way. */
+	CHECK(after(body, "Y") == 0);
+	strcpy(body, "LD A\n");
+	for (int i = 0; i < 300; i++)
+		snprintf(body + strlen(body), 32, "ANDN V%d\n", i);
+	strcat(body, "ST Y");
+	CHECK(after(body, "Y") == 1);
+	strcat(body, "\nLD 1\nST V299");
+	CHECK(after(body, "Y") == 1);
+	CHECK(after("", "Y") == 0 && after("RET", "Y") == 0);
+}
+
+/* ---- watched and not ---- */
+
+static const char *const watched =
+	"RUNG\n | NO A | NC B | --- | COIL X |\n | NO X ^| NO C | NOT ^| COILP Y |\n"
+	"RUNG\n | P A | [ N := N + 1 ] |\n | N A | [ M := M - N ] | COIL Z |\n"
+	"RUNG\n | NO A | CTUD Up PV:=3 CV=>Raw | S M40 |\n | NO B | .R |\n"
+	"RUNG\n | NO M32 | NO D | JMP End |\n | NO X | --- | COIL M41 |\n"
+	"RUNG\n | [ N MOD 3 = 1 ] | [ A XOR B ] | R M40 |\n"
+	"RUNG\n | NO X | TON Delay PT:=T#20ms ET=>T | COILN M42 |\n"
+	"RUNG\n | GT IN1:=N IN2:=M OUT=>Z | LT IN1:=N IN2:=50 | COIL M43 |\n"
+	"RUNG End\n | NO C | DIV IN1:=N IN2:=M OUT=>N | COIL M44 |\n";
+
+static void watches_without_a_trace(void)
+{
+	static const char *const name[] = { "X", "Y", "Z", "N", "M", "T", "%MW4",
+		"%MB5", "Up.CV", "Delay.ET", "SYS_ERRORS" };
+	struct rig plain, seen;
+	uint32_t random = 1;
+	int differ = 0;
+
+	if (ladder(&plain, watched, false) & ladder(&seen, watched, true)) {
+		for (int scan = 0; scan < 2000; scan++) {
+			random = random * 1664525u + 1013904223u;
+			rig_set(&plain, "%IB0", random >> 28);
+			rig_set(&seen, "%IB0", random >> 28);
+			seen.resource.watch = random >> 20 & 3;
+			if (!rig_scan(&plain) || !rig_scan(&seen))
+				differ++;
+			for (size_t i = 0; i < sizeof(name) / sizeof(name[0]); i++)
+				differ += rig_get(&plain, name[i]) !=
+					  rig_get(&seen, name[i]);
+		}
+		CHECK_AS(differ == 0, "switched to and fro between scans");
+		CHECK(rig_get(&plain, "N") > 0 && rig_get(&plain, "SYS_ERRORS") > 0);
+	}
+	rig_close(&plain);
+	rig_close(&seen);
+}
+
+/* ---- the list is the program ---- */
+
+static bool print_all(struct ladder *ladder, const struct sink *sink)
+{
+	struct project *project = ladder_project(ladder);
+
+	sink_text(sink, "RUNGBOARD 1\n");
+	text_write_vars(&project->names, &project->globals, sink);
+	for (int i = 0; i < project->pou_count; i++) {
+		int count;
+		struct var *const *temps = ladder_temporaries(ladder, i, &count);
+
+		if (!view_print_il(&project->names, project->pou[i].name,
+				   &project->pou[i].vars, temps, count,
+				   ladder_il(ladder, i), sink))
+			return false;
+	}
+	return true;
+}
+
+static bool same_as_list(const char *path)
+{
+	struct ladder *from = ladder_new(), *back = ladder_new();
+	uint8_t a[32] = { 0 }, b[32] = { 1 };
+	struct sink_memory memory;
+	struct sink sink;
+
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	if (ladder_load(from, path) && ladder_build(from) &&
+	    print_all(from, &sink) &&
+	    ladder_load_text(back, "list.rung", memory.text, memory.len) &&
+	    ladder_build(back)) {
+		code_identity(ladder_program(from), a);
+		code_identity(ladder_program(back), b);
+	}
+	rig_say_why(back);
+	sink_memory_free(&memory);
+	ladder_free(from);
+	ladder_free(back);
+	return memcmp(a, b, 32) == 0;
+}
+
+static void prints_the_same_program(const char *folder, int least)
+{
+	DIR *dir = opendir(folder);
+	struct dirent *entry;
+	char path[400];
+	int count = 0;
+
+	while (dir && (entry = readdir(dir)) != NULL) {
+		size_t len = strlen(entry->d_name);
+
+		if (len < 5 || strcmp(entry->d_name + len - 5, ".rung") != 0)
+			continue;
+		snprintf(path, sizeof(path), "%s/%s", folder, entry->d_name);
+		CHECK_AS(same_as_list(path), path);
+		count++;
+	}
+	if (dir)
+		closedir(dir);
+	CHECK(count >= least);
+}
+
+int main(void)
+{
+	writes_contacts_and_coils();
+	writes_flow_and_boxes();
+	keeps_old_values();
+	writes_packed_bits();
+	runs_operators();
+	keeps_loaded_numbers();
+	runs_calls();
+	runs_temporaries();
+	runs_large_lists();
+	watches_without_a_trace();
+	prints_the_same_program("ladders", 8);
+	return tap_done();
+}
