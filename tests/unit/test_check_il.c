@@ -172,6 +172,15 @@ static void finds_what_is_not_bool(void)
 	CHECK_FIRST(il("  MOVE(IN := 1, OUT => K, ENO => I)"), "LD324 I");
 }
 
+/* @count lines more. */
+static void add(char *list, size_t size, const char *line, int count)
+{
+	size_t len = strlen(list);
+
+	while (count-- > 0 && len < size)
+		len += (size_t)snprintf(list + len, size - len, "%s", line);
+}
+
 static void finds_structure(void)
 {
 	char deep[2000] = "  LD A\n";
@@ -199,9 +208,8 @@ static void finds_structure(void)
 	CHECK_FIRST(il("  CALN Up"), "LD604 CALN");
 	CHECK_FIRST(il("  LD A\n  SN B"), "LD604 SN");
 	CHECK_FIRST(il("  LDC A"), "LD604 LDC");
-	for (int i = 0; i < LIMIT_IL_DEPTH; i++)
-		strcat(deep, "  OR( B\n");
-	CHECK_FIRST(il(strcat(deep, "  OR( B\n")), "LD605 (");
+	add(deep, sizeof(deep), "  OR( B\n", LIMIT_IL_DEPTH + 1);
+	CHECK_FIRST(il(deep), "LD605 (");
 }
 
 static void counts_one_error_once(void)
@@ -221,11 +229,10 @@ static void takes_limits(void)
 {
 	char deep[3000] = "  LD A\n";
 
-	for (int i = 0; i < LIMIT_IL_DEPTH; i++)
-		strcat(deep, "  OR(\n  LD B\n");
-	for (int i = 0; i < LIMIT_IL_DEPTH; i++)
-		strcat(deep, "  )\n");
-	CHECK_FIRST(il(strcat(deep, "  ST A\n")), "");
+	add(deep, sizeof(deep), "  OR(\n  LD B\n", LIMIT_IL_DEPTH);
+	add(deep, sizeof(deep), "  )\n", LIMIT_IL_DEPTH);
+	add(deep, sizeof(deep), "  ST A\n", 1);
+	CHECK_FIRST(il(deep), "");
 }
 
 static void checks_cells(void)

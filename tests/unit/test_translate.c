@@ -51,14 +51,16 @@ static const char *lines(const char *rungs)
 	if (ladder(&rig, rungs, false)) {
 		text_write_il(&ladder_project(rig.ladder)->names,
 			      ladder_il(rig.ladder, 0), &sink);
-		sink_text(&sink, "\n");
-		for (const char *line = strtok(memory.text, "\n"); line;
-		     line = strtok(NULL, "\n")) {
-			if (strstr(line, "(* rung"))
-				continue;
-			line += strspn(line, " ");
-			len += (size_t)snprintf(out + len, sizeof(out) - len,
-						"%s%s", len ? "|" : "", line);
+		for (const char *line = sink_memory_text(&memory); *line;) {
+			int size = (int)strcspn(line, "\n");
+			int blank = (int)strspn(line, " ");
+
+			if (strncmp(line, "(*", 2) != 0)
+				len += (size_t)snprintf(out + len,
+					sizeof(out) - len, "%s%.*s",
+					len ? "|" : "", size - blank,
+					line + blank);
+			line += size + (line[size] == '\n');
 		}
 		/* One blank between words. */
 		for (char *at = out; (at = strstr(at, "  ")) != NULL;)
@@ -262,6 +264,25 @@ static void runs_calls(void)
 	CHECK(after("GT(IN1 := N, IN2 := 19, OUT => X)", "X") == 1);
 }
 
+/* What lies over each other begins as the later declaration says, bit by bit. */
+static void begins_with_initial_values(void)
+{
+	struct rig rig;
+
+	if (rig_open(&rig, "VAR\n  W AT %MW0 : WORD := 16#00F3;\n"
+		     "  B AT %MX0.2 : BOOL := TRUE;\n  C AT %MX0.0 : BOOL := FALSE;\n"
+		     "  E AT %QX0.0 : BOOL := TRUE;\n  F : BOOL := TRUE;\n"
+		     "  R1 AT %QD4 : REAL := 1.5;\n  T : TIME := T#-1s;\nEND_VAR\n"
+		     "PROGRAM Main LD\nRUNG\n | NO E | COIL %QX0.1 |\nEND_PROGRAM\n",
+		     false)) {
+		CHECK(rig_get(&rig, "W") == 0xf6 && rig_get(&rig, "F") == 1);
+		CHECK(rig_get(&rig, "%QB0") == 1 && rig_real(&rig, "R1") == 1.5);
+		CHECK(rig_get(&rig, "T") == -1000000000);
+		CHECK(rig_scan(&rig) && rig_get(&rig, "%QB0") == 3);
+	}
+	rig_close(&rig);
+}
+
 /* Names that translation uses too: a list may declare and use them. */
 static int64_t with_temporaries(const char *body)
 {
@@ -292,25 +313,35 @@ static void runs_temporaries(void)
 			       "LD _T1\nST Y") == 1);
 }
 
+static void add(char *list, size_t size, const char *form, int number)
+	__attribute__((format(printf, 3, 0)));
+static void add(char *list, size_t size, const char *form, int number)
+{
+	size_t len = strlen(list);
+
+	snprintf(list + len, size - len, form, number);
+}
+
 /* 64 parentheses, and 300 contacts in a row. */
 static void runs_large_lists(void)
 {
 	static char body[20000];
 
-	strcpy(body, "LD B\n");
+	add(body, sizeof(body), "LD B\n", 0);
 	for (int i = 0; i < LIMIT_IL_DEPTH; i++)
-		strcat(body, i % 2 ? "OR( B\n" : "ORN( A\n");
+		add(body, sizeof(body), i % 2 ? "OR( B\n" : "ORN( A\n", 0);
 	for (int i = 0; i < LIMIT_IL_DEPTH; i++)
-		strcat(body, ")\n");
-	strcat(body, "ST Y");
-	/* ORN( A OR( B ORN( A … ))): NOT (A OR …) all the way. */
+		add(body, sizeof(body), ")\n", 0);
+	add(body, sizeof(body), "ST Y", 0);
+	/* B or not (A or …). */
 	CHECK(after(body, "Y") == 0);
-	strcpy(body, "LD A\n");
+	body[0] = '\0';
+	add(body, sizeof(body), "LD A\n", 0);
 	for (int i = 0; i < 300; i++)
-		snprintf(body + strlen(body), 32, "ANDN V%d\n", i);
-	strcat(body, "ST Y");
+		add(body, sizeof(body), "ANDN V%d\n", i);
+	add(body, sizeof(body), "ST Y", 0);
 	CHECK(after(body, "Y") == 1);
-	strcat(body, "\nLD 1\nST V299");
+	add(body, sizeof(body), "\nLD 1\nST V299", 0);
 	CHECK(after(body, "Y") == 1);
 	CHECK(after("", "Y") == 0 && after("RET", "Y") == 0);
 }
@@ -336,7 +367,10 @@ static void watches_without_a_trace(void)
 	uint32_t random = 1;
 	int differ = 0, moved = 0;
 
-	if (ladder(&plain, watched, false) & ladder(&seen, watched, true)) {
+	bool good = ladder(&plain, watched, false);
+
+	good &= ladder(&seen, watched, true);
+	if (good) {
 		for (int scan = 0; scan < 2000; scan++) {
 			random = random * 1664525u + 1013904223u;
 			rig_set(&plain, "%IB0", random >> 28);
@@ -432,6 +466,7 @@ int main(void)
 	runs_operators();
 	keeps_loaded_numbers();
 	runs_calls();
+	begins_with_initial_values();
 	runs_temporaries();
 	runs_large_lists();
 	watches_without_a_trace();

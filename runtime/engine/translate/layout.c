@@ -330,36 +330,42 @@ static void place_all(struct assembler *as, bool retain)
 	place_type(as, IEC_NONE, retain, false);
 }
 
-/* Initial values of variables with AT: in the area, or in the bit's own byte. */
+/* An initial value in its area, as @area will be; or in the bit's own byte. */
+static void init_in_area(struct assembler *as, uint8_t *area,
+			 const struct var *var)
+{
+	uint32_t at = area_byte(var->at), slot;
+	uint8_t bit = (uint8_t)(1u << var->at.bit);
+
+	if (var->at.bits != 1) {
+		iec_store(area + at, var->type, var->init);
+		return;
+	}
+	slot = as->bit_slot[at * 8 + var->at.bit];
+	if (slot)
+		layout_init(as, slot, IEC_BOOL, var->init);
+	else
+		area[at] = (uint8_t)((area[at] & ~bit) | (var->init.i ? bit : 0));
+}
+
+/* Variables with AT may lie over each other: the later one wins, bit by bit. */
 static bool init_located(struct assembler *as)
 {
-	uint8_t *packed = arena_alloc(as->arena, iec_areas_size());
+	uint8_t *area = arena_alloc(as->arena, iec_areas_size());
 
-	if (!packed)
+	if (!area)
 		return false;
 	for (int table = 0; table <= as->translation->unit_count; table++)
 		for (int i = 0; i < table_vars(as, table)->count; i++) {
 			const struct var *var = table_var(as, table, i);
-			uint32_t bit, slot;
 
-			if (!var->has_init || var->at.area == AREA_NONE)
-				continue;
-			if (var->at.bits != 1) {
-				layout_init(as, area_byte(var->at), var->type,
-					    var->init);
-				continue;
-			}
-			bit = area_byte(var->at) * 8 + var->at.bit;
-			slot = as->bit_slot[bit];
-			if (slot)
-				layout_init(as, slot, IEC_BOOL, var->init);
-			else if (var->init.i)
-				packed[bit / 8] |= (uint8_t)(1u << var->at.bit);
+			if (var->has_init && var->at.area != AREA_NONE)
+				init_in_area(as, area, var);
 		}
 	for (uint32_t i = 0; i < iec_areas_size(); i++)
-		if (packed[i])
+		if (area[i])
 			layout_init(as, i, IEC_BYTE,
-				    (union iec_value){ .i = packed[i] });
+				    (union iec_value){ .i = area[i] });
 	return true;
 }
 
