@@ -79,7 +79,8 @@ bool image_set(struct image *image, struct location at, union iec_value value);
 /**
  * image_force - hold a value at both edges of every scan until image_unforce()
  *
- * What the program wrote is kept aside and reappears on release.
+ * Held from this call on. What the program or a driver wrote meanwhile is kept
+ * aside and reappears on release.
  * Owns: nothing.   Scan-safe: yes.
  * Fails: false if @at is nowhere or constant, or LIMIT_FORCES are held.
  */
