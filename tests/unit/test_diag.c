@@ -93,6 +93,23 @@ static void counts_beyond_its_limit(void)
 	CHECK_TEXT(list.diag[LIMIT_DIAGS - 1].arg, "99");
 }
 
+static void shows_errors_before_warnings(void)
+{
+	struct diag error = { .id = DIAG_SYNTAX };
+	struct diag warning = { .id = DIAG_UNUSED };
+
+	diag_init(&list);
+	diag_add(&list, error, "first");
+	for (int i = 0; i < LIMIT_DIAGS; i++)
+		diag_add(&list, warning, "%d", i);
+	CHECK(!diag_add(&list, error, "last"));
+	CHECK(list.count == LIMIT_DIAGS && list.errors == 2);
+	CHECK(list.dropped == 2);
+	CHECK_TEXT(list.diag[0].arg, "first");
+	CHECK_TEXT(list.diag[LIMIT_DIAGS - 2].arg, "97");
+	CHECK_TEXT(list.diag[LIMIT_DIAGS - 1].arg, "last");
+}
+
 static void codes_are_unique(void)
 {
 	bool unique = true, differ = true, shaped = true;
@@ -124,6 +141,7 @@ int main(void)
 	prints();
 	cleans_arguments();
 	counts_beyond_its_limit();
+	shows_errors_before_warnings();
 	codes_are_unique();
 	return tap_done();
 }

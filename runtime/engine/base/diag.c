@@ -58,6 +58,22 @@ static void copy_clean(char *out, const char *text)
 	out[used] = '\0';
 }
 
+/* Room for an error in a full list: the last warning goes. */
+static bool drop_warning(struct diag_list *list)
+{
+	int at = list->count - 1;
+
+	while (at >= 0 &&
+	       diag_severity(list->diag[at].id) != SEVERITY_WARNING)
+		at--;
+	if (at < 0)
+		return false;
+	list->count--;
+	memmove(&list->diag[at], &list->diag[at + 1],
+		(size_t)(list->count - at) * sizeof(list->diag[0]));
+	return true;
+}
+
 bool diag_add(struct diag_list *list, struct diag place, const char *arg, ...)
 {
 	bool error = diag_severity(place.id) == SEVERITY_ERROR;
@@ -68,7 +84,8 @@ bool diag_add(struct diag_list *list, struct diag place, const char *arg, ...)
 	list->errors += error;
 	if (list->count == LIMIT_DIAGS) {
 		list->dropped++;
-		return !error;
+		if (!error || !drop_warning(list))
+			return !error;
 	}
 	va_start(args, arg);
 	if (vsnprintf(text, sizeof(text), arg, args) < 0)

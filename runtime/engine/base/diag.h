@@ -35,7 +35,7 @@ struct diag {
 struct diag_list {
 	struct diag diag[LIMIT_DIAGS];
 	int count;           /* kept, at most LIMIT_DIAGS                      */
-	int dropped;         /* came after the list was full                   */
+	int dropped;         /* did not fit: warnings make room for errors     */
 	int errors;          /* errors among all of them, dropped ones too     */
 };
 
