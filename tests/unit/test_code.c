@@ -489,6 +489,24 @@ static void identity(const void *bytes, size_t size, uint8_t out[32])
 	arena_free(&scratch);
 }
 
+static void watching_is_no_other_program(void)
+{
+	uint8_t watched[32], bare[32];
+	struct rig rig;
+
+	identity(image, len, watched);
+	if (rig_open(&rig, source, false)) {
+		code_identity(ladder_program(rig.ladder), bare);
+		CHECK(memcmp(watched, bare, 32) == 0);
+		CHECK(ladder_program(rig.ladder)->watch_words == 0);
+	}
+	rig_close(&rig);
+	CHECK(header()->core_runs < header()->section[CODE_LAYOUT].size /
+	      sizeof(struct code_run));
+	header()->core_runs = UINT32_MAX;
+	CHECK_AS(refused(), "more runs than there are");
+}
+
 static void drops_maps(void)
 {
 	uint8_t whole[32], bare[32];
@@ -538,6 +556,7 @@ int main(void)
 		refuses_jumps();
 		refuses_maps();
 		takes_odd_symbols();
+		watching_is_no_other_program();
 		drops_maps();
 		free(image);
 	}

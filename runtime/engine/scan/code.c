@@ -218,7 +218,8 @@ static bool check_layout(struct verifier *v)
 	    v->mark[CODE_TRUE_AT(v->areas)] != MARK_FIXED + IEC_BOOL ||
 	    p->header->retain_offset > v->data_size ||
 	    p->header->retain_size > v->data_size - p->header->retain_offset ||
-	    p->header->budget > LIMIT_BUDGET)
+	    p->header->budget > LIMIT_BUDGET ||
+	    p->header->core_runs > p->run_count)
 		return verify_refuse(v, p->header);
 	return true;
 }
@@ -335,14 +336,15 @@ void code_identity(const struct program *p, uint8_t out[32])
 {
 	struct digest_sha256 sha;
 	const struct code_header *h = p->header;
-	uint32_t head[4] = { h->data_size, h->retain_offset, h->retain_size,
-			     h->budget };
+	uint32_t head[3] = { h->retain_offset, h->retain_size, h->budget };
+	size_t runs = h->core_runs * sizeof(struct code_run);
 
 	digest_sha256_init(&sha);
 	digest_sha256_add(&sha, head, sizeof(head));
 	for (uint32_t i = 0; i < p->entry_count; i++)
 		digest_sha256_add(&sha, &p->entry[i], 2 * sizeof(uint32_t));
-	for (int kind = CODE_LAYOUT; kind <= CODE_TEXT; kind++)
+	digest_sha256_add(&sha, p->run, runs);
+	for (int kind = CODE_INIT; kind <= CODE_TEXT; kind++)
 		digest_sha256_add(&sha, p->base + h->section[kind].offset,
 				  h->section[kind].size);
 	digest_sha256_end(&sha, out);

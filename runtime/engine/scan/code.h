@@ -60,7 +60,7 @@ struct code_header {
 	uint32_t data_size; /* bytes of data memory                            */
 	uint32_t retain_offset, retain_size; /* retained variables' range      */
 	uint32_t budget;    /* instructions a scan may take                    */
-	uint32_t spare;     /* 0 */
+	uint32_t core_runs; /* of CODE_LAYOUT; those behind are for watching  */
 	struct code_section section[CODE_SECTION_COUNT];
 };
 

@@ -34,8 +34,13 @@ void *assemble(struct translation *translation, bool watch, size_t *len)
 	as->arena = translation->arena;
 	as->entry = arena_alloc(as->arena, ((size_t)translation->unit_count + 1) *
 				sizeof(*as->entry));
-	if (!as->entry || !layout_make(as) || !assemble_section(as, false) ||
-	    (watch && !assemble_section(as, true)))
+	if (!as->entry || !layout_make(as) || !assemble_section(as, false))
 		return NULL;
+	layout_core(as);
+	if (watch) {
+		layout_power(as);
+		if (!assemble_section(as, true))
+			return NULL;
+	}
 	return pack_image(as, len);
 }

@@ -35,7 +35,7 @@ struct assembler {
 
 	/* layout */
 	struct code_run *run;
-	int run_count;
+	int run_count, run_core;   /* run_core: of what runs unwatched          */
 	struct code_bits *bit_run;
 	int bit_run_count;
 	uint32_t data_size, retain_offset, retain_size;
@@ -69,6 +69,10 @@ struct constant_key { enum iec_type type; int64_t bits; uint32_t offset; };
 /* ---- layout.c ---- */
 /** layout_make - a place for every variable, bit and instance in use. */
 bool layout_make(struct assembler *as);
+/** layout_core - what was placed so far is what runs; watching comes behind it. */
+void layout_core(struct assembler *as);
+/** layout_power - places for the power of cells. */
+void layout_power(struct assembler *as);
 /** layout_spot - where the value of @meaning lies; not for literals. */
 struct spot layout_spot(const struct assembler *as, const struct meaning *m);
 /** layout_constant - a constant's place, made once a value. */

@@ -41,8 +41,8 @@ static uint32_t place(struct assembler *as, struct code_run want, uint32_t size,
 		return as->data_size - 1;
 	}
 	as->data_size = offset + size;
-	if (last && last->kind == want.kind && last->type == want.type &&
-	    last->word == want.word &&
+	if (last && as->run_count > as->run_core && last->kind == want.kind &&
+	    last->type == want.type && last->word == want.word &&
 	    last->offset + last->count * size == offset) {
 		last->count++;
 		return offset;
@@ -401,8 +401,17 @@ bool layout_make(struct assembler *as)
 	if (!place_bits(as))
 		return false;
 	place_all(as, false);
-	place_type(as, IEC_BOOL, false, true);
 	return init_located(as) && layout_count_pins(as) && !as->failed;
+}
+
+void layout_core(struct assembler *as)
+{
+	as->run_core = as->run_count;
+}
+
+void layout_power(struct assembler *as)
+{
+	place_type(as, IEC_BOOL, false, true);
 }
 
 struct spot layout_spot(const struct assembler *as, const struct meaning *m)
