@@ -339,9 +339,10 @@ static struct rung *make_rung(struct reader *r, const struct rung *head)
 	rung->gaps = head->gaps;
 	rung->comment = buffer_take(r, &r->rung_note);
 	for (int i = 0; i < r->rows; i++) {
-		if (r->row_cols[i] > 0)
-			memcpy(rung_cell(rung, i, 0), from,
-			       r->row_cols[i] * sizeof(*from));
+		if (r->row_cols[i] == 0)
+			continue;
+		memcpy(rung_cell(rung, i, 0), from,
+		       r->row_cols[i] * sizeof(*from));
 		from += r->row_cols[i];
 	}
 	return rung;

@@ -135,7 +135,7 @@ static void write_block(const struct sink *sink, const struct names *names,
 			const struct var_table *table, int index)
 {
 	const struct var_block *block = &table->block[index];
-	const struct var *var = table->var + block->first;
+	const struct var *var = table->var ? table->var + block->first : NULL;
 	const struct widths widths = measure(names, var, block->count);
 
 	write_above(sink, names, block->comment);

@@ -305,6 +305,28 @@ static void as_bits(struct list *list)
 	};
 }
 
+/* A temporary whose value is the result of the next line, too, is stored at once;
+ * else both would be worked out. */
+static bool is_wanted_twice(const struct list *list, const struct bits *value)
+{
+	return value->count > 1 && list->reads[list->at] > 0 &&
+	       result_goes_on(list);
+}
+
+/* Into the variable's own memory, a temporary's too. */
+static void store_bits(struct list *list, const struct meaning *m,
+		       const struct bits *value)
+{
+	int var = list_temp(list, m);
+	struct pending *pending = var >= 0 ? find_pending(list, var) : NULL;
+	uint32_t offset = spot_of(list, m).offset;
+
+	if (pending)
+		drop_pending(list, pending);
+	list_protect(list, offset, 1);
+	bits_store(list->as, value, offset);
+}
+
 static void store(struct list *list, const struct il_line *line)
 {
 	const struct meaning *m = list_meaning(list, line->operand);
@@ -317,14 +339,14 @@ static void store(struct list *list, const struct il_line *line)
 	value = list_now_bits(list);
 	if (line->modifiers & MOD_N)
 		value = bits_not(value);
-	if (list->now.kind == RESULT_LITERAL || list_temp(list, m) >= 0 ||
-	    spot_of(list, m).packed) {
+	if (list->now.kind == RESULT_LITERAL || spot_of(list, m).packed ||
+	    (list_temp(list, m) >= 0 && !is_wanted_twice(list, &value))) {
 		list_write_bits(list, m, &value);
 		return;
 	}
 	/* From now on the result is what was stored: one leaf. */
 	list->now.kind = RESULT_NONE;
-	list_write_bits(list, m, &value);
+	store_bits(list, m, &value);
 	list->now.kind = RESULT_BITS;
 	list->now.bits = bits_leaf(spot_of(list, m).offset);
 	if (line->modifiers & MOD_N)
