@@ -370,9 +370,10 @@ ok(-p 'pipe', 'build leaves it alone');
 for my $args ([qw(words)], ['trace', 'good.rung', '-']) {
 	put('many', ". x100000\n");
 	pipe my $read, my $write or die;
+	close $read; # before the program starts: it may be done in no time
 	my $pid = fork // die;
-	if (!$pid) { open STDIN, '<', 'many'; open STDOUT, '>&', $write; open STDERR, '>', '.err'; close $read; close $write; exec $ladder, @$args or die }
-	close $write; close $read;
+	if (!$pid) { open STDIN, '<', 'many'; open STDOUT, '>&', $write; open STDERR, '>', '.err'; close $write; exec $ladder, @$args or die }
+	close $write;
 	waitpid $pid, 0;
 	is($?, 2 << 8, "$args->[0] into a closed pipe: exit 2, no signal");
 	like(get('.err'), qr/^standard output: error LD006: .*\n\z/, "$args->[0] into a closed pipe: says so once");
