@@ -379,6 +379,18 @@ for my $args ([qw(words)], ['trace', 'good.rung', '-']) {
 	like(get('.err'), qr/^standard output: error LD006: .*\n\z/, "$args->[0] into a closed pipe: says so once");
 }
 
+# ---- sizes, which do not depend on the machine ----
+sub load_of { my ($kind, $n) = @_; put('big.rung', scalar `perl \Q$root\E/tests/bench/programs.pl $kind $n`); run('bench', '--json', '--scans', 1, 'big.rung') }
+put('seal.rung', scalar `perl \Q$root\E/tests/bench/programs.pl seal 1000`);
+run('build', 'seal.rung', '-o', 'seal.rungc');
+cmp_ok(-s 'seal.rungc', '<=', 64 * 1000, 'a seal-in rung takes at most 64 bytes of the image, names included');
+run('build', '--small', 'seal.rung', '-o', 'seal.rungc');
+cmp_ok(-s 'seal.rungc', '<=', 17 * 1000, 'and 17 without them');
+for my $kind (qw(seal mixed)) {
+	my (undef, $out) = load_of($kind, 10000);
+	cmp_ok(decode_json($out)->{load_bytes}, '<=', 50e6, "10,000 $kind rungs load in 50 MB");
+}
+
 # ---- the live view: what people see when a program stops with a fault ----
 SKIP: {
 	skip 'no script(1) to make a terminal', 3 unless grep { -x "$_/script" } split /:/, $ENV{PATH};

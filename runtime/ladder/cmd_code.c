@@ -15,6 +15,7 @@ static const char *const section_name[CODE_SECTION_COUNT] = {
 	[CODE_INIT] = "initial values", [CODE_BITS] = "bits",
 	[CODE_TEXT] = "instructions", [CODE_WATCH] = "instructions, watched",
 	[CODE_SYMBOLS] = "symbols", [CODE_POWER] = "power of cells",
+	[CODE_GROUPS] = "groups of symbols",
 	[CODE_PLACES] = "places", [CODE_STRINGS] = "strings",
 };
 

@@ -45,49 +45,42 @@ static bool is_mapped(const struct iomap *map, uint32_t area, uint32_t bit)
 	return false;
 }
 
-/* LD515 for each input and output bit of the program without a line. */
-static void check_mapped(struct load *load)
+/* LD515 for each input and output variable without a line. Sets its bit in @named,
+ * which is as large as all areas. */
+static void check_mapped(struct load *load, uint8_t *named)
 {
 	const struct program *program = ladder_program(load->ladder);
-	struct image *image = arena_alloc(&load->arena, sizeof(*image));
-	struct symbol_cursor *cursor = arena_alloc(&load->arena,
-						   sizeof(*cursor));
-	struct symbol symbol;
+	struct declared_cursor cursor = { 0 };
+	struct declared_name symbol;
 
-	if (!image || !cursor)
-		return;
-	image->program = program;
-	while (image_next_symbol(image, cursor, &symbol)) {
-		uint32_t area = symbol.at.area;
+	while (image_next_declared(program, &cursor, &symbol)) {
+		enum iec_area area = symbol.at.area;
+		uint32_t bit = symbol.at.where;
 
-		if ((area == AREA_I || area == AREA_Q) &&
-		    !is_mapped(&load->map, area, symbol.at.where))
+		if (area != AREA_I && area != AREA_Q)
+			continue;
+		named[iec_area_row(area)->offset + bit / 8] |=
+			(uint8_t)(1u << bit % 8);
+		if (!is_mapped(&load->map, area, bit))
 			diag_add(&load->diags, (struct diag){
 				.id = DIAG_IO_NOT_MAPPED,
 				.file = load->map.file }, "%s", symbol.name);
 	}
 }
 
-static bool is_named(const struct program *program, uint32_t area, uint32_t bit)
-{
-	for (uint32_t i = 0; i < program->symbol_count; i++)
-		if (program->symbol[i].area == area &&
-		    program->symbol[i].where == bit)
-			return true;
-	return false;
-}
-
 /* The same for bits that the program uses by their address. */
-static void check_addresses(struct load *load)
+static void check_addresses(struct load *load, const uint8_t *named)
 {
 	const struct program *program = ladder_program(load->ladder);
 
 	for (uint32_t i = 0; i < program->bits_count; i++) {
 		const struct code_bits *bits = &program->bits[i];
 		uint32_t end = bits->first + bits->count;
+		const uint8_t *byte;
 
 		if (bits->area != AREA_I && bits->area != AREA_Q)
 			continue;
+		byte = named + iec_area_row((enum iec_area)bits->area)->offset;
 		for (uint32_t bit = bits->first; bit < end; bit++) {
 			struct iec_addr at = {
 				.area = (enum iec_area)bits->area, .bits = 1,
@@ -96,7 +89,7 @@ static void check_addresses(struct load *load)
 			char text[24];
 
 			if (is_mapped(&load->map, bits->area, bit) ||
-			    is_named(program, bits->area, bit))
+			    byte[bit / 8] & 1u << bit % 8)
 				continue;
 			iec_addr_print(at, text, sizeof(text));
 			diag_add(&load->diags, (struct diag){
@@ -108,6 +101,7 @@ static void check_addresses(struct load *load)
 
 bool load_files(struct load *load, const char *file, const char *map)
 {
+	uint8_t *named;
 	bool good;
 
 	arena_init(&load->arena);
@@ -120,8 +114,12 @@ bool load_files(struct load *load, const char *file, const char *map)
 	good = load_program(load, file);
 	if (!load_map(load, map) || !good)
 		return false;
-	check_mapped(load);
-	check_addresses(load);
+	named = arena_alloc(&load->arena, iec_areas_size());
+	if (!named)
+		return diag_add(&load->diags, (struct diag){
+			.id = DIAG_NO_MEMORY, .file = map }, "%s", "");
+	check_mapped(load, named);
+	check_addresses(load, named);
 	return true;
 }
 

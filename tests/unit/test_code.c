@@ -406,36 +406,33 @@ static void refuses_jumps(void)
 
 static void refuses_maps(void)
 {
-	struct code_symbol *symbol = section(CODE_SYMBOLS);
+	uint32_t *symbol = section(CODE_SYMBOLS);
+	struct code_group *group = section(CODE_GROUPS);
 	struct code_power *power = section(CODE_POWER);
 	struct code_place *place = section(CODE_PLACES);
-	uint32_t strings = header()->section[CODE_STRINGS].size;
-	int count = (int)(header()->section[CODE_SYMBOLS].size / sizeof(*symbol));
 
-	CHECK(header()->section[CODE_POWER].size > 0 && count > 5);
-	symbol->name = strings;
+	CHECK(header()->section[CODE_POWER].size > 0);
+	CHECK(header()->section[CODE_SYMBOLS].size == 10 * sizeof(*symbol));
+	CHECK(header()->section[CODE_GROUPS].size == 2 * sizeof(*group));
+	group[1].flags |= SYMBOL_SHARED;
 	CHECK(refused());
-	symbol->pou = UINT32_MAX;
+	group->pou = 3;
 	CHECK(refused());
-	symbol->area = AREA_COUNT;
+	group[1].first = 10;
 	CHECK(refused());
-	symbol->type = IEC_INT; /* Go, a bit of an area */
+	symbol[0] = CODE_OPERAND(SYMBOL_BIT | IEC_INT, 0);
+	CHECK_AS(refused(), "Go is a bit");
+	symbol[0] = CODE_OPERAND(SYMBOL_BIT | IEC_BOOL, 0xffffff);
 	CHECK(refused());
-	symbol->where = 512 * 8;
+	symbol[2] = CODE_OPERAND(IEC_DINT, CODE_OFFSET(symbol[2]));
 	CHECK(refused());
-	symbol[2].type = IEC_DINT;
+	symbol[2] = CODE_OPERAND(SYMBOL_TYPE, CODE_OFFSET(symbol[2]));
 	CHECK(refused());
-	symbol[2].type = 200;
+	symbol[2] = CODE_OPERAND(IEC_INT, 0xffffff);
 	CHECK(refused());
-	symbol[2].where = UINT32_MAX;
-	CHECK(refused());
-	symbol[2].type = IEC_NONE;
+	symbol[2] = CODE_OPERAND(IEC_NONE, CODE_OFFSET(symbol[2]));
 	CHECK_AS(refused(), "no instance is there");
-	symbol[7].word = WORD_COUNT;
-	CHECK(refused());
-	symbol[7].where += 8;
-	CHECK(refused());
-	symbol[7].word = FB_TP;
+	symbol[7] += 8;
 	CHECK(refused());
 	power->in = UINT32_MAX;
 	CHECK(refused());
@@ -449,31 +446,36 @@ static void refuses_maps(void)
 	CHECK_AS(refused(), "the last string does not end");
 }
 
-/* A word beyond the catalogue in a symbol that is no instance means nothing. */
-static void takes_odd_symbols(void)
+/* Every symbol is found again by its name, where stepping through them has it. */
+static void names_symbols(void)
 {
-	struct code_symbol *symbol = section(CODE_SYMBOLS);
 	struct arena scratch;
 	struct program program;
-	struct symbol_cursor cursor = { 0, 0, "" };
+	struct symbol_cursor cursor = { 0 };
 	struct symbol out;
 	struct image img = { .program = &program };
 	enum diag_id why;
 	int count = 0;
 
-	symbol[2].word = UINT16_MAX;
-	seal();
 	arena_init(&scratch);
 	CHECK(code_open(image, len, &scratch, &program, &why, &where));
 	img.memory = calloc(1, image_memory_size(&program));
 	image_init(&img, &program, img.memory);
-	while (image_next_symbol(&img, &cursor, &out))
+	while (image_next_symbol(&img, &cursor, &out)) {
+		struct location at = image_find(&img, out.name,
+						strlen(out.name));
+
+		CHECK_AS(at.type == out.at.type && at.area == out.at.area &&
+			 at.where == out.at.where, out.name);
+		CHECK(at.constant == (strcmp(out.name, "Seven") == 0));
 		count++;
+	}
 	CHECK(count == 8 + 2 * 4);
 	CHECK(image_find(&img, "Count", 5).type == IEC_INT);
+	CHECK(image_find(&img, "Lamp", 4).area == AREA_Q);
+	CHECK(image_find(&img, "Delay", 5).type == IEC_NONE);
 	free(img.memory);
 	arena_free(&scratch);
-	fresh();
 }
 
 static void identity(const void *bytes, size_t size, uint8_t out[32])
@@ -555,7 +557,7 @@ int main(void)
 		refuses_number_operands();
 		refuses_jumps();
 		refuses_maps();
-		takes_odd_symbols();
+		names_symbols();
 		watching_is_no_other_program();
 		drops_maps();
 		free(image);

@@ -115,7 +115,7 @@ static void finds_names(void)
 
 static void lists_symbols(void)
 {
-	struct symbol_cursor cursor = { 0, 0, "" };
+	struct symbol_cursor cursor = { 0 };
 	struct symbol symbol;
 	int count = 0, pins = 0, shared = 0, constants = 0;
 

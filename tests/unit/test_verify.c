@@ -17,7 +17,8 @@ struct draft {
 	uint32_t init[9];
 	struct code_bits bits[2];
 	uint32_t text[48];
-	struct code_symbol symbol[4];
+	uint32_t symbol[4];
+	struct code_group group[3];
 	struct code_power power[1];
 	struct code_place place[2];
 	char string[16];
@@ -93,17 +94,21 @@ static void draft_text(struct draft *d)
 
 	memcpy(d->text, text, sizeof(text));
 	d->text_words = WORDS;
-	d->entry[0] = (struct code_program){ .text_words = WORDS, .name = 1 };
+	d->entry[0] = (struct code_program){ .text_words = WORDS, .name = 11 };
 }
 
 static void draft_maps(struct draft *d)
 {
-	memcpy(d->string, "\0Main\0Flag\0N\0C\0", 16);
-	d->symbol[0] = (struct code_symbol){ 6, 0, own(FLAG), IEC_BOOL, 0, 0, 0 };
-	d->symbol[1] = (struct code_symbol){ 11, 1, own(NUMBER), IEC_DINT, 0, 0, 0 };
-	d->symbol[2] = (struct code_symbol){ 13, 0, own(COUNTER), IEC_NONE, 0,
-					     FB_CTU, 0 };
-	d->symbol[3] = (struct code_symbol){ 6, 0, 3, IEC_BOOL, AREA_M, 0, 0 };
+	uint32_t bit = (iec_area_row(AREA_M)->offset * 8) + 3;
+
+	memcpy(d->string, "Flag\0N\0C\0B\0Main", 16);
+	d->symbol[0] = own_as(IEC_BOOL, FLAG);
+	d->symbol[1] = own_as(IEC_DINT, NUMBER);
+	d->symbol[2] = own_as(IEC_NONE, COUNTER);
+	d->symbol[3] = CODE_OPERAND(IEC_BOOL | SYMBOL_BIT, bit);
+	d->group[0] = (struct code_group){ 0, 0, 0 };
+	d->group[1] = (struct code_group){ 1, 1, SYMBOL_CONSTANT };
+	d->group[2] = (struct code_group){ 2, 0, SYMBOL_RETAIN };
 	d->power[0] = (struct code_power){ 0, 1, 1, 0, 1, own(1), own(FLAG) };
 	d->place[0] = (struct code_place){ AT_LUT, 0, 1, 1, 1 };
 	d->place[1] = (struct code_place){ AT_FN, 0, 2, 1, 1 };
@@ -150,6 +155,7 @@ static uint32_t pack(const struct draft *d, uint8_t *bytes)
 	add(bytes, &len, CODE_TEXT, d->text, d->text_words * 4);
 	add(bytes, &len, CODE_WATCH, d->text, 0);
 	add(bytes, &len, CODE_SYMBOLS, d->symbol, sizeof(d->symbol));
+	add(bytes, &len, CODE_GROUPS, d->group, sizeof(d->group));
 	add(bytes, &len, CODE_POWER, d->power, sizeof(d->power));
 	add(bytes, &len, CODE_PLACES, d->place, sizeof(d->place));
 	add(bytes, &len, CODE_STRINGS, d->string, sizeof(d->string));
@@ -324,7 +330,7 @@ static void test_flow(void)
 	REFUSED(d.text[AT_END] = op(VM_LUT, 1));
 	REFUSED(d.text[AT_LUT] = op(VM_LUT, 0xffffff));
 	/* A jump without its target; what lies behind it could be one. */
-	REFUSED(d.text[AT_END] = op(VM_JMP, 0); d.symbol[0].name = AT_BITPUT);
+	REFUSED(d.text[AT_END] = op(VM_JMP, 0); d.symbol[0] = AT_BITPUT);
 	/* Programs that run out of their end: after a block, a copy, a jump
 	 * that may not jump. */
 	REFUSED(d.entry[0].text_words = AT_FN;
@@ -343,15 +349,21 @@ static void test_flow(void)
 static void test_maps(void)
 {
 	REFUSED(d.string[sizeof(d.string) - 1] = 'x');
-	REFUSED(d.symbol[0].name = sizeof(d.string));
-	REFUSED(d.symbol[1].pou = sizeof(d.string));
-	REFUSED(d.symbol[0].where = own(NUMBER));
-	REFUSED(d.symbol[1].type = IEC_TYPE_COUNT);
-	REFUSED(d.symbol[2].word = FB_CTD);
-	REFUSED(d.symbol[2].where++);
-	REFUSED(d.symbol[3].area = AREA_COUNT);
-	REFUSED(d.symbol[3].type = IEC_DINT);
-	REFUSED(d.symbol[3].where = iec_area_row(AREA_M)->bytes * 8u);
+	REFUSED(memcpy(d.string, "Flag-N-C-B-Main", 15));
+	REFUSED(d.symbol[0] = own_as(IEC_BOOL, NUMBER));
+	REFUSED(d.symbol[1] = own_as(IEC_TYPE_COUNT, NUMBER));
+	REFUSED(d.symbol[1] = own_as(IEC_DINT, FLAG));
+	REFUSED(d.symbol[2] = own_as(IEC_NONE, NUMBER));
+	REFUSED(d.symbol[2]++);
+	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_DINT | SYMBOL_BIT, 3));
+	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_BOOL | SYMBOL_BIT,
+					   iec_areas_size() * 8));
+	REFUSED(d.group[0].first = 1);
+	REFUSED(d.group[1].first = 0);
+	REFUSED(d.group[2].first = 1);
+	REFUSED(d.group[2].first = 4);
+	REFUSED(d.group[1].pou = 2);
+	REFUSED(d.group[1].flags = SYMBOL_HIDDEN);
 	REFUSED(d.power[0].in = own(NUMBER));
 	REFUSED(d.power[0].out = d.header.data_size);
 	REFUSED(d.place[1].text = WORDS);

@@ -3,8 +3,8 @@
  * scope - from the text of an operand to what it means.
  *
  * Two open hashes: the declared names of all tables, and the answers given so
- * far by (POU, string id). It reports nothing: who asks knows the place and
- * says it.
+ * far by (POU, string id). An answer never moves. It reports nothing: who asks
+ * knows the place and says it.
  */
 #include "engine/check/scope.h"
 
@@ -19,11 +19,12 @@ struct declared {
 	uint8_t flags;        /* of its VAR block */
 };
 
-/* An answer; the string id counts from 1, so that 0 is a free slot. */
+/* An answer: what a text means in a table, or why it means nothing. */
 struct answer {
 	uint32_t table, text;
-	const struct meaning *meaning;
+	bool known;
 	enum diag_id why;
+	struct meaning meaning;
 };
 
 struct scope {
@@ -31,7 +32,7 @@ struct scope {
 	struct arena *arena;
 	struct declared *declared;
 	uint32_t declared_mask;
-	struct answer *answer;
+	struct answer **answer; /* NULL: a free slot                         */
 	uint32_t answer_mask, answers;
 };
 
@@ -98,7 +99,7 @@ struct scope *scope_new(struct project *project, struct arena *arena)
 	scope->answer_mask = FIRST_ANSWERS - 1;
 	scope->declared = arena_alloc(arena, size * sizeof(struct declared));
 	scope->answer = arena_alloc(arena,
-				    FIRST_ANSWERS * sizeof(struct answer));
+				    FIRST_ANSWERS * sizeof(*scope->answer));
 	if (!scope->declared || !scope->answer)
 		return NULL;
 	declare_table(scope, 0, &project->globals);
@@ -282,94 +283,90 @@ static bool mean(const struct scope *scope, uint32_t table, uint32_t id,
 	       mean_address(text, len, out, why);
 }
 
-static struct answer *answer_slot(const struct scope *scope, uint32_t table,
-				  uint32_t text)
+/* The slot of a question, or the free one where it belongs. */
+static struct answer **answer_slot(const struct scope *scope, uint32_t table,
+				   uint32_t text)
 {
 	uint32_t at = mix(table, text) & scope->answer_mask;
-	struct answer *slot = &scope->answer[at];
+	struct answer *const *slot = &scope->answer[at];
 
-	while (slot->text && (slot->text != text || slot->table != table)) {
+	while (*slot && ((*slot)->text != text || (*slot)->table != table)) {
 		at = (at + 1) & scope->answer_mask;
 		slot = &scope->answer[at];
 	}
-	return slot;
+	return &scope->answer[at];
 }
 
 static bool grow_answers(struct scope *scope)
 {
-	const struct answer *old = scope->answer;
+	struct answer *const *old = scope->answer;
 	uint32_t size = scope->answer_mask + 1;
-	struct answer *wide = arena_alloc(scope->arena,
-					  2 * size * sizeof(*wide));
+	struct answer **wide = arena_alloc(scope->arena,
+					   2 * size * sizeof(struct answer *));
 
 	if (!wide)
 		return false;
 	scope->answer = wide;
 	scope->answer_mask = 2 * size - 1;
 	for (uint32_t i = 0; i < size; i++)
-		if (old[i].text)
-			*answer_slot(scope, old[i].table, old[i].text) = old[i];
+		if (old[i])
+			*answer_slot(scope, old[i]->table, old[i]->text) = old[i];
 	return true;
 }
 
-/* Answers a new question and remembers the answer. */
-static struct answer *give_answer(struct scope *scope, uint32_t table,
-				  uint32_t text)
+/* Room for the answer to a question that was not asked yet; NULL: no memory. */
+static struct answer *add_answer(struct scope *scope, uint32_t table,
+				 uint32_t text)
 {
-	struct meaning *out = arena_alloc(scope->arena, sizeof(*out));
-	struct answer *slot;
-	enum diag_id why;
+	struct answer *answer = arena_alloc(scope->arena, sizeof(*answer));
 
-	if (!out)
+	if (!answer ||
+	    (scope->answers * 2 > scope->answer_mask && !grow_answers(scope)))
 		return NULL;
-	if (scope->answers * 2 > scope->answer_mask && !grow_answers(scope))
-		return NULL;
-	if (!mean(scope, table, text, out, &why))
-		out = NULL;
-	slot = answer_slot(scope, table, text);
-	*slot = (struct answer){ .table = table, .text = text, .meaning = out,
-				 .why = why };
+	answer->table = table;
+	answer->text = text;
+	*answer_slot(scope, table, text) = answer;
 	scope->answers++;
-	return slot;
+	return answer;
 }
 
 const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 				 uint32_t text, enum diag_id *why)
 {
 	uint32_t table = table_number(scope, pou);
-	struct answer *slot;
+	struct answer *answer;
 
-	if (!text) {
-		*why = DIAG_UNKNOWN_NAME;
+	*why = DIAG_UNKNOWN_NAME;
+	if (!text)
 		return NULL;
+	answer = *answer_slot(scope, table, text);
+	if (!answer) {
+		*why = DIAG_NO_MEMORY;
+		answer = add_answer(scope, table, text);
+		if (!answer)
+			return NULL;
+		answer->known = mean(scope, table, text, &answer->meaning,
+				     &answer->why);
 	}
-	slot = answer_slot(scope, table, text);
-	if (!slot->text)
-		slot = give_answer(scope, table, text);
-	*why = slot ? slot->why : DIAG_NO_MEMORY;
-	return slot ? slot->meaning : NULL;
+	*why = answer->why;
+	return answer->known ? &answer->meaning : NULL;
 }
 
 bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index)
 {
 	uint32_t table = table_number(scope, pou);
-	struct meaning *out = arena_alloc(scope->arena, sizeof(*out));
-	struct answer *slot;
+	struct answer *answer = *answer_slot(scope, table, var->name);
 
-	if (!out ||
-	    (scope->answers * 2 > scope->answer_mask && !grow_answers(scope)))
+	if (!answer)
+		answer = add_answer(scope, table, var->name);
+	if (!answer)
 		return false;
-	out->kind = MEANING_VARIABLE;
-	out->type = var->type;
-	out->pou = pou;
-	out->var = var;
-	out->index = index;
-	out->writable = true;
-	slot = answer_slot(scope, table, var->name);
-	scope->answers += !slot->text;
-	*slot = (struct answer){ .table = table, .text = var->name,
-				 .meaning = out };
+	answer->known = true;
+	answer->meaning = (struct meaning){
+		.kind = MEANING_VARIABLE, .type = var->type, .pou = pou,
+		.var = var, .index = index, .writable = true,
+	};
 	return true;
 }
 

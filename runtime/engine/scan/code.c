@@ -51,7 +51,7 @@ bool verify_refuse(struct verifier *v, const void *at)
 	return false;
 }
 
-bool verify_instance(const struct program *p, uint32_t offset, uint32_t word)
+enum word code_instance(const struct program *p, uint32_t offset)
 {
 	uint32_t low = 0, high = p->run_count;
 
@@ -64,16 +64,15 @@ bool verify_instance(const struct program *p, uint32_t offset, uint32_t word)
 		else
 			low = middle + 1;
 	}
-	if (low == 0)
-		return false;
+	if (low == 0 || p->run[low - 1].kind != RUN_INSTANCE)
+		return WORD_COUNT;
 	const struct code_run *run = &p->run[low - 1];
-	uint32_t size;
+	uint32_t size = word_row((enum word)run->word)->size;
 
-	if (run->kind != RUN_INSTANCE || run->word != word)
-		return false;
-	size = word_row((enum word)word)->size;
-	return (offset - run->offset) % size == 0 &&
-	       (offset - run->offset) / size < run->count;
+	if ((offset - run->offset) % size != 0 ||
+	    (offset - run->offset) / size >= run->count)
+		return WORD_COUNT;
+	return (enum word)run->word;
 }
 
 /* ---- header and sections ---- */
@@ -86,7 +85,8 @@ static const uint32_t section_unit[CODE_SECTION_COUNT] = {
 	[CODE_BITS] = sizeof(struct code_bits),
 	[CODE_TEXT] = 4,
 	[CODE_WATCH] = 4,
-	[CODE_SYMBOLS] = sizeof(struct code_symbol),
+	[CODE_SYMBOLS] = 4,
+	[CODE_GROUPS] = sizeof(struct code_group),
 	[CODE_POWER] = sizeof(struct code_power),
 	[CODE_PLACES] = sizeof(struct code_place),
 	[CODE_STRINGS] = 1,
@@ -142,6 +142,7 @@ static void find_sections(struct program *p)
 	p->text_words = section(p, CODE_TEXT, &at), p->text = at;
 	p->watch_words = section(p, CODE_WATCH, &at), p->watch = at;
 	p->symbol_count = section(p, CODE_SYMBOLS, &at), p->symbol = at;
+	p->group_count = section(p, CODE_GROUPS, &at), p->group = at;
 	p->power_count = section(p, CODE_POWER, &at), p->power = at;
 	p->place_count = section(p, CODE_PLACES, &at), p->place = at;
 	p->string_bytes = section(p, CODE_STRINGS, &at), p->string = at;
@@ -297,29 +298,55 @@ static bool check_bits(struct verifier *v)
 
 /* ---- maps ---- */
 
-static bool check_symbol(const struct verifier *v, const struct code_symbol *s)
+static bool check_symbol(const struct verifier *v, uint32_t symbol)
+{
+	uint32_t type = CODE_TYPE(symbol) & SYMBOL_TYPE;
+	uint32_t at = CODE_OFFSET(symbol);
+
+	if (CODE_TYPE(symbol) & SYMBOL_BIT)
+		return type == IEC_BOOL && at / 8 < v->areas;
+	if (type == IEC_NONE)
+		return code_instance(v->program, at) != WORD_COUNT;
+	return verify_use(v, at, type, false);
+}
+
+static bool check_groups(struct verifier *v)
 {
 	const struct program *p = v->program;
 
-	if (s->name >= p->string_bytes || s->pou >= p->string_bytes)
-		return false;
-	if (s->area != AREA_NONE)
-		return s->area < AREA_COUNT && s->type == IEC_BOOL &&
-		       s->where / 8 <
-		       iec_area_row((enum iec_area)s->area)->bytes;
-	if (s->type == IEC_NONE)
-		return s->word < WORD_COUNT && verify_instance(p, s->where, s->word);
-	return verify_use(v, s->where, s->type, false);
+	for (uint32_t i = 0; i < p->group_count; i++) {
+		const struct code_group *group = &p->group[i];
+
+		if (group->first >= p->symbol_count ||
+		    group->pou > p->entry_count ||
+		    group->flags & ~(uint32_t)(SYMBOL_CONSTANT | SYMBOL_RETAIN) ||
+		    (i ? group->first <= group[-1].first : group->first))
+			return verify_refuse(v, group);
+	}
+	return p->group_count || !p->symbol_count || verify_refuse(v, p->symbol);
+}
+
+/* One string at least for each symbol, and the last one ends. */
+static bool check_strings(struct verifier *v)
+{
+	const struct program *p = v->program;
+	uint32_t ends = 0;
+
+	for (uint32_t i = 0; i < p->string_bytes; i++)
+		ends += p->string[i] == '\0';
+	return (ends >= p->symbol_count &&
+		(!p->string_bytes || p->string[p->string_bytes - 1] == '\0')) ||
+	       verify_refuse(v, p->string);
 }
 
 static bool check_maps(struct verifier *v)
 {
 	const struct program *p = v->program;
 
-	if (p->string_bytes && p->string[p->string_bytes - 1] != '\0')
-		return verify_refuse(v, p->string);
+	if (!check_strings(v) || !check_groups(v))
+		return false;
 	for (uint32_t i = 0; i < p->symbol_count; i++)
-		if (!check_symbol(v, &p->symbol[i]))
+		if (!check_symbol(v, p->symbol[i]))
 			return verify_refuse(v, &p->symbol[i]);
 	for (uint32_t i = 0; i < p->power_count; i++)
 		if (!verify_use(v, p->power[i].in, IEC_BOOL, false) ||

@@ -33,7 +33,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 1u
+#define CODE_VERSION 2u
 
 enum code_section_kind {
 	CODE_PROGRAMS = 1, /* struct code_program each                         */
@@ -43,10 +43,11 @@ enum code_section_kind {
 	CODE_TEXT,         /* instructions                                     */
 	/* From here on a target may drop sections; not part of the identity. */
 	CODE_WATCH,        /* instructions that also store the power of cells  */
-	CODE_SYMBOLS,      /* struct code_symbol each                          */
+	CODE_SYMBOLS,      /* a word each, in order of declaration, see below  */
+	CODE_GROUPS,       /* struct code_group each: symbols of one kind      */
 	CODE_POWER,        /* struct code_power each, ordered by place         */
 	CODE_PLACES,       /* struct code_place each, ordered by code offset   */
-	CODE_STRINGS,      /* NUL-ended strings                                */
+	CODE_STRINGS,      /* NUL-ended: first the symbols' names, in order    */
 	CODE_SECTION_COUNT
 };
 
@@ -84,19 +85,19 @@ struct code_bits {      /* bits first … first+count-1 of an area live at
 	uint32_t area, first, count, slot;
 };
 
-struct code_symbol {    /* in order of declaration                         */
-	uint32_t name;  /* in CODE_STRINGS                                 */
-	uint32_t pou;   /* name of its POU in CODE_STRINGS; 0: global      */
-	uint32_t where; /* offset in m; or bit number in `area`            */
-	uint8_t type;   /* enum iec_type; IEC_NONE: an instance            */
-	uint8_t area;   /* not AREA_NONE: a BOOL at that bit of an area    */
-	uint16_t word;  /* FB of an instance                               */
-	uint32_t flags; /* enum symbol_flag                                */
-};
+/* Of a symbol, in the top 8 bits: its type (IEC_NONE: an instance) and marks. The
+ * rest is its offset in m. Its name is the string of the same number. */
 enum symbol_flag {
-	SYMBOL_CONSTANT = 1, SYMBOL_RETAIN = 2,
-	SYMBOL_HIDDEN = 4, /* a temporary: not shown                       */
-	SYMBOL_SHARED = 8, /* a name that stands in several tables         */
+	SYMBOL_CONSTANT = 1, SYMBOL_RETAIN = 2, /* of its group            */
+	SYMBOL_TYPE = 0x1f,   /* mask of the type                          */
+	SYMBOL_BIT = 0x20,    /* the offset counts bits of the areas       */
+	SYMBOL_HIDDEN = 0x40, /* a temporary: not shown                    */
+	SYMBOL_SHARED = 0x80, /* a name that stands in several tables      */
+};
+struct code_group {     /* symbols from here to the next group             */
+	uint32_t first; /* of the symbols; ascending, 0 first              */
+	uint32_t pou;   /* 1 + index in CODE_PROGRAMS; 0: global           */
+	uint32_t flags; /* SYMBOL_CONSTANT, SYMBOL_RETAIN                  */
 };
 
 struct code_power {     /* the cell-to-power map                           */
@@ -128,13 +129,15 @@ struct program {
 	const struct code_program *entry;
 	const struct code_run *run;
 	const struct code_bits *bits;
-	const struct code_symbol *symbol;
+	const uint32_t *symbol;
+	const struct code_group *group;
 	const struct code_power *power;
 	const struct code_place *place;
 	const uint32_t *text, *watch;
 	const char *string;
-	uint32_t entry_count, run_count, bits_count, symbol_count, power_count,
-		 place_count, text_words, watch_words, string_bytes;
+	uint32_t entry_count, run_count, bits_count, symbol_count, group_count,
+		 power_count, place_count, text_words, watch_words,
+		 string_bytes;
 };
 
 /* n of CMP. */
@@ -157,6 +160,9 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);
+/** code_instance - the FB whose instance is at @offset of data memory; WORD_COUNT:
+ * none is. Scan-safe: yes. */
+enum word code_instance(const struct program *program, uint32_t offset);
 /** code_identity - SHA-256 of what runs: code and data layout, without the maps a
  * target may drop. @out gets 32 bytes. Scan-safe: no (slow). */
 void code_identity(const struct program *program, uint8_t out[32]);

@@ -134,7 +134,7 @@ static bool check_code(const struct verifier *v, const uint32_t *code)
 	case VM_FN:
 		return check_fn(v, at, n);
 	case VM_FB:
-		return n < WORD_COUNT && verify_instance(v->program, at[0], n);
+		return n < WORD_COUNT && code_instance(v->program, at[0]) == n;
 	case VM_COUNT:
 		break;
 	}

@@ -88,6 +88,23 @@ bool image_force(struct image *image, struct location at, union iec_value value)
 bool image_unforce(struct image *image, struct location at);
 bool image_is_forced(const struct image *image, struct location at);
 
+/* What a program declared: a variable, or an instance as a whole. */
+struct declared_name {
+	const char *name, *pou; /* in the program; pou "": a global           */
+	struct location at;     /* type IEC_NONE: an instance, at `where`     */
+	uint32_t flags;         /* enum symbol_flag                           */
+};
+/**
+ * image_next_declared - steps through all symbols of a program
+ * @cursor: {0} to begin with
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false behind the last one.
+ */
+struct declared_cursor { uint32_t index, group, string; };
+bool image_next_declared(const struct program *program,
+			 struct declared_cursor *cursor,
+			 struct declared_name *out);
+
 /* The symbols of the image, for whoever shows or records variables. */
 struct symbol {
 	const char *name;       /* "Motor", "Runout.Q"; lives with the program */
@@ -102,7 +119,11 @@ struct symbol {
  *
  * Owns: nothing.   Scan-safe: no.   Fails: false behind the last one.
  */
-struct symbol_cursor { uint32_t index, pin; char text[2 * LIMIT_NAME + 64]; };
+struct symbol_cursor {
+	struct declared_cursor declared;
+	uint32_t pin;
+	char text[2 * LIMIT_NAME + 64];
+};
 bool image_next_symbol(const struct image *image, struct symbol_cursor *cursor,
 		       struct symbol *out);
 #endif

@@ -7,6 +7,8 @@
  */
 #include "engine/scan/image.h"
 
+#include "engine/base/ascii.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -27,76 +29,100 @@ struct location image_locate(const struct image *image, struct iec_addr addr)
 	return at;
 }
 
-static bool same(const char *a, const char *b, size_t len)
+/* A bit of the areas, counted from the first one's start, as one of its own. */
+static void locate_bit(struct location *at, uint32_t bit)
 {
-	for (size_t i = 0; i < len; i++) {
-		unsigned char x = (unsigned char)a[i], y = (unsigned char)b[i];
+	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++) {
+		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
 
-		x = (unsigned char)(x >= 'a' && x <= 'z' ? x - 32 : x);
-		y = (unsigned char)(y >= 'a' && y <= 'z' ? y - 32 : y);
-		if (x != y)
-			return false;
+		if (bit / 8 >= row->offset && bit / 8 < row->offset + row->bytes) {
+			at->area = (enum iec_area)area;
+			at->where = bit - row->offset * 8;
+		}
 	}
+}
+
+bool image_next_declared(const struct program *p, struct declared_cursor *cursor,
+			 struct declared_name *out)
+{
+	uint32_t i = cursor->index, word;
+
+	if (i >= p->symbol_count)
+		return false;
+	if (cursor->group + 1 < p->group_count &&
+	    p->group[cursor->group + 1].first == i)
+		cursor->group++;
+	const struct code_group *group = &p->group[cursor->group];
+
+	word = p->symbol[i];
+	*out = (struct declared_name){
+		.name = p->string + cursor->string, .pou = "",
+		.at.type = (enum iec_type)(CODE_TYPE(word) & SYMBOL_TYPE),
+		.at.where = CODE_OFFSET(word),
+		.at.constant = group->flags & SYMBOL_CONSTANT,
+		.flags = group->flags |
+			 (CODE_TYPE(word) & (SYMBOL_HIDDEN | SYMBOL_SHARED)),
+	};
+	if (group->pou)
+		out->pou = p->string + p->entry[group->pou - 1].name;
+	if (CODE_TYPE(word) & SYMBOL_BIT)
+		locate_bit(&out->at, CODE_OFFSET(word));
+	cursor->string += (uint32_t)strlen(out->name) + 1;
+	cursor->index++;
 	return true;
 }
 
-static bool is_name(const char *name, const char *text, size_t len)
+/* The FB of a symbol that is an instance. */
+static const struct word_row *instance_row(const struct program *p,
+					   const struct declared_name *symbol)
 {
-	return strlen(name) == len && same(name, text, len);
+	return word_row(code_instance(p, symbol->at.where));
 }
 
-static struct location symbol_location(const struct code_symbol *symbol)
+static struct location pin_location(const struct declared_name *symbol,
+				    const struct word_pin *pin)
 {
 	struct location at = {
-		.type = (enum iec_type)symbol->type,
-		.area = (enum iec_area)symbol->area,
-		.where = symbol->where,
-		.constant = symbol->flags & SYMBOL_CONSTANT,
-	};
-	return at;
-}
-
-static struct location pin_location(const struct code_symbol *symbol, int pin)
-{
-	const struct word_pin *row = &word_row((enum word)symbol->word)->pin[pin];
-	struct location at = {
-		.type = row->type, .where = symbol->where + row->offset,
+		.type = pin->type, .where = symbol->at.where + pin->offset,
 	};
 	return at;
 }
 
 /* The location if @text spells @symbol or a pin of it. */
-static struct location match(const struct code_symbol *symbol, const char *name,
+static struct location match(const struct program *p,
+			     const struct declared_name *symbol,
 			     const char *text, size_t len)
 {
 	struct location none = { .type = IEC_NONE };
-	const struct word_row *row = word_row((enum word)symbol->word);
-	size_t own = strlen(name);
+	const struct word_row *row;
+	size_t own = strlen(symbol->name);
 	int pin;
 
-	if (symbol->type != IEC_NONE)
-		return is_name(name, text, len) ? symbol_location(symbol) : none;
-	if (len <= own + 1 || text[own] != '.' || !same(name, text, own))
+	if (len < own || !ascii_same(symbol->name, text, own))
 		return none;
+	if (symbol->at.type != IEC_NONE)
+		return len == own ? symbol->at : none;
+	if (len <= own + 1 || text[own] != '.')
+		return none;
+	row = instance_row(p, symbol);
 	pin = word_pin_find(row, text + own + 1, len - own - 1);
-	return pin < 0 ? none : pin_location(symbol, pin);
+	return pin < 0 ? none : pin_location(symbol, &row->pin[pin]);
 }
 
 static struct location find_declared(const struct program *p, const char *text,
 				     size_t len)
 {
 	struct location at = { .type = IEC_NONE };
+	struct declared_cursor cursor = { 0 };
+	struct declared_name symbol;
 
-	for (uint32_t i = 0; i < p->symbol_count && at.type == IEC_NONE; i++) {
-		const struct code_symbol *symbol = &p->symbol[i];
-		const char *pou = p->string + symbol->pou;
-		size_t skip = strlen(pou);
+	while (at.type == IEC_NONE && image_next_declared(p, &cursor, &symbol)) {
+		size_t skip = strlen(symbol.pou);
 
-		at = match(symbol, p->string + symbol->name, text, len);
-		if (at.type == IEC_NONE && symbol->pou && len > skip + 1 &&
-		    text[skip] == '.' && same(pou, text, skip))
-			at = match(symbol, p->string + symbol->name,
-				   text + skip + 1, len - skip - 1);
+		at = match(p, &symbol, text, len);
+		if (at.type == IEC_NONE && skip && len > skip + 1 &&
+		    text[skip] == '.' && ascii_same(symbol.pou, text, skip))
+			at = match(p, &symbol, text + skip + 1, len - skip - 1);
 	}
 	return at;
 }
@@ -106,7 +132,7 @@ static bool is_system_name(const char *text, size_t len, struct iec_addr *addr)
 	for (int i = 0; i < SYS_COUNT; i++) {
 		const struct sys_row *row = sys_row((enum sys_id)i);
 
-		if (is_name(row->name, text, len))
+		if (ascii_is(row->name, text, len))
 			return iec_addr_parse(row->address, strlen(row->address),
 					      addr) == ADDR_OK;
 	}
@@ -128,51 +154,56 @@ struct location image_find(const struct image *image, const char *name,
 }
 
 /* A local is shown by its bare name unless another symbol has it too. */
-static bool needs_pou(const struct code_symbol *symbol)
+static void print_name(const struct declared_name *symbol, const char *pin,
+		       struct symbol_cursor *cursor)
 {
-	return symbol->pou && symbol->flags & SYMBOL_SHARED;
-}
-
-static void print_name(const struct program *p, const struct code_symbol *symbol,
-		       const char *pin, struct symbol_cursor *cursor)
-{
-	bool pou = needs_pou(symbol);
+	bool pou = *symbol->pou && symbol->flags & SYMBOL_SHARED;
 
 	snprintf(cursor->text, sizeof(cursor->text), "%.255s%s%.255s%s%.40s",
-		 pou ? p->string + symbol->pou : "", pou ? "." : "",
-		 p->string + symbol->name, pin ? "." : "", pin ? pin : "");
+		 pou ? symbol->pou : "", pou ? "." : "", symbol->name,
+		 pin ? "." : "", pin ? pin : "");
+}
+
+/* The next pin of the instance at @cursor; false: no more. */
+static bool next_pin(const struct program *p, const struct declared_name *whole,
+		     struct symbol_cursor *cursor, struct symbol *out)
+{
+	const struct word_row *row = instance_row(p, whole);
+	const struct word_pin *pin;
+
+	while (cursor->pin < row->pin_count &&
+	       row->pin[cursor->pin].dir == PIN_VAR)
+		cursor->pin++;
+	if (cursor->pin >= row->pin_count)
+		return false;
+	pin = &row->pin[cursor->pin++];
+	out->at = pin_location(whole, pin);
+	out->is_input = pin->dir == PIN_IN;
+	print_name(whole, pin->name, cursor);
+	return true;
 }
 
 bool image_next_symbol(const struct image *image, struct symbol_cursor *cursor,
 		       struct symbol *out)
 {
 	const struct program *p = image->program;
+	struct declared_cursor next = cursor->declared;
+	struct declared_name symbol;
 
-	for (; cursor->index < p->symbol_count; cursor->index++, cursor->pin = 0) {
-		const struct code_symbol *symbol = &p->symbol[cursor->index];
-		const struct word_row *row = word_row((enum word)symbol->word);
-
-		memset(out, 0, sizeof(*out));
-		out->name = cursor->text;
-		out->flags = symbol->flags;
-		if (symbol->type != IEC_NONE) {
-			out->at = symbol_location(symbol);
-			print_name(p, symbol, NULL, cursor);
-			cursor->index++;
-			return true;
+	for (; image_next_declared(p, &next, &symbol); cursor->declared = next) {
+		*out = (struct symbol){
+			.name = cursor->text, .flags = symbol.flags,
+			.at = symbol.at,
+		};
+		if (symbol.at.type == IEC_NONE) {
+			if (next_pin(p, &symbol, cursor, out))
+				return true;
+			cursor->pin = 0;
+			continue;
 		}
-		while (cursor->pin < row->pin_count &&
-		       row->pin[cursor->pin].dir == PIN_VAR)
-			cursor->pin++;
-		if (cursor->pin < row->pin_count) {
-			const struct word_pin *pin = &row->pin[cursor->pin];
-
-			out->at = pin_location(symbol, (int)cursor->pin);
-			out->is_input = pin->dir == PIN_IN;
-			print_name(p, symbol, pin->name, cursor);
-			cursor->pin++;
-			return true;
-		}
+		print_name(&symbol, NULL, cursor);
+		cursor->declared = next;
+		return true;
 	}
 	return false;
 }

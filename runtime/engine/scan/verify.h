@@ -27,8 +27,6 @@ struct verifier {
 /* May a value of @type be read, or written, at this offset? Scan-safe: yes. */
 bool verify_use(const struct verifier *v, uint32_t offset, uint32_t type,
 		bool write);
-/** verify_instance - is there an instance of this FB word at the offset? */
-bool verify_instance(const struct program *p, uint32_t offset, uint32_t word);
 /** verify_refuse - notes the place of what broke a rule; false. */
 bool verify_refuse(struct verifier *v, const void *at);
 /** verify_programs - the instructions of all programs. */

@@ -13,8 +13,10 @@ struct maps {
 	char *string;
 	size_t string_used, string_size;
 	uint8_t *declared;   /* by folded name: in how many tables, up to 2 */
-	struct code_symbol *symbol;
+	uint32_t *symbol;
 	int symbol_count;
+	struct code_group *group;
+	int group_count;
 	struct code_power *power;
 	int power_count;
 };
@@ -49,57 +51,79 @@ static uint32_t add_name(struct assembler *as, struct maps *maps, uint32_t id)
 	return add_string(as, maps, names_text(names, id), names_len(names, id));
 }
 
-static void add_symbol(struct assembler *as, struct maps *maps,
-		       const struct pou *pou, uint32_t pou_name,
-		       const struct var *var, int index, uint8_t flags)
+/* Type, marks and place of a symbol as its word has them. */
+static uint32_t symbol_word(struct assembler *as, const struct maps *maps,
+			    const struct pou *pou, const struct var *var, int index)
 {
-	const struct names *names = &as->translation->project->names;
+	const char *name = names_text(&as->translation->project->names, var->name);
 	struct meaning m = {
 		.kind = MEANING_VARIABLE, .type = var->type, .pou = pou,
 		.var = var, .index = index, .addr = var->at,
 	};
-	struct spot spot = layout_spot(as, &m);
-	struct code_symbol *symbol = arena_push(as->arena, &maps->symbol,
-						&maps->symbol_count,
-						sizeof(*symbol));
+	uint32_t mark = var->type, offset = layout_spot(as, &m).offset;
+
+	if (var->at.area != AREA_NONE && var->at.bits == 1) {
+		mark |= SYMBOL_BIT;
+		offset = iec_area_row(var->at.area)->offset + var->at.byte;
+		offset = offset * 8 + var->at.bit;
+	}
+	if (maps->declared[var->fold] > 1)
+		mark |= SYMBOL_SHARED;
+	if (is_temporary(name, 'T') || is_temporary(name, 'N') ||
+	    is_temporary(name, 'E'))
+		mark |= SYMBOL_HIDDEN;
+	return CODE_OPERAND(mark, offset);
+}
+
+static void add_symbol(struct assembler *as, struct maps *maps,
+		       const struct pou *pou, const struct var *var, int index)
+{
+	uint32_t *symbol = arena_push(as->arena, &maps->symbol,
+				      &maps->symbol_count, sizeof(*symbol));
 
 	if (!symbol) {
 		as->failed = true;
 		return;
 	}
-	*symbol = (struct code_symbol){
-		.name = add_name(as, maps, var->name), .pou = pou_name,
-		.where = spot.offset, .type = (uint8_t)var->type,
-		.word = (uint16_t)(var->type == IEC_NONE ? var->fb : 0),
-	};
-	if (var->at.area != AREA_NONE && var->at.bits == 1) {
-		symbol->area = (uint8_t)var->at.area;
-		symbol->where = var->at.byte * 8 + var->at.bit;
+	*symbol = symbol_word(as, maps, pou, var, index);
+	add_name(as, maps, var->name);
+}
+
+/* The symbols behind it belong to @pou and have the flags of their VAR block. */
+static void add_group(struct assembler *as, struct maps *maps, uint32_t pou,
+		      uint8_t flags)
+{
+	struct code_group *group = arena_push(as->arena, &maps->group,
+					      &maps->group_count, sizeof(*group));
+
+	if (!group) {
+		as->failed = true;
+		return;
 	}
-	if (flags & VAR_CONSTANT)
-		symbol->flags |= SYMBOL_CONSTANT;
-	if (flags & VAR_RETAIN)
-		symbol->flags |= SYMBOL_RETAIN;
-	if (maps->declared[var->fold] > 1)
-		symbol->flags |= SYMBOL_SHARED;
-	if (is_temporary(names_text(names, var->name), 'T') ||
-	    is_temporary(names_text(names, var->name), 'N') ||
-	    is_temporary(names_text(names, var->name), 'E'))
-		symbol->flags |= SYMBOL_HIDDEN;
+	*group = (struct code_group){
+		.first = (uint32_t)maps->symbol_count, .pou = pou,
+		.flags = (flags & VAR_CONSTANT ? SYMBOL_CONSTANT : 0u) |
+			 (flags & VAR_RETAIN ? SYMBOL_RETAIN : 0u),
+	};
 }
 
 static void add_table(struct assembler *as, struct maps *maps,
 		      const struct pou *pou, const struct var_table *vars)
 {
-	uint32_t pou_name = pou ? add_name(as, maps, pou->name) : 0;
+	const struct pou *first = as->translation->project->pou;
+	uint32_t number = pou ? (uint32_t)(pou - first) + 1 : 0;
 	int block = 0;
 
-	for (int i = 0; i < vars->count; i++) {
+	for (int i = 0; i < vars->count && !as->failed; i++) {
+		int before = block;
+
 		while (block + 1 < vars->block_count &&
 		       vars->block[block + 1].first <= i)
 			block++;
-		add_symbol(as, maps, pou, pou_name, &vars->var[i], i,
-			   vars->block_count ? vars->block[block].flags : 0);
+		if (i == 0 || block != before)
+			add_group(as, maps, number, vars->block_count ?
+				  vars->block[block].flags : 0);
+		add_symbol(as, maps, pou, &vars->var[i], i);
 	}
 }
 
@@ -158,12 +182,11 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 	count_names(maps, &project->globals);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		count_names(maps, &project->pou[i].vars);
-	add_string(as, maps, "", 0); /* offset 0: no POU */
-	for (int i = 0; i < as->translation->unit_count; i++)
-		as->entry[i].name = add_name(as, maps, project->pou[i].name);
 	add_table(as, maps, NULL, &project->globals);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		add_table(as, maps, &project->pou[i], &project->pou[i].vars);
+	for (int i = 0; i < as->translation->unit_count; i++)
+		as->entry[i].name = add_name(as, maps, project->pou[i].name);
 	add_power(as, maps);
 	return !as->failed;
 }
@@ -230,6 +253,7 @@ void *pack_image(struct assembler *as, size_t *len)
 		[CODE_TEXT] = PIECE(as->code.word, as->code.count),
 		[CODE_WATCH] = PIECE(as->watch.word, as->watch.count),
 		[CODE_SYMBOLS] = PIECE(maps->symbol, maps->symbol_count),
+		[CODE_GROUPS] = PIECE(maps->group, maps->group_count),
 		[CODE_POWER] = PIECE(maps->power, maps->power_count),
 		[CODE_PLACES] = PIECE(as->place, as->place_count),
 		[CODE_STRINGS] = PIECE(maps->string, maps->string_used),

@@ -197,17 +197,17 @@ static bool is_ambiguous(const struct program *p, const char *name, size_t len)
 {
 	const char *dot = memchr(name, '.', len);
 	size_t head = dot ? (size_t)(dot - name) : len;
+	struct declared_cursor cursor = { 0 };
+	struct declared_name symbol;
 	bool local = false;
 
-	for (uint32_t i = 0; i < p->symbol_count; i++) {
-		const struct code_symbol *symbol = &p->symbol[i];
-
-		if (symbol->pou && is_head(p->string + symbol->pou, name, head))
+	while (image_next_declared(p, &cursor, &symbol)) {
+		if (*symbol.pou && is_head(symbol.pou, name, head))
 			return false;
-		if (!(symbol->flags & SYMBOL_SHARED) ||
-		    !is_head(p->string + symbol->name, name, head))
+		if (!(symbol.flags & SYMBOL_SHARED) ||
+		    !is_head(symbol.name, name, head))
 			continue;
-		if (!symbol->pou)
+		if (!*symbol.pou)
 			return false;
 		local = true;
 	}
