@@ -2,15 +2,20 @@
 # The whole build, one file. `make help` lists the targets.
 -include config.mk
 
-BUILD    ?= build
 CROSS    ?=
+SMALL    ?=
+BUILD    ?= build$(CROSS:%-=/%)$(SMALL:1=/small)
 CC       := $(CROSS)$(if $(filter default,$(origin CC)),gcc,$(CC))
 AR       := $(CROSS)ar
 PKG_CONFIG ?= pkg-config
 prefix   ?= /usr/local
 WERROR   ?= -Werror
 CFLAGS   ?= -O2 -g
-CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L
+# time_t of 64 bits on 32-bit boards, too: they will run in 2038.
+CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -D_TIME_BITS=64 $(SMALL:1=-DRUNGBOARD_SMALL)
+# No fused multiply-add, or REAL would differ from board to board.
+STD      := -std=c11 -ffp-contract=off
+LDFLAGS  += $(STATIC:1=-static)
 WARN     := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes \
             -Wswitch-enum -Wvla $(WERROR)
 # Frames under 1 KB in what runs on a board: it may have a stack of 8 KB.
@@ -22,20 +27,22 @@ LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
 
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
 ENGINE   := $(wildcard runtime/engine/*.c runtime/engine/*/*.c)
-SMALL    := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
+# What is left of the engine on a small board: nothing that reads or translates.
+CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
+LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)
 # What runs once a load is better small than fast.
 $(call obj,$(wildcard runtime/engine/check/*.c runtime/engine/text/*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
 
 all: $(BUILD)/libladder.a ## build everything that can be built here
 
-$(BUILD)/libladder.a: $(call obj,$(ENGINE))
+$(BUILD)/libladder.a: $(call obj,$(LIBRARY))
 	@rm -f $@
 	$(AR) rcs $@ $^
 
 $(BUILD)/%.o: %.c Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c11 $(CPPFLAGS) $(WARN) $(LEAN) $(CFLAGS) $(COLD) -MMD -MP -c -o $@ $<
+	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(LEAN) $(CFLAGS) $(COLD) -MMD -MP -c -o $@ $<
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
 
 UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_*.c))
@@ -48,57 +55,76 @@ unit: $(UNIT) ## build and run the unit tests
 words: $(BUILD)/unit/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md
 
-# ---- HAL and runtime: the gpio driver is for the libgpiod that is here ----
-GPIOD    ?= $(shell $(PKG_CONFIG) --modversion libgpiod 2>/dev/null | cut -d. -f1)
-GPIO_C   := $(if $(filter 1 2,$(GPIOD)),hal/gpiod_v$(GPIOD).c hal/gpio_find.c,hal/gpiod_none.c)
-GPIO_LIB := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
+# ---- HAL and runtime ----
+# HAL=gpiod|uapi|none: the gpio driver goes through libgpiod, the kernel's uAPI, or
+# nowhere. Unless told, libgpiod if it is here for the machine that is built for:
+# a cross build sees one only through PKG_CONFIG_LIBDIR.
+GPIOD    ?= $(if $(filter uapi none,$(HAL))$(filter 1,$(SMALL)),,$(if $(if $(CROSS),$(PKG_CONFIG_LIBDIR),here),$(shell $(PKG_CONFIG) --modversion libgpiod 2>/dev/null | cut -d. -f1)))
+override HAL := $(or $(HAL),$(if $(filter 1 2,$(GPIOD)),gpiod,uapi))
+GPIO_C_gpiod := hal/gpiod_v$(GPIOD).c hal/gpio_find.c
+GPIO_C_uapi  := hal/gpio_uapi.c hal/gpio_find.c
+GPIO_C_none  := hal/gpiod_none.c
+GPIO_C   := $(or $(GPIO_C_$(HAL)),$(error HAL=$(HAL): it is gpiod, uapi or none))
+GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PKG_CONFIG) --cflags libgpiod),$(error HAL=gpiod, but pkg-config finds no libgpiod 1 or 2)))
+GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
 HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/sim.c
-HAL      := $(call obj,$(HAL_CORE) $(GPIO_C))
-LADDERD  := $(call obj,$(wildcard runtime/ladderd/*.c))
-$(HAL) $(LADDERD): WARN += $(FRAME)
+DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
+LADDERD  := $(call obj,$(filter-out %/source_$(if $(filter 1,$(SMALL)),any,image).c,$(wildcard runtime/ladderd/*.c)))
+$(DRIVERS) $(LADDERD): WARN += $(FRAME)
+$(DRIVERS): CPPFLAGS += $(GPIO_CPP)
 
 all: $(BUILD)/ladderd
-$(BUILD)/ladderd: $(LADDERD) $(HAL) $(BUILD)/libladder.a
-	@$(if $(filter 1 2,$(GPIOD)),true,echo 'libgpiod is not here: ladderd gets the sim driver only')
+$(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
 
-# Both gpio drivers against fakes of their libgpiod: one suite, built twice.
+# All gpio drivers against fakes of what is below them: one suite, built three times.
 HAL_TEST := $(BUILD)/tests/hal
-HAL_FAKE  = $(call obj,$(HAL_CORE)) $(HAL_TEST)/v$(1)/gpiod_v$(1).o \
-            $(HAL_TEST)/v$(1)/gpio_find.o $(HAL_TEST)/v$(1)/fake_v$(1).o $(HAL_TEST)/fake.o
+HAL_FAKE  = $(call obj,$(HAL_CORE)) $(HAL_TEST)/$(1)/$(2).o \
+            $(HAL_TEST)/$(1)/gpio_find.o $(HAL_TEST)/$(1)/fake_$(1).o $(HAL_TEST)/fake.o
 $(HAL_TEST)/v1/%.o: hal/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c11 -Itests/hal/fake_v1 $(CPPFLAGS) $(WARN) $(FRAME) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(CC) $(STD) -Itests/hal/fake_v1 $(CPPFLAGS) $(WARN) $(FRAME) $(CFLAGS) -MMD -MP -c -o $@ $<
 $(HAL_TEST)/v2/%.o: hal/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c11 -Itests/hal/fake_v2 $(CPPFLAGS) $(WARN) $(FRAME) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(CC) $(STD) -Itests/hal/fake_v2 $(CPPFLAGS) $(WARN) $(FRAME) $(CFLAGS) -MMD -MP -c -o $@ $<
 $(HAL_TEST)/v1/%.o: tests/hal/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c11 -Itests/hal/fake_v1 $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
+	$(CC) $(STD) -Itests/hal/fake_v1 $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
 $(HAL_TEST)/v2/%.o: tests/hal/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) -std=c11 -Itests/hal/fake_v2 $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
-$(HAL_TEST)/suite_v%: $(HAL_TEST)/v%/suite.o $(BUILD)/libladder.a Makefile
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
-$(HAL_TEST)/suite_v1: $(call HAL_FAKE,1)
-$(HAL_TEST)/suite_v2: $(call HAL_FAKE,2)
+	$(CC) $(STD) -Itests/hal/fake_v2 $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(HAL_TEST)/uapi/%.o: hal/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(FRAME) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(HAL_TEST)/uapi/%.o: tests/hal/%.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(CFLAGS) -MMD -MP -c -o $@ $<
+$(HAL_TEST)/suite_%: $(HAL_TEST)/%/suite.o $(BUILD)/libladder.a Makefile
+	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+$(HAL_TEST)/suite_v1: $(call HAL_FAKE,v1,gpiod_v1)
+$(HAL_TEST)/suite_v2: $(call HAL_FAKE,v2,gpiod_v2)
+$(HAL_TEST)/suite_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
+$(HAL_TEST)/suite_uapi $(HAL_TEST)/ladderd_uapi: WRAP := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl
 $(HAL_TEST)/map: $(call obj,tests/hal/map.c tests/hal/fake.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
-$(HAL_TEST)/ladderd_v%: $(LADDERD) $(HAL_TEST)/v%/daemon_fake.o $(BUILD)/libladder.a Makefile
-	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=opendir -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
-$(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,1)
-$(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,2)
-HAL_TESTS := $(HAL_TEST)/map $(HAL_TEST)/suite_v1 $(HAL_TEST)/suite_v2
-hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(HAL_TEST)/ladderd_v1 $(HAL_TEST)/ladderd_v2 ## both gpio drivers against fake chips; ladderd from outside
+$(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libladder.a Makefile
+	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=opendir -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+$(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,v1,gpiod_v1)
+$(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,v2,gpiod_v2)
+$(HAL_TEST)/ladderd_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
+HAL_KINDS := v1 v2 uapi
+HAL_TESTS := $(HAL_TEST)/map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
+HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%)
+hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(HAL_DAEMONS) ## all gpio drivers against fake chips; ladderd from outside
 	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t
-.PRECIOUS: $(HAL_TEST)/v1/%.o $(HAL_TEST)/v2/%.o
+.PRECIOUS: $(HAL_KINDS:%=$(HAL_TEST)/%/%.o)
 .PHONY: hal-tests
 # ---- end of HAL and runtime ----
 
 # ---- the command line: ladder, its man pages ----
 LADDER := $(call obj,$(wildcard runtime/ladder/*.c))
-all: $(BUILD)/ladder
-$(BUILD)/ladder: $(LADDER) $(HAL) $(BUILD)/libladder.a
+all: $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder)
+$(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
 
 # From the rows of runtime/ladder/commands.c. A cross build needs its own ladder.
@@ -164,7 +190,7 @@ $(TESTS_BIN): $(BUILD)/libladder.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 
-house: $(BUILD)/libladder.a $(HAL) ## floors, headers, quiet, banned: the rules of the house
+house: $(BUILD)/libladder.a $(DRIVERS) ## floors, headers, quiet, banned: the rules of the house
 	BUILD=$(BUILD) CROSS=$(CROSS) CC='$(CC)' prove -e '' $(HOUSE)
 differential: $(BIN)/differential ## engine and walker run 20,000 random programs
 	$<
@@ -180,7 +206,7 @@ FUZZ_FLAGS := -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=u
 fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap SECONDS=60
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
-	$(FUZZ_CC) -std=c11 $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
+	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
 	  $(if $(filter script scenario,$(TARGET)),tests/fuzz/sandbox.c) $(if $(filter iomap,$(TARGET)),$(HAL_CORE) hal/gpiod_none.c) $(ENGINE) -lm
 	$(BUILD)/fuzz/fuzz_$(TARGET) -max_total_time=$(SECONDS) -timeout=25 -max_len=20000 -artifact_prefix=$(BUILD)/fuzz/ $(BUILD)/fuzz/$(TARGET)
 .PHONY: house differential check-long pathological fuzz
@@ -196,7 +222,7 @@ ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
 TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN)
 
-tests: all man $(BUILT) $(HAL_TEST)/ladderd_v1 $(HAL_TEST)/ladderd_v2
+tests: all man $(BUILT) $(HAL_DAEMONS)
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd

@@ -91,6 +91,8 @@ struct driver {
 const struct driver *driver_row(enum driver_id id);
 /** driver_find - DRIVER_COUNT: no driver of that name (any case). */
 enum driver_id driver_find(const char *word, size_t len);
-/** gpio_version - version of libgpiod, "1.6.3", or "none". Lives for ever. */
+/** gpio_library, gpio_version - "libgpiod" and "1.6.3" or "none"; "uAPI" and "v2".
+ * Live for ever. */
+const char *gpio_library(void);
 const char *gpio_version(void);
 #endif

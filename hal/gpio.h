@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * gpio - what the two versions of libgpiod have in common, below a driver.
+ * gpio - what the three gpio drivers have in common, below a driver.
  *
- * gpiod_v1.c and gpiod_v2.c each say how a chip is opened and what a line is;
- * gpio_find.c looks for lines with it. Nobody else includes this.
+ * gpiod_v1.c, gpiod_v2.c and gpio_uapi.c each say how a chip is opened and what a
+ * line is; gpio_find.c looks for lines with it. Nobody else includes this.
  */
 #ifndef HAL_GPIO_H
 #define HAL_GPIO_H
@@ -15,6 +15,7 @@
 
 struct gpio_chip {
 	void *chip;              /* of libgpiod                            */
+	int fd;                  /* of the uAPI                            */
 	char label[GPIO_TEXT];
 	uint32_t lines;
 };
@@ -25,7 +26,7 @@ struct gpio_line {
 	bool used, output;
 };
 
-/* Given by the version of libgpiod. 0 or -errno.  Scan-safe: no. */
+/* Given by the driver. 0 or -errno.  Scan-safe: no. */
 int gpio_chip_open(const char *path, struct gpio_chip *out);
 void gpio_chip_close(struct gpio_chip *chip);
 int gpio_chip_line(struct gpio_chip *chip, uint32_t offset,

@@ -5,6 +5,11 @@
  */
 #include "hal/drivers.h"
 
+const char *gpio_library(void)
+{
+	return "libgpiod";
+}
+
 const char *gpio_version(void)
 {
 	return "none";

@@ -144,6 +144,11 @@ static int v1_write(struct request *request, uint64_t levels)
 	return gpiod_line_set_value_bulk(&state->lines, values) ? -errno : 0;
 }
 
+const char *gpio_library(void)
+{
+	return "libgpiod";
+}
+
 const char *gpio_version(void)
 {
 	return gpiod_version_string();

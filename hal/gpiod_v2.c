@@ -188,6 +188,11 @@ static int v2_write(struct request *request, uint64_t levels)
 	       last_error() : 0;
 }
 
+const char *gpio_library(void)
+{
+	return "libgpiod";
+}
+
 const char *gpio_version(void)
 {
 	return gpiod_api_version();

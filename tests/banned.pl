@@ -89,7 +89,7 @@ for my $file (grep { $house->($_) } @files) {
 			push @words, "$file:$line: $name"
 				if $name =~ /(?:^|_)(?:item|data|info|manager|helper|util|utils|handle|node|process)s?(?:_|$)/
 				&& $name !~ /^(?:data_size|(?:add_|expr_)node)$/ # a parse tree has nodes
-				&& $name !~ /^gpiod_/;
+				&& $name !~ /^gpio(?:d|chip|_v2)_/; # not ours
 		}
 	}
 }

@@ -9,6 +9,7 @@
  * failure must be told as LD001, and nothing may be left behind.
  */
 #include "engine/ladder.h"
+#include "engine/base/file.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>
@@ -156,7 +157,7 @@ static void starve_file(const char *path)
 	char *text;
 
 	diag_init(&diags);
-	text = ladder_read_file(path, LIMIT_TEXT, &len, &diags);
+	text = file_read(path, LIMIT_TEXT, &len, &diags);
 	if (CHECK_AS(text, path))
 		starve(path, text, len);
 	free(text);

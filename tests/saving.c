@@ -3,11 +3,12 @@
  * saving - a save is cut off at its 1st, 2nd, 3rd … call of the system, by an
  * error and by a kill: what stands there is the old file or the new one, whole.
  *
- * Linked with --wrap, so that the calls of ladder_save_file() come by here. The
+ * Linked with --wrap, so that the calls of file_save() come by here. The
  * power of the machine cannot be cut; that the file is on the disk before it gets
  * its name, and the name before the save is told good, is seen by the order.
  */
 #include "engine/ladder.h"
+#include "engine/base/file.h"
 #include "tests/tap.h"
 
 #include <dirent.h>
@@ -125,7 +126,7 @@ static bool save(int failing, int killing)
 	fail_at = failing;
 	kill_at = killing;
 	diag_init(&diags);
-	return ladder_save_file(path, new_text, strlen(new_text), &diags);
+	return file_save(path, new_text, strlen(new_text), &diags);
 }
 
 static void test_order(void)

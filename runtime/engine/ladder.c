@@ -6,6 +6,7 @@
  */
 #include "engine/ladder.h"
 
+#include "engine/base/file.h"
 #include "engine/check/check.h"
 #include "engine/check/check_il.h"
 #include "engine/text/text.h"
@@ -98,7 +99,7 @@ static char *load_include(void *context, const char *from, const char *name,
 	memcpy(path, from, folder);
 	memcpy(path + folder, name, strlen(name) + 1);
 	errno = 0;
-	text = ladder_read_file(path, LIMIT_TEXT, len, NULL);
+	text = file_read(path, LIMIT_TEXT, len, NULL);
 	if (!text && diags->errors == before) {
 		place.id = DIAG_BAD_INCLUDE;
 		diag_add(diags, place, "%.60s: %s", name,
@@ -176,7 +177,7 @@ bool ladder_load(struct ladder *ladder, const char *path)
 
 	unload(ladder);
 	diag_init(&ladder->diags);
-	bytes = ladder_read_file(path, LIMIT_TEXT, &len, &ladder->diags);
+	bytes = file_read(path, LIMIT_TEXT, &len, &ladder->diags);
 	ladder->unreadable = !bytes;
 	if (!bytes)
 		return false;

@@ -9,10 +9,9 @@
 #define ENGINE_LADDER_H
 
 #include "engine/base/diag.h"
+#include "engine/base/version.h"
 #include "engine/model/project.h"
 #include "engine/scan/resource.h"
-
-#define LADDER_VERSION "0.1.0"
 
 struct ladder;
 
@@ -66,19 +65,4 @@ size_t ladder_memory(const struct ladder *ladder);
  * Owns: the caller, free().   Fails: NULL when memory is out.
  */
 char *ladder_write(struct ladder *ladder, size_t *len);
-
-/**
- * ladder_read_file - a whole regular file
- * @limit: bytes at most
- * Owns: the caller, free(). NULL and a diagnostic (with errno's text; @diags may be NULL) on failure.
- */
-char *ladder_read_file(const char *path, size_t limit, size_t *len,
-		       struct diag_list *diags);
-/**
- * ladder_save_file - replaces a file atomically: temporary file beside it,
- * fsync, rename, fsync of the folder. Keeps the mode of an old file.
- * Fails: false and a diagnostic; the old file is intact.
- */
-bool ladder_save_file(const char *path, const void *bytes, size_t len,
-		      struct diag_list *diags);
 #endif

@@ -5,6 +5,7 @@
  */
 #include "ladder/report.h"
 
+#include "engine/base/file.h"
 #include "engine/base/digest.h"
 
 #include <stdlib.h>
@@ -115,7 +116,7 @@ static enum status save_bytes(const void *bytes, size_t len, const char *path)
 	if (!diags)
 		return report_no_memory(path);
 	diag_init(diags);
-	good = ladder_save_file(path, bytes, len, diags);
+	good = file_save(path, bytes, len, diags);
 	report_diags(diags);
 	free(diags);
 	return good ? STATUS_GOOD : STATUS_WRONG;

@@ -5,6 +5,8 @@
  */
 #include "ladder/report.h"
 
+#include "engine/base/file.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,7 +18,7 @@ static enum status write_file(const char *path, const char *text, size_t len)
 	if (!diags)
 		return report_no_memory(path);
 	diag_init(diags);
-	good = ladder_save_file(path, text, len, diags);
+	good = file_save(path, text, len, diags);
 	report_diags(diags);
 	free(diags);
 	return good ? STATUS_GOOD : STATUS_WRONG;

@@ -5,6 +5,7 @@
  */
 #include "ladder/report.h"
 
+#include "engine/base/file.h"
 #include "engine/trial/value.h"
 
 #include <errno.h>
@@ -265,7 +266,7 @@ char *report_read(const char *path, size_t *len)
 		return NULL;
 	}
 	diag_init(diags);
-	text = ladder_read_file(path, LIMIT_TEXT, len, diags);
+	text = file_read(path, LIMIT_TEXT, len, diags);
 	report_diags(diags);
 	free(diags);
 	return text;

@@ -5,6 +5,7 @@
  */
 #include "ladderd/load.h"
 
+#include "engine/base/file.h"
 #include <stdlib.h>
 
 #define MAP_BYTES (4u << 20)
@@ -12,7 +13,7 @@
 static bool load_map(struct load *load, const char *path)
 {
 	size_t len;
-	char *text = ladder_read_file(path, MAP_BYTES, &len, &load->diags);
+	char *text = file_read(path, MAP_BYTES, &len, &load->diags);
 	bool good;
 
 	if (!text) {
@@ -23,15 +24,6 @@ static bool load_map(struct load *load, const char *path)
 			  &load->diags);
 	free(text);
 	return good;
-}
-
-static bool load_program(struct load *load, const char *path)
-{
-	if (ladder_load(load->ladder, path))
-		return ladder_build(load->ladder);
-	if (!ladder_could_read(load->ladder))
-		load->unreadable = true;
-	return false;
 }
 
 static bool is_mapped(const struct iomap *map, uint32_t area, uint32_t bit)
@@ -49,7 +41,7 @@ static bool is_mapped(const struct iomap *map, uint32_t area, uint32_t bit)
  * which is as large as all areas. */
 static void check_mapped(struct load *load, uint8_t *named)
 {
-	const struct program *program = ladder_program(load->ladder);
+	const struct program *program = &load->source.program;
 	struct declared_cursor cursor = { 0 };
 	struct declared_name symbol;
 
@@ -71,7 +63,7 @@ static void check_mapped(struct load *load, uint8_t *named)
 /* The same for bits that the program uses by their address. */
 static void check_addresses(struct load *load, const uint8_t *named)
 {
-	const struct program *program = ladder_program(load->ladder);
+	const struct program *program = &load->source.program;
 
 	for (uint32_t i = 0; i < program->bits_count; i++) {
 		const struct code_bits *bits = &program->bits[i];
@@ -106,12 +98,8 @@ bool load_files(struct load *load, const char *file, const char *map)
 
 	arena_init(&load->arena);
 	diag_init(&load->diags);
-	load->unreadable = false;
-	load->ladder = ladder_new();
-	if (!load->ladder)
-		return diag_add(&load->diags, (struct diag){
-			.id = DIAG_NO_MEMORY, .file = file }, "%s", "");
-	good = load_program(load, file);
+	good = source_load(&load->source, file);
+	load->unreadable = load->source.unreadable;
 	if (!load_map(load, map) || !good)
 		return false;
 	named = arena_alloc(&load->arena, iec_areas_size());
@@ -125,6 +113,6 @@ bool load_files(struct load *load, const char *file, const char *map)
 
 void load_free(struct load *load)
 {
-	ladder_free(load->ladder);
+	source_free(&load->source);
 	arena_free(&load->arena);
 }

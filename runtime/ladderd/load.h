@@ -8,11 +8,11 @@
 #ifndef LADDERD_LOAD_H
 #define LADDERD_LOAD_H
 
-#include "engine/ladder.h"
 #include "hal/iomap.h"
+#include "ladderd/source.h"
 
 struct load {
-	struct ladder *ladder;
+	struct source source;
 	struct arena arena;       /* the map, later the HAL and the image     */
 	struct iomap map;
 	struct diag_list diags;   /* of the map                               */

@@ -5,6 +5,7 @@
  * network and needs no user but the one that may open the lines.
  */
 #include "engine/base/digest.h"
+#include "engine/base/version.h"
 #include "hal/drivers.h"
 #include "ladderd/control.h"
 #include "ladderd/load.h"
@@ -39,26 +40,22 @@ static void print_diags(const struct diag_list *list)
 
 static void print_all_diags(const struct daemon *daemon)
 {
-	if (daemon->load.ladder)
-		print_diags(ladder_diags(daemon->load.ladder));
+	print_diags(&daemon->load.source.diags);
 	print_diags(&daemon->load.diags);
 }
 
 static void print_memory(const struct daemon *daemon)
 {
 	const struct load *load = &daemon->load;
-	const struct program *program = ladder_program(load->ladder);
-	size_t code;
 
-	ladder_image(load->ladder, &code);
-	printf("code: %zu bytes\n", code);
-	printf("data: %zu bytes\n", image_memory_size(program));
+	printf("code: %zu bytes\n", load->source.image_bytes);
+	printf("data: %zu bytes\n", image_memory_size(&load->source.program));
 	printf("hal: at most %zu bytes, %d lines\n", hal_memory(&load->map),
 	       load->map.count);
 	printf("runtime: %zu bytes\n", sizeof(*daemon) + SAFE_STACK_BYTES);
 	printf("stack: at most %d bytes\n", STACK_BYTES);
 	printf("loaded text and translation: %zu bytes\n",
-	       ladder_memory(load->ladder));
+	       load->source.other_bytes);
 }
 
 /* Memory was written while loading, deeper stack used than a scan needs: what
@@ -103,7 +100,7 @@ static int run(struct daemon *daemon)
 	const struct options *options = &daemon->options;
 	struct load *load = &daemon->load;
 	struct cycle *cycle = &daemon->cycle;
-	const struct program *program = ladder_program(load->ladder);
+	const struct program *program = &load->source.program;
 	void *memory = arena_alloc(&load->arena, image_memory_size(program));
 	void *stack = arena_alloc(&load->arena, SAFE_STACK_BYTES);
 	uint8_t identity[32];
@@ -176,8 +173,9 @@ int main(int argc, char **argv)
 	} else if (daemon->options.help) {
 		status = fputs(options_help(), stdout) < 0;
 	} else if (daemon->options.version) {
-		status = printf("ladderd %s, gpio through libgpiod: %s\n",
-				LADDER_VERSION, gpio_version()) < 0;
+		status = printf("ladderd %s, takes %s, gpio through %s: %s\n",
+				LADDER_VERSION, source_kinds(),
+				gpio_library(), gpio_version()) < 0;
 	} else {
 		status = load_and_run(daemon);
 		load_free(&daemon->load);

@@ -187,7 +187,7 @@ my @traced = ('--trace-io', '--watchdog', '200');
 is(run($ladderd, '--help'), 0, '--help');
 like(get('out'), qr/^Usage: ladderd FILE --io MAP.*Example: /s, 'its text');
 is(run($ladderd, '--version'), 0, '--version');
-like(get('out'), qr/^ladderd \d+\.\d+\.\d+, gpio through libgpiod: \S+\n$/,
+like(get('out'), qr/^ladderd \d+\.\d+\.\d+, takes rung files and code images, gpio through libgpiod: \S+\n$/,
 	'its text');
 for (['no arguments'], ['no map', $rung], ['no file', '--io', $map],
      ['two files', $rung, $rung, '--io', $map],
@@ -318,21 +318,21 @@ for my $signal (qw(TERM INT)) {
 		'what a scan wrote that did not end is never at a line');
 }
 
-# ---- ways out: lines that fail, scans that hang, on both libgpiods ----
-for my $version (1, 2) {
-	my $fake = "$build/tests/hal/ladderd_v$version";
+# ---- ways out: lines that fail, scans that hang, on every gpio driver ----
+for my $version (qw(v1 v2 uapi)) {
+	my $fake = "$build/tests/hal/ladderd_$version";
 	local $ENV{FAKE_DEV} = "$dir/dev";
 	mkdir "$dir/dev";
 	put('dev/gpiochip0', '');
 	is(run($fake, $rung, '--io', $gpio, '--scans', '20', @traced), 0,
-		"v$version: runs");
-	is_safe("v$version");
+		"$version: runs");
+	is_safe("$version");
 	{
 		local $ENV{FAKE_FAIL_AT} = 10;
 		local $ENV{FAKE_HEAL_AT} = 14;
 		my $pid = start($fake, $rung, '--io', $gpio, @traced);
-		ok(until_has('err', qr/FAULT/), "v$version: a lost line");
-		is_safe("v$version: I/O fault");
+		ok(until_has('err', qr/FAULT/), "$version: a lost line");
+		is_safe("$version: I/O fault");
 		kill 'HUP', $pid;
 		ok(until_has('err', qr/a line does not answer|reset/),
 			'reset while it is lost');
@@ -355,8 +355,8 @@ for my $version (1, 2) {
 		my $pid = start($fake, $rung, '--io', $gpio, '--trace-io',
 			'--watchdog', '20');
 		ok(until_has('err', qr/^%QX0\.1 1$/m),
-			"v$version: the watchdog acts though the scan hangs");
-		is_safe("v$version: watchdog");
+			"$version: the watchdog acts though the scan hangs");
+		is_safe("$version: watchdog");
 		kill 'TERM', $pid;
 		is(finish($pid), 1, 'and it can be ended');
 		is_safe('then');
@@ -364,7 +364,7 @@ for my $version (1, 2) {
 	{
 		local $ENV{FAKE_SLOW_AT} = 5;
 		is(run($fake, $rung, '--io', $gpio, '--scans', '20', @traced), 0,
-			"v$version: late scans are no FAULT");
+			"$version: late scans are no FAULT");
 		get('out') =~ /^late: (\d+)$/m;
 		ok($1 >= 15, 'but each is counted');
 		is(run($fake, $rung, '--io', $gpio, '--trace-io', '--scans', '500',
@@ -381,7 +381,7 @@ for my $version (1, 2) {
 		local $ENV{FAKE_SLOW_EACH} = 2;
 		is(run($fake, $rung, '--io', $gpio, '--scans', '12', '--period',
 			'50ms', '--watchdog', '4'), 0,
-			"v$version: late scans that are not in a row");
+			"$version: late scans that are not in a row");
 		get('out') =~ /^late: (\d+)$/m;
 		ok($1 >= 5, 'are counted only') or diag(get('out'));
 	}
@@ -389,7 +389,7 @@ for my $version (1, 2) {
 		local $ENV{FAKE_FAIL_AT} = 5;
 		local $ENV{FAKE_HEAL_AT} = 6;
 		is(run($fake, $told, '--io', $gpio, '--scans', '20', @traced), 0,
-			"v$version: a read that fails once is no FAULT");
+			"$version: a read that fails once is no FAULT");
 		like(get('err'), qr/^%QX0\.0 1$/m, 'but the program is told');
 	}
 	{
@@ -397,7 +397,7 @@ for my $version (1, 2) {
 		local $ENV{FAKE_DEAF_AT} = 2;
 		my $pid = start($fake, $loop, '--io', $gpio, @traced, '--period',
 			'50ms', '--watchdog', '1000');
-		ok(until_has('err', qr/FAULT/), "v$version: deaf outputs");
+		ok(until_has('err', qr/FAULT/), "$version: deaf outputs");
 		kill 'HUP', $pid;
 		ok(until_has('err', qr/a line does not answer|reset, RUN/),
 			'an answer to the reset');
@@ -411,7 +411,7 @@ for my $version (1, 2) {
 		my $pid = start($fake, $loop, '--io', $gpio, @traced, '--period',
 			'50ms', '--watchdog', '1000');
 		ok(until_has('err', qr/FAULT(.*\n)*%QX0\.0 0$/m),
-			"v$version: safe values are tried until they arrive");
+			"$version: safe values are tried until they arrive");
 		is_safe('then');
 		kill 'TERM', $pid;
 		finish($pid);
@@ -419,8 +419,8 @@ for my $version (1, 2) {
 	{
 		local $ENV{FAKE_CRASH_AT} = 10;
 		like(run($fake, $rung, '--io', $gpio, @traced),
-			qr/^(signal 11|1)$/, "v$version: a crash in a scan");
-		is_safe("v$version: crash");
+			qr/^(signal 11|1)$/, "$version: a crash in a scan");
+		is_safe("$version: crash");
 	}
 	my $wrong = put('wrong.io', "BOARD \"x\"\n%QX0.0 gpio line=OUT9\n");
 	is(run($fake, $rung, '--io', $wrong, @traced), 1, 'no such line');

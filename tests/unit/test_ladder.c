@@ -5,6 +5,7 @@
  */
 #define _XOPEN_SOURCE 700 /* mkdtemp, symlink, setrlimit */
 #include "engine/ladder.h"
+#include "engine/base/file.h"
 #include "tests/tap.h"
 
 #include <dirent.h>
@@ -37,13 +38,13 @@ static const char *in_folder(const char *name)
 static void put(const char *name, const char *text)
 {
 	diag_init(&diags);
-	CHECK(ladder_save_file(in_folder(name), text, strlen(text), &diags));
+	CHECK(file_save(in_folder(name), text, strlen(text), &diags));
 }
 
 static bool holds(const char *name, const char *text)
 {
 	size_t len = 0;
-	char *bytes = ladder_read_file(in_folder(name), 1 << 20, &len, NULL);
+	char *bytes = file_read(in_folder(name), 1 << 20, &len, NULL);
 	bool same = bytes && len == strlen(text) && !memcmp(bytes, text, len);
 
 	free(bytes);
@@ -123,7 +124,7 @@ static void loads_images(void)
 	CHECK(!ladder_load_text(other, "cut", image, len - 1));
 	CHECK(has(other, DIAG_IMAGE_DAMAGED) && !ladder_program(other));
 	CHECK(!ladder_build(other) && !ladder_image(other, &again));
-	CHECK(ladder_save_file(in_folder("p.rungc"), image, len, NULL));
+	CHECK(file_save(in_folder("p.rungc"), image, len, NULL));
 	CHECK(ladder_load(other, in_folder("p.rungc")) && ladder_program(other));
 	CHECK(load(other, good) && !ladder_program(other) && ladder_build(other));
 	ladder_free(other);
@@ -151,9 +152,9 @@ static void tells_what_it_cannot_read(void)
 	size_t len;
 
 	diag_init(&diags);
-	CHECK(!ladder_read_file(in_folder("good.rung"), 10, &len, &diags));
+	CHECK(!file_read(in_folder("good.rung"), 10, &len, &diags));
 	CHECK(diags.diag[0].id == DIAG_TOO_LARGE);
-	CHECK(!ladder_read_file(in_folder("missing"), 10, &len, NULL));
+	CHECK(!file_read(in_folder("missing"), 10, &len, NULL));
 }
 
 static void includes_files(void)
@@ -212,10 +213,10 @@ static void saves(void)
 	int before = files();
 
 	diag_init(&diags);
-	CHECK(!ladder_save_file(folder, "x", 1, &diags));
+	CHECK(!file_save(folder, "x", 1, &diags));
 	CHECK(diags.diag[0].id == DIAG_NOT_A_FILE);
-	CHECK(!ladder_save_file("/dev/null", "x", 1, NULL));
-	CHECK(!ladder_save_file(in_folder("none/x.rung"), "x", 1, &diags));
+	CHECK(!file_save("/dev/null", "x", 1, NULL));
+	CHECK(!file_save(in_folder("none/x.rung"), "x", 1, &diags));
 	CHECK(diags.diag[1].id == DIAG_CANNOT_WRITE && files() == before);
 	unlink(in_folder("link.rung"));
 }
@@ -236,7 +237,7 @@ static void keeps_the_old_file(void)
 	diag_init(&diags);
 	fflush(stdout); /* it may be a file too */
 	setrlimit(RLIMIT_FSIZE, &small);
-	bool saved = ladder_save_file(in_folder("new.rung"), big, sizeof(big),
+	bool saved = file_save(in_folder("new.rung"), big, sizeof(big),
 				      &diags);
 	setrlimit(RLIMIT_FSIZE, &old);
 	CHECK(!saved);
@@ -252,9 +253,9 @@ static void takes_closed_folders(void)
 	if (geteuid() == 0)
 		return;
 	CHECK(chmod(folder, 0500) == 0);
-	CHECK(!ladder_save_file(in_folder("new.rung"), "x", 1, NULL));
+	CHECK(!file_save(in_folder("new.rung"), "x", 1, NULL));
 	CHECK(holds("new.rung", "old") && chmod(folder, 0300) == 0);
-	CHECK_AS(ladder_save_file(in_folder("new.rung"), "y", 1, NULL),
+	CHECK_AS(file_save(in_folder("new.rung"), "y", 1, NULL),
 		 "a folder that cannot be read");
 	CHECK(chmod(folder, 0700) == 0 && holds("new.rung", "y"));
 }

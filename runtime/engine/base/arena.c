@@ -8,6 +8,8 @@
 #define _DEFAULT_SOURCE /* madvise() */
 #include "engine/base/arena.h"
 
+#include "engine/base/limits.h"
+
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +28,6 @@ struct arena_chunk {
 #endif
 #define ALIGN     8u
 #define CHUNK_MIN 4000u
-#define CHUNK_MAX (HUGE_PAGE - sizeof(struct arena_chunk))
 #define HUGE_PAGE ((size_t)2 << 20) /* of x86-64 and arm64                  */
 
 void arena_init(struct arena *arena)
@@ -71,7 +72,7 @@ static struct arena_chunk *new_chunk(size_t size)
 	size_t whole = sizeof(struct arena_chunk) + size;
 	struct arena_chunk *chunk;
 
-	if (size < CHUNK_MAX) {
+	if (size < HUGE_PAGE - 64) {
 		chunk = calloc(1, whole);
 		if (chunk)
 			chunk->size = size;
@@ -96,8 +97,8 @@ static bool add_chunk(struct arena *arena, size_t wanted)
 
 	if (arena->chunk)
 		size = arena->chunk->size * 4;
-	if (size > CHUNK_MAX)
-		size = CHUNK_MAX;
+	if (size > LIMIT_CHUNK)
+		size = LIMIT_CHUNK;
 	if (size < wanted)
 		size = wanted;
 	if (size > SIZE_MAX - sizeof(*chunk))

@@ -8,6 +8,13 @@
 #ifndef BASE_LIMITS_H
 #define BASE_LIMITS_H
 
+/* What an arena takes from the system at once, at most: a small board has no memory
+ * to spare, a large one no time for page faults. */
+#ifdef RUNGBOARD_SMALL
+#define LIMIT_CHUNK       8000
+#else
+#define LIMIT_CHUNK       ((2u << 20) - 64) /* a huge page with its header    */
+#endif
 #define LIMIT_COLS        64        /* columns of a rung                      */
 #define LIMIT_ROWS        256       /* rows of a rung                         */
 #define LIMIT_DIAGS       100       /* diagnostics kept; the rest are counted */

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT
  *
- * ladder_file - whole files in, whole files out.
+ * file - whole files in, whole files out.
  *
  * A save is complete or the old file stays as it was: a temporary file beside it,
  * fsync, rename, fsync of the folder. It never writes into a file in place.
  */
 #define _XOPEN_SOURCE 700 /* realpath, mkstemp */
-#include "engine/ladder.h"
+#include "engine/base/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,10 +27,11 @@ static char *fail(struct diag_list *diags, enum diag_id id, const char *path,
 	return NULL;
 }
 
-/* Reads until the end or one byte beyond @limit: pipes have no size. */
-static char *read_all(int fd, size_t limit, size_t *len)
+/* Reads until the end or one byte beyond @limit. @room: the file's size, or a guess
+ * (files of /proc say 0), so that one allocation is enough as a rule. */
+static char *read_all(int fd, size_t limit, size_t room, size_t *len)
 {
-	size_t room = 65536, used = 0;
+	size_t used = 0;
 	char *bytes = malloc(room + 1);
 
 	while (bytes) {
@@ -62,8 +64,18 @@ static char *read_all(int fd, size_t limit, size_t *len)
 	return bytes;
 }
 
-char *ladder_read_file(const char *path, size_t limit, size_t *len,
-		       struct diag_list *diags)
+/* One byte more than the file has, to see its end without asking for more. */
+static size_t room_for(const struct stat *status, size_t limit)
+{
+	if (status->st_size <= 0)
+		return 4096;
+	if ((uintmax_t)status->st_size > limit)
+		return limit + 1;
+	return (size_t)status->st_size + 1;
+}
+
+char *file_read(const char *path, size_t limit, size_t *len,
+		struct diag_list *diags)
 {
 	int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
 	struct stat status;
@@ -76,7 +88,7 @@ char *ladder_read_file(const char *path, size_t limit, size_t *len,
 		close(fd);
 		return fail(diags, DIAG_NOT_A_FILE, path, 0);
 	}
-	bytes = read_all(fd, limit, len);
+	bytes = read_all(fd, limit, room_for(&status, limit), len);
 	error = errno;
 	close(fd);
 	if (!bytes)
@@ -148,8 +160,8 @@ static int replace(const char *path, const char *temporary, int fd,
 	return result;
 }
 
-bool ladder_save_file(const char *path, const void *bytes, size_t len,
-		      struct diag_list *diags)
+bool file_save(const char *path, const void *bytes, size_t len,
+	       struct diag_list *diags)
 {
 	static const char suffix[] = ".XXXXXX";
 	char *real = realpath(path, NULL); /* through a link: the file itself */

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * source_any - a rung file, checked and translated here, or a code image.
+ */
+#include "ladderd/source.h"
+
+#include "engine/ladder.h"
+
+const char *source_kinds(void)
+{
+	return "rung files and code images";
+}
+
+bool source_load(struct source *source, const char *path)
+{
+	struct ladder *ladder = ladder_new();
+	bool good;
+
+	diag_init(&source->diags);
+	source->own = ladder;
+	if (!ladder)
+		return diag_add(&source->diags, (struct diag){
+			.id = DIAG_NO_MEMORY, .file = path }, "%s", "");
+	good = ladder_load(ladder, path) && ladder_build(ladder);
+	source->diags = *ladder_diags(ladder);
+	source->unreadable = !good && !ladder_could_read(ladder);
+	if (!good)
+		return false;
+	source->program = *ladder_program(ladder);
+	ladder_image(ladder, &source->image_bytes);
+	source->other_bytes = ladder_memory(ladder);
+	return true;
+}
+
+void source_free(struct source *source)
+{
+	ladder_free(source->own);
+	source->own = NULL;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * source_image - a code image that `ladder build` made, for small boards: no
+ * parser, no translator. It is verified like any other.
+ */
+#include "ladderd/source.h"
+
+#include "engine/base/file.h"
+
+#include <stdlib.h>
+
+const char *source_kinds(void)
+{
+	return "code images only";
+}
+
+bool source_load(struct source *source, const char *path)
+{
+	struct arena scratch;
+	struct diag place = { .file = path };
+	size_t where;
+	bool good;
+
+	diag_init(&source->diags);
+	source->own = file_read(path, LIMIT_IMAGE, &source->image_bytes,
+				&source->diags);
+	source->unreadable = !source->own;
+	if (!source->own)
+		return false;
+	arena_init(&scratch);
+	good = code_open(source->own, source->image_bytes, &scratch,
+			 &source->program, &place.id, &where);
+	arena_free(&scratch);
+	return good || diag_add(&source->diags, place, "byte %zu", where);
+}
+
+void source_free(struct source *source)
+{
+	free(source->own);
+	source->own = NULL;
+}
