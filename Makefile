@@ -10,7 +10,7 @@ AR       := $(CROSS)ar
 PKG_CONFIG ?= pkg-config
 prefix   ?= /usr/local
 WERROR   ?= -Werror
-CFLAGS   ?= -O2 -g
+CFLAGS   ?= $(if $(filter 1,$(SMALL)),-Os,-O2) -g
 # time_t of 64 bits on 32-bit boards, too: they will run in 2038.
 CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -D_TIME_BITS=64 $(SMALL:1=-DRUNGBOARD_SMALL)
 # No fused multiply-add, or REAL would differ from board to board.

@@ -7,15 +7,22 @@
 #include "engine/base/catalog.h"
 #include "engine/base/ascii.h"
 
+/* Nobody reads explanations on a small board. */
+#ifdef RUNGBOARD_SMALL
+#define DOC(text) ""
+#else
+#define DOC(text) text
+#endif
+
 #define FB_IN(fb, pin, type, doc) \
-	{ #pin, PIN_IN, IEC_##type, 0, offsetof(struct fb_##fb, pin), doc },
+	{ #pin, PIN_IN, IEC_##type, 0, offsetof(struct fb_##fb, pin), DOC(doc) },
 #define FB_OUT(fb, pin, type, doc) \
-	{ #pin, PIN_OUT, IEC_##type, 0, offsetof(struct fb_##fb, pin), doc },
+	{ #pin, PIN_OUT, IEC_##type, 0, offsetof(struct fb_##fb, pin), DOC(doc) },
 #define FB_VAR(fb, pin, type) \
 	{ #pin, PIN_VAR, IEC_##type, 0, offsetof(struct fb_##fb, pin), "" },
 #define FB(id, family, doc, pins) \
 	static const struct word_pin pins_##id[] = { pins };
-#define FN_IN(pin, classes, doc) { #pin, PIN_IN, IEC_NONE, classes, 0, doc },
+#define FN_IN(pin, classes, doc) { #pin, PIN_IN, IEC_NONE, classes, 0, DOC(doc) },
 #define FN(id, family, doc, result, most, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #include "engine/catalog.def"
@@ -28,18 +35,18 @@ static const struct word_row words[WORD_COUNT] = {
 #define ELEM(id_, word_, glyph_, family_, place_, operand_, edge_, first_, next_, \
 	     negate_, doc_) \
 	[ELEM_##id_] = { .id = #id_, .word = word_, .glyph = glyph_, \
-		.family = family_, .doc = doc_, .kind = WORD_ELEM, \
+		.family = family_, .doc = DOC(doc_), .kind = WORD_ELEM, \
 		.place = place_, .operand = operand_, .edge = edge_, \
 		.first = OP_##first_, .next = OP_##next_, .negate = negate_ },
 #define FB(id_, family_, doc_, pins) \
 	[FB_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
-		.family = family_, .doc = doc_, .kind = WORD_FB, \
+		.family = family_, .doc = DOC(doc_), .kind = WORD_FB, \
 		.place = PLACE_BOX, .operand = OPND_INSTANCE, \
 		.first = OP_CAL, .next = OP_CAL, PINS(id_), \
 		.size = sizeof(struct fb_##id_) },
 #define FN(id_, family_, doc_, result_, most_, pins) \
 	[FN_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
-		.family = family_, .doc = doc_, .kind = WORD_FN, \
+		.family = family_, .doc = DOC(doc_), .kind = WORD_FN, \
 		.place = PLACE_BOX, .operand = OPND_NONE, \
 		.first = OP_LD, .next = OP_AND, .result = result_, \
 		.most_inputs = most_, PINS(id_) },
@@ -56,18 +63,18 @@ static const uint8_t word_length[WORD_COUNT] = {
 
 static const struct op_row ops[OP_COUNT] = {
 #define OP(id, operand, modifiers, doc) \
-	[OP_##id] = { #id, operand, modifiers, doc },
+	[OP_##id] = { #id, operand, modifiers, DOC(doc) },
 #include "engine/catalog.def"
 };
 
 static const struct vm_row vm_rows[VM_COUNT] = {
-#define VM(id, word, doc) [VM_##id] = { word, doc },
+#define VM(id, word, doc) [VM_##id] = { word, DOC(doc) },
 #include "engine/catalog.def"
 };
 
 static const struct sys_row sys_rows[SYS_COUNT] = {
 #define SYS(id, address, type, doc) \
-	[SYS_##id] = { "SYS_" #id, address, IEC_##type, doc },
+	[SYS_##id] = { "SYS_" #id, address, IEC_##type, DOC(doc) },
 #include "engine/catalog.def"
 };
 
