@@ -127,20 +127,27 @@ all: $(if $(filter 1,$(SMALL)),,$(BUILD)/ladder)
 $(BUILD)/ladder: $(LADDER) $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
 
-# From the rows of runtime/ladder/commands.c. A cross build needs its own ladder.
-man: $(BUILD)/ladder ## the man pages, in build/man/
+# From the rows of runtime/ladder/commands.c. A cross build has them from programs
+# that run here.
+HERE := $(if $(CROSS),build/here,$(BUILD))
+ifneq ($(HERE),$(BUILD))
+$(HERE)/%: FORCE
+	$(MAKE) BUILD=$(HERE) CROSS= STATIC= SMALL= HAL=none $@
+FORCE:
+endif
+man: $(HERE)/ladder ## the man pages, in build/man/
 	@mkdir -p $(BUILD)/man
-	@$(BUILD)/ladder help --man >$(BUILD)/man/ladder.1
-	@for c in $$($(BUILD)/ladder help --names); do \
-	  $(BUILD)/ladder help --man $$c >$(BUILD)/man/ladder-$$c.1 || exit 1; done
-install: install-ladder install-ladderd ## install under $(DESTDIR)$(prefix)
+	@$(HERE)/ladder help --man >$(BUILD)/man/ladder.1
+	@for c in $$($(HERE)/ladder help --names); do \
+	  $(HERE)/ladder help --man $$c >$(BUILD)/man/ladder-$$c.1 || exit 1; done
+install: $(if $(filter 1,$(SMALL)),,install-ladder) install-ladderd ## install under $(DESTDIR)$(prefix)
 install-ladder: $(BUILD)/ladder man
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/share/man/man1
 	install -m 755 $(BUILD)/ladder $(DESTDIR)$(prefix)/bin/ladder
 	install -m 644 $(BUILD)/man/*.1 $(DESTDIR)$(prefix)/share/man/man1/
 # ladderd's page is what its --help says. The unit and its defaults go where
 # Debian looks for them.
-$(BUILD)/man/ladderd.8: $(BUILD)/ladderd
+$(BUILD)/man/ladderd.8: $(HERE)/ladderd
 	@mkdir -p $(@D)
 	@{ printf '.TH LADDERD 8 "" "Rungboard" "Rungboard"\n.SH NAME\nladderd \\- runs a ladder program on the pins of this machine\n'; \
 	  printf '.SH SYNOPSIS\n.B ladderd\n.I FILE\n.B \\-\\-io\n.I MAP\n[OPTION]...\n.SH DESCRIPTION\n.nf\n'; \
@@ -212,6 +219,42 @@ fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|scri
 .PHONY: house differential check-long pathological fuzz
 # ---- end of second evaluator … house checks ----
 
+# ---- ARM, by user-mode emulation ----
+# What tests/arm.sh runs, for each ARM whose compiler is here.
+CROSS_arm64 := aarch64-linux-gnu-
+CROSS_armhf := arm-linux-gnueabihf-
+ARM := $(foreach a,arm64 armhf,$(if $(shell command -v $(CROSS_$a)gcc),$a))
+arm: $(ARM:%=arm-%) ## the tests of the engine for arm64 and armhf, in build/arm64/ and build/armhf/
+$(ARM:%=arm-%): arm-%:
+	$(MAKE) BUILD=$(BUILD)/$* CROSS=$(CROSS_$*) STATIC=1 HAL=uapi arm-programs
+arm-programs: $(UNIT) $(BIN)/differential $(BIN)/iec_cases $(BUILD)/ladder
+.PHONY: arm arm-programs $(ARM:%=arm-%)
+# ---- end of ARM ----
+
+# ---- guest: the suite that runs on emulated kernels ----
+# All static: a guest has no libraries. ladderd-count is ladderd, counting ioctls.
+GUEST     := tests/targets/guest
+GUEST_LD   = $(LEAN_LD) $(LDFLAGS) $(if $(findstring -static,$(LDFLAGS)),,-static)
+guest: $(BUILD)/guest $(BUILD)/replay $(BUILD)/ladderd-count ## the guest suite, replay and ladderd-count, for the machine that is built for
+$(BUILD)/guest: $(call obj,$(wildcard $(GUEST)/*.c))
+	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^
+$(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
+	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^ -lm
+$(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(GUEST_LD) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
+
+# What they play, made natively: build/cases/.
+CASES     := $(BUILD)/cases
+PROGRAMS  ?= 1000
+$(BUILD)/make_cases: $(call obj,$(wildcard $(GUEST)/cases/*.c) tests/walker/random.c tests/walker/words.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+cases: $(CASES)/stamp ## programs, maps, plans, bad images and programs.bundle for the guest suite
+$(CASES)/stamp: $(BUILD)/make_cases $(BUILD)/ladder $(wildcard ladders/*.rung ladders/*.scn ladders/boards/*.io $(GUEST)/programs/* $(GUEST)/cases/make.sh)
+	@$(GUEST)/cases/make.sh $(BUILD) $(CASES) $(PROGRAMS)
+	@touch $@
+.PHONY: guest cases
+# ---- end of guest ----
+
 # ---- everything ----
 # One list for prove. A second build with sanitizers runs the tests that read and
 # run what strangers write. Their char is unsigned, as it is on ARM.
@@ -226,9 +269,9 @@ tests: all man $(BUILT) $(HAL_DAEMONS)
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd
-check: tests asan ## build, then every test
+check: tests asan arm ## build, then every test
 	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \
-	  prove -j$$(nproc) -e '' $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
+	  prove -j$$(nproc) -e '' tests/arm.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
 bench: $(BUILD)/ladder $(BUILD)/ladderd ## speed, load time and size, as a table
 	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh
 .SECONDARY:

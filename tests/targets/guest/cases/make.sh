@@ -1,0 +1,40 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# make.sh BUILD CASES PROGRAMS - all that the guest suite plays, into CASES: each
+# sample of ladders/ that uses only bits, the suite's own programs, maps, images
+# that are wrong, and the bundle of random programs.
+set -eu
+build=$1 cases=$2 programs=$3
+guest=tests/targets/guest
+rm -rf "$cases"
+mkdir -p "$cases"
+cp ladders/boards/s3c44b0x.io "$cases"
+: >"$cases/plans"
+
+build_image() { # FILE.rung
+    name=$(basename "$1" .rung)
+    cp "$1" "$cases"
+    "$build/ladder" build "$1" -o "$cases/$name.rungc"
+}
+
+for rung in ladders/*.rung; do
+    name=$(basename "$rung" .rung)
+    map=
+    [ "$name" != board-44b0x ] || map=$cases/s3c44b0x.io
+    status=0
+    "$build/make_cases" plan "$cases" "$rung" "ladders/$name.scn" \
+        ${map:+"$map"} || status=$?
+    case $status in
+    0)  echo "$name" >>"$cases/plans"
+        build_image "$rung" ;;
+    3)  echo "# $name: left out, it uses more than bits" ;;
+    *)  exit 1 ;;
+    esac
+done
+
+for rung in "$guest"/programs/*.rung; do
+    build_image "$rung"
+done
+cp "$guest"/programs/*.io "$cases"
+"$build/make_cases" bad "$cases" "$cases/panel.rungc"
+"$build/make_cases" bundle "$cases/programs.bundle" "$programs" 1

@@ -1,0 +1,454 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * plan - turns the scenarios of a program into what a guest can do with lines:
+ * inputs that change before a scan, outputs to be seen after one.
+ *
+ * Expected outputs are those of the engine in virtual time, as `ladder trace`
+ * has them. A real line shows them a scan sooner or later. So the scenario is
+ * also run with inputs that come some scans late, each line by itself, and with
+ * a clock that is never exact, and an output is expected only where all these
+ * runs agree. That leaves nearly everything, and is told.
+ */
+#include "tests/targets/guest/cases/cases.h"
+
+#include "engine/base/file.h"
+#include "engine/ladder.h"
+#include "engine/trial/scenario.h"
+#include "hal/iomap.h"
+#include "tests/walker/random.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define LINES     32
+#define EVENTS    4096
+#define VARIANTS  40
+#define LATE      1  /* scans that an input may come late, without debounce   */
+#define LOOK_EACH 1000 /* scans between two looks at the same outputs, at most */
+
+struct event {
+	uint32_t scan, delay;
+	unsigned line;
+	bool value;
+};
+
+struct maker {
+	const char *folder;
+	char name[64];
+	struct ladder *ladder;
+	struct resource resource;
+	struct arena arena;
+	struct diag_list diags;
+	struct iomap map;
+	const struct io_point *in[LINES], *out[LINES];
+	unsigned ins, outs;
+	int64_t debounce_ns;       /* the longest                            */
+	FILE *plan;
+	/* Of one scenario. */
+	const struct scenario *scenario;
+	struct event event[EVENTS];
+	unsigned events;
+	uint32_t scans;
+	uint32_t *want, *mask;
+	/* Of all. */
+	unsigned long bits, kept;
+};
+
+static struct maker maker;
+
+static bool tell(const char *what)
+{
+	for (int i = 0; i < maker.diags.count; i++) {
+		char text[600];
+
+		diag_print(&maker.diags.diag[i], text, sizeof(text));
+		fprintf(stderr, "%s\n", text);
+	}
+	fprintf(stderr, "make_cases: %s: %s\n", maker.name, what);
+	return false;
+}
+
+/* A word of an area lives in memory at its area's place. */
+static bool is_word_of_lines(struct location at)
+{
+	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++) {
+		const struct iec_area_row *row =
+			iec_area_row((enum iec_area)area);
+
+		if (area != AREA_M && area != AREA_V && area != AREA_SM &&
+		    at.where - row->offset < row->bytes)
+			return true;
+	}
+	return false;
+}
+
+/* Of inputs and outputs, that is. */
+static bool uses_only_bits(void)
+{
+	const struct program *program = ladder_program(maker.ladder);
+	struct declared_cursor cursor = { 0 };
+	struct declared_name symbol;
+
+	while (image_next_declared(program, &cursor, &symbol)) {
+		enum iec_area area = symbol.at.area;
+
+		if (symbol.at.type == IEC_NONE)
+			continue;
+		if (area == AREA_NONE && is_word_of_lines(symbol.at))
+			return false;
+		if (area != AREA_NONE && area != AREA_I && area != AREA_Q &&
+		    area != AREA_M && area != AREA_SM && area != AREA_V)
+			return false;
+	}
+	return true;
+}
+
+static bool uses(uint32_t area, uint32_t bit)
+{
+	const struct program *program = ladder_program(maker.ladder);
+
+	for (uint32_t i = 0; i < program->bits_count; i++)
+		if (program->bits[i].area == area &&
+		    bit - program->bits[i].first < program->bits[i].count)
+			return true;
+	return false;
+}
+
+static bool write_map(const char *path)
+{
+	FILE *out = fopen(path, "w");
+
+	if (!out)
+		return tell(path);
+	fprintf(out, "BOARD \"simulated\"\n");
+	for (uint32_t bit = 0; bit < 64; bit++)
+		if (uses(AREA_I, bit))
+			fprintf(out, "%%IX%u.%u gpio line=I%u_%u\n", bit / 8,
+				bit % 8, bit / 8, bit % 8);
+	for (uint32_t bit = 0; bit < 64; bit++)
+		if (uses(AREA_Q, bit))
+			fprintf(out, "%%QX%u.%u gpio line=Q%u_%u safe=0\n",
+				bit / 8, bit % 8, bit / 8, bit % 8);
+	return fclose(out) == 0;
+}
+
+static bool read_map(const char *path)
+{
+	size_t len;
+	char *text = file_read(path, 65536, &len, &maker.diags);
+
+	if (!text || !iomap_read(&maker.map, &maker.arena, path, text, len,
+				 &maker.diags))
+		return tell(path);
+	free(text);
+	for (int i = 0; i < maker.map.count; i++) {
+		const struct io_point *point = &maker.map.point[i];
+
+		if (maker.ins == LINES || maker.outs == LINES)
+			return tell("too many lines");
+		if (point->output)
+			maker.out[maker.outs++] = point;
+		else
+			maker.in[maker.ins++] = point;
+		if (point->debounce_ns > maker.debounce_ns)
+			maker.debounce_ns = point->debounce_ns;
+	}
+	return maker.ins + maker.outs <= LINES || tell("too many lines");
+}
+
+static uint32_t bit_of(const struct io_point *point)
+{
+	return point->addr.byte * 8 + point->addr.bit;
+}
+
+/* Which line a setting moves; LINES: it is no input. */
+static unsigned line_of(struct location at)
+{
+	unsigned i = 0;
+
+	while (i < maker.ins &&
+	       (at.area != AREA_I || at.where != bit_of(maker.in[i])))
+		i++;
+	return i < maker.ins ? i : LINES;
+}
+
+static uint32_t scan_at(int64_t at_ns)
+{
+	int64_t period_ns = maker.scenario->period_ns;
+	int64_t scan = (at_ns + period_ns - 1) / period_ns;
+
+	return scan < 1 ? 1 : (uint32_t)scan;
+}
+
+/* Up to the first setting of something else. NULL: that is at the start; else
+ * "" or what is set there. */
+static const char *collect(void)
+{
+	static char text[80];
+
+	maker.events = 0;
+	for (int i = 0; i < maker.scenario->step_count; i++) {
+		struct scenario_step *step = &maker.scenario->step[i];
+		uint32_t scan = scan_at(step->at_ns);
+		union iec_value value;
+		unsigned line;
+
+		if (step->verb != VERB_SET)
+			continue;
+		line = line_of(step->target);
+		if (line == LINES) {
+			snprintf(text, sizeof(text), "%.*s", step->text_len,
+				 step->text);
+			text[strcspn(text, "=,")] = 0;
+			maker.scans = scan - 1;
+			return scan <= 2 ? NULL : text;
+		}
+		if (maker.events == EVENTS ||
+		    !formula_value(step->formula, &maker.resource.image,
+				   &value))
+			exit(tell("a setting cannot be computed") + 1);
+		maker.event[maker.events++] =
+			(struct event){ scan, 0, line, value.i != 0 };
+	}
+	return "";
+}
+
+/* One run, with its delays; @out gets the outputs after each scan. Time is
+ * exact, or @slow, or not exact at all. */
+static void simulate(uint32_t *out, bool slow, struct random_source *chance)
+{
+	struct image *image = &maker.resource.image;
+	int64_t period_ns = maker.scenario->period_ns, now_ns = 0, skew_ns = 0;
+
+	resource_start(&maker.resource);
+	for (uint32_t scan = 1; scan <= maker.scans; scan++) {
+		for (unsigned i = 0; i < maker.events; i++)
+			if (maker.event[i].scan + maker.event[i].delay == scan)
+				image_set_bit(image, AREA_I,
+					bit_of(maker.in[maker.event[i].line]),
+					maker.event[i].value);
+		if (chance)
+			skew_ns = random_below(chance,
+					       (uint32_t)(period_ns / 20));
+		now_ns = (int64_t)scan * period_ns + skew_ns -
+			 (slow ? (int64_t)scan : 0);
+		if (!resource_scan(&maker.resource, now_ns))
+			exit(tell("the program stops with a fault") + 1);
+		out[scan] = 0;
+		for (unsigned i = 0; i < maker.outs; i++)
+			out[scan] |= (uint32_t)image_get_bit(image, AREA_Q,
+				bit_of(maker.out[i])) << i;
+	}
+}
+
+/* Events of one line stay in their order; what is set at the start is there
+ * before ladderd is. */
+static void delay(struct random_source *chance, uint32_t most, int all)
+{
+	uint32_t last[LINES] = { 0 };
+
+	for (unsigned i = 0; i < maker.events; i++) {
+		struct event *event = &maker.event[i];
+
+		event->delay = event->scan == 1 ? 0 :
+			       all >= 0 ? (uint32_t)all :
+			       random_below(chance, most + 1);
+		if (event->scan + event->delay <= last[event->line] &&
+		    last[event->line] > 1)
+			event->delay = last[event->line] + 1 - event->scan;
+		last[event->line] = event->scan + event->delay;
+	}
+}
+
+static void narrow(const uint32_t *other)
+{
+	for (uint32_t scan = 1; scan <= maker.scans; scan++)
+		maker.mask[scan] &= ~(maker.want[scan] ^ other[scan]);
+}
+
+static void run_variants(void)
+{
+	uint32_t *other = calloc(maker.scans + 2, sizeof(*other));
+	uint32_t all = (uint32_t)((UINT64_C(1) << maker.outs) - 1);
+	uint32_t late = LATE + scan_at(maker.debounce_ns) * !!maker.debounce_ns;
+	int exact = 2 * (int)late + 1; /* variants without chance           */
+	struct random_source chance;
+
+	random_seed(&chance, 4400);
+	delay(&chance, late, 0);
+	simulate(maker.want, false, NULL);
+	for (uint32_t scan = 1; scan <= maker.scans; scan++)
+		maker.mask[scan] = all;
+	for (int i = 0; other && i < VARIANTS; i++) {
+		delay(&chance, late, i <= exact ? i / 2 : -1);
+		simulate(other, i % 2, i > exact ? &chance : NULL);
+		narrow(other);
+	}
+	if (!other)
+		exit(tell("out of memory") + 1);
+	/* And a look that comes a scan too soon or too late. */
+	memcpy(other + 1, maker.want + 1, maker.scans * sizeof(*other));
+	other[0] = maker.want[0] = other[1];
+	for (uint32_t scan = 2; scan <= maker.scans; scan++)
+		maker.mask[scan] &= ~(other[scan] ^ other[scan - 1]);
+	for (uint32_t scan = 1; scan < maker.scans; scan++)
+		maker.mask[scan] &= ~(other[scan] ^ other[scan + 1]);
+	free(other);
+}
+
+static void write_events(uint32_t scan, uint32_t *inputs, unsigned *next)
+{
+	uint32_t before = *inputs;
+
+	for (; *next < maker.events && maker.event[*next].scan <= scan;
+	     ++*next) {
+		uint32_t mask = UINT32_C(1) << maker.event[*next].line;
+
+		*inputs = maker.event[*next].value ? *inputs | mask :
+			  *inputs & ~mask;
+	}
+	if (scan == 1 || *inputs != before)
+		fprintf(maker.plan, "at %u %x\n", (unsigned)scan,
+			(unsigned)*inputs);
+}
+
+/* Looks at the start and the end of each stretch in which nothing changes, and
+ * between them: often at first, then now and then. */
+static void write_plan(const char *until)
+{
+	uint32_t inputs = 0, since = 0;
+	unsigned next = 0;
+
+	fprintf(maker.plan, "scenario %lld %u %s%s%s\n",
+		(long long)(maker.scenario->period_ns / 1000),
+		(unsigned)maker.scans, maker.scenario->name,
+		*until ? ", until it sets " : "", until);
+	for (uint32_t scan = 1; scan <= maker.scans; scan++) {
+		uint32_t want = maker.want[scan] & maker.mask[scan];
+		uint32_t mask = maker.mask[scan];
+		bool first = scan == 1 || mask != maker.mask[scan - 1] ||
+			     want != (maker.want[scan - 1] & mask);
+		bool last = scan == maker.scans ||
+			    mask != maker.mask[scan + 1] ||
+			    want != (maker.want[scan + 1] & mask);
+
+		write_events(scan, &inputs, &next);
+		since = first ? 0 : since + 1;
+		if (mask && (first || last || (since & (since - 1)) == 0 ||
+			     since % LOOK_EACH == 0))
+			fprintf(maker.plan, "see %u %x %x\n", (unsigned)scan,
+				(unsigned)want, (unsigned)mask);
+		maker.bits += maker.outs;
+		maker.kept += (unsigned long)__builtin_popcount(mask);
+	}
+	fprintf(maker.plan, "end\n");
+}
+
+static bool make_scenario(const struct scenario_file *file, int index)
+{
+	struct sink_memory report;
+	const char *until;
+
+	sink_memory_init(&report);
+	struct sink sink = sink_to_memory(&report);
+
+	maker.scenario = &file->scenario[index];
+	if (!scenario_run(file, index, &maker.resource, &sink)) {
+		fputs(sink_memory_text(&report), stderr);
+		return tell("a scenario does not hold");
+	}
+	sink_memory_free(&report);
+	maker.scans = (uint32_t)maker.resource.scans;
+	until = collect();
+	if (!until) {
+		fprintf(maker.plan, "skip %s\n", maker.scenario->name);
+		return true;
+	}
+	maker.want = calloc(maker.scans + 2, sizeof(*maker.want));
+	maker.mask = calloc(maker.scans + 2, sizeof(*maker.mask));
+	if (!maker.want || !maker.mask)
+		return tell("out of memory");
+	run_variants();
+	write_plan(until);
+	free(maker.want);
+	free(maker.mask);
+	return true;
+}
+
+static void write_head(const char *map)
+{
+	const char *name = strrchr(map, '/');
+
+	fprintf(maker.plan, "name %s\nmap %s\n", maker.name,
+		name ? name + 1 : map);
+	for (unsigned i = 0; i < maker.ins; i++)
+		fprintf(maker.plan, "in %s%s\n", maker.in[i]->line,
+			maker.in[i]->active_low ? " low" : "");
+	for (unsigned i = 0; i < maker.outs; i++)
+		fprintf(maker.plan, "out %s%s\n", maker.out[i]->line,
+			maker.out[i]->active_low ? " low" : "");
+}
+
+static bool make_all(const char *scn)
+{
+	struct scenario_file file;
+	size_t len;
+	char *text = file_read(scn, 1 << 20, &len, &maker.diags);
+	bool good = text && scenario_read(scn, text, len,
+					  &maker.resource.image, &maker.arena,
+					  &file, &maker.diags);
+
+	if (!good)
+		return tell(scn);
+	for (int i = 0; good && i < file.count; i++)
+		good = make_scenario(&file, i);
+	free(text);
+	printf("# %s: %d scenarios, %.1f %% of output bits are expected\n",
+	       maker.name, file.count,
+	       maker.bits ? 100.0 * (double)maker.kept / (double)maker.bits :
+			    0.0);
+	/* A plan that expects next to nothing proves nothing. */
+	return good && (maker.kept * 10 >= maker.bits * 8 ||
+			tell("too little can be expected"));
+}
+
+int make_plan(const char *folder, const char *rung, const char *scn,
+	      const char *map)
+{
+	static _Alignas(8) uint8_t memory[1 << 20];
+	static char path[512], own[512];
+	const char *name = strrchr(rung, '/');
+	bool good;
+
+	maker.folder = folder;
+	name = name ? name + 1 : rung;
+	snprintf(maker.name, sizeof(maker.name), "%.*s",
+		 (int)strcspn(name, "."), name);
+	arena_init(&maker.arena);
+	diag_init(&maker.diags);
+	maker.ladder = ladder_new();
+	if (!maker.ladder || !ladder_load(maker.ladder, rung) ||
+	    !ladder_build(maker.ladder) ||
+	    image_memory_size(ladder_program(maker.ladder)) > sizeof(memory))
+		return !tell("does not build");
+	if (!uses_only_bits())
+		return 3;
+	resource_init(&maker.resource, ladder_program(maker.ladder), memory);
+	snprintf(own, sizeof(own), "%s/%s.io", folder, maker.name);
+	snprintf(path, sizeof(path), "%s/%s.plan", folder, maker.name);
+	if ((!map && !write_map(own)) || !read_map(map ? map : own))
+		return 1;
+	maker.plan = fopen(path, "w");
+	if (!maker.plan)
+		return !tell(path);
+	write_head(map ? map : own);
+	good = make_all(scn);
+	if (fclose(maker.plan) != 0)
+		good = tell(path);
+	if (!good)
+		remove(path);
+	ladder_free(maker.ladder);
+	arena_free(&maker.arena);
+	return !good;
+}

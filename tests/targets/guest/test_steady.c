@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_steady - 10,000 scans of 1 ms: no page fault once it is warm, and no
+ * memory more. Times are shown and never judged.
+ */
+#include "tests/targets/guest/panel.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SCANS 10000
+
+struct memory {
+	unsigned long faults; /* minor and major                             */
+	char pages[64];       /* /proc/PID/statm                             */
+	bool known;
+};
+
+/* Number @at (1-based) of /proc/PID/stat; names may have blanks, so it is
+ * counted from behind the name. */
+static unsigned long stat_number(const char *text, int at)
+{
+	const char *field = strrchr(text, ')');
+
+	for (int i = 2; field && i < at; i++)
+		field = strchr(field + 1, ' ');
+	return field ? strtoul(field + 1, NULL, 10) : 0;
+}
+
+static struct memory look(const struct child *child)
+{
+	struct memory now = { .known = false };
+	char path[64], text[512];
+
+	snprintf(path, sizeof(path), "/proc/%d/stat", (int)child->pid);
+	if (file_take(path, text, sizeof(text)) <= 0)
+		return now;
+	now.faults = stat_number(text, 10) + stat_number(text, 12);
+	snprintf(path, sizeof(path), "/proc/%d/statm", (int)child->pid);
+	now.known = file_take(path, now.pages, sizeof(now.pages)) > 0;
+	now.pages[strcspn(now.pages, "\n")] = 0;
+	return now;
+}
+
+static void press(int times)
+{
+	for (int i = 0; i < times; i++) {
+		bank_pull(&panel, IN0, i % 2 == 0);
+		sleep_ms(20);
+	}
+}
+
+static void show(const char *status, const char *word)
+{
+	const char *line = strstr(status, word);
+
+	if (line)
+		note("%.*s", (int)strcspn(line, "\n"), line);
+}
+
+static void run_for(struct child *child)
+{
+	struct memory before, after;
+	long first, scans = 0;
+	const char *status;
+
+	press(10);
+	child_status(child);
+	sleep_ms(500);
+	first = child_number(child_status(child), "scans:");
+	before = look(child);
+	for (int i = 0; i < 100 && scans < SCANS; i++) {
+		sleep_ms(1000);
+		press(2);
+		scans = child_number(child_status(child), "scans:") - first;
+	}
+	after = look(child);
+	check(scans >= SCANS, "10,000 scans of 1 ms were done");
+	if (!before.known || !after.known) {
+		skip("no /proc here", "page faults and memory");
+		return;
+	}
+	check(before.faults == after.faults,
+	      "no page fault in %ld scans (%lu, then %lu)", scans,
+	      before.faults, after.faults);
+	check(strcmp(before.pages, after.pages) == 0,
+	      "memory is constant (pages %s, then %s)", before.pages,
+	      after.pages);
+	status = child_status(child);
+	show(status, "scan: ");
+	show(status, "wake-up: ");
+	show(status, "late: ");
+}
+
+void test_steady(void)
+{
+	struct child child;
+
+	panel_up(-1);
+	ladderd_start(&child, panel_image(), file_text("panel.io", PANEL_PLAIN),
+		      "--period", "1ms", "--watchdog", "1000", NULL);
+	if (check(child_ready() != 0, "runs"))
+		run_for(&child);
+	check(child_stop(&child) == 0, "ends");
+	panel_down();
+}

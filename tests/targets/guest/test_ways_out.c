@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_ways_out - outputs have their safe values before the first scan and on
+ * each way out of RUN.
+ *
+ * What a line shows in passing is caught: this program runs before all others,
+ * is woken up by the kernel (a line was taken) or by a traced output in a pipe,
+ * and stops ladderd right there. RUN, safe and released lines show different
+ * patterns.
+ */
+#include "tests/targets/guest/panel.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SAFE  0xau
+#define RUN   0x5u /* with I0                                                */
+#define PULLS 0xcu /* of outputs that nobody drives                          */
+#define SAFE_MAP PANEL_MAP("", "safe=0", "safe=1", "active-low safe=1",       \
+			   "active-low safe=0")
+
+static const char *safe_map(void)
+{
+	return file_text("safe.io", SAFE_MAP);
+}
+
+static void set_up(void)
+{
+	panel_up(-1);
+	bank_pull(&panel, IN0, true);
+	for (unsigned i = 0; i < OUTS; i++)
+		bank_pull(&panel, OUT0 + i, PULLS >> i & 1);
+}
+
+/* With every change of an output in the pipe. */
+static void start_traced(struct child *child)
+{
+	const char *argv[] = { guest.ladderd, panel_image(), "--io",
+			       safe_map(), "--trace-io", NULL };
+
+	child_start_pipe(child, argv);
+	child_ready();
+}
+
+static void before_first_scan(void)
+{
+	struct child child;
+	int line;
+
+	set_up();
+	bank_watch(&panel);
+	if (!first_of_all(true)) {
+		skip("no SCHED_FIFO here", "safe values before the first scan");
+		panel_down();
+		return;
+	}
+	ladderd_start(&child, panel_image(), safe_map(), NULL);
+	do
+		line = bank_taken(&panel, LIMIT_MS);
+	while (line >= 0 && line != OUT0 + OUTS - 1);
+	child_signal(&child, SIGSTOP);
+	first_of_all(false);
+	sleep_ms(50);
+	if (child_is_ready())
+		skip("this kernel tells too late who takes a line",
+		     "safe values before the first scan");
+	else
+		check(line >= 0 && bank_levels(&panel, OUT0, OUTS) == SAFE,
+		      "safe values before the first scan");
+	child_signal(&child, SIGCONT);
+	check(panel_shows(RUN), "then those of the program");
+	check(child_stop(&child) == 0, "ends");
+	panel_down();
+}
+
+/* Caught with the safe values written and the lines not given back yet. */
+static void by_signal(int signal_number, const char *name)
+{
+	struct child child;
+	uint32_t levels;
+	bool caught;
+
+	set_up();
+	start_traced(&child);
+	check(panel_shows(RUN), "%s: runs", name);
+	if (!first_of_all(true)) {
+		skip("no SCHED_FIFO here", "%s: safe values", name);
+		child_stop(&child);
+		panel_down();
+		return;
+	}
+	child_signal(&child, signal_number);
+	caught = child_catch(&child, "%QX0.1 1");
+	first_of_all(false);
+	levels = bank_levels(&panel, OUT0, OUTS);
+	check(caught && levels == SAFE, "%s: safe values (%x)", name,
+	      (unsigned)levels);
+	child_signal(&child, SIGCONT);
+	check(child_end(&child) == 0, "%s: exit status 0", name);
+	note("after %s a line of gpio-sim shows its pull: %x, pulls %x", name,
+	     (unsigned)bank_levels(&panel, OUT0, OUTS), PULLS);
+	panel_down();
+}
+
+static void by_fault(void)
+{
+	struct child child;
+
+	set_up();
+	ladderd_start(&child, panel_image(), safe_map(), NULL);
+	check(child_ready() && panel_shows(RUN), "fault of the program: runs");
+	bank_pull(&panel, IN0 + 3, true);
+	check(child_says(&child, "FAULT, outputs are safe"),
+	      "a scan that never ends is a FAULT");
+	check(bank_levels(&panel, OUT0, OUTS) == SAFE, "with safe values");
+	check(strstr(child_status(&child), "state: FAULT\n") != NULL,
+	      "which the status shows");
+	bank_pull(&panel, IN0 + 3, false);
+	bank_pull(&panel, IN0, false);
+	bank_pull(&panel, IN0, true);
+	sleep_ms(300);
+	check(bank_levels(&panel, OUT0, OUTS) == SAFE,
+	      "it is latched, whatever the inputs do");
+	child_signal(&child, SIGHUP);
+	check(panel_shows(RUN), "SIGHUP resets it");
+	check(child_stop(&child) == 0, "ends");
+	panel_down();
+}
+
+/* Stopped in the middle of a scan, at the write of an output, for longer than
+ * the watchdog has patience. */
+static void by_watchdog(void)
+{
+	struct child child;
+	bool caught;
+
+	set_up();
+	bank_pull(&panel, IN0, false);
+	start_traced(&child);
+	if (!first_of_all(true)) {
+		skip("no SCHED_FIFO here", "watchdog");
+		child_stop(&child);
+		panel_down();
+		return;
+	}
+	bank_pull(&panel, IN0, true);
+	caught = child_catch(&child, "%QX0.0 1");
+	first_of_all(false);
+	check(caught && bank_levels(&panel, OUT0, OUTS) == RUN,
+	      "watchdog: a scan is held up");
+	sleep_ms(500);
+	child_signal(&child, SIGCONT);
+	check(panel_shows(SAFE), "watchdog: safe values");
+	check(strstr(child_status(&child), "fault: the watchdog") != NULL ||
+	      strstr(child_out(&child), "watchdog") != NULL,
+	      "watchdog: the status says so");
+	child_signal(&child, SIGHUP);
+	check(panel_shows(RUN), "watchdog: SIGHUP resets it");
+	check(child_stop(&child) == 0, "ends");
+	panel_down();
+}
+
+static void by_kill(void)
+{
+	struct child child;
+	uint32_t levels;
+
+	set_up();
+	ladderd_start(&child, panel_image(), safe_map(), NULL);
+	check(child_ready() && panel_shows(RUN), "kill -9: runs");
+	child_signal(&child, SIGKILL);
+	check(child_end(&child) == CHILD_SIGNAL + SIGKILL, "kill -9: ends");
+	levels = bank_levels(&panel, OUT0, OUTS);
+	note("after kill -9 the outputs show %x; RUN is %x, safe is %x, the "
+	     "pulls are %x", (unsigned)levels, RUN, SAFE, PULLS);
+	check(levels == PULLS,
+	      "kill -9: a line of gpio-sim shows its pull, as documented");
+	ladderd_start(&child, panel_image(), safe_map(), NULL);
+	check(child_ready() && panel_shows(RUN),
+	      "kill -9: the lines can be had again");
+	check(child_stop(&child) == 0, "ends");
+	panel_down();
+}
+
+void test_ways_out(void)
+{
+	before_first_scan();
+	by_signal(SIGTERM, "SIGTERM");
+	by_signal(SIGINT, "SIGINT");
+	by_fault();
+	by_watchdog();
+	by_kill();
+}
