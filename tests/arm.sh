@@ -1,0 +1,47 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# arm - the engine on arm64 and armhf, by qemu's user mode: every unit test, the
+# golden cases, the second evaluator, the cases of the standard. The programs are
+# built by `make arm`. There is no GPIO here: tests/targets has machines for that.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+build=${BUILD:-build}
+count=${COUNT:-1000} # random programs for the second evaluator
+tmp=$(mktemp -d)
+trap 'rm -rf "$tmp"' EXIT
+
+n=0 failed=0
+say() { # status text
+	n=$((n + 1))
+	if [ "$1" -eq 0 ]; then echo "ok $n - $2"; return; fi
+	failed=1
+	echo "not ok $n - $2"
+	sed -n '/^not ok/s/^/#   /p; $s/^/#   /p' "$tmp/out"
+}
+
+# run_arch NAME EMULATOR CROSS PACKAGE
+run_arch() {
+	if ! command -v "$2" >/dev/null || ! command -v "$3gcc" >/dev/null; then
+		n=$((n + 1))
+		echo "ok $n # SKIP $1 did not run: apt-get install qemu-user $4"
+		return
+	fi
+	for program in "$build/$1"/unit/test_* "$build/$1"/tests/bin/iec_cases; do
+		case $program in *.d | *.o) continue;; esac
+		"$2" "$program" >"$tmp/out" 2>&1
+		say $? "$1: ${program##*/}"
+	done
+	"$2" "$build/$1/tests/bin/differential" --count "$count" >"$tmp/out" 2>&1
+	say $? "$1: the second evaluator, $count random programs"
+	printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$2" "$PWD/$build/$1/ladder" >"$tmp/ladder"
+	chmod +x "$tmp/ladder"
+	LADDER=$tmp/ladder perl tests/golden.t >"$tmp/out" 2>&1
+	say $? "$1: the golden cases, byte by byte"
+}
+
+run_arch arm64 qemu-aarch64 aarch64-linux-gnu- \
+	'gcc-aarch64-linux-gnu libc6-dev-arm64-cross'
+run_arch armhf qemu-arm arm-linux-gnueabihf- \
+	'gcc-arm-linux-gnueabihf libc6-dev-armhf-cross'
+echo "1..$n"
+exit $failed
