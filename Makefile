@@ -255,6 +255,16 @@ $(CASES)/stamp: $(BUILD)/make_cases $(BUILD)/ladder $(wildcard ladders/*.rung la
 .PHONY: guest cases
 # ---- end of guest ----
 
+# ---- targets: the runtime on real kernels, in emulators ----
+# tests/targets/ has a script for each; a missing package is told, not passed over.
+VEHICLES  ?= uml arm64 armhf ast2600 m3 riscv
+check-targets: ## the guest suite on emulated boards: VEHICLES="uml arm64 armhf ast2600 m3 riscv"
+	@rm -f $(VEHICLES:%=$(BUILD)/targets/%/result); status=0; \
+	  BUILD=$(BUILD) prove -v -e '' $(VEHICLES:%=tests/targets/%) || status=$$?; \
+	  cat $(VEHICLES:%=$(BUILD)/targets/%/result); exit $$status
+.PHONY: check-targets
+# ---- end of targets ----
+
 # ---- everything ----
 # One list for prove. A second build with sanitizers runs the tests that read and
 # run what strangers write. Their char is unsigned, as it is on ARM.

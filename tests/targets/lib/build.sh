@@ -1,0 +1,289 @@
+# shellcheck shell=sh disable=SC2154
+# SPDX-License-Identifier: MIT
+# build - what a vehicle is made of, built once into the cache: Debian packages of any
+# architecture, libgpiod to link with, kernels, musl, the guest's programs and disk.
+# Sourced after vehicle.sh. A product lies in $cache/NAME with its recipe in the file
+# `.recipe`; it is built anew when the recipe's hash is another.
+#
+# $log takes what compilers say.
+cache=$(cd "$cache" && pwd)
+out=$(cd "$out" && pwd)
+log=$out/build.log
+jobs=$(nproc)
+: >"$log"
+
+# once NAME BUILDER [ARGUMENT|FILE]... : the product NAME by BUILDER, whose arguments and
+# own text, and the files among its arguments, are the recipe.
+once() {
+	product=$1 builder=$2
+	shift 2
+	recipe=$({
+		echo "$@"
+		sed -n "/^$builder() {/,/^}/p" "$here/build.sh" "$here/../$vehicle"
+		for part in "$@"; do [ ! -f "$part" ] || cat "$part"; done
+	} | sha256sum | cut -c 1-32)
+	is_built && return
+	# Another vehicle may be at it.
+	exec 9>"$cache/$product.lock"
+	flock 9
+	is_built && return
+	note "building $product (once)"
+	since=$(date +%s) dest=$cache/$product
+	rm -rf "$dest"
+	mkdir -p "$dest"
+	echo "== $product" >>"$log"
+	built=0
+	$builder "$@" >>"$log" 2>&1 || built=$?
+	[ ! -s "$dest/.lacking" ] || skip "$(cat "$dest/.lacking")"
+	[ $built -eq 0 ] || broken "$product could not be built" "$log"
+	echo "$recipe" >"$cache/$product/.recipe"
+	exec 9>&-
+	note "$product took $(($(date +%s) - since)) s"
+}
+is_built() { [ "$(cat "$cache/$product/.recipe" 2>/dev/null)" = "$recipe" ]; }
+
+# debs ARCH SUITE DEST PACKAGE... : unpack packages of the archive that this machine's
+# apt names, whatever the architecture and suite. apt's own state is only read.
+debs() {
+	debs_arch=$1 debs_suite=$2 debs_dest=$3
+	shift 3
+	apt_open "$debs_arch" "$debs_suite" || return
+	mkdir -p "$debs_dest"
+	for package in "$@"; do
+		rm -f "$apt"/debs/*.deb
+		(cd "$apt/debs" && APT_CONFIG=$apt/conf apt-get -qq download "$package") || {
+			echo "the package $package of $debs_suite could not be fetched" >"$dest/.lacking"
+			return 0
+		}
+		dpkg -x "$apt"/debs/*.deb "$debs_dest" || return
+	done
+	rm -f "$apt"/debs/*.deb
+}
+apt_open() {
+	apt=$cache/apt/$2-$1
+	mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial" "$apt/debs" "$apt/none"
+	: >"$apt/status"
+	# shellcheck disable=SC2016
+	uri=$(apt-get indextargets --format '$(REPO_URI) $(COMPONENT) $(ORIGIN)' |
+		awk '$2 == "main" && $3 == "Debian" && $1 !~ /security/ { print $1; exit }')
+	[ -n "$uri" ] || {
+		echo "apt on this machine knows no Debian archive" >"$dest/.lacking"
+		return 0
+	}
+	ring='[signed-by=/usr/share/keyrings/debian-archive-keyring.gpg]'
+	printf '%s\n' "deb $ring $uri $2 main" "deb-src $ring $uri $2 main" >"$apt/sources.list"
+	cat >"$apt/conf" <<-CONF
+		APT::Architecture "$1";
+		APT::Architectures { "$1"; };
+		APT::Sandbox::User "";
+		Dir::State "$apt";
+		Dir::State::status "$apt/status";
+		Dir::Cache "$apt/cache";
+		Dir::Etc::sourcelist "$apt/sources.list";
+		Dir::Etc::sourceparts "$apt/none";
+		Dir::Etc::preferencesparts "$apt/none";
+		Acquire::Languages "none";
+		Acquire::Retries "3";
+	CONF
+	# A list of yesterday may name packages that have gone.
+	[ -n "$(find "$apt/fresh" -mmin -600 2>/dev/null)" ] && return
+	if APT_CONFIG=$apt/conf apt-get -qq update; then touch "$apt/fresh"; fi
+}
+
+# gpiod ARCH TRIPLET SUITE : libgpiod's headers and archives; its .pc finds itself.
+gpiod() {
+	debs "$1" "$3" "$dest" libgpiod-dev || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	# shellcheck disable=SC2016
+	sed -i -e 's|/usr|${prefix}|g' -e 's|^prefix=.*|prefix=${pcfiledir}/../../..|' \
+		"$dest/usr/lib/$2"/pkgconfig/*.pc
+}
+
+# kernel_source : one tree for all; large drivers that none of them can use stay out.
+kernel_source() {
+	debs amd64 bookworm-backports "$dest/deb" linux-source-6.12 || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	tar -xJf "$dest"/deb/usr/src/linux-source-6.12.tar.xz -C "$dest" --strip-components=1 \
+		--exclude='*/drivers/gpu/*.[ch]' --exclude='*/drivers/net/*/*.[ch]' \
+		--exclude='*/drivers/media/*.[ch]' --exclude='*/sound/*.[ch]' \
+		--exclude='*/Documentation/*.rst' --exclude='*/tools/testing/*' || return
+	rm -r "$dest/deb"
+}
+# kernel ARCH CROSS TARGETS FILES FRAGMENT... : builds the targets, keeps the files.
+kernel() {
+	arch=$1 cross=$2 targets=$3 files=$4
+	shift 4
+	mkdir "$dest/build"
+	cat "$@" >"$dest/fragment"
+	set -- make -s -C "$cache/linux" O="$dest/build" ARCH="$arch" CROSS_COMPILE="$cross"
+	"$@" KCONFIG_ALLCONFIG="$dest/fragment" allnoconfig || return
+	grep '^CONFIG_' "$dest/fragment" | grep -vxFf "$dest/build/.config" | sed 's/^/not taken: /'
+	for must in GPIO_SIM GPIO_CDEV GPIO_CDEV_V1 CONFIGFS_FS BLK_DEV_INITRD; do
+		grep -q "^CONFIG_$must=y" "$dest/build/.config" || {
+			echo "CONFIG_$must was lost"
+			return 1
+		}
+	done
+	# shellcheck disable=SC2086
+	"$@" -j"$jobs" $targets && (cd "$dest/build" && mv $files ..) && rm -r "$dest/build"
+}
+# what a build of a kernel needs here
+# shellcheck disable=SC2034
+KERNEL_NEEDS='gcc=gcc make=make flex=flex bison=bison bc=bc xz=xz-utils perl=perl
+	apt-get=apt dpkg=dpkg flock=util-linux cpio=cpio gzip=gzip
+	/usr/share/keyrings/debian-archive-keyring.gpg=debian-archive-keyring'
+
+# stock ARCH FLAVOUR KARCH CROSS : Debian's own kernel, unchanged: vmlinuz, the modules of
+# each of two vehicles in the order of loading (sim/, aspeed/), the AST2600's device tree.
+# Its configuration leaves gpio-sim out: that is built from its source and its headers.
+stock() {
+	debs "$1" bookworm "$dest/tree"
+	[ ! -s "$dest/.lacking" ] || return 0
+	abi=$(APT_CONFIG=$apt/conf apt-cache show "linux-image-$2" |
+		sed -n 's/^Depends: .*linux-image-\([^ ,]*\).*/\1/p' | sort -V | tail -n 1)
+	debs "$1" bookworm "$dest/tree" "linux-image-$abi" "linux-headers-$abi" \
+		"linux-headers-${abi%-"$2"}-common" linux-source-6.1 || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	# the programs that build a module run here
+	debs "$(dpkg --print-architecture)" bookworm "$dest/tree" linux-kbuild-6.1 || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	(cd "$dest/tree" && stock_gpio_sim "$abi" "${abi%-"$2"}" "$3" "$4") || return
+	stock_modules sim gpio-sim || return
+	if [ "$1" = armhf ]; then
+		stock_modules aspeed gpio-aspeed || return
+		cp "$dest/tree/usr/lib/linux-image-$abi/aspeed-ast2600-evb.dtb" "$dest" || return
+	fi
+	cp "$dest/tree/boot/vmlinuz-$abi" "$dest/vmlinuz" && rm -r "$dest/tree"
+}
+stock_modules() { # FOLDER MODULE : with what it needs, numbered
+	mkdir "$dest/$1"
+	n=10
+	for module in $(for wanted in configfs "$2"; do
+			modprobe -d "$dest/tree" -S "$abi" --show-depends "$wanted"
+		done | awk '$1 == "insmod" && !seen[$2]++ { print $2 }'); do
+		cp "$module" "$dest/$1/$n-$(basename "$module")" || return
+		n=$((n + 1))
+	done
+	ls "$dest/$1"/*-"$2".ko
+}
+stock_gpio_sim() { # ABI BASE KARCH CROSS
+	headers=$PWD/usr/src/linux-headers-$1
+	mkdir sim
+	tar -xJf usr/src/linux-source-6.1.tar.xz -C sim --transform 's|.*/||' \
+		linux-source-6.1/drivers/gpio/gpio-sim.c linux-source-6.1/drivers/gpio/gpiolib.h \
+		linux-source-6.1/kernel/irq/irq_sim.c || return
+	# The headers name each other by absolute paths below /usr.
+	sed -i "s|^include /usr/src/|include $PWD/usr/src/|" "$headers/Makefile"
+	for folder in scripts tools; do
+		ln -sfn "$PWD/usr/lib/linux-kbuild-6.1/$folder" "$headers/$folder"
+		ln -sfn "$PWD/usr/lib/linux-kbuild-6.1/$folder" "usr/src/linux-headers-$2-common/$folder"
+	done
+	# A module that is loaded by hand needs no alias table, and modpost of 64 bits
+	# takes the one of 32 for wrong.
+	sed -i '/^MODULE_DEVICE_TABLE/d' sim/gpio-sim.c
+	echo 'obj-m := gpio-sim.o' >sim/Kbuild
+	# The kernel may lack the simulated interrupts, too: then they go into the module,
+	# by way of a function that modules may call.
+	if ! grep -q '^CONFIG_IRQ_SIM=y' "$headers/.config"; then
+		sed -i -e '/EXPORT_SYMBOL/d' \
+			-e 's/irq_to_desc(\([a-z]*\))/irq_data_to_desc(irq_get_irq_data(\1))/' sim/irq_sim.c
+		mv sim/gpio-sim.c sim/main.c
+		echo 'gpio-sim-y := main.o irq_sim.o' >>sim/Kbuild
+	fi
+	make -s -C "$headers" M="$PWD/sim" ARCH="$3" CROSS_COMPILE="$4" modules || return
+	mkdir -p "lib/modules/$1/extra"
+	cp sim/gpio-sim.ko "lib/modules/$1/extra/"
+	depmod -b "$PWD" "$1"
+}
+
+# musl CROSS CPU TARGET LIBGCC HEADERS PATCH : a C library for a machine without MMU, and
+# $dest/cc, a compiler that makes static PIE with it: what the kernel's FDPIC loader
+# takes. There is no guard page below a stack; STACK says how many bytes it has.
+musl() {
+	apt_open amd64 bookworm
+	mkdir "$dest/src"
+	(cd "$dest/src" && APT_CONFIG=$apt/conf apt-get -qq source --download-only --tar-only musl) || {
+		echo "the source of musl could not be fetched" >"$dest/.lacking"
+		return 0
+	}
+	patch=$PWD/$6
+	(
+		cd "$dest/src" && tar -xzf musl_*.orig.tar.gz --strip-components=1 &&
+			patch -sp1 <"$patch" &&
+			# for the other instruction set, which a Cortex-M does not have
+			rm src/thread/arm/atomics.s &&
+			CC="$1gcc $2" CFLAGS='-Os -fPIC' LIBCC=$4 CROSS_COMPILE=$1 ./configure --target="$3" \
+				--prefix="$dest" --disable-shared --disable-wrapper &&
+			make -s -j"$jobs" && make -s install
+	) || return
+	cp "$4" "$dest/lib/libgcc.a" || return
+	for folder in linux asm asm-generic; do ln -s "$5/$folder" "$dest/include/$folder"; done
+	cat >"$dest/cc" <<-CC
+		#!/bin/sh
+		set -- $2 -fPIE -nostdinc -isystem "$dest/include" \\
+		    -isystem "\$($1gcc -print-file-name=include)" "\$@"
+		case " \$* " in *" -c "* | *" -S "* | *" -E "* | *" -M "*) exec $1gcc "\$@" ;; esac
+		exec $1gcc -nostdlib -static -pie -Wl,-pie,--no-dynamic-linker,-z,text,--gc-sections \\
+		    -Wl,-z,stack-size=\${STACK:-65536},-z,noexecstack -L"$dest/lib" "$dest/lib/rcrt1.o" \\
+		    "$dest/lib/crti.o" "\$@" -Wl,--start-group -lc -lgcc -Wl,--end-group "$dest/lib/crtn.o"
+	CC
+	chmod +x "$dest/cc"
+	rm -r "$dest/src"
+}
+
+# programs VARIABLE=VALUE... -- DRIVER... : the guest's suite, and for each driver ladderd
+# and its counting twin, all static: uapi, or gpiod1 and gpiod2 for $deb and $triplet.
+programs() {
+	make_with=
+	while [ "$1" != -- ]; do
+		make_with="$make_with $1"
+		shift
+	done
+	shift
+	note "building the guest's programs"
+	build=$out/build
+	rm -f "$out"/ladderd-*
+	make_programs none guest replay
+	for driver in "$@"; do
+		# The objects of the library serve all drivers, those of the HAL one.
+		rm -rf "$build/hal"
+		case $driver in
+		gpiod*)
+			libgpiod=$cache/$driver-$deb/usr/lib/$triplet/pkgconfig
+			PKG_CONFIG_LIBDIR=$libgpiod make_programs gpiod ladderd ladderd-count
+			;;
+		*) make_programs "$driver" ladderd ladderd-count ;;
+		esac
+		mv "$build/ladderd" "$out/ladderd-$driver"
+		mv "$build/ladderd-count" "$out/ladderd-$driver-count"
+	done
+	make -s BUILD="$BUILD" cases >>"$log" 2>&1 || broken "the cases could not be made" "$log"
+}
+make_programs() { # HAL PROGRAM...
+	hal=$1
+	shift
+	echo "== HAL=$hal: $*" >>"$log"
+	for program in "$@"; do
+		# shellcheck disable=SC2086
+		LDFLAGS=-s make -s -j"$jobs" STATIC=1 HAL="$hal" BUILD="$build" $make_with \
+			"$build/$program" >>"$log" 2>&1 || broken "$program with HAL=$hal failed" "$log"
+	done
+}
+
+# disk CC FILE... : the guest's first disk, with init and the files (a folder `modules`
+# among them is loaded); guest_runs COMMAND [ARGUMENT]... : what init is to run there, in turn.
+disk() {
+	root=$out/root
+	rm -rf "$root"
+	mkdir -p "$root/proc" "$root/sys" "$root/dev"
+	"$1" -std=c11 -Os -s -static -o "$root/init" "$here/init.c" >>"$log" 2>&1 ||
+		broken "the guest's init could not be built" "$log"
+	shift
+	cp -r "$@" "$root/"
+}
+guest_runs() {
+	printf '%s\0' "$@" '' >>"$root/cmd"
+}
+disk_close() {
+	(cd "$root" && find . | LC_ALL=C sort | cpio -o -H newc --quiet -R 0:0) | gzip -1n >"$out/initrd"
+}

@@ -1,0 +1,111 @@
+# shellcheck shell=sh
+# SPDX-License-Identifier: MIT
+# vehicle - what every vehicle shares: its name, its folders, how it skips, fails and
+# ends, and how it boots a guest and gives back what the guest said. Sourced by them.
+#
+# A vehicle ends in one of four ways, each with a last line in $out/result that says
+# which: passed, FAILED, skipped (something is missing here), or broken while building.
+set -u
+# What this was called with is not meant for the builds in here.
+unset MAKEFLAGS MFLAGS MAKEOVERRIDES CC AR CROSS HAL SMALL STATIC CFLAGS CPPFLAGS LDFLAGS
+vehicle=$(basename "$0")
+cd "$(dirname "$0")/../.." || exit 1
+# shellcheck disable=SC2034 # for those that source this
+here=tests/targets/lib
+BUILD=${BUILD:-build}
+out=$BUILD/targets/$vehicle
+cache=${RUNGBOARD_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/rungboard}
+mkdir -p "$out" "$cache" || exit 1
+rm -f "$out/result"
+began=$(date +%s)
+
+# Every end comes through here, so that the last line is always written.
+ended() {
+	code=$?
+	took=$(($(date +%s) - began))
+	[ -s "$out/result" ] || echo "FAILED: it ended before its tests" >"$out/result"
+	echo "# $vehicle took $took s"
+	printf '%-8s %s (%s s)\n' "$vehicle" "$(cat "$out/result")" "$took" >"$out/result.new"
+	mv "$out/result.new" "$out/result"
+	exit "$code"
+}
+trap ended EXIT
+trap 'exit 130' INT TERM
+
+note() { echo "# $*"; }
+skip() {
+	echo "1..0 # SKIP $*"
+	echo "SKIPPED: $*" >"$out/result"
+	exit 0
+}
+# broken WHAT [LOG] : a build of ours failed, which is no reason to skip.
+broken() {
+	echo "Bail out! $1"
+	echo "FAILED: $1" >"$out/result"
+	[ -z "${2:-}" ] || tail -n 25 "$2" | sed 's/^/# /'
+	exit 1
+}
+
+# needs PROGRAM=PACKAGE... : all of what is missing in one command.
+needs() {
+	lacking=
+	for pair in "$@"; do
+		case ${pair%%=*} in
+		/*) [ -e "${pair%%=*}" ] ;;
+		*) command -v "${pair%%=*}" >/dev/null ;;
+		esac || case " $lacking " in
+		*" ${pair#*=} "*) ;;
+		*) lacking="$lacking ${pair#*=}" ;;
+		esac
+	done
+	[ -z "$lacking" ] || skip "something is missing: apt-get install$lacking"
+}
+
+# boot SECONDS COMMAND... : run an emulator until it ends. What the guest said is in
+# $out/console; guest_said makes one TAP of it and ends the vehicle.
+boot() {
+	limit=$1
+	shift
+	booted=$(date +%s)
+	timeout -k 5 "$limit" "$@" </dev/null >"$out/console" 2>&1
+	emulator=$?
+	note "the guest ran for $(($(date +%s) - booted)) s"
+	[ $emulator -ne 124 ] || note "the guest did not end within $limit s"
+}
+# Each command of the guest is a part with a plan of its own; one line more says
+# whether the part kept its plan and ended well.
+guest_said() {
+	tr -d '\r' <"$out/console" | awk '
+		function verdict(good, text) {
+			print (good ? "" : "not ") "ok " ++all " - " text
+			failed += !good
+		}
+		/^BEGIN / { part = $2; count = 0; plan = "none"; next }
+		/^RC=[0-9]+$/ && part {
+			verdict($0 == "RC=0" && plan == count,
+				part " ended: " count " tests of " plan ", status " substr($0, 4))
+			part = ""
+			next
+		}
+		/^END$/ { ended = 1 }
+		!part || /^$/ { next }
+		/^1\.\./ { plan = substr($1, 4); next }
+		/^(not )?ok [0-9]+/ {
+			count++
+			failed += /^not / && !/ # (TODO|SKIP)/
+			sub(/ok [0-9]+/, "ok " ++all)
+		}
+		/^ok [0-9]+ .*# SKIP/ { skipped++ }
+		{ print }
+		END {
+			if (!ended)
+				verdict(0, "the guest came to its end")
+			print "1.." all
+			print (failed ? "FAILED: " failed " of " all : "passed: " all) " tests" \
+				(skipped ? ", " skipped " of them skipped" : "") >result
+			exit failed != 0
+		}' result="$out/result"
+	code=$?
+	[ $code -eq 0 ] || tail -n 25 "$out/console" | sed 's/^/# console: /'
+	exit $code
+}

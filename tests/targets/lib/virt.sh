@@ -1,0 +1,25 @@
+# shellcheck shell=sh disable=SC2154,SC2086,SC2034
+# SPDX-License-Identifier: MIT
+# virt - the two vehicles that are emulated `virt` machines under Debian's own kernel.
+# Sourced after build.sh.
+
+# virt ARCH FLAVOUR KARCH TRIPLET EMULATOR
+virt() {
+	deb=$1 triplet=$4
+	needs $KERNEL_NEEDS pkg-config=pkg-config modprobe=kmod "${5%% *}=qemu-system-arm" \
+		"$triplet-gcc=gcc-$triplet"
+	once "stock-$1" stock "$1" "$2" "$3" "$4-"
+	once "gpiod1-$1" gpiod "$1" "$triplet" bookworm
+	once "gpiod2-$1" gpiod "$1" "$triplet" bookworm-backports
+
+	programs CROSS="$triplet-" -- uapi gpiod1 gpiod2
+	disk "$triplet-gcc" "$out/build/guest" "$out/build/replay" "$out"/ladderd-* "$BUILD/cases"
+	cp -r "$cache/stock-$1/sim" "$root/modules"
+	guest_runs /guest /cases /ladderd-uapi /ladderd-gpiod1 /ladderd-gpiod2
+	guest_runs /replay /cases/programs.bundle
+	disk_close
+	boot 600 $5 -M virt -m 256 -nographic -nodefaults -no-reboot -serial stdio -monitor none \
+		-icount shift=0,sleep=off -kernel "$cache/stock-$1/vmlinuz" -initrd "$out/initrd" \
+		-append "console=ttyAMA0 quiet loglevel=1 panic=-1"
+	guest_said
+}
