@@ -265,6 +265,22 @@ check-targets: ## the guest suite on emulated boards: VEHICLES="uml arm64 armhf 
 .PHONY: check-targets
 # ---- end of targets ----
 
+# ---- board: what a board needs besides ladderd, and its figures ----
+# /etc/ladder/active says what runs, and `ladder push` writes it anew: an old one stays.
+udevdir     ?= /lib/udev/rules.d
+sysusersdir ?= /usr/lib/sysusers.d
+install: install-board
+install-board: install-ladderd
+	install -d $(DESTDIR)/etc/ladder $(DESTDIR)$(udevdir) $(DESTDIR)$(sysusersdir)
+	install -m 755 packaging/ladderd-run $(DESTDIR)$(prefix)/bin/ladderd-run
+	install -m 644 packaging/60-gpio.rules $(DESTDIR)$(udevdir)/60-ladderd-gpio.rules
+	install -m 644 packaging/ladderd.sysusers $(DESTDIR)$(sysusersdir)/ladderd.conf
+	test -e $(DESTDIR)/etc/ladder/active || install -m 644 packaging/ladderd.active $(DESTDIR)/etc/ladder/active
+push-tests: $(BUILD)/ladder $(BUILD)/ladderd ## ladder push against a real sshd on loopback
+	BUILD=$(BUILD) prove tests/push.t
+.PHONY: install-board push-tests
+# ---- end of board ----
+
 # ---- everything ----
 # One list for prove. A second build with sanitizers runs the tests that read and
 # run what strangers write. Their char is unsigned, as it is on ARM.

@@ -23,7 +23,8 @@ for tool in shellcheck mandoc; do
 	fi
 done
 if command -v shellcheck >/dev/null; then
-	log=$(shellcheck -S warning run .ci/run tests/*.sh tests/bench/*.sh 2>&1)
+	log=$(shellcheck -S warning run .ci/run tests/*.sh tests/bench/*.sh \
+		packaging/ladderd-run packaging/ladderd.procd 2>&1)
 	say $? 'shellcheck has nothing to say' "$log"
 fi
 if command -v mandoc >/dev/null; then

@@ -87,5 +87,6 @@ enum status cmd_bench(struct call *call);
 enum status cmd_words(struct call *call);
 enum status cmd_diff(struct call *call);
 enum status cmd_io(struct call *call);
+enum status cmd_push(struct call *call);
 enum status cmd_help(struct call *call);
 #endif
