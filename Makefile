@@ -227,7 +227,7 @@ ARM := $(foreach a,arm64 armhf,$(if $(shell command -v $(CROSS_$a)gcc),$a))
 arm: $(ARM:%=arm-%) ## the tests of the engine for arm64 and armhf, in build/arm64/ and build/armhf/
 $(ARM:%=arm-%): arm-%:
 	$(MAKE) BUILD=$(BUILD)/$* CROSS=$(CROSS_$*) STATIC=1 HAL=uapi arm-programs
-arm-programs: $(UNIT) $(BIN)/differential $(BIN)/iec_cases $(BUILD)/ladder
+arm-programs: $(UNIT) $(BIN)/differential $(BIN)/iec_cases $(BUILD)/ladder $(BUILD)/replay
 .PHONY: arm arm-programs $(ARM:%=arm-%)
 # ---- end of ARM ----
 
@@ -295,7 +295,7 @@ tests: all man $(BUILT) $(HAL_DAEMONS)
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd
-check: tests asan arm ## build, then every test
+check: tests asan arm cases ## build, then every test
 	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \
 	  prove -j$$(nproc) -e '' tests/arm.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
 bench: $(BUILD)/ladder $(BUILD)/ladderd ## speed, load time and size, as a table

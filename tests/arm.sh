@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # arm - the engine on arm64 and armhf, by qemu's user mode: every unit test, the
-# golden cases, the second evaluator, the cases of the standard. The programs are
+# golden cases, the second evaluator, the cases of the standard, and programs whose
+# traces were made here. The programs are
 # built by `make arm`. There is no GPIO here: tests/targets has machines for that.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -33,6 +34,8 @@ run_arch() {
 	done
 	"$2" "$build/$1/tests/bin/differential" --count "$count" >"$tmp/out" 2>&1
 	say $? "$1: the second evaluator, $count random programs"
+	"$2" "$build/$1/replay" "$build/cases/programs.bundle" >"$tmp/out" 2>&1
+	say $? "$1: 1,000 random programs: the traces of the machine that built, byte for byte"
 	printf '#!/bin/sh\nexec %s "%s" "$@"\n' "$2" "$PWD/$build/$1/ladder" >"$tmp/ladder"
 	chmod +x "$tmp/ladder"
 	LADDER=$tmp/ladder perl tests/golden.t >"$tmp/out" 2>&1

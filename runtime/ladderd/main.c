@@ -4,6 +4,7 @@
  * scans until it is told to stop, and leaves safe outputs behind. It has no
  * network and needs no user but the one that may open the lines.
  */
+#define _DEFAULT_SOURCE /* syscall() */
 #include "engine/base/digest.h"
 #include "engine/base/version.h"
 #include "hal/drivers.h"
@@ -17,6 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #define STACK_BYTES 8192 /* of the scan; frames are bounded by the build */
 
@@ -58,16 +61,17 @@ static void print_memory(const struct daemon *daemon)
 	       load->source.other_bytes);
 }
 
-/* Memory was written while loading, deeper stack used than a scan needs: what
- * is locked now is there. A target that cannot lock (no MMU) says ENOSYS. */
+/* Memory was written while loading, deeper stack used than a scan needs: what is
+ * locked now is there. Without an MMU nothing can be paged out, and the kernel has
+ * no such call. musl refuses sched_setscheduler() itself, the kernel does not. */
 static void make_real_time(int priority)
 {
 	struct sched_param wanted = { .sched_priority = priority };
 
-	if (sched_setscheduler(0, SCHED_FIFO, &wanted) != 0)
+	if (syscall(SYS_sched_setscheduler, 0, SCHED_FIFO, &wanted) != 0)
 		fprintf(stderr, "ladderd: no real-time priority: %s\n",
 			strerror(errno));
-	if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0 && errno != ENOSYS)
+	if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
 		fprintf(stderr, "ladderd: memory is not locked: %s\n",
 			strerror(errno));
 }
