@@ -262,7 +262,9 @@ check-targets: ## the guest suite on emulated boards: VEHICLES="uml arm64 armhf 
 	@rm -f $(VEHICLES:%=$(BUILD)/targets/%/result); status=0; \
 	  BUILD=$(BUILD) prove -v -e '' $(VEHICLES:%=tests/targets/%) || status=$$?; \
 	  cat $(VEHICLES:%=$(BUILD)/targets/%/result); exit $$status
-.PHONY: check-targets
+sizes: ## how large the runtime is for small boards, and what each room costs
+	@BUILD=$(BUILD) tests/targets/sizes
+.PHONY: check-targets sizes
 # ---- end of targets ----
 
 # ---- board: what a board needs besides ladderd, and its figures ----

@@ -1,0 +1,35 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# rooms - what each room of the house costs in a program: rooms.pl MAP-OF-THE-LINKER
+#
+# Adds up the sections that were kept, by the folder of the object they come from.
+use strict;
+use warnings;
+
+my (%bytes, $kept, $name);
+while (<>) {
+	$kept = 1 if /^Linker script and memory map/;
+	next unless $kept;
+	# A long name of a section has its numbers on the next line.
+	if (/^ (\.\S+)$/) { $name = $1; next }
+	if (/^ (\.\S+)?\s+0x[0-9a-f]+\s+0x([0-9a-f]+)\s+(\S+)$/) {
+		my ($section, $size, $from) = ($1 // $name // '', hex $2, $3);
+		undef $name;
+		next unless $section =~ /^\.(?:text|rodata|data|ARM|got|init)/;
+		my $room = $from =~ m{(?:^|/)(?:runtime/)?(engine/\w+|engine|ladderd|hal)/[^/]*\.o$} ? $1
+			 : $from =~ m{libladder\.a\((\w+)\.o\)} ? room_of($1)
+			 : $from =~ m{/lib(c|gcc|gcc_eh|m)\.a} ? "C library"
+			 : "other";
+		$bytes{$room} += $size;
+	}
+	last if /^OUTPUT\(/;
+}
+printf "  %-18s %7d\n", $_, $bytes{$_} for sort { $bytes{$b} <=> $bytes{$a} } keys %bytes;
+
+# An archive has no folders: where the source of this name is.
+sub room_of {
+	my ($object) = @_;
+	my ($source) = (glob("runtime/engine/*/$object.c"), glob("runtime/engine/$object.c"));
+	return defined $source && $source =~ m{^runtime/(.*)/} ? $1 : 'other';
+}
