@@ -57,7 +57,7 @@ static void print_memory(const struct daemon *daemon)
 	       load->map.count);
 	printf("runtime: %zu bytes\n", sizeof(*daemon) + SAFE_STACK_BYTES);
 	printf("stack: at most %d bytes\n", STACK_BYTES);
-	printf("loaded text and translation: %zu bytes\n",
+	printf("while loading: %zu bytes of text and translation more\n",
 	       load->source.other_bytes);
 }
 
@@ -105,12 +105,13 @@ static int run(struct daemon *daemon)
 	struct load *load = &daemon->load;
 	struct cycle *cycle = &daemon->cycle;
 	const struct program *program = &load->source.program;
+	bool settled = source_settle(&load->source);
 	void *memory = arena_alloc(&load->arena, image_memory_size(program));
 	void *stack = arena_alloc(&load->arena, SAFE_STACK_BYTES);
 	uint8_t identity[32];
 	int status, error;
 
-	if (!memory || !stack) {
+	if (!settled || !memory || !stack) {
 		fprintf(stderr, "ladderd: out of memory\n");
 		return 1;
 	}

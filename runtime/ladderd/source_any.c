@@ -6,6 +6,9 @@
 
 #include "engine/ladder.h"
 
+#include <stdlib.h>
+#include <string.h>
+
 const char *source_kinds(void)
 {
 	return "rung files and code images";
@@ -32,8 +35,37 @@ bool source_load(struct source *source, const char *path)
 	return true;
 }
 
+/* The image alone runs: text and translation of 1,000 rungs are some megabytes. */
+bool source_settle(struct source *source)
+{
+	struct arena scratch;
+	struct program program;
+	enum diag_id why;
+	size_t where;
+	void *image = malloc(source->image_bytes);
+	bool good;
+
+	if (!image)
+		return false;
+	memcpy(image, source->program.base, source->image_bytes);
+	arena_init(&scratch);
+	good = code_open(image, source->image_bytes, &scratch, &program, &why,
+			 &where);
+	arena_free(&scratch);
+	if (!good) {
+		free(image);
+		return false;
+	}
+	ladder_free(source->own);
+	source->own = NULL;
+	source->image = image;
+	source->program = program;
+	return true;
+}
+
 void source_free(struct source *source)
 {
 	ladder_free(source->own);
-	source->own = NULL;
+	free(source->image);
+	source->own = source->image = NULL;
 }

@@ -22,20 +22,25 @@ bool source_load(struct source *source, const char *path)
 	bool good;
 
 	diag_init(&source->diags);
-	source->own = file_read(path, LIMIT_IMAGE, &source->image_bytes,
+	source->image = file_read(path, LIMIT_IMAGE, &source->image_bytes,
 				&source->diags);
-	source->unreadable = !source->own;
-	if (!source->own)
+	source->unreadable = !source->image;
+	if (!source->image)
 		return false;
 	arena_init(&scratch);
-	good = code_open(source->own, source->image_bytes, &scratch,
+	good = code_open(source->image, source->image_bytes, &scratch,
 			 &source->program, &place.id, &where);
 	arena_free(&scratch);
 	return good || diag_add(&source->diags, place, "byte %zu", where);
 }
 
+bool source_settle(struct source *source)
+{
+	return source->image;
+}
+
 void source_free(struct source *source)
 {
-	free(source->own);
-	source->own = NULL;
+	free(source->image);
+	source->image = NULL;
 }
