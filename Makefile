@@ -76,6 +76,8 @@ $(DRIVERS): CPPFLAGS += $(GPIO_CPP)
 all: $(BUILD)/ladderd
 $(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
+# Bytes of stack, for compilers that make programs for a machine without MMU.
+$(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
 
 # All gpio drivers against fakes of what is below them: one suite, built three times.
 HAL_TEST := $(BUILD)/tests/hal
@@ -280,7 +282,9 @@ install-board: install-ladderd
 	test -e $(DESTDIR)/etc/ladder/active || install -m 644 packaging/ladderd.active $(DESTDIR)/etc/ladder/active
 push-tests: $(BUILD)/ladder $(BUILD)/ladderd ## ladder push against a real sshd on loopback
 	BUILD=$(BUILD) prove tests/push.t
-.PHONY: install-board push-tests
+bench-rt: $(BUILD)/ladderd ## how late ladderd wakes up, beside cyclictest
+	@BUILD=$(BUILD) tests/bench/rt.sh
+.PHONY: install-board push-tests bench-rt
 # ---- end of board ----
 
 # ---- everything ----

@@ -35,6 +35,9 @@ done
 for rung in "$guest"/programs/*.rung; do
     build_image "$rung"
 done
+# A thousand motors that seal themselves in, for the memory they take.
+perl tests/bench/programs.pl seal 1000 >"$cases/thousand.rung"
+"$build/ladder" build "$cases/thousand.rung" -o "$cases/thousand.rungc" 2>/dev/null
 cp "$guest"/programs/*.io "$cases"
 "$build/make_cases" bad "$cases" "$cases/panel.rungc"
 "$build/make_cases" bundle "$cases/programs.bundle" "$programs" 1
