@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define BLOCK_BYTES 780 /* less than a pipe takes at once */
+#define BLOCK_BYTES 880 /* less than a pipe takes at once */
 
 struct block {
 	char text[BLOCK_BYTES];
@@ -63,7 +63,9 @@ static void add_times(struct block *block, const char *word,
 	add_us(block, word, stats->last_ns);
 	add_us(block, ", mean", stats_mean(stats));
 	add_us(block, ", max", stats->max_ns);
-	add_us(block, ", p99", stats_p99(stats));
+	add_us(block, ", p99", stats_share(stats, 990));
+	add_us(block, ", p50", stats_share(stats, 500));
+	add_us(block, ", p99.9", stats_share(stats, 999));
 	add(block, "\n");
 }
 

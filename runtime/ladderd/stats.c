@@ -48,9 +48,11 @@ int64_t stats_mean(const struct stats *stats)
 	return stats->count ? stats->sum_ns / (int64_t)stats->count : 0;
 }
 
-int64_t stats_p99(const struct stats *stats)
+int64_t stats_share(const struct stats *stats, unsigned thousandths)
 {
-	uint64_t above = stats->count / 100; /* so many may be longer */
+	/* So many may be longer. */
+	uint64_t above = stats->count / 1000 * (1000 - thousandths) +
+			 stats->count % 1000 * (1000 - thousandths) / 1000;
 	uint64_t seen = 0;
 
 	for (unsigned i = STATS_BUCKETS; i-- > 0;) {

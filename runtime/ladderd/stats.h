@@ -2,7 +2,7 @@
  *
  * stats - how long something took, over all scans, in a fixed amount of memory.
  *
- * Exact for last, mean and maximum; the 99th percentile comes from a histogram
+ * Exact for last, mean and maximum; percentiles come from a histogram
  * whose steps are an eighth of their value. It keeps no list and reads no
  * clock.
  */
@@ -22,6 +22,6 @@ struct stats {
 /** stats_add - one more; negative counts as 0. Scan-safe: yes. */
 void stats_add(struct stats *stats, int64_t ns);
 int64_t stats_mean(const struct stats *stats);
-/** stats_p99 - 99 of 100 took at most so long, or an eighth less. */
-int64_t stats_p99(const struct stats *stats);
+/** stats_share - @thousandths of 1000 took at most so long, or an eighth less. */
+int64_t stats_share(const struct stats *stats, unsigned thousandths);
 #endif
