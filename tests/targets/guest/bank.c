@@ -10,7 +10,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/gpio.h>
-#include <poll.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/ioctl.h>
@@ -239,14 +238,14 @@ unsigned bank_events(struct bank *bank)
 	return count;
 }
 
-int bank_taken(struct bank *bank, int64_t ms)
+bool bank_was_taken(struct bank *bank, unsigned line)
 {
-	struct pollfd ready = { .fd = bank->watch, .events = POLLIN };
 	struct gpio_v2_line_info_changed event;
+	bool taken = false;
 
-	while (poll(&ready, 1, (int)ms) == 1)
-		while (next_event(bank, &event))
-			if (event.event_type == GPIO_V2_LINE_CHANGED_REQUESTED)
-				return (int)event.info.offset;
-	return -1;
+	while (next_event(bank, &event))
+		taken = taken ||
+			(event.event_type == GPIO_V2_LINE_CHANGED_REQUESTED &&
+			 event.info.offset == line);
+	return taken;
 }

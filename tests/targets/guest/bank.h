@@ -44,9 +44,8 @@ bool bank_shows(struct bank *bank, unsigned first, unsigned count,
 /** bank_watch - from now on bank_events() counts lines that were taken or given
  * back, by whomever. */
 void bank_watch(struct bank *bank);
-/** bank_taken - waits for a line to be taken and gives its number; -1: none
- * was within @ms. */
-int bank_taken(struct bank *bank, int64_t ms);
+/** bank_was_taken - was this line taken since it was asked last? */
+bool bank_was_taken(struct bank *bank, unsigned line);
 /** bank_events - how many since it was asked last. */
 unsigned bank_events(struct bank *bank);
 #endif

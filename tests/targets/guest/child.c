@@ -99,7 +99,7 @@ static void launch(struct child *child, const char *const *argv, int err)
 	else
 		posix_spawn_file_actions_addopen(&files, 2, err_path, flags,
 						 0666);
-	child->ended = false;
+	child->ended = child->traced = false;
 	child->status = 0;
 	error = posix_spawn(&child->pid, argv[0], &files, NULL,
 			    (char *const *)(uintptr_t)argv, environment);
@@ -121,7 +121,7 @@ void child_start_pipe(struct child *child, const char *const *argv)
 {
 	int ends[2];
 
-	if (pipe2(ends, O_CLOEXEC) != 0)
+	if (pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0)
 		give_up("pipe");
 	child->slot = 0;
 	child->pipe = ends[0];
@@ -173,8 +173,8 @@ int ladderd_run(const char *file, const char *map, ...)
 
 static bool has_ended(struct child *child)
 {
-	if (child->ended)
-		return true;
+	if (child->ended || child->traced)
+		return child->ended;
 	if (waitpid(child->pid, &child->status, WNOHANG) != child->pid)
 		return false;
 	child->ended = true;
@@ -235,26 +235,22 @@ const char *child_err(const struct child *child)
 	return printed(child, "err");
 }
 
-bool child_catch(struct child *child, const char *want)
+bool child_line(struct child *child, const char *want)
 {
-	struct pollfd more = { .fd = child->pipe, .events = POLLIN };
-	size_t len = 0;
-	char line[128];
+	static char line[128];
+	static size_t len;
+	bool found = false;
 
-	while (poll(&more, 1, LIMIT_MS) == 1 &&
-	       read(child->pipe, &line[len], 1) == 1) {
+	while (read(child->pipe, &line[len], 1) == 1) {
 		if (line[len] != '\n') {
 			len += len < sizeof(line) - 1;
 			continue;
 		}
 		line[len] = 0;
 		len = 0;
-		if (strstr(line, want)) {
-			child_signal(child, SIGSTOP);
-			return true;
-		}
+		found = found || strstr(line, want) != NULL;
 	}
-	return false;
+	return found;
 }
 
 bool child_says(struct child *child, const char *want)

@@ -22,6 +22,7 @@ struct child {
 	bool ended;
 	int status;
 	int pipe;              /* read end of its stderr; -1: a file          */
+	bool traced;           /* by this program                             */
 };
 
 /** child_start - runs @argv[0]; readiness of slot 0 goes to child_ready(). */
@@ -47,9 +48,21 @@ int child_stop(struct child *child);
 /** child_out, child_err - what it printed so far; lives until the next call. */
 const char *child_out(const struct child *child);
 const char *child_err(const struct child *child);
-/** child_catch - reads the pipe until it has a line @text, and stops the child
- * (SIGSTOP) where it wrote that; false: it never did. */
-bool child_catch(struct child *child, const char *text);
+/**
+ * child_hold - steps it from system call to system call until @there says that
+ * it has come far enough, and holds it there until child_let_go()
+ *
+ * A child that was not started by child_start_held() runs on until this call.
+ * Fails: false: it ended, or there is no ptrace here; it is not held.
+ */
+bool child_hold(struct child *child, bool (*there)(void *context),
+		void *context);
+void child_let_go(struct child *child);
+/** child_start_held - as child_start(), but nothing of it has run yet; false: there
+ * is no ptrace here. Use child_hold() next. */
+bool child_start_held(struct child *child, const char *const *argv);
+/** child_line - has the pipe had a line with @text by now? Does not wait. */
+bool child_line(struct child *child, const char *text);
 /** child_says - waits until stderr has @text. */
 bool child_says(struct child *child, const char *text);
 /** child_status - a fresh status block; "" if there is none. */

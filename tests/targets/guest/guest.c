@@ -6,30 +6,32 @@
  *         [--work DIR] CASES LADDERD...
  *   guest --as-user COMMAND...         helper: runs it as an ordinary user
  *   guest --memory BYTES COMMAND...    helper: runs it with little memory
+ *   guest --held COMMAND...            helper: runs it under ptrace, held
  *
  * Every LADDERD runs through the same tests; its name says what a result is
  * called (`ladderd-uapi`: "uapi: ..."). The tier `small` is for a ladderd that
  * reads code images only, on a kernel without users. TAP goes to stdout; the
  * exit status is 0 if all passed.
  */
-#define _GNU_SOURCE /* setgroups, SCHED_RESET_ON_FORK */
+#define _GNU_SOURCE /* setgroups */
 
 #include "tests/targets/guest/guest.h"
 
 #include "tests/targets/guest/bank.h"
 #include "tests/targets/guest/child.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <grp.h>
-#include <sched.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ptrace.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -130,25 +132,14 @@ void sleep_ms(int64_t ms)
 	sleep_until(clock_now() + ms * MS);
 }
 
-/* musl answers ENOSYS by itself, so the kernel is asked directly. */
-bool first_of_all(bool first)
-{
-	struct sched_param wanted = { .sched_priority = first ? 99 : 0 };
-	int policy = first ? SCHED_FIFO | SCHED_RESET_ON_FORK : SCHED_OTHER;
-	static const unsigned long one[16] = { 1 };
-
-	if (first)
-		syscall(SYS_sched_setaffinity, 0, sizeof(one), one);
-	return syscall(SYS_sched_setscheduler, 0, policy, &wanted) == 0;
-}
-
 static const char *join(const char *folder, const char *name)
 {
 	static char paths[4][PATH_MOST];
 	static unsigned next;
 	char *path = paths[next++ % 4];
 
-	snprintf(path, PATH_MOST, "%s/%s", folder, name);
+	if (snprintf(path, PATH_MOST, "%s/%s", folder, name) >= PATH_MOST)
+		give_up("a path is too long");
 	return path;
 }
 
@@ -212,6 +203,16 @@ static int with_memory(const char *bytes, char **command)
 	limit.rlim_max = limit.rlim_cur;
 	if (setrlimit(RLIMIT_AS, &limit) != 0)
 		give_up("setrlimit");
+	execv(command[0], command);
+	give_up(command[0]);
+}
+
+/* Stands still at the very start, for its parent to step it. */
+static int held(char **command)
+{
+	if (ptrace(PTRACE_TRACEME, 0, NULL, NULL) != 0)
+		return 77;
+	raise(SIGSTOP);
 	execv(command[0], command);
 	give_up(command[0]);
 }
@@ -283,6 +284,21 @@ static void run_all(const char *ladderd)
 	}
 }
 
+/* A guest's files may be files of the machine around it. */
+static void empty(const char *folder)
+{
+	DIR *files = opendir(folder);
+	const struct dirent *file;
+
+	if (!files)
+		return;
+	while ((file = readdir(files)) != NULL)
+		if (file->d_name[0] != '.')
+			unlink(join(folder, file->d_name));
+	closedir(files);
+	rmdir(folder);
+}
+
 int main(int argc, char **argv)
 {
 	static char folder[PATH_MOST];
@@ -294,6 +310,8 @@ int main(int argc, char **argv)
 		return as_user(argv + 2);
 	if (argc > 3 && strcmp(argv[1], "--memory") == 0)
 		return with_memory(argv[2], argv + 3);
+	if (argc > 2 && strcmp(argv[1], "--held") == 0)
+		return held(argv + 2);
 	first = read_options(argc, argv);
 	if (first < 0)
 		return usage();
@@ -302,16 +320,15 @@ int main(int argc, char **argv)
 		       "(CONFIG_GPIO_SIM, configfs mounted)\n");
 		return 0;
 	}
-	snprintf(folder, sizeof(folder), "%s/guest-%d", guest.work,
-		 (int)getpid());
-	if (mkdir(folder, 0755) != 0)
+	snprintf(folder, sizeof(folder), "%s/guest-XXXXXX", guest.work);
+	if (!mkdtemp(folder) || chmod(folder, 0755) != 0)
 		give_up(folder);
-	chmod(folder, 0755);
 	guest.work = folder;
 	guest.cases = argv[first];
 	for (int i = first + 1; i < argc; i++)
 		run_all(argv[i]);
 	printf("1..%d\n", count);
 	fflush(stdout);
+	empty(folder);
 	return count == 0 || failed;
 }

@@ -43,10 +43,6 @@ void give_up(const char *what) __attribute__((noreturn));
 int64_t clock_now(void);
 void sleep_until(int64_t at_ns);
 void sleep_ms(int64_t ms);
-/** first_of_all - from now on this program runs before all others, on one
- * processor: what wakes it up stands still until it sleeps. */
-bool first_of_all(bool first);
-
 /** file_put - writes a file of the work folder; its path lives until four more
  * were written. */
 const char *file_put(const char *name, const void *bytes, size_t len);

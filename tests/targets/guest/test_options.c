@@ -7,6 +7,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/prctl.h>
 
 static void run_with(struct child *child, const char *map)
 {
@@ -80,12 +81,15 @@ static void bias(void)
 }
 
 /* Pulses of 1 ms on IN0 for @ms. Gives the longest one in ms: if the guest was
- * kept from running, they were longer than they should have been. */
+ * kept from running, they were longer than they should have been. They must not
+ * keep step with the scans: so their period is odd, and the kernel may not wake
+ * up both programs together, which it does with timers that are near. */
 static int64_t bounce(int64_t ms, bool *moved, bool rest)
 {
 	int64_t end_ns = clock_now() + ms * MS, longest_ns = 0;
 
 	*moved = false;
+	prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 	while (clock_now() < end_ns) {
 		int64_t begin_ns = clock_now();
 
@@ -94,9 +98,10 @@ static int64_t bounce(int64_t ms, bool *moved, bool rest)
 		bank_pull(&panel, IN0, rest);
 		if (clock_now() - begin_ns > longest_ns)
 			longest_ns = clock_now() - begin_ns;
-		sleep_until(begin_ns + 2 * MS);
+		sleep_until(begin_ns + 2 * MS + 370000);
 		*moved = *moved || bank_level(&panel, OUT0) != rest;
 	}
+	prctl(PR_SET_TIMERSLACK, 0UL, 0UL, 0UL, 0UL);
 	return longest_ns / MS;
 }
 

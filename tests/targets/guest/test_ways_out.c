@@ -3,10 +3,9 @@
  * test_ways_out - outputs have their safe values before the first scan and on
  * each way out of RUN.
  *
- * What a line shows in passing is caught: this program runs before all others,
- * is woken up by the kernel (a line was taken) or by a traced output in a pipe,
- * and stops ladderd right there. RUN, safe and released lines show different
- * patterns.
+ * What a line shows in passing is seen by holding ladderd right there (hold.c):
+ * when the kernel says that a line was taken, or when a traced output comes
+ * through the pipe. RUN, safe and released lines show different patterns.
  */
 #include "tests/targets/guest/panel.h"
 
@@ -43,60 +42,84 @@ static void start_traced(struct child *child)
 	child_ready();
 }
 
+static bool outputs_taken(void *context)
+{
+	(void)context;
+	return bank_was_taken(&panel, OUT0 + OUTS - 1);
+}
+
 static void before_first_scan(void)
 {
+	const char *argv[] = { guest.ladderd, panel_image(), "--io",
+			       safe_map(), NULL };
 	struct child child;
-	int line;
+	bool held;
 
 	set_up();
 	bank_watch(&panel);
-	if (!first_of_all(true)) {
-		skip("no SCHED_FIFO here", "safe values before the first scan");
+	if (!child_start_held(&child, argv)) {
+		skip("no ptrace here", "safe values before the first scan");
+		child_stop(&child);
 		panel_down();
 		return;
 	}
-	ladderd_start(&child, panel_image(), safe_map(), NULL);
-	do
-		line = bank_taken(&panel, LIMIT_MS);
-	while (line >= 0 && line != OUT0 + OUTS - 1);
-	child_signal(&child, SIGSTOP);
-	first_of_all(false);
+	held = child_hold(&child, outputs_taken, NULL);
 	sleep_ms(50);
 	if (child_is_ready())
 		skip("this kernel tells too late who takes a line",
 		     "safe values before the first scan");
 	else
-		check(line >= 0 && bank_levels(&panel, OUT0, OUTS) == SAFE,
+		check(held && bank_levels(&panel, OUT0, OUTS) == SAFE,
 		      "safe values before the first scan");
-	child_signal(&child, SIGCONT);
+	child_let_go(&child);
 	check(panel_shows(RUN), "then those of the program");
 	check(child_stop(&child) == 0, "ends");
 	panel_down();
 }
 
-/* Caught with the safe values written and the lines not given back yet. */
+static struct child *traced;
+
+static bool at_once(void *context)
+{
+	(void)context;
+	return true;
+}
+
+static bool q1_is_safe(void *context)
+{
+	(void)context;
+	return child_line(traced, "%QX0.1 1");
+}
+
+static bool q0_is_on(void *context)
+{
+	(void)context;
+	return child_line(traced, "%QX0.0 1");
+}
+
+/* Held with the safe values written and the lines not given back yet. */
 static void by_signal(int signal_number, const char *name)
 {
 	struct child child;
 	uint32_t levels;
-	bool caught;
 
 	set_up();
 	start_traced(&child);
+	traced = &child;
 	check(panel_shows(RUN), "%s: runs", name);
-	if (!first_of_all(true)) {
-		skip("no SCHED_FIFO here", "%s: safe values", name);
-		child_stop(&child);
-		panel_down();
-		return;
-	}
+	q1_is_safe(NULL); /* what was traced so far is read */
+	child_hold(&child, at_once, NULL);
 	child_signal(&child, signal_number);
-	caught = child_catch(&child, "%QX0.1 1");
-	first_of_all(false);
-	levels = bank_levels(&panel, OUT0, OUTS);
-	check(caught && levels == SAFE, "%s: safe values (%x)", name,
-	      (unsigned)levels);
-	child_signal(&child, SIGCONT);
+	if (child.traced && child_hold(&child, q1_is_safe, NULL)) {
+		levels = bank_levels(&panel, OUT0, OUTS);
+		check(levels == SAFE, "%s: safe values (%x)", name,
+		      (unsigned)levels);
+		child_let_go(&child);
+	} else if (child.ended) {
+		check(false, "%s: safe values before the end", name);
+	} else {
+		skip("no ptrace here", "%s: safe values", name);
+	}
 	check(child_end(&child) == 0, "%s: exit status 0", name);
 	note("after %s a line of gpio-sim shows its pull: %x, pulls %x", name,
 	     (unsigned)bank_levels(&panel, OUT0, OUTS), PULLS);
@@ -128,32 +151,30 @@ static void by_fault(void)
 	panel_down();
 }
 
-/* Stopped in the middle of a scan, at the write of an output, for longer than
+/* Held in the middle of a scan, behind the write of an output, for longer than
  * the watchdog has patience. */
 static void by_watchdog(void)
 {
 	struct child child;
-	bool caught;
 
 	set_up();
 	bank_pull(&panel, IN0, false);
 	start_traced(&child);
-	if (!first_of_all(true)) {
-		skip("no SCHED_FIFO here", "watchdog");
+	traced = &child;
+	if (!child_hold(&child, at_once, NULL)) {
+		skip("no ptrace here", "watchdog");
 		child_stop(&child);
 		panel_down();
 		return;
 	}
 	bank_pull(&panel, IN0, true);
-	caught = child_catch(&child, "%QX0.0 1");
-	first_of_all(false);
-	check(caught && bank_levels(&panel, OUT0, OUTS) == RUN,
+	child_hold(&child, q0_is_on, NULL);
+	check(bank_levels(&panel, OUT0, OUTS) == RUN,
 	      "watchdog: a scan is held up");
 	sleep_ms(500);
-	child_signal(&child, SIGCONT);
+	child_let_go(&child);
 	check(panel_shows(SAFE), "watchdog: safe values");
-	check(strstr(child_status(&child), "fault: the watchdog") != NULL ||
-	      strstr(child_out(&child), "watchdog") != NULL,
+	check(strstr(child_status(&child), "fault: watchdog") != NULL,
 	      "watchdog: the status says so");
 	child_signal(&child, SIGHUP);
 	check(panel_shows(RUN), "watchdog: SIGHUP resets it");
