@@ -1,4 +1,4 @@
-# shellcheck shell=sh disable=SC2154
+# shellcheck shell=sh disable=SC2153,SC2154
 # SPDX-License-Identifier: MIT
 # build - what a vehicle is made of, built once into the cache: Debian packages of any
 # architecture, libgpiod to link with, kernels, musl, the guest's programs and disk.
@@ -6,10 +6,14 @@
 # `.recipe`; it is built anew when the recipe's hash is another.
 #
 # $log takes what compilers say.
+#
+# Scenarios over five minutes are left out, visibly, unless LONGEST (seconds) says
+# otherwise: one plays for hours, which takes an emulated processor some minutes.
 cache=$(cd "$cache" && pwd)
 out=$(cd "$out" && pwd)
 log=$out/build.log
 jobs=$(nproc)
+longest=${LONGEST:-310}
 : >"$log"
 
 # once NAME BUILDER [ARGUMENT|FILE]... : the product NAME by BUILDER, whose arguments and
@@ -270,8 +274,9 @@ make_programs() { # HAL PROGRAM...
 	done
 }
 
-# disk CC FILE... : the guest's first disk, with init and the files (a folder `modules`
-# among them is loaded); guest_runs COMMAND [ARGUMENT]... : what init is to run there, in turn.
+# disk CC FILE... : a guest's disk, with init and the files (a folder `modules` among
+# them is loaded); guest_runs COMMAND [ARGUMENT]... : what init is to run there, in turn;
+# disk_close : it lies in $out/initrd now.
 disk() {
 	root=$out/root
 	rm -rf "$root"
@@ -286,4 +291,15 @@ guest_runs() {
 }
 disk_close() {
 	(cd "$root" && find . | LC_ALL=C sort | cpio -o -H newc --quiet -R 0:0) | gzip -1n >"$out/initrd"
+}
+
+# Two disks for a small machine: the suite, and what replays the random programs.
+suite() { # CC
+	disk "$1" "$out/build/guest" "$out"/ladderd-* "$BUILD/cases"
+	rm "$root/cases/programs.bundle"
+	guest_runs /guest --tier small --longest "$longest" /cases /ladderd-uapi
+}
+replay() { # CC
+	disk "$1" "$out/build/replay" "$BUILD/cases/programs.bundle"
+	guest_runs /replay /programs.bundle
 }
