@@ -282,6 +282,14 @@ install-board: install-ladderd
 	test -e $(DESTDIR)/etc/ladder/active || install -m 644 packaging/ladderd.active $(DESTDIR)/etc/ladder/active
 push-tests: $(BUILD)/ladder $(BUILD)/ladderd ## ladder push against a real sshd on loopback
 	BUILD=$(BUILD) prove tests/push.t
+# `ladder` over the fake chips of the HAL's tests, for what `ladder io` shows.
+$(HAL_TEST)/ladder_%: $(LADDER) $(HAL_TEST)/%/io_fake.o $(BUILD)/libladder.a Makefile
+	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64 -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+$(HAL_TEST)/ladder_v1: $(call HAL_FAKE,v1,gpiod_v1)
+$(HAL_TEST)/ladder_v2: $(call HAL_FAKE,v2,gpiod_v2)
+$(HAL_TEST)/ladder_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
+$(HAL_TEST)/ladder_uapi: WRAP := -Wl,--wrap=open,--wrap=open64,--wrap=close,--wrap=ioctl
+tests: $(HAL_KINDS:%=$(HAL_TEST)/ladder_%)
 bench-rt: $(BUILD)/ladderd ## how late ladderd wakes up, beside cyclictest
 	@BUILD=$(BUILD) tests/bench/rt.sh
 .PHONY: install-board push-tests bench-rt

@@ -53,7 +53,8 @@ struct line_seen {
 	uint32_t offset;
 	const char *name;          /* "" if the board's makers gave none      */
 	const char *owner;         /* who uses it; "" if nobody               */
-	bool used, output;
+	bool used, output, active_low;
+	enum io_bias bias;         /* BIAS_AS_IS: the kernel does not say     */
 };
 
 struct driver {

@@ -23,7 +23,8 @@ struct gpio_chip {
 struct gpio_line {
 	char name[GPIO_TEXT];    /* "": none                               */
 	char owner[GPIO_TEXT];   /* "": nobody, or somebody without a name */
-	bool used, output;
+	bool used, output, active_low;
+	enum io_bias bias;       /* BIAS_AS_IS: the kernel does not say    */
 };
 
 /* Given by the driver. 0 or -errno.  Scan-safe: no. */

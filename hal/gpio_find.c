@@ -323,6 +323,8 @@ static void list_chip(struct gpio_chip *chip, int number,
 			continue;
 		seen.used = line.used;
 		seen.output = line.output;
+		seen.active_low = line.active_low;
+		seen.bias = line.bias;
 		visit(context, &seen);
 	}
 }

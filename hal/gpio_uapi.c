@@ -48,6 +48,15 @@ void gpio_chip_close(struct gpio_chip *chip)
 	close(chip->fd);
 }
 
+static enum io_bias bias_of(uint64_t flags)
+{
+	if (flags & GPIO_V2_LINE_FLAG_BIAS_PULL_UP)
+		return BIAS_UP;
+	if (flags & GPIO_V2_LINE_FLAG_BIAS_PULL_DOWN)
+		return BIAS_DOWN;
+	return flags & GPIO_V2_LINE_FLAG_BIAS_DISABLED ? BIAS_NONE : BIAS_AS_IS;
+}
+
 int gpio_chip_line(struct gpio_chip *chip, uint32_t offset,
 		   struct gpio_line *out)
 {
@@ -65,6 +74,8 @@ int gpio_chip_line(struct gpio_chip *chip, uint32_t offset,
 	gpio_text(out->owner, about.consumer);
 	out->used = about.flags & GPIO_V2_LINE_FLAG_USED;
 	out->output = about.flags & GPIO_V2_LINE_FLAG_OUTPUT;
+	out->active_low = about.flags & GPIO_V2_LINE_FLAG_ACTIVE_LOW;
+	out->bias = bias_of(about.flags);
 	return 0;
 }
 

@@ -31,6 +31,20 @@ void gpio_chip_close(struct gpio_chip *chip)
 	gpiod_chip_close(chip->chip);
 }
 
+static enum io_bias bias_of(int bias)
+{
+	switch (bias) {
+	case GPIOD_LINE_BIAS_PULL_UP:
+		return BIAS_UP;
+	case GPIOD_LINE_BIAS_PULL_DOWN:
+		return BIAS_DOWN;
+	case GPIOD_LINE_BIAS_DISABLE:
+		return BIAS_NONE;
+	default:
+		return BIAS_AS_IS;
+	}
+}
+
 int gpio_chip_line(struct gpio_chip *chip, uint32_t offset,
 		   struct gpio_line *out)
 {
@@ -42,6 +56,9 @@ int gpio_chip_line(struct gpio_chip *chip, uint32_t offset,
 	gpio_text(out->owner, gpiod_line_consumer(line));
 	out->used = gpiod_line_is_used(line);
 	out->output = gpiod_line_direction(line) == GPIOD_LINE_DIRECTION_OUTPUT;
+	out->active_low = gpiod_line_active_state(line) ==
+			  GPIOD_LINE_ACTIVE_STATE_LOW;
+	out->bias = bias_of(gpiod_line_bias(line));
 	return 0;
 }
 

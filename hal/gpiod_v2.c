@@ -44,6 +44,22 @@ void gpio_chip_close(struct gpio_chip *chip)
 	gpiod_chip_close(chip->chip);
 }
 
+static enum io_bias bias_of(enum gpiod_line_bias bias)
+{
+	switch (bias) {
+	case GPIOD_LINE_BIAS_PULL_UP:
+		return BIAS_UP;
+	case GPIOD_LINE_BIAS_PULL_DOWN:
+		return BIAS_DOWN;
+	case GPIOD_LINE_BIAS_DISABLED:
+		return BIAS_NONE;
+	case GPIOD_LINE_BIAS_AS_IS:
+	case GPIOD_LINE_BIAS_UNKNOWN:
+		break;
+	}
+	return BIAS_AS_IS;
+}
+
 int gpio_chip_line(struct gpio_chip *chip, uint32_t offset,
 		   struct gpio_line *out)
 {
@@ -57,6 +73,8 @@ int gpio_chip_line(struct gpio_chip *chip, uint32_t offset,
 	out->used = gpiod_line_info_is_used(about);
 	out->output = gpiod_line_info_get_direction(about) ==
 		      GPIOD_LINE_DIRECTION_OUTPUT;
+	out->active_low = gpiod_line_info_is_active_low(about);
+	out->bias = bias_of(gpiod_line_info_get_bias(about));
 	gpiod_line_info_free(about);
 	return 0;
 }

@@ -1,20 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_io - `ladder io`: the lines of this machine, and whether a map fits
- * them. It takes no line and changes none.
+ * cmd_io - `ladder io`: the lines of this machine, whether a map fits them, and
+ * what a program calls them. It takes no line and changes none.
  */
-#include "ladder/report.h"
+#include "ladder/picture.h"
+#include "ladder/tty.h"
 
-#include "hal/drivers.h"
 #include "hal/hal.h"
 
 #include <stdlib.h>
-
-struct list {
-	const struct call *call;
-	bool json;
-	int count;
-};
 
 static void json_field(const char *name, const char *text,
 		       const struct sink *out)
@@ -23,60 +17,71 @@ static void json_field(const char *name, const char *text,
 	sink_json_text(out, text);
 }
 
-static void list_json(struct list *list, const struct line_seen *line)
+static void print_picture(const struct call *call,
+			  const struct picture *picture)
 {
-	const struct sink *out = &list->call->out;
+	const struct sink *out = &call->out;
 
-	sink_text(out, list->count ? ",\n  {\"chip\": " : "\n  {\"chip\": ");
-	sink_json_text(out, line->chip);
-	json_field("label", line->label, out);
-	sink_printf(out, ", \"offset\": %u", line->offset);
-	json_field("name", line->name, out);
-	json_field("owner", line->owner, out);
-	sink_printf(out, ", \"used\": %s, \"output\": %s}",
-		    line->used ? "true" : "false",
-		    line->output ? "true" : "false");
-}
-
-static void visit(void *context, const struct line_seen *line)
-{
-	struct list *list = context;
-	const struct sink *out = &list->call->out;
-
-	if (list->json) {
-		list_json(list, line);
-	} else {
-		sink_printf(out, "%-12.40s %-20.40s %4u  %-24.60s %-6s ",
-			    line->chip, line->label, line->offset,
-			    *line->name ? line->name : "-",
-			    line->output ? "output" : "input");
-		sink_text(out, !line->used ? "free" :
-			       *line->owner ? line->owner : "in use");
+	if (!picture_rows(picture))
+		return;
+	picture_head(picture, out);
+	sink_text(out, "\n");
+	for (int i = 0; i < picture_rows(picture); i++) {
+		picture_row(picture, i, out);
 		sink_text(out, "\n");
 	}
-	list->count++;
 }
 
-static enum status list_lines(struct call *call, struct diag_list *diags)
+static void json_picture(const struct call *call,
+			 const struct picture *picture,
+			 const struct diag_list *diags)
 {
-	struct list list = { .call = call, .json = call_flag(call, "--json") };
-	bool good;
+	const struct sink *out = &call->out;
 
-	if (list.json)
-		sink_text(&call->out, "{\"lines\": [");
-	good = hal_list(NULL, visit, &list, diags);
-	if (list.json) {
-		sink_text(&call->out, list.count ? "\n],\n" : "],\n");
-		sink_text(&call->out, "\"diagnostics\": ");
-		report_json_diags(diags, &call->out);
-		sink_text(&call->out, "}\n");
+	sink_text(out, "{");
+	if (picture->map) {
+		sink_text(out, "\"board\": ");
+		sink_json_text(out, picture->map->board);
+		sink_text(out, ", ");
+	}
+	sink_text(out, picture->map ? "\"points\": [" : "\"lines\": [");
+	for (int i = 0; i < picture_rows(picture); i++) {
+		sink_text(out, i ? ",\n  " : "\n  ");
+		picture_json(picture, i, out);
+	}
+	sink_text(out, picture_rows(picture) ? "\n],\n" : "],\n");
+	sink_text(out, "\"diagnostics\": ");
+	report_json_diags(diags, out);
+	sink_text(out, "}\n");
+}
+
+/* All lines, or those of a map with the names of a program. */
+static enum status show(struct call *call, struct picture *picture,
+			struct diag_list *diags)
+{
+	bool json = call_flag(call, "--json"), good;
+	enum status status = STATUS_NO;
+
+	if (call_flag(call, "--live") && !json && tty_is()) {
+		arena_init(&picture->arena);
+		status = picture_live(call, picture);
+		picture_free(picture);
+		return status;
+	}
+	good = picture_take(picture, diags);
+	if (json) {
+		json_picture(call, picture, diags);
 	} else {
 		report_diags(diags);
-		if (!list.count && good)
-			sink_printf(&call->out, "no GPIO lines here (libgpiod: %s)\n",
-				    gpio_version());
+		print_picture(call, picture);
+		if (!picture->map && !picture->count && good)
+			sink_printf(&call->out, "no GPIO lines here (libgpiod: "
+				    "%s)\n", gpio_version());
 	}
-	return good ? STATUS_GOOD : STATUS_NO;
+	if (good && picture_is_whole(picture))
+		status = STATUS_GOOD;
+	picture_free(picture);
+	return status;
 }
 
 static bool is_wrong(const struct diag_list *diags,
@@ -134,44 +139,84 @@ static void json_points(const struct call *call, const struct iomap *map,
 	sink_text(out, "}\n");
 }
 
-static enum status check_map(struct call *call, struct diag_list *diags)
+static enum status check_map(struct call *call, const struct iomap *map,
+			     struct diag_list *diags)
 {
-	struct arena arena, scratch;
+	struct arena scratch;
+	bool good;
+
+	arena_init(&scratch);
+	good = hal_supported(map, diags) && hal_check(map, &scratch, diags);
+	arena_free(&scratch);
+	if (call_flag(call, "--json")) {
+		json_points(call, map, diags);
+	} else {
+		report_diags(diags);
+		print_points(call, map, diags);
+	}
+	return good ? STATUS_GOOD : STATUS_NO;
+}
+
+/* The map's lines as they are now; --program names what they are called. */
+static enum status show_map(struct call *call, const struct iomap *map,
+			    struct diag_list *diags)
+{
+	const char *file = call_option(call, "--program");
+	struct picture picture = { .map = map };
+	struct machine machine = { 0 };
+	enum status status = STATUS_GOOD;
+
+	if (file)
+		status = machine_open(&machine, file);
+	if (status == STATUS_GOOD) {
+		if (file)
+			picture.program = ladder_program(machine.ladder);
+		status = show(call, &picture, diags);
+	}
+	if (file)
+		machine_close(&machine);
+	return status;
+}
+
+static enum status with_map(struct call *call, struct diag_list *diags)
+{
+	bool picture = call_option(call, "--program") ||
+		       call_flag(call, "--live");
 	struct iomap map = { .file = call->arg[0] };
+	enum status status = STATUS_NO;
+	struct arena arena;
 	size_t len;
 	char *text = report_read(call->arg[0], &len);
-	bool good = false;
 
 	if (!text)
 		return STATUS_WRONG;
 	arena_init(&arena);
-	arena_init(&scratch);
-	if (iomap_read(&map, &arena, call->arg[0], text, len, diags)) {
-		good = hal_supported(&map, diags);
-		good = good && hal_check(&map, &scratch, diags);
-	}
-	if (call_flag(call, "--json")) {
+	if (iomap_read(&map, &arena, call->arg[0], text, len, diags))
+		status = picture ? show_map(call, &map, diags) :
+				   check_map(call, &map, diags);
+	else if (call_flag(call, "--json"))
 		json_points(call, &map, diags);
-	} else {
+	else
 		report_diags(diags);
-		print_points(call, &map, diags);
-	}
-	arena_free(&scratch);
 	arena_free(&arena);
 	free(text);
-	return good ? STATUS_GOOD : STATUS_NO;
+	return status;
 }
 
 enum status cmd_io(struct call *call)
 {
-	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct diag_list *diags;
+	struct picture all = { .map = NULL };
 	enum status status;
 
+	if (!call->arg_count && call_option(call, "--program"))
+		return report_usage(call, "--program needs a MAP");
+	diags = calloc(1, sizeof(*diags));
 	if (!diags)
 		return report_no_memory("ladder io");
 	diag_init(diags);
-	status = call->arg_count ? check_map(call, diags) :
-				   list_lines(call, diags);
+	status = call->arg_count ? with_map(call, diags) :
+				   show(call, &all, diags);
 	free(diags);
 	return status;
 }

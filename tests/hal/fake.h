@@ -17,7 +17,7 @@
 
 struct fake_line {
 	const char *name, *owner; /* NULL: none                             */
-	bool used, output;
+	bool used, output, active_low;
 	int level;
 	char bias, drive;         /* - u d n, - o s                         */
 };

@@ -25,6 +25,7 @@ int __wrap_open64(const char *path, int flags, ...)
 	__attribute__((alias("__wrap_open"))); /* its name with 64-bit offsets */
 int __wrap_close(int fd);
 int __wrap_ioctl(int fd, unsigned long what, ...);
+int __real_ioctl(int fd, unsigned long what, ...);
 
 /* What a number stands for: a chip, or a request of its lines. */
 static struct opened {
@@ -106,7 +107,11 @@ static int line_about(const struct fake_chip *chip, struct gpio_v2_line_info *ou
 	copy_text(out->consumer, line->owner);
 	out->flags = (line->used ? GPIO_V2_LINE_FLAG_USED : 0) |
 		     (line->output ? GPIO_V2_LINE_FLAG_OUTPUT :
-				     GPIO_V2_LINE_FLAG_INPUT);
+				     GPIO_V2_LINE_FLAG_INPUT) |
+		     (line->active_low ? GPIO_V2_LINE_FLAG_ACTIVE_LOW : 0) |
+		     (line->bias == 'u' ? GPIO_V2_LINE_FLAG_BIAS_PULL_UP :
+		      line->bias == 'd' ? GPIO_V2_LINE_FLAG_BIAS_PULL_DOWN :
+		      line->bias == 'n' ? GPIO_V2_LINE_FLAG_BIAS_DISABLED : 0);
 	return 0;
 }
 
@@ -207,6 +212,8 @@ int __wrap_ioctl(int fd, unsigned long what, ...)
 		return get_values(at->request, about);
 	if (what == GPIO_V2_LINE_SET_VALUES_IOCTL && at->request)
 		return set_values(at->request, about);
+	if (fd < FAKE_FD)
+		return __real_ioctl(fd, what, about); /* a terminal */
 	errno = ENOTTY;
 	return -1;
 }

@@ -79,6 +79,26 @@ int gpiod_line_direction(struct gpiod_line *line)
 				    GPIOD_LINE_DIRECTION_INPUT;
 }
 
+int gpiod_line_active_state(struct gpiod_line *line)
+{
+	return seen(line)->active_low ? GPIOD_LINE_ACTIVE_STATE_LOW :
+					GPIOD_LINE_ACTIVE_STATE_HIGH;
+}
+
+int gpiod_line_bias(struct gpiod_line *line)
+{
+	switch (seen(line)->bias) {
+	case 'u':
+		return GPIOD_LINE_BIAS_PULL_UP;
+	case 'd':
+		return GPIOD_LINE_BIAS_PULL_DOWN;
+	case 'n':
+		return GPIOD_LINE_BIAS_DISABLE;
+	default:
+		return GPIOD_LINE_BIAS_AS_IS;
+	}
+}
+
 bool gpiod_line_is_used(struct gpiod_line *line)
 {
 	return seen(line)->used;

@@ -112,6 +112,25 @@ const char *gpiod_line_info_get_consumer(struct gpiod_line_info *info)
 	return info->line.owner;
 }
 
+bool gpiod_line_info_is_active_low(struct gpiod_line_info *info)
+{
+	return info->line.active_low;
+}
+
+enum gpiod_line_bias gpiod_line_info_get_bias(struct gpiod_line_info *info)
+{
+	switch (info->line.bias) {
+	case 'u':
+		return GPIOD_LINE_BIAS_PULL_UP;
+	case 'd':
+		return GPIOD_LINE_BIAS_PULL_DOWN;
+	case 'n':
+		return GPIOD_LINE_BIAS_DISABLED;
+	default:
+		return GPIOD_LINE_BIAS_UNKNOWN;
+	}
+}
+
 bool gpiod_line_info_is_used(struct gpiod_line_info *info)
 {
 	return info->line.used;

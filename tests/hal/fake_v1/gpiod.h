@@ -24,6 +24,13 @@ struct gpiod_line_request_config {
 };
 
 enum { GPIOD_LINE_DIRECTION_INPUT = 1, GPIOD_LINE_DIRECTION_OUTPUT };
+enum { GPIOD_LINE_ACTIVE_STATE_HIGH = 1, GPIOD_LINE_ACTIVE_STATE_LOW };
+enum {
+	GPIOD_LINE_BIAS_AS_IS = 1,
+	GPIOD_LINE_BIAS_DISABLE,
+	GPIOD_LINE_BIAS_PULL_UP,
+	GPIOD_LINE_BIAS_PULL_DOWN,
+};
 enum {
 	GPIOD_LINE_REQUEST_DIRECTION_INPUT = 11,
 	GPIOD_LINE_REQUEST_DIRECTION_OUTPUT,
@@ -46,6 +53,8 @@ struct gpiod_line *gpiod_chip_get_line(struct gpiod_chip *chip,
 const char *gpiod_line_name(struct gpiod_line *line);
 const char *gpiod_line_consumer(struct gpiod_line *line);
 int gpiod_line_direction(struct gpiod_line *line);
+int gpiod_line_active_state(struct gpiod_line *line);
+int gpiod_line_bias(struct gpiod_line *line);
 bool gpiod_line_is_used(struct gpiod_line *line);
 
 void gpiod_line_bulk_init(struct gpiod_line_bulk *bulk);

@@ -54,6 +54,8 @@ void gpiod_line_info_free(struct gpiod_line_info *info);
 const char *gpiod_line_info_get_name(struct gpiod_line_info *info);
 const char *gpiod_line_info_get_consumer(struct gpiod_line_info *info);
 bool gpiod_line_info_is_used(struct gpiod_line_info *info);
+bool gpiod_line_info_is_active_low(struct gpiod_line_info *info);
+enum gpiod_line_bias gpiod_line_info_get_bias(struct gpiod_line_info *info);
 enum gpiod_line_direction
 gpiod_line_info_get_direction(struct gpiod_line_info *info);
 

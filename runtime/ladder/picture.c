@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * picture - joins three things that know nothing of each other: what the kernel
+ * says of a line, the point of a map that means it, and the variable at that address.
+ */
+#define _XOPEN_SOURCE 700 /* readlink */
+#include "ladder/picture.h"
+
+#include "hal/hal.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool keep(struct picture *picture, const char **out, const char *text)
+{
+	*out = arena_copy(&picture->arena, text, strlen(text));
+	return *out != NULL;
+}
+
+static void add_line(void *context, const struct line_seen *seen)
+{
+	struct picture *picture = context;
+	struct picture_line *line =
+		arena_push(&picture->arena, &picture->line, &picture->count,
+			   sizeof(*line));
+
+	if (!line)
+		return;
+	line->offset = seen->offset;
+	line->used = seen->used;
+	line->output = seen->output;
+	line->active_low = seen->active_low;
+	line->bias = seen->bias;
+	line->level = LEVEL_UNKNOWN;
+	if (!keep(picture, &line->chip, seen->chip) ||
+	    !keep(picture, &line->label, seen->label) ||
+	    !keep(picture, &line->name, seen->name) ||
+	    !keep(picture, &line->owner, seen->owner))
+		picture->count--;
+}
+
+static void add_level(void *context, const char *chip, uint32_t offset,
+		      enum level level)
+{
+	struct picture *picture = context;
+
+	for (int i = 0; i < picture->count; i++)
+		if (picture->line[i].offset == offset &&
+		    !strcmp(picture->line[i].chip, chip))
+			picture->line[i].level = level;
+}
+
+bool picture_take(struct picture *picture, struct diag_list *diags)
+{
+	bool good;
+
+	arena_init(&picture->arena);
+	picture->line = NULL;
+	picture->count = 0;
+	good = hal_list(NULL, add_line, picture, diags);
+	picture->levels = levels_read(add_level, picture);
+	return good;
+}
+
+void picture_free(struct picture *picture)
+{
+	arena_free(&picture->arena);
+	picture->line = NULL;
+	picture->count = 0;
+}
+
+int picture_rows(const struct picture *picture)
+{
+	return picture->map ? picture->map->count : picture->count;
+}
+
+/* "gpiochip4" may be a link to another number, as on Raspberry Pi OS. */
+static bool is_chip(const char *wanted, const struct picture_line *line)
+{
+	const char *name = !strncmp(wanted, "/dev/", 5) ? wanted + 5 : wanted;
+	char path[80], target[80];
+	const char *last;
+	ssize_t len;
+
+	if (!strcmp(wanted, line->label) || !strcmp(name, line->chip))
+		return true;
+	if (strncmp(name, "gpiochip", 8) != 0)
+		return false;
+	snprintf(path, sizeof(path), "/dev/%.60s", name);
+	len = readlink(path, target, sizeof(target) - 1);
+	if (len < 0)
+		return false;
+	target[len] = '\0';
+	last = strrchr(target, '/');
+	return !strcmp(last ? last + 1 : target, line->chip);
+}
+
+static const struct io_point *point_of(const struct picture *picture, int row)
+{
+	return picture->map ? &picture->map->point[row] : NULL;
+}
+
+/* NULL: this machine has no such line, or the point is a simulated one. */
+static const struct picture_line *line_of(const struct picture *picture,
+					  int row)
+{
+	const struct io_point *point = point_of(picture, row);
+
+	if (!point)
+		return &picture->line[row];
+	if (!driver_row(point->driver)->needs_line)
+		return NULL;
+	for (int i = 0; i < picture->count; i++) {
+		const struct picture_line *line = &picture->line[i];
+
+		if (point->line ? !strcmp(point->line, line->name) :
+				  point->offset == line->offset &&
+					  is_chip(point->chip, line))
+			return line;
+	}
+	return NULL;
+}
+
+bool picture_is_whole(const struct picture *picture)
+{
+	for (int i = 0; picture->map && i < picture->map->count; i++)
+		if (driver_row(picture->map->point[i].driver)->needs_line &&
+		    !line_of(picture, i))
+			return false;
+	return true;
+}
+
+enum level picture_level(const struct picture *picture, int row)
+{
+	const struct picture_line *line = line_of(picture, row);
+
+	return line ? line->level : LEVEL_UNKNOWN;
+}
+
+/* What the program calls an address; "" if it has no name for it. */
+static const char *variable_at(const struct picture *picture,
+			       struct iec_addr addr)
+{
+	struct declared_cursor cursor = { 0 };
+	struct declared_name name;
+
+	while (picture->program &&
+	       image_next_declared(picture->program, &cursor, &name))
+		if (name.at.type == IEC_BOOL && name.at.area == addr.area &&
+		    name.at.where == addr.byte * 8 + addr.bit)
+			return name.name;
+	return "";
+}
+
+static const char *bias_word(enum io_bias bias)
+{
+	static const char *const word[] = {
+		[BIAS_AS_IS] = "", [BIAS_NONE] = "no-pull",
+		[BIAS_UP] = "pull-up", [BIAS_DOWN] = "pull-down",
+	};
+
+	return word[bias];
+}
+
+static const char *owner_of(const struct picture_line *line)
+{
+	return !line->used ? "free" : *line->owner ? line->owner : "in use";
+}
+
+/* One of a table: at least @width columns, and a blank. */
+static void cell(const struct sink *out, const char *text, int width)
+{
+	sink_text(out, *text ? text : "-");
+	sink_repeat(out, " ", width - (int)(*text ? strlen(text) : 1));
+	sink_text(out, " ");
+}
+
+static void line_cells(const struct picture_line *line, const struct sink *out)
+{
+	static const char *const level[] = {
+		[LEVEL_UNKNOWN] = "", [LEVEL_LOW] = "low",
+		[LEVEL_HIGH] = "high",
+	};
+	char text[40];
+
+	cell(out, line->chip, 10);
+	snprintf(text, sizeof(text), "%4u", (unsigned)line->offset);
+	cell(out, text, 6);
+	cell(out, line->output ? "output" : "input", 6);
+	cell(out, level[line->level], 5);
+	snprintf(text, sizeof(text), "%s%s%s", bias_word(line->bias),
+		 line->active_low && line->bias ? " " : "",
+		 line->active_low ? "active-low" : "");
+	cell(out, text, 10);
+	sink_text(out, owner_of(line));
+}
+
+void picture_head(const struct picture *picture, const struct sink *out)
+{
+	if (picture->map) {
+		cell(out, "address", 8);
+		cell(out, "variable", 16);
+		cell(out, "line", 20);
+	} else {
+		cell(out, "line", 24);
+		cell(out, "label", 20);
+	}
+	sink_text(out, "chip       offset now    level bias       owner");
+}
+
+void picture_row(const struct picture *picture, int row,
+		 const struct sink *out)
+{
+	const struct io_point *point = point_of(picture, row);
+	const struct picture_line *line = line_of(picture, row);
+	char text[80];
+
+	if (!point) {
+		cell(out, line->name, 24);
+		cell(out, line->label, 20);
+		line_cells(line, out);
+		return;
+	}
+	iec_addr_print(point->addr, text, sizeof(text));
+	cell(out, text, 8);
+	cell(out, variable_at(picture, point->addr), 16);
+	io_line_print(point, text, sizeof(text));
+	cell(out, point->line || point->chip ? text : "", 20);
+	if (line)
+		line_cells(line, out);
+	else
+		sink_text(out, driver_row(point->driver)->needs_line ?
+				       "not on this machine" : "simulated");
+}
+
+static void json_text(const char *name, const char *text,
+		      const struct sink *out)
+{
+	sink_printf(out, ", \"%s\": ", name);
+	sink_json_text(out, text);
+}
+
+static void json_line(const struct picture_line *line, const struct sink *out)
+{
+	sink_text(out, "\"chip\": ");
+	sink_json_text(out, line->chip);
+	json_text("label", line->label, out);
+	sink_printf(out, ", \"offset\": %u", (unsigned)line->offset);
+	json_text("name", line->name, out);
+	json_text("owner", line->owner, out);
+	sink_printf(out, ", \"used\": %s, \"output\": %s, \"active_low\": %s",
+		    line->used ? "true" : "false",
+		    line->output ? "true" : "false",
+		    line->active_low ? "true" : "false");
+	json_text("bias", line->bias == BIAS_AS_IS ? NULL :
+						     bias_word(line->bias), out);
+	sink_printf(out, ", \"level\": %s",
+		    line->level == LEVEL_UNKNOWN ? "null" :
+		    line->level == LEVEL_HIGH ? "1" : "0");
+}
+
+void picture_json(const struct picture *picture, int row,
+		  const struct sink *out)
+{
+	const struct io_point *point = point_of(picture, row);
+	const struct picture_line *line = line_of(picture, row);
+	const char *variable;
+	char text[80];
+
+	sink_text(out, "{");
+	if (point) {
+		variable = variable_at(picture, point->addr);
+		iec_addr_print(point->addr, text, sizeof(text));
+		sink_text(out, "\"address\": ");
+		sink_json_text(out, text);
+		json_text("variable", *variable ? variable : NULL, out);
+		json_text("driver", driver_row(point->driver)->word, out);
+		io_line_print(point, text, sizeof(text));
+		json_text("line", text, out);
+		sink_text(out, ", \"here\": ");
+	}
+	if (point && !line)
+		sink_text(out, "null");
+	else if (point)
+		sink_text(out, "{");
+	if (line)
+		json_line(line, out);
+	sink_text(out, point && line ? "}}" : "}");
+}

@@ -1,0 +1,155 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# io.t - what `ladder io` shows, over fake chips and each gpio driver: every line
+# with its owner, pull and level, the names of a program beside them, and the live
+# view. It takes no line, whatever it is asked.
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Temp qw(tempdir);
+use JSON::PP;
+use Test::More;
+
+my $build = abs_path($ENV{BUILD} // 'build');
+my $dir = tempdir(CLEANUP => 1);
+chdir $dir or die;
+delete @ENV{grep { /^FAKE_/ } keys %ENV};
+mkdir 'dev';
+sub put { my ($name, $text) = @_; open my $f, '>', $name or die; print $f $text; close $f }
+sub get { my ($name) = @_; open my $f, '<', $name or die; local $/; my $text = <$f>; return $text // '' }
+put("dev/gpiochip$_", '') for 0, 1;
+$ENV{FAKE_DEV} = "$dir/dev";
+$ENV{FAKE_TAKEN} = "$dir/taken";
+
+put('lamp.rung', <<'END');
+RUNGBOARD 1
+PROJECT "Lamp"
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Stop  AT %IX0.1 : BOOL;
+  Lamp  AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | NC Stop | COIL Lamp |
+END_PROGRAM
+END
+put('panel.io', <<'END');
+BOARD "panel"
+%IX0.0 gpio line=IN0
+%IX0.1 gpio line=IN1
+%IX0.2 sim
+%QX0.0 gpio chip=panel offset=2
+%QX0.1 gpio chip=gpiochip0 offset=3
+END
+put('other.io', "BOARD \"other\"\n%IX0.0 gpio line=IN0\n%IX0.1 gpio line=NOWHERE\n");
+put('levels', <<'END');
+gpiochip0: GPIOs 512-515, parent: platform/panel, panel:
+ gpio-512 (IN0                 |ladderd             ) in  hi
+ gpio-513 (IN1 (spare)         |ladderd             ) in  lo ACTIVE LOW
+ gpio-514 (OUT0                |ladderd             ) out hi
+ gpio-511 (                    |nobody              ) in  hi
+
+gpiochip1: GPIOs nonsense
+ gpio-600 (                    |kernel              ) in  hi
+END
+
+my $ladder;
+# Exit status, standard output, standard error.
+sub io {
+	my (@args) = @_;
+	my $pid = fork // die;
+	if (!$pid) {
+		open STDIN, '<', '/dev/null'; open STDOUT, '>', '.out'; open STDERR, '>', '.err';
+		exec $ladder, 'io', @args or die;
+	}
+	local $SIG{ALRM} = sub { kill 9, $pid };
+	alarm 20; waitpid $pid, 0; my $status = $?; alarm 0;
+	return ($status & 127 ? "signal $status" : $status >> 8, get('.out'), get('.err'));
+}
+sub fields { return map { [split ' '] } split /\n/, $_[0] }
+
+for my $kind (qw(v1 v2 uapi)) {
+	$ladder = "$build/tests/hal/ladder_$kind";
+	SKIP: {
+	-x $ladder or skip "$ladder was not built", 1;
+
+	# ---- nobody has a line ----
+	unlink 'taken';
+	delete @ENV{qw(FAKE_LEVELS FAKE_DENIED)};
+	my ($status, $out, $err) = io();
+	is("$status$err", '0', "$kind: all lines: good");
+	my @rows = fields($out);
+	is(scalar @rows, 7, "$kind: all lines, below one line of words");
+	is_deeply($rows[1], [qw(IN0 panel gpiochip0 0 input - - free)], "$kind: a free line");
+	is_deeply([@{$rows[5]}[0 .. 5, 7, 8]], ['-', qw(rest gpiochip1 0 input -), 'in', 'use'], "$kind: a line without a name, in use by a nameless one");
+	($status, $out) = io('panel.io');
+	like("$status $out", qr/\A0 %IX0\.0 +gpio +IN0 +input +good\n.*good\n\z/ms, "$kind: the map fits");
+
+	# ---- ladderd has them ----
+	put('taken', '');
+	$ENV{FAKE_LEVELS} = "$dir/levels";
+	($status, $out, $err) = io('panel.io');
+	is($status, 1, "$kind: as a check, lines in use are wrong");
+	like($err, qr/error LD510: .*ladderd/, "$kind: and by whom");
+	($status, $out, $err) = io('panel.io', '--program', 'lamp.rung');
+	is("$status$err", '0', "$kind: as a picture, they are good");
+	@rows = fields($out);
+	is_deeply(\@rows, [
+		[qw(address variable line chip offset now level bias owner)],
+		[qw(%IX0.0 Start IN0 gpiochip0 0 input high pull-up ladderd)],
+		[qw(%IX0.1 Stop IN1 gpiochip0 1 input low pull-down active-low ladderd)],
+		[qw(%IX0.2 - - simulated)],
+		[qw(%QX0.0 Lamp panel 2 gpiochip0 2 output high - ladderd)],
+		[qw(%QX0.1 - gpiochip0 3 gpiochip0 3 input - - free)],
+	], "$kind: address, variable, line, chip, direction, level, pull, owner") or diag($out);
+	($status, $out, $err) = io('--live', 'panel.io');
+	@rows = fields($out);
+	is("$status @{$rows[1]}[0 .. 2]", '0 %IX0.0 - IN0', "$kind: --live in a pipe prints once");
+	($status, $out) = io('--json', 'panel.io', '--program', 'lamp.rung');
+	my $json = decode_json($out);
+	is($status, 0, "$kind: as JSON");
+	is_deeply($json->{points}[1], { address => '%IX0.1', variable => 'Stop', driver => 'gpio', line => 'IN1',
+		here => { chip => 'gpiochip0', label => 'panel', offset => 1, name => 'IN1', owner => 'ladderd', used => JSON::PP::true,
+			  output => JSON::PP::false, active_low => JSON::PP::true, bias => 'pull-down', level => 0 } }, "$kind: JSON of a line");
+	is($json->{points}[2]{here}, undef, "$kind: JSON of a simulated line");
+	($status, $out) = io('--json');
+	$json = decode_json($out);
+	is_deeply([map { $_->{level} } @{$json->{lines}}], [1, 0, 1, undef, undef, undef], "$kind: a level is only what the kernel said");
+
+	# ---- what is not there, not allowed, not good ----
+	($status, $out, $err) = io('other.io', '--program', 'lamp.rung');
+	is($status, 1, "$kind: a map of another board");
+	like($out, qr/^%IX0\.1 +Stop +NOWHERE +not on this machine$/m, "$kind: its line is named");
+	$ENV{FAKE_DENIED} = 1;
+	($status, $out, $err) = io();
+	is($status, 1, "$kind: a chip that may not be opened");
+	like($err, qr/error LD511: /, "$kind: says so");
+	like($out, qr/^OUT1 /m, "$kind: the rest is shown");
+	delete $ENV{FAKE_DENIED};
+	is((io('--program', 'lamp.rung'))[0], 2, "$kind: a program without a map");
+	is((io('panel.io', '--program', 'nothing'))[0], 2, "$kind: no such program");
+	put('bad.rung', get('lamp.rung') =~ s/NC Stop/NC Stopp/r);
+	($status, $out, $err) = io('panel.io', '--program', 'bad.rung');
+	is("$status$out", '1', "$kind: a bad program");
+	like($err, qr/LD301/, "$kind: its error");
+
+	# ---- live ----
+	SKIP: {
+		skip 'no script(1) to make a terminal', 4 unless grep { -x "$_/script" } split /:/, $ENV{PATH};
+		unlink 'taken';
+		my $screen = `(sleep 1; touch taken; sleep 1.5; printf q; sleep 1) | NO_COLOR=1 TERM=xterm LC_ALL=C script -qec 'stty cols 100 rows 12; \Q$ladder\E io panel.io --program lamp.rung --live' /dev/null`;
+		is($? >> 8, 0, "$kind: live ends well with q");
+		like($screen, qr/Rungboard panel .*Start +IN0 +gpiochip0 +0 +input.* free.*Start +IN0 +gpiochip0 +0 +input +high +pull-up +ladderd/s,
+		     "$kind: live shows that somebody took the line");
+		$screen = `(sleep 0.7; printf ' '; sleep 0.7; printf q; sleep 1) | NO_COLOR=1 TERM=xterm LC_ALL=C script -qec 'stty cols 100 rows 6; \Q$ladder\E io --live' /dev/null`;
+		like($screen, qr/1 to 3 of 6; space: next page.*4 to 6 of 6/s, "$kind: live turns pages");
+		unlike($screen, qr/levels: only root/, "$kind: live says nothing of levels when they are known");
+	}
+	}
+}
+chdir '/';
+done_testing();
