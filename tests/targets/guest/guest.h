@@ -62,4 +62,5 @@ void test_faults(void);
 void test_calls(void);
 void test_steady(void);
 void test_bad_input(void);
+void test_memory(void);
 #endif
