@@ -57,6 +57,8 @@ static uint64_t debounce(struct hal_request *request, uint64_t level,
 		}
 		if (changed & mask && now_ns - request->differs_ns[i] < wait_ns)
 			level ^= mask;
+		else
+			request->differs &= ~mask;
 		if (i == REQUEST_LINES - 1)
 			break;
 	}

@@ -281,6 +281,11 @@ static void test_debounce(void)
 	CHECK_AS(input(&b, 0), "a bounce starts the time again");
 	scan(&b, 112 * MS);
 	CHECK_AS(!input(&b, 0), "exactly 5 ms are enough");
+	*key = 1;
+	scan(&b, 113 * MS);
+	CHECK_AS(!input(&b, 0), "a change right behind one has its own time");
+	scan(&b, 118 * MS);
+	CHECK_AS(input(&b, 0), "and counts after it");
 	bench_end(&b);
 }
 
