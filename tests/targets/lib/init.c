@@ -4,7 +4,8 @@
  * test needs, loads /modules in the order of their names, runs the commands in /cmd
  * one after the other and switches the machine off. In /cmd each argument ends with
  * NUL and each command with an empty argument. What a command prints stands between
- * a line "BEGIN command" and a line "RC=status"; "END" comes last.
+ * a line "BEGIN command" and a line "RC=status"; "END" comes last. A key on the
+ * console ends the command that runs, with SIGTERM.
  *
  * It never forks (no-MMU) and knows nothing of the tests.
  */
@@ -12,6 +13,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
 #include <string.h>
@@ -65,15 +67,29 @@ static void load_modules(void)
 	}
 }
 
-/* Output without CR. */
+static volatile sig_atomic_t running;
+
+static void on_key(int number)
+{
+	(void)number;
+	if (running > 0)
+		kill(running, SIGTERM);
+}
+
+/* Output without CR; a signal for each key. */
 static void set_terminal(void)
 {
 	struct termios terminal;
+	struct sigaction key = { .sa_handler = on_key };
 
 	if (!tcgetattr(1, &terminal)) {
 		terminal.c_oflag &= ~(tcflag_t)OPOST;
+		terminal.c_lflag &= ~(tcflag_t)(ICANON | ECHO);
 		tcsetattr(1, TCSANOW, &terminal);
 	}
+	sigaction(SIGIO, &key, NULL);
+	fcntl(0, F_SETOWN, getpid());
+	fcntl(0, F_SETFL, O_RDWR | O_ASYNC);
 }
 
 static int run(char **argv)
@@ -87,10 +103,13 @@ static int run(char **argv)
 		dprintf(1, "# init: %s: %s\n", argv[0], strerror(wrong));
 		return 127;
 	}
+	running = child;
 	/* Orphans come here, too. */
 	do
 		gone = wait(&status);
 	while (gone != child && (gone >= 0 || errno == EINTR));
+	running = 0;
+	tcflush(0, TCIFLUSH);
 	return WIFSIGNALED(status) ? 128 + WTERMSIG(status)
 				   : WEXITSTATUS(status);
 }
