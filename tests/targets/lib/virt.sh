@@ -15,7 +15,7 @@ virt() {
 	programs CROSS="$triplet-" -- uapi gpiod1 gpiod2
 	disk "$triplet-gcc" "$out/build/guest" "$out/build/replay" "$out"/ladderd-* "$BUILD/cases"
 	cp -r "$cache/stock-$1/sim" "$root/modules"
-	guest_runs /guest --longest "$longest" /cases /ladderd-uapi /ladderd-gpiod1 /ladderd-gpiod2
+	guest_runs /guest /cases /ladderd-uapi /ladderd-gpiod1 /ladderd-gpiod2
 	guest_runs /replay /cases/programs.bundle
 	disk_close
 	boot $5 -M virt -m 256 -nographic -nodefaults -no-reboot -serial stdio -monitor none \
