@@ -64,14 +64,9 @@ static char *read_all(int fd, size_t limit, size_t room, size_t *len)
 	return bytes;
 }
 
-/* One byte more than the file has, to see its end without asking for more. */
-static size_t room_for(const struct stat *status, size_t limit)
+static bool is_over(const struct stat *status, size_t limit)
 {
-	if (status->st_size <= 0)
-		return 4096;
-	if ((uintmax_t)status->st_size > limit)
-		return limit + 1;
-	return (size_t)status->st_size + 1;
+	return status->st_size > 0 && (uintmax_t)status->st_size > limit;
 }
 
 char *file_read(const char *path, size_t limit, size_t *len,
@@ -88,7 +83,13 @@ char *file_read(const char *path, size_t limit, size_t *len,
 		close(fd);
 		return fail(diags, DIAG_NOT_A_FILE, path, 0);
 	}
-	bytes = read_all(fd, limit, room_for(&status, limit), len);
+	if (is_over(&status, limit)) { /* told before memory is asked for */
+		close(fd);
+		return fail(diags, DIAG_TOO_LARGE, path, 0);
+	}
+	/* One byte more than it has, to see its end without asking for more. */
+	bytes = read_all(fd, limit, status.st_size > 0 ?
+			 (size_t)status.st_size + 1 : 4096, len);
 	error = errno;
 	close(fd);
 	if (!bytes)
