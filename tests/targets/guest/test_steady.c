@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_steady - 10,000 scans of 1 ms: no page fault once it is warm, and no
- * memory more. Times are shown and never judged.
+ * memory more. Times are shown beside those of cyclictest, where the vehicle has
+ * brought it along, and never judged.
  */
 #include "tests/targets/guest/panel.h"
 
@@ -10,6 +11,7 @@
 #include <string.h>
 
 #define SCANS 10000
+#define CYCLICTEST "/cyclictest"
 
 struct memory {
 	unsigned long faults; /* minor and major                             */
@@ -93,6 +95,47 @@ static void run_for(struct child *child)
 	show(status, "late: ");
 }
 
+/* The wait that @share of the wake-ups of a histogram `MICROSECONDS COUNT` did not
+ * pass; -1: longer than it goes. */
+static long within(const char *lines, long all, double share)
+{
+	long sum = 0, wait = -1;
+
+	for (; *lines; lines += strcspn(lines, "\n"), lines += *lines == '\n') {
+		char *count;
+
+		if (*lines < '0' || *lines > '9')
+			continue;
+		wait = strtol(lines, &count, 10);
+		sum += strtol(count, NULL, 10);
+		if ((double)sum >= share * (double)all)
+			return wait;
+	}
+	return -1;
+}
+
+/* The same period and the same kind of priority as ladderd had. */
+static void beside_cyclictest(void)
+{
+	static const char *const argv[] = {
+		CYCLICTEST, "-q", "-t", "1", "-i", "1000", "-l", "5000", "-h",
+		"800", NULL
+	};
+	struct child child;
+	const char *said;
+
+	if (!file_is_there(CYCLICTEST)) {
+		note("no cyclictest here to compare with");
+		return;
+	}
+	child_start(&child, 1, argv);
+	check(child_end(&child) == 0, "cyclictest of the same guest ran");
+	said = child_out(&child);
+	note("cyclictest: wake-up p50 %ld us, p99 %ld us, p99.9 %ld us "
+	     "(-1: over 800)", within(said, 5000, 0.5),
+	     within(said, 5000, 0.99), within(said, 5000, 0.999));
+}
+
 void test_steady(void)
 {
 	struct child child;
@@ -103,5 +146,6 @@ void test_steady(void)
 	if (check(child_ready() != 0, "runs"))
 		run_for(&child);
 	check(child_stop(&child) == 0, "ends");
+	beside_cyclictest();
 	panel_down();
 }
