@@ -12,14 +12,14 @@ log=$out/build.log
 jobs=$(nproc)
 : >"$log"
 
-# once NAME BUILDER [ARGUMENT|FILE]... : the product NAME by BUILDER, whose arguments and
-# own text, and the files among its arguments, are the recipe.
+# once NAME BUILDER [ARGUMENT|FILE]... : the product NAME by BUILDER. Its arguments, the
+# files among them, its own text and that of BUILDER_* are the recipe.
 once() {
 	product=$1 builder=$2
 	shift 2
 	recipe=$({
 		echo "$@"
-		sed -n "/^$builder() {/,/^}/p" "$here/build.sh" "$here/../$vehicle"
+		sed -n "/^$builder\(_[a-z_]*\)\{0,1\}() {/,/^}/p" "$here/build.sh"
 		for part in "$@"; do [ ! -f "$part" ] || cat "$part"; done
 	} | sha256sum | cut -c 1-32)
 	is_built && return
@@ -99,8 +99,8 @@ gpiod() {
 		"$dest/usr/lib/$2"/pkgconfig/*.pc
 }
 
-# kernel_source : one tree for all; large drivers that none of them can use stay out.
-kernel_source() {
+# linux_source : one tree for all; large drivers that none of them can use stay out.
+linux_source() {
 	debs amd64 bookworm-backports "$dest/deb" linux-source-6.12 || return
 	[ ! -s "$dest/.lacking" ] || return 0
 	tar -xJf "$dest"/deb/usr/src/linux-source-6.12.tar.xz -C "$dest" --strip-components=1 \
@@ -130,7 +130,7 @@ kernel() {
 # what a build of a kernel needs here
 # shellcheck disable=SC2034
 KERNEL_NEEDS='gcc=gcc make=make flex=flex bison=bison bc=bc xz=xz-utils perl=perl
-	apt-get=apt dpkg=dpkg flock=util-linux cpio=cpio gzip=gzip
+	apt-get=apt dpkg=dpkg flock=util-linux timeout=coreutils cpio=cpio gzip=gzip
 	/usr/share/keyrings/debian-archive-keyring.gpg=debian-archive-keyring'
 
 # stock ARCH FLAVOUR KARCH CROSS : Debian's own kernel, unchanged: vmlinuz, the modules of
@@ -178,6 +178,9 @@ stock_gpio_sim() { # ABI BASE KARCH CROSS
 		ln -sfn "$PWD/usr/lib/linux-kbuild-6.1/$folder" "$headers/$folder"
 		ln -sfn "$PWD/usr/lib/linux-kbuild-6.1/$folder" "usr/src/linux-headers-$2-common/$folder"
 	done
+	# Its gpio-sim takes an open drain that lets go for an output still; later kernels
+	# look at the direction of the line, as is done here.
+	sed -i 's/!test_bit(FLAG_IS_OUT, &desc->flags)/test_bit(offset, chip->direction_map)/' sim/gpio-sim.c
 	# A module that is loaded by hand needs no alias table, and modpost of 64 bits
 	# takes the one of 32 for wrong.
 	sed -i '/^MODULE_DEVICE_TABLE/d' sim/gpio-sim.c
@@ -259,7 +262,7 @@ programs() {
 	done
 	(
 		flock 9
-		make -s BUILD="$BUILD" cases 9>&-
+		make -s BUILD="$BUILD" cases
 	) 9>"$BUILD/targets/cases.lock" >>"$log" 2>&1 || broken "the cases could not be made" "$log"
 }
 make_programs() { # HAL PROGRAM...

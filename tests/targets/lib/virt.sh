@@ -18,8 +18,9 @@ virt() {
 	guest_runs /guest /cases /ladderd-uapi /ladderd-gpiod1 /ladderd-gpiod2
 	guest_runs /replay /cases/programs.bundle
 	disk_close
+	# Without the machine's own gpio chip: the suite's are the first and only ones.
 	boot $5 -M virt -m 256 -nographic -nodefaults -no-reboot -serial stdio -monitor none \
 		-icount shift=0,sleep=off -kernel "$cache/stock-$1/vmlinuz" -initrd "$out/initrd" \
-		-append "console=ttyAMA0 quiet loglevel=1 panic=-1"
+		-append "console=ttyAMA0 quiet loglevel=1 panic=-1 initcall_blacklist=pl061_gpio_driver_init"
 	guest_said
 }
