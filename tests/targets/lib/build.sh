@@ -288,6 +288,18 @@ disk() {
 	shift
 	cp -r "$@" "$root/"
 }
+# cyclictest ARCH TRIPLET : the program and what it is linked with, as a guest has them.
+cyclictest() {
+	debs "$1" bookworm "$dest/tree" rt-tests libc6 libnuma1 || return
+	[ ! -s "$dest/.lacking" ] || return 0
+	tree=$dest/tree
+	mkdir -p "$dest/guest/lib"
+	cp "$tree/usr/bin/cyclictest" "$dest/guest" &&
+		cp -L "$tree/lib/$2"/libc.so.6 "$tree/lib/$2"/librt.so.1 "$tree/lib/$2"/libpthread.so.0 \
+			"$tree/usr/lib/$2"/libnuma.so.1 "$tree/lib/$2"/ld-linux* "$dest/guest/lib/" || return
+	ln -s lib "$dest/guest/lib64"
+	rm -r "$tree"
+}
 guest_runs() {
 	printf '%s\0' "$@" '' >>"$root/cmd"
 }
