@@ -260,9 +260,11 @@ $(CASES)/stamp: $(BUILD)/make_cases $(BUILD)/ladder $(wildcard ladders/*.rung la
 # ---- targets: the runtime on real kernels, in emulators ----
 # tests/targets/ has a script for each; a missing package is told, not passed over.
 VEHICLES  ?= uml arm64 armhf ast2600 m3 riscv
-check-targets: ## the guest suite on emulated boards: VEHICLES="uml arm64 armhf ast2600 m3 riscv"
+AT_ONCE   ?= 1
+check-targets: ## the guest suite on emulated boards: VEHICLES="uml arm64 armhf ast2600 m3 riscv" AT_ONCE=1
 	@rm -f $(VEHICLES:%=$(BUILD)/targets/%/result); status=0; \
-	  BUILD=$(BUILD) prove -v -e '' $(VEHICLES:%=tests/targets/%) || status=$$?; \
+	  BUILD=$(BUILD) prove $(if $(filter 1,$(AT_ONCE)),-v) -j$(AT_ONCE) -e '' $(VEHICLES:%=tests/targets/%) || status=$$?; \
+	  [ $$status -eq 0 ] || grep -a '^not ok' $(VEHICLES:%=$(BUILD)/targets/%/console) /dev/null; \
 	  cat $(VEHICLES:%=$(BUILD)/targets/%/result); exit $$status
 sizes: ## how large the runtime is for small boards, and what each room costs
 	@BUILD=$(BUILD) tests/targets/sizes
