@@ -4,7 +4,8 @@
  *   gpiochip0: GPIOs 512-565, parent: platform/…
  * and below it a line that somebody has, with the number of the chip's first added,
  *    gpio-529 (GPIO17              |ladderd             ) in  hi ACTIVE LOW
- * Newer kernels count from 0 (`gpiochip0: 54 GPIOs, …`). Anything else is passed over.
+ * A driver may have words of its own for it, and tell no level of an input. Newer
+ * kernels count from 0 (`gpiochip0: 54 GPIOs, …`). Anything else is passed over.
  */
 #include "ladder/levels.h"
 
@@ -64,7 +65,9 @@ static enum level read_level(const char *line)
 		return LEVEL_UNKNOWN;
 	at++;
 	at += strspn(at, " ");
-	if (!strncmp(at, "in ", 3) || !strncmp(at, "out ", 4))
+	if (!strncmp(at, "output-", 7)) /* gpio-sim says it so            */
+		at += 7;
+	else if (!strncmp(at, "in ", 3) || !strncmp(at, "out ", 4))
 		at += strcspn(at, " ");
 	else
 		return LEVEL_UNKNOWN;

@@ -219,7 +219,7 @@ static int held(char **command)
 
 static int usage(void)
 {
-	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..9] "
+	fprintf(stderr, "usage: guest [--tier full|small] [--only 1..10] "
 		"[--longest S] [--flips N] [--work DIR] CASES LADDERD...\n");
 	return 2;
 }
@@ -263,6 +263,7 @@ static const struct {
 	{ 6, "10,000 scans at 1 ms", test_steady },
 	{ 8, "bad input", test_bad_input },
 	{ 9, "memory of 1,000 rungs", test_memory },
+	{ 10, "what ladder io shows", test_picture },
 };
 
 static void run_all(const char *ladderd)

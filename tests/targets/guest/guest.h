@@ -63,4 +63,5 @@ void test_calls(void);
 void test_steady(void);
 void test_bad_input(void);
 void test_memory(void);
+void test_picture(void);
 #endif

@@ -265,6 +265,12 @@ programs() {
 		make -s BUILD="$BUILD" cases
 	) 9>"$BUILD/targets/cases.lock" >>"$log" 2>&1 || broken "the cases could not be made" "$log"
 }
+# The command line beside them, for `ladder io`.
+command_line() {
+	rm -rf "$build/hal"
+	make_programs uapi ladder
+	mv "$build/ladder" "$out/ladder"
+}
 make_programs() { # HAL PROGRAM...
 	hal=$1
 	shift
