@@ -11,9 +11,12 @@ virt() {
 	once "stock-$1" stock "$1" "$2" "$3" "$4-"
 	once "gpiod1-$1" gpiod "$1" "$triplet" bookworm
 	once "gpiod2-$1" gpiod "$1" "$triplet" bookworm-backports
+	once "cyclictest-$1" cyclictest "$1" "$triplet"
 
 	programs CROSS="$triplet-" -- uapi gpiod1 gpiod2
-	disk "$triplet-gcc" "$out/build/guest" "$out/build/replay" "$out"/ladderd-* "$BUILD/cases"
+	command_line
+	disk "$triplet-gcc" "$out/build/guest" "$out/build/replay" "$out/ladder" "$out"/ladderd-* \
+		"$BUILD/cases" "$cache/cyclictest-$1/guest"/*
 	cp -r "$cache/stock-$1/sim" "$root/modules"
 	guest_runs /guest /cases /ladderd-uapi /ladderd-gpiod1 /ladderd-gpiod2
 	guest_runs /replay /cases/programs.bundle
