@@ -262,7 +262,8 @@ programs() {
 	done
 	(
 		flock 9
-		make -s BUILD="$BUILD" cases
+		rm -rf "$out/cases"
+		make -s BUILD="$BUILD" cases && cp -r "$BUILD/cases" "$out/cases"
 	) 9>"$BUILD/targets/cases.lock" >>"$log" 2>&1 || broken "the cases could not be made" "$log"
 }
 # The command line beside them, for `ladder io`.
@@ -315,11 +316,11 @@ disk_close() {
 
 # Two disks for a small machine: the suite, and what replays the random programs.
 suite() { # CC
-	disk "$1" "$out/build/guest" "$out"/ladderd-* "$BUILD/cases"
+	disk "$1" "$out/build/guest" "$out"/ladderd-* "$out/cases"
 	rm "$root/cases/programs.bundle"
 	guest_runs /guest --tier small /cases /ladderd-uapi
 }
 replay() { # CC
-	disk "$1" "$out/build/replay" "$BUILD/cases/programs.bundle"
+	disk "$1" "$out/build/replay" "$out/cases/programs.bundle"
 	guest_runs /replay /programs.bundle
 }

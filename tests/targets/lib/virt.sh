@@ -16,7 +16,7 @@ virt() {
 	programs CROSS="$triplet-" -- uapi gpiod1 gpiod2
 	command_line
 	disk "$triplet-gcc" "$out/build/guest" "$out/build/replay" "$out/ladder" "$out"/ladderd-* \
-		"$BUILD/cases" "$cache/cyclictest-$1/guest"/*
+		"$out/cases" "$cache/cyclictest-$1/guest"/*
 	cp -r "$cache/stock-$1/sim" "$root/modules"
 	guest_runs /guest /cases /ladderd-uapi /ladderd-gpiod1 /ladderd-gpiod2
 	guest_runs /replay /cases/programs.bundle

@@ -4,7 +4,8 @@
 # sample of ladders/ that uses only bits, the suite's own programs, maps, images
 # that are wrong, and the bundle of random programs.
 set -eu
-build=$1 cases=$2 programs=$3
+build=$1 done=$2 programs=$3
+cases=$done.new # renamed at the end: nobody sees half of it
 guest=tests/targets/guest
 rm -rf "$cases"
 mkdir -p "$cases"
@@ -41,3 +42,5 @@ perl tests/bench/programs.pl seal 1000 >"$cases/thousand.rung"
 cp "$guest"/programs/*.io "$cases"
 "$build/make_cases" bad "$cases" "$cases/panel.rungc"
 "$build/make_cases" bundle "$cases/programs.bundle" "$programs" 1
+rm -rf "$done"
+mv "$cases" "$done"
