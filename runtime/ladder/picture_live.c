@@ -48,7 +48,7 @@ static void put_foot(struct view *view, int rows, int shown)
 			   "  a chip cannot be read: see `ladder io`");
 	else if (!view->picture->levels)
 		screen_put(&view->screen, STYLE_DIM,
-			   "  levels: only root may see them");
+			   "  levels: not told here (they need root and debugfs)");
 }
 
 static bool draw(struct view *view)
