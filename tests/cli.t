@@ -397,7 +397,7 @@ SKIP: {
 	my $moving = 'AVeryLongNameForAMotorInTheBasement';
 	put('loop.rung', "RUNGBOARD 1\nVAR\n  $moving : BOOL;\nEND_VAR\nPROGRAM Main LD\nRUNG L\n  | NO I0 | S Q0 |\n  |      ^| S $moving |\nRUNG\n  | NO I0 | JMP L |\nEND_PROGRAM\n");
 	put('loop.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim safe=0\n%QX0.1 sim safe=1\n");
-	my $screen = `(sleep 0.5; printf q; sleep 1) | NO_COLOR=1 LC_ALL=C script -qc 'stty cols 60 rows 20; \Q$ladder\E run loop.rung --io loop.io --set I0=1' /dev/null`;
+	my $screen = `(sleep 0.5; printf q; sleep 1) | TERM=xterm NO_COLOR=1 LC_ALL=C script -qc 'stty cols 60 rows 20; \Q$ladder\E run loop.rung --io loop.io --set I0=1' /dev/null`;
 	like($screen, qr/FAULT: instruction budget/, 'live: a fault is told');
 	like($screen, qr/o 0 %QX0\.0.*\* 1 %QX0\.1/s, 'live: in a fault outputs have their safe values');
 	like($screen, qr/ AVeryLong\w+ = 1/, 'live: a long name leaves room for the value');
