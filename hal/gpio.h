@@ -39,13 +39,16 @@ bool gpio_find(const struct io_point *point, const char *dev,
 bool gpio_list(const char *dev,
 	       void (*visit)(void *context, const struct line_seen *line),
 	       void *context, struct trouble *why);
+/**
+ * gpio_take - opens the chip of a request and takes its lines by @take, 0 or -errno
+ * @kept: gets the chip, open; NULL: it is closed again
+ * Fails: false, @why names the chip, or the line that is in use; nothing is open.
+ */
+bool gpio_take(struct request *request, struct trouble *why,
+	       int (*take)(struct request *request, const struct gpio_chip *chip),
+	       struct gpio_chip *kept);
 /** gpio_path - "/dev/gpiochip3". */
 void gpio_path(const char *dev, int chip, char *out, size_t size);
 /** gpio_text - copies a text that may be NULL, clipped. */
 void gpio_text(char *out, const char *text);
-/** gpio_refused - why a chip or request could not be had, from -errno. */
-bool gpio_refused(struct trouble *why, const char *path, int error);
-/** gpio_blame - the same for a request: finds the line that is in use. */
-bool gpio_blame(struct trouble *why, const struct request *request,
-		struct gpio_chip *chip, const char *path, int error);
 #endif

@@ -132,7 +132,8 @@ static void group_of(const char *path, char *out, size_t size)
 		fclose(groups);
 }
 
-bool gpio_refused(struct trouble *why, const char *path, int error)
+/* Why a chip or request could not be had, from -errno. */
+static bool refused(struct trouble *why, const char *path, int error)
 {
 	char group[32];
 	const char *name = strrchr(path, '/');
@@ -156,12 +157,13 @@ static bool busy(struct trouble *why, const struct io_point *point,
 			   line->owner[0] ? line->owner : "the kernel");
 }
 
-bool gpio_blame(struct trouble *why, const struct request *request,
-		struct gpio_chip *chip, const char *path, int error)
+/* The same for a request: finds the line that is in use. */
+static void blame(struct trouble *why, const struct request *request,
+		  struct gpio_chip *chip, const char *path, int error)
 {
 	struct gpio_line line;
 
-	gpio_refused(why, path, error);
+	refused(why, path, error);
 	for (uint32_t i = 0; error == -EBUSY && i < request->count; i++) {
 		if (gpio_chip_line(chip, request->line[i].at.offset, &line) ||
 		    !line.used)
@@ -171,7 +173,28 @@ bool gpio_blame(struct trouble *why, const struct request *request,
 		why->line = i;
 		break;
 	}
-	return false;
+}
+
+bool gpio_take(struct request *request, struct trouble *why,
+	       int (*take)(struct request *request, const struct gpio_chip *chip),
+	       struct gpio_chip *kept)
+{
+	struct gpio_chip chip;
+	char path[PATH_BYTES];
+	int error;
+
+	gpio_path(request->dev, request->line[0].at.chip, path, sizeof(path));
+	error = gpio_chip_open(path, &chip);
+	if (error)
+		return refused(why, path, error);
+	error = take(request, &chip);
+	if (error)
+		blame(why, request, &chip, path, error);
+	if (error || !kept)
+		gpio_chip_close(&chip);
+	else
+		*kept = chip;
+	return !error;
 }
 
 /* What a search has seen so far. */
@@ -268,7 +291,7 @@ static bool not_found(const struct search *search, struct trouble *why)
 
 	if (search->denied >= 0) {
 		gpio_path(search->dev, search->denied, path, sizeof(path));
-		return gpio_refused(why, path, search->denied_error);
+		return refused(why, path, search->denied_error);
 	}
 	if (search->point->line)
 		return trouble_set(why, DIAG_IO_NO_LINE, "%s",
@@ -345,7 +368,7 @@ bool gpio_list(const char *dev,
 		error = gpio_chip_open(path, &chip);
 		if (error) {
 			if (!is_gone(error))
-				good = gpio_refused(why, path, error);
+				good = refused(why, path, error);
 			continue;
 		}
 		list_chip(&chip, number, visit, context);

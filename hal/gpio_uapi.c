@@ -141,7 +141,7 @@ static int set_config(struct gpio_v2_line_config *config,
 	return 0;
 }
 
-static int take_lines(const struct request *request, int chip)
+static int take_lines(struct request *request, const struct gpio_chip *chip)
 {
 	struct uapi_state *state = request->state;
 	struct gpio_v2_line_request ask;
@@ -154,7 +154,7 @@ static int take_lines(const struct request *request, int chip)
 		ask.offsets[i] = request->line[i].at.offset;
 	error = set_config(&ask.config, request);
 	if (!error)
-		error = call(chip, GPIO_V2_GET_LINE_IOCTL, &ask);
+		error = call(chip->fd, GPIO_V2_GET_LINE_IOCTL, &ask);
 	state->fd = ask.fd;
 	state->all = UINT64_MAX >> (64 - request->count);
 	return error;
@@ -162,19 +162,7 @@ static int take_lines(const struct request *request, int chip)
 
 static bool uapi_open(struct request *request, struct trouble *why)
 {
-	struct gpio_chip chip;
-	char path[256];
-	int error;
-
-	gpio_path(request->dev, request->line[0].at.chip, path, sizeof(path));
-	error = gpio_chip_open(path, &chip);
-	if (error)
-		return gpio_refused(why, path, error);
-	error = take_lines(request, chip.fd);
-	if (error)
-		gpio_blame(why, request, &chip, path, error);
-	gpio_chip_close(&chip);
-	return !error;
+	return gpio_take(request, why, take_lines, NULL);
 }
 
 static void uapi_close(struct request *request)

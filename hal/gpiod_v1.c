@@ -83,7 +83,7 @@ static void split(uint64_t levels, uint32_t count, int *out)
 		out[i] = (int)(levels >> i & 1);
 }
 
-static int take_lines(struct request *request, struct gpiod_chip *chip)
+static int take_lines(struct request *request, const struct gpio_chip *chip)
 {
 	struct v1_state *state = request->state;
 	struct gpiod_line_request_config config = {
@@ -98,7 +98,7 @@ static int take_lines(struct request *request, struct gpiod_chip *chip)
 	gpiod_line_bulk_init(&state->lines);
 	for (uint32_t i = 0; i < request->count; i++) {
 		struct gpiod_line *line =
-			gpiod_chip_get_line(chip, request->line[i].at.offset);
+			gpiod_chip_get_line(chip->chip, request->line[i].at.offset);
 
 		if (!line)
 			return -errno;
@@ -113,19 +113,9 @@ static bool v1_open(struct request *request, struct trouble *why)
 {
 	struct v1_state *state = request->state;
 	struct gpio_chip chip;
-	char path[256];
-	int error;
 
-	gpio_path(request->dev, request->line[0].at.chip, path, sizeof(path));
-	error = gpio_chip_open(path, &chip);
-	if (error)
-		return gpio_refused(why, path, error);
-	error = take_lines(request, chip.chip);
-	if (error) {
-		gpio_blame(why, request, &chip, path, error);
-		gpio_chip_close(&chip);
+	if (!gpio_take(request, why, take_lines, &chip))
 		return false;
-	}
 	state->chip = chip.chip;
 	return true;
 }

@@ -132,7 +132,7 @@ static int add_lines(struct gpiod_line_config *lines,
 	return 0;
 }
 
-static int take_lines(struct request *request, struct gpiod_chip *chip)
+static int take_lines(struct request *request, const struct gpio_chip *chip)
 {
 	struct v2_state *state = request->state;
 	struct gpiod_line_settings *settings = gpiod_line_settings_new();
@@ -146,7 +146,7 @@ static int take_lines(struct request *request, struct gpiod_chip *chip)
 	if (error)
 		goto out;
 	gpiod_request_config_set_consumer(owner, GPIO_OWNER);
-	state->lines = gpiod_chip_request_lines(chip, owner, lines);
+	state->lines = gpiod_chip_request_lines(chip->chip, owner, lines);
 	if (!state->lines)
 		error = last_error();
 out:
@@ -158,19 +158,7 @@ out:
 
 static bool v2_open(struct request *request, struct trouble *why)
 {
-	struct gpio_chip chip;
-	char path[256];
-	int error;
-
-	gpio_path(request->dev, request->line[0].at.chip, path, sizeof(path));
-	error = gpio_chip_open(path, &chip);
-	if (error)
-		return gpio_refused(why, path, error);
-	error = take_lines(request, chip.chip);
-	if (error)
-		gpio_blame(why, request, &chip, path, error);
-	gpio_chip_close(&chip);
-	return !error;
+	return gpio_take(request, why, take_lines, NULL);
 }
 
 static void v2_close(struct request *request)
