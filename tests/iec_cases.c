@@ -159,7 +159,7 @@ static bool run_function(enum word fn, const char *at)
 		want = FN_WRAPPED;
 	/* Stored and read back: what a variable of the type then holds. */
 	iec_store(stored, args.type, args.out);
-	if (word_row(fn)->result != RESULT_BOOL)
+	if (!word_is_test(word_row(fn)))
 		args.out = iec_load(stored, args.type);
 	if (status != want || args.out.i != result)
 		printf("# status %d, should be %d; result %lld, should be %lld\n",

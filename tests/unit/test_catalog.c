@@ -64,8 +64,8 @@ static void words_are_found(void)
 	CHECK(word_row(FB_TON)->place == PLACE_BOX);
 	CHECK(word_row(FB_TON)->operand == OPND_INSTANCE);
 	CHECK(word_row(FB_TON)->size == sizeof(struct fb_TON));
-	CHECK(word_row(FN_GT)->result == RESULT_BOOL);
-	CHECK(word_row(FN_ADD)->most_inputs == 8);
+	CHECK(word_row(FN_GT)->result == IEC_BOOL);
+	CHECK(word_row(FN_ADD)->most_inputs == LIMIT_FN_INPUTS);
 }
 
 static int pin(enum word word, const char *name)
@@ -88,7 +88,7 @@ static void pins_are_found(void)
 	CHECK(pin(FN_ADD, "in2") == 1);
 	CHECK(pin(FN_ADD, "IN3") == 2);
 	CHECK(pin(FN_ADD, "in8") == 7);
-	CHECK(pin(FN_ADD, "IN9") == -1);
+	CHECK(pin(FN_ADD, "IN17") == -1);
 	CHECK(pin(FN_ADD, "IN03") == -1);
 	CHECK(pin(FN_ADD, "IN") == -1);
 	CHECK(pin(FN_ADD, "IN3x") == -1);

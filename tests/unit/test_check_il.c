@@ -112,7 +112,7 @@ static void finds_names_and_pins(void)
 	CHECK_FIRST(il("  CAL Delay(start => T)"), "LD319");
 	CHECK_FIRST(il("  LD Delay.CV\n  ST I"), "LD319 Delay.CV");
 	CHECK_FIRST(il("  MOVE(IN1 := I, OUT => K)"), "LD319 IN1");
-	CHECK_FIRST(il("  ADD(IN1 := I, IN2 := I, IN9 := I, OUT => I)"), "LD319 IN9");
+	CHECK_FIRST(il("  ADD(IN1 := I, IN2 := I, IN17 := I, OUT => I)"), "LD319 IN17");
 	CHECK_FIRST(il("  MOVE(IN := I, RESULT => K)"), "LD319 RESULT");
 	CHECK_FIRST(il("  CAL Delay(Q := A)"), "LD320 Q");
 	CHECK_FIRST(il("  CAL Delay(IN => A)"), "LD320 IN");
@@ -137,7 +137,7 @@ static void finds_types(void)
 	CHECK_FIRST(il("  LDN 1\n  ST I"), "LD322 BOOL and INT");
 	CHECK_FIRST(il("  LD INT#5\n  ST Si"), "LD322 INT and SINT");
 	CHECK_FIRST(il("  LD T\n  ADD I\n  ST T"), "LD322 TIME and INT");
-	CHECK_FIRST(il("  LD Ud\n  ADD D\n  ST D"), "LD322 UDINT and DINT");
+	CHECK_FIRST(il("  LD Ud\n  ADD D\n  ST D"), "LD322 LINT and DINT");
 	CHECK_FIRST(il("  LD W\n  GT I\n  ST A"), "LD322 WORD and INT");
 	CHECK_FIRST(il("  LD T\n  GT Re\n  ST A"), "LD322 TIME and REAL");
 	CHECK_FIRST(il("  CAL Up(PV := D)"), "LD322 DINT and INT");
@@ -282,9 +282,11 @@ static void joins_types(void)
 	CHECK(types_join(IEC_USINT, IEC_SINT) == IEC_INT);
 	CHECK(types_join(IEC_UINT, IEC_INT) == IEC_DINT);
 	CHECK(types_join(IEC_UINT, IEC_SINT) == IEC_DINT);
-	CHECK(types_join(IEC_UDINT, IEC_SINT) == IEC_TYPE_COUNT);
+	CHECK(types_join(IEC_UDINT, IEC_SINT) == IEC_LINT);
 	CHECK(types_join(IEC_INT, IEC_REAL) == IEC_REAL);
-	CHECK(types_join(IEC_DINT, IEC_REAL) == IEC_TYPE_COUNT);
+	CHECK(types_join(IEC_DINT, IEC_REAL) == IEC_LREAL);
+	CHECK(types_join(IEC_ULINT, IEC_SINT) == IEC_TYPE_COUNT);
+	CHECK(types_join(IEC_LINT, IEC_REAL) == IEC_TYPE_COUNT);
 	CHECK(types_join(IEC_BYTE, IEC_DWORD) == IEC_DWORD);
 	CHECK(types_join(IEC_BYTE, IEC_USINT) == IEC_TYPE_COUNT);
 	CHECK(types_join(IEC_BOOL, IEC_BYTE) == IEC_TYPE_COUNT);

@@ -375,11 +375,11 @@ static void refuses_number_operands(void)
 	CHECK(refuses(VM_FN, 3, CODE_TRUE_AT(iec_areas_size())));
 	CHECK(refuses(VM_FN, 4, seven) && refuses(VM_FN, 4, UINT32_MAX));
 	CHECK(refuses(VM_FN, 5, real) && refuses(VM_FN, 6, 0));
-	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_BOOL | 2u << 8) << 8));
-	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_TYPE_COUNT | 2u << 8) << 8));
-	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_DINT | 1u << 8) << 8));
-	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_DINT | 9u << 8) << 8));
-	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_REAL | 2u << 8) << 8));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_BOOL | 2u << 8 | (uint32_t)IEC_BOOL << 16) << 8));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_TYPE_COUNT | 2u << 8 | (uint32_t)IEC_TYPE_COUNT << 16) << 8));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_DINT | 1u << 8 | (uint32_t)IEC_DINT << 16) << 8));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_DINT | 17u << 8 | (uint32_t)IEC_DINT << 16) << 8));
+	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_REAL | 2u << 8 | (uint32_t)IEC_REAL << 16) << 8));
 	CHECK(refuses(VM_FB, 1, 0) && refuses(VM_FB, 1, UINT32_MAX));
 	CHECK(refuses(VM_FB, 1, find(VM_FB)[1] + 8));
 	CHECK(refuses(VM_FB, 0, VM_FB | (uint32_t)FB_TOF << 8));

@@ -160,9 +160,32 @@ static void multiplies_beyond_64_bits(void)
 	CHECK(gives(fn_SUB, IEC_TIME, 0, INT64_MIN, WRAPS, INT64_MIN));
 }
 
+static void unsigned_64_bits(void)
+{
+	const int64_t high = -1, top = INT64_MIN; /* 2^64 - 1 and 2^63 as bits */
+
+	CHECK(gives(fn_ADD, IEC_ULINT, INT64_MAX, 1, OK, top));
+	CHECK(gives(fn_ADD, IEC_ULINT, high, 1, WRAPS, 0));
+	CHECK(gives(fn_SUB, IEC_ULINT, 0, 1, WRAPS, high));
+	CHECK(gives(fn_SUB, IEC_ULINT, high, top, OK, INT64_MAX));
+	CHECK(gives(fn_MUL, IEC_ULINT, top, 1, OK, top));
+	CHECK(gives(fn_MUL, IEC_ULINT, top, 2, WRAPS, 0));
+	CHECK(gives(fn_DIV, IEC_ULINT, high, 2, OK, INT64_MAX));
+	CHECK(gives(fn_DIV, IEC_ULINT, top, high, OK, 0));
+	CHECK(gives(fn_DIV, IEC_ULINT, top, 0, FAILS, UNCHANGED));
+	CHECK(gives(fn_MOD, IEC_ULINT, high, 10, OK, 5));
+	CHECK(gives(fn_MOD, IEC_ULINT, high, high, OK, 0));
+	CHECK(gives(fn_GT, IEC_ULINT, high, 1, OK, 1));
+	CHECK(gives(fn_LT, IEC_LWORD, 1, top, OK, 1));
+	CHECK(gives(fn_DIV, IEC_LINT, INT64_MIN, -1, FAILS, UNCHANGED));
+	CHECK(gives(fn_ADD, IEC_LINT, INT64_MAX, 1, WRAPS, INT64_MIN));
+}
+
 int main(void)
 {
 	for (int type = IEC_NONE + 1; type < IEC_TYPE_COUNT; type++) {
+		if (iec_is_wide((enum iec_type)type))
+			continue;
 		if (is_integer((enum iec_type)type))
 			keeps_to_its_type((enum iec_type)type);
 		if (iec_type_row((enum iec_type)type)->class & ANY_INT)
@@ -176,5 +199,6 @@ int main(void)
 	computes_reals();
 	compares_reals();
 	multiplies_beyond_64_bits();
+	unsigned_64_bits();
 	return tap_done();
 }

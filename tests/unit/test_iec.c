@@ -16,7 +16,12 @@ static void types(void)
 	CHECK(iec_type_find("INTX", 3) == IEC_INT);
 	CHECK(iec_type_find("IN", 2) == IEC_NONE);
 	CHECK(iec_type_find("", 0) == IEC_NONE);
-	CHECK(iec_type_find("LREAL", 5) == IEC_NONE);
+	CHECK(iec_type_find("LREAL", 5) == IEC_LREAL);
+	CHECK(iec_type_find("tod", 3) == IEC_TIME_OF_DAY);
+	CHECK(iec_type_find("LTIME", 5) == IEC_TIME);
+	CHECK(iec_type_find("WSTRING", 7) == IEC_NONE);
+	CHECK(iec_type_size(IEC_STRING, 5) == 12 && iec_type_size(IEC_INT, 5) == 2);
+	CHECK(iec_is_wide(IEC_LWORD) && iec_is_wide(IEC_ULINT) && !iec_is_wide(IEC_LINT));
 	CHECK(iec_type_row(IEC_UINT)->high == 65535);
 	CHECK(iec_type_row(IEC_SINT)->low == -128);
 	CHECK(iec_type_row(IEC_TIME)->size == 8);
@@ -28,14 +33,28 @@ static void types(void)
 static void widening(void)
 {
 	static const char *const table[] = {
-		/* to: BOOL BYTE WORD DWORD SINT INT DINT USINT UINT UDINT REAL
-		 * TIME */
-		/* BOOL */ "100000000000", /* BYTE */  "011100000000",
-		/* WORD */ "001100000000", /* DWORD */ "000100000000",
-		/* SINT */ "000011100010", /* INT */   "000001100010",
-		/* DINT */ "000000100000", /* USINT */ "000001111110",
-		/* UINT */ "000000101110", /* UDINT */ "000000000100",
-		/* REAL */ "000000000010", /* TIME */  "000000000001",
+		/* to: BOOL BYTE WORD DWORD LWORD SINT INT DINT LINT USINT UINT UDINT
+		 * ULINT REAL LREAL TIME TIME_OF_DAY DATE DATE_AND_TIME STRING */
+		/* BOOL          */ "10000000000000000000",
+		/* BYTE          */ "01111000000000000000",
+		/* WORD          */ "00111000000000000000",
+		/* DWORD         */ "00011000000000000000",
+		/* LWORD         */ "00001000000000000000",
+		/* SINT          */ "00000111100001100000",
+		/* INT           */ "00000011100001100000",
+		/* DINT          */ "00000001100000100000",
+		/* LINT          */ "00000000100000000000",
+		/* USINT         */ "00000011111111100000",
+		/* UINT          */ "00000001101111100000",
+		/* UDINT         */ "00000000100110100000",
+		/* ULINT         */ "00000000000010000000",
+		/* REAL          */ "00000000000001100000",
+		/* LREAL         */ "00000000000000100000",
+		/* TIME          */ "00000000000000010000",
+		/* TIME_OF_DAY   */ "00000000000000001000",
+		/* DATE          */ "00000000000000000100",
+		/* DATE_AND_TIME */ "00000000000000000010",
+		/* STRING        */ "00000000000000000001",
 	};
 	int wrong = 0;
 
@@ -95,7 +114,7 @@ static void addresses(void)
 		{ "%IB512", ADDR_RANGE, "" },    { "%IW511", ADDR_RANGE, "" },
 		{ "%ID509", ADDR_RANGE, "" },    { "I4096", ADDR_RANGE, "" },
 		{ "%IX0.8", ADDR_RANGE, "" },    { "%MW4.3", ADDR_RANGE, "" },
-		{ "%ML0", ADDR_RANGE, "" },      { "B65536", ADDR_RANGE, "" },
+		{ "%ML8", ADDR_OK, "%ML8" },  { "%ML8185", ADDR_RANGE, "" },      { "B65536", ADDR_RANGE, "" },
 		{ "%MB99999999999999999999", ADDR_RANGE, "" },
 		{ "%IX0.99999999999999", ADDR_RANGE, "" },
 		{ "%MX4294967296.0", ADDR_RANGE, "" },
@@ -139,7 +158,7 @@ static void address_types(void)
 	iec_addr_parse("x", 1, &addr);
 	CHECK(iec_addr_type(addr) == IEC_NONE);
 	addr = (struct iec_addr){ AREA_M, 64, 0, 0 };
-	CHECK(iec_addr_type(addr) == IEC_NONE);
+	CHECK(iec_addr_type(addr) == IEC_LWORD);
 }
 
 static void memory(void)
@@ -147,7 +166,7 @@ static void memory(void)
 	uint8_t bytes[12];
 	bool good = true;
 
-	for (int type = IEC_BOOL; type < IEC_TYPE_COUNT; type++) {
+	for (int type = IEC_BOOL; type < IEC_STRING; type++) {
 		const struct iec_type_row *row = iec_type_row((enum iec_type)type);
 		union iec_value value = { .i = row->low };
 

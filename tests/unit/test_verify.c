@@ -83,7 +83,7 @@ static void draft_text(struct draft *d)
 		own_as(IEC_DINT, FIXED),
 		op(VM_CMP, CMP_NE), own(FLAG + 5), own_as(IEC_DINT, NUMBER),
 		own_as(IEC_DINT, FIXED),
-		op(VM_FN, IEC_DINT | 2 << 8), FN_ADD, own(1), own(FLAG + 6),
+		op(VM_FN, IEC_DINT | 2 << 8 | IEC_DINT << 16), FN_ADD, own(1), own(FLAG + 6),
 		own_as(IEC_DINT, NUMBER), own_as(IEC_DINT, NUMBER + 4),
 		own_as(IEC_DINT, FIXED),
 		op(VM_FB, FB_CTU), own(COUNTER),
@@ -296,10 +296,12 @@ static void test_calls(void)
 {
 	uint32_t size = word_row(FB_CTU)->size;
 
-	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_DINT | 1 << 8));
-	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_BOOL | 2 << 8));
-	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_INT | 2 << 8));
-	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_TYPE_COUNT | 2 << 8));
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_DINT | 1 << 8 | IEC_DINT << 16));
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_BOOL | 2 << 8 | IEC_BOOL << 16));
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_INT | 2 << 8 | IEC_INT << 16));
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_DINT | 2 << 8 | IEC_INT << 16));
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_DINT | 2 << 8));
+	REFUSED(d.text[AT_FN] = op(VM_FN, IEC_TYPE_COUNT | 2 << 8 | IEC_TYPE_COUNT << 16));
 	REFUSED(d.text[AT_FN + 1] = FB_CTU);
 	REFUSED(d.text[AT_FN + 1] = WORD_COUNT);
 	REFUSED(d.text[AT_FN + 1] = FN_MOVE);

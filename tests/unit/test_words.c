@@ -54,7 +54,7 @@ static void test_one(void)
 	CHECK(count == 1);
 	CHECK_TEXT(words("ADD", false, &count),
 		   "ADD: function (Math): sum; ENO FALSE on overflow\n"
-		   "  2 to 8 inputs, result of their type\n"
+		   "  2 to 16 inputs, result of their type\n"
 		   "  in  IN1  ANY_MAGNITUDE  first\n"
 		   "  in  IN2  ANY_MAGNITUDE  next\n");
 	CHECK_TEXT(words("R", false, &count),

@@ -72,7 +72,7 @@ static bool type_term(struct walker *walker, struct expression *expression,
 		return false;
 	}
 	term->type = term->op == EXPR_FN &&
-		     word_row(term->fn)->result == RESULT_BOOL ?
+		     word_is_test(word_row(term->fn)) ?
 		     IEC_BOOL : term->inputs;
 	return true;
 }

@@ -154,7 +154,7 @@ enum outcome value_compute(enum word fn, const struct value *in, int count,
 	enum outcome worst = OUTCOME_GOOD;
 	struct value sum = in[0];
 
-	if (word_row(fn)->result == RESULT_BOOL) {
+	if (word_is_test(word_row(fn))) {
 		*out = value_bool(related(fn, order_of(in[0], in[1])));
 		return OUTCOME_GOOD;
 	}

@@ -141,7 +141,7 @@ static bool call_function(struct walker *walker, struct walked_rung *walked,
 	for (int i = 0; i < at->parameter_count; i++)
 		if (at->parameter[i].output && outcome != OUTCOME_FAILED)
 			placed_write(&at->parameter[i].placed, out);
-	if (word_row(at->word)->result == RESULT_BOOL)
+	if (word_is_test(word_row(at->word)))
 		return value_is_true(out);
 	return outcome == OUTCOME_GOOD;
 }

@@ -15,14 +15,17 @@
 #endif
 
 #define FB_IN(fb, pin, type, doc) \
-	{ #pin, PIN_IN, IEC_##type, 0, offsetof(struct fb_##fb, pin), DOC(doc) },
+	{ #pin, PIN_IN, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), DOC(doc) },
 #define FB_OUT(fb, pin, type, doc) \
-	{ #pin, PIN_OUT, IEC_##type, 0, offsetof(struct fb_##fb, pin), DOC(doc) },
+	{ #pin, PIN_OUT, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), DOC(doc) },
 #define FB_VAR(fb, pin, type) \
-	{ #pin, PIN_VAR, IEC_##type, 0, offsetof(struct fb_##fb, pin), "" },
+	{ #pin, PIN_VAR, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), "" },
 #define FB(id, family, doc, pins) \
 	static const struct word_pin pins_##id[] = { pins };
-#define FN_IN(pin, classes, doc) { #pin, PIN_IN, IEC_NONE, classes, 0, DOC(doc) },
+#define FN_IN(pin, classes, doc) \
+	{ #pin, PIN_IN, IEC_NONE, classes, false, 0, DOC(doc) },
+#define FN_OWN(pin, classes, doc) \
+	{ #pin, PIN_IN, IEC_NONE, classes, true, 0, DOC(doc) },
 #define FN(id, family, doc, result, most, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #include "engine/catalog.def"
@@ -49,7 +52,7 @@ static const struct word_row words[WORD_COUNT] = {
 		.family = family_, .doc = DOC(doc_), .kind = WORD_FN, \
 		.place = PLACE_BOX, .operand = OPND_NONE, \
 		.first = OP_LD, .next = OP_AND, .result = result_, \
-		.most_inputs = most_, PINS(id_) },
+		.result_classes = ANY_NUM, .most_inputs = most_, PINS(id_) },
 #include "engine/catalog.def"
 };
 
@@ -96,22 +99,39 @@ enum word word_find(const char *text, size_t len)
 	return WORD_COUNT;
 }
 
-/* INn of an extensible function, behind its named pins: its index or -1. */
-static int find_further_input(const struct word_row *row, const char *name,
-			      size_t len)
+/* The digits behind the two letters of IN12, -1: none, or a zero in front. */
+static int number_behind(const char *name, size_t len)
 {
+	const size_t letters = 2;
 	int number = 0;
 
-	if (len < 3 || len > 4 || !ascii_same("IN", name, 2) || name[2] == '0')
+	if (len <= letters || len > letters + 2 ||
+	    (name[letters] == '0' && len > letters + 1))
 		return -1;
-	for (size_t i = 2; i < len; i++) {
+	for (size_t i = letters; i < len; i++) {
 		if (name[i] < '0' || name[i] > '9')
 			return -1;
 		number = number * 10 + (name[i] - '0');
 	}
-	if (number <= row->pin_count || number > row->most_inputs)
+	return number;
+}
+
+/* INn of an extensible function, behind its named pins: its index or -1. */
+static int find_further_input(const struct word_row *row, const char *name,
+			      size_t len)
+{
+	int last = row->pin_count - 1, number, known;
+
+	if (row->most_inputs <= row->pin_count || len < 3 ||
+	    !ascii_same("IN", name, 2))
 		return -1;
-	return number - 1;
+	number = number_behind(name, len);
+	known = 0;
+	for (const char *at = row->pin[last].name + 2; ascii_digit(*at); at++)
+		known = known * 10 + (*at - '0');
+	if (number <= known || last + number - known >= row->most_inputs)
+		return -1;
+	return last + number - known;
 }
 
 int word_pin_find(const struct word_row *row, const char *name, size_t len)
@@ -123,6 +143,16 @@ int word_pin_find(const struct word_row *row, const char *name, size_t len)
 			return i;
 	}
 	return find_further_input(row, name, len);
+}
+
+const struct word_pin *word_input(const struct word_row *row, uint32_t index)
+{
+	return &row->pin[index < row->pin_count ? index : row->pin_count - 1u];
+}
+
+bool word_is_test(const struct word_row *row)
+{
+	return row->kind == WORD_FN && row->result == IEC_BOOL;
 }
 
 int word_first_bool(const struct word_row *row, enum pin_dir dir)

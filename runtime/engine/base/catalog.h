@@ -9,6 +9,7 @@
 #define BASE_CATALOG_H
 
 #include "engine/base/iec.h"
+#include "engine/base/limits.h"
 
 /* One number space for all that can stand in a cell. */
 enum word {
@@ -35,12 +36,11 @@ enum vm_op {
 
 /* The memory of an instance. A BOOL is a byte of 0 or 1, TIME is ns. Layouts are
  * the same on every little-endian target with natural alignment. */
-#define IEC_CTYPE_BOOL uint8_t
-#define IEC_CTYPE_INT  int16_t
-#define IEC_CTYPE_TIME int64_t
-#define FB_IN(fb, pin, type, doc)  IEC_CTYPE_##type pin;
-#define FB_OUT(fb, pin, type, doc) IEC_CTYPE_##type pin;
-#define FB_VAR(fb, pin, type)      IEC_CTYPE_##type pin;
+#define TYPE(id, ctype, size, class, low, high) typedef ctype iec_ctype_##id;
+#include "engine/catalog.def"
+#define FB_IN(fb, pin, type, doc)  iec_ctype_##type pin;
+#define FB_OUT(fb, pin, type, doc) iec_ctype_##type pin;
+#define FB_VAR(fb, pin, type)      iec_ctype_##type pin;
 #define FB(id, family, doc, pins)  struct fb_##id { pins };
 #include "engine/catalog.def"
 
@@ -71,12 +71,15 @@ struct word_pin {
 	const char *name;
 	enum pin_dir dir;
 	enum iec_type type;  /* of an FB pin; IEC_NONE for a function's        */
-	uint8_t classes;     /* of a function's pin: enum iec_class, or'ed     */
+	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
+	bool own;            /* of a function's pin: does not share the type   */
 	uint16_t offset;     /* of an FB pin in its struct                     */
 	const char *doc;
 };
 
-enum fn_result { RESULT_SAME, RESULT_BOOL };
+/* Type of a function's result, if it is not one of its own. */
+#define RESULT_SAME IEC_NONE       /* that its FN_IN pins share              */
+#define RESULT_OPEN IEC_TYPE_COUNT /* that of the variable behind OUT        */
 
 struct word_row {
 	const char *id;      /* "CONTACT_NC"                                   */
@@ -90,7 +93,8 @@ struct word_row {
 	enum edge edge;
 	enum op first, next; /* IL at the rail, and behind others              */
 	bool negate;
-	enum fn_result result;
+	enum iec_type result; /* of a function: a type, or RESULT_…            */
+	uint16_t result_classes; /* of RESULT_OPEN: what it may become         */
 	uint8_t most_inputs; /* of a function                                  */
 	uint8_t pin_count;
 	const struct word_pin *pin; /* of a function: inputs only              */
@@ -99,11 +103,17 @@ struct word_row {
 
 /** word_row - the row of a word. Lives for ever. Scan-safe: yes. */
 const struct word_row *word_row(enum word word);
+/** word_input - the pin of input @index of a function; the last one again for those
+ * behind it.   Scan-safe: yes. */
+const struct word_pin *word_input(const struct word_row *row, uint32_t index);
 /** word_find - the word a file spells so (any case); WORD_COUNT: none. */
 enum word word_find(const char *text, size_t len);
 /** word_pin_find - index of a pin (any case) in the row; a function's INn past
  * its named pins too, up to most_inputs; -1: none. PIN_VAR is never found. */
 int word_pin_find(const struct word_row *row, const char *name, size_t len);
+/** word_is_test - a function whose result is always BOOL: power behind it is EN and the
+ * result. */
+bool word_is_test(const struct word_row *row);
 /** word_first_bool - index of its first Boolean pin of @dir, -1: none. */
 int word_first_bool(const struct word_row *row, enum pin_dir dir);
 

@@ -18,7 +18,17 @@ static const struct iec_type_row types[IEC_TYPE_COUNT] = {
 	[IEC_NONE] = { "", 0, 0, 0, 0 },
 #define TYPE(id, ctype, size, class, low, high) \
 	[IEC_##id] = { #id, size, class, low, high },
+#define TEXT_TYPE(id, class) \
+	[IEC_##id] = { #id, sizeof(struct iec_string), class, 0, 0 },
 #include "engine/catalog.def"
+};
+
+/* Other names of types, as IEC 61131-3 has them. */
+static const struct { const char *word; enum iec_type type; } alias[] = {
+	{ "TOD", IEC_TIME_OF_DAY }, { "DT", IEC_DATE_AND_TIME },
+	{ "LTIME", IEC_TIME }, { "LTOD", IEC_TIME_OF_DAY },
+	{ "LTIME_OF_DAY", IEC_TIME_OF_DAY }, { "LDATE", IEC_DATE },
+	{ "LDT", IEC_DATE_AND_TIME }, { "LDATE_AND_TIME", IEC_DATE_AND_TIME },
 };
 
 /* An area begins where the one before it ends. */
@@ -47,7 +57,22 @@ enum iec_type iec_type_find(const char *word, size_t len)
 	for (int i = IEC_NONE + 1; i < IEC_TYPE_COUNT; i++)
 		if (ascii_is(types[i].word, word, len))
 			return (enum iec_type)i;
+	for (size_t i = 0; i < sizeof(alias) / sizeof(*alias); i++)
+		if (ascii_is(alias[i].word, word, len))
+			return alias[i].type;
 	return IEC_NONE;
+}
+
+bool iec_is_wide(enum iec_type type)
+{
+	return type == IEC_LWORD || type == IEC_ULINT;
+}
+
+uint32_t iec_type_size(enum iec_type type, uint32_t capacity)
+{
+	uint32_t size = iec_type_row(type)->size;
+
+	return type == IEC_STRING ? size + (capacity + 3) / 4 * 4 : size;
 }
 
 bool iec_can_widen(enum iec_type from, enum iec_type to)
@@ -60,7 +85,8 @@ bool iec_can_widen(enum iec_type from, enum iec_type to)
 	if (a->class == 0)
 		return false;
 	if (b->class == CLASS_REAL)
-		return (a->class & ANY_INT) && a->size <= 2;
+		return a->class == CLASS_REAL ? a->size < b->size :
+		       (a->class & ANY_INT) && a->size * 2 <= b->size;
 	if (a->size >= b->size)
 		return false;
 	if (a->class == CLASS_BITS || a->class == CLASS_SIGNED)
@@ -135,7 +161,7 @@ static enum iec_addr_result check_range(struct iec_addr addr, uint32_t bit)
 	uint32_t size = areas[addr.area].bytes;
 	uint32_t need = addr.bits == 1 ? 1 : addr.bits / 8u;
 
-	if (bit > 7 || addr.bits > 32)
+	if (bit > 7)
 		return ADDR_RANGE;
 	return addr.byte < size && need <= size - addr.byte ? ADDR_OK :
 							      ADDR_RANGE;
@@ -238,6 +264,8 @@ enum iec_type iec_addr_type(struct iec_addr addr)
 		return IEC_WORD;
 	case 32:
 		return IEC_DWORD;
+	case 64:
+		return IEC_LWORD;
 	default:
 		return IEC_NONE;
 	}
@@ -260,11 +288,23 @@ union iec_value iec_load(const void *memory, enum iec_type type)
 		break; \
 	}
 #include "engine/catalog.def"
+	case IEC_STRING:
+		value.s = memory;
+		break;
 	case IEC_NONE:
 	case IEC_TYPE_COUNT:
 		break;
 	}
 	return value;
+}
+
+/* What fits of a text; the two may be the same. */
+static void store_string(struct iec_string *to, const struct iec_string *from)
+{
+	uint16_t len = from->length < to->capacity ? from->length : to->capacity;
+
+	memmove(to->text, from->text, len);
+	to->length = len;
 }
 
 void iec_store(void *memory, enum iec_type type, union iec_value value)
@@ -279,6 +319,9 @@ void iec_store(void *memory, enum iec_type type, union iec_value value)
 		break; \
 	}
 #include "engine/catalog.def"
+	case IEC_STRING:
+		store_string(memory, value.s);
+		break;
 	case IEC_NONE:
 	case IEC_TYPE_COUNT:
 		break;

@@ -60,7 +60,7 @@ int iec_addr_print(struct iec_addr addr, char *out, size_t size)
 
 /* A number as its significant digits: 0.d1d2d3… x 10^(exponent + 1). */
 struct decimal {
-	char digit[12];
+	char digit[20];
 	int count, exponent;
 };
 
@@ -78,13 +78,14 @@ static void split(struct decimal *out, double value, int count)
 	out->exponent = *at ? (int)strtol(at + 1, NULL, 10) : 0;
 }
 
-static bool reads_back(const struct decimal *decimal, float value)
+static bool reads_back(const struct decimal *decimal, double value, bool wide)
 {
 	char text[40];
 
 	snprintf(text, sizeof(text), "%.*se%d", decimal->count, decimal->digit,
 		 decimal->exponent - (decimal->count - 1));
-	return strtof(text, NULL) == value;
+	return wide ? strtod(text, NULL) == value :
+		      (double)strtof(text, NULL) == value;
 }
 
 /* As "%.Ng" does it: fixed for exponents from -4 up to the digits, else with e. */
@@ -106,16 +107,17 @@ static int print_decimal(const struct decimal *decimal, const char *sign,
 				"0000", count, digit);
 	if (whole >= count)
 		return snprintf(out, size, "%s%.*s%.*s", sign, count, digit,
-				whole - count, "000000000");
+				whole - count, "00000000000000000");
 	return snprintf(out, size, "%s%.*s.%.*s", sign, whole, digit,
 			count - whole, digit + whole);
 }
 
-static int print_real(float value, char *out, size_t size)
+/* The fewest digits that read back: of a REAL 6 to 9, of an LREAL 6 to 17. */
+static int print_real(double value, bool wide, char *out, size_t size)
 {
 	const char *sign = signbit(value) ? "-" : "";
 	struct decimal decimal = { .count = 0 };
-	int precision = 6;
+	int precision = 6, most = wide ? 17 : 9;
 
 	if (isnan(value))
 		return snprintf(out, size, "nan");
@@ -123,13 +125,13 @@ static int print_real(float value, char *out, size_t size)
 		return snprintf(out, size, "%sinf", sign);
 	if (value == 0)
 		return snprintf(out, size, "%s0", sign);
-	for (; precision <= 9; precision++) {
-		split(&decimal, (double)value, precision);
-		if (reads_back(&decimal, fabsf(value)))
+	for (; precision <= most; precision++) {
+		split(&decimal, value, precision);
+		if (reads_back(&decimal, fabs(value), wide))
 			break;
 	}
-	return print_decimal(&decimal, sign, precision < 9 ? precision : 9, out,
-			     size);
+	return print_decimal(&decimal, sign, precision < most ? precision : most,
+			     out, size);
 }
 
 static int print_time(int64_t ns, char *out, size_t size)
@@ -147,18 +149,121 @@ static int print_time(int64_t ns, char *out, size_t size)
 			decimals, below);
 }
 
+#define DAY_NS INT64_C(86400000000000)
+
+/* Year, month and day of a day since 1970-01-01 in the Gregorian calendar: 400 years
+ * have 146097 days, and a year that begins in March keeps its leap day last. */
+void iec_civil(int64_t day, int *year, int *month, int *day_of_month)
+{
+	int64_t shifted = day + 719468; /* from 0000-03-01 */
+	int64_t era = (shifted >= 0 ? shifted : shifted - 146096) / 146097;
+	int64_t of_era = shifted - era * 146097;
+	int64_t year_of_era = (of_era - of_era / 1460 + of_era / 36524 -
+			       of_era / 146096) / 365;
+	int64_t of_year = of_era - (365 * year_of_era + year_of_era / 4 -
+				    year_of_era / 100);
+	int64_t from_march = (5 * of_year + 2) / 153;
+
+	*day_of_month = (int)(of_year - (153 * from_march + 2) / 5 + 1);
+	*month = (int)(from_march < 10 ? from_march + 3 : from_march - 9);
+	*year = (int)(year_of_era + era * 400 + (*month <= 2));
+}
+
+int64_t iec_days(int year, int month, int day_of_month)
+{
+	int64_t y = year - (month <= 2);
+	int64_t era = (y >= 0 ? y : y - 399) / 400;
+	int64_t year_of_era = y - era * 400;
+	int64_t of_year = (153 * (month > 2 ? month - 3 : month + 9) + 2) / 5 +
+			  day_of_month - 1;
+	int64_t of_era = year_of_era * 365 + year_of_era / 4 - year_of_era / 100 +
+			 of_year;
+
+	return era * 146097 + of_era - 719468;
+}
+
+static int print_date(int64_t day, char *out, size_t size)
+{
+	int year, month, of_month;
+
+	iec_civil(day, &year, &month, &of_month);
+	return snprintf(out, size, "%04d-%02d-%02d", year, month, of_month);
+}
+
+/* 08:30:00, with as many decimals as it takes. */
+static int print_clock(int64_t ns, char *out, size_t size)
+{
+	int64_t second = ns / 1000000000, below = ns % 1000000000;
+	int decimals = 9;
+	char fraction[16] = "";
+
+	for (; below && below % 10 == 0; below /= 10)
+		decimals--;
+	if (below)
+		snprintf(fraction, sizeof(fraction), ".%0*" PRId64, decimals,
+			 below);
+	return snprintf(out, size, "%02d:%02d:%02d%s", (int)(second / 3600 % 100),
+			(int)(second / 60 % 60), (int)(second % 60), fraction);
+}
+
+static int print_date_and_time(int64_t ns, char *out, size_t size)
+{
+	int64_t day = ns / DAY_NS - (ns % DAY_NS < 0);
+	char date[32], clock[32];
+
+	print_date(day, date, sizeof(date));
+	/* Unsigned: the first day may begin before the first value. */
+	print_clock((int64_t)((uint64_t)ns - (uint64_t)day * (uint64_t)DAY_NS),
+		    clock, sizeof(clock));
+	return snprintf(out, size, "%s-%s", date, clock);
+}
+
+/* 'it$'s' as a literal; bytes that are no text as $xx. */
+static int print_string(const struct iec_string *s, char *out, size_t size)
+{
+	char text[3 * IEC_STRING_MOST + 3];
+	size_t at = 0;
+
+	text[at++] = '\'';
+	for (int i = 0; s && i < s->length && i < (int)IEC_STRING_MOST; i++) {
+		uint8_t c = (uint8_t)s->text[i];
+
+		if (c == '$' || c == '\'')
+			text[at++] = '$';
+		if (c >= ' ' && c != 0x7f)
+			text[at++] = (char)c;
+		else
+			at += (size_t)snprintf(text + at, 4, "$%02X", c);
+	}
+	text[at++] = '\'';
+	return snprintf(out, size, "%.*s", (int)at, text);
+}
+
 int iec_value_print(enum iec_type type, union iec_value value, char *out,
 		    size_t size)
 {
 	switch ((enum iec_class)iec_type_row(type)->class) {
 	case CLASS_REAL:
-		return print_real((float)value.r, out, size);
+		return type == IEC_LREAL ?
+		       print_real(value.r, true, out, size) :
+		       print_real((double)(float)value.r, false, out, size);
 	case CLASS_TIME:
 		return print_time(value.i, out, size);
+	case CLASS_TOD:
+		return print_clock(value.i, out, size);
+	case CLASS_DATE:
+		return print_date(value.i / DAY_NS - (value.i % DAY_NS < 0), out,
+				  size);
+	case CLASS_DT:
+		return print_date_and_time(value.i, out, size);
+	case CLASS_STRING:
+		return print_string(value.s, out, size);
 	case CLASS_BOOL:
 	case CLASS_BITS:
 	case CLASS_SIGNED:
 	case CLASS_UNSIGNED:
+		if (iec_is_wide(type))
+			return snprintf(out, size, "%" PRIu64, (uint64_t)value.i);
 		return snprintf(out, size, "%" PRId64, value.i);
 	}
 	return snprintf(out, size, "%s", "");

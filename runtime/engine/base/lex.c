@@ -115,6 +115,46 @@ static const char *skip_name(const char *at, const char *end)
 	}
 }
 
+/* Behind the closing quote; NULL: the line ends first. */
+static const char *skip_string(const char *at, const char *end)
+{
+	const char quote = *at;
+
+	for (at++; at != end && *at != '\n'; at++) {
+		if (*at == quote)
+			return at + 1;
+		if (*at == '$' && end - at >= 2 && at[1] != '\n')
+			at++;
+	}
+	return NULL;
+}
+
+/* Does the type before the # have constants with - and : in them? */
+static bool is_dated(const char *type, size_t len)
+{
+	static const char *const word[] = {
+		"D", "DATE", "DT", "DATE_AND_TIME", "TOD", "TIME_OF_DAY", "LD",
+		"LDATE", "LDT", "LDATE_AND_TIME", "LTOD", "LTIME_OF_DAY",
+	};
+
+	for (size_t i = 0; i < sizeof(word) / sizeof(*word); i++)
+		if (ascii_is(word[i], type, len))
+			return true;
+	return false;
+}
+
+/* Behind a date or a time of day: 2026-11-21-08:30:00.5 */
+static const char *skip_date(const char *at, const char *end)
+{
+	for (;;) {
+		at = skip_alnum(at, end);
+		if (at == end || (*at != '-' && *at != ':' && *at != '.') ||
+		    !is_digit_at(at + 1, end))
+			return at;
+		at++;
+	}
+}
+
 /* Does a decimal number from @start to @at end with E, so that a sign may
  * follow? */
 static bool ends_with_exponent(const char *start, const char *at)
@@ -125,6 +165,24 @@ static bool ends_with_exponent(const char *start, const char *at)
 		if (!ascii_digit(*start) && *start != '.' && *start != '_')
 			return false;
 	return true;
+}
+
+static const char *line_end(const char *at, const char *end)
+{
+	const char *newline = memchr(at, '\n', (size_t)(end - at));
+
+	if (!newline)
+		return end;
+	return newline != at && newline[-1] == '\r' ? newline - 1 : newline;
+}
+
+/* Behind a quoted constant; one that does not end goes on to the end of the line,
+ * and is none. */
+static const char *skip_quoted(const char *at, const char *end)
+{
+	const char *close = skip_string(at, end);
+
+	return close ? close : line_end(at, end);
 }
 
 /* Behind the number that begins at @start; @at stands inside it. What is behind a
@@ -141,8 +199,14 @@ static const char *skip_number(const char *start, const char *at,
 		if (*at == '.' && is_digit_at(at + 1, end)) {
 			at++;
 		} else if (*at == '#') {
+			bool dated = is_dated(start, (size_t)(at - start));
+
 			based = ascii_digit(*start);
 			at++;
+			if (dated)
+				return skip_date(at, end);
+			if (at != end && *at == '\'')
+				return skip_quoted(at, end);
 			if (end - at >= 2 && (*at == '-' || *at == '+') &&
 			    ascii_digit(at[1]))
 				at++;
@@ -155,18 +219,6 @@ static const char *skip_number(const char *start, const char *at,
 			return at;
 		}
 	}
-}
-
-/* Behind the closing quote; NULL: the line ends first. */
-static const char *skip_string(const char *at, const char *end)
-{
-	for (at++; at != end && *at != '\n'; at++) {
-		if (*at == '"')
-			return at + 1;
-		if (*at == '$' && end - at >= 2 && at[1] != '\n')
-			at++;
-	}
-	return NULL;
 }
 
 /* Behind a nested comment; NULL: the text ends first. Counts lines. */
@@ -196,15 +248,6 @@ static const char *skip_comment(struct lex *lex, const char *at)
 		lex->line_start = end;
 	}
 	return NULL;
-}
-
-static const char *line_end(const char *at, const char *end)
-{
-	const char *newline = memchr(at, '\n', (size_t)(end - at));
-
-	if (!newline)
-		return end;
-	return newline != at && newline[-1] == '\r' ? newline - 1 : newline;
 }
 
 static size_t symbol_length(const char *at, const char *end)
@@ -237,6 +280,10 @@ static enum token_kind scan_symbol(struct lex *lex)
 		close = skip_string(at, end);
 		lex->at = close ? close : line_end(at, end);
 		return close ? TOKEN_STRING : TOKEN_BAD;
+	}
+	if (*at == '\'') {
+		lex->at = skip_quoted(at, end);
+		return TOKEN_NUMBER;
 	}
 	if (*at == '%' && left >= 2 && class_at(at + 1) == IS_LETTER) {
 		at = skip_alnum(at + 1, end);

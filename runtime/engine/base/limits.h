@@ -25,8 +25,8 @@
 #define LIMIT_RUNGS       50000     /* rungs of one POU                       */
 #define LIMIT_POUS        1024      /* POUs of one project                    */
 #define LIMIT_VARS        200000    /* variables of one project               */
-#define LIMIT_ARGS        16        /* parameters written at one box          */
-#define LIMIT_FN_INPUTS   8         /* inputs of an extensible function       */
+#define LIMIT_ARGS        20        /* parameters written at one box          */
+#define LIMIT_FN_INPUTS   16        /* inputs of an extensible function       */
 #define LIMIT_EXPR_DEPTH  64        /* nesting of an expression               */
 #define LIMIT_EXPR_NODES  512       /* operands and operators of one          */
 #define LIMIT_IL_DEPTH    64        /* open parentheses of an IL list         */

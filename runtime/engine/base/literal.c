@@ -7,6 +7,7 @@
  */
 #include "engine/base/literal.h"
 #include "engine/base/ascii.h"
+#include "engine/base/literal_part.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -14,61 +15,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is left of the text. */
-struct rest {
-	const char *at, *end;
-};
-
-static bool at_end(const struct rest *rest)
-{
-	return rest->at == rest->end;
-}
-
-static bool take_byte(struct rest *rest, char c)
-{
-	if (at_end(rest) || *rest->at != c)
-		return false;
-	rest->at++;
-	return true;
-}
-
 static bool take_minus(struct rest *rest)
 {
-	if (take_byte(rest, '-'))
+	if (literal_byte(rest, '-'))
 		return true;
-	take_byte(rest, '+');
+	literal_byte(rest, '+');
 	return false;
-}
-
-static unsigned int digit_value(char c)
-{
-	if (ascii_digit(c))
-		return (unsigned int)(c - '0');
-	c = ascii_upper(c);
-	return c >= 'A' && c <= 'F' ? (unsigned int)(c - 'A') + 10 : 99;
-}
-
-/* Digits of @base with single underscores between them. */
-static enum literal_result take_digits(struct rest *rest, unsigned int base,
-				       uint64_t *out)
-{
-	bool over = false, digit = false;
-	uint64_t value = 0;
-
-	for (; !at_end(rest); rest->at++) {
-		unsigned int d = digit_value(*rest->at);
-
-		if (*rest->at == '_' && digit && rest->end - rest->at > 1 &&
-		    digit_value(rest->at[1]) < base)
-			continue;
-		if (d >= base)
-			break;
-		digit = true;
-		over |= __builtin_mul_overflow(value, (uint64_t)base, &value);
-		over |= __builtin_add_overflow(value, (uint64_t)d, &value);
-	}
-	*out = value;
-	return !digit ? LITERAL_BAD : over ? LITERAL_RANGE : LITERAL_OK;
 }
 
 static enum literal_result set_integer(uint64_t size, bool minus, int64_t *out)
@@ -87,7 +39,7 @@ static bool copy_digits(struct rest *rest, char *out, size_t *len)
 	size_t before = *len;
 	bool digit = false;
 
-	for (; !at_end(rest); rest->at++) {
+	for (; !literal_end(rest); rest->at++) {
 		if (*rest->at == '_' && digit && rest->end - rest->at > 1 &&
 		    ascii_digit(rest->at[1]))
 			continue;
@@ -112,15 +64,15 @@ static enum literal_result parse_real(struct rest rest, bool minus, double *out)
 	if (!copy_digits(&rest, text, &len))
 		return LITERAL_BAD;
 	whole = len;
-	if (take_byte(&rest, '.') && !copy_digits(&rest, text, &len))
+	if (literal_byte(&rest, '.') && !copy_digits(&rest, text, &len))
 		return LITERAL_BAD;
-	if (!at_end(&rest) && ascii_upper(*rest.at) == 'E') {
+	if (!literal_end(&rest) && ascii_upper(*rest.at) == 'E') {
 		rest.at++;
 		down = take_minus(&rest);
-		if (take_digits(&rest, 10, &exponent) == LITERAL_BAD)
+		if (literal_digits(&rest, 10, &exponent) == LITERAL_BAD)
 			return LITERAL_BAD;
 	}
-	if (!at_end(&rest))
+	if (!literal_end(&rest))
 		return LITERAL_BAD;
 	if (len > REAL_TEXT || exponent > 100000)
 		return LITERAL_RANGE;
@@ -137,7 +89,7 @@ static enum literal_result parse_real(struct rest rest, bool minus, double *out)
 
 static bool is_real(struct rest rest)
 {
-	for (; !at_end(&rest); rest.at++)
+	for (; !literal_end(&rest); rest.at++)
 		if (*rest.at == '.' || ascii_upper(*rest.at) == 'E')
 			return true;
 	return false;
@@ -156,18 +108,23 @@ static enum literal_result parse_number(struct rest rest, struct literal *out)
 		out->real = true;
 		return parse_real(rest, minus, &out->value.r);
 	}
-	result = take_digits(&rest, 10, &size);
+	result = literal_digits(&rest, 10, &size);
 	if (hash && result == LITERAL_OK && rest.at == hash) {
 		if (rest.at - start > 2 || !ascii_digit(*start) ||
 		    (size != 2 && size != 8 && size != 16))
 			return LITERAL_BAD;
 		rest.at++;
-		result = take_digits(&rest, (unsigned int)size, &size);
+		result = literal_digits(&rest, (unsigned int)size, &size);
 	}
-	if (result == LITERAL_BAD || !at_end(&rest))
+	if (result == LITERAL_BAD || !literal_end(&rest))
 		return LITERAL_BAD;
 	if (result == LITERAL_RANGE)
 		return result;
+	out->high = !minus && size > (uint64_t)INT64_MAX;
+	if (out->high) {
+		out->value.i = (int64_t)size;
+		return LITERAL_OK;
+	}
 	return set_integer(size, minus, &out->value.i);
 }
 
@@ -202,75 +159,35 @@ static int take_unit(struct rest *rest)
 	return UNITS;
 }
 
-/* @part / 10^@places of @ns, if that is a whole number; false: it is finer. */
-static bool take_fraction(uint64_t part, int places, uint64_t ns, uint64_t *out)
-{
-	while (places > 0) {
-		if (part % 10 == 0)
-			part /= 10;
-		else if (ns % 10 == 0)
-			ns /= 10;
-		else if (part % 2 == 0 && ns % 5 == 0) {
-			part /= 2;
-			ns /= 5;
-		} else if (part % 5 == 0 && ns % 2 == 0) {
-			part /= 5;
-			ns /= 2;
-		} else {
-			return false;
-		}
-		places--;
-	}
-	return !__builtin_mul_overflow(part, ns, out);
-}
-
-/* Digits behind the point; zeros at their end do not count. */
-static enum literal_result take_places(struct rest *rest, uint64_t *part,
-				       int *places)
-{
-	struct rest digits = *rest;
-
-	if (take_digits(rest, 10, part) == LITERAL_BAD)
-		return LITERAL_BAD;
-	digits.end = rest->at;
-	while (digits.end - digits.at > 1 &&
-	       (digits.end[-1] == '0' || digits.end[-1] == '_'))
-		digits.end--;
-	*places = 0;
-	for (const char *at = digits.at; at != digits.end; at++)
-		*places += *at != '_';
-	return take_digits(&digits, 10, part);
-}
-
 /* 1h2m3.5s */
 static enum literal_result parse_units(struct rest rest, uint64_t *out)
 {
 	uint64_t total = 0, count, part = 0, ns;
 	int before = -1, places = 0;
 
-	while (!at_end(&rest)) {
-		enum literal_result result = take_digits(&rest, 10, &count);
-		bool point = result != LITERAL_BAD && take_byte(&rest, '.');
+	while (!literal_end(&rest)) {
+		enum literal_result result = literal_digits(&rest, 10, &count);
+		bool point = result != LITERAL_BAD && literal_byte(&rest, '.');
 		int unit;
 
 		if (point && result == LITERAL_OK)
-			result = take_places(&rest, &part, &places);
+			result = literal_places(&rest, &part, &places);
 		if (result != LITERAL_OK)
 			return result;
 		unit = take_unit(&rest);
 		if (unit == UNITS || unit <= before ||
-		    (point && !at_end(&rest)))
+		    (point && !literal_end(&rest)))
 			return LITERAL_BAD;
 		if ((before >= 0 && count > units[unit].most) ||
 		    __builtin_mul_overflow(count, units[unit].ns, &ns) ||
 		    __builtin_add_overflow(total, ns, &total))
 			return LITERAL_RANGE;
-		if (point && (!take_fraction(part, places, units[unit].ns,
+		if (point && (!literal_fraction(part, places, units[unit].ns,
 					     &ns) ||
 			      __builtin_add_overflow(total, ns, &total)))
 			return LITERAL_RANGE;
 		before = unit;
-		if (take_byte(&rest, '_') && at_end(&rest))
+		if (literal_byte(&rest, '_') && literal_end(&rest))
 			return LITERAL_BAD;
 	}
 	*out = total;
@@ -307,20 +224,26 @@ static bool parse_bool(struct rest rest, int64_t *out)
 static enum literal_result parse_typed(enum iec_type type, struct rest rest,
 				       struct literal *out)
 {
-	struct literal untyped = { IEC_NONE, false, { 0 } };
+	struct literal untyped = { .type = IEC_NONE };
 	enum literal_result result;
+	bool real = iec_type_row(type)->class == CLASS_REAL;
 
 	out->type = type;
-	if (at_end(&rest))
+	if (literal_end(&rest))
 		return LITERAL_BAD;
 	if (type == IEC_TIME)
 		return parse_time(rest, &out->value.i);
+	if (iec_type_row(type)->class & ANY_DATE)
+		return literal_date(type, rest, &out->value.i);
+	if (type == IEC_STRING)
+		return literal_quoted(rest, out);
 	if (type == IEC_BOOL && parse_bool(rest, &out->value.i))
 		return LITERAL_OK;
 	result = parse_number(rest, &untyped);
 	if (result != LITERAL_OK)
 		return result;
-	if (type == IEC_REAL ? memchr(rest.at, '#', (size_t)(rest.end -
+	out->high = untyped.high;
+	if (real ? memchr(rest.at, '#', (size_t)(rest.end -
 							     rest.at)) != NULL :
 			       untyped.real)
 		return LITERAL_BAD;
@@ -328,11 +251,13 @@ static enum literal_result parse_typed(enum iec_type type, struct rest rest,
 							  LITERAL_RANGE;
 }
 
-/* The type before a #; T is short for TIME. */
+/* The type before a #; T is short for TIME, D for DATE. */
 static enum iec_type type_before(const char *text, size_t len)
 {
-	if (len == 1 && ascii_upper(*text) == 'T')
+	if (ascii_is("T", text, len) || ascii_is("LT", text, len))
 		return IEC_TIME;
+	if (ascii_is("D", text, len) || ascii_is("LD", text, len))
+		return IEC_DATE;
 	return iec_type_find(text, len);
 }
 
@@ -344,9 +269,11 @@ enum literal_result literal_parse(const char *text, size_t len,
 	enum literal_result result;
 	int64_t ns;
 
-	*out = (struct literal){ IEC_NONE, false, { 0 } };
+	*out = (struct literal){ .type = IEC_NONE };
 	if (len == 0)
 		return LITERAL_NONE;
+	if (*text == '\'')
+		return literal_quoted(rest, out);
 	if (parse_bool(rest, &out->value.i)) {
 		out->type = IEC_BOOL;
 		return LITERAL_OK;
@@ -369,11 +296,15 @@ enum literal_result literal_parse(const char *text, size_t len,
 	return parse_typed(out->type, rest, out);
 }
 
-/* REAL takes an integer only when it is exact. */
-static bool fit_real(double value, bool exact, union iec_value *out)
+/* REAL and LREAL take an integer only when it is exact. */
+static bool fit_real(double value, bool exact, bool wide, union iec_value *out)
 {
 	float single;
 
+	if (wide) {
+		out->r = value;
+		return isfinite(value);
+	}
 	if (fabs(value) > (double)3.4028235677973366e38)
 		return false;
 	single = (float)value;
@@ -384,27 +315,40 @@ static bool fit_real(double value, bool exact, union iec_value *out)
 	return true;
 }
 
-bool literal_fit(const struct literal *literal, enum iec_type type,
-		 union iec_value *out)
+static bool fit_integer(const struct literal *literal, enum iec_type type,
+			union iec_value *out)
 {
 	const struct iec_type_row *row = iec_type_row(type);
 	int64_t value = literal->value.i;
 
+	if (literal->type == IEC_NONE &&
+	    row->class & (CLASS_TIME | ANY_DATE | CLASS_STRING))
+		return false;
+	if (literal->high ? !iec_is_wide(type) :
+	    row->class == 0 || value < row->low || value > row->high)
+		return false;
+	*out = literal->value;
+	return true;
+}
+
+bool literal_fit(const struct literal *literal, enum iec_type type,
+		 union iec_value *out)
+{
+	bool real = iec_type_row(type)->class == CLASS_REAL;
+	bool wide = type == IEC_LREAL;
+	int64_t value = literal->value.i;
+
 	if (literal->type != IEC_NONE && !iec_can_widen(literal->type, type))
 		return false;
-	if (literal->real || literal->type == IEC_REAL)
-		return type == IEC_REAL &&
-		       fit_real(literal->value.r, false, out);
-	if (type == IEC_REAL)
-		return value >= -(INT64_C(1) << 53) &&
-		       value <= INT64_C(1) << 53 &&
-		       fit_real((double)value, true, out);
-	if (literal->type == IEC_NONE && type == IEC_TIME)
-		return false;
-	if (row->class == 0 || value < row->low || value > row->high)
-		return false;
-	out->i = value;
-	return true;
+	if (literal->type == IEC_STRING)
+		return true;
+	if (literal->real || iec_type_row(literal->type)->class == CLASS_REAL)
+		return real && fit_real(literal->value.r, false, wide, out);
+	if (!real)
+		return fit_integer(literal, type, out);
+	return !literal->high && value >= -(INT64_C(1) << 53) &&
+	       value <= INT64_C(1) << 53 &&
+	       fit_real((double)value, true, wide, out);
 }
 
 int literal_print_time(int64_t ns, char *out, size_t size)
@@ -425,18 +369,30 @@ int literal_print_time(int64_t ns, char *out, size_t size)
 }
 
 /* 5 is no REAL in source: 5.0; and 1e+06 is written 1.0e+06. */
-static int print_real(union iec_value value, char *out, size_t size)
+static int print_real(enum iec_type type, union iec_value value, char *out,
+		      size_t size)
 {
 	char text[40];
 	const char *exponent;
 	int len;
 
-	iec_value_print(IEC_REAL, value, text, sizeof(text));
+	iec_value_print(type, value, text, sizeof(text));
 	if (strpbrk(text, ".n"))
 		return snprintf(out, size, "%s", text);
 	exponent = strchr(text, 'e');
 	len = (int)(exponent ? (size_t)(exponent - text) : strlen(text));
 	return snprintf(out, size, "%.*s.0%s", len, text, text + len);
+}
+
+static int print_dated(enum iec_type type, union iec_value value, char *out,
+		       size_t size)
+{
+	const char *prefix = type == IEC_DATE ? "D" :
+			     type == IEC_TIME_OF_DAY ? "TOD" : "DT";
+	char text[48];
+
+	iec_value_print(type, value, text, sizeof(text));
+	return snprintf(out, size, "%s#%s", prefix, text);
 }
 
 int literal_print(enum iec_type type, union iec_value value, char *out,
@@ -446,7 +402,9 @@ int literal_print(enum iec_type type, union iec_value value, char *out,
 		return snprintf(out, size, "%s", value.i ? "TRUE" : "FALSE");
 	if (type == IEC_TIME)
 		return literal_print_time(value.i, out, size);
-	if (type == IEC_REAL)
-		return print_real(value, out, size);
+	if (iec_type_row(type)->class == CLASS_REAL)
+		return print_real(type, value, out, size);
+	if (iec_type_row(type)->class & ANY_DATE)
+		return print_dated(type, value, out, size);
 	return iec_value_print(type, value, out, size);
 }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * literal - constants as IEC 61131-3 writes them (tables 5 to 7).
+ * literal - constants as IEC 61131-3 writes them (tables 5 to 8).
  *
- * `12 -7 1_000 2#1010 8#17 16#FF TRUE 1.5E-3 T#1h2m3.5s INT#16#7F`. Both ways:
+ * `12 -7 1_000 2#1010 8#17 16#FF TRUE 1.5E-3 T#1h2m3.5s INT#16#7F TOD#08:30:00
+ * D#2026-11-21 DT#2026-11-21-08:30:00 'it$'s'`. Both ways:
  * text to value and value to canonical text. It refuses to round silently.
  */
 #ifndef BASE_LITERAL_H
@@ -20,7 +21,10 @@ enum literal_result {
 struct literal {
 	enum iec_type type;    /* IEC_NONE: an untyped number, fits where it can */
 	bool real;             /* untyped with a point or exponent               */
-	union iec_value value; /* r when real or type REAL, else i               */
+	bool high;             /* i holds the bits of a number above INT64_MAX   */
+	union iec_value value; /* r when real or type REAL or LREAL, else i      */
+	const char *text;      /* of a STRING: what stands between its quotes,   */
+	size_t len;            /* with its escapes; borrowed                     */
 };
 
 /**
@@ -39,6 +43,14 @@ enum literal_result literal_parse(const char *text, size_t len,
  */
 bool literal_fit(const struct literal *literal, enum iec_type type,
 		 union iec_value *out);
+
+/**
+ * literal_string - the bytes of a STRING literal, its escapes resolved
+ * @out: gets at most IEC_STRING_MOST of them
+ *
+ * ($$ $' $L $N $P $R $T $xx, IEC 61131-3 table 6.) Returns their number.
+ */
+size_t literal_string(const struct literal *literal, char *out);
 
 /**
  * literal_parse_duration - a time without its T#, as scenarios write it

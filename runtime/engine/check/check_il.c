@@ -2,46 +2,13 @@
  *
  * check_il - walks an instruction list with the type of its current result.
  */
-#include "engine/check/check_il.h"
+#include "engine/check/il_check.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
-/* The current result (IEC 61131-3 3.2.2): nothing, a type, or a constant that
- * has no type yet. */
-struct result {
-	bool there;
-	enum iec_type type;
-	const struct literal *literal;
-};
-
-struct il_check {
-	struct scope *scope;
-	const struct pou *pou;
-	const struct il *il;
-	enum iec_type *types;
-	struct diag_list *diags;
-	uint8_t *label;        /* by folded name: is it a label?            */
-	uint32_t label_count;
-	struct result now;
-	int depth;           /* of open parentheses; what stands left is a bit */
-};
-
-enum iec_type types_join(enum iec_type a, enum iec_type b)
-{
-	if (a == IEC_NONE || (b != IEC_NONE && iec_can_widen(a, b)))
-		return b;
-	if (b == IEC_NONE || iec_can_widen(b, a))
-		return a;
-	for (int type = IEC_NONE + 1; type < IEC_TYPE_COUNT; type++)
-		if (iec_can_widen(a, (enum iec_type)type) &&
-		    iec_can_widen(b, (enum iec_type)type))
-			return (enum iec_type)type;
-	return IEC_TYPE_COUNT;
-}
-
-static bool report(struct il_check *c, const struct il_line *line,
+bool il_report(struct il_check *c, const struct il_line *line,
 		   enum diag_id id, const char *arg)
 {
 	struct diag place = {
@@ -53,7 +20,7 @@ static bool report(struct il_check *c, const struct il_line *line,
 	return diag_add(c->diags, place, "%s", arg);
 }
 
-static bool report_types(struct il_check *c, const struct il_line *line,
+bool il_report_types(struct il_check *c, const struct il_line *line,
 			 enum iec_type from, enum iec_type to)
 {
 	const char *operand = line->operand ?
@@ -62,7 +29,7 @@ static bool report_types(struct il_check *c, const struct il_line *line,
 
 	snprintf(text, sizeof(text), "%s and %s%s%.24s", iec_type_row(from)->word,
 		 iec_type_row(to)->word, *operand ? ": " : "", operand);
-	return report(c, line, DIAG_NEEDS_CONVERSION, text);
+	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
 }
 
 static const char *operand_text(struct il_check *c, const struct il_line *line)
@@ -77,7 +44,7 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 					     &why);
 
 	if (!m)
-		report(c, line, why, operand_text(c, line));
+		il_report(c, line, why, operand_text(c, line));
 	return m;
 }
 
@@ -88,7 +55,7 @@ static const struct meaning *value_of(struct il_check *c,
 	const struct meaning *m = find(c, line);
 
 	if (m && m->kind == MEANING_INSTANCE) {
-		report(c, line, DIAG_INSTANCE_AS_VALUE, operand_text(c, line));
+		il_report(c, line, DIAG_INSTANCE_AS_VALUE, operand_text(c, line));
 		return NULL;
 	}
 	return m;
@@ -105,12 +72,14 @@ static struct result result_of(const struct meaning *m)
 
 /* An untyped constant that is no value of @to: out of its range, or of another
  * kind; then with an example of the right one. */
-static bool report_constant(struct il_check *c, const struct il_line *line,
+bool il_report_constant(struct il_check *c, const struct il_line *line,
 			    const struct literal *literal, enum iec_type to)
 {
-	static const struct { uint8_t class; const char *like; } kind[] = {
+	static const struct { uint16_t class; const char *like; } kind[] = {
 		{ CLASS_BOOL, "TRUE" }, { CLASS_TIME, "T#5s" },
 		{ CLASS_REAL, "1.5" }, { ANY_INT | CLASS_BITS, "5" },
+		{ CLASS_TOD, "TOD#08:30:00" }, { CLASS_DATE, "D#2026-11-21" },
+		{ CLASS_DT, "DT#2026-11-21-08:30:00" }, { CLASS_STRING, "'text'" },
 	};
 	const struct iec_type_row *row = iec_type_row(to);
 	char text[LIMIT_ARG];
@@ -118,16 +87,16 @@ static bool report_constant(struct il_check *c, const struct il_line *line,
 
 	if (row->class & (ANY_NUM | CLASS_BITS) &&
 	    (!literal->real || row->class == CLASS_REAL))
-		return report(c, line, DIAG_LITERAL_RANGE, row->word);
+		return il_report(c, line, DIAG_LITERAL_RANGE, row->word);
 	while (!(kind[k].class & row->class))
 		k++;
 	snprintf(text, sizeof(text), "must be %s, such as %s", row->word,
 		 kind[k].like);
-	return report(c, line, DIAG_WRONG_CONSTANT, text);
+	return il_report(c, line, DIAG_WRONG_CONSTANT, text);
 }
 
 /* After an error was told: a result that fits everywhere. */
-static bool is_unknown(struct result result)
+bool il_is_unknown(struct result result)
 {
 	return result.there && result.type == IEC_NONE && !result.literal;
 }
@@ -141,22 +110,22 @@ static bool can_store(struct il_check *c, const struct il_line *line,
 	if (from.literal) {
 		if (literal_fit(from.literal, to, &value))
 			return true;
-		return report_constant(c, line, from.literal, to);
+		return il_report_constant(c, line, from.literal, to);
 	}
-	if (is_unknown(from))
+	if (il_is_unknown(from))
 		return false;
 	if (iec_can_widen(from.type, to))
 		return true;
-	return report_types(c, line, from.type, to);
+	return il_report_types(c, line, from.type, to);
 }
 
 static bool can_write(struct il_check *c, const struct il_line *line,
 		      const struct meaning *m)
 {
 	if (m->kind == MEANING_LITERAL || m->constant)
-		return report(c, line, DIAG_WRITE_CONSTANT, operand_text(c, line));
+		return il_report(c, line, DIAG_WRITE_CONSTANT, operand_text(c, line));
 	if (!m->writable)
-		return report(c, line, m->kind == MEANING_PIN ?
+		return il_report(c, line, m->kind == MEANING_PIN ?
 			      DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT,
 			      operand_text(c, line));
 	return true;
@@ -165,7 +134,7 @@ static bool can_write(struct il_check *c, const struct il_line *line,
 static bool need_result(struct il_check *c, const struct il_line *line)
 {
 	return c->now.there ||
-	       report(c, line, DIAG_IL_NO_RESULT, operand_text(c, line));
+	       il_report(c, line, DIAG_IL_NO_RESULT, operand_text(c, line));
 }
 
 static bool need_bool(struct il_check *c, const struct il_line *line,
@@ -176,9 +145,9 @@ static bool need_bool(struct il_check *c, const struct il_line *line,
 	if (result.type == IEC_BOOL ||
 	    (result.literal && literal_fit(result.literal, IEC_BOOL, &value)))
 		return true;
-	if (is_unknown(result))
+	if (il_is_unknown(result))
 		return false;
-	return report(c, line, DIAG_NOT_BOOL, what);
+	return il_report(c, line, DIAG_NOT_BOOL, what);
 }
 
 static bool check_load(struct il_check *c, const struct il_line *line)
@@ -214,7 +183,7 @@ static bool check_logic(struct il_check *c, const struct il_line *line)
 
 	if (line->modifiers & MOD_PAREN) {
 		if (c->depth == LIMIT_IL_DEPTH)
-			return report(c, line, DIAG_TOO_DEEP, "(");
+			return il_report(c, line, DIAG_TOO_DEEP, "(");
 		c->depth++;
 		c->now.there = false;
 		if (!line->operand)
@@ -237,7 +206,7 @@ static bool check_close(struct il_check *c, const struct il_line *line)
 	bool good = need_result(c, line) && need_bool(c, line, c->now, "result");
 
 	if (c->depth == 0)
-		return report(c, line, DIAG_IL_CLOSE_PAREN, ")");
+		return il_report(c, line, DIAG_IL_CLOSE_PAREN, ")");
 	c->depth--;
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	return good;
@@ -256,9 +225,9 @@ static bool check_flow(struct il_check *c, const struct il_line *line)
 	bool good = true;
 
 	if (c->depth > 0)
-		good = report(c, line, DIAG_IL_OPEN_PAREN, op_row(line->op)->word);
+		good = il_report(c, line, DIAG_IL_OPEN_PAREN, op_row(line->op)->word);
 	if (line->op == OP_JMP && !is_label(c, line->operand))
-		good = report(c, line, DIAG_NO_LABEL, operand_text(c, line));
+		good = il_report(c, line, DIAG_NO_LABEL, operand_text(c, line));
 	if (line->modifiers & MOD_C)
 		return need_result(c, line) &&
 		       need_bool(c, line, c->now, "result") && good;
@@ -276,60 +245,19 @@ static bool check_not(struct il_check *c, const struct il_line *line)
 
 /* ---- functions and calls ---- */
 
-/* The inputs' common type, and whether the function takes it. */
-static bool check_inputs(struct il_check *c, const struct il_line *line,
-			 const struct result *in, int count,
-			 enum iec_type hint, enum iec_type *common)
-{
-	const struct word_row *row = word_row((enum word)line->word);
-	enum iec_type type = IEC_NONE;
-	union iec_value value;
-
-	for (int i = 0; i < count; i++) {
-		bool point = in[i].literal && in[i].literal->real;
-		enum iec_type own = point ? IEC_REAL : in[i].type;
-		enum iec_type join = types_join(type, own);
-
-		if (is_unknown(in[i]))
-			return false;
-		if (join == IEC_TYPE_COUNT)
-			return report_types(c, line, type, own);
-		type = join;
-	}
-	if (type == IEC_NONE) /* constants only: as the result wants them */
-		type = hint ? hint : IEC_DINT;
-	if (!(row->pin[0].classes & iec_type_row(type)->class)) {
-		char text[LIMIT_ARG];
-
-		snprintf(text, sizeof(text), "%s does not take %s", row->word,
-			 iec_type_row(type)->word);
-		return report(c, line, DIAG_WRONG_TYPE, text);
-	}
-	for (int i = 0; i < count; i++)
-		if (in[i].literal && !literal_fit(in[i].literal, type, &value))
-			return report_constant(c, line, in[i].literal, type);
-	*common = type;
-	return true;
-}
-
-static enum iec_type fn_type(const struct il_line *line, enum iec_type common)
-{
-	return word_row((enum word)line->word)->result == RESULT_BOOL ?
-	       IEC_BOOL : common;
-}
-
 /* A function on the current result: ADD 5. */
-static bool check_fn(struct il_check *c, const struct il_line *line,
-		     enum iec_type *common)
+static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 {
+	const struct il_line *line = &c->il->line[at];
 	const struct word_row *row = word_row((enum word)line->word);
 	struct result in[2] = { c->now };
+	enum iec_type stored;
 	int count = 1;
 
 	if (!need_result(c, line))
 		return false;
-	c->now = (struct result){ .there = true, .type = row->result ==
-		RESULT_BOOL ? IEC_BOOL : IEC_NONE };
+	c->now = (struct result){ .there = true,
+		.type = word_is_test(row) ? IEC_BOOL : IEC_NONE };
 	if (line->operand) {
 		const struct meaning *m = value_of(c, line);
 
@@ -338,11 +266,12 @@ static bool check_fn(struct il_check *c, const struct il_line *line,
 		in[count++] = result_of(m);
 	}
 	if (count < row->pin_count || count > row->most_inputs)
-		return report(c, line, DIAG_MISSING_INPUT, row->word);
-	if (!check_inputs(c, line, in, count, IEC_NONE, common))
+		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
+	stored = il_stored_type(c->scope, c->pou, c->il, at);
+	if (!il_check_inputs(c, line, in, count, IEC_NONE, common))
 		return false;
 	c->now = (struct result){
-		.there = true, .type = fn_type(line, *common),
+		.there = true, .type = fn_result(row, *common, stored),
 	};
 	return true;
 }
@@ -353,14 +282,11 @@ static bool is_arg(const struct il_check *c, int at)
 				     c->il->line[at].kind == IL_ARG_OUT);
 }
 
-/* Type of the variable behind OUT =>, where that is the type of the inputs too. */
+/* Type of the variable behind OUT =>. */
 static enum iec_type out_type(struct il_check *c, int at)
 {
-	const struct il_line *line = &c->il->line[at];
 	enum diag_id why;
 
-	if (word_row((enum word)line->word)->result == RESULT_BOOL)
-		return IEC_NONE;
 	for (int i = at + 1; is_arg(c, i); i++) {
 		const struct il_line *arg = &c->il->line[i];
 		const struct meaning *m;
@@ -381,6 +307,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	const struct word_row *row = word_row((enum word)line->word);
 	struct result in[LIMIT_FN_INPUTS] = { { false, IEC_NONE, NULL } };
 	struct result out;
+	enum iec_type stored;
 	int count = 0, last = 0;
 	bool good = true;
 
@@ -399,7 +326,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 			good &= need_bool(c, arg, result_of(m),
 					  operand_text(c, arg));
 		} else if (index < 0 || index >= LIMIT_FN_INPUTS) {
-			good = report(c, arg, DIAG_NO_PIN, pin);
+			good = il_report(c, arg, DIAG_NO_PIN, pin);
 		} else {
 			count += !in[index].there;
 			in[index] = result_of(m);
@@ -409,10 +336,13 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	if (!good)
 		return false;
 	if (count < row->pin_count || count != last + 1)
-		return report(c, line, DIAG_MISSING_INPUT, row->word);
-	if (!check_inputs(c, line, in, count, out_type(c, at), common))
+		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
+	stored = out_type(c, at);
+	if (!il_check_inputs(c, line, in, count, row->result == RESULT_SAME ? stored :
+			  IEC_NONE, common))
 		return false;
-	out = (struct result){ .there = true, .type = fn_type(line, *common) };
+	out = (struct result){ .there = true,
+			       .type = fn_result(row, *common, stored) };
 	for (int i = at + 1; is_arg(c, i); i++) {
 		const struct il_line *arg = &c->il->line[i];
 		const char *pin = scope_text(c->scope, arg->pin);
@@ -429,7 +359,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 		else if (strcasecmp(pin, "OUT") == 0)
 			good &= can_store(c, arg, out, m->type);
 		else
-			good = report(c, arg, DIAG_NO_PIN, pin);
+			good = il_report(c, arg, DIAG_NO_PIN, pin);
 	}
 	c->now.there = false;
 	return good;
@@ -446,10 +376,10 @@ static bool check_pin(struct il_check *c, const struct word_row *row,
 	if (!m)
 		return false;
 	if (index < 0)
-		return report(c, arg, DIAG_NO_PIN, name);
+		return il_report(c, arg, DIAG_NO_PIN, name);
 	pin = &row->pin[index];
 	if ((pin->dir == PIN_IN) != (arg->kind == IL_ARG_IN))
-		return report(c, arg, DIAG_PIN_DIRECTION, name);
+		return il_report(c, arg, DIAG_PIN_DIRECTION, name);
 	if (pin->dir == PIN_IN)
 		return can_store(c, arg, result_of(m), pin->type);
 	return can_write(c, arg, m) &&
@@ -466,7 +396,7 @@ static bool check_cal(struct il_check *c, int at)
 	if (!m)
 		return false;
 	if (m->kind != MEANING_INSTANCE)
-		return report(c, line, DIAG_NOT_INSTANCE, operand_text(c, line));
+		return il_report(c, line, DIAG_NOT_INSTANCE, operand_text(c, line));
 	if (line->modifiers & MOD_C)
 		good = need_result(c, line) &&
 		       need_bool(c, line, c->now, "result");
@@ -483,7 +413,7 @@ static bool check_op(struct il_check *c, int at)
 	const struct il_line *line = &c->il->line[at];
 
 	if (line->modifiers & ~op_row((enum op)line->op)->modifiers)
-		return report(c, line, DIAG_IL_MODIFIER,
+		return il_report(c, line, DIAG_IL_MODIFIER,
 			      op_row((enum op)line->op)->word);
 	switch ((enum op)line->op) {
 	case OP_LD:
@@ -519,7 +449,7 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 		good = check_op(c, at);
 		break;
 	case IL_FN:
-		return check_fn(c, line, type);
+		return check_fn(c, at, type);
 	case IL_CALL:
 		return check_call(c, at, type);
 	case IL_CLOSE:
@@ -527,7 +457,7 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 		break;
 	case IL_LABEL:
 		if (c->depth > 0)
-			good = report(c, line, DIAG_IL_OPEN_PAREN,
+			good = il_report(c, line, DIAG_IL_OPEN_PAREN,
 				      operand_text(c, line));
 		c->depth = 0;
 		c->now.there = false;
@@ -562,7 +492,7 @@ static bool find_labels(struct il_check *c, struct arena *scratch)
 			continue;
 		fold = names_fold(names, line->operand);
 		if (c->label[fold] && c->pou->language == LANGUAGE_IL)
-			good = report(c, line, DIAG_DUPLICATE_LABEL,
+			good = il_report(c, line, DIAG_DUPLICATE_LABEL,
 				      operand_text(c, line));
 		c->label[fold] = 1;
 	}
@@ -584,7 +514,7 @@ bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
 	for (int i = 0; i < il->count; i++)
 		good &= check_line(&c, i, &types[i]);
 	if (c.depth > 0 && il->count > 0)
-		good = report(&c, &il->line[il->count - 1], DIAG_IL_OPEN_PAREN,
+		good = il_report(&c, &il->line[il->count - 1], DIAG_IL_OPEN_PAREN,
 			      "(");
 	return good;
 }

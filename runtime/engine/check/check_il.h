@@ -18,6 +18,18 @@
  */
 enum iec_type types_join(enum iec_type a, enum iec_type b);
 
+/** fn_own_type - type that an untyped constant takes at a function's pin with a type of
+ * its own; IEC_NONE: it fits none. Scan-safe: yes. */
+enum iec_type fn_own_type(const struct word_pin *pin, const struct literal *literal);
+/** fn_result - type of a function's result. @out: of the variable that gets it, or
+ * IEC_NONE. Scan-safe: yes. */
+enum iec_type fn_result(const struct word_row *row, enum iec_type common,
+			enum iec_type out);
+/** il_stored_type - type of the variable that the line behind @at stores the result
+ * into; IEC_NONE: it does not. */
+enum iec_type il_stored_type(struct scope *scope, const struct pou *pou,
+			     const struct il *il, int at);
+
 /**
  * check_il - every error of an instruction list
  * @pou:   whose list; its name and file are used in diagnostics

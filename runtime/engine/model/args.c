@@ -15,6 +15,20 @@ static const char *skip_blanks(const char *at)
 	return at;
 }
 
+/* Up to the next blank, but for those of a quoted text: 'a $'b'. */
+static const char *skip_value(const char *at)
+{
+	bool quoted = false;
+
+	for (; *at && (quoted || (*at != ' ' && *at != '\t')); at++) {
+		if (*at == '\'')
+			quoted = !quoted;
+		else if (*at == '$' && quoted && at[1])
+			at++;
+	}
+	return at;
+}
+
 bool args_next(const char **at, struct arg *out)
 {
 	const char *text = skip_blanks(*at);
@@ -30,8 +44,7 @@ bool args_next(const char **at, struct arg *out)
 		return false;
 	text = skip_blanks(text + 2);
 	out->value = text;
-	while (*text && *text != ' ' && *text != '\t')
-		text++;
+	text = skip_value(text);
 	out->value_len = (size_t)(text - out->value);
 	if (out->value_len == 0)
 		return false;

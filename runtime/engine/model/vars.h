@@ -18,6 +18,7 @@ struct var {
 	uint32_t fold;       /* names_fold of it                               */
 	enum iec_type type;  /* IEC_NONE for an instance                       */
 	enum word fb;        /* an FB_ word, of an instance                    */
+	uint16_t capacity;   /* of a STRING, in bytes; 0: of a temporary       */
 	struct iec_addr at;  /* area AREA_NONE: no AT                          */
 	bool has_init;
 	union iec_value init; /* of its type                                   */

@@ -41,7 +41,7 @@ bool verify_use(const struct verifier *v, uint32_t offset, uint32_t type,
 		return true;
 	if (v->mark[offset] == MARK_FIXED + type)
 		return !write;
-	return offset < v->areas && type != IEC_BOOL &&
+	return offset < v->areas && type != IEC_BOOL && type != IEC_STRING &&
 	       in_area(v, offset, type_size(type), write);
 }
 
@@ -169,7 +169,8 @@ static void mark_value(struct verifier *v, uint32_t offset,
 {
 	int base = run->kind == RUN_CONSTANTS ? MARK_FIXED : MARK_VALUE;
 
-	memset(v->mark + offset, MARK_INSIDE, type_size(run->type));
+	memset(v->mark + offset, run->type == IEC_STRING ? MARK_TEXT : MARK_INSIDE,
+	       code_run_size(run));
 	v->mark[offset] = (uint8_t)(base + run->type);
 }
 
@@ -185,9 +186,12 @@ static bool mark_run(struct verifier *v, const struct code_run *run,
 		       word_row((enum word)run->word)->kind != WORD_FB
 		     : !verify_is_type(run->type))
 		return verify_refuse(v, run);
-	size = instance ? word_row((enum word)run->word)->size
-			: type_size(run->type);
-	align = instance ? 8 : size;
+	if (!instance && (run->type == IEC_STRING) != (run->word != 0))
+		return verify_refuse(v, run);
+	size = code_run_size(run);
+	align = instance ? 8 : type_size(run->type);
+	if (run->word > IEC_STRING_MOST && !instance)
+		return verify_refuse(v, run);
 	if (run->offset % align || run->offset > v->data_size ||
 	    run->count > (v->data_size - run->offset) / size)
 		return verify_refuse(v, run);
@@ -225,7 +229,32 @@ static bool check_layout(struct verifier *v)
 	return true;
 }
 
-/* Initial bytes must be whole values; a BOOL among them 0 or 1. */
+/* Bytes of the value that begins at @offset, a text's to its end. */
+static uint32_t value_bytes(const struct verifier *v, uint32_t offset)
+{
+	uint32_t size = type_size(v->mark[offset] % MARK_VALUE);
+
+	if (v->mark[offset] % MARK_VALUE == IEC_STRING)
+		for (size = 1; offset + size < v->data_size &&
+			       v->mark[offset + size] == MARK_TEXT;)
+			size++;
+	return size;
+}
+
+/* A BOOL is 0 or 1, a text no longer than its room; its bound is set by its run. */
+static bool is_initial(uint8_t type, const uint8_t *bytes, uint32_t size)
+{
+	uint16_t length;
+
+	if (type == IEC_BOOL)
+		return bytes[0] <= 1;
+	if (type != IEC_STRING)
+		return true;
+	memcpy(&length, bytes + offsetof(struct iec_string, length), 2);
+	return length <= size - sizeof(struct iec_string);
+}
+
+/* Initial bytes must be whole values. */
 static bool check_init_bytes(struct verifier *v, uint32_t offset,
 			     const uint8_t *bytes, uint32_t len)
 {
@@ -234,8 +263,9 @@ static bool check_init_bytes(struct verifier *v, uint32_t offset,
 		uint32_t size = 1;
 
 		if (mark >= MARK_VALUE) {
-			size = type_size(mark % MARK_VALUE);
-			if (mark % MARK_VALUE == IEC_BOOL && bytes[0] > 1)
+			size = value_bytes(v, offset);
+			if (size > len ||
+			    !is_initial(mark % MARK_VALUE, bytes, size))
 				return verify_refuse(v, bytes);
 		} else if (mark != MARK_AREA_READ && mark != MARK_AREA_WRITE) {
 			return verify_refuse(v, bytes);

@@ -20,7 +20,8 @@
  *   BITPUT src, byte            n: bit 0..7
  *   COPY   en, dst, src         types in the top 8 bits of dst and src; widens
  *   CMP    dst, left, right     n: enum cmp; types of left and right on top
- *   FN     fn, en, eno, dst, inputs …   n: type | inputs << 8; en, eno BOOLs
+ *   FN     fn, en, eno, dst, inputs …   n: type | inputs << 8 |
+ *                               result << 16; en, eno BOOLs
  *   FB     instance             n: enum word of the block
  *   JMP    target               word index in the section, of an instruction
  *   JMPC   target, cond         that begins in the same program
@@ -33,7 +34,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 2u
+#define CODE_VERSION 3u
 
 enum code_section_kind {
 	CODE_PROGRAMS = 1, /* struct code_program each                         */
@@ -76,7 +77,7 @@ struct code_run {       /* ordered by offset, no overlap                   */
 	uint32_t offset;
 	uint8_t kind;   /* enum code_run_kind                              */
 	uint8_t type;   /* enum iec_type of RUN_VALUES, RUN_CONSTANTS      */
-	uint16_t word;  /* enum word of RUN_INSTANCE                       */
+	uint16_t word;  /* enum word of RUN_INSTANCE; capacity of STRINGs  */
 	uint32_t count; /* of values one after another, or of instances    */
 };
 
@@ -157,6 +158,12 @@ enum cmp { CMP_GT, CMP_GE, CMP_EQ, CMP_LE, CMP_LT, CMP_NE, CMP_COUNT };
 bool code_open(const void *bytes, size_t len, struct arena *scratch,
 	       struct program *out, enum diag_id *why, size_t *where);
 
+/** code_run_size - bytes of one of a run's values or instances. Scan-safe: yes. */
+static inline uint32_t code_run_size(const struct code_run *run)
+{
+	return run->kind == RUN_INSTANCE ? word_row((enum word)run->word)->size :
+	       iec_type_size((enum iec_type)run->type, run->word);
+}
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);

@@ -42,7 +42,7 @@ uint32_t code_words(const uint32_t *code)
 	case VM_CMP:
 		return 4;
 	case VM_FN:
-		return 5 + (n >> 8);
+		return 5 + (n >> 8 & 0xff);
 	case VM_BITGET:
 	case VM_BITPUT:
 	case VM_JMPC:
@@ -73,26 +73,48 @@ static bool converts(uint32_t from, uint32_t to)
 	       iec_can_widen((enum iec_type)from, (enum iec_type)to);
 }
 
+static bool is_of(uint32_t type, uint16_t classes)
+{
+	return verify_is_type(type) &&
+	       iec_type_row((enum iec_type)type)->class & classes;
+}
+
+/* The type that a function's result must be declared to have. */
+static bool gives(const struct word_row *row, uint32_t type, uint32_t result)
+{
+	if (row->result == RESULT_SAME)
+		return result == type;
+	if (row->result == RESULT_OPEN)
+		return is_of(result, row->result_classes);
+	return result == row->result;
+}
+
+static bool check_input(const struct verifier *v, const struct word_pin *pin,
+			uint32_t operand, uint32_t type)
+{
+	if (!can_read(v, operand))
+		return false;
+	return pin->own ? is_of(CODE_TYPE(operand), pin->classes) :
+			  is_of(type, pin->classes) &&
+			  converts(CODE_TYPE(operand), type);
+}
+
 static bool check_fn(const struct verifier *v, const uint32_t *at, uint32_t n)
 {
-	uint32_t type = n & 0xff, count = n >> 8;
+	uint32_t type = n & 0xff, count = n >> 8 & 0xff, result = n >> 16;
 	const struct word_row *row;
-	uint32_t result;
 
 	if (at[0] >= WORD_COUNT || !verify_is_type(type))
 		return false;
 	row = word_row((enum word)at[0]);
 	if (row->kind != WORD_FN || count < row->pin_count ||
-	    count > row->most_inputs ||
-	    !(row->pin[0].classes & iec_type_row((enum iec_type)type)->class))
+	    count > row->most_inputs || !gives(row, type, result))
 		return false;
-	result = row->result == RESULT_BOOL ? IEC_BOOL : type;
 	if (!reads_bool(v, at[1]) || !writes_bool(v, at[2]) ||
 	    !can_write(v, at[3]) || !converts(result, CODE_TYPE(at[3])))
 		return false;
 	for (uint32_t i = 0; i < count; i++)
-		if (!can_read(v, at[4 + i]) ||
-		    !converts(CODE_TYPE(at[4 + i]), type))
+		if (!check_input(v, word_input(row, i), at[4 + i], type))
 			return false;
 	return true;
 }
@@ -130,7 +152,9 @@ static bool check_code(const struct verifier *v, const uint32_t *code)
 		       converts(CODE_TYPE(at[2]), CODE_TYPE(at[1]));
 	case VM_CMP:
 		return n < CMP_COUNT && writes_bool(v, at[0]) &&
-		       can_read(v, at[1]) && can_read(v, at[2]);
+		       can_read(v, at[1]) && can_read(v, at[2]) &&
+		       (CODE_TYPE(at[1]) == IEC_STRING) ==
+		       (CODE_TYPE(at[2]) == IEC_STRING);
 	case VM_FN:
 		return check_fn(v, at, n);
 	case VM_FB:
@@ -144,9 +168,7 @@ static bool check_code(const struct verifier *v, const uint32_t *code)
 /* code_words() of hostile bytes: no overflow of a huge n. */
 static uint32_t words_needed(const uint32_t *code)
 {
-	bool many = (*code & 0xff) == VM_LUT || (*code & 0xff) == VM_FN;
-
-	if (many && *code >> 8 > LIMIT_IMAGE / 16)
+	if ((*code & 0xff) == VM_LUT && *code >> 8 > LIMIT_IMAGE / 16)
 		return UINT32_MAX;
 	return code_words(code);
 }

@@ -5,15 +5,26 @@
  *
  * A REAL that is not a number compares FALSE with everything, but for NE.
  */
+#include "engine/scan/value.h"
 #include "engine/scan/vm.h"
+
+/* What stands on the two sides of a comparison with 0; REAL is compared as it is. */
+static int order(const struct fn_args *args)
+{
+	int64_t a = args->in[0].i, b = args->in[1].i;
+
+	if (args->type == IEC_STRING)
+		return value_order(args->in[0].s, args->in[1].s);
+	if (iec_is_wide(args->type))
+		return ((uint64_t)a > (uint64_t)b) - ((uint64_t)a < (uint64_t)b);
+	return (a > b) - (a < b);
+}
 
 #define COMPARISON(id, rel) \
 enum fn_status fn_##id(struct fn_args *args) \
 { \
-	if (args->type == IEC_REAL) \
-		args->out.i = args->in[0].r rel args->in[1].r; \
-	else \
-		args->out.i = args->in[0].i rel args->in[1].i; \
+	args->out.i = value_is_real(args->type) ? \
+		      args->in[0].r rel args->in[1].r : order(args) rel 0; \
 	return FN_OK; \
 }
 

@@ -11,20 +11,70 @@
 
 #include <math.h>
 
-/* A sum or product (@overflow: beyond even 64 bits), cut to the type. */
-static enum fn_status fit(struct fn_args *args, bool overflow, int64_t value)
+/* A step of ADD, SUB or MUL in 64 bits; true: it did not fit even those. */
+typedef bool step64(int64_t a, int64_t b, bool wide, int64_t *out);
+
+static bool add64(int64_t a, int64_t b, bool wide, int64_t *out)
 {
-	args->out.i = value_wrap(args->type, value);
-	return overflow || args->out.i != value ? FN_WRAPPED : FN_OK;
+	uint64_t sum = (uint64_t)a + (uint64_t)b;
+
+	if (!wide)
+		return __builtin_add_overflow(a, b, out);
+	*out = (int64_t)sum;
+	return sum < (uint64_t)a;
+}
+
+static bool sub64(int64_t a, int64_t b, bool wide, int64_t *out)
+{
+	if (!wide)
+		return __builtin_sub_overflow(a, b, out);
+	*out = (int64_t)((uint64_t)a - (uint64_t)b);
+	return (uint64_t)a < (uint64_t)b;
+}
+
+static bool mul64(int64_t a, int64_t b, bool wide, int64_t *out)
+{
+	uint64_t product;
+	bool over;
+
+	if (!wide)
+		return __builtin_mul_overflow(a, b, out);
+	over = __builtin_mul_overflow((uint64_t)a, (uint64_t)b, &product);
+	*out = (int64_t)product;
+	return over;
+}
+
+/* More than two inputs are a chain, as a row of boxes would be; a step that wraps
+ * marks the whole. */
+static enum fn_status chain(struct fn_args *args, step64 *step)
+{
+	enum fn_status status = FN_OK;
+	bool wide = iec_is_wide(args->type);
+	int64_t value = args->in[0].i;
+
+	for (uint32_t i = 1; i < args->count; i++) {
+		bool over = step(value, args->in[i].i, wide, &value);
+		int64_t cut = value_wrap(args->type, value);
+
+		if (over || cut != value)
+			status = FN_WRAPPED;
+		value = cut;
+	}
+	args->out.i = value;
+	return status;
+}
+
+static double rounded(const struct fn_args *args, double value)
+{
+	return args->type == IEC_REAL ? (double)(float)value : value;
 }
 
 static enum fn_status fit_real(struct fn_args *args, double value)
 {
-	float single = (float)value;
-
-	if (!isfinite(single))
+	value = rounded(args, value);
+	if (!isfinite(value))
 		return FN_FAILED;
-	args->out.r = single;
+	args->out.r = value;
 	return FN_OK;
 }
 
@@ -34,61 +84,33 @@ enum fn_status fn_MOVE(struct fn_args *args)
 	return FN_OK;
 }
 
-/* More than two inputs are a chain, as a row of boxes would be; a step that wraps
- * marks the whole. */
 enum fn_status fn_ADD(struct fn_args *args)
 {
-	enum fn_status status = FN_OK;
-	int64_t sum = args->in[0].i;
+	double sum = args->in[0].r;
 
-	if (args->type == IEC_REAL) {
-		double real = args->in[0].r;
-
-		for (uint32_t i = 1; i < args->count; i++)
-			real = (float)(real + args->in[i].r);
-		return fit_real(args, real);
-	}
-	for (uint32_t i = 1; i < args->count; i++) {
-		bool over = __builtin_add_overflow(sum, args->in[i].i, &sum);
-
-		if (fit(args, over, sum) != FN_OK)
-			status = FN_WRAPPED;
-		sum = args->out.i;
-	}
-	return status;
+	if (!value_is_real(args->type))
+		return chain(args, add64);
+	for (uint32_t i = 1; i < args->count; i++)
+		sum = rounded(args, sum + args->in[i].r);
+	return fit_real(args, sum);
 }
 
 enum fn_status fn_SUB(struct fn_args *args)
 {
-	int64_t value;
-	bool over;
-
-	if (args->type == IEC_REAL)
-		return fit_real(args, args->in[0].r - args->in[1].r);
-	over = __builtin_sub_overflow(args->in[0].i, args->in[1].i, &value);
-	return fit(args, over, value);
+	if (!value_is_real(args->type))
+		return chain(args, sub64);
+	return fit_real(args, args->in[0].r - args->in[1].r);
 }
 
 enum fn_status fn_MUL(struct fn_args *args)
 {
-	enum fn_status status = FN_OK;
-	int64_t value = args->in[0].i;
+	double product = args->in[0].r;
 
-	if (args->type == IEC_REAL) {
-		double real = args->in[0].r;
-
-		for (uint32_t i = 1; i < args->count; i++)
-			real = (float)(real * args->in[i].r);
-		return fit_real(args, real);
-	}
-	for (uint32_t i = 1; i < args->count; i++) {
-		bool over = __builtin_mul_overflow(value, args->in[i].i, &value);
-
-		if (fit(args, over, value) != FN_OK)
-			status = FN_WRAPPED;
-		value = args->out.i;
-	}
-	return status;
+	if (!value_is_real(args->type))
+		return chain(args, mul64);
+	for (uint32_t i = 1; i < args->count; i++)
+		product = rounded(args, product * args->in[i].r);
+	return fit_real(args, product);
 }
 
 /* True when a / b has no value of the type. */
@@ -102,22 +124,30 @@ static bool indivisible(const struct fn_args *args)
 
 enum fn_status fn_DIV(struct fn_args *args)
 {
-	if (args->type == IEC_REAL) {
+	int64_t a = args->in[0].i, b = args->in[1].i;
+
+	if (value_is_real(args->type)) {
 		if (args->in[1].r == 0)
 			return FN_FAILED;
 		return fit_real(args, args->in[0].r / args->in[1].r);
 	}
 	if (indivisible(args))
 		return FN_FAILED;
-	args->out.i = args->in[0].i / args->in[1].i;
+	args->out.i = iec_is_wide(args->type) ?
+		      (int64_t)((uint64_t)a / (uint64_t)b) : a / b;
 	return FN_OK;
 }
 
 enum fn_status fn_MOD(struct fn_args *args)
 {
-	if (args->in[1].i == 0)
+	int64_t a = args->in[0].i, b = args->in[1].i;
+
+	if (b == 0)
 		return FN_FAILED;
 	/* By -1 nothing remains; the machine would trap on MIN % -1. */
-	args->out.i = args->in[1].i == -1 ? 0 : args->in[0].i % args->in[1].i;
+	if (iec_is_wide(args->type))
+		args->out.i = (int64_t)((uint64_t)a % (uint64_t)b);
+	else
+		args->out.i = b == -1 ? 0 : a % b;
 	return FN_OK;
 }

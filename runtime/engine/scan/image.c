@@ -28,6 +28,28 @@ static void load_init(struct image *image)
 	}
 }
 
+/* Every text knows its room, whatever its initial bytes said. */
+static void bound_texts(struct image *image)
+{
+	const struct program *program = image->program;
+
+	for (uint32_t i = 0; i < program->run_count; i++) {
+		const struct code_run *run = &program->run[i];
+		uint32_t size = code_run_size(run);
+
+		if (run->kind == RUN_INSTANCE || run->type != IEC_STRING)
+			continue;
+		for (uint32_t k = 0; k < run->count; k++) {
+			struct iec_string *text = (void *)
+				(image->memory + run->offset + k * size);
+
+			text->capacity = run->word;
+			if (text->length > text->capacity)
+				text->length = text->capacity;
+		}
+	}
+}
+
 /* Bits with an initial value start in their bytes; areas must agree. */
 static void pack_all(struct image *image)
 {
@@ -52,6 +74,7 @@ void image_init(struct image *image, const struct program *program, void *memory
 	image->force_count = 0;
 	memset(memory, 0, image_memory_size(program));
 	load_init(image);
+	bound_texts(image);
 	image->memory[CODE_FALSE_AT(areas)] = 0;
 	image->memory[CODE_TRUE_AT(areas)] = 1;
 	pack_all(image);
@@ -262,7 +285,8 @@ bool image_set(struct image *image, struct location at, union iec_value value)
 	if (at.type == IEC_BOOL)
 		value.i = value.i != 0;
 	iec_store(image->memory + at.where, at.type, value);
-	spread(image, at.where, iec_type_row(at.type)->size);
+	if (at.where < iec_areas_size())
+		spread(image, at.where, iec_type_row(at.type)->size);
 	return true;
 }
 
@@ -282,7 +306,8 @@ bool image_force(struct image *image, struct location at, union iec_value value)
 {
 	struct force *force = find_force(image, at);
 
-	if (at.type == IEC_NONE || at.constant)
+	/* A text has no room of its own to be kept aside in. */
+	if (at.type == IEC_NONE || at.type == IEC_STRING || at.constant)
 		return false;
 	if (!force) {
 		if (image->force_count == LIMIT_FORCES)

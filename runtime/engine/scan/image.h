@@ -82,7 +82,7 @@ bool image_set(struct image *image, struct location at, union iec_value value);
  * Held from this call on. What the program or a driver wrote meanwhile is kept
  * aside and reappears on release.
  * Owns: nothing.   Scan-safe: yes.
- * Fails: false if @at is nowhere or constant, or LIMIT_FORCES are held.
+ * Fails: false if @at is nowhere, constant or a STRING, or LIMIT_FORCES are held.
  */
 bool image_force(struct image *image, struct location at, union iec_value value);
 bool image_unforce(struct image *image, struct location at);

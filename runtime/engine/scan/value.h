@@ -13,7 +13,7 @@
 
 #include <string.h>
 
-/* Bits above a value in 64; a REAL is not meant here. */
+/* Bits above a value in 64; neither REAL nor STRING is meant here. */
 static inline unsigned value_spare_bits(uint32_t type)
 {
 	static const uint8_t spare[IEC_TYPE_COUNT] = {
@@ -28,7 +28,7 @@ static inline bool value_is_signed(uint32_t type)
 {
 	static const bool is_signed[IEC_TYPE_COUNT] = {
 #define TYPE(id, ctype, size, class, low, high) \
-		[IEC_##id] = ((class) & (CLASS_SIGNED | CLASS_TIME)) != 0,
+		[IEC_##id] = ((class) & (CLASS_SIGNED | CLASS_TIME | ANY_DATE)) != 0,
 #include "engine/catalog.def"
 	};
 
@@ -54,15 +54,26 @@ static inline int64_t value_integer(const uint8_t *at, uint32_t type)
 	return value_wrap(type, raw);
 }
 
-static inline double value_real(const uint8_t *at)
+/** value_is_real - REAL or LREAL: r holds it. */
+static inline bool value_is_real(uint32_t type)
 {
-	float raw;
-
-	memcpy(&raw, at, sizeof(raw));
-	return (double)raw;
+	return type == IEC_REAL || type == IEC_LREAL;
 }
 
-/** value_put - stores the low bits of an integer, or a REAL. */
+static inline double value_real(const uint8_t *at, uint32_t type)
+{
+	float single;
+	double both;
+
+	if (type == IEC_LREAL) {
+		memcpy(&both, at, sizeof(both));
+		return both;
+	}
+	memcpy(&single, at, sizeof(single));
+	return (double)single;
+}
+
+/** value_put - stores the low bits of an integer, or a REAL or LREAL. */
 static inline void value_put(uint8_t *at, uint32_t type, union iec_value value)
 {
 	float real;
@@ -86,5 +97,15 @@ static inline void value_put(uint8_t *at, uint32_t type, union iec_value value)
 		memcpy(at, &value.i, 8);
 		break;
 	}
+}
+
+/** value_order - <0, 0, >0 as @a stands before, with or behind @b: byte by byte, a
+ * shorter text first.   Scan-safe: yes. */
+static inline int value_order(const struct iec_string *a, const struct iec_string *b)
+{
+	uint16_t len = a->length < b->length ? a->length : b->length;
+	int order = memcmp(a->text, b->text, len);
+
+	return order ? order : (int)a->length - (int)b->length;
 }
 #endif

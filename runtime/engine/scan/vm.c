@@ -61,7 +61,7 @@ static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
 
 static bool is_real(uint32_t word)
 {
-	return CODE_TYPE(word) == IEC_REAL;
+	return value_is_real(CODE_TYPE(word));
 }
 
 static int64_t integer(const uint8_t *m, uint32_t word)
@@ -69,11 +69,16 @@ static int64_t integer(const uint8_t *m, uint32_t word)
 	return value_integer(m + CODE_OFFSET(word), CODE_TYPE(word));
 }
 
-/* An operand as REAL arithmetic needs it: integers of 16 bits are exact. */
+/* An operand as REAL arithmetic needs it: integers that widen are exact. */
 static double real(const uint8_t *m, uint32_t word)
 {
-	return is_real(word) ? value_real(m + CODE_OFFSET(word))
+	return is_real(word) ? value_real(m + CODE_OFFSET(word), CODE_TYPE(word))
 			     : (double)integer(m, word);
+}
+
+static const struct iec_string *text(const uint8_t *m, uint32_t word)
+{
+	return (const void *)(m + CODE_OFFSET(word));
 }
 
 static void put(uint8_t *m, uint32_t word, union iec_value value)
@@ -81,10 +86,23 @@ static void put(uint8_t *m, uint32_t word, union iec_value value)
 	value_put(m + CODE_OFFSET(word), CODE_TYPE(word), value);
 }
 
+/* False when a text did not fit whole. */
+static bool put_text(uint8_t *m, uint32_t word, const struct iec_string *from)
+{
+	uint16_t len = from->length;
+
+	iec_store(m + CODE_OFFSET(word), IEC_STRING, (union iec_value){ .s = from });
+	return text(m, word)->length == len;
+}
+
 static void run_copy(uint8_t *m, const uint32_t *pc)
 {
 	union iec_value value;
 
+	if (CODE_TYPE(pc[1]) == IEC_STRING) {
+		put_text(m, pc[1], text(m, pc[2]));
+		return;
+	}
 	if (is_real(pc[1]))
 		value.r = real(m, pc[2]);
 	else
@@ -99,37 +117,76 @@ static void run_copy(uint8_t *m, const uint32_t *pc)
 
 static bool run_cmp(const uint8_t *m, const uint32_t *pc, uint32_t rel)
 {
+	uint32_t left = CODE_TYPE(pc[1]), right = CODE_TYPE(pc[2]);
+
 	if (is_real(pc[1]) || is_real(pc[2])) {
 		double a = real(m, pc[1]), b = real(m, pc[2]);
 
 		return COMPARE(rel, a, b);
 	}
+	if (left == IEC_STRING) {
+		int order = value_order(text(m, pc[1]), text(m, pc[2]));
+
+		return COMPARE(rel, order, 0);
+	}
 	int64_t a = integer(m, pc[1]), b = integer(m, pc[2]);
 
+	if (iec_is_wide(left) || iec_is_wide(right))
+		return COMPARE(rel, (uint64_t)a, (uint64_t)b);
 	return COMPARE(rel, a, b);
+}
+
+/* One input: as the shared type has it, or as its own. */
+static union iec_value fetch(const uint8_t *m, uint32_t word, uint32_t type)
+{
+	union iec_value value;
+
+	if (type == IEC_STRING)
+		value.s = text(m, word);
+	else if (value_is_real(type))
+		value.r = real(m, word);
+	else
+		value.i = integer(m, word);
+	return value;
+}
+
+/* Stores what a function gave; false when it did not fit. */
+static bool store(uint8_t *m, uint32_t word, const struct fn_args *args)
+{
+	union iec_value out = args->out;
+
+	if (args->result == IEC_STRING)
+		return put_text(m, word, out.s);
+	if (is_real(word) && !value_is_real(args->result))
+		out.r = (double)out.i;
+	put(m, word, out);
+	return true;
 }
 
 /* True when it ran without an error. */
 static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
+	const struct word_row *row = word_row((enum word)pc[0]);
+	struct { struct iec_string head; char text[IEC_STRING_MOST]; } room;
 	struct fn_args args;
 	enum fn_status status;
-	bool in_real = (n & 0xff) == IEC_REAL;
 
 	args.type = (enum iec_type)(n & 0xff);
-	args.count = n >> 8;
-	for (uint32_t i = 0; i < args.count; i++)
-		if (in_real)
-			args.in[i].r = real(m, pc[4 + i]);
-		else
-			args.in[i].i = integer(m, pc[4 + i]);
-	status = fn_table[pc[0]](&args);
-	if (status != FN_FAILED) {
-		if (is_real(pc[3]) && !in_real)
-			args.out.r = (double)args.out.i;
-		put(m, pc[3], args.out);
+	args.result = (enum iec_type)(n >> 16);
+	args.count = n >> 8 & 0xff;
+	args.room = &room.head;
+	room.head.capacity = IEC_STRING_MOST;
+	for (uint32_t i = 0; i < args.count; i++) {
+		enum iec_type type = word_input(row, i)->own ?
+			(enum iec_type)CODE_TYPE(pc[4 + i]) : args.type;
+
+		args.in_type[i] = type;
+		args.in[i] = fetch(m, pc[4 + i], type);
 	}
-	return status == FN_OK;
+	status = fn_table[pc[0]](&args);
+	if (status == FN_FAILED)
+		return false;
+	return store(m, pc[3], &args) && status == FN_OK;
 }
 
 static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
@@ -189,7 +246,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				m[pc[3]] = 0;
 			else if (!(m[pc[3]] = run_fn(m, pc + 1, n)))
 				count_error(vm, pc, base);
-			pc += 5 + (n >> 8);
+			pc += 5 + (n >> 8 & 0xff);
 			break;
 		case VM_FB:
 			fb_table[n](m + pc[1], vm->now_ns);

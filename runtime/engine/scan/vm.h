@@ -48,10 +48,15 @@ enum fn_status {
 	FN_FAILED,     /* not stored, ENO FALSE, counted                      */
 };
 struct fn_args {
-	enum iec_type type;    /* the common type of the inputs               */
+	enum iec_type type;    /* that its FN_IN pins share                   */
+	enum iec_type result;  /* of out                                      */
 	uint32_t count;
+	enum iec_type in_type[LIMIT_FN_INPUTS]; /* of FN_OWN pins its own     */
 	union iec_value in[LIMIT_FN_INPUTS];
-	union iec_value out;
+	union iec_value out;   /* a STRING: any text that lives until the
+				  function is called again; it is copied, and
+				  cut (ENO FALSE) where there is no room      */
+	struct iec_string *room; /* of IEC_STRING_MOST bytes, for such a text */
 };
 #define FN(id, ...) enum fn_status fn_##id(struct fn_args *args);
 #include "engine/catalog.def"

@@ -71,6 +71,32 @@ static bool read_at(struct reader *r, struct var *var)
 	return true;
 }
 
+/* STRING[20]; without a number as many bytes as is usual. */
+static bool read_capacity(struct reader *r, struct var *var)
+{
+	const struct token *token = &r->lex.token;
+	struct literal literal;
+
+	var->capacity = IEC_STRING_DEFAULT;
+	if (var->at_text)
+		return reader_fail_word(r, DIAG_MISPLACED, "AT");
+	if (!reader_is(r, '['))
+		return true;
+	reader_step(r);
+	if (literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
+	    literal.type != IEC_NONE || literal.real)
+		return reader_fail_word(r, DIAG_EXPECTED, "number of bytes");
+	if (literal.high || literal.value.i < 1 ||
+	    literal.value.i > IEC_STRING_MOST)
+		return reader_fail_token(r, DIAG_LITERAL_RANGE);
+	var->capacity = (uint16_t)literal.value.i;
+	reader_step(r);
+	if (!reader_is(r, ']'))
+		return reader_fail_word(r, DIAG_EXPECTED, "]");
+	reader_step(r);
+	return true;
+}
+
 static bool read_type(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
@@ -89,7 +115,7 @@ static bool read_type(struct reader *r, struct var *var)
 			return reader_fail_word(r, DIAG_MISPLACED, "AT");
 	}
 	reader_step(r);
-	return true;
+	return var->type != IEC_STRING || read_capacity(r, var);
 }
 
 /* Would it fit if only it were smaller? Then it is of the right kind. */
@@ -97,7 +123,8 @@ static bool is_kind(const struct literal *literal, enum iec_type type)
 {
 	if (literal->type != IEC_NONE)
 		return literal->type == type;
-	return iec_type_row(type)->class != CLASS_TIME && !literal->real;
+	return !(iec_type_row(type)->class & (CLASS_TIME | ANY_DATE | CLASS_STRING)) &&
+	       !literal->real;
 }
 
 static bool check_init(struct reader *r, struct var *var, const char *text,

@@ -122,6 +122,8 @@ static void write_var(const struct sink *sink, const struct names *names,
 	sink_text(sink, " : ");
 	sink_text(sink, var->type == IEC_NONE ? word_row(var->fb)->word :
 					      iec_type_row(var->type)->word);
+	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
+		sink_printf(sink, "[%u]", var->capacity);
 	write_init(sink, names, var);
 	sink_text(sink, ";");
 	if (var->comment) {

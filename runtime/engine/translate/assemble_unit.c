@@ -211,6 +211,9 @@ uint32_t list_number(struct list *list, const struct meaning *m,
 	if (m->kind == MEANING_LITERAL) {
 		if (m->type != IEC_NONE)
 			type = m->type;
+		if (type == IEC_STRING)
+			return CODE_OPERAND(type, layout_text(list->as,
+							      &m->literal));
 		literal_fit(&m->literal, type, &value);
 		return CODE_OPERAND(type, layout_constant(list->as, type, value));
 	}
@@ -252,6 +255,11 @@ static void store_number(struct list *list, const struct meaning *m)
 	uint32_t to = CODE_OPERAND(spot.type, spot.offset);
 	union iec_value value = { .i = 0 };
 
+	if (now->kind == RESULT_LITERAL && m->type == IEC_STRING) {
+		list_copy(list, to, CODE_OPERAND(IEC_STRING,
+			layout_text(list->as, now->literal)));
+		return;
+	}
 	if (now->kind == RESULT_LITERAL) {
 		literal_fit(now->literal, m->type, &value);
 		list_copy(list, to, CODE_OPERAND(m->type,

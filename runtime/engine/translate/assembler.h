@@ -47,6 +47,8 @@ struct assembler {
 	struct constant_key *constant_key;
 	int constant_count;
 	uint32_t constant_mask;
+	struct text_key *text_key; /* constant texts; few, so searched         */
+	int text_count;
 	uint8_t *pin_writes;       /* by instance pin number                  */
 	uint32_t **first_pin;      /* by table, index: number of its pin 0    */
 
@@ -64,11 +66,21 @@ struct assembler {
 	uint32_t sink[IEC_TYPE_COUNT];
 };
 
+struct text_key { const char *text; size_t len; uint32_t offset; };
 struct constant_key { enum iec_type type; int64_t bits; uint32_t offset; };
 
 /* ---- layout.c ---- */
 /** layout_make - a place for every variable, bit and instance in use. */
 bool layout_make(struct assembler *as);
+/** layout_place - a place of @size bytes behind all others, as part of a run. */
+uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
+		      uint32_t align);
+/** layout_string - a place for a text of @capacity bytes. */
+uint32_t layout_string(struct assembler *as, enum code_run_kind kind,
+		       uint32_t capacity);
+/** layout_init_text - a text's first bytes at an offset. */
+void layout_init_text(struct assembler *as, uint32_t offset, uint32_t capacity,
+		      struct literal literal);
 /** layout_core - what was placed so far is what runs; watching comes behind it. */
 void layout_core(struct assembler *as);
 /** layout_power - places for the power of cells. */
@@ -78,6 +90,8 @@ struct spot layout_spot(const struct assembler *as, const struct meaning *m);
 /** layout_constant - a constant's place, made once a value. */
 uint32_t layout_constant(struct assembler *as, enum iec_type type,
 			 union iec_value value);
+/** layout_text - a constant text's place, made once a text. */
+uint32_t layout_text(struct assembler *as, const struct literal *literal);
 /** layout_tail - a new place behind all others; for scratch and sinks. */
 uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
 		     enum iec_type type);

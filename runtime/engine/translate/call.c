@@ -4,6 +4,8 @@
  */
 #include "engine/translate/lists.h"
 
+#include "engine/check/check_il.h"
+
 #include <string.h>
 #include <strings.h>
 
@@ -26,7 +28,7 @@ static uint32_t sink(struct assembler *as, enum iec_type type)
 
 static bool is_compare(enum word word)
 {
-	return word_row(word)->result == RESULT_BOOL;
+	return word >= FN_GT && word <= FN_NE;
 }
 
 /* The rows of the comparisons are in the order of enum cmp. */
@@ -46,6 +48,9 @@ static uint32_t result_operand(struct list *list, enum iec_type type)
 	if (now->kind == RESULT_LITERAL) {
 		if (now->literal->type != IEC_NONE)
 			type = now->literal->type;
+		if (type == IEC_STRING)
+			return CODE_OPERAND(type, layout_text(list->as,
+							      now->literal));
 		literal_fit(now->literal, type, &value);
 		return CODE_OPERAND(type, layout_constant(list->as, type, value));
 	}
@@ -68,39 +73,64 @@ static void compare(struct list *list, const struct il_line *line,
 	};
 }
 
-/* A function that fails leaves its result as it was: the left operand. */
+/* The type a constant or the current result has at an input. */
+static enum iec_type input_type(const struct word_row *row, uint32_t index,
+				enum iec_type type, const struct literal *literal)
+{
+	const struct word_pin *pin = word_input(row, index);
+
+	return pin->own && literal ? fn_own_type(pin, literal) : type;
+}
+
+/* What a function that fails leaves: the left operand, or 0 where that has another
+ * type. */
+static void preset(struct list *list, enum iec_type result, uint32_t to, uint32_t left)
+{
+	union iec_value zero = { .i = 0 };
+
+	if (iec_can_widen((enum iec_type)CODE_TYPE(left), result))
+		list_copy(list, to, left);
+	else if (result != IEC_STRING)
+		list_copy(list, to, CODE_OPERAND(result,
+			layout_constant(list->as, result, zero)));
+}
+
 void list_fn(struct list *list, const struct il_line *line)
 {
-	enum iec_type type = list->types[list->at];
-	uint32_t right = 0, count = 1, left, slot;
+	const struct word_row *row = word_row((enum word)line->word);
+	const struct meaning *m = line->operand ?
+		list_meaning(list, line->operand) : NULL;
+	enum iec_type type = list->types[list->at], result;
+	uint32_t right = 0, count = m ? 2 : 1, left, to;
 
-	left = result_operand(list, type);
-	if (line->operand) {
-		right = list_number(list, list_meaning(list, line->operand), type);
-		count = 2;
-	}
+	left = result_operand(list, input_type(row, 0, type,
+		list->now.kind == RESULT_LITERAL ? list->now.literal : NULL));
+	if (m)
+		right = list_number(list, m, input_type(row, 1, type,
+			m->kind == MEANING_LITERAL ? &m->literal : NULL));
 	if (is_compare((enum word)line->word)) {
 		compare(list, line, left, right);
 		return;
 	}
-	slot = layout_tail(list->as, RUN_VALUES, type);
-	list_copy(list, CODE_OPERAND(type, slot), left);
+	result = fn_result(row, type, il_stored_type(list->as->translation->scope,
+						     list->pou, list->il, list->at));
+	to = CODE_OPERAND(result, layout_tail(list->as, RUN_VALUES, result));
+	preset(list, result, to, left);
 	list_place(list);
-	emit_op(list->as, VM_FN, (uint32_t)type | count << 8);
+	emit_op(list->as, VM_FN, (uint32_t)type | count << 8 | (uint32_t)result << 16);
 	emit(list->as, line->word);
 	emit(list->as, TRUE_SLOT);
 	emit(list->as, sink(list->as, IEC_BOOL));
-	emit(list->as, CODE_OPERAND(type, slot));
-	emit(list->as, CODE_OPERAND(type, slot));
-	if (count == 2)
+	emit(list->as, to);
+	emit(list->as, left);
+	if (m)
 		emit(list->as, right);
 	list->now = (struct il_result){
-		.kind = RESULT_NUMBER, .own = true,
-		.operand = CODE_OPERAND(type, slot),
+		.kind = RESULT_NUMBER, .own = true, .operand = to,
 	};
-	if (type == IEC_BOOL)
+	if (result == IEC_BOOL)
 		list->now = (struct il_result){
-			.kind = RESULT_BITS, .bits = bits_leaf(slot),
+			.kind = RESULT_BITS, .bits = bits_leaf(CODE_OFFSET(to)),
 		};
 }
 
@@ -182,7 +212,10 @@ static void read_args(struct list *list, const struct word_row *row,
 			index = word_pin_find(row, pin, strlen(pin));
 			if (index < 0 || index >= LIMIT_FN_INPUTS)
 				continue;
-			call->input[index] = list_number(list, m, type);
+			call->input[index] = list_number(list, m,
+				input_type(row, (uint32_t)index, type,
+					   m->kind == MEANING_LITERAL ?
+					   &m->literal : NULL));
 			call->count = index >= call->count ? index + 1
 							   : call->count;
 		}
@@ -204,14 +237,15 @@ void list_call(struct list *list)
 	const struct il_line *line = &list->il->line[list->at];
 	const struct word_row *row = word_row((enum word)line->word);
 	enum iec_type type = list->types[list->at];
-	enum iec_type result = row->result == RESULT_BOOL ? IEC_BOOL : type;
 	struct call call = { .en = TRUE_SLOT };
+	enum iec_type result;
 	struct target eno, out = { .m = NULL };
 	uint32_t to;
 
 	read_args(list, row, type, &call);
+	result = fn_result(row, type, call.out ? call.out->type : IEC_NONE);
 	eno = bool_target(list, call.eno, false);
-	if (call.out && call.out->type == IEC_BOOL) {
+	if (call.out && result == IEC_BOOL) {
 		out = bool_target(list, call.out, true);
 		to = CODE_OPERAND(IEC_BOOL, out.slot);
 	} else if (call.out) {
@@ -224,7 +258,8 @@ void list_call(struct list *list)
 	list_protect(list, eno.slot, 1);
 	list_protect(list, CODE_OFFSET(to), 1);
 	list_place(list);
-	emit_op(list->as, VM_FN, (uint32_t)type | (uint32_t)call.count << 8);
+	emit_op(list->as, VM_FN, (uint32_t)type | (uint32_t)call.count << 8 |
+		(uint32_t)result << 16);
 	emit(list->as, line->word);
 	emit(list->as, call.en);
 	emit(list->as, eno.slot);

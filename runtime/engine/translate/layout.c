@@ -23,7 +23,7 @@ void words_push(struct assembler *as, struct words *words, uint32_t word)
 
 /* ---- runs ---- */
 
-static uint32_t place(struct assembler *as, struct code_run want, uint32_t size,
+uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
 		      uint32_t align)
 {
 	uint32_t offset = (as->data_size + align - 1) / align * align;
@@ -64,97 +64,22 @@ static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
 	struct code_run run = { .kind = (uint8_t)kind, .type = (uint8_t)type };
 	uint32_t size = iec_type_row(type)->size;
 
-	return place(as, run, size, size);
+	if (type == IEC_STRING)
+		return layout_string(as, kind, IEC_STRING_MOST);
+	return layout_place(as, run, size, size);
 }
 
 static uint32_t place_instance(struct assembler *as, enum word fb)
 {
 	struct code_run run = { .kind = RUN_INSTANCE, .word = (uint16_t)fb };
 
-	return place(as, run, word_row(fb)->size, 8);
+	return layout_place(as, run, word_row(fb)->size, 8);
 }
 
 uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
 		     enum iec_type type)
 {
 	return place_value(as, kind, type);
-}
-
-/* ---- initial values and constants ---- */
-
-void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
-		 union iec_value value)
-{
-	uint32_t size = iec_type_row(type)->size, bytes[2] = { 0, 0 };
-
-	iec_store(bytes, type, value);
-	if (!bytes[0] && !bytes[1])
-		return;
-	words_push(as, &as->init, offset);
-	words_push(as, &as->init, size);
-	words_push(as, &as->init, bytes[0]);
-	if (size > 4)
-		words_push(as, &as->init, bytes[1]);
-}
-
-static uint32_t constant_hash(enum iec_type type, int64_t bits)
-{
-	uint64_t hash = ((uint64_t)bits ^ (uint64_t)type << 56) *
-			0x9e3779b97f4a7c15u;
-
-	return (uint32_t)(hash >> 32);
-}
-
-static bool grow_constants(struct assembler *as)
-{
-	uint32_t size = as->constant_mask ? (as->constant_mask + 1) * 2 : 64;
-	uint32_t *table = arena_alloc(as->arena, size * sizeof(*table));
-
-	if (!table)
-		return false;
-	as->constant = table;
-	as->constant_mask = size - 1;
-	for (int i = 0; i < as->constant_count; i++) {
-		const struct constant_key *key = &as->constant_key[i];
-		uint32_t at = constant_hash(key->type, key->bits);
-
-		while (table[at & as->constant_mask])
-			at++;
-		table[at & as->constant_mask] = (uint32_t)i + 1;
-	}
-	return true;
-}
-
-uint32_t layout_constant(struct assembler *as, enum iec_type type,
-			 union iec_value value)
-{
-	uint32_t areas = iec_areas_size(), at;
-	struct constant_key *key;
-
-	if (type == IEC_BOOL)
-		return value.i ? CODE_TRUE_AT(areas) : CODE_FALSE_AT(areas);
-	if ((uint32_t)as->constant_count * 2 >= as->constant_mask &&
-	    !grow_constants(as)) {
-		as->failed = true;
-		return areas;
-	}
-	at = constant_hash(type, value.i);
-	for (; as->constant[at & as->constant_mask]; at++) {
-		key = &as->constant_key[as->constant[at & as->constant_mask] - 1];
-		if (key->type == type && key->bits == value.i)
-			return key->offset;
-	}
-	key = arena_push(as->arena, &as->constant_key, &as->constant_count,
-			 sizeof(*key));
-	if (!key) {
-		as->failed = true;
-		return areas;
-	}
-	as->constant[at & as->constant_mask] = (uint32_t)as->constant_count;
-	*key = (struct constant_key){ type, value.i,
-		place_value(as, RUN_CONSTANTS, type) };
-	layout_init(as, key->offset, type, value);
-	return key->offset;
 }
 
 /* ---- tables ---- */
@@ -289,6 +214,17 @@ static bool place_bits(struct assembler *as)
 
 /* ---- variables ---- */
 
+/* The literal that a text begins with; it was read before. */
+static struct literal init_text(const struct assembler *as, const struct var *var)
+{
+	const struct names *names = &as->translation->project->names;
+	struct literal literal;
+
+	literal_parse(names_text(names, var->init_text),
+		      names_len(names, var->init_text), &literal);
+	return literal;
+}
+
 static void place_var(struct assembler *as, int table, int index, bool retain)
 {
 	const struct var *var = table_var(as, table, index);
@@ -297,14 +233,18 @@ static void place_var(struct assembler *as, int table, int index, bool retain)
 		vars_flags(table_vars(as, table), index) & VAR_RETAIN;
 	bool constant = declared &&
 		vars_flags(table_vars(as, table), index) & VAR_CONSTANT;
+	enum code_run_kind kind = constant ? RUN_CONSTANTS : RUN_VALUES;
 	uint32_t *offset = &as->offset[table][index];
+	uint32_t capacity = var->capacity ? var->capacity : IEC_STRING_MOST;
 
 	if (*offset || var->at.area != AREA_NONE || is_retain != retain)
 		return;
 	*offset = var->type == IEC_NONE ? place_instance(as, var->fb) :
-		  place_value(as, constant ? RUN_CONSTANTS : RUN_VALUES,
-			      var->type);
-	if (var->has_init && var->type != IEC_NONE)
+		  var->type == IEC_STRING ? layout_string(as, kind, capacity) :
+		  place_value(as, kind, var->type);
+	if (var->has_init && var->type == IEC_STRING)
+		layout_init_text(as, *offset, capacity, init_text(as, var));
+	else if (var->has_init && var->type != IEC_NONE)
 		layout_init(as, *offset, var->type, var->init);
 }
 

@@ -130,6 +130,11 @@ static void box_block(struct ld *ld, int element)
 	ld->element[element].powered = true;
 }
 
+static bool is_compare(enum word word)
+{
+	return word >= FN_GT && word <= FN_NE;
+}
+
 /* A comparison whose result is only power needs no EN: it cannot fail. */
 static bool is_plain_compare(struct ld *ld, int element, struct arg *left,
 			     struct arg *right)
@@ -138,7 +143,7 @@ static bool is_plain_compare(struct ld *ld, int element, struct arg *left,
 	const char *args = args_of(ld, element);
 	struct arg arg;
 
-	if (word_row((enum word)at->word)->result != RESULT_BOOL || at->pins)
+	if (!is_compare((enum word)at->word) || at->pins)
 		return false;
 	for (const char *next = args; args_next(&next, &arg);)
 		if (arg.output)
@@ -162,7 +167,7 @@ static void box_function(struct ld *ld, int element)
 	const struct word_row *row = word_row((enum word)at->word);
 	struct element_state *state = &ld->element[element];
 	const char *args = args_of(ld, element);
-	bool compare = row->result == RESULT_BOOL;
+	bool compare = word_is_test(row);
 	uint32_t operand[LIMIT_FN_INPUTS], en, eno = temps_bool(ld->temps);
 	uint32_t result = compare ? temps_bool(ld->temps) : 0;
 	struct arg out;

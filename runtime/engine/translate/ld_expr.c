@@ -73,7 +73,7 @@ static enum iec_type infer(struct chain *c, int index)
 	case EXPR_FN:
 		break;
 	}
-	if (word_row(node->fn)->result == RESULT_BOOL)
+	if (word_is_test(word_row(node->fn)))
 		return IEC_BOOL;
 	left = infer(c, node->left);
 	right = infer(c, node->right);
@@ -224,7 +224,7 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 	enum iec_type type = infer(c, index);
 	struct value left, right;
 
-	if (word_row(node->fn)->result == RESULT_BOOL)
+	if (word_is_test(word_row(node->fn)))
 		return compute_compare(c, node);
 	if (type) {
 		left = compute_side(c, node->left, type);

@@ -84,7 +84,7 @@ static bool take_leaf(const struct image *image, const struct expr_node *from,
 
 static bool is_compare(enum word fn)
 {
-	return word_row(fn)->result == RESULT_BOOL;
+	return word_is_test(word_row(fn));
 }
 
 /* The kind of an operation on two kinds; false: they do not go together. */

@@ -124,7 +124,7 @@ static void add_pins(struct draw *draw)
 			continue;
 		side_add_named(draw, output, pin->name);
 	}
-	if (row->kind == WORD_FN && row->result == RESULT_SAME)
+	if (row->kind == WORD_FN && !word_is_test(row))
 		side_add_named(draw, true, "OUT");
 	add_others(draw);
 }

@@ -48,17 +48,20 @@ const char *words_operand(enum operand_kind kind)
 	return "";
 }
 
-const char *words_classes(uint8_t classes)
+const char *words_classes(uint16_t classes)
 {
 	static const struct {
 		const char *name;
-		uint8_t classes;
+		uint16_t classes;
 	} generic[] = {
 		{ "ANY_ELEMENTARY", ANY_ELEMENTARY },
 		{ "ANY_MAGNITUDE", ANY_MAGNITUDE }, { "ANY_NUM", ANY_NUM },
 		{ "ANY_INT", ANY_INT }, { "ANY_BIT", ANY_BIT },
-		{ "BOOL", CLASS_BOOL }, { "REAL", CLASS_REAL },
-		{ "TIME", CLASS_TIME },
+		{ "BOOL", CLASS_BOOL }, { "ANY_REAL", CLASS_REAL },
+		{ "ANY_DATE", ANY_DATE }, { "ANY_STRING", CLASS_STRING },
+		{ "TIME", CLASS_TIME }, { "TIME_OF_DAY", CLASS_TOD },
+		{ "DATE", CLASS_DATE }, { "DATE_AND_TIME", CLASS_DT },
+		{ "ANY_BITS", CLASS_BITS },
 	};
 
 	for (size_t i = 0; i < sizeof(generic) / sizeof(generic[0]); i++)
@@ -160,9 +163,19 @@ static void note_type(const struct iec_type_row *type, const struct sink *sink)
 {
 	sink_printf(sink, "%d byte%s", type->size, type->size == 1 ? "" : "s");
 	if (type->class == CLASS_REAL)
-		sink_text(sink, ", about 7 digits");
+		sink_text(sink, type->size == 4 ? ", about 7 digits" :
+						  ", about 16 digits");
 	else if (type->class == CLASS_TIME)
 		sink_text(sink, ", in nanoseconds");
+	else if (type->class == CLASS_TOD)
+		sink_text(sink, ", nanoseconds since midnight");
+	else if (type->class & ANY_DATE)
+		sink_text(sink, ", nanoseconds since 1970-01-01");
+	else if (type->class == CLASS_STRING)
+		sink_printf(sink, " and its text, up to %u bytes",
+			    IEC_STRING_MOST);
+	else if (iec_is_wide(iec_type_find(type->word, strlen(type->word))))
+		sink_printf(sink, ", 0 to %" PRIu64, UINT64_MAX);
 	else
 		sink_printf(sink, ", %" PRId64 " to %" PRId64, type->low,
 			    type->high);
@@ -188,8 +201,14 @@ static void note_function(const struct word_row *row, const struct sink *sink)
 		sink_printf(sink, "%d to %d inputs, ", named, row->most_inputs);
 	else
 		sink_printf(sink, "%d input%s, ", named, named == 1 ? "" : "s");
-	sink_text(sink, row->result == RESULT_BOOL ?
-		  "a BOOL that gates the power" : "result of their type");
+	if (word_is_test(row))
+		sink_text(sink, "a BOOL that gates the power");
+	else if (row->result == RESULT_SAME)
+		sink_text(sink, "result of their type");
+	else if (row->result == RESULT_OPEN)
+		sink_text(sink, "result of the type of OUT");
+	else
+		sink_text(sink, iec_type_row(row->result)->word);
 }
 
 static void note_block(const struct word_row *row, const struct sink *sink)

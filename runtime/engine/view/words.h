@@ -35,7 +35,7 @@ const char *words_kind(enum words_kind kind);
 /** words_operand - what stands behind an element or operator; "": nothing. */
 const char *words_operand(enum operand_kind kind);
 /** words_classes - "ANY_NUM" of the classes of a function's pin. */
-const char *words_classes(uint8_t classes);
+const char *words_classes(uint16_t classes);
 /** words_note - a short line of facts, such as `LD LDN` or `1 byte, 0 to 1`. */
 void words_note(const struct words_entry *entry, const struct sink *sink);
 

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * literal_part - pieces of constants: digits, fractions, dates, times of day and
+ * quoted texts. What they are put together to is in literal.c.
+ */
+#include "engine/base/literal_part.h"
+#include "engine/base/ascii.h"
+
+#include <string.h>
+
+static unsigned int digit_value(char c)
+{
+	if (ascii_digit(c))
+		return (unsigned int)(c - '0');
+	c = ascii_upper(c);
+	return c >= 'A' && c <= 'F' ? (unsigned int)(c - 'A') + 10 : 99;
+}
+
+/* Digits of @base with single underscores between them. */
+enum literal_result literal_digits(struct rest *rest, unsigned int base,
+				       uint64_t *out)
+{
+	bool over = false, digit = false;
+	uint64_t value = 0;
+
+	for (; !literal_end(rest); rest->at++) {
+		unsigned int d = digit_value(*rest->at);
+
+		if (*rest->at == '_' && digit && rest->end - rest->at > 1 &&
+		    digit_value(rest->at[1]) < base)
+			continue;
+		if (d >= base)
+			break;
+		digit = true;
+		over |= __builtin_mul_overflow(value, (uint64_t)base, &value);
+		over |= __builtin_add_overflow(value, (uint64_t)d, &value);
+	}
+	*out = value;
+	return !digit ? LITERAL_BAD : over ? LITERAL_RANGE : LITERAL_OK;
+}
+
+/* @part / 10^@places of @ns, if that is a whole number; false: it is finer. */
+bool literal_fraction(uint64_t part, int places, uint64_t ns, uint64_t *out)
+{
+	while (places > 0) {
+		if (part % 10 == 0)
+			part /= 10;
+		else if (ns % 10 == 0)
+			ns /= 10;
+		else if (part % 2 == 0 && ns % 5 == 0) {
+			part /= 2;
+			ns /= 5;
+		} else if (part % 5 == 0 && ns % 2 == 0) {
+			part /= 5;
+			ns /= 2;
+		} else {
+			return false;
+		}
+		places--;
+	}
+	return !__builtin_mul_overflow(part, ns, out);
+}
+
+/* Digits behind the point; zeros at their end do not count. */
+enum literal_result literal_places(struct rest *rest, uint64_t *part,
+				       int *places)
+{
+	struct rest digits = *rest;
+
+	if (literal_digits(rest, 10, part) == LITERAL_BAD)
+		return LITERAL_BAD;
+	digits.end = rest->at;
+	while (digits.end - digits.at > 1 &&
+	       (digits.end[-1] == '0' || digits.end[-1] == '_'))
+		digits.end--;
+	*places = 0;
+	for (const char *at = digits.at; at != digits.end; at++)
+		*places += *at != '_';
+	return literal_digits(&digits, 10, part);
+}
+
+#define SECOND_NS INT64_C(1000000000)
+#define DAY_NS    (86400 * SECOND_NS)
+
+/* A number of two digits at least (a year: four) up to @most. */
+static enum literal_result take_part(struct rest *rest, size_t digits,
+				     uint64_t most, uint64_t *out)
+{
+	const char *start = rest->at;
+	enum literal_result result;
+
+	*out = 0;
+	result = literal_digits(rest, 10, out);
+	if (result == LITERAL_BAD || (size_t)(rest->at - start) > digits ||
+	    memchr(start, '_', (size_t)(rest->at - start)))
+		return LITERAL_BAD;
+	return *out > most ? LITERAL_RANGE : LITERAL_OK;
+}
+
+/* 08:30:00.5 */
+static enum literal_result take_clock(struct rest *rest, int64_t *ns)
+{
+	static const uint64_t most[] = { 23, 59, 59 };
+	uint64_t part[3], fraction = 0, below = 0;
+	int places = 0;
+
+	for (int i = 0; i < 3; i++) {
+		enum literal_result result;
+
+		if (i > 0 && !literal_byte(rest, ':'))
+			return LITERAL_BAD;
+		result = take_part(rest, 2, most[i], &part[i]);
+		if (result != LITERAL_OK)
+			return result;
+	}
+	if (literal_byte(rest, '.')) {
+		enum literal_result result = literal_places(rest, &fraction, &places);
+
+		if (result != LITERAL_OK)
+			return result;
+		if (!literal_fraction(fraction, places, (uint64_t)SECOND_NS, &below))
+			return LITERAL_RANGE;
+	}
+	*ns = (int64_t)((part[0] * 60 + part[1]) * 60 + part[2]) * SECOND_NS +
+	      (int64_t)below;
+	return LITERAL_OK;
+}
+
+static int days_of_month(int year, int month)
+{
+	return (int)(iec_days(month == 12 ? year + 1 : year,
+			      month == 12 ? 1 : month + 1, 1) -
+		     iec_days(year, month, 1));
+}
+
+/* 2026-11-21, as days since 1970-01-01. */
+static enum literal_result take_date(struct rest *rest, int64_t *day)
+{
+	static const uint64_t most[] = { 9999, 12, 31 };
+	uint64_t part[3];
+
+	for (int i = 0; i < 3; i++) {
+		enum literal_result result;
+
+		if (i > 0 && !literal_byte(rest, '-'))
+			return LITERAL_BAD;
+		result = take_part(rest, i ? 2 : 4, most[i], &part[i]);
+		if (result != LITERAL_OK)
+			return result;
+	}
+	if (part[1] == 0 || part[2] == 0 ||
+	    part[2] > (uint64_t)days_of_month((int)part[0], (int)part[1]))
+		return LITERAL_RANGE;
+	*day = iec_days((int)part[0], (int)part[1], (int)part[2]);
+	return LITERAL_OK;
+}
+
+/* What stands behind TOD#, D# and DT#. */
+enum literal_result literal_date(enum iec_type type, struct rest rest,
+				      int64_t *out)
+{
+	enum literal_result result = LITERAL_OK;
+	int64_t day = 0, clock = 0, ns;
+
+	if (type != IEC_TIME_OF_DAY)
+		result = take_date(&rest, &day);
+	if (result == LITERAL_OK && type == IEC_DATE_AND_TIME &&
+	    !literal_byte(&rest, '-'))
+		return LITERAL_BAD;
+	if (result == LITERAL_OK && type != IEC_DATE)
+		result = take_clock(&rest, &clock);
+	if (result != LITERAL_OK)
+		return result;
+	if (!literal_end(&rest))
+		return LITERAL_BAD;
+	if (__builtin_mul_overflow(day, DAY_NS, &ns) ||
+	    __builtin_add_overflow(ns, clock, &ns))
+		return LITERAL_RANGE;
+	*out = ns;
+	return LITERAL_OK;
+}
+
+/* The byte that an escape behind $ stands for; -1: it is none. */
+static int escape(const char *at, size_t left, size_t *used)
+{
+	static const char letter[] = "LNPRT";
+	static const char byte[] = "\n\n\f\r\t";
+
+	*used = 1;
+	if (left == 0)
+		return -1;
+	if (*at == '$' || *at == '\'')
+		return *at;
+	for (size_t i = 0; i < sizeof(letter) - 1; i++)
+		if (ascii_upper(*at) == letter[i])
+			return byte[i];
+	if (left < 2 || digit_value(at[0]) > 15 || digit_value(at[1]) > 15)
+		return -1;
+	*used = 2;
+	return (int)(digit_value(at[0]) * 16 + digit_value(at[1]));
+}
+
+/* Counts the bytes of what stands between two quotes; @out may be NULL. */
+static enum literal_result unescape(const char *text, size_t len, char *out,
+				    size_t *count)
+{
+	*count = 0;
+	for (size_t i = 0; i < len; i++) {
+		int byte = (unsigned char)text[i];
+		size_t used;
+
+		if (byte == '\'')
+			return LITERAL_BAD;
+		if (byte == '$') {
+			byte = escape(text + i + 1, len - i - 1, &used);
+			if (byte < 0)
+				return LITERAL_BAD;
+			i += used;
+		}
+		if (*count == IEC_STRING_MOST)
+			return LITERAL_RANGE;
+		if (out)
+			out[*count] = (char)byte;
+		++*count;
+	}
+	return LITERAL_OK;
+}
+
+size_t literal_string(const struct literal *literal, char *out)
+{
+	size_t count;
+
+	unescape(literal->text, literal->len, out, &count);
+	return count;
+}
+
+enum literal_result literal_quoted(struct rest rest, struct literal *out)
+{
+	size_t len = (size_t)(rest.end - rest.at), count;
+
+	if (len < 2 || rest.at[0] != '\'' || rest.end[-1] != '\'')
+		return LITERAL_BAD;
+	out->type = IEC_STRING;
+	out->text = rest.at + 1;
+	out->len = len - 2;
+	return unescape(out->text, out->len, NULL, &count);
+}

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check_fn - do the inputs of a function go together, and does it take them?
+ *
+ * A part of check_il.
+ */
+#include "engine/check/il_check.h"
+
+#include <stdio.h>
+
+static bool report_pin(struct il_check *c, const struct il_line *line,
+		       const struct word_pin *pin, enum iec_type type)
+{
+	const struct word_row *row = word_row((enum word)line->word);
+	char text[LIMIT_ARG];
+
+	if (pin->own)
+		snprintf(text, sizeof(text), "%.16s.%.8s does not take %s",
+			 row->word, pin->name, iec_type_row(type)->word);
+	else
+		snprintf(text, sizeof(text), "%s does not take %s", row->word,
+			 iec_type_row(type)->word);
+	return il_report(c, line, DIAG_WRONG_TYPE, text);
+}
+
+/* An input with a type of its own. */
+static bool check_own(struct il_check *c, const struct il_line *line,
+		      const struct word_pin *pin, const struct result *in)
+{
+	enum iec_type type = in->literal ? fn_own_type(pin, in->literal) : in->type;
+
+	if (il_is_unknown(*in))
+		return false;
+	if (iec_type_row(type)->class & pin->classes)
+		return true;
+	if (type == IEC_NONE)
+		type = in->literal->real ? IEC_REAL : IEC_DINT;
+	return report_pin(c, line, pin, type);
+}
+
+/* Constants only: the first usual type that the function takes. */
+static enum iec_type constants_type(const struct word_pin *pin,
+				    const struct result *in, enum iec_type hint)
+{
+	enum iec_type type;
+
+	if (iec_type_row(hint)->class & pin->classes)
+		return hint;
+	type = in ? fn_own_type(pin, in->literal) : IEC_NONE;
+	return type ? type : IEC_DINT;
+}
+
+/* The type that inputs share, and whether the function takes it. */
+static bool check_shared(struct il_check *c, const struct il_line *line,
+			 const struct result *in, int count,
+			 const struct word_pin *pin, enum iec_type type)
+{
+	const struct word_row *row = word_row((enum word)line->word);
+	union iec_value value;
+
+	if (!(pin->classes & iec_type_row(type)->class))
+		return report_pin(c, line, pin, type);
+	for (int i = 0; i < count; i++)
+		if (in[i].literal && !word_input(row, (uint32_t)i)->own &&
+		    !literal_fit(in[i].literal, type, &value))
+			return il_report_constant(c, line, in[i].literal, type);
+	return true;
+}
+
+bool il_check_inputs(struct il_check *c, const struct il_line *line,
+			 const struct result *in, int count,
+			 enum iec_type hint, enum iec_type *common)
+{
+	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_pin *shared = NULL;
+	const struct result *first = NULL;
+	enum iec_type type = IEC_NONE;
+
+	for (int i = 0; i < count; i++) {
+		const struct word_pin *pin = word_input(row, (uint32_t)i);
+		bool point = in[i].literal && in[i].literal->real;
+		enum iec_type own = point ? IEC_REAL : in[i].type;
+		enum iec_type join = types_join(type, own);
+
+		if (pin->own && !check_own(c, line, pin, &in[i]))
+			return false;
+		if (pin->own)
+			continue;
+		if (il_is_unknown(in[i]))
+			return false;
+		if (join == IEC_TYPE_COUNT)
+			return il_report_types(c, line, type, own);
+		type = join;
+		shared = pin;
+		first = in[i].literal && !first ? &in[i] : first;
+	}
+	if (!shared)
+		return true;
+	if (type == IEC_NONE)
+		type = constants_type(shared, first, hint);
+	*common = type;
+	return check_shared(c, line, in, count, shared, type);
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * il_check - what the parts of the check of an instruction list share.
+ *
+ * Private to check/. check_il walks the list, check_fn looks at inputs of functions.
+ */
+#ifndef CHECK_IL_CHECK_H
+#define CHECK_IL_CHECK_H
+
+#include "engine/check/check_il.h"
+
+/* The current result (IEC 61131-3 3.2.2): nothing, a type, or a constant that
+ * has no type yet. */
+struct result {
+	bool there;
+	enum iec_type type;
+	const struct literal *literal;
+};
+
+struct il_check {
+	struct scope *scope;
+	const struct pou *pou;
+	const struct il *il;
+	enum iec_type *types;
+	struct diag_list *diags;
+	uint8_t *label;        /* by folded name: is it a label?            */
+	uint32_t label_count;
+	struct result now;
+	int depth;           /* of open parentheses; what stands left is a bit */
+};
+
+/* Each adds a diagnostic at @line; false unless it is a warning. */
+bool il_report(struct il_check *c, const struct il_line *line, enum diag_id id,
+	       const char *arg);
+bool il_report_types(struct il_check *c, const struct il_line *line,
+		     enum iec_type from, enum iec_type to);
+/** il_report_constant - an untyped constant that is no value of @to. */
+bool il_report_constant(struct il_check *c, const struct il_line *line,
+			const struct literal *literal, enum iec_type to);
+/** il_is_unknown - after an error was told: a result that fits everywhere. */
+bool il_is_unknown(struct result result);
+/**
+ * il_check_inputs - the type that inputs of a function share, and whether it takes them
+ * @hint:   what constants alone should be, or IEC_NONE
+ * @common: gets that type; unchanged if none is shared
+ *
+ * Fails: false after a diagnostic, or where one was told before.
+ */
+bool il_check_inputs(struct il_check *c, const struct il_line *line,
+		     const struct result *in, int count, enum iec_type hint,
+		     enum iec_type *common);
+#endif

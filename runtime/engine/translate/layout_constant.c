@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * layout_constant - constants, one place a value, and initial values.
+ */
+#include "engine/translate/assembler.h"
+
+#include <string.h>
+
+uint32_t layout_string(struct assembler *as, enum code_run_kind kind,
+			   uint32_t capacity)
+{
+	struct code_run run = { .kind = (uint8_t)kind, .type = IEC_STRING,
+				.word = (uint16_t)capacity };
+
+	return layout_place(as, run, iec_type_size(IEC_STRING, capacity),
+		     (uint32_t)sizeof(struct iec_string));
+}
+
+void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
+		 union iec_value value)
+{
+	uint32_t size = iec_type_row(type)->size, bytes[2] = { 0, 0 };
+
+	iec_store(bytes, type, value);
+	if (!bytes[0] && !bytes[1])
+		return;
+	words_push(as, &as->init, offset);
+	words_push(as, &as->init, size);
+	words_push(as, &as->init, bytes[0]);
+	if (size > 4)
+		words_push(as, &as->init, bytes[1]);
+}
+
+/* A text's first bytes, whole words as long as its room. */
+void layout_init_text(struct assembler *as, uint32_t offset, uint32_t capacity,
+		      struct literal literal)
+{
+	char text[IEC_STRING_MOST];
+	size_t len = literal_string(&literal, text);
+	uint32_t word[(sizeof(struct iec_string) + IEC_STRING_MOST + 3) / 4] = { 0 };
+	struct iec_string *head = (void *)word;
+	uint32_t size = iec_type_size(IEC_STRING, capacity);
+
+	head->capacity = (uint16_t)capacity;
+	head->length = (uint16_t)(len < capacity ? len : capacity);
+	memcpy(head->text, text, head->length);
+	words_push(as, &as->init, offset);
+	words_push(as, &as->init, size);
+	for (uint32_t i = 0; i < size / 4; i++)
+		words_push(as, &as->init, word[i]);
+}
+
+uint32_t layout_text(struct assembler *as, const struct literal *literal)
+{
+	char text[IEC_STRING_MOST];
+	size_t len = literal_string(literal, text);
+	struct text_key *key;
+
+	for (int i = 0; i < as->text_count; i++)
+		if (as->text_key[i].len == len &&
+		    memcmp(as->text_key[i].text, text, len) == 0)
+			return as->text_key[i].offset;
+	key = arena_push(as->arena, &as->text_key, &as->text_count, sizeof(*key));
+	if (!key) {
+		as->failed = true;
+		return iec_areas_size();
+	}
+	*key = (struct text_key){
+		.text = arena_copy(as->arena, text, len), .len = len,
+		.offset = layout_string(as, RUN_CONSTANTS, len ? (uint32_t)len : 1),
+	};
+	layout_init_text(as, key->offset, len ? (uint32_t)len : 1, *literal);
+	return key->offset;
+}
+
+static uint32_t constant_hash(enum iec_type type, int64_t bits)
+{
+	uint64_t hash = ((uint64_t)bits ^ (uint64_t)type << 56) *
+			0x9e3779b97f4a7c15u;
+
+	return (uint32_t)(hash >> 32);
+}
+
+static bool grow_constants(struct assembler *as)
+{
+	uint32_t size = as->constant_mask ? (as->constant_mask + 1) * 2 : 64;
+	uint32_t *table = arena_alloc(as->arena, size * sizeof(*table));
+
+	if (!table)
+		return false;
+	as->constant = table;
+	as->constant_mask = size - 1;
+	for (int i = 0; i < as->constant_count; i++) {
+		const struct constant_key *key = &as->constant_key[i];
+		uint32_t at = constant_hash(key->type, key->bits);
+
+		while (table[at & as->constant_mask])
+			at++;
+		table[at & as->constant_mask] = (uint32_t)i + 1;
+	}
+	return true;
+}
+
+uint32_t layout_constant(struct assembler *as, enum iec_type type,
+			 union iec_value value)
+{
+	uint32_t areas = iec_areas_size(), at;
+	struct constant_key *key;
+
+	if (type == IEC_BOOL)
+		return value.i ? CODE_TRUE_AT(areas) : CODE_FALSE_AT(areas);
+	if ((uint32_t)as->constant_count * 2 >= as->constant_mask &&
+	    !grow_constants(as)) {
+		as->failed = true;
+		return areas;
+	}
+	at = constant_hash(type, value.i);
+	for (; as->constant[at & as->constant_mask]; at++) {
+		key = &as->constant_key[as->constant[at & as->constant_mask] - 1];
+		if (key->type == type && key->bits == value.i)
+			return key->offset;
+	}
+	key = arena_push(as->arena, &as->constant_key, &as->constant_count,
+			 sizeof(*key));
+	if (!key) {
+		as->failed = true;
+		return areas;
+	}
+	as->constant[at & as->constant_mask] = (uint32_t)as->constant_count;
+	*key = (struct constant_key){ type, value.i,
+		layout_tail(as, RUN_CONSTANTS, type) };
+	layout_init(as, key->offset, type, value);
+	return key->offset;
+}
