@@ -18,7 +18,8 @@ enum word {
 #include "engine/catalog.def"
 #define FN(id, ...) FN_##id,
 #include "engine/catalog.def"
-	WORD_COUNT
+	WORD_COUNT,
+	WORD_MOST = 0xffff /* words of a project follow: model/words.h      */
 };
 
 enum op {
@@ -44,7 +45,7 @@ enum vm_op {
 #define FB(id, family, doc, pins)  struct fb_##id { pins };
 #include "engine/catalog.def"
 
-enum word_kind { WORD_ELEM, WORD_FB, WORD_FN };
+enum word_kind { WORD_ELEM, WORD_FB, WORD_FN, WORD_STRUCT };
 
 enum place {
 	PLACE_NONE,   /* an empty cell                                       */
@@ -65,15 +66,17 @@ enum edge { EDGE_NONE, EDGE_RISING, EDGE_FALLING };
 /* Modifiers of an IL operator (IEC 61131-3 table 51). */
 enum op_modifier { MOD_N = 1, MOD_C = 2, MOD_PAREN = 4 };
 
-enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR };
+enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR, PIN_IN_OUT };
 
 struct word_pin {
 	const char *name;
 	enum pin_dir dir;
 	enum iec_type type;  /* of an FB pin; IEC_NONE for a function's        */
 	uint8_t classes;     /* of a function's pin: enum iec_class, or'ed     */
-	uint16_t offset;     /* of an FB pin in its struct                     */
+	uint32_t offset;     /* of an FB pin in its struct                     */
 	const char *doc;
+	enum word word;      /* type IEC_NONE, own rows: an instance, structure */
+	bool has_init;       /* own rows: declared with a value                */
 };
 
 enum fn_result { RESULT_SAME, RESULT_BOOL };
@@ -92,12 +95,13 @@ struct word_row {
 	bool negate;
 	enum fn_result result;
 	uint8_t most_inputs; /* of a function                                  */
-	uint8_t pin_count;
+	uint16_t pin_count;
 	const struct word_pin *pin; /* of a function: inputs only              */
-	uint16_t size;       /* bytes of an FB instance                        */
+	uint32_t size;       /* bytes of an FB instance                        */
 };
 
-/** word_row - the row of a word. Lives for ever. Scan-safe: yes. */
+/** word_row - the row of a word. Lives for ever. Scan-safe: yes. Words of a
+ * project share a row that only says that they are boxes (model/words.h). */
 const struct word_row *word_row(enum word word);
 /** word_find - the word a file spells so (any case); WORD_COUNT: none. */
 enum word word_find(const char *text, size_t len);

@@ -281,7 +281,7 @@ static bool check_inputs(struct il_check *c, const struct il_line *line,
 			 const struct result *in, int count,
 			 enum iec_type hint, enum iec_type *common)
 {
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	enum iec_type type = IEC_NONE;
 	union iec_value value;
 
@@ -312,9 +312,10 @@ static bool check_inputs(struct il_check *c, const struct il_line *line,
 	return true;
 }
 
-static enum iec_type fn_type(const struct il_line *line, enum iec_type common)
+static enum iec_type fn_type(struct il_check *c, const struct il_line *line,
+			     enum iec_type common)
 {
-	return word_row((enum word)line->word)->result == RESULT_BOOL ?
+	return scope_row(c->scope, (enum word)line->word)->result == RESULT_BOOL ?
 	       IEC_BOOL : common;
 }
 
@@ -322,7 +323,7 @@ static enum iec_type fn_type(const struct il_line *line, enum iec_type common)
 static bool check_fn(struct il_check *c, const struct il_line *line,
 		     enum iec_type *common)
 {
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	struct result in[2] = { c->now };
 	int count = 1;
 
@@ -342,7 +343,7 @@ static bool check_fn(struct il_check *c, const struct il_line *line,
 	if (!check_inputs(c, line, in, count, IEC_NONE, common))
 		return false;
 	c->now = (struct result){
-		.there = true, .type = fn_type(line, *common),
+		.there = true, .type = fn_type(c, line, *common),
 	};
 	return true;
 }
@@ -359,7 +360,7 @@ static enum iec_type out_type(struct il_check *c, int at)
 	const struct il_line *line = &c->il->line[at];
 	enum diag_id why;
 
-	if (word_row((enum word)line->word)->result == RESULT_BOOL)
+	if (scope_row(c->scope, (enum word)line->word)->result == RESULT_BOOL)
 		return IEC_NONE;
 	for (int i = at + 1; is_arg(c, i); i++) {
 		const struct il_line *arg = &c->il->line[i];
@@ -378,7 +379,7 @@ static enum iec_type out_type(struct il_check *c, int at)
 static bool check_call(struct il_check *c, int at, enum iec_type *common)
 {
 	const struct il_line *line = &c->il->line[at];
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	struct result in[LIMIT_FN_INPUTS] = { { false, IEC_NONE, NULL } };
 	struct result out;
 	int count = 0, last = 0;
@@ -412,7 +413,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 		return report(c, line, DIAG_MISSING_INPUT, row->word);
 	if (!check_inputs(c, line, in, count, out_type(c, at), common))
 		return false;
-	out = (struct result){ .there = true, .type = fn_type(line, *common) };
+	out = (struct result){ .there = true, .type = fn_type(c, line, *common) };
 	for (int i = at + 1; is_arg(c, i); i++) {
 		const struct il_line *arg = &c->il->line[i];
 		const char *pin = scope_text(c->scope, arg->pin);
@@ -471,7 +472,7 @@ static bool check_cal(struct il_check *c, int at)
 		good = need_result(c, line) &&
 		       need_bool(c, line, c->now, "result");
 	for (int i = at + 1; is_arg(c, i); i++)
-		good &= check_pin(c, word_row(m->var->fb), &c->il->line[i]);
+		good &= check_pin(c, scope_row(c->scope, m->var->fb), &c->il->line[i]);
 	c->now.there = false;
 	return good;
 }

@@ -202,7 +202,7 @@ static void finish_at(struct list *list, const struct target *target, int line)
 void list_call(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = list_row(list, (enum word)line->word);
 	enum iec_type type = list->types[list->at];
 	enum iec_type result = row->result == RESULT_BOOL ? IEC_BOOL : type;
 	struct call call = { .en = TRUE_SLOT };
@@ -244,7 +244,7 @@ void list_call(struct list *list)
 static void feed_pin(struct list *list, const struct meaning *instance,
 		     const struct il_line *arg)
 {
-	const struct word_row *row = word_row(instance->var->fb);
+	const struct word_row *row = list_row(list, instance->var->fb);
 	const struct meaning *m = list_meaning(list, arg->operand);
 	struct meaning pin = *instance;
 	const char *name = pin_text(list, arg);
@@ -277,7 +277,7 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 static void take_pin(struct list *list, const struct meaning *instance,
 		     const struct il_line *arg)
 {
-	const struct word_row *row = word_row(instance->var->fb);
+	const struct word_row *row = list_row(list, instance->var->fb);
 	const struct meaning *m = list_meaning(list, arg->operand);
 	struct meaning pin = *instance;
 	const char *name = pin_text(list, arg);
@@ -323,7 +323,7 @@ void list_cal(struct list *list)
 	uint32_t offset = layout_spot(list->as, instance).offset;
 	int skip = -1;
 
-	list_protect(list, offset, word_row(fb)->size);
+	list_protect(list, offset, list_row(list, fb)->size);
 	if (line->modifiers & MOD_C) {
 		skip = skip_call(list, line);
 		list->straight = false;
