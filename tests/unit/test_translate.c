@@ -49,7 +49,7 @@ static const char *lines(const char *rungs)
 	sink = sink_to_memory(&memory);
 	out[0] = '\0';
 	if (ladder(&rig, rungs, false)) {
-		text_write_il(&ladder_project(rig.ladder)->names,
+		text_write_il(ladder_project(rig.ladder),
 			      ladder_il(rig.ladder, 0), &sink);
 		for (const char *line = sink_memory_text(&memory); *line;) {
 			int size = (int)strcspn(line, "\n");
@@ -400,7 +400,7 @@ static bool print_all(struct ladder *ladder, const struct sink *sink)
 	struct project *project = ladder_project(ladder);
 
 	sink_text(sink, "RUNGBOARD 1\n");
-	text_write_vars(&project->names, &project->globals, sink);
+	text_write_vars(project, &project->globals, sink);
 	for (int i = 0; i < project->pou_count; i++) {
 		int count;
 		struct var *const *temps = ladder_temporaries(ladder, i, &count);

@@ -14,18 +14,17 @@
 #define DOC(text) text
 #endif
 
-#define FB_IN(fb, pin, type, doc) \
-	{ #pin, PIN_IN, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), DOC(doc) },
-#define FB_OUT(fb, pin, type, doc) \
-	{ #pin, PIN_OUT, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), DOC(doc) },
-#define FB_VAR(fb, pin, type) \
-	{ #pin, PIN_VAR, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), "" },
+#define FB_PIN(fb, pin, dir, type, text) \
+	{ #pin, dir, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), text, 0, false },
+#define FB_IN(fb, pin, type, doc)  FB_PIN(fb, pin, PIN_IN, type, DOC(doc))
+#define FB_OUT(fb, pin, type, doc) FB_PIN(fb, pin, PIN_OUT, type, DOC(doc))
+#define FB_VAR(fb, pin, type)      FB_PIN(fb, pin, PIN_VAR, type, "")
 #define FB(id, family, doc, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #define FN_IN(pin, classes, doc) \
-	{ #pin, PIN_IN, IEC_NONE, classes, false, 0, DOC(doc) },
+	{ #pin, PIN_IN, IEC_NONE, classes, false, 0, DOC(doc), 0, false },
 #define FN_OWN(pin, classes, doc) \
-	{ #pin, PIN_IN, IEC_NONE, classes, true, 0, DOC(doc) },
+	{ #pin, PIN_IN, IEC_NONE, classes, true, 0, DOC(doc), 0, false },
 #define FN(id, family, doc, result, most, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #include "engine/catalog.def"
@@ -81,8 +80,17 @@ static const struct sys_row sys_rows[SYS_COUNT] = {
 #include "engine/catalog.def"
 };
 
+/* All that is known of a word of a project without the project. */
+static const struct word_row own_word = {
+	.id = "", .word = "", .glyph = "", .family = "", .doc = "",
+	.kind = WORD_FB, .place = PLACE_BOX, .operand = OPND_INSTANCE,
+	.first = OP_CAL, .next = OP_CAL,
+};
+
 const struct word_row *word_row(enum word word)
 {
+	if (word > WORD_COUNT)
+		return &own_word;
 	return &words[word < WORD_COUNT ? word : ELEM_EMPTY];
 }
 

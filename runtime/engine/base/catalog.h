@@ -19,7 +19,8 @@ enum word {
 #include "engine/catalog.def"
 #define FN(id, ...) FN_##id,
 #include "engine/catalog.def"
-	WORD_COUNT
+	WORD_COUNT,
+	WORD_MOST = 0xffff /* words of a project follow: model/words.h      */
 };
 
 enum op {
@@ -44,7 +45,7 @@ enum vm_op {
 #define FB(id, family, doc, pins)  struct fb_##id { pins };
 #include "engine/catalog.def"
 
-enum word_kind { WORD_ELEM, WORD_FB, WORD_FN };
+enum word_kind { WORD_ELEM, WORD_FB, WORD_FN, WORD_STRUCT };
 
 enum place {
 	PLACE_NONE,   /* an empty cell                                       */
@@ -65,7 +66,7 @@ enum edge { EDGE_NONE, EDGE_RISING, EDGE_FALLING };
 /* Modifiers of an IL operator (IEC 61131-3 table 51). */
 enum op_modifier { MOD_N = 1, MOD_C = 2, MOD_PAREN = 4 };
 
-enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR };
+enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR, PIN_IN_OUT };
 
 struct word_pin {
 	const char *name;
@@ -73,8 +74,10 @@ struct word_pin {
 	enum iec_type type;  /* of an FB pin; IEC_NONE for a function's        */
 	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
 	bool own;            /* of a function's pin: does not share the type   */
-	uint16_t offset;     /* of an FB pin in its struct                     */
+	uint32_t offset;     /* of an FB pin in its struct                     */
 	const char *doc;
+	enum word word;      /* type IEC_NONE, own rows: an instance, structure */
+	bool has_init;       /* own rows: declared with a value                */
 };
 
 /* Type of a function's result, if it is not one of its own. */
@@ -96,12 +99,13 @@ struct word_row {
 	enum iec_type result; /* of a function: a type, or RESULT_…            */
 	uint16_t result_classes; /* of RESULT_OPEN: what it may become         */
 	uint8_t most_inputs; /* of a function                                  */
-	uint8_t pin_count;
+	uint16_t pin_count;
 	const struct word_pin *pin; /* of a function: inputs only              */
-	uint16_t size;       /* bytes of an FB instance                        */
+	uint32_t size;       /* bytes of an FB instance                        */
 };
 
-/** word_row - the row of a word. Lives for ever. Scan-safe: yes. */
+/** word_row - the row of a word. Lives for ever. Scan-safe: yes. Words of a
+ * project share a row that only says that they are boxes (model/words.h). */
 const struct word_row *word_row(enum word word);
 /** word_input - the pin of input @index of a function; the last one again for those
  * behind it.   Scan-safe: yes. */

@@ -26,6 +26,7 @@
 #define LIMIT_POUS        1024      /* POUs of one project                    */
 #define LIMIT_VARS        200000    /* variables of one project               */
 #define LIMIT_ARGS        20        /* parameters written at one box          */
+#define LIMIT_OWN_WORDS   8192      /* functions, blocks, types of a project */
 #define LIMIT_FN_INPUTS   16        /* inputs of an extensible function       */
 #define LIMIT_EXPR_DEPTH  64        /* nesting of an expression               */
 #define LIMIT_EXPR_NODES  512       /* operands and operators of one          */

@@ -11,7 +11,7 @@
 static bool report_pin(struct il_check *c, const struct il_line *line,
 		       const struct word_pin *pin, enum iec_type type)
 {
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	char text[LIMIT_ARG];
 
 	if (pin->own)
@@ -55,7 +55,7 @@ static bool check_shared(struct il_check *c, const struct il_line *line,
 			 const struct result *in, int count,
 			 const struct word_pin *pin, enum iec_type type)
 {
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	union iec_value value;
 
 	if (!(pin->classes & iec_type_row(type)->class))
@@ -71,7 +71,7 @@ bool il_check_inputs(struct il_check *c, const struct il_line *line,
 			 const struct result *in, int count,
 			 enum iec_type hint, enum iec_type *common)
 {
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	const struct word_pin *shared = NULL;
 	const struct result *first = NULL;
 	enum iec_type type = IEC_NONE;

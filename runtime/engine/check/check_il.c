@@ -249,7 +249,7 @@ static bool check_not(struct il_check *c, const struct il_line *line)
 static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 {
 	const struct il_line *line = &c->il->line[at];
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	struct result in[2] = { c->now };
 	enum iec_type stored;
 	int count = 1;
@@ -304,7 +304,7 @@ static enum iec_type out_type(struct il_check *c, int at)
 static bool check_call(struct il_check *c, int at, enum iec_type *common)
 {
 	const struct il_line *line = &c->il->line[at];
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	struct result in[LIMIT_FN_INPUTS] = { { false, IEC_NONE, NULL } };
 	struct result out;
 	enum iec_type stored;
@@ -401,7 +401,7 @@ static bool check_cal(struct il_check *c, int at)
 		good = need_result(c, line) &&
 		       need_bool(c, line, c->now, "result");
 	for (int i = at + 1; is_arg(c, i); i++)
-		good &= check_pin(c, word_row(m->var->fb), &c->il->line[i]);
+		good &= check_pin(c, scope_row(c->scope, m->var->fb), &c->il->line[i]);
 	c->now.there = false;
 	return good;
 }

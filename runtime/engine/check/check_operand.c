@@ -169,7 +169,7 @@ static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
 static void check_args(struct operand_check *c, struct spot at,
 		       const struct cell *cell)
 {
-	const struct word_row *row = word_row((enum word)cell->word);
+	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 	const char *next = project_text(c->project, cell->args);
 	struct arg arg;
 
@@ -191,7 +191,7 @@ static void check_args(struct operand_check *c, struct spot at,
 static unsigned int connected_inputs(const struct operand_check *c,
 				     struct spot at, const struct cell *cell)
 {
-	const struct word_row *row = word_row((enum word)cell->word);
+	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 	const char *next = project_text(c->project, cell->args);
 	unsigned int inputs = 0;
 	struct arg arg;
@@ -219,7 +219,7 @@ static unsigned int connected_inputs(const struct operand_check *c,
 static void check_inputs(struct operand_check *c, struct spot at,
 			 const struct cell *cell)
 {
-	const struct word_row *row = word_row((enum word)cell->word);
+	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 	unsigned int inputs = connected_inputs(c, at, cell);
 	char name[24];
 
@@ -252,7 +252,7 @@ static void check_instance(struct operand_check *c, struct spot at,
 static void check_element(struct operand_check *c, struct spot at,
 			  const struct cell *cell)
 {
-	const struct word_row *row = word_row((enum word)cell->word);
+	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 
 	switch (row->operand) {
 	case OPND_BOOL_R:

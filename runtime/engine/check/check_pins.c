@@ -67,7 +67,7 @@ static void note_list(struct pins *pins, const struct il_pou *list)
 			const char *pin = scope_text(pins->scope, line->pin);
 
 			key = key_of(instance,
-				     word_pin_find(word_row(instance->var->fb),
+				     word_pin_find(scope_row(pins->scope, instance->var->fb),
 						   pin, strlen(pin)));
 		}
 		if (key)
@@ -100,7 +100,7 @@ static void check_list(struct pins *pins, const struct il_pou *list)
 		m = find(pins, list->pou, line->operand);
 		if (!m || m->kind != MEANING_INSTANCE)
 			continue;
-		row = word_row(m->var->fb);
+		row = scope_row(pins->scope, m->var->fb);
 		for (int pin = 0; pin < row->pin_count; pin++)
 			if (row->pin[pin].dir == PIN_IN &&
 			    row->pin[pin].type != IEC_BOOL &&

@@ -67,7 +67,7 @@ static void report_cell(struct rung_check *c, enum diag_id id, int row, int col)
 
 	report(c, id, row, col, cell->operand ?
 	       project_text(c->project, cell->operand) :
-	       word_row((enum word)cell->word)->word);
+	       words_row(&c->project->words, (enum word)cell->word)->word);
 }
 
 /* May rows of pins stand below it? */
@@ -209,7 +209,7 @@ static bool pin_row_before(const struct rung_check *c,
 			   const struct network_element *e, int number,
 			   int index)
 {
-	const struct word_row *row = word_row((enum word)e->word);
+	const struct word_row *row = words_row(&c->project->words, (enum word)e->word);
 
 	for (int i = 0; i < number; i++) {
 		const char *name = project_text(c->project,
@@ -225,7 +225,7 @@ static void check_pin(struct rung_check *c, const struct network_element *e,
 		      int number)
 {
 	const struct network_pin *pin = &c->network->pin[e->first_pin + number];
-	const struct word_row *row = word_row((enum word)e->word);
+	const struct word_row *row = words_row(&c->project->words, (enum word)e->word);
 	const char *name = project_text(c->project, pin->operand);
 	size_t len = strlen(name);
 	int index = word_pin_find(row, name, len);
@@ -249,7 +249,7 @@ static void check_power_pin(struct rung_check *c,
 			    const struct network_element *e)
 {
 	const struct cell *cell = cell_at(c, e->row, e->col);
-	const struct word_row *row = word_row((enum word)e->word);
+	const struct word_row *row = words_row(&c->project->words, (enum word)e->word);
 	int first = word_first_bool(row, PIN_IN);
 	const char *name;
 	struct arg arg;

@@ -195,7 +195,7 @@ static bool mean_pin(const struct scope *scope, uint32_t table,
 	if (whole.kind != MEANING_INSTANCE)
 		return false;
 	*why = DIAG_NO_PIN;
-	row = word_row(whole.var->fb);
+	row = scope_row(scope, whole.var->fb);
 	pin = word_pin_find(row, dot + 1, len - (size_t)(dot + 1 - text));
 	if (pin < 0)
 		return false;
@@ -373,6 +373,11 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 struct project *scope_project(const struct scope *scope)
 {
 	return scope->project;
+}
+
+const struct word_row *scope_row(const struct scope *scope, enum word word)
+{
+	return words_row(&scope->project->words, word);
 }
 
 const char *scope_text(const struct scope *scope, uint32_t id)

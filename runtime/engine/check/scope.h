@@ -65,6 +65,8 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index);
 bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index);
 struct project *scope_project(const struct scope *scope);
+/** scope_row - the row of a word, be it the project's own. */
+const struct word_row *scope_row(const struct scope *scope, enum word word);
 /** scope_text - the string of an id. */
 const char *scope_text(const struct scope *scope, uint32_t id);
 #endif

@@ -18,6 +18,7 @@ struct project *project_new(const char *file)
 		return NULL;
 	arena_init(&project->arena);
 	names_init(&project->names, &project->arena);
+	words_init(&project->words, &project->arena);
 	if (!file)
 		file = "";
 	project->file = arena_copy(&project->arena, file, strlen(file));

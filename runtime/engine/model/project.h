@@ -11,6 +11,7 @@
 #include "engine/model/il.h"
 #include "engine/model/rung.h"
 #include "engine/model/vars.h"
+#include "engine/model/words.h"
 
 enum pou_language { LANGUAGE_LD, LANGUAGE_IL };
 
@@ -41,6 +42,7 @@ struct part {
 struct project {
 	struct arena arena;
 	struct names names;
+	struct word_table words; /* of the catalogue and its own              */
 	const char *file;
 	uint32_t title;         /* PROJECT "…"                                 */
 	uint32_t head;          /* comments above PROJECT or the first part    */

@@ -208,9 +208,9 @@ static bool read_instruction(struct reader *r)
 		line.op = (uint8_t)op;
 		return read_operator(r, line);
 	}
-	const enum word word = word_find(token.text, token.len);
+	const enum word word = words_find(&r->project->words, token.text, token.len);
 
-	if (word == WORD_COUNT || word_row(word)->kind != WORD_FN)
+	if (word == WORD_COUNT || words_row(&r->project->words, word)->kind != WORD_FN)
 		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
 	line.kind = IL_FN;
 	line.word = (uint16_t)word;

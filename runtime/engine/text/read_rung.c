@@ -148,11 +148,11 @@ static bool read_operand(struct reader *r, struct cell *cell,
 static bool read_word(struct reader *r, struct cell *cell)
 {
 	const struct token token = r->lex.token;
-	const enum word word = word_find(token.text, token.len);
+	const enum word word = words_find(&r->project->words, token.text, token.len);
 
 	if (word == WORD_COUNT)
 		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
-	const struct word_row *row = word_row(word);
+	const struct word_row *row = words_row(&r->project->words, word);
 
 	cell->word = (uint16_t)word;
 	reader_next(r);

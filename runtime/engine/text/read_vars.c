@@ -108,8 +108,8 @@ static bool read_type(struct reader *r, struct var *var)
 		return reader_fail_word(r, DIAG_EXPECTED, "type");
 	var->type = iec_type_find(token->text, token->len);
 	if (var->type == IEC_NONE) {
-		var->fb = word_find(token->text, token->len);
-		if (var->fb == WORD_COUNT || word_row(var->fb)->kind != WORD_FB)
+		var->fb = words_find(&r->project->words, token->text, token->len);
+		if (var->fb == WORD_COUNT || words_row(&r->project->words, var->fb)->kind != WORD_FB)
 			return reader_fail_token(r, DIAG_BAD_TYPE);
 		if (var->at_text)
 			return reader_fail_word(r, DIAG_MISPLACED, "AT");

@@ -40,11 +40,11 @@ bool text_read(struct project *project, const char *file, const char *text,
 char *text_write(const struct project *project, size_t *len);
 
 /** text_write_vars - VAR … END_VAR, every block of @table. Scan-safe: no. */
-void text_write_vars(const struct names *names, const struct var_table *table,
+void text_write_vars(const struct project *project, const struct var_table *table,
 		     const struct sink *sink);
 /** text_write_il - an instruction list; it reads again to the same list, its
  * lines numbered anew. Scan-safe: no. */
-void text_write_il(const struct names *names, const struct il *il,
+void text_write_il(const struct project *project, const struct il *il,
 		   const struct sink *sink);
 
 /* For the clipboard, undo and tests: one rung, and one cell. */

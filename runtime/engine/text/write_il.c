@@ -27,20 +27,20 @@ static void write_padded(const struct sink *sink, const char *word,
 	sink_repeat(sink, " ", len < 5 ? 6 - len : 1);
 }
 
-static void write_args(const struct sink *sink, const struct names *names,
+static void write_args(const struct sink *sink, const struct project *project,
 		       const struct il_line *arg, int count)
 {
 	sink_text(sink, "(");
 	for (int i = 0; i < count; i++) {
 		sink_text(sink, i > 0 ? ", " : "");
-		write_id(sink, names, arg[i].pin);
+		write_id(sink, project, arg[i].pin);
 		sink_text(sink, arg[i].kind == IL_ARG_OUT ? " => " : " := ");
-		write_id(sink, names, arg[i].operand);
+		write_id(sink, project, arg[i].operand);
 	}
 	sink_text(sink, ")");
 }
 
-static void write_operator(const struct sink *sink, const struct names *names,
+static void write_operator(const struct sink *sink, const struct project *project,
 			   const struct il_line *line)
 {
 	const char *word = op_row((enum op)line->op)->word;
@@ -54,7 +54,7 @@ static void write_operator(const struct sink *sink, const struct names *names,
 		modifier = "N";
 	if (line->operand && !(line->modifiers & MOD_PAREN)) {
 		write_padded(sink, word, modifier);
-		write_id(sink, names, line->operand);
+		write_id(sink, project, line->operand);
 		return;
 	}
 	sink_text(sink, word);
@@ -64,41 +64,41 @@ static void write_operator(const struct sink *sink, const struct names *names,
 	/* The list may hold AND( with its first operand, as the standard has. */
 	if (line->operand) {
 		sink_text(sink, " ");
-		write_id(sink, names, line->operand);
+		write_id(sink, project, line->operand);
 	}
 }
 
-static void write_line(const struct sink *sink, const struct names *names,
+static void write_line(const struct sink *sink, const struct project *project,
 		       const struct il_line *line, int args)
 {
-	const char *word = word_row((enum word)line->word)->word;
+	const char *word = words_row(&project->words, (enum word)line->word)->word;
 
 	switch ((enum il_kind)line->kind) {
 	case IL_OP:
 		sink_text(sink, "  ");
-		write_operator(sink, names, line);
+		write_operator(sink, project, line);
 		if (args > 0)
-			write_args(sink, names, line + 1, args);
+			write_args(sink, project, line + 1, args);
 		return;
 	case IL_FN:
 		sink_text(sink, "  ");
 		write_padded(sink, word, "");
-		write_id(sink, names, line->operand);
+		write_id(sink, project, line->operand);
 		return;
 	case IL_CALL:
 		sink_text(sink, "  ");
 		sink_text(sink, word);
-		write_args(sink, names, line + 1, args);
+		write_args(sink, project, line + 1, args);
 		return;
 	case IL_CLOSE:
 		sink_text(sink, "  )");
 		return;
 	case IL_LABEL:
-		write_id(sink, names, line->operand);
+		write_id(sink, project, line->operand);
 		sink_text(sink, ":");
 		return;
 	case IL_COMMENT:
-		write_id(sink, names, line->operand);
+		write_id(sink, project, line->operand);
 		return;
 	case IL_ARG_IN:
 	case IL_ARG_OUT:
@@ -106,7 +106,7 @@ static void write_line(const struct sink *sink, const struct names *names,
 	}
 }
 
-void text_write_il(const struct names *names, const struct il *il,
+void text_write_il(const struct project *project, const struct il *il,
 		   const struct sink *sink)
 {
 	uint32_t last = 0; /* line in the source of the instruction before    */
@@ -126,7 +126,7 @@ void text_write_il(const struct names *names, const struct il *il,
 			sink_text(sink, "\n");
 		if (line->kind != IL_COMMENT)
 			last = line->line;
-		write_line(sink, names, line, args);
+		write_line(sink, project, line, args);
 	}
 	if (il->count > 0)
 		sink_text(sink, "\n");

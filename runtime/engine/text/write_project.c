@@ -13,17 +13,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-void write_id(const struct sink *sink, const struct names *names, uint32_t id)
+void write_id(const struct sink *sink, const struct project *project, uint32_t id)
 {
-	sink_write(sink, names_text(names, id), names_len(names, id));
+	sink_write(sink, project_text(project, id), names_len(&project->names, id));
 }
 
-void write_above(const struct sink *sink, const struct names *names,
+void write_above(const struct sink *sink, const struct project *project,
 		 uint32_t comment)
 {
 	if (!comment)
 		return;
-	write_id(sink, names, comment);
+	write_id(sink, project, comment);
 	sink_text(sink, "\n");
 }
 
@@ -63,9 +63,9 @@ void write_string(const struct sink *sink, const char *text, size_t len)
 	sink_text(sink, "\"");
 }
 
-int write_width(const struct names *names, uint32_t id)
+int write_width(const struct project *project, uint32_t id)
 {
-	return utf8_width(names_text(names, id), names_len(names, id));
+	return utf8_width(project_text(project, id), names_len(&project->names, id));
 }
 
 /* ---- declarations ---- */
@@ -74,14 +74,14 @@ struct widths {
 	int name, at;
 };
 
-static struct widths measure(const struct names *names,
+static struct widths measure(const struct project *project,
 			     const struct var *var, int count)
 {
 	struct widths widths = { 0, 0 };
 
 	for (int i = 0; i < count; i++) {
-		int name = write_width(names, var[i].name);
-		int at = write_width(names, var[i].at_text);
+		int name = write_width(project, var[i].name);
+		int at = write_width(project, var[i].at_text);
 
 		widths.name = name > widths.name ? name : widths.name;
 		widths.at = at > widths.at ? at : widths.at;
@@ -89,7 +89,7 @@ static struct widths measure(const struct names *names,
 	return widths;
 }
 
-static void write_init(const struct sink *sink, const struct names *names,
+static void write_init(const struct sink *sink, const struct project *project,
 		       const struct var *var)
 {
 	char text[64];
@@ -98,49 +98,49 @@ static void write_init(const struct sink *sink, const struct names *names,
 		return;
 	sink_text(sink, " := ");
 	if (var->init_text) {
-		write_id(sink, names, var->init_text);
+		write_id(sink, project, var->init_text);
 		return;
 	}
 	literal_print(var->type, var->init, text, sizeof(text));
 	sink_text(sink, text);
 }
 
-static void write_var(const struct sink *sink, const struct names *names,
+static void write_var(const struct sink *sink, const struct project *project,
 		      const struct var *var, const struct widths *widths)
 {
-	const int name = write_width(names, var->name);
+	const int name = write_width(project, var->name);
 
 	sink_text(sink, "  ");
-	write_id(sink, names, var->name);
+	write_id(sink, project, var->name);
 	sink_repeat(sink, " ", widths->name - name);
 	if (var->at_text) {
 		sink_text(sink, " AT ");
-		write_id(sink, names, var->at_text);
+		write_id(sink, project, var->at_text);
 		sink_repeat(sink, " ",
-			    widths->at - write_width(names, var->at_text));
+			    widths->at - write_width(project, var->at_text));
 	}
 	sink_text(sink, " : ");
-	sink_text(sink, var->type == IEC_NONE ? word_row(var->fb)->word :
+	sink_text(sink, var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
 					      iec_type_row(var->type)->word);
 	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
 		sink_printf(sink, "[%u]", var->capacity);
-	write_init(sink, names, var);
+	write_init(sink, project, var);
 	sink_text(sink, ";");
 	if (var->comment) {
 		sink_text(sink, " ");
-		write_id(sink, names, var->comment);
+		write_id(sink, project, var->comment);
 	}
 	sink_text(sink, "\n");
 }
 
-static void write_block(const struct sink *sink, const struct names *names,
+static void write_block(const struct sink *sink, const struct project *project,
 			const struct var_table *table, int index)
 {
 	const struct var_block *block = &table->block[index];
 	const struct var *var = table->var ? table->var + block->first : NULL;
-	const struct widths widths = measure(names, var, block->count);
+	const struct widths widths = measure(project, var, block->count);
 
-	write_above(sink, names, block->comment);
+	write_above(sink, project, block->comment);
 	sink_text(sink, block->flags & VAR_GLOBAL_WORD ? "VAR_GLOBAL" : "VAR");
 	if (block->flags & VAR_RETAIN)
 		sink_text(sink, " RETAIN");
@@ -148,56 +148,54 @@ static void write_block(const struct sink *sink, const struct names *names,
 		sink_text(sink, " CONSTANT");
 	sink_text(sink, "\n");
 	for (int i = 0; i < block->count; i++)
-		write_var(sink, names, &var[i], &widths);
+		write_var(sink, project, &var[i], &widths);
 	sink_text(sink, "END_VAR\n");
 }
 
-void text_write_vars(const struct names *names, const struct var_table *table,
+void text_write_vars(const struct project *project, const struct var_table *table,
 		     const struct sink *sink)
 {
 	for (int i = 0; i < table->block_count; i++)
-		write_block(sink, names, table, i);
+		write_block(sink, project, table, i);
 }
 
 /* ---- parts ---- */
 
-static void write_pou(const struct sink *sink, const struct names *names,
+static void write_pou(const struct sink *sink, const struct project *project,
 		      const struct pou *pou)
 {
-	write_above(sink, names, pou->comment);
+	write_above(sink, project, pou->comment);
 	sink_text(sink, "PROGRAM ");
-	write_id(sink, names, pou->name);
+	write_id(sink, project, pou->name);
 	sink_text(sink, pou->language == LANGUAGE_IL ? " IL\n" : " LD\n");
-	text_write_vars(names, &pou->vars, sink);
+	text_write_vars(project, &pou->vars, sink);
 	for (int i = 0; i < pou->rung_count; i++)
-		write_rung(sink, names, pou->rung[i]);
+		write_rung(sink, project, pou->rung[i]);
 	if (pou->language == LANGUAGE_IL)
-		text_write_il(names, &pou->il, sink);
-	write_above(sink, names, pou->tail);
+		text_write_il(project, &pou->il, sink);
+	write_above(sink, project, pou->tail);
 	sink_text(sink, "END_PROGRAM\n");
 }
 
 static void write_part(const struct sink *sink, const struct project *project,
 		       const struct part *part)
 {
-	const struct names *names = &project->names;
-
-	write_above(sink, names, part->comment);
+	write_above(sink, project, part->comment);
 	switch (part->kind) {
 	case PART_VARS:
-		write_block(sink, names, &project->globals, part->index);
+		write_block(sink, project, &project->globals, part->index);
 		break;
 	case PART_POU:
-		write_pou(sink, names, &project->pou[part->index]);
+		write_pou(sink, project, &project->pou[part->index]);
 		break;
 	case PART_VIEW:
-		write_id(sink, names, part->text);
+		write_id(sink, project, part->text);
 		sink_text(sink, "\n");
 		break;
 	case PART_INCLUDE:
 		sink_text(sink, "INCLUDE ");
-		write_string(sink, names_text(names, part->text),
-			     names_len(names, part->text));
+		write_string(sink, project_text(project, part->text),
+			     names_len(&project->names, part->text));
 		sink_text(sink, "\n");
 		break;
 	}
@@ -207,31 +205,30 @@ static void write_part(const struct sink *sink, const struct project *project,
  * the first part, where reading finds it. */
 static void write_all(const struct sink *sink, const struct project *project)
 {
-	const struct names *names = &project->names;
 	uint32_t head = project->head;
 
 	sink_text(sink, "RUNGBOARD 1\n");
 	if (project->title) {
-		write_above(sink, names, head);
+		write_above(sink, project, head);
 		head = 0;
 		sink_text(sink, "PROJECT ");
-		write_string(sink, names_text(names, project->title),
-			     names_len(names, project->title));
+		write_string(sink, project_text(project, project->title),
+			     names_len(&project->names, project->title));
 		sink_text(sink, "\n");
 	}
 	for (int i = 0; i < project->part_count; i++) {
 		if (project->part[i].included)
 			continue;
 		sink_text(sink, "\n");
-		write_above(sink, names, head);
+		write_above(sink, project, head);
 		head = 0;
 		write_part(sink, project, &project->part[i]);
 	}
 	if (!head && !project->tail)
 		return;
 	sink_text(sink, "\n");
-	write_above(sink, names, head);
-	write_above(sink, names, project->tail);
+	write_above(sink, project, head);
+	write_above(sink, project, project->tail);
 }
 
 char *text_write(const struct project *project, size_t *len)

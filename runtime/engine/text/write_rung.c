@@ -13,28 +13,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void write_behind(const struct sink *sink, const struct names *names,
+static void write_behind(const struct sink *sink, const struct project *project,
 			 uint32_t id)
 {
 	if (!id)
 		return;
 	sink_text(sink, " ");
-	write_id(sink, names, id);
+	write_id(sink, project, id);
 }
 
-static void write_element(const struct sink *sink, const struct names *names,
+static void write_element(const struct sink *sink, const struct project *project,
 			  const struct cell *cell, const struct word_row *row)
 {
 	switch (row->operand) {
 	case OPND_EXPR:
 	case OPND_ASSIGN:
 		sink_text(sink, "[");
-		write_behind(sink, names, cell->operand);
+		write_behind(sink, project, cell->operand);
 		sink_text(sink, " ]");
 		return;
 	case OPND_PIN:
 		sink_text(sink, row->word);
-		write_id(sink, names, cell->operand);
+		write_id(sink, project, cell->operand);
 		return;
 	case OPND_NONE:
 	case OPND_BOOL_R:
@@ -44,29 +44,29 @@ static void write_element(const struct sink *sink, const struct names *names,
 	case OPND_LABEL:
 	case OPND_INSTANCE:
 		sink_text(sink, row->word);
-		write_behind(sink, names, cell->operand);
-		write_behind(sink, names, cell->args);
+		write_behind(sink, project, cell->operand);
+		write_behind(sink, project, cell->args);
 		return;
 	}
 }
 
-void write_cell(const struct sink *sink, const struct names *names,
+void write_cell(const struct sink *sink, const struct project *project,
 		const struct cell *cell)
 {
-	if (cell->word != ELEM_EMPTY && cell->word < WORD_COUNT)
-		write_element(sink, names, cell,
-			      word_row((enum word)cell->word));
+	if (cell->word != ELEM_EMPTY)
+		write_element(sink, project, cell,
+			      words_row(&project->words, (enum word)cell->word));
 }
 
 /* With its comment, and the blank before a link. */
-static void write_whole(const struct sink *sink, const struct names *names,
+static void write_whole(const struct sink *sink, const struct project *project,
 			const struct cell *cell)
 {
-	write_cell(sink, names, cell);
+	write_cell(sink, project, cell);
 	if (cell->comment) {
 		if (cell->word != ELEM_EMPTY)
 			sink_text(sink, " ");
-		write_id(sink, names, cell->comment);
+		write_id(sink, project, cell->comment);
 	}
 	if (cell->link && (cell->word != ELEM_EMPTY || cell->comment))
 		sink_text(sink, " ");
@@ -79,12 +79,12 @@ static void count_width(void *context, const char *text, size_t len)
 	*(int *)context += utf8_width(text, len);
 }
 
-static int cell_width(const struct names *names, const struct cell *cell)
+static int cell_width(const struct project *project, const struct cell *cell)
 {
 	int width = 0;
 	const struct sink sink = { count_width, &width };
 
-	write_whole(&sink, names, cell);
+	write_whole(&sink, project, cell);
 	return width;
 }
 
@@ -114,7 +114,7 @@ static int rows_to_write(const struct rung *rung)
 
 /* ---- rows ---- */
 
-static void write_row(const struct sink *sink, const struct names *names,
+static void write_row(const struct sink *sink, const struct project *project,
 		      const struct rung *rung, int row, const int *widths)
 {
 	const int cols = row_cols(rung, row);
@@ -124,14 +124,14 @@ static void write_row(const struct sink *sink, const struct names *names,
 		const struct cell *cell = rung_at(rung, row, col);
 
 		sink_text(sink, " ");
-		write_whole(sink, names, cell);
-		sink_repeat(sink, " ", widths[col] - cell_width(names, cell));
+		write_whole(sink, project, cell);
+		sink_repeat(sink, " ", widths[col] - cell_width(project, cell));
 		sink_text(sink, cell->link ? "^|" : " |");
 	}
 	sink_text(sink, "\n");
 }
 
-static void write_rows(const struct sink *sink, const struct names *names,
+static void write_rows(const struct sink *sink, const struct project *project,
 		       const struct rung *rung)
 {
 	const int rows = rows_to_write(rung);
@@ -139,29 +139,29 @@ static void write_rows(const struct sink *sink, const struct names *names,
 
 	for (int row = 0; row < rows; row++) {
 		for (int col = 0; col < rung->cols; col++) {
-			int width = cell_width(names, rung_at(rung, row, col));
+			int width = cell_width(project, rung_at(rung, row, col));
 
 			if (width > widths[col])
 				widths[col] = width;
 		}
 	}
 	for (int row = 0; row < rows; row++)
-		write_row(sink, names, rung, row, widths);
+		write_row(sink, project, rung, row, widths);
 }
 
-void write_rung(const struct sink *sink, const struct names *names,
+void write_rung(const struct sink *sink, const struct project *project,
 		const struct rung *rung)
 {
-	write_above(sink, names, rung->comment);
+	write_above(sink, project, rung->comment);
 	sink_text(sink, rung->off ? "RUNG OFF" : "RUNG");
-	write_behind(sink, names, rung->label);
+	write_behind(sink, project, rung->label);
 	if (rung->title) {
 		sink_text(sink, " ");
-		write_string(sink, names_text(names, rung->title),
-			     names_len(names, rung->title));
+		write_string(sink, project_text(project, rung->title),
+			     names_len(&project->names, rung->title));
 	}
 	sink_text(sink, "\n");
-	write_rows(sink, names, rung);
+	write_rows(sink, project, rung);
 }
 
 /* ---- one rung, one cell ---- */
@@ -173,7 +173,7 @@ char *text_write_rung(const struct project *project, const struct rung *rung)
 	sink_memory_init(&memory);
 	const struct sink sink = sink_to_memory(&memory);
 
-	write_rung(&sink, &project->names, rung);
+	write_rung(&sink, project, rung);
 	if (memory.failed)
 		sink_memory_free(&memory);
 	return memory.text;
@@ -206,6 +206,6 @@ int text_write_cell(const struct project *project, const struct cell *cell,
 
 	if (size > 0)
 		out[0] = '\0';
-	write_cell(&sink, &project->names, cell);
+	write_cell(&sink, project, cell);
 	return (int)bounded.len;
 }

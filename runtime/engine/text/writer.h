@@ -11,19 +11,19 @@
 #include "engine/model/project.h"
 
 /** write_id - the string of @id. */
-void write_id(const struct sink *sink, const struct names *names, uint32_t id);
+void write_id(const struct sink *sink, const struct project *project, uint32_t id);
 /** write_above - comments and a newline, or nothing. */
-void write_above(const struct sink *sink, const struct names *names,
+void write_above(const struct sink *sink, const struct project *project,
 		 uint32_t comment);
 /** write_string - "…" with its escapes. */
 void write_string(const struct sink *sink, const char *text, size_t len);
 /** write_width - columns the string of @id takes. */
-int write_width(const struct names *names, uint32_t id);
+int write_width(const struct project *project, uint32_t id);
 
 /** write_rung - comments, RUNG line and rows. */
-void write_rung(const struct sink *sink, const struct names *names,
+void write_rung(const struct sink *sink, const struct project *project,
 		const struct rung *rung);
 /** write_cell - an element, without comment. */
-void write_cell(const struct sink *sink, const struct names *names,
+void write_cell(const struct sink *sink, const struct project *project,
 		const struct cell *cell);
 #endif

@@ -11,6 +11,11 @@
 #define TABLE_OR  0xe
 #define TABLE_XOR 0x6
 
+const struct word_row *list_row(const struct list *list, enum word word)
+{
+	return words_row(&list->as->translation->project->words, word);
+}
+
 const struct meaning *list_meaning(struct list *list, uint32_t operand)
 {
 	enum diag_id why;

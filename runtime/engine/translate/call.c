@@ -97,7 +97,7 @@ static void preset(struct list *list, enum iec_type result, uint32_t to, uint32_
 
 void list_fn(struct list *list, const struct il_line *line)
 {
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = list_row(list, (enum word)line->word);
 	const struct meaning *m = line->operand ?
 		list_meaning(list, line->operand) : NULL;
 	enum iec_type type = list->types[list->at], result;
@@ -235,7 +235,7 @@ static void finish_at(struct list *list, const struct target *target, int line)
 void list_call(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
-	const struct word_row *row = word_row((enum word)line->word);
+	const struct word_row *row = list_row(list, (enum word)line->word);
 	enum iec_type type = list->types[list->at];
 	struct call call = { .en = TRUE_SLOT };
 	enum iec_type result;
@@ -279,7 +279,7 @@ void list_call(struct list *list)
 static void feed_pin(struct list *list, const struct meaning *instance,
 		     const struct il_line *arg)
 {
-	const struct word_row *row = word_row(instance->var->fb);
+	const struct word_row *row = list_row(list, instance->var->fb);
 	const struct meaning *m = list_meaning(list, arg->operand);
 	struct meaning pin = *instance;
 	const char *name = pin_text(list, arg);
@@ -312,7 +312,7 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 static void take_pin(struct list *list, const struct meaning *instance,
 		     const struct il_line *arg)
 {
-	const struct word_row *row = word_row(instance->var->fb);
+	const struct word_row *row = list_row(list, instance->var->fb);
 	const struct meaning *m = list_meaning(list, arg->operand);
 	struct meaning pin = *instance;
 	const char *name = pin_text(list, arg);
@@ -358,7 +358,7 @@ void list_cal(struct list *list)
 	uint32_t offset = layout_spot(list->as, instance).offset;
 	int skip = -1;
 
-	list_protect(list, offset, word_row(fb)->size);
+	list_protect(list, offset, list_row(list, fb)->size);
 	if (line->modifiers & MOD_C) {
 		skip = skip_call(list, line);
 		list->straight = false;

@@ -75,6 +75,8 @@ void ld_settle_element(struct ld *ld, int element);
 void ld_settle_net(struct ld *ld, int net);
 
 /* ---- ld_box.c ---- */
+/** ld_row - the row of a word, be it the project's own. */
+const struct word_row *ld_row(const struct ld *ld, enum word word);
 /** ld_box - a function or function block at its place in phase 1. */
 void ld_box(struct ld *ld, int element);
 

@@ -21,6 +21,12 @@ void words_push(struct assembler *as, struct words *words, uint32_t word)
 		as->failed = true;
 }
 
+/* The row of a word, be it the project's own. */
+static const struct word_row *own_row(const struct assembler *as, enum word word)
+{
+	return words_row(&as->translation->project->words, word);
+}
+
 /* ---- runs ---- */
 
 uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
@@ -73,7 +79,7 @@ static uint32_t place_instance(struct assembler *as, enum word fb)
 {
 	struct code_run run = { .kind = RUN_INSTANCE, .word = (uint16_t)fb };
 
-	return layout_place(as, run, word_row(fb)->size, 8);
+	return layout_place(as, run, own_row(as, fb)->size, 8);
 }
 
 uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
@@ -360,7 +366,7 @@ struct spot layout_spot(const struct assembler *as, const struct meaning *m)
 
 	if (m->kind == MEANING_PIN) {
 		spot.offset = as->offset[layout_table(as, m)][m->index] +
-			      word_row(m->var->fb)->pin[m->pin].offset;
+			      own_row(as, m->var->fb)->pin[m->pin].offset;
 	} else if (m->addr.area == AREA_NONE) {
 		spot.offset = as->offset[layout_table(as, m)][m->index];
 	} else if (m->addr.bits != 1) {
@@ -397,17 +403,18 @@ static void count_use(struct assembler *as, const struct meaning *m,
 }
 
 /* Calls of an instance are counted behind its pins. */
-static struct meaning calls_of(const struct meaning *instance)
+static struct meaning calls_of(const struct assembler *as,
+			       const struct meaning *instance)
 {
 	struct meaning calls = *instance;
 
-	calls.pin = word_row(instance->var->fb)->pin_count;
+	calls.pin = own_row(as, instance->var->fb)->pin_count;
 	return calls;
 }
 
 static void count_call(struct assembler *as, const struct meaning *instance)
 {
-	struct meaning calls = calls_of(instance);
+	struct meaning calls = calls_of(as, instance);
 
 	count_use(as, &calls, true);
 }
@@ -437,7 +444,7 @@ static void count_list(struct assembler *as, const struct unit *unit)
 			struct meaning pin = *instance;
 			const char *name = scope_text(scope, line->pin);
 
-			pin.pin = word_pin_find(word_row(pin.var->fb), name,
+			pin.pin = word_pin_find(own_row(as, pin.var->fb), name,
 						strlen(name));
 			if (pin.pin >= 0)
 				count_use(as, &pin, true);
@@ -467,7 +474,7 @@ bool layout_count_pins(struct assembler *as)
 
 			first[i] = pins;
 			if (var->type == IEC_NONE)
-				pins += word_row(var->fb)->pin_count + 1u;
+				pins += own_row(as, var->fb)->pin_count + 1u;
 		}
 	}
 	as->pin_writes = arena_alloc(as->arena, pins + 1u);
@@ -480,7 +487,7 @@ bool layout_count_pins(struct assembler *as)
 
 bool layout_only_stored(const struct assembler *as, const struct meaning *pin)
 {
-	struct meaning calls = calls_of(pin);
+	struct meaning calls = calls_of(as, pin);
 
 	return *pin_count(as, pin) == 1 && *pin_count(as, &calls) == 1;
 }

@@ -10,6 +10,11 @@
 #include <string.h>
 #include <strings.h>
 
+const struct word_row *ld_row(const struct ld *ld, enum word word)
+{
+	return words_row(&ld->translation->project->words, word);
+}
+
 void ld_call(struct ld *ld, enum word function)
 {
 	struct il_line line = { .kind = IL_CALL, .word = (uint16_t)function };
@@ -102,7 +107,7 @@ static void feed_pin(struct ld *ld, uint32_t instance, const char *pin, int net)
 static void box_block(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
-	const struct word_row *row = word_row((enum word)at->word);
+	const struct word_row *row = ld_row(ld, (enum word)at->word);
 	uint32_t instance = rung_at(ld->rung, at->row, at->col)->operand;
 	const char *args = args_of(ld, element);
 	int first = word_first_bool(row, PIN_IN);
@@ -164,7 +169,7 @@ static void store_eno(struct ld *ld, const char *args, uint32_t eno)
 static void box_function(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
-	const struct word_row *row = word_row((enum word)at->word);
+	const struct word_row *row = ld_row(ld, (enum word)at->word);
 	struct element_state *state = &ld->element[element];
 	const char *args = args_of(ld, element);
 	bool compare = word_is_test(row);
@@ -215,7 +220,7 @@ void ld_box(struct ld *ld, int element)
 	struct arg left, right;
 
 	ld_place(ld, at->row, at->col);
-	if (word_row((enum word)at->word)->kind == WORD_FB) {
+	if (ld_row(ld, (enum word)at->word)->kind == WORD_FB) {
 		box_block(ld, element);
 	} else if (is_plain_compare(ld, element, &left, &right)) {
 		ld_emit(ld, OP_LD, 0, intern(ld, left.value, left.value_len));

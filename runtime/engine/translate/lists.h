@@ -63,6 +63,8 @@ bool list_count_reads(struct list *list);
 int list_temp(const struct list *list, const struct meaning *m);
 
 /* ---- assemble_unit.c ---- */
+/** list_row - the row of a word, be it the project's own. */
+const struct word_row *list_row(const struct list *list, enum word word);
 const struct meaning *list_meaning(struct list *list, uint32_t operand);
 /** list_protect - before @size bytes at @offset are written: values that read
  * them are stored first. */

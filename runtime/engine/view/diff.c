@@ -37,9 +37,10 @@ uint32_t diff_name(struct diff *diff, const char *name)
 
 /* ---- variables ---- */
 
-static const char *type_text(const struct var *var)
+static const char *type_text(const struct project *project,
+			     const struct var *var)
 {
-	return var->type == IEC_NONE ? word_row(var->fb)->word :
+	return var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
 				       iec_type_row(var->type)->word;
 }
 
@@ -64,7 +65,8 @@ static void compare_var(struct diff *diff, struct difference what,
 
 	diff_texts(diff, what, "name", project_text(diff->a, x->name),
 		   project_text(diff->b, y->name));
-	diff_texts(diff, what, "type", type_text(x), type_text(y));
+	diff_texts(diff, what, "type", type_text(diff->a, x),
+		   type_text(diff->b, y));
 	diff_texts(diff, what, "address", project_text(diff->a, x->at_text),
 		   project_text(diff->b, y->at_text));
 	diff_texts(diff, what, "initial value", init_text(diff->a, x),

@@ -289,7 +289,7 @@ static void compare_args(struct diff *diff, struct difference what,
 	int before = diff->count;
 
 	snprintf(diff->subject, sizeof(diff->subject), "%s %s",
-		 word_row(a->word)->word,
+		 words_row(&diff->a->words, a->word)->word,
 		 project_text(diff->a, a->operand));
 	size_t end = strlen(diff->subject);
 	if (end > 0 && diff->subject[end - 1] == ' ')

@@ -166,7 +166,7 @@ void box_make(struct draw *draw, int row, int col)
 
 	memset(box, 0, sizeof(*box));
 	box->cell = cell;
-	box->row = word_row(cell->word);
+	box->row = words_row(&draw->project->words, cell->word);
 	box->args = project_text(draw->project, cell->args);
 	box->top = row;
 	box->last = row + rung_height(draw->rung, row, col) - 1;

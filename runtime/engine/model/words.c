@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * words - rows of a project beside those of the catalogue.
+ *
+ * It keeps and finds rows; what is in them comes from whoever reads declarations.
+ */
+#include "engine/model/words.h"
+#include "engine/base/ascii.h"
+#include "engine/base/limits.h"
+
+#include <string.h>
+
+void words_init(struct word_table *table, struct arena *arena)
+{
+	*table = (struct word_table){ .arena = arena };
+}
+
+static uint32_t hash_of(const char *text, size_t len)
+{
+	uint32_t hash = 2166136261u;
+
+	for (size_t i = 0; i < len; i++)
+		hash = (hash ^ (uint8_t)ascii_upper(text[i])) * 16777619u;
+	return hash ^ hash >> 15;
+}
+
+/* The slot of a name, or the free one where it belongs. */
+static uint16_t *slot_of(const struct word_table *table, const char *text,
+			 size_t len)
+{
+	uint32_t at = hash_of(text, len) & table->mask;
+
+	while (table->slot[at] &&
+	       !ascii_is(table->row[table->slot[at] - 1]->word, text, len))
+		at = (at + 1) & table->mask;
+	return &table->slot[at];
+}
+
+static bool grow(struct word_table *table)
+{
+	uint32_t size = table->slot ? (table->mask + 1) * 2 : 16;
+	uint16_t *slot = arena_alloc(table->arena, size * sizeof(*slot));
+
+	if (!slot)
+		return false;
+	table->slot = slot;
+	table->mask = size - 1;
+	for (int i = 0; i < table->count; i++) {
+		const char *name = table->row[i]->word;
+		uint16_t *at = slot_of(table, name, strlen(name));
+
+		if (!*at)
+			*at = (uint16_t)(i + 1);
+	}
+	return true;
+}
+
+enum word words_add(struct word_table *table, struct word_row row)
+{
+	struct word_row *copy, **place;
+	uint16_t *slot;
+
+	if (table->count >= LIMIT_OWN_WORDS ||
+	    ((uint32_t)table->count * 2 >= table->mask && !grow(table)))
+		return WORD_COUNT;
+	copy = arena_alloc(table->arena, sizeof(*copy));
+	if (!copy)
+		return WORD_COUNT;
+	*copy = row;
+	place = arena_push(table->arena, &table->row, &table->count,
+			   sizeof(*place));
+	if (!place)
+		return WORD_COUNT;
+	*place = copy;
+	slot = slot_of(table, row.word, strlen(row.word));
+	if (!*slot)
+		*slot = (uint16_t)table->count;
+	return (enum word)(WORD_FIRST_OWN + table->count - 1);
+}
+
+struct word_row *words_own(const struct word_table *table, enum word word)
+{
+	int index = (int)word - (int)WORD_FIRST_OWN;
+
+	return index >= 0 && index < table->count ? table->row[index] : NULL;
+}
+
+const struct word_row *words_row(const struct word_table *table, enum word word)
+{
+	const struct word_row *own = words_own(table, word);
+
+	return own ? own : word_row(word);
+}
+
+enum word words_find(const struct word_table *table, const char *text, size_t len)
+{
+	enum word word = word_find(text, len);
+
+	if (word != WORD_COUNT || !table->count || !len)
+		return word;
+	uint16_t found = *slot_of(table, text, len);
+
+	return found ? (enum word)(WORD_FIRST_OWN + found - 1) : WORD_COUNT;
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * words - the words of a project: those of the catalogue, and its own.
+ *
+ * A function, function block or structure of the project has a row like any word
+ * of catalog.def, so that checks, translation and drawings work from a row and need
+ * not ask whose it is. Numbers up to WORD_COUNT are the catalogue's and cost what
+ * they did. Rows never move and are never taken away.
+ */
+#ifndef MODEL_WORDS_H
+#define MODEL_WORDS_H
+
+#include "engine/base/arena.h"
+#include "engine/base/catalog.h"
+
+#define WORD_FIRST_OWN (WORD_COUNT + 1) /* WORD_COUNT itself is no word      */
+
+struct word_table {
+	struct arena *arena;
+	struct word_row **row; /* of word WORD_FIRST_OWN + index              */
+	int count;
+	uint16_t *slot;        /* open hash of index + 1, by name, any case   */
+	uint32_t mask;
+};
+
+/** words_init - the catalogue alone. Owns: @arena, what is added later. */
+void words_init(struct word_table *table, struct arena *arena);
+
+/**
+ * words_add - a row of the project's own
+ * @row: its texts and pins must live as long as the arena; its word is its name
+ *
+ * Two of one name are both kept; the first is found. Scan-safe: no.
+ * Fails: WORD_COUNT when memory is out or there are too many.
+ */
+enum word words_add(struct word_table *table, struct word_row row);
+/** words_own - the row of a word of the project, to fill in; NULL: none. */
+struct word_row *words_own(const struct word_table *table, enum word word);
+/** words_row - the row of any word; that of an empty cell if there is none. */
+const struct word_row *words_row(const struct word_table *table, enum word word);
+/** words_find - as word_find, the project's own words too; WORD_COUNT: none. */
+enum word words_find(const struct word_table *table, const char *text, size_t len);
+
+static inline bool word_is_own(enum word word)
+{
+	return word > WORD_COUNT;
+}
+#endif
