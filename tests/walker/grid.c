@@ -217,6 +217,8 @@ static bool make_element(struct walker *walker, const struct pou *pou,
 		return at->expression;
 	case OPND_NONE:
 		return true;
+	case OPND_LOOP:
+	case OPND_LOOP_END:
 	case OPND_ANY_R:
 	case OPND_ANY_W:
 	case OPND_INSTANCE:

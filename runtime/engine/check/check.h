@@ -30,6 +30,15 @@ bool check_rung(const struct project *project, const struct pou *pou,
 		struct arena *scratch, struct diag_list *diags);
 
 /**
+ * check_loops - do FOR and NEXT of a ladder pair, each alone in its rung?
+ * @bad: as in check_names, of this POU; NULL: none
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.
+ */
+bool check_loops(const struct project *project, const struct pou *pou, uint8_t *bad,
+		 struct diag_list *diags);
+
+/**
  * check_names - declarations, labels, instances, uses of variables in a project
  * @scope:   of the project
  * @bad:     NULL, or for each POU NULL or a byte a rung; set to 1 for a rung

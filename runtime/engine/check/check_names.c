@@ -351,6 +351,7 @@ static void check_ladder(struct names_check *c, int number, uint8_t *bad)
 		c->good &= operands.good;
 	}
 	check_reach(c, number);
+	c->good &= check_loops(c->project, pou, bad, c->diags);
 }
 
 /* ---- uses ---- */
@@ -371,6 +372,8 @@ static unsigned int use_of_operand(enum operand_kind operand)
 	case OPND_LABEL:
 	case OPND_ASSIGN:
 	case OPND_PIN:
+	case OPND_LOOP:
+	case OPND_LOOP_END:
 		return 0;
 	}
 	return 0;

@@ -8,6 +8,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/model/args.h"
+#include "engine/model/loop.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -141,6 +142,27 @@ static void check_expression(struct operand_check *c, struct spot at,
 			   false);
 }
 
+/* FOR I := 1 TO 10 BY 2: one way, which a constant tells. */
+static void check_loop(struct operand_check *c, struct spot at, uint32_t id)
+{
+	const struct names *names = &c->project->names;
+	const struct meaning *m;
+	struct loop loop;
+
+	if (!loop_parse(names_text(names, id), names_len(names, id), &loop)) {
+		report(c, DIAG_LOOP_FORM, at, names_text(names, id));
+		return;
+	}
+	m = write_name(c, at, intern(c, loop.variable.text, loop.variable.len),
+		       false);
+	if (m)
+		uses_add(c->uses, m, USE_READ);
+	read_name(c, at, intern(c, loop.from.text, loop.from.len));
+	read_name(c, at, intern(c, loop.to.text, loop.to.len));
+	if (loop.step == 0)
+		report(c, DIAG_LOOP_FORM, at, "BY 0");
+}
+
 /* ---- boxes ---- */
 
 /* What is wrong with the pin of a parameter; DIAG_COUNT: nothing. Functions
@@ -271,6 +293,10 @@ static void check_element(struct operand_check *c, struct spot at,
 	case OPND_INSTANCE:
 		check_instance(c, at, cell);
 		break;
+	case OPND_LOOP:
+		check_loop(c, at, cell->operand);
+		break;
+	case OPND_LOOP_END:
 	case OPND_ANY_R:
 	case OPND_ANY_W:
 	case OPND_NONE:

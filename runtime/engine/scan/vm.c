@@ -167,15 +167,15 @@ static bool store(uint8_t *m, uint32_t word, const struct fn_args *args)
 static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
 	const struct word_row *row = word_row((enum word)pc[0]);
-	struct { struct iec_string head; char text[IEC_STRING_MOST]; } room;
+	uint32_t room[(sizeof(struct iec_string) + IEC_STRING_MOST + 3) / 4];
 	struct fn_args args;
 	enum fn_status status;
 
 	args.type = (enum iec_type)(n & 0xff);
 	args.result = (enum iec_type)(n >> 16);
 	args.count = n >> 8 & 0xff;
-	args.room = &room.head;
-	room.head.capacity = IEC_STRING_MOST;
+	args.room = (void *)room;
+	args.room->capacity = IEC_STRING_MOST;
 	for (uint32_t i = 0; i < args.count; i++) {
 		enum iec_type type = word_input(row, i)->own ?
 			(enum iec_type)CODE_TYPE(pc[4 + i]) : args.type;

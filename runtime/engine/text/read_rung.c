@@ -7,6 +7,8 @@
  */
 #include "engine/text/reader.h"
 
+#include "engine/model/loop.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -145,6 +147,29 @@ static bool read_operand(struct reader *r, struct cell *cell,
 	return true;
 }
 
+/* FOR I := 1 TO 10: its text, one blank between its parts. */
+static bool read_loop(struct reader *r, struct cell *cell)
+{
+	const struct token *token = &r->lex.token;
+	const struct token first = *token;
+	struct loop loop;
+
+	bool glued = true;
+
+	buffer_clear(&r->text);
+	while (!reader_at_end(r) && !reader_is(r, '|') && !reader_is(r, '^')) {
+		if (!glued && !reader_is(r, '[') && !reader_is(r, ']'))
+			buffer_add(r, &r->text, " ", 1);
+		glued = reader_is(r, '-') || reader_is(r, '[');
+		buffer_add(r, &r->text, token->text, token->len);
+		reader_next(r);
+	}
+	if (!r->no_memory && !loop_parse(r->text.text, r->text.len, &loop))
+		return reader_fail(r, DIAG_LOOP_FORM, first.text, first.len);
+	cell->operand = buffer_take(r, &r->text);
+	return true;
+}
+
 static bool read_word(struct reader *r, struct cell *cell)
 {
 	const struct token token = r->lex.token;
@@ -158,8 +183,11 @@ static bool read_word(struct reader *r, struct cell *cell)
 	reader_next(r);
 	if (row->kind == WORD_FN)
 		return read_args(r, cell);
-	if (row->kind == WORD_ELEM && row->operand == OPND_NONE)
+	if (row->kind == WORD_ELEM && (row->operand == OPND_NONE ||
+				       row->operand == OPND_LOOP_END))
 		return true;
+	if (row->operand == OPND_LOOP)
+		return read_loop(r, cell);
 	if (!read_operand(r, cell, row, &token))
 		return false;
 	return row->kind != WORD_FB || read_args(r, cell);

@@ -37,6 +37,8 @@ static void write_element(const struct sink *sink, const struct project *project
 		write_id(sink, project, cell->operand);
 		return;
 	case OPND_NONE:
+	case OPND_LOOP:
+	case OPND_LOOP_END:
 	case OPND_BOOL_R:
 	case OPND_BOOL_W:
 	case OPND_ANY_R:

@@ -9,6 +9,7 @@
 #define TRANSLATE_LADDER_UNIT_H
 
 #include "engine/model/expr.h"
+#include "engine/model/loop.h"
 #include "engine/model/network.h"
 #include "engine/translate/temps.h"
 
@@ -19,6 +20,12 @@ struct element_state {
 	bool powered;      /* `leaf` holds its power already                  */
 	uint32_t leaf;     /* operand that decides; 0: NOT, or an output      */
 	int next;          /* of those that read the same place; -1: last     */
+};
+
+/* A FOR whose NEXT has not come yet: operands and labels, as string ids. */
+struct open_loop {
+	uint32_t variable, to, by, top, out;
+	bool down;         /* BY is negative                                  */
 };
 
 struct net_state {
@@ -46,6 +53,8 @@ struct ld {
 	uint32_t true_id, en_id, eno_id, out_id;
 	uint8_t *target;   /* by folded label: does a jump lead here?         */
 	uint32_t target_count;
+	struct open_loop loop[LIMIT_LOOPS];
+	int loops;
 	struct expr *expr;
 	struct diag_list *ignored; /* of texts that were read before          */
 };
@@ -79,6 +88,10 @@ void ld_settle_net(struct ld *ld, int net);
 const struct word_row *ld_row(const struct ld *ld, enum word word);
 /** ld_box - a function or function block at its place in phase 1. */
 void ld_box(struct ld *ld, int element);
+
+/* ---- ld_loop.c ---- */
+void ld_loop_begin(struct ld *ld, int element);
+void ld_loop_end(struct ld *ld);
 
 /* ---- ld_expr.c ---- */
 /** ld_compare - [ … ]: sets the element's leaf. */

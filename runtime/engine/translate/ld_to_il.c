@@ -213,6 +213,10 @@ static void act(struct ld *ld, const int *actor, int count)
 			act_assign(ld, actor[i]);
 		else if (row->edge != EDGE_NONE)
 			act_edge(ld, actor[i]);
+		else if (row->operand == OPND_LOOP)
+			ld_loop_begin(ld, actor[i]);
+		else if (row->operand == OPND_LOOP_END)
+			ld_loop_end(ld);
 		else if (is_plain(ld, actor[i]))
 			act_plain(ld, actor + i, n);
 		else

@@ -28,6 +28,8 @@ static enum use use_of(const struct il_line *line)
 		case OPND_LABEL:
 		case OPND_INSTANCE:
 		case OPND_EXPR:
+		case OPND_LOOP:
+		case OPND_LOOP_END:
 		case OPND_ASSIGN:
 		case OPND_PIN:
 			return USE_NONE;

@@ -177,7 +177,7 @@ static int trail_of(const struct draw *draw, int row)
 
 struct framed {
 	const char *text;
-	char before[4], after[4];
+	char before[8], after[4];
 	int width;
 };
 
@@ -195,6 +195,10 @@ static struct framed framed_at(const struct draw *draw, int row, int col)
 	case OPND_LABEL:
 		memcpy(framed.before, word->glyph, 2);
 		break;
+	case OPND_LOOP:
+		memcpy(framed.before, "FOR ", 4);
+		break;
+	case OPND_LOOP_END:
 	case OPND_NONE:
 		framed.text = word->word;
 		framed.before[0] = word->glyph[0];

@@ -44,6 +44,10 @@ const char *words_operand(enum operand_kind kind)
 		return "variable := expression";
 	case OPND_PIN:
 		return "a pin";
+	case OPND_LOOP:
+		return "variable := value TO value BY constant";
+	case OPND_LOOP_END:
+		return "";
 	}
 	return "";
 }

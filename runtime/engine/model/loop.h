@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * loop - what stands behind FOR: "I := 1 TO Count BY 2", as IEC 61131-3 table 56
+ * writes it. It knows the form, not what the names mean.
+ */
+#ifndef MODEL_LOOP_H
+#define MODEL_LOOP_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct loop_part {
+	const char *text; /* borrowed; not NUL-ended                          */
+	size_t len;
+};
+
+struct loop {
+	struct loop_part variable, from, to, by; /* by.text NULL: BY 1        */
+	int64_t step;     /* of BY, a whole constant                          */
+};
+
+/** loop_parse - takes the text behind FOR apart. Scan-safe: no.
+ * Fails: false if it has not the form. */
+bool loop_parse(const char *text, size_t len, struct loop *out);
+#endif
