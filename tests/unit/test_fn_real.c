@@ -76,7 +76,8 @@ static void test_values(void)
 	CHECK(works(fn_ASIN, 1, 0, 0x1.921fb54442d18p+0) && works(fn_ACOS, 1, 0, 0));
 	CHECK(works(fn_ATAN, INFINITY, 0, 0x1.921fb54442d18p+0));
 	CHECK(works(fn_ATAN2, 1, -1, 0x1.2d97c7f3321d2p+1) && works(fn_ATAN2, 0, 0, 0));
-	CHECK(works(fn_EXPT, -2, 3, -8) && works(fn_EXPT, 0, 0, 1) && works(fn_EXPT, 4, 0.5, 2));
+	CHECK(works(fn_EXPT, -2, 3, -8) && works(fn_EXPT, 0, 0, 1));
+	CHECK(works(fn_EXPT, 4, 0.5, 2));
 }
 
 static void test_exponents(void)

@@ -7,7 +7,8 @@
  * of integers (number.h), so that neither processor nor C library matters; asin and acos
  * begin with sqrt(), of which IEEE 754 fixes every bit. A result is within 0.505 units of
  * the last place of the true value, a subnormal one too. Special values are those of C11
- * Annex F; every NaN that comes out is the same one. Nothing here keeps state or sets errno.
+ * Annex F; every NaN that comes out is the same one. Nothing here keeps state or sets
+ * errno.
  *
  * Square root is not here: the one of the machine will do.
  */

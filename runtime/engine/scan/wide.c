@@ -2,7 +2,8 @@
  *
  * wide - unsigned integers of 128 bits: shifts and quotient.
  *
- * Functions, not inline like the product: on a small board each place would cost a hundred bytes.
+ * Functions, not inline like the product: on a small board each place would cost a
+ * hundred bytes.
  */
 #include "engine/scan/wide.h"
 
