@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * number - floating point of 64 bits' precision made of integers.
+ *
+ * The two ends, a double taken apart and put together; division; power series.
+ * It knows no function of mathematics.
+ */
+#include "engine/scan/number.h"
+
+#include <string.h>
+
+#define TOP_BIT ((uint64_t)1 << 63)
+
+struct number number_of(double x)
+{
+	uint64_t bits, part;
+	int32_t power;
+
+	memcpy(&bits, &x, sizeof(bits));
+	part = bits << 12 >> 1;
+	power = (int32_t)(bits >> 52 & 0x7ff) - 1022;
+	if (power > -1022) {
+		part |= TOP_BIT;
+	} else {
+		int zeros = __builtin_clzll(part | 1);
+
+		part <<= zeros;
+		power = -1021 - zeros;
+	}
+	return (struct number){ part, power, bits >> 63 };
+}
+
+double number_double(struct number n)
+{
+	int32_t biased = n.power + 1022;
+	unsigned drop = 11;
+	uint64_t bits, rest, half;
+	double x;
+
+	if (biased < 1) { /* subnormal: fewer bits are kept */
+		drop = 12 - (biased < -60 ? -60u : (unsigned)biased);
+		biased = 1;
+	}
+	bits = drop < 64 ? n.part >> drop : 0;
+	rest = drop < 64 ? n.part - (bits << drop) : n.part;
+	half = drop <= 64 ? (uint64_t)1 << (drop - 1) : ~(uint64_t)0;
+	bits += rest > half || (rest == half && (bits & 1));
+	/* The leading bit, where there is one, adds 1 to the exponent; so may rounding. */
+	bits += (uint64_t)(biased - 1) << 52;
+	if (biased > 2046)
+		bits = (uint64_t)0x7ff << 52;
+	bits |= (uint64_t)n.negative << 63;
+	memcpy(&x, &bits, sizeof(x));
+	return x;
+}
+
+struct number number_wide(struct wide n, int32_t power, bool negative)
+{
+	unsigned zeros = wide_zeros(n);
+
+	return (struct number){
+		wide_left(n, zeros).high, power - (int32_t)zeros, negative
+	};
+}
+
+struct number number_divided(struct number a, struct number b)
+{
+	bool above = a.part >= b.part;
+	struct wide n = wide_right((struct wide){ a.part, 0 }, above);
+
+	return (struct number){
+		wide_divided(n, b.part), a.power - b.power + above,
+		a.negative != b.negative
+	};
+}
+
+uint64_t number_fixed(struct number n, int32_t bits)
+{
+	int32_t drop = 64 - bits - n.power;
+
+	if (drop >= 64)
+		return 0;
+	return drop > 0 ? n.part >> drop : n.part;
+}
+
+uint64_t number_series(const uint64_t *c, int first, int last, int step,
+		       bool alternate, uint64_t x)
+{
+	uint64_t sum = c[last];
+
+	for (int k = last - step; k >= first; k -= step) {
+		uint64_t product = wide_top(sum, x);
+
+		sum = alternate ? c[k] - product : c[k] + product;
+	}
+	return sum;
+}
