@@ -21,7 +21,7 @@
  *   COPY   en, dst, src         types in the top 8 bits of dst and src; widens
  *   CMP    dst, left, right     n: enum cmp; types of left and right on top
  *   FN     fn, en, eno, dst, inputs …   n: type | inputs << 8 |
- *                               result << 16; en, eno BOOLs
+ *                               result << 16; en, eno BOOLs; CODE_OWN at inputs
  *   FB     instance             n: enum word of the block
  *   JMP    target               word index in the section, of an instruction
  *   JMPC   target, cond         that begins in the same program
@@ -119,6 +119,8 @@ struct code_place {     /* from this word of CODE_TEXT on                  */
 #define CODE_OFFSET_BITS 24
 #define CODE_OFFSET(word) ((word) & 0xffffffu)
 #define CODE_TYPE(word)   ((word) >> CODE_OFFSET_BITS)
+/* Of an input of FN: it does not share the type of the others. */
+#define CODE_OWN         0x80000000u
 #define CODE_OPERAND(type, offset) ((uint32_t)(type) << 24 | (offset))
 #define CODE_FALSE_AT(areas) (areas)     /* first byte behind the areas    */
 #define CODE_TRUE_AT(areas)  ((areas) + 1)

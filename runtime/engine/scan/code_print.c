@@ -30,7 +30,7 @@ static int print_fn(const uint32_t *at, uint32_t n, char *out, size_t size)
 
 	for (uint32_t i = 0; i < (n >> 8 & 0xff) && i < LIMIT_FN_INPUTS; i++)
 		used += (size_t)snprintf(inputs + used, sizeof(inputs) - used,
-					 " %s", typed(at[4 + i]).text);
+					 " %s", typed(at[4 + i] & ~CODE_OWN).text);
 	return snprintf(out, size, "fn      %s.%s en b%u%s -> %s eno b%u",
 			word_row((enum word)at[0])->word,
 			iec_type_row((enum iec_type)(n & 0xff))->word, at[1],

@@ -92,6 +92,9 @@ static bool gives(const struct word_row *row, uint32_t type, uint32_t result)
 static bool check_input(const struct verifier *v, const struct word_pin *pin,
 			uint32_t operand, uint32_t type)
 {
+	if (pin->own != ((operand & CODE_OWN) != 0))
+		return false;
+	operand &= ~CODE_OWN;
 	if (!can_read(v, operand))
 		return false;
 	return pin->own ? is_of(CODE_TYPE(operand), pin->classes) :

@@ -141,10 +141,10 @@ static union iec_value fetch(const uint8_t *m, uint32_t word, uint32_t type)
 {
 	union iec_value value;
 
-	if (type == IEC_STRING)
-		value.s = text(m, word);
-	else if (value_is_real(type))
+	if (value_is_real(type))
 		value.r = real(m, word);
+	else if (type == IEC_STRING)
+		value.s = text(m, word);
 	else
 		value.i = integer(m, word);
 	return value;
@@ -166,7 +166,6 @@ static bool store(uint8_t *m, uint32_t word, const struct fn_args *args)
 /* True when it ran without an error. */
 static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
-	const struct word_row *row = word_row((enum word)pc[0]);
 	uint32_t room[(sizeof(struct iec_string) + IEC_STRING_MOST + 3) / 4];
 	struct fn_args args;
 	enum fn_status status;
@@ -177,11 +176,11 @@ static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 	args.room = (void *)room;
 	args.room->capacity = IEC_STRING_MOST;
 	for (uint32_t i = 0; i < args.count; i++) {
-		enum iec_type type = word_input(row, i)->own ?
-			(enum iec_type)CODE_TYPE(pc[4 + i]) : args.type;
+		uint32_t word = pc[4 + i] & ~CODE_OWN;
+		uint32_t type = pc[4 + i] & CODE_OWN ? CODE_TYPE(word) : args.type;
 
-		args.in_type[i] = type;
-		args.in[i] = fetch(m, pc[4 + i], type);
+		args.in_type[i] = (enum iec_type)type;
+		args.in[i] = fetch(m, word, type);
 	}
 	status = fn_table[pc[0]](&args);
 	if (status == FN_FAILED)

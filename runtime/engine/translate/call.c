@@ -95,6 +95,12 @@ static void preset(struct list *list, enum iec_type result, uint32_t to, uint32_
 			layout_constant(list->as, result, zero)));
 }
 
+static void emit_input(struct list *list, const struct word_row *row, uint32_t index,
+		       uint32_t operand)
+{
+	emit(list->as, operand | (word_input(row, index)->own ? CODE_OWN : 0));
+}
+
 void list_fn(struct list *list, const struct il_line *line)
 {
 	const struct word_row *row = list_row(list, (enum word)line->word);
@@ -122,9 +128,9 @@ void list_fn(struct list *list, const struct il_line *line)
 	emit(list->as, TRUE_SLOT);
 	emit(list->as, sink(list->as, IEC_BOOL));
 	emit(list->as, to);
-	emit(list->as, left);
+	emit_input(list, row, 0, left);
 	if (m)
-		emit(list->as, right);
+		emit_input(list, row, 1, right);
 	list->now = (struct il_result){
 		.kind = RESULT_NUMBER, .own = true, .operand = to,
 	};
@@ -265,7 +271,7 @@ void list_call(struct list *list)
 	emit(list->as, eno.slot);
 	emit(list->as, to);
 	for (int i = 0; i < call.count; i++)
-		emit(list->as, call.input[i]);
+		emit_input(list, row, (uint32_t)i, call.input[i]);
 	list->now.kind = RESULT_NONE;
 	if (call.eno)
 		finish_at(list, &eno, call.eno_line);
