@@ -211,7 +211,7 @@ static int with_memory(const char *bytes, char **command)
 static int held(char **command)
 {
 	if (ptrace(PTRACE_TRACEME, 0, NULL, NULL) != 0)
-		return 77;
+		return NO_PTRACE;
 	raise(SIGSTOP);
 	execv(command[0], command);
 	give_up(command[0]);
