@@ -327,6 +327,9 @@ int main(int argc, char **argv)
 		give_up(folder);
 	guest.work = folder;
 	guest.cases = argv[first];
+	note("tier %s", guest.small ? "small: without a reader of programs (code "
+	     "images only), without users, without threads" :
+	     "full: programs and code images, users, limits of memory");
 	for (int i = first + 1; i < argc; i++)
 		run_all(argv[i]);
 	printf("1..%d\n", count);
