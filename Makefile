@@ -117,7 +117,7 @@ $(HAL_TEST)/ladderd_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
 HAL_KINDS := v1 v2 uapi
 HAL_TESTS := $(HAL_TEST)/map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
 HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%)
-hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(HAL_DAEMONS) ## all gpio drivers against fake chips; ladderd from outside
+hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(BUILD)/ladder $(HAL_DAEMONS) ## all gpio drivers against fake chips; ladderd from outside
 	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t
 .PRECIOUS: $(HAL_KINDS:%=$(HAL_TEST)/%/%.o)
 .PHONY: hal-tests

@@ -8,6 +8,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,6 +18,11 @@
 #define CHIP_PREFIX "gpiochip"
 #define CHIP_LAST   9999
 #define PATH_BYTES  256
+#define DENIED_MOST 16       /* chips that may not be opened, in one message */
+#define CHIPS_SHOWN 3        /* of one group                                 */
+#define NO_GROUP    UINT_MAX /* neither is the group of a file               */
+#define UNSEEN      (UINT_MAX - 1)
+#define GROUP_OPENS (S_IRGRP | S_IWGRP)
 
 void gpio_path(const char *dev, int chip, char *out, size_t size)
 {
@@ -111,37 +117,115 @@ static bool is_group(char *line, unsigned int id)
 
 /* Read here: the C library's way needs its shared libraries even in a static
  * program. */
-static void group_of(const char *path, char *out, size_t size)
+static void group_print(unsigned int id, char *out, size_t size)
 {
-	struct stat status;
+	FILE *groups = fopen("/etc/group", "re");
 	char line[256];
-	FILE *groups;
 	bool found = false;
 
-	if (stat(path, &status) != 0) {
-		snprintf(out, size, "?");
-		return;
-	}
-	snprintf(out, size, "%u", (unsigned)status.st_gid);
-	groups = fopen("/etc/group", "re");
 	while (!found && groups && fgets(line, sizeof(line), groups))
-		found = is_group(line, (unsigned)status.st_gid);
+		found = is_group(line, id);
 	if (found)
-		snprintf(out, size, "%.31s", line);
+		snprintf(out, size, "(%.31s)", line);
+	else
+		snprintf(out, size, "(%u)", id);
 	if (groups)
 		fclose(groups);
+}
+
+/* Chips that may not be opened: those of one group side by side, and at the end
+ * those that their mode opens to no group. */
+struct denied {
+	int count;               /* may be more than are kept              */
+	struct {
+		int chip;
+		unsigned int group;
+	} kept[DENIED_MOST];
+};
+
+static bool is_denied(int error)
+{
+	return error == -EACCES || error == -EPERM;
+}
+
+static void denied_add(struct denied *denied, const char *path)
+{
+	const char *name = strrchr(path, '/');
+	unsigned int group = NO_GROUP;
+	struct stat status;
+	int at = denied->count++;
+
+	if (stat(path, &status) != 0)
+		group = UNSEEN;
+	else if ((status.st_mode & GROUP_OPENS) == GROUP_OPENS)
+		group = (unsigned)status.st_gid;
+	if (at >= DENIED_MOST)
+		return;
+	for (; at > 0 && denied->kept[at - 1].group > group; at--)
+		denied->kept[at] = denied->kept[at - 1];
+	denied->kept[at].chip = chip_number(name ? name + 1 : path);
+	denied->kept[at].group = group;
+}
+
+/* "; 0, 1, 4, ... (gpio)": those of the group of @first; before the very first
+ * stands "gpiochip". Gives the index behind them. */
+static int denied_group(const struct denied *denied, int first, char *out,
+			size_t size)
+{
+	unsigned int group = denied->kept[first].group;
+	const char *before = first > 0 ? "; " : CHIP_PREFIX;
+	size_t len = 0;
+	int i = first;
+
+	for (; i < DENIED_MOST && i < denied->count &&
+	       denied->kept[i].group == group; i++, before = ", ")
+		if (i < first + CHIPS_SHOWN)
+			len += (size_t)snprintf(out + len, size - len, "%s%d",
+						before, denied->kept[i].chip);
+	len += (size_t)snprintf(out + len, size - len, "%s ",
+				i > first + CHIPS_SHOWN ? ", ..." : "");
+	if (group >= UNSEEN)
+		snprintf(out + len, size - len, "(%s)",
+			 group == UNSEEN ? "?" : "no group");
+	else
+		group_print(group, out + len, size - len);
+	return i;
+}
+
+/* Each group is named, as a user has to know which to join; what has no room is
+ * not passed over in silence. */
+static bool denied_say(const struct denied *denied, struct trouble *why)
+{
+	static const char others[] = "; others";
+	char text[3 * LIMIT_ARG], part[2 * LIMIT_ARG];
+	int said = 0, next;
+	size_t len = 0;
+
+	while (said < denied->count && said < DENIED_MOST) {
+		size_t room = LIMIT_ARG - 1;
+
+		next = denied_group(denied, said, part, sizeof(part));
+		if (next < denied->count)
+			room -= strlen(others);
+		if (said > 0 && len + strlen(part) > room)
+			break;
+		len += (size_t)snprintf(text + len, sizeof(text) - len, "%s",
+					part);
+		said = next;
+	}
+	return trouble_set(why, DIAG_IO_PERMISSION, "%s%s", text,
+			   said < denied->count ? others : "");
 }
 
 /* Why a chip or request could not be had, from -errno. */
 static bool refused(struct trouble *why, const char *path, int error)
 {
-	char group[32];
+	struct denied denied = { .count = 0 };
 	const char *name = strrchr(path, '/');
 
-	if (error == -EACCES || error == -EPERM) {
-		group_of(path, group, sizeof(group));
-		return trouble_set(why, DIAG_IO_PERMISSION, "%s, group %s",
-				   name ? name + 1 : path, group);
+	if (is_denied(error)) {
+		denied_add(&denied, path);
+		return denied_say(&denied, why);
 	}
 	return trouble_set(why, DIAG_IO_REQUEST, "%s: %s",
 			   name ? name + 1 : path, strerror(-error));
@@ -205,8 +289,8 @@ struct search {
 	struct line_at at;       /* the first hit                          */
 	int second;              /* chip of the second hit                 */
 	struct gpio_line line;   /* at the first hit                       */
-	int denied;              /* a chip that may not be opened; -1      */
-	int denied_error;
+	struct denied denied;
+	int failed, error;       /* the first chip with another error; -1  */
 	uint32_t lines;          /* of the chip that was asked for         */
 };
 
@@ -271,13 +355,14 @@ static void search_chip(struct search *search, int number, int wanted)
 		return;
 	gpio_path(search->dev, number, path, sizeof(path));
 	error = gpio_chip_open(path, &chip);
-	if (error) {
-		if (search->denied < 0 && !is_gone(error)) {
-			search->denied = number;
-			search->denied_error = error;
-		}
-		return;
+	if (is_denied(error)) {
+		denied_add(&search->denied, path);
+	} else if (error && search->failed < 0 && !is_gone(error)) {
+		search->failed = number;
+		search->error = error;
 	}
+	if (error)
+		return;
 	if (point->line)
 		search_names(search, &chip, number);
 	else if (wanted >= 0 || strcmp(chip.label, point->chip) == 0)
@@ -289,9 +374,11 @@ static bool not_found(const struct search *search, struct trouble *why)
 {
 	char path[PATH_BYTES];
 
-	if (search->denied >= 0) {
-		gpio_path(search->dev, search->denied, path, sizeof(path));
-		return refused(why, path, search->denied_error);
+	if (search->denied.count > 0)
+		return denied_say(&search->denied, why);
+	if (search->failed >= 0) {
+		gpio_path(search->dev, search->failed, path, sizeof(path));
+		return refused(why, path, search->error);
 	}
 	if (search->point->line)
 		return trouble_set(why, DIAG_IO_NO_LINE, "%s",
@@ -302,7 +389,7 @@ static bool not_found(const struct search *search, struct trouble *why)
 bool gpio_find(const struct io_point *point, const char *dev,
 	       struct line_at *out, struct trouble *why)
 {
-	struct search search = { .point = point, .dev = dev, .denied = -1 };
+	struct search search = { .point = point, .dev = dev, .failed = -1 };
 	int wanted = point->chip ? wanted_number(point->chip, dev) : -1;
 
 	for (int number = chip_after(dev, -1); number >= 0;
@@ -356,6 +443,7 @@ bool gpio_list(const char *dev,
 	       void (*visit)(void *context, const struct line_seen *line),
 	       void *context, struct trouble *why)
 {
+	struct denied denied = { .count = 0 };
 	bool good = true;
 
 	for (int number = chip_after(dev, -1); number >= 0;
@@ -366,13 +454,14 @@ bool gpio_list(const char *dev,
 
 		gpio_path(dev, number, path, sizeof(path));
 		error = gpio_chip_open(path, &chip);
-		if (error) {
-			if (!is_gone(error))
-				good = refused(why, path, error);
+		if (is_denied(error))
+			denied_add(&denied, path);
+		else if (error && !is_gone(error))
+			good = refused(why, path, error);
+		if (error)
 			continue;
-		}
 		list_chip(&chip, number, visit, context);
 		gpio_chip_close(&chip);
 	}
-	return good;
+	return denied.count > 0 ? denied_say(&denied, why) : good;
 }

@@ -13,6 +13,7 @@
 
 #include <errno.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define MS INT64_C(1000000)
@@ -93,6 +94,18 @@ static inline int level(const char *name)
 				return line->level;
 		}
 	return -1;
+}
+
+/* From now on a chip may be opened by @group alone, if @mode says so. */
+static inline bool bench_deny(int chip, mode_t mode, long group)
+{
+	char path[250];
+
+	snprintf(path, sizeof(path), "%s/gpiochip%d", dev_folder, chip);
+	fake.chip[chip].present = true;
+	fake.chip[chip].open_error = EACCES;
+	return (!(mode & 020) || chown(path, (uid_t)-1, (gid_t)group) == 0) &&
+	       chmod(path, mode) == 0;
 }
 
 static inline void bench_begin(struct bench *b)

@@ -347,14 +347,59 @@ static void test_owners(void)
 		      "LD522: line does not answer: IN0: Input/output error"));
 	CHECK_AS(level("OUT0") == 0, "and no output was taken");
 	fake.read_error = 0;
-	fake.chip[0].open_error = EACCES;
+	CHECK(bench_deny(0, 0600, 0));
 	CHECK(refused_like(&b, "%IX0.0 gpio line=IN0",
-		"LD511: no permission for this chip; join the group that owns "
-		"it: gpiochip0, group "));
-	CHECK_AS(!strchr(b.text, '?'), "the group is named");
+		"LD511: no permission for a chip; join its group: "
+		"gpiochip0 (no group)"));
+	CHECK(bench_deny(0, 0660, (long)getegid()));
 	CHECK(refused_like(&b, "%IX0.0 gpio chip=panel offset=0",
-		"LD511: no permission for this chip"));
+		"its group: gpiochip0 ("));
+	CHECK_AS(!strstr(b.text, "no group"), "the group is named");
 	CHECK(fake.opens == fake.closes && fake.settings == 0);
+}
+
+/* Nobody is sent to the group of a chip that is not the one: all are named. */
+static void test_denied(void)
+{
+	const char *nope = "%IX0.0 gpio line=NOPE";
+	struct bench b;
+
+	chips();
+	CHECK(bench_deny(0, 0600, 0) && bench_deny(1, 0640, 0));
+	CHECK(refused(&b, nope, "its group: gpiochip0, 1 (no group)"));
+	CHECK(refused(&b, "%IX0.0 gpio chip=gpiochip1 offset=0",
+		      "its group: gpiochip1 (no group)"));
+	CHECK(bench_deny(2, 0600, 0) && bench_deny(3, 0600, 0));
+	CHECK(refused(&b, nope, "its group: gpiochip0, 1, 2, ... (no group)"));
+	fake.chip[0].open_error = EIO;
+	CHECK_AS(refused(&b, nope, "its group: gpiochip1, 2, 3 (no group)"),
+		 "what can be helped is told first");
+	fake.chip[1].open_error = EPERM;
+	CHECK(refused(&b, nope, "its group: gpiochip1, 2, 3 (no group)"));
+}
+
+/* Numbers that /etc/group has no names for. */
+static void test_groups(void)
+{
+	const char *nope = "%IX0.0 gpio line=NOPE";
+	struct bench b;
+
+	if (geteuid() != 0) {
+		printf("ok %d # SKIP only root gives a file to any group\n",
+		       ++tap_count);
+		return;
+	}
+	chips();
+	CHECK(bench_deny(0, 0600, 0) && bench_deny(1, 0660, 54321));
+	CHECK_AS(refused(&b, nope, "its group: gpiochip1 (54321); 0 (no group)"),
+		 "a group that may comes before none");
+	CHECK(bench_deny(0, 0660, 54321) && bench_deny(2, 0660, 54320));
+	CHECK_AS(refused(&b, nope, "its group: gpiochip2 (54320); 0, 1 (54321)"),
+		 "every group is named");
+	CHECK(bench_deny(3, 0660, 1234567890) && bench_deny(0, 0660, 123456789));
+	CHECK(bench_deny(1, 0660, 123456788));
+	CHECK_AS(refused(&b, nope, "its group: gpiochip2 (54320); 1 (123456788); "
+			 "others"), "or it is said that there are more");
 }
 
 /* Raspberry Pi OS has links from old numbers to new ones. */
@@ -402,6 +447,12 @@ static void test_list(void)
 	CHECK_AS(seen_lines == 216, "the other chip is listed all the same");
 	CHECK(b.diags.diag[0].id == DIAG_IO_PERMISSION);
 	bench_end(&b);
+	bench_begin(&b);
+	CHECK(bench_deny(0, 0600, 0) && bench_deny(1, 0600, 0));
+	CHECK(!hal_list(bench_dev(), visit, NULL, &b.diags));
+	CHECK_AS(strcmp(b.diags.diag[0].arg, "gpiochip0, 1 (no group)") == 0,
+		 "every chip that may not be opened is named");
+	bench_end(&b);
 }
 
 static void test_check(void)
@@ -434,6 +485,8 @@ int main(void)
 	test_debounce();
 	test_places();
 	test_owners();
+	test_denied();
+	test_groups();
 	test_links();
 	test_list();
 	test_check();

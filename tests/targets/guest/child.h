@@ -13,6 +13,7 @@
 #include <sys/types.h>
 
 #define CHILD_HANGS  1000 /* not ended in time; it was killed                 */
+#define NO_PTRACE    77   /* what `guest --held` then gives                   */
 #define CHILD_SIGNAL 256  /* added to the number of a signal that ended it    */
 #define LIMIT_MS     20000
 

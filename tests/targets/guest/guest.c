@@ -211,7 +211,7 @@ static int with_memory(const char *bytes, char **command)
 static int held(char **command)
 {
 	if (ptrace(PTRACE_TRACEME, 0, NULL, NULL) != 0)
-		return 77;
+		return NO_PTRACE;
 	raise(SIGSTOP);
 	execv(command[0], command);
 	give_up(command[0]);
@@ -327,6 +327,9 @@ int main(int argc, char **argv)
 		give_up(folder);
 	guest.work = folder;
 	guest.cases = argv[first];
+	note("tier %s", guest.small ? "small: without a reader of programs (code "
+	     "images only), without users, without threads" :
+	     "full: programs and code images, users, limits of memory");
 	for (int i = first + 1; i < argc; i++)
 		run_all(argv[i]);
 	printf("1..%d\n", count);

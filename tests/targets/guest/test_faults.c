@@ -182,7 +182,7 @@ static void denied(void)
 	panel_up(-1);
 	bank_watch(&panel);
 	snprintf(chip, sizeof(chip), "/dev/%s", panel.chip);
-	snprintf(group, sizeof(group), "group %d", STRANGER);
+	snprintf(group, sizeof(group), "(%d)", STRANGER);
 	if (chown(chip, 0, STRANGER) != 0 || chmod(chip, 0660) != 0)
 		give_up(chip);
 	refused(&child, run_as_user(), "an ordinary user", "LD511", group);

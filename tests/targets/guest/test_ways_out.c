@@ -58,8 +58,12 @@ static void before_first_scan(void)
 	set_up();
 	bank_watch(&panel);
 	if (!child_start_held(&child, argv)) {
-		skip("no ptrace here", "safe values before the first scan");
-		child_stop(&child);
+		if (child_stop(&child) == NO_PTRACE)
+			skip("no ptrace here",
+			     "safe values before the first scan");
+		else
+			check(false, "safe values before the first scan: "
+			      "ladderd cannot be held");
 		panel_down();
 		return;
 	}

@@ -27,21 +27,36 @@
 
 enum { TEXT = 4096, ARGS = 64 };
 
-#if defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M'
-/* The mps2 board has no power switch: semihosting's SYS_EXIT ends the emulator. */
-static void switch_off(void)
+#ifdef __arm__
+/* Some boards have no power switch: semihosting's SYS_EXIT ends their emulator. Where
+ * nobody listens to it, a large ARM asks the kernel for its process number instead. */
+#if __ARM_ARCH_PROFILE == 'M'
+#define CALL "bkpt 0xab"
+#elif defined(__thumb__)
+#define CALL "svc 0xab"
+#else
+#define CALL "svc 0x123456"
+#endif
+static void exit_emulator(void)
 {
 	register int call __asm__("r0") = 0x18;
 	register int reason __asm__("r1") = 0x20026;
+	register int otherwise __asm__("r7") = SYS_getpid;
 
-	__asm__ volatile("bkpt 0xab" : : "r"(call), "r"(reason) : "memory");
+	__asm__ volatile(CALL : "+r"(call)
+			 : "r"(reason), "r"(otherwise) : "memory");
 }
 #else
-static void switch_off(void)
+static void exit_emulator(void)
 {
-	reboot(RB_POWER_OFF);
 }
 #endif
+
+static void switch_off(void)
+{
+	exit_emulator();
+	reboot(RB_POWER_OFF);
+}
 
 static void attach(const char *type, const char *folder)
 {
