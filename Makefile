@@ -32,7 +32,7 @@ CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
 LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)
 # What runs once a load is better small than fast.
-$(call obj,$(wildcard runtime/engine/check/*.c runtime/engine/text/*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
+$(call obj,$(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/engine/scan/retain_*.c runtime/ladderd/store_*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
 
 all: $(BUILD)/libladder.a ## build everything that can be built here
 
@@ -69,13 +69,16 @@ GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PK
 GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
 HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/sim.c
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
-LADDERD  := $(call obj,$(filter-out %/source_$(if $(filter 1,$(SMALL)),any,image).c,$(wildcard runtime/ladderd/*.c)))
+LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file,source_image store_none)
+LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
+# One thread, for --retain; older C libraries want to be told.
+THREADS  := $(if $(filter 1,$(SMALL)),,-pthread)
 $(DRIVERS) $(LADDERD): WARN += $(FRAME)
 $(DRIVERS): CPPFLAGS += $(GPIO_CPP)
 
 all: $(BUILD)/ladderd
 $(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
 # Bytes of stack, for compilers that make programs for a machine without MMU.
 $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
 
@@ -110,7 +113,7 @@ $(HAL_TEST)/suite_uapi $(HAL_TEST)/ladderd_uapi: WRAP := -Wl,--wrap=open,--wrap=
 $(HAL_TEST)/map: $(call obj,tests/hal/map.c tests/hal/fake.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 $(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libladder.a Makefile
-	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=opendir -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -Wl,--wrap=opendir -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 $(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,v1,gpiod_v1)
 $(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladderd_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
@@ -243,7 +246,7 @@ $(BUILD)/guest: $(call obj,$(wildcard $(GUEST)/*.c))
 $(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^ -lm
 $(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(GUEST_LD) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(GUEST_LD) $(THREADS) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
 
 # What they play, made natively: build/cases/.
 CASES     := $(BUILD)/cases

@@ -21,7 +21,7 @@ say() {
 
 # Files of scan/ that run in a scan; the others look at an image between scans
 # (symbols by name, text of an instruction, the verifier) and may use more.
-between='code|code_[a-z]*|symbols'
+between='code|code_[a-z]*|symbols|retain_[a-z]*'
 scan=
 for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
