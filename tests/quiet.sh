@@ -47,7 +47,7 @@ for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
 	printf '%s' "$name" | grep -Eqx "$between" || continue
 	open=$($NM -u "$object" | awk '{print $NF}' |
-	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|chr|n?cmp|n?casecmp)|arena_[a-z]*|(iec|word|digest|code|verify|image|vm_row|sys)[a-z0-9_]*")
+	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|chr|n?cmp|n?casecmp)|arena_[a-z]*|(iec|word|digest|code|verify|image|resource|retain|vm_row|sys)[a-z0-9_]*")
 	[ -z "$open" ]; say $? "$name, between scans, asks the system for nothing" "$open"
 done
 

@@ -151,6 +151,11 @@ static int run(struct daemon *daemon)
 	resource_init(&cycle->resource, program, memory);
 	code_identity(program, identity);
 	digest_hex(identity, sizeof(identity), cycle->identity);
+	cycle->board = load->map.board;
+	cycle->period_ns = options->period_ns;
+	cycle->watchdog = options->watchdog;
+	cycle->most_scans = options->scans;
+	cycle->requests = requests_listen();
 	if (options->retain.path) {
 		cycle->store = store_open(&options->retain,
 					  &cycle->resource.image, &load->arena,
@@ -158,11 +163,6 @@ static int run(struct daemon *daemon)
 		if (!cycle->store)
 			return status;
 	}
-	cycle->board = load->map.board;
-	cycle->period_ns = options->period_ns;
-	cycle->watchdog = options->watchdog;
-	cycle->most_scans = options->scans;
-	cycle->requests = requests_listen();
 	error = notify_open(&cycle->notify);
 	if (error)
 		fprintf(stderr, "ladderd: NOTIFY_SOCKET: %s\n",

@@ -18,7 +18,7 @@
 #define SCAN_RETAIN_H
 
 #include "engine/base/arena.h"
-#include "engine/scan/image.h"
+#include "engine/scan/resource.h"
 
 #define RETAIN_PAGE   4096u
 #define RETAIN_MAGIC  "RUNGKEEP"
@@ -80,6 +80,15 @@ void retain_copy(const struct retain *retain, const struct image *image,
  * Scan-safe: between scans. */
 void retain_put(const struct retain *retain, struct image *image,
 		const uint8_t *copy);
+
+/**
+ * retain_start - resource_start(), but a warm one: what is retained stays
+ *
+ * For simulation; a runtime has its values from a file. What it allocates is free
+ * again.
+ * Scan-safe: no.   Fails: false when memory is out; nothing has changed.
+ */
+bool retain_start(struct resource *resource);
 
 /** retain_fill - a copy and the scan's clock into the payload in retain->slot.
  * Scan-safe: no. */

@@ -183,6 +183,25 @@ struct retain_record retain_record_of(const struct retain *retain, int index)
 	return record;
 }
 
+bool retain_start(struct resource *resource)
+{
+	struct arena arena;
+	struct retain retain;
+	uint8_t *copy = NULL;
+
+	arena_init(&arena);
+	if (retain_plan(&retain, &resource->image, &arena))
+		copy = arena_alloc(&arena, retain.copy_size);
+	if (copy) {
+		retain_copy(&retain, &resource->image, copy);
+		resource_start(resource);
+		retain_put(&retain, &resource->image, copy);
+		resource->warm = true;
+	}
+	arena_free(&arena);
+	return copy;
+}
+
 static bool is_same(const char *a, uint32_t a_len, const char *b, uint32_t b_len)
 {
 	return a_len == b_len && ascii_same(a, b, a_len);
