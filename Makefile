@@ -121,7 +121,10 @@ HAL_KINDS := v1 v2 uapi
 HAL_TESTS := $(HAL_TEST)/map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
 HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%)
 hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(HAL_DAEMONS) ## all gpio drivers against fake chips; ladderd from outside
-	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t
+	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/retain.t
+check-retain: all ## ladderd --retain killed 1,000 times; `check` does 200 of them
+	BUILD=$(BUILD) RETAIN_KILLS=1000 prove -v -e '' tests/hal/retain.t
+.PHONY: check-retain
 .PRECIOUS: $(HAL_KINDS:%=$(HAL_TEST)/%/%.o)
 .PHONY: hal-tests
 # ---- end of HAL and runtime ----
@@ -165,7 +168,8 @@ install-ladderd: $(BUILD)/ladderd $(BUILD)/man/ladderd.8
 	install -m 755 $(BUILD)/ladderd $(DESTDIR)$(prefix)/bin/ladderd
 	install -m 644 $(BUILD)/man/ladderd.8 $(DESTDIR)$(prefix)/share/man/man8/
 	sed 's|/usr/[a-z/]*ladderd |$(prefix)/bin/ladderd |' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
-	test -e $(DESTDIR)/etc/default/ladderd || install -m 644 packaging/ladderd.default $(DESTDIR)/etc/default/ladderd
+	test -e $(DESTDIR)/etc/default/ladderd || { sed '$(SMALL:1=s| --retain [^"]*||)' packaging/ladderd.default \
+	  >$(DESTDIR)/etc/default/ladderd && chmod 644 $(DESTDIR)/etc/default/ladderd; }
 cli-tests: $(BUILD)/ladder ## the command line from outside
 	LADDER=$(BUILD)/ladder prove tests/cli.t
 .PHONY: man install install-ladder install-ladderd cli-tests

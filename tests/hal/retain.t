@@ -3,7 +3,7 @@
 #
 # retain.t - ladderd --retain from outside: what a kill, a cut, a full disk, a broken
 # file or an edited program leaves. The file is read here by other code than
-# ladderd's. RETAIN_KILLS says how many times it is killed (1000).
+# ladderd's. RETAIN_KILLS says how many times it is killed (200).
 use strict;
 use warnings;
 use Test::More;
@@ -13,7 +13,7 @@ use Time::HiRes qw(sleep);
 
 my $build = $ENV{BUILD} || 'build';
 my $ladderd = "$build/ladderd";
-my $kills = $ENV{RETAIN_KILLS} // 1000;
+my $kills = $ENV{RETAIN_KILLS} || 200;
 my $lanes = 4;
 my $dir = tempdir(CLEANUP => 1);
 my $keep = "$dir/keep";
@@ -335,8 +335,8 @@ my $wide_vars = $count_vars . "VAR RETAIN\n" .
 my $wide = put('wide.rung', program($wide_vars, $count_rungs .
 	join('', map { "RUNG\n  | [ Value_$_ := A ] |\n" } 1 .. 600)));
 {
-	# In units of 512 or 1024 bytes, as the shell likes: less than two slots.
-	my @limited = ('sh', '-c', 'ulimit -f 7; exec "$@"', 'sh');
+	# In units of 512 bytes: less than two slots.
+	my @limited = ('sh', '-c', 'ulimit -f 15; exec "$@"', 'sh');
 	unlink $keep;
 	is(run(@limited, $ladderd, $count, @keep, '--scans', '50', '--retain-period',
 		'10ms'), 0, 'no room for a new file: it runs');
