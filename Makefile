@@ -122,7 +122,7 @@ HAL_TESTS := $(HAL_TEST)/map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
 HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%)
 hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(HAL_DAEMONS) ## all gpio drivers against fake chips; ladderd from outside
 	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/retain.t
-check-retain: all ## ladderd --retain killed 1,000 times; `check` does 200 of them
+check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of them
 	BUILD=$(BUILD) RETAIN_KILLS=1000 prove -v -e '' tests/hal/retain.t
 .PHONY: check-retain
 .PRECIOUS: $(HAL_KINDS:%=$(HAL_TEST)/%/%.o)

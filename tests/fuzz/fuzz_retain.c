@@ -13,7 +13,7 @@
 
 static const char source[] =
 	"RUNGBOARD 1\nVAR RETAIN\n  A : DINT;\n  B : BOOL;\n  T : TON;\n"
-	"  M AT %MX1.1 : BOOL;\n  W AT %MW4 : WORD;\nEND_VAR\n"
+	"  M AT %MX1.1 : BOOL;\n  W AT %MW4 : WORD;\n  N : STRING[5];\nEND_VAR\n"
 	"PROGRAM Main LD\nVAR RETAIN\n  A : REAL;\nEND_VAR\n"
 	"RUNG\n  | NO I0 | TON T PT:=T#1s | COIL B |\nEND_PROGRAM\n";
 
@@ -109,6 +109,10 @@ static void look(struct rig *rig, const uint8_t *file, size_t len)
 	for (int i = 0; i < rig->retain.count; i++) {
 		struct location where = rig->retain.var[i].at;
 
+		fuzz_expect(where.type != IEC_STRING ||
+			    (image_get(&rig->image, where).s->capacity == 5 &&
+			     image_get(&rig->image, where).s->length <= 5),
+			    "a text is in its room");
 		fuzz_expect(where.type != IEC_BOOL ||
 			    image_get(&rig->image, where).i < 2,
 			    "a BOOL is 0 or 1");

@@ -3,17 +3,17 @@
 #
 # retain.t - ladderd --retain from outside: what a kill, a cut, a full disk, a broken
 # file or an edited program leaves. The file is read here by other code than
-# ladderd's. RETAIN_KILLS says how many times it is killed (200).
+# ladderd's. RETAIN_KILLS says how many times it is killed (400).
 use strict;
 use warnings;
 use Test::More;
 use File::Temp qw(tempdir);
 use POSIX qw(:sys_wait_h);
-use Time::HiRes qw(sleep);
+use Time::HiRes qw(sleep time);
 
 my $build = $ENV{BUILD} || 'build';
 my $ladderd = "$build/ladderd";
-my $kills = $ENV{RETAIN_KILLS} || 200;
+my $kills = $ENV{RETAIN_KILLS} || 400;
 my $lanes = 4;
 my $dir = tempdir(CLEANUP => 1);
 my $keep = "$dir/keep";
@@ -400,11 +400,18 @@ sub lane {
 	my ($seq, $value, $torn, $told, $read) = (0, 0, 0, 0, 0);
 	srand($$);
 	mkdir $where;
+	# How long a start takes here, and a first copy.
+	my $begin = time;
+	finish(start_in($where, $ladderd, $file, @run, '--retain', "$where/keep",
+		'--scans', '2'));
+	my $most = time - $begin + 0.03;
+	my $first = best("$where/keep") or return 'no first copy';
+	($seq, $value) = ($first->{seq}, number($first->{value}{'A DINT'}));
 	for my $round (1 .. $rounds) {
 		my $pid = start_in($where, $ladderd, $file, @run, '--retain',
 			"$where/keep", '--retain-period', '10ms');
 		my $known = 0;
-		sleep rand 0.05;
+		sleep rand $most;
 		if ($round % 4 == 0) {
 			kill 'USR1', $pid;
 			sleep 0.004;

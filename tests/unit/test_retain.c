@@ -16,6 +16,8 @@ static const char source[] =
 	"  Delay : TON;\n"
 	"  Mark AT %MX3.2 : BOOL;\n"
 	"  Wide AT %MD8 : DWORD;\n"
+	"  Label : STRING[9];\n"
+	"  Short : STRING[6] := 'abcdef';\n"
 	"END_VAR\n"
 	"VAR_GLOBAL\n  Lost : DINT;\nEND_VAR\n"
 	"VAR_GLOBAL RETAIN CONSTANT\n  Fix : INT := 3;\nEND_VAR\n"
@@ -35,6 +37,8 @@ static const char edited[] =
 	"  On    : INT := 4;\n"
 	"  Delay : TOF;\n"
 	"  Wide AT %MD12 : DWORD;\n"
+	"  Label : STRING[30];\n"
+	"  Short : STRING[5] := 'xy';\n"
 	"END_VAR\n"
 	"PROGRAM Main LD\nVAR RETAIN\n  Count : TIME;\nEND_VAR\n"
 	"RUNG\n  | NO I0 | TOF Delay PT:=T#1s | COIL Mark |\n"
@@ -64,6 +68,29 @@ static void close_bench(struct bench *bench)
 	rig_close(&bench->rig);
 }
 
+/* As long as the value is odd or even, so that what is behind it differs, too. */
+static void set_text(struct rig *rig, int64_t value)
+{
+	struct { struct iec_string head; char text[12]; } text;
+
+	text.head.capacity = sizeof(text.text);
+	text.head.length = (uint16_t)snprintf(text.text, sizeof(text.text), "%lld",
+					      (long long)value * (value & 1 ? 7 : 1));
+	image_set(&rig->resource.image, rig_at(rig, "Label"),
+		  (union iec_value){ .s = &text.head });
+}
+
+static bool has_text(struct rig *rig, int64_t value)
+{
+	const struct iec_string *text = image_get(&rig->resource.image,
+						  rig_at(rig, "Label")).s;
+	char want[24];
+
+	snprintf(want, sizeof(want), "%lld", (long long)value * (value & 1 ? 7 : 1));
+	return text->length == strlen(want) &&
+	       memcmp(text->text, want, text->length) == 0;
+}
+
 static void set_values(struct rig *rig, int64_t value)
 {
 	union iec_value half = { .r = (double)value / 2 };
@@ -75,6 +102,7 @@ static void set_values(struct rig *rig, int64_t value)
 	rig_set(rig, "Mark", value >> 1 & 1);
 	rig_set(rig, "Wide", value * 3);
 	rig_set(rig, "Main.Count", value * 7);
+	set_text(rig, value);
 	rig_set(rig, "Lost", value);
 }
 
@@ -86,7 +114,7 @@ static bool has_values(struct rig *rig, int64_t value)
 	       rig_get(rig, "Delay.ET") == value * 1000 &&
 	       rig_get(rig, "Mark") == (value >> 1 & 1) &&
 	       rig_get(rig, "Wide") == value * 3 &&
-	       rig_get(rig, "Main.Count") == value * 7;
+	       rig_get(rig, "Main.Count") == value * 7 && has_text(rig, value);
 }
 
 /* A copy of the rig's values into slot @slot of @file. */
@@ -141,9 +169,9 @@ static void plans(void)
 	CHECK(names_are(&b, "Count:DINT Level:REAL On:BOOL Delay.IN:TON.BOOL "
 		"Delay.Q:TON.BOOL Delay.PT:TON.TIME Delay.ET:TON.TIME "
 		"Delay.start:TON.TIME Delay.running:TON.BOOL Mark:BOOL "
-		"Wide:DWORD Main.Count:TIME "));
+		"Wide:DWORD Label:STRING Short:STRING Main.Count:TIME "));
 	CHECK(b.retain.loose_count == 2 && b.retain.bytes == 4 + 4 + 1 + 2 +
-	      8 * 3 + 1 + 1 + 4 + 8);
+	      8 * 3 + 1 + 1 + 4 + 8 + 4 + 12 + 4 + 8);
 	close_bench(&b);
 	open_bench(&b, "PROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\n"
 		   "END_PROGRAM\n");
@@ -352,10 +380,13 @@ static void fits_edited(void)
 	take_all(&after, &found, fate);
 	CHECK(rig_get(rig, "Count") == 1003 && rig_get(rig, "Mark") == 1);
 	CHECK(rig_get(rig, "Wide") == 3009 && rig_get(rig, "Main.Count") == 7021);
+	CHECK_AS(has_text(rig, 1003), "a text in a wider room");
+	CHECK_AS(image_get(&rig->resource.image, rig_at(rig, "Short")).s->length == 2,
+		 "one that has no room any more is lost, not cut");
 	CHECK(rig_get(rig, "On") == 4 && rig_get(rig, "Extra") == 9);
 	CHECK_AS(rig_get(rig, "Delay.ET") == 0, "a TON's time is no TOF's");
-	CHECK(fate[RETAIN_KEPT] == 4 && fate[RETAIN_NO_NAME] == 1 &&
-	      fate[RETAIN_NO_TYPE] == 7);
+	CHECK(fate[RETAIN_KEPT] == 5 && fate[RETAIN_NO_NAME] == 1 &&
+	      fate[RETAIN_NO_TYPE] == 8);
 	CHECK(!after.retain.taken[0] && after.retain.taken[1]);
 	free(file);
 	close_bench(&b);
@@ -367,6 +398,7 @@ static void believes_nothing(void)
 {
 	struct bench b;
 	struct retain_found found;
+	const struct iec_string *text;
 	uint32_t room, size, crc, seed = 1;
 	uint8_t *file;
 	int fate[3], refused = 0, odd = 0;
@@ -389,6 +421,9 @@ static void believes_nothing(void)
 			continue;
 		}
 		take_all(&b, &found, fate);
+		text = image_get(&b.rig.resource.image,
+				 rig_at(&b.rig, "Label")).s;
+		odd += text->capacity != 9 || text->length > 9;
 		odd += retain_clock(found.payload) < 0 ||
 		       rig_get(&b.rig, "On") > 1;
 	}

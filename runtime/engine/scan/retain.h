@@ -141,8 +141,8 @@ enum retain_fate {
 	RETAIN_NO_NAME, /* no retained variable has this name                */
 	RETAIN_NO_TYPE, /* one has, of another type                          */
 };
-/** retain_take - the value of a record into @copy, if name and type fit.
- * Scan-safe: no. */
+/** retain_take - the value of a record into @copy, if name and type fit, and a text
+ * has room. @copy is one that retain_copy() made. Scan-safe: no. */
 enum retain_fate retain_take(struct retain *retain,
 			     const struct retain_record *record, uint8_t *copy);
 /** retain_record_of - the record of a variable: its name and its type.

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #define TYPE_TEXT 128 /* "TON.TIME" */
+#define TEXT_ALIGN 4u /* of a STRING in memory, and so in a copy */
 
 /* A byte or word of an area that the program cannot write is not its own. */
 static bool can_be_kept(struct location at)
@@ -26,12 +27,42 @@ static bool can_be_kept(struct location at)
 	return true;
 }
 
+/* Room of the text at @where, as the layout has it; 0: none is there. */
+static uint32_t text_room(const struct program *program, uint32_t where)
+{
+	uint32_t low = 0, high = program->run_count;
+
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+
+		if (program->run[middle].offset > where)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	if (low == 0 || program->run[low - 1].kind == RUN_INSTANCE ||
+	    program->run[low - 1].type != IEC_STRING)
+		return 0;
+	return program->run[low - 1].word;
+}
+
+/* Bytes of its value; 0: nothing that can be kept. */
+static uint32_t value_size(const struct program *program, struct location at)
+{
+	uint32_t room;
+
+	if (at.type != IEC_STRING)
+		return iec_type_row(at.type)->size;
+	room = text_room(program, at.where);
+	return room ? iec_type_size(IEC_STRING, room) : 0;
+}
+
 static bool next_kept(const struct image *image, struct symbol_cursor *cursor,
 		      struct symbol *out)
 {
 	while (image_next_symbol(image, cursor, out))
 		if (out->flags & SYMBOL_RETAIN && !out->at.constant &&
-		    iec_type_row(out->at.type)->size && can_be_kept(out->at))
+		    value_size(image->program, out->at) && can_be_kept(out->at))
 			return true;
 	return false;
 }
@@ -62,7 +93,7 @@ static void measure(struct retain *retain, const struct image *image)
 	uint64_t payload = RETAIN_HEAD;
 
 	while (next_kept(image, &cursor, &symbol)) {
-		uint32_t size = iec_type_row(symbol.at.type)->size;
+		uint32_t size = value_size(image->program, symbol.at);
 
 		payload += RETAIN_RECORD + strlen(symbol.name) +
 			   type_text(&symbol, type) + size;
@@ -100,13 +131,13 @@ static void place_copy(struct retain *retain, struct retain_var *var)
 	uint32_t from = var->at.where - header->retain_offset;
 
 	if (var->at.area == AREA_NONE && var->at.where >= header->retain_offset &&
-	    from < header->retain_size &&
-	    header->retain_size - from >= var->size) {
+	    from < header->retain_size && from % TEXT_ALIGN == var->at.where %
+	    TEXT_ALIGN && header->retain_size - from >= var->size) {
 		var->kept = from;
 		return;
 	}
-	var->kept = retain->copy_size;
-	retain->copy_size += var->size;
+	var->kept = (retain->copy_size + TEXT_ALIGN - 1) / TEXT_ALIGN * TEXT_ALIGN;
+	retain->copy_size = var->kept + var->size;
 	retain->loose[retain->loose_count++] = (uint32_t)(var - retain->var);
 }
 
@@ -136,7 +167,7 @@ static void fill(struct retain *retain, const struct image *image)
 		struct retain_var *var = &retain->var[i];
 
 		var->at = symbol.at;
-		var->size = iec_type_row(symbol.at.type)->size;
+		var->size = value_size(image->program, symbol.at);
 		var->record = at;
 		var->value = at + write_record(payload + at, &symbol, var->size);
 		at = var->value + var->size;
@@ -207,6 +238,39 @@ static bool is_same(const char *a, uint32_t a_len, const char *b, uint32_t b_len
 	return a_len == b_len && ascii_same(a, b, a_len);
 }
 
+/* Into the room of the variable, whatever room it had when it was stored. A text
+ * that has become too long is lost, not cut. */
+static bool take_text(const struct retain_var *var,
+		      const struct retain_record *record, uint8_t *copy)
+{
+	struct iec_string *text = (void *)(copy + var->kept);
+	uint32_t room = var->size - (uint32_t)sizeof(*text);
+	uint16_t length;
+
+	if (record->size < sizeof(*text))
+		return false;
+	memcpy(&length, record->value + offsetof(struct iec_string, length),
+	       sizeof(length));
+	if (length > record->size - sizeof(*text) || length > text->capacity ||
+	    length > room)
+		return false;
+	memset(text->text, 0, room);
+	memcpy(text->text, record->value + sizeof(*text), length);
+	text->length = length;
+	return true;
+}
+
+static bool take_value(const struct retain_var *var,
+		       const struct retain_record *record, uint8_t *copy)
+{
+	if (var->at.type == IEC_STRING)
+		return take_text(var, record, copy);
+	if (var->size != record->size)
+		return false;
+	memcpy(copy + var->kept, record->value, var->size);
+	return true;
+}
+
 enum retain_fate retain_take(struct retain *retain,
 			     const struct retain_record *record, uint8_t *copy)
 {
@@ -222,10 +286,9 @@ enum retain_fate retain_take(struct retain *retain,
 			     record->name_len))
 			continue;
 		fate = RETAIN_NO_TYPE;
-		if (var->size == record->size &&
-		    is_same(own.type, own.type_len, record->type,
-			    record->type_len)) {
-			memcpy(copy + var->kept, record->value, var->size);
+		if (is_same(own.type, own.type_len, record->type,
+			    record->type_len) &&
+		    take_value(var, record, copy)) {
 			retain->taken[found - 1] = true;
 			return RETAIN_KEPT;
 		}
