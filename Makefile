@@ -188,7 +188,7 @@ bless: $(BUILD)/ladder ## rewrite what CASE=name expects and show the difference
 BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential iec_cases exhaustion saving $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
@@ -198,6 +198,8 @@ $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free
 $(BIN)/saving: $(BUILD)/tests/saving.o
 $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
+$(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c)
+$(BIN)/storing: WRAP := -Wl,--wrap=pwrite,--wrap=pwrite64,--wrap=fsync,--wrap=fdatasync,--wrap=rename,--wrap=unlink
 FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(BUILD)/tests/walker/random.o $(BUILD)/tests/walker/words.o
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
