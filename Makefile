@@ -32,7 +32,7 @@ CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
 LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)
 # What runs once a load is better small than fast.
-$(call obj,$(wildcard runtime/engine/check/*.c runtime/engine/text/*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
+$(call obj,$(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/engine/scan/retain_*.c runtime/ladderd/store_*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
 
 all: $(BUILD)/libladder.a ## build everything that can be built here
 
@@ -69,13 +69,16 @@ GPIO_CPP := $(if $(filter gpiod,$(HAL)),$(if $(filter 1 2,$(GPIOD)),$(shell $(PK
 GPIO_LIB := $(if $(filter gpiod,$(HAL)),$(shell $(PKG_CONFIG) --libs $(if $(findstring -static,$(LDFLAGS)),--static) libgpiod))
 HAL_CORE := hal/hal.c hal/hal_open.c hal/iomap.c hal/sim.c
 DRIVERS  := $(call obj,$(HAL_CORE) $(GPIO_C))
-LADDERD  := $(call obj,$(filter-out %/source_$(if $(filter 1,$(SMALL)),any,image).c,$(wildcard runtime/ladderd/*.c)))
+LADDERD_NOT := $(if $(filter 1,$(SMALL)),source_any store_thread store_file,source_image store_none)
+LADDERD  := $(call obj,$(filter-out $(LADDERD_NOT:%=runtime/ladderd/%.c),$(wildcard runtime/ladderd/*.c)))
+# One thread, for --retain; older C libraries want to be told.
+THREADS  := $(if $(filter 1,$(SMALL)),,-pthread)
 $(DRIVERS) $(LADDERD): WARN += $(FRAME)
 $(DRIVERS): CPPFLAGS += $(GPIO_CPP)
 
 all: $(BUILD)/ladderd
 $(BUILD)/ladderd: $(LADDERD) $(DRIVERS) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(LEAN_LD) $(LDFLAGS) $(THREADS) -o $@ $^ $(GPIO_LIB) -lm
 # Bytes of stack, for compilers that make programs for a machine without MMU.
 $(BUILD)/ladderd $(BUILD)/ladderd-count: export STACK := 8192
 
@@ -110,7 +113,7 @@ $(HAL_TEST)/suite_uapi $(HAL_TEST)/ladderd_uapi: WRAP := -Wl,--wrap=open,--wrap=
 $(HAL_TEST)/map: $(call obj,tests/hal/map.c tests/hal/fake.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 $(HAL_TEST)/ladderd_%: $(LADDERD) $(HAL_TEST)/%/daemon_fake.o $(BUILD)/libladder.a Makefile
-	$(CC) $(CFLAGS) $(LDFLAGS) $(WRAP) -Wl,--wrap=opendir -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) $(THREADS) $(WRAP) -Wl,--wrap=opendir -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 $(HAL_TEST)/ladderd_v1: $(call HAL_FAKE,v1,gpiod_v1)
 $(HAL_TEST)/ladderd_v2: $(call HAL_FAKE,v2,gpiod_v2)
 $(HAL_TEST)/ladderd_uapi: $(call HAL_FAKE,uapi,gpio_uapi)
@@ -118,7 +121,10 @@ HAL_KINDS := v1 v2 uapi
 HAL_TESTS := $(HAL_TEST)/map $(HAL_KINDS:%=$(HAL_TEST)/suite_%)
 HAL_DAEMONS := $(HAL_KINDS:%=$(HAL_TEST)/ladderd_%)
 hal-tests: $(HAL_TESTS) $(BUILD)/ladderd $(BUILD)/ladder $(HAL_DAEMONS) ## all gpio drivers against fake chips; ladderd from outside
-	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t
+	BUILD=$(BUILD) prove -j2 -e '' $(HAL_TESTS) tests/hal/ladderd.t tests/hal/retain.t
+check-retain: all ## ladderd --retain killed 1,000 times; `check` does 400 of them
+	BUILD=$(BUILD) RETAIN_KILLS=1000 prove -v -e '' tests/hal/retain.t
+.PHONY: check-retain
 .PRECIOUS: $(HAL_KINDS:%=$(HAL_TEST)/%/%.o)
 .PHONY: hal-tests
 # ---- end of HAL and runtime ----
@@ -162,7 +168,8 @@ install-ladderd: $(BUILD)/ladderd $(BUILD)/man/ladderd.8
 	install -m 755 $(BUILD)/ladderd $(DESTDIR)$(prefix)/bin/ladderd
 	install -m 644 $(BUILD)/man/ladderd.8 $(DESTDIR)$(prefix)/share/man/man8/
 	sed 's|/usr/[a-z/]*ladderd |$(prefix)/bin/ladderd |' packaging/ladderd.service >$(DESTDIR)$(unitdir)/ladderd.service
-	test -e $(DESTDIR)/etc/default/ladderd || install -m 644 packaging/ladderd.default $(DESTDIR)/etc/default/ladderd
+	test -e $(DESTDIR)/etc/default/ladderd || { sed '$(SMALL:1=s| --retain [^"]*||)' packaging/ladderd.default \
+	  >$(DESTDIR)/etc/default/ladderd && chmod 644 $(DESTDIR)/etc/default/ladderd; }
 cli-tests: $(BUILD)/ladder ## the command line from outside
 	LADDER=$(BUILD)/ladder prove tests/cli.t
 .PHONY: man install install-ladder install-ladderd cli-tests
@@ -179,9 +186,9 @@ bless: $(BUILD)/ladder ## rewrite what CASE=name expects and show the difference
 # ---- second evaluator, fuzz targets, exhaustion, house checks ----
 # Programs that speak TAP, and scripts that do; `check` runs both lists.
 BIN       := $(BUILD)/tests/bin
-FUZZ      := read code script scenario iomap
+FUZZ      := read code script scenario iomap retain
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential iec_cases exhaustion saving $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
@@ -191,6 +198,8 @@ $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free
 $(BIN)/saving: $(BUILD)/tests/saving.o
 $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
+$(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c)
+$(BIN)/storing: WRAP := -Wl,--wrap=pwrite,--wrap=pwrite64,--wrap=fsync,--wrap=fdatasync,--wrap=rename,--wrap=unlink
 FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(BUILD)/tests/walker/random.o $(BUILD)/tests/walker/words.o
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
@@ -212,7 +221,7 @@ TARGET  ?= read
 SECONDS ?= 60
 FUZZ_CC ?= clang
 FUZZ_FLAGS := -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
-fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap SECONDS=60
+fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap|retain SECONDS=60
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
 	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \
@@ -243,7 +252,7 @@ $(BUILD)/guest: $(call obj,$(wildcard $(GUEST)/*.c))
 $(BUILD)/replay: $(call obj,$(GUEST)/replay/replay.c $(CORE))
 	$(CC) $(CFLAGS) $(GUEST_LD) -o $@ $^ -lm
 $(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_ioctl.c) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(GUEST_LD) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
+	$(CC) $(CFLAGS) $(GUEST_LD) $(THREADS) -Wl,--wrap=ioctl,--wrap=__ioctl_time64 -o $@ $^ $(GPIO_LIB) -lm
 
 # What they play, made natively: build/cases/.
 CASES     := $(BUILD)/cases

@@ -107,6 +107,18 @@ static void add_io(struct block *block, const struct hal *hal)
 	    (unsigned long long)hal->reopened);
 }
 
+static void add_retain(struct block *block, const struct store *store)
+{
+	struct store_status status;
+
+	if (!store)
+		return;
+	status = store_status(store);
+	add(block, "retain: copy %u, %u values, %u writes, %u failed\n",
+	    (unsigned)status.copy, (unsigned)status.values,
+	    (unsigned)status.writes, (unsigned)status.failures);
+}
+
 void control_status(const struct cycle *cycle, bool wait)
 {
 	struct block block = { .len = 0 };
@@ -120,6 +132,7 @@ void control_status(const struct cycle *cycle, bool wait)
 	    (unsigned long long)cycle->late,
 	    (unsigned long long)cycle->resets);
 	add_io(&block, &cycle->hal);
+	add_retain(&block, cycle->store);
 	add(&block, "board: %.60s\nprogram: %s\n\n", cycle->board,
 	    cycle->identity);
 	put(STDOUT_FILENO, block.text, block.len, wait);
@@ -130,6 +143,14 @@ void control_tell(const char *text)
 	struct block block = { .len = 0 };
 
 	add(&block, "ladderd: %s\n", text);
+	put(STDERR_FILENO, block.text, block.len, false);
+}
+
+void control_tell_error(const char *text, const char *why)
+{
+	struct block block = { .len = 0 };
+
+	add(&block, "ladderd: %.80s: %.200s\n", text, why);
 	put(STDERR_FILENO, block.text, block.len, false);
 }
 

@@ -27,6 +27,8 @@ static void enter_fault(struct cycle *cycle, enum fault fault)
 	hal_write_safe(&cycle->hal);
 	cycle->tended_ns = clock_now();
 	control_tell_fault(cycle);
+	if (cycle->store)
+		store_hurry(cycle->store);
 	notify_send(&cycle->notify, "STATUS=FAULT, outputs are safe");
 }
 
@@ -40,6 +42,13 @@ static void tend_lines(struct cycle *cycle, int64_t now_ns)
 	hal_write_safe(&cycle->hal);
 	if (hal_quality(&cycle->hal) == QUALITY_FAULT)
 		hal_reopen(&cycle->hal);
+}
+
+static void start(struct cycle *cycle)
+{
+	resource_start(&cycle->resource);
+	if (cycle->store)
+		store_restore(cycle->store, &cycle->resource, clock_now());
 }
 
 static void reset(struct cycle *cycle)
@@ -56,7 +65,7 @@ static void reset(struct cycle *cycle)
 		return;
 	}
 	resource_stop(resource);
-	resource_start(resource);
+	start(cycle);
 	cycle->monitor.tripped = 0;
 	cycle->late_row = 0;
 	cycle->resets++;
@@ -79,6 +88,21 @@ static void serve_requests(struct cycle *cycle)
 	}
 }
 
+/* The program alone. What it retains is handed over after a whole scan only. */
+static bool scan_program(struct cycle *cycle, int64_t now_ns)
+{
+	struct resource *resource = &cycle->resource;
+	struct store *store = cycle->store;
+
+	if (!store)
+		return resource_scan(resource, now_ns);
+	now_ns = store_clock(store, now_ns);
+	if (!resource_scan(resource, now_ns))
+		return false;
+	store_take(store, &resource->image, now_ns);
+	return true;
+}
+
 /* Gives what happened during the reads, the program and the writes of a
  * scan. */
 static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
@@ -89,7 +113,7 @@ static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
 	if (!ReadPhysicalInputs(&cycle->hal, image, now_ns))
 		return FAULT_IO;
 	resource->io_fault = hal_quality(&cycle->hal) != QUALITY_GOOD;
-	if (!resource_scan(resource, now_ns))
+	if (!scan_program(cycle, now_ns))
 		return resource->fault;
 	if (cycle->monitor.tripped)
 		return FAULT_WATCHDOG;
@@ -178,7 +202,7 @@ int cycle_run(struct cycle *cycle)
 	int64_t due_ns = clock_now();
 	bool ready = false, was_fault = false;
 
-	resource_start(&cycle->resource);
+	start(cycle);
 	while (!is_done(cycle)) {
 		if (cycle->resource.state == STATE_RUN) {
 			if (was_fault)

@@ -13,6 +13,7 @@
 #include "ladderd/notify.h"
 #include "ladderd/safe.h"
 #include "ladderd/stats.h"
+#include "ladderd/store.h"
 
 struct cycle {
 	struct resource resource;
@@ -20,6 +21,7 @@ struct cycle {
 	struct monitor monitor;
 	struct notify notify;
 	struct requests *requests;
+	struct store *store;   /* of retained values; NULL: none              */
 	const char *board;
 	char identity[65];   /* SHA-256 of the program, hex               */
 	int64_t period_ns;

@@ -47,7 +47,17 @@ static void print_all_diags(const struct daemon *daemon)
 	print_diags(&daemon->load.diags);
 }
 
-static void print_memory(const struct daemon *daemon)
+static void print_retained(struct daemon *daemon)
+{
+	uint32_t values, bytes;
+
+	if (store_measure(&daemon->load.source.program, &daemon->load.arena,
+			  &values, &bytes))
+		printf("retain: %u bytes in %u values\n", (unsigned)bytes,
+		       (unsigned)values);
+}
+
+static void print_memory(struct daemon *daemon)
 {
 	const struct load *load = &daemon->load;
 
@@ -56,9 +66,25 @@ static void print_memory(const struct daemon *daemon)
 	printf("hal: at most %zu bytes, %d lines\n", hal_memory(&load->map),
 	       load->map.count);
 	printf("runtime: %zu bytes\n", sizeof(*daemon) + SAFE_STACK_BYTES);
+	print_retained(daemon);
 	printf("stack: at most %d bytes\n", STACK_BYTES);
 	printf("while loading: %zu bytes of text and translation more\n",
 	       load->source.other_bytes);
+}
+
+/* Without --retain, RETAIN is only a word. */
+static void warn_of_retain(struct daemon *daemon)
+{
+	const struct program *program = &daemon->load.source.program;
+	bool retains = program->header->retain_size > 0;
+
+	for (uint32_t i = 0; i < program->group_count; i++)
+		if (program->group[i].flags & SYMBOL_RETAIN)
+			retains = true;
+	if (retains && !daemon->options.retain.path)
+		diag_add(&daemon->load.diags, (struct diag){
+			.id = DIAG_RETAIN_IGNORED,
+			.file = daemon->options.file }, "%s", "");
 }
 
 /* Memory was written while loading, deeper stack used than a scan needs: what is
@@ -88,9 +114,16 @@ static int run_lines(struct daemon *daemon)
 			strerror(-error));
 		return status;
 	}
-	status = cycle_run(cycle);
+	error = cycle->store ? store_begin(cycle->store) : 0;
+	if (error)
+		fprintf(stderr, "ladderd: no thread for --retain: %s\n",
+			strerror(-error));
+	else
+		status = cycle_run(cycle);
 	monitor_stop(&cycle->monitor);
 	hal_write_safe(&cycle->hal);
+	if (cycle->store)
+		store_close(cycle->store); /* may wait for a slow disk */
 	if (cycle->clock_error)
 		fprintf(stderr, "ladderd: no clock: %s\n",
 			strerror(cycle->clock_error));
@@ -123,6 +156,13 @@ static int run(struct daemon *daemon)
 	cycle->watchdog = options->watchdog;
 	cycle->most_scans = options->scans;
 	cycle->requests = requests_listen();
+	if (options->retain.path) {
+		cycle->store = store_open(&options->retain,
+					  &cycle->resource.image, &load->arena,
+					  &status);
+		if (!cycle->store)
+			return status;
+	}
 	error = notify_open(&cycle->notify);
 	if (error)
 		fprintf(stderr, "ladderd: NOTIFY_SOCKET: %s\n",
@@ -130,6 +170,8 @@ static int run(struct daemon *daemon)
 	if (!hal_open(&cycle->hal, &load->map, &load->arena, &load->diags)) {
 		print_diags(&load->diags);
 		notify_close(&cycle->notify);
+		if (cycle->store)
+			store_close(cycle->store);
 		return 1;
 	}
 	if (options->trace_io)
@@ -152,6 +194,8 @@ static int load_and_run(struct daemon *daemon)
 
 	if (good && options->check)
 		good = hal_supported(&load->map, &load->diags);
+	if (good)
+		warn_of_retain(daemon);
 	print_all_diags(daemon);
 	diag_init(&load->diags);
 	if (!good)

@@ -25,6 +25,9 @@ const char *options_help(void)
 "  --watchdog N     N late scans in a row, or one of N periods, are a FAULT;\n"
 "                   1 to 1000, default 10\n"
 "  --rt PRIO        real-time priority 1 to 49, and memory locked\n"
+"  --retain FILE    keep VAR RETAIN over a power cut, in FILE (docs/boards.md)\n"
+"  --retain-period TIME  between two writes of FILE, 10ms to 1h; default 10s\n"
+"  --cold           start without the values in FILE\n"
 "  --scans N        stop after N scans, or at a FAULT, with a last status\n"
 "  --check          load everything, open nothing, print the memory needed\n"
 "  --trace-io       print each change of an output to stderr, as `%QX0.0 1`\n"
@@ -58,7 +61,8 @@ static bool set_file_map(struct options *options, const char *value)
 	return *value != 0;
 }
 
-static bool set_period(struct options *options, const char *value)
+static bool read_time(const char *value, int64_t least, int64_t most,
+		      int64_t *out)
 {
 	char text[40];
 	struct literal time;
@@ -68,8 +72,25 @@ static bool set_period(struct options *options, const char *value)
 	    literal_parse(text, (size_t)len, &time) != LITERAL_OK ||
 	    time.type != IEC_TIME)
 		return false;
-	options->period_ns = time.value.i;
-	return time.value.i >= PERIOD_LEAST && time.value.i <= PERIOD_MOST;
+	*out = time.value.i;
+	return time.value.i >= least && time.value.i <= most;
+}
+
+static bool set_period(struct options *options, const char *value)
+{
+	return read_time(value, PERIOD_LEAST, PERIOD_MOST, &options->period_ns);
+}
+
+static bool set_retain(struct options *options, const char *value)
+{
+	options->retain.path = value;
+	return *value != 0;
+}
+
+static bool set_retain_period(struct options *options, const char *value)
+{
+	return read_time(value, STORE_PERIOD_LEAST, STORE_PERIOD_MOST,
+			 &options->retain.period_ns);
 }
 
 static bool set_watchdog(struct options *options, const char *value)
@@ -104,6 +125,7 @@ static bool set_scans(struct options *options, const char *value)
 		options->member = true;                                       \
 		return true;                                                  \
 	}
+FLAG(set_cold, retain.cold)
 FLAG(set_check, check)
 FLAG(set_trace_io, trace_io)
 FLAG(set_help, help)
@@ -118,6 +140,9 @@ static const struct option_row {
 	{ "--period",   true,  set_period },
 	{ "--watchdog", true,  set_watchdog },
 	{ "--rt",       true,  set_priority },
+	{ "--retain",   true,  set_retain },
+	{ "--retain-period", true, set_retain_period },
+	{ "--cold",     false, set_cold },
 	{ "--scans",    true,  set_scans },
 	{ "--check",    false, set_check },
 	{ "--trace-io", false, set_trace_io },
@@ -164,6 +189,7 @@ bool options_read(struct options *options, int argc, char **argv)
 
 	memset(options, 0, sizeof(*options));
 	options->period_ns = 10000000;
+	options->retain.period_ns = INT64_C(10000000000);
 	options->watchdog = 10;
 	for (int i = 1; i < argc; i++) {
 		if (!only_files && strcmp(argv[i], "--") == 0)

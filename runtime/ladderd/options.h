@@ -5,6 +5,8 @@
 #ifndef LADDERD_OPTIONS_H
 #define LADDERD_OPTIONS_H
 
+#include "ladderd/store.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -14,6 +16,7 @@ struct options {
 	int64_t watchdog;      /* periods                                     */
 	uint64_t scans;        /* 0: for ever                                 */
 	int priority;          /* 0: none                                     */
+	struct store_wish retain; /* path NULL: no                            */
 	bool check, trace_io, help, version;
 	const char *wrong;     /* the argument that is                        */
 	const char *why;       /* what is wrong with it                       */

@@ -43,6 +43,7 @@ struct requests *requests_listen(void)
 	listen_to(SIGUSR1, on_request);
 	listen_to(SIGHUP, on_request);
 	listen_to(SIGPIPE, SIG_IGN);
+	listen_to(SIGXFSZ, SIG_IGN); /* a write then fails with EFBIG */
 	return &requests;
 }
 

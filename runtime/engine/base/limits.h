@@ -34,6 +34,7 @@
 #define LIMIT_IL_DEPTH    64        /* open parentheses of an IL list         */
 #define LIMIT_IMAGE       (64u << 20) /* bytes of a code image                */
 #define LIMIT_DATA        (8u << 20)  /* bytes of a program's data            */
+#define LIMIT_RETAIN      (16u << 20) /* bytes of one copy of retained values */
 #define LIMIT_BUDGET      10000000  /* instructions of one scan               */
 #define LIMIT_FORCES      256       /* forced variables at one time           */
 #define LIMIT_IO_POINTS   4096      /* lines of an I/O map                    */

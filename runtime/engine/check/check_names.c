@@ -196,9 +196,6 @@ static void check_table(struct names_check *c, const struct pou *pou,
 	for (int i = 0; i < table->block_count; i++) {
 		const struct var_block *block = &table->block[i];
 
-		if (block->flags & VAR_RETAIN)
-			report_line(c, DIAG_RETAIN_IGNORED, pou, block->line,
-				    "");
 		for (int k = 0; k < block->count; k++)
 			check_var(c, pou, table, block->first + k,
 				  block->flags);

@@ -111,6 +111,7 @@ struct symbol {
 	struct location at;
 	uint32_t flags;         /* enum symbol_flag                           */
 	bool is_input;          /* FB input pin                               */
+	const char *block;      /* word of the FB whose pin it is, or NULL    */
 };
 /**
  * image_next_symbol - steps through all declared variables; instances are given
@@ -122,6 +123,8 @@ struct symbol {
 struct symbol_cursor {
 	struct declared_cursor declared;
 	uint32_t pin;
+	bool whole;             /* set before: names with their POU, always,
+				   and what an instance keeps to itself too   */
 	char text[2 * LIMIT_NAME + 64];
 };
 bool image_next_symbol(const struct image *image, struct symbol_cursor *cursor,

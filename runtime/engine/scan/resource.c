@@ -23,6 +23,8 @@ static void begin_cold(struct resource *resource)
 	memset(&resource->fault_at, 0, sizeof(resource->fault_at));
 	memset(&resource->error_at, 0, sizeof(resource->error_at));
 	resource->late = false;
+	resource->warm = false;
+	resource->retain_lost = resource->retain_old_copy = false;
 	resource->scan_us = resource->scan_max_us = 0;
 }
 
@@ -76,9 +78,11 @@ static void write_system(struct resource *resource, int64_t now_ns)
 	bool failed = resource->vm.errors != resource->errors_before;
 
 	sm[0] = (uint8_t)(1u << 0 | (resource->scans == 0) << 1 |
+			  resource->retain_lost << 2 |
+			  resource->retain_old_copy << 3 |
 			  clock_bit(since, 60000) << 4 |
 			  clock_bit(since, 1000) << 5 |
-			  clock_bit(since, 100) << 6);
+			  clock_bit(since, 100) << 6 | resource->warm << 7);
 	sm[1] = (uint8_t)((resource->image.force_count > 0) << 0 |
 			  resource->late << 1 | resource->io_fault << 2 |
 			  failed << 3);

@@ -30,6 +30,7 @@ struct resource {
 	bool watch;                  /* run the instrumented section          */
 	/* Told by the caller before a scan; shown as SYS_ bits and words. */
 	bool late, io_fault;
+	bool warm, retain_lost, retain_old_copy; /* after resource_start()   */
 	uint32_t scan_us, scan_max_us;
 };
 

@@ -157,7 +157,8 @@ struct location image_find(const struct image *image, const char *name,
 static void print_name(const struct declared_name *symbol, const char *pin,
 		       struct symbol_cursor *cursor)
 {
-	bool pou = *symbol->pou && symbol->flags & SYMBOL_SHARED;
+	bool pou = *symbol->pou &&
+		   (cursor->whole || symbol->flags & SYMBOL_SHARED);
 
 	snprintf(cursor->text, sizeof(cursor->text), "%.255s%s%.255s%s%.40s",
 		 pou ? symbol->pou : "", pou ? "." : "", symbol->name,
@@ -171,7 +172,7 @@ static bool next_pin(const struct program *p, const struct declared_name *whole,
 	const struct word_row *row = instance_row(p, whole);
 	const struct word_pin *pin;
 
-	while (cursor->pin < row->pin_count &&
+	while (cursor->pin < row->pin_count && !cursor->whole &&
 	       row->pin[cursor->pin].dir == PIN_VAR)
 		cursor->pin++;
 	if (cursor->pin >= row->pin_count)
@@ -179,6 +180,7 @@ static bool next_pin(const struct program *p, const struct declared_name *whole,
 	pin = &row->pin[cursor->pin++];
 	out->at = pin_location(whole, pin);
 	out->is_input = pin->dir == PIN_IN;
+	out->block = row->word;
 	print_name(whole, pin->name, cursor);
 	return true;
 }

@@ -7,6 +7,7 @@
 #include "engine/trial/value.h"
 
 #include "engine/base/lex.h"
+#include "engine/scan/retain.h"
 
 #include <string.h>
 
@@ -267,6 +268,9 @@ static bool directive(struct script *script)
 	}
 	if (is_word(head, "@period"))
 		good = set_period(script, head);
+	else if (is_word(head, "@warm"))
+		good = script->dry || retain_start(script->resource) ||
+		       complain(script, DIAG_NO_MEMORY, head);
 	else if (!is_word(head, "@reset"))
 		return complain(script, DIAG_UNKNOWN_WORD, head);
 	else if (!script->dry)

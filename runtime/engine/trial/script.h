@@ -8,6 +8,7 @@
  *   @print %Q0..7    what is shown from here on; alone: everything declared
  *   @period 20       time from scan to scan, ms (or 20us, 1s, …)
  *   @reset           cold start; the clock and the scan number go on
+ *   @warm            the same, but what is VAR RETAIN keeps its value
  *   @echo text       `# text` in the trace
  *
  * The clock is a number. Nothing here waits, and a script that has an error
