@@ -4,6 +4,7 @@
  */
 #include "engine/scan/resource.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #define MS_NS INT64_C(1000000)
@@ -24,6 +25,7 @@ static void begin_cold(struct resource *resource)
 	memset(&resource->error_at, 0, sizeof(resource->error_at));
 	resource->late = false;
 	resource->scan_us = resource->scan_max_us = 0;
+	tasks_start(&resource->tasks, program, 0);
 }
 
 void resource_init(struct resource *resource, const struct program *program,
@@ -113,6 +115,89 @@ struct fault_place resource_place(const struct program *program, uint32_t text)
 	return out;
 }
 
+/* Was it too slow, or late too often? Only a clock can tell. */
+static bool is_too_slow(const struct resource *resource, uint32_t index,
+			int64_t took_ns)
+{
+	const struct code_task *task = &resource->image.program->task[index];
+	int64_t limit = task_watchdog(task), period = task_interval(task);
+
+	if (!limit)
+		limit = (period ? period : resource->period_ns) *
+			resource->patience;
+	return (limit && took_ns >= limit) ||
+	       (resource->patience &&
+		resource->tasks.state[index].late_row >= resource->patience);
+}
+
+/* The programs of a task, with a budget of its own. */
+static void run_task(struct resource *resource, uint32_t index, bool watch)
+{
+	const struct program *program = resource->image.program;
+	const struct code_task *task = &program->task[index];
+	struct vm *vm = &resource->vm;
+	enum fault fault = FAULT_NONE;
+
+	vm->budget = program->header->budget;
+	for (uint32_t i = 0; i < task->count && fault == FAULT_NONE; i++)
+		fault = vm_run(vm, program->call[task->first + i], watch);
+	if (fault == FAULT_NONE)
+		return;
+	resource_fail(resource, fault);
+	if (!watch)
+		resource->fault_at = resource_place(program, vm->fault_text);
+	if (tasks_declared(program))
+		resource->fault_at.task = task_name(program, index);
+}
+
+static void time_task(struct resource *resource, uint32_t index, bool watch)
+{
+	struct task_state *state = &resource->tasks.state[index];
+	int64_t begin_ns = resource->clock_ns();
+
+	run_task(resource, index, watch);
+	state->last_ns = resource->clock_ns() - begin_ns;
+	if (state->last_ns > state->max_ns)
+		state->max_ns = state->last_ns;
+	if (resource->state != STATE_RUN ||
+	    !is_too_slow(resource, index, state->last_ns))
+		return;
+	resource_fail(resource, FAULT_WATCHDOG);
+	resource->fault_at.task = task_name(resource->image.program, index);
+}
+
+/* In the first scan all tasks have their turn: they see SYS_FIRST_SCAN. */
+static bool must_yield(const struct resource *resource, uint32_t task)
+{
+	return resource->clock_ns && resource->scans > 0 &&
+	       tasks_must_yield(&resource->tasks, resource->image.program, task,
+				resource->clock_ns());
+}
+
+static void run_due(struct resource *resource, int64_t now_ns, bool watch)
+{
+	const struct program *program = resource->image.program;
+	const uint8_t *m = resource->image.memory;
+	struct tasks *tasks = &resource->tasks;
+	bool any = false;
+
+	tasks_begin(tasks, program, m, now_ns);
+	while (resource->state == STATE_RUN) {
+		uint32_t task = tasks_next(tasks, program);
+
+		if (task == program->task_count ||
+		    (any && must_yield(resource, task)))
+			return;
+		tasks_take(tasks, program, task, now_ns);
+		if (resource->clock_ns)
+			time_task(resource, task, watch);
+		else
+			run_task(resource, task, watch);
+		tasks_look(tasks, program, m);
+		any = true;
+	}
+}
+
 bool resource_scan(struct resource *resource, int64_t now_ns)
 {
 	const struct program *program = resource->image.program;
@@ -122,28 +207,37 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 
 	if (resource->state != STATE_RUN)
 		return false;
-	if (resource->scans == 0)
+	if (resource->scans == 0) {
 		resource->start_ns = now_ns;
+		tasks_start(&resource->tasks, program, resource->due_ns ?
+			    resource->due_ns : now_ns);
+	}
 	write_system(resource, now_ns);
 	image_begin(&resource->image);
 	vm->now_ns = now_ns;
-	vm->budget = program->header->budget;
-	for (uint32_t i = 0; i < program->entry_count; i++) {
-		enum fault fault = vm_run(vm, i, watch);
-
-		if (fault != FAULT_NONE) {
-			resource_fail(resource, fault);
-			if (!watch)
-				resource->fault_at = resource_place(program,
-							vm->fault_text);
-			break;
-		}
-	}
+	if (tasks_declared(program))
+		run_due(resource, now_ns, watch);
+	else if (program->task_count)
+		run_task(resource, 0, watch);
 	if (errors == 0 && vm->errors && !watch)
 		resource->error_at = resource_place(program, vm->error_text);
 	image_end(&resource->image);
 	resource->scans++;
 	return resource->state == STATE_RUN;
+}
+
+int resource_fault_print(const struct resource *resource, char *out, size_t size)
+{
+	const char *task = resource->fault_at.task;
+	const char *text = fault_text(resource->fault);
+
+	if (!task)
+		return snprintf(out, size, "%s", text);
+	if (resource->fault == FAULT_BUDGET)
+		text = "instruction budget exceeded";
+	if (resource->fault == FAULT_WATCHDOG)
+		text = "watchdog: too late or too long";
+	return snprintf(out, size, "task %.40s: %s", task, text);
 }
 
 /* Orders places; row and col are small, POUs and rungs have their limits. */
