@@ -82,8 +82,9 @@ static void has_order(void)
 	CHECK_TEXT(task_name(p, REST), "");
 	CHECK(task_interval(&p->task[FAST]) == 2 * MS);
 	CHECK(task_watchdog(&p->task[FAST]) == MS);
-	CHECK(tasks_tick(p, 0, 7) == 2 * MS);
-	CHECK(tasks_tick(p, 3 * MS, 7) == MS);
+	CHECK(tasks_tick(p, 0, 10 * MS) == 2 * MS);
+	CHECK(tasks_tick(p, 0, 5 * MS) == MS);
+	CHECK(tasks_tick(p, 3 * MS, 10 * MS) == MS);
 	CHECK_AS(tasks_tick(p, MS / 1000, 7) == LIMIT_TICK, "not too short");
 }
 

@@ -119,12 +119,9 @@ struct fault_place resource_place(const struct program *program, uint32_t text)
 static bool is_too_slow(const struct resource *resource, uint32_t index,
 			int64_t took_ns)
 {
-	const struct code_task *task = &resource->image.program->task[index];
-	int64_t limit = task_watchdog(task), period = task_interval(task);
+	int64_t limit = task_limit(&resource->image.program->task[index],
+				   resource->patience, resource->period_ns);
 
-	if (!limit)
-		limit = (period ? period : resource->period_ns) *
-			resource->patience;
 	return (limit && took_ns >= limit) ||
 	       (resource->patience &&
 		resource->tasks.state[index].late_row >= resource->patience);

@@ -22,6 +22,14 @@ int64_t task_watchdog(const struct code_task *task)
 	return join(task->watchdog);
 }
 
+int64_t task_limit(const struct code_task *task, uint32_t patience,
+		   int64_t period_ns)
+{
+	int64_t interval = task_interval(task), limit = task_watchdog(task);
+
+	return limit ? limit : (interval ? interval : period_ns) * patience;
+}
+
 const char *task_name(const struct program *program, uint32_t task)
 {
 	return program->string_bytes ?
@@ -54,8 +62,10 @@ int64_t tasks_tick(const struct program *program, int64_t period_ns,
 		if (program->task[i].kind == TASK_INTERVAL)
 			tick = common_divisor(task_interval(&program->task[i]),
 					      tick);
+		else if (!period_ns)
+			period_ns = preset_ns;
 	if (!tick)
-		return period_ns ? period_ns : preset_ns;
+		return period_ns;
 	tick = common_divisor(tick, period_ns);
 	return tick < LIMIT_TICK ? LIMIT_TICK : tick;
 }

@@ -28,6 +28,10 @@ struct tasks {
 
 int64_t task_interval(const struct code_task *task);
 int64_t task_watchdog(const struct code_task *task);
+/** task_limit - how long one run may take: its WATCHDOG, or @patience intervals, or,
+ * without an interval, @patience times @period_ns. 0: as long as it likes. */
+int64_t task_limit(const struct code_task *task, uint32_t patience,
+		   int64_t period_ns);
 /** task_name - as declared; "" of the task that nobody declared, and of an image
  * without names. Lives with the program. */
 const char *task_name(const struct program *program, uint32_t task);
@@ -40,8 +44,10 @@ bool tasks_declared(const struct program *program);
  * @period_ns: what the user asked for; 0: nothing
  * @preset_ns: when neither the user nor the program says anything
  *
- * The greatest common divisor of all intervals and @period_ns, but not less than
- * LIMIT_TICK: then a task runs in the first cycle behind its deadline.
+ * The greatest common divisor of all intervals and of @period_ns; of @preset_ns, too,
+ * if nobody gave @period_ns and there are tasks without an interval, which are looked
+ * at in every cycle. Not less than LIMIT_TICK: then a task runs in the first cycle
+ * behind its deadline.
  * Scan-safe: yes.
  */
 int64_t tasks_tick(const struct program *program, int64_t period_ns,
