@@ -31,6 +31,7 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 
 	cycle->period_ns = tasks_tick(program, period_ns, PERIOD);
 	cycle->watchdog = watchdog;
+	wall_offset(&cycle->wall, 0); /* what it allocates, it does now */
 	cycle->tasks = tasks_declared(program);
 	if (!cycle->tasks)
 		return watchdog * cycle->period_ns;
@@ -150,6 +151,7 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	enum fault fault;
 
 	resource->due_ns = *due_ns;
+	resource->wall_offset_ns = wall_offset(&cycle->wall, begin_ns);
 	stats_add(&cycle->wake, begin_ns - *due_ns);
 	monitor_begin(&cycle->monitor);
 	fault = scan_lines(cycle, begin_ns);

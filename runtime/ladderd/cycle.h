@@ -2,7 +2,7 @@
  *
  * cycle - one scan after the other, each at its absolute time.
  *
- * The only place of the runtime that reads a clock. It never catches up:
+ * With wall.c the only place of the runtime that reads a clock. It never catches up:
  * periods that were missed are counted and left out. It allocates nothing and
  * opens nothing but lines that were lost, and those only in FAULT.
  */
@@ -13,12 +13,14 @@
 #include "ladderd/notify.h"
 #include "ladderd/safe.h"
 #include "ladderd/stats.h"
+#include "ladderd/wall.h"
 
 struct cycle {
 	struct resource resource;
 	struct hal hal;
 	struct monitor monitor;
 	struct notify notify;
+	struct wall wall;
 	struct requests *requests;
 	const char *board;
 	char identity[65];   /* SHA-256 of the program, hex               */

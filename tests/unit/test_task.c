@@ -209,7 +209,7 @@ static void yields(void)
 
 static void told(const char *want)
 {
-	char text[80];
+	char text[96];
 
 	resource_fault_print(&rig.resource, text, sizeof(text));
 	CHECK_TEXT(text, want);

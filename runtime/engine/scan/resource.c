@@ -4,10 +4,11 @@
  */
 #include "engine/scan/resource.h"
 
-#include <stdio.h>
 #include <string.h>
 
-#define MS_NS INT64_C(1000000)
+#define MS_NS     INT64_C(1000000)
+#define SECOND_NS INT64_C(1000000000)
+#define DAY_NS    (86400 * SECOND_NS)
 
 static void begin_cold(struct resource *resource)
 {
@@ -25,6 +26,7 @@ static void begin_cold(struct resource *resource)
 	memset(&resource->error_at, 0, sizeof(resource->error_at));
 	resource->late = false;
 	resource->scan_us = resource->scan_max_us = 0;
+	resource->second_ns = INT64_MIN;
 	tasks_start(&resource->tasks, program, 0);
 }
 
@@ -34,6 +36,7 @@ void resource_init(struct resource *resource, const struct program *program,
 	memset(resource, 0, sizeof(*resource));
 	resource->image.program = program;
 	resource->image.memory = memory;
+	resource->wall_offset_ns = RESOURCE_WALL;
 	begin_cold(resource);
 	resource->state = STATE_STOP;
 }
@@ -69,8 +72,49 @@ static void store32(uint8_t *at, uint32_t value)
 	memcpy(at, &value, sizeof(value));
 }
 
+static void store64(uint8_t *at, int64_t value)
+{
+	memcpy(at, &value, sizeof(value));
+}
+
+/* What changes with the second: SMD24 … SMB47 but for the time of day. */
+static void write_calendar(struct resource *resource, uint8_t *sm, int64_t wall_ns)
+{
+	int64_t day = wall_ns / DAY_NS - (wall_ns % DAY_NS < 0);
+	int64_t second;
+	int year, month, of_month;
+
+	iec_civil(day, &year, &month, &of_month);
+	resource->day_ns = day * DAY_NS;
+	second = (wall_ns - resource->day_ns) / SECOND_NS;
+	resource->second_ns = resource->day_ns + second * SECOND_NS;
+	store64(sm + 24, resource->day_ns);
+	sm[40] = (uint8_t)year, sm[41] = (uint8_t)(year >> 8);
+	sm[42] = (uint8_t)month;
+	sm[43] = (uint8_t)of_month;
+	sm[44] = (uint8_t)(second / 3600);
+	sm[45] = (uint8_t)(second / 60 % 60);
+	sm[46] = (uint8_t)(second % 60);
+	/* 1970-01-01 was a Thursday. */
+	sm[47] = (uint8_t)((day % 7 + 10) % 7 + 1);
+}
+
+static void write_wall(struct resource *resource, uint8_t *sm, int64_t now_ns)
+{
+	uint64_t wall = (uint64_t)now_ns + (uint64_t)resource->wall_offset_ns;
+	int64_t wall_ns = (int64_t)wall;
+
+	/* Days at the ends of time would not fit. */
+	if (wall_ns < -INT64_MAX + DAY_NS || wall_ns > INT64_MAX - DAY_NS)
+		wall_ns = 0;
+	store64(sm + 16, wall_ns);
+	if ((uint64_t)wall_ns - (uint64_t)resource->second_ns >= SECOND_NS)
+		write_calendar(resource, sm, wall_ns);
+	store64(sm + 32, wall_ns - resource->day_ns);
+}
+
 /* System bits and words, rules R5 of the reliability design. Addresses are rows
- * of catalog.def: SMX0.x, SMX1.x, SMD4, SMD8, SMD12. */
+ * of catalog.def: SMX0.x, SMX1.x, SMD4, SMD8, SMD12, and the calendar above. */
 static void write_system(struct resource *resource, int64_t now_ns)
 {
 	uint8_t *sm = image_area(&resource->image, AREA_SM);
@@ -88,6 +132,7 @@ static void write_system(struct resource *resource, int64_t now_ns)
 	store32(sm + 8, resource->scan_max_us);
 	store32(sm + 12, resource->vm.errors);
 	resource->errors_before = resource->vm.errors;
+	write_wall(resource, sm, now_ns);
 }
 
 struct fault_place resource_place(const struct program *program, uint32_t text)
@@ -223,18 +268,30 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 	return resource->state == STATE_RUN;
 }
 
-int resource_fault_print(const struct resource *resource, char *out, size_t size)
+static size_t append(char *out, size_t at, size_t end, const char *text)
+{
+	while (*text && at + 1 < end)
+		out[at++] = *text++;
+	out[at] = '\0';
+	return at;
+}
+
+void resource_fault_print(const struct resource *resource, char *out, size_t size)
 {
 	const char *task = resource->fault_at.task;
 	const char *text = fault_text(resource->fault);
+	size_t at = 0;
 
-	if (!task)
-		return snprintf(out, size, "%s", text);
-	if (resource->fault == FAULT_BUDGET)
+	if (task && resource->fault == FAULT_BUDGET)
 		text = "instruction budget exceeded";
-	if (resource->fault == FAULT_WATCHDOG)
+	if (task && resource->fault == FAULT_WATCHDOG)
 		text = "watchdog: too late or too long";
-	return snprintf(out, size, "task %.40s: %s", task, text);
+	if (task) {
+		at = append(out, at, size, "task ");
+		at = append(out, at, size / 2, task);
+		at = append(out, at, size, ": ");
+	}
+	append(out, at, size, text);
 }
 
 /* Orders places; row and col are small, POUs and rungs have their limits. */

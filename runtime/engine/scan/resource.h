@@ -34,6 +34,8 @@ struct resource {
 	/* Told by the caller before a scan; shown as SYS_ bits and words. */
 	bool late, io_fault;
 	uint32_t scan_us, scan_max_us;
+	int64_t wall_offset_ns;      /* date and time of the wall - now_ns    */
+	int64_t second_ns, day_ns;   /* what SYS_SECOND and SYS_DATE show     */
 	/* Told by the caller once; not touched by a start. */
 	int64_t (*clock_ns)(void);   /* to time declared tasks; NULL: not     */
 	int64_t period_ns;           /* patience with tasks without INTERVAL  */
@@ -43,6 +45,10 @@ struct resource {
 	int64_t due_ns;              /* of the first scan: when it should have
 					begun, not after now; 0: now          */
 };
+
+/* What SYS_DATE_TIME begins with where nobody tells wall_offset_ns: in virtual time,
+ * DT#2000-01-01-00:00:00 at time 0. */
+#define RESOURCE_WALL INT64_C(946684800000000000)
 
 /** resource_init - in STOP, image as at a cold start. @memory as image_init. */
 void resource_init(struct resource *resource, const struct program *program,
@@ -74,8 +80,8 @@ bool resource_scan(struct resource *resource, int64_t now_ns);
 bool resource_power(const struct resource *resource, uint32_t pou, uint32_t rung,
 		    uint32_t row, uint32_t col, bool *in, bool *out);
 /** resource_fault_print - what went wrong, and in which task if tasks are declared:
- * "task Fast: watchdog". Returns as snprintf. Scan-safe: yes. */
-int resource_fault_print(const struct resource *resource, char *out, size_t size);
+ * "task Fast: watchdog: …". @size at least 96. Scan-safe: yes. */
+void resource_fault_print(const struct resource *resource, char *out, size_t size);
 /** resource_place - POU, rung and cell of a word of CODE_TEXT. */
 struct fault_place resource_place(const struct program *program, uint32_t text);
 #endif

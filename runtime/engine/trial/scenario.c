@@ -208,7 +208,7 @@ static void open_steps(struct scenario *scenario)
 static void report_fault(struct run *run)
 {
 	const struct fault_place *at = &run->resource->fault_at;
-	char text[80];
+	char text[96];
 
 	run->held = false;
 	sink_text(run->out, "# ");

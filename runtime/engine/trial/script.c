@@ -159,7 +159,7 @@ bool script_fault(const struct resource *resource, const char *file, int line,
 		.col = (int)resource->fault_at.col,
 	};
 
-	char text[80];
+	char text[96];
 
 	if (place.pou && !*place.pou)
 		place.pou = NULL;
