@@ -64,11 +64,11 @@ static void check_event(struct config_check *c, const struct config_item *item)
 	if (!item->single)
 		return;
 	m = scope_find(c->scope, NULL, item->single, &why);
-	if (m && m->type != IEC_BOOL)
-		why = DIAG_NOT_BOOL;
-	if (!m || m->type != IEC_BOOL || m->kind == MEANING_LITERAL)
-		report(c, m && m->type == IEC_BOOL ? DIAG_WRONG_CONSTANT : why,
-		       item, scope_text(c->scope, item->single));
+	if (m && m->kind == MEANING_LITERAL)
+		report(c, DIAG_EXPECTED, item, "a variable behind SINGLE");
+	else if (!m || m->type != IEC_BOOL)
+		report(c, m ? DIAG_NOT_BOOL : why, item,
+		       scope_text(c->scope, item->single));
 	else
 		uses_add(c->uses, m, USE_READ);
 }
