@@ -5,6 +5,8 @@
  */
 #include "engine/text/writer.h"
 
+#include "engine/text/text.h"
+
 struct config_writer {
 	const struct sink *sink;
 	const struct project *project;
@@ -95,4 +97,10 @@ void write_config(const struct sink *sink, const struct project *project)
 			put_item(&w, item);
 	}
 	sink_text(sink, "END_CONFIGURATION\n");
+}
+
+void text_write_config(const struct project *project, const struct sink *sink)
+{
+	if (project->config)
+		write_config(sink, project);
 }
