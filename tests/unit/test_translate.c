@@ -402,8 +402,8 @@ static void print_config(const struct project *project, const struct sink *sink)
 	int kept = 0;
 
 	for (int i = 0; config && i < config->count; i++)
-		if (config->item[i].kind != CONFIG_VARS)
-			config->item[kept++] = config->item[i];
+		if (config->entry[i].kind != CONFIG_VARS)
+			config->entry[kept++] = config->entry[i];
 	if (config)
 		config->count = kept;
 	text_write_config(project, sink);

@@ -14,7 +14,7 @@ struct draft {
 	struct code_header header;
 	struct code_program entry[1];
 	struct code_task task[3];
-	uint32_t call[2];
+	uint32_t call[2], calls;
 	struct code_run run[5];
 	uint32_t init[9];
 	struct code_bits bits[2];
@@ -107,10 +107,11 @@ static void draft_tasks(struct draft *d)
 	};
 	d->task[1] = (struct code_task){
 		.kind = TASK_EVENT, .single = own(FLAG), .priority = 3,
-		.first = 1, .count = 1,
+		.first = 1,
 	};
 	d->task[2] = (struct code_task){ .kind = TASK_CYCLE, .priority = 3,
-					 .first = 2 };
+					 .first = 1 };
+	d->calls = 1;
 }
 
 static void draft_maps(struct draft *d)
@@ -167,7 +168,7 @@ static uint32_t pack(const struct draft *d, uint8_t *bytes)
 	memcpy(bytes, &d->header, sizeof(d->header));
 	add(bytes, &len, CODE_PROGRAMS, d->entry, sizeof(d->entry));
 	add(bytes, &len, CODE_TASKS, d->task, sizeof(d->task));
-	add(bytes, &len, CODE_CALLS, d->call, sizeof(d->call));
+	add(bytes, &len, CODE_CALLS, d->call, d->calls * 4);
 	add(bytes, &len, CODE_LAYOUT, d->run, sizeof(d->run));
 	add(bytes, &len, CODE_INIT, d->init, sizeof(d->init));
 	add(bytes, &len, CODE_BITS, d->bits, sizeof(d->bits));
@@ -454,7 +455,8 @@ static void test_tasks(void)
 	REFUSED(d.task[1].single = CODE_OPERAND(8, 0));
 	REFUSED(d.task[1].single = CODE_OFFSET(d.header.data_size));
 	REFUSED(d.task[0].priority = 4);
-	REFUSED(d.call[1] = 1);
+	REFUSED(d.calls = 2);
+	REFUSED(d.call[0] = 1);
 	REFUSED(d.call[0] = UINT32_MAX);
 }
 

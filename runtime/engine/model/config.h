@@ -14,7 +14,7 @@
 enum config_kind { CONFIG_VARS, CONFIG_AREA, CONFIG_TASK, CONFIG_PROGRAM };
 
 /* One line; members of other kinds are 0. */
-struct config_item {
+struct config_entry {
 	enum config_kind kind;
 	bool inside;          /* of the RESOURCE                              */
 	uint32_t name;        /* TASK, PROGRAM: string id                     */
@@ -36,7 +36,7 @@ struct config {
 	bool has_resource;
 	uint32_t resource, on; /* string ids; on 0: not written               */
 	uint32_t resource_comment;
-	struct config_item *item;
+	struct config_entry *entry;
 	int count;
 	const char *file;     /* it stands in; borrowed from the arena        */
 	int line;

@@ -113,9 +113,9 @@ uint32_t project_area_bytes(const struct project *project, enum iec_area area)
 	uint32_t bytes = iec_area_row(area)->bytes;
 
 	for (int i = 0; config && i < config->count; i++)
-		if (config->item[i].kind == CONFIG_AREA &&
-		    config->item[i].area == area)
-			bytes = config->item[i].bytes;
+		if (config->entry[i].kind == CONFIG_AREA &&
+		    config->entry[i].area == area)
+			bytes = config->entry[i].bytes;
 	return bytes;
 }
 

@@ -274,7 +274,8 @@ bool verify_tasks(struct verifier *v)
 {
 	const struct program *p = v->program;
 
-	if (p->task_count > LIMIT_TASKS)
+	/* A program runs in one task: no image makes a scan of many calls. */
+	if (p->task_count > LIMIT_TASKS || p->call_count > p->entry_count)
 		return verify_refuse(v, p->task);
 	for (uint32_t i = 0; i < p->task_count; i++)
 		if (!check_task(v, &p->task[i]) ||

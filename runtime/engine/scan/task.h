@@ -26,17 +26,19 @@ struct tasks {
 	struct task_state state[LIMIT_TASKS];
 };
 
+/** task_interval, task_watchdog - in ns; 0: none. Scan-safe: yes. */
 int64_t task_interval(const struct code_task *task);
 int64_t task_watchdog(const struct code_task *task);
 /** task_limit - how long one run may take: its WATCHDOG, or @patience intervals, or,
- * without an interval, @patience times @period_ns. 0: as long as it likes. */
+ * without an interval, @patience times @period_ns. 0: as long as it likes.
+ * Scan-safe: yes. */
 int64_t task_limit(const struct code_task *task, uint32_t patience,
 		   int64_t period_ns);
 /** task_name - as declared; "" of the task that nobody declared, and of an image
- * without names. Lives with the program. */
+ * without names. Lives with the program. Scan-safe: yes. */
 const char *task_name(const struct program *program, uint32_t task);
 /** tasks_declared - does the program say which tasks it has? Without, one task runs
- * all programs in every cycle. */
+ * all programs in every cycle. Scan-safe: yes. */
 bool tasks_declared(const struct program *program);
 
 /**

@@ -79,7 +79,7 @@ static const char *const setting_word[SETTINGS] = {
 };
 
 /* NAME := VALUE; @given has a bit a setting. */
-static bool read_setting(struct reader *r, struct config_item *item,
+static bool read_setting(struct reader *r, struct config_entry *entry,
 			 unsigned int *given)
 {
 	int which = 0;
@@ -97,31 +97,31 @@ static bool read_setting(struct reader *r, struct config_item *item,
 		return false;
 	switch ((enum setting)which) {
 	case SET_INTERVAL:
-		return read_time(r, &item->interval_ns, &item->interval);
+		return read_time(r, &entry->interval_ns, &entry->interval);
 	case SET_SINGLE:
-		return read_single(r, &item->single);
+		return read_single(r, &entry->single);
 	case SET_PRIORITY:
-		return read_count(r, UINT16_MAX, &item->priority);
+		return read_count(r, UINT16_MAX, &entry->priority);
 	case SET_WATCHDOG:
-		return read_time(r, &item->watchdog_ns, &item->watchdog);
+		return read_time(r, &entry->watchdog_ns, &entry->watchdog);
 	case SETTINGS:
 		break;
 	}
 	return false;
 }
 
-static bool read_task(struct reader *r, struct config_item *item)
+static bool read_task(struct reader *r, struct config_entry *entry)
 {
 	unsigned int given = 0;
 	bool more;
 
-	if (!reader_name(r, "name of the task", &item->name))
+	if (!reader_name(r, "name of the task", &entry->name))
 		return false;
 	reader_step(r);
 	if (!step_past(r, "("))
 		return false;
 	do {
-		if (!read_setting(r, item, &given))
+		if (!read_setting(r, entry, &given))
 			return false;
 		more = reader_is(r, ',');
 		if (more)
@@ -135,25 +135,25 @@ static bool read_task(struct reader *r, struct config_item *item)
 
 /* ---- PROGRAM, AREA ---- */
 
-static bool read_instance(struct reader *r, struct config_item *item)
+static bool read_instance(struct reader *r, struct config_entry *entry)
 {
-	if (!reader_name(r, "name of the program", &item->name))
+	if (!reader_name(r, "name of the program", &entry->name))
 		return false;
 	reader_step(r);
 	if (lex_is(&r->lex, "WITH")) {
 		reader_step(r);
-		if (!reader_name(r, "name of the task", &item->task))
+		if (!reader_name(r, "name of the task", &entry->task))
 			return false;
 		reader_step(r);
 	}
 	if (!step_past(r, ":") ||
-	    !reader_name(r, "name of the program", &item->pou))
+	    !reader_name(r, "name of the program", &entry->pou))
 		return false;
 	reader_step(r);
 	return true;
 }
 
-static bool read_area(struct reader *r, struct config_item *item)
+static bool read_area(struct reader *r, struct config_entry *entry)
 {
 	const struct token *token = &r->lex.token;
 
@@ -161,32 +161,32 @@ static bool read_area(struct reader *r, struct config_item *item)
 		if (token->kind == TOKEN_NAME &&
 		    ascii_is(iec_area_row((enum iec_area)area)->letters,
 			     token->text, token->len))
-			item->area = (enum iec_area)area;
-	if (item->area == AREA_NONE)
+			entry->area = (enum iec_area)area;
+	if (entry->area == AREA_NONE)
 		return reader_fail_word(r, DIAG_EXPECTED,
 					"letters of an area, such as V");
 	reader_step(r);
-	return read_count(r, iec_area_row(item->area)->bytes, &item->bytes);
+	return read_count(r, iec_area_row(entry->area)->bytes, &entry->bytes);
 }
 
 /* ---- lines ---- */
 
-static struct config_item *add_item(struct reader *r, struct config *config,
-				    struct config_item item)
+static struct config_entry *add_entry(struct reader *r, struct config *config,
+				    struct config_entry entry)
 {
-	struct config_item *slot = NULL;
+	struct config_entry *slot = NULL;
 
 	if (config->count == 2 * LIMIT_POUS)
 		reader_fail_word(r, DIAG_TOO_MANY, "lines of a configuration");
-	else if (!(slot = arena_push(&r->project->arena, &config->item,
-				     &config->count, sizeof(item))))
+	else if (!(slot = arena_push(&r->project->arena, &config->entry,
+				     &config->count, sizeof(entry))))
 		r->no_memory = true;
 	if (slot)
-		*slot = item;
+		*slot = entry;
 	return slot;
 }
 
-static void skip_item(struct reader *r)
+static void skip_entry(struct reader *r)
 {
 	while (!reader_at_end(r) && !reader_is(r, ';'))
 		reader_next(r);
@@ -197,59 +197,59 @@ static void skip_item(struct reader *r)
 static bool has_tasks(const struct config *config, int most)
 {
 	for (int i = 0; i < config->count; i++)
-		most -= config->item[i].kind == CONFIG_TASK;
+		most -= config->entry[i].kind == CONFIG_TASK;
 	return most <= 0;
 }
 
-static void read_item(struct reader *r, struct config *config, bool inside)
+static void read_entry(struct reader *r, struct config *config, bool inside)
 {
-	struct config_item item = { .inside = inside,
+	struct config_entry entry = { .inside = inside,
 				    .line = r->lex.token.line };
 	bool good;
 
 	r->across_lines = true;
 	if (lex_is(&r->lex, "TASK")) {
-		item.kind = CONFIG_TASK;
+		entry.kind = CONFIG_TASK;
 		/* One is for programs without a task. */
 		if (has_tasks(config, LIMIT_TASKS - 1))
 			reader_fail_word(r, DIAG_TOO_MANY, "tasks");
 		reader_step(r);
-		good = read_task(r, &item);
+		good = read_task(r, &entry);
 	} else if (lex_is(&r->lex, "PROGRAM")) {
-		item.kind = CONFIG_PROGRAM;
+		entry.kind = CONFIG_PROGRAM;
 		reader_step(r);
-		good = read_instance(r, &item);
+		good = read_instance(r, &entry);
 	} else {
-		item.kind = CONFIG_AREA;
+		entry.kind = CONFIG_AREA;
 		reader_step(r);
-		good = read_area(r, &item);
+		good = read_area(r, &entry);
 	}
 	r->across_lines = false;
 	if (good && !reader_is(r, ';'))
 		good = reader_fail_word(r, DIAG_EXPECTED, ";");
 	if (!good) {
-		skip_item(r);
+		skip_entry(r);
 		return;
 	}
 	reader_next(r); /* a comment on the rest of the line is this one's */
-	item.comment = buffer_take(r, &r->note);
-	add_item(r, config, item);
+	entry.comment = buffer_take(r, &r->note);
+	add_entry(r, config, entry);
 }
 
 static void read_block(struct reader *r, struct config *config, bool inside)
 {
 	struct project *project = r->project;
-	struct config_item item = { .kind = CONFIG_VARS, .inside = inside,
+	struct config_entry entry = { .kind = CONFIG_VARS, .inside = inside,
 				    .line = r->lex.token.line };
 	uint32_t above = buffer_take(r, &r->note);
 
-	item.block = project->globals.block_count;
+	entry.block = project->globals.block_count;
 	read_vars(r, &project->globals, true);
 	r->comments = COMMENT_NOTE;
-	if (project->globals.block_count == item.block)
+	if (project->globals.block_count == entry.block)
 		return;
-	project->globals.block[item.block].comment = above;
-	add_item(r, config, item);
+	project->globals.block[entry.block].comment = above;
+	add_entry(r, config, entry);
 }
 
 /* What does not begin here ends the block it would stand in. */
@@ -261,7 +261,7 @@ static bool ends_config(const struct reader *r)
 	       lex_is(&r->lex, "INCLUDE") || lex_is(&r->lex, "VIEW");
 }
 
-static void read_items(struct reader *r, struct config *config, bool inside);
+static void read_entries(struct reader *r, struct config *config, bool inside);
 
 static void read_resource(struct reader *r, struct config *config)
 {
@@ -281,7 +281,7 @@ static void read_resource(struct reader *r, struct config *config)
 	}
 	reader_end_line(r);
 	config->resource_comment = buffer_take(r, &r->note);
-	read_items(r, config, true);
+	read_entries(r, config, true);
 	if (!lex_is(&r->lex, "END_RESOURCE")) {
 		reader_fail_open(r, &head);
 		return;
@@ -291,7 +291,7 @@ static void read_resource(struct reader *r, struct config *config)
 }
 
 /* A second level only for what stands in the resource. */
-static void read_items(struct reader *r, struct config *config, bool inside)
+static void read_entries(struct reader *r, struct config *config, bool inside)
 {
 	for (;;) {
 		reader_skip_newlines(r);
@@ -301,7 +301,7 @@ static void read_items(struct reader *r, struct config *config, bool inside)
 			read_block(r, config, inside);
 		else if (lex_is(&r->lex, "TASK") ||
 			 lex_is(&r->lex, "PROGRAM") || lex_is(&r->lex, "AREA"))
-			read_item(r, config, inside);
+			read_entry(r, config, inside);
 		else if (!inside && lex_is(&r->lex, "RESOURCE"))
 			read_resource(r, config);
 		else {
@@ -315,8 +315,8 @@ static void keep_last_comments(struct reader *r, struct config *config)
 {
 	uint32_t *id = &config->comment;
 
-	if (config->count && config->item[config->count - 1].kind != CONFIG_VARS)
-		id = &config->item[config->count - 1].comment;
+	if (config->count && config->entry[config->count - 1].kind != CONFIG_VARS)
+		id = &config->entry[config->count - 1].comment;
 	else if (config->has_resource)
 		id = &config->resource_comment;
 	if (r->note.len > 0)
@@ -337,11 +337,11 @@ void read_config(struct reader *r, struct config *config)
 	r->comments = COMMENT_NOTE;
 	reader_end_line(r);
 	config->comment = buffer_take(r, &r->note);
-	read_items(r, config, false);
+	read_entries(r, config, false);
 	if (lex_is(&r->lex, "END_RESOURCE")) {
 		reader_fail_token(r, DIAG_MISPLACED);
 		reader_skip_line(r);
-		read_items(r, config, false);
+		read_entries(r, config, false);
 	}
 	keep_last_comments(r, config);
 	r->comments = COMMENT_ABOVE;

@@ -26,47 +26,47 @@ static void put_comment(const struct config_writer *w, uint32_t comment)
 }
 
 static void put_task(const struct config_writer *w,
-		     const struct config_item *item)
+		     const struct config_entry *entry)
 {
-	put_id(w, "TASK ", item->name);
-	if (item->interval)
-		put_id(w, " (INTERVAL := ", item->interval);
+	put_id(w, "TASK ", entry->name);
+	if (entry->interval)
+		put_id(w, " (INTERVAL := ", entry->interval);
 	else
-		put_id(w, " (SINGLE := ", item->single);
-	sink_printf(w->sink, ", PRIORITY := %u", (unsigned)item->priority);
-	if (item->watchdog)
-		put_id(w, ", WATCHDOG := ", item->watchdog);
+		put_id(w, " (SINGLE := ", entry->single);
+	sink_printf(w->sink, ", PRIORITY := %u", (unsigned)entry->priority);
+	if (entry->watchdog)
+		put_id(w, ", WATCHDOG := ", entry->watchdog);
 	sink_text(w->sink, ");");
 }
 
 static void put_program(const struct config_writer *w,
-			const struct config_item *item)
+			const struct config_entry *entry)
 {
-	put_id(w, "PROGRAM ", item->name);
-	if (item->task)
-		put_id(w, " WITH ", item->task);
-	put_id(w, " : ", item->pou);
+	put_id(w, "PROGRAM ", entry->name);
+	if (entry->task)
+		put_id(w, " WITH ", entry->task);
+	put_id(w, " : ", entry->pou);
 	sink_text(w->sink, ";");
 }
 
-static void put_item(const struct config_writer *w,
-		     const struct config_item *item)
+static void put_entry(const struct config_writer *w,
+		     const struct config_entry *entry)
 {
-	if (item->kind == CONFIG_VARS) {
+	if (entry->kind == CONFIG_VARS) {
 		write_block(w->sink, w->project, &w->project->globals,
-			    item->block);
+			    entry->block);
 		return;
 	}
-	sink_text(w->sink, item->inside ? "    " : "  ");
-	if (item->kind == CONFIG_TASK)
-		put_task(w, item);
-	else if (item->kind == CONFIG_PROGRAM)
-		put_program(w, item);
+	sink_text(w->sink, entry->inside ? "    " : "  ");
+	if (entry->kind == CONFIG_TASK)
+		put_task(w, entry);
+	else if (entry->kind == CONFIG_PROGRAM)
+		put_program(w, entry);
 	else
 		sink_printf(w->sink, "AREA %s %u;",
-			    iec_area_row(item->area)->letters,
-			    (unsigned)item->bytes);
-	put_comment(w, item->comment);
+			    iec_area_row(entry->area)->letters,
+			    (unsigned)entry->bytes);
+	put_comment(w, entry->comment);
 }
 
 /* The lines outside the RESOURCE keep their side of it. */
@@ -79,8 +79,8 @@ void write_config(const struct sink *sink, const struct project *project)
 	put_id(&w, "CONFIGURATION ", config->name);
 	put_comment(&w, config->comment);
 	for (int i = 0; i <= config->count; i++) {
-		const struct config_item *item = &config->item[i];
-		bool inside = i < config->count && item->inside;
+		const struct config_entry *entry = &config->entry[i];
+		bool inside = i < config->count && entry->inside;
 
 		if (!done && !open && (inside || i == config->count)) {
 			put_id(&w, "  RESOURCE ", config->resource);
@@ -94,7 +94,7 @@ void write_config(const struct sink *sink, const struct project *project)
 			done = true;
 		}
 		if (i < config->count)
-			put_item(&w, item);
+			put_entry(&w, entry);
 	}
 	sink_text(sink, "END_CONFIGURATION\n");
 }

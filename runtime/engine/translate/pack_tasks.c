@@ -37,13 +37,13 @@ static void add_named(struct assembler *as, struct code_task *task,
 	const struct translation *t = as->translation;
 
 	for (int i = 0; i < config->count; i++) {
-		const struct config_item *item = &config->item[i];
+		const struct config_entry *entry = &config->entry[i];
 
-		if (item->kind != CONFIG_PROGRAM ||
-		    (name ? !same_name(as, item->task, name) : item->task != 0))
+		if (entry->kind != CONFIG_PROGRAM ||
+		    (name ? !same_name(as, entry->task, name) : entry->task != 0))
 			continue;
 		for (int k = 0; k < t->unit_count; k++)
-			if (same_name(as, t->unit[k].pou->name, item->pou))
+			if (same_name(as, t->unit[k].pou->name, entry->pou))
 				add_call(as, task, k);
 	}
 }
@@ -82,20 +82,20 @@ static struct code_task *new_task(struct assembler *as)
 	return task;
 }
 
-static void add_task(struct assembler *as, const struct config_item *item)
+static void add_task(struct assembler *as, const struct config_entry *entry)
 {
 	struct code_task *task = new_task(as);
 
 	if (!task)
 		return;
-	task->kind = item->single ? TASK_EVENT : TASK_INTERVAL;
-	task->priority = item->priority;
-	split(item->interval_ns, task->interval);
-	split(item->watchdog_ns, task->watchdog);
-	if (item->single)
-		task->single = event_of(as, item->single);
-	add_named(as, task, item->name);
-	task->name = item->name; /* until pack_image knows its string */
+	task->kind = entry->single ? TASK_EVENT : TASK_INTERVAL;
+	task->priority = entry->priority;
+	split(entry->interval_ns, task->interval);
+	split(entry->watchdog_ns, task->watchdog);
+	if (entry->single)
+		task->single = event_of(as, entry->single);
+	add_named(as, task, entry->name);
+	task->name = entry->name; /* until pack_image knows its string */
 }
 
 /* By priority, otherwise as they stand: each is put before those behind it. */
@@ -118,9 +118,9 @@ bool pack_tasks(struct assembler *as)
 	bool any = false;
 
 	for (int i = 0; i < config->count; i++) {
-		any |= config->item[i].kind == CONFIG_PROGRAM;
-		if (config->item[i].kind == CONFIG_TASK)
-			add_task(as, &config->item[i]);
+		any |= config->entry[i].kind == CONFIG_PROGRAM;
+		if (config->entry[i].kind == CONFIG_TASK)
+			add_task(as, &config->entry[i]);
 	}
 	sort_tasks(as);
 	last = new_task(as);

@@ -18,24 +18,24 @@ static const struct config *config_of(const struct project *project)
 }
 
 static const char *subject_of(const struct project *project,
-			      const struct config_item *item)
+			      const struct config_entry *entry)
 {
-	return item->kind == CONFIG_AREA ? iec_area_row(item->area)->letters :
-					   project_text(project, item->name);
+	return entry->kind == CONFIG_AREA ? iec_area_row(entry->area)->letters :
+					   project_text(project, entry->name);
 }
 
 /* The line of @project that is about the same; NULL: there is none. */
-static const struct config_item *same_line(const struct project *project,
-					   const struct config_item *item,
+static const struct config_entry *same_line(const struct project *project,
+					   const struct config_entry *entry,
 					   const char *subject)
 {
 	const struct config *config = config_of(project);
 
 	for (int i = 0; i < config->count; i++) {
-		const struct config_item *other = &config->item[i];
+		const struct config_entry *other = &config->entry[i];
 		const char *text = subject_of(project, other);
 
-		if (other->kind == item->kind && strlen(text) == strlen(subject) &&
+		if (other->kind == entry->kind && strlen(text) == strlen(subject) &&
 		    ascii_same(text, subject, strlen(text)))
 			return other;
 	}
@@ -59,9 +59,9 @@ static void compare_numbers(struct diff *diff, struct difference what,
 	diff_texts(diff, what, property, from, to);
 }
 
-static void compare_item(struct diff *diff, struct difference what,
-			 const struct config_item *a,
-			 const struct config_item *b)
+static void compare_entry(struct diff *diff, struct difference what,
+			 const struct config_entry *a,
+			 const struct config_entry *b)
 {
 	compare_ids(diff, what, "INTERVAL", a->interval, b->interval);
 	compare_ids(diff, what, "SINGLE", a->single, b->single);
@@ -73,14 +73,14 @@ static void compare_item(struct diff *diff, struct difference what,
 	compare_ids(diff, what, "comment", a->comment, b->comment);
 }
 
-static const char *kind_of(const struct config_item *item)
+static const char *kind_of(const struct config_entry *entry)
 {
 	static const char *const kind[] = {
 		[CONFIG_VARS] = "", [CONFIG_AREA] = "area",
 		[CONFIG_TASK] = "task", [CONFIG_PROGRAM] = "instance",
 	};
 
-	return kind[item->kind];
+	return kind[entry->kind];
 }
 
 void diff_config(struct diff *diff)
@@ -95,25 +95,25 @@ void diff_config(struct diff *diff)
 	compare_ids(diff, what, "comment of the resource", a->resource_comment,
 		    b->resource_comment);
 	for (int i = 0; i < a->count; i++) {
-		const struct config_item *item = &a->item[i], *other;
+		const struct config_entry *entry = &a->entry[i], *other;
 
-		what.kind = kind_of(item);
-		what.subject = subject_of(diff->a, item);
-		if (item->kind == CONFIG_VARS)
+		what.kind = kind_of(entry);
+		what.subject = subject_of(diff->a, entry);
+		if (entry->kind == CONFIG_VARS)
 			continue;
-		other = same_line(diff->b, item, what.subject);
+		other = same_line(diff->b, entry, what.subject);
 		what.change = other ? NULL : "removed";
 		if (other)
-			compare_item(diff, what, item, other);
+			compare_entry(diff, what, entry, other);
 		else
 			diff_say(diff, what);
 	}
 	what.change = "added";
 	for (int i = 0; i < b->count; i++) {
-		what.kind = kind_of(&b->item[i]);
-		what.subject = subject_of(diff->b, &b->item[i]);
-		if (b->item[i].kind != CONFIG_VARS &&
-		    !same_line(diff->a, &b->item[i], what.subject))
+		what.kind = kind_of(&b->entry[i]);
+		what.subject = subject_of(diff->b, &b->entry[i]);
+		if (b->entry[i].kind != CONFIG_VARS &&
+		    !same_line(diff->a, &b->entry[i], what.subject))
 			diff_say(diff, what);
 	}
 }
