@@ -68,8 +68,9 @@ static bool run_body(struct bench *bench)
 
 	resource->vm.now_ns = bench->now_ns += PERIOD_NS;
 	resource->vm.budget = program->header->budget;
-	for (uint32_t i = 0; i < program->entry_count; i++)
-		good = vm_run(&resource->vm, i, false) == FAULT_NONE && good;
+	for (uint32_t i = 0; i < program->call_count; i++)
+		good = vm_run(&resource->vm, program->call[i], false) ==
+		       FAULT_NONE && good;
 	return good;
 }
 

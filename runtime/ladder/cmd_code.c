@@ -12,7 +12,8 @@
 #include <sys/stat.h>
 
 static const char *const section_name[CODE_SECTION_COUNT] = {
-	[CODE_PROGRAMS] = "programs", [CODE_LAYOUT] = "layout",
+	[CODE_PROGRAMS] = "programs", [CODE_TASKS] = "tasks",
+	[CODE_CALLS] = "calls", [CODE_LAYOUT] = "layout",
 	[CODE_INIT] = "initial values", [CODE_BITS] = "bits",
 	[CODE_TEXT] = "instructions", [CODE_WATCH] = "instructions, watched",
 	[CODE_SYMBOLS] = "symbols", [CODE_POWER] = "power of cells",

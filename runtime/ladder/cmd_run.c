@@ -110,22 +110,29 @@ static enum status apply_settings(struct call *call, struct board *board)
 static enum status take_pace(struct call *call, struct pace *pace)
 {
 	const char *speed = call_option(call, "--speed");
-	double times = 1;
 	int64_t scans;
 	char *end;
 
-	if (!report_period(call, "--period", 10 * VALUE_MS, &pace->period_ns) ||
+	if (!report_period(call, "--period", 0, &pace->period_ns) ||
 	    !report_count(call, "--scans", 0, INT64_MAX / 2, &scans))
 		return STATUS_WRONG;
+	pace->speed = 1;
 	if (speed) {
-		times = strtod(speed, &end);
-		if (end == speed || *end || !(times >= 1e-6 && times <= 1e9))
+		pace->speed = strtod(speed, &end);
+		if (end == speed || *end ||
+		    !(pace->speed >= 1e-6 && pace->speed <= 1e9))
 			return report_usage(call, "--speed wants a number "
 					    "such as 10, not %.12s", speed);
 	}
 	pace->most = (uint64_t)scans;
-	pace->wall_period_ns = (double)pace->period_ns / times;
 	return STATUS_GOOD;
+}
+
+/* As ladderd would: the program's tasks have a say in the period. */
+static void settle_pace(struct pace *pace, const struct program *program)
+{
+	pace->period_ns = tasks_tick(program, pace->period_ns, 10 * VALUE_MS);
+	pace->wall_period_ns = (double)pace->period_ns / pace->speed;
 }
 
 static enum status run(struct call *call, struct machine *machine,
@@ -163,8 +170,10 @@ enum status cmd_run(struct call *call)
 	if (status != STATUS_GOOD)
 		return status;
 	status = machine_open(&machine, call->arg[0]);
-	if (status == STATUS_GOOD)
+	if (status == STATUS_GOOD) {
+		settle_pace(&pace, ladder_program(machine.ladder));
 		status = run(call, &machine, &pace);
+	}
 	machine_close(&machine);
 	return status;
 }

@@ -46,9 +46,12 @@ enum status cmd_trace(struct call *call)
 
 	if (csv && vcd)
 		return report_usage(call, "--csv and --vcd exclude each other");
-	if (!report_period(call, "--period", 10 * VALUE_MS, &period_ns))
+	if (!report_period(call, "--period", 0, &period_ns))
 		return STATUS_WRONG;
 	status = machine_open(&machine, call->arg[0]);
+	if (status == STATUS_GOOD && !period_ns)
+		period_ns = tasks_tick(ladder_program(machine.ladder), 0,
+				       10 * VALUE_MS);
 	if (status == STATUS_GOOD)
 		status = run(call, &machine, csv ? TRACE_CSV :
 			     vcd ? TRACE_VCD : TRACE_LINES, period_ns);

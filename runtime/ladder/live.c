@@ -75,7 +75,8 @@ static void put_state(struct live *live)
 
 	if (resource->state == STATE_FAULT) {
 		screen_put(screen, STYLE_BAD, " FAULT: ");
-		screen_put(screen, STYLE_BAD, fault_text(resource->fault));
+		resource_fault_print(resource, text, sizeof(text));
+		screen_put(screen, STYLE_BAD, text);
 		snprintf(text, sizeof(text), ", rung %u (%u,%u)",
 			 resource->fault_at.rung, resource->fault_at.row,
 			 resource->fault_at.col);

@@ -11,6 +11,7 @@
  * the clock on the wall does: when the machine cannot keep up, it goes slower. */
 struct pace {
 	int64_t period_ns;   /* of program time                              */
+	double speed;        /* of the wall's time                           */
 	double wall_period_ns; /* the same on the wall: period / speed       */
 	int64_t wall_start_ns; /* of the grid below                          */
 	double ticks;        /* periods since then                           */

@@ -47,7 +47,7 @@ enum status machine_open(struct machine *machine, const char *path);
 void machine_close(struct machine *machine);
 
 /**
- * report_period - a time option in ns, more than 0
+ * report_period - a time option in ns, more than 0; @preset_ns if it is not given
  * @preset_ns: when it is not given
  * Fails: false after a message about wrong usage.
  */

@@ -84,10 +84,10 @@ static void add_state(struct block *block, const struct resource *resource)
 		[STATE_STOP] = "STOP", [STATE_RUN] = "RUN",
 		[STATE_FAULT] = "FAULT",
 	};
+	char fault[96];
 
-	add(block, "state: %s\nfault: %s", state[resource->state],
-	    resource->fault == FAULT_NONE ? "none" :
-					    fault_text(resource->fault));
+	resource_fault_print(resource, fault, sizeof(fault));
+	add(block, "state: %s\nfault: %s", state[resource->state], fault);
 	add_place(block, &resource->fault_at);
 	add(block, "\nerrors: %u", (unsigned)resource->vm.errors);
 	add_place(block, &resource->error_at);
@@ -119,6 +119,39 @@ static void add_retain(struct block *block, const struct store *store)
 	    (unsigned)status.writes, (unsigned)status.failures);
 }
 
+/* One line a task; a full block goes out between them. */
+static void put_tasks(const struct resource *resource, struct block *block,
+		      bool wait)
+{
+	const struct program *program = resource->image.program;
+
+	for (uint32_t i = 0; i < program->task_count; i++) {
+		const struct code_task *task = &program->task[i];
+		const struct task_state *state = &resource->tasks.state[i];
+		const char *name = task_name(program, i);
+
+		if (block->len > BLOCK_BYTES / 2) {
+			put(STDOUT_FILENO, block->text, block->len, wait);
+			block->len = 0;
+		}
+		if (*name)
+			add(block, "task %.40s: ", name);
+		else
+			add(block, "task %u: ", (unsigned)i + 1);
+		if (task->kind == TASK_INTERVAL)
+			add_us(block, "every", task_interval(task));
+		else
+			add(block, "%s", task->kind == TASK_EVENT ? "on event" :
+								    "in every cycle");
+		add(block, ", runs %llu, overruns %llu",
+		    (unsigned long long)state->runs,
+		    (unsigned long long)state->overruns);
+		add_us(block, ", last", state->last_ns);
+		add_us(block, ", max", state->max_ns);
+		add(block, "\n");
+	}
+}
+
 void control_status(const struct cycle *cycle, bool wait)
 {
 	struct block block = { .len = 0 };
@@ -131,6 +164,8 @@ void control_status(const struct cycle *cycle, bool wait)
 	add(&block, "late: %llu\nresets: %llu\n",
 	    (unsigned long long)cycle->late,
 	    (unsigned long long)cycle->resets);
+	if (cycle->tasks)
+		put_tasks(&cycle->resource, &block, wait);
 	add_io(&block, &cycle->hal);
 	add_retain(&block, cycle->store);
 	add(&block, "board: %.60s\nprogram: %s\n\n", cycle->board,
@@ -158,9 +193,10 @@ void control_tell_fault(const struct cycle *cycle)
 {
 	const struct resource *resource = &cycle->resource;
 	struct block block = { .len = 0 };
+	char fault[96];
 
-	add(&block, "ladderd: FAULT, outputs are safe: %s",
-	    fault_text(resource->fault));
+	resource_fault_print(resource, fault, sizeof(fault));
+	add(&block, "ladderd: FAULT, outputs are safe: %s", fault);
 	add_place(&block, &resource->fault_at);
 	add(&block, "\n");
 	put(STDERR_FILENO, block.text, block.len, false);

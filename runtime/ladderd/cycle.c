@@ -12,6 +12,7 @@
 #define SLICE_NS 100000000  /* longest sleep without a look at requests */
 #define TEND_NS  1000000000 /* lines in FAULT are looked after so often */
 #define SECOND   INT64_C(1000000000)
+#define PERIOD   INT64_C(10000000) /* when nobody asks for another */
 
 static int64_t clock_now(void)
 {
@@ -19,6 +20,28 @@ static int64_t clock_now(void)
 
 	clock_gettime(CLOCK_MONOTONIC, &now);
 	return now.tv_sec * SECOND + now.tv_nsec;
+}
+
+/* A scan may run all tasks, each as long as its own limit. */
+int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
+{
+	struct resource *resource = &cycle->resource;
+	const struct program *program = resource->image.program;
+	int64_t limit_ns = 0;
+
+	cycle->period_ns = tasks_tick(program, period_ns, PERIOD);
+	cycle->watchdog = watchdog;
+	wall_offset(&cycle->wall, 0); /* what it allocates, it does now */
+	cycle->tasks = tasks_declared(program);
+	if (!cycle->tasks)
+		return watchdog * cycle->period_ns;
+	resource->clock_ns = clock_now;
+	resource->patience = (uint32_t)watchdog;
+	resource->period_ns = period_ns ? period_ns : PERIOD;
+	for (uint32_t i = 0; i < program->task_count; i++)
+		limit_ns += task_limit(&program->task[i], resource->patience,
+				       resource->period_ns);
+	return limit_ns;
 }
 
 static void enter_fault(struct cycle *cycle, enum fault fault)
@@ -137,12 +160,22 @@ static void count_late(struct cycle *cycle, int64_t *due_ns, int64_t end_ns)
 	cycle->late_row++;
 }
 
+static bool is_too_slow(const struct cycle *cycle, int64_t took_ns)
+{
+	if (cycle->monitor.tripped || cycle->tasks)
+		return cycle->monitor.tripped;
+	return cycle->late_row >= cycle->watchdog ||
+	       took_ns >= cycle->watchdog * cycle->period_ns;
+}
+
 static void scan_once(struct cycle *cycle, int64_t *due_ns)
 {
 	struct resource *resource = &cycle->resource;
 	int64_t begin_ns = clock_now(), took_ns;
 	enum fault fault;
 
+	resource->due_ns = *due_ns;
+	resource->wall_offset_ns = wall_offset(&cycle->wall, begin_ns);
 	stats_add(&cycle->wake, begin_ns - *due_ns);
 	monitor_begin(&cycle->monitor);
 	fault = scan_lines(cycle, begin_ns);
@@ -154,9 +187,7 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 	if (resource->scan_us > resource->scan_max_us)
 		resource->scan_max_us = resource->scan_us;
 	count_late(cycle, due_ns, begin_ns + took_ns);
-	if (fault == FAULT_NONE &&
-	    (cycle->monitor.tripped || cycle->late_row >= cycle->watchdog ||
-	     took_ns >= cycle->watchdog * cycle->period_ns))
+	if (fault == FAULT_NONE && is_too_slow(cycle, took_ns))
 		fault = FAULT_WATCHDOG;
 	if (fault != FAULT_NONE)
 		enter_fault(cycle, fault);

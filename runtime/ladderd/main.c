@@ -102,13 +102,13 @@ static void make_real_time(int priority)
 			strerror(errno));
 }
 
-static int run_lines(struct daemon *daemon)
+static int run_lines(struct daemon *daemon, int64_t limit_ns)
 {
 	struct cycle *cycle = &daemon->cycle;
 	int error, status = 1;
 
 	error = monitor_start(&cycle->monitor, &cycle->hal, cycle->requests,
-			      cycle->watchdog * cycle->period_ns);
+			      limit_ns);
 	if (error) {
 		fprintf(stderr, "ladderd: no watchdog timer: %s\n",
 			strerror(-error));
@@ -142,6 +142,7 @@ static int run(struct daemon *daemon)
 	void *memory = arena_alloc(&load->arena, image_memory_size(program));
 	void *stack = arena_alloc(&load->arena, SAFE_STACK_BYTES);
 	uint8_t identity[32];
+	int64_t limit_ns;
 	int status, error;
 
 	if (!settled || !memory || !stack) {
@@ -152,8 +153,7 @@ static int run(struct daemon *daemon)
 	code_identity(program, identity);
 	digest_hex(identity, sizeof(identity), cycle->identity);
 	cycle->board = load->map.board;
-	cycle->period_ns = options->period_ns;
-	cycle->watchdog = options->watchdog;
+	limit_ns = cycle_plan(cycle, options->period_ns, options->watchdog);
 	cycle->most_scans = options->scans;
 	cycle->requests = requests_listen();
 	if (options->retain.path) {
@@ -179,7 +179,7 @@ static int run(struct daemon *daemon)
 	safe_on_crash(&cycle->hal, stack);
 	if (options->priority)
 		make_real_time(options->priority);
-	status = run_lines(daemon);
+	status = run_lines(daemon, limit_ns);
 	safe_on_crash(NULL, NULL);
 	hal_close(&cycle->hal);
 	notify_close(&cycle->notify);

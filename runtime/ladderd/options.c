@@ -21,9 +21,10 @@ const char *options_help(void)
 "\n"
 "  FILE             a rung file, or a code image made by `ladder build`\n"
 "  --io MAP         which pin each address is (docs/boards.md)\n"
-"  --period TIME    from one scan to the next, 100us to 1m; default 10ms\n"
-"  --watchdog N     N late scans in a row, or one of N periods, are a FAULT;\n"
-"                   1 to 1000, default 10\n"
+"  --period TIME    from one scan to the next, 100us to 1m; default 10ms, or what\n"
+"                   the tasks of the program want\n"
+"  --watchdog N     N late scans in a row, or one of N periods, are a FAULT; so\n"
+"                   are those of a task; 1 to 1000, default 10\n"
 "  --rt PRIO        real-time priority 1 to 49, and memory locked\n"
 "  --retain FILE    keep VAR RETAIN over a power cut, in FILE (docs/boards.md)\n"
 "  --retain-period TIME  between two writes of FILE, 10ms to 1h; default 10s\n"
@@ -188,7 +189,6 @@ bool options_read(struct options *options, int argc, char **argv)
 	bool only_files = false;
 
 	memset(options, 0, sizeof(*options));
-	options->period_ns = 10000000;
 	options->retain.period_ns = INT64_C(10000000000);
 	options->watchdog = 10;
 	for (int i = 1; i < argc; i++) {

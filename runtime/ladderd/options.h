@@ -12,7 +12,7 @@
 
 struct options {
 	const char *file, *map;
-	int64_t period_ns;
+	int64_t period_ns;     /* 0: not given                                */
 	int64_t watchdog;      /* periods                                     */
 	uint64_t scans;        /* 0: for ever                                 */
 	int priority;          /* 0: none                                     */

@@ -269,6 +269,98 @@ SKIP: {
 		'a code image');
 }
 
+# ---- tasks ----
+{
+	my $body = <<'END';
+VAR
+  Motor AT %QX0.0 : BOOL;
+  Brake AT %QX0.1 : BOOL;
+  Bell  AT %IX0.0 : BOOL;
+  Fasts, Slows, Bells : DINT;
+END_VAR
+
+PROGRAM Quick IL
+  LD    Fasts
+  ADD   1
+  ST    Fasts
+  LD    SYS_YEAR
+  GT    2025
+  ST    Motor
+  STN   Brake
+END_PROGRAM
+
+PROGRAM Slowly IL
+  LD    Slows
+  ADD   1
+  ST    Slows
+  LD    Fasts
+  LT    3
+  RETC
+Again:
+  LD    Slows
+  ADD   1
+  ST    Slows
+  LT    LIMIT
+  JMPC  Again
+END_PROGRAM
+
+PROGRAM Rings IL
+  LD    Bells
+  ADD   1
+  ST    Bells
+END_PROGRAM
+END
+	my $config = <<'END';
+RUNGBOARD 1
+
+CONFIGURATION Plant
+  TASK Slow (INTERVAL := T#10ms, PRIORITY := 5 SLOW);
+  TASK Fast (INTERVAL := T#2ms, PRIORITY := 1);
+  TASK Ring (SINGLE := Bell, PRIORITY := 0);
+  PROGRAM A WITH Fast : Quick;
+  PROGRAM B WITH Slow : Slowly;
+  PROGRAM C WITH Ring : Rings;
+END_CONFIGURATION
+
+END
+	my $make = sub {
+		my ($name, $limit, $slow) = @_;
+		my $text = $config . $body;
+		$text =~ s/LIMIT/$limit/;
+		$text =~ s/ SLOW/$slow/;
+		return put($name, $text);
+	};
+	my $calm = $make->('calm.rung', 3, '');
+	is(run($ladderd, $calm, '--io', $map, '--scans', '21', @traced), 0,
+		'tasks run');
+	my $status = get('out');
+	like($status, qr/^period: 2000\.0 us$/m,
+		'every 2 ms: 2, 10, and the 10 of events');
+	like($status, qr/^task Ring: on event, runs 1, overruns 0, last /m,
+		'one event, the input that was on at first');
+	like($status, qr/^task Fast: every 2000\.0 us, runs \d\d, overruns \d+, last .* us, max .* us$/m,
+		'the fast one');
+	like($status, qr/^task Slow: every 10000\.0 us, runs \d+, /m,
+		'the slow one');
+	like(get('err'), qr/^%QX0\.0 1$/m, 'SYS_YEAR is of this century');
+	is(run($ladderd, $calm, '--io', $map, '--scans', '9', '--period', '1ms'),
+		0, '--period');
+	like(get('out'), qr/^period: 1000\.0 us$/m, 'divides what tasks want');
+
+	my $slow = $make->('slow.rung', 100000, ', WATCHDOG := T#100us');
+	is(run($ladderd, $slow, '--io', $map, '--scans', '99', @traced), 1,
+		'a task beyond its WATCHDOG');
+	like(get('err'), qr/^ladderd: FAULT, outputs are safe: task Slow: watchdog: /m,
+		'is a FAULT that names it');
+	is_safe('a task beyond its WATCHDOG');
+	my $wild = $make->('wild.rung', 2000000000, '');
+	is(run($ladderd, $wild, '--io', $map, '--scans', '99', '--watchdog',
+		'1000', @traced), 1, 'an endless loop in a task');
+	like(get('out'), qr/^fault: task Slow: instruction budget exceeded/m,
+		'names it, too');
+	is_safe('an endless loop in a task');
+}
+
 # ---- ways out: signals ----
 for my $signal (qw(TERM INT)) {
 	my $pid = start($ladderd, $rung, '--io', $map, @traced);

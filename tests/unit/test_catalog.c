@@ -124,7 +124,9 @@ static void other_rows(void)
 		good &= strncmp(row->name, "SYS_", 4) == 0 &&
 			iec_addr_parse(row->address, strlen(row->address),
 				       &addr) == ADDR_OK &&
-			addr.area == AREA_SM && iec_addr_type(addr) == row->type;
+			addr.area == AREA_SM &&
+			addr.bits == (row->type == IEC_BOOL ? 1 :
+				      iec_type_row(row->type)->size * 8);
 	}
 	CHECK_AS(good, "operators, instructions and system names are whole");
 	CHECK_TEXT(op_row(OP_COUNT)->word, "");

@@ -348,7 +348,7 @@ static void test_declarations(void)
 	declare("K", IEC_INT, ELEM_EMPTY, NULL);
 	block.flags = VAR_CONSTANT | VAR_RETAIN;
 	CHECK_TEXT(name("| [ K > 0 ] | [ K := 1 ] |"),
-		   "LD316(0,0) LD323(0,0)K LD305(1,2)K");
+		   "LD323(0,0)K LD305(1,2)K");
 	vars[0].has_init = true;
 	block.flags = 0;
 	CHECK_TEXT(name("| [ K > 0 ] | COIL Q0 |"), "");

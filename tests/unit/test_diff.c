@@ -232,12 +232,45 @@ static void test_match(void)
 	arena_free(&arena);
 }
 
+static void test_config(void)
+{
+	const char *a = "CONFIGURATION Plant\n  AREA V 100;\n  RESOURCE Cpu\n"
+			"  TASK Fast (INTERVAL := T#1ms, PRIORITY := 1);\n"
+			"  TASK Slow (INTERVAL := T#1s, PRIORITY := 2);\n"
+			"  PROGRAM A WITH Fast : Main;\n"
+			"  END_RESOURCE\nEND_CONFIGURATION\n";
+
+	CHECK_TEXT(compare(a, a, false), "");
+	CHECK_TEXT(compare(a,
+		"CONFIGURATION Plant\n  AREA V 200;\n"
+		"  TASK FAST (INTERVAL := T#2ms, PRIORITY := 0, "
+		"WATCHDOG := T#9ms); (* quick *)\n"
+		"  TASK Other (SINGLE := I0);\n"
+		"  PROGRAM A WITH Other : Mine;\nEND_CONFIGURATION\n", false),
+		"configuration: resource Cpu -> nothing\n"
+		"area V: bytes 100 -> 200\n"
+		"task Fast: INTERVAL T#1ms -> T#2ms\n"
+		"task Fast: PRIORITY 1 -> 0\n"
+		"task Fast: WATCHDOG nothing -> T#9ms\n"
+		"task Fast: comment nothing -> (* quick *)\n"
+		"task Slow: removed\n"
+		"instance A: task Fast -> Other\n"
+		"instance A: program Main -> Mine\n"
+		"task Other: added\n");
+	CHECK_TEXT(compare(a, "", false),
+		"configuration: name Plant -> nothing\n"
+		"configuration: resource Cpu -> nothing\n"
+		"area V: removed\ntask Fast: removed\ntask Slow: removed\n"
+		"instance A: removed\n");
+}
+
 int main(void)
 {
 	test_cells();
 	test_rungs();
 	test_variables();
 	test_pous();
+	test_config();
 	test_json();
 	test_large();
 	test_match();

@@ -363,6 +363,49 @@ static void test_include(void)
 
 /* ---- one rung, one cell ---- */
 
+static void test_config(void)
+{
+	canonical("RUNGBOARD 1\nconfiguration c\nend_configuration\n",
+		  "RUNGBOARD 1\n\nCONFIGURATION c\nEND_CONFIGURATION\n");
+	canonical("RUNGBOARD 1\n"
+		  "(* above *)\n"
+		  "CONFIGURATION Plant // what it is\n"
+		  "(* of V *) area v 0100 ; // less\n"
+		  "// of the block\n"
+		  "var_global a:bool;end_var\n"
+		  "// of Cpu\n"
+		  "resource Cpu on arm64 (* board *)\n"
+		  "// above\n"
+		  "task Fast(watchdog:=t#5ms,\n"
+		  "  // between\n"
+		  "  interval:=t#1ms);task Once(single:=Main.x);//twice\n"
+		  "program P with Fast:Main; program Q:R; (* last *)\n"
+		  "(* end *)\n"
+		  "END_RESOURCE\n"
+		  "(* very end *)\n"
+		  "END_CONFIGURATION // gone above\n",
+		  "RUNGBOARD 1\n\n"
+		  "(* above *)\n"
+		  "CONFIGURATION Plant // what it is\n"
+		  "  AREA V 100; (* of V *) // less\n"
+		  "// of the block\n"
+		  "VAR_GLOBAL\n  a : BOOL;\nEND_VAR\n"
+		  "  RESOURCE Cpu ON arm64 (* of Cpu *) (* board *)\n"
+		  "    TASK Fast (INTERVAL := t#1ms, PRIORITY := 0, "
+		  "WATCHDOG := t#5ms); (* above *) // between\n"
+		  "    TASK Once (SINGLE := Main.x, PRIORITY := 0); //twice\n"
+		  "    PROGRAM P WITH Fast : Main;\n"
+		  "    PROGRAM Q : R; (* last *) (* end *) (* very end *)\n"
+		  "  END_RESOURCE\n"
+		  "END_CONFIGURATION\n\n// gone above\n");
+	/* Words of a configuration are names elsewhere. */
+	canonical("RUNGBOARD 1\nVAR\n  Task, Resource, With, Interval, On : BOOL;\n"
+		  "END_VAR\n",
+		  "RUNGBOARD 1\n\nVAR\n  Task     : BOOL;\n  Resource : BOOL;\n"
+		  "  With     : BOOL;\n  Interval : BOOL;\n  On       : BOOL;\n"
+		  "END_VAR\n");
+}
+
 static void test_rung(void)
 {
 	static const char text[] = "// why\nRUNG a \"b\"\n"
@@ -401,6 +444,7 @@ int main(void)
 	test_moved_comments();
 	test_il();
 	test_include();
+	test_config();
 	test_rung();
 	project_free(project);
 	return tap_done();

@@ -395,12 +395,27 @@ static void watches_without_a_trace(void)
 
 /* ---- the list is the program ---- */
 
+/* Its variables stand among the globals already. */
+static void print_config(const struct project *project, const struct sink *sink)
+{
+	struct config *config = project->config;
+	int kept = 0;
+
+	for (int i = 0; config && i < config->count; i++)
+		if (config->entry[i].kind != CONFIG_VARS)
+			config->entry[kept++] = config->entry[i];
+	if (config)
+		config->count = kept;
+	text_write_config(project, sink);
+}
+
 static bool print_all(struct ladder *ladder, const struct sink *sink)
 {
 	struct project *project = ladder_project(ladder);
 
 	sink_text(sink, "RUNGBOARD 1\n");
 	text_write_vars(project, &project->globals, sink);
+	print_config(project, sink);
 	for (int i = 0; i < project->pou_count; i++) {
 		int count;
 		struct var *const *temps = ladder_temporaries(ladder, i, &count);

@@ -13,6 +13,8 @@
 struct draft {
 	struct code_header header;
 	struct code_program entry[1];
+	struct code_task task[3];
+	uint32_t call[2], calls;
 	struct code_run run[5];
 	uint32_t init[9];
 	struct code_bits bits[2];
@@ -97,6 +99,21 @@ static void draft_text(struct draft *d)
 	d->entry[0] = (struct code_program){ .text_words = WORDS, .name = 11 };
 }
 
+static void draft_tasks(struct draft *d)
+{
+	d->task[0] = (struct code_task){
+		.kind = TASK_INTERVAL, .interval = { 1000000 }, .count = 1,
+		.watchdog = { 5000000 },
+	};
+	d->task[1] = (struct code_task){
+		.kind = TASK_EVENT, .single = own(FLAG), .priority = 3,
+		.first = 1,
+	};
+	d->task[2] = (struct code_task){ .kind = TASK_CYCLE, .priority = 3,
+					 .first = 1 };
+	d->calls = 1;
+}
+
 static void draft_maps(struct draft *d)
 {
 	uint32_t bit = (iec_area_row(AREA_M)->offset * 8) + 3;
@@ -121,6 +138,7 @@ static void draft_good(struct draft *d)
 	d->header.version = CODE_VERSION;
 	draft_layout(d);
 	draft_text(d);
+	draft_tasks(d);
 	draft_maps(d);
 }
 
@@ -149,6 +167,8 @@ static uint32_t pack(const struct draft *d, uint8_t *bytes)
 
 	memcpy(bytes, &d->header, sizeof(d->header));
 	add(bytes, &len, CODE_PROGRAMS, d->entry, sizeof(d->entry));
+	add(bytes, &len, CODE_TASKS, d->task, sizeof(d->task));
+	add(bytes, &len, CODE_CALLS, d->call, d->calls * 4);
 	add(bytes, &len, CODE_LAYOUT, d->run, sizeof(d->run));
 	add(bytes, &len, CODE_INIT, d->init, sizeof(d->init));
 	add(bytes, &len, CODE_BITS, d->bits, sizeof(d->bits));
@@ -179,7 +199,7 @@ static enum diag_id judge_bytes(const void *bytes, uint32_t len)
 
 static enum diag_id judge(const struct draft *d)
 {
-	uint64_t room[256];
+	uint64_t room[300];
 
 	return judge_bytes(room, pack(d, (uint8_t *)room));
 }
@@ -375,7 +395,7 @@ static void test_maps(void)
 static void test_header(void)
 {
 	struct draft d;
-	uint64_t room[256];
+	uint64_t room[300];
 	struct code_header *header = (void *)room;
 	uint32_t len;
 
@@ -410,6 +430,36 @@ static void test_header(void)
 	}
 }
 
+static void test_tasks(void)
+{
+	struct draft good;
+
+	draft_good(&good);
+	good.task[1].single = CODE_OPERAND(7, iec_area_row(AREA_I)->offset);
+	CHECK_AS(judge(&good) == DIAG_COUNT, "a bit of an area");
+	REFUSED(d.task[0].kind = 3);
+	REFUSED(d.task[0].interval[0] = 99999);
+	REFUSED(d.task[0].interval[0] = 0);
+	REFUSED(d.task[0].interval[1] = 20117); /* longer than a day */
+	REFUSED(d.task[0].interval[1] = UINT32_MAX);
+	REFUSED(d.task[1].interval[0] = 1000000);
+	REFUSED(d.task[2].interval[1] = 1);
+	REFUSED(d.task[0].watchdog[0] = 1);
+	REFUSED(d.task[2].watchdog[1] = UINT32_MAX);
+	REFUSED(d.task[0].first = 3);
+	REFUSED(d.task[0].count = 3);
+	REFUSED(d.task[1].count = UINT32_MAX);
+	REFUSED(d.task[0].name = 16);
+	REFUSED(d.task[1].single = own(NUMBER));
+	REFUSED(d.task[1].single = CODE_OPERAND(1, own(FLAG)));
+	REFUSED(d.task[1].single = CODE_OPERAND(8, 0));
+	REFUSED(d.task[1].single = CODE_OFFSET(d.header.data_size));
+	REFUSED(d.task[0].priority = 4);
+	REFUSED(d.calls = 2);
+	REFUSED(d.call[0] = 1);
+	REFUSED(d.call[0] = UINT32_MAX);
+}
+
 int main(void)
 {
 	test_good();
@@ -421,5 +471,6 @@ int main(void)
 	test_calls();
 	test_flow();
 	test_maps();
+	test_tasks();
 	return tap_done();
 }

@@ -36,6 +36,9 @@
 #define LIMIT_DATA        (8u << 20)  /* bytes of a program's data            */
 #define LIMIT_RETAIN      (16u << 20) /* bytes of one copy of retained values */
 #define LIMIT_BUDGET      10000000  /* instructions of one scan               */
+#define LIMIT_TASKS       16        /* tasks of a configuration               */
+#define LIMIT_TICK        100000    /* ns: shortest interval of a task        */
+#define LIMIT_INTERVAL    86400000000000 /* ns: longest one, a day            */
 #define LIMIT_FORCES      256       /* forced variables at one time           */
 #define LIMIT_IO_POINTS   4096      /* lines of an I/O map                    */
 

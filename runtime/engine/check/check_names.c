@@ -8,6 +8,7 @@
  */
 #include "engine/base/ascii.h"
 #include "engine/check/check.h"
+#include "engine/check/check_config.h"
 #include "engine/check/check_operand.h"
 
 #include <string.h>
@@ -78,6 +79,7 @@ static struct mark *mark_of(struct names_check *c, uint32_t fold)
 static const char *const keywords[] = {
 	"RUNGBOARD", "PROJECT", "INCLUDE", "VAR", "VAR_GLOBAL", "RETAIN",
 	"CONSTANT", "AT", "END_VAR", "PROGRAM", "LD", "IL", "END_PROGRAM",
+	"CONFIGURATION", "END_CONFIGURATION",
 	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
 };
 #define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
@@ -184,6 +186,8 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_line(c, DIAG_RESERVED_NAME, pou, var->line, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
 		report_line(c, DIAG_SHADOWS_ADDRESS, pou, var->line, name);
+	if (!project_has(c->project, var->at))
+		report_line(c, DIAG_BAD_ADDRESS, pou, var->line, name);
 	if (var->at.area != AREA_NONE && !fits(var))
 		report_line(c, DIAG_AT_TYPE, pou, var->line, name);
 	if (flags & VAR_CONSTANT && !var->has_init)
@@ -490,6 +494,7 @@ bool check_names(struct scope *scope, uint8_t *const *bad,
 	check_pous(&c);
 	check_table(&c, NULL, &c.project->globals);
 	check_bodies(&c, bad);
+	c.good &= check_config(scope, &c.uses, diags);
 	for (int i = 0; i <= c.project->pou_count; i++)
 		check_uses(&c, i);
 	if (scratch->failed || c.project->arena.failed)

@@ -245,11 +245,13 @@ static bool mean_literal(const char *text, size_t len, struct meaning *out,
 	return false;
 }
 
-static bool mean_address(const char *text, size_t len, struct meaning *out,
-			 enum diag_id *why)
+static bool mean_address(const struct scope *scope, const char *text, size_t len,
+			 struct meaning *out, enum diag_id *why)
 {
 	enum iec_addr_result result = iec_addr_parse(text, len, &out->addr);
 
+	if (result == ADDR_OK && !project_has(scope->project, out->addr))
+		result = ADDR_RANGE;
 	if (result == ADDR_OK) {
 		out->kind = MEANING_ADDRESS;
 		out->type = iec_addr_type(out->addr);
@@ -280,7 +282,7 @@ static bool mean(const struct scope *scope, uint32_t table, uint32_t id,
 	return mean_system(text, len, out) ||
 	       mean_pin(scope, table, text, len, out, why) ||
 	       mean_literal(text, len, out, why) ||
-	       mean_address(text, len, out, why);
+	       mean_address(scope, text, len, out, why);
 }
 
 /* The slot of a question, or the free one where it belongs. */

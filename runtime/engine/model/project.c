@@ -107,6 +107,26 @@ bool project_move_rung(struct pou *pou, int from, int to)
 	return true;
 }
 
+uint32_t project_area_bytes(const struct project *project, enum iec_area area)
+{
+	const struct config *config = project->config;
+	uint32_t bytes = iec_area_row(area)->bytes;
+
+	for (int i = 0; config && i < config->count; i++)
+		if (config->entry[i].kind == CONFIG_AREA &&
+		    config->entry[i].area == area)
+			bytes = config->entry[i].bytes;
+	return bytes;
+}
+
+bool project_has(const struct project *project, struct iec_addr addr)
+{
+	uint32_t size = addr.bits < 8 ? 1 : addr.bits / 8u;
+
+	return addr.area == AREA_NONE || !project->config ||
+	       addr.byte + size <= project_area_bytes(project, addr.area);
+}
+
 const char *project_text(const struct project *project, uint32_t id)
 {
 	return names_text(&project->names, id);

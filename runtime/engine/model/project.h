@@ -8,6 +8,7 @@
 #ifndef MODEL_PROJECT_H
 #define MODEL_PROJECT_H
 
+#include "engine/model/config.h"
 #include "engine/model/il.h"
 #include "engine/model/rung.h"
 #include "engine/model/vars.h"
@@ -30,7 +31,8 @@ struct pou {
 };
 
 /* What stood where in the file, so that writing keeps the order. */
-enum part_kind { PART_VARS, PART_POU, PART_VIEW, PART_INCLUDE };
+enum part_kind { PART_VARS, PART_POU, PART_VIEW, PART_INCLUDE,
+		 PART_CONFIG };
 struct part {
 	enum part_kind kind;
 	int index;              /* var block of globals, or POU                */
@@ -48,6 +50,7 @@ struct project {
 	uint32_t head;          /* comments above PROJECT or the first part    */
 	uint32_t tail;          /* comments at the end                         */
 	struct var_table globals;
+	struct config *config;  /* NULL: none                                  */
 	struct pou *pou;
 	int pou_count;
 	struct part *part;
@@ -64,6 +67,11 @@ bool project_add_rung(struct pou *pou, int at, struct rung *rung);
 /** project_take_rung - removes it; the caller owns what is returned. */
 struct rung *project_take_rung(struct pou *pou, int at);
 bool project_move_rung(struct pou *pou, int from, int to);
+/** project_area_bytes - how much of an area this project may use: what its
+ * configuration says, or all there is. */
+uint32_t project_area_bytes(const struct project *project, enum iec_area area);
+/** project_has - is an address inside that? AREA_NONE always. */
+bool project_has(const struct project *project, struct iec_addr addr);
 /** project_text - the string of an id. */
 const char *project_text(const struct project *project, uint32_t id);
 #endif

@@ -80,6 +80,8 @@ enum word code_instance(const struct program *p, uint32_t offset)
 static const uint32_t section_unit[CODE_SECTION_COUNT] = {
 	[0] = 1,
 	[CODE_PROGRAMS] = sizeof(struct code_program),
+	[CODE_TASKS] = sizeof(struct code_task),
+	[CODE_CALLS] = 4,
 	[CODE_LAYOUT] = sizeof(struct code_run),
 	[CODE_INIT] = 4,
 	[CODE_BITS] = sizeof(struct code_bits),
@@ -137,6 +139,8 @@ static void find_sections(struct program *p)
 	const void *at;
 
 	p->entry_count = section(p, CODE_PROGRAMS, &at), p->entry = at;
+	p->task_count = section(p, CODE_TASKS, &at), p->task = at;
+	p->call_count = section(p, CODE_CALLS, &at), p->call = at;
 	p->run_count = section(p, CODE_LAYOUT, &at), p->run = at;
 	p->bits_count = section(p, CODE_BITS, &at), p->bits = at;
 	p->text_words = section(p, CODE_TEXT, &at), p->text = at;
@@ -400,6 +404,9 @@ void code_identity(const struct program *p, uint8_t out[32])
 	digest_sha256_add(&sha, head, sizeof(head));
 	for (uint32_t i = 0; i < p->entry_count; i++)
 		digest_sha256_add(&sha, &p->entry[i], 2 * sizeof(uint32_t));
+	for (uint32_t i = 0; i < p->task_count; i++)
+		digest_sha256_add(&sha, &p->task[i],
+				  offsetof(struct code_task, name));
 	digest_sha256_add(&sha, p->run, runs);
 	for (int kind = CODE_INIT; kind <= CODE_TEXT; kind++)
 		digest_sha256_add(&sha, p->base + h->section[kind].offset,
@@ -432,7 +439,7 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
 		return false;
 	*why = DIAG_IMAGE_REFUSED;
 	if (check_layout(&v) && check_init(&v) && check_bits(&v) &&
-	    verify_programs(&v) && check_maps(&v))
+	    verify_programs(&v) && verify_tasks(&v) && check_maps(&v))
 		return true;
 	if (scratch->failed)
 		*why = DIAG_NO_MEMORY;

@@ -38,9 +38,11 @@
 
 enum code_section_kind {
 	CODE_PROGRAMS = 1, /* struct code_program each                         */
+	CODE_TASKS,        /* struct code_task each, by priority               */
 	CODE_LAYOUT,       /* struct code_run each: what lies where in data    */
 	CODE_INIT,         /* (offset, bytes, data padded to 4) each           */
 	CODE_BITS,         /* struct code_bits each: bits that live a byte each */
+	CODE_CALLS,        /* indices in CODE_PROGRAMS: what the tasks run     */
 	CODE_TEXT,         /* instructions                                     */
 	/* From here on a target may drop sections; not part of the identity. */
 	CODE_WATCH,        /* instructions that also store the power of cells  */
@@ -66,10 +68,22 @@ struct code_header {
 	struct code_section section[CODE_SECTION_COUNT];
 };
 
-struct code_program {   /* run in this order                               */
+struct code_program {   /* run by the tasks that call it                   */
 	uint32_t text, text_words;   /* word index in CODE_TEXT, length      */
 	uint32_t watch, watch_words; /* in CODE_WATCH; 0 words: none         */
 	uint32_t name;               /* offset in CODE_STRINGS               */
+};
+
+enum task_kind { TASK_CYCLE, TASK_INTERVAL, TASK_EVENT };
+struct code_task {      /* ordered by priority, ties as in the file        */
+	uint32_t kind;         /* enum task_kind                           */
+	uint32_t interval[2];  /* ns, low word first; of TASK_INTERVAL     */
+	uint32_t watchdog[2];  /* ns, likewise; 0: none                    */
+	uint32_t single;       /* of TASK_EVENT: offset of a byte of m, and
+				  the number of the bit in it on top       */
+	uint32_t priority;     /* 0: the highest                           */
+	uint32_t first, count; /* of CODE_CALLS                            */
+	uint32_t name;         /* offset in CODE_STRINGS; "": not declared */
 };
 
 enum code_run_kind { RUN_VALUES, RUN_CONSTANTS, RUN_INSTANCE };
@@ -130,6 +144,8 @@ struct program {
 	const struct code_header *header;
 	const uint8_t *base;
 	const struct code_program *entry;
+	const struct code_task *task;
+	const uint32_t *call;
 	const struct code_run *run;
 	const struct code_bits *bits;
 	const uint32_t *symbol;
@@ -138,8 +154,8 @@ struct program {
 	const struct code_place *place;
 	const uint32_t *text, *watch;
 	const char *string;
-	uint32_t entry_count, run_count, bits_count, symbol_count, group_count,
-		 power_count, place_count, text_words, watch_words,
+	uint32_t entry_count, task_count, call_count, run_count, bits_count,
+		 symbol_count, group_count, power_count, place_count, text_words, watch_words,
 		 string_bytes;
 };
 

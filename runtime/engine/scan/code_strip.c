@@ -22,6 +22,7 @@ size_t code_strip(const void *image, void *out)
 	struct code_header *to = out;
 	size_t size = sizeof(*from), covered = offsetof(struct code_header, crc) + 4;
 	struct code_program *entry;
+	struct code_task *task;
 
 	for (int i = 1; i < CODE_WATCH; i++)
 		size += padded(from->section[i].size);
@@ -44,6 +45,9 @@ size_t code_strip(const void *image, void *out)
 	entry = (void *)((uint8_t *)out + to->section[CODE_PROGRAMS].offset);
 	for (size_t i = 0; i < to->section[CODE_PROGRAMS].size / sizeof(*entry); i++)
 		entry[i].watch = entry[i].watch_words = entry[i].name = 0;
+	task = (void *)((uint8_t *)out + to->section[CODE_TASKS].offset);
+	for (size_t i = 0; i < to->section[CODE_TASKS].size / sizeof(*task); i++)
+		task[i].name = 0;
 	to->size = (uint32_t)size;
 	to->crc = digest_crc32c(0, (const uint8_t *)out + covered,
 				size - covered);

@@ -233,3 +233,56 @@ bool verify_programs(struct verifier *v)
 	return true;
 }
 
+
+/* ---- tasks ---- */
+
+static bool is_interval(const uint32_t words[2])
+{
+	uint64_t ns = (uint64_t)words[1] << 32 | words[0];
+
+	return ns >= LIMIT_TICK && ns <= LIMIT_INTERVAL;
+}
+
+/* A bit of a byte that a program may read, or a BOOL whole. */
+static bool is_event(const struct verifier *v, uint32_t single)
+{
+	uint32_t offset = CODE_OFFSET(single), bit = CODE_TYPE(single);
+
+	return bit < 8 && ((bit == 0 && reads_bool(v, offset)) ||
+			   verify_use(v, offset, IEC_BYTE, false));
+}
+
+static bool check_task(const struct verifier *v, const struct code_task *task)
+{
+	const struct program *p = v->program;
+	bool timed = task->kind == TASK_INTERVAL;
+
+	if (task->kind > TASK_EVENT || task->first > p->call_count ||
+	    task->count > p->call_count - task->first ||
+	    (p->string_bytes && task->name >= p->string_bytes))
+		return false;
+	if (timed ? !is_interval(task->interval)
+		  : task->interval[0] || task->interval[1])
+		return false;
+	if ((task->watchdog[0] || task->watchdog[1]) &&
+	    !is_interval(task->watchdog))
+		return false;
+	return task->kind != TASK_EVENT || is_event(v, task->single);
+}
+
+bool verify_tasks(struct verifier *v)
+{
+	const struct program *p = v->program;
+
+	/* A program runs in one task: no image makes a scan of many calls. */
+	if (p->task_count > LIMIT_TASKS || p->call_count > p->entry_count)
+		return verify_refuse(v, p->task);
+	for (uint32_t i = 0; i < p->task_count; i++)
+		if (!check_task(v, &p->task[i]) ||
+		    (i && p->task[i].priority < p->task[i - 1].priority))
+			return verify_refuse(v, &p->task[i]);
+	for (uint32_t i = 0; i < p->call_count; i++)
+		if (p->call[i] >= p->entry_count)
+			return verify_refuse(v, &p->call[i]);
+	return true;
+}

@@ -6,7 +6,9 @@
 
 #include <string.h>
 
-#define MS_NS INT64_C(1000000)
+#define MS_NS     INT64_C(1000000)
+#define SECOND_NS INT64_C(1000000000)
+#define DAY_NS    (86400 * SECOND_NS)
 
 static void begin_cold(struct resource *resource)
 {
@@ -26,6 +28,8 @@ static void begin_cold(struct resource *resource)
 	resource->warm = false;
 	resource->retain_lost = resource->retain_old_copy = false;
 	resource->scan_us = resource->scan_max_us = 0;
+	resource->second_ns = INT64_MIN;
+	tasks_start(&resource->tasks, program, 0);
 }
 
 void resource_init(struct resource *resource, const struct program *program,
@@ -34,6 +38,7 @@ void resource_init(struct resource *resource, const struct program *program,
 	memset(resource, 0, sizeof(*resource));
 	resource->image.program = program;
 	resource->image.memory = memory;
+	resource->wall_offset_ns = RESOURCE_WALL;
 	begin_cold(resource);
 	resource->state = STATE_STOP;
 }
@@ -69,8 +74,49 @@ static void store32(uint8_t *at, uint32_t value)
 	memcpy(at, &value, sizeof(value));
 }
 
+static void store64(uint8_t *at, int64_t value)
+{
+	memcpy(at, &value, sizeof(value));
+}
+
+/* What changes with the second: SMD24 … SMB47 but for the time of day. */
+static void write_calendar(struct resource *resource, uint8_t *sm, int64_t wall_ns)
+{
+	int64_t day = wall_ns / DAY_NS - (wall_ns % DAY_NS < 0);
+	int64_t second;
+	int year, month, of_month;
+
+	iec_civil(day, &year, &month, &of_month);
+	resource->day_ns = day * DAY_NS;
+	second = (wall_ns - resource->day_ns) / SECOND_NS;
+	resource->second_ns = resource->day_ns + second * SECOND_NS;
+	store64(sm + 24, resource->day_ns);
+	sm[40] = (uint8_t)year, sm[41] = (uint8_t)(year >> 8);
+	sm[42] = (uint8_t)month;
+	sm[43] = (uint8_t)of_month;
+	sm[44] = (uint8_t)(second / 3600);
+	sm[45] = (uint8_t)(second / 60 % 60);
+	sm[46] = (uint8_t)(second % 60);
+	/* 1970-01-01 was a Thursday. */
+	sm[47] = (uint8_t)((day % 7 + 10) % 7 + 1);
+}
+
+static void write_wall(struct resource *resource, uint8_t *sm, int64_t now_ns)
+{
+	uint64_t wall = (uint64_t)now_ns + (uint64_t)resource->wall_offset_ns;
+	int64_t wall_ns = (int64_t)wall;
+
+	/* Days at the ends of time would not fit. */
+	if (wall_ns < -INT64_MAX + DAY_NS || wall_ns > INT64_MAX - DAY_NS)
+		wall_ns = 0;
+	store64(sm + 16, wall_ns);
+	if ((uint64_t)wall_ns - (uint64_t)resource->second_ns >= SECOND_NS)
+		write_calendar(resource, sm, wall_ns);
+	store64(sm + 32, wall_ns - resource->day_ns);
+}
+
 /* System bits and words, rules R5 of the reliability design. Addresses are rows
- * of catalog.def: SMX0.x, SMX1.x, SMD4, SMD8, SMD12. */
+ * of catalog.def: SMX0.x, SMX1.x, SMD4, SMD8, SMD12, and the calendar above. */
 static void write_system(struct resource *resource, int64_t now_ns)
 {
 	uint8_t *sm = image_area(&resource->image, AREA_SM);
@@ -90,6 +136,7 @@ static void write_system(struct resource *resource, int64_t now_ns)
 	store32(sm + 8, resource->scan_max_us);
 	store32(sm + 12, resource->vm.errors);
 	resource->errors_before = resource->vm.errors;
+	write_wall(resource, sm, now_ns);
 }
 
 struct fault_place resource_place(const struct program *program, uint32_t text)
@@ -117,6 +164,86 @@ struct fault_place resource_place(const struct program *program, uint32_t text)
 	return out;
 }
 
+/* Was it too slow, or late too often? Only a clock can tell. */
+static bool is_too_slow(const struct resource *resource, uint32_t index,
+			int64_t took_ns)
+{
+	int64_t limit = task_limit(&resource->image.program->task[index],
+				   resource->patience, resource->period_ns);
+
+	return (limit && took_ns >= limit) ||
+	       (resource->patience &&
+		resource->tasks.state[index].late_row >= resource->patience);
+}
+
+/* The programs of a task, with a budget of its own. */
+static void run_task(struct resource *resource, uint32_t index, bool watch)
+{
+	const struct program *program = resource->image.program;
+	const struct code_task *task = &program->task[index];
+	struct vm *vm = &resource->vm;
+	enum fault fault = FAULT_NONE;
+
+	vm->budget = program->header->budget;
+	for (uint32_t i = 0; i < task->count && fault == FAULT_NONE; i++)
+		fault = vm_run(vm, program->call[task->first + i], watch);
+	if (fault == FAULT_NONE)
+		return;
+	resource_fail(resource, fault);
+	if (!watch)
+		resource->fault_at = resource_place(program, vm->fault_text);
+	if (tasks_declared(program))
+		resource->fault_at.task = task_name(program, index);
+}
+
+static void time_task(struct resource *resource, uint32_t index, bool watch)
+{
+	struct task_state *state = &resource->tasks.state[index];
+	int64_t begin_ns = resource->clock_ns();
+
+	run_task(resource, index, watch);
+	state->last_ns = resource->clock_ns() - begin_ns;
+	if (state->last_ns > state->max_ns)
+		state->max_ns = state->last_ns;
+	if (resource->state != STATE_RUN ||
+	    !is_too_slow(resource, index, state->last_ns))
+		return;
+	resource_fail(resource, FAULT_WATCHDOG);
+	resource->fault_at.task = task_name(resource->image.program, index);
+}
+
+/* In the first scan all tasks have their turn: they see SYS_FIRST_SCAN. */
+static bool must_yield(const struct resource *resource, uint32_t task)
+{
+	return resource->clock_ns && resource->scans > 0 &&
+	       tasks_must_yield(&resource->tasks, resource->image.program, task,
+				resource->clock_ns());
+}
+
+static void run_due(struct resource *resource, int64_t now_ns, bool watch)
+{
+	const struct program *program = resource->image.program;
+	const uint8_t *m = resource->image.memory;
+	struct tasks *tasks = &resource->tasks;
+	bool any = false;
+
+	tasks_begin(tasks, program, m, now_ns);
+	while (resource->state == STATE_RUN) {
+		uint32_t task = tasks_next(tasks, program);
+
+		if (task == program->task_count ||
+		    (any && must_yield(resource, task)))
+			return;
+		tasks_take(tasks, program, task, now_ns);
+		if (resource->clock_ns)
+			time_task(resource, task, watch);
+		else
+			run_task(resource, task, watch);
+		tasks_look(tasks, program, m);
+		any = true;
+	}
+}
+
 bool resource_scan(struct resource *resource, int64_t now_ns)
 {
 	const struct program *program = resource->image.program;
@@ -126,28 +253,49 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 
 	if (resource->state != STATE_RUN)
 		return false;
-	if (resource->scans == 0)
+	if (resource->scans == 0) {
 		resource->start_ns = now_ns;
+		tasks_start(&resource->tasks, program, resource->due_ns ?
+			    resource->due_ns : now_ns);
+	}
 	write_system(resource, now_ns);
 	image_begin(&resource->image);
 	vm->now_ns = now_ns;
-	vm->budget = program->header->budget;
-	for (uint32_t i = 0; i < program->entry_count; i++) {
-		enum fault fault = vm_run(vm, i, watch);
-
-		if (fault != FAULT_NONE) {
-			resource_fail(resource, fault);
-			if (!watch)
-				resource->fault_at = resource_place(program,
-							vm->fault_text);
-			break;
-		}
-	}
+	if (tasks_declared(program))
+		run_due(resource, now_ns, watch);
+	else if (program->task_count)
+		run_task(resource, 0, watch);
 	if (errors == 0 && vm->errors && !watch)
 		resource->error_at = resource_place(program, vm->error_text);
 	image_end(&resource->image);
 	resource->scans++;
 	return resource->state == STATE_RUN;
+}
+
+static size_t append(char *out, size_t at, size_t end, const char *text)
+{
+	while (*text && at + 1 < end)
+		out[at++] = *text++;
+	out[at] = '\0';
+	return at;
+}
+
+void resource_fault_print(const struct resource *resource, char *out, size_t size)
+{
+	const char *task = resource->fault_at.task;
+	const char *text = fault_text(resource->fault);
+	size_t at = 0;
+
+	if (task && resource->fault == FAULT_BUDGET)
+		text = "instruction budget exceeded";
+	if (task && resource->fault == FAULT_WATCHDOG)
+		text = "watchdog: too late or too long";
+	if (task) {
+		at = append(out, at, size, "task ");
+		at = append(out, at, size / 2, task);
+		at = append(out, at, size, ": ");
+	}
+	append(out, at, size, text);
 }
 
 /* Orders places; row and col are small, POUs and rungs have their limits. */

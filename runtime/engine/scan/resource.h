@@ -8,18 +8,21 @@
 #ifndef SCAN_RESOURCE_H
 #define SCAN_RESOURCE_H
 
+#include "engine/scan/task.h"
 #include "engine/scan/vm.h"
 
 enum resource_state { STATE_STOP, STATE_RUN, STATE_FAULT };
 
 struct fault_place {
 	const char *pou;        /* name, or ""; lives with the program        */
+	const char *task;       /* likewise, of a declared task; or NULL      */
 	uint32_t rung, row, col; /* 1-based; 0: unknown                       */
 };
 
 struct resource {
 	struct image image;
 	struct vm vm;
+	struct tasks tasks;
 	enum resource_state state;
 	enum fault fault;            /* first one since the reset             */
 	struct fault_place fault_at;
@@ -32,7 +35,21 @@ struct resource {
 	bool late, io_fault;
 	bool warm, retain_lost, retain_old_copy; /* after resource_start()   */
 	uint32_t scan_us, scan_max_us;
+	int64_t wall_offset_ns;      /* date and time of the wall - now_ns    */
+	int64_t second_ns, day_ns;   /* what SYS_SECOND and SYS_DATE show     */
+	/* Told by the caller once; not touched by a start. */
+	int64_t (*clock_ns)(void);   /* to time declared tasks; NULL: not     */
+	int64_t period_ns;           /* patience with tasks without INTERVAL  */
+	uint32_t patience;           /* a task's watchdog: so many late runs in
+					a row, or one run of so many periods;
+					0: none. WATCHDOG counts anyway.      */
+	int64_t due_ns;              /* of the first scan: when it should have
+					begun, not after now; 0: now          */
 };
+
+/* What SYS_DATE_TIME begins with where nobody tells wall_offset_ns: in virtual time,
+ * DT#2000-01-01-00:00:00 at time 0. */
+#define RESOURCE_WALL INT64_C(946684800000000000)
 
 /** resource_init - in STOP, image as at a cold start. @memory as image_init. */
 void resource_init(struct resource *resource, const struct program *program,
@@ -45,9 +62,11 @@ void resource_stop(struct resource *resource);
 void resource_fail(struct resource *resource, enum fault fault);
 
 /**
- * resource_scan - one scan at @now_ns: system bits, forces, programs, forces
+ * resource_scan - one scan at @now_ns: system bits, forces, due tasks, forces
  * @now_ns: monotonic; not before that of the scan before
  *
+ * Tasks run by priority, each at most once. With a clock it ends early, between two
+ * tasks, when the deadline of a task of higher priority has come.
  * Inputs must be in the image; outputs are in it afterwards. In STOP and FAULT it
  * does nothing. Scan-safe: yes, it is the scan.
  * Fails: false and STATE_FAULT when a program faults.
@@ -61,6 +80,9 @@ bool resource_scan(struct resource *resource, int64_t now_ns);
  */
 bool resource_power(const struct resource *resource, uint32_t pou, uint32_t rung,
 		    uint32_t row, uint32_t col, bool *in, bool *out);
+/** resource_fault_print - what went wrong, and in which task if tasks are declared:
+ * "task Fast: watchdog: …". @size at least 96. Scan-safe: yes. */
+void resource_fault_print(const struct resource *resource, char *out, size_t size);
 /** resource_place - POU, rung and cell of a word of CODE_TEXT. */
 struct fault_place resource_place(const struct program *program, uint32_t text);
 #endif

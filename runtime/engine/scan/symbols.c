@@ -127,14 +127,21 @@ static struct location find_declared(const struct program *p, const char *text,
 	return at;
 }
 
-static bool is_system_name(const char *text, size_t len, struct iec_addr *addr)
+/* With the type that its row gives it: a date is more than its 64 bits. */
+static bool find_system(const struct image *image, const char *text, size_t len,
+			struct location *at)
 {
+	struct iec_addr addr;
+
 	for (int i = 0; i < SYS_COUNT; i++) {
 		const struct sys_row *row = sys_row((enum sys_id)i);
 
-		if (ascii_is(row->name, text, len))
-			return iec_addr_parse(row->address, strlen(row->address),
-					      addr) == ADDR_OK;
+		if (!ascii_is(row->name, text, len))
+			continue;
+		iec_addr_parse(row->address, strlen(row->address), &addr);
+		*at = image_locate(image, addr);
+		at->type = row->type;
+		return true;
 	}
 	return false;
 }
@@ -147,7 +154,7 @@ struct location image_find(const struct image *image, const char *name,
 
 	if (at.type != IEC_NONE)
 		return at;
-	if (is_system_name(name, len, &addr) ||
+	if (!find_system(image, name, len, &at) &&
 	    iec_addr_parse(name, len, &addr) == ADDR_OK)
 		return image_locate(image, addr);
 	return at;

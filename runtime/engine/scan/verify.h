@@ -32,6 +32,8 @@ bool verify_use(const struct verifier *v, uint32_t offset, uint32_t type,
 bool verify_refuse(struct verifier *v, const void *at);
 /** verify_programs - the instructions of all programs. */
 bool verify_programs(struct verifier *v);
+/** verify_tasks - what runs them, and when. */
+bool verify_tasks(struct verifier *v);
 
 static inline bool verify_is_type(uint32_t type)
 {

@@ -232,7 +232,8 @@ bool read_ends_block(const struct reader *r)
 {
 	static const char *const words[] = {
 		"PROGRAM", "END_PROGRAM", "RUNG", "VAR", "VAR_GLOBAL",
-		"INCLUDE", "VIEW", "PROJECT",
+		"INCLUDE", "VIEW", "PROJECT", "CONFIGURATION",
+		"END_CONFIGURATION",
 	};
 
 	if (r->lex.token.kind != TOKEN_NAME)
@@ -372,6 +373,28 @@ static void read_program(struct reader *r)
 	r->place.pou = NULL;
 }
 
+/* One controller, one configuration: of a second one only its errors count. */
+static void read_configuration(struct reader *r)
+{
+	struct project *project = r->project;
+	struct part part = { .kind = PART_CONFIG };
+	struct config *config = arena_alloc(&project->arena, sizeof(*config));
+	bool second = project->config;
+
+	if (second)
+		reader_fail_word(r, DIAG_TOO_MANY, "configurations");
+	if (!config) {
+		r->no_memory = true;
+		return;
+	}
+	if (!second)
+		project->config = config;
+	part.comment = buffer_take(r, &r->above);
+	read_config(r, config);
+	if (!second)
+		add_part(r, part);
+}
+
 /* ---- the file ---- */
 
 static void read_parts(struct reader *r)
@@ -386,6 +409,8 @@ static void read_parts(struct reader *r)
 			read_program(r);
 		else if (lex_is(&r->lex, "VIEW"))
 			read_view(r);
+		else if (lex_is(&r->lex, "CONFIGURATION"))
+			read_configuration(r);
 		else if (lex_is(&r->lex, "INCLUDE"))
 			read_include(r);
 		else

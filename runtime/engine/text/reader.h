@@ -127,6 +127,7 @@ bool reader_arg(struct reader *r);
 void read_vars(struct reader *r, struct var_table *table, bool global);
 struct rung *read_rung(struct reader *r);
 void read_il(struct reader *r, struct pou *pou);
+void read_config(struct reader *r, struct config *config);
 /** read_ends_block - does a line begin here that never stands inside VAR or an
  * instruction list? A name or label that is spelled so is none. */
 bool read_ends_block(const struct reader *r);

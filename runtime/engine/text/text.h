@@ -42,6 +42,8 @@ char *text_write(const struct project *project, size_t *len);
 /** text_write_vars - VAR … END_VAR, every block of @table. Scan-safe: no. */
 void text_write_vars(const struct project *project, const struct var_table *table,
 		     const struct sink *sink);
+/** text_write_config - the configuration, if there is one. Scan-safe: no. */
+void text_write_config(const struct project *project, const struct sink *sink);
 /** text_write_il - an instruction list; it reads again to the same list, its
  * lines numbered anew. Scan-safe: no. */
 void text_write_il(const struct project *project, const struct il *il,

@@ -133,8 +133,8 @@ static void write_var(const struct sink *sink, const struct project *project,
 	sink_text(sink, "\n");
 }
 
-static void write_block(const struct sink *sink, const struct project *project,
-			const struct var_table *table, int index)
+void write_block(const struct sink *sink, const struct project *project,
+		 const struct var_table *table, int index)
 {
 	const struct var_block *block = &table->block[index];
 	const struct var *var = table->var ? table->var + block->first : NULL;
@@ -187,6 +187,9 @@ static void write_part(const struct sink *sink, const struct project *project,
 		break;
 	case PART_POU:
 		write_pou(sink, project, &project->pou[part->index]);
+		break;
+	case PART_CONFIG:
+		write_config(sink, project);
 		break;
 	case PART_VIEW:
 		write_id(sink, project, part->text);

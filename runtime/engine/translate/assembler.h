@@ -59,6 +59,9 @@ struct assembler {
 	struct code_place *place;
 	int place_count;
 	struct code_program *entry;
+	struct code_task *task;    /* by priority                             */
+	int task_count;
+	struct words call;
 
 	/* slots that are free again at the next statement */
 	uint32_t *scratch;
@@ -129,6 +132,10 @@ uint32_t scratch_new(struct assembler *as);
 /* ---- assemble_unit.c ---- */
 /** assemble_unit - the instructions of one list, with END behind them. */
 bool assemble_unit(struct assembler *as, int unit, bool watch);
+
+/* ---- pack_tasks.c ---- */
+/** pack_tasks - tasks and what they call; a task's name is its string id. */
+bool pack_tasks(struct assembler *as);
 
 /* ---- pack_image.c ---- */
 void *pack_image(struct assembler *as, size_t *len);

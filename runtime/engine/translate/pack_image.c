@@ -187,6 +187,8 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 		add_table(as, maps, &project->pou[i], &project->pou[i].vars);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		as->entry[i].name = add_name(as, maps, project->pou[i].name);
+	for (int i = 0; i < as->task_count; i++)
+		as->task[i].name = add_name(as, maps, as->task[i].name);
 	add_power(as, maps);
 	return !as->failed;
 }
@@ -243,10 +245,12 @@ void *pack_image(struct assembler *as, size_t *len)
 {
 	struct maps *maps = arena_alloc(as->arena, sizeof(*maps));
 
-	if (!maps || !make_maps(as, maps))
+	if (!maps || !pack_tasks(as) || !make_maps(as, maps))
 		return NULL;
 	const struct piece piece[CODE_SECTION_COUNT] = {
 		[CODE_PROGRAMS] = PIECE(as->entry, as->translation->unit_count),
+		[CODE_TASKS] = PIECE(as->task, as->task_count),
+		[CODE_CALLS] = PIECE(as->call.word, as->call.count),
 		[CODE_LAYOUT] = PIECE(as->run, as->run_count),
 		[CODE_INIT] = PIECE(as->init.word, as->init.count),
 		[CODE_BITS] = PIECE(as->bit_run, as->bit_run_count),

@@ -208,6 +208,7 @@ static void open_steps(struct scenario *scenario)
 static void report_fault(struct run *run)
 {
 	const struct fault_place *at = &run->resource->fault_at;
+	char text[96];
 
 	run->held = false;
 	sink_text(run->out, "# ");
@@ -215,7 +216,8 @@ static void report_fault(struct run *run)
 	sink_printf(run->out, ":%d: at ", run->scenario->line);
 	print_time(run->out, run->now_ns);
 	sink_text(run->out, " ms: the program stopped with a fault: ");
-	sink_text(run->out, fault_text(run->resource->fault));
+	resource_fault_print(run->resource, text, sizeof(text));
+	sink_text(run->out, text);
 	if (at->pou && *at->pou) {
 		sink_text(run->out, ": ");
 		sink_text(run->out, at->pou);

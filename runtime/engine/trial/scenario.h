@@ -3,7 +3,7 @@
  * scenario - what a program must do, as the person who ordered it would say it.
  *
  *   scenario "stop wins over start"        # any number in a file
- *     period 10ms                          # 10ms if it is not said
+ *     period 10ms                          # if not said: of the tasks, or 10ms
  *     at 0ms     Open = 1, Stop = 0        # before the first scan at t >= 0
  *     at 20ms    expect Motor = 1          # looked at after that scan
  *     at 1s      Stop = 1

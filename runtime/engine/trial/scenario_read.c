@@ -3,6 +3,7 @@
  * scenario_read - scenario files to steps. It finds every error it can, a line
  * each, and runs nothing.
  */
+#include "engine/scan/task.h"
 #include "engine/trial/scenario.h"
 #include "engine/trial/value.h"
 
@@ -313,7 +314,8 @@ static void close_scenario(struct reader *reader)
 	if (!scenario)
 		return;
 	if (!scenario->period_ns)
-		scenario->period_ns = 10 * VALUE_MS;
+		scenario->period_ns = tasks_tick(reader->image->program, 0,
+						 10 * VALUE_MS);
 	for (int i = 0; i < scenario->step_count && !expects; i++)
 		expects = scenario->step[i].verb != VERB_SET;
 	if (!expects && !reader->spoiled) {

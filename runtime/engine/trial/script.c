@@ -160,9 +160,12 @@ bool script_fault(const struct resource *resource, const char *file, int line,
 		.col = (int)resource->fault_at.col,
 	};
 
+	char text[96];
+
 	if (place.pou && !*place.pou)
 		place.pou = NULL;
-	return diag_add(diags, place, "%s", fault_text(resource->fault));
+	resource_fault_print(resource, text, sizeof(text));
+	return diag_add(diags, place, "%s", text);
 }
 
 /* The scans of one line. */

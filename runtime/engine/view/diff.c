@@ -257,6 +257,7 @@ static void compare(struct diff *diff)
 	diff_texts(diff, what, "closing comment", project_text(a, a->tail),
 		   project_text(b, b->tail));
 	compare_parts(diff, PART_INCLUDE, "INCLUDE");
+	diff_config(diff);
 	compare_vars(diff, NULL, &a->globals, &b->globals);
 	compare_pous(diff);
 	compare_parts(diff, PART_VIEW, "VIEW section");

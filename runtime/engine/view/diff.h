@@ -46,6 +46,9 @@ void diff_say(struct diff *diff, struct difference what);
 void diff_texts(struct diff *diff, struct difference what, const char *property,
 		const char *from, const char *to);
 
+/** diff_config - tasks, programs and areas of the configurations. */
+void diff_config(struct diff *diff);
+
 /**
  * diff_match - the longest common subsequence
  * @match: of each of the @a_count: its index in @b, or -1

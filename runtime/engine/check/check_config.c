@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check_config - tasks and programs by name, each once; events that are bits.
+ *
+ * A configuration has at most 2 * LIMIT_POUS lines: comparing them all is quick.
+ */
+#include "engine/check/check_config.h"
+
+struct config_check {
+	struct scope *scope;
+	struct project *project;
+	const struct config *config;
+	struct uses *uses;
+	struct diag_list *diags;
+	bool good;
+};
+
+static void report(struct config_check *c, enum diag_id id,
+		   const struct config_entry *entry, const char *arg)
+{
+	struct diag place = { .id = id, .file = c->config->file,
+			      .line = entry->line };
+
+	c->good &= diag_add(c->diags, place, "%s", arg);
+}
+
+static bool same_name(struct config_check *c, uint32_t a, uint32_t b)
+{
+	struct names *names = &c->project->names;
+
+	return a && names_fold(names, a) == names_fold(names, b);
+}
+
+/* Tasks and instances of programs share one space of names. */
+static bool is_repeated(struct config_check *c, const struct config_entry *entry,
+			const struct config_entry *before)
+{
+	if (entry->kind == CONFIG_AREA)
+		return before->kind == CONFIG_AREA && before->area == entry->area;
+	return before->kind != CONFIG_AREA &&
+	       same_name(c, before->name, entry->name);
+}
+
+static bool check_repeated(struct config_check *c,
+			   const struct config_entry *entry)
+{
+	const struct config_entry *before = c->config->entry;
+
+	while (before < entry && !is_repeated(c, entry, before))
+		before++;
+	if (before == entry)
+		return true;
+	report(c, DIAG_DUPLICATE_NAME, entry, entry->kind == CONFIG_AREA ?
+	       iec_area_row(entry->area)->letters :
+	       scope_text(c->scope, entry->name));
+	return false;
+}
+
+static void check_event(struct config_check *c, const struct config_entry *entry)
+{
+	enum diag_id why;
+	const struct meaning *m;
+
+	if (!entry->single)
+		return;
+	m = scope_find(c->scope, NULL, entry->single, &why);
+	if (m && m->kind == MEANING_LITERAL)
+		report(c, DIAG_EXPECTED, entry, "a variable behind SINGLE");
+	else if (!m || m->type != IEC_BOOL)
+		report(c, m ? DIAG_NOT_BOOL : why, entry,
+		       scope_text(c->scope, entry->single));
+	else
+		uses_add(c->uses, m, USE_READ);
+}
+
+static void check_task(struct config_check *c, const struct config_entry *entry)
+{
+	bool used = false;
+
+	check_event(c, entry);
+	for (int i = 0; i < c->config->count && !used; i++)
+		used = same_name(c, c->config->entry[i].task, entry->name);
+	if (!used)
+		report(c, DIAG_TASK_EMPTY, entry, scope_text(c->scope, entry->name));
+}
+
+static bool has_task(struct config_check *c, uint32_t name)
+{
+	for (int i = 0; i < c->config->count; i++)
+		if (c->config->entry[i].kind == CONFIG_TASK &&
+		    same_name(c, c->config->entry[i].name, name))
+			return true;
+	return false;
+}
+
+static void check_program(struct config_check *c,
+			  const struct config_entry *entry)
+{
+	const struct config_entry *before = c->config->entry;
+	bool found = false;
+
+	for (int i = 0; i < c->project->pou_count && !found; i++)
+		found = same_name(c, c->project->pou[i].name, entry->pou);
+	if (!found)
+		report(c, DIAG_UNKNOWN_NAME, entry,
+		       scope_text(c->scope, entry->pou));
+	for (; found && before < entry; before++)
+		if (same_name(c, before->pou, entry->pou)) {
+			report(c, DIAG_PROGRAM_TWICE, entry,
+			       scope_text(c->scope, entry->pou));
+			break;
+		}
+	if (entry->task && !has_task(c, entry->task))
+		report(c, DIAG_UNKNOWN_NAME, entry,
+		       scope_text(c->scope, entry->task));
+}
+
+/* Without any PROGRAM line all programs run. */
+static void check_left_out(struct config_check *c)
+{
+	bool any = false;
+
+	for (int i = 0; i < c->config->count; i++)
+		any |= c->config->entry[i].kind == CONFIG_PROGRAM;
+	for (int i = 0; any && i < c->project->pou_count; i++) {
+		const struct pou *pou = &c->project->pou[i];
+		struct diag place = { .id = DIAG_NOT_RUN, .file = pou->file,
+				      .line = pou->line };
+		bool runs = false;
+
+		for (int k = 0; k < c->config->count && !runs; k++)
+			runs = same_name(c, c->config->entry[k].pou, pou->name);
+		if (!runs)
+			diag_add(c->diags, place, "%s",
+				 scope_text(c->scope, pou->name));
+	}
+}
+
+bool check_config(struct scope *scope, struct uses *uses,
+		  struct diag_list *diags)
+{
+	struct config_check c = {
+		.scope = scope, .project = scope_project(scope), .uses = uses,
+		.diags = diags, .good = true,
+	};
+
+	c.config = c.project->config;
+	if (!c.config)
+		return true;
+	for (int i = 0; i < c.config->count; i++) {
+		const struct config_entry *entry = &c.config->entry[i];
+
+		if (entry->kind == CONFIG_VARS || !check_repeated(&c, entry))
+			continue;
+		if (entry->kind == CONFIG_TASK)
+			check_task(&c, entry);
+		if (entry->kind == CONFIG_PROGRAM)
+			check_program(&c, entry);
+	}
+	check_left_out(&c);
+	return c.good;
+}

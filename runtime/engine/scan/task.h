@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * task - when each task of a program runs, and what is known of it.
+ *
+ * (IEC 61131-3, 2.7.2: periodic tasks and tasks that an event starts, by priority.)
+ * One thread runs them one after another, none interrupts another. Here it is decided
+ * who is due; resource.c runs them. It reads no clock: times are arguments.
+ */
+#ifndef SCAN_TASK_H
+#define SCAN_TASK_H
+
+#include "engine/scan/code.h"
+
+/* All since the start of the resource. */
+struct task_state {
+	int64_t next_ns;    /* TASK_INTERVAL: its next deadline               */
+	uint64_t runs;
+	uint64_t overruns;  /* periods left out; events that came too soon    */
+	uint32_t late_row;  /* runs in a row that left out a period           */
+	bool due, ran;      /* ran: in this cycle                             */
+	bool was;           /* TASK_EVENT: its variable when looked at last   */
+	int64_t last_ns, max_ns; /* how long it ran; 0 without a clock        */
+};
+
+struct tasks {
+	struct task_state state[LIMIT_TASKS];
+};
+
+/** task_interval, task_watchdog - in ns; 0: none. Scan-safe: yes. */
+int64_t task_interval(const struct code_task *task);
+int64_t task_watchdog(const struct code_task *task);
+/** task_limit - how long one run may take: its WATCHDOG, or @patience intervals, or,
+ * without an interval, @patience times @period_ns. 0: as long as it likes.
+ * Scan-safe: yes. */
+int64_t task_limit(const struct code_task *task, uint32_t patience,
+		   int64_t period_ns);
+/** task_name - as declared; "" of the task that nobody declared, and of an image
+ * without names. Lives with the program. Scan-safe: yes. */
+const char *task_name(const struct program *program, uint32_t task);
+/** tasks_declared - does the program say which tasks it has? Without, one task runs
+ * all programs in every cycle. Scan-safe: yes. */
+bool tasks_declared(const struct program *program);
+
+/**
+ * tasks_tick - the time from one cycle to the next that a program wants
+ * @period_ns: what the user asked for; 0: nothing
+ * @preset_ns: when neither the user nor the program says anything
+ *
+ * The greatest common divisor of all intervals and of @period_ns; of @preset_ns, too,
+ * if nobody gave @period_ns and there are tasks without an interval, which are looked
+ * at in every cycle. Not less than LIMIT_TICK: then a task runs in the first cycle
+ * behind its deadline.
+ * Scan-safe: yes.
+ */
+int64_t tasks_tick(const struct program *program, int64_t period_ns,
+		   int64_t preset_ns);
+
+/** tasks_start - all deadlines begin at @start_ns. Scan-safe: yes. */
+void tasks_start(struct tasks *tasks, const struct program *program,
+		 int64_t start_ns);
+/** tasks_begin - a cycle begins: who is due at @now_ns, with memory as it is?
+ * Scan-safe: yes. */
+void tasks_begin(struct tasks *tasks, const struct program *program,
+		 const uint8_t *m, int64_t now_ns);
+/** tasks_look - rising edges of the variables that start tasks, since the last
+ * look. Scan-safe: yes. */
+void tasks_look(struct tasks *tasks, const struct program *program,
+		const uint8_t *m);
+/** tasks_next - the due task of the highest priority that did not run in this
+ * cycle; task_count: none. Scan-safe: yes. */
+uint32_t tasks_next(const struct tasks *tasks, const struct program *program);
+/** tasks_take - it runs now: counts the periods it missed and sets its next
+ * deadline, on the grid of its interval. Scan-safe: yes. */
+void tasks_take(struct tasks *tasks, const struct program *program, uint32_t task,
+		int64_t now_ns);
+/** tasks_must_yield - is, at @now_ns, the deadline of a task of higher priority than
+ * @task there? Then the cycle ends before @task. Scan-safe: yes. */
+bool tasks_must_yield(const struct tasks *tasks, const struct program *program,
+		      uint32_t task, int64_t now_ns);
+#endif

@@ -1,0 +1,354 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_config - CONFIGURATION … END_CONFIGURATION: RESOURCE, TASK, PROGRAM, AREA and
+ * the VAR blocks between them.
+ *
+ * Values are checked here, names in check/. A comment belongs to the line it stands
+ * behind or above; one that no line follows goes to the last.
+ */
+#include "engine/text/reader.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/literal.h"
+
+#include <string.h>
+
+static bool step_past(struct reader *r, const char *symbol)
+{
+	if (!lex_is(&r->lex, symbol))
+		return reader_fail_word(r, DIAG_EXPECTED, symbol);
+	reader_step(r);
+	return true;
+}
+
+/* ---- TASK ---- */
+
+static bool read_time(struct reader *r, int64_t *ns, uint32_t *text)
+{
+	const struct token *token = &r->lex.token;
+	struct literal literal;
+
+	if (token->kind != TOKEN_NUMBER && token->kind != TOKEN_NAME)
+		return reader_fail_word(r, DIAG_EXPECTED, "time such as T#10ms");
+	if (literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
+	    literal.type != IEC_TIME)
+		return reader_fail_token(r, DIAG_BAD_LITERAL);
+	if (literal.value.i < LIMIT_TICK || literal.value.i > LIMIT_INTERVAL)
+		return reader_fail_token(r, DIAG_BAD_INTERVAL);
+	*ns = literal.value.i;
+	*text = reader_intern(r, token->text, token->len);
+	reader_step(r);
+	return true;
+}
+
+/* Digits only; false beyond @most. */
+static bool read_count(struct reader *r, uint32_t most, uint32_t *out)
+{
+	const struct token *token = &r->lex.token;
+	uint32_t value = 0;
+
+	if (token->kind != TOKEN_NUMBER)
+		return reader_fail_word(r, DIAG_EXPECTED, "number");
+	for (size_t i = 0; i < token->len; i++) {
+		if (!ascii_digit(token->text[i]))
+			return reader_fail_token(r, DIAG_BAD_LITERAL);
+		value = value * 10 + (uint32_t)(token->text[i] - '0');
+		if (value > most)
+			return reader_fail_token(r, DIAG_LITERAL_RANGE);
+	}
+	*out = value;
+	reader_step(r);
+	return true;
+}
+
+static bool read_single(struct reader *r, uint32_t *single)
+{
+	const struct token word = r->lex.token;
+
+	buffer_clear(&r->text);
+	if (!reader_value(r, false, &word))
+		return false;
+	*single = buffer_take(r, &r->text);
+	reader_step(r);
+	return true;
+}
+
+enum setting { SET_INTERVAL, SET_SINGLE, SET_PRIORITY, SET_WATCHDOG, SETTINGS };
+static const char *const setting_word[SETTINGS] = {
+	"INTERVAL", "SINGLE", "PRIORITY", "WATCHDOG",
+};
+
+/* NAME := VALUE; @given has a bit a setting. */
+static bool read_setting(struct reader *r, struct config_entry *entry,
+			 unsigned int *given)
+{
+	int which = 0;
+
+	while (which < SETTINGS && !lex_is(&r->lex, setting_word[which]))
+		which++;
+	if (which == SETTINGS)
+		return reader_fail_word(r, DIAG_EXPECTED,
+					"INTERVAL, SINGLE, PRIORITY or WATCHDOG");
+	if (*given & 1u << which)
+		return reader_fail_token(r, DIAG_DUPLICATE_ARG);
+	*given |= 1u << which;
+	reader_step(r);
+	if (!step_past(r, ":="))
+		return false;
+	switch ((enum setting)which) {
+	case SET_INTERVAL:
+		return read_time(r, &entry->interval_ns, &entry->interval);
+	case SET_SINGLE:
+		return read_single(r, &entry->single);
+	case SET_PRIORITY:
+		return read_count(r, UINT16_MAX, &entry->priority);
+	case SET_WATCHDOG:
+		return read_time(r, &entry->watchdog_ns, &entry->watchdog);
+	case SETTINGS:
+		break;
+	}
+	return false;
+}
+
+static bool read_task(struct reader *r, struct config_entry *entry)
+{
+	unsigned int given = 0;
+	bool more;
+
+	if (!reader_name(r, "name of the task", &entry->name))
+		return false;
+	reader_step(r);
+	if (!step_past(r, "("))
+		return false;
+	do {
+		if (!read_setting(r, entry, &given))
+			return false;
+		more = reader_is(r, ',');
+		if (more)
+			reader_step(r);
+	} while (more);
+	if (!(given & 1u << SET_INTERVAL) == !(given & 1u << SET_SINGLE))
+		return reader_fail_word(r, DIAG_EXPECTED,
+					"either INTERVAL or SINGLE");
+	return step_past(r, ")");
+}
+
+/* ---- PROGRAM, AREA ---- */
+
+static bool read_instance(struct reader *r, struct config_entry *entry)
+{
+	if (!reader_name(r, "name of the program", &entry->name))
+		return false;
+	reader_step(r);
+	if (lex_is(&r->lex, "WITH")) {
+		reader_step(r);
+		if (!reader_name(r, "name of the task", &entry->task))
+			return false;
+		reader_step(r);
+	}
+	if (!step_past(r, ":") ||
+	    !reader_name(r, "name of the program", &entry->pou))
+		return false;
+	reader_step(r);
+	return true;
+}
+
+static bool read_area(struct reader *r, struct config_entry *entry)
+{
+	const struct token *token = &r->lex.token;
+
+	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++)
+		if (token->kind == TOKEN_NAME &&
+		    ascii_is(iec_area_row((enum iec_area)area)->letters,
+			     token->text, token->len))
+			entry->area = (enum iec_area)area;
+	if (entry->area == AREA_NONE)
+		return reader_fail_word(r, DIAG_EXPECTED,
+					"letters of an area, such as V");
+	reader_step(r);
+	return read_count(r, iec_area_row(entry->area)->bytes, &entry->bytes);
+}
+
+/* ---- lines ---- */
+
+static struct config_entry *add_entry(struct reader *r, struct config *config,
+				    struct config_entry entry)
+{
+	struct config_entry *slot = NULL;
+
+	if (config->count == 2 * LIMIT_POUS)
+		reader_fail_word(r, DIAG_TOO_MANY, "lines of a configuration");
+	else if (!(slot = arena_push(&r->project->arena, &config->entry,
+				     &config->count, sizeof(entry))))
+		r->no_memory = true;
+	if (slot)
+		*slot = entry;
+	return slot;
+}
+
+static void skip_entry(struct reader *r)
+{
+	while (!reader_at_end(r) && !reader_is(r, ';'))
+		reader_next(r);
+	if (reader_is(r, ';'))
+		reader_next(r);
+}
+
+static bool has_tasks(const struct config *config, int most)
+{
+	for (int i = 0; i < config->count; i++)
+		most -= config->entry[i].kind == CONFIG_TASK;
+	return most <= 0;
+}
+
+static void read_entry(struct reader *r, struct config *config, bool inside)
+{
+	struct config_entry entry = { .inside = inside,
+				    .line = r->lex.token.line };
+	bool good;
+
+	r->across_lines = true;
+	if (lex_is(&r->lex, "TASK")) {
+		entry.kind = CONFIG_TASK;
+		/* One is for programs without a task. */
+		if (has_tasks(config, LIMIT_TASKS - 1))
+			reader_fail_word(r, DIAG_TOO_MANY, "tasks");
+		reader_step(r);
+		good = read_task(r, &entry);
+	} else if (lex_is(&r->lex, "PROGRAM")) {
+		entry.kind = CONFIG_PROGRAM;
+		reader_step(r);
+		good = read_instance(r, &entry);
+	} else {
+		entry.kind = CONFIG_AREA;
+		reader_step(r);
+		good = read_area(r, &entry);
+	}
+	r->across_lines = false;
+	if (good && !reader_is(r, ';'))
+		good = reader_fail_word(r, DIAG_EXPECTED, ";");
+	if (!good) {
+		skip_entry(r);
+		return;
+	}
+	reader_next(r); /* a comment on the rest of the line is this one's */
+	entry.comment = buffer_take(r, &r->note);
+	add_entry(r, config, entry);
+}
+
+static void read_block(struct reader *r, struct config *config, bool inside)
+{
+	struct project *project = r->project;
+	struct config_entry entry = { .kind = CONFIG_VARS, .inside = inside,
+				    .line = r->lex.token.line };
+	uint32_t above = buffer_take(r, &r->note);
+
+	entry.block = project->globals.block_count;
+	read_vars(r, &project->globals, true);
+	r->comments = COMMENT_NOTE;
+	if (project->globals.block_count == entry.block)
+		return;
+	project->globals.block[entry.block].comment = above;
+	add_entry(r, config, entry);
+}
+
+/* What does not begin here ends the block it would stand in. */
+static bool ends_config(const struct reader *r)
+{
+	return r->lex.token.kind == TOKEN_END || r->no_memory ||
+	       lex_is(&r->lex, "END_CONFIGURATION") ||
+	       lex_is(&r->lex, "END_PROGRAM") || lex_is(&r->lex, "RUNG") ||
+	       lex_is(&r->lex, "INCLUDE") || lex_is(&r->lex, "VIEW");
+}
+
+static void read_entries(struct reader *r, struct config *config, bool inside);
+
+static void read_resource(struct reader *r, struct config *config)
+{
+	const struct token head = r->lex.token;
+
+	if (config->has_resource)
+		reader_fail_word(r, DIAG_TOO_MANY, "resources");
+	reader_next(r);
+	if (reader_name(r, "name of the resource", &config->resource)) {
+		config->has_resource = true;
+		reader_next(r);
+		if (lex_is(&r->lex, "ON")) {
+			reader_next(r);
+			if (reader_name(r, "kind of the resource", &config->on))
+				reader_next(r);
+		}
+	}
+	reader_end_line(r);
+	config->resource_comment = buffer_take(r, &r->note);
+	read_entries(r, config, true);
+	if (!lex_is(&r->lex, "END_RESOURCE")) {
+		reader_fail_open(r, &head);
+		return;
+	}
+	reader_next(r);
+	reader_end_line(r);
+}
+
+/* A second level only for what stands in the resource. */
+static void read_entries(struct reader *r, struct config *config, bool inside)
+{
+	for (;;) {
+		reader_skip_newlines(r);
+		if (ends_config(r) || lex_is(&r->lex, "END_RESOURCE"))
+			return;
+		if (lex_is(&r->lex, "VAR") || lex_is(&r->lex, "VAR_GLOBAL"))
+			read_block(r, config, inside);
+		else if (lex_is(&r->lex, "TASK") ||
+			 lex_is(&r->lex, "PROGRAM") || lex_is(&r->lex, "AREA"))
+			read_entry(r, config, inside);
+		else if (!inside && lex_is(&r->lex, "RESOURCE"))
+			read_resource(r, config);
+		else {
+			reader_fail_token(r, DIAG_SYNTAX);
+			reader_skip_line(r);
+		}
+	}
+}
+
+static void keep_last_comments(struct reader *r, struct config *config)
+{
+	uint32_t *id = &config->comment;
+
+	if (config->count && config->entry[config->count - 1].kind != CONFIG_VARS)
+		id = &config->entry[config->count - 1].comment;
+	else if (config->has_resource)
+		id = &config->resource_comment;
+	if (r->note.len > 0)
+		*id = comment_join(r, *id, &r->note);
+}
+
+void read_config(struct reader *r, struct config *config)
+{
+	const struct token head = r->lex.token;
+
+	config->file = r->place.file;
+	config->line = head.line;
+	reader_next(r);
+	if (reader_name(r, "name of the configuration", &config->name)) {
+		r->comments = COMMENT_NOTE;
+		reader_next(r);
+	}
+	r->comments = COMMENT_NOTE;
+	reader_end_line(r);
+	config->comment = buffer_take(r, &r->note);
+	read_entries(r, config, false);
+	if (lex_is(&r->lex, "END_RESOURCE")) {
+		reader_fail_token(r, DIAG_MISPLACED);
+		reader_skip_line(r);
+		read_entries(r, config, false);
+	}
+	keep_last_comments(r, config);
+	r->comments = COMMENT_ABOVE;
+	if (!lex_is(&r->lex, "END_CONFIGURATION")) {
+		reader_fail_open(r, &head);
+		return;
+	}
+	reader_next(r);
+	reader_end_line(r);
+}
