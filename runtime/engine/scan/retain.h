@@ -11,6 +11,8 @@
  * Slot, at a multiple of RETAIN_PAGE: struct retain_slot, payload, CRC-32C of both.
  * Payload: clock (8 bytes), number of records (4), then for each record
  *   name length (2), type length (1), 0, value length (4), name, type, value
+ * What an instance keeps to itself comes back, too, and is as little to be believed:
+ * no step function of a block may read or write past its own on account of it.
  * All numbers little-endian. A name has its POU before it ("Main.Count"), and that
  * of an instance its pin behind ("Main.Delay.ET"; the type then "TON.TIME").
  */
