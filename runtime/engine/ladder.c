@@ -281,7 +281,7 @@ static bool make_units(struct ladder *ladder, uint8_t *const *bad)
 	return true;
 }
 
-static bool warn_of_pins(struct ladder *ladder)
+static bool check_lists(struct ladder *ladder)
 {
 	struct translation *t = &ladder->translation;
 	struct il_pou *list = arena_alloc(&ladder->arena,
@@ -290,8 +290,13 @@ static bool warn_of_pins(struct ladder *ladder)
 	for (int i = 0; list && i < t->unit_count; i++)
 		list[i] = (struct il_pou){ t->unit[i].pou, &t->unit[i].il };
 	arena_reset(&ladder->scratch);
-	return list && check_pins(t->scope, list, t->unit_count,
-				  &ladder->scratch, &ladder->diags);
+	if (!list)
+		return false;
+	check_calls(t->scope, list, t->unit_count, &ladder->scratch,
+		    &ladder->diags);
+	return !ladder->scratch.failed &&
+	       check_pins(t->scope, list, t->unit_count, &ladder->scratch,
+			  &ladder->diags);
 }
 
 static bool begin_translation(struct ladder *ladder)
@@ -323,8 +328,10 @@ bool ladder_build(struct ladder *ladder)
 		return no_memory(ladder, project->file);
 	if (!make_units(ladder, bad) || ladder->diags.errors)
 		return false;
-	if (!warn_of_pins(ladder))
+	if (!check_lists(ladder))
 		return no_memory(ladder, project->file);
+	if (ladder->diags.errors)
+		return false;
 	ladder->image = assemble(&ladder->translation, ladder->watch,
 				 &ladder->image_len);
 	if (!ladder->image)

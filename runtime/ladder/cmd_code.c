@@ -80,15 +80,56 @@ static uint32_t print_program(const struct program *program,
 	return count;
 }
 
+/* Adds what the calls of a program run; @own: instructions of each program alone,
+ * @all: with those it calls, as far as they are known. True: more than before. */
+static bool add_calls(const struct program *program, uint32_t entry,
+		      const uint32_t *own, uint64_t *all)
+{
+	const struct code_program *e = &program->entry[entry];
+	const uint32_t *text = program->text;
+	uint32_t end = e->text + e->text_words;
+	uint64_t sum = own[entry];
+
+	for (uint32_t at = e->text; at < end; at += code_words(text + at))
+		if ((text[at] & 0xff) == VM_CALL)
+			sum += all[text[at + 1]];
+	/* A count that large only says: more than the budget allows. */
+	sum = sum < UINT32_MAX ? sum : UINT32_MAX;
+	if (sum == all[entry])
+		return false;
+	all[entry] = sum;
+	return true;
+}
+
+/* Calls make no circle, so that this ends after as many rounds as they nest. */
+static uint64_t count_worst(const struct program *program, const uint32_t *own)
+{
+	uint64_t *all = calloc(program->entry_count + 1u, sizeof(*all)), sum = 0;
+	bool more = all;
+
+	while (more) {
+		more = false;
+		for (uint32_t i = 0; i < program->entry_count; i++)
+			more |= add_calls(program, i, own, all);
+	}
+	for (uint32_t i = 0; all && i < program->call_count; i++)
+		sum += all[program->call[i]];
+	free(all);
+	return sum < UINT32_MAX ? sum : UINT32_MAX;
+}
+
 static void print_code(const struct call *call, const struct program *program)
 {
-	uint32_t count = 0;
+	uint32_t *own = calloc(program->entry_count + 1u, sizeof(*own));
+	unsigned count;
 	bool loops = false;
 
 	print_sizes(program, &call->out);
-	for (uint32_t i = 0; i < program->entry_count; i++)
-		count += print_program(program, &program->entry[i], call,
+	for (uint32_t i = 0; own && i < program->entry_count; i++)
+		own[i] = print_program(program, &program->entry[i], call,
 				       &loops);
+	count = own ? (unsigned)count_worst(program, own) : 0;
+	free(own);
 	if (loops)
 		sink_printf(&call->out, "\nworst case    loops: %u "
 			    "instructions, and what the budget of %u allows\n",

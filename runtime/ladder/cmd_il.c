@@ -66,7 +66,8 @@ static void join_includes(struct project *project)
 
 	for (int i = 0; i < project->part_count; i++) {
 		project->part[i].included = 0;
-		if (project->part[i].kind != PART_INCLUDE)
+		if (project->part[i].kind != PART_INCLUDE &&
+		    project->part[i].kind != PART_USES)
 			project->part[kept++] = project->part[i];
 	}
 	project->part_count = kept;

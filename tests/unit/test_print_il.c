@@ -59,8 +59,8 @@ int main(void)
 	used.name = names_intern(&a->names, "_T1", 3);
 	unused.name = names_intern(&a->names, "_T2", 3);
 	sink_text(&sink, "RUNGBOARD 1\n\n");
-	CHECK(view_print_il(&a->names, a->pou[0].name, &a->pou[0].vars, temps,
-			    2, &a->pou[0].il, &sink));
+	CHECK(view_print_il(a, &a->pou[0], &a->pou[0].vars, temps, 2,
+			     &a->pou[0].il, &sink));
 	CHECK(strstr(sink_memory_text(&memory), "\nPROGRAM Main IL\n"));
 	CHECK(!strstr(sink_memory_text(&memory), "_T2"));
 

@@ -12,19 +12,19 @@
 /* What the image is made of. Offsets count from the end of the areas. */
 struct draft {
 	struct code_header header;
-	struct code_program entry[1];
+	struct code_program entry[LIMIT_CALLS + 3];
 	struct code_task task[3];
 	uint32_t call[2], calls;
 	struct code_run run[5];
 	uint32_t init[9];
 	struct code_bits bits[2];
-	uint32_t text[48];
+	uint32_t text[128];
 	uint32_t symbol[4];
 	struct code_group group[3];
 	struct code_power power[1];
 	struct code_place place[2];
 	char string[16];
-	uint32_t text_words;
+	uint32_t text_words, entries;
 };
 
 enum {
@@ -97,6 +97,7 @@ static void draft_text(struct draft *d)
 	memcpy(d->text, text, sizeof(text));
 	d->text_words = WORDS;
 	d->entry[0] = (struct code_program){ .text_words = WORDS, .name = 11 };
+	d->entries = 1;
 }
 
 static void draft_tasks(struct draft *d)
@@ -166,7 +167,8 @@ static uint32_t pack(const struct draft *d, uint8_t *bytes)
 	uint32_t len = sizeof(d->header);
 
 	memcpy(bytes, &d->header, sizeof(d->header));
-	add(bytes, &len, CODE_PROGRAMS, d->entry, sizeof(d->entry));
+	add(bytes, &len, CODE_PROGRAMS, d->entry,
+	    d->entries * (uint32_t)sizeof(d->entry[0]));
 	add(bytes, &len, CODE_TASKS, d->task, sizeof(d->task));
 	add(bytes, &len, CODE_CALLS, d->call, d->calls * 4);
 	add(bytes, &len, CODE_LAYOUT, d->run, sizeof(d->run));
@@ -199,7 +201,7 @@ static enum diag_id judge_bytes(const void *bytes, uint32_t len)
 
 static enum diag_id judge(const struct draft *d)
 {
-	uint64_t room[300];
+	uint64_t room[512];
 
 	return judge_bytes(room, pack(d, (uint8_t *)room));
 }
@@ -395,7 +397,7 @@ static void test_maps(void)
 static void test_header(void)
 {
 	struct draft d;
-	uint64_t room[300];
+	uint64_t room[512];
 	struct code_header *header = (void *)room;
 	uint32_t len;
 
@@ -460,8 +462,123 @@ static void test_tasks(void)
 	REFUSED(d.call[0] = UINT32_MAX);
 }
 
+/* ---- BLOCK and CALL ---- */
+
+/* One more program, which is called, with these words and END. */
+static void append(struct draft *d, const uint32_t *words, uint32_t count)
+{
+	struct code_program *entry = &d->entry[d->entries++];
+
+	*entry = (struct code_program){ .text = d->text_words,
+					.text_words = count + 1, .name = 11 };
+	for (uint32_t i = 0; i < count; i++)
+		d->text[d->text_words++] = words[i];
+	d->text[d->text_words++] = op(VM_END, 0);
+}
+
+static void append_block(struct draft *d, uint32_t to, uint32_t from, uint32_t size)
+{
+	append(d, (uint32_t[]){ op(VM_BLOCK, 0), to, from, size }, 4);
+}
+
+static void append_call(struct draft *d, uint32_t entry)
+{
+	append(d, (uint32_t[]){ op(VM_CALL, 0), entry }, 2);
+}
+
+#define ALLOWED(change) do { \
+	struct draft d; \
+	draft_good(&d); \
+	change; \
+	CHECK_AS(judge(&d) == DIAG_COUNT, #change); \
+} while (0)
+
+static void test_blocks(void)
+{
+	uint32_t size = word_row(FB_CTU)->size;
+
+	ALLOWED(append_block(&d, own(NUMBER), own(NUMBER) + 4, 4));
+	ALLOWED(append_block(&d, own(FLAG), own(FLAG) + 4, 4));
+	ALLOWED(append_block(&d, own(COUNTER), own(COUNTER) + size, size));
+	/* Nothing, one over the other, too far, out of memory. */
+	REFUSED(append_block(&d, own(NUMBER), own(NUMBER) + 4, 0));
+	REFUSED(append_block(&d, own(FLAG), own(FLAG) + 3, 4));
+	REFUSED(append_block(&d, own(FLAG), own(FLAG), 4));
+	REFUSED(append_block(&d, own(FLAG), own(FLAG) + 4, UINT32_MAX));
+	REFUSED(append_block(&d, UINT32_MAX, own(FLAG), 4));
+	REFUSED(append_block(&d, own(COUNTER), own(COUNTER) + size, size + 1));
+	/* Parts of values, other types, a constant, TRUE and FALSE, areas. */
+	REFUSED(append_block(&d, own(NUMBER), own(NUMBER) + 4, 2));
+	REFUSED(append_block(&d, own(NUMBER) + 2, own(NUMBER) + 6, 2));
+	REFUSED(append_block(&d, own(FLAG), own(NUMBER), 4));
+	REFUSED(append_block(&d, own(NUMBER), own(FIXED), 4));
+	REFUSED(append_block(&d, own(0), own(1), 1));
+	REFUSED(append_block(&d, iec_area_row(AREA_M)->offset,
+			     iec_area_row(AREA_M)->offset + 8, 4));
+	/* Half an instance, another block, none at the other side. */
+	REFUSED(append_block(&d, own(COUNTER), own(COUNTER) + size, 4));
+	REFUSED(append_block(&d, own(COUNTER) + 1, own(COUNTER) + size + 1,
+			     size - 1));
+	REFUSED(append_block(&d, own(NUMBER), own(NUMBER) + 4, 4);
+		d.text[WORDS] = op(VM_BLOCK, 1));
+}
+
+/* TON, TOF and TP have the same marks, but not the same inside. */
+static void test_other_blocks(void)
+{
+	uint32_t size = word_row(FB_TON)->size, at = own(COUNTER);
+	enum word second[] = { FB_TON, FB_TP };
+
+	for (int i = 0; i < 2; i++) {
+		struct draft d;
+
+		draft_good(&d);
+		d.run[3] = (struct code_run){ at, RUN_INSTANCE, 0, FB_TON, 1 };
+		d.run[4] = (struct code_run){ at + size, RUN_INSTANCE, 0,
+					      (uint16_t)second[i], 1 };
+		d.header.data_size = at + 2 * size;
+		d.text[AT_FB] = op(VM_FB, FB_TON);
+		d.text[AT_COPY + 3] = d.text[AT_CMP + 3] = d.text[AT_FN + 6] =
+			own_as(IEC_DINT, NUMBER + 4);
+		d.init[6] = own(NUMBER) + 4;
+		append_block(&d, at, at + size, size);
+		CHECK_AS(judge(&d) == (i ? DIAG_IMAGE_REFUSED : DIAG_COUNT),
+			 i ? "a TP is no TON" : "a TON is copied to a TON");
+	}
+}
+
+static void test_call_graph(void)
+{
+	ALLOWED(append_call(&d, 0));
+	REFUSED(append_call(&d, 2));
+	REFUSED(append_call(&d, UINT32_MAX));
+	REFUSED(append_call(&d, 0); d.text[WORDS] = op(VM_CALL, 1));
+	REFUSED(append_call(&d, 1));                          /* itself */
+	REFUSED(append_call(&d, 2); append_call(&d, 1));      /* each other */
+	REFUSED(append_call(&d, 2); append_call(&d, 3); append_call(&d, 1));
+	REFUSED(append_call(&d, 0); d.entry[1].text = 0); /* into another one */
+}
+
+static void test_deep_calls(void)
+{
+	struct draft d;
+
+	/* As many in one another as the VM keeps, and one more. */
+	draft_good(&d);
+	append(&d, NULL, 0);
+	for (uint32_t i = 1; i <= LIMIT_CALLS; i++)
+		append_call(&d, i);
+	CHECK_AS(judge(&d) == DIAG_COUNT, "the deepest calls");
+	append_call(&d, LIMIT_CALLS + 1);
+	CHECK_AS(judge(&d) == DIAG_IMAGE_REFUSED, "calls that are too deep");
+}
+
 int main(void)
 {
+	test_blocks();
+	test_other_blocks();
+	test_call_graph();
+	test_deep_calls();
 	test_good();
 	test_header();
 	test_layout();

@@ -14,17 +14,19 @@
 #define DOC(text) text
 #endif
 
+/* What only pins of a project have. */
+#define NOT_OWN 0, false, 0
 #define FB_PIN(fb, pin, dir, type, text) \
-	{ #pin, dir, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), text, 0, false },
+	{ #pin, dir, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), text, NOT_OWN },
 #define FB_IN(fb, pin, type, doc)  FB_PIN(fb, pin, PIN_IN, type, DOC(doc))
 #define FB_OUT(fb, pin, type, doc) FB_PIN(fb, pin, PIN_OUT, type, DOC(doc))
 #define FB_VAR(fb, pin, type)      FB_PIN(fb, pin, PIN_VAR, type, "")
 #define FB(id, family, doc, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #define FN_IN(pin, classes, doc) \
-	{ #pin, PIN_IN, IEC_NONE, classes, false, 0, DOC(doc), 0, false },
+	{ #pin, PIN_IN, IEC_NONE, classes, false, 0, DOC(doc), NOT_OWN },
 #define FN_OWN(pin, classes, doc) \
-	{ #pin, PIN_IN, IEC_NONE, classes, true, 0, DOC(doc), 0, false },
+	{ #pin, PIN_IN, IEC_NONE, classes, true, 0, DOC(doc), NOT_OWN },
 #define FN(id, family, doc, result, most, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #include "engine/catalog.def"
@@ -147,7 +149,8 @@ int word_pin_find(const struct word_row *row, const char *name, size_t len)
 	for (int i = 0; i < row->pin_count; i++) {
 		const struct word_pin *pin = &row->pin[i];
 
-		if (pin->dir != PIN_VAR && ascii_is(pin->name, name, len))
+		if (pin->dir != PIN_VAR && pin->dir != PIN_NONE &&
+		    ascii_is(pin->name, name, len))
 			return i;
 	}
 	return find_further_input(row, name, len);

@@ -67,7 +67,8 @@ enum edge { EDGE_NONE, EDGE_RISING, EDGE_FALLING };
 /* Modifiers of an IL operator (IEC 61131-3 table 51). */
 enum op_modifier { MOD_N = 1, MOD_C = 2, MOD_PAREN = 4 };
 
-enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR, PIN_IN_OUT };
+/* PIN_VAR: inside, not to be named from outside; PIN_NONE: no part of it. */
+enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR, PIN_IN_OUT, PIN_NONE };
 
 struct word_pin {
 	const char *name;
@@ -79,6 +80,7 @@ struct word_pin {
 	const char *doc;
 	enum word word;      /* type IEC_NONE, own rows: an instance, structure */
 	bool has_init;       /* own rows: declared with a value                */
+	uint16_t capacity;   /* own rows: of a STRING                          */
 };
 
 /* Type of a function's result, if it is not one of its own. */
@@ -103,6 +105,12 @@ struct word_row {
 	uint16_t pin_count;
 	const struct word_pin *pin; /* of a function: inputs only              */
 	uint32_t size;       /* bytes of an FB instance                        */
+	/* Of words of a project: */
+	int owner;           /* index of its POU or structure; -1: none        */
+	const uint16_t *order; /* its pins as they lie in memory               */
+	uint16_t ordered;    /* how many those are                             */
+	uint8_t depth;       /* of structures and blocks inside one another    */
+	bool retain;         /* something of it is RETAIN                      */
 };
 
 /** word_row - the row of a word. Lives for ever. Scan-safe: yes. Words of a

@@ -26,6 +26,10 @@
 #define LIMIT_POUS        1024      /* POUs of one project                    */
 #define LIMIT_VARS        200000    /* variables of one project               */
 #define LIMIT_ARGS        20        /* parameters written at one box          */
+#define LIMIT_BLOCKS      (512u << 20) /* bytes of all block copies of an image */
+#define LIMIT_NESTING     16        /* structures and blocks in one another   */
+#define LIMIT_CALLS       16        /* POUs that call one another             */
+#define LIMIT_MEMBERS     60000     /* of one structure or block              */
 #define LIMIT_OWN_WORDS   8192      /* functions, blocks, types of a project */
 #define LIMIT_FN_INPUTS   16        /* inputs of an extensible function       */
 #define LIMIT_EXPR_DEPTH  64        /* nesting of an expression               */

@@ -100,7 +100,8 @@ static void check_program(struct config_check *c,
 	bool found = false;
 
 	for (int i = 0; i < c->project->pou_count && !found; i++)
-		found = same_name(c, c->project->pou[i].name, entry->pou);
+		found = c->project->pou[i].kind == POU_PROGRAM &&
+			same_name(c, c->project->pou[i].name, entry->pou);
 	if (!found)
 		report(c, DIAG_UNKNOWN_NAME, entry,
 		       scope_text(c->scope, entry->pou));
@@ -126,7 +127,7 @@ static void check_left_out(struct config_check *c)
 		const struct pou *pou = &c->project->pou[i];
 		struct diag place = { .id = DIAG_NOT_RUN, .file = pou->file,
 				      .line = pou->line };
-		bool runs = false;
+		bool runs = pou->kind != POU_PROGRAM; /* where it is called */
 
 		for (int k = 0; k < c->config->count && !runs; k++)
 			runs = same_name(c, c->config->entry[k].pou, pou->name);

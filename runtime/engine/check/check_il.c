@@ -58,6 +58,10 @@ static const struct meaning *value_of(struct il_check *c,
 		il_report(c, line, DIAG_INSTANCE_AS_VALUE, operand_text(c, line));
 		return NULL;
 	}
+	if (m && m->kind == MEANING_STRUCT) {
+		il_report(c, line, DIAG_STRUCT_AS_VALUE, operand_text(c, line));
+		return NULL;
+	}
 	return m;
 }
 
@@ -243,6 +247,30 @@ static bool check_not(struct il_check *c, const struct il_line *line)
 	return good;
 }
 
+/* For check_own.c. */
+const struct meaning *il_find(struct il_check *c, const struct il_line *line)
+{
+	return find(c, line);
+}
+
+bool il_can_store(struct il_check *c, const struct il_line *line,
+		  struct result from, enum iec_type to)
+{
+	return can_store(c, line, from, to);
+}
+
+bool il_can_write(struct il_check *c, const struct il_line *line,
+		  const struct meaning *m)
+{
+	return can_write(c, line, m);
+}
+
+bool il_need_bool(struct il_check *c, const struct il_line *line,
+		  struct result result)
+{
+	return need_bool(c, line, result, operand_text(c, line));
+}
+
 /* ---- functions and calls ---- */
 
 /* A function on the current result: ADD 5. */
@@ -365,28 +393,6 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	return good;
 }
 
-static bool check_pin(struct il_check *c, const struct word_row *row,
-		      const struct il_line *arg)
-{
-	const char *name = scope_text(c->scope, arg->pin);
-	int index = word_pin_find(row, name, strlen(name));
-	const struct meaning *m = value_of(c, arg);
-	const struct word_pin *pin;
-
-	if (!m)
-		return false;
-	if (index < 0)
-		return il_report(c, arg, DIAG_NO_PIN, name);
-	pin = &row->pin[index];
-	if ((pin->dir == PIN_IN) != (arg->kind == IL_ARG_IN))
-		return il_report(c, arg, DIAG_PIN_DIRECTION, name);
-	if (pin->dir == PIN_IN)
-		return can_store(c, arg, result_of(m), pin->type);
-	return can_write(c, arg, m) &&
-	       can_store(c, arg, (struct result){ true, pin->type, NULL },
-			 m->type);
-}
-
 static bool check_cal(struct il_check *c, int at)
 {
 	const struct il_line *line = &c->il->line[at];
@@ -401,7 +407,9 @@ static bool check_cal(struct il_check *c, int at)
 		good = need_result(c, line) &&
 		       need_bool(c, line, c->now, "result");
 	for (int i = at + 1; is_arg(c, i); i++)
-		good &= check_pin(c, scope_row(c->scope, m->var->fb), &c->il->line[i]);
+		good &= il_check_pin(c, scope_row(c->scope, m->word),
+				     &c->il->line[i]);
+	good &= il_check_in_outs(c, at, scope_row(c->scope, m->word));
 	c->now.there = false;
 	return good;
 }
@@ -449,8 +457,14 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 		good = check_op(c, at);
 		break;
 	case IL_FN:
+		if (word_is_own((enum word)line->word))
+			return il_check_own_fn(c, at);
 		return check_fn(c, at, type);
 	case IL_CALL:
+		if (word_is_own((enum word)line->word))
+			return il_check_own_call(c, at);
+		if (il_is_struct_move(c, at))
+			return il_check_struct_move(c, at);
 		return check_call(c, at, type);
 	case IL_CLOSE:
 		good = check_close(c, line);

@@ -48,6 +48,16 @@ bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
 struct il_pou { const struct pou *pou; const struct il *il; };
 
 /**
+ * check_calls - a circle of calls (LD350), or one too deep (LD605)
+ * @list: all POUs of the project, free of errors
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false after a diagnostic, or when memory
+ * is out.
+ */
+bool check_calls(struct scope *scope, const struct il_pou *list, int count,
+		 struct arena *scratch, struct diag_list *diags);
+
+/**
  * check_pins - warns of inputs such as PT that no program ever gives a value
  * @list: all POUs of the project, free of errors
  *

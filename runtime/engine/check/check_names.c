@@ -18,6 +18,7 @@ struct mark {
 	int pou;        /* POU of this name */
 	int label_pou;  /* POU in which it was a label last */
 	int target_pou; /* POU in which a jump named it last */
+	int member_of;  /* structure that has it, 1-based, the last so far */
 	bool reserved;
 };
 
@@ -81,6 +82,9 @@ static const char *const keywords[] = {
 	"CONSTANT", "AT", "END_VAR", "PROGRAM", "LD", "IL", "END_PROGRAM",
 	"CONFIGURATION", "END_CONFIGURATION",
 	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
+	"FUNCTION", "END_FUNCTION", "FUNCTION_BLOCK", "END_FUNCTION_BLOCK",
+	"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "TYPE",
+	"END_TYPE", "STRUCT", "END_STRUCT", "USES",
 };
 #define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
 #define RESERVED_COUNT \
@@ -127,6 +131,8 @@ static bool make_marks(struct names_check *c)
 		for (int k = 0; k < pou->rung_count; k++)
 			names_fold(names, pou->rung[k]->label);
 	}
+	for (int i = 0; i < c->project->structure_count; i++)
+		names_fold(names, c->project->structure[i].name);
 	c->marks = (uint32_t)names->count;
 	c->mark = arena_alloc(c->scratch, c->marks * sizeof(*c->mark));
 	if (!c->mark)
@@ -169,6 +175,12 @@ static bool fits(const struct var *var)
 	return var->at.bits == (var->type == IEC_BOOL ? 1 : bits);
 }
 
+/* What the result of a function is called at a box. */
+static bool is_result(const char *name)
+{
+	return ascii_is("OUT", name, strlen(name));
+}
+
 static void check_var(struct names_check *c, const struct pou *pou,
 		      const struct var_table *table, int index, uint8_t flags)
 {
@@ -182,7 +194,8 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_line(c, DIAG_DUPLICATE_NAME, pou, var->line, name);
 	/* What `ladder il` prints declares its temporaries. */
 	if (is_reserved(c, name, var->fold) ||
-	    (is_generated(name) && !(pou && pou->language == LANGUAGE_IL)))
+	    (is_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
+	    (pou && pou->kind == POU_FUNCTION && is_result(name)))
 		report_line(c, DIAG_RESERVED_NAME, pou, var->line, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
 		report_line(c, DIAG_SHADOWS_ADDRESS, pou, var->line, name);
@@ -206,11 +219,58 @@ static void check_table(struct names_check *c, const struct pou *pou,
 	}
 }
 
+static void report_struct(struct names_check *c, enum diag_id id,
+			  const struct structure *structure, int line,
+			  uint32_t name)
+{
+	struct diag place = { .id = id, .line = line, .file = structure->file };
+
+	c->good &= diag_add(c->diags, place, "%s", text_of(c, name));
+}
+
+static void check_members(struct names_check *c, int number)
+{
+	const struct structure *structure = &c->project->structure[number - 1];
+
+	for (int i = 0; i < structure->vars.count; i++) {
+		const struct var *var = &structure->vars.var[i];
+		struct mark *mark = mark_of(c, var->fold);
+
+		if (mark && mark->member_of == number)
+			report_struct(c, DIAG_DUPLICATE_NAME, structure,
+				      var->line, var->name);
+		if (mark)
+			mark->member_of = number;
+	}
+}
+
+static void check_structures(struct names_check *c)
+{
+	struct project *project = c->project;
+
+	for (int i = 0; i < project->structure_count; i++) {
+		const struct structure *structure = &project->structure[i];
+		uint32_t fold = names_fold(&project->names, structure->name);
+		struct mark *mark = mark_of(c, fold);
+		const char *name = text_of(c, structure->name);
+
+		if (is_reserved(c, name, fold) || words_is_taken(name))
+			report_struct(c, DIAG_RESERVED_NAME, structure,
+				      structure->line, structure->name);
+		if (mark && mark->pou)
+			report_struct(c, DIAG_DUPLICATE_NAME, structure,
+				      structure->line, structure->name);
+		else if (mark)
+			mark->pou = project->pou_count + i + 1;
+		check_members(c, i + 1);
+	}
+}
+
 static void check_pous(struct names_check *c)
 {
 	struct project *project = c->project;
 
-	if (project->pou_count == 0)
+	if (project->pou_count == 0 && project->structure_count == 0)
 		report_line(c, DIAG_NO_PROGRAM, NULL, 0, "");
 	for (int i = 0; i < project->pou_count; i++) {
 		const struct pou *pou = &project->pou[i];
@@ -218,7 +278,8 @@ static void check_pous(struct names_check *c)
 		struct mark *mark = mark_of(c, fold);
 		const char *name = text_of(c, pou->name);
 
-		if (is_reserved(c, name, fold))
+		if (is_reserved(c, name, fold) ||
+		    (pou->kind != POU_PROGRAM && words_is_taken(name)))
 			report_line(c, DIAG_RESERVED_NAME, pou, pou->line,
 				    name);
 		if (mark && mark->pou)
@@ -423,9 +484,10 @@ static void note_il(struct names_check *c, const struct pou *pou)
 static enum diag_id judge_use(const struct var *var, unsigned int use,
 			      uint8_t flags)
 {
-	bool outside = var->at.area != AREA_NONE;
-	bool given = var->has_init || flags & VAR_CONSTANT ||
-		     (outside &&
+	bool outside = var->at.area != AREA_NONE ||
+		       flags & (VAR_OUTPUT | VAR_IN_OUT | VAR_RESULT);
+	bool given = var->has_init || flags & (VAR_CONSTANT | VAR_INPUT | VAR_IN_OUT) ||
+		     (var->at.area != AREA_NONE &&
 		      iec_area_row(var->at.area)->access == ACCESS_READ);
 
 	if (use & USE_CALLED)
@@ -433,7 +495,8 @@ static enum diag_id judge_use(const struct var *var, unsigned int use,
 	if (!use)
 		return DIAG_UNUSED;
 	if (var->type == IEC_NONE)
-		return use & USE_WRITTEN ? DIAG_COUNT : DIAG_NEVER_WRITTEN;
+		return use & USE_WRITTEN || given ? DIAG_COUNT :
+						    DIAG_NEVER_WRITTEN;
 	if (!(use & USE_WRITTEN) && !given)
 		return DIAG_NEVER_WRITTEN;
 	return use & USE_READ || outside ? DIAG_COUNT : DIAG_NEVER_READ;
@@ -492,6 +555,7 @@ bool check_names(struct scope *scope, uint8_t *const *bad,
 		return false;
 	}
 	check_pous(&c);
+	check_structures(&c);
 	check_table(&c, NULL, &c.project->globals);
 	check_bodies(&c, bad);
 	c.good &= check_config(scope, &c.uses, diags);

@@ -172,7 +172,7 @@ static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
 	int index = word_pin_find(row, arg->pin, arg->pin_len);
 	bool output;
 
-	if (index >= 0 && row->kind == WORD_FN)
+	if (index >= row->pin_count)
 		output = false;
 	else if (index >= 0)
 		output = row->pin[index].dir == PIN_OUT;
@@ -186,6 +186,25 @@ static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
 	else
 		return DIAG_NO_PIN;
 	return output == arg->output ? DIAG_COUNT : DIAG_PIN_DIRECTION;
+}
+
+/* A parameter that the box changes, too. */
+static bool is_in_out(const struct word_row *row, const struct arg *arg)
+{
+	int index = word_pin_find(row, arg->pin, arg->pin_len);
+
+	return index >= 0 && index < row->pin_count &&
+	       row->pin[index].dir == PIN_IN_OUT;
+}
+
+static void change_name(struct operand_check *c, struct spot at, uint32_t id)
+{
+	const struct meaning *m = find(c, at, id);
+
+	if (m && m->kind == MEANING_INSTANCE)
+		uses_add(c->uses, m, USE_READ | USE_WRITTEN);
+	else if (m && write_name(c, at, id, false))
+		uses_add(c->uses, m, USE_READ);
 }
 
 static void check_args(struct operand_check *c, struct spot at,
@@ -202,6 +221,8 @@ static void check_args(struct operand_check *c, struct spot at,
 		if (wrong != DIAG_COUNT)
 			report(c, wrong, at, project_text(c->project,
 				intern(c, arg.pin, arg.pin_len)));
+		else if (is_in_out(row, &arg))
+			change_name(c, at, value);
 		else if (arg.output)
 			write_name(c, at, value, row->kind == WORD_FB);
 		else
@@ -237,13 +258,55 @@ static unsigned int connected_inputs(const struct operand_check *c,
 	return inputs;
 }
 
+static bool has_pin_row(const struct operand_check *c, struct spot at,
+			const char *name)
+{
+	for (int i = at.row + 1; i < c->rung->rows; i++) {
+		const struct cell *below = rung_at(c->rung, i, at.col);
+		const char *text = project_text(c->project, below->operand);
+
+		if (below->word != ELEM_PIN)
+			break;
+		if (ascii_is(text, name, strlen(name)))
+			return true;
+	}
+	return false;
+}
+
+/* What is the project's own needs its inputs that have no value. */
+static void check_own_inputs(struct operand_check *c, struct spot at,
+			     const struct cell *cell, const struct word_row *row)
+{
+	const char *args = project_text(c->project, cell->args);
+	struct arg arg;
+
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+		bool needed = pin->dir == PIN_IN_OUT ||
+			      (row->kind == WORD_FN && pin->dir == PIN_IN &&
+			       !pin->has_init);
+
+		if (!needed || has_pin_row(c, at, pin->name) ||
+		    args_find(args, pin->name, strlen(pin->name), &arg))
+			continue;
+		report(c, DIAG_MISSING_INPUT, at, pin->name);
+		return;
+	}
+}
+
 /* A function needs all its named inputs, and of the others no gap. */
 static void check_inputs(struct operand_check *c, struct spot at,
 			 const struct cell *cell)
 {
 	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
-	unsigned int inputs = connected_inputs(c, at, cell);
+	unsigned int inputs;
 	char name[24];
+
+	if (word_is_own((enum word)cell->word)) {
+		check_own_inputs(c, at, cell, row);
+		return;
+	}
+	inputs = connected_inputs(c, at, cell);
 
 	for (int i = 0; i < row->pin_count || inputs >> i; i++) {
 		if (inputs >> i & 1)
@@ -265,7 +328,7 @@ static void check_instance(struct operand_check *c, struct spot at,
 
 	if (!m)
 		return;
-	if (m->kind != MEANING_INSTANCE || m->var->fb != (enum word)cell->word)
+	if (m->kind != MEANING_INSTANCE || m->word != (enum word)cell->word)
 		refuse(c, DIAG_NOT_INSTANCE, at, cell->operand, m);
 	else if (uses_add(c->uses, m, USE_CALLED))
 		report(c, DIAG_INSTANCE_TWICE, at, name);
@@ -276,6 +339,9 @@ static void check_element(struct operand_check *c, struct spot at,
 {
 	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 
+	if (row->edge != EDGE_NONE && c->pou->kind == POU_FUNCTION)
+		report(c, DIAG_FUNCTION_KEEPS, at,
+		       project_text(c->project, cell->operand));
 	switch (row->operand) {
 	case OPND_BOOL_R:
 		check_bool(c, at, cell->operand,
@@ -306,7 +372,7 @@ static void check_element(struct operand_check *c, struct spot at,
 	}
 	if (cell->args)
 		check_args(c, at, cell);
-	if (row->kind == WORD_FN)
+	if (row->kind == WORD_FN || word_is_own((enum word)cell->word))
 		check_inputs(c, at, cell);
 }
 

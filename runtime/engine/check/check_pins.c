@@ -20,7 +20,7 @@ struct pins {
 
 static uint64_t key_of(const struct meaning *instance, int pin)
 {
-	return (uint64_t)(uintptr_t)instance->var * 64 + (uint64_t)pin + 1;
+	return (uint64_t)(uintptr_t)instance->var * 65536 + (uint64_t)pin + 1;
 }
 
 static uint64_t *slot_of(const struct pins *pins, uint64_t key)
@@ -67,7 +67,7 @@ static void note_list(struct pins *pins, const struct il_pou *list)
 			const char *pin = scope_text(pins->scope, line->pin);
 
 			key = key_of(instance,
-				     word_pin_find(scope_row(pins->scope, instance->var->fb),
+				     word_pin_find(scope_row(pins->scope, instance->word),
 						   pin, strlen(pin)));
 		}
 		if (key)
@@ -100,10 +100,12 @@ static void check_list(struct pins *pins, const struct il_pou *list)
 		m = find(pins, list->pou, line->operand);
 		if (!m || m->kind != MEANING_INSTANCE)
 			continue;
-		row = scope_row(pins->scope, m->var->fb);
+		row = scope_row(pins->scope, m->word);
 		for (int pin = 0; pin < row->pin_count; pin++)
 			if (row->pin[pin].dir == PIN_IN &&
 			    row->pin[pin].type != IEC_BOOL &&
+			    row->pin[pin].type != IEC_NONE &&
+			    !row->pin[pin].has_init &&
 			    !*slot_of(pins, key_of(m, pin)))
 				warn(pins, list->pou, line, row->pin[pin].name);
 	}

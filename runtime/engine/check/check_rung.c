@@ -197,8 +197,8 @@ static enum diag_id judge_pin(const struct word_row *row, const char *name,
 		return DIAG_PIN_UNKNOWN;
 	pin = &row->pin[index < row->pin_count ? index : row->pin_count - 1];
 	if (row->kind == WORD_FN)
-		return pin->classes & CLASS_BOOL ? DIAG_COUNT :
-						   DIAG_PIN_NOT_BOOL;
+		return pin->dir == PIN_IN && pin->classes & CLASS_BOOL ?
+			DIAG_COUNT : DIAG_PIN_NOT_BOOL;
 	if (index == word_first_bool(row, PIN_IN))
 		return DIAG_PIN_FIRST;
 	return pin->dir == PIN_IN && pin->type == IEC_BOOL ? DIAG_COUNT :

@@ -2,7 +2,8 @@
  *
  * il_check - what the parts of the check of an instruction list share.
  *
- * Private to check/. check_il walks the list, check_fn looks at inputs of functions.
+ * Private to check/. check_il walks the list, check_fn looks at inputs of functions,
+ * check_own at calls of the project's own functions and blocks.
  */
 #ifndef CHECK_IL_CHECK_H
 #define CHECK_IL_CHECK_H
@@ -39,6 +40,15 @@ bool il_report_constant(struct il_check *c, const struct il_line *line,
 			const struct literal *literal, enum iec_type to);
 /** il_is_unknown - after an error was told: a result that fits everywhere. */
 bool il_is_unknown(struct result result);
+/** il_find - what an operand means; NULL after a diagnostic. */
+const struct meaning *il_find(struct il_check *c, const struct il_line *line);
+/* May it be stored there, written, used as a bit? False after a diagnostic. */
+bool il_can_store(struct il_check *c, const struct il_line *line,
+		  struct result from, enum iec_type to);
+bool il_can_write(struct il_check *c, const struct il_line *line,
+		  const struct meaning *m);
+bool il_need_bool(struct il_check *c, const struct il_line *line,
+		  struct result result);
 /**
  * il_check_inputs - the type that inputs of a function share, and whether it takes them
  * @hint:   what constants alone should be, or IEC_NONE
@@ -49,4 +59,18 @@ bool il_is_unknown(struct result result);
 bool il_check_inputs(struct il_check *c, const struct il_line *line,
 		     const struct result *in, int count, enum iec_type hint,
 		     enum iec_type *common);
+
+/* ---- check_own.c ---- */
+/** il_check_pin - one parameter against the pin of @row that it names. */
+bool il_check_pin(struct il_check *c, const struct word_row *row,
+		  const struct il_line *arg);
+/** il_check_in_outs - is there a parameter for each VAR_IN_OUT of @row? */
+bool il_check_in_outs(struct il_check *c, int at, const struct word_row *row);
+/** il_check_own_fn - a function of the project on the result; sets the result. */
+bool il_check_own_fn(struct il_check *c, int at);
+/** il_check_own_call - one with formal parameters. */
+bool il_check_own_call(struct il_check *c, int at);
+/** il_is_struct_move - is the line at @at a MOVE of a structure? */
+bool il_is_struct_move(struct il_check *c, int at);
+bool il_check_struct_move(struct il_check *c, int at);
 #endif

@@ -9,6 +9,7 @@
 #include "engine/check/scope.h"
 
 #include "engine/base/ascii.h"
+#include "engine/model/shape.h"
 
 #include <string.h>
 
@@ -152,6 +153,19 @@ static bool may_write(struct iec_addr addr)
 	       iec_area_row(addr.area)->access == ACCESS_WRITE;
 }
 
+/* Something that has parts. */
+static void mean_whole(const struct scope *scope, enum word word,
+		       struct meaning *out)
+{
+	out->word = word;
+	out->type = IEC_NONE;
+	out->kind = MEANING_STRUCT;
+	if (scope_row(scope, word)->kind == WORD_STRUCT)
+		return;
+	out->kind = MEANING_INSTANCE;
+	out->writable = false;
+}
+
 static void mean_variable(const struct scope *scope,
 			  const struct declared *slot, struct meaning *out)
 {
@@ -164,26 +178,53 @@ static void mean_variable(const struct scope *scope,
 	out->addr = var->at;
 	out->type = var->type;
 	out->constant = slot->flags & VAR_CONSTANT;
-	out->writable = !out->constant && may_write(var->at);
+	out->writable = !out->constant && may_write(var->at) &&
+			!(slot->flags & VAR_INPUT);
 	out->kind = MEANING_VARIABLE;
-	if (var->type == IEC_NONE && var->fb) {
-		out->kind = MEANING_INSTANCE;
-		out->writable = false;
-	}
+	if (var->type == IEC_NONE && var->fb)
+		mean_whole(scope, var->fb, out);
 }
 
-/* `Instance.PIN`; false leaves @out as it was. */
-static bool mean_pin(const struct scope *scope, uint32_t table,
-		     const char *text, size_t len, struct meaning *out,
-		     enum diag_id *why)
+/* Part @name of the instance or structure that @out is; false: it has none. What
+ * is inside a block is not to be named from outside. */
+static bool mean_part(const struct scope *scope, const char *name, size_t len,
+		      struct meaning *out)
 {
-	const char *dot = memchr(text, '.', len);
+	const struct word_row *row = scope_row(scope, out->word);
+	const struct word_pin *pin;
+	int index = word_pin_find(row, name, len);
+
+	if (index < 0)
+		return false;
+	pin = &row->pin[index];
+	if (out->pin < 0)
+		out->pin = index;
+	out->offset += pin->offset;
+	out->type = pin->type;
+	if (row->kind == WORD_FB)
+		out->writable = pin->dir == PIN_IN;
+	if (pin->type == IEC_NONE)
+		mean_whole(scope, pin->word, out);
+	else
+		out->kind = MEANING_PIN;
+	return true;
+}
+
+static bool has_parts(const struct meaning *m)
+{
+	return m->kind == MEANING_INSTANCE || m->kind == MEANING_STRUCT;
+}
+
+/* `Instance.PIN`, `Recipe.Inner.Speed`; false leaves @out as it was. */
+static bool mean_path(const struct scope *scope, uint32_t table,
+		      const char *text, size_t len, struct meaning *out,
+		      enum diag_id *why)
+{
+	const char *dot = memchr(text, '.', len), *end = text + len;
 	struct names *names = &scope->project->names;
 	const struct declared *slot;
-	const struct word_row *row;
-	struct meaning whole = { 0 };
+	struct meaning part = { 0 };
 	uint32_t id;
-	int pin;
 
 	if (!dot)
 		return false;
@@ -191,19 +232,21 @@ static bool mean_pin(const struct scope *scope, uint32_t table,
 	slot = find_declared(scope, table, names_fold(names, id));
 	if (!slot)
 		return false;
-	mean_variable(scope, slot, &whole);
-	if (whole.kind != MEANING_INSTANCE)
+	mean_variable(scope, slot, &part);
+	part.pin = -1;
+	if (!has_parts(&part))
 		return false;
 	*why = DIAG_NO_PIN;
-	row = scope_row(scope, whole.var->fb);
-	pin = word_pin_find(row, dot + 1, len - (size_t)(dot + 1 - text));
-	if (pin < 0)
-		return false;
-	*out = whole;
-	out->kind = MEANING_PIN;
-	out->pin = pin;
-	out->type = row->pin[pin].type;
-	out->writable = row->pin[pin].dir == PIN_IN;
+	while (dot) {
+		const char *name = dot + 1;
+
+		dot = memchr(name, '.', (size_t)(end - name));
+		if (!has_parts(&part) ||
+		    !mean_part(scope, name,
+			       (size_t)((dot ? dot : end) - name), &part))
+			return false;
+	}
+	*out = part;
 	return true;
 }
 
@@ -280,7 +323,7 @@ static bool mean(const struct scope *scope, uint32_t table, uint32_t id,
 		return true;
 	}
 	return mean_system(text, len, out) ||
-	       mean_pin(scope, table, text, len, out, why) ||
+	       mean_path(scope, table, text, len, out, why) ||
 	       mean_literal(text, len, out, why) ||
 	       mean_address(scope, text, len, out, why);
 }
@@ -370,6 +413,13 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 		.var = var, .index = index, .writable = true,
 	};
 	return true;
+}
+
+uint32_t scope_size(const struct scope *scope, const struct meaning *meaning)
+{
+	struct word_pin like = { .type = meaning->type, .word = meaning->word };
+
+	return shape_of(&scope->project->words, &like).size;
 }
 
 struct project *scope_project(const struct scope *scope)

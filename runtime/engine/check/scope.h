@@ -17,7 +17,8 @@ enum meaning_kind {
 	MEANING_NONE,
 	MEANING_VARIABLE,  /* table, index                                    */
 	MEANING_INSTANCE,  /* table, index: a whole instance                  */
-	MEANING_PIN,       /* table, index, pin of its FB                     */
+	MEANING_STRUCT,    /* table, index, offset: a whole structure         */
+	MEANING_PIN,       /* table, index, pin of its FB, offset; a member   */
 	MEANING_ADDRESS,   /* addr; SYS_ names too                            */
 	MEANING_LITERAL,   /* literal                                         */
 };
@@ -28,7 +29,10 @@ struct meaning {
 	const struct pou *pou;    /* whose table; NULL: globals               */
 	const struct var *var;    /* the variable or instance                 */
 	int index;                /* in its table                             */
-	int pin;                  /* index in the FB's row                    */
+	enum word word;           /* of an INSTANCE or STRUCT                 */
+	int pin;                  /* index in the row of the variable's word  */
+	uint32_t offset;          /* of a part: bytes behind the variable's
+				     first; 0 of a whole variable             */
 	struct iec_addr addr;     /* of ADDRESS, and of a variable with AT    */
 	struct literal literal;
 	bool writable;            /* by a program                             */
@@ -64,6 +68,8 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index);
  */
 bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index);
+/** scope_size - bytes of what @meaning is. Scan-safe: no. */
+uint32_t scope_size(const struct scope *scope, const struct meaning *meaning);
 struct project *scope_project(const struct scope *scope);
 /** scope_row - the row of a word, be it the project's own. */
 const struct word_row *scope_row(const struct scope *scope, enum word word);

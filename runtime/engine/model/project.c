@@ -127,6 +127,16 @@ bool project_has(const struct project *project, struct iec_addr addr)
 	       addr.byte + size <= project_area_bytes(project, addr.area);
 }
 
+const char *pou_word(enum pou_kind kind)
+{
+	static const char *const words[] = {
+		[POU_PROGRAM] = "PROGRAM", [POU_FUNCTION] = "FUNCTION",
+		[POU_BLOCK] = "FUNCTION_BLOCK",
+	};
+
+	return words[kind];
+}
+
 const char *project_text(const struct project *project, uint32_t id)
 {
 	return names_text(&project->names, id);

@@ -15,10 +15,16 @@
 #include "engine/model/words.h"
 
 enum pou_language { LANGUAGE_LD, LANGUAGE_IL };
+enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK };
 
 struct pou {
 	uint32_t name;          /* string id                                   */
 	enum pou_language language;
+	enum pou_kind kind;
+	enum word word;         /* of a function or block; WORD_COUNT: none    */
+	enum word temp_word;    /* of its VAR_TEMP as one; WORD_COUNT: none    */
+	int edges;              /* cells with a memory: in each instance       */
+	uint32_t edge_offset;   /* in an instance: where those lie             */
 	struct var_table vars;  /* locals                                      */
 	struct rung **rung;     /* of LD; malloc'ed vector of malloc'ed rungs  */
 	int rung_count;
@@ -30,12 +36,23 @@ struct pou {
 	uint8_t included;       /* 1: of a file named by INCLUDE               */
 };
 
+/* TYPE name : STRUCT … END_STRUCT; END_TYPE */
+struct structure {
+	uint32_t name;          /* string id                                   */
+	enum word word;
+	struct var_table vars;  /* its members                                 */
+	uint32_t comment;       /* behind its END_STRUCT                       */
+	const char *file;
+	int line;
+};
+
 /* What stood where in the file, so that writing keeps the order. */
 enum part_kind { PART_VARS, PART_POU, PART_VIEW, PART_INCLUDE,
-		 PART_CONFIG };
+		 PART_CONFIG, PART_USES, PART_TYPES };
 struct part {
 	enum part_kind kind;
-	int index;              /* var block of globals, or POU                */
+	int index;              /* var block of globals, POU, first structure  */
+	int count;              /* structures                                  */
 	uint32_t text;          /* string id: VIEW … END_VIEW whole; file name */
 	uint32_t comment;       /* above it                                    */
 	uint8_t included;       /* came from another file: not written         */
@@ -53,6 +70,10 @@ struct project {
 	struct config *config;  /* NULL: none                                  */
 	struct pou *pou;
 	int pou_count;
+	struct structure *structure;
+	int structure_count;
+	const char **used;      /* paths of files named by USES                */
+	int used_count;
 	struct part *part;
 	int part_count;
 };
@@ -72,6 +93,8 @@ bool project_move_rung(struct pou *pou, int from, int to);
 uint32_t project_area_bytes(const struct project *project, enum iec_area area);
 /** project_has - is an address inside that? AREA_NONE always. */
 bool project_has(const struct project *project, struct iec_addr addr);
+/** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK. Lives for ever. */
+const char *pou_word(enum pou_kind kind);
 /** project_text - the string of an id. */
 const char *project_text(const struct project *project, uint32_t id);
 #endif

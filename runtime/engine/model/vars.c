@@ -30,3 +30,17 @@ int vars_find(const struct var_table *table, uint32_t fold)
 			return i;
 	return -1;
 }
+
+const char *vars_head(uint8_t flags)
+{
+	static const struct { uint8_t flag; const char *word; } heads[] = {
+		{ VAR_GLOBAL_WORD, "VAR_GLOBAL" }, { VAR_INPUT, "VAR_INPUT" },
+		{ VAR_OUTPUT, "VAR_OUTPUT" }, { VAR_IN_OUT, "VAR_IN_OUT" },
+		{ VAR_TEMP, "VAR_TEMP" },
+	};
+
+	for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++)
+		if (flags & heads[i].flag)
+			return heads[i].word;
+	return "VAR";
+}

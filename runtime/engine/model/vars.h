@@ -11,13 +11,17 @@
 #include "engine/base/catalog.h"
 #include "engine/base/names.h"
 
-enum var_flag { VAR_RETAIN = 1, VAR_CONSTANT = 2, VAR_GLOBAL_WORD = 4 };
+enum var_flag {
+	VAR_RETAIN = 1, VAR_CONSTANT = 2, VAR_GLOBAL_WORD = 4,
+	VAR_INPUT = 8, VAR_OUTPUT = 16, VAR_IN_OUT = 32, VAR_TEMP = 64,
+	VAR_RESULT = 128,    /* of a function; stands in its heading           */
+};
 
 struct var {
 	uint32_t name;       /* string id, as written                          */
 	uint32_t fold;       /* names_fold of it                               */
-	enum iec_type type;  /* IEC_NONE for an instance                       */
-	enum word fb;        /* an FB_ word, of an instance                    */
+	enum iec_type type;  /* IEC_NONE for an instance or structure          */
+	enum word fb;        /* the word of the block or structure             */
 	uint16_t capacity;   /* of a STRING, in bytes; 0: of a temporary       */
 	struct iec_addr at;  /* area AREA_NONE: no AT                          */
 	bool has_init;
@@ -45,6 +49,8 @@ struct var_table {
 
 /** vars_flags - of the block that var number @index stands in. */
 uint8_t vars_flags(const struct var_table *table, int index);
+/** vars_head - the word that a block with these flags begins with: VAR_INPUT. */
+const char *vars_head(uint8_t flags);
 /** vars_find - index by folded name, -1: none. Linear in small tables; large
  * ones are looked up through struct scope (check/scope.h). */
 int vars_find(const struct var_table *table, uint32_t fold);

@@ -102,3 +102,17 @@ enum word words_find(const struct word_table *table, const char *text, size_t le
 
 	return found ? (enum word)(WORD_FIRST_OWN + found - 1) : WORD_COUNT;
 }
+
+bool words_is_taken(const char *name)
+{
+	size_t len = strlen(name);
+
+	if (word_find(name, len) != WORD_COUNT)
+		return true;
+	if (len > 1 && ascii_upper(name[len - 1]) == 'N')
+		len--;
+	if (len > 1 && op_find(name, len) == OP_COUNT &&
+	    ascii_upper(name[len - 1]) == 'C')
+		len--;
+	return op_find(name, len) != OP_COUNT;
+}

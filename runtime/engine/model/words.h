@@ -41,6 +41,10 @@ const struct word_row *words_row(const struct word_table *table, enum word word)
 /** words_find - as word_find, the project's own words too; WORD_COUNT: none. */
 enum word words_find(const struct word_table *table, const char *text, size_t len);
 
+/** words_is_taken - do cells or lists have this word already, perhaps with C or N
+ * behind it? Nothing of a project can be called so. Scan-safe: yes. */
+bool words_is_taken(const char *name);
+
 static inline bool word_is_own(enum word word)
 {
 	return word > WORD_COUNT;

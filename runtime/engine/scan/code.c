@@ -428,6 +428,7 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
 	find_sections(out);
 	v.areas = iec_areas_size();
 	v.data_size = out->header->data_size;
+	v.blocks_left = LIMIT_BLOCKS;
 	*why = DIAG_IMAGE_REFUSED;
 	if (v.data_size > LIMIT_DATA || v.data_size < v.areas + 2) {
 		*where = offsetof(struct code_header, data_size);

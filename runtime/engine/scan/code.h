@@ -23,6 +23,8 @@
  *   FN     fn, en, eno, dst, inputs …   n: type | inputs << 8 |
  *                               result << 16; en, eno BOOLs; CODE_OWN at inputs
  *   FB     instance             n: enum word of the block
+ *   BLOCK  dst, src, size       whole values and instances, the same at both
+ *   CALL   entry                runs it up to its END; who calls whom makes no circle
  *   JMP    target               word index in the section, of an instruction
  *   JMPC   target, cond         that begins in the same program
  */
@@ -34,7 +36,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 3u
+#define CODE_VERSION 4u
 
 enum code_section_kind {
 	CODE_PROGRAMS = 1, /* struct code_program each                         */
@@ -68,7 +70,8 @@ struct code_header {
 	struct code_section section[CODE_SECTION_COUNT];
 };
 
-struct code_program {   /* run by the tasks that call it                   */
+/* Run by the tasks that call it, or only by CALL. */
+struct code_program {
 	uint32_t text, text_words;   /* word index in CODE_TEXT, length      */
 	uint32_t watch, watch_words; /* in CODE_WATCH; 0 words: none         */
 	uint32_t name;               /* offset in CODE_STRINGS               */

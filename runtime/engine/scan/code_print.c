@@ -66,6 +66,11 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 	case VM_FB:
 		return snprintf(out, size, "fb      %s @%u",
 				word_row((enum word)n)->word, at[0]);
+	case VM_BLOCK:
+		return snprintf(out, size, "block   %u @%u -> @%u", at[2], at[1],
+				at[0]);
+	case VM_CALL:
+		return snprintf(out, size, "call    program %u", at[0]);
 	case VM_JMP:
 		return snprintf(out, size, "jmp     %u", at[0]);
 	case VM_JMPC:

@@ -40,6 +40,7 @@ uint32_t code_words(const uint32_t *code)
 		return 1 + 4 * n;
 	case VM_COPY:
 	case VM_CMP:
+	case VM_BLOCK:
 		return 4;
 	case VM_FN:
 		return 5 + (n >> 8 & 0xff);
@@ -49,6 +50,7 @@ uint32_t code_words(const uint32_t *code)
 		return 3;
 	case VM_FB:
 	case VM_JMP:
+	case VM_CALL:
 		return 2;
 	case VM_END:
 	case VM_COUNT:
@@ -132,8 +134,81 @@ static bool check_bit(const struct verifier *v, const uint32_t *at, uint32_t op,
 	return reads_bool(v, at[0]) && verify_use(v, at[1], IEC_BYTE, true);
 }
 
-/* One instruction; jumps are looked at later. */
-static bool check_code(const struct verifier *v, const uint32_t *code)
+/* Does a value or instance begin or end here, or nothing lie here? */
+static bool is_edge(const struct verifier *v, uint32_t offset)
+{
+	return offset == v->data_size || (v->mark[offset] != MARK_INSIDE &&
+					  v->mark[offset] != MARK_TEXT);
+}
+
+/* The first run that ends behind @offset. */
+static uint32_t run_at(const struct verifier *v, uint32_t offset)
+{
+	const struct program *p = v->program;
+	uint32_t low = 0, high = p->run_count;
+
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+
+		if (p->run[middle].offset > offset)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	return low ? low - 1 : 0;
+}
+
+/* Has @b the same instances as @a? Marks do not tell what is inside them. */
+static bool same_instances(const struct verifier *v, uint32_t a, uint32_t b,
+			   uint32_t size)
+{
+	const struct program *p = v->program;
+
+	for (uint32_t i = run_at(v, a); i < p->run_count; i++) {
+		const struct code_run *run = &p->run[i];
+		uint32_t own, at;
+
+		if (run->offset >= a + size)
+			break;
+		if (run->kind != RUN_INSTANCE)
+			continue;
+		own = word_row((enum word)run->word)->size;
+		at = run->offset;
+		if (at < a)
+			at += (a - at) / own * own;
+		for (; at < a + size && at < run->offset + run->count * own;
+		     at += own) {
+			if (at + own <= a)
+				continue;
+			if (at < a || own > a + size - at ||
+			    code_instance(p, at - a + b) != run->word)
+				return false;
+		}
+	}
+	return true;
+}
+
+/* Both sides must be whole and alike, so that what is a BOOL here is one there. */
+static bool check_block(struct verifier *v, const uint32_t *at)
+{
+	uint32_t to = at[0], from = at[1], size = at[2], first = v->areas + 2;
+
+	if (size == 0 || to < first || from < first || to > v->data_size ||
+	    from > v->data_size || size > v->data_size - to ||
+	    size > v->data_size - from ||
+	    (to < from ? from - to : to - from) < size ||
+	    size > v->blocks_left)
+		return false;
+	v->blocks_left -= size;
+	return is_edge(v, to) && is_edge(v, from) && is_edge(v, to + size) &&
+	       is_edge(v, from + size) &&
+	       memcmp(v->mark + to, v->mark + from, size) == 0 &&
+	       same_instances(v, to, from, size) &&
+	       same_instances(v, from, to, size);
+}
+
+/* One instruction; jumps and who calls whom are looked at later. */
+static bool check_code(struct verifier *v, const uint32_t *code)
 {
 	uint32_t op = *code & 0xff, n = *code >> 8;
 	const uint32_t *at = code + 1;
@@ -162,6 +237,10 @@ static bool check_code(const struct verifier *v, const uint32_t *code)
 		return check_fn(v, at, n);
 	case VM_FB:
 		return n < WORD_COUNT && code_instance(v->program, at[0]) == n;
+	case VM_BLOCK:
+		return n == 0 && check_block(v, at);
+	case VM_CALL:
+		return n == 0 && at[0] < v->program->entry_count;
 	case VM_COUNT:
 		break;
 	}
@@ -207,12 +286,101 @@ static bool check_text(struct verifier *v, const uint32_t *base, uint32_t first,
 	return true;
 }
 
+/* ---- calls ---- */
+
+struct calls {
+	struct verifier *v;
+	uint8_t *deep;     /* by program: 0 not looked at, 255 in work, else
+			      1 + calls inside one another from it on          */
+	uint32_t *stack, *at; /* programs in work; the word to look at next  */
+	uint32_t depth;
+};
+#define IN_WORK 255u
+
+static void begin_calls(struct calls *c, uint32_t entry)
+{
+	c->deep[entry] = IN_WORK;
+	c->stack[c->depth] = entry;
+	c->at[c->depth++] = 0;
+}
+
+/* The next call of the program on top; false: there are no more. */
+static bool next_call(struct calls *c, const uint32_t *text, uint32_t words,
+		      uint32_t *to)
+{
+	uint32_t *at = &c->at[c->depth - 1];
+
+	for (; *at < words; *at += code_words(text + *at))
+		if ((text[*at] & 0xff) == VM_CALL) {
+			*to = text[*at + 1];
+			return true;
+		}
+	return false;
+}
+
+/* Steps through the calls of the programs on the stack until it is empty; a call
+ * that was not looked at goes on top. False: a circle, or too deep. */
+static bool walk_calls(struct calls *c, bool watch, uint8_t *most)
+{
+	const struct program *p = c->v->program;
+
+	while (c->depth > 0) {
+		uint32_t top = c->stack[c->depth - 1], to;
+		const struct code_program *e = &p->entry[top];
+		const uint32_t *text = watch ? p->watch + e->watch : p->text + e->text;
+
+		if (!next_call(c, text, watch ? e->watch_words : e->text_words,
+			       &to)) {
+			c->deep[top] = most[top];
+			c->depth--;
+			continue;
+		}
+		if (c->deep[to] == IN_WORK)
+			return verify_refuse(c->v, e);
+		if (c->deep[to] == 0) {
+			most[to] = 1;
+			begin_calls(c, to);
+			continue;
+		}
+		if (c->deep[to] > LIMIT_CALLS)
+			return verify_refuse(c->v, e);
+		if (c->deep[to] + 1 > most[top])
+			most[top] = (uint8_t)(c->deep[to] + 1);
+		c->at[c->depth - 1] += 2;
+	}
+	return true;
+}
+
+static bool check_calls(struct verifier *v, bool watch)
+{
+	uint32_t count = v->program->entry_count;
+	struct calls c = { .v = v };
+	uint8_t *most = arena_alloc(v->scratch, count + 1u);
+
+	c.deep = arena_alloc(v->scratch, count + 1u);
+	c.stack = arena_alloc(v->scratch, (count + 1u) * sizeof(uint32_t));
+	c.at = arena_alloc(v->scratch, (count + 1u) * sizeof(uint32_t));
+	if (!most || !c.deep || !c.stack || !c.at)
+		return false;
+	for (uint32_t i = 0; i < count; i++) {
+		if (c.deep[i])
+			continue;
+		most[i] = 1;
+		begin_calls(&c, i);
+		if (!walk_calls(&c, watch, most))
+			return false;
+	}
+	return true;
+}
+
 bool verify_programs(struct verifier *v)
 {
 	const struct program *p = v->program;
 	uint32_t most = p->text_words > p->watch_words ? p->text_words
 						       : p->watch_words;
 	uint8_t *starts = arena_alloc(v->scratch, most + 1u);
+
+	uint32_t text = 0, watch = 0; /* words of all so far: none is shared */
 
 	if (!starts)
 		return false;
@@ -222,15 +390,20 @@ bool verify_programs(struct verifier *v)
 		if (e->text > p->text_words || e->text_words > p->text_words - e->text ||
 		    e->watch > p->watch_words ||
 		    e->watch_words > p->watch_words - e->watch ||
-		    (p->string_bytes && e->name >= p->string_bytes))
+		    (p->string_bytes && e->name >= p->string_bytes) ||
+		    e->text_words > p->text_words - text ||
+		    e->watch_words > p->watch_words - watch)
 			return verify_refuse(v, e);
+		text += e->text_words;
+		watch += e->watch_words;
 		if (!check_text(v, p->text, e->text, e->text_words, starts))
 			return false;
 		if (p->watch_words &&
 		    !check_text(v, p->watch, e->watch, e->watch_words, starts))
 			return false;
 	}
-	return true;
+	return check_calls(v, false) &&
+	       (!p->watch_words || check_calls(v, true));
 }
 
 

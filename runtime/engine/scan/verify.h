@@ -22,6 +22,8 @@ struct verifier {
 	struct arena *scratch;
 	uint8_t *mark;         /* one a byte of data memory                 */
 	uint32_t data_size, areas;
+	uint32_t blocks_left;  /* bytes that BLOCKs may still compare: a bound
+				  on the time it takes to look at them        */
 	size_t where;          /* byte offset of what broke a rule          */
 };
 

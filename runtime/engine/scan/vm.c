@@ -205,6 +205,15 @@ static bool spend(struct vm *vm, const uint32_t *from, const uint32_t *to)
 	return true;
 }
 
+/* A call costs what it may run, but for loops, which cost what they go back over. */
+static bool pay(struct vm *vm, uint32_t cost)
+{
+	if (cost > vm->budget)
+		return false;
+	vm->budget -= cost;
+	return true;
+}
+
 enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 {
 	const struct program *program = vm->program;
@@ -212,13 +221,18 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	const uint32_t *base = watch ? program->watch : program->text;
 	const uint32_t *pc = base + (watch ? at->watch : at->text);
 	uint8_t *m = vm->memory;
+	const uint32_t *back[LIMIT_CALLS]; /* where calls go on afterwards    */
+	uint32_t depth = 0;
 
 	for (;;) {
 		uint32_t word = *pc, n = word >> 8;
 
 		switch ((enum vm_op)(word & 0xff)) {
 		case VM_END:
-			return FAULT_NONE;
+			if (depth == 0)
+				return FAULT_NONE;
+			pc = back[--depth];
+			break;
 		case VM_LUT:
 			pc = run_lut(m, pc + 1, n);
 			break;
@@ -250,6 +264,19 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 		case VM_FB:
 			fb_table[n](m + pc[1], vm->now_ns);
 			pc += 2;
+			break;
+		case VM_BLOCK:
+			if (!pay(vm, pc[3] / 8))
+				goto out_of_budget;
+			memcpy(m + pc[1], m + pc[2], pc[3]);
+			pc += 4;
+			break;
+		case VM_CALL:
+			at = &program->entry[pc[1]];
+			if (!pay(vm, watch ? at->watch_words : at->text_words))
+				goto out_of_budget;
+			back[depth++] = pc + 2;
+			pc = base + (watch ? at->watch : at->text);
 			break;
 		case VM_JMP:
 			if (!spend(vm, pc, base + pc[1]))

@@ -92,10 +92,32 @@ static bool add_args(struct reader *r, const struct il_line *call)
 	return true;
 }
 
+/* Are the pins of a call the project's own, and stay as they are written? Those of
+ * an instance that is declared further on are taken for it. */
+static bool has_own_pins(const struct reader *r, const struct il_line *call)
+{
+	struct project *project = r->project;
+	const struct var_table *table = r->pou ? &r->pou->vars : NULL;
+	uint32_t fold = names_fold(&project->names, call->operand);
+	int index;
+
+	if (call->kind != IL_OP)
+		return word_is_own((enum word)call->word);
+	if (!table || project->words.count == 0)
+		return false;
+	index = vars_find(table, fold);
+	if (index < 0) {
+		table = &project->globals;
+		index = vars_find(table, fold);
+	}
+	return index < 0 || word_is_own(table->var[index].fb);
+}
+
 /* The cursor stands on `(`. Comments between the parameters move above. */
 static bool read_call(struct reader *r, const struct il_line *call)
 {
 	r->across_lines = true;
+	r->keep_pins = has_own_pins(r, call);
 	bool good = read_args(r) && add_args(r, call);
 
 	r->across_lines = false;
@@ -119,6 +141,20 @@ static bool read_operand(struct reader *r, const struct token *word,
 	return true;
 }
 
+/* `Scaled Low, High`: the second input and those behind it. */
+static bool read_more_operands(struct reader *r, const struct token *word,
+			       const struct il_line *fn)
+{
+	while (reader_is(r, ',')) {
+		struct il_line line = { .kind = IL_ARG_IN, .line = fn->line };
+
+		reader_next(r);
+		if (!read_operand(r, word, &line))
+			return false;
+	}
+	return true;
+}
+
 static bool read_function(struct reader *r, const struct token *word,
 			  struct il_line line)
 {
@@ -127,7 +163,11 @@ static bool read_function(struct reader *r, const struct token *word,
 		line.kind = IL_CALL;
 		return read_call(r, &line);
 	}
-	return read_operand(r, word, &line);
+	if (!word_is_own((enum word)line.word))
+		return read_operand(r, word, &line);
+	if (reader_at_end(r))
+		return add_line(r, line);
+	return read_operand(r, word, &line) && read_more_operands(r, word, &line);
 }
 
 /* `AND(`, or `AND( A` with the first operand of what stands inside. */
@@ -210,7 +250,8 @@ static bool read_instruction(struct reader *r)
 	}
 	const enum word word = words_find(&r->project->words, token.text, token.len);
 
-	if (word == WORD_COUNT || words_row(&r->project->words, word)->kind != WORD_FN)
+	if (word == WORD_COUNT ||
+	    words_row(&r->project->words, word)->kind != WORD_FN)
 		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
 	line.kind = IL_FN;
 	line.word = (uint16_t)word;

@@ -81,6 +81,21 @@ bool reader_string(struct reader *r, uint32_t *id)
 	return true;
 }
 
+bool reader_unescape(struct reader *r, const struct token *token,
+		     struct diag_list *diags, uint32_t *id)
+{
+	struct token at = r->lex.token;
+	struct diag_list *own = r->diags;
+	bool good;
+
+	r->lex.token = *token;
+	r->diags = diags;
+	good = reader_string(r, id);
+	r->lex.token = at;
+	r->diags = own;
+	return good;
+}
+
 static bool check_constant(struct reader *r, const char *text, size_t len)
 {
 	struct literal literal;
@@ -124,7 +139,8 @@ bool reader_value(struct reader *r, bool constant, const struct token *word)
 	return reader_fail(r, DIAG_MISSING_OPERAND, word->text, word->len);
 }
 
-/* Pins are words of the catalogue: upper case. */
+/* Pins are words of the catalogue, in upper case, unless they are the project's
+ * own. */
 static bool add_pin(struct reader *r)
 {
 	const struct token *token = &r->lex.token;
@@ -132,7 +148,8 @@ static bool add_pin(struct reader *r)
 	if (token->len > LIMIT_NAME)
 		return reader_fail_token(r, DIAG_NAME_TOO_LONG);
 	for (size_t i = 0; i < token->len; i++) {
-		char c = ascii_upper(token->text[i]);
+		char c = r->keep_pins ? token->text[i] :
+					ascii_upper(token->text[i]);
 
 		buffer_add(r, &r->text, &c, 1);
 	}
@@ -154,7 +171,8 @@ static bool is_twice(const struct reader *r, const struct read_arg *arg)
 
 	for (int i = 0; i < r->arg_count; i++)
 		if (r->arg[i].pin_len == arg->pin_len &&
-		    !memcmp(r->text.text + r->arg[i].pin_at, pin, arg->pin_len))
+		    ascii_same(r->text.text + r->arg[i].pin_at, pin,
+			       arg->pin_len))
 			return true;
 	return false;
 }

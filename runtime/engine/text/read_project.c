@@ -6,6 +6,7 @@
  * It opens no file: what INCLUDE names comes from the caller. Declarations, rungs
  * and instruction lists have readers of their own.
  */
+#include "engine/model/shape.h"
 #include "engine/text/reader.h"
 
 #include "engine/base/ascii.h"
@@ -56,7 +57,7 @@ static void read_title(struct reader *r)
 
 /* ---- parts ---- */
 
-static void add_part(struct reader *r, struct part part)
+void reader_add_part(struct reader *r, struct part part)
 {
 	struct project *project = r->project;
 	struct part *slot = arena_push(&project->arena, &project->part,
@@ -70,7 +71,7 @@ static void add_part(struct reader *r, struct part part)
 }
 
 /* Behind the line whose first word is END_VIEW; NULL: there is none. */
-static const char *find_view_end(struct lex *lex)
+const char *reader_view_end(struct lex *lex)
 {
 	static const char word[] = "END_VIEW";
 	const size_t len = sizeof(word) - 1;
@@ -98,7 +99,7 @@ static void read_view(struct reader *r)
 {
 	const struct token view = r->lex.token;
 	struct part part = { .kind = PART_VIEW };
-	const char *end = find_view_end(&r->lex);
+	const char *end = reader_view_end(&r->lex);
 
 	if (!end) {
 		reader_fail_open(r, &view);
@@ -109,7 +110,7 @@ static void read_view(struct reader *r)
 					  (size_t)(end - view.text));
 	}
 	part.comment = buffer_take(r, &r->above);
-	add_part(r, part);
+	reader_add_part(r, part);
 	reader_next(r);
 	reader_end_line(r);
 }
@@ -121,7 +122,7 @@ static void read_global_vars(struct reader *r)
 
 	read_vars(r, &r->project->globals, true);
 	if (r->project->globals.block_count > part.index)
-		add_part(r, part);
+		reader_add_part(r, part);
 }
 
 /* ---- INCLUDE ---- */
@@ -129,14 +130,13 @@ static void read_global_vars(struct reader *r)
 static bool read_file(struct reader *r, const char *text, size_t len);
 
 /* The name as seen from where this file stands. */
-static const char *join_path(struct reader *r, const char *name)
+const char *reader_path(struct reader *r, const char *from, const char *name)
 {
-	const char *slash = strrchr(r->place.file, '/');
-	size_t head = slash && name[0] != '/' ?
-		      (size_t)(slash - r->place.file) + 1 : 0;
+	const char *slash = strrchr(from, '/');
+	size_t head = slash && name[0] != '/' ? (size_t)(slash - from) + 1 : 0;
 
 	buffer_clear(&r->text);
-	buffer_add(r, &r->text, r->place.file, head);
+	buffer_add(r, &r->text, from, head);
 	buffer_add(r, &r->text, name, strlen(name));
 	char *path = arena_copy(&r->project->arena, r->text.text, r->text.len);
 
@@ -155,8 +155,8 @@ static bool may_include(const struct reader *r, const char *path)
 	return true;
 }
 
-static void read_included(struct reader *r, const char *path, const char *text,
-			  size_t len)
+static void read_included(struct reader *r, const char *path, bool library,
+			  const char *text, size_t len)
 {
 	struct reader *inner = reader_new(r->project, path, r->diags);
 
@@ -165,6 +165,7 @@ static void read_included(struct reader *r, const char *path, const char *text,
 		return;
 	}
 	inner->outer = r;
+	inner->library = library || r->library;
 	inner->source = r->source;
 	inner->total = r->total;
 	read_file(inner, text, len);
@@ -172,10 +173,31 @@ static void read_included(struct reader *r, const char *path, const char *text,
 	reader_free(inner);
 }
 
-static void include_file(struct reader *r, uint32_t name, struct diag place)
+/* Has a library been read, or is it being read? From now on it has. */
+static bool was_used(struct reader *r, const char *path)
+{
+	struct project *project = r->project;
+	const char **slot;
+
+	if (!strcmp(project->file, path))
+		return true;
+	for (int i = 0; i < project->used_count; i++)
+		if (!strcmp(project->used[i], path))
+			return true;
+	slot = arena_push(&project->arena, &project->used, &project->used_count,
+			  sizeof(*slot));
+	if (slot)
+		*slot = path;
+	else
+		r->no_memory = true;
+	return false;
+}
+
+static void include_file(struct reader *r, uint32_t name, bool library,
+			 struct diag place)
 {
 	const char *text_name = names_text(&r->project->names, name);
-	const char *path = join_path(r, text_name);
+	const char *path = reader_path(r, r->place.file, text_name);
 	size_t len = 0;
 
 	if (!path || r->no_memory) {
@@ -183,6 +205,8 @@ static void include_file(struct reader *r, uint32_t name, struct diag place)
 		return;
 	}
 	place.id = DIAG_BAD_INCLUDE;
+	if (library && was_used(r, path))
+		return;
 	if (!may_include(r, path)) {
 		diag_add(r->diags, place, "%.64s: includes itself or too deep",
 			 text_name);
@@ -197,13 +221,13 @@ static void include_file(struct reader *r, uint32_t name, struct diag place)
 	if (*r->total > LIMIT_TEXT)
 		diag_add(r->diags, place, "%.70s: too much text", text_name);
 	else
-		read_included(r, path, text, len);
+		read_included(r, path, library, text, len);
 	free(text);
 }
 
-static void read_include(struct reader *r)
+static void read_include(struct reader *r, bool library)
 {
-	struct part part = { .kind = PART_INCLUDE };
+	struct part part = { .kind = library ? PART_USES : PART_INCLUDE };
 	struct diag place = r->place;
 
 	place.line = r->lex.token.line;
@@ -221,19 +245,21 @@ static void read_include(struct reader *r)
 	}
 	reader_end_line(r);
 	part.comment = buffer_take(r, &r->above);
-	add_part(r, part);
+	reader_add_part(r, part);
 	if (r->source)
-		include_file(r, part.text, place);
+		include_file(r, part.text, library, place);
 }
 
-/* ---- POUs ---- */
+/* ---- words that begin a part ---- */
 
 bool read_ends_block(const struct reader *r)
 {
 	static const char *const words[] = {
 		"PROGRAM", "END_PROGRAM", "RUNG", "VAR", "VAR_GLOBAL",
 		"INCLUDE", "VIEW", "PROJECT", "CONFIGURATION",
-		"END_CONFIGURATION",
+		"END_CONFIGURATION", "FUNCTION", "END_FUNCTION",
+		"FUNCTION_BLOCK", "END_FUNCTION_BLOCK", "TYPE", "END_TYPE",
+		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP",
 	};
 
 	if (r->lex.token.kind != TOKEN_NAME)
@@ -246,7 +272,7 @@ bool read_ends_block(const struct reader *r)
 }
 
 /* A word or a sign where a part, a rung or a declaration should begin. */
-static void skip_odd_line(struct reader *r)
+void reader_skip_odd_line(struct reader *r)
 {
 	if (r->lex.token.kind == TOKEN_NAME)
 		reader_fail_token(r, read_ends_block(r) ||
@@ -257,120 +283,6 @@ static void skip_odd_line(struct reader *r)
 		reader_fail_token(r, reader_is(r, '|') ? DIAG_MISPLACED :
 						       DIAG_SYNTAX);
 	reader_skip_line(r);
-}
-
-static bool is_vars(const struct reader *r)
-{
-	return lex_is(&r->lex, "VAR") || lex_is(&r->lex, "VAR_GLOBAL");
-}
-
-static size_t rung_cells(const struct rung *rung)
-{
-	return (size_t)rung->rows * rung->cols;
-}
-
-static void add_rung(struct reader *r, struct pou *pou)
-{
-	bool full = pou->rung_count == LIMIT_RUNGS ||
-		    r->all_cells > LIMIT_TEXT / 4;
-
-	if (full && r->place.rung <= pou->rung_count + 1)
-		reader_fail_word(r, DIAG_TOO_MANY, "rungs");
-	struct rung *rung = read_rung(r);
-
-	if (!rung)
-		return;
-	r->all_cells += full ? 0 : rung_cells(rung);
-	if (!full && project_add_rung(pou, pou->rung_count, rung))
-		return;
-	r->no_memory |= !full;
-	rung_free(rung);
-}
-
-/* Up to END_PROGRAM or to a word that cannot stand in a program. */
-static void read_rungs(struct reader *r, struct pou *pou)
-{
-	for (;;) {
-		reader_skip_newlines(r);
-		if (r->lex.token.kind == TOKEN_END)
-			return;
-		if (lex_is(&r->lex, "RUNG")) {
-			r->place.rung++;
-			add_rung(r, pou);
-		} else if (is_vars(r)) {
-			if (r->place.rung > 0)
-				reader_fail_token(r, DIAG_MISPLACED);
-			read_vars(r, &pou->vars, false);
-		} else if (read_ends_block(r)) {
-			return;
-		} else {
-			skip_odd_line(r);
-		}
-	}
-}
-
-static void read_program_line(struct reader *r, struct pou *pou)
-{
-	reader_next(r);
-	if (!reader_name(r, "name of the program", &pou->name)) {
-		reader_skip_line(r);
-		return;
-	}
-	reader_next(r);
-	r->place.pou = names_text(&r->project->names, pou->name);
-	if (lex_is(&r->lex, "IL"))
-		pou->language = LANGUAGE_IL;
-	if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD"))
-		reader_next(r);
-	reader_end_line(r);
-}
-
-static void read_program_body(struct reader *r, struct pou *pou)
-{
-	if (pou->language == LANGUAGE_LD) {
-		read_rungs(r, pou);
-		return;
-	}
-	for (reader_skip_newlines(r); is_vars(r); reader_skip_newlines(r))
-		read_vars(r, &pou->vars, false);
-	read_il(r, pou);
-}
-
-static void read_program(struct reader *r)
-{
-	struct project *project = r->project;
-	struct part part = { .kind = PART_POU, .index = project->pou_count };
-	struct token head = r->lex.token;
-	struct pou *pou = NULL;
-
-	if (project->pou_count == LIMIT_POUS)
-		reader_fail_word(r, DIAG_TOO_MANY, "programs");
-	else
-		pou = arena_push(&project->arena, &project->pou,
-				 &project->pou_count, sizeof(*pou));
-	if (!pou) {
-		r->no_memory |= project->pou_count < LIMIT_POUS;
-		r->lex.at = r->lex.end;
-		reader_next(r);
-		return;
-	}
-	*pou = (struct pou){ .file = r->place.file, .line = head.line,
-			     .included = r->outer != NULL };
-	pou->il.arena = &project->arena;
-	add_part(r, part);
-	read_program_line(r, pou);
-	pou->comment = buffer_take(r, &r->above);
-	read_program_body(r, pou);
-	r->place.rung = 0;
-	pou->tail = buffer_take(r, &r->above);
-	if (lex_is(&r->lex, "END_PROGRAM")) {
-		reader_next(r);
-		r->place.pou = NULL;
-		reader_end_line(r);
-		return;
-	}
-	reader_fail_open(r, &head);
-	r->place.pou = NULL;
 }
 
 /* One controller, one configuration: of a second one only its errors count. */
@@ -392,29 +304,44 @@ static void read_configuration(struct reader *r)
 	part.comment = buffer_take(r, &r->above);
 	read_config(r, config);
 	if (!second)
-		add_part(r, part);
+		reader_add_part(r, part);
 }
 
 /* ---- the file ---- */
 
+/* What a file named by USES must not hold: it would run, or be there twice. */
+static bool is_foreign(const struct reader *r)
+{
+	return lex_is(&r->lex, "PROGRAM") || lex_is(&r->lex, "INCLUDE") ||
+	       lex_is(&r->lex, "CONFIGURATION");
+}
+
 static void read_parts(struct reader *r)
 {
+	enum pou_kind kind;
+
 	for (;;) {
 		reader_skip_newlines(r);
 		if (r->lex.token.kind == TOKEN_END || r->no_memory)
 			return;
-		if (is_vars(r))
+		if (r->library && is_foreign(r))
+			reader_fail_token(r, DIAG_MISPLACED);
+		if (reader_is_vars(r))
 			read_global_vars(r);
-		else if (lex_is(&r->lex, "PROGRAM"))
-			read_program(r);
+		else if (read_pou_kind(r, &kind))
+			read_pou(r, kind);
+		else if (lex_is(&r->lex, "TYPE"))
+			read_types(r);
+		else if (lex_is(&r->lex, "USES"))
+			read_include(r, true);
 		else if (lex_is(&r->lex, "VIEW"))
 			read_view(r);
 		else if (lex_is(&r->lex, "CONFIGURATION"))
 			read_configuration(r);
 		else if (lex_is(&r->lex, "INCLUDE"))
-			read_include(r);
+			read_include(r, false);
 		else
-			skip_odd_line(r);
+			reader_skip_odd_line(r);
 	}
 }
 
@@ -443,6 +370,8 @@ static bool read_file(struct reader *r, const char *text, size_t len)
 		return reader_fail_word(r, DIAG_TOO_LARGE, "");
 	if (!has_first_line(r, text, len))
 		return false;
+	if (!r->outer)
+		read_words(r, text, len);
 	char *copy = reader_open(r, text, len);
 
 	if (read_first_line(r)) {
@@ -479,6 +408,8 @@ bool text_read(struct project *project, const char *file, const char *text,
 		r->source = source;
 		r->total = &total;
 		read_file(r, text, len);
+		if (!r->no_memory)
+			shape_make(project, diags);
 	}
 	fail_memory(project, file, !r || r->no_memory, diags);
 	reader_free(r);

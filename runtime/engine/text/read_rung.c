@@ -28,11 +28,29 @@ static bool read_wire(struct reader *r, struct cell *cell)
 	return true;
 }
 
+/* Does the box that this row of pins belongs to have the project's own pins? The
+ * rows above lie one behind the other, each as long as it was written. */
+static bool is_own_box(const struct reader *r)
+{
+	const int col = r->place.col - 1;
+	int first = r->cell_count - col;
+
+	for (int row = r->rows - 1; row >= 0; row--) {
+		first -= r->row_cols[row];
+		if (col >= r->row_cols[row])
+			return false;
+		if (r->cell[first + col].word != ELEM_PIN)
+			return word_is_own((enum word)r->cell[first + col].word);
+	}
+	return false;
+}
+
 static bool read_pin(struct reader *r, struct cell *cell)
 {
 	const struct token *token = &r->lex.token;
 
 	cell->word = ELEM_PIN;
+	r->keep_pins = is_own_box(r);
 	reader_next(r);
 	if (token->kind != TOKEN_NAME || token->space_before)
 		return true;
@@ -48,6 +66,7 @@ static bool read_args(struct reader *r, struct cell *cell)
 {
 	buffer_clear(&r->text);
 	r->arg_count = 0;
+	r->keep_pins = word_is_own((enum word)cell->word);
 	while (!reader_at_end(r) && !reader_is(r, '|') && !reader_is(r, '^')) {
 		if (!reader_arg(r))
 			return false;
@@ -175,9 +194,10 @@ static bool read_word(struct reader *r, struct cell *cell)
 	const struct token token = r->lex.token;
 	const enum word word = words_find(&r->project->words, token.text, token.len);
 
-	if (word == WORD_COUNT)
-		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
 	const struct word_row *row = words_row(&r->project->words, word);
+
+	if (word == WORD_COUNT || row->kind == WORD_STRUCT)
+		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
 
 	cell->word = (uint16_t)word;
 	reader_next(r);

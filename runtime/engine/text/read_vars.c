@@ -97,9 +97,22 @@ static bool read_capacity(struct reader *r, struct var *var)
 	return true;
 }
 
-static bool read_type(struct reader *r, struct var *var)
+/* Where an instance may be: a function keeps nothing, what is handed over is not a
+ * block's own, a structure holds values. */
+static bool may_hold_blocks(const struct reader *r)
+{
+	if (r->members || r->var_flags & VAR_TEMP)
+		return false;
+	if (r->var_flags & VAR_IN_OUT)
+		return true;
+	return !(r->var_flags & (VAR_INPUT | VAR_OUTPUT)) &&
+	       !(r->pou && r->pou->kind == POU_FUNCTION);
+}
+
+bool reader_type(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
+	enum word_kind kind;
 
 	if (!reader_is(r, ':'))
 		return reader_fail_word(r, DIAG_EXPECTED, ":");
@@ -109,8 +122,12 @@ static bool read_type(struct reader *r, struct var *var)
 	var->type = iec_type_find(token->text, token->len);
 	if (var->type == IEC_NONE) {
 		var->fb = words_find(&r->project->words, token->text, token->len);
-		if (var->fb == WORD_COUNT || words_row(&r->project->words, var->fb)->kind != WORD_FB)
+		kind = words_row(&r->project->words, var->fb)->kind;
+		if (var->fb == WORD_COUNT ||
+		    (kind != WORD_FB && kind != WORD_STRUCT))
 			return reader_fail_token(r, DIAG_BAD_TYPE);
+		if (kind == WORD_FB && !may_hold_blocks(r))
+			return reader_fail_token(r, DIAG_MISPLACED);
 		if (var->at_text)
 			return reader_fail_word(r, DIAG_MISPLACED, "AT");
 	}
@@ -183,9 +200,12 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 
 	if (!read_names(r, table))
 		return false;
-	if (table->count - first > 1 && lex_is(&r->lex, "AT"))
+	bool many = table->count - first > 1 || r->members ||
+		    (r->pou && r->pou->kind != POU_PROGRAM);
+
+	if (many && lex_is(&r->lex, "AT"))
 		return reader_fail_token(r, DIAG_MISPLACED);
-	if (!read_at(r, &like) || !read_type(r, &like) || !read_init(r, &like))
+	if (!read_at(r, &like) || !reader_type(r, &like) || !read_init(r, &like))
 		return false;
 	if (!reader_is(r, ';'))
 		return reader_fail_word(r, DIAG_EXPECTED, ";");
@@ -204,7 +224,8 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 /* To the next declaration, which may stand on this line. */
 static void skip_declaration(struct reader *r)
 {
-	while (!reader_at_end(r) && !lex_is(&r->lex, "END_VAR")) {
+	while (!reader_at_end(r) && !lex_is(&r->lex, "END_VAR") &&
+	       !(r->members && lex_is(&r->lex, "END_STRUCT"))) {
 		bool last = reader_is(r, ';');
 
 		reader_next(r);
@@ -218,7 +239,8 @@ static void read_declarations(struct reader *r, struct var_table *table)
 	for (;;) {
 		reader_skip_newlines(r);
 		if (r->lex.token.kind == TOKEN_END || r->no_memory ||
-		    lex_is(&r->lex, "END_VAR") || read_ends_block(r))
+		    lex_is(&r->lex, "END_VAR") || read_ends_block(r) ||
+		    (r->members && lex_is(&r->lex, "END_STRUCT")))
 			return;
 		r->across_lines = true;
 		bool good = read_declaration(r, table);
@@ -229,21 +251,67 @@ static void read_declarations(struct reader *r, struct var_table *table)
 	}
 }
 
+/* What may stand behind a heading. */
+static uint8_t may_be(uint8_t head)
+{
+	if (head & (VAR_IN_OUT | VAR_TEMP))
+		return 0;
+	return head & (VAR_INPUT | VAR_OUTPUT) ? VAR_RETAIN :
+						 VAR_RETAIN | VAR_CONSTANT;
+}
+
+/* The flag of a heading at the cursor; -1: there is none. */
+static int find_head(const struct reader *r)
+{
+	static const uint8_t flags[] = {
+		0, VAR_GLOBAL_WORD, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP,
+	};
+
+	for (size_t i = 0; i < sizeof(flags); i++)
+		if (lex_is(&r->lex, vars_head(flags[i])))
+			return flags[i];
+	return -1;
+}
+
+bool reader_is_vars(const struct reader *r)
+{
+	return find_head(r) >= 0;
+}
+
+/* May a block of this kind stand here? */
+static bool has_place(const struct reader *r, uint8_t flag, bool global)
+{
+	bool callable = r->pou && r->pou->kind != POU_PROGRAM;
+
+	if (flag == VAR_GLOBAL_WORD)
+		return global;
+	if (flag == VAR_TEMP)
+		return !global;
+	return flag == 0 || callable;
+}
+
 static uint8_t read_flags(struct reader *r, bool global)
 {
-	uint8_t flags = lex_is(&r->lex, "VAR_GLOBAL") ? VAR_GLOBAL_WORD : 0;
+	const bool function = r->pou && r->pou->kind == POU_FUNCTION;
+	const uint8_t head = (uint8_t)find_head(r);
+	uint8_t flags = head, flag;
 
-	if (flags && !global)
+	if (!has_place(r, flags, global))
 		reader_fail_token(r, DIAG_MISPLACED);
 	for (;;) {
 		reader_next(r);
-		if (lex_is(&r->lex, "RETAIN"))
-			flags |= VAR_RETAIN;
-		else if (lex_is(&r->lex, "CONSTANT"))
-			flags |= VAR_CONSTANT;
-		else
-			return flags;
+		flag = lex_is(&r->lex, "RETAIN") ? VAR_RETAIN :
+		       lex_is(&r->lex, "CONSTANT") ? VAR_CONSTANT : 0;
+		if (!flag)
+			break;
+		if (!(may_be(head) & flag) ||
+		    (flag == VAR_RETAIN && function))
+			reader_fail_token(r, DIAG_MISPLACED);
+		flags |= flag;
 	}
+	if (r->library && global && !(flags & VAR_CONSTANT))
+		reader_fail_word(r, DIAG_MISPLACED, "variables of a library");
+	return flags;
 }
 
 /* Comments that no declaration follows go to the last one, or to the block. */
@@ -272,9 +340,11 @@ void read_vars(struct reader *r, struct var_table *table, bool global)
 	struct var_block block = { .first = table->count, .line = head.line };
 
 	block.flags = read_flags(r, global);
+	r->var_flags = block.flags;
 	block.comment = buffer_take(r, &r->above);
 	r->comments = COMMENT_NOTE;
 	read_declarations(r, table);
+	r->var_flags = 0;
 	block.count = table->count - block.first;
 	if (r->note.len > 0)
 		keep_last_comments(r, table, &block);
@@ -288,4 +358,16 @@ void read_vars(struct reader *r, struct var_table *table, bool global)
 	else
 		r->no_memory = true;
 	close_block(r, &head);
+}
+
+void read_members(struct reader *r, struct var_table *table)
+{
+	r->members = true;
+	read_declarations(r, table);
+	r->members = false;
+	if (r->note.len > 0 && table->count > 0) {
+		struct var *last = &table->var[table->count - 1];
+
+		last->comment = comment_join(r, last->comment, &r->note);
+	}
 }

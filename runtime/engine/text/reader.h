@@ -14,6 +14,7 @@
 #include "engine/model/expr.h"
 #include "engine/model/project.h"
 #include "engine/text/text.h"
+#include "engine/text/writer.h"
 
 /* Text that grows; of comments it remembers a `//` at its end, which must be
  * rewritten as (* … *) if more follows on the line. */
@@ -52,6 +53,11 @@ struct reader {
 	struct read_arg arg[LIMIT_ARGS];
 	int arg_count;
 	struct il *il;              /* of the POU, for COMMENT_IL             */
+	const struct pou *pou;      /* in work; NULL: none                    */
+	uint8_t var_flags;          /* of the VAR block in work               */
+	bool members;               /* of a structure are read                */
+	bool library;               /* the file was named by USES             */
+	bool keep_pins;             /* pins are the project's own: as written */
 	struct cell *cell;          /* of the rung being read, row by row     */
 	int cell_count, cell_size;
 	size_t all_cells;           /* of the file                            */
@@ -123,7 +129,32 @@ bool reader_pin(struct reader *r, uint32_t *id);
 /** reader_arg - appends `PIN:=value` to r->text and to r->arg, likewise. */
 bool reader_arg(struct reader *r);
 
+/** reader_type - `: type` of a declaration or function; steps behind it. */
+bool reader_type(struct reader *r, struct var *var);
+/** reader_unescape - string id of a string token; errors go to @diags. */
+bool reader_unescape(struct reader *r, const struct token *token,
+		     struct diag_list *diags, uint32_t *id);
+/** reader_path - @name as seen from the folder of @from; NULL: no memory. */
+const char *reader_path(struct reader *r, const char *from, const char *name);
+/** reader_view_end - behind the line whose first word is END_VIEW; NULL: none. */
+const char *reader_view_end(struct lex *lex);
+/** reader_own_word - a new row of the project's words; WORD_COUNT: an error. */
+enum word reader_own_word(struct reader *r, uint32_t name, enum word_kind kind);
+void reader_add_part(struct reader *r, struct part part);
+/** reader_is_vars - does a VAR block begin here, of any kind? */
+bool reader_is_vars(const struct reader *r);
+/** reader_skip_odd_line - says that a line does not belong here. */
+void reader_skip_odd_line(struct reader *r);
+
 /* One file each. */
+/** read_words - the names of functions, blocks and structures of a whole file. */
+void read_words(struct reader *r, const char *text, size_t len);
+/** read_pou_kind - does a POU begin here? */
+bool read_pou_kind(const struct reader *r, enum pou_kind *kind);
+void read_pou(struct reader *r, enum pou_kind kind);
+void read_types(struct reader *r);
+/** read_members - declarations of a structure, up to END_STRUCT. */
+void read_members(struct reader *r, struct var_table *table);
 void read_vars(struct reader *r, struct var_table *table, bool global);
 struct rung *read_rung(struct reader *r);
 void read_il(struct reader *r, struct pou *pou);

@@ -82,8 +82,16 @@ static void write_line(const struct sink *sink, const struct project *project,
 		return;
 	case IL_FN:
 		sink_text(sink, "  ");
+		if (!line->operand) {
+			sink_text(sink, word);
+			return;
+		}
 		write_padded(sink, word, "");
 		write_id(sink, project, line->operand);
+		for (int i = 1; i <= args; i++) {
+			sink_text(sink, ", ");
+			write_id(sink, project, line[i].operand);
+		}
 		return;
 	case IL_CALL:
 		sink_text(sink, "  ");

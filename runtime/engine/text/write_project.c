@@ -105,6 +105,16 @@ static void write_init(const struct sink *sink, const struct project *project,
 	sink_text(sink, text);
 }
 
+static void write_type(const struct sink *sink, const struct project *project,
+		       const struct var *var)
+{
+	sink_text(sink, var->type == IEC_NONE ?
+		  words_row(&project->words, var->fb)->word :
+		  iec_type_row(var->type)->word);
+	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
+		sink_printf(sink, "[%u]", var->capacity);
+}
+
 static void write_var(const struct sink *sink, const struct project *project,
 		      const struct var *var, const struct widths *widths)
 {
@@ -120,10 +130,7 @@ static void write_var(const struct sink *sink, const struct project *project,
 			    widths->at - write_width(project, var->at_text));
 	}
 	sink_text(sink, " : ");
-	sink_text(sink, var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
-					      iec_type_row(var->type)->word);
-	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
-		sink_printf(sink, "[%u]", var->capacity);
+	write_type(sink, project, var);
 	write_init(sink, project, var);
 	sink_text(sink, ";");
 	if (var->comment) {
@@ -140,8 +147,10 @@ void write_block(const struct sink *sink, const struct project *project,
 	const struct var *var = table->var ? table->var + block->first : NULL;
 	const struct widths widths = measure(project, var, block->count);
 
+	if (block->flags & VAR_RESULT)
+		return;
 	write_above(sink, project, block->comment);
-	sink_text(sink, block->flags & VAR_GLOBAL_WORD ? "VAR_GLOBAL" : "VAR");
+	sink_text(sink, vars_head(block->flags));
 	if (block->flags & VAR_RETAIN)
 		sink_text(sink, " RETAIN");
 	if (block->flags & VAR_CONSTANT)
@@ -165,8 +174,13 @@ static void write_pou(const struct sink *sink, const struct project *project,
 		      const struct pou *pou)
 {
 	write_above(sink, project, pou->comment);
-	sink_text(sink, "PROGRAM ");
+	sink_text(sink, pou_word(pou->kind));
+	sink_text(sink, " ");
 	write_id(sink, project, pou->name);
+	if (pou->kind == POU_FUNCTION && pou->vars.count > 0) {
+		sink_text(sink, " : ");
+		write_type(sink, project, &pou->vars.var[0]);
+	}
 	sink_text(sink, pou->language == LANGUAGE_IL ? " IL\n" : " LD\n");
 	text_write_vars(project, &pou->vars, sink);
 	for (int i = 0; i < pou->rung_count; i++)
@@ -174,7 +188,39 @@ static void write_pou(const struct sink *sink, const struct project *project,
 	if (pou->language == LANGUAGE_IL)
 		text_write_il(project, &pou->il, sink);
 	write_above(sink, project, pou->tail);
-	sink_text(sink, "END_PROGRAM\n");
+	sink_text(sink, "END_");
+	sink_text(sink, pou_word(pou->kind));
+	sink_text(sink, "\n");
+}
+
+static void write_struct(const struct sink *sink, const struct project *project,
+			 const struct structure *structure)
+{
+	const struct var *var = structure->vars.var;
+	const struct widths widths = measure(project, var, structure->vars.count);
+
+	sink_text(sink, "  ");
+	write_id(sink, project, structure->name);
+	sink_text(sink, " : STRUCT\n");
+	for (int i = 0; i < structure->vars.count; i++) {
+		sink_text(sink, "  ");
+		write_var(sink, project, &var[i], &widths);
+	}
+	sink_text(sink, "  END_STRUCT;");
+	if (structure->comment) {
+		sink_text(sink, " ");
+		write_id(sink, project, structure->comment);
+	}
+	sink_text(sink, "\n");
+}
+
+static void write_types(const struct sink *sink, const struct project *project,
+			const struct part *part)
+{
+	sink_text(sink, "TYPE\n");
+	for (int i = 0; i < part->count; i++)
+		write_struct(sink, project, &project->structure[part->index + i]);
+	sink_text(sink, "END_TYPE\n");
 }
 
 static void write_part(const struct sink *sink, const struct project *project,
@@ -195,8 +241,12 @@ static void write_part(const struct sink *sink, const struct project *project,
 		write_id(sink, project, part->text);
 		sink_text(sink, "\n");
 		break;
+	case PART_TYPES:
+		write_types(sink, project, part);
+		break;
+	case PART_USES:
 	case PART_INCLUDE:
-		sink_text(sink, "INCLUDE ");
+		sink_text(sink, part->kind == PART_USES ? "USES " : "INCLUDE ");
 		write_string(sink, project_text(project, part->text),
 			     names_len(&project->names, part->text));
 		sink_text(sink, "\n");

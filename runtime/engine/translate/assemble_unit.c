@@ -11,11 +11,6 @@
 #define TABLE_OR  0xe
 #define TABLE_XOR 0x6
 
-const struct word_row *list_row(const struct list *list, enum word word)
-{
-	return words_row(&list->as->translation->project->words, word);
-}
-
 const struct meaning *list_meaning(struct list *list, uint32_t operand)
 {
 	enum diag_id why;
@@ -576,6 +571,7 @@ bool assemble_unit(struct assembler *as, int unit, bool watch)
 {
 	const struct unit *u = &as->translation->unit[unit];
 	struct list *list = arena_alloc(as->arena, sizeof(*list));
+	struct frame *frame = &as->frame[unit];
 	uint32_t end;
 
 	if (!list)
@@ -585,11 +581,15 @@ bool assemble_unit(struct assembler *as, int unit, bool watch)
 	list->pou = u->pou;
 	list->il = watch && u->watch.count ? &u->watch : &u->il;
 	list->types = watch && u->watch.count ? u->watch_types : u->types;
-	list->straight = true;
+	list->straight = u->pou->kind == POU_PROGRAM;
+	as->slots = list->straight ? &as->program_slots : &frame->slots;
 	as->open_lut = -1;
 	as->scratch_used = 0;
 	if (!find_labels(list) || !list_count_reads(list))
 		return false;
+	if (frame->temps_size)
+		emit_block(as, frame->temps, frame->temps_model,
+			   frame->temps_size);
 	for (; list->at < list->il->count && !as->failed; list->at++)
 		assemble_line(list);
 	end = (uint32_t)as->text->count;

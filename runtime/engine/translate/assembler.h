@@ -22,6 +22,9 @@ struct spot {
 /* Vectors that grow in the arena of the result. */
 struct words { uint32_t *word; int count; };
 
+/* Bits in memory for what a statement sets aside. */
+struct slots { uint32_t *slot; int count; };
+
 /* A bit that has not been stored: a truth table of up to three BOOLs. */
 struct bits {
 	uint8_t count, table;
@@ -51,6 +54,7 @@ struct assembler {
 	int text_count;
 	uint8_t *pin_writes;       /* by instance pin number                  */
 	uint32_t **first_pin;      /* by table, index: number of its pin 0    */
+	struct frame *frame;       /* by unit                                 */
 
 	/* output of one section */
 	struct words *text;
@@ -63,13 +67,22 @@ struct assembler {
 	int task_count;
 	struct words call;
 
-	/* slots that are free again at the next statement */
-	uint32_t *scratch;
-	int scratch_count, scratch_used;
+	/* slots that are free again at the next statement; a POU that is called
+	 * has its own, so that it does not write those of whoever calls */
+	struct slots *slots, program_slots;
+	int scratch_used;
 	uint32_t sink[IEC_TYPE_COUNT];
 };
 
 struct text_key { const char *text; size_t len; uint32_t offset; };
+/* Where the variables of a POU lie while it runs, and what they begin with. */
+struct frame {
+	uint32_t offset, size;      /* of a function or block; size 0: neither */
+	uint32_t model;             /* a function's, as it is before a call    */
+	uint32_t temps, temps_model, temps_size; /* its VAR_TEMP; size 0: none */
+	struct slots slots;
+};
+
 struct constant_key { enum iec_type type; int64_t bits; uint32_t offset; };
 
 /* ---- layout.c ---- */
@@ -107,6 +120,23 @@ bool layout_count_pins(struct assembler *as);
  * this pin? Then a constant may be its initial value instead, if that call runs in
  * every scan: nobody can tell. */
 bool layout_only_stored(const struct assembler *as, const struct meaning *pin);
+/** layout_pou - the frame of a function or block; @index: of its POU. */
+const struct frame *layout_pou(const struct assembler *as, enum word word,
+			       uint32_t *index);
+/** layout_has_room - is there room for @size bytes at @offset? */
+bool layout_has_room(struct assembler *as, uint32_t offset, uint32_t size);
+/** layout_place_at - the same at @offset, behind all that lies there already. */
+uint32_t layout_place_at(struct assembler *as, struct code_run want,
+			 uint32_t offset, uint32_t size);
+/** layout_init_var - the initial value of a variable at an offset. */
+void layout_init_var(struct assembler *as, uint32_t offset, const struct var *var);
+/** layout_whole - a place for an instance, frame or structure of the project's own;
+ * @init: with its initial values. */
+uint32_t layout_whole(struct assembler *as, enum word word, bool init);
+/** layout_row - the row of a word, be it the project's own. */
+const struct word_row *layout_row(const struct assembler *as, enum word word);
+/** layout_vars - declared variables of table 0 (globals) or unit + 1. */
+const struct var_table *layout_vars(const struct assembler *as, int table);
 /** layout_table - index of the table a meaning belongs to. */
 int layout_table(const struct assembler *as, const struct meaning *m);
 
@@ -127,6 +157,8 @@ struct bits bits_keep(struct assembler *as, const struct bits *a);
 /** emit - one word of code. */
 void emit(struct assembler *as, uint32_t word);
 void emit_op(struct assembler *as, enum vm_op op, uint32_t n);
+/** emit_block - @size bytes from @from to @to, unless they are the same. */
+void emit_block(struct assembler *as, uint32_t to, uint32_t from, uint32_t size);
 uint32_t scratch_new(struct assembler *as);
 
 /* ---- assemble_unit.c ---- */

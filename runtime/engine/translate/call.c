@@ -109,6 +109,10 @@ void list_fn(struct list *list, const struct il_line *line)
 	enum iec_type type = list->types[list->at], result;
 	uint32_t right = 0, count = m ? 2 : 1, left, to;
 
+	if (word_is_own((enum word)line->word)) {
+		list_own_fn(list);
+		return;
+	}
 	left = result_operand(list, input_type(row, 0, type,
 		list->now.kind == RESULT_LITERAL ? list->now.literal : NULL));
 	if (m)
@@ -248,6 +252,10 @@ void list_call(struct list *list)
 	struct target eno, out = { .m = NULL };
 	uint32_t to;
 
+	if (word_is_own((enum word)line->word) || list_is_struct_move(list)) {
+		list_own_call(list);
+		return;
+	}
 	read_args(list, row, type, &call);
 	result = fn_result(row, type, call.out ? call.out->type : IEC_NONE);
 	eno = bool_target(list, call.eno, false);
@@ -285,7 +293,7 @@ void list_call(struct list *list)
 static void feed_pin(struct list *list, const struct meaning *instance,
 		     const struct il_line *arg)
 {
-	const struct word_row *row = list_row(list, instance->var->fb);
+	const struct word_row *row = list_row(list, instance->word);
 	const struct meaning *m = list_meaning(list, arg->operand);
 	struct meaning pin = *instance;
 	const char *name = pin_text(list, arg);
@@ -296,6 +304,7 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 	pin.kind = MEANING_PIN;
 	pin.pin = word_pin_find(row, name, strlen(name));
 	pin.type = row->pin[pin.pin].type;
+	pin.offset += row->pin[pin.pin].offset;
 	to = layout_spot(list->as, &pin).offset;
 	if (m->kind == MEANING_LITERAL && list->straight &&
 	    layout_only_stored(list->as, &pin)) {
@@ -318,7 +327,7 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 static void take_pin(struct list *list, const struct meaning *instance,
 		     const struct il_line *arg)
 {
-	const struct word_row *row = list_row(list, instance->var->fb);
+	const struct word_row *row = list_row(list, instance->word);
 	const struct meaning *m = list_meaning(list, arg->operand);
 	struct meaning pin = *instance;
 	const char *name = pin_text(list, arg);
@@ -328,6 +337,7 @@ static void take_pin(struct list *list, const struct meaning *instance,
 	pin.kind = MEANING_PIN;
 	pin.pin = word_pin_find(row, name, strlen(name));
 	pin.type = row->pin[pin.pin].type;
+	pin.offset += row->pin[pin.pin].offset;
 	spot = layout_spot(list->as, &pin);
 	if (pin.type == IEC_BOOL) {
 		bits = bits_leaf(spot.offset);
@@ -339,7 +349,7 @@ static void take_pin(struct list *list, const struct meaning *instance,
 }
 
 /* CALC is a jump over the call. */
-static int skip_call(struct list *list, const struct il_line *line)
+int list_skip_call(struct list *list, const struct il_line *line)
 {
 	struct bits skip = list_now_bits(list);
 	int at;
@@ -356,17 +366,29 @@ static int skip_call(struct list *list, const struct il_line *line)
 	return at;
 }
 
+void list_end_skip(struct list *list, int skip)
+{
+	if (skip < 0)
+		return;
+	list->as->open_lut = -1;
+	list->as->text->word[skip] = (uint32_t)list->as->text->count;
+}
+
 void list_cal(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
 	const struct meaning *instance = list_meaning(list, line->operand);
-	enum word fb = instance->var->fb;
+	enum word fb = instance->word;
 	uint32_t offset = layout_spot(list->as, instance).offset;
 	int skip = -1;
 
+	if (word_is_own(fb)) {
+		list_own_cal(list);
+		return;
+	}
 	list_protect(list, offset, list_row(list, fb)->size);
 	if (line->modifiers & MOD_C) {
-		skip = skip_call(list, line);
+		skip = list_skip_call(list, line);
 		list->straight = false;
 	}
 	for (int i = list->at + 1; is_arg(list, i); i++)
@@ -381,9 +403,6 @@ void list_cal(struct list *list)
 			take_pin(list, instance, &list->il->line[i]);
 			list->at = at;
 		}
-	if (skip >= 0) {
-		list->as->open_lut = -1;
-		list->as->text->word[skip] = (uint32_t)list->as->text->count;
-	}
+	list_end_skip(list, skip);
 	list->now.kind = RESULT_NONE;
 }

@@ -19,13 +19,23 @@ void emit_op(struct assembler *as, enum vm_op op, uint32_t n)
 	emit(as, (uint32_t)op | n << 8);
 }
 
+void emit_block(struct assembler *as, uint32_t to, uint32_t from, uint32_t size)
+{
+	if (to == from)
+		return;
+	emit_op(as, VM_BLOCK, 0);
+	emit(as, to);
+	emit(as, from);
+	emit(as, size);
+}
+
 uint32_t scratch_new(struct assembler *as)
 {
 	uint32_t *slot;
 
-	if (as->scratch_used < as->scratch_count)
-		return as->scratch[as->scratch_used++];
-	slot = arena_push(as->arena, &as->scratch, &as->scratch_count,
+	if (as->scratch_used < as->slots->count)
+		return as->slots->slot[as->scratch_used++];
+	slot = arena_push(as->arena, &as->slots->slot, &as->slots->count,
 			  sizeof(*slot));
 	if (!slot) {
 		as->failed = true;

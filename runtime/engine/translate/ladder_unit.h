@@ -77,6 +77,9 @@ uint32_t ld_store_new(struct ld *ld);
 /** ld_freeze - before @operand is written: whatever read it before keeps its
  * value in a temporary. */
 void ld_freeze(struct ld *ld, uint32_t operand);
+/** ld_freeze_globals - the same before a body runs that may write any global or
+ * address. */
+void ld_freeze_globals(struct ld *ld);
 /** ld_read - an element has been evaluated: ld_freeze will find it. */
 void ld_read(struct ld *ld, int element);
 /** ld_settle - while watching: power of an element or net in a variable. */

@@ -6,6 +6,7 @@
  * by type, instances. A bit of an area lives a byte each unless some byte or word
  * access overlays it. Constants and scratch come last, as they are needed.
  */
+#include "engine/model/shape.h"
 #include "engine/translate/assembler.h"
 
 #include <string.h>
@@ -21,31 +22,35 @@ void words_push(struct assembler *as, struct words *words, uint32_t word)
 		as->failed = true;
 }
 
-/* The row of a word, be it the project's own. */
-static const struct word_row *own_row(const struct assembler *as, enum word word)
+const struct word_row *layout_row(const struct assembler *as, enum word word)
 {
 	return words_row(&as->translation->project->words, word);
 }
 
 /* ---- runs ---- */
 
-uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
-		      uint32_t align)
+bool layout_has_room(struct assembler *as, uint32_t offset, uint32_t size)
 {
-	uint32_t offset = (as->data_size + align - 1) / align * align;
+	struct diag diag = { .id = DIAG_DATA_TOO_LARGE,
+		.file = as->translation->project->file };
+
+	if (size <= LIMIT_DATA && offset <= LIMIT_DATA - size)
+		return true;
+	if (!as->failed)
+		diag_add(as->translation->diags, diag, "%u bytes",
+			 (unsigned)LIMIT_DATA);
+	as->failed = true;
+	return false;
+}
+
+uint32_t layout_place_at(struct assembler *as, struct code_run want,
+			 uint32_t offset, uint32_t size)
+{
 	struct code_run *last = as->run_count ?
 		&as->run[as->run_count - 1] : NULL;
 
-	if (offset > LIMIT_DATA - size) {
-		struct diag diag = { .id = DIAG_DATA_TOO_LARGE,
-			.file = as->translation->project->file };
-
-		if (!as->failed)
-			diag_add(as->translation->diags, diag, "%u bytes",
-				 (unsigned)LIMIT_DATA);
-		as->failed = true;
+	if (!layout_has_room(as, offset, size))
 		return as->data_size - 1;
-	}
 	as->data_size = offset + size;
 	if (last && as->run_count > as->run_core && last->kind == want.kind &&
 	    last->type == want.type && last->word == want.word &&
@@ -64,6 +69,13 @@ uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
 	return offset;
 }
 
+uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
+		      uint32_t align)
+{
+	return layout_place_at(as, want,
+			       (as->data_size + align - 1) / align * align, size);
+}
+
 static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
 			    enum iec_type type)
 {
@@ -75,12 +87,15 @@ static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
 	return layout_place(as, run, size, size);
 }
 
-static uint32_t place_instance(struct assembler *as, enum word fb)
+static uint32_t place_instance(struct assembler *as, enum word word)
 {
-	struct code_run run = { .kind = RUN_INSTANCE, .word = (uint16_t)fb };
+	struct code_run run = { .kind = RUN_INSTANCE, .word = (uint16_t)word };
 
-	return layout_place(as, run, own_row(as, fb)->size, 8);
+	if (word_is_own(word))
+		return layout_whole(as, word, true);
+	return layout_place(as, run, word_row(word)->size, 8);
 }
+
 
 uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
 		     enum iec_type type)
@@ -95,7 +110,7 @@ int layout_table(const struct assembler *as, const struct meaning *m)
 	return m->pou ? (int)(m->pou - as->translation->project->pou) + 1 : 0;
 }
 
-static const struct var_table *table_vars(const struct assembler *as, int table)
+const struct var_table *layout_vars(const struct assembler *as, int table)
 {
 	struct project *project = as->translation->project;
 
@@ -107,13 +122,13 @@ static int table_size(const struct assembler *as, int table)
 {
 	int temps = table ? as->translation->unit[table - 1].temp_count : 0;
 
-	return table_vars(as, table)->count + temps;
+	return layout_vars(as, table)->count + temps;
 }
 
 static const struct var *table_var(const struct assembler *as, int table,
 				   int index)
 {
-	const struct var_table *vars = table_vars(as, table);
+	const struct var_table *vars = layout_vars(as, table);
 
 	if (index < vars->count)
 		return &vars->var[index];
@@ -201,7 +216,7 @@ static bool place_bits(struct assembler *as)
 	if (!used || !as->byte_packed || !as->bit_slot)
 		return false;
 	for (int table = 0; table <= t->unit_count; table++)
-		for (int i = 0; i < table_vars(as, table)->count; i++)
+		for (int i = 0; i < layout_vars(as, table)->count; i++)
 			if (table_var(as, table, i)->at.bits != 1)
 				use_address(as, used, table_var(as, table, i)->at);
 	for (int i = 0; i < t->unit_count; i++)
@@ -231,27 +246,113 @@ static struct literal init_text(const struct assembler *as, const struct var *va
 	return literal;
 }
 
+void layout_init_var(struct assembler *as, uint32_t offset, const struct var *var)
+{
+	uint32_t capacity = var->capacity ? var->capacity : IEC_STRING_MOST;
+
+	if (var->has_init && var->type == IEC_STRING)
+		layout_init_text(as, offset, capacity, init_text(as, var));
+	else if (var->has_init && var->type != IEC_NONE)
+		layout_init(as, offset, var->type, var->init);
+}
+
+/* A pin of this row that is part of it. */
+static bool is_part(const struct assembler *as, enum word word, int index)
+{
+	const struct word_row *row = layout_row(as, word);
+
+	return word_is_own(word) && index < row->pin_count &&
+	       row->pin[index].dir != PIN_NONE;
+}
+
+/* An edge of a block is remembered in each instance, behind the variables. */
+static int edge_pin(const struct assembler *as, const struct pou *pou,
+		    const struct var *var)
+{
+	const char *name = names_text(&as->translation->project->names, var->name);
+	int number = 0;
+
+	if (pou->kind != POU_BLOCK || !is_temporary(name, 'E'))
+		return -1;
+	for (name += 2; *name; name++)
+		number = number * 10 + (*name - '0');
+	return number <= pou->edges ? pou->vars.count + number - 1 : -1;
+}
+
+/* Does the variable lie in the frame of its POU, or among its VAR_TEMP? */
+static bool is_framed(struct assembler *as, int table, int index)
+{
+	const struct pou *pou = table ? &as->translation->project->pou[table - 1]
+				      : NULL;
+	const struct frame *frame = pou ? &as->frame[table - 1] : NULL;
+	uint32_t *offset = &as->offset[table][index];
+	int pin = index;
+
+	if (!pou)
+		return false;
+	if (index >= pou->vars.count)
+		pin = edge_pin(as, pou, table_var(as, table, index));
+	if (pin < 0)
+		return false;
+	if (is_part(as, pou->word, pin)) {
+		*offset = frame->offset + layout_row(as, pou->word)->pin[pin].offset;
+		return true;
+	}
+	if (pin != index || !is_part(as, pou->temp_word, pin))
+		return false;
+	*offset = frame->temps + layout_row(as, pou->temp_word)->pin[pin].offset;
+	return true;
+}
+
+static void place_frame(struct assembler *as, int index)
+{
+	const struct pou *pou = &as->translation->project->pou[index];
+	struct frame *frame = &as->frame[index];
+
+	if (word_is_own(pou->word)) {
+		frame->size = layout_row(as, pou->word)->size;
+		frame->offset = layout_whole(as, pou->word, false);
+		if (pou->kind == POU_FUNCTION)
+			frame->model = layout_whole(as, pou->word, true);
+	}
+	if (word_is_own(pou->temp_word)) {
+		frame->temps_size = layout_row(as, pou->temp_word)->size;
+		frame->temps = layout_whole(as, pou->temp_word, false);
+		frame->temps_model = layout_whole(as, pou->temp_word, true);
+	}
+}
+
+/* An instance of a block with a RETAIN of its own is retained whole. */
+static bool is_retained(const struct assembler *as, int table, int index)
+{
+	const struct var_table *vars = layout_vars(as, table);
+	const struct var *var = table_var(as, table, index);
+
+	if (index >= vars->count)
+		return false;
+	return vars_flags(vars, index) & VAR_RETAIN ||
+	       (var->type == IEC_NONE && layout_row(as, var->fb)->retain);
+}
+
 static void place_var(struct assembler *as, int table, int index, bool retain)
 {
 	const struct var *var = table_var(as, table, index);
-	bool declared = index < table_vars(as, table)->count;
-	bool is_retain = declared &&
-		vars_flags(table_vars(as, table), index) & VAR_RETAIN;
+	bool declared = index < layout_vars(as, table)->count;
 	bool constant = declared &&
-		vars_flags(table_vars(as, table), index) & VAR_CONSTANT;
+		vars_flags(layout_vars(as, table), index) & VAR_CONSTANT;
 	enum code_run_kind kind = constant ? RUN_CONSTANTS : RUN_VALUES;
 	uint32_t *offset = &as->offset[table][index];
 	uint32_t capacity = var->capacity ? var->capacity : IEC_STRING_MOST;
 
-	if (*offset || var->at.area != AREA_NONE || is_retain != retain)
+	if (is_framed(as, table, index) ||
+	    is_retained(as, table, index) != retain)
+		return;
+	if (*offset || var->at.area != AREA_NONE)
 		return;
 	*offset = var->type == IEC_NONE ? place_instance(as, var->fb) :
 		  var->type == IEC_STRING ? layout_string(as, kind, capacity) :
 		  place_value(as, kind, var->type);
-	if (var->has_init && var->type == IEC_STRING)
-		layout_init_text(as, *offset, capacity, init_text(as, var));
-	else if (var->has_init && var->type != IEC_NONE)
-		layout_init(as, *offset, var->type, var->init);
+	layout_init_var(as, *offset, var);
 }
 
 /* All variables of one type (IEC_NONE: instances) that are not placed yet. */
@@ -261,7 +362,7 @@ static void place_type(struct assembler *as, enum iec_type type, bool retain,
 	for (int table = 0; table <= as->translation->unit_count; table++)
 		for (int i = 0; i < table_size(as, table); i++) {
 			const struct var *var = table_var(as, table, i);
-			bool temp = i >= table_vars(as, table)->count;
+			bool temp = i >= layout_vars(as, table)->count;
 
 			if (var->type == type &&
 			    (temp && is_power(as, var)) == power)
@@ -302,7 +403,7 @@ static bool init_located(struct assembler *as)
 	if (!area)
 		return false;
 	for (int table = 0; table <= as->translation->unit_count; table++)
-		for (int i = 0; i < table_vars(as, table)->count; i++) {
+		for (int i = 0; i < layout_vars(as, table)->count; i++) {
 			const struct var *var = table_var(as, table, i);
 
 			if (var->has_init && var->at.area != AREA_NONE)
@@ -320,7 +421,8 @@ static bool make_tables(struct assembler *as)
 	int tables = as->translation->unit_count + 1;
 
 	as->offset = arena_alloc(as->arena, (size_t)tables * sizeof(uint32_t *));
-	if (!as->offset)
+	as->frame = arena_alloc(as->arena, (size_t)tables * sizeof(*as->frame));
+	if (!as->offset || !as->frame)
 		return false;
 	for (int table = 0; table < tables; table++) {
 		size_t size = (size_t)table_size(as, table) + 1;
@@ -346,6 +448,8 @@ bool layout_make(struct assembler *as)
 	as->retain_size = as->data_size - as->retain_offset;
 	if (!place_bits(as))
 		return false;
+	for (int i = 0; i < as->translation->unit_count; i++)
+		place_frame(as, i);
 	place_all(as, false);
 	return init_located(as) && layout_count_pins(as) && !as->failed;
 }
@@ -364,11 +468,9 @@ struct spot layout_spot(const struct assembler *as, const struct meaning *m)
 {
 	struct spot spot = { .type = m->type };
 
-	if (m->kind == MEANING_PIN) {
+	if (m->addr.area == AREA_NONE) {
 		spot.offset = as->offset[layout_table(as, m)][m->index] +
-			      own_row(as, m->var->fb)->pin[m->pin].offset;
-	} else if (m->addr.area == AREA_NONE) {
-		spot.offset = as->offset[layout_table(as, m)][m->index];
+			      m->offset;
 	} else if (m->addr.bits != 1) {
 		spot.offset = area_byte(m->addr);
 	} else {
@@ -380,114 +482,4 @@ struct spot layout_spot(const struct assembler *as, const struct meaning *m)
 		}
 	}
 	return spot;
-}
-
-/* ---- pins that always get the same constant ---- */
-
-static uint8_t *pin_count(const struct assembler *as, const struct meaning *m)
-{
-	uint32_t first = as->first_pin[layout_table(as, m)][m->index];
-
-	return &as->pin_writes[first + (uint32_t)m->pin];
-}
-
-/* A parameter of a call counts one, any other use two: then it is not alone. */
-static void count_use(struct assembler *as, const struct meaning *m,
-		      bool parameter)
-{
-	uint8_t *count = pin_count(as, m);
-
-	*count = (uint8_t)(*count + (parameter ? 1 : 2));
-	if (*count > 2)
-		*count = 2;
-}
-
-/* Calls of an instance are counted behind its pins. */
-static struct meaning calls_of(const struct assembler *as,
-			       const struct meaning *instance)
-{
-	struct meaning calls = *instance;
-
-	calls.pin = own_row(as, instance->var->fb)->pin_count;
-	return calls;
-}
-
-static void count_call(struct assembler *as, const struct meaning *instance)
-{
-	struct meaning calls = calls_of(as, instance);
-
-	count_use(as, &calls, true);
-}
-
-static void count_list(struct assembler *as, const struct unit *unit)
-{
-	struct scope *scope = as->translation->scope;
-	const struct meaning *instance = NULL;
-	enum diag_id why;
-
-	for (int i = 0; i < unit->il.count; i++) {
-		const struct il_line *line = &unit->il.line[i];
-		const struct meaning *m = NULL;
-
-		if (line->operand && line->kind != IL_LABEL &&
-		    line->kind != IL_COMMENT)
-			m = scope_find(scope, unit->pou, line->operand, &why);
-		if (line->kind == IL_OP)
-			instance = m && m->kind == MEANING_INSTANCE ? m : NULL;
-		if (line->kind == IL_CALL)
-			instance = NULL;
-		if (m && m->kind == MEANING_PIN)
-			count_use(as, m, false);
-		if (line->kind == IL_OP && instance)
-			count_call(as, instance);
-		if (line->kind == IL_ARG_IN && instance) {
-			struct meaning pin = *instance;
-			const char *name = scope_text(scope, line->pin);
-
-			pin.pin = word_pin_find(own_row(as, pin.var->fb), name,
-						strlen(name));
-			if (pin.pin >= 0)
-				count_use(as, &pin, true);
-		}
-	}
-}
-
-bool layout_count_pins(struct assembler *as)
-{
-	int tables = as->translation->unit_count + 1;
-	uint32_t pins = 0;
-
-	as->first_pin = arena_alloc(as->arena,
-				    (size_t)tables * sizeof(uint32_t *));
-	if (!as->first_pin)
-		return false;
-	for (int table = 0; table < tables; table++) {
-		int size = table_vars(as, table)->count;
-		uint32_t *first = arena_alloc(as->arena, ((size_t)size + 1) *
-					      sizeof(*first));
-
-		if (!first)
-			return false;
-		as->first_pin[table] = first;
-		for (int i = 0; i < size; i++) {
-			const struct var *var = table_var(as, table, i);
-
-			first[i] = pins;
-			if (var->type == IEC_NONE)
-				pins += own_row(as, var->fb)->pin_count + 1u;
-		}
-	}
-	as->pin_writes = arena_alloc(as->arena, pins + 1u);
-	if (!as->pin_writes)
-		return false;
-	for (int i = 0; i < as->translation->unit_count; i++)
-		count_list(as, &as->translation->unit[i]);
-	return true;
-}
-
-bool layout_only_stored(const struct assembler *as, const struct meaning *pin)
-{
-	struct meaning calls = calls_of(as, pin);
-
-	return *pin_count(as, pin) == 1 && *pin_count(as, &calls) == 1;
 }

@@ -61,13 +61,20 @@ static bool is_pin(const struct arg *arg, const char *name)
 }
 
 /* Everything the box writes, before anything of it runs. */
-static void freeze_outputs(struct ld *ld, const char *text)
+static void freeze_outputs(struct ld *ld, enum word word, const char *text)
 {
+	const struct word_row *row = ld_row(ld, word);
 	struct arg arg;
 
-	for (const char *at = text; args_next(&at, &arg);)
-		if (arg.output)
+	for (const char *at = text; args_next(&at, &arg);) {
+		int pin = word_is_own(word) ?
+			word_pin_find(row, arg.pin, arg.pin_len) : -1;
+
+		if (arg.output || (pin >= 0 && row->pin[pin].dir == PIN_IN_OUT))
 			ld_freeze(ld, intern(ld, arg.value, arg.value_len));
+	}
+	if (word_is_own(word))
+		ld_freeze_globals(ld);
 }
 
 /* The written parameters of one direction. */
@@ -84,7 +91,7 @@ static void write_args(struct ld *ld, const char *text, bool output)
 /* "Delay.Q" of an instance and a pin. */
 static uint32_t pin_name(struct ld *ld, uint32_t instance, const char *pin)
 {
-	char text[LIMIT_NAME + 64];
+	char text[2 * LIMIT_NAME + 8];
 	int len = snprintf(text, sizeof(text), "%s.%s",
 			   names_text(names_of(ld), instance), pin);
 
@@ -104,6 +111,21 @@ static void feed_pin(struct ld *ld, uint32_t instance, const char *pin, int net)
 	ld_emit(ld, OP_ST, 0, name);
 }
 
+/* A block of the project without a Boolean input is called while it has power. */
+static void call_block(struct ld *ld, int element, bool powered)
+{
+	const struct network_element *at = &ld->network.element[element];
+	uint32_t instance = rung_at(ld->rung, at->row, at->col)->operand;
+
+	powered &= at->in != NET_RAIL;
+	if (powered) {
+		ld_prepare(ld, at->in, 1);
+		ld_load(ld, at->in);
+	}
+	ld_place(ld, at->row, at->col);
+	ld_emit(ld, OP_CAL, powered ? MOD_C : 0, instance);
+}
+
 static void box_block(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
@@ -114,7 +136,7 @@ static void box_block(struct ld *ld, int element)
 	int power = word_first_bool(row, PIN_OUT);
 
 	ld_freeze(ld, instance);
-	freeze_outputs(ld, args);
+	freeze_outputs(ld, (enum word)at->word, args);
 	if (first >= 0)
 		feed_pin(ld, instance, row->pin[first].name, at->in);
 	for (int i = 0; i < at->pins; i++) {
@@ -125,14 +147,16 @@ static void box_block(struct ld *ld, int element)
 		feed_pin(ld, instance,
 			 names_text(names_of(ld), pin->operand), pin->in);
 	}
-	ld_place(ld, at->row, at->col);
-	ld_emit(ld, OP_CAL, 0, instance);
+	call_block(ld, element, first < 0);
 	write_args(ld, args, false);
 	write_args(ld, args, true);
-	if (power >= 0)
+	if (power >= 0) {
 		ld->element[element].leaf =
 			pin_name(ld, instance, row->pin[power].name);
-	ld->element[element].powered = true;
+		ld->element[element].powered = true;
+	} else { /* power goes through */
+		ld->element[element].leaf = ld->true_id;
+	}
 }
 
 static bool is_compare(enum word word)
@@ -173,21 +197,20 @@ static void box_function(struct ld *ld, int element)
 	struct element_state *state = &ld->element[element];
 	const char *args = args_of(ld, element);
 	bool compare = word_is_test(row);
-	uint32_t operand[LIMIT_FN_INPUTS], en, eno = temps_bool(ld->temps);
+	uint32_t en, eno = temps_bool(ld->temps);
 	uint32_t result = compare ? temps_bool(ld->temps) : 0;
 	struct arg out;
 
-	freeze_outputs(ld, args);
+	freeze_outputs(ld, (enum word)at->word, args);
 	en = ld_operand(ld, at->in);
-	for (int i = 0; i < at->pins && i < LIMIT_FN_INPUTS; i++)
-		operand[i] = ld_operand(ld,
-					ld->network.pin[at->first_pin + i].in);
+	for (int i = 0; i < at->pins; i++)
+		ld_operand(ld, ld->network.pin[at->first_pin + i].in);
 	ld_place(ld, at->row, at->col); /* an error is the box's own */
 	ld_call(ld, (enum word)at->word);
 	ld_arg(ld, false, ld->en_id, en);
-	for (int i = 0; i < at->pins && i < LIMIT_FN_INPUTS; i++)
+	for (int i = 0; i < at->pins; i++) /* all of them are operands by now */
 		ld_arg(ld, false, ld->network.pin[at->first_pin + i].operand,
-		       operand[i]);
+		       ld_operand(ld, ld->network.pin[at->first_pin + i].in));
 	write_args(ld, args, false);
 	ld_arg(ld, true, ld->eno_id, eno);
 	if (!compare) {

@@ -199,15 +199,16 @@ static bool bytes_overlap(struct iec_addr a, struct iec_addr b)
 static bool is_var(const struct meaning *m)
 {
 	return m->kind == MEANING_VARIABLE || m->kind == MEANING_INSTANCE ||
-	       m->kind == MEANING_PIN;
+	       m->kind == MEANING_PIN || m->kind == MEANING_STRUCT;
 }
 
 /* Can a write to @a change what is read from @b? */
-static bool touches(const struct meaning *a, const struct meaning *b)
+static bool touches(const struct scope *scope, const struct meaning *a,
+		    const struct meaning *b)
 {
 	if (is_var(a) && is_var(b) && a->var == b->var)
-		return a->kind != MEANING_PIN || b->kind != MEANING_PIN ||
-		       a->pin == b->pin;
+		return a->offset < b->offset + scope_size(scope, b) &&
+		       b->offset < a->offset + scope_size(scope, a);
 	return bytes_overlap(a->addr, b->addr);
 }
 
@@ -235,7 +236,7 @@ static void freeze_at(struct ld *ld, const struct meaning *write, uint32_t key)
 		struct element_state *state = &ld->element[at];
 		const struct meaning *read = meaning(ld, state->leaf);
 
-		if (!read || !touches(write, read))
+		if (!read || !touches(ld->translation->scope, write, read))
 			continue;
 		ld_emit(ld, OP_LD, 0, state->leaf);
 		state->leaf = ld_store_new(ld);
@@ -255,6 +256,20 @@ void ld_freeze(struct ld *ld, uint32_t operand)
 		return;
 	freeze_at(ld, write, key - 1);
 	freeze_at(ld, write, key + 1);
+}
+
+void ld_freeze_globals(struct ld *ld)
+{
+	for (int i = 0; i < ld->network.element_count; i++) {
+		struct element_state *state = &ld->element[i];
+		const struct meaning *read = state->seen && state->leaf ?
+			meaning(ld, state->leaf) : NULL;
+
+		if (!read || read->pou || read->kind == MEANING_LITERAL)
+			continue;
+		ld_emit(ld, OP_LD, 0, state->leaf);
+		state->leaf = ld_store_new(ld);
+	}
 }
 
 void ld_read(struct ld *ld, int element)

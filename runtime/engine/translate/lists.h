@@ -95,4 +95,16 @@ void list_fn(struct list *list, const struct il_line *line);
 void list_call(struct list *list);
 /** list_cal - a call of an instance; the lines behind it too. */
 void list_cal(struct list *list);
+/** list_skip_call - a jump over what follows unless the result is TRUE (N: FALSE);
+ * everything that waits is stored before it. list_end_skip() ends it; < 0: none. */
+int list_skip_call(struct list *list, const struct il_line *line);
+void list_end_skip(struct list *list, int skip);
+
+/* ---- call_own.c: what the project declares itself ---- */
+void list_own_fn(struct list *list);
+/** list_is_struct_move - is the line a MOVE of a structure? */
+bool list_is_struct_move(struct list *list);
+/** list_own_call - a formal call, or a MOVE of a structure. */
+void list_own_call(struct list *list);
+void list_own_cal(struct list *list);
 #endif

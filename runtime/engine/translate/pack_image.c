@@ -89,13 +89,23 @@ static void add_symbol(struct assembler *as, struct maps *maps,
 	add_name(as, maps, var->name);
 }
 
+/* Of an instance without variables there is nothing to name. */
+static void drop_empty_group(struct maps *maps)
+{
+	if (maps->group_count && maps->group[maps->group_count - 1].first ==
+				 (uint32_t)maps->symbol_count)
+		maps->group_count--;
+}
+
 /* The symbols behind it belong to @pou and have the flags of their VAR block. */
 static void add_group(struct assembler *as, struct maps *maps, uint32_t pou,
 		      uint8_t flags)
 {
-	struct code_group *group = arena_push(as->arena, &maps->group,
-					      &maps->group_count, sizeof(*group));
+	struct code_group *group;
 
+	drop_empty_group(maps);
+	group = arena_push(as->arena, &maps->group, &maps->group_count,
+			   sizeof(*group));
 	if (!group) {
 		as->failed = true;
 		return;
@@ -107,23 +117,103 @@ static void add_group(struct assembler *as, struct maps *maps, uint32_t pou,
 	};
 }
 
+/* A part of a variable, which has no symbol of its own: `M1.Start`. */
+static void add_part(struct assembler *as, struct maps *maps, const char *name,
+		     const struct word_pin *pin, uint32_t offset, uint32_t marks)
+{
+	uint32_t *symbol = arena_push(as->arena, &maps->symbol,
+				      &maps->symbol_count, sizeof(*symbol));
+
+	if (!symbol) {
+		as->failed = true;
+		return;
+	}
+	*symbol = CODE_OPERAND((uint32_t)pin->type | marks, offset);
+	add_string(as, maps, name, strlen(name));
+}
+
+struct level {
+	const struct word_row *row;
+	uint32_t base;
+	int next;
+	size_t len;   /* of the name so far */
+};
+
+/* All parts of an instance or structure of the project, at every depth. */
+static void add_parts(struct assembler *as, struct maps *maps,
+		      const struct var *var, uint32_t offset)
+{
+	const struct project *project = as->translation->project;
+	uint32_t marks = maps->declared[var->fold] > 1 ? SYMBOL_SHARED : 0;
+	struct level level[LIMIT_NESTING + 1];
+	char *name = arena_alloc(as->arena, (LIMIT_NESTING + 2) *
+				 (LIMIT_NAME + 2));
+	int depth = 0;
+
+	if (!name) {
+		as->failed = true;
+		return;
+	}
+	level[0] = (struct level){ words_row(&project->words, var->fb), offset, 0,
+				   names_len(&project->names, var->name) };
+	memcpy(name, project_text(project, var->name), level[0].len);
+	while (depth >= 0 && !as->failed) {
+		struct level *top = &level[depth];
+		const struct word_pin *pin = &top->row->pin[top->next];
+		size_t len = top->len;
+
+		if (top->next++ == top->row->pin_count) {
+			depth--;
+			continue;
+		}
+		if (pin->dir == PIN_NONE || !*pin->name)
+			continue;
+		name[len++] = '.';
+		memcpy(name + len, pin->name, strlen(pin->name) + 1);
+		len += strlen(pin->name);
+		if (pin->type == IEC_NONE && word_is_own(pin->word))
+			level[++depth] = (struct level){
+				words_row(&project->words, pin->word),
+				top->base + pin->offset, 0, len };
+		else
+			add_part(as, maps, name, pin, top->base + pin->offset,
+				 marks);
+	}
+}
+
+static void add_var(struct assembler *as, struct maps *maps,
+		    const struct pou *pou, const struct var *var, int index)
+{
+	struct meaning m = { .kind = MEANING_INSTANCE, .pou = pou, .var = var,
+			     .index = index };
+
+	if (var->type == IEC_NONE && word_is_own(var->fb))
+		add_parts(as, maps, var, layout_spot(as, &m).offset);
+	else
+		add_symbol(as, maps, pou, var, index);
+}
+
 static void add_table(struct assembler *as, struct maps *maps,
 		      const struct pou *pou, const struct var_table *vars)
 {
 	const struct pou *first = as->translation->project->pou;
 	uint32_t number = pou ? (uint32_t)(pou - first) + 1 : 0;
-	int block = 0;
+	uint8_t before = 0;
 
+	/* What lies in a frame belongs to the instances. */
+	if (pou && pou->kind != POU_PROGRAM)
+		return;
 	for (int i = 0; i < vars->count && !as->failed; i++) {
-		int before = block;
+		const struct var *var = &vars->var[i];
+		uint8_t flags = vars_flags(vars, i) & (VAR_CONSTANT | VAR_RETAIN);
 
-		while (block + 1 < vars->block_count &&
-		       vars->block[block + 1].first <= i)
-			block++;
-		if (i == 0 || block != before)
-			add_group(as, maps, number, vars->block_count ?
-				  vars->block[block].flags : 0);
-		add_symbol(as, maps, pou, &vars->var[i], i);
+		if (var->type == IEC_NONE &&
+		    words_row(&as->translation->project->words, var->fb)->retain)
+			flags |= VAR_RETAIN;
+		if (i == 0 || flags != before)
+			add_group(as, maps, number, flags);
+		before = flags;
+		add_var(as, maps, pou, var, i);
 	}
 }
 
@@ -181,10 +271,12 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 		return false;
 	count_names(maps, &project->globals);
 	for (int i = 0; i < as->translation->unit_count; i++)
-		count_names(maps, &project->pou[i].vars);
+		if (project->pou[i].kind == POU_PROGRAM)
+			count_names(maps, &project->pou[i].vars);
 	add_table(as, maps, NULL, &project->globals);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		add_table(as, maps, &project->pou[i], &project->pou[i].vars);
+	drop_empty_group(maps);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		as->entry[i].name = add_name(as, maps, project->pou[i].name);
 	for (int i = 0; i < as->task_count; i++)

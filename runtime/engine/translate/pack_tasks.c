@@ -43,7 +43,8 @@ static void add_named(struct assembler *as, struct code_task *task,
 		    (name ? !same_name(as, entry->task, name) : entry->task != 0))
 			continue;
 		for (int k = 0; k < t->unit_count; k++)
-			if (same_name(as, t->unit[k].pou->name, entry->pou))
+			if (t->unit[k].pou->kind == POU_PROGRAM &&
+			    same_name(as, t->unit[k].pou->name, entry->pou))
 				add_call(as, task, k);
 	}
 }
@@ -130,7 +131,8 @@ bool pack_tasks(struct assembler *as)
 	if (any)
 		add_named(as, last, 0);
 	for (int i = 0; !any && i < as->translation->unit_count; i++)
-		add_call(as, last, i);
+		if (as->translation->unit[i].pou->kind == POU_PROGRAM)
+			add_call(as, last, i);
 	/* Nothing to do in every cycle, but a program has one task at least. */
 	if (last->count == 0 && as->task_count > 1)
 		as->task_count--;

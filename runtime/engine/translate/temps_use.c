@@ -7,6 +7,7 @@
  */
 #include "engine/translate/lists.h"
 
+#include <string.h>
 #include <strings.h>
 
 /* What a line does with the variable it names. */
@@ -92,6 +93,31 @@ static bool is_conditional(const struct list *list, int at)
 	return list->il->line[at].modifiers & MOD_C;
 }
 
+/* Is the argument handed over to a VAR_IN_OUT, and so written too? */
+static bool is_in_out(struct list *list, int at)
+{
+	const struct scope *scope = list->as->translation->scope;
+	const char *pin = scope_text(scope, list->il->line[at].pin);
+	const struct word_row *row;
+	const struct meaning *m;
+	enum word word;
+	int index;
+
+	while (at > 0 && (list->il->line[at].kind == IL_ARG_IN ||
+			  list->il->line[at].kind == IL_ARG_OUT))
+		at--;
+	word = (enum word)list->il->line[at].word;
+	if (list->il->line[at].kind == IL_OP) {
+		m = list_meaning(list, list->il->line[at].operand);
+		word = m ? m->word : word;
+	}
+	if (!word_is_own(word))
+		return false;
+	row = list_row(list, word);
+	index = word_pin_find(row, pin, strlen(pin));
+	return index >= 0 && row->pin[index].dir == PIN_IN_OUT;
+}
+
 /* @stored: by variable, line + 1 of its last store in this block. */
 static void count_line(struct list *list, int at, int *stored, const int *block)
 {
@@ -103,6 +129,8 @@ static void count_line(struct list *list, int at, int *stored, const int *block)
 	if (use == USE_NONE || !line->operand)
 		return;
 	if (line->kind == IL_ARG_OUT && is_conditional(list, at))
+		use = USE_BOTH;
+	if (line->kind == IL_ARG_IN && is_in_out(list, at))
 		use = USE_BOTH;
 	m = list_meaning(list, line->operand);
 	var = m ? list_temp(list, m) : -1;

@@ -44,10 +44,19 @@ static const char *type_text(const struct project *project,
 				       iec_type_row(var->type)->word;
 }
 
+/* "" of a plain VAR; VAR_GLOBAL says the same. */
 static const char *flags_text(uint8_t flags)
 {
 	static const char *const text[] = { "", "RETAIN", "CONSTANT",
 					    "RETAIN CONSTANT" };
+	static const uint8_t kinds = VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP;
+
+	if (flags & kinds && !(flags & VAR_RETAIN))
+		return vars_head(flags & kinds);
+	if (flags & VAR_INPUT)
+		return "VAR_INPUT RETAIN";
+	if (flags & VAR_OUTPUT)
+		return "VAR_OUTPUT RETAIN";
 	return text[flags & (VAR_RETAIN | VAR_CONSTANT)];
 }
 
@@ -155,6 +164,7 @@ static void compare_pou(struct diff *diff, const struct pou *a,
 	struct difference what = { .pou = name };
 
 	diff_texts(diff, what, "name", name, project_text(diff->b, b->name));
+	diff_texts(diff, what, "kind", pou_word(a->kind), pou_word(b->kind));
 	diff_texts(diff, what, "comment", project_text(diff->a, a->comment),
 		   project_text(diff->b, b->comment));
 	diff_texts(diff, what, "closing comment",
@@ -169,15 +179,22 @@ static void compare_pou(struct diff *diff, const struct pou *a,
 		diff_il(diff, a, b);
 }
 
+static const char *kind_text(const struct pou *pou)
+{
+	return pou->kind == POU_PROGRAM ? "program" :
+	       pou->kind == POU_FUNCTION ? "function" : "function block";
+}
+
 static void compare_pous(struct diff *diff)
 {
-	struct difference what = { .kind = "program" };
+	struct difference what = { 0 };
 
 	for (int i = 0; i < diff->a->pou_count; i++) {
 		const struct pou *a = &diff->a->pou[i];
 		const struct pou *b;
 
 		what.subject = project_text(diff->a, a->name);
+		what.kind = kind_text(a);
 		what.change = "removed";
 		b = pou_named(diff->b, what.subject);
 		if (b)
@@ -187,8 +204,44 @@ static void compare_pous(struct diff *diff)
 	}
 	for (int j = 0; j < diff->b->pou_count; j++) {
 		what.subject = project_text(diff->b, diff->b->pou[j].name);
+		what.kind = kind_text(&diff->b->pou[j]);
 		what.change = "added";
 		if (!pou_named(diff->a, what.subject))
+			diff_say(diff, what);
+	}
+}
+
+/* ---- structures ---- */
+
+static const struct structure *structure_named(const struct project *project,
+					       const char *name)
+{
+	for (int i = 0; i < project->structure_count; i++)
+		if (strcasecmp(project_text(project, project->structure[i].name),
+			       name) == 0)
+			return &project->structure[i];
+	return NULL;
+}
+
+static void compare_structures(struct diff *diff)
+{
+	struct difference what = { .kind = "type" };
+
+	for (int i = 0; i < diff->a->structure_count; i++) {
+		const struct structure *a = &diff->a->structure[i], *b;
+
+		what.subject = project_text(diff->a, a->name);
+		what.change = "removed";
+		b = structure_named(diff->b, what.subject);
+		if (b)
+			compare_vars(diff, what.subject, &a->vars, &b->vars);
+		else
+			diff_say(diff, what);
+	}
+	for (int j = 0; j < diff->b->structure_count; j++) {
+		what.subject = project_text(diff->b, diff->b->structure[j].name);
+		what.change = "added";
+		if (!structure_named(diff->a, what.subject))
 			diff_say(diff, what);
 	}
 }
@@ -223,7 +276,7 @@ static void compare_parts(struct diff *diff, enum part_kind kind,
 		if (a && b && strcmp(a, b) == 0)
 			continue;
 		what.change = !a ? "added" : !b ? "removed" : "changed";
-		what.subject = kind == PART_INCLUDE ? (b ? b : a) : NULL;
+		what.subject = kind == PART_VIEW ? NULL : b ? b : a;
 		diff_say(diff, what);
 	}
 }
@@ -257,7 +310,9 @@ static void compare(struct diff *diff)
 	diff_texts(diff, what, "closing comment", project_text(a, a->tail),
 		   project_text(b, b->tail));
 	compare_parts(diff, PART_INCLUDE, "INCLUDE");
+	compare_parts(diff, PART_USES, "USES");
 	diff_config(diff);
+	compare_structures(diff);
 	compare_vars(diff, NULL, &a->globals, &b->globals);
 	compare_pous(diff);
 	compare_parts(diff, PART_VIEW, "VIEW section");

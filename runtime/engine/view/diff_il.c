@@ -59,7 +59,7 @@ static bool make_lines(struct diff *diff, const struct project *project,
 	struct sink sink = sink_to_memory(&diff->bytes);
 
 	diff->bytes.len = 0;
-	if (!view_print_il(&project->names, pou->name, &none, NULL, 0, &pou->il,
+	if (!view_print_il(project, pou, &none, NULL, 0, &pou->il,
 			   &sink) || diff->bytes.failed)
 		return false;
 	lines->text = arena_copy(&diff->arena, diff->bytes.text,

@@ -56,25 +56,27 @@ static bool join_vars(const struct names *names, const struct var_table *vars,
 	return true;
 }
 
-bool view_print_il(const struct names *names, uint32_t name,
+bool view_print_il(const struct project *project, const struct pou *pou,
 		   const struct var_table *vars, struct var *const *temps,
 		   int temp_count, const struct il *il, const struct sink *sink)
 {
-	struct pou pou = { .name = name, .language = LANGUAGE_IL, .il = *il };
+	struct pou only = { .name = pou->name, .kind = pou->kind,
+			    .language = LANGUAGE_IL, .il = *il };
 	struct part part = { .kind = PART_POU };
-	struct project project = { .names = *names, .pou = &pou, .pou_count = 1,
-				   .part = &part, .part_count = 1 };
+	struct project one = { .names = project->names, .words = project->words,
+			       .pou = &only, .pou_count = 1,
+			       .part = &part, .part_count = 1 };
 	char *text = NULL;
 	size_t len;
 
-	if (join_vars(names, vars, temps, temp_count, il, &pou.vars))
-		text = text_write(&project, &len);
+	if (join_vars(&project->names, vars, temps, temp_count, il, &only.vars))
+		text = text_write(&one, &len);
 	/* What stands before it is the head of the file. */
-	const char *begin = text ? strstr(text, "PROGRAM") : NULL;
+	const char *begin = text ? strstr(text, pou_word(pou->kind)) : NULL;
 	if (begin)
 		sink_text(sink, begin);
 	free(text);
-	free(pou.vars.var);
-	free(pou.vars.block);
+	free(only.vars.var);
+	free(only.vars.block);
 	return begin != NULL;
 }

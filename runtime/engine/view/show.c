@@ -558,12 +558,12 @@ static int show_pou(struct draw *draw, const struct pou *pou, int rung,
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)
 			return 0;
-		return view_print_il(&draw->project->names, pou->name,
-				     &pou->vars, NULL, 0, &pou->il,
-				     draw->sink) ? 1 : -1;
+		return view_print_il(draw->project, pou, &pou->vars, NULL, 0,
+				     &pou->il, draw->sink) ? 1 : -1;
 	}
 	if (rung == 0) {
-		sink_text(draw->sink, "PROGRAM ");
+		sink_text(draw->sink, pou_word(pou->kind));
+		sink_text(draw->sink, " ");
 		plain_text(draw->sink, project_text(draw->project, pou->name));
 		sink_text(draw->sink, pou->rung_count ? "\n\n" : "\n");
 	}

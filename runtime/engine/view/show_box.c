@@ -119,7 +119,7 @@ static void add_pins(struct draw *draw)
 		const char *power = output ? draw->box.power_out :
 					     draw->box.power_in;
 
-		if (pin->dir == PIN_VAR || strcmp(pin->name, power) == 0 ||
+		if (pin->dir == PIN_VAR || pin->dir == PIN_NONE || strcmp(pin->name, power) == 0 ||
 		    (!output && has_row(draw, pin->name)))
 			continue;
 		side_add_named(draw, output, pin->name);

@@ -44,8 +44,7 @@ int view_diff(const struct project *a, const struct project *b, bool json,
 
 /**
  * view_print_il - a whole POU as `PROGRAM Name IL … END_PROGRAM`
- * @names: the strings of all ids
- * @name:  string id of the POU's name
+ * @pou:   of @project: its kind and name count
  * @vars:  its own variables
  * @temps: variables that translation added, @temp_count of them; those that @il
  *         does not use are left out
@@ -53,7 +52,7 @@ int view_diff(const struct project *a, const struct project *b, bool json,
  *
  * Scan-safe: no.   Fails: false when memory is out; nothing was put out.
  */
-bool view_print_il(const struct names *names, uint32_t name,
+bool view_print_il(const struct project *project, const struct pou *pou,
 		   const struct var_table *vars, struct var *const *temps,
 		   int temp_count, const struct il *il,
 		   const struct sink *sink);

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check_calls - who calls whom: no circle, and not too deep.
+ *
+ * A call of a function or function block of the project is a step from POU to POU.
+ * The steps are walked depth first, without recursion, each list once.
+ */
+#include "engine/check/check_il.h"
+
+#include "engine/model/shape.h"
+
+#include <stdio.h>
+
+enum state { STATE_OPEN, STATE_WORKING, STATE_DONE };
+
+struct calls {
+	struct scope *scope;
+	const struct project *project;
+	const struct il_pou *list;
+	struct diag_list *diags;
+	uint8_t *state;   /* by POU                                          */
+	int *deep;        /* by POU: calls inside one another from it on     */
+	int *stack, *at;  /* POUs in work; the line to look at next          */
+	int depth;
+	bool good;
+};
+
+/* The POU that a line calls; -1: none. */
+static int callee(struct calls *c, const struct pou *pou,
+		  const struct il_line *line)
+{
+	const struct meaning *m;
+	const struct pou *to = NULL;
+	enum diag_id why;
+
+	if (line->kind == IL_FN || line->kind == IL_CALL)
+		to = shape_pou(c->project, (enum word)line->word);
+	if (line->kind == IL_OP && line->op == OP_CAL) {
+		m = scope_find(c->scope, pou, line->operand, &why);
+		if (m && m->kind == MEANING_INSTANCE)
+			to = shape_pou(c->project, m->word);
+	}
+	return to ? (int)(to - c->project->pou) : -1;
+}
+
+static void report(struct calls *c, const struct il_line *line,
+		   enum diag_id id, const char *arg)
+{
+	const struct pou *pou = c->list[c->stack[c->depth - 1]].pou;
+	struct diag place = {
+		.id = id, .file = pou->file, .line = (int)line->line,
+		.pou = scope_text(c->scope, pou->name),
+		.rung = (int)line->rung, .row = line->row, .col = line->col,
+	};
+
+	c->good = diag_add(c->diags, place, "%s", arg);
+}
+
+static const char *name_of(struct calls *c, int pou)
+{
+	return scope_text(c->scope, c->list[pou].pou->name);
+}
+
+/* "A -> B -> A" */
+static void report_circle(struct calls *c, const struct il_line *line, int again)
+{
+	char text[2 * LIMIT_ARG] = "";
+	size_t used = 0;
+	int from = 0;
+
+	while (c->stack[from] != again)
+		from++;
+	for (int i = from; i < c->depth && used < LIMIT_ARG; i++)
+		used += (size_t)snprintf(text + used, sizeof(text) - used,
+					 "%.40s -> ", name_of(c, c->stack[i]));
+	if (used < LIMIT_ARG)
+		snprintf(text + used, sizeof(text) - used, "%.40s",
+			 name_of(c, again));
+	report(c, line, DIAG_RECURSION, text);
+}
+
+static void begin(struct calls *c, int pou)
+{
+	c->state[pou] = STATE_WORKING;
+	c->stack[c->depth] = pou;
+	c->at[c->depth++] = 0;
+}
+
+/* One line further in the POU on top; a call that was not looked at goes on top. */
+static void step(struct calls *c)
+{
+	int top = c->stack[c->depth - 1];
+	const struct il *il = c->list[top].il;
+	const struct il_line *line;
+	int to;
+
+	if (c->at[c->depth - 1] == il->count) {
+		c->state[top] = STATE_DONE;
+		c->depth--;
+		return;
+	}
+	line = &il->line[c->at[c->depth - 1]];
+	to = callee(c, c->list[top].pou, line);
+	if (to >= 0 && c->state[to] == STATE_OPEN) {
+		begin(c, to);
+		return;
+	}
+	c->at[c->depth - 1]++;
+	if (to < 0)
+		return;
+	if (c->state[to] == STATE_WORKING) {
+		report_circle(c, line, to);
+		return;
+	}
+	if (c->deep[to] + 1 > c->deep[top])
+		c->deep[top] = c->deep[to] + 1;
+	if (c->deep[top] == LIMIT_CALLS + 1) {
+		report(c, line, DIAG_TOO_DEEP, name_of(c, to));
+		c->deep[top] = 0;
+	}
+}
+
+bool check_calls(struct scope *scope, const struct il_pou *list, int count,
+		 struct arena *scratch, struct diag_list *diags)
+{
+	size_t size = (size_t)count + 1;
+	struct calls c = {
+		.scope = scope, .project = scope_project(scope), .list = list,
+		.diags = diags, .good = true,
+	};
+
+	c.state = arena_alloc(scratch, size);
+	c.deep = arena_alloc(scratch, size * sizeof(int));
+	c.stack = arena_alloc(scratch, size * sizeof(int));
+	c.at = arena_alloc(scratch, size * sizeof(int));
+	if (!c.state || !c.deep || !c.stack || !c.at)
+		return false;
+	for (int i = 0; i < count; i++) {
+		if (c.state[i] == STATE_OPEN)
+			begin(&c, i);
+		while (c.depth > 0)
+			step(&c);
+	}
+	return c.good;
+}

@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_pou - PROGRAM, FUNCTION and FUNCTION_BLOCK from their first line to their
+ * last, and TYPE … END_TYPE.
+ *
+ * Declarations, rungs and instruction lists have readers of their own.
+ */
+#include "engine/text/reader.h"
+
+#include <string.h>
+
+static const struct {
+	const char *end, *name, *many;
+} kinds[] = {
+	[POU_PROGRAM] = { "END_PROGRAM", "name of the program", "programs" },
+	[POU_FUNCTION] = { "END_FUNCTION", "name of the function", "functions" },
+	[POU_BLOCK] = { "END_FUNCTION_BLOCK", "name of the function block",
+			"function blocks" },
+};
+
+bool read_pou_kind(const struct reader *r, enum pou_kind *kind)
+{
+	for (size_t i = 0; i < sizeof(kinds) / sizeof(*kinds); i++)
+		if (lex_is(&r->lex, pou_word((enum pou_kind)i))) {
+			*kind = (enum pou_kind)i;
+			return true;
+		}
+	return false;
+}
+
+/* ---- bodies ---- */
+
+static size_t rung_cells(const struct rung *rung)
+{
+	return (size_t)rung->rows * rung->cols;
+}
+
+static void add_rung(struct reader *r, struct pou *pou)
+{
+	bool full = pou->rung_count == LIMIT_RUNGS ||
+		    r->all_cells > LIMIT_TEXT / 4;
+
+	if (full && r->place.rung <= pou->rung_count + 1)
+		reader_fail_word(r, DIAG_TOO_MANY, "rungs");
+	struct rung *rung = read_rung(r);
+
+	if (!rung)
+		return;
+	r->all_cells += full ? 0 : rung_cells(rung);
+	if (!full && project_add_rung(pou, pou->rung_count, rung))
+		return;
+	r->no_memory |= !full;
+	rung_free(rung);
+}
+
+/* Up to its END or to a word that cannot stand in a POU. */
+static void read_rungs(struct reader *r, struct pou *pou)
+{
+	for (;;) {
+		reader_skip_newlines(r);
+		if (r->lex.token.kind == TOKEN_END)
+			return;
+		if (lex_is(&r->lex, "RUNG")) {
+			r->place.rung++;
+			add_rung(r, pou);
+		} else if (reader_is_vars(r)) {
+			if (r->place.rung > 0)
+				reader_fail_token(r, DIAG_MISPLACED);
+			read_vars(r, &pou->vars, false);
+		} else if (read_ends_block(r)) {
+			return;
+		} else {
+			reader_skip_odd_line(r);
+		}
+	}
+}
+
+static void read_body(struct reader *r, struct pou *pou)
+{
+	if (pou->language == LANGUAGE_LD) {
+		read_rungs(r, pou);
+		return;
+	}
+	for (reader_skip_newlines(r); reader_is_vars(r); reader_skip_newlines(r))
+		read_vars(r, &pou->vars, false);
+	read_il(r, pou);
+}
+
+/* ---- first lines ---- */
+
+/* The row that looking ahead made, unless another POU has this name. */
+static enum word own_word(struct reader *r, uint32_t name, enum word_kind kind,
+			  int owner)
+{
+	const char *text = names_text(&r->project->names, name);
+	enum word word = words_find(&r->project->words, text, strlen(text));
+	struct word_row *row = words_own(&r->project->words, word);
+
+	if (!row || row->owner >= 0 || row->kind != kind) {
+		word = reader_own_word(r, name, kind);
+		row = words_own(&r->project->words, word);
+	}
+	if (row)
+		row->owner = owner;
+	return word;
+}
+
+/* The result is a variable of the function's name. */
+static bool read_result(struct reader *r, struct pou *pou)
+{
+	struct var_table *table = &pou->vars;
+	struct arena *arena = &r->project->arena;
+	struct var var = { .name = pou->name, .line = pou->line };
+	struct var_block *block;
+	struct var *slot;
+
+	var.fold = names_fold(&r->project->names, var.name);
+	if (!reader_type(r, &var))
+		return false;
+	block = arena_push(arena, &table->block, &table->block_count,
+			   sizeof(*block));
+	slot = arena_push(arena, &table->var, &table->count, sizeof(*slot));
+	if (!block || !slot) {
+		r->no_memory = true;
+		return false;
+	}
+	*block = (struct var_block){ .flags = VAR_RESULT, .count = 1,
+				     .line = pou->line };
+	*slot = var;
+	return true;
+}
+
+static void read_first_line(struct reader *r, struct pou *pou, int index)
+{
+	reader_next(r);
+	if (!reader_name(r, kinds[pou->kind].name, &pou->name)) {
+		reader_skip_line(r);
+		return;
+	}
+	reader_next(r);
+	r->place.pou = names_text(&r->project->names, pou->name);
+	if (pou->kind != POU_PROGRAM)
+		pou->word = own_word(r, pou->name, pou->kind == POU_BLOCK ?
+				     WORD_FB : WORD_FN, index);
+	if (pou->kind == POU_FUNCTION && !read_result(r, pou)) {
+		reader_skip_line(r);
+		return;
+	}
+	if (lex_is(&r->lex, "IL"))
+		pou->language = LANGUAGE_IL;
+	if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD"))
+		reader_next(r);
+	reader_end_line(r);
+}
+
+/* VAR_TEMP has a row too, without a name. */
+static void add_temps(struct reader *r, struct pou *pou, int index)
+{
+	bool temps = false;
+
+	for (int i = 0; i < pou->vars.block_count; i++)
+		temps |= pou->vars.block[i].flags & VAR_TEMP &&
+			 pou->vars.block[i].count > 0;
+	if (!temps || pou->kind == POU_FUNCTION)
+		return;
+	pou->temp_word = reader_own_word(r, 0, WORD_STRUCT);
+	if (pou->temp_word != WORD_COUNT)
+		words_own(&r->project->words, pou->temp_word)->owner = index;
+}
+
+void read_pou(struct reader *r, enum pou_kind kind)
+{
+	struct project *project = r->project;
+	int index = project->pou_count;
+	struct token head = r->lex.token;
+	struct pou *pou = NULL;
+
+	if (index == LIMIT_POUS)
+		reader_fail_word(r, DIAG_TOO_MANY, kinds[kind].many);
+	else
+		pou = arena_push(&project->arena, &project->pou,
+				 &project->pou_count, sizeof(*pou));
+	if (!pou) {
+		r->no_memory |= project->pou_count < LIMIT_POUS;
+		r->lex.at = r->lex.end;
+		reader_next(r);
+		return;
+	}
+	*pou = (struct pou){ .file = r->place.file, .line = head.line,
+			     .included = r->outer != NULL, .kind = kind,
+			     .word = WORD_COUNT, .temp_word = WORD_COUNT };
+	pou->il.arena = &project->arena;
+	reader_add_part(r, (struct part){ .kind = PART_POU, .index = index });
+	r->pou = pou;
+	read_first_line(r, pou, index);
+	pou->comment = buffer_take(r, &r->above);
+	read_body(r, pou);
+	r->place.rung = 0;
+	r->pou = NULL;
+	pou->tail = buffer_take(r, &r->above);
+	add_temps(r, pou, index);
+	if (lex_is(&r->lex, kinds[kind].end)) {
+		reader_next(r);
+		r->place.pou = NULL;
+		reader_end_line(r);
+		return;
+	}
+	reader_fail_open(r, &head);
+	r->place.pou = NULL;
+}
+
+/* ---- TYPE ---- */
+
+static bool read_struct_head(struct reader *r, struct structure *out)
+{
+	if (!reader_name(r, "name of a type", &out->name))
+		return false;
+	out->line = r->lex.token.line;
+	reader_step(r);
+	if (!reader_is(r, ':'))
+		return reader_fail_word(r, DIAG_EXPECTED, ":");
+	reader_step(r);
+	if (!lex_is(&r->lex, "STRUCT"))
+		return reader_fail_word(r, DIAG_EXPECTED, "STRUCT");
+	return true;
+}
+
+/* Name : STRUCT … END_STRUCT; with the comment behind it. */
+static bool read_struct(struct reader *r, struct structure *out)
+{
+	r->across_lines = true;
+	if (!read_struct_head(r, out))
+		return false;
+	r->across_lines = false;
+	reader_next(r);
+	read_members(r, &out->vars);
+	if (!lex_is(&r->lex, "END_STRUCT"))
+		return reader_fail_word(r, DIAG_EXPECTED, "END_STRUCT");
+	reader_next(r);
+	if (!reader_is(r, ';'))
+		return reader_fail_word(r, DIAG_EXPECTED, ";");
+	reader_next(r);
+	out->comment = buffer_take(r, &r->note);
+	return true;
+}
+
+static void add_struct(struct reader *r, struct part *part)
+{
+	struct project *project = r->project;
+	int index = project->structure_count;
+	struct structure *out = arena_push(&project->arena, &project->structure,
+					   &project->structure_count,
+					   sizeof(*out));
+	struct structure made = { .file = r->place.file, .word = WORD_COUNT };
+	bool good;
+
+	if (!out) {
+		r->no_memory = true;
+		return;
+	}
+	good = read_struct(r, &made);
+	bool head = !good && r->across_lines; /* it did not get to STRUCT     */
+
+	r->across_lines = false;
+	if (made.name)
+		made.word = own_word(r, made.name, WORD_STRUCT, index);
+	project->structure[index] = made;
+	part->count++;
+	if (head) {
+		reader_skip_line(r);
+		return;
+	}
+	while (!good && r->lex.token.kind != TOKEN_END && !read_ends_block(r) &&
+	       !lex_is(&r->lex, "END_STRUCT") && !lex_is(&r->lex, "END_TYPE"))
+		reader_next(r);
+	if (!good && lex_is(&r->lex, "END_STRUCT"))
+		reader_skip_line(r);
+}
+
+void read_types(struct reader *r)
+{
+	const struct token head = r->lex.token;
+	struct part part = { .kind = PART_TYPES,
+			     .index = r->project->structure_count };
+
+	part.comment = buffer_take(r, &r->above);
+	r->comments = COMMENT_NOTE;
+	reader_next(r);
+	for (;;) {
+		reader_skip_newlines(r);
+		if (r->lex.token.kind == TOKEN_END || r->no_memory ||
+		    lex_is(&r->lex, "END_TYPE") || read_ends_block(r))
+			break;
+		add_struct(r, &part);
+	}
+	if (r->note.len > 0 && part.count > 0) {
+		struct structure *last = &r->project->structure[
+			r->project->structure_count - 1];
+
+		last->comment = comment_join(r, last->comment, &r->note);
+	} else if (r->note.len > 0) {
+		part.comment = comment_join(r, part.comment, &r->note);
+	}
+	r->comments = COMMENT_ABOVE;
+	reader_add_part(r, part);
+	if (lex_is(&r->lex, "END_TYPE")) {
+		reader_next(r);
+		reader_end_line(r);
+		return;
+	}
+	reader_fail_open(r, &head);
+}

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_words - looks ahead in a file for the names of its functions, function blocks
+ * and structures, so that they may be used above the place that declares them.
+ *
+ * It goes into the files that INCLUDE and USES name, each once. It tells nothing: what
+ * it cannot read or does not understand the reader will come to, and say.
+ */
+#include "engine/text/reader.h"
+
+#include "engine/base/ascii.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define FILES_MOST 1024 /* looked into; of others the words are not known early */
+
+struct look {
+	struct reader *r;
+	struct diag_list *diags;       /* heap; nobody reads them             */
+	const char *file[FILES_MOST];
+	int files;
+	size_t total;
+};
+
+static const char *const heads[] = {
+	"FUNCTION", "TYPE", "INCLUDE", "USES",
+};
+
+/* Does a line begin with one of these? Most files have none, and are not read
+ * twice for nothing. */
+static bool has_heads(const char *text, size_t len)
+{
+	const char *at = text, *end = text + len;
+
+	while (at && at < end) {
+		while (at < end && (*at == ' ' || *at == '\t' || *at == '\n' ||
+				    *at == '\r'))
+			at++;
+		for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++) {
+			size_t n = strlen(heads[i]);
+
+			if ((size_t)(end - at) > n && ascii_same(at, heads[i], n))
+				return true;
+		}
+		if (at < end)
+			at = memchr(at, '\n', (size_t)(end - at));
+	}
+	return false;
+}
+
+enum word reader_own_word(struct reader *r, uint32_t name, enum word_kind kind)
+{
+	const char *text = names_text(&r->project->names, name);
+	struct word_row row = {
+		.id = text, .word = text, .glyph = "", .family = "Own",
+		.doc = "", .kind = kind, .owner = -1,
+		.place = kind == WORD_STRUCT ? PLACE_NONE : PLACE_BOX,
+		.operand = kind == WORD_FB ? OPND_INSTANCE : OPND_NONE,
+		.first = kind == WORD_FB ? OP_CAL : OP_LD,
+		.next = kind == WORD_FB ? OP_CAL : OP_AND,
+		.result = RESULT_SAME,
+	};
+	enum word word = words_add(&r->project->words, row);
+
+	if (word == WORD_COUNT)
+		reader_fail_word(r, DIAG_TOO_MANY, "functions, blocks and types");
+	return word;
+}
+
+/* A name at the cursor. The reader may find it faulty; then it says so. */
+static void add_name(struct look *look, const struct lex *lex,
+		     enum word_kind kind)
+{
+	struct reader *r = look->r;
+	const struct token *token = &lex->token;
+
+	if (token->kind != TOKEN_NAME || token->len > LIMIT_NAME ||
+	    memchr(token->text, '.', token->len) ||
+	    words_find(&r->project->words, token->text, token->len) != WORD_COUNT)
+		return;
+	reader_own_word(r, reader_intern(r, token->text, token->len), kind);
+}
+
+static void skip_newlines(struct lex *lex)
+{
+	while (lex->token.kind == TOKEN_NEWLINE)
+		lex_next(lex);
+}
+
+/* Behind TYPE: every `Name : STRUCT` up to END_TYPE. */
+static void look_at_types(struct look *look, struct lex *lex)
+{
+	while (lex->token.kind != TOKEN_END && !lex_is(lex, "END_TYPE")) {
+		struct lex name = *lex;
+
+		lex_next(lex);
+		skip_newlines(lex);
+		if (name.token.kind != TOKEN_NAME || !lex_is(lex, ":"))
+			continue;
+		lex_next(lex);
+		skip_newlines(lex);
+		if (lex_is(lex, "STRUCT"))
+			add_name(look, &name, WORD_STRUCT);
+	}
+}
+
+static void look_into(struct look *look, const char *file, const char *text,
+		      size_t len, int depth);
+
+static void look_at_file(struct look *look, const char *from, struct lex *lex,
+			 int depth)
+{
+	struct reader *r = look->r;
+	uint32_t name = 0;
+	const char *path;
+	size_t len = 0;
+
+	if (lex->token.kind != TOKEN_STRING || !r->source ||
+	    depth == LIMIT_INCLUDES || look->files == FILES_MOST)
+		return;
+	if (!reader_unescape(r, &lex->token, look->diags, &name) || !name)
+		return;
+	path = reader_path(r, from, names_text(&r->project->names, name));
+	if (!path)
+		return;
+	for (int i = 0; i < look->files; i++)
+		if (!strcmp(look->file[i], path))
+			return;
+	look->file[look->files++] = path;
+	char *text = r->source->load(r->source->context, from,
+				     names_text(&r->project->names, name), &len,
+				     look->diags, (struct diag){ .file = path });
+	diag_init(look->diags);
+	look->total += len + 1024;
+	if (text && look->total <= LIMIT_TEXT)
+		look_into(look, path, text, len, depth + 1);
+	free(text);
+}
+
+/* What an editor keeps may hold anything. */
+static void skip_view(struct lex *lex)
+{
+	const char *end = reader_view_end(lex);
+
+	lex->at = end ? end : lex->end;
+	lex_next(lex);
+}
+
+/* Depth: at most LIMIT_INCLUDES. */
+static void look_into(struct look *look, const char *file, const char *text,
+		      size_t len, int depth)
+{
+	struct lex lex;
+	bool begins = true; /* a line */
+
+	if (!has_heads(text, len))
+		return;
+	lex_init(&lex, text, len);
+	lex.newlines = true;
+	while (lex_next(&lex) != TOKEN_END) {
+		bool first = begins;
+
+		begins = lex.token.kind == TOKEN_NEWLINE;
+		if (!first || lex.token.kind != TOKEN_NAME)
+			continue;
+		struct lex head = lex;
+
+		lex_next(&head);
+		if (lex_is(&head, ":"))
+			continue;
+		if (lex_is(&lex, "VIEW"))
+			skip_view(&lex);
+		else if (lex_is(&lex, "FUNCTION"))
+			add_name(look, &head, WORD_FN);
+		else if (lex_is(&lex, "FUNCTION_BLOCK"))
+			add_name(look, &head, WORD_FB);
+		else if (lex_is(&lex, "TYPE"))
+			look_at_types(look, &lex);
+		else if (lex_is(&lex, "INCLUDE") || lex_is(&lex, "USES"))
+			look_at_file(look, file, &head, depth);
+	}
+}
+
+void read_words(struct reader *r, const char *text, size_t len)
+{
+	struct look *look;
+
+	if (!has_heads(text, len))
+		return;
+	look = calloc(1, sizeof(*look));
+	if (look)
+		look->diags = calloc(1, sizeof(*look->diags));
+	if (look && look->diags) {
+		look->r = r;
+		diag_init(look->diags);
+		look_into(look, r->place.file, text, len, 0);
+	} else {
+		r->no_memory = true;
+	}
+	if (look)
+		free(look->diags);
+	free(look);
+}

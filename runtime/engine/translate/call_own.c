@@ -1,0 +1,356 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * call_own - calls of the project's own functions and function blocks, and copies of
+ * structures.
+ *
+ * A body works on one frame. A block's is filled from the instance and given back
+ * after the call; a function's is filled from a model. A body may write any variable:
+ * whatever waits to be stored is stored before it runs.
+ */
+#include "engine/translate/lists.h"
+
+#include <string.h>
+#include <strings.h>
+
+const struct word_row *list_row(const struct list *list, enum word word)
+{
+	return words_row(&list->as->translation->project->words, word);
+}
+
+static const char *pin_text(const struct list *list, const struct il_line *arg)
+{
+	return scope_text(list->as->translation->scope, arg->pin);
+}
+
+static bool is_arg(const struct list *list, int at)
+{
+	return at < list->il->count && (list->il->line[at].kind == IL_ARG_IN ||
+					list->il->line[at].kind == IL_ARG_OUT);
+}
+
+static const struct il_line *find_arg(const struct list *list, const char *name,
+				      int *at)
+{
+	for (int i = list->at + 1; is_arg(list, i); i++)
+		if (strcasecmp(pin_text(list, &list->il->line[i]), name) == 0) {
+			*at = i;
+			return &list->il->line[i];
+		}
+	return NULL;
+}
+
+static bool is_whole(const struct meaning *m)
+{
+	return m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE;
+}
+
+static uint32_t size_of(const struct list *list, const struct meaning *m)
+{
+	return scope_size(list->as->translation->scope, m);
+}
+
+static void copy_whole(struct list *list, uint32_t to, uint32_t from, uint32_t size)
+{
+	list_protect(list, to, size);
+	emit_block(list->as, to, from, size);
+}
+
+/* ---- pins, at @to in an instance or frame ---- */
+
+static void feed(struct list *list, uint32_t to, const struct word_pin *pin,
+		 const struct meaning *m)
+{
+	struct bits bits;
+
+	if (is_whole(m)) {
+		copy_whole(list, to, layout_spot(list->as, m).offset,
+			   size_of(list, m));
+	} else if (pin->type == IEC_BOOL) {
+		bits = list_bits(list, m);
+		list_protect(list, to, 1);
+		bits_store(list->as, &bits, to);
+	} else {
+		list_copy(list, CODE_OPERAND(pin->type, to),
+			  list_number(list, m, pin->type));
+	}
+}
+
+static void take(struct list *list, uint32_t from, enum iec_type type,
+		 const struct meaning *m)
+{
+	struct bits bits = bits_leaf(from);
+
+	if (is_whole(m))
+		copy_whole(list, layout_spot(list->as, m).offset, from,
+			   size_of(list, m));
+	else if (type == IEC_BOOL)
+		list_write_bits(list, m, &bits);
+	else
+		list_copy(list, list_number(list, m, m->type),
+			  CODE_OPERAND(type, from));
+}
+
+/* The pin that a parameter names; NULL: EN, ENO or OUT of a function. */
+static const struct word_pin *pin_of(const struct list *list,
+				     const struct word_row *row,
+				     const struct il_line *arg)
+{
+	const char *name = pin_text(list, arg);
+	int index = word_pin_find(row, name, strlen(name));
+
+	return index < 0 ? NULL : &row->pin[index];
+}
+
+static void feed_all(struct list *list, const struct word_row *row, uint32_t base)
+{
+	for (int i = list->at + 1; is_arg(list, i); i++) {
+		const struct il_line *arg = &list->il->line[i];
+		const struct word_pin *pin = pin_of(list, row, arg);
+
+		if (pin && arg->kind == IL_ARG_IN)
+			feed(list, base + pin->offset, pin,
+			     list_meaning(list, arg->operand));
+	}
+}
+
+/* Outputs, and what was handed over to be changed. */
+static void take_all(struct list *list, const struct word_row *row, uint32_t base)
+{
+	int at = list->at;
+
+	for (int i = at + 1; is_arg(list, i); i++) {
+		const struct il_line *arg = &list->il->line[i];
+		const struct word_pin *pin = pin_of(list, row, arg);
+
+		if (!pin || pin->dir == PIN_IN)
+			continue;
+		list->at = i;
+		take(list, base + pin->offset, pin->type,
+		     list_meaning(list, arg->operand));
+		list->at = at;
+	}
+}
+
+static void emit_call(struct list *list, uint32_t entry)
+{
+	list_place(list);
+	emit_op(list->as, VM_CALL, 0);
+	emit(list->as, entry);
+}
+
+/* ---- function blocks ---- */
+
+void list_own_cal(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+	const struct meaning *instance = list_meaning(list, line->operand);
+	const struct word_row *row = list_row(list, instance->word);
+	uint32_t base = layout_spot(list->as, instance).offset, entry;
+	const struct frame *frame = layout_pou(list->as, instance->word, &entry);
+	int skip = -1;
+
+	if (line->modifiers & MOD_C)
+		skip = list_skip_call(list, line);
+	list->now.kind = RESULT_NONE;
+	list_keep_all(list);
+	feed_all(list, row, base);
+	emit_block(list->as, frame->offset, base, row->size);
+	emit_call(list, entry);
+	emit_block(list->as, base, frame->offset, row->size);
+	take_all(list, row, base);
+	list_end_skip(list, skip);
+}
+
+/* ---- functions ---- */
+
+/* EN := x is a jump over the call; x is kept for ENO. */
+static int skip_unless(struct list *list, struct bits *en)
+{
+	struct il_line jump = { .modifiers = MOD_C };
+	uint32_t slot;
+
+	if (en->count == 0 && en->table & 1)
+		return -1;
+	slot = scratch_new(list->as);
+	bits_store(list->as, en, slot);
+	*en = bits_leaf(slot);
+	list->now.kind = RESULT_BITS;
+	list->now.bits = *en;
+	return list_skip_call(list, &jump);
+}
+
+static struct bits read_en(struct list *list)
+{
+	int at;
+	const struct il_line *arg = find_arg(list, "EN", &at);
+
+	return arg ? list_bits(list, list_meaning(list, arg->operand))
+		   : bits_constant(true);
+}
+
+static void write_eno(struct list *list, const struct bits *en)
+{
+	int at, own = list->at;
+	const struct il_line *arg = find_arg(list, "ENO", &at);
+
+	if (!arg)
+		return;
+	list->at = at;
+	list_write_bits(list, list_meaning(list, arg->operand), en);
+	list->at = own;
+}
+
+/* The function's result is its first variable. */
+static uint32_t result_at(const struct frame *frame, const struct word_row *row)
+{
+	return frame->offset + row->pin[0].offset;
+}
+
+static void take_result(struct list *list, const struct frame *frame,
+			const struct word_row *row)
+{
+	int at, own = list->at;
+	const struct il_line *arg = find_arg(list, "OUT", &at);
+
+	if (!arg || arg->kind != IL_ARG_OUT)
+		return;
+	list->at = at;
+	take(list, result_at(frame, row), row->pin[0].type,
+	     list_meaning(list, arg->operand));
+	list->at = own;
+}
+
+static void call_function(struct list *list)
+{
+	enum word word = (enum word)list->il->line[list->at].word;
+	const struct word_row *row = list_row(list, word);
+	uint32_t entry;
+	const struct frame *frame = layout_pou(list->as, word, &entry);
+
+	emit_block(list->as, frame->offset, frame->model, frame->size);
+	feed_all(list, row, frame->offset);
+	emit_call(list, entry);
+	take_all(list, row, frame->offset);
+	take_result(list, frame, row);
+}
+
+bool list_is_struct_move(struct list *list)
+{
+	int at;
+	const struct il_line *in;
+
+	if (list->il->line[list->at].word != FN_MOVE)
+		return false;
+	in = find_arg(list, "IN", &at);
+	return in && is_whole(list_meaning(list, in->operand));
+}
+
+static void move_struct(struct list *list)
+{
+	int at;
+	const struct meaning *from = list_meaning(list,
+		find_arg(list, "IN", &at)->operand);
+	const struct meaning *to = list_meaning(list,
+		find_arg(list, "OUT", &at)->operand);
+
+	list_place(list);
+	copy_whole(list, layout_spot(list->as, to).offset,
+		   layout_spot(list->as, from).offset, size_of(list, to));
+}
+
+void list_own_call(struct list *list)
+{
+	struct bits en;
+	int skip;
+
+	list->now.kind = RESULT_NONE;
+	en = read_en(list);
+	list_keep_all(list);
+	skip = skip_unless(list, &en);
+	list->now.kind = RESULT_NONE;
+	if (list_is_struct_move(list))
+		move_struct(list);
+	else
+		call_function(list);
+	list_end_skip(list, skip);
+	write_eno(list, &en);
+}
+
+/* ---- functions on the result ---- */
+
+static int next_input(const struct word_row *row, int index)
+{
+	do
+		index++;
+	while (index < row->pin_count && row->pin[index].dir != PIN_IN);
+	return index;
+}
+
+/* The current result goes to a pin. */
+static void feed_now(struct list *list, uint32_t to, const struct word_pin *pin)
+{
+	const struct il_result *now = &list->now;
+	union iec_value value = { .i = 0 };
+	struct bits bits;
+	uint32_t from = now->operand;
+
+	if (pin->type == IEC_BOOL) {
+		bits = list_now_bits(list);
+		bits_store(list->as, &bits, to);
+		return;
+	}
+	if (now->kind == RESULT_LITERAL && pin->type == IEC_STRING) {
+		from = CODE_OPERAND(IEC_STRING, layout_text(list->as,
+							    now->literal));
+	} else if (now->kind == RESULT_LITERAL) {
+		literal_fit(now->literal, pin->type, &value);
+		from = CODE_OPERAND(pin->type, layout_constant(list->as,
+							       pin->type, value));
+	}
+	list_copy(list, CODE_OPERAND(pin->type, to), from);
+}
+
+/* The result is kept beside the frame, which the next call uses again. */
+static void result_now(struct list *list, uint32_t from, enum iec_type type)
+{
+	struct bits bits = bits_leaf(from);
+	uint32_t slot;
+
+	if (type == IEC_BOOL) {
+		slot = scratch_new(list->as);
+		bits_store(list->as, &bits, slot);
+		list->now = (struct il_result){
+			.kind = RESULT_BITS, .bits = bits_leaf(slot),
+		};
+		return;
+	}
+	slot = layout_tail(list->as, RUN_VALUES, type);
+	list_copy(list, CODE_OPERAND(type, slot), CODE_OPERAND(type, from));
+	list->now = (struct il_result){
+		.kind = RESULT_NUMBER, .own = true,
+		.operand = CODE_OPERAND(type, slot),
+	};
+}
+
+void list_own_fn(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+	enum word word = (enum word)line->word;
+	const struct word_row *row = list_row(list, word);
+	int pin = next_input(row, -1);
+	uint32_t entry;
+	const struct frame *frame = layout_pou(list->as, word, &entry);
+
+	list_keep_all(list);
+	emit_block(list->as, frame->offset, frame->model, frame->size);
+	feed_now(list, frame->offset + row->pin[pin].offset, &row->pin[pin]);
+	list->now.kind = RESULT_NONE;
+	for (int i = list->at; i == list->at ? line->operand != 0 : is_arg(list, i);
+	     i++) {
+		pin = next_input(row, pin);
+		feed(list, frame->offset + row->pin[pin].offset, &row->pin[pin],
+		     list_meaning(list, list->il->line[i].operand));
+	}
+	emit_call(list, entry);
+	result_now(list, result_at(frame, row), row->pin[0].type);
+}
