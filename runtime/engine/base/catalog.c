@@ -14,13 +14,22 @@
 #define DOC(text) text
 #endif
 
-/* What only pins of a project have. */
-#define NOT_OWN 0, false, 0
+/* What only pins of a project have, or inputs with a value. */
+#define NOT_OWN 0, false, { 0 }, 0
 #define FB_PIN(fb, pin, dir, type, text) \
 	{ #pin, dir, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), text, NOT_OWN },
+#define FB_DEF(fb, pin, type, value, text) \
+	{ #pin, PIN_IN, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), DOC(text), \
+	  0, true, INIT_##type(value), 0 },
+#define INIT_BOOL(value) { .i = (value) }
+#define INIT_BYTE(value) { .i = (value) }
+#define INIT_INT(value)  { .i = (value) }
+#define INIT_TIME(value) { .i = (value) }
+#define INIT_REAL(value) { .r = (value) }
 #define FB_IN(fb, pin, type, doc)  FB_PIN(fb, pin, PIN_IN, type, DOC(doc))
 #define FB_OUT(fb, pin, type, doc) FB_PIN(fb, pin, PIN_OUT, type, DOC(doc))
 #define FB_VAR(fb, pin, type)      FB_PIN(fb, pin, PIN_VAR, type, "")
+#define FB_STORE(fb, pin, type, count) /* nobody asks for it by name */
 #define FB(id, family, doc, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #define FN_IN(pin, classes, doc) \

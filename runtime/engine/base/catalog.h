@@ -41,7 +41,9 @@ enum vm_op {
 #include "engine/catalog.def"
 #define FB_IN(fb, pin, type, doc)  iec_ctype_##type pin;
 #define FB_OUT(fb, pin, type, doc) iec_ctype_##type pin;
+#define FB_DEF(fb, pin, type, value, doc) iec_ctype_##type pin;
 #define FB_VAR(fb, pin, type)      iec_ctype_##type pin;
+#define FB_STORE(fb, pin, type, count) iec_ctype_##type pin[count];
 #define FB(id, family, doc, pins)  struct fb_##id { pins };
 #include "engine/catalog.def"
 
@@ -79,7 +81,8 @@ struct word_pin {
 	uint32_t offset;     /* of an FB pin in its struct                     */
 	const char *doc;
 	enum word word;      /* type IEC_NONE, own rows: an instance, structure */
-	bool has_init;       /* own rows: declared with a value                */
+	bool has_init;       /* has a value until it is given one              */
+	union iec_value init; /* that value of a pin of the catalogue           */
 	uint16_t capacity;   /* own rows: of a STRING                          */
 };
 

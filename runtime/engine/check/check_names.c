@@ -90,8 +90,9 @@ static const char *const keywords[] = {
 #define RESERVED_COUNT \
 	(KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
 
-/* Reserved word number @i, in any order; "" for none. Words of contacts and coils
- * are free: N may be a number, P a pump; a cell always begins with its word. */
+/* Reserved word number @i, in any order; "" for none. Words of contacts, coils and
+ * blocks are free: N may be a number, P a pump, Blink a lamp; a cell always begins
+ * with its word, and a type stands behind a colon. */
 static const char *reserved_word(int i)
 {
 	const struct word_row *row;
@@ -101,7 +102,7 @@ static const char *reserved_word(int i)
 	i -= KEYWORDS;
 	if (i < (int)WORD_COUNT) {
 		row = word_row((enum word)i);
-		return row->kind == WORD_ELEM ? "" : row->word;
+		return row->kind == WORD_FN ? row->word : "";
 	}
 	i -= (int)WORD_COUNT;
 	if (i < (int)OP_COUNT)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * fb_bistable - SR and RS, IEC 61131-3 table 34. Nothing else is stored.
+ * fb_bistable - SR and RS, IEC 61131-3 table 34, and SEMA of the second edition's
+ * table 34. Nothing else is stored.
  */
 #include "engine/scan/vm.h"
 
@@ -14,4 +15,17 @@ void fb_RS_step(struct fb_RS *fb, int64_t now_ns)
 {
 	(void)now_ns;
 	fb->Q1 = (fb->S | fb->Q1) & !fb->R1;
+}
+
+/* BUSY tells what was before the call: FALSE with CLAIM TRUE means "yours". */
+void fb_SEMA_step(struct fb_SEMA *fb, int64_t now_ns)
+{
+	(void)now_ns;
+	fb->BUSY = fb->taken != 0;
+	if (fb->CLAIM) {
+		fb->taken = 1;
+	} else if (fb->RELEASE) {
+		fb->BUSY = 0;
+		fb->taken = 0;
+	}
 }

@@ -1,57 +1,65 @@
 /* SPDX-License-Identifier: MIT
  *
- * fb_counter - CTU, CTD and CTUD, IEC 61131-3 table 36.
+ * fb_counter - CTU, CTD and CTUD of each type, IEC 61131-3 table 36.
  *
- * They count at rising edges, beyond PV and below 0, up to the limits of INT. An
- * edge that comes while R or LD is TRUE is consumed.
+ * They count at rising edges, beyond PV and below 0, up to the limits of their type.
+ * An edge that comes while R or LD is TRUE is consumed; both edges of a CTUD in one
+ * call cancel out. The types differ in nothing but their limits.
  */
-#include "engine/scan/vm.h"
+#include "engine/scan/fb.h"
 
-static int16_t up(int16_t count, bool edge)
-{
-	return (int16_t)(count + (edge && count < INT16_MAX));
+#define STEP_UP(id, high) \
+void fb_##id##_step(struct fb_##id *fb, int64_t now_ns) \
+{ \
+	bool edge = fb_rises(fb->CU, &fb->seen); \
+\
+	(void)now_ns; \
+	if (fb->R) \
+		fb->CV = 0; \
+	else if (edge && fb->CV < (high)) \
+		fb->CV++; \
+	fb->Q = fb->CV >= fb->PV; \
 }
 
-static int16_t down(int16_t count, bool edge)
-{
-	return (int16_t)(count - (edge && count > INT16_MIN));
+#define STEP_DOWN(id, low) \
+void fb_##id##_step(struct fb_##id *fb, int64_t now_ns) \
+{ \
+	bool edge = fb_rises(fb->CD, &fb->seen); \
+\
+	(void)now_ns; \
+	if (fb->LD) \
+		fb->CV = fb->PV; \
+	else if (edge && fb->CV > (low)) \
+		fb->CV--; \
+	fb->Q = fb->CV <= 0; \
 }
 
-void fb_CTU_step(struct fb_CTU *fb, int64_t now_ns)
-{
-	bool edge = fb->CU & !fb->seen;
-
-	(void)now_ns;
-	fb->seen = fb->CU;
-	fb->CV = fb->R ? 0 : up(fb->CV, edge);
-	fb->Q = fb->CV >= fb->PV;
+#define STEP_BOTH(id, low, high) \
+void fb_##id##_step(struct fb_##id *fb, int64_t now_ns) \
+{ \
+	bool up = fb_rises(fb->CU, &fb->seen_up); \
+	bool down = fb_rises(fb->CD, &fb->seen_down); \
+\
+	(void)now_ns; \
+	if (fb->R) \
+		fb->CV = 0; \
+	else if (fb->LD) \
+		fb->CV = fb->PV; \
+	else if (up && !down && fb->CV < (high)) \
+		fb->CV++; \
+	else if (down && !up && fb->CV > (low)) \
+		fb->CV--; \
+	fb->QU = fb->CV >= fb->PV; \
+	fb->QD = fb->CV <= 0; \
 }
 
-void fb_CTD_step(struct fb_CTD *fb, int64_t now_ns)
-{
-	bool edge = fb->CD & !fb->seen;
+#define COUNTERS(type, low, high) \
+	STEP_UP(CTU##type, high) \
+	STEP_DOWN(CTD##type, low) \
+	STEP_BOTH(CTUD##type, low, high)
 
-	(void)now_ns;
-	fb->seen = fb->CD;
-	fb->CV = fb->LD ? fb->PV : down(fb->CV, edge);
-	fb->Q = fb->CV <= 0;
-}
-
-/* Both edges in one call cancel out. */
-void fb_CTUD_step(struct fb_CTUD *fb, int64_t now_ns)
-{
-	bool count_up = fb->CU & !fb->seen_up;
-	bool count_down = fb->CD & !fb->seen_down;
-
-	(void)now_ns;
-	fb->seen_up = fb->CU;
-	fb->seen_down = fb->CD;
-	if (fb->R)
-		fb->CV = 0;
-	else if (fb->LD)
-		fb->CV = fb->PV;
-	else if (count_up != count_down)
-		fb->CV = count_up ? up(fb->CV, true) : down(fb->CV, true);
-	fb->QU = fb->CV >= fb->PV;
-	fb->QD = fb->CV <= 0;
-}
+COUNTERS(, INT16_MIN, INT16_MAX)
+COUNTERS(_DINT, INT32_MIN, INT32_MAX)
+COUNTERS(_LINT, INT64_MIN, INT64_MAX)
+COUNTERS(_UDINT, 0, UINT32_MAX)
+COUNTERS(_ULINT, 0, UINT64_MAX)

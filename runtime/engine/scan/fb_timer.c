@@ -1,23 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * fb_timer - TON, TOF and TP, IEC 61131-3 table 38 and figure 15.
+ * fb_timer - TON, TOF and TP, IEC 61131-3 table 38 and figure 15; TONR.
  *
  * All measure against the start time on the scan's monotonic clock, so nothing
  * drifts when a scan is late. Exactly ET = PT is elapsed. PT may change while
  * the timer runs.
  */
-#include "engine/scan/vm.h"
-
-/* Time since @start, 0 … @preset; a clock that stood still or a negative preset
- * gives 0. Unsigned, because the difference of two int64 may not fit one. */
-static int64_t elapsed(int64_t now_ns, int64_t start, int64_t preset)
-{
-	uint64_t since = (uint64_t)now_ns - (uint64_t)start;
-
-	if (preset <= 0 || now_ns < start)
-		return 0;
-	return since < (uint64_t)preset ? (int64_t)since : preset;
-}
+#include "engine/scan/fb.h"
 
 void fb_TON_step(struct fb_TON *fb, int64_t now_ns)
 {
@@ -30,7 +19,7 @@ void fb_TON_step(struct fb_TON *fb, int64_t now_ns)
 		fb->running = 1;
 		fb->start = now_ns;
 	}
-	fb->ET = elapsed(now_ns, fb->start, fb->PT);
+	fb->ET = fb_elapsed(now_ns, fb->start, fb->PT);
 	fb->Q = fb->ET >= fb->PT;
 }
 
@@ -48,7 +37,7 @@ void fb_TOF_step(struct fb_TOF *fb, int64_t now_ns)
 		fb->running = 1;
 		fb->start = now_ns;
 	}
-	fb->ET = elapsed(now_ns, fb->start, fb->PT);
+	fb->ET = fb_elapsed(now_ns, fb->start, fb->PT);
 	fb->Q = fb->ET < fb->PT;
 }
 
@@ -61,11 +50,34 @@ void fb_TP_step(struct fb_TP *fb, int64_t now_ns)
 		fb->start = now_ns;
 	}
 	if (fb->running && fb->Q) {
-		fb->ET = elapsed(now_ns, fb->start, fb->PT);
+		fb->ET = fb_elapsed(now_ns, fb->start, fb->PT);
 		fb->Q = fb->ET < fb->PT;
 	}
 	if (!fb->Q && !fb->IN) {
 		fb->running = 0;
 		fb->ET = 0;
+	}
+}
+
+/* Time counts from the call that sees IN TRUE to the call that sees it FALSE. What
+ * was gathered stands in ET alone, so that it lives where ET does. */
+void fb_TONR_step(struct fb_TONR *fb, int64_t now_ns)
+{
+	bool counts = fb->running;
+	int64_t had = fb->ET > 0 ? fb->ET : 0;
+
+	if (counts || fb->IN) {
+		if (fb->PT <= had)
+			fb->ET = fb->PT > 0 ? fb->PT : 0;
+		else
+			fb->ET = had + (counts ? fb_elapsed(now_ns, fb->last,
+							    fb->PT - had) : 0);
+		fb->Q = fb->ET >= fb->PT;
+	}
+	fb->running = fb->IN != 0;
+	fb->last = now_ns;
+	if (fb->R) {
+		fb->ET = 0;
+		fb->Q = 0;
 	}
 }

@@ -114,6 +114,14 @@ uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
 /** layout_init - an initial value at an offset. */
 void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
 		 union iec_value value);
+/** layout_init_over - the same where something else stands already: a 0 is stored,
+ * too. */
+void layout_init_over(struct assembler *as, uint32_t offset, enum iec_type type,
+		      union iec_value value);
+/** layout_init_pins - the values that a row of the catalogue gives its inputs, in an
+ * instance at an offset. */
+void layout_init_pins(struct assembler *as, uint32_t offset,
+		      const struct word_row *row);
 /** layout_count_pins - counts the uses of every instance pin. */
 bool layout_count_pins(struct assembler *as);
 /** layout_only_stored - is a parameter of the only call all that is ever done with

@@ -310,7 +310,7 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 	    layout_only_stored(list->as, &pin)) {
 		literal_fit(&m->literal, pin.type, &value);
 		if (list->as->text == &list->as->code)
-			layout_init(list->as, to, pin.type, value);
+			layout_init_over(list->as, to, pin.type, value);
 		return;
 	}
 	if (pin.type == IEC_BOOL) {

@@ -90,10 +90,13 @@ static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
 static uint32_t place_instance(struct assembler *as, enum word word)
 {
 	struct code_run run = { .kind = RUN_INSTANCE, .word = (uint16_t)word };
+	uint32_t offset;
 
 	if (word_is_own(word))
 		return layout_whole(as, word, true);
-	return layout_place(as, run, word_row(word)->size, 8);
+	offset = layout_place(as, run, word_row(word)->size, 8);
+	layout_init_pins(as, offset, word_row(word));
+	return offset;
 }
 
 

@@ -16,19 +16,36 @@ uint32_t layout_string(struct assembler *as, enum code_run_kind kind,
 		     (uint32_t)sizeof(struct iec_string));
 }
 
-void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
-		 union iec_value value)
+void layout_init_over(struct assembler *as, uint32_t offset, enum iec_type type,
+		      union iec_value value)
 {
 	uint32_t size = iec_type_row(type)->size, bytes[2] = { 0, 0 };
 
 	iec_store(bytes, type, value);
-	if (!bytes[0] && !bytes[1])
-		return;
 	words_push(as, &as->init, offset);
 	words_push(as, &as->init, size);
 	words_push(as, &as->init, bytes[0]);
 	if (size > 4)
 		words_push(as, &as->init, bytes[1]);
+}
+
+void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
+		 union iec_value value)
+{
+	uint32_t bytes[2] = { 0, 0 };
+
+	iec_store(bytes, type, value);
+	if (bytes[0] || bytes[1])
+		layout_init_over(as, offset, type, value);
+}
+
+void layout_init_pins(struct assembler *as, uint32_t offset,
+		      const struct word_row *row)
+{
+	for (int i = 0; i < row->pin_count; i++)
+		if (row->pin[i].has_init)
+			layout_init(as, offset + row->pin[i].offset,
+				    row->pin[i].type, row->pin[i].init);
 }
 
 /* A text's first bytes, whole words as long as its room. */

@@ -39,7 +39,9 @@ static void place_part(struct assembler *as, const struct whole *whole, int inde
 		run.word = pin->capacity;
 	}
 	layout_place_at(as, run, whole->base + pin->offset, size);
-	if (init && pin->has_init)
+	if (init && pin->type == IEC_NONE)
+		layout_init_pins(as, whole->base + pin->offset, word_row(pin->word));
+	else if (init && pin->has_init)
 		layout_init_var(as, whole->base + pin->offset,
 				&whole->vars->var[index]);
 }

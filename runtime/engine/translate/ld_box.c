@@ -77,13 +77,13 @@ static void freeze_outputs(struct ld *ld, enum word word, const char *text)
 		ld_freeze_globals(ld);
 }
 
-/* The written parameters of one direction. */
-static void write_args(struct ld *ld, const char *text, bool output)
+/* The written parameters of one direction; ENO of a function is stored otherwise. */
+static void write_args(struct ld *ld, const char *text, bool output, bool block)
 {
 	struct arg arg;
 
 	for (const char *at = text; args_next(&at, &arg);)
-		if (arg.output == output && !is_pin(&arg, "ENO"))
+		if (arg.output == output && (block || !is_pin(&arg, "ENO")))
 			ld_arg(ld, output, intern(ld, arg.pin, arg.pin_len),
 			       intern(ld, arg.value, arg.value_len));
 }
@@ -148,8 +148,8 @@ static void box_block(struct ld *ld, int element)
 			 names_text(names_of(ld), pin->operand), pin->in);
 	}
 	call_block(ld, element, first < 0);
-	write_args(ld, args, false);
-	write_args(ld, args, true);
+	write_args(ld, args, false, true);
+	write_args(ld, args, true, true);
 	if (power >= 0) {
 		ld->element[element].leaf =
 			pin_name(ld, instance, row->pin[power].name);
@@ -211,10 +211,10 @@ static void box_function(struct ld *ld, int element)
 	for (int i = 0; i < at->pins; i++) /* all of them are operands by now */
 		ld_arg(ld, false, ld->network.pin[at->first_pin + i].operand,
 		       ld_operand(ld, ld->network.pin[at->first_pin + i].in));
-	write_args(ld, args, false);
+	write_args(ld, args, false, false);
 	ld_arg(ld, true, ld->eno_id, eno);
 	if (!compare) {
-		write_args(ld, args, true);
+		write_args(ld, args, true, false);
 	} else {
 		ld_arg(ld, true, ld->out_id, result);
 		if (args_find(args, "OUT", 3, &out) && out.output) {

@@ -9,6 +9,7 @@
 #include "engine/view/view.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -274,17 +275,44 @@ static void list_line(const struct words_entry *entry, const struct sink *sink)
 	sink_text(sink, "\n");
 }
 
+const char *words_default(const struct word_pin *pin, char *out)
+{
+	char value[40];
+
+	out[0] = '\0';
+	if (!pin->has_init)
+		return out;
+	iec_value_print(pin->type, pin->init, value, sizeof(value));
+	if (pin->type == IEC_BOOL)
+		snprintf(out, 48, "%s", pin->init.i ? "TRUE" : "FALSE");
+	else if (pin->type == IEC_TIME)
+		snprintf(out, 48, "T#%sms", value);
+	else
+		snprintf(out, 48, "%s", value);
+	return out;
+}
+
 static void pin_lines(const struct word_row *row, const struct sink *sink)
 {
+	int width = 4;
+
+	for (int i = 0; i < row->pin_count; i++)
+		if (row->pin[i].dir != PIN_VAR &&
+		    (int)strlen(row->pin[i].name) > width)
+			width = (int)strlen(row->pin[i].name);
 	for (int i = 0; i < row->pin_count; i++) {
 		const struct word_pin *pin = &row->pin[i];
+		char text[48];
+
 		if (pin->dir == PIN_VAR)
 			continue;
-		sink_printf(sink, "  %-3s %-4s %-14s %s\n",
-			    pin->dir == PIN_IN ? "in" : "out", pin->name,
+		sink_printf(sink, "  %-3s %-*s %-14s %s%s%s\n",
+			    pin->dir == PIN_IN ? "in" : "out", width, pin->name,
 			    pin->type != IEC_NONE ?
 			    iec_type_row(pin->type)->word :
-			    words_classes(pin->classes), pin->doc);
+			    words_classes(pin->classes), pin->doc,
+			    pin->has_init ? "; if not given: " : "",
+			    words_default(pin, text));
 	}
 }
 
@@ -323,6 +351,8 @@ static void json_pins(const struct word_row *row, const struct sink *sink)
 	sink_text(sink, ", \"pins\": [");
 	for (int i = 0; i < row->pin_count; i++) {
 		const struct word_pin *pin = &row->pin[i];
+		char text[48];
+
 		if (pin->dir == PIN_VAR)
 			continue;
 		sink_printf(sink, "%s{\"pin\": \"%s\"", gap, pin->name);
@@ -332,6 +362,8 @@ static void json_pins(const struct word_row *row, const struct sink *sink)
 			   iec_type_row(pin->type)->word :
 			   words_classes(pin->classes));
 		json_field(sink, "doc", pin->doc);
+		if (pin->has_init)
+			json_field(sink, "default", words_default(pin, text));
 		sink_text(sink, "}");
 		gap = ", ";
 	}

@@ -36,6 +36,9 @@ const char *words_kind(enum words_kind kind);
 const char *words_operand(enum operand_kind kind);
 /** words_classes - "ANY_NUM" of the classes of a function's pin. */
 const char *words_classes(uint16_t classes);
+/** words_default - "T#10ms" of a pin with a value until it is given one, else "";
+ * @out: room for 48 bytes, borrowed. */
+const char *words_default(const struct word_pin *pin, char *out);
 /** words_note - a short line of facts, such as `LD LDN` or `1 byte, 0 to 1`. */
 void words_note(const struct words_entry *entry, const struct sink *sink);
 

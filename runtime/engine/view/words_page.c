@@ -88,6 +88,7 @@ static void box(const struct words_entry *entry, const struct sink *sink)
 			"|---|---|---|---|\n");
 	for (int i = 0; i < row->pin_count; i++) {
 		const struct word_pin *pin = &row->pin[i];
+		char text[48];
 
 		if (pin->dir == PIN_VAR)
 			continue;
@@ -97,6 +98,9 @@ static void box(const struct words_entry *entry, const struct sink *sink)
 			    iec_type_row(pin->type)->word :
 			    words_classes(pin->classes));
 		in_table(sink, pin->doc);
+		if (pin->has_init)
+			sink_printf(sink, "; `%s` if not given",
+				    words_default(pin, text));
 		sink_text(sink, " |\n");
 	}
 }
