@@ -80,12 +80,48 @@ static uint32_t print_program(const struct program *program,
 	return count;
 }
 
+/* "task Fast, every 1 ms, priority 1: Counting" */
+static void print_tasks(const struct program *program, const struct sink *out)
+{
+	for (uint32_t i = 0; i < program->task_count; i++) {
+		const struct code_task *task = &program->task[i];
+		char text[40];
+
+		sink_text(out, "task ");
+		if (*task_name(program, i))
+			sink_text(out, task_name(program, i));
+		else
+			sink_printf(out, "%u", i + 1);
+		iec_value_print(IEC_TIME, (union iec_value){
+				.i = task_interval(task) }, text, sizeof(text));
+		if (task->kind == TASK_INTERVAL)
+			sink_printf(out, ", every %s ms", text);
+		else
+			sink_text(out, task->kind == TASK_EVENT ? ", on event" :
+				       ", in every cycle");
+		if (*task_name(program, i))
+			sink_printf(out, ", priority %u", task->priority);
+		for (uint32_t k = 0; k < task->count; k++) {
+			uint32_t entry = program->call[task->first + k];
+
+			sink_text(out, k ? ", " : ": ");
+			sink_text(out, program->string_bytes ? program->string +
+				       program->entry[entry].name : "?");
+		}
+		sink_text(out, "\n");
+	}
+}
+
 static void print_code(const struct call *call, const struct program *program)
 {
 	uint32_t count = 0;
 	bool loops = false;
 
 	print_sizes(program, &call->out);
+	if (tasks_declared(program)) {
+		sink_text(&call->out, "\n");
+		print_tasks(program, &call->out);
+	}
 	for (uint32_t i = 0; i < program->entry_count; i++)
 		count += print_program(program, &program->entry[i], call,
 				       &loops);

@@ -148,14 +148,18 @@ void tasks_take(struct tasks *tasks, const struct program *program, uint32_t tas
 }
 
 bool tasks_must_yield(const struct tasks *tasks, const struct program *program,
-		      uint32_t task, int64_t now_ns)
+		      uint32_t task, int64_t now_ns, bool late)
 {
 	uint32_t priority = program->task[task].priority;
 
-	for (uint32_t i = 0; i < task; i++)
-		if (program->task[i].kind == TASK_INTERVAL &&
-		    program->task[i].priority < priority &&
-		    now_ns >= tasks->state[i].next_ns)
+	for (uint32_t i = 0; i < task; i++) {
+		const struct code_task *other = &program->task[i];
+		bool comes = other->kind == TASK_EVENT ? late :
+			     other->kind == TASK_INTERVAL &&
+			     now_ns >= tasks->state[i].next_ns;
+
+		if (other->priority < priority && comes)
 			return true;
+	}
 	return false;
 }
