@@ -82,6 +82,11 @@ static void has_order(void)
 	CHECK_TEXT(task_name(p, REST), "");
 	CHECK(task_interval(&p->task[FAST]) == 2 * MS);
 	CHECK(task_watchdog(&p->task[FAST]) == MS);
+	CHECK(task_limit(&p->task[FAST], 10, 7) == MS);
+	CHECK(task_limit(&p->task[SLOW], 10, 7) == 100 * MS);
+	CHECK(task_limit(&p->task[SLOW], 0, 7) == 0);
+	CHECK(task_limit(&p->task[REST], 10, 7) == 70);
+	CHECK(task_limit(&p->task[REST], 10, 3600000 * MS) == 10000 * MS);
 	CHECK(tasks_tick(p, 0, 10 * MS) == 2 * MS);
 	CHECK(tasks_tick(p, 0, 5 * MS) == MS);
 	CHECK(tasks_tick(p, 3 * MS, 10 * MS) == MS);

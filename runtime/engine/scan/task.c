@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+#define LONGEST_NS INT64_C(1000000000)
+
 static int64_t join(const uint32_t words[2])
 {
 	return (int64_t)((uint64_t)words[1] << 32 | words[0]);
@@ -27,7 +29,11 @@ int64_t task_limit(const struct code_task *task, uint32_t patience,
 {
 	int64_t interval = task_interval(task), limit = task_watchdog(task);
 
-	return limit ? limit : (interval ? interval : period_ns) * patience;
+	if (limit)
+		return limit;
+	if (!interval)
+		interval = period_ns;
+	return (interval < LONGEST_NS ? interval : LONGEST_NS) * patience;
 }
 
 const char *task_name(const struct program *program, uint32_t task)

@@ -29,8 +29,9 @@ struct tasks {
 /** task_interval, task_watchdog - in ns; 0: none. Scan-safe: yes. */
 int64_t task_interval(const struct code_task *task);
 int64_t task_watchdog(const struct code_task *task);
-/** task_limit - how long one run may take: its WATCHDOG, or @patience intervals, or,
- * without an interval, @patience times @period_ns. 0: as long as it likes.
+/** task_limit - how long one run may take: its WATCHDOG, or @patience intervals (one
+ * above a second counts as a second: a hang must be noticed), or, without an interval,
+ * @patience times @period_ns. 0: as long as it likes.
  * Scan-safe: yes. */
 int64_t task_limit(const struct code_task *task, uint32_t patience,
 		   int64_t period_ns);
