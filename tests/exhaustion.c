@@ -171,6 +171,7 @@ int main(int argc, char **argv)
 		starve_file("ladders/garage-door.rung");
 		starve_file("tests/fuzz/corpus/code/random-100.rung");
 		starve_file("tests/fuzz/corpus/code/il.rung");
+		starve_file("tests/fuzz/corpus/code/tasks.rung");
 	}
 	return tap_done();
 }

@@ -118,6 +118,38 @@ static uint64_t count_worst(const struct program *program, const uint32_t *own)
 	return sum < UINT32_MAX ? sum : UINT32_MAX;
 }
 
+/* "task Fast, every 1 ms, priority 1: Counting" */
+static void print_tasks(const struct program *program, const struct sink *out)
+{
+	for (uint32_t i = 0; i < program->task_count; i++) {
+		const struct code_task *task = &program->task[i];
+		char text[40];
+
+		sink_text(out, "task ");
+		if (*task_name(program, i))
+			sink_text(out, task_name(program, i));
+		else
+			sink_printf(out, "%u", i + 1);
+		iec_value_print(IEC_TIME, (union iec_value){
+				.i = task_interval(task) }, text, sizeof(text));
+		if (task->kind == TASK_INTERVAL)
+			sink_printf(out, ", every %s ms", text);
+		else
+			sink_text(out, task->kind == TASK_EVENT ? ", on event" :
+				       ", in every cycle");
+		if (*task_name(program, i))
+			sink_printf(out, ", priority %u", task->priority);
+		for (uint32_t k = 0; k < task->count; k++) {
+			uint32_t entry = program->call[task->first + k];
+
+			sink_text(out, k ? ", " : ": ");
+			sink_text(out, program->string_bytes ? program->string +
+				       program->entry[entry].name : "?");
+		}
+		sink_text(out, "\n");
+	}
+}
+
 static void print_code(const struct call *call, const struct program *program)
 {
 	uint32_t *own = calloc(program->entry_count + 1u, sizeof(*own));
@@ -125,6 +157,11 @@ static void print_code(const struct call *call, const struct program *program)
 	bool loops = false;
 
 	print_sizes(program, &call->out);
+	if (tasks_declared(program)) {
+		sink_text(&call->out, "
+");
+		print_tasks(program, &call->out);
+	}
 	for (uint32_t i = 0; own && i < program->entry_count; i++)
 		own[i] = print_program(program, &program->entry[i], call,
 				       &loops);

@@ -36,6 +36,7 @@ int64_t cycle_plan(struct cycle *cycle, int64_t period_ns, int64_t watchdog)
 	if (!cycle->tasks)
 		return watchdog * cycle->period_ns;
 	resource->clock_ns = clock_now;
+	resource->tick_ns = cycle->period_ns;
 	resource->patience = (uint32_t)watchdog;
 	resource->period_ns = period_ns ? period_ns : PERIOD;
 	for (uint32_t i = 0; i < program->task_count; i++)

@@ -82,6 +82,11 @@ static void has_order(void)
 	CHECK_TEXT(task_name(p, REST), "");
 	CHECK(task_interval(&p->task[FAST]) == 2 * MS);
 	CHECK(task_watchdog(&p->task[FAST]) == MS);
+	CHECK(task_limit(&p->task[FAST], 10, 7) == MS);
+	CHECK(task_limit(&p->task[SLOW], 10, 7) == 100 * MS);
+	CHECK(task_limit(&p->task[SLOW], 0, 7) == 0);
+	CHECK(task_limit(&p->task[REST], 10, 7) == 70);
+	CHECK(task_limit(&p->task[REST], 10, 3600000 * MS) == 10000 * MS);
 	CHECK(tasks_tick(p, 0, 10 * MS) == 2 * MS);
 	CHECK(tasks_tick(p, 0, 5 * MS) == MS);
 	CHECK(tasks_tick(p, 3 * MS, 10 * MS) == MS);
@@ -207,6 +212,28 @@ static void yields(void)
 	CHECK(task(LATE)->overruns == 0 && task(LATE)->next_ns == 20 * MS);
 }
 
+/* An event may have come while a slow task ran: the next cycle looks. */
+static void yields_to_events(void)
+{
+	start();
+	rig.resource.clock_ns = slow_clock;
+	rig.resource.tick_ns = 2 * MS;
+	CHECK(timed_scan(0, 900000) && rig_get(&rig, "Order") == 3125);
+	rig.resource.due_ns = 1 * MS;
+	CHECK_AS(timed_scan(1, 900000) && rig_get(&rig, "Order") == 5,
+		 "one task, however slow");
+	rig.resource.due_ns = 8 * MS;
+	CHECK(timed_scan(8, 1000) && rig_get(&rig, "Order") == 35);
+	CHECK(task(FAST)->overruns == 3);
+	rig.resource.due_ns = 10 * MS - 1;
+	CHECK_AS(timed_scan(10, 200000) && rig_get(&rig, "Order") == 3125,
+		 "within its time a cycle is whole");
+	rig.resource.due_ns = 18 * MS;
+	CHECK_AS(timed_scan(20, 1000) && rig_get(&rig, "Order") == 3,
+		 "TBell is above all others");
+	rig.resource.tick_ns = 0;
+}
+
 static void told(const char *want)
 {
 	char text[96];
@@ -293,6 +320,7 @@ int main(void)
 	keeps_an_event();
 	is_timed();
 	yields();
+	yields_to_events();
 	has_watchdogs();
 	has_budgets();
 	needs_no_names();

@@ -215,9 +215,16 @@ static void time_task(struct resource *resource, uint32_t index, bool watch)
 /* In the first scan all tasks have their turn: they see SYS_FIRST_SCAN. */
 static bool must_yield(const struct resource *resource, uint32_t task)
 {
-	return resource->clock_ns && resource->scans > 0 &&
-	       tasks_must_yield(&resource->tasks, resource->image.program, task,
-				resource->clock_ns());
+	int64_t now_ns;
+	bool late;
+
+	if (!resource->clock_ns || resource->scans == 0)
+		return false;
+	now_ns = resource->clock_ns();
+	late = resource->tick_ns &&
+	       now_ns - resource->due_ns >= resource->tick_ns;
+	return tasks_must_yield(&resource->tasks, resource->image.program, task,
+				now_ns, late);
 }
 
 static void run_due(struct resource *resource, int64_t now_ns, bool watch)

@@ -39,12 +39,14 @@ struct resource {
 	int64_t second_ns, day_ns;   /* what SYS_SECOND and SYS_DATE show     */
 	/* Told by the caller once; not touched by a start. */
 	int64_t (*clock_ns)(void);   /* to time declared tasks; NULL: not     */
+	int64_t tick_ns;             /* from one cycle to the next; 0: unknown */
 	int64_t period_ns;           /* patience with tasks without INTERVAL  */
 	uint32_t patience;           /* a task's watchdog: so many late runs in
 					a row, or one run of so many periods;
 					0: none. WATCHDOG counts anyway.      */
-	int64_t due_ns;              /* of the first scan: when it should have
-					begun, not after now; 0: now          */
+	int64_t due_ns;              /* when this scan should have begun, not
+					after now; 0: now. Told before each
+					one if tick_ns is                     */
 };
 
 /* What SYS_DATE_TIME begins with where nobody tells wall_offset_ns: in virtual time,
@@ -66,7 +68,7 @@ void resource_fail(struct resource *resource, enum fault fault);
  * @now_ns: monotonic; not before that of the scan before
  *
  * Tasks run by priority, each at most once. With a clock it ends early, between two
- * tasks, when the deadline of a task of higher priority has come.
+ * tasks: see tasks_must_yield().
  * Inputs must be in the image; outputs are in it afterwards. In STOP and FAULT it
  * does nothing. Scan-safe: yes, it is the scan.
  * Fails: false and STATE_FAULT when a program faults.

@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+#define LONGEST_NS INT64_C(1000000000)
+
 static int64_t join(const uint32_t words[2])
 {
 	return (int64_t)((uint64_t)words[1] << 32 | words[0]);
@@ -27,7 +29,11 @@ int64_t task_limit(const struct code_task *task, uint32_t patience,
 {
 	int64_t interval = task_interval(task), limit = task_watchdog(task);
 
-	return limit ? limit : (interval ? interval : period_ns) * patience;
+	if (limit)
+		return limit;
+	if (!interval)
+		interval = period_ns;
+	return (interval < LONGEST_NS ? interval : LONGEST_NS) * patience;
 }
 
 const char *task_name(const struct program *program, uint32_t task)
@@ -148,14 +154,18 @@ void tasks_take(struct tasks *tasks, const struct program *program, uint32_t tas
 }
 
 bool tasks_must_yield(const struct tasks *tasks, const struct program *program,
-		      uint32_t task, int64_t now_ns)
+		      uint32_t task, int64_t now_ns, bool late)
 {
 	uint32_t priority = program->task[task].priority;
 
-	for (uint32_t i = 0; i < task; i++)
-		if (program->task[i].kind == TASK_INTERVAL &&
-		    program->task[i].priority < priority &&
-		    now_ns >= tasks->state[i].next_ns)
+	for (uint32_t i = 0; i < task; i++) {
+		const struct code_task *other = &program->task[i];
+		bool comes = other->kind == TASK_EVENT ? late :
+			     other->kind == TASK_INTERVAL &&
+			     now_ns >= tasks->state[i].next_ns;
+
+		if (other->priority < priority && comes)
 			return true;
+	}
 	return false;
 }

@@ -29,8 +29,9 @@ struct tasks {
 /** task_interval, task_watchdog - in ns; 0: none. Scan-safe: yes. */
 int64_t task_interval(const struct code_task *task);
 int64_t task_watchdog(const struct code_task *task);
-/** task_limit - how long one run may take: its WATCHDOG, or @patience intervals, or,
- * without an interval, @patience times @period_ns. 0: as long as it likes.
+/** task_limit - how long one run may take: its WATCHDOG, or @patience intervals (one
+ * above a second counts as a second: a hang must be noticed), or, without an interval,
+ * @patience times @period_ns. 0: as long as it likes.
  * Scan-safe: yes. */
 int64_t task_limit(const struct code_task *task, uint32_t patience,
 		   int64_t period_ns);
@@ -73,8 +74,14 @@ uint32_t tasks_next(const struct tasks *tasks, const struct program *program);
  * deadline, on the grid of its interval. Scan-safe: yes. */
 void tasks_take(struct tasks *tasks, const struct program *program, uint32_t task,
 		int64_t now_ns);
-/** tasks_must_yield - is, at @now_ns, the deadline of a task of higher priority than
- * @task there? Then the cycle ends before @task. Scan-safe: yes. */
+/**
+ * tasks_must_yield - must the cycle end before @task, so that a task of higher
+ * priority need not wait for more than one other?
+ * @late: the next cycle should have begun by now
+ *
+ * When, at @now_ns, the deadline of such a task is there; or when it is @late, and an
+ * event may have come that only a new cycle sees.   Scan-safe: yes.
+ */
 bool tasks_must_yield(const struct tasks *tasks, const struct program *program,
-		      uint32_t task, int64_t now_ns);
+		      uint32_t task, int64_t now_ns, bool late);
 #endif

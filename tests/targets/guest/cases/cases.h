@@ -10,7 +10,7 @@
 
 /** make_plan - NAME.plan in @folder, from a program, its scenarios and its map.
  * @map: NULL: NAME.io is made, too. Gives 0; 1: an error, told on stderr; 3: the
- * program uses more than bits. */
+ * program uses more than bits or has tasks. */
 int make_plan(const char *folder, const char *rung, const char *scn,
 	      const char *map);
 /** make_bad - images that no ladderd may run, from a good one. */

@@ -461,7 +461,8 @@ int make_plan(const char *folder, const char *rung, const char *scn,
 	    !ladder_build(maker.ladder) ||
 	    image_memory_size(ladder_program(maker.ladder)) > sizeof(memory))
 		return !tell("does not build");
-	if (!uses_only_bits())
+	/* Tasks set a pace of their own, too quick for an emulated machine. */
+	if (!uses_only_bits() || tasks_declared(ladder_program(maker.ladder)))
 		return 3;
 	resource_init(&maker.resource, ladder_program(maker.ladder), memory);
 	snprintf(own, sizeof(own), "%s/%s.io", folder, maker.name);
