@@ -118,12 +118,10 @@ static bool scan_program(struct cycle *cycle, int64_t now_ns)
 	struct resource *resource = &cycle->resource;
 	struct store *store = cycle->store;
 
-	if (!store)
-		return resource_scan(resource, now_ns);
-	now_ns = store_clock(store, now_ns);
 	if (!resource_scan(resource, now_ns))
 		return false;
-	store_take(store, &resource->image, now_ns);
+	if (store)
+		store_take(store, &resource->image, now_ns);
 	return true;
 }
 

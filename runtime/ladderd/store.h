@@ -49,18 +49,15 @@ int store_begin(struct store *store);
 /**
  * store_restore - a warm start: the values into a resource that was just started
  *
- * Those of the file, later those of the last scan that ended.
+ * Those of the file, later those of the last scan that ended. Function blocks' time
+ * goes on where the copy was taken, so that timers do not see the power cut.
  * Owns: nothing.   Scan-safe: between scans.   Fails: never.
  */
 void store_restore(struct store *store, struct resource *resource,
 		   int64_t now_ns);
-/** store_clock - the time that a scan at @now_ns is given: it goes on where the
- * copy was taken, so that timers do not see the power cut. Scan-safe: yes. */
-int64_t store_clock(const struct store *store, int64_t now_ns);
-/** store_take - the values after a whole scan, for the thread. Waits for nobody.
- * Scan-safe: yes. */
-void store_take(struct store *store, const struct image *image,
-		int64_t clock_ns);
+/** store_take - the values after a whole scan at @now_ns, for the thread. Waits for
+ * nobody. Scan-safe: yes. */
+void store_take(struct store *store, const struct image *image, int64_t now_ns);
 /** store_hurry - has the thread write now what has changed. Scan-safe: between
  * scans. */
 void store_hurry(struct store *store);

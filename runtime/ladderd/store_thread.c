@@ -62,12 +62,11 @@ struct store {
 
 /* ---- the scan's side ---- */
 
-void store_take(struct store *store, const struct image *image,
-		int64_t clock_ns)
+void store_take(struct store *store, const struct image *image, int64_t now_ns)
 {
 	struct copy *copy = &store->copy[store->back];
 
-	copy->clock_ns = clock_ns;
+	copy->clock_ns = now_ns + store->offset_ns;
 	retain_copy(&store->retain, image, copy->value);
 	store->last = store->back;
 	store->back = atomic_exchange(&store->middle, store->back | FRESH) &
@@ -83,15 +82,11 @@ void store_restore(struct store *store, struct resource *resource,
 		store->offset_ns = copy->clock_ns - now_ns;
 	if (store->restored || store->warm)
 		retain_put(&store->retain, &resource->image, copy->value);
+	resource->timers_ns = store->offset_ns;
 	resource->warm = store->restored || store->warm;
 	resource->retain_lost = store->lost;
 	resource->retain_old_copy = store->old_copy;
 	store->restored = true;
-}
-
-int64_t store_clock(const struct store *store, int64_t now_ns)
-{
-	return now_ns + store->offset_ns;
 }
 
 static void wake(struct store *store)

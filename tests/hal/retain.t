@@ -259,6 +259,65 @@ END
 	is(number(kept('Main.B DINT')), 49, 'still of the last whole scan');
 }
 
+# ---- tasks and the wall's clock: only timers go on where they were ----
+# The copy is as of a machine that ran for 100 days; this one did not.
+sub date { return POSIX::strftime('DT#%Y-%m-%d-00:00:00', localtime(time + $_[0])); }
+my ($yesterday, $tomorrow) = (date(-86400), date(2 * 86400));
+my $tasks = put('tasks.rung', <<"END");
+RUNGBOARD 1
+PROJECT "Keep"
+
+CONFIGURATION Keep
+RESOURCE Cpu ON LINUX
+TASK Fast (INTERVAL := T#2ms, PRIORITY := 1);
+TASK Slow (INTERVAL := T#10ms, PRIORITY := 2);
+PROGRAM P1 WITH Fast : A;
+PROGRAM P2 WITH Slow : B;
+END_RESOURCE
+END_CONFIGURATION
+
+PROGRAM A LD
+VAR RETAIN
+  N : DINT;
+  T : TON;
+END_VAR
+RUNG
+  | [ N := N + 1 ] | --- | TON T PT:=T#1h |
+RUNG
+  | [ SYS_DATE_TIME > $yesterday ] | [ SYS_DATE_TIME < $tomorrow ] | COIL Q3 |
+END_PROGRAM
+
+PROGRAM B LD
+VAR RETAIN
+  N : DINT;
+END_VAR
+RUNG
+  | [ N := N + 1 ] |
+$tell
+END
+{
+	my @tasks = ('--io', $io, '--trace-io', '--watchdog', '1000', '--retain',
+		$keep, '--scans', '100');
+	unlink $keep;
+	is(run($ladderd, $tasks, @tasks), 0, 'tasks');
+	my $slot = substr get($keep), 0, 4096;
+	my $len = unpack 'V', substr $slot, 16, 4;
+	my $begun = unpack 'q<', substr $slot, 32, 8;
+	my $start = unpack 'q<', kept('A.T.start TON.TIME');
+	substr($slot, 32, 8) = pack 'q<', $begun + 8640000e9;
+	$slot =~ s/(A\.T\.startTON\.TIME).{8}/$1 . pack 'q<', $start + 8640000e9/se;
+	substr($slot, 32 + $len, 4) = pack 'V', crc32c(substr $slot, 0, 32 + $len);
+	put('keep', $slot . "\0" x 4096);
+	is(run($ladderd, $tasks, @tasks), 0, 'of a machine that ran longer');
+	is(flags(), '100', 'are kept');
+	is(number(kept('A.N DINT')), 200, 'a fast one');
+	ok(number(kept('B.N DINT')) > 30, 'a slow one, beside it')
+		or diag(number(kept('B.N DINT')));
+	like(err(), qr/^%QX0\.3 1$/m, 'date and time are those of the wall');
+	my $et = unpack 'q<', kept('A.T.ET TON.TIME');
+	ok($et > 0.3e9 && $et < 60e9, 'a timer goes on') or diag($et);
+}
+
 # ---- files that are broken ----
 unlink $keep;
 run($ladderd, $count, @keep, '--scans', '30', '--retain-period', '10ms') for 1 .. 2;

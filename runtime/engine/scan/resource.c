@@ -267,7 +267,7 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 	}
 	write_system(resource, now_ns);
 	image_begin(&resource->image);
-	vm->now_ns = now_ns;
+	vm->now_ns = now_ns + resource->timers_ns;
 	if (tasks_declared(program))
 		run_due(resource, now_ns, watch);
 	else if (program->task_count)

@@ -34,6 +34,8 @@ struct resource {
 	/* Told by the caller before a scan; shown as SYS_ bits and words. */
 	bool late, io_fault;
 	bool warm, retain_lost, retain_old_copy; /* after resource_start()   */
+	int64_t timers_ns;           /* of function blocks' time - now_ns, that
+					retained timers go on; else 0         */
 	uint32_t scan_us, scan_max_us;
 	int64_t wall_offset_ns;      /* date and time of the wall - now_ns    */
 	int64_t second_ns, day_ns;   /* what SYS_SECOND and SYS_DATE show     */
