@@ -158,8 +158,7 @@ static void print_code(const struct call *call, const struct program *program)
 
 	print_sizes(program, &call->out);
 	if (tasks_declared(program)) {
-		sink_text(&call->out, "
-");
+		sink_text(&call->out, "\n");
 		print_tasks(program, &call->out);
 	}
 	for (uint32_t i = 0; own && i < program->entry_count; i++)
