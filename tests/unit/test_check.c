@@ -338,11 +338,11 @@ static void test_declarations(void)
 	declare("A", IEC_BOOL, ELEM_EMPTY, "%IX0.0");
 	declare("a", IEC_BOOL, ELEM_EMPTY, NULL);
 	declare("M1", IEC_BOOL, ELEM_EMPTY, "%IB1");
-	declare("Add", IEC_BOOL, ELEM_EMPTY, "%IX1.0");
+	declare("Mod", IEC_BOOL, ELEM_EMPTY, "%IX1.0");
 	declare("_T1", IEC_BOOL, ELEM_EMPTY, "%IX1.1");
 	declare("main", IEC_BOOL, ELEM_EMPTY, "%IX1.2");
-	CHECK_TEXT(name("| NO A | NO M1 | NO Add | NO _T1 | NO main | COIL Q0 |"),
-		   "LD302(0,0)a LD315(0,0)M1 LD318(0,0)M1 LD317(0,0)Add "
+	CHECK_TEXT(name("| NO A | NO M1 | NO Mod | NO _T1 | NO main | COIL Q0 |"),
+		   "LD302(0,0)a LD315(0,0)M1 LD318(0,0)M1 LD317(0,0)Mod "
 		   "LD317(0,0)_T1 LD302(0,0)main");
 	forget();
 	declare("K", IEC_INT, ELEM_EMPTY, NULL);

@@ -15,6 +15,7 @@ static const char head[] =
 	"  A, B, C, X, Y : BOOL;\n"
 	"  N, M, K : INT;\n"
 	"  Heat : REAL;\n"
+	"  Mask : WORD;\n"
 	"  Wide : TIME := T#4s294ms967us296ns;\n"
 	"  Span : TIME;\n"
 	"  Delay : TON;\n"
@@ -83,6 +84,19 @@ static void test_refused(void)
 		{ "LD321", "  ADD(IN1 := N, IN3 := 2, OUT => M)\n" },
 		{ "LD321", "  ADD(IN2 := N, IN3 := 2, OUT => M)\n" },
 		{ "LD322", "  LD Heat\n  ST N\n" },
+		{ "LD322", "  LD Mask\n  AND A\n  ST X\n" },
+		{ "LD322", "  LD A\n  AND Mask\n  ST X\n" },
+		{ "LD322", "  LD Mask\n  OR( A\n  )\n  ST Mask\n" },
+		{ "LD322", "  LD A\n  OR( Mask\n  )\n  ST X\n" },
+		{ "LD322", "  LD Mask\n  XORN N\n  ST Mask\n" },
+		{ "LD322", "  LD Mask\n  AND 1\n  ST X\n" },
+		{ "LD116", "  LD Mask\n  AND 65536\n  ST Mask\n" },
+		{ "LD324", "  LD N\n  NOT\n  ST N\n" },
+		{ "LD324", "  LDN N\n  ST N\n" },
+		{ "LD324", "  LD A\n  STN N\n" },
+		{ "LD322", "  LD A\n  STN Mask\n" },
+		{ "LD322", "  LD Mask\n  INT_TO_REAL\n  ST Heat\n" },
+		{ "LD110", "  LD Mask\n  DATE_TO_TOD\n  ST Heat\n" },
 		{ "LD322", "  CAL Up(CU := A, CV => X)\n" },
 		{ "LD324", "  LD N\n  CALC Delay(IN := A)\n" },
 		{ "LD324", "  LD N\n  AND A\n  ST X\n" },

@@ -64,7 +64,16 @@ static void test_one(void)
 		   "R: IL operator: resets the operand if the result is TRUE\n"
 		   "  R\n");
 	CHECK(count == 2);
+	CHECK_TEXT(words("int_to_real", false, &count),
+		   "INT_TO_REAL: function (Convert): the same as another type: bits "
+		   "of one width stay, others are numbers\n"
+		   "  1 input, REAL\n"
+		   "  in  IN   INT            value\n");
 	CHECK_TEXT(words("and", false, &count),
+		   "AND: function (Bits): all inputs, bit by bit\n"
+		   "  2 to 16 inputs, result of their type, a BOOL gates the power\n"
+		   "  in  IN1  ANY_BIT        first\n"
+		   "  in  IN2  ANY_BIT        next\n"
 		   "AND: IL operator: result and operand\n"
 		   "  AND ANDN AND( ANDN(\n");
 	CHECK_TEXT(words("JMP", false, &count) + strlen(

@@ -7,6 +7,8 @@
 #include "engine/base/catalog.h"
 #include "engine/base/ascii.h"
 
+#include <string.h>
+
 /* Nobody reads explanations on a small board. */
 #ifdef RUNGBOARD_SMALL
 #define DOC(text) ""
@@ -61,8 +63,9 @@ static const struct word_row words[WORD_COUNT] = {
 	[FN_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
 		.family = family_, .doc = DOC(doc_), .kind = WORD_FN, \
 		.place = PLACE_BOX, .operand = OPND_NONE, \
-		.first = OP_LD, .next = OP_AND, .result = result_, \
-		.result_classes = ANY_NUM, .most_inputs = most_, PINS(id_) },
+		.first = OP_LD, .next = OP_AND, .result = (result_) & 0xff, \
+		.result_classes = (result_) >> 8 ? (result_) >> 8 : ANY_NUM, \
+		.most_inputs = most_, PINS(id_) },
 #include "engine/catalog.def"
 };
 
@@ -173,6 +176,24 @@ const struct word_pin *word_input(const struct word_row *row, uint32_t index)
 bool word_is_test(const struct word_row *row)
 {
 	return row->kind == WORD_FN && row->result == IEC_BOOL;
+}
+
+bool word_shares(const struct word_row *row)
+{
+	return row->result == RESULT_SAME || row->result == (int)RESULT_GATE;
+}
+
+enum op word_operator(const struct word_row *row)
+{
+	return row->kind == WORD_FN ? op_find(row->word, strlen(row->word)) : OP_COUNT;
+}
+
+enum word op_function(enum op op)
+{
+	for (int i = 0; i < WORD_COUNT; i++)
+		if (words[i].kind == WORD_FN && strcmp(words[i].word, ops[op].word) == 0)
+			return (enum word)i;
+	return WORD_COUNT;
 }
 
 int word_first_bool(const struct word_row *row, enum pin_dir dir)

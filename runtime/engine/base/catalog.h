@@ -75,7 +75,8 @@ enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR, PIN_IN_OUT, PIN_NONE };
 struct word_pin {
 	const char *name;
 	enum pin_dir dir;
-	enum iec_type type;  /* of an FB pin; IEC_NONE for a function's        */
+	enum iec_type type;  /* of an FB pin; of a function's the type it must
+				be made, IEC_NONE if any of its classes will do */
 	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
 	bool own;            /* of a function's pin: does not share the type   */
 	uint32_t offset;     /* of an FB pin in its struct                     */
@@ -89,6 +90,9 @@ struct word_pin {
 /* Type of a function's result, if it is not one of its own. */
 #define RESULT_SAME IEC_NONE       /* that its FN_IN pins share              */
 #define RESULT_OPEN IEC_TYPE_COUNT /* that of the variable behind OUT        */
+#define RESULT_GATE (IEC_TYPE_COUNT + 1) /* as RESULT_SAME; BOOL gates power */
+/* RESULT_OPEN, but only of these classes. */
+#define RESULT_TO(classes) (RESULT_OPEN | (classes) << 8)
 
 struct word_row {
 	const char *id;      /* "CONTACT_NC"                                   */
@@ -105,6 +109,7 @@ struct word_row {
 	enum iec_type result; /* of a function: a type, or RESULT_…            */
 	uint16_t result_classes; /* of RESULT_OPEN: what it may become         */
 	uint8_t most_inputs; /* of a function                                  */
+	enum word runs;      /* own rows: function of the catalogue that does it */
 	uint16_t pin_count;
 	const struct word_pin *pin; /* of a function: inputs only              */
 	uint32_t size;       /* bytes of an FB instance                        */
@@ -130,6 +135,10 @@ int word_pin_find(const struct word_row *row, const char *name, size_t len);
 /** word_is_test - a function whose result is always BOOL: power behind it is EN and the
  * result. */
 bool word_is_test(const struct word_row *row);
+/** word_shares - a function whose result has the type that its inputs share. */
+bool word_shares(const struct word_row *row);
+/** word_operator - the IL operator of a function's name; OP_COUNT: none. */
+enum op word_operator(const struct word_row *row);
 /** word_first_bool - index of its first Boolean pin of @dir, -1: none. */
 int word_first_bool(const struct word_row *row, enum pin_dir dir);
 
@@ -142,6 +151,8 @@ struct op_row {
 const struct op_row *op_row(enum op op);
 /** op_find - OP_COUNT: none. */
 enum op op_find(const char *text, size_t len);
+/** op_function - the function of an operator's name; WORD_COUNT: none. */
+enum word op_function(enum op op);
 
 struct vm_row {
 	const char *word, *doc;

@@ -32,6 +32,7 @@ enum iec_class {
 #define ANY_MAGNITUDE (ANY_NUM | CLASS_TIME)
 #define ANY_BIT   (CLASS_BOOL | CLASS_BITS)
 #define ANY_DATE (CLASS_TOD | CLASS_DATE | CLASS_DT)
+#define ANY_SIMPLE (ANY_MAGNITUDE | ANY_BIT | ANY_DATE) /* of fixed size    */
 #define ANY_ELEMENTARY (ANY_MAGNITUDE | ANY_BIT | ANY_DATE | CLASS_STRING)
 
 /* A STRING in memory, with its own bound: bytes of UTF-8 or any other code, counted

@@ -58,6 +58,8 @@ static bool check_shared(struct il_check *c, const struct il_line *line,
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	union iec_value value;
 
+	if (pin->type != IEC_NONE && type != pin->type)
+		return il_report_types(c, line, type, pin->type);
 	if (!(pin->classes & iec_type_row(type)->class))
 		return report_pin(c, line, pin, type);
 	for (int i = 0; i < count; i++)
@@ -96,6 +98,9 @@ bool il_check_inputs(struct il_check *c, const struct il_line *line,
 	}
 	if (!shared)
 		return true;
+	if (shared->type != IEC_NONE && (type == IEC_NONE ||
+					 iec_can_widen(type, shared->type)))
+		type = shared->type; /* INT_TO_REAL: made an INT first */
 	if (type == IEC_NONE)
 		type = constants_type(shared, first, hint);
 	*common = type;

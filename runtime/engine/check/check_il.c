@@ -32,7 +32,7 @@ bool il_report_types(struct il_check *c, const struct il_line *line,
 	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
 }
 
-static const char *operand_text(struct il_check *c, const struct il_line *line)
+const char *il_operand_text(struct il_check *c, const struct il_line *line)
 {
 	return scope_text(c->scope, line->operand);
 }
@@ -44,28 +44,28 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 					     &why);
 
 	if (!m)
-		il_report(c, line, why, operand_text(c, line));
+		il_report(c, line, why, il_operand_text(c, line));
 	return m;
 }
 
 /* The operand as a value to read; NULL after a diagnostic. */
-static const struct meaning *value_of(struct il_check *c,
+const struct meaning *il_value_of(struct il_check *c,
 				      const struct il_line *line)
 {
 	const struct meaning *m = find(c, line);
 
 	if (m && m->kind == MEANING_INSTANCE) {
-		il_report(c, line, DIAG_INSTANCE_AS_VALUE, operand_text(c, line));
+		il_report(c, line, DIAG_INSTANCE_AS_VALUE, il_operand_text(c, line));
 		return NULL;
 	}
 	if (m && m->kind == MEANING_STRUCT) {
-		il_report(c, line, DIAG_STRUCT_AS_VALUE, operand_text(c, line));
+		il_report(c, line, DIAG_STRUCT_AS_VALUE, il_operand_text(c, line));
 		return NULL;
 	}
 	return m;
 }
 
-static struct result result_of(const struct meaning *m)
+struct result il_result_of(const struct meaning *m)
 {
 	struct result out = { .there = true, .type = m->type };
 
@@ -127,21 +127,21 @@ static bool can_write(struct il_check *c, const struct il_line *line,
 		      const struct meaning *m)
 {
 	if (m->kind == MEANING_LITERAL || m->constant)
-		return il_report(c, line, DIAG_WRITE_CONSTANT, operand_text(c, line));
+		return il_report(c, line, DIAG_WRITE_CONSTANT, il_operand_text(c, line));
 	if (!m->writable)
 		return il_report(c, line, m->kind == MEANING_PIN ?
 			      DIAG_PIN_DIRECTION : DIAG_WRITE_INPUT,
-			      operand_text(c, line));
+			      il_operand_text(c, line));
 	return true;
 }
 
-static bool need_result(struct il_check *c, const struct il_line *line)
+bool il_need_result(struct il_check *c, const struct il_line *line)
 {
 	return c->now.there ||
-	       il_report(c, line, DIAG_IL_NO_RESULT, operand_text(c, line));
+	       il_report(c, line, DIAG_IL_NO_RESULT, il_operand_text(c, line));
 }
 
-static bool need_bool(struct il_check *c, const struct il_line *line,
+bool il_need_bool(struct il_check *c, const struct il_line *line,
 		      struct result result, const char *what)
 {
 	union iec_value value;
@@ -156,64 +156,30 @@ static bool need_bool(struct il_check *c, const struct il_line *line,
 
 static bool check_load(struct il_check *c, const struct il_line *line)
 {
-	const struct meaning *m = value_of(c, line);
+	const struct meaning *m = il_value_of(c, line);
 
 	/* After an error: a result that complains no more. */
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!m)
 		return false;
-	if (line->modifiers & MOD_N)
-		return need_bool(c, line, result_of(m), operand_text(c, line));
-	c->now = result_of(m);
+	if (line->modifiers & MOD_N && !il_is_bits(il_result_of(m)))
+		return il_need_bool(c, line, il_result_of(m), il_operand_text(c, line));
+	c->now = il_result_of(m);
 	return true;
 }
 
 static bool check_store(struct il_check *c, const struct il_line *line)
 {
-	const struct meaning *m = value_of(c, line);
-	bool bits = line->op != OP_ST || line->modifiers & MOD_N;
+	const struct meaning *m = il_value_of(c, line);
+	bool bits = line->op != OP_ST ||
+		    (line->modifiers & MOD_N && !(m && il_is_bits(il_result_of(m))));
 
-	if (!m || !need_result(c, line) || !can_write(c, line, m))
+	if (!m || !il_need_result(c, line) || !can_write(c, line, m))
 		return false;
-	if (bits && (!need_bool(c, line, c->now, "result") ||
-		     !need_bool(c, line, result_of(m), operand_text(c, line))))
+	if (bits && (!il_need_bool(c, line, c->now, "result") ||
+		     !il_need_bool(c, line, il_result_of(m), il_operand_text(c, line))))
 		return false;
 	return can_store(c, line, c->now, m->type);
-}
-
-static bool check_logic(struct il_check *c, const struct il_line *line)
-{
-	bool good = need_result(c, line) && need_bool(c, line, c->now, "result");
-
-	if (line->modifiers & MOD_PAREN) {
-		if (c->depth == LIMIT_IL_DEPTH)
-			return il_report(c, line, DIAG_TOO_DEEP, "(");
-		c->depth++;
-		c->now.there = false;
-		if (!line->operand)
-			return good;
-	}
-	const struct meaning *m = value_of(c, line);
-
-	c->now = (struct result){ .there = true, .type = IEC_BOOL };
-	if (!m)
-		return false;
-	if (line->modifiers & MOD_PAREN) {
-		c->now = result_of(m); /* AND( Level, then GT 10 */
-		return good;
-	}
-	return need_bool(c, line, result_of(m), operand_text(c, line)) && good;
-}
-
-static bool check_close(struct il_check *c, const struct il_line *line)
-{
-	bool good = need_result(c, line) && need_bool(c, line, c->now, "result");
-
-	if (c->depth == 0)
-		return il_report(c, line, DIAG_IL_CLOSE_PAREN, ")");
-	c->depth--;
-	c->now = (struct result){ .there = true, .type = IEC_BOOL };
-	return good;
 }
 
 static bool is_label(struct il_check *c, uint32_t name)
@@ -231,19 +197,11 @@ static bool check_flow(struct il_check *c, const struct il_line *line)
 	if (c->depth > 0)
 		good = il_report(c, line, DIAG_IL_OPEN_PAREN, op_row(line->op)->word);
 	if (line->op == OP_JMP && !is_label(c, line->operand))
-		good = il_report(c, line, DIAG_NO_LABEL, operand_text(c, line));
+		good = il_report(c, line, DIAG_NO_LABEL, il_operand_text(c, line));
 	if (line->modifiers & MOD_C)
-		return need_result(c, line) &&
-		       need_bool(c, line, c->now, "result") && good;
+		return il_need_result(c, line) &&
+		       il_need_bool(c, line, c->now, "result") && good;
 	c->now.there = false;
-	return good;
-}
-
-static bool check_not(struct il_check *c, const struct il_line *line)
-{
-	bool good = need_result(c, line) && need_bool(c, line, c->now, "result");
-
-	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	return good;
 }
 
@@ -265,12 +223,6 @@ bool il_can_write(struct il_check *c, const struct il_line *line,
 	return can_write(c, line, m);
 }
 
-bool il_need_bool(struct il_check *c, const struct il_line *line,
-		  struct result result)
-{
-	return need_bool(c, line, result, operand_text(c, line));
-}
-
 /* ---- functions and calls ---- */
 
 /* A function on the current result: ADD 5. */
@@ -282,16 +234,16 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 	enum iec_type stored;
 	int count = 1;
 
-	if (!need_result(c, line))
+	if (!il_need_result(c, line))
 		return false;
 	c->now = (struct result){ .there = true,
 		.type = word_is_test(row) ? IEC_BOOL : IEC_NONE };
 	if (line->operand) {
-		const struct meaning *m = value_of(c, line);
+		const struct meaning *m = il_value_of(c, line);
 
 		if (!m)
 			return false;
-		in[count++] = result_of(m);
+		in[count++] = il_result_of(m);
 	}
 	if (count < row->pin_count || count > row->most_inputs)
 		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
@@ -347,17 +299,17 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 
 		if (arg->kind != IL_ARG_IN)
 			continue;
-		m = value_of(c, arg);
+		m = il_value_of(c, arg);
 		if (!m) {
 			good = false;
 		} else if (strcasecmp(pin, "EN") == 0) {
-			good &= need_bool(c, arg, result_of(m),
-					  operand_text(c, arg));
+			good &= il_need_bool(c, arg, il_result_of(m),
+					  il_operand_text(c, arg));
 		} else if (index < 0 || index >= LIMIT_FN_INPUTS) {
 			good = il_report(c, arg, DIAG_NO_PIN, pin);
 		} else {
 			count += !in[index].there;
-			in[index] = result_of(m);
+			in[index] = il_result_of(m);
 			last = index > last ? index : last;
 		}
 	}
@@ -366,7 +318,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	if (count < row->pin_count || count != last + 1)
 		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
 	stored = out_type(c, at);
-	if (!il_check_inputs(c, line, in, count, row->result == RESULT_SAME ? stored :
+	if (!il_check_inputs(c, line, in, count, word_shares(row) ? stored :
 			  IEC_NONE, common))
 		return false;
 	out = (struct result){ .there = true,
@@ -378,12 +330,12 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 
 		if (arg->kind != IL_ARG_OUT)
 			continue;
-		m = value_of(c, arg);
+		m = il_value_of(c, arg);
 		if (!m || !can_write(c, arg, m))
 			good = false;
 		else if (strcasecmp(pin, "ENO") == 0)
-			good &= need_bool(c, arg, result_of(m),
-					  operand_text(c, arg));
+			good &= il_need_bool(c, arg, il_result_of(m),
+					  il_operand_text(c, arg));
 		else if (strcasecmp(pin, "OUT") == 0)
 			good &= can_store(c, arg, out, m->type);
 		else
@@ -402,10 +354,10 @@ static bool check_cal(struct il_check *c, int at)
 	if (!m)
 		return false;
 	if (m->kind != MEANING_INSTANCE)
-		return il_report(c, line, DIAG_NOT_INSTANCE, operand_text(c, line));
+		return il_report(c, line, DIAG_NOT_INSTANCE, il_operand_text(c, line));
 	if (line->modifiers & MOD_C)
-		good = need_result(c, line) &&
-		       need_bool(c, line, c->now, "result");
+		good = il_need_result(c, line) &&
+		       il_need_bool(c, line, c->now, "result");
 	for (int i = at + 1; is_arg(c, i); i++)
 		good &= il_check_pin(c, scope_row(c->scope, m->word),
 				     &c->il->line[i]);
@@ -433,9 +385,9 @@ static bool check_op(struct il_check *c, int at)
 	case OP_AND:
 	case OP_OR:
 	case OP_XOR:
-		return check_logic(c, line);
+		return il_check_logic(c, line);
 	case OP_NOT:
-		return check_not(c, line);
+		return il_check_not(c, line);
 	case OP_JMP:
 	case OP_RET:
 		return check_flow(c, line);
@@ -467,12 +419,12 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 			return il_check_struct_move(c, at);
 		return check_call(c, at, type);
 	case IL_CLOSE:
-		good = check_close(c, line);
+		good = il_check_close(c, line);
 		break;
 	case IL_LABEL:
 		if (c->depth > 0)
 			good = il_report(c, line, DIAG_IL_OPEN_PAREN,
-				      operand_text(c, line));
+				      il_operand_text(c, line));
 		c->depth = 0;
 		c->now.there = false;
 		break;
@@ -507,7 +459,7 @@ static bool find_labels(struct il_check *c, struct arena *scratch)
 		fold = names_fold(names, line->operand);
 		if (c->label[fold] && c->pou->language == LANGUAGE_IL)
 			good = il_report(c, line, DIAG_DUPLICATE_LABEL,
-				      operand_text(c, line));
+				      il_operand_text(c, line));
 		c->label[fold] = 1;
 	}
 	return good;
@@ -523,7 +475,8 @@ bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
 	};
 	bool good = find_labels(&c, scratch);
 
-	if (!c.label)
+	c.opened = arena_alloc(scratch, LIMIT_IL_DEPTH * sizeof(*c.opened));
+	if (!c.label || !c.opened)
 		return false;
 	for (int i = 0; i < il->count; i++)
 		good &= check_line(&c, i, &types[i]);

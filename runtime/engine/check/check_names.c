@@ -91,8 +91,9 @@ static const char *const keywords[] = {
 	(KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
 
 /* Reserved word number @i, in any order; "" for none. Words of contacts, coils and
- * blocks are free: N may be a number, P a pump, Blink a lamp; a cell always begins
- * with its word, and a type stands behind a colon. */
+ * blocks and functions are free: N may be a number, Blink a lamp, Floor a floor; a cell
+ * always begins with its word, and a type stands behind a colon. But MOD stands in
+ * expressions. */
 static const char *reserved_word(int i)
 {
 	const struct word_row *row;
@@ -102,7 +103,7 @@ static const char *reserved_word(int i)
 	i -= KEYWORDS;
 	if (i < (int)WORD_COUNT) {
 		row = word_row((enum word)i);
-		return row->kind == WORD_FN ? row->word : "";
+		return i == FN_MOD ? row->word : "";
 	}
 	i -= (int)WORD_COUNT;
 	if (i < (int)OP_COUNT)

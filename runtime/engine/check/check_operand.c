@@ -11,6 +11,7 @@
 #include "engine/model/loop.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A cell of the rung, 0-based. */
@@ -185,6 +186,9 @@ static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
 		output = true;
 	else
 		return DIAG_NO_PIN;
+	if (arg->inverse && index >= 0 && index < row->pin_count &&
+	    row->pin[index].dir == PIN_IN_OUT)
+		return DIAG_PIN_DIRECTION; /* nothing comes back through a / */
 	return output == arg->output ? DIAG_COUNT : DIAG_PIN_DIRECTION;
 }
 
@@ -225,6 +229,8 @@ static void check_args(struct operand_check *c, struct spot at,
 			change_name(c, at, value);
 		else if (arg.output)
 			write_name(c, at, value, row->kind == WORD_FB);
+		else if (arg.inverse)
+			check_bool(c, at, value, read_name(c, at, value));
 		else
 			read_name(c, at, value);
 	}
@@ -314,7 +320,9 @@ static void check_inputs(struct operand_check *c, struct spot at,
 		if (i < row->pin_count)
 			snprintf(name, sizeof(name), "%s", row->pin[i].name);
 		else
-			snprintf(name, sizeof(name), "IN%d", i + 1);
+			snprintf(name, sizeof(name), "IN%d",
+				 i - (row->pin_count - 1) +
+				 atoi(row->pin[row->pin_count - 1].name + 2));
 		report(c, DIAG_MISSING_INPUT, at, name);
 		return;
 	}

@@ -146,7 +146,7 @@ static bool check_power(struct il_check *c, const struct il_line *arg, bool writ
 	const struct meaning *m = il_find(c, arg);
 
 	return m && is_plain(c, arg, m) && (!write || il_can_write(c, arg, m)) &&
-	       il_need_bool(c, arg, value_of(m));
+	       il_need_bool(c, arg, value_of(m), operand_text(c, arg));
 }
 
 /* OUT => variable: the function's result. */

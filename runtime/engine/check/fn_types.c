@@ -42,12 +42,15 @@ enum iec_type fn_own_type(const struct word_pin *pin, const struct literal *lite
 enum iec_type fn_result(const struct word_row *row, enum iec_type common,
 			enum iec_type out)
 {
-	if (row->result == RESULT_SAME)
+	if (word_shares(row))
 		return common;
 	if (row->result != RESULT_OPEN)
 		return row->result;
 	if (iec_type_row(out)->class & row->result_classes)
 		return out;
+	for (size_t i = 0; i < sizeof(usual) / sizeof(*usual); i++)
+		if (iec_type_row(usual[i])->class & row->result_classes)
+			return usual[i];
 	return IEC_DINT;
 }
 

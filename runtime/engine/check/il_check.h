@@ -3,7 +3,8 @@
  * il_check - what the parts of the check of an instruction list share.
  *
  * Private to check/. check_il walks the list, check_fn looks at inputs of functions,
- * check_own at calls of the project's own functions and blocks.
+ * check_logic at AND OR XOR NOT, check_own at calls of the project's own functions and
+ * blocks.
  */
 #ifndef CHECK_IL_CHECK_H
 #define CHECK_IL_CHECK_H
@@ -27,7 +28,8 @@ struct il_check {
 	uint8_t *label;        /* by folded name: is it a label?            */
 	uint32_t label_count;
 	struct result now;
-	int depth;           /* of open parentheses; what stands left is a bit */
+	int depth;           /* of open parentheses                         */
+	struct il_opened { struct result left; uint8_t op; } *opened; /* LIMIT_IL_DEPTH */
 };
 
 /* Each adds a diagnostic at @line; false unless it is a warning. */
@@ -42,13 +44,27 @@ bool il_report_constant(struct il_check *c, const struct il_line *line,
 bool il_is_unknown(struct result result);
 /** il_find - what an operand means; NULL after a diagnostic. */
 const struct meaning *il_find(struct il_check *c, const struct il_line *line);
-/* May it be stored there, written, used as a bit? False after a diagnostic. */
+/* May it be stored there, written? False after a diagnostic. */
 bool il_can_store(struct il_check *c, const struct il_line *line,
 		  struct result from, enum iec_type to);
 bool il_can_write(struct il_check *c, const struct il_line *line,
 		  const struct meaning *m);
+/** il_value_of - the operand as a value to read; NULL after a diagnostic. */
+const struct meaning *il_value_of(struct il_check *c, const struct il_line *line);
+struct result il_result_of(const struct meaning *m);
+const char *il_operand_text(struct il_check *c, const struct il_line *line);
+bool il_need_result(struct il_check *c, const struct il_line *line);
+/** il_need_bool - @what names the value in the message. */
 bool il_need_bool(struct il_check *c, const struct il_line *line,
-		  struct result result);
+		  struct result result, const char *what);
+/** il_check_logic - AND OR XOR, with N and parentheses; il_check_close the other end;
+ * il_check_not NOT. On BOOL or on bits. */
+bool il_check_logic(struct il_check *c, const struct il_line *line);
+bool il_check_close(struct il_check *c, const struct il_line *line);
+bool il_check_not(struct il_check *c, const struct il_line *line);
+/** il_is_bits - BYTE to LWORD? */
+bool il_is_bits(struct result result);
+
 /**
  * il_check_inputs - the type that inputs of a function share, and whether it takes them
  * @hint:   what constants alone should be, or IEC_NONE

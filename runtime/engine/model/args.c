@@ -43,6 +43,8 @@ bool args_next(const char **at, struct arg *out)
 	    (!out->output && (text[0] != ':' || text[1] != '=')))
 		return false;
 	text = skip_blanks(text + 2);
+	out->inverse = !out->output && *text == '/';
+	text += out->inverse;
 	out->value = text;
 	text = skip_value(text);
 	out->value_len = (size_t)(text - out->value);

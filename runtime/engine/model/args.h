@@ -15,6 +15,7 @@ struct arg {
 	const char *pin, *value; /* borrowed from the text; not NUL-ended      */
 	size_t pin_len, value_len;
 	bool output;             /* => instead of :=                           */
+	bool inverse;            /* :=/ : a BOOL, inverted; value is without /  */
 };
 
 /**

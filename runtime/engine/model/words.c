@@ -7,6 +7,7 @@
 #include "engine/model/words.h"
 #include "engine/base/ascii.h"
 #include "engine/base/limits.h"
+#include "engine/model/convert.h"
 
 #include <string.h>
 
@@ -88,19 +89,72 @@ struct word_row *words_own(const struct word_table *table, enum word word)
 const struct word_row *words_row(const struct word_table *table, enum word word)
 {
 	const struct word_row *own = words_own(table, word);
+	int made = (int)word - (int)WORD_FIRST_MADE;
 
+	if (made >= 0 && made < table->made_count)
+		return table->made[made];
 	return own ? own : word_row(word);
 }
 
-enum word words_find(const struct word_table *table, const char *text, size_t len)
+/* At its first use. */
+static enum word find_made(struct word_table *table, const char *text, size_t len)
+{
+	struct convert_word probe, *kept;
+	struct word_row **place;
+	int i = 0;
+
+	if (!convert_make(text, len, &probe))
+		return WORD_COUNT;
+	while (i < table->made_count && strcmp(table->made[i]->word, probe.row.word))
+		i++;
+	if (i < table->made_count)
+		return (enum word)(WORD_FIRST_MADE + i);
+	kept = arena_alloc(table->arena, sizeof(*kept));
+	place = arena_push(table->arena, &table->made, &table->made_count,
+			   sizeof(*place));
+	if (!kept || !place || !convert_make(text, len, kept))
+		return WORD_COUNT;
+	*place = &kept->row;
+	return (enum word)(WORD_FIRST_MADE + i);
+}
+
+/* TON_LTIME, CTU_INT: the block is found by its short name if that is the type it
+ * works on anyway. */
+static enum word find_short(const char *text, size_t len)
+{
+	const struct word_row *row;
+	enum iec_type type;
+	enum word word;
+	size_t head = len;
+
+	while (head > 0 && text[head - 1] != '_')
+		head--;
+	if (head < 2)
+		return WORD_COUNT;
+	type = iec_type_find(text + head, len - head);
+	word = word_find(text, head - 1);
+	row = word_row(word);
+	if (type == IEC_NONE || word == WORD_COUNT || row->kind != WORD_FB)
+		return WORD_COUNT;
+	for (int i = 0; i < row->pin_count; i++)
+		if (row->pin[i].dir == PIN_IN && row->pin[i].type != IEC_BOOL)
+			return row->pin[i].type == type ? word : WORD_COUNT;
+	return WORD_COUNT;
+}
+
+enum word words_find(struct word_table *table, const char *text, size_t len)
 {
 	enum word word = word_find(text, len);
+	uint16_t found = 0;
 
-	if (word != WORD_COUNT || !table->count || !len)
+	if (word != WORD_COUNT || !len)
 		return word;
-	uint16_t found = *slot_of(table, text, len);
-
-	return found ? (enum word)(WORD_FIRST_OWN + found - 1) : WORD_COUNT;
+	if (table->count)
+		found = *slot_of(table, text, len);
+	if (found)
+		return (enum word)(WORD_FIRST_OWN + found - 1);
+	word = find_short(text, len);
+	return word != WORD_COUNT ? word : find_made(table, text, len);
 }
 
 bool words_is_taken(const char *name)

@@ -14,11 +14,15 @@
 #include "engine/base/catalog.h"
 
 #define WORD_FIRST_OWN (WORD_COUNT + 1) /* WORD_COUNT itself is no word      */
+/* Behind all own words those made by rule: INT_TO_REAL (model/convert.h). */
+#define WORD_FIRST_MADE (WORD_FIRST_OWN + LIMIT_OWN_WORDS)
 
 struct word_table {
 	struct arena *arena;
 	struct word_row **row; /* of word WORD_FIRST_OWN + index              */
 	int count;
+	struct word_row **made; /* of word WORD_FIRST_MADE + index            */
+	int made_count;
 	uint16_t *slot;        /* open hash of index + 1, by name, any case   */
 	uint32_t mask;
 };
@@ -38,15 +42,18 @@ enum word words_add(struct word_table *table, struct word_row row);
 struct word_row *words_own(const struct word_table *table, enum word word);
 /** words_row - the row of any word; that of an empty cell if there is none. */
 const struct word_row *words_row(const struct word_table *table, enum word word);
-/** words_find - as word_find, the project's own words too; WORD_COUNT: none. */
-enum word words_find(const struct word_table *table, const char *text, size_t len);
+/** words_find - as word_find, the project's own words too; a word made by rule
+ * gets its row here, and a block may be named with the type it
+ * works on (TON_LTIME, CTU_INT). WORD_COUNT: none. */
+enum word words_find(struct word_table *table, const char *text, size_t len);
 
 /** words_is_taken - do cells or lists have this word already, perhaps with C or N
  * behind it? Nothing of a project can be called so. Scan-safe: yes. */
 bool words_is_taken(const char *name);
 
+/** word_is_own - declared in the project. */
 static inline bool word_is_own(enum word word)
 {
-	return word > WORD_COUNT;
+	return word > WORD_COUNT && word < WORD_FIRST_MADE;
 }
 #endif

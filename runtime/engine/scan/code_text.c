@@ -84,7 +84,7 @@ static bool is_of(uint32_t type, uint16_t classes)
 /* The type that a function's result must be declared to have. */
 static bool gives(const struct word_row *row, uint32_t type, uint32_t result)
 {
-	if (row->result == RESULT_SAME)
+	if (word_shares(row))
 		return result == type;
 	if (row->result == RESULT_OPEN)
 		return is_of(result, row->result_classes);

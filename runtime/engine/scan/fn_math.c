@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * fn_math - MOVE, ADD, SUB, MUL, DIV and MOD, IEC 61131-3 tables 24 and 30.
+ * fn_math - MOVE, ADD, SUB, MUL, DIV, MOD, NEG, ABS, INC and DEC, IEC 61131-3
+ * tables 23, 24 and 30.
  *
  * Integers wrap and give ENO FALSE; division by zero and MIN / -1 leave the result
  * as it was; a REAL result that is infinite or not a number does too. Nothing
@@ -150,4 +151,40 @@ enum fn_status fn_MOD(struct fn_args *args)
 	else
 		args->out.i = b == -1 ? 0 : a % b;
 	return FN_OK;
+}
+
+/* One step, perhaps with a number that is no input. */
+static enum fn_status step_by(struct fn_args *args, step64 *step, int64_t a, int64_t b)
+{
+	bool over = step(a, b, iec_is_wide(args->type), &a);
+
+	args->out.i = value_wrap(args->type, a);
+	return over || args->out.i != a ? FN_WRAPPED : FN_OK;
+}
+
+enum fn_status fn_NEG(struct fn_args *args)
+{
+	if (value_is_real(args->type))
+		return fit_real(args, -args->in[0].r);
+	return step_by(args, sub64, 0, args->in[0].i);
+}
+
+enum fn_status fn_ABS(struct fn_args *args)
+{
+	if (value_is_real(args->type))
+		return fit_real(args, fabs(args->in[0].r));
+	if (args->in[0].i < 0 && !iec_is_wide(args->type))
+		return step_by(args, sub64, 0, args->in[0].i);
+	args->out.i = args->in[0].i;
+	return FN_OK;
+}
+
+enum fn_status fn_INC(struct fn_args *args)
+{
+	return step_by(args, add64, args->in[0].i, 1);
+}
+
+enum fn_status fn_DEC(struct fn_args *args)
+{
+	return step_by(args, sub64, args->in[0].i, 1);
 }

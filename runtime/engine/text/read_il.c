@@ -158,15 +158,18 @@ static bool read_more_operands(struct reader *r, const struct token *word,
 static bool read_function(struct reader *r, const struct token *word,
 			  struct il_line line)
 {
+	const struct word_row *row = words_row(&r->project->words, (enum word)line.word);
+
 	reader_next(r);
 	if (reader_is(r, '(')) {
 		line.kind = IL_CALL;
 		return read_call(r, &line);
 	}
+	if (reader_at_end(r) && (row->pin_count == 1 || /* of the result alone */
+				 word_is_own((enum word)line.word)))
+		return add_line(r, line);
 	if (!word_is_own((enum word)line.word))
 		return read_operand(r, word, &line);
-	if (reader_at_end(r))
-		return add_line(r, line);
 	return read_operand(r, word, &line) && read_more_operands(r, word, &line);
 }
 
@@ -210,11 +213,33 @@ static bool read_label_operand(struct reader *r, const struct token *word,
 	return true;
 }
 
+/* Does `( PIN :=` or `( PIN =>` follow? */
+static bool is_formal(const struct reader *r)
+{
+	struct lex ahead = r->lex;
+
+	ahead.comments = false;
+	ahead.newlines = false;
+	lex_next(&ahead);
+	if (!lex_is(&ahead, "(") || lex_next(&ahead) != TOKEN_NAME)
+		return false;
+	lex_next(&ahead);
+	return lex_is(&ahead, ":=") || lex_is(&ahead, "=>");
+}
+
 static bool read_operator(struct reader *r, struct il_line line)
 {
 	const struct token word = r->lex.token;
 	const struct op_row *row = op_row((enum op)line.op);
+	const enum word function = op_function((enum op)line.op);
 
+	if (function != WORD_COUNT && !line.modifiers && is_formal(r)) {
+		line.kind = IL_CALL;
+		line.op = 0;
+		line.word = (uint16_t)function;
+		reader_next(r);
+		return read_call(r, &line);
+	}
 	if (!may_have((enum op)line.op, line.modifiers))
 		return reader_fail_token(r, DIAG_IL_MODIFIER);
 	if ((row->modifiers & MOD_PAREN) && reader_peek(r, "("))

@@ -181,6 +181,7 @@ bool reader_arg(struct reader *r)
 {
 	struct token pin = r->lex.token;
 	struct read_arg arg = { 0 };
+	bool inverse = false;
 
 	if (pin.kind != TOKEN_NAME || memchr(pin.text, '.', pin.len))
 		return reader_fail_token(r, DIAG_EXTRA_TEXT);
@@ -201,7 +202,12 @@ bool reader_arg(struct reader *r)
 	buffer_add(r, &r->text, arg.output ? "=>" : ":=", 2);
 	reader_step(r);
 	arg.value_at = r->text.len;
-	if (!reader_value(r, !arg.output, &pin))
+	if (!arg.output && !r->across_lines && reader_is(r, '/')) { /* in a cell */
+		buffer_add(r, &r->text, "/", 1);
+		reader_step(r);
+		inverse = true;
+	}
+	if (!reader_value(r, !arg.output && !inverse, &pin))
 		return false;
 	arg.value_len = r->text.len - arg.value_at;
 	r->arg[r->arg_count++] = arg;

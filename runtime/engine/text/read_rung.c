@@ -189,10 +189,27 @@ static bool read_loop(struct reader *r, struct cell *cell)
 	return true;
 }
 
+/* NOT alone inverts the power; with parameters it is the function. */
+static enum word with_parameters(struct reader *r, enum word word)
+{
+	const enum word function = op_function(word_row(word)->next);
+	struct lex ahead = r->lex;
+
+	if (word_row(word)->operand != OPND_NONE || function == WORD_COUNT ||
+	    strcmp(word_row(word)->word, word_row(function)->word) != 0)
+		return word;
+	ahead.comments = false;
+	if (lex_next(&ahead) != TOKEN_NAME)
+		return word;
+	lex_next(&ahead);
+	return lex_is(&ahead, ":=") || lex_is(&ahead, "=>") ? function : word;
+}
+
 static bool read_word(struct reader *r, struct cell *cell)
 {
 	const struct token token = r->lex.token;
-	const enum word word = words_find(&r->project->words, token.text, token.len);
+	const enum word word = with_parameters(r,
+		words_find(&r->project->words, token.text, token.len));
 
 	const struct word_row *row = words_row(&r->project->words, word);
 

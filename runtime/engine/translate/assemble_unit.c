@@ -7,9 +7,6 @@
  */
 #include "engine/translate/lists.h"
 
-#define TABLE_AND 0x8
-#define TABLE_OR  0xe
-#define TABLE_XOR 0x6
 
 const struct meaning *list_meaning(struct list *list, uint32_t operand)
 {
@@ -68,9 +65,10 @@ void list_protect(struct list *list, uint32_t offset, uint32_t size)
 	    bits_reads(&list->now.bits, offset, size))
 		list->now.bits = set_aside(list, list->now.bits);
 	for (int i = 0; i < list->depth; i++)
-		if (bits_reads(&list->opened[i].left, offset, size))
-			list->opened[i].left =
-				set_aside(list, list->opened[i].left);
+		if (list->opened[i].left.kind == RESULT_BITS &&
+		    bits_reads(&list->opened[i].left.bits, offset, size))
+			list->opened[i].left.bits =
+				set_aside(list, list->opened[i].left.bits);
 	for (int i = 0; i < list->pending_count; i++)
 		if (bits_reads(&list->pending[i].value, offset, size))
 			list->pending[i].value =
@@ -80,7 +78,9 @@ void list_protect(struct list *list, uint32_t offset, uint32_t size)
 void list_keep_all(struct list *list)
 {
 	for (int i = 0; i < list->depth; i++)
-		list->opened[i].left = set_aside(list, list->opened[i].left);
+		if (list->opened[i].left.kind == RESULT_BITS)
+			list->opened[i].left.bits =
+				set_aside(list, list->opened[i].left.bits);
 	for (int i = 0; i < list->pending_count; i++)
 		list->pending[i].value = set_aside(list,
 						   list->pending[i].value);
@@ -279,12 +279,13 @@ static void store_number(struct list *list, const struct meaning *m)
 
 /* ---- operators ---- */
 
-static void load(struct list *list, const struct il_line *line)
+void list_load(struct list *list, const struct il_line *line)
 {
 	const struct meaning *m = list_meaning(list, line->operand);
+	bool bits = iec_type_row(m->type)->class & CLASS_BITS;
 
 	list->now = (struct il_result){ .kind = RESULT_NUMBER };
-	if (m->type == IEC_BOOL || line->modifiers & MOD_N) {
+	if (m->type == IEC_BOOL || (line->modifiers & MOD_N && !bits)) {
 		list->now.kind = RESULT_BITS;
 		list->now.bits = list_bits(list, m);
 		if (line->modifiers & MOD_N)
@@ -295,6 +296,8 @@ static void load(struct list *list, const struct il_line *line)
 	} else {
 		list->now.operand = list_number(list, m, m->type);
 	}
+	if (bits && line->modifiers & MOD_N)
+		list_invert(list, m->type);
 }
 
 /* An untyped 0 or 1 where a bit is wanted; it may be a number later. */
@@ -303,14 +306,6 @@ struct bits list_now_bits(const struct list *list)
 	if (list->now.kind == RESULT_LITERAL)
 		return bits_constant(list->now.literal->value.i != 0);
 	return list->now.bits;
-}
-
-/* From now on it is a bit for good. */
-static void as_bits(struct list *list)
-{
-	list->now = (struct il_result){
-		.kind = RESULT_BITS, .bits = list_now_bits(list),
-	};
 }
 
 /* A temporary whose value is the result of the next line, too, is stored at once;
@@ -335,13 +330,27 @@ static void store_bits(struct list *list, const struct meaning *m,
 	bits_store(list->as, value, offset);
 }
 
+/* STN of bits; the result stays as it is. */
+static void store_inverse(struct list *list, const struct meaning *m)
+{
+	struct il_result now = list->now;
+
+	list_invert(list, now.kind == RESULT_NUMBER ?
+		    (enum iec_type)CODE_TYPE(now.operand) : m->type);
+	store_number(list, m);
+	list->now = now;
+}
+
 static void store(struct list *list, const struct il_line *line)
 {
 	const struct meaning *m = list_meaning(list, line->operand);
 	struct bits value;
 
 	if (m->type != IEC_BOOL) {
-		store_number(list, m);
+		if (line->modifiers & MOD_N) /* for this once */
+			store_inverse(list, m);
+		else
+			store_number(list, m);
 		return;
 	}
 	value = list_now_bits(list);
@@ -368,53 +377,8 @@ static void set_reset(struct list *list, const struct il_line *line)
 
 	/* S: old or now. R: old and not now. */
 	value = bits_combine(list->as, old, list_now_bits(list),
-			     line->op == OP_S ? TABLE_OR : 0x2);
+			     line->op == OP_S ? 0xe : 0x2);
 	list_write_bits(list, m, &value);
-}
-
-static uint8_t table_of(uint8_t op)
-{
-	return op == OP_AND ? TABLE_AND : op == OP_OR ? TABLE_OR : TABLE_XOR;
-}
-
-static void logic(struct list *list, const struct il_line *line)
-{
-	struct bits right;
-
-	as_bits(list);
-	if (line->modifiers & MOD_PAREN) {
-		list->opened[list->depth++] = (struct opened){
-			.left = list->now.bits, .op = line->op,
-			.modifiers = line->modifiers,
-		};
-		list->now.kind = RESULT_NONE;
-		if (line->operand) {
-			struct il_line first = *line;
-
-			first.modifiers = 0;
-			load(list, &first);
-		}
-		return;
-	}
-	right = list_bits(list, list_meaning(list, line->operand));
-	if (line->modifiers & MOD_N)
-		right = bits_not(right);
-	list->now.bits = bits_combine(list->as, list->now.bits, right,
-				      table_of(line->op));
-}
-
-static void close_paren(struct list *list)
-{
-	struct opened *open = &list->opened[--list->depth];
-	struct bits right;
-
-	as_bits(list);
-	right = list->now.bits;
-	if (open->modifiers & MOD_N)
-		right = bits_not(right);
-	list->now.kind = RESULT_BITS;
-	list->now.bits = bits_combine(list->as, open->left, right,
-				      table_of(open->op));
 }
 
 /* ---- jumps ---- */
@@ -497,7 +461,7 @@ static void assemble_op(struct list *list, const struct il_line *line)
 	switch ((enum op)line->op) {
 	case OP_LD:
 		begin_statement(list);
-		load(list, line);
+		list_load(list, line);
 		break;
 	case OP_ST:
 		store(list, line);
@@ -509,11 +473,10 @@ static void assemble_op(struct list *list, const struct il_line *line)
 	case OP_AND:
 	case OP_OR:
 	case OP_XOR:
-		logic(list, line);
+		list_logic(list, line);
 		break;
 	case OP_NOT:
-		as_bits(list);
-		list->now.bits = bits_not(list->now.bits);
+		list_not(list);
 		break;
 	case OP_JMP:
 	case OP_RET:
@@ -539,7 +502,7 @@ static void assemble_line(struct list *list)
 		list_fn(list, line);
 		break;
 	case IL_CLOSE:
-		close_paren(list);
+		list_close(list);
 		break;
 	case IL_LABEL:
 		set_label(list, line);

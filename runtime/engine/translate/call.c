@@ -17,11 +17,19 @@ static const char *pin_text(const struct list *list, const struct il_line *arg)
 }
 
 /* Where a result goes that nobody wants. */
-static uint32_t sink(struct assembler *as, enum iec_type type)
+uint32_t list_sink(struct assembler *as, enum iec_type type)
 {
 	if (!as->sink[type])
 		as->sink[type] = layout_tail(as, RUN_VALUES, type);
 	return as->sink[type];
+}
+
+/* The function of the image behind a word: of INT_TO_REAL and the like another. */
+static uint32_t function_of(const struct list *list, const struct il_line *line)
+{
+	const struct word_row *row = list_row(list, (enum word)line->word);
+
+	return row->runs ? (uint32_t)row->runs : line->word;
 }
 
 /* ---- functions on the result ---- */
@@ -39,24 +47,23 @@ static uint32_t relation(enum word word)
 	return (uint32_t)word - FN_GT;
 }
 
-/* The current result as an operand of @type. */
-static uint32_t result_operand(struct list *list, enum iec_type type)
+uint32_t list_operand(struct list *list, const struct il_result *result,
+		      enum iec_type type)
 {
-	struct il_result *now = &list->now;
 	union iec_value value = { .i = 0 };
 
-	if (now->kind == RESULT_LITERAL) {
-		if (now->literal->type != IEC_NONE)
-			type = now->literal->type;
+	if (result->kind == RESULT_LITERAL) {
+		if (result->literal->type != IEC_NONE)
+			type = result->literal->type;
 		if (type == IEC_STRING)
 			return CODE_OPERAND(type, layout_text(list->as,
-							      now->literal));
-		literal_fit(now->literal, type, &value);
+							      result->literal));
+		literal_fit(result->literal, type, &value);
 		return CODE_OPERAND(type, layout_constant(list->as, type, value));
 	}
-	if (now->kind == RESULT_BITS)
-		return CODE_OPERAND(IEC_BOOL, list_slot(list, &now->bits));
-	return now->operand;
+	if (result->kind == RESULT_BITS)
+		return CODE_OPERAND(IEC_BOOL, list_slot(list, &result->bits));
+	return result->operand;
 }
 
 static void compare(struct list *list, const struct il_line *line,
@@ -113,7 +120,7 @@ void list_fn(struct list *list, const struct il_line *line)
 		list_own_fn(list);
 		return;
 	}
-	left = result_operand(list, input_type(row, 0, type,
+	left = list_operand(list, &list->now, input_type(row, 0, type,
 		list->now.kind == RESULT_LITERAL ? list->now.literal : NULL));
 	if (m)
 		right = list_number(list, m, input_type(row, 1, type,
@@ -128,9 +135,9 @@ void list_fn(struct list *list, const struct il_line *line)
 	preset(list, result, to, left);
 	list_place(list);
 	emit_op(list->as, VM_FN, (uint32_t)type | count << 8 | (uint32_t)result << 16);
-	emit(list->as, line->word);
+	emit(list->as, function_of(list, line));
 	emit(list->as, TRUE_SLOT);
-	emit(list->as, sink(list->as, IEC_BOOL));
+	emit(list->as, list_sink(list->as, IEC_BOOL));
 	emit(list->as, to);
 	emit_input(list, row, 0, left);
 	if (m)
@@ -160,7 +167,7 @@ static struct target bool_target(struct list *list, const struct meaning *m,
 	struct spot spot;
 
 	if (!m) {
-		out.slot = sink(list->as, IEC_BOOL);
+		out.slot = list_sink(list->as, IEC_BOOL);
 		return out;
 	}
 	spot = layout_spot(list->as, m);
@@ -267,14 +274,14 @@ void list_call(struct list *list)
 
 		to = CODE_OPERAND(spot.type, spot.offset);
 	} else {
-		to = CODE_OPERAND(result, sink(list->as, result));
+		to = CODE_OPERAND(result, list_sink(list->as, result));
 	}
 	list_protect(list, eno.slot, 1);
 	list_protect(list, CODE_OFFSET(to), 1);
 	list_place(list);
 	emit_op(list->as, VM_FN, (uint32_t)type | (uint32_t)call.count << 8 |
 		(uint32_t)result << 16);
-	emit(list->as, line->word);
+	emit(list->as, function_of(list, line));
 	emit(list->as, call.en);
 	emit(list->as, eno.slot);
 	emit(list->as, to);

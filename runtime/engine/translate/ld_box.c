@@ -77,14 +77,45 @@ static void freeze_outputs(struct ld *ld, enum word word, const char *text)
 		ld_freeze_globals(ld);
 }
 
-/* The written parameters of one direction; ENO of a function is stored otherwise. */
-static void write_args(struct ld *ld, const char *text, bool output, bool block)
+/* The operands of the written inputs, in their order: of an inverted one a temporary,
+ * made before the call. */
+struct inputs {
+	uint32_t operand[LIMIT_ARGS];
+};
+
+static void read_inputs(struct ld *ld, const char *text, struct inputs *out)
+{
+	struct arg arg;
+	int i = 0;
+
+	for (const char *at = text; i < LIMIT_ARGS && args_next(&at, &arg); i++) {
+		out->operand[i] = intern(ld, arg.value, arg.value_len);
+		if (!arg.inverse)
+			continue;
+		ld_emit(ld, OP_LD, MOD_N, out->operand[i]);
+		out->operand[i] = ld_store_new(ld);
+	}
+}
+
+static void write_inputs(struct ld *ld, const char *text, const struct inputs *inputs)
+{
+	struct arg arg;
+	int i = 0;
+
+	for (const char *at = text; i < LIMIT_ARGS && args_next(&at, &arg); i++)
+		if (!arg.output)
+			ld_arg(ld, false, intern(ld, arg.pin, arg.pin_len),
+			       inputs->operand[i]);
+}
+
+/* ENO of a function is stored otherwise. */
+static void write_outputs(struct ld *ld, const char *text, bool block)
 {
 	struct arg arg;
 
 	for (const char *at = text; args_next(&at, &arg);)
-		if (arg.output == output && (block || !is_pin(&arg, "ENO")))
-			ld_arg(ld, output, intern(ld, arg.pin, arg.pin_len),
+		if (arg.output && (block || !is_pin(&arg, "ENO")))
+			ld_arg(ld, true, intern(ld, arg.pin, arg.pin_len),
 			       intern(ld, arg.value, arg.value_len));
 }
 
@@ -134,6 +165,7 @@ static void box_block(struct ld *ld, int element)
 	const char *args = args_of(ld, element);
 	int first = word_first_bool(row, PIN_IN);
 	int power = word_first_bool(row, PIN_OUT);
+	struct inputs inputs;
 
 	ld_freeze(ld, instance);
 	freeze_outputs(ld, (enum word)at->word, args);
@@ -147,9 +179,11 @@ static void box_block(struct ld *ld, int element)
 		feed_pin(ld, instance,
 			 names_text(names_of(ld), pin->operand), pin->in);
 	}
+	ld_place(ld, at->row, at->col);
+	read_inputs(ld, args, &inputs);
 	call_block(ld, element, first < 0);
-	write_args(ld, args, false, true);
-	write_args(ld, args, true, true);
+	write_inputs(ld, args, &inputs);
+	write_outputs(ld, args, true);
 	if (power >= 0) {
 		ld->element[element].leaf =
 			pin_name(ld, instance, row->pin[power].name);
@@ -175,7 +209,7 @@ static bool is_plain_compare(struct ld *ld, int element, struct arg *left,
 	if (!is_compare((enum word)at->word) || at->pins)
 		return false;
 	for (const char *next = args; args_next(&next, &arg);)
-		if (arg.output)
+		if (arg.output || arg.inverse)
 			return false;
 	return args_find(args, "IN1", 3, left) && args_find(args, "IN2", 3, right);
 }
@@ -190,45 +224,144 @@ static void store_eno(struct ld *ld, const char *args, uint32_t eno)
 	ld_emit(ld, OP_ST, 0, intern(ld, arg.value, arg.value_len));
 }
 
+/* All inputs in the order of the row: those of rows of their own, those written. */
+struct operands {
+	uint32_t id[LIMIT_FN_INPUTS];
+	bool bits;             /* one of them is a BOOL, and none is more     */
+};
+
+static bool is_bit(struct ld *ld, uint32_t id, bool *seen)
+{
+	enum diag_id why;
+	const struct meaning *m = scope_find(ld->translation->scope, ld->unit->pou, id,
+					     &why);
+
+	*seen |= m && m->type == IEC_BOOL;
+	return m && (m->type == IEC_BOOL || (m->type == IEC_NONE &&
+					     m->kind == MEANING_LITERAL));
+}
+
+static void take_operand(struct ld *ld, const struct word_row *row, const char *pin,
+			 size_t len, uint32_t id, struct operands *out)
+{
+	int index = word_pin_find(row, pin, len);
+	bool seen = false;
+
+	if (index < 0 || index >= LIMIT_FN_INPUTS)
+		return;
+	out->id[index] = id;
+	if (!is_bit(ld, id, &seen))
+		out->bits = false;
+}
+
+/* Are all inputs that share a type BOOLs? Then @out holds them. */
+static bool take_operands(struct ld *ld, int element, const struct inputs *inputs,
+			  struct operands *out)
+{
+	const struct network_element *at = &ld->network.element[element];
+	const struct word_row *row = ld_row(ld, (enum word)at->word);
+	bool seen = false;
+	struct arg arg;
+	int n = 0;
+
+	*out = (struct operands){ .bits = true };
+	for (int i = 0; i < at->pins; i++) {
+		const struct network_pin *from = &ld->network.pin[at->first_pin + i];
+		const char *pin = names_text(names_of(ld), from->operand);
+
+		take_operand(ld, row, pin, strlen(pin), ld_operand(ld, from->in), out);
+	}
+	for (const char *next = args_of(ld, element);
+	     n < LIMIT_ARGS && args_next(&next, &arg); n++)
+		if (!arg.output)
+			take_operand(ld, row, arg.pin, arg.pin_len,
+				     inputs->operand[n], out);
+	for (int i = 0; i < LIMIT_FN_INPUTS; i++)
+		if (out->id[i])
+			is_bit(ld, out->id[i], &seen);
+	out->bits &= seen;
+	return out->bits;
+}
+
+/* AND OR XOR NOT of BOOLs: the operators of IL, which become truth tables. */
+static void emit_logic(struct ld *ld, enum op op, const struct operands *operands,
+		       uint32_t result)
+{
+	ld_emit(ld, OP_LD, 0, operands->id[0]);
+	if (op_row(op)->operand == OPND_NONE)
+		ld_emit(ld, op, 0, 0);
+	for (int i = 1; i < LIMIT_FN_INPUTS && operands->id[i]; i++)
+		ld_emit(ld, op, 0, operands->id[i]);
+	ld_emit(ld, OP_ST, 0, result);
+}
+
+static void emit_call(struct ld *ld, int element, uint32_t en, uint32_t eno,
+		      const struct inputs *inputs)
+{
+	const struct network_element *at = &ld->network.element[element];
+
+	ld_call(ld, (enum word)at->word);
+	ld_arg(ld, false, ld->en_id, en);
+	for (int i = 0; i < at->pins; i++) /* all of them are operands by now */
+		ld_arg(ld, false, ld->network.pin[at->first_pin + i].operand,
+		       ld_operand(ld, ld->network.pin[at->first_pin + i].in));
+	write_inputs(ld, args_of(ld, element), inputs);
+	ld_arg(ld, true, ld->eno_id, eno);
+}
+
+/* A Boolean result that is power, too: stored while enabled. */
+static void store_result(struct ld *ld, const char *args, uint32_t eno,
+			 uint32_t result)
+{
+	struct arg out;
+
+	if (!args_find(args, "OUT", 3, &out) || !out.output)
+		return;
+	ld_call(ld, FN_MOVE);
+	ld_arg(ld, false, ld->en_id, eno);
+	ld_arg(ld, false, intern(ld, "IN", 2), result);
+	ld_arg(ld, true, ld->out_id, intern(ld, out.value, out.value_len));
+}
+
 static void box_function(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
 	const struct word_row *row = ld_row(ld, (enum word)at->word);
 	struct element_state *state = &ld->element[element];
 	const char *args = args_of(ld, element);
-	bool compare = word_is_test(row);
-	uint32_t en, eno = temps_bool(ld->temps);
-	uint32_t result = compare ? temps_bool(ld->temps) : 0;
-	struct arg out;
+	uint32_t en, eno, result = 0;
+	enum op op = word_operator(row);
+	struct operands operands;
+	struct inputs inputs;
+	bool gates, bits;
 
 	freeze_outputs(ld, (enum word)at->word, args);
 	en = ld_operand(ld, at->in);
 	for (int i = 0; i < at->pins; i++)
 		ld_operand(ld, ld->network.pin[at->first_pin + i].in);
 	ld_place(ld, at->row, at->col); /* an error is the box's own */
-	ld_call(ld, (enum word)at->word);
-	ld_arg(ld, false, ld->en_id, en);
-	for (int i = 0; i < at->pins; i++) /* all of them are operands by now */
-		ld_arg(ld, false, ld->network.pin[at->first_pin + i].operand,
-		       ld_operand(ld, ld->network.pin[at->first_pin + i].in));
-	write_args(ld, args, false, false);
-	ld_arg(ld, true, ld->eno_id, eno);
-	if (!compare) {
-		write_args(ld, args, true, false);
+	read_inputs(ld, args, &inputs);
+	bits = row->result == (int)RESULT_GATE &&
+	       take_operands(ld, element, &inputs, &operands);
+	gates = word_is_test(row) || bits;
+	eno = bits && op != OP_COUNT ? en : temps_bool(ld->temps);
+	if (gates)
+		result = temps_bool(ld->temps);
+	if (bits && op != OP_COUNT) {
+		emit_logic(ld, op, &operands, result);
 	} else {
-		ld_arg(ld, true, ld->out_id, result);
-		if (args_find(args, "OUT", 3, &out) && out.output) {
-			ld_call(ld, FN_MOVE);
-			ld_arg(ld, false, ld->en_id, eno);
-			ld_arg(ld, false, intern(ld, "IN", 2), result);
-			ld_arg(ld, true, ld->out_id,
-			       intern(ld, out.value, out.value_len));
-		}
+		emit_call(ld, element, en, eno, &inputs);
+		if (gates)
+			ld_arg(ld, true, ld->out_id, result);
+		else
+			write_outputs(ld, args, false);
 	}
+	if (gates)
+		store_result(ld, args, eno, result);
 	store_eno(ld, args, eno);
 	state->leaf = eno;
 	state->powered = true;
-	if (compare) { /* while EN is FALSE the result is an old one */
+	if (gates) { /* while EN is FALSE the result is an old one */
 		ld_emit(ld, OP_LD, 0, eno);
 		ld_emit(ld, OP_AND, 0, result);
 		state->leaf = ld_store_new(ld);

@@ -53,6 +53,30 @@ static enum iec_type type_of(struct chain *c, uint32_t operand)
 	return m ? m->type : IEC_NONE;
 }
 
+static bool is_bits(enum iec_type type)
+{
+	return iec_type_row(type)->class & CLASS_BITS;
+}
+
+static enum op operator_of(const struct expr_node *node)
+{
+	return node->op == EXPR_NOT ? OP_NOT : node->op == EXPR_AND ? OP_AND :
+	       node->op == EXPR_OR ? OP_OR : OP_XOR;
+}
+
+static enum iec_type infer(struct chain *c, int index);
+
+/* AND OR XOR NOT: BOOL, unless one side is bits that go with the other; IEC_NONE of
+ * constants alone. */
+static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
+{
+	enum iec_type type = infer(c, node->left);
+
+	if (node->op != EXPR_NOT)
+		type = types_join(type, infer(c, node->right));
+	return type == IEC_NONE || is_bits(type) ? type : IEC_BOOL;
+}
+
 /* Type of a part; constants without a type take that of their neighbours. */
 static enum iec_type infer(struct chain *c, int index)
 {
@@ -69,7 +93,7 @@ static enum iec_type infer(struct chain *c, int index)
 	case EXPR_AND:
 	case EXPR_XOR:
 	case EXPR_OR:
-		return IEC_BOOL;
+		return infer_logic(c, node);
 	case EXPR_FN:
 		break;
 	}
@@ -199,20 +223,39 @@ static struct value compute_compare(struct chain *c,
 	return out;
 }
 
-static struct value compute_logic(struct chain *c, const struct expr_node *node)
+/* On bits: the functions of the operators' names. */
+static struct value compute_bits(struct chain *c, const struct expr_node *node,
+				 enum iec_type type, uint32_t target)
 {
-	struct value left = compute(c, node->left, IEC_NONE, 0);
-	struct value right, out = { 0, IEC_BOOL };
+	struct value left, right = { 0, IEC_NONE };
 
+	if (node->op == EXPR_NOT) {
+		left = compute(c, node->left, type, 0);
+	} else {
+		left = compute_side(c, node->left, type);
+		right = compute_side(c, node->right, type);
+	}
+	return operate(c, op_function(operator_of(node)), left, right, type, target);
+}
+
+static struct value compute_logic(struct chain *c, const struct expr_node *node,
+				  enum iec_type hint, uint32_t target)
+{
+	enum iec_type type = infer_logic(c, node);
+	struct value left, right, out = { 0, IEC_BOOL };
+
+	if (type == IEC_NONE && is_bits(hint))
+		type = hint;
+	if (is_bits(type))
+		return compute_bits(c, node, type, target);
+	left = compute(c, node->left, IEC_NONE, 0);
 	if (node->op == EXPR_NOT) {
 		ld_emit(c->ld, OP_LD, 0, left.operand);
 		ld_emit(c->ld, OP_NOT, 0, 0);
 	} else {
 		right = compute(c, node->right, IEC_NONE, 0);
 		ld_emit(c->ld, OP_LD, 0, left.operand);
-		ld_emit(c->ld, node->op == EXPR_AND ? OP_AND :
-			       node->op == EXPR_OR ? OP_OR : OP_XOR, 0,
-			right.operand);
+		ld_emit(c->ld, operator_of(node), 0, right.operand);
 	}
 	out.operand = ld_store_new(c->ld);
 	return out;
@@ -261,7 +304,7 @@ static struct value compute(struct chain *c, int index, enum iec_type hint,
 	case EXPR_AND:
 	case EXPR_XOR:
 	case EXPR_OR:
-		return compute_logic(c, node);
+		return compute_logic(c, node, hint, target);
 	}
 	return value;
 }

@@ -3,7 +3,7 @@
  * lists - one instruction list on its way to instructions.
  *
  * Private to the assembler: assemble_unit walks the lines, temps_use.c counts how
- * often a temporary is read, call.c does calls.
+ * often a temporary is read, list_logic.c does AND OR XOR NOT, call.c calls.
  */
 #ifndef TRANSLATE_LISTS_H
 #define TRANSLATE_LISTS_H
@@ -30,7 +30,7 @@ struct pending {
 #define PENDING_MAX 64
 
 struct opened {
-	struct bits left;
+	struct il_result left;        /* a number: own                        */
 	uint8_t op, modifiers;
 };
 
@@ -85,10 +85,26 @@ uint32_t list_number(struct list *list, const struct meaning *m,
 uint32_t list_slot(struct list *list, const struct bits *value);
 /** list_copy - COPY, always enabled. */
 void list_copy(struct list *list, uint32_t to, uint32_t from);
+/** list_load - LD. */
+void list_load(struct list *list, const struct il_line *line);
 /** list_place - the next instruction comes from this line's cell. */
 void list_place(struct list *list);
 
+/* ---- list_logic.c ---- */
+/** list_logic - AND OR XOR with N and parentheses; list_close the other end. */
+void list_logic(struct list *list, const struct il_line *line);
+void list_close(struct list *list);
+/** list_not - NOT on the result. */
+void list_not(struct list *list);
+/** list_invert - the result, bits of @type if it is a constant, inverted. */
+void list_invert(struct list *list, enum iec_type type);
+
 /* ---- call.c ---- */
+/** list_sink - an offset where a value goes that nobody wants. */
+uint32_t list_sink(struct assembler *as, enum iec_type type);
+/** list_operand - a result as an operand; a constant as @type. */
+uint32_t list_operand(struct list *list, const struct il_result *result,
+		      enum iec_type type);
 /** list_fn - a function on the result: ADD 5. */
 void list_fn(struct list *list, const struct il_line *line);
 /** list_call - a function with formal parameters; the lines behind it too. */

@@ -263,7 +263,8 @@ static void value_text(const struct arg *arg, char *out, size_t size)
 {
 	out[0] = '\0';
 	if (arg)
-		snprintf(out, size, "%s%.*s", arg->output ? "=> " : "",
+		snprintf(out, size, "%s%.*s",
+			 arg->output ? "=> " : arg->inverse ? "/" : "",
 			 (int)arg->value_len, arg->value);
 }
 

@@ -31,6 +31,7 @@ struct strokes {
 struct box_pin {
 	const char *name, *value;   /* borrowed; value NULL: not connected    */
 	size_t name_len, value_len;
+	bool inverse;               /* the value goes in inverted             */
 };
 struct box_side {
 	struct box_pin pin[BOX_PINS];

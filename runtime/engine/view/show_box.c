@@ -55,7 +55,7 @@ static void side_add(struct box_side *side, struct box_pin pin)
 static void side_add_named(struct draw *draw, bool output, const char *name)
 {
 	struct box_side *side = output ? &draw->box.out : &draw->box.in;
-	struct box_pin pin = { name, NULL, strlen(name), 0 };
+	struct box_pin pin = { .name = name, .name_len = strlen(name) };
 	const char *at = draw->box.args;
 	struct arg arg;
 
@@ -64,6 +64,7 @@ static void side_add_named(struct draw *draw, bool output, const char *name)
 		    same_name(arg.pin, arg.pin_len, name, pin.name_len)) {
 			pin.value = arg.value;
 			pin.value_len = arg.value_len;
+			pin.inverse = arg.inverse;
 			break;
 		}
 	side_add(side, pin);
@@ -97,7 +98,8 @@ static void add_others(struct draw *draw)
 		if (!side_has(side, arg.pin, arg.pin_len))
 			side_add(side, (struct box_pin){ arg.pin, arg.value,
 							 arg.pin_len,
-							 arg.value_len });
+							 arg.value_len,
+							 arg.inverse });
 	}
 }
 
@@ -246,7 +248,10 @@ static void left_of_box(const struct draw *draw, const struct box_pin *pin,
 
 		draw_blank(draw, start - taken - 1);
 		draw_text(draw, pin->value, pin->value_len, DRAW_CLIP);
-		draw_across(draw, 1);
+		if (pin->inverse) /* a circle at the pin */
+			sink_text(draw->sink, "o");
+		else
+			draw_across(draw, 1);
 		side = draw->strokes->open;
 	} else {
 		draw_blank(draw, start);

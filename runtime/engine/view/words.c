@@ -6,6 +6,7 @@
  */
 #include "engine/view/words.h"
 
+#include "engine/model/convert.h"
 #include "engine/view/view.h"
 
 #include <inttypes.h>
@@ -61,7 +62,7 @@ const char *words_classes(uint16_t classes)
 	} generic[] = {
 		{ "ANY_ELEMENTARY", ANY_ELEMENTARY },
 		{ "ANY_MAGNITUDE", ANY_MAGNITUDE }, { "ANY_NUM", ANY_NUM },
-		{ "ANY_INT", ANY_INT }, { "ANY_BIT", ANY_BIT },
+		{ "ANY_SIMPLE", ANY_SIMPLE }, { "ANY_INT", ANY_INT }, { "ANY_BIT", ANY_BIT },
 		{ "BOOL", CLASS_BOOL }, { "ANY_REAL", CLASS_REAL },
 		{ "ANY_DATE", ANY_DATE }, { "ANY_STRING", CLASS_STRING },
 		{ "TIME", CLASS_TIME }, { "TIME_OF_DAY", CLASS_TOD },
@@ -77,16 +78,30 @@ const char *words_classes(uint16_t classes)
 
 /* ---- all tables as one row of entries ---- */
 
-static void word_entry(int word, struct words_entry *out)
+static void row_entry(const struct word_row *row, struct words_entry *out)
 {
-	const struct word_row *row = word_row((enum word)word);
-
 	out->kind = row->kind == WORD_FB ? WORDS_BLOCK :
 		    row->kind == WORD_FN ? WORDS_FUNCTION : WORDS_ELEMENT;
 	out->word = row->word;
 	out->family = row->family[0] ? row->family : NULL;
 	out->doc = row->doc;
 	out->row = row;
+}
+
+static void word_entry(int word, struct words_entry *out)
+{
+	row_entry(word_row((enum word)word), out);
+}
+
+/* INT_TO_REAL and so on: not in any table. */
+static bool made_entry(const char *word, struct convert_word *made,
+		       struct words_entry *out)
+{
+	memset(out, 0, sizeof(*out));
+	if (!convert_make(word, strlen(word), made))
+		return false;
+	row_entry(&made->row, out);
+	return true;
 }
 
 static void op_entry(int op, struct words_entry *out)
@@ -208,6 +223,8 @@ static void note_function(const struct word_row *row, const struct sink *sink)
 		sink_printf(sink, "%d input%s, ", named, named == 1 ? "" : "s");
 	if (word_is_test(row))
 		sink_text(sink, "a BOOL that gates the power");
+	else if (row->result == (int)RESULT_GATE)
+		sink_text(sink, "result of their type, a BOOL gates the power");
 	else if (row->result == RESULT_SAME)
 		sink_text(sink, "result of their type");
 	else if (row->result == RESULT_OPEN)
@@ -401,28 +418,39 @@ static void json_entry(const struct words_entry *entry, const struct sink *sink)
 	sink_text(sink, "}");
 }
 
+static void show_entry(const struct words_entry *entry, bool one, bool json,
+		       bool first, const struct sink *sink)
+{
+	if (json) {
+		sink_text(sink, first ? "\n " : ",\n ");
+		json_entry(entry, sink);
+	} else if (one) {
+		one_word(entry, sink);
+	} else {
+		list_line(entry, sink);
+	}
+}
+
 int view_words(const char *word, bool json, const struct sink *sink)
 {
 	enum words_kind kind = WORDS_KIND_COUNT;
 	struct words_entry entry;
+	struct convert_word made;
 	int found = 0;
 
 	sink_text(sink, json ? "[" : "");
 	for (int i = 0; words_at(i, &entry); i++) {
 		if (word && strcasecmp(entry.word, word) != 0)
 			continue;
-		if (json) {
-			sink_text(sink, found ? ",\n " : "\n ");
-			json_entry(&entry, sink);
-		} else if (word) {
-			one_word(&entry, sink);
-		} else {
-			if (entry.kind != kind)
-				sink_printf(sink, "%s%ss\n", found ? "\n" : "",
-					    words_kind(entry.kind));
-			list_line(&entry, sink);
-		}
+		if (!json && !word && entry.kind != kind)
+			sink_printf(sink, "%s%ss\n", found ? "\n" : "",
+				    words_kind(entry.kind));
+		show_entry(&entry, word, json, found == 0, sink);
 		kind = entry.kind;
+		found++;
+	}
+	if (!found && word && made_entry(word, &made, &entry)) {
+		show_entry(&entry, true, json, true, sink);
 		found++;
 	}
 	sink_text(sink, json ? "\n]\n" : "");

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * convert - words such as INT_TO_REAL, taken apart.
+ *
+ * To add a family of conversions: a row in rules[]. What a conversion does stands in
+ * scan/fn_convert.c.
+ */
+#include "engine/model/convert.h"
+#include "engine/base/ascii.h"
+
+#include <string.h>
+
+#define TIMES (CLASS_TIME | ANY_DATE)
+#define CLOCK (CLASS_TIME | CLASS_TOD)
+#define DAY   (CLASS_DATE | CLASS_DT)
+
+#define FROM_DIGITS "number of decimal digits; ENO FALSE if one is none, or out of range"
+#define TO_DIGITS   "decimal digits of a number; ENO FALSE if they do not fit"
+#define CUT     "towards 0; ENO FALSE out of range"
+#define NEAREST "to the nearest, ties to even; ENO FALSE out of range"
+#define WHOLE   "the same number; wraps with ENO FALSE if it does not fit"
+#define TRUTH   "TRUE unless it is 0"
+#define OTHER   "the same as another type: bits of one width stay, others are numbers"
+#define IN_MS   "milliseconds; ENO FALSE out of range"
+#define IN_S    "seconds since 1970-01-01; ENO FALSE out of range"
+#define IN_NS   "nanoseconds, of dates since 1970-01-01; ENO FALSE out of range"
+#define PART    "the same, or the part of it that the type holds"
+
+/* Between two types stands @infix; no type in front means any of @from, none behind
+ * (if @open) one of @to, as OUT has it. The first that fits is taken. */
+static const struct rule {
+	const char *infix;
+	enum word runs;
+	uint16_t from, to;
+	bool open;
+	const char *doc;
+} rules[] = {
+	{ "_BCD_TO_", FN_FROM_BCD, CLASS_BITS, ANY_INT, false, FROM_DIGITS },
+	{ "_TO_BCD_", FN_TO_BCD, ANY_INT, CLASS_BITS, false, TO_DIGITS },
+	{ "_TO_BCD", FN_TO_BCD, ANY_INT, CLASS_BITS, true, TO_DIGITS },
+	{ "_TRUNC_", FN_TRUNC, CLASS_REAL, ANY_INT, false, CUT },
+	{ "_TO_", FN_CONVERT, CLASS_REAL, ANY_INT, false, NEAREST },
+	{ "_TO_", FN_CONVERT, ANY_INT, ANY_INT, false, WHOLE },
+	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, CLASS_BOOL, false, TRUTH },
+	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, ANY_NUM | CLASS_BITS, false, OTHER },
+	{ "_TO_", FN_CONVERT, CLOCK, ANY_NUM | ANY_BIT, false, IN_MS },
+	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, CLOCK, false, IN_MS },
+	{ "_TO_", FN_CONVERT, DAY, ANY_NUM | ANY_BIT, false, IN_S },
+	{ "_TO_", FN_CONVERT, ANY_NUM | ANY_BIT, DAY, false, IN_S },
+	{ "_TO_", FN_CONVERT, CLOCK, CLOCK, false, PART },
+	{ "_TO_", FN_CONVERT, DAY, DAY, false, PART },
+	{ "_TO_", FN_CONVERT, CLASS_DT, CLASS_TOD, false, PART },
+	{ "_TO_", FN_CONVERT, ANY_SIMPLE, ANY_SIMPLE, false, OTHER }, /* TO_INT */
+};
+
+/* LTIME and its like, which are the types without L here, count nanoseconds. */
+static bool is_long(const char *text, enum iec_type type)
+{
+	return text[0] == 'L' && iec_type_row(type)->class & TIMES;
+}
+
+struct parts {
+	enum iec_type from, to; /* IEC_NONE: none is named                    */
+	bool long_time;         /* LTIME and a number                         */
+};
+
+/* @text is "_" and the word. */
+static bool take_apart(const char *text, const struct rule *rule, struct parts *out)
+{
+	const char *at = strstr(text, rule->infix);
+	const char *to = at ? at + strlen(rule->infix) : NULL;
+	const char *from = text + 1;
+	bool is_time;
+
+	if (!at || rule->open != !*to)
+		return false;
+	out->from = at == text ? IEC_NONE : iec_type_find(from, (size_t)(at - from));
+	out->to = *to ? iec_type_find(to, strlen(to)) : IEC_NONE;
+	if ((at != text && !out->from) || (*to && !out->to))
+		return false;
+	is_time = iec_type_row(out->from)->class & TIMES &&
+		  iec_type_row(out->to)->class & TIMES;
+	out->long_time = !is_time && (is_long(from, out->from) || is_long(to, out->to));
+	if (!out->from && rule->runs == FN_CONVERT && rule->from != ANY_SIMPLE)
+		return false; /* the last one takes all */
+	if (out->from && rule->from == ANY_SIMPLE)
+		return false;
+	return (!out->from || iec_type_row(out->from)->class & rule->from) &&
+	       (!out->to || iec_type_row(out->to)->class & rule->to) &&
+	       (out->from || out->to);
+}
+
+static void fill(struct convert_word *out, const struct rule *rule,
+		 const struct parts *parts)
+{
+	const struct word_row *runs = word_row(rule->runs);
+
+	out->row = *runs;
+	out->row.id = out->row.word = out->name + 1;
+	out->row.runs = parts->long_time ? FN_CONVERT_NS : rule->runs;
+	out->row.doc = parts->long_time ? IN_NS : rule->doc;
+	if (parts->to)
+		out->row.result = parts->to;
+	out->row.result_classes = rule->to;
+	out->pin = runs->pin[0];
+	out->pin.type = parts->from;
+	out->pin.classes = parts->from ? iec_type_row(parts->from)->class : rule->from;
+	out->row.pin = &out->pin;
+}
+
+bool convert_make(const char *text, size_t len, struct convert_word *out)
+{
+	struct parts parts;
+
+	if (len + 2 > sizeof(out->name) || len < 4)
+		return false;
+	out->name[0] = '_';
+	for (size_t i = 0; i < len; i++)
+		out->name[i + 1] = ascii_upper(text[i]);
+	out->name[len + 1] = '\0';
+	for (size_t i = 0; i < sizeof(rules) / sizeof(*rules); i++) {
+		if (!take_apart(out->name, &rules[i], &parts))
+			continue;
+		fill(out, &rules[i], &parts);
+		return true;
+	}
+	return false;
+}

@@ -1,0 +1,190 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# operands.t - every function with every type at every pin: `ladder check` says that it
+# is good, or what is wrong with it in a message about types; and whatever is good runs
+# on the ends of all types without a finding of the sanitizers.
+#
+# For functions whose result has the type of their inputs it also knows which are good:
+# those of the types that the row of catalog.def names. It knows no results.
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname);
+use File::Temp qw(tempdir);
+use JSON::PP;
+use Test::More;
+
+my $tests = abs_path(dirname(__FILE__));
+my $build = $ENV{BUILD} // "$tests/../build";
+my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
+my $runner = -x "$build/asan/ladder" ? abs_path("$build/asan/ladder") : $ladder;
+my $folder = tempdir(CLEANUP => 1);
+my $at_once = 40; # only 100 messages of a file are shown
+
+# Each type with values that hurt, one a scan.
+my %values = (
+	BOOL => [0, 1], BYTE => [0, 255], WORD => [1, 65535],
+	DWORD => ['16#7F800001', 4294967295], LWORD => [1, '18446744073709551615'],
+	SINT => [-128, 127], INT => [-32768, 32767], DINT => [-2147483648, 2147483647],
+	LINT => ['-9223372036854775808', '9223372036854775807', -1],
+	USINT => [0, 255], UINT => [0, 65535], UDINT => [0, 4294967295],
+	ULINT => ['9223372036854775808', '18446744073709551615', 0],
+	REAL => ['-3.4E38', '0.5', '3.4E38', '9.3E18'],
+	LREAL => ['-1.7E308', '1.5', '1.8446744073709552E19', '-9.3E18'],
+	TIME => ['T#-106751d', 'T#106751d', 'T#0s'],
+	TIME_OF_DAY => ['TOD#23:59:59.999999999', 'TOD#00:00:00'],
+	DATE => ['D#1677-09-22', 'D#2262-04-11'],
+	DATE_AND_TIME => ['DT#1677-09-22-00:00:00', 'DT#2262-04-11-23:00:00'],
+	STRING => ["''", "'a longer text'"],
+);
+my @types = sort keys %values;
+my @some = qw(BOOL INT REAL DWORD LINT STRING TIME);
+
+my %classes = (
+	ANY_INT => [qw(SINT INT DINT LINT USINT UINT UDINT ULINT)],
+	CLASS_SIGNED => [qw(SINT INT DINT LINT)], CLASS_REAL => [qw(REAL LREAL)],
+	CLASS_BITS => [qw(BYTE WORD DWORD LWORD)], CLASS_BOOL => ['BOOL'],
+	CLASS_TIME => ['TIME'], CLASS_STRING => ['STRING'],
+	ANY_DATE => [qw(TIME_OF_DAY DATE DATE_AND_TIME)],
+);
+$classes{ANY_NUM} = [map { @{$classes{$_}} } qw(ANY_INT CLASS_REAL)];
+$classes{ANY_BIT} = [map { @{$classes{$_}} } qw(CLASS_BOOL CLASS_BITS)];
+$classes{ANY_MAGNITUDE} = [@{$classes{ANY_NUM}}, 'TIME'];
+$classes{ANY_SIMPLE} = [map { @{$classes{$_}} } qw(ANY_MAGNITUDE ANY_BIT ANY_DATE)];
+$classes{ANY_ELEMENTARY} = [@{$classes{ANY_SIMPLE}}, 'STRING'];
+
+sub run {
+	my (@command) = @_;
+	my $pid = open my $from, '-|';
+	die "fork: $!" if !defined $pid;
+	if (!$pid) {
+		open STDERR, '>&', \*STDOUT or die;
+		exec @command or die "$command[0]: $!";
+	}
+	local $/;
+	my $text = <$from> // '';
+	close $from;
+	return ($?, $text);
+}
+
+# The rows of functions: what their result is, their pins and the types these take.
+sub read_rows {
+	my @rows;
+	open my $in, '<', "$tests/../runtime/engine/catalog.def" or die "catalog: $!";
+	while (my $line = <$in>) {
+		next unless $line =~ /^FN\((\w+),\s*"[^"]*",\s*"[^"]*",\s*(\S+(?: \| \w+\))?),/ &&
+			$1 ne 'id';
+		my $row = { word => $1, result => $2, pins => [] };
+		while ($line =~ /FN_(IN|OWN)\((\w+),\s*([\w| ]+?),/g) {
+			my ($kind, $name, $classes) = ($1, $2, $3);
+			my %takes = map { $_ => 1 } map { @{$classes{$_} // die "$_\n"} }
+				split / \| /, $classes;
+			push @{$row->{pins}}, { name => $name, own => $kind eq 'OWN',
+				takes => \%takes };
+		}
+		push @rows, $row;
+	}
+	return @rows;
+}
+
+# The rungs of a row: one type at all pins that share, each pin alone, constants.
+sub combinations {
+	my ($row) = @_;
+	my @pins = @{$row->{pins}};
+	my @all;
+	my $usual = sub { (grep { $_[0]{takes}{$_} } qw(INT BOOL DWORD REAL STRING TIME))[0] };
+	for my $type (@types) {
+		for my $out ($type, @some) {
+			push @all, { out => $out, shared => $type, pins => [map {
+				'v' . ($_->{own} ? $usual->($_) : $type) } @pins] };
+		}
+		for my $which (0 .. $#pins) {
+			push @all, { pins => [map { 'v' . ($_ == $which ? $type :
+				$usual->($pins[$_])) } 0 .. $#pins] };
+			push @all, { pins => [map { $_ == $which ? $values{$type}[0] :
+				'v' . $usual->($pins[$_]) } 0 .. $#pins] };
+		}
+	}
+	for my $one (@all) {
+		$one->{text} = join ' ', $row->{word}, map { "$pins[$_]{name}:=$one->{pins}[$_]" }
+			0 .. $#pins;
+		$one->{text} .= " OUT=>o$one->{out}" if $one->{out};
+	}
+	return @all;
+}
+
+sub write_program {
+	my (@rungs) = @_;
+	open my $out, '>', "$folder/main.rung" or die "main.rung: $!";
+	print $out "RUNGBOARD 1\n\nVAR\n";
+	print $out "  v$_ : $_ := ", $values{$_}[0] =~ /^[01]$/ && $_ eq 'BOOL' ?
+		'FALSE' : $values{$_}[0], ";\n  o$_ : $_;\n" for @types;
+	print $out "END_VAR\n\nPROGRAM Main LD\n", map { "RUNG\n  | $_->{text} |\n" } @rungs;
+	print $out "END_PROGRAM\n";
+	close $out or die "main.rung: $!";
+}
+
+# Numbers of the rungs that are wrong; any message must be one about types.
+sub judge {
+	my ($row, @rungs) = @_;
+	my (%wrong, @odd);
+	write_program(@rungs);
+	my ($status, $text) = run($ladder, 'check', "$folder/main.rung");
+	for my $line (split /\n/, $text) {
+		next if $line !~ / error /;
+		$line =~ /: rung (\d+) .*error (?:LD303|LD322|LD324|LD328|LD116)\b/ ?
+			$wrong{$1} = 1 : push @odd, $line;
+	}
+	is_deeply(\@odd, [], "$row->{word}: messages about types");
+	return \%wrong;
+}
+
+sub expected {
+	my ($row, $one) = @_;
+	my ($pin) = grep { !$_->{own} } @{$row->{pins}};
+	return undef if !$pin || !$one->{shared} || $one->{out} ne $one->{shared} ||
+		$row->{result} !~ /^RESULT_(?:SAME|GATE)$/;
+	return $pin->{takes}{$one->{shared}} ? 1 : 0;
+}
+
+sub run_good {
+	my ($row, @good) = @_;
+	my $scans = 4;
+	write_program(@good);
+	open my $out, '>', "$folder/script" or die "script: $!";
+	print $out "\@print SYS_ERRORS\n";
+	for my $scan (0 .. $scans - 1) {
+		print $out join(' ', map { my $list = $values{$_};
+			"v$_=$list->[$scan % @$list]" } grep { $_ ne 'STRING' } @types), "\n";
+	}
+	close $out or die "script: $!";
+	my ($status, $text) = run($runner, 'trace', "$folder/main.rung", "$folder/script");
+	my $lines = () = $text =~ /^\d+ t=/mg;
+	ok($status == 0 && $lines == $scans, "$row->{word}: what is good runs") or
+		diag(substr $text, 0, 2000);
+}
+
+sub test_row {
+	my ($row) = @_;
+	my (@good, @mistaken);
+	my @rungs = combinations($row);
+	while (my @some_rungs = splice @rungs, 0, $at_once) {
+		my $wrong = judge($row, @some_rungs);
+		for my $i (0 .. $#some_rungs) {
+			my $is_good = $wrong->{$i + 1} ? 0 : 1;
+			my $wanted = expected($row, $some_rungs[$i]);
+			push @good, $some_rungs[$i] if $is_good;
+			push @mistaken, $some_rungs[$i]{text}
+				if defined $wanted && $wanted != $is_good;
+		}
+	}
+	is_deeply(\@mistaken, [], "$row->{word}: takes the types of its row, no others");
+	ok(@good > 0, "$row->{word}: something is good");
+	run_good($row, @good);
+}
+
+my @rows = read_rows();
+ok(@rows > 40, 'rows of functions');
+test_row($_) for @rows;
+done_testing();
