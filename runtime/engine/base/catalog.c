@@ -7,8 +7,6 @@
 #include "engine/base/catalog.h"
 #include "engine/base/ascii.h"
 
-#include <string.h>
-
 /* Nobody reads explanations on a small board. */
 #ifdef RUNGBOARD_SMALL
 #define DOC(text) ""
@@ -183,15 +181,25 @@ bool word_shares(const struct word_row *row)
 	return row->result == RESULT_SAME || row->result == (int)RESULT_GATE;
 }
 
+static bool same_word(const char *a, const char *b)
+{
+	while (*a && *a == *b)
+		a++, b++;
+	return *a == *b;
+}
+
 enum op word_operator(const struct word_row *row)
 {
-	return row->kind == WORD_FN ? op_find(row->word, strlen(row->word)) : OP_COUNT;
+	for (int i = 0; row->kind == WORD_FN && i < OP_COUNT; i++)
+		if (same_word(ops[i].word, row->word))
+			return (enum op)i;
+	return OP_COUNT;
 }
 
 enum word op_function(enum op op)
 {
 	for (int i = 0; i < WORD_COUNT; i++)
-		if (words[i].kind == WORD_FN && strcmp(words[i].word, ops[op].word) == 0)
+		if (words[i].kind == WORD_FN && same_word(words[i].word, ops[op].word))
 			return (enum word)i;
 	return WORD_COUNT;
 }

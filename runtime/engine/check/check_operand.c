@@ -322,7 +322,7 @@ static void check_inputs(struct operand_check *c, struct spot at,
 		else
 			snprintf(name, sizeof(name), "IN%d",
 				 i - (row->pin_count - 1) +
-				 atoi(row->pin[row->pin_count - 1].name + 2));
+				 (int)strtol(row->pin[row->pin_count - 1].name + 2, NULL, 10));
 		report(c, DIAG_MISSING_INPUT, at, name);
 		return;
 	}

@@ -13,7 +13,7 @@
 
 #include <float.h>
 
-/** fb_rises - TRUE now and not at the call before; @seen remembers. */
+/** fb_rises - TRUE now and not at the call before; @seen remembers. Scan-safe: yes. */
 static inline bool fb_rises(uint8_t now, uint8_t *seen)
 {
 	bool edge = now && !*seen;
@@ -23,7 +23,7 @@ static inline bool fb_rises(uint8_t now, uint8_t *seen)
 }
 
 /** fb_since - ns from @start to now; 0 if the clock went back. Unsigned, because the
- * difference of two int64 may not fit one. */
+ * difference of two int64 may not fit one.   Scan-safe: yes. */
 static inline uint64_t fb_since(int64_t now_ns, int64_t start)
 {
 	return now_ns < start ? 0 : (uint64_t)now_ns - (uint64_t)start;
