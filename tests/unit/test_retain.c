@@ -71,13 +71,17 @@ static void close_bench(struct bench *bench)
 /* As long as the value is odd or even, so that what is behind it differs, too. */
 static void set_text(struct rig *rig, int64_t value)
 {
-	struct { struct iec_string head; char text[12]; } text;
+	enum { ROOM = 12 };
+	struct iec_string *text = calloc(1, sizeof(*text) + ROOM);
 
-	text.head.capacity = sizeof(text.text);
-	text.head.length = (uint16_t)snprintf(text.text, sizeof(text.text), "%lld",
-					      (long long)value * (value & 1 ? 7 : 1));
+	if (!text)
+		abort();
+	text->capacity = ROOM;
+	text->length = (uint16_t)snprintf(text->text, ROOM, "%lld",
+					  (long long)value * (value & 1 ? 7 : 1));
 	image_set(&rig->resource.image, rig_at(rig, "Label"),
-		  (union iec_value){ .s = &text.head });
+		  (union iec_value){ .s = text });
+	free(text);
 }
 
 static bool has_text(struct rig *rig, int64_t value)

@@ -22,9 +22,9 @@ static bool combine(struct il_check *c, const struct il_line *line, enum op op,
 
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!il_is_bits(left) && !il_is_bits(right)) {
-		bool good = il_need_bool(c, line, left, "result") &
-			    il_need_bool(c, line, right, what);
+		bool good = il_need_bool(c, line, left, "result");
 
+		good = il_need_bool(c, line, right, what) && good;
 		if (!good) /* goes with everything */
 			c->now.type = IEC_NONE;
 		return good;
