@@ -380,14 +380,13 @@ static void take_pin(struct list *list, const struct meaning *instance,
 			  CODE_OPERAND(pin.type, spot.offset));
 }
 
-/* A jump over the call; gives the word of its target. */
-static int skip_call(struct list *list, struct bits skip)
+/* A jump over the call; gives the word of its target. What waits was stored before:
+ * behind the jump would be too late. */
+static int jump_over(struct list *list, struct bits skip)
 {
-	uint32_t slot;
+	uint32_t slot = list_slot(list, &skip);
 	int at;
 
-	list_keep_all(list);
-	slot = list_slot(list, &skip);
 	emit_op(list->as, VM_JMPC, 0);
 	at = list->as->text->count;
 	emit(list->as, 0);
@@ -419,11 +418,15 @@ static uint32_t fetch_inputs(struct list *list, uint32_t fetched[LIMIT_ARGS])
 	return ok;
 }
 
-int list_skip_missing(struct list *list, uint32_t fetched[LIMIT_ARGS])
+int list_skip_missing(struct list *list, bool kept, uint32_t fetched[LIMIT_ARGS])
 {
 	uint32_t ok = fetch_inputs(list, fetched);
 
-	return ok ? skip_call(list, bits_not(bits_leaf(ok))) : -1;
+	if (!ok)
+		return -1;
+	if (!kept)
+		list_keep_all(list);
+	return jump_over(list, bits_not(bits_leaf(ok)));
 }
 
 void list_fetch_args(struct list *list, struct bits *en,
@@ -449,7 +452,8 @@ int list_skip_call(struct list *list, const struct il_line *line)
 {
 	struct bits now = list_now_bits(list);
 
-	return skip_call(list, line->modifiers & MOD_N ? now : bits_not(now));
+	list_keep_all(list);
+	return jump_over(list, line->modifiers & MOD_N ? now : bits_not(now));
 }
 
 void list_end_skip(struct list *list, int skip)
@@ -478,7 +482,7 @@ void list_cal(struct list *list)
 	if (line->modifiers & MOD_C) {
 		unless = list_skip_call(list, line);
 	}
-	missing = list_skip_missing(list, fetched);
+	missing = list_skip_missing(list, unless >= 0, fetched);
 	for (int i = list->at + 1; is_arg(list, i); i++)
 		if (list->il->line[i].kind == IL_ARG_IN)
 			feed_pin(list, instance, &list->il->line[i],

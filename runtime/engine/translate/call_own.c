@@ -159,9 +159,10 @@ void list_own_cal(struct list *list)
 
 	if (line->modifiers & MOD_C)
 		skip = list_skip_call(list, line);
+	else
+		list_keep_all(list);
 	list->now.kind = RESULT_NONE;
-	list_keep_all(list);
-	missing = list_skip_missing(list, fetched);
+	missing = list_skip_missing(list, true, fetched);
 	feed_all(list, row, base, fetched);
 	emit_block(list->as, frame->offset, base, row->size);
 	emit_call(list, entry);

@@ -135,9 +135,9 @@ void list_call(struct list *list);
 /** list_cal - a call of an instance; the lines behind it too. */
 void list_cal(struct list *list);
 /** list_skip_missing - inputs that are elements, looked up; a jump over the call if one
- * of them is not there. @fetched: by number of the parameter; 0: no element. Returns as
+ * of them is not there. @kept: nothing waits any more. @fetched: by number of the parameter; 0: no element. Returns as
  * list_skip_call(); -1: no jump. */
-int list_skip_missing(struct list *list, uint32_t fetched[LIMIT_ARGS]);
+int list_skip_missing(struct list *list, bool kept, uint32_t fetched[LIMIT_ARGS]);
 /** list_fetch_args - the same for a function, its OUT too: @en is FALSE then. */
 void list_fetch_args(struct list *list, struct bits *en,
 		     uint32_t fetched[LIMIT_ARGS]);
