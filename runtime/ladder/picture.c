@@ -138,18 +138,30 @@ enum level picture_level(const struct picture *picture, int row)
 	return line ? line->level : LEVEL_UNKNOWN;
 }
 
-/* What the program calls an address; "" if it has no name for it. */
+#define NAME_ROOM (LIMIT_NAME + 16)
+
+/* What the program calls an address; "" if it has no name for it. @room: where the
+ * name of an element is made. */
 static const char *variable_at(const struct picture *picture,
-			       struct iec_addr addr)
+			       struct iec_addr addr, char room[NAME_ROOM])
 {
+	uint32_t bit = addr.byte * 8 + addr.bit;
 	struct declared_cursor cursor = { 0 };
 	struct declared_name name;
 
 	while (picture->program &&
-	       image_next_declared(picture->program, &cursor, &name))
-		if (name.at.type == IEC_BOOL && name.at.area == addr.area &&
-		    name.at.where == addr.byte * 8 + addr.bit)
+	       image_next_declared(picture->program, &cursor, &name)) {
+		uint32_t count = name.array.count ? name.array.count : 1;
+
+		if (name.at.type != IEC_BOOL || name.at.area != addr.area ||
+		    bit - name.at.where >= count)
+			continue;
+		if (!name.array.count)
 			return name.name;
+		snprintf(room, NAME_ROOM, "%.*s[%lld]", (int)name.array.head,
+			 name.name, (long long)name.array.low + bit - name.at.where);
+		return room;
+	}
 	return "";
 }
 
@@ -214,7 +226,7 @@ void picture_row(const struct picture *picture, int row,
 {
 	const struct io_point *point = point_of(picture, row);
 	const struct picture_line *line = line_of(picture, row);
-	char text[80];
+	char text[80], name[NAME_ROOM];
 
 	if (!point) {
 		cell(out, line->name, 24);
@@ -224,7 +236,7 @@ void picture_row(const struct picture *picture, int row,
 	}
 	iec_addr_print(point->addr, text, sizeof(text));
 	cell(out, text, 8);
-	cell(out, variable_at(picture, point->addr), 16);
+	cell(out, variable_at(picture, point->addr, name), 16);
 	io_line_print(point, text, sizeof(text));
 	cell(out, point->line || point->chip ? text : "", 20);
 	if (line)
@@ -266,11 +278,11 @@ void picture_json(const struct picture *picture, int row,
 	const struct io_point *point = point_of(picture, row);
 	const struct picture_line *line = line_of(picture, row);
 	const char *variable;
-	char text[80];
+	char text[80], name[NAME_ROOM];
 
 	sink_text(out, "{");
 	if (point) {
-		variable = variable_at(picture, point->addr);
+		variable = variable_at(picture, point->addr, name);
 		iec_addr_print(point->addr, text, sizeof(text));
 		sink_text(out, "\"address\": ");
 		sink_json_text(out, text);

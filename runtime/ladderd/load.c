@@ -6,6 +6,7 @@
 #include "ladderd/load.h"
 
 #include "engine/base/file.h"
+#include <stdio.h>
 #include <stdlib.h>
 
 #define MAP_BYTES (4u << 20)
@@ -37,6 +38,33 @@ static bool is_mapped(const struct iomap *map, uint32_t area, uint32_t bit)
 	return false;
 }
 
+/* LD515 for one bit that has no line. */
+static void check_bit(struct load *load, uint8_t *named, struct location at,
+		      const char *name)
+{
+	if (at.area != AREA_I && at.area != AREA_Q)
+		return;
+	named[iec_area_row(at.area)->offset + at.where / 8] |=
+		(uint8_t)(1u << at.where % 8);
+	if (!is_mapped(&load->map, at.area, at.where))
+		diag_add(&load->diags, (struct diag){
+			.id = DIAG_IO_NOT_MAPPED, .file = load->map.file }, "%s",
+			name);
+}
+
+static void check_array(struct load *load, uint8_t *named,
+			const struct declared_name *array)
+{
+	char name[LIMIT_NAME + 16];
+
+	for (uint32_t i = 0; i < array->array.count; i++) {
+		snprintf(name, sizeof(name), "%.*s[%lld]",
+			 (int)array->array.head, array->name,
+			 (long long)array->array.low + i);
+		check_bit(load, named, declared_element(array, i), name);
+	}
+}
+
 /* LD515 for each input and output variable without a line. Sets its bit in @named,
  * which is as large as all areas. */
 static void check_mapped(struct load *load, uint8_t *named)
@@ -46,17 +74,10 @@ static void check_mapped(struct load *load, uint8_t *named)
 	struct declared_name symbol;
 
 	while (image_next_declared(program, &cursor, &symbol)) {
-		enum iec_area area = symbol.at.area;
-		uint32_t bit = symbol.at.where;
-
-		if (area != AREA_I && area != AREA_Q)
-			continue;
-		named[iec_area_row(area)->offset + bit / 8] |=
-			(uint8_t)(1u << bit % 8);
-		if (!is_mapped(&load->map, area, bit))
-			diag_add(&load->diags, (struct diag){
-				.id = DIAG_IO_NOT_MAPPED,
-				.file = load->map.file }, "%s", symbol.name);
+		if (symbol.array.count && symbol.at.area != AREA_NONE)
+			check_array(load, named, &symbol);
+		else
+			check_bit(load, named, symbol.at, symbol.name);
 	}
 }
 

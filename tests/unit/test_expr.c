@@ -24,6 +24,11 @@ static size_t print(char *out, size_t size, int at)
 		return (size_t)snprintf(out, size, "%s%.*s",
 					node->op == EXPR_LITERAL ? "#" : "",
 					node->len, node->text);
+	if (node->op == EXPR_INDEX) {
+		len = (size_t)snprintf(out, size, "%.*s<", node->len, node->text);
+		len += print(out + len, size - len, node->left);
+		return len + (size_t)snprintf(out + len, size - len, ">");
+	}
 	len = (size_t)snprintf(out, size, "(%s ", word);
 	len += print(out + len, size - len, node->left);
 	if (node->right >= 0) {
@@ -69,6 +74,33 @@ static void precedence(void)
 	CHECK_TEXT(tree("%IW2 + 16#FF"), "(ADD %IW2 #16#FF)");
 	CHECK_TEXT(tree("TRUE XOR false"), "(^ #TRUE #false)");
 	CHECK(expr.target == NULL);
+}
+
+static void indices(void)
+{
+	CHECK_TEXT(tree("a[1] + b[ i ] * %MW0[-3]"),
+		   "(ADD a[1] (MUL b[ i ] %MW0[-3]))");
+	CHECK_TEXT(tree("a[i + 1] > 2"), "(GT a<(ADD i #1)> #2)");
+	CHECK_TEXT(tree("a[b[i] - c[(j)]]"), "a<(SUB b[i] c<j>)>");
+	CHECK_TEXT(tree("NOT a[b[c[d[1]]]]"), "(! a<b<c<d[1]>>>)");
+	CHECK_TEXT(tree("(a[(1 + 2) * 3])"), "a<(MUL (ADD #1 #2) #3)>");
+	CHECK_TEXT(tree("a[-i]"), "a<(- i)>");
+	CHECK_TEXT(tree("a[1"), "LD122");
+	CHECK_TEXT(tree("a[1 + 2"), "LD122");
+	CHECK_TEXT(tree("a[(1]"), "LD122");
+	CHECK_TEXT(tree("a[(1])"), "LD122");
+	CHECK_TEXT(tree("a]"), "LD122");
+	CHECK_TEXT(tree("a[]"), "LD122");
+	CHECK_TEXT(tree("a[1][2]"), "LD122");
+	CHECK_TEXT(tree("5[1]"), "LD122");
+	CHECK_TEXT(tree("a[i := 1]"), "LD122");
+	CHECK_TEXT(tree("a[i] := b"), "b");
+	CHECK(expr.target_len == 4 && expr.target_index < 0);
+	CHECK_TEXT(tree("a[i + 1] := b[i - 1]"), "b<(SUB i #1)>");
+	CHECK(expr.target_len == 1 && expr.target_index == 2);
+	CHECK_TEXT(tree("a[b[i]] := a[i]"), "a[i]");
+	CHECK_TEXT(tree("a[i + ] := 1"), "LD122");
+	CHECK_TEXT(tree("a[i] b := 1"), "LD122");
 }
 
 static void children_come_first(void)
@@ -186,6 +218,7 @@ static void depth(void)
 int main(void)
 {
 	precedence();
+	indices();
 	children_come_first();
 	targets();
 	malformed();

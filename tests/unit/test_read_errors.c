@@ -107,6 +107,39 @@ static void test_var_errors(void)
 	fails(LD("RUNG\nVAR\nA : INT;\nEND_VAR\n"), "LD126 5 1 (0,0) 1 VAR");
 }
 
+static void test_array_errors(void)
+{
+	fails(V("A : ARRAY OF INT;"), "LD107 3 0 (0,0) 11 [");
+	fails(V("A : ARRAY[1] OF INT;"), "LD107 3 0 (0,0) 12 ..");
+	fails(V("A : ARRAY[1..] OF INT;"), "LD140 3 0 (0,0) 14 ]");
+	fails(V("A : ARRAY[B..2] OF INT;"), "LD140 3 0 (0,0) 11 B");
+	fails(V("A : ARRAY[1..2, 1..2] OF INT;"), "LD107 3 0 (0,0) 15 ]");
+	fails(V("A : ARRAY[2..1] OF INT;"), "LD140 3 0 (0,0) 15 2..1");
+	fails(V("A : ARRAY[-9223372036854775808..1] OF INT;"),
+	      "LD140 3 0 (0,0) 12 9223372036854775808");
+	fails(V("A : ARRAY[1..2] INT;"), "LD107 3 0 (0,0) 17 OF");
+	fails(V("A : ARRAY[1..2] OF FOO;"), "LD118 3 0 (0,0) 20 FOO");
+	fails(V("A : ARRAY[1..2] OF INT := 1;"), "LD107 3 0 (0,0) 27 [");
+	fails(V("A : ARRAY[1..2] OF INT := [];"), "LD107 3 0 (0,0) 28 constant");
+	fails(V("A : ARRAY[1..2] OF INT := [1 2];"), "LD107 3 0 (0,0) 30 , or ]");
+	fails(V("A : ARRAY[1..2] OF INT := [0(1)];"), "LD116 3 0 (0,0) 28 0");
+	fails(V("A : ARRAY[1..2] OF INT := [2(1];"), "LD107 3 0 (0,0) 31 )");
+	fails(V("A : ARRAY[1..2] OF INT := [T#1s];"), "LD115 3 0 (0,0) 28 T#1s");
+	fails(V("A AT %MW8190 : ARRAY[1..2] OF WORD;"),
+	      "LD117 3 0 (0,0) 31 %MW8190");
+	fails(LD("RUNG\n| NO A[ | COIL B |\n"), "LD107 5 1 (1,1) 9 index");
+	fails(LD("RUNG\n| NO A[i | COIL B |\n"), "LD107 5 1 (1,1) 10 ]");
+	fails(LD("RUNG\n| NO A[i + 1] | COIL B |\n"), "LD107 5 1 (1,1) 10 ]");
+	fails(LD("RUNG\n| NO A[i][j] | COIL B |\n"), "LD121 5 1 (1,1) 10 [");
+	fails(LD("RUNG\n| NO A] | COIL B |\n"), "LD121 5 1 (1,1) 7 ]");
+	fails(LD("RUNG\n| [ A[i + 1 ] | COIL B |\n"), "LD122 5 1 (1,1) 15 |");
+	fails(LD("RUNG\n| [ A[(i + 1] ] | COIL B |\n"), "LD122 5 1 (1,1) 13 ]");
+	fails(LD("RUNG\n| [ A[i + 1) ] | COIL B |\n"), "LD122 5 1 (1,1) 12 )");
+	fails(LD("RUNG\n| [ A[] ] | COIL B |\n"), "LD122 5 1 (1,1) 7 ]");
+	fails(LD("RUNG\n| [ 5[1] > 2 ] | COIL B |\n"), "LD122 5 1 (1,1) 6 [");
+	fails(IL("LD A[1\n"), "LD107 4 0 (0,0) 7 ]");
+}
+
 static void test_cell_errors(void)
 {
 	fails(LD("RUNG\n| NO A | FOO B |\n"), "LD110 5 1 (1,2) 10 FOO");
@@ -158,7 +191,7 @@ static void test_il_errors(void)
 static void test_expression_errors(void)
 {
 	fails(LD("RUNG\n| [ a + ] |\n"), "LD122 5 1 (1,1) 9 ]");
-	fails(LD("RUNG\n| NO b | [ 5 := a ] |\n"), "LD122 5 1 (1,2) 12 :=");
+	fails(LD("RUNG\n| NO b | [ 5 := a ] |\n"), "LD122 5 1 (1,2) 14 :=");
 	fails(LD("RUNG\n| [ a > 1 | NO b |\n"), "LD122 5 1 (1,1) 11 |");
 }
 
@@ -346,10 +379,12 @@ static void test_monotonous(void)
 }
 
 static const char ladder[] = LD(
-	"VAR\n  A AT %IX0.0 : BOOL := TRUE; (* x *)\n  T : TON;\nEND_VAR\n"
+	"VAR\n  A AT %IX0.0 : BOOL := TRUE; (* x *)\n  T : TON;\n"
+	"  B : ARRAY[-1..3] OF INT := [1, 2(-5), 3];\nEND_VAR\n"
 	"// why\nRUNG Seal \"title\"\n"
 	"  | NO A (* c *)  | NC B | --- | COIL M |\n"
-	"  | TON T PT:=T#3s ET=>X ^| [ A > 1 ] |\n  | .R |\n");
+	"  | TON T PT:=T#3s ET=>X ^| [ A > 1 ] |\n  | .R |\n"
+	"RUNG\n  | NO B[-1] | [ B[i + 1] := C[ 2 ] ] |\n");
 static const char list[] = IL(
 	"(* first *)\nVAR\n  D : TON;\nEND_VAR\n  LD    A (* behind *)\n"
 	"  OR(\n  LD    %IX0.1\n  ) // x\n  ADD   16#FF\n"
@@ -394,6 +429,7 @@ int main(void)
 	test_first_line();
 	test_bytes();
 	test_var_errors();
+	test_array_errors();
 	test_cell_errors();
 	test_il_errors();
 	test_expression_errors();

@@ -156,6 +156,31 @@ static void test_forms(void)
 	CHECK(rung_at(project->pou[0].rung[0], 0, 1)->word == ELEM_COMPARE);
 }
 
+static void test_arrays(void)
+{
+	canonical("RUNGBOARD 1\nvar A:array [ -2 .. 5 ] of int:=[ 1,2 ( -3 ) ,\n"
+		  "16#F ];B AT MW2 :ARRAY[0..1] OF WORD; (* x *)\n"
+		  "C,D:ARRAY[1..1] OF STRING[5];end_var\n",
+		  "RUNGBOARD 1\n\nVAR\n"
+		  "  A : ARRAY[-2..5] OF INT := [1, 2(-3), 16#F];\n"
+		  "  B AT %MW2 : ARRAY[0..1] OF WORD; (* x *)\n"
+		  "  C : ARRAY[1..1] OF STRING[5];\n"
+		  "  D : ARRAY[1..1] OF STRING[5];\nEND_VAR\n");
+	CHECK(project->globals.var[0].array.low == -2 &&
+	      project->globals.var[0].array.count == 8 &&
+	      project->globals.var[0].init_count == 3 &&
+	      project->globals.var[0].init_list[1].count == 2 &&
+	      project->globals.var[0].init_list[1].value.i == -3);
+	canonical(LD("RUNG\n|no A[ - 1 ]|nc a [i]|p %MX1.0[ D.CV ]|\n"
+		     "|[A[ i+1 ]:=b[ 2 ]]|[a[1]>2]|ton T pt:=X [ 3 ] q=>Y[i]|\n"),
+		  LD("RUNG\n"
+		     "  | NO A[-1]             | NC a[i]    | P %MX1.0[D.CV]         |\n"
+		     "  | [ A[ i+1 ]:=b[ 2 ] ] | [ a[1]>2 ] | TON T PT:=X[3] Q=>Y[i] |\n"));
+	canonical(IL("ld A[ -1 ]\nadd B [i]\nadd(in1:=A[1],in2:=%MW0[i],out=>C[j])\n"),
+		  IL("  LD    A[-1]\n  ADD   B[i]\n"
+		     "  ADD(IN1 := A[1], IN2 := %MW0[i], OUT => C[j])\n"));
+}
+
 static void test_empty(void)
 {
 	canonical("RUNGBOARD 1", "RUNGBOARD 1\n");
@@ -438,6 +463,7 @@ int main(void)
 {
 	test_garage();
 	test_forms();
+	test_arrays();
 	test_empty();
 	test_expressions();
 	test_comments();

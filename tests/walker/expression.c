@@ -23,6 +23,7 @@ struct term {
 struct expression {
 	bool assigns;
 	struct placed target;
+	int target_index;       /* term; -1: none, or within the target       */
 	int root, count;
 	struct term *term;
 };
@@ -57,6 +58,8 @@ static bool type_term(struct walker *walker, struct expression *expression,
 
 	if (is_leaf(term))
 		return term->placed.kind != PLACED_NOWHERE;
+	if (term->op == EXPR_INDEX)
+		return term->placed.count && left->type != IEC_NONE;
 	if (left)
 		types[0] = left->type;
 	if (right)
@@ -75,6 +78,17 @@ static bool type_term(struct walker *walker, struct expression *expression,
 		     word_is_test(word_row(term->fn)) ?
 		     IEC_BOOL : term->inputs;
 	return true;
+}
+
+/* An array, or the elements behind an address. */
+static struct placed array_at(struct walker *walker, const struct pou *pou,
+			      const char *text, size_t len)
+{
+	struct placed array = walker_place(walker, pou, text, len);
+
+	if (!array.count)
+		array.count = array.rest;
+	return array;
 }
 
 static bool make_terms(struct walker *walker, const struct pou *pou,
@@ -101,6 +115,10 @@ static bool make_terms(struct walker *walker, const struct pou *pou,
 			/* TRUE and FALSE are names to the parser, maybe. */
 			if (term->placed.kind == PLACED_LITERAL)
 				term->op = EXPR_LITERAL;
+		} else if (term->op == EXPR_INDEX) {
+			term->placed = array_at(walker, pou, from->text,
+						from->len);
+			term->type = term->placed.type;
 		}
 		if (!type_term(walker, expression, term))
 			return false;
@@ -123,9 +141,11 @@ struct expression *expression_new(struct walker *walker, const struct pou *pou,
 					 nowhere))
 		return NULL;
 	expression->assigns = expr.target;
+	expression->target_index = expr.target_index;
 	if (expr.target) {
-		expression->target = walker_place(walker, pou, expr.target,
-					       expr.target_len);
+		expression->target = expr.target_index >= 0 ?
+			array_at(walker, pou, expr.target, expr.target_len) :
+			walker_place(walker, pou, expr.target, expr.target_len);
 		if (expression->target.kind == PLACED_NOWHERE)
 			return NULL;
 	}
@@ -177,6 +197,7 @@ static void operate(struct run *run, struct term *term, struct value a,
 		break;
 	case EXPR_NAME:
 	case EXPR_LITERAL:
+	case EXPR_INDEX:
 		break;
 	}
 	if (outcome != OUTCOME_GOOD) {
@@ -187,14 +208,52 @@ static void operate(struct run *run, struct term *term, struct value a,
 	}
 }
 
+/* An element, while nothing has failed; else nobody asks for it. */
+static struct value element(struct run *run, const struct placed *placed)
+{
+	struct value value = { .type = placed->type };
+	struct placed here;
+
+	if (!run->enabled)
+		return value;
+	if (placed_find(run->walker, placed, &here))
+		return placed_read(&here, IEC_NONE);
+	run->enabled = false;
+	return value;
+}
+
+/* The same where the index was computed. */
+static bool find_computed(struct run *run, const struct placed *array,
+			  struct value index, struct placed *out)
+{
+	if (run->enabled && placed_element(array, index.i, out))
+		return true;
+	run->walker->errors += run->enabled;
+	run->enabled = false;
+	return false;
+}
+
 /* Depth is bounded by LIMIT_EXPR_DEPTH of the parser. */
 static struct value compute(struct run *run, int at, enum iec_type type)
 {
 	struct term *term = &run->expression->term[at];
 	struct value left = { 0 }, right = { 0 };
 
+	if (is_leaf(term) && term->placed.index) {
+		left = element(run, &term->placed);
+		return type == IEC_NONE ? left : value_widen(left, type);
+	}
 	if (is_leaf(term))
 		return placed_read(&term->placed, type);
+	if (term->op == EXPR_INDEX) {
+		struct placed here;
+
+		right = compute(run, term->left, IEC_NONE);
+		left.type = term->type;
+		if (find_computed(run, &term->placed, right, &here))
+			left = placed_read(&here, IEC_NONE);
+		return type == IEC_NONE ? left : value_widen(left, type);
+	}
 	if (term->left >= 0)
 		left = compute(run, term->left, term->inputs);
 	if (term->right >= 0)
@@ -206,15 +265,27 @@ static struct value compute(struct run *run, int at, enum iec_type type)
 bool expression_run(struct walker *walker, struct expression *expression, bool power)
 {
 	struct run run = { walker, expression, power, NULL };
-	struct value value;
+	struct placed target = expression->target;
+	struct value value, index = { 0 };
+	bool there = true, stored;
 
 	if (!expression->assigns) {
 		value = compute(&run, expression->root, IEC_BOOL);
 		return power && run.enabled && value_is_true(value);
 	}
+	if (expression->target_index >= 0) {
+		index = compute(&run, expression->target_index, IEC_NONE);
+		there = placed_element(&expression->target, index.i, &target);
+	} else if (expression->target.index) {
+		index = placed_read(expression->target.index, IEC_NONE);
+		there = placed_element(&expression->target, index.i, &target);
+	}
 	value = compute(&run, expression->root, expression->target.type);
-	/* The last operation stores; a result that wrapped is stored too. */
-	if (run.enabled || run.wrapped == &expression->term[expression->root])
-		placed_write(&expression->target, value);
-	return run.enabled;
+	/* The last operation stores; a result that wrapped is stored too. Without
+	 * its element it does not run: one error, whatever it would have been. */
+	stored = run.enabled || run.wrapped == &expression->term[expression->root];
+	if (stored && there)
+		placed_write(&target, value);
+	walker->errors += run.enabled && !there;
+	return run.enabled && there;
 }

@@ -26,7 +26,7 @@ struct block {
 struct variable {
 	const struct pou *pou;      /* NULL: global                          */
 	const struct var *var;
-	struct value value;         /* when it has neither AT nor pins       */
+	struct value *value;        /* of each element; without AT or pins   */
 	struct block *block;
 };
 
@@ -39,6 +39,12 @@ struct placed {
 	uint8_t *byte;
 	uint8_t bit;                /* of a BOOL in an area                  */
 	struct literal literal;
+	/* Of an array, and of an element whose index is found out in a scan: all
+	 * above is its first element's. */
+	uint32_t count;
+	uint32_t rest;              /* of an address: as many up to the end  */
+	int32_t low;
+	struct placed *index;       /* NULL: the array itself                */
 };
 
 /* A value that others may look at, and the name they know it by. */
@@ -84,6 +90,12 @@ struct placed walker_place(struct walker *walker, const struct pou *pou,
  * IEC_NONE: as it is. */
 struct value placed_read(const struct placed *placed, enum iec_type type);
 void placed_write(const struct placed *placed, struct value value);
+/** placed_find - the element that @placed names now; what is none is itself. False
+ * and one error counted: there is none. */
+bool placed_find(struct walker *walker, const struct placed *placed,
+		 struct placed *out);
+/** placed_element - element @index of an array; false: there is none. */
+bool placed_element(const struct placed *array, int64_t index, struct placed *out);
 
 /* blocks.c */
 int block_pin(const struct block *block, const char *name);

@@ -11,25 +11,44 @@
 #include <string.h>
 #include <strings.h>
 
-static struct value initial(const struct var *var)
+static struct value valued(enum iec_type type, union iec_value from)
 {
-	struct value value = { .type = var->type };
+	struct value value = { .type = type };
 
-	if (!var->has_init)
-		return value;
-	if (var->type == IEC_REAL)
-		value.r = (float)var->init.r;
+	if (type == IEC_REAL)
+		value.r = (float)from.r;
 	else
-		value.i = var->init.i;
+		value.i = from.i;
 	return value;
+}
+
+static uint32_t count_of(const struct var *var)
+{
+	return var->array.count ? var->array.count : 1;
+}
+
+/* Element @number as its declaration has it. */
+static struct value initial(const struct var *var, uint32_t number)
+{
+	if (var->has_init && !var->array.count)
+		return valued(var->type, var->init);
+	for (int i = 0; i < var->init_count; i++) {
+		if (number < var->init_list[i].count)
+			return valued(var->type, var->init_list[i].value);
+		number -= var->init_list[i].count;
+	}
+	return (struct value){ .type = var->type };
 }
 
 static struct placed at_address(struct walker *walker, struct iec_addr addr,
 				enum iec_type type)
 {
+	uint32_t bits = iec_area_row(addr.area)->bytes * 8;
+
 	return (struct placed){
 		.kind = PLACED_AREA, .type = type,
 		.byte = walker->area[addr.area] + addr.byte, .bit = addr.bit,
+		.rest = (bits - addr.byte * 8 - addr.bit) / addr.bits,
 	};
 }
 
@@ -46,6 +65,23 @@ static struct block *new_block(struct walker *walker, enum word fb)
 	return block;
 }
 
+static void fill(struct walker *walker, struct variable *variable)
+{
+	const struct var *var = variable->var;
+
+	for (uint32_t i = 0; i < count_of(var); i++) {
+		struct placed all, there;
+
+		variable->value[i] = initial(var, i);
+		if (var->at.area == AREA_NONE || !var->has_init)
+			continue;
+		all = at_address(walker, var->at, var->type);
+		all.count = count_of(var);
+		if (placed_element(&all, i, &there))
+			placed_write(&there, variable->value[i]);
+	}
+}
+
 static bool declare_table(struct walker *walker, const struct pou *pou,
 			  const struct var_table *table)
 {
@@ -53,18 +89,19 @@ static bool declare_table(struct walker *walker, const struct pou *pou,
 		const struct var *var = &table->var[i];
 		struct variable *at =
 			&walker->variable[walker->variable_count++];
-		struct placed there;
 
 		at->pou = pou;
 		at->var = var;
-		at->value = initial(var);
+		at->value = arena_alloc(&walker->arena, count_of(var) *
+					sizeof(*at->value));
+		if (!at->value)
+			return false;
 		if (var->type == IEC_NONE) {
 			at->block = new_block(walker, var->fb);
 			if (!at->block)
 				return false;
-		} else if (var->at.area != AREA_NONE && var->has_init) {
-			there = at_address(walker, var->at, var->type);
-			placed_write(&there, at->value);
+		} else {
+			fill(walker, at);
 		}
 	}
 	return true;
@@ -74,13 +111,33 @@ static struct placed of_variable(struct walker *walker,
 				 struct variable *variable)
 {
 	const struct var *var = variable->var;
+	struct placed placed = { .kind = PLACED_VALUE, .type = var->type,
+				 .value = variable->value };
 
 	if (variable->block)
 		return (struct placed){ .kind = PLACED_NOWHERE };
 	if (var->at.area != AREA_NONE)
-		return at_address(walker, var->at, var->type);
-	return (struct placed){ .kind = PLACED_VALUE, .type = var->type,
-				.value = &variable->value };
+		placed = at_address(walker, var->at, var->type);
+	placed.count = var->array.count;
+	placed.low = var->array.low;
+	return placed;
+}
+
+static void show_elements(struct walker *walker, struct variable *variable)
+{
+	struct placed all = of_variable(walker, variable);
+	const char *pou = variable->pou ? project_text(walker->project,
+					variable->pou->name) : "";
+
+	for (uint32_t i = 0; i < all.count; i++) {
+		struct shown *out = &walker->shown[walker->shown_count++];
+
+		snprintf(out->name, sizeof(out->name), "%s%s%s[%d]", pou,
+			 *pou ? "." : "",
+			 project_text(walker->project, variable->var->name),
+			 (int)(all.low + (int64_t)i));
+		placed_element(&all, all.low + (int64_t)i, &out->placed);
+	}
 }
 
 static void show(struct walker *walker, struct variable *variable,
@@ -103,9 +160,12 @@ static void show(struct walker *walker, struct variable *variable,
 
 static bool show_all(struct walker *walker)
 {
+	size_t count = 1;
+
+	for (int i = 0; i < walker->variable_count; i++)
+		count += PINS_MAX + walker->variable[i].var->array.count;
 	walker->shown = arena_alloc(&walker->arena,
-				    (size_t)walker->variable_count * PINS_MAX *
-				    sizeof(*walker->shown) + 1);
+				    count * sizeof(*walker->shown));
 	if (!walker->shown)
 		return false;
 	for (int i = 0; i < walker->variable_count; i++) {
@@ -113,7 +173,9 @@ static bool show_all(struct walker *walker)
 		const struct word_row *row =
 			at->block ? word_row(at->block->fb) : NULL;
 
-		if (!row)
+		if (at->var->array.count)
+			show_elements(walker, at);
+		else if (!row)
 			show(walker, at, NULL, NULL);
 		for (int p = 0; row && p < row->pin_count; p++)
 			if (row->pin[p].dir != PIN_VAR)
@@ -214,6 +276,35 @@ static struct placed of_system(struct walker *walker, const char *text,
 	return (struct placed){ .kind = PLACED_NOWHERE };
 }
 
+/* `Table[i]`: whatever stands before the brackets, and its index. */
+static struct placed of_element(struct walker *walker, const struct pou *pou,
+				const char *text, size_t len)
+{
+	const char *open = memchr(text, '[', len);
+	struct placed array = walker_place(walker, pou, text,
+					   (size_t)(open - text));
+	struct placed none = { .kind = PLACED_NOWHERE }, index, out;
+	const char *at = open + 1, *end = text + len - 1;
+
+	while (*at == ' ')
+		at++;
+	while (end > at && end[-1] == ' ')
+		end--;
+	index = walker_place(walker, pou, at, (size_t)(end - at));
+	if (index.kind == PLACED_NOWHERE || array.kind == PLACED_NOWHERE)
+		return none;
+	if (!array.count)
+		array.count = array.rest;
+	if (index.kind == PLACED_LITERAL)
+		return placed_element(&array, placed_read(&index, IEC_LINT).i,
+				      &out) ? out : none;
+	array.index = arena_alloc(&walker->arena, sizeof(index));
+	if (!array.index)
+		return none;
+	*array.index = index;
+	return array;
+}
+
 struct placed walker_place(struct walker *walker, const struct pou *pou,
 			   const char *text, size_t len)
 {
@@ -221,6 +312,8 @@ struct placed walker_place(struct walker *walker, const struct pou *pou,
 	struct placed placed;
 	struct iec_addr addr;
 
+	if (len && text[len - 1] == ']')
+		return of_element(walker, pou, text, len);
 	if (variable)
 		return of_variable(walker, variable);
 	placed = of_system(walker, text, len);
@@ -236,6 +329,42 @@ struct placed walker_place(struct walker *walker, const struct pou *pou,
 		return at_address(walker, addr, iec_addr_type(addr));
 	}
 	return placed;
+}
+
+bool placed_element(const struct placed *array, int64_t index, struct placed *out)
+{
+	uint32_t number = (uint32_t)(index - array->low);
+	uint32_t bit = array->bit + number;
+
+	*out = *array;
+	out->count = 0;
+	out->index = NULL;
+	if (index < array->low || index - array->low >= array->count)
+		return false;
+	if (array->kind == PLACED_VALUE)
+		out->value += number;
+	else if (array->type != IEC_BOOL)
+		out->byte += number * iec_type_row(array->type)->size;
+	else {
+		out->byte += bit / 8;
+		out->bit = bit % 8;
+	}
+	return true;
+}
+
+bool placed_find(struct walker *walker, const struct placed *placed,
+		 struct placed *out)
+{
+	struct value index;
+
+	*out = *placed;
+	if (!placed->index)
+		return true;
+	index = placed_read(placed->index, IEC_NONE);
+	if (placed_element(placed, index.i, out))
+		return true;
+	walker->errors++;
+	return false;
 }
 
 static struct value read_area(const struct placed *placed)

@@ -90,12 +90,35 @@ static bool net_power(const struct walked_rung *walked, int net)
 	return false;
 }
 
+/* Stores where there is such a place. */
+static bool put(struct walker *walker, const struct placed *to, struct value value)
+{
+	struct placed here;
+
+	if (!placed_find(walker, to, &here))
+		return false;
+	placed_write(&here, value);
+	return true;
+}
+
 static bool call_block(struct walker *walker, struct walked_rung *walked,
 		       struct walked *at, bool power)
 {
 	const struct word_row *row = word_row(at->word);
-	struct value *pin = at->block->pin;
+	struct value *pin = at->block->pin, given[PINS_MAX] = { { 0 } };
+	bool all = true;
 
+	for (int i = 0; i < at->parameter_count && all; i++) {
+		const struct parameter *from = &at->parameter[i];
+		struct placed here;
+
+		if (from->output || from->net >= 0)
+			continue;
+		all = placed_find(walker, &from->placed, &here);
+		if (all && from->placed.index)
+			given[from->pin] = placed_read(&here,
+						       pin[from->pin].type);
+	}
 	pin[word_first_bool(row, PIN_IN)] = value_bool(power);
 	for (int i = 0; i < at->parameter_count; i++) {
 		const struct parameter *from = &at->parameter[i];
@@ -103,16 +126,18 @@ static bool call_block(struct walker *walker, struct walked_rung *walked,
 		if (from->net >= 0)
 			pin[from->pin] = value_bool(net_power(walked,
 							      from->net));
-		else if (!from->output)
-			pin[from->pin] = placed_read(&from->placed,
-						     pin[from->pin].type);
+		else if (!from->output && all)
+			pin[from->pin] = from->placed.index ? given[from->pin] :
+				placed_read(&from->placed, pin[from->pin].type);
 	}
+	if (!all)
+		return false;
 	at->block->called = true;
 	block_call(at->block, walker->now_ns);
 	for (int i = 0; i < at->parameter_count; i++)
 		if (at->parameter[i].output)
-			placed_write(&at->parameter[i].placed,
-				     pin[at->parameter[i].pin]);
+			put(walker, &at->parameter[i].placed,
+			    pin[at->parameter[i].pin]);
 	return value_is_true(pin[word_first_bool(row, PIN_OUT)]);
 }
 
@@ -120,7 +145,9 @@ static bool call_function(struct walker *walker, struct walked_rung *walked,
 			  struct walked *at, bool power)
 {
 	struct value in[LIMIT_FN_INPUTS] = { { 0 } }, out = { 0 };
+	bool test = word_is_test(word_row(at->word)), stored = true;
 	enum outcome outcome;
+	struct placed here;
 	int count = 0;
 
 	if (!power)
@@ -130,27 +157,40 @@ static bool call_function(struct walker *walker, struct walked_rung *walked,
 
 		if (from->output)
 			continue;
+		if (from->net < 0 && !placed_find(walker, &from->placed, &here))
+			return false;
 		in[from->pin] = from->net >= 0 ?
 			value_bool(net_power(walked, from->net)) :
-			placed_read(&from->placed, at->inputs);
+			placed_read(&here, at->inputs);
 		count++;
 	}
+	for (int i = 0; i < at->parameter_count && !test; i++)
+		if (at->parameter[i].output &&
+		    !placed_find(walker, &at->parameter[i].placed, &here))
+			return false;
 	outcome = value_compute(at->word, in, count, &out);
 	if (outcome != OUTCOME_GOOD)
 		walker->errors++;
 	for (int i = 0; i < at->parameter_count; i++)
 		if (at->parameter[i].output && outcome != OUTCOME_FAILED)
-			placed_write(&at->parameter[i].placed, out);
-	if (word_is_test(word_row(at->word)))
-		return value_is_true(out);
+			stored &= put(walker, &at->parameter[i].placed, out);
+	if (test)
+		return stored && value_is_true(out);
 	return outcome == OUTCOME_GOOD;
 }
 
-static bool contact(struct walked *at, bool power)
+/* An edge is looked at without power too. */
+static bool contact(struct walker *walker, struct walked *at, bool power)
 {
-	bool level = value_is_true(placed_read(&at->operand, IEC_BOOL));
-	bool before = at->memory;
+	bool edge = at->word == ELEM_CONTACT_P || at->word == ELEM_CONTACT_N;
+	bool level, before = at->memory;
+	struct placed here;
 
+	if (!power && !edge)
+		return false;
+	if (!placed_find(walker, &at->operand, &here))
+		return false;
+	level = value_is_true(placed_read(&here, IEC_BOOL));
 	at->memory = level;
 	if (at->word == ELEM_CONTACT_NO)
 		return power && level;
@@ -198,7 +238,7 @@ static void pass(struct walker *walker, struct walked_rung *walked,
 	else if (at->word == ELEM_NOT)
 		at->power_out = !power;
 	else
-		at->power_out = contact(at, power);
+		at->power_out = contact(walker, at, power);
 }
 
 /* Depth: a path of a rung, at most its elements; grids of tests are small. */
@@ -226,17 +266,17 @@ static void drive(struct walker *walker, struct walked *at)
 	const struct placed *to = &at->operand;
 
 	if (at->word == ELEM_COIL)
-		placed_write(to, value_bool(power));
+		put(walker, to, value_bool(power));
 	else if (at->word == ELEM_COIL_NOT)
-		placed_write(to, value_bool(!power));
+		put(walker, to, value_bool(!power));
 	else if (at->word == ELEM_COIL_SET && power)
-		placed_write(to, value_bool(true));
+		put(walker, to, value_bool(true));
 	else if (at->word == ELEM_COIL_RESET && power)
-		placed_write(to, value_bool(false));
+		put(walker, to, value_bool(false));
 	else if (at->word == ELEM_COIL_P)
-		placed_write(to, value_bool(power && !before));
+		put(walker, to, value_bool(power && !before));
 	else if (at->word == ELEM_COIL_N)
-		placed_write(to, value_bool(!power && before));
+		put(walker, to, value_bool(!power && before));
 	else if (at->expression)
 		at->power_out = expression_run(walker, at->expression, power);
 	at->memory = power;

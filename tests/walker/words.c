@@ -64,7 +64,45 @@ static const struct pool_row pool[] = {
 	{ "time_a", "TIME", ":= T#20ms", 0, 0 }, { "time_b", "TIME", "", 0, 0 },
 	{ "ton_a.ET", "TIME", "", 1, 0 }, { "tof_b.PT", "TIME", "", 0, 0 },
 	{ "tp_b.ET", "TIME", "", 1, 0 },
+	{ "arr_b[2]", "BOOL", "", 0, 1 }, { "arr_b[usint_b]", "BOOL", "", 0, 1 },
+	{ "arr_b[int_b]", "BOOL", "", 0, 1 }, { "arr_b[ctu_a.CV]", "BOOL", "", 0, 1 },
+	{ "arr_q[usint_i]", "BOOL", "", 0, 1 }, { "arr_q[-1]", "BOOL", "", 0, 1 },
+	{ "arr_q[uint_b]", "BOOL", "", 0, 1 }, { "%IX0.0[usint_b]", "BOOL", "", 1, 1 },
+	{ "%MX0.0[usint_i]", "BOOL", "", 0, 1 },
+	{ "arr_i[4]", "INT", "", 0, 1 }, { "arr_i[int_b]", "INT", "", 0, 1 },
+	{ "arr_i[uint_b]", "INT", "", 0, 1 }, { "arr_i[const_i]", "INT", "", 0, 1 },
+	{ "arr_s[usint_i]", "SINT", "", 0, 1 }, { "arr_s[sint_b]", "SINT", "", 0, 1 },
+	{ "arr_d[dint_b]", "DINT", "", 0, 1 }, { "arr_d[1]", "DINT", "", 0, 1 },
+	{ "arr_c[usint_b]", "DINT", "", 1, 1 }, { "%MD0[usint_b]", "DWORD", "", 0, 1 },
+	{ "%MB0[uint_b]", "BYTE", "", 0, 1 }, { "arr_t[int_b]", "TIME", "", 0, 1 },
+	{ "arr_r[usint_b]", "REAL", "", 0, 1 }, { "arr_r[2]", "REAL", "", 0, 1 },
 };
+
+/* Arrays, declared when one of their elements is named. */
+static const struct {
+	const char *name, *rest;
+	bool constant;
+} array[] = {
+	{ "arr_b", ": ARRAY[0..4] OF BOOL := [TRUE, 0, TRUE]", 0 },
+	{ "arr_q", "AT %QX0.3 : ARRAY[-2..9] OF BOOL", 0 },
+	{ "arr_i", ": ARRAY[1..6] OF INT := [7, 2(32767), -1]", 0 },
+	{ "arr_s", ": ARRAY[-128..100] OF SINT := [200(5)]", 0 },
+	{ "arr_d", "AT %MD2 : ARRAY[-1..2] OF DINT := [-7, 2147483647]", 0 },
+	{ "arr_c", ": ARRAY[0..2] OF DINT := [1, 65536, -2147483648]", 1 },
+	{ "arr_t", ": ARRAY[2..4] OF TIME := [T#10ms, T#30ms]", 0 },
+	{ "arr_r", ": ARRAY[0..2] OF REAL := [1.5, 3.0E38, -0.5]", 0 },
+};
+#define ARRAYS (sizeof(array) / sizeof(*array))
+
+/* Elements whose index is an expression: only in expressions. */
+static const char *const computed[][2] = {
+	{ "INT", "arr_i[int_b - 1]" }, { "INT", "arr_i[(usint_i MOD 7)]" },
+	{ "INT", "arr_i[arr_s[usint_i] + 1]" }, { "DINT", "arr_d[usint_b / usint_i]" },
+	{ "BOOL", "arr_b[usint_i MOD 5]" }, { "BOOL", "arr_q[sint_a + int_b]" },
+	{ "BOOL", "%MX0.0[uint_b * 2]" }, { "SINT", "arr_s[-int_b]" },
+	{ "REAL", "arr_r[arr_i[usint_b]]" }, { "TIME", "arr_t[uint_b + 1]" },
+};
+
 #define POOL (sizeof(pool) / sizeof(*pool))
 
 static const char *const instance[][2] = {
@@ -130,6 +168,17 @@ static const char *variable(struct random_source *source, const char *type,
 	}
 }
 
+/* The same inside an expression. */
+static const char *term(struct random_source *source, const char *type, bool write)
+{
+	size_t count = sizeof(computed) / sizeof(*computed);
+	size_t i = random_below(source, (uint32_t)count);
+
+	if (random_chance(source, 15) && strcmp(computed[i][0], type) == 0)
+		return computed[i][1];
+	return variable(source, type, write);
+}
+
 static const char *literal(struct random_source *source, const char *type)
 {
 	size_t i = 0;
@@ -186,7 +235,7 @@ static void number(struct builder *builder, const char *type, int depth,
 	bool swap = random_chance(source, 20);
 
 	if (depth == 0 || near_full(builder)) {
-		put(builder, "%s", variable(source, type, false));
+		put(builder, "%s", term(source, type, false));
 		return;
 	}
 	if (tight)
@@ -224,7 +273,7 @@ static void truth(struct builder *builder, int depth)
 	struct random_source *source = builder->source;
 
 	if (depth == 0 || near_full(builder)) {
-		put(builder, "%s", variable(source, "BOOL", false));
+		put(builder, "%s", term(source, "BOOL", false));
 	} else if (random_chance(source, 45)) {
 		put(builder, "(");
 		relation(builder, depth - 1);
@@ -270,7 +319,7 @@ static void assignment(struct builder *builder)
 	size_t i = random_below(source, (uint32_t)count);
 
 	if (random_chance(source, 20)) {
-		put(builder, "[ %s := ", variable(source, "BOOL", true));
+		put(builder, "[ %s := ", term(source, "BOOL", true));
 		truth(builder, 2);
 	} else if (random_chance(source, 15)) {
 		put(builder, "[ %s := ",
@@ -281,10 +330,10 @@ static void assignment(struct builder *builder)
 		    variable(source, narrower[i][0], true));
 		number(builder, narrower[i][1], 2, false);
 	} else if (random_chance(source, 10)) {
-		put(builder, "[ %s := %s", variable(source, type, true),
+		put(builder, "[ %s := %s", term(source, type, true),
 		    literal(source, type));
 	} else {
-		put(builder, "[ %s := ", variable(source, type, true));
+		put(builder, "[ %s := ", term(source, type, true));
 		number(builder, type, 2, false);
 	}
 	put(builder, " ]");
@@ -427,8 +476,8 @@ static bool is_used(const char *body, const char *name)
 	size_t len = strcspn(name, ".");
 
 	for (const char *at = body; (at = strstr(at, name)) != NULL; at += len)
-		if (at > body && strchr(" (=>", at[-1]) &&
-		    strchr(" .)", at[len]))
+		if (at > body && strchr(" (=>[-", at[-1]) &&
+		    strchr(" .)[]", at[len]))
 			return true;
 	return false;
 }
@@ -460,7 +509,14 @@ size_t random_declare(const char *body, char *out, size_t size)
 		if (is_used(body, instance[i][0]))
 			put(&builder, "  %s : %s;\n", instance[i][0],
 			    instance[i][1]);
+	for (size_t i = 0; i < ARRAYS; i++)
+		if (!array[i].constant && is_used(body, array[i].name))
+			put(&builder, "  %s %s;\n", array[i].name, array[i].rest);
 	put(&builder, "END_VAR\n");
+	for (size_t i = 0; i < ARRAYS; i++)
+		if (array[i].constant && is_used(body, array[i].name))
+			put(&builder, "VAR CONSTANT\n  %s %s;\nEND_VAR\n",
+			    array[i].name, array[i].rest);
 	for (size_t i = 0; i < POOL; i++)
 		if (is_constant(&pool[i]) && is_used(body, pool[i].name))
 			put(&builder, "VAR CONSTANT\n  %s : %s %s;\nEND_VAR\n",

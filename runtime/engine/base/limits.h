@@ -25,6 +25,9 @@
 #define LIMIT_RUNGS       50000     /* rungs of one POU                       */
 #define LIMIT_POUS        1024      /* POUs of one project                    */
 #define LIMIT_VARS        200000    /* variables of one project               */
+#define LIMIT_ELEMENTS    1000000   /* elements of one array                  */
+#define LIMIT_LOCATED     1000000   /* of all arrays with AT together         */
+#define LIMIT_ELEMENT_WALK (16u << 20) /* of them, one by one, in an image   */
 #define LIMIT_ARGS        20        /* parameters written at one box          */
 #define LIMIT_BLOCKS      (512u << 20) /* bytes of all block copies of an image */
 #define LIMIT_NESTING     16        /* structures and blocks in one another   */

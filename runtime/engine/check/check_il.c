@@ -42,10 +42,21 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 	enum diag_id why = DIAG_UNKNOWN_NAME;
 	const struct meaning *m = scope_find(c->scope, c->pou, line->operand,
 					     &why);
+	char array[LIMIT_ARG];
 
-	if (!m)
+	if (m)
+		return m;
+	/* The index may be a temporary that nobody wrote. */
+	if (why == DIAG_INDEX_TYPE && c->pou->language == LANGUAGE_LD) {
+		const char *text = il_operand_text(c, line);
+
+		snprintf(array, sizeof(array), "%.*s", (int)strcspn(text, "["),
+			 text);
+		il_report(c, line, why, array);
+	} else {
 		il_report(c, line, why, il_operand_text(c, line));
-	return m;
+	}
+	return NULL;
 }
 
 /* The operand as a value to read; NULL after a diagnostic. */
@@ -54,8 +65,8 @@ const struct meaning *il_value_of(struct il_check *c,
 {
 	const struct meaning *m = find(c, line);
 
-	if (m && m->kind == MEANING_INSTANCE) {
-		il_report(c, line, DIAG_INSTANCE_AS_VALUE, il_operand_text(c, line));
+	if (m && meaning_fault(m) != DIAG_COUNT) {
+		il_report(c, line, meaning_fault(m), il_operand_text(c, line));
 		return NULL;
 	}
 	if (m && m->kind == MEANING_STRUCT) {

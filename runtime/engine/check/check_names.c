@@ -33,6 +33,7 @@ struct names_check {
 	uint32_t marks;
 	int *end;          /* numbers of rungs that never fall through */
 	int ends;
+	uint64_t located;  /* elements with an address                        */
 	bool good;
 };
 
@@ -80,7 +81,7 @@ static struct mark *mark_of(struct names_check *c, uint32_t fold)
 static const char *const keywords[] = {
 	"RUNGBOARD", "PROJECT", "INCLUDE", "VAR", "VAR_GLOBAL", "RETAIN",
 	"CONSTANT", "AT", "END_VAR", "PROGRAM", "LD", "IL", "END_PROGRAM",
-	"CONFIGURATION", "END_CONFIGURATION",
+	"CONFIGURATION", "END_CONFIGURATION", "ARRAY", "OF",
 	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
 	"FUNCTION", "END_FUNCTION", "FUNCTION_BLOCK", "END_FUNCTION_BLOCK",
 	"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "TYPE",
@@ -183,6 +184,20 @@ static bool is_result(const char *name)
 	return ascii_is("OUT", name, strlen(name));
 }
 
+/* Its elements too. All of them are looked at one by one later: not without end. */
+static bool is_inside(struct names_check *c, const struct var *var)
+{
+	uint64_t before = c->located;
+
+	if (var->at.area == AREA_NONE || !var->array.count)
+		return project_has(c->project, var->at);
+	c->located += var->array.count;
+	if (before <= LIMIT_LOCATED && c->located > LIMIT_LOCATED)
+		report_line(c, DIAG_TOO_MANY, NULL, var->line,
+			    "elements with an address");
+	return project_has(c->project, vars_shift(var->at, var->array.count - 1));
+}
+
 static void check_var(struct names_check *c, const struct pou *pou,
 		      const struct var_table *table, int index, uint8_t flags)
 {
@@ -201,7 +216,7 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_line(c, DIAG_RESERVED_NAME, pou, var->line, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
 		report_line(c, DIAG_SHADOWS_ADDRESS, pou, var->line, name);
-	if (!project_has(c->project, var->at))
+	if (!is_inside(c, var))
 		report_line(c, DIAG_BAD_ADDRESS, pou, var->line, name);
 	if (var->at.area != AREA_NONE && !fits(var))
 		report_line(c, DIAG_AT_TYPE, pou, var->line, name);
@@ -474,6 +489,8 @@ static void note_il(struct names_check *c, const struct pou *pou)
 		if (!use || !line->operand)
 			continue;
 		m = scope_find(c->scope, pou, line->operand, &why);
+		if (m)
+			uses_add_index(&c->uses, m);
 		if (m && uses_add(&c->uses, m, use))
 			report_line(c, DIAG_INSTANCE_TWICE, pou,
 				    (int)line->line, text_of(c, line->operand));
@@ -518,7 +535,7 @@ static void check_uses(struct names_check *c, int table_number)
 		for (int k = block->first; k < end; k++) {
 			const struct var *var = &table->var[k];
 			unsigned int use = uses_of(&c->uses, table_number, k,
-						   var->at);
+						   var);
 			enum diag_id lack = judge_use(var, use, block->flags);
 
 			if (lack != DIAG_COUNT &&

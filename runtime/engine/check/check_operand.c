@@ -42,6 +42,8 @@ static const struct meaning *find(struct operand_check *c, struct spot at,
 
 	if (!m)
 		report(c, why, at, project_text(c->project, id));
+	else
+		uses_add_index(c->uses, m);
 	return m;
 }
 
@@ -68,8 +70,8 @@ static const struct meaning *read_name(struct operand_check *c, struct spot at,
 
 	if (!m)
 		return NULL;
-	if (m->kind == MEANING_INSTANCE)
-		return refuse(c, DIAG_INSTANCE_AS_VALUE, at, id, m);
+	if (meaning_fault(m) != DIAG_COUNT)
+		return refuse(c, meaning_fault(m), at, id, m);
 	uses_add(c->uses, m, USE_READ);
 	return m;
 }
@@ -77,8 +79,8 @@ static const struct meaning *read_name(struct operand_check *c, struct spot at,
 /* Why a program cannot write here; DIAG_COUNT: it can. */
 static enum diag_id write_fault(const struct meaning *m)
 {
-	if (m->kind == MEANING_INSTANCE)
-		return DIAG_INSTANCE_AS_VALUE;
+	if (meaning_fault(m) != DIAG_COUNT)
+		return meaning_fault(m);
 	if (m->constant || m->kind == MEANING_LITERAL)
 		return DIAG_WRITE_CONSTANT;
 	if (m->writable)
@@ -113,6 +115,25 @@ static void check_bool(struct operand_check *c, struct spot at, uint32_t id,
 
 /* ---- expressions ---- */
 
+/* The array before an index that is an expression; or an address, which then is
+ * one. The type of the index is check_il's. */
+static void use_array(struct operand_check *c, struct spot at, uint32_t id,
+		      bool write)
+{
+	const struct meaning *m = find(c, at, id);
+
+	if (!m)
+		return;
+	if (m->kind != MEANING_ARRAY && m->kind != MEANING_ADDRESS)
+		refuse(c, DIAG_NOT_ARRAY, at, id, m);
+	else if (write && m->constant)
+		refuse(c, DIAG_WRITE_CONSTANT, at, id, m);
+	else if (write && !m->writable)
+		refuse(c, DIAG_WRITE_INPUT, at, id, m);
+	else
+		uses_add(c->uses, m, write ? USE_WRITTEN : USE_READ);
+}
+
 static void check_expression(struct operand_check *c, struct spot at,
 			     uint32_t id)
 {
@@ -135,10 +156,14 @@ static void check_expression(struct operand_check *c, struct spot at,
 
 		if (part->op == EXPR_NAME)
 			read_name(c, at, intern(c, part->text, part->len));
+		else if (part->op == EXPR_INDEX)
+			use_array(c, at, intern(c, part->text, part->len), false);
 		else if (part->op == EXPR_LITERAL)
 			find(c, at, intern(c, part->text, part->len));
 	}
-	if (expr->target)
+	if (expr->target && expr->target_index >= 0)
+		use_array(c, at, intern(c, expr->target, expr->target_len), true);
+	else if (expr->target)
 		write_name(c, at, intern(c, expr->target, expr->target_len),
 			   false);
 }

@@ -181,8 +181,12 @@ static void mean_variable(const struct scope *scope,
 	out->writable = !out->constant && may_write(var->at) &&
 			!(slot->flags & VAR_INPUT);
 	out->kind = MEANING_VARIABLE;
-	if (var->type == IEC_NONE && var->fb)
+	if (var->array.count) {
+		out->kind = MEANING_ARRAY;
+		out->array = var->array;
+	} else if (var->type == IEC_NONE && var->fb) {
 		mean_whole(scope, var->fb, out);
+	}
 }
 
 /* Part @name of the instance or structure that @out is; false: it has none. What
@@ -307,8 +311,113 @@ static bool mean_address(const struct scope *scope, const char *text, size_t len
 	return false;
 }
 
+/* What stands before [: an array, or an address, which is one up to the end of its
+ * area. */
+static bool mean_array(const struct scope *scope, uint32_t table,
+		       const char *text, size_t len, struct meaning *out,
+		       enum diag_id *why)
+{
+	struct names *names = &scope->project->names;
+	uint32_t id = names_intern(names, text, len), first;
+	const struct declared *slot = find_declared(scope, table,
+						    names_fold(names, id));
+
+	if (slot) {
+		mean_variable(scope, slot, out);
+		*why = DIAG_NOT_ARRAY;
+		return out->kind == MEANING_ARRAY;
+	}
+	if (!mean_address(scope, text, len, out, why))
+		return false;
+	first = out->addr.byte * 8 + out->addr.bit;
+	out->array.count = (project_area_bytes(scope->project, out->addr.area) *
+			    8 - first) / out->addr.bits;
+	return true;
+}
+
+/* The one element of a fixed index, whose type may have values above INT64_MAX. */
+static bool mean_fixed(enum iec_type type, int64_t index, struct meaning *out,
+		       enum diag_id *why)
+{
+	int64_t element = var_element(out->array, index);
+	bool is_signed = type == IEC_NONE ||
+			 iec_type_row(type)->class == CLASS_SIGNED;
+
+	*why = DIAG_INDEX_RANGE;
+	if (element < 0 || (!is_signed && index < 0))
+		return false;
+	if (out->addr.area != AREA_NONE)
+		out->addr = vars_shift(out->addr, (uint32_t)element);
+	if (out->var)
+		out->offset = (uint32_t)element * var_unit(out->var);
+	out->array.count = 0;
+	return true;
+}
+
+static bool is_index(enum iec_type type)
+{
+	return iec_type_row(type)->class & (ANY_INT | CLASS_BITS);
+}
+
+/* Index @text: an integer constant, or an operand that holds one. */
+static bool mean_index(struct scope *scope, uint32_t table, const char *text,
+		       size_t len, struct meaning *out, enum diag_id *why)
+{
+	const struct pou *pou = table ? &scope->project->pou[table - 1] : NULL;
+	const struct meaning *m = scope_find(scope, pou,
+		names_intern(&scope->project->names, text, len), why);
+	bool literal = m && m->kind == MEANING_LITERAL;
+
+	if (!m)
+		return false;
+	*why = DIAG_INDEX_TYPE;
+	if (literal && m->literal.high) {
+		*why = DIAG_INDEX_RANGE;
+		return false;
+	}
+	if (literal)
+		return !m->literal.real &&
+		       (m->type == IEC_NONE || is_index(m->type)) &&
+		       mean_fixed(m->type, m->literal.value.i, out, why);
+	if (meaning_fault(m) != DIAG_COUNT || !is_index(m->type))
+		return false;
+	out->index_of = m;
+	if (m->kind == MEANING_VARIABLE && m->constant && m->var->has_init)
+		return mean_fixed(m->type, m->var->init.i, out, why);
+	return true;
+}
+
+/* `Table[3]`, `Table[i]`, `%MW0[i]`; there may be blanks inside. */
+static bool mean_element(struct scope *scope, uint32_t table, const char *text,
+			 size_t len, struct meaning *out, enum diag_id *why)
+{
+	const char *open = memchr(text, '[', len), *at = open + 1;
+	const char *end = text + len - 1;
+	size_t head = (size_t)(open - text);
+
+	while (head && text[head - 1] == ' ')
+		head--;
+	while (at < end && *at == ' ')
+		at++;
+	while (at < end && end[-1] == ' ')
+		end--;
+	if (*text == '[' || at == end || memchr(at, '[', (size_t)(end - at)))
+		return false;
+	if (!mean_array(scope, table, text, head, out, why) ||
+	    !mean_index(scope, table, at, (size_t)(end - at), out, why))
+		return false;
+	out->kind = out->var || out->array.count ? MEANING_ELEMENT
+						 : MEANING_ADDRESS;
+	return true;
+}
+
+static bool has_index(const char *text, size_t len)
+{
+	return len > 0 && text[len - 1] == ']' && memchr(text, '[', len);
+}
+
 /* Declared names first, then system names, pins, constants and addresses. */
-static bool mean(const struct scope *scope, uint32_t table, uint32_t id,
+static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 		 struct meaning *out, enum diag_id *why)
 {
 	struct names *names = &scope->project->names;
@@ -322,10 +431,19 @@ static bool mean(const struct scope *scope, uint32_t table, uint32_t id,
 		mean_variable(scope, slot, out);
 		return true;
 	}
+	if (has_index(text, len))
+		return mean_element(scope, table, text, len, out, why);
 	return mean_system(text, len, out) ||
 	       mean_path(scope, table, text, len, out, why) ||
 	       mean_literal(text, len, out, why) ||
 	       mean_address(scope, text, len, out, why);
+}
+
+enum diag_id meaning_fault(const struct meaning *meaning)
+{
+	if (meaning->kind == MEANING_INSTANCE)
+		return DIAG_INSTANCE_AS_VALUE;
+	return meaning->kind == MEANING_ARRAY ? DIAG_ARRAY_AS_VALUE : DIAG_COUNT;
 }
 
 /* The slot of a question, or the free one where it belongs. */

@@ -19,24 +19,34 @@ enum meaning_kind {
 	MEANING_INSTANCE,  /* table, index: a whole instance                  */
 	MEANING_STRUCT,    /* table, index, offset: a whole structure         */
 	MEANING_PIN,       /* table, index, pin of its FB, offset; a member   */
+	MEANING_ARRAY,     /* table, index: a whole array                     */
+	MEANING_ELEMENT,   /* table, index, offset; var NULL: behind an address */
 	MEANING_ADDRESS,   /* addr; SYS_ names too                            */
 	MEANING_LITERAL,   /* literal                                         */
 };
 
 struct meaning {
-	enum meaning_kind kind;
-	enum iec_type type;       /* of the value; IEC_NONE: untyped literal  */
-	const struct pou *pou;    /* whose table; NULL: globals               */
-	const struct var *var;    /* the variable or instance                 */
-	int index;                /* in its table                             */
-	enum word word;           /* of an INSTANCE or STRUCT                 */
-	int pin;                  /* index in the row of the variable's word  */
-	uint32_t offset;          /* of a part: bytes behind the variable's
-				     first; 0 of a whole variable             */
-	struct iec_addr addr;     /* of ADDRESS, and of a variable with AT    */
-	struct literal literal;
+	/* One an operand of a project: small. */
+	enum meaning_kind kind : 8;
+	enum iec_type type : 8;   /* of the value; IEC_NONE: untyped literal  */
 	bool writable;            /* by a program                             */
 	bool constant;            /* declared CONSTANT                        */
+	int index;                /* in its table                             */
+	const struct pou *pou;    /* whose table; NULL: globals               */
+	const struct var *var;    /* the variable or instance                 */
+	int pin;                  /* index in the row of the variable's word  */
+	enum word word;           /* of an INSTANCE or STRUCT                 */
+	struct iec_addr addr;     /* of ADDRESS, and of a variable with AT; of
+				     an element with a fixed index its own    */
+	uint32_t offset;          /* of a part or element: bytes behind the
+				     variable's first; 0 of a whole variable  */
+	struct var_array array;   /* of ARRAY; of ELEMENT whose index is found
+				     out in the scan (meaning_is_indexed):
+				     addr and offset are its first one's      */
+	const struct meaning *index_of; /* of ELEMENT: what its index is read
+				     from; of a fixed one the constant that
+				     gave it, or NULL                         */
+	struct literal literal;
 };
 
 struct scope;
@@ -49,7 +59,8 @@ struct scope *scope_new(struct project *project, struct arena *arena);
  * @pou:  NULL: among globals only
  * @text: string id of the operand as written
  * @why:  when it has none: DIAG_UNKNOWN_NAME, DIAG_NO_PIN, DIAG_BAD_ADDRESS,
- *        DIAG_BAD_LITERAL or DIAG_LITERAL_RANGE
+ *        DIAG_BAD_LITERAL, DIAG_LITERAL_RANGE, DIAG_NOT_ARRAY,
+ *        DIAG_INDEX_TYPE or DIAG_INDEX_RANGE
  *
  * Remembered by POU and id: asking again is one look into a hash.
  * Owns: the arena of scope_new().   Scan-safe: no.
@@ -57,6 +68,15 @@ struct scope *scope_new(struct project *project, struct arena *arena);
  */
 const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 				 uint32_t text, enum diag_id *why);
+/** meaning_is_indexed - an element whose index is found out in the scan?
+ * Scan-safe: yes. */
+static inline bool meaning_is_indexed(const struct meaning *meaning)
+{
+	return meaning->kind == MEANING_ELEMENT && meaning->array.count;
+}
+/** meaning_fault - why @meaning is no value: DIAG_INSTANCE_AS_VALUE or
+ * DIAG_ARRAY_AS_VALUE; DIAG_COUNT: it is one. Scan-safe: yes. */
+enum diag_id meaning_fault(const struct meaning *meaning);
 /** scope_duplicate - an earlier declaration of the same name in the same table,
  * or -1. */
 int scope_duplicate(struct scope *scope, const struct pou *pou, int index);

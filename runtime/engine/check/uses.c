@@ -7,6 +7,8 @@
  */
 #include "engine/check/uses.h"
 
+#include <string.h>
+
 bool uses_init(struct uses *uses, const struct project *project,
 	       struct arena *arena)
 {
@@ -29,37 +31,53 @@ bool uses_init(struct uses *uses, const struct project *project,
 	return !arena->failed;
 }
 
-/* Where an address begins in a map, how many bytes, and which bits of each. */
-static uint32_t span(struct iec_addr at, uint32_t *count, uint8_t *mask)
+/* The bits of a map that an address covers, or an array of such. */
+struct span {
+	uint32_t first, count;
+};
+
+static struct span span_of(struct iec_addr at, struct var_array array)
 {
-	*mask = at.bits == 1 ? (uint8_t)(1u << (at.bit & 7)) : 0xff;
-	*count = at.bits == 1 ? 1 : at.bits / 8u;
-	return iec_area_row(at.area)->offset + at.byte;
+	uint32_t byte = iec_area_row(at.area)->offset + at.byte;
+
+	return (struct span){ byte * 8 + at.bit,
+			      at.bits * (array.count ? array.count : 1) };
 }
 
-static void map_set(uint8_t *map, struct iec_addr at)
+/* Bits of byte @byte that are in the span. */
+static uint8_t mask_of(struct span span, uint32_t byte)
 {
-	uint32_t count;
-	uint8_t mask;
-	uint32_t first = span(at, &count, &mask);
+	uint32_t end = span.first + span.count;
+	unsigned int mask = 0xff;
 
-	for (uint32_t i = first; i < first + count; i++)
-		map[i] |= mask;
+	if (byte * 8 < span.first)
+		mask &= 0xffu << (span.first - byte * 8);
+	if (byte * 8 + 8 > end)
+		mask &= 0xffu >> (byte * 8 + 8 - end);
+	return (uint8_t)mask;
 }
 
-static bool map_has(const uint8_t *map, struct iec_addr at)
+static void map_set(uint8_t *map, struct span span)
 {
-	uint32_t count;
-	uint8_t mask;
-	uint32_t first = span(at, &count, &mask);
+	uint32_t at = span.first / 8, last = (span.first + span.count - 1) / 8;
 
-	for (uint32_t i = first; i < first + count; i++)
-		if (map[i] & mask)
+	map[at] |= mask_of(span, at);
+	map[last] |= mask_of(span, last);
+	if (last - at > 1)
+		memset(map + at + 1, 0xff, last - at - 1);
+}
+
+static bool map_has(const uint8_t *map, struct span span)
+{
+	uint32_t at = span.first / 8, last = (span.first + span.count - 1) / 8;
+
+	for (; at <= last; at++)
+		if (map[at] & mask_of(span, at))
 			return true;
 	return false;
 }
 
-static bool map_add(struct uses *uses, struct iec_addr at, unsigned int use)
+static bool map_add(struct uses *uses, struct span at, unsigned int use)
 {
 	bool again = use & USE_COIL && map_has(uses->map.coil, at);
 
@@ -88,15 +106,22 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 	bool again = false;
 	uint8_t *flags;
 
+	/* Elements found out in the scan: two of them are seldom the same. */
+	if (meaning_is_indexed(meaning))
+		use &= ~(unsigned int)USE_COIL;
+
 	if (meaning->kind == MEANING_LITERAL || meaning->kind == MEANING_NONE)
 		return false;
 	if (meaning->addr.area != AREA_NONE)
-		again = map_add(uses, meaning->addr, use);
+		again = map_add(uses, span_of(meaning->addr, meaning->array),
+				use);
 	if (!meaning->var)
 		return again;
 	flags = flags_of(uses, meaning);
-	if (meaning->kind == MEANING_PIN)
-		again = false; /* two pins of an instance are two places */
+	if (meaning->kind == MEANING_ELEMENT)
+		use &= ~(unsigned int)USE_COIL; /* two places of one variable */
+	else if (meaning->kind == MEANING_PIN)
+		again = false; /* as are two pins of an instance */
 	else
 		again |= (*flags & once) != 0;
 	again &= !(*flags & USE_TWICE);
@@ -104,13 +129,21 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 	return again;
 }
 
+void uses_add_index(struct uses *uses, const struct meaning *meaning)
+{
+	if (meaning->index_of)
+		uses_add(uses, meaning->index_of, USE_READ);
+}
+
 unsigned int uses_of(const struct uses *uses, int table, int index,
-		     struct iec_addr at)
+		     const struct var *var)
 {
 	unsigned int flags = uses->flags[uses->base[table] + index];
+	struct span at;
 
-	if (at.area == AREA_NONE)
+	if (var->at.area == AREA_NONE)
 		return flags;
+	at = span_of(var->at, var->array);
 	if (map_has(uses->map.read, at))
 		flags |= USE_READ;
 	if (map_has(uses->map.written, at))

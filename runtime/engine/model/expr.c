@@ -8,6 +8,8 @@
 #include "engine/model/expr.h"
 #include "engine/base/ascii.h"
 
+#include <string.h>
+
 #define PENDING (LIMIT_EXPR_DEPTH * 3) /* operators that wait for a right side */
 
 struct operator {
@@ -17,9 +19,10 @@ struct operator {
 	uint16_t fn;      /* enum word of EXPR_FN                            */
 };
 
-enum { OPERATOR_PAREN, OPERATOR_NEG, OPERATOR_NOT, OPERATOR_BINARY };
+enum { OPERATOR_PAREN, OPERATOR_INDEX, OPERATOR_NEG, OPERATOR_NOT, OPERATOR_BINARY };
 static const struct operator operators[] = {
 	[OPERATOR_PAREN] = { "(", 0, 0, 0 },
+	[OPERATOR_INDEX] = { "[", 0, 0, 0 },
 	[OPERATOR_NEG] = { "-", 8, EXPR_NEG, 0 },
 	[OPERATOR_NOT] = { "NOT", 8, EXPR_NOT, 0 },
 	[OPERATOR_BINARY] = { "*", 7, EXPR_FN, FN_MUL },
@@ -39,8 +42,9 @@ struct parser {
 	struct diag_list *diags;
 	struct diag place;
 	int shift;         /* column of the text's first byte, less 1; -1: none */
-	int opened;        /* ( not closed yet                               */
-	int nested;        /* ( and signs that wait                          */
+	int opened;        /* ( and [ not closed yet                         */
+	int nested;        /* ( and [ and signs that wait                    */
+	int indexed;       /* [ not closed yet                               */
 	int pending_count;
 	int value_count;
 	uint8_t pending[PENDING];
@@ -88,13 +92,13 @@ static bool reduce(struct parser *parser)
 	return add_node(parser, node);
 }
 
-/* All that waits and binds at least as strongly as @strength; stops at a (. */
+/* All that waits and binds at least as strongly as @strength; stops at a ( or [. */
 static bool reduce_to(struct parser *parser, int strength)
 {
 	while (parser->pending_count) {
 		int top = parser->pending[parser->pending_count - 1];
 
-		if (top == OPERATOR_PAREN || operators[top].strength < strength)
+		if (top <= OPERATOR_INDEX || operators[top].strength < strength)
 			break;
 		if (!reduce(parser))
 			return false;
@@ -133,10 +137,62 @@ static bool is_operand(const struct lex *lex)
 	return false;
 }
 
-static bool take_operand(struct parser *parser)
+/* Steps over `[ i ]` or `[-3]` behind a name: an index that needs no operation. */
+static bool skip_simple_index(struct lex *lex)
 {
-	const struct lex *lex = parser->lex;
-	const struct token *token = &lex->token;
+	struct lex at = *lex;
+
+	lex_next(&at);
+	if (lex_is(&at, "-")) {
+		lex_next(&at);
+		if (at.token.kind != TOKEN_NUMBER)
+			return false;
+	}
+	if (at.token.kind != TOKEN_NUMBER && at.token.kind != TOKEN_NAME &&
+	    at.token.kind != TOKEN_ADDRESS)
+		return false;
+	lex_next(&at);
+	if (!lex_is(&at, "]"))
+		return false;
+	*lex = at;
+	return true;
+}
+
+/* The operand that ends at the cursor, on its last token: its text from @token on. */
+static size_t text_len(const struct token *token, const struct lex *lex)
+{
+	return (size_t)(lex->token.text + lex->token.len - token->text);
+}
+
+/* Behind a name stands [: the index, up to the ], or only its beginning. */
+static bool take_index(struct parser *parser, const struct token *name)
+{
+	struct expr_node node = { .op = EXPR_NAME, .text = name->text,
+				  .left = -1, .right = -1 };
+	size_t len;
+
+	if (skip_simple_index(parser->lex)) {
+		len = text_len(name, parser->lex);
+		if (len > 2 * LIMIT_NAME)
+			return refuse(parser, DIAG_NAME_TOO_LONG);
+		node.len = (uint16_t)len;
+		lex_next(parser->lex);
+		return add_node(parser, node);
+	}
+	if (parser->indexed == LIMIT_EXPR_DEPTH)
+		return refuse(parser, DIAG_EXPR_TOO_DEEP);
+	if (!push(parser, OPERATOR_INDEX))
+		return false;
+	parser->out->open[parser->indexed].text = name->text;
+	parser->out->open[parser->indexed++].len = (uint16_t)name->len;
+	parser->opened++;
+	return true;
+}
+
+static bool take_operand(struct parser *parser, bool *more)
+{
+	struct lex *lex = parser->lex;
+	const struct token start = lex->token, *token = &start;
 	bool literal = token->kind == TOKEN_NUMBER || lex_is(lex, "TRUE") ||
 		       lex_is(lex, "FALSE");
 	struct expr_node node = {
@@ -149,16 +205,24 @@ static bool take_operand(struct parser *parser)
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (token->len > LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
-	if (!add_node(parser, node))
-		return false;
-	lex_next(parser->lex);
-	return true;
+	lex_next(lex);
+	*more = false;
+	if (token->kind != TOKEN_NUMBER && lex_is(lex, "[")) {
+		int opened = parser->opened;
+
+		if (!take_index(parser, token))
+			return false;
+		*more = parser->opened != opened;
+		return true;
+	}
+	return add_node(parser, node);
 }
 
-/* Signs and ( as many as there are, then a name or a constant. */
+/* Signs, ( and `Table[` as many as there are, then a name or a constant. */
 static bool take_prefix_and_operand(struct parser *parser)
 {
 	for (;;) {
+		bool more = true;
 		int which;
 
 		if (lex_is(parser->lex, "("))
@@ -167,22 +231,47 @@ static bool take_prefix_and_operand(struct parser *parser)
 			which = OPERATOR_NEG;
 		else if (lex_is(parser->lex, "NOT"))
 			which = OPERATOR_NOT;
+		else if (!take_operand(parser, &more))
+			return false;
+		else if (more)
+			continue;
 		else
-			return take_operand(parser);
+			return true;
 		if (!push(parser, which))
 			return false;
 		parser->opened += which == OPERATOR_PAREN;
 	}
 }
 
+/* What is in brackets is the index of the array before them. */
+static bool close_index(struct parser *parser)
+{
+	int top = --parser->indexed;
+	struct expr_node node = {
+		.op = EXPR_INDEX, .text = parser->out->open[top].text,
+		.len = parser->out->open[top].len, .right = -1,
+	};
+
+	node.left = parser->value[--parser->value_count];
+	return add_node(parser, node);
+}
+
 static bool close_parens(struct parser *parser)
 {
-	while (parser->opened && lex_is(parser->lex, ")")) {
+	while (parser->opened &&
+	       (lex_is(parser->lex, ")") || lex_is(parser->lex, "]"))) {
+		bool index = lex_is(parser->lex, "]");
+
 		if (!reduce_to(parser, 1))
 			return false;
+		if (parser->pending[parser->pending_count - 1] !=
+		    (index ? OPERATOR_INDEX : OPERATOR_PAREN))
+			return refuse(parser, DIAG_BAD_EXPRESSION);
 		parser->pending_count--;
 		parser->opened--;
 		parser->nested--;
+		if (index && !close_index(parser))
+			return false;
 		lex_next(parser->lex);
 	}
 	return true;
@@ -232,12 +321,13 @@ static void parser_init(struct parser *parser, struct lex *lex,
 	parser->diags = diags;
 	parser->place = place;
 	parser->shift = 0;
-	parser->opened = parser->nested = 0;
+	parser->opened = parser->nested = parser->indexed = 0;
 	parser->pending_count = parser->value_count = 0;
 	out->count = 0;
 	out->root = -1;
 	out->target = NULL;
 	out->target_len = 0;
+	out->target_index = -1;
 }
 
 bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
@@ -249,20 +339,69 @@ bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
 	return parse(&parser);
 }
 
-/* `target :=`, if the text begins so; else the lexer stands where it stood. */
-static void take_target(struct lex *lex, struct expr *out)
+/* Behind the ] that closes the [ under the cursor; false: there is none. */
+static bool skip_brackets(struct lex *lex)
 {
-	struct lex start = *lex;
+	int depth = 0;
+
+	for (;;) {
+		if (lex_is(lex, "["))
+			depth++;
+		else if (lex_is(lex, "]") && --depth == 0)
+			return lex_next(lex), true;
+		else if (lex->token.kind == TOKEN_END ||
+			 lex->token.kind == TOKEN_NEWLINE || lex_is(lex, ":="))
+			return false;
+		lex_next(lex);
+	}
+}
+
+/* `target :=`, if the text begins so; else the lexer stands where it stood. */
+static bool take_target(struct parser *parser)
+{
+	struct lex *lex = parser->lex, start = *lex;
+	struct expr *out = parser->out;
+	bool index;
 
 	if (lex->token.kind != TOKEN_NAME && lex->token.kind != TOKEN_ADDRESS)
-		return;
+		return true;
 	lex_next(lex);
-	if (lex_accept(lex, ":=")) {
-		out->target = start.token.text;
-		out->target_len = start.token.len;
-	} else {
+	index = lex_is(lex, "[");
+	if ((index && !skip_brackets(lex)) || !lex_is(lex, ":=")) {
 		*lex = start;
+		return true;
 	}
+	out->target = start.token.text;
+	out->target_len = start.token.len;
+	*lex = start;
+	lex_next(lex);
+	if (index && skip_simple_index(lex)) {
+		out->target_len = text_len(&start.token, lex);
+		lex_next(lex);
+	} else if (index) {
+		lex_next(lex);
+		if (!parse(parser))
+			return false;
+		out->target_index = out->root;
+		parser->value_count = 0;
+		if (!lex_accept(lex, "]"))
+			return refuse(parser, DIAG_BAD_EXPRESSION);
+	}
+	return lex_accept(lex, ":=") || refuse(parser, DIAG_BAD_EXPRESSION);
+}
+
+static bool parse_cell(struct parser *parser)
+{
+	return take_target(parser) && parse(parser);
+}
+
+bool expr_parse_cell(struct lex *lex, struct expr *out, struct diag_list *diags,
+		     struct diag place)
+{
+	struct parser parser;
+
+	parser_init(&parser, lex, out, diags, place);
+	return parse_cell(&parser);
 }
 
 bool expr_parse_text(const char *text, size_t len, struct expr *out,
@@ -275,8 +414,7 @@ bool expr_parse_text(const char *text, size_t len, struct expr *out,
 	lex_next(&lex);
 	parser_init(&parser, &lex, out, diags, place);
 	parser.shift = place.column - 1;
-	take_target(&lex, out);
-	if (!parse(&parser))
+	if (!parse_cell(&parser))
 		return false;
 	if (lex.token.kind != TOKEN_END)
 		return refuse(&parser, DIAG_BAD_EXPRESSION);

@@ -15,7 +15,9 @@
 #include "engine/base/lex.h"
 
 enum expr_op {
-	EXPR_NAME,      /* text: a name, a pin or a direct address            */
+	EXPR_NAME,      /* text: a name, a pin, a direct address, an element
+			   with a simple index: Table[ i ] (may hold blanks)   */
+	EXPR_INDEX,     /* text: an array; left: its index, an expression     */
 	EXPR_LITERAL,   /* text: a constant                                   */
 	EXPR_NEG, EXPR_NOT,
 	EXPR_FN,        /* fn: ADD SUB MUL DIV MOD GT GE EQ LE LT NE          */
@@ -36,6 +38,10 @@ struct expr {
 	int root;
 	const char *target;    /* of `target := expression`; NULL: none       */
 	size_t target_len;
+	int target_index;      /* node of the target's index; -1: it has none,
+				  or a simple one within `target`             */
+	struct { const char *text; uint16_t len; } open[LIMIT_EXPR_DEPTH];
+	                       /* the parser's: arrays before an open [        */
 };
 
 /**
@@ -48,7 +54,10 @@ struct expr {
  */
 bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
 		struct diag place);
-/** expr_parse_text - a whole text: `expression` or `target := expression`. */
+/** expr_parse_cell - `expression` or `target := expression` at the lexer. */
+bool expr_parse_cell(struct lex *lex, struct expr *out, struct diag_list *diags,
+		     struct diag place);
+/** expr_parse_text - the same of a whole text. */
 bool expr_parse_text(const char *text, size_t len, struct expr *out,
 		     struct diag_list *diags, struct diag place);
 #endif

@@ -23,6 +23,36 @@ uint8_t vars_flags(const struct var_table *table, int index)
 	return table->block_count ? table->block[low].flags : 0;
 }
 
+uint32_t var_unit(const struct var *var)
+{
+	return iec_type_size(var->type, var->capacity);
+}
+
+uint32_t var_bytes(const struct var *var)
+{
+	return var_unit(var) * (var->array.count ? var->array.count : 1);
+}
+
+struct iec_addr vars_shift(struct iec_addr at, uint32_t element)
+{
+	uint32_t bit = at.bit + element;
+
+	if (at.bits != 1) {
+		at.byte += element * (at.bits / 8u);
+		return at;
+	}
+	at.byte += bit / 8;
+	at.bit = (uint8_t)(bit % 8);
+	return at;
+}
+
+int64_t var_element(struct var_array array, int64_t index)
+{
+	int64_t last = (int64_t)array.low + array.count - 1;
+
+	return index < array.low || index > last ? -1 : index - array.low;
+}
+
 int vars_find(const struct var_table *table, uint32_t fold)
 {
 	for (int i = 0; fold && i < table->count; i++)

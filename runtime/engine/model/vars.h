@@ -17,15 +17,35 @@ enum var_flag {
 	VAR_RESULT = 128,    /* of a function; stands in its heading           */
 };
 
+/* ARRAY[low..high]: so many elements in a row; count 0: none, a single value. */
+struct var_array {
+	int32_t low;
+	uint32_t count;
+};
+
+/* Part of an array's initial values: so many times the same. */
+struct var_init {
+	uint32_t count;
+	union iec_value value;
+	uint32_t text;       /* string id: of a STRING, as written             */
+};
+
 struct var {
 	uint32_t name;       /* string id, as written                          */
 	uint32_t fold;       /* names_fold of it                               */
-	enum iec_type type;  /* IEC_NONE for an instance or structure          */
+	enum iec_type type;  /* of an array, of its elements; IEC_NONE for an
+				instance or structure                  */
 	enum word fb;        /* the word of the block or structure             */
 	uint16_t capacity;   /* of a STRING, in bytes; 0: of a temporary       */
 	struct iec_addr at;  /* area AREA_NONE: no AT                          */
+	struct var_array array;
 	bool has_init;
-	union iec_value init; /* of its type                                   */
+	int init_count;      /* parts of init_list, of an array                */
+	union {
+		union iec_value init;       /* of its type                    */
+		struct var_init *init_list; /* of an array, from its first
+					       element on                     */
+	};
 	uint32_t init_text;  /* string id: as written (16#FF stays so)         */
 	uint32_t at_text;    /* string id: canonical address                   */
 	uint32_t comment;    /* string id: trailing, with delimiters           */
@@ -51,6 +71,16 @@ struct var_table {
 uint8_t vars_flags(const struct var_table *table, int index);
 /** vars_head - the word that a block with these flags begins with: VAR_INPUT. */
 const char *vars_head(uint8_t flags);
+/** var_unit - bytes from one element to the next; without an array the size. Not of
+ * an instance. */
+uint32_t var_unit(const struct var *var);
+/** var_bytes - what it takes in data memory, all elements together. */
+uint32_t var_bytes(const struct var *var);
+/** vars_shift - the address of element @element, 0-based, behind @at. */
+struct iec_addr vars_shift(struct iec_addr at, uint32_t element);
+/** var_element - index @index as the number of an element, 0-based; -1: there is
+ * none. */
+int64_t var_element(struct var_array array, int64_t index);
 /** vars_find - index by folded name, -1: none. Linear in small tables; large
  * ones are looked up through struct scope (check/scope.h). */
 int vars_find(const struct var_table *table, uint32_t fold);

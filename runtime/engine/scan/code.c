@@ -53,24 +53,10 @@ bool verify_refuse(struct verifier *v, const void *at)
 
 enum word code_instance(const struct program *p, uint32_t offset)
 {
-	uint32_t low = 0, high = p->run_count;
+	const struct code_run *run = code_run_at(p, offset);
 
-	while (low < high) {
-		uint32_t middle = low + (high - low) / 2;
-		const struct code_run *run = &p->run[middle];
-
-		if (run->offset > offset)
-			high = middle;
-		else
-			low = middle + 1;
-	}
-	if (low == 0 || p->run[low - 1].kind != RUN_INSTANCE)
-		return WORD_COUNT;
-	const struct code_run *run = &p->run[low - 1];
-	uint32_t size = word_row((enum word)run->word)->size;
-
-	if ((offset - run->offset) % size != 0 ||
-	    (offset - run->offset) / size >= run->count)
+	if (!run || run->kind != RUN_INSTANCE ||
+	    (offset - run->offset) % code_run_size(run) != 0)
 		return WORD_COUNT;
 	return (enum word)run->word;
 }
@@ -332,11 +318,20 @@ static bool check_bits(struct verifier *v)
 
 /* ---- maps ---- */
 
-static bool check_symbol(const struct verifier *v, uint32_t symbol)
+static bool check_symbol(struct verifier *v, uint32_t symbol, const char *name)
 {
 	uint32_t type = CODE_TYPE(symbol) & SYMBOL_TYPE;
-	uint32_t at = CODE_OFFSET(symbol);
+	uint32_t at = CODE_OFFSET(symbol), count = code_bounds(name).count;
+	const struct code_run *run = code_run_at(v->program, at);
 
+	if (count && CODE_TYPE(symbol) & SYMBOL_BIT)
+		return type == IEC_BOOL && verify_bits(v, at, count, false);
+	if (count)
+		return verify_is_type(type) &&
+		       verify_elements(v, CODE_OPERAND(type, at), count,
+				       type == IEC_STRING && run ?
+				       code_run_size(run) : type_size(type),
+				       false);
 	if (CODE_TYPE(symbol) & SYMBOL_BIT)
 		return type == IEC_BOOL && at / 8 < v->areas;
 	if (type == IEC_NONE)
@@ -376,12 +371,15 @@ static bool check_strings(struct verifier *v)
 static bool check_maps(struct verifier *v)
 {
 	const struct program *p = v->program;
+	const char *name = p->string;
 
 	if (!check_strings(v) || !check_groups(v))
 		return false;
-	for (uint32_t i = 0; i < p->symbol_count; i++)
-		if (!check_symbol(v, p->symbol[i]))
+	for (uint32_t i = 0; i < p->symbol_count; i++) {
+		if (!check_symbol(v, p->symbol[i], name))
 			return verify_refuse(v, &p->symbol[i]);
+		name += strlen(name) + 1;
+	}
 	for (uint32_t i = 0; i < p->power_count; i++)
 		if (!verify_use(v, p->power[i].in, IEC_BOOL, false) ||
 		    !verify_use(v, p->power[i].out, IEC_BOOL, false))

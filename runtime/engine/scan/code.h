@@ -27,6 +27,12 @@
  *   CALL   entry                runs it up to its END; who calls whom makes no circle
  *   JMP    target               word index in the section, of an instruction
  *   JMPC   target, cond         that begins in the same program
+ *   AGET   en, ok, dst, base, index, low, count, stride   dst = element `index`; ok:
+ *                               there is one (else dst = 0, counted). base: typed,
+ *                               of the first element, whose index is low (signed);
+ *                               stride: bytes to the next
+ *                               n 1: base and stride count bits of the areas
+ *   APUT   en, ok, src, base, index, low, count, stride   likewise; else nothing
  */
 #ifndef SCAN_CODE_H
 #define SCAN_CODE_H
@@ -104,7 +110,8 @@ struct code_bits {      /* bits first … first+count-1 of an area live at
 };
 
 /* Of a symbol, in the top 8 bits: its type (IEC_NONE: an instance) and marks. The
- * rest is its offset in m. Its name is the string of the same number. */
+ * rest is its offset in m. Its name is the string of the same number; that of an array
+ * ends with its bounds, and type and offset are its first element's. */
 enum symbol_flag {
 	SYMBOL_CONSTANT = 1, SYMBOL_RETAIN = 2, /* of its group            */
 	SYMBOL_TYPE = 0x1f,   /* mask of the type                          */
@@ -185,9 +192,19 @@ static inline uint32_t code_run_size(const struct code_run *run)
 	return run->kind == RUN_INSTANCE ? word_row((enum word)run->word)->size :
 	       iec_type_size((enum iec_type)run->type, run->word);
 }
+/** code_run_at - the run that holds this offset; NULL: none. Scan-safe: yes. */
+const struct code_run *code_run_at(const struct program *program, uint32_t offset);
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);
+/* Bounds in the name of a symbol that is an array: `Table[1..10]`. */
+struct code_bounds {
+	size_t head;     /* bytes before the [; of all else the whole name  */
+	int32_t low;
+	uint32_t count;  /* 0: no array                                     */
+};
+/** code_bounds - of a name, whatever it is. Scan-safe: yes. */
+struct code_bounds code_bounds(const char *name);
 /** code_instance - the FB whose instance is at @offset of data memory; WORD_COUNT:
  * none is. Scan-safe: yes. */
 enum word code_instance(const struct program *program, uint32_t offset);

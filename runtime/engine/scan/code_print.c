@@ -71,6 +71,18 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 				at[0]);
 	case VM_CALL:
 		return snprintf(out, size, "call    program %u", at[0]);
+	case VM_AGET:
+		return snprintf(out, size, "aget    en b%u %s%s[%s - %d] of %u by"
+				" %u -> %s ok b%u", at[0], n ? "bit " : "",
+				typed(at[3]).text, typed(at[4]).text,
+				(int)at[5], at[6], at[7], typed(at[2]).text,
+				at[1]);
+	case VM_APUT:
+		return snprintf(out, size, "aput    en b%u %s -> %s%s[%s - %d] of"
+				" %u by %u ok b%u", at[0], typed(at[2]).text,
+				n ? "bit " : "", typed(at[3]).text,
+				typed(at[4]).text, (int)at[5], at[6], at[7],
+				at[1]);
 	case VM_JMP:
 		return snprintf(out, size, "jmp     %u", at[0]);
 	case VM_JMPC:

@@ -52,6 +52,9 @@ uint32_t code_words(const uint32_t *code)
 	case VM_JMP:
 	case VM_CALL:
 		return 2;
+	case VM_AGET:
+	case VM_APUT:
+		return 9;
 	case VM_END:
 	case VM_COUNT:
 		break;
@@ -207,6 +210,27 @@ static bool check_block(struct verifier *v, const uint32_t *at)
 	       same_instances(v, from, to, size);
 }
 
+/* AGET and APUT. What they write beside the element they write last or first, so
+ * that one place for two of them is wrong but harmless. */
+static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
+			  uint32_t n)
+{
+	bool put = op == VM_APUT;
+	uint32_t type = CODE_TYPE(at[3]), value = CODE_TYPE(at[2]);
+	uint32_t index = CODE_TYPE(at[4]);
+
+	if (n > 1 || !reads_bool(v, at[0]) || !writes_bool(v, at[1]) ||
+	    !can_read(v, at[4]) ||
+	    !(iec_type_row((enum iec_type)index)->class & (ANY_INT | CLASS_BITS)))
+		return false;
+	if (put ? !can_read(v, at[2]) || !converts(value, type)
+		: !can_write(v, at[2]) || !converts(type, value))
+		return false;
+	return n ? type == IEC_BOOL && at[7] == 1 &&
+		   verify_bits(v, CODE_OFFSET(at[3]), at[6], put)
+		 : verify_elements(v, at[3], at[6], at[7], put);
+}
+
 /* One instruction; jumps and who calls whom are looked at later. */
 static bool check_code(struct verifier *v, const uint32_t *code)
 {
@@ -235,6 +259,9 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 		       (CODE_TYPE(at[2]) == IEC_STRING);
 	case VM_FN:
 		return check_fn(v, at, n);
+	case VM_AGET:
+	case VM_APUT:
+		return check_element(v, at, op, n);
 	case VM_FB:
 		return n < WORD_COUNT && code_instance(v->program, at[0]) == n;
 	case VM_BLOCK:

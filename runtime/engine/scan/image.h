@@ -66,7 +66,7 @@ bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
 /** image_locate - where a direct address lives in this image. */
 struct location image_locate(const struct image *image, struct iec_addr addr);
 /** image_find - where a variable or address lives, by its name in the source:
- * `Motor`, `Main.Motor`, `Runout.Q`, `%QX0.0`, `Q3`. type IEC_NONE: unknown.
+ * `Motor`, `Main.Motor`, `Runout.Q`, `Table[3]`, `%QX0.0`, `Q3`. type IEC_NONE: unknown.
  * Scan-safe: no. */
 struct location image_find(const struct image *image, const char *name,
 			   size_t len);
@@ -91,6 +91,9 @@ bool image_is_forced(const struct image *image, struct location at);
 /* What a program declared: a variable, or an instance as a whole. */
 struct declared_name {
 	const char *name, *pou; /* in the program; pou "": a global           */
+	struct code_bounds array; /* of an array; then `name` ends with them,
+				   and `at` is its first element            */
+	uint32_t stride;        /* bytes to the next one; of bits of areas 1  */
 	struct location at;     /* type IEC_NONE: an instance, at `where`     */
 	uint32_t flags;         /* enum symbol_flag                           */
 };
@@ -104,6 +107,14 @@ struct declared_cursor { uint32_t index, group, string; };
 bool image_next_declared(const struct program *program,
 			 struct declared_cursor *cursor,
 			 struct declared_name *out);
+/** declared_element - element @number of an array, 0-based. Scan-safe: no. */
+struct location declared_element(const struct declared_name *array,
+				 uint32_t number);
+
+/** image_find_array - the array of this name, as image_find knows names.
+ * Scan-safe: no.   Fails: false if there is none. */
+bool image_find_array(const struct image *image, const char *name, size_t len,
+		      struct declared_name *out);
 
 /* The symbols of the image, for whoever shows or records variables. */
 struct symbol {
@@ -115,14 +126,14 @@ struct symbol {
 };
 /**
  * image_next_symbol - steps through all declared variables; instances are given
- * pin by pin, as "Name.PIN"
+ * pin by pin, as "Name.PIN", arrays element by element, as "Name[3]"
  * @cursor: {0} to begin with; its text buffer backs symbol.name until the next call
  *
  * Owns: nothing.   Scan-safe: no.   Fails: false behind the last one.
  */
 struct symbol_cursor {
 	struct declared_cursor declared;
-	uint32_t pin;
+	uint32_t pin;           /* or element                                 */
 	bool whole;             /* set before: names with their POU, always,
 				   and what an instance keeps to itself too   */
 	char text[2 * LIMIT_NAME + 64];

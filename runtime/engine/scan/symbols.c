@@ -42,6 +42,16 @@ static void locate_bit(struct location *at, uint32_t bit)
 	}
 }
 
+static uint32_t stride_of(const struct program *p, const struct location *at)
+{
+	const struct code_run *run;
+
+	if (at->area != AREA_NONE)
+		return 1;
+	run = at->type == IEC_STRING ? code_run_at(p, at->where) : NULL;
+	return run ? code_run_size(run) : iec_type_row(at->type)->size;
+}
+
 bool image_next_declared(const struct program *p, struct declared_cursor *cursor,
 			 struct declared_name *out)
 {
@@ -67,9 +77,52 @@ bool image_next_declared(const struct program *p, struct declared_cursor *cursor
 		out->pou = p->string + p->entry[group->pou - 1].name;
 	if (CODE_TYPE(word) & SYMBOL_BIT)
 		locate_bit(&out->at, CODE_OFFSET(word));
+	out->array = code_bounds(out->name);
+	out->stride = stride_of(p, &out->at);
 	cursor->string += (uint32_t)strlen(out->name) + 1;
 	cursor->index++;
 	return true;
+}
+
+struct location declared_element(const struct declared_name *array,
+				 uint32_t number)
+{
+	struct location at = array->at;
+
+	at.where += number * array->stride;
+	return at;
+}
+
+static void skip_blanks(const char **at, const char *end)
+{
+	while (*at < end && **at == ' ')
+		(*at)++;
+}
+
+/* `[3]` behind the name of an array; false: none of its elements. */
+static bool parse_index(const struct declared_name *array, const char *text,
+			size_t len, uint32_t *number)
+{
+	const char *at = text, *end = text + len, *digits;
+	bool negative;
+	int64_t index = 0;
+
+	skip_blanks(&at, end);
+	if (at == end || *at++ != '[')
+		return false;
+	skip_blanks(&at, end);
+	negative = at < end && *at == '-';
+	digits = at += negative;
+	for (; at < end && ascii_digit(*at) && at - digits < 12; at++)
+		index = index * 10 + (*at - '0');
+	if (at == digits)
+		return false;
+	skip_blanks(&at, end);
+	if (end - at != 1 || *at != ']')
+		return false;
+	index = (negative ? -index : index) - array->array.low;
+	*number = (uint32_t)index;
+	return index >= 0 && index < array->array.count;
 }
 
 /* The FB of a symbol that is an instance. */
@@ -95,11 +148,15 @@ static struct location match(const struct program *p,
 {
 	struct location none = { .type = IEC_NONE };
 	const struct word_row *row;
-	size_t own = strlen(symbol->name);
+	size_t own = symbol->array.head;
+	uint32_t number;
 	int pin;
 
 	if (len < own || !ascii_same(symbol->name, text, own))
 		return none;
+	if (symbol->array.count)
+		return parse_index(symbol, text + own, len - own, &number) ?
+		       declared_element(symbol, number) : none;
 	if (symbol->at.type != IEC_NONE)
 		return len == own ? symbol->at : none;
 	if (len <= own + 1 || text[own] != '.')
@@ -125,6 +182,28 @@ static struct location find_declared(const struct program *p, const char *text,
 			at = match(p, &symbol, text + skip + 1, len - skip - 1);
 	}
 	return at;
+}
+
+/* Is @text this name, perhaps behind that of its program? */
+static bool is_named(const struct declared_name *symbol, const char *text, size_t len)
+{
+	size_t skip = strlen(symbol->pou), own = symbol->array.head;
+
+	if (skip && len == skip + 1 + own && text[skip] == '.' &&
+	    ascii_same(symbol->pou, text, skip))
+		text += skip + 1, len = own;
+	return len == own && ascii_same(symbol->name, text, own);
+}
+
+bool image_find_array(const struct image *image, const char *name, size_t len,
+		      struct declared_name *out)
+{
+	struct declared_cursor cursor = { 0 };
+
+	while (image_next_declared(image->program, &cursor, out))
+		if (out->array.count && is_named(out, name, len))
+			return true;
+	return false;
 }
 
 /* With the type that its row gives it: a date is more than its 64 bits. */
@@ -166,10 +245,28 @@ static void print_name(const struct declared_name *symbol, const char *pin,
 {
 	bool pou = *symbol->pou &&
 		   (cursor->whole || symbol->flags & SYMBOL_SHARED);
+	int own = symbol->array.head < LIMIT_NAME ? (int)symbol->array.head
+						  : LIMIT_NAME;
 
-	snprintf(cursor->text, sizeof(cursor->text), "%.255s%s%.255s%s%.40s",
-		 pou ? symbol->pou : "", pou ? "." : "", symbol->name,
+	snprintf(cursor->text, sizeof(cursor->text), "%.255s%s%.*s%s%.40s",
+		 pou ? symbol->pou : "", pou ? "." : "", own, symbol->name,
 		 pin ? "." : "", pin ? pin : "");
+}
+
+/* The next element of the array at @cursor; false: no more. */
+static bool next_element(const struct declared_name *array,
+			 struct symbol_cursor *cursor, struct symbol *out)
+{
+	size_t used;
+
+	if (cursor->pin >= array->array.count)
+		return false;
+	print_name(array, NULL, cursor);
+	used = strlen(cursor->text);
+	snprintf(cursor->text + used, sizeof(cursor->text) - used, "[%d]",
+		 (int)(array->array.low + (int64_t)cursor->pin));
+	out->at = declared_element(array, cursor->pin++);
+	return true;
 }
 
 /* The next pin of the instance at @cursor; false: no more. */
@@ -204,8 +301,10 @@ bool image_next_symbol(const struct image *image, struct symbol_cursor *cursor,
 			.name = cursor->text, .flags = symbol.flags,
 			.at = symbol.at,
 		};
-		if (symbol.at.type == IEC_NONE) {
-			if (next_pin(p, &symbol, cursor, out))
+		if (symbol.array.count || symbol.at.type == IEC_NONE) {
+			if (symbol.array.count ?
+			    next_element(&symbol, cursor, out) :
+			    next_pin(p, &symbol, cursor, out))
 				return true;
 			cursor->pin = 0;
 			continue;

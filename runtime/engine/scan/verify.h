@@ -25,11 +25,26 @@ struct verifier {
 	uint32_t blocks_left;  /* bytes that BLOCKs may still compare: a bound
 				  on the time it takes to look at them        */
 	size_t where;          /* byte offset of what broke a rule          */
+	uint32_t walked;       /* elements looked at one by one             */
 };
 
 /* May a value of @type be read, or written, at this offset? Scan-safe: yes. */
 bool verify_use(const struct verifier *v, uint32_t offset, uint32_t type,
 		bool write);
+/**
+ * verify_elements - may every element of an array be read, or written?
+ * @first:  typed operand of the first one
+ * @stride: bytes to the next
+ *
+ * Scan-safe: yes. Fails: also false when an image asks for more than
+ * LIMIT_ELEMENT_WALK steps, all its arrays together.
+ */
+bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
+		     uint32_t stride, bool write);
+/** verify_bits - the same of @count bits of an area, packed; @first as the areas
+ * count them. Scan-safe: yes. */
+bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
+		 bool write);
 /** verify_refuse - notes the place of what broke a rule; false. */
 bool verify_refuse(struct verifier *v, const void *at);
 /** verify_programs - the instructions of all programs. */

@@ -188,6 +188,67 @@ static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 	return store(m, pc[3], &args) && status == FN_OK;
 }
 
+/* What AGET and APUT are about. */
+enum { EN, OK, VALUE, BASE, INDEX, LOW, COUNT, STRIDE };
+
+/* Where the element lies; false: there is none. No index leads outside: what is
+ * below `low` wraps to far above `count`. */
+static bool find_element(const uint8_t *m, const uint32_t *at, uint32_t *where)
+{
+	int64_t index = integer(m, at[INDEX]);
+	uint64_t element = (uint64_t)index - (uint64_t)(int32_t)at[LOW];
+
+	if (element >= at[COUNT] ||
+	    (index < 0 && !value_is_signed(CODE_TYPE(at[INDEX]))))
+		return false;
+	*where = CODE_OFFSET(at[BASE]) + (uint32_t)element * at[STRIDE];
+	return true;
+}
+
+static void clear_value(uint8_t *m, const uint32_t *at)
+{
+	static const struct iec_string none = { 0, 0 };
+
+	if (CODE_TYPE(at[VALUE]) == IEC_STRING)
+		put_text(m, at[VALUE], &none);
+	else
+		put(m, at[VALUE], (union iec_value){ .i = 0 });
+}
+
+static bool get_element(uint8_t *m, const uint32_t *at, uint32_t bits)
+{
+	uint32_t where, copy[3] = { 0, at[VALUE], 0 };
+
+	if (!find_element(m, at, &where))
+		return false;
+	if (bits) {
+		m[CODE_OFFSET(at[VALUE])] = m[where / 8] >> where % 8 & 1u;
+		return true;
+	}
+	copy[2] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
+	run_copy(m, copy);
+	return true;
+}
+
+static bool put_element(uint8_t *m, const uint32_t *at, uint32_t bits)
+{
+	uint32_t where, copy[3] = { 0, 0, at[VALUE] };
+
+	if (!find_element(m, at, &where))
+		return false;
+	if (bits) {
+		uint8_t *byte = &m[where / 8];
+
+		*byte = (uint8_t)((*byte & ~(1u << where % 8)) |
+				  (uint32_t)m[CODE_OFFSET(at[VALUE])]
+				  << where % 8);
+		return true;
+	}
+	copy[1] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
+	run_copy(m, copy);
+	return true;
+}
+
 static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 {
 	if (vm->errors++ == 0)
@@ -291,6 +352,21 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			if (!spend(vm, pc, base + pc[1]))
 				goto out_of_budget;
 			pc = base + pc[1];
+			break;
+		case VM_AGET:
+			m[pc[2]] = m[pc[1]] && get_element(m, pc + 1, n);
+			if (!m[pc[2]]) {
+				clear_value(m, pc + 1);
+				if (m[pc[1]])
+					count_error(vm, pc, base);
+			}
+			pc += 9;
+			break;
+		case VM_APUT:
+			m[pc[2]] = m[pc[1]] && put_element(m, pc + 1, n);
+			if (m[pc[1]] && !m[pc[2]])
+				count_error(vm, pc, base);
+			pc += 9;
 			break;
 		case VM_COUNT:
 			return FAULT_CODE;

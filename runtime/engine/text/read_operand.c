@@ -112,6 +112,35 @@ static bool check_constant(struct reader *r, const char *text, size_t len)
 	return reader_fail(r, DIAG_BAD_LITERAL, text, len);
 }
 
+/* Behind a name or an address: `[3]`, `[-3]` or `[i]`; leaves the cursor on the ]. */
+static bool add_index(struct reader *r)
+{
+	const struct token *token = &r->lex.token;
+
+	if (!reader_peek(r, "["))
+		return true;
+	reader_step(r);
+	buffer_add(r, &r->text, "[", 1);
+	reader_step(r);
+	if (reader_is(r, '-')) {
+		buffer_add(r, &r->text, "-", 1);
+		reader_step(r);
+		if (token->kind != TOKEN_NUMBER)
+			return reader_fail_token(r, DIAG_BAD_LITERAL);
+	}
+	if (token->kind != TOKEN_NUMBER && token->kind != TOKEN_NAME &&
+	    token->kind != TOKEN_ADDRESS)
+		return reader_fail_word(r, DIAG_EXPECTED, "index");
+	if (token->kind == TOKEN_NAME && !check_length(r))
+		return false;
+	buffer_add(r, &r->text, token->text, token->len);
+	reader_step(r);
+	if (!reader_is(r, ']'))
+		return reader_fail_word(r, DIAG_EXPECTED, "]");
+	buffer_add(r, &r->text, "]", 1);
+	return true;
+}
+
 bool reader_value(struct reader *r, bool constant, const struct token *word)
 {
 	const struct token *token = &r->lex.token;
@@ -126,11 +155,11 @@ bool reader_value(struct reader *r, bool constant, const struct token *word)
 	}
 	buffer_add(r, &r->text, token->text, token->len);
 	if (token->kind == TOKEN_NAME)
-		return check_length(r);
+		return check_length(r) && add_index(r);
 	if (token->kind == TOKEN_ADDRESS) {
 		if (iec_addr_parse(token->text, token->len, &addr) != ADDR_OK)
 			return reader_fail_token(r, DIAG_BAD_ADDRESS);
-		return true;
+		return add_index(r);
 	}
 	if (token->kind == TOKEN_NUMBER && constant)
 		return r->no_memory ||

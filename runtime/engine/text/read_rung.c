@@ -76,36 +76,22 @@ static bool read_args(struct reader *r, struct cell *cell)
 	return true;
 }
 
-/* `:=` at its top makes it an assignment: read with a cursor of its own, so
- * that an error has the right column. Gives the word; WORD_COUNT: an error. */
+/* Whether it is an assignment; read with a cursor of its own, so that an error has
+ * the right column. Gives the word; WORD_COUNT: an error. */
 static enum word check_expression(struct reader *r)
 {
 	struct diag place = r->place;
-	struct lex lex = r->lex, ahead;
-	enum word word = ELEM_COMPARE;
+	struct lex lex = r->lex;
 
 	lex.comments = false;
 	lex_next(&lex);
-	ahead = lex;
-	lex_next(&ahead);
 	place.line = lex.token.line;
 	place.column = lex.token.column;
 	place.id = DIAG_BAD_EXPRESSION;
-	if (lex_is(&ahead, ":=")) {
-		word = ELEM_ASSIGN;
-		if (lex.token.kind != TOKEN_NAME &&
-		    lex.token.kind != TOKEN_ADDRESS) {
-			diag_add(r->diags, place, ":=");
-			return WORD_COUNT;
-		}
-		lex = ahead;
-		lex_next(&lex);
-		place.column = lex.token.column;
-	}
-	if (!expr_parse(&lex, &r->expr, r->diags, place))
+	if (!expr_parse_cell(&lex, &r->expr, r->diags, place))
 		return WORD_COUNT;
 	if (lex_is(&lex, "]"))
-		return word;
+		return r->expr.target ? ELEM_ASSIGN : ELEM_COMPARE;
 	place.column = lex.token.column;
 	diag_add(r->diags, place, "%.*s",
 		 lex.token.len > LIMIT_ARG ? LIMIT_ARG : (int)lex.token.len,
@@ -119,13 +105,15 @@ static bool read_expression(struct reader *r, struct cell *cell)
 	const struct token *token = &r->lex.token;
 	const enum word word = check_expression(r);
 	size_t note = r->note.len;
+	int depth = 0;
 
 	if (word == WORD_COUNT)
 		return false;
 	cell->word = (uint16_t)word;
 	buffer_clear(&r->text);
 	reader_next(r);
-	while (!reader_is(r, ']')) {
+	while (!reader_is(r, ']') || depth > 0) {
+		depth += reader_is(r, '[') - reader_is(r, ']');
 		if (r->text.len > 0 &&
 		    (token->space_before || note != r->note.len))
 			buffer_add(r, &r->text, " ", 1);

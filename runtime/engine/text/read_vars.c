@@ -97,6 +97,15 @@ static bool read_capacity(struct reader *r, struct var *var)
 	return true;
 }
 
+/* Would the last elements lie behind the end of the area? */
+static bool leaves_area(const struct var *var)
+{
+	uint64_t bits = var->at.byte * (uint64_t)8 + var->at.bit +
+			(uint64_t)var->at.bits * var->array.count;
+
+	return bits > iec_area_row(var->at.area)->bytes * (uint64_t)8;
+}
+
 /* Where an instance may be: a function keeps nothing, what is handed over is not a
  * block's own, a structure holds values. */
 static bool may_hold_blocks(const struct reader *r)
@@ -109,6 +118,12 @@ static bool may_hold_blocks(const struct reader *r)
 	       !(r->pou && r->pou->kind == POU_FUNCTION);
 }
 
+/* Functions, blocks and structures have none so far. */
+static bool may_hold_arrays(const struct reader *r)
+{
+	return !r->members && (!r->pou || r->pou->kind == POU_PROGRAM);
+}
+
 bool reader_type(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
@@ -117,13 +132,17 @@ bool reader_type(struct reader *r, struct var *var)
 	if (!reader_is(r, ':'))
 		return reader_fail_word(r, DIAG_EXPECTED, ":");
 	reader_step(r);
+	if (lex_is(&r->lex, "ARRAY") && !may_hold_arrays(r))
+		return reader_fail_token(r, DIAG_MISPLACED);
+	if (!read_array(r, &var->array))
+		return false;
 	if (token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "type");
 	var->type = iec_type_find(token->text, token->len);
 	if (var->type == IEC_NONE) {
 		var->fb = words_find(&r->project->words, token->text, token->len);
 		kind = words_row(&r->project->words, var->fb)->kind;
-		if (var->fb == WORD_COUNT ||
+		if (var->fb == WORD_COUNT || var->array.count ||
 		    (kind != WORD_FB && kind != WORD_STRUCT))
 			return reader_fail_token(r, DIAG_BAD_TYPE);
 		if (kind == WORD_FB && !may_hold_blocks(r))
@@ -131,6 +150,10 @@ bool reader_type(struct reader *r, struct var *var)
 		if (var->at_text)
 			return reader_fail_word(r, DIAG_MISPLACED, "AT");
 	}
+	if (var->array.count && var->at_text && leaves_area(var))
+		return reader_fail_word(r, DIAG_BAD_ADDRESS,
+					names_text(&r->project->names,
+						   var->at_text));
 	reader_step(r);
 	return var->type != IEC_STRING || read_capacity(r, var);
 }
@@ -144,17 +167,17 @@ static bool is_kind(const struct literal *literal, enum iec_type type)
 	       !literal->real;
 }
 
-static bool check_init(struct reader *r, struct var *var, const char *text,
-		       size_t len)
+static bool check_constant(struct reader *r, enum iec_type type,
+			   const char *text, size_t len, union iec_value *out)
 {
 	struct literal literal;
 	bool kind = true;
 
 	switch (literal_parse(text, len, &literal)) {
 	case LITERAL_OK:
-		if (literal_fit(&literal, var->type, &var->init))
+		if (literal_fit(&literal, type, out))
 			return true;
-		kind = is_kind(&literal, var->type);
+		kind = is_kind(&literal, type);
 		break;
 	case LITERAL_RANGE:
 		break;
@@ -167,16 +190,11 @@ static bool check_init(struct reader *r, struct var *var, const char *text,
 			   text, len);
 }
 
-static bool read_init(struct reader *r, struct var *var)
+bool read_constant(struct reader *r, enum iec_type type, union iec_value *out)
 {
 	const struct token *token = &r->lex.token;
+	const size_t from = r->text.len;
 
-	if (!lex_is(&r->lex, ":="))
-		return true;
-	if (var->type == IEC_NONE)
-		return reader_fail_token(r, DIAG_MISPLACED);
-	reader_step(r);
-	buffer_clear(&r->text);
 	if (reader_is(r, '-')) {
 		buffer_add(r, &r->text, "-", 1);
 		reader_step(r);
@@ -184,12 +202,27 @@ static bool read_init(struct reader *r, struct var *var)
 	if (token->kind != TOKEN_NUMBER && token->kind != TOKEN_NAME)
 		return reader_fail_word(r, DIAG_EXPECTED, "constant");
 	buffer_add(r, &r->text, token->text, token->len);
-	if (r->no_memory ||
-	    !check_init(r, var, r->text.text, r->text.len))
+	if (r->no_memory || !check_constant(r, type, r->text.text + from,
+					    r->text.len - from, out))
+		return false;
+	reader_step(r);
+	return true;
+}
+
+static bool read_init(struct reader *r, struct var *var)
+{
+	if (!lex_is(&r->lex, ":="))
+		return true;
+	if (var->type == IEC_NONE)
+		return reader_fail_token(r, DIAG_MISPLACED);
+	reader_step(r);
+	if (var->array.count)
+		return read_init_list(r, var);
+	buffer_clear(&r->text);
+	if (!read_constant(r, var->type, &var->init))
 		return false;
 	var->has_init = true;
 	var->init_text = buffer_take(r, &r->text);
-	reader_step(r);
 	return true;
 }
 

@@ -121,14 +121,20 @@ uint32_t reader_intern(struct reader *r, const char *text, size_t len);
 bool reader_name(struct reader *r, const char *wanted, uint32_t *id);
 /** reader_string - the text inside a string, escapes resolved. */
 bool reader_string(struct reader *r, uint32_t *id);
-/** reader_value - appends a name, an address or (if @constant) a constant to
- * r->text, and leaves the cursor on its last token. @word needs it. */
+/** reader_value - appends a name, an address (both perhaps with an index) or (if
+ * @constant) a constant to r->text, and leaves the cursor on its last token. @word needs it. */
 bool reader_value(struct reader *r, bool constant, const struct token *word);
 /** reader_pin - the name of a pin, in upper case. */
 bool reader_pin(struct reader *r, uint32_t *id);
 /** reader_arg - appends `PIN:=value` to r->text and to r->arg, likewise. */
 bool reader_arg(struct reader *r);
 
+/** read_constant - appends a constant of @type to r->text and steps behind it. */
+bool read_constant(struct reader *r, enum iec_type type, union iec_value *out);
+/** read_array - `ARRAY[low..high] OF`, if it stands here. */
+bool read_array(struct reader *r, struct var_array *array);
+/** read_init_list - `[1, 2, 3(7)]`, the initial values of an array. */
+bool read_init_list(struct reader *r, struct var *var);
 /** reader_type - `: type` of a declaration or function; steps behind it. */
 bool reader_type(struct reader *r, struct var *var);
 /** reader_unescape - string id of a string token; errors go to @diags. */

@@ -108,9 +108,12 @@ static void write_init(const struct sink *sink, const struct project *project,
 static void write_type(const struct sink *sink, const struct project *project,
 		       const struct var *var)
 {
+	if (var->array.count)
+		sink_printf(sink, "ARRAY[%ld..%lld] OF ", (long)var->array.low,
+			    (long long)var->array.low + var->array.count - 1);
 	sink_text(sink, var->type == IEC_NONE ?
-		  words_row(&project->words, var->fb)->word :
-		  iec_type_row(var->type)->word);
+			words_row(&project->words, var->fb)->word :
+			iec_type_row(var->type)->word);
 	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
 		sink_printf(sink, "[%u]", var->capacity);
 }

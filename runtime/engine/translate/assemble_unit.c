@@ -7,6 +7,7 @@
  */
 #include "engine/translate/lists.h"
 
+#define ALWAYS CODE_TRUE_AT(iec_areas_size())
 
 const struct meaning *list_meaning(struct list *list, uint32_t operand)
 {
@@ -128,6 +129,8 @@ struct bits list_bits(struct list *list, const struct meaning *m)
 
 	if (m->kind == MEANING_LITERAL)
 		return bits_constant(m->literal.value.i != 0);
+	if (meaning_is_indexed(m))
+		return bits_leaf(CODE_OFFSET(list_fetch(list, m, ALWAYS, &slot)));
 	if (var >= 0)
 		return read_temp(list, var, m);
 	spot = spot_of(list, m);
@@ -187,6 +190,11 @@ void list_write_bits(struct list *list, const struct meaning *m,
 		write_temp(list, var, value);
 		return;
 	}
+	if (meaning_is_indexed(m)) {
+		list_deposit(list, m, ALWAYS,
+			     CODE_OPERAND(IEC_BOOL, list_slot(list, value)));
+		return;
+	}
 	spot = spot_of(list, m);
 	if (spot.packed) {
 		uint32_t slot = list_slot(list, value);
@@ -207,6 +215,7 @@ uint32_t list_number(struct list *list, const struct meaning *m,
 {
 	union iec_value value = { .i = 0 };
 	struct spot spot;
+	uint32_t ok;
 
 	if (m->kind == MEANING_LITERAL) {
 		if (m->type != IEC_NONE)
@@ -222,6 +231,8 @@ uint32_t list_number(struct list *list, const struct meaning *m,
 
 		return CODE_OPERAND(IEC_BOOL, list_slot(list, &bits));
 	}
+	if (meaning_is_indexed(m))
+		return list_fetch(list, m, ALWAYS, &ok);
 	spot = spot_of(list, m);
 	return CODE_OPERAND(spot.type, spot.offset);
 }
@@ -229,7 +240,7 @@ uint32_t list_number(struct list *list, const struct meaning *m,
 void list_copy(struct list *list, uint32_t to, uint32_t from)
 {
 	emit_op(list->as, VM_COPY, 0);
-	emit(list->as, CODE_TRUE_AT(iec_areas_size()));
+	emit(list->as, ALWAYS);
 	emit(list->as, to);
 	emit(list->as, from);
 }
@@ -248,22 +259,32 @@ static bool result_goes_on(const struct list *list)
 	return false;
 }
 
+/* The result, a number or a constant, as a typed word. */
+static uint32_t result_as(struct list *list, enum iec_type type)
+{
+	union iec_value value = { .i = 0 };
+
+	if (list->now.kind != RESULT_LITERAL)
+		return list->now.operand;
+	if (type == IEC_STRING)
+		return CODE_OPERAND(type, layout_text(list->as,
+						      list->now.literal));
+	literal_fit(list->now.literal, type, &value);
+	return CODE_OPERAND(type, layout_constant(list->as, type, value));
+}
+
 static void store_number(struct list *list, const struct meaning *m)
 {
 	struct il_result *now = &list->now;
 	struct spot spot = spot_of(list, m);
 	uint32_t to = CODE_OPERAND(spot.type, spot.offset);
-	union iec_value value = { .i = 0 };
 
-	if (now->kind == RESULT_LITERAL && m->type == IEC_STRING) {
-		list_copy(list, to, CODE_OPERAND(IEC_STRING,
-			layout_text(list->as, now->literal)));
+	if (meaning_is_indexed(m)) {
+		list_deposit(list, m, ALWAYS, result_as(list, m->type));
 		return;
 	}
 	if (now->kind == RESULT_LITERAL) {
-		literal_fit(now->literal, m->type, &value);
-		list_copy(list, to, CODE_OPERAND(m->type,
-			layout_constant(list->as, m->type, value)));
+		list_copy(list, to, result_as(list, m->type));
 		return;
 	}
 	if (!now->own && result_goes_on(list)) {
@@ -295,6 +316,7 @@ void list_load(struct list *list, const struct il_line *line)
 		list->now.literal = &m->literal;
 	} else {
 		list->now.operand = list_number(list, m, m->type);
+		list->now.own = meaning_is_indexed(m);
 	}
 	if (bits && line->modifiers & MOD_N)
 		list_invert(list, m->type);
@@ -356,7 +378,8 @@ static void store(struct list *list, const struct il_line *line)
 	value = list_now_bits(list);
 	if (line->modifiers & MOD_N)
 		value = bits_not(value);
-	if (list->now.kind == RESULT_LITERAL || spot_of(list, m).packed ||
+	if (list->now.kind == RESULT_LITERAL || meaning_is_indexed(m) ||
+	    spot_of(list, m).packed ||
 	    (list_temp(list, m) >= 0 && !is_wanted_twice(list, &value))) {
 		list_write_bits(list, m, &value);
 		return;
@@ -373,78 +396,20 @@ static void store(struct list *list, const struct il_line *line)
 static void set_reset(struct list *list, const struct il_line *line)
 {
 	const struct meaning *m = list_meaning(list, line->operand);
-	struct bits old = list_bits(list, m), value;
+	struct bits old, value;
 
+	if (meaning_is_indexed(m)) {
+		value = list_now_bits(list);
+		list_deposit(list, m, list_slot(list, &value),
+			     CODE_OPERAND(IEC_BOOL, line->op == OP_S ? ALWAYS :
+					  CODE_FALSE_AT(iec_areas_size())));
+		return;
+	}
+	old = list_bits(list, m);
 	/* S: old or now. R: old and not now. */
 	value = bits_combine(list->as, old, list_now_bits(list),
 			     line->op == OP_S ? 0xe : 0x2);
 	list_write_bits(list, m, &value);
-}
-
-/* ---- jumps ---- */
-
-static uint32_t fold(struct list *list, uint32_t name)
-{
-	return names_fold(&list->as->translation->project->names, name);
-}
-
-static void add_fixup(struct list *list, uint32_t name)
-{
-	uint32_t word = (uint32_t)list->as->text->count;
-
-	emit(list->as, 0);
-	if (!arena_push(list->as->arena, &list->fixup, &list->fixup_count,
-			sizeof(*list->fixup))) {
-		list->as->failed = true;
-		return;
-	}
-	list->fixup[list->fixup_count - 1].word = word;
-	list->fixup[list->fixup_count - 1].fold = name ? fold(list, name) : 0;
-}
-
-/* JMP and RET; the fold 0 stands for the end of the list. */
-static void flow(struct list *list, const struct il_line *line)
-{
-	uint32_t target = line->op == OP_JMP ? line->operand : 0;
-	struct bits condition;
-	uint32_t slot = 0;
-
-	if (line->modifiers & MOD_C) {
-		condition = list_now_bits(list);
-		if (line->modifiers & MOD_N)
-			condition = bits_not(condition);
-		slot = list_slot(list, &condition);
-		if (!(line->modifiers & MOD_N))
-			list->now.bits = bits_leaf(slot);
-	}
-	list_place(list);
-	list->straight = false;
-	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP, 0);
-	add_fixup(list, target);
-	if (line->modifiers & MOD_C)
-		emit(list->as, slot);
-}
-
-static void set_label(struct list *list, const struct il_line *line)
-{
-	uint32_t id = fold(list, line->operand);
-
-	list->as->open_lut = -1;
-	list->straight = false;
-	list->now.kind = RESULT_NONE;
-	list->pending_count = 0;
-	if (id < list->label_count)
-		list->label[id] = (uint32_t)list->as->text->count + 1;
-}
-
-static void patch(struct list *list, uint32_t end)
-{
-	for (int i = 0; i < list->fixup_count; i++) {
-		uint32_t at = list->fixup[i].fold ?
-			list->label[list->fixup[i].fold] - 1 : end;
-
-		list->as->text->word[list->fixup[i].word] = at;
-	}
 }
 
 /* ---- the walk ---- */
@@ -480,7 +445,7 @@ static void assemble_op(struct list *list, const struct il_line *line)
 		break;
 	case OP_JMP:
 	case OP_RET:
-		flow(list, line);
+		list_flow(list, line);
 		break;
 	case OP_CAL:
 		list_cal(list);
@@ -505,7 +470,7 @@ static void assemble_line(struct list *list)
 		list_close(list);
 		break;
 	case IL_LABEL:
-		set_label(list, line);
+		list_label(list, line);
 		break;
 	case IL_CALL:
 		list_call(list);
@@ -515,19 +480,6 @@ static void assemble_line(struct list *list)
 	case IL_COMMENT:
 		break;
 	}
-}
-
-static bool find_labels(struct list *list)
-{
-	struct names *names = &list->as->translation->project->names;
-
-	for (int i = 0; i < list->il->count; i++)
-		if (list->il->line[i].kind == IL_LABEL)
-			fold(list, list->il->line[i].operand);
-	list->label_count = (uint32_t)names->count;
-	list->label = arena_alloc(list->as->arena,
-				  list->label_count * sizeof(*list->label));
-	return list->label != NULL;
 }
 
 bool assemble_unit(struct assembler *as, int unit, bool watch)
@@ -548,7 +500,7 @@ bool assemble_unit(struct assembler *as, int unit, bool watch)
 	as->slots = list->straight ? &as->program_slots : &frame->slots;
 	as->open_lut = -1;
 	as->scratch_used = 0;
-	if (!find_labels(list) || !list_count_reads(list))
+	if (!list_find_labels(list) || !list_count_reads(list))
 		return false;
 	if (frame->temps_size)
 		emit_block(as, frame->temps, frame->temps_model,
@@ -558,6 +510,6 @@ bool assemble_unit(struct assembler *as, int unit, bool watch)
 	end = (uint32_t)as->text->count;
 	emit_op(as, VM_END, 0);
 	if (!as->failed)
-		patch(list, end);
+		list_patch(list, end);
 	return !as->failed;
 }

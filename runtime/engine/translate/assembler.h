@@ -122,6 +122,9 @@ void layout_init_over(struct assembler *as, uint32_t offset, enum iec_type type,
  * instance at an offset. */
 void layout_init_pins(struct assembler *as, uint32_t offset,
 		      const struct word_row *row);
+/** layout_init_array - the initial values of an array at an offset. */
+void layout_init_array(struct assembler *as, uint32_t offset,
+		       const struct var *var);
 /** layout_count_pins - counts the uses of every instance pin. */
 bool layout_count_pins(struct assembler *as);
 /** layout_only_stored - is a parameter of the only call all that is ever done with
@@ -132,7 +135,7 @@ bool layout_only_stored(const struct assembler *as, const struct meaning *pin);
 const struct frame *layout_pou(const struct assembler *as, enum word word,
 			       uint32_t *index);
 /** layout_has_room - is there room for @size bytes at @offset? */
-bool layout_has_room(struct assembler *as, uint32_t offset, uint32_t size);
+bool layout_has_room(struct assembler *as, uint32_t offset, uint64_t size);
 /** layout_place_at - the same at @offset, behind all that lies there already. */
 uint32_t layout_place_at(struct assembler *as, struct code_run want,
 			 uint32_t offset, uint32_t size);

@@ -171,7 +171,7 @@ static struct target bool_target(struct list *list, const struct meaning *m,
 		return out;
 	}
 	spot = layout_spot(list->as, m);
-	out.beside = spot.packed || list_temp(list, m) >= 0;
+	out.beside = meaning_is_indexed(m) || spot.packed || list_temp(list, m) >= 0;
 	if (!out.beside) {
 		out.slot = spot.offset;
 		return out;
@@ -206,15 +206,37 @@ static bool is_arg(const struct list *list, int at)
 					list->il->line[at].kind == IL_ARG_OUT);
 }
 
+/* EN first: an element whose index leads nowhere is no error while it is FALSE. */
+static void read_en(struct list *list, struct call *call)
+{
+	for (int i = list->at + 1; is_arg(list, i); i++) {
+		const struct il_line *arg = &list->il->line[i];
+		struct bits bits;
+
+		if (strcasecmp(pin_text(list, arg), "EN") != 0)
+			continue;
+		bits = list_bits(list, list_meaning(list, arg->operand));
+		call->en = list_slot(list, &bits);
+	}
+}
+
+/* With an element that is not there the function does not run. */
+static uint32_t read_input(struct list *list, const struct meaning *m,
+			   enum iec_type type, struct call *call)
+{
+	return meaning_is_indexed(m) ? list_fetch(list, m, call->en, &call->en)
+			     : list_number(list, m, type);
+}
+
 static void read_args(struct list *list, const struct word_row *row,
 		      enum iec_type type, struct call *call)
 {
+	read_en(list, call);
 	for (int i = list->at + 1; is_arg(list, i); i++) {
 		const struct il_line *arg = &list->il->line[i];
 		const struct meaning *m = list_meaning(list, arg->operand);
 		const char *pin = pin_text(list, arg);
-		struct bits bits;
-		int index;
+		int index = word_pin_find(row, pin, strlen(pin));
 
 		if (strcasecmp(pin, "ENO") == 0) {
 			call->eno = m;
@@ -222,17 +244,11 @@ static void read_args(struct list *list, const struct word_row *row,
 		} else if (strcasecmp(pin, "OUT") == 0) {
 			call->out = m;
 			call->out_line = i;
-		} else if (strcasecmp(pin, "EN") == 0) {
-			bits = list_bits(list, m);
-			call->en = list_slot(list, &bits);
-		} else {
-			index = word_pin_find(row, pin, strlen(pin));
-			if (index < 0 || index >= LIMIT_FN_INPUTS)
-				continue;
-			call->input[index] = list_number(list, m,
+		} else if (index >= 0 && index < LIMIT_FN_INPUTS) {
+			call->input[index] = read_input(list, m,
 				input_type(row, (uint32_t)index, type,
 					   m->kind == MEANING_LITERAL ?
-					   &m->literal : NULL));
+					   &m->literal : NULL), call);
 			call->count = index >= call->count ? index + 1
 							   : call->count;
 		}
@@ -266,7 +282,9 @@ void list_call(struct list *list)
 	read_args(list, row, type, &call);
 	result = fn_result(row, type, call.out ? call.out->type : IEC_NONE);
 	eno = bool_target(list, call.eno, false);
-	if (call.out && result == IEC_BOOL) {
+	if (call.out && meaning_is_indexed(call.out)) { /* what it is, if OUT fails */
+		to = list_fetch(list, call.out, call.en, &call.en);
+	} else if (call.out && result == IEC_BOOL) {
 		out = bool_target(list, call.out, true);
 		to = CODE_OPERAND(IEC_BOOL, out.slot);
 	} else if (call.out) {
@@ -288,6 +306,8 @@ void list_call(struct list *list)
 	for (int i = 0; i < call.count; i++)
 		emit_input(list, row, (uint32_t)i, call.input[i]);
 	list->now.kind = RESULT_NONE;
+	if (call.out && meaning_is_indexed(call.out))
+		list_deposit(list, call.out, call.en, to);
 	if (call.eno)
 		finish_at(list, &eno, call.eno_line);
 	if (out.m)
@@ -298,7 +318,7 @@ void list_call(struct list *list)
 
 /* PIN := value, as LD value, ST Instance.PIN would be. */
 static void feed_pin(struct list *list, const struct meaning *instance,
-		     const struct il_line *arg)
+		     const struct il_line *arg, uint32_t fetched)
 {
 	const struct word_row *row = list_row(list, instance->word);
 	const struct meaning *m = list_meaning(list, arg->operand);
@@ -321,13 +341,14 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 		return;
 	}
 	if (pin.type == IEC_BOOL) {
-		bits = list_bits(list, m);
+		bits = fetched ? bits_leaf(CODE_OFFSET(fetched))
+			       : list_bits(list, m);
 		list_protect(list, to, 1);
 		bits_store(list->as, &bits, to);
 		return;
 	}
 	list_copy(list, CODE_OPERAND(pin.type, to),
-		  list_number(list, m, pin.type));
+		  fetched ? fetched : list_number(list, m, pin.type));
 }
 
 /* PIN => variable. */
@@ -351,26 +372,88 @@ static void take_pin(struct list *list, const struct meaning *instance,
 		list_write_bits(list, m, &bits);
 		return;
 	}
-	list_copy(list, list_number(list, m, m->type),
-		  CODE_OPERAND(pin.type, spot.offset));
+	if (meaning_is_indexed(m))
+		list_deposit(list, m, TRUE_SLOT,
+			     CODE_OPERAND(pin.type, spot.offset));
+	else
+		list_copy(list, list_number(list, m, m->type),
+			  CODE_OPERAND(pin.type, spot.offset));
 }
 
-/* CALC is a jump over the call. */
-int list_skip_call(struct list *list, const struct il_line *line)
+/* A jump over the call; gives the word of its target. What waits was stored before:
+ * behind the jump would be too late. */
+static int jump_over(struct list *list, struct bits skip)
 {
-	struct bits skip = list_now_bits(list);
-	int at;
-
-	list_keep_all(list);
-	if (!(line->modifiers & MOD_N))
-		skip = bits_not(skip);
 	uint32_t slot = list_slot(list, &skip);
+	int at;
 
 	emit_op(list->as, VM_JMPC, 0);
 	at = list->as->text->count;
 	emit(list->as, 0);
 	emit(list->as, slot);
+	list->straight = false;
 	return at;
+}
+
+static bool is_element(struct list *list, const struct il_line *arg)
+{
+	return meaning_is_indexed(list_meaning(list, arg->operand));
+}
+
+/* Inputs that are elements, by number of the parameter; 0: none. Returns the BOOL
+ * that tells whether all are there; 0: nothing to tell. */
+static uint32_t fetch_inputs(struct list *list, uint32_t fetched[LIMIT_ARGS])
+{
+	uint32_t ok = 0;
+
+	memset(fetched, 0, LIMIT_ARGS * sizeof(*fetched));
+	for (int i = 0; i < LIMIT_ARGS && is_arg(list, list->at + 1 + i); i++) {
+		const struct il_line *arg = &list->il->line[list->at + 1 + i];
+
+		if (arg->kind == IL_ARG_IN && is_element(list, arg))
+			fetched[i] = list_fetch(list,
+				list_meaning(list, arg->operand),
+				ok ? ok : TRUE_SLOT, &ok);
+	}
+	return ok;
+}
+
+int list_skip_missing(struct list *list, bool kept, uint32_t fetched[LIMIT_ARGS])
+{
+	uint32_t ok = fetch_inputs(list, fetched);
+
+	if (!ok)
+		return -1;
+	if (!kept)
+		list_keep_all(list);
+	return jump_over(list, bits_not(bits_leaf(ok)));
+}
+
+void list_fetch_args(struct list *list, struct bits *en,
+		     uint32_t fetched[LIMIT_ARGS])
+{
+	memset(fetched, 0, LIMIT_ARGS * sizeof(*fetched));
+	for (int i = 0; i < LIMIT_ARGS && is_arg(list, list->at + 1 + i); i++) {
+		const struct il_line *arg = &list->il->line[list->at + 1 + i];
+		const char *pin = pin_text(list, arg);
+		uint32_t ok;
+
+		if (!is_element(list, arg) || strcasecmp(pin, "EN") == 0 ||
+		    strcasecmp(pin, "ENO") == 0)
+			continue;
+		fetched[i] = list_fetch(list, list_meaning(list, arg->operand),
+					list_slot(list, en), &ok);
+		*en = bits_leaf(ok);
+	}
+}
+
+/* CALC is a jump over the call. */
+int list_skip_call(struct list *list, const struct il_line *line)
+{
+	struct bits now = list_now_bits(list);
+
+	list_keep_all(list);
+	return jump_over(list, line->modifiers & MOD_N ? now : bits_not(now));
 }
 
 void list_end_skip(struct list *list, int skip)
@@ -381,13 +464,15 @@ void list_end_skip(struct list *list, int skip)
 	list->as->text->word[skip] = (uint32_t)list->as->text->count;
 }
 
+/* An input that is an element that is not there is a jump over the call, too. */
 void list_cal(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
 	const struct meaning *instance = list_meaning(list, line->operand);
 	enum word fb = instance->word;
 	uint32_t offset = layout_spot(list->as, instance).offset;
-	int skip = -1;
+	uint32_t fetched[LIMIT_ARGS];
+	int unless = -1, missing;
 
 	if (word_is_own(fb)) {
 		list_own_cal(list);
@@ -395,12 +480,13 @@ void list_cal(struct list *list)
 	}
 	list_protect(list, offset, list_row(list, fb)->size);
 	if (line->modifiers & MOD_C) {
-		skip = list_skip_call(list, line);
-		list->straight = false;
+		unless = list_skip_call(list, line);
 	}
+	missing = list_skip_missing(list, unless >= 0, fetched);
 	for (int i = list->at + 1; is_arg(list, i); i++)
 		if (list->il->line[i].kind == IL_ARG_IN)
-			feed_pin(list, instance, &list->il->line[i]);
+			feed_pin(list, instance, &list->il->line[i],
+				 fetched[i - list->at - 1]);
 	list_place(list);
 	emit_op(list->as, VM_FB, (uint32_t)fb);
 	emit(list->as, offset);
@@ -410,6 +496,7 @@ void list_cal(struct list *list)
 			take_pin(list, instance, &list->il->line[i]);
 			list->at = at;
 		}
-	list_end_skip(list, skip);
+	list_end_skip(list, unless);
+	list_end_skip(list, missing);
 	list->now.kind = RESULT_NONE;
 }

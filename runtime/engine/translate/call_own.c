@@ -57,8 +57,9 @@ static void copy_whole(struct list *list, uint32_t to, uint32_t from, uint32_t s
 
 /* ---- pins, at @to in an instance or frame ---- */
 
+/* @fetched: where an element is that was looked up before; 0: none. */
 static void feed(struct list *list, uint32_t to, const struct word_pin *pin,
-		 const struct meaning *m)
+		 const struct meaning *m, uint32_t fetched)
 {
 	struct bits bits;
 
@@ -66,11 +67,12 @@ static void feed(struct list *list, uint32_t to, const struct word_pin *pin,
 		copy_whole(list, to, layout_spot(list->as, m).offset,
 			   size_of(list, m));
 	} else if (pin->type == IEC_BOOL) {
-		bits = list_bits(list, m);
+		bits = fetched ? bits_leaf(CODE_OFFSET(fetched))
+			       : list_bits(list, m);
 		list_protect(list, to, 1);
 		bits_store(list->as, &bits, to);
 	} else {
-		list_copy(list, CODE_OPERAND(pin->type, to),
+		list_copy(list, CODE_OPERAND(pin->type, to), fetched ? fetched :
 			  list_number(list, m, pin->type));
 	}
 }
@@ -85,6 +87,9 @@ static void take(struct list *list, uint32_t from, enum iec_type type,
 			   size_of(list, m));
 	else if (type == IEC_BOOL)
 		list_write_bits(list, m, &bits);
+	else if (meaning_is_indexed(m))
+		list_deposit(list, m, CODE_TRUE_AT(iec_areas_size()),
+			     CODE_OPERAND(type, from));
 	else
 		list_copy(list, list_number(list, m, m->type),
 			  CODE_OPERAND(type, from));
@@ -101,7 +106,8 @@ static const struct word_pin *pin_of(const struct list *list,
 	return index < 0 ? NULL : &row->pin[index];
 }
 
-static void feed_all(struct list *list, const struct word_row *row, uint32_t base)
+static void feed_all(struct list *list, const struct word_row *row, uint32_t base,
+		     const uint32_t fetched[LIMIT_ARGS])
 {
 	for (int i = list->at + 1; is_arg(list, i); i++) {
 		const struct il_line *arg = &list->il->line[i];
@@ -109,7 +115,8 @@ static void feed_all(struct list *list, const struct word_row *row, uint32_t bas
 
 		if (pin && arg->kind == IL_ARG_IN)
 			feed(list, base + pin->offset, pin,
-			     list_meaning(list, arg->operand));
+			     list_meaning(list, arg->operand),
+			     fetched[i - list->at - 1]);
 	}
 }
 
@@ -147,18 +154,22 @@ void list_own_cal(struct list *list)
 	const struct word_row *row = list_row(list, instance->word);
 	uint32_t base = layout_spot(list->as, instance).offset, entry;
 	const struct frame *frame = layout_pou(list->as, instance->word, &entry);
-	int skip = -1;
+	uint32_t fetched[LIMIT_ARGS];
+	int skip = -1, missing = -1;
 
 	if (line->modifiers & MOD_C)
 		skip = list_skip_call(list, line);
+	else
+		list_keep_all(list);
 	list->now.kind = RESULT_NONE;
-	list_keep_all(list);
-	feed_all(list, row, base);
+	missing = list_skip_missing(list, true, fetched);
+	feed_all(list, row, base, fetched);
 	emit_block(list->as, frame->offset, base, row->size);
 	emit_call(list, entry);
 	emit_block(list->as, base, frame->offset, row->size);
 	take_all(list, row, base);
 	list_end_skip(list, skip);
+	list_end_skip(list, missing);
 }
 
 /* ---- functions ---- */
@@ -220,7 +231,7 @@ static void take_result(struct list *list, const struct frame *frame,
 	list->at = own;
 }
 
-static void call_function(struct list *list)
+static void call_function(struct list *list, const uint32_t fetched[LIMIT_ARGS])
 {
 	enum word word = (enum word)list->il->line[list->at].word;
 	const struct word_row *row = list_row(list, word);
@@ -228,7 +239,7 @@ static void call_function(struct list *list)
 	const struct frame *frame = layout_pou(list->as, word, &entry);
 
 	emit_block(list->as, frame->offset, frame->model, frame->size);
-	feed_all(list, row, frame->offset);
+	feed_all(list, row, frame->offset, fetched);
 	emit_call(list, entry);
 	take_all(list, row, frame->offset);
 	take_result(list, frame, row);
@@ -260,18 +271,20 @@ static void move_struct(struct list *list)
 
 void list_own_call(struct list *list)
 {
+	uint32_t fetched[LIMIT_ARGS];
 	struct bits en;
 	int skip;
 
 	list->now.kind = RESULT_NONE;
 	en = read_en(list);
+	list_fetch_args(list, &en, fetched);
 	list_keep_all(list);
 	skip = skip_unless(list, &en);
 	list->now.kind = RESULT_NONE;
 	if (list_is_struct_move(list))
 		move_struct(list);
 	else
-		call_function(list);
+		call_function(list, fetched);
 	list_end_skip(list, skip);
 	write_eno(list, &en);
 }
@@ -349,7 +362,7 @@ void list_own_fn(struct list *list)
 	     i++) {
 		pin = next_input(row, pin);
 		feed(list, frame->offset + row->pin[pin].offset, &row->pin[pin],
-		     list_meaning(list, list->il->line[i].operand));
+		     list_meaning(list, list->il->line[i].operand), 0);
 	}
 	emit_call(list, entry);
 	result_now(list, result_at(frame, row), row->pin[0].type);

@@ -50,7 +50,7 @@ struct ld {
 	uint16_t row, col; /* place of the next instruction, 1-based          */
 	bool open;         /* a parenthesis waits for its first operand       */
 	uint8_t open_op;
-	uint32_t true_id, en_id, eno_id, out_id;
+	uint32_t true_id, in_id, en_id, eno_id, out_id;
 	uint8_t *target;   /* by folded label: does a jump lead here?         */
 	uint32_t target_count;
 	struct open_loop loop[LIMIT_LOOPS];
@@ -82,9 +82,23 @@ void ld_freeze(struct ld *ld, uint32_t operand);
 void ld_freeze_globals(struct ld *ld);
 /** ld_read - an element has been evaluated: ld_freeze will find it. */
 void ld_read(struct ld *ld, int element);
+/** ld_meaning - of an operand; NULL: none. */
+const struct meaning *ld_meaning(struct ld *ld, uint32_t operand);
+/** ld_is_indexed - is it an element whose index is found out in the scan? */
+bool ld_is_indexed(struct ld *ld, uint32_t operand);
 /** ld_settle - while watching: power of an element or net in a variable. */
 void ld_settle_element(struct ld *ld, int element);
 void ld_settle_net(struct ld *ld, int net);
+
+/* ---- ld_element.c: elements whose index is found out in the scan ---- */
+/** ld_fetch - such an element as it is now, in a new temporary
+ * @en:  operand that enables it
+ * @eno: gets a temporary: is there such an element? */
+uint32_t ld_fetch(struct ld *ld, uint32_t element, uint32_t en, uint32_t *eno);
+/** ld_contact - a contact, normally open or closed: power only if there is one. */
+void ld_contact(struct ld *ld, int element, uint32_t operand);
+/** ld_edge - an edge contact; without the element its memory stays. */
+void ld_edge(struct ld *ld, int element, uint32_t operand);
 
 /* ---- ld_box.c ---- */
 /** ld_row - the row of a word, be it the project's own. */

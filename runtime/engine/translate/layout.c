@@ -29,12 +29,12 @@ const struct word_row *layout_row(const struct assembler *as, enum word word)
 
 /* ---- runs ---- */
 
-bool layout_has_room(struct assembler *as, uint32_t offset, uint32_t size)
+bool layout_has_room(struct assembler *as, uint32_t offset, uint64_t size)
 {
 	struct diag diag = { .id = DIAG_DATA_TOO_LARGE,
 		.file = as->translation->project->file };
 
-	if (size <= LIMIT_DATA && offset <= LIMIT_DATA - size)
+	if (size <= LIMIT_DATA && offset <= LIMIT_DATA - (uint32_t)size)
 		return true;
 	if (!as->failed)
 		diag_add(as->translation->diags, diag, "%u bytes",
@@ -43,19 +43,22 @@ bool layout_has_room(struct assembler *as, uint32_t offset, uint32_t size)
 	return false;
 }
 
+/* @want: what, and how many of it, each of @size. */
 uint32_t layout_place_at(struct assembler *as, struct code_run want,
 			 uint32_t offset, uint32_t size)
 {
 	struct code_run *last = as->run_count ?
 		&as->run[as->run_count - 1] : NULL;
 
-	if (!layout_has_room(as, offset, size))
+	if (!want.count)
+		want.count = 1;
+	if (!layout_has_room(as, offset, (uint64_t)want.count * size))
 		return as->data_size - 1;
-	as->data_size = offset + size;
+	as->data_size = offset + want.count * size;
 	if (last && as->run_count > as->run_core && last->kind == want.kind &&
 	    last->type == want.type && last->word == want.word &&
 	    last->offset + last->count * size == offset) {
-		last->count++;
+		last->count += want.count;
 		return offset;
 	}
 	last = arena_push(as->arena, &as->run, &as->run_count, sizeof(*last));
@@ -65,7 +68,6 @@ uint32_t layout_place_at(struct assembler *as, struct code_run want,
 	}
 	*last = want;
 	last->offset = offset;
-	last->count = 1;
 	return offset;
 }
 
@@ -76,20 +78,29 @@ uint32_t layout_place(struct assembler *as, struct code_run want, uint32_t size,
 			       (as->data_size + align - 1) / align * align, size);
 }
 
+/* @capacity: of a STRING; all others have none. */
+static uint32_t place_values(struct assembler *as, enum code_run_kind kind,
+			     enum iec_type type, uint32_t capacity, uint32_t count)
+{
+	struct code_run run = {
+		.kind = (uint8_t)kind, .type = (uint8_t)type, .count = count,
+		.word = (uint16_t)(type == IEC_STRING ? capacity : 0),
+	};
+
+	return layout_place(as, run, iec_type_size(type, capacity),
+			    iec_type_row(type)->size);
+}
+
 static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
 			    enum iec_type type)
 {
-	struct code_run run = { .kind = (uint8_t)kind, .type = (uint8_t)type };
-	uint32_t size = iec_type_row(type)->size;
-
-	if (type == IEC_STRING)
-		return layout_string(as, kind, IEC_STRING_MOST);
-	return layout_place(as, run, size, size);
+	return place_values(as, kind, type, IEC_STRING_MOST, 1);
 }
 
 static uint32_t place_instance(struct assembler *as, enum word word)
 {
-	struct code_run run = { .kind = RUN_INSTANCE, .word = (uint16_t)word };
+	struct code_run run = { .kind = RUN_INSTANCE, .word = (uint16_t)word,
+				.count = 1 };
 	uint32_t offset;
 
 	if (word_is_own(word))
@@ -162,6 +173,29 @@ static void use_address(struct assembler *as, uint8_t *used,
 		memset(as->byte_packed + area_byte(addr), 1, addr.bits / 8u);
 }
 
+/* Whatever an index may lead to stays packed, bits too. */
+static void use_addresses(struct assembler *as, struct iec_addr first,
+			  uint32_t count)
+{
+	struct iec_addr last = vars_shift(first, count - 1);
+	uint32_t end = area_byte(last) + (last.bits + 7u) / 8;
+
+	memset(as->byte_packed + area_byte(first), 1, end - area_byte(first));
+}
+
+static void use_meaning(struct assembler *as, uint8_t *used,
+			const struct meaning *m)
+{
+	if (m->kind == MEANING_LITERAL || m->kind == MEANING_PIN)
+		return;
+	if (meaning_is_indexed(m))
+		use_meaning(as, used, m->index_of);
+	if (meaning_is_indexed(m) && m->addr.area != AREA_NONE)
+		use_addresses(as, m->addr, m->array.count);
+	else
+		use_address(as, used, m->addr);
+}
+
 static void use_list(struct assembler *as, uint8_t *used, const struct pou *pou,
 		     const struct il *il)
 {
@@ -175,8 +209,8 @@ static void use_list(struct assembler *as, uint8_t *used, const struct pou *pou,
 			continue;
 		m = scope_find(as->translation->scope, pou, il->line[i].operand,
 			       &why);
-		if (m && m->kind != MEANING_LITERAL && m->kind != MEANING_PIN)
-			use_address(as, used, m->addr);
+		if (m)
+			use_meaning(as, used, m);
 	}
 }
 
@@ -208,6 +242,17 @@ static void place_byte(struct assembler *as, int area, uint32_t byte,
 				place_value(as, RUN_VALUES, IEC_BOOL));
 }
 
+static void use_located(struct assembler *as, uint8_t *used,
+			const struct var *var)
+{
+	if (var->at.area == AREA_NONE || var->at.bits == 1)
+		return;
+	if (var->array.count)
+		use_addresses(as, var->at, var->array.count);
+	else
+		use_address(as, used, var->at);
+}
+
 static bool place_bits(struct assembler *as)
 {
 	struct translation *t = as->translation;
@@ -220,8 +265,7 @@ static bool place_bits(struct assembler *as)
 		return false;
 	for (int table = 0; table <= t->unit_count; table++)
 		for (int i = 0; i < layout_vars(as, table)->count; i++)
-			if (table_var(as, table, i)->at.bits != 1)
-				use_address(as, used, table_var(as, table, i)->at);
+			use_located(as, used, table_var(as, table, i));
 	for (int i = 0; i < t->unit_count; i++)
 		use_list(as, used, t->unit[i].pou, &t->unit[i].il);
 	for (int area = 1; area < AREA_COUNT; area++) {
@@ -253,7 +297,9 @@ void layout_init_var(struct assembler *as, uint32_t offset, const struct var *va
 {
 	uint32_t capacity = var->capacity ? var->capacity : IEC_STRING_MOST;
 
-	if (var->has_init && var->type == IEC_STRING)
+	if (var->array.count)
+		layout_init_array(as, offset, var);
+	else if (var->has_init && var->type == IEC_STRING)
 		layout_init_text(as, offset, capacity, init_text(as, var));
 	else if (var->has_init && var->type != IEC_NONE)
 		layout_init(as, offset, var->type, var->init);
@@ -353,8 +399,8 @@ static void place_var(struct assembler *as, int table, int index, bool retain)
 	if (*offset || var->at.area != AREA_NONE)
 		return;
 	*offset = var->type == IEC_NONE ? place_instance(as, var->fb) :
-		  var->type == IEC_STRING ? layout_string(as, kind, capacity) :
-		  place_value(as, kind, var->type);
+		  place_values(as, kind, var->type, capacity,
+			       var->array.count ? var->array.count : 1);
 	layout_init_var(as, *offset, var);
 }
 
@@ -382,20 +428,34 @@ static void place_all(struct assembler *as, bool retain)
 
 /* An initial value in its area, as @area will be; or in the bit's own byte. */
 static void init_in_area(struct assembler *as, uint8_t *area,
-			 const struct var *var)
+			 struct iec_addr addr, enum iec_type type,
+			 union iec_value value)
 {
-	uint32_t at = area_byte(var->at), slot;
-	uint8_t bit = (uint8_t)(1u << var->at.bit);
+	uint32_t at = area_byte(addr), slot;
+	uint8_t bit = (uint8_t)(1u << addr.bit);
 
-	if (var->at.bits != 1) {
-		iec_store(area + at, var->type, var->init);
+	if (addr.bits != 1) {
+		iec_store(area + at, type, value);
 		return;
 	}
-	slot = as->bit_slot[at * 8 + var->at.bit];
+	slot = as->bit_slot[at * 8 + addr.bit];
 	if (slot)
-		layout_init(as, slot, IEC_BOOL, var->init);
+		layout_init(as, slot, IEC_BOOL, value);
 	else
-		area[at] = (uint8_t)((area[at] & ~bit) | (var->init.i ? bit : 0));
+		area[at] = (uint8_t)((area[at] & ~bit) | (value.i ? bit : 0));
+}
+
+static void init_var_in_area(struct assembler *as, uint8_t *area,
+			     const struct var *var)
+{
+	uint32_t number = 0;
+
+	if (!var->array.count)
+		init_in_area(as, area, var->at, var->type, var->init);
+	for (int i = 0; i < var->init_count; i++)
+		for (uint32_t k = 0; k < var->init_list[i].count; k++)
+			init_in_area(as, area, vars_shift(var->at, number++),
+				     var->type, var->init_list[i].value);
 }
 
 /* Variables with AT may lie over each other: the later one wins, bit by bit. */
@@ -410,7 +470,7 @@ static bool init_located(struct assembler *as)
 			const struct var *var = table_var(as, table, i);
 
 			if (var->has_init && var->at.area != AREA_NONE)
-				init_in_area(as, area, var);
+				init_var_in_area(as, area, var);
 		}
 	for (uint32_t i = 0; i < iec_areas_size(); i++)
 		if (area[i])

@@ -10,7 +10,7 @@ uint32_t layout_string(struct assembler *as, enum code_run_kind kind,
 			   uint32_t capacity)
 {
 	struct code_run run = { .kind = (uint8_t)kind, .type = IEC_STRING,
-				.word = (uint16_t)capacity };
+				.word = (uint16_t)capacity, .count = 1 };
 
 	return layout_place(as, run, iec_type_size(IEC_STRING, capacity),
 		     (uint32_t)sizeof(struct iec_string));
@@ -65,6 +65,55 @@ void layout_init_text(struct assembler *as, uint32_t offset, uint32_t capacity,
 	words_push(as, &as->init, size);
 	for (uint32_t i = 0; i < size / 4; i++)
 		words_push(as, &as->init, word[i]);
+}
+
+static void init_texts(struct assembler *as, uint32_t offset,
+		       const struct var *var, const struct var_init *init)
+{
+	const struct names *names = &as->translation->project->names;
+	struct literal literal;
+
+	literal_parse(names_text(names, init->text), names_len(names, init->text),
+		      &literal);
+	for (uint32_t i = 0; i < init->count; i++)
+		layout_init_text(as, offset + i * var_unit(var), var->capacity,
+				 literal);
+}
+
+/* One value so many times, unless it is 0. */
+static void init_values(struct assembler *as, uint32_t offset, enum iec_type type,
+			const struct var_init *init)
+{
+	uint32_t size = iec_type_row(type)->size, bytes[2] = { 0, 0 };
+	int first = as->init.count + 2;
+	uint8_t *values;
+
+	iec_store(bytes, type, init->value);
+	if (!bytes[0] && !bytes[1])
+		return;
+	words_push(as, &as->init, offset);
+	words_push(as, &as->init, init->count * size);
+	for (uint32_t i = 0; i < (init->count * size + 3) / 4; i++)
+		words_push(as, &as->init, 0);
+	if (as->failed)
+		return;
+	values = (uint8_t *)&as->init.word[first];
+	for (uint32_t i = 0; i < init->count; i++)
+		memcpy(values + i * size, bytes, size);
+}
+
+void layout_init_array(struct assembler *as, uint32_t offset,
+		       const struct var *var)
+{
+	for (int i = 0; i < var->init_count && !as->failed; i++) {
+		const struct var_init *init = &var->init_list[i];
+
+		if (var->type == IEC_STRING)
+			init_texts(as, offset, var, init);
+		else
+			init_values(as, offset, var->type, init);
+		offset += init->count * var_unit(var);
+	}
 }
 
 uint32_t layout_text(struct assembler *as, const struct literal *literal)

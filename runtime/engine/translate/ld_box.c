@@ -83,13 +83,33 @@ struct inputs {
 	uint32_t operand[LIMIT_ARGS];
 };
 
-static void read_inputs(struct ld *ld, const char *text, struct inputs *out)
+/* An element whose index is found out in the scan becomes a temporary, while @en; @en
+ * then tells whether it is there. What the block writes, too, stays the element. */
+static void fetch_input(struct ld *ld, const struct word_row *row,
+			const struct arg *arg, uint32_t *operand, uint32_t *en)
+{
+	int pin = word_pin_find(row, arg->pin, arg->pin_len);
+	uint32_t value;
+
+	if (!ld_is_indexed(ld, *operand))
+		return;
+	value = ld_fetch(ld, *operand, *en ? *en : ld->true_id, en);
+	if (pin < 0 || pin >= row->pin_count || row->pin[pin].dir != PIN_IN_OUT)
+		*operand = value;
+}
+
+/* @en: operand that enables it, 0: none so far; afterwards it tells whether all elements
+ * are there, too. */
+static void read_inputs(struct ld *ld, const struct word_row *row, const char *text,
+			struct inputs *out, uint32_t *en)
 {
 	struct arg arg;
 	int i = 0;
 
 	for (const char *at = text; i < LIMIT_ARGS && args_next(&at, &arg); i++) {
 		out->operand[i] = intern(ld, arg.value, arg.value_len);
+		if (!arg.output)
+			fetch_input(ld, row, &arg, &out->operand[i], en);
 		if (!arg.inverse)
 			continue;
 		ld_emit(ld, OP_LD, MOD_N, out->operand[i]);
@@ -143,7 +163,8 @@ static void feed_pin(struct ld *ld, uint32_t instance, const char *pin, int net)
 }
 
 /* A block of the project without a Boolean input is called while it has power. */
-static void call_block(struct ld *ld, int element, bool powered)
+/* @ok: what else must be TRUE; 0: nothing. */
+static void call_block(struct ld *ld, int element, bool powered, uint32_t ok)
 {
 	const struct network_element *at = &ld->network.element[element];
 	uint32_t instance = rung_at(ld->rung, at->row, at->col)->operand;
@@ -154,7 +175,9 @@ static void call_block(struct ld *ld, int element, bool powered)
 		ld_load(ld, at->in);
 	}
 	ld_place(ld, at->row, at->col);
-	ld_emit(ld, OP_CAL, powered ? MOD_C : 0, instance);
+	if (ok)
+		ld_emit(ld, powered ? OP_AND : OP_LD, 0, ok);
+	ld_emit(ld, OP_CAL, powered || ok ? MOD_C : 0, instance);
 }
 
 static void box_block(struct ld *ld, int element)
@@ -166,6 +189,7 @@ static void box_block(struct ld *ld, int element)
 	int first = word_first_bool(row, PIN_IN);
 	int power = word_first_bool(row, PIN_OUT);
 	struct inputs inputs;
+	uint32_t ok = 0;
 
 	ld_freeze(ld, instance);
 	freeze_outputs(ld, (enum word)at->word, args);
@@ -180,8 +204,8 @@ static void box_block(struct ld *ld, int element)
 			 names_text(names_of(ld), pin->operand), pin->in);
 	}
 	ld_place(ld, at->row, at->col);
-	read_inputs(ld, args, &inputs);
-	call_block(ld, element, first < 0);
+	read_inputs(ld, row, args, &inputs, &ok);
+	call_block(ld, element, first < 0, ok);
 	write_inputs(ld, args, &inputs);
 	write_outputs(ld, args, true);
 	if (power >= 0) {
@@ -189,7 +213,12 @@ static void box_block(struct ld *ld, int element)
 			pin_name(ld, instance, row->pin[power].name);
 		ld->element[element].powered = true;
 	} else { /* power goes through */
-		ld->element[element].leaf = ld->true_id;
+		ld->element[element].leaf = ok ? ok : ld->true_id;
+	}
+	if (power >= 0 && ok) {
+		ld_emit(ld, OP_LD, 0, ok);
+		ld_emit(ld, OP_AND, 0, ld->element[element].leaf);
+		ld->element[element].leaf = ld_store_new(ld);
 	}
 }
 
@@ -198,7 +227,8 @@ static bool is_compare(enum word word)
 	return word >= FN_GT && word <= FN_NE;
 }
 
-/* A comparison whose result is only power needs no EN: it cannot fail. */
+/* A comparison whose result is only power needs no EN: it cannot fail, unless what it
+ * compares may not be there. */
 static bool is_plain_compare(struct ld *ld, int element, struct arg *left,
 			     struct arg *right)
 {
@@ -209,7 +239,8 @@ static bool is_plain_compare(struct ld *ld, int element, struct arg *left,
 	if (!is_compare((enum word)at->word) || at->pins)
 		return false;
 	for (const char *next = args; args_next(&next, &arg);)
-		if (arg.output || arg.inverse)
+		if (arg.output || arg.inverse ||
+		    ld_is_indexed(ld, intern(ld, arg.value, arg.value_len)))
 			return false;
 	return args_find(args, "IN1", 3, left) && args_find(args, "IN2", 3, right);
 }
@@ -309,18 +340,26 @@ static void emit_call(struct ld *ld, int element, uint32_t en, uint32_t eno,
 	ld_arg(ld, true, ld->eno_id, eno);
 }
 
-/* A Boolean result that is power, too: stored while enabled. */
-static void store_result(struct ld *ld, const char *args, uint32_t eno,
-			 uint32_t result)
+/* A Boolean result that is power, too: stored while enabled. Returns ENO: FALSE also
+ * when OUT is an element that is not there. */
+static uint32_t store_result(struct ld *ld, const char *args, uint32_t eno,
+			     uint32_t result)
 {
+	uint32_t en = eno, to;
 	struct arg out;
 
 	if (!args_find(args, "OUT", 3, &out) || !out.output)
-		return;
+		return eno;
+	to = intern(ld, out.value, out.value_len);
 	ld_call(ld, FN_MOVE);
-	ld_arg(ld, false, ld->en_id, eno);
-	ld_arg(ld, false, intern(ld, "IN", 2), result);
-	ld_arg(ld, true, ld->out_id, intern(ld, out.value, out.value_len));
+	ld_arg(ld, false, ld->en_id, en);
+	ld_arg(ld, false, ld->in_id, result);
+	if (ld_is_indexed(ld, to)) {
+		eno = temps_bool(ld->temps);
+		ld_arg(ld, true, ld->eno_id, eno);
+	}
+	ld_arg(ld, true, ld->out_id, to);
+	return eno;
 }
 
 static void box_function(struct ld *ld, int element)
@@ -340,7 +379,7 @@ static void box_function(struct ld *ld, int element)
 	for (int i = 0; i < at->pins; i++)
 		ld_operand(ld, ld->network.pin[at->first_pin + i].in);
 	ld_place(ld, at->row, at->col); /* an error is the box's own */
-	read_inputs(ld, args, &inputs);
+	read_inputs(ld, row, args, &inputs, &en);
 	bits = row->result == (int)RESULT_GATE &&
 	       take_operands(ld, element, &inputs, &operands);
 	gates = word_is_test(row) || bits;
@@ -357,7 +396,7 @@ static void box_function(struct ld *ld, int element)
 			write_outputs(ld, args, false);
 	}
 	if (gates)
-		store_result(ld, args, eno, result);
+		eno = store_result(ld, args, eno, result);
 	store_eno(ld, args, eno);
 	state->leaf = eno;
 	state->powered = true;

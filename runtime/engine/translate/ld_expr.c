@@ -36,6 +36,20 @@ static uint32_t intern(struct chain *c, const char *text, size_t len)
 	return id;
 }
 
+/* A name as it stands in the cell: `Table[ i ]` is `Table[i]`. */
+static uint32_t intern_name(struct chain *c, const char *text, size_t len)
+{
+	char out[2 * LIMIT_NAME + 1];
+	size_t used = 0;
+
+	if (!memchr(text, ' ', len) || len >= sizeof(out))
+		return intern(c, text, len);
+	for (size_t i = 0; i < len; i++)
+		if (text[i] != ' ')
+			out[used++] = text[i];
+	return intern(c, out, used);
+}
+
 static const struct meaning *meaning(struct chain *c, uint32_t operand)
 {
 	enum diag_id why;
@@ -86,6 +100,7 @@ static enum iec_type infer(struct chain *c, int index)
 	switch (node->op) {
 	case EXPR_NAME:
 	case EXPR_LITERAL:
+	case EXPR_INDEX: /* that of its array's elements */
 		return type_of(c, intern(c, node->text, node->len));
 	case EXPR_NEG:
 		return infer(c, node->left);
@@ -178,6 +193,37 @@ static struct value operate(struct chain *c, enum word fn, struct value left,
 	return out;
 }
 
+/* What cannot be an operand of LD comes from a MOVE, which can fail. */
+static struct value settle(struct chain *c, struct value value)
+{
+	struct value none = { 0, IEC_NONE };
+
+	if (!ld_is_indexed(c->ld, value.operand))
+		return value;
+	return operate(c, FN_MOVE, value, none, value.type, 0);
+}
+
+/* `Table[index]`, after the index has been computed; an element itself is none. */
+static uint32_t compute_element(struct chain *c, const char *name, size_t len,
+				int part)
+{
+	const struct names *names = &c->ld->translation->project->names;
+	struct value index = compute(c, part, IEC_NONE, 0);
+	struct value none = { 0, IEC_NONE };
+	char text[3 * LIMIT_NAME];
+	int size;
+
+	if (strchr(names_text(names, index.operand), '['))
+		index = operate(c, FN_MOVE, index, none, index.type, 0);
+	size = snprintf(text, sizeof(text), "%.*s[%s]", (int)len, name,
+			names_text(names, index.operand));
+	if (!index.operand || size < 0 || (size_t)size >= sizeof(text)) {
+		c->ld->failed = true;
+		return 0;
+	}
+	return intern(c, text, (size_t)size);
+}
+
 static struct value compute_neg(struct chain *c, const struct expr_node *node,
 				enum iec_type hint, uint32_t target)
 {
@@ -216,6 +262,8 @@ static struct value compute_compare(struct chain *c,
 		type = IEC_NONE;
 	left = compute_side(c, node->left, type);
 	right = compute_side(c, node->right, type);
+	left = settle(c, left);
+	right = settle(c, right);
 	ld_emit(c->ld, OP_LD, 0, left.operand);
 	line.operand = right.operand;
 	ld_emit_line(c->ld, line);
@@ -248,12 +296,12 @@ static struct value compute_logic(struct chain *c, const struct expr_node *node,
 		type = hint;
 	if (is_bits(type))
 		return compute_bits(c, node, type, target);
-	left = compute(c, node->left, IEC_NONE, 0);
+	left = settle(c, compute(c, node->left, IEC_NONE, 0));
 	if (node->op == EXPR_NOT) {
 		ld_emit(c->ld, OP_LD, 0, left.operand);
 		ld_emit(c->ld, OP_NOT, 0, 0);
 	} else {
-		right = compute(c, node->right, IEC_NONE, 0);
+		right = settle(c, compute(c, node->right, IEC_NONE, 0));
 		ld_emit(c->ld, OP_LD, 0, left.operand);
 		ld_emit(c->ld, operator_of(node), 0, right.operand);
 	}
@@ -291,8 +339,13 @@ static struct value compute(struct chain *c, int index, enum iec_type hint,
 
 	switch (node->op) {
 	case EXPR_NAME:
-		value.operand = intern(c, node->text, node->len);
+		value.operand = intern_name(c, node->text, node->len);
 		value.type = type_of(c, value.operand);
+		return value;
+	case EXPR_INDEX:
+		value.operand = compute_element(c, node->text, node->len,
+						node->left);
+		value.type = infer(c, index);
 		return value;
 	case EXPR_LITERAL:
 		return constant(c, node->text, node->len, false, hint);
@@ -333,7 +386,7 @@ void ld_compare(struct ld *ld, int element)
 	if (!parse(ld, element))
 		return;
 	ld_place(ld, at->row, at->col);
-	value = compute(&c, ld->expr->root, IEC_NONE, 0);
+	value = settle(&c, compute(&c, ld->expr->root, IEC_NONE, 0));
 	state->leaf = value.operand;
 	if (!c.can_fail)
 		return;
@@ -353,11 +406,17 @@ void ld_assign(struct ld *ld, int element)
 	if (!parse(ld, element))
 		return;
 	ld_place(ld, at->row, at->col);
-	target = intern(&c, ld->expr->target, ld->expr->target_len);
+	if (ld->expr->target_index >= 0)
+		target = compute_element(&c, ld->expr->target,
+					 ld->expr->target_len,
+					 ld->expr->target_index);
+	else
+		target = intern_name(&c, ld->expr->target, ld->expr->target_len);
 	ld_freeze(ld, target);
 	value = compute(&c, ld->expr->root, type_of(&c, target), target);
 	if (value.operand != target ||
-	    ld->expr->node[ld->expr->root].op == EXPR_NAME) {
+	    ld->expr->node[ld->expr->root].op == EXPR_NAME ||
+	    ld->expr->node[ld->expr->root].op == EXPR_INDEX) {
 		struct value none = { 0, IEC_NONE };
 
 		operate(&c, FN_MOVE, value, none, value.type, target);

@@ -184,22 +184,47 @@ uint32_t ld_operand(struct ld *ld, int net)
 
 /* ---- keeping aside ---- */
 
-static bool bytes_overlap(struct iec_addr a, struct iec_addr b)
-{
-	uint32_t a_end = a.byte + (a.bits + 7u) / 8;
-	uint32_t b_end = b.byte + (b.bits + 7u) / 8;
-
-	if (a.area != b.area || a.area == AREA_NONE)
-		return false;
-	if (a.bits == 1 && b.bits == 1)
-		return a.byte == b.byte && a.bit == b.bit;
-	return a.byte < b_end && b.byte < a_end;
-}
-
 static bool is_var(const struct meaning *m)
 {
-	return m->kind == MEANING_VARIABLE || m->kind == MEANING_INSTANCE ||
-	       m->kind == MEANING_PIN || m->kind == MEANING_STRUCT;
+	return m->var && (m->kind == MEANING_VARIABLE || m->kind == MEANING_PIN ||
+			  m->kind == MEANING_INSTANCE ||
+			  m->kind == MEANING_STRUCT ||
+			  m->kind == MEANING_ELEMENT);
+}
+
+/* Bytes of a variable that it may be: all elements that an index may lead to. */
+static uint32_t end_of(const struct scope *scope, const struct meaning *m)
+{
+	if (m->array.count)
+		return m->offset + m->array.count * var_unit(m->var);
+	return m->offset + scope_size(scope, m);
+}
+
+/* Two parts of one variable; those with an address by where they lie. */
+static bool parts_touch(const struct scope *scope, const struct meaning *a,
+			const struct meaning *b)
+{
+	return a->offset < end_of(scope, b) && b->offset < end_of(scope, a);
+}
+
+/* Bytes of its area that it may be; one behind the last. */
+static uint32_t end_byte(const struct meaning *m)
+{
+	struct iec_addr last = m->addr;
+
+	if (m->array.count)
+		last = vars_shift(m->addr, m->array.count - 1);
+	return last.byte + (last.bits + 7u) / 8;
+}
+
+static bool bytes_overlap(const struct meaning *a, const struct meaning *b)
+{
+	if (a->addr.area != b->addr.area || a->addr.area == AREA_NONE)
+		return false;
+	if (a->addr.bits == 1 && b->addr.bits == 1 && !a->array.count &&
+	    !b->array.count)
+		return a->addr.byte == b->addr.byte && a->addr.bit == b->addr.bit;
+	return a->addr.byte < end_byte(b) && b->addr.byte < end_byte(a);
 }
 
 /* Can a write to @a change what is read from @b? */
@@ -207,16 +232,22 @@ static bool touches(const struct scope *scope, const struct meaning *a,
 		    const struct meaning *b)
 {
 	if (is_var(a) && is_var(b) && a->var == b->var)
-		return a->offset < b->offset + scope_size(scope, b) &&
-		       b->offset < a->offset + scope_size(scope, a);
-	return bytes_overlap(a->addr, b->addr);
+		return parts_touch(scope, a, b);
+	return bytes_overlap(a, b);
 }
 
-static const struct meaning *meaning(struct ld *ld, uint32_t operand)
+const struct meaning *ld_meaning(struct ld *ld, uint32_t operand)
 {
 	enum diag_id why;
 
 	return scope_find(ld->translation->scope, ld->unit->pou, operand, &why);
+}
+
+bool ld_is_indexed(struct ld *ld, uint32_t operand)
+{
+	const struct meaning *m = operand ? ld_meaning(ld, operand) : NULL;
+
+	return m && meaning_is_indexed(m);
 }
 
 /* Readers are kept by place, so that a write looks at few of them: eight bytes of
@@ -234,7 +265,7 @@ static void freeze_at(struct ld *ld, const struct meaning *write, uint32_t key)
 
 	for (; at >= 0; at = ld->element[at].next) {
 		struct element_state *state = &ld->element[at];
-		const struct meaning *read = meaning(ld, state->leaf);
+		const struct meaning *read = ld_meaning(ld, state->leaf);
 
 		if (!read || !touches(ld->translation->scope, write, read))
 			continue;
@@ -245,8 +276,8 @@ static void freeze_at(struct ld *ld, const struct meaning *write, uint32_t key)
 
 void ld_freeze(struct ld *ld, uint32_t operand)
 {
-	const struct meaning *write = meaning(ld, operand);
-	uint32_t key;
+	const struct meaning *write = ld_meaning(ld, operand);
+	uint32_t key, last;
 
 	if (!write)
 		return;
@@ -255,7 +286,11 @@ void ld_freeze(struct ld *ld, uint32_t operand)
 	if (write->addr.area == AREA_NONE)
 		return;
 	freeze_at(ld, write, key - 1);
-	freeze_at(ld, write, key + 1);
+	last = key + (end_byte(write) - 1) / 8 - write->addr.byte / 8 + 1;
+	if (last - key > ld->reader_mask)
+		last = key + ld->reader_mask; /* then all of them */
+	for (; key != last; key++)
+		freeze_at(ld, write, key + 1);
 }
 
 void ld_freeze_globals(struct ld *ld)
@@ -263,7 +298,7 @@ void ld_freeze_globals(struct ld *ld)
 	for (int i = 0; i < ld->network.element_count; i++) {
 		struct element_state *state = &ld->element[i];
 		const struct meaning *read = state->seen && state->leaf ?
-			meaning(ld, state->leaf) : NULL;
+			ld_meaning(ld, state->leaf) : NULL;
 
 		if (!read || read->pou || read->kind == MEANING_LITERAL)
 			continue;
@@ -275,7 +310,7 @@ void ld_freeze_globals(struct ld *ld)
 void ld_read(struct ld *ld, int element)
 {
 	struct element_state *state = &ld->element[element];
-	const struct meaning *read = state->leaf ? meaning(ld, state->leaf)
+	const struct meaning *read = state->leaf ? ld_meaning(ld, state->leaf)
 						 : NULL;
 	int *head;
 

@@ -54,8 +54,13 @@ static void read_edge(struct ld *ld, int element)
 	struct element_state *state = &ld->element[element];
 	bool rising = row_of(ld, element)->edge == EDGE_RISING;
 	uint32_t operand = operand_of(ld, element);
-	uint32_t memory = temps_edge(ld->temps);
+	uint32_t memory;
 
+	if (ld_is_indexed(ld, operand)) {
+		ld_edge(ld, element, operand);
+		return;
+	}
+	memory = temps_edge(ld->temps);
 	ld_emit(ld, OP_LD, 0, rising ? operand : memory);
 	ld_emit(ld, OP_AND, MOD_N, rising ? memory : operand);
 	state->leaf = ld_store_new(ld);
@@ -82,9 +87,11 @@ static void evaluate(struct ld *ld, int element)
 		ld_assign(ld, element);
 	else if (row->edge != EDGE_NONE)
 		read_edge(ld, element);
+	else if (ld_is_indexed(ld, operand_of(ld, element)))
+		ld_contact(ld, element, operand_of(ld, element));
 	else
 		state->leaf = operand_of(ld, element);
-	state->negate = row->negate;
+	state->negate = row->negate && !state->powered;
 	ld_settle_element(ld, element);
 	ld_read(ld, element);
 }
@@ -409,6 +416,7 @@ static bool init(struct ld *ld)
 	ld->expr = arena_alloc(t->arena, sizeof(*ld->expr));
 	ld->ignored = arena_alloc(t->arena, sizeof(*ld->ignored));
 	ld->true_id = names_intern(names, "TRUE", 4);
+	ld->in_id = names_intern(names, "IN", 2);
 	ld->en_id = names_intern(names, "EN", 2);
 	ld->eno_id = names_intern(names, "ENO", 3);
 	ld->out_id = names_intern(names, "OUT", 3);

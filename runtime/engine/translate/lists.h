@@ -98,6 +98,29 @@ void list_close(struct list *list);
 void list_not(struct list *list);
 /** list_invert - the result, bits of @type if it is a constant, inverted. */
 void list_invert(struct list *list, enum iec_type type);
+/* ---- element.c ---- */
+/**
+ * list_fetch - an element whose index is found out in the scan, in a place of its own
+ * @en: BOOL that enables it
+ * @ok: gets the BOOL that tells whether there is one
+ *
+ * Returns a typed word; what it holds is 0 when there is none.
+ */
+uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
+		    uint32_t *ok);
+/** list_deposit - stores @from, a typed word, in such an element while @en. */
+void list_deposit(struct list *list, const struct meaning *m, uint32_t en,
+		  uint32_t from);
+
+/* ---- list_flow.c ---- */
+/** list_find_labels - before the first line. Fails: false when memory is out. */
+bool list_find_labels(struct list *list);
+/** list_flow - JMP and RET. */
+void list_flow(struct list *list, const struct il_line *line);
+/** list_label - a label: nothing waits behind it. */
+void list_label(struct list *list, const struct il_line *line);
+/** list_patch - fills in the targets; @end: where RET goes. */
+void list_patch(struct list *list, uint32_t end);
 
 /* ---- call.c ---- */
 /** list_sink - an offset where a value goes that nobody wants. */
@@ -111,6 +134,13 @@ void list_fn(struct list *list, const struct il_line *line);
 void list_call(struct list *list);
 /** list_cal - a call of an instance; the lines behind it too. */
 void list_cal(struct list *list);
+/** list_skip_missing - inputs that are elements, looked up; a jump over the call if one
+ * of them is not there. @kept: nothing waits any more. @fetched: by number of the parameter; 0: no element. Returns as
+ * list_skip_call(); -1: no jump. */
+int list_skip_missing(struct list *list, bool kept, uint32_t fetched[LIMIT_ARGS]);
+/** list_fetch_args - the same for a function, its OUT too: @en is FALSE then. */
+void list_fetch_args(struct list *list, struct bits *en,
+		     uint32_t fetched[LIMIT_ARGS]);
 /** list_skip_call - a jump over what follows unless the result is TRUE (N: FALSE);
  * everything that waits is stored before it. list_end_skip() ends it; < 0: none. */
 int list_skip_call(struct list *list, const struct il_line *line);

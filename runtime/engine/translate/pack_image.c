@@ -6,6 +6,7 @@
 
 #include "engine/base/digest.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* The maps that are made only here. */
@@ -75,6 +76,24 @@ static uint32_t symbol_word(struct assembler *as, const struct maps *maps,
 	return CODE_OPERAND(mark, offset);
 }
 
+/* That of an array carries its bounds. */
+static void add_symbol_name(struct assembler *as, struct maps *maps,
+			    const struct var *var)
+{
+	const struct names *names = &as->translation->project->names;
+	char text[LIMIT_NAME + 32];
+	int len;
+
+	if (!var->array.count) {
+		add_name(as, maps, var->name);
+		return;
+	}
+	len = snprintf(text, sizeof(text), "%s[%ld..%lld]",
+		       names_text(names, var->name), (long)var->array.low,
+		       (long long)var->array.low + var->array.count - 1);
+	add_string(as, maps, text, (size_t)len);
+}
+
 static void add_symbol(struct assembler *as, struct maps *maps,
 		       const struct pou *pou, const struct var *var, int index)
 {
@@ -86,7 +105,7 @@ static void add_symbol(struct assembler *as, struct maps *maps,
 		return;
 	}
 	*symbol = symbol_word(as, maps, pou, var, index);
-	add_name(as, maps, var->name);
+	add_symbol_name(as, maps, var);
 }
 
 /* Of an instance without variables there is nothing to name. */

@@ -73,6 +73,7 @@ static void mark_names(struct list *list)
 			list->unit->temp[i - vars->count];
 
 		list->fleeting[i] = var->type == IEC_BOOL && !var->has_init &&
+			!var->array.count &&
 			var->at.area == AREA_NONE &&
 			is_temporary(names_text(names, var->name), 'T');
 	}

@@ -59,6 +59,44 @@ static bool take_literal(struct formula_term *term, const char *text,
 	return true;
 }
 
+static bool take_array(const struct image *image, const char *text, size_t len,
+		       struct formula_term *term)
+{
+	struct declared_name array;
+
+	while (len && text[len - 1] == ' ')
+		len--;
+	if (!image_find_array(image, text, len, &array))
+		return false;
+	term->op = EXPR_INDEX;
+	term->kind = (uint8_t)kind_of(array.at.type);
+	term->at = array.at;
+	term->low = array.array.low;
+	term->count = array.array.count;
+	term->stride = array.stride;
+	return true;
+}
+
+/* `Table[i]`: an index that is read each time. */
+static bool take_element(const struct image *image, const struct expr_node *from,
+			 struct formula_term *term, enum diag_id *why)
+{
+	const char *open = memchr(from->text, '[', from->len), *at;
+	const char *end = from->text + from->len - 1;
+
+	if (!open || !take_array(image, from->text, (size_t)(open - from->text),
+				 term))
+		return false;
+	for (at = open + 1; at < end && *at == ' ';)
+		at++;
+	while (end > at && end[-1] == ' ')
+		end--;
+	term->index = value_find(image, at, (size_t)(end - at), why);
+	if (term->index.type == IEC_NONE || kind_of(term->index.type) != KIND_INT)
+		return false;
+	return true;
+}
+
 static bool take_leaf(const struct image *image, const struct expr_node *from,
 		      struct formula_term *term, struct arena *arena,
 		      enum diag_id *why)
@@ -70,6 +108,9 @@ static bool take_leaf(const struct image *image, const struct expr_node *from,
 
 	term->at = value_find(image, from->text, from->len, &missing);
 	if (term->at.type == IEC_NONE) {
+		if (take_element(image, from, term, &missing))
+			return true;
+		term->op = EXPR_LITERAL;
 		if (take_literal(term, from->text, from->len, why))
 			return true;
 		*why = missing;
@@ -116,6 +157,10 @@ static bool take_operation(const struct formula *formula,
 	const struct formula_term *right =
 		term->right < 0 ? left : &formula->term[term->right];
 
+	if (term->op == EXPR_INDEX) {
+		*why = DIAG_INDEX_TYPE;
+		return left->kind == KIND_INT;
+	}
 	*why = DIAG_WRONG_TYPE;
 	if (term->op == EXPR_FN)
 		return join_kinds(term, left->kind, right->kind);
@@ -173,13 +218,19 @@ struct formula *formula_new(const struct image *image, const struct expr *expr,
 		term->fn = (uint16_t)from->fn;
 		term->left = from->left;
 		term->right = from->right;
+		if (from->op == EXPR_INDEX &&
+		    !take_array(image, from->text, from->len, term)) {
+			complain(diags, place, DIAG_NOT_ARRAY, line_start, from);
+			return NULL;
+		}
 		if (leaf ? !take_leaf(image, from, term, arena, &why) :
 			   !take_operation(formula, term, &why)) {
 			complain(diags, place, why, line_start,
 				 blame(formula, expr, i, why));
 			return NULL;
 		}
-		formula->constant &= term->op != EXPR_NAME;
+		formula->constant &= term->op != EXPR_NAME &&
+				     term->op != EXPR_INDEX;
 	}
 	return formula;
 }
@@ -264,6 +315,18 @@ static bool negate(struct formula_term *term, const struct formula_term *left)
 				       &term->value.i);
 }
 
+static bool read_element(struct formula_term *term, const struct image *image,
+			 int64_t index)
+{
+	struct location at = term->at;
+
+	if (index < term->low || index - term->low >= term->count)
+		return false;
+	at.where += (uint32_t)(index - term->low) * term->stride;
+	term->value = image_get(image, at);
+	return true;
+}
+
 static bool evaluate(struct formula *formula, struct formula_term *term,
 		     const struct image *image)
 {
@@ -278,6 +341,10 @@ static bool evaluate(struct formula *formula, struct formula_term *term,
 		return true;
 	case EXPR_LITERAL:
 		return true;
+	case EXPR_INDEX:
+		return read_element(term, image, term->left < 0 ?
+				    image_get(image, term->index).i :
+				    left->value.i);
 	case EXPR_NEG:
 		return negate(term, left);
 	case EXPR_NOT:

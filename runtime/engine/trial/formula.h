@@ -21,7 +21,10 @@ struct formula_term {
 	uint8_t kind;          /* enum formula_kind of the value             */
 	uint16_t fn;           /* enum word of EXPR_FN                       */
 	int16_t left, right;
-	struct location at;    /* of EXPR_NAME                               */
+	struct location at;    /* of EXPR_NAME; of EXPR_INDEX element 0       */
+	struct location index; /* of EXPR_INDEX without left: read from here  */
+	int32_t low;           /* of EXPR_INDEX: bounds, bytes from one to    */
+	uint32_t count, stride; /* the next                                   */
 	const char *name;      /* of EXPR_NAME; in the arena                 */
 	union iec_value value; /* of a literal; else of the last evaluation  */
 };

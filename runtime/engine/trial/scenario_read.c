@@ -212,6 +212,23 @@ static bool check_setting(struct reader *reader, const struct token *name,
 			name->len < 60 ? (int)name->len : 60, name->text);
 }
 
+/* `[3]` behind the name of what is set belongs to it. */
+static bool take_index(struct reader *reader, struct token *name)
+{
+	struct lex *lex = &reader->lex;
+
+	if (!accept(reader, "["))
+		return true;
+	accept(reader, "-");
+	if (lex->token.kind == TOKEN_NUMBER)
+		step_over(reader);
+	if (!lex_is(lex, "]"))
+		return complain(reader, DIAG_EXPECTED, "a number and ]");
+	name->len = (size_t)(lex->token.text + 1 - name->text);
+	step_over(reader);
+	return true;
+}
+
 static bool take_setting(struct reader *reader)
 {
 	struct token name = reader->lex.token;
@@ -221,8 +238,10 @@ static bool take_setting(struct reader *reader)
 
 	if (name.kind != TOKEN_NAME && name.kind != TOKEN_ADDRESS)
 		return complain_here(reader, DIAG_SYNTAX);
-	target = value_find(reader->image, name.text, name.len, &why);
 	step_over(reader);
+	if (!take_index(reader, &name))
+		return false;
+	target = value_find(reader->image, name.text, name.len, &why);
 	if (!accept(reader, "=") && !accept(reader, ":=")) {
 		place.id = DIAG_EXPECTED;
 		return diag_add(reader->diags, place, "NAME = VALUE or expect");

@@ -106,17 +106,44 @@ static size_t split_number(const char *text, size_t len, long *number)
 	return stem;
 }
 
+/* `-3` as a number of at most six digits. */
+static bool take_bound(const char *text, size_t len, long *number)
+{
+	bool negative = len > 1 && *text == '-';
+	size_t stem = split_number(text, len, number);
+
+	if (*number < 0 || stem != negative)
+		return false;
+	if (negative)
+		*number = -*number;
+	return true;
+}
+
+/* `Table[1..4]`: @stem gets the bytes up to and with the [. */
+static bool split_bounds(const char *text, size_t len, const char *dots,
+			 size_t *stem, long *first, long *last)
+{
+	const char *open = memchr(text, '[', (size_t)(dots - text));
+
+	if (!open || text[len - 1] != ']')
+		return false;
+	*stem = (size_t)(open + 1 - text);
+	return take_bound(open + 1, (size_t)(dots - open - 1), first) &&
+	       take_bound(dots + 2, (size_t)(text + len - dots) - 3, last);
+}
+
+/* @stem with each number behind it, and @tail behind that. */
 static bool show_numbers(struct trace *trace, const char *stem, size_t len,
-			 long first, long last, struct diag_list *diags,
-			 struct diag place)
+			 long first, long last, const char *tail,
+			 struct diag_list *diags, struct diag place)
 {
 	char name[LIMIT_NAME + 1];
 
 	if (last < first || last - first >= RANGE_MAX)
 		return complain(diags, place, DIAG_LITERAL_RANGE, stem, len);
 	for (long i = first; i <= last; i++) {
-		int n = snprintf(name, sizeof(name), "%.*s%ld", (int)len, stem,
-				 i);
+		int n = snprintf(name, sizeof(name), "%.*s%ld%s", (int)len,
+				 stem, i, tail);
 
 		if (n < 0 || (size_t)n >= sizeof(name))
 			return complain(diags, place, DIAG_NAME_TOO_LONG, stem,
@@ -172,7 +199,10 @@ bool trace_show(struct trace *trace, const char *text, size_t len,
 
 	if (first >= 0 && last >= 0 &&
 	    (!other || (other == stem && !memcmp(text, dots + 2, stem))))
-		return show_numbers(trace, text, stem, first, last, diags,
+		return show_numbers(trace, text, stem, first, last, "", diags,
+				    place);
+	if (split_bounds(text, len, dots, &stem, &first, &last))
+		return show_numbers(trace, text, stem, first, last, "]", diags,
 				    place);
 	enum diag_id why;
 	struct location from = value_find(trace->image, text, left, &why);

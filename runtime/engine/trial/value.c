@@ -192,20 +192,27 @@ static bool is_head(const char *word, const char *text, size_t len)
 	return strlen(word) == len && ascii_same(word, text, len);
 }
 
+static bool is_own(const struct declared_name *symbol, const char *text,
+		   size_t len)
+{
+	return symbol->array.head == len && ascii_same(symbol->name, text, len);
+}
+
 /* A bare name of locals in several programs, and of nothing that all see. */
 static bool is_ambiguous(const struct program *p, const char *name, size_t len)
 {
-	const char *dot = memchr(name, '.', len);
-	size_t head = dot ? (size_t)(dot - name) : len;
+	size_t head = 0;
 	struct declared_cursor cursor = { 0 };
 	struct declared_name symbol;
 	bool local = false;
 
+	while (head < len && !strchr(".[ ", name[head]))
+		head++;
 	while (image_next_declared(p, &cursor, &symbol)) {
 		if (*symbol.pou && is_head(symbol.pou, name, head))
 			return false;
 		if (!(symbol.flags & SYMBOL_SHARED) ||
-		    !is_head(symbol.name, name, head))
+		    !is_own(&symbol, name, head))
 			continue;
 		if (!*symbol.pou)
 			return false;

@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * code_array - the verifier's look at arrays: every element a place of its type.
+ *
+ * An image must not make loading slow: elements that lie in one run, or in one area,
+ * are one question, however many they are. It reads bounds from names and makes none.
+ */
+#include "engine/scan/verify.h"
+
+#include <string.h>
+
+const struct code_run *code_run_at(const struct program *p, uint32_t offset)
+{
+	uint32_t low = 0, high = p->run_count;
+	const struct code_run *run;
+
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+
+		if (p->run[middle].offset > offset)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	if (low == 0)
+		return NULL;
+	run = &p->run[low - 1];
+	return (offset - run->offset) / code_run_size(run) < run->count ? run
+								     : NULL;
+}
+
+/* All in one run, each at the same place of its unit: what holds for the first holds
+ * for all. */
+static bool in_run(const struct verifier *v, uint32_t offset, uint64_t end,
+		   uint32_t stride)
+{
+	const struct code_run *run = code_run_at(v->program, offset);
+
+	return run && stride % code_run_size(run) == 0 &&
+	       end <= run->offset + (uint64_t)run->count * code_run_size(run);
+}
+
+static enum iec_area area_at(uint32_t offset)
+{
+	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++) {
+		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
+
+		if (offset - row->offset < row->bytes)
+			return (enum iec_area)area;
+	}
+	return AREA_NONE;
+}
+
+static bool walk(struct verifier *v, uint32_t first, uint32_t count,
+		 uint32_t stride, bool write)
+{
+	if (count > LIMIT_ELEMENT_WALK - v->walked)
+		return false;
+	v->walked += count;
+	for (uint32_t i = 0; i < count; i++)
+		if (!verify_use(v, CODE_OFFSET(first) + i * stride,
+				CODE_TYPE(first), write))
+			return false;
+	return true;
+}
+
+bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
+		     uint32_t stride, bool write)
+{
+	uint32_t offset = CODE_OFFSET(first), type = CODE_TYPE(first);
+	uint64_t end;
+
+	if (!count || !stride || !verify_use(v, offset, type, write))
+		return false;
+	end = offset + (uint64_t)(count - 1) * stride +
+	      iec_type_row((enum iec_type)type)->size;
+	if (end > v->data_size)
+		return false;
+	if (CODE_TYPE(first) == IEC_STRING) /* marks do not tell its room */
+		return in_run(v, offset, end, stride);
+	if (offset < v->areas)
+		return end <= v->areas &&
+		       area_at(offset) == area_at((uint32_t)end - 1);
+	return in_run(v, offset, end, stride) ||
+	       walk(v, first, count, stride, write);
+}
+
+bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
+		 bool write)
+{
+	uint64_t last = (uint64_t)first + count - 1;
+
+	if (!count || last / 8 >= v->areas ||
+	    area_at(first / 8) != area_at((uint32_t)(last / 8)))
+		return false;
+	return !write ||
+	       iec_area_row(area_at(first / 8))->access == ACCESS_WRITE;
+}
+
+/* ---- bounds in names ---- */
+
+/* A number of at most ten digits, perhaps negative, behind which *at is left. */
+static bool take_number(const char **at, int64_t *out)
+{
+	bool negative = **at == '-';
+	const char *start = *at + negative;
+	const char *end = start;
+
+	for (*out = 0; *end >= '0' && *end <= '9' && end - start < 10; end++)
+		*out = *out * 10 + (*end - '0');
+	if (negative)
+		*out = -*out;
+	*at = end;
+	return end != start && *out >= INT32_MIN && *out <= INT32_MAX;
+}
+
+struct code_bounds code_bounds(const char *name)
+{
+	struct code_bounds none = { strlen(name), 0, 0 }, out = none;
+	const char *at = strchr(name, '[');
+	int64_t low, high;
+
+	if (!at || at == name)
+		return none;
+	out.head = (size_t)(at - name);
+	at++;
+	if (!take_number(&at, &low) || at[0] != '.' || at[1] != '.')
+		return none;
+	at += 2;
+	if (!take_number(&at, &high) || strcmp(at, "]") != 0 || high < low ||
+	    high - low >= LIMIT_ELEMENTS)
+		return none;
+	out.low = (int32_t)low;
+	out.count = (uint32_t)(high - low + 1);
+	return out;
+}

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_array - ARRAY[low..high] OF, and lists of initial values: [1, 2, 3(7)].
+ *
+ * Bounds are integer constants, and there is one dimension. Whether a variable with
+ * an address leaves its area is found in check/.
+ */
+#include "engine/text/reader.h"
+
+#include "engine/base/literal.h"
+
+#include <stdio.h>
+
+/* A bound under the cursor, which goes behind it. */
+static bool read_bound(struct reader *r, int64_t *out)
+{
+	const struct token *token = &r->lex.token;
+	bool negative = reader_is(r, '-');
+	struct literal literal;
+
+	if (negative)
+		reader_step(r);
+	if (token->kind != TOKEN_NUMBER ||
+	    literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
+	    literal.real || literal.high || literal.type != IEC_NONE ||
+	    literal.value.i > INT32_MAX)
+		return reader_fail_token(r, DIAG_BAD_BOUNDS);
+	*out = negative ? -literal.value.i : literal.value.i;
+	reader_step(r);
+	return true;
+}
+
+/* `..` is two symbols for the scanner. */
+static bool read_dots(struct reader *r)
+{
+	for (int i = 0; i < 2; i++) {
+		if (!reader_is(r, '.'))
+			return reader_fail_word(r, DIAG_EXPECTED, "..");
+		reader_step(r);
+	}
+	return true;
+}
+
+bool read_array(struct reader *r, struct var_array *array)
+{
+	int64_t low = 0, high = 0;
+
+	if (!lex_is(&r->lex, "ARRAY"))
+		return true;
+	reader_step(r);
+	if (!reader_is(r, '['))
+		return reader_fail_word(r, DIAG_EXPECTED, "[");
+	reader_step(r);
+	if (!read_bound(r, &low) || !read_dots(r) || !read_bound(r, &high))
+		return false;
+	if (!reader_is(r, ']'))
+		return reader_fail_word(r, DIAG_EXPECTED, "]");
+	if (high < low || high - low >= LIMIT_ELEMENTS) {
+		char text[48];
+
+		snprintf(text, sizeof(text), "%lld..%lld", (long long)low,
+			 (long long)high);
+		return reader_fail_word(r, DIAG_BAD_BOUNDS, text);
+	}
+	reader_step(r);
+	if (!lex_is(&r->lex, "OF"))
+		return reader_fail_word(r, DIAG_EXPECTED, "OF");
+	reader_step(r);
+	*array = (struct var_array){ (int32_t)low, (uint32_t)(high - low + 1) };
+	return true;
+}
+
+/* ---- initial values ---- */
+
+/* `3(` before a value: how often; 1 without. Its text is kept too. */
+static bool read_times(struct reader *r, uint32_t *times)
+{
+	const struct token *token = &r->lex.token;
+	struct literal literal;
+
+	*times = 1;
+	if (token->kind != TOKEN_NUMBER || !reader_peek(r, "("))
+		return true;
+	if (literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
+	    literal.real || literal.high || literal.type != IEC_NONE || literal.value.i < 1 ||
+	    literal.value.i > LIMIT_ELEMENTS)
+		return reader_fail_token(r, DIAG_LITERAL_RANGE);
+	*times = (uint32_t)literal.value.i;
+	buffer_add(r, &r->text, token->text, token->len);
+	buffer_add(r, &r->text, "(", 1);
+	reader_step(r);
+	reader_step(r);
+	return true;
+}
+
+static bool add_values(struct reader *r, struct var *var, uint32_t *room,
+		       struct var_init init)
+{
+	struct var_init *slot;
+
+	if (init.count > *room)
+		return reader_fail_word(r, DIAG_TOO_MANY_VALUES, "");
+	*room -= init.count;
+	slot = arena_push(&r->project->arena, &var->init_list,
+			  &var->init_count, sizeof(*slot));
+	if (slot)
+		*slot = init;
+	else
+		r->no_memory = true;
+	return slot != NULL;
+}
+
+/* One value, or several alike. */
+static bool read_values(struct reader *r, struct var *var, uint32_t *room)
+{
+	const size_t from = r->text.len;
+	struct var_init init = { 1, { .i = 0 }, 0 };
+	size_t value;
+
+	if (!read_times(r, &init.count))
+		return false;
+	bool several = r->text.len != from;
+
+	value = r->text.len;
+	if (!read_constant(r, var->type, &init.value))
+		return false;
+	if (var->type == IEC_STRING)
+		init.text = reader_intern(r, r->text.text + value,
+					  r->text.len - value);
+	if (several) {
+		if (!reader_is(r, ')'))
+			return reader_fail_word(r, DIAG_EXPECTED, ")");
+		buffer_add(r, &r->text, ")", 1);
+		reader_step(r);
+	}
+	return add_values(r, var, room, init);
+}
+
+bool read_init_list(struct reader *r, struct var *var)
+{
+	uint32_t room = var->array.count;
+
+	if (!reader_is(r, '['))
+		return reader_fail_word(r, DIAG_EXPECTED, "[");
+	buffer_clear(&r->text);
+	buffer_add(r, &r->text, "[", 1);
+	reader_step(r);
+	while (read_values(r, var, &room)) {
+		if (reader_is(r, ']')) {
+			buffer_add(r, &r->text, "]", 1);
+			var->has_init = true;
+			var->init_text = buffer_take(r, &r->text);
+			reader_step(r);
+			return true;
+		}
+		if (!reader_is(r, ','))
+			return reader_fail_word(r, DIAG_EXPECTED, ", or ]");
+		buffer_add(r, &r->text, ", ", 2);
+		reader_step(r);
+	}
+	return false;
+}

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * list_flow - JMP, RET and labels of an instruction list.
+ *
+ * Targets are filled in when the list ends.
+ */
+#include "engine/translate/lists.h"
+
+static uint32_t fold(struct list *list, uint32_t name)
+{
+	return names_fold(&list->as->translation->project->names, name);
+}
+
+bool list_find_labels(struct list *list)
+{
+	struct names *names = &list->as->translation->project->names;
+
+	for (int i = 0; i < list->il->count; i++)
+		if (list->il->line[i].kind == IL_LABEL)
+			fold(list, list->il->line[i].operand);
+	list->label_count = (uint32_t)names->count;
+	list->label = arena_alloc(list->as->arena,
+				  list->label_count * sizeof(*list->label));
+	return list->label != NULL;
+}
+
+static void add_fixup(struct list *list, uint32_t name)
+{
+	uint32_t word = (uint32_t)list->as->text->count;
+
+	emit(list->as, 0);
+	if (!arena_push(list->as->arena, &list->fixup, &list->fixup_count,
+			sizeof(*list->fixup))) {
+		list->as->failed = true;
+		return;
+	}
+	list->fixup[list->fixup_count - 1].word = word;
+	list->fixup[list->fixup_count - 1].fold = name ? fold(list, name) : 0;
+}
+
+/* JMP and RET; the fold 0 stands for the end of the list. */
+void list_flow(struct list *list, const struct il_line *line)
+{
+	uint32_t target = line->op == OP_JMP ? line->operand : 0;
+	struct bits condition;
+	uint32_t slot = 0;
+
+	if (line->modifiers & MOD_C) {
+		condition = list_now_bits(list);
+		if (line->modifiers & MOD_N)
+			condition = bits_not(condition);
+		slot = list_slot(list, &condition);
+		if (!(line->modifiers & MOD_N))
+			list->now.bits = bits_leaf(slot);
+	}
+	list_place(list);
+	list->straight = false;
+	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP, 0);
+	add_fixup(list, target);
+	if (line->modifiers & MOD_C)
+		emit(list->as, slot);
+}
+
+void list_label(struct list *list, const struct il_line *line)
+{
+	uint32_t id = fold(list, line->operand);
+
+	list->as->open_lut = -1;
+	list->straight = false;
+	list->now.kind = RESULT_NONE;
+	list->pending_count = 0;
+	if (id < list->label_count)
+		list->label[id] = (uint32_t)list->as->text->count + 1;
+}
+
+void list_patch(struct list *list, uint32_t end)
+{
+	for (int i = 0; i < list->fixup_count; i++) {
+		uint32_t at = list->fixup[i].fold ?
+			list->label[list->fixup[i].fold] - 1 : end;
+
+		list->as->text->word[list->fixup[i].word] = at;
+	}
+}

@@ -1,0 +1,286 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_array - images with AGET and APUT: bounds of names, what the verifier lets in,
+ * and that no damaged image reads or writes outside its elements.
+ */
+#include "engine/base/digest.h"
+#include "tests/unit/rig.h"
+
+#include <limits.h>
+
+static const char source[] =
+	"VAR\n"
+	"  Bits  : ARRAY[-2..5] OF BOOL := [TRUE];\n"
+	"  Table : ARRAY[1..4] OF INT := [7, 2(8)];\n"
+	"  Words AT %MW4 : ARRAY[0..3] OF WORD;\n"
+	"  Lamps AT %QX1.3 : ARRAY[0..9] OF BOOL;\n"
+	"  Names : ARRAY[0..1] OF STRING[5] := ['ab', 'c'];\n"
+	"  Name  : STRING[5];\n"
+	"  i     : LINT;\n"
+	"  u     : ULINT;\n"
+	"  x     : INT;\n  y     : DINT;\n"
+	"END_VAR\n"
+	"VAR CONSTANT\n  Fixed : ARRAY[0..2] OF DINT := [1, 2, 3];\nEND_VAR\n"
+	"PROGRAM Main IL\n"
+	"  LD Bits[i]\n  ST Lamps[u]\n"
+	"  LD Table[u]\n  ST Table[i]\n  ST x\n"
+	"  LD Words[i]\n  ST %MW20[u]\n"
+	"  LD Fixed[i]\n  ST y\n"
+	"  LD Names[u]\n  ST Name\n"
+	"  LD Lamps[i]\n  ST Bits[u]\n"
+	"END_PROGRAM\n";
+
+static uint8_t *good, *image;
+static size_t len;
+
+static struct code_header *header(void)
+{
+	return (void *)image;
+}
+
+static uint32_t *text(void)
+{
+	return (void *)(image + header()->section[CODE_TEXT].offset);
+}
+
+static void seal(void)
+{
+	size_t covered = offsetof(struct code_header, crc) + 4;
+
+	header()->crc = digest_crc32c(0, image + covered, len - covered);
+}
+
+static void set_index(struct image *at, const char *name, int64_t index)
+{
+	struct location where = image_find(at, name, 1);
+
+	if (where.type == IEC_LINT || where.type == IEC_ULINT)
+		image_set(at, where, (union iec_value){ .i = index });
+}
+
+/* Runs the copy if it is let in, for a few scans with indices of all kinds. */
+static bool let_in(void)
+{
+	static const int64_t index[] = { 0, 1, -1, 5, INT64_MAX, INT64_MIN, 100000 };
+	struct resource resource;
+	struct program program;
+	struct arena scratch;
+	enum diag_id why;
+	size_t where;
+	bool open;
+
+	seal();
+	arena_init(&scratch);
+	open = code_open(image, len, &scratch, &program, &why, &where);
+	arena_free(&scratch);
+	if (open) {
+		void *memory = calloc(1, image_memory_size(&program));
+
+		if (!memory)
+			abort();
+		resource_init(&resource, &program, memory);
+		resource_start(&resource);
+		for (size_t i = 0; i < sizeof(index) / sizeof(*index); i++) {
+			set_index(&resource.image, "i", index[i]);
+			set_index(&resource.image, "u", index[i]);
+			resource_scan(&resource, (int64_t)i * RIG_PERIOD);
+		}
+		free(memory);
+	}
+	memcpy(image, good, len);
+	return open;
+}
+
+/* Instruction number @number of this kind; its word and operands. */
+static uint32_t *find(enum vm_op op, int number)
+{
+	uint32_t words = header()->section[CODE_TEXT].size / 4;
+
+	for (uint32_t at = 0; at < words; at += code_words(text() + at))
+		if ((text()[at] & 0xff) == op && number-- == 0)
+			return text() + at;
+	abort();
+}
+
+/* Sets one operand (1: en, 2: ok, 3: value, 4: base, 5: index, 6: low, 7: count,
+ * 8: stride) and tells whether the image is refused. */
+static bool refuses(enum vm_op op, int number, int operand, uint32_t value)
+{
+	find(op, number)[operand] = value;
+	return !let_in();
+}
+
+static void test_bounds(void)
+{
+	static const char *const none[] = {
+		"", "Name", "[1..2]", "A[", "A[1]", "A[1..]", "A[..2]", "A[1.2]",
+		"A[1..2", "A[1..2]x", "A[2..1]", "A[a..b]", "A[1..2000000000]",
+		"A[--1..2]", "A[1..99999999999]", "A[-2147483649..0]", "A[0..1000000]",
+	};
+	struct code_bounds got;
+
+	for (size_t i = 0; i < sizeof(none) / sizeof(*none); i++) {
+		got = code_bounds(none[i]);
+		CHECK_AS(got.count == 0 && got.head == strlen(none[i]), none[i]);
+	}
+	got = code_bounds("A[1..10]");
+	CHECK(got.head == 1 && got.low == 1 && got.count == 10);
+	got = code_bounds("Long[-2147483648..-2147483647]");
+	CHECK(got.head == 4 && got.low == INT32_MIN && got.count == 2);
+	got = code_bounds("Most[0..999999]");
+	CHECK(got.count == 1000000);
+}
+
+static void test_refused(void)
+{
+	uint32_t *get = find(VM_AGET, 1), *put = find(VM_APUT, 1);
+	uint32_t base = get[4], index = get[5], count = get[7];
+	uint32_t areas = iec_areas_size();
+
+	CHECK_AS(let_in(), "the image as it stands");
+	CHECK(CODE_TYPE(base) == IEC_INT && count == 4 && get[8] == 2);
+	CHECK(refuses(VM_AGET, 1, 1, base) && refuses(VM_AGET, 1, 2, CODE_TRUE_AT(areas)));
+	CHECK(refuses(VM_AGET, 1, 3, base & 0xffffff) &&
+	      refuses(VM_AGET, 1, 3, find(VM_AGET, 3)[4]));
+	CHECK_AS(refuses(VM_AGET, 1, 4, CODE_OPERAND(IEC_DINT, CODE_OFFSET(base))),
+		 "another type");
+	CHECK(refuses(VM_AGET, 1, 4, base + 1));
+	CHECK(refuses(VM_AGET, 1, 5, find(VM_AGET, 0)[4]));
+	CHECK(refuses(VM_AGET, 1, 5, index + 1));
+	CHECK(refuses(VM_AGET, 1, 7, 0) && refuses(VM_AGET, 1, 7, UINT32_MAX));
+	CHECK_AS(refuses(VM_AGET, 1, 7, 0x80000001), "2 bytes times this is 2");
+	CHECK_AS(refuses(VM_AGET, 1, 7, 1000), "into what lies behind");
+	CHECK(refuses(VM_AGET, 1, 8, 0) && refuses(VM_AGET, 1, 8, 1) &&
+	      refuses(VM_AGET, 1, 8, 0x55555556) && refuses(VM_AGET, 1, 8, 4000));
+	CHECK(refuses(VM_AGET, 1, 0, VM_AGET | 1u << 8));
+	CHECK(refuses(VM_AGET, 1, 0, VM_AGET | 2u << 8));
+	CHECK_AS(refuses(VM_APUT, 1, 4, find(VM_AGET, 3)[4]), "a constant is written");
+	CHECK_AS(refuses(VM_APUT, 1, 4,
+			 CODE_OPERAND(IEC_INT, iec_area_row(AREA_I)->offset)),
+		 "an input is written");
+	CHECK(CODE_TYPE(put[4]) == IEC_INT && refuses(VM_APUT, 1, 4, areas - 2));
+	/* Bits of areas: to the end of the area, and not one more. */
+	CHECK((find(VM_APUT, 0)[0] >> 8) == 1);
+	CHECK(refuses(VM_APUT, 0, 7, iec_area_row(AREA_Q)->bytes * 8));
+	CHECK(refuses(VM_APUT, 0, 7, 0) && refuses(VM_APUT, 0, 8, 2));
+	CHECK(refuses(VM_APUT, 0, 4, CODE_OPERAND(IEC_BOOL, areas * 8)));
+	CHECK(refuses(VM_APUT, 0, 4, CODE_OPERAND(IEC_BOOL, 0)));
+	/* Texts: a stride that is not their room. */
+	CHECK(CODE_TYPE(find(VM_AGET, 4)[4]) == IEC_STRING);
+	CHECK(refuses(VM_AGET, 4, 8, 4) && refuses(VM_AGET, 4, 7, 400));
+}
+
+static void test_symbols(void)
+{
+	static const char *const worse[] = { "Table[1..9]", "Names[0..9]", "Fixed[0..9]" };
+	char *string = (char *)image + header()->section[CODE_STRINGS].offset;
+	size_t size = header()->section[CODE_STRINGS].size;
+
+	for (size_t i = 0; i < 3; i++)
+		for (size_t at = 0; at + strlen(worse[i]) < size; at++)
+			if (strncmp(string + at, worse[i], 6) == 0) {
+				memcpy(string + at, worse[i], strlen(worse[i]));
+				/* More elements than the run may hold. */
+				string[at + 9] = '9';
+				let_in();
+				break;
+			}
+	CHECK_AS(let_in(), "names are as they were");
+}
+
+/* Each byte in turn, with a right checksum: refused, or it runs without harm. */
+static void test_every_byte(void)
+{
+	static const uint8_t flip[] = { 0x01, 0x80, 0xff };
+	int refused = 0;
+
+	for (size_t at = sizeof(struct code_header); at < len; at++)
+		for (int k = 0; k < 3; k++) {
+			image[at] ^= flip[k];
+			refused += !let_in();
+		}
+	CHECK(refused > 0);
+}
+
+/* Loading must not get slow: many accesses to one large array, and an image that
+ * asks for more single steps than it may. */
+static void test_effort(void)
+{
+	static char program[64 * 1024];
+	struct rig rig;
+	size_t used = (size_t)snprintf(program, sizeof(program),
+		"VAR\n  Big : ARRAY[0..999999] OF BOOL;\n  i : DINT;\nEND_VAR\n"
+		"PROGRAM Main IL\n");
+
+	for (int k = 0; k < 1000; k++)
+		used += (size_t)snprintf(program + used, sizeof(program) - used,
+					 "  LD Big[i]\n  ST Big[i]\n");
+	snprintf(program + used, sizeof(program) - used, "END_PROGRAM\n");
+	if (rig_open(&rig, program, false))
+		CHECK(ladder_program(rig.ladder)->symbol_count == 2);
+	rig_close(&rig);
+}
+
+static int64_t value_of(struct rig *rig, const char *name)
+{
+	return image_get(&rig->resource.image,
+			 image_find(&rig->resource.image, name, strlen(name))).i;
+}
+
+static void test_names(void)
+{
+	static const char *const none[] = {
+		"Table", "Table[0]", "Table[5]", "Table[", "Table[1", "Table[]", "Table[-]",
+		"Table[1]]", "Table[x]", "Table[99999999999999]", "Table[1].Q", "i[1]",
+		"Table[1..4]", "Table[4294967297]",
+	};
+	struct symbol_cursor cursor = { 0 };
+	struct symbol symbol;
+	struct rig rig;
+	int count = 0;
+
+	if (!rig_open(&rig, source, false))
+		return;
+	for (size_t i = 0; i < sizeof(none) / sizeof(*none); i++)
+		CHECK_AS(image_find(&rig.resource.image, none[i],
+				    strlen(none[i])).type == IEC_NONE, none[i]);
+	CHECK(value_of(&rig, "Table[1]") == 7 && value_of(&rig, "table[3]") == 8);
+	CHECK(value_of(&rig, "table[ 3 ]") == 8 && value_of(&rig, "Bits[-2]") == 1);
+	CHECK(value_of(&rig, "Fixed[2]") == 3 && value_of(&rig, "Table[4]") == 0);
+	while (image_next_symbol(&rig.resource.image, &cursor, &symbol)) {
+		struct location at = image_find(&rig.resource.image, symbol.name,
+						strlen(symbol.name));
+
+		count++;
+		CHECK_AS(at.type == symbol.at.type && at.where == symbol.at.where &&
+			 at.area == symbol.at.area, symbol.name);
+	}
+	CHECK(count == 8 + 4 + 4 + 10 + 2 + 5 + 3);
+	rig_close(&rig);
+}
+
+int main(void)
+{
+	struct rig rig;
+	const void *bytes;
+
+	test_bounds();
+	test_names();
+	test_effort();
+	if (!rig_open(&rig, source, true))
+		return tap_done();
+	bytes = ladder_image(rig.ladder, &len);
+	good = aligned_alloc(8, (len + 7) / 8 * 8);
+	image = aligned_alloc(8, (len + 7) / 8 * 8);
+	if (!good || !image)
+		abort();
+	memcpy(good, bytes, len);
+	memcpy(image, bytes, len);
+	test_refused();
+	test_symbols();
+	test_every_byte();
+	free(good);
+	free(image);
+	rig_close(&rig);
+	return tap_done();
+}
