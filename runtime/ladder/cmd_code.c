@@ -19,6 +19,7 @@ static const char *const section_name[CODE_SECTION_COUNT] = {
 	[CODE_SYMBOLS] = "symbols", [CODE_POWER] = "power of cells",
 	[CODE_GROUPS] = "groups of symbols",
 	[CODE_PLACES] = "places", [CODE_STRINGS] = "strings",
+	[CODE_WATCHED] = "watched instances",
 };
 
 static void print_sizes(const struct program *program, const struct sink *out)

@@ -24,6 +24,7 @@ struct draft {
 	struct code_power power[1];
 	struct code_place place[2];
 	char string[16];
+	struct code_watched watched[1];
 	uint32_t text_words, entries;
 };
 
@@ -130,6 +131,7 @@ static void draft_maps(struct draft *d)
 	d->power[0] = (struct code_power){ 0, 1, 1, 0, 1, own(1), own(FLAG) };
 	d->place[0] = (struct code_place){ AT_LUT, 0, 1, 1, 1 };
 	d->place[1] = (struct code_place){ AT_FN, 0, 2, 1, 1 };
+	d->watched[0] = (struct code_watched){ 0, 7, own(FLAG), own(FLAG + 4), 4 };
 }
 
 static void draft_good(struct draft *d)
@@ -181,6 +183,7 @@ static uint32_t pack(const struct draft *d, uint8_t *bytes)
 	add(bytes, &len, CODE_POWER, d->power, sizeof(d->power));
 	add(bytes, &len, CODE_PLACES, d->place, sizeof(d->place));
 	add(bytes, &len, CODE_STRINGS, d->string, sizeof(d->string));
+	add(bytes, &len, CODE_WATCHED, d->watched, sizeof(d->watched));
 	seal(bytes, len);
 	return len;
 }
@@ -392,6 +395,10 @@ static void test_maps(void)
 	REFUSED(d.power[0].out = d.header.data_size);
 	REFUSED(d.place[1].text = WORDS);
 	REFUSED(d.place[1].pou = 1);
+	REFUSED(d.watched[0].pou = 1);
+	REFUSED(d.watched[0].name = sizeof(d.string));
+	REFUSED(d.watched[0].to = d.header.data_size);
+	REFUSED(d.watched[0].size = UINT32_MAX);
 }
 
 static void test_header(void)
@@ -503,7 +510,6 @@ static void test_blocks(void)
 	/* Nothing, one over the other, too far, out of memory. */
 	REFUSED(append_block(&d, own(NUMBER), own(NUMBER) + 4, 0));
 	REFUSED(append_block(&d, own(FLAG), own(FLAG) + 3, 4));
-	REFUSED(append_block(&d, own(FLAG), own(FLAG), 4));
 	REFUSED(append_block(&d, own(FLAG), own(FLAG) + 4, UINT32_MAX));
 	REFUSED(append_block(&d, UINT32_MAX, own(FLAG), 4));
 	REFUSED(append_block(&d, own(COUNTER), own(COUNTER) + size, size + 1));

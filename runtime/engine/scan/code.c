@@ -78,6 +78,7 @@ static const uint32_t section_unit[CODE_SECTION_COUNT] = {
 	[CODE_POWER] = sizeof(struct code_power),
 	[CODE_PLACES] = sizeof(struct code_place),
 	[CODE_STRINGS] = 1,
+	[CODE_WATCHED] = sizeof(struct code_watched),
 };
 
 static uint32_t section(const struct program *program, int kind,
@@ -136,6 +137,7 @@ static void find_sections(struct program *p)
 	p->power_count = section(p, CODE_POWER, &at), p->power = at;
 	p->place_count = section(p, CODE_PLACES, &at), p->place = at;
 	p->string_bytes = section(p, CODE_STRINGS, &at), p->string = at;
+	p->watched_count = section(p, CODE_WATCHED, &at), p->watched = at;
 }
 
 /* ---- data layout ---- */
@@ -368,12 +370,26 @@ static bool check_strings(struct verifier *v)
 	       verify_refuse(v, p->string);
 }
 
+static bool check_watched(struct verifier *v)
+{
+	const struct program *p = v->program;
+
+	for (uint32_t i = 0; i < p->watched_count; i++) {
+		const struct code_watched *w = &p->watched[i];
+
+		if (w->pou >= p->entry_count || w->name >= p->string_bytes ||
+		    w->to > v->data_size || w->size > v->data_size - w->to)
+			return verify_refuse(v, w);
+	}
+	return true;
+}
+
 static bool check_maps(struct verifier *v)
 {
 	const struct program *p = v->program;
 	const char *name = p->string;
 
-	if (!check_strings(v) || !check_groups(v))
+	if (!check_strings(v) || !check_groups(v) || !check_watched(v))
 		return false;
 	for (uint32_t i = 0; i < p->symbol_count; i++) {
 		if (!check_symbol(v, p->symbol[i], name))

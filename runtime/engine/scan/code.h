@@ -59,6 +59,7 @@ enum code_section_kind {
 	CODE_POWER,        /* struct code_power each, ordered by place         */
 	CODE_PLACES,       /* struct code_place each, ordered by code offset   */
 	CODE_STRINGS,      /* NUL-ended: first the symbols' names, in order    */
+	CODE_WATCHED,      /* struct code_watched each: instances and their power */
 	CODE_SECTION_COUNT
 };
 
@@ -134,6 +135,14 @@ struct code_power {     /* the cell-to-power map                           */
 	uint32_t out;   /* offset in m: power it lets through              */
 };
 
+/* While watched, the power of a block's cells is copied for each instance: what
+ * CODE_POWER has at from … from + size - 1 is at to … then. */
+struct code_watched {
+	uint32_t pou;   /* index in CODE_PROGRAMS                          */
+	uint32_t name;  /* offset in CODE_STRINGS: "Belt1", "Line.Belt1.Soft" */
+	uint32_t from, to, size;
+};
+
 struct code_place {     /* from this word of CODE_TEXT on                  */
 	uint32_t text;
 	uint32_t pou, rung; /* index in CODE_PROGRAMS; 1-based             */
@@ -162,10 +171,11 @@ struct program {
 	const struct code_group *group;
 	const struct code_power *power;
 	const struct code_place *place;
+	const struct code_watched *watched;
 	const uint32_t *text, *watch;
 	const char *string;
 	uint32_t entry_count, task_count, call_count, run_count, bits_count,
-		 symbol_count, group_count, power_count, place_count, text_words, watch_words,
+		 symbol_count, group_count, power_count, place_count, watched_count, text_words, watch_words,
 		 string_bytes;
 };
 

@@ -4,6 +4,8 @@
  */
 #include "engine/scan/resource.h"
 
+#include "engine/base/ascii.h"
+
 #include <string.h>
 
 #define MS_NS     INT64_C(1000000)
@@ -312,29 +314,70 @@ static uint64_t place_key(uint64_t pou, uint64_t rung, uint32_t row,
 	return pou << 48 | (rung & 0x3fffff) << 26 | row << 13 | col;
 }
 
-bool resource_power(const struct resource *resource, uint32_t pou, uint32_t rung,
-		    uint32_t row, uint32_t col, bool *in, bool *out)
+static const struct code_power *find_power(const struct program *program,
+					   uint32_t pou, uint32_t rung,
+					   uint32_t row, uint32_t col)
 {
-	const struct program *program = resource->image.program;
 	uint64_t want = place_key(pou, rung, row, col);
 	uint32_t low = 0, high = program->power_count;
 
 	if (row > LIMIT_ROWS || col > LIMIT_COLS || row == 0 || col == 0)
-		return false;
+		return NULL;
 	while (low < high) {
 		uint32_t middle = low + (high - low) / 2;
 		const struct code_power *at = &program->power[middle];
 		uint64_t have = place_key(at->pou, at->rung, at->row, at->col);
 
-		if (have == want) {
-			*in = resource->image.memory[at->in];
-			*out = resource->image.memory[at->out];
-			return true;
-		}
+		if (have == want)
+			return at;
 		if (have > want)
 			high = middle;
 		else
 			low = middle + 1;
+	}
+	return NULL;
+}
+
+bool resource_power(const struct resource *resource, uint32_t pou, uint32_t rung,
+		    uint32_t row, uint32_t col, bool *in, bool *out)
+{
+	const struct code_power *at = find_power(resource->image.program, pou,
+						 rung, row, col);
+
+	if (!at)
+		return false;
+	*in = resource->image.memory[at->in];
+	*out = resource->image.memory[at->out];
+	return true;
+}
+
+/* A byte of power where the instance has it; the rail is everybody's. */
+static bool power_at(const struct resource *resource,
+		     const struct code_watched *watched, uint32_t offset)
+{
+	if (offset - watched->from < watched->size)
+		offset = watched->to + (offset - watched->from);
+	return resource->image.memory[offset];
+}
+
+bool resource_power_in(const struct resource *resource, const char *instance,
+		       size_t len, uint32_t rung, uint32_t row, uint32_t col,
+		       bool *in, bool *out)
+{
+	const struct program *program = resource->image.program;
+
+	for (uint32_t i = 0; i < program->watched_count; i++) {
+		const struct code_watched *watched = &program->watched[i];
+		const struct code_power *at;
+
+		if (!ascii_is(program->string + watched->name, instance, len))
+			continue;
+		at = find_power(program, watched->pou, rung, row, col);
+		if (!at)
+			return false;
+		*in = power_at(resource, watched, at->in);
+		*out = power_at(resource, watched, at->out);
+		return true;
 	}
 	return false;
 }

@@ -87,6 +87,12 @@ bool resource_power(const struct resource *resource, uint32_t pou, uint32_t rung
 /** resource_fault_print - what went wrong, and in which task if tasks are declared:
  * "task Fast: watchdog: …". @size at least 96. Scan-safe: yes. */
 void resource_fault_print(const struct resource *resource, char *out, size_t size);
+/** resource_power_in - the same of a cell in the body of a function block, for one
+ * @instance: "Belt1", "Line.Belt1.Soft" (any case). resource_power() tells of whichever was
+ * called last.   Fails: false if there is no such instance or cell.   Scan-safe: no. */
+bool resource_power_in(const struct resource *resource, const char *instance,
+		       size_t len, uint32_t rung, uint32_t row, uint32_t col,
+		       bool *in, bool *out);
 /** resource_place - POU, rung and cell of a word of CODE_TEXT. */
 struct fault_place resource_place(const struct program *program, uint32_t text);
 #endif

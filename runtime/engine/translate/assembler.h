@@ -55,6 +55,8 @@ struct assembler {
 	uint8_t *pin_writes;       /* by instance pin number                  */
 	uint32_t **first_pin;      /* by table, index: number of its pin 0    */
 	struct frame *frame;       /* by unit                                 */
+	uint32_t **power;          /* by table, index: where an instance's
+				      power lies; 0: nowhere. NULL: unwatched */
 
 	/* output of one section */
 	struct words *text;
@@ -80,6 +82,7 @@ struct frame {
 	uint32_t offset, size;      /* of a function or block; size 0: neither */
 	uint32_t model;             /* a function's, as it is before a call    */
 	uint32_t temps, temps_model, temps_size; /* its VAR_TEMP; size 0: none */
+	uint32_t power, power_size; /* of its cells, and of instances inside   */
 	struct slots slots;
 };
 
@@ -99,8 +102,10 @@ void layout_init_text(struct assembler *as, uint32_t offset, uint32_t capacity,
 		      struct literal literal);
 /** layout_core - what was placed so far is what runs; watching comes behind it. */
 void layout_core(struct assembler *as);
-/** layout_power - places for the power of cells. */
+/** layout_power - places for the power of cells, and for a copy an instance. */
 void layout_power(struct assembler *as);
+/** layout_place_powers - of the cells of one table's POU. */
+bool layout_place_powers(struct assembler *as, int table);
 /** layout_spot - where the value of @meaning lies; not for literals. */
 struct spot layout_spot(const struct assembler *as, const struct meaning *m);
 /** layout_constant - a constant's place, made once a value. */

@@ -147,6 +147,21 @@ static void emit_call(struct list *list, uint32_t entry)
 
 /* ---- function blocks ---- */
 
+/* While watched: the power of the body's cells, for this instance. */
+static void keep_power(struct list *list, const struct meaning *instance,
+		       const struct frame *frame)
+{
+	struct assembler *as = list->as;
+	uint32_t to;
+
+	if (as->text != &as->watch || instance->offset > 0 ||
+	    !frame->power_size)
+		return;
+	to = as->power[layout_table(as, instance)][instance->index];
+	if (to)
+		emit_block(as, to, frame->power, frame->power_size);
+}
+
 void list_own_cal(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
@@ -167,6 +182,7 @@ void list_own_cal(struct list *list)
 	emit_block(list->as, frame->offset, base, row->size);
 	emit_call(list, entry);
 	emit_block(list->as, base, frame->offset, row->size);
+	keep_power(list, instance, frame);
 	take_all(list, row, base);
 	list_end_skip(list, skip);
 	list_end_skip(list, missing);

@@ -405,16 +405,14 @@ static void place_var(struct assembler *as, int table, int index, bool retain)
 }
 
 /* All variables of one type (IEC_NONE: instances) that are not placed yet. */
-static void place_type(struct assembler *as, enum iec_type type, bool retain,
-		       bool power)
+static void place_type(struct assembler *as, enum iec_type type, bool retain)
 {
 	for (int table = 0; table <= as->translation->unit_count; table++)
 		for (int i = 0; i < table_size(as, table); i++) {
 			const struct var *var = table_var(as, table, i);
 			bool temp = i >= layout_vars(as, table)->count;
 
-			if (var->type == type &&
-			    (temp && is_power(as, var)) == power)
+			if (var->type == type && !(temp && is_power(as, var)))
 				place_var(as, table, i, retain);
 		}
 }
@@ -422,8 +420,8 @@ static void place_type(struct assembler *as, enum iec_type type, bool retain,
 static void place_all(struct assembler *as, bool retain)
 {
 	for (int type = IEC_BOOL; type < IEC_TYPE_COUNT; type++)
-		place_type(as, (enum iec_type)type, retain, false);
-	place_type(as, IEC_NONE, retain, false);
+		place_type(as, (enum iec_type)type, retain);
+	place_type(as, IEC_NONE, retain);
 }
 
 /* An initial value in its area, as @area will be; or in the bit's own byte. */
@@ -522,9 +520,14 @@ void layout_core(struct assembler *as)
 	as->run_core = as->run_count;
 }
 
-void layout_power(struct assembler *as)
+bool layout_place_powers(struct assembler *as, int table)
 {
-	place_type(as, IEC_BOOL, false, true);
+	int count = table_size(as, table);
+
+	for (int i = layout_vars(as, table)->count; i < count; i++)
+		if (is_power(as, table_var(as, table, i)))
+			place_var(as, table, i, false);
+	return !as->failed;
 }
 
 struct spot layout_spot(const struct assembler *as, const struct meaning *m)

@@ -20,6 +20,8 @@ struct maps {
 	int group_count;
 	struct code_power *power;
 	int power_count;
+	struct code_watched *watched;
+	int watched_count;
 };
 
 static uint32_t add_string(struct assembler *as, struct maps *maps,
@@ -274,6 +276,113 @@ static void add_power(struct assembler *as, struct maps *maps)
 	}
 }
 
+/* ---- power by instance ---- */
+
+/* An instance whose power is kept, and those inside it. */
+struct kept {
+	int unit;
+	uint32_t base; /* of its power                                        */
+	int next;      /* variable of its block to look at                    */
+	size_t len;    /* of its name                                         */
+};
+
+#define KEPT_NAME ((LIMIT_NESTING + 2) * (LIMIT_NAME + 2))
+
+/* "Belt1" behind the @len bytes of @name; with a dot between. */
+static size_t join_name(char *name, size_t len, const char *part)
+{
+	size_t size = strlen(part);
+
+	if (len > 0)
+		name[len++] = '.';
+	memcpy(name + len, part, size + 1);
+	return len + size;
+}
+
+static void add_watched(struct assembler *as, struct maps *maps,
+			const struct kept *kept, const char *name)
+{
+	const struct frame *frame = &as->frame[kept->unit];
+	struct code_watched *watched = arena_push(as->arena, &maps->watched,
+		&maps->watched_count, sizeof(*watched));
+
+	if (!watched) {
+		as->failed = true;
+		return;
+	}
+	*watched = (struct code_watched){
+		.pou = (uint32_t)kept->unit, .from = frame->power,
+		.to = kept->base, .size = frame->power_size,
+		.name = add_string(as, maps, name, kept->len),
+	};
+}
+
+/* Variable @index of table @table, and at all depths what is in it. */
+static void keep_instance(struct assembler *as, struct maps *maps, char *name,
+			  size_t len, int table, int index)
+{
+	const struct project *project = as->translation->project;
+	struct kept level[LIMIT_NESTING + 1];
+	int depth = -1;
+
+	for (;;) {
+		const struct var *var = &layout_vars(as, table)->var[index];
+		uint32_t base = as->power[table][index];
+
+		if (base) { /* inside a block: beside that of its cells */
+			uint32_t unit = 0;
+
+			if (depth >= 0)
+				base = level[depth].base + base -
+				       as->frame[level[depth].unit].power;
+			layout_pou(as, var->fb, &unit);
+			level[depth + 1] = (struct kept){ (int)unit, base, 0,
+				join_name(name, depth < 0 ? len :
+					  level[depth].len,
+					  project_text(project, var->name)) };
+			add_watched(as, maps, &level[++depth], name);
+		}
+		while (depth >= 0 && level[depth].next ==
+		       layout_vars(as, level[depth].unit + 1)->count)
+			depth--;
+		if (depth < 0 || as->failed)
+			return;
+		table = level[depth].unit + 1;
+		index = level[depth].next++;
+	}
+}
+
+static void keep_table(struct assembler *as, struct maps *maps, char *name,
+		       int table)
+{
+	const struct project *project = as->translation->project;
+	const struct var_table *vars = layout_vars(as, table);
+
+	for (int i = 0; i < vars->count && !as->failed; i++) {
+		size_t len = 0;
+
+		if (!as->power[table][i])
+			continue;
+		if (table && maps->declared[vars->var[i].fold] > 1)
+			len = join_name(name, 0, project_text(project,
+				project->pou[table - 1].name));
+		keep_instance(as, maps, name, len, table, i);
+	}
+}
+
+static void keep_powers(struct assembler *as, struct maps *maps)
+{
+	const struct project *project = as->translation->project;
+	char *name = as->power ? arena_alloc(as->arena, KEPT_NAME) : NULL;
+
+	if (!name)
+		return;
+	keep_table(as, maps, name, 0);
+	for (int i = 0; i < project->pou_count; i++)
+		if (project->pou[i].kind == POU_PROGRAM)
+			keep_table(as, maps, name, i + 1);
+}
+
 static void count_names(struct maps *maps, const struct var_table *vars)
 {
 	for (int i = 0; i < vars->count; i++)
@@ -301,6 +410,7 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 	for (int i = 0; i < as->task_count; i++)
 		as->task[i].name = add_name(as, maps, as->task[i].name);
 	add_power(as, maps);
+	keep_powers(as, maps);
 	return !as->failed;
 }
 
@@ -372,6 +482,7 @@ void *pack_image(struct assembler *as, size_t *len)
 		[CODE_POWER] = PIECE(maps->power, maps->power_count),
 		[CODE_PLACES] = PIECE(as->place, as->place_count),
 		[CODE_STRINGS] = PIECE(maps->string, maps->string_used),
+		[CODE_WATCHED] = PIECE(maps->watched, maps->watched_count),
 	};
 
 	return write_pieces(as, piece, len);
