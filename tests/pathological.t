@@ -140,6 +140,10 @@ my %file = (
 	"no end" => $good =~ s/END_PROGRAM\n//r,
 	"no bars" => $good =~ s/\|//gr,
 	"a carriage return in the middle" => $good =~ s/Start AT/Start\rAT/r,
+	"1,000 arrays of a million texts" => $good =~ s/(  Motor AT.*\n)/$1 . join("", map { sprintf("  A%04d", $_) . " : ARRAY[0..999999] OF STRING[255];\n" } 1 .. 1000)/er,
+	"3,000 arrays over one area, all with values" => $good =~ s/(  Motor AT.*\n)/$1 . join("", map { sprintf("  A%04d", $_) . " AT %MX0.0 : ARRAY[0..65535] OF BOOL := [65536(1)];\n" } 1 .. 3000)/er,
+	"70 indices in each other" => $good =~ s/NO Start/"[ " . "A[1 + " x 70 . "i" . "]" x 70 . " > 1 ]"/er,
+	"a list of 300,000 values for two elements" => $good =~ s/(  Motor AT.*\n)/$1 . "  A : ARRAY[0..1] OF INT := [" . join(",", (1) x 300_000) . "];\n"/er,
 	"an image that is only its name" => "RUNGCODE",
 	"a damaged image" => "RUNGCODE" . "\x01\0\0\0" . "\xff" x 500,
 );
