@@ -339,6 +339,15 @@ static char *load(void *context, const char *from, const char *name,
 	if (!strcmp(name, "good"))
 		text = "RUNGBOARD 1\nPROJECT \"other\"\n// x\nVAR\nI : INT;\n"
 		       "END_VAR\nPROGRAM P\nEND_PROGRAM\n// y\n";
+	if (!strcmp(name, "lib"))
+		text = "RUNGBOARD 1\nUSES \"ring\"\nFUNCTION F : INT\nEND_FUNCTION\n"
+		       "VAR_GLOBAL CONSTANT\nC : INT := 5;\nEND_VAR\n";
+	if (!strcmp(name, "ring"))
+		text = "RUNGBOARD 1\nUSES \"lib\"\nUSES \"t.rung\"\n"
+		       "TYPE\nPair : STRUCT a : INT; END_STRUCT;\nEND_TYPE\n";
+	if (!strcmp(name, "odd"))
+		text = "RUNGBOARD 1\nVAR\nv : INT;\nEND_VAR\nPROGRAM P\n"
+		       "END_PROGRAM\nINCLUDE \"good\"\n";
 	if (!strcmp(name, "deep") || !strcmp(name, "x/deep"))
 		text = "RUNGBOARD 1\nINCLUDE \"x/deep\"\n";
 	*len = strlen(text);
@@ -383,6 +392,29 @@ static void test_include(void)
 	CHECK(!read_with("RUNGBOARD 1\nINCLUDE \"deep\"\n"));
 	CHECK(diags.count == 1 && diags.diag[0].id == DIAG_BAD_INCLUDE);
 	CHECK(!read_with("RUNGBOARD 1\nINCLUDE \"missing\"\nINCLUDE 5\n"));
+	CHECK(diags.count == 2 && diags.diag[1].id == DIAG_EXPECTED);
+}
+
+/* Twice, and in a ring: each library is read once, and only words are in it. */
+static void test_uses(void)
+{
+	static const char good[] = "RUNGBOARD 1\n\nUSES \"lib\"\n\nVAR\n"
+		"  P : INT;\nEND_VAR\n\n(* again *)\nUSES \"lib\"\n";
+
+	CHECK(read_with(good));
+	CHECK(project->pou_count == 1 && project->structure_count == 1);
+	CHECK(project->globals.count == 2 && project->words.count == 2);
+	CHECK_TEXT(project->structure[0].file, "dir/ring");
+	char *text = written();
+
+	CHECK_TEXT(text, good);
+	free(text);
+	CHECK(!read_with("RUNGBOARD 1\nUSES \"odd\"\n"));
+	CHECK(diags.errors >= 3 && diags.diag[0].id == DIAG_MISPLACED &&
+	      diags.diag[1].id == DIAG_MISPLACED &&
+	      diags.diag[2].id == DIAG_MISPLACED);
+	CHECK(read_with("RUNGBOARD 1\nVAR\nP : Pair;\nEND_VAR\nUSES \"lib\"\n"));
+	CHECK(!read_with("RUNGBOARD 1\nUSES \"missing\"\nUSES 5\n"));
 	CHECK(diags.count == 2 && diags.diag[1].id == DIAG_EXPECTED);
 }
 
@@ -470,6 +502,7 @@ int main(void)
 	test_moved_comments();
 	test_il();
 	test_include();
+	test_uses();
 	test_config();
 	test_rung();
 	project_free(project);
