@@ -7,6 +7,8 @@
  */
 #include "tests/walker/random.h"
 
+#include "engine/base/catalog.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,7 +65,6 @@ static const struct pool_row pool[] = {
 	{ "real_b", "REAL", ":= 3.0E38", 0, 0 },
 	{ "time_a", "TIME", ":= T#20ms", 0, 0 }, { "time_b", "TIME", "", 0, 0 },
 	{ "ton_a.ET", "TIME", "", 1, 0 }, { "tof_b.PT", "TIME", "", 0, 0 },
-	{ "tp_b.ET", "TIME", "", 1, 0 },
 	{ "arr_b[2]", "BOOL", "", 0, 1 }, { "arr_b[usint_b]", "BOOL", "", 0, 1 },
 	{ "arr_b[int_b]", "BOOL", "", 0, 1 }, { "arr_b[ctu_a.CV]", "BOOL", "", 0, 1 },
 	{ "arr_q[usint_i]", "BOOL", "", 0, 1 }, { "arr_q[-1]", "BOOL", "", 0, 1 },
@@ -76,6 +77,12 @@ static const struct pool_row pool[] = {
 	{ "arr_c[usint_b]", "DINT", "", 1, 1 }, { "%MD0[usint_b]", "DWORD", "", 0, 1 },
 	{ "%MB0[uint_b]", "BYTE", "", 0, 1 }, { "arr_t[int_b]", "TIME", "", 0, 1 },
 	{ "arr_r[usint_b]", "REAL", "", 0, 1 }, { "arr_r[2]", "REAL", "", 0, 1 },
+	{ "tp_b.ET", "TIME", "", 1, 0 }, { "tonr_a.ET", "TIME", "", 1, 0 },
+	{ "pid_a.OUT", "REAL", "", 1, 0 }, { "ramp_a.OUT", "REAL", "", 1, 0 },
+	{ "mean_a.OUT", "REAL", "", 1, 0 }, { "range_a.OUT", "REAL", "", 1, 0 },
+	{ "pid_b.KP", "REAL", "", 0, 0 }, { "scale_a.GAIN", "REAL", "", 0, 0 },
+	{ "real_c", "REAL", ":= 12.5", 0, 0 }, { "fifo_a.OUT", "DINT", "", 1, 0 },
+	{ "shift_a.Q", "BOOL", "", 1, 0 }, { "fifo_a.FULL", "BOOL", "", 1, 0 },
 };
 
 /* Arrays, declared when one of their elements is named. */
@@ -111,9 +118,24 @@ static const char *const instance[][2] = {
 	{ "ctu_a", "CTU" }, { "ctu_b", "CTU" }, { "ctd_a", "CTD" },
 	{ "ctud_a", "CTUD" }, { "sr_a", "SR" }, { "sr_b", "SR" },
 	{ "rs_a", "RS" }, { "rt_a", "R_TRIG" }, { "ft_a", "F_TRIG" },
-	{ "ft_b", "F_TRIG" },
+	{ "ft_b", "F_TRIG" }, { "ctu_c", "CTU_DINT" }, { "ctu_d", "CTU_ULINT" },
+	{ "ctd_b", "CTD_UDINT" }, { "ctd_c", "CTD_LINT" },
+	{ "ctud_b", "CTUD_UDINT" }, { "ctud_c", "CTUD_ULINT" },
 };
 #define INSTANCES (sizeof(instance) / sizeof(*instance))
+
+/* Blocks of docs/blocks.md: their pins are taken from their rows. */
+static const char *const more[][2] = {
+	{ "tonr_a", "TONR" }, { "deb_a", "DEBOUNCE" }, { "deb_b", "DEBOUNCE" },
+	{ "blink_a", "BLINK" }, { "pwm_a", "PWM" }, { "pwm_b", "PWM" },
+	{ "rtc_a", "RTC_ALARM" }, { "sema_a", "SEMA" }, { "fifo_a", "FIFO" },
+	{ "lifo_a", "LIFO" }, { "fifo_r", "FIFO_REAL" }, { "lifo_r", "LIFO_REAL" },
+	{ "shift_a", "SHIFT" }, { "hyst_a", "HYSTERESIS" }, { "dead_a", "DEADBAND" },
+	{ "ramp_a", "RAMP" }, { "ramp_b", "RAMP" }, { "scale_a", "SCALE" },
+	{ "range_a", "SCALE_RANGE" }, { "mean_a", "AVERAGE" }, { "pid_a", "PID" },
+	{ "pid_b", "PID" }, { "pid_c", "PID" },
+};
+#define MORE (sizeof(more) / sizeof(*more))
 
 /* What an operation of type `type` may also take: it is widened. */
 static const char *const narrower[][2] = {
@@ -143,6 +165,17 @@ static const struct {
 		    "T#1h" } },
 	{ "BOOL", { "TRUE", "FALSE", "TRUE", "FALSE", "TRUE", "FALSE",
 		    "TRUE" } },
+	{ "LINT", { "0", "1", "LINT#-9223372036854775808", "9223372036854775807",
+		    "2", "LINT#-9223372036854775807", "3" } },
+	{ "ULINT", { "0", "1", "18446744073709551615", "18446744073709551614", "2",
+		     "9223372036854775808", "3" } },
+	{ "TIME_OF_DAY", { "TOD#00:00:00", "TOD#12:00:00", "TOD#23:59:59.999",
+			   "TOD#06:00:00", "TOD#05:59:59", "TOD#22:00:00",
+			   "TOD#18:30:00" } },
+	{ "DATE_AND_TIME", { "DT#1970-01-01-00:00:00", "DT#2024-02-29-12:00:00",
+			     "DT#2026-11-22-23:59:59", "DT#1969-12-31-22:00:00",
+			     "DT#2026-11-20-05:59:59", "DT#2000-01-01-06:00:00",
+			     "DT#1900-03-01-18:30:00" } },
 };
 
 static const char *const numbers[] = {
@@ -406,6 +439,64 @@ static int bool_pin(struct builder *builder, const char *name,
 	return fed;
 }
 
+/* PV and CV of a counter, whose type stands in its name. */
+static void preset(struct builder *builder, const char *fb)
+{
+	struct random_source *source = builder->source;
+	const char *type = strchr(fb, '_') ? strchr(fb, '_') + 1 : "INT";
+	bool is_long = type[0] == 'L' || strcmp(type, "ULINT") == 0;
+
+	if (random_chance(source, 90))
+		put(builder, " PV:=%s", random_chance(source, 60) ? "2" :
+		    is_long || random_chance(source, 50) ?
+		    literal(source, type) : variable(source, type, false));
+	if (!is_long && random_chance(source, 20))
+		put(builder, " CV=>%s", variable(source, type, true));
+}
+
+/* What may stand at an input that is not BOOL. */
+static const char *input(struct random_source *source, enum iec_type type)
+{
+	const char *word = iec_type_row(type)->word;
+
+	if (type == IEC_TIME || type == IEC_TIME_OF_DAY ||
+	    type == IEC_DATE_AND_TIME || random_chance(source, 30))
+		return literal(source, word);
+	if (type == IEC_INT && random_chance(source, 50)) /* sizes and numbers of */
+		return random_chance(source, 50) ? "1" : "2";
+	if (type == IEC_REAL && random_chance(source, 30))
+		return variable(source, "INT", false);
+	return variable(source, word, false);
+}
+
+/* Inputs that have a value are mostly left alone; a cell is not endless. */
+static int any_block(struct builder *builder, const char *const *which,
+		     const char *pin[3])
+{
+	struct random_source *source = builder->source;
+	enum word word = word_find(which[1], strlen(which[1]));
+	const struct word_row *row = word_row(word);
+	int fed = 0, power = word_first_bool(row, PIN_IN);
+
+	put(builder, "%s %s", which[1], which[0]);
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *at = &row->pin[i];
+
+		if (i == power || builder->used > RANDOM_TEXT * 3 / 4)
+			continue;
+		if (at->dir == PIN_IN && at->type == IEC_BOOL)
+			fed = bool_pin(builder, at->name, pin, fed);
+		else if (at->dir == PIN_IN &&
+			 random_chance(source, at->has_init ? 35 : 90))
+			put(builder, " %s:=%s", at->name, input(source, at->type));
+		else if (at->dir == PIN_OUT && at->type != IEC_LWORD &&
+			 random_chance(source, 10))
+			put(builder, " %s=>%s", at->name,
+			    variable(source, iec_type_row(at->type)->word, true));
+	}
+	return fed;
+}
+
 static int block(struct builder *builder, const char *pin[3])
 {
 	struct random_source *source = builder->source;
@@ -421,29 +512,24 @@ static int block(struct builder *builder, const char *pin[3])
 			    random_chance(source, 30) ? "T#25ms" : "T#10ms");
 		if (random_chance(source, 20))
 			put(builder, " ET=>%s", variable(source, "TIME", true));
-	} else if (strcmp(fb, "CTU") == 0) {
-		fed = bool_pin(builder, "R", pin, fed);
-	} else if (strcmp(fb, "CTD") == 0) {
-		fed = bool_pin(builder, "LD", pin, fed);
-	} else if (strcmp(fb, "CTUD") == 0) {
+	} else if (strncmp(fb, "CTUD", 4) == 0) {
 		fed = bool_pin(builder, "CD", pin, fed);
 		fed = bool_pin(builder, "R", pin, fed);
+		fed = bool_pin(builder, "LD", pin, fed);
+	} else if (strncmp(fb, "CTU", 3) == 0) {
+		fed = bool_pin(builder, "R", pin, fed);
+	} else if (strncmp(fb, "CTD", 3) == 0) {
 		fed = bool_pin(builder, "LD", pin, fed);
 	} else if (strcmp(fb, "SR") == 0) {
 		fed = bool_pin(builder, "R", pin, fed);
 	} else if (strcmp(fb, "RS") == 0) {
 		fed = bool_pin(builder, "R1", pin, fed);
 	}
-	if (*fb == 'C') {
-		if (random_chance(source, 90))
-			put(builder, " PV:=%s", random_chance(source, 80) ? "2" :
-			    variable(source, "INT", false));
-		if (random_chance(source, 20))
-			put(builder, " CV=>%s", variable(source, "INT", true));
-	}
+	if (*fb == 'C')
+		preset(builder, fb);
 	if (random_chance(source, 15))
 		put(builder, " %s=>%s", *fb == 'S' || fb[1] == 'S' ? "Q1" :
-		    strcmp(fb, "CTUD") == 0 ? "QU" : "Q",
+		    strncmp(fb, "CTUD", 4) == 0 ? "QU" : "Q",
 		    variable(source, "BOOL", true));
 	return fed;
 }
@@ -467,6 +553,8 @@ int random_box(struct random_source *source, char *out, size_t size,
 		function(&builder);
 		return 0;
 	}
+	if (random_chance(source, 40))
+		return any_block(&builder, more[random_below(source, MORE)], pin);
 	return block(&builder, pin);
 }
 
@@ -512,6 +600,9 @@ size_t random_declare(const char *body, char *out, size_t size)
 	for (size_t i = 0; i < ARRAYS; i++)
 		if (!array[i].constant && is_used(body, array[i].name))
 			put(&builder, "  %s %s;\n", array[i].name, array[i].rest);
+	for (size_t i = 0; i < MORE; i++)
+		if (is_used(body, more[i][0]))
+			put(&builder, "  %s : %s;\n", more[i][0], more[i][1]);
 	put(&builder, "END_VAR\n");
 	for (size_t i = 0; i < ARRAYS; i++)
 		if (array[i].constant && is_used(body, array[i].name))
