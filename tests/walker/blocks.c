@@ -20,18 +20,18 @@ int block_pin(const struct block *block, const char *name)
 	return -1;
 }
 
-static int64_t get(const struct block *block, const char *name)
+int64_t block_get(const struct block *block, const char *name)
 {
 	return block->pin[block_pin(block, name)].i;
 }
 
-static void set(struct block *block, const char *name, int64_t value)
+void block_set(struct block *block, const char *name, int64_t value)
 {
 	block->pin[block_pin(block, name)].i = value;
 }
 
 /* A level that was FALSE in the call before. */
-static bool rises(bool now, bool *was)
+bool block_rises(bool now, bool *was)
 {
 	bool rising = now && !*was;
 
@@ -42,17 +42,17 @@ static bool rises(bool now, bool *was)
 /* A time before now cannot be waited for. */
 static int64_t preset(const struct block *block)
 {
-	return get(block, "PT") > 0 ? get(block, "PT") : 0;
+	return block_get(block, "PT") > 0 ? block_get(block, "PT") : 0;
 }
 
 static void call_ton(struct block *block, int64_t now_ns)
 {
 	int64_t pt = preset(block), et;
 
-	if (!get(block, "IN")) {
+	if (!block_get(block, "IN")) {
 		block->busy = false;
-		set(block, "Q", 0);
-		set(block, "ET", 0);
+		block_set(block, "Q", 0);
+		block_set(block, "ET", 0);
 		return;
 	}
 	if (!block->busy) {
@@ -60,27 +60,27 @@ static void call_ton(struct block *block, int64_t now_ns)
 		block->start_ns = now_ns;
 	}
 	et = now_ns - block->start_ns;
-	set(block, "Q", et >= pt);
-	set(block, "ET", et >= pt ? pt : et);
+	block_set(block, "Q", et >= pt);
+	block_set(block, "ET", et >= pt ? pt : et);
 }
 
 static void call_tof(struct block *block, int64_t now_ns)
 {
 	int64_t pt = preset(block), et;
-	bool in = get(block, "IN");
+	bool in = block_get(block, "IN");
 
 	if (in) {
 		block->busy = false;
-		set(block, "Q", 1);
-		set(block, "ET", 0);
+		block_set(block, "Q", 1);
+		block_set(block, "ET", 0);
 	} else if (block->was) {
 		block->busy = true;
 		block->start_ns = now_ns;
 	}
 	if (!in && block->busy) {
 		et = now_ns - block->start_ns;
-		set(block, "Q", et < pt);
-		set(block, "ET", et < pt ? et : pt);
+		block_set(block, "Q", et < pt);
+		block_set(block, "ET", et < pt ? et : pt);
 		if (et >= pt)
 			block->busy = false;
 	}
@@ -90,7 +90,7 @@ static void call_tof(struct block *block, int64_t now_ns)
 static void call_tp(struct block *block, int64_t now_ns)
 {
 	int64_t pt = preset(block), et;
-	bool in = get(block, "IN");
+	bool in = block_get(block, "IN");
 
 	if (!block->busy && !block->spent && in) {
 		block->busy = true;
@@ -98,8 +98,8 @@ static void call_tp(struct block *block, int64_t now_ns)
 	}
 	if (block->busy) {
 		et = now_ns - block->start_ns;
-		set(block, "Q", et < pt);
-		set(block, "ET", et < pt ? et : pt);
+		block_set(block, "Q", et < pt);
+		block_set(block, "ET", et < pt ? et : pt);
 		if (et >= pt) {
 			block->busy = false;
 			block->spent = true;
@@ -107,49 +107,48 @@ static void call_tp(struct block *block, int64_t now_ns)
 	}
 	if (!block->busy && !in) {
 		block->spent = false;
-		set(block, "ET", 0);
+		block_set(block, "ET", 0);
 	}
 }
 
-static void call_ctu(struct block *block)
+/* Before @b in the order of the type of CV. */
+static bool is_below(const struct block *block, int64_t a, int64_t b)
 {
-	bool up = rises(get(block, "CU"), &block->was);
-
-	if (get(block, "R"))
-		set(block, "CV", 0);
-	else if (up && get(block, "CV") < INT16_MAX)
-		set(block, "CV", get(block, "CV") + 1);
-	set(block, "Q", get(block, "CV") >= get(block, "PV"));
+	if (block->pin[block_pin(block, "CV")].type == IEC_ULINT)
+		return (uint64_t)a < (uint64_t)b;
+	return a < b;
 }
 
-static void call_ctd(struct block *block)
+/* One more or one less, unless the type of CV ends there. */
+static int64_t counted(const struct block *block, bool up)
 {
-	bool down = rises(get(block, "CD"), &block->was);
+	enum iec_type type = block->pin[block_pin(block, "CV")].type;
+	int64_t cv = block_get(block, "CV");
+	int64_t end = up ? iec_type_row(type)->high : iec_type_row(type)->low;
 
-	if (get(block, "LD"))
-		set(block, "CV", get(block, "PV"));
-	else if (down && get(block, "CV") > INT16_MIN)
-		set(block, "CV", get(block, "CV") - 1);
-	set(block, "Q", get(block, "CV") <= 0);
+	if (type == IEC_ULINT)
+		end = up ? -1 : 0;
+	return cv == end ? cv : (int64_t)((uint64_t)cv + (up ? 1u : UINT64_MAX));
 }
 
-static void call_ctud(struct block *block)
+static void call_counter(struct block *block, bool has_up, bool has_down)
 {
-	bool up = rises(get(block, "CU"), &block->was);
-	bool down = rises(get(block, "CD"), &block->was_too);
-	int64_t cv = get(block, "CV");
+	bool up = has_up && block_rises(block_get(block, "CU"), &block->was);
+	bool down = has_down && block_rises(block_get(block, "CD"), &block->was_too);
 
-	if (get(block, "R"))
-		cv = 0;
-	else if (get(block, "LD"))
-		cv = get(block, "PV");
-	else if (up && !down && cv < INT16_MAX)
-		cv++;
-	else if (down && !up && cv > INT16_MIN)
-		cv--;
-	set(block, "CV", cv);
-	set(block, "QU", cv >= get(block, "PV"));
-	set(block, "QD", cv <= 0);
+	if (has_up && block_get(block, "R"))
+		block_set(block, "CV", 0);
+	else if (has_down && block_get(block, "LD"))
+		block_set(block, "CV", block_get(block, "PV"));
+	else if (up != down)
+		block_set(block, "CV", counted(block, up));
+	if (has_up)
+		block_set(block, has_down ? "QU" : "Q",
+			  !is_below(block, block_get(block, "CV"),
+				    block_get(block, "PV")));
+	if (has_down)
+		block_set(block, has_up ? "QD" : "Q",
+			  !is_below(block, 0, block_get(block, "CV")));
 }
 
 void block_call(struct block *block, int64_t now_ns)
@@ -162,22 +161,24 @@ void block_call(struct block *block, int64_t now_ns)
 		call_tof(block, now_ns);
 	else if (strcmp(word, "TP") == 0)
 		call_tp(block, now_ns);
-	else if (strcmp(word, "CTU") == 0)
-		call_ctu(block);
-	else if (strcmp(word, "CTD") == 0)
-		call_ctd(block);
-	else if (strcmp(word, "CTUD") == 0)
-		call_ctud(block);
+	else if (strncmp(word, "CTUD", 4) == 0)
+		call_counter(block, true, true);
+	else if (strncmp(word, "CTU", 3) == 0)
+		call_counter(block, true, false);
+	else if (strncmp(word, "CTD", 3) == 0)
+		call_counter(block, false, true);
 	else if (strcmp(word, "SR") == 0)
-		set(block, "Q1", get(block, "S1") ||
-		    (get(block, "Q1") && !get(block, "R")));
+		block_set(block, "Q1", block_get(block, "S1") ||
+		    (block_get(block, "Q1") && !block_get(block, "R")));
 	else if (strcmp(word, "RS") == 0)
-		set(block, "Q1", !get(block, "R1") &&
-		    (get(block, "S") || get(block, "Q1")));
+		block_set(block, "Q1", !block_get(block, "R1") &&
+		    (block_get(block, "S") || block_get(block, "Q1")));
 	else if (strcmp(word, "R_TRIG") == 0)
-		set(block, "Q", rises(get(block, "CLK"), &block->was));
+		block_set(block, "Q", block_rises(block_get(block, "CLK"), &block->was));
 	else if (strcmp(word, "F_TRIG") == 0) {
-		set(block, "Q", block->was && !get(block, "CLK"));
-		block->was = get(block, "CLK");
+		block_set(block, "Q", block->was && !block_get(block, "CLK"));
+		block->was = block_get(block, "CLK");
+	} else {
+		block_call_more(block, now_ns);
 	}
 }

@@ -10,7 +10,7 @@
 #include "engine/model/expr.h"
 #include "tests/walker/walker.h"
 
-#define PINS_MAX 16
+#define PINS_MAX 32 /* of one word                                         */
 
 /* An instance of a function block. */
 struct block {
@@ -20,6 +20,9 @@ struct block {
 	bool busy, spent;           /* timing; pulse over, IN still TRUE     */
 	bool was, was_too;          /* levels of the call before             */
 	bool called;                /* since the start                       */
+	struct value held[64];      /* of a store or an average              */
+	int count;                  /* of them                               */
+	double exact, smooth;       /* what a REAL is too short for          */
 };
 
 /* A declared variable. */
@@ -100,6 +103,14 @@ bool placed_element(const struct placed *array, int64_t index, struct placed *ou
 /* blocks.c */
 int block_pin(const struct block *block, const char *name);
 void block_call(struct block *block, int64_t now_ns);
+int64_t block_get(const struct block *block, const char *name);
+void block_set(struct block *block, const char *name, int64_t value);
+/** block_rises - a level that was FALSE in the call before. */
+bool block_rises(bool now, bool *was);
+
+/* blocks_more.c */
+/** block_call_more - the blocks of docs/blocks.md. */
+void block_call_more(struct block *block, int64_t now_ns);
 
 /* expression.c */
 struct expression;

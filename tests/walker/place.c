@@ -60,8 +60,13 @@ static struct block *new_block(struct walker *walker, enum word fb)
 	if (!block)
 		return NULL;
 	block->fb = fb;
-	for (int i = 0; i < row->pin_count && i < PINS_MAX; i++)
+	for (int i = 0; i < row->pin_count && i < PINS_MAX; i++) {
 		block->pin[i].type = row->pin[i].type;
+		if (row->pin[i].type == IEC_REAL)
+			block->pin[i].r = (float)row->pin[i].init.r;
+		else
+			block->pin[i].i = row->pin[i].init.i;
+	}
 	return block;
 }
 

@@ -5,7 +5,7 @@
  * A pool of variables of every type, with initial values near the limits; the
  * declarations of those that a program uses are printed in front of it.
  */
-#include "tests/walker/random.h"
+#include "tests/walker/words.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -63,7 +63,6 @@ static const struct pool_row pool[] = {
 	{ "real_b", "REAL", ":= 3.0E38", 0, 0 },
 	{ "time_a", "TIME", ":= T#20ms", 0, 0 }, { "time_b", "TIME", "", 0, 0 },
 	{ "ton_a.ET", "TIME", "", 1, 0 }, { "tof_b.PT", "TIME", "", 0, 0 },
-	{ "tp_b.ET", "TIME", "", 1, 0 },
 	{ "arr_b[2]", "BOOL", "", 0, 1 }, { "arr_b[usint_b]", "BOOL", "", 0, 1 },
 	{ "arr_b[int_b]", "BOOL", "", 0, 1 }, { "arr_b[ctu_a.CV]", "BOOL", "", 0, 1 },
 	{ "arr_q[usint_i]", "BOOL", "", 0, 1 }, { "arr_q[-1]", "BOOL", "", 0, 1 },
@@ -76,6 +75,12 @@ static const struct pool_row pool[] = {
 	{ "arr_c[usint_b]", "DINT", "", 1, 1 }, { "%MD0[usint_b]", "DWORD", "", 0, 1 },
 	{ "%MB0[uint_b]", "BYTE", "", 0, 1 }, { "arr_t[int_b]", "TIME", "", 0, 1 },
 	{ "arr_r[usint_b]", "REAL", "", 0, 1 }, { "arr_r[2]", "REAL", "", 0, 1 },
+	{ "tp_b.ET", "TIME", "", 1, 0 }, { "tonr_a.ET", "TIME", "", 1, 0 },
+	{ "pid_a.OUT", "REAL", "", 1, 0 }, { "ramp_a.OUT", "REAL", "", 1, 0 },
+	{ "mean_a.OUT", "REAL", "", 1, 0 }, { "range_a.OUT", "REAL", "", 1, 0 },
+	{ "pid_b.KP", "REAL", "", 0, 0 }, { "scale_a.GAIN", "REAL", "", 0, 0 },
+	{ "real_c", "REAL", ":= 12.5", 0, 0 }, { "fifo_a.OUT", "DINT", "", 1, 0 },
+	{ "shift_a.Q", "BOOL", "", 1, 0 }, { "fifo_a.FULL", "BOOL", "", 1, 0 },
 };
 
 /* Arrays, declared when one of their elements is named. */
@@ -105,16 +110,6 @@ static const char *const computed[][2] = {
 
 #define POOL (sizeof(pool) / sizeof(*pool))
 
-static const char *const instance[][2] = {
-	{ "ton_a", "TON" }, { "ton_b", "TON" }, { "tof_a", "TOF" },
-	{ "tof_b", "TOF" }, { "tp_a", "TP" }, { "tp_b", "TP" },
-	{ "ctu_a", "CTU" }, { "ctu_b", "CTU" }, { "ctd_a", "CTD" },
-	{ "ctud_a", "CTUD" }, { "sr_a", "SR" }, { "sr_b", "SR" },
-	{ "rs_a", "RS" }, { "rt_a", "R_TRIG" }, { "ft_a", "F_TRIG" },
-	{ "ft_b", "F_TRIG" },
-};
-#define INSTANCES (sizeof(instance) / sizeof(*instance))
-
 /* What an operation of type `type` may also take: it is widened. */
 static const char *const narrower[][2] = {
 	{ "INT", "SINT" }, { "INT", "USINT" }, { "DINT", "INT" },
@@ -143,6 +138,17 @@ static const struct {
 		    "T#1h" } },
 	{ "BOOL", { "TRUE", "FALSE", "TRUE", "FALSE", "TRUE", "FALSE",
 		    "TRUE" } },
+	{ "LINT", { "0", "1", "LINT#-9223372036854775808", "9223372036854775807",
+		    "2", "LINT#-9223372036854775807", "3" } },
+	{ "ULINT", { "0", "1", "18446744073709551615", "18446744073709551614", "2",
+		     "9223372036854775808", "3" } },
+	{ "TIME_OF_DAY", { "TOD#00:00:00", "TOD#12:00:00", "TOD#23:59:59.999",
+			   "TOD#06:00:00", "TOD#05:59:59", "TOD#22:00:00",
+			   "TOD#18:30:00" } },
+	{ "DATE_AND_TIME", { "DT#1970-01-01-00:00:00", "DT#2024-02-29-12:00:00",
+			     "DT#2026-11-22-23:59:59", "DT#1969-12-31-22:00:00",
+			     "DT#2026-11-20-05:59:59", "DT#2000-01-01-06:00:00",
+			     "DT#1900-03-01-18:30:00" } },
 };
 
 static const char *const numbers[] = {
@@ -156,7 +162,7 @@ static const char *any_number(struct random_source *source)
 }
 
 /* A variable of just this type; the pool has at least one of each. */
-static const char *variable(struct random_source *source, const char *type,
+const char *variable(struct random_source *source, const char *type,
 			    bool write)
 {
 	for (;;) {
@@ -179,7 +185,7 @@ static const char *term(struct random_source *source, const char *type, bool wri
 	return variable(source, type, write);
 }
 
-static const char *literal(struct random_source *source, const char *type)
+const char *literal(struct random_source *source, const char *type)
 {
 	size_t i = 0;
 
@@ -201,13 +207,7 @@ static const char *beside(struct random_source *source, const char *type)
 	return variable(source, type, false);
 }
 
-struct builder {
-	struct random_source *source;
-	char *out;
-	size_t size, used;
-};
-
-static void put(struct builder *builder, const char *format, ...)
+void put(struct builder *builder, const char *format, ...)
 {
 	size_t left = builder->size - builder->used;
 	va_list args;
@@ -393,61 +393,6 @@ static void function(struct builder *builder)
 		put(builder, " OUT=>%s", variable(source, "BOOL", true));
 }
 
-/* A Boolean input: fed by a branch, written, or left alone. */
-static int bool_pin(struct builder *builder, const char *name,
-		    const char *pin[3], int fed)
-{
-	struct random_source *source = builder->source;
-
-	if (random_chance(source, 55))
-		pin[fed++] = name;
-	else if (random_chance(source, 60))
-		put(builder, " %s:=%s", name, variable(source, "BOOL", false));
-	return fed;
-}
-
-static int block(struct builder *builder, const char *pin[3])
-{
-	struct random_source *source = builder->source;
-	const char *const *which = instance[random_below(source, INSTANCES)];
-	const char *fb = which[1];
-	int fed = 0;
-
-	put(builder, "%s %s", fb, which[0]);
-	if (*fb == 'T') {
-		if (random_chance(source, 90))
-			put(builder, " PT:=%s", random_chance(source, 10) ?
-			    "T#0s" : random_chance(source, 10) ? "time_a" :
-			    random_chance(source, 30) ? "T#25ms" : "T#10ms");
-		if (random_chance(source, 20))
-			put(builder, " ET=>%s", variable(source, "TIME", true));
-	} else if (strcmp(fb, "CTU") == 0) {
-		fed = bool_pin(builder, "R", pin, fed);
-	} else if (strcmp(fb, "CTD") == 0) {
-		fed = bool_pin(builder, "LD", pin, fed);
-	} else if (strcmp(fb, "CTUD") == 0) {
-		fed = bool_pin(builder, "CD", pin, fed);
-		fed = bool_pin(builder, "R", pin, fed);
-		fed = bool_pin(builder, "LD", pin, fed);
-	} else if (strcmp(fb, "SR") == 0) {
-		fed = bool_pin(builder, "R", pin, fed);
-	} else if (strcmp(fb, "RS") == 0) {
-		fed = bool_pin(builder, "R1", pin, fed);
-	}
-	if (*fb == 'C') {
-		if (random_chance(source, 90))
-			put(builder, " PV:=%s", random_chance(source, 80) ? "2" :
-			    variable(source, "INT", false));
-		if (random_chance(source, 20))
-			put(builder, " CV=>%s", variable(source, "INT", true));
-	}
-	if (random_chance(source, 15))
-		put(builder, " %s=>%s", *fb == 'S' || fb[1] == 'S' ? "Q1" :
-		    strcmp(fb, "CTUD") == 0 ? "QU" : "Q",
-		    variable(source, "BOOL", true));
-	return fed;
-}
-
 int random_box(struct random_source *source, char *out, size_t size,
 	       const char *pin[3])
 {
@@ -467,11 +412,11 @@ int random_box(struct random_source *source, char *out, size_t size,
 		function(&builder);
 		return 0;
 	}
-	return block(&builder, pin);
+	return random_block(&builder, pin);
 }
 
 /* Does @name stand in @body as a word of its own? */
-static bool is_used(const char *body, const char *name)
+bool is_used(const char *body, const char *name)
 {
 	size_t len = strcspn(name, ".");
 
@@ -505,10 +450,7 @@ size_t random_declare(const char *body, char *out, size_t size)
 		put(&builder, "  %s %s : %s %s;\n", row->name,
 		    at ? row->rest : "", row->type, at ? "" : row->rest);
 	}
-	for (size_t i = 0; i < INSTANCES; i++)
-		if (is_used(body, instance[i][0]))
-			put(&builder, "  %s : %s;\n", instance[i][0],
-			    instance[i][1]);
+	random_declare_blocks(&builder, body);
 	for (size_t i = 0; i < ARRAYS; i++)
 		if (!array[i].constant && is_used(body, array[i].name))
 			put(&builder, "  %s %s;\n", array[i].name, array[i].rest);

@@ -53,9 +53,9 @@ static void follow(struct fb_RAMP *fb, double seconds)
 	if (fb->LOAD)
 		at = in;
 	else if (in > at)
-		at = in - at > up ? at + up : in;
+		at = at + up < in ? at + up : in;
 	else
-		at = at - in > down ? at - down : in;
+		at = at - down > in ? at - down : in;
 	fb->exact = at;
 	fb->OUT = (float)at;
 	fb->DONE = at == in;

@@ -87,7 +87,7 @@ static enum fn_status give_real(struct fn_args *args, double real)
 static enum fn_status round_real(struct fn_args *args, enum way way)
 {
 	double real = args->in[0].r;
-	int64_t whole;
+	int64_t whole = 0;
 
 	if (value_is_real(args->result)) {
 		if (fabs(real) < TWO_63 / 2) {
