@@ -299,6 +299,15 @@ union iec_value iec_load(const void *memory, enum iec_type type)
 	return value;
 }
 
+struct iec_string *iec_text_init(struct iec_text *room, uint16_t length)
+{
+	struct iec_string *text = (void *)room->word;
+
+	text->capacity = IEC_STRING_MOST;
+	text->length = length;
+	return text;
+}
+
 /* What fits of a text; the two may be the same. */
 static void store_string(struct iec_string *to, const struct iec_string *from)
 {
