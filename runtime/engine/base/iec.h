@@ -157,5 +157,8 @@ int iec_value_print(enum iec_type type, union iec_value value, char *out,
 /* Days since 1970-01-01 of the Gregorian calendar, and back.   Scan-safe: yes. */
 int64_t iec_days(int year, int month, int day_of_month);
 void iec_civil(int64_t day, int *year, int *month, int *day_of_month);
+/** iec_date - a DATE of the calendar; false: it has no such day, or 64 bits do not
+ * reach it (1677 to 2262).   Scan-safe: yes. */
+bool iec_date(int64_t year, int64_t month, int64_t day_of_month, int64_t *ns);
 
 #endif

@@ -155,44 +155,26 @@ enum fn_status fn_CONCAT_DATE_TOD(struct fn_args *args)
 	return add(args);
 }
 
-/* The whole numbers at the pins from @first on, each of 0 to its @most. */
-static bool take_parts(const struct fn_args *args, int first, int count,
-		       const int *most, int *out)
+static bool take_day(const struct fn_args *args, int64_t *ns)
 {
-	for (int i = 0; i < count; i++) {
+	return iec_date(args->in[0].i, args->in[1].i, args->in[2].i, ns);
+}
+
+/* Hours, minutes, seconds, milliseconds from pin @first on; false: no such time. */
+static bool take_clock(const struct fn_args *args, int first, int64_t *ns)
+{
+	static const int most[] = { 23, 59, 59, 999 };
+	static const int parts[] = { 60, 60, 1000, 1 };
+	int64_t ms = 0;
+
+	for (int i = 0; i < 4; i++) {
 		int64_t part = args->in[first + i].i;
 
 		if (part < 0 || part > most[i])
 			return false;
-		out[i] = (int)part;
+		ms = (ms + part) * parts[i];
 	}
-	return true;
-}
-
-/* Year, month and day at the first three pins; false: the calendar has no such day. */
-static bool take_day(const struct fn_args *args, int64_t *ns)
-{
-	static const int most[] = { 9999, 12, 31 };
-	int part[3], year, month, day;
-	int64_t days;
-
-	if (!take_parts(args, 0, 3, most, part) || !part[1] || !part[2])
-		return false;
-	days = iec_days(part[0], part[1], part[2]);
-	iec_civil(days, &year, &month, &day);
-	return day == part[2] && !__builtin_mul_overflow(days, DAY_NS, ns);
-}
-
-/* Hours, minutes, seconds, milliseconds. */
-static bool take_clock(const struct fn_args *args, int first, int64_t *ns)
-{
-	static const int most[] = { 23, 59, 59, 999 };
-	int part[4];
-
-	if (!take_parts(args, first, 4, most, part))
-		return false;
-	*ns = (part[0] * 60 + part[1]) * 60 * SECOND_NS + part[2] * SECOND_NS +
-	      part[3] * INT64_C(1000000);
+	*ns = ms * INT64_C(1000000);
 	return true;
 }
 
