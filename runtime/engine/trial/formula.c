@@ -100,6 +100,8 @@ static bool take_array(const struct image *image, const char *text, size_t len,
 		return false;
 	term->op = EXPR_INDEX;
 	term->kind = (uint8_t)kind_of(array.at.type);
+	term->wide = iec_is_wide(array.at.type);
+	term->single = array.at.type == IEC_REAL;
 	term->at = array.at;
 	term->low = array.array.low;
 	term->count = array.array.count;
