@@ -46,7 +46,8 @@ my %classes = (
 	CLASS_SIGNED => [qw(SINT INT DINT LINT)], CLASS_REAL => [qw(REAL LREAL)],
 	CLASS_BITS => [qw(BYTE WORD DWORD LWORD)], CLASS_BOOL => ['BOOL'],
 	CLASS_TIME => ['TIME'], CLASS_STRING => ['STRING'],
-	ANY_DATE => [qw(TIME_OF_DAY DATE DATE_AND_TIME)],
+	CLASS_TOD => ['TIME_OF_DAY'], CLASS_DATE => ['DATE'],
+	CLASS_DT => ['DATE_AND_TIME'], ANY_DATE => [qw(TIME_OF_DAY DATE DATE_AND_TIME)],
 );
 $classes{ANY_NUM} = [map { @{$classes{$_}} } qw(ANY_INT CLASS_REAL)];
 $classes{ANY_BIT} = [map { @{$classes{$_}} } qw(CLASS_BOOL CLASS_BITS)];
@@ -93,7 +94,8 @@ sub combinations {
 	my ($row) = @_;
 	my @pins = @{$row->{pins}};
 	my @all;
-	my $usual = sub { (grep { $_[0]{takes}{$_} } qw(INT BOOL DWORD REAL STRING TIME))[0] };
+	my $usual = sub { (grep { $_[0]{takes}{$_} } qw(INT BOOL DWORD REAL STRING
+		TIME TIME_OF_DAY DATE DATE_AND_TIME))[0] };
 	for my $type (@types) {
 		for my $out ($type, @some) {
 			push @all, { out => $out, shared => $type, pins => [map {
@@ -156,7 +158,7 @@ sub run_good {
 	print $out "\@print SYS_ERRORS\n";
 	for my $scan (0 .. $scans - 1) {
 		print $out join(' ', map { my $list = $values{$_};
-			"v$_=$list->[$scan % @$list]" } grep { $_ ne 'STRING' } @types), "\n";
+			"v$_=$list->[$scan % @$list]" } @types), "\n";
 	}
 	close $out or die "script: $!";
 	my ($status, $text) = run($runner, 'trace', "$folder/main.rung", "$folder/script");

@@ -5,6 +5,7 @@
  */
 #include "ladder/board.h"
 
+#include "engine/scan/value.h"
 #include "hal/sim.h"
 
 #include <stdlib.h>
@@ -66,6 +67,35 @@ static bool add_lamp(struct board *board, struct location at, const char *name)
 	return lamp->name != NULL;
 }
 
+bool moving_update(struct moving *moving, union iec_value value)
+{
+	bool same = value.i == moving->last.i;
+
+	if (moving->at.type == IEC_STRING) {
+		struct iec_string *last = (struct iec_string *)moving->last.s;
+
+		same = value_order(value.s, last) == 0;
+		iec_store(last, IEC_STRING, value);
+	} else {
+		moving->last = value;
+	}
+	return !same;
+}
+
+static bool own_text(struct board *board, struct moving *moving)
+{
+	uint16_t capacity =
+		image_get(&board->resource->image, moving->at).s->capacity;
+	struct iec_string *text = arena_alloc(&board->arena,
+					      iec_type_size(IEC_STRING, capacity));
+
+	if (!text)
+		return false;
+	text->capacity = capacity;
+	moving->last.s = text;
+	return true;
+}
+
 static bool add_moving(struct board *board, const struct symbol *symbol)
 {
 	struct moving *moving = arena_push(&board->arena, &board->moving,
@@ -75,6 +105,8 @@ static bool add_moving(struct board *board, const struct symbol *symbol)
 	if (!moving)
 		return false;
 	moving->at = symbol->at;
+	if (moving->at.type == IEC_STRING && !own_text(board, moving))
+		return false;
 	moving->name = arena_copy(&board->arena, symbol->name,
 				  strlen(symbol->name));
 	return moving->name != NULL;
@@ -214,7 +246,8 @@ void board_start(struct board *board)
 	for (int i = 0; i < board->moving_count; i++) {
 		struct moving *moving = &board->moving[i];
 
-		moving->last = image_get(&board->resource->image, moving->at);
+		moving_update(moving, image_get(&board->resource->image,
+						moving->at));
 		moving->moved = false;
 	}
 }

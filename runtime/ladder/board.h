@@ -24,9 +24,11 @@ struct lamp {
 struct moving {
 	const char *name;
 	struct location at;
-	union iec_value last;
+	union iec_value last;  /* of a STRING its own copy                   */
 	bool moved;            /* since the start                            */
 };
+/** moving_update - keeps @value as the last one; true if it differs. */
+bool moving_update(struct moving *moving, union iec_value value);
 
 struct lamps {
 	struct lamp *lamp;

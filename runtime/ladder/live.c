@@ -171,7 +171,7 @@ static void put_variable(struct live *live, const struct moving *moving,
 			 int col, int limit)
 {
 	bool time = moving->at.type == IEC_TIME;
-	char text[40];
+	char text[IEC_VALUE_TEXT];
 
 	iec_value_print(moving->at.type, moving->last, text, sizeof(text));
 	/* A long name gives way to the value, which is what people watch. */
@@ -256,9 +256,7 @@ static void note_moves(struct board *board)
 		union iec_value value = image_get(&board->resource->image,
 						  moving->at);
 
-		if (memcmp(&value, &moving->last, sizeof(value)) != 0)
-			moving->moved = true;
-		moving->last = value;
+		moving->moved |= moving_update(moving, value);
 	}
 }
 

@@ -14,6 +14,8 @@ static const char text[] =
 	"  Motor AT %QX0.0 : BOOL; Lamp1 : BOOL; Lamp2 : BOOL;\n"
 	"  Level AT %IW2 : INT; Total : DINT; Heat : REAL; Pause : TIME;\n"
 	"  Bits : WORD; Runout : TON; Parts : CTU;\n"
+	"  Name : STRING[6]; Clock : TOD; Day : DATE; Now : DT; Exact : LREAL;\n"
+	"  Big : ULINT;\n"
 	"END_VAR\n"
 	"PROGRAM Main LD\n"
 	"RUNG\n"
@@ -23,6 +25,9 @@ static const char text[] =
 	"  | NO Motor | TON Runout PT:=T#50ms | COIL Lamp1 |\n"
 	"RUNG\n"
 	"  | NO Start | CTU Parts PV:=3 | COIL Lamp2 |\n"
+	"RUNG\n"
+	"  | [ Name = 'a' ] | [ Clock > TOD#01:00:00 ] | [ Day > D#2000-01-01 ] | "
+	"[ Now > DT#2000-01-01-00:00:00 ] | [ Exact > 1.0 ] | [ Big > 5 ] | COIL Q5 |\n"
 	"RUNG\n"
 	"  | [ Level > 100 ] | [ Total := Total + Level ] |\n"
 	"END_PROGRAM\n";

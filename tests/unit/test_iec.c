@@ -264,6 +264,101 @@ static void reals_read_back(void)
 	CHECK(wrong == 0);
 }
 
+static const char *lreal(double value)
+{
+	static char text[64];
+
+	iec_value_print(IEC_LREAL, (union iec_value){ .r = value }, text,
+			sizeof(text));
+	return text;
+}
+
+static void prints_lreals(void)
+{
+	CHECK_TEXT(lreal(0.1), "0.1");
+	CHECK_TEXT(lreal(0.1 + 0.2), "0.30000000000000004");
+	CHECK_TEXT(lreal(-1.7976931348623157e308), "-1.7976931348623157e+308");
+	CHECK_TEXT(lreal(2.2250738585072014e-308), "2.2250738585072014e-308");
+	CHECK_TEXT(lreal(4.9406564584124654e-324), "4.94066e-324");
+	CHECK_TEXT(lreal(1e-310), "1e-310");
+	CHECK_TEXT(lreal(123456789.0), "123456789");
+	CHECK_TEXT(lreal(9007199254740993.0), "9007199254740992");
+	CHECK_TEXT(real(1.401298464324817e-45), "1.4013e-45");
+	CHECK(strtod(lreal(4.9406564584124654e-324), NULL) > 0);
+}
+
+/* Any bits read back as they were: subnormals too. */
+static void lreals_read_back(void)
+{
+	uint64_t bits = 0x9e3779b97f4a7c15u;
+	int wrong = 0;
+
+	for (int i = 0; i < 50000; i++) {
+		double value, back;
+
+		bits = bits * 6364136223846793005u + 1442695040888963407u;
+		if (i % 3 == 0) /* subnormal */
+			bits &= ~(UINT64_C(0x7ff) << 52);
+		memcpy(&value, &bits, sizeof(value));
+		if (!isfinite(value))
+			continue;
+		back = strtod(lreal(value), NULL);
+		wrong += memcmp(&back, &value, sizeof(value)) != 0;
+	}
+	CHECK_AS(wrong == 0, "every LREAL reads back from its text");
+}
+
+static void prints_dates(void)
+{
+	CHECK_TEXT(whole(IEC_DATE_AND_TIME, 0), "1970-01-01-00:00:00");
+	CHECK_TEXT(whole(IEC_DATE_AND_TIME, -1), "1969-12-31-23:59:59.999999999");
+	CHECK_TEXT(whole(IEC_DATE_AND_TIME, INT64_MAX), "2262-04-11-23:47:16.854775807");
+	CHECK_TEXT(whole(IEC_DATE_AND_TIME, INT64_MIN), "1677-09-21-00:12:43.145224192");
+	CHECK_TEXT(whole(IEC_DATE, INT64_MIN), "1677-09-21");
+	CHECK_TEXT(whole(IEC_DATE, INT64_MAX), "2262-04-11");
+	CHECK_TEXT(whole(IEC_DATE, INT64_C(-86400000000000)), "1969-12-31");
+	CHECK_TEXT(whole(IEC_DATE, INT64_C(951782400000000000)), "2000-02-29");
+	CHECK_TEXT(whole(IEC_TIME_OF_DAY, INT64_C(86399999999999)), "23:59:59.999999999");
+	CHECK_TEXT(whole(IEC_ULINT, -1), "18446744073709551615");
+	CHECK_TEXT(whole(IEC_LINT, INT64_MIN), "-9223372036854775808");
+}
+
+static void the_calendar(void)
+{
+	int64_t ns = 4711;
+	bool good = true;
+
+	for (int64_t day = -106751; day <= 106751 && good; day++) {
+		int year, month, of_month;
+
+		iec_civil(day, &year, &month, &of_month);
+		good = iec_days(year, month, of_month) == day;
+	}
+	CHECK_AS(good, "every day is its own date");
+	CHECK(iec_date(2024, 2, 29, &ns) && !iec_date(2023, 2, 29, &ns) &&
+	      !iec_date(1900, 2, 29, &ns) && iec_date(2000, 2, 29, &ns));
+	CHECK(!iec_date(2024, 0, 1, &ns) && !iec_date(2024, 13, 1, &ns) &&
+	      !iec_date(2024, 1, 0, &ns) && !iec_date(2024, 4, 31, &ns));
+	CHECK(!iec_date(1677, 9, 21, &ns) && iec_date(1677, 9, 22, &ns) &&
+	      iec_date(2262, 4, 11, &ns) && !iec_date(2262, 4, 12, &ns));
+	CHECK(!iec_date(-1, 1, 1, &ns) && !iec_date(INT64_MAX, 1, 1, &ns));
+}
+
+static void texts(void)
+{
+	struct iec_text room;
+	struct iec_string *s = iec_text_init(&room, IEC_STRING_MOST);
+	char out[IEC_VALUE_TEXT];
+
+	memset(s->text, 1, IEC_STRING_MOST);
+	CHECK(iec_value_print(IEC_STRING, (union iec_value){ .s = s }, out,
+			      sizeof(out)) == (int)sizeof(out) - 1);
+	CHECK(strlen(out) == sizeof(out) - 1 && out[sizeof(out) - 2] == '\'');
+	s->length = 0;
+	iec_value_print(IEC_STRING, (union iec_value){ .s = s }, out, sizeof(out));
+	CHECK_TEXT(out, "''");
+}
+
 int main(void)
 {
 	types();
@@ -273,6 +368,11 @@ int main(void)
 	address_types();
 	memory();
 	prints();
+	prints_lreals();
+	lreals_read_back();
+	prints_dates();
+	the_calendar();
+	texts();
 	reals_read_back();
 	return tap_done();
 }

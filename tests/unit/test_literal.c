@@ -258,6 +258,90 @@ static void long_texts(void)
 	CHECK(literal_parse(text, sizeof(text), &last) == LITERAL_BAD);
 }
 
+static bool ns_of(const char *text, enum iec_type type, int64_t ns)
+{
+	return literal_parse(text, strlen(text), &last) == LITERAL_OK &&
+	       last.type == type && last.value.i == ns;
+}
+
+static bool becomes(const char *text, enum literal_result result)
+{
+	return literal_parse(text, strlen(text), &last) == result;
+}
+
+static void dates(void)
+{
+	CHECK(ns_of("D#1970-01-02", IEC_DATE, INT64_C(86400000000000)));
+	CHECK(ns_of("date#1969-12-31", IEC_DATE, INT64_C(-86400000000000)));
+	CHECK(ns_of("TOD#23:59:59.999999999", IEC_TIME_OF_DAY,
+		    INT64_C(86399999999999)));
+	CHECK(ns_of("TIME_OF_DAY#00:00:00", IEC_TIME_OF_DAY, 0));
+	CHECK(ns_of("DT#1970-01-01-00:00:00.000000001", IEC_DATE_AND_TIME, 1));
+	CHECK(ns_of("DATE_AND_TIME#1969-12-31-23:59:59.5", IEC_DATE_AND_TIME,
+		    -500000000));
+	CHECK(becomes("D#2024-02-29", LITERAL_OK) && becomes("D#2023-02-29", LITERAL_RANGE));
+	CHECK(becomes("D#2024-13-01", LITERAL_RANGE) && becomes("D#2024-00-01", LITERAL_RANGE));
+	CHECK(becomes("D#1677-09-21", LITERAL_RANGE) && becomes("D#2262-04-12", LITERAL_RANGE));
+	CHECK(becomes("TOD#24:00:00", LITERAL_RANGE) && becomes("TOD#12:60:00", LITERAL_RANGE));
+	CHECK(becomes("TOD#12:00:00.0000000001", LITERAL_RANGE));
+	CHECK(becomes("D#2024-01", LITERAL_BAD) && becomes("D#2024-01-01x", LITERAL_BAD));
+	CHECK(becomes("D#", LITERAL_BAD) && becomes("TOD#12:00", LITERAL_BAD));
+	CHECK(becomes("DT#2024-01-01", LITERAL_BAD) && becomes("DT#2024-01-01 12:00:00", LITERAL_BAD));
+	CHECK(becomes("D#2_024-01-01", LITERAL_BAD) && becomes("D#-2024-01-01", LITERAL_BAD));
+}
+
+/* What the quotes hold, or "?" where it is no constant. */
+static const char *quoted(const char *text)
+{
+	static char bytes[IEC_STRING_MOST + 1];
+
+	if (literal_parse(text, strlen(text), &last) != LITERAL_OK ||
+	    last.type != IEC_STRING)
+		return "?";
+	bytes[literal_string(&last, bytes)] = '\0';
+	return bytes;
+}
+
+static void texts(void)
+{
+	char text[800] = "'";
+	size_t at = 1;
+
+	CHECK_TEXT(quoted("''"), "");
+	CHECK_TEXT(quoted("'it$'s'"), "it's");
+	CHECK_TEXT(quoted("'$$ $L$n$P$r$T'"), "$ \n\n\f\r\t");
+	CHECK_TEXT(quoted("'$41$4a'"), "AJ");
+	CHECK_TEXT(quoted("'T\xc3\xbcr \"A\"'"), "T\xc3\xbcr \"A\"");
+	CHECK(becomes("'", LITERAL_BAD) && becomes("'a", LITERAL_BAD) && becomes("'a'b'", LITERAL_BAD));
+	CHECK(becomes("'$'", LITERAL_BAD) && becomes("'$Q'", LITERAL_BAD) && becomes("'$4'", LITERAL_BAD));
+	for (int i = 0; i < 255; i++, at += 3)
+		memcpy(text + at, "$41", 3);
+	memcpy(text + at, "'", 2);
+	CHECK_AS(strlen(quoted(text)) == 255, "as long as a text may be");
+	memcpy(text + at, "x'", 3);
+	CHECK(becomes(text, LITERAL_RANGE));
+}
+
+static void lreals(void)
+{
+	union iec_value value;
+
+	CHECK(becomes("LREAL#0.1", LITERAL_OK) && last.type == IEC_LREAL &&
+	      last.value.r == 0.1);
+	CHECK(becomes("1.7976931348623157E308", LITERAL_OK) &&
+	      literal_fit(&last, IEC_LREAL, &value) &&
+	      !literal_fit(&last, IEC_REAL, &value));
+	CHECK(becomes("4.9406564584124654E-324", LITERAL_OK) &&
+	      literal_fit(&last, IEC_LREAL, &value) && value.r > 0);
+	CHECK(becomes("0.1", LITERAL_OK) && literal_fit(&last, IEC_LREAL, &value) &&
+	      value.r == 0.1 && literal_fit(&last, IEC_REAL, &value) &&
+	      value.r == (double)0.1f);
+	CHECK(becomes("9007199254740992", LITERAL_OK) &&
+	      literal_fit(&last, IEC_LREAL, &value));
+	CHECK_AS(becomes("9007199254740993", LITERAL_OK) &&
+		 !literal_fit(&last, IEC_LREAL, &value), "no silent rounding");
+}
+
 int main(void)
 {
 	integers();
@@ -269,5 +353,8 @@ int main(void)
 	round_trip();
 	durations();
 	long_texts();
+	dates();
+	texts();
+	lreals();
 	return tap_done();
 }

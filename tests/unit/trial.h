@@ -51,7 +51,7 @@ struct bed {
 	struct sink out;
 };
 
-static inline bool bed_open(struct bed *bed)
+static inline bool bed_open_source(struct bed *bed, const char *source)
 {
 	memset(bed, 0, sizeof(*bed));
 	diag_init(&bed->diags);
@@ -59,8 +59,7 @@ static inline bool bed_open(struct bed *bed)
 	bed->out = sink_to_memory(&bed->text);
 	bed->ladder = ladder_new();
 	if (!bed->ladder ||
-	    !ladder_load_text(bed->ladder, "bed.rung", trial_source,
-			      sizeof(trial_source) - 1) ||
+	    !ladder_load_text(bed->ladder, "bed.rung", source, strlen(source)) ||
 	    !ladder_build(bed->ladder))
 		return false;
 	bed->memory = calloc(1, image_memory_size(ladder_program(bed->ladder)));
@@ -68,6 +67,11 @@ static inline bool bed_open(struct bed *bed)
 		return false;
 	resource_init(&bed->resource, ladder_program(bed->ladder), bed->memory);
 	return true;
+}
+
+static inline bool bed_open(struct bed *bed)
+{
+	return bed_open_source(bed, trial_source);
 }
 
 static inline void bed_close(struct bed *bed)

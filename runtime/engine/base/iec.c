@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * iec - the types, areas and direct addresses of IEC 61131-3, without printing.
+ * iec - the types, areas, direct addresses and calendar of IEC 61131-3, without
+ * printing.
  *
  * What the scan needs of them: this file uses no libc but memory functions, so
  * that the smallest target links it. Text of values is in iec_print.c.
@@ -298,6 +299,15 @@ union iec_value iec_load(const void *memory, enum iec_type type)
 	return value;
 }
 
+struct iec_string *iec_text_init(struct iec_text *room, uint16_t length)
+{
+	struct iec_string *text = (void *)room->word;
+
+	text->capacity = IEC_STRING_MOST;
+	text->length = length;
+	return text;
+}
+
 /* What fits of a text; the two may be the same. */
 static void store_string(struct iec_string *to, const struct iec_string *from)
 {
@@ -326,4 +336,49 @@ void iec_store(void *memory, enum iec_type type, union iec_value value)
 	case IEC_TYPE_COUNT:
 		break;
 	}
+}
+
+/* Year, month and day of a day since 1970-01-01 in the Gregorian calendar: 400 years
+ * have 146097 days, and a year that begins in March keeps its leap day last. */
+void iec_civil(int64_t day, int *year, int *month, int *day_of_month)
+{
+	int64_t shifted = day + 719468; /* from 0000-03-01 */
+	int64_t era = (shifted >= 0 ? shifted : shifted - 146096) / 146097;
+	int64_t of_era = shifted - era * 146097;
+	int64_t year_of_era = (of_era - of_era / 1460 + of_era / 36524 -
+			       of_era / 146096) / 365;
+	int64_t of_year = of_era - (365 * year_of_era + year_of_era / 4 -
+				    year_of_era / 100);
+	int64_t from_march = (5 * of_year + 2) / 153;
+
+	*day_of_month = (int)(of_year - (153 * from_march + 2) / 5 + 1);
+	*month = (int)(from_march < 10 ? from_march + 3 : from_march - 9);
+	*year = (int)(year_of_era + era * 400 + (*month <= 2));
+}
+
+int64_t iec_days(int year, int month, int day_of_month)
+{
+	int64_t y = year - (month <= 2);
+	int64_t era = (y >= 0 ? y : y - 399) / 400;
+	int64_t year_of_era = y - era * 400;
+	int64_t of_year = (153 * (month > 2 ? month - 3 : month + 9) + 2) / 5 +
+			  day_of_month - 1;
+	int64_t of_era = year_of_era * 365 + year_of_era / 4 - year_of_era / 100 +
+			 of_year;
+
+	return era * 146097 + of_era - 719468;
+}
+
+bool iec_date(int64_t year, int64_t month, int64_t day_of_month, int64_t *ns)
+{
+	int y, m, d;
+	int64_t days;
+
+	if (year < 0 || year > 9999 || month < 1 || month > 12 || day_of_month < 1 ||
+	    day_of_month > 31)
+		return false;
+	days = iec_days((int)year, (int)month, (int)day_of_month);
+	iec_civil(days, &y, &m, &d);
+	return d == day_of_month &&
+	       !__builtin_mul_overflow(days, INT64_C(86400000000000), ns);
 }

@@ -43,6 +43,11 @@ struct iec_string {
 };
 #define IEC_STRING_MOST    255u /* bytes a STRING can hold                    */
 #define IEC_STRING_DEFAULT 80u  /* of a STRING declared without [n]           */
+/* Room for any text, for whoever keeps one. */
+struct iec_text {
+	uint32_t word[(sizeof(struct iec_string) + IEC_STRING_MOST + 3) / 4];
+};
+#define IEC_VALUE_TEXT (3 * IEC_STRING_MOST + 3) /* of any value, iec_value_print() */
 
 /* A value of any elementary type; which member holds it is told by its class:
  * r for CLASS_REAL, s for CLASS_STRING, i for all others (BOOL 0/1, bits and unsigned
@@ -134,6 +139,10 @@ enum iec_type iec_addr_type(struct iec_addr addr);
 union iec_value iec_load(const void *memory, enum iec_type type);
 void iec_store(void *memory, enum iec_type type, union iec_value value);
 
+/** iec_text_init - @room as a text of @length bytes, which the caller fills in.
+ * Scan-safe: yes. */
+struct iec_string *iec_text_init(struct iec_text *room, uint16_t length);
+
 /**
  * iec_value_print - a value as traces show it
  *
@@ -148,5 +157,8 @@ int iec_value_print(enum iec_type type, union iec_value value, char *out,
 /* Days since 1970-01-01 of the Gregorian calendar, and back.   Scan-safe: yes. */
 int64_t iec_days(int year, int month, int day_of_month);
 void iec_civil(int64_t day, int *year, int *month, int *day_of_month);
+/** iec_date - a DATE of the calendar; false: it has no such day, or 64 bits do not
+ * reach it (1677 to 2262).   Scan-safe: yes. */
+bool iec_date(int64_t year, int64_t month, int64_t day_of_month, int64_t *ns);
 
 #endif

@@ -236,11 +236,24 @@ bool il_can_write(struct il_check *c, const struct il_line *line,
 
 /* ---- functions and calls ---- */
 
+/* The line with the word that it is on inputs of these types. */
+static struct il_line overloaded(const struct il_line *line, const struct result *in,
+				 int count)
+{
+	struct il_line out = *line;
+
+	if (count == 2)
+		out.word = (uint16_t)fn_overload((enum word)line->word, in[0].type,
+						 in[1].type);
+	return out;
+}
+
 /* A function on the current result: ADD 5. */
 static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 {
 	const struct il_line *line = &c->il->line[at];
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
+	struct il_line runs;
 	struct result in[2] = { c->now };
 	enum iec_type stored;
 	int count = 1;
@@ -258,8 +271,10 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 	}
 	if (count < row->pin_count || count > row->most_inputs)
 		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
+	runs = overloaded(line, in, count);
+	row = scope_row(c->scope, (enum word)runs.word);
 	stored = il_stored_type(c->scope, c->pou, c->il, at);
-	if (!il_check_inputs(c, line, in, count, IEC_NONE, common))
+	if (!il_check_inputs(c, &runs, in, count, IEC_NONE, common))
 		return false;
 	c->now = (struct result){
 		.there = true, .type = fn_result(row, *common, stored),
@@ -297,6 +312,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	const struct il_line *line = &c->il->line[at];
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	struct result in[LIMIT_FN_INPUTS] = { { false, IEC_NONE, NULL } };
+	struct il_line runs;
 	struct result out;
 	enum iec_type stored;
 	int count = 0, last = 0;
@@ -328,8 +344,10 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 		return false;
 	if (count < row->pin_count || count != last + 1)
 		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
+	runs = overloaded(line, in, count);
+	row = scope_row(c->scope, (enum word)runs.word);
 	stored = out_type(c, at);
-	if (!il_check_inputs(c, line, in, count, word_shares(row) ? stored :
+	if (!il_check_inputs(c, &runs, in, count, word_shares(row) ? stored :
 			  IEC_NONE, common))
 		return false;
 	out = (struct result){ .there = true,

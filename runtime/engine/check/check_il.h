@@ -25,6 +25,10 @@ enum iec_type fn_own_type(const struct word_pin *pin, const struct literal *lite
  * IEC_NONE. Scan-safe: yes. */
 enum iec_type fn_result(const struct word_row *row, enum iec_type common,
 			enum iec_type out);
+/** fn_overload - the function that @word is on inputs of these types: ADD of a time of
+ * day and a time is ADD_TOD_TIME; most are what they are. IEC_NONE: a constant number
+ * without a type. Scan-safe: yes. */
+enum word fn_overload(enum word word, enum iec_type left, enum iec_type right);
 /** il_stored_type - type of the variable that the line behind @at stores the result
  * into; IEC_NONE: it does not. */
 enum iec_type il_stored_type(struct scope *scope, const struct pou *pou,

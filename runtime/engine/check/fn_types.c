@@ -54,6 +54,35 @@ enum iec_type fn_result(const struct word_row *row, enum iec_type common,
 	return IEC_DINT;
 }
 
+/* IEC 61131-3 table 30: what ADD and its like are on times. */
+static const struct {
+	enum word word;
+	uint16_t left, right;
+	enum word runs;
+} overload[] = {
+	{ FN_ADD, CLASS_TOD, CLASS_TIME, FN_ADD_TOD_TIME },
+	{ FN_ADD, CLASS_DT, CLASS_TIME, FN_ADD_DT_TIME },
+	{ FN_SUB, CLASS_TOD, CLASS_TIME, FN_SUB_TOD_TIME },
+	{ FN_SUB, CLASS_TOD, CLASS_TOD, FN_SUB_TOD_TOD },
+	{ FN_SUB, CLASS_DATE, CLASS_DATE, FN_SUB_DATE_DATE },
+	{ FN_SUB, CLASS_DT, CLASS_TIME, FN_SUB_DT_TIME },
+	{ FN_SUB, CLASS_DT, CLASS_DT, FN_SUB_DT_DT },
+	{ FN_MUL, CLASS_TIME, ANY_NUM, FN_MULTIME },
+	{ FN_DIV, CLASS_TIME, ANY_NUM, FN_DIVTIME },
+};
+
+enum word fn_overload(enum word word, enum iec_type left, enum iec_type right)
+{
+	uint16_t a = iec_type_row(left)->class;
+	uint16_t b = right == IEC_NONE ? ANY_NUM : iec_type_row(right)->class;
+
+	for (size_t i = 0; i < sizeof(overload) / sizeof(*overload); i++)
+		if (overload[i].word == word && overload[i].left == a &&
+		    overload[i].right & b)
+			return overload[i].runs;
+	return word;
+}
+
 enum iec_type il_stored_type(struct scope *scope, const struct pou *pou,
 			     const struct il *il, int at)
 {

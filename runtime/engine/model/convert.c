@@ -24,6 +24,8 @@
 #define IN_MS   "milliseconds; ENO FALSE out of range"
 #define IN_S    "seconds since 1970-01-01; ENO FALSE out of range"
 #define IN_NS   "nanoseconds, of dates since 1970-01-01; ENO FALSE out of range"
+#define AS_TEXT "its literal: TRUE, -7, 1.5, T#1h30m, D#2026-11-21"
+#define OF_TEXT "the value of a literal, its type may be missing; ENO FALSE if it is none"
 #define PART    "the same, or the part of it that the type holds"
 
 /* Between two types stands @infix; no type in front means any of @from, none behind
@@ -50,7 +52,9 @@ static const struct rule {
 	{ "_TO_", FN_CONVERT, CLOCK, CLOCK, false, PART },
 	{ "_TO_", FN_CONVERT, DAY, DAY, false, PART },
 	{ "_TO_", FN_CONVERT, CLASS_DT, CLASS_TOD, false, PART },
-	{ "_TO_", FN_CONVERT, ANY_SIMPLE, ANY_SIMPLE, false, OTHER }, /* TO_INT */
+	{ "_TO_", FN_CONVERT, ANY_SIMPLE, CLASS_STRING, false, AS_TEXT },
+	{ "_TO_", FN_CONVERT, CLASS_STRING, ANY_SIMPLE, false, OF_TEXT },
+	{ "_TO_", FN_CONVERT, ANY_ELEMENTARY, ANY_ELEMENTARY, false, OTHER }, /* TO_INT */
 };
 
 /* LTIME and its like, which are the types without L here, count nanoseconds. */
@@ -80,10 +84,11 @@ static bool take_apart(const char *text, const struct rule *rule, struct parts *
 		return false;
 	is_time = iec_type_row(out->from)->class & TIMES &&
 		  iec_type_row(out->to)->class & TIMES;
+	is_time |= out->from == IEC_STRING || out->to == IEC_STRING;
 	out->long_time = !is_time && (is_long(from, out->from) || is_long(to, out->to));
-	if (!out->from && rule->runs == FN_CONVERT && rule->from != ANY_SIMPLE)
+	if (!out->from && rule->runs == FN_CONVERT && rule->from != ANY_ELEMENTARY)
 		return false; /* the last one takes all */
-	if (out->from && rule->from == ANY_SIMPLE)
+	if (out->from && rule->from == ANY_ELEMENTARY)
 		return false;
 	return (!out->from || iec_type_row(out->from)->class & rule->from) &&
 	       (!out->to || iec_type_row(out->to)->class & rule->to) &&

@@ -3,7 +3,7 @@
  * fn_convert - values of one type as values of another, IEC 61131-3 table 22.
  *
  * From and to stand in the instruction, so that one function is all INT_TO_REAL and
- * the like. Whole numbers go through 64 bits. STRING is not its business.
+ * the like. Whole numbers go through 64 bits. Texts are read and written by fn_text.
  *
  * REAL to a whole number: ENO FALSE and nothing stored if it has none. A whole number
  * that does not fit another: wrapped, ENO FALSE. Bit strings: the bits, cut or filled
@@ -11,6 +11,7 @@
  * BOOL: anything but 0. TIME and TIME_OF_DAY count as milliseconds, DATE and
  * DATE_AND_TIME as seconds since 1970.
  */
+#include "engine/scan/fn_text.h"
 #include "engine/scan/value.h"
 #include "engine/scan/vm.h"
 
@@ -266,13 +267,34 @@ static enum fn_status from_whole(struct fn_args *args)
 	return FN_OK;
 }
 
+static enum fn_status from_text(struct fn_args *args)
+{
+	const struct iec_string *s = args->in[0].s;
+
+	args->out = args->in[0];
+	if (args->result == IEC_STRING)
+		return FN_OK;
+	return fn_text_to(args->result, s->text, s->length, &args->out) ? FN_OK
+								      : FN_FAILED;
+}
+
+static enum fn_status to_text(struct fn_args *args)
+{
+	args->room->length = (uint16_t)fn_text_from(args->type, args->in[0],
+						    args->room->text);
+	args->out.s = args->room;
+	return FN_OK;
+}
+
 enum fn_status fn_CONVERT(struct fn_args *args)
 {
 	const uint16_t times = CLASS_TIME | ANY_DATE;
 	bool from = class_of(args->type) & times, to = class_of(args->result) & times;
 
-	if ((class_of(args->type) | class_of(args->result)) & CLASS_STRING)
-		return FN_FAILED;
+	if (args->type == IEC_STRING)
+		return from_text(args);
+	if (args->result == IEC_STRING)
+		return to_text(args);
 	if (same_bits(args))
 		return copy_bits(args);
 	if (args->result == IEC_BOOL && !value_is_real(args->type)) {

@@ -25,11 +25,9 @@ uint32_t list_sink(struct assembler *as, enum iec_type type)
 }
 
 /* The function of the image behind a word: of INT_TO_REAL and the like another. */
-static uint32_t function_of(const struct list *list, const struct il_line *line)
+static uint32_t function_of(const struct word_row *row, enum word word)
 {
-	const struct word_row *row = list_row(list, (enum word)line->word);
-
-	return row->runs ? (uint32_t)row->runs : line->word;
+	return row->runs ? (uint32_t)row->runs : (uint32_t)word;
 }
 
 /* ---- functions on the result ---- */
@@ -108,11 +106,23 @@ static void emit_input(struct list *list, const struct word_row *row, uint32_t i
 	emit(list->as, operand | (word_input(row, index)->own ? CODE_OWN : 0));
 }
 
+/* Type of the current result; IEC_NONE: a constant without one. */
+static enum iec_type now_type(const struct list *list)
+{
+	if (list->now.kind == RESULT_LITERAL)
+		return list->now.literal->type;
+	if (list->now.kind == RESULT_BITS)
+		return IEC_BOOL;
+	return (enum iec_type)CODE_TYPE(list->now.operand);
+}
+
 void list_fn(struct list *list, const struct il_line *line)
 {
-	const struct word_row *row = list_row(list, (enum word)line->word);
 	const struct meaning *m = line->operand ?
 		list_meaning(list, line->operand) : NULL;
+	enum word word = !m ? (enum word)line->word :
+		fn_overload((enum word)line->word, now_type(list), m->type);
+	const struct word_row *row = list_row(list, word);
 	enum iec_type type = list->types[list->at], result;
 	uint32_t right = 0, count = m ? 2 : 1, left, to;
 
@@ -135,7 +145,7 @@ void list_fn(struct list *list, const struct il_line *line)
 	preset(list, result, to, left);
 	list_place(list);
 	emit_op(list->as, VM_FN, (uint32_t)type | count << 8 | (uint32_t)result << 16);
-	emit(list->as, function_of(list, line));
+	emit(list->as, function_of(row, word));
 	emit(list->as, TRUE_SLOT);
 	emit(list->as, list_sink(list->as, IEC_BOOL));
 	emit(list->as, to);
@@ -255,6 +265,25 @@ static void read_args(struct list *list, const struct word_row *row,
 	}
 }
 
+/* The word that the line is on its inputs. */
+static enum word overloaded(struct list *list, enum word word)
+{
+	const struct word_row *row = list_row(list, word);
+	enum iec_type type[2] = { IEC_NONE, IEC_NONE };
+
+	for (int i = list->at + 1; is_arg(list, i); i++) {
+		const struct il_line *arg = &list->il->line[i];
+		const char *pin = pin_text(list, arg);
+		int index = word_pin_find(row, pin, strlen(pin));
+
+		if (index > 1)
+			return word;
+		if (index >= 0 && arg->kind == IL_ARG_IN)
+			type[index] = list_meaning(list, arg->operand)->type;
+	}
+	return fn_overload(word, type[0], type[1]);
+}
+
 /* The temporary keeps its value under the line that stores it. */
 static void finish_at(struct list *list, const struct target *target, int line)
 {
@@ -268,7 +297,8 @@ static void finish_at(struct list *list, const struct target *target, int line)
 void list_call(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
-	const struct word_row *row = list_row(list, (enum word)line->word);
+	enum word word = overloaded(list, (enum word)line->word);
+	const struct word_row *row = list_row(list, word);
 	enum iec_type type = list->types[list->at];
 	struct call call = { .en = TRUE_SLOT };
 	enum iec_type result;
@@ -299,7 +329,7 @@ void list_call(struct list *list)
 	list_place(list);
 	emit_op(list->as, VM_FN, (uint32_t)type | (uint32_t)call.count << 8 |
 		(uint32_t)result << 16);
-	emit(list->as, function_of(list, line));
+	emit(list->as, function_of(row, word));
 	emit(list->as, call.en);
 	emit(list->as, eno.slot);
 	emit(list->as, to);

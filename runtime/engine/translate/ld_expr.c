@@ -116,6 +116,9 @@ static enum iec_type infer(struct chain *c, int index)
 		return IEC_BOOL;
 	left = infer(c, node->left);
 	right = infer(c, node->right);
+	if (fn_overload(node->fn, left, right) != node->fn)
+		return fn_result(word_row(fn_overload(node->fn, left, right)), left,
+				 IEC_NONE);
 	left = types_join(left, right);
 	return left == IEC_TYPE_COUNT ? right : left;
 }
@@ -309,14 +312,29 @@ static struct value compute_logic(struct chain *c, const struct expr_node *node,
 	return out;
 }
 
+/* Times and dates: each side is of its own type. */
+static struct value compute_overload(struct chain *c, const struct expr_node *node,
+				     enum word word, enum iec_type type,
+				     uint32_t target)
+{
+	struct value left = compute(c, node->left, IEC_NONE, 0);
+	struct value right = compute(c, node->right, IEC_NONE, 0);
+
+	return operate(c, word, left, right, type, target);
+}
+
 static struct value compute_fn(struct chain *c, const struct expr_node *node,
 			       int index, enum iec_type hint, uint32_t target)
 {
 	enum iec_type type = infer(c, index);
 	struct value left, right;
+	enum word word;
 
 	if (word_is_test(word_row(node->fn)))
 		return compute_compare(c, node);
+	word = fn_overload(node->fn, infer(c, node->left), infer(c, node->right));
+	if (word != node->fn)
+		return compute_overload(c, node, word, type, target);
 	if (type) {
 		left = compute_side(c, node->left, type);
 		right = compute_side(c, node->right, type);

@@ -7,21 +7,34 @@
 #include "engine/trial/formula.h"
 #include "engine/trial/value.h"
 
+#include "engine/scan/value.h"
+
 #include <math.h>
 #include <string.h>
 
 static enum formula_kind kind_of(enum iec_type type)
 {
-	switch (iec_type_row(type)->class) {
+	switch ((enum iec_class)iec_type_row(type)->class) {
 	case CLASS_BOOL:
 		return KIND_BOOL;
 	case CLASS_REAL:
 		return KIND_REAL;
 	case CLASS_TIME:
 		return KIND_TIME;
-	default:
-		return KIND_INT;
+	case CLASS_TOD:
+		return KIND_TOD;
+	case CLASS_DATE:
+		return KIND_DATE;
+	case CLASS_DT:
+		return KIND_DT;
+	case CLASS_STRING:
+		return KIND_TEXT;
+	case CLASS_BITS:
+	case CLASS_SIGNED:
+	case CLASS_UNSIGNED:
+		break;
 	}
+	return KIND_INT;
 }
 
 static bool complain(struct diag_list *diags, struct diag place,
@@ -35,16 +48,33 @@ static bool complain(struct diag_list *diags, struct diag place,
 			at->text ? at->text : "");
 }
 
+static bool take_text(struct formula_term *term, const struct literal *literal,
+		      struct arena *arena, enum diag_id *why)
+{
+	struct iec_text *room = arena_alloc(arena, sizeof(*room));
+	struct iec_string *s = room ? iec_text_init(room, 0) : NULL;
+
+	*why = DIAG_NO_MEMORY;
+	term->kind = KIND_TEXT;
+	term->value.s = s;
+	if (s)
+		s->length = (uint16_t)literal_string(literal, s->text);
+	return s != NULL;
+}
+
 /* A constant: any literal, or a time without T#. */
 static bool take_literal(struct formula_term *term, const char *text,
-			 size_t len, enum diag_id *why)
+			 size_t len, struct arena *arena, enum diag_id *why)
 {
 	struct literal literal;
 	int64_t ns;
 	enum literal_result result = literal_parse(text, len, &literal);
 
+	if (result == LITERAL_OK && literal.type == IEC_STRING)
+		return take_text(term, &literal, arena, why);
 	if (result == LITERAL_OK) {
 		term->value = literal.value;
+		term->wide = literal.high || iec_is_wide(literal.type);
 		if (literal.type == IEC_NONE)
 			term->kind = literal.real ? KIND_REAL : KIND_INT;
 		else
@@ -70,6 +100,8 @@ static bool take_array(const struct image *image, const char *text, size_t len,
 		return false;
 	term->op = EXPR_INDEX;
 	term->kind = (uint8_t)kind_of(array.at.type);
+	term->wide = iec_is_wide(array.at.type);
+	term->single = array.at.type == IEC_REAL;
 	term->at = array.at;
 	term->low = array.array.low;
 	term->count = array.array.count;
@@ -103,7 +135,7 @@ static bool take_leaf(const struct image *image, const struct expr_node *from,
 {
 	term->op = EXPR_LITERAL;
 	if (from->op == EXPR_LITERAL)
-		return take_literal(term, from->text, from->len, why);
+		return take_literal(term, from->text, from->len, arena, why);
 	enum diag_id missing;
 
 	term->at = value_find(image, from->text, from->len, &missing);
@@ -111,13 +143,15 @@ static bool take_leaf(const struct image *image, const struct expr_node *from,
 		if (take_element(image, from, term, &missing))
 			return true;
 		term->op = EXPR_LITERAL;
-		if (take_literal(term, from->text, from->len, why))
+		if (take_literal(term, from->text, from->len, arena, why))
 			return true;
 		*why = missing;
 		return false;
 	}
 	term->op = EXPR_NAME;
 	term->kind = (uint8_t)kind_of(term->at.type);
+	term->wide = iec_is_wide(term->at.type);
+	term->single = term->at.type == IEC_REAL;
 	term->name = arena_copy(arena, from->text, from->len);
 	*why = DIAG_NO_MEMORY;
 	return term->name != NULL;
@@ -128,24 +162,41 @@ static bool is_compare(enum word fn)
 	return word_is_test(word_row(fn));
 }
 
+static bool is_number(uint8_t kind)
+{
+	return kind == KIND_BOOL || kind == KIND_INT || kind == KIND_REAL;
+}
+
+/* What ADD and SUB are on times and dates, MUL and DIV on a time and a number:
+ * IEC 61131-3 table 30. */
+static bool join_times(struct formula_term *term, uint8_t left, uint8_t right)
+{
+	bool dated = left == KIND_TOD || left == KIND_DATE || left == KIND_DT;
+
+	term->kind = KIND_TIME;
+	if (left == KIND_TIME && (right == KIND_INT || right == KIND_REAL))
+		return term->fn == FN_MUL || term->fn == FN_DIV;
+	if (left == KIND_TIME && right == KIND_TIME)
+		return term->fn == FN_ADD || term->fn == FN_SUB;
+	if (dated && left == right)
+		return term->fn == FN_SUB;
+	term->kind = left;
+	return (left == KIND_TOD || left == KIND_DT) && right == KIND_TIME &&
+	       (term->fn == FN_ADD || term->fn == FN_SUB);
+}
+
 /* The kind of an operation on two kinds; false: they do not go together. */
 static bool join_kinds(struct formula_term *term, uint8_t left, uint8_t right)
 {
-	bool time = left == KIND_TIME || right == KIND_TIME;
-	bool both = left == KIND_TIME && right == KIND_TIME;
+	bool real = left == KIND_REAL || right == KIND_REAL;
+	bool numbers = is_number(left) && is_number(right);
 
-	if (time && !both)
-		return false;
 	if (is_compare(term->fn)) {
 		term->kind = KIND_BOOL;
-		return true;
+		return numbers || left == right;
 	}
-	if (time) {
-		term->kind = KIND_TIME;
-		return term->fn == FN_ADD || term->fn == FN_SUB;
-	}
-	bool real = left == KIND_REAL || right == KIND_REAL;
-
+	if (!numbers)
+		return join_times(term, left, right);
 	term->kind = real ? KIND_REAL : KIND_INT;
 	return !real || term->fn != FN_MOD;
 }
@@ -161,12 +212,14 @@ static bool take_operation(const struct formula *formula,
 		*why = DIAG_INDEX_TYPE;
 		return left->kind == KIND_INT;
 	}
+	term->single = left->single || right->single;
 	*why = DIAG_WRONG_TYPE;
 	if (term->op == EXPR_FN)
 		return join_kinds(term, left->kind, right->kind);
 	if (term->op == EXPR_NEG) {
 		term->kind = left->kind;
-		return left->kind != KIND_BOOL;
+		return left->kind == KIND_INT || left->kind == KIND_REAL ||
+		       left->kind == KIND_TIME;
 	}
 	*why = DIAG_NOT_BOOL;
 	term->kind = KIND_BOOL;
@@ -237,7 +290,22 @@ struct formula *formula_new(const struct image *image, const struct expr *expr,
 
 static double as_real(const struct formula_term *term)
 {
-	return term->kind == KIND_REAL ? term->value.r : (double)term->value.i;
+	if (term->kind == KIND_REAL)
+		return term->value.r;
+	return term->wide ? (double)(uint64_t)term->value.i : (double)term->value.i;
+}
+
+/* <0, 0, >0; above INT64_MAX stands what is unsigned and has its top bit set. */
+static int order_of(const struct formula_term *left, const struct formula_term *right)
+{
+	int64_t a = left->value.i, b = right->value.i;
+	bool high = left->wide && a < 0, other = right->wide && b < 0;
+
+	if (left->kind == KIND_TEXT)
+		return value_order(left->value.s, right->value.s);
+	if (high != other)
+		return high ? 1 : -1;
+	return (a > b) - (a < b);
 }
 
 static bool compare(struct formula_term *term, const struct formula_term *left,
@@ -246,13 +314,17 @@ static bool compare(struct formula_term *term, const struct formula_term *left,
 	bool less, equal;
 
 	if (left->kind == KIND_REAL || right->kind == KIND_REAL) {
-		float a = (float)as_real(left), b = (float)as_real(right);
+		double a = as_real(left), b = as_real(right);
 
+		if (term->single) {
+			a = (double)(float)a;
+			b = (double)(float)b;
+		}
 		less = a < b;
 		equal = a >= b && a <= b;
 	} else {
-		less = left->value.i < right->value.i;
-		equal = left->value.i == right->value.i;
+		less = order_of(left, right) < 0;
+		equal = order_of(left, right) == 0;
 	}
 	if (term->fn == FN_LT)
 		term->value.i = less;
@@ -277,10 +349,39 @@ static bool divide(struct formula_term *term, int64_t a, int64_t b)
 	return true;
 }
 
+static bool calculate_real(struct formula_term *term, double a, double b)
+{
+	if (term->fn == FN_ADD)
+		term->value.r = a + b;
+	else if (term->fn == FN_SUB)
+		term->value.r = a - b;
+	else if (term->fn == FN_MUL)
+		term->value.r = a * b;
+	else
+		term->value.r = a / b;
+	return isfinite(term->value.r);
+}
+
+/* A time and a REAL: to the nearest nanosecond. */
+static bool scale_time(struct formula_term *term, double time, double by)
+{
+	double ns;
+
+	if (!calculate_real(term, time, by))
+		return false;
+	ns = rint(term->value.r);
+	if (fabs(ns) >= 9223372036854775808.0)
+		return false;
+	term->value.i = (int64_t)ns;
+	return true;
+}
+
 static bool calculate(struct formula_term *term,
 		      const struct formula_term *left,
 		      const struct formula_term *right)
 {
+	if (term->kind == KIND_TIME && right->kind == KIND_REAL)
+		return scale_time(term, (double)left->value.i, right->value.r);
 	if (term->kind != KIND_REAL) {
 		int64_t a = left->value.i, b = right->value.i;
 
@@ -292,17 +393,7 @@ static bool calculate(struct formula_term *term,
 			return !__builtin_mul_overflow(a, b, &term->value.i);
 		return divide(term, a, b);
 	}
-	double a = as_real(left), b = as_real(right);
-
-	if (term->fn == FN_ADD)
-		term->value.r = a + b;
-	else if (term->fn == FN_SUB)
-		term->value.r = a - b;
-	else if (term->fn == FN_MUL)
-		term->value.r = a * b;
-	else
-		term->value.r = a / b;
-	return isfinite(term->value.r);
+	return calculate_real(term, as_real(left), as_real(right));
 }
 
 static bool negate(struct formula_term *term, const struct formula_term *left)
@@ -387,22 +478,27 @@ bool formula_can_set(const struct formula *formula, enum iec_type type)
 
 	if (from == to)
 		return true;
-	if (from == KIND_TIME || to == KIND_TIME || from == KIND_REAL)
-		return false;
-	return from == KIND_INT || to == KIND_INT;
+	return is_number(to) && (from == KIND_INT || (from == KIND_BOOL &&
+						      to == KIND_INT));
 }
 
-bool formula_fit(enum formula_kind kind, union iec_value value,
+bool formula_fit(const struct formula *formula, union iec_value value,
 		 enum iec_type type, union iec_value *out)
 {
 	const struct iec_type_row *row = iec_type_row(type);
+	const struct formula_term *term = &formula->term[formula->root];
 
 	*out = value;
+	if (row->class == CLASS_STRING)
+		return true;
 	if (row->class == CLASS_REAL) {
-		if (kind != KIND_REAL)
-			out->r = (double)value.i;
-		out->r = (double)(float)out->r;
+		out->r = term->kind == KIND_REAL ? value.r :
+			 term->wide ? (double)(uint64_t)value.i : (double)value.i;
+		if (type == IEC_REAL)
+			out->r = (double)(float)out->r;
 		return isfinite(out->r);
 	}
+	if (term->wide && value.i < 0)
+		return iec_is_wide(type);
 	return value.i >= row->low && value.i <= row->high;
 }

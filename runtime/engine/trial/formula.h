@@ -4,8 +4,8 @@
  *
  * Scenarios ask with it what a program did. It is not the evaluator of a
  * program: that is the VM, which a trial must not repeat. Kinds are wider than
- * types: any integer or bit string is 64 bits, TIME is ns; REAL compares as a
- * float.
+ * types: any integer or bit string is 64 bits, TIME is ns; what has a REAL in it
+ * compares as a float.
  */
 #ifndef TRIAL_FORMULA_H
 #define TRIAL_FORMULA_H
@@ -14,12 +14,17 @@
 #include "engine/model/expr.h"
 #include "engine/scan/image.h"
 
-enum formula_kind { KIND_BOOL, KIND_INT, KIND_REAL, KIND_TIME };
+enum formula_kind {
+	KIND_BOOL, KIND_INT, KIND_REAL, KIND_TIME, KIND_TOD, KIND_DATE, KIND_DT,
+	KIND_TEXT,
+};
 
 struct formula_term {
 	uint8_t op;            /* enum expr_op                               */
 	uint8_t kind;          /* enum formula_kind of the value             */
 	uint16_t fn;           /* enum word of EXPR_FN                       */
+	bool wide;             /* KIND_INT: i holds an unsigned number       */
+	bool single;           /* KIND_REAL: no more than a float            */
 	int16_t left, right;
 	struct location at;    /* of EXPR_NAME; of EXPR_INDEX element 0       */
 	struct location index; /* of EXPR_INDEX without left: read from here  */
@@ -40,7 +45,8 @@ struct formula {
  * @expr:       what expr_parse gave
  * @line_start: of the source line, for columns
  *
- * BOOL counts as 0 or 1 beside numbers; TIME meets only TIME.
+ * BOOL counts as 0 or 1 beside numbers; TIME meets only TIME, a text a text; times
+ * and dates add and subtract as in a program.
  * Owns: @arena.   Scan-safe: no.   Fails: NULL and a diagnostic.
  */
 struct formula *formula_new(const struct image *image, const struct expr *expr,
@@ -49,7 +55,7 @@ struct formula *formula_new(const struct image *image, const struct expr *expr,
 
 /**
  * formula_value - the value now
- * @out: r of KIND_REAL, else i
+ * @out: r of KIND_REAL, s of KIND_TEXT, where it stands, else i
  *
  * Scan-safe: no.   Fails: false on overflow or division by zero.
  */
@@ -59,6 +65,6 @@ enum formula_kind formula_kind(const struct formula *formula);
 /** formula_can_set - may its value be stored at @type? Ranges apart. */
 bool formula_can_set(const struct formula *formula, enum iec_type type);
 /** formula_fit - its value as one of @type; false if it is out of range. */
-bool formula_fit(enum formula_kind kind, union iec_value value,
+bool formula_fit(const struct formula *formula, union iec_value value,
 		 enum iec_type type, union iec_value *out);
 #endif

@@ -4,6 +4,7 @@
  * not hold. It decides nothing else: a program that prints TAP is around it.
  */
 #include "engine/trial/scenario.h"
+#include "engine/trial/value.h"
 
 #include <string.h>
 
@@ -39,7 +40,7 @@ static void print_scan(const struct run *run, const struct formula *formula,
 	for (int i = 0; i < scenario->watch_count; i++) {
 		const struct scenario_watch *watch = &scenario->watch[i];
 		bool named = false;
-		char text[40];
+		char text[IEC_VALUE_TEXT];
 
 		for (int k = 0; k < formula->count && !named; k++)
 			named = formula->term[k].op == EXPR_NAME &&
@@ -87,8 +88,8 @@ static void apply(struct run *run, const struct scenario_step *step)
 	union iec_value value;
 
 	if (formula_value(step->formula, image, &value) &&
-	    formula_fit(formula_kind(step->formula), value, step->target.type,
-			&value))
+	    formula_fit(step->formula, value, step->target.type, &value) &&
+	    value_has_room(image, step->target, value))
 		image_set(image, step->target, value);
 	else
 		report(run, step, "value out of range");
@@ -123,8 +124,13 @@ static void remember(struct run *run)
 	for (int i = 0; i < scenario->watch_count; i++) {
 		struct scenario_watch *watch = &scenario->watch[i];
 
-		watch->past[run->scan % SCENARIO_HISTORY] =
-			image_get(&run->resource->image, watch->at);
+		union iec_value *past = &watch->past[run->scan % SCENARIO_HISTORY];
+		union iec_value value = image_get(&run->resource->image, watch->at);
+
+		if (watch->at.type == IEC_STRING)
+			iec_store((void *)past->s, IEC_STRING, value);
+		else
+			*past = value;
 	}
 }
 

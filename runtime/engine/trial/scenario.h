@@ -45,7 +45,7 @@ struct scenario_step {
 struct scenario_watch {
 	const char *name;
 	struct location at;
-	union iec_value past[SCENARIO_HISTORY];
+	union iec_value past[SCENARIO_HISTORY]; /* STRINGs: its own copies    */
 };
 
 struct scenario {

@@ -121,6 +121,23 @@ static struct formula *take_formula(struct reader *reader)
 			   line_start, reader->diags, place);
 }
 
+/* Texts change where they stand: room for those that were. */
+static bool own_texts(struct reader *reader, struct scenario_watch *watch)
+{
+	uint16_t capacity = image_get(reader->image, watch->at).s->capacity;
+
+	for (int i = 0; i < SCENARIO_HISTORY; i++) {
+		struct iec_string *text = arena_alloc(reader->arena,
+			iec_type_size(IEC_STRING, capacity));
+
+		if (!text)
+			return false;
+		text->capacity = capacity;
+		watch->past[i].s = text;
+	}
+	return true;
+}
+
 static bool watch(struct reader *reader, const struct formula *formula)
 {
 	struct scenario *scenario = reader->scenario;
@@ -145,6 +162,8 @@ static bool watch(struct reader *reader, const struct formula *formula)
 			return complain(reader, DIAG_NO_MEMORY, "");
 		seen->name = term->name;
 		seen->at = term->at;
+		if (seen->at.type == IEC_STRING && !own_texts(reader, seen))
+			return complain(reader, DIAG_NO_MEMORY, "");
 	}
 	return true;
 }
@@ -204,8 +223,8 @@ static bool check_setting(struct reader *reader, const struct token *name,
 		place.id = DIAG_WRONG_TYPE;
 	else if (formula->constant &&
 		 (!formula_value(formula, reader->image, &value) ||
-		  !formula_fit(formula_kind(formula), value, target.type,
-			       &value)))
+		  !formula_fit(formula, value, target.type, &value) ||
+		  !value_has_room(reader->image, target, value)))
 		place.id = DIAG_LITERAL_RANGE;
 	return place.id == DIAG_COUNT ||
 	       diag_add(reader->diags, place, "%.*s",

@@ -48,8 +48,14 @@ static bool next_word(struct script *script, struct script_word *word)
 	word->text = at;
 	if (at == script->end || *at == '#')
 		return false;
-	while (at < script->end && *at != ' ' && *at != '\t')
-		at++;
+	for (bool quoted = false; at < script->end; at++) {
+		if (!quoted && (*at == ' ' || *at == '\t'))
+			break;
+		if (quoted && *at == '$' && script->end - at > 1)
+			at++; /* $' ends no text */
+		else if (*at == '\'')
+			quoted = !quoted;
+	}
 	word->len = (size_t)(at - word->text);
 	script->at = at;
 	return true;

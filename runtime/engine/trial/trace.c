@@ -8,6 +8,8 @@
 #include "engine/trial/trace_form.h"
 #include "engine/trial/value.h"
 
+#include "engine/scan/value.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -39,6 +41,21 @@ void trace_clear(struct trace *trace)
 	trace->count = 0;
 }
 
+/* Room for the text that was shown last: as much as its variable has. */
+static bool own_text(struct trace *trace, struct trace_column *column)
+{
+	uint16_t capacity = image_get(trace->image, column->at).s->capacity;
+	struct iec_string *text = arena_alloc(&trace->arena,
+					      iec_type_size(IEC_STRING, capacity));
+
+	if (!text)
+		return false;
+	text->capacity = capacity;
+	text->length = 0;
+	column->last.s = text;
+	return true;
+}
+
 static bool add_column(struct trace *trace, const char *name, size_t len,
 		       struct location at)
 {
@@ -53,8 +70,10 @@ static bool add_column(struct trace *trace, const char *name, size_t len,
 		return false;
 	column->name = copy;
 	column->at = at;
+	if (at.type == IEC_STRING && !own_text(trace, column))
+		return false;
 	if (trace->begun)
-		column->last = image_get(trace->image, at);
+		trace_update(column, image_get(trace->image, at));
 	return true;
 }
 
@@ -218,17 +237,31 @@ bool trace_show(struct trace *trace, const char *text, size_t len,
 
 bool trace_update(struct trace_column *column, union iec_value value)
 {
-	bool same = column->at.type == IEC_REAL ?
-		!memcmp(&value.r, &column->last.r, sizeof(value.r)) :
-		value.i == column->last.i;
+	bool same = value.i == column->last.i; /* of a REAL its bits */
 
+	if (column->at.type == IEC_STRING) {
+		struct iec_string *last = (struct iec_string *)column->last.s;
+
+		if (value_order(value.s, last) == 0)
+			return false;
+		iec_store(last, IEC_STRING, value);
+		return true;
+	}
 	column->last = value;
 	return !same;
 }
 
+static void write_value(struct trace *trace, const struct trace_column *column)
+{
+	char text[IEC_VALUE_TEXT];
+
+	iec_value_print(column->at.type, column->last, text, sizeof(text));
+	sink_text(trace->out, text);
+}
+
 static void write_lines(struct trace *trace, uint64_t scan, int64_t now_ns)
 {
-	char text[64];
+	char text[40];
 	union iec_value time = { .i = now_ns };
 	bool any = false;
 
@@ -250,9 +283,8 @@ static void write_lines(struct trace *trace, uint64_t scan, int64_t now_ns)
 		any = true;
 		sink_text(trace->out, " ");
 		sink_text(trace->out, column->name);
-		iec_value_print(column->at.type, value, text + 32, 32);
 		sink_text(trace->out, "=");
-		sink_text(trace->out, text + 32);
+		write_value(trace, column);
 	}
 	if (any)
 		sink_text(trace->out, "\n");

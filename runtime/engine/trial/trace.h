@@ -20,7 +20,8 @@ enum trace_form { TRACE_LINES, TRACE_CSV, TRACE_VCD };
 struct trace_column {
 	const char *name;      /* in the trace's arena                       */
 	struct location at;
-	union iec_value last;  /* as shown last; 0 to begin with             */
+	union iec_value last;  /* as shown last; 0 to begin with; a STRING's
+				  bytes are the trace's own                  */
 };
 
 struct trace {

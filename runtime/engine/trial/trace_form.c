@@ -18,10 +18,24 @@ void trace_csv_head(struct trace *trace)
 	sink_text(trace->out, "\r\n");
 }
 
+/* In double quotes where a spreadsheet would see two fields. */
+static void csv_field(struct trace *trace, const char *text)
+{
+	bool quoted = strpbrk(text, ",\"") != NULL;
+
+	if (quoted)
+		sink_text(trace->out, "\"");
+	for (; *text; text++)
+		sink_write(trace->out, *text == '"' ? "\"\"" : text,
+			   *text == '"' ? 2 : 1);
+	if (quoted)
+		sink_text(trace->out, "\"");
+}
+
 void trace_csv(struct trace *trace, uint64_t scan, int64_t now_ns)
 {
 	union iec_value time = { .i = now_ns };
-	char text[64];
+	char text[IEC_VALUE_TEXT];
 	bool changed = false;
 
 	if (!trace->begun)
@@ -42,7 +56,7 @@ void trace_csv(struct trace *trace, uint64_t scan, int64_t now_ns)
 		iec_value_print(column->at.type, column->last, text,
 				sizeof(text));
 		sink_text(trace->out, ",");
-		sink_text(trace->out, text);
+		csv_field(trace, text);
 	}
 	sink_text(trace->out, "\r\n");
 }
@@ -64,6 +78,25 @@ static int vcd_width(enum iec_type type)
 	return type == IEC_BOOL ? 1 : iec_type_row(type)->size * 8;
 }
 
+static bool is_real(enum iec_type type)
+{
+	return iec_type_row(type)->class == CLASS_REAL;
+}
+
+/* IEEE 1364 has no texts; viewers take s and bytes, odd ones as \\ooo. */
+static void vcd_text(struct trace *trace, const struct iec_string *s)
+{
+	sink_text(trace->out, "s");
+	for (int i = 0; i < s->length; i++) {
+		unsigned char c = (unsigned char)s->text[i];
+
+		if (c > ' ' && c < 0x7f && c != '\\')
+			sink_write(trace->out, &s->text[i], 1);
+		else
+			sink_printf(trace->out, "\\%03o", c);
+	}
+}
+
 static void vcd_value(struct trace *trace, int i)
 {
 	const struct trace_column *column = &trace->column[i];
@@ -72,8 +105,15 @@ static void vcd_value(struct trace *trace, int i)
 	uint64_t bits = (uint64_t)column->last.i;
 
 	vcd_id(i, id);
-	if (column->at.type == IEC_REAL) {
-		sink_printf(trace->out, "r%.9g %s\n", column->last.r, id);
+	if (column->at.type == IEC_STRING) {
+		vcd_text(trace, column->last.s);
+		sink_printf(trace->out, " %s\n", id);
+		return;
+	}
+	if (is_real(column->at.type)) {
+		sink_printf(trace->out, "r%.*g %s\n",
+			    column->at.type == IEC_REAL ? 9 : 17,
+			    column->last.r, id);
 		return;
 	}
 	if (width == 1) {
@@ -94,11 +134,12 @@ void trace_vcd_head(struct trace *trace)
 			      "$scope module program $end\n");
 	for (int i = 0; i < trace->count; i++) {
 		const struct trace_column *column = &trace->column[i];
-		bool real = column->at.type == IEC_REAL;
+		bool real = is_real(column->at.type);
+		bool text_column = column->at.type == IEC_STRING;
 
 		vcd_id(i, id);
-		sink_printf(trace->out, "$var %s %d %s ",
-			    real ? "real" : "wire",
+		sink_printf(trace->out, "$var %s %d %s ", text_column ? "string" :
+			    real ? "real" : "wire", text_column ? 1 :
 			    real ? 64 : vcd_width(column->at.type), id);
 		sink_text(trace->out, column->name);
 		sink_text(trace->out, " $end\n");

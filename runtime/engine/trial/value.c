@@ -7,6 +7,7 @@
 
 #include "engine/base/ascii.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const struct {
@@ -160,8 +161,29 @@ static bool is_true_word(const char *text, size_t len, const char *word)
 	return true;
 }
 
+/* A date or time of day without its D#, as traces show it. */
+static enum literal_result parse_bare(enum iec_type type, const char *text, size_t len,
+				      struct literal *out)
+{
+	char whole[64];
+	int n = snprintf(whole, sizeof(whole), "%s#%.*s", iec_type_row(type)->word,
+			 (int)(len < sizeof(whole) ? len : sizeof(whole)), text);
+
+	if (n < 0 || (size_t)n >= sizeof(whole))
+		return LITERAL_BAD;
+	return literal_parse(whole, (size_t)n, out);
+}
+
+static enum literal_result parse_constant(enum iec_type type, const char *text,
+					  size_t len, struct literal *out)
+{
+	if (iec_type_row(type)->class & ANY_DATE && is_digit(*text))
+		return parse_bare(type, text, len, out);
+	return literal_parse(text, len, out);
+}
+
 bool value_parse(enum iec_type type, const char *text, size_t len,
-		 union iec_value *out, enum diag_id *why)
+		 struct iec_text *room, union iec_value *out, enum diag_id *why)
 {
 	struct literal literal;
 	enum literal_result result;
@@ -180,11 +202,26 @@ bool value_parse(enum iec_type type, const char *text, size_t len,
 			*why = DIAG_LITERAL_RANGE;
 		return result == LITERAL_OK;
 	}
-	result = literal_parse(text, len, &literal);
+	result = parse_constant(type, text, len, &literal);
 	if (result == LITERAL_NONE || result == LITERAL_BAD)
 		return false;
 	*why = DIAG_LITERAL_RANGE;
-	return result == LITERAL_OK && literal_fit(&literal, type, out);
+	if (result != LITERAL_OK || !literal_fit(&literal, type, out))
+		return false;
+	if (type == IEC_STRING) {
+		struct iec_string *s = iec_text_init(room, 0);
+
+		s->length = (uint16_t)literal_string(&literal, s->text);
+		out->s = s;
+	}
+	return true;
+}
+
+bool value_has_room(const struct image *image, struct location at,
+		    union iec_value value)
+{
+	return at.type != IEC_STRING ||
+	       value.s->length <= image_get(image, at).s->capacity;
 }
 
 static bool is_head(const char *word, const char *text, size_t len)
@@ -257,7 +294,14 @@ bool setting_parse(const struct image *image, const char *text, size_t len,
 				(int)(name < 60 ? name : 60), text);
 	}
 	len -= name + 1;
-	if (!value_parse(out->at.type, equals + 1, len, &out->value, &why)) {
+	bool good = value_parse(out->at.type, equals + 1, len, &out->text,
+				&out->value, &why);
+
+	if (good && !value_has_room(image, out->at, out->value)) {
+		good = false;
+		why = DIAG_LITERAL_RANGE;
+	}
+	if (!good) {
 		place.id = why;
 		if (place.column)
 			place.column += (int)name + 1;

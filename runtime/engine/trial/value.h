@@ -30,13 +30,19 @@ enum literal_result value_parse_time(const char *text, size_t len,
 
 /**
  * value_parse - a constant of a known type
+ * @room: gets the bytes of a STRING, which @out then points to
  *
- * TIME may be a bare number of ms, as traces show it; BOOL is 0, 1, TRUE,
- * FALSE. Owns: nothing.   Scan-safe: no. Fails: false; DIAG_BAD_LITERAL or
+ * TIME may be a bare number of ms, dates and times of day as traces show them:
+ * without T#, D#; BOOL is 0, 1, TRUE, FALSE; a STRING stands in '.
+ * Owns: nothing.   Scan-safe: no. Fails: false; DIAG_BAD_LITERAL or
  * DIAG_LITERAL_RANGE in @why.
  */
 bool value_parse(enum iec_type type, const char *text, size_t len,
-		 union iec_value *out, enum diag_id *why);
+		 struct iec_text *room, union iec_value *out, enum diag_id *why);
+
+/** value_has_room - can @at hold all of @value? No text longer than its variable. */
+bool value_has_room(const struct image *image, struct location at,
+		    union iec_value value);
 
 /**
  * value_find - image_find, which also takes a short address with its percent
@@ -52,9 +58,11 @@ struct location value_find(const struct image *image, const char *name,
 struct setting {
 	struct location at;
 	union iec_value value;
+	struct iec_text text;  /* a STRING; value points to it                */
 };
 /**
  * setting_parse - `NAME=VALUE`
+ * @out:   not to be copied
  * @place: of the text, for the diagnostic; its column is that of @text
  *
  * Owns: nothing.   Scan-safe: no.   Fails: false and one diagnostic.

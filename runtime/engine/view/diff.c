@@ -10,6 +10,7 @@
 #include "engine/text/text.h"
 #include "engine/view/view.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -37,9 +38,14 @@ uint32_t diff_name(struct diff *diff, const char *name)
 
 /* ---- variables ---- */
 
+/* @room: for STRING[n]. */
 static const char *type_text(const struct project *project,
-			     const struct var *var)
+			     const struct var *var, char room[16])
 {
+	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT) {
+		snprintf(room, 16, "STRING[%u]", var->capacity);
+		return room;
+	}
 	return var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
 				       iec_type_row(var->type)->word;
 }
@@ -71,11 +77,12 @@ static void compare_var(struct diff *diff, struct difference what,
 			const struct var_table *b, int j)
 {
 	const struct var *x = &a->var[i], *y = &b->var[j];
+	char old[16], new[16];
 
 	diff_texts(diff, what, "name", project_text(diff->a, x->name),
 		   project_text(diff->b, y->name));
-	diff_texts(diff, what, "type", type_text(diff->a, x),
-		   type_text(diff->b, y));
+	diff_texts(diff, what, "type", type_text(diff->a, x, old),
+		   type_text(diff->b, y, new));
 	diff_texts(diff, what, "address", project_text(diff->a, x->at_text),
 		   project_text(diff->b, y->at_text));
 	diff_texts(diff, what, "initial value", init_text(diff->a, x),
