@@ -35,3 +35,17 @@ int64_t iec_days(int year, int month, int day_of_month)
 
 	return era * 146097 + of_era - 719468;
 }
+
+bool iec_date(int64_t year, int64_t month, int64_t day_of_month, int64_t *ns)
+{
+	int y, m, d;
+	int64_t days;
+
+	if (year < 0 || year > 9999 || month < 1 || month > 12 || day_of_month < 1 ||
+	    day_of_month > 31)
+		return false;
+	days = iec_days((int)year, (int)month, (int)day_of_month);
+	iec_civil(days, &y, &m, &d);
+	return d == day_of_month &&
+	       !__builtin_mul_overflow(days, INT64_C(86400000000000), ns);
+}

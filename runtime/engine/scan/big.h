@@ -19,7 +19,7 @@ struct big {
 	uint32_t word[BIG_WORDS]; /* lowest first; above count not set        */
 };
 
-/* All of them: scan-safe, no allocation. */
+/* All of them: Scan-safe: yes. */
 /** big_set - @value. */
 void big_set(struct big *big, uint64_t value);
 /** big_scale - *@big = *@big * @by + @add. */
@@ -28,7 +28,8 @@ void big_scale(struct big *big, uint32_t by, uint32_t add);
 void big_power(struct big *big, int tens);
 /** big_shift - *@big * 2^@bits. */
 void big_shift(struct big *big, int bits);
-/** big_bits - place of the highest bit that is set, from 1; 0: the number is 0. */
+/** big_bits - place of the highest bit that is set, from 1; 0: the number is 0.
+ * Scan-safe: yes. */
 int big_bits(const struct big *big);
 /** big_order - <0, 0, >0 as @a + @times * @b is less than, equal to or greater than @c;
  * @times: 0, 1 or 2. */
