@@ -32,7 +32,7 @@ void big_shift(struct big *big, int bits);
  * Scan-safe: yes. */
 int big_bits(const struct big *big);
 /** big_order - <0, 0, >0 as @a + @times * @b is less than, equal to or greater than @c;
- * @times: 0, 1 or 2. */
+ * @times: 0, 1 or 2.   Scan-safe: yes. */
 int big_order(const struct big *a, int times, const struct big *b, const struct big *c);
 /** big_subtract - *@a - *@b; @b is not greater. */
 void big_subtract(struct big *a, const struct big *b);
