@@ -176,16 +176,16 @@ static void operate(struct run *run, struct term *term, struct value a,
 		return;
 	switch (term->op) {
 	case EXPR_AND:
-		term->value = value_bool(a.i && b.i);
+		outcome = value_compute(FN_AND, in, 2, &term->value);
 		break;
 	case EXPR_OR:
-		term->value = value_bool(a.i || b.i);
+		outcome = value_compute(FN_OR, in, 2, &term->value);
 		break;
 	case EXPR_XOR:
-		term->value = value_bool(!a.i != !b.i);
+		outcome = value_compute(FN_XOR, in, 2, &term->value);
 		break;
 	case EXPR_NOT:
-		term->value = value_bool(!a.i);
+		outcome = value_compute(FN_NOT, in, 1, &term->value);
 		break;
 	case EXPR_NEG:
 		in[1] = a;

@@ -119,6 +119,7 @@ static bool written_pins(struct walker *walker, const struct pou *pou,
 
 		pin->net = -1;
 		pin->output = arg.output;
+		pin->inverse = arg.inverse;
 		pin->placed = walker_place(walker, pou, arg.value,
 					   arg.value_len);
 		pin->pin = arg.output && word_row(at->word)->kind == WORD_FN ?

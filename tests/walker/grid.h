@@ -10,7 +10,7 @@
 /* A parameter of a box, or a pin fed by a row of its own. */
 struct parameter {
 	int pin;              /* of an FB: number in its row; else input      */
-	bool output;
+	bool output, inverse; /* inverse: /, goes in inverted                 */
 	struct placed placed;
 	int net;              /* of a fed pin; -1: a written parameter        */
 };

@@ -80,6 +80,8 @@ enum iec_type wide_type(const enum iec_type *type, int count);
 struct value value_widen(struct value value, enum iec_type type);
 bool value_is_true(struct value value);
 struct value value_bool(bool level);
+/** value_is_logic - AND OR XOR NOT. */
+bool value_is_logic(enum word fn);
 /** value_compute - one function on inputs of one type. */
 enum outcome value_compute(enum word fn, const struct value *in, int count,
 			   struct value *out);

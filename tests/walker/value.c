@@ -146,6 +146,39 @@ static int order_of(struct value a, struct value b)
 	return a.i < b.i ? -1 : a.i > b.i;
 }
 
+bool value_is_logic(enum word fn)
+{
+	return fn == FN_AND || fn == FN_OR || fn == FN_XOR || fn == FN_NOT;
+}
+
+/* Bit by bit, from the lowest on. */
+static struct value logic(enum word fn, const struct value *in, int count)
+{
+	int bits = in[0].type == IEC_BOOL ? 1 : 8 * iec_type_row(in[0].type)->size;
+	struct value out = { .type = in[0].type };
+
+	for (int bit = 0; bit < bits; bit++) {
+		int ones = 0;
+
+		for (int i = 0; i < count; i++)
+			ones += in[i].i >> bit & 1;
+		if (fn == FN_AND ? ones == count : fn == FN_OR ? ones > 0 :
+		    fn == FN_XOR ? ones % 2 : ones == 0)
+			out.i |= (int64_t)1 << bit;
+	}
+	return out;
+}
+
+static struct value choose(enum word fn, const struct value *in, int count)
+{
+	struct value best = in[0];
+
+	for (int i = 1; i < count; i++)
+		if (order_of(in[i], best) == (fn == FN_MIN ? -1 : 1))
+			best = in[i];
+	return best;
+}
+
 /* More than two inputs: the function of the first two, then of that and the
  * next; a wrap anywhere is a wrap. */
 enum outcome value_compute(enum word fn, const struct value *in, int count,
@@ -156,6 +189,14 @@ enum outcome value_compute(enum word fn, const struct value *in, int count,
 
 	if (word_is_test(word_row(fn))) {
 		*out = value_bool(related(fn, order_of(in[0], in[1])));
+		return OUTCOME_GOOD;
+	}
+	if (value_is_logic(fn)) {
+		*out = logic(fn, in, count);
+		return OUTCOME_GOOD;
+	}
+	if (fn == FN_MIN || fn == FN_MAX) {
+		*out = choose(fn, in, count);
 		return OUTCOME_GOOD;
 	}
 	for (int i = 1; i < count || i == 1; i++) {

@@ -101,6 +101,15 @@ static bool put(struct walker *walker, const struct placed *to, struct value val
 	return true;
 }
 
+/* A written input; behind a / its inverse. */
+static struct value read_input(const struct parameter *from, const struct placed *at,
+			       enum iec_type type)
+{
+	struct value value = placed_read(at, type);
+
+	return from->inverse ? value_bool(!value_is_true(value)) : value;
+}
+
 static bool call_block(struct walker *walker, struct walked_rung *walked,
 		       struct walked *at, bool power)
 {
@@ -116,8 +125,8 @@ static bool call_block(struct walker *walker, struct walked_rung *walked,
 			continue;
 		all = placed_find(walker, &from->placed, &here);
 		if (all && from->placed.index)
-			given[from->pin] = placed_read(&here,
-						       pin[from->pin].type);
+			given[from->pin] = read_input(from, &here,
+						      pin[from->pin].type);
 	}
 	pin[word_first_bool(row, PIN_IN)] = value_bool(power);
 	for (int i = 0; i < at->parameter_count; i++) {
@@ -128,7 +137,8 @@ static bool call_block(struct walker *walker, struct walked_rung *walked,
 							      from->net));
 		else if (!from->output && all)
 			pin[from->pin] = from->placed.index ? given[from->pin] :
-				placed_read(&from->placed, pin[from->pin].type);
+				read_input(from, &from->placed,
+					   pin[from->pin].type);
 	}
 	if (!all)
 		return false;
@@ -145,7 +155,9 @@ static bool call_function(struct walker *walker, struct walked_rung *walked,
 			  struct walked *at, bool power)
 {
 	struct value in[LIMIT_FN_INPUTS] = { { 0 } }, out = { 0 };
-	bool test = word_is_test(word_row(at->word)), stored = true;
+	bool test = word_is_test(word_row(at->word)) ||
+		    (value_is_logic(at->word) && at->inputs == IEC_BOOL);
+	bool stored = true;
 	enum outcome outcome;
 	struct placed here;
 	int count = 0;
@@ -161,7 +173,7 @@ static bool call_function(struct walker *walker, struct walked_rung *walked,
 			return false;
 		in[from->pin] = from->net >= 0 ?
 			value_bool(net_power(walked, from->net)) :
-			placed_read(&here, at->inputs);
+			read_input(from, &here, at->inputs);
 		count++;
 	}
 	for (int i = 0; i < at->parameter_count && !test; i++)

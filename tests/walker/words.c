@@ -253,16 +253,43 @@ static void number(struct builder *builder, const char *type, int depth,
 		put(builder, ")");
 }
 
+/* Bits of exactly @type. */
+static void bits(struct builder *builder, const char *type, int depth)
+{
+	static const char *const op[] = { "AND", "OR", "XOR" };
+	struct random_source *source = builder->source;
+
+	if (depth == 0 || near_full(builder)) {
+		put(builder, "%s", variable(source, type, false));
+	} else if (random_chance(source, 25)) {
+		put(builder, "(NOT ");
+		bits(builder, type, depth - 1);
+		put(builder, ")");
+	} else {
+		put(builder, "(");
+		bits(builder, type, depth - 1);
+		put(builder, " %s ", op[random_below(source, 3)]);
+		if (random_chance(source, 50))
+			bits(builder, type, depth - 1);
+		else
+			put(builder, "%s", beside(source, type));
+		put(builder, ")");
+	}
+}
+
 static void relation(struct builder *builder, int depth)
 {
 	static const char *const rel[] = { "<", ">", "<=", ">=", "=", "<>" };
-	static const char *const bits[] = { "BYTE", "WORD", "DWORD", "BOOL" };
+	static const char *const sort[] = { "BYTE", "WORD", "DWORD", "BOOL" };
 	struct random_source *source = builder->source;
 	bool plain = random_chance(source, 20);
-	const char *type = plain ? bits[random_below(source, 4)] :
+	const char *type = plain ? sort[random_below(source, 4)] :
 				   any_number(source);
 
-	number(builder, type, plain ? 0 : depth, false);
+	if (plain && strcmp(type, "BOOL") != 0)
+		bits(builder, type, depth);
+	else
+		number(builder, type, plain ? 0 : depth, false);
 	put(builder, " %s ", rel[random_below(source, 6)]);
 	put(builder, "%s", beside(source, type));
 }
@@ -321,6 +348,10 @@ static void assignment(struct builder *builder)
 	if (random_chance(source, 20)) {
 		put(builder, "[ %s := ", term(source, "BOOL", true));
 		truth(builder, 2);
+	} else if (random_chance(source, 20)) {
+		i = PLAIN_NARROWER + random_below(source, 3);
+		put(builder, "[ %s := ", variable(source, narrower[i][0], true));
+		bits(builder, narrower[i][random_below(source, 2)], 2);
 	} else if (random_chance(source, 15)) {
 		put(builder, "[ %s := ",
 		    variable(source, narrower[i][0], true));
@@ -355,6 +386,46 @@ void random_last(struct random_source *source, int later, char *out, size_t size
 	else
 		put(&builder, "%s %s", coil[random_below(source, 8)],
 		    variable(source, "BOOL", true));
+}
+
+/* AND OR XOR NOT as boxes: the last input of BOOLs may be inverted. */
+static void logic(struct builder *builder)
+{
+	static const char *const word[] = { "AND", "OR", "XOR", "NOT" };
+	static const char *const type[] = { "BOOL", "BOOL", "BYTE", "WORD", "DWORD" };
+	struct random_source *source = builder->source;
+	const char *fn = word[random_below(source, 4)];
+	const char *of = type[random_below(source, 5)];
+	bool is_bool = strcmp(of, "BOOL") == 0;
+	int count = 2 + (int)random_below(source, 3);
+
+	if (*fn == 'N') {
+		put(builder, "NOT IN:=%s%s", is_bool && random_chance(source, 30) ? "/" :
+		    "", variable(source, of, false));
+	} else {
+		put(builder, "%s IN1:=%s", fn, variable(source, of, false));
+		for (int i = 2; i <= count; i++)
+			if (is_bool && random_chance(source, 40))
+				put(builder, " IN%d:=/%s", i, variable(source, of, false));
+			else
+				put(builder, " IN%d:=%s", i, beside(source, of));
+	}
+	if (!is_bool || random_chance(source, 50))
+		put(builder, " OUT=>%s", variable(source, of, true));
+}
+
+/* MIN and MAX. */
+static void choice(struct builder *builder)
+{
+	struct random_source *source = builder->source;
+	const char *type = any_number(source);
+	int count = 2 + (int)random_below(source, 3);
+
+	put(builder, "%s IN1:=%s", random_chance(source, 50) ? "MIN" : "MAX",
+	    variable(source, type, false));
+	for (int i = 2; i <= count; i++)
+		put(builder, " IN%d:=%s", i, beside(source, type));
+	put(builder, " OUT=>%s", variable(source, type, true));
 }
 
 static void function(struct builder *builder)
@@ -408,6 +479,14 @@ int random_box(struct random_source *source, char *out, size_t size,
 		pin[1] = "IN2";
 		return 2;
 	}
+	if (random_chance(source, 15)) {
+		logic(&builder);
+		return 0;
+	}
+	if (random_chance(source, 5)) {
+		choice(&builder);
+		return 0;
+	}
 	if (random_chance(source, 45)) {
 		function(&builder);
 		return 0;
@@ -421,7 +500,7 @@ bool is_used(const char *body, const char *name)
 	size_t len = strcspn(name, ".");
 
 	for (const char *at = body; (at = strstr(at, name)) != NULL; at += len)
-		if (at > body && strchr(" (=>[-", at[-1]) &&
+		if (at > body && strchr(" (=>[-/", at[-1]) &&
 		    strchr(" .)[]", at[len]))
 			return true;
 	return false;

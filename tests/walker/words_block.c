@@ -44,7 +44,8 @@ static int bool_pin(struct builder *builder, const char *name,
 	if (random_chance(source, 55))
 		pin[fed++] = name;
 	else if (random_chance(source, 60))
-		put(builder, " %s:=%s", name, variable(source, "BOOL", false));
+		put(builder, " %s:=%s%s", name, random_chance(source, 30) ? "/" : "",
+		    variable(source, "BOOL", false));
 	return fed;
 }
 

@@ -136,6 +136,18 @@ static int number_behind(const char *name, size_t len)
 	return number;
 }
 
+int word_last_number(const struct word_row *row)
+{
+	const char *at = row->pin[row->pin_count - 1].name;
+	int number = 0;
+
+	while (*at && !ascii_digit(*at))
+		at++;
+	for (; ascii_digit(*at); at++)
+		number = number * 10 + (*at - '0');
+	return number;
+}
+
 /* INn of an extensible function, behind its named pins: its index or -1. */
 static int find_further_input(const struct word_row *row, const char *name,
 			      size_t len)
@@ -146,9 +158,7 @@ static int find_further_input(const struct word_row *row, const char *name,
 	    !ascii_same("IN", name, 2))
 		return -1;
 	number = number_behind(name, len);
-	known = 0;
-	for (const char *at = row->pin[last].name + 2; ascii_digit(*at); at++)
-		known = known * 10 + (*at - '0');
+	known = word_last_number(row);
 	if (number <= known || last + number - known >= row->most_inputs)
 		return -1;
 	return last + number - known;
@@ -181,17 +191,20 @@ bool word_shares(const struct word_row *row)
 	return row->result == RESULT_SAME || row->result == (int)RESULT_GATE;
 }
 
-static bool same_word(const char *a, const char *b)
+/* Both are spelled as their rows have them. */
+static bool same_text(const char *a, const char *b)
 {
-	while (*a && *a == *b)
-		a++, b++;
+	while (*a && *a == *b) {
+		a++;
+		b++;
+	}
 	return *a == *b;
 }
 
 enum op word_operator(const struct word_row *row)
 {
-	for (int i = 0; row->kind == WORD_FN && i < OP_COUNT; i++)
-		if (same_word(ops[i].word, row->word))
+	for (int i = 0; i < OP_COUNT && row->kind == WORD_FN; i++)
+		if (same_text(ops[i].word, row->word))
 			return (enum op)i;
 	return OP_COUNT;
 }
@@ -199,7 +212,7 @@ enum op word_operator(const struct word_row *row)
 enum word op_function(enum op op)
 {
 	for (int i = 0; i < WORD_COUNT; i++)
-		if (words[i].kind == WORD_FN && same_word(words[i].word, ops[op].word))
+		if (words[i].kind == WORD_FN && same_text(words[i].word, ops[op].word))
 			return (enum word)i;
 	return WORD_COUNT;
 }

@@ -124,6 +124,8 @@ struct word_row {
 /** word_row - the row of a word. Lives for ever. Scan-safe: yes. Words of a
  * project share a row that only says that they are boxes (model/words.h). */
 const struct word_row *word_row(enum word word);
+/** word_last_number - 2 of a function whose last named pin is IN2.   Scan-safe: yes. */
+int word_last_number(const struct word_row *row);
 /** word_input - the pin of input @index of a function; the last one again for those
  * behind it.   Scan-safe: yes. */
 const struct word_pin *word_input(const struct word_row *row, uint32_t index);

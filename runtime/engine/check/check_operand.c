@@ -11,7 +11,6 @@
 #include "engine/model/loop.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A cell of the rung, 0-based. */
@@ -346,8 +345,7 @@ static void check_inputs(struct operand_check *c, struct spot at,
 			snprintf(name, sizeof(name), "%s", row->pin[i].name);
 		else
 			snprintf(name, sizeof(name), "IN%d",
-				 i - (row->pin_count - 1) +
-				 (int)strtol(row->pin[row->pin_count - 1].name + 2, NULL, 10));
+				 i - (row->pin_count - 1) + word_last_number(row));
 		report(c, DIAG_MISSING_INPUT, at, name);
 		return;
 	}
