@@ -15,12 +15,12 @@
 #endif
 
 /* What only pins of a project have, or inputs with a value. */
-#define NOT_OWN 0, false, { 0 }, 0
+#define NOT_OWN 0, false, { 0 }, 0, 0
 #define FB_PIN(fb, pin, dir, type, text) \
 	{ #pin, dir, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), text, NOT_OWN },
 #define FB_DEF(fb, pin, type, value, text) \
 	{ #pin, PIN_IN, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), DOC(text), \
-	  0, true, INIT_##type(value), 0 },
+	  0, true, INIT_##type(value), 0, 0 },
 #define INIT_BOOL(value) { .i = (value) }
 #define INIT_BYTE(value) { .i = (value) }
 #define INIT_INT(value)  { .i = (value) }

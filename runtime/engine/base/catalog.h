@@ -85,6 +85,7 @@ struct word_pin {
 	bool has_init;       /* has a value until it is given one              */
 	union iec_value init; /* that value of a pin of the catalogue           */
 	uint16_t capacity;   /* own rows: of a STRING                          */
+	uint32_t elements;   /* own rows: of an array; 0: none                 */
 };
 
 /* Type of a function's result, if it is not one of its own. */

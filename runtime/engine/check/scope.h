@@ -35,6 +35,8 @@ struct meaning {
 	const struct pou *pou;    /* whose table; NULL: globals               */
 	const struct var *var;    /* the variable or instance                 */
 	int pin;                  /* index in the row of the variable's word  */
+	const struct var *part;   /* of a part of the project's own: the member
+				     as it was declared                       */
 	enum word word;           /* of an INSTANCE or STRUCT                 */
 	struct iec_addr addr;     /* of ADDRESS, and of a variable with AT; of
 				     an element with a fixed index its own    */
@@ -88,6 +90,8 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index);
  */
 bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index);
+/** meaning_unit - bytes from one element of an array to the next. Scan-safe: yes. */
+uint32_t meaning_unit(const struct meaning *meaning);
 /** scope_size - bytes of what @meaning is. Scan-safe: no. */
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning);
 struct project *scope_project(const struct scope *scope);
