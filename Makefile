@@ -4,6 +4,7 @@
 
 CROSS    ?=
 SMALL    ?=
+WORDS    ?= all
 BUILD    ?= build$(CROSS:%-=/%)$(SMALL:1=/small)
 CC       := $(CROSS)$(if $(filter default,$(origin CC)),gcc,$(CC))
 AR       := $(CROSS)ar
@@ -12,7 +13,7 @@ prefix   ?= /usr/local
 WERROR   ?= -Werror
 CFLAGS   ?= $(if $(filter 1,$(SMALL)),-Os,-O2) -g
 # time_t of 64 bits on 32-bit boards, too: they will run in 2038.
-CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -D_TIME_BITS=64 $(SMALL:1=-DRUNGBOARD_SMALL)
+CPPFLAGS += -I. -Iruntime -D_POSIX_C_SOURCE=200809L -D_FILE_OFFSET_BITS=64 -D_TIME_BITS=64 $(SMALL:1=-DRUNGBOARD_SMALL) $(if $(filter core,$(WORDS)),-DRUNGBOARD_CORE_WORDS)
 # No fused multiply-add, or REAL would differ from board to board.
 STD      := -std=c11 -ffp-contract=off
 LDFLAGS  += $(STATIC:1=-static)
@@ -29,6 +30,14 @@ obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
 ENGINE   := $(wildcard runtime/engine/*.c runtime/engine/*/*.c)
 # What is left of the engine on a small board: nothing that reads or translates.
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
+# SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def, and without what only
+# prints code, strips it, retains values or reads texts.
+ifeq ($(WORDS),core)
+CORE     := $(filter-out $(addprefix runtime/engine/scan/,big.c decimal.c fb_analog.c fb_clock.c fb_pid.c fb_pulse.c fb_store.c \
+            code_print.c code_strip.c retain.c retain_plan.c retain_slot.c \
+            fn_bits.c fn_convert.c fn_real.c fn_select.c fn_string.c fn_text.c fn_text_to.c fn_time.c math.c math_angle.c math_table.c number.c wide.c) \
+            $(addprefix runtime/engine/base/,names.c sink.c),$(CORE))
+endif
 LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)
 # What runs once a load is better small than fast.

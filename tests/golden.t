@@ -126,7 +126,7 @@ sub missing_words {
 	my $traced = traced_text();
 	my @missing;
 	for my $row (split /\n/, slurp("$engine/catalog.def")) {
-		next unless $row =~ /^(TYPE|ELEM|FB|FN|OP)\((\w+),\s*(?:"([^"]*)")?/;
+		next unless $row =~ /^(?:MORE_)?(TYPE|ELEM|FB|FN|OP)\((\w+),\s*(?:"([^"]*)")?/;
 		my ($kind, $id, $word) = ($1, $2, defined $3 ? $3 : '');
 		next if $id eq 'id';
 		my $pattern = pattern($kind, $id, $word);

@@ -76,7 +76,7 @@ sub read_rows {
 	my @rows;
 	open my $in, '<', "$tests/../runtime/engine/catalog.def" or die "catalog: $!";
 	while (my $line = <$in>) {
-		next unless $line =~ /^FN\((\w+),\s*"[^"]*",\s*"[^"]*",\s*(\S+(?: \| \w+\))?),/ &&
+		next unless $line =~ /^(?:MORE_)?FN\((\w+),\s*"[^"]*",\s*"[^"]*",\s*(\S+(?: \| \w+\))?),/ &&
 			$1 ne 'id';
 		my $row = { word => $1, result => $2, pins => [] };
 		while ($line =~ /FN_(IN|OWN)\((\w+),\s*([\w| ]+?),/g) {

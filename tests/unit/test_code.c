@@ -128,6 +128,9 @@ static void refuses_headers(void)
 	CHECK(damaged(len, DIAG_IMAGE_VERSION));
 	header()->crc ^= 1;
 	CHECK(damaged(len, DIAG_IMAGE_DAMAGED));
+	header()->words++;
+	seal();
+	CHECK_AS(damaged(len, DIAG_IMAGE_VERSION), "numbered by another catalogue");
 	for (size_t at = offsetof(struct code_header, data_size); at < len; at++) {
 		image[at] ^= 0x40;
 		if (!damaged(len, DIAG_IMAGE_DAMAGED))

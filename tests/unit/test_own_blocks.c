@@ -97,7 +97,7 @@ static void calls_cost(void)
 	for (int level = 0; level < 9; level++) {
 		used += (size_t)snprintf(text + used, sizeof(text) - used,
 			level ? "FUNCTION_BLOCK B%d IL\nVAR\n  X : B%d;\n"
-				"  N : DINT;\nEND_VAR\n" : "", level - 1, level);
+				"  N : DINT;\nEND_VAR\n" : "\n", level - 1, level);
 		for (int i = 0; i < 10; i++)
 			used += (size_t)snprintf(text + used, sizeof(text) - used,
 						 "  CAL X\n");

@@ -139,6 +139,7 @@ static void draft_good(struct draft *d)
 	memset(d, 0, sizeof(*d));
 	memcpy(d->header.magic, CODE_MAGIC, sizeof(d->header.magic));
 	d->header.version = CODE_VERSION;
+	d->header.words = WORD_COUNT;
 	draft_layout(d);
 	draft_text(d);
 	draft_tasks(d);

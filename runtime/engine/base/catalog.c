@@ -14,28 +14,27 @@
 #define DOC(text) text
 #endif
 
-/* What only pins of a project have, or inputs with a value. */
-#define NOT_OWN 0, false, { 0 }, 0, 0
-#define FB_PIN(fb, pin, dir, type, text) \
-	{ #pin, dir, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), text, NOT_OWN },
+#define FB_PIN(fb, pin, way, kind, text) \
+	.name = #pin, .doc = text, .type = IEC_##kind, .dir = way, \
+	.offset = offsetof(struct fb_##fb, pin)
 #define FB_DEF(fb, pin, type, value, text) \
-	{ #pin, PIN_IN, IEC_##type, 0, false, offsetof(struct fb_##fb, pin), DOC(text), \
-	  0, true, INIT_##type(value), 0, 0 },
+	{ FB_PIN(fb, pin, PIN_IN, type, DOC(text)), \
+	  .has_init = true, .init = INIT_##type(value) },
 #define INIT_BOOL(value) { .i = (value) }
 #define INIT_BYTE(value) { .i = (value) }
 #define INIT_INT(value)  { .i = (value) }
 #define INIT_TIME(value) { .i = (value) }
 #define INIT_REAL(value) { .r = (value) }
-#define FB_IN(fb, pin, type, doc)  FB_PIN(fb, pin, PIN_IN, type, DOC(doc))
-#define FB_OUT(fb, pin, type, doc) FB_PIN(fb, pin, PIN_OUT, type, DOC(doc))
-#define FB_VAR(fb, pin, type)      FB_PIN(fb, pin, PIN_VAR, type, "")
+#define FB_IN(fb, pin, type, text)  { FB_PIN(fb, pin, PIN_IN, type, DOC(text)) },
+#define FB_OUT(fb, pin, type, text) { FB_PIN(fb, pin, PIN_OUT, type, DOC(text)) },
+#define FB_VAR(fb, pin, type)       { FB_PIN(fb, pin, PIN_VAR, type, "") },
 #define FB_STORE(fb, pin, type, count) /* nobody asks for it by name */
 #define FB(id, family, doc, pins) \
 	static const struct word_pin pins_##id[] = { pins };
-#define FN_IN(pin, classes, doc) \
-	{ #pin, PIN_IN, IEC_NONE, classes, false, 0, DOC(doc), NOT_OWN },
-#define FN_OWN(pin, classes, doc) \
-	{ #pin, PIN_IN, IEC_NONE, classes, true, 0, DOC(doc), NOT_OWN },
+#define FN_PIN(pin, what, text) \
+	.name = #pin, .doc = DOC(text), .dir = PIN_IN, .classes = what
+#define FN_IN(pin, classes, doc)  { FN_PIN(pin, classes, doc) },
+#define FN_OWN(pin, classes, doc) { FN_PIN(pin, classes, doc), .own = true },
 #define FN(id, family, doc, result, most, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #include "engine/catalog.def"
@@ -44,7 +43,7 @@
 	.pin_count = sizeof(pins_##id) / sizeof(pins_##id[0])
 
 /* The IL columns of an FB are those of its call, of an FN those of its result. */
-static const struct word_row words[WORD_COUNT] = {
+static const struct word_row words[WORD_KNOWN] = {
 #define ELEM(id_, word_, glyph_, family_, place_, operand_, edge_, first_, next_, \
 	     negate_, doc_) \
 	[ELEM_##id_] = { .id = #id_, .word = word_, .glyph = glyph_, \
@@ -68,7 +67,7 @@ static const struct word_row words[WORD_COUNT] = {
 };
 
 /* Only what begins with a letter is a word a user can write by name. */
-static const uint8_t word_length[WORD_COUNT] = {
+static const uint8_t word_length[WORD_KNOWN] = {
 #define ELEM(id, word, ...) [ELEM_##id] = sizeof(word) - 1,
 #define FB(id, ...) [FB_##id] = sizeof(#id) - 1,
 #define FN(id, ...) [FN_##id] = sizeof(#id) - 1,
@@ -103,7 +102,7 @@ const struct word_row *word_row(enum word word)
 {
 	if (word > WORD_COUNT)
 		return &own_word;
-	return &words[word < WORD_COUNT ? word : ELEM_EMPTY];
+	return &words[word < WORD_KNOWN ? word : ELEM_EMPTY];
 }
 
 enum word word_find(const char *text, size_t len)
@@ -112,7 +111,7 @@ enum word word_find(const char *text, size_t len)
 
 	if (first < 'A' || first > 'Z')
 		return WORD_COUNT;
-	for (int i = 0; i < WORD_COUNT; i++)
+	for (int i = 0; i < WORD_KNOWN; i++)
 		if (word_length[i] == len && words[i].word[0] == first &&
 		    ascii_same(words[i].word, text, len))
 			return (enum word)i;
@@ -211,7 +210,7 @@ enum op word_operator(const struct word_row *row)
 
 enum word op_function(enum op op)
 {
-	for (int i = 0; i < WORD_COUNT; i++)
+	for (int i = 0; i < WORD_KNOWN; i++)
 		if (words[i].kind == WORD_FN && same_text(words[i].word, ops[op].word))
 			return (enum word)i;
 	return WORD_COUNT;

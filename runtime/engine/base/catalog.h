@@ -15,13 +15,28 @@
 enum word {
 #define ELEM(id, ...) ELEM_##id,
 #include "engine/catalog.def"
+#define MORE_FB(...)
 #define FB(id, ...) FB_##id,
 #include "engine/catalog.def"
+#define MORE_FN(...)
 #define FN(id, ...) FN_##id,
+#include "engine/catalog.def"
+	WORD_CORE, /* from here on: words that WORDS=core does without        */
+	WORD_CORE_LAST = WORD_CORE - 1,
+#define MORE_FB(id, ...) FB_##id,
+#include "engine/catalog.def"
+#define MORE_FN(id, ...) FN_##id,
 #include "engine/catalog.def"
 	WORD_COUNT,
 	WORD_MOST = 0xffff /* words of a project follow: model/words.h      */
 };
+
+/* Words this build has rows and functions for. */
+#ifdef RUNGBOARD_CORE_WORDS
+#define WORD_KNOWN WORD_CORE
+#else
+#define WORD_KNOWN WORD_COUNT
+#endif
 
 enum op {
 #define OP(id, ...) OP_##id,
@@ -72,20 +87,21 @@ enum op_modifier { MOD_N = 1, MOD_C = 2, MOD_PAREN = 4 };
 /* PIN_VAR: inside, not to be named from outside; PIN_NONE: no part of it. */
 enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR, PIN_IN_OUT, PIN_NONE };
 
+/* Small on purpose: a board has hundreds of them in its memory. */
 struct word_pin {
 	const char *name;
-	enum pin_dir dir;
-	enum iec_type type;  /* of an FB pin; of a function's the type it must
-				be made, IEC_NONE if any of its classes will do */
-	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
-	bool own;            /* of a function's pin: does not share the type   */
-	uint32_t offset;     /* of an FB pin in its struct                     */
 	const char *doc;
-	enum word word;      /* type IEC_NONE, own rows: an instance, structure */
-	bool has_init;       /* has a value until it is given one              */
-	union iec_value init; /* that value of a pin of the catalogue           */
-	uint16_t capacity;   /* own rows: of a STRING                          */
+	union iec_value init; /* its value until it is given one, of has_init  */
+	uint32_t offset;     /* of an FB pin in its struct                     */
 	uint32_t elements;   /* own rows: of an array; 0: none                 */
+	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
+	uint16_t capacity;   /* own rows: of a STRING                          */
+	enum word word : 16; /* type IEC_NONE, own rows: an instance, structure */
+	enum iec_type type : 8; /* of an FB pin; of a function's the type it must
+				be made, IEC_NONE if any of its classes will do */
+	enum pin_dir dir : 4;
+	bool own : 1;        /* of a function's pin: does not share the type   */
+	bool has_init : 1;   /* has a value until it is given one              */
 };
 
 /* Type of a function's result, if it is not one of its own. */
@@ -101,16 +117,16 @@ struct word_row {
 	const char *glyph;   /* three characters, its strokes; boxes: ""       */
 	const char *family;  /* of the palette                                 */
 	const char *doc;
-	enum word_kind kind;
-	enum place place;
-	enum operand_kind operand;
-	enum edge edge;
-	enum op first, next; /* IL at the rail, and behind others              */
+	enum word_kind kind : 8;
+	enum place place : 8;
+	enum operand_kind operand : 8;
+	enum edge edge : 8;
+	enum op first : 8, next : 8; /* IL at the rail, and behind others              */
 	bool negate;
-	enum iec_type result; /* of a function: a type, or RESULT_…            */
+	enum iec_type result : 8; /* of a function: a type, or RESULT_…            */
 	uint16_t result_classes; /* of RESULT_OPEN: what it may become         */
 	uint8_t most_inputs; /* of a function                                  */
-	enum word runs;      /* own rows: function of the catalogue that does it */
+	enum word runs : 16; /* own rows: function of the catalogue that does it */
 	uint16_t pin_count;
 	const struct word_pin *pin; /* of a function: inputs only              */
 	uint32_t size;       /* bytes of an FB instance                        */
@@ -147,7 +163,7 @@ int word_first_bool(const struct word_row *row, enum pin_dir dir);
 
 struct op_row {
 	const char *word;
-	enum operand_kind operand;
+	enum operand_kind operand : 8;
 	uint8_t modifiers;   /* enum op_modifier, or'ed                        */
 	const char *doc;
 };

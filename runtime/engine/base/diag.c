@@ -17,8 +17,17 @@ struct diag_row {
 	enum diag_severity severity;
 };
 
+/* A small board reads no rung files: what is wrong with them it never says. */
+#ifdef RUNGBOARD_SMALL
+#define TEXT(id, text) (((id) >= DIAG_EMPTY_FILE && (id) < DIAG_IO_SYNTAX) || \
+	((id) >= DIAG_IL_OPEN_PAREN && (id) < DIAG_IMAGE_MAGIC) ? "" : (text))
+#else
+#define TEXT(id, text) text
+#endif
+
 static const struct diag_row rows[DIAG_COUNT] = {
-#define DIAG(id, code, severity, text) [DIAG_##id] = { code, text, severity },
+#define DIAG(id, code, severity, text) \
+	[DIAG_##id] = { code, TEXT(DIAG_##id, text), severity },
 #include "engine/diag.def"
 };
 

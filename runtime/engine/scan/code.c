@@ -110,6 +110,10 @@ static bool check_header(const void *bytes, size_t len, enum diag_id *why)
 	    header->crc != digest_crc32c(0, (const uint8_t *)bytes + covered,
 					 len - covered))
 		return false;
+	*why = DIAG_IMAGE_VERSION;
+	if (header->words != WORD_COUNT)
+		return false;
+	*why = DIAG_IMAGE_DAMAGED;
 	for (int i = 1; i < CODE_SECTION_COUNT; i++) {
 		const struct code_section *at = &header->section[i];
 
@@ -174,7 +178,7 @@ static bool mark_run(struct verifier *v, const struct code_run *run,
 
 	if (run->kind > RUN_INSTANCE || run->offset < *end)
 		return verify_refuse(v, run);
-	if (instance ? run->word >= WORD_COUNT ||
+	if (instance ? run->word >= WORD_KNOWN ||
 		       word_row((enum word)run->word)->kind != WORD_FB
 		     : !verify_is_type(run->type))
 		return verify_refuse(v, run);

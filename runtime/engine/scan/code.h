@@ -42,7 +42,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 4u
+#define CODE_VERSION 5u
 
 enum code_section_kind {
 	CODE_PROGRAMS = 1, /* struct code_program each                         */
@@ -74,6 +74,8 @@ struct code_header {
 	uint32_t retain_offset, retain_size; /* retained variables' range      */
 	uint32_t budget;    /* instructions a scan may take                    */
 	uint32_t core_runs; /* of CODE_LAYOUT; those behind are for watching  */
+	uint32_t words;     /* WORD_COUNT: numbers of words are of its catalogue */
+	uint32_t spare;     /* 0                                               */
 	struct code_section section[CODE_SECTION_COUNT];
 };
 

@@ -112,7 +112,7 @@ static bool check_fn(const struct verifier *v, const uint32_t *at, uint32_t n)
 	uint32_t type = n & 0xff, count = n >> 8 & 0xff, result = n >> 16;
 	const struct word_row *row;
 
-	if (at[0] >= WORD_COUNT || !verify_is_type(type))
+	if (at[0] >= WORD_KNOWN || !verify_is_type(type))
 		return false;
 	row = word_row((enum word)at[0]);
 	if (row->kind != WORD_FN || count < row->pin_count ||
@@ -263,7 +263,7 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 	case VM_APUT:
 		return check_element(v, at, op, n);
 	case VM_FB:
-		return n < WORD_COUNT && code_instance(v->program, at[0]) == n;
+		return n < WORD_KNOWN && code_instance(v->program, at[0]) == n;
 	case VM_BLOCK:
 		return n == 0 && check_block(v, at);
 	case VM_CALL:

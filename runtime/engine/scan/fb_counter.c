@@ -59,7 +59,9 @@ void fb_##id##_step(struct fb_##id *fb, int64_t now_ns) \
 	STEP_BOTH(CTUD##type, low, high)
 
 COUNTERS(, INT16_MIN, INT16_MAX)
+#ifndef RUNGBOARD_CORE_WORDS
 COUNTERS(_DINT, INT32_MIN, INT32_MAX)
 COUNTERS(_LINT, INT64_MIN, INT64_MAX)
 COUNTERS(_UDINT, 0, UINT32_MAX)
 COUNTERS(_ULINT, 0, UINT64_MAX)
+#endif

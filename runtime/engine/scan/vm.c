@@ -12,12 +12,12 @@
 	{ fb_##id##_step(fb, now_ns); }
 #include "engine/catalog.def"
 
-static void (*const fb_table[WORD_COUNT])(void *fb, int64_t now_ns) = {
+static void (*const fb_table[WORD_KNOWN])(void *fb, int64_t now_ns) = {
 #define FB(id, ...) [FB_##id] = step_##id,
 #include "engine/catalog.def"
 };
 
-static enum fn_status (*const fn_table[WORD_COUNT])(struct fn_args *) = {
+static enum fn_status (*const fn_table[WORD_KNOWN])(struct fn_args *) = {
 #define FN(id, ...) [FN_##id] = fn_##id,
 #include "engine/catalog.def"
 };

@@ -451,6 +451,7 @@ static void *write_pieces(struct assembler *as, const struct piece *piece,
 	header->retain_offset = as->retain_offset;
 	header->retain_size = as->retain_size;
 	header->budget = LIMIT_BUDGET;
+	header->words = WORD_COUNT;
 	header->core_runs = (uint32_t)as->run_core;
 	*len = size;
 	size = sizeof(*header);
