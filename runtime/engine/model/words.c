@@ -118,9 +118,7 @@ static enum word find_made(struct word_table *table, const char *text, size_t le
 	return (enum word)(WORD_FIRST_MADE + i);
 }
 
-/* TON_LTIME, CTU_INT: the block is found by its short name if that is the type it
- * works on anyway. */
-static enum word find_short(const char *text, size_t len)
+enum word words_find_short(const char *text, size_t len)
 {
 	const struct word_row *row;
 	enum iec_type type;
@@ -153,7 +151,7 @@ enum word words_find(struct word_table *table, const char *text, size_t len)
 		found = *slot_of(table, text, len);
 	if (found)
 		return (enum word)(WORD_FIRST_OWN + found - 1);
-	word = find_short(text, len);
+	word = words_find_short(text, len);
 	return word != WORD_COUNT ? word : find_made(table, text, len);
 }
 

@@ -47,6 +47,10 @@ const struct word_row *words_row(const struct word_table *table, enum word word)
  * works on (TON_LTIME, CTU_INT). WORD_COUNT: none. */
 enum word words_find(struct word_table *table, const char *text, size_t len);
 
+/** words_find_short - the block of a name such as TON_LTIME or CTU_INT, which says the
+ * type that it has anyway; WORD_COUNT: none. Scan-safe: no. */
+enum word words_find_short(const char *text, size_t len);
+
 /** words_is_taken - do cells or lists have this word already, perhaps with C or N
  * behind it? Nothing of a project can be called so. Scan-safe: yes. */
 bool words_is_taken(const char *name);

@@ -7,6 +7,7 @@
 #include "engine/view/words.h"
 
 #include "engine/model/convert.h"
+#include "engine/model/words.h"
 #include "engine/view/view.h"
 
 #include <inttypes.h>
@@ -93,14 +94,16 @@ static void word_entry(int word, struct words_entry *out)
 	row_entry(word_row((enum word)word), out);
 }
 
-/* INT_TO_REAL and so on: not in any table. */
+/* INT_TO_REAL and TON_LTIME: not in any table. */
 static bool made_entry(const char *word, struct convert_word *made,
 		       struct words_entry *out)
 {
+	enum word block = words_find_short(word, strlen(word));
+
 	memset(out, 0, sizeof(*out));
-	if (!convert_make(word, strlen(word), made))
+	if (block == WORD_COUNT && !convert_make(word, strlen(word), made))
 		return false;
-	row_entry(&made->row, out);
+	row_entry(block != WORD_COUNT ? word_row(block) : &made->row, out);
 	return true;
 }
 
