@@ -17,6 +17,8 @@ static struct value valued(enum iec_type type, union iec_value from)
 
 	if (type == IEC_REAL)
 		value.r = (float)from.r;
+	else if (type == IEC_LREAL)
+		value.d = from.r;
 	else
 		value.i = from.i;
 	return value;
@@ -388,6 +390,8 @@ static struct value read_area(const struct placed *placed)
 		memcpy(&value.r, &word, sizeof(word));
 		return value;
 	}
+	if (placed->type == IEC_LREAL)
+		memcpy(&value.d, &bits, sizeof(bits));
 	if (row->low < 0 && row->size < 8 && bits >> (8 * row->size - 1))
 		bits |= ~(uint64_t)0 << 8 * row->size;
 	value.i = (int64_t)bits;
@@ -408,6 +412,8 @@ static void write_area(const struct placed *placed, struct value value)
 		memcpy(&word, &value.r, sizeof(word));
 		bits = word;
 	}
+	if (placed->type == IEC_LREAL)
+		memcpy(&bits, &value.d, sizeof(bits));
 	for (int i = 0; i < iec_type_row(placed->type)->size; i++)
 		placed->byte[i] = (uint8_t)(bits >> 8 * i);
 }
@@ -423,6 +429,8 @@ static struct value read_literal(const struct placed *placed,
 	literal_fit(&placed->literal, value.type, &literal);
 	if (value.type == IEC_REAL)
 		value.r = (float)literal.r;
+	else if (value.type == IEC_LREAL)
+		value.d = literal.r;
 	else
 		value.i = literal.i;
 	return value;

@@ -14,11 +14,12 @@
 
 struct walker;
 
-/* A value as the walker keeps it: r of REAL, i of all others. */
+/* A value as the walker keeps it: r of REAL, d of LREAL, i of all others. */
 struct value {
 	enum iec_type type;
 	int64_t i;
 	float r;
+	double d;
 };
 
 /**
