@@ -62,12 +62,21 @@ static bool same_values(struct duel *duel, int side)
 		struct location at = duel->side[side].at[i];
 		struct value mine = walker_value(duel->walker, i);
 		union iec_value theirs = image_get(image, at);
-		bool real = mine.type == IEC_REAL;
+		bool real = mine.type == IEC_REAL || mine.type == IEC_LREAL;
 		double a = real ? theirs.r : (double)theirs.i;
-		double b = real ? (double)mine.r : (double)mine.i;
+		double b = mine.type == IEC_LREAL ? mine.d :
+			   real ? (double)mine.r : (double)mine.i;
 
 		if (!walker_is_settled(duel->walker, i))
 			continue;
+		if (mine.type == IEC_STRING) {
+			if (theirs.s->length == mine.len &&
+			    memcmp(theirs.s->text, mine.text, (size_t)mine.len) == 0)
+				continue;
+			differ(duel, side, walker_name(duel->walker, i),
+			       theirs.s->length, mine.len);
+			return false;
+		}
 		if (real ? a != b && (a == a || b == b) : theirs.i != mine.i) {
 			differ(duel, side, walker_name(duel->walker, i), a, b);
 			return false;

@@ -131,6 +131,9 @@ static void test_variables(void)
 	CHECK_TEXT(compare("VAR RETAIN\nA : BOOL;\nEND_VAR\n",
 			   "VAR\nA : BOOL;\nEND_VAR\n", false),
 		   "variable A: block RETAIN -> nothing\n");
+	CHECK_TEXT(compare("VAR\nA : STRING[8];\nB : STRING;\nEND_VAR\n",
+			   "VAR\nA : STRING[9];\nB : STRING[80];\nEND_VAR\n", false),
+		   "variable A: type STRING[8] -> STRING[9]\n");
 	/* The order alone. */
 	CHECK_TEXT(compare("VAR\nA : BOOL;\nB : BOOL;\nEND_VAR\n",
 			   "VAR\nB : BOOL;\nA : BOOL;\nEND_VAR\n", false),

@@ -16,6 +16,7 @@ struct term {
 	int left, right;
 	enum iec_type type;     /* of its value; IEC_NONE: untyped literal    */
 	enum iec_type inputs;   /* common type of what an operation works on  */
+	bool timely;            /* each input has its own: times and dates    */
 	struct placed placed;   /* of a leaf                                  */
 	struct value value;     /* of the last run                            */
 };
@@ -67,6 +68,12 @@ static bool type_term(struct walker *walker, struct expression *expression,
 	if (left && !right) {
 		fold_sign(term, left);
 		if (is_leaf(term))
+			return true;
+	}
+	if (term->op == EXPR_FN && right) {
+		term->type = value_time_type(term->fn, types[0], types[1]);
+		term->timely = term->type != IEC_NONE;
+		if (term->timely)
 			return true;
 	}
 	term->inputs = wide_type(types, 2);
@@ -193,7 +200,9 @@ static void operate(struct run *run, struct term *term, struct value a,
 		outcome = value_compute(FN_SUB, in, 2, &term->value);
 		break;
 	case EXPR_FN:
-		outcome = value_compute(term->fn, in, 2, &term->value);
+		outcome = term->timely ?
+			value_compute_time(term->fn, a, b, &term->value) :
+			value_compute(term->fn, in, 2, &term->value);
 		break;
 	case EXPR_NAME:
 	case EXPR_LITERAL:
@@ -233,6 +242,18 @@ static bool find_computed(struct run *run, const struct placed *array,
 	return false;
 }
 
+/* A number beside a time is of its own type, without one a DINT or REAL. */
+static enum iec_type type_beside(const struct run *run, const struct term *term)
+{
+	const struct term *right = &run->expression->term[term->right];
+
+	if (!term->timely)
+		return term->inputs;
+	if (right->type != IEC_NONE)
+		return right->type;
+	return right->placed.literal.real ? IEC_REAL : IEC_DINT;
+}
+
 /* Depth is bounded by LIMIT_EXPR_DEPTH of the parser. */
 static struct value compute(struct run *run, int at, enum iec_type type)
 {
@@ -257,7 +278,7 @@ static struct value compute(struct run *run, int at, enum iec_type type)
 	if (term->left >= 0)
 		left = compute(run, term->left, term->inputs);
 	if (term->right >= 0)
-		right = compute(run, term->right, term->inputs);
+		right = compute(run, term->right, type_beside(run, term));
 	operate(run, term, left, right);
 	return type == IEC_NONE ? term->value : value_widen(term->value, type);
 }

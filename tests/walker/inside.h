@@ -86,6 +86,20 @@ bool value_is_logic(enum word fn);
 enum outcome value_compute(enum word fn, const struct value *in, int count,
 			   struct value *out);
 
+/** value_time_type - what an operation on times and dates gives (table 30 of the
+ * standard); IEC_NONE: it is none. @right IEC_NONE: a number without a type. */
+enum iec_type value_time_type(enum word fn, enum iec_type left, enum iec_type right);
+/** value_compute_time - the same, computed. */
+enum outcome value_compute_time(enum word fn, struct value left, struct value right,
+				struct value *out);
+
+/* text.c */
+int text_order(struct value a, struct value b);
+bool text_is_function(enum word fn);
+/** text_compute - LEN, LEFT … FIND; what it gives may be longer than its variable. */
+enum outcome text_compute(enum word fn, const struct value *in, int count,
+			  struct value *out);
+
 /* place.c */
 bool walker_declare(struct walker *walker);
 /** walker_place - what an operand names; PLACED_NOWHERE: the walker cannot. */

@@ -15,7 +15,7 @@
 
 #define RANDOM_ROWS  6
 #define RANDOM_COLS  8
-#define RANDOM_TEXT  112
+#define RANDOM_TEXT  144
 #define RANDOM_RUNGS 12
 
 enum random_kind {

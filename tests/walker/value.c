@@ -23,9 +23,10 @@ static bool widens(enum iec_type from, enum iec_type to)
 {
 	static const char *const chain[] = {
 		/* from each word to those behind it */
-		"SINT INT DINT", "USINT UINT UDINT", "BYTE WORD DWORD",
-		"USINT INT DINT", "UINT DINT", "SINT REAL", "INT REAL",
-		"USINT REAL", "UINT REAL",
+		"SINT INT DINT LINT", "USINT UINT UDINT ULINT",
+		"BYTE WORD DWORD LWORD", "USINT INT DINT LINT", "UINT DINT LINT",
+		"UDINT LINT", "SINT REAL LREAL", "INT REAL LREAL",
+		"USINT REAL LREAL", "UINT REAL LREAL", "DINT LREAL", "UDINT LREAL",
 	};
 	const char *a = iec_type_row(from)->word, *b = iec_type_row(to)->word;
 
@@ -67,6 +68,8 @@ struct value value_widen(struct value value, enum iec_type type)
 {
 	if (type == IEC_REAL && value.type != IEC_REAL)
 		value.r = (float)value.i;
+	if (type == IEC_LREAL && value.type != IEC_LREAL)
+		value.d = value.type == IEC_REAL ? (double)value.r : (double)value.i;
 	value.type = type;
 	return value;
 }
@@ -107,12 +110,65 @@ static enum outcome compute_real(enum word fn, float a, float b, float *out)
 	return OUTCOME_GOOD;
 }
 
+static enum outcome compute_lreal(enum word fn, double a, double b, double *out)
+{
+	volatile double c = 0;
+
+	if (fn == FN_ADD)
+		c = a + b;
+	else if (fn == FN_SUB)
+		c = a - b;
+	else if (fn == FN_MUL)
+		c = a * b;
+	else if (fn == FN_DIV)
+		c = a / b;
+	else
+		c = a;
+	if (!isfinite(c))
+		return OUTCOME_FAILED;
+	*out = c;
+	return OUTCOME_GOOD;
+}
+
+/* ULINT: all 64 bits count. */
+static enum outcome compute_unsigned(enum word fn, uint64_t a, uint64_t b, int64_t *out)
+{
+	uint64_t c = a;
+	bool over = false;
+
+	if ((fn == FN_DIV || fn == FN_MOD) && b == 0)
+		return OUTCOME_FAILED;
+	if (fn == FN_DIV) {
+		c = a / b;
+	} else if (fn == FN_MOD) {
+		c = a % b;
+	} else if (fn == FN_ADD) {
+		c = a + b;
+		over = c < a;
+	} else if (fn == FN_SUB) {
+		c = a - b;
+		over = b > a;
+	} else if (fn == FN_MUL) {
+		c = a * b;
+		over = a != 0 && c / a != b;
+	}
+	*out = (int64_t)c;
+	return over ? OUTCOME_WRAPPED : OUTCOME_GOOD;
+}
+
+static bool is_unsigned_64(enum iec_type type)
+{
+	return type == IEC_ULINT || type == IEC_LWORD;
+}
+
 static enum outcome compute_whole(enum word fn, enum iec_type type, int64_t a,
 				  int64_t b, int64_t *out)
 {
 	int64_t low = iec_type_row(type)->low, c;
 	bool over = false;
 
+	if (is_unsigned_64(type))
+		return compute_unsigned(fn, (uint64_t)a, (uint64_t)b, out);
 	if (fn == FN_DIV || fn == FN_MOD) {
 		if (b == 0 || (fn == FN_DIV && b == -1 && a == low))
 			return OUTCOME_FAILED;
@@ -143,6 +199,12 @@ static int order_of(struct value a, struct value b)
 {
 	if (a.type == IEC_REAL)
 		return a.r < b.r ? -1 : a.r > b.r;
+	if (a.type == IEC_STRING)
+		return text_order(a, b);
+	if (a.type == IEC_LREAL)
+		return a.d < b.d ? -1 : a.d > b.d;
+	if (is_unsigned_64(a.type))
+		return (uint64_t)a.i < (uint64_t)b.i ? -1 : a.i != b.i;
 	return a.i < b.i ? -1 : a.i > b.i;
 }
 
@@ -191,6 +253,12 @@ enum outcome value_compute(enum word fn, const struct value *in, int count,
 		*out = value_bool(related(fn, order_of(in[0], in[1])));
 		return OUTCOME_GOOD;
 	}
+	if (text_is_function(fn))
+		return text_compute(fn, in, count, out);
+	if (fn == FN_MOVE && in[0].type == IEC_STRING) {
+		*out = in[0];
+		return OUTCOME_GOOD;
+	}
 	if (value_is_logic(fn)) {
 		*out = logic(fn, in, count);
 		return OUTCOME_GOOD;
@@ -203,6 +271,8 @@ enum outcome value_compute(enum word fn, const struct value *in, int count,
 		struct value next = count > 1 ? in[i] : in[0];
 		enum outcome now = sum.type == IEC_REAL ?
 			compute_real(fn, sum.r, next.r, &sum.r) :
+			sum.type == IEC_LREAL ?
+			compute_lreal(fn, sum.d, next.d, &sum.d) :
 			compute_whole(fn, sum.type, sum.i, next.i, &sum.i);
 
 		if (now == OUTCOME_FAILED)
@@ -212,4 +282,83 @@ enum outcome value_compute(enum word fn, const struct value *in, int count,
 	}
 	*out = sum;
 	return worst;
+}
+
+#define DAY_NS INT64_C(86400000000000)
+
+/* A clock that goes on past midnight, and then says so. */
+static enum outcome turn(int64_t clock, int64_t by, bool back, int64_t *out)
+{
+	int64_t whole = by / DAY_NS, part = by % DAY_NS;
+	bool over = whole != 0;
+
+	clock += back ? -part : part;
+	if (clock < 0 || clock >= DAY_NS) {
+		clock += clock < 0 ? DAY_NS : -DAY_NS;
+		over = true;
+	}
+	*out = clock;
+	return over ? OUTCOME_WRAPPED : OUTCOME_GOOD;
+}
+
+/* A time and a ULINT: the sizes, then the sign. */
+static enum outcome scale_unsigned(enum word fn, int64_t time, uint64_t by, int64_t *out)
+{
+	uint64_t size = time < 0 ? 0 - (uint64_t)time : (uint64_t)time;
+	uint64_t most = (uint64_t)INT64_MAX + (time < 0);
+	int64_t result;
+	enum outcome outcome = compute_unsigned(fn, size, by, &result);
+
+	if (outcome == OUTCOME_FAILED)
+		return outcome;
+	if ((uint64_t)result > most)
+		outcome = OUTCOME_WRAPPED;
+	*out = (int64_t)(time < 0 ? 0 - (uint64_t)result : (uint64_t)result);
+	return outcome;
+}
+
+static enum outcome scale_real(enum word fn, int64_t time, double by, int64_t *out)
+{
+	volatile double ns = fn == FN_MUL ? (double)time * by : (double)time / by;
+
+	ns = nearbyint(ns);
+	if (!isfinite(ns) || ns < -9223372036854775808.0 || ns >= 9223372036854775808.0)
+		return OUTCOME_FAILED;
+	*out = (int64_t)ns;
+	return OUTCOME_GOOD;
+}
+
+enum iec_type value_time_type(enum word fn, enum iec_type left, enum iec_type right)
+{
+	bool clock = left == IEC_TIME_OF_DAY || left == IEC_DATE_AND_TIME;
+	bool sum = fn == FN_ADD || fn == FN_SUB;
+
+	if (clock && right == IEC_TIME && sum)
+		return left;
+	if ((clock || left == IEC_DATE) && right == left && fn == FN_SUB)
+		return IEC_TIME;
+	if (left == IEC_TIME && right != IEC_TIME && (fn == FN_MUL || fn == FN_DIV))
+		return IEC_TIME;
+	return IEC_NONE;
+}
+
+enum outcome value_compute_time(enum word fn, struct value left, struct value right,
+				struct value *out)
+{
+	enum outcome outcome;
+	struct value result = { .type = value_time_type(fn, left.type, right.type) };
+
+	if (left.type == IEC_TIME_OF_DAY && right.type == IEC_TIME)
+		outcome = turn(left.i, right.i, fn == FN_SUB, &result.i);
+	else if (right.type == IEC_REAL)
+		outcome = scale_real(fn, left.i, (double)right.r, &result.i);
+	else if (right.type == IEC_LREAL)
+		outcome = scale_real(fn, left.i, right.d, &result.i);
+	else if (right.type == IEC_ULINT)
+		outcome = scale_unsigned(fn, left.i, (uint64_t)right.i, &result.i);
+	else
+		outcome = compute_whole(fn, IEC_TIME, left.i, right.i, &result.i);
+	if (outcome != OUTCOME_FAILED)
+		*out = result;
+	return outcome;
 }

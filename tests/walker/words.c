@@ -63,6 +63,24 @@ static const struct pool_row pool[] = {
 	{ "real_b", "REAL", ":= 3.0E38", 0, 0 },
 	{ "time_a", "TIME", ":= T#20ms", 0, 0 }, { "time_b", "TIME", "", 0, 0 },
 	{ "ton_a.ET", "TIME", "", 1, 0 }, { "tof_b.PT", "TIME", "", 0, 0 },
+	{ "lint_a", "LINT", ":= 9223372036854775800", 0, 0 },
+	{ "lint_b", "LINT", ":= -3", 0, 0 },
+	{ "ulint_a", "ULINT", ":= 18446744073709551610", 0, 0 },
+	{ "ulint_b", "ULINT", ":= 7", 0, 0 },
+	{ "lword_a", "LWORD", ":= 16#8000000000000001", 0, 0 },
+	{ "lword_b", "LWORD", "", 0, 0 },
+	{ "lreal_a", "LREAL", ":= 0.1", 0, 0 },
+	{ "lreal_b", "LREAL", ":= 1.5E308", 0, 0 },
+	{ "tod_a", "TIME_OF_DAY", ":= TOD#23:59:59.99", 0, 0 },
+	{ "tod_b", "TIME_OF_DAY", "", 0, 0 },
+	{ "date_a", "DATE", ":= D#2262-04-11", 0, 0 },
+	{ "date_b", "DATE", ":= D#1677-09-22", 0, 0 },
+	{ "dt_a", "DATE_AND_TIME", ":= DT#2262-04-11-23:47:16.85", 0, 0 },
+	{ "dt_b", "DATE_AND_TIME", ":= DT#1969-12-31-23:59:59.999999999", 0, 0 },
+	{ "time_c", "TIME", ":= T#106751d", 0, 0 },
+	{ "str_a", "STRING[9]", ":= 'abcabc'", 0, 0 },
+	{ "str_b", "STRING[9]", "", 0, 0 },
+	{ "str_c", "STRING[4]", ":= 'bc'", 0, 0 },
 	{ "arr_b[2]", "BOOL", "", 0, 1 }, { "arr_b[usint_b]", "BOOL", "", 0, 1 },
 	{ "arr_b[int_b]", "BOOL", "", 0, 1 }, { "arr_b[ctu_a.CV]", "BOOL", "", 0, 1 },
 	{ "arr_q[usint_i]", "BOOL", "", 0, 1 }, { "arr_q[-1]", "BOOL", "", 0, 1 },
@@ -115,10 +133,14 @@ static const char *const narrower[][2] = {
 	{ "INT", "SINT" }, { "INT", "USINT" }, { "DINT", "INT" },
 	{ "DINT", "UINT" }, { "DINT", "SINT" }, { "UINT", "USINT" },
 	{ "UDINT", "UINT" }, { "REAL", "INT" }, { "REAL", "SINT" },
+	{ "LINT", "DINT" }, { "LINT", "UDINT" }, { "LINT", "USINT" },
+	{ "ULINT", "UDINT" }, { "LREAL", "REAL" }, { "LREAL", "UDINT" },
+	{ "LREAL", "INT" },
 	{ "WORD", "BYTE" }, { "DWORD", "WORD" }, { "DWORD", "BYTE" },
+	{ "LWORD", "DWORD" },
 };
 
-#define PLAIN_NARROWER 9 /* of them numbers, the rest bits                   */
+#define PLAIN_NARROWER 16 /* of them numbers, the rest bits                   */
 
 static const struct {
 	const char *type, *text[7];
@@ -142,6 +164,12 @@ static const struct {
 		    "2", "LINT#-9223372036854775807", "3" } },
 	{ "ULINT", { "0", "1", "18446744073709551615", "18446744073709551614", "2",
 		     "9223372036854775808", "3" } },
+	{ "LWORD", { "16#FFFFFFFFFFFFFFFF", "0", "1", "16#8000000000000000", "255",
+		     "65536", "7" } },
+	{ "LREAL", { "0.1", "0.0", "3.25", "1.0E308", "2.0", "1.5", "1.0E-300" } },
+	{ "STRING[9]", { "'a'", "''", "'bc'", "'cab'", "'b'", "'abcdefghi'", "'$$$''" } },
+	{ "DATE", { "D#1970-01-01", "D#2262-04-11", "D#1677-09-22", "D#2024-02-29",
+		    "D#1969-12-31", "D#2026-11-21", "D#2000-01-01" } },
 	{ "TIME_OF_DAY", { "TOD#00:00:00", "TOD#12:00:00", "TOD#23:59:59.999",
 			   "TOD#06:00:00", "TOD#05:59:59", "TOD#22:00:00",
 			   "TOD#18:30:00" } },
@@ -153,7 +181,8 @@ static const struct {
 
 static const char *const numbers[] = {
 	"SINT", "INT", "INT", "DINT", "DINT", "USINT", "UINT", "UDINT", "INT",
-	"REAL", "TIME",
+	"REAL", "TIME", "LINT", "ULINT", "LREAL", "LREAL", "TIME_OF_DAY", "DATE",
+	"DATE_AND_TIME",
 };
 
 static const char *any_number(struct random_source *source)
@@ -175,7 +204,7 @@ const char *variable(struct random_source *source, const char *type,
 }
 
 /* The same inside an expression. */
-static const char *term(struct random_source *source, const char *type, bool write)
+const char *term(struct random_source *source, const char *type, bool write)
 {
 	size_t count = sizeof(computed) / sizeof(*computed);
 	size_t i = random_below(source, (uint32_t)count);
@@ -224,13 +253,17 @@ static bool near_full(const struct builder *builder)
 	return builder->used > RANDOM_TEXT * 2 / 5;
 }
 
-/* A value of exactly @type; @tight: it stands where it needs parentheses. */
-static void number(struct builder *builder, const char *type, int depth,
-		   bool tight)
+static bool is_dated(const char *type)
+{
+	return strcmp(type, "TIME_OF_DAY") == 0 || strcmp(type, "DATE") == 0 ||
+	       strcmp(type, "DATE_AND_TIME") == 0;
+}
+
+void number(struct builder *builder, const char *type, int depth, bool tight)
 {
 	struct random_source *source = builder->source;
 	const char *ops = strcmp(type, "TIME") == 0 ? "+-" :
-			  strcmp(type, "REAL") == 0 ? "+-*/" : "+-*/M";
+			  strstr(type, "REAL") ? "+-*/" : "+-*/M";
 	char op = ops[random_below(source, (uint32_t)strlen(ops))];
 	bool swap = random_chance(source, 20);
 
@@ -240,6 +273,14 @@ static void number(struct builder *builder, const char *type, int depth,
 	}
 	if (tight)
 		put(builder, "(");
+	if (is_dated(type) || (strcmp(type, "TIME") == 0 && random_chance(source, 30))) {
+		if (is_dated(type))
+			random_moment(builder, type, depth - 1);
+		else
+			random_timely(builder, depth - 1);
+		put(builder, tight ? ")" : "");
+		return;
+	}
 	if (swap)
 		put(builder, "%s", beside(source, type));
 	else
@@ -280,10 +321,10 @@ static void bits(struct builder *builder, const char *type, int depth)
 static void relation(struct builder *builder, int depth)
 {
 	static const char *const rel[] = { "<", ">", "<=", ">=", "=", "<>" };
-	static const char *const sort[] = { "BYTE", "WORD", "DWORD", "BOOL" };
+	static const char *const sort[] = { "BYTE", "WORD", "DWORD", "BOOL", "LWORD" };
 	struct random_source *source = builder->source;
 	bool plain = random_chance(source, 20);
-	const char *type = plain ? sort[random_below(source, 4)] :
+	const char *type = plain ? sort[random_below(source, 5)] :
 				   any_number(source);
 
 	if (plain && strcmp(type, "BOOL") != 0)
@@ -444,10 +485,13 @@ static void function(struct builder *builder)
 
 	if (strcmp(type, "TIME") == 0 && strchr("MD", *fn))
 		type = "INT";
-	if (strcmp(type, "REAL") == 0 && strcmp(fn, "MOD") == 0)
+	if (strstr(type, "REAL") && strcmp(fn, "MOD") == 0)
 		type = "DINT";
+	if (is_dated(type) && !compare && strcmp(fn, "MOVE") != 0)
+		type = "LINT"; /* dates add up in expressions */
 	if (strcmp(fn, "MOVE") == 0 && random_chance(source, 30))
-		type = random_chance(source, 50) ? "WORD" : "BOOL";
+		type = random_chance(source, 40) ? "WORD" :
+		       random_chance(source, 50) ? "LWORD" : "BOOL";
 	if (strcmp(fn, "MOVE") == 0) {
 		put(builder, "MOVE IN:=%s", variable(source, type, false));
 	} else {
@@ -485,6 +529,10 @@ int random_box(struct random_source *source, char *out, size_t size,
 	}
 	if (random_chance(source, 5)) {
 		choice(&builder);
+		return 0;
+	}
+	if (random_chance(source, 8)) {
+		random_text(&builder);
 		return 0;
 	}
 	if (random_chance(source, 45)) {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * iec - the types, areas, direct addresses and calendar of IEC 61131-3, without
- * printing.
+ * iec - the types, areas and direct addresses of IEC 61131-3, without printing.
  *
  * What the scan needs of them: this file uses no libc but memory functions, so
  * that the smallest target links it. Text of values is in iec_print.c.
