@@ -89,6 +89,10 @@ static void add_state(struct block *block, const struct resource *resource)
 	resource_fault_print(resource, fault, sizeof(fault));
 	add(block, "state: %s\nfault: %s", state[resource->state], fault);
 	add_place(block, &resource->fault_at);
+	if (resource->halted) {
+		add(block, "\nstop: the program says so");
+		add_place(block, &resource->halt_at);
+	}
 	add(block, "\nerrors: %u", (unsigned)resource->vm.errors);
 	add_place(block, &resource->error_at);
 	add(block, "\nforces: %d\n", resource->image.force_count);
@@ -186,6 +190,16 @@ void control_tell_error(const char *text, const char *why)
 	struct block block = { .len = 0 };
 
 	add(&block, "ladderd: %.80s: %.200s\n", text, why);
+	put(STDERR_FILENO, block.text, block.len, false);
+}
+
+void control_tell_halt(const struct cycle *cycle)
+{
+	struct block block = { .len = 0 };
+	char text[96];
+
+	resource_halt_print(&cycle->resource, text, sizeof(text));
+	add(&block, "ladderd: %s\n", text);
 	put(STDERR_FILENO, block.text, block.len, false);
 }
 

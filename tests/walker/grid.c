@@ -220,6 +220,7 @@ static bool make_element(struct walker *walker, const struct pou *pou,
 		return true;
 	case OPND_LOOP:
 	case OPND_LOOP_END:
+	case OPND_ROUTINE:
 	case OPND_ANY_R:
 	case OPND_ANY_W:
 	case OPND_INSTANCE:

@@ -374,12 +374,34 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	return good;
 }
 
+/* CAL of a SUBROUTINE, which has no parameters. */
+static bool check_routine(struct il_check *c, int at, const struct pou *to)
+{
+	const struct il_line *line = &c->il->line[at];
+	bool good = true;
+
+	if (to->kind != POU_SUBROUTINE)
+		return il_report(c, line, DIAG_NOT_SUBROUTINE, il_operand_text(c, line));
+	if (line->modifiers & MOD_C)
+		good = il_need_result(c, line) &&
+		       il_need_bool(c, line, c->now, "result");
+	if (is_arg(c, at + 1))
+		good = il_report(c, &c->il->line[at + 1], DIAG_NO_PIN,
+				 scope_text(c->scope, c->il->line[at + 1].pin));
+	c->now.there = false;
+	return good;
+}
+
 static bool check_cal(struct il_check *c, int at)
 {
 	const struct il_line *line = &c->il->line[at];
-	const struct meaning *m = find(c, line);
+	const struct pou *routine = scope_pou(c->scope, c->pou, line->operand);
+	const struct meaning *m;
 	bool good = true;
 
+	if (routine)
+		return check_routine(c, at, routine);
+	m = find(c, line);
 	if (!m)
 		return false;
 	if (m->kind != MEANING_INSTANCE)
@@ -422,6 +444,10 @@ static bool check_op(struct il_check *c, int at)
 		return check_flow(c, line);
 	case OP_CAL:
 		return check_cal(c, at);
+	case OP_STP:
+		return !(line->modifiers & MOD_C) ||
+		       (il_need_result(c, line) &&
+			il_need_bool(c, line, c->now, "result"));
 	case OP_COUNT:
 		break;
 	}

@@ -365,6 +365,16 @@ static void check_instance(struct operand_check *c, struct spot at,
 		report(c, DIAG_INSTANCE_TWICE, at, name);
 }
 
+static void check_routine(struct operand_check *c, struct spot at, uint32_t name)
+{
+	const struct pou *pou = scope_pou(c->scope, c->pou, name);
+
+	if (!pou && !find(c, at, name))
+		return;
+	if (!pou || pou->kind != POU_SUBROUTINE)
+		report(c, DIAG_NOT_SUBROUTINE, at, project_text(c->project, name));
+}
+
 static void check_element(struct operand_check *c, struct spot at,
 			  const struct cell *cell)
 {
@@ -373,6 +383,8 @@ static void check_element(struct operand_check *c, struct spot at,
 	if (row->edge != EDGE_NONE && c->pou->kind == POU_FUNCTION)
 		report(c, DIAG_FUNCTION_KEEPS, at,
 		       project_text(c->project, cell->operand));
+	if (cell->word == ELEM_END && c->pou->kind != POU_PROGRAM)
+		report(c, DIAG_END_ELSEWHERE, at, pou_word(c->pou->kind));
 	switch (row->operand) {
 	case OPND_BOOL_R:
 		check_bool(c, at, cell->operand,
@@ -392,6 +404,9 @@ static void check_element(struct operand_check *c, struct spot at,
 		break;
 	case OPND_LOOP:
 		check_loop(c, at, cell->operand);
+		break;
+	case OPND_ROUTINE:
+		check_routine(c, at, cell->operand);
 		break;
 	case OPND_LOOP_END:
 	case OPND_ANY_R:

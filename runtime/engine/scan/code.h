@@ -24,6 +24,7 @@
  *                               result << 16; en, eno BOOLs; CODE_OWN at inputs
  *   FB     instance             n: enum word of the block
  *   BLOCK  dst, src, size       whole values and instances, the same at both
+ *   STOP   cond                 BOOL; asks for STOP at the end of the scan
  *   CALL   entry                runs it up to its END; who calls whom makes no circle
  *   JMP    target               word index in the section, of an instruction
  *   JMPC   target, cond         that begins in the same program

@@ -26,6 +26,8 @@ static void begin_cold(struct resource *resource)
 	resource->fault = FAULT_NONE;
 	memset(&resource->fault_at, 0, sizeof(resource->fault_at));
 	memset(&resource->error_at, 0, sizeof(resource->error_at));
+	resource->halted = false;
+	memset(&resource->halt_at, 0, sizeof(resource->halt_at));
 	resource->late = false;
 	resource->warm = false;
 	resource->retain_lost = resource->retain_old_copy = false;
@@ -253,6 +255,34 @@ static void run_due(struct resource *resource, int64_t now_ns, bool watch)
 	}
 }
 
+static void clear_area(struct resource *resource, enum iec_area area)
+{
+	const struct program *program = resource->image.program;
+
+	memset(image_area(&resource->image, area), 0, iec_area_row(area)->bytes);
+	for (uint32_t i = 0; i < program->bits_count; i++) {
+		const struct code_bits *bits = &program->bits[i];
+
+		if (bits->area == area)
+			memset(resource->image.memory + bits->slot, 0,
+			       bits->count);
+	}
+}
+
+/* The scan was whole, but nobody shall believe its outputs. */
+static void halt(struct resource *resource, bool watch)
+{
+	resource->state = STATE_STOP;
+	resource->halted = true;
+	if (!watch)
+		resource->halt_at = resource_place(resource->image.program,
+						   resource->vm.stop_text);
+	clear_area(resource, AREA_Q);
+	clear_area(resource, AREA_AQ);
+	clear_area(resource, AREA_XQ);
+	clear_area(resource, AREA_XAQ);
+}
+
 bool resource_scan(struct resource *resource, int64_t now_ns)
 {
 	const struct program *program = resource->image.program;
@@ -278,6 +308,8 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 		resource->error_at = resource_place(program, vm->error_text);
 	image_end(&resource->image);
 	resource->scans++;
+	if (vm->stop && resource->state == STATE_RUN)
+		halt(resource, watch);
 	return resource->state == STATE_RUN;
 }
 
@@ -305,6 +337,27 @@ void resource_fault_print(const struct resource *resource, char *out, size_t siz
 		at = append(out, at, size, ": ");
 	}
 	append(out, at, size, text);
+}
+
+void resource_halt_print(const struct resource *resource, char *out, size_t size)
+{
+	const struct fault_place *at = &resource->halt_at;
+	uint32_t number = at->rung;
+	char digits[12];
+	size_t to = append(out, 0, size, "STOP, outputs are safe: the program says so"), i = 0;
+
+	if (!at->pou || !*at->pou)
+		return;
+	to = append(out, to, size, ": ");
+	to = append(out, to, size - 20, at->pou);
+	if (!number)
+		return;
+	to = append(out, to, size, " rung ");
+	for (; number; number /= 10)
+		digits[i++] = (char)('0' + number % 10);
+	while (i > 0 && to + 1 < size)
+		out[to++] = digits[--i];
+	out[to] = '\0';
 }
 
 /* Orders places; row and col are small, POUs and rungs have their limits. */

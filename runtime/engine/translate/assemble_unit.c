@@ -450,6 +450,9 @@ static void assemble_op(struct list *list, const struct il_line *line)
 	case OP_CAL:
 		list_cal(list);
 		break;
+	case OP_STP:
+		list_stop(list, line);
+		break;
 	case OP_COUNT:
 		break;
 	}

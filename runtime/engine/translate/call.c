@@ -498,12 +498,21 @@ void list_end_skip(struct list *list, int skip)
 void list_cal(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
-	const struct meaning *instance = list_meaning(list, line->operand);
-	enum word fb = instance->word;
-	uint32_t offset = layout_spot(list->as, instance).offset;
+	const struct pou *routine = scope_pou(list->as->translation->scope, list->pou,
+					      line->operand);
+	const struct meaning *instance;
+	enum word fb;
+	uint32_t offset;
 	uint32_t fetched[LIMIT_ARGS];
 	int unless = -1, missing;
 
+	if (routine) {
+		list_routine(list, routine);
+		return;
+	}
+	instance = list_meaning(list, line->operand);
+	fb = instance->word;
+	offset = layout_spot(list->as, instance).offset;
 	if (word_is_own(fb)) {
 		list_own_cal(list);
 		return;

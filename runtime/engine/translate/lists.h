@@ -117,6 +117,8 @@ void list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 bool list_find_labels(struct list *list);
 /** list_flow - JMP and RET. */
 void list_flow(struct list *list, const struct il_line *line);
+/** list_stop - STP. */
+void list_stop(struct list *list, const struct il_line *line);
 /** list_label - a label: nothing waits behind it. */
 void list_label(struct list *list, const struct il_line *line);
 /** list_patch - fills in the targets; @end: where RET goes. */
@@ -153,4 +155,6 @@ bool list_is_struct_move(struct list *list);
 /** list_own_call - a formal call, or a MOVE of a structure. */
 void list_own_call(struct list *list);
 void list_own_cal(struct list *list);
+/** list_routine - CAL of a SUBROUTINE. */
+void list_routine(struct list *list, const struct pou *routine);
 #endif
