@@ -138,6 +138,9 @@ int word_pin_find(const struct word_row *row, const char *name, size_t len);
 /** word_is_test - a function whose result is always BOOL: power behind it is EN and the
  * result. */
 bool word_is_test(const struct word_row *row);
+/** word_opens - may it stand before a parenthesis in IL, as ADD( does? A function of two
+ * values of one type. */
+bool word_opens(const struct word_row *row);
 /** word_shares - a function whose result has the type that its inputs share. */
 bool word_shares(const struct word_row *row);
 /** word_operator - the IL operator of a function's name; OP_COUNT: none. */

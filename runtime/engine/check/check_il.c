@@ -236,6 +236,32 @@ bool il_can_write(struct il_check *c, const struct il_line *line,
 
 /* ---- functions and calls ---- */
 
+static bool is_arg(const struct il_check *c, int at)
+{
+	return at < c->il->count && (c->il->line[at].kind == IL_ARG_IN ||
+				     c->il->line[at].kind == IL_ARG_OUT);
+}
+
+/* The operands behind the first input: `MAX Low, High`. -1 after a diagnostic. */
+static int read_inputs(struct il_check *c, int at, struct result *in)
+{
+	int count = 1;
+
+	for (int i = at; i == at ? c->il->line[i].operand != 0 : is_arg(c, i); i++) {
+		const struct meaning *m = il_value_of(c, &c->il->line[i]);
+
+		if (!m)
+			return -1;
+		if (count == LIMIT_FN_INPUTS) {
+			il_report(c, &c->il->line[i], DIAG_NO_PIN,
+				  il_operand_text(c, &c->il->line[i]));
+			return -1;
+		}
+		in[count++] = il_result_of(m);
+	}
+	return count;
+}
+
 /* The line with the word that it is on inputs of these types. */
 static struct il_line overloaded(const struct il_line *line, const struct result *in,
 				 int count)
@@ -254,21 +280,19 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 	const struct il_line *line = &c->il->line[at];
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	struct il_line runs;
-	struct result in[2] = { c->now };
+	struct result in[LIMIT_FN_INPUTS] = { c->now };
 	enum iec_type stored;
-	int count = 1;
+	int count;
 
 	if (!il_need_result(c, line))
 		return false;
+	if (line->modifiers & MOD_PAREN)
+		return il_open_paren(c, line, true);
 	c->now = (struct result){ .there = true,
 		.type = word_is_test(row) ? IEC_BOOL : IEC_NONE };
-	if (line->operand) {
-		const struct meaning *m = il_value_of(c, line);
-
-		if (!m)
-			return false;
-		in[count++] = il_result_of(m);
-	}
+	count = read_inputs(c, at, in);
+	if (count < 0)
+		return false;
 	if (count < row->pin_count || count > row->most_inputs)
 		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
 	runs = overloaded(line, in, count);
@@ -280,12 +304,6 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 		.there = true, .type = fn_result(row, *common, stored),
 	};
 	return true;
-}
-
-static bool is_arg(const struct il_check *c, int at)
-{
-	return at < c->il->count && (c->il->line[at].kind == IL_ARG_IN ||
-				     c->il->line[at].kind == IL_ARG_OUT);
 }
 
 /* Type of the variable behind OUT =>. */
@@ -474,8 +492,7 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 			return il_check_struct_move(c, at);
 		return check_call(c, at, type);
 	case IL_CLOSE:
-		good = il_check_close(c, line);
-		break;
+		return il_check_close(c, at, type);
 	case IL_LABEL:
 		if (c->depth > 0)
 			good = il_report(c, line, DIAG_IL_OPEN_PAREN,

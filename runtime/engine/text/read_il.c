@@ -141,7 +141,7 @@ static bool read_operand(struct reader *r, const struct token *word,
 	return true;
 }
 
-/* `Scaled Low, High`: the second input and those behind it. */
+/* `MAX Low, High`: the second operand and those behind it. */
 static bool read_more_operands(struct reader *r, const struct token *word,
 			       const struct il_line *fn)
 {
@@ -153,24 +153,6 @@ static bool read_more_operands(struct reader *r, const struct token *word,
 			return false;
 	}
 	return true;
-}
-
-static bool read_function(struct reader *r, const struct token *word,
-			  struct il_line line)
-{
-	const struct word_row *row = words_row(&r->project->words, (enum word)line.word);
-
-	reader_next(r);
-	if (reader_is(r, '(')) {
-		line.kind = IL_CALL;
-		return read_call(r, &line);
-	}
-	if (reader_at_end(r) && (row->pin_count == 1 || /* of the result alone */
-				 word_is_own((enum word)line.word)))
-		return add_line(r, line);
-	if (!word_is_own((enum word)line.word))
-		return read_operand(r, word, &line);
-	return read_operand(r, word, &line) && read_more_operands(r, word, &line);
 }
 
 /* `AND(`, or `AND( A` with the first operand of what stands inside. */
@@ -194,6 +176,38 @@ static bool read_open(struct reader *r, const struct token *word,
 	return true;
 }
 
+/* Does `( PIN :=` or `( PIN =>` follow? */
+static bool is_formal(const struct reader *r)
+{
+	struct lex ahead = r->lex;
+
+	ahead.comments = false;
+	ahead.newlines = false;
+	lex_next(&ahead);
+	if (!lex_is(&ahead, "(") || lex_next(&ahead) != TOKEN_NAME)
+		return false;
+	lex_next(&ahead);
+	return lex_is(&ahead, ":=") || lex_is(&ahead, "=>");
+}
+
+static bool read_function(struct reader *r, const struct token *word,
+			  struct il_line line)
+{
+	const struct word_row *row = words_row(&r->project->words, (enum word)line.word);
+	bool own = word_is_own((enum word)line.word);
+
+	if (!own && word_opens(row) && reader_peek(r, "(") && !is_formal(r))
+		return read_open(r, word, line);
+	reader_next(r);
+	if (reader_is(r, '(')) {
+		line.kind = IL_CALL;
+		return read_call(r, &line);
+	}
+	if (reader_at_end(r) && (row->pin_count == 1 || own)) /* of the result alone */
+		return add_line(r, line);
+	return read_operand(r, word, &line) && read_more_operands(r, word, &line);
+}
+
 static bool read_label_operand(struct reader *r, const struct token *word,
 			       struct il_line line)
 {
@@ -211,20 +225,6 @@ static bool read_label_operand(struct reader *r, const struct token *word,
 		return false;
 	reader_next(r);
 	return true;
-}
-
-/* Does `( PIN :=` or `( PIN =>` follow? */
-static bool is_formal(const struct reader *r)
-{
-	struct lex ahead = r->lex;
-
-	ahead.comments = false;
-	ahead.newlines = false;
-	lex_next(&ahead);
-	if (!lex_is(&ahead, "(") || lex_next(&ahead) != TOKEN_NAME)
-		return false;
-	lex_next(&ahead);
-	return lex_is(&ahead, ":=") || lex_is(&ahead, "=>");
 }
 
 static bool read_operator(struct reader *r, struct il_line line)

@@ -32,6 +32,7 @@ struct pending {
 struct opened {
 	struct il_result left;        /* a number: own                        */
 	uint8_t op, modifiers;
+	enum word word;               /* of a function; 0: of an operator     */
 };
 
 struct list {
@@ -94,6 +95,8 @@ void list_place(struct list *list);
 /** list_logic - AND OR XOR with N and parentheses; list_close the other end. */
 void list_logic(struct list *list, const struct il_line *line);
 void list_close(struct list *list);
+/** list_open - AND( or ADD( : what stands left of it waits. */
+void list_open(struct list *list, const struct il_line *line);
 /** list_not - NOT on the result. */
 void list_not(struct list *list);
 /** list_invert - the result, bits of @type if it is a constant, inverted. */
@@ -132,6 +135,8 @@ uint32_t list_operand(struct list *list, const struct il_result *result,
 		      enum iec_type type);
 /** list_fn - a function on the result: ADD 5. */
 void list_fn(struct list *list, const struct il_line *line);
+/** list_close_fn - the function before a parenthesis that ends here. */
+void list_close_fn(struct list *list, const struct opened *open);
 /** list_call - a function with formal parameters; the lines behind it too. */
 void list_call(struct list *list);
 /** list_cal - a call of an instance; the lines behind it too. */
