@@ -78,6 +78,13 @@ static void add_place(struct block *block, const struct fault_place *at)
 		add(block, " (%u,%u)", (unsigned)at->row, (unsigned)at->col);
 }
 
+/* Of a list that was written; a fault's text has it already. */
+static void add_line(struct block *block, const struct fault_place *at)
+{
+	if (at->line)
+		add(block, ", %.60s line %u", at->pou, (unsigned)at->line);
+}
+
 static void add_state(struct block *block, const struct resource *resource)
 {
 	static const char *const state[] = {
@@ -91,9 +98,11 @@ static void add_state(struct block *block, const struct resource *resource)
 	add_place(block, &resource->fault_at);
 	if (resource->halted) {
 		add(block, "\nstop: the program says so");
+		add_line(block, &resource->halt_at);
 		add_place(block, &resource->halt_at);
 	}
 	add(block, "\nerrors: %u", (unsigned)resource->vm.errors);
+	add_line(block, &resource->error_at);
 	add_place(block, &resource->error_at);
 	add(block, "\nforces: %d\n", resource->image.force_count);
 }

@@ -53,13 +53,8 @@ static void report(struct calls *c, const struct il_line *line,
 		   enum diag_id id, const char *arg)
 {
 	const struct pou *pou = c->list[c->stack[c->depth - 1]].pou;
-	struct diag place = {
-		.id = id, .file = pou->file, .line = (int)line->line,
-		.pou = scope_text(c->scope, pou->name),
-		.rung = (int)line->rung, .row = line->row, .col = line->col,
-	};
 
-	c->good = diag_add(c->diags, place, "%s", arg);
+	c->good = diag_add(c->diags, il_place(c->scope, pou, line, id), "%s", arg);
 }
 
 static const char *name_of(struct calls *c, int pou)

@@ -8,16 +8,27 @@
 #include <string.h>
 #include <strings.h>
 
+struct diag il_place(const struct scope *scope, const struct pou *pou,
+		     const struct il_line *line, enum diag_id id)
+{
+	struct diag place = {
+		.id = id, .file = pou->file, .line = (int)line->line,
+		.pou = scope_text(scope, pou->name), .rung = (int)line->rung,
+	};
+
+	if (line->rung) {
+		place.row = line->row;
+		place.col = line->col;
+	} else {
+		place.column = line->col ? line->col : line->row;
+	}
+	return place;
+}
+
 bool il_report(struct il_check *c, const struct il_line *line,
 		   enum diag_id id, const char *arg)
 {
-	struct diag place = {
-		.id = id, .file = c->pou->file, .line = (int)line->line,
-		.pou = scope_text(c->scope, c->pou->name),
-		.rung = (int)line->rung, .row = line->row, .col = line->col,
-	};
-
-	return diag_add(c->diags, place, "%s", arg);
+	return diag_add(c->diags, il_place(c->scope, c->pou, line, id), "%s", arg);
 }
 
 bool il_report_types(struct il_check *c, const struct il_line *line,

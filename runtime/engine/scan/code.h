@@ -147,8 +147,10 @@ struct code_watched {
 struct code_place {     /* from this word of CODE_TEXT on                  */
 	uint32_t text;
 	uint32_t pou, rung; /* index in CODE_PROGRAMS; 1-based             */
-	uint16_t row, col;  /* 1-based; 0: none                            */
+	uint16_t row, col;  /* 1-based; 0: none. CODE_LINE: rung is a line
+			       of the file, in a list that was written     */
 };
+#define CODE_LINE UINT16_MAX
 
 #define CODE_OFFSET_BITS 24
 #define CODE_OFFSET(word) ((word) & 0xffffffu)

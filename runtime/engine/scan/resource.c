@@ -162,6 +162,10 @@ struct fault_place resource_place(const struct program *program, uint32_t text)
 
 	if (program->string_bytes)
 		out.pou = program->string + program->entry[place->pou].name;
+	if (place->col == CODE_LINE) {
+		out.line = place->rung;
+		return out;
+	}
 	out.rung = place->rung;
 	out.row = place->row;
 	out.col = place->col;
@@ -321,6 +325,32 @@ static size_t append(char *out, size_t at, size_t end, const char *text)
 	return at;
 }
 
+static size_t append_number(char *out, size_t at, size_t end, uint32_t number)
+{
+	char digits[12];
+	size_t i = sizeof(digits);
+
+	digits[--i] = '\0';
+	do
+		digits[--i] = (char)('0' + number % 10);
+	while (number /= 10);
+	return append(out, at, end, digits + i);
+}
+
+/* ": Main rung 3", ": Main line 12" */
+static void append_place(const struct fault_place *at, bool rung, char *out,
+			 size_t from, size_t end)
+{
+	uint32_t number = at->line ? at->line : at->rung;
+
+	if (!at->pou || !*at->pou || !number || (!rung && !at->line))
+		return;
+	from = append(out, from, end, ": ");
+	from = append(out, from, end - 18, at->pou);
+	from = append(out, from, end, at->line ? " line " : " rung ");
+	append_number(out, from, end, number);
+}
+
 void resource_fault_print(const struct resource *resource, char *out, size_t size)
 {
 	const char *task = resource->fault_at.task;
@@ -336,28 +366,16 @@ void resource_fault_print(const struct resource *resource, char *out, size_t siz
 		at = append(out, at, size / 2, task);
 		at = append(out, at, size, ": ");
 	}
-	append(out, at, size, text);
+	at = append(out, at, size, text);
+	append_place(&resource->fault_at, false, out, at, size);
 }
 
 void resource_halt_print(const struct resource *resource, char *out, size_t size)
 {
-	const struct fault_place *at = &resource->halt_at;
-	uint32_t number = at->rung;
-	char digits[12];
-	size_t to = append(out, 0, size, "STOP, outputs are safe: the program says so"), i = 0;
+	size_t at = append(out, 0, size,
+			   "STOP, outputs are safe: the program says so");
 
-	if (!at->pou || !*at->pou)
-		return;
-	to = append(out, to, size, ": ");
-	to = append(out, to, size - 20, at->pou);
-	if (!number)
-		return;
-	to = append(out, to, size, " rung ");
-	for (; number; number /= 10)
-		digits[i++] = (char)('0' + number % 10);
-	while (i > 0 && to + 1 < size)
-		out[to++] = digits[--i];
-	out[to] = '\0';
+	append_place(&resource->halt_at, true, out, at, size);
 }
 
 /* Orders places; row and col are small, POUs and rungs have their limits. */

@@ -17,6 +17,7 @@ struct fault_place {
 	const char *pou;        /* name, or ""; lives with the program        */
 	const char *task;       /* likewise, of a declared task; or NULL      */
 	uint32_t rung, row, col; /* 1-based; 0: unknown                       */
+	uint32_t line;          /* of the file instead, in a list; 0: unknown */
 };
 
 struct resource {

@@ -35,6 +35,11 @@ void list_place(struct list *list)
 		.pou = (uint32_t)(list->unit - as->translation->unit),
 		.rung = line->rung, .row = line->row, .col = line->col,
 	};
+	if (!line->rung) {
+		place->rung = line->line;
+		place->row = 0;
+		place->col = CODE_LINE;
+	}
 }
 
 /* ---- values that wait ---- */
