@@ -4,6 +4,8 @@
  */
 #include "engine/check/il_check.h"
 
+#include "engine/check/expect.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -48,6 +50,34 @@ const char *il_operand_text(struct il_check *c, const struct il_line *line)
 	return scope_text(c->scope, line->operand);
 }
 
+/* With the words of @want that may have been meant. A search through all names takes
+ * its time, so only the first few get it. */
+static bool report_near(struct il_check *c, const struct il_line *line,
+			enum diag_id id, const struct expect_want *want)
+{
+	char text[LIMIT_ARG];
+
+	if (c->diags->count >= SUGGEST_MOST)
+		return il_report(c, line, id, il_operand_text(c, line));
+	expect_nearest(c->scope, c->pou, want, il_operand_text(c, line), text,
+		       sizeof(text));
+	return il_report(c, line, id, text);
+}
+
+static void report_unknown(struct il_check *c, const struct il_line *line,
+			   enum diag_id why)
+{
+	struct expect_want want = { .kinds = EXPECT_VARIABLE | EXPECT_INSTANCE,
+				    .block = WORD_COUNT };
+
+	if (line->kind == IL_OP && line->op == OP_CAL)
+		want.kinds = EXPECT_INSTANCE | EXPECT_SUBROUTINE;
+	if (why == DIAG_UNKNOWN_NAME)
+		report_near(c, line, why, &want);
+	else
+		il_report(c, line, why, il_operand_text(c, line));
+}
+
 static const struct meaning *find(struct il_check *c, const struct il_line *line)
 {
 	enum diag_id why = DIAG_UNKNOWN_NAME;
@@ -65,7 +95,7 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 			 text);
 		il_report(c, line, why, array);
 	} else {
-		il_report(c, line, why, il_operand_text(c, line));
+		report_unknown(c, line, why);
 	}
 	return NULL;
 }
@@ -214,12 +244,14 @@ static bool is_label(struct il_check *c, uint32_t name)
 /* JMP and RET: with C the result must be there, without it nothing goes on. */
 static bool check_flow(struct il_check *c, const struct il_line *line)
 {
+	const struct expect_want labels = { .kinds = EXPECT_LABEL,
+					    .block = WORD_COUNT };
 	bool good = true;
 
 	if (c->depth > 0)
 		good = il_report(c, line, DIAG_IL_OPEN_PAREN, op_row(line->op)->word);
 	if (line->op == OP_JMP && !is_label(c, line->operand))
-		good = il_report(c, line, DIAG_NO_LABEL, il_operand_text(c, line));
+		good = report_near(c, line, DIAG_NO_LABEL, &labels);
 	if (line->modifiers & MOD_C)
 		return il_need_result(c, line) &&
 		       il_need_bool(c, line, c->now, "result") && good;

@@ -7,6 +7,7 @@
 #include "engine/check/check_operand.h"
 
 #include "engine/base/ascii.h"
+#include "engine/check/expect.h"
 #include "engine/model/args.h"
 #include "engine/model/loop.h"
 
@@ -32,6 +33,22 @@ static bool report(struct operand_check *c, enum diag_id id, struct spot at,
 	return good;
 }
 
+static void report_unknown(struct operand_check *c, struct spot at, uint32_t id,
+			   enum diag_id why)
+{
+	const struct expect_want want = { .kinds = EXPECT_VARIABLE | EXPECT_INSTANCE,
+					  .block = WORD_COUNT };
+	const char *name = project_text(c->project, id);
+	char text[LIMIT_ARG];
+
+	if (why != DIAG_UNKNOWN_NAME || c->diags->count >= SUGGEST_MOST) {
+		report(c, why, at, name);
+		return;
+	}
+	expect_nearest(c->scope, c->pou, &want, name, text, sizeof(text));
+	report(c, why, at, text);
+}
+
 /* The meaning of @id, or NULL after a diagnostic. */
 static const struct meaning *find(struct operand_check *c, struct spot at,
 				  uint32_t id)
@@ -40,7 +57,7 @@ static const struct meaning *find(struct operand_check *c, struct spot at,
 	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
 
 	if (!m)
-		report(c, why, at, project_text(c->project, id));
+		report_unknown(c, at, id, why);
 	else
 		uses_add_index(c->uses, m);
 	return m;
