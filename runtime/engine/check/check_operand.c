@@ -33,11 +33,11 @@ static bool report(struct operand_check *c, enum diag_id id, struct spot at,
 	return good;
 }
 
+/* @kinds: of the words that may have been meant. */
 static void report_unknown(struct operand_check *c, struct spot at, uint32_t id,
-			   enum diag_id why)
+			   enum diag_id why, unsigned int kinds)
 {
-	const struct expect_want want = { .kinds = EXPECT_VARIABLE | EXPECT_INSTANCE,
-					  .block = WORD_COUNT };
+	const struct expect_want want = { .kinds = kinds, .block = WORD_COUNT };
 	const char *name = project_text(c->project, id);
 	char text[LIMIT_ARG];
 
@@ -57,7 +57,7 @@ static const struct meaning *find(struct operand_check *c, struct spot at,
 	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
 
 	if (!m)
-		report_unknown(c, at, id, why);
+		report_unknown(c, at, id, why, EXPECT_VARIABLE | EXPECT_INSTANCE);
 	else
 		uses_add_index(c->uses, m);
 	return m;
@@ -386,9 +386,11 @@ static void check_routine(struct operand_check *c, struct spot at, uint32_t name
 {
 	const struct pou *pou = scope_pou(c->scope, c->pou, name);
 
-	if (!pou && !find(c, at, name))
-		return;
-	if (!pou || pou->kind != POU_SUBROUTINE)
+	enum diag_id why;
+
+	if (!pou && !scope_find(c->scope, c->pou, name, &why))
+		report_unknown(c, at, name, DIAG_UNKNOWN_NAME, EXPECT_SUBROUTINE);
+	else if (!pou || pou->kind != POU_SUBROUTINE)
 		report(c, DIAG_NOT_SUBROUTINE, at, project_text(c->project, name));
 }
 
