@@ -64,7 +64,7 @@ static int how_far(const struct nearest *nearest, const char *text, size_t len)
 	size_t wanted = nearest->len;
 
 	if (wanted >= 3 && len > wanted && ascii_same(text, nearest->wanted, wanted))
-		return 2;
+		return 1;
 	if (len > wanted + 3 || wanted > len + 3)
 		return NEAREST_MOST;
 	return distance(nearest->wanted, wanted, text, len);

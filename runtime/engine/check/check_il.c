@@ -336,6 +336,8 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 	count = read_inputs(c, at, in);
 	if (count < 0)
 		return false;
+	if (count > row->most_inputs && row->pin_count > 1)
+		return il_report(c, line, DIAG_NO_PIN, row->word);
 	if (count < row->pin_count || count > row->most_inputs)
 		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
 	runs = overloaded(line, in, count);
