@@ -10,6 +10,7 @@
 #include "engine/model/args.h"
 
 #include <string.h>
+#include <strings.h>
 
 static int bar_at(const struct rung *rung, int row, int bar)
 {
@@ -188,6 +189,16 @@ static int rung_labelled(const struct pou *pou, uint32_t label,
 	return -1;
 }
 
+static int routine_named(const struct project *project, const char *name)
+{
+	int i = 0;
+
+	while (i < project->pou_count &&
+	       strcasecmp(project_text(project, project->pou[i].name), name) != 0)
+		i++;
+	return i < project->pou_count ? i : -1;
+}
+
 static bool make_element(struct walker *walker, const struct pou *pou,
 			 struct walked_rung *walked, struct walked *at)
 {
@@ -212,6 +223,9 @@ static bool make_element(struct walker *walker, const struct pou *pou,
 		at->target = rung_labelled(pou, cell->operand,
 					   &walker->project->names);
 		return at->target >= 0;
+	case OPND_ROUTINE:
+		at->target = routine_named(walker->project, text);
+		return at->target >= 0;
 	case OPND_EXPR:
 	case OPND_ASSIGN:
 		at->expression = expression_new(walker, pou, text);
@@ -220,7 +234,6 @@ static bool make_element(struct walker *walker, const struct pou *pou,
 		return true;
 	case OPND_LOOP:
 	case OPND_LOOP_END:
-	case OPND_ROUTINE:
 	case OPND_ANY_R:
 	case OPND_ANY_W:
 	case OPND_INSTANCE:
