@@ -405,7 +405,7 @@ static void report(struct random_program *program, uint64_t seed)
 
 struct options {
 	uint64_t seed, count;
-	bool endless, show_refused;
+	bool endless, show_refused, text;
 };
 
 static bool read_options(int argc, char **argv, struct options *options)
@@ -417,6 +417,8 @@ static bool read_options(int argc, char **argv, struct options *options)
 			options->endless = true;
 		else if (strcmp(argv[i], "--refused") == 0)
 			options->show_refused = true;
+		else if (strcmp(argv[i], "--text") == 0)
+			options->text = true;
 		else if (strcmp(argv[i], "--values") == 0)
 			values_only = true;
 		else if (more && strcmp(argv[i], "--seed") == 0)
@@ -429,6 +431,18 @@ static bool read_options(int argc, char **argv, struct options *options)
 	return true;
 }
 
+/* The program of a seed, for other tests. */
+static int print_program(uint64_t seed)
+{
+	static struct random_program program;
+	static char text[TEXT_MAX];
+
+	random_make(&program, seed);
+	random_print(&program, text, sizeof(text));
+	fputs(text, stdout);
+	return 0;
+}
+
 int main(int argc, char **argv)
 {
 	struct options options = { .seed = 1, .count = DIFFERENTIAL_COUNT };
@@ -438,9 +452,11 @@ int main(int argc, char **argv)
 
 	if (!read_options(argc, argv, &options)) {
 		fprintf(stderr, "usage: differential [--seed S] [--count N] "
-			"[--long] [--refused] [--values]\n");
+			"[--long] [--refused] [--values] [--text]\n");
 		return 2;
 	}
+	if (options.text)
+		return print_program(options.seed);
 	if (options.endless) {
 		options.seed = (uint64_t)time(NULL) * 1000000;
 		options.count = UINT64_MAX - options.seed;

@@ -4,7 +4,7 @@
  *
  * read, check, translate, verify. What it made it owns; it prints nothing.
  */
-#include "engine/ladder.h"
+#include "engine/ladder_inside.h"
 
 #include "engine/base/file.h"
 #include "engine/check/check.h"
@@ -352,6 +352,11 @@ struct diag_list *ladder_diags(struct ladder *ladder)
 struct project *ladder_project(struct ladder *ladder)
 {
 	return ladder->good ? ladder->project : NULL;
+}
+
+struct project *ladder_read_project(struct ladder *ladder)
+{
+	return ladder->project;
 }
 
 const struct program *ladder_program(const struct ladder *ladder)

@@ -59,6 +59,31 @@ struct var *const *ladder_temporaries(const struct ladder *ladder, int pou,
 /** ladder_memory - bytes taken by project, translation and image. */
 size_t ladder_memory(const struct ladder *ladder);
 
+/* A word that could stand at a place. */
+struct ladder_word {
+	const char *kind;    /* "variable", "operator"                        */
+	const char *text;
+	const char *note;    /* its type, or what it does; "" for nothing     */
+};
+struct ladder_place {
+	size_t prefix_len;   /* bytes before the cursor that are of the word  */
+	int words;
+};
+
+/**
+ * ladder_complete - what could stand before the cursor, in no order
+ * @text: of the file that was loaded last; it may have errors
+ * @line, @column: 1-based, bytes; the cursor stands before it
+ * @take: is handed every word that begins with what stands there; NULL: none
+ *
+ * Owns: nothing; a word lives until @take returns.   Scan-safe: no.
+ * Fails: false if there is no such place, an image was loaded, or memory is out.
+ */
+bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int line,
+		     int column,
+		     void (*take)(void *context, const struct ladder_word *word),
+		     void *context, struct ladder_place *place);
+
 /**
  * ladder_write - the canonical text of the project
  * @len: gets its length without the closing NUL

@@ -270,7 +270,7 @@ bool board_is_on(const struct board *board, const struct lamp *lamp)
 {
 	struct iec_addr addr = address_of(lamp->at);
 
-	if (board->resource->state != STATE_FAULT || addr.area != AREA_Q)
+	if (board->resource->state == STATE_RUN || addr.area != AREA_Q)
 		return image_get_bit(&board->resource->image, lamp->at.area,
 				     lamp->at.where);
 	for (int i = 0; board->mapped && i < board->map.count; i++) {

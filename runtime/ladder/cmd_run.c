@@ -27,6 +27,14 @@ static enum status tell_fault(const struct board *board, const char *path)
 	return STATUS_NO;
 }
 
+static void tell_halt(const struct board *board, struct trace *trace)
+{
+	char text[96];
+
+	resource_halt_print(board->resource, text, sizeof(text));
+	trace_note(trace, text, strlen(text));
+}
+
 static bool add_columns(struct trace *trace, const struct board *board)
 {
 	struct diag place = { .file = "ladder run" };
@@ -74,11 +82,14 @@ static enum status run_plain(struct call *call, struct board *board,
 		}
 		good = board_scan(board, pace_step(pace));
 		trace_scan(&trace, pace->scans, pace->now_ns);
+		if (board->resource->halted)
+			tell_halt(board, &trace);
 		if (!report_flush(call))
 			break;
 	}
 	trace_free(&trace);
-	return good ? STATUS_GOOD : tell_fault(board, call->arg[0]);
+	return good || board->resource->halted ? STATUS_GOOD :
+						 tell_fault(board, call->arg[0]);
 }
 
 static enum status apply_settings(struct call *call, struct board *board)

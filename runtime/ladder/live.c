@@ -83,6 +83,12 @@ static void put_state(struct live *live)
 		screen_put(screen, STYLE_BAD, text);
 		return;
 	}
+	if (resource->halted) {
+		resource_halt_print(resource, text, sizeof(text));
+		screen_put(screen, STYLE_BAD, " ");
+		screen_put(screen, STYLE_BAD, text);
+		return;
+	}
 	screen_put(screen, live->paused ? STYLE_BOLD : STYLE_GOOD,
 		   live->paused ? " PAUSE" : " RUN");
 	snprintf(text, sizeof(text), "   scan %llu   t ",

@@ -78,6 +78,13 @@ static void add_place(struct block *block, const struct fault_place *at)
 		add(block, " (%u,%u)", (unsigned)at->row, (unsigned)at->col);
 }
 
+/* Of a list that was written; a fault's text has it already. */
+static void add_line(struct block *block, const struct fault_place *at)
+{
+	if (at->line)
+		add(block, ", %.60s line %u", at->pou, (unsigned)at->line);
+}
+
 static void add_state(struct block *block, const struct resource *resource)
 {
 	static const char *const state[] = {
@@ -89,7 +96,13 @@ static void add_state(struct block *block, const struct resource *resource)
 	resource_fault_print(resource, fault, sizeof(fault));
 	add(block, "state: %s\nfault: %s", state[resource->state], fault);
 	add_place(block, &resource->fault_at);
+	if (resource->halted) {
+		add(block, "\nstop: the program says so");
+		add_line(block, &resource->halt_at);
+		add_place(block, &resource->halt_at);
+	}
 	add(block, "\nerrors: %u", (unsigned)resource->vm.errors);
+	add_line(block, &resource->error_at);
 	add_place(block, &resource->error_at);
 	add(block, "\nforces: %d\n", resource->image.force_count);
 }
@@ -186,6 +199,16 @@ void control_tell_error(const char *text, const char *why)
 	struct block block = { .len = 0 };
 
 	add(&block, "ladderd: %.80s: %.200s\n", text, why);
+	put(STDERR_FILENO, block.text, block.len, false);
+}
+
+void control_tell_halt(const struct cycle *cycle)
+{
+	struct block block = { .len = 0 };
+	char text[96];
+
+	resource_halt_print(&cycle->resource, text, sizeof(text));
+	add(&block, "ladderd: %s\n", text);
 	put(STDERR_FILENO, block.text, block.len, false);
 }
 

@@ -68,6 +68,17 @@ static void tend_lines(struct cycle *cycle, int64_t now_ns)
 		hal_reopen(&cycle->hal);
 }
 
+/* The program asked for it. Only a reset goes on. */
+static void enter_stop(struct cycle *cycle)
+{
+	hal_write_safe(&cycle->hal);
+	cycle->tended_ns = clock_now();
+	control_tell_halt(cycle);
+	if (cycle->store)
+		store_hurry(cycle->store);
+	notify_send(&cycle->notify, "STATUS=STOP, outputs are safe");
+}
+
 static void start(struct cycle *cycle)
 {
 	resource_start(&cycle->resource);
@@ -79,8 +90,8 @@ static void reset(struct cycle *cycle)
 {
 	struct resource *resource = &cycle->resource;
 
-	if (resource->state != STATE_FAULT) {
-		control_tell("not in FAULT, nothing to reset");
+	if (resource->state == STATE_RUN) {
+		control_tell("in RUN, nothing to reset");
 		return;
 	}
 	if ((hal_quality(&cycle->hal) == QUALITY_FAULT &&
@@ -118,7 +129,7 @@ static bool scan_program(struct cycle *cycle, int64_t now_ns)
 	struct resource *resource = &cycle->resource;
 	struct store *store = cycle->store;
 
-	if (!resource_scan(resource, now_ns))
+	if (!resource_scan(resource, now_ns) && !resource->halted)
 		return false;
 	if (store)
 		store_take(store, &resource->image, now_ns);
@@ -139,6 +150,8 @@ static enum fault scan_lines(struct cycle *cycle, int64_t now_ns)
 		return resource->fault;
 	if (cycle->monitor.tripped)
 		return FAULT_WATCHDOG;
+	if (resource->halted)
+		return hal_write_safe(&cycle->hal) ? FAULT_NONE : FAULT_IO;
 	return WritePhysicalOutputs(&cycle->hal, image, now_ns) ? FAULT_NONE :
 								  FAULT_IO;
 }
@@ -190,6 +203,8 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 		fault = FAULT_WATCHDOG;
 	if (fault != FAULT_NONE)
 		enter_fault(cycle, fault);
+	else if (resource->halted)
+		enter_stop(cycle);
 }
 
 /* Sleeps until @due_ns, awake for requests. */
@@ -224,7 +239,7 @@ static bool is_done(const struct cycle *cycle)
 	if (!cycle->most_scans)
 		return false;
 	return cycle->scans >= cycle->most_scans ||
-	       cycle->resource.state == STATE_FAULT;
+	       cycle->resource.state != STATE_RUN;
 }
 
 int cycle_run(struct cycle *cycle)

@@ -10,6 +10,7 @@
 #include "engine/model/args.h"
 
 #include <string.h>
+#include <strings.h>
 
 static int bar_at(const struct rung *rung, int row, int bar)
 {
@@ -194,6 +195,16 @@ static int rung_labelled(const struct pou *pou, uint32_t label,
 	return -1;
 }
 
+static int routine_named(const struct project *project, const char *name)
+{
+	int i = 0;
+
+	while (i < project->pou_count &&
+	       strcasecmp(project_text(project, project->pou[i].name), name) != 0)
+		i++;
+	return i < project->pou_count ? i : -1;
+}
+
 static bool make_element(struct walker *walker, const struct pou *pou,
 			 struct walked_rung *walked, struct walked *at)
 {
@@ -217,6 +228,9 @@ static bool make_element(struct walker *walker, const struct pou *pou,
 	case OPND_LABEL:
 		at->target = rung_labelled(pou, cell->operand,
 					   &walker->project->names);
+		return at->target >= 0;
+	case OPND_ROUTINE:
+		at->target = routine_named(walker->project, text);
 		return at->target >= 0;
 	case OPND_EXPR:
 	case OPND_ASSIGN:

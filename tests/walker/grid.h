@@ -26,7 +26,7 @@ struct walked {
 	struct parameter *parameter;
 	int parameter_count;
 	enum iec_type inputs; /* common type of a function                    */
-	int target;           /* rung a jump goes to                          */
+	int target;           /* rung a jump goes to, POU that CALL runs      */
 	bool memory;          /* of an edge                                   */
 	bool done;            /* in this evaluation                           */
 	bool power_in, power_out;

@@ -69,6 +69,8 @@ struct walker {
 	uint64_t scans;
 	uint32_t errors, errors_before;
 	uint32_t steps;
+	bool lost;                  /* more steps than there may be          */
+	bool halted;                /* a STOP had power                      */
 	struct walked_pou *pou;
 	const char *why;            /* of what cannot be walked              */
 };

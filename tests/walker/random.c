@@ -417,6 +417,28 @@ static void make_loop(struct random_program *program)
 	first->off = back->off = clear->off = false;
 }
 
+/* Some cells of the programs become calls of the subroutine, ends and stops. */
+static void add_flow(struct random_source *source, struct random_program *program,
+		     struct random_rung *rung)
+{
+	bool called = program->routine && rung->pou == 1;
+
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		struct random_cell *cell =
+			&rung->cell[i / RANDOM_COLS][i % RANDOM_COLS];
+		bool box = cell->kind == RANDOM_SERIES ||
+			   (cell->kind == RANDOM_BOX && cell->text[0] == '[');
+
+		if (program->routine && !called && box &&
+		    random_chance(source, 15))
+			snprintf(cell->text, sizeof(cell->text), "CALL Other");
+		if (cell->kind != RANDOM_LAST || !random_chance(source, 3))
+			continue;
+		snprintf(cell->text, sizeof(cell->text), "%s",
+			 random_chance(source, 30) ? "STOP" : called ? "RET" : "END");
+	}
+}
+
 void random_make(struct random_program *program, uint64_t seed)
 {
 	struct random_source source;
@@ -425,7 +447,7 @@ void random_make(struct random_program *program, uint64_t seed)
 	random_seed(&source, seed);
 	memset(program, 0, sizeof(*program));
 	program->rungs = 1 + (int)random_below(&source, 8);
-	second = random_chance(&source, 15) ? program->rungs / 2 + 1 :
+	second = random_chance(&source, 25) ? program->rungs / 2 + 1 :
 					      program->rungs;
 	for (int i = 0; i < program->rungs; i++) {
 		struct random_rung *rung = &program->rung[i];
@@ -437,8 +459,11 @@ void random_make(struct random_program *program, uint64_t seed)
 		rung->pou = i >= second;
 		draw_rung(&source, rung, random_chance(&source, 60) ? later : 0);
 	}
-	for (int i = 0; i < program->rungs; i++)
+	program->routine = second < program->rungs && random_chance(&source, 60);
+	for (int i = 0; i < program->rungs; i++) {
+		add_flow(&source, program, &program->rung[i]);
 		program->rung[i].label = i + 1;
+	}
 	program->rung[random_below(&source, (uint32_t)program->rungs)].off =
 		random_chance(&source, 10);
 	if (program->rungs >= 4 && second == program->rungs &&
@@ -505,23 +530,26 @@ static void print_rung(const struct random_program *program,
 size_t random_print(const struct random_program *program, char *out,
 		    size_t size)
 {
-	static const char *const head[] = { "PROGRAM Main LD\n",
-					    "END_PROGRAM\nPROGRAM Other LD\n"
-					    "VAR\n  bool_b : BOOL;\n"
-					    "  int_b : INT;\nEND_VAR\n" };
+	const char *kind = program->routine ? "SUBROUTINE" : "PROGRAM";
+	static const char vars[] = "VAR\n  bool_b : BOOL;\n  int_b : INT;\nEND_VAR\n";
+	char line[64];
 	char body[48 * 1024];
 	struct page page = { body, sizeof(body), 0 };
 	struct page whole = { out, size, 0 };
 	int pou = 0;
 
-	add(&page, head[0]);
+	add(&page, "PROGRAM Main LD\n");
 	for (int i = 0; i < program->rungs; i++) {
-		if (program->rung[i].pou != pou)
-			add(&page, head[1]);
+		if (program->rung[i].pou != pou) {
+			snprintf(line, sizeof(line), "END_PROGRAM\n%s Other LD\n", kind);
+			add(&page, line);
+			add(&page, vars);
+		}
 		pou = program->rung[i].pou;
 		print_rung(program, &program->rung[i], &page);
 	}
-	add(&page, "END_PROGRAM\n");
+	snprintf(line, sizeof(line), "END_%s\n", pou ? kind : "PROGRAM");
+	add(&page, line);
 	add(&whole, "RUNGBOARD 1\n");
 	whole.used += random_declare(body, out + whole.used, size - whole.used);
 	add(&whole, body);

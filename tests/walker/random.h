@@ -39,6 +39,7 @@ struct random_rung {
 };
 
 struct random_program {
+	bool routine;  /* the second POU is a SUBROUTINE                     */
 	int rungs;
 	struct random_rung rung[RANDOM_RUNGS];
 };

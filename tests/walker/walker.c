@@ -237,14 +237,24 @@ static bool is_output(const struct walked *at)
 
 	if (row->place == PLACE_LAST)
 		return true;
-	return !at->read && (row->kind != WORD_ELEM ||
+	return !at->read && (row->kind != WORD_ELEM || at->word == ELEM_CALL ||
 			     (at->expression && expression_assigns(at->expression)));
 }
 
 static bool acts_last(const struct walked *at)
 {
 	return word_row(at->word)->place == PLACE_LAST ||
-	       (!at->read && at->expression && expression_assigns(at->expression));
+	       (!at->read && (at->word == ELEM_CALL ||
+			      (at->expression && expression_assigns(at->expression))));
+}
+
+static bool walk_pou(struct walker *walker, struct walked_pou *walked);
+
+static void call_routine(struct walker *walker, struct walked *at, bool power)
+{
+	at->power_out = power;
+	if (power && !walk_pou(walker, &walker->pou[at->target]))
+		walker->lost = true;
 }
 
 /* Phase 1 of one element, its feeders being done. */
@@ -259,7 +269,9 @@ static void pass(struct walker *walker, struct walked_rung *walked,
 	walker->steps++;
 	if (acts_last(at))
 		return;
-	if (at->block)
+	if (at->word == ELEM_CALL)
+		call_routine(walker, at, power);
+	else if (at->block)
 		at->power_out = call_block(walker, walked, at, power);
 	else if (word_row(at->word)->kind == WORD_FN)
 		at->power_out = call_function(walker, walked, at, power);
@@ -307,6 +319,10 @@ static void drive(struct walker *walker, struct walked *at)
 		put(walker, to, value_bool(power && !before));
 	else if (at->word == ELEM_COIL_N)
 		put(walker, to, value_bool(!power && before));
+	else if (at->word == ELEM_STOP)
+		walker->halted |= power;
+	else if (at->word == ELEM_CALL)
+		call_routine(walker, at, power);
 	else if (at->expression)
 		at->power_out = expression_run(walker, at->expression, power);
 	at->memory = power;
@@ -326,7 +342,8 @@ static int walk_rung(struct walker *walker, struct walked_rung *walked)
 			visit(walker, walked, &walked->element[i]);
 	for (int i = 0; i < walked->count; i++) {
 		struct walked *at = &walked->element[i];
-		bool jump = at->word == ELEM_JUMP || at->word == ELEM_RETURN;
+		bool jump = at->word == ELEM_JUMP || at->word == ELEM_RETURN ||
+			    at->word == ELEM_END;
 
 		if (!jump && acts_last(at))
 			drive(walker, at);
@@ -343,7 +360,7 @@ static bool walk_pou(struct walker *walker, struct walked_pou *walked)
 	for (int i = 0; i < walked->pou->rung_count;) {
 		int next = RUNG_NEXT;
 
-		if (++walker->steps > STEPS_MAX)
+		if (++walker->steps > STEPS_MAX || walker->lost)
 			return false;
 		if (walked->rung[i].rung)
 			next = walk_rung(walker, &walked->rung[i]);
@@ -365,6 +382,8 @@ static void set_system(struct walker *walker, enum sys_id id, int64_t value)
 
 bool walker_scan(struct walker *walker, int64_t now_ns)
 {
+	if (walker->halted)
+		return false;
 	walker->now_ns = now_ns;
 	walker->steps = 0;
 	set_system(walker, SYS_ALWAYS_ON, 1);
@@ -379,9 +398,10 @@ bool walker_scan(struct walker *walker, int64_t now_ns)
 	walker->errors_before = walker->errors;
 	walker->scans++;
 	for (int i = 0; i < walker->project->pou_count; i++)
-		if (!walk_pou(walker, &walker->pou[i]))
+		if (walker->project->pou[i].kind == POU_PROGRAM &&
+		    !walk_pou(walker, &walker->pou[i]))
 			return false;
-	return true;
+	return !walker->lost && !walker->halted;
 }
 
 int walker_count(const struct walker *walker)

@@ -185,6 +185,12 @@ bool word_is_test(const struct word_row *row)
 	return row->kind == WORD_FN && row->result == IEC_BOOL;
 }
 
+bool word_opens(const struct word_row *row)
+{
+	return row->kind == WORD_FN && row->pin_count == 2 && !row->pin[0].own &&
+	       !row->pin[1].own && (row->result == IEC_BOOL || word_shares(row));
+}
+
 bool word_shares(const struct word_row *row)
 {
 	return row->result == RESULT_SAME || row->result == (int)RESULT_GATE;

@@ -76,7 +76,7 @@ enum place {
 enum operand_kind {
 	OPND_NONE, OPND_BOOL_R, OPND_BOOL_W, OPND_ANY_R, OPND_ANY_W,
 	OPND_LABEL, OPND_INSTANCE, OPND_EXPR, OPND_ASSIGN, OPND_PIN,
-	OPND_LOOP, OPND_LOOP_END,
+	OPND_LOOP, OPND_LOOP_END, OPND_ROUTINE,
 };
 
 enum edge { EDGE_NONE, EDGE_RISING, EDGE_FALLING };
@@ -154,6 +154,9 @@ int word_pin_find(const struct word_row *row, const char *name, size_t len);
 /** word_is_test - a function whose result is always BOOL: power behind it is EN and the
  * result. */
 bool word_is_test(const struct word_row *row);
+/** word_opens - may it stand before a parenthesis in IL, as ADD( does? A function of two
+ * values of one type. */
+bool word_opens(const struct word_row *row);
 /** word_shares - a function whose result has the type that its inputs share. */
 bool word_shares(const struct word_row *row);
 /** word_operator - the IL operator of a function's name; OP_COUNT: none. */

@@ -19,6 +19,7 @@ struct calls {
 	const struct il_pou *list;
 	struct diag_list *diags;
 	uint8_t *state;   /* by POU                                          */
+	uint8_t *called;  /* by POU                                          */
 	int *deep;        /* by POU: calls inside one another from it on     */
 	int *stack, *at;  /* POUs in work; the line to look at next          */
 	int depth;
@@ -32,6 +33,11 @@ static int callee(struct calls *c, const struct pou *pou,
 	const struct meaning *m;
 	const struct pou *to = NULL;
 	enum diag_id why;
+
+	if (line->kind == IL_OP && line->op == OP_CAL)
+		to = scope_pou(c->scope, pou, line->operand);
+	if (to)
+		return (int)(to - c->project->pou);
 
 	if (line->kind == IL_FN || line->kind == IL_CALL)
 		to = shape_pou(c->project, (enum word)line->word);
@@ -47,13 +53,8 @@ static void report(struct calls *c, const struct il_line *line,
 		   enum diag_id id, const char *arg)
 {
 	const struct pou *pou = c->list[c->stack[c->depth - 1]].pou;
-	struct diag place = {
-		.id = id, .file = pou->file, .line = (int)line->line,
-		.pou = scope_text(c->scope, pou->name),
-		.rung = (int)line->rung, .row = line->row, .col = line->col,
-	};
 
-	c->good = diag_add(c->diags, place, "%s", arg);
+	c->good = diag_add(c->diags, il_place(c->scope, pou, line, id), "%s", arg);
 }
 
 static const char *name_of(struct calls *c, int pou)
@@ -101,6 +102,8 @@ static void step(struct calls *c)
 	}
 	line = &il->line[c->at[c->depth - 1]];
 	to = callee(c, c->list[top].pou, line);
+	if (to >= 0)
+		c->called[to] = 1;
 	if (to >= 0 && c->state[to] == STATE_OPEN) {
 		begin(c, to);
 		return;
@@ -120,6 +123,19 @@ static void step(struct calls *c)
 	}
 }
 
+/* A subroutine that nobody calls never runs. */
+static void warn_of_uncalled(struct calls *c, int count)
+{
+	for (int i = 0; i < count; i++) {
+		const struct pou *pou = c->list[i].pou;
+		struct diag place = { .id = DIAG_NEVER_CALLED, .file = pou->file,
+				      .line = pou->line };
+
+		if (pou->kind == POU_SUBROUTINE && !c->called[i])
+			diag_add(c->diags, place, "%s", name_of(c, i));
+	}
+}
+
 bool check_calls(struct scope *scope, const struct il_pou *list, int count,
 		 struct arena *scratch, struct diag_list *diags)
 {
@@ -130,10 +146,11 @@ bool check_calls(struct scope *scope, const struct il_pou *list, int count,
 	};
 
 	c.state = arena_alloc(scratch, size);
+	c.called = arena_alloc(scratch, size);
 	c.deep = arena_alloc(scratch, size * sizeof(int));
 	c.stack = arena_alloc(scratch, size * sizeof(int));
 	c.at = arena_alloc(scratch, size * sizeof(int));
-	if (!c.state || !c.deep || !c.stack || !c.at)
+	if (!c.state || !c.called || !c.deep || !c.stack || !c.at)
 		return false;
 	for (int i = 0; i < count; i++) {
 		if (c.state[i] == STATE_OPEN)
@@ -141,5 +158,6 @@ bool check_calls(struct scope *scope, const struct il_pou *list, int count,
 		while (c.depth > 0)
 			step(&c);
 	}
+	warn_of_uncalled(&c, count);
 	return c.good;
 }

@@ -4,20 +4,33 @@
  */
 #include "engine/check/il_check.h"
 
+#include "engine/check/expect.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
+struct diag il_place(const struct scope *scope, const struct pou *pou,
+		     const struct il_line *line, enum diag_id id)
+{
+	struct diag place = {
+		.id = id, .file = pou->file, .line = (int)line->line,
+		.pou = scope_text(scope, pou->name), .rung = (int)line->rung,
+	};
+
+	if (line->rung) {
+		place.row = line->row;
+		place.col = line->col;
+	} else {
+		place.column = line->col ? line->col : line->row;
+	}
+	return place;
+}
+
 bool il_report(struct il_check *c, const struct il_line *line,
 		   enum diag_id id, const char *arg)
 {
-	struct diag place = {
-		.id = id, .file = c->pou->file, .line = (int)line->line,
-		.pou = scope_text(c->scope, c->pou->name),
-		.rung = (int)line->rung, .row = line->row, .col = line->col,
-	};
-
-	return diag_add(c->diags, place, "%s", arg);
+	return diag_add(c->diags, il_place(c->scope, c->pou, line, id), "%s", arg);
 }
 
 bool il_report_types(struct il_check *c, const struct il_line *line,
@@ -37,6 +50,34 @@ const char *il_operand_text(struct il_check *c, const struct il_line *line)
 	return scope_text(c->scope, line->operand);
 }
 
+/* With the words of @want that may have been meant. A search through all names takes
+ * its time, so only the first few get it. */
+static bool report_near(struct il_check *c, const struct il_line *line,
+			enum diag_id id, const struct expect_want *want)
+{
+	char text[LIMIT_ARG];
+
+	if (c->diags->count >= SUGGEST_MOST)
+		return il_report(c, line, id, il_operand_text(c, line));
+	expect_nearest(c->scope, c->pou, want, il_operand_text(c, line), text,
+		       sizeof(text));
+	return il_report(c, line, id, text);
+}
+
+static void report_unknown(struct il_check *c, const struct il_line *line,
+			   enum diag_id why)
+{
+	struct expect_want want = { .kinds = EXPECT_VARIABLE | EXPECT_INSTANCE,
+				    .block = WORD_COUNT };
+
+	if (line->kind == IL_OP && line->op == OP_CAL)
+		want.kinds = EXPECT_INSTANCE | EXPECT_SUBROUTINE;
+	if (why == DIAG_UNKNOWN_NAME)
+		report_near(c, line, why, &want);
+	else
+		il_report(c, line, why, il_operand_text(c, line));
+}
+
 static const struct meaning *find(struct il_check *c, const struct il_line *line)
 {
 	enum diag_id why = DIAG_UNKNOWN_NAME;
@@ -54,7 +95,7 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 			 text);
 		il_report(c, line, why, array);
 	} else {
-		il_report(c, line, why, il_operand_text(c, line));
+		report_unknown(c, line, why);
 	}
 	return NULL;
 }
@@ -203,12 +244,14 @@ static bool is_label(struct il_check *c, uint32_t name)
 /* JMP and RET: with C the result must be there, without it nothing goes on. */
 static bool check_flow(struct il_check *c, const struct il_line *line)
 {
+	const struct expect_want labels = { .kinds = EXPECT_LABEL,
+					    .block = WORD_COUNT };
 	bool good = true;
 
 	if (c->depth > 0)
 		good = il_report(c, line, DIAG_IL_OPEN_PAREN, op_row(line->op)->word);
 	if (line->op == OP_JMP && !is_label(c, line->operand))
-		good = il_report(c, line, DIAG_NO_LABEL, il_operand_text(c, line));
+		good = report_near(c, line, DIAG_NO_LABEL, &labels);
 	if (line->modifiers & MOD_C)
 		return il_need_result(c, line) &&
 		       il_need_bool(c, line, c->now, "result") && good;
@@ -236,6 +279,32 @@ bool il_can_write(struct il_check *c, const struct il_line *line,
 
 /* ---- functions and calls ---- */
 
+static bool is_arg(const struct il_check *c, int at)
+{
+	return at < c->il->count && (c->il->line[at].kind == IL_ARG_IN ||
+				     c->il->line[at].kind == IL_ARG_OUT);
+}
+
+/* The operands behind the first input: `MAX Low, High`. -1 after a diagnostic. */
+static int read_inputs(struct il_check *c, int at, struct result *in)
+{
+	int count = 1;
+
+	for (int i = at; i == at ? c->il->line[i].operand != 0 : is_arg(c, i); i++) {
+		const struct meaning *m = il_value_of(c, &c->il->line[i]);
+
+		if (!m)
+			return -1;
+		if (count == LIMIT_FN_INPUTS) {
+			il_report(c, &c->il->line[i], DIAG_NO_PIN,
+				  il_operand_text(c, &c->il->line[i]));
+			return -1;
+		}
+		in[count++] = il_result_of(m);
+	}
+	return count;
+}
+
 /* The line with the word that it is on inputs of these types. */
 static struct il_line overloaded(const struct il_line *line, const struct result *in,
 				 int count)
@@ -254,21 +323,21 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 	const struct il_line *line = &c->il->line[at];
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
 	struct il_line runs;
-	struct result in[2] = { c->now };
+	struct result in[LIMIT_FN_INPUTS] = { c->now };
 	enum iec_type stored;
-	int count = 1;
+	int count;
 
 	if (!il_need_result(c, line))
 		return false;
+	if (line->modifiers & MOD_PAREN)
+		return il_open_paren(c, line, true);
 	c->now = (struct result){ .there = true,
 		.type = word_is_test(row) ? IEC_BOOL : IEC_NONE };
-	if (line->operand) {
-		const struct meaning *m = il_value_of(c, line);
-
-		if (!m)
-			return false;
-		in[count++] = il_result_of(m);
-	}
+	count = read_inputs(c, at, in);
+	if (count < 0)
+		return false;
+	if (count > row->most_inputs && row->pin_count > 1)
+		return il_report(c, line, DIAG_NO_PIN, row->word);
 	if (count < row->pin_count || count > row->most_inputs)
 		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
 	runs = overloaded(line, in, count);
@@ -280,12 +349,6 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 		.there = true, .type = fn_result(row, *common, stored),
 	};
 	return true;
-}
-
-static bool is_arg(const struct il_check *c, int at)
-{
-	return at < c->il->count && (c->il->line[at].kind == IL_ARG_IN ||
-				     c->il->line[at].kind == IL_ARG_OUT);
 }
 
 /* Type of the variable behind OUT =>. */
@@ -374,12 +437,34 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	return good;
 }
 
+/* CAL of a SUBROUTINE, which has no parameters. */
+static bool check_routine(struct il_check *c, int at, const struct pou *to)
+{
+	const struct il_line *line = &c->il->line[at];
+	bool good = true;
+
+	if (to->kind != POU_SUBROUTINE)
+		return il_report(c, line, DIAG_NOT_SUBROUTINE, il_operand_text(c, line));
+	if (line->modifiers & MOD_C)
+		good = il_need_result(c, line) &&
+		       il_need_bool(c, line, c->now, "result");
+	if (is_arg(c, at + 1))
+		good = il_report(c, &c->il->line[at + 1], DIAG_NO_PIN,
+				 scope_text(c->scope, c->il->line[at + 1].pin));
+	c->now.there = false;
+	return good;
+}
+
 static bool check_cal(struct il_check *c, int at)
 {
 	const struct il_line *line = &c->il->line[at];
-	const struct meaning *m = find(c, line);
+	const struct pou *routine = scope_pou(c->scope, c->pou, line->operand);
+	const struct meaning *m;
 	bool good = true;
 
+	if (routine)
+		return check_routine(c, at, routine);
+	m = find(c, line);
 	if (!m)
 		return false;
 	if (m->kind != MEANING_INSTANCE)
@@ -422,6 +507,10 @@ static bool check_op(struct il_check *c, int at)
 		return check_flow(c, line);
 	case OP_CAL:
 		return check_cal(c, at);
+	case OP_STP:
+		return !(line->modifiers & MOD_C) ||
+		       (il_need_result(c, line) &&
+			il_need_bool(c, line, c->now, "result"));
 	case OP_COUNT:
 		break;
 	}
@@ -448,8 +537,7 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 			return il_check_struct_move(c, at);
 		return check_call(c, at, type);
 	case IL_CLOSE:
-		good = il_check_close(c, line);
-		break;
+		return il_check_close(c, at, type);
 	case IL_LABEL:
 		if (c->depth > 0)
 			good = il_report(c, line, DIAG_IL_OPEN_PAREN,

@@ -48,6 +48,10 @@ bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
 	      struct arena *scratch, enum iec_type *types,
 	      struct diag_list *diags);
 
+/** il_place - where a diagnostic about a line is. Scan-safe: no. */
+struct diag il_place(const struct scope *scope, const struct pou *pou,
+		     const struct il_line *line, enum diag_id id);
+
 /* A POU and the list it runs. */
 struct il_pou { const struct pou *pou; const struct il *il; };
 

@@ -37,15 +37,17 @@ static bool combine(struct il_check *c, const struct il_line *line, enum op op,
 	return true;
 }
 
-static bool open_paren(struct il_check *c, const struct il_line *line, bool good)
+bool il_open_paren(struct il_check *c, const struct il_line *line, bool good)
 {
 	const struct meaning *m;
 
 	if (c->depth == LIMIT_IL_DEPTH)
 		return il_report(c, line, DIAG_TOO_DEEP, "(");
-	c->opened[c->depth].left = c->now;
-	c->opened[c->depth++].op = line->op;
-	if (!il_is_bits(c->now) && !c->now.literal)
+	c->opened[c->depth++] = (struct il_opened){
+		.left = c->now, .op = line->op,
+		.word = line->kind == IL_FN ? (enum word)line->word : 0,
+	};
+	if (line->kind == IL_OP && !il_is_bits(c->now) && !c->now.literal)
 		good = good && il_need_bool(c, line, c->now, "result");
 	c->now.there = false;
 	if (!line->operand)
@@ -63,7 +65,7 @@ bool il_check_logic(struct il_check *c, const struct il_line *line)
 	const struct meaning *m;
 
 	if (line->modifiers & MOD_PAREN)
-		return open_paren(c, line, good);
+		return il_open_paren(c, line, good);
 	m = il_value_of(c, line);
 	if (m && good)
 		return combine(c, line, (enum op)line->op, c->now, il_result_of(m),
@@ -72,8 +74,28 @@ bool il_check_logic(struct il_check *c, const struct il_line *line)
 	return false;
 }
 
-bool il_check_close(struct il_check *c, const struct il_line *line)
+/* The function before a parenthesis, on what stands left of it and inside. */
+static bool close_function(struct il_check *c, int at, struct result left,
+			   struct result right, enum iec_type *common)
 {
+	const enum word word = fn_overload(c->opened[c->depth].word, left.type,
+					   right.type);
+	const struct word_row *row = scope_row(c->scope, word);
+	struct il_line function = c->il->line[at];
+	struct result in[2] = { left, right };
+	enum iec_type stored = il_stored_type(c->scope, c->pou, c->il, at);
+
+	function.word = (uint16_t)word;
+	c->now.type = word_is_test(row) ? IEC_BOOL : IEC_NONE;
+	if (!il_check_inputs(c, &function, in, 2, IEC_NONE, common))
+		return false;
+	c->now.type = fn_result(row, *common, stored);
+	return true;
+}
+
+static bool close_paren(struct il_check *c, int at, enum iec_type *common)
+{
+	const struct il_line *line = &c->il->line[at];
 	bool good = il_need_result(c, line);
 	struct result right = c->now;
 
@@ -83,8 +105,19 @@ bool il_check_close(struct il_check *c, const struct il_line *line)
 	c->depth--;
 	if (!good || !c->opened[c->depth].left.there)
 		return false;
-	return combine(c, line, (enum op)c->opened[c->depth].op,
+	if (c->opened[c->depth].word)
+		return close_function(c, at, c->opened[c->depth].left, right,
+				      common);
+	good = combine(c, line, (enum op)c->opened[c->depth].op,
 		       c->opened[c->depth].left, right, "result");
+	*common = c->now.type;
+	return good;
+}
+
+bool il_check_close(struct il_check *c, int at, enum iec_type *common)
+{
+	*common = IEC_NONE;
+	return close_paren(c, at, common);
 }
 
 bool il_check_not(struct il_check *c, const struct il_line *line)

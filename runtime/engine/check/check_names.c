@@ -85,6 +85,7 @@ static const char *const keywords[] = {
 	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
 	"FUNCTION", "END_FUNCTION", "FUNCTION_BLOCK", "END_FUNCTION_BLOCK",
 	"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "TYPE",
+	"SUBROUTINE", "END_SUBROUTINE",
 	"END_TYPE", "STRUCT", "END_STRUCT", "USES",
 };
 #define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
@@ -296,7 +297,7 @@ static void check_pous(struct names_check *c)
 		const char *name = text_of(c, pou->name);
 
 		if (is_reserved(c, name, fold) ||
-		    (pou->kind != POU_PROGRAM && words_is_taken(name)))
+		    (pou_has_frame(pou) && words_is_taken(name)))
 			report_line(c, DIAG_RESERVED_NAME, pou, pou->line,
 				    name);
 		if (mark && mark->pou)
@@ -449,6 +450,7 @@ static unsigned int use_of_operand(enum operand_kind operand)
 		return USE_CALLED;
 	case OPND_NONE:
 	case OPND_LABEL:
+	case OPND_ROUTINE:
 	case OPND_ASSIGN:
 	case OPND_PIN:
 	case OPND_LOOP:

@@ -7,6 +7,7 @@
 #include "engine/check/check_operand.h"
 
 #include "engine/base/ascii.h"
+#include "engine/check/expect.h"
 #include "engine/model/args.h"
 #include "engine/model/loop.h"
 
@@ -32,6 +33,22 @@ static bool report(struct operand_check *c, enum diag_id id, struct spot at,
 	return good;
 }
 
+/* @kinds: of the words that may have been meant. */
+static void report_unknown(struct operand_check *c, struct spot at, uint32_t id,
+			   enum diag_id why, unsigned int kinds)
+{
+	const struct expect_want want = { .kinds = kinds, .block = WORD_COUNT };
+	const char *name = project_text(c->project, id);
+	char text[LIMIT_ARG];
+
+	if (why != DIAG_UNKNOWN_NAME || c->diags->count >= SUGGEST_MOST) {
+		report(c, why, at, name);
+		return;
+	}
+	expect_nearest(c->scope, c->pou, &want, name, text, sizeof(text));
+	report(c, why, at, text);
+}
+
 /* The meaning of @id, or NULL after a diagnostic. */
 static const struct meaning *find(struct operand_check *c, struct spot at,
 				  uint32_t id)
@@ -40,7 +57,7 @@ static const struct meaning *find(struct operand_check *c, struct spot at,
 	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
 
 	if (!m)
-		report(c, why, at, project_text(c->project, id));
+		report_unknown(c, at, id, why, EXPECT_VARIABLE | EXPECT_INSTANCE);
 	else
 		uses_add_index(c->uses, m);
 	return m;
@@ -365,6 +382,18 @@ static void check_instance(struct operand_check *c, struct spot at,
 		report(c, DIAG_INSTANCE_TWICE, at, name);
 }
 
+static void check_routine(struct operand_check *c, struct spot at, uint32_t name)
+{
+	const struct pou *pou = scope_pou(c->scope, c->pou, name);
+
+	enum diag_id why;
+
+	if (!pou && !scope_find(c->scope, c->pou, name, &why))
+		report_unknown(c, at, name, DIAG_UNKNOWN_NAME, EXPECT_SUBROUTINE);
+	else if (!pou || pou->kind != POU_SUBROUTINE)
+		report(c, DIAG_NOT_SUBROUTINE, at, project_text(c->project, name));
+}
+
 static void check_element(struct operand_check *c, struct spot at,
 			  const struct cell *cell)
 {
@@ -373,6 +402,8 @@ static void check_element(struct operand_check *c, struct spot at,
 	if (row->edge != EDGE_NONE && c->pou->kind == POU_FUNCTION)
 		report(c, DIAG_FUNCTION_KEEPS, at,
 		       project_text(c->project, cell->operand));
+	if (cell->word == ELEM_END && c->pou->kind != POU_PROGRAM)
+		report(c, DIAG_END_ELSEWHERE, at, pou_word(c->pou->kind));
 	switch (row->operand) {
 	case OPND_BOOL_R:
 		check_bool(c, at, cell->operand,
@@ -392,6 +423,9 @@ static void check_element(struct operand_check *c, struct spot at,
 		break;
 	case OPND_LOOP:
 		check_loop(c, at, cell->operand);
+		break;
+	case OPND_ROUTINE:
+		check_routine(c, at, cell->operand);
 		break;
 	case OPND_LOOP_END:
 	case OPND_ANY_R:

@@ -29,7 +29,11 @@ struct il_check {
 	uint32_t label_count;
 	struct result now;
 	int depth;           /* of open parentheses                         */
-	struct il_opened { struct result left; uint8_t op; } *opened; /* LIMIT_IL_DEPTH */
+	struct il_opened {
+		struct result left;
+		uint8_t op;          /* of AND OR XOR                       */
+		enum word word;      /* of a function; 0: of an operator    */
+	} *opened;           /* LIMIT_IL_DEPTH of them                      */
 };
 
 /* Each adds a diagnostic at @line; false unless it is a warning. */
@@ -60,7 +64,9 @@ bool il_need_bool(struct il_check *c, const struct il_line *line,
 /** il_check_logic - AND OR XOR, with N and parentheses; il_check_close the other end;
  * il_check_not NOT. On BOOL or on bits. */
 bool il_check_logic(struct il_check *c, const struct il_line *line);
-bool il_check_close(struct il_check *c, const struct il_line *line);
+bool il_check_close(struct il_check *c, int at, enum iec_type *common);
+/** il_open_paren - AND( or ADD( : the result waits. @good: so far. */
+bool il_open_paren(struct il_check *c, const struct il_line *line, bool good);
 bool il_check_not(struct il_check *c, const struct il_line *line);
 /** il_is_bits - BYTE to LWORD? */
 bool il_is_bits(struct result result);

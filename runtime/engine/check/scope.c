@@ -38,6 +38,7 @@ struct scope {
 };
 
 #define FIRST_ANSWERS 256u
+#define POUS UINT32_MAX /* the table of the names of POUs */
 
 static uint32_t mix(uint32_t table, uint32_t id)
 {
@@ -82,10 +83,25 @@ static void declare_table(struct scope *scope, uint32_t table,
 	}
 }
 
+static void declare_pous(struct scope *scope)
+{
+	struct project *project = scope->project;
+
+	for (int i = 0; i < project->pou_count; i++) {
+		uint32_t fold = names_fold(&project->names, project->pou[i].name);
+		struct declared *slot = declared_slot(scope, POUS, fold);
+
+		if (fold && !slot->fold)
+			*slot = (struct declared){ .table = POUS, .fold = fold,
+						   .index = i };
+	}
+}
+
 struct scope *scope_new(struct project *project, struct arena *arena)
 {
 	struct scope *scope = arena_alloc(arena, sizeof(*scope));
-	size_t names = (size_t)project->globals.count;
+	size_t names = (size_t)project->globals.count +
+		       (size_t)project->pou_count;
 	uint32_t size = 16;
 
 	if (!scope)
@@ -106,6 +122,7 @@ struct scope *scope_new(struct project *project, struct arena *arena)
 	declare_table(scope, 0, &project->globals);
 	for (int i = 0; i < project->pou_count; i++)
 		declare_table(scope, (uint32_t)i + 1, &project->pou[i].vars);
+	declare_pous(scope);
 	return scope;
 }
 
@@ -520,6 +537,17 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 	}
 	*why = answer->why;
 	return answer->known ? &answer->meaning : NULL;
+}
+
+const struct pou *scope_pou(struct scope *scope, const struct pou *pou, uint32_t text)
+{
+	uint32_t fold = names_fold(&scope->project->names, text);
+	const struct declared *slot;
+
+	if (!fold || find_declared(scope, table_number(scope, pou), fold))
+		return NULL;
+	slot = declared_slot(scope, POUS, fold);
+	return slot->fold ? &scope->project->pou[slot->index] : NULL;
 }
 
 bool scope_add(struct scope *scope, const struct pou *pou,

@@ -28,7 +28,9 @@ struct il_line {
 	uint8_t modifiers;   /* enum op_modifier                               */
 	uint8_t spare;
 	uint16_t word;       /* enum word: the function of IL_FN, IL_CALL      */
-	uint16_t row, col;   /* 1-based cell it comes from; 0: none            */
+	uint16_t row, col;   /* 1-based cell it comes from. In a list that was written
+				(rung 0): column of its operator, of its operand.
+				0: none                                    */
 	uint32_t rung;       /* 1-based; 0: none                               */
 	uint32_t operand;    /* string id; label name; comment text            */
 	uint32_t pin;        /* string id of IL_ARG_*                          */

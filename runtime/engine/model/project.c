@@ -127,11 +127,17 @@ bool project_has(const struct project *project, struct iec_addr addr)
 	       addr.byte + size <= project_area_bytes(project, addr.area);
 }
 
+bool pou_has_frame(const struct pou *pou)
+{
+	return pou->kind == POU_FUNCTION || pou->kind == POU_BLOCK;
+}
+
 const char *pou_word(enum pou_kind kind)
 {
 	static const char *const words[] = {
 		[POU_PROGRAM] = "PROGRAM", [POU_FUNCTION] = "FUNCTION",
 		[POU_BLOCK] = "FUNCTION_BLOCK",
+		[POU_SUBROUTINE] = "SUBROUTINE",
 	};
 
 	return words[kind];

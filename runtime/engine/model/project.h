@@ -15,7 +15,7 @@
 #include "engine/model/words.h"
 
 enum pou_language { LANGUAGE_LD, LANGUAGE_IL };
-enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK };
+enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE };
 
 struct pou {
 	uint32_t name;          /* string id                                   */
@@ -93,7 +93,10 @@ bool project_move_rung(struct pou *pou, int from, int to);
 uint32_t project_area_bytes(const struct project *project, enum iec_area area);
 /** project_has - is an address inside that? AREA_NONE always. */
 bool project_has(const struct project *project, struct iec_addr addr);
-/** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK. Lives for ever. */
+/** pou_has_frame - is it called with parameters, on variables that lie elsewhere: a
+ * FUNCTION, a FUNCTION_BLOCK? */
+bool pou_has_frame(const struct pou *pou);
+/** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK, SUBROUTINE. Lives for ever. */
 const char *pou_word(enum pou_kind kind);
 /** project_text - the string of an id. */
 const char *project_text(const struct project *project, uint32_t id);

@@ -24,6 +24,7 @@
  *                               result << 16; en, eno BOOLs; CODE_OWN at inputs
  *   FB     instance             n: enum word of the block
  *   BLOCK  dst, src, size       whole values and instances, the same at both
+ *   STOP   cond                 BOOL; asks for STOP at the end of the scan
  *   CALL   entry                runs it up to its END; who calls whom makes no circle
  *   JMP    target               word index in the section, of an instruction
  *   JMPC   target, cond         that begins in the same program
@@ -148,8 +149,10 @@ struct code_watched {
 struct code_place {     /* from this word of CODE_TEXT on                  */
 	uint32_t text;
 	uint32_t pou, rung; /* index in CODE_PROGRAMS; 1-based             */
-	uint16_t row, col;  /* 1-based; 0: none                            */
+	uint16_t row, col;  /* 1-based; 0: none. CODE_LINE: rung is a line
+			       of the file, in a list that was written     */
 };
+#define CODE_LINE UINT16_MAX
 
 #define CODE_OFFSET_BITS 24
 #define CODE_OFFSET(word) ((word) & 0xffffffu)

@@ -83,6 +83,8 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 				n ? "bit " : "", typed(at[3]).text,
 				typed(at[4]).text, (int)at[5], at[6], at[7],
 				at[1]);
+	case VM_STOP:
+		return snprintf(out, size, "stop    b%u", at[0]);
 	case VM_JMP:
 		return snprintf(out, size, "jmp     %u", at[0]);
 	case VM_JMPC:

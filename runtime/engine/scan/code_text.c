@@ -51,6 +51,7 @@ uint32_t code_words(const uint32_t *code)
 	case VM_FB:
 	case VM_JMP:
 	case VM_CALL:
+	case VM_STOP:
 		return 2;
 	case VM_AGET:
 	case VM_APUT:
@@ -266,6 +267,8 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 		return n < WORD_KNOWN && code_instance(v->program, at[0]) == n;
 	case VM_BLOCK:
 		return n == 0 && check_block(v, at);
+	case VM_STOP:
+		return n == 0 && reads_bool(v, at[0]);
 	case VM_CALL:
 		return n == 0 && at[0] < v->program->entry_count;
 	case VM_COUNT:

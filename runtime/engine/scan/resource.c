@@ -26,6 +26,8 @@ static void begin_cold(struct resource *resource)
 	resource->fault = FAULT_NONE;
 	memset(&resource->fault_at, 0, sizeof(resource->fault_at));
 	memset(&resource->error_at, 0, sizeof(resource->error_at));
+	resource->halted = false;
+	memset(&resource->halt_at, 0, sizeof(resource->halt_at));
 	resource->late = false;
 	resource->warm = false;
 	resource->retain_lost = resource->retain_old_copy = false;
@@ -160,6 +162,10 @@ struct fault_place resource_place(const struct program *program, uint32_t text)
 
 	if (program->string_bytes)
 		out.pou = program->string + program->entry[place->pou].name;
+	if (place->col == CODE_LINE) {
+		out.line = place->rung;
+		return out;
+	}
 	out.rung = place->rung;
 	out.row = place->row;
 	out.col = place->col;
@@ -253,6 +259,34 @@ static void run_due(struct resource *resource, int64_t now_ns, bool watch)
 	}
 }
 
+static void clear_area(struct resource *resource, enum iec_area area)
+{
+	const struct program *program = resource->image.program;
+
+	memset(image_area(&resource->image, area), 0, iec_area_row(area)->bytes);
+	for (uint32_t i = 0; i < program->bits_count; i++) {
+		const struct code_bits *bits = &program->bits[i];
+
+		if (bits->area == area)
+			memset(resource->image.memory + bits->slot, 0,
+			       bits->count);
+	}
+}
+
+/* The scan was whole, but nobody shall believe its outputs. */
+static void halt(struct resource *resource, bool watch)
+{
+	resource->state = STATE_STOP;
+	resource->halted = true;
+	if (!watch)
+		resource->halt_at = resource_place(resource->image.program,
+						   resource->vm.stop_text);
+	clear_area(resource, AREA_Q);
+	clear_area(resource, AREA_AQ);
+	clear_area(resource, AREA_XQ);
+	clear_area(resource, AREA_XAQ);
+}
+
 bool resource_scan(struct resource *resource, int64_t now_ns)
 {
 	const struct program *program = resource->image.program;
@@ -278,6 +312,8 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 		resource->error_at = resource_place(program, vm->error_text);
 	image_end(&resource->image);
 	resource->scans++;
+	if (vm->stop && resource->state == STATE_RUN)
+		halt(resource, watch);
 	return resource->state == STATE_RUN;
 }
 
@@ -287,6 +323,32 @@ static size_t append(char *out, size_t at, size_t end, const char *text)
 		out[at++] = *text++;
 	out[at] = '\0';
 	return at;
+}
+
+static size_t append_number(char *out, size_t at, size_t end, uint32_t number)
+{
+	char digits[12];
+	size_t i = sizeof(digits);
+
+	digits[--i] = '\0';
+	do
+		digits[--i] = (char)('0' + number % 10);
+	while (number /= 10);
+	return append(out, at, end, digits + i);
+}
+
+/* ": Main rung 3", ": Main line 12" */
+static void append_place(const struct fault_place *at, bool rung, char *out,
+			 size_t from, size_t end)
+{
+	uint32_t number = at->line ? at->line : at->rung;
+
+	if (!at->pou || !*at->pou || !number || (!rung && !at->line))
+		return;
+	from = append(out, from, end, ": ");
+	from = append(out, from, end - 18, at->pou);
+	from = append(out, from, end, at->line ? " line " : " rung ");
+	append_number(out, from, end, number);
 }
 
 void resource_fault_print(const struct resource *resource, char *out, size_t size)
@@ -304,7 +366,16 @@ void resource_fault_print(const struct resource *resource, char *out, size_t siz
 		at = append(out, at, size / 2, task);
 		at = append(out, at, size, ": ");
 	}
-	append(out, at, size, text);
+	at = append(out, at, size, text);
+	append_place(&resource->fault_at, false, out, at, size);
+}
+
+void resource_halt_print(const struct resource *resource, char *out, size_t size)
+{
+	size_t at = append(out, 0, size,
+			   "STOP, outputs are safe: the program says so");
+
+	append_place(&resource->halt_at, true, out, at, size);
 }
 
 /* Orders places; row and col are small, POUs and rungs have their limits. */

@@ -17,6 +17,7 @@ struct fault_place {
 	const char *pou;        /* name, or ""; lives with the program        */
 	const char *task;       /* likewise, of a declared task; or NULL      */
 	uint32_t rung, row, col; /* 1-based; 0: unknown                       */
+	uint32_t line;          /* of the file instead, in a list; 0: unknown */
 };
 
 struct resource {
@@ -26,6 +27,8 @@ struct resource {
 	enum resource_state state;
 	enum fault fault;            /* first one since the reset             */
 	struct fault_place fault_at;
+	bool halted;                 /* in STOP because the program said so   */
+	struct fault_place halt_at;  /* its STOP                              */
 	uint64_t scans;              /* since resource_start                  */
 	int64_t start_ns;            /* time of the first scan                */
 	uint32_t errors_before;      /* errors when this scan began           */
@@ -73,7 +76,8 @@ void resource_fail(struct resource *resource, enum fault fault);
  * tasks: see tasks_must_yield().
  * Inputs must be in the image; outputs are in it afterwards. In STOP and FAULT it
  * does nothing. Scan-safe: yes, it is the scan.
- * Fails: false and STATE_FAULT when a program faults.
+ * Fails: false and STATE_FAULT when a program faults. Also false when a program asked
+ * for STOP: then `halted` is set and the outputs in the image are 0.
  */
 bool resource_scan(struct resource *resource, int64_t now_ns);
 
@@ -93,6 +97,9 @@ void resource_fault_print(const struct resource *resource, char *out, size_t siz
 bool resource_power_in(const struct resource *resource, const char *instance,
 		       size_t len, uint32_t rung, uint32_t row, uint32_t col,
 		       bool *in, bool *out);
+/** resource_halt_print - that the program asked for STOP, and where: "STOP, outputs
+ * are safe: the program says so: Main rung 3". @size at least 96. Scan-safe: yes. */
+void resource_halt_print(const struct resource *resource, char *out, size_t size);
 /** resource_place - POU, rung and cell of a word of CODE_TEXT. */
 struct fault_place resource_place(const struct program *program, uint32_t text);
 #endif

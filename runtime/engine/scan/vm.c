@@ -255,6 +255,13 @@ static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 		vm->error_text = (uint32_t)(pc - base);
 }
 
+static void ask_to_stop(struct vm *vm, uint32_t text)
+{
+	if (!vm->stop)
+		vm->stop_text = text;
+	vm->stop = true;
+}
+
 /* A jump costs what it goes back over; forward ones end by themselves. */
 static bool spend(struct vm *vm, const uint32_t *from, const uint32_t *to)
 {
@@ -338,6 +345,11 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				goto out_of_budget;
 			back[depth++] = pc + 2;
 			pc = base + (watch ? at->watch : at->text);
+			break;
+		case VM_STOP:
+			if (m[pc[1]])
+				ask_to_stop(vm, (uint32_t)(pc - base));
+			pc += 2;
 			break;
 		case VM_JMP:
 			if (!spend(vm, pc, base + pc[1]))

@@ -29,6 +29,8 @@ struct vm {
 	uint32_t errors;       /* operations that failed, since the start     */
 	uint32_t error_text;   /* word index in CODE_TEXT of the first one    */
 	uint32_t fault_text;   /* word index where it stopped                 */
+	bool stop;             /* a STOP had power                            */
+	uint32_t stop_text;    /* word index of the first one                 */
 };
 
 /**

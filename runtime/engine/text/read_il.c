@@ -8,6 +8,7 @@
 #include "engine/text/reader.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/nearest.h"
 
 #include <string.h>
 
@@ -17,6 +18,11 @@ static bool add_line(struct reader *r, struct il_line line)
 		return true;
 	r->no_memory = true;
 	return false;
+}
+
+static uint16_t column_of(int column)
+{
+	return column > UINT16_MAX ? 0 : (uint16_t)column;
 }
 
 /* ---- operators ---- */
@@ -86,7 +92,8 @@ static bool add_args(struct reader *r, const struct il_line *call)
 				.operand = reader_intern(r,
 							 text + arg->value_at,
 							 arg->value_len),
-				.line = call->line }))
+				.line = (uint32_t)arg->line,
+				.col = column_of(arg->column) }))
 			return false;
 	}
 	return true;
@@ -132,6 +139,7 @@ static bool read_operand(struct reader *r, const struct token *word,
 			 struct il_line *line)
 {
 	buffer_clear(&r->text);
+	line->col = column_of(r->lex.token.column);
 	if (!reader_value(r, true, word))
 		return false;
 	line->operand = buffer_take(r, &r->text);
@@ -141,7 +149,7 @@ static bool read_operand(struct reader *r, const struct token *word,
 	return true;
 }
 
-/* `Scaled Low, High`: the second input and those behind it. */
+/* `MAX Low, High`: the second operand and those behind it. */
 static bool read_more_operands(struct reader *r, const struct token *word,
 			       const struct il_line *fn)
 {
@@ -153,24 +161,6 @@ static bool read_more_operands(struct reader *r, const struct token *word,
 			return false;
 	}
 	return true;
-}
-
-static bool read_function(struct reader *r, const struct token *word,
-			  struct il_line line)
-{
-	const struct word_row *row = words_row(&r->project->words, (enum word)line.word);
-
-	reader_next(r);
-	if (reader_is(r, '(')) {
-		line.kind = IL_CALL;
-		return read_call(r, &line);
-	}
-	if (reader_at_end(r) && (row->pin_count == 1 || /* of the result alone */
-				 word_is_own((enum word)line.word)))
-		return add_line(r, line);
-	if (!word_is_own((enum word)line.word))
-		return read_operand(r, word, &line);
-	return read_operand(r, word, &line) && read_more_operands(r, word, &line);
 }
 
 /* `AND(`, or `AND( A` with the first operand of what stands inside. */
@@ -194,25 +184,6 @@ static bool read_open(struct reader *r, const struct token *word,
 	return true;
 }
 
-static bool read_label_operand(struct reader *r, const struct token *word,
-			       struct il_line line)
-{
-	reader_next(r);
-	if (r->lex.token.kind != TOKEN_NAME)
-		return reader_fail(r, DIAG_MISSING_OPERAND, word->text,
-				   word->len);
-	if (!reader_name(r, "name", &line.operand))
-		return false;
-	if (line.op == OP_CAL && reader_peek(r, "(")) {
-		reader_next(r);
-		return read_call(r, &line);
-	}
-	if (!add_line(r, line))
-		return false;
-	reader_next(r);
-	return true;
-}
-
 /* Does `( PIN :=` or `( PIN =>` follow? */
 static bool is_formal(const struct reader *r)
 {
@@ -225,6 +196,44 @@ static bool is_formal(const struct reader *r)
 		return false;
 	lex_next(&ahead);
 	return lex_is(&ahead, ":=") || lex_is(&ahead, "=>");
+}
+
+static bool read_function(struct reader *r, const struct token *word,
+			  struct il_line line)
+{
+	const struct word_row *row = words_row(&r->project->words, (enum word)line.word);
+	bool own = word_is_own((enum word)line.word);
+
+	if (!own && word_opens(row) && reader_peek(r, "(") && !is_formal(r))
+		return read_open(r, word, line);
+	reader_next(r);
+	if (reader_is(r, '(')) {
+		line.kind = IL_CALL;
+		return read_call(r, &line);
+	}
+	if (reader_at_end(r) && (row->pin_count == 1 || own)) /* of the result alone */
+		return add_line(r, line);
+	return read_operand(r, word, &line) && read_more_operands(r, word, &line);
+}
+
+static bool read_label_operand(struct reader *r, const struct token *word,
+			       struct il_line line)
+{
+	reader_next(r);
+	if (r->lex.token.kind != TOKEN_NAME)
+		return reader_fail(r, DIAG_MISSING_OPERAND, word->text,
+				   word->len);
+	if (!reader_name(r, "name", &line.operand))
+		return false;
+	line.col = column_of(r->lex.token.column);
+	if (line.op == OP_CAL && reader_peek(r, "(")) {
+		reader_next(r);
+		return read_call(r, &line);
+	}
+	if (!add_line(r, line))
+		return false;
+	reader_next(r);
+	return true;
 }
 
 static bool read_operator(struct reader *r, struct il_line line)
@@ -252,10 +261,31 @@ static bool read_operator(struct reader *r, struct il_line line)
 	return row->operand == OPND_NONE || read_operand(r, &word, &line);
 }
 
+/* Neither an operator nor a function: which one may be meant? */
+static bool fail_word(struct reader *r)
+{
+	const struct word_table *words = &r->project->words;
+	struct nearest nearest;
+	char text[LIMIT_ARG];
+
+	nearest_init(&nearest, r->lex.token.text, r->lex.token.len);
+	for (int i = 0; i < OP_COUNT; i++)
+		nearest_offer(&nearest, op_row((enum op)i)->word);
+	for (int i = 0; i < WORD_COUNT; i++)
+		if (word_row((enum word)i)->kind == WORD_FN)
+			nearest_offer(&nearest, word_row((enum word)i)->word);
+	for (int i = 0; i < words->count; i++)
+		if (words->row[i]->kind == WORD_FN)
+			nearest_offer(&nearest, words->row[i]->word);
+	nearest_print(&nearest, text, sizeof(text));
+	return reader_fail_word(r, DIAG_UNKNOWN_WORD, text);
+}
+
 static bool read_instruction(struct reader *r)
 {
 	const struct token token = r->lex.token;
-	struct il_line line = { .line = (uint32_t)token.line };
+	struct il_line line = { .line = (uint32_t)token.line,
+				.row = column_of(token.column) };
 	enum op op;
 
 	if (reader_is(r, ')')) {
@@ -277,7 +307,7 @@ static bool read_instruction(struct reader *r)
 
 	if (word == WORD_COUNT ||
 	    words_row(&r->project->words, word)->kind != WORD_FN)
-		return reader_fail_token(r, DIAG_UNKNOWN_WORD);
+		return fail_word(r);
 	line.kind = IL_FN;
 	line.word = (uint16_t)word;
 	line.modifiers = 0;
@@ -287,7 +317,8 @@ static bool read_instruction(struct reader *r)
 static bool read_label(struct reader *r)
 {
 	struct il_line line = { .kind = IL_LABEL,
-				.line = (uint32_t)r->lex.token.line };
+				.line = (uint32_t)r->lex.token.line,
+				.row = column_of(r->lex.token.column) };
 
 	if (!reader_name(r, "label", &line.operand))
 		return false;

@@ -231,6 +231,8 @@ bool reader_arg(struct reader *r)
 	buffer_add(r, &r->text, arg.output ? "=>" : ":=", 2);
 	reader_step(r);
 	arg.value_at = r->text.len;
+	arg.line = r->lex.token.line;
+	arg.column = r->lex.token.column;
 	if (!arg.output && !r->across_lines && reader_is(r, '/')) { /* in a cell */
 		buffer_add(r, &r->text, "/", 1);
 		reader_step(r);

@@ -16,6 +16,8 @@ static const struct {
 	[POU_FUNCTION] = { "END_FUNCTION", "name of the function", "functions" },
 	[POU_BLOCK] = { "END_FUNCTION_BLOCK", "name of the function block",
 			"function blocks" },
+	[POU_SUBROUTINE] = { "END_SUBROUTINE", "name of the subroutine",
+			     "subroutines" },
 };
 
 bool read_pou_kind(const struct reader *r, enum pou_kind *kind)
@@ -141,7 +143,7 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 	}
 	reader_next(r);
 	r->place.pou = names_text(&r->project->names, pou->name);
-	if (pou->kind != POU_PROGRAM)
+	if (pou_has_frame(pou))
 		pou->word = own_word(r, pou->name, pou->kind == POU_BLOCK ?
 				     WORD_FB : WORD_FN, index);
 	if (pou->kind == POU_FUNCTION && !read_result(r, pou)) {

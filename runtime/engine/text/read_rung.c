@@ -132,7 +132,8 @@ static bool read_operand(struct reader *r, struct cell *cell,
 			 const struct word_row *row, const struct token *word)
 {
 	const struct token *token = &r->lex.token;
-	bool plain = row->kind == WORD_FB || row->operand == OPND_LABEL;
+	bool plain = row->kind == WORD_FB || row->operand == OPND_LABEL ||
+		     row->operand == OPND_ROUTINE;
 
 	if ((token->kind != TOKEN_NAME && token->kind != TOKEN_ADDRESS) ||
 	    (row->kind == WORD_FB &&

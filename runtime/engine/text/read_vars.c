@@ -236,7 +236,7 @@ static bool read_declaration(struct reader *r, struct var_table *table)
 	if (!read_names(r, table))
 		return false;
 	bool many = table->count - first > 1 || r->members ||
-		    (r->pou && r->pou->kind != POU_PROGRAM);
+		    (r->pou && pou_has_frame(r->pou));
 
 	if (many && lex_is(&r->lex, "AT"))
 		return reader_fail_token(r, DIAG_MISPLACED);
@@ -316,7 +316,7 @@ bool reader_is_vars(const struct reader *r)
 /* May a block of this kind stand here? */
 static bool has_place(const struct reader *r, uint8_t flag, bool global)
 {
-	bool callable = r->pou && r->pou->kind != POU_PROGRAM;
+	bool callable = r->pou && pou_has_frame(r->pou);
 
 	if (flag == VAR_GLOBAL_WORD)
 		return global;

@@ -36,6 +36,7 @@ enum comment_place {
 struct read_arg {
 	size_t pin_at, pin_len, value_at, value_len; /* in reader.text        */
 	bool output;
+	int line, column;           /* of the value                           */
 };
 
 struct reader {

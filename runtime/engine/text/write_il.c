@@ -82,6 +82,12 @@ static void write_line(const struct sink *sink, const struct project *project,
 		return;
 	case IL_FN:
 		sink_text(sink, "  ");
+		if (line->modifiers & MOD_PAREN) {
+			sink_text(sink, word);
+			sink_text(sink, line->operand ? "( " : "(");
+			write_id(sink, project, line->operand);
+			return;
+		}
 		if (!line->operand) {
 			sink_text(sink, word);
 			return;

@@ -44,6 +44,7 @@ static void write_element(const struct sink *sink, const struct project *project
 	case OPND_ANY_R:
 	case OPND_ANY_W:
 	case OPND_LABEL:
+	case OPND_ROUTINE:
 	case OPND_INSTANCE:
 		sink_text(sink, row->word);
 		write_behind(sink, project, cell->operand);

@@ -35,6 +35,11 @@ void list_place(struct list *list)
 		.pou = (uint32_t)(list->unit - as->translation->unit),
 		.rung = line->rung, .row = line->row, .col = line->col,
 	};
+	if (!line->rung) {
+		place->rung = line->line;
+		place->row = 0;
+		place->col = CODE_LINE;
+	}
 }
 
 /* ---- values that wait ---- */
@@ -449,6 +454,9 @@ static void assemble_op(struct list *list, const struct il_line *line)
 		break;
 	case OP_CAL:
 		list_cal(list);
+		break;
+	case OP_STP:
+		list_stop(list, line);
 		break;
 	case OP_COUNT:
 		break;

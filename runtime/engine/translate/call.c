@@ -64,12 +64,11 @@ uint32_t list_operand(struct list *list, const struct il_result *result,
 	return result->operand;
 }
 
-static void compare(struct list *list, const struct il_line *line,
-		    uint32_t left, uint32_t right)
+static void compare(struct list *list, enum word word, uint32_t left, uint32_t right)
 {
 	uint32_t slot = scratch_new(list->as);
 
-	emit_op(list->as, VM_CMP, relation((enum word)line->word));
+	emit_op(list->as, VM_CMP, relation(word));
 	emit(list->as, slot);
 	emit(list->as, left);
 	emit(list->as, right);
@@ -106,52 +105,45 @@ static void emit_input(struct list *list, const struct word_row *row, uint32_t i
 	emit(list->as, operand | (word_input(row, index)->own ? CODE_OWN : 0));
 }
 
-/* Type of the current result; IEC_NONE: a constant without one. */
-static enum iec_type now_type(const struct list *list)
+/* Type of a result; IEC_NONE: a constant without one. */
+static enum iec_type type_of(const struct il_result *result)
 {
-	if (list->now.kind == RESULT_LITERAL)
-		return list->now.literal->type;
-	if (list->now.kind == RESULT_BITS)
+	if (result->kind == RESULT_LITERAL)
+		return result->literal->type;
+	if (result->kind == RESULT_BITS)
 		return IEC_BOOL;
-	return (enum iec_type)CODE_TYPE(list->now.operand);
+	return (enum iec_type)CODE_TYPE(result->operand);
 }
 
-void list_fn(struct list *list, const struct il_line *line)
-{
-	const struct meaning *m = line->operand ?
-		list_meaning(list, line->operand) : NULL;
-	enum word word = !m ? (enum word)line->word :
-		fn_overload((enum word)line->word, now_type(list), m->type);
-	const struct word_row *row = list_row(list, word);
-	enum iec_type type = list->types[list->at], result;
-	uint32_t right = 0, count = m ? 2 : 1, left, to;
+/* One or more operands, the first of them what an error leaves. */
+struct applied {
+	enum word word;
+	uint32_t count, operand[LIMIT_FN_INPUTS];
+};
 
-	if (word_is_own((enum word)line->word)) {
-		list_own_fn(list);
-		return;
-	}
-	left = list_operand(list, &list->now, input_type(row, 0, type,
-		list->now.kind == RESULT_LITERAL ? list->now.literal : NULL));
-	if (m)
-		right = list_number(list, m, input_type(row, 1, type,
-			m->kind == MEANING_LITERAL ? &m->literal : NULL));
-	if (is_compare((enum word)line->word)) {
-		compare(list, line, left, right);
+static void apply(struct list *list, const struct applied *fn)
+{
+	const struct word_row *row = list_row(list, fn->word);
+	enum iec_type type = list->types[list->at], result;
+	uint32_t to;
+
+	if (is_compare(fn->word)) {
+		compare(list, fn->word, fn->operand[0], fn->operand[1]);
 		return;
 	}
 	result = fn_result(row, type, il_stored_type(list->as->translation->scope,
 						     list->pou, list->il, list->at));
 	to = CODE_OPERAND(result, layout_tail(list->as, RUN_VALUES, result));
-	preset(list, result, to, left);
+	preset(list, result, to, fn->operand[0]);
 	list_place(list);
-	emit_op(list->as, VM_FN, (uint32_t)type | count << 8 | (uint32_t)result << 16);
-	emit(list->as, function_of(row, word));
+	emit_op(list->as, VM_FN, (uint32_t)type | fn->count << 8 |
+		(uint32_t)result << 16);
+	emit(list->as, function_of(row, fn->word));
 	emit(list->as, TRUE_SLOT);
 	emit(list->as, list_sink(list->as, IEC_BOOL));
 	emit(list->as, to);
-	emit_input(list, row, 0, left);
-	if (m)
-		emit_input(list, row, 1, right);
+	for (uint32_t i = 0; i < fn->count; i++)
+		emit_input(list, row, i, fn->operand[i]);
 	list->now = (struct il_result){
 		.kind = RESULT_NUMBER, .own = true, .operand = to,
 	};
@@ -159,6 +151,77 @@ void list_fn(struct list *list, const struct il_line *line)
 		list->now = (struct il_result){
 			.kind = RESULT_BITS, .bits = bits_leaf(CODE_OFFSET(to)),
 		};
+}
+
+static uint32_t input_of(struct list *list, const struct word_row *row, uint32_t index,
+			 const struct il_result *result)
+{
+	return list_operand(list, result, input_type(row, index,
+		list->types[list->at],
+		result->kind == RESULT_LITERAL ? result->literal : NULL));
+}
+
+static bool is_arg(const struct list *list, int at)
+{
+	return at < list->il->count && (list->il->line[at].kind == IL_ARG_IN ||
+					list->il->line[at].kind == IL_ARG_OUT);
+}
+
+/* The function of the line at work: of two operands their types have a say. */
+static enum word word_at(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+	enum word word = (enum word)line->word;
+
+	if (!line->operand || is_arg(list, list->at + 1))
+		return word;
+	return fn_overload(word, type_of(&list->now),
+			   list_meaning(list, line->operand)->type);
+}
+
+/* An operand of it, from line @at. */
+static void add_operand(struct list *list, int at, struct applied *fn)
+{
+	const struct word_row *row = list_row(list, fn->word);
+	const struct meaning *m = list_meaning(list, list->il->line[at].operand);
+
+	fn->operand[fn->count] = list_number(list, m,
+		input_type(row, fn->count, list->types[list->at],
+			   m->kind == MEANING_LITERAL ? &m->literal : NULL));
+	fn->count++;
+}
+
+void list_fn(struct list *list, const struct il_line *line)
+{
+	struct applied fn = { .count = 1 };
+
+	if (word_is_own((enum word)line->word)) {
+		list_own_fn(list);
+		return;
+	}
+	if (line->modifiers & MOD_PAREN) {
+		list_open(list, line);
+		return;
+	}
+	fn.word = word_at(list);
+	fn.operand[0] = input_of(list, list_row(list, fn.word), 0, &list->now);
+	if (line->operand)
+		add_operand(list, list->at, &fn);
+	for (int i = list->at + 1; is_arg(list, i); i++)
+		add_operand(list, i, &fn);
+	apply(list, &fn);
+}
+
+void list_close_fn(struct list *list, const struct opened *open)
+{
+	struct applied fn = { .count = 2 };
+	const struct word_row *row;
+
+	fn.word = fn_overload(open->word, type_of(&open->left), type_of(&list->now));
+	row = list_row(list, fn.word);
+	fn.operand[0] = input_of(list, row, 0, &open->left);
+	fn.operand[1] = input_of(list, row, 1, &list->now);
+	apply(list, &fn);
 }
 
 /* ---- functions with formal parameters ---- */
@@ -209,12 +272,6 @@ struct call {
 	const struct meaning *eno, *out;
 	int eno_line, out_line;
 };
-
-static bool is_arg(const struct list *list, int at)
-{
-	return at < list->il->count && (list->il->line[at].kind == IL_ARG_IN ||
-					list->il->line[at].kind == IL_ARG_OUT);
-}
 
 /* EN first: an element whose index leads nowhere is no error while it is FALSE. */
 static void read_en(struct list *list, struct call *call)
@@ -498,12 +555,21 @@ void list_end_skip(struct list *list, int skip)
 void list_cal(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
-	const struct meaning *instance = list_meaning(list, line->operand);
-	enum word fb = instance->word;
-	uint32_t offset = layout_spot(list->as, instance).offset;
+	const struct pou *routine = scope_pou(list->as->translation->scope, list->pou,
+					      line->operand);
+	const struct meaning *instance;
+	enum word fb;
+	uint32_t offset;
 	uint32_t fetched[LIMIT_ARGS];
 	int unless = -1, missing;
 
+	if (routine) {
+		list_routine(list, routine);
+		return;
+	}
+	instance = list_meaning(list, line->operand);
+	fb = instance->word;
+	offset = layout_spot(list->as, instance).offset;
 	if (word_is_own(fb)) {
 		list_own_cal(list);
 		return;

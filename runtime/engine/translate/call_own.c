@@ -188,6 +188,20 @@ void list_own_cal(struct list *list)
 	list_end_skip(list, missing);
 }
 
+void list_routine(struct list *list, const struct pou *routine)
+{
+	const struct il_line *line = &list->il->line[list->at];
+	int skip = -1;
+
+	if (line->modifiers & MOD_C)
+		skip = list_skip_call(list, line);
+	else
+		list_keep_all(list);
+	list->now.kind = RESULT_NONE;
+	emit_call(list, (uint32_t)(routine - list->as->translation->project->pou));
+	list_end_skip(list, skip);
+}
+
 /* ---- functions ---- */
 
 /* EN := x is a jump over the call; x is kept for ENO. */

@@ -68,6 +68,8 @@ void ld_place(struct ld *ld, int row, int col);
 /** ld_prepare - gives every net that several read, and that @net needs, a
  * temporary. @readers of @net itself are served now. No result may be open. */
 void ld_prepare(struct ld *ld, int net, int readers);
+/** ld_routine - CALL of a subroutine. */
+void ld_routine(struct ld *ld, int element);
 /** ld_load - instructions whose result is the power of @net. */
 void ld_load(struct ld *ld, int net);
 /** ld_operand - a variable or TRUE that holds the power of @net; makes one. */

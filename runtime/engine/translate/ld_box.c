@@ -407,6 +407,24 @@ static void box_function(struct ld *ld, int element)
 	}
 }
 
+/* A subroutine may write all globals; its power is what it was called with. */
+void ld_routine(struct ld *ld, int element)
+{
+	const struct network_element *at = &ld->network.element[element];
+	struct element_state *state = &ld->element[element];
+	uint32_t name = rung_at(ld->rung, at->row, at->col)->operand;
+	uint32_t power;
+
+	ld_freeze_globals(ld);
+	power = ld_operand(ld, at->in);
+	ld_place(ld, at->row, at->col);
+	if (at->in != NET_RAIL)
+		ld_emit(ld, OP_LD, 0, power);
+	ld_emit(ld, OP_CAL, at->in != NET_RAIL ? MOD_C : 0, name);
+	state->leaf = power;
+	state->powered = true;
+}
+
 void ld_box(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];

@@ -27,7 +27,7 @@ static bool is_actor(const struct ld *ld, int element)
 {
 	const struct word_row *row = row_of(ld, element);
 
-	if (row->operand == OPND_ASSIGN)
+	if (row->operand == OPND_ASSIGN || row->operand == OPND_ROUTINE)
 		return is_unread(ld, element);
 	return row->place == PLACE_LAST;
 }
@@ -85,6 +85,8 @@ static void evaluate(struct ld *ld, int element)
 		ld_compare(ld, element);
 	else if (row->operand == OPND_ASSIGN)
 		ld_assign(ld, element);
+	else if (row->operand == OPND_ROUTINE)
+		ld_routine(ld, element);
 	else if (row->edge != EDGE_NONE)
 		read_edge(ld, element);
 	else if (ld_is_indexed(ld, operand_of(ld, element)))
@@ -184,9 +186,13 @@ static void act_flow(struct ld *ld, int element)
 		operand_of(ld, element));
 }
 
-static void act_assign(struct ld *ld, int element)
+/* An assignment, or a call of a subroutine. */
+static void act_box(struct ld *ld, int element)
 {
-	ld_assign(ld, element);
+	if (row_of(ld, element)->operand == OPND_ASSIGN)
+		ld_assign(ld, element);
+	else
+		ld_routine(ld, element);
 	ld_settle_element(ld, element);
 }
 
@@ -216,8 +222,8 @@ static void act(struct ld *ld, const int *actor, int count)
 		for (int k = 0; k < n && i + n < count; k++)
 			if (row->operand == OPND_BOOL_W)
 				ld_freeze(ld, operand_of(ld, actor[i + k]));
-		if (row->operand == OPND_ASSIGN)
-			act_assign(ld, actor[i]);
+		if (row->place == PLACE_BOX)
+			act_box(ld, actor[i]);
 		else if (row->edge != EDGE_NONE)
 			act_edge(ld, actor[i]);
 		else if (row->operand == OPND_LOOP)

@@ -61,6 +61,22 @@ void list_flow(struct list *list, const struct il_line *line)
 		emit(list->as, slot);
 }
 
+/* The result stays what it is. */
+void list_stop(struct list *list, const struct il_line *line)
+{
+	struct bits condition = bits_constant(true);
+	uint32_t slot;
+
+	if (line->modifiers & MOD_C)
+		condition = list_now_bits(list);
+	if (line->modifiers & MOD_N)
+		condition = bits_not(condition);
+	slot = list_slot(list, &condition);
+	list_place(list);
+	emit_op(list->as, VM_STOP, 0);
+	emit(list->as, slot);
+}
+
 void list_label(struct list *list, const struct il_line *line)
 {
 	uint32_t id = fold(list, line->operand);

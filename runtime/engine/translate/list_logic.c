@@ -71,13 +71,14 @@ static void combine(struct list *list, const struct il_result *left, uint8_t op,
 }
 
 /* What stands left of a parenthesis waits; a variable may change meanwhile. */
-static void open_paren(struct list *list, const struct il_line *line)
+void list_open(struct list *list, const struct il_line *line)
 {
 	struct opened *open = &list->opened[list->depth++];
 	struct il_line first = *line;
 
 	*open = (struct opened){
 		.left = list->now, .op = line->op, .modifiers = line->modifiers,
+		.word = line->kind == IL_FN ? (enum word)line->word : 0,
 	};
 	if (open->left.kind == RESULT_NUMBER && !open->left.own) {
 		enum iec_type type = (enum iec_type)CODE_TYPE(open->left.operand);
@@ -99,7 +100,7 @@ void list_logic(struct list *list, const struct il_line *line)
 	struct bits right;
 
 	if (line->modifiers & MOD_PAREN) {
-		open_paren(list, line);
+		list_open(list, line);
 		return;
 	}
 	if (is_bits(list->types[list->at])) {
@@ -123,6 +124,10 @@ void list_close(struct list *list)
 	struct opened *open = &list->opened[--list->depth];
 	struct bits right, left;
 
+	if (open->word) {
+		list_close_fn(list, open);
+		return;
+	}
 	if (is_bits(list->types[list->at])) {
 		combine(list, &open->left, open->op, open->modifiers & MOD_N);
 		return;

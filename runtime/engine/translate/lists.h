@@ -32,6 +32,7 @@ struct pending {
 struct opened {
 	struct il_result left;        /* a number: own                        */
 	uint8_t op, modifiers;
+	enum word word;               /* of a function; 0: of an operator     */
 };
 
 struct list {
@@ -94,6 +95,8 @@ void list_place(struct list *list);
 /** list_logic - AND OR XOR with N and parentheses; list_close the other end. */
 void list_logic(struct list *list, const struct il_line *line);
 void list_close(struct list *list);
+/** list_open - AND( or ADD( : what stands left of it waits. */
+void list_open(struct list *list, const struct il_line *line);
 /** list_not - NOT on the result. */
 void list_not(struct list *list);
 /** list_invert - the result, bits of @type if it is a constant, inverted. */
@@ -117,6 +120,8 @@ void list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 bool list_find_labels(struct list *list);
 /** list_flow - JMP and RET. */
 void list_flow(struct list *list, const struct il_line *line);
+/** list_stop - STP. */
+void list_stop(struct list *list, const struct il_line *line);
 /** list_label - a label: nothing waits behind it. */
 void list_label(struct list *list, const struct il_line *line);
 /** list_patch - fills in the targets; @end: where RET goes. */
@@ -130,6 +135,8 @@ uint32_t list_operand(struct list *list, const struct il_result *result,
 		      enum iec_type type);
 /** list_fn - a function on the result: ADD 5. */
 void list_fn(struct list *list, const struct il_line *line);
+/** list_close_fn - the function before a parenthesis that ends here. */
+void list_close_fn(struct list *list, const struct opened *open);
 /** list_call - a function with formal parameters; the lines behind it too. */
 void list_call(struct list *list);
 /** list_cal - a call of an instance; the lines behind it too. */
@@ -153,4 +160,6 @@ bool list_is_struct_move(struct list *list);
 /** list_own_call - a formal call, or a MOVE of a structure. */
 void list_own_call(struct list *list);
 void list_own_cal(struct list *list);
+/** list_routine - CAL of a SUBROUTINE. */
+void list_routine(struct list *list, const struct pou *routine);
 #endif

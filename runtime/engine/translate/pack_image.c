@@ -228,7 +228,7 @@ static void add_table(struct assembler *as, struct maps *maps,
 	uint8_t before = 0;
 
 	/* What lies in a frame belongs to the instances. */
-	if (pou && pou->kind != POU_PROGRAM)
+	if (pou && pou_has_frame(pou))
 		return;
 	for (int i = 0; i < vars->count && !as->failed; i++) {
 		const struct var *var = &vars->var[i];
@@ -406,7 +406,7 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 		return false;
 	count_names(maps, &project->globals);
 	for (int i = 0; i < as->translation->unit_count; i++)
-		if (project->pou[i].kind == POU_PROGRAM)
+		if (!pou_has_frame(&project->pou[i]))
 			count_names(maps, &project->pou[i].vars);
 	add_table(as, maps, NULL, &project->globals);
 	for (int i = 0; i < as->translation->unit_count; i++)

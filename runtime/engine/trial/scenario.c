@@ -244,7 +244,7 @@ bool scenario_run(const struct scenario_file *file, int index,
 		run.scan++;
 		run.now_ns += run.scenario->period_ns;
 		begin_scan(&run);
-		if (!resource_scan(resource, run.now_ns)) {
+		if (!resource_scan(resource, run.now_ns) && !resource->halted) {
 			report_fault(&run);
 			return false;
 		}

@@ -174,6 +174,14 @@ bool script_fault(const struct resource *resource, const char *file, int line,
 	return diag_add(diags, place, "%s", text);
 }
 
+static void tell_halt(const struct script *script)
+{
+	char text[96];
+
+	resource_halt_print(script->resource, text, sizeof(text));
+	trace_note(script->trace, text, strlen(text));
+}
+
 /* The scans of one line. */
 static bool run_stroke(struct script *script, const struct stroke *stroke,
 		       struct script_word first)
@@ -185,6 +193,8 @@ static bool run_stroke(struct script *script, const struct stroke *stroke,
 		if (script->now_ns > VALUE_TIME_MAX)
 			return complain(script, DIAG_LITERAL_RANGE, first);
 		script->now_ns += step;
+		if (script->resource->halted)
+			continue; /* until a @reset */
 		script->scan++;
 		bool good = resource_scan(script->resource, script->now_ns);
 
@@ -192,7 +202,9 @@ static bool run_stroke(struct script *script, const struct stroke *stroke,
 			trace_scan(script->trace, script->scan, script->now_ns);
 		if (trace_stopped(script->trace))
 			return false;
-		if (!good)
+		if (script->resource->halted)
+			tell_halt(script);
+		else if (!good)
 			return script_fault(script->resource, script->file,
 					    script->line, script->diags);
 	}

@@ -189,7 +189,8 @@ static void compare_pou(struct diff *diff, const struct pou *a,
 static const char *kind_text(const struct pou *pou)
 {
 	return pou->kind == POU_PROGRAM ? "program" :
-	       pou->kind == POU_FUNCTION ? "function" : "function block";
+	       pou->kind == POU_FUNCTION ? "function" :
+	       pou->kind == POU_BLOCK ? "function block" : "subroutine";
 }
 
 static void compare_pous(struct diff *diff)

@@ -198,6 +198,9 @@ static struct framed framed_at(const struct draw *draw, int row, int col)
 	case OPND_LOOP:
 		memcpy(framed.before, "FOR ", 4);
 		break;
+	case OPND_ROUTINE:
+		memcpy(framed.before, "CALL ", 5);
+		break;
 	case OPND_LOOP_END:
 	case OPND_NONE:
 		framed.text = word->word;

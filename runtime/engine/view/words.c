@@ -41,6 +41,8 @@ const char *words_operand(enum operand_kind kind)
 		return "a label";
 	case OPND_INSTANCE:
 		return "an instance";
+	case OPND_ROUTINE:
+		return "a SUBROUTINE";
 	case OPND_EXPR:
 		return "an expression";
 	case OPND_ASSIGN:

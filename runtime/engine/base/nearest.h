@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * nearest - which of many words did somebody mean who misspelled one?
+ *
+ * Candidates are offered one after another, the nearest few are kept. It knows
+ * nothing of what the words mean.
+ */
+#ifndef BASE_NEAREST_H
+#define BASE_NEAREST_H
+
+#include <stddef.h>
+
+#define NEAREST_KEPT 3
+#define NEAREST_MOST 32 /* bytes; a longer word is nobody's misspelling       */
+
+struct nearest {
+	const char *wanted;      /* borrowed                                  */
+	size_t len;
+	struct nearest_word { const char *text; int far; } word[NEAREST_KEPT];
+	int count;
+};
+
+/** nearest_init - nothing was offered yet. Scan-safe: yes. */
+void nearest_init(struct nearest *nearest, const char *wanted, size_t len);
+/** nearest_offer - a candidate, which lives as long as @nearest. In any case of its
+ * letters; twice the same counts once. Scan-safe: yes. */
+void nearest_offer(struct nearest *nearest, const char *text);
+/** nearest_print - "Mtor (Motor, Rotor?)", or the wanted word alone. As snprintf, but
+ * returns nothing. Scan-safe: no. */
+void nearest_print(const struct nearest *nearest, char *out, size_t size);
+#endif

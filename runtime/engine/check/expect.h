@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * expect - which words could stand at a place: of a list, of a cell, of a file.
+ *
+ * The editor's completion and `ladder complete` ask by place (expect_at), messages of
+ * the checks by what they looked for (expect_offer); the words come from one source.
+ * The project may have errors, only what could be read of it is known. It changes
+ * nothing and judges nothing.
+ */
+#ifndef CHECK_EXPECT_H
+#define CHECK_EXPECT_H
+
+#include "engine/base/nearest.h"
+#include "engine/check/scope.h"
+
+enum expect_kind {
+	EXPECT_KEYWORD     = 1 << 0,
+	EXPECT_OPERATOR    = 1 << 1,  /* with its modifiers: LD LDN             */
+	EXPECT_FUNCTION    = 1 << 2,
+	EXPECT_BLOCK       = 1 << 3,
+	EXPECT_ELEMENT     = 1 << 4,  /* words of cells                         */
+	EXPECT_INSTANCE    = 1 << 5,
+	EXPECT_SUBROUTINE  = 1 << 6,
+	EXPECT_LABEL       = 1 << 7,
+	EXPECT_VARIABLE    = 1 << 8,
+	EXPECT_PIN         = 1 << 9,  /* of a row, or a member                  */
+	EXPECT_TYPE        = 1 << 10,
+	EXPECT_CONSTANT    = 1 << 11, /* TRUE and FALSE                         */
+};
+
+/* What is wanted. */
+struct expect_want {
+	unsigned int kinds;        /* enum expect_kind, or'ed                   */
+	uint16_t classes;          /* of variables, pins: enum iec_class; 0: any */
+	bool write;                /* variables that a program may write        */
+	enum word block;           /* of instances; WORD_COUNT: any             */
+	const struct word_row *row; /* whose pins                               */
+	unsigned int dirs;         /* of pins: 1 << enum pin_dir; 0: all that have
+				      a name outside                        */
+	bool call;                 /* of a function's pins: EN ENO OUT too      */
+	bool boxes;                /* blocks and functions as boxes of a cell   */
+};
+
+struct expect_word {
+	enum expect_kind kind;
+	const char *text;          /* lives while it is looked at               */
+	const char *note;          /* its type, or what it does; "": nothing    */
+};
+
+struct expect_taker {
+	void (*take)(void *context, const struct expect_word *word);
+	void *context;
+};
+
+/** expect_offer - hands over every word of what is wanted, unordered. @pou NULL: of no
+ * POU. Owns: nothing.   Scan-safe: no. */
+void expect_offer(struct scope *scope, const struct pou *pou,
+		  const struct expect_want *want, const struct expect_taker *taker);
+
+/** expect_kind_text - "variable". Lives for ever. */
+const char *expect_kind_text(enum expect_kind kind);
+
+/** expect_nearest - @wanted, with the words of @want that may be meant behind it, as
+ * nearest_print(). Scan-safe: no. */
+void expect_nearest(struct scope *scope, const struct pou *pou,
+		    const struct expect_want *want, const char *wanted, char *out,
+		    size_t size);
+
+/* After so many messages nobody is told what may have been meant. */
+#define SUGGEST_MOST 20
+
+/* A place in a text. */
+struct expect_place {
+	const struct pou *pou;     /* NULL: outside                             */
+	struct expect_want want;
+	const char *prefix;        /* what stands of the word, in the text      */
+	size_t prefix_len;
+};
+
+/**
+ * expect_at - what could stand before the cursor
+ * @text:   of the file that the scope's project was read from
+ * @line:   1-based
+ * @column: 1-based byte; the cursor stands before it
+ *
+ * Owns: nothing; @out points into @text.   Scan-safe: no.
+ * Fails: false if there is no such place, or memory is out.
+ */
+bool expect_at(struct scope *scope, const char *text, size_t len, int line,
+	       int column, struct expect_place *out);
+#endif

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * complete - the part of the facade that says what could stand at a place.
+ *
+ * It looks at a project as far as it could be read, and builds nothing.
+ */
+#include "engine/ladder_inside.h"
+
+#include "engine/base/ascii.h"
+#include "engine/check/expect.h"
+
+struct filter {
+	const struct expect_place *at;
+	void (*take)(void *context, const struct ladder_word *word);
+	void *context;
+	int words;
+};
+
+static void pass(void *context, const struct expect_word *word)
+{
+	struct filter *filter = context;
+	const struct ladder_word out = {
+		expect_kind_text(word->kind), word->text, word->note,
+	};
+	size_t len = filter->at->prefix_len;
+
+	for (size_t i = 0; i < len; i++)
+		if (!word->text[i] ||
+		    ascii_upper(word->text[i]) != ascii_upper(filter->at->prefix[i]))
+			return;
+	filter->words++;
+	if (filter->take)
+		filter->take(filter->context, &out);
+}
+
+bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int line,
+		     int column,
+		     void (*take)(void *context, const struct ladder_word *word),
+		     void *context, struct ladder_place *place)
+{
+	struct project *project = ladder_read_project(ladder);
+	struct filter filter = { .take = take, .context = context };
+	const struct expect_taker taker = { pass, &filter };
+	struct expect_place at;
+	struct arena arena;
+	struct scope *scope;
+	bool good = false;
+
+	if (!project)
+		return false;
+	arena_init(&arena);
+	scope = scope_new(project, &arena);
+	if (scope && expect_at(scope, text, len, line, column, &at)) {
+		filter.at = &at;
+		expect_offer(scope, at.pou, &at.want, &taker);
+		*place = (struct ladder_place){ at.prefix_len, filter.words };
+		good = !arena.failed;
+	}
+	arena_free(&arena);
+	return good;
+}

@@ -1,0 +1,96 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# il_again.t - what `ladder il` prints of a program is a program that behaves the same:
+# each sample with its scenarios, and random programs under random inputs.
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname basename);
+use File::Copy qw(copy);
+use File::Temp qw(tempdir);
+use Test::More;
+
+my $tests = abs_path(dirname(__FILE__));
+my $build = abs_path($ENV{BUILD} // "$tests/../build");
+my $ladder = abs_path($ENV{LADDER} // "$build/ladder");
+my $random = "$build/tests/bin/differential";
+my $count = $ENV{IL_AGAIN_COUNT} // 300;
+my $dir = tempdir(CLEANUP => 1);
+
+sub slurp {
+	my ($path) = @_;
+	open my $in, '<:raw', $path or die "$path: $!";
+	local $/;
+	return scalar <$in>;
+}
+
+sub put {
+	my ($path, $text) = @_;
+	open my $out, '>:raw', $path or die "$path: $!";
+	print $out $text;
+	close $out;
+}
+
+# Samples. Files they name come along as lists, too, in the same file.
+for my $sample (sort glob "$tests/../ladders/*.rung") {
+	my $name = basename($sample);
+	my $again = "$dir/$name";
+	put($again, scalar `$ladder il '$sample' 2>/dev/null`);
+	my $said = `$ladder check '$again' 2>&1`;
+	unlike($said, qr/ error LD/, "$name: its list is a program") or next;
+	is(scalar `$ladder il '$again' 2>/dev/null`, slurp($again),
+	   "$name: the list of its list is the same");
+	(my $scenario = $sample) =~ s/rung$/scn/;
+	next unless -e $scenario;
+	copy($scenario, "$dir/" . basename($scenario));
+	my $tap = `$ladder test '$again' 2>&1`;
+	ok($? == 0 && $tap =~ /^ok/m, "$name: its scenarios hold") or diag($tap);
+}
+
+# Random programs: names that both have are printed, so that temporaries are left out.
+sub names_of {
+	my ($text) = @_;
+	my %seen;
+	my @block = $text =~ /^VAR\n(.*?)^END_VAR/msg;
+	$seen{$1} = 1 while ($block[0] // '') =~ /^\s*(\w+)[^:\n]*:\s*(?:BOOL|S?INT|DINT|U(?:S|D)?INT|BYTE|D?WORD|TIME|REAL);/mg;
+	return sort keys %seen;
+}
+
+sub stimulus {
+	my ($seed, @names) = @_;
+	my $text = '@print ' . join(' ', @names, '%QB0', '%QB1', '%MB0', '%MB1',
+				    'SYS_ERRORS') . "\n";
+	srand $seed;
+	for (1 .. 12) {
+		$text .= join ' ', map { sprintf '%%IX%d.%d=%d', rand 8, rand 8, rand 2 }
+			1 .. 4;
+		$text .= "\n";
+	}
+	return $text;
+}
+
+my ($same, $other) = (0, 0);
+my @bad;
+for my $seed (1 .. $count) {
+	my $program = `$random --seed $seed --text`;
+	put("$dir/a.rung", $program);
+	my $list = `$ladder il $dir/a.rung 2>/dev/null`;
+	next unless $? == 0;
+	put("$dir/b.rung", $list);
+	put("$dir/s", stimulus($seed, names_of($program)));
+	my $one = `cd $dir && $ladder trace a.rung s 2>/dev/null`;
+	my $two = `cd $dir && $ladder trace b.rung s 2>/dev/null`;
+	# A rung of the one is a line of the other.
+	s/^# STOP.*\n//mg for $one, $two;
+	if ($one eq $two && $one =~ /^1 t=/) {
+		$same++;
+	} else {
+		$other++;
+		push @bad, "seed $seed";
+	}
+}
+is($other, 0, "$same random programs and their lists do the same") or
+	diag("not so: @bad");
+ok($same * 10 > $count * 9, 'few of them are refused');
+done_testing;

@@ -1,0 +1,66 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# modifiers.t - every operator of an instruction list with every modifier: taken or
+# refused as IEC 61131-3, table 52, has it. `ladder check` is asked, nothing is run.
+use strict;
+use warnings;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname);
+use File::Temp qw(tempdir);
+use Test::More;
+
+my $tests = abs_path(dirname(__FILE__));
+my $ladder = abs_path($ENV{LADDER} || "$tests/../build/ladder");
+my $dir = tempdir(CLEANUP => 1);
+
+# Operator, the modifiers that it has, an operand, what is loaded before it. STP is
+# not of the standard; it is as RET is.
+my @table = (
+	[LD  => ['N'],                  'A', ''],
+	[ST  => ['N'],                  'A', 'A'],
+	[S   => [],                     'A', 'A'],
+	[R   => [],                     'A', 'A'],
+	[AND => ['N', '(', 'N('],       'A', 'A'],
+	[OR  => ['N', '(', 'N('],       'A', 'A'],
+	[XOR => ['N', '(', 'N('],       'A', 'A'],
+	[NOT => [],                     '',  'A'],
+	(map { [$_ => ['('], 'I', 'I'] } qw(ADD SUB MUL DIV MOD GT GE EQ NE LE LT)),
+	[JMP => ['C', 'CN'],            'Done', 'A'],
+	[CAL => ['C', 'CN'],            'Delay', 'A'],
+	[RET => ['C', 'CN'],            '',  'A'],
+	[STP => ['C', 'CN'],            '',  'A'],
+);
+my @modifiers = ('', 'N', 'C', 'CN', 'NC', '(', 'N(', 'C(', 'CN(');
+
+sub program {
+	my ($word, $modifier, $operand, $load) = @_;
+	my $opens = $modifier =~ /\(/;
+	my $list = $load ? "  LD $load\n" : '';
+	$list .= "  $word$modifier $operand\n";
+	$list .= "  )\n" if $opens;
+	return "RUNGBOARD 1\n\nVAR\n  A : BOOL;\n  I : INT;\n  Delay : TON;\nEND_VAR\n\n" .
+	       "PROGRAM Main IL\n${list}Done:\n  LD I\n  ST I\nEND_PROGRAM\n";
+}
+
+# The errors of a program, codes only; warnings do not count.
+sub errors {
+	my ($text) = @_;
+	open my $out, '>', "$dir/main.rung" or die $!;
+	print $out $text;
+	close $out;
+	my $said = `cd $dir && $ladder check main.rung 2>&1 >/dev/null`;
+	return join ' ', $said =~ /error (LD\d+)/g;
+}
+
+for my $row (@table) {
+	my ($word, $has, $operand, $load) = @$row;
+	for my $modifier (@modifiers) {
+		my $taken = $modifier eq '' || grep { $_ eq $modifier } @$has;
+		my $got = errors(program($word, $modifier, $operand, $load));
+		# S(, R( and the like: a parenthesis where an operand should be
+		ok(!!$taken == ($got eq ''), "$word$modifier: " .
+		   ($taken ? 'taken' : 'refused')) or diag("said: $got");
+	}
+}
+done_testing;
