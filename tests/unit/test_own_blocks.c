@@ -95,9 +95,10 @@ static void calls_cost(void)
 	size_t used = strlen(text);
 
 	for (int level = 0; level < 9; level++) {
-		used += (size_t)snprintf(text + used, sizeof(text) - used,
-			level ? "FUNCTION_BLOCK B%d IL\nVAR\n  X : B%d;\n"
-				"  N : DINT;\nEND_VAR\n" : "", level - 1, level);
+		if (level)
+			used += (size_t)snprintf(text + used,
+				sizeof(text) - used, "FUNCTION_BLOCK B%d IL\n"
+				"VAR\n  X : B%d;\nEND_VAR\n", level - 1, level);
 		for (int i = 0; i < 10; i++)
 			used += (size_t)snprintf(text + used, sizeof(text) - used,
 						 "  CAL X\n");
