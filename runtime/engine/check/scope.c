@@ -174,7 +174,7 @@ static bool may_write(struct iec_addr addr)
 static void mean_whole(const struct scope *scope, enum word word,
 		       struct meaning *out)
 {
-	out->word = word;
+	out->word = (uint16_t)word;
 	out->type = IEC_NONE;
 	out->kind = MEANING_STRUCT;
 	if (scope_row(scope, word)->kind == WORD_STRUCT)
@@ -225,10 +225,12 @@ static bool mean_part(const struct scope *scope, const char *name, size_t len,
 	out->type = pin->type;
 	if (row->kind == WORD_FB)
 		out->writable = pin->dir == PIN_IN;
-	out->part = vars && index < vars->count ? &vars->var[index] : NULL;
-	out->kind = pin->elements ? MEANING_ARRAY : MEANING_PIN;
-	if (pin->elements)
-		out->array = out->part->array;
+	out->kind = MEANING_PIN;
+	if (pin->elements) {
+		out->kind = MEANING_ARRAY;
+		out->array = vars->var[index].array;
+		out->unit = (uint16_t)var_unit(&vars->var[index]);
+	}
 	if (pin->type == IEC_NONE)
 		mean_whole(scope, pin->word, out);
 	return true;
@@ -570,7 +572,7 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 
 uint32_t meaning_unit(const struct meaning *meaning)
 {
-	return var_unit(meaning->part ? meaning->part : meaning->var);
+	return meaning->unit ? meaning->unit : var_unit(meaning->var);
 }
 
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning)

@@ -35,9 +35,9 @@ struct meaning {
 	const struct pou *pou;    /* whose table; NULL: globals               */
 	const struct var *var;    /* the variable or instance                 */
 	int pin;                  /* index in the row of the variable's word  */
-	const struct var *part;   /* of a part of the project's own: the member
-				     as it was declared                       */
-	enum word word;           /* of an INSTANCE or STRUCT                 */
+	uint16_t word;            /* enum word of an INSTANCE or STRUCT       */
+	uint16_t unit;            /* of an array that is a part: bytes from one
+				     element to the next; else 0              */
 	struct iec_addr addr;     /* of ADDRESS, and of a variable with AT; of
 				     an element with a fixed index its own    */
 	uint32_t offset;          /* of a part or element: bytes behind the
