@@ -200,7 +200,7 @@ $(BIN)/saving: $(BUILD)/tests/saving.o
 $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
 $(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c)
 $(BIN)/storing: WRAP := -Wl,--wrap=pwrite,--wrap=pwrite64,--wrap=fsync,--wrap=fdatasync,--wrap=rename,--wrap=unlink
-FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(BUILD)/tests/walker/random.o $(BUILD)/tests/walker/words.o $(BUILD)/tests/walker/words_block.o
+FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(call obj,tests/walker/random.c $(wildcard tests/walker/words*.c))
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
 $(BIN)/fuzz_iomap: $(call obj,$(HAL_CORE) hal/gpiod_none.c)
@@ -257,7 +257,7 @@ $(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_io
 # What they play, made natively: build/cases/.
 CASES     := $(BUILD)/cases
 PROGRAMS  ?= 1000
-$(BUILD)/make_cases: $(call obj,$(wildcard $(GUEST)/cases/*.c) tests/walker/random.c tests/walker/words.c tests/walker/words_block.c $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
+$(BUILD)/make_cases: $(call obj,$(wildcard $(GUEST)/cases/*.c) tests/walker/random.c $(wildcard tests/walker/words*.c) $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 cases: $(CASES)/stamp ## programs, maps, plans, bad images and programs.bundle for the guest suite
 $(CASES)/stamp: $(BUILD)/make_cases $(BUILD)/ladder $(wildcard ladders/*.rung ladders/*.scn ladders/boards/*.io $(GUEST)/programs/* $(GUEST)/cases/make.sh)

@@ -69,6 +69,14 @@ static bool same_values(struct duel *duel, int side)
 
 		if (!walker_is_settled(duel->walker, i))
 			continue;
+		if (mine.type == IEC_STRING) {
+			if (theirs.s->length == mine.len &&
+			    memcmp(theirs.s->text, mine.text, (size_t)mine.len) == 0)
+				continue;
+			differ(duel, side, walker_name(duel->walker, i),
+			       theirs.s->length, mine.len);
+			return false;
+		}
 		if (real ? a != b && (a == a || b == b) : theirs.i != mine.i) {
 			differ(duel, side, walker_name(duel->walker, i), a, b);
 			return false;

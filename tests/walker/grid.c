@@ -83,7 +83,12 @@ static int pin_number(enum word word, const char *name, size_t len)
 	}
 	if (len == 2 && !memcmp(text, "IN", 2))
 		return 0;
-	return len == 3 && !memcmp(text, "IN", 2) ? text[2] - '1' : -1;
+	if (len == 3 && !memcmp(text, "IN", 2))
+		return text[2] - '1';
+	for (int i = 0; i < row->pin_count; i++)
+		if (strcmp(row->pin[i].name, text) == 0)
+			return i;
+	return -1;
 }
 
 static bool fed_pins(struct walker *walker, struct walked_rung *walked,
@@ -149,7 +154,8 @@ static bool make_box(struct walker *walker, const struct pou *pou,
 	for (int i = 0; i < at->parameter_count; i++) {
 		const struct parameter *pin = &at->parameter[i];
 
-		if (!pin->output && pin->pin < LIMIT_FN_INPUTS)
+		if (!pin->output && pin->pin < LIMIT_FN_INPUTS &&
+		    !word_input(word_row(at->word), (uint32_t)pin->pin)->own)
 			type[pin->pin] = pin->net >= 0 ? IEC_BOOL :
 					 pin->placed.type;
 	}

@@ -93,6 +93,13 @@ enum iec_type value_time_type(enum word fn, enum iec_type left, enum iec_type ri
 enum outcome value_compute_time(enum word fn, struct value left, struct value right,
 				struct value *out);
 
+/* text.c */
+int text_order(struct value a, struct value b);
+bool text_is_function(enum word fn);
+/** text_compute - LEN, LEFT … FIND; what it gives may be longer than its variable. */
+enum outcome text_compute(enum word fn, const struct value *in, int count,
+			  struct value *out);
+
 /* place.c */
 bool walker_declare(struct walker *walker);
 /** walker_place - what an operand names; PLACED_NOWHERE: the walker cannot. */

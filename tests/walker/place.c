@@ -24,6 +24,16 @@ static struct value valued(enum iec_type type, union iec_value from)
 	return value;
 }
 
+/* The bytes between the quotes. */
+static void take_text(struct value *value, const struct literal *literal)
+{
+	char bytes[IEC_STRING_MOST];
+	int len = (int)literal_string(literal, bytes);
+
+	value->len = len < value->room ? len : value->room;
+	memcpy(value->text, bytes, (size_t)value->len);
+}
+
 static uint32_t count_of(const struct var *var)
 {
 	return var->array.count ? var->array.count : 1;
@@ -72,6 +82,20 @@ static struct block *new_block(struct walker *walker, enum word fb)
 	return block;
 }
 
+static struct value initial_text(struct walker *walker, const struct var *var)
+{
+	const char *text = project_text(walker->project, var->init_text);
+	struct value value = { .type = IEC_STRING, .room = var->capacity };
+	struct literal literal;
+
+	if (value.room > (int)sizeof(value.text))
+		value.room = sizeof(value.text);
+	if (var->has_init &&
+	    literal_parse(text, strlen(text), &literal) == LITERAL_OK)
+		take_text(&value, &literal);
+	return value;
+}
+
 static void fill(struct walker *walker, struct variable *variable)
 {
 	const struct var *var = variable->var;
@@ -79,7 +103,10 @@ static void fill(struct walker *walker, struct variable *variable)
 	for (uint32_t i = 0; i < count_of(var); i++) {
 		struct placed all, there;
 
-		variable->value[i] = initial(var, i);
+		if (var->type == IEC_STRING)
+			variable->value[i] = initial_text(walker, var);
+		else
+			variable->value[i] = initial(var, i);
 		if (var->at.area == AREA_NONE || !var->has_init)
 			continue;
 		all = at_address(walker, var->at, var->type);
@@ -426,6 +453,11 @@ static struct value read_literal(const struct placed *placed,
 
 	if (value.type == IEC_NONE)
 		value.type = type;
+	if (value.type == IEC_STRING) {
+		value.room = sizeof(value.text);
+		take_text(&value, &placed->literal);
+		return value;
+	}
 	literal_fit(&placed->literal, value.type, &literal);
 	if (value.type == IEC_REAL)
 		value.r = (float)literal.r;
@@ -459,6 +491,11 @@ struct value placed_read(const struct placed *placed, enum iec_type type)
 void placed_write(const struct placed *placed, struct value value)
 {
 	value = value_widen(value, placed->type);
+	if (value.type == IEC_STRING && placed->kind == PLACED_VALUE) {
+		value.room = placed->value->room;
+		if (value.len > value.room)
+			value.len = value.room;
+	}
 	if (placed->kind == PLACED_VALUE)
 		*placed->value = value;
 	else if (placed->kind == PLACED_AREA)

@@ -199,6 +199,8 @@ static int order_of(struct value a, struct value b)
 {
 	if (a.type == IEC_REAL)
 		return a.r < b.r ? -1 : a.r > b.r;
+	if (a.type == IEC_STRING)
+		return text_order(a, b);
 	if (a.type == IEC_LREAL)
 		return a.d < b.d ? -1 : a.d > b.d;
 	if (is_unsigned_64(a.type))
@@ -249,6 +251,12 @@ enum outcome value_compute(enum word fn, const struct value *in, int count,
 
 	if (word_is_test(word_row(fn))) {
 		*out = value_bool(related(fn, order_of(in[0], in[1])));
+		return OUTCOME_GOOD;
+	}
+	if (text_is_function(fn))
+		return text_compute(fn, in, count, out);
+	if (fn == FN_MOVE && in[0].type == IEC_STRING) {
+		*out = in[0];
 		return OUTCOME_GOOD;
 	}
 	if (value_is_logic(fn)) {

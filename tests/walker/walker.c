@@ -151,6 +151,20 @@ static bool call_block(struct walker *walker, struct walked_rung *walked,
 	return value_is_true(pin[word_first_bool(row, PIN_OUT)]);
 }
 
+/* What an input is read as: a pin of its own takes what stands there. */
+static enum iec_type type_at(const struct walked *at, const struct parameter *from)
+{
+	if (!word_input(word_row(at->word), (uint32_t)from->pin)->own)
+		return at->inputs;
+	return from->placed.type == IEC_NONE ? IEC_DINT : from->placed.type;
+}
+
+/* Does a text find room where it goes? */
+static bool has_room(const struct placed *to, struct value value)
+{
+	return value.type != IEC_STRING || value.len <= to->value->room;
+}
+
 static bool call_function(struct walker *walker, struct walked_rung *walked,
 			  struct walked *at, bool power)
 {
@@ -173,7 +187,7 @@ static bool call_function(struct walker *walker, struct walked_rung *walked,
 			return false;
 		in[from->pin] = from->net >= 0 ?
 			value_bool(net_power(walked, from->net)) :
-			read_input(from, &here, at->inputs);
+			read_input(from, &here, type_at(at, from));
 		count++;
 	}
 	for (int i = 0; i < at->parameter_count && !test; i++)
@@ -181,6 +195,10 @@ static bool call_function(struct walker *walker, struct walked_rung *walked,
 		    !placed_find(walker, &at->parameter[i].placed, &here))
 			return false;
 	outcome = value_compute(at->word, in, count, &out);
+	for (int i = 0; i < at->parameter_count; i++)
+		if (at->parameter[i].output && outcome == OUTCOME_GOOD &&
+		    !has_room(&at->parameter[i].placed, out))
+			outcome = OUTCOME_WRAPPED;
 	if (outcome != OUTCOME_GOOD)
 		walker->errors++;
 	for (int i = 0; i < at->parameter_count; i++)

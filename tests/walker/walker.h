@@ -14,12 +14,15 @@
 
 struct walker;
 
-/* A value as the walker keeps it: r of REAL, d of LREAL, i of all others. */
+/* A value as the walker keeps it: r of REAL, d of LREAL, text
+ * of STRING, i of all others. */
 struct value {
 	enum iec_type type;
 	int64_t i;
 	float r;
 	double d;
+	int len, room;       /* of a STRING: its bytes, and how many it may have */
+	char text[64];
 };
 
 /**

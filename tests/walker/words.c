@@ -78,6 +78,9 @@ static const struct pool_row pool[] = {
 	{ "dt_a", "DATE_AND_TIME", ":= DT#2262-04-11-23:47:16.85", 0, 0 },
 	{ "dt_b", "DATE_AND_TIME", ":= DT#1969-12-31-23:59:59.999999999", 0, 0 },
 	{ "time_c", "TIME", ":= T#106751d", 0, 0 },
+	{ "str_a", "STRING[9]", ":= 'abcabc'", 0, 0 },
+	{ "str_b", "STRING[9]", "", 0, 0 },
+	{ "str_c", "STRING[4]", ":= 'bc'", 0, 0 },
 	{ "arr_b[2]", "BOOL", "", 0, 1 }, { "arr_b[usint_b]", "BOOL", "", 0, 1 },
 	{ "arr_b[int_b]", "BOOL", "", 0, 1 }, { "arr_b[ctu_a.CV]", "BOOL", "", 0, 1 },
 	{ "arr_q[usint_i]", "BOOL", "", 0, 1 }, { "arr_q[-1]", "BOOL", "", 0, 1 },
@@ -164,6 +167,7 @@ static const struct {
 	{ "LWORD", { "16#FFFFFFFFFFFFFFFF", "0", "1", "16#8000000000000000", "255",
 		     "65536", "7" } },
 	{ "LREAL", { "0.1", "0.0", "3.25", "1.0E308", "2.0", "1.5", "1.0E-300" } },
+	{ "STRING[9]", { "'a'", "''", "'bc'", "'cab'", "'b'", "'abcdefghi'", "'$$$''" } },
 	{ "DATE", { "D#1970-01-01", "D#2262-04-11", "D#1677-09-22", "D#2024-02-29",
 		    "D#1969-12-31", "D#2026-11-21", "D#2000-01-01" } },
 	{ "TIME_OF_DAY", { "TOD#00:00:00", "TOD#12:00:00", "TOD#23:59:59.999",
@@ -200,7 +204,7 @@ const char *variable(struct random_source *source, const char *type,
 }
 
 /* The same inside an expression. */
-static const char *term(struct random_source *source, const char *type, bool write)
+const char *term(struct random_source *source, const char *type, bool write)
 {
 	size_t count = sizeof(computed) / sizeof(*computed);
 	size_t i = random_below(source, (uint32_t)count);
@@ -255,48 +259,7 @@ static bool is_dated(const char *type)
 	       strcmp(type, "DATE_AND_TIME") == 0;
 }
 
-static void number(struct builder *builder, const char *type, int depth, bool tight);
-
-/* A TIME out of dates, or of a time and a number. */
-static void timely(struct builder *builder, int depth)
-{
-	static const char *const dated[] = { "TIME_OF_DAY", "DATE", "DATE_AND_TIME" };
-	static const char *const factor[] = {
-		"SINT", "INT", "UDINT", "LINT", "ULINT", "REAL", "LREAL", "DINT",
-	};
-	struct random_source *source = builder->source;
-	const char *type = dated[random_below(source, 3)];
-	const char *by = factor[random_below(source, 8)];
-
-	if (random_chance(source, 40)) {
-		number(builder, type, depth, true);
-		put(builder, " - ");
-		number(builder, type, depth, true);
-		return;
-	}
-	number(builder, "TIME", depth, true);
-	put(builder, random_chance(source, 50) ? " * %s" : " / %s",
-	    random_chance(source, 30) ? random_chance(source, 50) ? "3" : "0.5" :
-	    variable(source, by, false));
-}
-
-/* A time of day or a moment some time before or after another; a date as it is. */
-static void moment(struct builder *builder, const char *type, int depth)
-{
-	struct random_source *source = builder->source;
-
-	if (strcmp(type, "DATE") == 0) {
-		put(builder, "%s", term(source, type, false));
-		return;
-	}
-	number(builder, type, depth, true);
-	put(builder, random_chance(source, 50) ? " + " : " - ");
-	number(builder, "TIME", depth, true);
-}
-
-/* A value of exactly @type; @tight: it stands where it needs parentheses. */
-static void number(struct builder *builder, const char *type, int depth,
-		   bool tight)
+void number(struct builder *builder, const char *type, int depth, bool tight)
 {
 	struct random_source *source = builder->source;
 	const char *ops = strcmp(type, "TIME") == 0 ? "+-" :
@@ -312,9 +275,9 @@ static void number(struct builder *builder, const char *type, int depth,
 		put(builder, "(");
 	if (is_dated(type) || (strcmp(type, "TIME") == 0 && random_chance(source, 30))) {
 		if (is_dated(type))
-			moment(builder, type, depth - 1);
+			random_moment(builder, type, depth - 1);
 		else
-			timely(builder, depth - 1);
+			random_timely(builder, depth - 1);
 		put(builder, tight ? ")" : "");
 		return;
 	}
@@ -566,6 +529,10 @@ int random_box(struct random_source *source, char *out, size_t size,
 	}
 	if (random_chance(source, 5)) {
 		choice(&builder);
+		return 0;
+	}
+	if (random_chance(source, 8)) {
+		random_text(&builder);
 		return 0;
 	}
 	if (random_chance(source, 45)) {

@@ -19,8 +19,20 @@ void put(struct builder *builder, const char *format, ...);
 const char *variable(struct random_source *source, const char *type, bool write);
 /** literal - a constant of this type. */
 const char *literal(struct random_source *source, const char *type);
+/** term - a variable, or an element with a computed index: for expressions. */
+const char *term(struct random_source *source, const char *type, bool write);
+/** number - a value of exactly @type; @tight: it stands where it needs parentheses. */
+void number(struct builder *builder, const char *type, int depth, bool tight);
 /** is_used - @name stands in @body as a word of its own. */
 bool is_used(const char *body, const char *name);
+
+/* words_time.c */
+/** random_timely - a TIME out of dates, or of a time and a number. */
+void random_timely(struct builder *builder, int depth);
+/** random_moment - a time of day or a moment some time before or after another. */
+void random_moment(struct builder *builder, const char *type, int depth);
+/** random_text - a box with a function of texts. */
+void random_text(struct builder *builder);
 
 /* words_block.c */
 /** random_block - a function block and its parameters; gives how many of its pins,
