@@ -7,12 +7,47 @@
 # mixed:  N rungs, by turns a timer, a counter, a comparison and arithmetic.
 # dense:  N rungs of 8 x 6 contacts with a link at every cell.
 # empty:  one rung, as little as there can be.
+# others: N rungs of one family of words, as %family says.
 use strict;
 use warnings;
 
+# What a rung of a family declares, and what stands in it; # is its number.
+my %family = (
+	real => ['A# : REAL := 1.5; B# : REAL := 0.25; C# : REAL; Out# : BOOL;',
+		'| ADD IN1:=A# IN2:=B# OUT=>C# | GT IN1:=C# IN2:=A# | COIL Out# |'],
+	lreal => ['A# : LREAL := 1.5; C# : LREAL;', '| SIN IN:=A# OUT=>C# |'],
+	bits => ['A# : WORD := 16#1234; C# : WORD;', '| AND IN1:=A# IN2:=16#0FF0 OUT=>C# | SHL IN:=C# N:=3 OUT=>C# |'],
+	convert => ['A# : INT := 1234; C# : REAL; D# : INT;', '| INT_TO_REAL IN:=A# OUT=>C# | REAL_TO_INT IN:=C# OUT=>D# |'],
+	select => ['A# : INT := 7; C# : INT;', '| LIMIT MN:=1 IN:=A# MX:=5 OUT=>C# | SEL G:=TRUE IN0:=A# IN1:=C# OUT=>C# |'],
+	text => ["A# : STRING[16] := 'abc'; C# : STRING[32];", "| CONCAT IN1:=A# IN2:='def' OUT=>C# |"],
+	time => ['A# : TIME_OF_DAY := TOD#08:30:00; C# : TIME_OF_DAY;', '| ADD_TOD_TIME IN1:=A# IN2:=T#1s OUT=>C# |'],
+	timer => ['In# : BOOL := TRUE; Out# : BOOL; Delay# : TON;', '| NO In# | TON Delay# PT:=T#1s | COIL Out# |'],
+	counter => ['In# : BOOL := TRUE; Out# : BOOL; Count# : CTU_DINT;', '| NO In# | CTU_DINT Count# PV:=100 | COIL Out# |'],
+	store => ['In# : BOOL := TRUE; Out# : BOOL; Queue# : FIFO;', '| NO In# | FIFO Queue# IN:=5 | COIL Out# |'],
+	analog => ['A# : REAL := 4.0; Ramp# : RAMP;', '| RAMP Ramp# IN:=A# UP:=1.0 DOWN:=1.0 |'],
+	pid => ['A# : REAL := 4.0; Loop# : PID;', '| PID Loop# PV:=A# SP:=5.0 KP:=1.0 TI:=T#1s |'],
+	array => ['I# : INT := 3; T# : ARRAY[0..7] OF INT; C# : INT;', '| MOVE IN:=T#[I#] OUT=>C# |'],
+	own => ['In# : BOOL := TRUE; Out# : BOOL; Own# : Latch;', '| NO In# | Latch Own# | COIL Out# |'],
+);
+my $latch = "FUNCTION_BLOCK Latch LD\nVAR_INPUT\n  Set : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Q : BOOL;\nEND_VAR\n"
+	. "RUNG\n  | NO Set | COIL Q |\n  | NO Q  ^|\nEND_FUNCTION_BLOCK\n\n";
+
 my ($kind, $n) = @ARGV;
-die "usage: programs.pl seal|mixed|dense|empty N\n"
-	unless defined $n && $n =~ /^\d+$/ && $kind =~ /^(seal|mixed|dense|empty)$/;
+if (defined $kind && $kind eq 'families') {
+	print join(' ', sort keys %family), "\n";
+	exit;
+}
+die "usage: programs.pl seal|mixed|dense|empty|FAMILY N, or programs.pl families\n"
+	unless defined $n && $n =~ /^\d+$/ && ($family{$kind} || $kind =~ /^(seal|mixed|dense|empty)$/);
+if ($family{$kind}) {
+	my ($declared, $rung) = @{$family{$kind}};
+	print "RUNGBOARD 1\n\n", $kind eq 'own' ? $latch : '', "VAR\n";
+	print '  ', $declared =~ s/#(?=[^0-9F]|$)/$_/gr =~ s/; (?=\w)/;\n  /gr, "\n" for 0 .. $n - 1;
+	print "END_VAR\n\nPROGRAM Main LD\n";
+	print "RUNG\n  ", $rung =~ s/(?<![0-9T])#|(?<=\bT)#(?=\[)/$_/gr, "\n" for 0 .. $n - 1;
+	print "END_PROGRAM\n";
+	exit;
+}
 
 # Bits: inputs while there are any, then markers, then plain variables.
 sub input { my ($i) = @_; return $i < 4096 ? sprintf("AT %%IX%d.%d ", $i >> 3, $i & 7) : "" }
