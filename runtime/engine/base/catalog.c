@@ -214,12 +214,14 @@ enum op word_operator(const struct word_row *row)
 	return OP_COUNT;
 }
 
+/* Those of the operators that are functions, too. */
+static const uint16_t functions[OP_COUNT] = {
+	[OP_AND] = FN_AND, [OP_OR] = FN_OR, [OP_XOR] = FN_XOR, [OP_NOT] = FN_NOT,
+};
+
 enum word op_function(enum op op)
 {
-	for (int i = 0; i < WORD_KNOWN; i++)
-		if (words[i].kind == WORD_FN && same_text(words[i].word, ops[op].word))
-			return (enum word)i;
-	return WORD_COUNT;
+	return op < OP_COUNT && functions[op] ? (enum word)functions[op] : WORD_COUNT;
 }
 
 int word_first_bool(const struct word_row *row, enum pin_dir dir)

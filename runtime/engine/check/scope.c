@@ -22,9 +22,10 @@ struct declared {
 
 /* An answer: what a text means in a table, or why it means nothing. */
 struct answer {
-	uint32_t table, text;
+	struct answer *next; /* of the same text in another table */
+	uint32_t table;
+	enum diag_id why : 16;
 	bool known;
-	enum diag_id why;
 	struct meaning meaning;
 };
 
@@ -33,11 +34,10 @@ struct scope {
 	struct arena *arena;
 	struct declared *declared;
 	uint32_t declared_mask;
-	struct answer **answer; /* NULL: a free slot                         */
-	uint32_t answer_mask, answers;
+	struct answer **answer; /* by text: what was asked of it so far      */
+	uint32_t answers;       /* texts there is room for                   */
 };
 
-#define FIRST_ANSWERS 256u
 #define POUS UINT32_MAX /* the table of the names of POUs */
 
 static uint32_t mix(uint32_t table, uint32_t id)
@@ -113,11 +113,8 @@ struct scope *scope_new(struct project *project, struct arena *arena)
 	scope->project = project;
 	scope->arena = arena;
 	scope->declared_mask = size - 1;
-	scope->answer_mask = FIRST_ANSWERS - 1;
 	scope->declared = arena_alloc(arena, size * sizeof(struct declared));
-	scope->answer = arena_alloc(arena,
-				    FIRST_ANSWERS * sizeof(*scope->answer));
-	if (!scope->declared || !scope->answer)
+	if (!scope->declared)
 		return NULL;
 	declare_table(scope, 0, &project->globals);
 	for (int i = 0; i < project->pou_count; i++)
@@ -472,35 +469,15 @@ enum diag_id meaning_fault(const struct meaning *meaning)
 	return meaning->kind == MEANING_ARRAY ? DIAG_ARRAY_AS_VALUE : DIAG_COUNT;
 }
 
-/* The slot of a question, or the free one where it belongs. */
-static struct answer **answer_slot(const struct scope *scope, uint32_t table,
-				   uint32_t text)
+/* The answer that was given to this question; NULL: none so far. */
+static struct answer *find_answer(const struct scope *scope, uint32_t table,
+				  uint32_t text)
 {
-	uint32_t at = mix(table, text) & scope->answer_mask;
-	struct answer *const *slot = &scope->answer[at];
+	struct answer *answer = text < scope->answers ? scope->answer[text] : NULL;
 
-	while (*slot && ((*slot)->text != text || (*slot)->table != table)) {
-		at = (at + 1) & scope->answer_mask;
-		slot = &scope->answer[at];
-	}
-	return &scope->answer[at];
-}
-
-static bool grow_answers(struct scope *scope)
-{
-	struct answer *const *old = scope->answer;
-	uint32_t size = scope->answer_mask + 1;
-	struct answer **wide = arena_alloc(scope->arena,
-					   2 * size * sizeof(struct answer *));
-
-	if (!wide)
-		return false;
-	scope->answer = wide;
-	scope->answer_mask = 2 * size - 1;
-	for (uint32_t i = 0; i < size; i++)
-		if (old[i])
-			*answer_slot(scope, old[i]->table, old[i]->text) = old[i];
-	return true;
+	while (answer && answer->table != table)
+		answer = answer->next;
+	return answer;
 }
 
 /* Room for the answer to a question that was not asked yet; NULL: no memory. */
@@ -508,14 +485,20 @@ static struct answer *add_answer(struct scope *scope, uint32_t table,
 				 uint32_t text)
 {
 	struct answer *answer = arena_alloc(scope->arena, sizeof(*answer));
+	uint32_t size = (uint32_t)scope->project->names.count + 64;
 
-	if (!answer ||
-	    (scope->answers * 2 > scope->answer_mask && !grow_answers(scope)))
+	if (text >= scope->answers) {
+		size += size / 4;
+		scope->answer = arena_grow(scope->arena, scope->answer,
+					   scope->answers * sizeof(*scope->answer),
+					   size * sizeof(*scope->answer));
+		scope->answers = scope->answer ? size : 0;
+	}
+	if (!answer || !scope->answer)
 		return NULL;
 	answer->table = table;
-	answer->text = text;
-	*answer_slot(scope, table, text) = answer;
-	scope->answers++;
+	answer->next = scope->answer[text];
+	scope->answer[text] = answer;
 	return answer;
 }
 
@@ -528,14 +511,14 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 	*why = DIAG_UNKNOWN_NAME;
 	if (!text)
 		return NULL;
-	answer = *answer_slot(scope, table, text);
+	answer = find_answer(scope, table, text);
 	if (!answer) {
 		*why = DIAG_NO_MEMORY;
 		answer = add_answer(scope, table, text);
 		if (!answer)
 			return NULL;
-		answer->known = mean(scope, table, text, &answer->meaning,
-				     &answer->why);
+		answer->known = mean(scope, table, text, &answer->meaning, why);
+		answer->why = *why;
 	}
 	*why = answer->why;
 	return answer->known ? &answer->meaning : NULL;
@@ -556,7 +539,7 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index)
 {
 	uint32_t table = table_number(scope, pou);
-	struct answer *answer = *answer_slot(scope, table, var->name);
+	struct answer *answer = find_answer(scope, table, var->name);
 
 	if (!answer)
 		answer = add_answer(scope, table, var->name);
