@@ -45,6 +45,16 @@ sub write_text {
 	close $out or die "$path: $!";
 }
 
+# An instruction with N where it had none, and the other way round.
+sub broken_line {
+	my ($i, @lines) = @_;
+	my $was = $lines[$i];
+
+	$lines[$i] =~ s/^(\s+)(LD|AND|OR|JMPC|RETC|CALC)(N?)(?= |$)/$1 . $2 . ($3 ? '' : 'N')/e
+		or return;
+	return { line => $i + 1, row => $was, text => join("\n", @lines) };
+}
+
 # The program once for each contact and each way to break it.
 sub broken {
 	my ($text) = @_;
@@ -52,6 +62,7 @@ sub broken {
 	my %turned = (NO => 'NC', NC => 'NO');
 	my @all;
 	for my $i (0 .. $#lines) {
+		push @all, broken_line($i, @lines);
 		next if $lines[$i] !~ /^\s*\|/;
 		while ($lines[$i] =~ /\| \K(NO|NC) [\w.%]+/g) {
 			my ($word, $at, $end) = ($1, $-[0], $+[0]);

@@ -410,6 +410,85 @@ for my $signal (qw(TERM INT)) {
 		'what a scan wrote that did not end is never at a line');
 }
 
+# ---- ways out: the program says STOP ----
+{
+	my $halt = put('halt.rung', <<'EOT');
+RUNGBOARD 1
+
+VAR
+  Motor AT %QX0.0 : BOOL;
+  Brake AT %QX0.1 : BOOL;
+  Slow  : TON;
+END_VAR
+
+VAR RETAIN
+  Starts : INT;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | COIL Motor |
+RUNG
+  | R Brake |
+RUNG
+  | NO SYS_FIRST_SCAN | [ Starts := Starts + 1 ] |
+RUNG "Enough"
+  | TON Slow PT:=T#60ms | STOP |
+END_PROGRAM
+EOT
+	my $pid = start($ladderd, $halt, '--io', $map, @traced);
+	ok(until_has('err', qr/STOP/), 'a program that says STOP');
+	like(get('err'), qr/^%QX0\.0 1\n.*^ladderd: STOP, outputs are safe: the program says so: Main rung 4$/ms,
+		'is told with its place');
+	is_safe('STOP');
+	kill 'USR1', $pid;
+	ok(until_has('out', qr/\n\n/), 'it stays alive: status of a STOP');
+	like(get('out'), qr/^state: STOP\nfault: none\nstop: the program says so, Main rung 4/,
+		'says why');
+	kill 'HUP', $pid;
+	ok(until_has('err', qr/reset, RUN/), 'SIGHUP starts it again');
+	ok(until_has('err', qr/reset, RUN.*STOP/s), 'and it stops again');
+	kill 'TERM', $pid;
+	is(finish($pid), 0, 'SIGTERM ends it: no fault');
+	is(run($ladderd, $halt, '--io', $map, '--scans', '1000'), 0,
+		'--scans ends at a STOP');
+}
+
+# ---- ways out: loops of each kind, told with their place ----
+{
+	my $out = "VAR\n  Motor AT %QX0.0 : BOOL;\n  Brake AT %QX0.1 : BOOL;\n" .
+		"  I : LINT;\nEND_VAR\n";
+	my %kinds = (
+		'a list' => ['Main line 11', "PROGRAM Main IL\n  LD TRUE\n  ST Motor\n" .
+			"Again:\n  JMP Again\nEND_PROGRAM\n"],
+		'FOR' => ['Main rung 4', "PROGRAM Main LD\nRUNG\n  | COIL Motor |\nRUNG\n" .
+			"  | FOR I := 1 TO 9000000000 |\nRUNG\n  | R Brake |\n" .
+			"RUNG\n  | NEXT |\nEND_PROGRAM\n"],
+		'a function block' => ['Endless rung 2', "VAR\n  Belt : Endless;\nEND_VAR\n" .
+			"PROGRAM Main LD\nRUNG\n  | NO Motor | Endless Belt |\n" .
+			"RUNG\n  | COIL Motor |\nEND_PROGRAM\n" .
+			"FUNCTION_BLOCK Endless LD\nRUNG Top\n  | COIL Brake |\n" .
+			"RUNG\n  | JMP Top |\nEND_FUNCTION_BLOCK\n"],
+		'a function block in a list' => ['Endless line 18', "VAR\n  Belt : Endless;\n" .
+			"END_VAR\nPROGRAM Main IL\n  LD Motor\n  CALC Belt\n" .
+			"  LD TRUE\n  ST Motor\nEND_PROGRAM\n" .
+			"FUNCTION_BLOCK Endless IL\nTop:\n  JMP Top\nEND_FUNCTION_BLOCK\n"],
+		'a subroutine' => ['Spin rung 1', "PROGRAM Main LD\nRUNG\n" .
+			"  | NO Motor | CALL Spin |\nRUNG\n  | COIL Motor |\nEND_PROGRAM\n" .
+			"SUBROUTINE Spin LD\nRUNG Top\n  | JMP Top |\nEND_SUBROUTINE\n"],
+	);
+	for my $kind (sort keys %kinds) {
+		my ($place, $text) = @{$kinds{$kind}};
+		my $file = put('endless.rung', "RUNGBOARD 1\n$out$text");
+		is(run($ladderd, $file, '--io', $map, '--scans', '100', '--trace-io',
+			'--watchdog', '1000'), 1, "$kind without an end is a FAULT");
+		like(get('err'), qr/^ladderd: FAULT, outputs are safe: instruction budget.*$place/m,
+			"told at $place");
+		unlike(get('err'), qr/^%QX0\.0 1$(?!.*^%QX0\.0 0$)/ms,
+			"$kind: safe values");
+	}
+}
+
 # ---- ways out: lines that fail, scans that hang, on every gpio driver ----
 for my $version (qw(v1 v2 uapi)) {
 	my $fake = "$build/tests/hal/ladderd_$version";

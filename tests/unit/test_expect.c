@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * What could stand at a place, asked through the facade as an editor does: in lists,
+ * cells and declarations, of texts with errors too; and which words are near.
+ */
+#include "engine/base/nearest.h"
+#include "engine/ladder.h"
+
+#include "tests/tap.h"
+
+#include <string.h>
+
+static const char text[] =
+	"RUNGBOARD 1\n"
+	"VAR\n"
+	"  Motor AT %QX0.0 : BOOL;\n"
+	"  Open  AT %IX0.0 : BOOL;\n"
+	"  Level : INT;\n"
+	"  Delay : TON;\n"
+	"  Late : \n"                                    /* 7 */
+	"END_VAR\n"
+	"PROGRAM Main IL\n"
+	"  LD    Op\n"                                   /* 10 */
+	"  S     \n"
+	"  JMP   \n"
+	"  CAL   Delay(IN := Open,\n"
+	"              PT := \n"                         /* 14 */
+	"  LD    Delay.\n"
+	"Again:\n"
+	"  AN\n"                                         /* 17 */
+	"  CAL   \n"
+	"END_PROGRAM\n"
+	"SUBROUTINE Sub LD\n"
+	"RUNG\n"
+	"  | NO  | TON  | TON Delay  | COIL  | CALL  | [ Le |\n" /* 22 */
+	"END_SUBROUTINE\n"
+	"\n";
+
+struct seen { char text[16384]; };
+
+static void take(void *context, const struct ladder_word *word)
+{
+	struct seen *seen = context;
+	size_t used = strlen(seen->text);
+
+	snprintf(seen->text + used, sizeof(seen->text) - used, " %s ", word->text);
+}
+
+/* All words at a place, each between blanks. */
+static const char *at(struct ladder *ladder, int line, int column)
+{
+	static struct seen seen;
+	struct ladder_place place = { 0 };
+
+	seen.text[0] = '\0';
+	if (!ladder_complete(ladder, text, sizeof(text) - 1, line, column, take, &seen,
+			     &place))
+		return "nowhere";
+	return seen.text;
+}
+
+static bool has(const char *words, const char *word)
+{
+	char between[64];
+
+	snprintf(between, sizeof(between), " %s ", word);
+	return strstr(words, between) != NULL;
+}
+
+static void test_lists(struct ladder *ladder)
+{
+	const char *words = at(ladder, 10, 11);
+
+	CHECK_AS(has(words, "Open") && !has(words, "Motor"), "LD Op");
+	words = at(ladder, 11, 9);
+	CHECK_AS(has(words, "Motor") && !has(words, "Open") && !has(words, "Level"),
+		 "S takes a BOOL that can be written");
+	CHECK_AS(strcmp(at(ladder, 12, 9), " Again ") == 0, "JMP takes labels");
+	words = at(ladder, 14, 15);
+	CHECK_AS(has(words, "PT") && has(words, "ET") && !has(words, "Open"),
+		 "pins, also on a further line of a call");
+	words = at(ladder, 15, 15);
+	CHECK_AS(has(words, "Q") && has(words, "ET") && !has(words, "Motor"),
+		 "parts behind a dot");
+	words = at(ladder, 17, 5);
+	CHECK_AS(has(words, "AND") && has(words, "ANDN(") && !has(words, "LD"),
+		 "operators with their modifiers");
+	words = at(ladder, 17, 3);
+	CHECK_AS(has(words, "STPCN") && has(words, "SQRT") && has(words, "END_PROGRAM"),
+		 "operators, functions, the end");
+	words = at(ladder, 18, 9);
+	CHECK_AS(has(words, "Delay") && has(words, "Sub") && !has(words, "Motor"),
+		 "CAL takes instances and subroutines");
+}
+
+static void test_cells(struct ladder *ladder)
+{
+	const char *words = at(ladder, 22, 8);
+
+	CHECK_AS(has(words, "Motor") && has(words, "Open") && !has(words, "Level"),
+		 "a contact takes a BOOL");
+	CHECK_AS(strcmp(at(ladder, 22, 15), " Delay ") == 0, "TON takes a TON");
+	CHECK_AS(has(at(ladder, 22, 28), "PT"), "behind it its pins");
+	words = at(ladder, 22, 36);
+	CHECK_AS(has(words, "Motor") && !has(words, "Open"), "a coil writes");
+	CHECK_AS(strcmp(at(ladder, 22, 44), " Sub ") == 0, "CALL takes subroutines");
+	words = at(ladder, 22, 51);
+	CHECK_AS(has(words, "Level") && !has(words, "Open"), "an expression takes all");
+	words = at(ladder, 22, 4);
+	CHECK_AS(has(words, "STOP") && has(words, "CTU") && has(words, "ADD"),
+		 "words of a cell");
+}
+
+static void test_places(struct ladder *ladder)
+{
+	CHECK_AS(has(at(ladder, 7, 10), "LREAL") && has(at(ladder, 7, 10), "TON"),
+		 "types behind a colon");
+	CHECK_AS(has(at(ladder, 24, 1), "SUBROUTINE"), "outside: what begins a part");
+	CHECK(strcmp(at(ladder, 99, 1), "nowhere") == 0);
+	CHECK(strcmp(at(ladder, 10, 99), "nowhere") == 0);
+	CHECK(strcmp(at(ladder, 0, 0), "nowhere") == 0);
+	for (int line = 1; line <= 24; line++) /* none is out of bounds */
+		for (int column = 1; column < 60; column++)
+			at(ladder, line, column);
+	CHECK(true);
+}
+
+static bool nearest_is(const char *wanted, const char *printed)
+{
+	static const char *const words[] = { "Motor", "Rotor", "Level", "LevelLow",
+					     "MOTOR", "I", "J" };
+	struct nearest nearest;
+	char out[64];
+
+	nearest_init(&nearest, wanted, strlen(wanted));
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		nearest_offer(&nearest, words[i]);
+	nearest_print(&nearest, out, sizeof(out));
+	if (strcmp(out, printed) == 0)
+		return true;
+	printf("# %s\n", out);
+	return false;
+}
+
+static void test_nearest(void)
+{
+	CHECK_AS(nearest_is("Mootr", "Mootr (Motor, Rotor?)"), "swapped letters");
+	CHECK_AS(nearest_is("levle", "levle (Level?)"), "in any case");
+	CHECK_AS(nearest_is("Lev", "Lev (Level, LevelLow?)"), "beginnings");
+	CHECK_AS(nearest_is("X", "X"), "one letter is like no other");
+	CHECK_AS(nearest_is("Something_else", "Something_else"), "nothing is near");
+	CHECK(nearest_is("", ""));
+}
+
+int main(void)
+{
+	struct ladder *ladder = ladder_new();
+
+	CHECK(ladder && !ladder_load_text(ladder, "x.rung", text, sizeof(text) - 1));
+	test_lists(ladder);
+	test_cells(ladder);
+	test_places(ladder);
+	test_nearest();
+	ladder_free(ladder);
+	return tap_done();
+}
