@@ -141,7 +141,7 @@ is_run(0, 'CRLF', ['check', 'crlf.rung']);
 ($out, $err) = is_run(0, 'check', ['check', 'good.rung']);
 is($out, "good.rung: good\n", 'check: the sum');
 ($out, $err) = is_run(1, 'check of an error', ['check', 'good.rung', 'bad.rung']);
-like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: .*Stopp$/m, 'check: file, line, rung, cell, code, name');
+like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: .*Stopp \(Stop\?\)$/m, 'check: file, line, rung, cell, code, name');
 like($out, qr/^good\.rung: good\nbad\.rung: 1 error/, 'check: a line for each file');
 ($out, $err) = is_run(1, 'check --json', ['check', '--json', 'good.rung', 'bad.rung']);
 my $json = decode_json($out);

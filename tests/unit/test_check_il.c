@@ -107,7 +107,7 @@ static void finds_names_and_pins(void)
 	CHECK_FIRST(il("  MOVE(IN := Up, OUT => I)"), "LD308 Up");
 	CHECK_FIRST(il("  CAL Delay(IN := Up)"), "LD308 Up");
 	CHECK_FIRST(il("  CAL A"), "LD309 A");
-	CHECK_FIRST(il("  CAL Main"), "LD301 Main");
+	CHECK_FIRST(il("  CAL Main"), "LD353 Main");
 	CHECK_FIRST(il("  CAL Delay(CU := A)"), "LD319 CU");
 	CHECK_FIRST(il("  CAL Delay(start => T)"), "LD319");
 	CHECK_FIRST(il("  LD Delay.CV\n  ST I"), "LD319 Delay.CV");

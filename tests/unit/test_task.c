@@ -282,7 +282,7 @@ static void has_budgets(void)
 		return;
 	CHECK(resource_scan(&rig.resource, 0) && rig_set(&rig, "Go", 1));
 	CHECK(!resource_scan(&rig.resource, MS));
-	told("task Wild: instruction budget exceeded");
+	told("task Wild: instruction budget exceeded: Main line 15");
 	CHECK_TEXT(rig.resource.fault_at.pou, "Main");
 }
 

@@ -313,11 +313,11 @@ static void test_il(void)
 	CHECK(il->line[5].op == OP_OR && il->line[5].modifiers == MOD_PAREN);
 	canonical(IL("Loop: ld A (* x *)\n and( B\n )\n jmpc Loop\n"
 		     "cal Delay ( in:=Go, (* y *)\n pt:=T#3s, // z\n q=>Done )\n"
-		     "CAL D()\nadd() (* w *)\n"),
+		     "CAL D()\nadd( 5\n) (* w *)\n"),
 		  IL("Loop:\n  LD    A (* x *)\n  AND( B\n  )\n"
 		     "  JMPC  Loop\n(* y *)\n// z\n"
 		     "  CAL   Delay(IN := Go, PT := T#3s, Q => Done)\n"
-		     "  CAL   D\n  ADD() (* w *)\n"));
+		     "  CAL   D\n  ADD( 5\n  ) (* w *)\n"));
 }
 
 /* ---- INCLUDE ---- */
