@@ -50,9 +50,9 @@ const char *il_operand_text(struct il_check *c, const struct il_line *line)
 	return scope_text(c->scope, line->operand);
 }
 
-/* With the words of @want that may have been meant. A search through all names takes
+/* A search through all names takes
  * its time, so only the first few get it. */
-static bool report_near(struct il_check *c, const struct il_line *line,
+bool il_report_near(struct il_check *c, const struct il_line *line,
 			enum diag_id id, const struct expect_want *want)
 {
 	char text[LIMIT_ARG];
@@ -73,7 +73,7 @@ static void report_unknown(struct il_check *c, const struct il_line *line,
 	if (line->kind == IL_OP && line->op == OP_CAL)
 		want.kinds = EXPECT_INSTANCE | EXPECT_SUBROUTINE;
 	if (why == DIAG_UNKNOWN_NAME)
-		report_near(c, line, why, &want);
+		il_report_near(c, line, why, &want);
 	else
 		il_report(c, line, why, il_operand_text(c, line));
 }
@@ -232,31 +232,6 @@ static bool check_store(struct il_check *c, const struct il_line *line)
 		     !il_need_bool(c, line, il_result_of(m), il_operand_text(c, line))))
 		return false;
 	return can_store(c, line, c->now, m->type);
-}
-
-static bool is_label(struct il_check *c, uint32_t name)
-{
-	uint32_t fold = names_fold(&scope_project(c->scope)->names, name);
-
-	return fold && fold < c->label_count && c->label[fold];
-}
-
-/* JMP and RET: with C the result must be there, without it nothing goes on. */
-static bool check_flow(struct il_check *c, const struct il_line *line)
-{
-	const struct expect_want labels = { .kinds = EXPECT_LABEL,
-					    .block = WORD_COUNT };
-	bool good = true;
-
-	if (c->depth > 0)
-		good = il_report(c, line, DIAG_IL_OPEN_PAREN, op_row(line->op)->word);
-	if (line->op == OP_JMP && !is_label(c, line->operand))
-		good = report_near(c, line, DIAG_NO_LABEL, &labels);
-	if (line->modifiers & MOD_C)
-		return il_need_result(c, line) &&
-		       il_need_bool(c, line, c->now, "result") && good;
-	c->now.there = false;
-	return good;
 }
 
 /* For check_own.c. */
@@ -437,49 +412,6 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 	return good;
 }
 
-/* CAL of a SUBROUTINE, which has no parameters. */
-static bool check_routine(struct il_check *c, int at, const struct pou *to)
-{
-	const struct il_line *line = &c->il->line[at];
-	bool good = true;
-
-	if (to->kind != POU_SUBROUTINE)
-		return il_report(c, line, DIAG_NOT_SUBROUTINE, il_operand_text(c, line));
-	if (line->modifiers & MOD_C)
-		good = il_need_result(c, line) &&
-		       il_need_bool(c, line, c->now, "result");
-	if (is_arg(c, at + 1))
-		good = il_report(c, &c->il->line[at + 1], DIAG_NO_PIN,
-				 scope_text(c->scope, c->il->line[at + 1].pin));
-	c->now.there = false;
-	return good;
-}
-
-static bool check_cal(struct il_check *c, int at)
-{
-	const struct il_line *line = &c->il->line[at];
-	const struct pou *routine = scope_pou(c->scope, c->pou, line->operand);
-	const struct meaning *m;
-	bool good = true;
-
-	if (routine)
-		return check_routine(c, at, routine);
-	m = find(c, line);
-	if (!m)
-		return false;
-	if (m->kind != MEANING_INSTANCE)
-		return il_report(c, line, DIAG_NOT_INSTANCE, il_operand_text(c, line));
-	if (line->modifiers & MOD_C)
-		good = il_need_result(c, line) &&
-		       il_need_bool(c, line, c->now, "result");
-	for (int i = at + 1; is_arg(c, i); i++)
-		good &= il_check_pin(c, scope_row(c->scope, m->word),
-				     &c->il->line[i]);
-	good &= il_check_in_outs(c, at, scope_row(c->scope, m->word));
-	c->now.there = false;
-	return good;
-}
-
 /* ---- the walk ---- */
 
 static bool check_op(struct il_check *c, int at)
@@ -504,13 +436,10 @@ static bool check_op(struct il_check *c, int at)
 		return il_check_not(c, line);
 	case OP_JMP:
 	case OP_RET:
-		return check_flow(c, line);
-	case OP_CAL:
-		return check_cal(c, at);
 	case OP_STP:
-		return !(line->modifiers & MOD_C) ||
-		       (il_need_result(c, line) &&
-			il_need_bool(c, line, c->now, "result"));
+		return il_check_flow(c, line);
+	case OP_CAL:
+		return il_check_cal(c, at);
 	case OP_COUNT:
 		break;
 	}

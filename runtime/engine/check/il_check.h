@@ -44,6 +44,10 @@ bool il_report_types(struct il_check *c, const struct il_line *line,
 /** il_report_constant - an untyped constant that is no value of @to. */
 bool il_report_constant(struct il_check *c, const struct il_line *line,
 			const struct literal *literal, enum iec_type to);
+struct expect_want;
+/** il_report_near - the same with the words of @want that may have been meant. */
+bool il_report_near(struct il_check *c, const struct il_line *line, enum diag_id id,
+		    const struct expect_want *want);
 /** il_is_unknown - after an error was told: a result that fits everywhere. */
 bool il_is_unknown(struct result result);
 /** il_find - what an operand means; NULL after a diagnostic. */
@@ -81,6 +85,12 @@ bool il_is_bits(struct result result);
 bool il_check_inputs(struct il_check *c, const struct il_line *line,
 		     const struct result *in, int count, enum iec_type hint,
 		     enum iec_type *common);
+
+/* ---- check_flow.c ---- */
+/** il_check_flow - JMP, RET, STP. */
+bool il_check_flow(struct il_check *c, const struct il_line *line);
+/** il_check_cal - CAL of an instance or a subroutine; the lines behind @at too. */
+bool il_check_cal(struct il_check *c, int at);
 
 /* ---- check_own.c ---- */
 /** il_check_pin - one parameter against the pin of @row that it names. */

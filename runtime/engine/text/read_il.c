@@ -198,13 +198,26 @@ static bool is_formal(const struct reader *r)
 	return lex_is(&ahead, ":=") || lex_is(&ahead, "=>");
 }
 
+/* Does `()` follow, a call without parameters? */
+static bool is_empty(const struct reader *r)
+{
+	struct lex ahead = r->lex;
+
+	ahead.comments = false;
+	ahead.newlines = true;
+	lex_next(&ahead);
+	return lex_is(&ahead, "(") && lex_next(&ahead) != TOKEN_END &&
+	       lex_is(&ahead, ")");
+}
+
 static bool read_function(struct reader *r, const struct token *word,
 			  struct il_line line)
 {
 	const struct word_row *row = words_row(&r->project->words, (enum word)line.word);
 	bool own = word_is_own((enum word)line.word);
 
-	if (!own && word_opens(row) && reader_peek(r, "(") && !is_formal(r))
+	if (!own && word_opens(row) && reader_peek(r, "(") && !is_formal(r) &&
+	    !is_empty(r))
 		return read_open(r, word, line);
 	reader_next(r);
 	if (reader_is(r, '(')) {
