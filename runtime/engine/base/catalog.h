@@ -93,7 +93,6 @@ struct word_pin {
 	const char *doc;
 	union iec_value init; /* its value until it is given one, of has_init  */
 	uint32_t offset;     /* of an FB pin in its struct                     */
-	uint32_t elements;   /* own rows: of an array; 0: none                 */
 	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
 	uint16_t capacity;   /* own rows: of a STRING                          */
 	enum word word : 16; /* type IEC_NONE, own rows: an instance, structure */

@@ -209,7 +209,6 @@ static bool mean_part(const struct scope *scope, const char *name, size_t len,
 		      struct meaning *out)
 {
 	const struct word_row *row = scope_row(scope, out->word);
-	const struct var_table *vars = shape_vars(scope->project, out->word);
 	const struct word_pin *pin;
 	int index = word_pin_find(row, name, len);
 
@@ -222,14 +221,10 @@ static bool mean_part(const struct scope *scope, const char *name, size_t len,
 	out->type = pin->type;
 	if (row->kind == WORD_FB)
 		out->writable = pin->dir == PIN_IN;
-	out->kind = MEANING_PIN;
-	if (pin->elements) {
-		out->kind = MEANING_ARRAY;
-		out->array = vars->var[index].array;
-		out->unit = (uint16_t)var_unit(&vars->var[index]);
-	}
 	if (pin->type == IEC_NONE)
 		mean_whole(scope, pin->word, out);
+	else
+		out->kind = MEANING_PIN;
 	return true;
 }
 
@@ -346,11 +341,7 @@ static bool mean_array(const struct scope *scope, uint32_t table,
 		*why = DIAG_NOT_ARRAY;
 		return out->kind == MEANING_ARRAY;
 	}
-	if (mean_path(scope, table, text, len, out, why)) {
-		*why = DIAG_NOT_ARRAY;
-		return out->kind == MEANING_ARRAY;
-	}
-	if (*why == DIAG_NO_PIN || !mean_address(scope, text, len, out, why))
+	if (!mean_address(scope, text, len, out, why))
 		return false;
 	first = out->addr.byte * 8 + out->addr.bit;
 	out->array.count = (project_area_bytes(scope->project, out->addr.area) *
@@ -372,7 +363,7 @@ static bool mean_fixed(enum iec_type type, int64_t index, struct meaning *out,
 	if (out->addr.area != AREA_NONE)
 		out->addr = vars_shift(out->addr, (uint32_t)element);
 	if (out->var)
-		out->offset += (uint32_t)element * meaning_unit(out);
+		out->offset = (uint32_t)element * var_unit(out->var);
 	out->array.count = 0;
 	return true;
 }
@@ -551,11 +542,6 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 		.var = var, .index = index, .writable = true,
 	};
 	return true;
-}
-
-uint32_t meaning_unit(const struct meaning *meaning)
-{
-	return meaning->unit ? meaning->unit : var_unit(meaning->var);
 }
 
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning)

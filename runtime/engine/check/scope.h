@@ -36,8 +36,6 @@ struct meaning {
 	const struct var *var;    /* the variable or instance                 */
 	int pin;                  /* index in the row of the variable's word  */
 	uint16_t word;            /* enum word of an INSTANCE or STRUCT       */
-	uint16_t unit;            /* of an array that is a part: bytes from one
-				     element to the next; else 0              */
 	struct iec_addr addr;     /* of ADDRESS, and of a variable with AT; of
 				     an element with a fixed index its own    */
 	uint32_t offset;          /* of a part or element: bytes behind the
@@ -93,8 +91,6 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index);
  */
 bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index);
-/** meaning_unit - bytes from one element of an array to the next. Scan-safe: yes. */
-uint32_t meaning_unit(const struct meaning *meaning);
 /** scope_size - bytes of what @meaning is. Scan-safe: no. */
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning);
 struct project *scope_project(const struct scope *scope);

@@ -63,13 +63,9 @@ struct extent shape_of(const struct word_table *words, const struct word_pin *pi
 	if (pin->type == IEC_NONE)
 		return (struct extent){ words_row(words, pin->word)->size,
 					BLOCK_ALIGN };
-	uint64_t size = iec_type_size(pin->type, pin->capacity ?
-				      pin->capacity : IEC_STRING_MOST);
-
-	if (pin->elements)
-		size *= pin->elements;
 	return (struct extent){
-		size <= LIMIT_DATA ? (uint32_t)size : LIMIT_DATA + 1,
+		iec_type_size(pin->type, pin->capacity ? pin->capacity :
+							 IEC_STRING_MOST),
 		iec_type_row(pin->type)->size };
 }
 
@@ -143,7 +139,7 @@ static void make_pin(const struct shaper *s, struct word_row *row,
 	*pin = (struct word_pin){
 		.name = project_text(s->project, var->name), .doc = "",
 		.dir = dir_of(row, flags), .type = var->type, .word = var->fb,
-		.capacity = var->capacity, .elements = var->array.count,
+		.capacity = var->capacity,
 		.classes = iec_type_row(var->type)->class,
 		.has_init = var->has_init,
 	};

@@ -118,10 +118,10 @@ static bool may_hold_blocks(const struct reader *r)
 	       !(r->pou && r->pou->kind == POU_FUNCTION);
 }
 
-/* None is handed over by itself; in a structure it is. */
+/* Functions, blocks and structures have none so far. */
 static bool may_hold_arrays(const struct reader *r)
 {
-	return !(r->var_flags & (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT));
+	return !r->members && (!r->pou || r->pou->kind == POU_PROGRAM);
 }
 
 bool reader_type(struct reader *r, struct var *var)
@@ -142,11 +142,9 @@ bool reader_type(struct reader *r, struct var *var)
 	if (var->type == IEC_NONE) {
 		var->fb = words_find(&r->project->words, token->text, token->len);
 		kind = words_row(&r->project->words, var->fb)->kind;
-		if (var->fb == WORD_COUNT ||
+		if (var->fb == WORD_COUNT || var->array.count ||
 		    (kind != WORD_FB && kind != WORD_STRUCT))
 			return reader_fail_token(r, DIAG_BAD_TYPE);
-		if (var->array.count)
-			return reader_fail_token(r, DIAG_MISPLACED);
 		if (kind == WORD_FB && !may_hold_blocks(r))
 			return reader_fail_token(r, DIAG_MISPLACED);
 		if (var->at_text)

@@ -10,7 +10,7 @@
 /* Bytes from one element to the next. */
 static uint32_t stride_of(const struct meaning *m)
 {
-	return m->var ? meaning_unit(m) : iec_type_row(m->type)->size;
+	return m->var ? var_unit(m->var) : iec_type_row(m->type)->size;
 }
 
 /* The operands of both instructions behind the value. */

@@ -38,8 +38,7 @@ static void place_part(struct assembler *as, const struct whole *whole, int inde
 	} else if (pin->type == IEC_STRING) {
 		run.word = pin->capacity;
 	}
-	run.count = pin->elements ? pin->elements : 1;
-	layout_place_at(as, run, whole->base + pin->offset, size / run.count);
+	layout_place_at(as, run, whole->base + pin->offset, size);
 	if (init && pin->type == IEC_NONE)
 		layout_init_pins(as, whole->base + pin->offset, word_row(pin->word));
 	else if (init && pin->has_init)

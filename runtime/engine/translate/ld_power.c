@@ -196,7 +196,7 @@ static bool is_var(const struct meaning *m)
 static uint32_t end_of(const struct scope *scope, const struct meaning *m)
 {
 	if (m->array.count)
-		return m->offset + m->array.count * meaning_unit(m);
+		return m->offset + m->array.count * var_unit(m->var);
 	return m->offset + scope_size(scope, m);
 }
 

@@ -2,7 +2,6 @@
  *
  * pack_image - writes what the assembler made as a code image.
  */
-#include "engine/model/shape.h"
 #include "engine/translate/assembler.h"
 
 #include "engine/base/digest.h"
@@ -81,19 +80,20 @@ static uint32_t symbol_word(struct assembler *as, const struct maps *maps,
 
 /* That of an array carries its bounds. */
 static void add_symbol_name(struct assembler *as, struct maps *maps,
-			    const char *name, struct var_array array)
+			    const struct var *var)
 {
-	char bounds[48] = "";
+	const struct names *names = &as->translation->project->names;
+	char text[LIMIT_NAME + 32];
 	int len;
 
-	add_string(as, maps, name, strlen(name));
-
-	if (!array.count || as->failed)
+	if (!var->array.count) {
+		add_name(as, maps, var->name);
 		return;
-	len = snprintf(bounds, sizeof(bounds), "[%ld..%lld]", (long)array.low,
-		       (long long)array.low + array.count - 1);
-	maps->string_used--; /* they stand in the place of its end           */
-	add_string(as, maps, bounds, (size_t)len);
+	}
+	len = snprintf(text, sizeof(text), "%s[%ld..%lld]",
+		       names_text(names, var->name), (long)var->array.low,
+		       (long long)var->array.low + var->array.count - 1);
+	add_string(as, maps, text, (size_t)len);
 }
 
 static void add_symbol(struct assembler *as, struct maps *maps,
@@ -107,8 +107,7 @@ static void add_symbol(struct assembler *as, struct maps *maps,
 		return;
 	}
 	*symbol = symbol_word(as, maps, pou, var, index);
-	add_symbol_name(as, maps, project_text(as->translation->project, var->name),
-			var->array);
+	add_symbol_name(as, maps, var);
 }
 
 /* Of an instance without variables there is nothing to name. */
@@ -141,8 +140,7 @@ static void add_group(struct assembler *as, struct maps *maps, uint32_t pou,
 
 /* A part of a variable, which has no symbol of its own: `M1.Start`. */
 static void add_part(struct assembler *as, struct maps *maps, const char *name,
-		     const struct word_pin *pin, struct var_array array,
-		     uint32_t offset, uint32_t marks)
+		     const struct word_pin *pin, uint32_t offset, uint32_t marks)
 {
 	uint32_t *symbol = arena_push(as->arena, &maps->symbol,
 				      &maps->symbol_count, sizeof(*symbol));
@@ -152,12 +150,11 @@ static void add_part(struct assembler *as, struct maps *maps, const char *name,
 		return;
 	}
 	*symbol = CODE_OPERAND((uint32_t)pin->type | marks, offset);
-	add_symbol_name(as, maps, name, array);
+	add_string(as, maps, name, strlen(name));
 }
 
 struct level {
 	const struct word_row *row;
-	const struct var_table *vars;
 	uint32_t base;
 	int next;
 	size_t len;   /* of the name so far */
@@ -178,8 +175,7 @@ static void add_parts(struct assembler *as, struct maps *maps,
 		as->failed = true;
 		return;
 	}
-	level[0] = (struct level){ words_row(&project->words, var->fb),
-				   shape_vars(project, var->fb), offset, 0,
+	level[0] = (struct level){ words_row(&project->words, var->fb), offset, 0,
 				   names_len(&project->names, var->name) };
 	memcpy(name, project_text(project, var->name), level[0].len);
 	while (depth >= 0 && !as->failed) {
@@ -199,12 +195,10 @@ static void add_parts(struct assembler *as, struct maps *maps,
 		if (pin->type == IEC_NONE && word_is_own(pin->word))
 			level[++depth] = (struct level){
 				words_row(&project->words, pin->word),
-				shape_vars(project, pin->word),
 				top->base + pin->offset, 0, len };
 		else
-			add_part(as, maps, name, pin,
-				 top->vars->var[top->next - 1].array,
-				 top->base + pin->offset, marks);
+			add_part(as, maps, name, pin, top->base + pin->offset,
+				 marks);
 	}
 }
 
@@ -284,9 +278,6 @@ static void add_power(struct assembler *as, struct maps *maps)
 
 /* ---- power by instance ---- */
 
-/* Bytes of the longest name of a part. */
-#define KEPT_NAME ((LIMIT_NESTING + 2) * (LIMIT_NAME + 2))
-
 /* An instance whose power is kept, and those inside it. */
 struct kept {
 	int unit;
@@ -294,6 +285,8 @@ struct kept {
 	int next;      /* variable of its block to look at                    */
 	size_t len;    /* of its name                                         */
 };
+
+#define KEPT_NAME ((LIMIT_NESTING + 2) * (LIMIT_NAME + 2))
 
 /* "Belt1" behind the @len bytes of @name; with a dot between. */
 static size_t join_name(char *name, size_t len, const char *part)
