@@ -87,6 +87,12 @@ enum op_modifier { MOD_N = 1, MOD_C = 2, MOD_PAREN = 4 };
 /* PIN_VAR: inside, not to be named from outside; PIN_NONE: no part of it. */
 enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR, PIN_IN_OUT, PIN_NONE };
 
+/* ARRAY[low..high]: so many elements in a row; count 0: none, a single value. */
+struct var_array {
+	int32_t low;
+	uint32_t count;
+};
+
 /* Small on purpose: a board has hundreds of them in its memory. */
 struct word_pin {
 	const char *name;
@@ -95,6 +101,7 @@ struct word_pin {
 	uint32_t offset;     /* of an FB pin in its struct                     */
 	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
 	uint16_t capacity;   /* own rows: of a STRING                          */
+	struct var_array array; /* own rows: of so many such                   */
 	enum word word : 16; /* type IEC_NONE, own rows: an instance, structure */
 	enum iec_type type : 8; /* of an FB pin; of a function's the type it must
 				be made, IEC_NONE if any of its classes will do */

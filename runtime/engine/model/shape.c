@@ -60,13 +60,31 @@ const struct var_table *shape_vars(const struct project *project, enum word word
 
 struct extent shape_of(const struct word_table *words, const struct word_pin *pin)
 {
-	if (pin->type == IEC_NONE)
-		return (struct extent){ words_row(words, pin->word)->size,
-					BLOCK_ALIGN };
-	return (struct extent){
-		iec_type_size(pin->type, pin->capacity ? pin->capacity :
-							 IEC_STRING_MOST),
-		iec_type_row(pin->type)->size };
+	struct extent out = { .align = BLOCK_ALIGN };
+
+	if (pin->type == IEC_NONE) {
+		out.unit = words_row(words, pin->word)->size;
+	} else {
+		out.unit = iec_type_size(pin->type, pin->capacity ?
+					 pin->capacity : IEC_STRING_MOST);
+		out.align = iec_type_row(pin->type)->size;
+	}
+	out.size = out.unit;
+	if (pin->array.count) {
+		out.unit = (out.unit + out.align - 1) / out.align * out.align;
+		out.size = (uint64_t)out.unit * pin->array.count;
+	}
+	return out;
+}
+
+struct extent shape_of_var(const struct word_table *words, const struct var *var)
+{
+	struct word_pin like = {
+		.type = var->type, .word = var->fb, .capacity = var->capacity,
+		.array = var->array,
+	};
+
+	return shape_of(words, &like);
 }
 
 /* ---- diagnostics ---- */
@@ -139,7 +157,7 @@ static void make_pin(const struct shaper *s, struct word_row *row,
 	*pin = (struct word_pin){
 		.name = project_text(s->project, var->name), .doc = "",
 		.dir = dir_of(row, flags), .type = var->type, .word = var->fb,
-		.capacity = var->capacity,
+		.capacity = var->capacity, .array = var->array,
 		.classes = iec_type_row(var->type)->class,
 		.has_init = var->has_init,
 	};

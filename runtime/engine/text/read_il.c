@@ -105,7 +105,9 @@ static bool has_own_pins(const struct reader *r, const struct il_line *call)
 {
 	struct project *project = r->project;
 	const struct var_table *table = r->pou ? &r->pou->vars : NULL;
-	uint32_t fold = names_fold(&project->names, call->operand);
+	const char *name = names_text(&project->names, call->operand);
+	uint32_t fold = names_fold(&project->names, names_intern(&project->names,
+						name, strcspn(name, "[")));
 	int index;
 
 	if (call->kind != IL_OP)

@@ -119,6 +119,8 @@ static bool read_result(struct reader *r, struct pou *pou)
 	var.fold = names_fold(&r->project->names, var.name);
 	if (!reader_type(r, &var))
 		return false;
+	if (var.array.count)
+		return reader_fail_word(r, DIAG_MISPLACED, "ARRAY");
 	block = arena_push(arena, &table->block, &table->block_count,
 			   sizeof(*block));
 	slot = arena_push(arena, &table->var, &table->count, sizeof(*slot));

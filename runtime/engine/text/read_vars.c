@@ -118,12 +118,6 @@ static bool may_hold_blocks(const struct reader *r)
 	       !(r->pou && r->pou->kind == POU_FUNCTION);
 }
 
-/* Functions, blocks and structures have none so far. */
-static bool may_hold_arrays(const struct reader *r)
-{
-	return !r->members && (!r->pou || r->pou->kind == POU_PROGRAM);
-}
-
 bool reader_type(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
@@ -132,8 +126,6 @@ bool reader_type(struct reader *r, struct var *var)
 	if (!reader_is(r, ':'))
 		return reader_fail_word(r, DIAG_EXPECTED, ":");
 	reader_step(r);
-	if (lex_is(&r->lex, "ARRAY") && !may_hold_arrays(r))
-		return reader_fail_token(r, DIAG_MISPLACED);
 	if (!read_array(r, &var->array))
 		return false;
 	if (token->kind != TOKEN_NAME)
@@ -142,7 +134,7 @@ bool reader_type(struct reader *r, struct var *var)
 	if (var->type == IEC_NONE) {
 		var->fb = words_find(&r->project->words, token->text, token->len);
 		kind = words_row(&r->project->words, var->fb)->kind;
-		if (var->fb == WORD_COUNT || var->array.count ||
+		if (var->fb == WORD_COUNT ||
 		    (kind != WORD_FB && kind != WORD_STRUCT))
 			return reader_fail_token(r, DIAG_BAD_TYPE);
 		if (kind == WORD_FB && !may_hold_blocks(r))

@@ -41,7 +41,8 @@ static const struct il_line *find_arg(const struct list *list, const char *name,
 
 static bool is_whole(const struct meaning *m)
 {
-	return m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE;
+	return m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE ||
+	       m->kind == MEANING_ARRAY;
 }
 
 static uint32_t size_of(const struct list *list, const struct meaning *m)

@@ -4,7 +4,8 @@
  * function block's cells once more for each instance.
  *
  * Behind the power of a block's own cells lies that of the instances inside it, so that one
- * copy takes all along.
+ * copy takes all along. Instances in arrays have none: of their cells the power is that
+ * of the last call.
  */
 #include "engine/translate/assembler.h"
 
@@ -16,7 +17,7 @@ static int unit_of(const struct assembler *as, const struct var_table *vars,
 {
 	const struct project *project = as->translation->project;
 	const struct var *var = &vars->var[index];
-	const struct pou *pou = var->type == IEC_NONE ?
+	const struct pou *pou = var->type == IEC_NONE && !var->array.count ?
 		shape_pou(project, var->fb) : NULL;
 
 	return pou && pou->kind == POU_BLOCK &&

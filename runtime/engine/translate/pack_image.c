@@ -5,6 +5,7 @@
 #include "engine/translate/assembler.h"
 
 #include "engine/base/digest.h"
+#include "engine/model/shape.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -78,22 +79,30 @@ static uint32_t symbol_word(struct assembler *as, const struct maps *maps,
 	return CODE_OPERAND(mark, offset);
 }
 
+#define BOUNDS 32 /* bytes that "[-1000..1000]" takes at most                */
+
+/* The bounds of an array, behind its name. */
+static size_t print_bounds(char *out, struct var_array array)
+{
+	return (size_t)snprintf(out, BOUNDS, "[%ld..%lld]", (long)array.low,
+				(long long)array.low + array.count - 1);
+}
+
 /* That of an array carries its bounds. */
 static void add_symbol_name(struct assembler *as, struct maps *maps,
 			    const struct var *var)
 {
 	const struct names *names = &as->translation->project->names;
-	char text[LIMIT_NAME + 32];
-	int len;
+	size_t len = names_len(names, var->name);
+	char text[LIMIT_NAME + BOUNDS];
 
 	if (!var->array.count) {
 		add_name(as, maps, var->name);
 		return;
 	}
-	len = snprintf(text, sizeof(text), "%s[%ld..%lld]",
-		       names_text(names, var->name), (long)var->array.low,
-		       (long long)var->array.low + var->array.count - 1);
-	add_string(as, maps, text, (size_t)len);
+	memcpy(text, names_text(names, var->name), len);
+	len += print_bounds(text + len, var->array);
+	add_string(as, maps, text, len);
 }
 
 static void add_symbol(struct assembler *as, struct maps *maps,
@@ -153,52 +162,108 @@ static void add_part(struct assembler *as, struct maps *maps, const char *name,
 	add_string(as, maps, name, strlen(name));
 }
 
+/* Of what has parts, those are named one by one; so are the elements of an array of
+ * such: `Recipes[3].Speed`. */
 struct level {
 	const struct word_row *row;
 	uint32_t base;
 	int next;
-	size_t len;   /* of the name so far */
+	uint32_t element;  /* of the pin at next                           */
+	size_t len;        /* of the name so far                           */
 };
 
-/* All parts of an instance or structure of the project, at every depth. */
-static void add_parts(struct assembler *as, struct maps *maps,
-		      const struct var *var, uint32_t offset)
+#define NAME_PART (LIMIT_NAME + BOUNDS + 1)
+#define NAME_MOST ((LIMIT_NESTING + 2) * NAME_PART)
+
+/* The index of an element behind the name of what it is one of; or the bounds of all,
+ * if they are values. */
+static size_t join_index(char *out, const struct word_pin *pin, uint32_t element)
 {
-	const struct project *project = as->translation->project;
-	uint32_t marks = maps->declared[var->fold] > 1 ? SYMBOL_SHARED : 0;
+	*out = '\0';
+	if (!pin->array.count)
+		return 0;
+	if (pin->type != IEC_NONE)
+		return print_bounds(out, pin->array);
+	return (size_t)snprintf(out, BOUNDS, "[%lld]",
+				(long long)pin->array.low + element);
+}
+
+/* The pin to name next, an element at a time if it has parts; which one. */
+static const struct word_pin *next_pin(struct level *top, uint32_t *element)
+{
+	const struct word_pin *pin = &top->row->pin[top->next];
+
+	*element = top->element++;
+	if (pin->type != IEC_NONE || pin->dir == PIN_NONE ||
+	    top->element >= pin->array.count) {
+		top->next++;
+		top->element = 0;
+	}
+	return pin;
+}
+
+/* All parts of one instance or structure of the project, at every depth; its own name
+ * stands in @name. */
+static void add_parts(struct assembler *as, struct maps *maps, char *name,
+		      enum word word, uint32_t offset, uint32_t marks)
+{
+	const struct word_table *words = &as->translation->project->words;
 	struct level level[LIMIT_NESTING + 1];
-	char *name = arena_alloc(as->arena, (LIMIT_NESTING + 2) *
-				 (LIMIT_NAME + 2));
 	int depth = 0;
 
-	if (!name) {
-		as->failed = true;
-		return;
-	}
-	level[0] = (struct level){ words_row(&project->words, var->fb), offset, 0,
-				   names_len(&project->names, var->name) };
-	memcpy(name, project_text(project, var->name), level[0].len);
+	level[0] = (struct level){ .row = words_row(words, word), .base = offset,
+				   .len = strlen(name) };
 	while (depth >= 0 && !as->failed) {
 		struct level *top = &level[depth];
-		const struct word_pin *pin = &top->row->pin[top->next];
+		const struct word_pin *pin;
 		size_t len = top->len;
+		uint32_t element, at;
 
-		if (top->next++ == top->row->pin_count) {
+		if (top->next == top->row->pin_count) {
 			depth--;
 			continue;
 		}
+		pin = next_pin(top, &element);
 		if (pin->dir == PIN_NONE || !*pin->name)
 			continue;
 		name[len++] = '.';
 		memcpy(name + len, pin->name, strlen(pin->name) + 1);
 		len += strlen(pin->name);
+		len += join_index(name + len, pin, element);
+		at = top->base + pin->offset + element * shape_of(words, pin).unit;
 		if (pin->type == IEC_NONE && word_is_own(pin->word))
 			level[++depth] = (struct level){
-				words_row(&project->words, pin->word),
-				top->base + pin->offset, 0, len };
+				.row = words_row(words, pin->word), .base = at,
+				.len = len };
 		else
-			add_part(as, maps, name, pin, top->base + pin->offset,
-				 marks);
+			add_part(as, maps, name, pin, at, marks);
+	}
+}
+
+/* An instance or structure, or all of an array. */
+static void add_whole(struct assembler *as, struct maps *maps,
+		      const struct var *var, uint32_t offset)
+{
+	const struct project *project = as->translation->project;
+	struct word_pin like = { .type = IEC_NONE, .word = var->fb,
+				 .array = var->array };
+	uint32_t marks = maps->declared[var->fold] > 1 ? SYMBOL_SHARED : 0;
+	uint32_t count = var->array.count ? var->array.count : 1;
+	uint32_t unit = shape_of_var(&project->words, var).unit;
+	size_t len = names_len(&project->names, var->name);
+	char *name = arena_alloc(as->arena, NAME_MOST);
+
+	if (!name) {
+		as->failed = true;
+		return;
+	}
+	memcpy(name, project_text(project, var->name), len);
+	for (uint32_t i = 0; i < count && !as->failed; i++) {
+		join_index(name + len, &like, i);
+		if (word_is_own(var->fb))
+			add_parts(as, maps, name, var->fb, offset + i * unit, marks);
+		else
+			add_part(as, maps, name, &like, offset + i * unit, marks);
 	}
 }
 
@@ -208,8 +273,8 @@ static void add_var(struct assembler *as, struct maps *maps,
 	struct meaning m = { .kind = MEANING_INSTANCE, .pou = pou, .var = var,
 			     .index = index };
 
-	if (var->type == IEC_NONE && word_is_own(var->fb))
-		add_parts(as, maps, var, layout_spot(as, &m).offset);
+	if (var->type == IEC_NONE && (word_is_own(var->fb) || var->array.count))
+		add_whole(as, maps, var, layout_spot(as, &m).offset);
 	else
 		add_symbol(as, maps, pou, var, index);
 }
