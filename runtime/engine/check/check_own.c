@@ -67,11 +67,12 @@ static bool check_array(struct il_check *c, const struct il_line *arg,
 	    (pin->type != IEC_NONE || m->word == pin->word) &&
 	    m->stride == shape_of(&project->words, pin).unit)
 		return true;
-	snprintf(text, sizeof(text), "ARRAY[%ld..%lld] OF %.20s",
+	snprintf(text, sizeof(text), "ARRAY[%ld..%lld] OF %.20s%s",
 		 (long)pin->array.low,
 		 (long long)pin->array.low + pin->array.count - 1,
 		 pin->type == IEC_NONE ? scope_row(c->scope, pin->word)->word :
-					 iec_type_row(pin->type)->word);
+					 iec_type_row(pin->type)->word,
+		 m->addr.area == AREA_NONE ? "" : " without AT");
 	return il_report(c, arg, DIAG_WRONG_TYPE, text);
 }
 

@@ -89,8 +89,9 @@ static bool step_into(struct path *path)
 
 	path->at++;
 	len = take(path, ".[", &name);
-	if (!has_parts(m))
-		return refuse(path, DIAG_NO_PIN);
+	if (!has_parts(m)) /* the name itself has no dots behind it */
+		return refuse(path, m->kind == MEANING_VARIABLE ?
+				    DIAG_UNKNOWN_NAME : DIAG_NO_PIN);
 	row = scope_row(path->scope, m->word);
 	index = word_pin_find(row, name, len);
 	if (index < 0)
@@ -220,13 +221,16 @@ static bool begin_address(struct path *path, const char *text, size_t len)
 static bool begin(struct path *path)
 {
 	const char *text;
+	const char *start = path->at;
 	size_t len = take(path, ".[", &text);
 
 	if (!len || path->at == path->end)
 		return false;
 	if (scope_mean_name(path->scope, path->table, text, len, &path->m))
 		return true;
-	return *path->at == '[' && begin_address(path, text, len);
+	path->at = start;
+	len = take(path, "[", &text); /* %MX0.0[3] */
+	return path->at < path->end && begin_address(path, text, len);
 }
 
 /* What an open index leads to is one value. */

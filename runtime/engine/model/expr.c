@@ -221,6 +221,7 @@ static bool take_operand(struct parser *parser, bool *more)
 		.op = literal ? EXPR_LITERAL : EXPR_NAME,
 		.text = token->text, .left = -1, .right = -1,
 	};
+	bool indexed;
 	size_t len;
 
 	*more = false;
@@ -234,8 +235,9 @@ static bool take_operand(struct parser *parser, bool *more)
 	if (len > 2 * LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	node.len = (uint16_t)len;
+	indexed = lex_is(lex, "]");
 	lex_next(lex);
-	*more = token->kind != TOKEN_NUMBER && lex_is(lex, "[");
+	*more = token->kind != TOKEN_NUMBER && !indexed && lex_is(lex, "[");
 	return *more ? open_index(parser, token->text, len) :
 		       add_node(parser, node);
 }
@@ -399,6 +401,7 @@ static bool take_target(struct parser *parser)
 {
 	struct lex *lex = parser->lex;
 	struct expr *out = parser->out;
+	bool indexed;
 
 	if (!has_target(*lex))
 		return true;
@@ -407,8 +410,9 @@ static bool take_target(struct parser *parser)
 	out->target_len = text_len(out->target, lex);
 	if (out->target_len > 2 * LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
+	indexed = lex_is(lex, "]");
 	lex_next(lex);
-	if (lex_is(lex, "[")) {
+	if (!indexed && lex_is(lex, "[")) {
 		lex_next(lex);
 		if (!parse(parser))
 			return false;
