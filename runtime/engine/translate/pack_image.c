@@ -348,10 +348,9 @@ struct kept {
 	int unit;
 	uint32_t base; /* of its power                                        */
 	int next;      /* variable of its block to look at                    */
+	uint32_t element; /* of that                                          */
 	size_t len;    /* of its name                                         */
 };
-
-#define KEPT_NAME ((LIMIT_NESTING + 2) * (LIMIT_NAME + 2))
 
 /* "Belt1" behind the @len bytes of @name; with a dot between. */
 static size_t join_name(char *name, size_t len, const char *part)
@@ -382,39 +381,60 @@ static void add_watched(struct assembler *as, struct maps *maps,
 	};
 }
 
-/* Variable @index of table @table, and at all depths what is in it. */
+/* The next instance inside the one on top, an element at a time; false: no more
+ * on this level. */
+static bool next_kept(const struct assembler *as, struct kept *top, int *index,
+		      uint32_t *element)
+{
+	int table = top->unit + 1;
+	const struct var_table *vars = layout_vars(as, table);
+
+	while (top->next < vars->count && !as->power[table][top->next])
+		top->next++;
+	if (top->next == vars->count)
+		return false;
+	*index = top->next;
+	*element = top->element++;
+	if (top->element >= vars->var[*index].array.count) {
+		top->element = 0;
+		top->next++;
+	}
+	return true;
+}
+
+/* Element @element of variable @index of table @table, and at all depths what is in
+ * it. */
 static void keep_instance(struct assembler *as, struct maps *maps, char *name,
-			  size_t len, int table, int index)
+			  size_t len, int table, int index, uint32_t element)
 {
 	const struct project *project = as->translation->project;
 	struct kept level[LIMIT_NESTING + 1];
 	int depth = -1;
 
-	for (;;) {
+	do {
 		const struct var *var = &layout_vars(as, table)->var[index];
-		uint32_t base = as->power[table][index];
+		struct word_pin like = { .type = IEC_NONE, .array = var->array };
+		uint32_t base = as->power[table][index], unit = 0;
+		struct kept *inner = &level[depth + 1];
 
-		if (base) { /* inside a block: beside that of its cells */
-			uint32_t unit = 0;
-
-			if (depth >= 0)
-				base = level[depth].base + base -
-				       as->frame[level[depth].unit].power;
-			layout_pou(as, var->fb, &unit);
-			level[depth + 1] = (struct kept){ (int)unit, base, 0,
-				join_name(name, depth < 0 ? len :
-					  level[depth].len,
-					  project_text(project, var->name)) };
-			add_watched(as, maps, &level[++depth], name);
+		if (depth >= 0) { /* inside a block: beside that of its cells */
+			base += level[depth].base -
+				as->frame[level[depth].unit].power;
+			len = level[depth].len;
 		}
-		while (depth >= 0 && level[depth].next ==
-		       layout_vars(as, level[depth].unit + 1)->count)
+		base += element * layout_pou(as, var->fb, &unit)->power_size;
+		*inner = (struct kept){ .unit = (int)unit, .base = base,
+			.len = join_name(name, len,
+					 project_text(project, var->name)) };
+		inner->len += join_index(name + inner->len, &like, element);
+		add_watched(as, maps, inner, name);
+		depth++;
+		while (depth >= 0 &&
+		       !next_kept(as, &level[depth], &index, &element))
 			depth--;
-		if (depth < 0 || as->failed)
-			return;
-		table = level[depth].unit + 1;
-		index = level[depth].next++;
-	}
+		if (depth >= 0)
+			table = level[depth].unit + 1;
+	} while (depth >= 0 && !as->failed);
 }
 
 static void keep_table(struct assembler *as, struct maps *maps, char *name,
@@ -431,14 +451,16 @@ static void keep_table(struct assembler *as, struct maps *maps, char *name,
 		if (table && maps->declared[vars->var[i].fold] > 1)
 			len = join_name(name, 0, project_text(project,
 				project->pou[table - 1].name));
-		keep_instance(as, maps, name, len, table, i);
+		for (uint32_t k = 0; k == 0 || k < vars->var[i].array.count; k++)
+			if (!as->failed)
+				keep_instance(as, maps, name, len, table, i, k);
 	}
 }
 
 static void keep_powers(struct assembler *as, struct maps *maps)
 {
 	const struct project *project = as->translation->project;
-	char *name = as->power ? arena_alloc(as->arena, KEPT_NAME) : NULL;
+	char *name = as->power ? arena_alloc(as->arena, NAME_MOST) : NULL;
 
 	if (!name)
 		return;
