@@ -97,11 +97,15 @@ struct var_array {
 struct word_pin {
 	const char *name;
 	const char *doc;
-	union iec_value init; /* its value until it is given one, of has_init  */
+	union {
+		union iec_value init; /* its value until it is given one, of
+					 has_init; of a pin of the catalogue  */
+		int32_t low;          /* own rows: of an array                */
+	};
+	uint32_t elements;   /* own rows: of an array; 0: none                 */
 	uint32_t offset;     /* of an FB pin in its struct                     */
 	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
 	uint16_t capacity;   /* own rows: of a STRING                          */
-	struct var_array array; /* own rows: of so many such                   */
 	enum word word : 16; /* type IEC_NONE, own rows: an instance, structure */
 	enum iec_type type : 8; /* of an FB pin; of a function's the type it must
 				be made, IEC_NONE if any of its classes will do */
@@ -109,6 +113,14 @@ struct word_pin {
 	bool own : 1;        /* of a function's pin: does not share the type   */
 	bool has_init : 1;   /* has a value until it is given one              */
 };
+
+/** pin_array - the bounds of what is declared so. Scan-safe: yes. */
+static inline struct var_array pin_array(const struct word_pin *pin)
+{
+	struct var_array array = { pin->elements ? pin->low : 0, pin->elements };
+
+	return array;
+}
 
 /* Type of a function's result, if it is not one of its own. */
 #define RESULT_SAME IEC_NONE       /* that its FN_IN pins share              */

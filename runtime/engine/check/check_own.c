@@ -62,14 +62,14 @@ static bool check_array(struct il_check *c, const struct il_line *arg,
 	char text[2 * LIMIT_ARG];
 
 	if (m->kind == MEANING_ARRAY && m->addr.area == AREA_NONE &&
-	    m->type == pin->type && m->array.low == pin->array.low &&
-	    m->array.count == pin->array.count &&
+	    m->type == pin->type && m->array.low == pin->low &&
+	    m->array.count == pin->elements &&
 	    (pin->type != IEC_NONE || m->word == pin->word) &&
 	    m->stride == shape_of(&project->words, pin).unit)
 		return true;
 	snprintf(text, sizeof(text), "ARRAY[%ld..%lld] OF %.20s%s",
-		 (long)pin->array.low,
-		 (long long)pin->array.low + pin->array.count - 1,
+		 (long)pin->low,
+		 (long long)pin->low + pin->elements - 1,
 		 pin->type == IEC_NONE ? scope_row(c->scope, pin->word)->word :
 					 iec_type_row(pin->type)->word,
 		 m->addr.area == AREA_NONE ? "" : " without AT");
@@ -104,7 +104,7 @@ static bool check_value(struct il_check *c, const struct il_line *arg,
 {
 	bool output = pin->dir == PIN_OUT;
 
-	if (pin->array.count)
+	if (pin->elements)
 		return check_array(c, arg, m, pin) &&
 		       (pin->dir == PIN_IN ||
 			il_can_write(c, arg, m));

@@ -66,8 +66,8 @@ static void mean_pin(const struct scope *scope, const struct word_pin *pin,
 {
 	m->offset += pin->offset;
 	m->type = pin->type;
-	m->array = pin->array;
-	if (pin->array.count) {
+	m->array = pin_array(pin);
+	if (pin->elements) {
 		m->kind = MEANING_ARRAY;
 		m->word = pin->word;
 		m->stride = shape_of(&scope_project(scope)->words, pin).unit;

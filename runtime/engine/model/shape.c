@@ -70,9 +70,9 @@ struct extent shape_of(const struct word_table *words, const struct word_pin *pi
 		out.align = iec_type_row(pin->type)->size;
 	}
 	out.size = out.unit;
-	if (pin->array.count) {
+	if (pin->elements) {
 		out.unit = (out.unit + out.align - 1) / out.align * out.align;
-		out.size = (uint64_t)out.unit * pin->array.count;
+		out.size = (uint64_t)out.unit * pin->elements;
 	}
 	return out;
 }
@@ -81,7 +81,7 @@ struct extent shape_of_var(const struct word_table *words, const struct var *var
 {
 	struct word_pin like = {
 		.type = var->type, .word = var->fb, .capacity = var->capacity,
-		.array = var->array,
+		.elements = var->array.count, .low = var->array.low,
 	};
 
 	return shape_of(words, &like);
@@ -157,7 +157,7 @@ static void make_pin(const struct shaper *s, struct word_row *row,
 	*pin = (struct word_pin){
 		.name = project_text(s->project, var->name), .doc = "",
 		.dir = dir_of(row, flags), .type = var->type, .word = var->fb,
-		.capacity = var->capacity, .array = var->array,
+		.capacity = var->capacity, .elements = var->array.count, .low = var->array.low,
 		.classes = iec_type_row(var->type)->class,
 		.has_init = var->has_init,
 	};

@@ -225,9 +225,10 @@ static bool read_label_operand(struct reader *r, const struct token *word,
 	if (r->lex.token.kind != TOKEN_NAME)
 		return reader_fail(r, DIAG_MISSING_OPERAND, word->text,
 				   word->len);
-	if (!reader_name(r, "name", &line.operand))
-		return false;
 	line.col = column_of(r->lex.token.column);
+	if (!(line.op == OP_CAL ? reader_instance(r, &line.operand) :
+				  reader_name(r, "name", &line.operand)))
+		return false;
 	if (line.op == OP_CAL && reader_peek(r, "(")) {
 		reader_next(r);
 		return read_call(r, &line);

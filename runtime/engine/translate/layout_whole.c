@@ -29,7 +29,7 @@ static struct whole whole_of(const struct assembler *as, enum word word,
 static void place_blocks(struct assembler *as, const struct word_pin *pin,
 			 uint32_t offset, struct extent extent, bool init)
 {
-	uint32_t count = pin->array.count ? pin->array.count : 1;
+	uint32_t count = pin->elements ? pin->elements : 1;
 
 	layout_instances(as, pin->word, offset, count, extent.unit);
 	for (uint32_t i = 0; i < count && init && !as->failed; i++)
@@ -44,7 +44,7 @@ static void place_part(struct assembler *as, const struct whole *whole, int inde
 	struct extent extent = shape_of(&as->translation->project->words, pin);
 	uint32_t offset = whole->base + pin->offset;
 	struct code_run run = { .kind = RUN_VALUES, .type = (uint8_t)pin->type,
-				.count = pin->array.count };
+				.count = pin->elements };
 
 	if (pin->type == IEC_NONE) {
 		place_blocks(as, pin, offset, extent, init);
@@ -68,7 +68,7 @@ static int next_part(const struct assembler *as, struct whole *top, uint32_t *of
 	*offset = top->base + pin->offset;
 	if (each)
 		*offset += top->element++ * layout_row(as, pin->word)->size;
-	if (!each || top->element >= pin->array.count) {
+	if (!each || top->element >= pin->elements) {
 		top->element = 0;
 		top->next++;
 	}

@@ -180,12 +180,12 @@ struct level {
 static size_t join_index(char *out, const struct word_pin *pin, uint32_t element)
 {
 	*out = '\0';
-	if (!pin->array.count)
+	if (!pin->elements)
 		return 0;
 	if (pin->type != IEC_NONE)
-		return print_bounds(out, pin->array);
+		return print_bounds(out, pin_array(pin));
 	return (size_t)snprintf(out, BOUNDS, "[%lld]",
-				(long long)pin->array.low + element);
+				(long long)pin->low + element);
 }
 
 /* The pin to name next, an element at a time if it has parts; which one. */
@@ -195,7 +195,7 @@ static const struct word_pin *next_pin(struct level *top, uint32_t *element)
 
 	*element = top->element++;
 	if (pin->type != IEC_NONE || pin->dir == PIN_NONE ||
-	    top->element >= pin->array.count) {
+	    top->element >= pin->elements) {
 		top->next++;
 		top->element = 0;
 	}
@@ -246,7 +246,7 @@ static void add_whole(struct assembler *as, struct maps *maps,
 {
 	const struct project *project = as->translation->project;
 	struct word_pin like = { .type = IEC_NONE, .word = var->fb,
-				 .array = var->array };
+				 .elements = var->array.count, .low = var->array.low };
 	uint32_t marks = maps->declared[var->fold] > 1 ? SYMBOL_SHARED : 0;
 	uint32_t count = var->array.count ? var->array.count : 1;
 	uint32_t unit = shape_of_var(&project->words, var).unit;
@@ -413,7 +413,7 @@ static void keep_instance(struct assembler *as, struct maps *maps, char *name,
 
 	do {
 		const struct var *var = &layout_vars(as, table)->var[index];
-		struct word_pin like = { .type = IEC_NONE, .array = var->array };
+		struct word_pin like = { .type = IEC_NONE, .elements = var->array.count, .low = var->array.low };
 		uint32_t base = as->power[table][index], unit = 0;
 		struct kept *inner = &level[depth + 1];
 
