@@ -202,7 +202,7 @@ TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tes
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
-$(BIN)/members: $(BUILD)/tests/members.o $(filter %random.o %words.o %words_block.o,$(WALKER))
+$(BIN)/members: $(BUILD)/tests/members.o $(BUILD)/tests/walker/random.o $(call obj,$(wildcard tests/walker/words*.c))
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free

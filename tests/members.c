@@ -258,11 +258,20 @@ static bool find_both(const struct side side[2], const struct form *form)
 	return true;
 }
 
+static bool equal(enum iec_type type, union iec_value a, union iec_value b)
+{
+	if (type != IEC_STRING)
+		return a.i == b.i;
+	return a.s->length == b.s->length &&
+	       memcmp(a.s->text, b.s->text, a.s->length) == 0;
+}
+
 static bool same(const struct side side[2])
 {
 	for (int i = 0; i < both_count; i++)
-		if (image_get(&side[0].resource.image, both[i].at[0]).i !=
-		    image_get(&side[1].resource.image, both[i].at[1]).i) {
+		if (!equal(both[i].at[0].type,
+			   image_get(&side[0].resource.image, both[i].at[0]),
+			   image_get(&side[1].resource.image, both[i].at[1]))) {
 			printf("# %s differs\n", both[i].name);
 			return false;
 		}

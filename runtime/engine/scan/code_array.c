@@ -154,9 +154,11 @@ static bool take_number(const char **at, int64_t *out)
 struct code_bounds code_bounds(const char *name)
 {
 	struct code_bounds none = { strlen(name), 0, 0 }, out = none;
-	const char *at = strrchr(name, '['); /* Line[2].Times[1..5] */
+	const char *at = NULL;
 	int64_t low, high;
 
+	for (const char *c = name; *c; c++) /* Line[2].Times[1..5] */
+		at = *c == '[' ? c : at;
 	if (!at || at == name)
 		return none;
 	out.head = (size_t)(at - name);

@@ -238,8 +238,8 @@ static struct location find_member(const struct image *image, const char *head,
 				   int64_t index)
 {
 	char text[2 * LIMIT_NAME + 64];
-	int size = snprintf(text, sizeof(text), "%.*s[%lld]%.*s", (int)len, head,
-			    (long long)index, (int)tail_len, tail);
+	int size = snprintf(text, sizeof(text), "%.*s[%d]%.*s", (int)len, head,
+			    (int)index, (int)tail_len, tail);
 
 	if (size < 0 || (size_t)size >= sizeof(text))
 		return (struct location){ .type = IEC_NONE };
