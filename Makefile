@@ -197,11 +197,12 @@ bless: $(BUILD)/ladder ## rewrite what CASE=name expects and show the difference
 BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential members iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
+$(BIN)/members: $(BUILD)/tests/members.o $(BUILD)/tests/walker/random.o $(call obj,$(wildcard tests/walker/words*.c))
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free

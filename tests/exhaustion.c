@@ -172,6 +172,7 @@ int main(int argc, char **argv)
 		starve_file("tests/fuzz/corpus/code/random-100.rung");
 		starve_file("tests/fuzz/corpus/code/il.rung");
 		starve_file("tests/fuzz/corpus/code/tasks.rung");
+		starve_file("tests/fuzz/corpus/code/arrays-in-blocks.rung");
 	}
 	return tap_done();
 }

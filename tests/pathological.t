@@ -144,6 +144,10 @@ my %file = (
 	"3,000 arrays over one area, all with values" => $good =~ s/(  Motor AT.*\n)/$1 . join("", map { sprintf("  A%04d", $_) . " AT %MX0.0 : ARRAY[0..65535] OF BOOL := [65536(1)];\n" } 1 .. 3000)/er,
 	"70 indices in each other" => $good =~ s/NO Start/"[ " . "A[1 + " x 70 . "i" . "]" x 70 . " > 1 ]"/er,
 	"a list of 300,000 values for two elements" => $good =~ s/(  Motor AT.*\n)/$1 . "  A : ARRAY[0..1] OF INT := [" . join(",", (1) x 300_000) . "];\n"/er,
+	"structures of a thousand of a thousand, 16 deep" => $good =~ s/^VAR/"TYPE\n  D0 : STRUCT\n    X : BOOL;\n  END_STRUCT;\n" . join("", map { "  D$_ : STRUCT\n    X : ARRAY[1..1000] OF D" . ($_ - 1) . ";\n  END_STRUCT;\n" } 1 .. 15) . "END_TYPE\nVAR\n  Deep : D15;"/emr,
+	"a path of a thousand indices" => $good =~ s/NO Start/"NO A" . "[1].B" x 1000/er,
+	"the same in an expression" => $good =~ s/NO Start/"[ A[i + 1]" . ".B[1]" x 1000 . " > 1 ]"/er,
+	"a million structures of a thousand values" => $good =~ s/^VAR/"TYPE\n  M : STRUCT\n" . join("", map { "    V$_ : BOOL;\n    W$_ : INT;\n" } 100 .. 599) . "  END_STRUCT;\nEND_TYPE\n\nVAR\n  Large : ARRAY[1..1000000] OF M;"/emr,
 	"an image that is only its name" => "RUNGCODE",
 	"a damaged image" => "RUNGCODE" . "\x01\0\0\0" . "\xff" x 500,
 );

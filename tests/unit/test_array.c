@@ -30,6 +30,33 @@ static const char source[] =
 	"  LD Lamps[i]\n  ST Bits[u]\n"
 	"END_PROGRAM\n";
 
+/* Members of elements: what an index leads to lies further apart than it is large. */
+static const char members[] =
+	"TYPE\n  Part : STRUCT\n    On : BOOL;\n    N : INT := 3;\n"
+	"    T : STRING[5] := 'ab';\n    L : ARRAY[1..2] OF DINT;\n  END_STRUCT;\n"
+	"END_TYPE\n"
+	"FUNCTION_BLOCK Cell LD\nVAR_INPUT\n  Go : BOOL;\nEND_VAR\n"
+	"VAR_IN_OUT\n  All : ARRAY[-1..2] OF Part;\nEND_VAR\n"
+	"VAR_OUTPUT\n  Q : BOOL;\nEND_VAR\nVAR\n  W : ARRAY[0..1] OF TON;\nEND_VAR\n"
+	"RUNG\n  | NO Go | TON W[1] PT:=T#1s | COIL Q |\n"
+	"RUNG\n  | [ All[2].N := All[1].N + 1 ] |\nEND_FUNCTION_BLOCK\n"
+	"VAR\n"
+	"  Z : ARRAY[-1..2] OF Part;\n  C : ARRAY[1..3] OF Cell;\n"
+	"  E : ARRAY[1..3] OF R_TRIG;\n  P : Part;\n"
+	"  i : LINT;\n  u : ULINT;\n  x : INT;\n  q : STRING[5];\n  b : BOOL;\n"
+	"  l : DINT;\n"
+	"END_VAR\n"
+	"PROGRAM Main IL\n"
+	"  LD Z[i].N\n  ST Z[u].N\n  ST x\n"
+	"  LD Z[i].On\n  ST Z[u].On\n"
+	"  LD Z[u].T\n  ST q\n  LD q\n  ST Z[i].T\n"
+	"  LD Z[i].L[2]\n  ST P.L[u]\n  ST l\n"
+	"  LD C[i].Q\n  ST C[u].Go\n"
+	"  CAL C[2](Go := b, All := Z)\n"
+	"  LD Z[0].On\n  ST E[2].CLK\n  CAL E[2]\n  LD E[i].Q\n  ST b\n"
+	"  MOVE(IN := Z[1], OUT => Z[0])\n"
+	"END_PROGRAM\n";
+
 static uint8_t *good, *image;
 static size_t len;
 
@@ -56,6 +83,27 @@ static void set_index(struct image *at, const char *name, int64_t index)
 
 	if (where.type == IEC_LINT || where.type == IEC_ULINT)
 		image_set(at, where, (union iec_value){ .i = index });
+}
+
+/* Whatever the names of an image say, what they lead to is there to be read. */
+static void read_members(const struct image *at)
+{
+	static const struct { const char *head, *tail; } of[] = {
+		{ "Z", ".N" }, { "Z", ".T" }, { "Z", ".L[2]" }, { "C", ".Q" },
+		{ "E", ".CLK" },
+	};
+	struct declared_name row;
+
+	for (size_t i = 0; i < sizeof(of) / sizeof(*of); i++)
+		if (image_find_members(at, of[i].head, 1, of[i].tail,
+				       strlen(of[i].tail), &row))
+			for (uint32_t k = 0; k < row.array.count; k++) {
+				struct location to = declared_element(&row, k);
+				union iec_value value = image_get(at, to);
+
+				if (to.type == IEC_STRING && value.s->length > 5)
+					abort();
+			}
 }
 
 /* Runs the copy if it is let in, for a few scans with indices of all kinds. */
@@ -85,6 +133,7 @@ static bool let_in(void)
 			set_index(&resource.image, "u", index[i]);
 			resource_scan(&resource, (int64_t)i * RIG_PERIOD);
 		}
+		read_members(&resource.image);
 		free(memory);
 	}
 	memcpy(image, good, len);
@@ -188,6 +237,65 @@ static void test_symbols(void)
 	CHECK_AS(let_in(), "names are as they were");
 }
 
+/* The first access of a kind to elements of @type; its number. */
+static int access_of(enum vm_op op, enum iec_type type)
+{
+	int number = 0;
+
+	while (CODE_TYPE(find(op, number)[4]) != type)
+		number++;
+	return number;
+}
+
+static void test_members(void)
+{
+	int n = access_of(VM_AGET, IEC_INT), s = access_of(VM_AGET, IEC_STRING);
+	int put = access_of(VM_APUT, IEC_STRING);
+	const uint32_t *get = find(VM_AGET, n);
+	uint32_t base = get[4], stride = get[8];
+
+	CHECK_AS(let_in(), "the image as it stands");
+	CHECK(get[7] == 4 && (int32_t)get[6] == -1 && stride > 16);
+	CHECK(refuses(VM_AGET, n, 7, 5) && refuses(VM_AGET, n, 8, stride + 2));
+	CHECK(refuses(VM_AGET, n, 8, stride - 8) && refuses(VM_AGET, n, 8, 2));
+	CHECK_AS(!refuses(VM_AGET, n, 7, 3), "fewer are there as well");
+	CHECK(refuses(VM_AGET, n, 4, base + 2) && refuses(VM_AGET, n, 4, base + stride));
+	CHECK(refuses(VM_AGET, s, 7, 5) && refuses(VM_AGET, s, 8, 4));
+	CHECK(refuses(VM_APUT, put, 4, find(VM_APUT, put)[4] + stride));
+}
+
+static int64_t value_of(struct rig *rig, const char *name)
+{
+	return image_get(&rig->resource.image,
+			 image_find(&rig->resource.image, name, strlen(name))).i;
+}
+
+/* Names with members, and ranges of them as scenarios read them. */
+static void test_member_names(void)
+{
+	static const char *const none[] = {
+		"Z", "Z[0]", "Z[0].", "Z[3].N", "Z[0].X", "Z[].N", "Z.N", "Z[0].L",
+		"Z[0].L[3]", "C[1].W[1].Q.X", "E[1]", "E[4].Q", "Z[0]N",
+	};
+	struct declared_name row;
+	struct rig rig;
+
+	if (!rig_open(&rig, members, false))
+		return;
+	for (size_t i = 0; i < sizeof(none) / sizeof(*none); i++)
+		CHECK_AS(image_find(&rig.resource.image, none[i],
+				    strlen(none[i])).type == IEC_NONE, none[i]);
+	CHECK(value_of(&rig, "Z[2].N") == 3 && value_of(&rig, "z[-1].n") == 3);
+	CHECK(value_of(&rig, "Z[0].L[2]") == 0 && value_of(&rig, "E[3].Q") == 0);
+	CHECK(image_find_members(&rig.resource.image, "Z", 1, ".N", 2, &row) &&
+	      row.array.low == -1 && row.array.count == 4 && row.at.type == IEC_INT);
+	CHECK(image_find_members(&rig.resource.image, "E", 1, ".Q", 2, &row) &&
+	      row.array.low == 1 && row.array.count == 3 && row.stride == 8);
+	CHECK(!image_find_members(&rig.resource.image, "P", 1, ".N", 2, &row));
+	CHECK(!image_find_members(&rig.resource.image, "Z", 1, ".X", 2, &row));
+	rig_close(&rig);
+}
+
 /* Each byte in turn, with a right checksum: refused, or it runs without harm. */
 static void test_every_byte(void)
 {
@@ -219,12 +327,6 @@ static void test_effort(void)
 	if (rig_open(&rig, program, false))
 		CHECK(ladder_program(rig.ladder)->symbol_count == 2);
 	rig_close(&rig);
-}
-
-static int64_t value_of(struct rig *rig, const char *name)
-{
-	return image_get(&rig->resource.image,
-			 image_find(&rig->resource.image, name, strlen(name))).i;
 }
 
 static void test_names(void)
@@ -259,16 +361,14 @@ static void test_names(void)
 	rig_close(&rig);
 }
 
-int main(void)
+/* The tests of one image, of which each works on a copy. */
+static void test_image(const char *text, void (*refused)(void))
 {
 	struct rig rig;
 	const void *bytes;
 
-	test_bounds();
-	test_names();
-	test_effort();
-	if (!rig_open(&rig, source, true))
-		return tap_done();
+	if (!rig_open(&rig, text, true))
+		return;
 	bytes = ladder_image(rig.ladder, &len);
 	good = aligned_alloc(8, (len + 7) / 8 * 8);
 	image = aligned_alloc(8, (len + 7) / 8 * 8);
@@ -276,11 +376,26 @@ int main(void)
 		abort();
 	memcpy(good, bytes, len);
 	memcpy(image, bytes, len);
-	test_refused();
-	test_symbols();
+	refused();
 	test_every_byte();
 	free(good);
 	free(image);
 	rig_close(&rig);
+}
+
+static void test_values(void)
+{
+	test_refused();
+	test_symbols();
+}
+
+int main(void)
+{
+	test_bounds();
+	test_names();
+	test_member_names();
+	test_effort();
+	test_image(source, test_values);
+	test_image(members, test_members);
 	return tap_done();
 }

@@ -87,6 +87,38 @@ static void instances_have_their_own_power(void)
 	rig_close(&rig);
 }
 
+static void elements_have_their_own_power(void)
+{
+	CHECK(rig_open(&rig,
+		"VAR\n  Row : ARRAY[-1..1] OF Outer;\nEND_VAR\n"
+		"PROGRAM Main LD\n"
+		"RUNG\n  | NO I0 | Outer Row[-1] | COIL Q0 |\n"
+		"RUNG\n  | NO I1 | Outer Row[1] | COIL Q1 |\n"
+		"RUNG\n  | NO I2 | Outer Row[0] | COIL Q2 |\n"
+		"END_PROGRAM\n"
+		"FUNCTION_BLOCK Outer LD\n"
+		"VAR_INPUT\n  On : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Q : BOOL;\nEND_VAR\n"
+		"VAR\n  First : ARRAY[1..2] OF BOOL;\n  Deep : ARRAY[5..6] OF Inner;\n"
+		"  Last : Inner;\nEND_VAR\n"
+		"RUNG\n  | NO On | Inner Deep[5] | COIL Q |\n"
+		"RUNG\n  | NC On | Inner Deep[6] | COIL First[2] |\n"
+		"RUNG\n  | NO First[2] | Inner Last | S First[1] |\n"
+		"END_FUNCTION_BLOCK\n"
+		"FUNCTION_BLOCK Inner LD\n"
+		"VAR_INPUT\n  On : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Q : BOOL;\nEND_VAR\n"
+		"RUNG\n  | NO On | COIL Q |\n"
+		"END_FUNCTION_BLOCK\n", true));
+	CHECK(rig_set(&rig, "I1", 1) && rig_scan(&rig));
+	CHECK(power("Row[1]", 1, 1) == 3 && power("row[0]", 1, 1) == 2);
+	CHECK(power("Row[-1]", 1, 1) == 2 && power("Row[-1]", 2, 1) == 3);
+	CHECK(power("Row[1].Deep[5]", 1, 1) == 3 && power("Row[1].Deep[6]", 1, 1) == 2);
+	CHECK(power("Row[0].Deep[5]", 1, 1) == 2 && power("Row[0].Deep[6]", 1, 1) == 3);
+	CHECK(power("Row[-1].Last", 1, 1) == 3 && power("Row[1].Last", 1, 1) == 2);
+	CHECK(power("Row", 1, 1) == -1 && power("Row[2]", 1, 1) == -1);
+	CHECK(power("Row[1].Deep", 1, 1) == -1 && power("Row[1].First[1]", 1, 1) == -1);
+	rig_close(&rig);
+}
+
 /* A call costs what it runs: blocks in blocks, each calling the next ten times, would
  * take for ever, and are a fault. */
 static void calls_cost(void)
@@ -117,6 +149,7 @@ int main(void)
 	error_names_the_body();
 	loop_is_a_fault_of_the_body();
 	instances_have_their_own_power();
+	elements_have_their_own_power();
 	calls_cost();
 	return tap_done();
 }

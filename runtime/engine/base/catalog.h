@@ -87,13 +87,23 @@ enum op_modifier { MOD_N = 1, MOD_C = 2, MOD_PAREN = 4 };
 /* PIN_VAR: inside, not to be named from outside; PIN_NONE: no part of it. */
 enum pin_dir { PIN_IN, PIN_OUT, PIN_VAR, PIN_IN_OUT, PIN_NONE };
 
+/* ARRAY[low..high]: so many elements in a row; count 0: none, a single value. */
+struct var_array {
+	int32_t low;
+	uint32_t count;
+};
+
 /* Small on purpose: a board has hundreds of them in its memory. */
 struct word_pin {
 	const char *name;
 	const char *doc;
-	union iec_value init; /* its value until it is given one, of has_init  */
-	uint32_t offset;     /* of an FB pin in its struct                     */
+	union {
+		union iec_value init; /* its value until it is given one, of
+					 has_init; of a pin of the catalogue  */
+		int32_t low;          /* own rows: of an array                */
+	};
 	uint32_t elements;   /* own rows: of an array; 0: none                 */
+	uint32_t offset;     /* of an FB pin in its struct                     */
 	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
 	uint16_t capacity;   /* own rows: of a STRING                          */
 	enum word word : 16; /* type IEC_NONE, own rows: an instance, structure */
@@ -103,6 +113,14 @@ struct word_pin {
 	bool own : 1;        /* of a function's pin: does not share the type   */
 	bool has_init : 1;   /* has a value until it is given one              */
 };
+
+/** pin_array - the bounds of what is declared so. Scan-safe: yes. */
+static inline struct var_array pin_array(const struct word_pin *pin)
+{
+	struct var_array array = { pin->elements ? pin->low : 0, pin->elements };
+
+	return array;
+}
 
 /* Type of a function's result, if it is not one of its own. */
 #define RESULT_SAME IEC_NONE       /* that its FN_IN pins share              */

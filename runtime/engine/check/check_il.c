@@ -88,7 +88,7 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 	if (m)
 		return m;
 	/* The index may be a temporary that nobody wrote. */
-	if (why == DIAG_INDEX_TYPE && c->pou->language == LANGUAGE_LD) {
+	if ((why == DIAG_INDEX_TYPE || why == DIAG_INDEX_PLAIN) && c->pou->language == LANGUAGE_LD) {
 		const char *text = il_operand_text(c, line);
 
 		snprintf(array, sizeof(array), "%.*s", (int)strcspn(text, "["),

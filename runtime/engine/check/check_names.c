@@ -492,7 +492,7 @@ static void note_il(struct names_check *c, const struct pou *pou)
 			continue;
 		m = scope_find(c->scope, pou, line->operand, &why);
 		if (m)
-			uses_add_index(&c->uses, m);
+			uses_add_index(&c->uses, c->scope, pou, line->operand, m);
 		if (m && uses_add(&c->uses, m, use))
 			report_line(c, DIAG_INSTANCE_TWICE, pou,
 				    (int)line->line, text_of(c, line->operand));

@@ -59,7 +59,7 @@ static const struct meaning *find(struct operand_check *c, struct spot at,
 	if (!m)
 		report_unknown(c, at, id, why, EXPECT_VARIABLE | EXPECT_INSTANCE);
 	else
-		uses_add_index(c->uses, m);
+		uses_add_index(c->uses, c->scope, c->pou, id, m);
 	return m;
 }
 
@@ -76,6 +76,16 @@ static const struct meaning *refuse(struct operand_check *c, enum diag_id id,
 	report(c, id, at, project_text(c->project, name));
 	uses_add(c->uses, m, USE_READ | USE_WRITTEN);
 	return NULL;
+}
+
+/* A whole array goes to a parameter of the project's own words; check_il looks at its
+ * bounds. */
+static bool is_whole_array(struct operand_check *c, uint32_t id)
+{
+	enum diag_id why;
+	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
+
+	return m && m->kind == MEANING_ARRAY;
 }
 
 /* A name whose value is asked for. NULL after a diagnostic. */
@@ -132,16 +142,26 @@ static void check_bool(struct operand_check *c, struct spot at, uint32_t id,
 /* ---- expressions ---- */
 
 /* The array before an index that is an expression; or an address, which then is
- * one. The type of the index is check_il's. */
+ * one. @tail: the path behind it. The type of the index is check_il's. */
 static void use_array(struct operand_check *c, struct spot at, uint32_t id,
-		      bool write)
+		      struct expr_tail tail, bool write)
 {
 	const struct meaning *m = find(c, at, id);
 
 	if (!m)
 		return;
-	if (m->kind != MEANING_ARRAY && m->kind != MEANING_ADDRESS)
+	if (m->kind != MEANING_ARRAY && m->kind != MEANING_ADDRESS) {
 		refuse(c, DIAG_NOT_ARRAY, at, id, m);
+		return;
+	}
+	if (tail.len > 0) { /* as it is of the first element */
+		id = scope_first(c->scope, c->pou, id, tail.text, tail.len);
+		m = id ? find(c, at, id) : NULL;
+		if (!m)
+			return;
+	}
+	if (meaning_fault(m) != DIAG_COUNT && (tail.len > 0 || m->word))
+		refuse(c, DIAG_INDEX_PLAIN, at, id, m);
 	else if (write && m->constant)
 		refuse(c, DIAG_WRITE_CONSTANT, at, id, m);
 	else if (write && !m->writable)
@@ -173,12 +193,14 @@ static void check_expression(struct operand_check *c, struct spot at,
 		if (part->op == EXPR_NAME)
 			read_name(c, at, intern(c, part->text, part->len));
 		else if (part->op == EXPR_INDEX)
-			use_array(c, at, intern(c, part->text, part->len), false);
+			use_array(c, at, intern(c, part->text, part->len),
+				  part->tail, false);
 		else if (part->op == EXPR_LITERAL)
 			find(c, at, intern(c, part->text, part->len));
 	}
 	if (expr->target && expr->target_index >= 0)
-		use_array(c, at, intern(c, expr->target, expr->target_len), true);
+		use_array(c, at, intern(c, expr->target, expr->target_len),
+			  expr->target_tail, true);
 	else if (expr->target)
 		write_name(c, at, intern(c, expr->target, expr->target_len),
 			   false);
@@ -252,11 +274,30 @@ static void change_name(struct operand_check *c, struct spot at, uint32_t id)
 		uses_add(c->uses, m, USE_READ);
 }
 
+static void use_whole_array(struct operand_check *c, struct spot at, uint32_t id,
+			    const struct arg *arg, bool in_out)
+{
+	const struct meaning *m = find(c, at, id);
+	bool write = arg->output || in_out;
+
+	if (!m)
+		return;
+	if (arg->inverse)
+		refuse(c, DIAG_ARRAY_AS_VALUE, at, id, m);
+	else if (write && (m->constant || !m->writable))
+		refuse(c, m->constant ? DIAG_WRITE_CONSTANT : DIAG_WRITE_INPUT,
+		       at, id, m);
+	else
+		uses_add(c->uses, m, (write ? USE_WRITTEN : 0u) |
+				     (arg->output ? 0u : USE_READ));
+}
+
 static void check_args(struct operand_check *c, struct spot at,
 		       const struct cell *cell)
 {
 	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 	const char *next = project_text(c->project, cell->args);
+	bool own = word_is_own((enum word)cell->word);
 	struct arg arg;
 
 	while (args_next(&next, &arg)) {
@@ -266,6 +307,9 @@ static void check_args(struct operand_check *c, struct spot at,
 		if (wrong != DIAG_COUNT)
 			report(c, wrong, at, project_text(c->project,
 				intern(c, arg.pin, arg.pin_len)));
+		else if (own && is_whole_array(c, value))
+			use_whole_array(c, at, value, &arg,
+					is_in_out(row, &arg));
 		else if (is_in_out(row, &arg))
 			change_name(c, at, value);
 		else if (arg.output)

@@ -9,6 +9,7 @@
 
 #include "engine/model/shape.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -46,11 +47,33 @@ static bool is_whole(const struct meaning *m)
 static bool is_plain(struct il_check *c, const struct il_line *arg,
 		     const struct meaning *m)
 {
-	if (!is_whole(m))
+	if (m->kind == MEANING_STRUCT)
+		return il_report(c, arg, DIAG_STRUCT_AS_VALUE, operand_text(c, arg));
+	return meaning_fault(m) == DIAG_COUNT ||
+	       il_report(c, arg, meaning_fault(m), operand_text(c, arg));
+}
+
+/* An array as a whole, of the same bounds and elements; not of an area, whose bits lie
+ * packed. */
+static bool check_array(struct il_check *c, const struct il_line *arg,
+			const struct meaning *m, const struct word_pin *pin)
+{
+	const struct project *project = scope_project(c->scope);
+	char text[2 * LIMIT_ARG];
+
+	if (m->kind == MEANING_ARRAY && m->addr.area == AREA_NONE &&
+	    m->type == pin->type && m->array.low == pin->low &&
+	    m->array.count == pin->elements &&
+	    (pin->type != IEC_NONE || m->word == pin->word) &&
+	    m->stride == shape_of(&project->words, pin).unit)
 		return true;
-	return il_report(c, arg, m->kind == MEANING_STRUCT ?
-			 DIAG_STRUCT_AS_VALUE : DIAG_INSTANCE_AS_VALUE,
-			 operand_text(c, arg));
+	snprintf(text, sizeof(text), "ARRAY[%ld..%lld] OF %.20s%s",
+		 (long)pin->low,
+		 (long long)pin->low + pin->elements - 1,
+		 pin->type == IEC_NONE ? scope_row(c->scope, pin->word)->word :
+					 iec_type_row(pin->type)->word,
+		 m->addr.area == AREA_NONE ? "" : " without AT");
+	return il_report(c, arg, DIAG_WRONG_TYPE, text);
 }
 
 /* A structure or instance, as a whole. */
@@ -81,6 +104,10 @@ static bool check_value(struct il_check *c, const struct il_line *arg,
 {
 	bool output = pin->dir == PIN_OUT;
 
+	if (pin->elements)
+		return check_array(c, arg, m, pin) &&
+		       (pin->dir == PIN_IN ||
+			il_can_write(c, arg, m));
 	if (pin->dir == PIN_IN_OUT)
 		return check_in_out(c, arg, m, pin);
 	if (pin->type == IEC_NONE)

@@ -6,7 +6,7 @@
  * far by (POU, string id). An answer never moves. It reports nothing: who asks
  * knows the place and says it.
  */
-#include "engine/check/scope.h"
+#include "engine/check/scope_mean.h"
 
 #include "engine/base/ascii.h"
 #include "engine/model/shape.h"
@@ -167,9 +167,8 @@ static bool may_write(struct iec_addr addr)
 	       iec_area_row(addr.area)->access == ACCESS_WRITE;
 }
 
-/* Something that has parts. */
-static void mean_whole(const struct scope *scope, enum word word,
-		       struct meaning *out)
+void scope_mean_whole(const struct scope *scope, enum word word,
+		      struct meaning *out)
 {
 	out->word = (uint16_t)word;
 	out->type = IEC_NONE;
@@ -198,79 +197,24 @@ static void mean_variable(const struct scope *scope,
 	if (var->array.count) {
 		out->kind = MEANING_ARRAY;
 		out->array = var->array;
+		out->word = var->fb;
+		out->stride = shape_of_var(&scope->project->words, var).unit;
 	} else if (var->type == IEC_NONE && var->fb) {
-		mean_whole(scope, var->fb, out);
+		scope_mean_whole(scope, var->fb, out);
 	}
 }
 
-/* Part @name of the instance or structure that @out is; false: it has none. What
- * is inside a block is not to be named from outside. */
-static bool mean_part(const struct scope *scope, const char *name, size_t len,
-		      struct meaning *out)
+bool scope_mean_name(const struct scope *scope, uint32_t table, const char *text,
+		     size_t len, struct meaning *out)
 {
-	const struct word_row *row = scope_row(scope, out->word);
-	const struct var_table *vars = shape_vars(scope->project, out->word);
-	const struct word_pin *pin;
-	int index = word_pin_find(row, name, len);
-
-	if (index < 0)
-		return false;
-	pin = &row->pin[index];
-	if (out->pin < 0)
-		out->pin = index;
-	out->offset += pin->offset;
-	out->type = pin->type;
-	if (row->kind == WORD_FB)
-		out->writable = pin->dir == PIN_IN;
-	out->kind = MEANING_PIN;
-	if (pin->elements) {
-		out->kind = MEANING_ARRAY;
-		out->array = vars->var[index].array;
-		out->unit = (uint16_t)var_unit(&vars->var[index]);
-	}
-	if (pin->type == IEC_NONE)
-		mean_whole(scope, pin->word, out);
-	return true;
-}
-
-static bool has_parts(const struct meaning *m)
-{
-	return m->kind == MEANING_INSTANCE || m->kind == MEANING_STRUCT;
-}
-
-/* `Instance.PIN`, `Recipe.Inner.Speed`; false leaves @out as it was. */
-static bool mean_path(const struct scope *scope, uint32_t table,
-		      const char *text, size_t len, struct meaning *out,
-		      enum diag_id *why)
-{
-	const char *dot = memchr(text, '.', len), *end = text + len;
 	struct names *names = &scope->project->names;
-	const struct declared *slot;
-	struct meaning part = { 0 };
-	uint32_t id;
+	uint32_t id = names_intern(names, text, len);
+	const struct declared *slot = find_declared(scope, table,
+						    names_fold(names, id));
 
-	if (!dot)
-		return false;
-	id = names_intern(names, text, (size_t)(dot - text));
-	slot = find_declared(scope, table, names_fold(names, id));
-	if (!slot)
-		return false;
-	mean_variable(scope, slot, &part);
-	part.pin = -1;
-	if (!has_parts(&part))
-		return false;
-	*why = DIAG_NO_PIN;
-	while (dot) {
-		const char *name = dot + 1;
-
-		dot = memchr(name, '.', (size_t)(end - name));
-		if (!has_parts(&part) ||
-		    !mean_part(scope, name,
-			       (size_t)((dot ? dot : end) - name), &part))
-			return false;
-	}
-	*out = part;
-	return true;
+	if (slot)
+		mean_variable(scope, slot, out);
+	return slot != NULL;
 }
 
 static bool mean_system(const char *text, size_t len, struct meaning *out)
@@ -311,8 +255,8 @@ static bool mean_literal(const char *text, size_t len, struct meaning *out,
 	return false;
 }
 
-static bool mean_address(const struct scope *scope, const char *text, size_t len,
-			 struct meaning *out, enum diag_id *why)
+bool scope_mean_address(const struct scope *scope, const char *text, size_t len,
+			struct meaning *out, enum diag_id *why)
 {
 	enum iec_addr_result result = iec_addr_parse(text, len, &out->addr);
 
@@ -330,115 +274,6 @@ static bool mean_address(const struct scope *scope, const char *text, size_t len
 	return false;
 }
 
-/* What stands before [: an array, or an address, which is one up to the end of its
- * area. */
-static bool mean_array(const struct scope *scope, uint32_t table,
-		       const char *text, size_t len, struct meaning *out,
-		       enum diag_id *why)
-{
-	struct names *names = &scope->project->names;
-	uint32_t id = names_intern(names, text, len), first;
-	const struct declared *slot = find_declared(scope, table,
-						    names_fold(names, id));
-
-	if (slot) {
-		mean_variable(scope, slot, out);
-		*why = DIAG_NOT_ARRAY;
-		return out->kind == MEANING_ARRAY;
-	}
-	if (mean_path(scope, table, text, len, out, why)) {
-		*why = DIAG_NOT_ARRAY;
-		return out->kind == MEANING_ARRAY;
-	}
-	if (*why == DIAG_NO_PIN || !mean_address(scope, text, len, out, why))
-		return false;
-	first = out->addr.byte * 8 + out->addr.bit;
-	out->array.count = (project_area_bytes(scope->project, out->addr.area) *
-			    8 - first) / out->addr.bits;
-	return true;
-}
-
-/* The one element of a fixed index, whose type may have values above INT64_MAX. */
-static bool mean_fixed(enum iec_type type, int64_t index, struct meaning *out,
-		       enum diag_id *why)
-{
-	int64_t element = var_element(out->array, index);
-	bool is_signed = type == IEC_NONE ||
-			 iec_type_row(type)->class == CLASS_SIGNED;
-
-	*why = DIAG_INDEX_RANGE;
-	if (element < 0 || (!is_signed && index < 0))
-		return false;
-	if (out->addr.area != AREA_NONE)
-		out->addr = vars_shift(out->addr, (uint32_t)element);
-	if (out->var)
-		out->offset += (uint32_t)element * meaning_unit(out);
-	out->array.count = 0;
-	return true;
-}
-
-static bool is_index(enum iec_type type)
-{
-	return iec_type_row(type)->class & (ANY_INT | CLASS_BITS);
-}
-
-/* Index @text: an integer constant, or an operand that holds one. */
-static bool mean_index(struct scope *scope, uint32_t table, const char *text,
-		       size_t len, struct meaning *out, enum diag_id *why)
-{
-	const struct pou *pou = table ? &scope->project->pou[table - 1] : NULL;
-	const struct meaning *m = scope_find(scope, pou,
-		names_intern(&scope->project->names, text, len), why);
-	bool literal = m && m->kind == MEANING_LITERAL;
-
-	if (!m)
-		return false;
-	*why = DIAG_INDEX_TYPE;
-	if (literal && m->literal.high) {
-		*why = DIAG_INDEX_RANGE;
-		return false;
-	}
-	if (literal)
-		return !m->literal.real &&
-		       (m->type == IEC_NONE || is_index(m->type)) &&
-		       mean_fixed(m->type, m->literal.value.i, out, why);
-	if (meaning_fault(m) != DIAG_COUNT || !is_index(m->type))
-		return false;
-	out->index_of = m;
-	if (m->kind == MEANING_VARIABLE && m->constant && m->var->has_init)
-		return mean_fixed(m->type, m->var->init.i, out, why);
-	return true;
-}
-
-/* `Table[3]`, `Table[i]`, `%MW0[i]`; there may be blanks inside. */
-static bool mean_element(struct scope *scope, uint32_t table, const char *text,
-			 size_t len, struct meaning *out, enum diag_id *why)
-{
-	const char *open = memchr(text, '[', len), *at = open + 1;
-	const char *end = text + len - 1;
-	size_t head = (size_t)(open - text);
-
-	while (head && text[head - 1] == ' ')
-		head--;
-	while (at < end && *at == ' ')
-		at++;
-	while (at < end && end[-1] == ' ')
-		end--;
-	if (*text == '[' || at == end || memchr(at, '[', (size_t)(end - at)))
-		return false;
-	if (!mean_array(scope, table, text, head, out, why) ||
-	    !mean_index(scope, table, at, (size_t)(end - at), out, why))
-		return false;
-	out->kind = out->var || out->array.count ? MEANING_ELEMENT
-						 : MEANING_ADDRESS;
-	return true;
-}
-
-static bool has_index(const char *text, size_t len)
-{
-	return len > 0 && text[len - 1] == ']' && memchr(text, '[', len);
-}
-
 /* Declared names first, then system names, pins, constants and addresses. */
 static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 		 struct meaning *out, enum diag_id *why)
@@ -454,12 +289,13 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 		mean_variable(scope, slot, out);
 		return true;
 	}
-	if (has_index(text, len))
-		return mean_element(scope, table, text, len, out, why);
+	if (scope_has_index(text, len))
+		return scope_mean_path(scope, table, text, len, out, why);
 	return mean_system(text, len, out) ||
-	       mean_path(scope, table, text, len, out, why) ||
+	       (memchr(text, '.', len) &&
+		scope_mean_path(scope, table, text, len, out, why)) ||
 	       mean_literal(text, len, out, why) ||
-	       mean_address(scope, text, len, out, why);
+	       scope_mean_address(scope, text, len, out, why);
 }
 
 enum diag_id meaning_fault(const struct meaning *meaning)
@@ -553,16 +389,13 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 	return true;
 }
 
-uint32_t meaning_unit(const struct meaning *meaning)
-{
-	return meaning->unit ? meaning->unit : var_unit(meaning->var);
-}
-
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning)
 {
 	struct word_pin like = { .type = meaning->type, .word = meaning->word };
 
-	return shape_of(&scope->project->words, &like).size;
+	if (meaning->kind == MEANING_ARRAY)
+		return meaning->stride * meaning->array.count;
+	return (uint32_t)shape_of(&scope->project->words, &like).size;
 }
 
 struct project *scope_project(const struct scope *scope)

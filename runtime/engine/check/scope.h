@@ -19,7 +19,7 @@ enum meaning_kind {
 	MEANING_INSTANCE,  /* table, index: a whole instance                  */
 	MEANING_STRUCT,    /* table, index, offset: a whole structure         */
 	MEANING_PIN,       /* table, index, pin of its FB, offset; a member   */
-	MEANING_ARRAY,     /* table, index: a whole array                     */
+	MEANING_ARRAY,     /* table, index, offset, stride: a whole array     */
 	MEANING_ELEMENT,   /* table, index, offset; var NULL: behind an address */
 	MEANING_ADDRESS,   /* addr; SYS_ names too                            */
 	MEANING_LITERAL,   /* literal                                         */
@@ -34,10 +34,12 @@ struct meaning {
 	int index;                /* in its table                             */
 	const struct pou *pou;    /* whose table; NULL: globals               */
 	const struct var *var;    /* the variable or instance                 */
-	int pin;                  /* index in the row of the variable's word  */
-	uint16_t word;            /* enum word of an INSTANCE or STRUCT       */
-	uint16_t unit;            /* of an array that is a part: bytes from one
-				     element to the next; else 0              */
+	union {
+		int pin;          /* index in the row of the variable's word  */
+		uint32_t stride;  /* of ARRAY, and of ELEMENT whose index is
+				     found out: bytes to the next one         */
+	};
+	uint16_t word;            /* enum word of INSTANCE, STRUCT, an ARRAY of such */
 	struct iec_addr addr;     /* of ADDRESS, and of a variable with AT; of
 				     an element with a fixed index its own    */
 	uint32_t offset;          /* of a part or element: bytes behind the
@@ -45,9 +47,9 @@ struct meaning {
 	struct var_array array;   /* of ARRAY; of ELEMENT whose index is found
 				     out in the scan (meaning_is_indexed):
 				     addr and offset are its first one's      */
-	const struct meaning *index_of; /* of ELEMENT: what its index is read
-				     from; of a fixed one the constant that
-				     gave it, or NULL                         */
+	const struct meaning *index_of; /* what the index that is found out is
+				     read from; else, of a fixed one, the
+				     constant that gave it, or NULL           */
 	struct literal literal;
 };
 
@@ -62,7 +64,7 @@ struct scope *scope_new(struct project *project, struct arena *arena);
  * @text: string id of the operand as written
  * @why:  when it has none: DIAG_UNKNOWN_NAME, DIAG_NO_PIN, DIAG_BAD_ADDRESS,
  *        DIAG_BAD_LITERAL, DIAG_LITERAL_RANGE, DIAG_NOT_ARRAY,
- *        DIAG_INDEX_TYPE or DIAG_INDEX_RANGE
+ *        DIAG_INDEX_TYPE, DIAG_INDEX_RANGE or DIAG_INDEX_PLAIN
  *
  * Remembered by POU and id: asking again is one look into a hash.
  * Owns: the arena of scope_new().   Scan-safe: no.
@@ -70,6 +72,19 @@ struct scope *scope_new(struct project *project, struct arena *arena);
  */
 const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 				 uint32_t text, enum diag_id *why);
+/**
+ * scope_index - the meaning of one index in an operand's text
+ * @at: where in the text to look; is moved behind it
+ *
+ * Scan-safe: no. Fails: NULL behind the last one, and for one that has none.
+ */
+const struct meaning *scope_index(struct scope *scope, const struct pou *pou,
+				  uint32_t text, size_t *at);
+/** scope_first - the text of an array's first element with a path behind it: of
+ * "Recipes" and ".Speed" that of "Recipes[1].Speed". Scan-safe: no. Fails: 0 if
+ * it is no array, or too long. */
+uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
+		     const char *tail, size_t len);
 /** meaning_is_indexed - an element whose index is found out in the scan?
  * Scan-safe: yes. */
 static inline bool meaning_is_indexed(const struct meaning *meaning)
@@ -93,8 +108,6 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index);
  */
 bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index);
-/** meaning_unit - bytes from one element of an array to the next. Scan-safe: yes. */
-uint32_t meaning_unit(const struct meaning *meaning);
 /** scope_size - bytes of what @meaning is. Scan-safe: no. */
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning);
 struct project *scope_project(const struct scope *scope);

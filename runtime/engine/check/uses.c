@@ -118,7 +118,7 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 	if (!meaning->var)
 		return again;
 	flags = flags_of(uses, meaning);
-	if (meaning->kind == MEANING_ELEMENT)
+	if (meaning->kind == MEANING_ELEMENT || meaning->var->array.count)
 		use &= ~(unsigned int)USE_COIL; /* two places of one variable */
 	else if (meaning->kind == MEANING_PIN)
 		again = false; /* as are two pins of an instance */
@@ -129,10 +129,20 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 	return again;
 }
 
-void uses_add_index(struct uses *uses, const struct meaning *meaning)
+void uses_add_index(struct uses *uses, struct scope *scope, const struct pou *pou,
+		    uint32_t text, const struct meaning *meaning)
 {
-	if (meaning->index_of)
-		uses_add(uses, meaning->index_of, USE_READ);
+	const char *all = scope_text(scope, text);
+	const struct meaning *index;
+	size_t at = 0;
+
+	if (!meaning->index_of)
+		return;
+	while (strchr(all + at, '[')) {
+		index = scope_index(scope, pou, text, &at);
+		if (index)
+			uses_add(uses, index, USE_READ);
+	}
 }
 
 unsigned int uses_of(const struct uses *uses, int table, int index,

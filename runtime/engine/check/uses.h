@@ -43,8 +43,10 @@ bool uses_init(struct uses *uses, const struct project *project,
 bool uses_add(struct uses *uses, const struct meaning *meaning,
 	      unsigned int use);
 
-/** uses_add_index - the variable that its index is read from, if any. */
-void uses_add_index(struct uses *uses, const struct meaning *meaning);
+/** uses_add_index - the variables that the indices of operand @text are read from;
+ * @meaning: its own. */
+void uses_add_index(struct uses *uses, struct scope *scope, const struct pou *pou,
+		    uint32_t text, const struct meaning *meaning);
 
 /** uses_of - what is done with a declared variable: its own flags and those of
  * its address. @table 0: globals, else number of the POU + 1. */

@@ -137,7 +137,7 @@ static bool is_operand(const struct lex *lex)
 	return false;
 }
 
-/* Steps over `[ i ]` or `[-3]` behind a name: an index that needs no operation. */
+/* From the [ to the ] of `[ i ]` or `[-3]`: an index that needs no operation. */
 static bool skip_simple_index(struct lex *lex)
 {
 	struct lex at = *lex;
@@ -158,37 +158,59 @@ static bool skip_simple_index(struct lex *lex)
 	return true;
 }
 
-/* The operand that ends at the cursor, on its last token: its text from @token on. */
-static size_t text_len(const struct token *token, const struct lex *lex)
+/* On the last token of a name or of an index behind it: to that of what follows with
+ * simple indices alone, `[2].Times`. An index that is an expression is not gone to. */
+static void skip_path(struct lex *lex)
 {
-	return (size_t)(lex->token.text + lex->token.len - token->text);
+	struct lex at = *lex;
+	bool dots = lex_is(lex, "]");
+
+	for (;;) {
+		lex_next(&at);
+		if (dots ? !lex_is(&at, ".") || lex_next(&at) != TOKEN_NAME
+			 : !lex_is(&at, "[") || !skip_simple_index(&at))
+			return;
+		*lex = at;
+		dots = !dots;
+	}
 }
 
-/* Behind a name stands [: the index, up to the ], or only its beginning. */
-static bool take_index(struct parser *parser, const struct token *name)
+/* What ends at the cursor, on its last token: its text from @text on. */
+static size_t text_len(const char *text, const struct lex *lex)
 {
-	struct expr_node node = { .op = EXPR_NAME, .text = name->text,
-				  .left = -1, .right = -1 };
+	return (size_t)(lex->token.text + lex->token.len - text);
+}
+
+/* On the ] of an index that is an expression: what stands behind it, on the last token
+ * of which the cursor is left. */
+static bool take_tail(struct parser *parser, struct expr_tail *out)
+{
+	const char *text = parser->lex->token.text + 1;
 	size_t len;
 
-	if (skip_simple_index(parser->lex)) {
-		len = text_len(name, parser->lex);
-		if (len > 2 * LIMIT_NAME)
-			return refuse(parser, DIAG_NAME_TOO_LONG);
-		node.len = (uint16_t)len;
-		lex_next(parser->lex);
-		return add_node(parser, node);
-	}
+	skip_path(parser->lex);
+	len = text_len(text, parser->lex);
+	if (len > LIMIT_NAME)
+		return refuse(parser, DIAG_NAME_TOO_LONG);
+	*out = (struct expr_tail){ text, (uint16_t)len };
+	return true;
+}
+
+/* Behind what the lexer is on stands [ and an index that is no simple one: what waits
+ * for its ]. */
+static bool open_index(struct parser *parser, const char *text, size_t len)
+{
 	if (parser->indexed == LIMIT_EXPR_DEPTH)
 		return refuse(parser, DIAG_EXPR_TOO_DEEP);
 	if (!push(parser, OPERATOR_INDEX))
 		return false;
-	parser->out->open[parser->indexed].text = name->text;
-	parser->out->open[parser->indexed++].len = (uint16_t)name->len;
+	parser->out->open[parser->indexed].text = text;
+	parser->out->open[parser->indexed++].len = (uint16_t)len;
 	parser->opened++;
 	return true;
 }
 
+/* @more: it goes on behind a [. */
 static bool take_operand(struct parser *parser, bool *more)
 {
 	struct lex *lex = parser->lex;
@@ -197,25 +219,27 @@ static bool take_operand(struct parser *parser, bool *more)
 		       lex_is(lex, "FALSE");
 	struct expr_node node = {
 		.op = literal ? EXPR_LITERAL : EXPR_NAME,
-		.text = token->text, .len = (uint16_t)token->len,
-		.left = -1, .right = -1,
+		.text = token->text, .left = -1, .right = -1,
 	};
+	bool indexed;
+	size_t len;
 
+	*more = false;
 	if (!is_operand(lex))
 		return refuse(parser, DIAG_BAD_EXPRESSION);
 	if (token->len > LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
+	if (token->kind != TOKEN_NUMBER)
+		skip_path(lex);
+	len = text_len(token->text, lex);
+	if (len > 2 * LIMIT_NAME)
+		return refuse(parser, DIAG_NAME_TOO_LONG);
+	node.len = (uint16_t)len;
+	indexed = lex_is(lex, "]");
 	lex_next(lex);
-	*more = false;
-	if (token->kind != TOKEN_NUMBER && lex_is(lex, "[")) {
-		int opened = parser->opened;
-
-		if (!take_index(parser, token))
-			return false;
-		*more = parser->opened != opened;
-		return true;
-	}
-	return add_node(parser, node);
+	*more = token->kind != TOKEN_NUMBER && !indexed && lex_is(lex, "[");
+	return *more ? open_index(parser, token->text, len) :
+		       add_node(parser, node);
 }
 
 /* Signs, ( and `Table[` as many as there are, then a name or a constant. */
@@ -253,7 +277,7 @@ static bool close_index(struct parser *parser)
 	};
 
 	node.left = parser->value[--parser->value_count];
-	return add_node(parser, node);
+	return take_tail(parser, &node.tail) && add_node(parser, node);
 }
 
 static bool close_parens(struct parser *parser)
@@ -328,6 +352,7 @@ static void parser_init(struct parser *parser, struct lex *lex,
 	out->target = NULL;
 	out->target_len = 0;
 	out->target_index = -1;
+	out->target_tail = (struct expr_tail){ NULL, 0 };
 }
 
 bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
@@ -356,36 +381,48 @@ static bool skip_brackets(struct lex *lex)
 	}
 }
 
+/* Is there a := that belongs to what the cursor is on? */
+static bool has_target(struct lex lex)
+{
+	if (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_ADDRESS)
+		return false;
+	lex_next(&lex);
+	while (lex_is(&lex, "[")) {
+		if (!skip_brackets(&lex))
+			return false;
+		if (lex_is(&lex, ".") && lex_next(&lex) == TOKEN_NAME)
+			lex_next(&lex);
+	}
+	return lex_is(&lex, ":=");
+}
+
 /* `target :=`, if the text begins so; else the lexer stands where it stood. */
 static bool take_target(struct parser *parser)
 {
-	struct lex *lex = parser->lex, start = *lex;
+	struct lex *lex = parser->lex;
 	struct expr *out = parser->out;
-	bool index;
+	bool indexed;
 
-	if (lex->token.kind != TOKEN_NAME && lex->token.kind != TOKEN_ADDRESS)
+	if (!has_target(*lex))
 		return true;
+	out->target = lex->token.text;
+	skip_path(lex);
+	out->target_len = text_len(out->target, lex);
+	if (out->target_len > 2 * LIMIT_NAME)
+		return refuse(parser, DIAG_NAME_TOO_LONG);
+	indexed = lex_is(lex, "]");
 	lex_next(lex);
-	index = lex_is(lex, "[");
-	if ((index && !skip_brackets(lex)) || !lex_is(lex, ":=")) {
-		*lex = start;
-		return true;
-	}
-	out->target = start.token.text;
-	out->target_len = start.token.len;
-	*lex = start;
-	lex_next(lex);
-	if (index && skip_simple_index(lex)) {
-		out->target_len = text_len(&start.token, lex);
-		lex_next(lex);
-	} else if (index) {
+	if (!indexed && lex_is(lex, "[")) {
 		lex_next(lex);
 		if (!parse(parser))
 			return false;
 		out->target_index = out->root;
 		parser->value_count = 0;
-		if (!lex_accept(lex, "]"))
+		if (!lex_is(lex, "]"))
 			return refuse(parser, DIAG_BAD_EXPRESSION);
+		if (!take_tail(parser, &out->target_tail))
+			return false;
+		lex_next(lex);
 	}
 	return lex_accept(lex, ":=") || refuse(parser, DIAG_BAD_EXPRESSION);
 }

@@ -16,12 +16,19 @@
 
 enum expr_op {
 	EXPR_NAME,      /* text: a name, a pin, a direct address, an element
-			   with a simple index: Table[ i ] (may hold blanks)   */
-	EXPR_INDEX,     /* text: an array; left: its index, an expression     */
+			   with a simple index: Table[ i ].X (may hold blanks) */
+	EXPR_INDEX,     /* text: an array; left: its index, an expression;
+			   tail: the path from there to a member              */
 	EXPR_LITERAL,   /* text: a constant                                   */
 	EXPR_NEG, EXPR_NOT,
 	EXPR_FN,        /* fn: ADD SUB MUL DIV MOD GT GE EQ LE LT NE          */
 	EXPR_AND, EXPR_XOR, EXPR_OR,
+};
+
+/* What stands behind an index that is an expression: `.Speed`; len 0: nothing. */
+struct expr_tail {
+	const char *text;      /* borrowed from the source                    */
+	uint16_t len;
 };
 
 struct expr_node {
@@ -29,6 +36,7 @@ struct expr_node {
 	enum word fn;          /* of EXPR_FN                                  */
 	const char *text;      /* borrowed from the source                    */
 	uint16_t len;
+	struct expr_tail tail; /* of EXPR_INDEX                               */
 	int16_t left, right;   /* nodes; -1: none. Children come before       */
 };
 
@@ -40,6 +48,7 @@ struct expr {
 	size_t target_len;
 	int target_index;      /* node of the target's index; -1: it has none,
 				  or a simple one within `target`             */
+	struct expr_tail target_tail; /* behind that index                    */
 	struct { const char *text; uint16_t len; } open[LIMIT_EXPR_DEPTH];
 	                       /* the parser's: arrays before an open [        */
 };

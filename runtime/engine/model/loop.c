@@ -7,24 +7,30 @@
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
 
-/* A name or address, with [ … ] if it is an element of an array. */
+/* A name or address, with [ … ] if it is an element of an array, and members of
+ * that. */
 static bool take_variable(struct lex *lex, struct loop_part *out)
 {
 	out->text = lex->token.text;
 	if (lex->token.kind != TOKEN_NAME && lex->token.kind != TOKEN_ADDRESS)
 		return false;
-	out->len = lex->token.len;
-	lex_next(lex);
-	if (!lex_is(lex, "[") || lex->token.space_before)
-		return true;
-	while (!lex_is(lex, "]")) {
-		if (lex->token.kind == TOKEN_END)
-			return false;
+	for (;;) {
+		out->len = (size_t)(lex->token.text + lex->token.len - out->text);
 		lex_next(lex);
+		if (!lex_is(lex, "[") || lex->token.space_before)
+			return true;
+		while (!lex_is(lex, "]")) {
+			if (lex->token.kind == TOKEN_END)
+				return false;
+			lex_next(lex);
+		}
+		out->len = (size_t)(lex->token.text + 1 - out->text);
+		lex_next(lex);
+		if (!lex_is(lex, ".") || lex->token.space_before)
+			return true;
+		if (lex_next(lex) != TOKEN_NAME)
+			return false;
 	}
-	out->len = (size_t)(lex->token.text + 1 - out->text);
-	lex_next(lex);
-	return true;
 }
 
 /* A variable or a constant, with its sign. */

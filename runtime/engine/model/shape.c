@@ -60,17 +60,31 @@ const struct var_table *shape_vars(const struct project *project, enum word word
 
 struct extent shape_of(const struct word_table *words, const struct word_pin *pin)
 {
-	if (pin->type == IEC_NONE)
-		return (struct extent){ words_row(words, pin->word)->size,
-					BLOCK_ALIGN };
-	uint64_t size = iec_type_size(pin->type, pin->capacity ?
-				      pin->capacity : IEC_STRING_MOST);
+	struct extent out = { .align = BLOCK_ALIGN };
 
-	if (pin->elements)
-		size *= pin->elements;
-	return (struct extent){
-		size <= LIMIT_DATA ? (uint32_t)size : LIMIT_DATA + 1,
-		iec_type_row(pin->type)->size };
+	if (pin->type == IEC_NONE) {
+		out.unit = words_row(words, pin->word)->size;
+	} else {
+		out.unit = iec_type_size(pin->type, pin->capacity ?
+					 pin->capacity : IEC_STRING_MOST);
+		out.align = iec_type_row(pin->type)->size;
+	}
+	out.size = out.unit;
+	if (pin->elements) {
+		out.unit = (out.unit + out.align - 1) / out.align * out.align;
+		out.size = (uint64_t)out.unit * pin->elements;
+	}
+	return out;
+}
+
+struct extent shape_of_var(const struct word_table *words, const struct var *var)
+{
+	struct word_pin like = {
+		.type = var->type, .word = var->fb, .capacity = var->capacity,
+		.elements = var->array.count, .low = var->array.low,
+	};
+
+	return shape_of(words, &like);
 }
 
 /* ---- diagnostics ---- */
@@ -143,7 +157,7 @@ static void make_pin(const struct shaper *s, struct word_row *row,
 	*pin = (struct word_pin){
 		.name = project_text(s->project, var->name), .doc = "",
 		.dir = dir_of(row, flags), .type = var->type, .word = var->fb,
-		.capacity = var->capacity, .elements = var->array.count,
+		.capacity = var->capacity, .elements = var->array.count, .low = var->array.low,
 		.classes = iec_type_row(var->type)->class,
 		.has_init = var->has_init,
 	};

@@ -23,10 +23,13 @@
  */
 bool shape_make(struct project *project, struct diag_list *diags);
 
-/* Bytes of a variable or member, and what its offset is a multiple of. */
-struct extent { uint32_t size, align; };
-/** shape_of - of what is declared like @pin: its type, capacity and word count. */
+/* Bytes of a variable or member, all elements together; from one element to the next,
+ * of a single one its own; and what the offset is a multiple of. */
+struct extent { uint64_t size; uint32_t unit, align; };
+/** shape_of - of what is declared like @pin: type, capacity, word and array count. */
 struct extent shape_of(const struct word_table *words, const struct word_pin *pin);
+/** shape_of_var - the same of a declared variable. */
+struct extent shape_of_var(const struct word_table *words, const struct var *var);
 /** shape_vars - the table that the word's row was made from; NULL: none. */
 const struct var_table *shape_vars(const struct project *project,
 				   enum word word);

@@ -17,12 +17,6 @@ enum var_flag {
 	VAR_RESULT = 128,    /* of a function; stands in its heading           */
 };
 
-/* ARRAY[low..high]: so many elements in a row; count 0: none, a single value. */
-struct var_array {
-	int32_t low;
-	uint32_t count;
-};
-
 /* Part of an array's initial values: so many times the same. */
 struct var_init {
 	uint32_t count;

@@ -51,17 +51,46 @@ static enum iec_area area_at(uint32_t offset)
 	return AREA_NONE;
 }
 
+/* Of texts the marks do not tell the room: that is said by their runs. */
+static bool has_room(const struct verifier *v, uint32_t offset, uint32_t room)
+{
+	const struct code_run *run = code_run_at(v->program, offset);
+
+	return run && run->kind != RUN_INSTANCE && run->word == room;
+}
+
 static bool walk(struct verifier *v, uint32_t first, uint32_t count,
 		 uint32_t stride, bool write)
 {
-	if (count > LIMIT_ELEMENT_WALK - v->walked)
+	bool text = CODE_TYPE(first) == IEC_STRING;
+	const struct code_run *run = code_run_at(v->program, CODE_OFFSET(first));
+
+	if (count > LIMIT_ELEMENT_WALK - v->walked || !run)
 		return false;
 	v->walked += count;
-	for (uint32_t i = 0; i < count; i++)
-		if (!verify_use(v, CODE_OFFSET(first) + i * stride,
-				CODE_TYPE(first), write))
+	for (uint32_t i = 0; i < count; i++) {
+		uint32_t offset = CODE_OFFSET(first) + i * stride;
+
+		if (!verify_use(v, offset, CODE_TYPE(first), write) ||
+		    (text && !has_room(v, offset, run->word)))
 			return false;
+	}
 	return true;
+}
+
+/* The same member of all elements is asked for again and again. */
+static struct seen *seen_slot(const struct verifier *v, uint32_t first)
+{
+	return &v->seen[(first * 2654435761u) >> 22 & (VERIFY_SEEN - 1)];
+}
+
+static bool was_walked(const struct verifier *v, uint32_t first, uint32_t count,
+		       uint32_t stride, bool write)
+{
+	const struct seen *seen = seen_slot(v, first);
+
+	return seen->first == first && seen->stride == stride &&
+	       seen->count >= count && seen->write >= write;
 }
 
 bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
@@ -76,13 +105,21 @@ bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
 	      iec_type_row((enum iec_type)type)->size;
 	if (end > v->data_size)
 		return false;
-	if (CODE_TYPE(first) == IEC_STRING) /* marks do not tell its room */
-		return in_run(v, offset, end, stride);
 	if (offset < v->areas)
 		return end <= v->areas &&
 		       area_at(offset) == area_at((uint32_t)end - 1);
-	return in_run(v, offset, end, stride) ||
-	       walk(v, first, count, stride, write);
+	if (in_run(v, offset, end, stride))
+		return true;
+	if (!v->seen)
+		v->seen = arena_alloc(v->scratch, VERIFY_SEEN * sizeof(*v->seen));
+	if (!v->seen)
+		return false;
+	if (was_walked(v, first, count, stride, write))
+		return true;
+	if (!walk(v, first, count, stride, write))
+		return false;
+	*seen_slot(v, first) = (struct seen){ first, count, stride, write };
+	return true;
 }
 
 bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
@@ -117,9 +154,11 @@ static bool take_number(const char **at, int64_t *out)
 struct code_bounds code_bounds(const char *name)
 {
 	struct code_bounds none = { strlen(name), 0, 0 }, out = none;
-	const char *at = strchr(name, '[');
+	const char *at = NULL;
 	int64_t low, high;
 
+	for (const char *c = name; *c; c++) /* Line[2].Times[1..5] */
+		at = *c == '[' ? c : at;
 	if (!at || at == name)
 		return none;
 	out.head = (size_t)(at - name);

@@ -116,6 +116,15 @@ struct location declared_element(const struct declared_name *array,
 bool image_find_array(const struct image *image, const char *name, size_t len,
 		      struct declared_name *out);
 
+/** image_find_members - the same member of all elements of an array, such as
+ * `Recipes[1..5].Speed`
+ * @head: "Recipes"   @tail: ".Speed"
+ * @out: bounds, stride and place of the first one; no name
+ *
+ * Scan-safe: no.   Fails: false if there is none. */
+bool image_find_members(const struct image *image, const char *head, size_t len,
+			const char *tail, size_t tail_len, struct declared_name *out);
+
 /* The symbols of the image, for whoever shows or records variables. */
 struct symbol {
 	const char *name;       /* "Motor", "Runout.Q"; lives with the program */

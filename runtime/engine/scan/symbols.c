@@ -206,6 +206,83 @@ bool image_find_array(const struct image *image, const char *name, size_t len,
 	return false;
 }
 
+/* What stands behind @head and the index of an element in the name of a symbol, if that
+ * is `Head[3]…`; the index in @index. */
+static bool is_member(const struct declared_name *symbol, const char *head, size_t len,
+		      int64_t *index)
+{
+	size_t skip = strlen(symbol->pou);
+	const char *at = symbol->name + len;
+	bool negative;
+
+	if (skip && len > skip && head[skip] == '.' &&
+	    ascii_same(symbol->pou, head, skip)) {
+		head += skip + 1;
+		len -= skip + 1;
+		at = symbol->name + len;
+	}
+	if (strlen(symbol->name) <= len || !ascii_same(symbol->name, head, len) ||
+	    *at++ != '[')
+		return false;
+	negative = *at == '-';
+	at += negative;
+	for (*index = 0; ascii_digit(*at) && *index <= INT32_MAX / 10; at++)
+		*index = *index * 10 + (*at - '0');
+	if (negative)
+		*index = -*index;
+	return *at == ']';
+}
+
+static struct location find_member(const struct image *image, const char *head,
+				   size_t len, const char *tail, size_t tail_len,
+				   int64_t index)
+{
+	char text[2 * LIMIT_NAME + 64];
+	int size = snprintf(text, sizeof(text), "%.*s[%d]%.*s", (int)len, head,
+			    (int)index, (int)tail_len, tail);
+
+	if (size < 0 || (size_t)size >= sizeof(text))
+		return (struct location){ .type = IEC_NONE };
+	return image_find(image, text, (size_t)size);
+}
+
+bool image_find_members(const struct image *image, const char *head, size_t len,
+			const char *tail, size_t tail_len, struct declared_name *out)
+{
+	struct declared_cursor cursor = { 0 };
+	struct declared_name symbol;
+	int64_t low = 0, high = 0, index;
+	bool found = false;
+
+	while (image_next_declared(image->program, &cursor, &symbol)) {
+		if (!is_member(&symbol, head, len, &index))
+			continue;
+		low = !found || index < low ? index : low;
+		high = !found || index > high ? index : high;
+		found = true;
+	}
+	if (!found)
+		return false;
+	*out = (struct declared_name){
+		.name = "", .pou = "", .array.low = (int32_t)low,
+		.array.count = (uint32_t)(high - low) + 1,
+		.at = find_member(image, head, len, tail, tail_len, low),
+	};
+	out->stride = find_member(image, head, len, tail, tail_len, low + 1).where -
+		      out->at.where;
+	/* An image may name what it likes: the last one must be there, and of texts,
+	 * which tell their own length, each. */
+	for (index = out->at.type == IEC_STRING ? low : high; index <= high; index++) {
+		struct location at = find_member(image, head, len, tail, tail_len,
+						 index);
+
+		if (at.type != out->at.type || at.area != out->at.area ||
+		    at.where != out->at.where + (uint64_t)(index - low) * out->stride)
+			return false;
+	}
+	return out->at.type != IEC_NONE;
+}
+
 /* With the type that its row gives it: a date is more than its 64 bits. */
 static bool find_system(const struct image *image, const char *text, size_t len,
 			struct location *at)

@@ -17,6 +17,13 @@ enum mark {
 	MARK_VALUE = 32, MARK_FIXED = 64,
 };
 
+/* Elements that were looked at one by one, and found good. */
+struct seen {
+	uint32_t first, count, stride;
+	bool write;
+};
+#define VERIFY_SEEN 1024u
+
 struct verifier {
 	struct program *program;
 	struct arena *scratch;
@@ -26,6 +33,7 @@ struct verifier {
 				  on the time it takes to look at them        */
 	size_t where;          /* byte offset of what broke a rule          */
 	uint32_t walked;       /* elements looked at one by one             */
+	struct seen *seen;     /* VERIFY_SEEN of them, by hash              */
 };
 
 /* May a value of @type be read, or written, at this offset? Scan-safe: yes. */

@@ -105,7 +105,9 @@ static bool has_own_pins(const struct reader *r, const struct il_line *call)
 {
 	struct project *project = r->project;
 	const struct var_table *table = r->pou ? &r->pou->vars : NULL;
-	uint32_t fold = names_fold(&project->names, call->operand);
+	const char *name = names_text(&project->names, call->operand);
+	uint32_t fold = names_fold(&project->names, names_intern(&project->names,
+						name, strcspn(name, "[")));
 	int index;
 
 	if (call->kind != IL_OP)
@@ -236,9 +238,10 @@ static bool read_label_operand(struct reader *r, const struct token *word,
 	if (r->lex.token.kind != TOKEN_NAME)
 		return reader_fail(r, DIAG_MISSING_OPERAND, word->text,
 				   word->len);
-	if (!reader_name(r, "name", &line.operand))
-		return false;
 	line.col = column_of(r->lex.token.column);
+	if (!(line.op == OP_CAL ? reader_instance(r, &line.operand) :
+				  reader_name(r, "name", &line.operand)))
+		return false;
 	if (line.op == OP_CAL && reader_peek(r, "(")) {
 		reader_next(r);
 		return read_call(r, &line);

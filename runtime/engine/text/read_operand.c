@@ -112,13 +112,11 @@ static bool check_constant(struct reader *r, const char *text, size_t len)
 	return reader_fail(r, DIAG_BAD_LITERAL, text, len);
 }
 
-/* Behind a name or an address: `[3]`, `[-3]` or `[i]`; leaves the cursor on the ]. */
+/* `[3]`, `[-3]` or `[i]`, which follows; leaves the cursor on the ]. */
 static bool add_index(struct reader *r)
 {
 	const struct token *token = &r->lex.token;
 
-	if (!reader_peek(r, "["))
-		return true;
 	reader_step(r);
 	buffer_add(r, &r->text, "[", 1);
 	reader_step(r);
@@ -141,6 +139,45 @@ static bool add_index(struct reader *r)
 	return true;
 }
 
+/* Behind a name or an address: an index, and members of what it leads to, as in
+ * `Line[2].Times[i]`; leaves the cursor on the last token. */
+static bool add_path(struct reader *r)
+{
+	const struct token *token = &r->lex.token;
+
+	while (reader_peek(r, "[")) {
+		if (!add_index(r))
+			return false;
+		if (!reader_peek(r, "."))
+			return true;
+		reader_step(r);
+		buffer_add(r, &r->text, ".", 1);
+		reader_step(r);
+		if (token->kind != TOKEN_NAME)
+			return reader_fail_word(r, DIAG_EXPECTED, "name of a member");
+		if (!check_length(r))
+			return false;
+		buffer_add(r, &r->text, token->text, token->len);
+	}
+	return true;
+}
+
+bool reader_instance(struct reader *r, uint32_t *id)
+{
+	const struct token *token = &r->lex.token;
+
+	if (!reader_name(r, "name", id))
+		return false;
+	if (!reader_peek(r, "["))
+		return true;
+	buffer_clear(&r->text);
+	buffer_add(r, &r->text, token->text, token->len);
+	if (!add_index(r))
+		return false;
+	*id = buffer_take(r, &r->text);
+	return true;
+}
+
 bool reader_value(struct reader *r, bool constant, const struct token *word)
 {
 	const struct token *token = &r->lex.token;
@@ -155,11 +192,11 @@ bool reader_value(struct reader *r, bool constant, const struct token *word)
 	}
 	buffer_add(r, &r->text, token->text, token->len);
 	if (token->kind == TOKEN_NAME)
-		return check_length(r) && add_index(r);
+		return check_length(r) && add_path(r);
 	if (token->kind == TOKEN_ADDRESS) {
 		if (iec_addr_parse(token->text, token->len, &addr) != ADDR_OK)
 			return reader_fail_token(r, DIAG_BAD_ADDRESS);
-		return add_index(r);
+		return add_path(r);
 	}
 	if (token->kind == TOKEN_NUMBER && constant)
 		return r->no_memory ||

@@ -143,7 +143,9 @@ static bool read_operand(struct reader *r, struct cell *cell,
 					 "the name of its instance") :
 			reader_fail(r, DIAG_MISSING_OPERAND, word->text,
 				    word->len);
-	if (plain && !reader_name(r, "name", &cell->operand))
+	if (plain && !(row->kind == WORD_FB ?
+		       reader_instance(r, &cell->operand) :
+		       reader_name(r, "name", &cell->operand)))
 		return false;
 	if (!plain) {
 		buffer_clear(&r->text);
@@ -166,9 +168,10 @@ static bool read_loop(struct reader *r, struct cell *cell)
 
 	buffer_clear(&r->text);
 	while (!reader_at_end(r) && !reader_is(r, '|') && !reader_is(r, '^')) {
-		if (!glued && !reader_is(r, '[') && !reader_is(r, ']'))
+		if (!glued && !reader_is(r, '[') && !reader_is(r, ']') &&
+		    !reader_is(r, '.'))
 			buffer_add(r, &r->text, " ", 1);
-		glued = reader_is(r, '-') || reader_is(r, '[');
+		glued = reader_is(r, '-') || reader_is(r, '[') || reader_is(r, '.');
 		buffer_add(r, &r->text, token->text, token->len);
 		reader_next(r);
 	}

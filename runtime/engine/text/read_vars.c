@@ -118,12 +118,6 @@ static bool may_hold_blocks(const struct reader *r)
 	       !(r->pou && r->pou->kind == POU_FUNCTION);
 }
 
-/* None is handed over by itself; in a structure it is. */
-static bool may_hold_arrays(const struct reader *r)
-{
-	return !(r->var_flags & (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT));
-}
-
 bool reader_type(struct reader *r, struct var *var)
 {
 	const struct token *token = &r->lex.token;
@@ -132,8 +126,6 @@ bool reader_type(struct reader *r, struct var *var)
 	if (!reader_is(r, ':'))
 		return reader_fail_word(r, DIAG_EXPECTED, ":");
 	reader_step(r);
-	if (lex_is(&r->lex, "ARRAY") && !may_hold_arrays(r))
-		return reader_fail_token(r, DIAG_MISPLACED);
 	if (!read_array(r, &var->array))
 		return false;
 	if (token->kind != TOKEN_NAME)
@@ -145,8 +137,6 @@ bool reader_type(struct reader *r, struct var *var)
 		if (var->fb == WORD_COUNT ||
 		    (kind != WORD_FB && kind != WORD_STRUCT))
 			return reader_fail_token(r, DIAG_BAD_TYPE);
-		if (var->array.count)
-			return reader_fail_token(r, DIAG_MISPLACED);
 		if (kind == WORD_FB && !may_hold_blocks(r))
 			return reader_fail_token(r, DIAG_MISPLACED);
 		if (var->at_text)

@@ -115,7 +115,8 @@ static void write_type(const struct sink *sink, const struct project *project,
 			words_row(&project->words, var->fb)->word :
 			iec_type_row(var->type)->word);
 	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
-		sink_printf(sink, "[%u]", var->capacity);
+		sink_printf(sink, "[%u]", var->capacity ? var->capacity :
+			    (unsigned)IEC_STRING_MOST); /* a temporary */
 }
 
 static void write_var(const struct sink *sink, const struct project *project,

@@ -149,6 +149,10 @@ void layout_init_var(struct assembler *as, uint32_t offset, const struct var *va
 /** layout_whole - a place for an instance, frame or structure of the project's own;
  * @init: with its initial values. */
 uint32_t layout_whole(struct assembler *as, enum word word, bool init);
+/** layout_instances - places for @count blocks of the catalogue from @offset on, one
+ * every @unit bytes. */
+void layout_instances(struct assembler *as, enum word word, uint32_t offset,
+		      uint32_t count, uint32_t unit);
 /** layout_row - the row of a word, be it the project's own. */
 const struct word_row *layout_row(const struct assembler *as, enum word word);
 /** layout_vars - declared variables of table 0 (globals) or unit + 1. */

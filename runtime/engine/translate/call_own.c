@@ -41,7 +41,8 @@ static const struct il_line *find_arg(const struct list *list, const char *name,
 
 static bool is_whole(const struct meaning *m)
 {
-	return m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE;
+	return m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE ||
+	       m->kind == MEANING_ARRAY;
 }
 
 static uint32_t size_of(const struct list *list, const struct meaning *m)
@@ -152,14 +153,15 @@ static void keep_power(struct list *list, const struct meaning *instance,
 		       const struct frame *frame)
 {
 	struct assembler *as = list->as;
-	uint32_t to;
+	uint32_t to, element;
 
-	if (as->text != &as->watch || instance->offset > 0 ||
-	    !frame->power_size)
+	if (as->text != &as->watch || !frame->power_size)
 		return;
 	to = as->power[layout_table(as, instance)][instance->index];
+	element = instance->offset / list_row(list, instance->word)->size;
 	if (to)
-		emit_block(as, to, frame->power, frame->power_size);
+		emit_block(as, to + element * frame->power_size, frame->power,
+			   frame->power_size);
 }
 
 void list_own_cal(struct list *list)

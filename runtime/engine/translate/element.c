@@ -7,12 +7,6 @@
  */
 #include "engine/translate/lists.h"
 
-/* Bytes from one element to the next. */
-static uint32_t stride_of(const struct meaning *m)
-{
-	return m->var ? meaning_unit(m) : iec_type_row(m->type)->size;
-}
-
 /* The operands of both instructions behind the value. */
 static void emit_array(struct list *list, const struct meaning *m, uint32_t index)
 {
@@ -23,7 +17,7 @@ static void emit_array(struct list *list, const struct meaning *m, uint32_t inde
 	emit(list->as, index);
 	emit(list->as, (uint32_t)m->array.low);
 	emit(list->as, m->array.count);
-	emit(list->as, spot.packed ? 1 : stride_of(m));
+	emit(list->as, spot.packed ? 1 : m->stride);
 }
 
 static uint32_t index_operand(struct list *list, const struct meaning *m)
@@ -61,8 +55,7 @@ void list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 	uint32_t index = index_operand(list, m), ok = scratch_new(list->as);
 
 	if (!spot.packed)
-		list_protect(list, spot.offset, m->array.count *
-			     stride_of(m));
+		list_protect(list, spot.offset, m->array.count * m->stride);
 	emit_head(list, VM_APUT, m, en, ok);
 	emit(list->as, from);
 	emit_array(list, m, index);

@@ -97,19 +97,37 @@ static uint32_t place_value(struct assembler *as, enum code_run_kind kind,
 	return place_values(as, kind, type, IEC_STRING_MOST, 1);
 }
 
-static uint32_t place_instance(struct assembler *as, enum word word)
+/* So many of one word in a row, each where @unit bytes behind the one before end. */
+void layout_instances(struct assembler *as, enum word word, uint32_t offset,
+		      uint32_t count, uint32_t unit)
 {
-	struct code_run run = { .kind = RUN_INSTANCE, .word = (uint16_t)word,
-				.count = 1 };
-	uint32_t offset;
+	const struct code_run run = { .kind = RUN_INSTANCE, .count = 1,
+				      .word = (uint16_t)word };
 
-	if (word_is_own(word))
-		return layout_whole(as, word, true);
-	offset = layout_place(as, run, word_row(word)->size, 8);
-	layout_init_pins(as, offset, word_row(word));
-	return offset;
+	for (uint32_t i = 0; i < count && !as->failed; i++)
+		layout_place_at(as, run, offset + i * unit, word_row(word)->size);
 }
 
+/* An instance or structure, or an array of such. */
+static uint32_t place_whole(struct assembler *as, const struct var *var)
+{
+	struct extent extent = shape_of_var(&as->translation->project->words, var);
+	uint32_t count = var->array.count ? var->array.count : 1;
+	uint32_t first = (as->data_size + 7) / 8 * 8;
+
+	if (!layout_has_room(as, first, extent.size))
+		return as->data_size - 1;
+	if (!word_is_own(var->fb)) {
+		layout_instances(as, var->fb, first, count, extent.unit);
+		for (uint32_t i = 0; i < count && !as->failed; i++)
+			layout_init_pins(as, first + i * extent.unit,
+					 word_row(var->fb));
+		return first;
+	}
+	for (uint32_t i = 0; i < count && !as->failed; i++)
+		layout_whole(as, var->fb, true);
+	return first;
+}
 
 uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
 		     enum iec_type type)
@@ -398,7 +416,7 @@ static void place_var(struct assembler *as, int table, int index, bool retain)
 		return;
 	if (*offset || var->at.area != AREA_NONE)
 		return;
-	*offset = var->type == IEC_NONE ? place_instance(as, var->fb) :
+	*offset = var->type == IEC_NONE ? place_whole(as, var) :
 		  place_values(as, kind, var->type, capacity,
 			       var->array.count ? var->array.count : 1);
 	layout_init_var(as, *offset, var);

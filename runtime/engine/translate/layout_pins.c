@@ -22,6 +22,7 @@ static uint8_t *pin_count(const struct assembler *as, const struct meaning *m)
 static bool is_counted(const struct meaning *m)
 {
 	return m->var->type == IEC_NONE && !word_is_own(m->var->fb) &&
+	       !m->var->array.count &&
 	       (!m->pou || m->pou->kind == POU_PROGRAM);
 }
 

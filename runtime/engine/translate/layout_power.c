@@ -4,7 +4,7 @@
  * function block's cells once more for each instance.
  *
  * Behind the power of a block's own cells lies that of the instances inside it, so that one
- * copy takes all along.
+ * copy takes all along. Those of an array lie one behind the other.
  */
 #include "engine/translate/assembler.h"
 
@@ -22,6 +22,14 @@ static int unit_of(const struct assembler *as, const struct var_table *vars,
 	return pou && pou->kind == POU_BLOCK &&
 	       !(vars_flags(vars, index) & VAR_IN_OUT) ?
 	       (int)(pou - project->pou) : -1;
+}
+
+/* Of all instances of one variable, whose block is @unit. */
+static uint64_t power_of(const struct assembler *as, const struct var *var, int unit)
+{
+	uint32_t count = var->array.count ? var->array.count : 1;
+
+	return (uint64_t)as->frame[unit].power_size * count;
 }
 
 static uint32_t own_cells(const struct assembler *as, int unit)
@@ -45,7 +53,7 @@ static void measure(struct assembler *as, int unit)
 		int inner = unit_of(as, vars, i);
 
 		if (inner >= 0)
-			size += as->frame[inner].power_size;
+			size += power_of(as, &vars->var[i], inner);
 	}
 	as->frame[unit].power_size = size <= LIMIT_DATA ? (uint32_t)size
 							: LIMIT_DATA;
@@ -77,7 +85,7 @@ static bool place_table(struct assembler *as, int table)
 		return false;
 	for (int i = 0; i < vars->count; i++) {
 		int unit = unit_of(as, vars, i);
-		uint32_t size = unit < 0 ? 0 : as->frame[unit].power_size;
+		uint64_t size = unit < 0 ? 0 : power_of(as, &vars->var[i], unit);
 
 		as->power[table][i] = size ? as->data_size : 0;
 		for (; size > 0 && !as->failed; size--)

@@ -13,6 +13,7 @@ struct whole {
 	const struct var_table *vars;
 	uint32_t base;
 	int next;
+	uint32_t element;   /* of the part at next                           */
 };
 
 static struct whole whole_of(const struct assembler *as, enum word word,
@@ -24,27 +25,54 @@ static struct whole whole_of(const struct assembler *as, enum word word,
 	};
 }
 
-/* A part without parts of its own. */
+/* Instances of the catalogue. */
+static void place_blocks(struct assembler *as, const struct word_pin *pin,
+			 uint32_t offset, struct extent extent, bool init)
+{
+	uint32_t count = pin->elements ? pin->elements : 1;
+
+	layout_instances(as, pin->word, offset, count, extent.unit);
+	for (uint32_t i = 0; i < count && init && !as->failed; i++)
+		layout_init_pins(as, offset + i * extent.unit, word_row(pin->word));
+}
+
+/* A part without parts of the project's own. */
 static void place_part(struct assembler *as, const struct whole *whole, int index,
 		       bool init)
 {
 	const struct word_pin *pin = &whole->row->pin[index];
-	uint32_t size = shape_of(&as->translation->project->words, pin).size;
-	struct code_run run = { .kind = RUN_VALUES, .type = (uint8_t)pin->type };
+	struct extent extent = shape_of(&as->translation->project->words, pin);
+	uint32_t offset = whole->base + pin->offset;
+	struct code_run run = { .kind = RUN_VALUES, .type = (uint8_t)pin->type,
+				.count = pin->elements };
 
 	if (pin->type == IEC_NONE) {
-		run.kind = RUN_INSTANCE;
-		run.word = (uint16_t)pin->word;
-	} else if (pin->type == IEC_STRING) {
-		run.word = pin->capacity;
+		place_blocks(as, pin, offset, extent, init);
+		return;
 	}
-	run.count = pin->elements ? pin->elements : 1;
-	layout_place_at(as, run, whole->base + pin->offset, size / run.count);
-	if (init && pin->type == IEC_NONE)
-		layout_init_pins(as, whole->base + pin->offset, word_row(pin->word));
-	else if (init && pin->has_init)
-		layout_init_var(as, whole->base + pin->offset,
-				&whole->vars->var[index]);
+	if (pin->type == IEC_STRING)
+		run.word = pin->capacity;
+	layout_place_at(as, run, offset, extent.unit);
+	if (init && pin->has_init)
+		layout_init_var(as, offset, &whole->vars->var[index]);
+}
+
+/* The next part of @top, an element at a time if it is an array of what has parts of
+ * the project's own; @offset: where it lies. */
+static int next_part(const struct assembler *as, struct whole *top, uint32_t *offset)
+{
+	int index = top->row->order[top->next];
+	const struct word_pin *pin = &top->row->pin[index];
+	bool each = pin->type == IEC_NONE && word_is_own(pin->word);
+
+	*offset = top->base + pin->offset;
+	if (each)
+		*offset += top->element++ * layout_row(as, pin->word)->size;
+	if (!each || top->element >= pin->elements) {
+		top->element = 0;
+		top->next++;
+	}
+	return index;
 }
 
 /* Runs for its parts, in the order of model/shape.h. */
@@ -61,17 +89,17 @@ uint32_t layout_whole(struct assembler *as, enum word word, bool init)
 	while (depth >= 0 && !as->failed) {
 		struct whole *top = &level[depth];
 		const struct word_pin *pin;
+		uint32_t offset;
 		int index;
 
 		if (top->next == top->row->ordered) {
 			depth--;
 			continue;
 		}
-		index = top->row->order[top->next++];
+		index = next_part(as, top, &offset);
 		pin = &top->row->pin[index];
 		if (pin->type == IEC_NONE && word_is_own(pin->word)) {
-			level[++depth] = whole_of(as, pin->word,
-						  top->base + pin->offset);
+			level[++depth] = whole_of(as, pin->word, offset);
 			continue;
 		}
 		place_part(as, top, index, init);

@@ -36,18 +36,26 @@ static uint32_t intern(struct chain *c, const char *text, size_t len)
 	return id;
 }
 
+/* Takes the blanks out of a text; how long it is then. */
+static size_t drop_blanks(char *text, size_t len)
+{
+	size_t used = 0;
+
+	for (size_t i = 0; i < len; i++)
+		if (text[i] != ' ')
+			text[used++] = text[i];
+	return used;
+}
+
 /* A name as it stands in the cell: `Table[ i ]` is `Table[i]`. */
 static uint32_t intern_name(struct chain *c, const char *text, size_t len)
 {
 	char out[2 * LIMIT_NAME + 1];
-	size_t used = 0;
 
 	if (!memchr(text, ' ', len) || len >= sizeof(out))
 		return intern(c, text, len);
-	for (size_t i = 0; i < len; i++)
-		if (text[i] != ' ')
-			out[used++] = text[i];
-	return intern(c, out, used);
+	memcpy(out, text, len);
+	return intern(c, out, drop_blanks(out, len));
 }
 
 static const struct meaning *meaning(struct chain *c, uint32_t operand)
@@ -65,6 +73,17 @@ static enum iec_type type_of(struct chain *c, uint32_t operand)
 	if (m && m->kind == MEANING_LITERAL && m->literal.real)
 		return IEC_REAL; /* a point makes it one */
 	return m ? m->type : IEC_NONE;
+}
+
+/* Of an array with an index that is an expression: as the first element has it. */
+static enum iec_type type_of_element(struct chain *c, const struct expr_node *node)
+{
+	uint32_t id = intern(c, node->text, node->len);
+
+	if (node->tail.len > 0)
+		id = scope_first(c->ld->translation->scope, c->ld->unit->pou, id,
+				 node->tail.text, node->tail.len);
+	return type_of(c, id);
 }
 
 static bool is_bits(enum iec_type type)
@@ -100,8 +119,9 @@ static enum iec_type infer(struct chain *c, int index)
 	switch (node->op) {
 	case EXPR_NAME:
 	case EXPR_LITERAL:
-	case EXPR_INDEX: /* that of its array's elements */
 		return type_of(c, intern(c, node->text, node->len));
+	case EXPR_INDEX: /* that of its array's elements */
+		return type_of_element(c, node);
 	case EXPR_NEG:
 		return infer(c, node->left);
 	case EXPR_NOT:
@@ -206,9 +226,10 @@ static struct value settle(struct chain *c, struct value value)
 	return operate(c, FN_MOVE, value, none, value.type, 0);
 }
 
-/* `Table[index]`, after the index has been computed; an element itself is none. */
+/* `Table[index].Member`, after the index has been computed; an element itself is
+ * none. */
 static uint32_t compute_element(struct chain *c, const char *name, size_t len,
-				int part)
+				int part, struct expr_tail tail)
 {
 	const struct names *names = &c->ld->translation->project->names;
 	struct value index = compute(c, part, IEC_NONE, 0);
@@ -218,13 +239,14 @@ static uint32_t compute_element(struct chain *c, const char *name, size_t len,
 
 	if (strchr(names_text(names, index.operand), '['))
 		index = operate(c, FN_MOVE, index, none, index.type, 0);
-	size = snprintf(text, sizeof(text), "%.*s[%s]", (int)len, name,
-			names_text(names, index.operand));
+	size = snprintf(text, sizeof(text), "%.*s[%s]%.*s", (int)len, name,
+			names_text(names, index.operand), (int)tail.len,
+			tail.len ? tail.text : "");
 	if (!index.operand || size < 0 || (size_t)size >= sizeof(text)) {
 		c->ld->failed = true;
 		return 0;
 	}
-	return intern(c, text, (size_t)size);
+	return intern(c, text, drop_blanks(text, (size_t)size));
 }
 
 static struct value compute_neg(struct chain *c, const struct expr_node *node,
@@ -362,7 +384,7 @@ static struct value compute(struct chain *c, int index, enum iec_type hint,
 		return value;
 	case EXPR_INDEX:
 		value.operand = compute_element(c, node->text, node->len,
-						node->left);
+						node->left, node->tail);
 		value.type = infer(c, index);
 		return value;
 	case EXPR_LITERAL:
@@ -427,7 +449,8 @@ void ld_assign(struct ld *ld, int element)
 	if (ld->expr->target_index >= 0)
 		target = compute_element(&c, ld->expr->target,
 					 ld->expr->target_len,
-					 ld->expr->target_index);
+					 ld->expr->target_index,
+					 ld->expr->target_tail);
 	else
 		target = intern_name(&c, ld->expr->target, ld->expr->target_len);
 	ld_freeze(ld, target);

@@ -189,6 +189,7 @@ static bool is_var(const struct meaning *m)
 	return m->var && (m->kind == MEANING_VARIABLE || m->kind == MEANING_PIN ||
 			  m->kind == MEANING_INSTANCE ||
 			  m->kind == MEANING_STRUCT ||
+			  m->kind == MEANING_ARRAY ||
 			  m->kind == MEANING_ELEMENT);
 }
 
@@ -196,7 +197,7 @@ static bool is_var(const struct meaning *m)
 static uint32_t end_of(const struct scope *scope, const struct meaning *m)
 {
 	if (m->array.count)
-		return m->offset + m->array.count * meaning_unit(m);
+		return m->offset + m->array.count * m->stride;
 	return m->offset + scope_size(scope, m);
 }
 

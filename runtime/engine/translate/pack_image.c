@@ -2,10 +2,10 @@
  *
  * pack_image - writes what the assembler made as a code image.
  */
-#include "engine/model/shape.h"
 #include "engine/translate/assembler.h"
 
 #include "engine/base/digest.h"
+#include "engine/model/shape.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -79,21 +79,30 @@ static uint32_t symbol_word(struct assembler *as, const struct maps *maps,
 	return CODE_OPERAND(mark, offset);
 }
 
+#define BOUNDS 32 /* bytes that "[-1000..1000]" takes at most                */
+
+/* The bounds of an array, behind its name. */
+static size_t print_bounds(char *out, struct var_array array)
+{
+	return (size_t)snprintf(out, BOUNDS, "[%ld..%lld]", (long)array.low,
+				(long long)array.low + array.count - 1);
+}
+
 /* That of an array carries its bounds. */
 static void add_symbol_name(struct assembler *as, struct maps *maps,
-			    const char *name, struct var_array array)
+			    const struct var *var)
 {
-	char bounds[48] = "";
-	int len;
+	const struct names *names = &as->translation->project->names;
+	size_t len = names_len(names, var->name);
+	char text[LIMIT_NAME + BOUNDS];
 
-	add_string(as, maps, name, strlen(name));
-
-	if (!array.count || as->failed)
+	if (!var->array.count) {
+		add_name(as, maps, var->name);
 		return;
-	len = snprintf(bounds, sizeof(bounds), "[%ld..%lld]", (long)array.low,
-		       (long long)array.low + array.count - 1);
-	maps->string_used--; /* they stand in the place of its end           */
-	add_string(as, maps, bounds, (size_t)len);
+	}
+	memcpy(text, names_text(names, var->name), len);
+	len += print_bounds(text + len, var->array);
+	add_string(as, maps, text, len);
 }
 
 static void add_symbol(struct assembler *as, struct maps *maps,
@@ -107,8 +116,7 @@ static void add_symbol(struct assembler *as, struct maps *maps,
 		return;
 	}
 	*symbol = symbol_word(as, maps, pou, var, index);
-	add_symbol_name(as, maps, project_text(as->translation->project, var->name),
-			var->array);
+	add_symbol_name(as, maps, var);
 }
 
 /* Of an instance without variables there is nothing to name. */
@@ -141,8 +149,7 @@ static void add_group(struct assembler *as, struct maps *maps, uint32_t pou,
 
 /* A part of a variable, which has no symbol of its own: `M1.Start`. */
 static void add_part(struct assembler *as, struct maps *maps, const char *name,
-		     const struct word_pin *pin, struct var_array array,
-		     uint32_t offset, uint32_t marks)
+		     const struct word_pin *pin, uint32_t offset, uint32_t marks)
 {
 	uint32_t *symbol = arena_push(as->arena, &maps->symbol,
 				      &maps->symbol_count, sizeof(*symbol));
@@ -152,59 +159,111 @@ static void add_part(struct assembler *as, struct maps *maps, const char *name,
 		return;
 	}
 	*symbol = CODE_OPERAND((uint32_t)pin->type | marks, offset);
-	add_symbol_name(as, maps, name, array);
+	add_string(as, maps, name, strlen(name));
 }
 
+/* Of what has parts, those are named one by one; so are the elements of an array of
+ * such: `Recipes[3].Speed`. */
 struct level {
 	const struct word_row *row;
-	const struct var_table *vars;
 	uint32_t base;
 	int next;
-	size_t len;   /* of the name so far */
+	uint32_t element;  /* of the pin at next                           */
+	size_t len;        /* of the name so far                           */
 };
 
-/* All parts of an instance or structure of the project, at every depth. */
-static void add_parts(struct assembler *as, struct maps *maps,
-		      const struct var *var, uint32_t offset)
+#define NAME_PART (LIMIT_NAME + BOUNDS + 1)
+#define NAME_MOST ((LIMIT_NESTING + 2) * NAME_PART)
+
+/* The index of an element behind the name of what it is one of; or the bounds of all,
+ * if they are values. */
+static size_t join_index(char *out, const struct word_pin *pin, uint32_t element)
 {
-	const struct project *project = as->translation->project;
-	uint32_t marks = maps->declared[var->fold] > 1 ? SYMBOL_SHARED : 0;
+	*out = '\0';
+	if (!pin->elements)
+		return 0;
+	if (pin->type != IEC_NONE)
+		return print_bounds(out, pin_array(pin));
+	return (size_t)snprintf(out, BOUNDS, "[%lld]",
+				(long long)pin->low + element);
+}
+
+/* The pin to name next, an element at a time if it has parts; which one. */
+static const struct word_pin *next_pin(struct level *top, uint32_t *element)
+{
+	const struct word_pin *pin = &top->row->pin[top->next];
+
+	*element = top->element++;
+	if (pin->type != IEC_NONE || pin->dir == PIN_NONE ||
+	    top->element >= pin->elements) {
+		top->next++;
+		top->element = 0;
+	}
+	return pin;
+}
+
+/* All parts of one instance or structure of the project, at every depth; its own name
+ * stands in @name. */
+static void add_parts(struct assembler *as, struct maps *maps, char *name,
+		      enum word word, uint32_t offset, uint32_t marks)
+{
+	const struct word_table *words = &as->translation->project->words;
 	struct level level[LIMIT_NESTING + 1];
-	char *name = arena_alloc(as->arena, (LIMIT_NESTING + 2) *
-				 (LIMIT_NAME + 2));
 	int depth = 0;
 
-	if (!name) {
-		as->failed = true;
-		return;
-	}
-	level[0] = (struct level){ words_row(&project->words, var->fb),
-				   shape_vars(project, var->fb), offset, 0,
-				   names_len(&project->names, var->name) };
-	memcpy(name, project_text(project, var->name), level[0].len);
+	level[0] = (struct level){ .row = words_row(words, word), .base = offset,
+				   .len = strlen(name) };
 	while (depth >= 0 && !as->failed) {
 		struct level *top = &level[depth];
-		const struct word_pin *pin = &top->row->pin[top->next];
+		const struct word_pin *pin;
 		size_t len = top->len;
+		uint32_t element, at;
 
-		if (top->next++ == top->row->pin_count) {
+		if (top->next == top->row->pin_count) {
 			depth--;
 			continue;
 		}
+		pin = next_pin(top, &element);
 		if (pin->dir == PIN_NONE || !*pin->name)
 			continue;
 		name[len++] = '.';
 		memcpy(name + len, pin->name, strlen(pin->name) + 1);
 		len += strlen(pin->name);
+		len += join_index(name + len, pin, element);
+		at = top->base + pin->offset + element * shape_of(words, pin).unit;
 		if (pin->type == IEC_NONE && word_is_own(pin->word))
 			level[++depth] = (struct level){
-				words_row(&project->words, pin->word),
-				shape_vars(project, pin->word),
-				top->base + pin->offset, 0, len };
+				.row = words_row(words, pin->word), .base = at,
+				.len = len };
 		else
-			add_part(as, maps, name, pin,
-				 top->vars->var[top->next - 1].array,
-				 top->base + pin->offset, marks);
+			add_part(as, maps, name, pin, at, marks);
+	}
+}
+
+/* An instance or structure, or all of an array. */
+static void add_whole(struct assembler *as, struct maps *maps,
+		      const struct var *var, uint32_t offset)
+{
+	const struct project *project = as->translation->project;
+	struct word_pin like = { .type = IEC_NONE, .word = var->fb,
+				 .elements = var->array.count, .low = var->array.low };
+	uint32_t marks = maps->declared[var->fold] > 1 ? SYMBOL_SHARED : 0;
+	uint32_t count = var->array.count ? var->array.count : 1;
+	uint32_t unit = shape_of_var(&project->words, var).unit;
+	size_t len = names_len(&project->names, var->name);
+	char *name = arena_alloc(as->arena, NAME_MOST);
+
+	if (!name) {
+		as->failed = true;
+		return;
+	}
+	memcpy(name, project_text(project, var->name), len);
+	for (uint32_t i = 0; i < count && !as->failed; i++) {
+		join_index(name + len, &like, i);
+		if (word_is_own(var->fb))
+			add_parts(as, maps, name, var->fb, offset + i * unit, marks);
+		else
+			add_part(as, maps, name, &like, offset + i * unit, marks);
 	}
 }
 
@@ -214,8 +273,8 @@ static void add_var(struct assembler *as, struct maps *maps,
 	struct meaning m = { .kind = MEANING_INSTANCE, .pou = pou, .var = var,
 			     .index = index };
 
-	if (var->type == IEC_NONE && word_is_own(var->fb))
-		add_parts(as, maps, var, layout_spot(as, &m).offset);
+	if (var->type == IEC_NONE && (word_is_own(var->fb) || var->array.count))
+		add_whole(as, maps, var, layout_spot(as, &m).offset);
 	else
 		add_symbol(as, maps, pou, var, index);
 }
@@ -284,14 +343,12 @@ static void add_power(struct assembler *as, struct maps *maps)
 
 /* ---- power by instance ---- */
 
-/* Bytes of the longest name of a part. */
-#define KEPT_NAME ((LIMIT_NESTING + 2) * (LIMIT_NAME + 2))
-
 /* An instance whose power is kept, and those inside it. */
 struct kept {
 	int unit;
 	uint32_t base; /* of its power                                        */
 	int next;      /* variable of its block to look at                    */
+	uint32_t element; /* of that                                          */
 	size_t len;    /* of its name                                         */
 };
 
@@ -324,39 +381,60 @@ static void add_watched(struct assembler *as, struct maps *maps,
 	};
 }
 
-/* Variable @index of table @table, and at all depths what is in it. */
+/* The next instance inside the one on top, an element at a time; false: no more
+ * on this level. */
+static bool next_kept(const struct assembler *as, struct kept *top, int *index,
+		      uint32_t *element)
+{
+	int table = top->unit + 1;
+	const struct var_table *vars = layout_vars(as, table);
+
+	while (top->next < vars->count && !as->power[table][top->next])
+		top->next++;
+	if (top->next == vars->count)
+		return false;
+	*index = top->next;
+	*element = top->element++;
+	if (top->element >= vars->var[*index].array.count) {
+		top->element = 0;
+		top->next++;
+	}
+	return true;
+}
+
+/* Element @element of variable @index of table @table, and at all depths what is in
+ * it. */
 static void keep_instance(struct assembler *as, struct maps *maps, char *name,
-			  size_t len, int table, int index)
+			  size_t len, int table, int index, uint32_t element)
 {
 	const struct project *project = as->translation->project;
 	struct kept level[LIMIT_NESTING + 1];
 	int depth = -1;
 
-	for (;;) {
+	do {
 		const struct var *var = &layout_vars(as, table)->var[index];
-		uint32_t base = as->power[table][index];
+		struct word_pin like = { .type = IEC_NONE, .elements = var->array.count, .low = var->array.low };
+		uint32_t base = as->power[table][index], unit = 0;
+		struct kept *inner = &level[depth + 1];
 
-		if (base) { /* inside a block: beside that of its cells */
-			uint32_t unit = 0;
-
-			if (depth >= 0)
-				base = level[depth].base + base -
-				       as->frame[level[depth].unit].power;
-			layout_pou(as, var->fb, &unit);
-			level[depth + 1] = (struct kept){ (int)unit, base, 0,
-				join_name(name, depth < 0 ? len :
-					  level[depth].len,
-					  project_text(project, var->name)) };
-			add_watched(as, maps, &level[++depth], name);
+		if (depth >= 0) { /* inside a block: beside that of its cells */
+			base += level[depth].base -
+				as->frame[level[depth].unit].power;
+			len = level[depth].len;
 		}
-		while (depth >= 0 && level[depth].next ==
-		       layout_vars(as, level[depth].unit + 1)->count)
+		base += element * layout_pou(as, var->fb, &unit)->power_size;
+		*inner = (struct kept){ .unit = (int)unit, .base = base,
+			.len = join_name(name, len,
+					 project_text(project, var->name)) };
+		inner->len += join_index(name + inner->len, &like, element);
+		add_watched(as, maps, inner, name);
+		depth++;
+		while (depth >= 0 &&
+		       !next_kept(as, &level[depth], &index, &element))
 			depth--;
-		if (depth < 0 || as->failed)
-			return;
-		table = level[depth].unit + 1;
-		index = level[depth].next++;
-	}
+		if (depth >= 0)
+			table = level[depth].unit + 1;
+	} while (depth >= 0 && !as->failed);
 }
 
 static void keep_table(struct assembler *as, struct maps *maps, char *name,
@@ -373,14 +451,16 @@ static void keep_table(struct assembler *as, struct maps *maps, char *name,
 		if (table && maps->declared[vars->var[i].fold] > 1)
 			len = join_name(name, 0, project_text(project,
 				project->pou[table - 1].name));
-		keep_instance(as, maps, name, len, table, i);
+		for (uint32_t k = 0; k == 0 || k < vars->var[i].array.count; k++)
+			if (!as->failed)
+				keep_instance(as, maps, name, len, table, i, k);
 	}
 }
 
 static void keep_powers(struct assembler *as, struct maps *maps)
 {
 	const struct project *project = as->translation->project;
-	char *name = as->power ? arena_alloc(as->arena, KEPT_NAME) : NULL;
+	char *name = as->power ? arena_alloc(as->arena, NAME_MOST) : NULL;
 
 	if (!name)
 		return;

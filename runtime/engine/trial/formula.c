@@ -5,6 +5,8 @@
  * image.
  */
 #include "engine/trial/formula.h"
+
+#include "engine/base/ascii.h"
 #include "engine/trial/value.h"
 
 #include "engine/scan/value.h"
@@ -89,14 +91,17 @@ static bool take_literal(struct formula_term *term, const char *text,
 	return true;
 }
 
+/* @tail: the path behind its index. */
 static bool take_array(const struct image *image, const char *text, size_t len,
-		       struct formula_term *term)
+		       struct expr_tail tail, struct formula_term *term)
 {
 	struct declared_name array;
 
 	while (len && text[len - 1] == ' ')
 		len--;
-	if (!image_find_array(image, text, len, &array))
+	if (!(tail.len ? image_find_members(image, text, len, tail.text, tail.len,
+					    &array) :
+			 image_find_array(image, text, len, &array)))
 		return false;
 	term->op = EXPR_INDEX;
 	term->kind = (uint8_t)kind_of(array.at.type);
@@ -109,15 +114,31 @@ static bool take_array(const struct image *image, const char *text, size_t len,
 	return true;
 }
 
-/* `Table[i]`: an index that is read each time. */
+/* The first index in a name that is no number; NULL: there is none. */
+static const char *open_index(const char *at, const char *end)
+{
+	while (at < end && (at = memchr(at, '[', (size_t)(end - at)))) {
+		const char *open = at++;
+
+		while (at < end && *at == ' ')
+			at++;
+		if (at < end && *at != '-' && !ascii_digit(*at))
+			return open;
+	}
+	return NULL;
+}
+
+/* `Table[i]`, `Recipes[i].Speed`: an index that is read each time. */
 static bool take_element(const struct image *image, const struct expr_node *from,
 			 struct formula_term *term, enum diag_id *why)
 {
-	const char *open = memchr(from->text, '[', from->len), *at;
-	const char *end = from->text + from->len - 1;
+	const char *last = from->text + from->len, *at;
+	const char *open = open_index(from->text, last);
+	const char *end = open ? memchr(open, ']', (size_t)(last - open)) : NULL;
 
-	if (!open || !take_array(image, from->text, (size_t)(open - from->text),
-				 term))
+	if (!end || !take_array(image, from->text, (size_t)(open - from->text),
+				(struct expr_tail){ end + 1,
+					(uint16_t)(last - end - 1) }, term))
 		return false;
 	for (at = open + 1; at < end && *at == ' ';)
 		at++;
@@ -272,7 +293,7 @@ struct formula *formula_new(const struct image *image, const struct expr *expr,
 		term->left = from->left;
 		term->right = from->right;
 		if (from->op == EXPR_INDEX &&
-		    !take_array(image, from->text, from->len, term)) {
+		    !take_array(image, from->text, from->len, from->tail, term)) {
 			complain(diags, place, DIAG_NOT_ARRAY, line_start, from);
 			return NULL;
 		}

@@ -231,20 +231,26 @@ static bool check_setting(struct reader *reader, const struct token *name,
 			name->len < 60 ? (int)name->len : 60, name->text);
 }
 
-/* `[3]` behind the name of what is set belongs to it. */
+/* `[3]` behind the name of what is set belongs to it, and `.Speed` behind that. */
 static bool take_index(struct reader *reader, struct token *name)
 {
 	struct lex *lex = &reader->lex;
 
-	if (!accept(reader, "["))
-		return true;
-	accept(reader, "-");
-	if (lex->token.kind == TOKEN_NUMBER)
+	while (accept(reader, "[")) {
+		accept(reader, "-");
+		if (lex->token.kind == TOKEN_NUMBER)
+			step_over(reader);
+		if (!lex_is(lex, "]"))
+			return complain(reader, DIAG_EXPECTED, "a number and ]");
+		name->len = (size_t)(lex->token.text + 1 - name->text);
 		step_over(reader);
-	if (!lex_is(lex, "]"))
-		return complain(reader, DIAG_EXPECTED, "a number and ]");
-	name->len = (size_t)(lex->token.text + 1 - name->text);
-	step_over(reader);
+		if (!accept(reader, "."))
+			return true;
+		if (lex->token.kind != TOKEN_NAME)
+			return complain(reader, DIAG_EXPECTED, "name of a member");
+		name->len = (size_t)(lex->token.text + lex->token.len - name->text);
+		step_over(reader);
+	}
 	return true;
 }
 

@@ -138,22 +138,27 @@ static bool take_bound(const char *text, size_t len, long *number)
 	return true;
 }
 
-/* `Table[1..4]`: @stem gets the bytes up to and with the [. */
+/* `Table[1..4]`, `Line[2].Recipes[1..4].Speed`: @stem gets the bytes up to and with
+ * the [, @tail those from the ] on. */
 static bool split_bounds(const char *text, size_t len, const char *dots,
-			 size_t *stem, long *first, long *last)
+			 size_t *stem, size_t *tail, long *first, long *last)
 {
-	const char *open = memchr(text, '[', (size_t)(dots - text));
+	const char *open = dots, *close;
 
-	if (!open || text[len - 1] != ']')
+	while (open > text && open[-1] != '[')
+		open--;
+	close = memchr(dots, ']', (size_t)(text + len - dots));
+	if (open == text || !close)
 		return false;
-	*stem = (size_t)(open + 1 - text);
-	return take_bound(open + 1, (size_t)(dots - open - 1), first) &&
-	       take_bound(dots + 2, (size_t)(text + len - dots) - 3, last);
+	*stem = (size_t)(open - text);
+	*tail = (size_t)(text + len - close);
+	return take_bound(open, (size_t)(dots - open), first) &&
+	       take_bound(dots + 2, (size_t)(close - dots) - 2, last);
 }
 
 /* @stem with each number behind it, and @tail behind that. */
 static bool show_numbers(struct trace *trace, const char *stem, size_t len,
-			 long first, long last, const char *tail,
+			 long first, long last, const char *tail, size_t tail_len,
 			 struct diag_list *diags, struct diag place)
 {
 	char name[LIMIT_NAME + 1];
@@ -161,8 +166,8 @@ static bool show_numbers(struct trace *trace, const char *stem, size_t len,
 	if (last < first || last - first >= RANGE_MAX)
 		return complain(diags, place, DIAG_LITERAL_RANGE, stem, len);
 	for (long i = first; i <= last; i++) {
-		int n = snprintf(name, sizeof(name), "%.*s%ld%s", (int)len,
-				 stem, i, tail);
+		int n = snprintf(name, sizeof(name), "%.*s%ld%.*s", (int)len,
+				 stem, i, (int)tail_len, tail);
 
 		if (n < 0 || (size_t)n >= sizeof(name))
 			return complain(diags, place, DIAG_NAME_TOO_LONG, stem,
@@ -214,15 +219,15 @@ bool trace_show(struct trace *trace, const char *text, size_t len,
 		return show_one(trace, text, len, diags, place);
 	size_t left = (size_t)(dots - text), right = len - left - 2;
 	size_t stem = split_number(text, left, &first);
-	size_t other = split_number(dots + 2, right, &last);
+	size_t other = split_number(dots + 2, right, &last), tail;
 
 	if (first >= 0 && last >= 0 &&
 	    (!other || (other == stem && !memcmp(text, dots + 2, stem))))
-		return show_numbers(trace, text, stem, first, last, "", diags,
+		return show_numbers(trace, text, stem, first, last, "", 0, diags,
 				    place);
-	if (split_bounds(text, len, dots, &stem, &first, &last))
-		return show_numbers(trace, text, stem, first, last, "]", diags,
-				    place);
+	if (split_bounds(text, len, dots, &stem, &tail, &first, &last))
+		return show_numbers(trace, text, stem, first, last,
+				    text + len - tail, tail, diags, place);
 	enum diag_id why;
 	struct location from = value_find(trace->image, text, left, &why);
 

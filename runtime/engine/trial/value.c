@@ -232,7 +232,8 @@ static bool is_head(const char *word, const char *text, size_t len)
 static bool is_own(const struct declared_name *symbol, const char *text,
 		   size_t len)
 {
-	return symbol->array.head == len && ascii_same(symbol->name, text, len);
+	return strcspn(symbol->name, ".[") == len &&
+	       ascii_same(symbol->name, text, len);
 }
 
 /* A bare name of locals in several programs, and of nothing that all see. */

@@ -38,16 +38,25 @@ uint32_t diff_name(struct diff *diff, const char *name)
 
 /* ---- variables ---- */
 
-/* @room: for STRING[n]. */
+#define TYPE_TEXT (LIMIT_NAME + 64)
+
+/* As it is declared: ARRAY[1..3] OF STRING[20]. */
 static const char *type_text(const struct project *project,
-			     const struct var *var, char room[16])
+			     const struct var *var, char room[TYPE_TEXT])
 {
-	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT) {
-		snprintf(room, 16, "STRING[%u]", var->capacity);
-		return room;
-	}
-	return var->type == IEC_NONE ? words_row(&project->words, var->fb)->word :
-				       iec_type_row(var->type)->word;
+	const char *word = var->type == IEC_NONE ?
+		words_row(&project->words, var->fb)->word :
+		iec_type_row(var->type)->word;
+	char bounds[48] = "", capacity[16] = "";
+
+	if (var->array.count)
+		snprintf(bounds, sizeof(bounds), "ARRAY[%ld..%lld] OF ",
+			 (long)var->array.low,
+			 (long long)var->array.low + var->array.count - 1);
+	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
+		snprintf(capacity, sizeof(capacity), "[%u]", var->capacity);
+	snprintf(room, TYPE_TEXT, "%s%.255s%s", bounds, word, capacity);
+	return room;
 }
 
 /* "" of a plain VAR; VAR_GLOBAL says the same. */
@@ -77,7 +86,7 @@ static void compare_var(struct diff *diff, struct difference what,
 			const struct var_table *b, int j)
 {
 	const struct var *x = &a->var[i], *y = &b->var[j];
-	char old[16], new[16];
+	char old[TYPE_TEXT], new[TYPE_TEXT];
 
 	diff_texts(diff, what, "name", project_text(diff->a, x->name),
 		   project_text(diff->b, y->name));
