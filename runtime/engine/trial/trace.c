@@ -183,6 +183,8 @@ static bool same_place(struct location a, struct location b)
 	return a.type == b.type && a.area == b.area && a.where == b.where;
 }
 
+/* A frame of its own: the cursor holds a name. */
+__attribute__((noinline))
 static bool show_declared(struct trace *trace, struct location first,
 			  struct location last, struct diag_list *diags,
 			  struct diag place)
