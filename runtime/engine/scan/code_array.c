@@ -9,10 +9,9 @@
 
 #include <string.h>
 
-const struct code_run *code_run_at(const struct program *p, uint32_t offset)
+uint32_t verify_runs_before(const struct program *p, uint32_t offset)
 {
 	uint32_t low = 0, high = p->run_count;
-	const struct code_run *run;
 
 	while (low < high) {
 		uint32_t middle = low + (high - low) / 2;
@@ -22,9 +21,17 @@ const struct code_run *code_run_at(const struct program *p, uint32_t offset)
 		else
 			low = middle + 1;
 	}
-	if (low == 0)
+	return low;
+}
+
+const struct code_run *code_run_at(const struct program *p, uint32_t offset)
+{
+	uint32_t before = verify_runs_before(p, offset);
+	const struct code_run *run;
+
+	if (before == 0)
 		return NULL;
-	run = &p->run[low - 1];
+	run = &p->run[before - 1];
 	return (offset - run->offset) / code_run_size(run) < run->count ? run
 								     : NULL;
 }

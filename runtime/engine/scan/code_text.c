@@ -145,21 +145,12 @@ static bool is_edge(const struct verifier *v, uint32_t offset)
 					  v->mark[offset] != MARK_TEXT);
 }
 
-/* The first run that ends behind @offset. */
+/* Where to begin to look for what lies at @offset. */
 static uint32_t run_at(const struct verifier *v, uint32_t offset)
 {
-	const struct program *p = v->program;
-	uint32_t low = 0, high = p->run_count;
+	uint32_t before = verify_runs_before(v->program, offset);
 
-	while (low < high) {
-		uint32_t middle = low + (high - low) / 2;
-
-		if (p->run[middle].offset > offset)
-			high = middle;
-		else
-			low = middle + 1;
-	}
-	return low ? low - 1 : 0;
+	return before ? before - 1 : 0;
 }
 
 /* Has @b the same instances as @a? Marks do not tell what is inside them. */

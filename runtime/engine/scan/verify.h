@@ -55,6 +55,8 @@ bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
 		 bool write);
 /** verify_refuse - notes the place of what broke a rule; false. */
 bool verify_refuse(struct verifier *v, const void *at);
+/** verify_runs_before - how many runs begin at @offset or before it. Scan-safe: yes. */
+uint32_t verify_runs_before(const struct program *program, uint32_t offset);
 /** verify_programs - the instructions of all programs. */
 bool verify_programs(struct verifier *v);
 /** verify_tasks - what runs them, and when. */
