@@ -94,6 +94,7 @@ static void row_entry(const struct word_row *row, struct words_entry *out)
 static void word_entry(int word, struct words_entry *out)
 {
 	row_entry(word_row((enum word)word), out);
+	out->number = word;
 }
 
 /* INT_TO_REAL and TON_LTIME: not in any table. */
@@ -106,12 +107,14 @@ static bool made_entry(const char *word, struct convert_word *made,
 	if (block == WORD_COUNT && !convert_make(word, strlen(word), made))
 		return false;
 	row_entry(block != WORD_COUNT ? word_row(block) : &made->row, out);
+	out->number = (int)block;
 	return true;
 }
 
 static void op_entry(int op, struct words_entry *out)
 {
 	out->kind = WORDS_OPERATOR;
+	out->number = op;
 	out->op = op_row((enum op)op);
 	out->word = out->op->word;
 	out->doc = out->op->doc;
@@ -127,6 +130,7 @@ static void type_entry(int type, struct words_entry *out)
 static void area_entry(int area, struct words_entry *out)
 {
 	out->kind = WORDS_AREA;
+	out->number = area;
 	out->area = iec_area_row((enum iec_area)area);
 	out->word = out->area->letters;
 	out->doc = out->area->doc;
@@ -135,6 +139,7 @@ static void area_entry(int area, struct words_entry *out)
 static void sys_entry(int sys, struct words_entry *out)
 {
 	out->kind = WORDS_SYSTEM;
+	out->number = sys;
 	out->sys = sys_row((enum sys_id)sys);
 	out->type = iec_type_row(out->sys->type);
 	out->word = out->sys->name;
@@ -338,6 +343,28 @@ static void pin_lines(const struct word_row *row, const struct sink *sink)
 	}
 }
 
+static void sources(const struct words_entry *entry, const struct sink *sink)
+{
+	const struct words_source *source = words_source(entry);
+	const char *title = strchr(source->section, '#');
+
+	sink_printf(sink, "  source: %s\n  more: docs/%.*s, %s\n", source->source,
+		    (int)(title - source->section), source->section, title + 1);
+}
+
+static void example(const struct words_entry *entry, enum words_form form,
+		    const char *heading, const struct sink *sink)
+{
+	struct sink_memory memory;
+	struct sink text = sink_to_memory(&memory);
+
+	sink_memory_init(&memory);
+	if (words_example(entry, form, &text))
+		sink_printf(sink, "\n%s\n\n", heading);
+	sink_text(sink, sink_memory_text(&memory));
+	sink_memory_free(&memory);
+}
+
 static void one_word(const struct words_entry *entry, const struct sink *sink)
 {
 	sink_printf(sink, "%s: %s", entry->word, words_kind(entry->kind));
@@ -355,6 +382,10 @@ static void one_word(const struct words_entry *entry, const struct sink *sink)
 	}
 	if (entry->row)
 		pin_lines(entry->row, sink);
+	sources(entry, sink);
+	example(entry, WORDS_AS_FILE, "example:", sink);
+	example(entry, WORDS_AS_PICTURE, "drawn:", sink);
+	example(entry, WORDS_AS_LIST, "as a list:", sink);
 }
 
 /* ---- JSON ---- */
@@ -392,6 +423,19 @@ static void json_pins(const struct word_row *row, const struct sink *sink)
 	sink_text(sink, "]");
 }
 
+/* Lines in a string: a reader of JSON wants to show them, not to parse them. */
+static void json_example(const struct words_entry *entry, enum words_form form,
+			 const char *name, const struct sink *sink)
+{
+	struct sink_memory memory;
+	struct sink text = sink_to_memory(&memory);
+
+	sink_memory_init(&memory);
+	if (words_example(entry, form, &text))
+		json_field(sink, name, sink_memory_text(&memory));
+	sink_memory_free(&memory);
+}
+
 static void json_entry(const struct words_entry *entry, const struct sink *sink)
 {
 	sink_text(sink, "{\"kind\": ");
@@ -420,6 +464,11 @@ static void json_entry(const struct words_entry *entry, const struct sink *sink)
 		json_field(sink, "address", entry->sys->address);
 		json_field(sink, "type", entry->type->word);
 	}
+	json_field(sink, "source", words_source(entry)->source);
+	json_field(sink, "section", words_source(entry)->section);
+	json_example(entry, WORDS_AS_FILE, "example", sink);
+	json_example(entry, WORDS_AS_PICTURE, "picture", sink);
+	json_example(entry, WORDS_AS_LIST, "list", sink);
 	sink_text(sink, "}");
 }
 

@@ -18,6 +18,8 @@ enum words_kind {
 
 struct words_entry {
 	enum words_kind kind;
+	int number;                 /* in the table of its kind; WORD_COUNT: made
+				       by rule, as INT_TO_REAL is             */
 	const char *word;           /* as one writes it                       */
 	const char *family;         /* NULL: none                             */
 	const char *doc;            /* "": words_note says it all             */
@@ -39,6 +41,25 @@ const char *words_classes(uint16_t classes);
 /** words_default - "T#10ms" of a pin with a value until it is given one, else "";
  * @out: room for 48 bytes, borrowed. */
 const char *words_default(const struct word_pin *pin, char *out);
+/* Where a word comes from, and the section that tells more: "page.md#Title". */
+struct words_source {
+	const char *source, *section;
+};
+/** words_source - of any entry; lives for ever. */
+const struct words_source *words_source(const struct words_entry *entry);
+
+enum words_form { WORDS_AS_FILE, WORDS_AS_PICTURE, WORDS_AS_LIST };
+/** words_example - a whole rung file, its picture, or a file with the same as a list
+ *
+ * Fails: false if the word has none of the form, or memory is out. */
+bool words_example(const struct words_entry *entry, enum words_form form,
+		   const struct sink *sink);
+/* An example by hand: variables, the body of Main, what stands behind it. */
+struct words_hand {
+	const char *vars, *body, *behind;
+};
+/** words_hand - NULL: the rule will do. @list: as a list. */
+const struct words_hand *words_hand(const struct words_entry *entry, bool list);
 /** words_note - a short line of facts, such as `LD LDN` or `1 byte, 0 to 1`. */
 void words_note(const struct words_entry *entry, const struct sink *sink);
 

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * words_source - the rows of words_source.def: where a word comes from.
+ *
+ * It only answers what a row says. The tables are made from catalog.def, so that a
+ * word without a row, or with two, does not compile.
+ */
+#include "engine/view/words.h"
+
+#include <string.h>
+
+#define IEC(table) "IEC 61131-3 table " #table
+#define OURS "beyond the standard"
+#define S7_200 OURS "; a word of the S7-200"
+#define ANNEX_F OURS "; an example of edition 2, annex F, has the name"
+#define LANG(section) "language.md#" section
+#define BLOCKS(section) "blocks.md#" section
+#define FILES(section) "rung-file.md#" section
+
+enum source_id {
+#define FROM(id, source, section) SOURCE_##id,
+#include "engine/view/words_source.def"
+};
+
+static const struct words_source sources[] = {
+#define FROM(id, source, section) [SOURCE_##id] = { source, section },
+#include "engine/view/words_source.def"
+};
+
+static const struct words_source of_types = {
+	IEC(10), FILES("Types")
+};
+static const struct words_source of_converts = {
+	IEC(22), LANG("Conversions")
+};
+
+static const uint16_t of_word[WORD_COUNT] = {
+#define ELEM(id, ...) [ELEM_##id] = SOURCE_ELEM_##id,
+#define FB(id, ...) [FB_##id] = SOURCE_FB_##id,
+#define FN(id, ...) [FN_##id] = SOURCE_FN_##id,
+#include "engine/catalog.def"
+};
+
+static const uint16_t of_op[OP_COUNT] = {
+#define OP(id, ...) [OP_##id] = SOURCE_OP_##id,
+#include "engine/catalog.def"
+};
+
+static const uint16_t of_area[AREA_COUNT] = {
+#define AREA(id, ...) [AREA_##id] = SOURCE_AREA_##id,
+#include "engine/catalog.def"
+};
+
+static const uint16_t of_sys[SYS_COUNT] = {
+#define SYS(id, ...) [SYS_##id] = SOURCE_SYS_##id,
+#include "engine/catalog.def"
+};
+
+const struct words_source *words_source(const struct words_entry *entry)
+{
+	enum word word;
+
+	switch (entry->kind) {
+	case WORDS_OPERATOR:
+		return &sources[of_op[entry->number]];
+	case WORDS_AREA:
+		return &sources[of_area[entry->number]];
+	case WORDS_SYSTEM:
+		return &sources[of_sys[entry->number]];
+	case WORDS_ELEMENT:
+	case WORDS_BLOCK:
+	case WORDS_FUNCTION:
+		/* INT_TO_REAL has no row of its own. */
+		word = (enum word)entry->number;
+		return word < WORD_COUNT ? &sources[of_word[word]] : &of_converts;
+	case WORDS_TYPE:
+	case WORDS_KIND_COUNT:
+		break;
+	}
+	return &of_types;
+}
