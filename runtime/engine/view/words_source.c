@@ -7,8 +7,6 @@
  */
 #include "engine/view/words.h"
 
-#include <string.h>
-
 #define IEC(table) "IEC 61131-3 table " #table
 #define OURS "beyond the standard"
 #define S7_200 OURS "; a word of the S7-200"
@@ -56,6 +54,23 @@ static const uint16_t of_sys[SYS_COUNT] = {
 #include "engine/catalog.def"
 };
 
+static const struct words_source of_nanoseconds = {
+	OURS, LANG("Conversions")
+};
+
+/* The function behind conversions that count nanoseconds, if there are such. */
+#ifdef RUNGBOARD_CORE_WORDS
+#define NANOSECONDS WORD_COUNT
+#else
+#define NANOSECONDS FN_CONVERT_NS
+#endif
+
+/* INT_TO_REAL and its like have no rows. */
+static const struct words_source *made_source(const struct word_row *row)
+{
+	return row->runs == NANOSECONDS ? &of_nanoseconds : &of_converts;
+}
+
 const struct words_source *words_source(const struct words_entry *entry)
 {
 	enum word word;
@@ -70,9 +85,9 @@ const struct words_source *words_source(const struct words_entry *entry)
 	case WORDS_ELEMENT:
 	case WORDS_BLOCK:
 	case WORDS_FUNCTION:
-		/* INT_TO_REAL has no row of its own. */
 		word = (enum word)entry->number;
-		return word < WORD_COUNT ? &sources[of_word[word]] : &of_converts;
+		return word < WORD_COUNT ? &sources[of_word[word]] :
+					   made_source(entry->row);
 	case WORDS_TYPE:
 	case WORDS_KIND_COUNT:
 		break;
