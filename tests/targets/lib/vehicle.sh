@@ -40,7 +40,9 @@ skip() {
 }
 # broken WHAT [LOG] : a build of ours failed, which is no reason to skip.
 broken() {
-	echo "Bail out! $1"
+	# Not `Bail out!`: prove would leave the machines beside this one running.
+	echo "not ok 1 - $1"
+	echo 1..1
 	echo "FAILED: $1" >"$out/result"
 	[ -z "${2:-}" ] || tail -n 25 "$2" | sed 's/^/# /'
 	exit 1
