@@ -136,7 +136,7 @@ my @to = ('--folder', $etc);
 # ---- what is wrong here is told here, and nobody is called ----
 put('never', "#!/bin/sh\ntouch $dir/called\n", 0755);
 my ($out, $err) = is_push(1, 'an error in the program', "$dir/never", 'bad.rung', 'desk.io', $board);
-like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: .*Lamb$/m, 'it is told as `ladder check` tells it');
+like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: .*Lamb \(Lamp\?\)$/m, 'it is told as `ladder check` tells it');
 ($out, $err) = is_push(1, 'an error in the map', "$dir/never", 'one.rung', 'bad.io', $board);
 like($err, qr/^bad\.io:2:8: error LD503: /m, 'with its place');
 ($out, $err) = is_push(1, 'errors in both', "$dir/never", 'bad.rung', 'bad.io', $board);

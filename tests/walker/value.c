@@ -226,7 +226,7 @@ static struct value logic(enum word fn, const struct value *in, int count)
 			ones += in[i].i >> bit & 1;
 		if (fn == FN_AND ? ones == count : fn == FN_OR ? ones > 0 :
 		    fn == FN_XOR ? ones % 2 : ones == 0)
-			out.i |= (int64_t)1 << bit;
+			out.i |= (int64_t)((uint64_t)1 << bit);
 	}
 	return out;
 }
