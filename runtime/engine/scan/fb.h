@@ -16,7 +16,7 @@
 /** fb_rises - TRUE now and not at the call before; @seen remembers. Scan-safe: yes. */
 static inline bool fb_rises(uint8_t now, uint8_t *seen)
 {
-	bool edge = now && !*seen;
+	bool edge = (now != 0) & (*seen == 0);
 
 	*seen = now != 0;
 	return edge;

@@ -14,10 +14,9 @@ void fb_##id##_step(struct fb_##id *fb, int64_t now_ns) \
 	bool edge = fb_rises(fb->CU, &fb->seen); \
 \
 	(void)now_ns; \
-	if (fb->R) \
-		fb->CV = 0; \
-	else if (edge && fb->CV < (high)) \
-		fb->CV++; \
+	/* No branch on an input: nobody can foresee one. */ \
+	fb->CV += edge & (fb->CV < (high)); \
+	fb->CV = fb->R ? 0 : fb->CV; \
 	fb->Q = fb->CV >= fb->PV; \
 }
 
@@ -27,10 +26,8 @@ void fb_##id##_step(struct fb_##id *fb, int64_t now_ns) \
 	bool edge = fb_rises(fb->CD, &fb->seen); \
 \
 	(void)now_ns; \
-	if (fb->LD) \
-		fb->CV = fb->PV; \
-	else if (edge && fb->CV > (low)) \
-		fb->CV--; \
+	fb->CV -= edge & (fb->CV > (low)); \
+	fb->CV = fb->LD ? fb->PV : fb->CV; \
 	fb->Q = fb->CV <= 0; \
 }
 
