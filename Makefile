@@ -187,6 +187,52 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 .PHONY: man install install-ladder install-ladderd cli-tests
 # ---- end of the command line ----
 
+# ---- the editor: GTK 4, libadwaita, GtkSourceView ----
+# Without those libraries, and in a build for another machine, it is left out. Its plain
+# files need none of them; nor do the tests of those, tests/editor/test_plain_*.c.
+EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
+EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
+EDITOR_PLAIN := $(filter $(addprefix editor-gtk/,grid_edit.c grid_display.c grid_wire.c grid_branch.c grid_block.c grid_normal.c entry.c entry_candidates.c entry_words.c),$(wildcard editor-gtk/*.c))
+EDITOR_C := $(wildcard editor-gtk/*.c)
+EDITOR_TESTS_PLAIN := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/test_plain_*.c))
+EDITOR_TESTS := $(EDITOR_TESTS_PLAIN)
+$(BUILD)/libeditor-plain.a: $(call obj,$(EDITOR_PLAIN))
+	@rm -f $@
+	$(AR) rcs $@ $^
+$(EDITOR_TESTS_PLAIN): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor-plain.a $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+ifneq ($(EDITOR),)
+# Their headers are not ours to warn about.
+EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags gtk4 libadwaita-1 gtksourceview-5)) -I$(BUILD)
+EDITOR_LIB := $(shell $(PKG_CONFIG) --libs gtk4 libadwaita-1 gtksourceview-5)
+EDITOR_TESTS += $(patsubst %.c,$(BUILD)/%,$(filter-out tests/editor/test_plain_%,$(wildcard tests/editor/test_*.c)))
+EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
+EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
+$(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
+  $(EDITOR_TESTS:%=%.o): CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"'
+$(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(wildcard editor-gtk/ui/*)
+	@mkdir -p $(@D)
+	glib-compile-resources --sourcedir=editor-gtk --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml
+$(BUILD)/editor-gtk/resources.o: $(BUILD)/editor-gtk/resources.c
+	$(CC) $(STD) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+$(BUILD)/libeditor.a: $(EDITOR_OBJ)
+	@rm -f $@
+	$(AR) rcs $@ $^
+all: $(BUILD)/ladder-editor
+$(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+$(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+else
+all: no-editor
+no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
+.PHONY: no-editor
+endif
+editor-tests: $(EDITOR_TESTS) ## the editor's tests
+	tests/editor/display prove -e '' $(EDITOR_TESTS)
+.PHONY: editor-tests
+# ---- end of the editor ----
+
 # ---- golden cases ----
 golden: $(BUILD)/ladder ## every case of tests/golden, byte by byte
 	LADDER=$(BUILD)/ladder prove tests/golden.t
@@ -327,7 +373,7 @@ ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%))
 TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh
-BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN)
+BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
 tests: all man $(BUILT) $(HAL_DAEMONS)
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/

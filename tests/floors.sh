@@ -24,7 +24,7 @@ runtime/ladderd         engine/ladder.h engine/base/ engine/model/ engine/scan/ 
 editor-gtk              engine/ladder.h engine/base/ engine/model/ engine/scan/ engine/view/ engine/trial/ hal/ editor-gtk/
 '
 # Libraries that a room may include with < >; all others are libc's.
-foreign='gpiod.h:hal gtk/:editor-gtk'
+foreign='gpiod.h:hal gtk/:editor-gtk glib:editor-gtk gio/:editor-gtk adwaita.h:editor-gtk gtksourceview/:editor-gtk pango/:editor-gtk cairo:editor-gtk libintl.h:editor-gtk'
 
 n=0 failed=0
 say() { # good text places

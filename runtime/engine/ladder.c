@@ -404,3 +404,16 @@ char *ladder_write(struct ladder *ladder, size_t *len)
 	return ladder->good && ladder->project ?
 	       text_write(ladder->project, len) : NULL;
 }
+
+struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t len,
+			      struct diag_list *diags)
+{
+	return ladder_project(ladder) ?
+	       text_read_rung(ladder->project, text, len, diags) : NULL;
+}
+
+char *ladder_write_rung(struct ladder *ladder, const struct rung *rung)
+{
+	return ladder_project(ladder) ?
+	       text_write_rung(ladder->project, rung) : NULL;
+}

@@ -90,4 +90,13 @@ bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int li
  * Owns: the caller, free().   Fails: NULL when memory is out.
  */
 char *ladder_write(struct ladder *ladder, size_t *len);
+/** ladder_read_rung - one rung from its text: `RUNG` and its rows
+ * @diags: gets what is wrong with it, with places in @text
+ *
+ * Its strings are ids of the project that was loaded last. Owns: the caller,
+ * rung_free().   Scan-safe: no.   Fails: NULL; nothing but strings was added. */
+struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t len,
+			      struct diag_list *diags);
+/** ladder_write_rung - its canonical text. Owns: the caller, free(). NULL: no memory. */
+char *ladder_write_rung(struct ladder *ladder, const struct rung *rung);
 #endif
