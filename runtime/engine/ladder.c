@@ -417,3 +417,11 @@ char *ladder_write_rung(struct ladder *ladder, const struct rung *rung)
 	return ladder_project(ladder) ?
 	       text_write_rung(ladder->project, rung) : NULL;
 }
+
+char *ladder_outline(struct ladder *ladder, size_t *len,
+		     void (*take)(void *context, const struct text_span *span),
+		     void *context)
+{
+	return ladder_project(ladder) ?
+	       text_outline(ladder->project, len, take, context) : NULL;
+}

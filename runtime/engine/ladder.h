@@ -10,6 +10,7 @@
 
 #include "engine/base/diag.h"
 #include "engine/base/version.h"
+#include "engine/model/outline.h"
 #include "engine/model/project.h"
 #include "engine/scan/resource.h"
 
@@ -90,6 +91,15 @@ bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int li
  * Owns: the caller, free().   Fails: NULL when memory is out.
  */
 char *ladder_write(struct ladder *ladder, size_t *len);
+/**
+ * ladder_outline - what ladder_write gives, and where its parts are
+ * @take: is handed each part when it ends, so inner ones before outer ones
+ *
+ * Owns: the caller, free().   Scan-safe: no.   Fails: NULL: no memory.
+ */
+char *ladder_outline(struct ladder *ladder, size_t *len,
+		     void (*take)(void *context, const struct text_span *span),
+		     void *context);
 /** ladder_read_rung - one rung from its text: `RUNG` and its rows
  * @diags: gets what is wrong with it, with places in @text
  *

@@ -33,7 +33,7 @@ static void write_out(void *context, const char *text, size_t len)
 
 void report_open(struct call *call)
 {
-	call->out = (struct sink){ write_out, call };
+	call->out = (struct sink){ .write = write_out, .context = call };
 	call->out_failed = false;
 }
 

@@ -491,6 +491,62 @@ static void test_rung(void)
 	CHECK(!text_read_rung(project, "RUNG\nRUNG\n", 10, &diags));
 }
 
+/* ---- outline ---- */
+
+static char outlined[2000];
+
+static void note_span(void *context, const struct text_span *span)
+{
+	size_t used = strlen(outlined);
+
+	(void)context;
+	snprintf(outlined + used, sizeof(outlined) - used, "%d %d %d %d %zu %zu\n",
+		 (int)span->part, span->number, span->pou, span->structure, span->at,
+		 span->len);
+}
+
+/* The text between the bounds of the part that was told as line @line. */
+static const char *part_text(const char *text, int line)
+{
+	static char part[500];
+	const char *at = outlined;
+	int kind, number, pou, structure;
+	size_t from = 0, len = 0;
+
+	while (line-- > 0)
+		at = strchr(at, '\n') + 1;
+	sscanf(at, "%d %d %d %d %zu %zu", &kind, &number, &pou, &structure, &from,
+	       &len);
+	snprintf(part, sizeof(part), "%.*s", (int)len, text + from);
+	return part;
+}
+
+static void test_outline(void)
+{
+	size_t len = 0, plain_len = 0;
+
+	CHECK(read_text("RUNGBOARD 1\nPROJECT \"P\"\n"
+			"TYPE\n  Pair : STRUCT\n    a : INT;\n  END_STRUCT;\nEND_TYPE\n"
+			"VAR\n  A AT %IX0.0 : BOOL; (* one *)\n  B : INT;\nEND_VAR\n"
+			"PROGRAM Main LD\nVAR\n  T : TON;\nEND_VAR\n"
+			"(* above *)\nRUNG \"x\"\n  | NO A | COIL Q0 |\nRUNG\nEND_PROGRAM\n"));
+	char *text = text_outline(project, &len, note_span, NULL);
+	char *plain = text_write(project, &plain_len);
+
+	CHECK_AS(text && plain && !strcmp(text, plain), "the same as it writes");
+	CHECK_TEXT(part_text(text, 0), "PROJECT \"P\"\n");
+	CHECK_TEXT(part_text(text, 1), "    a : INT;\n");
+	CHECK_AS(strstr(outlined, "3 0 -1 0 "), "a member knows its structure");
+	CHECK_TEXT(part_text(text, 2), "  Pair : STRUCT\n    a : INT;\n  END_STRUCT;\n");
+	CHECK_TEXT(part_text(text, 4), "  A AT %IX0.0 : BOOL; (* one *)\n");
+	CHECK_TEXT(part_text(text, 8), "  T : TON;\n");
+	CHECK_TEXT(part_text(text, 10),
+		   "(* above *)\nRUNG \"x\"\n  | NO A | COIL Q0 |\n");
+	CHECK_AS(strstr(outlined, "5 1 0 -1 "), "a rung knows its POU");
+	free(text);
+	free(plain);
+}
+
 int main(void)
 {
 	test_garage();
@@ -505,6 +561,7 @@ int main(void)
 	test_uses();
 	test_config();
 	test_rung();
+	test_outline();
 	project_free(project);
 	return tap_done();
 }

@@ -267,7 +267,7 @@ static void to_stdout(void *context, const char *text, size_t len)
 int main(int argc, char **argv)
 {
 	if (argc > 1 && strcmp(argv[1], "--print") == 0) {
-		view_words_markdown(&(struct sink){ to_stdout, stdout });
+		view_words_markdown(&(struct sink){ .write = to_stdout, .context = stdout });
 		return ferror(stdout) != 0;
 	}
 	test_all();

@@ -12,6 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+void sink_mark(const struct sink *sink, int kind, int number, bool begins)
+{
+	if (sink->mark)
+		sink->mark(sink->context, kind, number, begins);
+}
+
 void sink_write(const struct sink *sink, const char *text, size_t len)
 {
 	if (len > 0)
@@ -147,7 +153,7 @@ static void append(void *context, const char *text, size_t len)
 
 struct sink sink_to_memory(struct sink_memory *memory)
 {
-	return (struct sink){ append, memory };
+	return (struct sink){ .write = append, .context = memory };
 }
 
 const char *sink_memory_text(const struct sink_memory *memory)

@@ -16,8 +16,13 @@ struct sink {
 	/** Takes @len bytes; any bytes, in pieces of any size. */
 	void (*write)(void *context, const char *text, size_t len);
 	void *context;
+	/** NULL, or is told where the parts of a text begin and end: @kind and
+	 * @number are the writer's. */
+	void (*mark)(void *context, int kind, int number, bool begins);
 };
 
+/** sink_mark - a part of the text begins or ends here. */
+void sink_mark(const struct sink *sink, int kind, int number, bool begins);
 /** sink_write - @len bytes. Scan-safe: as the sink's function. So are all. */
 void sink_write(const struct sink *sink, const char *text, size_t len);
 /** sink_text - a NUL-ended string. */

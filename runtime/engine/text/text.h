@@ -10,6 +10,7 @@
 
 #include "engine/base/diag.h"
 #include "engine/base/sink.h"
+#include "engine/model/outline.h"
 #include "engine/model/project.h"
 
 /* Where INCLUDE gets its files from. */
@@ -38,6 +39,16 @@ bool text_read(struct project *project, const char *file, const char *text,
  * Owns: the caller, free(); NUL-ended, @len without it.   Fails: NULL: no memory.
  */
 char *text_write(const struct project *project, size_t *len);
+
+/**
+ * text_outline - the canonical text as text_write gives it, and where its parts are
+ * @take: is handed each part when it ends, so inner ones before outer ones
+ *
+ * Owns: the caller, free().   Scan-safe: no.   Fails: NULL: no memory.
+ */
+char *text_outline(const struct project *project, size_t *len,
+		   void (*take)(void *context, const struct text_span *span),
+		   void *context);
 
 /** text_write_vars - VAR … END_VAR, every block of @table. Scan-safe: no. */
 void text_write_vars(const struct project *project, const struct var_table *table,

@@ -144,6 +144,15 @@ static void write_var(const struct sink *sink, const struct project *project,
 	sink_text(sink, "\n");
 }
 
+static void write_marked_var(const struct sink *sink, const struct project *project,
+			     const struct var *var, int number,
+			     const struct widths *widths)
+{
+	sink_mark(sink, TEXT_VAR, number, true);
+	write_var(sink, project, var, widths);
+	sink_mark(sink, TEXT_VAR, number, false);
+}
+
 void write_block(const struct sink *sink, const struct project *project,
 		 const struct var_table *table, int index)
 {
@@ -154,6 +163,7 @@ void write_block(const struct sink *sink, const struct project *project,
 	if (block->flags & VAR_RESULT)
 		return;
 	write_above(sink, project, block->comment);
+	sink_mark(sink, TEXT_BLOCK, index, true);
 	sink_text(sink, vars_head(block->flags));
 	if (block->flags & VAR_RETAIN)
 		sink_text(sink, " RETAIN");
@@ -161,8 +171,9 @@ void write_block(const struct sink *sink, const struct project *project,
 		sink_text(sink, " CONSTANT");
 	sink_text(sink, "\n");
 	for (int i = 0; i < block->count; i++)
-		write_var(sink, project, &var[i], &widths);
+		write_marked_var(sink, project, &var[i], block->first + i, &widths);
 	sink_text(sink, "END_VAR\n");
+	sink_mark(sink, TEXT_BLOCK, index, false);
 }
 
 void text_write_vars(const struct project *project, const struct var_table *table,
@@ -177,7 +188,10 @@ void text_write_vars(const struct project *project, const struct var_table *tabl
 static void write_pou(const struct sink *sink, const struct project *project,
 		      const struct pou *pou)
 {
+	const int number = (int)(pou - project->pou);
+
 	write_above(sink, project, pou->comment);
+	sink_mark(sink, TEXT_POU, number, true);
 	sink_text(sink, pou_word(pou->kind));
 	sink_text(sink, " ");
 	write_id(sink, project, pou->name);
@@ -187,14 +201,20 @@ static void write_pou(const struct sink *sink, const struct project *project,
 	}
 	sink_text(sink, pou->language == LANGUAGE_IL ? " IL\n" : " LD\n");
 	text_write_vars(project, &pou->vars, sink);
-	for (int i = 0; i < pou->rung_count; i++)
+	sink_mark(sink, TEXT_BODY, number, true);
+	for (int i = 0; i < pou->rung_count; i++) {
+		sink_mark(sink, TEXT_RUNG, i, true);
 		write_rung(sink, project, pou->rung[i]);
+		sink_mark(sink, TEXT_RUNG, i, false);
+	}
 	if (pou->language == LANGUAGE_IL)
 		text_write_il(project, &pou->il, sink);
 	write_above(sink, project, pou->tail);
+	sink_mark(sink, TEXT_BODY, number, false);
 	sink_text(sink, "END_");
 	sink_text(sink, pou_word(pou->kind));
 	sink_text(sink, "\n");
+	sink_mark(sink, TEXT_POU, number, false);
 }
 
 static void write_struct(const struct sink *sink, const struct project *project,
@@ -202,13 +222,17 @@ static void write_struct(const struct sink *sink, const struct project *project,
 {
 	const struct var *var = structure->vars.var;
 	const struct widths widths = measure(project, var, structure->vars.count);
+	const int number = (int)(structure - project->structure);
 
+	sink_mark(sink, TEXT_STRUCT, number, true);
 	sink_text(sink, "  ");
 	write_id(sink, project, structure->name);
 	sink_text(sink, " : STRUCT\n");
 	for (int i = 0; i < structure->vars.count; i++) {
+		sink_mark(sink, TEXT_VAR, i, true);
 		sink_text(sink, "  ");
 		write_var(sink, project, &var[i], &widths);
+		sink_mark(sink, TEXT_VAR, i, false);
 	}
 	sink_text(sink, "  END_STRUCT;");
 	if (structure->comment) {
@@ -216,6 +240,7 @@ static void write_struct(const struct sink *sink, const struct project *project,
 		write_id(sink, project, structure->comment);
 	}
 	sink_text(sink, "\n");
+	sink_mark(sink, TEXT_STRUCT, number, false);
 }
 
 static void write_types(const struct sink *sink, const struct project *project,
@@ -260,11 +285,12 @@ static void write_part(const struct sink *sink, const struct project *project,
 
 /* Without a title there is no PROJECT line to stand above: the head then goes to
  * the first part, where reading finds it. */
-static void write_all(const struct sink *sink, const struct project *project)
+void write_project(const struct sink *sink, const struct project *project)
 {
 	uint32_t head = project->head;
 
 	sink_text(sink, "RUNGBOARD 1\n");
+	sink_mark(sink, TEXT_TITLE, 0, true);
 	if (project->title) {
 		write_above(sink, project, head);
 		head = 0;
@@ -273,13 +299,16 @@ static void write_all(const struct sink *sink, const struct project *project)
 			     names_len(&project->names, project->title));
 		sink_text(sink, "\n");
 	}
+	sink_mark(sink, TEXT_TITLE, 0, false);
 	for (int i = 0; i < project->part_count; i++) {
 		if (project->part[i].included)
 			continue;
 		sink_text(sink, "\n");
+		sink_mark(sink, TEXT_PART, i, true);
 		write_above(sink, project, head);
 		head = 0;
 		write_part(sink, project, &project->part[i]);
+		sink_mark(sink, TEXT_PART, i, false);
 	}
 	if (!head && !project->tail)
 		return;
@@ -295,7 +324,7 @@ char *text_write(const struct project *project, size_t *len)
 	sink_memory_init(&memory);
 	const struct sink sink = sink_to_memory(&memory);
 
-	write_all(&sink, project);
+	write_project(&sink, project);
 	if (memory.failed) {
 		sink_memory_free(&memory);
 		return NULL;

@@ -85,7 +85,7 @@ static void count_width(void *context, const char *text, size_t len)
 static int cell_width(const struct project *project, const struct cell *cell)
 {
 	int width = 0;
-	const struct sink sink = { count_width, &width };
+	const struct sink sink = { .write = count_width, .context = &width };
 
 	write_whole(&sink, project, cell);
 	return width;
@@ -205,7 +205,7 @@ int text_write_cell(const struct project *project, const struct cell *cell,
 		    char *out, size_t size)
 {
 	struct bounded bounded = { out, size, 0 };
-	const struct sink sink = { write_bounded, &bounded };
+	const struct sink sink = { .write = write_bounded, .context = &bounded };
 
 	if (size > 0)
 		out[0] = '\0';

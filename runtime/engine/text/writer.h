@@ -31,4 +31,6 @@ void write_rung(const struct sink *sink, const struct project *project,
 /** write_cell - an element, without comment. */
 void write_cell(const struct sink *sink, const struct project *project,
 		const struct cell *cell);
+/** write_project - all of it; marks its parts, as enum text_part. */
+void write_project(const struct sink *sink, const struct project *project);
 #endif

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * outline - where the parts of a project stand in its canonical text.
+ *
+ * For who changes a text by parts, as an editor does with declarations.
+ */
+#ifndef MODEL_OUTLINE_H
+#define MODEL_OUTLINE_H
+
+#include <stddef.h>
+
+enum text_part {
+	TEXT_PART,  /* number of the part, its comments too                   */
+	TEXT_POU,   /* number of the POU, from its heading to END_…           */
+	TEXT_BLOCK, /* VAR … END_VAR; number in its table                     */
+	TEXT_VAR,   /* one declaration, its newline too; number in its table  */
+	TEXT_BODY,  /* of a POU: its rungs or its list; number of the POU     */
+	TEXT_RUNG,  /* number in its POU                                      */
+	TEXT_STRUCT, /* a structure; number in the project                    */
+	TEXT_TITLE, /* PROJECT "…" with its newline, or where it would stand  */
+};
+struct text_span {
+	enum text_part part;
+	int number;         /* 0-based                                        */
+	int pou;            /* it stands in; -1: in none                      */
+	int structure;      /* likewise                                       */
+	size_t at, len;     /* bytes                                          */
+};
+
+#endif
