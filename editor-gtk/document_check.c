@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * document_check - the engine's checks on a copy of the document, in a thread.
+ *
+ * The engine has no globals, so a copy can be read, checked and built beside the live
+ * project. One thread at a time; a change meanwhile asks for another round.
+ */
+#include "editor-gtk/document_inside.h"
+
+#include <string.h>
+
+#define CHECK_DELAY_MS 120 /* after the last change                            */
+
+struct check {
+	char *text;
+	gsize len;
+	const char *file;  /* interned                                         */
+	guint64 version;
+	struct ladder *ladder;
+};
+
+static void check_free(gpointer pointer)
+{
+	struct check *check = pointer;
+
+	ladder_free(check->ladder);
+	g_free(check->text);
+	g_free(check);
+}
+
+static struct check *check_new(LadderDocument *document)
+{
+	struct check *check = g_new0(struct check, 1);
+
+	check->text = ladder_document_text(document, &check->len);
+	check->file = g_intern_string(document_file(document));
+	check->version = document->version;
+	return check;
+}
+
+static void check_run(struct check *check)
+{
+	check->ladder = ladder_new();
+	if (!check->ladder)
+		g_error("out of memory");
+	ladder_watch(check->ladder, true);
+	if (ladder_load_text(check->ladder, check->file, check->text, check->len))
+		ladder_build(check->ladder);
+}
+
+static void check_take(LadderDocument *document, struct check *check)
+{
+	ladder_free(document->checked);
+	document->checked = g_steal_pointer(&check->ladder);
+	document->checked_version = check->version;
+	document->diags = *ladder_diags(document->checked);
+	document_tell_checked(document);
+}
+
+static void check_thread(GTask *task, gpointer source, gpointer data,
+			 GCancellable *cancellable)
+{
+	(void)source;
+	(void)cancellable;
+	check_run(data);
+	g_task_return_boolean(task, TRUE);
+}
+
+static void check_done(GObject *object, GAsyncResult *result, gpointer unused)
+{
+	LadderDocument *document = LADDER_DOCUMENT(object);
+	struct check *check = g_task_get_task_data(G_TASK(result));
+
+	(void)unused;
+	document->checking = false;
+	if (check->version >= document->checked_version)
+		check_take(document, check);
+	if (document->version != document->checked_version)
+		document_check_later(document);
+}
+
+static gboolean check_begin(gpointer data)
+{
+	LadderDocument *document = data;
+	GTask *task;
+
+	document->check_timer = 0;
+	if (document->checking)
+		return G_SOURCE_REMOVE; /* check_done() asks again */
+	document->checking = true;
+	task = g_task_new(document, NULL, check_done, NULL);
+	g_task_set_task_data(task, check_new(document), check_free);
+	g_task_run_in_thread(task, check_thread);
+	g_object_unref(task);
+	return G_SOURCE_REMOVE;
+}
+
+void document_check_later(LadderDocument *document)
+{
+	if (document->check_timer)
+		g_source_remove(document->check_timer);
+	document->check_timer = g_timeout_add(CHECK_DELAY_MS, check_begin, document);
+}
+
+void document_stop_checks(LadderDocument *document)
+{
+	if (document->check_timer)
+		g_source_remove(document->check_timer);
+	document->check_timer = 0;
+}
+
+void ladder_document_check_now(LadderDocument *document)
+{
+	struct check *check = check_new(document);
+
+	document_stop_checks(document);
+	check_run(check);
+	check_take(document, check);
+	check_free(check);
+}
+
+const struct diag_list *ladder_document_diags(LadderDocument *document)
+{
+	return &document->diags;
+}
+
+struct ladder *ladder_document_checked(LadderDocument *document)
+{
+	return document->checked;
+}

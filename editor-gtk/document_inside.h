@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * document_inside - what the files of a document share. Only they include it.
+ */
+#ifndef EDITOR_DOCUMENT_INSIDE_H
+#define EDITOR_DOCUMENT_INSIDE_H
+
+#include "editor-gtk/document.h"
+#include "editor-gtk/history.h"
+#include "editor-gtk/i18n.h"
+
+struct _LadderDocument {
+	GObject parent;
+	struct ladder *ladder;    /* holds the live project                    */
+	char *text;               /* instead, of a file that cannot be read    */
+	gsize text_len;
+	GHashTable *list;         /* POU number -> text that cannot be read    */
+	struct history *history;
+	char *path;
+	char *disk_sum;           /* digest of the file when it was read or saved */
+	int repaired;             /* line of the first byte that is no text; 0: none */
+	guint64 version;
+	/* Checks: */
+	struct ladder *checked;
+	struct diag_list diags;
+	guint check_timer;
+	bool checking;            /* a thread is at work                       */
+	guint64 checked_version;  /* that `checked` or the thread is of        */
+};
+
+/** document_file - what diagnostics call it. Borrowed. */
+const char *document_file(const LadderDocument *document);
+/** document_take - the text becomes the document; nothing can be undone. */
+void document_take(LadderDocument *document, const char *text, gsize len);
+/** document_changed - another version: it is to be checked, and told. */
+void document_changed(LadderDocument *document);
+void document_tell_state(LadderDocument *document);
+void document_tell_checked(LadderDocument *document);
+void document_tell_project(LadderDocument *document);
+/** document_check_later - soon, when nobody types. */
+void document_check_later(LadderDocument *document);
+void document_stop_checks(LadderDocument *document);
+
+#endif

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * history - what was done to a document, step by step, as text.
+ *
+ * A change is a piece of text that became another; to undo it is to exchange the
+ * two. It applies nothing itself and knows no rung: document.c does.
+ */
+#ifndef EDITOR_HISTORY_H
+#define EDITOR_HISTORY_H
+
+#include <glib.h>
+#include <stdbool.h>
+
+enum change_kind {
+	CHANGE_RUNGS, /* some rungs in a row of a POU                          */
+	CHANGE_TEXT,  /* bytes of the canonical text, or of a text that cannot be read */
+	CHANGE_LIST,  /* the text of one POU, which may be one that cannot be read */
+};
+
+struct change {
+	enum change_kind kind;
+	int pou;          /* of RUNGS and LIST: its number                     */
+	gsize at;         /* first rung, or first byte                         */
+	GPtrArray *before, *after; /* of char *: a text each rung; of the other
+				      kinds one text                           */
+};
+
+struct step {
+	char *name;       /* "Delete rung": shown behind Undo                  */
+	char *key;        /* steps with the same one in a row join; NULL: never */
+	GPtrArray *change; /* of struct change *                               */
+};
+
+struct history;
+
+/** history_new - nothing was done. Owns: the caller, history_free(). */
+struct history *history_new(void);
+void history_free(struct history *history);
+/** history_clear - nothing was done, and that is saved. */
+void history_clear(struct history *history);
+
+/** change_new - one text became another. @before, @after: taken over. */
+struct change *change_new(enum change_kind kind, int pou, gsize at,
+			  GPtrArray *before, GPtrArray *after);
+/** change_texts - a container for change_new that frees its texts. */
+GPtrArray *change_texts(void);
+
+/* A step is begun, gets its changes as they are made, and ends; begun inside another
+ * it becomes part of that. */
+void history_begin(struct history *history, const char *name, const char *key);
+/** history_add - @change: taken over; outside a step it is one of its own. */
+void history_add(struct history *history, struct change *change);
+/** history_end - true if the outermost step ended, and changed something. */
+bool history_end(struct history *history);
+bool history_is_open(const struct history *history);
+
+/** history_undo - the step to be taken back, from its last change to its first;
+ * NULL: there is none. Borrowed until the next call that is no question. */
+const struct step *history_undo(struct history *history);
+/** history_redo - the step to be done again, from its first change to its last. */
+const struct step *history_redo(struct history *history);
+/** history_undo_name, history_redo_name - NULL: nothing to undo, to redo. */
+const char *history_undo_name(const struct history *history);
+const char *history_redo_name(const struct history *history);
+/** history_open_step - the changes of the step that is open so far; NULL: none. */
+const struct step *history_open_step(const struct history *history);
+/** history_cancel - forgets the step that is open. */
+void history_cancel(struct history *history);
+
+/** history_mark_saved - what there is now is what stands in the file. */
+void history_mark_saved(struct history *history);
+bool history_is_saved(const struct history *history);
+/** history_never_saved - what there is differs from any file. */
+void history_never_saved(struct history *history);
+
+#endif

@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_document - a document's changes, its history, its file.
+ *
+ * Random edits of every kind, then all undone and redone: the same bytes. No display.
+ */
+#include "editor-gtk/document.h"
+
+#include "tests/tap.h"
+
+#include <glib/gstdio.h>
+
+static const char SAMPLE[] =
+	"RUNGBOARD 1\nPROJECT \"Pump\"\n\n"
+	"VAR\n  Start AT %IX0.0 : BOOL; (* green *)\n  Motor AT %QX0.0 : BOOL;\n"
+	"  Count : INT;\nEND_VAR\n\n"
+	"PROGRAM Main LD\nVAR\n  Delay : TON;\nEND_VAR\n"
+	"RUNG \"Seal\"\n  | NO Start  | COIL Motor |\n  | NO Motor ^|\n"
+	"RUNG\n  | NO Motor | TON Delay PT:=T#3s | COIL %QX0.1 |\n"
+	"RUNG There\n  | NC Start | [ Count := Count + 1 ] |\nEND_PROGRAM\n\n"
+	"PROGRAM Other IL\n  LD Start\n  ST %QX0.3\nEND_PROGRAM\n";
+
+static LadderDocument *open_sample(void)
+{
+	LadderDocument *document = ladder_document_new();
+
+	ladder_document_open_text(document, NULL, SAMPLE, strlen(SAMPLE), true);
+	return document;
+}
+
+static bool has_text(LadderDocument *document, const char *want)
+{
+	char *text = ladder_document_text(document, NULL);
+	bool same = strcmp(text, want) == 0;
+
+	if (!same)
+		printf("# got:\n%s# wanted:\n%s", text, want);
+	g_free(text);
+	return same;
+}
+
+static struct rung *rung_of(LadderDocument *document, const char *text)
+{
+	struct diag_list diags;
+
+	diag_init(&diags);
+	return ladder_read_rung(ladder_document_ladder(document), text, strlen(text),
+				&diags);
+}
+
+/* ---- one after the other ---- */
+
+static int told_rungs, told_project, told_state;
+
+static void count_rungs(LadderDocument *document, int pou, int at, int removed,
+			int inserted, int *count)
+{
+	(void)document;
+	*count = pou * 1000 + at * 100 + removed * 10 + inserted;
+}
+
+static void count_one(LadderDocument *document, int *count)
+{
+	(void)document;
+	++*count;
+}
+
+static void test_rungs(void)
+{
+	LadderDocument *document = open_sample();
+	char *before = ladder_document_text(document, NULL), *after;
+
+	g_signal_connect(document, "rungs-changed", G_CALLBACK(count_rungs), &told_rungs);
+	g_signal_connect(document, "state-changed", G_CALLBACK(count_one), &told_state);
+	CHECK(ladder_document_is_saved(document));
+	ladder_document_begin(document, "Negate", NULL);
+	CHECK(ladder_document_put_rung(document, 0, 2, rung_of(document,
+		"RUNG There\n  | NO Start | [ Count := Count + 1 ] |\n"), NULL));
+	ladder_document_end(document);
+	CHECK_AS(told_rungs == 211 && told_state > 0, "the place is told");
+	CHECK(!ladder_document_is_saved(document));
+	CHECK_TEXT(ladder_document_undo_name(document), "Negate");
+	after = ladder_document_text(document, NULL);
+	CHECK(strstr(after, "| NO Start | [ Count"));
+	CHECK(ladder_document_undo(document));
+	CHECK(has_text(document, before) && ladder_document_is_saved(document));
+	CHECK(!ladder_document_undo(document));
+	CHECK(ladder_document_redo(document));
+	CHECK(has_text(document, after));
+	CHECK(ladder_document_move_rung(document, 0, 0, 2));
+	CHECK(told_rungs == 201);
+	CHECK_TEXT(ladder_document_undo_name(document), "Move rung");
+	CHECK(ladder_document_undo(document) && has_text(document, after));
+	CHECK(!ladder_document_splice(document, 1, 0, 0, NULL, 0, NULL));
+	CHECK(!ladder_document_splice(document, 0, 2, 2, NULL, 0, NULL));
+	CHECK(!ladder_document_move_rung(document, 0, 0, 3));
+	CHECK(has_text(document, after));
+	g_free(before);
+	g_free(after);
+	g_object_unref(document);
+}
+
+static void test_unwritable(void)
+{
+	LadderDocument *document = open_sample();
+	struct project *project = ladder_document_project(document);
+	struct rung *rung = rung_copy(project->pou[0].rung[0]);
+	struct diag_list why;
+
+	diag_init(&why);
+	rung_cell(rung, 0, 0)->operand = names_intern(&project->names, "a | b", 5);
+	CHECK_AS(!ladder_document_put_rung(document, 0, 0, rung, &why),
+		 "a rung that a file could not hold is refused");
+	CHECK(why.errors > 0 && !ladder_document_undo_name(document));
+	g_object_unref(document);
+}
+
+static void test_steps(void)
+{
+	LadderDocument *document = open_sample();
+	char *before = ladder_document_text(document, NULL);
+
+	for (int i = 0; i < 3; i++) {
+		char *text = g_strdup_printf("RUNG\n  | NO I%d | COIL Q0 |\n", i);
+
+		ladder_document_begin(document, "Type", "operand");
+		ladder_document_put_rung(document, 0, 0, rung_of(document, text), NULL);
+		ladder_document_end(document);
+		g_free(text);
+	}
+	CHECK(ladder_document_undo(document));
+	CHECK_AS(has_text(document, before), "typing is one step");
+	ladder_document_begin(document, "Many", NULL);
+	ladder_document_splice(document, 0, 0, 3, NULL, 0, NULL);
+	ladder_document_begin(document, "Inner", NULL);
+	CHECK(ladder_document_replace(document, 12, 15, "PROJECT \"New\"\n", NULL));
+	ladder_document_end(document);
+	ladder_document_cancel(document);
+	CHECK_AS(has_text(document, before), "cancelled: as it was");
+	CHECK(ladder_document_redo_name(document));
+	g_free(before);
+	g_object_unref(document);
+}
+
+/* ---- text ---- */
+
+static void find_motor(void *context, const struct text_span *span)
+{
+	if (span->part == TEXT_VAR && span->pou < 0 && span->number == 1)
+		*(struct text_span *)context = *span;
+}
+
+static void test_text(void)
+{
+	LadderDocument *document = open_sample();
+	struct text_span span = { 0 };
+	struct diag_list why;
+	gsize len;
+	char *text = ladder_document_outline(document, &len, find_motor, &span);
+	char *before = ladder_document_text(document, NULL);
+
+	g_signal_connect(document, "project-changed", G_CALLBACK(count_one),
+			 &told_project);
+	CHECK(g_str_has_prefix(text + span.at, "  Motor AT %QX0.0 : BOOL;\n"));
+	CHECK(ladder_document_replace(document, span.at, span.len,
+				      "Motor AT %QX0.7 : BOOL; (* big *)\n", NULL));
+	CHECK(told_project == 1);
+	g_free(text);
+	text = ladder_document_text(document, NULL);
+	CHECK(strstr(text, "  Motor AT %QX0.7 : BOOL; (* big *)\n"));
+	CHECK_AS(!ladder_document_replace(document, span.at, 3, "((", &why) &&
+		 why.errors > 0, "what cannot be read is refused, with the reason");
+	CHECK(has_text(document, text));
+	CHECK(ladder_document_undo(document) && has_text(document, before));
+	CHECK(ladder_document_redo(document) && has_text(document, text));
+	CHECK(!ladder_document_replace(document, 100000, 0, "", &why));
+	g_free(text);
+	g_free(before);
+	g_object_unref(document);
+}
+
+static void test_list(void)
+{
+	LadderDocument *document = open_sample();
+	char *before = ladder_document_text(document, NULL);
+	char *list = ladder_document_list(document, 1);
+
+	CHECK_TEXT(list, "PROGRAM Other IL\n  LD    Start\n  ST    %QX0.3\nEND_PROGRAM\n");
+	g_free(list);
+	CHECK(ladder_document_put_list(document, 1,
+		"PROGRAM Other IL\n  LD Start ((\nEND_PROGRAM\n"));
+	list = ladder_document_list(document, 1);
+	CHECK_AS(strstr(list, "((") && ladder_document_project(document),
+		 "a list that cannot be read is kept beside the project");
+	g_free(list);
+	CHECK(ladder_document_put_rung(document, 0, 1,
+		rung_of(document, "RUNG\n  | NO Motor | COIL %QX0.6 |\n"), NULL));
+	ladder_document_check_now(document);
+	CHECK(ladder_document_diags(document)->errors > 0);
+	char *text = ladder_document_text(document, NULL);
+	CHECK(strstr(text, "((") && strstr(text, "%QX0.6"));
+	g_free(text);
+	CHECK(ladder_document_put_list(document, 1,
+		"PROGRAM Other IL\n  LD Motor\n  ST %QX0.3\nEND_PROGRAM\n"));
+	ladder_document_check_now(document);
+	CHECK(ladder_document_diags(document)->errors == 0);
+	while (ladder_document_undo(document))
+		;
+	CHECK(has_text(document, before));
+	g_free(before);
+	g_object_unref(document);
+}
+
+static void test_damaged(void)
+{
+	static const char bad[] = "RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO Start COIL |\n"
+		"END_PROGRAM\n";
+	LadderDocument *document = ladder_document_new();
+	const char *wrong = strstr(bad, "COIL");
+
+	ladder_document_open_text(document, "/x/bad.rung", bad, strlen(bad), true);
+	CHECK(!ladder_document_project(document) && has_text(document, bad));
+	ladder_document_check_now(document);
+	CHECK(ladder_document_diags(document)->errors > 0);
+	CHECK(ladder_document_replace(document, (gsize)(wrong - bad), 6,
+				      "| COIL Q0 |", NULL));
+	CHECK_AS(ladder_document_project(document), "mended: a project");
+	CHECK(ladder_document_undo(document));
+	CHECK(!ladder_document_project(document) && has_text(document, bad));
+	CHECK(ladder_document_redo(document) && ladder_document_project(document));
+	g_object_unref(document);
+}
+
+/* ---- a storm ---- */
+
+static guint32 seed = 1;
+
+static int pick(int below)
+{
+	seed = seed * 1664525u + 1013904223u;
+	return (int)((seed >> 8) % (guint32)below);
+}
+
+static void random_rungs(LadderDocument *document)
+{
+	struct pou *pou = &ladder_document_project(document)->pou[0];
+	int at = pick(pou->rung_count + 1);
+	int removed = pou->rung_count - at > 0 ? pick(2) : 0;
+	struct rung *rungs[3] = { NULL };
+	int count = pick(3);
+
+	for (int i = 0; i < count; i++) {
+		char *text = g_strdup_printf("RUNG \"r%d\"\n  | N%c I%d | COIL Q%d |\n",
+			pick(100), pick(2) ? 'O' : 'C', pick(9), pick(9));
+
+		rungs[i] = rung_of(document, text);
+		g_free(text);
+	}
+	ladder_document_splice(document, 0, at, removed, rungs, count, NULL);
+}
+
+struct spans {
+	struct text_span span[64];
+	int count;
+};
+
+static void take_var(void *context, const struct text_span *span)
+{
+	struct spans *spans = context;
+
+	if (span->part == TEXT_VAR && spans->count < 64)
+		spans->span[spans->count++] = *span;
+}
+
+static void random_symbol(LadderDocument *document)
+{
+	struct spans spans = { .count = 0 };
+	gsize len;
+	char *text = ladder_document_outline(document, &len, take_var, &spans);
+	const struct text_span *span = &spans.span[pick(spans.count)];
+	char *more = g_strdup_printf("  New%d : INT := %d;\n", pick(1000), pick(100));
+
+	ladder_document_replace(document, span->at, pick(4) ? 0 : span->len, more, NULL);
+	g_free(more);
+	g_free(text);
+}
+
+static void random_edit(LadderDocument *document)
+{
+	char *name = g_strdup_printf("step %d", pick(1000));
+	struct project *project = ladder_document_project(document);
+
+	ladder_document_begin(document, name, pick(3) ? NULL : "same");
+	for (int i = pick(3); i >= 0; i--) {
+		switch (pick(5)) {
+		case 0:
+			random_symbol(document);
+			break;
+		case 1:
+			ladder_document_put_list(document, 1, pick(3) ?
+				"PROGRAM Other IL\n  LD I0\n  ST Q1\nEND_PROGRAM\n" :
+				"PROGRAM Other IL\n  LD (\nEND_PROGRAM\n");
+			break;
+		case 2:
+			ladder_document_move_rung(document, 0, pick(3), pick(3));
+			break;
+		default:
+			random_rungs(document);
+		}
+		project = ladder_document_project(document);
+	}
+	(void)project;
+	if (pick(10))
+		ladder_document_end(document);
+	else
+		ladder_document_cancel(document);
+	g_free(name);
+}
+
+static void test_storm(void)
+{
+	int bad = 0;
+
+	for (int round = 0; round < 40; round++) {
+		LadderDocument *document = open_sample();
+		char *before = ladder_document_text(document, NULL), *after, *again;
+
+		for (int i = 0; i < 60; i++) {
+			random_edit(document);
+			if (pick(6) == 0)
+				ladder_document_undo(document);
+			if (pick(6) == 0)
+				ladder_document_redo(document);
+		}
+		while (ladder_document_redo(document))
+			;
+		after = ladder_document_text(document, NULL);
+		while (ladder_document_undo(document))
+			;
+		bad += !has_text(document, before);
+		while (ladder_document_redo(document))
+			;
+		again = ladder_document_text(document, NULL);
+		bad += strcmp(after, again) != 0;
+		g_free(before);
+		g_free(after);
+		g_free(again);
+		g_object_unref(document);
+	}
+	CHECK_AS(bad == 0, "2,400 random steps: undone all and redone all, the same bytes");
+}
+
+/* ---- files ---- */
+
+static void test_files(void)
+{
+	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
+	char *path = g_build_filename(folder, "a.rung", NULL);
+	LadderDocument *document = open_sample();
+	GError *error = NULL;
+	char *text = ladder_document_text(document, NULL), *got = NULL;
+
+	CHECK(ladder_document_save(document, path, NULL));
+	CHECK(g_file_get_contents(path, &got, NULL, NULL) && strcmp(got, text) == 0);
+	CHECK_TEXT(ladder_document_path(document), path);
+	CHECK(!ladder_document_disk_changed(document));
+	CHECK(g_file_set_contents(path, "other", -1, NULL));
+	CHECK(ladder_document_disk_changed(document));
+	CHECK(!ladder_document_save(document, "/nowhere/at/all.rung", &error) && error);
+	CHECK_TEXT(ladder_document_path(document), path);
+	g_clear_error(&error);
+	CHECK(!ladder_document_open(document, "/nowhere.rung", &error) && error);
+	CHECK(has_text(document, text));
+	g_clear_error(&error);
+	CHECK(g_file_set_contents(path, "RUNGBOARD 1\n\xff\n", -1, NULL));
+	CHECK(ladder_document_open(document, path, NULL));
+	CHECK(ladder_document_repaired(document) == 2 &&
+	      !ladder_document_is_saved(document));
+	g_unlink(path);
+	g_rmdir(folder);
+	g_free(got);
+	g_free(text);
+	g_free(path);
+	g_free(folder);
+	g_object_unref(document);
+}
+
+int main(void)
+{
+	test_rungs();
+	test_unwritable();
+	test_steps();
+	test_text();
+	test_list();
+	test_damaged();
+	test_storm();
+	test_files();
+	return tap_done();
+}
