@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_names - the symbol, address and comment that belong to an operand of a POU.
+ *
+ * An index over what is declared, for drawing and pictures. It resolves no members and
+ * no elements of arrays: those are written above an element as they are. Meaning is
+ * check/'s.
+ */
+#ifndef EDITOR_GRID_NAMES_H
+#define EDITOR_GRID_NAMES_H
+
+#include "engine/model/project.h"
+
+struct grid_name {
+	const char *symbol;  /* "" if the operand is an address without a name  */
+	const char *address; /* "%IX0.0"; "" if it has none                     */
+	const char *comment; /* of the declaration, with its delimiters; ""      */
+};
+
+struct grid_names;
+/**
+ * grid_names_new - of the globals and the locals of a POU
+ * @pou: of @project; NULL: the globals alone
+ *
+ * Owns: the caller, grid_names_free(). @project must live as long and not change.
+ */
+struct grid_names *grid_names_new(const struct project *project, const struct pou *pou);
+void grid_names_free(struct grid_names *names);
+/** grid_names_find - of an operand as it is written, any case; an address is found by
+ * the variable AT it. Borrowed from the project and from @operand. */
+struct grid_name grid_names_find(const struct grid_names *names, const char *operand);
+
+#endif

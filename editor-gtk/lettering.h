@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * lettering - the styles of type, and how wide a text is in one of them.
+ *
+ * Texts are measured with Pango and remembered, because a sheet says the same names over
+ * and over. A text that is longer than its bound is cut with an ellipsis here, so that
+ * screen, SVG and PDF show the same. It draws nothing.
+ */
+#ifndef EDITOR_LETTERING_H
+#define EDITOR_LETTERING_H
+
+#include <pango/pango.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+enum letter {
+	LETTER_SYMBOL,  /* name above an element                                */
+	LETTER_ADDRESS, /* below it, monospace                                  */
+	LETTER_TITLE,   /* of a rung                                            */
+	LETTER_COMMENT,
+	LETTER_NUMBER,  /* of a rung                                            */
+	LETTER_TYPE,    /* TON in its box; the P of |P|                         */
+	LETTER_PIN,
+	LETTER_OPERAND, /* what is written at a pin, expressions: monospace     */
+	LETTER_VALUE,   /* live: monospace, digits do not dance                 */
+	LETTER_BADGE,   /* F, 2×                                                */
+	LETTER_HEADING, /* of a page                                            */
+	LETTERS
+};
+
+/* A text made fit to be drawn: valid UTF-8, no control characters, not too wide. */
+struct lettered {
+	const char *text; /* lives until lettering_trim() or lettering_free()   */
+	float width;      /* px                                                 */
+};
+
+struct lettering;
+
+/**
+ * lettering_new - styles upon a context
+ * @context: of a widget, or of lettering_context(); a reference is kept
+ * @family:  fonts for all but monospace text; NULL: the usual ones
+ *
+ * Owns: the caller, lettering_free().
+ */
+struct lettering *lettering_new(PangoContext *context, const char *family);
+void lettering_free(struct lettering *lettering);
+/** lettering_context - a context that needs no display. Owns: the caller, g_object_unref. */
+PangoContext *lettering_context(void);
+/** lettering_trim - forgets texts if there are very many. Call it between drawings. */
+void lettering_trim(struct lettering *lettering);
+
+/**
+ * lettering_fit - a text in a style
+ * @len:   bytes of @text, which may be anything; -1: up to its NUL
+ * @bound: px; what is wider ends in an ellipsis. 0: no bound
+ */
+struct lettered lettering_fit(struct lettering *lettering, enum letter letter,
+			      const char *text, ptrdiff_t len, float bound);
+
+/** lettering_wrap - how many bytes of @text fit on one line of @width px, broken between
+ * words if it can be; at least one character. */
+size_t lettering_wrap(struct lettering *lettering, enum letter letter, const char *text,
+		      float width);
+
+/** lettering_layout - @text laid out, its top at 0 and its baseline at @baseline px.
+ * Borrowed, valid until the next call. */
+PangoLayout *lettering_layout(struct lettering *lettering, enum letter letter,
+			      const char *text, float *baseline);
+
+/* What a style is, for pictures that are drawn by others: SVG. */
+struct letter_style {
+	const char *name;   /* "symbol"                                        */
+	float size;         /* px                                              */
+	PangoWeight weight;
+	bool mono;
+	float ascent;       /* px above the baseline that texts may take        */
+	float descent;
+};
+/** letter_style - lives for ever. */
+const struct letter_style *letter_style(enum letter letter);
+
+#endif

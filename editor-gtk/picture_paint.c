@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * picture_paint - the list of strokes as render nodes, and upon a cairo surface.
+ *
+ * Rectangles and straight lines become colour nodes and text becomes text nodes: they
+ * cost a renderer next to nothing. Only what is round or slanting goes through cairo.
+ */
+#include "editor-gtk/picture.h"
+
+#include <math.h>
+#include <pango/pangocairo.h>
+
+#define WAVE_STEP 3     /* px from crest to trough                              */
+#define WAVE_HEIGHT 3
+
+static GdkRGBA color_of(const struct stroke *stroke, const struct theme *theme)
+{
+	GdkRGBA color = theme->color[stroke->token];
+
+	color.alpha = stroke->alpha;
+	return color;
+}
+
+static void set_dash(cairo_t *cr, enum stroke_style style)
+{
+	static const double dashed[] = { 5, 3 }, dotted[] = { 1.5, 3 };
+
+	cairo_set_dash(cr, style == STROKE_DASHED ? dashed : dotted,
+		       style == STROKE_SOLID ? 0 : 2, 0);
+}
+
+static void wave_path(cairo_t *cr, const struct stroke *s)
+{
+	double x = (double)s->x, end = x + (double)s->w, y = (double)s->y;
+
+	cairo_move_to(cr, x, y);
+	for (int i = 1; x < end; i++) {
+		x = fmin(x + WAVE_STEP, end);
+		cairo_line_to(cr, x, i % 2 ? y + WAVE_HEIGHT : y);
+	}
+}
+
+/* Everything but text. */
+static void draw_shape(cairo_t *cr, const struct stroke *s)
+{
+	double half = (double)s->width / 2;
+
+	cairo_set_line_width(cr, (double)s->width);
+	set_dash(cr, s->style);
+	switch (s->kind) {
+	case STROKE_FILL:
+		cairo_rectangle(cr, (double)s->x, (double)s->y, (double)s->w, (double)s->h);
+		cairo_fill(cr);
+		return;
+	case STROKE_DISC:
+		cairo_new_path(cr);
+		cairo_arc(cr, (double)s->x, (double)s->y, (double)s->w, 0, 2 * G_PI);
+		cairo_fill(cr);
+		return;
+	case STROKE_FRAME:
+		cairo_rectangle(cr, (double)s->x + half, (double)s->y + half,
+				(double)s->w - 2 * half, (double)s->h - 2 * half);
+		break;
+	case STROKE_LINE:
+		cairo_move_to(cr, (double)s->x, (double)s->y);
+		cairo_line_to(cr, (double)s->w, (double)s->h);
+		break;
+	case STROKE_ARC:
+		cairo_new_path(cr);
+		cairo_arc(cr, (double)s->x, (double)s->y, (double)s->w, (double)s->h,
+			  (double)s->to);
+		break;
+	case STROKE_WAVE:
+		wave_path(cr, s);
+		break;
+	case STROKE_TEXT:
+		return;
+	}
+	cairo_stroke(cr);
+}
+
+static void text_on_cairo(cairo_t *cr, const struct stroke *s,
+			  struct lettering *lettering)
+{
+	float baseline;
+	PangoLayout *layout = lettering_layout(lettering, s->letter, s->text, &baseline);
+
+	cairo_move_to(cr, (double)s->x, (double)(s->y - baseline));
+	pango_cairo_show_layout(cr, layout);
+}
+
+void picture_cairo(const struct picture *picture, const struct theme *theme,
+		   struct lettering *lettering, cairo_t *cr)
+{
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *s = &picture->stroke[i];
+		GdkRGBA color = color_of(s, theme);
+
+		gdk_cairo_set_source_rgba(cr, &color);
+		if (s->kind == STROKE_TEXT)
+			text_on_cairo(cr, s, lettering);
+		else
+			draw_shape(cr, s);
+	}
+}
+
+static graphene_rect_t bounds_of(const struct stroke *s)
+{
+	float r = s->w + s->width;
+
+	switch (s->kind) {
+	case STROKE_ARC:
+	case STROKE_DISC:
+		return GRAPHENE_RECT_INIT(s->x - r, s->y - r, 2 * r, 2 * r);
+	case STROKE_WAVE:
+		return GRAPHENE_RECT_INIT(s->x - 1, s->y - 1, s->w + 2, WAVE_HEIGHT + 2);
+	case STROKE_LINE:
+		return GRAPHENE_RECT_INIT(fminf(s->x, s->w) - s->width,
+					  fminf(s->y, s->h) - s->width,
+					  fabsf(s->w - s->x) + 2 * s->width,
+					  fabsf(s->h - s->y) + 2 * s->width);
+	case STROKE_FILL:
+	case STROKE_FRAME:
+	case STROKE_TEXT:
+		break;
+	}
+	return GRAPHENE_RECT_INIT(s->x, s->y, s->w, s->h);
+}
+
+static void by_cairo(GtkSnapshot *snapshot, const struct stroke *s, const GdkRGBA *color)
+{
+	graphene_rect_t bounds = bounds_of(s);
+	cairo_t *cr = gtk_snapshot_append_cairo(snapshot, &bounds);
+
+	gdk_cairo_set_source_rgba(cr, color);
+	draw_shape(cr, s);
+	cairo_destroy(cr);
+}
+
+static void straight(GtkSnapshot *snapshot, const struct stroke *s, const GdkRGBA *color)
+{
+	float half = s->width / 2;
+	bool level = s->y == s->h;
+	graphene_rect_t rect = level ?
+		GRAPHENE_RECT_INIT(fminf(s->x, s->w), s->y - half, fabsf(s->w - s->x),
+				   s->width) :
+		GRAPHENE_RECT_INIT(s->x - half, fminf(s->y, s->h), s->width,
+				   fabsf(s->h - s->y));
+
+	gtk_snapshot_append_color(snapshot, color, &rect);
+}
+
+static void text_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
+			     const GdkRGBA *color, struct lettering *lettering)
+{
+	float baseline;
+	PangoLayout *layout = lettering_layout(lettering, s->letter, s->text, &baseline);
+
+	gtk_snapshot_save(snapshot);
+	gtk_snapshot_translate(snapshot,
+			       &GRAPHENE_POINT_INIT(s->x, s->y - baseline));
+	gtk_snapshot_append_layout(snapshot, layout, color);
+	gtk_snapshot_restore(snapshot);
+}
+
+static void frame_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
+			      const GdkRGBA *color)
+{
+	GskRoundedRect rect;
+	const float width[4] = { s->width, s->width, s->width, s->width };
+	const GdkRGBA colors[4] = { *color, *color, *color, *color };
+
+	gsk_rounded_rect_init_from_rect(&rect, &GRAPHENE_RECT_INIT(s->x, s->y, s->w, s->h),
+					0);
+	gtk_snapshot_append_border(snapshot, &rect, width, colors);
+}
+
+void picture_snapshot(const struct picture *picture, const struct theme *theme,
+		      struct lettering *lettering, GtkSnapshot *snapshot)
+{
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *s = &picture->stroke[i];
+		GdkRGBA color = color_of(s, theme);
+
+		if (s->kind == STROKE_TEXT)
+			text_on_snapshot(snapshot, s, &color, lettering);
+		else if (s->kind == STROKE_FILL)
+			gtk_snapshot_append_color(snapshot, &color,
+				&GRAPHENE_RECT_INIT(s->x, s->y, s->w, s->h));
+		else if (s->kind == STROKE_FRAME && s->style == STROKE_SOLID)
+			frame_on_snapshot(snapshot, s, &color);
+		else if (s->kind == STROKE_LINE && s->style == STROKE_SOLID &&
+			 (s->x == s->w || s->y == s->h))
+			straight(snapshot, s, &color);
+		else
+			by_cairo(snapshot, s, &color);
+	}
+}
+
+GskRenderNode *picture_node(const struct picture *picture, const struct theme *theme,
+			    struct lettering *lettering)
+{
+	GtkSnapshot *snapshot = gtk_snapshot_new();
+
+	picture_snapshot(picture, theme, lettering, snapshot);
+	return gtk_snapshot_free_to_node(snapshot);
+}

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rung_text - the texts of elements and rungs; see rung_text.h.
+ */
+#include "editor-gtk/rung_text.h"
+
+#include <glib.h>
+#include <string.h>
+
+#define TITLE_AIR 10
+
+static const struct lettered nothing = { "", 0 };
+
+static struct lettered fit(const struct drafting *drafting, enum letter letter,
+			   const char *text, float bound)
+{
+	return *text ? lettering_fit(drafting->lettering, letter, text, -1, bound) :
+		       nothing;
+}
+
+static bool has_names(const struct word_row *word)
+{
+	return word->operand == OPND_BOOL_R || word->operand == OPND_BOOL_W ||
+	       word->operand == OPND_ANY_R || word->operand == OPND_ANY_W;
+}
+
+struct rung_label rung_label(const struct drafting *drafting, const struct cell *cell)
+{
+	const struct word_row *word = word_row(cell->word);
+	const char *operand = project_text(drafting->project, cell->operand);
+	struct rung_label label = { nothing, nothing };
+	struct grid_name name;
+
+	if (!cell->operand || (word->kind == WORD_ELEM && !has_names(word)))
+		return label;
+	name = grid_names_find(drafting->names, operand);
+	if (drafting->show != SHOW_ADDRESSES || !*name.address)
+		label.symbol = fit(drafting, LETTER_SYMBOL, name.symbol, LABEL_BOUND);
+	if (drafting->show != SHOW_SYMBOLS || !*name.symbol)
+		label.address = fit(drafting, LETTER_ADDRESS, name.address, LABEL_BOUND);
+	return label;
+}
+
+struct lettered rung_element_comment(const struct drafting *drafting,
+				     const struct cell *cell, float room)
+{
+	const char *comment = project_text(drafting->project, cell->comment);
+	struct lettered fits = nothing;
+
+	if (!*comment && drafting->comments && cell->operand)
+		comment = grid_names_find(drafting->names,
+					  project_text(drafting->project,
+						       cell->operand)).comment;
+	if (*comment) {
+		char *plain = rung_comment_text(comment);
+
+		fits = fit(drafting, LETTER_PIN, plain, room);
+		g_free(plain);
+	}
+	return fits;
+}
+
+bool rung_is_framed(const struct word_row *word)
+{
+	return word->kind == WORD_ELEM && word->place != PLACE_NONE &&
+	       word->place != PLACE_WIRE && word->place != PLACE_PIN &&
+	       !has_names(word) &&
+	       !(word->operand == OPND_NONE && word->place == PLACE_SERIES);
+}
+
+struct lettered rung_framed(const struct drafting *drafting, const struct cell *cell)
+{
+	const struct word_row *word = word_row(cell->word);
+	const char *operand = project_text(drafting->project, cell->operand);
+	bool says_word = word->operand == OPND_LOOP || word->operand == OPND_ROUTINE;
+	bool is_word = word->operand == OPND_NONE || word->operand == OPND_LOOP_END;
+	struct lettered fits;
+	char *text;
+
+	if (!says_word && !is_word)
+		return fit(drafting, LETTER_OPERAND, operand, FRAMED_BOUND);
+	text = g_strdup_printf("%s%s%s", word->word, is_word ? "" : " ",
+			       is_word ? "" : operand);
+	fits = fit(drafting, LETTER_OPERAND, text, FRAMED_BOUND);
+	g_free(text);
+	return fits;
+}
+
+static bool is_blank(char c)
+{
+	return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
+
+/* Several comments stand one after another, each with its delimiters. */
+char *rung_comment_text(const char *comment)
+{
+	GString *out = g_string_new(NULL);
+
+	while (*comment) {
+		if (comment[0] == '(' && comment[1] == '*') {
+			comment += 2;
+		} else if (comment[0] == '*' && comment[1] == ')') {
+			comment += 2;
+			if (out->len && out->str[out->len - 1] != ' ')
+				g_string_append_c(out, ' ');
+		} else if (is_blank(*comment)) {
+			if (out->len && out->str[out->len - 1] != ' ')
+				g_string_append_c(out, ' ');
+			comment++;
+		} else {
+			g_string_append_c(out, *comment++);
+		}
+	}
+	while (out->len && out->str[out->len - 1] == ' ')
+		g_string_truncate(out, out->len - 1);
+	return g_string_free(out, FALSE);
+}
+
+struct rung_heading rung_heading(const struct drafting *drafting, const struct rung *rung)
+{
+	const struct project *project = drafting->project;
+	struct rung_heading heading = { nothing, nothing, 0, NULL, 0 };
+
+	if (rung->label) {
+		char *label = g_strdup_printf("%s:", project_text(project, rung->label));
+
+		heading.label = fit(drafting, LETTER_OPERAND, label, LABEL_BOUND);
+		g_free(label);
+		heading.width += heading.label.width + TITLE_AIR;
+	}
+	if (rung->title) {
+		heading.title = fit(drafting, LETTER_TITLE,
+				    project_text(project, rung->title), 0);
+		heading.width += heading.title.width + TITLE_AIR;
+	}
+	heading.comment = rung_comment_text(project_text(project, rung->comment));
+	heading.comment_width = fit(drafting, LETTER_COMMENT, heading.comment, 0).width;
+	return heading;
+}
+
+int rung_comment_lines(const struct drafting *drafting, const char *comment, float width,
+		       int most, void (*take)(void *context, int line,
+					      struct lettered text),
+		       void *context)
+{
+	int lines = 0;
+
+	while (*comment && lines < most) {
+		size_t len = lettering_wrap(drafting->lettering, LETTER_COMMENT, comment,
+					    width);
+		bool last = lines == most - 1;
+
+		if (take)
+			take(context, lines, lettering_fit(drafting->lettering,
+				LETTER_COMMENT, comment,
+				last ? -1 : (ptrdiff_t)len, width));
+		comment += len;
+		lines++;
+	}
+	return lines;
+}

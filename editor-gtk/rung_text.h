@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rung_text - which texts stand at an element and above a rung.
+ *
+ * Measured and cut to their bounds, so that layout and drawing say the same. It knows no
+ * places.
+ */
+#ifndef EDITOR_RUNG_TEXT_H
+#define EDITOR_RUNG_TEXT_H
+
+#include "editor-gtk/rung_layout.h"
+
+#define LABEL_BOUND  230   /* px of a name                                      */
+#define FRAMED_BOUND 420   /* px of an expression                               */
+#define FRAMED_SIDE  12    /* px between its text and the outside of a bracket    */
+
+/* What stands above a contact, coil or box. "" and 0 for nothing. */
+struct rung_label { struct lettered symbol, address; };
+struct rung_label rung_label(const struct drafting *drafting, const struct cell *cell);
+/** rung_element_comment - what stands below it; "" for nothing. @room: px. */
+struct lettered rung_element_comment(const struct drafting *drafting,
+				     const struct cell *cell, float room);
+
+/** rung_is_framed - is it drawn as one line of text between strokes: [ a > b ], >> Label? */
+bool rung_is_framed(const struct word_row *word);
+/** rung_framed - that text. */
+struct lettered rung_framed(const struct drafting *drafting, const struct cell *cell);
+
+/* What stands above a rung. */
+struct rung_heading {
+	struct lettered label, title;
+	float width;         /* of both, with air; 0: neither                   */
+	char *comment;       /* one line, without delimiters; owned: g_free      */
+	float comment_width;
+};
+struct rung_heading rung_heading(const struct drafting *drafting, const struct rung *rung);
+/**
+ * rung_comment_lines - breaks a comment into lines of @width px
+ * @take: is handed each of them; NULL: they are only counted
+ * Returns how many; of more than @most the last one ends in an ellipsis.
+ */
+int rung_comment_lines(const struct drafting *drafting, const char *comment, float width,
+		       int most, void (*take)(void *context, int line,
+					      struct lettered text),
+		       void *context);
+/** rung_comment_text - a comment without delimiters, on one line. Owns: g_free. */
+char *rung_comment_text(const char *comment);
+
+#endif

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sheet - layouts of all rungs of a POU; see sheet.h.
+ */
+#include "editor-gtk/sheet.h"
+
+#include <glib.h>
+#include <string.h>
+
+struct sheet *sheet_new(const struct project *project, const struct pou *pou,
+			struct lettering *lettering)
+{
+	struct sheet *sheet = g_new0(struct sheet, 1);
+
+	sheet->pou = pou;
+	sheet->drafting = (struct drafting){ .project = project, .lettering = lettering };
+	return sheet;
+}
+
+static void forget(struct sheet *sheet)
+{
+	for (int i = 0; i < sheet->count; i++)
+		rung_layout_free(sheet->rung[i]);
+	g_free(sheet->rung);
+	g_free(sheet->y);
+	sheet->rung = NULL;
+	sheet->y = NULL;
+	sheet->count = 0;
+}
+
+void sheet_free(struct sheet *sheet)
+{
+	if (!sheet)
+		return;
+	forget(sheet);
+	grid_names_free((struct grid_names *)sheet->drafting.names);
+	g_free(sheet);
+}
+
+/* The right rail of all of them, and where each begins. */
+static void align(struct sheet *sheet)
+{
+	float y = 0;
+
+	sheet->rails = sheet->drafting.width;
+	for (int i = 0; i < sheet->count; i++)
+		sheet->rails = MAX(sheet->rails, sheet->rung[i]->natural);
+	for (int i = 0; i < sheet->count; i++) {
+		rung_layout_stretch(sheet->rung[i], sheet->rails);
+		sheet->y[i] = y;
+		y += sheet->rung[i]->height;
+	}
+	sheet->y[sheet->count] = y;
+	sheet->height = y;
+	sheet->width = RUNG_LEFT + sheet->rails + RUNG_AFTER;
+}
+
+static int columns_of(const struct pou *pou)
+{
+	int most = RUNG_LEAST_COLUMNS;
+
+	for (int i = 0; i < pou->rung_count; i++)
+		most = MAX(most, rung_layout_columns(pou->rung[i]));
+	return most;
+}
+
+void sheet_layout(struct sheet *sheet)
+{
+	const struct pou *pou = sheet->pou;
+
+	forget(sheet);
+	grid_names_free((struct grid_names *)sheet->drafting.names);
+	sheet->drafting.names = grid_names_new(sheet->drafting.project, pou);
+	sheet->drafting.columns = columns_of(pou);
+	sheet->count = pou->rung_count;
+	sheet->rung = g_new(struct rung_layout *, sheet->count + 1);
+	sheet->y = g_new(float, sheet->count + 1);
+	for (int i = 0; i < sheet->count; i++)
+		sheet->rung[i] = rung_layout_new(&sheet->drafting, pou->rung[i], i + 1, 0);
+	align(sheet);
+}
+
+void sheet_changed(struct sheet *sheet, int at, int removed, int added, int rows)
+{
+	int count = sheet->count - removed + added, columns = columns_of(sheet->pou);
+
+	if (columns != sheet->drafting.columns) {
+		sheet_layout(sheet);
+		return;
+	}
+	for (int i = at; i < at + removed; i++)
+		rung_layout_free(sheet->rung[i]);
+	if (added > removed) {
+		sheet->rung = g_renew(struct rung_layout *, sheet->rung, count + 1);
+		sheet->y = g_renew(float, sheet->y, count + 1);
+	}
+	memmove(sheet->rung + at + added, sheet->rung + at + removed,
+		(size_t)(sheet->count - at - removed) * sizeof(*sheet->rung));
+	sheet->count = count;
+	for (int i = at; i < at + added; i++)
+		sheet->rung[i] = rung_layout_new(&sheet->drafting, sheet->pou->rung[i],
+						 i + 1, i == at ? rows : 0);
+	for (int i = at + added; i < count; i++)
+		sheet->rung[i]->number = i + 1;
+	align(sheet);
+}
+
+int sheet_rung_at(const struct sheet *sheet, float y)
+{
+	int low = 0, high = sheet->count - 1;
+
+	while (low < high) {
+		int middle = (low + high + 1) / 2;
+
+		if (sheet->y[middle] <= y)
+			low = middle;
+		else
+			high = middle - 1;
+	}
+	return high;
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * theme - the colours and weights of everything that is drawn, in one table.
+ *
+ * Drawings name a token, never a colour. Screen, pictures, print and palette icons take
+ * them from here and not from CSS, so that all of them look the same. It draws nothing.
+ *
+ * Text keeps 4.5 : 1 against the sheet and graphics 3 : 1 (tests/editor/test_theme.c). Power
+ * is told by weight and fill as well as by colour: light power and idle wire differ by
+ * almost nothing in luminance.
+ */
+#ifndef EDITOR_THEME_H
+#define EDITOR_THEME_H
+
+#include <gdk/gdk.h>
+#include <stdbool.h>
+
+enum theme_kind {
+	THEME_LIGHT, THEME_DARK,
+	THEME_CONTRAST, THEME_CONTRAST_DARK, /* for people who need more of it  */
+	THEME_PRINT,                         /* black; power is double weight   */
+	THEME_KINDS
+};
+/* The colour of power: most editors', or that of S7-200 and GX Works. */
+enum theme_power { THEME_GREEN, THEME_BLUE, THEME_POWERS };
+
+enum token {
+	TOKEN_SHEET,   /* the ground                                           */
+	TOKEN_INK,     /* symbols, shapes                                      */
+	TOKEN_IDLE,    /* a wire without power; rails                          */
+	TOKEN_POWER,   /* a wire with power                                    */
+	TOKEN_FORCE,   /* forced; written twice                                */
+	TOKEN_ERROR,
+	TOKEN_ACCENT,  /* cursor, selection, live numbers                      */
+	TOKEN_COMMENT, /* comments, addresses                                  */
+	TOKEN_BADGE,   /* text on a ground of TOKEN_FORCE                      */
+	/* Grounds and hairlines: decoration, nothing is told by them alone. */
+	TOKEN_GUTTER,  /* below the rung numbers                               */
+	TOKEN_LINE,    /* between rungs                                        */
+	TOKEN_FOUND,   /* below what a search found                            */
+	TOKENS
+};
+
+struct theme {
+	GdkRGBA color[TOKENS];
+	float idle_width, power_width; /* px of a wire                        */
+	float shape_width;             /* px of contacts, coils, boxes        */
+	float rail_width;
+	float fill;    /* opacity of TOKEN_POWER in a closed contact, lit coil  */
+	float wash;    /* opacity of TOKEN_ACCENT below cursor and selection   */
+	bool dark;
+};
+
+/** theme_get - one row of the table. Owns: nothing; it lives for ever. */
+const struct theme *theme_get(enum theme_kind kind, enum theme_power power);
+/** theme_contrast - WCAG 2 contrast ratio of two opaque colours, 1 to 21. */
+double theme_contrast(const GdkRGBA *a, const GdkRGBA *b);
+/** theme_mix - @over with opacity @alpha upon @ground. */
+GdkRGBA theme_mix(const GdkRGBA *over, float alpha, const GdkRGBA *ground);
+/** token_name - "power"; names in SVG pictures and tests. Lives for ever. */
+const char *token_name(enum token token);
+
+#endif
