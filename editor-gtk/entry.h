@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry - quick entry: what a line typed at the cursor means, and what could be meant.
+ *
+ * Mnemonics of all dialects, a plain name, an address in any spelling, an expression.
+ * It says what would happen and does nothing: cells are put by grid_edit, variables
+ * declared by the document, only from what struct entry names. It prints nothing.
+ */
+#ifndef EDITOR_ENTRY_H
+#define EDITOR_ENTRY_H
+
+#include "engine/model/project.h"
+
+#define ENTRY_TEXT 1024  /* bytes of an operand or of parameters, with NUL      */
+#define ENTRY_NAME 320   /* of a name, an address, a note                       */
+#define ENTRY_NEW_MOST 4 /* variables that one line may declare                 */
+
+/* Where the line is typed. */
+struct entry_place {
+	struct project *project; /* strings and rows of its words may be added,
+				    nothing else changes                      */
+	int pou;                 /* index in it                                */
+	bool output;             /* the cursor is in the last column           */
+};
+
+/* A variable that does not exist yet and would be declared. */
+struct entry_new {
+	char name[ENTRY_NAME];
+	char type[ENTRY_NAME];    /* "BOOL", "TON"                             */
+	char address[32];         /* "%IX0.3"; "": none                        */
+};
+
+enum entry_sense {
+	ENTRY_EMPTY,   /* nothing typed                                        */
+	ENTRY_ELEMENT, /* it means an element: it can be put                   */
+	ENTRY_PART,    /* a word whose operand is still missing                */
+	ENTRY_WRONG,   /* why stands in @why                                   */
+};
+
+struct entry {
+	enum entry_sense sense;
+	enum word word;
+	char operand[ENTRY_TEXT]; /* "": none                                  */
+	char args[ENTRY_TEXT];    /* "PT:=T#1s"; "": none                      */
+	struct entry_new declare[ENTRY_NEW_MOST];
+	int declares;             /* 0: everything named is there already      */
+	const char *why;          /* N_() text; NULL: nothing is wrong         */
+	char what[ENTRY_NAME];    /* that @why speaks of                       */
+};
+
+/**
+ * entry_read - what a line means
+ * @line: as typed, UTF-8
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false unless @out->sense is ENTRY_ELEMENT.
+ */
+bool entry_read(const struct entry_place *place, const char *line, struct entry *out);
+/** entry_cell - the element as a cell, its texts as strings of the project. Fails: false
+ * if it is none, or memory is out. */
+bool entry_cell(struct project *project, const struct entry *entry, struct cell *cell);
+
+enum entry_kind {
+	ENTRY_VARIABLE, ENTRY_INSTANCE, ENTRY_PIN, ENTRY_ADDRESS, ENTRY_LABEL,
+	ENTRY_ROUTINE, ENTRY_WORD, ENTRY_NEW,
+};
+
+struct entry_candidate {
+	enum entry_kind kind;
+	char text[ENTRY_NAME];    /* the word or name                          */
+	char address[32];         /* "": none                                  */
+	char note[ENTRY_NAME];    /* its type and comment, or what it does     */
+	char line[ENTRY_TEXT];    /* the line with it taken                    */
+};
+
+/**
+ * entry_candidates - what the word before the cursor could become, best first
+ * @cursor: bytes of @line before it
+ * @out:    caller's, room for @most
+ *
+ * What is typed exactly, then what begins with it, then what has it inside; in each
+ * of these variables of the fitting type, addresses in use, pins, words. The last one is
+ * a new name, where one may stand: nothing is ever declared that is not chosen so or
+ * told by entry_read(). Returns how many.
+ * Owns: nothing.   Scan-safe: no.
+ */
+int entry_candidates(const struct entry_place *place, const char *line, size_t cursor,
+		     struct entry_candidate *out, int most);
+/** entry_kind_text - "variable", for a screen reader; N_() text. Lives for ever. */
+const char *entry_kind_text(enum entry_kind kind);
+#endif

@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_delete - taking elements and wires away.
+ *
+ * Where power must pass a wire stays; a branch that became nothing but wire would be a
+ * short circuit and goes. Rows that nothing is left in go too.
+ */
+#include "editor-gtk/grid_canvas.h"
+
+/* The wire to the left and right of a place, up to the next thing that is joined to
+ * it: from bar @left to bar @right. */
+struct stretch { int left, right; };
+
+static struct stretch stretch_at(const struct canvas *c, int row, int col)
+{
+	struct stretch s = { col, col + 1 };
+
+	while (s.left > 0 && canvas_word(c, row, s.left - 1) == ELEM_WIRE &&
+	       !canvas_linked(c, row, s.left))
+		s.left--;
+	while (s.right < c->rung->cols && canvas_word(c, row, s.right) == ELEM_WIRE &&
+	       !canvas_linked(c, row, s.right))
+		s.right++;
+	return s;
+}
+
+/* Does power have to go through (@row, @col), which is empty now: is what comes behind
+ * it read, and fed by nothing else? */
+static bool must_pass(struct canvas *c, int row, int col)
+{
+	const struct network *n = &c->network;
+	int in, out;
+
+	if (!canvas_network(c))
+		return false;
+	in = network_net(n, row, col);
+	out = network_net(n, row, col + 1);
+	return in != out && out != NET_RAIL && n->reader_count[out] > 0 &&
+	       n->first_feeder[out + 1] == n->first_feeder[out];
+}
+
+static void erase_stretch(struct canvas *c, int row, struct stretch s)
+{
+	for (int col = s.left; col < s.right; col++)
+		canvas_clear(c, row, col);
+	canvas_prune(c, row, s.left);
+	canvas_prune(c, row, s.right);
+}
+
+/* ---- a branch that became the only way moves up ---- */
+
+/* Does the row below hold a branch from bar to bar, and nothing beside it? */
+static bool can_pull(const struct canvas *c, int row, struct stretch s)
+{
+	const int below = row + 1;
+
+	if (below >= c->rung->rows || !canvas_up(c, below, s.right) ||
+	    (s.left > 0 && !canvas_up(c, below, s.left)) ||
+	    canvas_left(c, below, s.left) || canvas_right(c, below, s.right))
+		return false;
+	for (int col = s.left; col < s.right; col++)
+		if (!canvas_is_empty(c, row, col) || canvas_is_empty(c, below, col) ||
+		    canvas_word(c, below, col) == ELEM_PIN ||
+		    rung_height(c->rung, below, col) > 1 ||
+		    (col > s.left && canvas_up(c, below, col)))
+			return false;
+	return true;
+}
+
+static void pull_up(struct canvas *c, int row, struct stretch s)
+{
+	if (!can_pull(c, row, s))
+		return;
+	for (int col = s.left; col < s.right; col++) {
+		canvas_put(c, row, col, *canvas_cell(c, row + 1, col));
+		canvas_clear(c, row + 1, col);
+	}
+	/* Links from further below now pass the row that was left. */
+	for (int bar = s.left > 0 ? s.left : 1; bar <= s.right; bar++)
+		canvas_cell(c, row + 1, bar - 1)->link =
+			canvas_down(c, row + 1, bar);
+	canvas_drop_row(c, row + 1);
+}
+
+/* ---- one element ---- */
+
+/* The wire that leads to bar @col of @row, and nowhere else; with @elements also what
+ * stands in it. */
+static void erase_left(struct canvas *c, int row, int col, bool elements)
+{
+	while (col > 0 && !canvas_linked(c, row, col) &&
+	       (canvas_word(c, row, col - 1) == ELEM_WIRE ||
+		(elements && canvas_is_element(c, row, col - 1) &&
+		 rung_height(c->rung, row, col - 1) == 1)))
+		canvas_clear(c, row, --col);
+	canvas_prune(c, row, col);
+}
+
+static void remove_pin(struct canvas *c, int row, int col, bool elements)
+{
+	rung_clear_cell(c->rung, row, col);
+	erase_left(c, row, col, elements);
+}
+
+void canvas_remove_pin(struct canvas *c, int row, int col)
+{
+	remove_pin(c, row, col, false);
+}
+
+static struct stretch take_out(struct canvas *c, int row, int col)
+{
+	struct stretch s;
+
+	for (int i = rung_height(c->rung, row, col) - 1; i > 0; i--)
+		canvas_remove_pin(c, row + i, col);
+	canvas_clear(c, row, col);
+	s = stretch_at(c, row, col);
+	if (must_pass(c, row, col))
+		canvas_cell(c, row, col)->word = ELEM_WIRE;
+	else
+		erase_stretch(c, row, s);
+	return s;
+}
+
+void canvas_delete(struct canvas *c, int row, int col)
+{
+	take_out(c, row, col);
+}
+
+static void drop_rows(struct canvas *c, int first, int last)
+{
+	for (int row = last; row >= first; row--)
+		canvas_drop_row(c, row);
+}
+
+void canvas_delete_whole(struct canvas *c, int row, int col)
+{
+	const int height = rung_height(c->rung, row, col);
+	const struct stretch s = take_out(c, row, col);
+
+	pull_up(c, row, s);
+	drop_rows(c, row, row + height - 1);
+}
+
+static void erase_wire(struct canvas *c, int row, int col)
+{
+	canvas_clear(c, row, col);
+	canvas_prune(c, row, col);
+	canvas_prune(c, row, col + 1);
+	canvas_drop_row(c, row);
+}
+
+static bool is_there(struct canvas *c, const struct rung *rung, struct grid_at *at)
+{
+	return canvas_open(c, rung, at->columns, 1) &&
+	       ((at->row >= 0 && at->row < c->rung->rows && at->col >= 0 &&
+		 at->col < c->rung->cols) || canvas_fail(c, GRID_NOTHING));
+}
+
+struct rung *grid_delete(const struct rung *rung, struct grid_at *at)
+{
+	struct canvas c;
+
+	if (is_there(&c, rung, at)) {
+		const int row = at->row, col = at->col;
+
+		if (canvas_is_element(&c, row, col)) {
+			canvas_delete_whole(&c, row, col);
+		} else if (canvas_word(&c, row, col) == ELEM_PIN) {
+			canvas_remove_pin(&c, row, col);
+			canvas_drop_row(&c, row);
+		} else if (canvas_word(&c, row, col) == ELEM_WIRE) {
+			erase_wire(&c, row, col);
+		} else if (canvas_up(&c, row, col + 1)) {
+			canvas_cell(&c, row, col)->link = 0;
+			canvas_prune(&c, row, col + 1);
+			canvas_drop_row(&c, row);
+		} else if (canvas_cell(&c, row, col)->comment) {
+			canvas_clear(&c, row, col);
+		} else {
+			canvas_fail(&c, GRID_NOTHING);
+		}
+	}
+	return canvas_close(&c, at);
+}
+
+struct rung *grid_remove_pin(const struct rung *rung, struct grid_at *at)
+{
+	struct canvas c;
+
+	if (is_there(&c, rung, at)) {
+		if (canvas_word(&c, at->row, at->col) == ELEM_PIN) {
+			remove_pin(&c, at->row, at->col, true);
+			canvas_drop_row(&c, at->row);
+		} else {
+			canvas_fail(&c, GRID_NO_PIN);
+		}
+	}
+	return canvas_close(&c, at);
+}
+
+/* ---- an area ---- */
+
+static bool clip(const struct canvas *c, struct grid_area *area)
+{
+	if (area->row < 0)
+		area->row = 0;
+	if (area->col < 0)
+		area->col = 0;
+	if (area->last_row >= c->rung->rows)
+		area->last_row = c->rung->rows - 1;
+	if (area->last_col >= c->rung->cols)
+		area->last_col = c->rung->cols - 1;
+	return area->row <= area->last_row && area->col <= area->last_col;
+}
+
+/* From the end, so that a branch goes before what it goes round. */
+static bool delete_elements(struct canvas *c, const struct grid_area *area)
+{
+	bool any = false;
+
+	for (int row = area->last_row; row >= area->row; row--)
+		for (int col = area->last_col; col >= area->col; col--) {
+			if (!canvas_is_element(c, row, col))
+				continue;
+			canvas_delete(c, row, col);
+			any = true;
+		}
+	return any;
+}
+
+static bool delete_wires(struct canvas *c, const struct grid_area *area)
+{
+	bool any = false;
+
+	for (int row = area->last_row; row >= area->row; row--)
+		for (int col = area->last_col; col >= area->col; col--) {
+			struct cell *cell = canvas_cell(c, row, col);
+
+			if (cell->word == ELEM_PIN ||
+			    (cell->word == ELEM_EMPTY && !cell->link))
+				continue;
+			*cell = (struct cell){ .word = ELEM_EMPTY };
+			canvas_prune(c, row, col);
+			canvas_prune(c, row, col + 1);
+			any = true;
+		}
+	return any;
+}
+
+struct rung *grid_delete_area(const struct rung *rung, struct grid_at *at,
+			      const struct grid_area *area)
+{
+	struct grid_area clipped = *area;
+	struct canvas c;
+
+	if (canvas_open(&c, rung, at->columns, 1)) {
+		if (!clip(&c, &clipped) || (!delete_elements(&c, &clipped) &&
+					    !delete_wires(&c, &clipped)))
+			canvas_fail(&c, GRID_NOTHING);
+		else
+			drop_rows(&c, clipped.row, clipped.last_row);
+	}
+	return canvas_close(&c, at);
+}
