@@ -8,6 +8,7 @@
 
 struct grid_names {
 	const struct project *project;
+	const struct pou *pou;       /* or NULL                                 */
 	GHashTable *by_name, *by_address; /* text: struct var                  */
 };
 
@@ -45,6 +46,7 @@ struct grid_names *grid_names_new(const struct project *project, const struct po
 	struct grid_names *names = g_new0(struct grid_names, 1);
 
 	names->project = project;
+	names->pou = pou;
 	names->by_name = g_hash_table_new(hash_any_case, equal_any_case);
 	names->by_address = g_hash_table_new(hash_any_case, equal_any_case);
 	add_table(names, &project->globals);
@@ -66,7 +68,7 @@ struct grid_name grid_names_find(const struct grid_names *names, const char *ope
 {
 	const struct project *project = names->project;
 	const struct var *var = g_hash_table_lookup(names->by_name, operand);
-	struct grid_name found = { operand, "", "" };
+	struct grid_name found = { operand, "", "", false };
 
 	if (!var && *operand == '%') {
 		var = g_hash_table_lookup(names->by_address, operand);
@@ -75,7 +77,11 @@ struct grid_name grid_names_find(const struct grid_names *names, const char *ope
 	} else if (var) {
 		found.address = project_text(project, var->at_text);
 	}
-	if (var)
+	if (var) {
+		const struct var_table *own = names->pou ? &names->pou->vars : NULL;
+
 		found.comment = project_text(project, var->comment);
+		found.local = own && own->count && var >= own->var && var < own->var + own->count;
+	}
 	return found;
 }

@@ -113,8 +113,8 @@ struct lettering *lettering_new(PangoContext *context, const char *family)
 {
 	struct lettering *lettering = g_new0(struct lettering, 1);
 
-	lettering->context = g_object_ref(context);
-	for (int i = 0; i < LETTERS; i++)
+	lettering->context = context ? g_object_ref(context) : NULL;
+	for (int i = 0; context && i < LETTERS; i++)
 		lettering->layout[i] = layout_new(context, family, &style[i]);
 	lettering->known = g_hash_table_new_full(known_hash, known_equal, NULL,
 						 known_free);
@@ -126,9 +126,9 @@ void lettering_free(struct lettering *lettering)
 	if (!lettering)
 		return;
 	for (int i = 0; i < LETTERS; i++)
-		g_object_unref(lettering->layout[i]);
+		g_clear_object(&lettering->layout[i]);
 	g_hash_table_unref(lettering->known);
-	g_object_unref(lettering->context);
+	g_clear_object(&lettering->context);
 	g_free(lettering);
 }
 
@@ -138,12 +138,24 @@ void lettering_trim(struct lettering *lettering)
 		g_hash_table_remove_all(lettering->known);
 }
 
+/* Without fonts: wide characters 1 em, others 0.6. */
+static float by_rule(enum letter letter, const char *text, size_t len)
+{
+	float width = 0;
+
+	for (const char *at = text; at < text + len; at = g_utf8_next_char(at))
+		width += g_unichar_iswide(g_utf8_get_char(at)) ? 1 : 0.6f;
+	return width * style[letter].size;
+}
+
 static float measure(struct lettering *lettering, enum letter letter, const char *text,
 		     size_t len)
 {
 	PangoLayout *layout = lettering->layout[letter];
 	PangoRectangle box;
 
+	if (!layout)
+		return by_rule(letter, text, len);
 	pango_layout_set_text(layout, text, (int)len);
 	pango_layout_get_extents(layout, NULL, &box);
 	return (float)box.width / PANGO_SCALE;
@@ -243,6 +255,12 @@ size_t lettering_wrap(struct lettering *lettering, enum letter letter, const cha
 {
 	PangoLayout *layout = lettering->layout[letter];
 
+	if (!layout) {
+		size_t most = (size_t)(width / (0.6f * style[letter].size));
+
+		return g_utf8_strlen(text, -1) <= (glong)most ? strlen(text) :
+			(size_t)(g_utf8_offset_to_pointer(text, (glong)most) - text);
+	}
 	pango_layout_set_text(layout, text, -1);
 	pango_layout_set_width(layout, (int)(width * PANGO_SCALE));
 	pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);

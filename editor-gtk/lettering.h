@@ -38,7 +38,9 @@ struct lettering;
 
 /**
  * lettering_new - styles upon a context
- * @context: of a widget, or of lettering_context(); a reference is kept
+ * @context: of a widget, or of lettering_context(); a reference is kept. NULL: no font
+ *           at all, every character has the same width: for tests that must say the
+ *           same on every machine. Nothing can be painted with it.
  * @family:  fonts for all but monospace text; NULL: the usual ones
  *
  * Owns: the caller, lettering_free().

@@ -158,14 +158,21 @@ static void compare_vars(struct diff *diff, const char *pou,
 
 /* ---- POUs ---- */
 
-static const struct pou *pou_named(const struct project *project,
-				   const char *name)
+int diff_pou(const struct project *project, const char *name)
 {
 	for (int i = 0; i < project->pou_count; i++)
 		if (strcasecmp(project_text(project, project->pou[i].name),
 			       name) == 0)
-			return &project->pou[i];
-	return NULL;
+			return i;
+	return -1;
+}
+
+static const struct pou *pou_named(const struct project *project,
+				   const char *name)
+{
+	int i = diff_pou(project, name);
+
+	return i < 0 ? NULL : &project->pou[i];
 }
 
 static const char *language(const struct pou *pou)

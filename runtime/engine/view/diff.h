@@ -4,7 +4,7 @@
  *
  * Used inside view/ only: diff.c compares projects, POUs and variables,
  * diff_rung.c rungs, diff_match.c finds what belongs together, diff_say.c puts
- * it into words.
+ * it into words, diff_pairs.c hands out rungs without words.
  */
 #ifndef VIEW_DIFF_H
 #define VIEW_DIFF_H
@@ -12,6 +12,7 @@
 #include "engine/base/limits.h"
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
+#include "engine/view/view.h"
 
 #define DIFF_LIMIT 1500      /* insertions and deletions looked for at most   */
 #define DIFF_CANDIDATES 64   /* rungs of a gap looked at for likeness         */
@@ -27,6 +28,10 @@ struct diff {
 	struct sink_memory bytes;  /* scratch: a rung or line made comparable */
 	char from[1024], to[1024]; /* scratch: texts of two cells or lines    */
 	char subject[2 * LIMIT_NAME], pin[LIMIT_NAME + 1]; /* scratch: names  */
+	/* Takes the rungs instead of words; NULL: words. */
+	void (*take)(void *context, struct view_pair pair);
+	void *context;
+	struct view_pair pair;     /* for take: its POUs                       */
 };
 
 /* One difference; what is NULL or 0 is not said. */
@@ -63,6 +68,9 @@ bool diff_match(struct arena *arena, const uint32_t *a, int a_count,
 uint32_t diff_id(struct diff *diff, const char *text, size_t len);
 /** diff_name - one id for all spellings of a name in either project. */
 uint32_t diff_name(struct diff *diff, const char *name);
+
+/** diff_pou - index of the POU of a name, any case; -1: none. */
+int diff_pou(const struct project *project, const char *name);
 
 void diff_rungs(struct diff *diff, const struct pou *a, const struct pou *b);
 void diff_il(struct diff *diff, const struct pou *a, const struct pou *b);

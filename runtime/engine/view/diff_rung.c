@@ -365,10 +365,23 @@ static struct difference of_rung(const struct project *project,
 	};
 }
 
+static void give(struct diff *diff, int rung_a, int rung_b, bool moved, bool changed)
+{
+	struct view_pair pair = diff->pair;
+
+	pair.rung_a = rung_a;
+	pair.rung_b = rung_b;
+	pair.moved = moved;
+	pair.changed = changed;
+	diff->take(diff->context, pair);
+}
+
 static int tell_added(const struct pairing *pairs, int from, int end)
 {
 	for (int j = from; j < end; j++)
-		if (pairs->to_a[j] < 0) {
+		if (pairs->to_a[j] < 0 && pairs->diff->take) {
+			give(pairs->diff, -1, j, false, true);
+		} else if (pairs->to_a[j] < 0) {
 			struct difference what = of_rung(pairs->diff->b,
 							 pairs->b, j);
 			what.change = "added";
@@ -382,8 +395,13 @@ static void tell(const struct pairing *pairs, int i)
 	struct diff *diff = pairs->diff;
 	struct difference what = of_rung(diff->a, pairs->a, i);
 	int j = pairs->to_b[i];
+	bool changed = j < 0 || pairs->id_a[i] != pairs->id_b[j];
 	char moved[40];
 
+	if (diff->take) {
+		give(diff, i, j, pairs->moved[i], changed);
+		return;
+	}
 	if (j >= 0 && pairs->moved[i]) {
 		snprintf(moved, sizeof(moved), "moved to rung %d", j + 1);
 		what.change = moved;
@@ -393,7 +411,7 @@ static void tell(const struct pairing *pairs, int i)
 		what.change = "removed";
 		diff_say(diff, what);
 	}
-	if (j >= 0 && pairs->id_a[i] != pairs->id_b[j])
+	if (j >= 0 && changed)
 		compare_rungs(diff, what, pairs->a->rung[i], pairs->b->rung[j]);
 }
 

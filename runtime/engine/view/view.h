@@ -42,6 +42,25 @@ int view_show(const struct project *project, int pou, int rung,
 int view_diff(const struct project *a, const struct project *b, bool json,
 	      const struct sink *sink);
 
+/* A rung of project a and what it became in project b. 0-based; -1: there is none. */
+struct view_pair {
+	int pou_a, pou_b;
+	int rung_a, rung_b; /* both -1: the POUs are lists, or only one of them is */
+	bool moved;         /* it stands elsewhere                            */
+	bool changed;       /* its text is another                            */
+};
+
+/**
+ * view_diff_rungs - which rungs belong together, matched as view_diff does
+ * @take: is handed every rung of either project once, by POUs, as one would read them
+ *        beside each other; POUs in IL as a pair without rungs
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false when memory is out.
+ */
+bool view_diff_rungs(const struct project *a, const struct project *b,
+		     void (*take)(void *context, struct view_pair pair),
+		     void *context);
+
 /**
  * view_print_il - a whole POU as `PROGRAM Name IL … END_PROGRAM`
  * @pou:   of @project: its kind and name count

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * listing - what is not drawn as rungs: POUs in IL, and the symbols of a project.
+ *
+ * As lines of text; it breaks no pages and draws nothing.
+ */
+#ifndef EDITOR_LISTING_H
+#define EDITOR_LISTING_H
+
+#include "engine/model/project.h"
+
+#include <glib.h>
+
+/** listing_il - the lines of a POU in IL, its heading and variables too. Owns: the
+ * caller, g_strfreev. NULL: memory is out. */
+char **listing_il(const struct project *project, const struct pou *pou);
+
+enum listing_column {
+	LISTING_NAME, LISTING_TYPE, LISTING_ADDRESS, LISTING_INITIAL, LISTING_COMMENT,
+	LISTING_COLUMNS
+};
+/** listing_symbol - variable @index of a table. Owns: the caller, each g_free. */
+void listing_symbol(const struct project *project, const struct var_table *table,
+		    int index, char *cell[LISTING_COLUMNS]);
+/** listing_reads - "read in Main 3, 5" for the operand of a cell of POU @pou; NULL: it
+ * is read nowhere. Owns: the caller, g_free. */
+struct listing_reads;
+struct listing_reads *listing_reads_new(const struct project *project);
+void listing_reads_free(struct listing_reads *reads);
+char *listing_reads_of(const struct listing_reads *reads, int pou, const char *operand);
+
+#endif

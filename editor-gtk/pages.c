@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * pages - breaking a project into pages; see pages.h. Painting is pages_paint.c.
+ */
+#include "editor-gtk/pages_inside.h"
+#include "editor-gtk/grid_draw.h"
+#include "editor-gtk/i18n.h"
+
+#include <math.h>
+
+#define TEXT_LINE 16     /* px of a line of IL or of a table                    */
+#define LEAST_SCALE 0.45f /* a rung taller than a page is made no smaller         */
+#define AIR 14
+
+bool paper_find(const char *name, struct paper *out)
+{
+	static const struct { const char *name; float width, height; } known[] = {
+		{ "a4", 210, 297 }, { "a3", 297, 420 }, { "a5", 148, 210 },
+		{ "letter", 215.9f, 279.4f }, { "legal", 215.9f, 355.6f },
+	};
+
+	for (size_t i = 0; i < G_N_ELEMENTS(known); i++)
+		if (g_ascii_strcasecmp(name, known[i].name) == 0) {
+			out->width = known[i].width;
+			out->height = known[i].height;
+			return true;
+		}
+	return false;
+}
+
+/* ---- the flow ---- */
+
+static struct page *page_now(struct pages *pages)
+{
+	return g_ptr_array_index(pages->page, pages->page->len - 1);
+}
+
+static void page_free(gpointer pointer)
+{
+	struct page *page = pointer;
+
+	g_array_unref(page->piece);
+	g_free(page->subject);
+	g_free(page);
+}
+
+static void next_page(struct pages *pages)
+{
+	struct page *page = g_new0(struct page, 1);
+
+	page->piece = g_array_new(FALSE, FALSE, sizeof(struct piece));
+	page->subject = g_strdup(pages->subject);
+	g_ptr_array_add(pages->page, page);
+	pages->y = 0;
+}
+
+static void picture_free(gpointer pointer)
+{
+	picture_clear(pointer);
+	g_free(pointer);
+}
+
+static struct picture *new_picture(struct pages *pages)
+{
+	struct picture *picture = g_new(struct picture, 1);
+
+	picture_init(picture);
+	g_ptr_array_add(pages->picture, picture);
+	return picture;
+}
+
+static void put_piece(struct pages *pages, const struct picture *picture, float scale,
+		      float from, float to)
+{
+	struct piece piece = { picture, pages->y, scale, from, to };
+
+	g_array_append_val(page_now(pages)->piece, piece);
+	pages->y += (to - from) * scale;
+}
+
+/* A picture that fits on a page; on the next one if it does not fit on this. @more: px
+ * that must follow it on the same page. */
+static void put_whole(struct pages *pages, const struct picture *picture, float height,
+		      float scale, float more)
+{
+	if (pages->y > 0 && pages->y + height * scale + more > pages->room_height)
+		next_page(pages);
+	put_piece(pages, picture, scale, 0, height);
+}
+
+/* ---- what is put on them ---- */
+
+static float put_heading(struct pages *pages, const char *text, float more)
+{
+	struct picture *picture = new_picture(pages);
+
+	picture_text(picture, TOKEN_INK, LETTER_HEADING,
+		     lettering_fit(pages->lettering, LETTER_HEADING, text, -1,
+				   pages->room_width), 0, 20);
+	put_whole(pages, picture, 32, 1, more);
+	return 32;
+}
+
+static char *reference_of(void *context, int row, int col)
+{
+	const struct pages *pages = context;
+	const struct cell *cell = rung_at(pages->rung, row, col);
+
+	if (word_row(cell->word)->operand != OPND_BOOL_W)
+		return NULL;
+	return listing_reads_of(pages->reads, pages->pou,
+				project_text(pages->project, cell->operand));
+}
+
+/* Rows of a rung that is too tall for a page, as many as fit on each. */
+static void put_slices(struct pages *pages, const struct rung_layout *layout,
+		       const struct picture *picture, float scale)
+{
+	float from = 0, end = 0;
+
+	for (int row = 0; row < layout->rows; row++) {
+		float to = layout->row[row].y + layout->row[row].height;
+
+		if (end > from && (to - from) * scale > pages->room_height) {
+			next_page(pages);
+			put_piece(pages, picture, scale, from, end);
+			from = end;
+		}
+		end = to;
+	}
+	/* A single row may still be taller than a page. */
+	for (end = layout->height; from < end;) {
+		float to = fminf(end, from + pages->room_height / scale);
+
+		next_page(pages);
+		put_piece(pages, picture, scale, from, to);
+		from = to;
+	}
+}
+
+static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
+		     float scale)
+{
+	const struct rung_layout *layout = sheet->rung[index];
+	struct picture *picture = new_picture(pages);
+	struct grid_scene scene = {
+		.drafting = &sheet->drafting, .layout = layout, .theme = pages->theme,
+		.state = RUNG_NO_GUTTER, .reference = reference_of, .context = pages,
+	};
+
+	pages->rung = layout->rung;
+	grid_draw(&scene, picture);
+	if (layout->height * scale > pages->room_height)
+		scale = fmaxf(pages->room_height / layout->height * 0.999f,
+			      scale * LEAST_SCALE);
+	if (layout->height * scale <= pages->room_height)
+		put_whole(pages, picture, layout->height, scale, 0);
+	else
+		put_slices(pages, layout, picture, scale);
+}
+
+static void put_ladder(struct pages *pages, const char *heading, int only)
+{
+	struct sheet *sheet = sheet_new(pages->project,
+					&pages->project->pou[pages->pou],
+					pages->lettering);
+
+	sheet->drafting.show = pages->show;
+	sheet->drafting.all_comments = true;
+	sheet_layout(sheet);
+	float scale = fminf(1, pages->room_width / sheet->width);
+	int first = only ? only - 1 : 0, end = only ? only : sheet->count;
+	float more = first < end ? sheet->rung[first]->height * scale : 0;
+	put_heading(pages, heading, fminf(more, pages->room_height - 40));
+	for (int i = first; i < end; i++)
+		put_rung(pages, sheet, i, scale);
+	sheet_free(sheet);
+}
+
+static void put_list(struct pages *pages, const char *heading)
+{
+	char **lines = listing_il(pages->project, &pages->project->pou[pages->pou]);
+
+	put_heading(pages, heading, 3 * TEXT_LINE);
+	for (int i = 0; lines && lines[i]; i++) {
+		struct picture *picture = new_picture(pages);
+		GString *text = g_string_new(lines[i]);
+
+		g_string_replace(text, "\t", "        ", 0);
+		picture_text(picture, TOKEN_INK, LETTER_OPERAND,
+			     lettering_fit(pages->lettering, LETTER_OPERAND, text->str,
+					   -1, pages->room_width - 8), 8, 12);
+		g_string_free(text, TRUE);
+		put_whole(pages, picture, TEXT_LINE, 1, 0);
+	}
+	g_strfreev(lines);
+}
+
+/* ---- symbols ---- */
+
+static void put_cells(struct pages *pages, char *cell[LISTING_COLUMNS], bool head)
+{
+	static const float share[LISTING_COLUMNS + 1] = { 0, 0.24f, 0.40f, 0.52f, 0.66f,
+							  1 };
+	struct picture *picture = new_picture(pages);
+
+	for (int i = 0; i < LISTING_COLUMNS; i++) {
+		enum letter letter = head ? LETTER_TYPE : i == LISTING_COMMENT ?
+			LETTER_COMMENT : i == LISTING_NAME ? LETTER_SYMBOL : LETTER_OPERAND;
+		float x = share[i] * pages->room_width;
+		float room = (share[i + 1] - share[i]) * pages->room_width - 8;
+
+		picture_text(picture, head ? TOKEN_COMMENT : TOKEN_INK, letter,
+			     lettering_fit(pages->lettering, letter, cell[i], -1, room),
+			     x, 12.5f);
+	}
+	picture_fill(picture, TOKEN_LINE, 1, 0, TEXT_LINE + 1, pages->room_width, 0.75f);
+	put_whole(pages, picture, TEXT_LINE + 2, 1, head ? 2 * TEXT_LINE : 0);
+}
+
+static void put_table(struct pages *pages, const struct var_table *table,
+		      const char *heading)
+{
+	char *head[LISTING_COLUMNS] = { _("Name"), _("Type"), _("Address"),
+					_("Initial value"), _("Comment") };
+
+	if (!table->count)
+		return;
+	put_heading(pages, heading, 5 * TEXT_LINE);
+	put_cells(pages, head, true);
+	for (int i = 0; i < table->count; i++) {
+		char *cell[LISTING_COLUMNS];
+
+		listing_symbol(pages->project, table, i, cell);
+		if (pages->y + TEXT_LINE + 2 > pages->room_height) {
+			next_page(pages);
+			put_cells(pages, head, true);
+		}
+		put_cells(pages, cell, false);
+		for (int c = 0; c < LISTING_COLUMNS; c++)
+			g_free(cell[c]);
+	}
+	pages->y += AIR;
+}
+
+static void put_symbols(struct pages *pages)
+{
+	const struct project *project = pages->project;
+	bool any = project->globals.count > 0;
+
+	for (int i = 0; i < project->pou_count; i++)
+		any |= project->pou[i].vars.count > 0;
+	if (!any)
+		return;
+	pages->subject = _("Symbols");
+	next_page(pages);
+	put_table(pages, &project->globals, _("Global symbols"));
+	for (int i = 0; i < project->pou_count; i++) {
+		char *heading = g_strdup_printf(_("Symbols of %s"),
+			project_text(project, project->pou[i].name));
+
+		put_table(pages, &project->pou[i].vars, heading);
+		g_free(heading);
+	}
+}
+
+static void put_pou(struct pages *pages, int index, int rung)
+{
+	const struct pou *pou = &pages->project->pou[index];
+	const char *name = project_text(pages->project, pou->name);
+	char *heading = g_strdup_printf("%s %s", pou_word(pou->kind), name);
+
+	pages->pou = index;
+	pages->subject = name;
+	next_page(pages);
+	if (pou->language == LANGUAGE_IL)
+		put_list(pages, heading);
+	else
+		put_ladder(pages, heading, rung);
+	g_free(heading);
+}
+
+struct pages *pages_new(const struct project *project, const char *file, int pou, int rung,
+			enum drafting_show show, const struct paper *paper,
+			struct lettering *lettering)
+{
+	struct pages *pages = g_new0(struct pages, 1);
+	float width = paper->landscape ? paper->height : paper->width;
+	float height = paper->landscape ? paper->width : paper->height;
+
+	pages->project = project;
+	pages->lettering = lettering;
+	pages->theme = theme_get(THEME_PRINT, THEME_GREEN);
+	pages->show = show;
+	pages->file = g_path_get_basename(file);
+	pages->date = g_strdup(paper->date);
+	pages->width = width * PAGE_PX;
+	pages->height = height * PAGE_PX;
+	pages->room_width = pages->width - 2 * PAGE_MARGIN;
+	pages->room_height = pages->height - 2 * PAGE_MARGIN - PAGE_TITLE;
+	pages->page = g_ptr_array_new_with_free_func(page_free);
+	pages->picture = g_ptr_array_new_with_free_func(picture_free);
+	pages->reads = listing_reads_new(project);
+	for (int i = 0; i < project->pou_count; i++)
+		if (pou < 0 || pou == i)
+			put_pou(pages, i, rung);
+	if (pou < 0)
+		put_symbols(pages);
+	if (pages->page->len == 0)
+		next_page(pages);
+	return pages;
+}
+
+void pages_free(struct pages *pages)
+{
+	if (!pages)
+		return;
+	listing_reads_free(pages->reads);
+	g_ptr_array_unref(pages->page);
+	g_ptr_array_unref(pages->picture);
+	g_free(pages->file);
+	g_free(pages->date);
+	g_free(pages);
+}
+
+int pages_count(const struct pages *pages)
+{
+	return (int)pages->page->len;
+}

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * render_sheet - POUs below one another in one picture; see render_sheet.h.
+ */
+#include "editor-gtk/render_sheet.h"
+#include "editor-gtk/grid_draw.h"
+#include "editor-gtk/listing.h"
+#include "editor-gtk/sheet.h"
+
+#define HEADING   40
+#define TEXT_LINE 17
+
+void render_grow(struct picture *picture, float x, float y)
+{
+	picture->width = MAX(picture->width, x);
+	picture->height = MAX(picture->height, y);
+}
+
+float render_heading(struct lettering *lettering, const char *text, float y,
+		     struct picture *picture)
+{
+	struct lettered fits = lettering_fit(lettering, LETTER_HEADING, text, -1, 0);
+
+	picture_move(picture, 0, y);
+	picture_text(picture, TOKEN_INK, LETTER_HEADING, fits, 16, 27);
+	picture_move(picture, 0, 0);
+	render_grow(picture, fits.width + 32, y + HEADING);
+	return HEADING;
+}
+
+static float put_list(const struct project *project, const struct pou *pou,
+		      struct lettering *lettering, float y, struct picture *picture)
+{
+	char **lines = listing_il(project, pou);
+
+	for (int i = 0; lines && lines[i]; i++) {
+		GString *text = g_string_new(lines[i]);
+
+		g_string_replace(text, "\t", "        ", 0);
+		struct lettered fits = lettering_fit(lettering, LETTER_OPERAND, text->str,
+						     -1, 0);
+		g_string_free(text, TRUE);
+		picture_text(picture, TOKEN_INK, LETTER_OPERAND, fits, 16, y + 13);
+		y += TEXT_LINE;
+		render_grow(picture, fits.width + 32, y);
+	}
+	g_strfreev(lines);
+	return y + TEXT_LINE;
+}
+
+static float put_ladder(const struct project *project, const struct pou *pou,
+			const struct render_options *options,
+			struct lettering *lettering, float y, struct picture *picture)
+{
+	struct sheet *sheet = sheet_new(project, pou, lettering);
+	const struct theme *theme = theme_get(options->theme, options->power);
+	int first = options->rung ? options->rung - 1 : 0;
+	int end = options->rung ? options->rung : pou->rung_count;
+
+	sheet->drafting.show = options->show;
+	sheet->drafting.width = options->width;
+	sheet->drafting.all_comments = true;
+	sheet_layout(sheet);
+	for (int i = first; i < end; i++) {
+		struct grid_scene scene = { .drafting = &sheet->drafting,
+					    .layout = sheet->rung[i], .theme = theme };
+
+		picture_move(picture, 0, y);
+		grid_draw(&scene, picture);
+		y += sheet->rung[i]->height;
+		render_grow(picture, sheet->width, y);
+	}
+	picture_move(picture, 0, 0);
+	sheet_free(sheet);
+	return y;
+}
+
+void render_sheets(const struct project *project, int pou,
+		   const struct render_options *options, struct lettering *lettering,
+		   struct picture *picture)
+{
+	bool several = pou < 0 && project->pou_count > 1;
+	float y = 0;
+
+	render_grow(picture, 1, 1);
+	for (int i = 0; i < project->pou_count; i++) {
+		const struct pou *one = &project->pou[i];
+		char *heading;
+
+		if (pou >= 0 && pou != i)
+			continue;
+		heading = g_strdup_printf("%s %s", pou_word(one->kind),
+					  project_text(project, one->name));
+		if (several)
+			y += render_heading(lettering, heading, y, picture);
+		g_free(heading);
+		y = one->language == LANGUAGE_IL ?
+		    put_list(project, one, lettering, y + 8, picture) :
+		    put_ladder(project, one, options, lettering, y, picture);
+	}
+	render_grow(picture, 1, y);
+}

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * render_sheet - a project, a POU or a rung as one long picture.
+ */
+#ifndef EDITOR_RENDER_SHEET_H
+#define EDITOR_RENDER_SHEET_H
+
+#include "editor-gtk/picture.h"
+#include "editor-gtk/render_options.h"
+
+/** render_sheets - POU @pou of a project, or all (-1); its size too is set. */
+void render_sheets(const struct project *project, int pou,
+		   const struct render_options *options, struct lettering *lettering,
+		   struct picture *picture);
+/** render_heading - a line above what follows; returns its height. */
+float render_heading(struct lettering *lettering, const char *text, float y,
+		     struct picture *picture);
+/** render_grow - the picture reaches at least to (@x, @y). */
+void render_grow(struct picture *picture, float x, float y);
+
+#endif
