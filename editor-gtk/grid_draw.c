@@ -120,7 +120,7 @@ static void draw_heading(const struct pen *pen)
 									     0) };
 
 		rung_comment_lines(pen->drafting, heading.comment,
-				   layout->right - RUNG_LEFT, layout->comment_lines,
+				   layout->comment_room, layout->comment_lines,
 				   take_line, &place);
 	} else if (*heading.comment) {
 		picture_text(pen->picture, TOKEN_COMMENT, LETTER_COMMENT,

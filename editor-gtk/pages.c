@@ -177,45 +177,76 @@ static void put_ladder(struct pages *pages, const char *heading, int only)
 	sheet_free(sheet);
 }
 
+/* A line of a list, broken where the page ends. */
+static void put_line(struct pages *pages, const char *line)
+{
+	GString *text = g_string_new(line);
+	float room = pages->room_width - 8;
+
+	g_string_replace(text, "\t", "        ", 0);
+	for (const char *at = text->str; at == text->str || *at;) {
+		struct picture *picture = new_picture(pages);
+		size_t len = lettering_wrap(pages->lettering, LETTER_OPERAND, at, room);
+
+		picture_text(picture, TOKEN_INK, LETTER_OPERAND,
+			     lettering_fit(pages->lettering, LETTER_OPERAND, at,
+					   (ptrdiff_t)len, 0), 8, 12);
+		put_whole(pages, picture, TEXT_LINE, 1, 0);
+		at += len;
+	}
+	g_string_free(text, TRUE);
+}
+
 static void put_list(struct pages *pages, const char *heading)
 {
 	char **lines = listing_il(pages->project, &pages->project->pou[pages->pou]);
 
 	put_heading(pages, heading, 3 * TEXT_LINE);
-	for (int i = 0; lines && lines[i]; i++) {
-		struct picture *picture = new_picture(pages);
-		GString *text = g_string_new(lines[i]);
-
-		g_string_replace(text, "\t", "        ", 0);
-		picture_text(picture, TOKEN_INK, LETTER_OPERAND,
-			     lettering_fit(pages->lettering, LETTER_OPERAND, text->str,
-					   -1, pages->room_width - 8), 8, 12);
-		g_string_free(text, TRUE);
-		put_whole(pages, picture, TEXT_LINE, 1, 0);
-	}
+	for (int i = 0; lines && lines[i]; i++)
+		put_line(pages, lines[i]);
 	g_strfreev(lines);
 }
 
 /* ---- symbols ---- */
 
-static void put_cells(struct pages *pages, char *cell[LISTING_COLUMNS], bool head)
+static const float share[LISTING_COLUMNS + 1] = { 0, 0.24f, 0.40f, 0.52f, 0.66f, 1 };
+
+/* One cell, in as many lines as it takes; returns them. */
+static int put_cell(const struct pages *pages, struct picture *picture, int column,
+		    enum letter letter, enum token token, const char *text)
 {
-	static const float share[LISTING_COLUMNS + 1] = { 0, 0.24f, 0.40f, 0.52f, 0.66f,
-							  1 };
-	struct picture *picture = new_picture(pages);
+	float x = share[column] * pages->room_width;
+	float room = (share[column + 1] - share[column]) * pages->room_width - 8;
+	int lines = 0;
+
+	while (*text) {
+		size_t len = lettering_wrap(pages->lettering, letter, text, room);
+
+		picture_text(picture, token, letter,
+			     lettering_fit(pages->lettering, letter, text, (ptrdiff_t)len,
+					   0), x, 12.5f + (float)(lines++ * TEXT_LINE));
+		text += len;
+	}
+	return lines;
+}
+
+/* A row of the table; returns its height. */
+static float draw_cells(const struct pages *pages, struct picture *picture,
+			char *cell[LISTING_COLUMNS], bool head)
+{
+	int most = 1;
 
 	for (int i = 0; i < LISTING_COLUMNS; i++) {
 		enum letter letter = head ? LETTER_TYPE : i == LISTING_COMMENT ?
 			LETTER_COMMENT : i == LISTING_NAME ? LETTER_SYMBOL : LETTER_OPERAND;
-		float x = share[i] * pages->room_width;
-		float room = (share[i + 1] - share[i]) * pages->room_width - 8;
+		int lines = put_cell(pages, picture, i, letter,
+				     head ? TOKEN_COMMENT : TOKEN_INK, cell[i]);
 
-		picture_text(picture, head ? TOKEN_COMMENT : TOKEN_INK, letter,
-			     lettering_fit(pages->lettering, letter, cell[i], -1, room),
-			     x, 12.5f);
+		most = MAX(most, lines);
 	}
-	picture_fill(picture, TOKEN_LINE, 1, 0, TEXT_LINE + 1, pages->room_width, 0.75f);
-	put_whole(pages, picture, TEXT_LINE + 2, 1, head ? 2 * TEXT_LINE : 0);
+	float height = (float)(most * TEXT_LINE) + 2;
+	picture_fill(picture, TOKEN_LINE, 1, 0, height - 1, pages->room_width, 0.75f);
+	return height;
 }
 
 static void put_table(struct pages *pages, const struct var_table *table,
@@ -227,16 +258,20 @@ static void put_table(struct pages *pages, const struct var_table *table,
 	if (!table->count)
 		return;
 	put_heading(pages, heading, 5 * TEXT_LINE);
-	put_cells(pages, head, true);
+	struct picture *top = new_picture(pages);
+	float top_height = draw_cells(pages, top, head, true);
+	put_whole(pages, top, top_height, 1, 2 * TEXT_LINE);
 	for (int i = 0; i < table->count; i++) {
+		struct picture *picture = new_picture(pages);
 		char *cell[LISTING_COLUMNS];
 
 		listing_symbol(pages->project, table, i, cell);
-		if (pages->y + TEXT_LINE + 2 > pages->room_height) {
+		float height = draw_cells(pages, picture, cell, false);
+		if (pages->y + height > pages->room_height) {
 			next_page(pages);
-			put_cells(pages, head, true);
+			put_piece(pages, top, 1, 0, top_height);
 		}
-		put_cells(pages, cell, false);
+		put_piece(pages, picture, 1, 0, height);
 		for (int c = 0; c < LISTING_COLUMNS; c++)
 			g_free(cell[c]);
 	}

@@ -24,7 +24,8 @@ static void field(const struct pages *pages, struct picture *picture, float x, f
 {
 	float room = end - x - 16;
 
-	picture_line(picture, TOKEN_INK, STROKE_SOLID, 0.75f, end, 0, end, 36);
+	if (end < pages->room_width)
+		picture_line(picture, TOKEN_INK, STROKE_SOLID, 0.75f, end, 0, end, 36);
 	picture_text(picture, TOKEN_COMMENT, LETTER_BADGE,
 		     lettering_fit(pages->lettering, LETTER_BADGE, what, -1, room), x + 8,
 		     12);

@@ -220,6 +220,7 @@ static void measure_title(const struct drafting *drafting, struct rung_layout *l
 	struct rung_heading heading = rung_heading(drafting, layout->rung);
 	float room = MAX(layout->natural, drafting->width);
 
+	layout->comment_room = room;
 	layout->title_y = TITLE_LINE;
 	layout->top = BARE_HEIGHT;
 	if (heading.width > 0 || *heading.comment)

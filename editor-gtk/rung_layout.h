@@ -60,6 +60,7 @@ struct rung_layout {
 	float height;            /* of the whole strip                          */
 	float title_y;           /* baseline of title and number                */
 	int comment_lines;       /* below the title; 0: it stands beside it      */
+	float comment_room;      /* px of such a line                           */
 	float *column_x, *column_width; /* of the columns                       */
 	struct rung_row *row;
 };

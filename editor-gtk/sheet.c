@@ -37,6 +37,20 @@ void sheet_free(struct sheet *sheet)
 	g_free(sheet);
 }
 
+/* A long comment was broken into lines before it was known how wide the sheet is. */
+static void use_width(struct sheet *sheet, int index)
+{
+	struct rung_layout *layout = sheet->rung[index];
+	struct drafting wide = sheet->drafting;
+
+	wide.width = sheet->rails;
+	if (!layout->comment_lines || layout->comment_room >= sheet->rails)
+		return;
+	sheet->rung[index] = rung_layout_new(&wide, layout->rung, layout->number,
+					     layout->rows);
+	rung_layout_free(layout);
+}
+
 /* The right rail of all of them, and where each begins. */
 static void align(struct sheet *sheet)
 {
@@ -46,6 +60,7 @@ static void align(struct sheet *sheet)
 	for (int i = 0; i < sheet->count; i++)
 		sheet->rails = MAX(sheet->rails, sheet->rung[i]->natural);
 	for (int i = 0; i < sheet->count; i++) {
+		use_width(sheet, i);
 		rung_layout_stretch(sheet->rung[i], sheet->rails);
 		sheet->y[i] = y;
 		y += sheet->rung[i]->height;
