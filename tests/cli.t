@@ -83,7 +83,7 @@ like($out, qr/^ladder \d+\.\d+\.\d+\n$/, '--version prints it');
 ($out) = is_run(0, '--help', ['--help']);
 my @commands = $out =~ /^  ([a-z]+)  +\S.*$/mg;
 is_deeply([sort grep { $_ ne 'help' } @commands],
-	  [sort qw(check fmt show il code build run trace test bench words diff io push)], 'all commands are there');
+	  [sort qw(check fmt show il code build run trace test bench words diff io push xref)], 'all commands are there');
 ($out, $err) = is_run(2, 'no command', []);
 is($out, '', 'no command: nothing on standard output');
 is_run(2, 'unknown command', ['frobnicate']);
@@ -250,6 +250,22 @@ like($out, qr/^\[/, 'is a list');
 is($out, '', 'words of none: nothing');
 ($out) = is_run(0, 'words --json', ['words', '--json']);
 ok(decode_json($out), 'words --json is JSON');
+
+# ---- xref ----
+($out) = is_run(0, 'xref', ['xref', 'good.rung']);
+is(scalar(() = $out =~ /^\S+\t[a-z ]+\tgood\.rung:\d+\t.*$/mg), scalar(() = $out =~ /\n/g), 'xref: a place a line');
+($out) = is_run(0, 'xref of a name', ['xref', 'good.rung', 'motor']);
+is($out, "Motor\tdeclared\tgood.rung:7\t\nMotor\tcoil\tgood.rung:12\tMain rung 1 (1,3)\nMotor\tread\tgood.rung:13\tMain rung 1 (2,1)\n", 'xref of a name: where and how');
+my ($touching) = is_run(0, 'xref of an address', ['xref', 'good.rung', '%QB0']);
+is($touching, $out, 'xref of an address: what shares a bit with it');
+($out) = is_run(0, 'xref of what is wrong', ['xref', 'bad.rung', 'Stopp']);
+like($out, qr/^Stopp\tunknown\tbad\.rung:12\t/, 'xref: an unknown name has its place');
+($out) = is_run(0, 'xref --json', ['xref', '--json', 'good.rung', 'Seal']);
+is_deeply(decode_json($out), [{ name => 'Main:Seal', what => 'label', use => 'declared', file => 'good.rung', line => 11,
+	pou => 'Main', rung => 1, row => 0, column => 0, address => undef, off => JSON::PP::false }], 'xref --json: a label');
+is_run(1, 'xref of nobody', ['xref', 'good.rung', 'Nobody']);
+is_run(1, 'xref of what cannot be read', ['xref', 'broken.rung']);
+is_run(2, 'xref of no file', ['xref', 'nowhere.rung']);
 
 # ---- trace ----
 is($direct, "1 t=10 Motor=1\n2 t=20 Motor=1\n3 t=30 Motor=1\n4 t=40 Motor=0\n", 'trace');

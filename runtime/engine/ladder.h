@@ -15,6 +15,7 @@
 #include "engine/scan/resource.h"
 
 struct ladder;
+struct xref_target;
 
 /** ladder_new - nothing loaded. Owns: the caller, ladder_free(). NULL: no memory. */
 struct ladder *ladder_new(void);
@@ -109,4 +110,41 @@ struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t le
 			      struct diag_list *diags);
 /** ladder_write_rung - its canonical text. Owns: the caller, free(). NULL: no memory. */
 char *ladder_write_rung(struct ladder *ladder, const struct rung *rung);
+
+/** ladder_name_fault - why nothing can have this name: DIAG_EXPECTED (it is none),
+ * DIAG_RESERVED_NAME, DIAG_SHADOWS_ADDRESS; DIAG_COUNT: it is well. */
+enum diag_id ladder_name_fault(const char *name);
+
+/* Why a thing cannot be renamed. */
+enum ladder_refusal {
+	RENAME_GOOD,
+	RENAME_NOTHING,  /* it has no name that was given to it               */
+	RENAME_FORM,     /* the new one is no name                            */
+	RENAME_RESERVED, /* the language has it                               */
+	RENAME_ADDRESS,  /* it looks like an address                          */
+	RENAME_TAKEN,    /* something else has it already, here               */
+	RENAME_MEANING,  /* this place would mean something else then         */
+	RENAME_OTHER_FILE, /* it is used here, in a file of its own           */
+	RENAME_MEMORY,
+};
+struct ladder_rename {
+	enum ladder_refusal why;
+	int pou;             /* where; -1: among the globals, or nowhere      */
+	int rung, row, col;  /* 1-based, as in struct xref_use; 0: none       */
+	int places;          /* that change, the declaration too              */
+};
+/**
+ * ladder_rename - a variable, member, label, POU or structure gets another name,
+ * wherever it is written
+ * @target: of view/xref.h, of this project as it is
+ * @how:    gets how many places change, or why none does, and where
+ *
+ * Nothing captures and nothing is captured: in what comes of it each name means what it
+ * meant before. Of a FUNCTION the result is renamed with it. Comments, titles and other
+ * files stay. The project itself is as it was.
+ * Owns: the caller, free(): the canonical text with the new name.   Scan-safe: no.
+ * Fails: NULL and the reason.
+ */
+char *ladder_rename(struct ladder *ladder, const struct xref_target *target,
+		    const char *name, size_t *len, struct ladder_rename *how);
 #endif

@@ -87,6 +87,7 @@ enum status cmd_test(struct call *call);
 enum status cmd_bench(struct call *call);
 enum status cmd_words(struct call *call);
 enum status cmd_diff(struct call *call);
+enum status cmd_xref(struct call *call);
 enum status cmd_io(struct call *call);
 enum status cmd_push(struct call *call);
 enum status cmd_help(struct call *call);

@@ -10,6 +10,7 @@
 #include "engine/check/check.h"
 #include "engine/check/check_config.h"
 #include "engine/check/check_operand.h"
+#include "engine/check/reserved.h"
 
 #include <string.h>
 
@@ -78,41 +79,6 @@ static struct mark *mark_of(struct names_check *c, uint32_t fold)
 	return fold && fold < c->marks ? &c->mark[fold] : NULL;
 }
 
-static const char *const keywords[] = {
-	"RUNGBOARD", "PROJECT", "INCLUDE", "VAR", "VAR_GLOBAL", "RETAIN",
-	"CONSTANT", "AT", "END_VAR", "PROGRAM", "LD", "IL", "END_PROGRAM",
-	"CONFIGURATION", "END_CONFIGURATION", "ARRAY", "OF",
-	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
-	"FUNCTION", "END_FUNCTION", "FUNCTION_BLOCK", "END_FUNCTION_BLOCK",
-	"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "TYPE",
-	"SUBROUTINE", "END_SUBROUTINE",
-	"END_TYPE", "STRUCT", "END_STRUCT", "USES",
-};
-#define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
-#define RESERVED_COUNT \
-	(KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
-
-/* Reserved word number @i, in any order; "" for none. Words of contacts, coils and
- * blocks and functions are free: N may be a number, Blink a lamp, Floor a floor; a cell
- * always begins with its word, and a type stands behind a colon. But MOD stands in
- * expressions. */
-static const char *reserved_word(int i)
-{
-	const struct word_row *row;
-
-	if (i < KEYWORDS)
-		return keywords[i];
-	i -= KEYWORDS;
-	if (i < (int)WORD_COUNT) {
-		row = word_row((enum word)i);
-		return i == FN_MOD ? row->word : "";
-	}
-	i -= (int)WORD_COUNT;
-	if (i < (int)OP_COUNT)
-		return op_row((enum op)i)->word;
-	return iec_type_row((enum iec_type)(i - (int)OP_COUNT))->word;
-}
-
 static uint32_t fold_text(struct names_check *c, const char *text)
 {
 	struct names *names = &c->project->names;
@@ -126,7 +92,7 @@ static bool make_marks(struct names_check *c)
 {
 	struct names *names = &c->project->names;
 
-	for (int i = 0; i < RESERVED_COUNT; i++)
+	for (int i = 0; reserved_word(i); i++)
 		fold_text(c, reserved_word(i));
 	for (int i = 0; i < c->project->pou_count; i++) {
 		const struct pou *pou = &c->project->pou[i];
@@ -141,24 +107,13 @@ static bool make_marks(struct names_check *c)
 	c->mark = arena_alloc(c->scratch, c->marks * sizeof(*c->mark));
 	if (!c->mark)
 		return false;
-	for (int i = 0; i < RESERVED_COUNT; i++) {
+	for (int i = 0; reserved_word(i); i++) {
 		struct mark *mark = mark_of(c, fold_text(c, reserved_word(i)));
 
 		if (mark)
 			mark->reserved = true;
 	}
 	return true;
-}
-
-/* `_T12`: translation makes names of this form. */
-static bool is_generated(const char *name)
-{
-	if (name[0] != '_' || ascii_upper(name[1]) < 'A' ||
-	    ascii_upper(name[1]) > 'Z' || !name[2])
-		return false;
-	for (name += 2; ascii_digit(*name); name++)
-		;
-	return !*name;
 }
 
 static bool is_reserved(struct names_check *c, const char *name, uint32_t fold)
@@ -212,7 +167,7 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_line(c, DIAG_DUPLICATE_NAME, pou, var->line, name);
 	/* What `ladder il` prints declares its temporaries. */
 	if (is_reserved(c, name, var->fold) ||
-	    (is_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
+	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
 	    (pou && pou->kind == POU_FUNCTION && is_result(name)))
 		report_line(c, DIAG_RESERVED_NAME, pou, var->line, name);
 	else if (iec_addr_parse(name, strlen(name), &addr) != ADDR_NONE)
@@ -335,7 +290,7 @@ static bool check_label(struct names_check *c, int number, int rung_number)
 	if (mark->label_pou == number)
 		good = report_rung(c, DIAG_DUPLICATE_LABEL, pou, rung_number,
 				   -1, -1, label);
-	if (is_generated(text_of(c, label)))
+	if (reserved_generated(text_of(c, label)))
 		good = report_rung(c, DIAG_RESERVED_NAME, pou, rung_number, -1,
 				   -1, label);
 	mark->label_pou = number;

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * reserved - names that a project cannot give. Which names it has given already is
+ * check_names.c's.
+ */
+#include "engine/check/reserved.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/catalog.h"
+#include "engine/base/lex.h"
+
+#include <string.h>
+
+static const char *const keywords[] = {
+	"RUNGBOARD", "PROJECT", "INCLUDE", "VAR", "VAR_GLOBAL", "RETAIN",
+	"CONSTANT", "AT", "END_VAR", "PROGRAM", "LD", "IL", "END_PROGRAM",
+	"CONFIGURATION", "END_CONFIGURATION", "ARRAY", "OF",
+	"RUNG", "OFF", "VIEW", "END_VIEW", "TRUE", "FALSE", "EN", "ENO",
+	"FUNCTION", "END_FUNCTION", "FUNCTION_BLOCK", "END_FUNCTION_BLOCK",
+	"VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "TYPE",
+	"SUBROUTINE", "END_SUBROUTINE",
+	"END_TYPE", "STRUCT", "END_STRUCT", "USES",
+};
+#define KEYWORDS (int)(sizeof(keywords) / sizeof(keywords[0]))
+#define RESERVED_COUNT \
+	(KEYWORDS + (int)WORD_COUNT + (int)OP_COUNT + IEC_TYPE_COUNT)
+
+/* Words of contacts, coils, blocks and functions are free: N may be a number, Blink a
+ * lamp, Floor a floor; a cell always begins with its word, and a type stands behind a
+ * colon. But MOD stands in expressions. */
+const char *reserved_word(int i)
+{
+	const struct word_row *row;
+
+	if (i < 0 || i >= RESERVED_COUNT)
+		return NULL;
+	if (i < KEYWORDS)
+		return keywords[i];
+	i -= KEYWORDS;
+	if (i < (int)WORD_COUNT) {
+		row = word_row((enum word)i);
+		return i == FN_MOD ? row->word : "";
+	}
+	i -= (int)WORD_COUNT;
+	if (i < (int)OP_COUNT)
+		return op_row((enum op)i)->word;
+	return iec_type_row((enum iec_type)(i - (int)OP_COUNT))->word;
+}
+
+bool reserved_generated(const char *name)
+{
+	if (name[0] != '_' || ascii_upper(name[1]) < 'A' ||
+	    ascii_upper(name[1]) > 'Z' || !name[2])
+		return false;
+	for (name += 2; ascii_digit(*name); name++)
+		;
+	return !*name;
+}
+
+bool reserved_name(const char *name)
+{
+	const size_t len = strlen(name);
+	const char *word;
+
+	if (len >= 4 && ascii_same(name, "SYS_", 4))
+		return true;
+	for (int i = 0; (word = reserved_word(i)); i++)
+		if (*word && ascii_is(word, name, len))
+			return true;
+	return reserved_generated(name);
+}
+
+enum diag_id reserved_fault(const char *name)
+{
+	const size_t len = strlen(name);
+	struct iec_addr addr;
+	struct lex lex;
+
+	lex_init(&lex, name, len);
+	if (!len || len > LIMIT_NAME || lex_next(&lex) != TOKEN_NAME ||
+	    lex.token.len != len || strchr(name, '.'))
+		return DIAG_EXPECTED;
+	if (reserved_name(name))
+		return DIAG_RESERVED_NAME;
+	return iec_addr_parse(name, len, &addr) == ADDR_NONE ? DIAG_COUNT :
+	       DIAG_SHADOWS_ADDRESS;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * reserved - names that a project cannot give to anything of its own.
+ */
+#ifndef CHECK_RESERVED_H
+#define CHECK_RESERVED_H
+
+#include "engine/base/diag.h"
+
+/** reserved_word - reserved word number @i, in any order; "" for none, NULL behind the
+ * last. Scan-safe: yes. */
+const char *reserved_word(int i);
+/** reserved_generated - `_T12`: translation makes names of this form. Scan-safe: yes. */
+bool reserved_generated(const char *name);
+/** reserved_name - a word of the language, SYS_…, or a generated name, in any case. */
+bool reserved_name(const char *name);
+/**
+ * reserved_fault - why nothing can have this name, wherever it stands
+ *
+ * DIAG_EXPECTED: it is no name at all; DIAG_RESERVED_NAME; DIAG_SHADOWS_ADDRESS, which
+ * is only a warning; DIAG_COUNT: it is well.   Scan-safe: yes.
+ */
+enum diag_id reserved_fault(const char *name);
+
+#endif

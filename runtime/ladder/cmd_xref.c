@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_xref - `ladder xref`: where names and addresses are used. The program need not
+ * be without errors, but it must be one that can be read.
+ */
+#include "ladder/report.h"
+
+#include "engine/view/xref.h"
+
+static enum status no_image(const char *path)
+{
+	report_diag((struct diag){ .id = DIAG_NOT_RUNGBOARD, .file = path },
+		    "a code image holds no names");
+	return STATUS_NO;
+}
+
+enum status cmd_xref(struct call *call)
+{
+	const char *name = call->arg_count > 1 ? call->arg[1] : NULL;
+	struct ladder *ladder = ladder_new();
+	enum status status;
+	int shown;
+
+	if (!ladder)
+		return report_no_memory(call->arg[0]);
+	status = report_load(ladder, call->arg[0], false);
+	if (status == STATUS_GOOD && !ladder_project(ladder))
+		status = no_image(call->arg[0]);
+	if (status == STATUS_GOOD) {
+		shown = xref_print(ladder_project(ladder), name,
+				   call_flag(call, "--json"), &call->out);
+		if (shown < 0)
+			status = report_no_memory(call->arg[0]);
+		else if (shown == 0 && name)
+			status = STATUS_NO;
+	}
+	ladder_free(ladder);
+	return status;
+}

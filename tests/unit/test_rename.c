@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_rename - each name of each sample is exchanged for a fresh one: the program must
+ * be the same, and with the old name back the same bytes. And what must be refused.
+ */
+#include "engine/ladder.h"
+#include "engine/view/xref.h"
+#include "tests/tap.h"
+
+#include <glob.h>
+#include <stdlib.h>
+
+static struct ladder *loaded(const char *text)
+{
+	struct ladder *ladder = ladder_new();
+
+	if (!ladder_load_text(ladder, "test.rung", text, strlen(text))) {
+		char line[200];
+
+		diag_print(&ladder_diags(ladder)->diag[0], line, sizeof(line));
+		printf("# %s\n", line);
+	}
+	return ladder;
+}
+
+/* The one that is declared with this name; what XREF_UNKNOWN: none. */
+static struct xref_target target_of(struct ladder *ladder, const char *name)
+{
+	struct xref_target target = { .what = XREF_UNKNOWN };
+	struct xref xref;
+	char text[600];
+
+	CHECK(xref_make(&xref, ladder_project(ladder)));
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+
+		xref_name(xref.project, &use->target, use, text, sizeof(text));
+		if (use->kind == XREF_DECLARED && strcmp(text, name) == 0)
+			target = use->target;
+	}
+	xref_free(&xref);
+	return target;
+}
+
+/* ---- all names of all samples ---- */
+
+static bool identity_of(const char *file, const char *text, uint8_t out[32])
+{
+	struct ladder *ladder = ladder_new();
+	bool good = ladder_load_text(ladder, file, text, strlen(text)) &&
+		    ladder_build(ladder);
+
+	if (good)
+		code_identity(ladder_program(ladder), out);
+	else if (ladder_diags(ladder)->count)
+		printf("# %s: %s %s\n", file, diag_text(ladder_diags(ladder)->diag[0].id),
+		       ladder_diags(ladder)->diag[0].arg);
+	ladder_free(ladder);
+	return good;
+}
+
+/* There and back; true if all is well. */
+static bool renames(struct ladder *ladder, const char *file,
+		    const struct xref_target *target, const char *old, const char *text,
+		    const uint8_t identity[32])
+{
+	struct ladder_rename how;
+	struct ladder *again;
+	size_t len;
+	uint8_t got[32];
+	char *renamed = ladder_rename(ladder, target, "Zq_fresh", &len, &how), *back;
+	bool good;
+
+	if (!renamed) {
+		printf("# %s: %s: refused, %d\n", file, old, how.why);
+		return false;
+	}
+	good = strcmp(renamed, text) != 0 && strstr(renamed, "Zq_fresh") &&
+	       identity_of(file, renamed, got) && memcmp(got, identity, 32) == 0;
+	if (!good)
+		printf("# %s: %s: another program\n", file, old);
+	again = ladder_new();
+	ladder_load_text(again, file, renamed, len);
+	back = ladder_rename(again, target, old, &len, &how);
+	if (!back || strcmp(back, text) != 0) {
+		printf("# %s: %s: not back again, %d\n", file, old, how.why);
+		good = false;
+	}
+	ladder_free(again);
+	free(back);
+	free(renamed);
+	return good;
+}
+
+static int sample(const char *file, int *bad)
+{
+	struct ladder *ladder = ladder_new();
+	struct xref xref;
+	size_t len;
+	char *text = NULL;
+	uint8_t identity[32];
+	int count = 0;
+
+	CHECK_AS(ladder_load(ladder, file) && (text = ladder_write(ladder, &len)) &&
+		 identity_of(file, text, identity), file);
+	xref_make(&xref, ladder_project(ladder));
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+
+		if (use->kind != XREF_DECLARED)
+			continue;
+		*bad += !renames(ladder, file, &use->target,
+				 project_text(xref.project, *use->slot), text, identity);
+		count++;
+	}
+	free(text);
+	xref_free(&xref);
+	ladder_free(ladder);
+	return count;
+}
+
+static void test_samples(void)
+{
+	glob_t found;
+	int count = 0, bad = 0;
+
+	CHECK(glob("ladders/*.rung", 0, NULL, &found) == 0);
+	for (size_t i = 0; i < found.gl_pathc; i++)
+		count += sample(found.gl_pathv[i], &bad);
+	globfree(&found);
+	printf("# %d names\n", count);
+	CHECK_AS(bad == 0 && count > 200, "every name of every sample, there and back");
+}
+
+/* ---- blocks, functions, structures, lists, tasks ---- */
+
+static const char rich[] =
+	"RUNGBOARD 1\n\n"
+	"TYPE\n  Recipe : STRUCT\n    Speed : INT := 5;\n"
+	"    Times : ARRAY[1..3] OF INT;\n  END_STRUCT;\nEND_TYPE\n\n"
+	"CONFIGURATION Plant\n"
+	"  TASK Fast (SINGLE := Go, PRIORITY := 0);\n"
+	"  PROGRAM One WITH Fast : Main;\n  PROGRAM Two : List;\nEND_CONFIGURATION\n\n"
+	"VAR\n  Go   AT %IX0.0 : BOOL;\n  Lamp AT %QX0.0 : BOOL;\n  Fan  : Seal;\n"
+	"  Some : ARRAY[1..4] OF Recipe;\n  i    : INT := 1;\nEND_VAR\n\n"
+	"FUNCTION_BLOCK Seal LD\nVAR_INPUT\n  On   : BOOL;\n  Stop : BOOL;\nEND_VAR\n"
+	"VAR_OUTPUT\n  Run : BOOL;\nEND_VAR\nVAR_IN_OUT\n  Count : INT;\nEND_VAR\n"
+	"RUNG\n  | NO On   | NC Stop | COIL Run |\n  | NO Run ^|\n"
+	"RUNG\n  | P Run | [ Count := Count + 1 ] |\nEND_FUNCTION_BLOCK\n\n"
+	"FUNCTION Twice : INT IL\nVAR_INPUT\n  X : INT;\nEND_VAR\n"
+	"  LD    X\n  MUL   2\n  ST    Twice\nEND_FUNCTION\n\n"
+	"SUBROUTINE Sub LD\nRUNG\n  | NO Go | COIL Lamp |\nEND_SUBROUTINE\n\n"
+	"PROGRAM Main LD\nVAR\n  Go2 : BOOL;\nEND_VAR\n"
+	"RUNG Here\n  | NO Go  | Seal Fan Count:=Some[i].Speed | COIL %QX0.1 |\n"
+	"  | NO Go2 | .Stop                         |\n"
+	"RUNG\n  | NO Fan.Run | [ Some[i + 1].Times[2] := Some[2].Speed * i ] |\n"
+	"RUNG\n  | NO Go | Twice X:=i OUT=>i | CALL Sub | S Go2 |\n"
+	"RUNG\n  | NO Go | FOR i := 1 TO Some[1].Speed |\n"
+	"RUNG\n  | NO Go | COIL %MX0.0 |\nRUNG\n  | NEXT |\n"
+	"RUNG\n  | NO Go2 | JMP Here |\nEND_PROGRAM\n\n"
+	"PROGRAM List IL\nVAR\n  Other : Seal;\nEND_VAR\n"
+	"  CAL   Other(On := Go, Stop := Lamp, Count := i, Run => %MX1.0)\n"
+	"  LD    Other.Run\n  JMPC  There\n  LD    i\n  Twice\n  ST    i\n"
+	"  Twice(X := i, OUT => i)\n  CAL   Sub\nThere:\n  LD    Go\n  ST    %QX0.5\n"
+	"END_PROGRAM\n";
+
+static void test_rich(void)
+{
+	struct ladder *ladder = loaded(rich);
+	size_t len;
+	char *text = ladder_write(ladder, &len);
+	uint8_t identity[32];
+	struct xref xref;
+	int bad = 0, count = 0;
+
+	CHECK(text && identity_of("rich", text, identity));
+	xref_make(&xref, ladder_project(ladder));
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+
+		if (use->target.what == XREF_UNKNOWN)
+			printf("# unknown %s\n", xref_text(&xref, use));
+		bad += use->target.what == XREF_UNKNOWN;
+		if (use->kind != XREF_DECLARED)
+			continue;
+		count++;
+		bad += !renames(ladder, "rich", &use->target,
+				project_text(xref.project, *use->slot), text, identity);
+	}
+	printf("# %d names\n", count);
+	CHECK_AS(bad == 0, "blocks, functions, members, labels, subroutines, tasks");
+	CHECK(count == 22);
+	xref_free(&xref);
+	free(text);
+	ladder_free(ladder);
+}
+
+/* ---- refusals ---- */
+
+static void refused(struct ladder *ladder, const char *old, const char *name,
+		    enum ladder_refusal want, int rung)
+{
+	struct xref_target target = target_of(ladder, old);
+	struct ladder_rename how;
+	size_t len, before_len;
+	char *before = ladder_write(ladder, &before_len), *after;
+	char *text = ladder_rename(ladder, &target, name, &len, &how);
+	char what[600];
+
+	snprintf(what, sizeof(what), "%s to %.60s: %d in rung %d", old, name, want, rung);
+	CHECK_AS(!text && how.why == want && how.rung == rung, what);
+	if (text || how.why != want || how.rung != rung)
+		printf("# %d rung %d %s\n", how.why, how.rung, text ? text : "");
+	after = ladder_write(ladder, &len);
+	CHECK_AS(strcmp(before, after) == 0, "and nothing changed");
+	free(text);
+	free(before);
+	free(after);
+}
+
+static void test_refusals(void)
+{
+	struct ladder *ladder = loaded(
+		"RUNGBOARD 1\n\nVAR\n  A : BOOL;\n  B : BOOL;\nEND_VAR\n\n"
+		"PROGRAM Main LD\nVAR\n  C : BOOL;\nEND_VAR\n"
+		"RUNG One\n  | NO A | COIL C |\nRUNG Two\n  | NO B | COIL %QX0.0 |\n"
+		"RUNG\n  | NO Lost | COIL %QX0.1 |\nEND_PROGRAM\n\n"
+		"PROGRAM Other LD\nVAR\n  A : BOOL;\nEND_VAR\n"
+		"RUNG\n  | NO A | COIL B |\nEND_PROGRAM\n");
+	char longest[300];
+
+	memset(longest, 'a', sizeof(longest));
+	longest[LIMIT_NAME + 1] = '\0';
+	refused(ladder, "A", "B", RENAME_TAKEN, 0);
+	refused(ladder, "A", "main", RENAME_TAKEN, 0);
+	refused(ladder, "Main", "other", RENAME_TAKEN, 0);
+	refused(ladder, "Main:One", "two", RENAME_TAKEN, 2);
+	refused(ladder, "A", "C", RENAME_MEANING, 1);      /* Main's C captures it  */
+	refused(ladder, "Main.C", "A", RENAME_MEANING, 1); /* the global is captured */
+	refused(ladder, "B", "Lost", RENAME_MEANING, 3);   /* what meant nothing     */
+	refused(ladder, "B", "A", RENAME_TAKEN, 0);
+	refused(ladder, "A", "", RENAME_FORM, 0);
+	refused(ladder, "A", "1x", RENAME_FORM, 0);
+	refused(ladder, "A", "a b", RENAME_FORM, 0);
+	refused(ladder, "A", "a.b", RENAME_FORM, 0);
+	refused(ladder, "A", "(*", RENAME_FORM, 0);
+	refused(ladder, "A", "a\xff", RENAME_FORM, 0);
+	refused(ladder, "A", longest, RENAME_FORM, 0);
+	refused(ladder, "A", "end_var", RENAME_RESERVED, 0);
+	refused(ladder, "A", "SYS_new", RENAME_RESERVED, 0);
+	refused(ladder, "A", "_T12", RENAME_RESERVED, 0);
+	refused(ladder, "A", "I0", RENAME_ADDRESS, 0);
+	refused(ladder, "Nobody", "X", RENAME_NOTHING, 0);
+	ladder_free(ladder);
+}
+
+static void test_good(void)
+{
+	struct ladder *ladder = loaded(rich);
+	struct xref_target target = target_of(ladder, "Go");
+	struct ladder_rename how;
+	size_t len;
+	char *text = ladder_rename(ladder, &target, "\xe5\x90\xaf\xe5\x8a\xa8", &len, &how);
+
+	CHECK(text && strstr(text, "SINGLE := \xe5\x90\xaf\xe5\x8a\xa8,"));
+	CHECK_AS(how.why == RENAME_GOOD && how.places == 9, "all places are counted");
+	free(text);
+	text = ladder_rename(ladder, &target, "GO", &len, &how);
+	CHECK_AS(text && strstr(text, "GO   AT %IX0.0"), "only its case");
+	free(text);
+	target = target_of(ladder, "Seal");
+	text = ladder_rename(ladder, &target, "TON", &len, &how);
+	CHECK_AS(!text && how.why == RENAME_RESERVED, "no block may have a word's name");
+	ladder_free(ladder);
+}
+
+int main(void)
+{
+	test_rich();
+	test_refusals();
+	test_good();
+	test_samples();
+	return tap_done();
+}

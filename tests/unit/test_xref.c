@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_xref - uses of names and addresses: what, how, where; free and doubled addresses.
+ */
+#include "engine/ladder.h"
+#include "engine/view/address_map.h"
+#include "tests/tap.h"
+
+#include <stdlib.h>
+
+static const char text[] =
+	"RUNGBOARD 1\n\n"
+	"TYPE\n  Recipe : STRUCT\n    Speed : INT;\n  END_STRUCT;\nEND_TYPE\n\n"
+	"VAR\n  Start AT %IX0.0 : BOOL;\n  Motor AT %QX0.0 : BOOL;\n"
+	"  Wide  AT %QB0   : BYTE;\n  Lamps AT %QX1.0 : ARRAY[0..9] OF BOOL;\n"
+	"  Count : INT;\n  Delay : TON;\n  Some  : ARRAY[1..3] OF Recipe;\n"
+	"  Note  : STRING[20];\nEND_VAR\n\n"
+	"PROGRAM Main LD\nVAR\n  Count : INT;\nEND_VAR\n"
+	"RUNG Here \"Count in a title\"\n"
+	"  | NO Start | [ Count := Count + Some[Count].Speed MOD 3 ] | COIL Motor |\n"
+	"  |         ^| TON Delay PT:=T#3s Q=>Motor              | S I0       |\n"
+	"RUNG OFF\n  | NO Nobody | JMP Here |\n"
+	"RUNG\n  | [ Note = 'Count' ] | JMP Lost |\n"
+	"RUNG\n  | NO %IX0.0 | FOR Count := 1 TO %MW8[Count] |\nRUNG\n  | NEXT |\n"
+	"END_PROGRAM\n\n"
+	"PROGRAM List IL\n  LD    Count\n  ST    Some[2].Speed\n  CAL   Delay(IN := Start)\n"
+	"  JMPC  End1\nEnd1:\n  LD    %QW0\n  R     Motor\nEND_PROGRAM\n";
+
+/* "Main 1 (1,2) written Main.Count", a line each. */
+static void print_uses(struct ladder *ladder, const char *name, char *out, size_t size)
+{
+	struct project *project = ladder_project(ladder);
+	struct xref xref;
+	size_t len = 0;
+
+	out[0] = '\0';
+	CHECK(xref_make(&xref, project));
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+		char what[600];
+
+		xref_name(project, &use->target, use, what, sizeof(what));
+		if (strcmp(what, name) != 0)
+			continue;
+		len += (size_t)snprintf(out + len, size - len, "%s %d (%d,%d) %s%s%s\n",
+			use->pou < 0 ? "-" :
+			project_text(project, project->pou[use->pou].name),
+			use->rung, use->row, use->col, xref_kind_word(use->kind),
+			use->off ? " off" : "", use->open ? " open" : "");
+	}
+	xref_free(&xref);
+}
+
+static void is_used(struct ladder *ladder, const char *name, const char *want)
+{
+	static char out[4000];
+
+	print_uses(ladder, name, out, sizeof(out));
+	CHECK_TEXT(out, want);
+}
+
+static void test_uses(struct ladder *ladder)
+{
+	is_used(ladder, "Start", "- 0 (0,0) declared\nMain 1 (1,1) read\nList 0 (4,21) read\n");
+	is_used(ladder, "Motor", "- 0 (0,0) declared\nMain 1 (1,3) coil\n"
+		"Main 1 (2,2) written\nList 0 (8,9) reset\n");
+	is_used(ladder, "Count", "- 0 (0,0) declared\nList 0 (2,9) read\n");
+	is_used(ladder, "Main.Count", "Main 0 (0,0) declared\nMain 1 (1,2) written\n"
+		"Main 1 (1,2) read\nMain 1 (1,2) read\nMain 4 (1,2) changed\n"
+		"Main 4 (1,2) read\n");
+	is_used(ladder, "Some", "- 0 (0,0) declared\nMain 1 (1,2) read open\n"
+		"List 0 (3,9) written open\n");
+	is_used(ladder, "Recipe", "- 0 (0,0) type\n- 0 (0,0) declared\n");
+	is_used(ladder, "Recipe.Speed", "- 0 (0,0) declared\nMain 1 (1,2) read\n"
+		"List 0 (3,9) written\n");
+	is_used(ladder, "Delay", "- 0 (0,0) declared\nMain 1 (2,2) called\n"
+		"List 0 (4,9) called\n");
+	is_used(ladder, "Main:Here", "Main 1 (0,0) declared\nMain 2 (1,2) jumped to off\n");
+	is_used(ladder, "Main:Lost", "Main 3 (1,2) jumped to\n");
+	is_used(ladder, "List:End1", "List 0 (6,0) declared\nList 0 (5,9) jumped to\n");
+	is_used(ladder, "Nobody", "Main 2 (1,1) read off\n");
+	is_used(ladder, "%IX0.0", "Main 1 (2,3) set\nMain 4 (1,1) read\n");
+	is_used(ladder, "%MW8", "Main 4 (1,2) read open\n");
+	is_used(ladder, "Note", "- 0 (0,0) declared\nMain 3 (1,1) read\n");
+}
+
+static struct iec_addr address(const char *name)
+{
+	struct iec_addr addr = { 0 };
+
+	iec_addr_parse(name, strlen(name), &addr);
+	return addr;
+}
+
+static void is_next(const struct address_map *map, const char *like, uint32_t count,
+		    const char *after, const char *want)
+{
+	struct iec_addr addr = address(like), from = address(after ? after : ""), out;
+	char got[32] = "none";
+
+	if (address_map_next(map, addr.area, addr.bits, count, after ? &from : NULL, &out))
+		iec_addr_print(out, got, sizeof(got));
+	CHECK_TEXT(got, want);
+}
+
+static void test_free(struct ladder *ladder)
+{
+	struct address_map map;
+	struct xref xref;
+
+	CHECK(xref_make(&xref, ladder_project(ladder)));
+	CHECK(address_map_make(&map, &xref, &xref.arena));
+	is_next(&map, "%IX0.0", 1, NULL, "%IX0.1");
+	is_next(&map, "%IX0.0", 1, "%IX0.7", "%IX1.0");
+	is_next(&map, "%IW0", 1, NULL, "%IW2");
+	is_next(&map, "%QX0.0", 1, NULL, "%QX2.2"); /* behind the ten lamps */
+	is_next(&map, "%QX0.0", 8, NULL, "%QX2.2");
+	is_next(&map, "%QD0", 1, NULL, "%QD4");
+	is_next(&map, "%MX0.0", 1, NULL, "%MX0.0");
+	is_next(&map, "%MW0", 4, NULL, "%MW0");
+	is_next(&map, "%MW0", 5, NULL, "%MW10"); /* only where an index may lead to */
+	is_next(&map, "%MW0", 4092, NULL, "none");
+	is_next(&map, "%SW126", 1, "%SW126", "none");
+	CHECK(address_map_is_used(&map, address("%QX2.1")));
+	CHECK(!address_map_is_used(&map, address("%QX2.2")));
+	CHECK(!address_map_next(&map, AREA_NONE, 1, 1, NULL, &(struct iec_addr){ 0 }));
+	CHECK(!address_map_next(&map, AREA_M, 7, 1, NULL, &(struct iec_addr){ 0 }));
+	xref_free(&xref);
+}
+
+static void test_clashes(struct ladder *ladder)
+{
+	struct address_clash clash[16];
+	struct xref xref;
+	char out[1000] = "", a[600], b[600];
+	size_t len = 0;
+	int count;
+
+	CHECK(xref_make(&xref, ladder_project(ladder)));
+	count = address_map_clashes(&xref, clash, 16);
+	for (int i = 0; i < count && i < 16; i++) {
+		xref_name(xref.project, &xref.use[clash[i].a].target, NULL, a, sizeof(a));
+		xref_name(xref.project, &xref.use[clash[i].b].target, NULL, b, sizeof(b));
+		len += (size_t)snprintf(out + len, sizeof(out) - len, "%.90s %.90s\n", a, b);
+	}
+	CHECK_TEXT(out, "Start %IX0.0\nMotor Wide\nMotor %QW0\nWide %QW0\nLamps %QW0\n");
+	CHECK(address_map_clashes(&xref, clash, 2) == 5);
+	xref_free(&xref);
+}
+
+int main(void)
+{
+	struct ladder *ladder = ladder_new();
+	size_t len = strlen(text);
+
+	CHECK(ladder_load_text(ladder, "test.rung", text, len));
+	CHECK_AS(!ladder_build(ladder), "it has errors, and is read all the same");
+	test_uses(ladder);
+	test_free(ladder);
+	test_clashes(ladder);
+	ladder_free(ladder);
+	return tap_done();
+}
