@@ -1,0 +1,405 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_symbols - declarations as rows, each field edited, hostile input, and tables that
+ * come and go as CSV.
+ */
+#include "editor-gtk/csv.h"
+#include "tests/tap.h"
+
+#include <stdlib.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\n\n"
+	"TYPE\n  Recipe : STRUCT\n    Speed : INT := 5; (* rpm *)\n  END_STRUCT;\nEND_TYPE\n\n"
+	"VAR\n  Start AT %IX0.0 : BOOL; (* green *)\n  Motor AT %QX0.0 : BOOL;\n"
+	"  Count : INT := 7; // of parts\n  Table : ARRAY[1..3] OF INT := [1, 2];\nEND_VAR\n\n"
+	"VAR RETAIN\n  Hours : UDINT;\nEND_VAR\n\n"
+	"PROGRAM Main LD\nVAR\n  Delay : TON;\n  Fan   : Seal;\n  \xe7\x81\xaf : BOOL;\nEND_VAR\n"
+	"RUNG\n  | NO Start | COIL Motor |\n  | NO Motor ^|\n"
+	"RUNG\n  | NO Motor | TON Delay PT:=T#1s | COIL \xe7\x81\xaf |\nEND_PROGRAM\n\n"
+	"FUNCTION_BLOCK Seal LD\nVAR_INPUT\n  On : BOOL;\nEND_VAR\n"
+	"RUNG\n  | NO On | COIL %MX0.0 |\nEND_FUNCTION_BLOCK\n";
+
+static LadderDocument *opened(const char *text)
+{
+	LadderDocument *document = ladder_document_new();
+
+	ladder_document_open_text(document, NULL, text, strlen(text), true);
+	CHECK(ladder_document_project(document));
+	return document;
+}
+
+static bool has(LadderDocument *document, const char *part)
+{
+	char *text = ladder_document_text(document, NULL);
+	bool found = strstr(text, part);
+
+	if (!found)
+		printf("# %s\n", text);
+	g_free(text);
+	return found;
+}
+
+static void test_rows(void)
+{
+	LadderDocument *document = opened(sample);
+	struct symbols *symbols = symbols_new(document);
+	const struct symbol_row *symbol = symbols_find(symbols, "", "motor");
+
+	CHECK(symbols->count == 10);
+	CHECK(symbol && symbol->uses == 3 && !symbol->included && !symbol->member);
+	CHECK_TEXT(symbol->text[FIELD_ADDRESS], "%QX0.0");
+	CHECK_TEXT(symbol->text[FIELD_TYPE], "BOOL");
+	CHECK_TEXT(symbols_find(symbols, "", "Start")->text[FIELD_COMMENT], "green");
+	CHECK_TEXT(symbols_find(symbols, "", "Count")->text[FIELD_COMMENT], "of parts");
+	CHECK_TEXT(symbols_find(symbols, "", "Table")->text[FIELD_INITIAL], "[1, 2]");
+	CHECK_TEXT(symbols_find(symbols, "", "Table")->text[FIELD_TYPE],
+		   "ARRAY[1..3] OF INT");
+	CHECK_TEXT(symbols_find(symbols, "", "Hours")->text[FIELD_RETAIN], "1");
+	CHECK_TEXT(symbols_find(symbols, "main", "Fan")->text[FIELD_TYPE], "Seal");
+	CHECK(symbols_find(symbols, "Recipe", "Speed")->member);
+	CHECK(symbols_find(symbols, "Seal", "On")->flags == VAR_INPUT);
+	CHECK(!symbols_find(symbols, "", "Delay"));
+	symbols_free(symbols);
+	g_object_unref(document);
+}
+
+static bool set(LadderDocument *document, const char *scope, const char *name,
+		enum field field, const char *text)
+{
+	struct symbols *symbols = symbols_new(document);
+	const struct symbol_row *symbol = symbols_find(symbols, scope, name);
+	char *why = NULL;
+	bool good = symbol && symbol_set(document, symbol->table, symbol->index, field,
+					 text, &why);
+
+	if (!good)
+		printf("# %s: %s\n", name, why ? why : "no reason");
+	CHECK_AS(good || (why && *why), "done, or a reason is told");
+	g_free(why);
+	symbols_free(symbols);
+	return good;
+}
+
+static void test_fields(void)
+{
+	LadderDocument *document = opened(sample);
+	char *before = ladder_document_text(document, NULL), *after;
+
+	CHECK(set(document, "", "Count", FIELD_TYPE, "DINT"));
+	CHECK(has(document, "  Count : DINT := 7; (* of parts *)\n"));
+	CHECK_TEXT(ladder_document_undo_name(document), "Change type");
+	CHECK(set(document, "", "Count", FIELD_INITIAL, ""));
+	CHECK(set(document, "", "Count", FIELD_ADDRESS, "%MD4"));
+	CHECK(has(document, "  Count AT %MD4   : DINT;"));
+	CHECK(set(document, "", "Start", FIELD_COMMENT, "a *) b (* c\nd"));
+	CHECK(has(document, "(* a * ) b ( * c d *)\n"));
+	CHECK(set(document, "", "Count", FIELD_RETAIN, "1"));
+	CHECK(has(document, "VAR RETAIN\n  Hours : UDINT;\n  Count AT %MD4 : DINT;"));
+	CHECK(set(document, "", "Count", FIELD_RETAIN, ""));
+	CHECK(set(document, "", "Hours", FIELD_RETAIN, ""));
+	CHECK_AS(!has(document, "RETAIN"), "the only one turns its block");
+	CHECK(set(document, "", "Hours", FIELD_INITIAL, "3"));
+	CHECK(set(document, "", "Hours", FIELD_CONSTANT, "1"));
+	CHECK(has(document, "VAR CONSTANT\n  Hours : UDINT := 3;\nEND_VAR\n"));
+	CHECK(set(document, "Recipe", "Speed", FIELD_INITIAL, "9"));
+	CHECK(has(document, "    Speed : INT := 9; (* rpm *)\n"));
+	CHECK(set(document, "Main", "Delay", FIELD_TYPE, "TOF"));
+	CHECK(set(document, "Main", "\xe7\x81\xaf", FIELD_RETAIN, "1"));
+	CHECK(has(document, "END_VAR\nVAR RETAIN\n  \xe7\x81\xaf : BOOL;\nEND_VAR\nRUNG"));
+	after = ladder_document_text(document, NULL);
+	while (ladder_document_undo(document))
+		;
+	CHECK_AS(has(document, before), "undone: as it was");
+	while (ladder_document_redo(document))
+		;
+	CHECK(has(document, after));
+	g_free(before);
+	g_free(after);
+	g_object_unref(document);
+}
+
+static void test_names(void)
+{
+	LadderDocument *document = opened(sample);
+
+	CHECK(set(document, "", "Motor", FIELD_NAME, "\xe7\x94\xb5\xe6\x9c\xba"));
+	CHECK(has(document, "COIL \xe7\x94\xb5\xe6\x9c\xba |"));
+	CHECK_TEXT(ladder_document_undo_name(document), "Rename symbol");
+	CHECK(ladder_document_undo(document));
+	CHECK(set(document, "", "Hours", FIELD_NAME, "Minutes"));
+	CHECK(has(document, "  Minutes : UDINT;"));
+	CHECK(set(document, "Seal", "On", FIELD_NAME, "Go") && has(document, "| NO Go |"));
+	CHECK(!set(document, "", "Minutes", FIELD_NAME, "Motor"));
+	CHECK(!set(document, "", "Minutes", FIELD_NAME, "main"));
+	CHECK(!set(document, "", "Minutes", FIELD_NAME, "VAR"));
+	CHECK(!set(document, "", "Minutes", FIELD_NAME, ""));
+	CHECK(!set(document, "", "Motor", FIELD_NAME, "Delay"));
+	g_object_unref(document);
+}
+
+/* Nothing of this may come into the file; the reason is told. */
+static void test_hostile(void)
+{
+	static const char *const bad[] = {
+		"", "INT; END_VAR VAR X : INT", "INT := 5", "INT; (*", "INT (* x", "NOTYPE",
+		"INT\nEND_VAR", "ARRAY[1..", "INT; Y : INT", "\xff", "INT //", "STRING[999]",
+	};
+	static const char *const initials[] = {
+		"x", "5; Y : INT", "5; (*", "99999999999", "'a", "[1,2]", "5\nEND_VAR", "(",
+	};
+	LadderDocument *document = opened(sample);
+	char *before = ladder_document_text(document, NULL);
+
+	for (gsize i = 0; i < G_N_ELEMENTS(bad); i++)
+		CHECK_AS(!set(document, "", "Count", FIELD_TYPE, bad[i]), bad[i][0] ?
+			 "a bad type is refused" : "so is none");
+	for (gsize i = 0; i < G_N_ELEMENTS(initials); i++)
+		CHECK_AS(!set(document, "", "Count", FIELD_INITIAL, initials[i]),
+			 initials[i]);
+	CHECK(!set(document, "", "Count", FIELD_ADDRESS, "%ZZ9"));
+	CHECK(!set(document, "", "Count", FIELD_ADDRESS, "%MW2 : INT; Y AT %MW4"));
+	CHECK(!set(document, "Recipe", "Speed", FIELD_ADDRESS, "%MW2"));
+	CHECK_AS(has(document, before) && !ladder_document_undo_name(document),
+		 "and nothing changed");
+	g_free(before);
+	g_object_unref(document);
+}
+
+static void test_add(void)
+{
+	static const char *const lamp[SYMBOL_FIELDS] = { "Lamp", "BOOL", "%QX0.1", "", "", "",
+							 "red" };
+	static const char *const free_lamp[SYMBOL_FIELDS] = { "Lamp", "BOOL", "", "", "", "", "" };
+	static const char *const keep[SYMBOL_FIELDS] = { "Keep", "INT", "", "5", "1", "", "" };
+	static const char *const again[SYMBOL_FIELDS] = { "lamp", "INT", "", "", "", "", "" };
+	LadderDocument *document = opened(sample);
+	char *before = ladder_document_text(document, NULL), *why = NULL, *name;
+	struct symbols *symbols;
+	const struct symbol_row *symbol;
+
+	CHECK(symbol_add(document, 0, 0, lamp, NULL));
+	CHECK(has(document, "  Lamp  AT %QX0.1 : BOOL; (* red *)\nEND_VAR\n\nVAR RETAIN"));
+	CHECK(symbol_add(document, 0, 0, keep, NULL));
+	CHECK(has(document, "VAR RETAIN\n  Hours : UDINT;\n  Keep  : INT := 5;"));
+	CHECK(symbol_add(document, 1, 0, keep, NULL));
+	CHECK(!symbol_add(document, 2, VAR_OUTPUT, lamp, NULL));
+	CHECK(symbol_add(document, 2, VAR_OUTPUT, free_lamp, NULL));
+	CHECK(has(document, "END_VAR\nVAR_OUTPUT\n  Lamp : BOOL"));
+	CHECK(symbol_add(document, 3, 0, again, NULL));
+	CHECK(has(document, "    lamp  : INT;\n  END_STRUCT"));
+	CHECK(!symbol_add(document, 0, 0, again, &why) && why);
+	g_free(why);
+	name = symbol_free_name(document, 0, "Lamp");
+	CHECK_TEXT(name, "Lamp2");
+	g_free(name);
+	name = symbol_free_address(document, AREA_Q, "BOOL");
+	CHECK_TEXT(name, "%QX0.2");
+	g_free(name);
+	symbols = symbols_new(document);
+	symbol = symbols_find(symbols, "", "Hours");
+	CHECK(symbol_delete(document, 0, symbol->index, NULL));
+	CHECK(!strstr(ladder_document_undo_name(document), "Add"));
+	symbols_free(symbols);
+	while (ladder_document_undo(document))
+		;
+	CHECK(has(document, before));
+	g_free(before);
+	g_object_unref(document);
+
+	document = opened("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\n"
+			  "END_PROGRAM\n");
+	CHECK(symbol_add(document, 0, 0, lamp, NULL) && symbol_add(document, 1, 0, keep, NULL));
+	CHECK(has(document, "RUNGBOARD 1\n\nVAR\n  Lamp AT %QX0.1 : BOOL; (* red *)\nEND_VAR\n\n"
+		  "PROGRAM Main LD\nVAR RETAIN\n  Keep : INT := 5;\nEND_VAR\nRUNG\n"));
+	CHECK(symbol_delete(document, 0, 0, NULL) && symbol_delete(document, 1, 0, NULL));
+	CHECK(has(document, "RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n"));
+	CHECK(!symbol_delete(document, 0, 0, NULL) && !symbol_delete(document, 9, 9, NULL));
+	g_object_unref(document);
+}
+
+static void test_errors(void)
+{
+	LadderDocument *document = opened(sample);
+	struct symbols *symbols = symbols_new(document);
+	char *text;
+
+	CHECK(set(document, "", "Count", FIELD_ADDRESS, "%MX0.3"));
+	ladder_document_check_now(document);
+	text = symbol_error(document, symbols_find(symbols, "", "Count"));
+	CHECK_AS(text && *text, "an address of another width is told at its row");
+	g_free(text);
+	CHECK(!symbol_error(document, symbols_find(symbols, "", "Motor")));
+	symbols_free(symbols);
+	g_object_unref(document);
+}
+
+/* ---- tables ---- */
+
+static bool take_row(void *context, int line, char *const *field, int count)
+{
+	g_string_append_printf(context, "%d", line);
+	for (int i = 0; i < count; i++)
+		g_string_append_printf(context, "[%s]", field[i]);
+	return true;
+}
+
+static char *read_all(const char *text, gsize len)
+{
+	GString *out = g_string_new("");
+	const char *why;
+	int line = csv_read(text, len, take_row, out, &why);
+
+	if (line)
+		g_string_append_printf(out, "line %d: %s", line, why);
+	return g_string_free(out, FALSE);
+}
+
+static void reads(const char *text, const char *want)
+{
+	char *got = read_all(text, strlen(text));
+
+	CHECK_TEXT(got, want);
+	g_free(got);
+}
+
+static void test_csv(void)
+{
+	char *big = g_strnfill(CSV_FIELD_MOST + 2, 'x'), *got;
+
+	reads("a,b\r\n1,2\r\n", "1[a][b]2[1][2]");
+	reads("\xef\xbb\xbf" "a;b\n\n\"x\"\"y;\n\";\n", "1[a][b]3[x\"y;\n][]");
+	reads("a\tb\rc\t\"d\"", "1[a][b]2[c][d]");
+	reads("", "");
+	reads("a,\"b", "line 1: a quoted field does not end");
+	reads("a\n\"b\"c\n", "1[a]line 2: text behind a quoted field");
+	reads("a\n\xff", "line 2: this is not UTF-8 text");
+	reads(big, "line 1: a field is too long");
+	got = read_all("a\0b", 3);
+	CHECK_TEXT(got, "line 1: this is not UTF-8 text");
+	g_free(got);
+	for (int i = 0; i < CSV_FIELD_MOST + 1; i++)
+		big[i] = ',';
+	reads(big, "line 1: too many columns");
+	g_free(big);
+}
+
+static void test_export(void)
+{
+	LadderDocument *document = opened(sample);
+	char *table = csv_export(document), *again;
+	struct csv_plan *plan = csv_plan_new(document, table, strlen(table));
+
+	CHECK(g_str_has_prefix(table, "Scope,Block,Name,Type,Address,Initial value,Retain,"
+		"Constant,Comment\r\nRecipe") ||
+	      strstr(table, "\r\n,VAR,Start,BOOL,%IX0.0,,,,green\r\n"));
+	CHECK(strstr(table, ",VAR,Table,ARRAY[1..3] OF INT,,\"[1, 2]\",,,\r\n"));
+	CHECK(strstr(table, "Seal,VAR_INPUT,On,BOOL,,,,,\r\n"));
+	CHECK(strstr(table, "Recipe,STRUCT,Speed,INT,,5,,,rpm\r\n"));
+	CHECK_AS(plan->counts[CSV_SAME] == 10 && plan->entry->len == 10,
+		 "what was exported changes nothing");
+	CHECK(csv_plan_apply(plan, NULL) && !ladder_document_undo_name(document));
+	csv_plan_free(plan);
+	again = csv_export(document);
+	CHECK_TEXT(again, table);
+	g_free(again);
+	g_free(table);
+	g_object_unref(document);
+}
+
+static void test_import(void)
+{
+	static const char table[] =
+		"Name;Scope;Type;Retain;Address;Comment;Other\r\n"
+		"start;;BOOL;no;%IX0.7;green;1\r\n"
+		"Lamp;;BOOL;;%QX1.0;\"big; red\"\r\n"
+		"Hours;;UDINT;0;;\r\n"
+		"Delay;main;TON;;;waits\r\n"
+		"\xe9\x98\x80;Main;BOOL;1;;\r\n"
+		"Motor;;BOOL;;%QX0.0;\r\n"
+		"Motor;;BOOL;;%QX0.1;\r\n"
+		"X;Nowhere;INT;;;\r\n"
+		"9x;;INT;;;\r\n"
+		"Y;;\"INT; END_VAR\";;;\r\n";
+	LadderDocument *document = opened(sample);
+	struct csv_plan *plan = csv_plan_new(document, table, strlen(table));
+	char *before = ladder_document_text(document, NULL), *why = NULL;
+	static const struct { enum csv_action action; int line; } want[] = {
+		{ CSV_CHANGE, 2 }, { CSV_ADD, 3 }, { CSV_CHANGE, 4 }, { CSV_CHANGE, 5 },
+		{ CSV_ADD, 6 }, { CSV_SAME, 7 }, { CSV_REFUSE, 8 }, { CSV_REFUSE, 9 },
+		{ CSV_REFUSE, 10 }, { CSV_REFUSE, 11 },
+	};
+
+	CHECK(plan->entry->len == 10);
+	for (guint i = 0; i < plan->entry->len; i++) {
+		const struct csv_entry *entry = plan->entry->pdata[i];
+
+		printf("# %d %s: %s\n", entry->line, entry->name, entry->text);
+		CHECK(entry->action == want[i].action && entry->line == want[i].line);
+	}
+	CHECK_TEXT(((struct csv_entry *)plan->entry->pdata[0])->text,
+		   "Address: %IX0.0 \xe2\x86\x92 %IX0.7");
+	CHECK_AS(has(document, before), "a plan changes nothing");
+	CHECK(csv_plan_apply(plan, NULL));
+	CHECK(has(document, "  Start AT %IX0.7 : BOOL; (* green *)\n"));
+	CHECK(has(document, "  Lamp  AT %QX1.0 : BOOL; (* big; red *)\n"));
+	CHECK(has(document, "VAR\n  Hours : UDINT;\nEND_VAR\n"));
+	CHECK(has(document, "VAR RETAIN\n  \xe9\x98\x80 : BOOL;\nEND_VAR\n"));
+	CHECK_TEXT(ladder_document_undo_name(document), "Import symbols");
+	CHECK(!csv_plan_apply(plan, &why) && why);
+	g_free(why);
+	csv_plan_free(plan);
+	CHECK(ladder_document_undo(document) && has(document, before));
+	CHECK(!ladder_document_undo_name(document));
+	plan = csv_plan_new(document, "Type,Address\nINT,%MW0\n", 22);
+	CHECK(plan->counts[CSV_REFUSE] == 1 && plan->entry->len == 1);
+	csv_plan_free(plan);
+	plan = csv_plan_new(document, "", 0);
+	CHECK(plan->counts[CSV_REFUSE] == 1);
+	csv_plan_free(plan);
+	g_free(before);
+	g_object_unref(document);
+}
+
+/* Any bytes give a plan, and its execution a program that can be read. */
+static void test_storm(void)
+{
+	static const char piece[][12] = { "Name,Type\n", "\"", ",", "\n", "\r\n", "Start", "INT",
+		"(*", "*)", ";", ":=", "\xe5", "x", "%QX0.0", "END_VAR", "VAR", "\t", "=1+1" };
+	LadderDocument *document = opened(sample);
+	guint32 seed = 7;
+	int bad = 0;
+
+	for (int round = 0; round < 400; round++) {
+		GString *text = g_string_new(round % 2 ? "Name,Type,Comment\n" : "");
+		struct csv_plan *plan;
+
+		for (int i = 0; i < 30; i++) {
+			seed = seed * 1664525u + 1013904223u;
+			g_string_append(text, piece[(seed >> 8) % G_N_ELEMENTS(piece)]);
+		}
+		plan = csv_plan_new(document, text->str, text->len);
+		bad += !csv_plan_apply(plan, NULL);
+		csv_plan_free(plan);
+		g_string_free(text, TRUE);
+		bad += !ladder_document_project(document) ||
+		       ladder_document_project(document)->pou_count != 2;
+	}
+	CHECK_AS(bad == 0, "400 random tables");
+	g_object_unref(document);
+}
+
+int main(void)
+{
+	test_csv();
+	test_export();
+	test_import();
+	test_storm();
+	test_rows();
+	test_fields();
+	test_names();
+	test_hostile();
+	test_add();
+	test_errors();
+	return tap_done();
+}
