@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * find - hits of a text in rungs, lists and declarations, in the order of the file.
+ * Replacing is find_replace.c's.
+ */
+#include "editor-gtk/find_inside.h"
+
+#include "engine/view/xref.h"
+
+#include <string.h>
+
+struct search {
+	struct find *find;
+	struct project *project;
+	char *folded;          /* what is wanted, in one case                  */
+	struct find_hit place; /* where we are                                 */
+};
+
+/* ---- one text ---- */
+
+static bool is_word_char(gunichar c)
+{
+	return c == '_' || g_unichar_isalnum(c);
+}
+
+static bool stands_alone(const char *text, const char *at, const char *end)
+{
+	if (at > text && is_word_char(g_utf8_get_char(g_utf8_prev_char(at))))
+		return false;
+	return !*end || !is_word_char(g_utf8_get_char(end));
+}
+
+/* Behind what is wanted if it stands at @at, letter by letter; NULL: it does not. */
+static const char *match(const struct search *search, const char *at)
+{
+	const char *want = search->folded;
+
+	for (; *want && *at; want = g_utf8_next_char(want), at = g_utf8_next_char(at)) {
+		gunichar c = g_utf8_get_char(at);
+
+		if (!search->find->options.match_case)
+			c = g_unichar_tolower(c);
+		if (c != g_utf8_get_char(want))
+			return NULL;
+	}
+	return *want ? NULL : at;
+}
+
+static void add_hit(struct search *search, const char *text, const char *at,
+		    const char *end)
+{
+	struct find_hit *hit = g_memdup2(&search->place, sizeof(*hit));
+
+	hit->at = (gsize)(at - text);
+	hit->len = (gsize)(end - at);
+	hit->text = g_strdup(text);
+	g_ptr_array_add(search->find->hit, hit);
+}
+
+static void search_text(struct search *search, const char *text)
+{
+	for (const char *at = text; *at && search->find->hit->len < FIND_HITS_MOST;) {
+		const char *end = match(search, at);
+
+		if (!end || (search->find->options.whole_word &&
+			     !stands_alone(text, at, end))) {
+			at = g_utf8_next_char(at);
+			continue;
+		}
+		add_hit(search, text, at, end);
+		at = end;
+	}
+}
+
+static void search_id(struct search *search, enum find_where where, int field, uint32_t id)
+{
+	if (!id || !(search->find->options.where & where))
+		return;
+	search->place.where = where;
+	search->place.field = field;
+	search_text(search, project_text(search->project, id));
+}
+
+/* ---- the parts ---- */
+
+static void search_rung(struct search *search, const struct rung *rung)
+{
+	search->place.row = search->place.col = -1;
+	search_id(search, FIND_COMMENTS, HIT_RUNG_COMMENT, rung->comment);
+	search_id(search, FIND_LABELS, HIT_LABEL, rung->label);
+	search_id(search, FIND_TITLES, HIT_TITLE, rung->title);
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		const struct cell *cell = &rung->cell[i];
+		const bool jump = word_row((enum word)cell->word)->operand == OPND_LABEL;
+
+		search->place.row = i / rung->cols;
+		search->place.col = i % rung->cols;
+		search_id(search, jump ? FIND_LABELS : FIND_OPERANDS, HIT_OPERAND,
+			  cell->operand);
+		search_id(search, FIND_OPERANDS, HIT_ARGS, cell->args);
+		search_id(search, FIND_COMMENTS, HIT_COMMENT, cell->comment);
+	}
+}
+
+static void search_list(struct search *search, LadderDocument *document, int pou)
+{
+	char *text = ladder_document_list(document, pou), **line;
+
+	if (!(search->find->options.where & FIND_LISTS) || !text) {
+		g_free(text);
+		return;
+	}
+	line = g_strsplit(text, "\n", -1);
+	search->place.where = FIND_LISTS;
+	for (int i = 0; line[i]; i++) {
+		const guint first = search->find->hit->len;
+
+		search->place.row = i;
+		search_text(search, line[i]);
+		for (guint k = first; k < search->find->hit->len; k++) {
+			struct find_hit *hit = search->find->hit->pdata[k];
+
+			hit->col = (int)hit->at;
+		}
+	}
+	g_strfreev(line);
+	g_free(text);
+}
+
+/* Declarations as they stand in the canonical text. */
+struct lines {
+	struct search *search;
+	GArray *span;
+};
+
+static void take_var(void *context, const struct text_span *span)
+{
+	if (span->part == TEXT_VAR)
+		g_array_append_val((GArray *)context, *span);
+}
+
+static int table_of(const struct project *project, const struct text_span *span)
+{
+	if (span->structure >= 0)
+		return project->pou_count + 1 + span->structure;
+	return span->pou + 1;
+}
+
+static void search_declaration(struct search *search, const char *whole,
+			       const struct text_span *span)
+{
+	char *line;
+
+	/* Those of a list are a part of its text. */
+	if (span->pou >= 0 && search->project->pou[span->pou].language == LANGUAGE_IL)
+		return;
+	line = g_strndup(whole + span->at, span->len);
+	g_strchomp(line);
+	search->place = (struct find_hit){ .where = FIND_DECLARATIONS, .pou = span->pou,
+		.rung = -1, .row = -1, .col = -1, .index = span->number,
+		.table = table_of(search->project, span) };
+	search_text(search, line);
+	g_free(line);
+}
+
+/* Of the globals and structures (@pou -1), or of one POU. */
+static void search_declarations(struct search *search, const char *whole,
+				const GArray *span, int pou)
+{
+	if (!(search->find->options.where & FIND_DECLARATIONS))
+		return;
+	for (guint i = 0; i < span->len; i++) {
+		const struct text_span *one = &g_array_index(span, struct text_span, i);
+
+		if (one->pou == pou)
+			search_declaration(search, whole, one);
+	}
+}
+
+/* ---- all ---- */
+
+static char *fold(const char *text, bool match_case)
+{
+	GString *out;
+
+	if (match_case)
+		return g_strdup(text);
+	out = g_string_new("");
+	for (; *text; text = g_utf8_next_char(text))
+		g_string_append_unichar(out, g_unichar_tolower(g_utf8_get_char(text)));
+	return g_string_free(out, FALSE);
+}
+
+static void clear_hit(gpointer pointer)
+{
+	struct find_hit *hit = pointer;
+
+	g_free(hit->text);
+	g_free(hit);
+}
+
+static void search_project(struct search *search, LadderDocument *document)
+{
+	GArray *span = g_array_new(FALSE, FALSE, sizeof(struct text_span));
+	gsize len;
+	char *whole = ladder_document_outline(document, &len, take_var, span);
+
+	search_declarations(search, whole, span, -1);
+	for (int i = 0; i < search->project->pou_count; i++) {
+		const struct pou *pou = &search->project->pou[i];
+
+		if (pou->included)
+			continue;
+		search_declarations(search, whole, span, i);
+		search->place = (struct find_hit){ .pou = i, .rung = -1, .row = -1,
+						   .col = -1, .table = -1, .index = -1 };
+		if (pou->language == LANGUAGE_IL)
+			search_list(search, document, i);
+		for (int k = 0; k < pou->rung_count; k++) {
+			search->place.rung = k;
+			search_rung(search, pou->rung[k]);
+		}
+	}
+	g_free(whole);
+	g_array_unref(span);
+}
+
+struct find *find_new(LadderDocument *document, const char *wanted,
+		      struct find_options options)
+{
+	struct find *find = g_new0(struct find, 1);
+	struct search search = { .find = find };
+
+	find->hit = g_ptr_array_new_with_free_func(clear_hit);
+	find->wanted = g_utf8_make_valid(wanted, -1);
+	find->options = options;
+	search.project = ladder_document_project(document);
+	search.folded = fold(find->wanted, options.match_case);
+	if (search.project && *search.folded)
+		search_project(&search, document);
+	g_free(search.folded);
+	return find;
+}
+
+void find_free(struct find *find)
+{
+	if (!find)
+		return;
+	g_ptr_array_unref(find->hit);
+	g_free(find->wanted);
+	g_free(find);
+}
+
+static int compare(const struct find_hit *hit, int pou, int rung, int row, int col)
+{
+	const int a[] = { hit->pou, hit->rung, hit->row, hit->col };
+	const int b[] = { pou, rung, row, col };
+
+	for (int i = 0; i < 4; i++)
+		if (a[i] != b[i])
+			return a[i] < b[i] ? -1 : 1;
+	return 0;
+}
+
+int find_next(const struct find *find, int pou, int rung, int row, int col, bool back)
+{
+	const int count = (int)find->hit->len;
+
+	for (int i = 0; i < count; i++) {
+		const int number = back ? count - 1 - i : i;
+		const int side = compare(find->hit->pdata[number], pou, rung, row, col);
+
+		if (back ? side < 0 : side > 0)
+			return number;
+	}
+	return !count ? -1 : back ? count - 1 : 0;
+}

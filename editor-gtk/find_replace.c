@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * find_replace - hits become another text: rungs, lists and declarations are given to
+ * the document anew, which refuses what could not be read again.
+ */
+#include "editor-gtk/find_inside.h"
+
+#include "editor-gtk/i18n.h"
+#include "engine/view/xref.h"
+
+#include <string.h>
+
+/* Some hits of a find, all at one place. */
+struct hits {
+	LadderDocument *document;
+	struct find_hit *const *hit;
+	int count;
+	const char *with;
+};
+
+/* From the last to the first, so that places before stay what they are. */
+static char *replaced(const struct hits *hits, const char *text)
+{
+	GString *out = g_string_new(text);
+
+	for (int i = hits->count - 1; i >= 0; i--) {
+		g_string_erase(out, (gssize)hits->hit[i]->at, (gssize)hits->hit[i]->len);
+		g_string_insert(out, (gssize)hits->hit[i]->at, hits->with);
+	}
+	return g_string_free(out, FALSE);
+}
+
+/* How many from the first on are at its place, in the same text. */
+static struct hits same_text(struct hits hits)
+{
+	const struct find_hit *first = hits.hit[0];
+	int count = 1;
+
+	while (count < hits.count && hits.hit[count]->row == first->row &&
+	       hits.hit[count]->where == first->where &&
+	       hits.hit[count]->field == first->field &&
+	       hits.hit[count]->index == first->index &&
+	       hits.hit[count]->table == first->table &&
+	       (first->where == FIND_LISTS || hits.hit[count]->col == first->col))
+		count++;
+	hits.count = count;
+	return hits;
+}
+
+/* ---- rungs ---- */
+
+static uint32_t *id_of(struct rung *rung, const struct find_hit *hit)
+{
+	struct cell *cell = hit->row < 0 ? NULL : rung_cell(rung, hit->row, hit->col);
+
+	switch ((enum hit_field)hit->field) {
+	case HIT_OPERAND:
+		return &cell->operand;
+	case HIT_ARGS:
+		return &cell->args;
+	case HIT_COMMENT:
+		return &cell->comment;
+	case HIT_RUNG_COMMENT:
+		return &rung->comment;
+	case HIT_TITLE:
+		return &rung->title;
+	case HIT_LABEL:
+		return &rung->label;
+	}
+	return NULL;
+}
+
+static bool replace_in_rung(const struct hits *hits, struct diag_list *why)
+{
+	struct project *project = ladder_document_project(hits->document);
+	const struct find_hit *first = hits->hit[0];
+	struct rung *rung = rung_copy(project->pou[first->pou].rung[first->rung]);
+	struct hits rest = *hits;
+
+	while (rest.count > 0) {
+		const struct hits same = same_text(rest);
+		char *text = replaced(&same, same.hit[0]->text);
+
+		*id_of(rung, same.hit[0]) = names_intern(&project->names, text,
+							 strlen(text));
+		g_free(text);
+		rest.hit += same.count;
+		rest.count -= same.count;
+	}
+	return ladder_document_put_rung(hits->document, first->pou, first->rung, rung, why);
+}
+
+/* ---- lists ---- */
+
+static bool replace_in_list(const struct hits *hits)
+{
+	const int pou = hits->hit[0]->pou;
+	char *text = ladder_document_list(hits->document, pou);
+	char **line = g_strsplit(text, "\n", -1), *whole;
+	struct hits rest = *hits;
+	bool good;
+
+	while (rest.count > 0) {
+		const struct hits same = same_text(rest);
+		const int row = same.hit[0]->row;
+		char *more = replaced(&same, line[row]);
+
+		g_free(line[row]);
+		line[row] = more;
+		rest.hit += same.count;
+		rest.count -= same.count;
+	}
+	whole = g_strjoinv("\n", line);
+	good = ladder_document_put_list(hits->document, pou, whole);
+	g_free(whole);
+	g_strfreev(line);
+	g_free(text);
+	return good;
+}
+
+/* ---- declarations ---- */
+
+static void take_var(void *context, const struct text_span *span)
+{
+	if (span->part == TEXT_VAR)
+		g_array_append_val((GArray *)context, *span);
+}
+
+static const struct text_span *span_of(const GArray *spans, const struct project *project,
+				       const struct find_hit *hit)
+{
+	const int structure = MAX(hit->table - project->pou_count - 1, -1);
+
+	for (guint i = 0; i < spans->len; i++) {
+		const struct text_span *span = &g_array_index(spans, struct text_span, i);
+
+		if (span->pou == hit->pou && span->number == hit->index &&
+		    span->structure == structure)
+			return span;
+	}
+	return NULL;
+}
+
+/* All declarations of the project: a replacement may make none and lose none. */
+static int declared(LadderDocument *document)
+{
+	struct project *project = ladder_document_project(document);
+	int count = project->pou_count * LIMIT_VARS;
+
+	for (int i = 0; i <= project->pou_count + project->structure_count; i++)
+		count += xref_table(project, i)->count;
+	return count;
+}
+
+/* The first of those that are in the same declaration as the last one. */
+static int first_of_last(const struct find_hit *const *hit, int count)
+{
+	int at = count - 1;
+
+	while (at > 0 && hit[at - 1]->table == hit[count - 1]->table &&
+	       hit[at - 1]->index == hit[count - 1]->index)
+		at--;
+	return at;
+}
+
+/* One declaration after the other in the one text, from the last one on. */
+static bool replace_declarations(const struct hits *hits, struct diag_list *why)
+{
+	const struct project *project = ladder_document_project(hits->document);
+	GArray *spans = g_array_new(FALSE, FALSE, sizeof(struct text_span));
+	gsize len;
+	char *whole = ladder_document_outline(hits->document, &len, take_var, spans);
+	GString *text = g_string_new(whole);
+	const int before = declared(hits->document);
+	bool good = true;
+
+	for (int count = hits->count, at; good && count > 0; count = at) {
+		at = first_of_last((const struct find_hit *const *)hits->hit, count);
+		struct hits same = *hits;
+		const struct text_span *span = span_of(spans, project, hits->hit[at]);
+		char *line;
+
+		same.hit += at;
+		same.count = count - at;
+		line = replaced(&same, same.hit[0]->text);
+		good = span;
+		if (span)
+			g_string_erase(text, (gssize)span->at, (gssize)span->len - 1);
+		if (span)
+			g_string_insert(text, (gssize)span->at, line);
+		g_free(line);
+	}
+	good = good && ladder_document_replace(hits->document, 0, len, text->str, why) &&
+	       declared(hits->document) == before;
+	g_string_free(text, TRUE);
+	g_free(whole);
+	g_array_unref(spans);
+	return good;
+}
+
+/* ---- any ---- */
+
+/* How many from the first on go in one go. */
+static struct hits one_go(struct hits hits)
+{
+	const struct find_hit *first = hits.hit[0];
+	const bool declaration = first->where == FIND_DECLARATIONS;
+	int count = 1;
+
+	while (count < hits.count && declaration ==
+	       (hits.hit[count]->where == FIND_DECLARATIONS) &&
+	       (declaration || (hits.hit[count]->pou == first->pou &&
+				hits.hit[count]->rung == first->rung)))
+		count++;
+	hits.count = count;
+	return hits;
+}
+
+static bool replace_go(const struct hits *hits, struct diag_list *why)
+{
+	if (hits->hit[0]->where == FIND_DECLARATIONS)
+		return replace_declarations(hits, why);
+	if (hits->hit[0]->where == FIND_LISTS)
+		return replace_in_list(hits);
+	return replace_in_rung(hits, why);
+}
+
+static char *reason(const struct diag_list *diags)
+{
+	if (diags->count == 0)
+		return g_strdup(_("It could not be read again"));
+	return g_strdup_printf("%s: %s", _(diag_text(diags->diag[0].id)),
+			       diags->diag[0].arg);
+}
+
+static bool replace(struct hits hits, const char *step, char **why)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	bool good = true;
+
+	ladder_document_begin(hits.document, step, NULL);
+	while (good && hits.count > 0) {
+		const struct hits go = one_go(hits);
+
+		good = replace_go(&go, diags);
+		hits.hit += go.count;
+		hits.count -= go.count;
+	}
+	if (good)
+		ladder_document_end(hits.document);
+	else
+		ladder_document_cancel(hits.document);
+	if (!good && why)
+		*why = reason(diags);
+	g_free(diags);
+	return good;
+}
+
+bool find_replace(LadderDocument *document, const struct find *find, int number,
+		  const char *with, char **why)
+{
+	struct hits hits = { document, NULL, 1, with };
+
+	if (number < 0 || number >= (int)find->hit->len)
+		return false;
+	hits.hit = (struct find_hit *const *)find->hit->pdata + number;
+	return replace(hits, _("Replace"), why);
+}
+
+int find_replace_all(LadderDocument *document, const struct find *find, const char *with,
+		     char **why)
+{
+	struct hits hits = { document, (struct find_hit *const *)find->hit->pdata,
+			     (int)find->hit->len, with };
+
+	return replace(hits, _("Replace all"), why) ? hits.count : -1;
+}

@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_find - hits by place and kind, and replacing one or all of them.
+ */
+#include "editor-gtk/find.h"
+#include "tests/tap.h"
+
+static const char sample[] =
+	"RUNGBOARD 1\n\n"
+	"TYPE\n  Motors : STRUCT\n    Motor : INT;\n  END_STRUCT;\nEND_TYPE\n\n"
+	"VAR\n  Start AT %IX0.0 : BOOL; (* motor on *)\n  Motor AT %QX0.0 : BOOL;\n"
+	"  Motor2          : BOOL;\n  \xc3\x84rger           : INT;\nEND_VAR\n\n"
+	"PROGRAM Main LD\n(* The motor *)\n"
+	"RUNG Motor_on \"Motor, motor\"\n  | NO Start (* MOTOR *) | NO Motor | COIL Motor |\n"
+	"RUNG\n  | NO Motor2 | JMP Motor_on |\n"
+	"RUNG\n  | NO Start | ADD IN1:=\xc3\x84rger IN2:=1 OUT=>\xc3\x84rger | COIL Motor2 |\n"
+	"END_PROGRAM\n\n"
+	"PROGRAM List IL\nVAR\n  Motor3 : BOOL;\nEND_VAR\n  LD    Motor\n"
+	"  ST    Motor3 (* motor *)\nEND_PROGRAM\n";
+
+static LadderDocument *opened(void)
+{
+	LadderDocument *document = ladder_document_new();
+
+	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
+	CHECK(ladder_document_project(document));
+	return document;
+}
+
+static int count(LadderDocument *document, const char *wanted, unsigned int where,
+		 bool whole, bool match_case)
+{
+	struct find *find = find_new(document, wanted,
+				     (struct find_options){ where, whole, match_case });
+	int hits = (int)find->hit->len;
+
+	for (guint i = 0; i < find->hit->len; i++) {
+		const struct find_hit *hit = find->hit->pdata[i];
+
+		if (strncmp(wanted, "motor", 5) == 0 && where == FIND_EVERYWHERE)
+			printf("# %d: %d %d (%d,%d) %s\n", hit->where, hit->pou, hit->rung,
+			       hit->row, hit->col, hit->text);
+	}
+	find_free(find);
+	return hits;
+}
+
+static void test_hits(void)
+{
+	LadderDocument *document = opened();
+
+	CHECK(count(document, "motor", FIND_EVERYWHERE, false, false) == 18);
+	CHECK(count(document, "motor", FIND_OPERANDS, false, false) == 4);
+	CHECK(count(document, "motor", FIND_OPERANDS, true, false) == 2);
+	CHECK(count(document, "Motor", FIND_COMMENTS, false, true) == 0);
+	CHECK(count(document, "motor", FIND_COMMENTS, false, false) == 2);
+	CHECK(count(document, "Motor", FIND_TITLES, true, true) == 1);
+	CHECK(count(document, "motor_on", FIND_LABELS, true, false) == 2);
+	CHECK(count(document, "motor", FIND_LISTS, true, false) == 2);
+	CHECK(count(document, "motor", FIND_DECLARATIONS, false, false) == 4);
+	CHECK(count(document, "\xc3\xa4RGER", FIND_EVERYWHERE, true, false) == 3);
+	CHECK(count(document, "\xc3\xa4RGER", FIND_EVERYWHERE, true, true) == 0);
+	CHECK(count(document, "", FIND_EVERYWHERE, false, false) == 0);
+	CHECK(count(document, "\xff", FIND_EVERYWHERE, false, false) == 0);
+	g_object_unref(document);
+}
+
+static void test_order(void)
+{
+	LadderDocument *document = opened();
+	struct find *find = find_new(document, "Motor",
+				     (struct find_options){ FIND_OPERANDS, false, false });
+	const struct find_hit *hit = find->hit->pdata[2];
+
+	CHECK(hit->pou == 0 && hit->rung == 1 && hit->row == 0 && hit->col == 0);
+	CHECK_TEXT(hit->text, "Motor2");
+	CHECK(find_next(find, 0, 0, -1, -1, false) == 0);
+	CHECK(find_next(find, 0, 0, 0, 1, false) == 1);
+	CHECK(find_next(find, 0, 0, 0, 2, false) == 2);
+	CHECK(find_next(find, 1, 0, 0, 0, false) == 0);
+	CHECK(find_next(find, 0, 0, 0, 1, true) == 3);
+	CHECK(find_next(find, 0, 0, 0, 2, true) == 0);
+	find_free(find);
+	find = find_new(document, "nothing", (struct find_options){ 63, false, false });
+	CHECK(find_next(find, 0, 0, 0, 0, false) == -1);
+	find_free(find);
+	g_object_unref(document);
+}
+
+static bool has(LadderDocument *document, const char *part)
+{
+	char *text = ladder_document_text(document, NULL);
+	bool found = strstr(text, part);
+
+	if (!found)
+		printf("# %s\n", text);
+	g_free(text);
+	return found;
+}
+
+/* How many; @wanted becomes @with. */
+static int replace_all(LadderDocument *document, const char *wanted, const char *with,
+		       unsigned int where, bool whole)
+{
+	struct find *find = find_new(document, wanted,
+				     (struct find_options){ where, whole, true });
+	char *why = NULL;
+	int done = find_replace_all(document, find, with, &why);
+
+	CHECK((done < 0) == (why && *why));
+	if (why)
+		printf("# %s\n", why);
+	g_free(why);
+	find_free(find);
+	return done;
+}
+
+static void test_replace(void)
+{
+	LadderDocument *document = opened();
+	char *before = ladder_document_text(document, NULL);
+	struct find *find = find_new(document, "Motor",
+				     (struct find_options){ FIND_OPERANDS, true, true });
+
+	CHECK(find_replace(document, find, 1, "\xe7\x94\xb5\xe6\x9c\xba", NULL));
+	CHECK(has(document, "| NO Motor | COIL \xe7\x94\xb5\xe6\x9c\xba |"));
+	CHECK_TEXT(ladder_document_undo_name(document), "Replace");
+	CHECK(ladder_document_undo(document));
+	find_free(find);
+
+	CHECK(replace_all(document, "Motor", "Pump", FIND_EVERYWHERE, false) == 13);
+	CHECK(!strstr(ladder_document_undo_name(document), "Motor"));
+	CHECK(has(document, "  Pump AT %QX0.0 : BOOL;\n") || has(document, "  Pump  AT"));
+	CHECK(has(document, "RUNG Pump_on \"Pump, motor\""));
+	CHECK(has(document, "JMP Pump_on"));
+	CHECK(has(document, "  ST    Pump3 (* motor *)\n"));
+	CHECK(has(document, "    Pump : INT;"));
+	CHECK(!has(document, "Motor3"));
+	CHECK(ladder_document_undo(document) && has(document, before));
+	CHECK_AS(!ladder_document_undo_name(document), "all of it was one step");
+
+	CHECK(replace_all(document, "Motor", "a | b", FIND_OPERANDS, true) == -1);
+	CHECK(replace_all(document, "Start", "x\ny", FIND_OPERANDS, true) == -1);
+	CHECK(replace_all(document, "Motor2", "A : INT; B", FIND_DECLARATIONS, true) == -1);
+	CHECK(replace_all(document, "BOOL", "((", FIND_DECLARATIONS, true) == -1);
+	CHECK(replace_all(document, "motor", "*) x", FIND_COMMENTS, true) == -1);
+	CHECK_AS(has(document, before) && !ladder_document_undo_name(document),
+		 "what cannot be read is refused, all of it");
+	CHECK(replace_all(document, "1", "2", FIND_OPERANDS, true) == 1);
+	CHECK(has(document, "IN2:=2 OUT"));
+	CHECK(replace_all(document, "Motor", "Motor", FIND_EVERYWHERE, false) == 13);
+	CHECK(ladder_document_undo(document) && has(document, before));
+	g_free(before);
+	g_object_unref(document);
+}
+
+int main(void)
+{
+	test_hits();
+	test_order();
+	test_replace();
+	return tap_done();
+}
