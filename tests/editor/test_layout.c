@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_layout - where things stand, what is hit at a point, and what a change costs.
+ */
+#include "editor-gtk/rung_box.h"
+#include "tests/editor/drawn.h"
+#include "tests/tap.h"
+
+#include <glib.h>
+
+static struct lettering *lettering;
+
+static struct sheet *sheet_of_file(struct ladder *ladder, int pou)
+{
+	struct project *project = ladder_project(ladder);
+	struct sheet *sheet = sheet_new(project, &project->pou[pou], lettering);
+
+	sheet_layout(sheet);
+	return sheet;
+}
+
+static enum rung_part part_at(const struct sheet *sheet, int rung, float x, float y)
+{
+	return rung_layout_hit(&sheet->drafting, sheet->rung[rung], x, y).part;
+}
+
+/* The middle of every cell hits it, and its corners do. */
+static int missed_cells(const struct sheet *sheet)
+{
+	int missed = 0;
+
+	for (int i = 0; i < sheet->count; i++) {
+		const struct rung_layout *layout = sheet->rung[i];
+
+		for (int row = 0; row < layout->rows; row++)
+			for (int d = 0; d < layout->columns; d++) {
+				graphene_rect_t r = rung_layout_cell(layout, row, d);
+				float x = r.origin.x + r.size.width / 2;
+				struct rung_hit hit = rung_layout_hit(&sheet->drafting,
+					layout, x, layout->row[row].y + 3);
+
+				missed += hit.part == RUNG_PART_NONE || hit.column != d ||
+					  hit.row > row;
+				missed += r.origin.x < RUNG_LEFT - 1 ||
+					  r.origin.x + r.size.width > layout->right + 1 ||
+					  r.origin.y + r.size.height > layout->height;
+			}
+	}
+	return missed;
+}
+
+/* Columns of a row do not overlap, whatever was stretched. */
+static int bad_columns(const struct sheet *sheet)
+{
+	int bad = 0;
+
+	for (int i = 0; i < sheet->count; i++)
+		for (int d = 1; d < sheet->rung[i]->columns; d++)
+			bad += sheet->rung[i]->column_x[d] + 0.01f <
+			       sheet->rung[i]->column_x[d - 1] +
+			       sheet->rung[i]->column_width[d - 1];
+	return bad;
+}
+
+static void check_simple(const struct sheet *sheet)
+{
+	const struct rung_layout *layout = sheet->rung[0];
+
+	CHECK(layout->columns == RUNG_LEAST_COLUMNS);
+	CHECK((int)layout->column_width[0] == RUNG_CELL_WIDTH);
+	CHECK((int)layout->row[0].height == RUNG_CELL_HEIGHT);
+	CHECK(rung_layout_column(layout, 0, 2) == layout->columns - 1);
+	CHECK(rung_layout_col(layout, 0, layout->columns - 1) == 2);
+	CHECK(rung_layout_col(layout, 0, 3) == -1);
+	CHECK(rung_layout_wired(layout, 0, 3));
+	CHECK(!rung_layout_wired(layout, 1, 3));
+	CHECK(rung_layout_column(layout, 1, 0) == 0);
+	float y = layout->row[0].wire, x = layout->column_x[3] + 40;
+	CHECK(part_at(sheet, 0, x, y + 2) == RUNG_PART_WIRE);
+	CHECK(part_at(sheet, 0, x, y + 20) == RUNG_PART_CELL);
+	CHECK(part_at(sheet, 0, layout->column_x[1], y + 40) == RUNG_PART_LINK);
+	CHECK(part_at(sheet, 0, 10, 20) == RUNG_PART_NUMBER);
+	CHECK(part_at(sheet, 0, 200, 20) == RUNG_PART_TITLE);
+	CHECK(part_at(sheet, 0, layout->right + 10, y) == RUNG_PART_NONE);
+	CHECK(part_at(sheet, 0, -1, y) == RUNG_PART_NONE);
+	CHECK(part_at(sheet, 0, x, layout->height + 1) == RUNG_PART_NONE);
+	struct rung_hit hit = rung_layout_hit(&sheet->drafting, layout,
+					      layout->column_x[1], y + 40);
+	CHECK(hit.row == 1 && hit.column == 0);
+}
+
+/* Rung 4 of the shapes has a timer in column 1: PT below IN, ET below Q. */
+static void check_box(const struct sheet *sheet)
+{
+	const struct rung_layout *layout = sheet->rung[3];
+	struct rung_box box;
+	graphene_rect_t cell = rung_layout_cell(layout, 0, 1);
+
+	rung_box_make(&sheet->drafting, layout->rung, 0, 1, &box);
+	rung_box_place(&box, layout->row, layout->column_x[1], layout->column_width[1]);
+	CHECK(box.x > cell.origin.x && box.x + box.inner < cell.origin.x + cell.size.width);
+	CHECK(layout->row[0].wire + box.bottom < layout->row[0].y + layout->row[0].height);
+	struct rung_hit hit = rung_layout_hit(&sheet->drafting, layout, box.x - 20,
+					      layout->row[0].wire + BOX_LINE);
+	CHECK(hit.part == RUNG_PART_PIN && !hit.output && hit.column == 1);
+	CHECK(hit.pin == 1 && !strncmp(box.in.pin[1].name, "PT", 2));
+	hit = rung_layout_hit(&sheet->drafting, layout, box.x + box.inner + 20,
+			      layout->row[0].wire + BOX_LINE);
+	CHECK(hit.part == RUNG_PART_PIN && hit.output);
+	CHECK(!strncmp(box.out.pin[hit.pin].name, "ET", 2));
+	/* A box with a pin row is one cell to the cursor. */
+	layout = sheet->rung[4];
+	graphene_rect_t first = rung_layout_cell(layout, 0, 1);
+	graphene_rect_t second = rung_layout_cell(layout, 1, 1);
+	CHECK(graphene_rect_equal(&first, &second));
+	CHECK(first.size.height > 2 * RUNG_CELL_HEIGHT);
+}
+
+/* Rows below the rung, for a cursor that goes there. */
+static void check_more_rows(const struct sheet *sheet)
+{
+	struct rung_layout *layout = rung_layout_new(&sheet->drafting,
+						     sheet->pou->rung[0], 1, 5);
+
+	CHECK(layout->rows == 5);
+	CHECK(rung_layout_col(layout, 4, 0) == -1);
+	CHECK(!rung_layout_wired(layout, 4, 0));
+	CHECK(layout->row[4].y > layout->row[1].y + RUNG_CELL_HEIGHT);
+	rung_layout_free(layout);
+}
+
+static void check_sheet(struct sheet *sheet)
+{
+	int count = sheet->count;
+	float height = sheet->height;
+
+	for (int i = 0; i < count; i++)
+		if (sheet_rung_at(sheet, sheet->y[i] + 1) != i)
+			CHECK_AS(false, "the rung at a place");
+	CHECK(sheet_rung_at(sheet, -5) == 0);
+	CHECK(sheet_rung_at(sheet, 1e9f) == count - 1);
+	sheet_changed(sheet, 2, 1, 1, 4);
+	CHECK(sheet->count == count && sheet->rung[2]->rows == 4);
+	CHECK(sheet->height > height);
+	sheet_changed(sheet, 2, 1, 1, 0);
+	CHECK(sheet->height > height - 0.5f && sheet->height < height + 0.5f);
+	/* A rung goes and comes back: the numbers behind it move. */
+	struct pou *pou = (struct pou *)sheet->pou;
+	struct rung *taken = project_take_rung(pou, 1);
+	sheet_changed(sheet, 1, 1, 0, 0);
+	CHECK(sheet->count == count - 1 && sheet->rung[1]->number == 2);
+	CHECK(sheet->rung[1]->rung == pou->rung[1]);
+	project_add_rung(pou, 1, taken);
+	sheet_changed(sheet, 1, 0, 1, 0);
+	CHECK(sheet->count == count && sheet->rung[2]->number == 3);
+	CHECK(sheet->height > height - 0.5f && sheet->height < height + 0.5f);
+}
+
+static void check_clipping(void)
+{
+	struct lettered whole = lettering_fit(lettering, LETTER_SYMBOL, "Motor", -1, 200);
+	struct lettered cut = lettering_fit(lettering, LETTER_SYMBOL,
+					    "a rather long name", -1, 60);
+	struct lettered part = lettering_fit(lettering, LETTER_SYMBOL, "Motor.Q", 5, 0);
+	struct lettered odd = lettering_fit(lettering, LETTER_SYMBOL, "a\x01\xff\x80z", -1, 0);
+
+	CHECK_TEXT(whole.text, "Motor");
+	CHECK_TEXT(part.text, "Motor");
+	CHECK(cut.width <= 60 && g_str_has_suffix(cut.text, "\xe2\x80\xa6"));
+	CHECK(g_utf8_validate(odd.text, -1, NULL) && !strchr(odd.text, 1));
+	/* A mark stays with its letter, however little room there is. */
+	for (float bound = 1; bound < 60; bound++) {
+		const char *text = lettering_fit(lettering, LETTER_SYMBOL,
+			"e\xcc\x81" "e\xcc\x81" "e\xcc\x81" "e\xcc\x81", -1, bound).text;
+
+		if (strstr(text, "e\xe2\x80\xa6"))
+			CHECK_AS(false, "a letter lost its accent");
+	}
+}
+
+int main(void)
+{
+	lettering = lettering_new(NULL, NULL);
+	struct ladder *ladder = drawn_load("tests/editor/drawing/shapes.rung", NULL);
+	if (!CHECK(ladder))
+		return tap_done();
+	struct sheet *sheet = sheet_of_file(ladder, 0);
+	check_simple(sheet);
+	check_box(sheet);
+	check_more_rows(sheet);
+	CHECK(missed_cells(sheet) == 0);
+	CHECK(bad_columns(sheet) == 0);
+	check_sheet(sheet);
+	check_clipping();
+	sheet_free(sheet);
+	ladder_free(ladder);
+	lettering_free(lettering);
+	return tap_done();
+}
