@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_render - `ladder-editor --render`, in this process and without a display.
+ *
+ * Text in a PDF is looked for with pdftotext where that is installed.
+ */
+#include "editor-gtk/pages.h"
+#include "editor-gtk/render.h"
+#include "tests/editor/drawn.h"
+#include "tests/tap.h"
+
+#include <glib.h>
+#include <glib/gstdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#define SHAPES "tests/editor/drawing/shapes.rung"
+
+static char *folder;
+static char *said; /* what the last call said on stderr                         */
+
+static char *in_folder(const char *name)
+{
+	return g_build_filename(folder, name, NULL);
+}
+
+static char *content(const char *name, size_t *len)
+{
+	char *path = in_folder(name), *text = NULL;
+
+	if (!g_file_get_contents(path, &text, len, NULL))
+		text = g_strdup("");
+	g_free(path);
+	return text;
+}
+
+/* @words, blanks between them; OUT/ is the scratch folder. */
+static int render(const char *words)
+{
+	char *place = g_strdup_printf("%s/", folder), *log = in_folder("said");
+	char **parts = g_strsplit(words, "OUT/", -1), *all = g_strjoinv(place, parts);
+	char *line = g_strdup_printf("ladder-editor --render %s", all);
+	char **argv = g_strsplit(line, " ", -1);
+	int keep = dup(2), status;
+
+	fflush(stderr);
+	if (!freopen(log, "w", stderr))
+		return -1;
+	status = render_main((int)g_strv_length(argv), argv);
+	fflush(stderr);
+	dup2(keep, 2);
+	close(keep);
+	g_free(said);
+	said = content("said", NULL);
+	g_strfreev(argv);
+	g_strfreev(parts);
+	g_free(line);
+	g_free(all);
+	g_free(log);
+	g_free(place);
+	return status;
+}
+
+static bool has(const char *file, const char *text)
+{
+	char *all = content(file, NULL);
+	bool found = strstr(all, text) != NULL;
+
+	g_free(all);
+	return found;
+}
+
+static bool same(const char *a, const char *b)
+{
+	size_t a_len = 0, b_len = 0;
+	char *x = content(a, &a_len), *y = content(b, &b_len);
+	bool equal = a_len > 0 && a_len == b_len && memcmp(x, y, a_len) == 0;
+
+	g_free(x);
+	g_free(y);
+	return equal;
+}
+
+static void check_svg(void)
+{
+	CHECK(render(SHAPES " -o OUT/a.svg") == 0);
+	CHECK_TEXT(said, "");
+	CHECK(has("a.svg", ">Motor</text>"));
+	CHECK(has("a.svg", ">启动</text>"));
+	CHECK(has("a.svg", "SUBROUTINE Sub"));
+	CHECK(has("a.svg", "Level * 3 &gt; Count"));
+	CHECK(render(SHAPES " -o OUT/b.svg") == 0 && same("a.svg", "b.svg"));
+	CHECK(render(SHAPES " --dark -o OUT/dark.svg") == 0 && has("dark.svg", "#1b1c1f"));
+	CHECK(render(SHAPES " --rung 1 -o OUT/one.svg") == 0 && !has("one.svg", "CTU"));
+	CHECK(render(SHAPES " --pou SUB -o OUT/sub.svg") == 0 && has("sub.svg", "STOP") &&
+	      !has("sub.svg", "Motor"));
+	CHECK(render(SHAPES " --show addresses -o OUT/c.svg --rung 1") == 0 &&
+	      !has("c.svg", "启动") && has("c.svg", "%IX0.0"));
+	CHECK(render("ladders/mixer.rung -o OUT/il.svg") == 0 && has("il.svg", "JMPCN"));
+}
+
+static void check_png(void)
+{
+	cairo_surface_t *surface;
+	char *path = in_folder("a.png");
+
+	CHECK(render(SHAPES " --scale 2 --rung 1 --width 700 -o OUT/a.png") == 0);
+	surface = cairo_image_surface_create_from_png(path);
+	CHECK(cairo_image_surface_get_width(surface) >= 2 * (700 + RUNG_LEFT + RUNG_AFTER));
+	const unsigned char *pixel = cairo_image_surface_get_data(surface);
+	CHECK(pixel && pixel[4 * (cairo_image_surface_get_width(surface) - 2)] == 0xff);
+	cairo_surface_destroy(surface);
+	g_free(path);
+}
+
+static void check_pdf(void)
+{
+	CHECK(render(SHAPES " -o OUT/a.pdf") == 0);
+	CHECK(render(SHAPES " -o OUT/b.pdf") == 0 && same("a.pdf", "b.pdf"));
+	CHECK(render(SHAPES " --paper letter --landscape --date 2026-03-01 -o OUT/c.pdf") ==
+	      0);
+	if (!g_find_program_in_path("pdftotext")) {
+		printf("# no pdftotext here\n");
+		return;
+	}
+	char *line = g_strdup_printf("pdftotext -layout %s/a.pdf %s/a.txt && "
+				     "pdftotext -layout %s/c.pdf %s/c.txt", folder, folder,
+				     folder, folder);
+	CHECK(system(line) == 0);
+	g_free(line);
+	CHECK(has("a.txt", "PROGRAM Main") && has("a.txt", "启动按钮，常开"));
+	CHECK(has("a.txt", "read in Main 1"));
+	CHECK(has("a.txt", "Global symbols") && has("a.txt", "Symbols of Main"));
+	CHECK(has("a.txt", "1 of ") && has("a.txt", "shapes.rung"));
+	CHECK(!has("a.txt", "Date") && has("c.txt", "2026-03-01"));
+}
+
+static void check_diff(void)
+{
+	char *path = in_folder("new.rung"), *text = NULL, **parts, *changed;
+
+	g_file_get_contents(SHAPES, &text, NULL, NULL);
+	parts = g_strsplit(text, "| NC Stop (* interlock *) |", 2);
+	changed = g_strjoinv("| NO Stop (* interlock *) |", parts);
+	g_file_set_contents(path, changed, -1, NULL);
+	CHECK(render("--diff " SHAPES " OUT/new.rung -o OUT/diff.svg") == 0);
+	CHECK(has("diff.svg", ">+</text>") && has("diff.svg", ">\xe2\x88\x92</text>"));
+	CHECK(has("diff.svg", ">\xe2\x89\xa0</text>"));
+	CHECK(has("diff.svg", "PROGRAM Main") && !has("diff.svg", "SUBROUTINE Sub"));
+	CHECK(!has("diff.svg", "switched off"));
+	CHECK(render("--diff " SHAPES " " SHAPES " -o OUT/same.svg") == 0);
+	CHECK(has("same.svg", "No rung differs"));
+	CHECK(render("--diff ladders/motor.rung ladders/mixer.rung -o OUT/far.svg") == 0);
+	CHECK(has("far.svg", ": removed") || has("far.svg", ": added") ||
+	      has("far.svg", "differs"));
+	g_strfreev(parts);
+	g_free(changed);
+	g_free(text);
+	g_free(path);
+}
+
+static void check_wrong(void)
+{
+	static const struct { const char *words, *said; int status; } wrong[] = {
+		{ "", "a file is missing", 2 },
+		{ SHAPES, "-o is missing", 2 },
+		{ SHAPES " -o OUT/a.gif", ".svg, .pdf or .png", 2 },
+		{ SHAPES " " SHAPES " -o OUT/a.svg", "one file too many", 2 },
+		{ SHAPES " --rung 0 -o OUT/a.svg", "a number from 1", 2 },
+		{ SHAPES " --rung 1x -o OUT/a.svg", "a number from 1", 2 },
+		{ SHAPES " --rung 99 -o OUT/a.svg", "has no rung 99", 2 },
+		{ SHAPES " --pou Nobody -o OUT/a.svg", "no POU called Nobody", 2 },
+		{ SHAPES " --paper a9 -o OUT/a.pdf", "--paper is", 2 },
+		{ SHAPES " --show all -o OUT/a.svg", "--show is", 2 },
+		{ SHAPES " --scale", "--scale wants a value", 2 },
+		{ SHAPES " --what -o OUT/a.svg", "no option --what", 2 },
+		{ SHAPES " -o OUT/no/such/folder.svg", "cannot write", 2 },
+		{ SHAPES " -o OUT/no/such/folder.pdf", "cannot write", 2 },
+		{ SHAPES " -o OUT/no/such/folder.png", "cannot write", 2 },
+		{ SHAPES " --scale 10 --width 9000 -o OUT/a.png", "too large", 2 },
+		{ "OUT/none.rung -o OUT/a.svg", "LD0", 2 },
+		{ "OUT/bad.rung -o OUT/a.svg", "LD1", 1 },
+		{ "--diff " SHAPES " -o OUT/a.svg", "a file is missing", 2 },
+		{ "--diff OUT/bad.rung " SHAPES " -o OUT/a.svg", "LD1", 1 },
+		{ "--diff " SHAPES " " SHAPES " --rung 1 -o OUT/a.svg", "--diff", 2 },
+	};
+	char *bad = in_folder("bad.rung");
+
+	g_file_set_contents(bad, "RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NOO X |\n"
+			    "END_PROGRAM\n", -1, NULL);
+	for (size_t i = 0; i < G_N_ELEMENTS(wrong); i++) {
+		int status = render(*wrong[i].words ? wrong[i].words : "--dark");
+
+		if (!CHECK_AS(status == wrong[i].status && strstr(said, wrong[i].said),
+			      wrong[i].said))
+			printf("# status %d: %s", status, said);
+	}
+	g_free(bad);
+}
+
+/* A rung of 256 rows takes several pages, and none of it is lost. */
+static void check_tall(void)
+{
+	GString *text = g_string_new("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n");
+	struct lettering *rule = lettering_new(NULL, NULL);
+	struct paper paper = { .date = NULL };
+
+	for (int row = 0; row < 256; row++)
+		g_string_append_printf(text, "  | NO %%MX%d.%d %s|%s\n", row / 8, row % 8,
+				       row ? "^" : "", row ? "" : " COIL %QX0.0 |");
+	g_string_append(text, "END_PROGRAM\n");
+	struct ladder *ladder = drawn_load("tall.rung", text->str);
+	CHECK(ladder && paper_find("A4", &paper) && !paper_find("a44", &paper));
+	if (ladder) {
+		struct pages *pages = pages_new(ladder_project(ladder), "tall.rung", -1, 0,
+						SHOW_BOTH, &paper, rule);
+
+		CHECK(pages_count(pages) > 8 && pages_count(pages) < 30);
+		pages_free(pages);
+		ladder_free(ladder);
+	}
+	lettering_free(rule);
+	g_string_free(text, TRUE);
+}
+
+static void clear_folder(void)
+{
+	GDir *dir = g_dir_open(folder, 0, NULL);
+
+	for (const char *name; dir && (name = g_dir_read_name(dir));) {
+		char *path = in_folder(name);
+
+		g_unlink(path);
+		g_free(path);
+	}
+	if (dir)
+		g_dir_close(dir);
+	g_rmdir(folder);
+}
+
+int main(void)
+{
+	folder = g_dir_make_tmp("render-XXXXXX", NULL);
+	if (!CHECK(folder))
+		return tap_done();
+	check_svg();
+	check_png();
+	check_pdf();
+	check_diff();
+	check_wrong();
+	check_tall();
+	clear_folder();
+	g_free(folder);
+	g_free(said);
+	return tap_done();
+}
