@@ -9,7 +9,7 @@
 #ifndef EDITOR_ENTRY_H
 #define EDITOR_ENTRY_H
 
-#include "engine/model/project.h"
+#include "engine/view/xref.h"
 
 #define ENTRY_TEXT 1024  /* bytes of an operand or of parameters, with NUL      */
 #define ENTRY_NAME 320   /* of a name, an address, a note                       */
@@ -21,6 +21,8 @@ struct entry_place {
 				    nothing else changes                      */
 	int pou;                 /* index in it                                */
 	bool output;             /* the cursor is in the last column           */
+	struct xref *xref;       /* of the project as it is, borrowed; NULL: it is
+				    made when it is needed, which takes longer */
 };
 
 /* A variable that does not exist yet and would be declared. */
@@ -40,6 +42,7 @@ enum entry_sense {
 struct entry {
 	enum entry_sense sense;
 	enum word word;
+	bool below;               /* in parallel to what is at the cursor: OR X */
 	char operand[ENTRY_TEXT]; /* "": none                                  */
 	char args[ENTRY_TEXT];    /* "PT:=T#1s"; "": none                      */
 	struct entry_new declare[ENTRY_NEW_MOST];

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry_areas - addresses in use, and the one that a new name gets.
+ *
+ * What is used and what is free the engine knows (view/address_map.h); which area a new
+ * one belongs to is the habit of the project.
+ */
+#include "editor-gtk/entry_inside.h"
+
+#include "engine/view/address_map.h"
+
+#include <string.h>
+
+/* The cross reference of a place, or one made for a while. */
+struct uses {
+	struct xref own;
+	struct xref *xref;
+};
+
+static bool open_uses(const struct entry_place *place, struct uses *uses)
+{
+	memset(uses, 0, sizeof(*uses));
+	uses->xref = place->xref;
+	if (uses->xref)
+		return true;
+	uses->xref = &uses->own;
+	return xref_make(&uses->own, place->project);
+}
+
+static void close_uses(struct uses *uses)
+{
+	if (uses->xref == &uses->own)
+		xref_free(&uses->own);
+}
+
+void entry_each_address(const struct entry_place *place,
+			void (*take)(void *context, struct iec_addr addr), void *context)
+{
+	struct uses uses;
+
+	if (open_uses(place, &uses))
+		for (int i = 0; i < uses.xref->count; i++)
+			if (uses.xref->use[i].target.what == XREF_ADDRESS)
+				take(context, uses.xref->use[i].target.addr);
+	close_uses(&uses);
+}
+
+static bool is_used(const struct xref *xref, enum iec_area area)
+{
+	for (int i = 0; i < xref->count; i++)
+		if (xref->use[i].target.addr.area == area)
+			return true;
+	return false;
+}
+
+static bool is_declared(const struct entry *entry, struct iec_addr addr)
+{
+	char text[40];
+
+	iec_addr_print(addr, text, sizeof(text));
+	for (int i = 0; i < entry->declares; i++)
+		if (!strcmp(entry->declare[i].address, text))
+			return true;
+	return false;
+}
+
+static bool next_bit(const struct address_map *map, enum iec_area area,
+		     const struct entry *entry, struct iec_addr *out)
+{
+	bool found = address_map_next(map, area, 1, 1, NULL, out);
+
+	while (found && is_declared(entry, *out)) {
+		const struct iec_addr before = *out;
+
+		found = address_map_next(map, area, 1, 1, &before, out);
+	}
+	return found;
+}
+
+/* Contacts to the inputs, coils to the outputs, or to the markers where a project has
+ * those and no outputs. */
+static enum iec_area habit(const struct xref *xref, bool output)
+{
+	if (!output)
+		return AREA_I;
+	return is_used(xref, AREA_M) && !is_used(xref, AREA_Q) ? AREA_M : AREA_Q;
+}
+
+void entry_proposal(const struct entry_place *place, const struct entry *entry,
+		    bool output, char *out, size_t size)
+{
+	const struct pou *pou = entry_pou(place);
+	struct address_map map;
+	struct iec_addr addr;
+	struct arena arena;
+	struct uses uses;
+
+	out[0] = '\0';
+	if (!pou || pou_has_frame(pou))
+		return;
+	arena_init(&arena);
+	if (open_uses(place, &uses) && address_map_make(&map, uses.xref, &arena) &&
+	    (next_bit(&map, habit(uses.xref, output), entry, &addr) ||
+	     next_bit(&map, AREA_M, entry, &addr)))
+		iec_addr_print(addr, out, size);
+	close_uses(&uses);
+	arena_free(&arena);
+}

@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_plain_entry - quick entry: what lines mean, and what is offered for them.
+ *
+ * A case is the line as typed and the cell it makes, with what would be declared behind
+ * `+`, and `below` before it if it goes in parallel; or `!` and why not. A line of the
+ * last column begins with `>`.
+ */
+#include "editor-gtk/entry.h"
+#include "engine/base/diag.h"
+#include "engine/ladder.h"
+#include "engine/text/text.h"
+#include "tests/tap.h"
+
+#include <stdlib.h>
+
+static const char project_text_[] =
+	"RUNGBOARD 1\n"
+	"TYPE\nPair : STRUCT\nLow : INT;\nOn : BOOL;\nEND_STRUCT;\nEND_TYPE\n"
+	"VAR\n"
+	"  Start AT %IX0.0 : BOOL; (* green *)\n"
+	"  Stop  AT %IX0.1 : BOOL;\n"
+	"  Motor AT %QX0.0 : BOOL; (* fan contactor *)\n"
+	"  Fan   AT %QX0.1 : BOOL;\n"
+	"  Level : INT;\n"
+	"  Heat  : REAL;\n"
+	"  Wait  : TIME := T#5s;\n"
+	"  FanDelay : TON;\n"
+	"  Lamps AT %QX1.0 : ARRAY[0..7] OF BOOL;\n"
+	"  P1 : Pair;\n"
+	"  i : INT;\n"
+	"END_VAR\n"
+	"VAR CONSTANT\n  Full : INT := 9;\nEND_VAR\n"
+	"FUNCTION_BLOCK Drive LD\nVAR_INPUT\nGo : BOOL;\nSpeed : INT;\nEND_VAR\n"
+	"VAR_OUTPUT\nRun : BOOL;\nEND_VAR\nRUNG\n| NO Go | COIL Run |\nEND_FUNCTION_BLOCK\n"
+	"PROGRAM Main LD\n"
+	"RUNG Top\n| NO Start | NC Stop | COIL Motor |\n"
+	"RUNG\n| NO I7 | TON FanDelay PT:=T#5s | COIL %QX0.2 |\n"
+	"END_PROGRAM\n"
+	"SUBROUTINE Alarm LD\nRUNG\n| NO Start | COIL %MX0.0 |\nEND_SUBROUTINE\n";
+
+static const struct { const char *line, *means; } lines[] = {
+	/* every dialect */
+	{ "XIC Start", "NO Start" }, { "xio start", "NC Start" },
+	{ "LD Start", "NO Start" }, { "LDI Start", "NC Start" },
+	{ "LDN Start", "NC Start" }, { "A Start", "NO Start" },
+	{ "AN Start", "NC Start" }, { "AND Start", "NO Start" },
+	{ "ANI Start", "NC Start" }, { "O Start", "below NO Start" },
+	{ "ON Start", "below NC Start" }, { "OR Start", "below NO Start" },
+	{ "ORI Start", "below NC Start" }, { "NO Start", "NO Start" },
+	{ "P Start", "P Start" }, { "LDP Start", "P Start" }, { "OSR Start", "P Start" },
+	{ "N Start", "N Start" }, { "-| |- Start", "NO Start" },
+	{ "-|/|- Start", "NC Start" }, { "-||- Start", "NO Start" },
+	{ "-(S)- Motor", "S Motor" }, { "-( )- Motor", "COIL Motor" },
+	{ "()Motor", "COIL Motor" },
+	{ "OTE Motor", "COIL Motor" }, { "OUT Motor", "COIL Motor" },
+	{ "= Motor", "COIL Motor" }, { "=Motor", "COIL Motor" },
+	{ "ST Motor", "COIL Motor" }, { "OTL Motor", "S Motor" },
+	{ "SET Motor", "S Motor" }, { "S Motor", "S Motor" }, { "RST Motor", "R Motor" },
+	{ "OTU Motor", "R Motor" }, { "R Motor", "R Motor" }, { "PLS Motor", "COILP Motor" },
+	{ "INV", "NOT" }, { "NOT", "NOT" }, { "RET", "RET" }, { "TND", "END" },
+	{ "JMP Top", "JMP Top" }, { "CALL Alarm", "CALL Alarm" }, { "JSR Alarm", "CALL Alarm" },
+	/* names alone */
+	{ "Start", "NO Start" }, { "start", "NO Start" }, { "/Stop", "NC Stop" },
+	{ "/ Stop", "NC Stop" }, { ">Motor", "COIL Motor" }, { ">/Motor", "COILNOT Motor" },
+	{ "NO /Start", "NC Start" }, { "COIL /Motor", "COILNOT Motor" },
+	{ "FanDelay", "NO FanDelay.Q" }, { "FanDelay.Q", "NO FanDelay.Q" },
+	{ "Lamps[3]", "NO Lamps[3]" }, { ">lamps[i]", "COIL Lamps[i]" },
+	{ "P1.On", "NO P1.On" },
+	/* addresses */
+	{ "%IX0.0", "NO Start" }, { "I0.0", "NO Start" }, { "i0.1", "NO Stop" },
+	{ "I3", "NO %IX0.3" }, { "E0.3", "NO %IX0.3" }, { ">A4.0", "COIL %QX4.0" },
+	{ "X5", "NO %IX0.5" }, { ">Y3", "COIL %QX0.3" }, { "I:1/3", "NO %IX2.3" },
+	{ "O:0/10", "NO %QX1.2" }, { "%B3", "NO %MX0.3" }, { "SM0.5", "NO %SMX0.5" },
+	{ "X10", "! some controllers count this in octal, others in hexadecimal: "
+		 "write %IX1.0 (X10)" },
+	{ "%IX0.9", "! there is no such address (%IX0.9)" },
+	{ "%ZX0.9", "! this is no address (%ZX0.9)" },
+	{ "SYS_FIRST_SCAN", "NO SYS_FIRST_SCAN" },
+	/* boxes */
+	{ "TON", "TON Delay1 PT:=T#1s + Delay1 TON" },
+	{ "TON T37", "TON T37 PT:=T#1s + T37 TON" },
+	{ "TON T37 5s", "TON T37 PT:=T#5s + T37 TON" },
+	{ "TON T37, 2.5s", "TON T37 PT:=T#2.5s + T37 TON" },
+	{ "TON 5s", "TON Delay1 PT:=T#5s + Delay1 TON" },
+	{ "TON FanDelay PT := Wait", "TON FanDelay PT:=Wait" },
+	{ "TON FanDelay PT:=Later", "TON FanDelay PT:=Later + Later TIME" },
+	{ "TOF FanDelay", "! this is no instance of that block (FanDelay)" },
+	{ "CTU", "CTU Counter1 PV:=10 + Counter1 CTU" },
+	{ "CTU Parts R:=/Stop PV:=3 CV=>Level",
+	  "CTU Parts R:=/Stop PV:=3 CV=>Level + Parts CTU" },
+	{ "CTU Parts QX:=3", "! the box has no such pin (QX)" },
+	{ "Drive", "Drive Drive1 + Drive1 Drive" },
+	{ "Drive Left 7", "Drive Left Speed:=7 + Left Drive" },
+	{ "RTO", "TONR Delay1 PT:=T#1s + Delay1 TONR" },
+	{ "MOV 5 Level", "MOVE IN:=5 OUT=>Level" },
+	{ "MOVE IN:=Level OUT=>i", "MOVE IN:=Level OUT=>i" },
+	{ "ADD Level i Level", "ADD IN1:=Level IN2:=i OUT=>Level" },
+	{ "ADD 1 2 3 Level", "ADD IN1:=1 IN2:=2 IN3:=3 OUT=>Level" },
+	{ "GRT Level 5", "GT IN1:=Level IN2:=5" },
+	{ "AND IN1:=Start IN2:=Stop", "AND IN1:=Start IN2:=Stop" },
+	{ "INT_TO_REAL IN:=Level OUT=>Heat", "INT_TO_REAL IN:=Level OUT=>Heat" },
+	/* expressions */
+	{ "Level > 5", "[ Level > 5 ]" }, { "Level>5", "[ Level > 5 ]" },
+	{ "[ Level > 5 ]", "[ Level > 5 ]" }, { "[Level>5", "[ Level > 5 ]" },
+	{ "Level := i + 1", "[ Level := i + 1 ]" }, { "Level:=i+1", "[ Level := i+1 ]" },
+	{ "Lamps[i] = Start", "[ Lamps[i] = Start ]" },
+	{ "P1.Low <= 7", "[ P1.Low <= 7 ]" }, { "(Level + 1) * 2 > i", "[ (Level + 1) * 2 > i ]" },
+	{ "Temp > 5", "[ Temp > 5 ] + Temp INT" },
+	{ "Temp > 5.5", "[ Temp > 5.5 ] + Temp REAL" },
+	{ "Temp > T#5s", "[ Temp > T#5s ] + Temp TIME" },
+	{ "Temp := Heat", "[ Temp := Heat ] + Temp REAL" },
+	{ "Full := 5", "! this cannot be written (Full)" },
+	{ ">Level > 5", "! only an output can stand in the last column (Level > 5)" },
+	{ ">Level := 5", "[ Level := 5 ]" },
+	{ "Level >", "! this is no expression (Level >)" },
+	/* what is new is told */
+	{ "Open", "NO Open + Open BOOL %IX0.2" }, { ">Horn", "COIL Horn + Horn BOOL %QX0.3" },
+	{ "NO Open", "NO Open + Open BOOL %IX0.2" },
+	{ "S Horn", "S Horn + Horn BOOL %QX0.3" },
+	{ "XIC 启动", "NO 启动 + 启动 BOOL %IX0.2" },
+	/* wrong */
+	{ "Level", "! this is no BOOL: compare it, as in Level > 5 (Level)" },
+	{ ">Start", "! this cannot be written (Start)" },
+	{ "FanDelay.X", "! it has no such pin or member (FanDelay.X)" },
+	{ "Start.Q", "! it is neither an array nor does it have members (Start.Q)" },
+	{ "Nobody.Q", "! there is no such variable (Nobody.Q)" },
+	{ ">FanDelay", "! this is no BOOL (FanDelay)" },
+	{ "FROB Start", "! there is no such word (FROB)" },
+	{ ">NO Start", "! only an output can stand in the last column (NO)" },
+	{ "RET now", "! nothing stands behind this word (now)" },
+	{ "PROGRAM", "! no variable can be called so (PROGRAM)" },
+	{ "_T1", "! no variable can be called so (_T1)" },
+	{ "12", "! no variable can be called so (12)" },
+	{ "NO", "part" }, { "/", "part" }, { "JMP", "part" }, { "COIL", "part" },
+	{ "", "nothing" }, { "   ", "nothing" },
+};
+
+static void say(struct project *project, const struct entry *e, char *out, size_t size)
+{
+	char cell_text[2200];
+	struct cell cell;
+	int n;
+
+	if (e->sense == ENTRY_WRONG) {
+		snprintf(out, size, "! %s (%s)", e->why, e->what);
+		return;
+	}
+	if (e->sense != ENTRY_ELEMENT || !entry_cell(project, e, &cell)) {
+		snprintf(out, size, "%s", e->sense == ENTRY_PART ? "part" : "nothing");
+		return;
+	}
+	text_write_cell(project, &cell, cell_text, sizeof(cell_text));
+	n = snprintf(out, size, "%s%s", e->below ? "below " : "", cell_text);
+	for (int i = 0; i < e->declares; i++)
+		n += snprintf(out + n, size - (size_t)n, " + %s %s%s%s",
+			      e->declare[i].name, e->declare[i].type,
+			      e->declare[i].address[0] ? " " : "", e->declare[i].address);
+}
+
+static void check_lines(struct entry_place *place)
+{
+	for (size_t i = 0; i < sizeof(lines) / sizeof(*lines); i++) {
+		const char *line = lines[i].line;
+		struct entry entry;
+		char got[4000];
+
+		place->output = line[0] == '>';
+		entry_read(place, line + place->output, &entry);
+		say(place->project, &entry, got, sizeof(got));
+		if (!CHECK_AS(!strcmp(got, lines[i].means), line))
+			printf("# got:  %s\n# want: %s\n", got, lines[i].means);
+	}
+	place->output = false;
+}
+
+/* The list for a line whose cursor stands at `_`; `>` begins one of the last column. */
+static const struct { const char *line, *offers; } offered[] = {
+	{ "Fan_", "Fan FanDelay" },
+	{ "fa_", "Fan FanDelay new:fa@%IX0.2" },
+	{ ">fa_", "Fan new:fa@%QX0.3" },
+	{ "NO Mo_", "Motor new:Mo@%IX0.2" },
+	{ "COIL Sta_", "new:Sta@%QX0.3" },
+	{ "XIC tor_", "Motor new:tor@%IX0.2" },
+	{ "FanDelay._", "FanDelay.IN FanDelay.Q" },
+	{ "NO FanDelay.q_", "FanDelay.Q" },
+	{ "TON _", "FanDelay Q=> PT:= ET=>" },
+	{ "TON Fa_", "FanDelay new:Fa@" },
+	{ "TON FanDelay P_", "PT:= P1 Lamps Stop new:P@" },
+	{ "TON FanDelay PT:=W_", "Wait new:W@" },
+	{ "JMP _", "Top" }, { "CALL A_", "Alarm" },
+	{ "NO I0.0_", "Start" }, { "NO %IX0.0_", "Start" }, { "NO %IX0_", "Start Stop %IX0.7" },
+	{ "Level > L_", "Level Full new:L@" },
+	{ "Level := Fu_", "Full new:Fu@" },
+	{ "tonr_", "TONR" }, { "xic_", "XIC" },
+	{ "NO Start_", "Start" },
+};
+
+static void list(const struct entry_place *place, const char *line, char *out,
+		 size_t size)
+{
+	static struct entry_candidate found[12];
+	char copy[100];
+	const char *cursor = strchr(line, '_');
+	const size_t at = (size_t)(cursor - line);
+	int count, n = 0;
+
+	snprintf(copy, sizeof(copy), "%.*s%s", (int)at, line, cursor + 1);
+	count = entry_candidates(place, copy, at, found, 12);
+	out[0] = '\0';
+	for (int i = 0; i < count; i++) {
+		const bool new = found[i].kind == ENTRY_NEW;
+
+		n += snprintf(out + n, size - (size_t)n, "%s%s%s%s%s", i ? " " : "",
+			      new ? "new:" : "", found[i].text, new ? "@" : "",
+			      new ? found[i].address : "");
+	}
+}
+
+static void check_offers(struct entry_place *place)
+{
+	for (size_t i = 0; i < sizeof(offered) / sizeof(*offered); i++) {
+		const char *line = offered[i].line;
+		char got[4000];
+
+		place->output = line[0] == '>';
+		list(place, line + place->output, got, sizeof(got));
+		if (!CHECK_AS(!strcmp(got, offered[i].offers), line))
+			printf("# got:  %s\n# want: %s\n", got, offered[i].offers);
+	}
+	place->output = false;
+}
+
+int main(void)
+{
+	struct ladder *ladder = ladder_new();
+	struct entry_place place = { 0 };
+
+	if (!CHECK(ladder && ladder_load_text(ladder, "test", project_text_,
+					      strlen(project_text_))))
+		return tap_done();
+	place.project = ladder_project(ladder);
+	for (int i = 0; i < place.project->pou_count; i++)
+		if (!strcmp(project_text(place.project, place.project->pou[i].name), "Main"))
+			place.pou = i;
+	check_lines(&place);
+	check_offers(&place);
+	ladder_free(ladder);
+	return tap_done();
+}
