@@ -209,7 +209,7 @@ EDITOR_TESTS += $(patsubst %.c,$(BUILD)/%,$(filter-out tests/editor/test_plain_%
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
 $(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
-  $(EDITOR_TESTS:%=%.o): CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"'
+  $(EDITOR_TESTS:%=%.o): CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='"$(prefix)/share/locale"'
 $(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(wildcard editor-gtk/ui/*)
 	@mkdir -p $(@D)
 	glib-compile-resources --sourcedir=editor-gtk --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml

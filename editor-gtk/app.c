@@ -1,26 +1,199 @@
 /* SPDX-License-Identifier: MIT
  *
  * app - the life of the editor: its command line, its windows, its end.
+ *
+ * Pictures (--render) are made before anything asks for a display.
  */
 #include "editor-gtk/app.h"
 
-#include <adwaita.h>
+#include "editor-gtk/draft.h"
+#include "editor-gtk/i18n.h"
+#include "editor-gtk/render.h"
 
-static void activate(GtkApplication *application, void *unused)
+#include <gtksourceview/gtksource.h>
+#include <locale.h>
+#include <string.h>
+
+/* ---- windows ---- */
+
+static AdwApplication *the_application(LadderWindow *window)
 {
-	GtkWidget *window = adw_application_window_new(application);
+	return ADW_APPLICATION(gtk_window_get_application(GTK_WINDOW(window)));
+}
 
-	(void)unused;
-	gtk_window_set_default_size(GTK_WINDOW(window), 1440, 900);
+static LadderWindow *show_document(AdwApplication *application, LadderDocument *document)
+{
+	LadderWindow *window = ladder_window_new(application, document);
+
+	draft_keep(document);
 	gtk_window_present(GTK_WINDOW(window));
+	return window;
+}
+
+static LadderWindow *new_window(AdwApplication *application)
+{
+	LadderDocument *document = ladder_document_new();
+	LadderWindow *window = show_document(application, document);
+
+	g_object_unref(document);
+	return window;
+}
+
+void app_new_window(LadderWindow *window)
+{
+	new_window(the_application(window));
+}
+
+void app_remember(const char *path)
+{
+	char *uri = path ? g_filename_to_uri(path, NULL, NULL) : NULL;
+
+	if (uri)
+		gtk_recent_manager_add_item(gtk_recent_manager_get_default(), uri);
+	g_free(uri);
+}
+
+static void tell_repaired(LadderWindow *window, int line)
+{
+	char *text;
+
+	if (line <= 0)
+		return;
+	text = g_strdup_printf(_("From line %d on the file holds bytes that are no text; "
+				 "they are shown as �. The file itself is untouched."),
+			       line);
+	ladder_window_tell(window, text);
+	g_free(text);
+}
+
+static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
+			     const char *path, GError **error)
+{
+	LadderDocument *document = window && ladder_window_is_untouched(window) ?
+		g_object_ref(ladder_window_document(window)) : ladder_document_new();
+
+	if (!ladder_document_open(document, path, error)) {
+		g_object_unref(document);
+		return NULL;
+	}
+	if (!window || ladder_window_document(window) != document)
+		window = show_document(application, document);
+	app_remember(path);
+	tell_repaired(window, ladder_document_repaired(document));
+	g_object_unref(document);
+	return window;
+}
+
+void app_open_path(LadderWindow *window, const char *path)
+{
+	GError *error = NULL;
+
+	if (!open_in(the_application(window), window, path, &error))
+		ladder_window_warn(window, error->message);
+	g_clear_error(&error);
+}
+
+/* ---- after a crash ---- */
+
+static int restore_drafts(AdwApplication *application)
+{
+	GPtrArray *drafts = draft_find();
+	const int count = (int)drafts->len;
+
+	for (int i = 0; i < count; i++) {
+		const struct draft *draft = drafts->pdata[i];
+		LadderDocument *document = ladder_document_new();
+		LadderWindow *window;
+
+		ladder_document_open_text(document, draft->path, draft->text, draft->len,
+					  false);
+		window = show_document(application, document);
+		ladder_window_offer_restored(window);
+		draft_forget(draft); /* it has a draft of its own again */
+		g_object_unref(document);
+	}
+	g_ptr_array_unref(drafts);
+	return count;
+}
+
+/* ---- the application ---- */
+
+static void activate(AdwApplication *application)
+{
+	if (restore_drafts(application) == 0)
+		new_window(application);
+}
+
+static void open_files(AdwApplication *application, GFile **files, int count,
+		       const char *hint)
+{
+	(void)hint;
+	restore_drafts(application);
+	for (int i = 0; i < count; i++) {
+		char *path = g_file_get_path(files[i]);
+		GError *error = NULL;
+		LadderWindow *window = path ? open_in(application, NULL, path, &error) :
+			NULL;
+
+		if (!window) {
+			window = new_window(application);
+			ladder_window_warn(window, error ? error->message :
+					   _("Only files of this machine can be opened."));
+		}
+		g_clear_error(&error);
+		g_free(path);
+	}
+}
+
+static void add_style(void)
+{
+	GtkCssProvider *css = gtk_css_provider_new();
+
+	gtk_css_provider_load_from_resource(css, "/org/rungboard/Editor/ui/style.css");
+	gtk_style_context_add_provider_for_display(gdk_display_get_default(),
+		GTK_STYLE_PROVIDER(css), GTK_STYLE_PROVIDER_PRIORITY_APPLICATION);
+	g_object_unref(css);
+}
+
+static void startup(GtkApplication *application)
+{
+	gtk_source_init();
+	add_style();
+	verbs_set_keys(application);
+	gtk_window_set_default_icon_name(APP_ID);
+}
+
+static void set_language(void)
+{
+	setlocale(LC_ALL, "");
+	bindtextdomain(GETTEXT_PACKAGE, LOCALEDIR);
+	bind_textdomain_codeset(GETTEXT_PACKAGE, "UTF-8");
+	textdomain(GETTEXT_PACKAGE);
+}
+
+static bool is_render(int argc, char **argv)
+{
+	for (int i = 1; i < argc; i++)
+		if (strcmp(argv[i], "--render") == 0)
+			return true;
+	return false;
 }
 
 int app_run(int argc, char **argv)
 {
-	AdwApplication *application = adw_application_new("org.rungboard.Editor", 0);
+	AdwApplication *application;
 	int status;
 
+	set_language();
+	if (is_render(argc, argv))
+		return render_main(argc, argv);
+	application = adw_application_new(APP_ID,
+		G_APPLICATION_HANDLES_OPEN | G_APPLICATION_NON_UNIQUE);
+	g_application_set_option_context_parameter_string(G_APPLICATION(application),
+							  _("[FILE…]"));
+	g_signal_connect_after(application, "startup", G_CALLBACK(startup), NULL);
 	g_signal_connect(application, "activate", G_CALLBACK(activate), NULL);
+	g_signal_connect(application, "open", G_CALLBACK(open_files), NULL);
 	status = g_application_run(G_APPLICATION(application), argc, argv);
 	g_object_unref(application);
 	return status;

@@ -5,7 +5,19 @@
 #ifndef EDITOR_APP_H
 #define EDITOR_APP_H
 
+#include "editor-gtk/window.h"
+
+#define APP_ID "org.rungboard.Editor"
+
 /** app_run - all of ladder-editor; returns its exit status. */
 int app_run(int argc, char **argv);
+/** app_new_window - with a new project. */
+void app_new_window(LadderWindow *window);
+/** app_open_path - in the window, if nothing was done in it yet; else in another. */
+void app_open_path(LadderWindow *window, const char *path);
+/** app_remember - among the files opened last. */
+void app_remember(const char *path);
+/** app_tour - the first steps, in a window of their own. */
+void app_tour(LadderWindow *window);
 
 #endif

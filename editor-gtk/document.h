@@ -108,6 +108,13 @@ char *ladder_document_outline(LadderDocument *document, gsize *len,
 bool ladder_document_replace(LadderDocument *document, gsize at, gsize removed,
 			     const char *with, struct diag_list *why);
 
+/** ladder_document_declare - one more variable
+ * @pou: whose; -1: global; @type: "BOOL", "TON"; @address: "%IX0.3", "" or NULL: none
+ * Fails: as ladder_document_replace. */
+bool ladder_document_declare(LadderDocument *document, int pou, const char *name,
+			     const char *type, const char *address,
+			     struct diag_list *why);
+
 /** ladder_document_list - the text of a POU as the person left it, which may be one that
  * cannot be read. Caller frees. */
 char *ladder_document_list(LadderDocument *document, int pou);

@@ -94,7 +94,7 @@ bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int li
 char *ladder_write(struct ladder *ladder, size_t *len);
 /**
  * ladder_outline - what ladder_write gives, and where its parts are
- * @take: is handed each part when it ends, so inner ones before outer ones
+ * @take: is handed each part when it ends, so inner ones before outer ones; or NULL
  *
  * Owns: the caller, free().   Scan-safe: no.   Fails: NULL: no memory.
  */

@@ -45,7 +45,8 @@ static void outline_mark(void *context, int kind, int number, bool begins)
 	}
 	outline->depth--;
 	span->len = outline->memory.len - span->at;
-	outline->take(outline->context, span);
+	if (outline->take)
+		outline->take(outline->context, span);
 }
 
 char *text_outline(const struct project *project, size_t *len,

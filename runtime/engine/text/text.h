@@ -42,7 +42,7 @@ char *text_write(const struct project *project, size_t *len);
 
 /**
  * text_outline - the canonical text as text_write gives it, and where its parts are
- * @take: is handed each part when it ends, so inner ones before outer ones
+ * @take: is handed each part when it ends, so inner ones before outer ones; or NULL
  *
  * Owns: the caller, free().   Scan-safe: no.   Fails: NULL: no memory.
  */

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * commands - all verbs by name: a line to find one, and a window of all keys.
+ *
+ * Both are made from the rows of verbs.def.
+ */
+#include "editor-gtk/commands.h"
+
+#include "editor-gtk/i18n.h"
+
+#include <string.h>
+
+/* ---- finding a verb ---- */
+
+struct commands {
+	LadderWindow *window;
+	GtkWidget *dialog, *search, *list;
+};
+
+static bool fits(enum verb verb, const char *want)
+{
+	char *all = g_strdup_printf("%s %s", _(verb_group_label(verb_row(verb)->group)),
+				    _(verb_row(verb)->label));
+	char *fold = g_utf8_casefold(all, -1), *folded = g_utf8_casefold(want, -1);
+	bool found = strstr(fold, folded);
+
+	g_free(all);
+	g_free(fold);
+	g_free(folded);
+	return found;
+}
+
+static GtkWidget *row_new(enum verb verb)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
+	GtkWidget *label = gtk_label_new(_(verb_row(verb)->label));
+	GtkWidget *group = gtk_label_new(_(verb_group_label(verb_row(verb)->group)));
+	char *keys = verb_keys_label(verb);
+	GtkWidget *key = gtk_label_new(keys), *row = gtk_list_box_row_new();
+
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_widget_set_hexpand(label, TRUE);
+	gtk_widget_add_css_class(group, "dim-label");
+	gtk_widget_add_css_class(key, "dim-label");
+	gtk_widget_add_css_class(key, "numeric");
+	gtk_box_append(GTK_BOX(box), label);
+	gtk_box_append(GTK_BOX(box), group);
+	gtk_box_append(GTK_BOX(box), key);
+	gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(row), box);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(row), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       _(verb_row(verb)->label), -1);
+	g_object_set_data(G_OBJECT(row), "verb", GINT_TO_POINTER(verb));
+	g_free(keys);
+	return row;
+}
+
+static void fill(struct commands *commands)
+{
+	const char *want = gtk_editable_get_text(GTK_EDITABLE(commands->search));
+	GtkWidget *row;
+
+	while ((row = gtk_widget_get_first_child(commands->list)))
+		gtk_list_box_remove(GTK_LIST_BOX(commands->list), row);
+	for (int i = 0; i < VERB_COUNT; i++)
+		if (i != VERB_palette && fits((enum verb)i, want))
+			gtk_list_box_append(GTK_LIST_BOX(commands->list),
+					    row_new((enum verb)i));
+	gtk_list_box_select_row(GTK_LIST_BOX(commands->list),
+		gtk_list_box_get_row_at_index(GTK_LIST_BOX(commands->list), 0));
+}
+
+static void do_row(struct commands *commands, GtkListBoxRow *row)
+{
+	const enum verb verb = row ? (enum verb)GPOINTER_TO_INT(
+		g_object_get_data(G_OBJECT(row), "verb")) : VERB_COUNT;
+	LadderWindow *window = commands->window;
+
+	gtk_window_destroy(GTK_WINDOW(commands->dialog)); /* frees commands */
+	if (verb != VERB_COUNT)
+		ladder_window_do(window, verb);
+}
+
+static void do_selected(struct commands *commands)
+{
+	do_row(commands, gtk_list_box_get_selected_row(GTK_LIST_BOX(commands->list)));
+}
+
+static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
+			    GdkModifierType state, struct commands *commands)
+{
+	GtkListBox *list = GTK_LIST_BOX(commands->list);
+	GtkListBoxRow *row = gtk_list_box_get_selected_row(list);
+	const int by = key == GDK_KEY_Down ? 1 : key == GDK_KEY_Up ? -1 : 0;
+
+	(void)controller;
+	(void)code;
+	(void)state;
+	if (key == GDK_KEY_Escape) {
+		gtk_window_destroy(GTK_WINDOW(commands->dialog));
+		return TRUE;
+	}
+	if (by == 0)
+		return FALSE;
+	row = gtk_list_box_get_row_at_index(list, (row ?
+		gtk_list_box_row_get_index(row) : -1) + by);
+	if (row)
+		gtk_list_box_select_row(list, row);
+	return TRUE;
+}
+
+void commands_show(LadderWindow *window)
+{
+	struct commands *commands = g_new0(struct commands, 1);
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	GtkWidget *scroller = gtk_scrolled_window_new(), *bar = gtk_header_bar_new();
+	GtkEventController *keys = gtk_event_controller_key_new();
+
+	commands->window = window;
+	commands->dialog = gtk_window_new();
+	commands->search = gtk_search_entry_new();
+	commands->list = gtk_list_box_new();
+	gtk_header_bar_set_title_widget(GTK_HEADER_BAR(bar), commands->search);
+	gtk_widget_set_hexpand(commands->search, TRUE);
+	gtk_window_set_titlebar(GTK_WINDOW(commands->dialog), bar);
+	gtk_window_set_title(GTK_WINDOW(commands->dialog), _("All commands"));
+	gtk_window_set_default_size(GTK_WINDOW(commands->dialog), 560, 460);
+	gtk_window_set_transient_for(GTK_WINDOW(commands->dialog), GTK_WINDOW(window));
+	gtk_window_set_modal(GTK_WINDOW(commands->dialog), TRUE);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), commands->list);
+	gtk_widget_set_vexpand(scroller, TRUE);
+	gtk_box_append(GTK_BOX(box), scroller);
+	gtk_window_set_child(GTK_WINDOW(commands->dialog), box);
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), commands);
+	gtk_widget_add_controller(commands->dialog, keys);
+	g_signal_connect_swapped(commands->search, "search-changed", G_CALLBACK(fill),
+				 commands);
+	g_signal_connect_swapped(commands->search, "activate", G_CALLBACK(do_selected),
+				 commands);
+	g_signal_connect_swapped(commands->list, "row-activated", G_CALLBACK(do_row),
+				 commands);
+	g_object_set_data_full(G_OBJECT(commands->dialog), "commands", commands, g_free);
+	fill(commands);
+	gtk_window_present(GTK_WINDOW(commands->dialog));
+	gtk_widget_grab_focus(commands->search);
+}
+
+/* ---- all keys ---- */
+
+static void append_group(GString *ui, enum verb_group group)
+{
+	char *title = g_markup_escape_text(_(verb_group_label(group)), -1);
+
+	g_string_append_printf(ui, "<child><object class='GtkShortcutsGroup'>"
+			       "<property name='title'>%s</property>", title);
+	for (int i = 0; i < VERB_COUNT; i++) {
+		const struct verb_row *row = verb_row((enum verb)i);
+		char **keys, *all, *keys_text, *label;
+
+		if (row->group != group || !row->keys[0])
+			continue;
+		keys = g_strsplit(row->keys, "|", -1);
+		all = g_strjoinv(" ", keys);
+		keys_text = g_markup_escape_text(all, -1);
+		label = g_markup_escape_text(_(row->label), -1);
+		g_string_append_printf(ui, "<child><object class='GtkShortcutsShortcut'>"
+			"<property name='accelerator'>%s</property>"
+			"<property name='title'>%s</property></object></child>",
+			keys_text, label);
+		g_strfreev(keys);
+		g_free(all);
+		g_free(keys_text);
+		g_free(label);
+	}
+	g_string_append(ui, "</object></child>");
+	g_free(title);
+}
+
+void keys_show(LadderWindow *window)
+{
+	GString *ui = g_string_new("<interface><object class='GtkShortcutsWindow' id='keys'>"
+		"<property name='modal'>1</property><child>"
+		"<object class='GtkShortcutsSection'>"
+		"<property name='section-name'>all</property>"
+		"<property name='max-height'>18</property>");
+	GtkBuilder *builder;
+	GtkWindow *keys;
+
+	for (int i = 0; i < VERBS_GROUPS; i++)
+		append_group(ui, (enum verb_group)i);
+	g_string_append(ui, "</object></child></object></interface>");
+	builder = gtk_builder_new_from_string(ui->str, -1);
+	keys = GTK_WINDOW(gtk_builder_get_object(builder, "keys"));
+	gtk_window_set_transient_for(keys, GTK_WINDOW(window));
+	gtk_window_present(keys);
+	g_object_unref(builder);
+	g_string_free(ui, TRUE);
+}

@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry_popup - a line to type in at a place, with what could be meant below it.
+ *
+ * Enter takes what is typed, or the candidate that the arrows chose: never one that
+ * nobody chose.
+ */
+#include "editor-gtk/entry_popup.h"
+
+#include "editor-gtk/i18n.h"
+
+struct _LadderEntryPopup {
+	GtkPopover parent;
+	GtkWidget *line, *list, *scroller, *told;
+	struct entry_popup_calls calls;
+	GPtrArray *lines;   /* of char *, by row                               */
+	bool filling;       /* the line is changed by us                       */
+};
+
+G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
+
+#define LIST_HEIGHT 190
+
+static GtkWidget *column(const char *text, const char *class, int chars)
+{
+	GtkWidget *label = gtk_label_new(text);
+
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+	gtk_label_set_width_chars(GTK_LABEL(label), chars);
+	if (class)
+		gtk_widget_add_css_class(label, class);
+	return label;
+}
+
+void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
+	GtkWidget *list_row = gtk_list_box_row_new();
+	GtkWidget *note = column(row->note, "dim-label", 18);
+	char *name = g_strdup_printf("%s, %s %s %s", row->text, row->kind, row->address,
+				     row->note);
+
+	gtk_box_append(GTK_BOX(box), column(row->text, "heading", 14));
+	gtk_box_append(GTK_BOX(box), column(row->address, "monospace", 8));
+	gtk_widget_set_hexpand(note, TRUE);
+	gtk_box_append(GTK_BOX(box), note);
+	gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(list_row), box);
+	gtk_widget_set_focusable(list_row, FALSE);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(list_row),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	gtk_list_box_append(GTK_LIST_BOX(popup->list), list_row);
+	g_ptr_array_add(popup->lines, g_strdup(row->line));
+	g_free(name);
+}
+
+static void clear_rows(LadderEntryPopup *popup)
+{
+	GtkWidget *row;
+
+	g_ptr_array_set_size(popup->lines, 0);
+	while ((row = gtk_widget_get_first_child(popup->list)))
+		gtk_list_box_remove(GTK_LIST_BOX(popup->list), row);
+}
+
+static const char *line_of(LadderEntryPopup *popup)
+{
+	return gtk_editable_get_text(GTK_EDITABLE(popup->line));
+}
+
+void ladder_entry_popup_ask(LadderEntryPopup *popup)
+{
+	bool good = true;
+	char *told;
+
+	clear_rows(popup);
+	told = popup->calls.changed(popup->calls.context, line_of(popup),
+				    gtk_editable_get_position(GTK_EDITABLE(popup->line)),
+				    &good);
+	gtk_label_set_text(GTK_LABEL(popup->told), told ? told : "");
+	gtk_widget_set_visible(popup->told, told && told[0]);
+	if (good)
+		gtk_widget_remove_css_class(popup->told, "error");
+	else
+		gtk_widget_add_css_class(popup->told, "error");
+	gtk_widget_set_visible(popup->scroller, popup->lines->len > 0);
+	g_free(told);
+}
+
+static void changed(LadderEntryPopup *popup)
+{
+	if (!popup->filling)
+		ladder_entry_popup_ask(popup);
+}
+
+static void set_line(LadderEntryPopup *popup, const char *text)
+{
+	popup->filling = true;
+	gtk_editable_set_text(GTK_EDITABLE(popup->line), text);
+	gtk_editable_set_position(GTK_EDITABLE(popup->line), -1);
+	popup->filling = false;
+	ladder_entry_popup_ask(popup);
+}
+
+static int chosen(LadderEntryPopup *popup)
+{
+	GtkListBoxRow *row = gtk_list_box_get_selected_row(GTK_LIST_BOX(popup->list));
+
+	return row ? gtk_list_box_row_get_index(row) : -1;
+}
+
+static void take(LadderEntryPopup *popup)
+{
+	const int row = chosen(popup);
+	char *line = g_strdup(row >= 0 ? popup->lines->pdata[row] : line_of(popup));
+
+	g_object_ref(popup);
+	if (popup->calls.taken(popup->calls.context, line))
+		gtk_popover_popdown(GTK_POPOVER(popup));
+	else
+		set_line(popup, line);
+	g_object_unref(popup);
+	g_free(line);
+}
+
+static void row_activated(LadderEntryPopup *popup, GtkListBoxRow *row)
+{
+	gtk_list_box_select_row(GTK_LIST_BOX(popup->list), row);
+	take(popup);
+}
+
+static void choose(LadderEntryPopup *popup, int by)
+{
+	const int count = (int)popup->lines->len;
+	const int to = CLAMP(chosen(popup) + by, -1, count - 1);
+	GtkListBoxRow *row = to < 0 ? NULL :
+		gtk_list_box_get_row_at_index(GTK_LIST_BOX(popup->list), to);
+	GtkAdjustment *down = gtk_scrolled_window_get_vadjustment(
+		GTK_SCROLLED_WINDOW(popup->scroller));
+	int height;
+
+	gtk_list_box_select_row(GTK_LIST_BOX(popup->list), row);
+	if (!row)
+		return;
+	height = gtk_widget_get_allocated_height(GTK_WIDGET(row));
+	gtk_adjustment_clamp_page(down, to * height, (to + 1) * height);
+}
+
+static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
+			    GdkModifierType state, LadderEntryPopup *popup)
+{
+	(void)controller;
+	(void)code;
+	(void)state;
+	switch (key) {
+	case GDK_KEY_Down: case GDK_KEY_KP_Down:
+		choose(popup, 1);
+		return TRUE;
+	case GDK_KEY_Up: case GDK_KEY_KP_Up:
+		choose(popup, -1);
+		return TRUE;
+	case GDK_KEY_Tab:
+		if (popup->lines->len == 0)
+			return TRUE;
+		set_line(popup, popup->lines->pdata[MAX(chosen(popup), 0)]);
+		return TRUE;
+	case GDK_KEY_Escape:
+		gtk_popover_popdown(GTK_POPOVER(popup));
+		return TRUE;
+	default:
+		return FALSE;
+	}
+}
+
+static void closed(LadderEntryPopup *popup)
+{
+	void (*gone)(void *) = popup->calls.gone;
+
+	popup->calls.gone = NULL;
+	if (gone)
+		gone(popup->calls.context);
+}
+
+static void ladder_entry_popup_finalize(GObject *object)
+{
+	g_ptr_array_unref(LADDER_ENTRY_POPUP(object)->lines);
+	G_OBJECT_CLASS(ladder_entry_popup_parent_class)->finalize(object);
+}
+
+static void ladder_entry_popup_class_init(LadderEntryPopupClass *class)
+{
+	G_OBJECT_CLASS(class)->finalize = ladder_entry_popup_finalize;
+}
+
+static void ladder_entry_popup_init(LadderEntryPopup *popup)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
+	GtkEventController *keys = gtk_event_controller_key_new();
+
+	popup->lines = g_ptr_array_new_with_free_func(g_free);
+	popup->line = gtk_entry_new();
+	popup->told = gtk_label_new(NULL);
+	popup->list = gtk_list_box_new();
+	popup->scroller = gtk_scrolled_window_new();
+	gtk_editable_set_width_chars(GTK_EDITABLE(popup->line), 34);
+	gtk_widget_add_css_class(popup->line, "monospace");
+	gtk_label_set_xalign(GTK_LABEL(popup->told), 0);
+	gtk_label_set_wrap(GTK_LABEL(popup->told), TRUE);
+	gtk_label_set_max_width_chars(GTK_LABEL(popup->told), 44);
+	gtk_widget_add_css_class(popup->told, "caption");
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(popup->scroller), popup->list);
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(popup->scroller),
+				       GTK_POLICY_NEVER, GTK_POLICY_AUTOMATIC);
+	gtk_scrolled_window_set_max_content_height(
+		GTK_SCROLLED_WINDOW(popup->scroller), LIST_HEIGHT);
+	gtk_scrolled_window_set_propagate_natural_height(
+		GTK_SCROLLED_WINDOW(popup->scroller), TRUE);
+	gtk_list_box_set_activate_on_single_click(GTK_LIST_BOX(popup->list), TRUE);
+	gtk_box_append(GTK_BOX(box), popup->line);
+	gtk_box_append(GTK_BOX(box), popup->told);
+	gtk_box_append(GTK_BOX(box), popup->scroller);
+	gtk_popover_set_child(GTK_POPOVER(popup), box);
+	gtk_popover_set_position(GTK_POPOVER(popup), GTK_POS_BOTTOM);
+	gtk_popover_set_has_arrow(GTK_POPOVER(popup), FALSE);
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), popup);
+	gtk_widget_add_controller(popup->line, keys);
+	g_signal_connect_swapped(popup->line, "changed", G_CALLBACK(changed), popup);
+	g_signal_connect_swapped(popup->line, "activate", G_CALLBACK(take), popup);
+	g_signal_connect_swapped(popup->list, "row-activated", G_CALLBACK(row_activated),
+				 popup);
+	g_signal_connect(popup, "closed", G_CALLBACK(closed), NULL);
+}
+
+GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const char *text,
+				  bool typed, const struct entry_popup_calls *calls)
+{
+	LadderEntryPopup *popup = g_object_new(LADDER_TYPE_ENTRY_POPUP, NULL);
+
+	popup->calls = *calls;
+	gtk_entry_set_placeholder_text(GTK_ENTRY(popup->line), prompt);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(popup->line),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, prompt, -1);
+	gtk_widget_set_parent(GTK_WIDGET(popup), owner);
+	set_line(popup, text);
+	if (!typed)
+		gtk_editable_select_region(GTK_EDITABLE(popup->line), 0, -1);
+	return GTK_WIDGET(popup);
+}
+
+void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell)
+{
+	const int at = gtk_editable_get_position(GTK_EDITABLE(popup->line));
+	int from, to;
+	const bool selected = gtk_editable_get_selection_bounds(
+		GTK_EDITABLE(popup->line), &from, &to);
+
+	gtk_popover_set_pointing_to(GTK_POPOVER(popup), cell);
+	gtk_popover_popup(GTK_POPOVER(popup));
+	gtk_widget_grab_focus(popup->line); /* selects all of it */
+	if (selected)
+		gtk_editable_select_region(GTK_EDITABLE(popup->line), from, to);
+	else
+		gtk_editable_set_position(GTK_EDITABLE(popup->line), at);
+}

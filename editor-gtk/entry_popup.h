@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry_popup - a line to type in at a place, with what could be meant below it.
+ *
+ * It knows no ladder: its owner says what candidates there are, what a line would do, and
+ * whether it is taken.
+ */
+#ifndef EDITOR_ENTRY_POPUP_H
+#define EDITOR_ENTRY_POPUP_H
+
+#include <gtk/gtk.h>
+#include <stdbool.h>
+
+#define LADDER_TYPE_ENTRY_POPUP (ladder_entry_popup_get_type())
+G_DECLARE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, LADDER, ENTRY_POPUP, GtkPopover)
+
+struct entry_popup_row {
+	char *text, *address, *note; /* shown, in three columns                */
+	char *kind;                  /* said by a screen reader                */
+	char *line;                  /* the line with it taken                 */
+};
+
+struct entry_popup_calls {
+	/** Adds rows with ladder_entry_popup_add(); returns what Enter would do, to be
+	 * shown below, g_free'd; @good false: it would do nothing. */
+	char *(*changed)(void *context, const char *line, int cursor, bool *good);
+	/** Takes the line. False: not yet, it stays. */
+	bool (*taken)(void *context, const char *line);
+	/** It is gone, taken or not. */
+	void (*gone)(void *context);
+	void *context;
+};
+
+/** ladder_entry_popup_new - @prompt: what is asked for; @text: there at first, and
+ * selected unless @typed; @owner: its parent. */
+GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const char *text,
+				  bool typed, const struct entry_popup_calls *calls);
+/** ladder_entry_popup_add - one more candidate; its strings are copied. */
+void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row);
+/** ladder_entry_popup_ask - asks its owner again what there is. */
+void ladder_entry_popup_ask(LadderEntryPopup *popup);
+/** ladder_entry_popup_show - at @cell of its owner. */
+void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell);
+
+#endif

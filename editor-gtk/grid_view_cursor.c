@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_view_cursor - where the cursor is, where it goes, what is selected.
+ *
+ * It moves over display cells, from rung to rung as if there were no border.
+ */
+#include "editor-gtk/grid_view_inside.h"
+
+#define PAGE_RUNGS 5 /* that Page Down goes on                                 */
+
+static int rows_of(LadderGridView *view, int rung)
+{
+	const struct rung *shown = sheet_rung(view, rung);
+
+	return shown ? shown->rows : 0;
+}
+
+void cursor_fit(LadderGridView *view)
+{
+	struct grid_cursor *cursor = &view->cursor;
+
+	cursor->rung = CLAMP(cursor->rung, 0, MAX(sheet_rungs(view) - 1, 0));
+	cursor->row = CLAMP(cursor->row, 0, MAX(rows_of(view, cursor->rung) - 1, 0));
+	cursor->col = CLAMP(cursor->col, 0, view->columns - 1);
+	view->selecting = false;
+}
+
+/* What Esc gives back: the rung as the cursor found it. */
+static void remember(LadderGridView *view)
+{
+	const struct pou *pou = sheet_pou(view);
+
+	if (view->before_rung == view->cursor.rung && view->before)
+		return;
+	g_clear_pointer(&view->before, rung_free);
+	view->before_rung = view->cursor.rung;
+	if (pou && view->cursor.rung < pou->rung_count)
+		view->before = rung_copy(pou->rung[view->cursor.rung]);
+}
+
+void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend)
+{
+	const int from = view->cursor.rung;
+
+	if (extend && !view->selecting)
+		view->anchor = view->cursor;
+	to.rung = CLAMP(to.rung, 0, MAX(sheet_rungs(view) - 1, 0));
+	if (extend && to.rung != from)
+		return;
+	view->cursor = to;
+	cursor_fit(view);
+	view->selecting = extend;
+	if (from != view->cursor.rung) {
+		entry_close(view);
+		strips_redraw(view, from);
+	}
+	strips_redraw(view, view->cursor.rung);
+	remember(view);
+	cursor_reveal(view);
+	sheet_moved(view);
+}
+
+bool cursor_area(LadderGridView *view, struct grid_area *area)
+{
+	const struct grid_cursor *a = &view->anchor, *b = &view->cursor;
+
+	*area = (struct grid_area){ b->row, b->col, b->row, b->col };
+	if (!view->selecting || a->rung != b->rung)
+		return false;
+	area->row = MIN(a->row, b->row);
+	area->last_row = MAX(a->row, b->row);
+	area->col = MIN(a->col, b->col);
+	area->last_col = MAX(a->col, b->col);
+	return true;
+}
+
+const struct cell *cursor_cell(LadderGridView *view, int *row, int *col)
+{
+	const struct rung *shown = sheet_rung(view, view->cursor.rung);
+	struct grid_place place;
+	const struct cell *cell;
+
+	if (!shown || grid_display_find(shown, view->columns, view->cursor.row,
+					view->cursor.col, &place) != GRID_SEEN_CELL)
+		return NULL;
+	if (place.box_row >= 0)
+		place.row = place.box_row;
+	cell = rung_at(shown, place.row, place.col);
+	if (cell->word == ELEM_EMPTY || cell->word == ELEM_WIRE)
+		return NULL;
+	if (row)
+		*row = place.row;
+	if (col)
+		*col = place.col;
+	return cell;
+}
+
+/* ---- on the screen ---- */
+
+static graphene_rect_t rect_at_100(LadderGridView *view)
+{
+	struct strip *strip;
+	graphene_rect_t rect;
+
+	if (view->cursor.rung >= (int)view->strips->len)
+		return GRAPHENE_RECT_INIT(0, 0, 0, 0);
+	strip = strips_get(view, view->cursor.rung);
+	rect = rung_layout_cell(strip->layout, view->cursor.row, view->cursor.col);
+	rect.origin.y += strip->y;
+	return rect;
+}
+
+graphene_rect_t cursor_rect(LadderGridView *view)
+{
+	const float zoom = (float)view->zoom;
+	graphene_rect_t rect = rect_at_100(view);
+
+	graphene_rect_scale(&rect, zoom, zoom, &rect);
+	rect.origin.x -= (float)gtk_adjustment_get_value(view->adjustment[0]);
+	rect.origin.y -= (float)gtk_adjustment_get_value(view->adjustment[1]);
+	return rect;
+}
+
+static void reveal(GtkAdjustment *adjustment, double from, double to, double margin)
+{
+	const double page = gtk_adjustment_get_page_size(adjustment);
+	const double value = gtk_adjustment_get_value(adjustment);
+
+	if (from - margin < value)
+		gtk_adjustment_set_value(adjustment, from - margin);
+	else if (to + margin > value + page)
+		gtk_adjustment_set_value(adjustment, to + margin - page);
+}
+
+void cursor_reveal(LadderGridView *view)
+{
+	const double zoom = view->zoom;
+	graphene_rect_t rect = rect_at_100(view);
+	GtkAdjustment *down = view->adjustment[1];
+	const double end = (rect.origin.y + rect.size.height) * zoom;
+
+	/* Before the next allocation it may still be too small for a new rung. */
+	if (gtk_adjustment_get_upper(down) < end + 60)
+		gtk_adjustment_set_upper(down, end + 60);
+	reveal(view->adjustment[0], rect.origin.x * zoom,
+	       (rect.origin.x + rect.size.width) * zoom, 24);
+	reveal(down, rect.origin.y * zoom, end, 40);
+}
+
+int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit)
+{
+	const float at_x = (float)((x + gtk_adjustment_get_value(view->adjustment[0])) /
+				   view->zoom);
+	const float at_y = (float)((y + gtk_adjustment_get_value(view->adjustment[1])) /
+				   view->zoom);
+	const int rung = strips_at(view, at_y);
+	struct strip *strip;
+
+	if (rung < 0)
+		return -1;
+	strip = strips_get(view, rung);
+	if (at_y > strip->y + strip->height)
+		return -1;
+	*hit = rung_layout_hit(&view->drafting, strip->layout, at_x, at_y - strip->y);
+	return rung;
+}
+
+/* ---- keys ---- */
+
+static struct grid_cursor up(LadderGridView *view, struct grid_cursor to)
+{
+	if (to.row > 0) {
+		to.row--;
+	} else if (to.rung > 0) {
+		to.rung--;
+		to.row = rows_of(view, to.rung) - 1;
+	}
+	return to;
+}
+
+static struct grid_cursor down(LadderGridView *view, struct grid_cursor to)
+{
+	if (to.row + 1 < rows_of(view, to.rung)) {
+		to.row++;
+	} else if (to.rung + 1 < sheet_rungs(view)) {
+		to.rung++;
+		to.row = 0;
+	}
+	return to;
+}
+
+static bool step(LadderGridView *view, guint key, struct grid_cursor *to)
+{
+	switch (key) {
+	case GDK_KEY_Left: case GDK_KEY_KP_Left:
+		to->col--;
+		return true;
+	case GDK_KEY_Right: case GDK_KEY_KP_Right:
+		to->col++;
+		return true;
+	case GDK_KEY_Up: case GDK_KEY_KP_Up:
+		*to = up(view, *to);
+		return true;
+	case GDK_KEY_Down: case GDK_KEY_KP_Down:
+		*to = down(view, *to);
+		return true;
+	case GDK_KEY_Home: case GDK_KEY_KP_Home:
+		to->col = 0;
+		return true;
+	case GDK_KEY_End: case GDK_KEY_KP_End:
+		to->col = view->columns - 1;
+		return true;
+	case GDK_KEY_Page_Up:
+		*to = (struct grid_cursor){ MAX(to->rung - PAGE_RUNGS, 0), 0, to->col };
+		return true;
+	case GDK_KEY_Page_Down:
+		*to = (struct grid_cursor){ to->rung + PAGE_RUNGS, 0, to->col };
+		return true;
+	default:
+		return false;
+	}
+}
+
+bool cursor_key(LadderGridView *view, guint key, GdkModifierType state)
+{
+	const bool control = state & GDK_CONTROL_MASK;
+	struct grid_cursor to = view->cursor;
+
+	if (state & GDK_ALT_MASK)
+		return false;
+	if (control && (key == GDK_KEY_Home || key == GDK_KEY_End))
+		to = (struct grid_cursor){ key == GDK_KEY_Home ? 0 :
+					   sheet_rungs(view) - 1, 0, 0 };
+	else if (control || !step(view, key, &to))
+		return false;
+	cursor_set(view, to, state & GDK_SHIFT_MASK);
+	return true;
+}

@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_view_edit - what the verbs of a sheet do to its rungs.
+ *
+ * Each takes the cursor's rung, has grid_edit make another of it, and gives that to the
+ * document as one named step. What is refused is told in the status bar.
+ */
+#include "editor-gtk/grid_view_inside.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- one rung becomes another ---- */
+
+struct grid_at sheet_at(LadderGridView *view)
+{
+	return (struct grid_at){ .columns = view->columns, .row = view->cursor.row,
+				 .col = view->cursor.col };
+}
+
+static void tell_diags(LadderGridView *view, const struct diag_list *why)
+{
+	char *text;
+
+	if (why->count == 0)
+		return;
+	text = g_strdup_printf("%s: %s", diag_text(why->diag[0].id), why->diag[0].arg);
+	sheet_tell(view, text);
+	g_free(text);
+}
+
+bool sheet_put(LadderGridView *view, struct rung *rung, const struct grid_at *at,
+	       const char *name)
+{
+	struct diag_list why;
+	bool good;
+
+	if (!rung) {
+		sheet_tell(view, _(grid_refusal_text(at->refusal)));
+		return false;
+	}
+	diag_init(&why);
+	ladder_document_begin(view->document, name, NULL);
+	good = ladder_document_put_rung(view->document, view->pou, view->cursor.rung,
+					rung, &why);
+	ladder_document_end(view->document);
+	if (!good) {
+		tell_diags(view, &why);
+		return false;
+	}
+	sheet_tell(view, "");
+	cursor_set(view, (struct grid_cursor){ view->cursor.rung, at->row, at->col },
+		   false);
+	return true;
+}
+
+typedef struct rung *grid_edit_function(const struct rung *rung, struct grid_at *at);
+
+static void do_edit(LadderGridView *view, grid_edit_function *edit, enum verb verb)
+{
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	struct grid_at at = sheet_at(view);
+
+	if (rung)
+		sheet_put(view, edit(rung, &at), &at, _(verb_row(verb)->label));
+}
+
+static void do_wire(LadderGridView *view, enum grid_way way, enum verb verb)
+{
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	struct grid_at at = sheet_at(view);
+
+	if (rung)
+		sheet_put(view, grid_wire(rung, &at, way), &at, _(verb_row(verb)->label));
+}
+
+static void do_negate(LadderGridView *view)
+{
+	struct project *project = ladder_document_project(view->document);
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	struct grid_at at = sheet_at(view);
+
+	if (rung)
+		sheet_put(view, grid_negate(rung, &at, project, sheet_pou(view)), &at,
+			  _(verb_row(VERB_negate)->label));
+}
+
+static void do_delete(LadderGridView *view)
+{
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	struct grid_at at = sheet_at(view);
+	struct grid_area area;
+	struct rung *edited;
+
+	if (!rung)
+		return;
+	edited = cursor_area(view, &area) ? grid_delete_area(rung, &at, &area) :
+		 grid_delete(rung, &at);
+	sheet_put(view, edited, &at, _(verb_row(VERB_delete)->label));
+}
+
+/* ---- whole rungs ---- */
+
+static bool splice(LadderGridView *view, int at, int removed, struct rung *rung,
+		   enum verb verb)
+{
+	bool good;
+
+	ladder_document_begin(view->document, _(verb_row(verb)->label), NULL);
+	good = ladder_document_splice(view->document, view->pou, at, removed, &rung,
+				      rung ? 1 : 0, NULL);
+	ladder_document_end(view->document);
+	return good;
+}
+
+static void do_rung_new(LadderGridView *view, int offset, enum verb verb)
+{
+	const int at = MIN(view->cursor.rung + offset, sheet_rungs(view));
+
+	if (sheet_pou(view) && splice(view, at, 0, rung_new(1, 1), verb))
+		cursor_set(view, (struct grid_cursor){ at, 0, 0 }, false);
+}
+
+/* A program without rungs is one a person cannot go on with: an empty one stays. */
+static void do_rung_delete(LadderGridView *view)
+{
+	const int at = view->cursor.rung;
+	struct rung *left = sheet_rungs(view) == 1 ? rung_new(1, 1) : NULL;
+
+	if (sheet_rungs(view) > 0 && splice(view, at, 1, left, VERB_rung_delete))
+		cursor_set(view, (struct grid_cursor){ at, 0, 0 }, false);
+}
+
+static void do_rung_duplicate(LadderGridView *view)
+{
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	struct rung *copy = rung ? rung_copy(rung) : NULL;
+	const int at = view->cursor.rung + 1;
+
+	if (!copy)
+		return;
+	copy->label = 0; /* it could not stand twice */
+	if (splice(view, at, 0, copy, VERB_rung_duplicate))
+		cursor_set(view, (struct grid_cursor){ at, view->cursor.row,
+						       view->cursor.col }, false);
+}
+
+static void do_rung_move(LadderGridView *view, int by)
+{
+	struct grid_cursor to = view->cursor;
+
+	to.rung += by;
+	if (ladder_document_move_rung(view->document, view->pou, view->cursor.rung,
+				      to.rung))
+		cursor_set(view, to, false);
+}
+
+static void do_rung_off(LadderGridView *view)
+{
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	struct rung *copy = rung ? rung_copy(rung) : NULL;
+	struct grid_at at = sheet_at(view);
+
+	if (!copy)
+		return;
+	copy->off = !copy->off;
+	sheet_put(view, copy, &at, _(verb_row(VERB_rung_off)->label));
+}
+
+/* Esc: the entry goes first, then what was done to this rung since the cursor came. */
+static void do_cancel(LadderGridView *view)
+{
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	struct grid_at at = { .columns = view->columns };
+
+	if (view->entry || view->preview) {
+		entry_close(view);
+	} else if (view->selecting) {
+		cursor_set(view, view->cursor, false);
+	} else if (rung && view->before && view->before_rung == view->cursor.rung &&
+		   !rung_equal(rung, view->before)) {
+		sheet_put(view, rung_copy(view->before), &at,
+			  _(verb_row(VERB_cancel)->label));
+	}
+}
+
+/* ---- elements ---- */
+
+/* With an operand, or of a word that needs none. */
+void sheet_place(LadderGridView *view, struct cell cell, bool parallel)
+{
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	struct grid_at at = sheet_at(view);
+	struct grid_area area;
+	const bool chosen = cursor_area(view, &area);
+	struct rung *edited;
+
+	if (!rung)
+		return;
+	edited = parallel ? grid_parallel(rung, &at, chosen ? &area : NULL, cell) :
+		 grid_place(rung, &at, cell, GRID_REPLACE);
+	sheet_put(view, edited, &at, parallel ? _("Add in parallel") : _("Add element"));
+}
+
+void ladder_grid_view_put(LadderGridView *view, enum word word)
+{
+	entry_begin_word(view, word, false);
+	gtk_widget_grab_focus(GTK_WIDGET(view));
+}
+
+static void do_select_all(LadderGridView *view)
+{
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+
+	if (!rung)
+		return;
+	cursor_set(view, (struct grid_cursor){ view->cursor.rung, 0, 0 }, false);
+	cursor_set(view, (struct grid_cursor){ view->cursor.rung, rung->rows - 1,
+					       view->columns - 1 }, true);
+}
+
+/* ---- the table ---- */
+
+void ladder_grid_view_do(LadderGridView *view, enum verb verb)
+{
+	switch ((int)verb) {
+	case VERB_cut:
+		ladder_grid_view_do(view, VERB_copy);
+		do_delete(view);
+		break;
+	case VERB_copy: case VERB_paste: case VERB_paste_parallel:
+		clipboard_do(view, verb);
+		break;
+	case VERB_delete: do_delete(view); break;
+	case VERB_select_all: do_select_all(view); break;
+	case VERB_enter: entry_begin_edit(view); break;
+	case VERB_contact: entry_begin_word(view, ELEM_CONTACT_NO, false); break;
+	case VERB_contact_not: entry_begin_word(view, ELEM_CONTACT_NC, false); break;
+	case VERB_coil: entry_begin_word(view, ELEM_COIL, false); break;
+	case VERB_block: entry_begin(view, ""); break;
+	case VERB_parallel: entry_begin_word(view, ELEM_CONTACT_NO, true); break;
+	case VERB_parallel_not: entry_begin_word(view, ELEM_CONTACT_NC, true); break;
+	case VERB_negate: do_negate(view); break;
+	case VERB_cycle: do_edit(view, grid_cycle, verb); break;
+	case VERB_wire_left: do_wire(view, GRID_LEFT, verb); break;
+	case VERB_wire_right: do_wire(view, GRID_RIGHT, verb); break;
+	case VERB_wire_up: do_wire(view, GRID_UP, verb); break;
+	case VERB_wire_down: do_wire(view, GRID_DOWN, verb); break;
+	case VERB_wire_here: do_edit(view, grid_close_gaps, verb); break;
+	case VERB_link_here: do_edit(view, grid_open_branch, verb); break;
+	case VERB_insert_column: do_edit(view, grid_insert_column, verb); break;
+	case VERB_delete_column: do_edit(view, grid_delete_column, verb); break;
+	case VERB_insert_row: do_edit(view, grid_insert_row, verb); break;
+	case VERB_delete_row: do_edit(view, grid_delete_row, verb); break;
+	case VERB_add_pin: case VERB_comment: case VERB_rung_title:
+	case VERB_rung_label: case VERB_rung_comment:
+		entry_begin_text(view, verb);
+		break;
+	case VERB_rung_below: do_rung_new(view, 1, verb); break;
+	case VERB_rung_above: do_rung_new(view, 0, verb); break;
+	case VERB_rung_delete: do_rung_delete(view); break;
+	case VERB_rung_duplicate: do_rung_duplicate(view); break;
+	case VERB_rung_up: do_rung_move(view, -1); break;
+	case VERB_rung_down: do_rung_move(view, 1); break;
+	case VERB_rung_off: do_rung_off(view); break;
+	case VERB_cancel: do_cancel(view); break;
+	default: break;
+	}
+}

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_view_inside - what the files of a sheet share. Only editor-gtk/grid_view*.c include it.
+ */
+#ifndef EDITOR_GRID_VIEW_INSIDE_H
+#define EDITOR_GRID_VIEW_INSIDE_H
+
+#include "editor-gtk/grid_draw.h"
+#include "editor-gtk/grid_edit.h"
+#include "editor-gtk/grid_view.h"
+#include "editor-gtk/i18n.h"
+
+/* A rung on its way across the sheet. What is not laid out yet has a height that was
+ * guessed. */
+struct strip {
+	struct rung_layout *layout; /* NULL: not yet                           */
+	GskRenderNode *node;        /* NULL: to be drawn                       */
+	float y, height;            /* px at 100 %                             */
+};
+
+/* A cell that assistive technology can name: a widget that draws nothing. */
+struct cell_widget {
+	GtkWidget *widget;
+	int rung, row, col;
+};
+
+struct _LadderGridView {
+	GtkWidget parent;
+	LadderDocument *document;
+	int pou;
+	gulong handler[4];          /* of the document's signals               */
+
+	GArray *strips;             /* of struct strip                         */
+	int columns;                /* of the sheet                            */
+	float rail;                 /* distance of the rails                   */
+	struct drafting drafting;
+	struct grid_names *names;
+	struct lettering *lettering;
+	double zoom;
+	guint idle;                 /* lays out what is not seen               */
+
+	struct grid_cursor cursor;
+	struct grid_cursor anchor;  /* other corner of the selection           */
+	bool selecting;             /* from anchor to cursor, in one rung      */
+	struct rung *preview;       /* of the cursor's rung, until its entry is done */
+	struct rung *before;        /* of the cursor's rung when the cursor came */
+	int before_rung;
+	GArray *marks;              /* of struct sheet_mark: what checks say   */
+	struct grid_cursor found;   /* rung -1: nothing                        */
+	struct grid_cursor drop;    /* rung -1: nothing is dragged over it     */
+	bool drop_legal;
+
+	GtkAdjustment *adjustment[2]; /* horizontal, vertical                  */
+	gulong scrolled[2];
+	GtkScrollablePolicy policy[2];
+	GArray *cells;              /* of struct cell_widget                   */
+	GtkWidget *entry;           /* the popup, while it is there            */
+	double press_x, press_y;
+};
+
+/* A mark of the checks: rung and cell of the rung, 0-based; row -1: the whole. */
+struct sheet_mark {
+	int rung, row, col;
+	unsigned int marks;
+	const char *text;           /* lives with the document's diags         */
+};
+
+/* ---- grid_view.c ---- */
+struct pou *sheet_pou(LadderGridView *view);
+/** sheet_rung - as it is shown: the preview, if that one is edited. NULL: none. */
+struct rung *sheet_rung(LadderGridView *view, int rung);
+int sheet_rungs(LadderGridView *view);
+/** sheet_tell - why something was not done. */
+void sheet_tell(LadderGridView *view, const char *text);
+void sheet_moved(LadderGridView *view);
+
+/* ---- grid_view_strips.c ---- */
+void strips_init(LadderGridView *view);
+void strips_clear(LadderGridView *view);
+/** strips_reset - all rungs may be others. */
+void strips_reset(LadderGridView *view);
+/** strips_splice - some are. */
+void strips_splice(LadderGridView *view, int at, int removed, int inserted);
+/** strips_dirty - one is to be laid out anew. */
+void strips_dirty(LadderGridView *view, int rung);
+/** strips_redraw - one is to be drawn anew. -1: all. */
+void strips_redraw(LadderGridView *view, int rung);
+/** strips_at - the rung at height @y px at 100 %; the nearest one. -1: there is none. */
+int strips_at(LadderGridView *view, float y);
+/** strips_get - laid out. */
+struct strip *strips_get(LadderGridView *view, int rung);
+float strips_width(LadderGridView *view);
+float strips_height(LadderGridView *view);
+void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot);
+/** strips_style - colours, type or what names show changed. */
+void strips_style(LadderGridView *view);
+
+/* ---- grid_view_cursor.c ---- */
+/** cursor_set - moves and shows it; @extend: the selection reaches there. */
+void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend);
+/** cursor_fit - back into what there is. */
+void cursor_fit(LadderGridView *view);
+/** cursor_reveal - scrolls so far that it is seen. */
+void cursor_reveal(LadderGridView *view);
+/** cursor_rect - its cell in px of the widget. */
+graphene_rect_t cursor_rect(LadderGridView *view);
+/** cursor_area - the selection, or its own cell. False: nothing is selected. */
+bool cursor_area(LadderGridView *view, struct grid_area *area);
+/** cursor_cell - the element below it; row and col of the rung too (or NULL). NULL: none. */
+const struct cell *cursor_cell(LadderGridView *view, int *row, int *col);
+bool cursor_key(LadderGridView *view, guint key, GdkModifierType state);
+/** sheet_point - what is at a point of the widget; the rung, or -1. */
+int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit);
+
+/* ---- grid_view_edit.c ---- */
+/** sheet_put - the cursor's rung becomes @rung (taken over), the cursor goes to @at; of a
+ * NULL it tells why. @name: of the step. */
+bool sheet_put(LadderGridView *view, struct rung *rung, const struct grid_at *at,
+	       const char *name);
+struct grid_at sheet_at(LadderGridView *view);
+void sheet_place(LadderGridView *view, struct cell cell, bool parallel);
+
+/* ---- grid_view_entry.c ---- */
+/** entry_begin - asks at the cursor for an element. @text: typed so far */
+void entry_begin(LadderGridView *view, const char *text);
+/** entry_begin_word - asks for what a word still needs, its preview being shown. */
+void entry_begin_word(LadderGridView *view, enum word word, bool parallel);
+/** entry_begin_edit - for what stands at the cursor. */
+/** entry_begin_drop - the same of a word that was dropped on a cell. */
+void entry_begin_drop(LadderGridView *view, enum word word, int row, int col);
+void entry_begin_edit(LadderGridView *view);
+void entry_begin_text(LadderGridView *view, enum verb verb);
+void entry_close(LadderGridView *view);
+void entry_allocate(LadderGridView *view);
+
+/* ---- grid_view_clipboard.c ---- */
+void clipboard_do(LadderGridView *view, enum verb verb);
+
+/* ---- grid_view_mouse.c ---- */
+void mouse_init(LadderGridView *view);
+
+/* ---- grid_view_cells.c ---- */
+void cells_init(LadderGridView *view);
+void cells_clear(LadderGridView *view);
+/** cells_update - widgets for the elements that are seen, named as they are. */
+void cells_update(LadderGridView *view);
+/** cells_allocate - puts them where their cells are. */
+void cells_allocate(LadderGridView *view);
+
+#endif

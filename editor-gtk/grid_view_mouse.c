@@ -1,0 +1,393 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_view_mouse - a sheet under the pointer: click, select, drag, drop, zoom, menu.
+ *
+ * Whatever the keyboard can do, the pointer can do too: by dragging, or from the menu of
+ * the right button, which is made from the verbs.
+ */
+#include "editor-gtk/grid_view_inside.h"
+
+/* ---- what is dragged ---- */
+
+#define LADDER_TYPE_DRAG (ladder_drag_get_type())
+
+/* An element of the palette, or one of a sheet. */
+struct ladder_drag {
+	enum word word;
+	LadderGridView *view;      /* it comes from; NULL: the palette         */
+	struct grid_cursor from;
+};
+
+static struct ladder_drag *ladder_drag_copy(struct ladder_drag *drag)
+{
+	struct ladder_drag *copy = g_memdup2(drag, sizeof(*drag));
+
+	if (copy->view)
+		g_object_ref(copy->view);
+	return copy;
+}
+
+static void ladder_drag_free(struct ladder_drag *drag)
+{
+	g_clear_object(&drag->view);
+	g_free(drag);
+}
+
+GType ladder_drag_get_type(void);
+typedef struct ladder_drag LadderDrag; /* the name that GObject knows it by */
+G_DEFINE_BOXED_TYPE(LadderDrag, ladder_drag, ladder_drag_copy, ladder_drag_free)
+
+GdkContentProvider *ladder_grid_view_drag(enum word word)
+{
+	struct ladder_drag drag = { .word = word };
+
+	return gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag);
+}
+
+/* ---- clicks ---- */
+
+static bool is_cell(const struct rung_hit *hit)
+{
+	return hit->part == RUNG_PART_CELL || hit->part == RUNG_PART_WIRE ||
+	       hit->part == RUNG_PART_LINK || hit->part == RUNG_PART_PIN;
+}
+
+static void pressed(GtkGestureClick *gesture, int count, double x, double y,
+		    LadderGridView *view)
+{
+	const GdkModifierType state = gtk_event_controller_get_current_event_state(
+		GTK_EVENT_CONTROLLER(gesture));
+	struct rung_hit hit;
+	const int rung = sheet_point(view, x, y, &hit);
+
+	gtk_widget_grab_focus(GTK_WIDGET(view));
+	view->press_x = x;
+	view->press_y = y;
+	if (rung < 0)
+		return;
+	if (is_cell(&hit)) {
+		cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column },
+			   state & GDK_SHIFT_MASK);
+		if (count == 2)
+			ladder_grid_view_do(view, VERB_enter);
+		return;
+	}
+	cursor_set(view, (struct grid_cursor){ rung, 0, 0 }, false);
+	if (hit.part == RUNG_PART_NUMBER)
+		ladder_grid_view_do(view, VERB_select_all);
+	else if (hit.part == RUNG_PART_TITLE && count == 2)
+		ladder_grid_view_do(view, VERB_rung_title);
+}
+
+static GMenu *make_menu(void)
+{
+	static const enum verb verbs[][8] = {
+		{ VERB_enter, VERB_negate, VERB_cycle, VERB_comment, VERB_add_pin,
+		  VERB_COUNT },
+		{ VERB_parallel, VERB_parallel_not, VERB_wire_here, VERB_link_here,
+		  VERB_wire_right, VERB_wire_down, VERB_COUNT },
+		{ VERB_cut, VERB_copy, VERB_paste, VERB_paste_parallel, VERB_delete,
+		  VERB_COUNT },
+		{ VERB_rung_below, VERB_rung_above, VERB_rung_duplicate, VERB_rung_title,
+		  VERB_rung_off, VERB_rung_delete, VERB_COUNT },
+		{ VERB_go_coil, VERB_rename, VERB_COUNT },
+	};
+	GMenu *menu = g_menu_new();
+
+	for (gsize i = 0; i < G_N_ELEMENTS(verbs); i++) {
+		GMenu *section = g_menu_new();
+
+		for (const enum verb *verb = verbs[i]; *verb != VERB_COUNT; verb++)
+			g_menu_append(section, _(verb_row(*verb)->label),
+				      verb_row(*verb)->action);
+		g_menu_append_section(menu, NULL, G_MENU_MODEL(section));
+		g_object_unref(section);
+	}
+	return menu;
+}
+
+static void closed(GtkPopover *popover)
+{
+	/* Not before its action has run. */
+	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, G_SOURCE_FUNC(gtk_widget_unparent),
+			popover, NULL);
+}
+
+static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
+		      LadderGridView *view)
+{
+	GMenu *menu = make_menu();
+	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
+	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
+
+	pressed(gesture, MIN(count, 1), x, y, view);
+	gtk_widget_set_parent(popover, GTK_WIDGET(view));
+	gtk_popover_set_pointing_to(GTK_POPOVER(popover), &at);
+	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
+	gtk_widget_set_halign(popover, GTK_ALIGN_START);
+	g_signal_connect(popover, "closed", G_CALLBACK(closed), NULL);
+	gtk_popover_popup(GTK_POPOVER(popover));
+	g_object_unref(menu);
+}
+
+/* ---- selecting by dragging ---- */
+
+static void drag_update(GtkGestureDrag *gesture, double by_x, double by_y,
+			LadderGridView *view)
+{
+	double x, y;
+	struct rung_hit hit;
+	int rung;
+
+	if (!gtk_gesture_drag_get_start_point(gesture, &x, &y) ||
+	    !gtk_drag_check_threshold(GTK_WIDGET(view), (int)x, (int)y, (int)(x + by_x),
+				      (int)(y + by_y)))
+		return;
+	rung = sheet_point(view, x + by_x, y + by_y, &hit);
+	if (rung != view->cursor.rung || !is_cell(&hit))
+		return;
+	gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
+	cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column }, true);
+}
+
+/* ---- dragging an element or a rung ---- */
+
+static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double y,
+					LadderGridView *view)
+{
+	struct ladder_drag drag = { .view = view };
+	struct rung_hit hit;
+	const int rung = sheet_point(view, x, y, &hit);
+	const struct cell *cell;
+
+	(void)source;
+	if (rung < 0 || view->entry || rung != view->cursor.rung)
+		return NULL;
+	drag.from = (struct grid_cursor){ rung, -1, -1 };
+	if (hit.part == RUNG_PART_NUMBER)
+		return gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag);
+	cell = cursor_cell(view, NULL, NULL);
+	if (!is_cell(&hit) || !cell)
+		return NULL;
+	drag.word = (enum word)cell->word;
+	drag.from = view->cursor;
+	return gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag);
+}
+
+static void drag_begin(GtkDragSource *source, GdkDrag *unused, LadderGridView *view)
+{
+	const struct project *project = ladder_document_project(view->document);
+	const struct cell *cell = cursor_cell(view, NULL, NULL);
+	struct picture picture;
+	GskRenderNode *node;
+	GtkSnapshot *snapshot = gtk_snapshot_new();
+	GdkPaintable *paintable;
+
+	(void)unused;
+	picture_init(&picture);
+	if (cell && project)
+		grid_draw_icon(words_row(&project->words, (enum word)cell->word),
+			       theme_get(THEME_LIGHT, THEME_GREEN), view->lettering, 64,
+			       40, &picture);
+	node = picture_node(&picture, theme_get(THEME_LIGHT, THEME_GREEN), view->lettering);
+	if (node) {
+		gtk_snapshot_append_node(snapshot, node);
+		gsk_render_node_unref(node);
+	}
+	picture_clear(&picture);
+	paintable = gtk_snapshot_free_to_paintable(snapshot, &GRAPHENE_SIZE_INIT(64, 40));
+	if (paintable) {
+		gtk_drag_source_set_icon(source, paintable, 32, 20);
+		g_object_unref(paintable);
+	}
+}
+
+/* ---- dropping ---- */
+
+static void set_drop(LadderGridView *view, int rung, int row, int col, bool legal)
+{
+	const int before = view->drop.rung;
+
+	if (rung == before && row == view->drop.row && col == view->drop.col &&
+	    legal == view->drop_legal)
+		return;
+	view->drop = (struct grid_cursor){ rung, row, col };
+	view->drop_legal = legal;
+	strips_redraw(view, before >= 0 ? before : rung);
+	if (rung >= 0)
+		strips_redraw(view, rung);
+}
+
+static const struct ladder_drag *dragged(GtkDropTarget *target)
+{
+	const GValue *value = gtk_drop_target_get_value(target);
+
+	return value && G_VALUE_HOLDS(value, LADDER_TYPE_DRAG) ?
+	       g_value_get_boxed(value) : NULL;
+}
+
+/* Below the last row there is room for another. */
+static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hit)
+{
+	const int rung = sheet_point(view, x, y, hit);
+	const double shift = RUNG_CELL_HEIGHT * view->zoom;
+
+	if (rung >= 0 && is_cell(hit))
+		return rung;
+	if (rung >= 0 && sheet_point(view, x, y - shift, hit) == rung && is_cell(hit)) {
+		hit->row++;
+		return rung;
+	}
+	return -1;
+}
+
+static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y,
+				 LadderGridView *view)
+{
+	const struct ladder_drag *drag = dragged(target);
+	struct rung_hit hit;
+	int rung = drop_at(view, x, y, &hit);
+	bool legal;
+
+	if (drag && drag->view && drag->from.row < 0) {
+		rung = sheet_point(view, x, y, &hit);
+		set_drop(view, rung, 0, 0, drag->view == view);
+		return rung >= 0 ? GDK_ACTION_MOVE : 0;
+	}
+	if (rung < 0) {
+		set_drop(view, -1, 0, 0, false);
+		return 0;
+	}
+	legal = drag && grid_can_drop(sheet_rung(view, rung), view->columns, hit.row,
+				      hit.column, drag->word) != GRID_DROP_NOT;
+	set_drop(view, rung, hit.row, hit.column, legal);
+	return !legal ? 0 : drag->view ? GDK_ACTION_MOVE : GDK_ACTION_COPY;
+}
+
+static void drop_leave(GtkDropTarget *target, LadderGridView *view)
+{
+	(void)target;
+	set_drop(view, -1, 0, 0, false);
+}
+
+/* From one rung to another is one step. */
+static void move_between(LadderGridView *view, const struct ladder_drag *drag,
+			 struct grid_cursor to)
+{
+	struct rung *from_rung = sheet_rung(drag->view, drag->from.rung);
+	struct rung *to_rung = sheet_rung(view, to.rung), *source = NULL, *moved;
+	struct grid_at from = { drag->view->columns, drag->from.row, drag->from.col, 0 };
+	struct grid_at at = { view->columns, to.row, to.col, 0 };
+	const bool same = from_rung == to_rung;
+
+	if (!from_rung || !to_rung || drag->view->document != view->document)
+		return;
+	moved = grid_move(from_rung, &from, to_rung, &at, &source);
+	if (!moved) {
+		sheet_tell(view, _(grid_refusal_text(at.refusal ? at.refusal :
+						     from.refusal)));
+		return;
+	}
+	ladder_document_begin(view->document, _("Move element"), NULL);
+	if (!same && source)
+		ladder_document_put_rung(view->document, drag->view->pou,
+					 drag->from.rung, source, NULL);
+	ladder_document_put_rung(view->document, view->pou, to.rung, moved, NULL);
+	ladder_document_end(view->document);
+	cursor_set(view, (struct grid_cursor){ to.rung, at.row, at.col }, false);
+}
+
+static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
+			LadderGridView *view)
+{
+	const struct ladder_drag *drag = g_value_get_boxed(value);
+	struct rung_hit hit;
+	int rung;
+
+	(void)target;
+	set_drop(view, -1, 0, 0, false);
+	if (drag->view && drag->from.row < 0) {
+		rung = sheet_point(view, x, y, &hit);
+		return rung >= 0 && drag->view == view &&
+		       ladder_document_move_rung(view->document, view->pou,
+						 drag->from.rung, rung);
+	}
+	rung = drop_at(view, x, y, &hit);
+	if (rung < 0)
+		return FALSE;
+	if (drag->view) {
+		move_between(view, drag, (struct grid_cursor){ rung, hit.row, hit.column });
+		return TRUE;
+	}
+	cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column }, false);
+	entry_begin_drop(view, drag->word, hit.row, hit.column);
+	return TRUE;
+}
+
+/* ---- zoom about the pointer ---- */
+
+static gboolean wheel(GtkEventControllerScroll *controller, double dx, double dy,
+		      LadderGridView *view)
+{
+	const GdkModifierType state = gtk_event_controller_get_current_event_state(
+		GTK_EVENT_CONTROLLER(controller));
+
+	(void)dx;
+	if (!(state & GDK_CONTROL_MASK))
+		return FALSE;
+	ladder_grid_view_set_zoom(view, view->zoom * (dy < 0 ? 1.1 : 1 / 1.1));
+	return TRUE;
+}
+
+static void pinched(GtkGestureZoom *gesture, double scale, LadderGridView *view)
+{
+	static const double step = 0.05;
+	const double to = view->zoom * scale;
+
+	(void)gesture;
+	if (to > view->zoom * (1 + step) || to < view->zoom * (1 - step))
+		ladder_grid_view_set_zoom(view, to);
+}
+
+/* ---- all of it ---- */
+
+static void add_clicks(LadderGridView *view)
+{
+	GtkGesture *click = gtk_gesture_click_new();
+	GtkGesture *menu = gtk_gesture_click_new();
+	GtkGesture *drag = gtk_gesture_drag_new();
+
+	g_signal_connect(click, "pressed", G_CALLBACK(pressed), view);
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(click));
+	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(menu), GDK_BUTTON_SECONDARY);
+	g_signal_connect(menu, "pressed", G_CALLBACK(show_menu), view);
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(menu));
+	g_signal_connect(drag, "drag-update", G_CALLBACK(drag_update), view);
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(drag));
+}
+
+void mouse_init(LadderGridView *view)
+{
+	GtkDragSource *source = gtk_drag_source_new();
+	GtkDropTarget *target = gtk_drop_target_new(LADDER_TYPE_DRAG,
+						    GDK_ACTION_COPY | GDK_ACTION_MOVE);
+	GtkEventController *scroll = gtk_event_controller_scroll_new(
+		GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
+	GtkGesture *pinch = gtk_gesture_zoom_new();
+
+	gtk_drag_source_set_actions(source, GDK_ACTION_COPY | GDK_ACTION_MOVE);
+	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepare), view);
+	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), view);
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(source));
+	add_clicks(view);
+	gtk_drop_target_set_preload(target, TRUE);
+	g_signal_connect(target, "motion", G_CALLBACK(drop_motion), view);
+	g_signal_connect(target, "leave", G_CALLBACK(drop_leave), view);
+	g_signal_connect(target, "drop", G_CALLBACK(dropped), view);
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(target));
+	g_signal_connect(scroll, "scroll", G_CALLBACK(wheel), view);
+	gtk_event_controller_set_propagation_phase(scroll, GTK_PHASE_CAPTURE);
+	gtk_widget_add_controller(GTK_WIDGET(view), scroll);
+	g_signal_connect(pinch, "scale-changed", G_CALLBACK(pinched), view);
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(pinch));
+}

@@ -1,0 +1,379 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_view_strips - the rungs of a sheet one below the other.
+ *
+ * A rung is laid out when it is seen, or when nothing else is to be done; until then its
+ * height is guessed. It is drawn into one render node, which lives until something of it
+ * changes, so that scrolling draws nothing anew.
+ */
+#include "editor-gtk/grid_view_inside.h"
+
+#include <adwaita.h>
+
+#define TITLE_GUESS  32 /* px above the first row of a rung                    */
+#define IDLE_RUNGS   64 /* laid out at a time while nothing else is done       */
+
+static struct strip *strip_of(LadderGridView *view, int rung)
+{
+	return &g_array_index(view->strips, struct strip, rung);
+}
+
+static const struct theme *theme_of(void)
+{
+	AdwStyleManager *manager = adw_style_manager_get_default();
+	const bool dark = adw_style_manager_get_dark(manager);
+
+	if (adw_style_manager_get_high_contrast(manager))
+		return theme_get(dark ? THEME_CONTRAST_DARK : THEME_CONTRAST,
+				 THEME_GREEN);
+	return theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
+}
+
+/* ---- what is remembered ---- */
+
+static void forget_node(struct strip *strip)
+{
+	g_clear_pointer(&strip->node, gsk_render_node_unref);
+}
+
+static void forget(struct strip *strip)
+{
+	forget_node(strip);
+	g_clear_pointer(&strip->layout, rung_layout_free);
+}
+
+static void guess(LadderGridView *view, int rung)
+{
+	const struct rung *shown = sheet_rung(view, rung);
+	struct strip *strip = strip_of(view, rung);
+
+	forget(strip);
+	if (shown)
+		strip->height = TITLE_GUESS + (float)shown->rows * RUNG_CELL_HEIGHT;
+}
+
+static void stack(LadderGridView *view, int from)
+{
+	float y = 0;
+
+	if (from > 0)
+		y = strip_of(view, from - 1)->y + strip_of(view, from - 1)->height;
+	for (guint i = (guint)from; i < view->strips->len; i++) {
+		struct strip *strip = strip_of(view, (int)i);
+
+		strip->y = y;
+		y += strip->height;
+	}
+}
+
+/* The names and the number of columns that all rungs share. */
+static void share(LadderGridView *view)
+{
+	const struct pou *pou = sheet_pou(view);
+	struct project *project = ladder_document_project(view->document);
+	int columns = RUNG_LEAST_COLUMNS;
+
+	grid_names_free(view->names);
+	view->names = project && pou ? grid_names_new(project, pou) : NULL;
+	for (int i = 0; i < sheet_rungs(view); i++)
+		columns = grid_display_columns(sheet_rung(view, i), columns);
+	view->columns = columns;
+	view->drafting.project = project;
+	view->drafting.names = view->names;
+	view->drafting.lettering = view->lettering;
+	view->drafting.columns = columns;
+}
+
+static gboolean lay_out_more(gpointer data)
+{
+	LadderGridView *view = data;
+	const int rungs = sheet_rungs(view);
+	int done = 0;
+
+	for (int i = 0; i < rungs && done < IDLE_RUNGS; i++)
+		if (!strip_of(view, i)->layout) {
+			strips_get(view, i);
+			done++;
+		}
+	if (done > 0)
+		return G_SOURCE_CONTINUE;
+	view->idle = 0;
+	return G_SOURCE_REMOVE;
+}
+
+static void lay_out_later(LadderGridView *view)
+{
+	if (!view->idle)
+		view->idle = g_idle_add_full(G_PRIORITY_LOW, lay_out_more, view, NULL);
+}
+
+/* ---- what changes ---- */
+
+void strips_reset(LadderGridView *view)
+{
+	const int rungs = sheet_rungs(view);
+
+	for (guint i = 0; i < view->strips->len; i++)
+		forget(strip_of(view, (int)i));
+	g_array_set_size(view->strips, (guint)rungs);
+	share(view);
+	view->rail = 0;
+	for (int i = 0; i < rungs; i++)
+		guess(view, i);
+	stack(view, 0);
+	lay_out_later(view);
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+void strips_splice(LadderGridView *view, int at, int removed, int inserted)
+{
+	const struct strip none = { 0 };
+	const int columns = view->columns;
+
+	for (int i = at; i < at + removed; i++)
+		forget(strip_of(view, i));
+	g_array_remove_range(view->strips, (guint)at, (guint)removed);
+	for (int i = 0; i < inserted; i++)
+		g_array_insert_val(view->strips, (guint)at, none);
+	share(view);
+	if (columns != view->columns) {
+		strips_reset(view);
+		return;
+	}
+	/* Their numbers are others, if there are more or fewer before them. */
+	for (guint i = (guint)at; i < view->strips->len; i++)
+		if ((int)i < at + inserted || removed != inserted)
+			guess(view, (int)i);
+	stack(view, at);
+	lay_out_later(view);
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+void strips_dirty(LadderGridView *view, int rung)
+{
+	if (rung < 0 || rung >= (int)view->strips->len)
+		return;
+	if (grid_display_columns(sheet_rung(view, rung), 0) > view->columns) {
+		strips_reset(view);
+		return;
+	}
+	guess(view, rung);
+	stack(view, rung);
+	lay_out_later(view);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+void strips_redraw(LadderGridView *view, int rung)
+{
+	for (int i = rung < 0 ? 0 : rung;
+	     i < (int)view->strips->len && (rung < 0 || i == rung); i++)
+		forget_node(strip_of(view, i));
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+/* ---- laying out ---- */
+
+/* All rungs have the same right rail: the widest one's. */
+static void widen(LadderGridView *view, float rail)
+{
+	view->rail = rail;
+	for (guint i = 0; i < view->strips->len; i++) {
+		struct strip *strip = strip_of(view, (int)i);
+
+		if (strip->layout) {
+			rung_layout_stretch(strip->layout, rail);
+			forget_node(strip);
+		}
+	}
+	gtk_widget_queue_resize(GTK_WIDGET(view));
+}
+
+/* What is seen stays where it is, if something above it grows. */
+static void keep_view(LadderGridView *view, const struct strip *strip, float grown)
+{
+	GtkAdjustment *down = view->adjustment[1];
+	const double value = gtk_adjustment_get_value(down);
+
+	if (strip->y * view->zoom >= value)
+		return;
+	gtk_adjustment_set_upper(down, gtk_adjustment_get_upper(down) +
+				 grown * view->zoom);
+	gtk_adjustment_set_value(down, value + grown * view->zoom);
+}
+
+struct strip *strips_get(LadderGridView *view, int rung)
+{
+	struct strip *strip = strip_of(view, rung);
+	const struct rung *shown = sheet_rung(view, rung);
+	float grown;
+
+	if (strip->layout || !shown)
+		return strip;
+	strip->layout = rung_layout_new(&view->drafting, shown, rung + 1,
+					rung == view->cursor.rung ?
+					view->cursor.row + 1 : 0);
+	if (strip->layout->natural > view->rail)
+		widen(view, strip->layout->natural);
+	rung_layout_stretch(strip->layout, view->rail);
+	grown = strip->layout->height - strip->height;
+	strip->height = strip->layout->height;
+	if (grown != 0) {
+		stack(view, rung);
+		keep_view(view, strip, grown);
+		gtk_widget_queue_resize(GTK_WIDGET(view));
+	}
+	return strip;
+}
+
+int strips_at(LadderGridView *view, float y)
+{
+	int low = 0, high = (int)view->strips->len - 1;
+
+	while (low < high) {
+		const int middle = (low + high + 1) / 2;
+
+		if (strip_of(view, middle)->y <= y)
+			low = middle;
+		else
+			high = middle - 1;
+	}
+	return high < 0 ? -1 : low;
+}
+
+float strips_width(LadderGridView *view)
+{
+	return RUNG_LEFT + MAX(view->rail, RUNG_LEAST_COLUMNS * RUNG_CELL_WIDTH) +
+	       RUNG_AFTER;
+}
+
+float strips_height(LadderGridView *view)
+{
+	const guint count = view->strips->len;
+
+	return count ? strip_of(view, (int)count - 1)->y +
+		       strip_of(view, (int)count - 1)->height : 0;
+}
+
+/* ---- drawing ---- */
+
+static void push_mark(GArray *marks, int row, int column, unsigned int mark)
+{
+	const struct grid_mark one = { row, column, mark };
+
+	g_array_append_val(marks, one);
+}
+
+static void mark_selection(LadderGridView *view, int rung, GArray *marks)
+{
+	struct grid_area area;
+
+	if (rung != view->cursor.rung)
+		return;
+	if (cursor_area(view, &area))
+		for (int row = area.row; row <= area.last_row; row++)
+			for (int col = area.col; col <= area.last_col; col++)
+				push_mark(marks, row, col, MARK_SELECTED);
+	if (gtk_widget_has_focus(GTK_WIDGET(view)) || view->entry)
+		push_mark(marks, view->cursor.row, view->cursor.col, MARK_CURSOR);
+	else
+		push_mark(marks, view->cursor.row, view->cursor.col, MARK_SELECTED);
+}
+
+static void mark_checks(LadderGridView *view, int rung, GArray *marks)
+{
+	const struct rung *shown = sheet_rung(view, rung);
+
+	for (guint i = 0; i < view->marks->len; i++) {
+		const struct sheet_mark *mark =
+			&g_array_index(view->marks, struct sheet_mark, i);
+
+		if (mark->rung == rung && mark->row >= 0 && mark->row < shown->rows &&
+		    mark->col >= 0 && mark->col < shown->cols)
+			push_mark(marks, mark->row,
+				  grid_display_column(shown, view->columns, mark->row,
+						      mark->col), mark->marks);
+	}
+}
+
+static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
+{
+	GArray *marks = g_array_new(FALSE, FALSE, sizeof(struct grid_mark));
+	struct grid_scene scene = {
+		.drafting = &view->drafting, .layout = strip->layout,
+		.theme = theme_of(),
+		.state = rung == view->cursor.rung ? RUNG_CURRENT : 0,
+	};
+
+	mark_selection(view, rung, marks);
+	mark_checks(view, rung, marks);
+	if (rung == view->found.rung)
+		push_mark(marks, view->found.row, view->found.col, MARK_FOUND);
+	if (rung == view->drop.rung)
+		push_mark(marks, view->drop.row, view->drop.col,
+			  view->drop_legal ? MARK_DROP : MARK_ILLEGAL);
+	if (view->preview && rung == view->cursor.rung)
+		scene.state |= RUNG_EDITED;
+	scene.mark = (const struct grid_mark *)(void *)marks->data;
+	scene.mark_count = (int)marks->len;
+	strip->node = grid_draw_node(&scene);
+	g_array_unref(marks);
+}
+
+void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot)
+{
+	const float zoom = (float)view->zoom;
+	const float x = (float)gtk_adjustment_get_value(view->adjustment[0]);
+	const float top = (float)gtk_adjustment_get_value(view->adjustment[1]);
+	const float end = top + (float)gtk_widget_get_height(GTK_WIDGET(view));
+
+	for (int i = strips_at(view, top / zoom);
+	     i >= 0 && i < (int)view->strips->len; i++) {
+		struct strip *strip = strips_get(view, i);
+
+		if (strip->y * zoom > end)
+			break;
+		if (!strip->node)
+			draw_strip(view, i, strip);
+		if (!strip->node)
+			continue;
+		gtk_snapshot_save(snapshot);
+		gtk_snapshot_translate(snapshot,
+			&GRAPHENE_POINT_INIT(-x, strip->y * zoom - top));
+		gtk_snapshot_scale(snapshot, zoom, zoom);
+		gtk_snapshot_append_node(snapshot, strip->node);
+		gtk_snapshot_restore(snapshot);
+	}
+	lettering_trim(view->lettering);
+}
+
+/* ---- life ---- */
+
+void strips_style(LadderGridView *view)
+{
+	strips_redraw(view, -1);
+}
+
+void strips_init(LadderGridView *view)
+{
+	view->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(view)),
+					NULL);
+	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
+				G_CALLBACK(strips_style), view, G_CONNECT_SWAPPED);
+	g_signal_connect_object(adw_style_manager_get_default(), "notify::high-contrast",
+				G_CALLBACK(strips_style), view, G_CONNECT_SWAPPED);
+	g_signal_connect(view, "notify::has-focus", G_CALLBACK(strips_style), NULL);
+	strips_reset(view);
+}
+
+void strips_clear(LadderGridView *view)
+{
+	if (view->idle)
+		g_source_remove(view->idle);
+	view->idle = 0;
+	for (guint i = 0; i < view->strips->len; i++)
+		forget(strip_of(view, (int)i));
+	g_array_set_size(view->strips, 0);
+	g_clear_pointer(&view->names, grid_names_free);
+	g_clear_pointer(&view->lettering, lettering_free);
+}

@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * palette - every element and block as a tile, by family, to be clicked or dragged.
+ */
+#include "editor-gtk/palette.h"
+
+#include "editor-gtk/grid_draw.h"
+#include "editor-gtk/grid_view.h"
+#include "editor-gtk/i18n.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+#define LADDER_TYPE_PALETTE (ladder_palette_get_type())
+G_DECLARE_FINAL_TYPE(LadderPalette, ladder_palette, LADDER, PALETTE, GtkBox)
+
+struct _LadderPalette {
+	GtkBox parent;
+	LadderDocument *document;
+	GtkWidget *search, *families;
+	int own;                    /* words of the project that are shown     */
+};
+
+G_DEFINE_FINAL_TYPE(LadderPalette, ladder_palette, GTK_TYPE_BOX)
+
+#define ICON_WIDTH  56
+#define ICON_HEIGHT 34
+
+/* ---- the icon of a tile: drawn, so that it follows the theme ---- */
+
+#define LADDER_TYPE_ICON (ladder_icon_get_type())
+G_DECLARE_FINAL_TYPE(LadderIcon, ladder_icon, LADDER, ICON, GtkWidget)
+
+struct _LadderIcon {
+	GtkWidget parent;
+	const struct word_row *row; /* of the catalogue, or alive while it is shown */
+	struct lettering *lettering;
+};
+
+G_DEFINE_FINAL_TYPE(LadderIcon, ladder_icon, GTK_TYPE_WIDGET)
+
+static void ladder_icon_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
+{
+	LadderIcon *icon = LADDER_ICON(widget);
+	const bool dark = adw_style_manager_get_dark(adw_style_manager_get_default());
+	const struct theme *theme = theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
+	struct picture picture;
+
+	picture_init(&picture);
+	grid_draw_icon(icon->row, theme, icon->lettering,
+		       (float)gtk_widget_get_width(widget),
+		       (float)gtk_widget_get_height(widget), &picture);
+	picture_snapshot(&picture, theme, icon->lettering, snapshot);
+	picture_clear(&picture);
+}
+
+static void ladder_icon_finalize(GObject *object)
+{
+	lettering_free(LADDER_ICON(object)->lettering);
+	G_OBJECT_CLASS(ladder_icon_parent_class)->finalize(object);
+}
+
+static void ladder_icon_class_init(LadderIconClass *class)
+{
+	G_OBJECT_CLASS(class)->finalize = ladder_icon_finalize;
+	GTK_WIDGET_CLASS(class)->snapshot = ladder_icon_snapshot;
+}
+
+static void ladder_icon_init(LadderIcon *icon)
+{
+	icon->lettering = lettering_new(
+		gtk_widget_get_pango_context(GTK_WIDGET(icon)), NULL);
+	gtk_widget_set_size_request(GTK_WIDGET(icon), ICON_WIDTH, ICON_HEIGHT);
+	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
+				G_CALLBACK(gtk_widget_queue_draw), icon,
+				G_CONNECT_SWAPPED);
+}
+
+/* ---- tiles ---- */
+
+/* The key that puts this very word, if there is one. */
+static char *key_of(enum word word)
+{
+	static const struct { enum word word; enum verb verb; } keys[] = {
+		{ ELEM_CONTACT_NO, VERB_contact }, { ELEM_CONTACT_NC, VERB_contact_not },
+		{ ELEM_COIL, VERB_coil },
+	};
+
+	for (gsize i = 0; i < G_N_ELEMENTS(keys); i++)
+		if (keys[i].word == word)
+			return verb_keys_label(keys[i].verb);
+	return NULL;
+}
+
+static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double y,
+					gpointer word)
+{
+	(void)source;
+	(void)x;
+	(void)y;
+	return ladder_grid_view_drag((enum word)GPOINTER_TO_INT(word));
+}
+
+static void drag_begin(GtkDragSource *source, GdkDrag *unused, GtkWidget *icon)
+{
+	GdkPaintable *paintable = gtk_widget_paintable_new(icon);
+
+	(void)unused;
+	gtk_drag_source_set_icon(source, paintable, ICON_WIDTH / 2, ICON_HEIGHT / 2);
+	g_object_unref(paintable);
+}
+
+static void clicked(GtkButton *button, gpointer word)
+{
+	gtk_widget_activate_action(GTK_WIDGET(button), "win.place", "i",
+				   GPOINTER_TO_INT(word));
+}
+
+static GtkWidget *tile_new(const struct word_row *row, enum word word)
+{
+	GtkWidget *button = gtk_button_new(), *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	LadderIcon *icon = g_object_new(LADDER_TYPE_ICON, NULL);
+	GtkDragSource *drag = gtk_drag_source_new();
+	const char *name = row->word[0] ? row->word : row->id;
+	char *key = key_of(word), *tip;
+	GtkWidget *label = gtk_label_new(key ? key : name);
+
+	icon->row = row;
+	gtk_widget_add_css_class(button, "flat");
+	gtk_widget_add_css_class(button, "tile");
+	gtk_widget_add_css_class(label, "tile-key");
+	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+	gtk_label_set_max_width_chars(GTK_LABEL(label), 8);
+	gtk_box_append(GTK_BOX(box), GTK_WIDGET(icon));
+	gtk_box_append(GTK_BOX(box), label);
+	gtk_button_set_child(GTK_BUTTON(button), box);
+	tip = g_strdup_printf("%s: %s%s%s", name, row->doc ? _(row->doc) : "",
+			      key ? " · " : "", key ? key : "");
+	gtk_widget_set_tooltip_text(button, tip);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+	gtk_widget_set_focus_on_click(button, FALSE);
+	g_signal_connect(button, "clicked", G_CALLBACK(clicked), GINT_TO_POINTER(word));
+	gtk_drag_source_set_actions(drag, GDK_ACTION_COPY);
+	g_signal_connect(drag, "prepare", G_CALLBACK(drag_prepare), GINT_TO_POINTER(word));
+	g_signal_connect(drag, "drag-begin", G_CALLBACK(drag_begin), icon);
+	gtk_widget_add_controller(button, GTK_EVENT_CONTROLLER(drag));
+	g_free(tip);
+	g_free(key);
+	return button;
+}
+
+/* ---- families ---- */
+
+static bool fits(const struct word_row *row, const char *search)
+{
+	char *all, *fold, *want;
+	bool found;
+
+	if (!search[0])
+		return true;
+	all = g_strdup_printf("%s %s %s %s", row->word, row->id, row->family,
+			      row->doc ? row->doc : "");
+	fold = g_utf8_casefold(all, -1);
+	want = g_utf8_casefold(search, -1);
+	found = strstr(fold, want);
+	g_free(all);
+	g_free(fold);
+	g_free(want);
+	return found;
+}
+
+static bool is_offered(const struct word_row *row)
+{
+	return row->family && row->family[0] && row->place != PLACE_NONE &&
+	       row->place != PLACE_PIN && row->kind != WORD_STRUCT;
+}
+
+static GtkWidget *family_new(const char *name, bool open)
+{
+	GtkWidget *expander = gtk_expander_new(name);
+	GtkWidget *flow = gtk_flow_box_new();
+
+	gtk_flow_box_set_selection_mode(GTK_FLOW_BOX(flow), GTK_SELECTION_NONE);
+	gtk_flow_box_set_min_children_per_line(GTK_FLOW_BOX(flow), 2);
+	gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(flow), 8);
+	gtk_flow_box_set_homogeneous(GTK_FLOW_BOX(flow), TRUE);
+	gtk_expander_set_child(GTK_EXPANDER(expander), flow);
+	gtk_expander_set_expanded(GTK_EXPANDER(expander), open);
+	gtk_widget_add_css_class(expander, "family");
+	return expander;
+}
+
+/* What most rungs need is open at first. */
+static bool is_common(const char *family)
+{
+	static const char *const common[] = { "Contacts", "Coils", "Timers", "Counters" };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(common); i++)
+		if (strcmp(family, common[i]) == 0)
+			return true;
+	return false;
+}
+
+static void add_tile(LadderPalette *palette, GHashTable *families,
+		     const struct word_row *row, enum word word, bool searching)
+{
+	GtkWidget *family = g_hash_table_lookup(families, row->family), *child;
+
+	if (!family) {
+		family = family_new(_(row->family), searching || is_common(row->family));
+		gtk_box_append(GTK_BOX(palette->families), family);
+		g_hash_table_insert(families, (gpointer)row->family, family);
+	}
+	child = gtk_flow_box_child_new();
+	gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child), tile_new(row, word));
+	gtk_widget_set_focusable(child, FALSE);
+	gtk_flow_box_append(GTK_FLOW_BOX(gtk_expander_get_child(GTK_EXPANDER(family))),
+			    child);
+}
+
+static void fill(LadderPalette *palette)
+{
+	const char *search = gtk_editable_get_text(GTK_EDITABLE(palette->search));
+	const struct project *project = ladder_document_project(palette->document);
+	GHashTable *families = g_hash_table_new(g_str_hash, g_str_equal);
+	GtkWidget *family;
+
+	while ((family = gtk_widget_get_first_child(palette->families)))
+		gtk_box_remove(GTK_BOX(palette->families), family);
+	for (int i = 0; i < WORD_COUNT; i++) {
+		const struct word_row *row = word_row((enum word)i);
+
+		if (is_offered(row) && fits(row, search))
+			add_tile(palette, families, row, (enum word)i, search[0]);
+	}
+	for (int i = 0; project && i < project->words.count; i++) {
+		const enum word word = (enum word)(WORD_FIRST_OWN + i);
+		const struct word_row *row = words_row(&project->words, word);
+
+		if (is_offered(row) && fits(row, search))
+			add_tile(palette, families, row, word, search[0]);
+	}
+	palette->own = project ? project->words.count : 0;
+	g_hash_table_unref(families);
+}
+
+/* Rows of own words die with the project. */
+static void project_changed(LadderPalette *palette)
+{
+	const struct project *project = ladder_document_project(palette->document);
+
+	if (palette->own > 0 || (project && project->words.count > 0))
+		fill(palette);
+}
+
+static void ladder_palette_finalize(GObject *object)
+{
+	g_object_unref(LADDER_PALETTE(object)->document);
+	G_OBJECT_CLASS(ladder_palette_parent_class)->finalize(object);
+}
+
+static void ladder_palette_class_init(LadderPaletteClass *class)
+{
+	G_OBJECT_CLASS(class)->finalize = ladder_palette_finalize;
+}
+
+static void ladder_palette_init(LadderPalette *palette)
+{
+	GtkWidget *scroller = gtk_scrolled_window_new();
+
+	gtk_orientable_set_orientation(GTK_ORIENTABLE(palette), GTK_ORIENTATION_VERTICAL);
+	palette->search = gtk_search_entry_new();
+	palette->families = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
+	gtk_widget_set_margin_start(palette->search, 10);
+	gtk_widget_set_margin_end(palette->search, 10);
+	gtk_widget_set_margin_top(palette->search, 6);
+	gtk_search_entry_set_key_capture_widget(GTK_SEARCH_ENTRY(palette->search), NULL);
+	g_object_set(palette->search, "placeholder-text", _("Find an element"), NULL);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(palette->search),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       _("Find an element"), -1);
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
+				       GTK_POLICY_AUTOMATIC);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), palette->families);
+	gtk_widget_set_vexpand(scroller, TRUE);
+	gtk_box_append(GTK_BOX(palette), palette->search);
+	gtk_box_append(GTK_BOX(palette), scroller);
+	g_signal_connect_swapped(palette->search, "search-changed", G_CALLBACK(fill),
+				 palette);
+}
+
+GtkWidget *ladder_palette_new(LadderDocument *document)
+{
+	LadderPalette *palette = g_object_new(LADDER_TYPE_PALETTE, NULL);
+
+	palette->document = g_object_ref(document);
+	g_signal_connect_object(document, "project-changed", G_CALLBACK(project_changed),
+				palette, G_CONNECT_SWAPPED);
+	fill(palette);
+	return GTK_WIDGET(palette);
+}

@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * pou_edit - programs and blocks come, go and get names.
+ */
+#include "editor-gtk/pou_edit.h"
+
+#include "editor-gtk/i18n.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+/* ---- adding ---- */
+
+static bool is_taken(const struct project *project, const char *name)
+{
+	for (int i = 0; i < project->pou_count; i++)
+		if (g_ascii_strcasecmp(project_text(project, project->pou[i].name),
+				       name) == 0)
+			return true;
+	for (int i = 0; i < project->globals.count; i++)
+		if (g_ascii_strcasecmp(project_text(project, project->globals.var[i].name),
+				       name) == 0)
+			return true;
+	return words_is_taken(name);
+}
+
+static char *free_name(const struct project *project, const char *what)
+{
+	const char *base = g_str_has_prefix(what, "PROGRAM") ? "Program" :
+		g_str_has_prefix(what, "FUNCTION_BLOCK") ? "Block" :
+		g_str_has_prefix(what, "FUNCTION") ? "Function" : "Routine";
+	char *name = NULL;
+
+	for (int i = 1; !name || is_taken(project, name); i++) {
+		g_free(name);
+		name = g_strdup_printf("%s%d", base, i);
+	}
+	return name;
+}
+
+static char *text_of(const char *what, const char *name)
+{
+	char **words = g_strsplit(what, " ", 2);
+	const bool list = strcmp(words[1], "IL") == 0;
+	const bool function = strcmp(words[0], "FUNCTION") == 0;
+	char *text = g_strdup_printf("\n%s %s%s %s\n%s%sEND_%s\n", words[0], name,
+		function ? " : BOOL" : "", words[1],
+		function || strcmp(words[0], "FUNCTION_BLOCK") == 0 ?
+			"VAR_INPUT\n  In : BOOL;\nEND_VAR\n" : "",
+		list ? "  LD FALSE\n" : "RUNG\n", words[0]);
+
+	g_strfreev(words);
+	return text;
+}
+
+void pou_add(GtkWidget *widget, LadderDocument *document, const char *what)
+{
+	const struct project *project = ladder_document_project(document);
+	char *name, *text, *all;
+	gsize len;
+
+	if (!project)
+		return;
+	name = free_name(project, what);
+	text = text_of(what, name);
+	all = ladder_document_outline(document, &len, NULL, NULL);
+	ladder_document_begin(document, _("New program or block"), NULL);
+	if (all && ladder_document_replace(document, len, 0, text, NULL)) {
+		project = ladder_document_project(document);
+		gtk_widget_activate_action(widget, "win.go-to", "(iiii)",
+					   project->pou_count - 1, 0, -1, -1);
+	}
+	ladder_document_end(document);
+	g_free(all);
+	g_free(text);
+	g_free(name);
+}
+
+/* ---- deleting ---- */
+
+struct part_of_pou {
+	const struct project *project;
+	int pou;
+	struct text_span span;
+	bool found;
+};
+
+static void take_part(void *context, const struct text_span *span)
+{
+	struct part_of_pou *part = context;
+	const struct part *row = span->part == TEXT_PART ?
+		&part->project->part[span->number] : NULL;
+
+	if (row && row->kind == PART_POU && row->index == part->pou) {
+		part->span = *span;
+		part->found = true;
+	}
+}
+
+bool pou_delete(LadderDocument *document, int pou)
+{
+	struct part_of_pou part = { ladder_document_project(document), pou,
+				    { 0 }, false };
+	gsize len;
+	char *text;
+	bool good = false;
+
+	if (!part.project || part.project->pou_count < 2)
+		return false;
+	text = ladder_document_outline(document, &len, take_part, &part);
+	ladder_document_begin(document, _("Delete program or block"), NULL);
+	if (part.found)
+		good = ladder_document_replace(document, part.span.at, part.span.len, "",
+					       NULL);
+	ladder_document_end(document);
+	g_free(text);
+	return good;
+}
+
+/* ---- renaming ---- */
+
+struct naming {
+	GtkWidget *widget, *line;
+	LadderDocument *document;
+	int pou;
+};
+
+static void naming_free(gpointer data, GClosure *closure)
+{
+	struct naming *naming = data;
+
+	(void)closure;
+	g_object_unref(naming->document);
+	g_free(naming);
+}
+
+static void named(AdwMessageDialog *dialog, const char *response, struct naming *naming)
+{
+	const char *name = gtk_editable_get_text(GTK_EDITABLE(naming->line));
+
+	(void)dialog;
+	if (strcmp(response, "rename") == 0)
+		gtk_widget_activate_action(naming->widget, "win.rename-pou", "(is)",
+					   naming->pou, name);
+}
+
+void pou_ask_name(GtkWidget *widget, LadderDocument *document, int pou)
+{
+	const struct project *project = ladder_document_project(document);
+	GtkWidget *dialog = adw_message_dialog_new(
+		GTK_WINDOW(gtk_widget_get_root(widget)), _("Rename"), NULL);
+	struct naming *naming = g_new0(struct naming, 1);
+
+	naming->widget = widget;
+	naming->document = g_object_ref(document);
+	naming->pou = pou;
+	naming->line = gtk_entry_new();
+	gtk_editable_set_text(GTK_EDITABLE(naming->line),
+			      project_text(project, project->pou[pou].name));
+	gtk_entry_set_activates_default(GTK_ENTRY(naming->line), TRUE);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(naming->line),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Name"), -1);
+	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), naming->line);
+	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog),
+		"cancel", _("Cancel"), "rename", _("Rename"), NULL);
+	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "rename");
+	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
+	g_signal_connect_data(dialog, "response", G_CALLBACK(named), naming, naming_free,
+			      0);
+	gtk_window_present(GTK_WINDOW(dialog));
+}

@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * pou_edit - programs and blocks come, go and get names.
+ *
+ * Each is one step of the history, made as a change of the text.
+ */
+#ifndef EDITOR_POU_EDIT_H
+#define EDITOR_POU_EDIT_H
+
+#include "editor-gtk/document.h"
+
+#include <gtk/gtk.h>
+
+/** pou_add - @what: "PROGRAM LD", "FUNCTION_BLOCK LD"; named anew, and shown from
+ * @widget by "win.go-to". */
+void pou_add(GtkWidget *widget, LadderDocument *document, const char *what);
+/** pou_ask_name - asks for another name, which it gets wherever it is named. */
+void pou_ask_name(GtkWidget *widget, LadderDocument *document, int pou);
+/** pou_delete - with all that is in it; the last one stays. */
+bool pou_delete(LadderDocument *document, int pou);
+
+#endif

@@ -1,0 +1,370 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * project_tree - what a project is made of: programs, blocks, types, symbols, files.
+ *
+ * A row goes where it is double clicked or entered; programs and blocks are added,
+ * renamed and deleted from its menu.
+ */
+#include "editor-gtk/panels.h"
+
+#include "editor-gtk/i18n.h"
+#include "editor-gtk/pou_edit.h"
+
+#include <string.h>
+
+/* ---- rows ---- */
+
+#define LADDER_TYPE_TREE_ROW (ladder_tree_row_get_type())
+G_DECLARE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, LADDER, TREE_ROW, GObject)
+
+enum row_kind { ROW_HEADING, ROW_POU, ROW_SYMBOLS, ROW_FILE };
+
+struct _LadderTreeRow {
+	GObject parent;
+	enum row_kind kind;
+	int pou;
+	char *text, *note;
+	GListStore *rows;   /* below it; NULL: none                            */
+};
+
+G_DEFINE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, G_TYPE_OBJECT)
+
+static void ladder_tree_row_finalize(GObject *object)
+{
+	LadderTreeRow *row = LADDER_TREE_ROW(object);
+
+	g_clear_object(&row->rows);
+	g_free(row->text);
+	g_free(row->note);
+	G_OBJECT_CLASS(ladder_tree_row_parent_class)->finalize(object);
+}
+
+static void ladder_tree_row_class_init(LadderTreeRowClass *class)
+{
+	G_OBJECT_CLASS(class)->finalize = ladder_tree_row_finalize;
+}
+
+static void ladder_tree_row_init(LadderTreeRow *row)
+{
+	row->pou = -1;
+}
+
+static LadderTreeRow *add(GListStore *into, enum row_kind kind, const char *text,
+			  char *note, GListStore *rows)
+{
+	LadderTreeRow *row = g_object_new(LADDER_TYPE_TREE_ROW, NULL);
+
+	row->kind = kind;
+	row->text = g_strdup(text);
+	row->note = note;
+	row->rows = rows;
+	g_list_store_append(into, row);
+	g_object_unref(row);
+	return row;
+}
+
+static LadderTreeRow *add_row(GListStore *into, enum row_kind kind, const char *text,
+			      char *note)
+{
+	return add(into, kind, text, note, NULL);
+}
+
+static LadderTreeRow *add_heading(GListStore *into, const char *text)
+{
+	return add(into, ROW_HEADING, text, NULL, g_list_store_new(LADDER_TYPE_TREE_ROW));
+}
+
+/* ---- filling ---- */
+
+static void add_pous(GListStore *root, const struct project *project, const char *title,
+		     bool programs)
+{
+	LadderTreeRow *heading = add_heading(root, title);
+
+	for (int i = 0; i < project->pou_count; i++) {
+		const struct pou *pou = &project->pou[i];
+		char *note;
+		LadderTreeRow *row;
+
+		if ((pou->kind == POU_PROGRAM) != programs)
+			continue;
+		note = pou->language == LANGUAGE_LD ?
+			g_strdup_printf(ngettext("%d rung", "%d rungs",
+				(unsigned long)pou->rung_count), pou->rung_count) :
+			g_strdup("IL");
+		row = add_row(heading->rows, ROW_POU, project_text(project, pou->name),
+			      note);
+		row->pou = i;
+	}
+}
+
+static int symbol_count(const struct project *project)
+{
+	int count = project->globals.count;
+
+	for (int i = 0; i < project->pou_count; i++)
+		count += project->pou[i].vars.count;
+	return count;
+}
+
+static void add_files(GListStore *root, const struct project *project)
+{
+	LadderTreeRow *heading = NULL;
+
+	for (int i = 0; i < project->part_count; i++) {
+		const struct part *part = &project->part[i];
+
+		if ((part->kind != PART_INCLUDE && part->kind != PART_USES) ||
+		    part->included)
+			continue;
+		if (!heading)
+			heading = add_heading(root, _("Files"));
+		add_row(heading->rows, ROW_FILE, project_text(project, part->text),
+			g_strdup(part->kind == PART_USES ? "USES" : "INCLUDE"));
+	}
+}
+
+struct tree {
+	LadderDocument *document;
+	GListStore *root;
+	GtkSingleSelection *selection;
+	GtkWidget *list;
+	char *shape;       /* what is shown, to see whether it changed         */
+};
+
+static void fill(struct tree *tree)
+{
+	const struct project *project = ladder_document_project(tree->document);
+	LadderTreeRow *row;
+
+	g_list_store_remove_all(tree->root);
+	if (!project)
+		return;
+	add_pous(tree->root, project, _("Programs"), true);
+	add_pous(tree->root, project, _("Functions and blocks"), false);
+	row = add_row(tree->root, ROW_SYMBOLS, _("Symbols"),
+		      g_strdup_printf("%d", symbol_count(project)));
+	row->pou = -1;
+	add_files(tree->root, project);
+}
+
+static char *shape_of(const struct project *project)
+{
+	GString *shape = g_string_new(NULL);
+
+	for (int i = 0; project && i < project->pou_count; i++)
+		g_string_append_printf(shape, "%s %d %d\n",
+			project_text(project, project->pou[i].name),
+			(int)project->pou[i].kind, project->pou[i].rung_count);
+	if (project)
+		g_string_append_printf(shape, "%d %d", symbol_count(project),
+				       project->part_count);
+	return g_string_free(shape, FALSE);
+}
+
+static void follow(struct tree *tree)
+{
+	char *shape = shape_of(ladder_document_project(tree->document));
+
+	if (g_strcmp0(shape, tree->shape) == 0) {
+		g_free(shape);
+		return;
+	}
+	g_free(tree->shape);
+	tree->shape = shape;
+	fill(tree);
+}
+
+/* ---- acting ---- */
+
+static LadderTreeRow *row_at(struct tree *tree, guint position)
+{
+	GtkTreeListRow *item = g_list_model_get_item(G_LIST_MODEL(tree->selection),
+						     position);
+	LadderTreeRow *row = item ? gtk_tree_list_row_get_item(item) : NULL;
+
+	g_clear_object(&item);
+	if (row)
+		g_object_unref(row); /* the model holds it */
+	return row;
+}
+
+static void activated(struct tree *tree, guint position)
+{
+	LadderTreeRow *row = row_at(tree, position);
+
+	if (row && row->kind == ROW_POU)
+		gtk_widget_activate_action(tree->list, "win.go-to", "(iiii)", row->pou,
+					   0, -1, -1);
+}
+
+static int selected_pou(struct tree *tree)
+{
+	LadderTreeRow *row = row_at(tree,
+		gtk_single_selection_get_selected(tree->selection));
+
+	return row && row->kind == ROW_POU ? row->pou : -1;
+}
+
+static void act_add(GSimpleAction *action, GVariant *what, gpointer data)
+{
+	struct tree *tree = data;
+
+	(void)action;
+	pou_add(tree->list, tree->document, g_variant_get_string(what, NULL));
+}
+
+static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
+{
+	struct tree *tree = data;
+	const int pou = selected_pou(tree);
+	const char *name = g_action_get_name(G_ACTION(action));
+
+	(void)unused;
+	if (pou < 0)
+		return;
+	if (strcmp(name, "rename") == 0)
+		pou_ask_name(tree->list, tree->document, pou);
+	else
+		pou_delete(tree->document, pou);
+}
+
+static GtkWidget *menu_new(struct tree *tree)
+{
+	static const struct { const char *label, *action; } rows[] = {
+		{ N_("New program (LD)"), "tree.add::PROGRAM LD" },
+		{ N_("New program (IL)"), "tree.add::PROGRAM IL" },
+		{ N_("New function block"), "tree.add::FUNCTION_BLOCK LD" },
+		{ N_("New function"), "tree.add::FUNCTION LD" },
+		{ N_("New subroutine"), "tree.add::SUBROUTINE LD" },
+		{ N_("Rename…"), "tree.rename" },
+		{ N_("Delete"), "tree.delete" },
+	};
+	const GActionEntry entries[] = {
+		{ .name = "add", .activate = act_add, .parameter_type = "s" },
+		{ .name = "rename", .activate = act_on_pou },
+		{ .name = "delete", .activate = act_on_pou },
+	};
+	GSimpleActionGroup *group = g_simple_action_group_new();
+	GMenu *menu = g_menu_new();
+	GtkWidget *button = gtk_menu_button_new();
+
+	g_action_map_add_action_entries(G_ACTION_MAP(group), entries,
+					G_N_ELEMENTS(entries), tree);
+	gtk_widget_insert_action_group(button, "tree", G_ACTION_GROUP(group));
+	for (gsize i = 0; i < G_N_ELEMENTS(rows); i++)
+		g_menu_append(menu, _(rows[i].label), rows[i].action);
+	gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
+	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
+	gtk_widget_set_tooltip_text(button, _("Add, rename or delete"));
+	gtk_widget_add_css_class(button, "flat");
+	g_object_unref(group);
+	g_object_unref(menu);
+	return button;
+}
+
+/* ---- the widget ---- */
+
+static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	GtkWidget *expander = gtk_tree_expander_new();
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+	GtkWidget *text = gtk_label_new(NULL), *note = gtk_label_new(NULL);
+
+	(void)factory;
+	gtk_label_set_xalign(GTK_LABEL(text), 0);
+	gtk_label_set_ellipsize(GTK_LABEL(text), PANGO_ELLIPSIZE_END);
+	gtk_widget_set_hexpand(text, TRUE);
+	gtk_widget_add_css_class(note, "dim-label");
+	gtk_widget_add_css_class(note, "caption");
+	gtk_box_append(GTK_BOX(box), text);
+	gtk_box_append(GTK_BOX(box), note);
+	gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), box);
+	gtk_list_item_set_child(item, expander);
+}
+
+static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	GtkTreeListRow *list_row = gtk_list_item_get_item(item);
+	LadderTreeRow *row = gtk_tree_list_row_get_item(list_row);
+	GtkWidget *expander = gtk_list_item_get_child(item);
+	GtkWidget *box = gtk_tree_expander_get_child(GTK_TREE_EXPANDER(expander));
+	GtkWidget *text = gtk_widget_get_first_child(box);
+	GtkWidget *note = gtk_widget_get_next_sibling(text);
+
+	(void)factory;
+	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(expander), list_row);
+	gtk_label_set_text(GTK_LABEL(text), row->text);
+	gtk_label_set_text(GTK_LABEL(note), row->note ? row->note : "");
+	g_object_unref(row);
+}
+
+static GListModel *children(gpointer item, gpointer unused)
+{
+	LadderTreeRow *row = LADDER_TREE_ROW(item);
+
+	(void)unused;
+	return row->rows ? G_LIST_MODEL(g_object_ref(row->rows)) : NULL;
+}
+
+static void tree_free(gpointer pointer)
+{
+	struct tree *tree = pointer;
+
+	g_signal_handlers_disconnect_by_data(tree->document, tree);
+	g_object_unref(tree->document);
+	g_free(tree->shape);
+	g_free(tree);
+}
+
+static GtkWidget *heading_new(struct tree *tree)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+	GtkWidget *label = gtk_label_new(_("PROJECT"));
+
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_widget_set_hexpand(label, TRUE);
+	gtk_widget_add_css_class(label, "panel-heading");
+	gtk_box_append(GTK_BOX(box), label);
+	gtk_box_append(GTK_BOX(box), menu_new(tree));
+	return box;
+}
+
+static void make_list(struct tree *tree)
+{
+	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+	GtkTreeListModel *model;
+
+	tree->root = g_list_store_new(LADDER_TYPE_TREE_ROW);
+	model = gtk_tree_list_model_new(G_LIST_MODEL(tree->root), FALSE, TRUE, children,
+					NULL, NULL);
+	tree->selection = gtk_single_selection_new(G_LIST_MODEL(model));
+	g_signal_connect(factory, "setup", G_CALLBACK(setup), NULL);
+	g_signal_connect(factory, "bind", G_CALLBACK(bind), NULL);
+	tree->list = gtk_list_view_new(GTK_SELECTION_MODEL(tree->selection), factory);
+	gtk_widget_add_css_class(tree->list, "navigation-sidebar");
+	gtk_accessible_update_property(GTK_ACCESSIBLE(tree->list),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Project"), -1);
+	g_signal_connect_swapped(tree->list, "activate", G_CALLBACK(activated), tree);
+}
+
+GtkWidget *ladder_project_tree_new(LadderDocument *document)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	GtkWidget *scroller = gtk_scrolled_window_new();
+	struct tree *tree = g_new0(struct tree, 1);
+
+	tree->document = g_object_ref(document);
+	make_list(tree);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), tree->list);
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
+				       GTK_POLICY_AUTOMATIC);
+	gtk_widget_set_vexpand(scroller, TRUE);
+	gtk_box_append(GTK_BOX(box), heading_new(tree));
+	gtk_box_append(GTK_BOX(box), scroller);
+	g_object_set_data_full(G_OBJECT(box), "tree", tree, tree_free);
+	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(follow), tree);
+	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(follow), tree);
+	follow(tree);
+	return box;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * text_view - a program in IL, or a file that cannot be read, as text.
+ *
+ * With colours, completion from the engine, and errors as one types. Every change goes
+ * into the document and its history.
+ */
+#ifndef EDITOR_TEXT_VIEW_H
+#define EDITOR_TEXT_VIEW_H
+
+#include "editor-gtk/document.h"
+
+#include <gtk/gtk.h>
+
+#define LADDER_TYPE_TEXT_VIEW (ladder_text_view_get_type())
+G_DECLARE_FINAL_TYPE(LadderTextView, ladder_text_view, LADDER, TEXT_VIEW, GtkBox)
+
+/** ladder_text_view_new - of POU @pou; -1: of the whole file. */
+GtkWidget *ladder_text_view_new(LadderDocument *document, int pou);
+int ladder_text_view_pou(LadderTextView *view);
+void ladder_text_view_set_pou(LadderTextView *view, int pou);
+/** ladder_text_view_go - @line: 1-based, of the file; the cursor goes there. */
+void ladder_text_view_go(LadderTextView *view, int line, int column);
+
+#endif

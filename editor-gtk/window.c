@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * window - one document's window: sheets in tabs, panels round them.
+ */
+#include "editor-gtk/window_inside.h"
+
+#include "editor-gtk/palette.h"
+#include "editor-gtk/panels.h"
+
+#include <string.h>
+
+G_DEFINE_FINAL_TYPE(LadderWindow, ladder_window, ADW_TYPE_APPLICATION_WINDOW)
+
+#define NARROW 1100 /* px; below it the left side folds                        */
+
+/* ---- messages ---- */
+
+void window_toast(LadderWindow *window, const char *text)
+{
+	adw_toast_overlay_add_toast(window->toasts, adw_toast_new(text));
+}
+
+void ladder_window_tell(LadderWindow *window, const char *text)
+{
+	gtk_label_set_text(window->message_label, text);
+}
+
+void window_banner(LadderWindow *window, const char *text, const char *button,
+		   void (*act)(LadderWindow *window))
+{
+	gtk_label_set_text(window->banner_label, text);
+	gtk_widget_set_visible(GTK_WIDGET(window->banner_button), button != NULL);
+	if (button)
+		gtk_button_set_label(window->banner_button, button);
+	window->banner_do = act;
+	gtk_revealer_set_reveal_child(window->banner, TRUE);
+}
+
+void ladder_window_warn(LadderWindow *window, const char *text)
+{
+	window_banner(window, text, NULL, NULL);
+}
+
+void ladder_window_offer_restored(LadderWindow *window)
+{
+	window_banner(window, _("This was not saved when the editor ended. It is as you "
+				"left it."), _("Save"), window_save);
+}
+
+void window_banner_close(LadderWindow *window)
+{
+	gtk_revealer_set_reveal_child(window->banner, FALSE);
+}
+
+static void banner_clicked(LadderWindow *window)
+{
+	window_banner_close(window);
+	if (window->banner_do)
+		window->banner_do(window);
+}
+
+/* ---- state ---- */
+
+static void name_button(GtkButton *button, const char *verb, const char *step)
+{
+	char *text = step ? g_strdup_printf("%s: %s", verb, step) : g_strdup(verb);
+
+	gtk_widget_set_tooltip_text(GTK_WIDGET(button), text);
+	g_free(text);
+}
+
+void window_show_state(LadderWindow *window)
+{
+	LadderDocument *document = window->document;
+	const char *undo = ladder_document_undo_name(document);
+	const char *redo = ladder_document_redo_name(document);
+	const char *path = ladder_document_path(document);
+	char *name = ladder_document_name(document);
+	char *title = g_strdup_printf("%s%s",
+		ladder_document_is_saved(document) ? "" : "• ", name);
+
+	adw_window_title_set_title(window->title, title);
+	adw_window_title_set_subtitle(window->title, path ? path : _("not saved yet"));
+	gtk_window_set_title(GTK_WINDOW(window), title);
+	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.undo", undo != NULL);
+	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.redo", redo != NULL);
+	name_button(window->undo_button, _("Undo"), undo);
+	name_button(window->redo_button, _("Redo"), redo);
+	g_free(title);
+	g_free(name);
+}
+
+static void show_checked(LadderWindow *window)
+{
+	const struct diag_list *diags = ladder_document_diags(window->document);
+	const int warnings = diags->count + diags->dropped - diags->errors;
+	char *text;
+
+	if (diags->errors)
+		text = g_strdup_printf(ngettext("%d error", "%d errors",
+			(unsigned long)diags->errors), diags->errors);
+	else if (warnings)
+		text = g_strdup_printf(ngettext("%d warning", "%d warnings",
+			(unsigned long)warnings), warnings);
+	else
+		text = g_strdup(_("no problems"));
+	gtk_label_set_text(window->checked_label, text);
+	window->problem = -1;
+	g_free(text);
+}
+
+LadderDocument *ladder_window_document(LadderWindow *window)
+{
+	return window->document;
+}
+
+bool ladder_window_is_untouched(LadderWindow *window)
+{
+	return !ladder_document_path(window->document) &&
+	       ladder_document_is_saved(window->document) &&
+	       !ladder_document_undo_name(window->document);
+}
+
+/* ---- panels ---- */
+
+static void add_below(LadderWindow *window, GtkWidget *panel, const char *name,
+		      const char *title)
+{
+	gtk_stack_add_titled(window->below_stack, panel, name, title);
+}
+
+static void add_panels(LadderWindow *window)
+{
+	LadderDocument *document = window->document;
+
+	gtk_paned_set_start_child(window->side, ladder_project_tree_new(document));
+	gtk_paned_set_end_child(window->side, ladder_palette_new(document));
+	gtk_paned_set_position(window->side, 230);
+	add_below(window, ladder_code_view_new(document), "list", _("Instruction list"));
+	add_below(window, ladder_log_view_new(document), "log", _("Log"));
+	gtk_paned_set_position(window->below_paned, 620);
+}
+
+/* ---- life ---- */
+
+static gboolean ladder_window_close_request(GtkWindow *gtk_window)
+{
+	LadderWindow *window = LADDER_WINDOW(gtk_window);
+
+	if (!window->closing && !window_may_close(window))
+		return TRUE;
+	return GTK_WINDOW_CLASS(ladder_window_parent_class)->close_request(gtk_window);
+}
+
+static void ladder_window_dispose(GObject *object)
+{
+	LadderWindow *window = LADDER_WINDOW(object);
+
+	if (window->disk_timer)
+		g_source_remove(window->disk_timer);
+	window->disk_timer = 0;
+	g_clear_object(&window->document);
+	G_OBJECT_CLASS(ladder_window_parent_class)->dispose(object);
+}
+
+static void ladder_window_class_init(LadderWindowClass *class)
+{
+	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+
+	G_OBJECT_CLASS(class)->dispose = ladder_window_dispose;
+	GTK_WINDOW_CLASS(class)->close_request = ladder_window_close_request;
+	gtk_widget_class_set_template_from_resource(widget,
+		"/org/rungboard/Editor/ui/window.ui");
+#define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderWindow, name)
+	CHILD(toasts); CHILD(title); CHILD(undo_button); CHILD(redo_button);
+	CHILD(menu_button); CHILD(side_paned); CHILD(side); CHILD(below_paned);
+	CHILD(tab_bar); CHILD(tabs); CHILD(banner); CHILD(banner_label);
+	CHILD(banner_button); CHILD(banner_close); CHILD(find_place); CHILD(below);
+	CHILD(below_stack); CHILD(pill); CHILD(place_label); CHILD(message_label);
+	CHILD(checked_label); CHILD(zoom_label);
+#undef CHILD
+	window_install_actions(widget);
+}
+
+static void ladder_window_init(LadderWindow *window)
+{
+	GMenuModel *menu;
+
+	gtk_widget_init_template(GTK_WIDGET(window));
+	menu = window_menu();
+	gtk_menu_button_set_menu_model(window->menu_button, menu);
+	g_object_unref(menu);
+	g_signal_connect_swapped(window->banner_button, "clicked",
+				 G_CALLBACK(banner_clicked), window);
+	g_signal_connect_swapped(window->banner_close, "clicked",
+				 G_CALLBACK(window_banner_close), window);
+}
+
+LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *document)
+{
+	LadderWindow *window = g_object_new(LADDER_TYPE_WINDOW, "application", application,
+					    NULL);
+
+	window->document = g_object_ref(document);
+	g_signal_connect_object(document, "state-changed", G_CALLBACK(window_show_state),
+				window, G_CONNECT_SWAPPED);
+	g_signal_connect_object(document, "checked", G_CALLBACK(show_checked), window,
+				G_CONNECT_SWAPPED);
+	add_panels(window);
+	tabs_init(window);
+	window_show_state(window);
+	window_watch_disk(window);
+	return window;
+}

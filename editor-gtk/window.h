@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * window - one document's window: sheets in tabs, panels round them.
+ *
+ * It joins the parts and knows what each verb does to which part. It draws nothing and
+ * changes no rung.
+ */
+#ifndef EDITOR_WINDOW_H
+#define EDITOR_WINDOW_H
+
+#include "editor-gtk/document.h"
+#include "editor-gtk/verbs.h"
+
+#include <adwaita.h>
+
+#define LADDER_TYPE_WINDOW (ladder_window_get_type())
+G_DECLARE_FINAL_TYPE(LadderWindow, ladder_window, LADDER, WINDOW, AdwApplicationWindow)
+
+/** ladder_window_new - shows @document; a reference is kept. */
+LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *document);
+LadderDocument *ladder_window_document(LadderWindow *window);
+/** ladder_window_is_untouched - a new project in which nothing was done: a file may be
+ * opened in its place. */
+bool ladder_window_is_untouched(LadderWindow *window);
+/** ladder_window_tell - a short message below; "" for none. */
+void ladder_window_tell(LadderWindow *window, const char *text);
+/** ladder_window_warn - a message that stays until it is closed. */
+void ladder_window_warn(LadderWindow *window, const char *text);
+/** ladder_window_offer_restored - says that this was not saved when the editor died. */
+void ladder_window_offer_restored(LadderWindow *window);
+/** ladder_window_do - as if its key was pressed. */
+void ladder_window_do(LadderWindow *window, enum verb verb);
+
+#endif

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * window_actions - what each verb of the window does.
+ *
+ * Every row of verbs.def is an action "win.ID". Verbs of a sheet go to the sheet in front.
+ */
+#include "editor-gtk/window_inside.h"
+
+#include "editor-gtk/app.h"
+#include "editor-gtk/commands.h"
+#include "editor-gtk/panels.h"
+
+#include "engine/base/version.h"
+
+/* ---- editing ---- */
+
+static void go_on(LadderWindow *window)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	if (sheet)
+		gtk_widget_grab_focus(GTK_WIDGET(sheet));
+}
+
+static void do_undo(LadderWindow *window)
+{
+	char *name = g_strdup(ladder_document_undo_name(window->document));
+
+	if (ladder_document_undo(window->document)) {
+		char *text = g_strdup_printf(_("Undone: %s"), name);
+
+		ladder_window_tell(window, text);
+		g_free(text);
+	}
+	g_free(name);
+	go_on(window);
+}
+
+static void do_redo(LadderWindow *window)
+{
+	ladder_document_redo(window->document);
+	go_on(window);
+}
+
+/* ---- going ---- */
+
+static void do_next_problem(LadderWindow *window)
+{
+	const struct diag_list *diags = ladder_document_diags(window->document);
+	const struct project *project = ladder_document_project(window->document);
+	const struct diag *diag;
+
+	if (diags->count == 0) {
+		ladder_window_tell(window, _("no problems"));
+		return;
+	}
+	window->problem = (window->problem + 1) % diags->count;
+	diag = &diags->diag[window->problem];
+	ladder_window_tell(window, _(diag_text(diag->id)));
+	for (int i = 0; project && diag->pou && i < project->pou_count; i++)
+		if (g_strcmp0(diag->pou, project_text(project, project->pou[i].name)) == 0)
+			tabs_go(window, i, diag->rung - 1, diag->row - 1, diag->col - 1);
+}
+
+static void do_sheet_by(LadderWindow *window, bool next)
+{
+	if (next ? !adw_tab_view_select_next_page(window->tabs) :
+		   !adw_tab_view_select_previous_page(window->tabs))
+		return;
+	go_on(window);
+}
+
+/* ---- viewing ---- */
+
+static void zoom(LadderWindow *window, double factor)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	if (sheet)
+		ladder_grid_view_set_zoom(sheet, factor == 0 ? 1 :
+					  ladder_grid_view_zoom(sheet) * factor);
+}
+
+static void do_show_as(LadderWindow *window)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	if (sheet)
+		ladder_grid_view_set_show(sheet, (ladder_grid_view_show(sheet) + 1) % 3);
+}
+
+static void toggle(GtkWidget *widget)
+{
+	gtk_widget_set_visible(widget, !gtk_widget_get_visible(widget));
+}
+
+static void do_fullscreen(LadderWindow *window)
+{
+	if (gtk_window_is_fullscreen(GTK_WINDOW(window)))
+		gtk_window_unfullscreen(GTK_WINDOW(window));
+	else
+		gtk_window_fullscreen(GTK_WINDOW(window));
+}
+
+static void do_about(LadderWindow *window)
+{
+	adw_show_about_window(GTK_WINDOW(window), "application-name", "Rungboard",
+		"application-icon", APP_ID, "version", LADDER_VERSION,
+		"developer-name", _("The Rungboard developers"),
+		"license-type", GTK_LICENSE_MIT_X11,
+		"comments", _("Ladder logic for Linux ARM boards"), NULL);
+}
+
+/* ---- the table ---- */
+
+void ladder_window_do(LadderWindow *window, enum verb verb)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	if (verb_row(verb)->where == VERB_SHEET) {
+		if (sheet)
+			ladder_grid_view_do(sheet, verb);
+		return;
+	}
+	switch ((int)verb) {
+	case VERB_new_project: app_new_window(window); break;
+	case VERB_open: window_open(window); break;
+	case VERB_save: window_save(window); break;
+	case VERB_save_as: window_save_as(window); break;
+	case VERB_close: gtk_window_close(GTK_WINDOW(window)); break;
+	case VERB_undo: do_undo(window); break;
+	case VERB_redo: do_redo(window); break;
+	case VERB_rename: names_rename(window); break;
+	case VERB_go_coil: names_go_driver(window); break;
+	case VERB_next_problem: do_next_problem(window); break;
+	case VERB_next_sheet: do_sheet_by(window, true); break;
+	case VERB_previous_sheet: do_sheet_by(window, false); break;
+	case VERB_show_as: do_show_as(window); break;
+	case VERB_zoom_in: zoom(window, 1.25); break;
+	case VERB_zoom_out: zoom(window, 0.8); break;
+	case VERB_zoom_reset: zoom(window, 0); break;
+	case VERB_side: toggle(GTK_WIDGET(window->side)); break;
+	case VERB_below: toggle(GTK_WIDGET(window->below)); break;
+	case VERB_fullscreen: do_fullscreen(window); break;
+	case VERB_palette: commands_show(window); break;
+	case VERB_shortcuts: keys_show(window); break;
+	case VERB_about: do_about(window); break;
+	default: break;
+	}
+}
+
+/* ---- actions ---- */
+
+static void act(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)unused;
+	ladder_window_do(LADDER_WINDOW(widget), verb_find(name));
+}
+
+static void go_to(GtkWidget *widget, const char *name, GVariant *place)
+{
+	int pou, rung, row, col;
+
+	(void)name;
+	g_variant_get(place, "(iiii)", &pou, &rung, &row, &col);
+	tabs_go(LADDER_WINDOW(widget), pou, rung, row, col);
+}
+
+static void rename_pou(GtkWidget *widget, const char *name, GVariant *what)
+{
+	const char *to;
+	int pou;
+
+	(void)name;
+	g_variant_get(what, "(i&s)", &pou, &to);
+	names_rename_pou(LADDER_WINDOW(widget), pou, to);
+}
+
+static void place_word(GtkWidget *widget, const char *name, GVariant *word)
+{
+	LadderGridView *sheet = tabs_sheet(LADDER_WINDOW(widget));
+
+	(void)name;
+	if (sheet)
+		ladder_grid_view_put(sheet, (enum word)g_variant_get_int32(word));
+}
+
+void window_install_actions(GtkWidgetClass *class)
+{
+	for (int i = 0; i < VERB_COUNT; i++)
+		gtk_widget_class_install_action(class, verb_row((enum verb)i)->action,
+						NULL, act);
+	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
+	gtk_widget_class_install_action(class, "win.rename-pou", "(is)", rename_pou);
+	gtk_widget_class_install_action(class, "win.place", "i", place_word);
+}
+
+GMenuModel *window_menu(void)
+{
+	GMenu *menu = g_menu_new();
+
+	for (int group = 0; group < VERBS_GROUPS; group++) {
+		GMenu *part = g_menu_new();
+
+		for (int i = 0; i < VERB_COUNT; i++)
+			if ((int)verb_row((enum verb)i)->group == group)
+				g_menu_append(part, _(verb_row((enum verb)i)->label),
+					      verb_row((enum verb)i)->action);
+		g_menu_append_submenu(menu, _(verb_group_label((enum verb_group)group)),
+				      G_MENU_MODEL(part));
+		g_object_unref(part);
+	}
+	return G_MENU_MODEL(menu);
+}

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * window_file - opening, saving and closing, and what is asked before.
+ *
+ * Unsaved work is never lost without being asked. What cannot be done is told in a banner,
+ * and the work is kept.
+ */
+#include "editor-gtk/window_inside.h"
+
+#include "editor-gtk/app.h"
+#include "editor-gtk/draft.h"
+
+#include <string.h>
+
+#define DISK_SECONDS 2 /* between looks at the file                            */
+
+/* ---- choosing a file ---- */
+
+static GtkFileChooserNative *chooser_new(LadderWindow *window, const char *title,
+					 GtkFileChooserAction action, const char *accept)
+{
+	GtkFileChooserNative *chooser = gtk_file_chooser_native_new(title,
+		GTK_WINDOW(window), action, accept, _("Cancel"));
+	GtkFileFilter *rungs = gtk_file_filter_new(), *all = gtk_file_filter_new();
+
+	gtk_file_filter_set_name(rungs, _("Rung files"));
+	gtk_file_filter_add_pattern(rungs, "*.rung");
+	gtk_file_filter_set_name(all, _("All files"));
+	gtk_file_filter_add_pattern(all, "*");
+	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), rungs);
+	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), all);
+	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
+	g_object_unref(rungs);
+	g_object_unref(all);
+	return chooser;
+}
+
+static char *chosen_path(GtkNativeDialog *dialog)
+{
+	GFile *file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
+	char *path = file ? g_file_get_path(file) : NULL;
+
+	g_clear_object(&file);
+	return path;
+}
+
+/* ---- opening ---- */
+
+static void open_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
+{
+	char *path = response == GTK_RESPONSE_ACCEPT ? chosen_path(dialog) : NULL;
+
+	if (path)
+		app_open_path(window, path);
+	g_free(path);
+	g_object_unref(dialog);
+}
+
+void window_open(LadderWindow *window)
+{
+	GtkFileChooserNative *chooser = chooser_new(window, _("Open"),
+		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"));
+
+	g_signal_connect(chooser, "response", G_CALLBACK(open_response), window);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
+/* ---- saving ---- */
+
+static bool save_to(LadderWindow *window, const char *path)
+{
+	GError *error = NULL;
+
+	if (ladder_document_save(window->document, path, &error)) {
+		draft_remove(window->document);
+		app_remember(ladder_document_path(window->document));
+		ladder_window_tell(window, _("Saved"));
+		window_banner_close(window);
+		return true;
+	}
+	window_banner(window, error->message, _("Save as…"), window_save_as);
+	g_clear_error(&error);
+	return false;
+}
+
+static void save_over(LadderWindow *window)
+{
+	save_to(window, NULL);
+}
+
+static void save_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
+{
+	char *path = response == GTK_RESPONSE_ACCEPT ? chosen_path(dialog) : NULL;
+	char *full = path && !strchr(strrchr(path, '/') ? strrchr(path, '/') : path, '.') ?
+		g_strconcat(path, ".rung", NULL) : g_strdup(path);
+
+	if (full && save_to(window, full) && window->closing)
+		gtk_window_close(GTK_WINDOW(window));
+	else
+		window->closing = false;
+	g_free(full);
+	g_free(path);
+	g_object_unref(dialog);
+}
+
+void window_save_as(LadderWindow *window)
+{
+	GtkFileChooserNative *chooser = chooser_new(window, _("Save as"),
+		GTK_FILE_CHOOSER_ACTION_SAVE, _("Save"));
+	const char *path = ladder_document_path(window->document);
+	char *name = path ? g_path_get_basename(path) : g_strdup(_("program.rung"));
+
+	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), name);
+	g_free(name);
+	g_signal_connect(chooser, "response", G_CALLBACK(save_response), window);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
+
+void window_save(LadderWindow *window)
+{
+	if (!ladder_document_path(window->document))
+		window_save_as(window);
+	else if (ladder_document_disk_changed(window->document))
+		window_banner(window, _("Somebody else changed the file since it was "
+			"opened. Saving would write over that."), _("Save all the same"),
+			save_over);
+	else
+		save_to(window, NULL);
+}
+
+/* ---- closing ---- */
+
+static void close_now(LadderWindow *window)
+{
+	draft_remove(window->document);
+	window->closing = true;
+	gtk_window_close(GTK_WINDOW(window));
+}
+
+static void close_response(AdwMessageDialog *dialog, const char *response,
+			   LadderWindow *window)
+{
+	(void)dialog;
+	if (g_strcmp0(response, "discard") == 0) {
+		close_now(window);
+	} else if (g_strcmp0(response, "save") == 0) {
+		window->closing = true;
+		if (!ladder_document_path(window->document))
+			window_save_as(window);
+		else if (save_to(window, NULL))
+			close_now(window);
+		else
+			window->closing = false;
+	}
+}
+
+bool window_may_close(LadderWindow *window)
+{
+	GtkWidget *dialog;
+	char *name;
+
+	if (ladder_document_is_saved(window->document)) {
+		draft_remove(window->document);
+		return true;
+	}
+	name = ladder_document_name(window->document);
+	dialog = adw_message_dialog_new(GTK_WINDOW(window), _("Save the changes?"), NULL);
+	adw_message_dialog_format_body(ADW_MESSAGE_DIALOG(dialog),
+		_("“%s” has changes that are not saved."), name);
+	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog),
+		"cancel", _("Cancel"), "discard", _("Discard"), "save", _("Save"), NULL);
+	adw_message_dialog_set_response_appearance(ADW_MESSAGE_DIALOG(dialog), "discard",
+						   ADW_RESPONSE_DESTRUCTIVE);
+	adw_message_dialog_set_response_appearance(ADW_MESSAGE_DIALOG(dialog), "save",
+						   ADW_RESPONSE_SUGGESTED);
+	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "save");
+	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
+	g_signal_connect(dialog, "response", G_CALLBACK(close_response), window);
+	gtk_window_present(GTK_WINDOW(dialog));
+	g_free(name);
+	return false;
+}
+
+/* ---- somebody else ---- */
+
+static void reload(LadderWindow *window)
+{
+	GError *error = NULL;
+	char *path = g_strdup(ladder_document_path(window->document));
+
+	if (!ladder_document_open(window->document, path, &error))
+		window_banner(window, error->message, NULL, NULL);
+	g_clear_error(&error);
+	g_free(path);
+}
+
+static gboolean look(gpointer data)
+{
+	LadderWindow *window = data;
+
+	if (ladder_document_disk_changed(window->document) &&
+	    !gtk_revealer_get_reveal_child(window->banner))
+		window_banner(window, ladder_document_is_saved(window->document) ?
+			_("The file was changed by somebody else.") :
+			_("The file was changed by somebody else. Reading it again "
+			  "would lose what you did since."), _("Read it again"), reload);
+	return G_SOURCE_CONTINUE;
+}
+
+void window_watch_disk(LadderWindow *window)
+{
+	window->disk_timer = g_timeout_add_seconds(DISK_SECONDS, look, window);
+}

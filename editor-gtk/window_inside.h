@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * window_inside - what the files of the window share. Only editor-gtk/window*.c include it.
+ */
+#ifndef EDITOR_WINDOW_INSIDE_H
+#define EDITOR_WINDOW_INSIDE_H
+
+#include "editor-gtk/grid_view.h"
+#include "editor-gtk/i18n.h"
+#include "editor-gtk/window.h"
+
+struct _LadderWindow {
+	AdwApplicationWindow parent;
+	LadderDocument *document;
+	int problem;              /* of the list, that Ctrl+. went to last     */
+	bool closing;             /* the person has been asked                 */
+	guint disk_timer;         /* until the file is looked at again         */
+	void (*banner_do)(LadderWindow *window);
+	/* Template widgets */
+	AdwToastOverlay *toasts;
+	AdwWindowTitle *title;
+	GtkButton *undo_button, *redo_button;
+	GtkMenuButton *menu_button;
+	GtkPaned *side_paned, *side, *below_paned;
+	AdwTabBar *tab_bar;
+	AdwTabView *tabs;
+	GtkRevealer *banner;
+	GtkLabel *banner_label;
+	GtkButton *banner_button, *banner_close;
+	GtkBox *find_place, *below;
+	GtkStack *below_stack;
+	GtkLabel *pill, *place_label, *message_label, *checked_label, *zoom_label;
+};
+
+/* ---- window.c ---- */
+/** window_toast - a message that goes by itself. */
+void window_toast(LadderWindow *window, const char *text);
+/** window_banner - a message that stays until it is closed; @act on the button @button;
+ * NULL: none. */
+void window_banner(LadderWindow *window, const char *text, const char *button,
+		   void (*act)(LadderWindow *window));
+void window_banner_close(LadderWindow *window);
+/** window_show_state - title, undo, redo, status. */
+void window_show_state(LadderWindow *window);
+
+/* ---- window_tabs.c ---- */
+void tabs_init(LadderWindow *window);
+/** tabs_update - those there should be: POUs may have come and gone. */
+void tabs_update(LadderWindow *window);
+/** tabs_show - brings a POU to the front, and opens it if need be. */
+void tabs_show(LadderWindow *window, int pou);
+/** tabs_show_widget - a page that is no POU, by the name it was made with. */
+GtkWidget *tabs_show_widget(LadderWindow *window, const char *name);
+/** tabs_sheet - of the page in front; NULL: it is none. */
+LadderGridView *tabs_sheet(LadderWindow *window);
+/** tabs_go - the place of a diagnostic or a use; -1: the whole. */
+void tabs_go(LadderWindow *window, int pou, int rung, int row, int col);
+
+/* ---- window_actions.c ---- */
+void window_install_actions(GtkWidgetClass *class);
+/** window_menu - the main menu, of the rows of verbs.def. */
+GMenuModel *window_menu(void);
+
+/* ---- window_names.c: of the name at the cursor ---- */
+void names_go_driver(LadderWindow *window);
+void names_rename(LadderWindow *window);
+void names_rename_pou(LadderWindow *window, int pou, const char *name);
+
+/* ---- window_file.c ---- */
+void window_open(LadderWindow *window);
+void window_save(LadderWindow *window);
+void window_save_as(LadderWindow *window);
+/** window_may_close - false: the person is asked first, and the window closes itself. */
+bool window_may_close(LadderWindow *window);
+/** window_watch_disk - tells if somebody else changes the file. */
+void window_watch_disk(LadderWindow *window);
+
+#endif

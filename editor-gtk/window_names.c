@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * window_names - what is done with the name at the cursor: where it is driven, where it is
+ * used, another name for it.
+ *
+ * What a name means is told by the engine's cross reference.
+ */
+#include "editor-gtk/window_inside.h"
+
+#include "editor-gtk/symbols.h"
+
+#include "engine/view/xref.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- what the cursor is on ---- */
+
+static bool is_here(const struct xref_use *use, LadderGridView *sheet, int row, int col)
+{
+	const struct grid_cursor cursor = ladder_grid_view_cursor(sheet);
+
+	return use->pou == ladder_grid_view_pou(sheet) && use->rung == cursor.rung + 1 &&
+	       use->row == row + 1 && use->col == col + 1;
+}
+
+/* The first use in the cursor's cell; -1: there is none. */
+static int use_here(LadderWindow *window, const struct xref *xref)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+	int row, col;
+
+	if (!sheet || !ladder_grid_view_cell(sheet, &row, &col))
+		return -1;
+	for (int i = 0; i < xref->count; i++)
+		if (is_here(&xref->use[i], sheet, row, col))
+			return i;
+	return -1;
+}
+
+static bool begin(LadderWindow *window, struct xref *xref, int *here)
+{
+	struct project *project = ladder_document_project(window->document);
+
+	if (!project)
+		return false;
+	if (!xref_make(xref, project))
+		g_error("out of memory");
+	*here = use_here(window, xref);
+	if (*here < 0)
+		ladder_window_tell(window, _("There is no name at the cursor."));
+	return *here >= 0;
+}
+
+/* ---- going ---- */
+
+static void go_to_use(LadderWindow *window, const struct xref_use *use)
+{
+	if (use->rung > 0)
+		tabs_go(window, use->pou, use->rung - 1, use->row - 1, use->col - 1);
+	else
+		tabs_go(window, use->pou, use->line - 1, -1, use->col - 1);
+}
+
+static bool drives(enum xref_kind kind)
+{
+	return kind == XREF_COIL || kind == XREF_SET || kind == XREF_RESET ||
+	       kind == XREF_WRITTEN || kind == XREF_CHANGED || kind == XREF_CALLED;
+}
+
+/* The next one that drives it, round and round. */
+void names_go_driver(LadderWindow *window)
+{
+	struct xref xref = { 0 };
+	int here;
+
+	if (begin(window, &xref, &here)) {
+		for (int step = 1; step <= xref.count; step++) {
+			const struct xref_use *use = &xref.use[(here + step) % xref.count];
+
+			if (use->pou >= 0 && !use->included && drives(use->kind) &&
+			    xref_touches(&use->target, &xref.use[here].target)) {
+				go_to_use(window, use);
+				xref_free(&xref);
+				return;
+			}
+		}
+		ladder_window_tell(window, _("Nothing in the program drives it."));
+	}
+	xref_free(&xref);
+}
+
+/* ---- another name ---- */
+
+struct renaming {
+	LadderWindow *window;
+	GtkWidget *line, *dialog;
+	struct xref_target target;
+};
+
+static void rename_target(LadderWindow *window, const struct xref_target *target,
+			  const char *name)
+{
+	LadderDocument *document = window->document;
+	struct ladder_rename how;
+	size_t len, old_len;
+	char *text = ladder_rename(ladder_document_ladder(document), target, name, &len,
+				   &how);
+	char *old = ladder_document_outline(document, &old_len, NULL, NULL);
+	char *told;
+
+	if (text) {
+		ladder_document_begin(document, _("Rename everywhere"), NULL);
+		ladder_document_replace(document, 0, old_len, text, NULL);
+		ladder_document_end(document);
+		told = g_strdup_printf(ngettext("%d place changed", "%d places changed",
+			(unsigned long)how.places), how.places);
+	} else {
+		told = rename_reason(document, &how, name);
+	}
+	ladder_window_tell(window, told);
+	g_free(told);
+	g_free(old);
+	free(text);
+}
+
+void names_rename_pou(LadderWindow *window, int pou, const char *name)
+{
+	const struct xref_target target = { .what = XREF_POU, .index = pou };
+
+	rename_target(window, &target, name);
+}
+
+static void rename_now(AdwMessageDialog *dialog, const char *response,
+		       struct renaming *renaming)
+{
+	const char *name = gtk_editable_get_text(GTK_EDITABLE(renaming->line));
+
+	(void)dialog;
+	if (strcmp(response, "rename") == 0)
+		rename_target(renaming->window, &renaming->target, name);
+}
+
+static void renaming_free(gpointer renaming, GClosure *closure)
+{
+	(void)closure;
+	g_free(renaming);
+}
+
+static void ask_name(LadderWindow *window, const struct xref_target *target,
+		     const char *name, int uses)
+{
+	struct renaming *renaming = g_new0(struct renaming, 1);
+	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(window),
+						   _("Rename everywhere"), NULL);
+
+	*renaming = (struct renaming){ window, gtk_entry_new(), dialog, *target };
+	adw_message_dialog_format_body(ADW_MESSAGE_DIALOG(dialog),
+		ngettext("%s stands in %d place.", "%s stands in %d places.",
+			 (unsigned long)uses), name, uses);
+	gtk_editable_set_text(GTK_EDITABLE(renaming->line), name);
+	gtk_entry_set_activates_default(GTK_ENTRY(renaming->line), TRUE);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(renaming->line),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("New name"), -1);
+	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), renaming->line);
+	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog),
+		"cancel", _("Cancel"), "rename", _("Rename"), NULL);
+	adw_message_dialog_set_response_appearance(ADW_MESSAGE_DIALOG(dialog), "rename",
+						   ADW_RESPONSE_SUGGESTED);
+	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "rename");
+	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
+	g_signal_connect_data(dialog, "response", G_CALLBACK(rename_now), renaming,
+			      renaming_free, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	gtk_widget_grab_focus(renaming->line);
+}
+
+void names_rename(LadderWindow *window)
+{
+	struct project *project = ladder_document_project(window->document);
+	struct xref xref = { 0 };
+	const struct var *var;
+	int here, uses = 0;
+
+	if (begin(window, &xref, &here)) {
+		const struct xref_target *target = &xref.use[here].target;
+
+		for (int i = 0; i < xref.count; i++)
+			uses += xref_same(&xref.use[i].target, target);
+		var = target->what == XREF_VARIABLE ? xref_var(project, target) : NULL;
+		if (var)
+			ask_name(window, target, project_text(project, var->name), uses);
+		else
+			ladder_window_tell(window, _("Only a declared name can be "
+				"changed; this one has no declaration."));
+	}
+	xref_free(&xref);
+}

@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * window_tabs - the tabs of a window: a sheet or a list a POU, symbols, a damaged file.
+ *
+ * A page knows its POU by name, since numbers change when one comes or goes.
+ */
+#include "editor-gtk/window_inside.h"
+
+#include "editor-gtk/panels.h"
+#include "editor-gtk/text_view.h"
+
+#include <string.h>
+
+#define OPEN_MOST 8 /* POUs that are opened by themselves                      */
+
+/* ---- what a page is ---- */
+
+/* The widget inside of scrolling. */
+static GtkWidget *content(AdwTabPage *page)
+{
+	GtkWidget *child = adw_tab_page_get_child(page);
+
+	return GTK_IS_SCROLLED_WINDOW(child) ?
+	       gtk_scrolled_window_get_child(GTK_SCROLLED_WINDOW(child)) : child;
+}
+
+static const char *name_of(AdwTabPage *page)
+{
+	return g_object_get_data(G_OBJECT(page), "name");
+}
+
+static void set_name(AdwTabPage *page, const char *name, const char *title)
+{
+	g_object_set_data_full(G_OBJECT(page), "name", g_strdup(name), g_free);
+	adw_tab_page_set_title(page, title);
+}
+
+static AdwTabPage *find_page(LadderWindow *window, const char *name)
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(window->tabs); i++) {
+		AdwTabPage *page = adw_tab_view_get_nth_page(window->tabs, i);
+
+		if (g_strcmp0(name_of(page), name) == 0)
+			return page;
+	}
+	return NULL;
+}
+
+static int pou_number(const struct project *project, const char *name)
+{
+	for (int i = 0; project && i < project->pou_count; i++)
+		if (strcmp(project_text(project, project->pou[i].name), name) == 0)
+			return i;
+	return -1;
+}
+
+LadderGridView *tabs_sheet(LadderWindow *window)
+{
+	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
+	GtkWidget *widget = page ? content(page) : NULL;
+
+	return widget && LADDER_IS_GRID_VIEW(widget) ? LADDER_GRID_VIEW(widget) : NULL;
+}
+
+/* ---- status ---- */
+
+static void show_place(LadderWindow *window)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+	char *place = sheet ? ladder_grid_view_place(sheet) : g_strdup("");
+	char *zoom = sheet ? g_strdup_printf("%d %%",
+		(int)(ladder_grid_view_zoom(sheet) * 100 + 0.5)) : g_strdup("");
+
+	gtk_label_set_text(window->place_label, place);
+	gtk_label_set_text(window->zoom_label, zoom);
+	g_free(place);
+	g_free(zoom);
+}
+
+static void told(LadderWindow *window, const char *text)
+{
+	ladder_window_tell(window, text);
+}
+
+static void page_selected(LadderWindow *window)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	show_place(window);
+	ladder_window_tell(window, "");
+	if (!sheet)
+		return;
+	ladder_code_view_set_pou(gtk_stack_get_child_by_name(window->below_stack, "list"),
+				 ladder_grid_view_pou(sheet));
+	gtk_widget_grab_focus(GTK_WIDGET(sheet));
+}
+
+/* ---- making pages ---- */
+
+static AdwTabPage *add_page(LadderWindow *window, GtkWidget *widget, const char *name,
+			    const char *title, bool scrolls)
+{
+	GtkWidget *child = widget;
+	AdwTabPage *page;
+
+	if (scrolls) {
+		child = gtk_scrolled_window_new();
+		gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(child), widget);
+	}
+	page = adw_tab_view_append(window->tabs, child);
+	set_name(page, name, title);
+	return page;
+}
+
+static AdwTabPage *open_sheet(LadderWindow *window, int pou, const char *name)
+{
+	GtkWidget *sheet = ladder_grid_view_new(window->document, pou);
+
+	g_signal_connect_object(sheet, "cursor-moved", G_CALLBACK(show_place), window,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(sheet, "zoom-changed", G_CALLBACK(show_place), window,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(sheet, "told", G_CALLBACK(told), window,
+				G_CONNECT_SWAPPED);
+	return add_page(window, sheet, name, name, true);
+}
+
+static AdwTabPage *open_pou(LadderWindow *window, int pou)
+{
+	const struct project *project = ladder_document_project(window->document);
+	const char *name = project_text(project, project->pou[pou].name);
+
+	if (project->pou[pou].language == LANGUAGE_LD)
+		return open_sheet(window, pou, name);
+	return add_page(window, ladder_text_view_new(window->document, pou), name, name,
+			false);
+}
+
+void tabs_show(LadderWindow *window, int pou)
+{
+	const struct project *project = ladder_document_project(window->document);
+	AdwTabPage *page;
+
+	if (!project || pou < 0 || pou >= project->pou_count)
+		return;
+	page = find_page(window, project_text(project, project->pou[pou].name));
+	if (!page)
+		page = open_pou(window, pou);
+	adw_tab_view_set_selected_page(window->tabs, page);
+}
+
+/* Names of POUs have no blank before them. */
+static AdwTabPage *open_widget(LadderWindow *window, const char *name)
+{
+	char *key = g_strdup_printf(" %s", name);
+	AdwTabPage *page = find_page(window, key);
+
+	if (!page && strcmp(name, "text") == 0)
+		page = add_page(window, ladder_text_view_new(window->document, -1), key,
+				_("Text of the file"), false);
+	g_free(key);
+	return page;
+}
+
+GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)
+{
+	AdwTabPage *page = open_widget(window, name);
+
+	if (!page)
+		return NULL;
+	adw_tab_view_set_selected_page(window->tabs, page);
+	return content(page);
+}
+
+void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
+{
+	LadderGridView *sheet;
+	AdwTabPage *page;
+
+	if (!ladder_document_project(window->document)) {
+		GtkWidget *text = tabs_show_widget(window, "text");
+
+		ladder_text_view_go(LADDER_TEXT_VIEW(text), rung + 1, col + 1);
+		return;
+	}
+	tabs_show(window, pou);
+	page = adw_tab_view_get_selected_page(window->tabs);
+	sheet = tabs_sheet(window);
+	if (sheet && ladder_grid_view_pou(sheet) == pou)
+		ladder_grid_view_go(sheet, rung, row, col);
+	else if (page && LADDER_IS_TEXT_VIEW(content(page)))
+		ladder_text_view_go(LADDER_TEXT_VIEW(content(page)), rung + 1, col + 1);
+}
+
+/* ---- when the project is another ---- */
+
+static bool fits(GtkWidget *widget, const struct project *project, int pou)
+{
+	const bool ld = project->pou[pou].language == LANGUAGE_LD;
+
+	return ld ? LADDER_IS_GRID_VIEW(widget) : LADDER_IS_TEXT_VIEW(widget);
+}
+
+/* A page whose POU has another number, or is gone. */
+static bool update_page(AdwTabPage *page, const struct project *project)
+{
+	GtkWidget *widget = content(page);
+	const char *name = name_of(page);
+	int pou;
+
+	if (name[0] == ' ')
+		return (strcmp(name, " text") == 0) == !project;
+	pou = pou_number(project, name);
+	if (pou < 0) {
+		/* It may have another name now. */
+		pou = LADDER_IS_GRID_VIEW(widget) ?
+			ladder_grid_view_pou(LADDER_GRID_VIEW(widget)) :
+			ladder_text_view_pou(LADDER_TEXT_VIEW(widget));
+		if (!project || pou >= project->pou_count || !fits(widget, project, pou))
+			return false;
+		set_name(page, project_text(project, project->pou[pou].name),
+			 project_text(project, project->pou[pou].name));
+	}
+	if (!fits(widget, project, pou))
+		return false;
+	if (LADDER_IS_TEXT_VIEW(widget) &&
+	    ladder_text_view_pou(LADDER_TEXT_VIEW(widget)) != pou)
+		ladder_text_view_set_pou(LADDER_TEXT_VIEW(widget), pou);
+	else if (LADDER_IS_GRID_VIEW(widget) &&
+		 ladder_grid_view_pou(LADDER_GRID_VIEW(widget)) != pou)
+		ladder_grid_view_set_pou(LADDER_GRID_VIEW(widget), pou);
+	return true;
+}
+
+static bool has_pou_page(LadderWindow *window)
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(window->tabs); i++)
+		if (name_of(adw_tab_view_get_nth_page(window->tabs, i))[0] != ' ')
+			return true;
+	return false;
+}
+
+void tabs_update(LadderWindow *window)
+{
+	const struct project *project = ladder_document_project(window->document);
+
+	for (int i = adw_tab_view_get_n_pages(window->tabs) - 1; i >= 0; i--) {
+		AdwTabPage *page = adw_tab_view_get_nth_page(window->tabs, i);
+
+		if (!update_page(page, project))
+			adw_tab_view_close_page(window->tabs, page);
+	}
+	if (!project) {
+		tabs_show_widget(window, "text");
+		return;
+	}
+	if (!has_pou_page(window)) {
+		for (int i = 0; i < MIN(project->pou_count, OPEN_MOST); i++)
+			if (!project->pou[i].included)
+				open_pou(window, i);
+		tabs_show(window, 0);
+	}
+	show_place(window);
+}
+
+void tabs_init(LadderWindow *window)
+{
+	g_signal_connect_object(window->document, "project-changed",
+				G_CALLBACK(tabs_update), window, G_CONNECT_SWAPPED);
+	g_signal_connect_object(window->tabs, "notify::selected-page",
+				G_CALLBACK(page_selected), window, G_CONNECT_SWAPPED);
+	tabs_update(window);
+}
