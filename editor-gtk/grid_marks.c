@@ -42,9 +42,13 @@ void grid_draw_grounds(const struct pen *pen)
 		if (!is_inside(pen, mark))
 			continue;
 		graphene_rect_t r = place_of(pen, mark);
-		if (mark->marks & MARK_FOUND)
+		if (mark->marks & MARK_FOUND) {
 			picture_fill(pen->picture, TOKEN_FOUND, 1, r.origin.x, r.origin.y,
 				     r.size.width, r.size.height);
+			picture_frame(pen->picture, TOKEN_COMMENT, STROKE_SOLID, 1,
+				      r.origin.x, r.origin.y, r.size.width,
+				      r.size.height);
+		}
 		if (mark->marks & (MARK_CURSOR | MARK_SELECTED))
 			picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash,
 				     r.origin.x, r.origin.y, r.size.width, r.size.height);

@@ -4,6 +4,7 @@
  * What stands at a point is rung_hit.c.
  */
 #include "editor-gtk/rung_layout.h"
+#include "editor-gtk/grid_display.h"
 #include "editor-gtk/rung_box.h"
 #include "editor-gtk/rung_text.h"
 
@@ -49,25 +50,9 @@ static int free_end(const struct rung *rung, int row)
 	return col < 0 || linked_behind(rung, row, col + 1) ? -1 : col;
 }
 
-static int output_of(const struct rung *rung, int row)
-{
-	int col = free_end(rung, row);
-
-	return col >= 0 && place_at(rung, row, col) == PLACE_LAST ? col : -1;
-}
-
 int rung_layout_columns(const struct rung *rung)
 {
-	int most = RUNG_LEAST_COLUMNS;
-
-	for (int row = 0; row < rung->rows; row++) {
-		int output = output_of(rung, row), col = rung->cols - 1;
-
-		while (col >= 0 && (col == output || place_at(rung, row, col) == PLACE_NONE))
-			col--;
-		most = MAX(most, col + 2);
-	}
-	return MIN(most, LIMIT_COLS);
+	return grid_display_columns(rung, RUNG_LEAST_COLUMNS);
 }
 
 int rung_layout_column(const struct rung_layout *layout, int row, int col)
@@ -208,7 +193,7 @@ static void find_ends(struct rung_layout *layout)
 		r->output = r->trail = -1;
 		if (row >= rung->rows)
 			continue;
-		r->output = output_of(rung, row);
+		r->output = grid_display_output(rung, row);
 		int end = free_end(rung, row);
 		if (r->output < 0 && end >= 0 && place_at(rung, row, end) == PLACE_BOX)
 			r->trail = end;

@@ -7,9 +7,9 @@
  * rung's strip; zoom is the business of whoever draws. It draws nothing and changes
  * nothing.
  *
- * Columns are those that people see: `columns` of them, and of a row whose last element
- * is an output that element stands in the last one, with wire stretched up to it
- * (rung_layout_column, rung_layout_col). Rows are those of the rung, and empty ones below.
+ * Columns are those that people see (grid_display.h): `columns` of them, and of a row
+ * whose last element is an output that element stands in the last one, with wire
+ * stretched up to it. Rows are those of the rung, and empty ones below.
  */
 #ifndef EDITOR_RUNG_LAYOUT_H
 #define EDITOR_RUNG_LAYOUT_H

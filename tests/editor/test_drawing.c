@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_drawing - every word of the catalogue and every sample is drawn, and nothing of it
+ * lies over anything else; with the fonts of this machine and without any.
+ */
+#include "tests/editor/drawn.h"
+#include "tests/tap.h"
+
+#include <glib.h>
+#include <stdlib.h>
+
+/* ---- every word ---- */
+
+static uint32_t name_id(struct project *project, const char *text)
+{
+	return *text ? names_intern(&project->names, text, strlen(text)) : 0;
+}
+
+/* Something at every pin; in two of @seed's three cases it is long. */
+static char *all_args(const struct word_row *row, int seed)
+{
+	GString *out = g_string_new(NULL);
+
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+		const char *value = seed ? "ANameThatIsRatherLong.Member" : "X";
+
+		if (pin->dir == PIN_IN)
+			g_string_append_printf(out, "%s:=%s%s ", pin->name,
+					       i % 2 && seed ? "/" : "", value);
+		else if (pin->dir == PIN_OUT)
+			g_string_append_printf(out, "%s=>%s ", pin->name, value);
+	}
+	return g_string_free(out, FALSE);
+}
+
+static const char *operand_of(const struct word_row *row, int seed)
+{
+	switch (row->operand) {
+	case OPND_BOOL_R:
+	case OPND_BOOL_W:
+	case OPND_ANY_R:
+	case OPND_ANY_W:
+		return seed == 0 ? "X" : seed == 1 ? "启动按钮" :
+		       "ThisNameIsMuchTooLongForAnyCellOfALadderDiagramIsItNot";
+	case OPND_INSTANCE:
+		return seed ? "InstanceWithAVeryLongNameIndeed" : "T1";
+	case OPND_EXPR:
+		return seed ? "Level * 3 + Count > 1000 AND Level < 20000 OR Count = 5" :
+			      "a > b";
+	case OPND_ASSIGN:
+		return "Count := Count + 1";
+	case OPND_LOOP:
+		return "i := 1 TO 10";
+	case OPND_LABEL:
+	case OPND_ROUTINE:
+		return seed ? "ALabelThatSaysALot" : "L1";
+	case OPND_NONE:
+	case OPND_LOOP_END:
+	case OPND_PIN:
+		return "";
+	}
+	return "";
+}
+
+/* The word three times over: alone, beside itself, and below itself. */
+static struct rung *rung_of(struct project *project, const struct word_row *row,
+			    uint16_t word, int seed)
+{
+	struct rung *rung = rung_new(2, 3);
+	char *args = all_args(row, seed);
+	struct cell cell = { .word = word };
+
+	cell.operand = name_id(project, row->kind == WORD_FB && seed ?
+			       "InstanceWithAVeryLongNameIndeed" :
+			       row->kind == WORD_FB ? "T1" : operand_of(row, seed));
+	if (row->kind != WORD_ELEM)
+		cell.args = name_id(project, args);
+	g_free(args);
+	cell.comment = name_id(project, seed ? "(* a comment that is not short *)" : "");
+	*rung_cell(rung, 0, 0) = cell;
+	*rung_cell(rung, 1, 0) = cell;
+	rung_cell(rung, 1, 0)->link = 1;
+	if (row->place != PLACE_LAST)
+		*rung_cell(rung, 0, 1) = cell;
+	else
+		rung_cell(rung, 1, 0)->link = 0;
+	return rung;
+}
+
+static int word_faults(struct project *project, struct lettering *lettering, int word)
+{
+	const struct word_row *row = word_row(word);
+	struct grid_names *names = grid_names_new(project, NULL);
+	struct drafting drafting = { .project = project, .names = names,
+				     .lettering = lettering };
+	int faults = 0;
+
+	for (int seed = 0; seed < 3; seed++) {
+		struct rung *rung = rung_of(project, row, (uint16_t)word, seed);
+		struct rung_layout *layout = rung_layout_new(&drafting, rung, 1, 0);
+		struct grid_scene scene = { .drafting = &drafting, .layout = layout,
+					    .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
+		struct picture picture;
+
+		picture_init(&picture);
+		grid_draw(&scene, &picture);
+		faults += drawn_faults(&picture, rung_layout_width(layout), layout->height,
+				       row->id);
+		picture_clear(&picture);
+		rung_layout_free(layout);
+		rung_free(rung);
+	}
+	grid_names_free(names);
+	return faults;
+}
+
+/* An icon is drawn with strokes, inside its bounds. */
+static int icon_faults(struct lettering *lettering, int word)
+{
+	struct picture picture;
+	int faults = 0;
+
+	picture_init(&picture);
+	grid_draw_icon(word_row(word), theme_get(THEME_DARK, THEME_BLUE), lettering, 64, 32,
+		       &picture);
+	for (int i = 0; i < picture.count; i++)
+		faults += picture.stroke[i].x < -0.5f || picture.stroke[i].x > 64.5f ||
+			  picture.stroke[i].y < -0.5f || picture.stroke[i].y > 32.5f;
+	faults += picture.count == 0;
+	if (faults)
+		printf("# icon of %s: %d\n", word_row(word)->id, faults);
+	picture_clear(&picture);
+	return faults;
+}
+
+static void check_words(struct lettering *lettering, const char *fonts)
+{
+	struct ladder *ladder = drawn_load("words.rung", "RUNGBOARD 1\n");
+	int faults = 0, icons = 0, words = 0;
+
+	for (int word = ELEM_EMPTY + 1; word < WORD_COUNT; word++) {
+		if (word == ELEM_PIN || word == WORD_CORE)
+			continue;
+		words++;
+		faults += word_faults(ladder_project(ladder), lettering, word);
+		icons += icon_faults(lettering, word);
+	}
+	printf("# %d words, %s\n", words, fonts);
+	CHECK(words > 100);
+	CHECK_AS(faults == 0, "no word lies over anything");
+	CHECK_AS(icons == 0, "every word has an icon");
+	ladder_free(ladder);
+}
+
+/* ---- samples ---- */
+
+static int sample_faults(struct lettering *lettering, const char *path, int *rungs)
+{
+	struct ladder *ladder = drawn_load(path, NULL);
+	int faults = 0;
+
+	if (!ladder)
+		return 1;
+	struct project *project = ladder_project(ladder);
+	for (int p = 0; p < project->pou_count; p++)
+		for (int way = 0; way < 4; way++) {
+			struct sheet *sheet = sheet_new(project, &project->pou[p],
+							lettering);
+			sheet->drafting.show = way % 3;
+			sheet->drafting.comments = way == 3;
+			sheet->drafting.width = way == 2 ? 1500 : 0;
+			sheet_layout(sheet);
+			faults += drawn_sheet(sheet, NULL, path);
+			*rungs += sheet->count;
+			for (int i = 1; i < sheet->count; i++)
+				faults += sheet->rung[i]->right != sheet->rung[0]->right;
+			sheet_free(sheet);
+		}
+	ladder_free(ladder);
+	return faults;
+}
+
+static void check_samples(struct lettering *lettering)
+{
+	GDir *folder = g_dir_open("ladders", 0, NULL);
+	int faults = 0, rungs = 0;
+
+	for (const char *name; folder && (name = g_dir_read_name(folder));) {
+		char *path = g_build_filename("ladders", name, NULL);
+
+		if (g_str_has_suffix(name, ".rung"))
+			faults += sample_faults(lettering, path, &rungs);
+		g_free(path);
+	}
+	if (folder)
+		g_dir_close(folder);
+	CHECK(rungs > 400);
+	CHECK_AS(faults == 0, "nothing in a sample lies over anything");
+}
+
+int main(void)
+{
+	PangoContext *context = lettering_context();
+	struct lettering *real = lettering_new(context, NULL);
+	struct lettering *rule = lettering_new(NULL, NULL);
+
+	check_words(rule, "without fonts");
+	check_words(real, "with fonts");
+	check_samples(rule);
+	check_samples(real);
+	lettering_free(real);
+	lettering_free(rule);
+	g_object_unref(context);
+	return tap_done();
+}

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_theme - what can be read and told apart, computed from the token table.
+ *
+ * WCAG 2.1: text 4.5 : 1 (1.4.3), graphics 3 : 1 (1.4.11).
+ */
+#include "editor-gtk/theme.h"
+#include "tests/tap.h"
+
+static const enum token texts[] = { TOKEN_INK, TOKEN_ERROR, TOKEN_ACCENT, TOKEN_COMMENT };
+static const enum token graphics[] = { TOKEN_IDLE, TOKEN_POWER, TOKEN_FORCE };
+
+static int failed;
+
+static void at_least(const char *theme, enum token token, const char *ground,
+		     double ratio, double wanted)
+{
+	if (ratio >= wanted)
+		return;
+	failed++;
+	printf("# %s: %s upon %s has %.2f, wants %.1f\n", theme, token_name(token), ground,
+	       ratio, wanted);
+}
+
+/* Upon the sheet, and upon all that is laid over it. */
+static void check_theme(const struct theme *theme, const char *name)
+{
+	const GdkRGBA *c = theme->color, *sheet = &c[TOKEN_SHEET];
+	const struct { const char *name; GdkRGBA color; } ground[] = {
+		{ "the sheet", *sheet },
+		{ "the gutter", c[TOKEN_GUTTER] },
+		{ "the cursor", theme_mix(&c[TOKEN_ACCENT], theme->wash, sheet) },
+		{ "a closed contact", theme_mix(&c[TOKEN_POWER], theme->fill, sheet) },
+		{ "what a search found", c[TOKEN_FOUND] },
+		{ "an added rung", theme_mix(&c[TOKEN_POWER], 0.10f, sheet) },
+		{ "a removed rung", theme_mix(&c[TOKEN_ERROR], 0.10f, sheet) },
+	};
+
+	for (size_t g = 0; g < G_N_ELEMENTS(ground); g++) {
+		at_least(name, TOKEN_INK, ground[g].name,
+			 theme_contrast(&c[TOKEN_INK], &ground[g].color), 4.5);
+		for (size_t i = 0; i < G_N_ELEMENTS(texts); i++)
+			at_least(name, texts[i], ground[g].name,
+				 theme_contrast(&c[texts[i]], &ground[g].color), 4.5);
+		for (size_t i = 0; i < G_N_ELEMENTS(graphics); i++)
+			at_least(name, graphics[i], ground[g].name,
+				 theme_contrast(&c[graphics[i]], &ground[g].color), 3);
+	}
+	at_least(name, TOKEN_BADGE, "a badge",
+		 theme_contrast(&c[TOKEN_BADGE], &c[TOKEN_FORCE]), 4.5);
+}
+
+int main(void)
+{
+	static const char *const name[THEME_KINDS] = { "light", "dark", "contrast",
+						       "dark contrast", "print" };
+	const GdkRGBA black = { 0, 0, 0, 1 }, white = { 1, 1, 1, 1 };
+	GdkRGBA grey = theme_mix(&black, 0.5f, &white);
+
+	CHECK(theme_contrast(&black, &white) > 20.99);
+	CHECK(theme_contrast(&white, &white) < 1.01);
+	CHECK(grey.red > 0.49f && grey.red < 0.51f && grey.alpha > 0.99f);
+	for (int kind = 0; kind < THEME_KINDS; kind++)
+		for (int power = 0; power < THEME_POWERS; power++) {
+			const struct theme *theme = theme_get(kind, power);
+
+			failed = 0;
+			check_theme(theme, name[kind]);
+			CHECK_AS(failed == 0, name[kind]);
+			/* Nothing is told by hue alone. */
+			CHECK(theme->power_width >= 2 * theme->idle_width);
+			CHECK(theme->fill > 0.1f);
+		}
+	for (int kind = THEME_CONTRAST; kind <= THEME_CONTRAST_DARK; kind++) {
+		const struct theme *theme = theme_get(kind, THEME_GREEN);
+
+		CHECK(theme_contrast(&theme->color[TOKEN_INK], &theme->color[TOKEN_SHEET]) >
+		      20);
+		CHECK(theme_contrast(&theme->color[TOKEN_COMMENT],
+				     &theme->color[TOKEN_SHEET]) > 7);
+	}
+	return tap_done();
+}
