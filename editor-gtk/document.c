@@ -55,67 +55,6 @@ char *ladder_document_name(LadderDocument *document)
 	       g_strdup(_("New project"));
 }
 
-/* Spans of the POUs, for the lists that stand beside the project. */
-struct pou_spans {
-	struct text_span *span;
-	int count;
-};
-
-static void take_pou(void *context, const struct text_span *span)
-{
-	struct pou_spans *spans = context;
-
-	if (span->part == TEXT_POU && span->number < spans->count)
-		spans->span[span->number] = *span;
-}
-
-/* The canonical text with POU @pou replaced by @text. */
-static char *with_list(const char *whole, const struct text_span *span,
-		       const char *text)
-{
-	return g_strdup_printf("%.*s%s%s", (int)span->at, whole, text,
-			       whole + span->at + span->len);
-}
-
-char *ladder_document_text(LadderDocument *document, gsize *len)
-{
-	const struct project *project = ladder_document_project(document);
-	struct pou_spans spans = { 0 };
-	char *text;
-	gsize unused;
-
-	len = len ? len : &unused;
-	if (document->text) {
-		*len = document->text_len;
-		return g_memdup2(document->text, document->text_len + 1);
-	}
-	spans.count = project->pou_count;
-	spans.span = g_new0(struct text_span, spans.count + 1);
-	text = ladder_outline(document->ladder, len, take_pou, &spans);
-	if (!text)
-		g_error("out of memory");
-	/* From the last to the first: a replacement moves what is behind it. */
-	for (int i = spans.count - 1; i >= 0; i--) {
-		const char *list = g_hash_table_lookup(document->list,
-						       GINT_TO_POINTER(i));
-
-		if (list) {
-			char *more = with_list(text, &spans.span[i], list);
-
-			free(text);
-			text = strdup(more);
-			g_free(more);
-		}
-	}
-	g_free(spans.span);
-	*len = strlen(text);
-
-	char *copy = g_strdup(text);
-
-	free(text);
-	return copy;
-}
-
 char *ladder_document_outline(LadderDocument *document, gsize *len,
 			      void (*take)(void *context, const struct text_span *span),
 			      void *context)
@@ -158,7 +97,7 @@ void document_tell_project(LadderDocument *document)
 /* ---- the text becomes the project ---- */
 
 /* Takes over what could be read; else the text itself, if @as_text. */
-static bool take_text(LadderDocument *document, const char *text, gsize len,
+bool document_take_text(LadderDocument *document, const char *text, gsize len,
 		      bool as_text, struct diag_list *why)
 {
 	struct ladder *ladder = ladder_new();
@@ -188,7 +127,7 @@ static bool take_text(LadderDocument *document, const char *text, gsize len,
 void document_take(LadderDocument *document, const char *text, gsize len)
 {
 	g_hash_table_remove_all(document->list);
-	take_text(document, text, len, true, NULL);
+	document_take_text(document, text, len, true, NULL);
 	history_clear(document->history);
 	document_tell_project(document);
 }
@@ -261,36 +200,10 @@ static void apply_text(LadderDocument *document, const struct change *change,
 	    memcmp(text + change->at, from, strlen(from)) != 0)
 		report_lost(from);
 	out = spliced(text, len, change->at, strlen(from), to, &new_len);
-	take_text(document, out, new_len, true, NULL);
+	document_take_text(document, out, new_len, true, NULL);
 	g_free(out);
 	g_free(text);
 	g_signal_emit(document, signals[PROJECT_CHANGED], 0);
-}
-
-/* A list that can be read goes into the project, another one stands beside it. */
-static void apply_list(LadderDocument *document, int pou, const char *text)
-{
-	struct project *project = ladder_project(document->ladder);
-	struct pou_spans spans = { NULL, project->pou_count };
-	const int count = project->pou_count;
-	gsize len;
-	char *plain, *whole;
-
-	spans.span = g_new0(struct text_span, count + 1);
-	plain = ladder_outline(document->ladder, &len, take_pou, &spans);
-	whole = with_list(plain, &spans.span[pou], text);
-	free(plain);
-	g_free(spans.span);
-	if (take_text(document, whole, strlen(whole), false, NULL) &&
-	    ladder_project(document->ladder)->pou_count == count) {
-		g_hash_table_remove(document->list, GINT_TO_POINTER(pou));
-		g_signal_emit(document, signals[PROJECT_CHANGED], 0);
-	} else {
-		g_hash_table_insert(document->list, GINT_TO_POINTER(pou),
-				    g_strdup(text));
-		g_signal_emit(document, signals[LIST_CHANGED], 0, pou);
-	}
-	g_free(whole);
 }
 
 static void apply(LadderDocument *document, const struct change *change, bool back)
@@ -306,12 +219,12 @@ static void apply(LadderDocument *document, const struct change *change, bool ba
 		apply_text(document, change, from->pdata[0], to->pdata[0]);
 		break;
 	case CHANGE_LIST:
-		apply_list(document, change->pou, to->pdata[0]);
+		document_apply_list(document, change->pou, to->pdata[0]);
 		break;
 	}
 }
 
-static void record(LadderDocument *document, struct change *change)
+void document_record(LadderDocument *document, struct change *change)
 {
 	apply(document, change, false);
 	history_add(document->history, change);
@@ -436,7 +349,7 @@ bool ladder_document_splice(LadderDocument *document, int pou, int at, int remov
 	for (int i = 0; i < inserted; i++)
 		rung_free(rungs[i]);
 	if (good && !same_texts(before, after)) {
-		record(document, change_new(CHANGE_RUNGS, pou, (gsize)at, before, after));
+		document_record(document, change_new(CHANGE_RUNGS, pou, (gsize)at, before, after));
 	} else {
 		g_ptr_array_unref(before);
 		g_ptr_array_unref(after);
@@ -467,7 +380,7 @@ bool ladder_document_move_rung(LadderDocument *document, int pou, int from, int 
 	return good;
 }
 
-static GPtrArray *one_text(const char *text, gsize len)
+GPtrArray *document_one_text(const char *text, gsize len)
 {
 	GPtrArray *texts = change_texts();
 
@@ -510,8 +423,8 @@ static struct change *text_change(const char *from, const char *to)
 	while (end < shorter - at &&
 	       from[from_len - 1 - end] == to[to_len - 1 - end])
 		end++;
-	return change_new(CHANGE_TEXT, -1, at, one_text(from + at, from_len - at - end),
-			  one_text(to + at, to_len - at - end));
+	return change_new(CHANGE_TEXT, -1, at, document_one_text(from + at, from_len - at - end),
+			  document_one_text(to + at, to_len - at - end));
 }
 
 bool ladder_document_replace(LadderDocument *document, gsize at, gsize removed,
@@ -528,48 +441,12 @@ bool ladder_document_replace(LadderDocument *document, gsize at, gsize removed,
 		clean = canonical(document, out, new_len, why);
 		good = clean || document->text;
 		if (good && strcmp(text, clean ? clean : out) != 0)
-			record(document, text_change(text, clean ? clean : out));
+			document_record(document, text_change(text, clean ? clean : out));
 		free(clean);
 		g_free(out);
 	}
 	g_free(text);
 	return good;
-}
-
-/* ---- lists ---- */
-
-char *ladder_document_list(LadderDocument *document, int pou)
-{
-	const struct project *project = ladder_document_project(document);
-	const char *list = g_hash_table_lookup(document->list, GINT_TO_POINTER(pou));
-	struct pou_spans spans = { 0 };
-	char *text, *out;
-	gsize len;
-
-	if (list)
-		return g_strdup(list);
-	if (!project || pou < 0 || pou >= project->pou_count)
-		return NULL;
-	spans.count = project->pou_count;
-	spans.span = g_new0(struct text_span, spans.count);
-	text = ladder_outline(document->ladder, &len, take_pou, &spans);
-	out = g_strndup(text + spans.span[pou].at, spans.span[pou].len);
-	free(text);
-	g_free(spans.span);
-	return out;
-}
-
-bool ladder_document_put_list(LadderDocument *document, int pou, const char *text)
-{
-	char *before = ladder_document_list(document, pou);
-	bool same = before && strcmp(before, text) == 0;
-
-	if (before && !same)
-		record(document, change_new(CHANGE_LIST, pou, 0,
-					    one_text(before, strlen(before)),
-					    one_text(text, strlen(text))));
-	g_free(before);
-	return before;
 }
 
 /* ---- life ---- */
@@ -613,7 +490,7 @@ static void ladder_document_init(LadderDocument *document)
 	document->history = history_new();
 	document->list = g_hash_table_new_full(NULL, NULL, NULL, g_free);
 	diag_init(&document->diags);
-	take_text(document, EMPTY_PROJECT, strlen(EMPTY_PROJECT), true, NULL);
+	document_take_text(document, EMPTY_PROJECT, strlen(EMPTY_PROJECT), true, NULL);
 	document_check_later(document);
 }
 

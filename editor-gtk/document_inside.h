@@ -32,6 +32,16 @@ struct _LadderDocument {
 const char *document_file(const LadderDocument *document);
 /** document_take - the text becomes the document; nothing can be undone. */
 void document_take(LadderDocument *document, const char *text, gsize len);
+/** document_take_text - the text becomes the project; if it cannot be read, and @as_text,
+ * the document of text. Fails: false and @why (or NULL), nothing changed. */
+bool document_take_text(LadderDocument *document, const char *text, gsize len,
+			bool as_text, struct diag_list *why);
+/** document_record - does a change, and the history has it. */
+void document_record(LadderDocument *document, struct change *change);
+/** document_apply_list - POU @pou gets the text, in the project or beside it. */
+void document_apply_list(LadderDocument *document, int pou, const char *text);
+/** document_one_text - for change_new(). */
+GPtrArray *document_one_text(const char *text, gsize len);
 /** document_changed - another version: it is to be checked, and told. */
 void document_changed(LadderDocument *document);
 void document_tell_state(LadderDocument *document);

@@ -54,9 +54,9 @@ bool sheet_put(LadderGridView *view, struct rung *rung, const struct grid_at *at
 	return true;
 }
 
-typedef struct rung *grid_edit_function(const struct rung *rung, struct grid_at *at);
-
-static void do_edit(LadderGridView *view, grid_edit_function *edit, enum verb verb)
+static void do_edit(LadderGridView *view,
+		    struct rung *(*edit)(const struct rung *rung, struct grid_at *at),
+		    enum verb verb)
 {
 	const struct rung *rung = sheet_rung(view, view->cursor.rung);
 	struct grid_at at = sheet_at(view);

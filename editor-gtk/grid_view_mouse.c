@@ -33,9 +33,16 @@ static void ladder_drag_free(struct ladder_drag *drag)
 	g_free(drag);
 }
 
-GType ladder_drag_get_type(void);
-typedef struct ladder_drag LadderDrag; /* the name that GObject knows it by */
-G_DEFINE_BOXED_TYPE(LadderDrag, ladder_drag, ladder_drag_copy, ladder_drag_free)
+static GType ladder_drag_get_type(void)
+{
+	static GType type;
+
+	if (g_once_init_enter(&type))
+		g_once_init_leave(&type, g_boxed_type_register_static("LadderDrag",
+			(GBoxedCopyFunc)ladder_drag_copy,
+			(GBoxedFreeFunc)ladder_drag_free));
+	return type;
+}
 
 GdkContentProvider *ladder_grid_view_drag(enum word word)
 {

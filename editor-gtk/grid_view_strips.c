@@ -31,14 +31,14 @@ static const struct theme *theme_of(void)
 
 /* ---- what is remembered ---- */
 
-static void forget_node(struct strip *strip)
+static void forget_drawing(struct strip *strip)
 {
 	g_clear_pointer(&strip->node, gsk_render_node_unref);
 }
 
 static void forget(struct strip *strip)
 {
-	forget_node(strip);
+	forget_drawing(strip);
 	g_clear_pointer(&strip->layout, rung_layout_free);
 }
 
@@ -168,7 +168,7 @@ void strips_redraw(LadderGridView *view, int rung)
 {
 	for (int i = rung < 0 ? 0 : rung;
 	     i < (int)view->strips->len && (rung < 0 || i == rung); i++)
-		forget_node(strip_of(view, i));
+		forget_drawing(strip_of(view, i));
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
@@ -183,7 +183,7 @@ static void widen(LadderGridView *view, float rail)
 
 		if (strip->layout) {
 			rung_layout_stretch(strip->layout, rail);
-			forget_node(strip);
+			forget_drawing(strip);
 		}
 	}
 	gtk_widget_queue_resize(GTK_WIDGET(view));
