@@ -7,6 +7,8 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include "editor-gtk/print.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -219,6 +221,30 @@ static void do_select_all(LadderGridView *view)
 					       view->columns - 1 }, true);
 }
 
+/* ---- pictures ---- */
+
+static void do_copy_picture(LadderGridView *view)
+{
+	const struct project *project = ladder_document_project(view->document);
+	struct sheet *sheet = sheet_pou(view) ?
+		sheet_new(project, sheet_pou(view), view->lettering) : NULL;
+	GdkContentProvider *picture;
+
+	if (!sheet)
+		return;
+	sheet->drafting.show = view->drafting.show;
+	sheet_layout(sheet);
+	picture = print_rung_picture(sheet, view->cursor.rung,
+				     theme_get(THEME_LIGHT, THEME_GREEN), 2);
+	if (picture) {
+		gdk_clipboard_set_content(gtk_widget_get_clipboard(GTK_WIDGET(view)),
+					  picture);
+		g_object_unref(picture);
+		sheet_tell(view, _("The clipboard holds the rung as a picture."));
+	}
+	sheet_free(sheet);
+}
+
 /* ---- the table ---- */
 
 void ladder_grid_view_do(LadderGridView *view, enum verb verb)
@@ -231,6 +257,7 @@ void ladder_grid_view_do(LadderGridView *view, enum verb verb)
 	case VERB_copy: case VERB_paste: case VERB_paste_parallel:
 		clipboard_do(view, verb);
 		break;
+	case VERB_copy_picture: do_copy_picture(view); break;
 	case VERB_delete: do_delete(view); break;
 	case VERB_select_all: do_select_all(view); break;
 	case VERB_enter: entry_begin_edit(view); break;

@@ -70,6 +70,46 @@ static void do_sheet_by(LadderWindow *window, bool next)
 	go_on(window);
 }
 
+static void go_rung(AdwMessageDialog *dialog, const char *response, GtkEntry *number)
+{
+	LadderWindow *window = LADDER_WINDOW(gtk_window_get_transient_for(
+		GTK_WINDOW(dialog)));
+	LadderGridView *sheet = tabs_sheet(window);
+
+	if (sheet && g_strcmp0(response, "go") == 0)
+		ladder_grid_view_go(sheet, (int)g_ascii_strtoll(gtk_editable_get_text(
+			GTK_EDITABLE(number)), NULL, 10) - 1, -1, -1);
+}
+
+static void ask_rung(LadderWindow *window)
+{
+	const struct project *project = ladder_document_project(window->document);
+	LadderGridView *sheet = tabs_sheet(window);
+	GtkWidget *dialog, *number;
+	char *text;
+
+	if (!sheet)
+		return;
+	dialog = adw_message_dialog_new(GTK_WINDOW(window), _("Go to rung"), NULL);
+	number = gtk_entry_new();
+	gtk_entry_set_input_purpose(GTK_ENTRY(number), GTK_INPUT_PURPOSE_DIGITS);
+	text = g_strdup_printf(_("1 to %d"),
+		project->pou[ladder_grid_view_pou(sheet)].rung_count);
+	gtk_entry_set_placeholder_text(GTK_ENTRY(number), text);
+	g_free(text);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(number),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Rung"), -1);
+	gtk_entry_set_activates_default(GTK_ENTRY(number), TRUE);
+	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), number);
+	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog), "cancel", _("Cancel"),
+					 "go", _("Go"), NULL);
+	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "go");
+	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
+	g_signal_connect(dialog, "response", G_CALLBACK(go_rung), number);
+	gtk_window_present(GTK_WINDOW(dialog));
+	gtk_widget_grab_focus(number);
+}
+
 /* ---- viewing ---- */
 
 static void zoom(LadderWindow *window, double factor)
@@ -127,11 +167,14 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_open: window_open(window); break;
 	case VERB_save: window_save(window); break;
 	case VERB_save_as: window_save_as(window); break;
+	case VERB_print: window_print(window); break;
+	case VERB_export_pdf: window_export_pdf(window); break;
 	case VERB_close: gtk_window_close(GTK_WINDOW(window)); break;
 	case VERB_undo: do_undo(window); break;
 	case VERB_redo: do_redo(window); break;
 	case VERB_rename: names_rename(window); break;
 	case VERB_go_coil: names_go_driver(window); break;
+	case VERB_go_rung: ask_rung(window); break;
 	case VERB_next_problem: do_next_problem(window); break;
 	case VERB_next_sheet: do_sheet_by(window, true); break;
 	case VERB_previous_sheet: do_sheet_by(window, false); break;

@@ -35,7 +35,7 @@ static GtkFileChooserNative *chooser_new(LadderWindow *window, const char *title
 	return chooser;
 }
 
-static char *chosen_path(GtkNativeDialog *dialog)
+char *window_chosen_path(GtkNativeDialog *dialog)
 {
 	GFile *file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
 	char *path = file ? g_file_get_path(file) : NULL;
@@ -48,7 +48,7 @@ static char *chosen_path(GtkNativeDialog *dialog)
 
 static void open_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
 {
-	char *path = response == GTK_RESPONSE_ACCEPT ? chosen_path(dialog) : NULL;
+	char *path = response == GTK_RESPONSE_ACCEPT ? window_chosen_path(dialog) : NULL;
 
 	if (path)
 		app_open_path(window, path);
@@ -90,7 +90,7 @@ static void save_over(LadderWindow *window)
 
 static void save_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
 {
-	char *path = response == GTK_RESPONSE_ACCEPT ? chosen_path(dialog) : NULL;
+	char *path = response == GTK_RESPONSE_ACCEPT ? window_chosen_path(dialog) : NULL;
 	char *full = path && !strchr(strrchr(path, '/') ? strrchr(path, '/') : path, '.') ?
 		g_strconcat(path, ".rung", NULL) : g_strdup(path);
 

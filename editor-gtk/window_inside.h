@@ -67,6 +67,8 @@ void names_rename(LadderWindow *window);
 void names_rename_pou(LadderWindow *window, int pou, const char *name);
 
 /* ---- window_file.c ---- */
+/** window_chosen_path - of a file chooser; NULL: no file of this machine. Caller frees. */
+char *window_chosen_path(GtkNativeDialog *dialog);
 void window_open(LadderWindow *window);
 void window_save(LadderWindow *window);
 void window_save_as(LadderWindow *window);
@@ -74,5 +76,9 @@ void window_save_as(LadderWindow *window);
 bool window_may_close(LadderWindow *window);
 /** window_watch_disk - tells if somebody else changes the file. */
 void window_watch_disk(LadderWindow *window);
+
+/* ---- window_paper.c ---- */
+void window_print(LadderWindow *window);
+void window_export_pdf(LadderWindow *window);
 
 #endif
