@@ -225,7 +225,8 @@ void grid_draw_icon(const struct word_row *word, const struct theme *theme,
 			   .picture = picture, .ink = TOKEN_INK };
 	struct wire wire = { TOKEN_INK, STROKE_SOLID, theme->shape_width };
 	struct glyph glyph = { .strokes = word->glyph, .x = width / 2, .y = height / 2,
-			       .half = glyph_half(word), .wire = wire };
+			       .half = glyph_half(word), .wire = wire,
+			       .up = RUNG_HALF };
 	bool box = word->kind != WORD_ELEM;
 	struct lettered name = lettering_fit(lettering, LETTER_BADGE, word->word, -1,
 					     width - 10);

@@ -85,15 +85,17 @@ static void draw_shape(const struct pen *pen, int row, int col)
 	bool last = word->place == PLACE_LAST;
 	struct glyph glyph = { .strokes = word->glyph, .y = y, .half = glyph_half(word),
 			       .x = layout->column_x[column] + width / 2,
-			       .wire = shape_wire(pen, word, live),
+			       .wire = shape_wire(pen, word, live), .up = RUNG_HALF,
 			       .lit = live & LIVE_CLOSED };
 
-	if (rung_is_framed(word)) {
-		struct lettered text = rung_framed(pen->drafting, cell);
+	struct rung_framed framed;
 
-		glyph.inside = text.text;
-		glyph.letter = LETTER_OPERAND;
-		glyph.half = text.width / 2 + FRAMED_SIDE;
+	if (rung_is_framed(word)) {
+		framed = rung_framed(pen->drafting, cell);
+		glyph.framed = &framed;
+		glyph.half = framed.width / 2 + FRAMED_SIDE;
+		if (framed.lines > 1)
+			glyph.up = (float)framed.lines * FRAMED_LINE / 2 + 2;
 	} else if (word->operand == OPND_NONE) {
 		glyph.inside = word->word;
 		glyph.letter = LETTER_TYPE;

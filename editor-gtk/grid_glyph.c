@@ -26,7 +26,7 @@ static void shape_line(const struct pen *pen, const struct glyph *glyph, float x
 static void side_stroke(const struct pen *pen, const struct glyph *glyph, char stroke,
 			float side)
 {
-	float x = side * glyph->half, up = RUNG_HALF;
+	float x = side * glyph->half, up = glyph->up;
 	float opening = side < 0 ? (float)G_PI : 0;
 
 	switch (stroke) {
@@ -41,7 +41,7 @@ static void side_stroke(const struct pen *pen, const struct glyph *glyph, char s
 		return;
 	case '<':
 	case '>':
-		up -= 2;
+		up = RUNG_HALF - 2;
 		if ((stroke == '<') == (side < 0)) { /* its point is outside    */
 			shape_line(pen, glyph, x, 0, x - side * TIP, -up);
 			shape_line(pen, glyph, x, 0, x - side * TIP, up);
@@ -70,6 +70,15 @@ static void fill(const struct pen *pen, const struct glyph *glyph)
 			     glyph->y - RUNG_HALF, 2 * glyph->half, 2 * RUNG_HALF);
 }
 
+static void lines_inside(const struct pen *pen, const struct glyph *glyph)
+{
+	float y = glyph->y + 4.5f - (float)(glyph->framed->lines - 1) * FRAMED_LINE / 2;
+
+	for (int i = 0; i < glyph->framed->lines; i++)
+		pen_text(pen, pen->ink, LETTER_OPERAND, glyph->framed->line[i], glyph->x,
+			 y + (float)(i * FRAMED_LINE));
+}
+
 static void middle(const struct pen *pen, const struct glyph *glyph)
 {
 	char letter[2] = { glyph->strokes[1], 0 };
@@ -95,7 +104,10 @@ void glyph_draw(const struct pen *pen, const struct glyph *glyph)
 		fill(pen, glyph);
 	side_stroke(pen, glyph, glyph->strokes[0], -1);
 	side_stroke(pen, glyph, glyph->strokes[2], 1);
-	middle(pen, glyph);
+	if (glyph->framed)
+		lines_inside(pen, glyph);
+	else
+		middle(pen, glyph);
 }
 
 float glyph_half(const struct word_row *word)

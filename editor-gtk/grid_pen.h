@@ -41,7 +41,9 @@ struct glyph {
 	const char *strokes;    /* "|/|"                                          */
 	const char *inside;     /* text instead of the middle one; NULL: none      */
 	enum letter letter;     /* of it                                          */
+	const struct rung_framed *framed; /* or lines of it; NULL: none           */
 	float x, y, half;       /* of its middle; to its left and right stroke     */
+	float up;               /* from its middle to its upper end               */
 	struct wire wire;       /* of its strokes                                 */
 	bool lit;
 };

@@ -9,7 +9,8 @@
 #include <string.h>
 
 #define PT (96.0f / 72)
-#define TRIM_AT 20000   /* texts remembered                                     */
+#define TRIM_AT   20000 /* texts remembered                                     */
+#define LAID_MOST 2000  /* of a style, laid out: 2 KB each                      */
 #define ELLIPSIS "\xe2\x80\xa6"
 
 /* Ascent and descent are those of the room a text gets, not of one font: names may be
@@ -39,8 +40,10 @@ struct known {
 
 struct lettering {
 	PangoContext *context;
-	PangoLayout *layout[LETTERS];
+	PangoLayout *layout[LETTERS]; /* for measuring                          */
 	GHashTable *known;
+	/* Of texts that were drawn: shaping them costs ten times what measuring again does. */
+	GHashTable *laid[LETTERS];
 };
 
 const struct letter_style *letter_style(enum letter letter)
@@ -116,6 +119,9 @@ struct lettering *lettering_new(PangoContext *context, const char *family)
 	lettering->context = context ? g_object_ref(context) : NULL;
 	for (int i = 0; context && i < LETTERS; i++)
 		lettering->layout[i] = layout_new(context, family, &style[i]);
+	for (int i = 0; i < LETTERS; i++)
+		lettering->laid[i] = g_hash_table_new_full(g_str_hash, g_str_equal, g_free,
+							   g_object_unref);
 	lettering->known = g_hash_table_new_full(known_hash, known_equal, NULL,
 						 known_free);
 	return lettering;
@@ -125,8 +131,10 @@ void lettering_free(struct lettering *lettering)
 {
 	if (!lettering)
 		return;
-	for (int i = 0; i < LETTERS; i++)
+	for (int i = 0; i < LETTERS; i++) {
 		g_clear_object(&lettering->layout[i]);
+		g_hash_table_unref(lettering->laid[i]);
+	}
 	g_hash_table_unref(lettering->known);
 	g_clear_object(&lettering->context);
 	g_free(lettering);
@@ -136,6 +144,9 @@ void lettering_trim(struct lettering *lettering)
 {
 	if (g_hash_table_size(lettering->known) > TRIM_AT)
 		g_hash_table_remove_all(lettering->known);
+	for (int i = 0; i < LETTERS; i++)
+		if (g_hash_table_size(lettering->laid[i]) > LAID_MOST)
+			g_hash_table_remove_all(lettering->laid[i]);
 }
 
 /* Without fonts: wide characters 1 em, others 0.6. */
@@ -274,9 +285,15 @@ size_t lettering_wrap(struct lettering *lettering, enum letter letter, const cha
 PangoLayout *lettering_layout(struct lettering *lettering, enum letter letter,
 			      const char *text, float *baseline)
 {
-	PangoLayout *layout = lettering->layout[letter];
+	PangoLayout *layout = g_hash_table_lookup(lettering->laid[letter], text);
 
-	pango_layout_set_text(layout, text, -1);
+	if (!layout) {
+		layout = pango_layout_copy(lettering->layout[letter]);
+		pango_layout_set_text(layout, text, -1);
+		if (g_hash_table_size(lettering->laid[letter]) > 2 * LAID_MOST)
+			g_hash_table_remove_all(lettering->laid[letter]);
+		g_hash_table_insert(lettering->laid[letter], g_strdup(text), layout);
+	}
 	*baseline = (float)pango_layout_get_baseline(layout) / PANGO_SCALE;
 	return layout;
 }

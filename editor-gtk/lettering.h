@@ -60,13 +60,13 @@ void lettering_trim(struct lettering *lettering);
 struct lettered lettering_fit(struct lettering *lettering, enum letter letter,
 			      const char *text, ptrdiff_t len, float bound);
 
-/** lettering_wrap - how many bytes of @text fit on one line of @width px, broken between
- * words if it can be; at least one character. */
+/** lettering_wrap - how many bytes of @text fit on one line of @width px, broken
+ * between words if it can be; at least one character. */
 size_t lettering_wrap(struct lettering *lettering, enum letter letter, const char *text,
 		      float width);
 
-/** lettering_layout - @text laid out, its top at 0 and its baseline at @baseline px.
- * Borrowed, valid until the next call. */
+/** lettering_layout - @text laid out, its top at 0, its baseline at @baseline px.
+ * Borrowed until lettering_trim(); not to be changed. */
 PangoLayout *lettering_layout(struct lettering *lettering, enum letter letter,
 			      const char *text, float *baseline);
 

@@ -202,14 +202,17 @@ static void find_ends(struct rung_layout *layout)
 
 static void measure_title(const struct drafting *drafting, struct rung_layout *layout)
 {
-	struct rung_heading heading = rung_heading(drafting, layout->rung);
+	const struct rung *rung = layout->rung;
+	struct rung_heading heading;
 	float room = MAX(layout->natural, drafting->width);
 
 	layout->comment_room = room;
 	layout->title_y = TITLE_LINE;
-	layout->top = BARE_HEIGHT;
-	if (heading.width > 0 || *heading.comment)
-		layout->top = TITLE_HEIGHT;
+	layout->top = rung->label || rung->title || rung->comment ? TITLE_HEIGHT :
+								    BARE_HEIGHT;
+	if (!rung->comment) /* a title alone need not be measured */
+		return;
+	heading = rung_heading(drafting, rung);
 	if (*heading.comment && heading.comment_width + heading.width > room) {
 		int most = drafting->all_comments ? 1000 : SHORT_LINES;
 

@@ -68,22 +68,57 @@ bool rung_is_framed(const struct word_row *word)
 	       !(word->operand == OPND_NONE && word->place == PLACE_SERIES);
 }
 
-struct lettered rung_framed(const struct drafting *drafting, const struct cell *cell)
+static void break_lines(const struct drafting *drafting, const char *text,
+			struct rung_framed *framed)
+{
+	struct lettering *lettering = drafting->lettering;
+
+	while (*text && framed->lines < FRAMED_LINES) {
+		size_t len = lettering_wrap(lettering, LETTER_OPERAND, text, FRAMED_BOUND);
+		bool last = framed->lines == FRAMED_LINES - 1;
+		size_t shown = len;
+
+		while (shown > 1 && text[shown - 1] == ' ')
+			shown--;
+		struct lettered line = lettering_fit(lettering, LETTER_OPERAND, text,
+						     last ? -1 : (ptrdiff_t)shown,
+						     FRAMED_BOUND);
+		framed->line[framed->lines++] = line;
+		framed->width = MAX(framed->width, line.width);
+		text += len;
+	}
+}
+
+static struct rung_framed in_lines(const struct drafting *drafting, const char *text)
+{
+	struct rung_framed framed = { .lines = 1 };
+
+	framed.line[0] = fit(drafting, LETTER_OPERAND, text, 0);
+	framed.width = framed.line[0].width;
+	if (framed.width > FRAMED_BOUND) {
+		framed.lines = 0;
+		framed.width = 0;
+		break_lines(drafting, text, &framed);
+	}
+	return framed;
+}
+
+struct rung_framed rung_framed(const struct drafting *drafting, const struct cell *cell)
 {
 	const struct word_row *word = word_row(cell->word);
 	const char *operand = project_text(drafting->project, cell->operand);
 	bool says_word = word->operand == OPND_LOOP || word->operand == OPND_ROUTINE;
 	bool is_word = word->operand == OPND_NONE || word->operand == OPND_LOOP_END;
-	struct lettered fits;
+	struct rung_framed framed;
 	char *text;
 
 	if (!says_word && !is_word)
-		return fit(drafting, LETTER_OPERAND, operand, FRAMED_BOUND);
+		return in_lines(drafting, operand);
 	text = g_strdup_printf("%s%s%s", word->word, is_word ? "" : " ",
 			       is_word ? "" : operand);
-	fits = fit(drafting, LETTER_OPERAND, text, FRAMED_BOUND);
+	framed = in_lines(drafting, text);
 	g_free(text);
-	return fits;
+	return framed;
 }
 
 static bool is_blank(char c)

@@ -11,7 +11,9 @@
 #include "editor-gtk/rung_layout.h"
 
 #define LABEL_BOUND  230   /* px of a name                                      */
-#define FRAMED_BOUND 420   /* px of an expression                               */
+#define FRAMED_BOUND 420   /* px of a line of an expression                     */
+#define FRAMED_LINES 5     /* they fit into a row of common height              */
+#define FRAMED_LINE  15    /* px from one to the next                           */
 #define FRAMED_SIDE  12    /* px between its text and the outside of a bracket    */
 
 /* What stands above a contact, coil or box. "" and 0 for nothing. */
@@ -23,8 +25,13 @@ struct lettered rung_element_comment(const struct drafting *drafting,
 
 /** rung_is_framed - is it drawn as one line of text between strokes: [ a > b ], >> Label? */
 bool rung_is_framed(const struct word_row *word);
-/** rung_framed - that text. */
-struct lettered rung_framed(const struct drafting *drafting, const struct cell *cell);
+/** rung_framed - that text, in lines; what is longer ends in an ellipsis. */
+struct rung_framed {
+	struct lettered line[FRAMED_LINES];
+	int lines;
+	float width;         /* of the widest                                   */
+};
+struct rung_framed rung_framed(const struct drafting *drafting, const struct cell *cell);
 
 /* What stands above a rung. */
 struct rung_heading {
