@@ -228,8 +228,10 @@ all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
 .PHONY: no-editor
 endif
-editor-tests: $(EDITOR_TESTS) ## the editor's tests
-	tests/editor/display prove -e '' $(EDITOR_TESTS)
+# A person's work, with pointer and keys on a screen of its own: PICTURES=folder keeps what was seen.
+EDITOR_PERSON := $(if $(EDITOR),$(filter-out %/desk.py,$(wildcard tests/editor/person/*.py)))
+editor-tests: $(EDITOR_TESTS) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
+	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
 .PHONY: editor-tests
 # ---- end of the editor ----
 
@@ -372,7 +374,7 @@ SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-re
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%))
-TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
 tests: all man $(BUILT) $(HAL_DAEMONS)
