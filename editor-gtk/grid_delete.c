@@ -24,8 +24,14 @@ static struct stretch stretch_at(const struct canvas *c, int row, int col)
 	return s;
 }
 
-/* Does power have to go through (@row, @col), which is empty now: is what comes behind
- * it read, and fed by nothing else? */
+static int feeders(const struct network *n, int net)
+{
+	return n->first_feeder[net + 1] - n->first_feeder[net];
+}
+
+/* Does power have to go through (@row, @col), which is empty now? So if what comes
+ * behind it is read and fed by nothing else, or what comes before it leads nowhere
+ * else. */
 static bool must_pass(struct canvas *c, int row, int col)
 {
 	const struct network *n = &c->network;
@@ -35,8 +41,10 @@ static bool must_pass(struct canvas *c, int row, int col)
 		return false;
 	in = network_net(n, row, col);
 	out = network_net(n, row, col + 1);
-	return in != out && out != NET_RAIL && n->reader_count[out] > 0 &&
-	       n->first_feeder[out + 1] == n->first_feeder[out];
+	if (in == out || out == NET_RAIL || n->reader_count[out] == 0)
+		return false;
+	return feeders(n, out) == 0 ||
+	       (in != NET_RAIL && n->reader_count[in] == 0 && feeders(n, in) > 0);
 }
 
 static void erase_stretch(struct canvas *c, int row, struct stretch s)
