@@ -373,7 +373,7 @@ bench-rt: $(BUILD)/ladderd ## how late ladderd wakes up, beside cyclictest
 SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-recover=undefined
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
-            $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%))
+            $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
 TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 

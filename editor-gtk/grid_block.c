@@ -184,8 +184,8 @@ static bool paste_parallel(struct canvas *c, int row, int col, const struct rung
 	if (below < 0 || !insert_rows(c, below + 1, part->rows - 1))
 		return false;
 	put_piece(c, below, col, part);
-	canvas_join_up(c, row, below, col);
-	canvas_join_up(c, row, below, col + width);
+	canvas_join_branch(c, row, below, col);
+	canvas_join_branch(c, row, below, col + width);
 	for (int i = col + width - 1; i > col && canvas_is_empty(c, below, i) &&
 				      !canvas_linked(c, below, i); i--)
 		canvas_cell(c, below, i)->word = ELEM_WIRE;

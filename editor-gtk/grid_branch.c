@@ -77,6 +77,16 @@ int canvas_branch_row(struct canvas *c, int row, int col, int last)
 	return find_row(c, &reach);
 }
 
+/* Only up to the first row that is joined with @row there already: no wire twice. */
+void canvas_join_branch(struct canvas *c, int row, int below, int bar)
+{
+	int top = below - 1;
+
+	while (top > row && net_at(c, top, bar) != net_at(c, row, bar))
+		top--;
+	canvas_join_up(c, top, below, bar);
+}
+
 /* ---- outputs ---- */
 
 /* An output in a row below @row, on a branch from bar @bar of it. */
@@ -88,7 +98,7 @@ static int branch_output(struct canvas *c, int row, int bar, struct cell cell)
 
 	if (below < 0)
 		return -1;
-	canvas_join_up(c, row, below, bar);
+	canvas_join_branch(c, row, below, bar);
 	for (int col = bar; col < last; col++)
 		canvas_cell(c, below, col)->word = ELEM_WIRE;
 	canvas_put(c, below, last, cell);
@@ -178,8 +188,8 @@ bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell c
 	canvas_put(c, below, col, cell);
 	for (int i = col + 1; i <= last; i++)
 		canvas_cell(c, below, i)->word = ELEM_WIRE;
-	canvas_join_up(c, row, below, col);
-	canvas_join_up(c, row, below, last + 1);
+	canvas_join_branch(c, row, below, col);
+	canvas_join_branch(c, row, below, last + 1);
 	canvas_mark(c, below, col);
 	return true;
 }
@@ -236,7 +246,7 @@ struct rung *grid_open_branch(const struct rung *rung, struct grid_at *at)
 
 		below = find_row(&c, &reach);
 		if (below >= 0) {
-			canvas_join_up(&c, row, below, at->col);
+			canvas_join_branch(&c, row, below, at->col);
 			at->row = below;
 		}
 	}

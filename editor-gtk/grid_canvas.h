@@ -99,6 +99,9 @@ int canvas_output(struct canvas *c, int row, struct cell cell);
  * bars @col and @last + 1 can be linked with those of @row; made if there is none.
  * -1: a wire would have to cross. */
 int canvas_branch_row(struct canvas *c, int row, int col, int last);
+/** canvas_join_branch - links bar @bar of row @below, which canvas_branch_row() gave, up
+ * to the circuit of @row. */
+void canvas_join_branch(struct canvas *c, int row, int below, int bar);
 /** canvas_parallel - as grid_parallel(), round the cells @col … @last. */
 bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell cell);
 /** canvas_delete - takes the element at (@row, @col) away, as grid_delete(), but for
