@@ -214,17 +214,22 @@ bool canvas_insert_column(struct canvas *c, int at)
 	return replace(c, rung_insert_column(c->rung, at), GRID_NO_MEMORY);
 }
 
-void canvas_drop_row(struct canvas *c, int row)
+bool canvas_is_bare(const struct canvas *c, int row)
 {
-	if (c->rung->rows == 1 || row < 0 || row >= c->rung->rows)
-		return;
 	for (int col = 0; col < c->rung->cols; col++) {
-		const struct cell *cell = canvas_cell(c, row, col);
+		const struct cell *cell = rung_at(c->rung, row, col);
 
 		if (cell->word != ELEM_EMPTY || cell->comment)
-			return;
+			return false;
 	}
-	replace(c, rung_delete_row(c->rung, row), GRID_NO_MEMORY);
+	return true;
+}
+
+void canvas_drop_row(struct canvas *c, int row)
+{
+	if (c->rung->rows > 1 && row >= 0 && row < c->rung->rows &&
+	    canvas_is_bare(c, row))
+		replace(c, rung_delete_row(c->rung, row), GRID_NO_MEMORY);
 }
 
 /* ---- wires that close by themselves ---- */
@@ -274,12 +279,13 @@ static bool ends_there(const struct canvas *c, int row, int bar)
 	return !canvas_left(c, row, bar) && !canvas_right(c, row, bar);
 }
 
-void canvas_prune(struct canvas *c, int row, int bar)
+int canvas_prune(struct canvas *c, int row, int bar)
 {
-	for (int i = row; ends_there(c, i, bar) && canvas_up(c, i, bar) &&
-			  !canvas_down(c, i, bar); i--)
-		canvas_cell(c, i, bar - 1)->link = 0;
-	for (int i = row; ends_there(c, i, bar) && canvas_down(c, i, bar) &&
-			  !canvas_up(c, i, bar); i++)
-		canvas_cell(c, i + 1, bar - 1)->link = 0;
+	while (ends_there(c, row, bar) && canvas_up(c, row, bar) &&
+	       !canvas_down(c, row, bar))
+		canvas_cell(c, row--, bar - 1)->link = 0;
+	while (ends_there(c, row, bar) && canvas_down(c, row, bar) &&
+	       !canvas_up(c, row, bar))
+		canvas_cell(c, ++row, bar - 1)->link = 0;
+	return row;
 }

@@ -71,6 +71,8 @@ bool canvas_replace(struct canvas *c, struct rung *made);
 bool canvas_insert_row(struct canvas *c, int at);
 /** canvas_insert_column - power that crosses it gets wire; outputs stay last. */
 bool canvas_insert_column(struct canvas *c, int at);
+/** canvas_is_bare - nothing stands in the row; links may pass it. */
+bool canvas_is_bare(const struct canvas *c, int row);
 /** canvas_drop_row - takes an empty row away, if it is one and not the only one. */
 void canvas_drop_row(struct canvas *c, int row);
 
@@ -81,8 +83,9 @@ void canvas_close_left(struct canvas *c, int row, int col);
 void canvas_close_right(struct canvas *c, int row, int col);
 /** canvas_join_up - links bar @bar of @row with each row above it down from @top. */
 void canvas_join_up(struct canvas *c, int top, int row, int bar);
-/** canvas_prune - takes links away that lead from bar @bar of @row into nothing. */
-void canvas_prune(struct canvas *c, int row, int bar);
+/** canvas_prune - takes links away that lead from bar @bar of @row into nothing. Returns
+ * the row where they came from. */
+int canvas_prune(struct canvas *c, int row, int bar);
 
 /** canvas_at_element - opens it, with the mark on the element at the cursor. Fails:
  * false if there is none. */
