@@ -119,10 +119,12 @@ static void check_pdf(void)
 	CHECK(render(SHAPES " -o OUT/b.pdf") == 0 && same("a.pdf", "b.pdf"));
 	CHECK(render(SHAPES " --paper letter --landscape --date 2026-03-01 -o OUT/c.pdf") ==
 	      0);
-	if (!g_find_program_in_path("pdftotext")) {
+	char *tool = g_find_program_in_path("pdftotext");
+	if (!tool) {
 		printf("# no pdftotext here\n");
 		return;
 	}
+	g_free(tool);
 	char *line = g_strdup_printf("pdftotext -layout %s/a.pdf %s/a.txt && "
 				     "pdftotext -layout %s/c.pdf %s/c.txt", folder, folder,
 				     folder, folder);
