@@ -38,8 +38,10 @@ static struct ladder *load(const char *path, enum render_status *status)
 	*status = RENDER_WRONG;
 	if (!ladder)
 		return NULL;
-	if (ladder_load(ladder, path) && ladder_project(ladder))
+	if (ladder_load(ladder, path) && ladder_project(ladder)) {
+		*status = RENDER_GOOD;
 		return ladder;
+	}
 	say_diags(ladder_diags(ladder));
 	if (ladder_could_read(ladder))
 		*status = RENDER_NO;
@@ -128,7 +130,7 @@ static enum render_status write_picture(struct picture *picture,
 					const struct render_options *options,
 					struct lettering *lettering)
 {
-	const struct theme *theme = theme_get(options->theme, options->power);
+	const struct theme *theme = theme_get(options->theme, THEME_GREEN);
 
 	if (options->format == RENDER_SVG)
 		return write_svg(picture, options, theme);
@@ -220,13 +222,18 @@ int render_main(int argc, char **argv)
 	struct ladder *ladder = load(options.file, &status);
 	if (!ladder)
 		return (int)status;
+	if (options.check) {
+		status = ladder_build(ladder) ? RENDER_GOOD : RENDER_NO;
+		say_diags(ladder_diags(ladder));
+		options.diags = ladder_diags(ladder);
+	}
 	PangoContext *context = lettering_context();
 	struct lettering *lettering = lettering_new(context, NULL);
-	status = options.older ?
+	enum render_status drawn = options.older ?
 		draw_difference(ladder_project(ladder), &options, lettering) :
 		draw(ladder_project(ladder), &options, lettering);
 	lettering_free(lettering);
 	g_object_unref(context);
 	ladder_free(ladder);
-	return (int)status;
+	return (int)(drawn == RENDER_GOOD ? status : drawn);
 }

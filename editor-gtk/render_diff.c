@@ -123,7 +123,7 @@ static void put_rung(struct comparison *of, const struct sheet *sheet, int index
 {
 	struct grid_scene scene = {
 		.drafting = &sheet->drafting, .layout = sheet->rung[index],
-		.theme = theme_get(of->options->theme, of->options->power),
+		.theme = theme_get(of->options->theme, THEME_GREEN),
 		.mark = mark, .mark_count = marks, .state = state,
 	};
 

@@ -225,6 +225,55 @@ static void check_tall(void)
 	g_string_free(text, TRUE);
 }
 
+static void check_marks(void)
+{
+	char *path = in_folder("wrong.rung");
+
+	g_file_set_contents(path, "RUNGBOARD 1\nVAR\n  A : BOOL;\nEND_VAR\n"
+			    "PROGRAM Main LD\nRUNG\n  | NO A | NO Missing | COIL A |\n"
+			    "END_PROGRAM\n", -1, NULL);
+	CHECK(render("OUT/wrong.rung -o OUT/plain.svg") == 0);
+	CHECK(!has("plain.svg", "<polyline"));
+	CHECK(render("--check OUT/wrong.rung -o OUT/wrong.svg") == 1);
+	CHECK(strstr(said, "rung 1 (1,2)") && strstr(said, "Missing"));
+	CHECK(has("wrong.svg", "<polyline") &&
+	      has("wrong.svg", "<text class=\"symbol f-error\""));
+	CHECK(render("--check " SHAPES " -o OUT/a.pdf") == 2);
+	g_free(path);
+}
+
+/* Every option of the help is told in the document, and none that is not there. */
+static void check_document(void)
+{
+	char *text = NULL, *place;
+	int missing = 0, options = 0;
+
+	CHECK(g_file_get_contents("docs/pictures.md", &text, NULL, NULL));
+	int keep = dup(1);
+	char *path = in_folder("help");
+	fflush(stdout);
+	if (freopen(path, "w", stdout)) {
+		render("--help");
+		fflush(stdout);
+	}
+	dup2(keep, 1);
+	close(keep);
+	char *help = content("help", NULL);
+	for (place = help; (place = strstr(place, "--")); place += 2) {
+		size_t len = strspn(place + 2, "abcdefghijklmnopqrstuvwxyz") + 2;
+		char *option = g_strndup(place, len);
+
+		options++;
+		missing += !text || !strstr(text, option);
+		g_free(option);
+	}
+	CHECK(options > 12);
+	CHECK_AS(missing == 0, "docs/pictures.md tells all options");
+	g_free(help);
+	g_free(path);
+	g_free(text);
+}
+
 static void clear_folder(void)
 {
 	GDir *dir = g_dir_open(folder, 0, NULL);
@@ -251,6 +300,8 @@ int main(void)
 	check_diff();
 	check_wrong();
 	check_tall();
+	check_marks();
+	check_document();
 	clear_folder();
 	g_free(folder);
 	g_free(said);
