@@ -6,6 +6,8 @@
 
 #include "editor-gtk/palette.h"
 #include "editor-gtk/panels.h"
+#include "editor-gtk/problems.h"
+#include "editor-gtk/uses_view.h"
 
 #include <string.h>
 
@@ -105,7 +107,6 @@ static void show_checked(LadderWindow *window)
 	else
 		text = g_strdup(_("no problems"));
 	gtk_label_set_text(window->checked_label, text);
-	window->problem = -1;
 	g_free(text);
 }
 
@@ -129,16 +130,36 @@ static void add_below(LadderWindow *window, GtkWidget *panel, const char *name,
 	gtk_stack_add_titled(window->below_stack, panel, name, title);
 }
 
+/* A tab whose name tells how much is in it. */
+static void show_problems_title(LadderWindow *window)
+{
+	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
+	char *title;
+
+	g_object_get(problems, "title", &title, NULL);
+	g_object_set(gtk_stack_get_page(window->below_stack, problems), "title", title,
+		     NULL);
+	g_free(title);
+}
+
 static void add_panels(LadderWindow *window)
 {
 	LadderDocument *document = window->document;
+	GtkWidget *problems = ladder_problems_new(), *uses = ladder_uses_view_new();
 
 	gtk_paned_set_start_child(window->side, ladder_project_tree_new(document));
 	gtk_paned_set_end_child(window->side, ladder_palette_new(document));
 	gtk_paned_set_position(window->side, 230);
+	add_below(window, problems, "problems", _("Problems"));
+	ladder_problems_set_document(LADDER_PROBLEMS(problems), document);
+	g_signal_connect_object(problems, "notify::title", G_CALLBACK(show_problems_title),
+				window, G_CONNECT_SWAPPED);
+	add_below(window, uses, "uses", _("Cross reference"));
+	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), document);
 	add_below(window, ladder_code_view_new(document), "list", _("Instruction list"));
 	add_below(window, ladder_log_view_new(document), "log", _("Log"));
 	gtk_paned_set_position(window->below_paned, 620);
+	window_find_init(window);
 }
 
 /* ---- life ---- */

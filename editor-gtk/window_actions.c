@@ -8,7 +8,7 @@
 
 #include "editor-gtk/app.h"
 #include "editor-gtk/commands.h"
-#include "editor-gtk/panels.h"
+#include "editor-gtk/problems.h"
 
 #include "engine/base/version.h"
 
@@ -46,20 +46,10 @@ static void do_redo(LadderWindow *window)
 
 static void do_next_problem(LadderWindow *window)
 {
-	const struct diag_list *diags = ladder_document_diags(window->document);
-	const struct project *project = ladder_document_project(window->document);
-	const struct diag *diag;
+	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
 
-	if (diags->count == 0) {
+	if (!ladder_problems_next(LADDER_PROBLEMS(problems), false))
 		ladder_window_tell(window, _("no problems"));
-		return;
-	}
-	window->problem = (window->problem + 1) % diags->count;
-	diag = &diags->diag[window->problem];
-	ladder_window_tell(window, _(diag_text(diag->id)));
-	for (int i = 0; project && diag->pou && i < project->pou_count; i++)
-		if (g_strcmp0(diag->pou, project_text(project, project->pou[i].name)) == 0)
-			tabs_go(window, i, diag->rung - 1, diag->row - 1, diag->col - 1);
 }
 
 static void do_sheet_by(LadderWindow *window, bool next)
@@ -172,6 +162,12 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_close: gtk_window_close(GTK_WINDOW(window)); break;
 	case VERB_undo: do_undo(window); break;
 	case VERB_redo: do_redo(window); break;
+	case VERB_find: case VERB_replace: case VERB_find_next:
+	case VERB_find_previous:
+		window_find(window, verb);
+		break;
+	case VERB_show_uses: names_show_uses(window); break;
+	case VERB_symbols: tabs_show_widget(window, "symbols"); break;
 	case VERB_rename: names_rename(window); break;
 	case VERB_go_coil: names_go_driver(window); break;
 	case VERB_go_rung: ask_rung(window); break;
@@ -219,6 +215,12 @@ static void rename_pou(GtkWidget *widget, const char *name, GVariant *what)
 	names_rename_pou(LADDER_WINDOW(widget), pou, to);
 }
 
+static void show_uses(GtkWidget *widget, const char *action, GVariant *name)
+{
+	(void)action;
+	names_show_uses_of(LADDER_WINDOW(widget), g_variant_get_string(name, NULL));
+}
+
 static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 {
 	LadderGridView *sheet = tabs_sheet(LADDER_WINDOW(widget));
@@ -235,6 +237,7 @@ void window_install_actions(GtkWidgetClass *class)
 						NULL, act);
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
 	gtk_widget_class_install_action(class, "win.rename-pou", "(is)", rename_pou);
+	gtk_widget_class_install_action(class, "win.show-uses", "s", show_uses);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 }
 

@@ -7,6 +7,7 @@
 #include "editor-gtk/window_inside.h"
 
 #include "editor-gtk/panels.h"
+#include "editor-gtk/symbols_view.h"
 #include "editor-gtk/text_view.h"
 
 #include <string.h>
@@ -149,13 +150,23 @@ void tabs_show(LadderWindow *window, int pou)
 	adw_tab_view_set_selected_page(window->tabs, page);
 }
 
+static GtkWidget *symbols_page(LadderWindow *window)
+{
+	GtkWidget *symbols = ladder_symbols_view_new();
+
+	ladder_symbols_view_set_document(LADDER_SYMBOLS_VIEW(symbols), window->document);
+	return symbols;
+}
+
 /* Names of POUs have no blank before them. */
 static AdwTabPage *open_widget(LadderWindow *window, const char *name)
 {
 	char *key = g_strdup_printf(" %s", name);
 	AdwTabPage *page = find_page(window, key);
 
-	if (!page && strcmp(name, "text") == 0)
+	if (!page && strcmp(name, "symbols") == 0)
+		page = add_page(window, symbols_page(window), key, _("Symbols"), false);
+	else if (!page && strcmp(name, "text") == 0)
 		page = add_page(window, ladder_text_view_new(window->document, -1), key,
 				_("Text of the file"), false);
 	g_free(key);
@@ -258,6 +269,7 @@ void tabs_update(LadderWindow *window)
 		for (int i = 0; i < MIN(project->pou_count, OPEN_MOST); i++)
 			if (!project->pou[i].included)
 				open_pou(window, i);
+		open_widget(window, "symbols");
 		tabs_show(window, 0);
 	}
 	show_place(window);
