@@ -66,7 +66,7 @@ static int number(const char **at, const char *end, int base)
 static bool bit_of(enum iec_area area, int bit, struct iec_addr *out)
 {
 	*out = (struct iec_addr){ area, 1, (uint8_t)(bit % 8), (uint32_t)(bit / 8) };
-	return out->byte < iec_area_row(area)->bytes;
+	return out->byte < iec_area_row(area)->most;
 }
 
 /* Mitsubishi: X0 … X7 are the same in octal and hexadecimal; beyond they are not. */

@@ -6,6 +6,7 @@
 #include "engine/base/digest.h"
 #include "engine/scan/code.h"
 #include "tests/tap.h"
+#include "tests/usual.h"
 
 #include <stdlib.h>
 
@@ -44,7 +45,7 @@ enum {
 
 static uint32_t own(uint32_t offset)
 {
-	return iec_areas_size() + offset;
+	return usual_areas()->size + offset;
 }
 
 static uint32_t own_as(enum iec_type type, uint32_t offset)
@@ -80,8 +81,8 @@ static void draft_text(struct draft *d)
 	uint32_t text[WORDS] = {
 		op(VM_LUT, 1), own(FLAG), own(FLAG + 1), own(1),
 		own(FLAG + 2) << 8 | 0x80,
-		op(VM_BITGET, 7), iec_area_row(AREA_M)->offset, own(FLAG + 4),
-		op(VM_BITPUT, 7), own(FLAG), iec_area_row(AREA_M)->offset,
+		op(VM_BITGET, 7), usual_areas()->at[AREA_M], own(FLAG + 4),
+		op(VM_BITPUT, 7), own(FLAG), usual_areas()->at[AREA_M],
 		op(VM_COPY, 0), own(1), own_as(IEC_DINT, NUMBER),
 		own_as(IEC_DINT, FIXED),
 		op(VM_CMP, CMP_NE), own(FLAG + 5), own_as(IEC_DINT, NUMBER),
@@ -118,7 +119,7 @@ static void draft_tasks(struct draft *d)
 
 static void draft_maps(struct draft *d)
 {
-	uint32_t bit = (iec_area_row(AREA_M)->offset * 8) + 3;
+	uint32_t bit = (usual_areas()->at[AREA_M] * 8) + 3;
 
 	memcpy(d->string, "Flag\0N\0C\0B\0Main", 16);
 	d->symbol[0] = own_as(IEC_BOOL, FLAG);
@@ -140,6 +141,8 @@ static void draft_good(struct draft *d)
 	memcpy(d->header.magic, CODE_MAGIC, sizeof(d->header.magic));
 	d->header.version = CODE_VERSION;
 	d->header.words = WORD_COUNT;
+	memcpy(d->header.area_bytes, usual_areas()->bytes,
+	       sizeof(usual_areas()->bytes));
 	draft_layout(d);
 	draft_text(d);
 	draft_tasks(d);
@@ -256,6 +259,43 @@ static void test_layout(void)
 	REFUSED(d.header.budget = LIMIT_BUDGET + 1);
 }
 
+/* A header that lies: larger or smaller than what lies there, or what cannot be. */
+static void test_areas(void)
+{
+	uint32_t last = usual_areas()->size - 4;
+	struct draft whole;
+
+	for (int area = AREA_NONE; area < CODE_AREAS; area++) {
+		REFUSED(d.header.area_bytes[area] += 8);
+		REFUSED(d.header.area_bytes[area] -= 8);
+		REFUSED(d.header.area_bytes[area] = LIMIT_MEMORY + 1);
+		REFUSED(d.header.area_bytes[area] = UINT32_MAX);
+		REFUSED(d.header.area_bytes[area] = UINT32_MAX - 7);
+	}
+	REFUSED(memset(d.header.area_bytes, 0, sizeof(d.header.area_bytes)));
+	REFUSED(d.header.area_bytes[AREA_NONE] = 1);
+	REFUSED(d.header.area_bytes[AREA_COUNT] = 1);
+	REFUSED(d.header.area_bytes[AREA_SM] = 63);
+	REFUSED(d.header.area_bytes[AREA_M] = d.header.area_bytes[AREA_V] = LIMIT_MEMORY);
+	/* The byte behind the last one is nobody's, even where nothing else lies. */
+	draft_good(&whole);
+	whole.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, last);
+	CHECK_AS(judge(&whole) == DIAG_COUNT, "the last word of the last area");
+	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, last);
+		d.header.area_bytes[AREA_XAQ]--);
+	draft_good(&whole);
+	whole.header.area_bytes[AREA_XAQ]--;
+	CHECK_AS(judge(&whole) == DIAG_COUNT, "which may be smaller if nobody asks for it");
+	REFUSED(d.text[AT_BITPUT + 2] = last + 3; d.header.area_bytes[AREA_XAQ]--);
+	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_BOOL | SYMBOL_BIT, (last + 3) * 8);
+		d.header.area_bytes[AREA_XAQ]--);
+	REFUSED(d.init[0] = last + 3; d.header.area_bytes[AREA_XAQ]--);
+	/* From one area into the next, which may be written too. */
+	REFUSED(d.text[AT_COPY + 2] =
+		CODE_OPERAND(IEC_DINT, usual_areas()->at[AREA_V] - 2));
+	REFUSED(d.bits[1].first = 511 * 8 + 6; d.header.area_bytes[AREA_Q]--);
+}
+
 static void test_init(void)
 {
 	REFUSED(d.init[2] = 2);
@@ -276,7 +316,7 @@ static void test_bits(void)
 	REFUSED(d.bits[1].area = AREA_COUNT);
 	REFUSED(d.bits[1].area = AREA_I);
 	REFUSED(d.bits[0].area = AREA_M);
-	REFUSED(d.bits[1].first = iec_area_row(AREA_Q)->bytes * 8u - 1);
+	REFUSED(d.bits[1].first = usual_areas()->bytes[AREA_Q] * 8u - 1);
 	REFUSED(d.bits[1].first = UINT32_MAX);
 	REFUSED(d.bits[1].slot = own(0));
 	REFUSED(d.bits[1].slot = own(NUMBER));
@@ -287,7 +327,7 @@ static void test_bits(void)
 
 static void test_operands(void)
 {
-	uint32_t input = iec_area_row(AREA_I)->offset;
+	uint32_t input = usual_areas()->at[AREA_I];
 
 	REFUSED(d.text[AT_LUT] = op(VM_LUT, 0));
 	REFUSED(d.text[AT_LUT + 1] = own(NUMBER));
@@ -305,12 +345,12 @@ static void test_operands(void)
 	REFUSED(d.text[AT_COPY + 1] = own(NUMBER));
 	REFUSED(d.text[AT_COPY + 2] = own_as(IEC_DINT, FIXED));
 	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, input));
-	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_INT, iec_area_row(AREA_M)->offset));
+	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_INT, usual_areas()->at[AREA_M]));
 	REFUSED(d.text[AT_COPY + 2] = own_as(IEC_INT, NUMBER));
 	REFUSED(d.text[AT_COPY + 3] = own_as(IEC_DINT, FLAG));
 	REFUSED(d.text[AT_COPY + 3] = own_as(IEC_TYPE_COUNT, FIXED));
 	/* Across the end of an area, and of memory. */
-	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, iec_areas_size() - 3));
+	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, usual_areas()->size - 3));
 	REFUSED(d.text[AT_COPY + 3] = CODE_OPERAND(IEC_DINT, d.header.data_size - 2));
 	REFUSED(d.text[AT_CMP] = op(VM_CMP, CMP_COUNT));
 	REFUSED(d.text[AT_CMP + 1] = own(1));
@@ -385,7 +425,7 @@ static void test_maps(void)
 	REFUSED(d.symbol[2]++);
 	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_DINT | SYMBOL_BIT, 3));
 	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_BOOL | SYMBOL_BIT,
-					   iec_areas_size() * 8));
+					   usual_areas()->size * 8));
 	REFUSED(d.group[0].first = 1);
 	REFUSED(d.group[1].first = 0);
 	REFUSED(d.group[2].first = 1);
@@ -445,7 +485,7 @@ static void test_tasks(void)
 	struct draft good;
 
 	draft_good(&good);
-	good.task[1].single = CODE_OPERAND(7, iec_area_row(AREA_I)->offset);
+	good.task[1].single = CODE_OPERAND(7, usual_areas()->at[AREA_I]);
 	CHECK_AS(judge(&good) == DIAG_COUNT, "a bit of an area");
 	REFUSED(d.task[0].kind = 3);
 	REFUSED(d.task[0].interval[0] = 99999);
@@ -520,8 +560,8 @@ static void test_blocks(void)
 	REFUSED(append_block(&d, own(FLAG), own(NUMBER), 4));
 	REFUSED(append_block(&d, own(NUMBER), own(FIXED), 4));
 	REFUSED(append_block(&d, own(0), own(1), 1));
-	REFUSED(append_block(&d, iec_area_row(AREA_M)->offset,
-			     iec_area_row(AREA_M)->offset + 8, 4));
+	REFUSED(append_block(&d, usual_areas()->at[AREA_M],
+			     usual_areas()->at[AREA_M] + 8, 4));
 	/* Half an instance, another block, none at the other side. */
 	REFUSED(append_block(&d, own(COUNTER), own(COUNTER) + size, 4));
 	REFUSED(append_block(&d, own(COUNTER) + 1, own(COUNTER) + size + 1,
@@ -589,6 +629,7 @@ int main(void)
 	test_good();
 	test_header();
 	test_layout();
+	test_areas();
 	test_init();
 	test_bits();
 	test_operands();

@@ -64,6 +64,7 @@ struct walker {
 	int variable_count;
 	struct shown *shown;
 	int shown_count;
+	struct areas areas;
 	uint8_t *area[AREA_COUNT];
 	int64_t now_ns, start_ns;
 	uint64_t scans;

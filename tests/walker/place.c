@@ -55,7 +55,7 @@ static struct value initial(const struct var *var, uint32_t number)
 static struct placed at_address(struct walker *walker, struct iec_addr addr,
 				enum iec_type type)
 {
-	uint32_t bits = iec_area_row(addr.area)->bytes * 8;
+	uint32_t bits = walker->areas.bytes[addr.area] * 8;
 
 	return (struct placed){
 		.kind = PLACED_AREA, .type = type,
@@ -230,9 +230,11 @@ bool walker_declare(struct walker *walker)
 				       sizeof(*walker->variable) + 1);
 	if (!walker->variable)
 		return false;
+	if (!project_areas(project, &walker->areas))
+		return false;
 	for (int i = AREA_NONE + 1; i < AREA_COUNT; i++) {
 		walker->area[i] = arena_alloc(&walker->arena,
-			iec_area_row((enum iec_area)i)->bytes + 8);
+			walker->areas.bytes[i] + 8);
 		if (!walker->area[i])
 			return false;
 	}
@@ -359,7 +361,8 @@ struct placed walker_place(struct walker *walker, const struct pou *pou,
 	if (literal_parse(text, len, &placed.literal) == LITERAL_OK) {
 		placed.kind = PLACED_LITERAL;
 		placed.type = placed.literal.type;
-	} else if (iec_addr_parse(text, len, &addr) == ADDR_OK) {
+	} else if (iec_addr_parse(text, len, &addr) == ADDR_OK &&
+		   areas_have(&walker->areas, addr)) {
 		return at_address(walker, addr, iec_addr_type(addr));
 	}
 	return placed;

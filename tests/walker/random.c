@@ -439,6 +439,23 @@ static void add_flow(struct random_source *source, struct random_program *progra
 	}
 }
 
+/* Small ones, of any number of bytes, or larger than usual. What programs name by a
+ * fixed address stays inside; what they index does not. */
+static void draw_areas(struct random_source *source, struct random_program *program)
+{
+	static const struct { uint32_t least, more; } bounds[RANDOM_AREAS] = {
+		{ 16, 40 }, { 16, 40 }, { 24, 60 }, { 0, 9 }, { 0, 9 },
+	};
+
+	program->sized = random_chance(source, 30);
+	for (int i = 0; i < RANDOM_AREAS; i++) {
+		uint32_t most = random_chance(source, 25) ? 8000 : 0;
+
+		program->bytes[i] = bounds[i].least +
+				    random_below(source, bounds[i].more + most);
+	}
+}
+
 void random_make(struct random_program *program, uint64_t seed)
 {
 	struct random_source source;
@@ -469,6 +486,7 @@ void random_make(struct random_program *program, uint64_t seed)
 	if (program->rungs >= 4 && second == program->rungs &&
 	    random_chance(&source, 15))
 		make_loop(program);
+	draw_areas(&source, program);
 }
 
 struct page {
@@ -527,6 +545,22 @@ static void print_rung(const struct random_program *program,
 	}
 }
 
+static void print_areas(const struct random_program *program, struct page *page)
+{
+	static const char *const letters[RANDOM_AREAS] = { "I", "Q", "M", "V", "XAQ" };
+	char line[64];
+
+	if (!program->sized)
+		return;
+	add(page, "CONFIGURATION Sizes\n");
+	for (int i = 0; i < RANDOM_AREAS; i++) {
+		snprintf(line, sizeof(line), "  AREA %s %u;\n", letters[i],
+			 (unsigned)program->bytes[i]);
+		add(page, line);
+	}
+	add(page, "END_CONFIGURATION\n");
+}
+
 size_t random_print(const struct random_program *program, char *out,
 		    size_t size)
 {
@@ -552,6 +586,7 @@ size_t random_print(const struct random_program *program, char *out,
 	add(&page, line);
 	add(&whole, "RUNGBOARD 1\n");
 	whole.used += random_declare(body, out + whole.used, size - whole.used);
+	print_areas(program, &whole);
 	add(&whole, body);
 	return whole.used;
 }
