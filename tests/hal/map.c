@@ -65,7 +65,7 @@ static void test_refusals(void)
 	BAD("%IX0.0\n", "test.io:2:1: error LD501");
 	BAD("%MX0.0 sim", "LD502");
 	BAD("%IW0 sim", "LD502");
-	BAD("%IX600.0 sim", "LD502");
+	BAD("%IX8192.0 sim", "LD502");
 	BAD("%IX0.8 sim", "LD502");
 	BAD("hello sim", "LD502");
 	BAD("%IX0.0 modem", "test.io:2:8: error LD503: unknown driver: modem");

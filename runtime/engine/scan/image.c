@@ -152,33 +152,35 @@ static uint8_t pack8(const uint8_t *slot)
 	return (uint8_t)((spread * 0x0102040810204080u) >> 56);
 }
 
-static void unpack(uint8_t *m, const uint8_t *area, const struct code_bits *bits)
+static void unpack(uint8_t *slot, const uint8_t *area, const struct code_bits *bits)
 {
-	uint32_t k = 0;
+	uint32_t bit = bits->first, end = bit + bits->count;
 
-	for (; k < bits->count; k++) {
-		uint32_t bit = bits->first + k;
-
-		if (bit % 8 == 0 && bits->count - k >= 8) {
-			unpack8(m + bits->slot + k, area[bit / 8]);
-			k += 7;
-			continue;
+	while (bit < end) {
+		if (bit % 8 == 0 && end - bit >= 8) {
+			unpack8(slot, area[bit / 8]);
+			slot += 8;
+			bit += 8;
+		} else {
+			*slot++ = area[bit / 8] >> bit % 8 & 1;
+			bit++;
 		}
-		m[bits->slot + k] = area[bit / 8] >> bit % 8 & 1;
 	}
 }
 
-static void pack(const uint8_t *m, uint8_t *area, const struct code_bits *bits)
+static void pack(const uint8_t *slot, uint8_t *area, const struct code_bits *bits)
 {
-	for (uint32_t k = 0; k < bits->count; k++) {
-		uint32_t bit = bits->first + k;
+	uint32_t bit = bits->first, end = bit + bits->count;
 
-		if (bit % 8 == 0 && bits->count - k >= 8) {
-			area[bit / 8] = pack8(m + bits->slot + k);
-			k += 7;
-			continue;
+	while (bit < end) {
+		if (bit % 8 == 0 && end - bit >= 8) {
+			area[bit / 8] = pack8(slot);
+			slot += 8;
+			bit += 8;
+		} else {
+			set_packed(&area[bit / 8], bit % 8, *slot++);
+			bit++;
 		}
-		set_packed(&area[bit / 8], bit % 8, m[bits->slot + k]);
 	}
 }
 
@@ -204,10 +206,10 @@ void image_begin(struct image *image)
 
 	for (uint32_t i = 0; i < program->bits_count; i++) {
 		const struct code_bits *bits = &program->bits[i];
-		enum iec_area area = (enum iec_area)bits->area;
+		uint8_t *area = image->memory + program->areas.at[bits->area];
 
-		if (iec_area_row(area)->access == ACCESS_READ)
-			unpack(image->memory, image_area(image, area), bits);
+		if (iec_area_row((enum iec_area)bits->area)->access == ACCESS_READ)
+			unpack(image->memory + bits->slot, area, bits);
 	}
 	hold(image);
 }
@@ -218,10 +220,10 @@ void image_end(struct image *image)
 
 	for (uint32_t i = 0; i < program->bits_count; i++) {
 		const struct code_bits *bits = &program->bits[i];
-		enum iec_area area = (enum iec_area)bits->area;
+		uint8_t *area = image->memory + program->areas.at[bits->area];
 
-		if (iec_area_row(area)->access == ACCESS_WRITE)
-			pack(image->memory, image_area(image, area), bits);
+		if (iec_area_row((enum iec_area)bits->area)->access == ACCESS_WRITE)
+			pack(image->memory + bits->slot, area, bits);
 	}
 	hold(image);
 }

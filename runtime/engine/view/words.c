@@ -193,7 +193,7 @@ static void note_size(const struct iec_area_row *area, const struct sink *sink)
 {
 	sink_printf(sink, "%u bytes", (unsigned)area->usual);
 	if (area->most != area->usual)
-		sink_printf(sink, " unless AREA says another size, up to %u",
+		sink_printf(sink, " (AREA: %u to %u)", (unsigned)area->least,
 			    (unsigned)area->most);
 }
 
