@@ -65,7 +65,7 @@ bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
 		   bool value);
 
 /** image_locate - where a direct address lives in this image; type IEC_NONE: its areas
- * do not reach there. */
+ * do not reach there.   Scan-safe: yes. */
 struct location image_locate(const struct image *image, struct iec_addr addr);
 /** image_find - where a variable or address lives, by its name in the source:
  * `Motor`, `Main.Motor`, `Runout.Q`, `Table[3]`, `%QX0.0`, `Q3`. type IEC_NONE: unknown.
