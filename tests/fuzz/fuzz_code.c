@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define BUDGET_MAX 2000u
-#define DATA_MAX (1u << 20)
+#define DATA_MAX (2u << 20)
 
 static bool is_text(const uint8_t *bytes, size_t len)
 {
