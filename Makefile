@@ -209,7 +209,7 @@ EDITOR_TESTS += $(patsubst %.c,$(BUILD)/%,$(filter-out tests/editor/test_plain_%
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
 $(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
-  $(EDITOR_TESTS:%=%.o): CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='"$(prefix)/share/locale"'
+  $(EDITOR_TESTS:%=%.o): CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='"$(prefix)/share/locale"' -DDATADIR='"$(prefix)/share"'
 $(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(wildcard editor-gtk/ui/*)
 	@mkdir -p $(@D)
 	glib-compile-resources --sourcedir=editor-gtk --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml
@@ -230,6 +230,26 @@ no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is le
 endif
 # A person's work, with pointer and keys on a screen of its own: PICTURES=folder keeps what was seen.
 EDITOR_PERSON := $(if $(EDITOR),$(filter-out %/desk.py,$(wildcard tests/editor/person/*.py)))
+# What a desktop needs to find it.
+install: $(if $(EDITOR),install-editor)
+appdir = $(DESTDIR)$(prefix)/share
+install-editor: $(BUILD)/ladder-editor
+	install -d $(DESTDIR)$(prefix)/bin $(appdir)/applications $(appdir)/metainfo $(appdir)/mime/packages \
+	  $(appdir)/icons/hicolor/scalable/apps $(appdir)/glib-2.0/schemas $(appdir)/rungboard/ladders
+	install -m 755 $(BUILD)/ladder-editor $(DESTDIR)$(prefix)/bin/ladder-editor
+	install -m 644 packaging/org.rungboard.Editor.desktop $(appdir)/applications/
+	install -m 644 packaging/org.rungboard.Editor.metainfo.xml $(appdir)/metainfo/
+	install -m 644 packaging/rungboard.xml $(appdir)/mime/packages/
+	install -m 644 packaging/org.rungboard.Editor.svg $(appdir)/icons/hicolor/scalable/apps/
+	install -m 644 packaging/org.rungboard.Editor.gschema.xml $(appdir)/glib-2.0/schemas/
+	install -m 644 ladders/*.rung ladders/*.scn $(appdir)/rungboard/ladders/
+	$(if $(DESTDIR),,-glib-compile-schemas $(appdir)/glib-2.0/schemas; update-mime-database $(appdir)/mime; update-desktop-database $(appdir)/applications)
+.PHONY: install-editor
+# In the build the schema lies beside the program: GSETTINGS_SCHEMA_DIR=build/schemas.
+$(BUILD)/schemas/gschemas.compiled: packaging/org.rungboard.Editor.gschema.xml
+	@mkdir -p $(@D)
+	glib-compile-schemas --strict --targetdir=$(@D) packaging
+all: $(if $(EDITOR),$(BUILD)/schemas/gschemas.compiled)
 editor-tests: $(EDITOR_TESTS) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
 	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
 .PHONY: editor-tests

@@ -9,6 +9,7 @@
 #include "editor-gtk/app.h"
 #include "editor-gtk/commands.h"
 #include "editor-gtk/problems.h"
+#include "editor-gtk/settings.h"
 
 #include "engine/base/version.h"
 
@@ -115,13 +116,37 @@ static void do_show_as(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
 
-	if (sheet)
-		ladder_grid_view_set_show(sheet, (ladder_grid_view_show(sheet) + 1) % 3);
+	if (!sheet)
+		return;
+	ladder_grid_view_set_show(sheet, (ladder_grid_view_show(sheet) + 1) % 3);
+	if (settings_get())
+		g_settings_set_enum(settings_get(), "show",
+				    (int)ladder_grid_view_show(sheet));
 }
 
 static void toggle(GtkWidget *widget)
 {
 	gtk_widget_set_visible(widget, !gtk_widget_get_visible(widget));
+}
+
+/* Light, dark, as the desktop has it. */
+static void do_appearance(LadderWindow *window)
+{
+	static const AdwColorScheme schemes[] = {
+		ADW_COLOR_SCHEME_DEFAULT, ADW_COLOR_SCHEME_FORCE_LIGHT,
+		ADW_COLOR_SCHEME_FORCE_DARK,
+	};
+	static const char *const names[] = {
+		N_("as the desktop"), N_("light"), N_("dark"),
+	};
+	AdwStyleManager *manager = adw_style_manager_get_default();
+	const AdwColorScheme now = adw_style_manager_get_color_scheme(manager);
+	int next = now == schemes[0] ? 1 : now == schemes[1] ? 2 : 0;
+
+	adw_style_manager_set_color_scheme(manager, schemes[next]);
+	if (settings_get())
+		g_settings_set_enum(settings_get(), "appearance", next);
+	ladder_window_tell(window, _(names[next]));
 }
 
 static void do_fullscreen(LadderWindow *window)
@@ -180,9 +205,11 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_zoom_reset: zoom(window, 0); break;
 	case VERB_side: toggle(GTK_WIDGET(window->side)); break;
 	case VERB_below: toggle(GTK_WIDGET(window->below)); break;
+	case VERB_appearance: do_appearance(window); break;
 	case VERB_fullscreen: do_fullscreen(window); break;
 	case VERB_palette: commands_show(window); break;
 	case VERB_shortcuts: keys_show(window); break;
+	case VERB_welcome: tabs_show_widget(window, "welcome"); break;
 	case VERB_about: do_about(window); break;
 	default: break;
 	}
@@ -221,6 +248,30 @@ static void show_uses(GtkWidget *widget, const char *action, GVariant *name)
 	names_show_uses_of(LADDER_WINDOW(widget), g_variant_get_string(name, NULL));
 }
 
+static void open_path(GtkWidget *widget, const char *action, GVariant *path)
+{
+	(void)action;
+	app_open_path(LADDER_WINDOW(widget), g_variant_get_string(path, NULL));
+}
+
+static void open_sample(GtkWidget *widget, const char *action, GVariant *path)
+{
+	(void)action;
+	app_open_sample(LADDER_WINDOW(widget), g_variant_get_string(path, NULL));
+}
+
+/* From the welcome page to the empty sheet. */
+static void begin(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderWindow *window = LADDER_WINDOW(widget);
+	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
+
+	(void)action;
+	(void)unused;
+	tabs_show(window, 0);
+	adw_tab_view_close_page(window->tabs, page);
+}
+
 static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 {
 	LadderGridView *sheet = tabs_sheet(LADDER_WINDOW(widget));
@@ -238,6 +289,9 @@ void window_install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
 	gtk_widget_class_install_action(class, "win.rename-pou", "(is)", rename_pou);
 	gtk_widget_class_install_action(class, "win.show-uses", "s", show_uses);
+	gtk_widget_class_install_action(class, "win.open-path", "s", open_path);
+	gtk_widget_class_install_action(class, "win.open-sample", "s", open_sample);
+	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 }
 

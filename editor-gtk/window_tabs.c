@@ -9,6 +9,7 @@
 #include "editor-gtk/panels.h"
 #include "editor-gtk/symbols_view.h"
 #include "editor-gtk/text_view.h"
+#include "editor-gtk/welcome.h"
 
 #include <string.h>
 
@@ -166,6 +167,8 @@ static AdwTabPage *open_widget(LadderWindow *window, const char *name)
 
 	if (!page && strcmp(name, "symbols") == 0)
 		page = add_page(window, symbols_page(window), key, _("Symbols"), false);
+	else if (!page && strcmp(name, "welcome") == 0)
+		page = add_page(window, welcome_new(), key, _("Welcome"), false);
 	else if (!page && strcmp(name, "text") == 0)
 		page = add_page(window, ladder_text_view_new(window->document, -1), key,
 				_("Text of the file"), false);
@@ -219,6 +222,8 @@ static bool update_page(AdwTabPage *page, const struct project *project)
 	const char *name = name_of(page);
 	int pou;
 
+	if (strcmp(name, " welcome") == 0)
+		return false; /* something was opened */
 	if (name[0] == ' ')
 		return (strcmp(name, " text") == 0) == !project;
 	pou = pou_number(project, name);
