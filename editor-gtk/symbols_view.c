@@ -69,6 +69,7 @@ static char *spoken(const struct symbol_row *symbol, const char *error)
 static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row *symbol)
 {
 	LadderPanelRow *row = ladder_panel_row_new();
+	bool warning = false;
 
 	for (int i = 0; i < SYMBOL_FIELDS; i++)
 		row->text[i] = g_strdup(symbol->text[i]);
@@ -79,8 +80,8 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 	row->index = symbol->index;
 	row->flags = (symbol->included ? SYMBOLS_FIXED : 0u) |
 		     (symbol->member ? SYMBOLS_MEMBER : 0u);
-	row->note = symbol_error(document, symbol);
-	row->tone = row->note ? PANEL_ERROR : PANEL_PLAIN;
+	row->note = symbol_error(document, symbol, &warning);
+	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
 	row->spoken = spoken(symbol, row->note);
 	return row;
 }

@@ -8,6 +8,7 @@
 #include "engine/base/ascii.h"
 #include "engine/view/address_map.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 struct maker {
@@ -207,6 +208,20 @@ static void add_double(struct maker *maker)
 
 /* ---- all ---- */
 
+static int by_rank(gconstpointer left, gconstpointer right)
+{
+	const struct xref_use *a = left, *b = right;
+	const int64_t x = xref_rank(&a->target), y = xref_rank(&b->target);
+
+	if (x != y)
+		return x < y ? -1 : 1;
+	if (a->pou != b->pou)
+		return a->pou - b->pou;
+	if (a->rung != b->rung)
+		return a->rung - b->rung;
+	return a->row != b->row ? a->row - b->row : a->col - b->col;
+}
+
 GPtrArray *uses_rows(LadderDocument *document, enum uses_mode mode, int pou,
 		     const char *symbol)
 {
@@ -223,6 +238,9 @@ GPtrArray *uses_rows(LadderDocument *document, enum uses_mode mode, int pou,
 		add_unused(&maker);
 	else if (mode == USES_DOUBLE)
 		add_double(&maker);
+	if (mode == USES_ALL && maker.xref.count)
+		qsort(maker.xref.use, (size_t)maker.xref.count, sizeof(*maker.xref.use),
+		      by_rank);
 	for (int i = 0; mode == USES_ALL && i < maker.xref.count; i++)
 		add_row(&maker, &maker.xref.use[i]);
 	xref_free(&maker.xref);
