@@ -35,15 +35,18 @@ static int pou_of(const struct project *project, const char *name)
 	return -1;
 }
 
-static char *place_text(const struct diag *diag)
+/* @row: of the text of a list, 0-based; -1: it is none. */
+static char *place_text(const struct diag *diag, int row)
 {
 	if (diag->rung && diag->row)
 		return g_strdup_printf(_("%s, rung %d, row %d, column %d"), diag->pou,
 				       diag->rung, diag->row, diag->col);
 	if (diag->rung)
 		return g_strdup_printf(_("%s, rung %d"), diag->pou, diag->rung);
-	if (diag->pou && diag->line)
-		return g_strdup_printf(_("%s, line %d"), diag->pou, diag->line);
+	if (diag->pou && row >= 0)
+		return g_strdup_printf(_("%s, line %d"), diag->pou, row + 1);
+	if (diag->pou)
+		return g_strdup(diag->pou);
 	return diag->line ? g_strdup_printf(_("line %d"), diag->line) : g_strdup("");
 }
 
@@ -72,7 +75,7 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag)
 	row->text[COLUMN_TEXT] = *diag->arg ?
 		g_strdup_printf("%s: %s", _(diag_text(diag->id)), diag->arg) :
 		g_strdup(_(diag_text(diag->id)));
-	row->text[COLUMN_PLACE] = place_text(diag);
+	row->text[COLUMN_PLACE] = place_text(diag, diag->rung ? -1 : row->row);
 	row->text[COLUMN_CODE] = g_strdup(diag_code(diag->id));
 	row->text[COLUMN_SEVERITY] = g_strdup(error ? _("Error") : _("Warning"));
 	row->note = g_strdup(row->text[COLUMN_SEVERITY]);

@@ -38,24 +38,62 @@ static void show_refusal(GtkWidget *cell, char *why)
 	g_free(why);
 }
 
-static void edited(GtkEditableLabel *label, GParamSpec *spec, GtkListItem *item)
+/* What stands in the cell is what is meant, unless it was refused already. */
+static void commit(GtkWidget *cell, GtkListItem *item)
 {
-	const struct cells *cells = g_object_get_data(G_OBJECT(label), "cells");
+	const struct cells *cells = g_object_get_data(G_OBJECT(cell), "cells");
+	const char *refused = g_object_get_data(G_OBJECT(cell), "refused");
 	LadderPanelRow *row = gtk_list_item_get_item(item);
 	char *text, *why = NULL;
+	bool good;
 
-	(void)spec;
-	if (gtk_editable_label_get_editing(label) || !row)
+	if (!row)
 		return;
-	text = g_strdup(gtk_editable_get_text(GTK_EDITABLE(label)));
+	text = g_strdup(gtk_editable_get_text(GTK_EDITABLE(cell)));
+	if (refused && strcmp(refused, text) == 0) {
+		g_free(text);
+		return;
+	}
 	g_object_ref(row);
-	if (strcmp(text, panel_row_text(row, cells->field)) == 0 ||
-	    cells->set(cells->owner, row, cells->field, text, &why))
-		show_refusal(GTK_WIDGET(label), NULL);
-	else
-		show_refusal(GTK_WIDGET(label), why ? why : g_strdup(_("Refused")));
+	good = strcmp(text, panel_row_text(row, cells->field)) == 0 ||
+	       cells->set(cells->owner, row, cells->field, text, &why);
+	show_refusal(cell, good ? NULL : why ? why : g_strdup(_("Refused")));
+	g_object_set_data_full(G_OBJECT(cell), "refused", good ? NULL : text, g_free);
+	if (good)
+		g_free(text);
 	g_object_unref(row);
-	g_free(text);
+}
+
+static void activated(GtkText *cell, GtkListItem *item)
+{
+	commit(GTK_WIDGET(cell), item);
+}
+
+static void left(GtkEventControllerFocus *focus, GtkListItem *item)
+{
+	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
+
+	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
+	commit(cell, item);
+}
+
+/* Escape: as it was. */
+static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
+			GdkModifierType state, GtkListItem *item)
+{
+	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(keys));
+	const struct cells *cells = g_object_get_data(G_OBJECT(cell), "cells");
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	const char *text = row ? panel_row_text(row, cells->field) : "";
+
+	(void)code;
+	(void)state;
+	if (key != GDK_KEY_Escape ||
+	    strcmp(text, gtk_editable_get_text(GTK_EDITABLE(cell))) == 0)
+		return FALSE;
+	gtk_editable_set_text(GTK_EDITABLE(cell), text);
+	show_refusal(cell, NULL);
+	return TRUE;
 }
 
 static void toggled(GtkCheckButton *check, GtkListItem *item)
@@ -79,17 +117,36 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 
 /* ---- the factory ---- */
 
+static void add_controller(GtkWidget *cell, const char *name, GtkEventController *controller)
+{
+	gtk_widget_add_controller(cell, controller);
+	g_object_set_data(G_OBJECT(cell), name, controller);
+}
+
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
 {
 	const struct cells *cells = data;
-	GtkWidget *cell = is_check(cells->field) ? gtk_check_button_new() :
-						   gtk_editable_label_new("");
+	GtkWidget *cell = is_check(cells->field) ? gtk_check_button_new() : gtk_text_new();
 
 	(void)factory;
 	g_object_set_data(G_OBJECT(cell), "cells", data);
-	if (is_check(cells->field))
+	if (is_check(cells->field)) {
 		gtk_widget_set_halign(cell, GTK_ALIGN_CENTER);
+	} else {
+		add_controller(cell, "focus", gtk_event_controller_focus_new());
+		add_controller(cell, "keys", gtk_event_controller_key_new());
+		gtk_widget_add_css_class(cell, "field");
+	}
 	gtk_list_item_set_child(item, cell);
+}
+
+static void connect_text(GtkWidget *cell, GtkListItem *item)
+{
+	g_signal_connect(cell, "activate", G_CALLBACK(activated), item);
+	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "leave",
+			 G_CALLBACK(left), item);
+	g_signal_connect(g_object_get_data(G_OBJECT(cell), "keys"), "key-pressed",
+			 G_CALLBACK(pressed), item);
 }
 
 static bool is_fixed(const struct cells *cells, const LadderPanelRow *row)
@@ -117,7 +174,8 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);
 	} else {
 		gtk_editable_set_text(GTK_EDITABLE(cell), text);
-		g_signal_connect(cell, "notify::editing", G_CALLBACK(edited), item);
+		g_object_set_data(G_OBJECT(cell), "refused", NULL);
+		connect_text(cell, item);
 	}
 	gtk_accessible_update_property(GTK_ACCESSIBLE(cell),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
@@ -132,8 +190,10 @@ static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointe
 	(void)factory;
 	(void)data;
 	g_signal_handlers_disconnect_by_data(cell, item);
-	if (GTK_IS_EDITABLE_LABEL(cell))
-		gtk_editable_label_stop_editing(GTK_EDITABLE_LABEL(cell), FALSE);
+	if (!GTK_IS_TEXT(cell))
+		return;
+	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "focus"), item);
+	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "keys"), item);
 }
 
 static void free_cells(gpointer cells, GClosure *closure)

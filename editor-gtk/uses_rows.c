@@ -139,21 +139,44 @@ static guint64 key_of(const struct xref_target *target)
 	       (guint32)target->index;
 }
 
-/* A symbol with an address is used, too, if its address is. */
-static bool is_used_by_address(const struct maker *maker, const struct xref_target *target)
+/* A bit each for those that are used by address. */
+static guint8 *used_bits(const struct maker *maker)
 {
-	for (int i = 0; i < maker->xref.count; i++) {
-		const struct xref_use *use = &maker->xref.use[i];
+	guint8 *bits = g_malloc0(iec_areas_size() + 1);
 
-		if (use->target.what == XREF_ADDRESS && xref_touches(&use->target, target))
-			return true;
+	for (int i = 0; i < maker->xref.count; i++) {
+		const struct xref_target *target = &maker->xref.use[i].target;
+		guint at;
+
+		if (target->what != XREF_ADDRESS || target->addr.area == AREA_NONE)
+			continue;
+		at = (iec_area_row(target->addr.area)->offset + target->addr.byte) * 8 +
+		     target->addr.bit;
+		for (guint k = at; k < at + target->addr.bits; k++)
+			bits[k / 8] |= (guint8)(1u << k % 8);
 	}
+	return bits;
+}
+
+/* A symbol with an address is used, too, if its address is. */
+static bool is_used_by_address(const guint8 *bits, const struct xref_target *target)
+{
+	guint at, count = target->addr.bits;
+
+	if (target->addr.area == AREA_NONE)
+		return false;
+	at = (iec_area_row(target->addr.area)->offset + target->addr.byte) * 8 +
+	     target->addr.bit;
+	while (count-- > 0)
+		if (bits[(at + count) / 8] & 1u << (at + count) % 8)
+			return true;
 	return false;
 }
 
 static void add_unused(struct maker *maker)
 {
 	GHashTable *used = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
+	guint8 *bits = used_bits(maker);
 
 	for (int i = 0; i < maker->xref.count; i++) {
 		const struct xref_use *use = &maker->xref.use[i];
@@ -169,10 +192,10 @@ static void add_unused(struct maker *maker)
 		if (use->kind == XREF_DECLARED && (use->target.what == XREF_VARIABLE ||
 						   use->target.what == XREF_LABEL) &&
 		    !g_hash_table_contains(used, &key) &&
-		    !(use->target.addr.area != AREA_NONE &&
-		      is_used_by_address(maker, &use->target)))
+		    !is_used_by_address(bits, &use->target))
 			add_row(maker, use);
 	}
+	g_free(bits);
 	g_hash_table_unref(used);
 }
 
