@@ -101,8 +101,12 @@ static void go(LadderFindBar *bar, int number)
 	bar->current = number;
 	show_count(bar);
 	ladder_find_bar_set_place(bar, hit->pou, hit->rung, hit->row, hit->col);
-	gtk_widget_activate_action(GTK_WIDGET(bar), "win.go-to", "(iiii)", hit->pou,
-				   hit->rung, hit->row, hit->col);
+	if (hit->where == FIND_DECLARATIONS)
+		gtk_widget_activate_action(GTK_WIDGET(bar), "win.go-to", "(iiii)", -1, -1,
+					   hit->table, hit->index);
+	else
+		gtk_widget_activate_action(GTK_WIDGET(bar), "win.go-to", "(iiii)", hit->pou,
+					   hit->rung, hit->row, hit->col);
 }
 
 bool ladder_find_bar_next(LadderFindBar *bar, bool back)

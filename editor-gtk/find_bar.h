@@ -5,7 +5,7 @@
  * Property: "document" (LadderDocument). Signals: hits-changed (): ladder_find_bar_find()
  * is another, for marks on the sheet; closed (): it was, the focus may go back.
  * Actions: find.next, find.previous, find.replace, find.replace-all, find.close. It goes
- * to a hit by the action win.go-to (iiii).
+ * to a hit by the action win.go-to (iiii), as panel_go_to() tells.
  */
 #ifndef EDITOR_FIND_BAR_H
 #define EDITOR_FIND_BAR_H

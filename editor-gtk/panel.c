@@ -230,7 +230,12 @@ bool panel_list_select(struct panel_list *list,
 
 void panel_go_to(GtkWidget *from, const LadderPanelRow *row)
 {
-	if (row)
+	if (!row)
+		return;
+	if (row->table >= 0)
+		gtk_widget_activate_action(from, "win.go-to", "(iiii)", -1, -1, row->table,
+					   row->index);
+	else
 		gtk_widget_activate_action(from, "win.go-to", "(iiii)", row->pou, row->rung,
 					   row->row, row->col);
 }

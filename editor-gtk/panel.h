@@ -48,7 +48,13 @@ LadderPanelRow *panel_list_row(struct panel_list *list);
 bool panel_list_select(struct panel_list *list,
 		       bool (*is)(const LadderPanelRow *row, gconstpointer what),
 		       gconstpointer what);
-/** panel_go_to - the window's action for the place of a row. */
+/**
+ * panel_go_to - the window's action for the place of a row, win.go-to (iiii): POU, rung,
+ * row, column, 0-based, -1: the whole
+ *
+ * Of a list: its POU, -1, line of its text, byte in it. Of a file that cannot be read: -1,
+ * line, -1, byte. Of a declaration (row->table): -1, -1, table, index of view/xref.h.
+ */
 void panel_go_to(GtkWidget *from, const LadderPanelRow *row);
 /** panel_speak - names the row that a cell of the list stands in, for a screen reader. */
 void panel_speak(GtkWidget *cell, const LadderPanelRow *row);

@@ -24,7 +24,7 @@ struct _LadderPanelRow {
 	gint64 number;             /* how its place sorts                      */
 	enum panel_tone tone;
 	int pou, rung, row, col;   /* 0-based; -1: the whole                   */
-	int table, index;          /* of a symbol; -1: none                    */
+	int table, index;          /* of a declaration; -1: it is none         */
 	unsigned int flags;        /* the panel's own                          */
 };
 

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/panel.h"
+#include "engine/view/xref.h"
 
 #include <string.h>
 
@@ -58,19 +59,49 @@ static int list_row(const struct project *project, int pou, int line)
 	return MAX(line - project->pou[pou].line, 0);
 }
 
-static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag)
+/* A declaration that the message speaks of. */
+static void find_declaration(struct project *project, const struct diag *diag,
+			     LadderPanelRow *row)
 {
+	const uint32_t id = names_find(&project->names, diag->arg, strlen(diag->arg));
+	const int table = row->pou + 1;
+	const int index = !id || diag->rung ? -1 :
+		vars_find(xref_table(project, table), names_fold(&project->names, id));
+
+	if (index >= 0) {
+		row->table = table;
+		row->index = index;
+	}
+}
+
+/* Of a file that is no program: line and byte. */
+static void set_place(LadderDocument *document, const struct diag *diag,
+		      LadderPanelRow *row)
+{
+	struct project *project = ladder_document_project(document);
 	struct ladder *checked = ladder_document_checked(document);
 	const struct project *was = checked ? ladder_project(checked) : NULL;
-	LadderPanelRow *row = ladder_panel_row_new();
-	const bool error = diag_severity(diag->id) == SEVERITY_ERROR;
 
-	row->tone = error ? PANEL_ERROR : PANEL_WARNING;
-	row->pou = pou_of(ladder_document_project(document), diag->pou);
+	row->col = diag->rung ? diag->col - 1 : diag->column - 1;
+	if (!project) {
+		row->rung = diag->line - 1;
+		return;
+	}
+	row->pou = pou_of(project, diag->pou);
 	row->rung = diag->rung - 1;
 	row->row = diag->rung ? diag->row - 1 : list_row(was, was ? row->pou : -1,
 							 diag->line);
-	row->col = diag->rung ? diag->col - 1 : -1;
+	if (row->row < 0 && !diag->rung)
+		find_declaration(project, diag, row);
+}
+
+static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag)
+{
+	LadderPanelRow *row = ladder_panel_row_new();
+	const bool error = diag_severity(diag->id) == SEVERITY_ERROR;
+
+	set_place(document, diag, row);
+	row->tone = error ? PANEL_ERROR : PANEL_WARNING;
 	row->number = ((gint64)row->pou << 40) + ((gint64)row->rung << 20) + diag->line;
 	row->text[COLUMN_TEXT] = *diag->arg ?
 		g_strdup_printf("%s: %s", _(diag_text(diag->id)), diag->arg) :

@@ -225,12 +225,17 @@ static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 static void show_uses(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderPanelRow *row = panel_list_row(&LADDER_SYMBOLS_VIEW(widget)->list);
+	char *name;
 
 	(void)action;
 	(void)unused;
-	if (row)
-		gtk_widget_activate_action(widget, "win.show-uses", "s",
-					   panel_row_text(row, FIELD_NAME));
+	if (!row)
+		return;
+	name = row->table ? g_strdup_printf("%s.%s", panel_row_text(row, SYMBOLS_SCOPE),
+					    panel_row_text(row, FIELD_NAME)) :
+	       g_strdup(panel_row_text(row, FIELD_NAME));
+	gtk_widget_activate_action(widget, "win.show-uses", "s", name);
+	g_free(name);
 }
 
 /* ---- tables ---- */

@@ -77,10 +77,10 @@ static LadderPanelRow *add_row(struct maker *maker, const struct xref_use *use)
 	row->pou = use->pou;
 	row->rung = use->rung - 1;
 	row->row = use->row - 1;
-	row->col = use->rung ? use->col - 1 : -1;
+	row->col = use->col - 1;
 	row->number = ((gint64)(row->pou + 1) << 40) + ((gint64)use->rung << 20) +
 		      ((gint64)use->row << 8) + use->col;
-	if (use->target.what == XREF_VARIABLE) {
+	if (use->target.what == XREF_VARIABLE && use->kind == XREF_DECLARED) {
 		row->table = use->target.table;
 		row->index = use->target.index;
 	}
@@ -93,6 +93,23 @@ static LadderPanelRow *add_row(struct maker *maker, const struct xref_use *use)
 }
 
 /* ---- of one symbol ---- */
+
+/* Main.Delay, Main:Seal: the name of one thing; NULL: none. */
+static const struct xref_use *find_whole(struct maker *maker, const char *symbol)
+{
+	char name[2 * LIMIT_NAME + 8];
+
+	for (int i = 0; i < maker->xref.count; i++) {
+		const struct xref_use *use = &maker->xref.use[i];
+
+		if (use->kind != XREF_DECLARED)
+			continue;
+		xref_name(maker->xref.project, &use->target, use, name, sizeof(name));
+		if (ascii_is(name, symbol, strlen(symbol)))
+			return use;
+	}
+	return NULL;
+}
 
 /* The use that is meant by a name as a cell says it: a local before a global, also with
  * parts behind it, as Delay.Q; NULL: none. */
@@ -119,9 +136,10 @@ static const struct xref_use *find_symbol(struct maker *maker, int pou, const ch
 
 static void add_symbol(struct maker *maker, int pou, const char *symbol)
 {
-	const struct xref_use *of = find_symbol(maker, pou, symbol);
+	const struct xref_use *of = strpbrk(symbol, ".:") ? find_whole(maker, symbol) : NULL;
 	struct xref_target target = { .what = XREF_ADDRESS };
 
+	of = of ? of : find_symbol(maker, pou, symbol);
 	if (of)
 		target = of->target;
 	else if (iec_addr_parse(symbol, strcspn(symbol, "[ "), &target.addr) != ADDR_OK)
@@ -139,36 +157,31 @@ static guint64 key_of(const struct xref_target *target)
 	       (guint32)target->index;
 }
 
-/* A bit each for those that are used by address. */
-static guint8 *used_bits(const struct maker *maker)
+/* A bit of memory as a key: areas far apart. */
+static gpointer bit_key(struct iec_addr addr, guint bit)
 {
-	guint8 *bits = g_malloc0(iec_areas_size() + 1);
+	return GUINT_TO_POINTER((guint)addr.area << 27 | (addr.byte * 8 + addr.bit + bit));
+}
+
+/* The bits that are used by address. */
+static GHashTable *used_bits(const struct maker *maker)
+{
+	GHashTable *bits = g_hash_table_new(NULL, NULL);
 
 	for (int i = 0; i < maker->xref.count; i++) {
 		const struct xref_target *target = &maker->xref.use[i].target;
-		guint at;
 
-		if (target->what != XREF_ADDRESS || target->addr.area == AREA_NONE)
-			continue;
-		at = (iec_area_row(target->addr.area)->offset + target->addr.byte) * 8 +
-		     target->addr.bit;
-		for (guint k = at; k < at + target->addr.bits; k++)
-			bits[k / 8] |= (guint8)(1u << k % 8);
+		for (guint k = 0; target->what == XREF_ADDRESS && k < target->addr.bits; k++)
+			g_hash_table_add(bits, bit_key(target->addr, k));
 	}
 	return bits;
 }
 
 /* A symbol with an address is used, too, if its address is. */
-static bool is_used_by_address(const guint8 *bits, const struct xref_target *target)
+static bool is_used_by_address(GHashTable *bits, const struct xref_target *target)
 {
-	guint at, count = target->addr.bits;
-
-	if (target->addr.area == AREA_NONE)
-		return false;
-	at = (iec_area_row(target->addr.area)->offset + target->addr.byte) * 8 +
-	     target->addr.bit;
-	while (count-- > 0)
-		if (bits[(at + count) / 8] & 1u << (at + count) % 8)
+	for (guint k = 0; target->addr.area != AREA_NONE && k < target->addr.bits; k++)
+		if (g_hash_table_contains(bits, bit_key(target->addr, k)))
 			return true;
 	return false;
 }
@@ -176,7 +189,7 @@ static bool is_used_by_address(const guint8 *bits, const struct xref_target *tar
 static void add_unused(struct maker *maker)
 {
 	GHashTable *used = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
-	guint8 *bits = used_bits(maker);
+	GHashTable *bits = used_bits(maker);
 
 	for (int i = 0; i < maker->xref.count; i++) {
 		const struct xref_use *use = &maker->xref.use[i];
@@ -195,7 +208,7 @@ static void add_unused(struct maker *maker)
 		    !is_used_by_address(bits, &use->target))
 			add_row(maker, use);
 	}
-	g_free(bits);
+	g_hash_table_unref(bits);
 	g_hash_table_unref(used);
 }
 

@@ -60,7 +60,7 @@ static void go_to_use(LadderWindow *window, const struct xref_use *use)
 	if (use->rung > 0)
 		tabs_go(window, use->pou, use->rung - 1, use->row - 1, use->col - 1);
 	else
-		tabs_go(window, use->pou, use->line - 1, -1, use->col - 1);
+		tabs_go(window, use->pou, -1, use->row - 1, use->col - 1);
 }
 
 static bool drives(enum xref_kind kind)

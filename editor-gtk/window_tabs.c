@@ -197,13 +197,19 @@ void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 		ladder_text_view_go(LADDER_TEXT_VIEW(text), rung + 1, col + 1);
 		return;
 	}
+	if (pou < 0) {
+		GtkWidget *symbols = tabs_show_widget(window, "symbols");
+
+		ladder_symbols_view_show(LADDER_SYMBOLS_VIEW(symbols), row, col);
+		return;
+	}
 	tabs_show(window, pou);
 	page = adw_tab_view_get_selected_page(window->tabs);
 	sheet = tabs_sheet(window);
 	if (sheet && ladder_grid_view_pou(sheet) == pou)
 		ladder_grid_view_go(sheet, rung, row, col);
 	else if (page && LADDER_IS_TEXT_VIEW(content(page)))
-		ladder_text_view_go(LADDER_TEXT_VIEW(content(page)), rung + 1, col + 1);
+		ladder_text_view_go_here(LADDER_TEXT_VIEW(content(page)), row + 1, col + 1);
 }
 
 /* ---- when the project is another ---- */

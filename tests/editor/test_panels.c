@@ -222,10 +222,15 @@ static void test_problems(void)
 					      i);
 			CHECK_TEXT(gone_to, "0 2 0 0");
 		}
+		if (strstr(row->text[0], "Hours")) {
+			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
+					      i);
+			CHECK_TEXT(gone_to, "-1 -1 0 5");
+		}
 		if (row->pou == 1) {
 			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
 					      i);
-			CHECK_TEXT(gone_to, "1 -1 2 -1");
+			CHECK_TEXT(gone_to, "1 -1 2 8");
 		}
 		g_object_unref(row);
 	}
@@ -265,8 +270,12 @@ static void test_uses(void)
 	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 1);
 	CHECK_TEXT(gone_to, "0 0 0 0");
 	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 2);
-	CHECK_TEXT(gone_to, "1 -1 1 -1");
+	CHECK_TEXT(gone_to, "1 -1 1 8");
+	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 0);
+	CHECK_TEXT(gone_to, "-1 -1 0 0");
 	ladder_uses_view_set_symbol(view, 0, "Delay.Q");
+	CHECK(g_list_model_get_n_items(list) == 2);
+	ladder_uses_view_set_symbol(view, -1, "Main.Delay");
 	CHECK(g_list_model_get_n_items(list) == 2);
 	ladder_uses_view_set_symbol(view, 0, "%QX0.0");
 	CHECK_AS(g_list_model_get_n_items(list) == 4, "an address: what touches it");
