@@ -77,6 +77,26 @@ bool canvas_network(struct canvas *c)
 	       canvas_fail(c, GRID_NO_MEMORY);
 }
 
+/* The same as check_rung() asks: does a net's reader stand left of where it is fed? */
+bool canvas_is_backwards(struct canvas *c, int row, int col)
+{
+	const struct network *n = &c->network;
+	int in, out;
+
+	if (!canvas_network(c))
+		return false;
+	in = network_net(n, row, col);
+	out = network_net(n, row, col + 1);
+	for (int i = 0; i < n->element_count; i++)
+		if ((n->element[i].out == in && n->element[i].col + 1 > col) ||
+		    (n->element[i].in == out && n->element[i].col < col + 1))
+			return true;
+	for (int i = 0; i < n->pin_count; i++)
+		if (n->pin[i].in == out && n->pin[i].col < col + 1)
+			return true;
+	return false;
+}
+
 /* ---- cells ---- */
 
 static bool is_inside(const struct canvas *c, int row, int col)
@@ -234,11 +254,17 @@ void canvas_drop_row(struct canvas *c, int row)
 
 /* ---- wires that close by themselves ---- */
 
-void canvas_close_left(struct canvas *c, int row, int col)
+bool canvas_close_left(struct canvas *c, int row, int col)
 {
-	for (; col > 0 && !canvas_left(c, row, col) && !canvas_linked(c, row, col);
-	     col--)
-		canvas_cell(c, row, col - 1)->word = ELEM_WIRE;
+	int from = col;
+
+	while (from > 0 && !canvas_left(c, row, from) && !canvas_linked(c, row, from))
+		from--;
+	if (!canvas_linked(c, row, from) && canvas_word(c, row, from - 1) == ELEM_PIN)
+		return false;
+	while (from < col)
+		canvas_cell(c, row, from++)->word = ELEM_WIRE;
+	return true;
 }
 
 /* The bar up to which wire would have to go: of what waits for power there, or of a

@@ -77,8 +77,9 @@ bool canvas_is_bare(const struct canvas *c, int row);
 void canvas_drop_row(struct canvas *c, int row);
 
 /** canvas_close_left - wire from cell (@row, @col) leftwards to an element, a linked
- * bar or the rail. */
-void canvas_close_left(struct canvas *c, int row, int col);
+ * bar or the rail. False, and nothing, if it would come to a row of pins, behind which
+ * there is no power. */
+bool canvas_close_left(struct canvas *c, int row, int col);
 /** canvas_close_right - wire rightwards to an element without power, or a bare link. */
 void canvas_close_right(struct canvas *c, int row, int col);
 /** canvas_join_up - links bar @bar of @row with each row above it down from @top. */
@@ -90,6 +91,13 @@ int canvas_prune(struct canvas *c, int row, int bar);
 /** canvas_at_element - opens it, with the mark on the element at the cursor. Fails:
  * false if there is none. */
 bool canvas_at_element(struct canvas *c, const struct rung *rung, struct grid_at *at);
+/* The wire to the left and right of a place, up to the next thing that is joined to it:
+ * from bar to bar. */
+struct stretch { int left, right; };
+struct stretch canvas_stretch(const struct canvas *c, int row, int col);
+/** canvas_is_backwards - would power have to go leftwards to or from the element at
+ * (@row, @col), by wires in other rows? */
+bool canvas_is_backwards(struct canvas *c, int row, int col);
 /** canvas_room_before - makes cell (@row, @col) free by moving what stands there right. */
 bool canvas_room_before(struct canvas *c, int row, int col);
 /** canvas_place - as grid_place(), on the canvas. */

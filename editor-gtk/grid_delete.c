@@ -7,11 +7,7 @@
  */
 #include "editor-gtk/grid_canvas.h"
 
-/* The wire to the left and right of a place, up to the next thing that is joined to
- * it: from bar @left to bar @right. */
-struct stretch { int left, right; };
-
-static struct stretch stretch_at(const struct canvas *c, int row, int col)
+struct stretch canvas_stretch(const struct canvas *c, int row, int col)
 {
 	struct stretch s = { col, col + 1 };
 
@@ -150,7 +146,7 @@ static struct stretch take_out(struct canvas *c, int row, int col)
 	for (int i = rung_height(c->rung, row, col) - 1; i > 0; i--)
 		canvas_remove_pin(c, row + i, col);
 	canvas_clear(c, row, col);
-	s = stretch_at(c, row, col);
+	s = canvas_stretch(c, row, col);
 	if (must_pass(c, row, col))
 		canvas_cell(c, row, col)->word = ELEM_WIRE;
 	else

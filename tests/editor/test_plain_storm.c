@@ -165,6 +165,7 @@ static void storm(struct grid_bench *bench)
 struct flow {
 	uint32_t seed, forced; /* operand that is forced; 0: none             */
 	bool closed;           /* to this                                     */
+	uint32_t ignored;      /* an output that does not count               */
 };
 
 static bool is_closed(const struct flow *flow, const struct cell *cell)
@@ -193,16 +194,23 @@ static uint64_t powered(const struct rung *rung, const struct flow *flow)
 		again = false;
 		for (int i = 0; i < n.element_count; i++) {
 			const struct network_element *e = &n.element[i];
+			const struct cell *cell = rung_at(rung, e->row, e->col);
 
+			/* As wire does, in both directions. */
+			if (live[e->out] && !live[e->in] && flow->closed &&
+			    cell->operand == flow->forced)
+				live[e->in] = again = true;
 			if (!live[e->in] || live[e->out] ||
-			    !is_closed(flow, rung_at(rung, e->row, e->col)))
+			    !is_closed(flow, cell))
 				continue;
 			live[e->out] = again = true;
 		}
 	}
 	for (int i = 0; i < n.element_count; i++)
 		if (word_row((enum word)n.element[i].word)->place == PLACE_LAST &&
-		    live[n.element[i].in])
+		    live[n.element[i].in] &&
+		    rung_at(rung, n.element[i].row, n.element[i].col)->operand !=
+			    flow->ignored)
 			sum += (uint64_t)rung_at(rung, n.element[i].row,
 						 n.element[i].col)->operand * 11400714819323198485u;
 	arena_free(&arena);
@@ -264,6 +272,66 @@ static bool is_contact(const struct rung *rung, const struct grid_place *place)
 		       OPND_BOOL_R;
 }
 
+/* An output more, on any row and branch, leaves the others alone. */
+static struct rung *tame_output(struct grid_bench *bench, const struct rung *rung,
+				struct grid_at *at, const char **wrong)
+{
+	const struct cell coil = make(bench, "os");
+	struct flow with = { .ignored = coil.operand }, none = { 0 };
+	struct rung *made = roll(2) ? grid_parallel(rung, at, NULL, coil) :
+				      grid_place(rung, at, coil, GRID_INSERT);
+
+	if (made && !same_power(made, with, rung, none))
+		*wrong = "an output changed another circuit";
+	return made;
+}
+
+/* Within what is complete a contact leaves a wire or nothing behind, and what it comes
+ * to stays complete. */
+static struct rung *tame_move(const struct rung *rung, struct grid_at *at)
+{
+	struct grid_at to = { .columns = at->columns, .row = roll(rung->rows + 1),
+			      .col = roll(at->columns) };
+	struct rung *source, *made;
+
+	switch (grid_can_drop(rung, at->columns, to.row, to.col, ELEM_CONTACT_NO)) {
+	case GRID_DROP_WIRE:
+	case GRID_DROP_BEFORE:
+	case GRID_DROP_BELOW:
+		break;
+	case GRID_DROP_NOT:
+	case GRID_DROP_THERE:
+	case GRID_DROP_OUTPUT:
+		return NULL;
+	}
+	made = grid_move(rung, at, rung, &to, &source);
+	*at = to;
+	return made;
+}
+
+/* Does that wire carry power to the left only? An element would stand in it the wrong
+ * way round. */
+static bool leads_left(const struct rung *rung, const struct grid_place *place)
+{
+	struct rung *cut = rung_copy(rung);
+	struct arena arena;
+	struct network n;
+	bool left = true;
+	int in, out;
+
+	arena_init(&arena);
+	rung_cell(cut, place->row, place->col)->word = ELEM_EMPTY;
+	if (network_make(cut, &arena, &n)) {
+		in = network_net(&n, place->row, place->col);
+		out = network_net(&n, place->row, place->col + 1);
+		left = n.reader_count[out] == 0 ||
+		       (in != NET_RAIL && n.first_feeder[in] == n.first_feeder[in + 1]);
+	}
+	arena_free(&arena);
+	rung_free(cut);
+	return left;
+}
+
 static struct rung *tame(struct grid_bench *bench, const struct rung *rung,
 			 struct grid_at *at, const char **wrong)
 {
@@ -275,10 +343,21 @@ static struct rung *tame(struct grid_bench *bench, const struct rung *rung,
 	uint32_t operand;
 
 	*wrong = NULL;
-	if (seen == GRID_SEEN_EMPTY || at->col == at->columns - 1)
+	if (seen == GRID_SEEN_EMPTY)
+		return NULL;
+	if (roll(8) == 0 && place.col >= 0 &&
+	    rung_at(rung, place.row, place.col)->word != ELEM_PIN)
+		return tame_output(bench, rung, at, wrong);
+	if (at->col == at->columns - 1)
 		return NULL;
 	operand = rung_at(rung, place.row, place.col)->operand;
-	switch (roll(5)) {
+	if (seen == GRID_SEEN_CELL &&
+	    rung_at(rung, place.row, place.col)->word == ELEM_WIRE &&
+	    leads_left(rung, &place))
+		return NULL;
+	switch (roll(6)) {
+	case 5:
+		return is_contact(rung, &place) ? tame_move(rung, at) : NULL;
 	case 0:
 	case 1:
 		made = grid_place(rung, at, contact, GRID_INSERT);
@@ -371,7 +450,7 @@ static void calm(struct grid_bench *bench)
 	}
 	printf("# %d done\n", done);
 	CHECK(!wrong);
-	CHECK(done > EDITS / 3);
+	CHECK(done > EDITS / 5);
 	rung_free(rung);
 }
 
