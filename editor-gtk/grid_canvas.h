@@ -115,6 +115,9 @@ int canvas_branch_row(struct canvas *c, int row, int col, int last);
 void canvas_join_branch(struct canvas *c, int row, int below, int bar);
 /** canvas_parallel - as grid_parallel(), round the cells @col … @last. */
 bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell cell);
+/** canvas_paste - as grid_paste(). */
+bool canvas_paste(struct canvas *c, int row, int col, const struct rung *part,
+		  bool parallel);
 /** canvas_delete - takes the element at (@row, @col) away, as grid_delete(), but for
  * rows that are empty then. */
 void canvas_delete(struct canvas *c, int row, int col);

@@ -85,6 +85,14 @@ static void replace(struct canvas *c, int row, int col, struct cell cell)
 	canvas_put(c, row, col, cell);
 }
 
+/* What is put in the place of an element keeps its comment, unless it has one. */
+static struct cell commented(struct canvas *c, int row, int col, struct cell cell)
+{
+	if (!cell.comment)
+		cell.comment = canvas_cell(c, row, col)->comment;
+	return cell;
+}
+
 static int behind_last(const struct canvas *c, int row)
 {
 	int col = canvas_last(c);
@@ -122,7 +130,7 @@ static bool place_output(struct canvas *c, int row, int col, struct cell cell,
 	const int last = canvas_last(c);
 
 	if (how == GRID_REPLACE && col == last && canvas_is_output(c, row, last)) {
-		canvas_put(c, row, last, cell);
+		canvas_put(c, row, last, commented(c, row, last, cell));
 	} else {
 		row = canvas_output(c, row, cell);
 		if (row < 0)
@@ -172,7 +180,7 @@ static bool place_series(struct canvas *c, int row, int col, struct cell cell,
 		return canvas_fail(c, GRID_PIN_CELL);
 	if (canvas_is_element(c, row, col)) {
 		if (how == GRID_REPLACE) {
-			replace(c, row, col, cell);
+			replace(c, row, col, commented(c, row, col, cell));
 			canvas_mark(c, row, col);
 			return true;
 		}

@@ -63,7 +63,7 @@ static struct rung *wild(struct grid_bench *bench, const struct rung *rung,
 		"place", "place", "insert", "below", "drop", "set", "delete", "delete",
 		"delete-area", "delete-row", "delete-column", "insert-row",
 		"insert-column", "open", "close", "gaps", "negate", "cycle", "unpin",
-		"pin", "wire", "wire", "wire", "move", "copy", "paste", "paste-below",
+		"pin", "wire", "wire", "wire", "move", "copy", "paste", "paste-below", "move-area",
 		"round",
 	};
 	static const char *const ways[] = { "up", "down", "left", "right" };
@@ -77,6 +77,10 @@ static struct rung *wild(struct grid_bench *bench, const struct rung *rung,
 		snprintf(rest, sizeof(rest), "%s", roll(2) ? "R" : "R NO A");
 	else if (!strcmp(verb, "move"))
 		snprintf(rest, sizeof(rest), "%d %d", roll(rung->rows + 2) + 1,
+			 roll(at->columns) + 1);
+	else if (!strcmp(verb, "move-area"))
+		snprintf(rest, sizeof(rest), "%d %d %d %d", area.last_row + 1,
+			 area.last_col + 1, roll(rung->rows + 2) + 1,
 			 roll(at->columns) + 1);
 	else if (!strcmp(verb, "copy") || !strcmp(verb, "delete-area"))
 		snprintf(rest, sizeof(rest), "%d %d", area.last_row + 1,
