@@ -6,7 +6,7 @@
  * `+`, and `below` before it if it goes in parallel; or `!` and why not. A line of the
  * last column begins with `>`.
  */
-#include "editor-gtk/entry.h"
+#include "editor-gtk/entry_inside.h"
 #include "engine/base/diag.h"
 #include "engine/ladder.h"
 #include "engine/text/text.h"
@@ -114,6 +114,7 @@ static const struct { const char *line, *means; } lines[] = {
 	{ ">Level > 5", "! only an output can stand in the last column (Level > 5)" },
 	{ ">Level := 5", "[ Level := 5 ]" },
 	{ "Level >", "! this is no expression (Level >)" },
+	{ "NO Level > 5", "[ Level > 5 ]" },
 	/* what is new is told */
 	{ "Open", "NO Open + Open BOOL %IX0.2" }, { ">Horn", "COIL Horn + Horn BOOL %QX0.3" },
 	{ "NO Open", "NO Open + Open BOOL %IX0.2" },
@@ -231,6 +232,30 @@ static void check_offers(struct entry_place *place)
 	place->output = false;
 }
 
+/* The page that tells of them has them all. */
+static void check_page(void)
+{
+	static char page[20000];
+	FILE *file = fopen("docs/quick-entry.md", "r");
+	const struct entry_mnemonic *m;
+	int missing = 0;
+
+	if (!CHECK(file != NULL))
+		return;
+	page[fread(page, 1, sizeof(page) - 1, file)] = '\0';
+	fclose(file);
+	for (int i = 0; (m = entry_mnemonic(i)) != NULL; i++) {
+		char quoted[20];
+
+		snprintf(quoted, sizeof(quoted), "`%s`", m->text);
+		if (!strstr(page, quoted)) {
+			printf("# not told of: %s\n", m->text);
+			missing++;
+		}
+	}
+	CHECK(missing == 0);
+}
+
 int main(void)
 {
 	struct ladder *ladder = ladder_new();
@@ -245,6 +270,7 @@ int main(void)
 			place.pou = i;
 	check_lines(&place);
 	check_offers(&place);
+	check_page();
 	ladder_free(ladder);
 	return tap_done();
 }
