@@ -17,7 +17,7 @@
 #define SHORT_LINES  3    /* of a comment on the screen                         */
 #define BELOW        9
 #define BESIDE       16   /* px of air round a name                             */
-#define BOX_AIR      12   /* below a box                                        */
+#define BOX_AIR      18   /* below a box: its marks stand there                 */
 
 static const struct word_row *word_at(const struct drafting *drafting,
 				      const struct rung *rung, int row, int col)

@@ -171,7 +171,8 @@ static int sample_faults(struct lettering *lettering, const char *path, int *run
 			sheet->drafting.comments = way == 3;
 			sheet->drafting.width = way == 2 ? 1500 : 0;
 			sheet_layout(sheet);
-			faults += drawn_sheet(sheet, NULL, path);
+			faults += drawn_sheet(sheet, false, path);
+			faults += drawn_sheet(sheet, true, path);
 			*rungs += sheet->count;
 			for (int i = 1; i < sheet->count; i++)
 				faults += sheet->rung[i]->right != sheet->rung[0]->right;
