@@ -105,9 +105,9 @@ void grid_draw_icon(const struct word_row *word, const struct theme *theme,
 	else if (says)
 		lines = (struct word_lines){ { lettering_fit(lettering, LETTER_BADGE,
 			word->word, -1, room) }, 1, room };
+	float side = pointed && !box ? 10 : lines.width + 8 > room ? 3 : EDGE;
 	if (says)
-		glyph.half = MAX(lines.width / 2 + (pointed && !box ? 10 : lines.width + 8 > room ? 3 : EDGE),
-				 14);
+		glyph.half = MAX(lines.width / 2 + side, 14);
 	pen_line(&pen, wire, 0, glyph.y, glyph.x - glyph.half, glyph.y);
 	pen_line(&pen, wire, glyph.x + glyph.half, glyph.y, width, glyph.y);
 	if (says)

@@ -46,7 +46,8 @@ static struct ladder *load(const char *path, enum render_status *status)
 	if (ladder_could_read(ladder))
 		*status = RENDER_NO;
 	if (!ladder_diags(ladder)->count)
-		fprintf(stderr, _("ladder-editor: %s: a code image has no drawing\n"), path);
+		fprintf(stderr, _("ladder-editor: %s: a code image has no drawing\n"),
+			path);
 	ladder_free(ladder);
 	return NULL;
 }
@@ -107,7 +108,8 @@ static enum render_status write_png(const struct picture *picture,
 				    const struct theme *theme, struct lettering *lettering)
 {
 	double scale = (double)options->scale;
-	double width = (double)picture->width * scale, height = (double)picture->height * scale;
+	double width = (double)picture->width * scale;
+	double height = (double)picture->height * scale;
 
 	if (width > MOST_PIXELS || height > MOST_PIXELS)
 		return failed(options->out, _("it would be too large; draw one POU or one "

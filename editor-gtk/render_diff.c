@@ -67,7 +67,8 @@ static void name_pou(struct comparison *of, const char *said)
 {
 	const struct project *project = of->pou_b < 0 ? of->a : of->b;
 	const struct pou *pou = pou_of(project, of->pou_b < 0 ? of->pou_a : of->pou_b);
-	const char *change = of->pou_a < 0 ? _("added") : of->pou_b < 0 ? _("removed") : said;
+	const char *change = of->pou_a < 0 ? _("added") :
+			     of->pou_b < 0 ? _("removed") : said;
 	char *heading = g_strdup_printf("%s %s%s%s", pou_word(pou->kind),
 					project_text(project, pou->name),
 					*change ? ": " : "", change);

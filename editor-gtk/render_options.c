@@ -45,8 +45,8 @@ static bool format_of(const char *name, enum render_format *format)
 	else if (dot && g_ascii_strcasecmp(dot, ".png") == 0)
 		*format = RENDER_PNG;
 	else
-		return wrong(_("-o wants a name that ends in .svg, .pdf or .png, not %.80s"),
-			     name);
+		return wrong(_("-o wants a name that ends in .svg, .pdf or .png, "
+			       "not %.80s"), name);
 	return true;
 }
 
@@ -66,9 +66,11 @@ static bool show_of(const char *name, enum drafting_show *show)
 static bool take_flag(const char *name, struct render_options *out)
 {
 	if (!strcmp(name, "--dark"))
-		out->theme = out->theme == THEME_CONTRAST ? THEME_CONTRAST_DARK : THEME_DARK;
+		out->theme = out->theme == THEME_CONTRAST ? THEME_CONTRAST_DARK :
+							    THEME_DARK;
 	else if (!strcmp(name, "--contrast"))
-		out->theme = out->theme == THEME_DARK ? THEME_CONTRAST_DARK : THEME_CONTRAST;
+		out->theme = out->theme == THEME_DARK ? THEME_CONTRAST_DARK :
+							THEME_CONTRAST;
 	else if (!strcmp(name, "--print"))
 		out->theme = THEME_PRINT;
 	else if (!strcmp(name, "--landscape"))

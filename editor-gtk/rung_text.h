@@ -23,7 +23,7 @@ struct rung_label rung_label(const struct drafting *drafting, const struct cell 
 struct lettered rung_element_comment(const struct drafting *drafting,
 				     const struct cell *cell, float room);
 
-/** rung_is_framed - is it drawn as one line of text between strokes: [ a > b ], >> Label? */
+/** rung_is_framed - is it drawn as text between strokes: [ a > b ], >> Label? */
 bool rung_is_framed(const struct word_row *word);
 /** rung_framed - that text, in lines; what is longer ends in an ellipsis. */
 struct rung_framed {

@@ -154,7 +154,8 @@ static void check_clipping(void)
 	struct lettered cut = lettering_fit(lettering, LETTER_SYMBOL,
 					    "a rather long name", -1, 60);
 	struct lettered part = lettering_fit(lettering, LETTER_SYMBOL, "Motor.Q", 5, 0);
-	struct lettered odd = lettering_fit(lettering, LETTER_SYMBOL, "a\x01\xff\x80z", -1, 0);
+	struct lettered odd = lettering_fit(lettering, LETTER_SYMBOL, "a\x01\xff\x80z",
+					    -1, 0);
 
 	CHECK_TEXT(whole.text, "Motor");
 	CHECK_TEXT(part.text, "Motor");
