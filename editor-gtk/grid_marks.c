@@ -78,6 +78,21 @@ static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float
 			     y + 1);
 }
 
+/* Those of an expression stand below it, with all its lines. */
+static void mark_framed(const struct pen *pen, unsigned int marks, const struct cell *cell,
+			float middle, float y)
+{
+	int lines = rung_framed(pen->drafting, cell).lines;
+	float below = y + 2 + (lines > 1 ? (float)(lines * FRAMED_LINE) / 2 + 2 : RUNG_HALF);
+	float x = middle + 24;
+
+	mark_wrong(pen, marks, middle - 22, below, 44);
+	if (marks & MARK_FORCED)
+		x += badge(pen, FORCED, x, below) + 2;
+	if (marks & MARK_TWICE)
+		badge(pen, TWICE, x, below);
+}
+
 /* Behind the address if there is room, else below the wire. */
 static void mark_element(const struct pen *pen, unsigned int marks, int row, int col,
 			 const graphene_rect_t *r)
@@ -87,9 +102,11 @@ static void mark_element(const struct pen *pen, unsigned int marks, int row, int
 	float middle = r->origin.x + r->size.width / 2, y = pen->layout->row[row].wire;
 	float half = word ? glyph_half(word) : 8, address = 0;
 
-	if (word && rung_is_framed(word))
-		half = rung_framed(pen->drafting, cell).width / 2 + FRAMED_SIDE;
-	else if (word)
+	if (word && rung_is_framed(word)) {
+		mark_framed(pen, marks, cell, middle, y);
+		return;
+	}
+	if (word)
 		address = rung_label(pen->drafting, cell).address.width;
 	float behind = middle + address / 2 + 2;
 	bool fits = address > 0 && behind + 13 < r->origin.x + r->size.width;

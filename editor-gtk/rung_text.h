@@ -12,7 +12,7 @@
 
 #define LABEL_BOUND  230   /* px of a name                                      */
 #define FRAMED_BOUND 420   /* px of a line of an expression                     */
-#define FRAMED_LINES 5     /* they fit into a row of common height              */
+#define FRAMED_LINES 4     /* they fit into a row of common height, with a mark  */
 #define FRAMED_LINE  15    /* px from one to the next                           */
 #define FRAMED_SIDE  12    /* px between its text and the outside of a bracket    */
 

@@ -113,6 +113,18 @@ static void check_png(void)
 	g_free(path);
 }
 
+static bool has_glyphs(const char *text)
+{
+	PangoContext *context = lettering_context();
+	PangoLayout *layout = pango_layout_new(context);
+
+	pango_layout_set_text(layout, text, -1);
+	int unknown = pango_layout_get_unknown_glyphs_count(layout);
+	g_object_unref(layout);
+	g_object_unref(context);
+	return unknown == 0;
+}
+
 static void check_pdf(void)
 {
 	CHECK(render(SHAPES " -o OUT/a.pdf") == 0);
@@ -130,7 +142,11 @@ static void check_pdf(void)
 				     folder, folder);
 	CHECK(system(line) == 0);
 	g_free(line);
-	CHECK(has("a.txt", "PROGRAM Main") && has("a.txt", "启动按钮，常开"));
+	CHECK(has("a.txt", "PROGRAM Main"));
+	if (has_glyphs("启动按钮，常开"))
+		CHECK(has("a.txt", "启动按钮，常开"));
+	else
+		printf("# no font with Chinese here\n");
 	CHECK(has("a.txt", "read in Main 1"));
 	CHECK(has("a.txt", "Global symbols") && has("a.txt", "Symbols of Main"));
 	CHECK(has("a.txt", "1 of ") && has("a.txt", "shapes.rung"));
