@@ -53,11 +53,14 @@ static void draw_reference(const struct pen *pen, int row, int col, float x)
 	picture_text(pen->picture, TOKEN_COMMENT, LETTER_PIN, fits, left, baseline);
 }
 
-static void draw_below(const struct pen *pen, int row, int col, float x, float room)
+/* @up: of the strokes. An expression of many lines leaves room above it only. */
+static void draw_below(const struct pen *pen, int row, int col, float x, float room,
+		       float up)
 {
 	const struct grid_scene *scene = pen->scene;
 	const struct cell *cell = rung_at(pen->rung, row, col);
-	float baseline = pen->layout->row[row].wire + BELOW_BASELINE;
+	float baseline = pen->layout->row[row].wire +
+			 (up > RUNG_HALF ? -up - 4 : BELOW_BASELINE);
 	struct live_value value;
 
 	if (scene->live && scene->live->value &&
@@ -94,8 +97,7 @@ static void draw_shape(const struct pen *pen, int row, int col)
 		framed = rung_framed(pen->drafting, cell);
 		glyph.framed = &framed;
 		glyph.half = framed.width / 2 + FRAMED_SIDE;
-		if (framed.lines > 1)
-			glyph.up = (float)framed.lines * FRAMED_LINE / 2 + 2;
+		glyph.up = framed.up;
 	} else if (word->operand == OPND_NONE) {
 		glyph.inside = word->word;
 		glyph.letter = LETTER_TYPE;
@@ -106,7 +108,7 @@ static void draw_shape(const struct pen *pen, int row, int col)
 		 rung_layout_bar(layout, row, col + 1), y);
 	glyph_draw(pen, &glyph);
 	draw_label(pen, row, col, glyph.x);
-	draw_below(pen, row, col, glyph.x, width - 8);
+	draw_below(pen, row, col, glyph.x, width - 8, glyph.up);
 }
 
 void grid_draw_element(const struct pen *pen, int row, int col)

@@ -78,19 +78,16 @@ static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float
 			     y + 1);
 }
 
-/* Those of an expression stand below it, with all its lines. */
+/* An expression may have several lines: what is wrong stands below them. */
 static void mark_framed(const struct pen *pen, unsigned int marks, const struct cell *cell,
 			float middle, float y)
 {
-	int lines = rung_framed(pen->drafting, cell).lines;
-	float below = y + 2 + (lines > 1 ? (float)(lines * FRAMED_LINE) / 2 + 2 : RUNG_HALF);
-	float x = middle + 24;
+	struct rung_framed framed = rung_framed(pen->drafting, cell);
+	float x = middle + framed.width / 2 + FRAMED_SIDE + 2;
 
-	mark_wrong(pen, marks, middle - 22, below, 44);
-	if (marks & MARK_FORCED)
-		x += badge(pen, FORCED, x, below) + 2;
-	if (marks & MARK_TWICE)
-		badge(pen, TWICE, x, below);
+	mark_wrong(pen, marks, middle - 22, y + framed.up + 2, 44);
+	if (marks & (MARK_FORCED | MARK_TWICE))
+		badge(pen, marks & MARK_FORCED ? FORCED : TWICE, x, y - 15);
 }
 
 /* Behind the address if there is room, else below the wire. */

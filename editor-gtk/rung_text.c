@@ -92,7 +92,7 @@ static void break_lines(const struct drafting *drafting, const char *text,
 
 static struct rung_framed in_lines(const struct drafting *drafting, const char *text)
 {
-	struct rung_framed framed = { .lines = 1 };
+	struct rung_framed framed = { .lines = 1, .up = RUNG_HALF };
 
 	framed.line[0] = fit(drafting, LETTER_OPERAND, text, 0);
 	framed.width = framed.line[0].width;
@@ -100,6 +100,7 @@ static struct rung_framed in_lines(const struct drafting *drafting, const char *
 		framed.lines = 0;
 		framed.width = 0;
 		break_lines(drafting, text, &framed);
+		framed.up = (float)(framed.lines * FRAMED_LINE) / 2 + 2;
 	}
 	return framed;
 }

@@ -30,6 +30,7 @@ struct rung_framed {
 	struct lettered line[FRAMED_LINES];
 	int lines;
 	float width;         /* of the widest                                   */
+	float up;            /* from the wire to the upper end of its strokes    */
 };
 struct rung_framed rung_framed(const struct drafting *drafting, const struct cell *cell);
 
