@@ -46,8 +46,13 @@ static const char *operand_of(const struct word_row *row, int seed)
 	case OPND_INSTANCE:
 		return seed ? "InstanceWithAVeryLongNameIndeed" : "T1";
 	case OPND_EXPR:
-		return seed ? "Level * 3 + Count > 1000 AND Level < 20000 OR Count = 5" :
-			      "a > b";
+		return seed == 0 ? "a > b" : seed == 1 ?
+		       "Level * 3 + Count > 1000 AND Level < 20000 OR Count = 5 AND A" :
+		       "Level * 3 + Count > 1000 AND Level < 20000 OR Count = 5 AND "
+		       "Level <> 17 AND Count < 12345 OR Level = Count AND NOT Stopped "
+		       "AND NOT (Level + 1 = Count) OR Level > 3 AND Level < 7 AND X AND "
+		       "ANameThatIsSoLongThatItTakesALineOfItsOwnAndAPartOfTheNextOne2 AND "
+		       "Y AND (this OR that) AND so AND on AND on AND on AND on AND on";
 	case OPND_ASSIGN:
 		return "Count := Count + 1";
 	case OPND_LOOP:
