@@ -206,10 +206,11 @@ ifneq ($(EDITOR),)
 EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags gtk4 libadwaita-1 gtksourceview-5)) -I$(BUILD)
 EDITOR_LIB := $(shell $(PKG_CONFIG) --libs gtk4 libadwaita-1 gtksourceview-5)
 EDITOR_TESTS += $(patsubst %.c,$(BUILD)/%,$(filter-out tests/editor/test_plain_%,$(wildcard tests/editor/test_*.c)))
+EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
 $(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
-  $(EDITOR_TESTS:%=%.o): CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='"$(prefix)/share/locale"' -DDATADIR='"$(prefix)/share"'
+  $(EDITOR_TESTS:%=%.o) $(EDITOR_BENCH).o: CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='"$(prefix)/share/locale"' -DDATADIR='"$(prefix)/share"'
 $(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(wildcard editor-gtk/ui/*)
 	@mkdir -p $(@D)
 	glib-compile-resources --sourcedir=editor-gtk --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml
@@ -221,8 +222,11 @@ $(BUILD)/libeditor.a: $(EDITOR_OBJ)
 all: $(BUILD)/ladder-editor
 $(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
-$(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
+$(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+bench-editor: $(EDITOR_BENCH) ## what drawing 5,000 rungs costs
+	@$<
+.PHONY: bench-editor
 else
 all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
