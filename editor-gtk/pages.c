@@ -367,6 +367,13 @@ void pages_free(struct pages *pages)
 	g_free(pages);
 }
 
+const char *pages_subject(const struct pages *pages, int page)
+{
+	const struct page *of = g_ptr_array_index(pages->page, page);
+
+	return of->subject ? of->subject : "";
+}
+
 int pages_count(const struct pages *pages)
 {
 	return (int)pages->page->len;

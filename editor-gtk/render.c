@@ -139,6 +139,18 @@ static enum render_status write_picture(struct picture *picture,
 	return write_png(picture, options, theme, lettering);
 }
 
+/* The table of contents that a reader shows beside the pages: POUs, symbols. */
+static void add_outline(cairo_surface_t *surface, const struct pages *pages, int page)
+{
+	const char *subject = pages_subject(pages, page);
+	char place[32];
+
+	if (page > 0 && strcmp(subject, pages_subject(pages, page - 1)) == 0)
+		return;
+	snprintf(place, sizeof(place), "page=%d", page + 1);
+	cairo_pdf_surface_add_outline(surface, CAIRO_PDF_OUTLINE_ROOT, subject, place, 0);
+}
+
 /* A PDF names neither the day nor the machine it was made on. */
 static enum render_status write_pdf(const struct project *project, int pou,
 				    const struct render_options *options,
@@ -160,6 +172,7 @@ static enum render_status write_pdf(const struct project *project, int pou,
 				       *title ? title : options->file);
 	for (int page = 0; page < pages_count(pages); page++) {
 		pages_paint(pages, page, cr);
+		add_outline(surface, pages, page);
 		cairo_show_page(cr);
 	}
 	cairo_destroy(cr);
