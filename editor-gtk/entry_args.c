@@ -11,6 +11,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
+#include "engine/model/args.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -174,7 +175,11 @@ static bool add_pin(const struct entry_place *place, const struct word_pin *pin,
 		    struct entry *entry)
 {
 	char head[ENTRY_NAME];
+	struct arg arg;
 
+	if (args_find(entry->args, name, strlen(name), &arg))
+		return entry_wrong(entry, N_("this pin is given twice"), name,
+				   strlen(name));
 	snprintf(head, sizeof(head), "%s%.250s%s", entry->args[0] ? " " : "", name,
 		 output ? "=>" : ":=");
 	return (entry_append(entry->args, sizeof(entry->args), head, strlen(head)) ||

@@ -100,6 +100,9 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "GRT Level 5", "GT IN1:=Level IN2:=5" },
 	{ "AND IN1:=Start IN2:=Stop", "AND IN1:=Start IN2:=Stop" },
 	{ "INT_TO_REAL IN:=Level OUT=>Heat", "INT_TO_REAL IN:=Level OUT=>Heat" },
+	{ "ADD IN1:=1 IN1:=2", "! this pin is given twice (IN1)" },
+	{ "ADD IN1:=1 OUT=>5", "! this cannot be written (5)" },
+	{ "MOVE Level Full", "! this cannot be written (Full)" },
 	/* expressions */
 	{ "Level > 5", "[ Level > 5 ]" }, { "Level>5", "[ Level > 5 ]" },
 	{ "[ Level > 5 ]", "[ Level > 5 ]" }, { "[Level>5", "[ Level > 5 ]" },

@@ -69,7 +69,7 @@ static struct rung *wild(struct grid_bench *bench, const struct rung *rung,
 	static const char *const ways[] = { "up", "down", "left", "right" };
 	const char *verb = verbs[roll((int)(sizeof(verbs) / sizeof(*verbs)))];
 	struct grid_area area = { at->row, at->col, at->row + roll(3), at->col + roll(4) };
-	char rest[40] = "";
+	char rest[60] = "";
 
 	if (!strcmp(verb, "wire"))
 		snprintf(rest, sizeof(rest), "%s", ways[roll(4)]);
@@ -161,6 +161,38 @@ static void storm(struct grid_bench *bench)
 	CHECK(!wrong);
 	CHECK(done > EDITS / 3);
 	rung_free(rung);
+}
+
+/* ---- at the limits ---- */
+
+/* A rung that can grow no more: what does not fit is refused, nothing else happens. */
+static void crowd(struct grid_bench *bench)
+{
+	struct rung *full = rung_new(LIMIT_ROWS, LIMIT_COLS);
+	const struct cell contact = make(bench, "n"), coil = make(bench, "o");
+	const char *wrong = NULL;
+	int refused = 0;
+
+	for (int i = 0; i < LIMIT_ROWS * LIMIT_COLS; i++) {
+		full->cell[i] = i % LIMIT_COLS == LIMIT_COLS - 1 ? coil : contact;
+		if (i >= LIMIT_COLS && i % LIMIT_COLS < LIMIT_COLS - 1)
+			full->cell[i].link = (uint8_t)roll(2);
+	}
+	for (int i = 0; i < 30 && !wrong; i++) {
+		struct grid_at at = { .columns = grid_display_columns(full, GRID_COLUMNS),
+				      .row = roll(LIMIT_ROWS + 1), .col = roll(LIMIT_COLS) };
+		struct rung *made = wild(bench, full, &at);
+
+		refused += !made;
+		if (made && (made->rows > LIMIT_ROWS || made->cols > LIMIT_COLS))
+			wrong = "beyond the limits";
+		if (!made && at.refusal == GRID_DONE)
+			wrong = "it does not say why not";
+		rung_free(made);
+	}
+	CHECK(!wrong);
+	CHECK(refused > 5);
+	rung_free(full);
 }
 
 /* ---- tame ---- */
@@ -467,6 +499,7 @@ int main(int argc, char **argv)
 	if (!CHECK(grid_bench_open(&bench)))
 		return tap_done();
 	storm(&bench);
+	crowd(&bench);
 	calm(&bench);
 	grid_bench_close(&bench);
 	return tap_done();
