@@ -30,16 +30,18 @@ LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
 LEAN_LD  += $(if $(STATIC),,$(if $(shell $(CC) -Wl,--help 2>/dev/null | grep -- '-z pack-relative-relocs'),-Wl$(comma)-z$(comma)pack-relative-relocs))
 
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
-ENGINE   := $(wildcard runtime/engine/*.c runtime/engine/*/*.c)
-# What is left of the engine on a small board: nothing that reads or translates.
+ENGINE   := $(filter-out %/catalog_small.c,$(wildcard runtime/engine/*.c runtime/engine/*/*.c))
+# What is left of the engine on a small board: nothing that reads or translates, or that
+# finds, prints or stores something by its name.
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
-# SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def, and without what only
-# prints code, strips it, retains values or reads texts.
+CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/base/,catalog.c explain.c iec_print.c literal.c \
+            literal_part.c names.c nearest.c sink.c) $(addprefix runtime/engine/scan/,code_print.c code_strip.c retain.c \
+            retain_plan.c retain_slot.c symbols.c),%/catalog_small.c),$(CORE))
+# SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def.
 ifeq ($(WORDS),core)
 CORE     := $(filter-out $(addprefix runtime/engine/scan/,big.c decimal.c fb_analog.c fb_clock.c fb_pid.c fb_pulse.c fb_store.c \
-            code_print.c code_strip.c retain.c retain_plan.c retain_slot.c \
-            fn_bits.c fn_convert.c fn_real.c fn_select.c fn_string.c fn_text.c fn_text_to.c fn_time.c math.c math_angle.c math_table.c number.c wide.c) \
-            $(addprefix runtime/engine/base/,names.c sink.c),$(CORE))
+            fn_bits.c fn_convert.c fn_real.c fn_select.c fn_string.c fn_text.c fn_text_to.c fn_time.c math.c math_angle.c \
+            math_table.c number.c wide.c),$(CORE))
 endif
 LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)

@@ -6,6 +6,8 @@
  */
 #include "hal/gpio.h"
 
+#include "engine/base/ascii.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <limits.h>
@@ -106,13 +108,18 @@ static int chip_after(const char *dev, int last)
 /* "gpio" of a line "gpio:x:993:user" of /etc/group, if it is the group @id. */
 static bool is_group(char *line, unsigned int id)
 {
-	char *end = strchr(line, ':'), *number;
+	char *end = strchr(line, ':'), *at;
+	unsigned int number = 0;
 
 	if (!end)
 		return false;
 	*end = 0;
-	number = strchr(end + 1, ':');
-	return number && strtoul(number + 1, NULL, 10) == id;
+	at = strchr(end + 1, ':');
+	if (!at || !ascii_digit(at[1]))
+		return false;
+	for (at++; ascii_digit(*at); at++)
+		number = number * 10 + (unsigned int)(*at - '0');
+	return number == id;
 }
 
 /* Read here: the C library's way needs its shared libraries even in a static

@@ -173,18 +173,12 @@ static bool set_offset(struct reader *reader, struct io_point *point,
 static bool set_debounce(struct reader *reader, struct io_point *point,
 			 const char *value, size_t len)
 {
-	char text[40];
-	struct literal time;
+	int64_t ns;
 
 	(void)reader;
-	if (len > sizeof(text) - 3)
+	if (!literal_parse_duration(value, len, &ns) || ns > IO_DEBOUNCE_MAX_NS)
 		return false;
-	snprintf(text, sizeof(text), "T#%.*s", (int)len, value);
-	if (literal_parse(text, len + 2, &time) != LITERAL_OK ||
-	    time.type != IEC_TIME || time.value.i < 0 ||
-	    time.value.i > IO_DEBOUNCE_MAX_NS)
-		return false;
-	point->debounce_ns = time.value.i;
+	point->debounce_ns = ns;
 	return true;
 }
 

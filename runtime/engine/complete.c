@@ -20,7 +20,7 @@ static void pass(void *context, const struct expect_word *word)
 {
 	struct filter *filter = context;
 	const struct ladder_word out = {
-		expect_kind_text(word->kind), word->text, word->note,
+		expect_kind_text(word->kind), word->text, expect_note(word),
 	};
 	size_t len = filter->at->prefix_len;
 

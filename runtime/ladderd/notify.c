@@ -5,6 +5,8 @@
  */
 #include "ladderd/notify.h"
 
+#include "engine/base/ascii.h"
+
 #include <errno.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -14,16 +16,18 @@
 
 #define US_LONGEST 86400000000 /* a day */
 
+/* -1: not a number. */
 static int64_t number(const char *text)
 {
-	char *end;
-	long long value;
+	int64_t value = 0;
 
 	if (!text || !*text)
 		return -1;
-	errno = 0;
-	value = strtoll(text, &end, 10);
-	return errno || *end || value < 0 ? -1 : value;
+	for (; ascii_digit(*text); text++)
+		if (__builtin_mul_overflow(value, 10, &value) ||
+		    __builtin_add_overflow(value, *text - '0', &value))
+			return -1;
+	return *text ? -1 : value;
 }
 
 /* Half of what the manager allows, if it is this program that it watches. */

@@ -65,16 +65,8 @@ static bool set_file_map(struct options *options, const char *value)
 static bool read_time(const char *value, int64_t least, int64_t most,
 		      int64_t *out)
 {
-	char text[40];
-	struct literal time;
-	int len = snprintf(text, sizeof(text), "T#%s", value);
-
-	if (len < 0 || (size_t)len >= sizeof(text) ||
-	    literal_parse(text, (size_t)len, &time) != LITERAL_OK ||
-	    time.type != IEC_TIME)
-		return false;
-	*out = time.value.i;
-	return time.value.i >= least && time.value.i <= most;
+	return literal_parse_duration(value, strlen(value), out) && *out >= least &&
+	       *out <= most;
 }
 
 static bool set_period(struct options *options, const char *value)

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: MIT
  *
  * safe - signal handlers: requests from outside, the watchdog's timer, crashes.
- * A handler reaches its own two objects below and what the timer points to.
+ * A handler reaches its own objects below and what they point to.
  */
-#define _XOPEN_SOURCE 700 /* sigaltstack */
+#define _XOPEN_SOURCE 700 /* sigaltstack, setitimer */
 
 #include "ladderd/safe.h"
 
 #include <errno.h>
 #include <string.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 /* Signals have no argument: these are the only objects with static storage that
  * change. */
 static struct requests requests;
 static struct hal *volatile crash_hal;
+static struct monitor *volatile watched;
 
 static void on_request(int signal_number)
 {
@@ -51,13 +53,12 @@ struct requests *requests_listen(void)
  * finds the limit gone. */
 static void on_tick(int signal_number, siginfo_t *about, void *context)
 {
-	struct monitor *monitor;
+	struct monitor *monitor = watched;
 	int error = errno;
 
 	(void)signal_number, (void)context;
-	if (about->si_code != SI_TIMER)
+	if (about->si_code != SI_KERNEL || !monitor) /* others may send it, too */
 		return;
-	monitor = about->si_value.sival_ptr;
 	if (!(monitor->scan & 1) || monitor->scan != monitor->seen) {
 		monitor->seen = monitor->scan;
 		monitor->still = 0;
@@ -74,33 +75,33 @@ int monitor_start(struct monitor *monitor, struct hal *hal,
 		  const struct requests *asked, int64_t limit_ns)
 {
 	struct sigaction action;
-	struct sigevent event;
-	struct itimerspec tick;
+	struct itimerval tick;
 
 	memset(monitor, 0, sizeof(*monitor));
 	monitor->hal = hal;
 	monitor->requests = asked;
+	watched = monitor;
 	memset(&action, 0, sizeof(action));
 	action.sa_sigaction = on_tick;
 	action.sa_flags = SA_SIGINFO | SA_RESTART;
 	sigemptyset(&action.sa_mask);
 	if (sigaction(SIGALRM, &action, NULL) != 0)
 		return -errno;
-	memset(&event, 0, sizeof(event));
-	event.sigev_notify = SIGEV_SIGNAL;
-	event.sigev_signo = SIGALRM;
-	event.sigev_value.sival_ptr = monitor;
-	if (timer_create(CLOCK_MONOTONIC, &event, &monitor->timer) != 0)
-		return -errno;
+	/* Not timer_create: with it C libraries link what starts threads. This one, too,
+	 * runs by the monotonic clock. */
 	tick.it_value.tv_sec = limit_ns / 2 / 1000000000;
-	tick.it_value.tv_nsec = limit_ns / 2 % 1000000000;
+	tick.it_value.tv_usec = limit_ns / 2 % 1000000000 / 1000;
 	tick.it_interval = tick.it_value;
-	return timer_settime(monitor->timer, 0, &tick, NULL) ? -errno : 0;
+	return setitimer(ITIMER_REAL, &tick, NULL) ? -errno : 0;
 }
 
 void monitor_stop(struct monitor *monitor)
 {
-	timer_delete(monitor->timer);
+	static const struct itimerval never;
+
+	(void)monitor;
+	setitimer(ITIMER_REAL, &never, NULL);
+	watched = NULL;
 }
 
 void monitor_begin(struct monitor *monitor)

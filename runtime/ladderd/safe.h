@@ -13,7 +13,7 @@
 #include "hal/hal.h"
 
 #include <signal.h>
-#include <time.h>
+#include <stdint.h>
 
 /* Set by signals, looked at between scans. */
 struct requests {
@@ -27,7 +27,6 @@ struct requests *requests_listen(void);
 struct monitor {
 	struct hal *hal;
 	const struct requests *requests;
-	timer_t timer;
 	volatile sig_atomic_t scan;   /* odd while a scan runs                */
 	volatile sig_atomic_t tripped;
 	int seen, still;              /* the handler's own                    */
@@ -36,8 +35,9 @@ struct monitor {
 /**
  * monitor_start - from now on a scan that takes @limit_ns is made safe
  *
- * Within @limit_ns and half of it: hal_write_safe(), again at every further
- * tick, and if a stop was asked for in the meantime, exit with status 1.
+ * Within @limit_ns, 2 us at least, and half of it: hal_write_safe(), again at every
+ * further tick, and if a stop was asked for in the meantime, exit with status 1.
+ * There is one monitor at a time.
  * Owns: the caller, monitor_stop(); @monitor must not move.   Scan-safe: no.
  * Fails: -errno.
  */

@@ -3,11 +3,40 @@
  * test_catalog - the rows are whole, and words, pins and operators are found.
  */
 #include "engine/base/catalog.h"
+#include "engine/base/explain.h"
 #include "tests/tap.h"
 
 static bool is_name(const char *word)
 {
 	return (word[0] >= 'A' && word[0] <= 'Z');
+}
+
+/* Each word and each pin that a user may name says what it is. */
+static void rows_are_explained(void)
+{
+	const struct word_row own = { .number = WORD_COUNT };
+	bool good = true;
+
+	for (int i = 0; i < WORD_COUNT; i++) {
+		const struct word_row *row = word_row((enum word)i);
+
+		good &= explain_word(row)[0] != '\0';
+		for (int k = 0; k < row->pin_count; k++)
+			good &= !explain_pin(row, k)[0] == (row->pin[k].dir == PIN_VAR);
+		good &= !explain_pin(row, row->pin_count)[0];
+	}
+	CHECK(good);
+	CHECK_TEXT(explain_word(word_row(FB_TON)), "on-delay timer");
+	CHECK_TEXT(explain_pin(word_row(FB_TON), 2), "preset");
+	CHECK_TEXT(explain_pin(word_row(FN_MUL), 1), "next");
+	CHECK_TEXT(explain_pin(word_row(FB_TON), -1), "");
+	CHECK_TEXT(explain_word(&own), "");
+	CHECK_TEXT(explain_pin(&own, 0), "");
+	CHECK_TEXT(explain_op(OP_COUNT), "");
+	CHECK_TEXT(explain_area(AREA_AQ), "analog outputs");
+	CHECK_TEXT(explain_area(AREA_COUNT), "");
+	CHECK_TEXT(explain_sys(SYS_ALWAYS_ON), "always TRUE");
+	CHECK_TEXT(explain_sys(SYS_COUNT), "");
 }
 
 static void rows_are_whole(void)
@@ -17,8 +46,8 @@ static void rows_are_whole(void)
 	for (int i = 0; i < WORD_COUNT; i++) {
 		const struct word_row *row = word_row((enum word)i);
 
-		whole &= row->id && row->word && row->doc && row->doc[0] &&
-			 row->family;
+		whole &= row->id && row->word && row->family &&
+			 row->number == (enum word)i;
 		whole &= strlen(row->glyph) == (row->kind == WORD_ELEM ? 3 : 0);
 		/* NOT is an element first; the reader finds the function. */
 		if (i == FN_NOT)
@@ -140,6 +169,7 @@ static void other_rows(void)
 int main(void)
 {
 	rows_are_whole();
+	rows_are_explained();
 	words_are_found();
 	pins_are_found();
 	other_rows();

@@ -9,6 +9,7 @@
  * `test_words --print` puts out the page instead; `make words` keeps it so.
  */
 #include "engine/base/catalog.h"
+#include "engine/base/explain.h"
 #include "engine/view/view.h"
 #include "engine/view/words.h"
 #include "tests/tap.h"
@@ -39,7 +40,7 @@ static void test_all(void)
 	CHECK(count == all);
 	for (int word = ELEM_EMPTY + 1; word < WORD_COUNT; word++)
 		CHECK_AS(strstr(text, word_row((enum word)word)->word) &&
-			 strstr(text, word_row((enum word)word)->doc),
+			 strstr(text, explain_word(word_row((enum word)word))),
 			 word_row((enum word)word)->id);
 	CHECK(strstr(text, "\nfunction blocks\n") != NULL);
 	CHECK(strstr(text, "  NC               |/|  closed while FALSE\n"));

@@ -2,39 +2,33 @@
  *
  * catalog - the rows of catalog.def as const tables.
  *
- * It only answers what a row says; what a word does stands in scan/.
+ * It only answers what a row says; what a word does stands in scan/. A small board
+ * has catalog_small.c in its place.
  */
 #include "engine/base/catalog.h"
 #include "engine/base/ascii.h"
 
-/* Nobody reads explanations on a small board. */
-#ifdef RUNGBOARD_SMALL
-#define DOC(text) ""
-#else
-#define DOC(text) text
-#endif
-
-#define FB_PIN(fb, pin, way, kind, text) \
-	.name = #pin, .doc = text, .type = IEC_##kind, .dir = way, \
+#define FB_PIN(fb, pin, way, kind) \
+	.name = #pin, .type = IEC_##kind, .dir = way, \
 	.offset = offsetof(struct fb_##fb, pin)
 #define FB_DEF(fb, pin, type, value, text) \
-	{ FB_PIN(fb, pin, PIN_IN, type, DOC(text)), \
+	{ FB_PIN(fb, pin, PIN_IN, type), \
 	  .has_init = true, .init = INIT_##type(value) },
 #define INIT_BOOL(value) { .i = (value) }
 #define INIT_BYTE(value) { .i = (value) }
 #define INIT_INT(value)  { .i = (value) }
 #define INIT_TIME(value) { .i = (value) }
 #define INIT_REAL(value) { .r = (value) }
-#define FB_IN(fb, pin, type, text)  { FB_PIN(fb, pin, PIN_IN, type, DOC(text)) },
-#define FB_OUT(fb, pin, type, text) { FB_PIN(fb, pin, PIN_OUT, type, DOC(text)) },
-#define FB_VAR(fb, pin, type)       { FB_PIN(fb, pin, PIN_VAR, type, "") },
+#define FB_IN(fb, pin, type, text)  { FB_PIN(fb, pin, PIN_IN, type) },
+#define FB_OUT(fb, pin, type, text) { FB_PIN(fb, pin, PIN_OUT, type) },
+#define FB_VAR(fb, pin, type)       { FB_PIN(fb, pin, PIN_VAR, type) },
 #define FB_STORE(fb, pin, type, count) /* nobody asks for it by name */
 #define FB(id, family, doc, pins) \
 	static const struct word_pin pins_##id[] = { pins };
-#define FN_PIN(pin, what, text) \
-	.name = #pin, .doc = DOC(text), .dir = PIN_IN, .classes = what
-#define FN_IN(pin, classes, doc)  { FN_PIN(pin, classes, doc) },
-#define FN_OWN(pin, classes, doc) { FN_PIN(pin, classes, doc), .own = true },
+#define FN_PIN(pin, what) \
+	.name = #pin, .dir = PIN_IN, .classes = what
+#define FN_IN(pin, classes, doc)  { FN_PIN(pin, classes) },
+#define FN_OWN(pin, classes, doc) { FN_PIN(pin, classes), .own = true },
 #define FN(id, family, doc, result, most, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #include "engine/catalog.def"
@@ -47,18 +41,18 @@ static const struct word_row words[WORD_KNOWN] = {
 #define ELEM(id_, word_, glyph_, family_, place_, operand_, edge_, first_, next_, \
 	     negate_, doc_) \
 	[ELEM_##id_] = { .id = #id_, .word = word_, .glyph = glyph_, \
-		.family = family_, .doc = DOC(doc_), .kind = WORD_ELEM, \
+		.family = family_, .number = ELEM_##id_, .kind = WORD_ELEM, \
 		.place = place_, .operand = operand_, .edge = edge_, \
 		.first = OP_##first_, .next = OP_##next_, .negate = negate_ },
 #define FB(id_, family_, doc_, pins) \
 	[FB_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
-		.family = family_, .doc = DOC(doc_), .kind = WORD_FB, \
+		.family = family_, .number = FB_##id_, .kind = WORD_FB, \
 		.place = PLACE_BOX, .operand = OPND_INSTANCE, \
 		.first = OP_CAL, .next = OP_CAL, PINS(id_), \
 		.size = sizeof(struct fb_##id_) },
 #define FN(id_, family_, doc_, result_, most_, pins) \
 	[FN_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
-		.family = family_, .doc = DOC(doc_), .kind = WORD_FN, \
+		.family = family_, .number = FN_##id_, .kind = WORD_FN, \
 		.place = PLACE_BOX, .operand = OPND_NONE, \
 		.first = OP_LD, .next = OP_AND, .result = (result_) & 0xff, \
 		.result_classes = (result_) >> 8 ? (result_) >> 8 : ANY_NUM, \
@@ -76,25 +70,25 @@ static const uint8_t word_length[WORD_KNOWN] = {
 
 static const struct op_row ops[OP_COUNT] = {
 #define OP(id, operand, modifiers, doc) \
-	[OP_##id] = { #id, operand, modifiers, DOC(doc) },
+	[OP_##id] = { #id, operand, modifiers },
 #include "engine/catalog.def"
 };
 
 static const struct vm_row vm_rows[VM_COUNT] = {
-#define VM(id, word, doc) [VM_##id] = { word, DOC(doc) },
+#define VM(id, word, doc) [VM_##id] = { word },
 #include "engine/catalog.def"
 };
 
 static const struct sys_row sys_rows[SYS_COUNT] = {
 #define SYS(id, address, type, doc) \
-	[SYS_##id] = { "SYS_" #id, address, IEC_##type, DOC(doc) },
+	[SYS_##id] = { "SYS_" #id, address, IEC_##type },
 #include "engine/catalog.def"
 };
 
 /* All that is known of a word of a project without the project. */
 static const struct word_row own_word = {
-	.id = "", .word = "", .glyph = "", .family = "", .doc = "",
-	.kind = WORD_FB, .place = PLACE_BOX, .operand = OPND_INSTANCE,
+	.id = "", .word = "", .glyph = "", .family = "",
+	.number = WORD_COUNT, .kind = WORD_FB, .place = PLACE_BOX, .operand = OPND_INSTANCE,
 	.first = OP_CAL, .next = OP_CAL,
 };
 
@@ -175,9 +169,9 @@ int word_pin_find(const struct word_row *row, const char *name, size_t len)
 	return find_further_input(row, name, len);
 }
 
-const struct word_pin *word_input(const struct word_row *row, uint32_t index)
+const struct word_pin *word_pins(const struct word_row *row)
 {
-	return &row->pin[index < row->pin_count ? index : row->pin_count - 1u];
+	return row->pin;
 }
 
 bool word_is_test(const struct word_row *row)
@@ -189,11 +183,6 @@ bool word_opens(const struct word_row *row)
 {
 	return row->kind == WORD_FN && row->pin_count == 2 && !row->pin[0].own &&
 	       !row->pin[1].own && (row->result == IEC_BOOL || word_shares(row));
-}
-
-bool word_shares(const struct word_row *row)
-{
-	return row->result == RESULT_SAME || row->result == (int)RESULT_GATE;
 }
 
 /* Both are spelled as their rows have them. */
@@ -234,7 +223,7 @@ int word_first_bool(const struct word_row *row, enum pin_dir dir)
 
 const struct op_row *op_row(enum op op)
 {
-	static const struct op_row none = { "", OPND_NONE, 0, "" };
+	static const struct op_row none = { "", OPND_NONE, 0 };
 
 	return op < OP_COUNT ? &ops[op] : &none;
 }
@@ -249,14 +238,14 @@ enum op op_find(const char *text, size_t len)
 
 const struct vm_row *vm_row(enum vm_op op)
 {
-	static const struct vm_row none = { "", "" };
+	static const struct vm_row none = { "" };
 
 	return op < VM_COUNT ? &vm_rows[op] : &none;
 }
 
 const struct sys_row *sys_row(enum sys_id id)
 {
-	static const struct sys_row none = { "", "", IEC_NONE, "" };
+	static const struct sys_row none = { "", "", IEC_NONE };
 
 	return id < SYS_COUNT ? &sys_rows[id] : &none;
 }

@@ -93,10 +93,38 @@ struct var_array {
 	uint32_t count;
 };
 
+/* Type of a function's result, if it is not one of its own. */
+#define RESULT_SAME IEC_NONE       /* that its FN_IN pins share              */
+#define RESULT_OPEN IEC_TYPE_COUNT /* that of the variable behind OUT        */
+#define RESULT_GATE (IEC_TYPE_COUNT + 1) /* as RESULT_SAME; BOOL gates power */
+/* RESULT_OPEN, but only of these classes. */
+#define RESULT_TO(classes) (RESULT_OPEN | (classes) << 8)
+
+#ifdef RUNGBOARD_SMALL
+/* A small board runs programs that were translated elsewhere. It knows of a word what
+ * the verifier must know, in rows without pointers: nothing of them is relocated. */
+struct word_pin {
+	union {
+		uint16_t offset;  /* of an FB pin in its struct               */
+		uint16_t classes; /* of a function's pin                      */
+	};
+	uint8_t type;        /* enum iec_type of an FB pin                     */
+	uint8_t dir : 4;     /* enum pin_dir                                   */
+	uint8_t own : 1;     /* of a function's pin                            */
+};
+
+struct word_row {
+	uint8_t kind, result, most_inputs, pin_count;
+	uint16_t first_pin;
+	union {
+		uint16_t size;           /* bytes of an FB instance           */
+		uint16_t result_classes; /* of a function                     */
+	};
+};
+#else
 /* Small on purpose: a board has hundreds of them in its memory. */
 struct word_pin {
 	const char *name;
-	const char *doc;
 	union {
 		union iec_value init; /* its value until it is given one, of
 					 has_init; of a pin of the catalogue  */
@@ -122,19 +150,12 @@ static inline struct var_array pin_array(const struct word_pin *pin)
 	return array;
 }
 
-/* Type of a function's result, if it is not one of its own. */
-#define RESULT_SAME IEC_NONE       /* that its FN_IN pins share              */
-#define RESULT_OPEN IEC_TYPE_COUNT /* that of the variable behind OUT        */
-#define RESULT_GATE (IEC_TYPE_COUNT + 1) /* as RESULT_SAME; BOOL gates power */
-/* RESULT_OPEN, but only of these classes. */
-#define RESULT_TO(classes) (RESULT_OPEN | (classes) << 8)
-
 struct word_row {
 	const char *id;      /* "CONTACT_NC"                                   */
 	const char *word;    /* as the rung file spells it: "NC", "TON"        */
 	const char *glyph;   /* three characters, its strokes; boxes: ""       */
 	const char *family;  /* of the palette                                 */
-	const char *doc;
+	enum word number : 16; /* of the catalogue; of a project: WORD_COUNT   */
 	enum word_kind kind : 8;
 	enum place place : 8;
 	enum operand_kind operand : 8;
@@ -155,15 +176,22 @@ struct word_row {
 	uint8_t depth;       /* of structures and blocks inside one another    */
 	bool retain;         /* something of it is RETAIN                      */
 };
+#endif
 
 /** word_row - the row of a word. Lives for ever. Scan-safe: yes. Words of a
  * project share a row that only says that they are boxes (model/words.h). */
 const struct word_row *word_row(enum word word);
+/** word_pins - its pins, pin_count of them. Scan-safe: yes. */
+const struct word_pin *word_pins(const struct word_row *row);
 /** word_last_number - 2 of a function whose last named pin is IN2.   Scan-safe: yes. */
 int word_last_number(const struct word_row *row);
 /** word_input - the pin of input @index of a function; the last one again for those
  * behind it.   Scan-safe: yes. */
-const struct word_pin *word_input(const struct word_row *row, uint32_t index);
+static inline const struct word_pin *word_input(const struct word_row *row,
+						uint32_t index)
+{
+	return &word_pins(row)[index < row->pin_count ? index : row->pin_count - 1u];
+}
 /** word_find - the word a file spells so (any case); WORD_COUNT: none. */
 enum word word_find(const char *text, size_t len);
 /** word_pin_find - index of a pin (any case) in the row; a function's INn past
@@ -176,7 +204,10 @@ bool word_is_test(const struct word_row *row);
  * values of one type. */
 bool word_opens(const struct word_row *row);
 /** word_shares - a function whose result has the type that its inputs share. */
-bool word_shares(const struct word_row *row);
+static inline bool word_shares(const struct word_row *row)
+{
+	return row->result == RESULT_SAME || row->result == (int)RESULT_GATE;
+}
 /** word_operator - the IL operator of a function's name; OP_COUNT: none. */
 enum op word_operator(const struct word_row *row);
 /** word_first_bool - index of its first Boolean pin of @dir, -1: none. */
@@ -186,7 +217,6 @@ struct op_row {
 	const char *word;
 	enum operand_kind operand : 8;
 	uint8_t modifiers;   /* enum op_modifier, or'ed                        */
-	const char *doc;
 };
 const struct op_row *op_row(enum op op);
 /** op_find - OP_COUNT: none. */
@@ -195,7 +225,7 @@ enum op op_find(const char *text, size_t len);
 enum word op_function(enum op op);
 
 struct vm_row {
-	const char *word, *doc;
+	const char *word;
 };
 const struct vm_row *vm_row(enum vm_op op);
 
@@ -203,7 +233,6 @@ struct sys_row {
 	const char *name;    /* "SYS_FIRST_SCAN"                               */
 	const char *address; /* "%SMX0.1"                                      */
 	enum iec_type type;
-	const char *doc;
 };
 enum sys_id {
 #define SYS(id, ...) SYS_##id,

@@ -12,22 +12,15 @@
 #include <stdio.h>
 #include <string.h>
 
-struct diag_row {
-	const char *code, *text;
-	enum diag_severity severity;
-};
+/* Code and text of each row, one behind the other: looked for only to be printed, and
+ * without a pointer each that a loader would have to relocate. */
+static const char texts[] =
+#define DIAG(id, code, severity, text) code "\0" DIAG_TEXT(text) "\0"
+#include "engine/diag.def"
+;
 
-/* A small board reads no rung files: what is wrong with them it never says. */
-#ifdef RUNGBOARD_SMALL
-#define TEXT(id, text) (((id) >= DIAG_EMPTY_FILE && (id) < DIAG_IO_SYNTAX) || \
-	((id) >= DIAG_IL_OPEN_PAREN && (id) < DIAG_IMAGE_MAGIC) ? "" : (text))
-#else
-#define TEXT(id, text) text
-#endif
-
-static const struct diag_row rows[DIAG_COUNT] = {
-#define DIAG(id, code, severity, text) \
-	[DIAG_##id] = { code, TEXT(DIAG_##id, text), severity },
+static const uint8_t severities[DIAG_COUNT] = {
+#define DIAG(id, code, severity, text) [DIAG_##id] = severity,
 #include "engine/diag.def"
 };
 
@@ -106,19 +99,31 @@ bool diag_add(struct diag_list *list, struct diag place, const char *arg, ...)
 	return !error;
 }
 
+/* The code of a row; its text is behind it. */
+static const char *row_of(enum diag_id id)
+{
+	const char *at = texts;
+
+	for (int i = 0; i < 2 * (int)id; i++)
+		at += strlen(at) + 1;
+	return at;
+}
+
 const char *diag_code(enum diag_id id)
 {
-	return id < DIAG_COUNT ? rows[id].code : "LD000";
+	return id < DIAG_COUNT ? row_of(id) : "LD000";
 }
 
 enum diag_severity diag_severity(enum diag_id id)
 {
-	return id < DIAG_COUNT ? rows[id].severity : SEVERITY_ERROR;
+	return id < DIAG_COUNT ? (enum diag_severity)severities[id] : SEVERITY_ERROR;
 }
 
 const char *diag_text(enum diag_id id)
 {
-	return id < DIAG_COUNT ? rows[id].text : "";
+	const char *code = diag_code(id);
+
+	return id < DIAG_COUNT ? code + strlen(code) + 1 : "";
 }
 
 struct out {

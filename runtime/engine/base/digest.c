@@ -9,14 +9,27 @@
 
 #include <string.h>
 
-/* RFC 3720 B.4: reflected polynomial 0x82f63b78. Row k is for a byte with k more
- * behind it, so that four bytes take one step; a small board has no room for that. */
+/* RFC 3720 B.4: reflected polynomial 0x82f63b78. */
 #ifdef RUNGBOARD_SMALL
-#define CRC_ROWS 1
+/* Half a byte a step: a small board has no room for more. */
+static const uint32_t crc_of[16] = {
+	0x00000000, 0x105ec76f, 0x20bd8ede, 0x30e349b1, 0x417b1dbc, 0x5125dad3,
+	0x61c69362, 0x7198540d, 0x82f63b78, 0x92a8fc17, 0xa24bb5a6, 0xb21572c9,
+	0xc38d26c4, 0xd3d3e1ab, 0xe330a81a, 0xf36e6f75,
+};
+
+static uint32_t crc_more(uint32_t crc, const uint8_t *at, size_t len)
+{
+	for (size_t i = 0; i < len; i++) {
+		crc ^= at[i];
+		crc = crc >> 4 ^ crc_of[crc & 15];
+		crc = crc >> 4 ^ crc_of[crc & 15];
+	}
+	return crc;
+}
 #else
-#define CRC_ROWS 4
-#endif
-static const uint32_t crc_of[CRC_ROWS][256] = {
+/* Row k is for a byte with k more behind it, so that four bytes take one step. */
+static const uint32_t crc_of[4][256] = {
 	{
 		0x00000000, 0xf26b8303, 0xe13b70f7, 0x1350f3f4, 0xc79a971f, 0x35f1141c,
 		0x26a1e7e8, 0xd4ca64eb, 0x8ad958cf, 0x78b2dbcc, 0x6be22838, 0x9989ab3b,
@@ -62,7 +75,6 @@ static const uint32_t crc_of[CRC_ROWS][256] = {
 		0xd5cf889d, 0x27a40b9e, 0x79b737ba, 0x8bdcb4b9, 0x988c474d, 0x6ae7c44e,
 		0xbe2da0a5, 0x4c4623a6, 0x5f16d052, 0xad7d5351,
 	},
-#ifndef RUNGBOARD_SMALL
 	{
 		0x00000000, 0x13a29877, 0x274530ee, 0x34e7a899, 0x4e8a61dc, 0x5d28f9ab,
 		0x69cf5132, 0x7a6dc945, 0x9d14c3b8, 0x8eb65bcf, 0xba51f356, 0xa9f36b21,
@@ -198,22 +210,24 @@ static const uint32_t crc_of[CRC_ROWS][256] = {
 		0x0302211c, 0xde478ba4, 0x31035088, 0xec46fa30, 0x8e647309, 0x5321d9b1,
 		0x4a21617b, 0x9764cbc3, 0xf54642fa, 0x2803e842,
 	},
-#endif
 };
 
-uint32_t digest_crc32c(uint32_t crc, const void *bytes, size_t len)
+static uint32_t crc_more(uint32_t crc, const uint8_t *at, size_t len)
 {
-	const uint8_t *at = bytes;
-
-	crc = ~crc;
-	for (; CRC_ROWS == 4 && len >= 4; at += 4, len -= 4)
-		crc = crc_of[3 % CRC_ROWS][(crc ^ at[0]) & 0xff] ^
-		      crc_of[2 % CRC_ROWS][(crc >> 8 ^ at[1]) & 0xff] ^
-		      crc_of[1 % CRC_ROWS][(crc >> 16 ^ at[2]) & 0xff] ^
+	for (; len >= 4; at += 4, len -= 4)
+		crc = crc_of[3][(crc ^ at[0]) & 0xff] ^
+		      crc_of[2][(crc >> 8 ^ at[1]) & 0xff] ^
+		      crc_of[1][(crc >> 16 ^ at[2]) & 0xff] ^
 		      crc_of[0][crc >> 24 ^ at[3]];
 	for (size_t i = 0; i < len; i++)
 		crc = crc >> 8 ^ crc_of[0][(crc ^ at[i]) & 0xff];
-	return ~crc;
+	return crc;
+}
+#endif
+
+uint32_t digest_crc32c(uint32_t crc, const void *bytes, size_t len)
+{
+	return ~crc_more(~crc, bytes, len);
 }
 
 /* FIPS 180-4, 4.2.2. */

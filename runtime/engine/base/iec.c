@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * iec - the types, areas and direct addresses of IEC 61131-3, without printing.
+ * iec - the types, areas and direct addresses of IEC 61131-3.
  *
  * What the scan needs of them: this file uses no libc but memory functions, so
  * that the smallest target links it. Text of values is in iec_print.c.
@@ -33,9 +33,9 @@ static const struct { const char *word; enum iec_type type; } alias[] = {
 };
 
 static const struct iec_area_row areas[AREA_COUNT] = {
-	[AREA_NONE] = { "", 0, 0, 0, ACCESS_READ, "" },
+	[AREA_NONE] = { "", 0, 0, 0, ACCESS_READ },
 #define AREA(id, letters, least, usual, most, access, doc) \
-	[AREA_##id] = { letters, least, usual, most, access, doc },
+	[AREA_##id] = { letters, least, usual, most, access },
 #include "engine/catalog.def"
 };
 
@@ -236,6 +236,51 @@ enum iec_addr_result iec_addr_parse(const char *text, size_t len,
 		return ADDR_RANGE;
 	*out = addr;
 	return ADDR_OK;
+}
+
+/* The digits of @value behind @at; returns the end. */
+static char *put_number(char *at, uint32_t value)
+{
+	char digit[10];
+	int count = 0;
+
+	do
+		digit[count++] = (char)('0' + value % 10);
+	while (value /= 10);
+	while (count > 0)
+		*at++ = digit[--count];
+	return at;
+}
+
+/* Not snprintf: a load prints an address for every declared line. */
+int iec_addr_print(struct iec_addr addr, char *out, size_t size)
+{
+	const char *letters = iec_area_row(addr.area)->letters;
+	char width = addr.bits == 8 ? 'B' : addr.bits == 16 ? 'W' :
+		     addr.bits == 32 ? 'D' : 'L';
+
+	char text[32], *at = text;
+	size_t len;
+
+	if (addr.area != AREA_NONE) {
+		*at++ = '%';
+		while (*letters)
+			*at++ = *letters++;
+		*at++ = addr.bits == 1 ? 'X' : width;
+		at = put_number(at, addr.byte);
+	}
+	if (addr.area != AREA_NONE && addr.bits == 1) {
+		*at++ = '.';
+		*at++ = (char)('0' + addr.bit);
+	}
+	len = (size_t)(at - text);
+	if (size > 0) {
+		size_t fits = len < size ? len : size - 1;
+
+		memcpy(out, text, fits);
+		out[fits] = '\0';
+	}
+	return (int)len;
 }
 
 enum iec_type iec_addr_type(struct iec_addr addr)

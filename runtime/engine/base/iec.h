@@ -96,10 +96,9 @@ enum iec_area {
 enum iec_access { ACCESS_READ, ACCESS_WRITE }; /* what a program may do */
 
 struct iec_area_row {
-	const char *letters; /* "I"                                            */
+	char letters[4];     /* "I"                                            */
 	uint32_t least, usual, most; /* bytes; a project says which, areas.h   */
 	enum iec_access access;
-	const char *doc;
 };
 const struct iec_area_row *iec_area_row(enum iec_area area);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * iec_print - values and addresses as text (see iec.h).
+ * iec_print - values as text (see iec.h).
  *
  * The same bytes on every machine: printf and strtof follow the user's language,
  * so no decimal point of theirs is ever used. Not for the scan.
@@ -12,51 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* The digits of @value behind @at; returns the end. */
-static char *put_number(char *at, uint32_t value)
-{
-	char digit[10];
-	int count = 0;
-
-	do
-		digit[count++] = (char)('0' + value % 10);
-	while (value /= 10);
-	while (count > 0)
-		*at++ = digit[--count];
-	return at;
-}
-
-/* Not snprintf: a load prints an address for every declared line. */
-int iec_addr_print(struct iec_addr addr, char *out, size_t size)
-{
-	const char *letters = iec_area_row(addr.area)->letters;
-	char width = addr.bits == 8 ? 'B' : addr.bits == 16 ? 'W' :
-		     addr.bits == 32 ? 'D' : 'L';
-
-	char text[32], *at = text;
-	size_t len;
-
-	if (addr.area != AREA_NONE) {
-		*at++ = '%';
-		while (*letters)
-			*at++ = *letters++;
-		*at++ = addr.bits == 1 ? 'X' : width;
-		at = put_number(at, addr.byte);
-	}
-	if (addr.area != AREA_NONE && addr.bits == 1) {
-		*at++ = '.';
-		*at++ = (char)('0' + addr.bit);
-	}
-	len = (size_t)(at - text);
-	if (size > 0) {
-		size_t fits = len < size ? len : size - 1;
-
-		memcpy(out, text, fits);
-		out[fits] = '\0';
-	}
-	return (int)len;
-}
 
 /* A number as its significant digits: 0.d1d2d3… x 10^(exponent + 1). */
 struct decimal {

@@ -23,14 +23,6 @@ static bool take_minus(struct rest *rest)
 	return false;
 }
 
-static enum literal_result set_integer(uint64_t size, bool minus, int64_t *out)
-{
-	if (size > (uint64_t)INT64_MAX + minus)
-		return LITERAL_RANGE;
-	*out = minus ? (int64_t)(0 - size) : (int64_t)size;
-	return LITERAL_OK;
-}
-
 #define REAL_TEXT 400 /* digits of a real literal that are looked at         */
 
 /* Copies digits without underscores; false: none, or a stray underscore. */
@@ -125,91 +117,16 @@ static enum literal_result parse_number(struct rest rest, struct literal *out)
 		out->value.i = (int64_t)size;
 		return LITERAL_OK;
 	}
-	return set_integer(size, minus, &out->value.i);
-}
-
-struct unit {
-	const char *word;
-	uint64_t ns;
-	uint64_t most; /* behind a larger unit                               */
-};
-
-static const struct unit units[] = {
-	{ "d",  86400000000000u, 0 }, { "h", 3600000000000u, 23 },
-	{ "m",  60000000000u, 59 },   { "s", 1000000000u, 59 },
-	{ "ms", 1000000u, 999 },      { "us", 1000u, 999 },
-	{ "ns", 1u, 999 },
-};
-#define UNITS (int)(sizeof(units) / sizeof(*units))
-
-/* The unit word at the cursor; UNITS: none. */
-static int take_unit(struct rest *rest)
-{
-	size_t len = 0;
-
-	while (rest->at + len != rest->end &&
-	       ascii_upper(rest->at[len]) >= 'A' &&
-	       ascii_upper(rest->at[len]) <= 'Z')
-		len++;
-	for (int i = 0; i < UNITS; i++)
-		if (ascii_is(units[i].word, rest->at, len)) {
-			rest->at += len;
-			return i;
-		}
-	return UNITS;
-}
-
-/* 1h2m3.5s */
-static enum literal_result parse_units(struct rest rest, uint64_t *out)
-{
-	uint64_t total = 0, count, part = 0, ns;
-	int before = -1, places = 0;
-
-	while (!literal_end(&rest)) {
-		enum literal_result result = literal_digits(&rest, 10, &count);
-		bool point = result != LITERAL_BAD && literal_byte(&rest, '.');
-		int unit;
-
-		if (point && result == LITERAL_OK)
-			result = literal_places(&rest, &part, &places);
-		if (result != LITERAL_OK)
-			return result;
-		unit = take_unit(&rest);
-		if (unit == UNITS || unit <= before ||
-		    (point && !literal_end(&rest)))
-			return LITERAL_BAD;
-		if ((before >= 0 && count > units[unit].most) ||
-		    __builtin_mul_overflow(count, units[unit].ns, &ns) ||
-		    __builtin_add_overflow(total, ns, &total))
-			return LITERAL_RANGE;
-		if (point && (!literal_fraction(part, places, units[unit].ns,
-					     &ns) ||
-			      __builtin_add_overflow(total, ns, &total)))
-			return LITERAL_RANGE;
-		before = unit;
-		if (literal_byte(&rest, '_') && literal_end(&rest))
-			return LITERAL_BAD;
-	}
-	*out = total;
-	return before < 0 ? LITERAL_BAD : LITERAL_OK;
-}
-
-bool literal_parse_duration(const char *text, size_t len, int64_t *ns)
-{
-	struct rest rest = { text, text + len };
-	uint64_t size;
-
-	return parse_units(rest, &size) == LITERAL_OK &&
-	       set_integer(size, false, ns) == LITERAL_OK;
+	return literal_signed(size, minus, &out->value.i);
 }
 
 static enum literal_result parse_time(struct rest rest, int64_t *out)
 {
 	bool minus = take_minus(&rest);
 	uint64_t size;
-	enum literal_result result = parse_units(rest, &size);
+	enum literal_result result = literal_units(rest, &size);
 
-	return result == LITERAL_OK ? set_integer(size, minus, out) : result;
+	return result == LITERAL_OK ? literal_signed(size, minus, out) : result;
 }
 
 static bool parse_bool(struct rest rest, int64_t *out)
@@ -357,13 +274,13 @@ int literal_print_time(int64_t ns, char *out, size_t size)
 	char text[96];
 	int len = snprintf(text, sizeof(text), "T#%s", ns < 0 ? "-" : "");
 
-	for (int i = 0; i < UNITS; i++) {
-		uint64_t count = left / units[i].ns;
+	for (int i = 0; i < LITERAL_UNITS; i++) {
+		uint64_t count = left / literal_unit[i].ns;
 
-		left %= units[i].ns;
+		left %= literal_unit[i].ns;
 		if (count)
 			len += snprintf(text + len, sizeof(text) - (size_t)len,
-					"%" PRIu64 "%s", count, units[i].word);
+					"%" PRIu64 "%s", count, literal_unit[i].word);
 	}
 	return snprintf(out, size, "%s%s", text, ns ? "" : "0s");
 }

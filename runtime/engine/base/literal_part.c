@@ -1,83 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * literal_part - pieces of constants: digits, fractions, dates, times of day and
- * quoted texts. What they are put together to is in literal.c.
+ * literal_part - pieces of constants: dates, times of day and quoted texts. What they
+ * are put together to is in literal.c.
  */
 #include "engine/base/literal_part.h"
 #include "engine/base/ascii.h"
 
 #include <string.h>
-
-static unsigned int digit_value(char c)
-{
-	if (ascii_digit(c))
-		return (unsigned int)(c - '0');
-	c = ascii_upper(c);
-	return c >= 'A' && c <= 'F' ? (unsigned int)(c - 'A') + 10 : 99;
-}
-
-/* Digits of @base with single underscores between them. */
-enum literal_result literal_digits(struct rest *rest, unsigned int base,
-				       uint64_t *out)
-{
-	bool over = false, digit = false;
-	uint64_t value = 0;
-
-	for (; !literal_end(rest); rest->at++) {
-		unsigned int d = digit_value(*rest->at);
-
-		if (*rest->at == '_' && digit && rest->end - rest->at > 1 &&
-		    digit_value(rest->at[1]) < base)
-			continue;
-		if (d >= base)
-			break;
-		digit = true;
-		over |= __builtin_mul_overflow(value, (uint64_t)base, &value);
-		over |= __builtin_add_overflow(value, (uint64_t)d, &value);
-	}
-	*out = value;
-	return !digit ? LITERAL_BAD : over ? LITERAL_RANGE : LITERAL_OK;
-}
-
-/* @part / 10^@places of @ns, if that is a whole number; false: it is finer. */
-bool literal_fraction(uint64_t part, int places, uint64_t ns, uint64_t *out)
-{
-	while (places > 0) {
-		if (part % 10 == 0)
-			part /= 10;
-		else if (ns % 10 == 0)
-			ns /= 10;
-		else if (part % 2 == 0 && ns % 5 == 0) {
-			part /= 2;
-			ns /= 5;
-		} else if (part % 5 == 0 && ns % 2 == 0) {
-			part /= 5;
-			ns /= 2;
-		} else {
-			return false;
-		}
-		places--;
-	}
-	return !__builtin_mul_overflow(part, ns, out);
-}
-
-/* Digits behind the point; zeros at their end do not count. */
-enum literal_result literal_places(struct rest *rest, uint64_t *part,
-				       int *places)
-{
-	struct rest digits = *rest;
-
-	if (literal_digits(rest, 10, part) == LITERAL_BAD)
-		return LITERAL_BAD;
-	digits.end = rest->at;
-	while (digits.end - digits.at > 1 &&
-	       (digits.end[-1] == '0' || digits.end[-1] == '_'))
-		digits.end--;
-	*places = 0;
-	for (const char *at = digits.at; at != digits.end; at++)
-		*places += *at != '_';
-	return literal_digits(&digits, 10, part);
-}
 
 #define SECOND_NS INT64_C(1000000000)
 #define DAY_NS    (86400 * SECOND_NS)
@@ -194,10 +123,10 @@ static int escape(const char *at, size_t left, size_t *used)
 	for (size_t i = 0; i < sizeof(letter) - 1; i++)
 		if (ascii_upper(*at) == letter[i])
 			return byte[i];
-	if (left < 2 || digit_value(at[0]) > 15 || digit_value(at[1]) > 15)
+	if (left < 2 || literal_digit(at[0]) > 15 || literal_digit(at[1]) > 15)
 		return -1;
 	*used = 2;
-	return (int)(digit_value(at[0]) * 16 + digit_value(at[1]));
+	return (int)(literal_digit(at[0]) * 16 + literal_digit(at[1]));
 }
 
 /* Counts the bytes of what stands between two quotes; @out may be NULL. */

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * literal_part - what literal.c is made of. Private to base/.
+ * literal_part - what literal.c and literal_time.c are made of. Private to base/.
  */
 #ifndef BASE_LITERAL_PART_H
 #define BASE_LITERAL_PART_H
 
+#include "engine/base/ascii.h"
 #include "engine/base/literal.h"
 
 /* What is left of the text. */
@@ -25,6 +26,15 @@ static inline bool literal_byte(struct rest *rest, char c)
 	return true;
 }
 
+/** literal_digit - the value of a digit up to F; 99: it is none. */
+static inline unsigned int literal_digit(char c)
+{
+	if (ascii_digit(c))
+		return (unsigned int)(c - '0');
+	c = ascii_upper(c);
+	return c >= 'A' && c <= 'F' ? (unsigned int)(c - 'A') + 10 : 99;
+}
+
 /** literal_digits - digits of @base with single underscores between them. */
 enum literal_result literal_digits(struct rest *rest, unsigned int base,
 				   uint64_t *out);
@@ -33,6 +43,18 @@ enum literal_result literal_places(struct rest *rest, uint64_t *part, int *place
 /** literal_fraction - @part / 10^@places of @ns, if that is a whole number; false: it
  * is finer. */
 bool literal_fraction(uint64_t part, int places, uint64_t ns, uint64_t *out);
+struct literal_unit {
+	char word[3];
+	uint16_t most; /* behind a larger unit                                */
+	uint64_t ns;
+};
+#define LITERAL_UNITS 7
+/* d to ns. */
+extern const struct literal_unit literal_unit[LITERAL_UNITS];
+/** literal_units - 1h2m3.5s in ns. */
+enum literal_result literal_units(struct rest rest, uint64_t *out);
+/** literal_signed - so much, or minus as much, if 64 bits hold it. */
+enum literal_result literal_signed(uint64_t size, bool minus, int64_t *out);
 /** literal_date - what stands behind TOD#, D# and DT# (IEC 61131-3 table 8). */
 enum literal_result literal_date(enum iec_type type, struct rest rest, int64_t *out);
 /** literal_quoted - a STRING in its quotes. */

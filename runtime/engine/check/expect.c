@@ -5,6 +5,7 @@
 #include "engine/check/expect.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/explain.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,9 +21,26 @@ struct offer {
 static void give(const struct offer *o, enum expect_kind kind, const char *text,
 		 const char *note)
 {
-	struct expect_word word = { kind, text, note ? note : "" };
+	struct expect_word word = { .kind = kind, .text = text,
+				    .note = note ? note : "" };
 
 	if (*text)
+		o->taker->take(o->taker->context, &word);
+}
+
+static void give_operator(const struct offer *o, enum op op, const char *text)
+{
+	struct expect_word word = { .kind = EXPECT_OPERATOR, .text = text, .op = op };
+
+	o->taker->take(o->taker->context, &word);
+}
+
+static void give_row(const struct offer *o, enum expect_kind kind,
+		     const struct word_row *row)
+{
+	struct expect_word word = { .kind = kind, .text = row->word, .row = row };
+
+	if (*row->word)
 		o->taker->take(o->taker->context, &word);
 }
 
@@ -65,11 +83,11 @@ static void offer_operators(const struct offer *o)
 		const bool may[] = { n && !c, c, c && n, open, open && n };
 		char text[16];
 
-		give(o, EXPECT_OPERATOR, row->word, row->doc);
+		give_operator(o, (enum op)i, row->word);
 		for (size_t k = 0; k < sizeof(may) / sizeof(*may); k++) {
 			snprintf(text, sizeof(text), "%s%s", row->word, ends[k]);
 			if (may[k])
-				give(o, EXPECT_OPERATOR, text, row->doc);
+				give_operator(o, (enum op)i, text);
 		}
 	}
 }
@@ -81,13 +99,13 @@ static void offer_row(const struct offer *o, const struct word_row *row)
 
 	if (row->kind == WORD_FN && o->want->kinds & EXPECT_FUNCTION &&
 	    (o->want->boxes || word_operator(row) == OP_COUNT))
-		give(o, EXPECT_FUNCTION, row->word, row->doc);
+		give_row(o, EXPECT_FUNCTION, row);
 	if (row->kind == WORD_FB && o->want->kinds & EXPECT_BLOCK)
-		give(o, EXPECT_BLOCK, row->word, row->doc);
+		give_row(o, EXPECT_BLOCK, row);
 	if (row->kind == WORD_STRUCT && o->want->kinds & EXPECT_TYPE)
 		give(o, EXPECT_TYPE, row->word, "structure");
 	if (element && o->want->kinds & EXPECT_ELEMENT)
-		give(o, EXPECT_ELEMENT, row->word, row->doc);
+		give_row(o, EXPECT_ELEMENT, row);
 }
 
 static void offer_words(const struct offer *o)
@@ -201,14 +219,15 @@ static void offer_pins(const struct offer *o)
 
 	for (int i = 0; row && i < row->pin_count; i++) {
 		const struct word_pin *pin = &row->pin[i];
-		const char *note = pin->type != IEC_NONE ?
-			iec_type_row(pin->type)->word : pin->doc;
+		const struct expect_word word = {
+			.kind = EXPECT_PIN, .text = pin->name, .row = row, .pin = i };
 
 		if (pin->dir == PIN_VAR || pin->dir == PIN_NONE || !pin->name ||
 		    (dirs && !(dirs & 1u << pin->dir)) ||
 		    (pin->type != IEC_NONE && !is_class(o, pin->type)))
 			continue;
-		give(o, EXPECT_PIN, pin->name, note);
+		if (*pin->name)
+			o->taker->take(o->taker->context, &word);
 	}
 	if (!row || row->kind != WORD_FN || !o->want->call)
 		return;
@@ -246,6 +265,19 @@ void expect_offer(struct scope *scope, const struct pou *pou,
 		offer_routines(&o);
 	if (want->kinds & EXPECT_PIN)
 		offer_pins(&o);
+}
+
+const char *expect_note(const struct expect_word *word)
+{
+	if (word->note)
+		return word->note;
+	if (word->kind == EXPECT_OPERATOR)
+		return explain_op(word->op);
+	if (word->kind != EXPECT_PIN)
+		return explain_word(word->row);
+	if (word->row->pin[word->pin].type != IEC_NONE)
+		return iec_type_row(word->row->pin[word->pin].type)->word;
+	return explain_pin(word->row, word->pin);
 }
 
 const char *expect_kind_text(enum expect_kind kind)

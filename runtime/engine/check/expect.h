@@ -44,7 +44,10 @@ struct expect_want {
 struct expect_word {
 	enum expect_kind kind;
 	const char *text;          /* lives while it is looked at               */
-	const char *note;          /* its type, or what it does; "": nothing    */
+	const char *note;          /* its type; NULL: see expect_note()         */
+	const struct word_row *row; /* of a word, a pin                         */
+	enum op op;                /* of an operator                            */
+	int pin;
 };
 
 struct expect_taker {
@@ -56,6 +59,10 @@ struct expect_taker {
  * POU. Owns: nothing.   Scan-safe: no. */
 void expect_offer(struct scope *scope, const struct pou *pou,
 		  const struct expect_want *want, const struct expect_taker *taker);
+
+/** expect_note - the type of what was offered, or what it does; "": nothing. Lives as
+ * @word does, at least. Explanations are linked by who asks for them here. */
+const char *expect_note(const struct expect_word *word);
 
 /** expect_kind_text - "variable". Lives for ever. */
 const char *expect_kind_text(enum expect_kind kind);

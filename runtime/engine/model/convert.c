@@ -103,7 +103,7 @@ static void fill(struct convert_word *out, const struct rule *rule,
 	out->row = *runs;
 	out->row.id = out->row.word = out->name + 1;
 	out->row.runs = parts->long_time ? FN_CONVERT_NS : rule->runs;
-	out->row.doc = parts->long_time ? IN_NS : rule->doc;
+	out->doc = parts->long_time ? IN_NS : rule->doc;
 	if (parts->to)
 		out->row.result = parts->to;
 	out->row.result_classes = rule->to;

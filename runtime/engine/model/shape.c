@@ -155,7 +155,7 @@ static void make_pin(const struct shaper *s, struct word_row *row,
 	uint8_t flags = vars_flags(table, index);
 
 	*pin = (struct word_pin){
-		.name = project_text(s->project, var->name), .doc = "",
+		.name = project_text(s->project, var->name),
 		.dir = dir_of(row, flags), .type = var->type, .word = var->fb,
 		.capacity = var->capacity, .elements = var->array.count, .low = var->array.low,
 		.classes = iec_type_row(var->type)->class,
@@ -208,7 +208,7 @@ static bool make_pins(struct shaper *s, int index)
 		make_pin(s, row, &pin[i], table, i);
 	for (int i = table->count; i < count; i++)
 		pin[i] = (struct word_pin){
-			.name = "", .dir = PIN_VAR, .type = IEC_BOOL, .doc = "" };
+			.name = "", .dir = PIN_VAR, .type = IEC_BOOL };
 	row->pin = pin;
 	row->pin_count = (uint16_t)count;
 	return true;

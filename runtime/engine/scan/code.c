@@ -149,7 +149,7 @@ static void mark_instance(struct verifier *v, uint32_t offset,
 {
 	memset(v->mark + offset, MARK_INSIDE, row->size);
 	for (int i = 0; i < row->pin_count; i++) {
-		const struct word_pin *pin = &row->pin[i];
+		const struct word_pin *pin = &word_pins(row)[i];
 
 		if (pin->dir != PIN_VAR)
 			v->mark[offset + pin->offset] = (uint8_t)

@@ -6,6 +6,7 @@
  */
 #include "engine/view/words.h"
 
+#include "engine/base/explain.h"
 #include "engine/model/convert.h"
 #include "engine/model/words.h"
 #include "engine/view/view.h"
@@ -87,7 +88,7 @@ static void row_entry(const struct word_row *row, struct words_entry *out)
 		    row->kind == WORD_FN ? WORDS_FUNCTION : WORDS_ELEMENT;
 	out->word = row->word;
 	out->family = row->family[0] ? row->family : NULL;
-	out->doc = row->doc;
+	out->doc = explain_word(row);
 	out->row = row;
 }
 
@@ -107,6 +108,8 @@ static bool made_entry(const char *word, struct convert_word *made,
 	if (block == WORD_COUNT && !convert_make(word, strlen(word), made))
 		return false;
 	row_entry(block != WORD_COUNT ? word_row(block) : &made->row, out);
+	if (block == WORD_COUNT)
+		out->doc = made->doc;
 	out->number = (int)block;
 	return true;
 }
@@ -117,7 +120,7 @@ static void op_entry(int op, struct words_entry *out)
 	out->number = op;
 	out->op = op_row((enum op)op);
 	out->word = out->op->word;
-	out->doc = out->op->doc;
+	out->doc = explain_op((enum op)op);
 }
 
 static void type_entry(int type, struct words_entry *out)
@@ -133,7 +136,7 @@ static void area_entry(int area, struct words_entry *out)
 	out->number = area;
 	out->area = iec_area_row((enum iec_area)area);
 	out->word = out->area->letters;
-	out->doc = out->area->doc;
+	out->doc = explain_area((enum iec_area)area);
 }
 
 static void sys_entry(int sys, struct words_entry *out)
@@ -143,7 +146,7 @@ static void sys_entry(int sys, struct words_entry *out)
 	out->sys = sys_row((enum sys_id)sys);
 	out->type = iec_type_row(out->sys->type);
 	out->word = out->sys->name;
-	out->doc = out->sys->doc;
+	out->doc = explain_sys((enum sys_id)sys);
 }
 
 bool words_at(int index, struct words_entry *out)
@@ -346,7 +349,8 @@ static void pin_lines(const struct word_row *row, const struct sink *sink)
 			    pin->dir == PIN_IN ? "in" : "out", width, pin->name,
 			    pin->type != IEC_NONE ?
 			    iec_type_row(pin->type)->word :
-			    words_classes(pin->classes), pin->doc,
+			    words_classes(pin->classes),
+			    explain_pin(row, i),
 			    pin->has_init ? "; if not given: " : "",
 			    words_default(pin, text));
 	}
@@ -423,7 +427,7 @@ static void json_pins(const struct word_row *row, const struct sink *sink)
 		json_field(sink, "type", pin->type != IEC_NONE ?
 			   iec_type_row(pin->type)->word :
 			   words_classes(pin->classes));
-		json_field(sink, "doc", pin->doc);
+		json_field(sink, "doc", explain_pin(row, i));
 		if (pin->has_init)
 			json_field(sink, "default", words_default(pin, text));
 		sink_text(sink, "}");

@@ -4,6 +4,7 @@
  * cannot be older than the program. It explains nothing that a row does not
  * say.
  */
+#include "engine/base/explain.h"
 #include "engine/view/view.h"
 #include "engine/view/words.h"
 
@@ -155,7 +156,7 @@ static void box(const struct words_entry *entry, const struct sink *sink)
 			    pin->type != IEC_NONE ?
 			    iec_type_row(pin->type)->word :
 			    words_classes(pin->classes));
-		in_table(sink, pin->doc);
+		in_table(sink, explain_pin(row, i));
 		if (pin->has_init)
 			sink_printf(sink, "; `%s` if not given",
 				    words_default(pin, text));
