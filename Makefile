@@ -46,7 +46,11 @@ endif
 LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)
 # What runs once a load is better small than fast.
-$(call obj,$(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/engine/scan/retain_*.c runtime/ladderd/store_*.c)): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
+OFTEN    := $(addprefix runtime/ladderd/,cycle.c stats.c wall.c)
+$(call obj,$(filter-out $(OFTEN),$(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/ladderd/*.c \
+            $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/code*.c scan/declared.c \
+            scan/retain_*.c scan/symbols.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
+            hal/gpio_find.c hal/hal_open.c hal/iomap.c))): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
 
 all: $(BUILD)/libladder.a ## build everything that can be built here
 

@@ -151,10 +151,9 @@ static inline struct var_array pin_array(const struct word_pin *pin)
 }
 
 struct word_row {
-	const char *id;      /* "CONTACT_NC"                                   */
 	const char *word;    /* as the rung file spells it: "NC", "TON"        */
-	const char *glyph;   /* three characters, its strokes; boxes: ""       */
 	const char *family;  /* of the palette                                 */
+	char glyph[4];       /* three characters, its strokes; boxes: ""       */
 	enum word number : 16; /* of the catalogue; of a project: WORD_COUNT   */
 	enum word_kind kind : 8;
 	enum place place : 8;
