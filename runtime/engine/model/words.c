@@ -68,6 +68,7 @@ enum word words_add(struct word_table *table, struct word_row row)
 	if (!copy)
 		return WORD_COUNT;
 	*copy = row;
+	copy->number = WORD_COUNT;
 	place = arena_push(table->arena, &table->row, &table->count,
 			   sizeof(*place));
 	if (!place)
