@@ -397,6 +397,14 @@ bench-rt: $(BUILD)/ladderd ## how late ladderd wakes up, beside cyclictest
 .PHONY: install-board push-tests bench-rt
 # ---- end of board ----
 
+# ---- small ----
+# What a small board has, for this machine: all words, and those of WORDS=core.
+small: ## ladderd and replay as SMALL=1 has them, for this machine: build/small/ and build/small-core/
+	$(MAKE) BUILD=$(BUILD)/small SMALL=1 HAL=uapi $(BUILD)/small/ladderd $(BUILD)/small/replay
+	$(MAKE) BUILD=$(BUILD)/small-core SMALL=1 WORDS=core HAL=uapi $(BUILD)/small-core/ladderd
+.PHONY: small
+# ---- end of small ----
+
 # ---- everything ----
 # One list for prove. A second build with sanitizers runs the tests that read and
 # run what strangers write. Their char is unsigned, as it is on ARM.
@@ -411,9 +419,9 @@ tests: all man $(BUILT) $(HAL_DAEMONS)
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd
-check: tests asan arm cases ## build, then every test
+check: tests asan arm small cases ## build, then every test
 	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \
-	  prove -j$$(nproc) -e '' tests/arm.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
+	  prove -j$$(nproc) -e '' tests/arm.sh tests/small.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
 bench: $(BUILD)/ladder $(BUILD)/ladderd ## speed, load time and size, as a table
 	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh
 .SECONDARY:

@@ -1,0 +1,44 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# small - what a small board has (make SMALL=1), built for this machine: its rows of
+# words and its smaller checksum do what those of the translator's build do.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+build=${BUILD:-build}
+tmp=$(mktemp -d) || exit 1
+trap 'rm -rf "$tmp"' EXIT
+
+n=0 failed=0
+say() { # status text
+	n=$((n + 1))
+	if [ "$1" -eq 0 ]; then echo "ok $n - $2"; return; fi
+	failed=1
+	echo "not ok $n - $2"
+	sed 's/^/#   /' "$tmp/out" | tail -n 12
+}
+said() { # status wanted text : what the last command said and how it ended
+	[ "$1" -eq "$2" ] && grep -q "$3" "$tmp/out"
+}
+
+"$build/small/replay" "$build/cases/programs.bundle" >"$tmp/out" 2>&1
+say $? '1,000 random programs: every scan byte for byte'
+
+image() { "$build/ladder" build --small "$1" -o "$2" >"$tmp/out" 2>&1; }
+check() { "$build/$1/ladderd" "$2" --io "$tmp/io" --check >"$tmp/out" 2>&1; }
+printf 'BOARD "sim"\n' >"$tmp/io"
+image tests/golden/word-real-errors/main.rung "$tmp/real.rungc"
+say $? 'an image with words that WORDS=core has not'
+image tests/golden/word-timers/main.rung "$tmp/ton.rungc"
+say $? 'one with words of the core'
+check small "$tmp/real.rungc"
+said $? 0 'data:'; say $? 'all words: the first is accepted'
+check small "$tmp/ton.rungc"
+said $? 0 'data:'; say $? 'all words: so is the second'
+check small-core "$tmp/real.rungc"
+said $? 1 LD613; say $? 'WORDS=core: the first is refused'
+check small-core "$tmp/ton.rungc"
+said $? 0 'data:'; say $? 'WORDS=core: the second is accepted'
+"$build/small/ladderd" tests/golden/word-timers/main.rung --io "$tmp/io" --check >"$tmp/out" 2>&1
+said $? 1 LD610; say $? 'a rung file is not a code image'
+echo "1..$n"
+exit $failed
