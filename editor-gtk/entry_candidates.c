@@ -9,6 +9,7 @@
 #include "editor-gtk/i18n.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/explain.h"
 #include "engine/base/lex.h"
 
 #include <stdio.h>
@@ -351,7 +352,7 @@ static void add_pins(struct search *s)
 		snprintf(text, sizeof(text), "%.*s.%s", (int)s->head, typed(s), pin->name);
 		add(s, ENTRY_PIN, fit(pin->name, typed(s) + skip, typed_len(s) - skip),
 		    text, "", pin->type != IEC_NONE ? iec_type_row(pin->type)->word : "",
-		    pin->doc ? pin->doc : "");
+		    explain_pin(row, i));
 	}
 }
 
@@ -384,7 +385,7 @@ static void add_system(struct search *s)
 		if (s->want & WANT_BOOL ? row->type == IEC_BOOL :
 		    !s->classes || iec_type_row(row->type)->class & s->classes)
 			add(s, ENTRY_ADDRESS, fits, row->name, row->address, iec_type_row(row->type)->word,
-			    row->doc);
+			    explain_sys((enum sys_id)i));
 	}
 }
 
@@ -402,7 +403,7 @@ static void add_words(struct search *s)
 	for (int i = 0; (m = entry_mnemonic(i)) != NULL; i++)
 		if (may_stand(s, word_row(m->word)) && typed_len(s) > 0)
 			add(s, ENTRY_WORD, fit(m->text, typed(s), typed_len(s)), m->text,
-			    "", word_row(m->word)->word, word_row(m->word)->doc);
+			    "", word_row(m->word)->word, explain_word(word_row(m->word)));
 	for (int i = 0; i < WORD_KNOWN + words->count; i++) {
 		const enum word word = (enum word)(i < WORD_KNOWN ? i :
 						   WORD_FIRST_OWN + i - WORD_KNOWN);
@@ -410,7 +411,7 @@ static void add_words(struct search *s)
 
 		if (may_stand(s, row) && row->kind != WORD_STRUCT)
 			add(s, ENTRY_WORD, fit(row->word, typed(s), typed_len(s)),
-			    row->word, "", row->family, row->doc);
+			    row->word, "", row->family, words_explain(row));
 	}
 }
 
@@ -457,7 +458,7 @@ static void add_pin_names(struct search *s)
 			 pin->dir == PIN_OUT ? "=>" : ":=");
 		add(s, ENTRY_PIN, fit(pin->name, typed(s), typed_len(s)), text, "",
 		    pin->type != IEC_NONE ? iec_type_row(pin->type)->word : "",
-		    pin->doc ? pin->doc : "");
+		    explain_pin(s->row, i));
 	}
 }
 

@@ -64,8 +64,8 @@ static char *name_of(LadderGridView *view, int rung, const struct cell *cell)
 
 	g_string_printf(text, _("Rung %d, %s"), rung + 1,
 			row->word[0] ? row->word : row->id);
-	if (row->doc && row->doc[0])
-		g_string_append_printf(text, ", %s", _(row->doc));
+	if (words_explain(row)[0])
+		g_string_append_printf(text, ", %s", _(words_explain(row)));
 	if (operand[0])
 		g_string_append_printf(text, ": %s", operand);
 	if (name.symbol[0] && g_ascii_strcasecmp(name.symbol, operand) != 0)

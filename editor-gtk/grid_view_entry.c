@@ -11,6 +11,8 @@
 #include "editor-gtk/entry.h"
 #include "editor-gtk/entry_popup.h"
 
+#include "engine/base/explain.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -290,7 +292,7 @@ static char *pin_changed(void *context, const char *line, int cursor, bool *good
 	     i < row->pin_count; i++) {
 		const struct word_pin *pin = &row->pin[i];
 		struct entry_popup_row one = { (char *)pin->name, "",
-			(char *)(pin->doc ? pin->doc : ""), _("input"),
+			(char *)explain_pin(row, i), _("input"),
 			(char *)pin->name };
 
 		if (pin->dir == PIN_IN && pin->type == IEC_BOOL &&

@@ -46,7 +46,7 @@ static void rows_are_whole(void)
 	for (int i = 0; i < WORD_COUNT; i++) {
 		const struct word_row *row = word_row((enum word)i);
 
-		whole &= row->word && row->family &&
+		whole &= row->id && row->word && row->family &&
 			 row->number == (enum word)i;
 		whole &= strlen(row->glyph) == (row->kind == WORD_ELEM ? 3 : 0);
 		/* NOT is an element first; the reader finds the function. */

@@ -40,18 +40,18 @@
 static const struct word_row words[WORD_KNOWN] = {
 #define ELEM(id_, word_, glyph_, family_, place_, operand_, edge_, first_, next_, \
 	     negate_, doc_) \
-	[ELEM_##id_] = { .word = word_, .glyph = glyph_, \
+	[ELEM_##id_] = { .id = #id_, .word = word_, .glyph = glyph_, \
 		.family = family_, .number = ELEM_##id_, .kind = WORD_ELEM, \
 		.place = place_, .operand = operand_, .edge = edge_, \
 		.first = OP_##first_, .next = OP_##next_, .negate = negate_ },
 #define FB(id_, family_, doc_, pins) \
-	[FB_##id_] = { .word = #id_, .glyph = "", \
+	[FB_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
 		.family = family_, .number = FB_##id_, .kind = WORD_FB, \
 		.place = PLACE_BOX, .operand = OPND_INSTANCE, \
 		.first = OP_CAL, .next = OP_CAL, PINS(id_), \
 		.size = sizeof(struct fb_##id_) },
 #define FN(id_, family_, doc_, result_, most_, pins) \
-	[FN_##id_] = { .word = #id_, .glyph = "", \
+	[FN_##id_] = { .id = #id_, .word = #id_, .glyph = "", \
 		.family = family_, .number = FN_##id_, .kind = WORD_FN, \
 		.place = PLACE_BOX, .operand = OPND_NONE, \
 		.first = OP_LD, .next = OP_AND, .result = (result_) & 0xff, \
@@ -87,7 +87,7 @@ static const struct sys_row sys_rows[SYS_COUNT] = {
 
 /* All that is known of a word of a project without the project. */
 static const struct word_row own_word = {
-	.word = "", .glyph = "", .family = "",
+	.id = "", .word = "", .glyph = "", .family = "",
 	.number = WORD_COUNT, .kind = WORD_FB, .place = PLACE_BOX, .operand = OPND_INSTANCE,
 	.first = OP_CAL, .next = OP_CAL,
 };

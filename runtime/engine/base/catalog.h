@@ -151,6 +151,7 @@ static inline struct var_array pin_array(const struct word_pin *pin)
 }
 
 struct word_row {
+	const char *id;      /* "CONTACT_NC"                                   */
 	const char *word;    /* as the rung file spells it: "NC", "TON"        */
 	const char *family;  /* of the palette                                 */
 	char glyph[4];       /* three characters, its strokes; boxes: ""       */

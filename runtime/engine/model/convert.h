@@ -12,7 +12,7 @@
 #include "engine/base/catalog.h"
 
 struct convert_word {
-	struct word_row row; /* points to pin and name                        */
+	struct word_row row; /* first (words_explain); points to pin and name */
 	struct word_pin pin;
 	const char *doc;     /* what it does; lives for ever                   */
 	char name[48];

@@ -6,6 +6,7 @@
  */
 #include "engine/model/words.h"
 #include "engine/base/ascii.h"
+#include "engine/base/explain.h"
 #include "engine/base/limits.h"
 #include "engine/model/convert.h"
 
@@ -154,6 +155,15 @@ enum word words_find(struct word_table *table, const char *text, size_t len)
 		return (enum word)(WORD_FIRST_OWN + found - 1);
 	word = words_find_short(text, len);
 	return word != WORD_COUNT ? word : find_made(table, text, len);
+}
+
+const char *words_explain(const struct word_row *row)
+{
+	/* A row with the number of one of the catalogue that is not this one was made
+	 * of it, and is part of more. */
+	if (row->number < WORD_COUNT && row != word_row(row->number))
+		return ((const struct convert_word *)row)->doc;
+	return explain_word(row);
 }
 
 bool words_is_taken(const char *name)

@@ -51,6 +51,10 @@ enum word words_find(struct word_table *table, const char *text, size_t len);
  * type that it has anyway; WORD_COUNT: none. Scan-safe: no. */
 enum word words_find_short(const char *text, size_t len);
 
+/** words_explain - what a row of any of them does; "" of one of the project. Lives for
+ * ever. */
+const char *words_explain(const struct word_row *row);
+
 /** words_is_taken - do cells or lists have this word already, perhaps with C or N
  * behind it? Nothing of a project can be called so. Scan-safe: yes. */
 bool words_is_taken(const char *name);

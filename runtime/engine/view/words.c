@@ -88,7 +88,7 @@ static void row_entry(const struct word_row *row, struct words_entry *out)
 		    row->kind == WORD_FN ? WORDS_FUNCTION : WORDS_ELEMENT;
 	out->word = row->word;
 	out->family = row->family[0] ? row->family : NULL;
-	out->doc = explain_word(row);
+	out->doc = words_explain(row);
 	out->row = row;
 }
 
@@ -108,8 +108,6 @@ static bool made_entry(const char *word, struct convert_word *made,
 	if (block == WORD_COUNT && !convert_make(word, strlen(word), made))
 		return false;
 	row_entry(block != WORD_COUNT ? word_row(block) : &made->row, out);
-	if (block == WORD_COUNT)
-		out->doc = made->doc;
 	out->number = (int)block;
 	return true;
 }
