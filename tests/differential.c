@@ -19,8 +19,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#define TEXT_MAX (96 * 1024)
-#define COMPARED 256  /* variables of one program                            */
+#define TEXT_MAX (128 * 1024)
+#define COMPARED 1500 /* variables of one program                            */
 #define WINDOW 16     /* bytes of I, Q and M that programs use               */
 #define MARKS 24
 

@@ -439,10 +439,80 @@ static void add_flow(struct random_source *source, struct random_program *progra
 	}
 }
 
+/* Some boxes of a rung become calls of what is the program's own. */
+static void add_own(struct random_source *source, struct random_rung *rung)
+{
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		struct random_cell *cell =
+			&rung->cell[i / RANDOM_COLS][i % RANDOM_COLS];
+		bool box = cell->kind == RANDOM_SERIES ||
+			   (cell->kind == RANDOM_BOX && cell->text[0] == '[');
+
+		if (box && random_chance(source, 20))
+			random_own_call(source, rung->pou, cell->text,
+					sizeof(cell->text));
+	}
+}
+
+/* A function: no edges, no instances, no calls of what keeps something. */
+static void forget(struct random_source *source, struct random_rung *rung)
+{
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		struct random_cell *cell =
+			&rung->cell[i / RANDOM_COLS][i % RANDOM_COLS];
+
+		random_without_memory(source, cell->text, sizeof(cell->text));
+	}
+}
+
+static bool has_box(const struct random_rung *rung)
+{
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		const struct random_cell *cell =
+			&rung->cell[i / RANDOM_COLS][i % RANDOM_COLS];
+
+		if (cell->kind == RANDOM_BOX && cell->text[0] != '[')
+			return true;
+	}
+	return false;
+}
+
+/* A body that looks at the very instance that it works on, by its name outside, sees what
+ * docs/language.md says; programs here leave that alone. */
+static bool looks_outside(const struct random_rung *rung)
+{
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		const char *text = rung->cell[i / RANDOM_COLS][i % RANDOM_COLS].text;
+
+		if (strstr(text, "inner_") || strstr(text, "outer_"))
+			return true;
+	}
+	return false;
+}
+
+static void make_own(struct random_source *source, struct random_program *program)
+{
+	for (int pou = RANDOM_INNER; pou < RANDOM_POUS; pou++) {
+		int count = 1 + (int)random_below(source, 2);
+
+		for (int i = 0; i < count; i++) {
+			struct random_rung *rung = &program->rung[program->rungs++];
+
+			rung->pou = pou;
+			do
+				draw_rung(source, rung, 0);
+			while (looks_outside(rung) ||
+			       (pou == RANDOM_RECKON && has_box(rung)));
+			if (pou == RANDOM_RECKON)
+				forget(source, rung);
+		}
+	}
+}
+
 void random_make(struct random_program *program, uint64_t seed)
 {
 	struct random_source source;
-	int second;
+	int second, programs = 0;
 
 	random_seed(&source, seed);
 	memset(program, 0, sizeof(*program));
@@ -460,13 +530,20 @@ void random_make(struct random_program *program, uint64_t seed)
 		draw_rung(&source, rung, random_chance(&source, 60) ? later : 0);
 	}
 	program->routine = second < program->rungs && random_chance(&source, 60);
-	for (int i = 0; i < program->rungs; i++) {
+	for (int i = 0; i < program->rungs; i++)
 		add_flow(&source, program, &program->rung[i]);
-		program->rung[i].label = i + 1;
+	if (program->rungs <= 8 && random_chance(&source, 50)) {
+		programs = program->rungs;
+		make_own(&source, program);
+		for (int i = 0; i < program->rungs; i++)
+			if (program->rung[i].pou != RANDOM_RECKON)
+				add_own(&source, &program->rung[i]);
 	}
+	for (int i = 0; i < program->rungs; i++)
+		program->rung[i].label = i + 1;
 	program->rung[random_below(&source, (uint32_t)program->rungs)].off =
 		random_chance(&source, 10);
-	if (program->rungs >= 4 && second == program->rungs &&
+	if (!programs && program->rungs >= 4 && second == program->rungs &&
 	    random_chance(&source, 15))
 		make_loop(program);
 }
@@ -527,30 +604,54 @@ static void print_rung(const struct random_program *program,
 	}
 }
 
+/* Is there something of its own that it calls or looks into? */
+static bool is_own(const struct random_program *program, const char *body)
+{
+	return program->rung[program->rungs - 1].pou > RANDOM_OTHER ||
+	       strstr(body, "inner_") || strstr(body, "outer_") || strstr(body, "Reckon ");
+}
+
+static void print_own(const struct random_program *program, struct page *page)
+{
+	for (int pou = RANDOM_INNER; pou < RANDOM_POUS; pou++) {
+		add(page, random_own_head(pou));
+		for (int i = 0; i < program->rungs; i++)
+			if (program->rung[i].pou == pou)
+				print_rung(program, &program->rung[i], page);
+		add(page, random_own_tail(pou));
+	}
+}
+
 size_t random_print(const struct random_program *program, char *out,
 		    size_t size)
 {
 	const char *kind = program->routine ? "SUBROUTINE" : "PROGRAM";
 	static const char vars[] = "VAR\n  bool_b : BOOL;\n  int_b : INT;\nEND_VAR\n";
-	char line[64];
-	char body[48 * 1024];
+	static char body[80 * 1024];
 	struct page page = { body, sizeof(body), 0 };
 	struct page whole = { out, size, 0 };
-	int pou = 0;
+	char line[64];
+	int pou = RANDOM_MAIN;
 
 	add(&page, "PROGRAM Main LD\n");
 	for (int i = 0; i < program->rungs; i++) {
-		if (program->rung[i].pou != pou) {
+		int next = program->rung[i].pou;
+
+		if (next != pou && next == RANDOM_OTHER) {
 			snprintf(line, sizeof(line), "END_PROGRAM\n%s Other LD\n", kind);
 			add(&page, line);
 			add(&page, vars);
+			pou = next;
 		}
-		pou = program->rung[i].pou;
-		print_rung(program, &program->rung[i], &page);
+		if (next <= RANDOM_OTHER)
+			print_rung(program, &program->rung[i], &page);
 	}
 	snprintf(line, sizeof(line), "END_%s\n", pou ? kind : "PROGRAM");
 	add(&page, line);
+	if (is_own(program, body))
+		print_own(program, &page);
 	add(&whole, "RUNGBOARD 1\n");
+	add(&whole, random_types(body));
 	whole.used += random_declare(body, out + whole.used, size - whole.used);
 	add(&whole, body);
 	return whole.used;

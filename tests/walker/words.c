@@ -98,6 +98,17 @@ static const struct pool_row pool[] = {
 	{ "mean_a.OUT", "REAL", "", 1, 0 }, { "range_a.OUT", "REAL", "", 1, 0 },
 	{ "pid_b.KP", "REAL", "", 0, 0 }, { "scale_a.GAIN", "REAL", "", 0, 0 },
 	{ "real_c", "REAL", ":= 12.5", 0, 0 }, { "fifo_a.OUT", "DINT", "", 1, 0 },
+	{ "rec_a.on", "BOOL", "", 0, 0 }, { "rec_a.n", "INT", "", 0, 0 },
+	{ "rec_a.low.d", "DINT", "", 0, 0 }, { "rec_a.low.q", "BOOL", "", 0, 0 },
+	{ "rec_a.t", "TIME", "", 0, 0 }, { "rec_a.list[4]", "INT", "", 0, 0 },
+	{ "rec_a.list[int_b]", "INT", "", 0, 0 }, { "rec_a.name", "STRING[9]", "", 0, 0 },
+	{ "recs[2].on", "BOOL", "", 0, 0 }, { "recs[usint_b].on", "BOOL", "", 0, 0 },
+	{ "recs[int_b].n", "INT", "", 0, 0 }, { "recs[1].list[3]", "INT", "", 0, 0 },
+	{ "recs[usint_i].low.d", "DINT", "", 0, 0 },
+	{ "recs[uint_b].low.q", "BOOL", "", 0, 0 },
+	{ "inner_a.out_a", "BOOL", "", 1, 0 }, { "inner_b.int_b", "INT", "", 1, 0 },
+	{ "inner_a.in_b", "BOOL", "", 0, 0 }, { "outer_a.out_b", "BOOL", "", 1, 0 },
+	{ "outer_a.lint_a", "LINT", "", 1, 0 },
 	{ "shift_a.Q", "BOOL", "", 1, 0 }, { "fifo_a.FULL", "BOOL", "", 1, 0 },
 };
 
@@ -578,6 +589,7 @@ size_t random_declare(const char *body, char *out, size_t size)
 		    at ? row->rest : "", row->type, at ? "" : row->rest);
 	}
 	random_declare_blocks(&builder, body);
+	random_declare_own(&builder, body);
 	for (size_t i = 0; i < ARRAYS; i++)
 		if (!array[i].constant && is_used(body, array[i].name))
 			put(&builder, "  %s %s;\n", array[i].name, array[i].rest);

@@ -34,6 +34,10 @@ void random_moment(struct builder *builder, const char *type, int depth);
 /** random_text - a box with a function of texts. */
 void random_text(struct builder *builder);
 
+/* words_own.c */
+/** random_declare_own - declarations of structures and instances that @body names. */
+void random_declare_own(struct builder *builder, const char *body);
+
 /* words_block.c */
 /** random_block - a function block and its parameters; gives how many of its pins,
  * in @pin, want a row of their own. */
