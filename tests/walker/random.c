@@ -439,6 +439,14 @@ static void add_flow(struct random_source *source, struct random_program *progra
 	}
 }
 
+/* A body that looks at the very instance that it works on, by its name outside, sees what
+ * docs/language.md says; programs here leave that alone. */
+static bool names_global(const char *text)
+{
+	return strstr(text, "inner_a") || strstr(text, "inner_b") ||
+	       strstr(text, "outer_");
+}
+
 /* Some boxes of a rung become calls of what is the program's own. */
 static void add_own(struct random_source *source, struct random_rung *rung)
 {
@@ -448,9 +456,12 @@ static void add_own(struct random_source *source, struct random_rung *rung)
 		bool box = cell->kind == RANDOM_SERIES ||
 			   (cell->kind == RANDOM_BOX && cell->text[0] == '[');
 
-		if (box && random_chance(source, 20))
+		if (!box || !random_chance(source, 20))
+			continue;
+		do
 			random_own_call(source, rung->pou, cell->text,
 					sizeof(cell->text));
+		while (rung->pou > RANDOM_OTHER && names_global(cell->text));
 	}
 }
 
@@ -477,14 +488,10 @@ static bool has_box(const struct random_rung *rung)
 	return false;
 }
 
-/* A body that looks at the very instance that it works on, by its name outside, sees what
- * docs/language.md says; programs here leave that alone. */
 static bool looks_outside(const struct random_rung *rung)
 {
 	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
-		const char *text = rung->cell[i / RANDOM_COLS][i % RANDOM_COLS].text;
-
-		if (strstr(text, "inner_") || strstr(text, "outer_"))
+		if (names_global(rung->cell[i / RANDOM_COLS][i % RANDOM_COLS].text))
 			return true;
 	}
 	return false;
@@ -499,12 +506,12 @@ static void make_own(struct random_source *source, struct random_program *progra
 			struct random_rung *rung = &program->rung[program->rungs++];
 
 			rung->pou = pou;
-			do
+			do {
 				draw_rung(source, rung, 0);
-			while (looks_outside(rung) ||
+				if (pou == RANDOM_RECKON)
+					forget(source, rung);
+			} while (looks_outside(rung) ||
 			       (pou == RANDOM_RECKON && has_box(rung)));
-			if (pou == RANDOM_RECKON)
-				forget(source, rung);
 		}
 	}
 }
@@ -546,113 +553,4 @@ void random_make(struct random_program *program, uint64_t seed)
 	if (!programs && program->rungs >= 4 && second == program->rungs &&
 	    random_chance(&source, 15))
 		make_loop(program);
-}
-
-struct page {
-	char *out;
-	size_t size, used;
-};
-
-static void add(struct page *page, const char *text)
-{
-	size_t len = strlen(text);
-
-	if (page->used + len + 1 > page->size)
-		len = page->size - page->used - 1;
-	memcpy(page->out + page->used, text, len);
-	page->used += len;
-	page->out[page->used] = '\0';
-}
-
-static bool is_aimed_at(const struct random_program *program, int label)
-{
-	char text[24];
-
-	snprintf(text, sizeof(text), "JMP L%d", label);
-	for (int i = 0; i < program->rungs; i++)
-		for (int row = 0; row < RANDOM_ROWS; row++)
-			for (int col = 0; col < RANDOM_COLS; col++)
-				if (strcmp(program->rung[i].cell[row][col].text,
-					   text) == 0)
-					return true;
-	return false;
-}
-
-static void print_rung(const struct random_program *program,
-		       const struct random_rung *rung, struct page *page)
-{
-	bool aimed = rung->label && is_aimed_at(program, rung->label);
-	char text[24];
-
-	add(page, rung->off && !aimed ? "RUNG OFF" : "RUNG");
-	if (aimed) {
-		snprintf(text, sizeof(text), " L%d", rung->label);
-		add(page, text);
-	}
-	add(page, "\n");
-	for (int row = 0; row < rung->rows; row++) {
-		add(page, "  |");
-		for (int col = 0; col < rung->cols; col++) {
-			const struct random_cell *cell = &rung->cell[row][col];
-
-			add(page, " ");
-			add(page, cell->kind == RANDOM_WIRE ? "---" :
-				  cell->text);
-			add(page, cell->link ? " ^|" : " |");
-		}
-		add(page, "\n");
-	}
-}
-
-/* Is there something of its own that it calls or looks into? */
-static bool is_own(const struct random_program *program, const char *body)
-{
-	return program->rung[program->rungs - 1].pou > RANDOM_OTHER ||
-	       strstr(body, "inner_") || strstr(body, "outer_") || strstr(body, "Reckon ");
-}
-
-static void print_own(const struct random_program *program, struct page *page)
-{
-	for (int pou = RANDOM_INNER; pou < RANDOM_POUS; pou++) {
-		add(page, random_own_head(pou));
-		for (int i = 0; i < program->rungs; i++)
-			if (program->rung[i].pou == pou)
-				print_rung(program, &program->rung[i], page);
-		add(page, random_own_tail(pou));
-	}
-}
-
-size_t random_print(const struct random_program *program, char *out,
-		    size_t size)
-{
-	const char *kind = program->routine ? "SUBROUTINE" : "PROGRAM";
-	static const char vars[] = "VAR\n  bool_b : BOOL;\n  int_b : INT;\nEND_VAR\n";
-	static char body[80 * 1024];
-	struct page page = { body, sizeof(body), 0 };
-	struct page whole = { out, size, 0 };
-	char line[64];
-	int pou = RANDOM_MAIN;
-
-	add(&page, "PROGRAM Main LD\n");
-	for (int i = 0; i < program->rungs; i++) {
-		int next = program->rung[i].pou;
-
-		if (next != pou && next == RANDOM_OTHER) {
-			snprintf(line, sizeof(line), "END_PROGRAM\n%s Other LD\n", kind);
-			add(&page, line);
-			add(&page, vars);
-			pou = next;
-		}
-		if (next <= RANDOM_OTHER)
-			print_rung(program, &program->rung[i], &page);
-	}
-	snprintf(line, sizeof(line), "END_%s\n", pou ? kind : "PROGRAM");
-	add(&page, line);
-	if (is_own(program, body))
-		print_own(program, &page);
-	add(&whole, "RUNGBOARD 1\n");
-	add(&whole, random_types(body));
-	whole.used += random_declare(body, out + whole.used, size - whole.used);
-	add(&whole, body);
-	return whole.used;
 }

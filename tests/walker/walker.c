@@ -524,10 +524,10 @@ static enum walker_power element_power(const struct walked_rung *walked,
 							  POWER_BOTH;
 }
 
-enum walker_power walker_power(const struct walker *walker, int pou, int rung,
-			       int row, int col, bool *in, bool *out)
+static enum walker_power cell_power(const struct walker *walker,
+				    const struct walked_pou *body, int rung,
+				    int row, int col, bool *in, bool *out)
 {
-	const struct walked_pou *body = &walker->pou[pou];
 	const struct walked_rung *walked = &body->rung[rung - 1];
 	const struct cell *cell;
 
@@ -544,4 +544,35 @@ enum walker_power walker_power(const struct walker *walker, int pou, int rung,
 		return POWER_BOTH;
 	return cell->word == ELEM_PIN && cell->operand ? POWER_IN_ONLY :
 							 POWER_UNKNOWN;
+}
+
+enum walker_power walker_power(const struct walker *walker, int pou, int rung,
+			       int row, int col, bool *in, bool *out)
+{
+	return cell_power(walker, &walker->pou[pou], rung, row, col, in, out);
+}
+
+static const struct frame *instance_at(const struct walker *walker, int index)
+{
+	const struct frame *at = walker->instances;
+
+	while (at && index-- > 0)
+		at = at->next;
+	return at;
+}
+
+const struct pou *walker_instance(const struct walker *walker, int index,
+				  const char **name)
+{
+	const struct frame *at = instance_at(walker, index);
+
+	*name = at ? at->name : "";
+	return at ? at->pou : NULL;
+}
+
+enum walker_power walker_power_in(const struct walker *walker, int index, int rung,
+				  int row, int col, bool *in, bool *out)
+{
+	return cell_power(walker, instance_at(walker, index)->body, rung, row, col,
+			  in, out);
 }

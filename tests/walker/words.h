@@ -17,14 +17,16 @@ struct builder {
 void put(struct builder *builder, const char *format, ...);
 /** variable - one of just this type that may be read, or written. */
 const char *variable(struct random_source *source, const char *type, bool write);
-/** literal - a constant of this type. */
-const char *literal(struct random_source *source, const char *type);
 /** term - a variable, or an element with a computed index: for expressions. */
 const char *term(struct random_source *source, const char *type, bool write);
 /** number - a value of exactly @type; @tight: it stands where it needs parentheses. */
 void number(struct builder *builder, const char *type, int depth, bool tight);
 /** is_used - @name stands in @body as a word of its own. */
 bool is_used(const char *body, const char *name);
+
+/* words_literal.c */
+/** literal - a constant of this type. */
+const char *literal(struct random_source *source, const char *type);
 
 /* words_time.c */
 /** random_timely - a TIME out of dates, or of a time and a number. */

@@ -37,7 +37,7 @@ static const char *const head[RANDOM_POUS] = {
 	"  rec_a : Rec;\n  str_a : STRING[9] := 'ab';\n  real_a : REAL;\nEND_VAR\n"
 	"VAR_TEMP\n  uint_b : UINT := 3;\n  bool_d : BOOL;\nEND_VAR\n",
 	[RANDOM_OUTER] =
-	"FUNCTION_BLOCK Outer LD\n"
+	"FUNCTION_BLOCK Holder LD\n"
 	"VAR_INPUT\n  int_i : INT;\n  in_a : BOOL;\nEND_VAR\n"
 	"VAR_OUTPUT\n  out_b : BOOL;\n  lint_a : LINT;\nEND_VAR\n"
 	"VAR\n  inner_c : Inner;\n  recs : ARRAY[1..2] OF Rec;\n  dint_b : DINT := 1;\n  tof_a : TOF;\nEND_VAR\n"
@@ -97,7 +97,7 @@ static void call_inner(struct builder *builder, const char *instance)
 
 static void call_outer(struct builder *builder)
 {
-	put(builder, "Outer outer_a");
+	put(builder, "Holder outer_a");
 	maybe(builder, 60, "int_i", "INT", false);
 	maybe(builder, 20, "lint_a", "LINT", true);
 }
@@ -149,7 +149,7 @@ void random_declare_own(struct builder *builder, const char *body)
 {
 	static const char *const own[][2] = {
 		{ "rec_a", "Rec" }, { "recs", "ARRAY[1..3] OF Rec" },
-		{ "inner_a", "Inner" }, { "inner_b", "Inner" }, { "outer_a", "Outer" },
+		{ "inner_a", "Inner" }, { "inner_b", "Inner" }, { "outer_a", "Holder" },
 	};
 
 	for (size_t i = 0; i < sizeof(own) / sizeof(*own); i++)
