@@ -77,9 +77,11 @@ static void put_state(struct live *live)
 		screen_put(screen, STYLE_BAD, " FAULT: ");
 		resource_fault_print(resource, text, sizeof(text));
 		screen_put(screen, STYLE_BAD, text);
-		snprintf(text, sizeof(text), ", rung %u (%u,%u)",
-			 resource->fault_at.rung, resource->fault_at.row,
-			 resource->fault_at.col);
+		if (!resource->fault_at.rung)
+			return;
+		snprintf(text, sizeof(text), ", %.40s rung %u (%u,%u)",
+			 resource->fault_at.pou, resource->fault_at.rung,
+			 resource->fault_at.row, resource->fault_at.col);
 		screen_put(screen, STYLE_BAD, text);
 		return;
 	}
