@@ -206,10 +206,11 @@ ifneq ($(EDITOR),)
 EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags gtk4 libadwaita-1 gtksourceview-5)) -I$(BUILD)
 EDITOR_LIB := $(shell $(PKG_CONFIG) --libs gtk4 libadwaita-1 gtksourceview-5)
 EDITOR_TESTS += $(patsubst %.c,$(BUILD)/%,$(filter-out tests/editor/test_plain_%,$(wildcard tests/editor/test_*.c)))
+EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
 $(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
-  $(EDITOR_TESTS:%=%.o): CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='"$(prefix)/share/locale"'
+  $(EDITOR_TESTS:%=%.o) $(EDITOR_BENCH).o: CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='"$(prefix)/share/locale"' -DDATADIR='"$(prefix)/share"'
 $(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(wildcard editor-gtk/ui/*)
 	@mkdir -p $(@D)
 	glib-compile-resources --sourcedir=editor-gtk --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml
@@ -221,15 +222,40 @@ $(BUILD)/libeditor.a: $(EDITOR_OBJ)
 all: $(BUILD)/ladder-editor
 $(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
-$(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
+$(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+bench-editor: $(EDITOR_BENCH) ## what drawing 5,000 rungs costs
+	@$<
+.PHONY: bench-editor
 else
 all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
 .PHONY: no-editor
 endif
-editor-tests: $(EDITOR_TESTS) ## the editor's tests
-	tests/editor/display prove -e '' $(EDITOR_TESTS)
+# A person's work, with pointer and keys on a screen of its own: PICTURES=folder keeps what was seen.
+EDITOR_PERSON := $(if $(EDITOR),$(filter-out %/desk.py,$(wildcard tests/editor/person/*.py)))
+# What a desktop needs to find it.
+install: $(if $(EDITOR),install-editor)
+appdir = $(DESTDIR)$(prefix)/share
+install-editor: $(BUILD)/ladder-editor
+	install -d $(DESTDIR)$(prefix)/bin $(appdir)/applications $(appdir)/metainfo $(appdir)/mime/packages \
+	  $(appdir)/icons/hicolor/scalable/apps $(appdir)/glib-2.0/schemas $(appdir)/rungboard/ladders
+	install -m 755 $(BUILD)/ladder-editor $(DESTDIR)$(prefix)/bin/ladder-editor
+	install -m 644 packaging/org.rungboard.Editor.desktop $(appdir)/applications/
+	install -m 644 packaging/org.rungboard.Editor.metainfo.xml $(appdir)/metainfo/
+	install -m 644 packaging/rungboard.xml $(appdir)/mime/packages/
+	install -m 644 packaging/org.rungboard.Editor.svg $(appdir)/icons/hicolor/scalable/apps/
+	install -m 644 packaging/org.rungboard.Editor.gschema.xml $(appdir)/glib-2.0/schemas/
+	install -m 644 ladders/*.rung ladders/*.scn $(appdir)/rungboard/ladders/
+	$(if $(DESTDIR),,-glib-compile-schemas $(appdir)/glib-2.0/schemas; update-mime-database $(appdir)/mime; update-desktop-database $(appdir)/applications)
+.PHONY: install-editor
+# In the build the schema lies beside the program: GSETTINGS_SCHEMA_DIR=build/schemas.
+$(BUILD)/schemas/gschemas.compiled: packaging/org.rungboard.Editor.gschema.xml
+	@mkdir -p $(@D)
+	glib-compile-schemas --strict --targetdir=$(@D) packaging
+all: $(if $(EDITOR),$(BUILD)/schemas/gschemas.compiled)
+editor-tests: $(EDITOR_TESTS) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
+	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
 .PHONY: editor-tests
 # ---- end of the editor ----
 
@@ -372,8 +398,8 @@ bench-rt: $(BUILD)/ladderd ## how late ladderd wakes up, beside cyclictest
 SANITIZE := -O1 -g -funsigned-char -fsanitize=address,undefined -fno-sanitize-recover=undefined
 ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
-            $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%))
-TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh
+            $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
+TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
 BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
 tests: all man $(BUILT) $(HAL_DAEMONS)

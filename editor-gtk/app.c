@@ -9,6 +9,7 @@
 #include "editor-gtk/draft.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/render.h"
+#include "editor-gtk/settings.h"
 
 #include <gtksourceview/gtksource.h>
 #include <locale.h>
@@ -93,6 +94,26 @@ void app_open_path(LadderWindow *window, const char *path)
 	g_clear_error(&error);
 }
 
+void app_open_sample(LadderWindow *window, const char *path)
+{
+	LadderDocument *document = ladder_window_is_untouched(window) ?
+		g_object_ref(ladder_window_document(window)) : ladder_document_new();
+	GError *error = NULL;
+	char *text;
+	gsize len;
+
+	if (g_file_get_contents(path, &text, &len, &error)) {
+		ladder_document_open_text(document, NULL, text, len, true);
+		if (ladder_window_document(window) != document)
+			show_document(the_application(window), document);
+		g_free(text);
+	} else {
+		ladder_window_warn(window, error->message);
+	}
+	g_clear_error(&error);
+	g_object_unref(document);
+}
+
 /* ---- after a crash ---- */
 
 static int restore_drafts(AdwApplication *application)
@@ -121,7 +142,7 @@ static int restore_drafts(AdwApplication *application)
 static void activate(AdwApplication *application)
 {
 	if (restore_drafts(application) == 0)
-		new_window(application);
+		ladder_window_welcome(new_window(application));
 }
 
 static void open_files(AdwApplication *application, GFile **files, int count,
@@ -155,10 +176,22 @@ static void add_style(void)
 	g_object_unref(css);
 }
 
+static void set_appearance(void)
+{
+	static const AdwColorScheme schemes[] = {
+		ADW_COLOR_SCHEME_DEFAULT, ADW_COLOR_SCHEME_FORCE_LIGHT,
+		ADW_COLOR_SCHEME_FORCE_DARK,
+	};
+
+	adw_style_manager_set_color_scheme(adw_style_manager_get_default(),
+		schemes[CLAMP(settings_enum("appearance", 0), 0, 2)]);
+}
+
 static void startup(GtkApplication *application)
 {
 	gtk_source_init();
 	add_style();
+	set_appearance();
 	verbs_set_keys(application);
 	gtk_window_set_default_icon_name(APP_ID);
 }

@@ -17,7 +17,7 @@ void app_new_window(LadderWindow *window);
 void app_open_path(LadderWindow *window, const char *path);
 /** app_remember - among the files opened last. */
 void app_remember(const char *path);
-/** app_tour - the first steps, in a window of their own. */
-void app_tour(LadderWindow *window);
+/** app_open_sample - a copy without a file, likewise. */
+void app_open_sample(LadderWindow *window, const char *path);
 
 #endif

@@ -85,6 +85,38 @@ static bool take_bool(const struct entry_place *place, const char *text, size_t 
 	return keep_operand(entry, target.text, strlen(target.text));
 }
 
+static bool is_operator(const struct lex *lex)
+{
+	static const char *const signs[] = {
+		":=", "<", ">", "=", "<=", ">=", "<>", "+", "-", "*", "&", "MOD", "AND",
+		"OR", "XOR",
+	};
+
+	for (size_t i = 0; i < sizeof(signs) / sizeof(*signs); i++)
+		if (lex_is(lex, signs[i]))
+			return true;
+	return false;
+}
+
+/* Does an operator stand behind the first operand of the line, as in X := Y + 1? A word
+ * with parameters has := further on. */
+static bool is_expression(const char *text, size_t len)
+{
+	struct lex lex;
+	int depth = 0;
+
+	lex_init(&lex, text, len);
+	lex_next(&lex);
+	if (lex_is(&lex, "(") || lex_is(&lex, "NOT"))
+		return lex_is(&lex, "(");
+	do {
+		depth += lex_is(&lex, "[") - lex_is(&lex, "]");
+		lex_next(&lex);
+	} while (lex.token.kind != TOKEN_END &&
+		 (depth > 0 || (!lex.token.space_before && !is_operator(&lex))));
+	return lex.token.kind != TOKEN_END && is_operator(&lex);
+}
+
 /* ---- words ---- */
 
 static bool take_name(const char *text, size_t len, struct entry *entry)
@@ -98,6 +130,19 @@ static bool take_name(const char *text, size_t len, struct entry *entry)
 	return keep_operand(entry, text, len);
 }
 
+/* With a / or ! before it the opposite. */
+static bool take_bool_of(const struct entry_place *place, const struct word_row *row,
+			 const char *text, size_t len, struct entry *entry)
+{
+	if (*text == '/' || *text == '!') {
+		entry->word = grid_word_negated(entry->word);
+		text++;
+		len--;
+		trim(&text, &len);
+	}
+	return take_bool(place, text, len, row->operand == OPND_BOOL_W, entry);
+}
+
 static bool take_element(const struct entry_place *place, const struct word_row *row,
 			 const char *text, size_t len, struct entry *entry)
 {
@@ -105,14 +150,11 @@ static bool take_element(const struct entry_place *place, const struct word_row 
 
 	switch (row->operand) {
 	case OPND_BOOL_R:
+		if (row->edge == EDGE_NONE && !row->negate && is_expression(text, len))
+			return entry_expression(place, text, len, entry);
+		return take_bool_of(place, row, text, len, entry);
 	case OPND_BOOL_W:
-		if (*text == '/' || *text == '!') {
-			entry->word = grid_word_negated(entry->word);
-			text++;
-			len--;
-			trim(&text, &len);
-		}
-		return take_bool(place, text, len, row->operand == OPND_BOOL_W, entry);
+		return take_bool_of(place, row, text, len, entry);
 	case OPND_LABEL:
 	case OPND_ROUTINE:
 		return take_name(text, len, entry);
@@ -237,38 +279,6 @@ static bool take_symbol(const struct entry_place *place, const char *text, size_
 }
 
 /* ---- which of them ---- */
-
-static bool is_operator(const struct lex *lex)
-{
-	static const char *const signs[] = {
-		":=", "<", ">", "=", "<=", ">=", "<>", "+", "-", "*", "&", "MOD", "AND",
-		"OR", "XOR",
-	};
-
-	for (size_t i = 0; i < sizeof(signs) / sizeof(*signs); i++)
-		if (lex_is(lex, signs[i]))
-			return true;
-	return false;
-}
-
-/* Does an operator stand behind the first operand of the line, as in X := Y + 1? A word
- * with parameters has := further on. */
-static bool is_expression(const char *text, size_t len)
-{
-	struct lex lex;
-	int depth = 0;
-
-	lex_init(&lex, text, len);
-	lex_next(&lex);
-	if (lex_is(&lex, "(") || lex_is(&lex, "NOT"))
-		return lex_is(&lex, "(");
-	do {
-		depth += lex_is(&lex, "[") - lex_is(&lex, "]");
-		lex_next(&lex);
-	} while (lex.token.kind != TOKEN_END &&
-		 (depth > 0 || (!lex.token.space_before && !is_operator(&lex))));
-	return lex.token.kind != TOKEN_END && is_operator(&lex);
-}
 
 static bool is_there(const struct entry_place *place, const char *text, size_t len)
 {

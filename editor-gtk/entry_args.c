@@ -11,6 +11,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/base/literal.h"
+#include "engine/model/args.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -123,6 +124,8 @@ static bool add_literal(const struct value *value, char *out, size_t size, bool 
 	int64_t ns;
 
 	*fits = true;
+	if (value->len > 0 && *value->text == '+')
+		return false;
 	if (literal_parse(value->text, value->len, &literal) == LITERAL_OK)
 		*fits = entry_append(out, size, value->text, value->len);
 	else if (literal_parse_duration(value->text, value->len, &ns))
@@ -134,11 +137,18 @@ static bool add_literal(const struct value *value, char *out, size_t size, bool 
 }
 
 static bool add_value(const struct entry_place *place, const struct word_pin *pin,
-		      const struct value *value, struct entry *entry)
+		      bool output, const struct value *value, struct entry *entry)
 {
 	struct entry_target target;
+	char number[8] = "";
 	bool fits;
 
+	if (output && value->inverse)
+		return entry_wrong(entry, N_("this cannot be written"), value->text,
+				   value->len);
+	if ((output || value->inverse) && add_literal(value, number, sizeof(number), &fits))
+		return entry_wrong(entry, output ? N_("this cannot be written") :
+				   N_("this is no operand"), value->text, value->len);
 	if (value->inverse && !entry_append(entry->args, sizeof(entry->args), "/", 1))
 		return entry_wrong(entry, N_("this line is too long"), "", 0);
 	if (add_literal(value, entry->args, sizeof(entry->args), &fits))
@@ -150,6 +160,9 @@ static bool add_value(const struct entry_place *place, const struct word_pin *pi
 	if (target.means == MEANS_NEW &&
 	    !entry_declare(place, entry, value->text, value->len, type_of(pin), ""))
 		return false;
+	if (output && target.means == MEANS_VALUE && !target.write)
+		return entry_wrong(entry, N_("this cannot be written"), value->text,
+				   value->len);
 	return entry_append(entry->args, sizeof(entry->args), target.text,
 			    strlen(target.text)) ||
 	       entry_wrong(entry, N_("this line is too long"), "", 0);
@@ -162,12 +175,16 @@ static bool add_pin(const struct entry_place *place, const struct word_pin *pin,
 		    struct entry *entry)
 {
 	char head[ENTRY_NAME];
+	struct arg arg;
 
+	if (args_find(entry->args, name, strlen(name), &arg))
+		return entry_wrong(entry, N_("this pin is given twice"), name,
+				   strlen(name));
 	snprintf(head, sizeof(head), "%s%.250s%s", entry->args[0] ? " " : "", name,
 		 output ? "=>" : ":=");
 	return (entry_append(entry->args, sizeof(entry->args), head, strlen(head)) ||
 		entry_wrong(entry, N_("this line is too long"), "", 0)) &&
-	       add_value(place, pin, value, entry);
+	       add_value(place, pin, output, value, entry);
 }
 
 static bool is_out(const struct word_row *row, const char *name, size_t len)

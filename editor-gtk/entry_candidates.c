@@ -532,13 +532,11 @@ static size_t find_head(const struct search *s)
 	return target.means == MEANS_INSTANCE ? len - 1 : 0;
 }
 
-int entry_candidates(const struct entry_place *place, const char *line, size_t cursor,
-		     struct entry_candidate *out, int most)
+static int search(const struct entry_place *place, const char *line, size_t cursor,
+		  struct entry_candidate *out, int most)
 {
 	struct search s = { .place = place, .line = line, .out = out, .most = most };
 
-	if (most <= 0 || strlen(line) >= ENTRY_TEXT)
-		return 0;
 	s.rank = calloc((size_t)most + 1, sizeof(*s.rank));
 	if (!s.rank)
 		return 0;
@@ -551,6 +549,24 @@ int entry_candidates(const struct entry_place *place, const char *line, size_t c
 	find_all(&s);
 	free(s.rank);
 	return s.count;
+}
+
+int entry_candidates(const struct entry_place *place, const char *line, size_t cursor,
+		     struct entry_candidate *out, int most)
+{
+	struct entry_place known = *place;
+	struct xref own;
+	int count;
+
+	if (most <= 0 || strlen(line) >= ENTRY_TEXT || !utf8_valid(line, strlen(line), NULL))
+		return 0;
+	if (place->xref)
+		return search(place, line, cursor, out, most);
+	known.xref = &own;
+	count = xref_make(&own, place->project) ?
+		search(&known, line, cursor, out, most) : 0;
+	xref_free(&own);
+	return count;
 }
 
 const char *entry_kind_text(enum entry_kind kind)

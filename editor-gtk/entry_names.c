@@ -9,6 +9,7 @@
 #include "editor-gtk/i18n.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/lex.h"
 #include "engine/ladder.h"
 
 #include <stdio.h>
@@ -66,7 +67,7 @@ static int number(const char **at, const char *end, int base)
 static bool bit_of(enum iec_area area, int bit, struct iec_addr *out)
 {
 	*out = (struct iec_addr){ area, 1, (uint8_t)(bit % 8), (uint32_t)(bit / 8) };
-	return out->byte < iec_area_row(area)->bytes;
+	return out->byte < iec_area_row(area)->most;
 }
 
 /* Mitsubishi: X0 … X7 are the same in octal and hexadecimal; beyond they are not. */
@@ -166,6 +167,22 @@ static void fail(struct entry_target *out, const char *why)
 	out->why = why;
 }
 
+/* `[3]`, `[-3]`, `[i]` at @at; returns what is behind it, NULL: it is none. */
+static const char *index_end(const char *at, const char *end)
+{
+	struct lex lex;
+	bool minus;
+
+	lex_init(&lex, at + 1, (size_t)(end - at - 1));
+	lex_next(&lex);
+	minus = lex_accept(&lex, "-");
+	if (lex.token.kind != TOKEN_NUMBER &&
+	    (minus || (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_ADDRESS)))
+		return NULL;
+	lex_next(&lex);
+	return lex_is(&lex, "]") ? lex.token.text + 1 : NULL;
+}
+
 /* One step, `[3]` or `.Q`, at @at; returns what is behind it, NULL: wrong. */
 static const char *step(const struct entry_place *place, const char *at, const char *end,
 			struct entry_target *out)
@@ -175,12 +192,10 @@ static const char *step(const struct entry_place *place, const char *at, const c
 	int pin;
 
 	if (*at == '[') {
-		while (stop < end && *stop != ']')
-			stop++;
-		if (stop == end || !out->array || stop == at + 1)
+		if (!out->array)
 			return NULL;
 		out->array = false;
-		return stop + 1;
+		return index_end(at, end);
 	}
 	while (stop < end && *stop != '.' && *stop != '[')
 		stop++;
@@ -253,6 +268,10 @@ static void take_address(const struct entry_place *place, const char *text, size
 	const struct var *var = NULL;
 	char address[40];
 
+	if (head < len && index_end(text + head, text + len) != text + len) {
+		fail(out, N_("this is no index"));
+		return;
+	}
 	if (!project_has(place->project, out->addr)) {
 		fail(out, N_("there is no such address"));
 		return;
@@ -271,15 +290,32 @@ static void take_address(const struct entry_place *place, const char *text, size
 		 (int)(len - head), text + head);
 }
 
-void entry_target_find(const struct entry_place *place, const char *text, size_t len,
+/* Without the blanks in brackets, as cells are kept. Returns the length. */
+static size_t tighten(const char *text, size_t len, char *out)
+{
+	size_t n = 0;
+	int depth = 0;
+
+	for (size_t i = 0; i < len; i++) {
+		depth += (text[i] == '[') - (text[i] == ']');
+		if (depth <= 0 || (text[i] != ' ' && text[i] != '\t'))
+			out[n++] = text[i];
+	}
+	out[n] = '\0';
+	return n;
+}
+
+void entry_target_find(const struct entry_place *place, const char *typed, size_t len,
 		       struct entry_target *out)
 {
+	char text[ENTRY_TEXT];
 	uint8_t flags = 0;
 	size_t head = 0, whole = 0;
 
 	memset(out, 0, sizeof(*out));
 	if (len == 0 || len >= sizeof(out->text))
 		return;
+	len = tighten(typed, len, text);
 	memcpy(out->text, text, len);
 	while (head < len && text[head] != '.' && text[head] != '[')
 		head++;

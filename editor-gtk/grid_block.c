@@ -184,8 +184,8 @@ static bool paste_parallel(struct canvas *c, int row, int col, const struct rung
 	if (below < 0 || !insert_rows(c, below + 1, part->rows - 1))
 		return false;
 	put_piece(c, below, col, part);
-	canvas_join_up(c, row, below, col);
-	canvas_join_up(c, row, below, col + width);
+	canvas_join_branch(c, row, below, col);
+	canvas_join_branch(c, row, below, col + width);
 	for (int i = col + width - 1; i > col && canvas_is_empty(c, below, i) &&
 				      !canvas_linked(c, below, i); i--)
 		canvas_cell(c, below, i)->word = ELEM_WIRE;
@@ -252,15 +252,15 @@ static void paste_outputs(struct canvas *c, int row, const struct rung *part)
 			return;
 }
 
-static bool paste(struct canvas *c, struct grid_at *at, const struct piece *piece,
+static bool paste(struct canvas *c, int row, int col, const struct piece *piece,
 		  bool parallel)
 {
-	const int row = at->row, col = at->col;
-
 	if (row < 0 || col < 0 || col >= c->rung->cols)
 		return canvas_fail(c, GRID_OUTSIDE);
 	if (piece->elements == 0)
 		return canvas_fail(c, GRID_NO_ELEMENT);
+	if (!canvas_rows(c, row + 1))
+		return false;
 	if (piece->elements == 1 && piece->pins == 0)
 		return parallel ? canvas_parallel(c, row, col, col, piece->only) :
 				  canvas_place(c, row, col, piece->only, GRID_INSERT);
@@ -274,21 +274,27 @@ static bool paste(struct canvas *c, struct grid_at *at, const struct piece *piec
 	return c->refusal == GRID_DONE;
 }
 
+bool canvas_paste(struct canvas *c, int row, int col, const struct rung *part,
+		  bool parallel)
+{
+	struct rung *normal = grid_normalise(part);
+	struct piece piece;
+	bool good;
+
+	if (!normal)
+		return canvas_fail(c, GRID_NO_MEMORY);
+	piece = look_at(normal);
+	good = paste(c, row, col, &piece, parallel);
+	rung_free(normal);
+	return good;
+}
+
 struct rung *grid_paste(const struct rung *rung, struct grid_at *at,
 			const struct rung *part, bool parallel)
 {
-	struct rung *normal = grid_normalise(part);
 	struct canvas c;
 
-	if (canvas_open(&c, rung, at->columns, at->row + 1)) {
-		if (normal) {
-			const struct piece piece = look_at(normal);
-
-			paste(&c, at, &piece, parallel);
-		} else {
-			canvas_fail(&c, GRID_NO_MEMORY);
-		}
-	}
-	rung_free(normal);
+	if (canvas_open(&c, rung, at->columns, 1))
+		canvas_paste(&c, at->row, at->col, part, parallel);
 	return canvas_close(&c, at);
 }

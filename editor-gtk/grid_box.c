@@ -87,8 +87,8 @@ static void draw_frame(const struct pen *pen, const struct rung_box *box)
 	bool wrong = pen_marks(pen, box->top, column) & MARK_ERROR;
 
 	picture_frame(pen->picture, lit ? TOKEN_POWER : pen->ink, STROKE_SOLID,
-		      pen->theme->shape_width, box->x, y - BOX_ABOVE, box->inner,
-		      BOX_ABOVE + box->bottom);
+		      lit ? pen->theme->power_width : pen->theme->shape_width, box->x,
+		      y - BOX_ABOVE, box->inner, BOX_ABOVE + box->bottom);
 	pen_text(pen, pen->ink, LETTER_TYPE,
 		 lettering_fit(pen->drafting->lettering, LETTER_TYPE, box->row->word, -1,
 			       280), middle, y - BOX_ABOVE + 15);

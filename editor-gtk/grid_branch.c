@@ -41,33 +41,37 @@ static bool is_free(const struct canvas *c, const struct reach *reach, int row)
 	       is_passable(c, reach, row);
 }
 
-/* Would a row put in before @row cut a box where the branch goes? */
-static bool cuts_box(const struct canvas *c, const struct reach *reach, int row)
+/* May a row for the branch be put in before @row: without cutting a box where it goes,
+ * or links that it would cross? */
+static bool may_insert(const struct canvas *c, const struct reach *reach, int row)
 {
 	for (int col = reach->first; col <= reach->last; col++)
-		if (canvas_word(c, row, col) == ELEM_PIN)
-			return true;
-	return false;
+		if (canvas_word(c, row, col) == ELEM_PIN ||
+		    (col > reach->first && canvas_up(c, row, col)))
+			return false;
+	return true;
 }
 
+/* The first row that is free, or a new one before what is in the way. */
 static int find_row(struct canvas *c, const struct reach *reach)
 {
-	int row = reach->row + 1;
+	int row = reach->row + 1, put_in = -1;
 
 	if (!canvas_network(c))
 		return -1;
 	for (; row < c->rung->rows; row++) {
 		if (is_free(c, reach, row))
 			return row;
-		if (is_passable(c, reach, row))
-			continue;
-		if (cuts_box(c, reach, row)) {
-			canvas_fail(c, GRID_CROSSING);
-			return -1;
-		}
-		return canvas_insert_row(c, row) ? row : -1;
+		if (may_insert(c, reach, row))
+			put_in = row;
+		if (!is_passable(c, reach, row))
+			break;
 	}
-	return canvas_rows(c, row + 1) ? row : -1;
+	if (row == c->rung->rows)
+		return canvas_rows(c, row + 1) ? row : -1;
+	if (put_in < 0)
+		canvas_fail(c, GRID_CROSSING);
+	return put_in >= 0 && canvas_insert_row(c, put_in) ? put_in : -1;
 }
 
 int canvas_branch_row(struct canvas *c, int row, int col, int last)
@@ -75,6 +79,19 @@ int canvas_branch_row(struct canvas *c, int row, int col, int last)
 	const struct reach reach = { row, col, last, col, last + 1 };
 
 	return find_row(c, &reach);
+}
+
+/* Only up to the first row that is joined with @row there already: no wire twice. */
+void canvas_join_branch(struct canvas *c, int row, int below, int bar)
+{
+	const bool old = c->rung->rows == c->network.rows;
+	int top = below - 1;
+
+	if (old && net_at(c, below, bar) == net_at(c, row, bar))
+		return;
+	while (top > row && net_at(c, top, bar) != net_at(c, row, bar))
+		top--;
+	canvas_join_up(c, top, below, bar);
 }
 
 /* ---- outputs ---- */
@@ -88,7 +105,7 @@ static int branch_output(struct canvas *c, int row, int bar, struct cell cell)
 
 	if (below < 0)
 		return -1;
-	canvas_join_up(c, row, below, bar);
+	canvas_join_branch(c, row, below, bar);
 	for (int col = bar; col < last; col++)
 		canvas_cell(c, below, col)->word = ELEM_WIRE;
 	canvas_put(c, below, last, cell);
@@ -133,8 +150,11 @@ int canvas_output(struct canvas *c, int row, struct cell cell)
 	}
 	if (row > 0 && canvas_is_output(c, row - 1, last) && is_closed(c, row))
 		return output_below(c, row - 1, cell);
+	if (!canvas_close_left(c, row, last)) {
+		canvas_fail(c, GRID_PIN_CELL);
+		return -1;
+	}
 	canvas_put(c, row, last, cell);
-	canvas_close_left(c, row, last);
 	return row;
 }
 
@@ -151,20 +171,22 @@ static bool parallel_output(struct canvas *c, int row, int col, int last,
 	return at >= 0;
 }
 
-static bool has_element(const struct canvas *c, int row, int col, int last)
+/* Column of the first element from @col to @last; -1: there is none. */
+static int first_element(const struct canvas *c, int row, int col, int last)
 {
 	for (; col <= last; col++)
 		if (canvas_is_element(c, row, col))
-			return true;
-	return false;
+			return col;
+	return -1;
 }
 
 bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell cell)
 {
 	const enum place place = word_row((enum word)cell.word)->place;
+	const int at = first_element(c, row, col, last);
 	int below;
 
-	if (!has_element(c, row, col, last))
+	if (at < 0)
 		return canvas_fail(c, GRID_NOTHING_BELOW);
 	if (place == PLACE_LAST)
 		return parallel_output(c, row, col, last, cell);
@@ -175,12 +197,12 @@ bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell c
 	below = canvas_branch_row(c, row, col, last);
 	if (below < 0)
 		return false;
-	canvas_put(c, below, col, cell);
-	for (int i = col + 1; i <= last; i++)
+	for (int i = col; i <= last; i++)
 		canvas_cell(c, below, i)->word = ELEM_WIRE;
-	canvas_join_up(c, row, below, col);
-	canvas_join_up(c, row, below, last + 1);
-	canvas_mark(c, below, col);
+	canvas_put(c, below, at, cell);
+	canvas_join_branch(c, row, below, col);
+	canvas_join_branch(c, row, below, last + 1);
+	canvas_mark(c, below, at);
 	return true;
 }
 
@@ -236,7 +258,7 @@ struct rung *grid_open_branch(const struct rung *rung, struct grid_at *at)
 
 		below = find_row(&c, &reach);
 		if (below >= 0) {
-			canvas_join_up(&c, row, below, at->col);
+			canvas_join_branch(&c, row, below, at->col);
 			at->row = below;
 		}
 	}

@@ -77,6 +77,26 @@ bool canvas_network(struct canvas *c)
 	       canvas_fail(c, GRID_NO_MEMORY);
 }
 
+/* The same as check_rung() asks: does a net's reader stand left of where it is fed? */
+bool canvas_is_backwards(struct canvas *c, int row, int col)
+{
+	const struct network *n = &c->network;
+	int in, out;
+
+	if (!canvas_network(c))
+		return false;
+	in = network_net(n, row, col);
+	out = network_net(n, row, col + 1);
+	for (int i = 0; i < n->element_count; i++)
+		if ((n->element[i].out == in && n->element[i].col + 1 > col) ||
+		    (n->element[i].in == out && n->element[i].col < col + 1))
+			return true;
+	for (int i = 0; i < n->pin_count; i++)
+		if (n->pin[i].in == out && n->pin[i].col < col + 1)
+			return true;
+	return false;
+}
+
 /* ---- cells ---- */
 
 static bool is_inside(const struct canvas *c, int row, int col)
@@ -214,26 +234,37 @@ bool canvas_insert_column(struct canvas *c, int at)
 	return replace(c, rung_insert_column(c->rung, at), GRID_NO_MEMORY);
 }
 
-void canvas_drop_row(struct canvas *c, int row)
+bool canvas_is_bare(const struct canvas *c, int row)
 {
-	if (c->rung->rows == 1 || row < 0 || row >= c->rung->rows)
-		return;
 	for (int col = 0; col < c->rung->cols; col++) {
-		const struct cell *cell = canvas_cell(c, row, col);
+		const struct cell *cell = rung_at(c->rung, row, col);
 
 		if (cell->word != ELEM_EMPTY || cell->comment)
-			return;
+			return false;
 	}
-	replace(c, rung_delete_row(c->rung, row), GRID_NO_MEMORY);
+	return true;
+}
+
+void canvas_drop_row(struct canvas *c, int row)
+{
+	if (c->rung->rows > 1 && row >= 0 && row < c->rung->rows &&
+	    canvas_is_bare(c, row))
+		replace(c, rung_delete_row(c->rung, row), GRID_NO_MEMORY);
 }
 
 /* ---- wires that close by themselves ---- */
 
-void canvas_close_left(struct canvas *c, int row, int col)
+bool canvas_close_left(struct canvas *c, int row, int col)
 {
-	for (; col > 0 && !canvas_left(c, row, col) && !canvas_linked(c, row, col);
-	     col--)
-		canvas_cell(c, row, col - 1)->word = ELEM_WIRE;
+	int from = col;
+
+	while (from > 0 && !canvas_left(c, row, from) && !canvas_linked(c, row, from))
+		from--;
+	if (!canvas_linked(c, row, from) && canvas_word(c, row, from - 1) == ELEM_PIN)
+		return false;
+	while (from < col)
+		canvas_cell(c, row, from++)->word = ELEM_WIRE;
+	return true;
 }
 
 /* The bar up to which wire would have to go: of what waits for power there, or of a
@@ -274,12 +305,13 @@ static bool ends_there(const struct canvas *c, int row, int bar)
 	return !canvas_left(c, row, bar) && !canvas_right(c, row, bar);
 }
 
-void canvas_prune(struct canvas *c, int row, int bar)
+int canvas_prune(struct canvas *c, int row, int bar)
 {
-	for (int i = row; ends_there(c, i, bar) && canvas_up(c, i, bar) &&
-			  !canvas_down(c, i, bar); i--)
-		canvas_cell(c, i, bar - 1)->link = 0;
-	for (int i = row; ends_there(c, i, bar) && canvas_down(c, i, bar) &&
-			  !canvas_up(c, i, bar); i++)
-		canvas_cell(c, i + 1, bar - 1)->link = 0;
+	while (ends_there(c, row, bar) && canvas_up(c, row, bar) &&
+	       !canvas_down(c, row, bar))
+		canvas_cell(c, row--, bar - 1)->link = 0;
+	while (ends_there(c, row, bar) && canvas_down(c, row, bar) &&
+	       !canvas_up(c, row, bar))
+		canvas_cell(c, ++row, bar - 1)->link = 0;
+	return row;
 }

@@ -71,22 +71,33 @@ bool canvas_replace(struct canvas *c, struct rung *made);
 bool canvas_insert_row(struct canvas *c, int at);
 /** canvas_insert_column - power that crosses it gets wire; outputs stay last. */
 bool canvas_insert_column(struct canvas *c, int at);
+/** canvas_is_bare - nothing stands in the row; links may pass it. */
+bool canvas_is_bare(const struct canvas *c, int row);
 /** canvas_drop_row - takes an empty row away, if it is one and not the only one. */
 void canvas_drop_row(struct canvas *c, int row);
 
 /** canvas_close_left - wire from cell (@row, @col) leftwards to an element, a linked
- * bar or the rail. */
-void canvas_close_left(struct canvas *c, int row, int col);
+ * bar or the rail. False, and nothing, if it would come to a row of pins, behind which
+ * there is no power. */
+bool canvas_close_left(struct canvas *c, int row, int col);
 /** canvas_close_right - wire rightwards to an element without power, or a bare link. */
 void canvas_close_right(struct canvas *c, int row, int col);
 /** canvas_join_up - links bar @bar of @row with each row above it down from @top. */
 void canvas_join_up(struct canvas *c, int top, int row, int bar);
-/** canvas_prune - takes links away that lead from bar @bar of @row into nothing. */
-void canvas_prune(struct canvas *c, int row, int bar);
+/** canvas_prune - takes links away that lead from bar @bar of @row into nothing. Returns
+ * the row where they came from. */
+int canvas_prune(struct canvas *c, int row, int bar);
 
 /** canvas_at_element - opens it, with the mark on the element at the cursor. Fails:
  * false if there is none. */
 bool canvas_at_element(struct canvas *c, const struct rung *rung, struct grid_at *at);
+/* The wire to the left and right of a place, up to the next thing that is joined to it:
+ * from bar to bar. */
+struct stretch { int left, right; };
+struct stretch canvas_stretch(const struct canvas *c, int row, int col);
+/** canvas_is_backwards - would power have to go leftwards to or from the element at
+ * (@row, @col), by wires in other rows? */
+bool canvas_is_backwards(struct canvas *c, int row, int col);
 /** canvas_room_before - makes cell (@row, @col) free by moving what stands there right. */
 bool canvas_room_before(struct canvas *c, int row, int col);
 /** canvas_place - as grid_place(), on the canvas. */
@@ -99,8 +110,14 @@ int canvas_output(struct canvas *c, int row, struct cell cell);
  * bars @col and @last + 1 can be linked with those of @row; made if there is none.
  * -1: a wire would have to cross. */
 int canvas_branch_row(struct canvas *c, int row, int col, int last);
+/** canvas_join_branch - links bar @bar of row @below, which canvas_branch_row() gave, up
+ * to the circuit of @row. */
+void canvas_join_branch(struct canvas *c, int row, int below, int bar);
 /** canvas_parallel - as grid_parallel(), round the cells @col … @last. */
 bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell cell);
+/** canvas_paste - as grid_paste(). */
+bool canvas_paste(struct canvas *c, int row, int col, const struct rung *part,
+		  bool parallel);
 /** canvas_delete - takes the element at (@row, @col) away, as grid_delete(), but for
  * rows that are empty then. */
 void canvas_delete(struct canvas *c, int row, int col);

@@ -7,11 +7,7 @@
  */
 #include "editor-gtk/grid_canvas.h"
 
-/* The wire to the left and right of a place, up to the next thing that is joined to
- * it: from bar @left to bar @right. */
-struct stretch { int left, right; };
-
-static struct stretch stretch_at(const struct canvas *c, int row, int col)
+struct stretch canvas_stretch(const struct canvas *c, int row, int col)
 {
 	struct stretch s = { col, col + 1 };
 
@@ -24,8 +20,14 @@ static struct stretch stretch_at(const struct canvas *c, int row, int col)
 	return s;
 }
 
-/* Does power have to go through (@row, @col), which is empty now: is what comes behind
- * it read, and fed by nothing else? */
+static int feeders(const struct network *n, int net)
+{
+	return n->first_feeder[net + 1] - n->first_feeder[net];
+}
+
+/* Does power have to go through (@row, @col), which is empty now? So if what comes
+ * behind it is read and fed by nothing else, or what comes before it leads nowhere
+ * else. */
 static bool must_pass(struct canvas *c, int row, int col)
 {
 	const struct network *n = &c->network;
@@ -35,16 +37,46 @@ static bool must_pass(struct canvas *c, int row, int col)
 		return false;
 	in = network_net(n, row, col);
 	out = network_net(n, row, col + 1);
-	return in != out && out != NET_RAIL && n->reader_count[out] > 0 &&
-	       n->first_feeder[out + 1] == n->first_feeder[out];
+	if (in == out || out == NET_RAIL || n->reader_count[out] == 0)
+		return false;
+	return feeders(n, out) == 0 ||
+	       (in != NET_RAIL && n->reader_count[in] == 0 && feeders(n, in) > 0);
+}
+
+/* Wire that ended at bar @bar of @row and now ends in nothing goes, up to its other end;
+ * returns the bar there, or -1: none did. */
+static int erase_end(struct canvas *c, int row, int bar)
+{
+	const int from = bar;
+
+	if (canvas_linked(c, row, bar))
+		return -1;
+	if (!canvas_right(c, row, bar))
+		while (bar > 0 && canvas_word(c, row, bar - 1) == ELEM_WIRE &&
+		       (bar == from || !canvas_linked(c, row, bar)))
+			canvas_clear(c, row, --bar);
+	else if (bar > 0 && !canvas_left(c, row, bar))
+		while (canvas_word(c, row, bar) == ELEM_WIRE &&
+		       (bar == from || !canvas_linked(c, row, bar)))
+			canvas_clear(c, row, bar++);
+	return bar == from ? -1 : bar;
+}
+
+/* Links and wires that led to bar @bar of @row alone. */
+static void erase_way(struct canvas *c, int row, int bar)
+{
+	while (bar >= 0) {
+		row = canvas_prune(c, row, bar);
+		bar = erase_end(c, row, bar);
+	}
 }
 
 static void erase_stretch(struct canvas *c, int row, struct stretch s)
 {
 	for (int col = s.left; col < s.right; col++)
 		canvas_clear(c, row, col);
-	canvas_prune(c, row, s.left);
-	canvas_prune(c, row, s.right);
+	erase_way(c, row, s.left);
+	erase_way(c, row, s.right);
 }
 
 /* ---- a branch that became the only way moves up ---- */
@@ -114,7 +146,7 @@ static struct stretch take_out(struct canvas *c, int row, int col)
 	for (int i = rung_height(c->rung, row, col) - 1; i > 0; i--)
 		canvas_remove_pin(c, row + i, col);
 	canvas_clear(c, row, col);
-	s = stretch_at(c, row, col);
+	s = canvas_stretch(c, row, col);
 	if (must_pass(c, row, col))
 		canvas_cell(c, row, col)->word = ELEM_WIRE;
 	else
@@ -127,19 +159,40 @@ void canvas_delete(struct canvas *c, int row, int col)
 	take_out(c, row, col);
 }
 
-static void drop_rows(struct canvas *c, int first, int last)
+/* Which rows were empty before: those stay. */
+struct bare { bool row[LIMIT_ROWS]; };
+
+static void look_for_bare(const struct canvas *c, struct bare *bare)
 {
-	for (int row = last; row >= first; row--)
+	for (int row = 0; row < c->rung->rows; row++)
+		bare->row[row] = canvas_is_bare(c, row);
+}
+
+/* Drops the rows that are empty now, but not @keep; returns where that is then. */
+static int drop_rows(struct canvas *c, const struct bare *bare, int keep)
+{
+	for (int row = c->rung->rows - 1; row >= 0; row--) {
+		const int before = c->rung->rows;
+
+		if (bare->row[row] || row == keep)
+			continue;
 		canvas_drop_row(c, row);
+		if (row < keep && c->rung->rows < before)
+			keep--;
+	}
+	return keep;
 }
 
 void canvas_delete_whole(struct canvas *c, int row, int col)
 {
-	const int height = rung_height(c->rung, row, col);
-	const struct stretch s = take_out(c, row, col);
+	struct stretch s;
+	struct bare bare;
 
+	look_for_bare(c, &bare);
+	s = take_out(c, row, col);
+	row = drop_rows(c, &bare, row);
 	pull_up(c, row, s);
-	drop_rows(c, row, row + height - 1);
+	canvas_drop_row(c, row);
 }
 
 static void erase_wire(struct canvas *c, int row, int col)
@@ -255,11 +308,14 @@ struct rung *grid_delete_area(const struct rung *rung, struct grid_at *at,
 	struct canvas c;
 
 	if (canvas_open(&c, rung, at->columns, 1)) {
+		struct bare bare;
+
+		look_for_bare(&c, &bare);
 		if (!clip(&c, &clipped) || (!delete_elements(&c, &clipped) &&
 					    !delete_wires(&c, &clipped)))
 			canvas_fail(&c, GRID_NOTHING);
 		else
-			drop_rows(&c, clipped.row, clipped.last_row);
+			drop_rows(&c, &bare, -1);
 	}
 	return canvas_close(&c, at);
 }

@@ -95,16 +95,26 @@ struct rung *grid_drop(const struct rung *rung, struct grid_at *at, struct cell 
 
 /* ---- moving what is there ---- */
 
+/* From the end, so that a branch goes before what it goes round. */
+static bool delete_last_moved(struct canvas *c)
+{
+	for (int row = c->rung->rows - 1; row >= 0; row--)
+		for (int col = canvas_last(c); col >= 0; col--) {
+			struct cell *cell = canvas_cell(c, row, col);
+
+			if (!(cell->spare & CANVAS_MOVED))
+				continue;
+			cell->spare &= (uint8_t)~CANVAS_MOVED;
+			canvas_delete_whole(c, row, col);
+			return true;
+		}
+	return false;
+}
+
 static void delete_moved(struct canvas *c)
 {
-	for (int row = 0; row < c->rung->rows; row++)
-		for (int col = 0; col < c->rung->cols; col++) {
-			if (!(canvas_cell(c, row, col)->spare & CANVAS_MOVED))
-				continue;
-			canvas_cell(c, row, col)->spare = 0;
-			canvas_delete_whole(c, row, col);
-			return;
-		}
+	while (c->refusal == GRID_DONE && delete_last_moved(c))
+		;
 }
 
 static struct rung *move_within(const struct rung *rung, struct grid_at *from,
@@ -151,6 +161,64 @@ struct rung *grid_move(const struct rung *rung, struct grid_at *from,
 	if (!made)
 		return NULL;
 	*source = grid_delete(rung, from);
+	if (*source)
+		return made;
+	to->refusal = from->refusal;
+	rung_free(made);
+	return NULL;
+}
+
+/* ---- moving an area ---- */
+
+static void mark_moved(struct canvas *c, const struct grid_area *area)
+{
+	for (int row = area->row; row <= area->last_row && row < c->rung->rows; row++)
+		for (int col = area->col; col <= area->last_col; col++)
+			if (col < c->rung->cols && canvas_is_element(c, row, col))
+				canvas_cell(c, row, col)->spare |= CANVAS_MOVED;
+}
+
+static bool is_within(const struct grid_area *area, const struct grid_at *at)
+{
+	return at->row >= area->row && at->row <= area->last_row &&
+	       at->col >= area->col && at->col <= area->last_col;
+}
+
+static struct rung *move_area_within(const struct rung *rung,
+				     const struct grid_area *area,
+				     const struct rung *piece, struct grid_at *to,
+				     bool parallel)
+{
+	struct canvas c;
+
+	if (canvas_open(&c, rung, to->columns, 1) && !is_within(area, to)) {
+		mark_moved(&c, area);
+		if (canvas_paste(&c, to->row, to->col, piece, parallel))
+			delete_moved(&c);
+	}
+	return canvas_close(&c, to);
+}
+
+struct rung *grid_move_area(const struct rung *rung, struct grid_at *from,
+			    const struct grid_area *area, const struct rung *target,
+			    struct grid_at *to, bool parallel, struct rung **source)
+{
+	struct rung *piece = NULL, *made = NULL;
+
+	*source = NULL;
+	from->refusal = to->refusal = GRID_NO_ELEMENT;
+	if (area->row >= 0 && area->col >= 0)
+		piece = grid_copy(rung, from->columns, area);
+	if (!piece)
+		return NULL;
+	if (rung == target)
+		made = move_area_within(rung, area, piece, to, parallel);
+	else
+		made = grid_paste(target, to, piece, parallel);
+	rung_free(piece);
+	if (!made || rung == target)
+		return made;
+	*source = grid_delete_area(rung, from, area);
 	if (*source)
 		return made;
 	to->refusal = from->refusal;

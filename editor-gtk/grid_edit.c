@@ -46,16 +46,30 @@ static int shift_end(const struct canvas *c, int row, int col)
 	return end < canvas_last(c) && can_shift(c, row, col, end) ? end : -1;
 }
 
+/* The last of those that moved would be fed from its right, or feed to its left. */
+static bool shift_fails(struct canvas *c, int row, int end)
+{
+	return canvas_is_element(c, row, end) && canvas_is_backwards(c, row, end);
+}
+
 bool canvas_room_before(struct canvas *c, int row, int col)
 {
-	int end = shift_end(c, row, col);
+	const int end = shift_end(c, row, col);
+	const enum word freed = canvas_word(c, row, end);
 
 	if (end < 0)
 		return canvas_insert_column(c, col);
-	for (; end > col; end--)
-		canvas_put(c, row, end, *canvas_cell(c, row, end - 1));
+	for (int i = end; i > col; i--)
+		canvas_put(c, row, i, *canvas_cell(c, row, i - 1));
+	canvas_clear(c, row, col);
 	canvas_cell(c, row, col)->word = ELEM_WIRE;
-	return true;
+	if (!shift_fails(c, row, end))
+		return true;
+	for (int i = col; i < end; i++)
+		canvas_put(c, row, i, *canvas_cell(c, row, i + 1));
+	canvas_clear(c, row, end);
+	canvas_cell(c, row, end)->word = (uint16_t)freed;
+	return canvas_insert_column(c, col);
 }
 
 /* ---- put, replace ---- */
@@ -69,6 +83,14 @@ static void replace(struct canvas *c, int row, int col, struct cell cell)
 	for (int i = 1; i < height; i++)
 		canvas_remove_pin(c, row + i, col);
 	canvas_put(c, row, col, cell);
+}
+
+/* What is put in the place of an element keeps its comment, unless it has one. */
+static struct cell commented(struct canvas *c, int row, int col, struct cell cell)
+{
+	if (!cell.comment)
+		cell.comment = canvas_cell(c, row, col)->comment;
+	return cell;
 }
 
 static int behind_last(const struct canvas *c, int row)
@@ -108,7 +130,7 @@ static bool place_output(struct canvas *c, int row, int col, struct cell cell,
 	const int last = canvas_last(c);
 
 	if (how == GRID_REPLACE && col == last && canvas_is_output(c, row, last)) {
-		canvas_put(c, row, last, cell);
+		canvas_put(c, row, last, commented(c, row, last, cell));
 	} else {
 		row = canvas_output(c, row, cell);
 		if (row < 0)
@@ -118,6 +140,39 @@ static bool place_output(struct canvas *c, int row, int col, struct cell cell,
 	return true;
 }
 
+/* Could the element stand at @col of that wire, without power going leftwards? */
+static bool fits_wire(struct canvas *c, int row, int col, struct cell cell)
+{
+	const struct cell wire = *canvas_cell(c, row, col);
+	bool fits;
+
+	canvas_put(c, row, col, cell);
+	fits = !canvas_is_backwards(c, row, col);
+	canvas_put(c, row, col, wire);
+	return fits;
+}
+
+/* The column of the wire at (@row, @col) that an element is put into: that one, or the
+ * nearest that will do, or right before what the wire leads to. -1: it failed. */
+static int wire_column(struct canvas *c, int row, int col, struct cell cell)
+{
+	const struct stretch s = canvas_stretch(c, row, col);
+	const int last = s.right < canvas_last(c) ? s.right : canvas_last(c);
+
+	for (int step = 0; step < c->rung->cols; step++) {
+		if (col + step < last && fits_wire(c, row, col + step, cell))
+			return col + step;
+		if (step > 0 && col - step >= s.left &&
+		    fits_wire(c, row, col - step, cell))
+			return col - step;
+	}
+	if (!canvas_is_element(c, row, s.right) || canvas_linked(c, row, s.right)) {
+		canvas_fail(c, GRID_BACKWARDS);
+		return -1;
+	}
+	return canvas_room_before(c, row, s.right) ? s.right : -1;
+}
+
 static bool place_series(struct canvas *c, int row, int col, struct cell cell,
 			 enum grid_how how)
 {
@@ -125,11 +180,15 @@ static bool place_series(struct canvas *c, int row, int col, struct cell cell,
 		return canvas_fail(c, GRID_PIN_CELL);
 	if (canvas_is_element(c, row, col)) {
 		if (how == GRID_REPLACE) {
-			replace(c, row, col, cell);
+			replace(c, row, col, commented(c, row, col, cell));
 			canvas_mark(c, row, col);
 			return true;
 		}
 		if (!canvas_room_before(c, row, col))
+			return false;
+	} else if (canvas_word(c, row, col) == ELEM_WIRE) {
+		col = wire_column(c, row, col, cell);
+		if (col < 0)
 			return false;
 	}
 	canvas_put(c, row, col, cell);

@@ -178,6 +178,13 @@ struct rung *grid_drop(const struct rung *rung, struct grid_at *at, struct cell 
 struct rung *grid_move(const struct rung *rung, struct grid_at *from,
 		       const struct rung *target, struct grid_at *to,
 		       struct rung **source);
+/**
+ * grid_move_area - the same with all that stands in an area
+ * @to: where its upper left corner goes, as grid_paste() with @parallel
+ */
+struct rung *grid_move_area(const struct rung *rung, struct grid_at *from,
+			    const struct grid_area *area, const struct rung *target,
+			    struct grid_at *to, bool parallel, struct rung **source);
 
 /* ---- normal form ---- */
 

@@ -35,29 +35,34 @@ static void draw_label(const struct pen *pen, int row, int col, float x)
 	pen_text(pen, TOKEN_COMMENT, LETTER_ADDRESS, label.address, x, r->wire - 17);
 }
 
-/* Below a coil there is room up to where its wire begins to run alone. */
+/* A coil's comment, and where it is read. There is room up to where its wire begins to
+ * run alone. */
 static void draw_reference(const struct pen *pen, int row, int col, float x)
 {
 	const struct rung_layout *layout = pen->layout;
-	char *text = pen->scene->reference(pen->scene->context, row, col);
 	float from = rung_layout_bar(layout, row, col) + 6;
-	float baseline = layout->row[row].wire + BELOW_BASELINE;
-	struct lettered fits;
+	float room = layout->right - 6 - from, baseline = layout->row[row].wire + BELOW_BASELINE;
+	struct lettered fits = rung_element_comment(pen->drafting,
+						    rung_at(pen->rung, row, col), room);
+	char *read = pen->scene->reference(pen->scene->context, row, col);
+	char *text = g_strdup_printf("%s%s%s", fits.text, *fits.text && read ?
+				     " \xc2\xb7 " : "", read ? read : "");
 
-	if (!text)
-		return;
-	fits = lettering_fit(pen->drafting->lettering, LETTER_PIN, text, -1,
-			     layout->right - 6 - from);
+	fits = lettering_fit(pen->drafting->lettering, LETTER_PIN, text, -1, room);
+	g_free(read);
 	g_free(text);
 	float left = MIN(x - fits.width / 2, layout->right - 6 - fits.width);
 	picture_text(pen->picture, TOKEN_COMMENT, LETTER_PIN, fits, left, baseline);
 }
 
-static void draw_below(const struct pen *pen, int row, int col, float x, float room)
+/* @up: of the strokes. An expression of many lines leaves room above it only. */
+static void draw_below(const struct pen *pen, int row, int col, float x, float room,
+		       float up)
 {
 	const struct grid_scene *scene = pen->scene;
 	const struct cell *cell = rung_at(pen->rung, row, col);
-	float baseline = pen->layout->row[row].wire + BELOW_BASELINE;
+	float baseline = pen->layout->row[row].wire +
+			 (up > RUNG_HALF ? -up - 4 : BELOW_BASELINE);
 	struct live_value value;
 
 	if (scene->live && scene->live->value &&
@@ -94,8 +99,7 @@ static void draw_shape(const struct pen *pen, int row, int col)
 		framed = rung_framed(pen->drafting, cell);
 		glyph.framed = &framed;
 		glyph.half = framed.width / 2 + FRAMED_SIDE;
-		if (framed.lines > 1)
-			glyph.up = (float)framed.lines * FRAMED_LINE / 2 + 2;
+		glyph.up = framed.up;
 	} else if (word->operand == OPND_NONE) {
 		glyph.inside = word->word;
 		glyph.letter = LETTER_TYPE;
@@ -106,7 +110,7 @@ static void draw_shape(const struct pen *pen, int row, int col)
 		 rung_layout_bar(layout, row, col + 1), y);
 	glyph_draw(pen, &glyph);
 	draw_label(pen, row, col, glyph.x);
-	draw_below(pen, row, col, glyph.x, width - 8);
+	draw_below(pen, row, col, glyph.x, width - 8, glyph.up);
 }
 
 void grid_draw_element(const struct pen *pen, int row, int col)

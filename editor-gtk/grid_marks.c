@@ -55,40 +55,86 @@ void grid_draw_grounds(const struct pen *pen)
 	}
 }
 
-/* A letter on a small ground, its left upper corner at (x, y). */
-static void badge(const struct pen *pen, const char *text, float x, float y)
+/* A letter on a small ground, its left upper corner at (x, y); returns its width. */
+static float badge(const struct pen *pen, const char *text, float x, float y)
 {
 	struct lettered fits = lettering_fit(pen->drafting->lettering, LETTER_BADGE, text,
 					     -1, 0);
 
 	picture_fill(pen->picture, TOKEN_FORCE, 1, x, y, fits.width + 6, 13);
 	picture_text(pen->picture, TOKEN_BADGE, LETTER_BADGE, fits, x + 3, y + 10);
+	return fits.width + 6;
 }
 
-/* Behind the address of the element, or beside its strokes if it has none. */
-static void draw_badges(const struct pen *pen, const struct grid_mark *mark,
-			const graphene_rect_t *r)
+#define FORCED "F"
+#define TWICE  "2\xc3\x97"
+
+static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float y, float w)
 {
-	int col = rung_layout_col(pen->layout, mark->row, mark->column);
-	float middle = r->origin.x + r->size.width / 2, y = pen->layout->row[mark->row].wire;
-	float x = middle + 15;
+	if (marks & MARK_ERROR)
+		picture_wave(pen->picture, TOKEN_ERROR, x, y, w);
+	else if (marks & MARK_WARNING)
+		picture_line(pen->picture, TOKEN_FORCE, STROKE_DASHED, 2, x, y + 1, x + w,
+			     y + 1);
+}
 
-	if (col >= 0) {
-		struct rung_label label = rung_label(pen->drafting,
-						     rung_at(pen->rung, mark->row, col));
+/* An expression may have several lines: what is wrong stands below them. */
+static void mark_framed(const struct pen *pen, unsigned int marks, const struct cell *cell,
+			float middle, float y)
+{
+	struct rung_framed framed = rung_framed(pen->drafting, cell);
+	float x = middle + framed.width / 2 + FRAMED_SIDE + 2;
 
-		if (label.address.width > 0)
-			x = middle + label.address.width / 2 + 2;
+	mark_wrong(pen, marks, middle - 22, y + framed.up + 2, 44);
+	if (marks & (MARK_FORCED | MARK_TWICE))
+		badge(pen, marks & MARK_FORCED ? FORCED : TWICE, x, y - 15);
+}
+
+/* Behind the address if there is room, else below the wire. */
+static void mark_element(const struct pen *pen, unsigned int marks, int row, int col,
+			 const graphene_rect_t *r)
+{
+	const struct cell *cell = col >= 0 ? rung_at(pen->rung, row, col) : NULL;
+	const struct word_row *word = cell ? word_row(cell->word) : NULL;
+	float middle = r->origin.x + r->size.width / 2, y = pen->layout->row[row].wire;
+	float half = word ? glyph_half(word) : 8, address = 0;
+
+	if (word && rung_is_framed(word)) {
+		mark_framed(pen, marks, cell, middle, y);
+		return;
 	}
-	if (x > r->origin.x + r->size.width - 14)
-		x = r->origin.x + r->size.width - 14;
-	if (mark->marks & MARK_FORCED)
-		badge(pen, "F", x, y - 28);
-	if (mark->marks & MARK_TWICE)
-		badge(pen, "2\xc3\x97", middle + 17, y - 14);
-	if (mark->marks & MARK_CHANGED)
-		badge(pen, "\xe2\x89\xa0", r->origin.x + 1,
-		      r->origin.y + r->size.height - 14);
+	if (word)
+		address = rung_label(pen->drafting, cell).address.width;
+	float behind = middle + address / 2 + 2;
+	bool fits = address > 0 && behind + 13 < r->origin.x + r->size.width;
+	mark_wrong(pen, marks, middle - 22, y + RUNG_HALF + 2, 44);
+	if (marks & MARK_FORCED && fits)
+		badge(pen, FORCED, behind, y - 28);
+	else if (marks & MARK_FORCED)
+		badge(pen, FORCED, middle + half + 3, y + 1.5f);
+	if (marks & MARK_TWICE)
+		badge(pen, TWICE, middle + half + 3, y - 15);
+}
+
+/* Those of a box stand below it. */
+static void mark_box(const struct pen *pen, unsigned int marks, int row, int col)
+{
+	const struct rung_layout *layout = pen->layout;
+	int column = rung_layout_column(layout, row, col);
+	struct rung_box box;
+
+	rung_box_make(pen->drafting, pen->rung, row, col, &box);
+	rung_box_place(&box, layout->row, layout->column_x[column],
+		       layout->column_width[column]);
+	float x = box.x, y = layout->row[row].wire + box.bottom + 2;
+	if (marks & (MARK_ERROR | MARK_WARNING)) {
+		mark_wrong(pen, marks, x, y + 1, 36);
+		x += 38;
+	}
+	if (marks & MARK_FORCED)
+		x += badge(pen, FORCED, x, y) + 2;
+	if (marks & MARK_TWICE)
+		badge(pen, TWICE, x, y);
 }
 
 static void draw_frames(const struct pen *pen, const struct grid_mark *mark,
@@ -113,14 +159,16 @@ void grid_draw_marks(const struct pen *pen)
 		if (!is_inside(pen, mark))
 			continue;
 		graphene_rect_t r = place_of(pen, mark);
-		float x = r.origin.x + r.size.width / 2 - 22;
-		float y = pen->layout->row[mark->row].wire + RUNG_HALF + 2;
+		int col = rung_layout_col(pen->layout, mark->row, mark->column);
+		int top = col < 0 ? -1 : rung_box_top(pen->drafting->project, pen->rung,
+						      mark->row, col);
 		draw_frames(pen, mark, &r);
-		if (mark->marks & MARK_ERROR)
-			picture_wave(pen->picture, TOKEN_ERROR, x, y, 44);
-		else if (mark->marks & MARK_WARNING)
-			picture_line(pen->picture, TOKEN_FORCE, STROKE_DASHED, 2, x, y + 1,
-				     x + 44, y + 1);
-		draw_badges(pen, mark, &r);
+		if (top >= 0)
+			mark_box(pen, mark->marks, top, col);
+		else
+			mark_element(pen, mark->marks, mark->row, col, &r);
+		if (mark->marks & MARK_CHANGED)
+			badge(pen, "\xe2\x89\xa0", r.origin.x + 1,
+			      r.origin.y + r.size.height - 14);
 	}
 }

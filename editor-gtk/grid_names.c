@@ -81,7 +81,8 @@ struct grid_name grid_names_find(const struct grid_names *names, const char *ope
 		const struct var_table *own = names->pou ? &names->pou->vars : NULL;
 
 		found.comment = project_text(project, var->comment);
-		found.local = own && own->count && var >= own->var && var < own->var + own->count;
+		found.local = own && own->count && var >= own->var &&
+			      var < own->var + own->count;
 	}
 	return found;
 }

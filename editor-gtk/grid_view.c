@@ -6,6 +6,8 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include "editor-gtk/settings.h"
+
 #include <adwaita.h>
 #include <string.h>
 
@@ -115,6 +117,36 @@ static void set_adjustment(LadderGridView *view, int which, GtkAdjustment *adjus
 	gtk_widget_queue_resize(GTK_WIDGET(view));
 }
 
+/* An empty sheet says what to do. */
+static bool is_blank(LadderGridView *view)
+{
+	const struct rung *rung = sheet_rungs(view) == 1 ? sheet_rung(view, 0) : NULL;
+
+	for (int i = 0; rung && i < rung->rows * rung->cols; i++)
+		if (rung->cell[i].word != ELEM_EMPTY)
+			return false;
+	return rung != NULL;
+}
+
+static void snapshot_hint(LadderGridView *view, GtkSnapshot *snapshot,
+			  const struct theme *theme)
+{
+	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(view),
+		_("Type a name, such as Start, and press Enter: a contact.\n"
+		  "Type OUT Motor: a coil. Type TON: a timer. All dialects are understood.\n"
+		  "Or drag an element from the left. F5 contact, F6 negated, F7 coil, "
+		  "Shift+F5 in parallel, Ins new rung."));
+
+	pango_layout_set_spacing(layout, 6 * PANGO_SCALE);
+	gtk_snapshot_save(snapshot);
+	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(
+		(float)(RUNG_LEFT * view->zoom),
+		(float)((strips_height(view) + 24) * view->zoom)));
+	gtk_snapshot_append_layout(snapshot, layout, &theme->color[TOKEN_COMMENT]);
+	gtk_snapshot_restore(snapshot);
+	g_object_unref(layout);
+}
+
 static void ladder_grid_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(widget);
@@ -131,6 +163,8 @@ static void ladder_grid_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 		&GRAPHENE_RECT_INIT((float)-gtk_adjustment_get_value(view->adjustment[0]),
 				    0, (float)(RUNG_GUTTER * view->zoom), height));
 	strips_snapshot(view, snapshot);
+	if (is_blank(view))
+		snapshot_hint(view, snapshot, theme);
 	gtk_snapshot_pop(snapshot);
 }
 
@@ -437,7 +471,8 @@ static void ladder_grid_view_class_init(LadderGridViewClass *class)
 
 static void ladder_grid_view_init(LadderGridView *view)
 {
-	view->zoom = 1.0;
+	view->zoom = CLAMP(settings_number("zoom", 1.0), ZOOM_LEAST, ZOOM_MOST);
+	view->drafting.show = (enum drafting_show)settings_enum("show", SHOW_BOTH);
 	view->strips = g_array_new(FALSE, TRUE, sizeof(struct strip));
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct sheet_mark));
 	view->cells = g_array_new(FALSE, TRUE, sizeof(struct cell_widget));

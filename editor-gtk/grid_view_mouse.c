@@ -211,6 +211,8 @@ static void drag_begin(GtkDragSource *source, GdkDrag *unused, LadderGridView *v
 
 /* ---- dropping ---- */
 
+#define DROP_BELOW 18 /* px under the wire, from where on it is meant          */
+
 static void set_drop(LadderGridView *view, int rung, int row, int col, bool legal)
 {
 	const int before = view->drop.rung;
@@ -220,9 +222,10 @@ static void set_drop(LadderGridView *view, int rung, int row, int col, bool lega
 		return;
 	view->drop = (struct grid_cursor){ rung, row, col };
 	view->drop_legal = legal;
-	strips_redraw(view, before >= 0 ? before : rung);
+	if (before >= 0)
+		strips_dirty(view, before);
 	if (rung >= 0)
-		strips_redraw(view, rung);
+		strips_dirty(view, rung); /* it may need a row more */
 }
 
 static const struct ladder_drag *dragged(GtkDropTarget *target)
@@ -233,19 +236,36 @@ static const struct ladder_drag *dragged(GtkDropTarget *target)
 	       g_value_get_boxed(value) : NULL;
 }
 
-/* Below the last row there is room for another. */
-static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hit)
+/* The lower part of an element's cell means: below it. */
+static bool is_below(LadderGridView *view, int rung, const struct rung_hit *hit, double y)
 {
-	const int rung = sheet_point(view, x, y, hit);
-	const double shift = RUNG_CELL_HEIGHT * view->zoom;
+	const struct strip *strip = strips_get(view, rung);
+	const struct rung_row *row = &strip->layout->row[hit->row];
+	const double at = (y + gtk_adjustment_get_value(view->adjustment[1])) / view->zoom;
 
-	if (rung >= 0 && is_cell(hit))
-		return rung;
-	if (rung >= 0 && sheet_point(view, x, y - shift, hit) == rung && is_cell(hit)) {
-		hit->row++;
-		return rung;
+	return at > strip->y + row->y + row->wire + DROP_BELOW;
+}
+
+/* Which cell is meant; below the last row there is room for another. */
+static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hit,
+		   enum word word)
+{
+	const double shift = RUNG_CELL_HEIGHT * view->zoom;
+	int rung = sheet_point(view, x, y, hit);
+	bool below = rung >= 0 && is_cell(hit) && is_below(view, rung, hit, y);
+
+	if (rung < 0 || !is_cell(hit)) {
+		const int above = sheet_point(view, x, y - shift, hit);
+
+		if (above < 0 || !is_cell(hit) || (rung >= 0 && rung != above))
+			return -1;
+		rung = above;
+		below = true;
 	}
-	return -1;
+	if (below && grid_can_drop(sheet_rung(view, rung), view->columns, hit->row + 1,
+				   hit->column, word) != GRID_DROP_NOT)
+		hit->row++;
+	return rung;
 }
 
 static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y,
@@ -253,7 +273,7 @@ static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y,
 {
 	const struct ladder_drag *drag = dragged(target);
 	struct rung_hit hit;
-	int rung = drop_at(view, x, y, &hit);
+	int rung = drop_at(view, x, y, &hit, drag ? drag->word : ELEM_EMPTY);
 	bool legal;
 
 	if (drag && drag->view && drag->from.row < 0) {
@@ -319,7 +339,7 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 		       ladder_document_move_rung(view->document, view->pou,
 						 drag->from.rung, rung);
 	}
-	rung = drop_at(view, x, y, &hit);
+	rung = drop_at(view, x, y, &hit, drag->word);
 	if (rung < 0)
 		return FALSE;
 	if (drag->view) {

@@ -206,13 +206,16 @@ struct strip *strips_get(LadderGridView *view, int rung)
 {
 	struct strip *strip = strip_of(view, rung);
 	const struct rung *shown = sheet_rung(view, rung);
+	int rows = 0;
 	float grown;
 
 	if (strip->layout || !shown)
 		return strip;
-	strip->layout = rung_layout_new(&view->drafting, shown, rung + 1,
-					rung == view->cursor.rung ?
-					view->cursor.row + 1 : 0);
+	if (rung == view->cursor.rung)
+		rows = view->cursor.row + 1;
+	if (rung == view->drop.rung)
+		rows = MAX(rows, view->drop.row + 1);
+	strip->layout = rung_layout_new(&view->drafting, shown, rung + 1, rows);
 	if (strip->layout->natural > view->rail)
 		widen(view, strip->layout->natural);
 	rung_layout_stretch(strip->layout, view->rail);

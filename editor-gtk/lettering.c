@@ -42,7 +42,7 @@ struct lettering {
 	PangoContext *context;
 	PangoLayout *layout[LETTERS]; /* for measuring                          */
 	GHashTable *known;
-	/* Of texts that were drawn: shaping them costs ten times what measuring again does. */
+	/* Of texts that were drawn: most of what a drawing costs is shaping them. */
 	GHashTable *laid[LETTERS];
 };
 
@@ -85,7 +85,8 @@ static PangoLayout *layout_new(PangoContext *context, const char *family,
 
 	pango_font_description_set_family(font, of->mono ?
 		"DejaVu Sans Mono, Noto Sans Mono, Noto Sans Mono CJK SC, monospace" :
-		family ? family : "Cantarell, Inter, Noto Sans, Noto Sans CJK SC, sans-serif");
+		family ? family :
+		"Cantarell, Inter, Noto Sans, Noto Sans CJK SC, sans-serif");
 	pango_font_description_set_weight(font, of->weight);
 	pango_font_description_set_absolute_size(font, (double)of->size * PANGO_SCALE);
 	pango_layout_set_font_description(layout, font);

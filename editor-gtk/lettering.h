@@ -47,7 +47,8 @@ struct lettering;
  */
 struct lettering *lettering_new(PangoContext *context, const char *family);
 void lettering_free(struct lettering *lettering);
-/** lettering_context - a context that needs no display. Owns: the caller, g_object_unref. */
+/** lettering_context - a context that needs no display.
+ * Owns: the caller, g_object_unref. */
 PangoContext *lettering_context(void);
 /** lettering_trim - forgets texts if there are very many. Call it between drawings. */
 void lettering_trim(struct lettering *lettering);

@@ -9,7 +9,7 @@
 #include <math.h>
 
 #define TEXT_LINE 16     /* px of a line of IL or of a table                    */
-#define LEAST_SCALE 0.45f /* a rung taller than a page is made no smaller         */
+#define LEAST_SCALE 0.6f /* a rung taller than a page is made no smaller          */
 #define AIR 14
 
 bool paper_find(const char *name, struct paper *out)
@@ -112,6 +112,20 @@ static char *reference_of(void *context, int row, int col)
 				project_text(pages->project, cell->operand));
 }
 
+/* Part of a picture; a single row may be taller than a page. */
+static void put_span(struct pages *pages, const struct picture *picture, float scale,
+		     float from, float end)
+{
+	while (from < end) {
+		float to = fminf(end, from + (pages->room_height - pages->y) / scale);
+
+		put_piece(pages, picture, scale, from, to);
+		from = to;
+		if (from < end)
+			next_page(pages);
+	}
+}
+
 /* Rows of a rung that is too tall for a page, as many as fit on each. */
 static void put_slices(struct pages *pages, const struct rung_layout *layout,
 		       const struct picture *picture, float scale)
@@ -121,25 +135,19 @@ static void put_slices(struct pages *pages, const struct rung_layout *layout,
 	for (int row = 0; row < layout->rows; row++) {
 		float to = layout->row[row].y + layout->row[row].height;
 
-		if (end > from && (to - from) * scale > pages->room_height) {
+		if ((to - from) * scale > pages->room_height - pages->y) {
+			put_span(pages, picture, scale, from, end);
 			next_page(pages);
-			put_piece(pages, picture, scale, from, end);
 			from = end;
 		}
 		end = to;
 	}
-	/* A single row may still be taller than a page. */
-	for (end = layout->height; from < end;) {
-		float to = fminf(end, from + pages->room_height / scale);
-
-		next_page(pages);
-		put_piece(pages, picture, scale, from, to);
-		from = to;
-	}
+	put_span(pages, picture, scale, from, layout->height);
 }
 
+/* The first one stands below the heading of its POU, whatever it takes. */
 static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
-		     float scale)
+		     float scale, bool first)
 {
 	const struct rung_layout *layout = sheet->rung[index];
 	struct picture *picture = new_picture(pages);
@@ -147,14 +155,15 @@ static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
 		.drafting = &sheet->drafting, .layout = layout, .theme = pages->theme,
 		.state = RUNG_NO_GUTTER, .reference = reference_of, .context = pages,
 	};
+	float room = pages->room_height - (first ? pages->y : 0);
+	float shrunk = room / layout->height * 0.999f;
 
 	pages->rung = layout->rung;
 	grid_draw(&scene, picture);
-	if (layout->height * scale > pages->room_height)
-		scale = fmaxf(pages->room_height / layout->height * 0.999f,
-			      scale * LEAST_SCALE);
-	if (layout->height * scale <= pages->room_height)
+	if (layout->height * scale <= room)
 		put_whole(pages, picture, layout->height, scale, 0);
+	else if (shrunk >= scale * LEAST_SCALE)
+		put_whole(pages, picture, layout->height, shrunk, 0);
 	else
 		put_slices(pages, layout, picture, scale);
 }
@@ -173,7 +182,7 @@ static void put_ladder(struct pages *pages, const char *heading, int only)
 	float more = first < end ? sheet->rung[first]->height * scale : 0;
 	put_heading(pages, heading, fminf(more, pages->room_height - 40));
 	for (int i = first; i < end; i++)
-		put_rung(pages, sheet, i, scale);
+		put_rung(pages, sheet, i, scale, i == first);
 	sheet_free(sheet);
 }
 
@@ -356,6 +365,13 @@ void pages_free(struct pages *pages)
 	g_free(pages->file);
 	g_free(pages->date);
 	g_free(pages);
+}
+
+const char *pages_subject(const struct pages *pages, int page)
+{
+	const struct page *of = g_ptr_array_index(pages->page, page);
+
+	return of->subject ? of->subject : "";
 }
 
 int pages_count(const struct pages *pages)

@@ -116,6 +116,8 @@ char *picture_lines(const struct picture *picture)
 			g_string_append_printf(out, " %.0f %.*f", (double)s->w,
 					       s->kind == STROKE_ARC ? 2 : 0,
 					       (double)s->h);
+		if (s->width > 0)
+			g_string_append_printf(out, " by %.4g", (double)s->width);
 		g_string_append_c(out, '\n');
 	}
 	return g_string_free(out, FALSE);

@@ -3,8 +3,9 @@
  * picture - a drawing as a list of strokes, before it is anywhere.
  *
  * What is drawn is drawn once, into this list; from it come a render node for the screen,
- * cairo for PDF, print and PNG, SVG with real text, and the lines that tests compare. Strokes name
- * tokens (theme.h) and styles of type (lettering.h): a list has no colours of its own.
+ * cairo for PDF, print and PNG, SVG with real text, and the lines that tests compare.
+ * Strokes name tokens (theme.h) and styles of type (lettering.h): a list has no colours
+ * of its own.
  */
 #ifndef EDITOR_PICTURE_H
 #define EDITOR_PICTURE_H

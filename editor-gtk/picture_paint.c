@@ -127,14 +127,47 @@ static graphene_rect_t bounds_of(const struct stroke *s)
 	return GRAPHENE_RECT_INIT(s->x, s->y, s->w, s->h);
 }
 
-static void by_cairo(GtkSnapshot *snapshot, const struct stroke *s, const GdkRGBA *color)
+/* Only these go through cairo: what is round, slanting or broken. */
+static bool wants_cairo(const struct stroke *s)
 {
-	graphene_rect_t bounds = bounds_of(s);
-	cairo_t *cr = gtk_snapshot_append_cairo(snapshot, &bounds);
+	switch (s->kind) {
+	case STROKE_TEXT:
+	case STROKE_FILL:
+		return false;
+	case STROKE_FRAME:
+		return s->style != STROKE_SOLID;
+	case STROKE_LINE:
+		return s->style != STROKE_SOLID || (s->x != s->w && s->y != s->h);
+	case STROKE_ARC:
+	case STROKE_DISC:
+	case STROKE_WAVE:
+		return true;
+	}
+	return true;
+}
 
-	gdk_cairo_set_source_rgba(cr, color);
-	draw_shape(cr, s);
+/* Strokes from @from on that follow one another, as one node: both arcs of a coil and
+ * the light in it. Returns the first behind them. */
+static int by_cairo(GtkSnapshot *snapshot, const struct picture *picture, int from,
+		    const struct theme *theme)
+{
+	graphene_rect_t bounds = bounds_of(&picture->stroke[from]);
+	int end = from + 1;
+
+	for (; end < picture->count && wants_cairo(&picture->stroke[end]); end++) {
+		graphene_rect_t next = bounds_of(&picture->stroke[end]);
+
+		graphene_rect_union(&bounds, &next, &bounds);
+	}
+	cairo_t *cr = gtk_snapshot_append_cairo(snapshot, &bounds);
+	for (int i = from; i < end; i++) {
+		GdkRGBA color = color_of(&picture->stroke[i], theme);
+
+		gdk_cairo_set_source_rgba(cr, &color);
+		draw_shape(cr, &picture->stroke[i]);
+	}
 	cairo_destroy(cr);
+	return end;
 }
 
 static void straight(GtkSnapshot *snapshot, const struct stroke *s, const GdkRGBA *color)
@@ -182,18 +215,17 @@ void picture_snapshot(const struct picture *picture, const struct theme *theme,
 		const struct stroke *s = &picture->stroke[i];
 		GdkRGBA color = color_of(s, theme);
 
-		if (s->kind == STROKE_TEXT)
+		if (wants_cairo(s))
+			i = by_cairo(snapshot, picture, i, theme) - 1;
+		else if (s->kind == STROKE_TEXT)
 			text_on_snapshot(snapshot, s, &color, lettering);
 		else if (s->kind == STROKE_FILL)
 			gtk_snapshot_append_color(snapshot, &color,
 				&GRAPHENE_RECT_INIT(s->x, s->y, s->w, s->h));
-		else if (s->kind == STROKE_FRAME && s->style == STROKE_SOLID)
+		else if (s->kind == STROKE_FRAME)
 			frame_on_snapshot(snapshot, s, &color);
-		else if (s->kind == STROKE_LINE && s->style == STROKE_SOLID &&
-			 (s->x == s->w || s->y == s->h))
-			straight(snapshot, s, &color);
 		else
-			by_cairo(snapshot, s, &color);
+			straight(snapshot, s, &color);
 	}
 }
 

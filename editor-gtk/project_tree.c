@@ -196,6 +196,8 @@ static void activated(struct tree *tree, guint position)
 	if (row && row->kind == ROW_POU)
 		gtk_widget_activate_action(tree->list, "win.go-to", "(iiii)", row->pou,
 					   0, -1, -1);
+	else if (row && row->kind == ROW_SYMBOLS)
+		gtk_widget_activate_action(tree->list, "win.symbols", NULL);
 }
 
 static int selected_pou(struct tree *tree)

@@ -38,13 +38,16 @@ static struct ladder *load(const char *path, enum render_status *status)
 	*status = RENDER_WRONG;
 	if (!ladder)
 		return NULL;
-	if (ladder_load(ladder, path) && ladder_project(ladder))
+	if (ladder_load(ladder, path) && ladder_project(ladder)) {
+		*status = RENDER_GOOD;
 		return ladder;
+	}
 	say_diags(ladder_diags(ladder));
 	if (ladder_could_read(ladder))
 		*status = RENDER_NO;
 	if (!ladder_diags(ladder)->count)
-		fprintf(stderr, _("ladder-editor: %s: a code image has no drawing\n"), path);
+		fprintf(stderr, _("ladder-editor: %s: a code image has no drawing\n"),
+			path);
 	ladder_free(ladder);
 	return NULL;
 }
@@ -105,7 +108,8 @@ static enum render_status write_png(const struct picture *picture,
 				    const struct theme *theme, struct lettering *lettering)
 {
 	double scale = (double)options->scale;
-	double width = (double)picture->width * scale, height = (double)picture->height * scale;
+	double width = (double)picture->width * scale;
+	double height = (double)picture->height * scale;
 
 	if (width > MOST_PIXELS || height > MOST_PIXELS)
 		return failed(options->out, _("it would be too large; draw one POU or one "
@@ -128,11 +132,23 @@ static enum render_status write_picture(struct picture *picture,
 					const struct render_options *options,
 					struct lettering *lettering)
 {
-	const struct theme *theme = theme_get(options->theme, options->power);
+	const struct theme *theme = theme_get(options->theme, THEME_GREEN);
 
 	if (options->format == RENDER_SVG)
 		return write_svg(picture, options, theme);
 	return write_png(picture, options, theme, lettering);
+}
+
+/* The table of contents that a reader shows beside the pages: POUs, symbols. */
+static void add_outline(cairo_surface_t *surface, const struct pages *pages, int page)
+{
+	const char *subject = pages_subject(pages, page);
+	char place[32];
+
+	if (page > 0 && strcmp(subject, pages_subject(pages, page - 1)) == 0)
+		return;
+	snprintf(place, sizeof(place), "page=%d", page + 1);
+	cairo_pdf_surface_add_outline(surface, CAIRO_PDF_OUTLINE_ROOT, subject, place, 0);
 }
 
 /* A PDF names neither the day nor the machine it was made on. */
@@ -156,6 +172,7 @@ static enum render_status write_pdf(const struct project *project, int pou,
 				       *title ? title : options->file);
 	for (int page = 0; page < pages_count(pages); page++) {
 		pages_paint(pages, page, cr);
+		add_outline(surface, pages, page);
 		cairo_show_page(cr);
 	}
 	cairo_destroy(cr);
@@ -220,13 +237,18 @@ int render_main(int argc, char **argv)
 	struct ladder *ladder = load(options.file, &status);
 	if (!ladder)
 		return (int)status;
+	if (options.check) {
+		status = ladder_build(ladder) ? RENDER_GOOD : RENDER_NO;
+		say_diags(ladder_diags(ladder));
+		options.diags = ladder_diags(ladder);
+	}
 	PangoContext *context = lettering_context();
 	struct lettering *lettering = lettering_new(context, NULL);
-	status = options.older ?
+	enum render_status drawn = options.older ?
 		draw_difference(ladder_project(ladder), &options, lettering) :
 		draw(ladder_project(ladder), &options, lettering);
 	lettering_free(lettering);
 	g_object_unref(context);
 	ladder_free(ladder);
-	return (int)status;
+	return (int)(drawn == RENDER_GOOD ? status : drawn);
 }

@@ -67,7 +67,8 @@ static void name_pou(struct comparison *of, const char *said)
 {
 	const struct project *project = of->pou_b < 0 ? of->a : of->b;
 	const struct pou *pou = pou_of(project, of->pou_b < 0 ? of->pou_a : of->pou_b);
-	const char *change = of->pou_a < 0 ? _("added") : of->pou_b < 0 ? _("removed") : said;
+	const char *change = of->pou_a < 0 ? _("added") :
+			     of->pou_b < 0 ? _("removed") : said;
 	char *heading = g_strdup_printf("%s %s%s%s", pou_word(pou->kind),
 					project_text(project, pou->name),
 					*change ? ": " : "", change);
@@ -123,7 +124,7 @@ static void put_rung(struct comparison *of, const struct sheet *sheet, int index
 {
 	struct grid_scene scene = {
 		.drafting = &sheet->drafting, .layout = sheet->rung[index],
-		.theme = theme_get(of->options->theme, of->options->power),
+		.theme = theme_get(of->options->theme, THEME_GREEN),
 		.mark = mark, .mark_count = marks, .state = state,
 	};
 

@@ -45,8 +45,8 @@ static bool format_of(const char *name, enum render_format *format)
 	else if (dot && g_ascii_strcasecmp(dot, ".png") == 0)
 		*format = RENDER_PNG;
 	else
-		return wrong(_("-o wants a name that ends in .svg, .pdf or .png, not %.80s"),
-			     name);
+		return wrong(_("-o wants a name that ends in .svg, .pdf or .png, "
+			       "not %.80s"), name);
 	return true;
 }
 
@@ -66,15 +66,17 @@ static bool show_of(const char *name, enum drafting_show *show)
 static bool take_flag(const char *name, struct render_options *out)
 {
 	if (!strcmp(name, "--dark"))
-		out->theme = out->theme == THEME_CONTRAST ? THEME_CONTRAST_DARK : THEME_DARK;
+		out->theme = out->theme == THEME_CONTRAST ? THEME_CONTRAST_DARK :
+							    THEME_DARK;
 	else if (!strcmp(name, "--contrast"))
-		out->theme = out->theme == THEME_DARK ? THEME_CONTRAST_DARK : THEME_CONTRAST;
+		out->theme = out->theme == THEME_DARK ? THEME_CONTRAST_DARK :
+							THEME_CONTRAST;
 	else if (!strcmp(name, "--print"))
 		out->theme = THEME_PRINT;
-	else if (!strcmp(name, "--blue"))
-		out->power = THEME_BLUE;
 	else if (!strcmp(name, "--landscape"))
 		out->paper.landscape = true;
+	else if (!strcmp(name, "--check"))
+		out->check = true;
 	else if (!strcmp(name, "--help") || !strcmp(name, "-h"))
 		out->help = true;
 	else
@@ -160,6 +162,8 @@ static bool judge(const struct render_options *out, int files, bool compare)
 		return wrong(_("-o is missing"));
 	if (out->rung && compare)
 		return wrong(_("--rung does not go with --diff"));
+	if (out->check && (compare || out->format == RENDER_PDF))
+		return wrong(_("--check goes with one file and .svg or .png"));
 	if (compare && out->format == RENDER_PDF)
 		return wrong(_("--diff draws .svg and .png, not %.80s"), out->out);
 	return true;
@@ -207,8 +211,9 @@ void render_options_help(void)
 		"  --pou NAME       only this program, function or block\n"
 		"  --rung N         only this rung, from 1\n"
 		"  --show WHAT      above elements: both (symbol and address), symbols, addresses\n"
-		"  --dark, --contrast, --print, --blue\n"
-		"                   colours: dark, high contrast, black on paper; power in blue\n"
+		"  --check          marks what is wrong in the rungs, and says it\n"
+		"  --dark, --contrast, --print\n"
+		"                   colours: dark, high contrast, black on white\n"
 		"  --width PX       pixels from rail to rail at least\n"
 		"  --scale S        0.1 to 10; 1 is 96 pixels an inch\n"
 		"  --paper SIZE     of a PDF: a4, a3, a5, letter, legal\n"

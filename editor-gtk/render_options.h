@@ -9,6 +9,7 @@
 
 #include "editor-gtk/pages.h"
 #include "editor-gtk/theme.h"
+#include "engine/base/diag.h"
 
 enum render_format { RENDER_SVG, RENDER_PDF, RENDER_PNG };
 /* As `ladder` has them. */
@@ -22,11 +23,12 @@ struct render_options {
 	const char *pou;     /* NULL: all                                        */
 	int rung;            /* 1-based; 0: all                                  */
 	enum theme_kind theme;
-	enum theme_power power;
 	enum drafting_show show;
 	float width, scale;
 	struct paper paper;
+	bool check;          /* mark what is wrong, and say it                   */
 	bool help;
+	const struct diag_list *diags; /* of the check; NULL: none was wanted    */
 };
 
 /** render_options_parse - @argv[0] is the program. What is wrong is said on stderr.

@@ -48,12 +48,35 @@ static float put_list(const struct project *project, const struct pou *pou,
 	return y + TEXT_LINE;
 }
 
+/* What the check says of cells of this rung. */
+static int mark_wrong(const struct diag_list *diags, const struct rung_layout *layout,
+		      const char *pou, struct grid_mark *mark)
+{
+	const struct rung *rung = layout->rung;
+	int count = 0;
+
+	for (int i = 0; diags && i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+		int row = diag->row - 1, col = diag->col - 1;
+
+		if (!diag->pou || g_ascii_strcasecmp(diag->pou, pou) != 0 ||
+		    diag->rung != layout->number || row < 0 || row >= rung->rows ||
+		    col < 0 || col >= rung->cols)
+			continue;
+		mark[count++] = (struct grid_mark){
+			row, rung_layout_column(layout, row, col),
+			diag_severity(diag->id) == SEVERITY_ERROR ? MARK_ERROR :
+								    MARK_WARNING };
+	}
+	return count;
+}
+
 static float put_ladder(const struct project *project, const struct pou *pou,
 			const struct render_options *options,
 			struct lettering *lettering, float y, struct picture *picture)
 {
 	struct sheet *sheet = sheet_new(project, pou, lettering);
-	const struct theme *theme = theme_get(options->theme, options->power);
+	const struct theme *theme = theme_get(options->theme, THEME_GREEN);
 	int first = options->rung ? options->rung - 1 : 0;
 	int end = options->rung ? options->rung : pou->rung_count;
 
@@ -62,8 +85,12 @@ static float put_ladder(const struct project *project, const struct pou *pou,
 	sheet->drafting.all_comments = true;
 	sheet_layout(sheet);
 	for (int i = first; i < end; i++) {
+		struct grid_mark mark[LIMIT_DIAGS];
+		int marks = mark_wrong(options->diags, sheet->rung[i],
+				       project_text(project, pou->name), mark);
 		struct grid_scene scene = { .drafting = &sheet->drafting,
-					    .layout = sheet->rung[i], .theme = theme };
+					    .layout = sheet->rung[i], .theme = theme,
+					    .mark = mark, .mark_count = marks };
 
 		picture_move(picture, 0, y);
 		grid_draw(&scene, picture);

@@ -17,7 +17,7 @@
 #define SHORT_LINES  3    /* of a comment on the screen                         */
 #define BELOW        9
 #define BESIDE       16   /* px of air round a name                             */
-#define BOX_AIR      12   /* below a box                                        */
+#define BOX_AIR      18   /* below a box: its marks stand there                 */
 
 static const struct word_row *word_at(const struct drafting *drafting,
 				      const struct rung *rung, int row, int col)
@@ -110,7 +110,11 @@ static float element_width(const struct drafting *drafting, const struct rung *r
 	if (rung_is_framed(word))
 		return rung_framed(drafting, rung_at(rung, row, col)).width +
 		       2 * FRAMED_SIDE + 2 * BESIDE;
-	return names_width(drafting, rung_at(rung, row, col)) + BESIDE;
+	float need = names_width(drafting, rung_at(rung, row, col));
+	if (drafting->all_comments)
+		need = MAX(need, rung_element_comment(drafting, rung_at(rung, row, col),
+						      LABEL_BOUND).width);
+	return need + BESIDE;
 }
 
 static void measure_columns(const struct drafting *drafting, struct rung_layout *layout)

@@ -38,7 +38,7 @@ struct drafting {
 	struct lettering *lettering;
 	enum drafting_show show;
 	bool comments;     /* also comments of declarations, below elements     */
-	bool all_comments; /* of rungs, however long; else three lines           */
+	bool all_comments; /* of rungs, however long, and long names: for paper   */
 	int columns;       /* of the sheet: rung_layout_columns() of its rungs   */
 	float width;       /* px from rail to rail at least; 0: as natural      */
 };

@@ -29,15 +29,16 @@ struct rung_label rung_label(const struct drafting *drafting, const struct cell 
 	const struct word_row *word = word_row(cell->word);
 	const char *operand = project_text(drafting->project, cell->operand);
 	struct rung_label label = { nothing, nothing };
+	float bound = drafting->all_comments ? 2 * LABEL_BOUND : LABEL_BOUND;
 	struct grid_name name;
 
 	if (!cell->operand || (word->kind == WORD_ELEM && !has_names(word)))
 		return label;
 	name = grid_names_find(drafting->names, operand);
 	if (drafting->show != SHOW_ADDRESSES || !*name.address)
-		label.symbol = fit(drafting, LETTER_SYMBOL, name.symbol, LABEL_BOUND);
+		label.symbol = fit(drafting, LETTER_SYMBOL, name.symbol, bound);
 	if (drafting->show != SHOW_SYMBOLS || !*name.symbol)
-		label.address = fit(drafting, LETTER_ADDRESS, name.address, LABEL_BOUND);
+		label.address = fit(drafting, LETTER_ADDRESS, name.address, bound);
 	return label;
 }
 
@@ -91,7 +92,7 @@ static void break_lines(const struct drafting *drafting, const char *text,
 
 static struct rung_framed in_lines(const struct drafting *drafting, const char *text)
 {
-	struct rung_framed framed = { .lines = 1 };
+	struct rung_framed framed = { .lines = 1, .up = RUNG_HALF };
 
 	framed.line[0] = fit(drafting, LETTER_OPERAND, text, 0);
 	framed.width = framed.line[0].width;
@@ -99,6 +100,7 @@ static struct rung_framed in_lines(const struct drafting *drafting, const char *
 		framed.lines = 0;
 		framed.width = 0;
 		break_lines(drafting, text, &framed);
+		framed.up = (float)(framed.lines * FRAMED_LINE) / 2 + 2;
 	}
 	return framed;
 }

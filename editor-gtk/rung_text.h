@@ -12,7 +12,7 @@
 
 #define LABEL_BOUND  230   /* px of a name                                      */
 #define FRAMED_BOUND 420   /* px of a line of an expression                     */
-#define FRAMED_LINES 5     /* they fit into a row of common height              */
+#define FRAMED_LINES 4     /* they fit into a row of common height, with a mark  */
 #define FRAMED_LINE  15    /* px from one to the next                           */
 #define FRAMED_SIDE  12    /* px between its text and the outside of a bracket    */
 
@@ -23,13 +23,14 @@ struct rung_label rung_label(const struct drafting *drafting, const struct cell 
 struct lettered rung_element_comment(const struct drafting *drafting,
 				     const struct cell *cell, float room);
 
-/** rung_is_framed - is it drawn as one line of text between strokes: [ a > b ], >> Label? */
+/** rung_is_framed - is it drawn as text between strokes: [ a > b ], >> Label? */
 bool rung_is_framed(const struct word_row *word);
 /** rung_framed - that text, in lines; what is longer ends in an ellipsis. */
 struct rung_framed {
 	struct lettered line[FRAMED_LINES];
 	int lines;
 	float width;         /* of the widest                                   */
+	float up;            /* from the wire to the upper end of its strokes    */
 };
 struct rung_framed rung_framed(const struct drafting *drafting, const struct cell *cell);
 

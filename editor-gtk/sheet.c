@@ -5,7 +5,6 @@
 #include "editor-gtk/sheet.h"
 
 #include <glib.h>
-#include <string.h>
 
 struct sheet *sheet_new(const struct project *project, const struct pou *pou,
 			struct lettering *lettering)
@@ -93,44 +92,4 @@ void sheet_layout(struct sheet *sheet)
 	for (int i = 0; i < sheet->count; i++)
 		sheet->rung[i] = rung_layout_new(&sheet->drafting, pou->rung[i], i + 1, 0);
 	align(sheet);
-}
-
-void sheet_changed(struct sheet *sheet, int at, int removed, int added, int rows)
-{
-	int count = sheet->count - removed + added, columns = columns_of(sheet->pou);
-
-	if (columns != sheet->drafting.columns) {
-		sheet_layout(sheet);
-		return;
-	}
-	for (int i = at; i < at + removed; i++)
-		rung_layout_free(sheet->rung[i]);
-	if (added > removed) {
-		sheet->rung = g_renew(struct rung_layout *, sheet->rung, count + 1);
-		sheet->y = g_renew(float, sheet->y, count + 1);
-	}
-	memmove(sheet->rung + at + added, sheet->rung + at + removed,
-		(size_t)(sheet->count - at - removed) * sizeof(*sheet->rung));
-	sheet->count = count;
-	for (int i = at; i < at + added; i++)
-		sheet->rung[i] = rung_layout_new(&sheet->drafting, sheet->pou->rung[i],
-						 i + 1, i == at ? rows : 0);
-	for (int i = at + added; i < count; i++)
-		sheet->rung[i]->number = i + 1;
-	align(sheet);
-}
-
-int sheet_rung_at(const struct sheet *sheet, float y)
-{
-	int low = 0, high = sheet->count - 1;
-
-	while (low < high) {
-		int middle = (low + high + 1) / 2;
-
-		if (sheet->y[middle] <= y)
-			low = middle;
-		else
-			high = middle - 1;
-	}
-	return high;
 }

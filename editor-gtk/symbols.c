@@ -260,13 +260,16 @@ static bool speaks_of(const struct diag *diag, const struct symbol_row *symbol)
 	       (symbol->member || strcmp(pou, symbol->scope) == 0);
 }
 
-char *symbol_error(LadderDocument *document, const struct symbol_row *symbol)
+char *symbol_error(LadderDocument *document, const struct symbol_row *symbol,
+		   bool *warning)
 {
 	const struct diag_list *diags = ladder_document_diags(document);
 
 	for (int i = 0; diags && i < diags->count; i++)
-		if (speaks_of(&diags->diag[i], symbol))
+		if (speaks_of(&diags->diag[i], symbol)) {
+			*warning = diag_severity(diags->diag[i].id) != SEVERITY_ERROR;
 			return g_strdup(_(diag_text(diags->diag[i].id)));
+		}
 	return NULL;
 }
 

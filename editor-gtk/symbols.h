@@ -67,8 +67,9 @@ char *symbol_free_name(LadderDocument *document, int table, const char *like);
  * "" if there is none. Owns: the caller. */
 char *symbol_free_address(LadderDocument *document, enum iec_area area, const char *type);
 /** symbol_error - what the last check found wrong with a declaration; NULL: nothing.
- * Owns: the caller. */
-char *symbol_error(LadderDocument *document, const struct symbol_row *symbol);
+ * @warning: gets whether it is only that. Owns: the caller. */
+char *symbol_error(LadderDocument *document, const struct symbol_row *symbol,
+		   bool *warning);
 
 /* ---- several changes as one ---- */
 

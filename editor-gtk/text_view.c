@@ -193,17 +193,22 @@ void ladder_text_view_set_pou(LadderTextView *view, int pou)
 	show_text(view);
 }
 
-void ladder_text_view_go(LadderTextView *view, int line, int column)
+void ladder_text_view_go_here(LadderTextView *view, int line, int column)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
 	GtkTextIter at;
 
-	gtk_text_buffer_get_iter_at_line(buffer, &at, MAX(line - 1 - lines_before(view), 0));
+	gtk_text_buffer_get_iter_at_line(buffer, &at, MAX(line - 1, 0));
 	if (column > 1 && column - 1 < gtk_text_iter_get_bytes_in_line(&at))
 		gtk_text_iter_set_line_index(&at, column - 1);
 	gtk_text_buffer_place_cursor(buffer, &at);
 	gtk_text_view_scroll_to_iter(GTK_TEXT_VIEW(view->view), &at, 0.1, FALSE, 0, 0);
 	gtk_widget_grab_focus(GTK_WIDGET(view->view));
+}
+
+void ladder_text_view_go(LadderTextView *view, int line, int column)
+{
+	ladder_text_view_go_here(view, line - lines_before(view), column);
 }
 
 /* ---- life ---- */

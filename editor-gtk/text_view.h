@@ -21,5 +21,7 @@ int ladder_text_view_pou(LadderTextView *view);
 void ladder_text_view_set_pou(LadderTextView *view, int pou);
 /** ladder_text_view_go - @line: 1-based, of the file; the cursor goes there. */
 void ladder_text_view_go(LadderTextView *view, int line, int column);
+/** ladder_text_view_go_here - @line: 1-based, of the text that is shown. */
+void ladder_text_view_go_here(LadderTextView *view, int line, int column);
 
 #endif

@@ -6,6 +6,9 @@
 
 #include "editor-gtk/palette.h"
 #include "editor-gtk/panels.h"
+#include "editor-gtk/problems.h"
+#include "editor-gtk/settings.h"
+#include "editor-gtk/uses_view.h"
 
 #include <string.h>
 
@@ -34,6 +37,11 @@ void window_banner(LadderWindow *window, const char *text, const char *button,
 		gtk_button_set_label(window->banner_button, button);
 	window->banner_do = act;
 	gtk_revealer_set_reveal_child(window->banner, TRUE);
+}
+
+void ladder_window_welcome(LadderWindow *window)
+{
+	tabs_show_widget(window, "welcome");
 }
 
 void ladder_window_warn(LadderWindow *window, const char *text)
@@ -105,7 +113,6 @@ static void show_checked(LadderWindow *window)
 	else
 		text = g_strdup(_("no problems"));
 	gtk_label_set_text(window->checked_label, text);
-	window->problem = -1;
 	g_free(text);
 }
 
@@ -129,16 +136,66 @@ static void add_below(LadderWindow *window, GtkWidget *panel, const char *name,
 	gtk_stack_add_titled(window->below_stack, panel, name, title);
 }
 
+/* A tab whose name tells how much is in it. */
+static void show_problems_title(LadderWindow *window)
+{
+	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
+	char *title;
+
+	g_object_get(problems, "title", &title, NULL);
+	g_object_set(gtk_stack_get_page(window->below_stack, problems), "title", title,
+		     NULL);
+	g_free(title);
+}
+
 static void add_panels(LadderWindow *window)
 {
 	LadderDocument *document = window->document;
+	GtkWidget *problems = ladder_problems_new(), *uses = ladder_uses_view_new();
 
 	gtk_paned_set_start_child(window->side, ladder_project_tree_new(document));
 	gtk_paned_set_end_child(window->side, ladder_palette_new(document));
 	gtk_paned_set_position(window->side, 230);
+	add_below(window, problems, "problems", _("Problems"));
+	ladder_problems_set_document(LADDER_PROBLEMS(problems), document);
+	g_signal_connect_object(problems, "notify::title", G_CALLBACK(show_problems_title),
+				window, G_CONNECT_SWAPPED);
+	add_below(window, uses, "uses", _("Cross reference"));
+	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), document);
 	add_below(window, ladder_code_view_new(document), "list", _("Instruction list"));
 	add_below(window, ladder_log_view_new(document), "log", _("Log"));
 	gtk_paned_set_position(window->below_paned, 620);
+	window_find_init(window);
+}
+
+/* ---- settings ---- */
+
+static void load_settings(LadderWindow *window)
+{
+	gtk_window_set_default_size(GTK_WINDOW(window), settings_int("width", 1440),
+				    settings_int("height", 900));
+	if (settings_flag("maximized", FALSE))
+		gtk_window_maximize(GTK_WINDOW(window));
+	gtk_widget_set_visible(GTK_WIDGET(window->side), settings_flag("side", TRUE));
+	gtk_widget_set_visible(GTK_WIDGET(window->below), settings_flag("below", TRUE));
+}
+
+static void keep_settings(LadderWindow *window)
+{
+	GSettings *settings = settings_get();
+	int width, height;
+
+	if (!settings)
+		return;
+	gtk_window_get_default_size(GTK_WINDOW(window), &width, &height);
+	g_settings_set_int(settings, "width", width);
+	g_settings_set_int(settings, "height", height);
+	g_settings_set_boolean(settings, "maximized",
+			       gtk_window_is_maximized(GTK_WINDOW(window)));
+	g_settings_set_boolean(settings, "side",
+			       gtk_widget_get_visible(GTK_WIDGET(window->side)));
+	g_settings_set_boolean(settings, "below",
+			       gtk_widget_get_visible(GTK_WIDGET(window->below)));
 }
 
 /* ---- life ---- */
@@ -149,6 +206,7 @@ static gboolean ladder_window_close_request(GtkWindow *gtk_window)
 
 	if (!window->closing && !window_may_close(window))
 		return TRUE;
+	keep_settings(window);
 	return GTK_WINDOW_CLASS(ladder_window_parent_class)->close_request(gtk_window);
 }
 
@@ -206,6 +264,7 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 				window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(document, "checked", G_CALLBACK(show_checked), window,
 				G_CONNECT_SWAPPED);
+	load_settings(window);
 	add_panels(window);
 	tabs_init(window);
 	window_show_state(window);

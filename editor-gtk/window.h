@@ -24,6 +24,8 @@ LadderDocument *ladder_window_document(LadderWindow *window);
 bool ladder_window_is_untouched(LadderWindow *window);
 /** ladder_window_tell - a short message below; "" for none. */
 void ladder_window_tell(LadderWindow *window, const char *text);
+/** ladder_window_welcome - shows the welcome page. */
+void ladder_window_welcome(LadderWindow *window);
 /** ladder_window_warn - a message that stays until it is closed. */
 void ladder_window_warn(LadderWindow *window, const char *text);
 /** ladder_window_offer_restored - says that this was not saved when the editor died. */

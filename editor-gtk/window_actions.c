@@ -8,7 +8,8 @@
 
 #include "editor-gtk/app.h"
 #include "editor-gtk/commands.h"
-#include "editor-gtk/panels.h"
+#include "editor-gtk/problems.h"
+#include "editor-gtk/settings.h"
 
 #include "engine/base/version.h"
 
@@ -46,20 +47,10 @@ static void do_redo(LadderWindow *window)
 
 static void do_next_problem(LadderWindow *window)
 {
-	const struct diag_list *diags = ladder_document_diags(window->document);
-	const struct project *project = ladder_document_project(window->document);
-	const struct diag *diag;
+	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
 
-	if (diags->count == 0) {
+	if (!ladder_problems_next(LADDER_PROBLEMS(problems), false))
 		ladder_window_tell(window, _("no problems"));
-		return;
-	}
-	window->problem = (window->problem + 1) % diags->count;
-	diag = &diags->diag[window->problem];
-	ladder_window_tell(window, _(diag_text(diag->id)));
-	for (int i = 0; project && diag->pou && i < project->pou_count; i++)
-		if (g_strcmp0(diag->pou, project_text(project, project->pou[i].name)) == 0)
-			tabs_go(window, i, diag->rung - 1, diag->row - 1, diag->col - 1);
 }
 
 static void do_sheet_by(LadderWindow *window, bool next)
@@ -125,13 +116,37 @@ static void do_show_as(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
 
-	if (sheet)
-		ladder_grid_view_set_show(sheet, (ladder_grid_view_show(sheet) + 1) % 3);
+	if (!sheet)
+		return;
+	ladder_grid_view_set_show(sheet, (ladder_grid_view_show(sheet) + 1) % 3);
+	if (settings_get())
+		g_settings_set_enum(settings_get(), "show",
+				    (int)ladder_grid_view_show(sheet));
 }
 
 static void toggle(GtkWidget *widget)
 {
 	gtk_widget_set_visible(widget, !gtk_widget_get_visible(widget));
+}
+
+/* Light, dark, as the desktop has it. */
+static void do_appearance(LadderWindow *window)
+{
+	static const AdwColorScheme schemes[] = {
+		ADW_COLOR_SCHEME_DEFAULT, ADW_COLOR_SCHEME_FORCE_LIGHT,
+		ADW_COLOR_SCHEME_FORCE_DARK,
+	};
+	static const char *const names[] = {
+		N_("as the desktop"), N_("light"), N_("dark"),
+	};
+	AdwStyleManager *manager = adw_style_manager_get_default();
+	const AdwColorScheme now = adw_style_manager_get_color_scheme(manager);
+	int next = now == schemes[0] ? 1 : now == schemes[1] ? 2 : 0;
+
+	adw_style_manager_set_color_scheme(manager, schemes[next]);
+	if (settings_get())
+		g_settings_set_enum(settings_get(), "appearance", next);
+	ladder_window_tell(window, _(names[next]));
 }
 
 static void do_fullscreen(LadderWindow *window)
@@ -172,6 +187,12 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_close: gtk_window_close(GTK_WINDOW(window)); break;
 	case VERB_undo: do_undo(window); break;
 	case VERB_redo: do_redo(window); break;
+	case VERB_find: case VERB_replace: case VERB_find_next:
+	case VERB_find_previous:
+		window_find(window, verb);
+		break;
+	case VERB_show_uses: names_show_uses(window); break;
+	case VERB_symbols: tabs_show_widget(window, "symbols"); break;
 	case VERB_rename: names_rename(window); break;
 	case VERB_go_coil: names_go_driver(window); break;
 	case VERB_go_rung: ask_rung(window); break;
@@ -184,9 +205,11 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_zoom_reset: zoom(window, 0); break;
 	case VERB_side: toggle(GTK_WIDGET(window->side)); break;
 	case VERB_below: toggle(GTK_WIDGET(window->below)); break;
+	case VERB_appearance: do_appearance(window); break;
 	case VERB_fullscreen: do_fullscreen(window); break;
 	case VERB_palette: commands_show(window); break;
 	case VERB_shortcuts: keys_show(window); break;
+	case VERB_welcome: tabs_show_widget(window, "welcome"); break;
 	case VERB_about: do_about(window); break;
 	default: break;
 	}
@@ -219,6 +242,36 @@ static void rename_pou(GtkWidget *widget, const char *name, GVariant *what)
 	names_rename_pou(LADDER_WINDOW(widget), pou, to);
 }
 
+static void show_uses(GtkWidget *widget, const char *action, GVariant *name)
+{
+	(void)action;
+	names_show_uses_of(LADDER_WINDOW(widget), g_variant_get_string(name, NULL));
+}
+
+static void open_path(GtkWidget *widget, const char *action, GVariant *path)
+{
+	(void)action;
+	app_open_path(LADDER_WINDOW(widget), g_variant_get_string(path, NULL));
+}
+
+static void open_sample(GtkWidget *widget, const char *action, GVariant *path)
+{
+	(void)action;
+	app_open_sample(LADDER_WINDOW(widget), g_variant_get_string(path, NULL));
+}
+
+/* From the welcome page to the empty sheet. */
+static void begin(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderWindow *window = LADDER_WINDOW(widget);
+	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
+
+	(void)action;
+	(void)unused;
+	tabs_show(window, 0);
+	adw_tab_view_close_page(window->tabs, page);
+}
+
 static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 {
 	LadderGridView *sheet = tabs_sheet(LADDER_WINDOW(widget));
@@ -235,6 +288,10 @@ void window_install_actions(GtkWidgetClass *class)
 						NULL, act);
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
 	gtk_widget_class_install_action(class, "win.rename-pou", "(is)", rename_pou);
+	gtk_widget_class_install_action(class, "win.show-uses", "s", show_uses);
+	gtk_widget_class_install_action(class, "win.open-path", "s", open_path);
+	gtk_widget_class_install_action(class, "win.open-sample", "s", open_sample);
+	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 }
 

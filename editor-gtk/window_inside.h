@@ -12,7 +12,6 @@
 struct _LadderWindow {
 	AdwApplicationWindow parent;
 	LadderDocument *document;
-	int problem;              /* of the list, that Ctrl+. went to last     */
 	bool closing;             /* the person has been asked                 */
 	guint disk_timer;         /* until the file is looked at again         */
 	void (*banner_do)(LadderWindow *window);
@@ -63,6 +62,8 @@ GMenuModel *window_menu(void);
 
 /* ---- window_names.c: of the name at the cursor ---- */
 void names_go_driver(LadderWindow *window);
+void names_show_uses(LadderWindow *window);
+void names_show_uses_of(LadderWindow *window, const char *name);
 void names_rename(LadderWindow *window);
 void names_rename_pou(LadderWindow *window, int pou, const char *name);
 
@@ -76,6 +77,11 @@ void window_save_as(LadderWindow *window);
 bool window_may_close(LadderWindow *window);
 /** window_watch_disk - tells if somebody else changes the file. */
 void window_watch_disk(LadderWindow *window);
+
+/* ---- window_find.c ---- */
+void window_find_init(LadderWindow *window);
+/** window_find - find, replace, next, previous. */
+void window_find(LadderWindow *window, enum verb verb);
 
 /* ---- window_paper.c ---- */
 void window_print(LadderWindow *window);

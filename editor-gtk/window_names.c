@@ -8,6 +8,7 @@
 #include "editor-gtk/window_inside.h"
 
 #include "editor-gtk/symbols.h"
+#include "editor-gtk/uses_view.h"
 
 #include "engine/view/xref.h"
 
@@ -59,7 +60,7 @@ static void go_to_use(LadderWindow *window, const struct xref_use *use)
 	if (use->rung > 0)
 		tabs_go(window, use->pou, use->rung - 1, use->row - 1, use->col - 1);
 	else
-		tabs_go(window, use->pou, use->line - 1, -1, use->col - 1);
+		tabs_go(window, use->pou, -1, use->row - 1, use->col - 1);
 }
 
 static bool drives(enum xref_kind kind)
@@ -195,4 +196,34 @@ void names_rename(LadderWindow *window)
 				"changed; this one has no declaration."));
 	}
 	xref_free(&xref);
+}
+
+/* ---- all uses ---- */
+
+void names_show_uses(LadderWindow *window)
+{
+	struct project *project = ladder_document_project(window->document);
+	GtkWidget *uses = gtk_stack_get_child_by_name(window->below_stack, "uses");
+	struct xref xref = { 0 };
+	char name[400] = "";
+	int here;
+
+	if (begin(window, &xref, &here))
+		xref_name(project, &xref.use[here].target, &xref.use[here], name,
+			  sizeof(name));
+	xref_free(&xref);
+	if (name[0])
+		names_show_uses_of(window, name);
+	else
+		ladder_uses_view_set_mode(LADDER_USES_VIEW(uses), USES_ALL);
+}
+
+void names_show_uses_of(LadderWindow *window, const char *name)
+{
+	GtkWidget *uses = gtk_stack_get_child_by_name(window->below_stack, "uses");
+
+	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
+	gtk_stack_set_visible_child(window->below_stack, uses);
+	ladder_uses_view_set_symbol(LADDER_USES_VIEW(uses), -1, name);
+	ladder_uses_view_set_mode(LADDER_USES_VIEW(uses), USES_SYMBOL);
 }

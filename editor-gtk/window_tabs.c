@@ -7,7 +7,9 @@
 #include "editor-gtk/window_inside.h"
 
 #include "editor-gtk/panels.h"
+#include "editor-gtk/symbols_view.h"
 #include "editor-gtk/text_view.h"
+#include "editor-gtk/welcome.h"
 
 #include <string.h>
 
@@ -149,13 +151,25 @@ void tabs_show(LadderWindow *window, int pou)
 	adw_tab_view_set_selected_page(window->tabs, page);
 }
 
+static GtkWidget *symbols_page(LadderWindow *window)
+{
+	GtkWidget *symbols = ladder_symbols_view_new();
+
+	ladder_symbols_view_set_document(LADDER_SYMBOLS_VIEW(symbols), window->document);
+	return symbols;
+}
+
 /* Names of POUs have no blank before them. */
 static AdwTabPage *open_widget(LadderWindow *window, const char *name)
 {
 	char *key = g_strdup_printf(" %s", name);
 	AdwTabPage *page = find_page(window, key);
 
-	if (!page && strcmp(name, "text") == 0)
+	if (!page && strcmp(name, "symbols") == 0)
+		page = add_page(window, symbols_page(window), key, _("Symbols"), false);
+	else if (!page && strcmp(name, "welcome") == 0)
+		page = add_page(window, welcome_new(), key, _("Welcome"), false);
+	else if (!page && strcmp(name, "text") == 0)
 		page = add_page(window, ladder_text_view_new(window->document, -1), key,
 				_("Text of the file"), false);
 	g_free(key);
@@ -183,13 +197,19 @@ void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 		ladder_text_view_go(LADDER_TEXT_VIEW(text), rung + 1, col + 1);
 		return;
 	}
+	if (pou < 0) {
+		GtkWidget *symbols = tabs_show_widget(window, "symbols");
+
+		ladder_symbols_view_show(LADDER_SYMBOLS_VIEW(symbols), row, col);
+		return;
+	}
 	tabs_show(window, pou);
 	page = adw_tab_view_get_selected_page(window->tabs);
 	sheet = tabs_sheet(window);
 	if (sheet && ladder_grid_view_pou(sheet) == pou)
 		ladder_grid_view_go(sheet, rung, row, col);
 	else if (page && LADDER_IS_TEXT_VIEW(content(page)))
-		ladder_text_view_go(LADDER_TEXT_VIEW(content(page)), rung + 1, col + 1);
+		ladder_text_view_go_here(LADDER_TEXT_VIEW(content(page)), row + 1, col + 1);
 }
 
 /* ---- when the project is another ---- */
@@ -208,6 +228,8 @@ static bool update_page(AdwTabPage *page, const struct project *project)
 	const char *name = name_of(page);
 	int pou;
 
+	if (strcmp(name, " welcome") == 0)
+		return false; /* something was opened */
 	if (name[0] == ' ')
 		return (strcmp(name, " text") == 0) == !project;
 	pou = pou_number(project, name);
@@ -258,6 +280,7 @@ void tabs_update(LadderWindow *window)
 		for (int i = 0; i < MIN(project->pou_count, OPEN_MOST); i++)
 			if (!project->pou[i].included)
 				open_pou(window, i);
+		open_widget(window, "symbols");
 		tabs_show(window, 0);
 	}
 	show_place(window);

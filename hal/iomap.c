@@ -12,13 +12,16 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Bits of an area that have a line; as many bytes as it took so far. */
+struct taken { uint8_t *byte; uint32_t size; };
+
 struct reader {
 	struct lex lex;
 	struct iomap map;
 	struct arena *arena;
 	struct diag_list *diags;
 	int errors;              /* of this text                              */
-	uint8_t *taken[2];       /* addresses of inputs, outputs: a bit each  */
+	struct taken taken[2];   /* of inputs, outputs                        */
 };
 
 /* Tokens without a blank between them: `chip=pinctrl-bcm2711` is one word. */
@@ -275,21 +278,41 @@ static bool read_option(struct reader *reader, struct io_point *point,
 	return true;
 }
 
+/* Room to note the bits of so many bytes; no map is likely to need all there may be. */
+static bool has_room(struct reader *reader, struct taken *taken, uint32_t bytes)
+{
+	uint32_t size = taken->size ? taken->size : 32;
+	uint8_t *more;
+
+	while (size < bytes)
+		size *= 2;
+	if (size == taken->size)
+		return true;
+	more = arena_grow(reader->arena, taken->byte, taken->size, size);
+	if (!more)
+		return false;
+	*taken = (struct taken){ more, size };
+	return true;
+}
+
 static bool read_address(struct reader *reader, struct io_point *point,
 			 const struct word *word)
 {
-	uint8_t *taken, mask;
+	struct taken *taken;
+	uint8_t mask;
 
 	if (iec_addr_parse(word->text, word->len, &point->addr) != ADDR_OK ||
 	    point->addr.bits != 1 ||
 	    (point->addr.area != AREA_I && point->addr.area != AREA_Q))
 		return complain(reader, DIAG_IO_ADDRESS, word);
 	point->output = point->addr.area == AREA_Q;
-	taken = &reader->taken[point->output][point->addr.byte];
+	taken = &reader->taken[point->output];
 	mask = (uint8_t)(1u << point->addr.bit);
-	if (*taken & mask)
+	if (!has_room(reader, taken, point->addr.byte + 1))
+		return false;
+	if (taken->byte[point->addr.byte] & mask)
 		return complain(reader, DIAG_IO_TWICE, word);
-	*taken |= mask;
+	taken->byte[point->addr.byte] |= mask;
 	return true;
 }
 
@@ -470,8 +493,6 @@ bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
 	*map = reader.map;
 	if (!check_bytes(&reader, text, len))
 		return false;
-	reader.taken[0] = arena_alloc(arena, iec_area_row(AREA_I)->bytes);
-	reader.taken[1] = arena_alloc(arena, iec_area_row(AREA_Q)->bytes);
 	lex_init(&reader.lex, text, len);
 	reader.lex.newlines = true;
 	lex_next(&reader.lex);
@@ -487,6 +508,24 @@ bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
 				.file = file, .line = 1 }, "%s", "");
 	*map = reader.map;
 	return true;
+}
+
+bool iomap_fits(const struct iomap *map, const struct areas *areas,
+		struct diag_list *diags)
+{
+	bool good = true;
+	char text[24];
+
+	for (int i = 0; i < map->count; i++) {
+		const struct io_point *point = &map->point[i];
+
+		if (areas_have(areas, point->addr))
+			continue;
+		iec_addr_print(point->addr, text, sizeof(text));
+		good = diag_add(diags, io_place(map, point, DIAG_IO_OUTSIDE), "%s",
+				text);
+	}
+	return good;
 }
 
 struct diag io_place(const struct iomap *map, const struct io_point *point,

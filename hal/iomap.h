@@ -10,9 +10,9 @@
 #ifndef HAL_IOMAP_H
 #define HAL_IOMAP_H
 
+#include "engine/base/areas.h"
 #include "engine/base/arena.h"
 #include "engine/base/diag.h"
-#include "engine/base/iec.h"
 
 enum driver_id {
 #define DRIVER(id, doc) DRIVER_##id,
@@ -62,6 +62,15 @@ struct iomap {
  */
 bool iomap_read(struct iomap *map, struct arena *arena, const char *file,
 		const char *text, size_t len, struct diag_list *diags);
+
+/**
+ * iomap_fits - is every point inside the areas of a program?
+ *
+ * Whoever moves levels between a map and a process image asks first.
+ * Owns: nothing.   Scan-safe: no.   Fails: false and an error for each point that is not.
+ */
+bool iomap_fits(const struct iomap *map, const struct areas *areas,
+		struct diag_list *diags);
 
 /** io_place - the place of a point in its file, for diag_add. */
 struct diag io_place(const struct iomap *map, const struct io_point *point,

@@ -355,6 +355,14 @@ is_run(2, "run $_->[0] $_->[1]", ['run', 'good.rung', @$_, '--scans', '1'])
 is_run(2, 'run --scans 0', ['run', 'good.rung', '--scans', '0']);
 is_run(2, 'run with no map', ['run', 'good.rung', '--io', 'nowhere', '--scans', '1']);
 is_run(1, 'run with a bad map', ['run', 'good.rung', '--io', 'bad.io', '--scans', '1']);
+put('far.io', "BOARD \"x\"\n%IX0.0 sim\n%IX512.0 sim\n");
+(undef, $err) = is_run(1, 'run with a line beyond its area', ['run', 'good.rung', '--io', 'far.io', '--scans', '1']);
+like($err, qr/^far\.io:3:1: error LD523: .*: %IX512\.0$/m, 'which is named with its place');
+(undef, $err) = is_run(1, 'io --program with such a line', ['io', 'far.io', '--program', 'good.rung']);
+like($err, qr/^far\.io:3:1: error LD523: /m, 'says so too');
+is_run(0, 'io without a program knows no sizes', ['io', 'far.io']);
+($out) = is_run(0, 'code of a program that says nothing of sizes', ['code', 'good.rung']);
+like($out, qr/^areas         20160 bytes: I 512 Q 512 M 8192 V 8192 /m, 'shows the usual ones');
 ($out, $err) = is_run(1, 'run of a loop', ['run', 'loop.rung', '--set', 'I0=1', '--scans', '5']);
 like($err, qr/LD008/, 'run of a loop: the fault');
 for my $signal (qw(INT TERM)) {

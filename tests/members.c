@@ -302,7 +302,7 @@ static bool run(struct side side[2], const struct form *form, uint64_t seed)
 					      (enum iec_area)area),
 				   image_area(&side[1].resource.image,
 					      (enum iec_area)area),
-				   iec_area_row((enum iec_area)area)->bytes))
+				   side[0].resource.image.program->areas.bytes[area]))
 				return false;
 	}
 	return true;

@@ -139,6 +139,9 @@ my ($out, $err) = is_push(1, 'an error in the program', "$dir/never", 'bad.rung'
 like($err, qr/^bad\.rung:\d+: rung 1 \(1,2\): error LD301: .*Lamb \(Lamp\?\)$/m, 'it is told as `ladder check` tells it');
 ($out, $err) = is_push(1, 'an error in the map', "$dir/never", 'one.rung', 'bad.io', $board);
 like($err, qr/^bad\.io:2:8: error LD503: /m, 'with its place');
+put('far.io', "BOARD \"x\"\n%IX0.0 sim\n%QX512.0 sim\n");
+($out, $err) = is_push(1, 'a line beyond its area', "$dir/never", 'one.rung', 'far.io', $board);
+like($err, qr/^far\.io:3:1: error LD523: /m, 'is told before anything is sent');
 ($out, $err) = is_push(1, 'errors in both', "$dir/never", 'bad.rung', 'bad.io', $board);
 like($err, qr/LD301.*LD503/s, 'both are told');
 is_push(2, 'no such program', "$dir/never", 'nothing.rung', 'desk.io', $board);

@@ -34,7 +34,7 @@ trap 'rm -f "$whole"' EXIT
 libm='(fabs|fmod|sqrt|trunc|floor|ceil|round|rint|l?lrint|nearbyint|isnan|isinf|finite|__isnan|__isinf|__finite|__fpclassify)f?'
 helpers='__aeabi_[a-z0-9]*|__u?divdi3|__u?moddi3|__u?divmoddi4|__(mul|add|sub|neg)v[sd]i3|__stack_chk_fail|__stack_chk_guard|_GLOBAL_OFFSET_TABLE_|__(mulo|ashl|ashr|lshr|mul)[a-z0-9]*|__(fix|float)[a-z0-9]*|__popcount[a-z0-9]*|__clz[a-z0-9]*|__gnu_[a-z0-9_]*'
 # shellcheck disable=SC2086
-if $LD -r -o "$whole" $scan "$objects"/base/iec.o "$objects"/base/iec_days.o \
+if $LD -r -o "$whole" $scan "$objects"/base/areas.o "$objects"/base/iec.o "$objects"/base/iec_days.o \
 	"$objects"/base/catalog.o "$objects"/base/digest.o 2>/dev/null; then
 	open=$($NM -u "$whole" | awk '{print $NF}' |
 	       grep -Evx "mem(cpy|move|set|cmp|chr)|$libm|$helpers")
@@ -48,7 +48,7 @@ for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
 	printf '%s' "$name" | grep -Eqx "$between" || continue
 	open=$($NM -u "$object" | awk '{print $NF}' |
-	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|chr|n?cmp|n?casecmp)|arena_[a-z]*|(iec|word|digest|code|verify|image|resource|retain|vm_row|sys)[a-z0-9_]*")
+	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|chr|n?cmp|n?casecmp)|arena_[a-z]*|(areas|iec|word|digest|code|verify|image|resource|retain|vm_row|sys)[a-z0-9_]*")
 	[ -z "$open" ]; say $? "$name, between scans, asks the system for nothing" "$open"
 done
 

@@ -174,6 +174,8 @@ static enum status read_map(struct board *board, const char *path)
 		diag_init(diags);
 		good = iomap_read(&board->map, &board->arena, path, text, len,
 				  diags);
+		good = good && iomap_fits(&board->map,
+			&board->resource->image.program->areas, diags);
 		for (int i = 0; good && i < board->map.count; i++)
 			board->map.point[i].driver = DRIVER_sim;
 		good = good && hal_open(&board->hal, &board->map,

@@ -51,7 +51,7 @@ static uint64_t next_random(struct bench *bench)
 static void set_inputs(struct bench *bench)
 {
 	uint8_t *area = image_area(&bench->resource->image, AREA_I);
-	uint32_t size = iec_area_row(AREA_I)->bytes;
+	uint32_t size = bench->resource->image.program->areas.bytes[AREA_I];
 
 	for (uint32_t at = 0; at + 8 <= size; at += 8) {
 		uint64_t bits = next_random(bench);

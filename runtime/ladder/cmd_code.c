@@ -22,6 +22,18 @@ static const char *const section_name[CODE_SECTION_COUNT] = {
 	[CODE_WATCHED] = "watched instances",
 };
 
+/* Those that have no byte are left out. */
+static void print_areas(const struct areas *areas, const struct sink *out)
+{
+	sink_printf(out, "areas         %u bytes:", (unsigned)areas->size);
+	for (int i = AREA_NONE + 1; i < AREA_COUNT; i++)
+		if (areas->bytes[i])
+			sink_printf(out, " %s %u",
+				    iec_area_row((enum iec_area)i)->letters,
+				    (unsigned)areas->bytes[i]);
+	sink_text(out, "\n");
+}
+
 static void print_sizes(const struct program *program, const struct sink *out)
 {
 	const struct code_header *header = program->header;
@@ -38,6 +50,7 @@ static void print_sizes(const struct program *program, const struct sink *out)
 			    section_name[i]);
 	sink_printf(out, "data          %u bytes, of them %u retained\n",
 		    header->data_size, header->retain_size);
+	print_areas(&program->areas, out);
 	sink_printf(out, "budget        %u instructions a scan\n",
 		    header->budget);
 }

@@ -165,13 +165,18 @@ static enum status show_map(struct call *call, const struct iomap *map,
 	struct picture picture = { .map = map };
 	struct machine machine = { 0 };
 	enum status status = STATUS_GOOD;
+	bool fits = true;
 
 	if (file)
 		status = machine_open(&machine, file);
 	if (status == STATUS_GOOD) {
-		if (file)
+		if (file) {
 			picture.program = ladder_program(machine.ladder);
+			fits = iomap_fits(map, &picture.program->areas, diags);
+		}
 		status = show(call, &picture, diags);
+		if (!fits)
+			status = STATUS_NO;
 	}
 	if (file)
 		machine_close(&machine);

@@ -159,8 +159,10 @@ static enum status send_all(struct push *push)
 	return status;
 }
 
-/* The map as text, if it is a good one. */
-static enum status read_map(struct push *push, const char *path)
+/* The map as text, if it is a good one. @program: its lines must fit; NULL: there is
+ * none. */
+static enum status read_map(struct push *push, const char *path,
+			    const struct program *program)
 {
 	struct diag_list *diags = calloc(1, sizeof(*diags));
 	struct iomap map;
@@ -174,7 +176,8 @@ static enum status read_map(struct push *push, const char *path)
 	push->map = report_read(path, &push->names.map_bytes);
 	if (push->map)
 		good = iomap_read(&map, &arena, path, push->map,
-				  push->names.map_bytes, diags);
+				  push->names.map_bytes, diags) &&
+		       (!program || iomap_fits(&map, &program->areas, diags));
 	report_diags(diags);
 	arena_free(&arena);
 	free(diags);
@@ -189,7 +192,8 @@ static enum status read_and_send(struct push *push)
 
 	/* Both are read, so that one call tells all that is wrong. */
 	status = machine_open(&machine, call->arg[0]);
-	map = read_map(push, call->arg[1]);
+	map = read_map(push, call->arg[1], status == STATUS_GOOD ?
+		       ladder_program(machine.ladder) : NULL);
 	if (status < map)
 		status = map;
 	if (status == STATUS_GOOD) {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * load - reads both files even if the first is wrong, so that one run shows all
- * errors; then warns of inputs and outputs that the map does not have.
+ * errors; refuses lines beyond the areas of the program, and warns of inputs and outputs
+ * that the map does not have.
  */
 #include "ladderd/load.h"
 
@@ -44,7 +45,7 @@ static void check_bit(struct load *load, uint8_t *named, struct location at,
 {
 	if (at.area != AREA_I && at.area != AREA_Q)
 		return;
-	named[iec_area_row(at.area)->offset + at.where / 8] |=
+	named[load->source.program.areas.at[at.area] + at.where / 8] |=
 		(uint8_t)(1u << at.where % 8);
 	if (!is_mapped(&load->map, at.area, at.where))
 		diag_add(&load->diags, (struct diag){
@@ -93,7 +94,7 @@ static void check_addresses(struct load *load, const uint8_t *named)
 
 		if (bits->area != AREA_I && bits->area != AREA_Q)
 			continue;
-		byte = named + iec_area_row((enum iec_area)bits->area)->offset;
+		byte = named + program->areas.at[bits->area];
 		for (uint32_t bit = bits->first; bit < end; bit++) {
 			struct iec_addr at = {
 				.area = (enum iec_area)bits->area, .bits = 1,
@@ -123,7 +124,9 @@ bool load_files(struct load *load, const char *file, const char *map)
 	load->unreadable = load->source.unreadable;
 	if (!load_map(load, map) || !good)
 		return false;
-	named = arena_alloc(&load->arena, iec_areas_size());
+	if (!iomap_fits(&load->map, &load->source.program.areas, &load->diags))
+		return false;
+	named = arena_alloc(&load->arena, load->source.program.areas.size);
 	if (!named)
 		return diag_add(&load->diags, (struct diag){
 			.id = DIAG_NO_MEMORY, .file = map }, "%s", "");

@@ -182,6 +182,16 @@ static inline struct rung *grid_play(struct grid_bench *bench, const struct rung
 		at->refusal = bench->part ? GRID_DONE : GRID_NOTHING;
 		return bench->part ? rung_copy(rung) : NULL;
 	}
+	if (!strcmp(verb, "move-area")) {
+		struct grid_at to = { .columns = at->columns };
+		struct rung *source, *made;
+
+		to.row = (int)strtol(rest, &end, 10) - 1;
+		to.col = (int)strtol(end, NULL, 10) - 1;
+		made = grid_move_area(rung, at, &area, rung, &to, false, &source);
+		*at = to;
+		return made;
+	}
 	if (!strcmp(verb, "paste") || !strcmp(verb, "paste-below"))
 		return grid_paste(rung, at, bench->part, verb[5] != '\0');
 	if (!strcmp(verb, "delete"))

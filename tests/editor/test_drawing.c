@@ -46,8 +46,13 @@ static const char *operand_of(const struct word_row *row, int seed)
 	case OPND_INSTANCE:
 		return seed ? "InstanceWithAVeryLongNameIndeed" : "T1";
 	case OPND_EXPR:
-		return seed ? "Level * 3 + Count > 1000 AND Level < 20000 OR Count = 5" :
-			      "a > b";
+		return seed == 0 ? "a > b" : seed == 1 ?
+		       "Level * 3 + Count > 1000 AND Level < 20000 OR Count = 5 AND A" :
+		       "Level * 3 + Count > 1000 AND Level < 20000 OR Count = 5 AND "
+		       "Level <> 17 AND Count < 12345 OR Level = Count AND NOT Stopped "
+		       "AND NOT (Level + 1 = Count) OR Level > 3 AND Level < 7 AND X AND "
+		       "ANameThatIsSoLongThatItTakesALineOfItsOwnAndAPartOfTheNextOne2 AND "
+		       "Y AND (this OR that) AND so AND on AND on AND on AND on AND on";
 	case OPND_ASSIGN:
 		return "Count := Count + 1";
 	case OPND_LOOP:
@@ -171,7 +176,8 @@ static int sample_faults(struct lettering *lettering, const char *path, int *run
 			sheet->drafting.comments = way == 3;
 			sheet->drafting.width = way == 2 ? 1500 : 0;
 			sheet_layout(sheet);
-			faults += drawn_sheet(sheet, NULL, path);
+			faults += drawn_sheet(sheet, false, path);
+			faults += drawn_sheet(sheet, true, path);
 			*rungs += sheet->count;
 			for (int i = 1; i < sheet->count; i++)
 				faults += sheet->rung[i]->right != sheet->rung[0]->right;
@@ -199,6 +205,100 @@ static void check_samples(struct lettering *lettering)
 	CHECK_AS(faults == 0, "nothing in a sample lies over anything");
 }
 
+/* ---- whatever a file may hold ---- */
+
+static uint32_t random_seed = 1;
+
+static int random_below(int count)
+{
+	random_seed = random_seed * 1664525u + 1013904223u;
+	return (int)((random_seed >> 8) % (uint32_t)count);
+}
+
+static struct rung *random_rung(struct project *project)
+{
+	static const char *const text[] = {
+		"", "", "X", "启动", "%QX0.0", "Line.OUT", "PT:=T#5s Q=>X", "R:=/Stop CV=>X",
+		"(* a *)", "(* (* *)", "a := b", "\xff\x01", "A:=", "=> X", "IN1:='a $' b'",
+	};
+	struct rung *rung = rung_new(1 + random_below(12), 1 + random_below(12));
+
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		struct cell *cell = &rung->cell[i];
+		int kind = random_below(4);
+
+		cell->word = (uint16_t)(kind == 0 ? ELEM_EMPTY : kind == 1 ? ELEM_PIN :
+					kind == 2 ? random_below(ELEM_PIN) :
+					random_below(WORD_COUNT + 3));
+		cell->link = (uint8_t)(random_below(3) == 0);
+		cell->operand = name_id(project, text[random_below(15)]);
+		cell->args = name_id(project, text[random_below(15)]);
+		cell->comment = name_id(project, text[random_below(15)]);
+	}
+	rung->title = name_id(project, text[random_below(15)]);
+	rung->comment = name_id(project, text[random_below(15)]);
+	rung->label = name_id(project, text[random_below(15)]);
+	rung->off = (uint8_t)(random_below(8) == 0);
+	return rung;
+}
+
+/* Draws it, and asks for every point. */
+static int poke_rung(const struct drafting *drafting, const struct rung *rung)
+{
+	struct rung_layout *layout = rung_layout_new(drafting, rung, 1, random_below(14));
+	uint8_t cell[12 * 12];
+	struct grid_live live = { cell, drawn_value, NULL };
+	struct grid_mark mark = { random_below(14), random_below(14), 0x3ff };
+	struct grid_scene scene = { .drafting = drafting, .layout = layout, .live = &live,
+				    .theme = theme_get(THEME_DARK, THEME_BLUE),
+				    .mark = &mark, .mark_count = 1 };
+	struct picture picture;
+	int bad = 0;
+
+	memset(cell, random_below(32), sizeof(cell));
+	picture_init(&picture);
+	grid_draw(&scene, &picture);
+	for (int i = 0; i < picture.count; i++)
+		bad += !(picture.stroke[i].x > -1e4f && picture.stroke[i].y < 1e5f);
+	picture_clear(&picture);
+	for (float y = 0; y < layout->height; y += 17)
+		for (float x = 0; x < layout->right + 9; x += 23) {
+			struct rung_hit hit = rung_layout_hit(drafting, layout, x, y);
+
+			bad += hit.row < 0 || hit.row >= layout->rows || hit.column < 0 ||
+			       hit.column >= layout->columns;
+		}
+	for (int row = 0; row < rung->rows; row++)
+		for (int col = 0; col < rung->cols; col++)
+			bad += rung_layout_col(layout, row,
+				rung_layout_column(layout, row, col)) > rung->cols;
+	rung_layout_free(layout);
+	return bad;
+}
+
+static void check_random(struct lettering *lettering)
+{
+	struct ladder *ladder = drawn_load("random.rung", "RUNGBOARD 1\n");
+	struct project *project = ladder_project(ladder);
+	struct grid_names *names = grid_names_new(project, NULL);
+	struct drafting drafting = { .project = project, .names = names,
+				     .lettering = lettering };
+	int bad = 0;
+
+	for (int i = 0; i < 1000; i++) {
+		struct rung *rung = random_rung(project);
+
+		drafting.show = random_below(3);
+		drafting.comments = random_below(2);
+		drafting.all_comments = random_below(2);
+		bad += poke_rung(&drafting, rung);
+		rung_free(rung);
+	}
+	CHECK(bad == 0);
+	grid_names_free(names);
+	ladder_free(ladder);
+}
+
 int main(void)
 {
 	PangoContext *context = lettering_context();
@@ -209,6 +309,7 @@ int main(void)
 	check_words(real, "with fonts");
 	check_samples(rule);
 	check_samples(real);
+	check_random(rule);
 	lettering_free(real);
 	lettering_free(rule);
 	g_object_unref(context);

@@ -6,7 +6,7 @@
  * `+`, and `below` before it if it goes in parallel; or `!` and why not. A line of the
  * last column begins with `>`.
  */
-#include "editor-gtk/entry.h"
+#include "editor-gtk/entry_inside.h"
 #include "engine/base/diag.h"
 #include "engine/ladder.h"
 #include "engine/text/text.h"
@@ -100,6 +100,9 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "GRT Level 5", "GT IN1:=Level IN2:=5" },
 	{ "AND IN1:=Start IN2:=Stop", "AND IN1:=Start IN2:=Stop" },
 	{ "INT_TO_REAL IN:=Level OUT=>Heat", "INT_TO_REAL IN:=Level OUT=>Heat" },
+	{ "ADD IN1:=1 IN1:=2", "! this pin is given twice (IN1)" },
+	{ "ADD IN1:=1 OUT=>5", "! this cannot be written (5)" },
+	{ "MOVE Level Full", "! this cannot be written (Full)" },
 	/* expressions */
 	{ "Level > 5", "[ Level > 5 ]" }, { "Level>5", "[ Level > 5 ]" },
 	{ "[ Level > 5 ]", "[ Level > 5 ]" }, { "[Level>5", "[ Level > 5 ]" },
@@ -114,6 +117,7 @@ static const struct { const char *line, *means; } lines[] = {
 	{ ">Level > 5", "! only an output can stand in the last column (Level > 5)" },
 	{ ">Level := 5", "[ Level := 5 ]" },
 	{ "Level >", "! this is no expression (Level >)" },
+	{ "NO Level > 5", "[ Level > 5 ]" },
 	/* what is new is told */
 	{ "Open", "NO Open + Open BOOL %IX0.2" }, { ">Horn", "COIL Horn + Horn BOOL %QX0.3" },
 	{ "NO Open", "NO Open + Open BOOL %IX0.2" },
@@ -231,11 +235,132 @@ static void check_offers(struct entry_place *place)
 	place->output = false;
 }
 
-int main(void)
+/* The page that tells of them has them all. */
+static void check_page(void)
+{
+	static char page[20000];
+	FILE *file = fopen("docs/quick-entry.md", "r");
+	const struct entry_mnemonic *m;
+	int missing = 0;
+
+	if (!CHECK(file != NULL))
+		return;
+	page[fread(page, 1, sizeof(page) - 1, file)] = '\0';
+	fclose(file);
+	for (int i = 0; (m = entry_mnemonic(i)) != NULL; i++) {
+		char quoted[20];
+
+		snprintf(quoted, sizeof(quoted), "`%s`", m->text);
+		if (!strstr(page, quoted)) {
+			printf("# not told of: %s\n", m->text);
+			missing++;
+		}
+	}
+	CHECK(missing == 0);
+}
+
+/* ---- any line at all ---- */
+
+static uint64_t state = 88172645463325252u;
+
+static int roll(int count)
+{
+	state ^= state << 13;
+	state ^= state >> 7;
+	state ^= state << 17;
+	return (int)(state >> 33) % count;
+}
+
+static void make_line(char *out, size_t size)
+{
+	static const char *const parts[] = {
+		"Start", "Motor", "Level", "FanDelay", "Fresh", "Lamps", "P1", "i", "Heat",
+		"TON", "CTU", "ADD", "MOVE", "NO", "XIC", "OR", "COIL", "=", "JMP", "CALL",
+		"FOR", "RET", "NOT", "AND", "[", "]", "(", ")", ":=", "=>", ">", "<=", "+",
+		"/", "!", "-", "-|/|-", ".", ".Q", ".On", "PT", "IN1", "OUT", ",", "5", "2.5s",
+		"T#1s", "16#FF", "%IX0.0", "%MW4", "I0.1", "X7", "Y10", "I:0/3", "'text'",
+		"\"", "%", "_T1", "启", "\xff", "$", "(*", "//", "|", "^", "DIV", "MUX",
+	};
+	size_t n = 0;
+
+	out[0] = '\0';
+	for (int count = 1 + roll(7); count > 0 && n + 1 < size; count--)
+		n += (size_t)snprintf(out + n, size - n, "%s%s",
+				      parts[roll((int)(sizeof(parts) / sizeof(*parts)))],
+				      roll(3) ? " " : "");
+}
+
+/* What is wrong with a reading; NULL: nothing. */
+static const char *judge(const struct entry_place *place, const struct entry *e)
+{
+	struct diag_list diags;
+	struct rung *rung;
+	struct cell cell;
+	char text[2400], again[2400];
+	const char *wrong = NULL;
+
+	if (e->sense == ENTRY_WRONG && !e->why)
+		return "wrong, but not why";
+	if (e->sense != ENTRY_ELEMENT)
+		return e->declares ? "declares without an element" : NULL;
+	for (int i = 0; i < e->declares; i++)
+		if (ladder_name_fault(e->declare[i].name) != DIAG_COUNT ||
+		    entry_var_find(place, e->declare[i].name,
+				   strlen(e->declare[i].name), NULL))
+			return "declares what is there or cannot be";
+	if (!entry_cell(place->project, e, &cell))
+		return "no cell";
+	text_write_cell(place->project, &cell, again, sizeof(again));
+	snprintf(text, sizeof(text), "RUNG\n| %.2300s |\n", again);
+	diag_init(&diags);
+	rung = text_read_rung(place->project, text, strlen(text), &diags);
+	if (!rung || diags.errors || rung->cell[0].word != cell.word ||
+	    rung->cell[0].operand != cell.operand || rung->cell[0].args != cell.args)
+		wrong = "its cell does not read again";
+	rung_free(rung);
+	return wrong;
+}
+
+static void check_any(struct entry_place *place)
+{
+	static struct entry_candidate found[8];
+	const char *wrong = NULL;
+	int elements = 0;
+
+	for (int i = 0; i < 20000 && !wrong; i++) {
+		struct entry entry;
+		char line[400];
+		int count;
+
+		make_line(line, sizeof(line));
+		place->output = roll(3) == 0;
+		entry_read(place, line, &entry);
+		elements += entry.sense == ENTRY_ELEMENT;
+		wrong = judge(place, &entry);
+		if (i % 10 == 0) {
+			count = entry_candidates(place, line,
+						 (size_t)roll((int)strlen(line) + 2), found,
+						 1 + roll(8));
+			for (int k = 0; k + 1 < count; k++)
+				if (found[k].kind == ENTRY_NEW)
+					wrong = "a new name is not the last";
+		}
+		if (wrong)
+			printf("# %s: %s\n", line, wrong);
+	}
+	printf("# %d of them are elements\n", elements);
+	CHECK(!wrong);
+	CHECK(elements > 1000);
+	place->output = false;
+}
+
+int main(int argc, char **argv)
 {
 	struct ladder *ladder = ladder_new();
 	struct entry_place place = { 0 };
 
+	if (argc > 1)
+		state = strtoull(argv[1], NULL, 10);
 	if (!CHECK(ladder && ladder_load_text(ladder, "test", project_text_,
 					      strlen(project_text_))))
 		return tap_done();
@@ -245,6 +370,8 @@ int main(void)
 			place.pou = i;
 	check_lines(&place);
 	check_offers(&place);
+	check_any(&place);
+	check_page();
 	ladder_free(ladder);
 	return tap_done();
 }

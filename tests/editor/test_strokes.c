@@ -98,9 +98,8 @@ static void draw_marks(struct sheet *sheet)
 static char *reference_of(void *context, int row, int col)
 {
 	(void)context;
-	(void)row;
 	(void)col;
-	return g_strdup("read in Main 3, 5");
+	return row == 1 ? NULL : g_strdup("read in Main 3, 5");
 }
 
 int main(int argc, char **argv)
@@ -124,6 +123,8 @@ int main(int argc, char **argv)
 	draw_marks(sheet);
 	draw(sheet, 0, (struct grid_scene){ .state = RUNG_NO_GUTTER,
 					    .reference = reference_of }, "paper");
+	draw(sheet, 1, (struct grid_scene){ .state = RUNG_NO_GUTTER,
+					    .reference = reference_of }, "paper-2");
 	draw(sheet, 0, (struct grid_scene){ .state = RUNG_REMOVED | RUNG_CHANGED },
 	     "removed");
 	sheet_free(sheet);

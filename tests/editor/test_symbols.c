@@ -222,14 +222,18 @@ static void test_errors(void)
 {
 	LadderDocument *document = opened(sample);
 	struct symbols *symbols = symbols_new(document);
+	bool warning = true;
 	char *text;
 
 	CHECK(set(document, "", "Count", FIELD_ADDRESS, "%MX0.3"));
 	ladder_document_check_now(document);
-	text = symbol_error(document, symbols_find(symbols, "", "Count"));
-	CHECK_AS(text && *text, "an address of another width is told at its row");
+	text = symbol_error(document, symbols_find(symbols, "", "Count"), &warning);
+	CHECK_AS(text && *text && !warning, "an address of another width is told at its row");
 	g_free(text);
-	CHECK(!symbol_error(document, symbols_find(symbols, "", "Motor")));
+	CHECK(!symbol_error(document, symbols_find(symbols, "", "Motor"), &warning));
+	text = symbol_error(document, symbols_find(symbols, "", "Hours"), &warning);
+	CHECK_AS(text && warning, "one that is never used");
+	g_free(text);
 	symbols_free(symbols);
 	g_object_unref(document);
 }

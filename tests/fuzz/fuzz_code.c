@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define BUDGET_MAX 2000u
-#define DATA_MAX (1u << 20)
+#define DATA_MAX (2u << 20)
 
 static bool is_text(const uint8_t *bytes, size_t len)
 {
@@ -107,7 +107,7 @@ static void run(const struct program *program)
 		resource.clock_ns = i & 2 ? clock_ns : NULL;
 		resource.patience = (uint32_t)i;
 		clock_now = i * (int64_t)7000000;
-		memset(inputs, i * 0x35, 16);
+		memset(inputs, i * 0x35, program->areas.bytes[AREA_I]);
 		if (!resource_scan(&resource, i * (int64_t)7000000))
 			break;
 	}

@@ -24,6 +24,7 @@ struct bench {
 	struct iomap map;
 	struct hal hal;
 	struct image image;
+	struct program program; /* of which only the areas are known          */
 	char text[300];       /* of the first diagnostic                    */
 	uint8_t memory[65536];
 };
@@ -113,7 +114,9 @@ static inline void bench_begin(struct bench *b)
 	memset(b, 0, sizeof(*b));
 	arena_init(&b->arena);
 	diag_init(&b->diags);
+	areas_init(&b->program.areas);
 	b->image.memory = b->memory;
+	b->image.program = &b->program;
 }
 
 static inline bool bench_map(struct bench *b, const char *text)

@@ -232,6 +232,26 @@ like(get('err'), qr/LD515.*: %IX5\.0\n.*LD515.*: %QX7\.0\n/,
      'those without a line are told');
 unlike(get('err'), qr/%IX0\.0/, 'those with one are not');
 
+sub sized {
+	my ($name, %bytes) = @_;
+	return put($name, join '', "RUNGBOARD 1\n\nCONFIGURATION C\n",
+		   (map "  AREA $_ $bytes{$_};\n", sort keys %bytes),
+		   "END_CONFIGURATION\n\nPROGRAM M LD\nRUNG\n",
+		   "  | NO I0 | COIL Q0 |\nEND_PROGRAM\n");
+}
+my $large = sized('large.rung', V => 65536, Q => 1);
+my $wide = put('wide.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim\n%QX1.0 sim\n");
+is(run($ladderd, $large, '--io', $wide, @traced), 1, 'a line beyond its area');
+like(get('err'), qr/wide\.io:4:1: error LD523: .*: %QX1\.0$/m, 'is an error with its place');
+unlike(get('err'), qr/^%Q/m, 'no pin is touched');
+is(run($ladderd, $large, '--io', $half, '--check'), 0, 'larger areas');
+like(get('out'), qr/^data: 770\d\d bytes$/m, 'take more memory');
+my $small = sized('small.rung', I => 1, Q => 1,
+		  map {$_ => 0} qw(M V S AI AQ XI XQ XAI XAQ));
+is(run($ladderd, $small, '--io', $half, '--check'), 0, 'smaller ones');
+like(get('out'), qr/^data: 9\d bytes$/m, 'take less');
+is(run($ladderd, $small, '--io', $half, '--scans', 2), 0, 'and that runs');
+
 is(run($ladderd, $rung, '--io', $map, '--check', @traced), 0, '--check');
 like(get('out'), qr/^code: \d+ bytes\ndata: \d+ bytes\nhal: at most \d+ /,
 	'prints the memory needed');

@@ -65,7 +65,7 @@ static void test_refusals(void)
 	BAD("%IX0.0\n", "test.io:2:1: error LD501");
 	BAD("%MX0.0 sim", "LD502");
 	BAD("%IW0 sim", "LD502");
-	BAD("%IX600.0 sim", "LD502");
+	BAD("%IX8192.0 sim", "LD502");
 	BAD("%IX0.8 sim", "LD502");
 	BAD("hello sim", "LD502");
 	BAD("%IX0.0 modem", "test.io:2:8: error LD503: unknown driver: modem");
@@ -185,6 +185,31 @@ static void test_limit(void)
 	free(text);
 }
 
+/* Lines beyond the areas of a program are refused with their places. */
+static void test_fits(void)
+{
+	struct bench b;
+
+	bench_begin(&b);
+	CHECK(bench_map(&b, "BOARD \"x\"\n%IX511.7 sim\n%QX512.0 sim\n"
+			"  %IX8191.7 sim\n%QX2.0 sim\n"));
+	CHECK(!iomap_fits(&b.map, &b.program.areas, &b.diags) && b.diags.errors == 2);
+	CHECK(b.diags.diag[0].id == DIAG_IO_OUTSIDE && b.diags.diag[0].line == 3);
+	CHECK_TEXT(b.diags.diag[1].arg, "%IX8191.7");
+	CHECK(b.diags.diag[1].line == 4 && b.diags.diag[1].column == 3);
+	diag_init(&b.diags);
+	b.program.areas.bytes[AREA_I] = 8192;
+	b.program.areas.bytes[AREA_Q] = 513;
+	CHECK(areas_place(&b.program.areas));
+	CHECK(iomap_fits(&b.map, &b.program.areas, &b.diags) && b.diags.count == 0);
+	CHECK(hal_open(&b.hal, &b.map, &b.arena, &b.diags));
+	output(&b, 512 * 8, true);
+	CHECK(scan(&b, 0));
+	bench_end(&b);
+	CHECK(refused(&b, "%IX8191.7 sim\n%IX8191.7 sim", "%IX8191.7"));
+	CHECK(refused(&b, "%IX8192.0 sim", "%IX8192.0"));
+}
+
 static char traced[200];
 static void trace(void *context, const struct io_point *point, bool value)
 {
@@ -255,6 +280,7 @@ int main(void)
 	test_hostile();
 	test_lengths();
 	test_limit();
+	test_fits();
 	test_sim();
 	test_no_gpio();
 	return tap_done();

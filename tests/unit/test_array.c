@@ -5,6 +5,7 @@
  */
 #include "engine/base/digest.h"
 #include "tests/unit/rig.h"
+#include "tests/usual.h"
 
 #include <limits.h>
 
@@ -184,7 +185,7 @@ static void test_refused(void)
 {
 	uint32_t *get = find(VM_AGET, 1), *put = find(VM_APUT, 1);
 	uint32_t base = get[4], index = get[5], count = get[7];
-	uint32_t areas = iec_areas_size();
+	const struct areas *areas = usual_areas();
 
 	CHECK_AS(let_in(), "the image as it stands");
 	CHECK(CODE_TYPE(base) == IEC_INT && count == 4 && get[8] == 2);
@@ -205,14 +206,14 @@ static void test_refused(void)
 	CHECK(refuses(VM_AGET, 1, 0, VM_AGET | 2u << 8));
 	CHECK_AS(refuses(VM_APUT, 1, 4, find(VM_AGET, 3)[4]), "a constant is written");
 	CHECK_AS(refuses(VM_APUT, 1, 4,
-			 CODE_OPERAND(IEC_INT, iec_area_row(AREA_I)->offset)),
+			 CODE_OPERAND(IEC_INT, usual_areas()->at[AREA_I])),
 		 "an input is written");
-	CHECK(CODE_TYPE(put[4]) == IEC_INT && refuses(VM_APUT, 1, 4, areas - 2));
+	CHECK(CODE_TYPE(put[4]) == IEC_INT && refuses(VM_APUT, 1, 4, areas->size - 2));
 	/* Bits of areas: to the end of the area, and not one more. */
 	CHECK((find(VM_APUT, 0)[0] >> 8) == 1);
-	CHECK(refuses(VM_APUT, 0, 7, iec_area_row(AREA_Q)->bytes * 8));
+	CHECK(refuses(VM_APUT, 0, 7, usual_areas()->bytes[AREA_Q] * 8));
 	CHECK(refuses(VM_APUT, 0, 7, 0) && refuses(VM_APUT, 0, 8, 2));
-	CHECK(refuses(VM_APUT, 0, 4, CODE_OPERAND(IEC_BOOL, areas * 8)));
+	CHECK(refuses(VM_APUT, 0, 4, CODE_OPERAND(IEC_BOOL, areas->size * 8)));
 	CHECK(refuses(VM_APUT, 0, 4, CODE_OPERAND(IEC_BOOL, 0)));
 	/* Texts: a stride that is not their room. */
 	CHECK(CODE_TYPE(find(VM_AGET, 4)[4]) == IEC_STRING);

@@ -5,6 +5,7 @@
  */
 #include "engine/base/digest.h"
 #include "tests/unit/rig.h"
+#include "tests/usual.h"
 
 static const char source[] =
 	"VAR\n"
@@ -165,7 +166,7 @@ static void refuses_bounds(void)
 	CHECK(refused() && where == offsetof(struct code_header, data_size));
 	header()->data_size = UINT32_MAX;
 	CHECK(refused());
-	header()->data_size = iec_areas_size() + 1;
+	header()->data_size = usual_areas()->size + 1;
 	CHECK(refused());
 	header()->data_size -= 8;
 	CHECK_AS(refused(), "the layout reaches behind the data");
@@ -232,7 +233,7 @@ static void refuses_initial_values(void)
 	CHECK(refused());
 	init[1] = header()->data_size;
 	CHECK(refused());
-	init[0] = iec_areas_size() + 3;
+	init[0] = usual_areas()->size + 3;
 	CHECK_AS(refused(), "where nothing lies");
 	header()->section[CODE_INIT].size -= 4;
 	CHECK_AS(refused(), "cut in half");
@@ -259,7 +260,7 @@ static void refuses_bits(void)
 	CHECK(refused());
 	bits->area = AREA_XAQ;
 	CHECK_AS(refused(), "wrong order");
-	bits->first = iec_area_row(AREA_I)->bytes * 8;
+	bits->first = usual_areas()->bytes[AREA_I] * 8;
 	CHECK(refused());
 	bits->first = UINT32_MAX;
 	CHECK(refused());
@@ -269,7 +270,7 @@ static void refuses_bits(void)
 	CHECK(refused());
 	bits->slot = 0;
 	CHECK_AS(refused(), "bits in an area");
-	bits->slot = CODE_FALSE_AT(iec_areas_size());
+	bits->slot = CODE_FALSE_AT(usual_areas());
 	CHECK_AS(refused(), "on a constant");
 	bits[1] = bits[0];
 	CHECK_AS(refused(), "the same bit twice");
@@ -331,7 +332,7 @@ static void refuses_bit_operands(void)
 {
 	const uint32_t outside[] = { header()->data_size, UINT32_MAX, 0x1000000, 0,
 		spot_of(RUN_VALUES, IEC_INT), run_of(RUN_INSTANCE, 0)->offset + 1 };
-	const uint32_t none = CODE_FALSE_AT(iec_areas_size());
+	const uint32_t none = CODE_FALSE_AT(usual_areas());
 	const uint32_t q = run_of(RUN_INSTANCE, 0)->offset +
 			   (uint32_t)offsetof(struct fb_TON, Q);
 
@@ -370,12 +371,12 @@ static void refuses_number_operands(void)
 		 "from one area into the next");
 	CHECK(refuses(VM_COPY, 0, VM_COPY | 1u << 8));
 	CHECK(refuses(VM_CMP, 0, VM_CMP | CMP_COUNT << 8));
-	CHECK(refuses(VM_CMP, 1, CODE_TRUE_AT(iec_areas_size())));
+	CHECK(refuses(VM_CMP, 1, CODE_TRUE_AT(usual_areas())));
 	CHECK(refuses(VM_CMP, 2, 0) && refuses(VM_CMP, 3, UINT32_MAX));
 	CHECK(refuses(VM_FN, 1, WORD_COUNT) && refuses(VM_FN, 1, FB_TON));
 	CHECK(refuses(VM_FN, 1, UINT32_MAX) && refuses(VM_FN, 1, FN_MOVE));
 	CHECK(refuses(VM_FN, 2, 0) && refuses(VM_FN, 3, 0));
-	CHECK(refuses(VM_FN, 3, CODE_TRUE_AT(iec_areas_size())));
+	CHECK(refuses(VM_FN, 3, CODE_TRUE_AT(usual_areas())));
 	CHECK(refuses(VM_FN, 4, seven) && refuses(VM_FN, 4, UINT32_MAX));
 	CHECK(refuses(VM_FN, 5, real) && refuses(VM_FN, 6, 0));
 	CHECK(refuses(VM_FN, 0, VM_FN | (IEC_BOOL | 2u << 8 | (uint32_t)IEC_BOOL << 16) << 8));

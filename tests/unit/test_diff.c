@@ -267,6 +267,51 @@ static void test_config(void)
 		"instance A: removed\n");
 }
 
+static void take_pair(void *context, struct view_pair pair)
+{
+	const struct sink *sink = context;
+
+	sink_printf(sink, "%d.%d>%d.%d%s%s ", pair.pou_a, pair.rung_a, pair.pou_b,
+		    pair.rung_b, pair.moved ? " moved" : "",
+		    pair.changed ? " changed" : "");
+}
+
+static const char *pairs(const char *a, const char *b)
+{
+	struct project *x = read_text(a), *y = read_text(b);
+	struct sink sink = sink_to_memory(&memory);
+
+	sink_memory_free(&memory);
+	CHECK(view_diff_rungs(x, y, take_pair, &sink));
+	project_free(x);
+	project_free(y);
+	return sink_memory_text(&memory);
+}
+
+/* Each rung once, -1 where there is none. */
+static void test_pairs(void)
+{
+	static const char one[] = "PROGRAM Main LD\n"
+		"RUNG A\n| NO X | COIL Y |\nRUNG B\n| NO Y | COIL Z |\n"
+		"RUNG C\n| NC Z | COIL W |\nEND_PROGRAM\n";
+
+	CHECK_TEXT(pairs(one, one), "0.0>0.0 0.1>0.1 0.2>0.2 ");
+	CHECK_TEXT(pairs(one, "PROGRAM main LD\nRUNG A\n| NC X | COIL Y |\n"
+		   "RUNG N\n| NO Q1 | COIL Q2 |\nRUNG C\n| NC Z | COIL W |\nEND_PROGRAM\n"),
+		   "0.0>0.0 changed 0.1>0.-1 changed 0.-1>0.1 changed 0.2>0.2 ");
+	CHECK_TEXT(pairs(one, "PROGRAM Main LD\nRUNG C\n| NC Z | COIL W |\n"
+		   "RUNG A\n| NO X | COIL Y |\nRUNG B\n| NO Y | COIL Z |\nEND_PROGRAM\n"),
+		   "0.0>0.1 0.1>0.2 0.2>0.0 moved ");
+	CHECK_TEXT(pairs(one, ""), "0.0>-1.-1 changed 0.1>-1.-1 changed 0.2>-1.-1 changed ");
+	CHECK_TEXT(pairs("", one), "-1.-1>0.0 changed -1.-1>0.1 changed -1.-1>0.2 changed ");
+	CHECK_TEXT(pairs("PROGRAM P IL\nLD X\nEND_PROGRAM\n",
+			 "PROGRAM P IL\nLD X\nEND_PROGRAM\n"), "0.-1>0.-1 ");
+	CHECK_TEXT(pairs("PROGRAM P IL\nLD X\nEND_PROGRAM\n",
+			 "PROGRAM P IL\nLDN X\nEND_PROGRAM\n"), "0.-1>0.-1 changed ");
+	CHECK_TEXT(pairs("PROGRAM Main IL\nLD X\nEND_PROGRAM\n", one),
+		   "0.-1>0.-1 changed ");
+}
+
 int main(void)
 {
 	test_cells();
@@ -277,6 +322,7 @@ int main(void)
 	test_json();
 	test_large();
 	test_match();
+	test_pairs();
 	sink_memory_free(&memory);
 	return tap_done();
 }

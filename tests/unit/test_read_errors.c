@@ -125,8 +125,8 @@ static void test_array_errors(void)
 	fails(V("A : ARRAY[1..2] OF INT := [0(1)];"), "LD116 3 0 (0,0) 28 0");
 	fails(V("A : ARRAY[1..2] OF INT := [2(1];"), "LD107 3 0 (0,0) 31 )");
 	fails(V("A : ARRAY[1..2] OF INT := [T#1s];"), "LD115 3 0 (0,0) 28 T#1s");
-	fails(V("A AT %MW8190 : ARRAY[1..2] OF WORD;"),
-	      "LD117 3 0 (0,0) 31 %MW8190");
+	fails(V("A AT %MW524286 : ARRAY[1..2] OF WORD;"),
+	      "LD117 3 0 (0,0) 33 %MW524286");
 	fails(LD("RUNG\n| NO A[ | COIL B |\n"), "LD107 5 1 (1,1) 9 index");
 	fails(LD("RUNG\n| NO A[i | COIL B |\n"), "LD107 5 1 (1,1) 10 ]");
 	fails(LD("RUNG\n| NO A[i + 1] | COIL B |\n"), "LD107 5 1 (1,1) 10 ]");

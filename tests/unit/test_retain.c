@@ -28,7 +28,7 @@ static const char source[] =
 	"END_PROGRAM\n";
 
 /* The same, edited: Level gone, On now INT, Delay a TOF, Mark without address,
- * Extra new; names in other letters and another order. */
+ * Extra new; names in other letters and another order, areas of other sizes. */
 static const char edited[] =
 	"VAR_GLOBAL RETAIN\n"
 	"  EXTRA : INT := 9;\n"
@@ -36,10 +36,11 @@ static const char edited[] =
 	"  COUNT : DINT;\n"
 	"  On    : INT := 4;\n"
 	"  Delay : TOF;\n"
-	"  Wide AT %MD12 : DWORD;\n"
+	"  Wide AT %MD12000 : DWORD;\n"
 	"  Label : STRING[30];\n"
 	"  Short : STRING[5] := 'xy';\n"
 	"END_VAR\n"
+	"CONFIGURATION Sizes\n  AREA I 1;\n  AREA M 16384;\nEND_CONFIGURATION\n"
 	"PROGRAM Main LD\nVAR RETAIN\n  Count : TIME;\nEND_VAR\n"
 	"RUNG\n  | NO I0 | TOF Delay PT:=T#1s | COIL Mark |\n"
 	"RUNG\n  | NO I1 | [ On := Extra ] | [ Wide := 16#01020304 ] | [ Count := T#5ms ] |\n"

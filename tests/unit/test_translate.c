@@ -6,6 +6,7 @@
 #include "engine/text/text.h"
 #include "engine/view/view.h"
 #include "tests/unit/rig.h"
+#include "tests/usual.h"
 
 #include <dirent.h>
 
@@ -434,7 +435,7 @@ static bool does_the_same(struct ladder *a, struct ladder *b)
 {
 	struct ladder *ladder[] = { a, b };
 	struct resource resource[2];
-	uint32_t random = 1, size = iec_area_row(AREA_Q)->bytes;
+	uint32_t random = 1, size = usual_areas()->bytes[AREA_Q];
 	bool same = true;
 
 	for (int i = 0; i < 2; i++) {

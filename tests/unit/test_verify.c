@@ -1,222 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_verify - a small code image made by hand, and one wrong word at a time:
- * the verifier refuses each. A rule that it forgets fails here by name.
+ * test_verify - the image of draft.h, and one wrong word at a time: the verifier refuses
+ * each. A rule that it forgets fails here by name.
  */
-#include "engine/base/digest.h"
-#include "engine/scan/code.h"
-#include "tests/tap.h"
+#include "tests/unit/draft.h"
 
 #include <stdlib.h>
-
-/* What the image is made of. Offsets count from the end of the areas. */
-struct draft {
-	struct code_header header;
-	struct code_program entry[LIMIT_CALLS + 3];
-	struct code_task task[3];
-	uint32_t call[2], calls;
-	struct code_run run[5];
-	uint32_t init[9];
-	struct code_bits bits[2];
-	uint32_t text[128];
-	uint32_t symbol[4];
-	struct code_group group[3];
-	struct code_power power[1];
-	struct code_place place[2];
-	char string[16];
-	struct code_watched watched[1];
-	uint32_t text_words, entries;
-};
-
-enum {
-	FLAG = 8,       /* eight BOOLs                                       */
-	NUMBER = 16,    /* two DINTs                                         */
-	FIXED = 24,     /* a constant DINT                                   */
-	COUNTER = 32,   /* two CTUs                                          */
-};
-
-/* Where each instruction of the draft begins. */
-enum {
-	AT_LUT = 0, AT_BITGET = 5, AT_BITPUT = 8, AT_COPY = 11, AT_CMP = 15,
-	AT_FN = 19, AT_FB = 26, AT_JMPC = 28, AT_JMP = 31, AT_END = 33,
-	WORDS = 34,
-};
-
-static uint32_t own(uint32_t offset)
-{
-	return iec_areas_size() + offset;
-}
-
-static uint32_t own_as(enum iec_type type, uint32_t offset)
-{
-	return CODE_OPERAND(type, own(offset));
-}
-
-static uint32_t op(enum vm_op code, uint32_t n)
-{
-	return (uint32_t)code | n << 8;
-}
-
-/* Areas end at a multiple of 8, so that all above lie as their types want. */
-static void draft_layout(struct draft *d)
-{
-	uint32_t size = word_row(FB_CTU)->size;
-
-	d->run[0] = (struct code_run){ own(0), RUN_CONSTANTS, IEC_BOOL, 0, 2 };
-	d->run[1] = (struct code_run){ own(FLAG), RUN_VALUES, IEC_BOOL, 0, 8 };
-	d->run[2] = (struct code_run){ own(NUMBER), RUN_VALUES, IEC_DINT, 0, 2 };
-	d->run[3] = (struct code_run){ own(FIXED), RUN_CONSTANTS, IEC_DINT, 0, 1 };
-	d->run[4] = (struct code_run){ own(COUNTER), RUN_INSTANCE, 0, FB_CTU, 2 };
-	d->header.data_size = own(COUNTER) + 2 * size;
-	d->header.budget = 1000;
-	memcpy(d->init, (uint32_t[]){ own(FLAG), 1, 1, own(NUMBER), 4, 77,
-				      own(FIXED), 4, 5 }, sizeof(d->init));
-	d->bits[0] = (struct code_bits){ AREA_I, 0, 2, own(FLAG) };
-	d->bits[1] = (struct code_bits){ AREA_Q, 0, 2, own(FLAG + 2) };
-}
-
-static void draft_text(struct draft *d)
-{
-	uint32_t text[WORDS] = {
-		op(VM_LUT, 1), own(FLAG), own(FLAG + 1), own(1),
-		own(FLAG + 2) << 8 | 0x80,
-		op(VM_BITGET, 7), iec_area_row(AREA_M)->offset, own(FLAG + 4),
-		op(VM_BITPUT, 7), own(FLAG), iec_area_row(AREA_M)->offset,
-		op(VM_COPY, 0), own(1), own_as(IEC_DINT, NUMBER),
-		own_as(IEC_DINT, FIXED),
-		op(VM_CMP, CMP_NE), own(FLAG + 5), own_as(IEC_DINT, NUMBER),
-		own_as(IEC_DINT, FIXED),
-		op(VM_FN, IEC_DINT | 2 << 8 | IEC_DINT << 16), FN_ADD, own(1), own(FLAG + 6),
-		own_as(IEC_DINT, NUMBER), own_as(IEC_DINT, NUMBER + 4),
-		own_as(IEC_DINT, FIXED),
-		op(VM_FB, FB_CTU), own(COUNTER),
-		op(VM_JMPC, 0), AT_END, own(FLAG),
-		op(VM_JMP, 0), AT_END,
-		op(VM_END, 0),
-	};
-
-	memcpy(d->text, text, sizeof(text));
-	d->text_words = WORDS;
-	d->entry[0] = (struct code_program){ .text_words = WORDS, .name = 11 };
-	d->entries = 1;
-}
-
-static void draft_tasks(struct draft *d)
-{
-	d->task[0] = (struct code_task){
-		.kind = TASK_INTERVAL, .interval = { 1000000 }, .count = 1,
-		.watchdog = { 5000000 },
-	};
-	d->task[1] = (struct code_task){
-		.kind = TASK_EVENT, .single = own(FLAG), .priority = 3,
-		.first = 1,
-	};
-	d->task[2] = (struct code_task){ .kind = TASK_CYCLE, .priority = 3,
-					 .first = 1 };
-	d->calls = 1;
-}
-
-static void draft_maps(struct draft *d)
-{
-	uint32_t bit = (iec_area_row(AREA_M)->offset * 8) + 3;
-
-	memcpy(d->string, "Flag\0N\0C\0B\0Main", 16);
-	d->symbol[0] = own_as(IEC_BOOL, FLAG);
-	d->symbol[1] = own_as(IEC_DINT, NUMBER);
-	d->symbol[2] = own_as(IEC_NONE, COUNTER);
-	d->symbol[3] = CODE_OPERAND(IEC_BOOL | SYMBOL_BIT, bit);
-	d->group[0] = (struct code_group){ 0, 0, 0 };
-	d->group[1] = (struct code_group){ 1, 1, SYMBOL_CONSTANT };
-	d->group[2] = (struct code_group){ 2, 0, SYMBOL_RETAIN };
-	d->power[0] = (struct code_power){ 0, 1, 1, 0, 1, own(1), own(FLAG) };
-	d->place[0] = (struct code_place){ AT_LUT, 0, 1, 1, 1 };
-	d->place[1] = (struct code_place){ AT_FN, 0, 2, 1, 1 };
-	d->watched[0] = (struct code_watched){ 0, 7, own(FLAG), own(FLAG + 4), 4 };
-}
-
-static void draft_good(struct draft *d)
-{
-	memset(d, 0, sizeof(*d));
-	memcpy(d->header.magic, CODE_MAGIC, sizeof(d->header.magic));
-	d->header.version = CODE_VERSION;
-	d->header.words = WORD_COUNT;
-	draft_layout(d);
-	draft_text(d);
-	draft_tasks(d);
-	draft_maps(d);
-}
-
-static void add(uint8_t *bytes, uint32_t *len, int kind, const void *from,
-		uint32_t size)
-{
-	struct code_header *header = (void *)bytes;
-
-	header->section[kind] = (struct code_section){ *len, size };
-	memcpy(bytes + *len, from, size);
-	*len += (size + 3) / 4 * 4;
-}
-
-static void seal(uint8_t *bytes, uint32_t len)
-{
-	struct code_header *header = (void *)bytes;
-	size_t covered = offsetof(struct code_header, crc) + 4;
-
-	header->size = len;
-	header->crc = digest_crc32c(0, bytes + covered, len - covered);
-}
-
-static uint32_t pack(const struct draft *d, uint8_t *bytes)
-{
-	uint32_t len = sizeof(d->header);
-
-	memcpy(bytes, &d->header, sizeof(d->header));
-	add(bytes, &len, CODE_PROGRAMS, d->entry,
-	    d->entries * (uint32_t)sizeof(d->entry[0]));
-	add(bytes, &len, CODE_TASKS, d->task, sizeof(d->task));
-	add(bytes, &len, CODE_CALLS, d->call, d->calls * 4);
-	add(bytes, &len, CODE_LAYOUT, d->run, sizeof(d->run));
-	add(bytes, &len, CODE_INIT, d->init, sizeof(d->init));
-	add(bytes, &len, CODE_BITS, d->bits, sizeof(d->bits));
-	add(bytes, &len, CODE_TEXT, d->text, d->text_words * 4);
-	add(bytes, &len, CODE_WATCH, d->text, 0);
-	add(bytes, &len, CODE_SYMBOLS, d->symbol, sizeof(d->symbol));
-	add(bytes, &len, CODE_GROUPS, d->group, sizeof(d->group));
-	add(bytes, &len, CODE_POWER, d->power, sizeof(d->power));
-	add(bytes, &len, CODE_PLACES, d->place, sizeof(d->place));
-	add(bytes, &len, CODE_STRINGS, d->string, sizeof(d->string));
-	add(bytes, &len, CODE_WATCHED, d->watched, sizeof(d->watched));
-	seal(bytes, len);
-	return len;
-}
-
-static enum diag_id judge_bytes(const void *bytes, uint32_t len)
-{
-	struct program program;
-	struct arena scratch;
-	enum diag_id why = DIAG_COUNT;
-	size_t where;
-	bool good;
-
-	arena_init(&scratch);
-	good = code_open(bytes, len, &scratch, &program, &why, &where);
-	arena_free(&scratch);
-	return good ? DIAG_COUNT : why;
-}
-
-static enum diag_id judge(const struct draft *d)
-{
-	uint64_t room[512];
-
-	return judge_bytes(room, pack(d, (uint8_t *)room));
-}
-
-/* The good draft with @change made to it. */
-#define REFUSED(change) do { \
-	struct draft d; \
-	draft_good(&d); \
-	change; \
-	CHECK_AS(judge(&d) == DIAG_IMAGE_REFUSED, #change); \
-} while (0)
 
 static void test_good(void)
 {
@@ -256,6 +45,43 @@ static void test_layout(void)
 	REFUSED(d.header.budget = LIMIT_BUDGET + 1);
 }
 
+/* A header that lies: larger or smaller than what lies there, or what cannot be. */
+static void test_areas(void)
+{
+	uint32_t last = usual_areas()->size - 4;
+	struct draft whole;
+
+	for (int area = AREA_NONE; area < CODE_AREAS; area++) {
+		REFUSED(d.header.area_bytes[area] += 8);
+		REFUSED(d.header.area_bytes[area] -= 8);
+		REFUSED(d.header.area_bytes[area] = LIMIT_MEMORY + 1);
+		REFUSED(d.header.area_bytes[area] = UINT32_MAX);
+		REFUSED(d.header.area_bytes[area] = UINT32_MAX - 7);
+	}
+	REFUSED(memset(d.header.area_bytes, 0, sizeof(d.header.area_bytes)));
+	REFUSED(d.header.area_bytes[AREA_NONE] = 1);
+	REFUSED(d.header.area_bytes[AREA_COUNT] = 1);
+	REFUSED(d.header.area_bytes[AREA_SM] = 63);
+	REFUSED(d.header.area_bytes[AREA_M] = d.header.area_bytes[AREA_V] = LIMIT_MEMORY);
+	/* The byte behind the last one is nobody's, even where nothing else lies. */
+	draft_good(&whole);
+	whole.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, last);
+	CHECK_AS(judge(&whole) == DIAG_COUNT, "the last word of the last area");
+	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, last);
+		d.header.area_bytes[AREA_XAQ]--);
+	draft_good(&whole);
+	whole.header.area_bytes[AREA_XAQ]--;
+	CHECK_AS(judge(&whole) == DIAG_COUNT, "which may be smaller if nobody asks for it");
+	REFUSED(d.text[AT_BITPUT + 2] = last + 3; d.header.area_bytes[AREA_XAQ]--);
+	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_BOOL | SYMBOL_BIT, (last + 3) * 8);
+		d.header.area_bytes[AREA_XAQ]--);
+	REFUSED(d.init[0] = last + 3; d.header.area_bytes[AREA_XAQ]--);
+	/* From one area into the next, which may be written too. */
+	REFUSED(d.text[AT_COPY + 2] =
+		CODE_OPERAND(IEC_DINT, usual_areas()->at[AREA_V] - 2));
+	REFUSED(d.bits[1].first = 511 * 8 + 6; d.header.area_bytes[AREA_Q]--);
+}
+
 static void test_init(void)
 {
 	REFUSED(d.init[2] = 2);
@@ -276,7 +102,7 @@ static void test_bits(void)
 	REFUSED(d.bits[1].area = AREA_COUNT);
 	REFUSED(d.bits[1].area = AREA_I);
 	REFUSED(d.bits[0].area = AREA_M);
-	REFUSED(d.bits[1].first = iec_area_row(AREA_Q)->bytes * 8u - 1);
+	REFUSED(d.bits[1].first = usual_areas()->bytes[AREA_Q] * 8u - 1);
 	REFUSED(d.bits[1].first = UINT32_MAX);
 	REFUSED(d.bits[1].slot = own(0));
 	REFUSED(d.bits[1].slot = own(NUMBER));
@@ -287,7 +113,7 @@ static void test_bits(void)
 
 static void test_operands(void)
 {
-	uint32_t input = iec_area_row(AREA_I)->offset;
+	uint32_t input = usual_areas()->at[AREA_I];
 
 	REFUSED(d.text[AT_LUT] = op(VM_LUT, 0));
 	REFUSED(d.text[AT_LUT + 1] = own(NUMBER));
@@ -305,12 +131,12 @@ static void test_operands(void)
 	REFUSED(d.text[AT_COPY + 1] = own(NUMBER));
 	REFUSED(d.text[AT_COPY + 2] = own_as(IEC_DINT, FIXED));
 	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, input));
-	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_INT, iec_area_row(AREA_M)->offset));
+	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_INT, usual_areas()->at[AREA_M]));
 	REFUSED(d.text[AT_COPY + 2] = own_as(IEC_INT, NUMBER));
 	REFUSED(d.text[AT_COPY + 3] = own_as(IEC_DINT, FLAG));
 	REFUSED(d.text[AT_COPY + 3] = own_as(IEC_TYPE_COUNT, FIXED));
 	/* Across the end of an area, and of memory. */
-	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, iec_areas_size() - 3));
+	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, usual_areas()->size - 3));
 	REFUSED(d.text[AT_COPY + 3] = CODE_OPERAND(IEC_DINT, d.header.data_size - 2));
 	REFUSED(d.text[AT_CMP] = op(VM_CMP, CMP_COUNT));
 	REFUSED(d.text[AT_CMP + 1] = own(1));
@@ -385,7 +211,7 @@ static void test_maps(void)
 	REFUSED(d.symbol[2]++);
 	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_DINT | SYMBOL_BIT, 3));
 	REFUSED(d.symbol[3] = CODE_OPERAND(IEC_BOOL | SYMBOL_BIT,
-					   iec_areas_size() * 8));
+					   usual_areas()->size * 8));
 	REFUSED(d.group[0].first = 1);
 	REFUSED(d.group[1].first = 0);
 	REFUSED(d.group[2].first = 1);
@@ -445,7 +271,7 @@ static void test_tasks(void)
 	struct draft good;
 
 	draft_good(&good);
-	good.task[1].single = CODE_OPERAND(7, iec_area_row(AREA_I)->offset);
+	good.task[1].single = CODE_OPERAND(7, usual_areas()->at[AREA_I]);
 	CHECK_AS(judge(&good) == DIAG_COUNT, "a bit of an area");
 	REFUSED(d.task[0].kind = 3);
 	REFUSED(d.task[0].interval[0] = 99999);
@@ -520,8 +346,8 @@ static void test_blocks(void)
 	REFUSED(append_block(&d, own(FLAG), own(NUMBER), 4));
 	REFUSED(append_block(&d, own(NUMBER), own(FIXED), 4));
 	REFUSED(append_block(&d, own(0), own(1), 1));
-	REFUSED(append_block(&d, iec_area_row(AREA_M)->offset,
-			     iec_area_row(AREA_M)->offset + 8, 4));
+	REFUSED(append_block(&d, usual_areas()->at[AREA_M],
+			     usual_areas()->at[AREA_M] + 8, 4));
 	/* Half an instance, another block, none at the other side. */
 	REFUSED(append_block(&d, own(COUNTER), own(COUNTER) + size, 4));
 	REFUSED(append_block(&d, own(COUNTER) + 1, own(COUNTER) + size + 1,
@@ -589,6 +415,7 @@ int main(void)
 	test_good();
 	test_header();
 	test_layout();
+	test_areas();
 	test_init();
 	test_bits();
 	test_operands();

@@ -128,6 +128,35 @@ static void test_free(struct ladder *ladder)
 	xref_free(&xref);
 }
 
+/* Areas of other sizes, and what lies behind their ends: a program may be wrong. */
+static void test_sizes(void)
+{
+	static const char sizes[] = "RUNGBOARD 1\n\nVAR\n  Far AT %VW65532 : WORD;\n"
+		"  Wrong AT %QW0 : ARRAY[0..9] OF WORD;\n  Beyond AT %QB8000 : BYTE;\n"
+		"  Mark AT %MB7 : BYTE;\nEND_VAR\n\nCONFIGURATION C\n  AREA Q 3;\n"
+		"  AREA V 65536;\nEND_CONFIGURATION\n\nPROGRAM Main LD\nRUNG\n"
+		"  | NO I0 | [ Far := 1 ] |\nEND_PROGRAM\n";
+	struct ladder *ladder = ladder_new();
+	struct address_clash clash[4];
+	struct address_map map;
+	struct xref xref;
+
+	CHECK(ladder && ladder_load_text(ladder, "sizes.rung", sizes, strlen(sizes)));
+	CHECK(xref_make(&xref, ladder_project(ladder)));
+	CHECK(address_map_make(&map, &xref, &xref.arena));
+	is_next(&map, "%VW0", 1, "%VW65530", "%VW65534");
+	is_next(&map, "%VW0", 1, "%VW65534", "none");
+	is_next(&map, "%QX0.0", 1, NULL, "none");
+	is_next(&map, "%MB0", 1, "%MB6", "%MB8");
+	CHECK(address_map_is_used(&map, address("%QX2.7")));
+	CHECK(!address_map_is_used(&map, address("%QX3.0")));
+	CHECK(!address_map_is_used(&map, address("%QB8000")));
+	CHECK(!address_map_is_used(&map, address("%MB0")));
+	CHECK(address_map_clashes(&xref, clash, 4) == 0);
+	xref_free(&xref);
+	ladder_free(ladder);
+}
+
 static void test_clashes(struct ladder *ladder)
 {
 	struct address_clash clash[16];
@@ -157,6 +186,7 @@ int main(void)
 	CHECK_AS(!ladder_build(ladder), "it has errors, and is read all the same");
 	test_uses(ladder);
 	test_free(ladder);
+	test_sizes();
 	test_clashes(ladder);
 	ladder_free(ladder);
 	return tap_done();

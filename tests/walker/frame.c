@@ -399,9 +399,11 @@ bool walker_declare(struct walker *walker)
 {
 	struct project *project = walker->project;
 
+	if (!project_areas(project, &walker->areas))
+		return false;
 	for (int i = AREA_NONE + 1; i < AREA_COUNT; i++) {
 		walker->area[i] = arena_alloc(&walker->arena,
-			iec_area_row((enum iec_area)i)->bytes + 8);
+			walker->areas.bytes[i] + 8);
 		if (!walker->area[i])
 			return false;
 	}

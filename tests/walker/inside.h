@@ -79,6 +79,7 @@ struct walker {
 	struct frame *instances;    /* of blocks, by their next              */
 	struct shown *shown;
 	int shown_count;
+	struct areas areas;
 	uint8_t *area[AREA_COUNT];
 	int64_t now_ns, start_ns;
 	uint64_t scans;

@@ -24,7 +24,7 @@ void placed_take_text(struct value *value, const struct literal *literal)
 struct placed placed_at(struct walker *walker, struct iec_addr addr,
 				enum iec_type type)
 {
-	uint32_t bits = iec_area_row(addr.area)->bytes * 8;
+	uint32_t bits = walker->areas.bytes[addr.area] * 8;
 
 	return (struct placed){
 		.kind = PLACED_AREA, .type = type,
@@ -93,7 +93,8 @@ struct placed walker_place(struct walker *walker, const struct frame *frame,
 	if (literal_parse(text, len, &placed.literal) == LITERAL_OK) {
 		placed.kind = PLACED_LITERAL;
 		placed.type = placed.literal.type;
-	} else if (iec_addr_parse(text, len, &addr) == ADDR_OK) {
+	} else if (iec_addr_parse(text, len, &addr) == ADDR_OK &&
+		   areas_have(&walker->areas, addr)) {
 		return placed_at(walker, addr, iec_addr_type(addr));
 	}
 	return placed;

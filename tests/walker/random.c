@@ -516,6 +516,23 @@ static void make_own(struct random_source *source, struct random_program *progra
 	}
 }
 
+/* Small ones, of any number of bytes, or larger than usual. What programs name by a
+ * fixed address stays inside; what they index does not. */
+static void draw_areas(struct random_source *source, struct random_program *program)
+{
+	static const struct { uint32_t least, more; } bounds[RANDOM_AREAS] = {
+		{ 16, 40 }, { 16, 40 }, { 24, 60 }, { 0, 9 }, { 0, 9 },
+	};
+
+	program->sized = random_chance(source, 30);
+	for (int i = 0; i < RANDOM_AREAS; i++) {
+		uint32_t most = random_chance(source, 25) ? 8000 : 0;
+
+		program->bytes[i] = bounds[i].least +
+				    random_below(source, bounds[i].more + most);
+	}
+}
+
 void random_make(struct random_program *program, uint64_t seed)
 {
 	struct random_source source;
@@ -553,4 +570,5 @@ void random_make(struct random_program *program, uint64_t seed)
 	if (!programs && program->rungs >= 4 && second == program->rungs &&
 	    random_chance(&source, 15))
 		make_loop(program);
+	draw_areas(&source, program);
 }

@@ -17,6 +17,7 @@
 #define RANDOM_COLS  8
 #define RANDOM_TEXT  144
 #define RANDOM_RUNGS 16
+#define RANDOM_AREAS 5 /* I, Q, M, V, XAQ                                     */
 
 /* Where a rung stands. */
 enum random_pou {
@@ -47,6 +48,8 @@ struct random_rung {
 struct random_program {
 	bool routine;  /* the second POU is a SUBROUTINE                     */
 	int rungs;
+	bool sized;    /* areas have these sizes, not the usual ones         */
+	uint32_t bytes[RANDOM_AREAS];
 	struct random_rung rung[RANDOM_RUNGS];
 };
 

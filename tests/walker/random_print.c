@@ -81,6 +81,22 @@ static void print_own(const struct random_program *program, struct page *page)
 	}
 }
 
+static void print_areas(const struct random_program *program, struct page *page)
+{
+	static const char *const letters[RANDOM_AREAS] = { "I", "Q", "M", "V", "XAQ" };
+	char line[64];
+
+	if (!program->sized)
+		return;
+	add(page, "CONFIGURATION Sizes\n");
+	for (int i = 0; i < RANDOM_AREAS; i++) {
+		snprintf(line, sizeof(line), "  AREA %s %u;\n", letters[i],
+			 (unsigned)program->bytes[i]);
+		add(page, line);
+	}
+	add(page, "END_CONFIGURATION\n");
+}
+
 size_t random_print(const struct random_program *program, char *out,
 		    size_t size)
 {
@@ -112,6 +128,7 @@ size_t random_print(const struct random_program *program, char *out,
 	add(&whole, "RUNGBOARD 1\n");
 	add(&whole, random_types(body));
 	whole.used += random_declare(body, out + whole.used, size - whole.used);
+	print_areas(program, &whole);
 	add(&whole, body);
 	return whole.used;
 }

@@ -7,6 +7,7 @@
  */
 #include "engine/base/iec.h"
 #include "engine/base/ascii.h"
+#include "engine/base/limits.h"
 
 #include <string.h>
 
@@ -31,19 +32,10 @@ static const struct { const char *word; enum iec_type type; } alias[] = {
 	{ "LDT", IEC_DATE_AND_TIME }, { "LDATE_AND_TIME", IEC_DATE_AND_TIME },
 };
 
-/* An area begins where the one before it ends. */
-enum area_start {
-#define AREA(id, letters, bytes, access, doc) \
-	START_##id, LAST_##id = START_##id + (bytes) - 1,
-#include "engine/catalog.def"
-	START_END
-};
-_Static_assert(START_END <= IEC_AREA_BYTES_MAX, "areas are too large");
-
 static const struct iec_area_row areas[AREA_COUNT] = {
-	[AREA_NONE] = { "", 0, ACCESS_READ, 0, "" },
-#define AREA(id, letters, bytes, access, doc) \
-	[AREA_##id] = { letters, bytes, access, START_##id, doc },
+	[AREA_NONE] = { "", 0, 0, 0, ACCESS_READ, "" },
+#define AREA(id, letters, least, usual, most, access, doc) \
+	[AREA_##id] = { letters, least, usual, most, access, doc },
 #include "engine/catalog.def"
 };
 
@@ -99,11 +91,6 @@ const struct iec_area_row *iec_area_row(enum iec_area area)
 	return &areas[area < AREA_COUNT ? area : AREA_NONE];
 }
 
-uint32_t iec_areas_size(void)
-{
-	return START_END;
-}
-
 /* What is left of an address text. */
 struct rest {
 	const char *at, *end;
@@ -134,7 +121,7 @@ static bool take_number(struct rest *rest, uint32_t *out)
 	uint32_t number = 0;
 
 	for (; rest->at != rest->end && ascii_digit(*rest->at); rest->at++)
-		if (number < IEC_AREA_BYTES_MAX * 8)
+		if (number < LIMIT_AREAS * 8)
 			number = number * 10 + (uint32_t)(*rest->at - '0');
 	*out = number;
 	return rest->at != start;
@@ -158,7 +145,7 @@ static uint8_t take_size(struct rest *rest)
 
 static enum iec_addr_result check_range(struct iec_addr addr, uint32_t bit)
 {
-	uint32_t size = areas[addr.area].bytes;
+	uint32_t size = areas[addr.area].most;
 	uint32_t need = addr.bits == 1 ? 1 : addr.bits / 8u;
 
 	if (bit > 7)

@@ -89,7 +89,7 @@ bool iec_can_widen(enum iec_type from, enum iec_type to);
 
 enum iec_area {
 	AREA_NONE,
-#define AREA(id, letters, bytes, access, doc) AREA_##id,
+#define AREA(id, letters, least, usual, most, access, doc) AREA_##id,
 #include "engine/catalog.def"
 	AREA_COUNT
 };
@@ -97,15 +97,11 @@ enum iec_access { ACCESS_READ, ACCESS_WRITE }; /* what a program may do */
 
 struct iec_area_row {
 	const char *letters; /* "I"                                            */
-	uint32_t bytes;
+	uint32_t least, usual, most; /* bytes; a project says which, areas.h   */
 	enum iec_access access;
-	uint32_t offset;     /* of its first byte in a process image           */
 	const char *doc;
 };
 const struct iec_area_row *iec_area_row(enum iec_area area);
-#define IEC_AREA_BYTES_MAX 65536u
-/** iec_areas_size - bytes of all areas together, laid out one after another. */
-uint32_t iec_areas_size(void);
 
 struct iec_addr {
 	enum iec_area area;  /* AREA_NONE: no address                          */
@@ -120,7 +116,8 @@ enum iec_addr_result { ADDR_OK, ADDR_NONE, ADDR_RANGE };
  *
  * Short forms (without `%`) too: I3 is bit 3 of the inputs, B5 is M5.
  * Returns ADDR_NONE when the text is no address, ADDR_RANGE when it is one that
- * lies outside its area (a bit above 7, an odd size).   Scan-safe: yes.
+ * no area can have (a bit above 7, beyond the most bytes). Whether the areas of a
+ * program have it is told by areas_have().   Scan-safe: yes.
  */
 enum iec_addr_result iec_addr_parse(const char *text, size_t len,
 				    struct iec_addr *out);

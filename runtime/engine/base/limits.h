@@ -42,6 +42,9 @@
 #define LIMIT_IMAGE       (64u << 20) /* bytes of a code image                */
 #define LIMIT_DATA        (8u << 20)  /* bytes of a program's data            */
 #define LIMIT_RETAIN      (16u << 20) /* bytes of one copy of retained values */
+#define LIMIT_AREA        8192      /* bytes of I, Q and areas like them      */
+#define LIMIT_MEMORY      (512u << 10) /* bytes of M, and of V                */
+#define LIMIT_AREAS       (1u << 20)   /* bytes of all areas together         */
 #define LIMIT_BUDGET      10000000  /* instructions of one scan               */
 #define LIMIT_TASKS       16        /* tasks of a configuration               */
 #define LIMIT_TICK        100000    /* ns: shortest interval of a task        */

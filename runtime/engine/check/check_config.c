@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * check_config - tasks and programs by name, each once; events that are bits.
+ * check_config - tasks and programs by name, each once; events that are bits; areas
+ * that are not too large together.
  *
  * A configuration has at most 2 * LIMIT_POUS lines: comparing them all is quick.
  */
 #include "engine/check/check_config.h"
+
+#include <stdio.h>
 
 struct config_check {
 	struct scope *scope;
@@ -137,6 +140,28 @@ static void check_left_out(struct config_check *c)
 	}
 }
 
+/* At the line that makes them too large. */
+static void check_areas(struct config_check *c)
+{
+	struct areas areas;
+	char arg[LIMIT_ARG];
+
+	areas_init(&areas);
+	for (int i = 0; i < c->config->count; i++) {
+		const struct config_entry *entry = &c->config->entry[i];
+
+		if (entry->kind != CONFIG_AREA)
+			continue;
+		areas.bytes[entry->area] = entry->bytes;
+		if (areas_place(&areas))
+			continue;
+		snprintf(arg, sizeof(arg), "%u bytes, at most %u",
+			 (unsigned)areas.size, (unsigned)LIMIT_AREAS);
+		report(c, DIAG_AREAS_TOO_LARGE, entry, arg);
+		return;
+	}
+}
+
 bool check_config(struct scope *scope, struct uses *uses,
 		  struct diag_list *diags)
 {
@@ -158,6 +183,7 @@ bool check_config(struct scope *scope, struct uses *uses,
 		if (entry->kind == CONFIG_PROGRAM)
 			check_program(&c, entry);
 	}
+	check_areas(&c);
 	check_left_out(&c);
 	return c.good;
 }

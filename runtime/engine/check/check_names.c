@@ -145,15 +145,18 @@ static bool is_result(const char *name)
 /* Its elements too. All of them are looked at one by one later: not without end. */
 static bool is_inside(struct names_check *c, const struct var *var)
 {
+	const struct areas *areas = scope_areas(c->scope);
 	uint64_t before = c->located;
 
-	if (var->at.area == AREA_NONE || !var->array.count)
-		return project_has(c->project, var->at);
+	if (var->at.area == AREA_NONE)
+		return true;
+	if (!var->array.count)
+		return areas_have(areas, var->at);
 	c->located += var->array.count;
 	if (before <= LIMIT_LOCATED && c->located > LIMIT_LOCATED)
 		report_line(c, DIAG_TOO_MANY, NULL, var->line,
 			    "elements with an address");
-	return project_has(c->project, vars_shift(var->at, var->array.count - 1));
+	return areas_have(areas, vars_shift(var->at, var->array.count - 1));
 }
 
 static void report_twice(struct names_check *c, const struct pou *pou,
@@ -537,7 +540,7 @@ bool check_names(struct scope *scope, uint8_t *const *bad,
 
 	c.expr = arena_alloc(scratch, sizeof(*c.expr));
 	if (!c.expr || !make_marks(&c) ||
-	    !uses_init(&c.uses, c.project, scratch)) {
+	    !uses_init(&c.uses, scope, scratch)) {
 		report_line(&c, DIAG_NO_MEMORY, NULL, 0, "");
 		return false;
 	}

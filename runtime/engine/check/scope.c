@@ -31,6 +31,7 @@ struct answer {
 
 struct scope {
 	struct project *project;
+	struct areas areas;
 	struct arena *arena;
 	struct declared *declared;
 	uint32_t declared_mask;
@@ -111,6 +112,7 @@ struct scope *scope_new(struct project *project, struct arena *arena)
 	while (size < names * 2)
 		size *= 2;
 	scope->project = project;
+	project_areas(project, &scope->areas);
 	scope->arena = arena;
 	scope->declared_mask = size - 1;
 	scope->declared = arena_alloc(arena, size * sizeof(struct declared));
@@ -260,7 +262,7 @@ bool scope_mean_address(const struct scope *scope, const char *text, size_t len,
 {
 	enum iec_addr_result result = iec_addr_parse(text, len, &out->addr);
 
-	if (result == ADDR_OK && !project_has(scope->project, out->addr))
+	if (result == ADDR_OK && !areas_have(&scope->areas, out->addr))
 		result = ADDR_RANGE;
 	if (result == ADDR_OK) {
 		out->kind = MEANING_ADDRESS;
@@ -401,6 +403,11 @@ uint32_t scope_size(const struct scope *scope, const struct meaning *meaning)
 struct project *scope_project(const struct scope *scope)
 {
 	return scope->project;
+}
+
+const struct areas *scope_areas(const struct scope *scope)
+{
+	return &scope->areas;
 }
 
 const struct word_row *scope_row(const struct scope *scope, enum word word)

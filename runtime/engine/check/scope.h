@@ -111,6 +111,9 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 /** scope_size - bytes of what @meaning is. Scan-safe: no. */
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning);
 struct project *scope_project(const struct scope *scope);
+/** scope_areas - those of the project as it was when the scope was made. Lives as long
+ * as the scope. */
+const struct areas *scope_areas(const struct scope *scope);
 /** scope_row - the row of a word, be it the project's own. */
 const struct word_row *scope_row(const struct scope *scope, enum word word);
 /** scope_text - the string of an id. */

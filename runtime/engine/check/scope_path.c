@@ -204,14 +204,14 @@ static bool step_element(struct path *path)
 /* An address before [ is an array up to the end of its area. */
 static bool begin_address(struct path *path, const char *text, size_t len)
 {
-	const struct project *project = scope_project(path->scope);
+	const struct areas *areas = scope_areas(path->scope);
 	struct meaning *m = &path->m;
 	uint32_t first;
 
 	if (!scope_mean_address(path->scope, text, len, m, &path->why))
 		return false;
 	first = m->addr.byte * 8 + m->addr.bit;
-	m->array.count = (project_area_bytes(project, m->addr.area) * 8 - first) /
+	m->array.count = (areas->bytes[m->addr.area] * 8 - first) /
 			 m->addr.bits;
 	m->stride = iec_type_row(m->type)->size;
 	m->kind = MEANING_ARRAY;

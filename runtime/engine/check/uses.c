@@ -9,13 +9,14 @@
 
 #include <string.h>
 
-bool uses_init(struct uses *uses, const struct project *project,
-	       struct arena *arena)
+bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena)
 {
-	size_t bytes = iec_areas_size();
+	const struct project *project = scope_project(scope);
+	size_t bytes = scope_areas(scope)->size;
 	int count = project->globals.count;
 
 	uses->project = project;
+	uses->areas = scope_areas(scope);
 	uses->base = arena_alloc(arena, sizeof(*uses->base) *
 				 ((size_t)project->pou_count + 1));
 	if (!uses->base)
@@ -36,12 +37,16 @@ struct span {
 	uint32_t first, count;
 };
 
-static struct span span_of(struct iec_addr at, struct var_array array)
+/* None of what is declared beyond all areas: that was told already. */
+static struct span span_of(const struct uses *uses, struct iec_addr at,
+			   struct var_array array)
 {
-	uint32_t byte = iec_area_row(at.area)->offset + at.byte;
+	uint64_t first = areas_byte(uses->areas, at) * (uint64_t)8 + at.bit;
+	uint64_t count = at.bits * (uint64_t)(array.count ? array.count : 1);
 
-	return (struct span){ byte * 8 + at.bit,
-			      at.bits * (array.count ? array.count : 1) };
+	if (first + count > uses->areas->size * (uint64_t)8)
+		return (struct span){ 0, 0 };
+	return (struct span){ (uint32_t)first, (uint32_t)count };
 }
 
 /* Bits of byte @byte that are in the span. */
@@ -61,6 +66,8 @@ static void map_set(uint8_t *map, struct span span)
 {
 	uint32_t at = span.first / 8, last = (span.first + span.count - 1) / 8;
 
+	if (!span.count)
+		return;
 	map[at] |= mask_of(span, at);
 	map[last] |= mask_of(span, last);
 	if (last - at > 1)
@@ -71,7 +78,7 @@ static bool map_has(const uint8_t *map, struct span span)
 {
 	uint32_t at = span.first / 8, last = (span.first + span.count - 1) / 8;
 
-	for (; at <= last; at++)
+	for (; span.count && at <= last; at++)
 		if (map[at] & mask_of(span, at))
 			return true;
 	return false;
@@ -113,7 +120,7 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 	if (meaning->kind == MEANING_LITERAL || meaning->kind == MEANING_NONE)
 		return false;
 	if (meaning->addr.area != AREA_NONE)
-		again = map_add(uses, span_of(meaning->addr, meaning->array),
+		again = map_add(uses, span_of(uses, meaning->addr, meaning->array),
 				use);
 	if (!meaning->var)
 		return again;
@@ -153,7 +160,7 @@ unsigned int uses_of(const struct uses *uses, int table, int index,
 
 	if (var->at.area == AREA_NONE)
 		return flags;
-	at = span_of(var->at, var->array);
+	at = span_of(uses, var->at, var->array);
 	if (map_has(uses->map.read, at))
 		flags |= USE_READ;
 	if (map_has(uses->map.written, at))

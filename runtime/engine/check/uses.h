@@ -25,14 +25,14 @@ struct use_map {
 
 struct uses {
 	const struct project *project;
+	const struct areas *areas; /* of the scope                            */
 	uint8_t *flags;       /* of every declared variable                   */
 	int *base;            /* of the globals, then of each POU: its first  */
 	struct use_map map;
 };
 
-/** uses_init - nothing is used yet. Owns: @arena. Fails: false: no memory. */
-bool uses_init(struct uses *uses, const struct project *project,
-	       struct arena *arena);
+/** uses_init - nothing is used yet. @scope: borrowed. Owns: @arena. Fails: false: no memory. */
+bool uses_init(struct uses *uses, const struct scope *scope, struct arena *arena);
 
 /**
  * uses_add - notes one use

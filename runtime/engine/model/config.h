@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * config - what a CONFIGURATION says: tasks, which program runs in which, limits of
+ * config - what a CONFIGURATION says: tasks, which program runs in which, sizes of
  * areas (IEC 61131-3, 2.7 and tables 49 and 50).
  *
  * As it was written, line by line. Whether the names in it mean anything is found in
@@ -24,7 +24,7 @@ struct config_entry {
 	uint32_t interval, watchdog;      /* string ids, as written           */
 	uint32_t priority;    /* TASK: 0 is the highest                       */
 	enum iec_area area;   /* AREA                                         */
-	uint32_t bytes;       /* AREA: that a program may use of it           */
+	uint32_t bytes;       /* AREA: how large it is                        */
 	int block;            /* VARS: index of a block of the globals        */
 	uint32_t comment;     /* behind it                                    */
 	int line;

@@ -107,24 +107,23 @@ bool project_move_rung(struct pou *pou, int from, int to)
 	return true;
 }
 
-uint32_t project_area_bytes(const struct project *project, enum iec_area area)
+bool project_areas(const struct project *project, struct areas *out)
 {
 	const struct config *config = project->config;
-	uint32_t bytes = iec_area_row(area)->bytes;
 
+	areas_init(out);
 	for (int i = 0; config && i < config->count; i++)
-		if (config->entry[i].kind == CONFIG_AREA &&
-		    config->entry[i].area == area)
-			bytes = config->entry[i].bytes;
-	return bytes;
+		if (config->entry[i].kind == CONFIG_AREA)
+			out->bytes[config->entry[i].area] = config->entry[i].bytes;
+	return areas_place(out);
 }
 
 bool project_has(const struct project *project, struct iec_addr addr)
 {
-	uint32_t size = addr.bits < 8 ? 1 : addr.bits / 8u;
+	struct areas areas;
 
-	return addr.area == AREA_NONE || !project->config ||
-	       addr.byte + size <= project_area_bytes(project, addr.area);
+	project_areas(project, &areas);
+	return addr.area == AREA_NONE || areas_have(&areas, addr);
 }
 
 bool pou_has_frame(const struct pou *pou)

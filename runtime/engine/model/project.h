@@ -8,6 +8,7 @@
 #ifndef MODEL_PROJECT_H
 #define MODEL_PROJECT_H
 
+#include "engine/base/areas.h"
 #include "engine/model/config.h"
 #include "engine/model/il.h"
 #include "engine/model/rung.h"
@@ -88,10 +89,11 @@ bool project_add_rung(struct pou *pou, int at, struct rung *rung);
 /** project_take_rung - removes it; the caller owns what is returned. */
 struct rung *project_take_rung(struct pou *pou, int at);
 bool project_move_rung(struct pou *pou, int from, int to);
-/** project_area_bytes - how much of an area this project may use: what its
- * configuration says, or all there is. */
-uint32_t project_area_bytes(const struct project *project, enum iec_area area);
-/** project_has - is an address inside that? AREA_NONE always. */
+/** project_areas - how large the areas of this project are: what its configuration says,
+ * or what is usual.   Fails: false if they are too large together. */
+bool project_areas(const struct project *project, struct areas *out);
+/** project_has - is one address inside them? AREA_NONE always. Who asks for many asks
+ * areas_have(). */
 bool project_has(const struct project *project, struct iec_addr addr);
 /** pou_has_frame - is it called with parameters, on variables that lie elsewhere: a
  * FUNCTION, a FUNCTION_BLOCK? */

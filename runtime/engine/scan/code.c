@@ -21,14 +21,12 @@ static uint32_t type_size(uint32_t type)
 static bool in_area(const struct verifier *v, uint32_t offset, uint32_t size,
 		    bool write)
 {
-	for (uint32_t i = 0; i < size; i++) {
-		uint8_t mark = v->mark[offset + i];
+	const struct areas *areas = &v->program->areas;
+	enum iec_area area = areas_find(areas, offset);
 
-		if (mark != MARK_AREA_WRITE &&
-		    (write || mark != MARK_AREA_READ))
-			return false;
-	}
-	return true;
+	return area != AREA_NONE &&
+	       size <= areas->at[area] + areas->bytes[area] - offset &&
+	       (!write || iec_area_row(area)->access == ACCESS_WRITE);
 }
 
 bool verify_use(const struct verifier *v, uint32_t offset, uint32_t type,
@@ -206,17 +204,14 @@ static bool check_layout(struct verifier *v)
 	const struct program *p = v->program;
 	uint32_t end = v->areas;
 
-	for (int area = 1; area < AREA_COUNT; area++) {
-		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
-
-		memset(v->mark + row->offset, row->access == ACCESS_WRITE ?
-		       MARK_AREA_WRITE : MARK_AREA_READ, row->bytes);
-	}
+	for (int area = 1; area < AREA_COUNT; area++)
+		memset(v->mark + p->areas.at[area], MARK_AREA,
+		       p->areas.bytes[area]);
 	for (uint32_t i = 0; i < p->run_count; i++)
 		if (!mark_run(v, &p->run[i], &end))
 			return false;
-	if (v->mark[CODE_FALSE_AT(v->areas)] != MARK_FIXED + IEC_BOOL ||
-	    v->mark[CODE_TRUE_AT(v->areas)] != MARK_FIXED + IEC_BOOL ||
+	if (v->mark[CODE_FALSE_AT(&p->areas)] != MARK_FIXED + IEC_BOOL ||
+	    v->mark[CODE_TRUE_AT(&p->areas)] != MARK_FIXED + IEC_BOOL ||
 	    p->header->retain_offset > v->data_size ||
 	    p->header->retain_size > v->data_size - p->header->retain_offset ||
 	    p->header->budget > LIMIT_BUDGET ||
@@ -263,7 +258,7 @@ static bool check_init_bytes(struct verifier *v, uint32_t offset,
 			if (size > len ||
 			    !is_initial(mark % MARK_VALUE, bytes, size))
 				return verify_refuse(v, bytes);
-		} else if (mark != MARK_AREA_READ && mark != MARK_AREA_WRITE) {
+		} else if (mark != MARK_AREA) {
 			return verify_refuse(v, bytes);
 		}
 		if (size > len)
@@ -307,7 +302,7 @@ static bool check_bits(struct verifier *v)
 
 		if (bits->area <= AREA_NONE || bits->area >= AREA_COUNT)
 			return verify_refuse(v, bits);
-		most = iec_area_row((enum iec_area)bits->area)->bytes * 8;
+		most = p->areas.bytes[bits->area] * 8;
 		if (bits->area < area || (bits->area == area && bits->first < end) ||
 		    bits->first > most || bits->count > most - bits->first ||
 		    bits->slot >= v->data_size ||
@@ -324,6 +319,12 @@ static bool check_bits(struct verifier *v)
 
 /* ---- maps ---- */
 
+/* A bit, counted from the first area's start: that of some area. */
+static bool is_area_bit(const struct verifier *v, uint32_t bit)
+{
+	return areas_find(&v->program->areas, bit / 8) != AREA_NONE;
+}
+
 static bool check_symbol(struct verifier *v, uint32_t symbol, const char *name)
 {
 	uint32_t type = CODE_TYPE(symbol) & SYMBOL_TYPE;
@@ -339,7 +340,7 @@ static bool check_symbol(struct verifier *v, uint32_t symbol, const char *name)
 				       code_run_size(run) : type_size(type),
 				       false);
 	if (CODE_TYPE(symbol) & SYMBOL_BIT)
-		return type == IEC_BOOL && at / 8 < v->areas;
+		return type == IEC_BOOL && is_area_bit(v, at);
 	if (type == IEC_NONE)
 		return code_instance(v->program, at) != WORD_COUNT;
 	return verify_use(v, at, type, false);
@@ -420,6 +421,7 @@ void code_identity(const struct program *p, uint8_t out[32])
 
 	digest_sha256_init(&sha);
 	digest_sha256_add(&sha, head, sizeof(head));
+	digest_sha256_add(&sha, h->area_bytes, sizeof(h->area_bytes));
 	for (uint32_t i = 0; i < p->entry_count; i++)
 		digest_sha256_add(&sha, &p->entry[i], 2 * sizeof(uint32_t));
 	for (uint32_t i = 0; i < p->task_count; i++)
@@ -430,6 +432,24 @@ void code_identity(const struct program *p, uint8_t out[32])
 		digest_sha256_add(&sha, p->base + h->section[kind].offset,
 				  h->section[kind].size);
 	digest_sha256_end(&sha, out);
+}
+
+_Static_assert(AREA_COUNT <= CODE_AREAS, "no room for the sizes of all areas");
+
+/* Sizes of the areas, each within its bounds and all together too. */
+static bool check_areas(struct verifier *v)
+{
+	struct program *p = v->program;
+
+	for (int area = 0; area < CODE_AREAS; area++)
+		if (area < AREA_COUNT)
+			p->areas.bytes[area] = p->header->area_bytes[area];
+		else if (p->header->area_bytes[area])
+			return verify_refuse(v, &p->header->area_bytes[area]);
+	if (!areas_place(&p->areas))
+		return verify_refuse(v, p->header->area_bytes);
+	v->areas = p->areas.size;
+	return true;
 }
 
 bool code_open(const void *bytes, size_t len, struct arena *scratch,
@@ -444,10 +464,13 @@ bool code_open(const void *bytes, size_t len, struct arena *scratch,
 	out->header = bytes;
 	out->base = bytes;
 	find_sections(out);
-	v.areas = iec_areas_size();
 	v.data_size = out->header->data_size;
 	v.blocks_left = LIMIT_BLOCKS;
 	*why = DIAG_IMAGE_REFUSED;
+	if (!check_areas(&v)) {
+		*where = v.where;
+		return false;
+	}
 	if (v.data_size > LIMIT_DATA || v.data_size < v.areas + 2) {
 		*where = offsetof(struct code_header, data_size);
 		return false;

@@ -7,9 +7,9 @@
  * gives a program that the VM can run without one check at run time. It does not
  * translate and does not run.
  *
- * Data memory (`m`): the areas of catalog.def, one after another, from 0 to
- * iec_areas_size(); then the program's own data up to `data_size`. Offset
- * CODE_FALSE holds a constant 0 and CODE_TRUE a constant 1. A BOOL is a byte of 0
+ * Data memory (`m`): the areas of catalog.def, as large as the header says, one after
+ * another (base/areas.h); then the program's own data up to `data_size`. Offset
+ * CODE_FALSE_AT holds a constant 0 and CODE_TRUE_AT a constant 1. A BOOL is a byte of 0
  * or 1. Operands of instructions are words of 24 bits offset and 8 bits type.
  *
  * Instructions: a word `op | n << 8`, then operand words:
@@ -38,12 +38,14 @@
 #ifndef SCAN_CODE_H
 #define SCAN_CODE_H
 
+#include "engine/base/areas.h"
 #include "engine/base/arena.h"
 #include "engine/base/catalog.h"
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 5u
+#define CODE_VERSION 6u
+#define CODE_AREAS   16
 
 enum code_section_kind {
 	CODE_PROGRAMS = 1, /* struct code_program each                         */
@@ -77,6 +79,7 @@ struct code_header {
 	uint32_t core_runs; /* of CODE_LAYOUT; those behind are for watching  */
 	uint32_t words;     /* WORD_COUNT: numbers of words are of its catalogue */
 	uint32_t spare;     /* 0                                               */
+	uint32_t area_bytes[CODE_AREAS]; /* by enum iec_area; the others 0     */
 	struct code_section section[CODE_SECTION_COUNT];
 };
 
@@ -160,12 +163,13 @@ struct code_place {     /* from this word of CODE_TEXT on                  */
 /* Of an input of FN: it does not share the type of the others. */
 #define CODE_OWN         0x80000000u
 #define CODE_OPERAND(type, offset) ((uint32_t)(type) << 24 | (offset))
-#define CODE_FALSE_AT(areas) (areas)     /* first byte behind the areas    */
-#define CODE_TRUE_AT(areas)  ((areas) + 1)
+#define CODE_FALSE_AT(areas) ((areas)->size) /* first byte behind the areas */
+#define CODE_TRUE_AT(areas)  ((areas)->size + 1)
 
 /* A code image that was let in: pointers into bytes that the caller keeps. */
 struct program {
 	const struct code_header *header;
+	struct areas areas;     /* as the header has them                    */
 	const uint8_t *base;
 	const struct code_program *entry;
 	const struct code_task *task;
@@ -209,6 +213,27 @@ static inline uint32_t code_run_size(const struct code_run *run)
 }
 /** code_run_at - the run that holds this offset; NULL: none. Scan-safe: yes. */
 const struct code_run *code_run_at(const struct program *program, uint32_t offset);
+/** code_bits_find - where one bit of an area has a byte of its own; 0: it has none.
+ * @bits: ordered by area and first; @count of them.   Scan-safe: yes. */
+static inline uint32_t code_bits_find(const struct code_bits *bits, uint32_t count,
+				      enum iec_area area, uint32_t bit)
+{
+	uint32_t low = 0, high = count;
+
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+
+		if (bits[middle].area > area ||
+		    (bits[middle].area == area && bits[middle].first > bit))
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	if (low == 0 || bits[low - 1].area != area ||
+	    bit - bits[low - 1].first >= bits[low - 1].count)
+		return 0;
+	return bits[low - 1].slot + (bit - bits[low - 1].first);
+}
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);

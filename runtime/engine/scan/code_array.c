@@ -47,17 +47,6 @@ static bool in_run(const struct verifier *v, uint32_t offset, uint64_t end,
 	       end <= run->offset + (uint64_t)run->count * code_run_size(run);
 }
 
-static enum iec_area area_at(uint32_t offset)
-{
-	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++) {
-		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
-
-		if (offset - row->offset < row->bytes)
-			return (enum iec_area)area;
-	}
-	return AREA_NONE;
-}
-
 /* Of texts the marks do not tell the room: that is said by their runs. */
 static bool has_room(const struct verifier *v, uint32_t offset, uint32_t room)
 {
@@ -114,7 +103,8 @@ bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
 		return false;
 	if (offset < v->areas)
 		return end <= v->areas &&
-		       area_at(offset) == area_at((uint32_t)end - 1);
+		       areas_find(&v->program->areas, offset) ==
+		       areas_find(&v->program->areas, (uint32_t)end - 1);
 	if (in_run(v, offset, end, stride))
 		return true;
 	if (!v->seen)
@@ -132,13 +122,14 @@ bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
 bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
 		 bool write)
 {
+	const struct areas *areas = &v->program->areas;
 	uint64_t last = (uint64_t)first + count - 1;
+	enum iec_area area = areas_find(areas, first / 8);
 
-	if (!count || last / 8 >= v->areas ||
-	    area_at(first / 8) != area_at((uint32_t)(last / 8)))
+	if (!count || area == AREA_NONE || last / 8 >= v->areas ||
+	    area != areas_find(areas, (uint32_t)(last / 8)))
 		return false;
-	return !write ||
-	       iec_area_row(area_at(first / 8))->access == ACCESS_WRITE;
+	return !write || iec_area_row(area)->access == ACCESS_WRITE;
 }
 
 /* ---- bounds in names ---- */

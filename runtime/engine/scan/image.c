@@ -67,7 +67,7 @@ static void pack_all(struct image *image)
 
 void image_init(struct image *image, const struct program *program, void *memory)
 {
-	uint32_t areas = iec_areas_size();
+	const struct areas *areas = &program->areas;
 
 	image->memory = memory;
 	image->program = program;
@@ -82,39 +82,23 @@ void image_init(struct image *image, const struct program *program, void *memory
 
 uint8_t *image_area(struct image *image, enum iec_area area)
 {
-	return image->memory + iec_area_row(area)->offset;
+	return image->memory + image->program->areas.at[area];
 }
 
 /* The memory of one bit of an area: its own byte, or NULL when it is packed. */
 static uint8_t *bit_slot(const struct image *image, enum iec_area area,
 			 uint32_t bit)
 {
-	const struct program *program = image->program;
-	uint32_t low = 0, high = program->bits_count;
+	uint32_t slot = code_bits_find(image->program->bits,
+				       image->program->bits_count, area, bit);
 
-	while (low < high) {
-		uint32_t middle = low + (high - low) / 2;
-		const struct code_bits *bits = &program->bits[middle];
-
-		if (bits->area > area ||
-		    (bits->area == area && bits->first > bit))
-			high = middle;
-		else
-			low = middle + 1;
-	}
-	if (low == 0)
-		return NULL;
-	const struct code_bits *bits = &program->bits[low - 1];
-
-	if (bits->area != area || bit - bits->first >= bits->count)
-		return NULL;
-	return image->memory + bits->slot + (bit - bits->first);
+	return slot ? image->memory + slot : NULL;
 }
 
-static bool inside(enum iec_area area, uint32_t bit)
+static bool inside(const struct image *image, enum iec_area area, uint32_t bit)
 {
 	return area > AREA_NONE && area < AREA_COUNT &&
-	       bit / 8 < iec_area_row(area)->bytes;
+	       bit / 8 < image->program->areas.bytes[area];
 }
 
 static void set_packed(uint8_t *byte, uint32_t bit, bool value)
@@ -126,12 +110,12 @@ bool image_get_bit(const struct image *image, enum iec_area area, uint32_t bit)
 {
 	const uint8_t *slot;
 
-	if (!inside(area, bit))
+	if (!inside(image, area, bit))
 		return false;
 	slot = bit_slot(image, area, bit);
 	if (slot)
 		return *slot;
-	return image->memory[iec_area_row(area)->offset + bit / 8] >> bit % 8 & 1;
+	return image->memory[image->program->areas.at[area] + bit / 8] >> bit % 8 & 1;
 }
 
 bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
@@ -139,13 +123,12 @@ bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
 {
 	uint8_t *slot;
 
-	if (!inside(area, bit))
+	if (!inside(image, area, bit))
 		return false;
 	slot = bit_slot(image, area, bit);
 	if (slot)
 		*slot = value;
-	set_packed(&image->memory[iec_area_row(area)->offset + bit / 8], bit % 8,
-		   value);
+	set_packed(image_area(image, area) + bit / 8, bit % 8, value);
 	return true;
 }
 
@@ -169,33 +152,35 @@ static uint8_t pack8(const uint8_t *slot)
 	return (uint8_t)((spread * 0x0102040810204080u) >> 56);
 }
 
-static void unpack(uint8_t *m, const uint8_t *area, const struct code_bits *bits)
+static void unpack(uint8_t *slot, const uint8_t *area, const struct code_bits *bits)
 {
-	uint32_t k = 0;
+	uint32_t bit = bits->first, end = bit + bits->count;
 
-	for (; k < bits->count; k++) {
-		uint32_t bit = bits->first + k;
-
-		if (bit % 8 == 0 && bits->count - k >= 8) {
-			unpack8(m + bits->slot + k, area[bit / 8]);
-			k += 7;
-			continue;
+	while (bit < end) {
+		if (bit % 8 == 0 && end - bit >= 8) {
+			unpack8(slot, area[bit / 8]);
+			slot += 8;
+			bit += 8;
+		} else {
+			*slot++ = area[bit / 8] >> bit % 8 & 1;
+			bit++;
 		}
-		m[bits->slot + k] = area[bit / 8] >> bit % 8 & 1;
 	}
 }
 
-static void pack(const uint8_t *m, uint8_t *area, const struct code_bits *bits)
+static void pack(const uint8_t *slot, uint8_t *area, const struct code_bits *bits)
 {
-	for (uint32_t k = 0; k < bits->count; k++) {
-		uint32_t bit = bits->first + k;
+	uint32_t bit = bits->first, end = bit + bits->count;
 
-		if (bit % 8 == 0 && bits->count - k >= 8) {
-			area[bit / 8] = pack8(m + bits->slot + k);
-			k += 7;
-			continue;
+	while (bit < end) {
+		if (bit % 8 == 0 && end - bit >= 8) {
+			area[bit / 8] = pack8(slot);
+			slot += 8;
+			bit += 8;
+		} else {
+			set_packed(&area[bit / 8], bit % 8, *slot++);
+			bit++;
 		}
-		set_packed(&area[bit / 8], bit % 8, m[bits->slot + k]);
 	}
 }
 
@@ -221,11 +206,10 @@ void image_begin(struct image *image)
 
 	for (uint32_t i = 0; i < program->bits_count; i++) {
 		const struct code_bits *bits = &program->bits[i];
-		const struct iec_area_row *row =
-			iec_area_row((enum iec_area)bits->area);
+		uint8_t *area = image->memory + program->areas.at[bits->area];
 
-		if (row->access == ACCESS_READ)
-			unpack(image->memory, image->memory + row->offset, bits);
+		if (iec_area_row((enum iec_area)bits->area)->access == ACCESS_READ)
+			unpack(image->memory + bits->slot, area, bits);
 	}
 	hold(image);
 }
@@ -236,11 +220,10 @@ void image_end(struct image *image)
 
 	for (uint32_t i = 0; i < program->bits_count; i++) {
 		const struct code_bits *bits = &program->bits[i];
-		const struct iec_area_row *row =
-			iec_area_row((enum iec_area)bits->area);
+		uint8_t *area = image->memory + program->areas.at[bits->area];
 
-		if (row->access == ACCESS_WRITE)
-			pack(image->memory, image->memory + row->offset, bits);
+		if (iec_area_row((enum iec_area)bits->area)->access == ACCESS_WRITE)
+			pack(image->memory + bits->slot, area, bits);
 	}
 	hold(image);
 }
@@ -260,19 +243,16 @@ union iec_value image_get(const struct image *image, struct location at)
 /* Bits below a byte or word that was written: those that live a byte each. */
 static void spread(struct image *image, uint32_t where, uint32_t size)
 {
-	for (int area = 1; area < AREA_COUNT; area++) {
-		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
-		uint32_t first = (where - row->offset) * 8;
+	const struct areas *areas = &image->program->areas;
+	enum iec_area area = areas_find(areas, where);
+	uint32_t first = (where - areas->at[area]) * 8;
 
-		if (where < row->offset || where >= row->offset + row->bytes)
-			continue;
-		for (uint32_t bit = first; bit < first + size * 8; bit++) {
-			uint8_t *slot = bit_slot(image, (enum iec_area)area, bit);
+	for (uint32_t bit = first; bit < first + size * 8; bit++) {
+		uint8_t *slot = bit_slot(image, area, bit);
 
-			if (slot)
-				*slot = image->memory[row->offset + bit / 8] >>
-					bit % 8 & 1;
-		}
+		if (slot)
+			*slot = image->memory[areas->at[area] + bit / 8] >>
+				bit % 8 & 1;
 	}
 }
 
@@ -285,7 +265,7 @@ bool image_set(struct image *image, struct location at, union iec_value value)
 	if (at.type == IEC_BOOL)
 		value.i = value.i != 0;
 	iec_store(image->memory + at.where, at.type, value);
-	if (at.where < iec_areas_size())
+	if (at.where < image->program->areas.size)
 		spread(image, at.where, iec_type_row(at.type)->size);
 	return true;
 }

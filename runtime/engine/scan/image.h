@@ -52,7 +52,8 @@ void image_end(struct image *image);
 /**
  * image_area - the packed bytes of an area, for drivers
  *
- * Inputs are read from it by image_begin, outputs are in it after image_end.
+ * As many as image->program->areas.bytes says. Inputs are read from it by image_begin,
+ * outputs are in it after image_end.
  * Owns: the image.   Scan-safe: yes.
  */
 uint8_t *image_area(struct image *image, enum iec_area area);
@@ -63,7 +64,8 @@ bool image_get_bit(const struct image *image, enum iec_area area, uint32_t bit);
 bool image_set_bit(struct image *image, enum iec_area area, uint32_t bit,
 		   bool value);
 
-/** image_locate - where a direct address lives in this image. */
+/** image_locate - where a direct address lives in this image; type IEC_NONE: its areas
+ * do not reach there.   Scan-safe: yes. */
 struct location image_locate(const struct image *image, struct iec_addr addr);
 /** image_find - where a variable or address lives, by its name in the source:
  * `Motor`, `Main.Motor`, `Runout.Q`, `Table[3]`, `%QX0.0`, `Q3`. type IEC_NONE: unknown.

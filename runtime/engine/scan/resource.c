@@ -271,7 +271,7 @@ static void clear_area(struct resource *resource, enum iec_area area)
 {
 	const struct program *program = resource->image.program;
 
-	memset(image_area(&resource->image, area), 0, iec_area_row(area)->bytes);
+	memset(image_area(&resource->image, area), 0, program->areas.bytes[area]);
 	for (uint32_t i = 0; i < program->bits_count; i++) {
 		const struct code_bits *bits = &program->bits[i];
 

@@ -15,17 +15,13 @@
 #define TEXT_ALIGN 4u /* of a STRING in memory, and so in a copy */
 
 /* A byte or word of an area that the program cannot write is not its own. */
-static bool can_be_kept(struct location at)
+static bool can_be_kept(const struct areas *areas, struct location at)
 {
-	if (at.area != AREA_NONE)
-		return iec_area_row(at.area)->access == ACCESS_WRITE;
-	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++) {
-		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
+	enum iec_area area = at.area;
 
-		if (at.where >= row->offset && at.where - row->offset < row->bytes)
-			return row->access == ACCESS_WRITE;
-	}
-	return true;
+	if (area == AREA_NONE)
+		area = areas_find(areas, at.where);
+	return area == AREA_NONE || iec_area_row(area)->access == ACCESS_WRITE;
 }
 
 /* Room of the text at @where, as the layout has it; 0: none is there. */
@@ -69,7 +65,8 @@ static bool next_kept(const struct image *image, struct symbol_cursor *cursor,
 {
 	while (image_next_symbol(image, cursor, out))
 		if (out->flags & SYMBOL_RETAIN && !out->at.constant &&
-		    value_size(image->program, out) && can_be_kept(out->at))
+		    value_size(image->program, out) &&
+		    can_be_kept(&image->program->areas, out->at))
 			return true;
 	return false;
 }

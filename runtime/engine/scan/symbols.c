@@ -15,31 +15,24 @@
 struct location image_locate(const struct image *image, struct iec_addr addr)
 {
 	struct location at = { .type = iec_addr_type(addr) };
-	const struct iec_area_row *row = iec_area_row(addr.area);
+	const struct areas *areas = &image->program->areas;
 
-	(void)image;
-	if (addr.area == AREA_NONE)
+	if (!areas_have(areas, addr))
 		at.type = IEC_NONE;
 	else if (addr.bits == 1) {
 		at.area = addr.area;
 		at.where = addr.byte * 8 + addr.bit;
 	} else {
-		at.where = row->offset + addr.byte;
+		at.where = areas_byte(areas, addr);
 	}
 	return at;
 }
 
 /* A bit of the areas, counted from the first one's start, as one of its own. */
-static void locate_bit(struct location *at, uint32_t bit)
+static void locate_bit(const struct areas *areas, struct location *at, uint32_t bit)
 {
-	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++) {
-		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
-
-		if (bit / 8 >= row->offset && bit / 8 < row->offset + row->bytes) {
-			at->area = (enum iec_area)area;
-			at->where = bit - row->offset * 8;
-		}
-	}
+	at->area = areas_find(areas, bit / 8);
+	at->where = bit - areas->at[at->area] * 8;
 }
 
 static uint32_t stride_of(const struct program *p, const struct location *at)
@@ -76,7 +69,7 @@ bool image_next_declared(const struct program *p, struct declared_cursor *cursor
 	if (group->pou)
 		out->pou = p->string + p->entry[group->pou - 1].name;
 	if (CODE_TYPE(word) & SYMBOL_BIT)
-		locate_bit(&out->at, CODE_OFFSET(word));
+		locate_bit(&p->areas, &out->at, CODE_OFFSET(word));
 	out->array = code_bounds(out->name);
 	out->stride = stride_of(p, &out->at);
 	cursor->string += (uint32_t)strlen(out->name) + 1;

@@ -12,7 +12,7 @@
 
 /* Marks: MARK_TYPE + type at the first byte of a value; read-only ones too. */
 enum mark {
-	MARK_NONE, MARK_INSIDE, MARK_AREA_READ, MARK_AREA_WRITE,
+	MARK_NONE, MARK_INSIDE, MARK_AREA,
 	MARK_TEXT, /* a STRING behind its first byte: equal marks, equal room */
 	MARK_VALUE = 32, MARK_FIXED = 64,
 };

@@ -11,6 +11,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/literal.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static bool step_past(struct reader *r, const char *symbol)
@@ -41,22 +42,31 @@ static bool read_time(struct reader *r, int64_t *ns, uint32_t *text)
 	return true;
 }
 
-/* Digits only; false beyond @most. */
-static bool read_count(struct reader *r, uint32_t most, uint32_t *out)
+/* Digits only; UINT32_MAX: more than @most. The token is not stepped past. */
+static bool parse_count(struct reader *r, uint32_t most, uint32_t *out)
 {
 	const struct token *token = &r->lex.token;
-	uint32_t value = 0;
 
+	*out = 0;
 	if (token->kind != TOKEN_NUMBER)
 		return reader_fail_word(r, DIAG_EXPECTED, "number");
 	for (size_t i = 0; i < token->len; i++) {
 		if (!ascii_digit(token->text[i]))
 			return reader_fail_token(r, DIAG_BAD_LITERAL);
-		value = value * 10 + (uint32_t)(token->text[i] - '0');
-		if (value > most)
-			return reader_fail_token(r, DIAG_LITERAL_RANGE);
+		if (*out != UINT32_MAX)
+			*out = *out * 10 + (uint32_t)(token->text[i] - '0');
+		if (*out > most)
+			*out = UINT32_MAX;
 	}
-	*out = value;
+	return true;
+}
+
+static bool read_count(struct reader *r, uint32_t most, uint32_t *out)
+{
+	if (!parse_count(r, most, out))
+		return false;
+	if (*out == UINT32_MAX)
+		return reader_fail_token(r, DIAG_LITERAL_RANGE);
 	reader_step(r);
 	return true;
 }
@@ -153,6 +163,23 @@ static bool read_instance(struct reader *r, struct config_entry *entry)
 	return true;
 }
 
+static bool read_area_size(struct reader *r, const struct iec_area_row *row,
+			   uint32_t *out)
+{
+	char bounds[LIMIT_ARG];
+
+	if (!parse_count(r, row->most, out))
+		return false;
+	if (*out < row->least || *out > row->most) {
+		snprintf(bounds, sizeof(bounds), row->least == row->most ?
+			 "%s: always %u bytes" : "%s: %u to %u bytes",
+			 row->letters, (unsigned)row->least, (unsigned)row->most);
+		return reader_fail_word(r, DIAG_AREA_SIZE, bounds);
+	}
+	reader_step(r);
+	return true;
+}
+
 static bool read_area(struct reader *r, struct config_entry *entry)
 {
 	const struct token *token = &r->lex.token;
@@ -166,7 +193,7 @@ static bool read_area(struct reader *r, struct config_entry *entry)
 		return reader_fail_word(r, DIAG_EXPECTED,
 					"letters of an area, such as V");
 	reader_step(r);
-	return read_count(r, iec_area_row(entry->area)->bytes, &entry->bytes);
+	return read_area_size(r, iec_area_row(entry->area), &entry->bytes);
 }
 
 /* ---- lines ---- */

@@ -103,7 +103,7 @@ static bool leaves_area(const struct var *var)
 	uint64_t bits = var->at.byte * (uint64_t)8 + var->at.bit +
 			(uint64_t)var->at.bits * var->array.count;
 
-	return bits > iec_area_row(var->at.area)->bytes * (uint64_t)8;
+	return bits > iec_area_row(var->at.area)->most * (uint64_t)8;
 }
 
 /* Where an instance may be: a function keeps nothing, what is handed over is not a

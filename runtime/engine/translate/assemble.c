@@ -32,6 +32,7 @@ void *assemble(struct translation *translation, bool watch, size_t *len)
 		return NULL;
 	as->translation = translation;
 	as->arena = translation->arena;
+	as->areas = scope_areas(translation->scope);
 	as->entry = arena_alloc(as->arena, ((size_t)translation->unit_count + 1) *
 				sizeof(*as->entry));
 	if (!as->entry || !layout_make(as) || !assemble_section(as, false))

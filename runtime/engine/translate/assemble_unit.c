@@ -7,7 +7,7 @@
  */
 #include "engine/translate/lists.h"
 
-#define ALWAYS CODE_TRUE_AT(iec_areas_size())
+#define ALWAYS CODE_TRUE_AT(list->as->areas)
 
 const struct meaning *list_meaning(struct list *list, uint32_t operand)
 {
@@ -61,7 +61,7 @@ static struct bits set_aside(struct list *list, struct bits value)
 	uint32_t slot = scratch_new(list->as);
 
 	bits_store(list->as, &value, slot);
-	return bits_leaf(slot);
+	return bits_leaf(list->as, slot);
 }
 
 void list_protect(struct list *list, uint32_t offset, uint32_t size)
@@ -106,7 +106,7 @@ static struct bits settle(struct list *list, struct pending *pending,
 	drop_pending(list, pending);
 	list_protect(list, spot.offset, 1);
 	bits_store(list->as, &value, spot.offset);
-	return bits_leaf(spot.offset);
+	return bits_leaf(list->as, spot.offset);
 }
 
 static struct bits read_temp(struct list *list, int var, const struct meaning *m)
@@ -115,7 +115,7 @@ static struct bits read_temp(struct list *list, int var, const struct meaning *m
 	struct bits value;
 
 	if (!pending)
-		return bits_leaf(spot_of(list, m).offset);
+		return bits_leaf(list->as, spot_of(list, m).offset);
 	value = pending->value;
 	pending->left--;
 	if (pending->left > 0 && value.count > 1)
@@ -134,22 +134,22 @@ struct bits list_bits(struct list *list, const struct meaning *m)
 	if (m->kind == MEANING_LITERAL)
 		return bits_constant(m->literal.value.i != 0);
 	if (meaning_is_indexed(m))
-		return bits_leaf(CODE_OFFSET(list_fetch(list, m, ALWAYS, &slot)));
+		return bits_leaf(list->as, CODE_OFFSET(list_fetch(list, m, ALWAYS, &slot)));
 	if (var >= 0)
 		return read_temp(list, var, m);
 	spot = spot_of(list, m);
 	if (!spot.packed)
-		return bits_leaf(spot.offset);
+		return bits_leaf(list->as, spot.offset);
 	slot = scratch_new(list->as);
 	emit_op(list->as, VM_BITGET, spot.bit);
 	emit(list->as, spot.offset);
 	emit(list->as, slot);
-	return bits_leaf(slot);
+	return bits_leaf(list->as, slot);
 }
 
 uint32_t list_slot(struct list *list, const struct bits *value)
 {
-	uint32_t areas = iec_areas_size();
+	const struct areas *areas = list->as->areas;
 	struct bits kept;
 
 	if (value->count == 0)
@@ -392,7 +392,7 @@ static void store(struct list *list, const struct il_line *line)
 	list->now.kind = RESULT_NONE;
 	store_bits(list, m, &value);
 	list->now.kind = RESULT_BITS;
-	list->now.bits = bits_leaf(spot_of(list, m).offset);
+	list->now.bits = bits_leaf(list->as, spot_of(list, m).offset);
 	if (line->modifiers & MOD_N)
 		list->now.bits = bits_not(list->now.bits);
 }
@@ -406,7 +406,7 @@ static void set_reset(struct list *list, const struct il_line *line)
 		value = list_now_bits(list);
 		list_deposit(list, m, list_slot(list, &value),
 			     CODE_OPERAND(IEC_BOOL, line->op == OP_S ? ALWAYS :
-					  CODE_FALSE_AT(iec_areas_size())));
+					  CODE_FALSE_AT(list->as->areas)));
 		return;
 	}
 	old = list_bits(list, m);

@@ -33,6 +33,7 @@ struct bits {
 
 struct assembler {
 	struct translation *translation;
+	const struct areas *areas; /* of the project                          */
 	struct arena *arena;
 	bool failed;
 
@@ -44,7 +45,6 @@ struct assembler {
 	uint32_t data_size, retain_offset, retain_size;
 	uint32_t **offset;         /* by table (0 globals, unit + 1), index   */
 	uint8_t *byte_packed;      /* a byte an area byte                     */
-	uint32_t *bit_slot;        /* by area bit; 0: none                    */
 	struct words init;         /* offset, bytes, data …                   */
 	uint32_t *constant;        /* open hash: index + 1 in constant_key    */
 	struct constant_key *constant_key;
@@ -162,7 +162,7 @@ int layout_table(const struct assembler *as, const struct meaning *m);
 
 /* ---- fuse.c ---- */
 struct bits bits_constant(bool value);
-struct bits bits_leaf(uint32_t offset);
+struct bits bits_leaf(const struct assembler *as, uint32_t offset);
 struct bits bits_not(struct bits a);
 bool bits_is_leaf(const struct bits *a);
 bool bits_reads(const struct bits *a, uint32_t offset, uint32_t size);

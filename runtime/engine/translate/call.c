@@ -9,7 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
-#define TRUE_SLOT  CODE_TRUE_AT(iec_areas_size())
+#define TRUE_SLOT  CODE_TRUE_AT(list->as->areas)
 
 static const char *pin_text(const struct list *list, const struct il_line *arg)
 {
@@ -73,7 +73,7 @@ static void compare(struct list *list, enum word word, uint32_t left, uint32_t r
 	emit(list->as, left);
 	emit(list->as, right);
 	list->now = (struct il_result){
-		.kind = RESULT_BITS, .bits = bits_leaf(slot),
+		.kind = RESULT_BITS, .bits = bits_leaf(list->as, slot),
 	};
 }
 
@@ -149,7 +149,7 @@ static void apply(struct list *list, const struct applied *fn)
 	};
 	if (result == IEC_BOOL)
 		list->now = (struct il_result){
-			.kind = RESULT_BITS, .bits = bits_leaf(CODE_OFFSET(to)),
+			.kind = RESULT_BITS, .bits = bits_leaf(list->as, CODE_OFFSET(to)),
 		};
 }
 
@@ -260,7 +260,7 @@ static struct target bool_target(struct list *list, const struct meaning *m,
 
 static void finish_target(struct list *list, const struct target *target)
 {
-	struct bits value = bits_leaf(target->slot);
+	struct bits value = bits_leaf(list->as, target->slot);
 
 	if (target->m && target->beside)
 		list_write_bits(list, target->m, &value);
@@ -428,7 +428,7 @@ static void feed_pin(struct list *list, const struct meaning *instance,
 		return;
 	}
 	if (pin.type == IEC_BOOL) {
-		bits = fetched ? bits_leaf(CODE_OFFSET(fetched))
+		bits = fetched ? bits_leaf(list->as, CODE_OFFSET(fetched))
 			       : list_bits(list, m);
 		list_protect(list, to, 1);
 		bits_store(list->as, &bits, to);
@@ -455,7 +455,7 @@ static void take_pin(struct list *list, const struct meaning *instance,
 	pin.offset += row->pin[pin.pin].offset;
 	spot = layout_spot(list->as, &pin);
 	if (pin.type == IEC_BOOL) {
-		bits = bits_leaf(spot.offset);
+		bits = bits_leaf(list->as, spot.offset);
 		list_write_bits(list, m, &bits);
 		return;
 	}
@@ -513,7 +513,7 @@ int list_skip_missing(struct list *list, bool kept, uint32_t fetched[LIMIT_ARGS]
 		return -1;
 	if (!kept)
 		list_keep_all(list);
-	return jump_over(list, bits_not(bits_leaf(ok)));
+	return jump_over(list, bits_not(bits_leaf(list->as, ok)));
 }
 
 void list_fetch_args(struct list *list, struct bits *en,
@@ -530,7 +530,7 @@ void list_fetch_args(struct list *list, struct bits *en,
 			continue;
 		fetched[i] = list_fetch(list, list_meaning(list, arg->operand),
 					list_slot(list, en), &ok);
-		*en = bits_leaf(ok);
+		*en = bits_leaf(list->as, ok);
 	}
 }
 

@@ -68,7 +68,7 @@ static void feed(struct list *list, uint32_t to, const struct word_pin *pin,
 		copy_whole(list, to, layout_spot(list->as, m).offset,
 			   size_of(list, m));
 	} else if (pin->type == IEC_BOOL) {
-		bits = fetched ? bits_leaf(CODE_OFFSET(fetched))
+		bits = fetched ? bits_leaf(list->as, CODE_OFFSET(fetched))
 			       : list_bits(list, m);
 		list_protect(list, to, 1);
 		bits_store(list->as, &bits, to);
@@ -81,7 +81,7 @@ static void feed(struct list *list, uint32_t to, const struct word_pin *pin,
 static void take(struct list *list, uint32_t from, enum iec_type type,
 		 const struct meaning *m)
 {
-	struct bits bits = bits_leaf(from);
+	struct bits bits = bits_leaf(list->as, from);
 
 	if (is_whole(m))
 		copy_whole(list, layout_spot(list->as, m).offset, from,
@@ -89,7 +89,7 @@ static void take(struct list *list, uint32_t from, enum iec_type type,
 	else if (type == IEC_BOOL)
 		list_write_bits(list, m, &bits);
 	else if (meaning_is_indexed(m))
-		list_deposit(list, m, CODE_TRUE_AT(iec_areas_size()),
+		list_deposit(list, m, CODE_TRUE_AT(list->as->areas),
 			     CODE_OPERAND(type, from));
 	else
 		list_copy(list, list_number(list, m, m->type),
@@ -216,7 +216,7 @@ static int skip_unless(struct list *list, struct bits *en)
 		return -1;
 	slot = scratch_new(list->as);
 	bits_store(list->as, en, slot);
-	*en = bits_leaf(slot);
+	*en = bits_leaf(list->as, slot);
 	list->now.kind = RESULT_BITS;
 	list->now.bits = *en;
 	return list_skip_call(list, &jump);
@@ -358,14 +358,14 @@ static void feed_now(struct list *list, uint32_t to, const struct word_pin *pin)
 /* The result is kept beside the frame, which the next call uses again. */
 static void result_now(struct list *list, uint32_t from, enum iec_type type)
 {
-	struct bits bits = bits_leaf(from);
+	struct bits bits = bits_leaf(list->as, from);
 	uint32_t slot;
 
 	if (type == IEC_BOOL) {
 		slot = scratch_new(list->as);
 		bits_store(list->as, &bits, slot);
 		list->now = (struct il_result){
-			.kind = RESULT_BITS, .bits = bits_leaf(slot),
+			.kind = RESULT_BITS, .bits = bits_leaf(list->as, slot),
 		};
 		return;
 	}

@@ -39,7 +39,7 @@ uint32_t scratch_new(struct assembler *as)
 			  sizeof(*slot));
 	if (!slot) {
 		as->failed = true;
-		return CODE_FALSE_AT(iec_areas_size());
+		return CODE_FALSE_AT(as->areas);
 	}
 	as->scratch_used++;
 	return *slot = layout_tail(as, RUN_VALUES, IEC_BOOL);
@@ -50,9 +50,9 @@ struct bits bits_constant(bool value)
 	return (struct bits){ .table = value ? 0xff : 0x00 };
 }
 
-struct bits bits_leaf(uint32_t offset)
+struct bits bits_leaf(const struct assembler *as, uint32_t offset)
 {
-	uint32_t areas = iec_areas_size();
+	const struct areas *areas = as->areas;
 
 	if (offset == CODE_TRUE_AT(areas) || offset == CODE_FALSE_AT(areas))
 		return bits_constant(offset == CODE_TRUE_AT(areas));
@@ -137,7 +137,7 @@ struct bits bits_combine(struct assembler *as, struct bits a, struct bits b,
 
 void bits_store(struct assembler *as, const struct bits *a, uint32_t offset)
 {
-	uint32_t none = CODE_FALSE_AT(iec_areas_size());
+	uint32_t none = CODE_FALSE_AT(as->areas);
 
 	if (bits_is_leaf(a) && a->leaf[0] == offset)
 		return;
@@ -162,5 +162,5 @@ struct bits bits_keep(struct assembler *as, const struct bits *a)
 		return *a;
 	slot = scratch_new(as);
 	bits_store(as, a, slot);
-	return bits_leaf(slot);
+	return bits_leaf(as, slot);
 }

@@ -175,20 +175,16 @@ static bool is_power(const struct assembler *as, const struct var *var)
 
 /* ---- bits of areas ---- */
 
-static uint32_t area_byte(struct iec_addr addr)
-{
-	return iec_area_row(addr.area)->offset + addr.byte;
-}
-
 static void use_address(struct assembler *as, uint8_t *used,
 			struct iec_addr addr)
 {
 	if (addr.area == AREA_NONE)
 		return;
 	if (addr.bits == 1)
-		used[area_byte(addr)] |= (uint8_t)(1u << addr.bit);
+		used[areas_byte(as->areas, addr)] |= (uint8_t)(1u << addr.bit);
 	else
-		memset(as->byte_packed + area_byte(addr), 1, addr.bits / 8u);
+		memset(as->byte_packed + areas_byte(as->areas, addr), 1,
+		       addr.bits / 8u);
 }
 
 /* Whatever an index may lead to stays packed, bits too. */
@@ -196,9 +192,10 @@ static void use_addresses(struct assembler *as, struct iec_addr first,
 			  uint32_t count)
 {
 	struct iec_addr last = vars_shift(first, count - 1);
-	uint32_t end = area_byte(last) + (last.bits + 7u) / 8;
+	uint32_t begin = areas_byte(as->areas, first);
+	uint32_t end = areas_byte(as->areas, last) + (last.bits + 7u) / 8;
 
-	memset(as->byte_packed + area_byte(first), 1, end - area_byte(first));
+	memset(as->byte_packed + begin, 1, end - begin);
 }
 
 static void use_meaning(struct assembler *as, uint8_t *used,
@@ -237,7 +234,6 @@ static void add_bit(struct assembler *as, int area, uint32_t bit, uint32_t slot)
 	struct code_bits *last = as->bit_run_count ?
 		&as->bit_run[as->bit_run_count - 1] : NULL;
 
-	as->bit_slot[iec_area_row((enum iec_area)area)->offset * 8 + bit] = slot;
 	if (last && last->area == (uint32_t)area &&
 	    last->first + last->count == bit && last->slot + last->count == slot) {
 		last->count++;
@@ -249,6 +245,13 @@ static void add_bit(struct assembler *as, int area, uint32_t bit, uint32_t slot)
 		*last = (struct code_bits){ (uint32_t)area, bit, 1, slot };
 	else
 		as->failed = true;
+}
+
+/* The byte of one bit of an area; 0: it is packed. */
+static uint32_t bit_slot(const struct assembler *as, struct iec_addr addr)
+{
+	return code_bits_find(as->bit_run, (uint32_t)as->bit_run_count, addr.area,
+			      addr.byte * 8 + addr.bit);
 }
 
 static void place_byte(struct assembler *as, int area, uint32_t byte,
@@ -274,12 +277,11 @@ static void use_located(struct assembler *as, uint8_t *used,
 static bool place_bits(struct assembler *as)
 {
 	struct translation *t = as->translation;
-	uint8_t *used = arena_alloc(as->arena, iec_areas_size());
+	const struct areas *areas = as->areas;
+	uint8_t *used = arena_alloc(as->arena, areas->size);
 
-	as->byte_packed = arena_alloc(as->arena, iec_areas_size());
-	as->bit_slot = arena_alloc(as->arena,
-				   iec_areas_size() * 8u * sizeof(uint32_t));
-	if (!used || !as->byte_packed || !as->bit_slot)
+	as->byte_packed = arena_alloc(as->arena, areas->size);
+	if (!used || !as->byte_packed)
 		return false;
 	for (int table = 0; table <= t->unit_count; table++)
 		for (int i = 0; i < layout_vars(as, table)->count; i++)
@@ -287,13 +289,11 @@ static bool place_bits(struct assembler *as)
 	for (int i = 0; i < t->unit_count; i++)
 		use_list(as, used, t->unit[i].pou, &t->unit[i].il);
 	for (int area = 1; area < AREA_COUNT; area++) {
-		const struct iec_area_row *row = iec_area_row((enum iec_area)area);
+		uint32_t at = areas->at[area];
 
-		for (uint32_t byte = 0; byte < row->bytes; byte++)
-			if (used[row->offset + byte] &&
-			    !as->byte_packed[row->offset + byte])
-				place_byte(as, area, byte,
-					   used[row->offset + byte]);
+		for (uint32_t byte = 0; byte < areas->bytes[area]; byte++)
+			if (used[at + byte] && !as->byte_packed[at + byte])
+				place_byte(as, area, byte, used[at + byte]);
 	}
 	return true;
 }
@@ -447,14 +447,14 @@ static void init_in_area(struct assembler *as, uint8_t *area,
 			 struct iec_addr addr, enum iec_type type,
 			 union iec_value value)
 {
-	uint32_t at = area_byte(addr), slot;
+	uint32_t at = areas_byte(as->areas, addr), slot;
 	uint8_t bit = (uint8_t)(1u << addr.bit);
 
 	if (addr.bits != 1) {
 		iec_store(area + at, type, value);
 		return;
 	}
-	slot = as->bit_slot[at * 8 + addr.bit];
+	slot = bit_slot(as, addr);
 	if (slot)
 		layout_init(as, slot, IEC_BOOL, value);
 	else
@@ -477,7 +477,7 @@ static void init_var_in_area(struct assembler *as, uint8_t *area,
 /* Variables with AT may lie over each other: the later one wins, bit by bit. */
 static bool init_located(struct assembler *as)
 {
-	uint8_t *area = arena_alloc(as->arena, iec_areas_size());
+	uint8_t *area = arena_alloc(as->arena, as->areas->size);
 
 	if (!area)
 		return false;
@@ -488,7 +488,7 @@ static bool init_located(struct assembler *as)
 			if (var->has_init && var->at.area != AREA_NONE)
 				init_var_in_area(as, area, var);
 		}
-	for (uint32_t i = 0; i < iec_areas_size(); i++)
+	for (uint32_t i = 0; i < as->areas->size; i++)
 		if (area[i])
 			layout_init(as, i, IEC_BYTE,
 				    (union iec_value){ .i = area[i] });
@@ -516,7 +516,7 @@ static bool make_tables(struct assembler *as)
 
 bool layout_make(struct assembler *as)
 {
-	as->data_size = iec_areas_size();
+	as->data_size = as->areas->size;
 	place_value(as, RUN_CONSTANTS, IEC_BOOL); /* CODE_FALSE */
 	place_value(as, RUN_CONSTANTS, IEC_BOOL); /* CODE_TRUE  */
 	if (!make_tables(as))
@@ -556,12 +556,12 @@ struct spot layout_spot(const struct assembler *as, const struct meaning *m)
 		spot.offset = as->offset[layout_table(as, m)][m->index] +
 			      m->offset;
 	} else if (m->addr.bits != 1) {
-		spot.offset = area_byte(m->addr);
+		spot.offset = areas_byte(as->areas, m->addr);
 	} else {
-		spot.offset = as->bit_slot[area_byte(m->addr) * 8 + m->addr.bit];
+		spot.offset = bit_slot(as, m->addr);
 		if (!spot.offset) {
 			spot.packed = true;
-			spot.offset = area_byte(m->addr);
+			spot.offset = areas_byte(as->areas, m->addr);
 			spot.bit = m->addr.bit;
 		}
 	}

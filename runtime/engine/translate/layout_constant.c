@@ -129,7 +129,7 @@ uint32_t layout_text(struct assembler *as, const struct literal *literal)
 	key = arena_push(as->arena, &as->text_key, &as->text_count, sizeof(*key));
 	if (!key) {
 		as->failed = true;
-		return iec_areas_size();
+		return as->areas->size;
 	}
 	*key = (struct text_key){
 		.text = arena_copy(as->arena, text, len), .len = len,
@@ -170,7 +170,8 @@ static bool grow_constants(struct assembler *as)
 uint32_t layout_constant(struct assembler *as, enum iec_type type,
 			 union iec_value value)
 {
-	uint32_t areas = iec_areas_size(), at;
+	const struct areas *areas = as->areas;
+	uint32_t at;
 	struct constant_key *key;
 
 	if (type == IEC_BOOL)
@@ -178,7 +179,7 @@ uint32_t layout_constant(struct assembler *as, enum iec_type type,
 	if ((uint32_t)as->constant_count * 2 >= as->constant_mask &&
 	    !grow_constants(as)) {
 		as->failed = true;
-		return areas;
+		return areas->size;
 	}
 	at = constant_hash(type, value.i);
 	for (; as->constant[at & as->constant_mask]; at++) {
@@ -190,7 +191,7 @@ uint32_t layout_constant(struct assembler *as, enum iec_type type,
 			 sizeof(*key));
 	if (!key) {
 		as->failed = true;
-		return areas;
+		return areas->size;
 	}
 	as->constant[at & as->constant_mask] = (uint32_t)as->constant_count;
 	*key = (struct constant_key){ type, value.i,

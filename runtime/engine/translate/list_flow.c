@@ -51,7 +51,7 @@ void list_flow(struct list *list, const struct il_line *line)
 			condition = bits_not(condition);
 		slot = list_slot(list, &condition);
 		if (!(line->modifiers & MOD_N))
-			list->now.bits = bits_leaf(slot);
+			list->now.bits = bits_leaf(list->as, slot);
 	}
 	list_place(list);
 	list->straight = false;

@@ -39,7 +39,7 @@ static void operate(struct list *list, enum op op, enum iec_type type,
 	list_place(list);
 	emit_op(as, VM_FN, (uint32_t)type | count << 8 | (uint32_t)type << 16);
 	emit(as, op_function(op));
-	emit(as, CODE_TRUE_AT(iec_areas_size()));
+	emit(as, CODE_TRUE_AT(as->areas));
 	emit(as, list_sink(as, IEC_BOOL));
 	emit(as, to);
 	for (uint32_t i = 0; i < count; i++)

@@ -68,8 +68,7 @@ static uint32_t symbol_word(struct assembler *as, const struct maps *maps,
 
 	if (var->at.area != AREA_NONE && var->at.bits == 1) {
 		mark |= SYMBOL_BIT;
-		offset = iec_area_row(var->at.area)->offset + var->at.byte;
-		offset = offset * 8 + var->at.bit;
+		offset = areas_byte(as->areas, var->at) * 8 + var->at.bit;
 	}
 	if (maps->declared[var->fold] > 1)
 		mark |= SYMBOL_SHARED;
@@ -310,10 +309,10 @@ static uint32_t power_offset(struct assembler *as, const struct pou *pou,
 	enum diag_id why;
 
 	if (!name)
-		return CODE_TRUE_AT(iec_areas_size());
+		return CODE_TRUE_AT(as->areas);
 	m = scope_find(as->translation->scope, pou, name, &why);
 	if (!m || m->kind == MEANING_LITERAL)
-		return CODE_TRUE_AT(iec_areas_size());
+		return CODE_TRUE_AT(as->areas);
 	return layout_spot(as, m).offset;
 }
 
@@ -533,6 +532,7 @@ static void *write_pieces(struct assembler *as, const struct piece *piece,
 	header->budget = LIMIT_BUDGET;
 	header->words = WORD_COUNT;
 	header->core_runs = (uint32_t)as->run_core;
+	memcpy(header->area_bytes, as->areas->bytes, sizeof(as->areas->bytes));
 	*len = size;
 	size = sizeof(*header);
 	for (int i = 1; i < CODE_SECTION_COUNT; i++) {

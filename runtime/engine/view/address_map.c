@@ -6,15 +6,15 @@
 
 #include <stdlib.h>
 
-static uint32_t first_bit(struct iec_addr addr)
+static uint32_t first_bit(const struct areas *areas, struct iec_addr addr)
 {
-	return (iec_area_row(addr.area)->offset + addr.byte) * 8 + addr.bit;
+	return areas_byte(areas, addr) * 8 + addr.bit;
 }
 
 /* Behind the last bit of its area. */
-static uint32_t area_end(enum iec_area area)
+static uint32_t area_end(const struct areas *areas, enum iec_area area)
 {
-	return (iec_area_row(area)->offset + iec_area_row(area)->bytes) * 8;
+	return (areas->at[area] + areas->bytes[area]) * 8;
 }
 
 static void mark(uint8_t *map, uint32_t at, uint32_t end)
@@ -42,9 +42,11 @@ static uint32_t bits_of(struct project *project, const struct xref_target *targe
 bool address_map_make(struct address_map *out, const struct xref *xref,
 		      struct arena *arena)
 {
-	const size_t bytes = (size_t)iec_areas_size() + 1;
+	const struct areas *areas = &out->areas;
+	size_t bytes;
 
-	*out = (struct address_map){ .project = xref->project };
+	project_areas(xref->project, &out->areas);
+	bytes = (size_t)areas->size + 1;
 	out->used = arena_alloc(arena, bytes);
 	out->reached = arena_alloc(arena, bytes);
 	if (!out->used || !out->reached)
@@ -56,12 +58,12 @@ bool address_map_make(struct address_map *out, const struct xref *xref,
 
 		if (area == AREA_NONE)
 			continue;
-		at = first_bit(use->target.addr);
+		at = first_bit(areas, use->target.addr);
 		end = at + bits_of(xref->project, &use->target);
-		end = end < area_end(area) ? end : area_end(area);
+		end = end < area_end(areas, area) ? end : area_end(areas, area);
 		mark(out->used, at, end);
 		if (use->target.what == XREF_ADDRESS && use->open)
-			end = area_end(area);
+			end = area_end(areas, area);
 		mark(out->reached, at, end);
 	}
 	return true;
@@ -71,9 +73,9 @@ bool address_map_is_used(const struct address_map *map, struct iec_addr addr)
 {
 	uint32_t at;
 
-	if (addr.area == AREA_NONE)
+	if (!areas_have(&map->areas, addr))
 		return false;
-	at = first_bit(addr);
+	at = first_bit(&map->areas, addr);
 	return is_marked(map->used, at, at + addr.bits);
 }
 
@@ -81,8 +83,8 @@ static bool search(const struct address_map *map, const uint8_t *marks,
 		   enum iec_area area, uint32_t bits, uint32_t count, uint32_t from,
 		   struct iec_addr *out)
 {
-	const uint32_t base = iec_area_row(area)->offset * 8;
-	const uint64_t size = (uint64_t)project_area_bytes(map->project, area) * 8;
+	const uint32_t base = map->areas.at[area] * 8;
+	const uint64_t size = (uint64_t)map->areas.bytes[area] * 8;
 	uint32_t at = (from + bits - 1) / bits * bits;
 
 	for (; (uint64_t)at + (uint64_t)bits * count <= size; at += bits) {
@@ -127,6 +129,14 @@ static int by_first(const void *left, const void *right)
 	return a->use < b->use ? -1 : a->use > b->use;
 }
 
+/* All areas far apart: what is declared beyond the end of one lies in no other. */
+static uint32_t apart(struct iec_addr addr)
+{
+	return (uint32_t)addr.area << 27 | (addr.byte * 8 + addr.bit);
+}
+_Static_assert(LIMIT_MEMORY * 8 + LIMIT_ELEMENTS * 64 <= 1u << 27 && AREA_COUNT <= 32,
+	       "areas have room");
+
 /* Every variable with an address, and every address that is used, each once. */
 static int ranges_of(struct xref *xref, struct range *range)
 {
@@ -138,7 +148,7 @@ static int ranges_of(struct xref *xref, struct range *range)
 		if (use->target.addr.area == AREA_NONE ||
 		    (use->target.what == XREF_VARIABLE && use->kind != XREF_DECLARED))
 			continue;
-		range[count].first = first_bit(use->target.addr);
+		range[count].first = apart(use->target.addr);
 		range[count].end = range[count].first +
 				   bits_of(xref->project, &use->target);
 		range[count++].use = i;

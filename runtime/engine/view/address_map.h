@@ -9,7 +9,7 @@
 #include "engine/view/xref.h"
 
 struct address_map {
-	const struct project *project;
+	struct areas areas; /* of the project                                 */
 	uint8_t *used;     /* a bit for each one of all areas                 */
 	uint8_t *reached;  /* those too that an index may lead to: %MW0[i]    */
 };
@@ -23,12 +23,12 @@ bool address_map_make(struct address_map *out, const struct xref *xref,
  * @after: NULL, or the first one looked at is that behind it
  *
  * One of more than a bit stands at a multiple of its bytes. What an index may lead to is
- * given out only when there is nothing else. Inside what the configuration allows.
+ * given out only when there is nothing else. Inside the area as the project has it.
  * Scan-safe: no.   Fails: false: there is none.
  */
 bool address_map_next(const struct address_map *map, enum iec_area area, int bits,
 		      uint32_t count, const struct iec_addr *after, struct iec_addr *out);
-/** address_map_is_used - has one of its bits a use or a variable? */
+/** address_map_is_used - has one of its bits a use or a variable? Not beyond its area. */
 bool address_map_is_used(const struct address_map *map, struct iec_addr addr);
 
 /* The same memory under two names: variables, or an address and a variable. */

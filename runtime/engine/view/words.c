@@ -189,6 +189,14 @@ static void note_operator(const struct op_row *op, const struct sink *sink)
 		sink_printf(sink, " %s( %sN(", word, word);
 }
 
+static void note_size(const struct iec_area_row *area, const struct sink *sink)
+{
+	sink_printf(sink, "%u bytes", (unsigned)area->usual);
+	if (area->most != area->usual)
+		sink_printf(sink, " (AREA: %u to %u)", (unsigned)area->least,
+			    (unsigned)area->most);
+}
+
 static void note_type(const struct iec_type_row *type, const struct sink *sink)
 {
 	sink_printf(sink, "%d byte%s", type->size, type->size == 1 ? "" : "s");
@@ -275,7 +283,8 @@ void words_note(const struct words_entry *entry, const struct sink *sink)
 		note_type(entry->type, sink);
 		break;
 	case WORDS_AREA:
-		sink_printf(sink, "%u bytes, programs %s", entry->area->bytes,
+		note_size(entry->area, sink);
+		sink_printf(sink, ", programs %s",
 			    entry->area->access == ACCESS_READ ?
 			    "only read it" : "read and write it");
 		break;
@@ -456,8 +465,9 @@ static void json_entry(const struct words_entry *entry, const struct sink *sink)
 	if (entry->kind == WORDS_TYPE)
 		sink_printf(sink, ", \"bytes\": %d", entry->type->size);
 	if (entry->area)
-		sink_printf(sink, ", \"bytes\": %u, \"writable\": %s",
-			    entry->area->bytes,
+		sink_printf(sink, ", \"bytes\": %u, \"most_bytes\": %u, "
+			    "\"writable\": %s", (unsigned)entry->area->usual,
+			    (unsigned)entry->area->most,
 			    entry->area->access == ACCESS_WRITE ? "true" :
 								  "false");
 	if (entry->sys) {

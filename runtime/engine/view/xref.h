@@ -91,6 +91,9 @@ struct xref_target xref_variable(struct project *project, int table, int index);
  */
 int xref_name(const struct project *project, const struct xref_target *target,
 	      const struct xref_use *use, char *out, size_t size);
+/** xref_rank - in which order lists show things: names in that of their declarations,
+ * then addresses, then what is unknown. */
+int64_t xref_rank(const struct xref_target *target);
 /** xref_kind_word - "coil", "read". Lives for ever. */
 const char *xref_kind_word(enum xref_kind kind);
 /** xref_text - the whole text that the use stands in; "" for none. */

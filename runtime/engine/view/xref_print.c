@@ -127,8 +127,7 @@ static bool is_wanted(const struct xref *xref, const struct xref_use *use,
 
 /* ---- order ---- */
 
-/* Names first, in the order of their declarations; then addresses, then the rest. */
-static int64_t rank(const struct xref_target *target)
+int64_t xref_rank(const struct xref_target *target)
 {
 	static const int64_t first[] = {
 		[XREF_POU] = 0, [XREF_STRUCTURE] = 1, [XREF_VARIABLE] = 2,
@@ -149,8 +148,9 @@ static void merge(const struct xref *xref, const int *from, int *to, int a, int 
 	int i = a, k = b;
 
 	for (int n = a; n < end; n++) {
-		bool left = i < b && (k >= end || rank(&xref->use[from[i]].target) <=
-				      rank(&xref->use[from[k]].target));
+		bool left = i < b && (k >= end ||
+					xref_rank(&xref->use[from[i]].target) <=
+					xref_rank(&xref->use[from[k]].target));
 
 		to[n] = left ? from[i++] : from[k++];
 	}

@@ -69,6 +69,8 @@ static void foreign(const char *map)
 	      "an image of another byte order: LD611, no line was taken");
 	check(is_refused(file_case("bad-rules.rungc"), map, "LD613"),
 	      "an image that breaks a rule: LD613, no line was taken");
+	check(is_refused(file_case("bad-areas.rungc"), map, "LD613"),
+	      "an image with more outputs than its header says: LD613, no line was taken");
 }
 
 /* At most @most lengths, from nothing to one byte less. */

@@ -75,6 +75,10 @@ int make_bad(const char *folder, const char *image)
 	seal(bad);
 	saved = saved && save(folder, "bad-rules.rungc", bad, len);
 	memcpy(bad, good, sizeof(bad));
+	header->area_bytes[AREA_Q] = 0;
+	seal(bad);
+	saved = saved && save(folder, "bad-areas.rungc", bad, len);
+	memcpy(bad, good, sizeof(bad));
 	header->data_size = LIMIT_DATA;
 	seal(bad);
 	saved = saved && save(folder, "bad-memory.rungc", bad, len);

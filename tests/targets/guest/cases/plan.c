@@ -73,15 +73,11 @@ static bool tell(const char *what)
 /* A word of an area lives in memory at its area's place. */
 static bool is_word_of_lines(struct location at)
 {
-	for (int area = AREA_NONE + 1; area < AREA_COUNT; area++) {
-		const struct iec_area_row *row =
-			iec_area_row((enum iec_area)area);
+	enum iec_area area = areas_find(&ladder_program(maker.ladder)->areas,
+					at.where);
 
-		if (area != AREA_M && area != AREA_V && area != AREA_SM &&
-		    at.where - row->offset < row->bytes)
-			return true;
-	}
-	return false;
+	return area != AREA_NONE && area != AREA_M && area != AREA_V &&
+	       area != AREA_SM;
 }
 
 /* Of inputs and outputs, that is. */

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * panel - lists of rows in columns. What makes them look again is panel_watch.c's.
+ */
+#include "editor-gtk/panel.h"
+
+#include "editor-gtk/i18n.h"
+
+/* ---- cells ---- */
+
+static const char *tone_icon(enum panel_tone tone)
+{
+	static const char *const icon[] = {
+		[PANEL_PLAIN] = NULL, [PANEL_WARNING] = "dialog-warning-symbolic",
+		[PANEL_ERROR] = "dialog-error-symbolic",
+	};
+
+	return icon[tone];
+}
+
+void panel_speak(GtkWidget *cell, const LadderPanelRow *row)
+{
+	GtkWidget *of_cell = gtk_widget_get_parent(cell);
+	GtkWidget *of_row = of_cell ? gtk_widget_get_parent(of_cell) : NULL;
+
+	if (of_row && row->spoken)
+		gtk_accessible_update_property(GTK_ACCESSIBLE(of_row),
+			GTK_ACCESSIBLE_PROPERTY_LABEL, row->spoken, -1);
+}
+
+static void setup_label(GtkSignalListItemFactory *factory, GtkListItem *item,
+			gpointer column)
+{
+	GtkWidget *label = gtk_label_new(NULL);
+
+	(void)factory;
+	(void)column;
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+	gtk_list_item_set_child(item, label);
+}
+
+static void bind_label(GtkSignalListItemFactory *factory, GtkListItem *item,
+		       gpointer column)
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	GtkWidget *label = gtk_list_item_get_child(item);
+	const char *text = panel_row_text(row, GPOINTER_TO_INT(column));
+
+	(void)factory;
+	gtk_label_set_text(GTK_LABEL(label), text);
+	gtk_widget_set_tooltip_text(label, *text ? text : NULL);
+	panel_speak(label, row);
+}
+
+static void setup_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
+		       gpointer unused)
+{
+	(void)factory;
+	(void)unused;
+	gtk_list_item_set_child(item, gtk_image_new());
+}
+
+static void bind_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
+		      gpointer unused)
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	GtkWidget *image = gtk_list_item_get_child(item);
+
+	(void)factory;
+	(void)unused;
+	gtk_image_set_from_icon_name(GTK_IMAGE(image), tone_icon(row->tone));
+	gtk_widget_remove_css_class(image, row->tone == PANEL_ERROR ? "warning" : "error");
+	if (row->tone != PANEL_PLAIN)
+		gtk_widget_add_css_class(image, row->tone == PANEL_ERROR ? "error" :
+					 "warning");
+	gtk_widget_set_tooltip_text(image, row->note);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(image), GTK_ACCESSIBLE_PROPERTY_LABEL,
+		row->note ? row->note : row->tone == PANEL_ERROR ? _("Error") :
+		row->tone == PANEL_WARNING ? _("Warning") : "", -1);
+	panel_speak(image, row);
+}
+
+/* ---- order ---- */
+
+static int by_text(gconstpointer left, gconstpointer right, gpointer column)
+{
+	const LadderPanelRow *a = left, *b = right;
+	char *x = g_utf8_collate_key_for_filename(panel_row_text(a,
+						GPOINTER_TO_INT(column)), -1);
+	char *y = g_utf8_collate_key_for_filename(panel_row_text(b,
+						GPOINTER_TO_INT(column)), -1);
+	const int order = g_strcmp0(x, y);
+
+	g_free(x);
+	g_free(y);
+	return order < 0 ? GTK_ORDERING_SMALLER : order > 0 ? GTK_ORDERING_LARGER :
+	       GTK_ORDERING_EQUAL;
+}
+
+static int by_number(gconstpointer left, gconstpointer right, gpointer unused)
+{
+	const LadderPanelRow *a = left, *b = right;
+
+	(void)unused;
+	return a->number < b->number ? GTK_ORDERING_SMALLER :
+	       a->number > b->number ? GTK_ORDERING_LARGER : GTK_ORDERING_EQUAL;
+}
+
+static int by_tone(gconstpointer left, gconstpointer right, gpointer unused)
+{
+	const LadderPanelRow *a = left, *b = right;
+
+	(void)unused;
+	return a->tone > b->tone ? GTK_ORDERING_SMALLER :
+	       a->tone < b->tone ? GTK_ORDERING_LARGER : GTK_ORDERING_EQUAL;
+}
+
+GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, int text,
+				    unsigned int flags, int width,
+				    GtkListItemFactory *factory)
+{
+	GtkColumnViewColumn *column = gtk_column_view_column_new(name, factory);
+	GtkCustomSorter *sorter = gtk_custom_sorter_new(flags & PANEL_ICON ? by_tone :
+		flags & PANEL_NUMBER ? by_number : by_text, GINT_TO_POINTER(text), NULL);
+
+	gtk_column_view_column_set_sorter(column, GTK_SORTER(sorter));
+	gtk_column_view_column_set_expand(column, flags & PANEL_EXPAND);
+	gtk_column_view_column_set_resizable(column, !(flags & PANEL_ICON));
+	if (width)
+		gtk_column_view_column_set_fixed_width(column, width);
+	gtk_column_view_append_column(list->view, column);
+	g_object_unref(sorter);
+	g_object_unref(column);
+	return column;
+}
+
+GtkColumnViewColumn *panel_list_column(struct panel_list *list, const char *name,
+				       int text, unsigned int flags, int width)
+{
+	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+	const bool icon = flags & PANEL_ICON;
+
+	g_signal_connect(factory, "setup", G_CALLBACK(icon ? setup_icon : setup_label),
+			 NULL);
+	g_signal_connect(factory, "bind", G_CALLBACK(icon ? bind_icon : bind_label),
+			 GINT_TO_POINTER(text));
+	return panel_list_add(list, name, text, flags, width, factory);
+}
+
+/* ---- the list ---- */
+
+static gboolean is_wanted(gpointer item, gpointer data)
+{
+	const struct panel_list *list = data;
+
+	return panel_row_matches(item, list->wanted);
+}
+
+void panel_list_init(struct panel_list *list, GtkColumnView *view)
+{
+	GtkSortListModel *sorted;
+
+	list->view = view;
+	list->wanted = g_strdup("");
+	list->store = g_list_store_new(LADDER_TYPE_PANEL_ROW);
+	list->filter = gtk_custom_filter_new(is_wanted, list, NULL);
+	list->filtered = gtk_filter_list_model_new(g_object_ref(G_LIST_MODEL(list->store)),
+						   g_object_ref(GTK_FILTER(list->filter)));
+	sorted = gtk_sort_list_model_new(g_object_ref(G_LIST_MODEL(list->filtered)),
+					 g_object_ref(gtk_column_view_get_sorter(view)));
+	list->selection = gtk_single_selection_new(G_LIST_MODEL(sorted));
+	gtk_single_selection_set_autoselect(list->selection, FALSE);
+	gtk_single_selection_set_can_unselect(list->selection, TRUE);
+	gtk_column_view_set_model(view, GTK_SELECTION_MODEL(list->selection));
+}
+
+void panel_list_clear(struct panel_list *list)
+{
+	g_clear_object(&list->selection);
+	g_clear_object(&list->filtered);
+	g_clear_object(&list->filter);
+	g_clear_object(&list->store);
+	g_clear_pointer(&list->wanted, g_free);
+}
+
+void panel_list_want(struct panel_list *list, const char *wanted)
+{
+	if (g_strcmp0(list->wanted, wanted) == 0)
+		return;
+	g_free(list->wanted);
+	list->wanted = g_strdup(wanted);
+	gtk_filter_changed(GTK_FILTER(list->filter), GTK_FILTER_CHANGE_DIFFERENT);
+}
+
+LadderPanelRow *panel_list_row(struct panel_list *list)
+{
+	return gtk_single_selection_get_selected_item(list->selection);
+}
+
+/* The list inside a column view knows how to scroll; 4.8 has no other way. */
+static void scroll_to(struct panel_list *list, guint at)
+{
+	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(list->view));
+
+	for (; child; child = gtk_widget_get_next_sibling(child))
+		if (gtk_widget_activate_action(child, "list.scroll-to-item", "u", at))
+			return;
+}
+
+bool panel_list_select(struct panel_list *list,
+		       bool (*is)(const LadderPanelRow *row, gconstpointer what),
+		       gconstpointer what)
+{
+	GListModel *model = G_LIST_MODEL(list->selection);
+
+	for (guint i = 0; i < g_list_model_get_n_items(model); i++) {
+		LadderPanelRow *row = g_list_model_get_item(model, i);
+		const bool found = is(row, what);
+
+		g_object_unref(row);
+		if (!found)
+			continue;
+		gtk_single_selection_set_selected(list->selection, i);
+		scroll_to(list, i);
+		return true;
+	}
+	return false;
+}
+
+void panel_go_to(GtkWidget *from, const LadderPanelRow *row)
+{
+	if (!row)
+		return;
+	if (row->table >= 0)
+		gtk_widget_activate_action(from, "win.go-to", "(iiii)", -1, -1, row->table,
+					   row->index);
+	else
+		gtk_widget_activate_action(from, "win.go-to", "(iiii)", row->pou, row->rung,
+					   row->row, row->col);
+}

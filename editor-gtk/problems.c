@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * problems - the list of what the checks found wrong, and how many there are.
+ */
+#include "editor-gtk/problems.h"
+
+#include "editor-gtk/i18n.h"
+#include "editor-gtk/panel.h"
+#include "engine/view/xref.h"
+
+#include <string.h>
+
+enum { COLUMN_TEXT, COLUMN_PLACE, COLUMN_CODE, COLUMN_SEVERITY };
+enum { PROP_DOCUMENT = 1, PROP_TITLE, PROPS };
+
+struct _LadderProblems {
+	GtkWidget parent_instance;
+	GtkWidget *stack;       /* the list, or that there is nothing           */
+	struct panel_list list;
+	LadderDocument *document;
+	char *title;
+	int count, errors;
+};
+
+G_DEFINE_FINAL_TYPE(LadderProblems, ladder_problems, GTK_TYPE_WIDGET)
+
+static GParamSpec *props[PROPS];
+
+/* ---- rows ---- */
+
+static int pou_of(const struct project *project, const char *name)
+{
+	for (int i = 0; project && name && i < project->pou_count; i++)
+		if (strcmp(project_text(project, project->pou[i].name), name) == 0)
+			return i;
+	return -1;
+}
+
+/* @row: of the text of a list, 0-based; -1: it is none. */
+static char *place_text(const struct diag *diag, int row)
+{
+	if (diag->rung && diag->row)
+		return g_strdup_printf(_("%s, rung %d, row %d, column %d"), diag->pou,
+				       diag->rung, diag->row, diag->col);
+	if (diag->rung)
+		return g_strdup_printf(_("%s, rung %d"), diag->pou, diag->rung);
+	if (diag->pou && row >= 0)
+		return g_strdup_printf(_("%s, line %d"), diag->pou, row + 1);
+	if (diag->pou)
+		return g_strdup(diag->pou);
+	return diag->line ? g_strdup_printf(_("line %d"), diag->line) : g_strdup("");
+}
+
+/* Of a list the line of its text, which begins with its heading. */
+static int list_row(const struct project *project, int pou, int line)
+{
+	if (pou < 0 || project->pou[pou].language != LANGUAGE_IL || !line)
+		return -1;
+	return MAX(line - project->pou[pou].line, 0);
+}
+
+/* A declaration that the message speaks of. */
+static void find_declaration(struct project *project, const struct diag *diag,
+			     LadderPanelRow *row)
+{
+	const uint32_t id = names_find(&project->names, diag->arg, strlen(diag->arg));
+	const int table = row->pou + 1;
+	const int index = !id || diag->rung ? -1 :
+		vars_find(xref_table(project, table), names_fold(&project->names, id));
+
+	if (index >= 0) {
+		row->table = table;
+		row->index = index;
+	}
+}
+
+/* Of a file that is no program: line and byte. */
+static void set_place(LadderDocument *document, const struct diag *diag,
+		      LadderPanelRow *row)
+{
+	struct project *project = ladder_document_project(document);
+	struct ladder *checked = ladder_document_checked(document);
+	const struct project *was = checked ? ladder_project(checked) : NULL;
+
+	row->col = diag->rung ? diag->col - 1 : diag->column - 1;
+	if (!project) {
+		row->rung = diag->line - 1;
+		return;
+	}
+	row->pou = pou_of(project, diag->pou);
+	row->rung = diag->rung - 1;
+	row->row = diag->rung ? diag->row - 1 : list_row(was, was ? row->pou : -1,
+							 diag->line);
+	if (row->row < 0 && !diag->rung)
+		find_declaration(project, diag, row);
+}
+
+static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag)
+{
+	LadderPanelRow *row = ladder_panel_row_new();
+	const bool error = diag_severity(diag->id) == SEVERITY_ERROR;
+
+	set_place(document, diag, row);
+	row->tone = error ? PANEL_ERROR : PANEL_WARNING;
+	row->number = ((gint64)row->pou << 40) + ((gint64)row->rung << 20) + diag->line;
+	row->text[COLUMN_TEXT] = *diag->arg ?
+		g_strdup_printf("%s: %s", _(diag_text(diag->id)), diag->arg) :
+		g_strdup(_(diag_text(diag->id)));
+	row->text[COLUMN_PLACE] = place_text(diag, diag->rung ? -1 : row->row);
+	row->text[COLUMN_CODE] = g_strdup(diag_code(diag->id));
+	row->text[COLUMN_SEVERITY] = g_strdup(error ? _("Error") : _("Warning"));
+	row->note = g_strdup(row->text[COLUMN_SEVERITY]);
+	row->spoken = g_strdup_printf("%s: %s. %s", row->text[COLUMN_SEVERITY],
+				      row->text[COLUMN_TEXT], row->text[COLUMN_PLACE]);
+	return row;
+}
+
+static void set_title(LadderProblems *problems)
+{
+	char *title = problems->count ?
+		g_strdup_printf(_("Problems %d"), problems->count) :
+		g_strdup(_("Problems"));
+
+	if (g_strcmp0(title, problems->title) != 0) {
+		g_free(problems->title);
+		problems->title = g_steal_pointer(&title);
+		g_object_notify_by_pspec(G_OBJECT(problems), props[PROP_TITLE]);
+	}
+	g_free(title);
+}
+
+/* At once, also unseen: the tab shows the count. */
+static void refresh(LadderProblems *problems)
+{
+	LadderDocument *document = problems->document;
+	const struct diag_list *diags = document ? ladder_document_diags(document) : NULL;
+	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+
+	for (int i = 0; diags && i < diags->count; i++)
+		g_ptr_array_add(rows, row_of(document, &diags->diag[i]));
+	panel_rows_update(problems->list.store, rows);
+	problems->count = diags ? diags->count + diags->dropped : 0;
+	problems->errors = diags ? diags->errors : 0;
+	gtk_stack_set_visible_child_name(GTK_STACK(problems->stack),
+					 rows->len ? "list" : "none");
+	set_title(problems);
+	g_ptr_array_unref(rows);
+}
+
+/* ---- the widget ---- */
+
+static void activated(GtkColumnView *view, guint at, LadderProblems *problems)
+{
+	LadderPanelRow *row = g_list_model_get_item(G_LIST_MODEL(problems->list.selection),
+						    at);
+
+	(void)view;
+	panel_go_to(GTK_WIDGET(problems), row);
+	g_clear_object(&row);
+}
+
+bool ladder_problems_next(LadderProblems *problems, bool back)
+{
+	GtkSingleSelection *selection = problems->list.selection;
+	const guint count = g_list_model_get_n_items(G_LIST_MODEL(selection));
+	guint at = gtk_single_selection_get_selected(selection);
+
+	if (!count)
+		return false;
+	if (at == GTK_INVALID_LIST_POSITION)
+		at = back ? count - 1 : 0;
+	else
+		at = (at + (back ? count - 1 : 1)) % count;
+	gtk_single_selection_set_selected(selection, at);
+	panel_go_to(GTK_WIDGET(problems), panel_list_row(&problems->list));
+	return true;
+}
+
+int ladder_problems_count(LadderProblems *problems, bool errors)
+{
+	return errors ? problems->errors : problems->count;
+}
+
+GListModel *ladder_problems_list(LadderProblems *problems)
+{
+	return G_LIST_MODEL(problems->list.selection);
+}
+
+void ladder_problems_set_document(LadderProblems *problems, LadderDocument *document)
+{
+	if (problems->document == document)
+		return;
+	if (problems->document)
+		g_signal_handlers_disconnect_by_data(problems->document, problems);
+	g_set_object(&problems->document, document);
+	if (document)
+		g_signal_connect_swapped(document, "checked", G_CALLBACK(refresh), problems);
+	refresh(problems);
+	g_object_notify_by_pspec(G_OBJECT(problems), props[PROP_DOCUMENT]);
+}
+
+static void set_property(GObject *object, guint id, const GValue *value, GParamSpec *spec)
+{
+	if (id == PROP_DOCUMENT)
+		ladder_problems_set_document(LADDER_PROBLEMS(object),
+					     g_value_get_object(value));
+	else
+		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+}
+
+static void get_property(GObject *object, guint id, GValue *value, GParamSpec *spec)
+{
+	LadderProblems *problems = LADDER_PROBLEMS(object);
+
+	if (id == PROP_DOCUMENT)
+		g_value_set_object(value, problems->document);
+	else if (id == PROP_TITLE)
+		g_value_set_string(value, problems->title);
+	else
+		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+}
+
+static void dispose(GObject *object)
+{
+	LadderProblems *problems = LADDER_PROBLEMS(object);
+
+	if (problems->document)
+		g_signal_handlers_disconnect_by_data(problems->document, problems);
+	g_clear_object(&problems->document);
+	g_clear_pointer(&problems->stack, gtk_widget_unparent);
+	panel_list_clear(&problems->list);
+	g_clear_pointer(&problems->title, g_free);
+	G_OBJECT_CLASS(ladder_problems_parent_class)->dispose(object);
+}
+
+static void ladder_problems_class_init(LadderProblemsClass *class)
+{
+	GObjectClass *object = G_OBJECT_CLASS(class);
+
+	object->set_property = set_property;
+	object->get_property = get_property;
+	object->dispose = dispose;
+	props[PROP_DOCUMENT] = g_param_spec_object("document", NULL, NULL,
+		LADDER_TYPE_DOCUMENT, G_PARAM_READWRITE | G_PARAM_EXPLICIT_NOTIFY |
+		G_PARAM_STATIC_STRINGS);
+	props[PROP_TITLE] = g_param_spec_string("title", NULL, NULL, NULL,
+		G_PARAM_READABLE | G_PARAM_STATIC_STRINGS);
+	g_object_class_install_properties(object, PROPS, props);
+	gtk_widget_class_set_layout_manager_type(GTK_WIDGET_CLASS(class),
+						 GTK_TYPE_BIN_LAYOUT);
+	gtk_widget_class_set_template_from_resource(GTK_WIDGET_CLASS(class),
+		"/org/rungboard/Editor/ui/problems.ui");
+	gtk_widget_class_bind_template_child(GTK_WIDGET_CLASS(class), LadderProblems, stack);
+	gtk_widget_class_bind_template_child_full(GTK_WIDGET_CLASS(class), "view", FALSE, 0);
+	gtk_widget_class_bind_template_callback(GTK_WIDGET_CLASS(class), activated);
+}
+
+static void ladder_problems_init(LadderProblems *problems)
+{
+	GtkWidget *widget = GTK_WIDGET(problems);
+
+	gtk_widget_init_template(widget);
+	panel_list_init(&problems->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
+		widget, LADDER_TYPE_PROBLEMS, "view")));
+	panel_list_column(&problems->list, "", COLUMN_SEVERITY, PANEL_ICON, 0);
+	panel_list_column(&problems->list, _("Problem"), COLUMN_TEXT, PANEL_EXPAND, 0);
+	panel_list_column(&problems->list, _("Place"), COLUMN_PLACE, PANEL_NUMBER, 260);
+	panel_list_column(&problems->list, _("Code"), COLUMN_CODE, 0, 80);
+	set_title(problems);
+}
+
+GtkWidget *ladder_problems_new(void)
+{
+	return g_object_new(LADDER_TYPE_PROBLEMS, NULL);
+}

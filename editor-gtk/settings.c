@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * settings - what a person chose, kept from one start to the next.
+ */
+#include "editor-gtk/settings.h"
+
+#define SCHEMA "org.rungboard.Editor"
+
+GSettings *settings_get(void)
+{
+	static GSettings *settings;
+	static gsize looked;
+
+	if (g_once_init_enter(&looked)) {
+		GSettingsSchemaSource *source = g_settings_schema_source_get_default();
+		GSettingsSchema *schema = source ?
+			g_settings_schema_source_lookup(source, SCHEMA, TRUE) : NULL;
+
+		if (schema) {
+			settings = g_settings_new_full(schema, NULL, NULL);
+			g_settings_schema_unref(schema);
+		}
+		g_once_init_leave(&looked, 1);
+	}
+	return settings;
+}
+
+int settings_int(const char *key, int otherwise)
+{
+	return settings_get() ? g_settings_get_int(settings_get(), key) : otherwise;
+}
+
+int settings_enum(const char *key, int otherwise)
+{
+	return settings_get() ? g_settings_get_enum(settings_get(), key) : otherwise;
+}
+
+gboolean settings_flag(const char *key, gboolean otherwise)
+{
+	return settings_get() ? g_settings_get_boolean(settings_get(), key) : otherwise;
+}
+
+double settings_number(const char *key, double otherwise)
+{
+	return settings_get() ? g_settings_get_double(settings_get(), key) : otherwise;
+}

@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * symbols_cells - cells of the symbol table that can be edited.
+ */
+#include "editor-gtk/symbols_cells.h"
+
+#include "editor-gtk/i18n.h"
+
+#include <string.h>
+
+struct cells {
+	enum field field;
+	bool (*set)(gpointer owner, const LadderPanelRow *row, enum field field,
+		    const char *text, char **why);
+	gpointer owner;
+};
+
+static bool is_check(enum field field)
+{
+	return field == FIELD_RETAIN || field == FIELD_CONSTANT;
+}
+
+/* ---- what a person did ---- */
+
+static void show_refusal(GtkWidget *cell, char *why)
+{
+	if (why) {
+		gtk_widget_add_css_class(cell, "error");
+		gtk_widget_set_tooltip_text(cell, why);
+		gtk_accessible_update_state(GTK_ACCESSIBLE(cell),
+			GTK_ACCESSIBLE_STATE_INVALID, GTK_ACCESSIBLE_INVALID_TRUE, -1);
+	} else {
+		gtk_widget_remove_css_class(cell, "error");
+		gtk_widget_set_tooltip_text(cell, NULL);
+		gtk_accessible_reset_state(GTK_ACCESSIBLE(cell),
+					   GTK_ACCESSIBLE_STATE_INVALID);
+	}
+	g_free(why);
+}
+
+/* What stands in the cell is what is meant, unless it was refused already. */
+static void commit(GtkWidget *cell, GtkListItem *item)
+{
+	const struct cells *cells = g_object_get_data(G_OBJECT(cell), "cells");
+	const char *refused = g_object_get_data(G_OBJECT(cell), "refused");
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	char *text, *why = NULL;
+	bool good;
+
+	if (!row)
+		return;
+	text = g_strdup(gtk_editable_get_text(GTK_EDITABLE(cell)));
+	if (refused && strcmp(refused, text) == 0) {
+		g_free(text);
+		return;
+	}
+	g_object_ref(row);
+	good = strcmp(text, panel_row_text(row, cells->field)) == 0 ||
+	       cells->set(cells->owner, row, cells->field, text, &why);
+	show_refusal(cell, good ? NULL : why ? why : g_strdup(_("Refused")));
+	g_object_set_data_full(G_OBJECT(cell), "refused", good ? NULL : text, g_free);
+	if (good)
+		g_free(text);
+	g_object_unref(row);
+}
+
+static void activated(GtkText *cell, GtkListItem *item)
+{
+	commit(GTK_WIDGET(cell), item);
+}
+
+static void left(GtkEventControllerFocus *focus, GtkListItem *item)
+{
+	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
+
+	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
+	commit(cell, item);
+}
+
+/* Escape: as it was. */
+static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
+			GdkModifierType state, GtkListItem *item)
+{
+	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(keys));
+	const struct cells *cells = g_object_get_data(G_OBJECT(cell), "cells");
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	const char *text = row ? panel_row_text(row, cells->field) : "";
+
+	(void)code;
+	(void)state;
+	if (key != GDK_KEY_Escape ||
+	    strcmp(text, gtk_editable_get_text(GTK_EDITABLE(cell))) == 0)
+		return FALSE;
+	gtk_editable_set_text(GTK_EDITABLE(cell), text);
+	show_refusal(cell, NULL);
+	return TRUE;
+}
+
+static void toggled(GtkCheckButton *check, GtkListItem *item)
+{
+	const struct cells *cells = g_object_get_data(G_OBJECT(check), "cells");
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	const bool is = row && *panel_row_text(row, cells->field);
+	char *why = NULL;
+
+	if (!row || gtk_check_button_get_active(check) == is)
+		return;
+	g_object_ref(row);
+	if (cells->set(cells->owner, row, cells->field, is ? "" : "1", &why))
+		show_refusal(GTK_WIDGET(check), NULL);
+	else {
+		gtk_check_button_set_active(check, is);
+		show_refusal(GTK_WIDGET(check), why ? why : g_strdup(_("Refused")));
+	}
+	g_object_unref(row);
+}
+
+/* ---- the factory ---- */
+
+static void add_controller(GtkWidget *cell, const char *name, GtkEventController *controller)
+{
+	gtk_widget_add_controller(cell, controller);
+	g_object_set_data(G_OBJECT(cell), name, controller);
+}
+
+static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
+{
+	const struct cells *cells = data;
+	GtkWidget *cell = is_check(cells->field) ? gtk_check_button_new() : gtk_text_new();
+
+	(void)factory;
+	g_object_set_data(G_OBJECT(cell), "cells", data);
+	if (is_check(cells->field)) {
+		gtk_widget_set_halign(cell, GTK_ALIGN_CENTER);
+	} else {
+		add_controller(cell, "focus", gtk_event_controller_focus_new());
+		add_controller(cell, "keys", gtk_event_controller_key_new());
+		gtk_widget_add_css_class(cell, "field");
+	}
+	gtk_list_item_set_child(item, cell);
+}
+
+static void connect_text(GtkWidget *cell, GtkListItem *item)
+{
+	g_signal_connect(cell, "activate", G_CALLBACK(activated), item);
+	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "leave",
+			 G_CALLBACK(left), item);
+	g_signal_connect(g_object_get_data(G_OBJECT(cell), "keys"), "key-pressed",
+			 G_CALLBACK(pressed), item);
+}
+
+static bool is_fixed(const struct cells *cells, const LadderPanelRow *row)
+{
+	if (row->flags & SYMBOLS_FIXED)
+		return true;
+	return row->flags & SYMBOLS_MEMBER && (is_check(cells->field) ||
+					       cells->field == FIELD_ADDRESS);
+}
+
+static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
+{
+	const struct cells *cells = data;
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	GtkWidget *cell = gtk_list_item_get_child(item);
+	const char *text = panel_row_text(row, cells->field);
+	char *name = g_strdup_printf("%s, %s", panel_row_text(row, FIELD_NAME),
+				     symbol_field_name(cells->field));
+
+	(void)factory;
+	show_refusal(cell, NULL);
+	gtk_widget_set_sensitive(cell, !is_fixed(cells, row));
+	if (is_check(cells->field)) {
+		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
+		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);
+	} else {
+		gtk_editable_set_text(GTK_EDITABLE(cell), text);
+		g_object_set_data(G_OBJECT(cell), "refused", NULL);
+		connect_text(cell, item);
+	}
+	gtk_accessible_update_property(GTK_ACCESSIBLE(cell),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	panel_speak(cell, row);
+	g_free(name);
+}
+
+static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
+{
+	GtkWidget *cell = gtk_list_item_get_child(item);
+
+	(void)factory;
+	(void)data;
+	g_signal_handlers_disconnect_by_data(cell, item);
+	if (!GTK_IS_TEXT(cell))
+		return;
+	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "focus"), item);
+	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "keys"), item);
+}
+
+static void free_cells(gpointer cells, GClosure *closure)
+{
+	(void)closure;
+	g_free(cells);
+}
+
+GtkListItemFactory *symbols_cells(enum field field,
+				  bool (*set)(gpointer owner, const LadderPanelRow *row,
+					      enum field field, const char *text,
+					      char **why),
+				  gpointer owner)
+{
+	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+	struct cells *cells = g_new(struct cells, 1);
+
+	*cells = (struct cells){ field, set, owner };
+	g_signal_connect_data(factory, "setup", G_CALLBACK(setup), cells, free_cells, 0);
+	g_signal_connect(factory, "bind", G_CALLBACK(bind), cells);
+	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), cells);
+	return factory;
+}

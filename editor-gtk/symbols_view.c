@@ -1,0 +1,468 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * symbols_view - the table of all symbols. What an edit does to the document is
+ * symbols_edit.c's, what a table would do csv_plan.c's.
+ */
+#include "editor-gtk/symbols_view.h"
+
+#include "editor-gtk/csv.h"
+#include "editor-gtk/i18n.h"
+#include "editor-gtk/import_dialog.h"
+#include "editor-gtk/symbols_cells.h"
+
+#include <string.h>
+
+#define FILE_MOST (64 << 20) /* bytes of a table that is read                  */
+
+enum { PROP_DOCUMENT = 1, PROPS };
+
+struct _LadderSymbolsView {
+	GtkWidget parent_instance;
+	GtkWidget *box, *scopes, *search, *bar, *message;
+	struct panel_list list;
+	struct panel_watch *watch;
+	GtkFileChooserNative *chooser;
+	int table;              /* that is shown; -1: all                      */
+	bool busy;              /* the drop-down is being filled               */
+};
+
+G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
+
+static GParamSpec *props[PROPS];
+
+/* ---- messages ---- */
+
+/* @text: taken over; NULL: nothing to tell. */
+static void tell(LadderSymbolsView *view, char *text)
+{
+	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
+	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
+	g_free(text);
+}
+
+const char *ladder_symbols_view_message(LadderSymbolsView *view)
+{
+	return gtk_label_get_text(GTK_LABEL(view->message));
+}
+
+/* ---- rows ---- */
+
+static char *spoken(const struct symbol_row *symbol, const char *error)
+{
+	GString *text = g_string_new(symbol->text[FIELD_NAME]);
+
+	for (int i = FIELD_TYPE; i < SYMBOL_FIELDS; i++) {
+		if (!*symbol->text[i])
+			continue;
+		g_string_append_printf(text, ", %s", i == FIELD_RETAIN ||
+			i == FIELD_CONSTANT ? symbol_field_name(i) : symbol->text[i]);
+	}
+	g_string_append_printf(text, ", %s, ", *symbol->scope ? symbol->scope :
+			       _("global"));
+	g_string_append_printf(text, ngettext("%d use", "%d uses", (gulong)symbol->uses),
+			       symbol->uses);
+	if (error)
+		g_string_append_printf(text, ". %s", error);
+	return g_string_free(text, FALSE);
+}
+
+static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row *symbol)
+{
+	LadderPanelRow *row = ladder_panel_row_new();
+	bool warning = false;
+
+	for (int i = 0; i < SYMBOL_FIELDS; i++)
+		row->text[i] = g_strdup(symbol->text[i]);
+	row->text[SYMBOLS_SCOPE] = g_strdup(*symbol->scope ? symbol->scope : _("global"));
+	row->text[SYMBOLS_USES] = g_strdup_printf("%d", symbol->uses);
+	row->number = symbol->uses;
+	row->table = symbol->table;
+	row->index = symbol->index;
+	row->flags = (symbol->included ? SYMBOLS_FIXED : 0u) |
+		     (symbol->member ? SYMBOLS_MEMBER : 0u);
+	row->note = symbol_error(document, symbol, &warning);
+	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
+	row->spoken = spoken(symbol, row->note);
+	return row;
+}
+
+static void fill_scopes(LadderSymbolsView *view, struct project *project)
+{
+	GPtrArray *name = g_ptr_array_new();
+	GtkStringList *list;
+
+	g_ptr_array_add(name, (gpointer)_("All symbols"));
+	g_ptr_array_add(name, (gpointer)_("Global"));
+	for (int i = 0; project && i < project->pou_count; i++)
+		g_ptr_array_add(name, (gpointer)project_text(project,
+							     project->pou[i].name));
+	for (int i = 0; project && i < project->structure_count; i++)
+		g_ptr_array_add(name, (gpointer)project_text(project,
+							project->structure[i].name));
+	if (view->table + 2 > (int)name->len)
+		view->table = -1;
+	g_ptr_array_add(name, NULL);
+	list = gtk_string_list_new((const char *const *)name->pdata);
+	view->busy = true;
+	gtk_drop_down_set_model(GTK_DROP_DOWN(view->scopes), G_LIST_MODEL(list));
+	gtk_drop_down_set_selected(GTK_DROP_DOWN(view->scopes), (guint)(view->table + 1));
+	view->busy = false;
+	g_object_unref(list);
+	g_ptr_array_unref(name);
+}
+
+static void refresh(GtkWidget *widget)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	LadderDocument *document = panel_watch_document(view->watch);
+	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+	struct symbols *symbols = document ? symbols_new(document) : NULL;
+
+	fill_scopes(view, document ? ladder_document_project(document) : NULL);
+	for (int i = 0; symbols && i < symbols->count; i++)
+		if (view->table < 0 || symbols->symbol[i].table == view->table)
+			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
+	panel_rows_update(view->list.store, rows);
+	symbols_free(symbols);
+	g_ptr_array_unref(rows);
+}
+
+void ladder_symbols_view_refresh(LadderSymbolsView *view)
+{
+	refresh(GTK_WIDGET(view));
+}
+
+GListModel *ladder_symbols_view_list(LadderSymbolsView *view)
+{
+	return G_LIST_MODEL(view->list.selection);
+}
+
+static bool is_symbol(const LadderPanelRow *row, gconstpointer what)
+{
+	const int *place = what;
+
+	return row->table == place[0] && row->index == place[1];
+}
+
+bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index)
+{
+	const int place[] = { table, index };
+
+	if (view->table >= 0 && view->table != table)
+		view->table = -1;
+	refresh(GTK_WIDGET(view));
+	return panel_list_select(&view->list, is_symbol, place);
+}
+
+/* ---- edits ---- */
+
+static bool set_field(gpointer owner, const LadderPanelRow *row, enum field field,
+		      const char *text, char **why)
+{
+	LadderSymbolsView *view = owner;
+	const bool good = symbol_set(panel_watch_document(view->watch), row->table,
+				     row->index, field, text, why);
+
+	tell(view, good ? NULL : g_strdup_printf("%s, %s: %s",
+		panel_row_text(row, FIELD_NAME), symbol_field_name(field),
+		why && *why ? *why : ""));
+	return good;
+}
+
+static int last_index(LadderDocument *document, int table, const char *name)
+{
+	struct symbols *symbols = symbols_new(document);
+	int index = -1;
+
+	for (int i = 0; i < symbols->count; i++)
+		if (symbols->symbol[i].table == table &&
+		    g_ascii_strcasecmp(symbols->symbol[i].text[FIELD_NAME], name) == 0)
+			index = symbols->symbol[i].index;
+	symbols_free(symbols);
+	return index;
+}
+
+/* Like the one that is selected, else a bit. */
+static void add(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	LadderDocument *document = panel_watch_document(view->watch);
+	LadderPanelRow *row = panel_list_row(&view->list);
+	const int table = row ? row->table : MAX(view->table, 0);
+	const char *text[SYMBOL_FIELDS] = { "", "BOOL", "", "", "", "", "" };
+	char *name, *why = NULL;
+
+	(void)action;
+	(void)unused;
+	if (!document || !ladder_document_project(document))
+		return;
+	name = symbol_free_name(document, table, row ? panel_row_text(row, FIELD_NAME) :
+				_("Symbol"));
+	text[FIELD_NAME] = name;
+	if (row)
+		text[FIELD_TYPE] = panel_row_text(row, FIELD_TYPE);
+	if (symbol_add(document, table, 0, text, &why))
+		ladder_symbols_view_show(view, table, last_index(document, table, name));
+	tell(view, why);
+	g_free(name);
+}
+
+static void delete(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	LadderPanelRow *row = panel_list_row(&view->list);
+	char *why = NULL;
+
+	(void)action;
+	(void)unused;
+	if (!row)
+		return;
+	if (symbol_delete(panel_watch_document(view->watch), row->table, row->index, &why))
+		refresh(widget);
+	tell(view, why);
+}
+
+static void show_uses(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderPanelRow *row = panel_list_row(&LADDER_SYMBOLS_VIEW(widget)->list);
+	char *name;
+
+	(void)action;
+	(void)unused;
+	if (!row)
+		return;
+	name = row->table ? g_strdup_printf("%s.%s", panel_row_text(row, SYMBOLS_SCOPE),
+					    panel_row_text(row, FIELD_NAME)) :
+	       g_strdup(panel_row_text(row, FIELD_NAME));
+	gtk_widget_activate_action(widget, "win.show-uses", "s", name);
+	g_free(name);
+}
+
+/* ---- tables ---- */
+
+GtkWidget *ladder_symbols_view_import(LadderSymbolsView *view, const char *from,
+				      const char *text, gsize len)
+{
+	LadderDocument *document = panel_watch_document(view->watch);
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
+	GtkWidget *dialog;
+
+	if (!document)
+		return NULL;
+	dialog = ladder_import_dialog_new(csv_plan_new(document, text, len), from);
+	if (GTK_IS_WINDOW(root))
+		gtk_window_set_transient_for(GTK_WINDOW(dialog), GTK_WINDOW(root));
+	gtk_window_present(GTK_WINDOW(dialog));
+	return dialog;
+}
+
+static void import_file(LadderSymbolsView *view, GFile *file)
+{
+	char *name = g_file_get_basename(file), *text = NULL;
+	GError *error = NULL;
+	gsize len = 0;
+
+	if (!g_file_load_contents(file, NULL, &text, &len, NULL, &error))
+		tell(view, g_strdup(error->message));
+	else if (len > FILE_MOST)
+		tell(view, g_strdup_printf(_("%s is too large"), name));
+	else
+		ladder_symbols_view_import(view, name, text, len);
+	g_clear_error(&error);
+	g_free(text);
+	g_free(name);
+}
+
+static void export_file(LadderSymbolsView *view, GFile *file)
+{
+	char *table = csv_export(panel_watch_document(view->watch));
+	GError *error = NULL;
+
+	if (!g_file_replace_contents(file, table, strlen(table), NULL, FALSE, 0, NULL, NULL,
+				     &error))
+		tell(view, g_strdup(error->message));
+	else
+		tell(view, NULL);
+	g_clear_error(&error);
+	g_free(table);
+}
+
+static void chosen(GtkNativeDialog *dialog, int response, LadderSymbolsView *view)
+{
+	GtkFileChooser *chooser = GTK_FILE_CHOOSER(dialog);
+	GFile *file = response == GTK_RESPONSE_ACCEPT ?
+		gtk_file_chooser_get_file(chooser) : NULL;
+
+	if (file && gtk_file_chooser_get_action(chooser) == GTK_FILE_CHOOSER_ACTION_OPEN)
+		import_file(view, file);
+	else if (file)
+		export_file(view, file);
+	g_clear_object(&file);
+	g_clear_object(&view->chooser);
+}
+
+static void choose(LadderSymbolsView *view, GtkFileChooserAction action,
+		   const char *title, const char *accept)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
+	GtkFileFilter *filter;
+
+	if (view->chooser || !panel_watch_document(view->watch))
+		return;
+	view->chooser = gtk_file_chooser_native_new(title,
+		GTK_IS_WINDOW(root) ? GTK_WINDOW(root) : NULL, action, accept, NULL);
+	filter = gtk_file_filter_new();
+	gtk_file_filter_set_name(filter, _("Tables (CSV)"));
+	gtk_file_filter_add_suffix(filter, "csv");
+	gtk_file_filter_add_suffix(filter, "txt");
+	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(view->chooser), filter);
+	g_object_unref(filter);
+	if (action == GTK_FILE_CHOOSER_ACTION_SAVE)
+		gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(view->chooser),
+						  _("symbols.csv"));
+	g_signal_connect(view->chooser, "response", G_CALLBACK(chosen), view);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(view->chooser));
+}
+
+static void import(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	choose(LADDER_SYMBOLS_VIEW(widget), GTK_FILE_CHOOSER_ACTION_OPEN,
+	       _("Import symbols"), _("_Open"));
+}
+
+static void export(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	choose(LADDER_SYMBOLS_VIEW(widget), GTK_FILE_CHOOSER_ACTION_SAVE,
+	       _("Export symbols"), _("_Save"));
+}
+
+/* ---- the widget ---- */
+
+static void scope_changed(GtkDropDown *scopes, GParamSpec *spec, LadderSymbolsView *view)
+{
+	(void)spec;
+	if (view->busy || !view->watch)
+		return;
+	view->table = (int)gtk_drop_down_get_selected(scopes) - 1;
+	refresh(GTK_WIDGET(view));
+}
+
+static void search_changed(GtkSearchEntry *entry, LadderSymbolsView *view)
+{
+	panel_list_want(&view->list, gtk_editable_get_text(GTK_EDITABLE(entry)));
+}
+
+void ladder_symbols_view_set_document(LadderSymbolsView *view, LadderDocument *document)
+{
+	if (!panel_watch_set(view->watch, document))
+		return;
+	view->table = -1;
+	refresh(GTK_WIDGET(view));
+	g_object_notify_by_pspec(G_OBJECT(view), props[PROP_DOCUMENT]);
+}
+
+static void set_property(GObject *object, guint id, const GValue *value, GParamSpec *spec)
+{
+	if (id == PROP_DOCUMENT)
+		ladder_symbols_view_set_document(LADDER_SYMBOLS_VIEW(object),
+						 g_value_get_object(value));
+	else
+		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+}
+
+static void get_property(GObject *object, guint id, GValue *value, GParamSpec *spec)
+{
+	if (id == PROP_DOCUMENT)
+		g_value_set_object(value,
+			panel_watch_document(LADDER_SYMBOLS_VIEW(object)->watch));
+	else
+		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
+}
+
+static void dispose(GObject *object)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(object);
+
+	g_clear_pointer(&view->watch, panel_watch_free);
+	if (view->chooser)
+		gtk_native_dialog_destroy(GTK_NATIVE_DIALOG(view->chooser));
+	g_clear_object(&view->chooser);
+	g_clear_pointer(&view->box, gtk_widget_unparent);
+	panel_list_clear(&view->list);
+	G_OBJECT_CLASS(ladder_symbols_view_parent_class)->dispose(object);
+}
+
+static void bind_children(GtkWidgetClass *class)
+{
+	gtk_widget_class_set_layout_manager_type(class, GTK_TYPE_BIN_LAYOUT);
+	gtk_widget_class_set_template_from_resource(class,
+		"/org/rungboard/Editor/ui/symbols_view.ui");
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, box);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, scopes);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, search);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, bar);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, message);
+	gtk_widget_class_bind_template_child_full(class, "view", FALSE, 0);
+	gtk_widget_class_bind_template_callback(class, scope_changed);
+	gtk_widget_class_bind_template_callback(class, search_changed);
+}
+
+static void ladder_symbols_view_class_init(LadderSymbolsViewClass *class)
+{
+	GObjectClass *object = G_OBJECT_CLASS(class);
+	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+
+	object->set_property = set_property;
+	object->get_property = get_property;
+	object->dispose = dispose;
+	props[PROP_DOCUMENT] = g_param_spec_object("document", NULL, NULL,
+		LADDER_TYPE_DOCUMENT, G_PARAM_READWRITE | G_PARAM_EXPLICIT_NOTIFY |
+		G_PARAM_STATIC_STRINGS);
+	g_object_class_install_properties(object, PROPS, props);
+	gtk_widget_class_install_action(widget, "symbols.add", NULL, add);
+	gtk_widget_class_install_action(widget, "symbols.delete", NULL, delete);
+	gtk_widget_class_install_action(widget, "symbols.import", NULL, import);
+	gtk_widget_class_install_action(widget, "symbols.export", NULL, export);
+	gtk_widget_class_install_action(widget, "symbols.uses", NULL, show_uses);
+	bind_children(widget);
+}
+
+static void add_columns(LadderSymbolsView *view)
+{
+	static const struct { enum field field; int width; } column[] = {
+		{ FIELD_NAME, 150 }, { FIELD_TYPE, 110 }, { FIELD_ADDRESS, 90 },
+		{ FIELD_INITIAL, 100 }, { FIELD_RETAIN, 0 }, { FIELD_CONSTANT, 0 },
+		{ FIELD_COMMENT, 0 },
+	};
+
+	panel_list_column(&view->list, "", SYMBOLS_USES, PANEL_ICON, 0);
+	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
+		panel_list_add(&view->list, symbol_field_name(column[i].field),
+			       column[i].field,
+			       column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
+			       column[i].width,
+			       symbols_cells(column[i].field, set_field, view));
+	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 100);
+	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
+}
+
+static void ladder_symbols_view_init(LadderSymbolsView *view)
+{
+	GtkWidget *widget = GTK_WIDGET(view);
+
+	view->table = -1;
+	gtk_widget_init_template(widget);
+	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
+		widget, LADDER_TYPE_SYMBOLS_VIEW, "view")));
+	add_columns(view);
+	view->watch = panel_watch_new(widget, true, refresh);
+}
+
+GtkWidget *ladder_symbols_view_new(void)
+{
+	return g_object_new(LADDER_TYPE_SYMBOLS_VIEW, NULL);
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * uses_rows - the cross reference of a document as rows of a list. It shows nothing.
+ */
+#ifndef EDITOR_USES_ROWS_H
+#define EDITOR_USES_ROWS_H
+
+#include "editor-gtk/panel.h"
+#include "editor-gtk/uses_view.h"
+
+/* Texts of a row. */
+enum { USES_NAME, USES_ADDRESS, USES_KIND, USES_PLACE, USES_TEXT };
+
+/**
+ * uses_rows - of what is asked for
+ * @document: NULL: none; @symbol: of USES_SYMBOL, in POU @pou, else among the globals
+ * Owns: the caller; of LadderPanelRow, in the order of the file, names in that of their
+ * declarations.
+ */
+GPtrArray *uses_rows(LadderDocument *document, enum uses_mode mode, int pou,
+		     const char *symbol);
+
+#endif

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * uses_view - the cross reference: where a symbol is used, all symbols, those that are
+ * never used, and memory that has two names.
+ *
+ * Properties: "document" (LadderDocument), "symbol" (string: a name, Main.Delay or an
+ * address; what the list shows when it is to follow the cursor). To activate a row goes
+ * to its place by win.go-to (iiii).
+ */
+#ifndef EDITOR_USES_VIEW_H
+#define EDITOR_USES_VIEW_H
+
+#include <gtk/gtk.h>
+
+#include "editor-gtk/document.h"
+
+enum uses_mode { USES_SYMBOL, USES_ALL, USES_UNUSED, USES_DOUBLE };
+
+#define LADDER_TYPE_USES_VIEW (ladder_uses_view_get_type())
+G_DECLARE_FINAL_TYPE(LadderUsesView, ladder_uses_view, LADDER, USES_VIEW, GtkWidget)
+
+GtkWidget *ladder_uses_view_new(void);
+void ladder_uses_view_set_document(LadderUsesView *view, LadderDocument *document);
+/** ladder_uses_view_set_symbol - what stands at the cursor, as the cell says it; @pou: in
+ * which POU, -1: among the globals. NULL: nothing. */
+void ladder_uses_view_set_symbol(LadderUsesView *view, int pou, const char *symbol);
+void ladder_uses_view_set_mode(LadderUsesView *view, enum uses_mode mode);
+/** ladder_uses_view_list - the rows shown (LadderPanelRow). Borrowed. */
+GListModel *ladder_uses_view_list(LadderUsesView *view);
+/** ladder_uses_view_refresh - now, seen or not. */
+void ladder_uses_view_refresh(LadderUsesView *view);
+
+#endif

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * welcome - what an editor without a file shows: begin anew, go on, look at a sample.
+ *
+ * A sample is opened as a copy that has no file yet, so that nobody spoils it.
+ */
+#ifndef EDITOR_WELCOME_H
+#define EDITOR_WELCOME_H
+
+#include <gtk/gtk.h>
+
+/** welcome_new - its rows do win.new_project, win.open, win.open-path and
+ * win.open-sample with a path. */
+GtkWidget *welcome_new(void);
+/** welcome_samples - the folder of the samples; NULL: there is none. Caller frees. */
+char *welcome_samples(void);
+
+#endif

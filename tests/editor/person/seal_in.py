@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""seal_in - a motor seal-in, drawn from nothing: by keyboard alone, and by pointer alone."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, trace, until  # noqa: E402
+
+BEHAVIOUR = '''@print Motor
+Start=0 Stop=0
+Start=1
+Start=0
+.
+Stop=1
+Stop=0
+'''
+WANTED = ['Motor=0', 'Motor=1', 'Motor=1', 'Motor=1', 'Motor=0', 'Motor=0']
+
+
+def behaves(path):
+    check(path)
+    got = [line.split()[-1] for line in trace(path, BEHAVIOUR).splitlines()]
+    assert got == WANTED, 'it does not seal itself in: %s\n%s' % (got, open(path).read())
+
+
+def by_keyboard(screen):
+    """a motor seal-in from nothing, by keyboard alone"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.entry('Start')
+    editor.entry('XIO Stop')
+    editor.entry('OUT Motor')
+    editor.keys('Home', 'shift+F5')
+    editor.opened()
+    editor.entry('Motor')
+    editor.shot('seal-in-keyboard')
+    text = editor.save(path)
+    assert 'Start AT %IX0.0' in text and 'Motor AT %QX0.0' in text, text
+    behaves(path)
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z', 'ctrl+z')
+    empty = editor.save(path)
+    assert 'COIL' not in empty and 'Start' not in empty, empty
+    editor.keys('ctrl+shift+z', 'ctrl+shift+z', 'ctrl+shift+z', 'ctrl+shift+z')
+    assert editor.save(path) == text
+
+
+def choose(editor, text):
+    """Clicks a candidate of the entry that opened."""
+    editor.opened()
+    editor.type(text)
+    editor.keys('Return')
+    editor.gone()
+
+
+def by_pointer(screen):
+    """the same by pointer: elements dragged from the palette, a branch, names typed"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    contact = editor.find('closed while TRUE', 'push button')
+    negated = editor.find('closed while FALSE', 'push button')
+    coil = editor.find('TRUE while powered', 'push button')
+    for tile, column, name in (contact, 0, 'Start'), (negated, 1, 'Stop'), (coil, 5, 'Motor'):
+        editor.drag(tile, editor.grid(60, column))
+        choose(editor, name)
+    editor.drag(contact, editor.grid(120, 0))
+    choose(editor, 'Motor')
+    editor.shot('seal-in-pointer')
+    editor.click(editor.find('Save', 'push button'))
+    until(lambda: 'Motor ^' in open(path).read(), 'the branch in the file')
+    behaves(path)
+
+
+main([by_keyboard, by_pointer])

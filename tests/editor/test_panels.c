@@ -1,0 +1,516 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_panels - the panels with lists, in a window: what they show, where they go, what
+ * an edit in them does. PANEL_PICTURES=FOLDER saves pictures of them, for a human eye.
+ */
+#include "editor-gtk/find_bar.h"
+#include "editor-gtk/import_dialog.h"
+#include "editor-gtk/panel_row.h"
+#include "editor-gtk/problems.h"
+#include "editor-gtk/symbols_view.h"
+#include "editor-gtk/uses_view.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\n\n"
+	"VAR\n  Start AT %IX0.0 : BOOL; (* \xe5\x90\xaf\xe5\x8a\xa8\xe6\x8c\x89\xe9\x92\xae *)\n"
+	"  \xe7\x94\xb5\xe6\x9c\xba AT %QX0.0 : BOOL; (* \xe4\xb8\xbb\xe7\x94\xb5\xe6\x9c\xba *)\n"
+	"  Spare : INT;\n  Wide AT %QW0 : WORD;\n  Bad AT %QX9.0 : INT;\nEND_VAR\n\n"
+	"VAR RETAIN\n  Hours : UDINT;\nEND_VAR\n\n"
+	"PROGRAM Main LD\nVAR\n  Delay : TON;\nEND_VAR\n"
+	"RUNG \"\xe7\x94\xb5\xe6\x9c\xba\"\n  | NO Start | COIL \xe7\x94\xb5\xe6\x9c\xba |\n"
+	"RUNG\n  | NO \xe7\x94\xb5\xe6\x9c\xba | TON Delay PT:=T#1s | COIL %QX0.3 |\n"
+	"RUNG\n  | NO Nobody | COIL %QX0.4 |\nEND_PROGRAM\n\n"
+	"PROGRAM List IL\n  LD    Start\n  ST    Lost\nEND_PROGRAM\n";
+
+static GtkWidget *window;
+static LadderDocument *document;
+static char gone_to[64];
+
+/* ---- the window ---- */
+
+static void go_to(GSimpleAction *action, GVariant *place, gpointer unused)
+{
+	int at[4];
+
+	(void)action;
+	(void)unused;
+	g_variant_get(place, "(iiii)", &at[0], &at[1], &at[2], &at[3]);
+	g_snprintf(gone_to, sizeof(gone_to), "%d %d %d %d", at[0], at[1], at[2], at[3]);
+}
+
+static void turn(int ms)
+{
+	const gint64 end = g_get_monotonic_time() + ms * 1000;
+
+	do {
+		g_main_context_iteration(NULL, FALSE);
+		g_usleep(1000);
+	} while (g_get_monotonic_time() < end);
+}
+
+/* Turns until it holds, for as long as a slow machine may take. */
+#define WAIT(condition) \
+	do { \
+		for (int wait_turns = 0; wait_turns < 1000 && !(condition); wait_turns++) \
+			turn(10); \
+	} while (0)
+#define CHECK_SOON(condition) do { WAIT(condition); CHECK(condition); } while (0)
+
+static void put(GtkWidget *child)
+{
+	gtk_window_set_child(GTK_WINDOW(window), child);
+	gtk_window_present(GTK_WINDOW(window));
+	turn(150);
+}
+
+static void make_window(void)
+{
+	GSimpleActionGroup *group = g_simple_action_group_new();
+	GSimpleAction *action = g_simple_action_new("go-to", G_VARIANT_TYPE("(iiii)"));
+
+	g_signal_connect(action, "activate", G_CALLBACK(go_to), NULL);
+	g_action_map_add_action(G_ACTION_MAP(group), G_ACTION(action));
+	window = gtk_window_new();
+	gtk_window_set_default_size(GTK_WINDOW(window), 1000, 340);
+	gtk_widget_insert_action_group(window, "win", G_ACTION_GROUP(group));
+	g_object_unref(action);
+	g_object_unref(group);
+}
+
+static void save_picture(GtkWidget *widget, const char *name, bool dark)
+{
+	const char *folder = g_getenv("PANEL_PICTURES");
+	GtkWidget *all = GTK_WIDGET(gtk_widget_get_root(widget));
+	GdkPaintable *paintable = gtk_widget_paintable_new(all);
+	GtkSnapshot *snapshot = gtk_snapshot_new();
+	GskRenderNode *node;
+	GdkTexture *texture;
+	char *path;
+
+	turn(100);
+	gdk_paintable_snapshot(paintable, snapshot, gtk_widget_get_width(all),
+			       gtk_widget_get_height(all));
+	node = gtk_snapshot_free_to_node(snapshot);
+	texture = gsk_renderer_render_texture(gtk_native_get_renderer(
+		gtk_widget_get_native(widget)), node, NULL);
+	path = g_strdup_printf("%s/%s-%s.png", folder, name, dark ? "dark" : "light");
+	gdk_texture_save_to_png(texture, path);
+	g_free(path);
+	g_object_unref(texture);
+	gsk_render_node_unref(node);
+	g_object_unref(paintable);
+}
+
+static void picture(GtkWidget *widget, const char *name)
+{
+	AdwStyleManager *style = adw_style_manager_get_default();
+
+	if (!g_getenv("PANEL_PICTURES"))
+		return;
+	for (int dark = 0; dark < 2; dark++) {
+		adw_style_manager_set_color_scheme(style, dark ?
+			ADW_COLOR_SCHEME_FORCE_DARK : ADW_COLOR_SCHEME_FORCE_LIGHT);
+		save_picture(widget, name, dark);
+	}
+	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_DEFAULT);
+}
+
+static void reopen(const char *text)
+{
+	ladder_document_open_text(document, "/tmp/x/test.rung", text, strlen(text), true);
+	ladder_document_check_now(document);
+}
+
+static bool has(const char *part)
+{
+	char *text = ladder_document_text(document, NULL);
+	bool found = strstr(text, part);
+
+	if (!found)
+		printf("# %s\n", text);
+	g_free(text);
+	return found;
+}
+
+/* ---- lists ---- */
+
+static char *texts_of(GListModel *list, guint at)
+{
+	LadderPanelRow *row = g_list_model_get_item(list, at);
+	GString *out = g_string_new("");
+
+	if (!row)
+		return g_string_free(out, FALSE);
+	for (int i = 0; i < PANEL_TEXTS; i++)
+		if (row->text[i])
+			g_string_append_printf(out, "%s|", row->text[i]);
+	CHECK(row->spoken && *row->spoken);
+	g_object_unref(row);
+	return g_string_free(out, FALSE);
+}
+
+static void is_row(GListModel *list, guint at, const char *want)
+{
+	char *got = texts_of(list, at);
+
+	CHECK_TEXT(got, want);
+	g_free(got);
+}
+
+static GtkWidget *find_widget(GtkWidget *from, GType type, int *nth)
+{
+	if (G_TYPE_CHECK_INSTANCE_TYPE(from, type) && (*nth)-- == 0)
+		return from;
+	for (GtkWidget *child = gtk_widget_get_first_child(from); child;
+	     child = gtk_widget_get_next_sibling(child)) {
+		GtkWidget *found = find_widget(child, type, nth);
+
+		if (found)
+			return found;
+	}
+	return NULL;
+}
+
+static GtkWidget *nth_widget(GtkWidget *from, GType type, int nth)
+{
+	return find_widget(from, type, &nth);
+}
+
+static GtkWidget *column_view(GtkWidget *from)
+{
+	return nth_widget(from, GTK_TYPE_COLUMN_VIEW, 0);
+}
+
+/* The first one is inside the drop-down. */
+static GtkWidget *search_of(GtkWidget *from)
+{
+	return nth_widget(from, GTK_TYPE_SEARCH_ENTRY, 1);
+}
+
+/* ---- problems ---- */
+
+static void test_problems(void)
+{
+	LadderProblems *problems = LADDER_PROBLEMS(ladder_problems_new());
+	GListModel *list = ladder_problems_list(problems);
+	char *title;
+
+	g_object_set(problems, "document", document, NULL);
+	put(GTK_WIDGET(problems));
+	const guint count = g_list_model_get_n_items(list);
+
+	for (guint i = 0; i < count; i++) {
+		char *text = texts_of(list, i);
+
+		printf("# %s\n", text);
+		g_free(text);
+	}
+	CHECK(count >= 3 && ladder_problems_count(problems, false) == (int)count);
+	CHECK(ladder_problems_count(problems, true) >= 2);
+	g_object_get(problems, "title", &title, NULL);
+	CHECK(g_str_has_prefix(title, "Problems ") && title[9] == (char)('0' + count));
+	g_free(title);
+	picture(GTK_WIDGET(problems), "problems");
+	for (guint i = 0; i < count; i++) {
+		LadderPanelRow *row = g_list_model_get_item(list, i);
+
+		if (row->rung == 2) {
+			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
+					      i);
+			CHECK_TEXT(gone_to, "0 2 0 0");
+		}
+		if (strstr(row->text[0], "Hours")) {
+			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
+					      i);
+			CHECK_TEXT(gone_to, "-1 -1 0 5");
+		}
+		if (row->pou == 1) {
+			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
+					      i);
+			CHECK_TEXT(gone_to, "1 -1 2 8");
+		}
+		g_object_unref(row);
+	}
+	is_row(list, count - 1, "unknown name: Lost|List, line 3|LD301|Error|");
+	CHECK(ladder_problems_next(problems, false));
+	CHECK(ladder_problems_next(problems, true));
+	reopen("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nEND_PROGRAM\n");
+	turn(20);
+	CHECK(g_list_model_get_n_items(list) == 0 && !ladder_problems_next(problems, false));
+	g_object_get(problems, "title", &title, NULL);
+	CHECK_TEXT(title, "Problems");
+	g_free(title);
+	reopen("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO\n");
+	CHECK_AS(ladder_problems_count(problems, true) > 0, "of a text, too");
+	reopen(sample);
+	g_object_set(problems, "document", NULL, NULL);
+	CHECK(ladder_problems_count(problems, false) == 0);
+	put(NULL);
+}
+
+/* ---- uses ---- */
+
+static void test_uses(void)
+{
+	LadderUsesView *view = LADDER_USES_VIEW(ladder_uses_view_new());
+	GListModel *list = ladder_uses_view_list(view);
+	guint all;
+
+	g_object_set(view, "document", document, NULL);
+	put(GTK_WIDGET(view));
+	CHECK(g_list_model_get_n_items(list) == 0);
+	ladder_uses_view_set_symbol(view, 0, "Start");
+	CHECK(g_list_model_get_n_items(list) == 3);
+	is_row(list, 0, "Start|%IX0.0|declared|declarations||");
+	is_row(list, 1, "Start|%IX0.0|read|Main, rung 1 (1, 1)|Start|");
+	is_row(list, 2, "Start|%IX0.0|read|List, line 2|Start|");
+	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 1);
+	CHECK_TEXT(gone_to, "0 0 0 0");
+	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 2);
+	CHECK_TEXT(gone_to, "1 -1 1 8");
+	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 0);
+	CHECK_TEXT(gone_to, "-1 -1 0 0");
+	ladder_uses_view_set_symbol(view, 0, "Delay.Q");
+	CHECK(g_list_model_get_n_items(list) == 2);
+	ladder_uses_view_set_symbol(view, -1, "Main.Delay");
+	CHECK(g_list_model_get_n_items(list) == 2);
+	ladder_uses_view_set_symbol(view, 0, "%QX0.0");
+	CHECK_AS(g_list_model_get_n_items(list) == 4, "an address: what touches it");
+	ladder_uses_view_set_symbol(view, 0, "1 +");
+	CHECK(g_list_model_get_n_items(list) == 0);
+	ladder_uses_view_set_mode(view, USES_ALL);
+	all = g_list_model_get_n_items(list);
+	CHECK(all > 12);
+	picture(GTK_WIDGET(view), "uses");
+	gtk_editable_set_text(GTK_EDITABLE(search_of(GTK_WIDGET(view))), "\xe7\x94\xb5");
+	CHECK_SOON(g_list_model_get_n_items(list) == 3);
+	gtk_editable_set_text(GTK_EDITABLE(search_of(GTK_WIDGET(view))), "");
+	WAIT(g_list_model_get_n_items(list) == all);
+	ladder_uses_view_set_mode(view, USES_UNUSED);
+	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
+		char *text = texts_of(list, i);
+
+		printf("# unused %s\n", text);
+		g_free(text);
+	}
+	is_row(list, 0, "Spare||declared|declarations||");
+	ladder_uses_view_set_mode(view, USES_DOUBLE);
+	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
+		char *text = texts_of(list, i);
+
+		printf("# double %s\n", text);
+		g_free(text);
+	}
+	CHECK(g_list_model_get_n_items(list) == 3);
+	is_row(list, 0, "Wide|%QW0|declared|declarations|also used as "
+	       "\xe7\x94\xb5\xe6\x9c\xba (%QX0.0)|");
+	ladder_uses_view_set_mode(view, USES_ALL);
+	ladder_document_put_list(document, 1,
+		"PROGRAM List IL\n  LD I0\n  ST Q1\n  ST Q2\n  ST Q3\nEND_PROGRAM\n");
+	WAIT(g_list_model_get_n_items(list) != all);
+	CHECK_AS(g_list_model_get_n_items(list) != all, "a change is seen");
+	ladder_document_undo(document);
+	CHECK_SOON(g_list_model_get_n_items(list) == all);
+	put(NULL);
+}
+
+/* ---- symbols ---- */
+
+/* The cell for a field of the row at @at, as it is shown. */
+static GtkWidget *cell_of(GtkWidget *view, GType type, const char *text)
+{
+	for (int i = 0;; i++) {
+		GtkWidget *cell = nth_widget(view, type, i);
+
+		if (!cell || strcmp(gtk_editable_get_text(GTK_EDITABLE(cell)), text) == 0)
+			return cell;
+	}
+}
+
+static void type_into(LadderSymbolsView *view, GtkWidget *cell, const char *text)
+{
+	CHECK(cell);
+	if (!cell)
+		return;
+	gtk_editable_set_text(GTK_EDITABLE(cell), text);
+	g_signal_emit_by_name(cell, "activate");
+	ladder_symbols_view_refresh(view);
+	turn(50);
+}
+
+static guint row_named(GListModel *list, const char *name)
+{
+	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
+		LadderPanelRow *row = g_list_model_get_item(list, i);
+		bool found = strcmp(row->text[0], name) == 0;
+
+		g_object_unref(row);
+		if (found)
+			return i;
+	}
+	return GTK_INVALID_LIST_POSITION;
+}
+
+static void test_symbols(void)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
+	GtkWidget *widget = GTK_WIDGET(view), *cell;
+	GListModel *list = ladder_symbols_view_list(view);
+	LadderPanelRow *row;
+
+	g_object_set(view, "document", document, NULL);
+	put(widget);
+	CHECK(g_list_model_get_n_items(list) == 7);
+	is_row(list, 1, "\xe7\x94\xb5\xe6\x9c\xba|BOOL|%QX0.0||||"
+	       "\xe4\xb8\xbb\xe7\x94\xb5\xe6\x9c\xba|global|2|");
+	row = g_list_model_get_item(list, row_named(list, "Bad"));
+	CHECK_AS(row->note && row->tone == PANEL_ERROR, "what is wrong with a field is told");
+	g_object_unref(row);
+	picture(widget, "symbols");
+	type_into(view, cell_of(widget, GTK_TYPE_TEXT, "Spare"), "Stock");
+	CHECK(has("  Stock           : INT;") || has("  Stock : INT;") || has("  Stock   : INT;"));
+	CHECK_TEXT(ladder_symbols_view_message(view), "");
+	type_into(view, cell_of(widget, GTK_TYPE_TEXT, "Start"), "\xe5\x90\xaf\xe5\x8a\xa8");
+	CHECK(has("| NO \xe5\x90\xaf\xe5\x8a\xa8 |"));
+	ladder_document_check_now(document); /* it is unused: its row changes */
+	ladder_symbols_view_refresh(view);
+	turn(250);
+	cell = cell_of(widget, GTK_TYPE_TEXT, "Stock");
+	type_into(view, cell, "Hours");
+	CHECK_AS(gtk_widget_has_css_class(cell, "error") &&
+		 strstr(ladder_symbols_view_message(view), "Hours"), "a refusal is told");
+	picture(widget, "symbols-refused");
+	type_into(view, cell, "Stock");
+	CHECK(!gtk_widget_has_css_class(cell, "error"));
+	cell = nth_widget(widget, GTK_TYPE_CHECK_BUTTON, 0);
+	gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), TRUE);
+	turn(20);
+	CHECK(has("VAR RETAIN\n  Hours           : UDINT;\n  \xe5\x90\xaf\xe5\x8a\xa8  AT %IX0.0 : BOOL;") ||
+	      has("VAR RETAIN\n  Hours : UDINT;\n  \xe5\x90\xaf\xe5\x8a\xa8  AT %IX0.0 : BOOL;"));
+	while (ladder_document_undo(document))
+		;
+	CHECK(ladder_symbols_view_show(view, 0, 2));
+	gtk_widget_activate_action(widget, "symbols.add", NULL);
+	CHECK(has("  Spare2          : INT;") || has("  Spare2 : INT;") ||
+	      has("  Spare2       : INT;"));
+	CHECK_TEXT(ladder_document_undo_name(document), "Add symbol");
+	gtk_widget_activate_action(widget, "symbols.delete", NULL);
+	CHECK(!has("Spare2"));
+	CHECK(!ladder_symbols_view_show(view, 0, 99));
+	gtk_editable_set_text(GTK_EDITABLE(search_of(widget)),
+			      "qx0");
+	WAIT(g_list_model_get_n_items(list) == 1);
+	CHECK_AS(g_list_model_get_n_items(list) == 1, "filtered");
+	gtk_editable_set_text(GTK_EDITABLE(search_of(widget)), "");
+	CHECK_SOON(g_list_model_get_n_items(list) == 7);
+	while (ladder_document_undo(document))
+		;
+	put(NULL);
+}
+
+static void test_import(void)
+{
+	static const char table[] = "Name,Type,Address,Comment\r\nStart,BOOL,%IX0.5,go\r\n"
+		"\xe9\x98\x80,BOOL,%QX1.0,\xe9\x98\x80\xe9\x97\xa8\r\n9,INT,,\r\n";
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
+	GtkWidget *dialog;
+
+	g_object_set(view, "document", document, NULL);
+	put(GTK_WIDGET(view));
+	dialog = ladder_symbols_view_import(view, "table.csv", table, strlen(table));
+	turn(200);
+	CHECK(LADDER_IS_IMPORT_DIALOG(dialog));
+	picture(dialog, "import");
+	gtk_widget_activate_action(dialog, "import.cancel", NULL);
+	turn(50);
+	CHECK(!ladder_document_undo_name(document));
+	dialog = ladder_symbols_view_import(view, "table.csv", table, strlen(table));
+	gtk_widget_activate_action(dialog, "import.apply", NULL);
+	turn(200);
+	CHECK(has("AT %IX0.5 : BOOL; (* go *)") && has("\xe9\x98\x80    AT %QX1.0"));
+	CHECK_TEXT(ladder_document_undo_name(document), "Import symbols");
+	ladder_document_undo(document);
+	put(NULL);
+}
+
+/* ---- find ---- */
+
+static int told_hits, told_closed;
+
+static void count(LadderFindBar *bar, int *told)
+{
+	(void)bar;
+	++*told;
+}
+
+static void test_find(void)
+{
+	LadderFindBar *bar = LADDER_FIND_BAR(ladder_find_bar_new());
+	GtkWidget *widget = GTK_WIDGET(bar);
+	GtkEditable *with;
+
+	g_object_set(bar, "document", document, NULL);
+	g_signal_connect(bar, "hits-changed", G_CALLBACK(count), &told_hits);
+	g_signal_connect(bar, "closed", G_CALLBACK(count), &told_closed);
+	put(widget);
+	CHECK(!ladder_find_bar_is_open(bar) && !ladder_find_bar_next(bar, false));
+	ladder_find_bar_open(bar, true, "\xe7\x94\xb5\xe6\x9c\xba");
+	CHECK(told_hits > 0 && ladder_find_bar_find(bar)->hit->len == 5);
+	CHECK_TEXT(ladder_find_bar_message(bar), "5 hits");
+	ladder_find_bar_set_place(bar, 0, 0, 0, 0);
+	CHECK(ladder_find_bar_next(bar, false));
+	CHECK_TEXT(gone_to, "0 0 0 1");
+	CHECK_TEXT(ladder_find_bar_message(bar), "4 of 5");
+	gtk_widget_activate_action(widget, "find.previous", NULL);
+	CHECK_TEXT(gone_to, "0 0 -1 -1");
+	if (g_getenv("PANEL_PICTURES"))
+		turn(400); /* it slides in */
+	picture(widget, "find");
+	with = GTK_EDITABLE(nth_widget(widget, GTK_TYPE_ENTRY, 1));
+	gtk_editable_set_text(with, "\xe6\xb3\xb5");
+	gtk_widget_activate_action(widget, "find.replace", NULL);
+	CHECK(has("RUNG \"\xe6\xb3\xb5\""));
+	CHECK_TEXT(gone_to, "0 0 0 1");
+	gtk_widget_activate_action(widget, "find.replace-all", NULL);
+	CHECK_TEXT(ladder_find_bar_message(bar), "4 replaced");
+	CHECK(!strstr(gtk_editable_get_text(with), "\xe7\x94\xb5"));
+	ladder_document_undo(document);
+	ladder_document_undo(document);
+	WAIT(ladder_find_bar_find(bar)->hit->len == 5);
+	gtk_editable_set_text(with, "a | b");
+	gtk_widget_activate_action(widget, "find.replace-all", NULL);
+	CHECK_AS(strstr(ladder_find_bar_message(bar), ":") && !ladder_document_undo_name(document),
+		 "why nothing was replaced");
+	ladder_find_bar_open(bar, false, "nothing at all");
+	CHECK_TEXT(ladder_find_bar_message(bar), "Nothing found");
+	gtk_widget_activate_action(widget, "find.close", NULL);
+	CHECK(told_closed == 1 && !ladder_find_bar_is_open(bar) && !ladder_find_bar_find(bar));
+	WAIT(G_OBJECT(bar)->ref_count == 1); /* the window lets go of the focus */
+	put(NULL);
+}
+
+int main(void)
+{
+	g_setenv("G_DEBUG", "fatal-warnings", TRUE);
+	g_setenv("GTK_A11Y", "test", FALSE);
+	if (!gtk_init_check()) {
+		printf("1..0 # SKIP no display\n");
+		return 0;
+	}
+	adw_init();
+	make_window();
+	document = ladder_document_new();
+	reopen(sample);
+	test_problems();
+	test_uses();
+	test_symbols();
+	test_import();
+	test_find();
+	gtk_window_destroy(GTK_WINDOW(window));
+	WAIT(G_OBJECT(document)->ref_count == 1);
+	g_assert_finalize_object(document);
+	return tap_done();
+}
