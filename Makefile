@@ -278,12 +278,13 @@ bless: $(BUILD)/ladder ## rewrite what CASE=name expects and show the difference
 BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
+RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
 TESTS_BIN := $(addprefix $(BIN)/,differential members iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
-$(BIN)/members: $(BUILD)/tests/members.o $(BUILD)/tests/walker/random.o $(call obj,$(wildcard tests/walker/words*.c))
+$(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free
@@ -291,7 +292,7 @@ $(BIN)/saving: $(BUILD)/tests/saving.o
 $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
 $(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c)
 $(BIN)/storing: WRAP := -Wl,--wrap=pwrite,--wrap=pwrite64,--wrap=fsync,--wrap=fdatasync,--wrap=rename,--wrap=unlink
-FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(BUILD)/tests/walker/random.o $(call obj,$(wildcard tests/walker/words*.c))
+FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(RANDOM_O)
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o
 $(BIN)/fuzz_iomap: $(call obj,$(HAL_CORE) hal/gpiod_none.c)
@@ -348,7 +349,7 @@ $(BUILD)/ladderd-count: $(LADDERD) $(DRIVERS) $(call obj,$(GUEST)/count/count_io
 # What they play, made natively: build/cases/.
 CASES     := $(BUILD)/cases
 PROGRAMS  ?= 1000
-$(BUILD)/make_cases: $(call obj,$(wildcard $(GUEST)/cases/*.c) tests/walker/random.c $(wildcard tests/walker/words*.c) $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
+$(BUILD)/make_cases: $(call obj,$(wildcard $(GUEST)/cases/*.c) $(wildcard tests/walker/random*.c tests/walker/words*.c) $(HAL_CORE) hal/gpiod_none.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 cases: $(CASES)/stamp ## programs, maps, plans, bad images and programs.bundle for the guest suite
 $(CASES)/stamp: $(BUILD)/make_cases $(BUILD)/ladder $(wildcard ladders/*.rung ladders/*.scn ladders/boards/*.io $(GUEST)/programs/* $(GUEST)/cases/make.sh)

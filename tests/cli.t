@@ -435,5 +435,55 @@ SKIP: {
 	like($screen, qr/o 0 %QX0\.0.*\* 1 %QX0\.1/s, 'live: in a fault outputs have their safe values');
 	like($screen, qr/ AVeryLong\w+ = 1/, 'live: a long name leaves room for the value');
 }
+# Rungs with their power, of an instance, too.
+put('own.rung', <<'END');
+RUNGBOARD 1
+VAR
+  A : Seal;
+  B : Seal;
+END_VAR
+FUNCTION_BLOCK Seal LD
+VAR_INPUT
+  On : BOOL;
+END_VAR
+VAR_OUTPUT
+  Q : BOOL;
+END_VAR
+RUNG Only
+  | NO On | COIL Q |
+END_FUNCTION_BLOCK
+PROGRAM Main LD
+RUNG
+  | NO I0 | Seal A |
+RUNG Other
+  | NO I1 | Seal B |
+END_PROGRAM
+END
+put('own.script', "I0=1\n");
+my %powered = (A => '==\| \|=====\( \)=', B => '==\| \|-----\( \)-', 'b:Only' => '==\| \|-----\( \)-',
+	'Main.A:1' => '==\| \|=====\( \)=', 'Main:Other' => '==\| \|-----\|On');
+for my $name (sort keys %powered) {
+	($out, $err) = is_run(0, "show --after: $name", ['show', '--ascii', '--after', 'own.script', 'own.rung', $name]);
+	like($out, qr/$powered{$name}/, "show --after: the power of $name");
+}
+like((is_run(0, 'show --after: all', ['show', '--after', 'own.script', 'own.rung']))[0], qr/━━┤ ├━━/, 'thick wires');
+is_run(2, 'show --after: no such instance', ['show', '--after', 'own.script', 'own.rung', 'C']);
+is_run(2, 'show of an instance without a script', ['show', 'own.rung', 'A']);
+is_run(2, 'show --after: no script', ['show', '--after', 'nowhere', 'own.rung']);
+put('bad.script', "Nothing=1\n");
+($out, $err) = is_run(1, 'show --after: a wrong script', ['show', '--after', 'bad.script', 'own.rung']);
+like($err, qr/^bad\.script:1:1: error LD301/, 'says where');
+put('loop.rung', "RUNGBOARD 1\nPROGRAM Main LD\nRUNG L\n  | NO I0 | JMP L |\nEND_PROGRAM\n");
+($out, $err) = is_run(1, 'show --after: a fault', ['show', '--ascii', '--after', 'own.script', 'loop.rung']);
+like($out, qr/==\| \|==/, 'is drawn as it stopped');
+like($err, qr/^own\.script:1: rung 1 \(1,2\): error LD008: .*, in Main$/m, 'with its place');
+is_run(2, 'run --rungs: none', ['run', 'own.rung', '--rungs', 'C', '--scans', '1']);
+is_run(0, 'run --rungs in a pipe', ['run', 'own.rung', '--rungs', 'A', '--scans', '1']);
+SKIP: {
+	skip 'no script(1) to make a terminal', 2 unless grep { -x "$_/script" } split /:/, $ENV{PATH};
+	my $screen = `(sleep 0.5; printf 2; sleep 0.5; printf q; sleep 1) | TERM=xterm NO_COLOR=1 LC_ALL=C script -qc 'stty cols 60 rows 20; \Q$ladder\E run own.rung --rungs Main.B' /dev/null`;
+	like($screen, qr/FUNCTION_BLOCK Seal as B.*==\| \|-----\( \)-/s, 'live: rungs of an instance');
+	like($screen, qr/==\| \|=====\( \)=/, 'live: with their power when an input comes');
+}
 chdir '/';
 done_testing();

@@ -19,8 +19,8 @@
 #include <stdlib.h>
 #include <time.h>
 
-#define TEXT_MAX (96 * 1024)
-#define COMPARED 256  /* variables of one program                            */
+#define TEXT_MAX (128 * 1024)
+#define COMPARED 1500 /* variables of one program                            */
 #define WINDOW 16     /* bytes of I, Q and M that programs use               */
 #define MARKS 24
 
@@ -102,19 +102,40 @@ static bool same_area(struct duel *duel, int side, enum iec_area area, int size)
 	return true;
 }
 
-static bool same_cell(struct duel *duel, int pou, int rung, int row, int col)
+/* Of a POU, or of a block in an instance of it. */
+struct body {
+	const struct pou *pou;
+	int number;
+	const char *instance; /* NULL: of a POU                               */
+};
+
+static bool engine_power(struct duel *duel, const struct body *body, uint32_t rung,
+			 uint32_t row, uint32_t col, bool *in, bool *out)
+{
+	const struct resource *resource = &duel->side[1].resource;
+
+	if (!body->instance)
+		return resource_power(resource, (uint32_t)body->number, rung, row, col,
+				      in, out);
+	return resource_power_in(resource, body->instance, strlen(body->instance), rung,
+				 row, col, in, out);
+}
+
+static bool same_cell(struct duel *duel, const struct body *body, int rung, int row,
+		      int col)
 {
 	bool in = false, out = false, my_in = false, my_out = false;
-	enum walker_power known = walker_power(duel->walker, pou, rung, row,
-					       col, &my_in, &my_out);
-	char text[64];
+	enum walker_power known = body->instance ?
+		walker_power_in(duel->walker, body->number, rung, row, col, &my_in, &my_out) :
+		walker_power(duel->walker, body->number, rung, row, col, &my_in, &my_out);
+	char text[160];
 
 	if (known == POWER_UNKNOWN)
 		return true;
-	snprintf(text, sizeof(text), "power of rung %d (%d,%d)", rung, row, col);
-	if (!resource_power(&duel->side[1].resource, (uint32_t)pou,
-			    (uint32_t)rung, (uint32_t)row, (uint32_t)col, &in,
-			    &out)) {
+	snprintf(text, sizeof(text), "power of %.60s rung %d (%d,%d)",
+		 body->instance ? body->instance : "", rung, row, col);
+	if (!engine_power(duel, body, (uint32_t)rung, (uint32_t)row, (uint32_t)col, &in,
+			  &out)) {
 		differ(duel, 1, text, -1, my_in);
 		return false;
 	}
@@ -124,20 +145,33 @@ static bool same_cell(struct duel *duel, int pou, int rung, int row, int col)
 	return false;
 }
 
+static bool same_body(struct duel *duel, const struct body *body)
+{
+	for (int i = 0; i < body->pou->rung_count; i++) {
+		const struct rung *rung = body->pou->rung[i];
+
+		for (int c = 0; c < rung->rows * rung->cols; c++)
+			if (!same_cell(duel, body, i + 1, c / rung->cols + 1,
+				       c % rung->cols + 1))
+				return false;
+	}
+	return true;
+}
+
 static bool same_power(struct duel *duel)
 {
 	const struct project *project = ladder_project(duel->ladder);
+	struct body body = { NULL, 0, NULL };
 
-	for (int p = 0; p < project->pou_count; p++)
-		for (int i = 0; i < project->pou[p].rung_count; i++) {
-			const struct rung *rung = project->pou[p].rung[i];
-
-			for (int c = 0; c < rung->rows * rung->cols; c++)
-				if (!same_cell(duel, p, i + 1,
-					       c / rung->cols + 1,
-					       c % rung->cols + 1))
-					return false;
-		}
+	for (; body.number < project->pou_count; body.number++) {
+		body.pou = &project->pou[body.number];
+		if (!same_body(duel, &body))
+			return false;
+	}
+	for (body.number = 0; (body.pou = walker_instance(duel->walker, body.number,
+			       &body.instance)) != NULL; body.number++)
+		if (!same_body(duel, &body))
+			return false;
 	return true;
 }
 

@@ -7,6 +7,7 @@
 #   expected.diag   what `ladder check` says on standard error
 #   expected.il     what `ladder il` prints
 #   expected.trace  what `ladder trace main.rung stimulus` prints
+#   expected.fault  the same of a program that ends with a fault, and what is said of it
 # The cases together must show every message of diag.def and trace every word of
 # catalog.def. `--bless CASE` rewrites what a case expects and shows the difference:
 # a person reads it. It decides nothing about right and wrong itself.
@@ -25,6 +26,7 @@ my %command = (
 	diag  => ['check', 'main.rung'],
 	il    => ['il', 'main.rung'],
 	trace => ['trace', 'main.rung', 'stimulus'],
+	fault => ['trace', 'main.rung', 'stimulus'],
 );
 
 sub slurp {
@@ -58,8 +60,8 @@ sub run_case {
 sub produce {
 	my ($dir, $kind) = @_;
 	my ($out, $err, $status) = run_case($dir, @{$command{$kind}});
-	my $text = $kind eq 'diag' ? $err : $out;
-	my $wanted = $kind eq 'diag' && $err =~ /: error LD/ ? 1 : 0;
+	my $text = $kind eq 'diag' ? $err : $kind eq 'fault' ? "$out$err" : $out;
+	my $wanted = $kind eq 'fault' || ($kind eq 'diag' && $err =~ /: error LD/) ? 1 : 0;
 	return ($text, $status == $wanted, $status);
 }
 
@@ -70,7 +72,7 @@ sub cases {
 sub bless_case {
 	my ($dir) = @_;
 	my @kinds = grep { -e "$dir/expected.$_" } sort keys %command;
-	push @kinds, 'trace' if -e "$dir/stimulus" && !grep { $_ eq 'trace' } @kinds;
+	push @kinds, 'trace' if -e "$dir/stimulus" && !grep { /trace|fault/ } @kinds;
 	@kinds = ('diag') unless @kinds;
 	for my $kind (@kinds) {
 		my ($text, $good, $status) = produce($dir, $kind);

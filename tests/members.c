@@ -15,7 +15,7 @@
 
 #define COUNT    400
 #define SCANS    25
-#define TEXT_MAX (64u * 1024)
+#define TEXT_MAX (192u * 1024)
 #define PERIOD   INT64_C(10000000)
 
 /* How an array is written: where it stands, and what is behind its index. */

@@ -14,6 +14,8 @@ use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
 use JSON::PP;
 use Test::More;
+use lib abs_path(dirname(__FILE__)) . '/bad';
+use Rows;
 
 my $tests = abs_path(dirname(__FILE__));
 my $build = $ENV{BUILD} // "$tests/../build";
@@ -43,20 +45,6 @@ my %values = (
 my @types = sort keys %values;
 my @some = qw(BOOL INT REAL DWORD LINT STRING TIME);
 
-my %classes = (
-	ANY_INT => [qw(SINT INT DINT LINT USINT UINT UDINT ULINT)],
-	CLASS_SIGNED => [qw(SINT INT DINT LINT)], CLASS_REAL => [qw(REAL LREAL)],
-	CLASS_BITS => [qw(BYTE WORD DWORD LWORD)], CLASS_BOOL => ['BOOL'],
-	CLASS_TIME => ['TIME'], CLASS_STRING => ['STRING'],
-	CLASS_TOD => ['TIME_OF_DAY'], CLASS_DATE => ['DATE'],
-	CLASS_DT => ['DATE_AND_TIME'], ANY_DATE => [qw(TIME_OF_DAY DATE DATE_AND_TIME)],
-);
-$classes{ANY_NUM} = [map { @{$classes{$_}} } qw(ANY_INT CLASS_REAL)];
-$classes{ANY_BIT} = [map { @{$classes{$_}} } qw(CLASS_BOOL CLASS_BITS)];
-$classes{ANY_MAGNITUDE} = [@{$classes{ANY_NUM}}, 'TIME'];
-$classes{ANY_SIMPLE} = [map { @{$classes{$_}} } qw(ANY_MAGNITUDE ANY_BIT ANY_DATE)];
-$classes{ANY_ELEMENTARY} = [@{$classes{ANY_SIMPLE}}, 'STRING'];
-
 sub run {
 	my (@command) = @_;
 	my $pid = open my $from, '-|';
@@ -69,26 +57,6 @@ sub run {
 	my $text = <$from> // '';
 	close $from;
 	return ($?, $text);
-}
-
-# The rows of functions: what their result is, their pins and the types these take.
-sub read_rows {
-	my @rows;
-	open my $in, '<', "$tests/../runtime/engine/catalog.def" or die "catalog: $!";
-	while (my $line = <$in>) {
-		next unless $line =~ /^(?:MORE_)?FN\((\w+),\s*"[^"]*",\s*"[^"]*",\s*(\S+(?: \| \w+\))?),/ &&
-			$1 ne 'id';
-		my $row = { word => $1, result => $2, pins => [] };
-		while ($line =~ /FN_(IN|OWN)\((\w+),\s*([\w| ]+?),/g) {
-			my ($kind, $name, $classes) = ($1, $2, $3);
-			my %takes = map { $_ => 1 } map { @{$classes{$_} // die "$_\n"} }
-				split / \| /, $classes;
-			push @{$row->{pins}}, { name => $name, own => $kind eq 'OWN',
-				takes => \%takes };
-		}
-		push @rows, $row;
-	}
-	return @rows;
 }
 
 # The rungs of a row: one type at all pins that share, each pin alone, constants.
@@ -189,7 +157,7 @@ sub test_row {
 }
 
 diag('without sanitizers: make asan') if !$sanitized;
-my @rows = read_rows();
+my @rows = Rows::functions("$tests/../runtime/engine/catalog.def");
 ok(@rows > 40, 'rows of functions');
 test_row($_) for @rows;
 done_testing();

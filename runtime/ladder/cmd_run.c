@@ -5,6 +5,7 @@
  * pin.
  */
 #include "ladder/live.h"
+#include "ladder/rungs.h"
 #include "ladder/tty.h"
 
 #include "engine/trial/script.h"
@@ -158,10 +159,8 @@ static enum status run(struct call *call, struct machine *machine,
 	if (status == STATUS_GOOD)
 		status = apply_settings(call, board);
 	if (status == STATUS_GOOD && tty_is() && !call_flag(call, "--plain")) {
-		const struct project *project = ladder_project(machine->ladder);
-
-		status = live_run(call, board, pace, project ?
-				  project_text(project, project->title) : "");
+		status = live_run(call, board, pace, ladder_project(machine->ladder),
+				  call_option(call, "--rungs"));
 		if (board->resource->state == STATE_FAULT)
 			status = tell_fault(board, call->arg[0]);
 	} else if (status == STATUS_GOOD) {
@@ -172,15 +171,41 @@ static enum status run(struct call *call, struct machine *machine,
 	return status;
 }
 
+static void swallow(void *context, const char *text, size_t len)
+{
+	(void)context;
+	(void)text;
+	(void)len;
+}
+
+/* They must be there before a terminal is taken for them. */
+static enum status watch_rungs(struct call *call, struct machine *machine,
+			       const char *rungs)
+{
+	const struct sink nowhere = { .write = swallow };
+	const struct view_show_options options = { .width = 0 };
+	const struct project *project = ladder_project(machine->ladder);
+
+	machine->resource.watch = true;
+	if (project && rungs_show(project, rungs, &machine->resource, options,
+				  &nowhere) > 0)
+		return STATUS_GOOD;
+	return report_usage(call, "no rung or instance is called %.60s", rungs);
+}
+
 enum status cmd_run(struct call *call)
 {
 	struct pace pace = { 0 };
 	struct machine machine;
+	const char *rungs = call_option(call, "--rungs");
 	enum status status = take_pace(call, &pace);
 
 	if (status != STATUS_GOOD)
 		return status;
-	status = machine_open(&machine, call->arg[0]);
+	status = rungs ? machine_watch(&machine, call->arg[0]) :
+			 machine_open(&machine, call->arg[0]);
+	if (status == STATUS_GOOD && rungs)
+		status = watch_rungs(call, &machine, rungs);
 	if (status == STATUS_GOOD) {
 		settle_pace(&pace, ladder_program(machine.ladder));
 		status = run(call, &machine, &pace);

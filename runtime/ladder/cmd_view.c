@@ -3,86 +3,28 @@
  * cmd_view - `ladder show`, `diff` and `words`: what view/ prints, with the
  * exit status of the command line around it.
  */
-#include "ladder/report.h"
+#include "ladder/rungs.h"
 
 #include "engine/scan/code.h"
-#include "engine/view/view.h"
+#include "engine/trial/script.h"
+#include "engine/trial/value.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Index of the POU named so (any case); -1: none. */
-static int find_pou(const struct project *project, const char *name, size_t len)
-{
-	uint32_t want = names_find(&project->names, name, len);
-
-	for (int i = 0; i < project->pou_count; i++) {
-		const char *text = project_text(project, project->pou[i].name);
-
-		if (project->pou[i].name == want && want)
-			return i;
-		if (strlen(text) == len && !memcmp(text, name, len))
-			return i;
-	}
-	return -1;
-}
-
-/* 1-based number of the rung with this label or number in @pou; 0: none. */
-static int find_rung(const struct project *project, const struct pou *pou,
-		     const char *name)
-{
-	char *end;
-	long number = strtol(name, &end, 10);
-
-	if (!*end && end != name)
-		return number >= 1 && number <= pou->rung_count ? (int)number :
-								  0;
-	for (int i = 0; i < pou->rung_count; i++)
-		if (pou->rung[i]->label &&
-		    !strcmp(project_text(project, pou->rung[i]->label), name))
-			return i + 1;
-	return 0;
-}
-
-static int show_named(const struct project *project, const char *name,
-		      const struct view_show_options *options,
-		      const struct sink *out)
-{
-	const char *colon = strchr(name, ':');
-	size_t len = colon ? (size_t)(colon - name) : strlen(name);
-	int only = find_pou(project, name, len), shown = 0;
-
-	if (colon && only < 0)
-		return 0;
-	if (!colon && only >= 0)
-		return view_show(project, only, 0, options, out);
-	for (int i = 0; i < project->pou_count; i++) {
-		int rung = 0;
-
-		if (only < 0 || i == only)
-			rung = find_rung(project, &project->pou[i],
-					 colon ? colon + 1 : name);
-		if (rung)
-			shown += view_show(project, i, rung, options, out);
-	}
-	return shown;
-}
-
 static enum status show(struct call *call, const struct project *project,
+			const struct resource *resource,
 			const struct view_show_options *options)
 {
-	int shown;
+	const char *name = call->arg_count < 2 ? NULL : call->arg[1];
+	int shown = rungs_show(project, name, resource, *options, &call->out);
 
-	if (call->arg_count < 2) {
-		shown = view_show(project, -1, 0, options, &call->out);
-		return shown < 0 ? report_no_memory(call->arg[0]) : STATUS_GOOD;
-	}
-	shown = show_named(project, call->arg[1], options, &call->out);
 	if (shown < 0)
 		return report_no_memory(call->arg[0]);
-	if (shown)
+	if (shown || !name)
 		return STATUS_GOOD;
-	return report_usage(call, "no rung is called %.24s", call->arg[1]);
+	return report_usage(call, resource ? "no rung or instance is called %.60s" :
+			    "no rung is called %.24s", name);
 }
 
 static enum status no_project(const char *path)
@@ -92,11 +34,62 @@ static enum status no_project(const char *path)
 	return STATUS_NO;
 }
 
+/* What a trace would show is left out. */
+static void swallow(void *context, const char *text, size_t len)
+{
+	(void)context;
+	(void)text;
+	(void)len;
+}
+
+/* The rungs as they are behind the last scan of a script. A program that stops with a
+ * fault or at a STOP is shown as it stopped. */
+static enum status show_after(struct call *call, const char *script,
+			      const struct view_show_options *options)
+{
+	const struct sink nowhere = { .write = swallow };
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	enum status status = STATUS_WRONG, drawn;
+	struct machine machine;
+	struct trace trace;
+	size_t len;
+	char *text = report_read(script, &len);
+
+	if (text && diags)
+		status = machine_watch(&machine, call->arg[0]);
+	else
+		memset(&machine, 0, sizeof(machine));
+	if (status == STATUS_GOOD && !ladder_project(machine.ladder))
+		status = no_project(call->arg[0]);
+	if (status == STATUS_GOOD) {
+		diag_init(diags);
+		machine.resource.watch = true;
+		trace_init(&trace, &machine.resource.image, &nowhere, TRACE_LINES, false);
+		if (!script_run(script, text, len,
+				tasks_tick(ladder_program(machine.ladder), 0,
+					   10 * VALUE_MS),
+				&machine.resource, &trace, diags))
+			status = STATUS_NO;
+		trace_free(&trace);
+		report_diags(diags);
+		if (status == STATUS_GOOD || machine.resource.state == STATE_FAULT) {
+			drawn = show(call, ladder_project(machine.ladder),
+				     &machine.resource, options);
+			status = drawn > status ? drawn : status;
+		}
+	}
+	machine_close(&machine);
+	free(diags);
+	free(text);
+	return status;
+}
+
 enum status cmd_show(struct call *call)
 {
 	struct view_show_options options = {
 		.ascii = call_flag(call, "--ascii"),
 	};
+	const char *script = call_option(call, "--after");
 	struct ladder *ladder;
 	enum status status;
 	int64_t width;
@@ -104,13 +97,15 @@ enum status cmd_show(struct call *call)
 	if (!report_count(call, "--width", 0, 10000, &width))
 		return STATUS_WRONG;
 	options.width = (int)width;
+	if (script)
+		return show_after(call, script, &options);
 	ladder = ladder_new();
 	if (!ladder)
 		return report_no_memory(call->arg[0]);
 	status = report_load(ladder, call->arg[0], false);
 	if (status == STATUS_GOOD)
 		status = ladder_project(ladder) ?
-			show(call, ladder_project(ladder), &options) :
+			show(call, ladder_project(ladder), NULL, &options) :
 			no_project(call->arg[0]);
 	ladder_free(ladder);
 	return status;

@@ -4,6 +4,7 @@
  * go, and toggles switches; the program itself it leaves to board_scan().
  */
 #include "ladder/live.h"
+#include "ladder/rungs.h"
 #include "ladder/screen.h"
 #include "ladder/tty.h"
 
@@ -23,6 +24,9 @@ struct live {
 	struct pace *pace;
 	struct screen screen;
 	const char *file, *title;
+	const struct project *project;
+	const char *rungs;         /* to draw; NULL: variables              */
+	struct sink_memory drawing;
 	bool utf8, paused;
 	int64_t scan_ns, scan_max_ns;
 	int64_t drawn_ns;
@@ -77,9 +81,11 @@ static void put_state(struct live *live)
 		screen_put(screen, STYLE_BAD, " FAULT: ");
 		resource_fault_print(resource, text, sizeof(text));
 		screen_put(screen, STYLE_BAD, text);
-		snprintf(text, sizeof(text), ", rung %u (%u,%u)",
-			 resource->fault_at.rung, resource->fault_at.row,
-			 resource->fault_at.col);
+		if (!resource->fault_at.rung)
+			return;
+		snprintf(text, sizeof(text), ", %.40s rung %u (%u,%u)",
+			 resource->fault_at.pou, resource->fault_at.rung,
+			 resource->fault_at.row, resource->fault_at.col);
 		screen_put(screen, STYLE_BAD, text);
 		return;
 	}
@@ -221,6 +227,27 @@ static void put_variables(struct live *live)
 	}
 }
 
+/* As many lines of the rungs as there is room for. */
+static void put_rungs(struct live *live)
+{
+	struct screen *screen = &live->screen;
+	struct sink out = sink_to_memory(&live->drawing);
+	struct view_show_options options = { .ascii = !live->utf8 };
+	char *at, *end;
+
+	live->drawing.len = 0;
+	if (rungs_show(live->project, live->rungs, live->board->resource, options,
+		       &out) < 1)
+		return;
+	for (at = live->drawing.text; at && (end = strchr(at, '\n')) != NULL;
+	     at = end + 1) {
+		*end = '\0';
+		if (screen->row + 2 >= screen->height || !screen_line(screen))
+			return;
+		screen_put(screen, STYLE_PLAIN, at);
+	}
+}
+
 static void put_keys(struct live *live)
 {
 	struct screen *screen = &live->screen;
@@ -246,8 +273,12 @@ static bool draw(struct live *live)
 	if (screen_line(screen)) {
 		put_state(live);
 		if (screen_line(screen) && screen_line(screen) &&
-		    put_lamps(live))
-			put_variables(live);
+		    put_lamps(live)) {
+			if (live->rungs)
+				put_rungs(live);
+			else
+				put_variables(live);
+		}
 		if (screen->row < screen->height)
 			put_keys(live);
 	}
@@ -350,10 +381,12 @@ static void loop(struct live *live)
 }
 
 enum status live_run(struct call *call, struct board *board, struct pace *pace,
-		     const char *title)
+		     const struct project *project, const char *rungs)
 {
-	struct live live = { .board = board, .pace = pace, .title = title,
-			     .file = call->arg[0], .utf8 = tty_utf8() };
+	struct live live = { .board = board, .pace = pace, .project = project,
+			     .rungs = rungs, .file = call->arg[0],
+			     .utf8 = tty_utf8(), .title = project ?
+			     project_text(project, project->title) : "" };
 
 	live.screen.colour = !getenv("NO_COLOR");
 	tty_watch_signals();
@@ -364,6 +397,7 @@ enum status live_run(struct call *call, struct board *board, struct pace *pace,
 	loop(&live);
 	tty_close();
 	screen_free(&live.screen);
+	sink_memory_free(&live.drawing);
 	sink_printf(&call->out, "stopped after %llu scans, longest %.1f us\n",
 		    (unsigned long long)pace->scans,
 		    (double)live.scan_max_ns / 1e3);

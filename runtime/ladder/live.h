@@ -28,7 +28,11 @@ int64_t pace_step(struct pace *pace);
 /** pace_is_over - were --scans scans run? */
 bool pace_is_over(const struct pace *pace);
 
-/** live_run - until q, a signal or the last scan. @title: of the project. */
+/**
+ * live_run - until q, a signal or the last scan
+ * @project: NULL: of an image
+ * @rungs:   to draw with their power, as rungs_show(); NULL: variables instead
+ */
 enum status live_run(struct call *call, struct board *board, struct pace *pace,
-		     const char *title);
+		     const struct project *project, const char *rungs);
 #endif

@@ -163,7 +163,7 @@ enum status report_load(struct ladder *ladder, const char *path, bool build)
 	return ladder_could_read(ladder) ? STATUS_NO : STATUS_WRONG;
 }
 
-enum status machine_open(struct machine *machine, const char *path)
+static enum status open_machine(struct machine *machine, const char *path, bool watch)
 {
 	enum status status;
 
@@ -171,6 +171,7 @@ enum status machine_open(struct machine *machine, const char *path)
 	machine->ladder = ladder_new();
 	if (!machine->ladder)
 		return report_no_memory(path);
+	ladder_watch(machine->ladder, watch);
 	status = report_load(machine->ladder, path, true);
 	if (status != STATUS_GOOD)
 		return status;
@@ -181,6 +182,16 @@ enum status machine_open(struct machine *machine, const char *path)
 		return report_no_memory(path);
 	resource_init(&machine->resource, program, machine->memory);
 	return STATUS_GOOD;
+}
+
+enum status machine_open(struct machine *machine, const char *path)
+{
+	return open_machine(machine, path, false);
+}
+
+enum status machine_watch(struct machine *machine, const char *path)
+{
+	return open_machine(machine, path, true);
 }
 
 void machine_close(struct machine *machine)

@@ -44,6 +44,8 @@ struct machine {
 };
 /** machine_open - loads and builds @path. Owns: machine_close(), always. */
 enum status machine_open(struct machine *machine, const char *path);
+/** machine_watch - the same, with the power of all cells while resource.watch. */
+enum status machine_watch(struct machine *machine, const char *path);
 void machine_close(struct machine *machine);
 
 /**

@@ -221,6 +221,39 @@ is(unpack('s<', kept('A INT')), 3, 'and not half of one');
 is(run($ladderd, $edited, @keep, '--scans', '1'), 0, 'again');
 is(flags(), '100', 'nothing was lost this time');
 
+# ---- a constant of an edited program counts, though the pin it goes to is retained ----
+sub timer_program {
+	return put('timer.rung', "RUNGBOARD 1\n\nVAR RETAIN\n  Delay : TON;\nEND_VAR\n\n" .
+		"PROGRAM Main LD\nRUNG\n  | TON Delay PT:=$_[0] | COIL Q3 |\n$tell");
+}
+unlink $keep;
+is(run($ladderd, timer_program('T#1h'), @keep, '--scans', '20'), 0, 'a delay of an hour');
+unlike(err(), qr/^%QX0\.3 1/m, 'does not end');
+is(run($ladderd, timer_program('T#5ms'), @keep, '--scans', '20'), 0, 'edited: of 5 ms');
+is(flags(), '100', 'nothing was lost');
+like(err(), qr/^%QX0\.3 1/m, 'ends');
+
+# ---- what a FIFO holds goes on; one of another type begins empty, and that is told ----
+sub store_program {
+	my ($block, $size) = @_;
+	return put("store.rung", "RUNGBOARD 1\n\nVAR RETAIN\n  Queue : $block;\n  Number : DINT;\nEND_VAR\n" .
+		"VAR\n  On : BOOL;\n  Weight : REAL;\nEND_VAR\n\nPROGRAM Main LD\nRUNG\n" .
+		"  | [ On := not On ] | [ Number := Number + 1 ] |\nRUNG\n  | NO On | $block Queue " .
+		($block =~ /REAL/ ? "IN:=Weight" : "IN:=Number") . " SIZE:=$size |\n$tell");
+}
+unlink $keep;
+is(run($ladderd, store_program('FIFO', 60), @keep, '--scans', '20'), 0, 'a FIFO of ten values');
+is_deeply([unpack '(l<)10', kept('Queue.value FIFO.DINT[64]')], [map { 2 * $_ + 1 } 0 .. 9],
+	'all of them are in the file');
+is(run($ladderd, store_program('FIFO', 5), @keep, '--scans', '4'), 0, 'edited: five have room');
+is(flags(), '100', 'nothing was lost');
+is(unpack('s<', kept('Queue.COUNT FIFO.INT')), 10, 'ten are there all the same');
+is(unpack('l<', kept('Queue.value FIFO.DINT[64]')), 1, 'the oldest, too');
+is(run($ladderd, store_program('FIFO_REAL', 5), @keep, '--scans', '2'), 0, 'edited: another type');
+is(flags(), '110', 'lost, and it is told');
+like(err(), qr/lost: Queue\.value FIFO\.DINT\[64\]: now of another type\n/, 'by its name');
+is(unpack('s<', kept('Queue.COUNT FIFO_REAL.INT')), 1, 'it began empty');
+
 # ---- at once on SIGTERM and in a FAULT; a reset keeps what a whole scan left ----
 unlink $keep;
 my @slow = (@keep, '--retain-period', '1h');

@@ -34,7 +34,14 @@ static const char text[] =
 	"RUNG\n"
 	"  | NO  | TON  | TON Delay  | COIL  | CALL  | [ Le |\n" /* 22 */
 	"END_SUBROUTINE\n"
-	"\n";
+	"\n"
+	"PROGRAM More IL\n"
+	"  INT_TO_RE\n"                                  /* 26 */
+	"  WORD_\n"
+	"  TO_S\n"
+	"  IN\n"
+	"  TIME_OF\n"                                    /* 30 */
+	"END_PROGRAM\n";
 
 struct seen { char text[16384]; };
 
@@ -111,6 +118,29 @@ static void test_cells(struct ladder *ladder)
 		 "words of a cell");
 }
 
+/* Words made by rule: those of a type that stands there already. */
+static void test_made(struct ladder *ladder)
+{
+	const char *words = at(ladder, 26, 12);
+
+	CHECK_AS(strcmp(words, " INT_TO_REAL ") == 0, "INT_TO_RE");
+	words = at(ladder, 26, 7);
+	CHECK_AS(has(words, "INT_TO_REAL") && has(words, "INT_TO_BCD_WORD") &&
+		 has(words, "INT_TO_STRING") && !has(words, "INT_TO_INT_TO_INT") &&
+		 !has(words, "INT_TRUNC_DINT"), "INT_");
+	words = at(ladder, 27, 8);
+	CHECK_AS(has(words, "WORD_BCD_TO_UINT") && has(words, "WORD_TO_INT") &&
+		 !has(words, "DWORD_TO_INT"), "WORD_");
+	words = at(ladder, 28, 7);
+	CHECK_AS(has(words, "TO_SINT") && has(words, "TO_STRING") && !has(words, "TO_INT"),
+		 "TO_S");
+	words = at(ladder, 29, 5);
+	CHECK_AS(has(words, "INC") || has(words, "INSERT"), "IN");
+	CHECK_AS(!strstr(words, "INT_"), "no flood before there is a type and its _");
+	CHECK_AS(!strstr(at(ladder, 29, 3), "_TO_"), "nor where nothing stands");
+	CHECK_AS(has(at(ladder, 30, 10), "TIME_OF_DAY_TO_DINT"), "TIME_OF");
+}
+
 static void test_places(struct ladder *ladder)
 {
 	CHECK_AS(has(at(ladder, 7, 10), "LREAL") && has(at(ladder, 7, 10), "TON"),
@@ -119,7 +149,7 @@ static void test_places(struct ladder *ladder)
 	CHECK(strcmp(at(ladder, 99, 1), "nowhere") == 0);
 	CHECK(strcmp(at(ladder, 10, 99), "nowhere") == 0);
 	CHECK(strcmp(at(ladder, 0, 0), "nowhere") == 0);
-	for (int line = 1; line <= 24; line++) /* none is out of bounds */
+	for (int line = 1; line <= 31; line++) /* none is out of bounds */
 		for (int column = 1; column < 60; column++)
 			at(ladder, line, column);
 	CHECK(true);
@@ -159,6 +189,7 @@ int main(void)
 	CHECK(ladder && !ladder_load_text(ladder, "x.rung", text, sizeof(text) - 1));
 	test_lists(ladder);
 	test_cells(ladder);
+	test_made(ladder);
 	test_places(ladder);
 	test_nearest();
 	ladder_free(ladder);

@@ -176,6 +176,23 @@ static void tells_power(void)
 	CHECK(rig_scan(&rig) && power_of(0, 1, 1, 2) == 0);
 }
 
+/* Watched or not: the same place. */
+static void tells_places_while_watched(void)
+{
+	struct resource *r = &rig.resource;
+
+	resource_start(r);
+	CHECK(rig_set(&rig, "Go", 1) && rig_set(&rig, "Split", 1) && rig_scan(&rig));
+	CHECK_AS(r->vm.errors && r->error_at.rung == 3 && r->error_at.col == 3,
+		 "of an operation that failed");
+	CHECK(rig_set(&rig, "Spin", 1) && !rig_scan(&rig));
+	CHECK(r->fault == FAULT_BUDGET);
+	CHECK_TEXT(r->fault_at.pou, "Main");
+	CHECK_AS(r->fault_at.rung == 6 && r->fault_at.row == 1 && r->fault_at.col == 3,
+		 "of a fault");
+	resource_start(r);
+}
+
 static void runs_without_maps(void)
 {
 	size_t len;
@@ -220,6 +237,8 @@ int main(void)
 	}
 	rig_close(&rig);
 	tells_power();
+	if (rig.good)
+		tells_places_while_watched();
 	if (rig.good)
 		runs_without_maps();
 	rig_close(&rig);

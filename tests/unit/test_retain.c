@@ -46,6 +46,23 @@ static const char edited[] =
 	"RUNG\n  | NO I1 | [ On := Extra ] | [ Wide := 16#01020304 ] | [ Count := T#5ms ] |\n"
 	"END_PROGRAM\n";
 
+/* What instances store, in blocks of @size values and of type @last. */
+#define STORES(size, last) \
+	"VAR RETAIN\n  Parcels : FIFO;\n  Mean : AVERAGE;\n  Trays : " last ";\n" \
+	"  Line : Belt;\nEND_VAR\n" \
+	"VAR\n  Weight AT %ID4 : DINT;\nEND_VAR\n" \
+	"FUNCTION_BLOCK Belt LD\nVAR_INPUT\n  Add : BOOL;\nEND_VAR\n" \
+	"VAR\n  Own : FIFO;\nEND_VAR\n" \
+	"RUNG\n  | NO Add | FIFO Own IN:=7 |\nEND_FUNCTION_BLOCK\n" \
+	"PROGRAM Main LD\n" \
+	"RUNG\n  | NO %IX0.0 | FIFO Parcels IN:=Weight SIZE:=" size " |\n" \
+	"  | NO %IX0.1 | .POP |\n" \
+	"RUNG\n  | NO %IX0.2 | AVERAGE Mean IN:=3.0 N:=4 |\n" \
+	"RUNG\n  | NO %IX0.0 | " last " Trays |\n  | NO %IX0.1 | .POP |\n" \
+	"RUNG\n  | NO %IX0.0 | Belt Line |\nEND_PROGRAM\n"
+static const char stores[] = STORES("8", "LIFO");
+static const char fewer_stores[] = STORES("3", "LIFO_REAL");
+
 struct bench {
 	struct rig rig;
 	struct arena arena;
@@ -398,6 +415,88 @@ static void fits_edited(void)
 	close_bench(&after);
 }
 
+/* One more value in each store, or one less. */
+static void step_stores(struct rig *rig, bool in, int64_t value)
+{
+	rig_set(rig, "Weight", value);
+	rig_set(rig, "%IX0.0", in);
+	rig_set(rig, "%IX0.1", !in);
+	rig_scan(rig);
+	rig_set(rig, "%IX0.0", 0);
+	rig_set(rig, "%IX0.1", 0);
+	rig_scan(rig);
+}
+
+static void keeps_stores(void)
+{
+	struct bench b, after;
+	struct retain_found found;
+	struct rig *rig = &after.rig;
+	uint32_t room;
+	uint8_t *file;
+	int fate[3];
+
+	open_bench(&b, stores);
+	rig_set(&b.rig, "%IX0.2", 1);
+	for (int i = 1; i <= 70; i++) /* round the end of the ring; four are left */
+		step_stores(&b.rig, i <= 5 || i % 2, 100 + i);
+	rig_set(&b.rig, "%IX0.2", 0);
+	step_stores(&b.rig, true, 171);
+	room = retain_room(b.retain.payload_size);
+	file = calloc(2, room);
+	write_slot(&b, file, 0, 1, RETAIN_FIRST);
+	retain_find(file, 2 * (size_t)room, &found);
+	step_stores(&b.rig, false, 0);
+	int64_t first = rig_get(&b.rig, "Parcels.OUT");
+
+	open_bench(&after, fewer_stores);
+	take_all(&after, &found, fate);
+	CHECK_AS(rig_get(rig, "Parcels.COUNT") == 5 && rig_get(rig, "Line.Own.COUNT") > 30,
+		 "counts are kept");
+	step_stores(rig, true, 999);
+	CHECK_AS(rig_get(rig, "Parcels.COUNT") == 5 && rig_get(rig, "Parcels.FULL") == 1,
+		 "more than a smaller SIZE has room for is kept, and no more comes in");
+	step_stores(rig, false, 0);
+	CHECK_AS(first > 100 && rig_get(rig, "Parcels.OUT") == first, "the oldest first");
+	for (int i = 0; i < 4; i++)
+		step_stores(rig, false, 0);
+	CHECK_AS(rig_get(rig, "Parcels.OUT") == 171 && rig_get(rig, "Parcels.EMPTY") == 1,
+		 "the newest last");
+	CHECK_AS(rig_get(rig, "Trays.COUNT") == 0 && fate[RETAIN_NO_TYPE] == 15,
+		 "a store of another type is lost, all of it");
+	rig_set(rig, "%IX0.2", 1);
+	rig_scan(rig);
+	CHECK_AS(rig_real(rig, "Mean.OUT") == 3.0 && rig_get(rig, "Mean.COUNT") == 4,
+		 "a mean goes on");
+	free(file);
+	close_bench(&b);
+	close_bench(&after);
+}
+
+/* Bytes of a stranger, with a good checksum, in what instances keep to themselves: a scan
+ * stays within its own (the sanitizers see to that). */
+static void believes_no_store(void)
+{
+	struct bench b;
+	uint32_t seed = 1;
+	int odd = 0;
+
+	open_bench(&b, stores);
+	for (int round = 0; round < 2000; round++) {
+		for (uint32_t i = 0; i < b.retain.copy_size; i++) {
+			seed = seed * 1103515245u + 12345u;
+			b.copy[i] = (uint8_t)(seed >> 24);
+		}
+		retain_put(&b.retain, &b.rig.resource.image, b.copy);
+		rig_set(&b.rig, "%IX0.2", round & 1);
+		step_stores(&b.rig, round & 2, round);
+		odd += rig_get(&b.rig, "Parcels.COUNT") > 64 ||
+		       rig_get(&b.rig, "Mean.COUNT") > 64;
+	}
+	CHECK(!odd);
+	close_bench(&b);
+}
+
 /* Bytes of a stranger, with a good checksum. */
 static void believes_nothing(void)
 {
@@ -443,6 +542,8 @@ int main(void)
 	copies();
 	keeps_two_slots();
 	fits_edited();
+	keeps_stores();
+	believes_no_store();
 	believes_nothing();
 	return tap_done();
 }

@@ -18,7 +18,7 @@ static const char *show(const char *pous, int pou, int rung, bool ascii,
 			int width)
 {
 	static char text[100000];
-	struct view_show_options options = { ascii, width };
+	struct view_show_options options = { .ascii = ascii, .width = width };
 	struct project *project = project_new("test.rung");
 	struct sink sink = sink_to_memory(&memory);
 

@@ -88,17 +88,17 @@ static bool type_term(struct walker *walker, struct expression *expression,
 }
 
 /* An array, or the elements behind an address. */
-static struct placed array_at(struct walker *walker, const struct pou *pou,
+static struct placed array_at(struct walker *walker, const struct frame *frame,
 			      const char *text, size_t len)
 {
-	struct placed array = walker_place(walker, pou, text, len);
+	struct placed array = walker_place(walker, frame, text, len);
 
 	if (!array.count)
 		array.count = array.rest;
 	return array;
 }
 
-static bool make_terms(struct walker *walker, const struct pou *pou,
+static bool make_terms(struct walker *walker, const struct frame *frame,
 		       const struct expr *expr, struct expression *expression)
 {
 	expression->term = arena_alloc(&walker->arena, (size_t)expr->count *
@@ -116,14 +116,14 @@ static bool make_terms(struct walker *walker, const struct pou *pou,
 		term->left = from->left;
 		term->right = from->right;
 		if (is_leaf(term)) {
-			term->placed = walker_place(walker, pou, from->text,
+			term->placed = walker_place(walker, frame, from->text,
 						    from->len);
 			term->type = term->placed.type;
 			/* TRUE and FALSE are names to the parser, maybe. */
 			if (term->placed.kind == PLACED_LITERAL)
 				term->op = EXPR_LITERAL;
 		} else if (term->op == EXPR_INDEX) {
-			term->placed = array_at(walker, pou, from->text,
+			term->placed = array_at(walker, frame, from->text,
 						from->len);
 			term->type = term->placed.type;
 		}
@@ -133,7 +133,7 @@ static bool make_terms(struct walker *walker, const struct pou *pou,
 	return true;
 }
 
-struct expression *expression_new(struct walker *walker, const struct pou *pou,
+struct expression *expression_new(struct walker *walker, const struct frame *frame,
 			    const char *text)
 {
 	struct expression *expression =
@@ -151,12 +151,12 @@ struct expression *expression_new(struct walker *walker, const struct pou *pou,
 	expression->target_index = expr.target_index;
 	if (expr.target) {
 		expression->target = expr.target_index >= 0 ?
-			array_at(walker, pou, expr.target, expr.target_len) :
-			walker_place(walker, pou, expr.target, expr.target_len);
+			array_at(walker, frame, expr.target, expr.target_len) :
+			walker_place(walker, frame, expr.target, expr.target_len);
 		if (expression->target.kind == PLACED_NOWHERE)
 			return NULL;
 	}
-	return make_terms(walker, pou, &expr, expression) ? expression : NULL;
+	return make_terms(walker, frame, &expr, expression) ? expression : NULL;
 }
 
 bool expression_assigns(const struct expression *expression)

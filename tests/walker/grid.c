@@ -8,6 +8,7 @@
 #include "tests/walker/grid.h"
 
 #include "engine/model/args.h"
+#include "engine/model/shape.h"
 
 #include <string.h>
 #include <strings.h>
@@ -115,7 +116,7 @@ static bool fed_pins(struct walker *walker, struct walked_rung *walked,
 	return true;
 }
 
-static bool written_pins(struct walker *walker, const struct pou *pou,
+static bool written_pins(struct walker *walker, const struct frame *frame,
 			 struct walked *at, const char *text)
 {
 	struct arg arg;
@@ -126,7 +127,7 @@ static bool written_pins(struct walker *walker, const struct pou *pou,
 		pin->net = -1;
 		pin->output = arg.output;
 		pin->inverse = arg.inverse;
-		pin->placed = walker_place(walker, pou, arg.value,
+		pin->placed = walker_place(walker, frame, arg.value,
 					   arg.value_len);
 		pin->pin = arg.output && word_row(at->word)->kind == WORD_FN ?
 			   0 : pin_number(at->word, arg.pin, arg.pin_len);
@@ -136,7 +137,7 @@ static bool written_pins(struct walker *walker, const struct pou *pou,
 	return true;
 }
 
-static bool make_box(struct walker *walker, const struct pou *pou,
+static bool make_box(struct walker *walker, const struct frame *frame,
 		     struct walked_rung *walked, struct walked *at,
 		     const struct cell *cell)
 {
@@ -147,7 +148,7 @@ static bool make_box(struct walker *walker, const struct pou *pou,
 				    walked->rung->rows) *
 				    sizeof(*at->parameter));
 	if (!at->parameter || !fed_pins(walker, walked, at) ||
-	    !written_pins(walker, pou, at,
+	    !written_pins(walker, frame, at,
 			  project_text(walker->project, cell->args)))
 		return false;
 	if (word_row(at->word)->kind == WORD_FB)
@@ -167,22 +168,52 @@ static bool make_box(struct walker *walker, const struct pou *pou,
 	return at->inputs != IEC_NONE;
 }
 
-static struct block *block_of(struct walker *walker, const struct pou *pou,
-			      const char *name)
+/* The instance that a box calls, or the frame of a function. */
+static struct frame *callee_of(struct walker *walker, const struct frame *frame,
+			       enum word word, const char *text)
 {
-	struct block *found = NULL;
+	const struct pou *pou = shape_pou(walker->project, word);
+	struct variable *variable;
 
-	for (int i = 0; i < walker->variable_count; i++) {
-		struct variable *at = &walker->variable[i];
+	if (pou->kind == POU_FUNCTION)
+		return &walker->frame[pou - walker->project->pou];
+	variable = frame_variable(walker, frame, text, strlen(text));
+	return variable ? variable->inner : NULL;
+}
 
-		if (at->block && (at->pou == pou || (!at->pou && !found)) &&
-		    names_fold(&walker->project->names, at->var->name) ==
-		    names_fold(&walker->project->names,
-			       names_intern(&walker->project->names, name,
-					    strlen(name))))
-			found = at->block;
+/* The variable of a pin; OUT is the result of a function. */
+static int called_pin(struct walker *walker, const struct frame *callee,
+		      const char *name, size_t len)
+{
+	for (int i = 0; i < callee->count; i++)
+		if (callee->variable[i].flags & VAR_RESULT && len == 3 &&
+		    !strncasecmp(name, "OUT", 3))
+			return i;
+	return frame_find(walker, callee, name, len);
+}
+
+static bool make_call(struct walker *walker, const struct frame *frame,
+		      struct walked_rung *walked, struct walked *at,
+		      const struct cell *cell)
+{
+	const char *text = project_text(walker->project, cell->args);
+	struct arg arg;
+
+	at->parameter = arena_alloc(&walker->arena, LIMIT_ARGS *
+				    sizeof(*at->parameter));
+	(void)walked;
+	while (at->parameter && text && args_next(&text, &arg)) {
+		struct parameter *pin = &at->parameter[at->parameter_count++];
+
+		pin->net = -1;
+		pin->output = arg.output;
+		pin->inverse = arg.inverse;
+		pin->placed = walker_place(walker, frame, arg.value, arg.value_len);
+		pin->pin = called_pin(walker, at->callee, arg.pin, arg.pin_len);
+		if (pin->pin < 0 || pin->placed.kind == PLACED_NOWHERE)
+			return false;
 	}
-	return found;
+	return at->parameter;
 }
 
 static int rung_labelled(const struct pou *pou, uint32_t label,
@@ -205,28 +236,36 @@ static int routine_named(const struct project *project, const char *name)
 	return i < project->pou_count ? i : -1;
 }
 
-static bool make_element(struct walker *walker, const struct pou *pou,
+static bool make_element(struct walker *walker, const struct frame *frame,
 			 struct walked_rung *walked, struct walked *at)
 {
 	const struct cell *cell = rung_at(walked->rung, at->row, at->col);
 	const struct word_row *row = word_row(at->word);
 	const char *text = project_text(walker->project, cell->operand);
 
-	if (row->kind == WORD_FB) {
-		at->block = block_of(walker, pou, text);
+	if (word_is_own(at->word)) {
+		at->callee = callee_of(walker, frame, at->word, text);
 		walker->why = text;
-		return at->block && make_box(walker, pou, walked, at, cell);
+		return at->callee && make_call(walker, frame, walked, at, cell);
+	}
+	if (row->kind == WORD_FB) {
+		struct variable *variable = frame_variable(walker, frame, text,
+							   strlen(text));
+
+		at->block = variable ? variable->block : NULL;
+		walker->why = text;
+		return at->block && make_box(walker, frame, walked, at, cell);
 	}
 	if (row->kind == WORD_FN)
-		return make_box(walker, pou, walked, at, cell);
+		return make_box(walker, frame, walked, at, cell);
 	switch (row->operand) {
 	case OPND_BOOL_R:
 	case OPND_BOOL_W:
-		at->operand = walker_place(walker, pou, text, strlen(text));
+		at->operand = walker_place(walker, frame, text, strlen(text));
 		walker->why = text;
 		return at->operand.kind != PLACED_NOWHERE;
 	case OPND_LABEL:
-		at->target = rung_labelled(pou, cell->operand,
+		at->target = rung_labelled(frame->pou, cell->operand,
 					   &walker->project->names);
 		return at->target >= 0;
 	case OPND_ROUTINE:
@@ -234,7 +273,7 @@ static bool make_element(struct walker *walker, const struct pou *pou,
 		return at->target >= 0;
 	case OPND_EXPR:
 	case OPND_ASSIGN:
-		at->expression = expression_new(walker, pou, text);
+		at->expression = expression_new(walker, frame, text);
 		return at->expression;
 	case OPND_NONE:
 		return true;
@@ -271,7 +310,7 @@ static bool net_is_read(const struct walked_rung *walked, int net)
 	return false;
 }
 
-bool grid_make(struct walker *walker, const struct pou *pou,
+bool grid_make(struct walker *walker, const struct frame *frame,
 	       const struct rung *rung, struct walked_rung *out)
 {
 	int cells = rung->rows * rung->cols;
@@ -292,7 +331,7 @@ bool grid_make(struct walker *walker, const struct pou *pou,
 		at->word = (enum word)rung_at(rung, row, col)->word;
 		at->in = grid_net(out, row, col);
 		at->out = grid_net(out, row, col + 1);
-		if (!make_element(walker, pou, out, at))
+		if (!make_element(walker, frame, out, at))
 			return false;
 		out->count++;
 	}

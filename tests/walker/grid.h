@@ -22,6 +22,7 @@ struct walked {
 	bool read;            /* somebody reads the power behind it           */
 	struct placed operand;
 	struct block *block;
+	struct frame *callee; /* of a function or block of the project        */
 	struct expression *expression;
 	struct parameter *parameter;
 	int parameter_count;
@@ -43,11 +44,12 @@ struct walked_rung {
 
 struct walked_pou {
 	const struct pou *pou;
+	struct frame *frame;
 	struct walked_rung *rung;
 };
 
 /** grid_make - the graph of a rung; false: out of memory or cannot walk. */
-bool grid_make(struct walker *walker, const struct pou *pou,
+bool grid_make(struct walker *walker, const struct frame *frame,
 	       const struct rung *rung, struct walked_rung *out);
 int grid_net(const struct walked_rung *walked, int row, int bar);
 #define GRID_RAIL(walked) grid_net(walked, 0, 0)

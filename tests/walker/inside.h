@@ -25,13 +25,26 @@ struct block {
 	double exact, smooth;       /* what a REAL is too short for          */
 };
 
-/* A declared variable. */
+/* A declared variable: one of three. */
 struct variable {
-	const struct pou *pou;      /* NULL: global                          */
 	const struct var *var;
-	struct value *value;        /* of each element; without AT or pins   */
-	struct block *block;
+	uint8_t flags;              /* enum var_flag                         */
+	struct value *value;        /* of each element                       */
+	struct block *block;        /* an instance of a block of the catalogue */
+	struct frame *inner;        /* of each element: an instance of a block
+				       of the project, a structure           */
 };
+
+/* Variables that belong together, and the body that works on them. */
+struct frame {
+	const struct pou *pou;      /* NULL: globals, a structure            */
+	struct variable *variable;
+	int count;
+	struct walked_pou *body;
+	struct frame *next;         /* of all instances of blocks            */
+	char name[128];             /* of an instance: "Line.Belt"           */
+};
+#define SHOWN_MAX 1500
 
 /* Where an operand is read and written. */
 enum place_kind { PLACED_NOWHERE, PLACED_VALUE, PLACED_AREA, PLACED_LITERAL };
@@ -48,6 +61,7 @@ struct placed {
 	uint32_t rest;              /* of an address: as many up to the end  */
 	int32_t low;
 	struct placed *index;       /* NULL: the array itself                */
+	struct placed *choice;      /* its elements, if they are not in a row */
 };
 
 /* A value that others may look at, and the name they know it by. */
@@ -60,8 +74,9 @@ struct shown {
 struct walker {
 	struct project *project;
 	struct arena arena;
-	struct variable *variable;
-	int variable_count;
+	struct frame globals;
+	struct frame *frame;        /* of each POU but blocks                */
+	struct frame *instances;    /* of blocks, by their next              */
 	struct shown *shown;
 	int shown_count;
 	struct areas areas;
@@ -103,11 +118,34 @@ bool text_is_function(enum word fn);
 enum outcome text_compute(enum word fn, const struct value *in, int count,
 			  struct value *out);
 
-/* place.c */
+/* frame.c */
 bool walker_declare(struct walker *walker);
+/** frame_make - the variables of a table, at their initial values. */
+bool frame_make(struct walker *walker, struct frame *frame, const struct pou *pou,
+		const struct var_table *table);
+/** frame_reset - initial values again; @temporary: only of VAR_TEMP. */
+void frame_reset(struct walker *walker, struct frame *frame, bool temporary);
+/** frame_find - the index of one of its own; -1: it has none of this name. */
+int frame_find(const struct walker *walker, const struct frame *frame, const char *text,
+	       size_t len);
+/** frame_variable - one of its own or a global; NULL: none. */
+struct variable *frame_variable(struct walker *walker, const struct frame *frame,
+				const char *text, size_t len);
+/** frame_place - what a name, with members, pins and indices behind it, means there. */
+struct placed frame_place(struct walker *walker, const struct frame *frame,
+			  const char *text, size_t len);
+
+/* place.c */
 /** walker_place - what an operand names; PLACED_NOWHERE: the walker cannot. */
-struct placed walker_place(struct walker *walker, const struct pou *pou,
+struct placed walker_place(struct walker *walker, const struct frame *frame,
 			   const char *text, size_t len);
+struct placed placed_at(struct walker *walker, struct iec_addr addr,
+			enum iec_type type);
+/** placed_index - an array with the index that stands between @at and @end. */
+struct placed placed_index(struct walker *walker, const struct frame *frame,
+			   struct placed array, const char *at, const char *end);
+/** placed_take_text - the bytes between the quotes, as many as there is room. */
+void placed_take_text(struct value *value, const struct literal *literal);
 /** placed_read - as @type; a literal takes it, all else is widened to it.
  * IEC_NONE: as it is. */
 struct value placed_read(const struct placed *placed, enum iec_type type);
@@ -134,7 +172,7 @@ void block_call_more(struct block *block, int64_t now_ns);
 /* expression.c */
 struct expression;
 /** expression_new - an expression ready to be computed; NULL: cannot. */
-struct expression *expression_new(struct walker *walker, const struct pou *pou,
+struct expression *expression_new(struct walker *walker, const struct frame *frame,
 			    const char *text);
 bool expression_assigns(const struct expression *expression);
 /** expression_run - computes it with @power at its first EN; stores its target.

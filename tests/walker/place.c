@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * place - the walker's variables: found by name, read and written one by one.
+ * place - what an operand names, read and written. Variables are found in frame.c.
  *
  * Direct addresses live in plain byte arrays, so whatever overlays is seen at
  * once. Linear searches: the programs it walks are small.
@@ -11,21 +11,8 @@
 #include <string.h>
 #include <strings.h>
 
-static struct value valued(enum iec_type type, union iec_value from)
-{
-	struct value value = { .type = type };
-
-	if (type == IEC_REAL)
-		value.r = (float)from.r;
-	else if (type == IEC_LREAL)
-		value.d = from.r;
-	else
-		value.i = from.i;
-	return value;
-}
-
 /* The bytes between the quotes. */
-static void take_text(struct value *value, const struct literal *literal)
+void placed_take_text(struct value *value, const struct literal *literal)
 {
 	char bytes[IEC_STRING_MOST];
 	int len = (int)literal_string(literal, bytes);
@@ -34,25 +21,7 @@ static void take_text(struct value *value, const struct literal *literal)
 	memcpy(value->text, bytes, (size_t)value->len);
 }
 
-static uint32_t count_of(const struct var *var)
-{
-	return var->array.count ? var->array.count : 1;
-}
-
-/* Element @number as its declaration has it. */
-static struct value initial(const struct var *var, uint32_t number)
-{
-	if (var->has_init && !var->array.count)
-		return valued(var->type, var->init);
-	for (int i = 0; i < var->init_count; i++) {
-		if (number < var->init_list[i].count)
-			return valued(var->type, var->init_list[i].value);
-		number -= var->init_list[i].count;
-	}
-	return (struct value){ .type = var->type };
-}
-
-static struct placed at_address(struct walker *walker, struct iec_addr addr,
+struct placed placed_at(struct walker *walker, struct iec_addr addr,
 				enum iec_type type)
 {
 	uint32_t bits = walker->areas.bytes[addr.area] * 8;
@@ -62,237 +31,6 @@ static struct placed at_address(struct walker *walker, struct iec_addr addr,
 		.byte = walker->area[addr.area] + addr.byte, .bit = addr.bit,
 		.rest = (bits - addr.byte * 8 - addr.bit) / addr.bits,
 	};
-}
-
-static struct block *new_block(struct walker *walker, enum word fb)
-{
-	struct block *block = arena_alloc(&walker->arena, sizeof(*block));
-	const struct word_row *row = word_row(fb);
-
-	if (!block)
-		return NULL;
-	block->fb = fb;
-	for (int i = 0; i < row->pin_count && i < PINS_MAX; i++) {
-		block->pin[i].type = row->pin[i].type;
-		if (row->pin[i].type == IEC_REAL)
-			block->pin[i].r = (float)row->pin[i].init.r;
-		else
-			block->pin[i].i = row->pin[i].init.i;
-	}
-	return block;
-}
-
-static struct value initial_text(struct walker *walker, const struct var *var)
-{
-	const char *text = project_text(walker->project, var->init_text);
-	struct value value = { .type = IEC_STRING, .room = var->capacity };
-	struct literal literal;
-
-	if (value.room > (int)sizeof(value.text))
-		value.room = sizeof(value.text);
-	if (var->has_init &&
-	    literal_parse(text, strlen(text), &literal) == LITERAL_OK)
-		take_text(&value, &literal);
-	return value;
-}
-
-static void fill(struct walker *walker, struct variable *variable)
-{
-	const struct var *var = variable->var;
-
-	for (uint32_t i = 0; i < count_of(var); i++) {
-		struct placed all, there;
-
-		if (var->type == IEC_STRING)
-			variable->value[i] = initial_text(walker, var);
-		else
-			variable->value[i] = initial(var, i);
-		if (var->at.area == AREA_NONE || !var->has_init)
-			continue;
-		all = at_address(walker, var->at, var->type);
-		all.count = count_of(var);
-		if (placed_element(&all, i, &there))
-			placed_write(&there, variable->value[i]);
-	}
-}
-
-static bool declare_table(struct walker *walker, const struct pou *pou,
-			  const struct var_table *table)
-{
-	for (int i = 0; i < table->count; i++) {
-		const struct var *var = &table->var[i];
-		struct variable *at =
-			&walker->variable[walker->variable_count++];
-
-		at->pou = pou;
-		at->var = var;
-		at->value = arena_alloc(&walker->arena, count_of(var) *
-					sizeof(*at->value));
-		if (!at->value)
-			return false;
-		if (var->type == IEC_NONE) {
-			at->block = new_block(walker, var->fb);
-			if (!at->block)
-				return false;
-		} else {
-			fill(walker, at);
-		}
-	}
-	return true;
-}
-
-static struct placed of_variable(struct walker *walker,
-				 struct variable *variable)
-{
-	const struct var *var = variable->var;
-	struct placed placed = { .kind = PLACED_VALUE, .type = var->type,
-				 .value = variable->value };
-
-	if (variable->block)
-		return (struct placed){ .kind = PLACED_NOWHERE };
-	if (var->at.area != AREA_NONE)
-		placed = at_address(walker, var->at, var->type);
-	placed.count = var->array.count;
-	placed.low = var->array.low;
-	return placed;
-}
-
-static void show_elements(struct walker *walker, struct variable *variable)
-{
-	struct placed all = of_variable(walker, variable);
-	const char *pou = variable->pou ? project_text(walker->project,
-					variable->pou->name) : "";
-
-	for (uint32_t i = 0; i < all.count; i++) {
-		struct shown *out = &walker->shown[walker->shown_count++];
-
-		snprintf(out->name, sizeof(out->name), "%s%s%s[%d]", pou,
-			 *pou ? "." : "",
-			 project_text(walker->project, variable->var->name),
-			 (int)(all.low + (int64_t)i));
-		placed_element(&all, all.low + (int64_t)i, &out->placed);
-	}
-}
-
-static void show(struct walker *walker, struct variable *variable,
-		 const struct word_pin *pin, struct value *value)
-{
-	struct shown *out = &walker->shown[walker->shown_count++];
-	const char *pou = variable->pou ? project_text(walker->project,
-					variable->pou->name) : "";
-
-	snprintf(out->name, sizeof(out->name), "%s%s%s%s%s", pou,
-		 *pou ? "." : "",
-		 project_text(walker->project, variable->var->name),
-		 pin ? "." : "", pin ? pin->name : "");
-	out->placed = pin ? (struct placed){ .kind = PLACED_VALUE,
-					     .type = pin->type, .value = value } :
-			    of_variable(walker, variable);
-	if (pin && pin->dir == PIN_IN)
-		out->block = variable->block;
-}
-
-static bool show_all(struct walker *walker)
-{
-	size_t count = 1;
-
-	for (int i = 0; i < walker->variable_count; i++)
-		count += PINS_MAX + walker->variable[i].var->array.count;
-	walker->shown = arena_alloc(&walker->arena,
-				    count * sizeof(*walker->shown));
-	if (!walker->shown)
-		return false;
-	for (int i = 0; i < walker->variable_count; i++) {
-		struct variable *at = &walker->variable[i];
-		const struct word_row *row =
-			at->block ? word_row(at->block->fb) : NULL;
-
-		if (at->var->array.count)
-			show_elements(walker, at);
-		else if (!row)
-			show(walker, at, NULL, NULL);
-		for (int p = 0; row && p < row->pin_count; p++)
-			if (row->pin[p].dir != PIN_VAR)
-				show(walker, at, &row->pin[p],
-				     &at->block->pin[p]);
-	}
-	return true;
-}
-
-bool walker_declare(struct walker *walker)
-{
-	struct project *project = walker->project;
-	int count = project->globals.count;
-
-	for (int i = 0; i < project->pou_count; i++)
-		count += project->pou[i].vars.count;
-	walker->variable = arena_alloc(&walker->arena, (size_t)count *
-				       sizeof(*walker->variable) + 1);
-	if (!walker->variable)
-		return false;
-	if (!project_areas(project, &walker->areas))
-		return false;
-	for (int i = AREA_NONE + 1; i < AREA_COUNT; i++) {
-		walker->area[i] = arena_alloc(&walker->arena,
-			walker->areas.bytes[i] + 8);
-		if (!walker->area[i])
-			return false;
-	}
-	if (!declare_table(walker, NULL, &project->globals))
-		return false;
-	for (int i = 0; i < project->pou_count; i++)
-		if (!declare_table(walker, &project->pou[i],
-				   &project->pou[i].vars))
-			return false;
-	return show_all(walker);
-}
-
-static struct variable *find_in(struct walker *walker, const struct pou *pou,
-				const char *text, size_t len)
-{
-	for (int i = 0; i < walker->variable_count; i++) {
-		struct variable *at = &walker->variable[i];
-		const char *name = project_text(walker->project, at->var->name);
-
-		if (at->pou == pou && strlen(name) == len &&
-		    strncasecmp(name, text, len) == 0)
-			return at;
-	}
-	return NULL;
-}
-
-static struct variable *find(struct walker *walker, const struct pou *pou,
-			     const char *text, size_t len)
-{
-	struct variable *local = pou ? find_in(walker, pou, text, len) : NULL;
-
-	return local ? local : find_in(walker, NULL, text, len);
-}
-
-static struct placed of_pin(struct walker *walker, const struct pou *pou,
-			    const char *text, size_t len)
-{
-	const char *dot = memchr(text, '.', len);
-	struct placed placed = { .kind = PLACED_NOWHERE };
-	struct variable *variable;
-	char name[32] = "";
-	size_t n;
-	int pin;
-
-	variable = dot ? find(walker, pou, text, (size_t)(dot - text)) : NULL;
-	if (!variable || !variable->block)
-		return placed;
-	n = len - (size_t)(dot + 1 - text);
-	if (n >= sizeof(name))
-		return placed;
-	memcpy(name, dot + 1, n);
-	pin = block_pin(variable->block, name);
-	if (pin < 0)
-		return placed;
-	placed.kind = PLACED_VALUE;
-	placed.value = &variable->block->pin[pin];
-	placed.type = placed.value->type;
-	return placed;
 }
 
 static struct placed of_system(struct walker *walker, const char *text,
@@ -307,26 +45,21 @@ static struct placed of_system(struct walker *walker, const char *text,
 		    strncasecmp(row->name, text, len) == 0 &&
 		    iec_addr_parse(row->address, strlen(row->address),
 				   &addr) == ADDR_OK)
-			return at_address(walker, addr, row->type);
+			return placed_at(walker, addr, row->type);
 	}
 	return (struct placed){ .kind = PLACED_NOWHERE };
 }
 
-/* `Table[i]`: whatever stands before the brackets, and its index. */
-static struct placed of_element(struct walker *walker, const struct pou *pou,
-				const char *text, size_t len)
+struct placed placed_index(struct walker *walker, const struct frame *frame,
+			   struct placed array, const char *at, const char *end)
 {
-	const char *open = memchr(text, '[', len);
-	struct placed array = walker_place(walker, pou, text,
-					   (size_t)(open - text));
 	struct placed none = { .kind = PLACED_NOWHERE }, index, out;
-	const char *at = open + 1, *end = text + len - 1;
 
 	while (*at == ' ')
 		at++;
 	while (end > at && end[-1] == ' ')
 		end--;
-	index = walker_place(walker, pou, at, (size_t)(end - at));
+	index = walker_place(walker, frame, at, (size_t)(end - at));
 	if (index.kind == PLACED_NOWHERE || array.kind == PLACED_NOWHERE)
 		return none;
 	if (!array.count)
@@ -341,29 +74,28 @@ static struct placed of_element(struct walker *walker, const struct pou *pou,
 	return array;
 }
 
-struct placed walker_place(struct walker *walker, const struct pou *pou,
+struct placed walker_place(struct walker *walker, const struct frame *frame,
 			   const char *text, size_t len)
 {
-	struct variable *variable = find(walker, pou, text, len);
-	struct placed placed;
+	struct placed placed = frame_place(walker, frame, text, len);
+	const char *open = memchr(text, '[', len);
 	struct iec_addr addr;
 
-	if (len && text[len - 1] == ']')
-		return of_element(walker, pou, text, len);
-	if (variable)
-		return of_variable(walker, variable);
+	if (placed.kind != PLACED_NOWHERE)
+		return placed;
 	placed = of_system(walker, text, len);
 	if (placed.kind != PLACED_NOWHERE)
 		return placed;
-	placed = of_pin(walker, pou, text, len);
-	if (placed.kind != PLACED_NOWHERE)
-		return placed;
+	/* `%MX0.0[i]`: what stands before the brackets, and its index. */
+	if (open && text[len - 1] == ']')
+		return placed_index(walker, frame, walker_place(walker, frame, text,
+				    (size_t)(open - text)), open + 1, text + len - 1);
 	if (literal_parse(text, len, &placed.literal) == LITERAL_OK) {
 		placed.kind = PLACED_LITERAL;
 		placed.type = placed.literal.type;
 	} else if (iec_addr_parse(text, len, &addr) == ADDR_OK &&
 		   areas_have(&walker->areas, addr)) {
-		return at_address(walker, addr, iec_addr_type(addr));
+		return placed_at(walker, addr, iec_addr_type(addr));
 	}
 	return placed;
 }
@@ -378,7 +110,9 @@ bool placed_element(const struct placed *array, int64_t index, struct placed *ou
 	out->index = NULL;
 	if (index < array->low || index - array->low >= array->count)
 		return false;
-	if (array->kind == PLACED_VALUE)
+	if (array->choice)
+		*out = array->choice[number];
+	else if (array->kind == PLACED_VALUE)
 		out->value += number;
 	else if (array->type != IEC_BOOL)
 		out->byte += number * iec_type_row(array->type)->size;
@@ -458,7 +192,7 @@ static struct value read_literal(const struct placed *placed,
 		value.type = type;
 	if (value.type == IEC_STRING) {
 		value.room = sizeof(value.text);
-		take_text(&value, &placed->literal);
+		placed_take_text(&value, &placed->literal);
 		return value;
 	}
 	literal_fit(&placed->literal, value.type, &literal);

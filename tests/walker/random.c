@@ -439,6 +439,83 @@ static void add_flow(struct random_source *source, struct random_program *progra
 	}
 }
 
+/* A body that looks at the very instance that it works on, by its name outside, sees what
+ * docs/language.md says; programs here leave that alone. */
+static bool names_global(const char *text)
+{
+	return strstr(text, "inner_a") || strstr(text, "inner_b") ||
+	       strstr(text, "outer_");
+}
+
+/* Some boxes of a rung become calls of what is the program's own. */
+static void add_own(struct random_source *source, struct random_rung *rung)
+{
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		struct random_cell *cell =
+			&rung->cell[i / RANDOM_COLS][i % RANDOM_COLS];
+		bool box = cell->kind == RANDOM_SERIES ||
+			   (cell->kind == RANDOM_BOX && cell->text[0] == '[');
+
+		if (!box || !random_chance(source, 20))
+			continue;
+		do
+			random_own_call(source, rung->pou, cell->text,
+					sizeof(cell->text));
+		while (rung->pou > RANDOM_OTHER && names_global(cell->text));
+	}
+}
+
+/* A function: no edges, no instances, no calls of what keeps something. */
+static void forget(struct random_source *source, struct random_rung *rung)
+{
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		struct random_cell *cell =
+			&rung->cell[i / RANDOM_COLS][i % RANDOM_COLS];
+
+		random_without_memory(source, cell->text, sizeof(cell->text));
+	}
+}
+
+static bool has_box(const struct random_rung *rung)
+{
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		const struct random_cell *cell =
+			&rung->cell[i / RANDOM_COLS][i % RANDOM_COLS];
+
+		if (cell->kind == RANDOM_BOX && cell->text[0] != '[')
+			return true;
+	}
+	return false;
+}
+
+static bool looks_outside(const struct random_rung *rung)
+{
+	for (int i = 0; i < RANDOM_ROWS * RANDOM_COLS; i++) {
+		if (names_global(rung->cell[i / RANDOM_COLS][i % RANDOM_COLS].text))
+			return true;
+	}
+	return false;
+}
+
+static void make_own(struct random_source *source, struct random_program *program)
+{
+	for (int pou = RANDOM_INNER; pou < RANDOM_POUS; pou++) {
+		int count = 1 + (int)random_below(source, 2);
+
+		for (int i = 0; i < count; i++) {
+			struct random_rung *rung = &program->rung[program->rungs++];
+
+			rung->pou = pou;
+			do {
+				draw_rung(source, rung, 0);
+				if (pou == RANDOM_RECKON)
+					forget(source, rung);
+			} while (looks_outside(rung) ||
+			       (pou == RANDOM_RECKON && has_box(rung)));
+		}
+	}
+}
+
 /* Small ones, of any number of bytes, or larger than usual. What programs name by a
  * fixed address stays inside; what they index does not. */
 static void draw_areas(struct random_source *source, struct random_program *program)
@@ -459,7 +536,7 @@ static void draw_areas(struct random_source *source, struct random_program *prog
 void random_make(struct random_program *program, uint64_t seed)
 {
 	struct random_source source;
-	int second;
+	int second, programs = 0;
 
 	random_seed(&source, seed);
 	memset(program, 0, sizeof(*program));
@@ -477,116 +554,21 @@ void random_make(struct random_program *program, uint64_t seed)
 		draw_rung(&source, rung, random_chance(&source, 60) ? later : 0);
 	}
 	program->routine = second < program->rungs && random_chance(&source, 60);
-	for (int i = 0; i < program->rungs; i++) {
+	for (int i = 0; i < program->rungs; i++)
 		add_flow(&source, program, &program->rung[i]);
-		program->rung[i].label = i + 1;
+	if (program->rungs <= 8 && random_chance(&source, 50)) {
+		programs = program->rungs;
+		make_own(&source, program);
+		for (int i = 0; i < program->rungs; i++)
+			if (program->rung[i].pou != RANDOM_RECKON)
+				add_own(&source, &program->rung[i]);
 	}
+	for (int i = 0; i < program->rungs; i++)
+		program->rung[i].label = i + 1;
 	program->rung[random_below(&source, (uint32_t)program->rungs)].off =
 		random_chance(&source, 10);
-	if (program->rungs >= 4 && second == program->rungs &&
+	if (!programs && program->rungs >= 4 && second == program->rungs &&
 	    random_chance(&source, 15))
 		make_loop(program);
 	draw_areas(&source, program);
-}
-
-struct page {
-	char *out;
-	size_t size, used;
-};
-
-static void add(struct page *page, const char *text)
-{
-	size_t len = strlen(text);
-
-	if (page->used + len + 1 > page->size)
-		len = page->size - page->used - 1;
-	memcpy(page->out + page->used, text, len);
-	page->used += len;
-	page->out[page->used] = '\0';
-}
-
-static bool is_aimed_at(const struct random_program *program, int label)
-{
-	char text[24];
-
-	snprintf(text, sizeof(text), "JMP L%d", label);
-	for (int i = 0; i < program->rungs; i++)
-		for (int row = 0; row < RANDOM_ROWS; row++)
-			for (int col = 0; col < RANDOM_COLS; col++)
-				if (strcmp(program->rung[i].cell[row][col].text,
-					   text) == 0)
-					return true;
-	return false;
-}
-
-static void print_rung(const struct random_program *program,
-		       const struct random_rung *rung, struct page *page)
-{
-	bool aimed = rung->label && is_aimed_at(program, rung->label);
-	char text[24];
-
-	add(page, rung->off && !aimed ? "RUNG OFF" : "RUNG");
-	if (aimed) {
-		snprintf(text, sizeof(text), " L%d", rung->label);
-		add(page, text);
-	}
-	add(page, "\n");
-	for (int row = 0; row < rung->rows; row++) {
-		add(page, "  |");
-		for (int col = 0; col < rung->cols; col++) {
-			const struct random_cell *cell = &rung->cell[row][col];
-
-			add(page, " ");
-			add(page, cell->kind == RANDOM_WIRE ? "---" :
-				  cell->text);
-			add(page, cell->link ? " ^|" : " |");
-		}
-		add(page, "\n");
-	}
-}
-
-static void print_areas(const struct random_program *program, struct page *page)
-{
-	static const char *const letters[RANDOM_AREAS] = { "I", "Q", "M", "V", "XAQ" };
-	char line[64];
-
-	if (!program->sized)
-		return;
-	add(page, "CONFIGURATION Sizes\n");
-	for (int i = 0; i < RANDOM_AREAS; i++) {
-		snprintf(line, sizeof(line), "  AREA %s %u;\n", letters[i],
-			 (unsigned)program->bytes[i]);
-		add(page, line);
-	}
-	add(page, "END_CONFIGURATION\n");
-}
-
-size_t random_print(const struct random_program *program, char *out,
-		    size_t size)
-{
-	const char *kind = program->routine ? "SUBROUTINE" : "PROGRAM";
-	static const char vars[] = "VAR\n  bool_b : BOOL;\n  int_b : INT;\nEND_VAR\n";
-	char line[64];
-	char body[48 * 1024];
-	struct page page = { body, sizeof(body), 0 };
-	struct page whole = { out, size, 0 };
-	int pou = 0;
-
-	add(&page, "PROGRAM Main LD\n");
-	for (int i = 0; i < program->rungs; i++) {
-		if (program->rung[i].pou != pou) {
-			snprintf(line, sizeof(line), "END_PROGRAM\n%s Other LD\n", kind);
-			add(&page, line);
-			add(&page, vars);
-		}
-		pou = program->rung[i].pou;
-		print_rung(program, &program->rung[i], &page);
-	}
-	snprintf(line, sizeof(line), "END_%s\n", pou ? kind : "PROGRAM");
-	add(&page, line);
-	add(&whole, "RUNGBOARD 1\n");
-	whole.used += random_declare(body, out + whole.used, size - whole.used);
-	print_areas(program, &whole);
-	add(&whole, body);
-	return whole.used;
 }

@@ -16,8 +16,14 @@
 #define RANDOM_ROWS  6
 #define RANDOM_COLS  8
 #define RANDOM_TEXT  144
-#define RANDOM_RUNGS 12
+#define RANDOM_RUNGS 16
 #define RANDOM_AREAS 5 /* I, Q, M, V, XAQ                                     */
+
+/* Where a rung stands. */
+enum random_pou {
+	RANDOM_MAIN, RANDOM_OTHER, RANDOM_INNER, RANDOM_OUTER, RANDOM_RECKON,
+	RANDOM_POUS
+};
 
 enum random_kind {
 	RANDOM_EMPTY, RANDOM_WIRE, RANDOM_SERIES, RANDOM_BOX, RANDOM_LAST,
@@ -32,7 +38,7 @@ struct random_cell {
 };
 
 struct random_rung {
-	int pou;
+	int pou;       /* enum random_pou                                    */
 	int label;     /* 1-based number of its label; 0: none               */
 	bool off;
 	int rows, cols;
@@ -72,6 +78,16 @@ void random_last(struct random_source *source, int later, char *out,
 /** random_box - gives the pins it wants fed, from the top down. */
 int random_box(struct random_source *source, char *out, size_t size,
 	       const char *pin[3]);
+/* words_own.c: functions, blocks and structures of the program's own. */
+/** random_own_call - the text of a box that calls one from a rung of @pou. */
+void random_own_call(struct random_source *source, int pou, char *out, size_t size);
+/** random_without_memory - edges in the text of a cell become plain. */
+void random_without_memory(struct random_source *source, char *text, size_t size);
+/** random_own_head, random_own_tail - what stands around the rungs. Live for ever. */
+const char *random_own_head(int pou);
+const char *random_own_tail(int pou);
+/** random_types - the types that @body needs. Lives for ever. */
+const char *random_types(const char *body);
 /** random_declare - declarations of the variables that stand in @body. */
 size_t random_declare(const char *body, char *out, size_t size);
 #endif

@@ -10,10 +10,14 @@
 
 #define STEPS_MAX 1000000u
 
-static bool make_pou(struct walker *walker, const struct pou *pou,
+static bool make_pou(struct walker *walker, struct frame *frame,
 		     struct walked_pou *out)
 {
+	const struct pou *pou = frame->pou;
+
 	out->pou = pou;
+	out->frame = frame;
+	frame->body = out;
 	if (pou->language != LANGUAGE_LD) {
 		walker->why = "a POU in IL";
 		return false;
@@ -24,7 +28,7 @@ static bool make_pou(struct walker *walker, const struct pou *pou,
 		return false;
 	for (int i = 0; i < pou->rung_count; i++)
 		if (!pou->rung[i]->off &&
-		    !grid_make(walker, pou, pou->rung[i], &out->rung[i]))
+		    !grid_make(walker, frame, pou->rung[i], &out->rung[i]))
 			return false;
 	return true;
 }
@@ -38,8 +42,15 @@ static bool make_all(struct walker *walker)
 	if (!walker->pou || !walker_declare(walker))
 		return false;
 	for (int i = 0; i < project->pou_count; i++)
-		if (!make_pou(walker, &project->pou[i], &walker->pou[i]))
+		if (walker->frame[i].pou &&
+		    !make_pou(walker, &walker->frame[i], &walker->pou[i]))
 			return false;
+	for (struct frame *at = walker->instances; at; at = at->next) {
+		struct walked_pou *body = arena_alloc(&walker->arena, sizeof(*body));
+
+		if (!body || !make_pou(walker, at, body))
+			return false;
+	}
 	return true;
 }
 
@@ -250,6 +261,76 @@ static bool acts_last(const struct walked *at)
 
 static bool walk_pou(struct walker *walker, struct walked_pou *walked);
 
+/* The first BOOL among the variables with this flag; -1: none. */
+static int first_bool(const struct frame *callee, uint8_t flag)
+{
+	for (int i = 0; i < callee->count; i++)
+		if (callee->variable[i].flags & flag &&
+		    callee->variable[i].var->type == IEC_BOOL &&
+		    !callee->variable[i].var->array.count)
+			return i;
+	return -1;
+}
+
+/* What goes in, read before anything of the callee is written; false: it is not there. */
+static bool read_parameters(struct walker *walker, const struct walked *at, bool outputs,
+			    struct value *given)
+{
+	for (int i = 0; i < at->parameter_count; i++) {
+		const struct parameter *from = &at->parameter[i];
+		struct placed here;
+
+		if (from->output && !outputs)
+			continue;
+		if (!placed_find(walker, &from->placed, &here))
+			return false;
+		if (!from->output)
+			given[i] = read_input(from, &here,
+					at->callee->variable[from->pin].var->type);
+	}
+	return true;
+}
+
+static void write_back(struct walker *walker, const struct walked *at)
+{
+	for (int i = 0; i < at->parameter_count; i++) {
+		const struct parameter *to = &at->parameter[i];
+		const struct variable *from = &at->callee->variable[to->pin];
+
+		if (to->output || from->flags & VAR_IN_OUT)
+			put(walker, &to->placed, *from->value);
+	}
+}
+
+/* A block of the project is called whatever its power; what gives no power on is one
+ * without a BOOL to take it. A function runs with power alone, and begins anew. */
+static bool call_own(struct walker *walker, struct walked *at, bool power)
+{
+	struct frame *callee = at->callee;
+	bool function = callee->pou->kind == POU_FUNCTION;
+	struct value given[LIMIT_ARGS] = { { 0 } };
+	int in = function ? -1 : first_bool(callee, VAR_INPUT);
+	int out = first_bool(callee, function ? VAR_RESULT : VAR_OUTPUT);
+
+	bool all;
+
+	if (in < 0 && !power)
+		return false;
+	all = read_parameters(walker, at, function, given);
+	if (in >= 0)
+		*callee->variable[in].value = value_bool(power);
+	if (!all)
+		return false;
+	frame_reset(walker, callee, !function);
+	for (int i = 0; i < at->parameter_count; i++)
+		if (!at->parameter[i].output)
+			*callee->variable[at->parameter[i].pin].value = given[i];
+	if (!walk_pou(walker, callee->body))
+		walker->lost = true;
+	write_back(walker, at);
+	return out < 0 ? power : value_is_true(*callee->variable[out].value);
+}
+
 static void call_routine(struct walker *walker, struct walked *at, bool power)
 {
 	at->power_out = power;
@@ -271,6 +352,8 @@ static void pass(struct walker *walker, struct walked_rung *walked,
 		return;
 	if (at->word == ELEM_CALL)
 		call_routine(walker, at, power);
+	else if (at->callee)
+		at->power_out = call_own(walker, at, power);
 	else if (at->block)
 		at->power_out = call_block(walker, walked, at, power);
 	else if (word_row(at->word)->kind == WORD_FN)
@@ -357,6 +440,8 @@ static int walk_rung(struct walker *walker, struct walked_rung *walked)
 
 static bool walk_pou(struct walker *walker, struct walked_pou *walked)
 {
+	if (!pou_has_frame(walked->pou))
+		frame_reset(walker, walked->frame, true);
 	for (int i = 0; i < walked->pou->rung_count;) {
 		int next = RUNG_NEXT;
 
@@ -439,13 +524,14 @@ static enum walker_power element_power(const struct walked_rung *walked,
 							  POWER_BOTH;
 }
 
-enum walker_power walker_power(const struct walker *walker, int pou, int rung,
-			       int row, int col, bool *in, bool *out)
+static enum walker_power cell_power(const struct walker *walker,
+				    const struct walked_pou *body, int rung,
+				    int row, int col, bool *in, bool *out)
 {
-	const struct walked_rung *walked = &walker->pou[pou].rung[rung - 1];
+	const struct walked_rung *walked = &body->rung[rung - 1];
 	const struct cell *cell;
 
-	if (!walked->rung || walked->scan != walker->scans)
+	if (!body->rung || !walked->rung || walked->scan != walker->scans)
 		return POWER_UNKNOWN;
 	for (int i = 0; i < walked->count; i++)
 		if (walked->element[i].row == row - 1 &&
@@ -458,4 +544,35 @@ enum walker_power walker_power(const struct walker *walker, int pou, int rung,
 		return POWER_BOTH;
 	return cell->word == ELEM_PIN && cell->operand ? POWER_IN_ONLY :
 							 POWER_UNKNOWN;
+}
+
+enum walker_power walker_power(const struct walker *walker, int pou, int rung,
+			       int row, int col, bool *in, bool *out)
+{
+	return cell_power(walker, &walker->pou[pou], rung, row, col, in, out);
+}
+
+static const struct frame *instance_at(const struct walker *walker, int index)
+{
+	const struct frame *at = walker->instances;
+
+	while (at && index-- > 0)
+		at = at->next;
+	return at;
+}
+
+const struct pou *walker_instance(const struct walker *walker, int index,
+				  const char **name)
+{
+	const struct frame *at = instance_at(walker, index);
+
+	*name = at ? at->name : "";
+	return at ? at->pou : NULL;
+}
+
+enum walker_power walker_power_in(const struct walker *walker, int index, int rung,
+				  int row, int col, bool *in, bool *out)
+{
+	return cell_power(walker, instance_at(walker, index)->body, rung, row, col,
+			  in, out);
 }

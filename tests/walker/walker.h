@@ -64,4 +64,11 @@ enum walker_power { POWER_UNKNOWN, POWER_IN_ONLY, POWER_BOTH };
  */
 enum walker_power walker_power(const struct walker *walker, int pou, int rung,
 			       int row, int col, bool *in, bool *out);
+/** walker_instance - the block of which number @index is an instance, and its name, such
+ * as "Line.Belt"; NULL: they are not so many. */
+const struct pou *walker_instance(const struct walker *walker, int index,
+				  const char **name);
+/** walker_power_in - as walker_power, of a rung in the body of such an instance. */
+enum walker_power walker_power_in(const struct walker *walker, int index, int rung,
+				  int row, int col, bool *in, bool *out);
 #endif

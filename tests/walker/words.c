@@ -98,6 +98,17 @@ static const struct pool_row pool[] = {
 	{ "mean_a.OUT", "REAL", "", 1, 0 }, { "range_a.OUT", "REAL", "", 1, 0 },
 	{ "pid_b.KP", "REAL", "", 0, 0 }, { "scale_a.GAIN", "REAL", "", 0, 0 },
 	{ "real_c", "REAL", ":= 12.5", 0, 0 }, { "fifo_a.OUT", "DINT", "", 1, 0 },
+	{ "rec_a.on", "BOOL", "", 0, 0 }, { "rec_a.n", "INT", "", 0, 0 },
+	{ "rec_a.low.d", "DINT", "", 0, 0 }, { "rec_a.low.q", "BOOL", "", 0, 0 },
+	{ "rec_a.t", "TIME", "", 0, 0 }, { "rec_a.list[4]", "INT", "", 0, 0 },
+	{ "rec_a.list[int_b]", "INT", "", 0, 0 }, { "rec_a.name", "STRING[9]", "", 0, 0 },
+	{ "recs[2].on", "BOOL", "", 0, 0 }, { "recs[usint_b].on", "BOOL", "", 0, 0 },
+	{ "recs[int_b].n", "INT", "", 0, 0 }, { "recs[1].list[3]", "INT", "", 0, 0 },
+	{ "recs[usint_i].low.d", "DINT", "", 0, 0 },
+	{ "recs[uint_b].low.q", "BOOL", "", 0, 0 },
+	{ "inner_a.out_a", "BOOL", "", 1, 0 }, { "inner_b.int_b", "INT", "", 1, 0 },
+	{ "inner_a.in_b", "BOOL", "", 0, 0 }, { "outer_a.out_b", "BOOL", "", 1, 0 },
+	{ "outer_a.lint_a", "LINT", "", 1, 0 },
 	{ "shift_a.Q", "BOOL", "", 1, 0 }, { "fifo_a.FULL", "BOOL", "", 1, 0 },
 };
 
@@ -142,43 +153,6 @@ static const char *const narrower[][2] = {
 
 #define PLAIN_NARROWER 16 /* of them numbers, the rest bits                   */
 
-static const struct {
-	const char *type, *text[7];
-} literals[] = {
-	{ "SINT", { "1", "3", "127", "SINT#-128", "0", "SINT#-1", "100" } },
-	{ "INT", { "1", "2", "7", "32767", "INT#-32768", "0", "INT#-1" } },
-	{ "DINT", { "1", "10", "65536", "2147483647", "0", "DINT#-1",
-		    "DINT#-2147483648" } },
-	{ "USINT", { "1", "2", "255", "0", "16", "200", "5" } },
-	{ "UINT", { "1", "2", "65535", "0", "16#FF", "256", "3" } },
-	{ "UDINT", { "1", "2", "4294967295", "0", "65536", "65535", "9" } },
-	{ "BYTE", { "16#0F", "0", "255", "1", "2#1010", "7", "16" } },
-	{ "WORD", { "16#FF00", "0", "65535", "1", "2", "256", "3" } },
-	{ "DWORD", { "16#FFFF0000", "0", "1", "2", "65535", "65536", "7" } },
-	{ "REAL", { "1.5", "0.0", "3.25", "1.0E38", "2.0", "0.1", "1.0E-3" } },
-	{ "TIME", { "T#1ms", "T#0s", "T#20ms", "T#1s", "T#15ms", "T#5ms",
-		    "T#1h" } },
-	{ "BOOL", { "TRUE", "FALSE", "TRUE", "FALSE", "TRUE", "FALSE",
-		    "TRUE" } },
-	{ "LINT", { "0", "1", "LINT#-9223372036854775808", "9223372036854775807",
-		    "2", "LINT#-9223372036854775807", "3" } },
-	{ "ULINT", { "0", "1", "18446744073709551615", "18446744073709551614", "2",
-		     "9223372036854775808", "3" } },
-	{ "LWORD", { "16#FFFFFFFFFFFFFFFF", "0", "1", "16#8000000000000000", "255",
-		     "65536", "7" } },
-	{ "LREAL", { "0.1", "0.0", "3.25", "1.0E308", "2.0", "1.5", "1.0E-300" } },
-	{ "STRING[9]", { "'a'", "''", "'bc'", "'cab'", "'b'", "'abcdefghi'", "'$$$''" } },
-	{ "DATE", { "D#1970-01-01", "D#2262-04-11", "D#1677-09-22", "D#2024-02-29",
-		    "D#1969-12-31", "D#2026-11-21", "D#2000-01-01" } },
-	{ "TIME_OF_DAY", { "TOD#00:00:00", "TOD#12:00:00", "TOD#23:59:59.999",
-			   "TOD#06:00:00", "TOD#05:59:59", "TOD#22:00:00",
-			   "TOD#18:30:00" } },
-	{ "DATE_AND_TIME", { "DT#1970-01-01-00:00:00", "DT#2024-02-29-12:00:00",
-			     "DT#2026-11-22-23:59:59", "DT#1969-12-31-22:00:00",
-			     "DT#2026-11-20-05:59:59", "DT#2000-01-01-06:00:00",
-			     "DT#1900-03-01-18:30:00" } },
-};
-
 static const char *const numbers[] = {
 	"SINT", "INT", "INT", "DINT", "DINT", "USINT", "UINT", "UDINT", "INT",
 	"REAL", "TIME", "LINT", "ULINT", "LREAL", "LREAL", "TIME_OF_DAY", "DATE",
@@ -212,15 +186,6 @@ const char *term(struct random_source *source, const char *type, bool write)
 	if (random_chance(source, 15) && strcmp(computed[i][0], type) == 0)
 		return computed[i][1];
 	return variable(source, type, write);
-}
-
-const char *literal(struct random_source *source, const char *type)
-{
-	size_t i = 0;
-
-	while (strcmp(literals[i].type, type) != 0)
-		i++;
-	return literals[i].text[random_below(source, 7)];
 }
 
 /* Something that may stand beside a value of @type in one operation. */
@@ -578,6 +543,7 @@ size_t random_declare(const char *body, char *out, size_t size)
 		    at ? row->rest : "", row->type, at ? "" : row->rest);
 	}
 	random_declare_blocks(&builder, body);
+	random_declare_own(&builder, body);
 	for (size_t i = 0; i < ARRAYS; i++)
 		if (!array[i].constant && is_used(body, array[i].name))
 			put(&builder, "  %s %s;\n", array[i].name, array[i].rest);

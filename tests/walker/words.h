@@ -17,14 +17,16 @@ struct builder {
 void put(struct builder *builder, const char *format, ...);
 /** variable - one of just this type that may be read, or written. */
 const char *variable(struct random_source *source, const char *type, bool write);
-/** literal - a constant of this type. */
-const char *literal(struct random_source *source, const char *type);
 /** term - a variable, or an element with a computed index: for expressions. */
 const char *term(struct random_source *source, const char *type, bool write);
 /** number - a value of exactly @type; @tight: it stands where it needs parentheses. */
 void number(struct builder *builder, const char *type, int depth, bool tight);
 /** is_used - @name stands in @body as a word of its own. */
 bool is_used(const char *body, const char *name);
+
+/* words_literal.c */
+/** literal - a constant of this type. */
+const char *literal(struct random_source *source, const char *type);
 
 /* words_time.c */
 /** random_timely - a TIME out of dates, or of a time and a number. */
@@ -33,6 +35,10 @@ void random_timely(struct builder *builder, int depth);
 void random_moment(struct builder *builder, const char *type, int depth);
 /** random_text - a box with a function of texts. */
 void random_text(struct builder *builder);
+
+/* words_own.c */
+/** random_declare_own - declarations of structures and instances that @body names. */
+void random_declare_own(struct builder *builder, const char *body);
 
 /* words_block.c */
 /** random_block - a function block and its parameters; gives how many of its pins,

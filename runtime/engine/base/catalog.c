@@ -22,7 +22,8 @@
 #define FB_IN(fb, pin, type, text)  { FB_PIN(fb, pin, PIN_IN, type) },
 #define FB_OUT(fb, pin, type, text) { FB_PIN(fb, pin, PIN_OUT, type) },
 #define FB_VAR(fb, pin, type)       { FB_PIN(fb, pin, PIN_VAR, type) },
-#define FB_STORE(fb, pin, type, count) /* nobody asks for it by name */
+#define FB_STORE(fb, pin, type, count) \
+	{ FB_PIN(fb, pin, PIN_VAR, type), .elements = (count) > 1 ? (count) : 0 },
 #define FB(id, family, doc, pins) \
 	static const struct word_pin pins_##id[] = { pins };
 #define FN_PIN(pin, what) \

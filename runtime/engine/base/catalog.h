@@ -130,7 +130,7 @@ struct word_pin {
 					 has_init; of a pin of the catalogue  */
 		int32_t low;          /* own rows: of an array                */
 	};
-	uint32_t elements;   /* own rows: of an array; 0: none                 */
+	uint32_t elements;   /* own rows, FB_STORE: of an array; 0: none        */
 	uint32_t offset;     /* of an FB pin in its struct                     */
 	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
 	uint16_t capacity;   /* own rows: of a STRING                          */

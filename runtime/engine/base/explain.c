@@ -18,7 +18,7 @@ static const char *const pins[] = {
 #define FB_IN(fb, pin, type, doc)  doc,
 #define FB_OUT(fb, pin, type, doc) doc,
 #define FB_VAR(fb, pin, type)      "",
-#define FB_STORE(fb, pin, type, count)
+#define FB_STORE(fb, pin, type, count) "",
 #define FB(id, family, doc, pins)  pins
 #define FN_IN(pin, classes, doc)   doc,
 #define FN_OWN(pin, classes, doc)  doc,
@@ -31,7 +31,7 @@ enum pin_start {
 #define FB_IN(fb, pin, type, doc)  + 1
 #define FB_OUT(fb, pin, type, doc) + 1
 #define FB_VAR(fb, pin, type)      + 1
-#define FB_STORE(fb, pin, type, count)
+#define FB_STORE(fb, pin, type, count) + 1
 #define FB(id, family, doc, pins)  START_##id, LAST_##id = START_##id - 1 pins,
 #define FN_IN(pin, classes, doc)   + 1
 #define FN_OWN(pin, classes, doc)  + 1

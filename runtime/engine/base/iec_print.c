@@ -114,9 +114,11 @@ static int print_date(int64_t day, char *out, size_t size)
 	return snprintf(out, size, "%04d-%02d-%02d", year, month, of_month);
 }
 
-/* 08:30:00, with as many decimals as it takes. */
-static int print_clock(int64_t ns, char *out, size_t size)
+/* 08:30:00, with as many decimals as it takes. What an address gives beyond a day is
+ * the clock of it, as functions see it. */
+static int print_clock(int64_t beyond, char *out, size_t size)
 {
+	int64_t ns = (beyond % DAY_NS + DAY_NS) % DAY_NS;
 	int64_t second = ns / 1000000000, below = ns % 1000000000;
 	int decimals = 9;
 	char fraction[16] = "";
@@ -126,7 +128,7 @@ static int print_clock(int64_t ns, char *out, size_t size)
 	if (below)
 		snprintf(fraction, sizeof(fraction), ".%0*" PRId64, decimals,
 			 below);
-	return snprintf(out, size, "%02d:%02d:%02d%s", (int)(second / 3600 % 100),
+	return snprintf(out, size, "%02d:%02d:%02d%s", (int)(second / 3600),
 			(int)(second / 60 % 60), (int)(second % 60), fraction);
 }
 

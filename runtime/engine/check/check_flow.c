@@ -52,7 +52,7 @@ static bool check_routine(struct il_check *c, int at, const struct pou *to)
 		good = il_need_result(c, line) &&
 		       il_need_bool(c, line, c->now, "result");
 	if (is_arg(c, at + 1))
-		good = il_report(c, &c->il->line[at + 1], DIAG_NO_PIN,
+		good = il_report(c, &c->il->line[at + 1], DIAG_TOO_MANY_OPERANDS,
 				 scope_text(c->scope, c->il->line[at + 1].pin));
 	c->now.there = false;
 	return good;

@@ -271,7 +271,7 @@ static int read_inputs(struct il_check *c, int at, struct result *in)
 		if (!m)
 			return -1;
 		if (count == LIMIT_FN_INPUTS) {
-			il_report(c, &c->il->line[i], DIAG_NO_PIN,
+			il_report(c, &c->il->line[i], DIAG_TOO_MANY_OPERANDS,
 				  il_operand_text(c, &c->il->line[i]));
 			return -1;
 		}
@@ -312,7 +312,7 @@ static bool check_fn(struct il_check *c, int at, enum iec_type *common)
 	if (count < 0)
 		return false;
 	if (count > row->most_inputs && row->pin_count > 1)
-		return il_report(c, line, DIAG_NO_PIN, row->word);
+		return il_report(c, line, DIAG_TOO_MANY_OPERANDS, row->word);
 	if (count < row->pin_count || count > row->most_inputs)
 		return il_report(c, line, DIAG_MISSING_INPUT, row->word);
 	runs = overloaded(line, in, count);

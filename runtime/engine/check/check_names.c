@@ -44,16 +44,18 @@ static const char *text_of(const struct names_check *c, uint32_t id)
 }
 
 /* @pou NULL: among the globals. */
+static struct diag place_of(const struct names_check *c, enum diag_id id,
+			    const struct pou *pou, int line)
+{
+	return (struct diag){ .id = id, .line = line,
+		.file = pou ? pou->file : c->project->file,
+		.pou = pou ? text_of(c, pou->name) : NULL };
+}
+
 static void report_line(struct names_check *c, enum diag_id id,
 			const struct pou *pou, int line, const char *arg)
 {
-	struct diag place = {
-		.id = id, .line = line,
-		.file = pou ? pou->file : c->project->file,
-		.pou = pou ? text_of(c, pou->name) : NULL,
-	};
-
-	c->good &= diag_add(c->diags, place, "%s", arg);
+	c->good &= diag_add(c->diags, place_of(c, id, pou, line), "%s", arg);
 }
 
 /* @number 1-based; @row and @col 0-based, -1: the whole rung. */
@@ -157,16 +159,25 @@ static bool is_inside(struct names_check *c, const struct var *var)
 	return areas_have(areas, vars_shift(var->at, var->array.count - 1));
 }
 
+static void report_twice(struct names_check *c, const struct pou *pou,
+			 const struct var *var, int first)
+{
+	c->good &= diag_add(c->diags, place_of(c, DIAG_DUPLICATE_NAME, pou, var->line),
+			    "%.40s, first in line %d", text_of(c, var->name), first);
+}
+
 static void check_var(struct names_check *c, const struct pou *pou,
 		      const struct var_table *table, int index, uint8_t flags)
 {
+	int twice = scope_duplicate(c->scope, pou, index);
 	const struct var *var = &table->var[index];
 	const char *name = text_of(c, var->name);
 	const struct mark *mark = mark_of(c, var->fold);
 	struct iec_addr addr;
 
-	if (scope_duplicate(c->scope, pou, index) >= 0 ||
-	    (!pou && mark && mark->pou))
+	if (twice >= 0)
+		report_twice(c, pou, var, table->var[twice].line);
+	else if (!pou && mark && mark->pou)
 		report_line(c, DIAG_DUPLICATE_NAME, pou, var->line, name);
 	/* What `ladder il` prints declares its temporaries. */
 	if (is_reserved(c, name, var->fold) ||

@@ -229,6 +229,13 @@ static void check_loop(struct operand_check *c, struct spot at, uint32_t id)
 
 /* ---- boxes ---- */
 
+/* IN17 of a function that takes up to 16. */
+static bool is_numbered(const struct word_row *row, const struct arg *arg)
+{
+	return row->most_inputs > row->pin_count && arg->pin_len > 2 &&
+	       ascii_same(arg->pin, "IN", 2) && ascii_digit(arg->pin[2]);
+}
+
 /* What is wrong with the pin of a parameter; DIAG_COUNT: nothing. Functions
  * have EN, ENO and OUT beside the inputs of their row. */
 static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
@@ -248,7 +255,7 @@ static enum diag_id judge_pin(const struct word_row *row, const struct arg *arg)
 		 ascii_is("OUT", arg->pin, arg->pin_len))
 		output = true;
 	else
-		return DIAG_NO_PIN;
+		return is_numbered(row, arg) ? DIAG_TOO_MANY_OPERANDS : DIAG_NO_PIN;
 	if (arg->inverse && index >= 0 && index < row->pin_count &&
 	    row->pin[index].dir == PIN_IN_OUT)
 		return DIAG_PIN_DIRECTION; /* nothing comes back through a / */

@@ -242,7 +242,7 @@ static bool check_operand(struct il_check *c, const struct word_row *row,
 	if (!m)
 		return false;
 	if (*pin < 0)
-		return il_report(c, line, DIAG_NO_PIN, operand_text(c, line));
+		return il_report(c, line, DIAG_TOO_MANY_OPERANDS, operand_text(c, line));
 	return check_value(c, line, m, &row->pin[*pin]);
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/explain.h"
+#include "engine/model/convert.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -116,6 +117,61 @@ static void offer_words(const struct offer *o)
 		offer_row(o, word_row((enum word)i));
 	for (int i = 0; i < words->count; i++)
 		offer_row(o, words->row[i]);
+}
+
+/* ---- words made by rule ---- */
+
+/* Names of types that stand in such words beside those of the rows. */
+static const char *type_name(int index)
+{
+	static const char *const other[] = { "TOD", "DT", "LTIME", "LTOD", "LDATE",
+					     "LDT" };
+	int rows = IEC_TYPE_COUNT - IEC_NONE - 1, others = sizeof(other) / sizeof(*other);
+
+	if (index < rows)
+		return iec_type_row((enum iec_type)(IEC_NONE + 1 + index))->word;
+	return index < rows + others ? other[index - rows] : NULL;
+}
+
+/* Is what stands there `INT_`, with more or less behind it? */
+static bool is_begun(const struct offer *o, const char *first)
+{
+	const char *begun = o->want->begun;
+	size_t len = strlen(first), has = o->want->begun_len;
+
+	if (!begun || !memchr(begun, '_', has))
+		return false;
+	return ascii_same(begun, first, len < has ? len : has) &&
+	       (len >= has || begun[len] == '_');
+}
+
+/* INT_TO_REAL, INT_TO_TIME … with @from and @infix before a type. */
+static void offer_towards(const struct offer *o, const char *from, const char *infix)
+{
+	struct convert_word made;
+	const char *to;
+	char text[48];
+
+	for (int i = 0; (to = type_name(i)) != NULL; i++) {
+		snprintf(text, sizeof(text), "%s%s%s", from, infix, to);
+		if (convert_make(text, strlen(text), &made))
+			give(o, EXPECT_FUNCTION, text,
+			     explain_word(word_row(made.row.runs)));
+	}
+}
+
+static void offer_made(const struct offer *o)
+{
+	static const char *const infix[] = { "_TO_", "_TRUNC_", "_BCD_TO_", "_TO_BCD_" };
+	const char *from;
+
+	for (int i = 0; (from = type_name(i)) != NULL; i++)
+		for (size_t k = 0; is_begun(o, from) && k < sizeof(infix) / sizeof(*infix);
+		     k++)
+			offer_towards(o, from, infix[k]);
+	for (size_t k = 0; k < sizeof(infix) / sizeof(*infix); k++)
+		if (is_begun(o, k == 1 ? "TRUNC" : k == 2 ? "BCD" : "TO"))
+			offer_towards(o, "", infix[k] + 1);
 }
 
 static void offer_types(const struct offer *o)
@@ -249,6 +305,8 @@ void expect_offer(struct scope *scope, const struct pou *pou,
 		offer_types(&o);
 	if (want->kinds & (EXPECT_FUNCTION | EXPECT_BLOCK | EXPECT_ELEMENT | EXPECT_TYPE))
 		offer_words(&o);
+	if (want->kinds & EXPECT_FUNCTION)
+		offer_made(&o);
 	if (want->kinds & (EXPECT_VARIABLE | EXPECT_INSTANCE) && pou)
 		offer_table(&o, &pou->vars);
 	if (want->kinds & (EXPECT_VARIABLE | EXPECT_INSTANCE))
@@ -322,8 +380,11 @@ void expect_nearest(struct scope *scope, const struct pou *pou,
 {
 	struct nearest nearest;
 	const struct expect_taker taker = { take_nearest, &nearest };
+	struct expect_want begun = *want;
 
+	begun.begun = wanted;
+	begun.begun_len = strlen(wanted);
 	nearest_init(&nearest, wanted, strlen(wanted));
-	expect_offer(scope, pou, want, &taker);
+	expect_offer(scope, pou, &begun, &taker);
 	nearest_print(&nearest, out, size);
 }

@@ -39,6 +39,11 @@ struct expect_want {
 				      a name outside                        */
 	bool call;                 /* of a function's pins: EN ENO OUT too      */
 	bool boxes;                /* blocks and functions as boxes of a cell   */
+	const char *begun;         /* what stands of the word; NULL: nothing.
+				      Words made by rule, such as INT_TO_REAL,
+				      are hundreds: those whose first type it
+				      has, up to the _, are offered           */
+	size_t begun_len;
 };
 
 struct expect_word {

@@ -436,6 +436,8 @@ bool expect_at(struct scope *scope, const char *text, size_t len, int line,
 		return false;
 	before->scope = scope;
 	find_want(before, text, at, line, out);
+	out->want.begun = out->prefix;
+	out->want.begun_len = out->prefix_len;
 	free(before);
 	return true;
 }

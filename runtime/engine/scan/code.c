@@ -406,7 +406,7 @@ static bool check_maps(struct verifier *v)
 		    !verify_use(v, p->power[i].out, IEC_BOOL, false))
 			return verify_refuse(v, &p->power[i]);
 	for (uint32_t i = 0; i < p->place_count; i++)
-		if (p->place[i].text >= p->text_words ||
+		if (p->place[i].text >= p->text_words + p->watch_words ||
 		    p->place[i].pou >= p->entry_count)
 			return verify_refuse(v, &p->place[i]);
 	return true;

@@ -60,7 +60,7 @@ enum code_section_kind {
 	CODE_SYMBOLS,      /* a word each, in order of declaration, see below  */
 	CODE_GROUPS,       /* struct code_group each: symbols of one kind      */
 	CODE_POWER,        /* struct code_power each, ordered by place         */
-	CODE_PLACES,       /* struct code_place each, ordered by code offset   */
+	CODE_PLACES,       /* struct code_place each, ordered by their text    */
 	CODE_STRINGS,      /* NUL-ended: first the symbols' names, in order    */
 	CODE_WATCHED,      /* struct code_watched each: instances and their power */
 	CODE_SECTION_COUNT
@@ -150,7 +150,7 @@ struct code_watched {
 };
 
 struct code_place {     /* from this word of CODE_TEXT on                  */
-	uint32_t text;
+	uint32_t text;      /* words of CODE_WATCH are counted on behind its own */
 	uint32_t pou, rung; /* index in CODE_PROGRAMS; 1-based             */
 	uint16_t row, col;  /* 1-based; 0: none. CODE_LINE: rung is a line
 			       of the file, in a list that was written     */

@@ -139,7 +139,7 @@ static void put_clock(struct pen *pen, uint64_t ns)
 	uint64_t second = ns / (uint64_t)SECOND_NS, below = ns % (uint64_t)SECOND_NS;
 	int digits = 9;
 
-	put_number(pen, second / 3600 % 100, 2);
+	put_number(pen, second / 3600, 2);
 	put(pen, ":");
 	put_number(pen, second / 60 % 60, 2);
 	put(pen, ":");
@@ -158,7 +158,8 @@ static void put_dated(struct pen *pen, uint16_t class, int64_t ns)
 
 	put(pen, class == CLASS_TOD ? "TOD#" : class == CLASS_DATE ? "D#" : "DT#");
 	if (class == CLASS_TOD) {
-		put_clock(pen, (uint64_t)ns);
+		/* An address may give more than a day has. */
+		put_clock(pen, (uint64_t)((ns % DAY_NS + DAY_NS) % DAY_NS));
 		return;
 	}
 	put_date(pen, day);

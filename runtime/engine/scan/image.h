@@ -134,6 +134,8 @@ struct symbol {
 	uint32_t flags;         /* enum symbol_flag                           */
 	bool is_input;          /* FB input pin                               */
 	const char *block;      /* word of the FB whose pin it is, or NULL    */
+	uint32_t elements;      /* of what an instance stores, one after another;
+				   0: a single value                          */
 };
 /**
  * image_next_symbol - steps through all declared variables; instances are given

@@ -143,6 +143,15 @@ static void write_system(struct resource *resource, int64_t now_ns)
 	write_wall(resource, sm, now_ns);
 }
 
+/* Of a word of the section that ran. */
+static struct fault_place place_in(const struct resource *resource, uint32_t text,
+				   bool watch)
+{
+	const struct program *program = resource->image.program;
+
+	return resource_place(program, watch ? program->text_words + text : text);
+}
+
 struct fault_place resource_place(const struct program *program, uint32_t text)
 {
 	struct fault_place out = { .pou = "" };
@@ -198,8 +207,7 @@ static void run_task(struct resource *resource, uint32_t index, bool watch)
 	if (fault == FAULT_NONE)
 		return;
 	resource_fail(resource, fault);
-	if (!watch)
-		resource->fault_at = resource_place(program, vm->fault_text);
+	resource->fault_at = place_in(resource, vm->fault_text, watch);
 	if (tasks_declared(program))
 		resource->fault_at.task = task_name(program, index);
 }
@@ -278,9 +286,7 @@ static void halt(struct resource *resource, bool watch)
 {
 	resource->state = STATE_STOP;
 	resource->halted = true;
-	if (!watch)
-		resource->halt_at = resource_place(resource->image.program,
-						   resource->vm.stop_text);
+	resource->halt_at = place_in(resource, resource->vm.stop_text, watch);
 	clear_area(resource, AREA_Q);
 	clear_area(resource, AREA_AQ);
 	clear_area(resource, AREA_XQ);
@@ -308,8 +314,8 @@ bool resource_scan(struct resource *resource, int64_t now_ns)
 		run_due(resource, now_ns, watch);
 	else if (program->task_count)
 		run_task(resource, 0, watch);
-	if (errors == 0 && vm->errors && !watch)
-		resource->error_at = resource_place(program, vm->error_text);
+	if (errors == 0 && vm->errors)
+		resource->error_at = place_in(resource, vm->error_text, watch);
 	image_end(&resource->image);
 	resource->scans++;
 	if (vm->stop && resource->state == STATE_RUN)

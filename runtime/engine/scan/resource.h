@@ -100,6 +100,7 @@ bool resource_power_in(const struct resource *resource, const char *instance,
 /** resource_halt_print - that the program asked for STOP, and where: "STOP, outputs
  * are safe: the program says so: Main rung 3". @size at least 96. Scan-safe: yes. */
 void resource_halt_print(const struct resource *resource, char *out, size_t size);
-/** resource_place - POU, rung and cell of a word of CODE_TEXT. */
+/** resource_place - POU, rung and cell of a word of CODE_TEXT; those of CODE_WATCH are
+ * counted on behind it. Scan-safe: yes (a search). */
 struct fault_place resource_place(const struct program *program, uint32_t text);
 #endif

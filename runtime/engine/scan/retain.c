@@ -30,6 +30,16 @@ void retain_copy(const struct retain *retain, const struct image *image,
 	}
 }
 
+static void put_var(struct image *image, const struct retain_var *var,
+		    const uint8_t *value)
+{
+	struct location at = var->at;
+	uint32_t size = var->size / var->elements;
+
+	for (uint32_t i = 0; i < var->elements; i++, at.where += size)
+		image_set(image, at, iec_load(value + i * size, at.type));
+}
+
 /* Through image_set(), so that a BOOL is 0 or 1 and bits of areas agree. */
 void retain_put(const struct retain *retain, struct image *image,
 		const uint8_t *copy)
@@ -37,7 +47,6 @@ void retain_put(const struct retain *retain, struct image *image,
 	for (int i = 0; i < retain->count; i++) {
 		const struct retain_var *var = &retain->var[i];
 
-		image_set(image, var->at,
-			  iec_load(copy + var->kept, var->at.type));
+		put_var(image, var, copy + var->kept);
 	}
 }

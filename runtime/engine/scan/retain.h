@@ -14,7 +14,8 @@
  * What an instance keeps to itself comes back, too, and is as little to be believed:
  * no step function of a block may read or write past its own on account of it.
  * All numbers little-endian. A name has its POU before it ("Main.Count"), and that
- * of an instance its pin behind ("Main.Delay.ET"; the type then "TON.TIME").
+ * of an instance its pin behind ("Main.Delay.ET"; the type then "TON.TIME"). What an
+ * instance stores is one record ("Main.Parcels.value"; "FIFO.DINT[64]").
  */
 #ifndef SCAN_RETAIN_H
 #define SCAN_RETAIN_H
@@ -41,7 +42,8 @@ enum retain_flag { RETAIN_FIRST = 1 /* the other slot is still empty */ };
 
 struct retain_var {
 	struct location at;
-	uint32_t size;
+	uint32_t elements; /* one after another: what a FIFO holds; 1: a value */
+	uint32_t size;   /* of all of them                                    */
 	uint32_t kept;   /* its place in a copy                               */
 	uint32_t record; /* its record's place in the payload                 */
 	uint32_t value;  /* its value's place there                           */

@@ -8,9 +8,10 @@
 
 #include "engine/base/ascii.h"
 
+#include <stdio.h>
 #include <string.h>
 
-#define TYPE_TEXT 128 /* "TON.TIME" */
+#define TYPE_TEXT 128 /* "TON.TIME", "FIFO.DINT[64]" */
 #define TEXT_ALIGN 4u /* of a STRING in memory, and so in a copy */
 
 /* A byte or word of an area that the program cannot write is not its own. */
@@ -42,14 +43,20 @@ static uint32_t text_room(const struct program *program, uint32_t where)
 	return program->run[low - 1].word;
 }
 
+static uint32_t elements_of(const struct symbol *symbol)
+{
+	return symbol->elements ? symbol->elements : 1;
+}
+
 /* Bytes of its value; 0: nothing that can be kept. */
-static uint32_t value_size(const struct program *program, struct location at)
+static uint32_t value_size(const struct program *program,
+			   const struct symbol *symbol)
 {
 	uint32_t room;
 
-	if (at.type != IEC_STRING)
-		return iec_type_row(at.type)->size;
-	room = text_room(program, at.where);
+	if (symbol->at.type != IEC_STRING)
+		return iec_type_row(symbol->at.type)->size * elements_of(symbol);
+	room = text_room(program, symbol->at.where);
 	return room ? iec_type_size(IEC_STRING, room) : 0;
 }
 
@@ -58,7 +65,7 @@ static bool next_kept(const struct image *image, struct symbol_cursor *cursor,
 {
 	while (image_next_symbol(image, cursor, out))
 		if (out->flags & SYMBOL_RETAIN && !out->at.constant &&
-		    value_size(image->program, out->at) &&
+		    value_size(image->program, out) &&
 		    can_be_kept(&image->program->areas, out->at))
 			return true;
 	return false;
@@ -66,11 +73,14 @@ static bool next_kept(const struct image *image, struct symbol_cursor *cursor,
 
 static uint32_t type_text(const struct symbol *symbol, char *out)
 {
-	const char *part[3] = { symbol->block, ".",
-				iec_type_row(symbol->at.type)->word };
+	char many[16] = "";
+	const char *part[4] = { symbol->block, ".",
+				iec_type_row(symbol->at.type)->word, many };
 	uint32_t len = 0;
 
-	for (int i = symbol->block ? 0 : 2; i < 3; i++) {
+	if (symbol->elements)
+		snprintf(many, sizeof(many), "[%u]", (unsigned)symbol->elements);
+	for (int i = symbol->block ? 0 : 2; i < 4; i++) {
 		size_t size = strlen(part[i]);
 
 		if (size > TYPE_TEXT - len)
@@ -90,7 +100,7 @@ static void measure(struct retain *retain, const struct image *image)
 	uint64_t payload = RETAIN_HEAD;
 
 	while (next_kept(image, &cursor, &symbol)) {
-		uint32_t size = value_size(image->program, symbol.at);
+		uint32_t size = value_size(image->program, &symbol);
 
 		payload += RETAIN_RECORD + strlen(symbol.name) +
 			   type_text(&symbol, type) + size;
@@ -164,7 +174,8 @@ static void fill(struct retain *retain, const struct image *image)
 		struct retain_var *var = &retain->var[i];
 
 		var->at = symbol.at;
-		var->size = value_size(image->program, symbol.at);
+		var->elements = elements_of(&symbol);
+		var->size = value_size(image->program, &symbol);
 		var->record = at;
 		var->value = at + write_record(payload + at, &symbol, var->size);
 		at = var->value + var->size;

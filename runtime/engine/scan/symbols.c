@@ -298,6 +298,7 @@ static bool next_pin(const struct program *p, const struct declared_name *whole,
 	out->at = pin_location(whole, pin);
 	out->is_input = pin->dir == PIN_IN;
 	out->block = row->word;
+	out->elements = pin->elements;
 	print_name(whole, pin->name, cursor);
 	return true;
 }

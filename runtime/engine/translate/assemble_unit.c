@@ -22,8 +22,6 @@ void list_place(struct list *list)
 	const struct il_line *line = &list->il->line[list->at];
 	struct code_place *place;
 
-	if (as->text != &as->code)
-		return;
 	place = arena_push(as->arena, &as->place, &as->place_count,
 			   sizeof(*place));
 	if (!place) {
@@ -31,7 +29,8 @@ void list_place(struct list *list)
 		return;
 	}
 	*place = (struct code_place){
-		.text = (uint32_t)as->text->count,
+		.text = (uint32_t)(as->code.count +
+				   (as->text == &as->watch ? as->watch.count : 0)),
 		.pou = (uint32_t)(list->unit - as->translation->unit),
 		.rung = line->rung, .row = line->row, .col = line->col,
 	};

@@ -54,8 +54,11 @@ void list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 	struct spot spot = layout_spot(list->as, m);
 	uint32_t index = index_operand(list, m), ok = scratch_new(list->as);
 
-	if (!spot.packed)
-		list_protect(list, spot.offset, m->array.count * m->stride);
+	/* To the end of the last one and no further: where a call is jumped over, what
+	 * lies behind must not be stored on the way. In a text there are no bits. */
+	if (!spot.packed && m->type != IEC_STRING)
+		list_protect(list, spot.offset, (m->array.count - 1) * m->stride +
+			     iec_type_row(m->type)->size);
 	emit_head(list, VM_APUT, m, en, ok);
 	emit(list->as, from);
 	emit_array(list, m, index);

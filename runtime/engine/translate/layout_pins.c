@@ -123,9 +123,12 @@ bool layout_count_pins(struct assembler *as)
 
 bool layout_only_stored(const struct assembler *as, const struct meaning *pin)
 {
+	const struct var_table *vars = layout_vars(as, layout_table(as, pin));
 	struct meaning calls = calls_of(as, pin);
 
-	if (!is_counted(pin))
+	/* What is retained comes back as it was before the program was edited: each
+	 * call must give its constant anew. */
+	if (!is_counted(pin) || vars_flags(vars, pin->index) & VAR_RETAIN)
 		return false;
 	return *pin_count(as, pin) == 1 && *pin_count(as, &calls) == 1;
 }

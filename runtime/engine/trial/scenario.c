@@ -224,7 +224,7 @@ static void report_fault(struct run *run)
 	sink_text(run->out, " ms: the program stopped with a fault: ");
 	resource_fault_print(run->resource, text, sizeof(text));
 	sink_text(run->out, text);
-	if (at->pou && *at->pou) {
+	if (at->pou && *at->pou && at->rung) {
 		sink_text(run->out, ": ");
 		sink_text(run->out, at->pou);
 		sink_printf(run->out, " rung %u", at->rung);

@@ -171,7 +171,10 @@ bool script_fault(const struct resource *resource, const char *file, int line,
 	if (place.pou && !*place.pou)
 		place.pou = NULL;
 	resource_fault_print(resource, text, sizeof(text));
-	return diag_add(diags, place, "%s", text);
+	/* Of a list the text has POU and line already. */
+	return place.pou && place.rung ?
+	       diag_add(diags, place, "%s, in %.40s", text, place.pou) :
+	       diag_add(diags, place, "%s", text);
 }
 
 static void tell_halt(const struct script *script)

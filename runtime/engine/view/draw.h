@@ -13,12 +13,13 @@
 #include "engine/base/limits.h"
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
+#include "engine/view/view.h"
 
 enum { JOIN_UP = 1, JOIN_DOWN = 2, JOIN_LEFT = 4, JOIN_RIGHT = 8 };
 
 struct strokes {
 	const char *joint[16];      /* by the ways that meet                  */
-	const char *across, *rail, *off_rail, *open, *close;
+	const char *across, *powered, *rail, *off_rail, *open, *close;
 	const char *corner[4];      /* of a box: top left, right, bottom …    */
 	const char *side;           /* of a box, where nothing is joined      */
 	const char *more;           /* stands for what was clipped            */
@@ -53,7 +54,10 @@ struct draw {
 	const struct rung *rung;
 	const struct sink *sink;
 	const struct strokes *strokes;
+	const struct view_show_options *options; /* or NULL                   */
+	int pou;                    /* index in the project                   */
 	int number;                 /* of the rung                            */
+	bool in, out;               /* power of the cell that is drawn        */
 	int margin;                 /* columns before the left rail           */
 	int width[LIMIT_COLS];
 	int above[LIMIT_ROWS], below[LIMIT_ROWS]; /* lines round a power line */
@@ -64,7 +68,11 @@ struct draw {
 };
 
 void draw_blank(const struct draw *draw, int count);
-void draw_across(const struct draw *draw, int count);
+/** draw_across - a wire; @on: with power. */
+void draw_across(const struct draw *draw, int count, bool on);
+/** draw_head, draw_comments - texts above and below the grid (show_text.c). */
+void draw_head(const struct draw *draw);
+void draw_comments(const struct draw *draw);
 /** draw_clipped - columns a text takes when clipped to @limit. */
 int draw_clipped(const char *text, size_t len, int limit);
 /** draw_text - the text clipped to @limit; returns its columns. */

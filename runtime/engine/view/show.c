@@ -19,13 +19,13 @@
 static const struct strokes unicode = {
 	.joint = { " ", "╵", "╷", "│", "─", "┘", "┐", "┤",
 		   "─", "└", "┌", "├", "─", "┴", "┬", "┼" },
-	.across = "─", .rail = "│", .off_rail = "┆", .open = "┤", .close = "├",
+	.across = "─", .powered = "━", .rail = "│", .off_rail = "┆", .open = "┤", .close = "├",
 	.corner = { "┌", "┐", "└", "┘" }, .side = "│", .more = "…",
 };
 static const struct strokes ascii = {
 	.joint = { " ", "|", "|", "|", "-", "+", "+", "+",
 		   "-", "+", "+", "+", "-", "+", "+", "+" },
-	.across = "-", .rail = "|", .off_rail = ":", .open = "|", .close = "|",
+	.across = "-", .powered = "=", .rail = "|", .off_rail = ":", .open = "|", .close = "|",
 	.corner = { "+", "+", "+", "+" }, .side = "|", .more = "~",
 };
 
@@ -37,9 +37,10 @@ void draw_blank(const struct draw *draw, int count)
 	sink_repeat(draw->sink, " ", count);
 }
 
-void draw_across(const struct draw *draw, int count)
+void draw_across(const struct draw *draw, int count, bool on)
 {
-	sink_repeat(draw->sink, draw->strokes->across, count);
+	sink_repeat(draw->sink, on ? draw->strokes->powered : draw->strokes->across,
+		    count);
 }
 
 int draw_clipped(const char *text, size_t len, int limit)
@@ -232,14 +233,14 @@ static void draw_framed(struct draw *draw, int row, int col)
 	int rest = width - start - framed.width;
 
 	if (goes_left(draw, row, col))
-		draw_across(draw, start);
+		draw_across(draw, start, draw->in);
 	else
 		draw_blank(draw, start);
 	sink_text(draw->sink, framed.before);
 	draw_text(draw, framed.text, strlen(framed.text), DRAW_CLIP_TEXT);
 	sink_text(draw->sink, framed.after);
 	if (draw_goes_right(draw, row, col))
-		draw_across(draw, rest);
+		draw_across(draw, rest, draw->out);
 	else
 		draw_blank(draw, rest);
 }
@@ -269,12 +270,12 @@ static void draw_glyph(struct draw *draw, int row, int col)
 	int start = glyph_start(draw, row, col);
 	int rest = draw->width[col] - start - 3;
 
-	draw_across(draw, start);
+	draw_across(draw, start, draw->in);
 	glyph_stroke(draw, glyph[0], true);
 	sink_write(draw->sink, glyph + 1, 1);
 	glyph_stroke(draw, glyph[2], false);
 	if (draw_goes_right(draw, row, col))
-		draw_across(draw, rest);
+		draw_across(draw, rest, draw->out);
 	else
 		draw_blank(draw, rest);
 }
@@ -411,6 +412,10 @@ static void draw_cell(struct draw *draw, int row, int col, int line)
 {
 	int top = box_top(draw->rung, row, col);
 
+	draw->in = draw->out = false;
+	if (line == 0 && draw->options && draw->options->power)
+		draw->options->power(draw->options->context, draw->pou, draw->number,
+				     row + 1, col + 1, &draw->in, &draw->out);
 	if (top >= 0) {
 		box_make(draw, top, col);
 		box_line(draw, draw->y[row] + line - draw->y[top]);
@@ -422,7 +427,7 @@ static void draw_cell(struct draw *draw, int row, int col, int line)
 	else if (line != 0 || form == FORM_EMPTY)
 		draw_blank(draw, draw->width[col]);
 	else if (form == FORM_WIRE)
-		draw_across(draw, draw->width[col]);
+		draw_across(draw, draw->width[col], draw->in);
 	else if (form == FORM_TEXT)
 		draw_framed(draw, row, col);
 	else
@@ -433,7 +438,10 @@ static const char *bar_stroke(const struct draw *draw, int row, int bar,
 			      int line)
 {
 	const struct strokes *strokes = draw->strokes;
+	const char *straight = strokes->joint[JOIN_LEFT | JOIN_RIGHT];
 
+	if (line == 0 && bar > 0 && draw->out && joint(draw, row, bar) == straight)
+		return strokes->powered;
 	if (line == 0)
 		return joint(draw, row, bar);
 	if (bar == 0)
@@ -462,53 +470,6 @@ static void draw_line(struct draw *draw, int row, int line)
 	}
 	sink_text(draw->sink, right_rail(draw, row, line));
 	sink_text(draw->sink, "\n");
-}
-
-/* ---- texts round the grid ---- */
-
-static void draw_head(const struct draw *draw)
-{
-	const struct rung *rung = draw->rung;
-	const char *label = project_text(draw->project, rung->label);
-	const char *title = project_text(draw->project, rung->title);
-	const char *at = project_text(draw->project, rung->comment), *line;
-	size_t len;
-
-	plain_text(draw->sink, label);
-	if (*label && *title)
-		sink_text(draw->sink, ": ");
-	plain_text(draw->sink, title);
-	if (rung->off)
-		sink_text(draw->sink, *label || *title ? " [OFF]" : "[OFF]");
-	if (*label || *title || rung->off)
-		sink_text(draw->sink, "\n");
-	while ((line = plain_comment_line(&at, &len))) {
-		draw_blank(draw, draw->margin + 2);
-		plain_write(draw->sink, line, len);
-		sink_text(draw->sink, "\n");
-	}
-}
-
-static void draw_comments(const struct draw *draw)
-{
-	for (int row = 0; row < draw->rung->rows; row++)
-		for (int col = 0; col < draw->rung->cols; col++) {
-			const struct cell *cell = cell_at(draw, row, col);
-			const char *at = project_text(draw->project,
-						      cell->comment);
-			const char *line, *name = operand_at(draw, row, col);
-			size_t len;
-
-			while ((line = plain_comment_line(&at, &len))) {
-				draw_blank(draw, draw->margin + 1);
-				sink_printf(draw->sink, "(%d,%d) ", row + 1,
-					    col + 1);
-				draw_text(draw, name, strlen(name), DRAW_CLIP);
-				sink_text(draw->sink, *name ? ": " : "");
-				plain_write(draw->sink, line, len);
-				sink_text(draw->sink, "\n");
-			}
-		}
 }
 
 static void draw_rung(struct draw *draw, int wanted)
@@ -568,6 +529,8 @@ static int show_pou(struct draw *draw, const struct pou *pou, int rung,
 		sink_text(draw->sink, pou_word(pou->kind));
 		sink_text(draw->sink, " ");
 		plain_text(draw->sink, project_text(draw->project, pou->name));
+		if (draw->options && draw->options->instance)
+			sink_printf(draw->sink, " as %.100s", draw->options->instance);
 		sink_text(draw->sink, pou->rung_count ? "\n\n" : "\n");
 	}
 	return show_ld(draw, pou, rung, wanted);
@@ -585,12 +548,14 @@ int view_show(const struct project *project, int pou, int rung,
 		return -1;
 	draw->project = project;
 	draw->sink = sink;
+	draw->options = options;
 	draw->strokes = options && options->ascii ? &ascii : &unicode;
 	if (end > project->pou_count)
 		end = project->pou_count;
 	for (int i = first; i < end && more >= 0; i++) {
 		if (drawn > 0)
 			sink_text(sink, "\n");
+		draw->pou = i;
 		more = show_pou(draw, &project->pou[i], rung,
 				options ? options->width : 0);
 		drawn += more;

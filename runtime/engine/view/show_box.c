@@ -226,10 +226,10 @@ static void edge_line(const struct draw *draw, const char *title, int corner)
 
 	draw_blank(draw, box_start(draw));
 	sink_text(draw->sink, draw->strokes->corner[corner]);
-	draw_across(draw, before);
+	draw_across(draw, before, false);
 	if (*title)
 		sink_printf(draw->sink, " %.*s ", DRAW_CLIP, title);
-	draw_across(draw, box->inner - before - taken);
+	draw_across(draw, box->inner - before - taken, false);
 	sink_text(draw->sink, draw->strokes->corner[corner + 1]);
 	draw_blank(draw, box_rest(draw));
 }
@@ -241,7 +241,7 @@ static void left_of_box(const struct draw *draw, const struct box_pin *pin,
 	const char *side = draw->strokes->side;
 
 	if (power) {
-		draw_across(draw, start);
+		draw_across(draw, start, draw->in);
 		side = draw->strokes->open;
 	} else if (pin && pin->value) {
 		int taken = draw_clipped(pin->value, pin->value_len, DRAW_CLIP);
@@ -251,7 +251,7 @@ static void left_of_box(const struct draw *draw, const struct box_pin *pin,
 		if (pin->inverse) /* a circle at the pin */
 			sink_text(draw->sink, "o");
 		else
-			draw_across(draw, 1);
+			draw_across(draw, 1, false);
 		side = draw->strokes->open;
 	} else {
 		draw_blank(draw, start);
@@ -270,12 +270,12 @@ static void right_of_box(const struct draw *draw, const struct box_pin *pin,
 		sink_text(draw->sink, on ? draw->strokes->close :
 					   draw->strokes->side);
 		if (on)
-			draw_across(draw, rest);
+			draw_across(draw, rest, draw->out);
 		else
 			draw_blank(draw, rest);
 	} else if (pin && pin->value) {
 		sink_text(draw->sink, draw->strokes->close);
-		draw_across(draw, 1);
+		draw_across(draw, 1, false);
 		draw_blank(draw, 1);
 		int taken = draw_text(draw, pin->value, pin->value_len,
 				      DRAW_CLIP);

@@ -15,6 +15,12 @@
 struct view_show_options {
 	bool ascii;   /* - | + instead of box characters                      */
 	int width;    /* narrower rungs are stretched to it, in columns; 0: no */
+	/* Power at the ends of a cell, 1-based as in resource_power(); where it has
+	 * none, or does not tell, wires are drawn thin. NULL: nobody knows. */
+	bool (*power)(void *context, int pou, int rung, int row, int col, bool *in,
+		      bool *out);
+	void *context;
+	const char *instance; /* of a block whose rungs are drawn; or NULL    */
 };
 
 /**

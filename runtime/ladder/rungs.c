@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rungs - rungs by the names that people give, drawn with the power of the last scan.
+ */
+#include "ladder/rungs.h"
+
+#include "engine/base/ascii.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Index of the POU named so (any case); -1: none. */
+static int find_pou(const struct project *project, const char *name, size_t len)
+{
+	uint32_t want = names_find(&project->names, name, len);
+
+	for (int i = 0; i < project->pou_count; i++) {
+		const char *text = project_text(project, project->pou[i].name);
+
+		if (project->pou[i].name == want && want)
+			return i;
+		if (strlen(text) == len && !memcmp(text, name, len))
+			return i;
+	}
+	return -1;
+}
+
+/* 1-based number of the rung with this label or number in @pou; 0: none. */
+static int find_rung(const struct project *project, const struct pou *pou,
+		     const char *name)
+{
+	char *end;
+	long number = strtol(name, &end, 10);
+
+	if (!*end && end != name)
+		return number >= 1 && number <= pou->rung_count ? (int)number :
+								  0;
+	for (int i = 0; i < pou->rung_count; i++)
+		if (pou->rung[i]->label &&
+		    !strcmp(project_text(project, pou->rung[i]->label), name))
+			return i + 1;
+	return 0;
+}
+
+static int show_named(const struct project *project, const char *name,
+		      const struct view_show_options *options,
+		      const struct sink *out)
+{
+	const char *colon = strchr(name, ':');
+	size_t len = colon ? (size_t)(colon - name) : strlen(name);
+	int only = find_pou(project, name, len), shown = 0;
+
+	if (colon && only < 0)
+		return 0;
+	if (!colon && only >= 0)
+		return view_show(project, only, 0, options, out);
+	for (int i = 0; i < project->pou_count; i++) {
+		int rung = 0;
+
+		if (only < 0 || i == only)
+			rung = find_rung(project, &project->pou[i],
+					 colon ? colon + 1 : name);
+		if (rung)
+			shown += view_show(project, i, rung, options, out);
+	}
+	return shown;
+}
+
+/* ---- power ---- */
+
+struct powered {
+	const struct resource *resource;
+	const char *instance; /* NULL: whichever was called last              */
+};
+
+static bool power_of(void *context, int pou, int rung, int row, int col, bool *in,
+		     bool *out)
+{
+	const struct powered *powered = context;
+
+	if (powered->instance)
+		return resource_power_in(powered->resource, powered->instance,
+					 strlen(powered->instance), (uint32_t)rung,
+					 (uint32_t)row, (uint32_t)col, in, out);
+	return resource_power(powered->resource, (uint32_t)pou, (uint32_t)rung,
+			      (uint32_t)row, (uint32_t)col, in, out);
+}
+
+/* The instance of a block whose name this is; NULL: there is none. */
+static const struct code_watched *find_instance(const struct program *program,
+						const char *name, size_t len)
+{
+	for (uint32_t i = 0; i < program->watched_count; i++)
+		if (ascii_is(program->string + program->watched[i].name, name, len))
+			return &program->watched[i];
+	return NULL;
+}
+
+/* The instance has the name that its program gives it: `Main.` before it is left out. */
+static const char *behind_program(const struct project *project, const char *name)
+{
+	const char *dot = strchr(name, '.');
+	int pou = dot ? find_pou(project, name, (size_t)(dot - name)) : -1;
+
+	return pou >= 0 && project->pou[pou].kind == POU_PROGRAM ? dot + 1 : name;
+}
+
+static int show_instance(const struct project *project, const char *full,
+			 struct view_show_options *options, const struct sink *out)
+{
+	const char *name = behind_program(project, full);
+	struct powered *powered = options->context;
+	const struct program *program = powered->resource->image.program;
+	const char *colon = strchr(name, ':');
+	const struct code_watched *found = find_instance(program, name,
+			colon ? (size_t)(colon - name) : strlen(name));
+	int rung;
+
+	if (!found || (int)found->pou >= project->pou_count)
+		return 0;
+	rung = colon ? find_rung(project, &project->pou[found->pou], colon + 1) : 0;
+	if (colon && !rung)
+		return 0;
+	options->instance = powered->instance = program->string + found->name;
+	return view_show(project, (int)found->pou, rung, options, out);
+}
+
+int rungs_show(const struct project *project, const char *name,
+	       const struct resource *resource, struct view_show_options options,
+	       const struct sink *out)
+{
+	struct powered powered = { .resource = resource };
+	int shown;
+
+	if (resource) {
+		options.power = power_of;
+		options.context = &powered;
+	}
+	if (!name)
+		return view_show(project, -1, 0, &options, out);
+	shown = show_named(project, name, &options, out);
+	return shown || !resource ? shown :
+				    show_instance(project, name, &options, out);
+}
