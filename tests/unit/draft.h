@@ -40,8 +40,8 @@ enum {
 /* Where each instruction of the draft begins. */
 enum {
 	AT_LUT = 0, AT_BITGET = 5, AT_BITPUT = 8, AT_COPY = 11, AT_CMP = 15,
-	AT_FN = 19, AT_FB = 26, AT_JMPC = 28, AT_JMP = 31, AT_END = 33,
-	WORDS = 34,
+	AT_PAIR = 20, AT_MATH = 25, AT_FN = 31, AT_FB = 38, AT_JMPC = 40, AT_JMP = 43,
+	AT_END = 45, WORDS = 46,
 };
 
 static inline uint32_t own(uint32_t offset)
@@ -86,8 +86,11 @@ static inline void draft_text(struct draft *d)
 		op(VM_BITPUT, 7), own(FLAG), usual_areas()->at[AREA_M],
 		op(VM_COPY, 0), own(1), own_as(IEC_DINT, NUMBER),
 		own_as(IEC_DINT, FIXED),
-		op(VM_CMP, CMP_NE), own(FLAG + 5), own_as(IEC_DINT, NUMBER),
-		own_as(IEC_DINT, FIXED),
+		op(VM_CMP, 0x77), own_as(IEC_DINT, NUMBER), own_as(IEC_DINT, FIXED),
+		own(0), own(FLAG + 5),
+		op(VM_CMP_DINT, 0xff), own(NUMBER), own(FIXED), own(FLAG), own(FLAG + 5),
+		op(VM_DINT, MATH_DIV | MATH_ENABLED), own(FLAG), own(FLAG + 6),
+		own(NUMBER), own(FIXED), own(NUMBER + 4),
 		op(VM_FN, IEC_DINT | 2 << 8 | IEC_DINT << 16), FN_ADD, own(1), own(FLAG + 6),
 		own_as(IEC_DINT, NUMBER), own_as(IEC_DINT, NUMBER + 4),
 		own_as(IEC_DINT, FIXED),

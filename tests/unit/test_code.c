@@ -369,10 +369,20 @@ static void refuses_number_operands(void)
 		 "not as another type");
 	CHECK_AS(refuses(VM_COPY, 3, CODE_OPERAND(IEC_DWORD, 510)),
 		 "from one area into the next");
-	CHECK(refuses(VM_COPY, 0, VM_COPY | 1u << 8));
-	CHECK(refuses(VM_CMP, 0, VM_CMP | CMP_COUNT << 8));
-	CHECK(refuses(VM_CMP, 1, CODE_TRUE_AT(usual_areas())));
-	CHECK(refuses(VM_CMP, 2, 0) && refuses(VM_CMP, 3, UINT32_MAX));
+	CHECK(refuses(VM_COPY, 0, VM_COPY | 2u << 8) &&
+	      refuses(VM_COPY, 0, VM_COPY | 8u << 8));
+	CHECK(refuses(VM_CMP_INT, 0, VM_CMP_INT | 256u << 8));
+	CHECK(refuses(VM_CMP_INT, 1, CODE_OFFSET(dint)) &&
+	      refuses(VM_CMP_INT, 2, UINT32_MAX));
+	CHECK(refuses(VM_CMP_INT, 1, seven));
+	CHECK(refuses(VM_CMP_INT, 3, CODE_OFFSET(real)) &&
+	      refuses(VM_CMP_INT, 4, CODE_TRUE_AT(usual_areas())));
+	CHECK(refuses(VM_CMP_INT, 0, VM_CMP | 0x77u << 8));
+	CHECK(refuses(VM_REAL, 0, VM_REAL | 8u << 8) && refuses(VM_REAL, 0, VM_DINT));
+	CHECK(refuses(VM_REAL, 1, CODE_FALSE_AT(usual_areas())));
+	CHECK(refuses(VM_REAL, 2, CODE_TRUE_AT(usual_areas())));
+	CHECK(refuses(VM_REAL, 3, CODE_OFFSET(dint)) && refuses(VM_REAL, 4, real) &&
+	      refuses(VM_REAL, 5, UINT32_MAX));
 	CHECK(refuses(VM_FN, 1, WORD_COUNT) && refuses(VM_FN, 1, FB_TON));
 	CHECK(refuses(VM_FN, 1, UINT32_MAX) && refuses(VM_FN, 1, FN_MOVE));
 	CHECK(refuses(VM_FN, 2, 0) && refuses(VM_FN, 3, 0));

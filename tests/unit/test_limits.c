@@ -74,7 +74,7 @@ int main(void)
 	CHECK(builds(&b) == DIAG_COUNT);
 	make(&b, 199999, 60000, "TIME");
 	CHECK(builds(&b) == DIAG_DATA_TOO_LARGE);
-	make(&b, 0, 1200000, "SINT");
+	make(&b, 0, 1600000, "SINT");
 	CHECK(builds(&b) == DIAG_CODE_TOO_LARGE);
 	free(b.text);
 	return tap_done();

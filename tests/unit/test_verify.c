@@ -13,6 +13,10 @@ static void test_good(void)
 
 	draft_good(&d);
 	CHECK_AS(judge(&d) == DIAG_COUNT, "the image is good as it stands");
+	d.text[AT_COPY] = op(VM_COPY, 4);
+	d.text[AT_MATH] = op(VM_DINT, MATH_MUL);
+	d.text[AT_MATH + 1] = own(1);
+	CHECK_AS(judge(&d) == DIAG_COUNT, "and with instructions that say more");
 	d.place[1].text = WORDS - 1;
 	CHECK_AS(judge(&d) == DIAG_COUNT, "a place at the last word");
 	d.text_words = d.entry[0].text_words = AT_END;
@@ -128,6 +132,9 @@ static void test_operands(void)
 	REFUSED(d.text[AT_BITPUT + 1] = own(NUMBER));
 	REFUSED(d.text[AT_BITPUT + 2] = input);
 	REFUSED(d.text[AT_COPY] = op(VM_COPY, 1));
+	REFUSED(d.text[AT_COPY] = op(VM_COPY, 8));
+	REFUSED(d.text[AT_COPY] = op(VM_COPY, 4);
+		d.text[AT_COPY + 3] = CODE_OPERAND(IEC_INT, input));
 	REFUSED(d.text[AT_COPY + 1] = own(NUMBER));
 	REFUSED(d.text[AT_COPY + 2] = own_as(IEC_DINT, FIXED));
 	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, input));
@@ -138,10 +145,36 @@ static void test_operands(void)
 	/* Across the end of an area, and of memory. */
 	REFUSED(d.text[AT_COPY + 2] = CODE_OPERAND(IEC_DINT, usual_areas()->size - 3));
 	REFUSED(d.text[AT_COPY + 3] = CODE_OPERAND(IEC_DINT, d.header.data_size - 2));
-	REFUSED(d.text[AT_CMP] = op(VM_CMP, CMP_COUNT));
-	REFUSED(d.text[AT_CMP + 1] = own(1));
-	REFUSED(d.text[AT_CMP + 2] = own_as(IEC_INT, NUMBER));
-	REFUSED(d.text[AT_CMP + 3] = own_as(IEC_NONE, FIXED));
+}
+
+static void test_pairs(void)
+{
+	REFUSED(d.text[AT_CMP] = op(VM_CMP, 0x100));
+	REFUSED(d.text[AT_CMP] = op(VM_CMP_DINT, 0x77));
+	REFUSED(d.text[AT_CMP + 1] = own_as(IEC_INT, NUMBER));
+	REFUSED(d.text[AT_CMP + 2] = own_as(IEC_NONE, FIXED));
+	REFUSED(d.text[AT_CMP + 2] = own_as(IEC_STRING, FIXED));
+	REFUSED(d.text[AT_CMP + 3] = own(NUMBER));
+	REFUSED(d.text[AT_CMP + 4] = own(1));
+	REFUSED(d.text[AT_PAIR] = op(VM_CMP_DINT, 0x100));
+	REFUSED(d.text[AT_PAIR] = op(VM_CMP_REAL, 0xff));
+	REFUSED(d.text[AT_PAIR] = op(VM_CMP_INT, 0xff));
+	REFUSED(d.text[AT_PAIR] = op(VM_CMP, 0xff));
+	REFUSED(d.text[AT_PAIR + 1] = own_as(IEC_DINT, NUMBER));
+	REFUSED(d.text[AT_PAIR + 2] = own(FLAG));
+	REFUSED(d.text[AT_PAIR + 3] = own(NUMBER));
+	REFUSED(d.text[AT_PAIR + 4] = own(1));
+	REFUSED(d.text[AT_PAIR + 4] = UINT32_MAX);
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, 2 * MATH_ENABLED));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_DIV));
+	REFUSED(d.text[AT_MATH] = op(VM_DINT, MATH_DIV); d.text[AT_MATH + 1] = own(0));
+	REFUSED(d.text[AT_MATH] = op(VM_REAL, MATH_ENABLED));
+	REFUSED(d.text[AT_MATH + 1] = own(NUMBER));
+	REFUSED(d.text[AT_MATH + 2] = own(0));
+	REFUSED(d.text[AT_MATH + 3] = own(FIXED));
+	REFUSED(d.text[AT_MATH + 4] = own(FLAG));
+	REFUSED(d.text[AT_MATH + 5] = own_as(IEC_DINT, NUMBER));
+	REFUSED(d.text[AT_MATH + 5] = d.header.data_size);
 }
 
 static void test_calls(void)
@@ -371,8 +404,9 @@ static void test_other_blocks(void)
 					      (uint16_t)second[i], 1 };
 		d.header.data_size = at + 2 * size;
 		d.text[AT_FB] = op(VM_FB, FB_TON);
-		d.text[AT_COPY + 3] = d.text[AT_CMP + 3] = d.text[AT_FN + 6] =
+		d.text[AT_COPY + 3] = d.text[AT_CMP + 2] = d.text[AT_FN + 6] =
 			own_as(IEC_DINT, NUMBER + 4);
+		d.text[AT_PAIR + 2] = d.text[AT_MATH + 4] = own(NUMBER + 4);
 		d.init[6] = own(NUMBER) + 4;
 		append_block(&d, at, at + size, size);
 		CHECK_AS(judge(&d) == (i ? DIAG_IMAGE_REFUSED : DIAG_COUNT),
@@ -419,6 +453,7 @@ int main(void)
 	test_init();
 	test_bits();
 	test_operands();
+	test_pairs();
 	test_calls();
 	test_flow();
 	test_maps();

@@ -18,8 +18,14 @@
  *                               low 8 bits of d; a, b, c are offsets of BOOLs
  *   BITGET byte, dst            n: bit 0..7
  *   BITPUT src, byte            n: bit 0..7
- *   COPY   en, dst, src         types in the top 8 bits of dst and src; widens
- *   CMP    dst, left, right     n: enum cmp; types of left and right on top
+ *   COPY   en, dst, src         types in the top 8 bits of dst and src; n 0: widens;
+ *                               else the size of the one type that both have, no STRING
+ *   CMP    left, right, c, dst  m[dst] = bit (order + 4c) of the table n of 8 bits;
+ *                               order: 1 left >= right, 2 left <= right, 3 both; c, dst:
+ *                               offsets of BOOLs; types of left and right on top
+ *   CMP_REAL CMP_DINT CMP_INT   likewise; left and right are offsets of that type
+ *   REAL   en, eno, dst, a, b   n: enum math. Offsets of BOOLs and REALs; in the way
+ *   DINT INT                    of FN, of two values of that type
  *   FN     fn, en, eno, dst, inputs …   n: type | inputs << 8 |
  *                               result << 16; en, eno BOOLs; CODE_OWN at inputs
  *   FB     instance             n: enum word of the block
@@ -44,7 +50,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 6u
+#define CODE_VERSION 7u
 #define CODE_AREAS   16
 
 enum code_section_kind {
@@ -188,8 +194,9 @@ struct program {
 		 string_bytes;
 };
 
-/* n of CMP. */
-enum cmp { CMP_GT, CMP_GE, CMP_EQ, CMP_LE, CMP_LT, CMP_NE, CMP_COUNT };
+/* n of REAL, DINT, INT: the functions of these names. */
+enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_COUNT };
+#define MATH_ENABLED 4u /* beside it: en has a say; else it is CODE_TRUE       */
 
 /**
  * code_open - verifies an image and gives access to it
@@ -237,6 +244,9 @@ static inline uint32_t code_bits_find(const struct code_bits *bits, uint32_t cou
 /** code_words - words of the instruction at @code: 1 + its operands.
  * Scan-safe: yes. */
 uint32_t code_words(const uint32_t *code);
+/** code_type - what REAL, DINT, INT and CMP_REAL … compute with; IEC_NONE: @op is none
+ * of these. Scan-safe: yes. */
+uint32_t code_type(uint32_t op);
 /* Bounds in the name of a symbol that is an array: `Table[1..10]`. */
 struct code_bounds {
 	size_t head;     /* bytes before the [; of all else the whole name  */

@@ -37,11 +37,43 @@ static int print_fn(const uint32_t *at, uint32_t n, char *out, size_t size)
 			inputs, typed(at[3]).text, at[2]);
 }
 
+/* `REAL@4 > REAL@8 -> b9`; `… and b5 -> b9`; else the table, as of a LUT. */
+static int print_cmp(const uint32_t *at, uint32_t type, uint32_t n, char *out,
+		     size_t size)
+{
+	static const char *const rel[16] = {
+		[0x2] = ">", [0xa] = ">=", [0x8] = "=", [0xc] = "<=", [0x4] = "<",
+		[0x7] = "<>",
+	};
+	struct operand_text left = typed(CODE_OPERAND(type, 0) | at[0]);
+	struct operand_text right = typed(CODE_OPERAND(type, 0) | at[1]);
+	uint32_t low = n & 15, high = n >> 4 & 15;
+
+	if (rel[high] && low == high)
+		return snprintf(out, size, "cmp     %s %s %s -> b%u", left.text,
+				rel[high], right.text, at[3]);
+	if (rel[high] && low == 0)
+		return snprintf(out, size, "cmp     %s %s %s and b%u -> b%u",
+				left.text, rel[high], right.text, at[2], at[3]);
+	return snprintf(out, size, "cmp     %02x %s %s b%u -> b%u", n,
+			left.text, right.text, at[2], at[3]);
+}
+
+static int print_math(const uint32_t *at, uint32_t op, uint32_t n, char *out,
+		      size_t size)
+{
+	static const char *const math[MATH_COUNT] = { "ADD", "SUB", "MUL", "DIV" };
+	uint32_t type = code_type(op);
+
+	return snprintf(out, size, "%-7s %s en b%u %s %s -> %s eno b%u",
+			vm_row((enum vm_op)op)->word, math[n % MATH_COUNT], at[0],
+			typed(CODE_OPERAND(type, at[3])).text,
+			typed(CODE_OPERAND(type, at[4])).text,
+			typed(CODE_OPERAND(type, at[2])).text, at[1]);
+}
+
 int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 {
-	static const char *const rel[CMP_COUNT] = {
-		">", ">=", "=", "<=", "<", "<>",
-	};
 	uint32_t n = *code >> 8;
 	const uint32_t *at = code + 1;
 
@@ -49,7 +81,7 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 	case VM_LUT:
 		at += 4 * part;
 		return snprintf(out, size, "lut     %02x b%u b%u b%u -> b%u",
-				at[3] & 0xff, at[0], at[1], at[2], at[3] >> 8);
+				at[3] & 0xff, at[0], at[1], at[2], at[3]);
 	case VM_BITGET:
 		return snprintf(out, size, "bitget  %u.%u -> b%u", at[0], n, at[1]);
 	case VM_BITPUT:
@@ -58,9 +90,14 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 		return snprintf(out, size, "copy    en b%u %s -> %s", at[0],
 				typed(at[2]).text, typed(at[1]).text);
 	case VM_CMP:
-		return snprintf(out, size, "cmp     %s %s %s -> b%u",
-				typed(at[1]).text, rel[n % CMP_COUNT],
-				typed(at[2]).text, at[0]);
+	case VM_CMP_REAL:
+	case VM_CMP_DINT:
+	case VM_CMP_INT:
+		return print_cmp(at, code_type(*code & 0xff), n, out, size);
+	case VM_REAL:
+	case VM_DINT:
+	case VM_INT:
+		return print_math(at, *code & 0xff, n, out, size);
 	case VM_FN:
 		return print_fn(at, n, out, size);
 	case VM_FB:

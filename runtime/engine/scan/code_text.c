@@ -39,9 +39,17 @@ uint32_t code_words(const uint32_t *code)
 	case VM_LUT:
 		return 1 + 4 * n;
 	case VM_COPY:
-	case VM_CMP:
 	case VM_BLOCK:
 		return 4;
+	case VM_CMP:
+	case VM_CMP_REAL:
+	case VM_CMP_DINT:
+	case VM_CMP_INT:
+		return 5;
+	case VM_REAL:
+	case VM_DINT:
+	case VM_INT:
+		return 6;
 	case VM_FN:
 		return 5 + (n >> 8 & 0xff);
 	case VM_BITGET:
@@ -61,6 +69,17 @@ uint32_t code_words(const uint32_t *code)
 		break;
 	}
 	return 1;
+}
+
+uint32_t code_type(uint32_t op)
+{
+	static const uint8_t type[VM_COUNT] = {
+		[VM_REAL] = IEC_REAL, [VM_DINT] = IEC_DINT, [VM_INT] = IEC_INT,
+		[VM_CMP_REAL] = IEC_REAL, [VM_CMP_DINT] = IEC_DINT,
+		[VM_CMP_INT] = IEC_INT,
+	};
+
+	return op < VM_COUNT ? type[op] : IEC_NONE;
 }
 
 static bool check_lut(const struct verifier *v, const uint32_t *at, uint32_t n)
@@ -223,6 +242,38 @@ static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
 		 : verify_elements(v, at[3], at[6], at[7], put);
 }
 
+static bool check_copy(const struct verifier *v, const uint32_t *at, uint32_t n)
+{
+	uint32_t to = CODE_TYPE(at[1]), from = CODE_TYPE(at[2]);
+
+	if (!reads_bool(v, at[0]) || !can_write(v, at[1]) || !can_read(v, at[2]))
+		return false;
+	return n == 0 ? converts(from, to) :
+	       from == to && to != IEC_STRING &&
+	       n == iec_type_row((enum iec_type)to)->size;
+}
+
+/* What a comparison reads and writes beside its two values. */
+static bool check_order(const struct verifier *v, const uint32_t *at, uint32_t n)
+{
+	return n < 256 && reads_bool(v, at[2]) && writes_bool(v, at[3]);
+}
+
+static bool check_pair(const struct verifier *v, const uint32_t *at, uint32_t type)
+{
+	return verify_use(v, at[0], type, false) && verify_use(v, at[1], type, false);
+}
+
+static bool check_math(const struct verifier *v, const uint32_t *at, uint32_t n,
+		       uint32_t type)
+{
+	bool always = at[0] == v->areas + 1;
+
+	return (n < MATH_COUNT ? always : n - MATH_ENABLED < MATH_COUNT) &&
+	       reads_bool(v, at[0]) && writes_bool(v, at[1]) &&
+	       verify_use(v, at[2], type, true) && check_pair(v, at + 3, type);
+}
+
 /* One instruction; jumps and who calls whom are looked at later. */
 static bool check_code(struct verifier *v, const uint32_t *code)
 {
@@ -241,14 +292,20 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 	case VM_BITPUT:
 		return check_bit(v, at, op, n);
 	case VM_COPY:
-		return n == 0 && reads_bool(v, at[0]) && can_write(v, at[1]) &&
-		       can_read(v, at[2]) &&
-		       converts(CODE_TYPE(at[2]), CODE_TYPE(at[1]));
+		return check_copy(v, at, n);
 	case VM_CMP:
-		return n < CMP_COUNT && writes_bool(v, at[0]) &&
-		       can_read(v, at[1]) && can_read(v, at[2]) &&
-		       (CODE_TYPE(at[1]) == IEC_STRING) ==
-		       (CODE_TYPE(at[2]) == IEC_STRING);
+		return can_read(v, at[0]) && can_read(v, at[1]) &&
+		       (CODE_TYPE(at[0]) == IEC_STRING) ==
+		       (CODE_TYPE(at[1]) == IEC_STRING) && check_order(v, at, n);
+	case VM_CMP_REAL:
+	case VM_CMP_DINT:
+	case VM_CMP_INT:
+		return check_pair(v, at, code_type(op)) &&
+		       check_order(v, at, n);
+	case VM_REAL:
+	case VM_DINT:
+	case VM_INT:
+		return check_math(v, at, n, code_type(op));
 	case VM_FN:
 		return check_fn(v, at, n);
 	case VM_AGET:

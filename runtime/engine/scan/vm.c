@@ -7,6 +7,9 @@
 
 #include <string.h>
 
+/* What a compiler is to lay out straight on. */
+#define LIKELY(x) __builtin_expect((x), 1)
+
 /* Calls through the catalogue: a row without its function does not link. */
 #define FB(id, ...) static void step_##id(void *fb, int64_t now_ns) \
 	{ fb_##id##_step(fb, now_ns); }
@@ -110,55 +113,163 @@ static void run_copy(uint8_t *m, const uint32_t *pc)
 	put(m, pc[1], value);
 }
 
-/* ---- the short way ----
- * Sums of two REALs and the like are most of what a program computes. They need no
- * struct fn_args; the results are those of the functions, to the bit. */
+/* @size: of a value that is copied as it is; 0: it is widened, or a text. */
+static inline void copy(uint8_t *m, const uint32_t *pc, uint32_t size)
+{
+	uint8_t *to = m + CODE_OFFSET(pc[1]);
+	const uint8_t *from = m + CODE_OFFSET(pc[2]);
 
-static float single(const uint8_t *m, uint32_t word)
+	switch (size) {
+	case 1:
+		*to = *from;
+		break;
+	case 2:
+		memcpy(to, from, 2);
+		break;
+	case 4:
+		memcpy(to, from, 4);
+		break;
+	case 8:
+		memcpy(to, from, 8);
+		break;
+	default:
+		run_copy(m, pc);
+		break;
+	}
+}
+
+/* ---- two numbers of one type ----
+ * What most boxes of a program are about has instructions of its own. They need no
+ * struct fn_args; the results are those of the functions, to the bit. Without branches
+ * that depend on values: those of a rung with power differ from scan to scan. */
+
+static float single(const uint8_t *at)
 {
 	float value;
 
-	memcpy(&value, m + CODE_OFFSET(word), sizeof(value));
+	memcpy(&value, at, sizeof(value));
 	return value;
 }
 
-/* Are all of these words REAL? */
-static bool are_real(uint32_t a, uint32_t b, uint32_t c)
+/* @size: 2 or 4, known where this is compiled. */
+static inline int32_t whole(const uint8_t *at, size_t size)
 {
-	uint32_t real = (uint32_t)IEC_REAL << CODE_OFFSET_BITS;
+	int16_t half;
+	int32_t both;
 
-	return (((a ^ real) | (b ^ real) | (c ^ real)) >> CODE_OFFSET_BITS) == 0;
+	if (size == sizeof(half)) {
+		memcpy(&half, at, sizeof(half));
+		return half;
+	}
+	memcpy(&both, at, sizeof(both));
+	return both;
 }
 
-#define COMPARE(rel, a, b) \
-	((rel) == CMP_GT ? (a) > (b) : (rel) == CMP_GE ? (a) >= (b) : \
-	 (rel) == CMP_EQ ? (a) == (b) : (rel) == CMP_LE ? (a) <= (b) : \
-	 (rel) == CMP_LT ? (a) < (b) : (a) != (b))
-
-static bool run_cmp(const uint8_t *m, const uint32_t *pc, uint32_t rel)
+/* One rounding of the exact result: what double and a second rounding give, too. */
+static inline float compute_real(uint32_t math, float a, float b)
 {
-	uint32_t left = CODE_TYPE(pc[1]), right = CODE_TYPE(pc[2]);
+	if (LIKELY(math == MATH_ADD))
+		return a + b;
+	if (math == MATH_SUB)
+		return a - b;
+	return math == MATH_MUL ? a * b : a / b; /* by 0: infinite, or no number */
+}
 
-	if (are_real(pc[1], pc[2], pc[1])) {
-		float a = single(m, pc[1]), b = single(m, pc[2]);
+/* True when it ran without an error, or not at all. */
+static inline bool run_real(uint8_t *m, const uint32_t *pc, uint32_t n)
+{
+	float a = single(m + pc[3]), b = single(m + pc[4]);
+	float out = LIKELY(n == MATH_ADD) ? a + b : compute_real(n & 3, a, b);
+	uint32_t bits, old;
+	bool en, good;
 
-		return COMPARE(rel, a, b);
+	memcpy(&bits, &out, sizeof(bits));
+	good = bits << 1 < 0xff000000u; /* no infinity, and a number */
+	if (LIKELY(n < MATH_ENABLED)) {
+		m[pc[1]] = good;
+		if (LIKELY(good))
+			memcpy(m + pc[2], &bits, sizeof(bits));
+		return good;
 	}
-	if (is_real(pc[1]) || is_real(pc[2])) {
-		double a = real(m, pc[1]), b = real(m, pc[2]);
+	en = m[pc[0]];
+	memcpy(&old, m + pc[2], sizeof(old));
+	bits = old ^ ((old ^ bits) & (0u - (en & good)));
+	memcpy(m + pc[2], &bits, sizeof(bits));
+	m[pc[1]] = en & good;
+	return good | !en;
+}
 
-		return COMPARE(rel, a, b);
+/* False: there is no result to store. */
+static inline bool compute_whole(uint32_t math, int32_t a, int32_t b, int32_t low,
+				 int64_t *out)
+{
+	if (math == MATH_ADD) {
+		*out = (int64_t)a + b;
+		return true;
+	}
+	if (math == MATH_SUB) {
+		*out = (int64_t)a - b;
+		return true;
+	}
+	if (math == MATH_MUL) {
+		*out = (int64_t)a * b;
+		return true;
+	}
+	if (b == 0 || (b == -1 && a == low))
+		return false;
+	*out = a / b;
+	return true;
+}
+
+/* The same of INT and DINT, by their size: they wrap, which is an error, too. */
+static inline bool run_whole(uint8_t *m, const uint32_t *pc, uint32_t n, size_t size)
+{
+	int32_t low = size == 2 ? INT16_MIN : INT32_MIN;
+	int32_t old = whole(m + pc[2], size), bits;
+	int64_t out = 0;
+	bool en = m[pc[0]], good, some;
+
+	some = compute_whole(n & 3, whole(m + pc[3], size), whole(m + pc[4], size), low,
+			     &out);
+	good = some & (out >= low) & (out <= -1 - (int64_t)low);
+	bits = old ^ ((old ^ (int32_t)out) & -(int32_t)(en & some));
+	memcpy(m + pc[2], &bits, size);
+	m[pc[1]] = en & good;
+	return good | !en;
+}
+
+/* How two values compare: bit 0: a >= b, bit 1: a <= b; neither: not a number. */
+#define ORDER(a, b) ((uint32_t)((a) >= (b)) | (uint32_t)((a) <= (b)) << 1)
+
+static uint32_t order(const uint8_t *m, const uint32_t *pc)
+{
+	uint32_t left = CODE_TYPE(pc[0]), right = CODE_TYPE(pc[1]);
+
+	if (is_real(pc[0]) || is_real(pc[1])) {
+		double a = real(m, pc[0]), b = real(m, pc[1]);
+
+		return ORDER(a, b);
 	}
 	if (left == IEC_STRING) {
-		int order = value_order(text(m, pc[1]), text(m, pc[2]));
+		int order = value_order(text(m, pc[0]), text(m, pc[1]));
 
-		return COMPARE(rel, order, 0);
+		return ORDER(order, 0);
 	}
-	int64_t a = integer(m, pc[1]), b = integer(m, pc[2]);
+	int64_t a = integer(m, pc[0]), b = integer(m, pc[1]);
 
 	if (iec_is_wide(left) || iec_is_wide(right))
-		return COMPARE(rel, (uint64_t)a, (uint64_t)b);
-	return COMPARE(rel, a, b);
+		return ORDER((uint64_t)a, (uint64_t)b);
+	return ORDER(a, b);
+}
+
+/* As look_up(), with an order in the place of two bits. */
+static inline const uint32_t *put_order(uint8_t *m, const uint32_t *pc, uint32_t n,
+					uint32_t order)
+{
+	uint32_t i = order + 4u * m[pc[3]];
+
+	m[pc[4]] = n >> (i & 31u) & 1u;
+	return pc + 5;
 }
 
 /* One input: as the shared type has it, or as its own. */
@@ -188,55 +299,13 @@ static bool store(uint8_t *m, uint32_t word, const struct fn_args *args)
 	return true;
 }
 
-/* One rounding of the exact result: what double and a second rounding give, too.
- * False: not one of these functions. */
-static bool compute_single(uint32_t fn, float a, float b, float *out)
-{
-	switch (fn) {
-	case FN_ADD:
-		*out = a + b;
-		return true;
-	case FN_SUB:
-		*out = a - b;
-		return true;
-	case FN_MUL:
-		*out = a * b;
-		return true;
-	case FN_DIV:
-		*out = a / b; /* by 0: infinite, or not a number */
-		return true;
-	default:
-		return false;
-	}
-}
-
-/* False: it takes the long way. @good: ENO. */
-static bool run_short(uint8_t *m, const uint32_t *pc, uint32_t n, bool *good)
-{
-	const uint32_t two = (uint32_t)IEC_REAL | 2u << 8 | (uint32_t)IEC_REAL << 16;
-	uint32_t bits;
-	float out;
-
-	if (n != two || !are_real(pc[3], pc[4], pc[5]) ||
-	    !compute_single(pc[0], single(m, pc[4]), single(m, pc[5]), &out))
-		return false;
-	memcpy(&bits, &out, sizeof(bits));
-	*good = (bits & 0x7f800000u) != 0x7f800000u;
-	if (*good)
-		memcpy(m + CODE_OFFSET(pc[3]), &out, sizeof(out));
-	return true;
-}
-
 /* True when it ran without an error. */
 static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 {
 	uint32_t room[(sizeof(struct iec_string) + IEC_STRING_MOST + 3) / 4];
 	struct fn_args args;
 	enum fn_status status;
-	bool good;
 
-	if (run_short(m, pc, n, &good))
-		return good;
 	args.type = (enum iec_type)(n & 0xff);
 	args.result = (enum iec_type)(n >> 16);
 	args.count = n >> 8 & 0xff;
@@ -382,12 +451,42 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			break;
 		case VM_COPY:
 			if (m[pc[1]])
-				run_copy(m, pc + 1);
+				copy(m, pc + 1, n);
 			pc += 4;
 			break;
 		case VM_CMP:
-			m[pc[1]] = run_cmp(m, pc + 1, n);
-			pc += 4;
+			pc = put_order(m, pc, n, order(m, pc + 1));
+			break;
+		case VM_INT:
+			if (!run_whole(m, pc + 1, n, 2))
+				count_error(vm, pc, base);
+			pc += 6;
+			break;
+		case VM_CMP_INT:
+			pc = put_order(m, pc, n, ORDER(whole(m + pc[1], 2),
+						       whole(m + pc[2], 2)));
+			break;
+		case VM_DINT:
+			if (!run_whole(m, pc + 1, n, 4))
+				count_error(vm, pc, base);
+			pc += 6;
+			break;
+		case VM_CMP_DINT:
+			pc = put_order(m, pc, n, ORDER(whole(m + pc[1], 4),
+						       whole(m + pc[2], 4)));
+			break;
+		case VM_REAL:
+			if (!LIKELY(run_real(m, pc + 1, n)))
+				count_error(vm, pc, base);
+			pc += 6;
+			n = *pc >> 8;
+			/* A sum is often compared next. */
+			if (!LIKELY((*pc & 0xff) == VM_CMP_REAL))
+				break;
+			/* fall through */
+		case VM_CMP_REAL:
+			pc = put_order(m, pc, n, ORDER(single(m + pc[1]),
+						       single(m + pc[2])));
 			break;
 		case VM_FN:
 			if (!m[pc[2]])
@@ -448,6 +547,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 9;
 			break;
 		case VM_COUNT:
+		default:
 			return FAULT_CODE;
 		}
 	}

@@ -159,6 +159,44 @@ uint32_t list_slot(struct list *list, const struct bits *value)
 	return kept.leaf[0];
 }
 
+static bool reads_slot(const struct il_result *result, uint32_t slot)
+{
+	return result->kind == RESULT_BITS && bits_reads(&result->bits, slot, 1);
+}
+
+/* Does anything that waits read this slot? */
+static bool is_awaited(const struct list *list, uint32_t slot)
+{
+	bool found = reads_slot(&list->now, slot);
+
+	for (int i = 0; i < list->depth; i++)
+		found |= reads_slot(&list->opened[i].left, slot);
+	for (int i = 0; i < list->pending_count; i++)
+		found |= bits_reads(&list->pending[i].value, slot, 1);
+	return found;
+}
+
+/* A comparison that only @value reads becomes @value. */
+static void store_at(struct list *list, const struct bits *value, uint32_t offset)
+{
+	uint32_t slot = bits_compared(list->as);
+
+	if (!slot || is_awaited(list, slot) ||
+	    !bits_store_compared(list->as, value, offset))
+		bits_store(list->as, value, offset);
+}
+
+uint32_t list_keep(struct list *list, const struct bits *value)
+{
+	uint32_t slot;
+
+	if (value->count == 0 || bits_is_leaf(value))
+		return list_slot(list, value);
+	slot = scratch_new(list->as);
+	store_at(list, value, slot);
+	return slot;
+}
+
 /* A temporary: kept as a value, unless nobody reads it. */
 static void write_temp(struct list *list, int var, const struct bits *value)
 {
@@ -243,10 +281,7 @@ uint32_t list_number(struct list *list, const struct meaning *m,
 
 void list_copy(struct list *list, uint32_t to, uint32_t from)
 {
-	emit_op(list->as, VM_COPY, 0);
-	emit(list->as, ALWAYS);
-	emit(list->as, to);
-	emit(list->as, from);
+	list_copy_if(list, ALWAYS, to, from);
 }
 
 /* Does the next line still use the result? */
@@ -353,7 +388,7 @@ static void store_bits(struct list *list, const struct meaning *m,
 	if (pending)
 		drop_pending(list, pending);
 	list_protect(list, offset, 1);
-	bits_store(list->as, value, offset);
+	store_at(list, value, offset);
 }
 
 /* STN of bits; the result stays as it is. */
@@ -505,7 +540,7 @@ bool assemble_unit(struct assembler *as, int unit, bool watch)
 	list->types = watch && u->watch.count ? u->watch_types : u->types;
 	list->straight = u->pou->kind == POU_PROGRAM;
 	as->slots = list->straight ? &as->program_slots : &frame->slots;
-	as->open_lut = -1;
+	bits_end(as);
 	as->scratch_used = 0;
 	if (!list_find_labels(list) || !list_count_reads(list))
 		return false;

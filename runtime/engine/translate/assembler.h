@@ -62,6 +62,7 @@ struct assembler {
 	struct words *text;
 	struct words code, watch;
 	int open_lut;              /* word index of a LUT that may go on; -1  */
+	int open_cmp;              /* of a comparison that ends the code; -1  */
 	struct code_place *place;
 	int place_count;
 	struct code_program *entry;
@@ -172,6 +173,16 @@ struct bits bits_combine(struct assembler *as, struct bits a, struct bits b,
 			 uint8_t table2);
 /** bits_store - the instruction that stores @a at @offset. */
 void bits_store(struct assembler *as, const struct bits *a, uint32_t offset);
+/** bits_end - what is emitted next is run from elsewhere, too: it stays apart. */
+void bits_end(struct assembler *as);
+/** bits_compare - a comparison, which is @table of its order, in a scratch slot. */
+struct bits bits_compare(struct assembler *as, uint32_t table, uint32_t left,
+			 uint32_t right);
+/** bits_compared - the slot of a comparison that ends the code so far; 0: none does. */
+uint32_t bits_compared(const struct assembler *as);
+/** bits_store_compared - as bits_store(), by that comparison, which is there; its slot
+ * is not written. False: @a is more than that and one other bit, or without it. */
+bool bits_store_compared(struct assembler *as, const struct bits *a, uint32_t offset);
 /** bits_keep - @a stored in a scratch slot, as a leaf. */
 struct bits bits_keep(struct assembler *as, const struct bits *a);
 /** emit - one word of code. */

@@ -32,19 +32,6 @@ static uint32_t function_of(const struct word_row *row, enum word word)
 
 /* ---- functions on the result ---- */
 
-static bool is_compare(enum word word)
-{
-	return word >= FN_GT && word <= FN_NE;
-}
-
-/* The rows of the comparisons are in the order of enum cmp. */
-_Static_assert(FN_NE - FN_GT == CMP_NE, "rows of catalog.def and enum cmp");
-
-static uint32_t relation(enum word word)
-{
-	return (uint32_t)word - FN_GT;
-}
-
 uint32_t list_operand(struct list *list, const struct il_result *result,
 		      enum iec_type type)
 {
@@ -62,19 +49,6 @@ uint32_t list_operand(struct list *list, const struct il_result *result,
 	if (result->kind == RESULT_BITS)
 		return CODE_OPERAND(IEC_BOOL, list_slot(list, &result->bits));
 	return result->operand;
-}
-
-static void compare(struct list *list, enum word word, uint32_t left, uint32_t right)
-{
-	uint32_t slot = scratch_new(list->as);
-
-	emit_op(list->as, VM_CMP, relation(word));
-	emit(list->as, slot);
-	emit(list->as, left);
-	emit(list->as, right);
-	list->now = (struct il_result){
-		.kind = RESULT_BITS, .bits = bits_leaf(list->as, slot),
-	};
 }
 
 /* The type a constant or the current result has at an input. */
@@ -99,10 +73,10 @@ static void preset(struct list *list, enum iec_type result, uint32_t to, uint32_
 			layout_constant(list->as, result, zero)));
 }
 
-static void emit_input(struct list *list, const struct word_row *row, uint32_t index,
-		       uint32_t operand)
+static uint32_t input_word(const struct word_row *row, uint32_t index,
+			   uint32_t operand)
 {
-	emit(list->as, operand | (word_input(row, index)->own ? CODE_OWN : 0));
+	return operand | (word_input(row, index)->own ? CODE_OWN : 0);
 }
 
 /* Type of a result; IEC_NONE: a constant without one. */
@@ -121,35 +95,35 @@ struct applied {
 	uint32_t count, operand[LIMIT_FN_INPUTS];
 };
 
-static void apply(struct list *list, const struct applied *fn)
+static void apply(struct list *list, const struct applied *applied)
 {
-	const struct word_row *row = list_row(list, fn->word);
-	enum iec_type type = list->types[list->at], result;
-	uint32_t to;
+	const struct word_row *row = list_row(list, applied->word);
+	struct fn_code fn = {
+		.fn = function_of(row, applied->word), .type = list->types[list->at],
+		.en = TRUE_SLOT, .eno = list_sink(list->as, IEC_BOOL),
+		.count = applied->count,
+	};
 
-	if (is_compare(fn->word)) {
-		compare(list, fn->word, fn->operand[0], fn->operand[1]);
+	if (list_is_compare(applied->word)) {
+		list_compare(list, applied->word, applied->operand[0],
+			     applied->operand[1]);
 		return;
 	}
-	result = fn_result(row, type, il_stored_type(list->as->translation->scope,
-						     list->pou, list->il, list->at));
-	to = CODE_OPERAND(result, layout_tail(list->as, RUN_VALUES, result));
-	preset(list, result, to, fn->operand[0]);
-	list_place(list);
-	emit_op(list->as, VM_FN, (uint32_t)type | fn->count << 8 |
-		(uint32_t)result << 16);
-	emit(list->as, function_of(row, fn->word));
-	emit(list->as, TRUE_SLOT);
-	emit(list->as, list_sink(list->as, IEC_BOOL));
-	emit(list->as, to);
-	for (uint32_t i = 0; i < fn->count; i++)
-		emit_input(list, row, i, fn->operand[i]);
+	fn.result = fn_result(row, fn.type,
+			      il_stored_type(list->as->translation->scope, list->pou,
+					     list->il, list->at));
+	fn.to = CODE_OPERAND(fn.result, layout_tail(list->as, RUN_VALUES, fn.result));
+	if (!list_always_stores(fn.fn, fn.result))
+		preset(list, fn.result, fn.to, applied->operand[0]);
+	for (uint32_t i = 0; i < fn.count; i++)
+		fn.input[i] = input_word(row, i, applied->operand[i]);
+	list_emit_fn(list, &fn);
 	list->now = (struct il_result){
-		.kind = RESULT_NUMBER, .own = true, .operand = to,
+		.kind = RESULT_NUMBER, .own = true, .operand = fn.to,
 	};
-	if (result == IEC_BOOL)
+	if (fn.result == IEC_BOOL)
 		list->now = (struct il_result){
-			.kind = RESULT_BITS, .bits = bits_leaf(list->as, CODE_OFFSET(to)),
+			.kind = RESULT_BITS, .bits = bits_leaf(list->as, CODE_OFFSET(fn.to)),
 		};
 }
 
@@ -283,7 +257,7 @@ static void read_en(struct list *list, struct call *call)
 		if (strcasecmp(pin_text(list, arg), "EN") != 0)
 			continue;
 		bits = list_bits(list, list_meaning(list, arg->operand));
-		call->en = list_slot(list, &bits);
+		call->en = list_keep(list, &bits);
 	}
 }
 
@@ -351,6 +325,28 @@ static void finish_at(struct list *list, const struct target *target, int line)
 	list->at = at;
 }
 
+/* A value that is stored as it is: that cannot fail, ENO is EN. */
+static bool is_plain_move(const struct word_row *row, enum word word,
+			  const struct call *call, uint32_t to)
+{
+	uint32_t type = CODE_TYPE(to);
+
+	return function_of(row, word) == FN_MOVE && type != IEC_BOOL &&
+	       type != IEC_STRING && CODE_TYPE(call->input[0]) == type;
+}
+
+static void emit_call(struct list *list, const struct word_row *row, enum word word,
+		      const struct call *call, struct fn_code fn)
+{
+	fn.fn = function_of(row, word);
+	fn.type = list->types[list->at];
+	fn.en = call->en;
+	fn.count = (uint32_t)call->count;
+	for (uint32_t i = 0; i < fn.count; i++)
+		fn.input[i] = input_word(row, i, call->input[i]);
+	list_emit_fn(list, &fn);
+}
+
 void list_call(struct list *list)
 {
 	const struct il_line *line = &list->il->line[list->at];
@@ -366,9 +362,9 @@ void list_call(struct list *list)
 		list_own_call(list);
 		return;
 	}
+	list->now.kind = RESULT_NONE; /* nobody reads it any more */
 	read_args(list, row, type, &call);
 	result = fn_result(row, type, call.out ? call.out->type : IEC_NONE);
-	eno = bool_target(list, call.eno, false);
 	if (call.out && meaning_is_indexed(call.out)) { /* what it is, if OUT fails */
 		to = list_fetch(list, call.out, call.en, &call.en);
 	} else if (call.out && result == IEC_BOOL) {
@@ -381,18 +377,16 @@ void list_call(struct list *list)
 	} else {
 		to = CODE_OPERAND(result, list_sink(list->as, result));
 	}
-	list_protect(list, eno.slot, 1);
 	list_protect(list, CODE_OFFSET(to), 1);
-	list_place(list);
-	emit_op(list->as, VM_FN, (uint32_t)type | (uint32_t)call.count << 8 |
-		(uint32_t)result << 16);
-	emit(list->as, function_of(row, word));
-	emit(list->as, call.en);
-	emit(list->as, eno.slot);
-	emit(list->as, to);
-	for (int i = 0; i < call.count; i++)
-		emit_input(list, row, (uint32_t)i, call.input[i]);
-	list->now.kind = RESULT_NONE;
+	if (is_plain_move(row, word, &call, to)) {
+		eno = (struct target){ .m = call.eno, .slot = call.en, .beside = true };
+		list_copy_if(list, call.en, to, call.input[0]);
+	} else {
+		eno = bool_target(list, call.eno, false);
+		list_protect(list, eno.slot, 1);
+		emit_call(list, row, word, &call, (struct fn_code){
+			.result = result, .eno = eno.slot, .to = to });
+	}
 	if (call.out && meaning_is_indexed(call.out))
 		list_deposit(list, call.out, call.en, to);
 	if (call.eno)
@@ -547,7 +541,7 @@ void list_end_skip(struct list *list, int skip)
 {
 	if (skip < 0)
 		return;
-	list->as->open_lut = -1;
+	bits_end(list->as);
 	list->as->text->word[skip] = (uint32_t)list->as->text->count;
 }
 
@@ -574,10 +568,11 @@ void list_cal(struct list *list)
 		list_own_cal(list);
 		return;
 	}
+	if (!(line->modifiers & MOD_C))
+		list->now.kind = RESULT_NONE; /* nobody reads it any more */
 	list_protect(list, offset, list_row(list, fb)->size);
-	if (line->modifiers & MOD_C) {
+	if (line->modifiers & MOD_C)
 		unless = list_skip_call(list, line);
-	}
 	missing = list_skip_missing(list, unless >= 0, fetched);
 	for (int i = list->at + 1; is_arg(list, i); i++)
 		if (list->il->line[i].kind == IL_ARG_IN)

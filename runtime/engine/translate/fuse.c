@@ -13,9 +13,15 @@ void emit(struct assembler *as, uint32_t word)
 	words_push(as, as->text, word);
 }
 
-void emit_op(struct assembler *as, enum vm_op op, uint32_t n)
+void bits_end(struct assembler *as)
 {
 	as->open_lut = -1;
+	as->open_cmp = -1;
+}
+
+void emit_op(struct assembler *as, enum vm_op op, uint32_t n)
+{
+	bits_end(as);
 	emit(as, (uint32_t)op | n << 8);
 }
 
@@ -152,6 +158,55 @@ void bits_store(struct assembler *as, const struct bits *a, uint32_t offset)
 	for (int i = 0; i < 3; i++)
 		emit(as, i < a->count ? a->leaf[i] : none);
 	emit(as, offset << 8 | a->table);
+}
+
+/* ---- comparisons ---- */
+
+struct bits bits_compare(struct assembler *as, uint32_t table, uint32_t left,
+			 uint32_t right)
+{
+	uint32_t type = CODE_TYPE(left), slot = scratch_new(as);
+	enum vm_op op = type != CODE_TYPE(right) ? VM_CMP :
+			type == IEC_REAL ? VM_CMP_REAL :
+			type == IEC_DINT ? VM_CMP_DINT :
+			type == IEC_INT ? VM_CMP_INT : VM_CMP;
+	int at = as->text->count;
+
+	emit_op(as, op, table << 4 | table);
+	emit(as, op == VM_CMP ? left : CODE_OFFSET(left));
+	emit(as, op == VM_CMP ? right : CODE_OFFSET(right));
+	emit(as, CODE_FALSE_AT(as->areas));
+	emit(as, slot);
+	as->open_cmp = at;
+	return bits_leaf(as, slot);
+}
+
+uint32_t bits_compared(const struct assembler *as)
+{
+	return as->open_cmp < 0 ? 0 : as->text->word[as->open_cmp + 4];
+}
+
+bool bits_store_compared(struct assembler *as, const struct bits *a, uint32_t offset)
+{
+	uint32_t slot = bits_compared(as), *code, table = 0;
+	int own = 0;
+
+	while (own < a->count && a->leaf[own] != slot)
+		own++;
+	if (own == a->count || a->count > 2)
+		return false;
+	code = &as->text->word[as->open_cmp];
+	for (uint32_t i = 0; i < 8; i++) {
+		uint32_t index = (*code >> (8 + (i & 3)) & 1) << own | i >> 2 << !own;
+
+		table |= (a->table >> index & 1u) << i;
+	}
+	if (a->count == 2)
+		code[3] = a->leaf[!own];
+	code[4] = offset;
+	*code = (*code & 0xff) | table << 8;
+	bits_end(as);
+	return true;
 }
 
 struct bits bits_keep(struct assembler *as, const struct bits *a)

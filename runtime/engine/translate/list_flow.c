@@ -81,7 +81,7 @@ void list_label(struct list *list, const struct il_line *line)
 {
 	uint32_t id = fold(list, line->operand);
 
-	list->as->open_lut = -1;
+	bits_end(list->as);
 	list->straight = false;
 	list->now.kind = RESULT_NONE;
 	list->pending_count = 0;

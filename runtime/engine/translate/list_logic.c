@@ -33,19 +33,19 @@ static void as_bits(struct list *list)
 static void operate(struct list *list, enum op op, enum iec_type type,
 		    uint32_t count, const uint32_t *operand)
 {
-	struct assembler *as = list->as;
-	uint32_t to = CODE_OPERAND(type, layout_tail(as, RUN_VALUES, type));
+	struct fn_code fn = {
+		.fn = op_function(op), .type = type, .result = type,
+		.en = CODE_TRUE_AT(list->as->areas),
+		.eno = list_sink(list->as, IEC_BOOL),
+		.to = CODE_OPERAND(type, layout_tail(list->as, RUN_VALUES, type)),
+		.count = count,
+	};
 
-	list_place(list);
-	emit_op(as, VM_FN, (uint32_t)type | count << 8 | (uint32_t)type << 16);
-	emit(as, op_function(op));
-	emit(as, CODE_TRUE_AT(as->areas));
-	emit(as, list_sink(as, IEC_BOOL));
-	emit(as, to);
 	for (uint32_t i = 0; i < count; i++)
-		emit(as, operand[i]);
+		fn.input[i] = operand[i];
+	list_emit_fn(list, &fn);
 	list->now = (struct il_result){
-		.kind = RESULT_NUMBER, .own = true, .operand = to,
+		.kind = RESULT_NUMBER, .own = true, .operand = fn.to,
 	};
 }
 

@@ -84,6 +84,8 @@ uint32_t list_number(struct list *list, const struct meaning *m,
 		     enum iec_type type);
 /** list_slot - a BOOL's offset that holds @value now. */
 uint32_t list_slot(struct list *list, const struct bits *value);
+/** list_keep - the same, where nobody else holds a slot that @value reads. */
+uint32_t list_keep(struct list *list, const struct bits *value);
 /** list_copy - COPY, always enabled. */
 void list_copy(struct list *list, uint32_t to, uint32_t from);
 /** list_load - LD. */
@@ -114,6 +116,24 @@ uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 /** list_deposit - stores @from, a typed word, in such an element while @en. */
 void list_deposit(struct list *list, const struct meaning *m, uint32_t en,
 		  uint32_t from);
+
+/* ---- function.c ---- */
+/** list_is_compare - GT to NE? */
+bool list_is_compare(enum word word);
+/** list_compare - the result becomes that of a comparison of two typed words. */
+void list_compare(struct list *list, enum word word, uint32_t left, uint32_t right);
+/* A function of the image, its operands typed, CODE_OWN where they are. */
+struct fn_code {
+	uint32_t fn;
+	enum iec_type type, result;
+	uint32_t en, eno, to, count, input[LIMIT_FN_INPUTS];
+};
+/** list_emit_fn - the instruction that runs it. */
+void list_emit_fn(struct list *list, const struct fn_code *fn);
+/** list_always_stores - has this function a result of @type whatever its operands? */
+bool list_always_stores(uint32_t fn, enum iec_type type);
+/** list_copy_if - COPY while the BOOL at @en is TRUE. */
+void list_copy_if(struct list *list, uint32_t en, uint32_t to, uint32_t from);
 
 /* ---- list_flow.c ---- */
 /** list_find_labels - before the first line. Fails: false when memory is out. */
