@@ -287,7 +287,7 @@ $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
-$(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free
+$(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free,--wrap=mmap64,--wrap=munmap
 $(BIN)/saving: $(BUILD)/tests/saving.o
 $(BIN)/saving: WRAP := -Wl,--wrap=write,--wrap=fsync,--wrap=rename
 $(BIN)/storing: $(call obj,tests/storing.c runtime/ladderd/store_file.c)

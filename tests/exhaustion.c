@@ -13,6 +13,7 @@
 #include "tests/tap.h"
 
 #include <stdlib.h>
+#include <sys/mman.h>
 
 #define ATTEMPTS_MAX 100000
 
@@ -26,8 +27,14 @@ void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *old, size_t size);
 void *__wrap_aligned_alloc(size_t align, size_t size);
 void __wrap_free(void *block);
+/* By the name that mmap() has where offsets are of 64 bits. */
+void *__real_mmap64(void *at, size_t size, int prot, int flags, int fd, off_t offset);
+void *__wrap_mmap64(void *at, size_t size, int prot, int flags, int fd, off_t offset);
+int __real_munmap(void *at, size_t size);
+int __wrap_munmap(void *at, size_t size);
 
 static long live;         /* blocks given and not taken back                  */
+static long mapped;       /* bytes, likewise                                  */
 static long left = -1;    /* allocations that still succeed; -1: all          */
 static long refused;
 
@@ -81,6 +88,22 @@ void __wrap_free(void *block)
 	__real_free(block);
 }
 
+void *__wrap_mmap64(void *at, size_t size, int prot, int flags, int fd, off_t offset)
+{
+	void *memory = MAP_FAILED;
+
+	if (may_allocate())
+		memory = __real_mmap64(at, size, prot, flags, fd, offset);
+	mapped += memory != MAP_FAILED ? (long)size : 0;
+	return memory;
+}
+
+int __wrap_munmap(void *at, size_t size)
+{
+	mapped -= (long)size;
+	return __real_munmap(at, size);
+}
+
 enum stage { STAGE_NEW, STAGE_LOAD, STAGE_BUILD, STAGE_WRITE, STAGE_DONE };
 
 static bool has_no_memory(struct ladder *ladder)
@@ -123,7 +146,7 @@ static enum stage try_all(const char *file, const char *text, size_t len,
 
 static void starve(const char *file, const char *text, size_t len)
 {
-	long before = live, untold = 0, leaks = 0, lies = 0, n;
+	long before = live + mapped, untold = 0, leaks = 0, lies = 0, n;
 	enum stage stage = STAGE_NEW;
 	char what[256];
 
@@ -135,7 +158,7 @@ static void starve(const char *file, const char *text, size_t len)
 		stage = try_all(file, text, len, &told);
 		left = -1;
 		untold += !told;
-		leaks += live - before;
+		leaks += live + mapped - before;
 		/* Refused, and yet all went well: somebody ignored a NULL. */
 		lies += refused && stage == STAGE_DONE;
 	}

@@ -5,7 +5,7 @@
  * The only place of the engine's loader that asks the system for memory. It
  * refuses sizes that overflow, and never moves what it has given.
  */
-#define _DEFAULT_SOURCE /* madvise() */
+#define _DEFAULT_SOURCE /* madvise(), MAP_ANONYMOUS */
 #include "engine/base/arena.h"
 
 #include "engine/base/limits.h"
@@ -20,6 +20,7 @@ struct arena_chunk {
 	size_t size, used;        /* bytes behind this header                */
 	size_t last;              /* offset of the last allocation           */
 	size_t dirty;             /* bytes from here on are zero             */
+	bool mapped;              /* by mmap(); else by calloc()             */
 	uint64_t bytes[];         /* of the strictest alignment              */
 };
 
@@ -40,7 +41,10 @@ static void free_chunks(struct arena_chunk *chunk)
 	while (chunk) {
 		struct arena_chunk *next = chunk->next;
 
-		free(chunk);
+		if (chunk->mapped)
+			munmap(chunk, sizeof(*chunk) + chunk->size);
+		else
+			free(chunk);
 		chunk = next;
 	}
 }
@@ -65,28 +69,45 @@ void arena_reset(struct arena *arena)
 	arena->failed = false;
 }
 
-/* @size bytes with a header. Large ones begin at a huge page and ask for such: a
- * load of 40 MB then takes twenty page faults, not ten thousand. */
+#ifndef RUNGBOARD_SMALL
+/* Huge pages from the system, all zero: @whole bytes of them. They are not malloc()'s
+ * to keep, which would hand them out again with something in them. */
+static struct arena_chunk *map_chunk(size_t whole)
+{
+	size_t asked = whole + HUGE_PAGE, head;
+	char *memory = mmap(NULL, asked, PROT_READ | PROT_WRITE,
+			    MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+	struct arena_chunk *chunk;
+
+	if (memory == MAP_FAILED)
+		return NULL;
+	head = -(uintptr_t)memory & (HUGE_PAGE - 1);
+	if (head)
+		munmap(memory, head);
+	munmap(memory + head + whole, HUGE_PAGE - head);
+	chunk = (void *)(memory + head);
+	madvise(chunk, whole, MADV_HUGEPAGE); /* a wish; refused is no fault  */
+	chunk->size = whole - sizeof(*chunk);
+	chunk->mapped = true;
+	return chunk;
+}
+#endif
+
+/* @size bytes with a header, all zero. Large ones are huge pages: a load of 40 MB then
+ * takes twenty page faults, not ten thousand. */
 static struct arena_chunk *new_chunk(size_t size)
 {
 	size_t whole = sizeof(struct arena_chunk) + size;
 	struct arena_chunk *chunk;
 
-	if (size < HUGE_PAGE - 64) {
-		chunk = calloc(1, whole);
-		if (chunk)
-			chunk->size = size;
-		return chunk;
-	}
-	if (whole > SIZE_MAX - HUGE_PAGE)
-		return NULL;
-	whole = (whole + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1);
-	chunk = aligned_alloc(HUGE_PAGE, whole);
-	if (!chunk)
-		return NULL;
-	madvise(chunk, whole, MADV_HUGEPAGE); /* a wish; refused is no fault  */
-	*chunk = (struct arena_chunk){ .size = whole - sizeof(*chunk) };
-	chunk->dirty = chunk->size;
+#ifndef RUNGBOARD_SMALL
+	if (size >= HUGE_PAGE - 64)
+		return whole > SIZE_MAX - 2 * HUGE_PAGE ? NULL :
+		       map_chunk((whole + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1));
+#endif
+	chunk = calloc(1, whole);
+	if (chunk)
+		chunk->size = size;
 	return chunk;
 }
 

@@ -14,7 +14,7 @@ struct names_entry {
 	const char *text;
 	uint32_t len;
 	uint32_t hash; /* the same for all spellings                          */
-	uint32_t fold; /* 0: not asked yet                                    */
+	uint32_t fold; /* the id of its first spelling                        */
 };
 
 #define FIRST_SLOTS 256u
@@ -46,22 +46,24 @@ void names_init(struct names *names, struct arena *arena)
 	*empty = (struct names_entry){ .text = "" };
 }
 
-/* The slot of a string, or the free one where it belongs. With @any_case, of the
- * first spelling of it: within a chain, older ids come first. */
-static uint32_t find_slot(const struct names *names, const char *text,
-			  size_t len, uint32_t hash, bool any_case)
+/* The slot of a string, or the free one where it belongs. On the way there stand all
+ * other spellings of it, older ids first; @fold gets the first one, 0: there is none. */
+static uint32_t find_slot(const struct names *names, const char *text, size_t len,
+			  uint32_t hash, uint32_t *fold)
 {
 	uint32_t at = hash & names->mask;
 
+	*fold = 0;
 	for (; names->slot[at]; at = (at + 1) & names->mask) {
 		const struct names_entry *entry =
 			&names->entry[names->slot[at]];
 
 		if (entry->hash != hash || entry->len != len)
 			continue;
-		if (any_case ? ascii_same(entry->text, text, len) :
-			       memcmp(entry->text, text, len) == 0)
+		if (memcmp(entry->text, text, len) == 0)
 			break;
+		if (!*fold && ascii_same(entry->text, text, len))
+			*fold = names->slot[at];
 	}
 	return at;
 }
@@ -94,13 +96,13 @@ static bool has_room(struct names *names)
 uint32_t names_intern(struct names *names, const char *text, size_t len)
 {
 	struct names_entry *entry;
-	uint32_t hash, slot;
+	uint32_t hash, slot, fold;
 	const char *copy;
 
 	if (len == 0 || len >= UINT32_MAX || !names->count || !has_room(names))
 		return 0;
 	hash = hash_bytes(text, len);
-	slot = find_slot(names, text, len, hash, false);
+	slot = find_slot(names, text, len, hash, &fold);
 	if (names->slot[slot])
 		return names->slot[slot];
 	copy = arena_copy(names->arena, text, len);
@@ -110,18 +112,22 @@ uint32_t names_intern(struct names *names, const char *text, size_t len)
 			   sizeof(*entry));
 	if (!entry)
 		return 0;
-	*entry = (struct names_entry){ .text = copy, .len = (uint32_t)len,
-				       .hash = hash };
 	names->slot[slot] = (uint32_t)names->count - 1;
+	*entry = (struct names_entry){
+		.text = copy, .len = (uint32_t)len, .hash = hash,
+		.fold = fold ? fold : names->slot[slot],
+	};
 	return names->slot[slot];
 }
 
 uint32_t names_find(const struct names *names, const char *text, size_t len)
 {
+	uint32_t fold;
+
 	if (len == 0 || len >= UINT32_MAX || !names->count)
 		return 0;
 	return names->slot[find_slot(names, text, len, hash_bytes(text, len),
-				     false)];
+				     &fold)];
 }
 
 const char *names_text(const struct names *names, uint32_t id)
@@ -134,16 +140,7 @@ size_t names_len(const struct names *names, uint32_t id)
 	return id < (uint32_t)names->count ? names->entry[id].len : 0;
 }
 
-uint32_t names_fold(struct names *names, uint32_t id)
+uint32_t names_fold(const struct names *names, uint32_t id)
 {
-	struct names_entry *entry;
-
-	if (id == 0 || id >= (uint32_t)names->count)
-		return 0;
-	entry = &names->entry[id];
-	if (!entry->fold)
-		entry->fold = names->slot[find_slot(names, entry->text,
-						    entry->len, entry->hash,
-						    true)];
-	return entry->fold;
+	return id < (uint32_t)names->count ? names->entry[id].fold : 0;
 }

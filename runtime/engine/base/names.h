@@ -47,9 +47,9 @@ size_t names_len(const struct names *names, uint32_t id);
 /**
  * names_fold - the id that all spellings of a name share (ASCII case ignored)
  *
- * It is that of the spelling that came first.   Scan-safe: no.
+ * It is that of the spelling that came first.   Scan-safe: yes.
  * Fails: 0 for the empty string and ids that are none.
  */
-uint32_t names_fold(struct names *names, uint32_t id);
+uint32_t names_fold(const struct names *names, uint32_t id);
 
 #endif

@@ -15,7 +15,7 @@
 
 /* A declaration; table 0 is the globals, POU number n has n + 1. */
 struct declared {
-	uint32_t table, fold; /* fold 0: a free slot */
+	uint32_t table, fold;
 	int index;            /* of the first declaration of this name */
 	uint8_t flags;        /* of its VAR block */
 };
@@ -33,8 +33,10 @@ struct scope {
 	struct project *project;
 	struct areas areas;
 	struct arena *arena;
-	struct declared *declared;
-	uint32_t declared_mask;
+	struct declared *declared; /* in the order of the file; 0 is none     */
+	uint32_t *slot;            /* open hash of their numbers: small, so that
+				      most of it stays in a cache             */
+	uint32_t count, mask;
 	struct answer **answer; /* by text: what was asked of it so far      */
 	uint32_t answers;       /* texts there is room for                   */
 };
@@ -49,17 +51,40 @@ static uint32_t mix(uint32_t table, uint32_t id)
 }
 
 /* The slot of a name, or the free one where it belongs. */
-static struct declared *declared_slot(const struct scope *scope, uint32_t table,
+static uint32_t *declared_slot(const struct scope *scope, uint32_t table, uint32_t fold)
+{
+	uint32_t at = mix(table, fold) & scope->mask;
+
+	for (; scope->slot[at]; at = (at + 1) & scope->mask) {
+		const struct declared *declared = &scope->declared[scope->slot[at]];
+
+		if (declared->fold == fold && declared->table == table)
+			break;
+	}
+	return &scope->slot[at];
+}
+
+/* NULL: this table has no such name. */
+static const struct declared *find_in(const struct scope *scope, uint32_t table,
 				      uint32_t fold)
 {
-	uint32_t at = mix(table, fold) & scope->declared_mask;
-	struct declared *slot = &scope->declared[at];
+	uint32_t number = fold ? *declared_slot(scope, table, fold) : 0;
 
-	while (slot->fold && (slot->fold != fold || slot->table != table)) {
-		at = (at + 1) & scope->declared_mask;
-		slot = &scope->declared[at];
-	}
-	return slot;
+	return number ? &scope->declared[number] : NULL;
+}
+
+/* Unless the name stands there already. */
+static void declare(struct scope *scope, struct declared declared)
+{
+	uint32_t *slot;
+
+	if (!declared.fold)
+		return;
+	slot = declared_slot(scope, declared.table, declared.fold);
+	if (*slot)
+		return;
+	*slot = ++scope->count;
+	scope->declared[*slot] = declared;
 }
 
 static void declare_table(struct scope *scope, uint32_t table,
@@ -68,19 +93,15 @@ static void declare_table(struct scope *scope, uint32_t table,
 	int block = 0;
 
 	for (int i = 0; i < vars->count; i++) {
-		const struct var *var = &vars->var[i];
-		struct declared *slot;
+		struct declared declared = { .table = table, .index = i,
+					     .fold = vars->var[i].fold };
 
 		while (block + 1 < vars->block_count &&
 		       vars->block[block + 1].first <= i)
 			block++;
-		slot = declared_slot(scope, table, var->fold);
-		if (!var->fold || slot->fold)
-			continue;
-		*slot = (struct declared){ .table = table, .fold = var->fold,
-					   .index = i };
 		if (block < vars->block_count)
-			slot->flags = vars->block[block].flags;
+			declared.flags = vars->block[block].flags;
+		declare(scope, declared);
 	}
 }
 
@@ -88,14 +109,11 @@ static void declare_pous(struct scope *scope)
 {
 	struct project *project = scope->project;
 
-	for (int i = 0; i < project->pou_count; i++) {
-		uint32_t fold = names_fold(&project->names, project->pou[i].name);
-		struct declared *slot = declared_slot(scope, POUS, fold);
-
-		if (fold && !slot->fold)
-			*slot = (struct declared){ .table = POUS, .fold = fold,
-						   .index = i };
-	}
+	for (int i = 0; i < project->pou_count; i++)
+		declare(scope, (struct declared){
+			.table = POUS, .index = i,
+			.fold = names_fold(&project->names, project->pou[i].name),
+		});
 }
 
 struct scope *scope_new(struct project *project, struct arena *arena)
@@ -114,9 +132,10 @@ struct scope *scope_new(struct project *project, struct arena *arena)
 	scope->project = project;
 	project_areas(project, &scope->areas);
 	scope->arena = arena;
-	scope->declared_mask = size - 1;
-	scope->declared = arena_alloc(arena, size * sizeof(struct declared));
-	if (!scope->declared)
+	scope->mask = size - 1;
+	scope->slot = arena_alloc(arena, size * sizeof(*scope->slot));
+	scope->declared = arena_alloc(arena, (names + 1) * sizeof(struct declared));
+	if (!scope->slot || !scope->declared)
 		return NULL;
 	declare_table(scope, 0, &project->globals);
 	for (int i = 0; i < project->pou_count; i++)
@@ -141,26 +160,20 @@ int scope_duplicate(struct scope *scope, const struct pou *pou, int index)
 {
 	uint32_t table = table_number(scope, pou);
 	uint32_t fold = table_of(scope, table)->var[index].fold;
-	const struct declared *slot;
+	const struct declared *first = find_in(scope, table, fold);
 
-	if (!fold)
-		return -1;
-	slot = declared_slot(scope, table, fold);
-	return slot->fold && slot->index < index ? slot->index : -1;
+	return first && first->index < index ? first->index : -1;
 }
 
 /* A local of this name, else a global; NULL: neither. */
 static const struct declared *find_declared(const struct scope *scope,
 					    uint32_t table, uint32_t fold)
 {
-	const struct declared *slot;
+	const struct declared *declared = NULL;
 
-	if (!fold)
-		return NULL;
-	slot = declared_slot(scope, table, fold);
-	if (!slot->fold && table)
-		slot = declared_slot(scope, 0, fold);
-	return slot->fold ? slot : NULL;
+	if (table_of(scope, table)->count)
+		declared = find_in(scope, table, fold);
+	return declared || !table ? declared : find_in(scope, 0, fold);
 }
 
 static bool may_write(struct iec_addr addr)
@@ -365,12 +378,12 @@ const struct meaning *scope_find(struct scope *scope, const struct pou *pou,
 const struct pou *scope_pou(struct scope *scope, const struct pou *pou, uint32_t text)
 {
 	uint32_t fold = names_fold(&scope->project->names, text);
-	const struct declared *slot;
+	const struct declared *declared;
 
 	if (!fold || find_declared(scope, table_number(scope, pou), fold))
 		return NULL;
-	slot = declared_slot(scope, POUS, fold);
-	return slot->fold ? &scope->project->pou[slot->index] : NULL;
+	declared = find_in(scope, POUS, fold);
+	return declared ? &scope->project->pou[declared->index] : NULL;
 }
 
 bool scope_add(struct scope *scope, const struct pou *pou,

@@ -435,10 +435,25 @@ static void place_type(struct assembler *as, enum iec_type type, bool retain)
 		}
 }
 
+/* The types that variables have, a bit each. */
+static uint32_t types_in_use(const struct assembler *as)
+{
+	uint32_t types = 0;
+
+	_Static_assert(IEC_TYPE_COUNT <= 32, "a bit for each type");
+	for (int table = 0; table <= as->translation->unit_count; table++)
+		for (int i = 0; i < table_size(as, table); i++)
+			types |= 1u << table_var(as, table, i)->type;
+	return types;
+}
+
 static void place_all(struct assembler *as, bool retain)
 {
-	for (int type = IEC_BOOL; type < IEC_TYPE_COUNT; type++)
-		place_type(as, (enum iec_type)type, retain);
+	uint32_t types = types_in_use(as);
+
+	for (uint32_t type = IEC_BOOL; type < IEC_TYPE_COUNT; type++)
+		if (types >> type & 1u)
+			place_type(as, (enum iec_type)type, retain);
 	place_type(as, IEC_NONE, retain);
 }
 
