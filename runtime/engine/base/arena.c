@@ -27,6 +27,11 @@ struct arena_chunk {
 #ifndef MADV_HUGEPAGE
 #define MADV_HUGEPAGE MADV_NORMAL
 #endif
+#ifdef RUNGBOARD_SMALL
+#define MAPS 0 /* no MMU, or nothing so large                              */
+#else
+#define MAPS 1
+#endif
 #define ALIGN     8u
 #define CHUNK_MIN 4000u
 #define HUGE_PAGE ((size_t)2 << 20) /* of x86-64 and arm64                  */
@@ -69,7 +74,6 @@ void arena_reset(struct arena *arena)
 	arena->failed = false;
 }
 
-#ifndef RUNGBOARD_SMALL
 /* Huge pages from the system, all zero: @whole bytes of them. They are not malloc()'s
  * to keep, which would hand them out again with something in them. */
 static struct arena_chunk *map_chunk(size_t whole)
@@ -91,7 +95,6 @@ static struct arena_chunk *map_chunk(size_t whole)
 	chunk->mapped = true;
 	return chunk;
 }
-#endif
 
 /* @size bytes with a header, all zero. Large ones are huge pages: a load of 40 MB then
  * takes twenty page faults, not ten thousand. */
@@ -100,11 +103,9 @@ static struct arena_chunk *new_chunk(size_t size)
 	size_t whole = sizeof(struct arena_chunk) + size;
 	struct arena_chunk *chunk;
 
-#ifndef RUNGBOARD_SMALL
-	if (size >= HUGE_PAGE - 64)
+	if (MAPS && size >= HUGE_PAGE - 64)
 		return whole > SIZE_MAX - 2 * HUGE_PAGE ? NULL :
 		       map_chunk((whole + HUGE_PAGE - 1) & ~(HUGE_PAGE - 1));
-#endif
 	chunk = calloc(1, whole);
 	if (chunk)
 		chunk->size = size;

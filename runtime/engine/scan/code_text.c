@@ -267,7 +267,7 @@ static bool check_pair(const struct verifier *v, const uint32_t *at, uint32_t ty
 static bool check_math(const struct verifier *v, const uint32_t *at, uint32_t n,
 		       uint32_t type)
 {
-	bool always = at[0] == v->areas + 1;
+	bool always = at[0] == CODE_TRUE_AT(&v->program->areas);
 
 	return (n < MATH_COUNT ? always : n - MATH_ENABLED < MATH_COUNT) &&
 	       reads_bool(v, at[0]) && writes_bool(v, at[1]) &&
