@@ -221,11 +221,29 @@ static void refuses_layouts(void)
 	CHECK_AS(refused(), "what the last run held is used");
 }
 
+/* Byte of an initial BOOL that is TRUE; NULL: none of them begins so. */
+static uint8_t *initial_true(uint32_t *init, const uint32_t *end)
+{
+	for (; init < end; init += 2 + (init[1] + 3) / 4)
+		for (uint32_t i = 0; i < init[1]; i++) {
+			const struct code_run *run = section(CODE_LAYOUT);
+			uint8_t *byte = (uint8_t *)(init + 2) + i;
+
+			while (run->offset + run->count * code_run_size(run) <=
+			       init[0] + i)
+				run++;
+			if (run->offset <= init[0] + i && *byte == 1 &&
+			    run->kind == RUN_VALUES && run->type == IEC_BOOL)
+				return byte;
+		}
+	return NULL;
+}
+
 static void refuses_initial_values(void)
 {
 	uint32_t *init = section(CODE_INIT);
 	const uint32_t *end = init + header()->section[CODE_INIT].size / 4;
-	uint32_t *on = NULL;
+	uint8_t *on;
 
 	init[0] = header()->data_size;
 	CHECK(refused());
@@ -241,11 +259,9 @@ static void refuses_initial_values(void)
 	init[0] = run_of(RUN_INSTANCE, 0)->offset +
 		  (uint32_t)offsetof(struct fb_TON, running);
 	CHECK_AS(refused(), "inside an instance");
-	for (; init < end; init += 2 + (init[1] + 3) / 4)
-		if (init[1] == 1 && init[2] == 1)
-			on = init;
+	on = initial_true(init, end);
 	if (CHECK_AS(on != NULL, "a BOOL begins TRUE")) {
-		on[2] = 2;
+		*on = 2;
 		CHECK_AS(refused(), "a BOOL is 0 or 1");
 	}
 }

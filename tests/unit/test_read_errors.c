@@ -92,7 +92,7 @@ static void test_var_errors(void)
 	fails(V("A AT %IX9999.0 : BOOL;"), "LD117 3 0 (0,0) 6 %IX9999.0");
 	fails(V("A AT foo : BOOL;"), "LD107 3 0 (0,0) 6 address");
 	fails(V("A AT %IX0.0 : TON;"), "LD126 3 0 (0,0) 15 AT");
-	fails(V("A : TON := 5;"), "LD126 3 0 (0,0) 9 :=");
+	fails(V("A : TON := 5;"), "LD107 3 0 (0,0) 12 (");
 	fails(V("A BOOL;"), "LD107 3 0 (0,0) 3 :");
 	fails(V("A.B : BOOL;"), "LD107 3 0 (0,0) 1 name of a variable");
 	fails("RUNGBOARD 1\nVAR\nA : BOOL;\nPROGRAM P\nEND_PROGRAM\n",

@@ -181,6 +181,19 @@ static void test_arrays(void)
 		     "  ADD(IN1 := A[1], IN2 := %MW0[i], OUT => C[j])\n"));
 }
 
+static void test_initial_parts(void)
+{
+	canonical("RUNGBOARD 1\ntype Pt:struct a:int:=3;b:array[1..3]of int;end_struct;end_type\n"
+		  "var X,Y:Pt:=( a:=- 1 ,\n b :=[ 2( 5 ),1() ] );\n"
+		  "Z:array[0..3]of Pt:=[( a:= 1 ), 2 ( b:=[ 7 ]),1( )];T:TON:=(pt:=t#1s);end_var\n",
+		  "RUNGBOARD 1\n\nTYPE\n  Pt : STRUCT\n    a : INT := 3;\n"
+		  "    b : ARRAY[1..3] OF INT;\n  END_STRUCT;\nEND_TYPE\n\nVAR\n"
+		  "  X : Pt := (a := -1, b := [2(5), 1()]);\n"
+		  "  Y : Pt := (a := -1, b := [2(5), 1()]);\n"
+		  "  Z : ARRAY[0..3] OF Pt := [(a := 1), 2(b := [7]), 1()];\n"
+		  "  T : TON := (pt := t#1s);\nEND_VAR\n");
+}
+
 static void test_empty(void)
 {
 	canonical("RUNGBOARD 1", "RUNGBOARD 1\n");
@@ -545,6 +558,7 @@ int main(void)
 	test_garage();
 	test_forms();
 	test_arrays();
+	test_initial_parts();
 	test_empty();
 	test_expressions();
 	test_comments();

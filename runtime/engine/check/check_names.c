@@ -9,6 +9,7 @@
 #include "engine/base/ascii.h"
 #include "engine/check/check.h"
 #include "engine/check/check_config.h"
+#include "engine/check/check_init.h"
 #include "engine/check/check_operand.h"
 #include "engine/check/reserved.h"
 
@@ -30,6 +31,7 @@ struct names_check {
 	struct diag_list *diags;
 	struct uses uses;
 	struct expr *expr;
+	struct init_walk *walk;
 	struct mark *mark; /* by folded name, for those there were at first */
 	uint32_t marks;
 	int *end;          /* numbers of rungs that never fall through */
@@ -192,6 +194,8 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_line(c, DIAG_AT_TYPE, pou, var->line, name);
 	if (flags & VAR_CONSTANT && !var->has_init)
 		report_line(c, DIAG_CONSTANT_NO_VALUE, pou, var->line, name);
+	c->good &= check_init(c->project, var, &c->walk, c->scratch, c->diags,
+			      place_of(c, DIAG_COUNT, pou, var->line));
 }
 
 static void check_table(struct names_check *c, const struct pou *pou,
@@ -228,6 +232,9 @@ static void check_members(struct names_check *c, int number)
 				      var->line, var->name);
 		if (mark)
 			mark->member_of = number;
+		c->good &= check_init(c->project, var, &c->walk, c->scratch,
+				      c->diags, (struct diag){ .line = var->line,
+				      .file = structure->file });
 	}
 }
 

@@ -7,6 +7,7 @@
  * looked at. It only warns.
  */
 #include "engine/check/check_il.h"
+#include "engine/model/init.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -88,6 +89,16 @@ static void warn(struct pins *pins, const struct pou *pou,
 		 scope_text(pins->scope, line->operand), pin);
 }
 
+/* Does the declaration of the instance give it? */
+static bool is_declared(const struct pins *pins, const struct meaning *m, const char *pin)
+{
+	const struct names *names = &scope_project(pins->scope)->names;
+
+	return init_has_parts(m->var) &&
+	       init_names_pin(names_text(names, m->var->init_text),
+			      names_len(names, m->var->init_text), pin);
+}
+
 static void check_list(struct pins *pins, const struct il_pou *list)
 {
 	for (int i = 0; i < list->il->count; i++) {
@@ -106,7 +117,8 @@ static void check_list(struct pins *pins, const struct il_pou *list)
 			    row->pin[pin].type != IEC_BOOL &&
 			    row->pin[pin].type != IEC_NONE &&
 			    !row->pin[pin].has_init &&
-			    !*slot_of(pins, key_of(m, pin)))
+			    !*slot_of(pins, key_of(m, pin)) &&
+			    !is_declared(pins, m, row->pin[pin].name))
 				warn(pins, list->pou, line, row->pin[pin].name);
 	}
 }

@@ -21,7 +21,7 @@ enum var_flag {
 struct var_init {
 	uint32_t count;
 	union iec_value value;
-	uint32_t text;       /* string id: of a STRING, as written             */
+	uint32_t text;       /* string id: of a STRING, as written; 0: empty   */
 };
 
 struct var {
@@ -40,7 +40,8 @@ struct var {
 		struct var_init *init_list; /* of an array, from its first
 					       element on                     */
 	};
-	uint32_t init_text;  /* string id: as written (16#FF stays so)         */
+	uint32_t init_text;  /* string id: as written (16#FF stays so); of what has
+				parts all there is: model/init.h       */
 	uint32_t at_text;    /* string id: canonical address                   */
 	uint32_t comment;    /* string id: trailing, with delimiters           */
 	int line;

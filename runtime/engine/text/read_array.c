@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * read_array - ARRAY[low..high] OF, and lists of initial values: [1, 2, 3(7)].
+ * read_array - ARRAY[low..high] OF, and initial values: [1, 2, 3(7)], (Speed := 5).
  *
  * Bounds are integer constants, and there is one dimension. Whether a variable with
  * an address leaves its area is found in check/.
@@ -122,9 +122,11 @@ static bool read_values(struct reader *r, struct var *var, uint32_t *room)
 	bool several = r->text.len != from;
 
 	value = r->text.len;
-	if (!read_constant(r, var->type, &init.value))
+	if (several && reader_is(r, ')'))
+		init.text = 0; /* n(): so many keep their 0 */
+	else if (!read_constant(r, var->type, &init.value))
 		return false;
-	if (var->type == IEC_STRING)
+	else if (var->type == IEC_STRING)
 		init.text = reader_intern(r, r->text.text + value,
 					  r->text.len - value);
 	if (several) {
@@ -159,4 +161,54 @@ bool read_init_list(struct reader *r, struct var *var)
 		reader_step(r);
 	}
 	return false;
+}
+
+/* ---- of what has parts ---- */
+
+/* The token under the cursor as canonical text has it. */
+static void add_part(struct reader *r)
+{
+	const struct token *token = &r->lex.token;
+
+	if (lex_is(&r->lex, ":="))
+		buffer_add(r, &r->text, " := ", 4);
+	else if (reader_is(r, ','))
+		buffer_add(r, &r->text, ", ", 2);
+	else
+		buffer_add(r, &r->text, token->text, token->len);
+}
+
+static bool is_part(const struct reader *r)
+{
+	static const char *const symbols[] = { "(", ")", "[", "]", ",", "-", ":=" };
+
+	if (r->lex.token.kind == TOKEN_NAME || r->lex.token.kind == TOKEN_NUMBER)
+		return true;
+	for (size_t i = 0; i < sizeof(symbols) / sizeof(*symbols); i++)
+		if (lex_is(&r->lex, symbols[i]))
+			return true;
+	return false;
+}
+
+bool read_init_parts(struct reader *r, struct var *var)
+{
+	const char first = var->array.count ? '[' : '(';
+	int open = 0;
+
+	if (!reader_is(r, first))
+		return reader_fail(r, DIAG_EXPECTED, &first, 1);
+	buffer_clear(&r->text);
+	do {
+		if (!is_part(r))
+			return reader_fail_word(r, DIAG_EXPECTED,
+						reader_is(r, ';') ? ") or ]" :
+						"initial value");
+		open += reader_is(r, '(') || reader_is(r, '[');
+		open -= reader_is(r, ')') || reader_is(r, ']');
+		add_part(r);
+		reader_step(r);
+	} while (open > 0);
+	var->has_init = true;
+	var->init_text = buffer_take(r, &r->text);
+	return true;
 }

@@ -205,9 +205,9 @@ static bool read_init(struct reader *r, struct var *var)
 {
 	if (!lex_is(&r->lex, ":="))
 		return true;
-	if (var->type == IEC_NONE)
-		return reader_fail_token(r, DIAG_MISPLACED);
 	reader_step(r);
+	if (var->type == IEC_NONE)
+		return read_init_parts(r, var);
 	if (var->array.count)
 		return read_init_list(r, var);
 	buffer_clear(&r->text);

@@ -139,6 +139,9 @@ bool read_constant(struct reader *r, enum iec_type type, union iec_value *out);
 bool read_array(struct reader *r, struct var_array *array);
 /** read_init_list - `[1, 2, 3(7)]`, the initial values of an array. */
 bool read_init_list(struct reader *r, struct var *var);
+/** read_init_parts - `(Speed := 5)`, `[(a := 1), 2(a := 3)]`, those of what has parts; only
+ * brackets are counted: model/init.h judges the rest. */
+bool read_init_parts(struct reader *r, struct var *var);
 /** reader_type - `: type` of a declaration or function; steps behind it. */
 bool reader_type(struct reader *r, struct var *var);
 /** reader_unescape - string id of a string token; errors go to @diags. */

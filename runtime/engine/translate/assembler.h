@@ -9,6 +9,7 @@
 #ifndef TRANSLATE_ASSEMBLER_H
 #define TRANSLATE_ASSEMBLER_H
 
+#include "engine/model/init.h"
 #include "engine/translate/translate.h"
 
 /* Where a value lies in data memory. */
@@ -46,6 +47,8 @@ struct assembler {
 	uint32_t **offset;         /* by table (0 globals, unit + 1), index   */
 	uint8_t *byte_packed;      /* a byte an area byte                     */
 	struct words init;         /* offset, bytes, data …                   */
+	int init_last, init_end;   /* the record that may go on; its end      */
+	struct init_walk *walk;    /* NULL until it is needed                 */
 	uint32_t *constant;        /* open hash: index + 1 in constant_key    */
 	struct constant_key *constant_key;
 	int constant_count;
@@ -130,6 +133,10 @@ void layout_init_pins(struct assembler *as, uint32_t offset,
 		      const struct word_row *row);
 /** layout_init_array - the initial values of an array at an offset. */
 void layout_init_array(struct assembler *as, uint32_t offset,
+		       const struct var *var);
+/** layout_init_parts - those that the declaration of what has parts gives, over those
+ * of its parts. */
+void layout_init_parts(struct assembler *as, uint32_t offset,
 		       const struct var *var);
 /** layout_count_pins - counts the uses of every instance pin. */
 bool layout_count_pins(struct assembler *as);

@@ -315,11 +315,13 @@ void layout_init_var(struct assembler *as, uint32_t offset, const struct var *va
 {
 	uint32_t capacity = var->capacity ? var->capacity : IEC_STRING_MOST;
 
-	if (var->array.count)
+	if (init_has_parts(var))
+		layout_init_parts(as, offset, var);
+	else if (var->array.count)
 		layout_init_array(as, offset, var);
 	else if (var->has_init && var->type == IEC_STRING)
 		layout_init_text(as, offset, capacity, init_text(as, var));
-	else if (var->has_init && var->type != IEC_NONE)
+	else if (var->has_init)
 		layout_init(as, offset, var->type, var->init);
 }
 

@@ -16,17 +16,36 @@ uint32_t layout_string(struct assembler *as, enum code_run_kind kind,
 		     (uint32_t)sizeof(struct iec_string));
 }
 
+/* Values next to one another share a record: offset, bytes, data. */
 void layout_init_over(struct assembler *as, uint32_t offset, enum iec_type type,
 		      union iec_value value)
 {
-	uint32_t size = iec_type_row(type)->size, bytes[2] = { 0, 0 };
+	uint32_t size = iec_type_row(type)->size, used;
+	struct words *init = &as->init;
+	uint8_t bytes[8];
+	int at = as->init_last;
 
 	iec_store(bytes, type, value);
-	words_push(as, &as->init, offset);
-	words_push(as, &as->init, size);
-	words_push(as, &as->init, bytes[0]);
-	if (size > 4)
-		words_push(as, &as->init, bytes[1]);
+	if (init->count == 0 || as->init_end != init->count ||
+	    init->word[at] + init->word[at + 1] != offset) {
+		at = init->count;
+		words_push(as, init, offset);
+		words_push(as, init, 0);
+	}
+	if (as->failed)
+		return;
+	used = init->word[at + 1];
+	for (uint32_t i = used; i < used + size; i++) {
+		if (i % 4 == 0)
+			words_push(as, init, 0);
+		if (!as->failed)
+			((uint8_t *)&init->word[at + 2])[i] = bytes[i - used];
+	}
+	if (as->failed)
+		return;
+	init->word[at + 1] = used + size;
+	as->init_last = at;
+	as->init_end = init->count;
 }
 
 void layout_init(struct assembler *as, uint32_t offset, enum iec_type type,
@@ -73,6 +92,8 @@ static void init_texts(struct assembler *as, uint32_t offset,
 	const struct names *names = &as->translation->project->names;
 	struct literal literal;
 
+	if (!init->text)
+		return;
 	literal_parse(names_text(names, init->text), names_len(names, init->text),
 		      &literal);
 	for (uint32_t i = 0; i < init->count; i++)
@@ -114,6 +135,26 @@ void layout_init_array(struct assembler *as, uint32_t offset,
 			init_values(as, offset, var->type, init);
 		offset += init->count * var_unit(var);
 	}
+}
+
+void layout_init_parts(struct assembler *as, uint32_t offset, const struct var *var)
+{
+	struct init_value value;
+
+	if (!as->walk)
+		as->walk = arena_alloc(as->arena, sizeof(*as->walk));
+	if (!as->walk) {
+		as->failed = true;
+		return;
+	}
+	init_begin(as->walk, as->translation->project, var, NULL);
+	while (!as->failed && init_next(as->walk, &value))
+		if (value.type == IEC_STRING)
+			layout_init_text(as, offset + value.offset,
+					 value.capacity, value.literal);
+		else
+			layout_init_over(as, offset + value.offset, value.type,
+					 value.value);
 }
 
 uint32_t layout_text(struct assembler *as, const struct literal *literal)

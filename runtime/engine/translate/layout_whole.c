@@ -46,15 +46,30 @@ static void place_part(struct assembler *as, const struct whole *whole, int inde
 	struct code_run run = { .kind = RUN_VALUES, .type = (uint8_t)pin->type,
 				.count = pin->elements };
 
-	if (pin->type == IEC_NONE) {
-		place_blocks(as, pin, offset, extent, init);
-		return;
-	}
 	if (pin->type == IEC_STRING)
 		run.word = pin->capacity;
-	layout_place_at(as, run, offset, extent.unit);
+	if (pin->type == IEC_NONE)
+		place_blocks(as, pin, offset, extent, init);
+	else
+		layout_place_at(as, run, offset, extent.unit);
 	if (init && pin->has_init)
 		layout_init_var(as, offset, &whole->vars->var[index]);
+}
+
+/* Behind the last part of what has parts of the project's own: what the declaration of
+ * that member itself says. */
+static void end_part(struct assembler *as, const struct whole *outer)
+{
+	int index;
+	const struct word_pin *pin;
+
+	if (outer->element)
+		return; /* of an array more elements come */
+	index = outer->row->order[outer->next - 1];
+	pin = &outer->row->pin[index];
+	if (pin->has_init)
+		layout_init_var(as, outer->base + pin->offset,
+				&outer->vars->var[index]);
 }
 
 /* The next part of @top, an element at a time if it is an array of what has parts of
@@ -93,7 +108,8 @@ uint32_t layout_whole(struct assembler *as, enum word word, bool init)
 		int index;
 
 		if (top->next == top->row->ordered) {
-			depth--;
+			if (--depth >= 0 && init)
+				end_part(as, &level[depth]);
 			continue;
 		}
 		index = next_part(as, top, &offset);

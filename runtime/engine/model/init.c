@@ -1,0 +1,383 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * init - initial values of what has parts, walked without recursion.
+ *
+ * A constant must fit its type, a member must be there and may be named once, and a
+ * list is no longer than its array. It stores nothing.
+ */
+#include "engine/model/init.h"
+
+#include "engine/base/ascii.h"
+#include "engine/model/shape.h"
+
+#include <stdio.h>
+#include <string.h>
+
+bool init_has_parts(const struct var *var)
+{
+	return var->has_init && var->type == IEC_NONE;
+}
+
+static bool fail(struct init_walk *walk, enum diag_id why, const char *arg, size_t len)
+{
+	walk->why = why;
+	walk->arg = arg;
+	walk->arg_len = len;
+	return false;
+}
+
+static bool fail_expected(struct init_walk *walk, const char *what)
+{
+	return fail(walk, DIAG_EXPECTED, what, strlen(what));
+}
+
+static bool fail_token(struct init_walk *walk, enum diag_id why)
+{
+	return fail(walk, why, walk->lex.token.text, walk->lex.token.len);
+}
+
+/* Steps over @symbol; it must be there. */
+static bool take(struct init_walk *walk, const char *symbol)
+{
+	return lex_accept(&walk->lex, symbol) || fail_expected(walk, symbol);
+}
+
+static struct init_level *top_of(struct init_walk *walk)
+{
+	return &walk->level[walk->depth - 1];
+}
+
+void init_begin(struct init_walk *walk, const struct project *project,
+		const struct var *var, struct arena *scratch)
+{
+	const struct names *names = &project->names;
+
+	memset(walk, 0, sizeof(*walk));
+	walk->project = project;
+	walk->scratch = scratch;
+	walk->why = DIAG_COUNT;
+	walk->level[0].item = (struct word_pin){
+		.type = var->type, .word = var->fb, .capacity = var->capacity,
+		.elements = var->array.count, .low = var->array.low,
+	};
+	lex_init(&walk->lex, names_text(names, var->init_text),
+		 names_len(names, var->init_text));
+	lex_next(&walk->lex);
+}
+
+/* ---- lists and structures ---- */
+
+/* The level above the top, its memory of names kept. */
+static struct init_level *push(struct init_walk *walk)
+{
+	struct init_level *level;
+
+	if (walk->depth == INIT_DEPTH) {
+		fail(walk, DIAG_TOO_DEEP, "", 0);
+		return NULL;
+	}
+	level = &walk->level[walk->depth++];
+	level->row = NULL;
+	level->element = level->count = level->times = 0;
+	level->pin = -1;
+	level->bare = false;
+	return level;
+}
+
+static bool open_list(struct init_walk *walk, struct word_pin item, uint32_t base)
+{
+	struct extent extent = shape_of(&walk->project->words, &item);
+	struct init_level *level;
+
+	if (!take(walk, "["))
+		return false;
+	level = push(walk);
+	if (!level)
+		return false;
+	level->base = base;
+	level->unit = extent.unit;
+	level->count = item.elements;
+	level->item = item;
+	level->item.elements = 0;
+	return true;
+}
+
+/* Room to note which members were named. */
+static bool make_room(struct init_walk *walk, struct init_level *level)
+{
+	if (!walk->scratch || level->room >= level->row->pin_count)
+		return true;
+	level->room = level->row->pin_count;
+	level->turn = 0;
+	level->given = arena_alloc(walk->scratch,
+				   level->room * sizeof(*level->given));
+	return level->given || fail(walk, DIAG_NO_MEMORY, "", 0);
+}
+
+static bool open_members(struct init_walk *walk, enum word word, uint32_t base,
+			 bool bare)
+{
+	struct init_level *level;
+
+	if (!bare && !take(walk, "("))
+		return false;
+	level = push(walk);
+	if (!level)
+		return false;
+	level->row = words_row(&walk->project->words, word);
+	level->base = base;
+	level->bare = bare;
+	if (!make_room(walk, level))
+		return false;
+	level->turn++;
+	return true;
+}
+
+/* ---- values ---- */
+
+/* Would it fit if only it were smaller? Then it is of the right kind. */
+static bool is_kind(const struct literal *literal, enum iec_type type)
+{
+	if (literal->type != IEC_NONE)
+		return literal->type == type;
+	return !literal->real && !(iec_type_row(type)->class &
+				   (CLASS_TIME | ANY_DATE | CLASS_STRING));
+}
+
+static bool take_constant(struct init_walk *walk, const struct word_pin *pin,
+			  struct init_value *out)
+{
+	struct lex *lex = &walk->lex;
+	const char *text = lex->token.text;
+	enum diag_id why = DIAG_BAD_LITERAL;
+	enum literal_result result;
+	size_t len;
+
+	if (lex_is(lex, "-"))
+		lex_next(lex);
+	if (lex->token.kind != TOKEN_NUMBER && lex->token.kind != TOKEN_NAME)
+		return fail_expected(walk, "constant");
+	len = (size_t)(lex->token.text + lex->token.len - text);
+	out->type = pin->type;
+	out->capacity = pin->capacity;
+	result = literal_parse(text, len, &out->literal);
+	if (result == LITERAL_RANGE ||
+	    (result == LITERAL_OK && is_kind(&out->literal, pin->type)))
+		why = DIAG_LITERAL_RANGE;
+	if (result != LITERAL_OK ||
+	    !literal_fit(&out->literal, pin->type, &out->value))
+		return fail(walk, why, text, len);
+	lex_next(lex);
+	return true;
+}
+
+/* The value of @pin at @base. True and @out->type: a constant; true without it: a list
+ * or structure was opened. */
+static bool take_value(struct init_walk *walk, const struct word_pin *pin,
+		       uint32_t base, struct init_value *out)
+{
+	out->type = IEC_NONE;
+	out->offset = base;
+	if (pin->elements)
+		return open_list(walk, *pin, base);
+	if (pin->type == IEC_NONE)
+		return open_members(walk, pin->word, base, false);
+	return take_constant(walk, pin, out);
+}
+
+/* `3(`: so many times what follows. */
+static bool take_times(struct init_walk *walk, struct init_level *level)
+{
+	struct lex ahead = walk->lex;
+	struct literal literal;
+
+	level->times = 0;
+	if (ahead.token.kind != TOKEN_NUMBER)
+		return true;
+	lex_next(&ahead);
+	if (!lex_is(&ahead, "("))
+		return true;
+	if (literal_parse(walk->lex.token.text, walk->lex.token.len, &literal) !=
+	    LITERAL_OK || literal.real || literal.high ||
+	    literal.type != IEC_NONE || literal.value.i < 1 ||
+	    literal.value.i > LIMIT_ELEMENTS)
+		return fail_token(walk, DIAG_LITERAL_RANGE);
+	lex_next(&ahead);
+	walk->lex = ahead;
+	level->times = (uint32_t)literal.value.i;
+	level->again = ahead;
+	return true;
+}
+
+/* Do members follow without a ( of their own? */
+static bool is_bare(const struct init_walk *walk, const struct word_pin *item)
+{
+	struct lex ahead = walk->lex;
+
+	if (item->type != IEC_NONE || ahead.token.kind != TOKEN_NAME)
+		return false;
+	lex_next(&ahead);
+	return lex_is(&ahead, ":=");
+}
+
+/* The next element of a list. */
+static bool take_element(struct init_walk *walk, struct init_level *level,
+			 struct init_value *out)
+{
+	uint32_t base = level->base + level->element * level->unit, left, step = 1;
+
+	if (!level->times && !take_times(walk, level))
+		return false;
+	left = level->count - level->element;
+	if ((level->times ? level->times : 1) > left)
+		return fail(walk, DIAG_TOO_MANY_VALUES, "", 0);
+	if (level->times && (walk->scratch || lex_is(&walk->lex, ")"))) {
+		step = level->times; /* all at once */
+		level->times = 1;
+	}
+	level->element += step;
+	out->type = IEC_NONE;
+	if (level->times && lex_is(&walk->lex, ")"))
+		return true;         /* n(): as declared */
+	if (level->times && is_bare(walk, &level->item))
+		return open_members(walk, level->item.word, base, true);
+	return take_value(walk, &level->item, base, out);
+}
+
+static bool may_be_given(const struct word_row *row, const struct word_pin *pin)
+{
+	return row->kind == WORD_STRUCT || pin->dir == PIN_IN;
+}
+
+/* `Speed := 5` of a structure. */
+static bool take_member(struct init_walk *walk, struct init_level *level,
+			struct init_value *out)
+{
+	const struct token name = walk->lex.token;
+	const struct word_pin *pin;
+	int index;
+
+	if (name.kind != TOKEN_NAME)
+		return fail_expected(walk, "name of a member");
+	index = word_pin_find(level->row, name.text, name.len);
+	if (index < 0 || index >= level->row->pin_count)
+		return fail_token(walk, DIAG_NO_PIN);
+	pin = &level->row->pin[index];
+	level->pin = index;
+	if (!may_be_given(level->row, pin))
+		return fail_token(walk, DIAG_PIN_DIRECTION);
+	if (walk->scratch && level->given[index] == level->turn)
+		return fail_token(walk, DIAG_DUPLICATE_ARG);
+	if (walk->scratch)
+		level->given[index] = level->turn;
+	lex_next(&walk->lex);
+	return take(walk, ":=") &&
+	       take_value(walk, pin, level->base + pin->offset, out);
+}
+
+/* ---- what stands behind a value ---- */
+
+/* Behind the value of n( … ). False: it comes again, or the ) is missing. */
+static bool end_times(struct init_walk *walk, struct init_level *level)
+{
+	if (!lex_is(&walk->lex, ")"))
+		return fail_expected(walk, ")");
+	if (--level->times) {
+		walk->lex = level->again;
+		return false;
+	}
+	lex_next(&walk->lex);
+	return true;
+}
+
+/* Steps to the next value of the innermost list or structure that is not at its end.
+ * False: there is none, or an error. */
+static bool step_on(struct init_walk *walk)
+{
+	while (walk->depth > 0) {
+		struct init_level *level = top_of(walk);
+
+		if (level->times && !end_times(walk, level))
+			return walk->why == DIAG_COUNT;
+		if (lex_accept(&walk->lex, ","))
+			return true;
+		if (level->row && level->bare) {
+			walk->depth--; /* the ) is that of n( … ) */
+			continue;
+		}
+		if (!take(walk, level->row ? ")" : "]"))
+			return false;
+		walk->depth--;
+	}
+	if (walk->lex.token.kind != TOKEN_END)
+		fail_token(walk, DIAG_SYNTAX);
+	return false;
+}
+
+/* What the cursor is on; behind it an inner list or structure may be open. */
+static bool take_next(struct init_walk *walk, struct init_value *out)
+{
+	const struct word_pin first = walk->level[0].item;
+	struct init_level *level;
+
+	if (!walk->begun) {
+		walk->begun = true;
+		return take_value(walk, &first, 0, out);
+	}
+	level = top_of(walk);
+	return level->row ? take_member(walk, level, out) :
+			    take_element(walk, level, out);
+}
+
+bool init_next(struct init_walk *walk, struct init_value *out)
+{
+	bool inside = !walk->begun; /* no value stands before the next one */
+	int depth;
+
+	memset(out, 0, sizeof(*out));
+	do {
+		if (!inside && !step_on(walk))
+			return false;
+		depth = walk->depth;
+		if (!take_next(walk, out))
+			return false;
+		inside = walk->depth > depth;
+	} while (out->type == IEC_NONE);
+	return true;
+}
+
+void init_where(const struct init_walk *walk, char *out, size_t size)
+{
+	size_t used = 0;
+
+	*out = '\0';
+	for (int i = 0; i < walk->depth && used < size; i++) {
+		const struct init_level *level = &walk->level[i];
+		int len = 0;
+
+		if (level->row && level->pin >= 0)
+			len = snprintf(out + used, size - used, ".%s",
+				       level->row->pin[level->pin].name);
+		else if (!level->row && level->element)
+			len = snprintf(out + used, size - used, "[%lld]",
+				       (long long)level->item.low +
+				       level->element - 1);
+		used += len > 0 ? (size_t)len : 0;
+	}
+}
+
+bool init_names_pin(const char *text, size_t len, const char *pin)
+{
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	while (lex_next(&lex) != TOKEN_END) {
+		struct lex ahead = lex;
+
+		if (lex.token.kind == TOKEN_NAME &&
+		    ascii_is(pin, lex.token.text, lex.token.len) &&
+		    (lex_next(&ahead), lex_is(&ahead, ":=")))
+			return true;
+	}
+	return false;
+}
