@@ -58,6 +58,28 @@ static const char members[] =
 	"  MOVE(IN := Z[1], OUT => Z[0])\n"
 	"END_PROGRAM\n";
 
+/* Several indices, and wholes behind them. */
+static const char grids[] =
+	"TYPE\n  Part : STRUCT\n    On : BOOL;\n    N : INT := 3;\n"
+	"    T : STRING[5] := 'ab';\n    L : ARRAY[1..2] OF DINT;\n  END_STRUCT;\n"
+	"  Line : STRUCT\n    C : ARRAY[-1..2] OF Part;\n    D : DINT;\n  END_STRUCT;\n"
+	"END_TYPE\n"
+	"VAR\n"
+	"  Z : ARRAY[1..3] OF Line;\n  P : Part;\n  Q : ARRAY[1..2] OF DINT;\n"
+	"  i : LINT;\n  u : ULINT;\n  x : INT;\n  y : DINT;\n  t : STRING[5];\n  b : BOOL;\n"
+	"END_VAR\n"
+	"PROGRAM Main IL\n"
+	"  LD Z[i].C[u].N\n  ST Z[u].C[i].N\n  ST x\n"
+	"  LD Z[u].C[i].L[u]\n  ST Z[i].C[u].L[i]\n  ST y\n"
+	"  LD Z[i].C[i].T\n  ST Z[u].C[2].T\n  ST t\n"
+	"  LD Z[i].C[i].On\n  ST Z[u].C[2].On\n  ST b\n"
+	"  LD Z[i].C[u]\n  ST P\n  ST Z[u].C[i]\n"
+	"  LD P\n  ST Z[i].C[i]\n"
+	"  LD Z[i].C[u].L\n  ST Q\n"
+	"  MOVE(IN := Z[u], OUT => Z[i])\n"
+	"  MOVE(IN := Z[2], OUT => Z[i])\n"
+	"END_PROGRAM\n";
+
 static uint8_t *good, *image;
 static size_t len;
 
@@ -265,6 +287,43 @@ static void test_members(void)
 	CHECK(refuses(VM_APUT, put, 4, find(VM_APUT, put)[4] + stride));
 }
 
+static void test_grids(void)
+{
+	int n = access_of(VM_AGET, IEC_DINT);
+	const uint32_t *get = find(VM_AGET, n), *block = find(VM_ABLOCK, 0);
+	uint32_t base = get[4], areas = iec_areas_size(), size = block[5];
+
+	CHECK_AS(let_in(), "the image as it stands");
+	CHECK(get[0] >> 8 == 4 && get[7] == 3 && get[11] == 4 && get[15] == 2 &&
+	      get[8] > 4 * get[12] && get[12] > get[16] && get[16] == 4);
+	for (int k = 0; k < 3; k++) {
+		int index = 5 + 4 * k, count = index + 2, stride = index + 3;
+
+		CHECK(refuses(VM_AGET, n, index, areas));
+		CHECK(refuses(VM_AGET, n, count, 0) && refuses(VM_AGET, n, count, 5));
+		CHECK(refuses(VM_AGET, n, count, UINT32_MAX));
+		CHECK(refuses(VM_AGET, n, count, 0x80000001));
+		CHECK(refuses(VM_AGET, n, stride, 0) && refuses(VM_AGET, n, stride, 2));
+		CHECK(refuses(VM_AGET, n, stride, UINT32_MAX));
+		CHECK_AS(!refuses(VM_AGET, n, count, 1), "fewer are there as well");
+	}
+	CHECK(refuses(VM_AGET, n, 4, base + 4) && refuses(VM_AGET, n, 0, VM_AGET | 5u << 8));
+	CHECK_AS(refuses(VM_AGET, n, 0, VM_AGET | 18u << 8), "more indices than there may be");
+	CHECK_AS(refuses(VM_AGET, n, 0, VM_AGET | 0xffffff00u), "far more");
+	/* The other side, the element, its size. */
+	CHECK(block[0] >> 8 == 2 && block[8] == 3 && block[12] == 4);
+	CHECK(refuses(VM_ABLOCK, 0, 1, base) && refuses(VM_ABLOCK, 0, 2, CODE_TRUE_AT(areas)));
+	CHECK(refuses(VM_ABLOCK, 0, 3, block[3] + 8) && refuses(VM_ABLOCK, 0, 3, block[4]));
+	CHECK(refuses(VM_ABLOCK, 0, 3, areas) && refuses(VM_ABLOCK, 0, 3, UINT32_MAX));
+	CHECK(refuses(VM_ABLOCK, 0, 4, block[4] + 8) && refuses(VM_ABLOCK, 0, 4, 0));
+	CHECK(refuses(VM_ABLOCK, 0, 4, UINT32_MAX - 8));
+	CHECK(refuses(VM_ABLOCK, 0, 5, 0) && refuses(VM_ABLOCK, 0, 5, size + 8));
+	CHECK(refuses(VM_ABLOCK, 0, 5, UINT32_MAX));
+	CHECK(refuses(VM_ABLOCK, 0, 8, 4) && refuses(VM_ABLOCK, 0, 9, 8));
+	CHECK(refuses(VM_ABLOCK, 0, 12, 5) && refuses(VM_ABLOCK, 0, 13, block[13] + 8));
+	CHECK(refuses(VM_ABLOCK, 0, 6, areas) && refuses(VM_ABLOCK, 0, 0, VM_ABLOCK | 18u << 8));
+}
+
 static int64_t value_of(struct rig *rig, const char *name)
 {
 	return image_get(&rig->resource.image,
@@ -398,5 +457,6 @@ int main(void)
 	test_effort();
 	test_image(source, test_values);
 	test_image(members, test_members);
+	test_image(grids, test_grids);
 	return tap_done();
 }

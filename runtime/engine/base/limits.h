@@ -26,6 +26,7 @@
 #define LIMIT_POUS        1024      /* POUs of one project                    */
 #define LIMIT_VARS        200000    /* variables of one project               */
 #define LIMIT_ELEMENTS    1000000   /* elements of one array                  */
+#define LIMIT_INDICES     8         /* of one operand, found out in the scan  */
 #define LIMIT_LOCATED     1000000   /* of all arrays with AT together         */
 #define LIMIT_ELEMENT_WALK (16u << 20) /* of them, one by one, in an image   */
 #define LIMIT_ARGS        20        /* parameters written at one box          */

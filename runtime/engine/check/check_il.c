@@ -206,10 +206,16 @@ bool il_need_bool(struct il_check *c, const struct il_line *line,
 	return il_report(c, line, DIAG_NOT_BOOL, what);
 }
 
-static bool check_load(struct il_check *c, const struct il_line *line)
+static bool check_load(struct il_check *c, int at)
 {
-	const struct meaning *m = il_value_of(c, line);
+	const struct il_line *line = &c->il->line[at];
+	const struct meaning *m = il_loads_whole(c, at);
 
+	if (m) {
+		c->now = (struct result){ .there = true, .whole = m };
+		return true;
+	}
+	m = il_value_of(c, line);
 	/* After an error: a result that complains no more. */
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!m)
@@ -349,7 +355,7 @@ static bool check_call(struct il_check *c, int at, enum iec_type *common)
 {
 	const struct il_line *line = &c->il->line[at];
 	const struct word_row *row = scope_row(c->scope, (enum word)line->word);
-	struct result in[LIMIT_FN_INPUTS] = { { false, IEC_NONE, NULL } };
+	struct result in[LIMIT_FN_INPUTS] = { { .there = false } };
 	struct il_line runs;
 	struct result out;
 	enum iec_type stored;
@@ -423,8 +429,11 @@ static bool check_op(struct il_check *c, int at)
 			      op_row((enum op)line->op)->word);
 	switch ((enum op)line->op) {
 	case OP_LD:
-		return check_load(c, line);
+		return check_load(c, at);
 	case OP_ST:
+		if (c->now.there && c->now.whole)
+			return il_check_store_whole(c, at);
+		return check_store(c, line);
 	case OP_S:
 	case OP_R:
 		return check_store(c, line);
@@ -462,8 +471,8 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 	case IL_CALL:
 		if (word_is_own((enum word)line->word))
 			return il_check_own_call(c, at);
-		if (il_is_struct_move(c, at))
-			return il_check_struct_move(c, at);
+		if (il_is_whole_move(c, at))
+			return il_check_whole_move(c, at);
 		return check_call(c, at, type);
 	case IL_CLOSE:
 		return il_check_close(c, at, type);

@@ -78,8 +78,8 @@ static const struct meaning *refuse(struct operand_check *c, enum diag_id id,
 	return NULL;
 }
 
-/* A whole array goes to a parameter of the project's own words; check_il looks at its
- * bounds. */
+/* A whole array goes to a parameter of the project's own words, or to another; check_il
+ * looks at its bounds. */
 static bool is_whole_array(struct operand_check *c, uint32_t id)
 {
 	enum diag_id why;
@@ -139,35 +139,109 @@ static void check_bool(struct operand_check *c, struct spot at, uint32_t id,
 		report(c, DIAG_NOT_BOOL, at, project_text(c->project, id));
 }
 
-/* ---- expressions ---- */
-
-/* The array before an index that is an expression; or an address, which then is
- * one. @tail: the path behind it. The type of the index is check_il's. */
-static void use_array(struct operand_check *c, struct spot at, uint32_t id,
-		      struct expr_tail tail, bool write)
+/* A whole array that is written. */
+static void write_whole(struct operand_check *c, struct spot at, uint32_t id)
 {
 	const struct meaning *m = find(c, at, id);
 
+	if (m->constant || !m->writable)
+		refuse(c, m->constant ? DIAG_WRITE_CONSTANT : DIAG_WRITE_INPUT,
+		       at, id, m);
+	else
+		uses_add(c->uses, m, USE_WRITTEN);
+}
+
+/* ---- expressions ---- */
+
+/* An index that is an expression: of the array @id, or an address, which then is one;
+ * @tail: the path behind it. The type of the index is check_il's. Returns the text of the
+ * first element behind it; 0 after a diagnostic. */
+static uint32_t use_index(struct operand_check *c, struct spot at, uint32_t id,
+			  struct expr_tail tail)
+{
+	const struct meaning *m = find(c, at, id);
+
+	if (m && m->kind != MEANING_ARRAY && m->kind != MEANING_ADDRESS) {
+		refuse(c, DIAG_NOT_ARRAY, at, id, m);
+		return 0;
+	}
+	id = m ? scope_first(c->scope, c->pou, id, tail.text, tail.len) : 0;
+	if (m && !id)
+		report(c, DIAG_NAME_TOO_LONG, at, "");
+	return id;
+}
+
+/* The same of a whole path; @node is its end. */
+static uint32_t use_indices(struct operand_check *c, struct spot at,
+			    const struct expr *expr, int node)
+{
+	int16_t chain[LIMIT_INDICES];
+	int count = 0;
+	uint32_t id = 0;
+
+	for (; node >= 0 && count < LIMIT_INDICES; node = expr->node[node].right)
+		chain[count++] = (int16_t)node;
+	if (node >= 0) {
+		report(c, DIAG_INDEX_PLAIN, at, "");
+		return 0;
+	}
+	for (int i = count - 1; i >= 0; i--) {
+		const struct expr_node *part = &expr->node[chain[i]];
+
+		if (part->right < 0)
+			id = intern(c, part->text, part->len);
+		id = use_index(c, at, id, part->tail);
+		if (!id)
+			return 0;
+	}
+	return id;
+}
+
+/* What such a path leads to, as it is of the first elements. @whole: it may be an
+ * array. */
+static void use_element(struct operand_check *c, struct spot at, uint32_t id,
+			bool write, bool whole)
+{
+	const struct meaning *m = id ? find(c, at, id) : NULL;
+
 	if (!m)
 		return;
-	if (m->kind != MEANING_ARRAY && m->kind != MEANING_ADDRESS) {
-		refuse(c, DIAG_NOT_ARRAY, at, id, m);
-		return;
-	}
-	if (tail.len > 0) { /* as it is of the first element */
-		id = scope_first(c->scope, c->pou, id, tail.text, tail.len);
-		m = id ? find(c, at, id) : NULL;
-		if (!m)
-			return;
-	}
-	if (meaning_fault(m) != DIAG_COUNT && (tail.len > 0 || m->word))
+	if (m->kind == MEANING_INSTANCE)
 		refuse(c, DIAG_INDEX_PLAIN, at, id, m);
+	else if (m->kind == MEANING_ARRAY && !whole)
+		refuse(c, DIAG_ARRAY_AS_VALUE, at, id, m);
 	else if (write && m->constant)
 		refuse(c, DIAG_WRITE_CONSTANT, at, id, m);
 	else if (write && !m->writable)
 		refuse(c, DIAG_WRITE_INPUT, at, id, m);
 	else
 		uses_add(c->uses, m, write ? USE_WRITTEN : USE_READ);
+}
+
+/* A value, or if @whole an array, too. */
+static void read_whole(struct operand_check *c, struct spot at, uint32_t id, bool whole)
+{
+	if (whole && is_whole_array(c, id))
+		uses_add(c->uses, find(c, at, id), USE_READ);
+	else
+		read_name(c, at, id);
+}
+
+/* What an assignment writes. */
+static void use_target(struct operand_check *c, struct spot at, const struct expr *expr)
+{
+	uint32_t id = intern(c, expr->target, expr->target_len);
+
+	if (expr->target_index >= 0) {
+		if (expr->target_base >= 0)
+			id = use_indices(c, at, expr, expr->target_base);
+		id = id ? use_index(c, at, id, expr->target_tail) : 0;
+		use_element(c, at, id, true, true);
+	} else if (is_whole_array(c, id)) {
+		write_whole(c, at, id);
+	} else {
+		write_name(c, at, id, false);
+	}
 }
 
 static void check_expression(struct operand_check *c, struct spot at,
@@ -190,20 +264,18 @@ static void check_expression(struct operand_check *c, struct spot at,
 	for (int i = 0; i < expr->count; i++) {
 		const struct expr_node *part = &expr->node[i];
 
+		bool whole = i == expr->root && expr->target;
+
 		if (part->op == EXPR_NAME)
-			read_name(c, at, intern(c, part->text, part->len));
-		else if (part->op == EXPR_INDEX)
-			use_array(c, at, intern(c, part->text, part->len),
-				  part->tail, false);
+			read_whole(c, at, intern(c, part->text, part->len), whole);
+		else if (part->op == EXPR_INDEX && !part->inner)
+			use_element(c, at, use_indices(c, at, expr, i), false,
+				    whole);
 		else if (part->op == EXPR_LITERAL)
 			find(c, at, intern(c, part->text, part->len));
 	}
-	if (expr->target && expr->target_index >= 0)
-		use_array(c, at, intern(c, expr->target, expr->target_len),
-			  expr->target_tail, true);
-	else if (expr->target)
-		write_name(c, at, intern(c, expr->target, expr->target_len),
-			   false);
+	if (expr->target)
+		use_target(c, at, expr);
 }
 
 /* FOR I := 1 TO 10 BY 2: one way, which a constant tells. */
@@ -304,7 +376,7 @@ static void check_args(struct operand_check *c, struct spot at,
 {
 	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 	const char *next = project_text(c->project, cell->args);
-	bool own = word_is_own((enum word)cell->word);
+	bool whole = word_is_own((enum word)cell->word) || cell->word == FN_MOVE;
 	struct arg arg;
 
 	while (args_next(&next, &arg)) {
@@ -314,7 +386,7 @@ static void check_args(struct operand_check *c, struct spot at,
 		if (wrong != DIAG_COUNT)
 			report(c, wrong, at, project_text(c->project,
 				intern(c, arg.pin, arg.pin_len)));
-		else if (own && is_whole_array(c, value))
+		else if (whole && is_whole_array(c, value))
 			use_whole_array(c, at, value, &arg,
 					is_in_out(row, &arg));
 		else if (is_in_out(row, &arg))

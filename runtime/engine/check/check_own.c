@@ -9,7 +9,6 @@
 
 #include "engine/model/shape.h"
 
-#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -38,11 +37,6 @@ static struct result value_of(const struct meaning *m)
 	return out;
 }
 
-static bool is_whole(const struct meaning *m)
-{
-	return m->kind == MEANING_INSTANCE || m->kind == MEANING_STRUCT;
-}
-
 /* Is it of a type without parts, or else told what is wrong with it? */
 static bool is_plain(struct il_check *c, const struct il_line *arg,
 		     const struct meaning *m)
@@ -53,43 +47,11 @@ static bool is_plain(struct il_check *c, const struct il_line *arg,
 	       il_report(c, arg, meaning_fault(m), operand_text(c, arg));
 }
 
-/* An array as a whole, of the same bounds and elements; not of an area, whose bits lie
- * packed. */
-static bool check_array(struct il_check *c, const struct il_line *arg,
-			const struct meaning *m, const struct word_pin *pin)
-{
-	const struct project *project = scope_project(c->scope);
-	char text[2 * LIMIT_ARG];
-
-	if (m->kind == MEANING_ARRAY && m->addr.area == AREA_NONE &&
-	    m->type == pin->type && m->array.low == pin->low &&
-	    m->array.count == pin->elements &&
-	    (pin->type != IEC_NONE || m->word == pin->word) &&
-	    m->stride == shape_of(&project->words, pin).unit)
-		return true;
-	snprintf(text, sizeof(text), "ARRAY[%ld..%lld] OF %.20s%s",
-		 (long)pin->low,
-		 (long long)pin->low + pin->elements - 1,
-		 pin->type == IEC_NONE ? scope_row(c->scope, pin->word)->word :
-					 iec_type_row(pin->type)->word,
-		 m->addr.area == AREA_NONE ? "" : " without AT");
-	return il_report(c, arg, DIAG_WRONG_TYPE, text);
-}
-
-/* A structure or instance, as a whole. */
-static bool check_whole(struct il_check *c, const struct il_line *arg,
-			const struct meaning *m, enum word word)
-{
-	if (is_whole(m) && m->word == word)
-		return true;
-	return il_report(c, arg, DIAG_WRONG_TYPE, scope_row(c->scope, word)->word);
-}
-
 static bool check_in_out(struct il_check *c, const struct il_line *arg,
 			 const struct meaning *m, const struct word_pin *pin)
 {
 	if (pin->type == IEC_NONE)
-		return check_whole(c, arg, m, pin->word) &&
+		return il_check_shape(c, arg, m, pin) &&
 		       (m->kind == MEANING_INSTANCE || il_can_write(c, arg, m));
 	if (!is_plain(c, arg, m) || !il_can_write(c, arg, m))
 		return false;
@@ -105,20 +67,19 @@ static bool check_value(struct il_check *c, const struct il_line *arg,
 	bool output = pin->dir == PIN_OUT;
 
 	if (pin->elements)
-		return check_array(c, arg, m, pin) &&
-		       (pin->dir == PIN_IN ||
-			il_can_write(c, arg, m));
+		return il_check_shape(c, arg, m, pin) &&
+		       (pin->dir == PIN_IN || il_can_write(c, arg, m));
 	if (pin->dir == PIN_IN_OUT)
 		return check_in_out(c, arg, m, pin);
 	if (pin->type == IEC_NONE)
-		return check_whole(c, arg, m, pin->word) &&
+		return il_check_shape(c, arg, m, pin) &&
 		       (!output || il_can_write(c, arg, m));
 	if (!is_plain(c, arg, m))
 		return false;
 	if (!output)
 		return il_can_store(c, arg, value_of(m), pin->type);
 	return il_can_write(c, arg, m) &&
-	       il_can_store(c, arg, (struct result){ true, pin->type, NULL },
+	       il_can_store(c, arg, (struct result){ .there = true, .type = pin->type },
 			    m->type);
 }
 
@@ -168,7 +129,7 @@ static const struct var *result_var(struct il_check *c, int at)
 	return pou && pou->vars.count > 0 ? &pou->vars.var[0] : NULL;
 }
 
-static bool check_power(struct il_check *c, const struct il_line *arg, bool write)
+bool il_check_power(struct il_check *c, const struct il_line *arg, bool write)
 {
 	const struct meaning *m = il_find(c, arg);
 
@@ -213,7 +174,7 @@ bool il_check_own_call(struct il_check *c, int at)
 		bool output = arg->kind == IL_ARG_OUT;
 
 		if (strcasecmp(pin, output ? "ENO" : "EN") == 0)
-			good &= check_power(c, arg, output);
+			good &= il_check_power(c, arg, output);
 		else if (output && strcasecmp(pin, "OUT") == 0)
 			good &= check_result(c, arg, result_var(c, at));
 		else
@@ -272,50 +233,4 @@ bool il_check_own_fn(struct il_check *c, int at)
 			return il_report(c, line, DIAG_MISSING_INPUT,
 					 row->pin[pin].name);
 	return il_check_in_outs(c, at, row) && good;
-}
-
-/* ---- structures ---- */
-
-static const struct il_line *arg_of(struct il_check *c, int at, const char *name)
-{
-	for (int i = at + 1; is_arg(c, i); i++)
-		if (strcasecmp(pin_text(c, &c->il->line[i]), name) == 0)
-			return &c->il->line[i];
-	return NULL;
-}
-
-bool il_is_struct_move(struct il_check *c, int at)
-{
-	enum diag_id why;
-
-	if (c->il->line[at].word != FN_MOVE)
-		return false;
-	for (int i = at + 1; is_arg(c, i); i++) {
-		const struct meaning *m = scope_find(c->scope, c->pou,
-			c->il->line[i].operand, &why);
-
-		if (m && m->kind == MEANING_STRUCT)
-			return true;
-	}
-	return false;
-}
-
-bool il_check_struct_move(struct il_check *c, int at)
-{
-	const struct il_line *line = &c->il->line[at];
-	const struct il_line *in = arg_of(c, at, "IN"), *out = arg_of(c, at, "OUT");
-	const struct il_line *en = arg_of(c, at, "EN"), *eno = arg_of(c, at, "ENO");
-	const struct meaning *from, *to;
-
-	c->now.there = false;
-	if (!in || !out)
-		return il_report(c, line, DIAG_MISSING_INPUT, in ? "OUT" : "IN");
-	from = il_find(c, in);
-	to = il_find(c, out);
-	if (!from || !to || (en && !check_power(c, en, false)) ||
-	    (eno && !check_power(c, eno, true)))
-		return false;
-	if (to->kind != MEANING_STRUCT)
-		return check_whole(c, out, to, from->word);
-	return check_whole(c, in, from, to->word) && il_can_write(c, out, to);
 }

@@ -17,6 +17,7 @@ struct result {
 	bool there;
 	enum iec_type type;
 	const struct literal *literal;
+	const struct meaning *whole; /* a structure or array; else NULL    */
 };
 
 struct il_check {
@@ -102,7 +103,23 @@ bool il_check_in_outs(struct il_check *c, int at, const struct word_row *row);
 bool il_check_own_fn(struct il_check *c, int at);
 /** il_check_own_call - one with formal parameters. */
 bool il_check_own_call(struct il_check *c, int at);
-/** il_is_struct_move - is the line at @at a MOVE of a structure? */
-bool il_is_struct_move(struct il_check *c, int at);
-bool il_check_struct_move(struct il_check *c, int at);
+
+/* ---- check_whole.c ---- */
+/** il_check_shape - is @m a structure, array or instance of the type that @pin declares? */
+bool il_check_shape(struct il_check *c, const struct il_line *arg,
+		    const struct meaning *m, const struct word_pin *pin);
+/** il_check_same - is @m of the same type as @like? Both are wholes that a program may
+ * copy, or it is told. */
+bool il_check_same(struct il_check *c, const struct il_line *arg,
+		   const struct meaning *m, const struct meaning *like);
+/** il_is_whole_move - is the line at @at a MOVE of a structure or array? */
+bool il_is_whole_move(struct il_check *c, int at);
+bool il_check_whole_move(struct il_check *c, int at);
+/** il_loads_whole - a structure or array that the lines behind @at only store; NULL: the
+ * LD at @at is none of such. */
+const struct meaning *il_loads_whole(struct il_check *c, int at);
+/** il_check_store_whole - ST of one. */
+bool il_check_store_whole(struct il_check *c, int at);
+/** il_check_power - EN := or ENO => at @arg. */
+bool il_check_power(struct il_check *c, const struct il_line *arg, bool write);
 #endif

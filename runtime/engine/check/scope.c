@@ -194,6 +194,22 @@ void scope_mean_whole(const struct scope *scope, enum word word,
 	out->writable = false;
 }
 
+/* A value, or something with parts. */
+static void mean_shape(const struct scope *scope, const struct var *var,
+		       struct meaning *out)
+{
+	out->kind = MEANING_VARIABLE;
+	if (var->array.count) {
+		out->kind = MEANING_ARRAY;
+		out->array = var->array;
+		out->word = var->fb;
+		out->capacity = var->capacity;
+		out->stride = shape_of_var(&scope->project->words, var).unit;
+	} else if (var->type == IEC_NONE && var->fb) {
+		scope_mean_whole(scope, var->fb, out);
+	}
+}
+
 static void mean_variable(const struct scope *scope,
 			  const struct declared *slot, struct meaning *out)
 {
@@ -208,15 +224,7 @@ static void mean_variable(const struct scope *scope,
 	out->constant = slot->flags & VAR_CONSTANT;
 	out->writable = !out->constant && may_write(var->at) &&
 			!(slot->flags & VAR_INPUT);
-	out->kind = MEANING_VARIABLE;
-	if (var->array.count) {
-		out->kind = MEANING_ARRAY;
-		out->array = var->array;
-		out->word = var->fb;
-		out->stride = shape_of_var(&scope->project->words, var).unit;
-	} else if (var->type == IEC_NONE && var->fb) {
-		scope_mean_whole(scope, var->fb, out);
-	}
+	mean_shape(scope, var, out);
 }
 
 bool scope_mean_name(const struct scope *scope, uint32_t table, const char *text,
@@ -320,6 +328,25 @@ enum diag_id meaning_fault(const struct meaning *meaning)
 	return meaning->kind == MEANING_ARRAY ? DIAG_ARRAY_AS_VALUE : DIAG_COUNT;
 }
 
+struct var_array meaning_reach(const struct meaning *meaning)
+{
+	return meaning->opens ? meaning->open[0].array : meaning->array;
+}
+
+bool scope_keep_open(struct scope *scope, struct meaning *m,
+		     const struct open_index *open, int count)
+{
+	struct open_index *kept = arena_alloc(scope->arena,
+					      (size_t)count * sizeof(*kept));
+
+	if (!kept)
+		return false;
+	memcpy(kept, open, (size_t)count * sizeof(*kept));
+	m->open = kept;
+	m->opens = (uint8_t)count;
+	return true;
+}
+
 /* The answer that was given to this question; NULL: none so far. */
 static struct answer *find_answer(const struct scope *scope, uint32_t table,
 				  uint32_t text)
@@ -398,9 +425,10 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 		return false;
 	answer->known = true;
 	answer->meaning = (struct meaning){
-		.kind = MEANING_VARIABLE, .type = var->type, .pou = pou,
-		.var = var, .index = index, .writable = true,
+		.type = var->type, .pou = pou, .var = var, .index = index,
+		.writable = true,
 	};
+	mean_shape(scope, var, &answer->meaning);
 	return true;
 }
 
@@ -411,6 +439,15 @@ uint32_t scope_size(const struct scope *scope, const struct meaning *meaning)
 	if (meaning->kind == MEANING_ARRAY)
 		return meaning->stride * meaning->array.count;
 	return (uint32_t)shape_of(&scope->project->words, &like).size;
+}
+
+uint32_t scope_span(const struct scope *scope, const struct meaning *meaning)
+{
+	uint32_t span = scope_size(scope, meaning);
+
+	for (int i = 0; i < meaning->opens; i++)
+		span += (meaning->open[i].array.count - 1) * meaning->open[i].stride;
+	return span;
 }
 
 struct project *scope_project(const struct scope *scope)

@@ -25,6 +25,14 @@ enum meaning_kind {
 	MEANING_LITERAL,   /* literal                                         */
 };
 
+/* An index that is found out in the scan: bounds, bytes from one element to the next,
+ * and what it is read from. */
+struct open_index {
+	struct var_array array;
+	uint32_t stride;
+	const struct meaning *of;
+};
+
 struct meaning {
 	/* One an operand of a project: small. */
 	enum meaning_kind kind : 8;
@@ -36,20 +44,22 @@ struct meaning {
 	const struct var *var;    /* the variable or instance                 */
 	union {
 		int pin;          /* index in the row of the variable's word  */
-		uint32_t stride;  /* of ARRAY, and of ELEMENT whose index is
-				     found out: bytes to the next one         */
+		uint32_t stride;  /* of ARRAY: bytes from one to the next     */
 	};
 	uint16_t word;            /* enum word of INSTANCE, STRUCT, an ARRAY of such */
+	uint16_t capacity;        /* of an ARRAY of STRING                    */
 	struct iec_addr addr;     /* of ADDRESS, and of a variable with AT; of
 				     an element with a fixed index its own    */
 	uint32_t offset;          /* of a part or element: bytes behind the
 				     variable's first; 0 of a whole variable  */
-	struct var_array array;   /* of ARRAY; of ELEMENT whose index is found
-				     out in the scan (meaning_is_indexed):
-				     addr and offset are its first one's      */
-	const struct meaning *index_of; /* what the index that is found out is
-				     read from; else, of a fixed one, the
-				     constant that gave it, or NULL           */
+	struct var_array array;   /* of ARRAY                                 */
+	uint8_t opens;            /* indices that are found out in the scan, of
+				     ELEMENT, STRUCT, ARRAY: addr and offset
+				     are those of the first elements          */
+	const struct open_index *open; /* so many, from the left             */
+	const struct meaning *index_of; /* what the first of them is read from;
+				     else, of a fixed one, the constant that
+				     gave it, or NULL                         */
 	struct literal literal;
 };
 
@@ -85,12 +95,21 @@ const struct meaning *scope_index(struct scope *scope, const struct pou *pou,
  * it is no array, or too long. */
 uint32_t scope_first(struct scope *scope, const struct pou *pou, uint32_t array,
 		     const char *tail, size_t len);
-/** meaning_is_indexed - an element whose index is found out in the scan?
+/** meaning_is_indexed - behind an index that is found out in the scan?
  * Scan-safe: yes. */
 static inline bool meaning_is_indexed(const struct meaning *meaning)
 {
-	return meaning->kind == MEANING_ELEMENT && meaning->array.count;
+	return meaning->opens > 0;
 }
+/** meaning_is_whole - a structure, instance or array as a whole? Scan-safe: yes. */
+static inline bool meaning_is_whole(const struct meaning *meaning)
+{
+	return meaning->kind == MEANING_STRUCT || meaning->kind == MEANING_INSTANCE ||
+	       meaning->kind == MEANING_ARRAY;
+}
+/** meaning_reach - the elements behind an address that @meaning may be, as an array;
+ * count 0: it is one alone. Scan-safe: yes. */
+struct var_array meaning_reach(const struct meaning *meaning);
 /** meaning_fault - why @meaning is no value: DIAG_INSTANCE_AS_VALUE or
  * DIAG_ARRAY_AS_VALUE; DIAG_COUNT: it is one. Scan-safe: yes. */
 enum diag_id meaning_fault(const struct meaning *meaning);
@@ -110,6 +129,9 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 	       const struct var *var, int index);
 /** scope_size - bytes of what @meaning is. Scan-safe: no. */
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning);
+/** scope_span - bytes from its offset on that it may be: to the end of the last element
+ * that an index may lead to. Scan-safe: no. */
+uint32_t scope_span(const struct scope *scope, const struct meaning *meaning);
 struct project *scope_project(const struct scope *scope);
 /** scope_areas - those of the project as it was when the scope was made. Lives as long
  * as the scope. */

@@ -26,4 +26,8 @@ bool scope_mean_address(const struct scope *scope, const char *text, size_t len,
 /** scope_mean_whole - @out is something of @word, which has parts. */
 void scope_mean_whole(const struct scope *scope, enum word word,
 		      struct meaning *out);
+/** scope_keep_open - @m is behind @count indices that are found out in the scan.
+ * Scan-safe: no. Fails: false when memory is out. */
+bool scope_keep_open(struct scope *scope, struct meaning *m,
+		     const struct open_index *open, int count);
 #endif

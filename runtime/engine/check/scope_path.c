@@ -2,8 +2,8 @@
  *
  * scope_path - operands with dots and brackets: pins, members, elements.
  *
- * A path goes from a declared name inwards, a step a dot or index. One index of it may
- * be found out in the scan: whatever is behind it lies at the same place of each
+ * A path goes from a declared name inwards, a step a dot or index. Some indices may be
+ * found out in the scan: whatever is behind one lies at the same place of each
  * element. It remembers nothing.
  */
 #include "engine/check/scope_mean.h"
@@ -20,9 +20,8 @@ struct path {
 	const char *at, *end;
 	struct meaning m;        /* what was reached                          */
 	int pin;                 /* the first part that was named; -1: none   */
-	struct var_array open;   /* bounds of the index to be found out;
-				    count 0: there was none               */
-	uint32_t stride;         /* of that one                           */
+	struct open_index open[LIMIT_INDICES]; /* those to be found out   */
+	int opens;
 	const struct meaning *index_of;
 	enum diag_id why;
 };
@@ -70,6 +69,7 @@ static void mean_pin(const struct scope *scope, const struct word_pin *pin,
 	if (pin->elements) {
 		m->kind = MEANING_ARRAY;
 		m->word = pin->word;
+		m->capacity = pin->capacity;
 		m->stride = shape_of(&scope_project(scope)->words, pin).unit;
 	} else if (pin->type == IEC_NONE) {
 		scope_mean_whole(scope, pin->word, m);
@@ -136,11 +136,13 @@ static bool step_fixed(struct path *path, enum iec_type type, int64_t index)
 
 static bool step_open(struct path *path, const struct meaning *index)
 {
-	if (path->open.count)
+	if (path->opens == LIMIT_INDICES)
 		return refuse(path, DIAG_INDEX_PLAIN);
-	path->open = path->m.array;
-	path->stride = path->m.stride;
-	path->index_of = index;
+	if (!path->opens)
+		path->index_of = index;
+	path->open[path->opens++] = (struct open_index){
+		path->m.array, path->m.stride, index,
+	};
 	mean_element(path, 0);
 	return true;
 }
@@ -176,7 +178,7 @@ static bool step_index(struct path *path, const char *text, size_t len)
 	if (meaning_fault(m) != DIAG_COUNT || !is_index(m->type))
 		return refuse(path, DIAG_INDEX_TYPE);
 	if (m->kind == MEANING_VARIABLE && m->constant && m->var->has_init) {
-		if (!path->open.count)
+		if (!path->opens)
 			path->index_of = m;
 		return step_fixed(path, m->type, m->var->init.i);
 	}
@@ -233,18 +235,19 @@ static bool begin(struct path *path)
 	return path->at < path->end && begin_address(path, text, len);
 }
 
-/* What an open index leads to is one value. */
+/* What an open index leads to is no instance: that is called, and has a place. */
 static bool finish(struct path *path, struct meaning *out)
 {
 	struct meaning *m = &path->m;
 
 	m->index_of = path->index_of;
-	if (path->open.count) {
-		if (has_parts(m) || m->kind == MEANING_ARRAY)
+	if (path->opens) {
+		if (m->kind == MEANING_INSTANCE)
 			return refuse(path, DIAG_INDEX_PLAIN);
-		m->kind = MEANING_ELEMENT;
-		m->array = path->open;
-		m->stride = path->stride;
+		if (!meaning_is_whole(m))
+			m->kind = MEANING_ELEMENT;
+		if (!scope_keep_open(path->scope, m, path->open, path->opens))
+			return refuse(path, DIAG_NO_MEMORY);
 	} else if (path->pin >= 0 && m->kind != MEANING_ARRAY) {
 		m->pin = path->pin;
 		if (m->kind == MEANING_ELEMENT)

@@ -120,8 +120,8 @@ bool uses_add(struct uses *uses, const struct meaning *meaning,
 	if (meaning->kind == MEANING_LITERAL || meaning->kind == MEANING_NONE)
 		return false;
 	if (meaning->addr.area != AREA_NONE)
-		again = map_add(uses, span_of(uses, meaning->addr, meaning->array),
-				use);
+		again = map_add(uses, span_of(uses, meaning->addr,
+					      meaning_reach(meaning)), use);
 	if (!meaning->var)
 		return again;
 	flags = flags_of(uses, meaning);

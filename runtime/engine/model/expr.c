@@ -198,14 +198,15 @@ static bool take_tail(struct parser *parser, struct expr_tail *out)
 
 /* Behind what the lexer is on stands [ and an index that is no simple one: what waits
  * for its ]. */
-static bool open_index(struct parser *parser, const char *text, size_t len)
+static bool open_index(struct parser *parser, struct expr_open open)
 {
 	if (parser->indexed == LIMIT_EXPR_DEPTH)
 		return refuse(parser, DIAG_EXPR_TOO_DEEP);
 	if (!push(parser, OPERATOR_INDEX))
 		return false;
-	parser->out->open[parser->indexed].text = text;
-	parser->out->open[parser->indexed++].len = (uint16_t)len;
+	if (open.base >= 0)
+		parser->out->node[open.base].inner = true;
+	parser->out->open[parser->indexed++] = open;
 	parser->opened++;
 	return true;
 }
@@ -238,7 +239,7 @@ static bool take_operand(struct parser *parser, bool *more)
 	indexed = lex_is(lex, "]");
 	lex_next(lex);
 	*more = token->kind != TOKEN_NUMBER && !indexed && lex_is(lex, "[");
-	return *more ? open_index(parser, token->text, len) :
+	return *more ? open_index(parser, (struct expr_open){ node.text, node.len, -1 }) :
 		       add_node(parser, node);
 }
 
@@ -271,17 +272,33 @@ static bool take_prefix_and_operand(struct parser *parser)
 static bool close_index(struct parser *parser)
 {
 	int top = --parser->indexed;
+	const struct expr_open *open = &parser->out->open[top];
 	struct expr_node node = {
-		.op = EXPR_INDEX, .text = parser->out->open[top].text,
-		.len = parser->out->open[top].len, .right = -1,
+		.op = EXPR_INDEX, .text = open->text, .len = open->len,
+		.right = open->base,
 	};
 
 	node.left = parser->value[--parser->value_count];
 	return take_tail(parser, &node.tail) && add_node(parser, node);
 }
 
-static bool close_parens(struct parser *parser)
+/* Behind the end of an element: does its path go on with an index that is an
+ * expression? That one is opened. */
+static bool go_on(struct parser *parser, bool *more)
 {
+	struct expr_open open = { "", 0, -1 };
+
+	*more = lex_is(parser->lex, "[");
+	if (!*more)
+		return true;
+	open.base = parser->value[--parser->value_count];
+	return open_index(parser, open);
+}
+
+/* @more: an operand is wanted, the index of a path that goes on. */
+static bool close_parens(struct parser *parser, bool *more)
+{
+	*more = false;
 	while (parser->opened &&
 	       (lex_is(parser->lex, ")") || lex_is(parser->lex, "]"))) {
 		bool index = lex_is(parser->lex, "]");
@@ -297,6 +314,10 @@ static bool close_parens(struct parser *parser)
 		if (index && !close_index(parser))
 			return false;
 		lex_next(parser->lex);
+		if (index && !go_on(parser, more))
+			return false;
+		if (*more)
+			break;
 	}
 	return true;
 }
@@ -315,10 +336,14 @@ static int binary_at(const struct lex *lex)
 static bool parse(struct parser *parser)
 {
 	for (;;) {
+		bool more;
 		int which;
 
-		if (!take_prefix_and_operand(parser) || !close_parens(parser))
+		if (!take_prefix_and_operand(parser) ||
+		    !close_parens(parser, &more))
 			return false;
+		if (more)
+			continue;
 		which = binary_at(parser->lex);
 		if (which < 0)
 			break;
@@ -353,6 +378,7 @@ static void parser_init(struct parser *parser, struct lex *lex,
 	out->target_len = 0;
 	out->target_index = -1;
 	out->target_tail = (struct expr_tail){ NULL, 0 };
+	out->target_base = -1;
 }
 
 bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
@@ -396,6 +422,45 @@ static bool has_target(struct lex lex)
 	return lex_is(&lex, ":=");
 }
 
+/* What was taken of the target so far leads to an array. */
+static bool keep_target(struct parser *parser)
+{
+	struct expr *out = parser->out;
+	struct expr_node node = {
+		.op = EXPR_INDEX, .text = out->target, .len = (uint16_t)out->target_len,
+		.tail = out->target_tail, .left = (int16_t)out->target_index,
+		.right = (int16_t)out->target_base, .inner = true,
+	};
+
+	if (out->target_index < 0)
+		return true;
+	if (!add_node(parser, node))
+		return false;
+	out->target_base = parser->value[--parser->value_count];
+	return true;
+}
+
+/* From the [ of an index that is an expression to what stands behind its ]. */
+static bool take_target_index(struct parser *parser)
+{
+	struct lex *lex = parser->lex;
+	struct expr *out = parser->out;
+
+	if (!keep_target(parser))
+		return false;
+	lex_next(lex);
+	if (!parse(parser))
+		return false;
+	out->target_index = out->root;
+	parser->value_count = 0;
+	if (!lex_is(lex, "]"))
+		return refuse(parser, DIAG_BAD_EXPRESSION);
+	if (!take_tail(parser, &out->target_tail))
+		return false;
+	lex_next(lex);
+	return true;
+}
+
 /* `target :=`, if the text begins so; else the lexer stands where it stood. */
 static bool take_target(struct parser *parser)
 {
@@ -412,18 +477,9 @@ static bool take_target(struct parser *parser)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	indexed = lex_is(lex, "]");
 	lex_next(lex);
-	if (!indexed && lex_is(lex, "[")) {
-		lex_next(lex);
-		if (!parse(parser))
+	while (!indexed && lex_is(lex, "["))
+		if (!take_target_index(parser))
 			return false;
-		out->target_index = out->root;
-		parser->value_count = 0;
-		if (!lex_is(lex, "]"))
-			return refuse(parser, DIAG_BAD_EXPRESSION);
-		if (!take_tail(parser, &out->target_tail))
-			return false;
-		lex_next(lex);
-	}
 	return lex_accept(lex, ":=") || refuse(parser, DIAG_BAD_EXPRESSION);
 }
 

@@ -17,8 +17,9 @@
 enum expr_op {
 	EXPR_NAME,      /* text: a name, a pin, a direct address, an element
 			   with a simple index: Table[ i ].X (may hold blanks) */
-	EXPR_INDEX,     /* text: an array; left: its index, an expression;
-			   tail: the path from there to a member              */
+	EXPR_INDEX,     /* text: an array, or right: an element that leads to
+			   one; left: its index, an expression; tail: the
+			   path from there to a member or another array       */
 	EXPR_LITERAL,   /* text: a constant                                   */
 	EXPR_NEG, EXPR_NOT,
 	EXPR_FN,        /* fn: ADD SUB MUL DIV MOD GT GE EQ LE LT NE          */
@@ -38,6 +39,7 @@ struct expr_node {
 	uint16_t len;
 	struct expr_tail tail; /* of EXPR_INDEX                               */
 	int16_t left, right;   /* nodes; -1: none. Children come before       */
+	bool inner;            /* of EXPR_INDEX: the path goes on from here   */
 };
 
 struct expr {
@@ -49,8 +51,10 @@ struct expr {
 	int target_index;      /* node of the target's index; -1: it has none,
 				  or a simple one within `target`             */
 	struct expr_tail target_tail; /* behind that index                    */
-	struct { const char *text; uint16_t len; } open[LIMIT_EXPR_DEPTH];
-	                       /* the parser's: arrays before an open [        */
+	int target_base;       /* EXPR_INDEX that leads to the array of that
+				  index; -1: `target` is the array            */
+	struct expr_open { const char *text; uint16_t len; int16_t base; }
+		open[LIMIT_EXPR_DEPTH]; /* the parser's: arrays before an open [ */
 };
 
 /**

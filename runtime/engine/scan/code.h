@@ -40,6 +40,10 @@
  *                               stride: bytes to the next
  *                               n 1: base and stride count bits of the areas
  *   APUT   en, ok, src, base, index, low, count, stride   likewise; else nothing
+ *                               Both: for each further index four more words, index,
+ *                               low, count, stride; how many in n from bit 1 on
+ *   ABLOCK en, ok, dst, src, size, index, low, count, stride   BLOCK, where src (n bit 0:
+ *                               dst) is that of the first element; more indices likewise
  */
 #ifndef SCAN_CODE_H
 #define SCAN_CODE_H
@@ -193,6 +197,8 @@ struct program {
 		 symbol_count, group_count, power_count, place_count, watched_count, text_words, watch_words,
 		 string_bytes;
 };
+
+#define CODE_DIMENSION 4u /* words of an index: its operand, low, count, stride */
 
 /* n of REAL, DINT, INT: the functions of these names. */
 enum math { MATH_ADD, MATH_SUB, MATH_MUL, MATH_DIV, MATH_COUNT };

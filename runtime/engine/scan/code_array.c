@@ -119,6 +119,59 @@ bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
 	return true;
 }
 
+/* ---- several indices ---- */
+
+bool verify_grid_begin(const struct verifier *v, struct verify_grid *grid, uint32_t base,
+		       const uint32_t *dim, uint32_t dims)
+{
+	memset(grid, 0, sizeof(*grid));
+	grid->dim = dim;
+	grid->dims = dims;
+	grid->offset = base;
+	for (; dims > 0; dims--, dim += CODE_DIMENSION)
+		if (!dim[2] || !dim[3] ||
+		    (uint64_t)(dim[2] - 1) * dim[3] > v->data_size)
+			return false;
+	return true;
+}
+
+bool verify_grid_next(struct verifier *v, struct verify_grid *grid)
+{
+	for (uint32_t i = grid->dims; i > 0; i--) {
+		const uint32_t *dim = grid->dim + (i - 1) * CODE_DIMENSION;
+		uint32_t *at = &grid->at[i - 1];
+
+		if (*at + 1 < dim[2]) {
+			++*at;
+			grid->offset += dim[3];
+			grid->failed = ++v->walked > LIMIT_ELEMENT_WALK;
+			return !grid->failed;
+		}
+		grid->offset -= (uint64_t)*at * dim[3];
+		*at = 0;
+	}
+	return false;
+}
+
+/* The last index is looked at as a whole, for each combination of the others. */
+bool verify_elements_of(struct verifier *v, uint32_t first, const uint32_t *dim,
+			uint32_t dims, bool write)
+{
+	const uint32_t *last = dim + (dims - 1) * CODE_DIMENSION;
+	struct verify_grid grid;
+
+	if (!verify_grid_begin(v, &grid, CODE_OFFSET(first), dim, dims - 1))
+		return false;
+	do {
+		if (grid.offset >= v->data_size ||
+		    !verify_elements(v, CODE_OPERAND(CODE_TYPE(first),
+						     (uint32_t)grid.offset),
+				     last[2], last[3], write))
+			return false;
+	} while (verify_grid_next(v, &grid));
+	return !grid.failed;
+}
+
 bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
 		 bool write)
 {

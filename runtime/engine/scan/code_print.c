@@ -72,6 +72,45 @@ static int print_math(const uint32_t *at, uint32_t op, uint32_t n, char *out,
 			typed(CODE_OPERAND(type, at[2])).text, at[1]);
 }
 
+/* `[INT@8 - 1] of 10 by 2` for each index. */
+static int print_dimensions(const uint32_t *at, uint32_t count, char *out, size_t size)
+{
+	int used = 0;
+
+	for (uint32_t i = 0; i < count && (size_t)used < size; i++, at += CODE_DIMENSION)
+		used += snprintf(out + used, size - (size_t)used,
+				 "%s[%s - %d] of %u by %u", i ? " " : "",
+				 typed(at[0]).text, (int)at[1], at[2], at[3]);
+	return used;
+}
+
+/* AGET, APUT, ABLOCK. */
+static int print_element(const uint32_t *code, char *out, size_t size)
+{
+	const uint32_t op = *code & 0xff, n = *code >> 8, *at = code + 1;
+	const bool block = op == VM_ABLOCK;
+	char array[LIMIT_INDICES * 64], other[40], element[64];
+
+	print_dimensions(at + (block ? 5 : 4),
+			 n >> 1 < LIMIT_INDICES ? 1 + (n >> 1) : 1, array, sizeof(array));
+	if (block) {
+		snprintf(other, sizeof(other), "@%u", n & 1 ? at[3] : at[2]);
+		snprintf(element, sizeof(element), "%u @%u", at[4],
+			 n & 1 ? at[2] : at[3]);
+		return n & 1 ? snprintf(out, size, "ablock  en b%u %s -> %s%s ok b%u",
+					at[0], other, element, array, at[1]) :
+			       snprintf(out, size, "ablock  en b%u %s%s -> %s ok b%u",
+					at[0], element, array, other, at[1]);
+	}
+	if (op == VM_AGET)
+		return snprintf(out, size, "aget    en b%u %s%s%s -> %s ok b%u", at[0],
+				n & 1 ? "bit " : "", typed(at[3]).text, array,
+				typed(at[2]).text, at[1]);
+	return snprintf(out, size, "aput    en b%u %s -> %s%s%s ok b%u", at[0],
+			typed(at[2]).text, n & 1 ? "bit " : "", typed(at[3]).text,
+			array, at[1]);
+}
+
 int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 {
 	uint32_t n = *code >> 8;
@@ -109,17 +148,9 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 	case VM_CALL:
 		return snprintf(out, size, "call    program %u", at[0]);
 	case VM_AGET:
-		return snprintf(out, size, "aget    en b%u %s%s[%s - %d] of %u by"
-				" %u -> %s ok b%u", at[0], n ? "bit " : "",
-				typed(at[3]).text, typed(at[4]).text,
-				(int)at[5], at[6], at[7], typed(at[2]).text,
-				at[1]);
 	case VM_APUT:
-		return snprintf(out, size, "aput    en b%u %s -> %s%s[%s - %d] of"
-				" %u by %u ok b%u", at[0], typed(at[2]).text,
-				n ? "bit " : "", typed(at[3]).text,
-				typed(at[4]).text, (int)at[5], at[6], at[7],
-				at[1]);
+	case VM_ABLOCK:
+		return print_element(code, out, size);
 	case VM_STOP:
 		return snprintf(out, size, "stop    b%u", at[0]);
 	case VM_JMP:

@@ -63,7 +63,9 @@ uint32_t code_words(const uint32_t *code)
 		return 2;
 	case VM_AGET:
 	case VM_APUT:
-		return 9;
+		return 9 + 4 * (n >> 1);
+	case VM_ABLOCK:
+		return 10 + 4 * (n >> 1);
 	case VM_END:
 	case VM_COUNT:
 		break;
@@ -203,9 +205,9 @@ static bool same_instances(const struct verifier *v, uint32_t a, uint32_t b,
 }
 
 /* Both sides must be whole and alike, so that what is a BOOL here is one there. */
-static bool check_block(struct verifier *v, const uint32_t *at)
+static bool are_alike(struct verifier *v, uint32_t to, uint32_t from, uint32_t size)
 {
-	uint32_t to = at[0], from = at[1], size = at[2], first = v->areas + 2;
+	uint32_t first = v->areas + 2;
 
 	if (size == 0 || to < first || from < first || to > v->data_size ||
 	    from > v->data_size || size > v->data_size - to ||
@@ -221,6 +223,43 @@ static bool check_block(struct verifier *v, const uint32_t *at)
 	       same_instances(v, from, to, size);
 }
 
+static bool check_block(struct verifier *v, const uint32_t *at)
+{
+	return are_alike(v, at[0], at[1], at[2]);
+}
+
+/* index, low, count, stride each; the index must be one. */
+static bool check_dimensions(const struct verifier *v, const uint32_t *at,
+			     uint32_t count)
+{
+	if (count > LIMIT_INDICES)
+		return false;
+	for (uint32_t i = 0; i < count; i++, at += CODE_DIMENSION)
+		if (!can_read(v, at[0]) ||
+		    !is_of(CODE_TYPE(at[0]), ANY_INT | CLASS_BITS))
+			return false;
+	return true;
+}
+
+/* Every element must be like the other side. */
+static bool check_ablock(struct verifier *v, const uint32_t *at, uint32_t n)
+{
+	struct verify_grid grid;
+	uint32_t fixed = n & 1 ? at[3] : at[2];
+	uint32_t base = n & 1 ? at[2] : at[3];
+
+	if (!reads_bool(v, at[0]) || !writes_bool(v, at[1]) ||
+	    !check_dimensions(v, at + 5, 1 + (n >> 1)) ||
+	    !verify_grid_begin(v, &grid, base, at + 5, 1 + (n >> 1)))
+		return false;
+	do {
+		if (grid.offset > v->data_size ||
+		    !are_alike(v, fixed, (uint32_t)grid.offset, at[4]))
+			return false;
+	} while (verify_grid_next(v, &grid));
+	return !grid.failed;
+}
+
 /* AGET and APUT. What they write beside the element they write last or first, so
  * that one place for two of them is wrong but harmless. */
 static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
@@ -228,15 +267,16 @@ static bool check_element(struct verifier *v, const uint32_t *at, uint32_t op,
 {
 	bool put = op == VM_APUT;
 	uint32_t type = CODE_TYPE(at[3]), value = CODE_TYPE(at[2]);
-	uint32_t index = CODE_TYPE(at[4]);
+	uint32_t more = n >> 1;
 
-	if (n > 1 || !reads_bool(v, at[0]) || !writes_bool(v, at[1]) ||
-	    !can_read(v, at[4]) ||
-	    !(iec_type_row((enum iec_type)index)->class & (ANY_INT | CLASS_BITS)))
+	if ((n & 1 && more) || !reads_bool(v, at[0]) || !writes_bool(v, at[1]) ||
+	    !check_dimensions(v, at + 4, 1 + more))
 		return false;
 	if (put ? !can_read(v, at[2]) || !converts(value, type)
 		: !can_write(v, at[2]) || !converts(type, value))
 		return false;
+	if (more)
+		return verify_elements_of(v, at[3], at + 4, 1 + more, put);
 	return n ? type == IEC_BOOL && at[7] == 1 &&
 		   verify_bits(v, CODE_OFFSET(at[3]), at[6], put)
 		 : verify_elements(v, at[3], at[6], at[7], put);
@@ -315,6 +355,8 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 		return n < WORD_KNOWN && code_instance(v->program, at[0]) == n;
 	case VM_BLOCK:
 		return n == 0 && check_block(v, at);
+	case VM_ABLOCK:
+		return check_ablock(v, at, n);
 	case VM_STOP:
 		return n == 0 && reads_bool(v, at[0]);
 	case VM_CALL:

@@ -49,6 +49,22 @@ bool verify_use(const struct verifier *v, uint32_t offset, uint32_t type,
  */
 bool verify_elements(struct verifier *v, uint32_t first, uint32_t count,
 		     uint32_t stride, bool write);
+/* All combinations of several indices, one after another. */
+struct verify_grid {
+	const uint32_t *dim;   /* index, low, count, stride each            */
+	uint32_t dims, at[LIMIT_INDICES];
+	uint64_t offset;       /* of the element that they lead to now      */
+	bool failed;           /* an image asks for more than it may        */
+};
+/** verify_grid_begin - the first one. Scan-safe: yes. Fails: false if there is none, or a
+ * stride leads out of data memory by itself. */
+bool verify_grid_begin(const struct verifier *v, struct verify_grid *grid, uint32_t base,
+		       const uint32_t *dim, uint32_t dims);
+/** verify_grid_next - false behind the last one; see grid->failed. Scan-safe: yes. */
+bool verify_grid_next(struct verifier *v, struct verify_grid *grid);
+/** verify_elements_of - verify_elements() with several indices. Scan-safe: yes. */
+bool verify_elements_of(struct verifier *v, uint32_t first, const uint32_t *dim,
+			uint32_t dims, bool write);
 /** verify_bits - the same of @count bits of an area, packed; @first as the areas
  * count them. Scan-safe: yes. */
 bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,

@@ -324,21 +324,26 @@ static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 	return store(m, pc[3], &args) && status == FN_OK;
 }
 
-/* What AGET and APUT are about. */
-enum { EN, OK, VALUE, BASE, INDEX, LOW, COUNT, STRIDE };
+/* What AGET and APUT are about; of ABLOCK the SIZE is in between. Then each index. */
+enum { EN, OK, VALUE, BASE, ELEMENT, SIZE = ELEMENT };
+enum { INDEX, LOW, COUNT, STRIDE };
 
-/* Where the element lies; false: there is none. No index leads outside: what is
- * below `low` wraps to far above `count`. */
-static bool find_element(const uint8_t *m, const uint32_t *at, uint32_t *where)
+/* Adds to *where what the indices at @at lead to; false: there is no such element. None
+ * leads outside: what is below `low` wraps to far above `count`. */
+static bool find_element(const uint8_t *m, const uint32_t *at, uint32_t more,
+			 uint32_t *where)
 {
-	int64_t index = integer(m, at[INDEX]);
-	uint64_t element = (uint64_t)index - (uint64_t)(int32_t)at[LOW];
+	for (;; at += CODE_DIMENSION) {
+		int64_t index = integer(m, at[INDEX]);
+		uint64_t element = (uint64_t)index - (uint64_t)(int32_t)at[LOW];
 
-	if (element >= at[COUNT] ||
-	    (index < 0 && !value_is_signed(CODE_TYPE(at[INDEX]))))
-		return false;
-	*where = CODE_OFFSET(at[BASE]) + (uint32_t)element * at[STRIDE];
-	return true;
+		if (element >= at[COUNT] ||
+		    (index < 0 && !value_is_signed(CODE_TYPE(at[INDEX]))))
+			return false;
+		*where += (uint32_t)element * at[STRIDE];
+		if (!more--)
+			return true;
+	}
 }
 
 static void clear_value(uint8_t *m, const uint32_t *at)
@@ -351,13 +356,13 @@ static void clear_value(uint8_t *m, const uint32_t *at)
 		put(m, at[VALUE], (union iec_value){ .i = 0 });
 }
 
-static bool get_element(uint8_t *m, const uint32_t *at, uint32_t bits)
+static bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
-	uint32_t where, copy[3] = { 0, at[VALUE], 0 };
+	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, at[VALUE], 0 };
 
-	if (!find_element(m, at, &where))
+	if (!find_element(m, at + ELEMENT, n >> 1, &where))
 		return false;
-	if (bits) {
+	if (n & 1) {
 		m[CODE_OFFSET(at[VALUE])] = m[where / 8] >> where % 8 & 1u;
 		return true;
 	}
@@ -366,13 +371,13 @@ static bool get_element(uint8_t *m, const uint32_t *at, uint32_t bits)
 	return true;
 }
 
-static bool put_element(uint8_t *m, const uint32_t *at, uint32_t bits)
+static bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
-	uint32_t where, copy[3] = { 0, 0, at[VALUE] };
+	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, 0, at[VALUE] };
 
-	if (!find_element(m, at, &where))
+	if (!find_element(m, at + ELEMENT, n >> 1, &where))
 		return false;
-	if (bits) {
+	if (n & 1) {
 		uint8_t *byte = &m[where / 8];
 
 		*byte = (uint8_t)((*byte & ~(1u << where % 8)) |
@@ -382,6 +387,17 @@ static bool put_element(uint8_t *m, const uint32_t *at, uint32_t bits)
 	}
 	copy[1] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
 	run_copy(m, copy);
+	return true;
+}
+
+/* @at[VALUE] and @at[BASE]: where to, where from. */
+static bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
+{
+	uint32_t to = at[VALUE], from = at[BASE];
+
+	if (!find_element(m, at + SIZE + 1, n >> 1, n & 1 ? &to : &from))
+		return false;
+	memcpy(m + to, m + from, at[SIZE]);
 	return true;
 }
 
@@ -538,13 +554,21 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				if (m[pc[1]])
 					count_error(vm, pc, base);
 			}
-			pc += 9;
+			pc += 9 + 4 * (n >> 1);
 			break;
 		case VM_APUT:
 			m[pc[2]] = m[pc[1]] && put_element(m, pc + 1, n);
 			if (m[pc[1]] && !m[pc[2]])
 				count_error(vm, pc, base);
-			pc += 9;
+			pc += 9 + 4 * (n >> 1);
+			break;
+		case VM_ABLOCK:
+			if (!pay(vm, pc[5] / 8))
+				goto out_of_budget;
+			m[pc[2]] = m[pc[1]] && move_element(m, pc + 1, n);
+			if (m[pc[1]] && !m[pc[2]])
+				count_error(vm, pc, base);
+			pc += 10 + 4 * (n >> 1);
 			break;
 		case VM_COUNT:
 		default:

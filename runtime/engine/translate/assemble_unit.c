@@ -345,7 +345,9 @@ void list_load(struct list *list, const struct il_line *line)
 	bool bits = iec_type_row(m->type)->class & CLASS_BITS;
 
 	list->now = (struct il_result){ .kind = RESULT_NUMBER };
-	if (m->type == IEC_BOOL || (line->modifiers & MOD_N && !bits)) {
+	if (meaning_is_whole(m))
+		list_load_result(list, m);
+	else if (m->type == IEC_BOOL || (line->modifiers & MOD_N && !bits)) {
 		list->now.kind = RESULT_BITS;
 		list->now.bits = list_bits(list, m);
 		if (line->modifiers & MOD_N)
@@ -407,6 +409,10 @@ static void store(struct list *list, const struct il_line *line)
 	const struct meaning *m = list_meaning(list, line->operand);
 	struct bits value;
 
+	if (list->now.kind == RESULT_WHOLE) {
+		list_store_result(list, m);
+		return;
+	}
 	if (m->type != IEC_BOOL) {
 		if (line->modifiers & MOD_N) /* for this once */
 			store_inverse(list, m);

@@ -104,6 +104,8 @@ uint32_t layout_string(struct assembler *as, enum code_run_kind kind,
 /** layout_init_text - a text's first bytes at an offset. */
 void layout_init_text(struct assembler *as, uint32_t offset, uint32_t capacity,
 		      struct literal literal);
+/** layout_like - a place for a copy of a whole array or structure. */
+uint32_t layout_like(struct assembler *as, const struct meaning *m);
 /** layout_core - what was placed so far is what runs; watching comes behind it. */
 void layout_core(struct assembler *as);
 /** layout_power - places for the power of cells, and for a copy an instance. */

@@ -358,7 +358,7 @@ void list_call(struct list *list)
 	struct target eno, out = { .m = NULL };
 	uint32_t to;
 
-	if (word_is_own((enum word)line->word) || list_is_struct_move(list)) {
+	if (word_is_own((enum word)line->word) || list_is_whole_move(list)) {
 		list_own_call(list);
 		return;
 	}

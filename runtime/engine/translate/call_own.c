@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * call_own - calls of the project's own functions and function blocks, and copies of
- * structures.
+ * call_own - calls of the project's own functions and function blocks.
  *
  * A body works on one frame. A block's is filled from the instance and given back
  * after the call; a function's is filled from a model. A body may write any variable:
@@ -39,21 +38,9 @@ static const struct il_line *find_arg(const struct list *list, const char *name,
 	return NULL;
 }
 
-static bool is_whole(const struct meaning *m)
-{
-	return m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE ||
-	       m->kind == MEANING_ARRAY;
-}
-
 static uint32_t size_of(const struct list *list, const struct meaning *m)
 {
 	return scope_size(list->as->translation->scope, m);
-}
-
-static void copy_whole(struct list *list, uint32_t to, uint32_t from, uint32_t size)
-{
-	list_protect(list, to, size);
-	emit_block(list->as, to, from, size);
 }
 
 /* ---- pins, at @to in an instance or frame ---- */
@@ -64,9 +51,9 @@ static void feed(struct list *list, uint32_t to, const struct word_pin *pin,
 {
 	struct bits bits;
 
-	if (is_whole(m)) {
-		copy_whole(list, to, layout_spot(list->as, m).offset,
-			   size_of(list, m));
+	if (meaning_is_whole(m)) {
+		list_copy_whole(list, to, fetched ? CODE_OFFSET(fetched) :
+				layout_spot(list->as, m).offset, size_of(list, m));
 	} else if (pin->type == IEC_BOOL) {
 		bits = fetched ? bits_leaf(list->as, CODE_OFFSET(fetched))
 			       : list_bits(list, m);
@@ -83,9 +70,12 @@ static void take(struct list *list, uint32_t from, enum iec_type type,
 {
 	struct bits bits = bits_leaf(list->as, from);
 
-	if (is_whole(m))
-		copy_whole(list, layout_spot(list->as, m).offset, from,
-			   size_of(list, m));
+	if (meaning_is_whole(m) && meaning_is_indexed(m))
+		list_deposit(list, m, CODE_TRUE_AT(iec_areas_size()),
+			     CODE_OPERAND(IEC_NONE, from));
+	else if (meaning_is_whole(m))
+		list_copy_whole(list, layout_spot(list->as, m).offset, from,
+				size_of(list, m));
 	else if (type == IEC_BOOL)
 		list_write_bits(list, m, &bits);
 	else if (meaning_is_indexed(m))
@@ -277,30 +267,6 @@ static void call_function(struct list *list, const uint32_t fetched[LIMIT_ARGS])
 	take_result(list, frame, row);
 }
 
-bool list_is_struct_move(struct list *list)
-{
-	int at;
-	const struct il_line *in;
-
-	if (list->il->line[list->at].word != FN_MOVE)
-		return false;
-	in = find_arg(list, "IN", &at);
-	return in && is_whole(list_meaning(list, in->operand));
-}
-
-static void move_struct(struct list *list)
-{
-	int at;
-	const struct meaning *from = list_meaning(list,
-		find_arg(list, "IN", &at)->operand);
-	const struct meaning *to = list_meaning(list,
-		find_arg(list, "OUT", &at)->operand);
-
-	list_place(list);
-	copy_whole(list, layout_spot(list->as, to).offset,
-		   layout_spot(list->as, from).offset, size_of(list, to));
-}
-
 void list_own_call(struct list *list)
 {
 	uint32_t fetched[LIMIT_ARGS];
@@ -309,14 +275,16 @@ void list_own_call(struct list *list)
 
 	list->now.kind = RESULT_NONE;
 	en = read_en(list);
+	if (list_is_whole_move(list)) {
+		en = bits_leaf(list_whole_move(list, list_slot(list, &en)));
+		write_eno(list, &en);
+		return;
+	}
 	list_fetch_args(list, &en, fetched);
 	list_keep_all(list);
 	skip = skip_unless(list, &en);
 	list->now.kind = RESULT_NONE;
-	if (list_is_struct_move(list))
-		move_struct(list);
-	else
-		call_function(list, fetched);
+	call_function(list, fetched);
 	list_end_skip(list, skip);
 	write_eno(list, &en);
 }

@@ -1,65 +1,122 @@
 /* SPDX-License-Identifier: MIT
  *
- * element - AGET and APUT: elements of arrays whose index is found out in the scan.
+ * element - AGET, APUT and ABLOCK: elements of arrays whose index is found out in the
+ * scan.
  *
- * A value goes through a place of its own, so that no other instruction knows of
- * arrays. Elements with a fixed index are variables like others and not met here.
+ * A value, structure or array goes through a place of its own, so that no other
+ * instruction knows of such indices. Elements with a fixed index are variables like
+ * others and not met here.
  */
 #include "engine/translate/lists.h"
 
-/* The operands of both instructions behind the value. */
-static void emit_array(struct list *list, const struct meaning *m, uint32_t index)
-{
-	struct spot spot = layout_spot(list->as, m);
-	uint32_t base = spot.packed ? spot.offset * 8 + spot.bit : spot.offset;
+/* Operands of the indices. They are found before the instruction begins: a bit of an
+ * area may have to be fetched. */
+struct indices { uint32_t operand[LIMIT_INDICES]; };
 
-	emit(list->as, CODE_OPERAND(m->type, base));
-	emit(list->as, index);
-	emit(list->as, (uint32_t)m->array.low);
-	emit(list->as, m->array.count);
-	emit(list->as, spot.packed ? 1 : m->stride);
+static struct indices indices_of(struct list *list, const struct meaning *m)
+{
+	struct indices out;
+
+	for (int i = 0; i < m->opens; i++)
+		out.operand[i] = list_number(list, m->open[i].of,
+					     m->open[i].of->type);
+	return out;
 }
 
-static uint32_t index_operand(struct list *list, const struct meaning *m)
-{
-	return list_number(list, m->index_of, m->index_of->type);
-}
-
-static void emit_head(struct list *list, enum vm_op op, const struct meaning *m,
-		      uint32_t en, uint32_t ok)
+static void emit_head(struct list *list, enum vm_op op, uint32_t n,
+		      const struct meaning *m, uint32_t en, uint32_t ok)
 {
 	list_place(list);
-	emit_op(list->as, op, layout_spot(list->as, m).packed);
+	emit_op(list->as, op, n | (uint32_t)(m->opens - 1) << 1);
 	emit(list->as, en);
 	emit(list->as, ok);
+}
+
+static void emit_indices(struct list *list, const struct meaning *m,
+			 const struct indices *indices, bool packed)
+{
+	for (int i = 0; i < m->opens; i++) {
+		emit(list->as, indices->operand[i]);
+		emit(list->as, (uint32_t)m->open[i].array.low);
+		emit(list->as, m->open[i].array.count);
+		emit(list->as, packed ? 1 : m->open[i].stride);
+	}
+}
+
+/* ---- a value ---- */
+
+static void emit_value(struct list *list, enum vm_op op, const struct meaning *m,
+		       const uint32_t operand[3])
+{
+	struct spot spot = layout_spot(list->as, m);
+	struct indices indices = indices_of(list, m);
+	uint32_t base = spot.packed ? spot.offset * 8 + spot.bit : spot.offset;
+
+	emit_head(list, op, spot.packed, m, operand[0], operand[1]);
+	emit(list->as, operand[2]);
+	emit(list->as, CODE_OPERAND(m->type, base));
+	emit_indices(list, m, &indices, spot.packed);
+}
+
+/* ---- a whole ---- */
+
+/* @put: from @at into the element; else the other way. */
+static void emit_whole(struct list *list, const struct meaning *m, bool put,
+		       const uint32_t operand[3])
+{
+	struct indices indices = indices_of(list, m);
+	uint32_t base = layout_spot(list->as, m).offset;
+
+	emit_head(list, VM_ABLOCK, put, m, operand[0], operand[1]);
+	emit(list->as, put ? base : operand[2]);
+	emit(list->as, put ? operand[2] : base);
+	emit(list->as, scope_size(list->as->translation->scope, m));
+	emit_indices(list, m, &indices, false);
+}
+
+uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t en,
+			  uint32_t to)
+{
+	uint32_t ok = scratch_new(list->as);
+
+	list_protect(list, to, scope_size(list->as->translation->scope, m));
+	emit_whole(list, m, false, (uint32_t[]){ en, ok, to });
+	return ok;
 }
 
 uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 		    uint32_t *ok)
 {
-	uint32_t index = index_operand(list, m);
-	uint32_t to = m->type == IEC_BOOL ? scratch_new(list->as) :
-		layout_tail(list->as, RUN_VALUES, m->type);
+	uint32_t to;
 
+	if (meaning_is_whole(m)) {
+		to = layout_like(list->as, m);
+		*ok = list_fetch_whole(list, m, en, to);
+		return CODE_OPERAND(IEC_NONE, to);
+	}
+	to = m->type == IEC_BOOL ? scratch_new(list->as) :
+	     layout_tail(list->as, RUN_VALUES, m->type);
 	*ok = scratch_new(list->as);
-	emit_head(list, VM_AGET, m, en, *ok);
-	emit(list->as, CODE_OPERAND(m->type, to));
-	emit_array(list, m, index);
+	emit_value(list, VM_AGET, m,
+		   (uint32_t[]){ en, *ok, CODE_OPERAND(m->type, to) });
 	return CODE_OPERAND(m->type, to);
 }
 
-void list_deposit(struct list *list, const struct meaning *m, uint32_t en,
-		  uint32_t from)
+uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
+		      uint32_t from)
 {
 	struct spot spot = layout_spot(list->as, m);
-	uint32_t index = index_operand(list, m), ok = scratch_new(list->as);
+	uint32_t ok = scratch_new(list->as);
 
 	/* To the end of the last one and no further: where a call is jumped over, what
 	 * lies behind must not be stored on the way. In a text there are no bits. */
 	if (!spot.packed && m->type != IEC_STRING)
-		list_protect(list, spot.offset, (m->array.count - 1) * m->stride +
-			     iec_type_row(m->type)->size);
-	emit_head(list, VM_APUT, m, en, ok);
-	emit(list->as, from);
-	emit_array(list, m, index);
+		list_protect(list, spot.offset,
+			     scope_span(list->as->translation->scope, m));
+	if (meaning_is_whole(m))
+		emit_whole(list, m, true,
+			   (uint32_t[]){ en, ok, CODE_OFFSET(from) });
+	else
+		emit_value(list, VM_APUT, m, (uint32_t[]){ en, ok, from });
+	return ok;
 }

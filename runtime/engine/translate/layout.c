@@ -108,8 +108,9 @@ void layout_instances(struct assembler *as, enum word word, uint32_t offset,
 		layout_place_at(as, run, offset + i * unit, word_row(word)->size);
 }
 
-/* An instance or structure, or an array of such. */
-static uint32_t place_whole(struct assembler *as, const struct var *var)
+/* An instance or structure, or an array of such; @init: with the values that their
+ * types give. */
+static uint32_t place_whole(struct assembler *as, const struct var *var, bool init)
 {
 	struct extent extent = shape_of_var(&as->translation->project->words, var);
 	uint32_t count = var->array.count ? var->array.count : 1;
@@ -125,8 +126,17 @@ static uint32_t place_whole(struct assembler *as, const struct var *var)
 		return first;
 	}
 	for (uint32_t i = 0; i < count && !as->failed; i++)
-		layout_whole(as, var->fb, true);
+		layout_whole(as, var->fb, init);
 	return first;
+}
+
+uint32_t layout_like(struct assembler *as, const struct meaning *m)
+{
+	struct var like = { .type = m->type, .fb = (enum word)m->word,
+			    .array = m->array, .capacity = m->capacity };
+
+	return m->type == IEC_NONE ? place_whole(as, &like, false) :
+	       place_values(as, RUN_VALUES, m->type, m->capacity, m->array.count);
 }
 
 uint32_t layout_tail(struct assembler *as, enum code_run_kind kind,
@@ -201,12 +211,14 @@ static void use_addresses(struct assembler *as, struct iec_addr first,
 static void use_meaning(struct assembler *as, uint8_t *used,
 			const struct meaning *m)
 {
+	uint32_t count = meaning_reach(m).count;
+
 	if (m->kind == MEANING_LITERAL || m->kind == MEANING_PIN)
 		return;
-	if (meaning_is_indexed(m))
-		use_meaning(as, used, m->index_of);
-	if (meaning_is_indexed(m) && m->addr.area != AREA_NONE)
-		use_addresses(as, m->addr, m->array.count);
+	for (int i = 0; i < m->opens; i++)
+		use_address(as, used, m->open[i].of->addr);
+	if (m->addr.area != AREA_NONE && count)
+		use_addresses(as, m->addr, count);
 	else
 		use_address(as, used, m->addr);
 }
@@ -418,7 +430,7 @@ static void place_var(struct assembler *as, int table, int index, bool retain)
 		return;
 	if (*offset || var->at.area != AREA_NONE)
 		return;
-	*offset = var->type == IEC_NONE ? place_whole(as, var) :
+	*offset = var->type == IEC_NONE ? place_whole(as, var, true) :
 		  place_values(as, kind, var->type, capacity,
 			       var->array.count ? var->array.count : 1);
 	layout_init_var(as, *offset, var);

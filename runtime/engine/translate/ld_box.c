@@ -85,13 +85,16 @@ struct inputs {
 
 /* An element whose index is found out in the scan becomes a temporary, while @en; @en
  * then tells whether it is there. What the block writes, too, stays the element. */
-static void fetch_input(struct ld *ld, const struct word_row *row,
-			const struct arg *arg, uint32_t *operand, uint32_t *en)
+static void fetch_input(struct ld *ld, enum word word, const struct arg *arg,
+			uint32_t *operand, uint32_t *en)
 {
+	const struct word_row *row = ld_row(ld, word);
 	int pin = word_pin_find(row, arg->pin, arg->pin_len);
+	const struct meaning *m = *operand ? ld_meaning(ld, *operand) : NULL;
 	uint32_t value;
 
-	if (!ld_is_indexed(ld, *operand))
+	/* A whole one that MOVE takes it fetches itself; no other function does. */
+	if (!m || !meaning_is_indexed(m) || (meaning_is_whole(m) && !word_is_own(word)))
 		return;
 	value = ld_fetch(ld, *operand, *en ? *en : ld->true_id, en);
 	if (pin < 0 || pin >= row->pin_count || row->pin[pin].dir != PIN_IN_OUT)
@@ -100,7 +103,7 @@ static void fetch_input(struct ld *ld, const struct word_row *row,
 
 /* @en: operand that enables it, 0: none so far; afterwards it tells whether all elements
  * are there, too. */
-static void read_inputs(struct ld *ld, const struct word_row *row, const char *text,
+static void read_inputs(struct ld *ld, enum word word, const char *text,
 			struct inputs *out, uint32_t *en)
 {
 	struct arg arg;
@@ -109,7 +112,7 @@ static void read_inputs(struct ld *ld, const struct word_row *row, const char *t
 	for (const char *at = text; i < LIMIT_ARGS && args_next(&at, &arg); i++) {
 		out->operand[i] = intern(ld, arg.value, arg.value_len);
 		if (!arg.output)
-			fetch_input(ld, row, &arg, &out->operand[i], en);
+			fetch_input(ld, word, &arg, &out->operand[i], en);
 		if (!arg.inverse)
 			continue;
 		ld_emit(ld, OP_LD, MOD_N, out->operand[i]);
@@ -204,7 +207,7 @@ static void box_block(struct ld *ld, int element)
 			 names_text(names_of(ld), pin->operand), pin->in);
 	}
 	ld_place(ld, at->row, at->col);
-	read_inputs(ld, row, args, &inputs, &ok);
+	read_inputs(ld, (enum word)at->word, args, &inputs, &ok);
 	call_block(ld, element, first < 0, ok);
 	write_inputs(ld, args, &inputs);
 	write_outputs(ld, args, true);
@@ -379,7 +382,7 @@ static void box_function(struct ld *ld, int element)
 	for (int i = 0; i < at->pins; i++)
 		ld_operand(ld, ld->network.pin[at->first_pin + i].in);
 	ld_place(ld, at->row, at->col); /* an error is the box's own */
-	read_inputs(ld, row, args, &inputs, &en);
+	read_inputs(ld, (enum word)at->word, args, &inputs, &en);
 	bits = row->result == (int)RESULT_GATE &&
 	       take_operands(ld, element, &inputs, &operands);
 	gates = word_is_test(row) || bits;

@@ -17,7 +17,8 @@ static void add(struct ld *ld, bool output, uint32_t pin, uint32_t operand)
 uint32_t ld_fetch(struct ld *ld, uint32_t element, uint32_t en, uint32_t *eno)
 {
 	const struct meaning *m = ld_meaning(ld, element);
-	uint32_t value = temps_number(ld->temps, m ? m->type : IEC_BOOL);
+	uint32_t value = m && meaning_is_whole(m) ? temps_whole(ld->temps, m) :
+			 temps_number(ld->temps, m ? m->type : IEC_BOOL);
 
 	*eno = temps_bool(ld->temps);
 	ld_call(ld, FN_MOVE);

@@ -75,15 +75,20 @@ static enum iec_type type_of(struct chain *c, uint32_t operand)
 	return m ? m->type : IEC_NONE;
 }
 
-/* Of an array with an index that is an expression: as the first element has it. */
+/* Text of what is behind an index that is an expression: of the first element. Paths
+ * are bounded by LIMIT_INDICES, which check_operand keeps. */
+static uint32_t first_element(struct chain *c, const struct expr_node *node)
+{
+	uint32_t id = node->right < 0 ? intern(c, node->text, node->len) :
+		      first_element(c, &c->expr->node[node->right]);
+
+	return scope_first(c->ld->translation->scope, c->ld->unit->pou, id,
+			   node->tail.text, node->tail.len);
+}
+
 static enum iec_type type_of_element(struct chain *c, const struct expr_node *node)
 {
-	uint32_t id = intern(c, node->text, node->len);
-
-	if (node->tail.len > 0)
-		id = scope_first(c->ld->translation->scope, c->ld->unit->pou, id,
-				 node->tail.text, node->tail.len);
-	return type_of(c, id);
+	return type_of(c, first_element(c, node));
 }
 
 static bool is_bits(enum iec_type type)
@@ -221,28 +226,32 @@ static struct value settle(struct chain *c, struct value value)
 {
 	struct value none = { 0, IEC_NONE };
 
-	if (!ld_is_indexed(c->ld, value.operand))
+	const struct meaning *m = value.operand ? meaning(c, value.operand) : NULL;
+
+	if (!m || !meaning_is_indexed(m) || meaning_is_whole(m))
 		return value;
 	return operate(c, FN_MOVE, value, none, value.type, 0);
 }
 
 /* `Table[index].Member`, after the index has been computed; an element itself is
  * none. */
-static uint32_t compute_element(struct chain *c, const char *name, size_t len,
-				int part, struct expr_tail tail)
+static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 {
 	const struct names *names = &c->ld->translation->project->names;
-	struct value index = compute(c, part, IEC_NONE, 0);
+	uint32_t base = node->right < 0 ? intern(c, node->text, node->len) :
+			compute_element(c, &c->expr->node[node->right]);
+	const struct expr_tail tail = node->tail;
+	struct value index = compute(c, node->left, IEC_NONE, 0);
 	struct value none = { 0, IEC_NONE };
-	char text[3 * LIMIT_NAME];
+	char text[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
 	int size;
 
 	if (strchr(names_text(names, index.operand), '['))
 		index = operate(c, FN_MOVE, index, none, index.type, 0);
-	size = snprintf(text, sizeof(text), "%.*s[%s]%.*s", (int)len, name,
+	size = snprintf(text, sizeof(text), "%s[%s]%.*s", names_text(names, base),
 			names_text(names, index.operand), (int)tail.len,
 			tail.len ? tail.text : "");
-	if (!index.operand || size < 0 || (size_t)size >= sizeof(text)) {
+	if (!index.operand || !base || size < 0 || (size_t)size >= sizeof(text)) {
 		c->ld->failed = true;
 		return 0;
 	}
@@ -383,8 +392,7 @@ static struct value compute(struct chain *c, int index, enum iec_type hint,
 		value.type = type_of(c, value.operand);
 		return value;
 	case EXPR_INDEX:
-		value.operand = compute_element(c, node->text, node->len,
-						node->left, node->tail);
+		value.operand = compute_element(c, node);
 		value.type = infer(c, index);
 		return value;
 	case EXPR_LITERAL:
@@ -447,10 +455,12 @@ void ld_assign(struct ld *ld, int element)
 		return;
 	ld_place(ld, at->row, at->col);
 	if (ld->expr->target_index >= 0)
-		target = compute_element(&c, ld->expr->target,
-					 ld->expr->target_len,
-					 ld->expr->target_index,
-					 ld->expr->target_tail);
+		target = compute_element(&c, &(struct expr_node){
+			.text = ld->expr->target,
+			.len = (uint16_t)ld->expr->target_len,
+			.left = (int16_t)ld->expr->target_index,
+			.right = (int16_t)ld->expr->target_base,
+			.tail = ld->expr->target_tail });
 	else
 		target = intern_name(&c, ld->expr->target, ld->expr->target_len);
 	ld_freeze(ld, target);

@@ -196,9 +196,7 @@ static bool is_var(const struct meaning *m)
 /* Bytes of a variable that it may be: all elements that an index may lead to. */
 static uint32_t end_of(const struct scope *scope, const struct meaning *m)
 {
-	if (m->array.count)
-		return m->offset + m->array.count * m->stride;
-	return m->offset + scope_size(scope, m);
+	return m->offset + scope_span(scope, m);
 }
 
 /* Two parts of one variable; those with an address by where they lie. */
@@ -212,9 +210,10 @@ static bool parts_touch(const struct scope *scope, const struct meaning *a,
 static uint32_t end_byte(const struct meaning *m)
 {
 	struct iec_addr last = m->addr;
+	uint32_t count = meaning_reach(m).count;
 
-	if (m->array.count)
-		last = vars_shift(m->addr, m->array.count - 1);
+	if (count)
+		last = vars_shift(m->addr, count - 1);
 	return last.byte + (last.bits + 7u) / 8;
 }
 
@@ -222,8 +221,8 @@ static bool bytes_overlap(const struct meaning *a, const struct meaning *b)
 {
 	if (a->addr.area != b->addr.area || a->addr.area == AREA_NONE)
 		return false;
-	if (a->addr.bits == 1 && b->addr.bits == 1 && !a->array.count &&
-	    !b->array.count)
+	if (a->addr.bits == 1 && b->addr.bits == 1 && !meaning_reach(a).count &&
+	    !meaning_reach(b).count)
 		return a->addr.byte == b->addr.byte && a->addr.bit == b->addr.bit;
 	return a->addr.byte < end_byte(b) && b->addr.byte < end_byte(a);
 }

@@ -10,15 +10,23 @@
 
 #include "engine/translate/assembler.h"
 
-/* The current result of IEC 61131-3: nothing, a bit, a number in memory, or a
- * constant without a type. */
-enum result_kind { RESULT_NONE, RESULT_BITS, RESULT_NUMBER, RESULT_LITERAL };
+/* A structure or array that was read; the BOOL that tells whether it is there. */
+struct whole_value {
+	const struct meaning *m;
+	uint32_t at, ok;
+	bool own;                     /* a copy that nobody else writes       */
+};
+
+/* The current result of IEC 61131-3: nothing, a bit, a number in memory, a
+ * constant without a type, or a structure or array. */
+enum result_kind { RESULT_NONE, RESULT_BITS, RESULT_NUMBER, RESULT_LITERAL, RESULT_WHOLE };
 struct il_result {
 	enum result_kind kind;
 	struct bits bits;
 	uint32_t operand;             /* typed, of RESULT_NUMBER              */
 	bool own;                     /* the number is a scratch value        */
 	const struct literal *literal;
+	struct whole_value whole;     /* of RESULT_WHOLE                      */
 };
 
 /* A temporary whose bit has not been stored. */
@@ -109,13 +117,37 @@ void list_invert(struct list *list, enum iec_type type);
  * @en: BOOL that enables it
  * @ok: gets the BOOL that tells whether there is one
  *
- * Returns a typed word; what it holds is 0 when there is none.
+ * Returns a typed word; what it holds is 0 when there is none, but for a structure or
+ * array: then it is as it was, and the type of the word is IEC_NONE.
  */
 uint32_t list_fetch(struct list *list, const struct meaning *m, uint32_t en,
 		    uint32_t *ok);
-/** list_deposit - stores @from, a typed word, in such an element while @en. */
-void list_deposit(struct list *list, const struct meaning *m, uint32_t en,
-		  uint32_t from);
+/** list_deposit - stores @from, a typed word, in such an element while @en. Returns the
+ * BOOL that tells whether there is one. */
+uint32_t list_deposit(struct list *list, const struct meaning *m, uint32_t en,
+		      uint32_t from);
+/** list_fetch_whole - a structure or array behind such an index goes to @to; returns as
+ * list_deposit(). */
+uint32_t list_fetch_whole(struct list *list, const struct meaning *m, uint32_t en,
+			  uint32_t to);
+
+/* ---- whole.c: structures and arrays as a whole ---- */
+/** list_copy_whole - @size bytes, what waits for them stored before. */
+void list_copy_whole(struct list *list, uint32_t to, uint32_t from, uint32_t size);
+/** list_load_whole - reads it while @en, for list_store_whole(). */
+struct whole_value list_load_whole(struct list *list, const struct meaning *m,
+				   uint32_t en);
+/** list_store_whole - stores it while it is there; returns the BOOL that tells whether
+ * that was done. The current result is lost. */
+uint32_t list_store_whole(struct list *list, const struct meaning *to,
+			  struct whole_value value);
+/** list_load_result, list_store_result - LD and ST of one. */
+void list_load_result(struct list *list, const struct meaning *m);
+void list_store_result(struct list *list, const struct meaning *m);
+/** list_is_whole_move - is the line a MOVE of a structure or array? */
+bool list_is_whole_move(struct list *list);
+/** list_whole_move - that, while @en; returns as list_store_whole(). */
+uint32_t list_whole_move(struct list *list, uint32_t en);
 
 /* ---- function.c ---- */
 /** list_is_compare - GT to NE? */
@@ -175,8 +207,6 @@ void list_end_skip(struct list *list, int skip);
 
 /* ---- call_own.c: what the project declares itself ---- */
 void list_own_fn(struct list *list);
-/** list_is_struct_move - is the line a MOVE of a structure? */
-bool list_is_struct_move(struct list *list);
 /** list_own_call - a formal call, or a MOVE of a structure. */
 void list_own_call(struct list *list);
 void list_own_cal(struct list *list);

@@ -21,10 +21,13 @@ void temps_rung(struct temps *temps)
 	temps->bools = 0;
 	for (int i = 0; i < IEC_TYPE_COUNT; i++)
 		temps->numbers[i] = 0;
+	for (int i = 0; i < temps->whole_count; i++)
+		temps->whole[i].used = false;
 }
 
-static uint32_t declare(struct temps *temps, char letter, int number,
-			enum iec_type type)
+/* @like: its type. NULL: no memory. */
+static const struct var *declare_like(struct temps *temps, char letter, int number,
+				      const struct var *like)
 {
 	struct translation *t = temps->translation;
 	struct unit *unit = temps->unit;
@@ -35,18 +38,27 @@ static uint32_t declare(struct temps *temps, char letter, int number,
 	int len = snprintf(text, sizeof(text), "_%c%d", letter, number);
 
 	if (!var)
-		return 0;
+		return NULL;
+	*var = *like;
 	var->name = names_intern(names, text, (size_t)len);
 	var->fold = names_fold(names, var->name);
-	var->type = type;
 	slot = arena_push(t->arena, &unit->temp, &unit->temp_count,
 			  sizeof(*slot));
 	if (!slot || !var->fold ||
 	    !scope_add(t->scope, unit->pou, var,
 		       unit->pou->vars.count + unit->temp_count - 1))
-		return 0;
+		return NULL;
 	*slot = var;
-	return var->name;
+	return var;
+}
+
+static uint32_t declare(struct temps *temps, char letter, int number,
+			enum iec_type type)
+{
+	const struct var like = { .type = type };
+	const struct var *var = declare_like(temps, letter, number, &like);
+
+	return var ? var->name : 0;
 }
 
 /* Name number @used of a list, made when it is not there yet. */
@@ -100,4 +112,38 @@ uint32_t temps_number(struct temps *temps, enum iec_type type)
 
 	temps->numbers_made += temps->number_count[type] - before;
 	return name;
+}
+
+static bool is_like(const struct var *var, const struct var *like)
+{
+	return var->type == like->type && var->fb == like->fb &&
+	       var->capacity == like->capacity &&
+	       var->array.low == like->array.low &&
+	       var->array.count == like->array.count;
+}
+
+uint32_t temps_whole(struct temps *temps, const struct meaning *m)
+{
+	const struct var like = {
+		.type = m->type, .array = m->array, .capacity = m->capacity,
+		.fb = m->type == IEC_NONE ? (enum word)m->word : (enum word)0,
+	};
+	struct temp_whole *slot;
+
+	for (int i = 0; i < temps->whole_count; i++) {
+		slot = &temps->whole[i];
+		if (slot->used || !is_like(slot->var, &like))
+			continue;
+		slot->used = true;
+		return slot->var->name;
+	}
+	slot = arena_push(temps->translation->arena, &temps->whole,
+			  &temps->whole_count, sizeof(*slot));
+	if (!slot)
+		return 0;
+	slot->used = true;
+	slot->var = declare_like(temps, 'N', ++temps->numbers_made, &like);
+	if (!slot->var)
+		temps->whole_count--;
+	return slot->var ? slot->var->name : 0;
 }

@@ -11,6 +11,9 @@
 
 #include "engine/translate/translate.h"
 
+/* One that holds a structure or array. */
+struct temp_whole { const struct var *var; bool used; };
+
 struct temps {
 	struct translation *translation;
 	struct unit *unit;
@@ -21,6 +24,8 @@ struct temps {
 	uint32_t *number_name[IEC_TYPE_COUNT];
 	int number_count[IEC_TYPE_COUNT];
 	int numbers_made;
+	struct temp_whole *whole;
+	int whole_count;
 };
 
 /** temps_rung - what belongs to one rung may be used anew. */
@@ -30,4 +35,6 @@ uint32_t temps_bool(struct temps *temps);
 uint32_t temps_edge(struct temps *temps);
 uint32_t temps_power(struct temps *temps);
 uint32_t temps_number(struct temps *temps, enum iec_type type);
+/* The same of a structure or array like @m. */
+uint32_t temps_whole(struct temps *temps, const struct meaning *m);
 #endif

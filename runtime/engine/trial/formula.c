@@ -292,6 +292,10 @@ struct formula *formula_new(const struct image *image, const struct expr *expr,
 		term->fn = (uint16_t)from->fn;
 		term->left = from->left;
 		term->right = from->right;
+		if (from->op == EXPR_INDEX && (from->inner || from->right >= 0)) {
+			complain(diags, place, DIAG_INDEX_PLAIN, line_start, from);
+			return NULL;
+		}
 		if (from->op == EXPR_INDEX &&
 		    !take_array(image, from->text, from->len, from->tail, term)) {
 			complain(diags, place, DIAG_NOT_ARRAY, line_start, from);
