@@ -25,9 +25,26 @@ static size_t print(char *out, size_t size, int at)
 					node->op == EXPR_LITERAL ? "#" : "",
 					node->len, node->text);
 	if (node->op == EXPR_INDEX) {
-		len = (size_t)snprintf(out, size, "%.*s<", node->len, node->text);
+		len = node->right >= 0 ? print(out, size, node->right) : 0;
+		len += (size_t)snprintf(out + len, size - len, "%.*s<", node->len,
+					node->text);
 		len += print(out + len, size - len, node->left);
-		return len + (size_t)snprintf(out + len, size - len, ">");
+		return len + (size_t)snprintf(out + len, size - len, ">%.*s",
+					      node->tail.len, node->tail.len ?
+					      node->tail.text : "");
+	}
+	if (node->op == EXPR_CALL) {
+		len = (size_t)snprintf(out, size, "%.*s{", node->len, node->text);
+		if (node->left >= 0)
+			len += print(out + len, size - len, node->left);
+		return len + (size_t)snprintf(out + len, size - len, "}");
+	}
+	if (node->op == EXPR_ARG) {
+		len = node->right >= 0 ? print(out, size, node->right) : 0;
+		len += (size_t)snprintf(out + len, size - len, "%s%.*s%s",
+					node->right >= 0 ? ", " : "", node->len,
+					node->text, node->len ? "=" : "");
+		return len + print(out + len, size - len, node->left);
 	}
 	len = (size_t)snprintf(out, size, "(%s ", word);
 	len += print(out + len, size - len, node->left);
@@ -101,6 +118,50 @@ static void indices(void)
 	CHECK_TEXT(tree("a[b[i]] := a[i]"), "a[i]");
 	CHECK_TEXT(tree("a[i + ] := 1"), "LD122");
 	CHECK_TEXT(tree("a[i] b := 1"), "LD122");
+}
+
+static void paths(void)
+{
+	CHECK_TEXT(tree("a[i + 1].b[2].c[j - 1].d > 0"),
+		   "(GT a<(ADD i #1)>.b[2].c<(SUB j #1)>.d #0)");
+	CHECK_TEXT(tree("a[i].b[j + 1]"), "a[i].b<(ADD j #1)>");
+	CHECK_TEXT(tree("a[b[i + 1].c[j + 2]].d[-k]"),
+		   "a<b<(ADD i #1)>.c<(ADD j #2)>>.d<(- k)>");
+	CHECK_TEXT(tree("a[i + 1].b[j * 2].c := x[k + 1].y[2]"), "x<(ADD k #1)>.y[2]");
+	CHECK(expr.target_len == 1 && expr.target_base >= 0 && expr.target_tail.len == 2 &&
+	      expr.node[expr.target_base].inner &&
+	      expr.node[expr.target_base].tail.len == 2 &&
+	      expr.node[expr.target_base].right < 0);
+	CHECK_TEXT(tree("a[i + 1].b := 2"), "#2");
+	CHECK(expr.target_base < 0 && expr.target_index >= 0);
+	CHECK_TEXT(tree("a[i + 1].b[j + 1"), "LD122");
+	CHECK_TEXT(tree("a[i + 1].[j + 1]"), "LD122");
+	CHECK_TEXT(tree("a[i + 1].b[j + 1)"), "LD122");
+	CHECK_TEXT(tree("a[i + 1].b[j + ] := 1"), "LD122");
+}
+
+static void functions(void)
+{
+	CHECK_TEXT(tree("ABS(a)"), "ABS{a}");
+	CHECK_TEXT(tree("now()"), "now{}");
+	CHECK_TEXT(tree("LIMIT(0, ADD(a, b) * 2, -5) + ABS (c)"),
+		   "(ADD LIMIT{#0, (MUL ADD{a, b} #2), (- #5)} ABS{c})");
+	CHECK_TEXT(tree("f(x := a + 1, Y := (b))"), "f{x=(ADD a #1), Y=b}");
+	CHECK_TEXT(tree("NOT f(a) AND a[f(i) + 1].b[g(j)]"),
+		   "(& (! f{a}) a<(ADD f{i} #1)>.b<g{j}>)");
+	CHECK_TEXT(tree("a[f(i)] := f(f(f(a)))"), "f{f{f{a}}}");
+	CHECK_TEXT(tree("f(a, b"), "LD122");
+	CHECK_TEXT(tree("f(a,)"), "LD122");
+	CHECK_TEXT(tree("f(,a)"), "LD122");
+	CHECK_TEXT(tree("f(a b)"), "LD122");
+	CHECK_TEXT(tree("f(a))"), "LD122");
+	CHECK_TEXT(tree("f(a]"), "LD122");
+	CHECK_TEXT(tree("a, b"), "LD122");
+	CHECK_TEXT(tree("(a, b)"), "LD122");
+	CHECK_TEXT(tree("f(x := )"), "LD122");
+	CHECK_TEXT(tree("f(a)(b)"), "LD122");
+	CHECK_TEXT(tree("5(a)"), "LD122");
+	CHECK_TEXT(tree("f(a) := b"), "LD122");
 }
 
 static void children_come_first(void)
@@ -204,6 +265,11 @@ static void depth(void)
 	CHECK_TEXT(repeated("(b OR c AND d = ", LIMIT_EXPR_DEPTH, ")"),
 		   "LD123");
 	CHECK_TEXT(repeated("-", LIMIT_EXPR_DEPTH, ""), "good");
+	CHECK_TEXT(repeated("f(", LIMIT_EXPR_DEPTH, ")"), "good");
+	CHECK_TEXT(repeated("f(", LIMIT_EXPR_DEPTH + 1, ")"), "LD123");
+	CHECK_TEXT(repeated("f(1, x + ", LIMIT_EXPR_DEPTH, ", 2)"), "good");
+	CHECK_TEXT(repeated("f(x := b[", 100000, "])"), "LD123");
+	CHECK_TEXT(repeated("f(b, ", 100000, ")"), "LD123");
 	CHECK_TEXT(repeated("-", LIMIT_EXPR_DEPTH + 1, ""), "LD123");
 	CHECK_TEXT(repeated("NOT ", 100000, ""), "LD123");
 	CHECK_TEXT(repeated("b + ", LIMIT_EXPR_NODES / 2 - 1, ""), "good");
@@ -219,6 +285,8 @@ int main(void)
 {
 	precedence();
 	indices();
+	paths();
+	functions();
 	children_come_first();
 	targets();
 	malformed();

@@ -50,6 +50,50 @@ static enum iec_type constants_type(const struct word_pin *pin,
 	return type ? type : IEC_DINT;
 }
 
+/* Input @index of a call in an expression: "LIMIT.MX"; "" elsewhere. */
+static const char *input_name(const struct il_line *line, const struct word_row *row,
+			      int index, char out[LIMIT_ARG])
+{
+	int len = 0;
+
+	*out = '\0';
+	if (!line->named)
+		return out;
+	len = snprintf(out, LIMIT_ARG, "%.24s.", row->word);
+	if (index < row->pin_count)
+		snprintf(out + len, LIMIT_ARG - (size_t)len, "%.16s", row->pin[index].name);
+	else
+		snprintf(out + len, LIMIT_ARG - (size_t)len, "IN%d",
+			 index - (row->pin_count - 1) + word_last_number(row));
+	return out;
+}
+
+static bool report_join(struct il_check *c, const struct il_line *line, int index,
+			enum iec_type a, enum iec_type b)
+{
+	char name[LIMIT_ARG], text[2 * LIMIT_ARG];
+
+	if (!line->named)
+		return il_report_types(c, line, a, b);
+	input_name(line, scope_row(c->scope, (enum word)line->word), index, name);
+	snprintf(text, sizeof(text), "%s and %s: %s", iec_type_row(a)->word,
+		 iec_type_row(b)->word, name);
+	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
+}
+
+static bool report_literal(struct il_check *c, const struct il_line *line, int index,
+			   const struct literal *literal, enum iec_type type)
+{
+	char name[LIMIT_ARG], text[2 * LIMIT_ARG];
+
+	if (!line->named || literal->real ||
+	    !(iec_type_row(type)->class & (ANY_NUM | CLASS_BITS)))
+		return il_report_constant(c, line, literal, type);
+	input_name(line, scope_row(c->scope, (enum word)line->word), index, name);
+	snprintf(text, sizeof(text), "%s: %s", iec_type_row(type)->word, name);
+	return il_report(c, line, DIAG_LITERAL_RANGE, text);
+}
+
 /* The type that inputs share, and whether the function takes it. */
 static bool check_shared(struct il_check *c, const struct il_line *line,
 			 const struct result *in, int count,
@@ -59,13 +103,13 @@ static bool check_shared(struct il_check *c, const struct il_line *line,
 	union iec_value value;
 
 	if (pin->type != IEC_NONE && type != pin->type)
-		return il_report_types(c, line, type, pin->type);
+		return report_join(c, line, 0, type, pin->type);
 	if (!(pin->classes & iec_type_row(type)->class))
 		return report_pin(c, line, pin, type);
 	for (int i = 0; i < count; i++)
 		if (in[i].literal && !word_input(row, (uint32_t)i)->own &&
 		    !literal_fit(in[i].literal, type, &value))
-			return il_report_constant(c, line, in[i].literal, type);
+			return report_literal(c, line, i, in[i].literal, type);
 	return true;
 }
 
@@ -91,7 +135,7 @@ bool il_check_inputs(struct il_check *c, const struct il_line *line,
 		if (il_is_unknown(in[i]))
 			return false;
 		if (join == IEC_TYPE_COUNT)
-			return il_report_types(c, line, type, own);
+			return report_join(c, line, i, type, own);
 		type = join;
 		shared = pin;
 		first = in[i].literal && !first ? &in[i] : first;

@@ -33,13 +33,32 @@ bool il_report(struct il_check *c, const struct il_line *line,
 	return diag_add(c->diags, il_place(c->scope, c->pou, line, id), "%s", arg);
 }
 
+/* Is it what translation made, no name of anybody's? */
+static bool is_made(const struct il_check *c, const char *operand)
+{
+	return c->pou->language == LANGUAGE_LD && operand[0] == '_' &&
+	       (operand[1] == 'N' || operand[1] == 'T');
+}
+
 bool il_report_types(struct il_check *c, const struct il_line *line,
 			 enum iec_type from, enum iec_type to)
 {
+	const struct il_line *call = line;
 	const char *operand = line->operand ?
 		scope_text(c->scope, line->operand) : "";
 	char text[LIMIT_ARG];
 
+	while (call->kind == IL_ARG_IN && call > c->il->line)
+		call--;
+	if (call != line && call->named) { /* its operand may be nobody's */
+		snprintf(text, sizeof(text), "%s and %s: %.20s.%.16s",
+			 iec_type_row(from)->word, iec_type_row(to)->word,
+			 scope_row(c->scope, (enum word)call->word)->word,
+			 scope_text(c->scope, line->pin));
+		return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
+	}
+	if (is_made(c, operand))
+		operand = "";
 	snprintf(text, sizeof(text), "%s and %s%s%.24s", iec_type_row(from)->word,
 		 iec_type_row(to)->word, *operand ? ": " : "", operand);
 	return il_report(c, line, DIAG_NEEDS_CONVERSION, text);
@@ -111,7 +130,10 @@ const struct meaning *il_value_of(struct il_check *c,
 		return NULL;
 	}
 	if (m && m->kind == MEANING_STRUCT) {
-		il_report(c, line, DIAG_STRUCT_AS_VALUE, il_operand_text(c, line));
+		il_report(c, line, DIAG_STRUCT_AS_VALUE,
+			  is_made(c, il_operand_text(c, line)) ?
+			  scope_row(c->scope, (enum word)m->word)->word :
+			  il_operand_text(c, line));
 		return NULL;
 	}
 	return m;

@@ -4,7 +4,7 @@
  *
  * What it finds good it notes in uses. It judges no labels and no topology.
  */
-#include "engine/check/check_operand.h"
+#include "engine/check/operand_check.h"
 
 #include "engine/base/ascii.h"
 #include "engine/check/expect.h"
@@ -14,12 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A cell of the rung, 0-based. */
-struct spot {
-	int row, col;
-};
-
-static bool report(struct operand_check *c, enum diag_id id, struct spot at,
+bool operand_report(struct operand_check *c, enum diag_id id, struct operand_spot at,
 		   const char *arg)
 {
 	struct diag place = {
@@ -34,7 +29,7 @@ static bool report(struct operand_check *c, enum diag_id id, struct spot at,
 }
 
 /* @kinds: of the words that may have been meant. */
-static void report_unknown(struct operand_check *c, struct spot at, uint32_t id,
+static void report_unknown(struct operand_check *c, struct operand_spot at, uint32_t id,
 			   enum diag_id why, unsigned int kinds)
 {
 	const struct expect_want want = { .kinds = kinds, .block = WORD_COUNT };
@@ -42,15 +37,15 @@ static void report_unknown(struct operand_check *c, struct spot at, uint32_t id,
 	char text[LIMIT_ARG];
 
 	if (why != DIAG_UNKNOWN_NAME || c->diags->count >= SUGGEST_MOST) {
-		report(c, why, at, name);
+		operand_report(c, why, at, name);
 		return;
 	}
 	expect_nearest(c->scope, c->pou, &want, name, text, sizeof(text));
-	report(c, why, at, text);
+	operand_report(c, why, at, text);
 }
 
 /* The meaning of @id, or NULL after a diagnostic. */
-static const struct meaning *find(struct operand_check *c, struct spot at,
+const struct meaning *operand_find(struct operand_check *c, struct operand_spot at,
 				  uint32_t id)
 {
 	enum diag_id why = DIAG_UNKNOWN_NAME;
@@ -63,24 +58,24 @@ static const struct meaning *find(struct operand_check *c, struct spot at,
 	return m;
 }
 
-static uint32_t intern(struct operand_check *c, const char *text, size_t len)
+uint32_t operand_intern(struct operand_check *c, const char *text, size_t len)
 {
 	return names_intern(&c->project->names, text, len);
 }
 
 /* What is named wrongly is at least not unused: one mistake, one message. */
-static const struct meaning *refuse(struct operand_check *c, enum diag_id id,
-				    struct spot at, uint32_t name,
+const struct meaning *operand_refuse(struct operand_check *c, enum diag_id id,
+				    struct operand_spot at, uint32_t name,
 				    const struct meaning *m)
 {
-	report(c, id, at, project_text(c->project, name));
+	operand_report(c, id, at, project_text(c->project, name));
 	uses_add(c->uses, m, USE_READ | USE_WRITTEN);
 	return NULL;
 }
 
 /* A whole array goes to a parameter of the project's own words, or to another; check_il
  * looks at its bounds. */
-static bool is_whole_array(struct operand_check *c, uint32_t id)
+bool operand_is_array(struct operand_check *c, uint32_t id)
 {
 	enum diag_id why;
 	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
@@ -89,15 +84,15 @@ static bool is_whole_array(struct operand_check *c, uint32_t id)
 }
 
 /* A name whose value is asked for. NULL after a diagnostic. */
-static const struct meaning *read_name(struct operand_check *c, struct spot at,
+const struct meaning *operand_read(struct operand_check *c, struct operand_spot at,
 				       uint32_t id)
 {
-	const struct meaning *m = find(c, at, id);
+	const struct meaning *m = operand_find(c, at, id);
 
 	if (!m)
 		return NULL;
 	if (meaning_fault(m) != DIAG_COUNT)
-		return refuse(c, meaning_fault(m), at, id, m);
+		return operand_refuse(c, meaning_fault(m), at, id, m);
 	uses_add(c->uses, m, USE_READ);
 	return m;
 }
@@ -116,187 +111,60 @@ static enum diag_id write_fault(const struct meaning *m)
 
 /* @always: written at every evaluation, as a coil does; two such places
  * fight. */
-static const struct meaning *write_name(struct operand_check *c, struct spot at,
+const struct meaning *operand_write(struct operand_check *c, struct operand_spot at,
 					uint32_t id, bool always)
 {
-	const struct meaning *m = find(c, at, id);
+	const struct meaning *m = operand_find(c, at, id);
 	enum diag_id fault;
 
 	if (!m)
 		return NULL;
 	fault = write_fault(m);
 	if (fault != DIAG_COUNT)
-		return refuse(c, fault, at, id, m);
+		return operand_refuse(c, fault, at, id, m);
 	if (uses_add(c->uses, m, always ? USE_WRITTEN | USE_COIL : USE_WRITTEN))
-		report(c, DIAG_COIL_TWICE, at, project_text(c->project, id));
+		operand_report(c, DIAG_COIL_TWICE, at, project_text(c->project, id));
 	return m;
 }
 
-static void check_bool(struct operand_check *c, struct spot at, uint32_t id,
+static void check_bool(struct operand_check *c, struct operand_spot at, uint32_t id,
 		       const struct meaning *m)
 {
 	if (m && m->type != IEC_BOOL)
-		report(c, DIAG_NOT_BOOL, at, project_text(c->project, id));
+		operand_report(c, DIAG_NOT_BOOL, at, project_text(c->project, id));
 }
 
 /* A whole array that is written. */
-static void write_whole(struct operand_check *c, struct spot at, uint32_t id)
+void operand_write_array(struct operand_check *c, struct operand_spot at, uint32_t id)
 {
-	const struct meaning *m = find(c, at, id);
+	const struct meaning *m = operand_find(c, at, id);
 
 	if (m->constant || !m->writable)
-		refuse(c, m->constant ? DIAG_WRITE_CONSTANT : DIAG_WRITE_INPUT,
+		operand_refuse(c, m->constant ? DIAG_WRITE_CONSTANT : DIAG_WRITE_INPUT,
 		       at, id, m);
 	else
 		uses_add(c->uses, m, USE_WRITTEN);
 }
 
-/* ---- expressions ---- */
-
-/* An index that is an expression: of the array @id, or an address, which then is one;
- * @tail: the path behind it. The type of the index is check_il's. Returns the text of the
- * first element behind it; 0 after a diagnostic. */
-static uint32_t use_index(struct operand_check *c, struct spot at, uint32_t id,
-			  struct expr_tail tail)
-{
-	const struct meaning *m = find(c, at, id);
-
-	if (m && m->kind != MEANING_ARRAY && m->kind != MEANING_ADDRESS) {
-		refuse(c, DIAG_NOT_ARRAY, at, id, m);
-		return 0;
-	}
-	id = m ? scope_first(c->scope, c->pou, id, tail.text, tail.len) : 0;
-	if (m && !id)
-		report(c, DIAG_NAME_TOO_LONG, at, "");
-	return id;
-}
-
-/* The same of a whole path; @node is its end. */
-static uint32_t use_indices(struct operand_check *c, struct spot at,
-			    const struct expr *expr, int node)
-{
-	int16_t chain[LIMIT_INDICES];
-	int count = 0;
-	uint32_t id = 0;
-
-	for (; node >= 0 && count < LIMIT_INDICES; node = expr->node[node].right)
-		chain[count++] = (int16_t)node;
-	if (node >= 0) {
-		report(c, DIAG_INDEX_PLAIN, at, "");
-		return 0;
-	}
-	for (int i = count - 1; i >= 0; i--) {
-		const struct expr_node *part = &expr->node[chain[i]];
-
-		if (part->right < 0)
-			id = intern(c, part->text, part->len);
-		id = use_index(c, at, id, part->tail);
-		if (!id)
-			return 0;
-	}
-	return id;
-}
-
-/* What such a path leads to, as it is of the first elements. @whole: it may be an
- * array. */
-static void use_element(struct operand_check *c, struct spot at, uint32_t id,
-			bool write, bool whole)
-{
-	const struct meaning *m = id ? find(c, at, id) : NULL;
-
-	if (!m)
-		return;
-	if (m->kind == MEANING_INSTANCE)
-		refuse(c, DIAG_INDEX_PLAIN, at, id, m);
-	else if (m->kind == MEANING_ARRAY && !whole)
-		refuse(c, DIAG_ARRAY_AS_VALUE, at, id, m);
-	else if (write && m->constant)
-		refuse(c, DIAG_WRITE_CONSTANT, at, id, m);
-	else if (write && !m->writable)
-		refuse(c, DIAG_WRITE_INPUT, at, id, m);
-	else
-		uses_add(c->uses, m, write ? USE_WRITTEN : USE_READ);
-}
-
-/* A value, or if @whole an array, too. */
-static void read_whole(struct operand_check *c, struct spot at, uint32_t id, bool whole)
-{
-	if (whole && is_whole_array(c, id))
-		uses_add(c->uses, find(c, at, id), USE_READ);
-	else
-		read_name(c, at, id);
-}
-
-/* What an assignment writes. */
-static void use_target(struct operand_check *c, struct spot at, const struct expr *expr)
-{
-	uint32_t id = intern(c, expr->target, expr->target_len);
-
-	if (expr->target_index >= 0) {
-		if (expr->target_base >= 0)
-			id = use_indices(c, at, expr, expr->target_base);
-		id = id ? use_index(c, at, id, expr->target_tail) : 0;
-		use_element(c, at, id, true, true);
-	} else if (is_whole_array(c, id)) {
-		write_whole(c, at, id);
-	} else {
-		write_name(c, at, id, false);
-	}
-}
-
-static void check_expression(struct operand_check *c, struct spot at,
-			     uint32_t id)
-{
-	struct names *names = &c->project->names;
-	const char *text = names_text(names, id);
-	struct expr *expr = c->expr;
-	struct diag place = {
-		.file = c->pou->file, .line = rung_line(c->rung, at.row + 1),
-		.pou = project_text(c->project, c->pou->name),
-		.rung = c->number, .row = at.row + 1, .col = at.col + 1,
-	};
-
-	if (!expr_parse_text(text, names_len(names, id), expr, c->diags,
-			     place)) {
-		c->good = false;
-		return;
-	}
-	for (int i = 0; i < expr->count; i++) {
-		const struct expr_node *part = &expr->node[i];
-
-		bool whole = i == expr->root && expr->target;
-
-		if (part->op == EXPR_NAME)
-			read_whole(c, at, intern(c, part->text, part->len), whole);
-		else if (part->op == EXPR_INDEX && !part->inner)
-			use_element(c, at, use_indices(c, at, expr, i), false,
-				    whole);
-		else if (part->op == EXPR_LITERAL)
-			find(c, at, intern(c, part->text, part->len));
-	}
-	if (expr->target)
-		use_target(c, at, expr);
-}
-
 /* FOR I := 1 TO 10 BY 2: one way, which a constant tells. */
-static void check_loop(struct operand_check *c, struct spot at, uint32_t id)
+static void check_loop(struct operand_check *c, struct operand_spot at, uint32_t id)
 {
 	const struct names *names = &c->project->names;
 	const struct meaning *m;
 	struct loop loop;
 
 	if (!loop_parse(names_text(names, id), names_len(names, id), &loop)) {
-		report(c, DIAG_LOOP_FORM, at, names_text(names, id));
+		operand_report(c, DIAG_LOOP_FORM, at, names_text(names, id));
 		return;
 	}
-	m = write_name(c, at, intern(c, loop.variable.text, loop.variable.len),
+	m = operand_write(c, at, operand_intern(c, loop.variable.text, loop.variable.len),
 		       false);
 	if (m)
 		uses_add(c->uses, m, USE_READ);
-	read_name(c, at, intern(c, loop.from.text, loop.from.len));
-	read_name(c, at, intern(c, loop.to.text, loop.to.len));
+	operand_read(c, at, operand_intern(c, loop.from.text, loop.from.len));
+	operand_read(c, at, operand_intern(c, loop.to.text, loop.to.len));
 	if (loop.step == 0)
-		report(c, DIAG_LOOP_FORM, at, "BY 0");
+		operand_report(c, DIAG_LOOP_FORM, at, "BY 0");
 }
 
 /* ---- boxes ---- */
@@ -343,35 +211,35 @@ static bool is_in_out(const struct word_row *row, const struct arg *arg)
 	       row->pin[index].dir == PIN_IN_OUT;
 }
 
-static void change_name(struct operand_check *c, struct spot at, uint32_t id)
+void operand_change(struct operand_check *c, struct operand_spot at, uint32_t id)
 {
-	const struct meaning *m = find(c, at, id);
+	const struct meaning *m = operand_find(c, at, id);
 
 	if (m && m->kind == MEANING_INSTANCE)
 		uses_add(c->uses, m, USE_READ | USE_WRITTEN);
-	else if (m && write_name(c, at, id, false))
+	else if (m && operand_write(c, at, id, false))
 		uses_add(c->uses, m, USE_READ);
 }
 
-static void use_whole_array(struct operand_check *c, struct spot at, uint32_t id,
+static void use_whole_array(struct operand_check *c, struct operand_spot at, uint32_t id,
 			    const struct arg *arg, bool in_out)
 {
-	const struct meaning *m = find(c, at, id);
+	const struct meaning *m = operand_find(c, at, id);
 	bool write = arg->output || in_out;
 
 	if (!m)
 		return;
 	if (arg->inverse)
-		refuse(c, DIAG_ARRAY_AS_VALUE, at, id, m);
+		operand_refuse(c, DIAG_ARRAY_AS_VALUE, at, id, m);
 	else if (write && (m->constant || !m->writable))
-		refuse(c, m->constant ? DIAG_WRITE_CONSTANT : DIAG_WRITE_INPUT,
+		operand_refuse(c, m->constant ? DIAG_WRITE_CONSTANT : DIAG_WRITE_INPUT,
 		       at, id, m);
 	else
 		uses_add(c->uses, m, (write ? USE_WRITTEN : 0u) |
 				     (arg->output ? 0u : USE_READ));
 }
 
-static void check_args(struct operand_check *c, struct spot at,
+static void check_args(struct operand_check *c, struct operand_spot at,
 		       const struct cell *cell)
 {
 	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
@@ -381,28 +249,28 @@ static void check_args(struct operand_check *c, struct spot at,
 
 	while (args_next(&next, &arg)) {
 		enum diag_id wrong = judge_pin(row, &arg);
-		uint32_t value = intern(c, arg.value, arg.value_len);
+		uint32_t value = operand_intern(c, arg.value, arg.value_len);
 
 		if (wrong != DIAG_COUNT)
-			report(c, wrong, at, project_text(c->project,
-				intern(c, arg.pin, arg.pin_len)));
-		else if (whole && is_whole_array(c, value))
+			operand_report(c, wrong, at, project_text(c->project,
+				operand_intern(c, arg.pin, arg.pin_len)));
+		else if (whole && operand_is_array(c, value))
 			use_whole_array(c, at, value, &arg,
 					is_in_out(row, &arg));
 		else if (is_in_out(row, &arg))
-			change_name(c, at, value);
+			operand_change(c, at, value);
 		else if (arg.output)
-			write_name(c, at, value, row->kind == WORD_FB);
+			operand_write(c, at, value, row->kind == WORD_FB);
 		else if (arg.inverse)
-			check_bool(c, at, value, read_name(c, at, value));
+			check_bool(c, at, value, operand_read(c, at, value));
 		else
-			read_name(c, at, value);
+			operand_read(c, at, value);
 	}
 }
 
 /* Bit i is set for input i of a function that a parameter or a pin row feeds. */
 static unsigned int connected_inputs(const struct operand_check *c,
-				     struct spot at, const struct cell *cell)
+				     struct operand_spot at, const struct cell *cell)
 {
 	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 	const char *next = project_text(c->project, cell->args);
@@ -428,7 +296,7 @@ static unsigned int connected_inputs(const struct operand_check *c,
 	return inputs;
 }
 
-static bool has_pin_row(const struct operand_check *c, struct spot at,
+static bool has_pin_row(const struct operand_check *c, struct operand_spot at,
 			const char *name)
 {
 	for (int i = at.row + 1; i < c->rung->rows; i++) {
@@ -444,7 +312,7 @@ static bool has_pin_row(const struct operand_check *c, struct spot at,
 }
 
 /* What is the project's own needs its inputs that have no value. */
-static void check_own_inputs(struct operand_check *c, struct spot at,
+static void check_own_inputs(struct operand_check *c, struct operand_spot at,
 			     const struct cell *cell, const struct word_row *row)
 {
 	const char *args = project_text(c->project, cell->args);
@@ -459,13 +327,13 @@ static void check_own_inputs(struct operand_check *c, struct spot at,
 		if (!needed || has_pin_row(c, at, pin->name) ||
 		    args_find(args, pin->name, strlen(pin->name), &arg))
 			continue;
-		report(c, DIAG_MISSING_INPUT, at, pin->name);
+		operand_report(c, DIAG_MISSING_INPUT, at, pin->name);
 		return;
 	}
 }
 
 /* A function needs all its named inputs, and of the others no gap. */
-static void check_inputs(struct operand_check *c, struct spot at,
+static void check_inputs(struct operand_check *c, struct operand_spot at,
 			 const struct cell *cell)
 {
 	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
@@ -486,26 +354,26 @@ static void check_inputs(struct operand_check *c, struct spot at,
 		else
 			snprintf(name, sizeof(name), "IN%d",
 				 i - (row->pin_count - 1) + word_last_number(row));
-		report(c, DIAG_MISSING_INPUT, at, name);
+		operand_report(c, DIAG_MISSING_INPUT, at, name);
 		return;
 	}
 }
 
-static void check_instance(struct operand_check *c, struct spot at,
+static void check_instance(struct operand_check *c, struct operand_spot at,
 			   const struct cell *cell)
 {
-	const struct meaning *m = find(c, at, cell->operand);
+	const struct meaning *m = operand_find(c, at, cell->operand);
 	const char *name = project_text(c->project, cell->operand);
 
 	if (!m)
 		return;
 	if (m->kind != MEANING_INSTANCE || m->word != (enum word)cell->word)
-		refuse(c, DIAG_NOT_INSTANCE, at, cell->operand, m);
+		operand_refuse(c, DIAG_NOT_INSTANCE, at, cell->operand, m);
 	else if (uses_add(c->uses, m, USE_CALLED))
-		report(c, DIAG_INSTANCE_TWICE, at, name);
+		operand_report(c, DIAG_INSTANCE_TWICE, at, name);
 }
 
-static void check_routine(struct operand_check *c, struct spot at, uint32_t name)
+static void check_routine(struct operand_check *c, struct operand_spot at, uint32_t name)
 {
 	const struct pou *pou = scope_pou(c->scope, c->pou, name);
 
@@ -514,32 +382,32 @@ static void check_routine(struct operand_check *c, struct spot at, uint32_t name
 	if (!pou && !scope_find(c->scope, c->pou, name, &why))
 		report_unknown(c, at, name, DIAG_UNKNOWN_NAME, EXPECT_SUBROUTINE);
 	else if (!pou || pou->kind != POU_SUBROUTINE)
-		report(c, DIAG_NOT_SUBROUTINE, at, project_text(c->project, name));
+		operand_report(c, DIAG_NOT_SUBROUTINE, at, project_text(c->project, name));
 }
 
-static void check_element(struct operand_check *c, struct spot at,
+static void check_element(struct operand_check *c, struct operand_spot at,
 			  const struct cell *cell)
 {
 	const struct word_row *row = words_row(&c->project->words, (enum word)cell->word);
 
 	if (row->edge != EDGE_NONE && c->pou->kind == POU_FUNCTION)
-		report(c, DIAG_FUNCTION_KEEPS, at,
+		operand_report(c, DIAG_FUNCTION_KEEPS, at,
 		       project_text(c->project, cell->operand));
 	if (cell->word == ELEM_END && c->pou->kind != POU_PROGRAM)
-		report(c, DIAG_END_ELSEWHERE, at, pou_word(c->pou->kind));
+		operand_report(c, DIAG_END_ELSEWHERE, at, pou_word(c->pou->kind));
 	switch (row->operand) {
 	case OPND_BOOL_R:
 		check_bool(c, at, cell->operand,
-			   read_name(c, at, cell->operand));
+			   operand_read(c, at, cell->operand));
 		break;
 	case OPND_BOOL_W:
 		check_bool(c, at, cell->operand,
-			   write_name(c, at, cell->operand,
+			   operand_write(c, at, cell->operand,
 				      row->next == OP_ST));
 		break;
 	case OPND_EXPR:
 	case OPND_ASSIGN:
-		check_expression(c, at, cell->operand);
+		operand_expression(c, at, cell->operand);
 		break;
 	case OPND_INSTANCE:
 		check_instance(c, at, cell);
@@ -572,7 +440,7 @@ bool check_operands(struct operand_check *c)
 	c->good = true;
 	for (int row = 0; row < rung->rows; row++) {
 		for (int col = 0; col < rung->cols; col++, cell++) {
-			struct spot at = { row, col };
+			struct operand_spot at = { row, col };
 
 			if (cell->word != ELEM_EMPTY && cell->word != ELEM_WIRE)
 				check_element(c, at, cell);

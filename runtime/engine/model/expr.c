@@ -6,7 +6,7 @@
  * It judges neither names nor types.
  */
 #include "engine/model/expr.h"
-#include "engine/base/ascii.h"
+#include "engine/model/expr_path.h"
 
 #include <string.h>
 
@@ -19,10 +19,12 @@ struct operator {
 	uint16_t fn;      /* enum word of EXPR_FN                            */
 };
 
-enum { OPERATOR_PAREN, OPERATOR_INDEX, OPERATOR_NEG, OPERATOR_NOT, OPERATOR_BINARY };
+enum { OPERATOR_PAREN, OPERATOR_INDEX, OPERATOR_CALL, OPERATOR_NEG, OPERATOR_NOT,
+       OPERATOR_BINARY };
 static const struct operator operators[] = {
 	[OPERATOR_PAREN] = { "(", 0, 0, 0 },
 	[OPERATOR_INDEX] = { "[", 0, 0, 0 },
+	[OPERATOR_CALL] = { "(", 0, 0, 0 },
 	[OPERATOR_NEG] = { "-", 8, EXPR_NEG, 0 },
 	[OPERATOR_NOT] = { "NOT", 8, EXPR_NOT, 0 },
 	[OPERATOR_BINARY] = { "*", 7, EXPR_FN, FN_MUL },
@@ -45,6 +47,7 @@ struct parser {
 	int opened;        /* ( and [ not closed yet                         */
 	int nested;        /* ( and [ and signs that wait                    */
 	int indexed;       /* [ not closed yet                               */
+	int called;        /* ( of functions not closed yet                  */
 	int pending_count;
 	int value_count;
 	uint8_t pending[PENDING];
@@ -98,7 +101,7 @@ static bool reduce_to(struct parser *parser, int strength)
 	while (parser->pending_count) {
 		int top = parser->pending[parser->pending_count - 1];
 
-		if (top <= OPERATOR_INDEX || operators[top].strength < strength)
+		if (top <= OPERATOR_CALL || operators[top].strength < strength)
 			break;
 		if (!reduce(parser))
 			return false;
@@ -137,50 +140,6 @@ static bool is_operand(const struct lex *lex)
 	return false;
 }
 
-/* From the [ to the ] of `[ i ]` or `[-3]`: an index that needs no operation. */
-static bool skip_simple_index(struct lex *lex)
-{
-	struct lex at = *lex;
-
-	lex_next(&at);
-	if (lex_is(&at, "-")) {
-		lex_next(&at);
-		if (at.token.kind != TOKEN_NUMBER)
-			return false;
-	}
-	if (at.token.kind != TOKEN_NUMBER && at.token.kind != TOKEN_NAME &&
-	    at.token.kind != TOKEN_ADDRESS)
-		return false;
-	lex_next(&at);
-	if (!lex_is(&at, "]"))
-		return false;
-	*lex = at;
-	return true;
-}
-
-/* On the last token of a name or of an index behind it: to that of what follows with
- * simple indices alone, `[2].Times`. An index that is an expression is not gone to. */
-static void skip_path(struct lex *lex)
-{
-	struct lex at = *lex;
-	bool dots = lex_is(lex, "]");
-
-	for (;;) {
-		lex_next(&at);
-		if (dots ? !lex_is(&at, ".") || lex_next(&at) != TOKEN_NAME
-			 : !lex_is(&at, "[") || !skip_simple_index(&at))
-			return;
-		*lex = at;
-		dots = !dots;
-	}
-}
-
-/* What ends at the cursor, on its last token: its text from @text on. */
-static size_t text_len(const char *text, const struct lex *lex)
-{
-	return (size_t)(lex->token.text + lex->token.len - text);
-}
-
 /* On the ] of an index that is an expression: what stands behind it, on the last token
  * of which the cursor is left. */
 static bool take_tail(struct parser *parser, struct expr_tail *out)
@@ -188,8 +147,8 @@ static bool take_tail(struct parser *parser, struct expr_tail *out)
 	const char *text = parser->lex->token.text + 1;
 	size_t len;
 
-	skip_path(parser->lex);
-	len = text_len(text, parser->lex);
+	expr_skip_path(parser->lex);
+	len = expr_text_len(text, parser->lex);
 	if (len > LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	*out = (struct expr_tail){ text, (uint16_t)len };
@@ -211,7 +170,94 @@ static bool open_index(struct parser *parser, struct expr_open open)
 	return true;
 }
 
-/* @more: it goes on behind a [. */
+/* ---- functions ---- */
+
+/* Does the cursor stand on the name of a function that is called? */
+static bool is_call(const struct lex *lex)
+{
+	struct lex ahead = *lex;
+
+	if (lex->token.kind != TOKEN_NAME)
+		return false;
+	lex_next(&ahead);
+	return lex_is(&ahead, "(");
+}
+
+static struct expr_tail token_text(const struct lex *lex)
+{
+	return (struct expr_tail){ lex->token.text, (uint16_t)lex->token.len };
+}
+
+/* `MN :=` before an argument, if it stands there. */
+static bool take_pin(struct parser *parser)
+{
+	struct expr_call *call = &parser->out->call[parser->called - 1];
+	struct lex ahead = *parser->lex;
+
+	call->pin = (struct expr_tail){ "", 0 };
+	if (ahead.token.kind != TOKEN_NAME)
+		return true;
+	lex_next(&ahead);
+	if (!lex_is(&ahead, ":="))
+		return true;
+	if (parser->lex->token.len > LIMIT_NAME)
+		return refuse(parser, DIAG_NAME_TOO_LONG);
+	call->pin = token_text(parser->lex);
+	*parser->lex = ahead;
+	lex_next(parser->lex);
+	return true;
+}
+
+static bool add_call(struct parser *parser, const struct expr_call *call)
+{
+	return add_node(parser, (struct expr_node){
+		.op = EXPR_CALL, .text = call->name.text, .len = call->name.len,
+		.left = call->last, .right = -1 });
+}
+
+/* On the name of a function. @more: its first argument is wanted. */
+static bool open_call(struct parser *parser, bool *more)
+{
+	struct expr_call call = { token_text(parser->lex), { "", 0 }, -1 };
+
+	if (parser->called == LIMIT_EXPR_DEPTH)
+		return refuse(parser, DIAG_EXPR_TOO_DEEP);
+	if (parser->lex->token.len > LIMIT_NAME)
+		return refuse(parser, DIAG_NAME_TOO_LONG);
+	lex_next(parser->lex);
+	if (!push(parser, OPERATOR_CALL))
+		return false;
+	parser->out->call[parser->called++] = call;
+	parser->opened++;
+	*more = !lex_is(parser->lex, ")");
+	if (*more)
+		return take_pin(parser);
+	parser->pending_count--; /* F() */
+	parser->opened--;
+	parser->nested--;
+	parser->called--;
+	lex_next(parser->lex);
+	return add_call(parser, &call);
+}
+
+/* What stands before the , or ) is an argument. */
+static bool close_argument(struct parser *parser)
+{
+	struct expr_call *call = &parser->out->call[parser->called - 1];
+	struct expr_node node = {
+		.op = EXPR_ARG, .text = call->pin.text, .len = call->pin.len,
+		.left = parser->value[--parser->value_count], .right = call->last,
+	};
+
+	if (!add_node(parser, node))
+		return false;
+	call->last = parser->value[--parser->value_count];
+	return true;
+}
+
+/* ---- operands ---- */
+
+/* @more: it goes on behind a [ or the ( of a function. */
 static bool take_operand(struct parser *parser, bool *more)
 {
 	struct lex *lex = parser->lex;
@@ -228,11 +274,13 @@ static bool take_operand(struct parser *parser, bool *more)
 	*more = false;
 	if (!is_operand(lex))
 		return refuse(parser, DIAG_BAD_EXPRESSION);
+	if (!literal && is_call(lex))
+		return open_call(parser, more);
 	if (token->len > LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	if (token->kind != TOKEN_NUMBER)
-		skip_path(lex);
-	len = text_len(token->text, lex);
+		expr_skip_path(lex);
+	len = expr_text_len(token->text, lex);
 	if (len > 2 * LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	node.len = (uint16_t)len;
@@ -295,30 +343,42 @@ static bool go_on(struct parser *parser, bool *more)
 	return open_index(parser, open);
 }
 
-/* @more: an operand is wanted, the index of a path that goes on. */
+/* The innermost that is open, at what ends it. @more: an operand is wanted: the index of
+ * a path that goes on, another argument. */
+static bool close_one(struct parser *parser, bool *more)
+{
+	const int top = parser->pending[parser->pending_count - 1];
+	const bool index = lex_is(parser->lex, "]"), comma = lex_is(parser->lex, ",");
+
+	if (index != (top == OPERATOR_INDEX) || (comma && top != OPERATOR_CALL))
+		return refuse(parser, DIAG_BAD_EXPRESSION);
+	if (top == OPERATOR_CALL && !close_argument(parser))
+		return false;
+	if (comma) {
+		lex_next(parser->lex);
+		*more = true;
+		return take_pin(parser);
+	}
+	parser->pending_count--;
+	parser->opened--;
+	parser->nested--;
+	if (index && !close_index(parser))
+		return false;
+	if (top == OPERATOR_CALL &&
+	    !add_call(parser, &parser->out->call[--parser->called]))
+		return false;
+	lex_next(parser->lex);
+	return !index || go_on(parser, more);
+}
+
 static bool close_parens(struct parser *parser, bool *more)
 {
 	*more = false;
-	while (parser->opened &&
-	       (lex_is(parser->lex, ")") || lex_is(parser->lex, "]"))) {
-		bool index = lex_is(parser->lex, "]");
-
-		if (!reduce_to(parser, 1))
+	while (parser->opened && !*more &&
+	       (lex_is(parser->lex, ")") || lex_is(parser->lex, "]") ||
+		lex_is(parser->lex, ",")))
+		if (!reduce_to(parser, 1) || !close_one(parser, more))
 			return false;
-		if (parser->pending[parser->pending_count - 1] !=
-		    (index ? OPERATOR_INDEX : OPERATOR_PAREN))
-			return refuse(parser, DIAG_BAD_EXPRESSION);
-		parser->pending_count--;
-		parser->opened--;
-		parser->nested--;
-		if (index && !close_index(parser))
-			return false;
-		lex_next(parser->lex);
-		if (index && !go_on(parser, more))
-			return false;
-		if (*more)
-			break;
-	}
 	return true;
 }
 
@@ -370,7 +430,7 @@ static void parser_init(struct parser *parser, struct lex *lex,
 	parser->diags = diags;
 	parser->place = place;
 	parser->shift = 0;
-	parser->opened = parser->nested = parser->indexed = 0;
+	parser->opened = parser->nested = parser->indexed = parser->called = 0;
 	parser->pending_count = parser->value_count = 0;
 	out->count = 0;
 	out->root = -1;
@@ -388,38 +448,6 @@ bool expr_parse(struct lex *lex, struct expr *out, struct diag_list *diags,
 
 	parser_init(&parser, lex, out, diags, place);
 	return parse(&parser);
-}
-
-/* Behind the ] that closes the [ under the cursor; false: there is none. */
-static bool skip_brackets(struct lex *lex)
-{
-	int depth = 0;
-
-	for (;;) {
-		if (lex_is(lex, "["))
-			depth++;
-		else if (lex_is(lex, "]") && --depth == 0)
-			return lex_next(lex), true;
-		else if (lex->token.kind == TOKEN_END ||
-			 lex->token.kind == TOKEN_NEWLINE || lex_is(lex, ":="))
-			return false;
-		lex_next(lex);
-	}
-}
-
-/* Is there a := that belongs to what the cursor is on? */
-static bool has_target(struct lex lex)
-{
-	if (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_ADDRESS)
-		return false;
-	lex_next(&lex);
-	while (lex_is(&lex, "[")) {
-		if (!skip_brackets(&lex))
-			return false;
-		if (lex_is(&lex, ".") && lex_next(&lex) == TOKEN_NAME)
-			lex_next(&lex);
-	}
-	return lex_is(&lex, ":=");
 }
 
 /* What was taken of the target so far leads to an array. */
@@ -468,11 +496,11 @@ static bool take_target(struct parser *parser)
 	struct expr *out = parser->out;
 	bool indexed;
 
-	if (!has_target(*lex))
+	if (!expr_has_target(*lex))
 		return true;
 	out->target = lex->token.text;
-	skip_path(lex);
-	out->target_len = text_len(out->target, lex);
+	expr_skip_path(lex);
+	out->target_len = expr_text_len(out->target, lex);
 	if (out->target_len > 2 * LIMIT_NAME)
 		return refuse(parser, DIAG_NAME_TOO_LONG);
 	indexed = lex_is(lex, "]");

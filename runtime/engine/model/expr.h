@@ -4,7 +4,7 @@
  * table 55, as a tree.
  *
  * Used by [ … ] cells and by scenarios. It parses and prints; types are found
- * later. Precedence, strongest first: ( ), - NOT, * / MOD, + -, < > <= >=, = <>,
+ * later, and so is what a function is: `LIMIT(0, x + 1, 10)`, `F(A := 1)`. Precedence, strongest first: ( ), - NOT, * / MOD, + -, < > <= >=, = <>,
  * AND &, XOR, OR. All binary operators bind to the left.
  */
 #ifndef MODEL_EXPR_H
@@ -24,6 +24,9 @@ enum expr_op {
 	EXPR_NEG, EXPR_NOT,
 	EXPR_FN,        /* fn: ADD SUB MUL DIV MOD GT GE EQ LE LT NE          */
 	EXPR_AND, EXPR_XOR, EXPR_OR,
+	EXPR_CALL,      /* text: a function; left: its last argument, or -1   */
+	EXPR_ARG,       /* left: its value; right: the one before it, or -1;
+			   text: its pin, if it is named: MN := 0             */
 };
 
 /* What stands behind an index that is an expression: `.Speed`; len 0: nothing. */
@@ -40,6 +43,7 @@ struct expr_node {
 	struct expr_tail tail; /* of EXPR_INDEX                               */
 	int16_t left, right;   /* nodes; -1: none. Children come before       */
 	bool inner;            /* of EXPR_INDEX: the path goes on from here   */
+	bool whole;            /* for who judges it: may it be an array?      */
 };
 
 struct expr {
@@ -55,6 +59,8 @@ struct expr {
 				  index; -1: `target` is the array            */
 	struct expr_open { const char *text; uint16_t len; int16_t base; }
 		open[LIMIT_EXPR_DEPTH]; /* the parser's: arrays before an open [ */
+	struct expr_call { struct expr_tail name, pin; int16_t last; }
+		call[LIMIT_EXPR_DEPTH]; /* and functions before an open (     */
 };
 
 /**

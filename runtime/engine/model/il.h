@@ -26,7 +26,8 @@ struct il_line {
 	uint8_t kind;        /* enum il_kind                                   */
 	uint8_t op;          /* enum op of IL_OP                               */
 	uint8_t modifiers;   /* enum op_modifier                               */
-	uint8_t spare;
+	uint8_t named;       /* of IL_CALL: one of several in a cell, so that
+				messages name it                           */
 	uint16_t word;       /* enum word: the function of IL_FN, IL_CALL      */
 	uint16_t row, col;   /* 1-based cell it comes from. In a list that was written
 				(rung 0): column of its operator, of its operand.

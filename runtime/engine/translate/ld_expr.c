@@ -5,28 +5,14 @@
  * Every operation that can fail gets EN from the ENO of the one before, the first
  * from the power of the cell. So an expression is what the same boxes would be.
  */
-#include "engine/translate/ladder_unit.h"
+#include "engine/translate/ld_chain.h"
 
 #include "engine/check/check_il.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* A part of an expression that has been computed. */
-struct value {
-	uint32_t operand;
-	enum iec_type type;     /* IEC_NONE: a constant without a type        */
-};
-
-struct chain {
-	struct ld *ld;
-	const struct expr *expr;
-	int net;                /* power of the cell                          */
-	uint32_t en;            /* of the next operation; 0: none so far      */
-	bool can_fail;
-};
-
-static uint32_t intern(struct chain *c, const char *text, size_t len)
+uint32_t chain_intern(struct chain *c, const char *text, size_t len)
 {
 	uint32_t id = names_intern(&c->ld->translation->project->names, text,
 				   len);
@@ -53,9 +39,9 @@ static uint32_t intern_name(struct chain *c, const char *text, size_t len)
 	char out[2 * LIMIT_NAME + 1];
 
 	if (!memchr(text, ' ', len) || len >= sizeof(out))
-		return intern(c, text, len);
+		return chain_intern(c, text, len);
 	memcpy(out, text, len);
-	return intern(c, out, drop_blanks(out, len));
+	return chain_intern(c, out, drop_blanks(out, len));
 }
 
 static const struct meaning *meaning(struct chain *c, uint32_t operand)
@@ -79,7 +65,7 @@ static enum iec_type type_of(struct chain *c, uint32_t operand)
  * are bounded by LIMIT_INDICES, which check_operand keeps. */
 static uint32_t first_element(struct chain *c, const struct expr_node *node)
 {
-	uint32_t id = node->right < 0 ? intern(c, node->text, node->len) :
+	uint32_t id = node->right < 0 ? chain_intern(c, node->text, node->len) :
 		      first_element(c, &c->expr->node[node->right]);
 
 	return scope_first(c->ld->translation->scope, c->ld->unit->pou, id,
@@ -102,21 +88,19 @@ static enum op operator_of(const struct expr_node *node)
 	       node->op == EXPR_OR ? OP_OR : OP_XOR;
 }
 
-static enum iec_type infer(struct chain *c, int index);
-
 /* AND OR XOR NOT: BOOL, unless one side is bits that go with the other; IEC_NONE of
  * constants alone. */
 static enum iec_type infer_logic(struct chain *c, const struct expr_node *node)
 {
-	enum iec_type type = infer(c, node->left);
+	enum iec_type type = chain_infer(c, node->left);
 
 	if (node->op != EXPR_NOT)
-		type = types_join(type, infer(c, node->right));
+		type = types_join(type, chain_infer(c, node->right));
 	return type == IEC_NONE || is_bits(type) ? type : IEC_BOOL;
 }
 
 /* Type of a part; constants without a type take that of their neighbours. */
-static enum iec_type infer(struct chain *c, int index)
+enum iec_type chain_infer(struct chain *c, int index)
 {
 	const struct expr_node *node = &c->expr->node[index];
 	enum iec_type left, right;
@@ -124,32 +108,33 @@ static enum iec_type infer(struct chain *c, int index)
 	switch (node->op) {
 	case EXPR_NAME:
 	case EXPR_LITERAL:
-		return type_of(c, intern(c, node->text, node->len));
+		return type_of(c, chain_intern(c, node->text, node->len));
 	case EXPR_INDEX: /* that of its array's elements */
 		return type_of_element(c, node);
 	case EXPR_NEG:
-		return infer(c, node->left);
+		return chain_infer(c, node->left);
 	case EXPR_NOT:
 	case EXPR_AND:
 	case EXPR_XOR:
 	case EXPR_OR:
 		return infer_logic(c, node);
+	case EXPR_CALL:
+		return chain_infer_call(c, node);
+	case EXPR_ARG:
+		return IEC_NONE;
 	case EXPR_FN:
 		break;
 	}
 	if (word_is_test(word_row(node->fn)))
 		return IEC_BOOL;
-	left = infer(c, node->left);
-	right = infer(c, node->right);
+	left = chain_infer(c, node->left);
+	right = chain_infer(c, node->right);
 	if (fn_overload(node->fn, left, right) != node->fn)
 		return fn_result(word_row(fn_overload(node->fn, left, right)), left,
 				 IEC_NONE);
 	left = types_join(left, right);
 	return left == IEC_TYPE_COUNT ? right : left;
 }
-
-static struct value compute(struct chain *c, int index, enum iec_type hint,
-			    uint32_t target);
 
 /* Is this a constant that @type has? If not, the plain one is told about. */
 static bool fits(const char *text, size_t len, enum iec_type type)
@@ -177,12 +162,12 @@ static struct value constant(struct chain *c, const char *text, size_t len,
 	if (size < 0 || (size_t)size >= sizeof(out))
 		c->ld->failed = true;
 	else
-		value.operand = intern(c, out, (size_t)size);
+		value.operand = chain_intern(c, out, (size_t)size);
 	value.type = value.operand ? type_of(c, value.operand) : IEC_NONE;
 	return value;
 }
 
-static uint32_t power(struct chain *c)
+uint32_t chain_power(struct chain *c)
 {
 	if (!c->en) {
 		uint16_t row = c->ld->row, col = c->ld->col;
@@ -202,17 +187,17 @@ static struct value operate(struct chain *c, enum word fn, struct value left,
 {
 	struct ld *ld = c->ld;
 	const struct word_row *row = word_row(fn);
-	uint32_t en = power(c), eno = temps_bool(ld->temps);
+	uint32_t en = chain_power(c), eno = temps_bool(ld->temps);
 	struct value out = { target, type };
 
 	if (!target)
 		out.operand = temps_number(ld->temps, type);
 	ld_call(ld, fn);
 	ld_arg(ld, false, ld->en_id, en);
-	ld_arg(ld, false, intern(c, row->pin[0].name, strlen(row->pin[0].name)),
+	ld_arg(ld, false, chain_intern(c, row->pin[0].name, strlen(row->pin[0].name)),
 	       left.operand);
 	if (right.operand)
-		ld_arg(ld, false, intern(c, row->pin[1].name,
+		ld_arg(ld, false, chain_intern(c, row->pin[1].name,
 					 strlen(row->pin[1].name)),
 		       right.operand);
 	ld_arg(ld, true, ld->eno_id, eno);
@@ -238,10 +223,10 @@ static struct value settle(struct chain *c, struct value value)
 static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 {
 	const struct names *names = &c->ld->translation->project->names;
-	uint32_t base = node->right < 0 ? intern(c, node->text, node->len) :
+	uint32_t base = node->right < 0 ? chain_intern(c, node->text, node->len) :
 			compute_element(c, &c->expr->node[node->right]);
 	const struct expr_tail tail = node->tail;
-	struct value index = compute(c, node->left, IEC_NONE, 0);
+	struct value index = chain_compute(c, node->left, IEC_NONE, 0);
 	struct value none = { 0, IEC_NONE };
 	char text[3 * LIMIT_NAME + 12 * LIMIT_INDICES];
 	int size;
@@ -255,7 +240,7 @@ static uint32_t compute_element(struct chain *c, const struct expr_node *node)
 		c->ld->failed = true;
 		return 0;
 	}
-	return intern(c, text, drop_blanks(text, (size_t)size));
+	return chain_intern(c, text, drop_blanks(text, (size_t)size));
 }
 
 static struct value compute_neg(struct chain *c, const struct expr_node *node,
@@ -266,7 +251,7 @@ static struct value compute_neg(struct chain *c, const struct expr_node *node,
 
 	if (inner->op == EXPR_LITERAL && !memchr(inner->text, '#', inner->len))
 		return constant(c, inner->text, inner->len, true, hint);
-	value = compute(c, node->left, hint, 0);
+	value = chain_compute(c, node->left, hint, 0);
 	zero = value.type == IEC_TIME ? constant(c, "T#0s", 4, false, IEC_NONE)
 				      : constant(c, "0", 1, false, IEC_NONE);
 	return operate(c, FN_SUB, zero, value, value.type ? value.type : hint,
@@ -275,27 +260,27 @@ static struct value compute_neg(struct chain *c, const struct expr_node *node,
 
 /* An input beside one of @type: a bare constant takes that type by itself, an
  * operation on constants must be told. */
-static struct value compute_side(struct chain *c, int index, enum iec_type type)
+struct value chain_side(struct chain *c, int index, enum iec_type type)
 {
 	const struct expr_node *node = &c->expr->node[index];
 
 	if (node->op == EXPR_NEG)
 		node = &c->expr->node[node->left];
-	return compute(c, index, node->op == EXPR_LITERAL ? IEC_NONE : type, 0);
+	return chain_compute(c, index, node->op == EXPR_LITERAL ? IEC_NONE : type, 0);
 }
 
 static struct value compute_compare(struct chain *c,
 				    const struct expr_node *node)
 {
-	enum iec_type type = types_join(infer(c, node->left),
-					infer(c, node->right));
+	enum iec_type type = types_join(chain_infer(c, node->left),
+					chain_infer(c, node->right));
 	struct value left, right, out = { 0, IEC_BOOL };
 	struct il_line line = { .kind = IL_FN, .word = (uint16_t)node->fn };
 
 	if (type == IEC_TYPE_COUNT)
 		type = IEC_NONE;
-	left = compute_side(c, node->left, type);
-	right = compute_side(c, node->right, type);
+	left = chain_side(c, node->left, type);
+	right = chain_side(c, node->right, type);
 	left = settle(c, left);
 	right = settle(c, right);
 	ld_emit(c->ld, OP_LD, 0, left.operand);
@@ -312,10 +297,10 @@ static struct value compute_bits(struct chain *c, const struct expr_node *node,
 	struct value left, right = { 0, IEC_NONE };
 
 	if (node->op == EXPR_NOT) {
-		left = compute(c, node->left, type, 0);
+		left = chain_compute(c, node->left, type, 0);
 	} else {
-		left = compute_side(c, node->left, type);
-		right = compute_side(c, node->right, type);
+		left = chain_side(c, node->left, type);
+		right = chain_side(c, node->right, type);
 	}
 	return operate(c, op_function(operator_of(node)), left, right, type, target);
 }
@@ -330,12 +315,12 @@ static struct value compute_logic(struct chain *c, const struct expr_node *node,
 		type = hint;
 	if (is_bits(type))
 		return compute_bits(c, node, type, target);
-	left = settle(c, compute(c, node->left, IEC_NONE, 0));
+	left = settle(c, chain_compute(c, node->left, IEC_NONE, 0));
 	if (node->op == EXPR_NOT) {
 		ld_emit(c->ld, OP_LD, 0, left.operand);
 		ld_emit(c->ld, OP_NOT, 0, 0);
 	} else {
-		right = settle(c, compute(c, node->right, IEC_NONE, 0));
+		right = settle(c, chain_compute(c, node->right, IEC_NONE, 0));
 		ld_emit(c->ld, OP_LD, 0, left.operand);
 		ld_emit(c->ld, operator_of(node), 0, right.operand);
 	}
@@ -348,8 +333,8 @@ static struct value compute_overload(struct chain *c, const struct expr_node *no
 				     enum word word, enum iec_type type,
 				     uint32_t target)
 {
-	struct value left = compute(c, node->left, IEC_NONE, 0);
-	struct value right = compute(c, node->right, IEC_NONE, 0);
+	struct value left = chain_compute(c, node->left, IEC_NONE, 0);
+	struct value right = chain_compute(c, node->right, IEC_NONE, 0);
 
 	return operate(c, word, left, right, type, target);
 }
@@ -357,21 +342,21 @@ static struct value compute_overload(struct chain *c, const struct expr_node *no
 static struct value compute_fn(struct chain *c, const struct expr_node *node,
 			       int index, enum iec_type hint, uint32_t target)
 {
-	enum iec_type type = infer(c, index);
+	enum iec_type type = chain_infer(c, index);
 	struct value left, right;
 	enum word word;
 
 	if (word_is_test(word_row(node->fn)))
 		return compute_compare(c, node);
-	word = fn_overload(node->fn, infer(c, node->left), infer(c, node->right));
+	word = fn_overload(node->fn, chain_infer(c, node->left), chain_infer(c, node->right));
 	if (word != node->fn)
 		return compute_overload(c, node, word, type, target);
 	if (type) {
-		left = compute_side(c, node->left, type);
-		right = compute_side(c, node->right, type);
+		left = chain_side(c, node->left, type);
+		right = chain_side(c, node->right, type);
 	} else {
-		left = compute(c, node->left, hint, 0);
-		right = compute(c, node->right, hint, 0);
+		left = chain_compute(c, node->left, hint, 0);
+		right = chain_compute(c, node->right, hint, 0);
 		type = hint ? hint : types_join(left.type, right.type);
 	}
 	if (type == IEC_NONE || type == IEC_TYPE_COUNT)
@@ -379,21 +364,46 @@ static struct value compute_fn(struct chain *c, const struct expr_node *node,
 	return operate(c, node->fn, left, right, type, target);
 }
 
+struct value chain_place(struct chain *c, int index)
+{
+	const struct expr_node *node = &c->expr->node[index];
+	struct value value;
+
+	value.operand = node->op == EXPR_INDEX ? compute_element(c, node) :
+			intern_name(c, node->text, node->len);
+	value.type = node->op == EXPR_INDEX ? chain_infer(c, index) :
+		     type_of(c, value.operand);
+	return value;
+}
+
+/* What the body of a function that is called further right may write, is kept. */
+static struct value keep_value(struct chain *c, struct value value)
+{
+	const struct value none = { 0, IEC_NONE };
+	const struct meaning *m;
+
+	if (!c->calls || !value.operand)
+		return value;
+	m = meaning(c, value.operand);
+	if (!m || m->pou || m->kind == MEANING_LITERAL || meaning_is_whole(m))
+		return value;
+	return operate(c, FN_MOVE, value, none, value.type, 0);
+}
+
 /* Depth is bounded by LIMIT_EXPR_DEPTH, which the parser keeps. */
-static struct value compute(struct chain *c, int index, enum iec_type hint,
-			    uint32_t target)
+struct value chain_compute(struct chain *c, int index, enum iec_type hint,
+			   uint32_t target)
 {
 	const struct expr_node *node = &c->expr->node[index];
 	struct value value = { 0, IEC_NONE };
 
 	switch (node->op) {
 	case EXPR_NAME:
-		value.operand = intern_name(c, node->text, node->len);
-		value.type = type_of(c, value.operand);
-		return value;
 	case EXPR_INDEX:
-		value.operand = compute_element(c, node);
-		value.type = infer(c, index);
+		return keep_value(c, chain_place(c, index));
+	case EXPR_CALL:
+		return chain_call(c, node, hint, target);
+	case EXPR_ARG:
 		return value;
 	case EXPR_LITERAL:
 		return constant(c, node->text, node->len, false, hint);
@@ -433,8 +443,9 @@ void ld_compare(struct ld *ld, int element)
 
 	if (!parse(ld, element))
 		return;
+	c.calls = chain_count_calls(ld, ld->expr);
 	ld_place(ld, at->row, at->col);
-	value = settle(&c, compute(&c, ld->expr->root, IEC_NONE, 0));
+	value = settle(&c, chain_compute(&c, ld->expr->root, IEC_NONE, 0));
 	state->leaf = value.operand;
 	if (!c.can_fail)
 		return;
@@ -453,6 +464,7 @@ void ld_assign(struct ld *ld, int element)
 
 	if (!parse(ld, element))
 		return;
+	c.calls = chain_count_calls(ld, ld->expr);
 	ld_place(ld, at->row, at->col);
 	if (ld->expr->target_index >= 0)
 		target = compute_element(&c, &(struct expr_node){
@@ -464,7 +476,7 @@ void ld_assign(struct ld *ld, int element)
 	else
 		target = intern_name(&c, ld->expr->target, ld->expr->target_len);
 	ld_freeze(ld, target);
-	value = compute(&c, ld->expr->root, type_of(&c, target), target);
+	value = chain_compute(&c, ld->expr->root, type_of(&c, target), target);
 	if (value.operand != target ||
 	    ld->expr->node[ld->expr->root].op == EXPR_NAME ||
 	    ld->expr->node[ld->expr->root].op == EXPR_INDEX) {

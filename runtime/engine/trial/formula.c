@@ -265,6 +265,14 @@ static const struct expr_node *blame(const struct formula *formula,
 	return &expr->node[at];
 }
 
+/* The call that an argument belongs to. */
+static const struct expr_node *function_of(const struct expr *expr, int at)
+{
+	while (expr->node[at].op != EXPR_CALL && at + 1 < expr->count)
+		at++;
+	return &expr->node[at];
+}
+
 struct formula *formula_new(const struct image *image, const struct expr *expr,
 			    struct arena *arena, const char *line_start,
 			    struct diag_list *diags, struct diag place)
@@ -294,6 +302,11 @@ struct formula *formula_new(const struct image *image, const struct expr *expr,
 		term->right = from->right;
 		if (from->op == EXPR_INDEX && (from->inner || from->right >= 0)) {
 			complain(diags, place, DIAG_INDEX_PLAIN, line_start, from);
+			return NULL;
+		}
+		if (from->op == EXPR_CALL || from->op == EXPR_ARG) {
+			complain(diags, place, DIAG_BAD_EXPRESSION, line_start,
+				 function_of(expr, i));
 			return NULL;
 		}
 		if (from->op == EXPR_INDEX &&
@@ -456,6 +469,8 @@ static bool evaluate(struct formula *formula, struct formula_term *term,
 		term->value = image_get(image, term->at);
 		return true;
 	case EXPR_LITERAL:
+	case EXPR_CALL: /* taken by none */
+	case EXPR_ARG:
 		return true;
 	case EXPR_INDEX:
 		return read_element(term, image, term->left < 0 ?

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * expr_args - arguments of a function in an expression, in order or by name.
+ */
+#include "engine/model/expr_args.h"
+
+#include <stdio.h>
+
+enum word expr_function(struct word_table *words, const struct expr_node *call)
+{
+	enum word word = words_find(words, call->text, call->len);
+
+	return words_row(words, word)->kind == WORD_FN ? word : WORD_COUNT;
+}
+
+int expr_pin_name(const struct word_row *row, int index, char *out, size_t size)
+{
+	if (index < row->pin_count)
+		return snprintf(out, size, "%s", row->pin[index].name);
+	return snprintf(out, size, "IN%d",
+			index - (row->pin_count - 1) + word_last_number(row));
+}
+
+/* A row of the project's own: its pins have a direction, and none is left out of it. */
+static bool is_own(const struct word_row *row)
+{
+	return row->most_inputs == 0;
+}
+
+static bool takes(const struct word_row *row, int index)
+{
+	return !is_own(row) || row->pin[index].dir == PIN_IN ||
+	       row->pin[index].dir == PIN_IN_OUT;
+}
+
+/* The pin behind @index that an argument without a name goes to; -1: there is none. */
+static int next_pin(const struct word_row *row, int index)
+{
+	int most = is_own(row) ? row->pin_count : row->most_inputs;
+
+	while (++index < most)
+		if (takes(row, index))
+			return index;
+	return -1;
+}
+
+static enum diag_id fail(struct expr_args *out, enum diag_id why, int pin,
+			 const struct expr_node *arg)
+{
+	out->wrong = pin;
+	out->text = arg ? arg->text : "";
+	out->len = arg ? arg->len : 0;
+	return why;
+}
+
+/* They hang on the call from the right. */
+static enum diag_id collect(const struct expr *expr, const struct expr_node *call,
+			    struct expr_args *out)
+{
+	int at = call->left;
+
+	for (out->count = 0; at >= 0 && out->count < LIMIT_ARGS;
+	     at = expr->node[at].right)
+		out->arg[out->count++].node = at;
+	if (at >= 0)
+		return fail(out, DIAG_TOO_MANY, -1, call);
+	for (int i = 0, k = out->count - 1; i < k; i++, k--) {
+		at = out->arg[i].node;
+		out->arg[i].node = out->arg[k].node;
+		out->arg[k].node = at;
+	}
+	return DIAG_COUNT;
+}
+
+static enum diag_id find_pins(const struct expr *expr, const struct word_row *row,
+			      struct expr_args *out)
+{
+	int pin = -1;
+
+	for (int i = 0; i < out->count; i++) {
+		const struct expr_node *arg = &expr->node[out->arg[i].node];
+
+		out->number = i + 1;
+
+		if ((arg->len > 0) != (expr->node[out->arg[0].node].len > 0))
+			return fail(out, DIAG_BAD_EXPRESSION, -1, arg);
+		pin = arg->len ? word_pin_find(row, arg->text, arg->len) :
+				 next_pin(row, pin);
+		if (pin < 0 || (pin < row->pin_count && !takes(row, pin)))
+			return fail(out, DIAG_NO_PIN, -1, arg);
+		for (int k = 0; k < i; k++)
+			if (out->arg[k].pin == pin)
+				return fail(out, DIAG_DUPLICATE_ARG, pin, arg);
+		out->arg[i].pin = pin;
+	}
+	return DIAG_COUNT;
+}
+
+static bool is_given(const struct expr_args *args, int pin)
+{
+	for (int i = 0; i < args->count; i++)
+		if (args->arg[i].pin == pin)
+			return true;
+	return false;
+}
+
+static bool is_needed(const struct word_row *row, const struct expr_args *args, int pin)
+{
+	if (is_own(row))
+		return takes(row, pin) && !row->pin[pin].has_init;
+	return pin < row->pin_count || args->count > pin;
+}
+
+enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
+			const struct word_row *row, struct expr_args *out)
+{
+	enum diag_id why = collect(expr, call, out);
+	int most = is_own(row) ? row->pin_count : row->most_inputs;
+
+	if (why == DIAG_COUNT)
+		why = find_pins(expr, row, out);
+	for (int pin = 0; pin < most && why == DIAG_COUNT; pin++)
+		if (is_needed(row, out, pin) && !is_given(out, pin))
+			return fail(out, DIAG_MISSING_INPUT, pin, NULL);
+	for (int i = 0; i < out->count && why == DIAG_COUNT; i++)
+		out->arg[i].node = expr->node[out->arg[i].node].left;
+	return why;
+}
