@@ -247,10 +247,12 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 	struct il *il = watch ? &unit->watch : &unit->il;
 	enum iec_type **types = watch ? &unit->watch_types : &unit->types;
 
-	if (unit->pou->language == LANGUAGE_IL)
+	if (unit->pou->language == LANGUAGE_IL) {
 		*il = unit->pou->il;
-	else if (!ld_to_il(t, unit, bad, watch, &ladder->scratch))
+		il_order_args(t->scope, unit->pou, il);
+	} else if (!ld_to_il(t, unit, bad, watch, &ladder->scratch)) {
 		return no_memory(ladder, unit->pou->file);
+	}
 	*types = arena_alloc(&ladder->arena,
 			     ((size_t)il->count + 1) * sizeof(**types));
 	if (!*types)

@@ -162,7 +162,7 @@ static void check_call(struct operand_check *c, struct operand_spot at, struct e
 		report_call(c, at, why, call, row, &args);
 	} else if (word_is_own(word)) {
 		for (int i = 0; i < args.count; i++)
-			note_place(c, at, &expr->node[args.arg[i].node],
+			note_place(c, at, &expr->node[args.arg[i].at],
 				   &row->pin[args.arg[i].pin]);
 	}
 }

@@ -57,7 +57,7 @@ static const char *input_name(const struct il_line *line, const struct word_row 
 	int len = 0;
 
 	*out = '\0';
-	if (!line->named)
+	if (!(line->mark & IL_NAMED))
 		return out;
 	len = snprintf(out, LIMIT_ARG, "%.24s.", row->word);
 	if (index < row->pin_count)
@@ -73,7 +73,7 @@ static bool report_join(struct il_check *c, const struct il_line *line, int inde
 {
 	char name[LIMIT_ARG], text[2 * LIMIT_ARG];
 
-	if (!line->named)
+	if (!(line->mark & IL_NAMED))
 		return il_report_types(c, line, a, b);
 	input_name(line, scope_row(c->scope, (enum word)line->word), index, name);
 	snprintf(text, sizeof(text), "%s and %s: %s", iec_type_row(a)->word,
@@ -86,7 +86,7 @@ static bool report_literal(struct il_check *c, const struct il_line *line, int i
 {
 	char name[LIMIT_ARG], text[2 * LIMIT_ARG];
 
-	if (!line->named || literal->real ||
+	if (!(line->mark & IL_NAMED) || literal->real ||
 	    !(iec_type_row(type)->class & (ANY_NUM | CLASS_BITS)))
 		return il_report_constant(c, line, literal, type);
 	input_name(line, scope_row(c->scope, (enum word)line->word), index, name);

@@ -50,7 +50,7 @@ bool il_report_types(struct il_check *c, const struct il_line *line,
 
 	while (call->kind == IL_ARG_IN && call > c->il->line)
 		call--;
-	if (call != line && call->named) { /* its operand may be nobody's */
+	if (call != line && call->mark & IL_NAMED) { /* its operand may be nobody's */
 		snprintf(text, sizeof(text), "%s and %s: %.20s.%.16s",
 			 iec_type_row(from)->word, iec_type_row(to)->word,
 			 scope_row(c->scope, (enum word)call->word)->word,

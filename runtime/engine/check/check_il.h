@@ -48,6 +48,15 @@ bool check_il(struct scope *scope, const struct pou *pou, const struct il *il,
 	      struct arena *scratch, enum iec_type *types,
 	      struct diag_list *diags);
 
+/**
+ * il_order_args - gives the parameters of CAL that were written without names the pins
+ * that they go to: the inputs and what is handed over to be changed, in order
+ * @il: the list of an IL POU; lines of it are changed
+ *
+ * One that is too many gets none. Owns: nothing.   Scan-safe: no.
+ */
+void il_order_args(struct scope *scope, const struct pou *pou, struct il *il);
+
 /** il_place - where a diagnostic about a line is. Scan-safe: no. */
 struct diag il_place(const struct scope *scope, const struct pou *pou,
 		     const struct il_line *line, enum diag_id id);

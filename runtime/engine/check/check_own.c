@@ -94,7 +94,8 @@ bool il_check_pin(struct il_check *c, const struct word_row *row,
 		return false;
 	if (index < 0)
 		return is_plain(c, arg, m) &&
-		       il_report(c, arg, DIAG_NO_PIN, name);
+		       il_report(c, arg, DIAG_NO_PIN, arg->mark & IL_IN_ORDER ?
+				 operand_text(c, arg) : name);
 	if ((row->pin[index].dir == PIN_OUT) != (arg->kind == IL_ARG_OUT))
 		return il_report(c, arg, DIAG_PIN_DIRECTION, name);
 	return check_value(c, arg, m, &row->pin[index]);

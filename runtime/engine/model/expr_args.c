@@ -61,13 +61,13 @@ static enum diag_id collect(const struct expr *expr, const struct expr_node *cal
 
 	for (out->count = 0; at >= 0 && out->count < LIMIT_ARGS;
 	     at = expr->node[at].right)
-		out->arg[out->count++].node = at;
+		out->arg[out->count++].at = at;
 	if (at >= 0)
 		return fail(out, DIAG_TOO_MANY, -1, call);
 	for (int i = 0, k = out->count - 1; i < k; i++, k--) {
-		at = out->arg[i].node;
-		out->arg[i].node = out->arg[k].node;
-		out->arg[k].node = at;
+		at = out->arg[i].at;
+		out->arg[i].at = out->arg[k].at;
+		out->arg[k].at = at;
 	}
 	return DIAG_COUNT;
 }
@@ -78,11 +78,11 @@ static enum diag_id find_pins(const struct expr *expr, const struct word_row *ro
 	int pin = -1;
 
 	for (int i = 0; i < out->count; i++) {
-		const struct expr_node *arg = &expr->node[out->arg[i].node];
+		const struct expr_node *arg = &expr->node[out->arg[i].at];
 
 		out->number = i + 1;
 
-		if ((arg->len > 0) != (expr->node[out->arg[0].node].len > 0))
+		if ((arg->len > 0) != (expr->node[out->arg[0].at].len > 0))
 			return fail(out, DIAG_BAD_EXPRESSION, -1, arg);
 		pin = arg->len ? word_pin_find(row, arg->text, arg->len) :
 				 next_pin(row, pin);
@@ -123,6 +123,6 @@ enum diag_id expr_match(const struct expr *expr, const struct expr_node *call,
 		if (is_needed(row, out, pin) && !is_given(out, pin))
 			return fail(out, DIAG_MISSING_INPUT, pin, NULL);
 	for (int i = 0; i < out->count && why == DIAG_COUNT; i++)
-		out->arg[i].node = expr->node[out->arg[i].node].left;
+		out->arg[i].at = expr->node[out->arg[i].at].left;
 	return why;
 }

@@ -13,7 +13,7 @@
 
 struct expr_args {
 	int count;
-	struct { int node; int pin; } arg[LIMIT_ARGS]; /* from the left: its value,
+	struct { int at; int pin; } arg[LIMIT_ARGS]; /* from the left: its value,
 				and the index of its pin in the row; of an extensible
 				function also behind the last one         */
 	int wrong;               /* when something is: the pin, or -1        */

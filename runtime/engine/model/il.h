@@ -22,12 +22,17 @@ enum il_kind {
 	IL_COMMENT,  /* (* … *)                                                */
 };
 
+enum il_mark {
+	IL_NAMED = 1,    /* IL_CALL: one of several in a cell, messages name it */
+	IL_IN_ORDER = 2, /* IL_ARG_IN of CAL: written without its pin, which the
+			    check finds by the order of the inputs             */
+};
+
 struct il_line {
 	uint8_t kind;        /* enum il_kind                                   */
 	uint8_t op;          /* enum op of IL_OP                               */
 	uint8_t modifiers;   /* enum op_modifier                               */
-	uint8_t named;       /* of IL_CALL: one of several in a cell, so that
-				messages name it                           */
+	uint8_t mark;        /* enum il_mark                                   */
 	uint16_t word;       /* enum word: the function of IL_FN, IL_CALL      */
 	uint16_t row, col;   /* 1-based cell it comes from. In a list that was written
 				(rung 0): column of its operator, of its operand.

@@ -57,15 +57,32 @@ static bool may_have(enum op op, uint8_t modifiers)
 	return !(can & MOD_C) || modifiers != MOD_N;
 }
 
-/* ---- calls with formal parameters ---- */
+/* ---- calls with parameters ---- */
 
-static bool read_args(struct reader *r)
+/* A parameter without a name. */
+static bool read_value(struct reader *r, const struct token *word)
+{
+	struct read_arg arg = { .line = r->lex.token.line,
+				.column = r->lex.token.column,
+				.value_at = r->text.len };
+
+	if (r->arg_count == LIMIT_ARGS)
+		return reader_fail_word(r, DIAG_TOO_MANY, "parameters");
+	if (!reader_value(r, true, word))
+		return false;
+	arg.value_len = r->text.len - arg.value_at;
+	r->arg[r->arg_count++] = arg;
+	return true;
+}
+
+/* @word: NULL if they have names; else of what they are the values in order. */
+static bool read_args(struct reader *r, const struct token *word)
 {
 	buffer_clear(&r->text);
 	r->arg_count = 0;
 	reader_step(r);
-	while (!reader_is(r, ')')) {
-		if (!reader_arg(r))
+	while (!reader_is(r, ')') || (word && r->arg_count)) {
+		if (!(word ? read_value(r, word) : reader_arg(r)))
 			return false;
 		reader_step(r);
 		if (reader_is(r, ')'))
@@ -87,6 +104,7 @@ static bool add_args(struct reader *r, const struct il_line *call)
 
 		if (!add_line(r, (struct il_line){
 				.kind = arg->output ? IL_ARG_OUT : IL_ARG_IN,
+				.mark = arg->pin_len ? 0 : IL_IN_ORDER,
 				.pin = reader_intern(r, text + arg->pin_at,
 						     arg->pin_len),
 				.operand = reader_intern(r,
@@ -122,12 +140,14 @@ static bool has_own_pins(const struct reader *r, const struct il_line *call)
 	return index < 0 || word_is_own(table->var[index].fb);
 }
 
-/* The cursor stands on `(`. Comments between the parameters move above. */
-static bool read_call(struct reader *r, const struct il_line *call)
+/* The cursor stands on `(`. Comments between the parameters move above. @word: as of
+ * read_args(). */
+static bool read_call(struct reader *r, const struct token *word,
+		      const struct il_line *call)
 {
 	r->across_lines = true;
 	r->keep_pins = has_own_pins(r, call);
-	bool good = read_args(r) && add_args(r, call);
+	bool good = read_args(r, word) && add_args(r, call);
 
 	r->across_lines = false;
 	if (good)
@@ -224,7 +244,7 @@ static bool read_function(struct reader *r, const struct token *word,
 	reader_next(r);
 	if (reader_is(r, '(')) {
 		line.kind = IL_CALL;
-		return read_call(r, &line);
+		return read_call(r, NULL, &line);
 	}
 	if (reader_at_end(r) && (row->pin_count == 1 || own)) /* of the result alone */
 		return add_line(r, line);
@@ -243,8 +263,10 @@ static bool read_label_operand(struct reader *r, const struct token *word,
 				  reader_name(r, "name", &line.operand)))
 		return false;
 	if (line.op == OP_CAL && reader_peek(r, "(")) {
+		bool formal = is_formal(r) || is_empty(r);
+
 		reader_next(r);
-		return read_call(r, &line);
+		return read_call(r, formal ? NULL : word, &line);
 	}
 	if (!add_line(r, line))
 		return false;
@@ -263,7 +285,7 @@ static bool read_operator(struct reader *r, struct il_line line)
 		line.op = 0;
 		line.word = (uint16_t)function;
 		reader_next(r);
-		return read_call(r, &line);
+		return read_call(r, NULL, &line);
 	}
 	if (!may_have((enum op)line.op, line.modifiers))
 		return reader_fail_token(r, DIAG_IL_MODIFIER);

@@ -2,8 +2,8 @@
  *
  * write_il - an instruction list as text that reads again to the same list.
  *
- * One instruction a line, labels and lone comments at its beginning, formal calls
- * whole on one line.
+ * One instruction a line, labels and lone comments at its beginning, calls whole on one
+ * line.
  */
 #include "engine/text/writer.h"
 
@@ -33,8 +33,10 @@ static void write_args(const struct sink *sink, const struct project *project,
 	sink_text(sink, "(");
 	for (int i = 0; i < count; i++) {
 		sink_text(sink, i > 0 ? ", " : "");
-		write_id(sink, project, arg[i].pin);
-		sink_text(sink, arg[i].kind == IL_ARG_OUT ? " => " : " := ");
+		if (!(arg[i].mark & IL_IN_ORDER)) {
+			write_id(sink, project, arg[i].pin);
+			sink_text(sink, arg[i].kind == IL_ARG_OUT ? " => " : " := ");
+		}
 		write_id(sink, project, arg[i].operand);
 	}
 	sink_text(sink, ")");

@@ -43,8 +43,8 @@ static enum word overloaded(struct chain *c, enum word word, const struct expr_a
 {
 	if (args->count != 2)
 		return word;
-	return fn_overload(word, chain_infer(c, args->arg[0].node),
-			   chain_infer(c, args->arg[1].node));
+	return fn_overload(word, chain_infer(c, args->arg[0].at),
+			   chain_infer(c, args->arg[1].at));
 }
 
 /* The type that the inputs share; IEC_NONE: constants, or none does. */
@@ -58,7 +58,7 @@ static enum iec_type shared_type(struct chain *c, const struct word_row *row,
 
 		if (!pin->own)
 			type = types_join(type, pin->type != IEC_NONE ? pin->type :
-					  chain_infer(c, args->arg[i].node));
+					  chain_infer(c, args->arg[i].at));
 	}
 	return type == IEC_TYPE_COUNT ? IEC_NONE : type;
 }
@@ -94,7 +94,7 @@ static struct value emit_call(struct chain *c, enum word word, const struct expr
 	uint32_t en = chain_power(c), eno = temps_bool(ld->temps);
 
 	ld_emit_line(ld, (struct il_line){ .kind = IL_CALL, .word = (uint16_t)word,
-					   .named = 1 });
+					   .mark = IL_NAMED });
 	ld_arg(ld, false, ld->en_id, en);
 	for (int i = 0; i < args->count; i++) {
 		char name[24];
@@ -130,8 +130,8 @@ static struct value call_own(struct chain *c, enum word word, const struct expr_
 		const struct word_pin *pin = &row->pin[args->arg[i].pin];
 		bool place = is_whole(pin) || pin->dir == PIN_IN_OUT;
 
-		in[i] = place ? chain_place(c, args->arg[i].node) :
-				chain_side(c, args->arg[i].node, pin->type);
+		in[i] = place ? chain_place(c, args->arg[i].at) :
+				chain_side(c, args->arg[i].at, pin->type);
 		if (pin->dir == PIN_IN_OUT)
 			ld_freeze(ld, in[i].operand);
 	}
@@ -158,7 +158,7 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	for (int i = 0; i < args->count; i++) {
 		const struct word_pin *pin = word_input(row, (uint32_t)args->arg[i].pin);
 
-		in[i] = chain_side(c, args->arg[i].node,
+		in[i] = chain_side(c, args->arg[i].at,
 				   pin->own || runs != word ? IEC_NONE : given);
 		if (!pin->own && !type)
 			given = types_join(given, in[i].type);
@@ -166,7 +166,7 @@ static struct value call_known(struct chain *c, enum word word, const struct exp
 	if (given == IEC_NONE || given == IEC_TYPE_COUNT)
 		given = IEC_DINT;
 	if (runs != word)
-		given = chain_infer(c, args->arg[0].node);
+		given = chain_infer(c, args->arg[0].at);
 	out.type = fn_result(ld_row(c->ld, runs), given, hint);
 	if (!target)
 		out.operand = temps_number(c->ld->temps, out.type);
