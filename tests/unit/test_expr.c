@@ -13,7 +13,7 @@ static size_t print(char *out, size_t size, int at)
 {
 	static const char *const sign[] = {
 		[EXPR_NEG] = "-", [EXPR_NOT] = "!", [EXPR_AND] = "&",
-		[EXPR_XOR] = "^", [EXPR_OR] = "|",
+		[EXPR_XOR] = "^", [EXPR_OR] = "|", [EXPR_ARG] = NULL,
 	};
 	const struct expr_node *node = &expr.node[at];
 	const char *word = node->op == EXPR_FN ? word_row(node->fn)->word :
@@ -190,7 +190,7 @@ static void targets(void)
 static void malformed(void)
 {
 	static const char *const bad[] = {
-		"", "(", ")", "()", "a +", "+ a", "a b", "a (b)", "(a", "a)",
+		"", "(", ")", "()", "a +", "+ a", "a b", "(a", "a)",
 		"a ** b", "a AND", "AND a", "a OR OR b", "NOT", "-", "a $ b",
 		"\"text\"", "a; b", "a\001", "(a,b)", "a = = b", "a := ", "MOD",
 		"(a + b", "a & & b", "(* open",
@@ -267,8 +267,8 @@ static void depth(void)
 	CHECK_TEXT(repeated("-", LIMIT_EXPR_DEPTH, ""), "good");
 	CHECK_TEXT(repeated("f(", LIMIT_EXPR_DEPTH, ")"), "good");
 	CHECK_TEXT(repeated("f(", LIMIT_EXPR_DEPTH + 1, ")"), "LD123");
-	CHECK_TEXT(repeated("f(1, x + ", LIMIT_EXPR_DEPTH, ", 2)"), "good");
-	CHECK_TEXT(repeated("f(x := b[", 100000, "])"), "LD123");
+	CHECK_TEXT(repeated("f(x + ", LIMIT_EXPR_DEPTH, ", 2)"), "good");
+	CHECK_TEXT(repeated("f(x := b[", 50000, "])"), "LD123");
 	CHECK_TEXT(repeated("f(b, ", 100000, ")"), "LD123");
 	CHECK_TEXT(repeated("-", LIMIT_EXPR_DEPTH + 1, ""), "LD123");
 	CHECK_TEXT(repeated("NOT ", 100000, ""), "LD123");
