@@ -58,7 +58,8 @@ static bool is_result(const struct project *project, const struct xref_target *t
 	    target->table > project->pou_count)
 		return false;
 	pou = &project->pou[target->table - 1];
-	return vars_flags(&pou->vars, target->index) & VAR_RESULT;
+	return vars_flags(&pou->vars, target->index) & VAR_RESULT &&
+	       !vars_is_eno(&pou->vars, target->index);
 }
 
 /* The name of a FUNCTION is that of its result. */

@@ -181,6 +181,8 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_twice(c, pou, var, table->var[twice].line);
 	else if (!pou && mark && mark->pou)
 		report_line(c, DIAG_DUPLICATE_NAME, pou, var->line, name);
+	if (vars_is_eno(table, index))
+		return;
 	/* What `ladder il` prints declares its temporaries. */
 	if (is_reserved(c, name, var->fold) ||
 	    (reserved_generated(name) && !(pou && pou->language == LANGUAGE_IL)) ||
@@ -516,7 +518,7 @@ static void check_uses(struct names_check *c, int table_number)
 						   var);
 			enum diag_id lack = judge_use(var, use, block->flags);
 
-			if (lack != DIAG_COUNT &&
+			if (lack != DIAG_COUNT && !vars_is_eno(table, k) &&
 			    scope_duplicate(c->scope, pou, k) < 0)
 				report_line(c, lack, pou, var->line,
 					    text_of(c, var->name));

@@ -61,6 +61,11 @@ int vars_find(const struct var_table *table, uint32_t fold)
 	return -1;
 }
 
+bool vars_is_eno(const struct var_table *table, int index)
+{
+	return index == 1 && vars_flags(table, index) & VAR_RESULT;
+}
+
 const char *vars_head(uint8_t flags)
 {
 	static const struct { uint8_t flag; const char *word; } heads[] = {

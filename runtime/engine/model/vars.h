@@ -14,7 +14,8 @@
 enum var_flag {
 	VAR_RETAIN = 1, VAR_CONSTANT = 2, VAR_GLOBAL_WORD = 4,
 	VAR_INPUT = 8, VAR_OUTPUT = 16, VAR_IN_OUT = 32, VAR_TEMP = 64,
-	VAR_RESULT = 128,    /* of a function; stands in its heading           */
+	VAR_RESULT = 128,    /* of a function; stands in its heading. Behind it
+				in the same block its ENO               */
 };
 
 /* Part of an array's initial values: so many times the same. */
@@ -64,6 +65,9 @@ struct var_table {
 
 /** vars_flags - of the block that var number @index stands in. */
 uint8_t vars_flags(const struct var_table *table, int index);
+/** vars_is_eno - the BOOL that a function's body may set, which is declared nowhere?
+ * Scan-safe: yes. */
+bool vars_is_eno(const struct var_table *table, int index);
 /** vars_head - the word that a block with these flags begins with: VAR_INPUT. */
 const char *vars_head(uint8_t flags);
 /** var_unit - bytes from one element to the next; without an array the size. Not of

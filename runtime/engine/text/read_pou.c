@@ -107,6 +107,22 @@ static enum word own_word(struct reader *r, uint32_t name, enum word_kind kind,
 	return word;
 }
 
+/* ENO is TRUE when the body begins, which may set it. */
+static bool add_eno(struct reader *r, struct var_table *table, int line)
+{
+	struct var *eno = arena_push(&r->project->arena, &table->var, &table->count,
+				     sizeof(*eno));
+
+	if (!eno) {
+		r->no_memory = true;
+		return false;
+	}
+	*eno = (struct var){ .name = reader_intern(r, "ENO", 3), .type = IEC_BOOL,
+			     .has_init = true, .init = { .i = 1 }, .line = line };
+	eno->fold = names_fold(&r->project->names, eno->name);
+	return true;
+}
+
 /* The result is a variable of the function's name. */
 static bool read_result(struct reader *r, struct pou *pou)
 {
@@ -128,10 +144,10 @@ static bool read_result(struct reader *r, struct pou *pou)
 		r->no_memory = true;
 		return false;
 	}
-	*block = (struct var_block){ .flags = VAR_RESULT, .count = 1,
+	*block = (struct var_block){ .flags = VAR_RESULT, .count = 2,
 				     .line = pou->line };
 	*slot = var;
-	return true;
+	return add_eno(r, table, pou->line);
 }
 
 static void read_first_line(struct reader *r, struct pou *pou, int index)

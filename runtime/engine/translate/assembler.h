@@ -87,6 +87,7 @@ struct frame {
 	uint32_t model;             /* a function's, as it is before a call    */
 	uint32_t temps, temps_model, temps_size; /* its VAR_TEMP; size 0: none */
 	uint32_t power, power_size; /* of its cells, and of instances inside   */
+	bool eno;                   /* does the body name its ENO?              */
 	struct slots slots;
 };
 

@@ -253,18 +253,41 @@ static void take_result(struct list *list, const struct frame *frame,
 	list->at = own;
 }
 
-static void call_function(struct list *list, const uint32_t fetched[LIMIT_ARGS])
+/* A jump over what takes what a function gives, if its body made ENO FALSE; @en is that
+ * then. Where there is a jump over the call, @en has a place of its own already. */
+static int skip_failed(struct list *list, const struct frame *frame,
+		       const struct word_row *row, struct bits *en)
+{
+	const struct il_line jump = { .modifiers = MOD_C };
+	struct bits eno = bits_leaf(frame->offset + row->pin[1].offset);
+	uint32_t ok = en->count ? en->leaf[0] : scratch_new(list->as);
+
+	bits_store(list->as, &eno, ok);
+	*en = bits_leaf(ok);
+	list->now.kind = RESULT_BITS;
+	list->now.bits = *en;
+	return list_skip_call(list, &jump);
+}
+
+/* @en: becomes FALSE, too, if the body says so. */
+static void call_function(struct list *list, const uint32_t fetched[LIMIT_ARGS],
+			  struct bits *en)
 {
 	enum word word = (enum word)list->il->line[list->at].word;
 	const struct word_row *row = list_row(list, word);
 	uint32_t entry;
 	const struct frame *frame = layout_pou(list->as, word, &entry);
+	int skip = -1;
 
 	emit_block(list->as, frame->offset, frame->model, frame->size);
 	feed_all(list, row, frame->offset, fetched);
 	emit_call(list, entry);
+	if (frame->eno)
+		skip = skip_failed(list, frame, row, en);
+	list->now.kind = RESULT_NONE;
 	take_all(list, row, frame->offset);
 	take_result(list, frame, row);
+	list_end_skip(list, skip);
 }
 
 void list_own_call(struct list *list)
@@ -284,7 +307,7 @@ void list_own_call(struct list *list)
 	list_keep_all(list);
 	skip = skip_unless(list, &en);
 	list->now.kind = RESULT_NONE;
-	call_function(list, fetched);
+	call_function(list, fetched, &en);
 	list_end_skip(list, skip);
 	write_eno(list, &en);
 }

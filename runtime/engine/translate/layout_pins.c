@@ -2,7 +2,8 @@
  *
  * layout_pins - which pins of instances are written by one call alone.
  *
- * A constant that only that call hands over may be the pin's initial value instead.
+ * A constant that only that call hands over may be the pin's initial value instead. On
+ * the way it finds the functions that name their ENO.
  */
 #include "engine/translate/assembler.h"
 
@@ -54,6 +55,13 @@ static void count_call(struct assembler *as, const struct meaning *instance)
 	count_use(as, &calls, true);
 }
 
+/* ENO of the function whose list it is. */
+static bool is_eno(const struct pou *pou, const struct meaning *m)
+{
+	return pou->kind == POU_FUNCTION && pou->vars.count > 1 &&
+	       m->var == &pou->vars.var[1];
+}
+
 static void count_list(struct assembler *as, const struct unit *unit)
 {
 	struct scope *scope = as->translation->scope;
@@ -67,6 +75,8 @@ static void count_list(struct assembler *as, const struct unit *unit)
 		if (line->operand && line->kind != IL_LABEL &&
 		    line->kind != IL_COMMENT)
 			m = scope_find(scope, unit->pou, line->operand, &why);
+		if (m && m->var && is_eno(unit->pou, m))
+			as->frame[unit - as->translation->unit].eno = true;
 		if (line->kind == IL_OP)
 			instance = m && m->kind == MEANING_INSTANCE &&
 				   is_counted(m) ? m : NULL;
