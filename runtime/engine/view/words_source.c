@@ -8,6 +8,8 @@
 #include "engine/view/words.h"
 
 #define IEC(table) "IEC 61131-3 table " #table
+#define LD_ELEMENTS "IEC 61131-3, 8.2"
+#define LISTS "IEC 61131-3, edition 2, table 52"
 #define OURS "beyond the standard"
 #define S7_200 OURS "; a word of the S7-200"
 #define ANNEX_F OURS "; an example of edition 2, annex F, has the name"
