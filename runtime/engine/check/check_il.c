@@ -120,11 +120,9 @@ static const struct meaning *find(struct il_check *c, const struct il_line *line
 }
 
 /* The operand as a value to read; NULL after a diagnostic. */
-const struct meaning *il_value_of(struct il_check *c,
-				      const struct il_line *line)
+static const struct meaning *as_value(struct il_check *c, const struct il_line *line,
+				      const struct meaning *m)
 {
-	const struct meaning *m = find(c, line);
-
 	if (m && meaning_fault(m) != DIAG_COUNT) {
 		il_report(c, line, meaning_fault(m), il_operand_text(c, line));
 		return NULL;
@@ -137,6 +135,12 @@ const struct meaning *il_value_of(struct il_check *c,
 		return NULL;
 	}
 	return m;
+}
+
+const struct meaning *il_value_of(struct il_check *c,
+				      const struct il_line *line)
+{
+	return as_value(c, line, find(c, line));
 }
 
 struct result il_result_of(const struct meaning *m)
@@ -231,13 +235,13 @@ bool il_need_bool(struct il_check *c, const struct il_line *line,
 static bool check_load(struct il_check *c, int at)
 {
 	const struct il_line *line = &c->il->line[at];
-	const struct meaning *m = il_loads_whole(c, at);
+	const struct meaning *m = find(c, line);
 
-	if (m) {
+	if (il_loads_whole(c, at, m)) {
 		c->now = (struct result){ .there = true, .whole = m };
 		return true;
 	}
-	m = il_value_of(c, line);
+	m = as_value(c, line, m);
 	/* After an error: a result that complains no more. */
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!m)

@@ -26,8 +26,6 @@ bool check_init(const struct project *project, const struct var *var,
 {
 	struct init_value value;
 
-	if (!init_has_parts(var))
-		return true;
 	if (!*walk)
 		*walk = arena_alloc(scratch, sizeof(**walk));
 	if (!*walk)

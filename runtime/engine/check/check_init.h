@@ -10,7 +10,7 @@
 #include "engine/model/init.h"
 
 /**
- * check_init - does the text of @var's initial values fit its type?
+ * check_init - does the text of @var's initial values, which has parts, fit its type?
  * @walk:    *@walk NULL or what an earlier call left there; from @scratch
  * @place:   of the declaration
  *

@@ -196,8 +196,9 @@ static void check_var(struct names_check *c, const struct pou *pou,
 		report_line(c, DIAG_AT_TYPE, pou, var->line, name);
 	if (flags & VAR_CONSTANT && !var->has_init)
 		report_line(c, DIAG_CONSTANT_NO_VALUE, pou, var->line, name);
-	c->good &= check_init(c->project, var, &c->walk, c->scratch, c->diags,
-			      place_of(c, DIAG_COUNT, pou, var->line));
+	if (init_has_parts(var))
+		c->good &= check_init(c->project, var, &c->walk, c->scratch, c->diags,
+				      place_of(c, DIAG_COUNT, pou, var->line));
 }
 
 static void check_table(struct names_check *c, const struct pou *pou,
@@ -234,9 +235,10 @@ static void check_members(struct names_check *c, int number)
 				      var->line, var->name);
 		if (mark)
 			mark->member_of = number;
-		c->good &= check_init(c->project, var, &c->walk, c->scratch,
-				      c->diags, (struct diag){ .line = var->line,
-				      .file = structure->file });
+		if (init_has_parts(var))
+			c->good &= check_init(c->project, var, &c->walk, c->scratch,
+				c->diags, (struct diag){ .line = var->line,
+				.file = structure->file });
 	}
 }
 

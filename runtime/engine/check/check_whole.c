@@ -140,14 +140,10 @@ static bool is_store(const struct il_check *c, int at)
 	return line && line->kind == IL_OP && line->op == OP_ST && !line->modifiers;
 }
 
-const struct meaning *il_loads_whole(struct il_check *c, int at)
+bool il_loads_whole(struct il_check *c, int at, const struct meaning *m)
 {
-	const struct il_line *line = &c->il->line[at];
-	enum diag_id why;
-	const struct meaning *m = scope_find(c->scope, c->pou, line->operand, &why);
-
-	return may_move(m) && !line->modifiers && is_store(c, next_line(c, at)) ? m
-										: NULL;
+	return may_move(m) && !c->il->line[at].modifiers &&
+	       is_store(c, next_line(c, at));
 }
 
 bool il_check_store_whole(struct il_check *c, int at)

@@ -115,9 +115,9 @@ bool il_check_same(struct il_check *c, const struct il_line *arg,
 /** il_is_whole_move - is the line at @at a MOVE of a structure or array? */
 bool il_is_whole_move(struct il_check *c, int at);
 bool il_check_whole_move(struct il_check *c, int at);
-/** il_loads_whole - a structure or array that the lines behind @at only store; NULL: the
- * LD at @at is none of such. */
-const struct meaning *il_loads_whole(struct il_check *c, int at);
+/** il_loads_whole - is @m a structure or array that LD at @at loads and the lines behind
+ * it only store? */
+bool il_loads_whole(struct il_check *c, int at, const struct meaning *m);
 /** il_check_store_whole - ST of one. */
 bool il_check_store_whole(struct il_check *c, int at);
 /** il_check_power - EN := or ENO => at @arg. */

@@ -20,7 +20,7 @@ struct path {
 	const char *at, *end;
 	struct meaning m;        /* what was reached                          */
 	int pin;                 /* the first part that was named; -1: none   */
-	struct open_index open[LIMIT_INDICES]; /* those to be found out   */
+	struct open_index *open; /* LIMIT_INDICES of those to be found out    */
 	int opens;
 	const struct meaning *index_of;
 	enum diag_id why;
@@ -260,8 +260,10 @@ static bool finish(struct path *path, struct meaning *out)
 bool scope_mean_path(struct scope *scope, uint32_t table, const char *text,
 		     size_t len, struct meaning *out, enum diag_id *why)
 {
+	struct open_index open[LIMIT_INDICES];
 	struct path path = { .scope = scope, .table = table, .at = text,
-			     .end = text + len, .pin = -1, .why = *why };
+			     .end = text + len, .open = open, .pin = -1,
+			     .why = *why };
 	bool good = begin(&path);
 
 	while (good && path.at < path.end) {

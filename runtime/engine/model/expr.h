@@ -66,7 +66,7 @@ struct expr {
 /**
  * expr_parse - the expression at the lexer, up to the first token past it
  * @lex: stands on its first token; afterwards on the one that ends it
- * @out: caller's memory (about 16 KB: not on a small stack)
+ * @out: caller's memory (about 32 KB: not on a small stack)
  *
  * Owns: nothing; texts are borrowed from the source.   Scan-safe: no.
  * Fails: false and one diagnostic with @place and the column.
