@@ -291,7 +291,8 @@ static void test_grids(void)
 {
 	int n = access_of(VM_AGET, IEC_DINT);
 	const uint32_t *get = find(VM_AGET, n), *block = find(VM_ABLOCK, 0);
-	uint32_t base = get[4], areas = iec_areas_size(), size = block[5];
+	const struct areas *areas = usual_areas();
+	uint32_t base = get[4], size = block[5];
 
 	CHECK_AS(let_in(), "the image as it stands");
 	CHECK(get[0] >> 8 == 4 && get[7] == 3 && get[11] == 4 && get[15] == 2 &&
@@ -299,7 +300,7 @@ static void test_grids(void)
 	for (int k = 0; k < 3; k++) {
 		int index = 5 + 4 * k, count = index + 2, stride = index + 3;
 
-		CHECK(refuses(VM_AGET, n, index, areas));
+		CHECK(refuses(VM_AGET, n, index, areas->size));
 		CHECK(refuses(VM_AGET, n, count, 0) && refuses(VM_AGET, n, count, 5));
 		CHECK(refuses(VM_AGET, n, count, UINT32_MAX));
 		CHECK(refuses(VM_AGET, n, count, 0x80000001));
@@ -314,14 +315,14 @@ static void test_grids(void)
 	CHECK(block[0] >> 8 == 2 && block[8] == 3 && block[12] == 4);
 	CHECK(refuses(VM_ABLOCK, 0, 1, base) && refuses(VM_ABLOCK, 0, 2, CODE_TRUE_AT(areas)));
 	CHECK(refuses(VM_ABLOCK, 0, 3, block[3] + 8) && refuses(VM_ABLOCK, 0, 3, block[4]));
-	CHECK(refuses(VM_ABLOCK, 0, 3, areas) && refuses(VM_ABLOCK, 0, 3, UINT32_MAX));
+	CHECK(refuses(VM_ABLOCK, 0, 3, areas->size) && refuses(VM_ABLOCK, 0, 3, UINT32_MAX));
 	CHECK(refuses(VM_ABLOCK, 0, 4, block[4] + 8) && refuses(VM_ABLOCK, 0, 4, 0));
 	CHECK(refuses(VM_ABLOCK, 0, 4, UINT32_MAX - 8));
 	CHECK(refuses(VM_ABLOCK, 0, 5, 0) && refuses(VM_ABLOCK, 0, 5, size + 8));
 	CHECK(refuses(VM_ABLOCK, 0, 5, UINT32_MAX));
 	CHECK(refuses(VM_ABLOCK, 0, 8, 4) && refuses(VM_ABLOCK, 0, 9, 8));
 	CHECK(refuses(VM_ABLOCK, 0, 12, 5) && refuses(VM_ABLOCK, 0, 13, block[13] + 8));
-	CHECK(refuses(VM_ABLOCK, 0, 6, areas) && refuses(VM_ABLOCK, 0, 0, VM_ABLOCK | 18u << 8));
+	CHECK(refuses(VM_ABLOCK, 0, 6, areas->size) && refuses(VM_ABLOCK, 0, 0, VM_ABLOCK | 18u << 8));
 }
 
 static int64_t value_of(struct rig *rig, const char *name)

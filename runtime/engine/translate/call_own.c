@@ -71,7 +71,7 @@ static void take(struct list *list, uint32_t from, enum iec_type type,
 	struct bits bits = bits_leaf(list->as, from);
 
 	if (meaning_is_whole(m) && meaning_is_indexed(m))
-		list_deposit(list, m, CODE_TRUE_AT(iec_areas_size()),
+		list_deposit(list, m, CODE_TRUE_AT(list->as->areas),
 			     CODE_OPERAND(IEC_NONE, from));
 	else if (meaning_is_whole(m))
 		list_copy_whole(list, layout_spot(list->as, m).offset, from,
@@ -259,11 +259,11 @@ static int skip_failed(struct list *list, const struct frame *frame,
 		       const struct word_row *row, struct bits *en)
 {
 	const struct il_line jump = { .modifiers = MOD_C };
-	struct bits eno = bits_leaf(frame->offset + row->pin[1].offset);
+	struct bits eno = bits_leaf(list->as, frame->offset + row->pin[1].offset);
 	uint32_t ok = en->count ? en->leaf[0] : scratch_new(list->as);
 
 	bits_store(list->as, &eno, ok);
-	*en = bits_leaf(ok);
+	*en = bits_leaf(list->as, ok);
 	list->now.kind = RESULT_BITS;
 	list->now.bits = *en;
 	return list_skip_call(list, &jump);
@@ -299,7 +299,7 @@ void list_own_call(struct list *list)
 	list->now.kind = RESULT_NONE;
 	en = read_en(list);
 	if (list_is_whole_move(list)) {
-		en = bits_leaf(list_whole_move(list, list_slot(list, &en)));
+		en = bits_leaf(list->as, list_whole_move(list, list_slot(list, &en)));
 		write_eno(list, &en);
 		return;
 	}

@@ -8,7 +8,7 @@
 
 #include <strings.h>
 
-#define ALWAYS CODE_TRUE_AT(iec_areas_size())
+#define ALWAYS CODE_TRUE_AT(list->as->areas)
 
 static uint32_t size_of(const struct list *list, const struct meaning *m)
 {
@@ -41,7 +41,7 @@ static int skip_unless(struct list *list, uint32_t ok)
 	if (ok == ALWAYS)
 		return -1;
 	list->now.kind = RESULT_BITS;
-	list->now.bits = bits_leaf(ok);
+	list->now.bits = bits_leaf(list->as, ok);
 	return list_skip_call(list, &jump);
 }
 
