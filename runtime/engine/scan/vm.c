@@ -328,22 +328,36 @@ static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 enum { EN, OK, VALUE, BASE, ELEMENT, SIZE = ELEMENT };
 enum { INDEX, LOW, COUNT, STRIDE };
 
-/* Adds to *where what the indices at @at lead to; false: there is no such element. None
+/* Adds to *where what the index at @at leads to; false: there is no such element. None
  * leads outside: what is below `low` wraps to far above `count`. */
-static bool find_element(const uint8_t *m, const uint32_t *at, uint32_t more,
-			 uint32_t *where)
+static inline bool find_index(const uint8_t *m, const uint32_t *at, uint32_t *where)
 {
-	for (;; at += CODE_DIMENSION) {
-		int64_t index = integer(m, at[INDEX]);
-		uint64_t element = (uint64_t)index - (uint64_t)(int32_t)at[LOW];
+	int64_t index = integer(m, at[INDEX]);
+	uint64_t element = (uint64_t)index - (uint64_t)(int32_t)at[LOW];
 
-		if (element >= at[COUNT] ||
-		    (index < 0 && !value_is_signed(CODE_TYPE(at[INDEX]))))
+	if (element >= at[COUNT] ||
+	    (index < 0 && !value_is_signed(CODE_TYPE(at[INDEX]))))
+		return false;
+	*where += (uint32_t)element * at[STRIDE];
+	return true;
+}
+
+/* Those behind the first. */
+static bool find_more(const uint8_t *m, const uint32_t *at, uint32_t more,
+		      uint32_t *where)
+{
+	for (; more > 0; more--) {
+		at += CODE_DIMENSION;
+		if (!find_index(m, at, where))
 			return false;
-		*where += (uint32_t)element * at[STRIDE];
-		if (!more--)
-			return true;
 	}
+	return true;
+}
+
+static inline bool find_element(const uint8_t *m, const uint32_t *at, uint32_t more,
+				uint32_t *where)
+{
+	return find_index(m, at, where) && (!more || find_more(m, at, more, where));
 }
 
 static void clear_value(uint8_t *m, const uint32_t *at)
