@@ -86,6 +86,9 @@ static void draw_frame(const struct pen *pen, const struct rung_box *box)
 	int column = rung_layout_column(pen->layout, box->top, box->col);
 	bool wrong = pen_marks(pen, box->top, column) & MARK_ERROR;
 
+	if (pen_live(pen, box->top, box->col) & LIVE_FRESH)
+		picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash, box->x,
+			     y - BOX_ABOVE, box->inner, BOX_ABOVE + box->bottom);
 	picture_frame(pen->picture, lit ? TOKEN_POWER : pen->ink, STROKE_SOLID,
 		      lit ? pen->theme->power_width : pen->theme->shape_width, box->x,
 		      y - BOX_ABOVE, box->inner, BOX_ABOVE + box->bottom);

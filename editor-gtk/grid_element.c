@@ -108,6 +108,10 @@ static void draw_shape(const struct pen *pen, int row, int col)
 		 glyph.x - glyph.half, y);
 	pen_line(pen, pen_wire(pen, last ? left : live), glyph.x + glyph.half, y,
 		 rung_layout_bar(layout, row, col + 1), y);
+	if (live & LIVE_FRESH)
+		picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash,
+			     glyph.x - glyph.half - 4, y - glyph.up - 2,
+			     2 * glyph.half + 8, 2 * glyph.up + 4);
 	glyph_draw(pen, &glyph);
 	draw_label(pen, row, col, glyph.x);
 	draw_below(pen, row, col, glyph.x, width - 8, glyph.up);

@@ -98,12 +98,17 @@ static void middle(const struct pen *pen, const struct glyph *glyph)
 		 glyph->y + 4.5f);
 }
 
+void glyph_outline(const struct pen *pen, const struct glyph *glyph)
+{
+	side_stroke(pen, glyph, glyph->strokes[0], -1);
+	side_stroke(pen, glyph, glyph->strokes[2], 1);
+}
+
 void glyph_draw(const struct pen *pen, const struct glyph *glyph)
 {
 	if (glyph->lit)
 		fill(pen, glyph);
-	side_stroke(pen, glyph, glyph->strokes[0], -1);
-	side_stroke(pen, glyph, glyph->strokes[2], 1);
+	glyph_outline(pen, glyph);
 	if (glyph->framed)
 		lines_inside(pen, glyph);
 	else

@@ -67,16 +67,13 @@ static void say_word(const struct pen *pen, const struct glyph *glyph,
 static void draw_word(const struct pen *pen, struct glyph *glyph, bool box,
 		      const struct word_lines *lines)
 {
-	char outline[3] = { glyph->strokes[0], ' ', glyph->strokes[2] };
-
 	float up = lines->lines > 1 ? RUNG_HALF + 2 : RUNG_HALF;
 	if (box)
 		picture_frame(pen->picture, TOKEN_INK, STROKE_SOLID,
 			      pen->theme->shape_width, glyph->x - glyph->half,
 			      glyph->y - up, 2 * glyph->half, 2 * up);
-	glyph->strokes = outline;
-	if (!box)
-		glyph_draw(pen, glyph);
+	else
+		glyph_outline(pen, glyph);
 	say_word(pen, glyph, lines);
 }
 
@@ -91,7 +88,8 @@ void grid_draw_icon(const struct word_row *word, const struct theme *theme,
 	struct wire wire = { TOKEN_INK, STROKE_SOLID, theme->shape_width };
 	struct glyph glyph = { .strokes = word->glyph, .x = width / 2, .y = height / 2,
 			       .half = glyph_half(word), .wire = wire, .up = RUNG_HALF };
-	bool box = word->kind != WORD_ELEM, pointed = strchr("<>", word->glyph[0]);
+	bool box = word->kind != WORD_ELEM;
+	bool pointed = !box && strchr("<>", word->glyph[0]);
 	bool says = box || rung_is_framed(word) || word->operand == OPND_NONE;
 	float room = width - 2 * EDGE - 2;
 	struct word_lines lines = { .lines = 0 };
@@ -105,7 +103,7 @@ void grid_draw_icon(const struct word_row *word, const struct theme *theme,
 	else if (says)
 		lines = (struct word_lines){ { lettering_fit(lettering, LETTER_BADGE,
 			word->word, -1, room) }, 1, room };
-	float side = pointed && !box ? 10 : lines.width + 8 > room ? 3 : EDGE;
+	float side = pointed ? 10 : lines.width + 8 > room ? 3 : EDGE;
 	if (says)
 		glyph.half = MAX(lines.width / 2 + side, 14);
 	pen_line(&pen, wire, 0, glyph.y, glyph.x - glyph.half, glyph.y);

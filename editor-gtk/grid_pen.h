@@ -49,6 +49,8 @@ struct glyph {
 };
 /** glyph_draw - @pen needs picture, theme and drafting only. */
 void glyph_draw(const struct pen *pen, const struct glyph *glyph);
+/** glyph_outline - its left and right stroke alone. */
+void glyph_outline(const struct pen *pen, const struct glyph *glyph);
 /** glyph_half - from the middle of (word) to its outer strokes. */
 float glyph_half(const struct word_row *word);
 

@@ -76,7 +76,7 @@ static void draw_live(struct sheet *sheet)
 	draw(sheet, 0, (struct grid_scene){ .live = &live }, "live");
 	memset(cell, 0, sizeof(cell)); /* not scanned yet */
 	draw(sheet, 0, (struct grid_scene){ .live = &live }, "unknown");
-	cell[0] = cell[1] = LIVE_KNOWN | LIVE_IN | LIVE_OUT | LIVE_CLOSED;
+	cell[0] = cell[1] = LIVE_KNOWN | LIVE_IN | LIVE_OUT | LIVE_CLOSED | LIVE_FRESH;
 	cell[2] = cell[3] = LIVE_KNOWN;
 	draw(sheet, 3, (struct grid_scene){ .live = &live }, "timer");
 }
