@@ -48,10 +48,11 @@ graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int 
 	int col, top = box_row(layout, row, column, &col), last = row;
 	float x = layout->column_x[column];
 
-	if (top >= 0)
-		last = top + rung_height(layout->rung, top, col) - 1;
-	else
-		top = row;
+	if (top < 0) /* beside a tall box it is as high as elsewhere        */
+		return GRAPHENE_RECT_INIT(x, layout->row[row].y,
+					  layout->column_width[column],
+					  RUNG_CELL_HEIGHT);
+	last = top + rung_height(layout->rung, top, col) - 1;
 	const struct rung_row *r = &layout->row[last];
 	return GRAPHENE_RECT_INIT(x, layout->row[top].y, layout->column_width[column],
 				  r->y + r->height - layout->row[top].y);

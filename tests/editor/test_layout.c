@@ -114,6 +114,9 @@ static void check_box(const struct sheet *sheet)
 	graphene_rect_t second = rung_layout_cell(layout, 1, 1);
 	CHECK(graphene_rect_equal(&first, &second));
 	CHECK(first.size.height > 2 * RUNG_CELL_HEIGHT);
+	/* What stands beside it is as high as elsewhere. */
+	CHECK(layout->row[1].height > RUNG_CELL_HEIGHT + 40);
+	CHECK((int)rung_layout_cell(layout, 1, 0).size.height == RUNG_CELL_HEIGHT);
 }
 
 /* Rows below the rung, for a cursor that goes there. */
