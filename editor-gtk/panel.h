@@ -75,6 +75,8 @@ void panel_watch_free(struct panel_watch *watch);
 /** panel_watch_set - @document: NULL: none. False: it is that already. */
 bool panel_watch_set(struct panel_watch *watch, LadderDocument *document);
 LadderDocument *panel_watch_document(struct panel_watch *watch);
+/** panel_watch_later - as if the document had changed. */
+void panel_watch_later(struct panel_watch *watch);
 /** panel_watch_now - refreshes at once if something changed, seen or not: for tests. */
 void panel_watch_now(struct panel_watch *watch);
 

@@ -120,6 +120,11 @@ LadderDocument *panel_watch_document(struct panel_watch *watch)
 	return watch ? watch->document : NULL;
 }
 
+void panel_watch_later(struct panel_watch *watch)
+{
+	changed(watch);
+}
+
 void panel_watch_now(struct panel_watch *watch)
 {
 	if (watch->dirty)

@@ -258,27 +258,56 @@ static int by_rank(gconstpointer left, gconstpointer right)
 	return a->row != b->row ? a->row - b->row : a->col - b->col;
 }
 
-GPtrArray *uses_rows(LadderDocument *document, enum uses_mode mode, int pou,
-		     const char *symbol)
+/* All uses, those of one thing together. */
+static void add_all(struct maker *maker)
+{
+	const gsize size = sizeof(*maker->xref.use) * (gsize)maker->xref.count;
+	struct xref_use *sorted = g_memdup2(maker->xref.use, size);
+
+	if (sorted)
+		qsort(sorted, (size_t)maker->xref.count, sizeof(*sorted), by_rank);
+	for (int i = 0; i < maker->xref.count; i++)
+		add_row(maker, &sorted[i]);
+	g_free(sorted);
+}
+
+void uses_cache_clear(struct uses_cache *cache)
+{
+	xref_free(&cache->xref);
+	cache->document = NULL;
+}
+
+static void fill_cache(struct uses_cache *cache, LadderDocument *document)
+{
+	const guint64 version = ladder_document_version(document);
+
+	if (cache->document == document && cache->version == version)
+		return;
+	uses_cache_clear(cache);
+	if (!xref_make(&cache->xref, ladder_document_project(document)))
+		g_error("out of memory");
+	cache->document = document;
+	cache->version = version;
+}
+
+GPtrArray *uses_rows(struct uses_cache *cache, LadderDocument *document,
+		     enum uses_mode mode, int pou, const char *symbol)
 {
 	struct maker maker = { .rows = g_ptr_array_new_with_free_func(g_object_unref) };
-	struct project *project = document ? ladder_document_project(document) : NULL;
 
-	if (!project || (mode == USES_SYMBOL && (!symbol || !*symbol)))
+	if (!document || !ladder_document_project(document) ||
+	    (mode == USES_SYMBOL && (!symbol || !*symbol)))
 		return maker.rows;
-	if (!xref_make(&maker.xref, project))
-		g_error("out of memory");
+	fill_cache(cache, document);
+	maker.xref = cache->xref;
 	if (mode == USES_SYMBOL)
 		add_symbol(&maker, pou, symbol);
 	else if (mode == USES_UNUSED)
 		add_unused(&maker);
 	else if (mode == USES_DOUBLE)
 		add_double(&maker);
-	if (mode == USES_ALL && maker.xref.count)
-		qsort(maker.xref.use, (size_t)maker.xref.count, sizeof(*maker.xref.use),
-		      by_rank);
-	for (int i = 0; mode == USES_ALL && i < maker.xref.count; i++)
-		add_row(&maker, &maker.xref.use[i]);
-	xref_free(&maker.xref);
+	else
+		add_all(&maker);
+	cache->xref = maker.xref; /* its arena may have grown */
 	return maker.rows;
 }

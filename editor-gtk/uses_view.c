@@ -16,9 +16,9 @@ struct _LadderUsesView {
 	GtkWidget *box, *modes, *search, *empty, *stack;
 	struct panel_list list;
 	struct panel_watch *watch;
+	struct uses_cache cache;
 	char *symbol;
 	int pou;
-	bool busy;              /* the drop-down is being set by us            */
 };
 
 G_DEFINE_FINAL_TYPE(LadderUsesView, ladder_uses_view, GTK_TYPE_WIDGET)
@@ -51,7 +51,8 @@ static void refresh(GtkWidget *widget)
 {
 	LadderUsesView *view = LADDER_USES_VIEW(widget);
 	LadderDocument *document = panel_watch_document(view->watch);
-	GPtrArray *rows = uses_rows(document, mode_of(view), view->pou, view->symbol);
+	GPtrArray *rows = uses_rows(&view->cache, document, mode_of(view), view->pou,
+				    view->symbol);
 
 	panel_rows_update(view->list.store, rows);
 	g_ptr_array_unref(rows);
@@ -82,8 +83,9 @@ void ladder_uses_view_set_symbol(LadderUsesView *view, int pou, const char *symb
 	g_free(view->symbol);
 	view->symbol = g_strdup(symbol);
 	view->pou = pou;
+	/* The cursor may move on at once. */
 	if (mode_of(view) == USES_SYMBOL)
-		refresh(GTK_WIDGET(view));
+		panel_watch_later(view->watch);
 	g_object_notify_by_pspec(G_OBJECT(view), props[PROP_SYMBOL]);
 }
 
@@ -91,6 +93,7 @@ void ladder_uses_view_set_document(LadderUsesView *view, LadderDocument *documen
 {
 	if (!panel_watch_set(view->watch, document))
 		return;
+	uses_cache_clear(&view->cache);
 	refresh(GTK_WIDGET(view));
 	g_object_notify_by_pspec(G_OBJECT(view), props[PROP_DOCUMENT]);
 }
@@ -151,6 +154,7 @@ static void dispose(GObject *object)
 	g_clear_pointer(&view->watch, panel_watch_free);
 	g_clear_pointer(&view->box, gtk_widget_unparent);
 	panel_list_clear(&view->list);
+	uses_cache_clear(&view->cache);
 	g_clear_pointer(&view->symbol, g_free);
 	G_OBJECT_CLASS(ladder_uses_view_parent_class)->dispose(object);
 }

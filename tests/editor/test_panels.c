@@ -263,6 +263,7 @@ static void test_uses(void)
 	put(GTK_WIDGET(view));
 	CHECK(g_list_model_get_n_items(list) == 0);
 	ladder_uses_view_set_symbol(view, 0, "Start");
+	ladder_uses_view_refresh(view);
 	CHECK(g_list_model_get_n_items(list) == 3);
 	is_row(list, 0, "Start|%IX0.0|declared|declarations||");
 	is_row(list, 1, "Start|%IX0.0|read|Main, rung 1 (1, 1)|Start|");
@@ -274,12 +275,16 @@ static void test_uses(void)
 	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 0);
 	CHECK_TEXT(gone_to, "-1 -1 0 0");
 	ladder_uses_view_set_symbol(view, 0, "Delay.Q");
+	ladder_uses_view_refresh(view);
 	CHECK(g_list_model_get_n_items(list) == 2);
 	ladder_uses_view_set_symbol(view, -1, "Main.Delay");
+	ladder_uses_view_refresh(view);
 	CHECK(g_list_model_get_n_items(list) == 2);
 	ladder_uses_view_set_symbol(view, 0, "%QX0.0");
+	ladder_uses_view_refresh(view);
 	CHECK_AS(g_list_model_get_n_items(list) == 4, "an address: what touches it");
 	ladder_uses_view_set_symbol(view, 0, "1 +");
+	ladder_uses_view_refresh(view);
 	CHECK(g_list_model_get_n_items(list) == 0);
 	ladder_uses_view_set_mode(view, USES_ALL);
 	all = g_list_model_get_n_items(list);
