@@ -80,18 +80,24 @@ static void show_count(LadderFindBar *bar)
 	gtk_widget_action_set_enabled(GTK_WIDGET(bar), "find.replace-all", count);
 }
 
-static void look(GtkWidget *widget)
+static void search(LadderFindBar *bar, bool now)
 {
-	LadderFindBar *bar = LADDER_FIND_BAR(widget);
 	LadderDocument *document = panel_watch_document(bar->watch);
 	const char *text = gtk_editable_get_text(GTK_EDITABLE(bar->entry));
 
 	g_clear_pointer(&bar->find, find_free);
 	bar->current = -1;
-	if (document && *text && ladder_find_bar_is_open(bar))
+	if (document && *text && now)
 		bar->find = find_new(document, text, options_of(bar));
 	show_count(bar);
 	g_signal_emit(bar, signals[HITS_CHANGED], 0);
+}
+
+static void look(GtkWidget *widget)
+{
+	LadderFindBar *bar = LADDER_FIND_BAR(widget);
+
+	search(bar, ladder_find_bar_is_open(bar));
 }
 
 static void go(LadderFindBar *bar, int number)
@@ -111,9 +117,11 @@ static void go(LadderFindBar *bar, int number)
 
 bool ladder_find_bar_next(LadderFindBar *bar, bool back)
 {
-	const int count = bar->find ? (int)bar->find->hit->len : 0;
-	int number;
+	int count, number;
 
+	if (!ladder_find_bar_is_open(bar))
+		search(bar, true); /* what was looked for last */
+	count = bar->find ? (int)bar->find->hit->len : 0;
 	if (!count)
 		return false;
 	/* Several hits may be at one place. */

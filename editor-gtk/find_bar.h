@@ -27,7 +27,8 @@ bool ladder_find_bar_is_open(LadderFindBar *bar);
 /** ladder_find_bar_set_place - where the cursor is, from which the next hit is looked for.
  * 0-based, -1: the whole. */
 void ladder_find_bar_set_place(LadderFindBar *bar, int pou, int rung, int row, int col);
-/** ladder_find_bar_next - goes to the next hit, or the one before. False: none. */
+/** ladder_find_bar_next - goes to the next hit, or the one before, of what was looked for
+ * last also while the bar is closed. False: none. */
 bool ladder_find_bar_next(LadderFindBar *bar, bool back);
 /** ladder_find_bar_find - all hits; NULL: nothing is looked for. Borrowed until
  * hits-changed. */

@@ -9,6 +9,7 @@
 #include "editor-gtk/problems.h"
 #include "editor-gtk/symbols_view.h"
 #include "editor-gtk/uses_view.h"
+#include "tests/editor/screen.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -489,6 +490,12 @@ static void test_find(void)
 	gtk_widget_activate_action(widget, "find.replace-all", NULL);
 	CHECK_AS(strstr(ladder_find_bar_message(bar), ":") && !ladder_document_undo_name(document),
 		 "why nothing was replaced");
+	ladder_find_bar_open(bar, false, "Start");
+	ladder_find_bar_close(bar);
+	ladder_find_bar_set_place(bar, 0, 0, 0, 0);
+	CHECK_AS(ladder_find_bar_next(bar, false), "F3 also while it is closed");
+	CHECK_TEXT(gone_to, "1 -1 1 8");
+	told_closed = 0;
 	ladder_find_bar_open(bar, false, "nothing at all");
 	CHECK_TEXT(ladder_find_bar_message(bar), "Nothing found");
 	gtk_widget_activate_action(widget, "find.close", NULL);
@@ -499,10 +506,8 @@ static void test_find(void)
 
 int main(void)
 {
-	g_setenv("G_DEBUG", "fatal-warnings", TRUE);
-	g_setenv("GTK_A11Y", "test", FALSE);
-	if (!gtk_init_check()) {
-		printf("1..0 # SKIP no display\n");
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
 		return 0;
 	}
 	adw_init();

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * screen - a private X screen for tests of widgets. It needs no session bus and no window
+ * manager; without Xvfb there is none.
+ */
+#ifndef TESTS_EDITOR_SCREEN_H
+#define TESTS_EDITOR_SCREEN_H
+
+#include <glib.h>
+#include <stdbool.h>
+#include <unistd.h>
+
+/* For this test alone, whatever the desktop around it. */
+static inline void screen_environment(const char *display)
+{
+	static const char *const set[][2] = {
+		{ "GDK_BACKEND", "x11" }, { "GSK_RENDERER", "cairo" }, { "GTK_A11Y", "test" },
+		{ "GSETTINGS_BACKEND", "memory" }, { "ADW_DISABLE_PORTAL", "1" },
+		{ "GTK_USE_PORTAL", "0" }, { "G_DEBUG", "fatal-warnings" },
+		{ "LC_ALL", "C.UTF-8" }, { "LANGUAGE", "" },
+	};
+
+	for (gsize i = 0; i < G_N_ELEMENTS(set); i++)
+		g_setenv(set[i][0], set[i][1], TRUE);
+	g_setenv("DISPLAY", display, TRUE);
+}
+
+/* Its end of the pipe is number 3; the server ends with its last client. */
+static inline void screen_pipe(gpointer pipe)
+{
+	dup2(((int *)pipe)[1], 3);
+}
+
+/** screen_start - false: there is no Xvfb. */
+static inline bool screen_start(void)
+{
+	char *argv[] = { "Xvfb", "-displayfd", "3", "-screen", "0", "1440x900x24",
+			 "-nolisten", "tcp", "-terminate", NULL };
+	char display[16] = ":";
+	int pipes[2];
+	gsize len = 1;
+
+	if (pipe(pipes) != 0 ||
+	    !g_spawn_async(NULL, argv, NULL, G_SPAWN_SEARCH_PATH | G_SPAWN_STDERR_TO_DEV_NULL |
+			   G_SPAWN_LEAVE_DESCRIPTORS_OPEN, screen_pipe, pipes, NULL, NULL))
+		return false;
+	close(pipes[1]);
+	while (len < sizeof(display) - 1 && read(pipes[0], display + len, 1) == 1 &&
+	       display[len] != '\n')
+		len++;
+	display[len] = '\0';
+	close(pipes[0]);
+	screen_environment(display);
+	return len > 1;
+}
+
+#endif
