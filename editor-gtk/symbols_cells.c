@@ -64,7 +64,7 @@ static void commit(GtkWidget *cell, GtkListItem *item)
 	g_object_unref(row);
 }
 
-static void activated(GtkText *cell, GtkListItem *item)
+static void activated(GtkEntry *cell, GtkListItem *item)
 {
 	commit(GTK_WIDGET(cell), item);
 }
@@ -126,7 +126,7 @@ static void add_controller(GtkWidget *cell, const char *name, GtkEventController
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
 {
 	const struct cells *cells = data;
-	GtkWidget *cell = is_check(cells->field) ? gtk_check_button_new() : gtk_text_new();
+	GtkWidget *cell = is_check(cells->field) ? gtk_check_button_new() : gtk_entry_new();
 
 	(void)factory;
 	g_object_set_data(G_OBJECT(cell), "cells", data);
@@ -135,6 +135,7 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer
 	} else {
 		add_controller(cell, "focus", gtk_event_controller_focus_new());
 		add_controller(cell, "keys", gtk_event_controller_key_new());
+		gtk_entry_set_has_frame(GTK_ENTRY(cell), FALSE);
 		gtk_widget_add_css_class(cell, "field");
 	}
 	gtk_list_item_set_child(item, cell);
@@ -190,7 +191,7 @@ static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointe
 	(void)factory;
 	(void)data;
 	g_signal_handlers_disconnect_by_data(cell, item);
-	if (!GTK_IS_TEXT(cell))
+	if (!GTK_IS_ENTRY(cell))
 		return;
 	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "focus"), item);
 	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "keys"), item);

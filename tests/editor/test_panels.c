@@ -376,15 +376,15 @@ static void test_symbols(void)
 	CHECK_AS(row->note && row->tone == PANEL_ERROR, "what is wrong with a field is told");
 	g_object_unref(row);
 	picture(widget, "symbols");
-	type_into(view, cell_of(widget, GTK_TYPE_TEXT, "Spare"), "Stock");
+	type_into(view, cell_of(widget, GTK_TYPE_ENTRY, "Spare"), "Stock");
 	CHECK(has("  Stock           : INT;") || has("  Stock : INT;") || has("  Stock   : INT;"));
 	CHECK_TEXT(ladder_symbols_view_message(view), "");
-	type_into(view, cell_of(widget, GTK_TYPE_TEXT, "Start"), "\xe5\x90\xaf\xe5\x8a\xa8");
+	type_into(view, cell_of(widget, GTK_TYPE_ENTRY, "Start"), "\xe5\x90\xaf\xe5\x8a\xa8");
 	CHECK(has("| NO \xe5\x90\xaf\xe5\x8a\xa8 |"));
 	ladder_document_check_now(document); /* it is unused: its row changes */
 	ladder_symbols_view_refresh(view);
 	turn(250);
-	cell = cell_of(widget, GTK_TYPE_TEXT, "Stock");
+	cell = cell_of(widget, GTK_TYPE_ENTRY, "Stock");
 	type_into(view, cell, "Hours");
 	CHECK_AS(gtk_widget_has_css_class(cell, "error") &&
 		 strstr(ladder_symbols_view_message(view), "Hours"), "a refusal is told");
