@@ -299,9 +299,6 @@ char *rename_reason(LadderDocument *document, const struct ladder_rename *how,
 	case RENAME_RESERVED:
 		text = g_strdup_printf(_("“%s” is a word of the language"), name);
 		break;
-	case RENAME_ADDRESS:
-		text = g_strdup_printf(_("“%s” looks like an address"), name);
-		break;
 	case RENAME_TAKEN:
 		text = g_strdup_printf(_("“%s” is declared already (%s)"), name, place);
 		break;

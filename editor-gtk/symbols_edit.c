@@ -212,6 +212,25 @@ static char *name_reason(enum diag_id fault, const char *name)
 	return g_strdup_printf("%s: %s", _(diag_text(fault)), name);
 }
 
+/* Does the program say this name and mean an address? It would mean the symbol then. */
+static bool is_used_address(struct symbol_batch *batch, const char *name)
+{
+	struct xref xref;
+	bool found = false;
+
+	if (!xref_make(&xref, batch->project))
+		g_error("out of memory");
+	for (int i = 0; i < xref.count && !found; i++) {
+		const struct xref_use *use = &xref.use[i];
+
+		found = use->target.what == XREF_ADDRESS && use->len == strlen(name) &&
+			g_ascii_strncasecmp(xref_text(&xref, use) + use->at, name,
+					    use->len) == 0;
+	}
+	xref_free(&xref);
+	return found;
+}
+
 /* @index: of the one that has it and may; -1: none. */
 static bool name_is_free(struct symbol_batch *batch, int table, int index,
 			 const char *name, char **why)
@@ -220,7 +239,10 @@ static bool name_is_free(struct symbol_batch *batch, int table, int index,
 	const struct var_table *vars = xref_table(project, table);
 	const enum diag_id fault = ladder_name_fault(name);
 
-	if (fault != DIAG_COUNT)
+	if (fault == DIAG_SHADOWS_ADDRESS && is_used_address(batch, name))
+		return refuse(why, g_strdup_printf(
+			_("“%s” is used as an address"), name));
+	if (fault != DIAG_COUNT && fault != DIAG_SHADOWS_ADDRESS)
 		return refuse(why, name_reason(fault, name));
 	for (int i = 0; i < vars->count; i++)
 		if (i != index && g_ascii_strcasecmp(name,

@@ -151,6 +151,10 @@ bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index)
 	if (view->table >= 0 && view->table != table)
 		view->table = -1;
 	refresh(GTK_WIDGET(view));
+	if (panel_list_select(&view->list, is_symbol, place))
+		return true;
+	gtk_editable_set_text(GTK_EDITABLE(view->search), "");
+	panel_list_want(&view->list, "");
 	return panel_list_select(&view->list, is_symbol, place);
 }
 

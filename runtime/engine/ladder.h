@@ -112,7 +112,7 @@ struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t le
 char *ladder_write_rung(struct ladder *ladder, const struct rung *rung);
 
 /** ladder_name_fault - why nothing can have this name: DIAG_EXPECTED (it is none),
- * DIAG_RESERVED_NAME, DIAG_SHADOWS_ADDRESS; DIAG_COUNT: it is well. */
+ * DIAG_RESERVED_NAME; or should not: DIAG_SHADOWS_ADDRESS; DIAG_COUNT: it is well. */
 enum diag_id ladder_name_fault(const char *name);
 
 /* Why a thing cannot be renamed. */
@@ -121,7 +121,6 @@ enum ladder_refusal {
 	RENAME_NOTHING,  /* it has no name that was given to it               */
 	RENAME_FORM,     /* the new one is no name                            */
 	RENAME_RESERVED, /* the language has it                               */
-	RENAME_ADDRESS,  /* it looks like an address                          */
 	RENAME_TAKEN,    /* something else has it already, here               */
 	RENAME_MEANING,  /* this place would mean something else then         */
 	RENAME_OTHER_FILE, /* it is used here, in a file of its own           */

@@ -149,8 +149,6 @@ static bool may_be_called(struct rename *r)
 		return refuse(r, RENAME_FORM, NULL);
 	case DIAG_RESERVED_NAME:
 		return refuse(r, RENAME_RESERVED, NULL);
-	case DIAG_SHADOWS_ADDRESS:
-		return refuse(r, RENAME_ADDRESS, NULL);
 	default:
 		if (is_word(r))
 			return refuse(r, RENAME_RESERVED, NULL);

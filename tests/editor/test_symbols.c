@@ -18,7 +18,7 @@ static const char sample[] =
 	"RUNG\n  | NO Start | COIL Motor |\n  | NO Motor ^|\n"
 	"RUNG\n  | NO Motor | TON Delay PT:=T#1s | COIL \xe7\x81\xaf |\nEND_PROGRAM\n\n"
 	"FUNCTION_BLOCK Seal LD\nVAR_INPUT\n  On : BOOL;\nEND_VAR\n"
-	"RUNG\n  | NO On | COIL %MX0.0 |\nEND_FUNCTION_BLOCK\n";
+	"RUNG\n  | NO On | COIL %MX0.0 |\n  |      ^| COIL Q7     |\nEND_FUNCTION_BLOCK\n";
 
 static LadderDocument *opened(const char *text)
 {
@@ -135,6 +135,8 @@ static void test_names(void)
 	CHECK(!set(document, "", "Minutes", FIELD_NAME, "VAR"));
 	CHECK(!set(document, "", "Minutes", FIELD_NAME, ""));
 	CHECK(!set(document, "", "Motor", FIELD_NAME, "Delay"));
+	CHECK(set(document, "", "Minutes", FIELD_NAME, "M1"));
+	CHECK_AS(!set(document, "", "M1", FIELD_NAME, "q7"), "what cells mean an address by");
 	g_object_unref(document);
 }
 

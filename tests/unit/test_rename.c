@@ -224,7 +224,8 @@ static void test_refusals(void)
 		"RUNGBOARD 1\n\nVAR\n  A : BOOL;\n  B : BOOL;\nEND_VAR\n\n"
 		"PROGRAM Main LD\nVAR\n  C : BOOL;\nEND_VAR\n"
 		"RUNG One\n  | NO A | COIL C |\nRUNG Two\n  | NO B | COIL %QX0.0 |\n"
-		"RUNG\n  | NO Lost | COIL %QX0.1 |\nEND_PROGRAM\n\n"
+		"RUNG\n  | NO Lost | COIL %QX0.1 |\n"
+		"RUNG\n  | NO %IX0.0 | COIL q5 |\nEND_PROGRAM\n\n"
 		"PROGRAM Other LD\nVAR\n  A : BOOL;\nEND_VAR\n"
 		"RUNG\n  | NO A | COIL B |\nEND_PROGRAM\n");
 	char longest[300];
@@ -249,7 +250,7 @@ static void test_refusals(void)
 	refused(ladder, "A", "end_var", RENAME_RESERVED, 0);
 	refused(ladder, "A", "SYS_new", RENAME_RESERVED, 0);
 	refused(ladder, "A", "_T12", RENAME_RESERVED, 0);
-	refused(ladder, "A", "I0", RENAME_ADDRESS, 0);
+	refused(ladder, "A", "Q5", RENAME_MEANING, 4);     /* an address is captured */
 	refused(ladder, "Nobody", "X", RENAME_NOTHING, 0);
 	ladder_free(ladder);
 }
@@ -267,6 +268,9 @@ static void test_good(void)
 	free(text);
 	text = ladder_rename(ladder, &target, "GO", &len, &how);
 	CHECK_AS(text && strstr(text, "GO   AT %IX0.0"), "only its case");
+	free(text);
+	text = ladder_rename(ladder, &target, "M1", &len, &how);
+	CHECK_AS(text, "as an address that nobody uses");
 	free(text);
 	target = target_of(ladder, "Seal");
 	text = ladder_rename(ladder, &target, "TON", &len, &how);
