@@ -190,9 +190,10 @@ static void print_place(const struct project *project, const struct xref_use *us
 	sink_text(sink, use->file ? use->file : "");
 	if (use->line)
 		sink_printf(sink, ":%d", use->line);
-	sink_text(sink, "\t");
-	if (use->pou >= 0)
+	if (use->pou >= 0) {
+		sink_text(sink, "\t");
 		sink_text(sink, project_text(project, project->pou[use->pou].name));
+	}
 	if (use->rung && use->row)
 		sink_printf(sink, " rung %d (%d,%d)", use->rung, use->row, use->col);
 	else if (use->rung)
