@@ -282,6 +282,8 @@ static void ladder_palette_init(LadderPalette *palette)
 	gtk_accessible_update_property(GTK_ACCESSIBLE(palette->search),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL,
 				       _("Find an element"), -1);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(scroller),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Elements"), -1);
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
 				       GTK_POLICY_AUTOMATIC);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), palette->families);

@@ -3,7 +3,11 @@
 
 What the person sees is found by its accessible name, what the person does is done with a
 real pointer and real keys. A test is a function; report() runs it and speaks TAP. It needs
-Xvfb, openbox, xdotool, xclip, AT-SPI with its Python binding; without them all is skipped.
+Xvfb, openbox, xdotool, xclip, AT-SPI, python3-gi; without them all is skipped.
+
+The accessibility bus is asked level by level, all questions of a level at once: one node
+after the other would take seconds on a busy machine. The palette, which is most of the
+tree and never changes, is looked into only for its tiles.
 """
 import os
 import re
@@ -19,26 +23,32 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), '..', '..', '..')
 BUILD = os.path.join(ROOT, os.environ.get('BUILD', 'build'))
 EDITOR = os.path.join(BUILD, 'ladder-editor')
 LADDER = os.path.join(BUILD, 'ladder')
-PATIENCE = 20  # seconds until what must come did not; no test waits for it in vain
+WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
+PATIENCE = 60  # seconds until what must come did not; no test waits for it in vain
 
-Atspi = None
+GLib = Gio = None
 ended = []  # what is to be done when a test is over
+BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
+ROLES = {'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'push button': 43,
+         'table': 55, 'table cell': 56, 'text': 61, 'toggle button': 62, 'entry': 79}
+LEAVES = {29, 61}  # roles of what has nothing in it
+A11Y = 'org.a11y.atspi.'
 
 
 def missing():
     """What is not here, as one text; '' if all is."""
-    global Atspi
+    global GLib, Gio
     lacks = [tool for tool in ('Xvfb', 'openbox', 'xdotool', 'xwininfo', 'xprop', 'xclip', 'import',
                                'dbus-daemon') if not shutil.which(tool)]
     if not os.path.exists(EDITOR):
         lacks.append(EDITOR)
+    if not any(os.path.exists(path) for path in BUS_LAUNCHERS):
+        lacks.append('at-spi2-core')
     try:
-        import gi
-        gi.require_version('Atspi', '2.0')
-        from gi.repository import Atspi as atspi
-        Atspi = atspi
-    except (ImportError, ValueError):
-        lacks.append('python3-gi and gir1.2-atspi-2.0')
+        from gi.repository import GLib as glib, Gio as gio
+        GLib, Gio = glib, gio
+    except ImportError:
+        lacks.append('python3-gi')
     return ', '.join(lacks)
 
 
@@ -55,7 +65,7 @@ def until(look, what, seconds=PATIENCE):
             return value
         if time.monotonic() > end:
             raise AssertionError('it did not come: ' + what)
-        time.sleep(0.02)
+        time.sleep(0.03)
 
 
 class Screen:
@@ -81,6 +91,15 @@ class Screen:
         self.start('openbox', '--sm-disable')
         until(lambda: 'window id' in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'), 'the window manager')
 
+    def accessibility(self):
+        """A connection of its own to the accessibility bus."""
+        session = Gio.bus_get_sync(Gio.BusType.SESSION)
+        address = session.call_sync('org.a11y.Bus', '/org/a11y/bus', 'org.a11y.Bus', 'GetAddress',
+                                    None, None, 0, -1, None).unpack()[0]
+        flags = Gio.DBusConnectionFlags
+        return Gio.DBusConnection.new_for_address_sync(
+            address, flags.AUTHENTICATION_CLIENT | flags.MESSAGE_BUS_CONNECTION, None, None)
+
     def start_bus(self):
         bus = subprocess.Popen(['dbus-daemon', '--session', '--nofork', '--print-address=1'],
                                stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
@@ -98,51 +117,128 @@ class Screen:
         shutil.rmtree(self.home, ignore_errors=True)
 
 
+class Node:
+    """A widget, as the accessibility bus knows it."""
+
+    def __init__(self, editor, path, role):
+        self.editor, self.path, self.role, self.name = editor, path, role, ''
+
+    def ask(self, interface, method, args=None):
+        answer = self.editor.ask([(self.path, interface, method, args)])[0]
+        if answer is None:
+            raise AssertionError('"%s" is gone' % self.name)
+        return answer
+
+    def box(self):
+        """x, y, width, height in its window."""
+        return self.ask('Component', 'GetExtents', GLib.Variant('(u)', (1,)))[0]
+
+    def text(self):
+        return self.ask('Text', 'GetText', GLib.Variant('(ii)', (0, 1 << 20)))[0]
+
+    def has(self, state):
+        """11: can have the focus, 12: has it, 24: sensitive …, as AtspiStateType counts."""
+        return bool(self.ask('Accessible', 'GetState')[0][0] >> state & 1)
+
+
 class Editor:
     """ladder-editor, as a person uses it."""
 
     def __init__(self, screen, *files, **env):
         self.screen = screen
         self.log = os.path.join(screen.home, 'editor-%d.log' % time.monotonic_ns())
-        # Warnings of the toolkit are faults of ours.
-        self.process = subprocess.Popen([EDITOR, *files], stdout=open(self.log, 'w'), stderr=subprocess.STDOUT,
-                                        env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
+        # Critical messages of the toolkit are faults of ours.
+        with open(self.log, 'w') as log:
+            self.process = subprocess.Popen([*WRAPPER, EDITOR, *files], stdout=log, stderr=subprocess.STDOUT,
+                                            env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
         ended.append(self.kill)
-        self.root = until(self.application, 'the editor on the accessibility bus')
-        until(lambda: self.all('Find an element'), 'the window')
+        self.bus = screen.accessibility()
+        self.roles = {}   # path -> role; a widget has the same one all its life
+        self.palette = None
+        self.name, self.root = until(self.application, 'the editor on the accessibility bus')
         self.window = until(self.windows, 'a window')[0]
-        self.lines = {node.get_name() for node in self.all(role='text')}
+        until(lambda: self.all('Find an element'), 'the palette')
+        self.lines = {node.path for node in self.all(role='text')}
 
     def application(self):
-        if self.process.poll() is not None:
-            raise AssertionError('the editor ended: ' + open(self.log).read())
-        desktop = Atspi.get_desktop(0)
-        for i in range(desktop.get_child_count()):
-            child = desktop.get_child_at_index(i)
-            if child and child.get_process_id() == self.process.pid and child.get_child_count() > 0:
-                return child
+        self.alive()
+        for name, path in self.call('org.a11y.atspi.Registry', '/org/a11y/atspi/accessible/root',
+                                    'Accessible', 'GetChildren')[0]:
+            pid = self.bus.call_sync('org.freedesktop.DBus', '/', 'org.freedesktop.DBus',
+                                     'GetConnectionUnixProcessID', GLib.Variant('(s)', (name,)),
+                                     None, 0, -1, None).unpack()[0]
+            if pid == self.process.pid and self.call(name, path, 'Accessible', 'GetChildren')[0]:
+                return name, path
         return None
+
+    def alive(self):
+        if self.process.poll() is not None:
+            with open(self.log) as log:
+                raise AssertionError('the editor ended with %d: %s' % (self.process.returncode, log.read()))
+
+    # ---- asking ----
+
+    def call(self, name, path, interface, method):
+        return self.bus.call_sync(name, path, A11Y + interface, method, None, None, 0, -1, None).unpack()
+
+    def ask(self, questions):
+        """Answers of (path, interface, method, args), all asked at once; None: it is gone."""
+        answers = [None] * len(questions)
+        waiting = [len(questions)]
+
+        def done(bus, result, index):
+            try:
+                answers[index] = bus.call_finish(result).unpack()
+            except GLib.Error:  # it went while we asked
+                pass
+            waiting[0] -= 1
+
+        for index, (path, interface, method, args) in enumerate(questions):
+            self.bus.call(self.name, path, interface if '.' in interface else A11Y + interface, method,
+                          args, None, 0, 30000, None, done, index)
+        context = GLib.MainContext.default()
+        while waiting[0]:
+            context.iteration(True)
+        self.alive()
+        return answers
+
+    def level(self, paths):
+        """The nodes at these paths, and the paths below them."""
+        name = GLib.Variant('(ss)', (A11Y + 'Accessible', 'Name'))
+        fresh = [path for path in paths if path not in self.roles]
+        inner = [path for path in paths if self.roles.get(path) not in LEAVES]
+        answers = self.ask([(path, 'org.freedesktop.DBus.Properties', 'Get', name) for path in paths] +
+                           [(path, 'Accessible', 'GetRole', None) for path in fresh] +
+                           [(path, 'Accessible', 'GetChildren', None) for path in inner])
+        names = answers[:len(paths)]
+        for path, role in zip(fresh, answers[len(paths):]):
+            if role:
+                self.roles[path] = role[0]
+        nodes = []
+        for path, answer in zip(paths, names):
+            if answer and path in self.roles:
+                nodes.append(Node(self, path, self.roles[path]))
+                nodes[-1].name = answer[0]
+        below = [child for answer in answers[len(paths) + len(fresh):] if answer for _, child in answer[0]]
+        return nodes, below
 
     # ---- seeing ----
 
-    def walk(self, node=None):
-        node = node or self.root
-        yield node
-        for i in range(node.get_child_count()):
-            child = node.get_child_at_index(i)
-            if child:
-                yield from self.walk(child)
+    def walk(self, path=None):
+        paths = [path or self.root]
+        while paths:
+            nodes, paths = self.level(paths)
+            yield from nodes
+            for node in nodes:
+                if node.name == 'Elements' and node.role == 49:
+                    self.palette = node.path
+            if self.palette and path != self.palette:
+                paths = [each for each in paths if each != self.palette]
 
-    def all(self, name=None, role=None):
-        found = []
-        for node in self.walk():
-            try:
-                if (role is None or node.get_role_name() == role) and \
-                        (name is None or name in (node.get_name() or '')):
-                    found.append(node)
-            except Exception:  # it went while we looked
-                pass
-        return found
+    def all(self, name=None, role=None, below=None):
+        """All widgets whose name holds a text; of a role."""
+        return [node for node in self.walk(below) if (role is None or node.role == ROLES[role]) and
+                (name is None or name in node.name)]
 
     def find(self, name=None, role=None, seconds=PATIENCE):
         def look():
@@ -150,12 +246,20 @@ class Editor:
             return found[0] if found else None
         return until(look, '%s "%s"' % (role or 'widget', name), seconds)
 
+    def tile(self, name):
+        """A tile of the palette."""
+        return until(lambda: self.all(name, 'push button', self.palette), 'tile "%s"' % name)[0]
+
     def sheet(self):
         return self.find('Sheet')
 
     def cells(self):
         """Names of the elements that are seen on sheets."""
-        return [n.get_name() for n in self.all(role='table cell')]
+        return [node.name for node in self.all('Rung ', 'table cell')]
+
+    def says(self, text):
+        """Waits until a text stands somewhere in the window."""
+        return self.find(text)
 
     def windows(self):
         return sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.process.pid)).split()
@@ -164,12 +268,12 @@ class Editor:
         """Where a widget of the main window is on the screen: x, y, width, height."""
         about = dict(re.findall(r'(Absolute upper-left X|Absolute upper-left Y|Width|Height): +(-?\d+)',
                                 sh('xwininfo', '-id', self.window)))
-        frame = self.find(role='frame')
-        outer = Atspi.Component.get_extents(frame, Atspi.CoordType.WINDOW)
-        x = int(about['Absolute upper-left X']) + (int(about['Width']) - outer.width) // 2
-        y = int(about['Absolute upper-left Y']) + (int(about['Height']) - outer.height) // 2
-        at = Atspi.Component.get_extents(node, Atspi.CoordType.WINDOW)
-        return x + at.x, y + at.y, at.width, at.height
+        frame = Node(self, self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][0][1], 23)
+        _, _, width, height = frame.box()
+        x = int(about['Absolute upper-left X']) + (int(about['Width']) - width) // 2
+        y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height) // 2
+        left, top, width, height = node.box()
+        return x + left, y + top, width, height
 
     def centre(self, node):
         x, y, width, height = self.place(node)
@@ -193,12 +297,11 @@ class Editor:
 
     def drag(self, start, end, steps=10):
         (x0, y0), (x1, y1) = [at if isinstance(at, tuple) else self.centre(at) for at in (start, end)]
-        sh('xdotool', 'mousemove', str(x0), str(y0), 'mousedown', '1')
+        way = ['mousemove', str(x0), str(y0), 'mousedown', '1']
         for i in range(1, steps + 1):
-            sh('xdotool', 'mousemove', str(x0 + (x1 - x0) * i // steps), str(y0 + (y1 - y0) * i // steps))
-            time.sleep(0.02)
-        time.sleep(0.1)
-        sh('xdotool', 'mouseup', '1')
+            way += ['mousemove', str(x0 + (x1 - x0) * i // steps), str(y0 + (y1 - y0) * i // steps),
+                    'sleep', '0.03']
+        sh('xdotool', *way, 'sleep', '0.15', 'mouseup', '1')
 
     def keys(self, *keys):
         sh('xdotool', 'key', '--delay', '20', *keys)
@@ -221,7 +324,7 @@ class Editor:
 
     def asked(self):
         """The line that is open at the cursor."""
-        return [node for node in self.all(role='text') if node.get_name() not in self.lines]
+        return [node for node in self.all(role='text') if node.path not in self.lines]
 
     def gone(self):
         until(lambda: not self.asked(), 'the entry to be gone')

@@ -57,9 +57,9 @@ def by_pointer(screen):
     """the same by pointer: elements dragged from the palette, a branch, names typed"""
     path = new_file(screen)
     editor = Editor(screen, path)
-    contact = editor.find('closed while TRUE', 'push button')
-    negated = editor.find('closed while FALSE', 'push button')
-    coil = editor.find('TRUE while powered', 'push button')
+    contact = editor.tile('closed while TRUE')
+    negated = editor.tile('closed while FALSE')
+    coil = editor.tile('TRUE while powered')
     for tile, column, name in (contact, 0, 'Start'), (negated, 1, 'Stop'), (coil, 5, 'Motor'):
         editor.drag(tile, editor.grid(60, column))
         choose(editor, name)
