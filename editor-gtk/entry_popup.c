@@ -222,6 +222,7 @@ static void ladder_entry_popup_init(LadderEntryPopup *popup)
 	gtk_popover_set_child(GTK_POPOVER(popup), box);
 	gtk_popover_set_position(GTK_POPOVER(popup), GTK_POS_BOTTOM);
 	gtk_popover_set_has_arrow(GTK_POPOVER(popup), FALSE);
+	gtk_widget_set_halign(GTK_WIDGET(popup), GTK_ALIGN_START);
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), popup);
 	gtk_widget_add_controller(popup->line, keys);

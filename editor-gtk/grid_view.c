@@ -78,11 +78,14 @@ static void ladder_grid_view_size_allocate(GtkWidget *widget, int width, int hei
 	LadderGridView *view = LADDER_GRID_VIEW(widget);
 
 	(void)baseline;
+	view->allocating = true;
+	strips_lay_out(view, height);
 	configure(view->adjustment[0], strips_width(view) * view->zoom, width);
 	configure(view->adjustment[1], (strips_height(view) + BELOW) * view->zoom, height);
 	cells_update(view);
 	cells_allocate(view);
 	entry_allocate(view);
+	view->allocating = false;
 }
 
 static void ladder_grid_view_measure(GtkWidget *widget, GtkOrientation orientation,
@@ -100,7 +103,8 @@ static void ladder_grid_view_measure(GtkWidget *widget, GtkOrientation orientati
 
 static void scrolled(LadderGridView *view)
 {
-	gtk_widget_queue_allocate(GTK_WIDGET(view));
+	if (!view->allocating)
+		gtk_widget_queue_allocate(GTK_WIDGET(view));
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 

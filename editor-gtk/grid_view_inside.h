@@ -16,6 +16,7 @@ struct strip {
 	struct rung_layout *layout; /* NULL: not yet                           */
 	GskRenderNode *node;        /* NULL: to be drawn                       */
 	float y, height;            /* px at 100 %                             */
+	bool measured;              /* the height is no guess                  */
 };
 
 /* A cell that assistive technology can name: a widget that draws nothing. */
@@ -38,6 +39,8 @@ struct _LadderGridView {
 	struct lettering *lettering;
 	double zoom;
 	guint idle;                 /* lays out what is not seen               */
+	guint resize;               /* asks for another size, soon             */
+	bool allocating;
 
 	struct grid_cursor cursor;
 	struct grid_cursor anchor;  /* other corner of the selection           */
@@ -89,6 +92,8 @@ void strips_redraw(LadderGridView *view, int rung);
 int strips_at(LadderGridView *view, float y);
 /** strips_get - laid out. */
 struct strip *strips_get(LadderGridView *view, int rung);
+/** strips_lay_out - what is seen in a page of @page px, before it is drawn. */
+void strips_lay_out(LadderGridView *view, double page);
 float strips_width(LadderGridView *view);
 float strips_height(LadderGridView *view);
 void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot);

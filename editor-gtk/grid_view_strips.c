@@ -4,7 +4,8 @@
  *
  * A rung is laid out when it is seen, or when nothing else is to be done; until then its
  * height is guessed. It is drawn into one render node, which lives until something of it
- * changes, so that scrolling draws nothing anew.
+ * changes or it is far away, so that scrolling draws nothing anew. Of what is far away
+ * the height alone is kept.
  */
 #include "editor-gtk/grid_view_inside.h"
 
@@ -12,6 +13,7 @@
 
 #define TITLE_GUESS  32 /* px above the first row of a rung                    */
 #define IDLE_RUNGS   64 /* laid out at a time while nothing else is done       */
+#define NEAR_RUNGS   40 /* kept above and below what is seen                   */
 
 static struct strip *strip_of(LadderGridView *view, int rung)
 {
@@ -48,6 +50,7 @@ static void guess(LadderGridView *view, int rung)
 	struct strip *strip = strip_of(view, rung);
 
 	forget(strip);
+	strip->measured = false;
 	if (shown)
 		strip->height = TITLE_GUESS + (float)shown->rows * RUNG_CELL_HEIGHT;
 }
@@ -84,6 +87,35 @@ static void share(LadderGridView *view)
 	view->drafting.columns = columns;
 }
 
+/* While the window is allocated or drawn nobody may ask for another size. */
+static gboolean resize_now(gpointer data)
+{
+	LadderGridView *view = data;
+
+	view->resize = 0;
+	gtk_widget_queue_resize(GTK_WIDGET(view));
+	return G_SOURCE_REMOVE;
+}
+
+static void resize_later(LadderGridView *view)
+{
+	if (!view->resize)
+		view->resize = g_idle_add_full(G_PRIORITY_HIGH_IDLE, resize_now, view,
+					       NULL);
+}
+
+static void forget_far(LadderGridView *view)
+{
+	const double top = gtk_adjustment_get_value(view->adjustment[1]) / view->zoom;
+	const double page = gtk_adjustment_get_page_size(view->adjustment[1]);
+	const int first = strips_at(view, (float)top) - NEAR_RUNGS;
+	const int last = strips_at(view, (float)(top + page / view->zoom)) + NEAR_RUNGS;
+
+	for (int i = 0; i < (int)view->strips->len; i++)
+		if ((i < first || i > last) && i != view->cursor.rung)
+			forget(strip_of(view, i));
+}
+
 static gboolean lay_out_more(gpointer data)
 {
 	LadderGridView *view = data;
@@ -91,10 +123,11 @@ static gboolean lay_out_more(gpointer data)
 	int done = 0;
 
 	for (int i = 0; i < rungs && done < IDLE_RUNGS; i++)
-		if (!strip_of(view, i)->layout) {
+		if (!strip_of(view, i)->measured) {
 			strips_get(view, i);
 			done++;
 		}
+	forget_far(view);
 	if (done > 0)
 		return G_SOURCE_CONTINUE;
 	view->idle = 0;
@@ -122,6 +155,7 @@ void strips_reset(LadderGridView *view)
 		guess(view, i);
 	stack(view, 0);
 	lay_out_later(view);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
@@ -146,6 +180,7 @@ void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 			guess(view, (int)i);
 	stack(view, at);
 	lay_out_later(view);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
@@ -186,7 +221,7 @@ static void widen(LadderGridView *view, float rail)
 			forget_drawing(strip);
 		}
 	}
-	gtk_widget_queue_resize(GTK_WIDGET(view));
+	resize_later(view);
 }
 
 /* What is seen stays where it is, if something above it grows. */
@@ -219,14 +254,28 @@ struct strip *strips_get(LadderGridView *view, int rung)
 	if (strip->layout->natural > view->rail)
 		widen(view, strip->layout->natural);
 	rung_layout_stretch(strip->layout, view->rail);
+	strip->measured = true;
 	grown = strip->layout->height - strip->height;
 	strip->height = strip->layout->height;
 	if (grown != 0) {
 		stack(view, rung);
 		keep_view(view, strip, grown);
-		gtk_widget_queue_resize(GTK_WIDGET(view));
+		resize_later(view);
 	}
 	return strip;
+}
+
+void strips_lay_out(LadderGridView *view, double page)
+{
+	for (int i = 0; i < (int)view->strips->len; i++) {
+		const double top = gtk_adjustment_get_value(view->adjustment[1]);
+		const int first = strips_at(view, (float)(top / view->zoom));
+
+		if (strip_of(view, i = MAX(i, first))->y * view->zoom > top + page)
+			break;
+		strips_get(view, i);
+	}
+	forget_far(view);
 }
 
 int strips_at(LadderGridView *view, float y)
@@ -332,11 +381,13 @@ void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot)
 
 	for (int i = strips_at(view, top / zoom);
 	     i >= 0 && i < (int)view->strips->len; i++) {
-		struct strip *strip = strips_get(view, i);
+		struct strip *strip = strip_of(view, i);
 
 		if (strip->y * zoom > end)
 			break;
-		if (!strip->node)
+		if (!strip->layout)
+			resize_later(view); /* and it will be drawn */
+		else if (!strip->node)
 			draw_strip(view, i, strip);
 		if (!strip->node)
 			continue;
@@ -373,7 +424,9 @@ void strips_clear(LadderGridView *view)
 {
 	if (view->idle)
 		g_source_remove(view->idle);
-	view->idle = 0;
+	if (view->resize)
+		g_source_remove(view->resize);
+	view->idle = view->resize = 0;
 	for (guint i = 0; i < view->strips->len; i++)
 		forget(strip_of(view, (int)i));
 	g_array_set_size(view->strips, 0);

@@ -341,10 +341,13 @@ static void make_list(struct tree *tree)
 	model = gtk_tree_list_model_new(G_LIST_MODEL(tree->root), FALSE, TRUE, children,
 					NULL, NULL);
 	tree->selection = gtk_single_selection_new(G_LIST_MODEL(model));
+	gtk_single_selection_set_autoselect(tree->selection, FALSE);
+	gtk_single_selection_set_can_unselect(tree->selection, TRUE);
 	g_signal_connect(factory, "setup", G_CALLBACK(setup), NULL);
 	g_signal_connect(factory, "bind", G_CALLBACK(bind), NULL);
 	tree->list = gtk_list_view_new(GTK_SELECTION_MODEL(tree->selection), factory);
 	gtk_widget_add_css_class(tree->list, "navigation-sidebar");
+	gtk_widget_add_css_class(tree->list, "project");
 	gtk_accessible_update_property(GTK_ACCESSIBLE(tree->list),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Project"), -1);
 	g_signal_connect_swapped(tree->list, "activate", G_CALLBACK(activated), tree);

@@ -292,5 +292,8 @@ void tabs_init(LadderWindow *window)
 				G_CALLBACK(tabs_update), window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->tabs, "notify::selected-page",
 				G_CALLBACK(page_selected), window, G_CONNECT_SWAPPED);
+	/* In a sheet they go to the first and the last rung. */
+	adw_tab_view_remove_shortcuts(window->tabs, ADW_TAB_VIEW_SHORTCUT_CONTROL_HOME |
+				      ADW_TAB_VIEW_SHORTCUT_CONTROL_END);
 	tabs_update(window);
 }

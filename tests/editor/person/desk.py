@@ -16,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import traceback
 import warnings
 
 warnings.simplefilter('ignore')
@@ -89,6 +90,8 @@ class Screen:
             number += os.read(read, 16)
         os.environ['DISPLAY'] = ':' + number.decode().strip()
         self.start('openbox', '--sm-disable')
+        if shutil.which('xcompmgr'):  # without it popovers have a black frame
+            self.start('xcompmgr')
         until(lambda: 'window id' in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'), 'the window manager')
 
     def accessibility(self):
@@ -144,13 +147,14 @@ class Node:
 class Editor:
     """ladder-editor, as a person uses it."""
 
-    def __init__(self, screen, *files, **env):
+    def __init__(self, screen, *files, before=None, **env):
+        """@before: done in the process before the editor begins"""
         self.screen = screen
         self.log = os.path.join(screen.home, 'editor-%d.log' % time.monotonic_ns())
         # Critical messages of the toolkit are faults of ours.
         with open(self.log, 'w') as log:
             self.process = subprocess.Popen([*WRAPPER, EDITOR, *files], stdout=log, stderr=subprocess.STDOUT,
-                                            env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
+                                            preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
         ended.append(self.kill)
         self.bus = screen.accessibility()
         self.roles = {}   # path -> role; a widget has the same one all its life
@@ -311,9 +315,12 @@ class Editor:
         if text.isascii():
             sh('xdotool', 'type', '--delay', '15', text)
             return
+        self.put_clipboard(text)
+        self.keys('ctrl+v')
+
+    def put_clipboard(self, text):
         subprocess.run(['xclip', '-selection', 'clipboard'], input=text, text=True, check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.keys('ctrl+v')
 
     def entry(self, text, enter=True):
         """Types into the line that opens at the cursor, and waits until it is gone."""
@@ -338,6 +345,17 @@ class Editor:
         self.keys('ctrl+s')
         until(lambda: os.path.exists(path) and open(path).read() != before, 'the file to be saved')
         return open(path).read()
+
+    def front(self):
+        """Brings its window before the others."""
+        sh('xdotool', 'windowactivate', '--sync', self.window)
+
+    def focused(self):
+        """The widget that has the focus of the keyboard; None: none is known."""
+        return next((node for node in self.walk() if node.has(12)), None)
+
+    def to_sheet(self):
+        until(lambda: self.sheet().has(12), 'the focus on the sheet')
 
     def kill(self):
         if self.process.poll() is None:
@@ -364,6 +382,11 @@ def trace(path, script):
     return done.stdout
 
 
+def lines(path, script):
+    """What `ladder trace` prints last in each line."""
+    return [line.split()[-1] for line in trace(path, script).splitlines()]
+
+
 def new_file(screen, text='RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\nEND_PROGRAM\n', name='new.rung'):
     path = os.path.join(screen.home, name)
     with open(path, 'w') as file:
@@ -371,8 +394,9 @@ def new_file(screen, text='RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\nEND_PROGRAM\n',
     return path
 
 
-def report(tests, size='1440x900x24'):
-    """Runs the tests, each at a desk of its own, as TAP; returns the exit status."""
+def report(tests):
+    """Runs the tests, each at a desk of its own, as TAP; returns the exit status. A test
+    may have a `size`, of its screen."""
     lacks = missing()
     if lacks:
         print('1..0 # SKIP needs ' + lacks)
@@ -382,15 +406,15 @@ def report(tests, size='1440x900x24'):
         # A process each: the accessibility bus is that of the first screen it saw.
         child = os.fork()
         if child == 0:
-            os._exit(run(number, test, size))
+            os._exit(run(number, test))
         failed |= os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 0
     print('1..%d' % len(tests))
     return int(failed)
 
 
-def run(number, test, size):
+def run(number, test):
     begin = time.monotonic()
-    screen = Screen(size)
+    screen = Screen(getattr(test, 'size', '1440x900x24'))
     failed = 1
     try:
         test(screen)
@@ -398,7 +422,7 @@ def run(number, test, size):
         failed = 0
     except Exception as error:
         print('not ok %d - %s' % (number, test.__doc__))
-        print('# ' + str(error).replace('\n', '\n# '))
+        print('# ' + ''.join(traceback.format_exception(error)[-3:]).replace('\n', '\n# '))
         if os.environ.get('PICTURES'):
             sh('import', '-window', 'root', os.path.join(os.environ['PICTURES'], 'failed-%d.png' % number))
     for end in ended:
@@ -408,5 +432,5 @@ def run(number, test, size):
     return failed
 
 
-def main(tests, **more):
-    sys.exit(report(tests, **more))
+def main(tests):
+    sys.exit(report(tests))

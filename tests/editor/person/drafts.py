@@ -1,0 +1,39 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""drafts - work that was not saved is there again after a kill."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+
+def drafts(screen):
+    folder = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
+    return [os.path.join(folder, name) for name in os.listdir(folder)] if os.path.isdir(folder) else []
+
+
+def after_a_kill(screen):
+    """save, draw on, kill -9: the next start gives all of it back"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.entry('Start')
+    editor.entry('OUT Motor')
+    saved = editor.save(path)
+    editor.keys('Home', 'shift+F5')
+    editor.opened()
+    editor.entry('Motor')
+    until(lambda: any('^' in open(file).read() for file in drafts(screen)), 'the draft')
+    editor.kill()
+    assert open(path).read() == saved, 'the file itself was touched'
+    again = Editor(screen)
+    again.says('This was not saved when the editor ended')
+    until(lambda: len(again.cells()) == 3, 'the three elements')
+    again.shot('drafts-restored')
+    again.to_sheet()
+    again.save(path)
+    check(path)
+    assert lines(path, '@print Motor\nStart=0\nStart=1\nStart=0\n') == ['Motor=0', 'Motor=1', 'Motor=1']
+    until(lambda: not drafts(screen), 'the draft to go with the save')
+
+
+main([after_a_kill])

@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""symbols - a person finds and replaces, renames everywhere, and works in the symbol table."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+PROGRAM = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Lamp  AT %QX0.0 : BOOL;
+  Horn  AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "Lamp"
+  | NO Start | COIL Lamp |
+RUNG
+  | NO Lamp | COIL Horn |
+END_PROGRAM
+'''
+
+
+def label(editor, text):
+    until(lambda: editor.all(text, 'label'), 'the text "%s"' % text)
+
+
+def finds(screen):
+    """find, go to the next hit, replace all, undo"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+h')
+    editor.find('Find', 'text')
+    editor.type('Lamp')
+    label(editor, '4 hits')
+    editor.keys('Return')
+    label(editor, 'of 4')
+    editor.click(editor.find('Replace with', 'text'))
+    editor.type('Bell')
+    editor.shot('names-find')
+    editor.keys('alt+a')
+    label(editor, '4 replaced')
+    editor.keys('Escape')
+    text = editor.save(path)
+    assert 'Lamp' not in text and text.count('Bell') == 4, text
+    check(path)
+    editor.keys('ctrl+z')
+    assert editor.save(path) == PROGRAM
+
+
+def renames(screen):
+    """F2: another name, Chinese, wherever the symbol is used; one step back"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.click(editor.grid(60, 0))
+    editor.keys('Right', 'End', 'F2')
+    until(lambda: editor.all('Rename everywhere'), 'the question for a name')
+    editor.keys('ctrl+a')
+    editor.type('\u7535\u673a')
+    editor.shot('names-rename')
+    editor.keys('Return')
+    label(editor, '3 places changed')
+    text = editor.save(path)
+    assert text.count('\u7535\u673a') == 3 and '"Lamp"' in text, text
+    check(path)
+    editor.keys('ctrl+z')
+    assert editor.save(path) == PROGRAM
+
+
+def tables(screen):
+    """the symbol table: a comment, a name that is refused, one that is not"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    editor.click(editor.find('Horn, Comment', 'text'))
+    editor.type('loud')
+    editor.keys('Return')
+    assert '(* loud *)' in editor.save(path)
+    editor.click(editor.find('Horn, Name', 'text'))
+    editor.keys('ctrl+a')
+    editor.type('Lamp')
+    editor.keys('Return')
+    label(editor, 'is declared already')
+    editor.shot('names-table')
+    editor.keys('ctrl+a')
+    editor.type('Siren')
+    editor.keys('Return')
+    text = editor.save(path)
+    assert 'Siren AT %QX0.1 : BOOL; (* loud *)' in text and 'COIL Siren' in text, text
+    check(path)
+
+
+main([finds, renames, tables])
