@@ -73,6 +73,7 @@ static void ladder_icon_init(LadderIcon *icon)
 	icon->lettering = lettering_new(
 		gtk_widget_get_pango_context(GTK_WIDGET(icon)), NULL);
 	gtk_widget_set_size_request(GTK_WIDGET(icon), ICON_WIDTH, ICON_HEIGHT);
+	gtk_widget_set_halign(GTK_WIDGET(icon), GTK_ALIGN_CENTER);
 	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
 				G_CALLBACK(gtk_widget_queue_draw), icon,
 				G_CONNECT_SWAPPED);
