@@ -7,6 +7,7 @@
  */
 #include "editor-gtk/document_inside.h"
 
+#include <malloc.h>
 #include <string.h>
 
 #define CHECK_DELAY_MS 120 /* after the last change                            */
@@ -43,7 +44,6 @@ static void check_run(struct check *check)
 	check->ladder = ladder_new();
 	if (!check->ladder)
 		g_error("out of memory");
-	ladder_watch(check->ladder, true);
 	if (ladder_load_text(check->ladder, check->file, check->text, check->len))
 		ladder_build(check->ladder);
 }
@@ -55,6 +55,7 @@ static void check_take(LadderDocument *document, struct check *check)
 	document->checked_version = check->version;
 	document->diags = *ladder_diags(document->checked);
 	document_tell_checked(document);
+	malloc_trim(0); /* the copy before it was tens of megabytes of a large one */
 }
 
 static void check_thread(GTask *task, gpointer source, gpointer data,

@@ -128,6 +128,7 @@ static gboolean lay_out_more(gpointer data)
 			done++;
 		}
 	forget_far(view);
+	lettering_trim(view->lettering);
 	if (done > 0)
 		return G_SOURCE_CONTINUE;
 	view->idle = 0;
