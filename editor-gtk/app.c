@@ -13,6 +13,8 @@
 
 #include <gtksourceview/gtksource.h>
 #include <locale.h>
+#include <malloc.h>
+#include <signal.h>
 #include <string.h>
 
 /* ---- windows ---- */
@@ -218,6 +220,12 @@ int app_run(int argc, char **argv)
 	int status;
 
 	set_language();
+#ifdef __GLIBC__
+	/* What projects take is given back when they are freed, not kept in holes. */
+	mallopt(M_MMAP_THRESHOLD, 256 * 1024);
+#endif
+	/* A limit on the size of files is told like a full disk. */
+	signal(SIGXFSZ, SIG_IGN);
 	if (is_render(argc, argv))
 		return render_main(argc, argv);
 	application = adw_application_new(APP_ID,

@@ -55,7 +55,9 @@ static void check_take(LadderDocument *document, struct check *check)
 	document->checked_version = check->version;
 	document->diags = *ladder_diags(document->checked);
 	document_tell_checked(document);
+#ifdef __GLIBC__
 	malloc_trim(0); /* the copy before it was tens of megabytes of a large one */
+#endif
 }
 
 static void check_thread(GTask *task, gpointer source, gpointer data,

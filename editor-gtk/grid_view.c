@@ -251,6 +251,29 @@ static void listen(LadderGridView *view)
 
 /* ---- keys ---- */
 
+/* Input methods have the first look at a key: what they make of it, if that is not just
+ * the key itself, is what the person typed. */
+static bool is_composed(LadderGridView *view, GtkEventControllerKey *controller,
+			gunichar key)
+{
+	GdkEvent *event = gtk_event_controller_get_current_event(
+		GTK_EVENT_CONTROLLER(controller));
+
+	view->key = key;
+	view->plain = false;
+	return gtk_im_context_filter_keypress(view->input, event) && !view->plain;
+}
+
+static void key_released(GtkEventControllerKey *controller, guint key, guint code,
+			 GdkModifierType state, LadderGridView *view)
+{
+	(void)key;
+	(void)code;
+	(void)state;
+	gtk_im_context_filter_keypress(view->input, gtk_event_controller_get_current_event(
+		GTK_EVENT_CONTROLLER(controller)));
+}
+
 static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
 			    GdkModifierType state, LadderGridView *view)
 {
@@ -258,9 +281,8 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 	gunichar c = gdk_keyval_to_unicode(key);
 	char text[8] = "";
 
-	(void)controller;
 	(void)code;
-	if (cursor_key(view, key, state))
+	if (cursor_key(view, key, state) || is_composed(view, controller, c))
 		return TRUE;
 	if (state & others || !(g_unichar_isalpha(c) || c == '%' || c == '[' || c == '_'))
 		return FALSE;
@@ -270,23 +292,33 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 }
 
 /* Input methods compose what is no key: Chinese names. */
-static void key_composed(GtkIMContext *context, const char *text, LadderGridView *view)
+static void key_composed(GtkIMContext *input, const char *text, LadderGridView *view)
 {
-	(void)context;
-	if (!view->entry)
+	(void)input;
+	if (text[0] && g_utf8_get_char(text) == view->key && !*g_utf8_next_char(text))
+		view->plain = true;
+	else if (!view->entry)
 		entry_begin(view, text);
+}
+
+static void focus_changed(LadderGridView *view)
+{
+	if (gtk_widget_has_focus(GTK_WIDGET(view)))
+		gtk_im_context_focus_in(view->input);
+	else
+		gtk_im_context_focus_out(view->input);
 }
 
 static void add_keys(LadderGridView *view)
 {
 	GtkEventController *keys = gtk_event_controller_key_new();
-	GtkIMContext *context = gtk_im_multicontext_new();
 
-	gtk_event_controller_key_set_im_context(GTK_EVENT_CONTROLLER_KEY(keys), context);
-	gtk_im_context_set_client_widget(context, GTK_WIDGET(view));
+	view->input = gtk_im_multicontext_new();
+	gtk_im_context_set_client_widget(view->input, GTK_WIDGET(view));
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), view);
-	g_signal_connect(context, "commit", G_CALLBACK(key_composed), view);
-	g_object_unref(context);
+	g_signal_connect(keys, "key-released", G_CALLBACK(key_released), view);
+	g_signal_connect(view->input, "commit", G_CALLBACK(key_composed), view);
+	g_signal_connect(view, "notify::has-focus", G_CALLBACK(focus_changed), NULL);
 	gtk_widget_add_controller(GTK_WIDGET(view), keys);
 }
 
@@ -429,6 +461,7 @@ static void ladder_grid_view_dispose(GObject *object)
 	for (int i = 0; view->document && i < 3; i++)
 		g_signal_handler_disconnect(view->document, view->handler[i]);
 	strips_clear(view);
+	g_clear_object(&view->input);
 	g_clear_object(&view->document);
 	G_OBJECT_CLASS(ladder_grid_view_parent_class)->dispose(object);
 }

@@ -59,6 +59,10 @@ struct _LadderGridView {
 	GArray *cells;              /* of struct cell_widget                   */
 	GtkWidget *entry;           /* the popup, while it is there            */
 	double press_x, press_y;
+	bool takes;                 /* the pointer went down on what can be dragged */
+	GtkIMContext *input;
+	gunichar key;               /* that input methods look at              */
+	bool plain;                 /* and made nothing else of                */
 };
 
 /* A mark of the checks: rung and cell of the rung, 0-based; row -1: the whole. */

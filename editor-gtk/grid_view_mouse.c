@@ -70,11 +70,13 @@ static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 	view->press_x = x;
 	view->press_y = y;
+	view->takes = false;
 	if (rung < 0)
 		return;
 	if (is_cell(&hit)) {
 		cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column },
 			   state & GDK_SHIFT_MASK);
+		view->takes = !(state & GDK_SHIFT_MASK) && cursor_cell(view, NULL, NULL);
 		if (count == 2)
 			ladder_grid_view_do(view, VERB_enter);
 		return;
@@ -137,7 +139,7 @@ static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
 	g_object_unref(menu);
 }
 
-/* ---- selecting by dragging ---- */
+/* ---- selecting by dragging: from a free place, or with Shift ---- */
 
 static void drag_update(GtkGestureDrag *gesture, double by_x, double by_y,
 			LadderGridView *view)
@@ -146,7 +148,7 @@ static void drag_update(GtkGestureDrag *gesture, double by_x, double by_y,
 	struct rung_hit hit;
 	int rung;
 
-	if (!gtk_gesture_drag_get_start_point(gesture, &x, &y) ||
+	if (view->takes || !gtk_gesture_drag_get_start_point(gesture, &x, &y) ||
 	    !gtk_drag_check_threshold(GTK_WIDGET(view), (int)x, (int)y, (int)(x + by_x),
 				      (int)(y + by_y)))
 		return;
@@ -174,7 +176,7 @@ static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double 
 	if (hit.part == RUNG_PART_NUMBER)
 		return gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag);
 	cell = cursor_cell(view, NULL, NULL);
-	if (!is_cell(&hit) || !cell)
+	if (!is_cell(&hit) || !cell || !view->takes)
 		return NULL;
 	drag.word = (enum word)cell->word;
 	drag.from = view->cursor;

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""dialogs - each can be cancelled with Esc, and the sheet has the focus again."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+PROJECT = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | COIL Motor |
+END_PROGRAM
+'''
+# key, and what is seen then
+DIALOGS = [
+    ('ctrl+o', 'Open'), ('ctrl+shift+s', 'Save as'), ('F2', 'Rename everywhere'), ('ctrl+g', 'Go to rung'),
+    ('F1', None), ('ctrl+p', 'Print'),
+]
+# popups of the window itself
+POPUPS = ['F8', 'F5', 'Return', 'ctrl+t', 'ctrl+l', 'semicolon', 'ctrl+k', 'ctrl+f', 'ctrl+h']
+
+
+def dialogs(screen):
+    """dialogs: Esc cancels, nothing is changed, the sheet has the focus"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    for key, _ in DIALOGS:
+        before = len(editor.windows())
+        editor.keys(key)
+        until(lambda: len(editor.windows()) > before, 'the dialog of ' + key)
+        editor.keys('Escape')
+        until(lambda: len(editor.windows()) == before, 'the end of the dialog of ' + key)
+        editor.to_sheet()
+    editor.says('no problems')
+    assert open(path).read() == PROJECT
+    assert not editor.all('•')
+
+
+def popups(screen):
+    """popups of the window: Esc closes them, nothing is changed, the sheet has the focus"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    for key in POPUPS:
+        editor.keys(key)
+        until(lambda: not editor.sheet().has(12), 'what %s opens' % key)
+        editor.keys('Escape')
+        editor.to_sheet()
+    assert not editor.all('•')
+    assert len(editor.cells()) == 2
+
+
+def give_back(screen):
+    """Esc gives a rung back as the cursor found it; a palette click leaves the focus here"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('slash', 'Right')
+    editor.entry('NC Motor')
+    until(lambda: len(editor.cells()) == 3, 'the contact')
+    editor.keys('Escape')
+    until(lambda: len(editor.cells()) == 2, 'the rung as it was')
+    assert any('NO' in name for name in editor.cells()), editor.cells()
+    editor.click(editor.tile('closed while FALSE'))
+    editor.opened()
+    editor.keys('Escape')
+    editor.to_sheet()
+    editor.keys('ctrl+Home')
+    editor.save(path)
+    check(path)
+
+
+def close(screen):
+    """closing with changes asks; Esc keeps the window, Discard ends it"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('slash')
+    editor.find('•')
+    editor.keys('ctrl+w')
+    until(lambda: len(editor.windows()) == 2, 'the question')
+    editor.shot('dialogs-close')
+    editor.keys('Escape')
+    until(lambda: len(editor.windows()) == 1, 'the window to stay')
+    editor.to_sheet()
+    editor.keys('ctrl+w')
+    until(lambda: len(editor.windows()) == 2, 'the question')
+    editor.press(editor.find('Discard', 'push button'))
+    until(lambda: editor.process.poll() is not None, 'the end')
+    assert open(path).read() == PROJECT and editor.process.returncode == 0
+
+
+main([dialogs, popups, give_back, close])
