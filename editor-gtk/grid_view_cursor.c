@@ -26,7 +26,7 @@ void cursor_fit(LadderGridView *view)
 }
 
 /* What Esc gives back: the rung as the cursor found it. */
-static void remember(LadderGridView *view)
+void cursor_remember(LadderGridView *view)
 {
 	const struct pou *pou = sheet_pou(view);
 
@@ -55,7 +55,7 @@ void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend)
 		strips_redraw(view, from);
 	}
 	strips_redraw(view, view->cursor.rung);
-	remember(view);
+	cursor_remember(view);
 	cursor_reveal(view);
 	sheet_moved(view);
 }

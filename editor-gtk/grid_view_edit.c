@@ -42,6 +42,7 @@ bool sheet_put(LadderGridView *view, struct rung *rung, const struct grid_at *at
 		return false;
 	}
 	diag_init(&why);
+	cursor_remember(view);
 	ladder_document_begin(view->document, name, NULL);
 	good = ladder_document_put_rung(view->document, view->pou, view->cursor.rung,
 					rung, &why);

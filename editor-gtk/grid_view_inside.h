@@ -109,6 +109,8 @@ void strips_style(LadderGridView *view);
 void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend);
 /** cursor_fit - back into what there is. */
 void cursor_fit(LadderGridView *view);
+/** cursor_remember - the cursor's rung as it is, for Esc, unless one is remembered. */
+void cursor_remember(LadderGridView *view);
 /** cursor_reveal - scrolls so far that it is seen. */
 void cursor_reveal(LadderGridView *view);
 /** cursor_rect - its cell in px of the widget. */

@@ -130,11 +130,19 @@ void window_save(LadderWindow *window)
 
 /* ---- closing ---- */
 
+static gboolean close_idle(gpointer window)
+{
+	gtk_window_close(GTK_WINDOW(window));
+	g_object_unref(window);
+	return G_SOURCE_REMOVE;
+}
+
+/* Not while its dialog, which goes with it, still tells what was answered. */
 static void close_now(LadderWindow *window)
 {
 	draft_remove(window->document);
 	window->closing = true;
-	gtk_window_close(GTK_WINDOW(window));
+	g_idle_add(close_idle, g_object_ref(window));
 }
 
 static void close_response(AdwMessageDialog *dialog, const char *response,

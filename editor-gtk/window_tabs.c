@@ -151,11 +151,17 @@ void tabs_show(LadderWindow *window, int pou)
 	adw_tab_view_set_selected_page(window->tabs, page);
 }
 
+/* A table of thousands of symbols is not made before somebody looks at it. */
+static void symbols_seen(GtkWidget *symbols, LadderWindow *window)
+{
+	ladder_symbols_view_set_document(LADDER_SYMBOLS_VIEW(symbols), window->document);
+}
+
 static GtkWidget *symbols_page(LadderWindow *window)
 {
 	GtkWidget *symbols = ladder_symbols_view_new();
 
-	ladder_symbols_view_set_document(LADDER_SYMBOLS_VIEW(symbols), window->document);
+	g_signal_connect(symbols, "map", G_CALLBACK(symbols_seen), window);
 	return symbols;
 }
 

@@ -171,9 +171,18 @@ class Editor:
             pid = self.bus.call_sync('org.freedesktop.DBus', '/', 'org.freedesktop.DBus',
                                      'GetConnectionUnixProcessID', GLib.Variant('(s)', (name,)),
                                      None, 0, -1, None).unpack()[0]
-            if pid == self.process.pid and self.call(name, path, 'Accessible', 'GetChildren')[0]:
+            if self.is_ours(pid) and self.call(name, path, 'Accessible', 'GetChildren')[0]:
                 return name, path
         return None
+
+    def is_ours(self, pid):
+        """The editor, or below a WRAPPER that began another process."""
+        with open('/proc/%d/stat' % pid) as stat:
+            parent = int(stat.read().rsplit(')', 1)[1].split()[1])
+        if self.process.pid not in (pid, parent):
+            return False
+        self.pid = pid
+        return True
 
     def alive(self):
         if self.process.poll() is not None:
@@ -266,7 +275,7 @@ class Editor:
         return self.find(text)
 
     def windows(self):
-        return sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.process.pid)).split()
+        return sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.pid)).split()
 
     def place(self, node):
         """Where a widget of the main window is on the screen: x, y, width, height."""

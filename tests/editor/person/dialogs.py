@@ -74,9 +74,10 @@ def give_back(screen):
     editor.opened()
     editor.keys('Escape')
     editor.to_sheet()
-    editor.keys('ctrl+Home')
-    editor.save(path)
+    editor.keys('ctrl+s')
+    until(lambda: not editor.all('•'), 'the file to be saved')
     check(path)
+    assert 'NO Start | COIL Motor' in open(path).read()
 
 
 def close(screen):
@@ -96,7 +97,9 @@ def close(screen):
     until(lambda: len(editor.windows()) == 2, 'the question')
     editor.press(editor.find('Discard', 'push button'))
     until(lambda: editor.process.poll() is not None, 'the end')
-    assert open(path).read() == PROJECT and editor.process.returncode == 0
+    with open(editor.log) as log:
+        assert editor.process.returncode == 0, log.read()
+    assert open(path).read() == PROJECT
 
 
 main([dialogs, popups, give_back, close])
