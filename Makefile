@@ -198,7 +198,7 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 # files need none of them; nor do the tests of those, tests/editor/test_plain_*.c.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
-EDITOR_PLAIN := $(filter $(addprefix editor-gtk/,grid_edit.c grid_display.c grid_canvas.c grid_normalise.c grid_wire.c grid_branch.c grid_delete.c grid_pins.c grid_kind.c grid_block.c grid_drag.c entry.c entry_args.c entry_areas.c entry_candidates.c entry_expression.c entry_names.c entry_words.c),$(wildcard editor-gtk/*.c))
+EDITOR_PLAIN := $(filter $(addprefix editor-gtk/,grid_edit.c grid_display.c grid_canvas.c grid_normalise.c grid_wire.c grid_branch.c grid_delete.c grid_pins.c grid_kind.c grid_block.c grid_drag.c entry.c entry_args.c entry_areas.c entry_candidates.c entry_expression.c entry_names.c entry_words.c text_lines.c),$(wildcard editor-gtk/*.c))
 EDITOR_C := $(wildcard editor-gtk/*.c)
 EDITOR_TESTS_PLAIN := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/test_plain_*.c))
 EDITOR_TESTS := $(EDITOR_TESTS_PLAIN)
@@ -217,9 +217,14 @@ EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/main.c,$(EDITOR_C))) $(BUILD)/e
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
 $(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
   $(EDITOR_TESTS:%=%.o) $(EDITOR_BENCH).o: CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='"$(prefix)/share/locale"' -DDATADIR='"$(prefix)/share"'
-$(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(wildcard editor-gtk/ui/*)
+# Colours of rung files and lists, for GtkSourceView: made of the catalogue's words.
+$(BUILD)/rung-language: $(call obj,packaging/rung_language.c) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+$(BUILD)/rung.lang: $(BUILD)/rung-language
+	$< >$@.new && mv $@.new $@
+$(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(BUILD)/rung.lang $(wildcard editor-gtk/ui/*)
 	@mkdir -p $(@D)
-	glib-compile-resources --sourcedir=editor-gtk --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml
+	glib-compile-resources --sourcedir=editor-gtk --sourcedir=$(BUILD) --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml
 $(BUILD)/editor-gtk/resources.o: $(BUILD)/editor-gtk/resources.c
 	$(CC) $(STD) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 $(BUILD)/libeditor.a: $(EDITOR_OBJ)
@@ -245,13 +250,15 @@ install: $(if $(EDITOR),install-editor)
 appdir = $(DESTDIR)$(prefix)/share
 install-editor: $(BUILD)/ladder-editor
 	install -d $(DESTDIR)$(prefix)/bin $(appdir)/applications $(appdir)/metainfo $(appdir)/mime/packages \
-	  $(appdir)/icons/hicolor/scalable/apps $(appdir)/glib-2.0/schemas $(appdir)/rungboard/ladders
+	  $(appdir)/icons/hicolor/scalable/apps $(appdir)/glib-2.0/schemas $(appdir)/rungboard/ladders \
+	  $(appdir)/gtksourceview-5/language-specs
 	install -m 755 $(BUILD)/ladder-editor $(DESTDIR)$(prefix)/bin/ladder-editor
 	install -m 644 packaging/org.rungboard.Editor.desktop $(appdir)/applications/
 	install -m 644 packaging/org.rungboard.Editor.metainfo.xml $(appdir)/metainfo/
 	install -m 644 packaging/rungboard.xml $(appdir)/mime/packages/
 	install -m 644 packaging/org.rungboard.Editor.svg $(appdir)/icons/hicolor/scalable/apps/
 	install -m 644 packaging/org.rungboard.Editor.gschema.xml $(appdir)/glib-2.0/schemas/
+	install -m 644 $(BUILD)/rung.lang $(appdir)/gtksourceview-5/language-specs/
 	install -m 644 ladders/*.rung ladders/*.scn $(appdir)/rungboard/ladders/
 	$(if $(DESTDIR),,-glib-compile-schemas $(appdir)/glib-2.0/schemas; update-mime-database $(appdir)/mime; update-desktop-database $(appdir)/applications)
 .PHONY: install-editor

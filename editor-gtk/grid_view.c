@@ -177,6 +177,7 @@ static void ladder_grid_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 static void forget_edit(LadderGridView *view)
 {
 	entry_close(view);
+	entry_forget_uses(view);
 	g_clear_pointer(&view->preview, rung_free);
 }
 
@@ -188,6 +189,7 @@ static void forget_before(LadderGridView *view)
 
 static void rungs_changed(LadderGridView *view, int pou, int at, int removed, int inserted)
 {
+	entry_forget_uses(view);
 	if (pou != view->pou)
 		return;
 	forget_edit(view);
@@ -470,6 +472,7 @@ static void ladder_grid_view_finalize(GObject *object)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(object);
 
+	entry_forget_uses(view);
 	rung_free(view->preview);
 	rung_free(view->before);
 	g_array_unref(view->strips);

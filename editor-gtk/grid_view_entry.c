@@ -29,6 +29,26 @@ struct asked {
 	struct grid_cursor cursor; /* when it began                            */
 };
 
+/* Of the project as it is: made once, until that changes. A key must not wait for it. */
+static struct xref *uses_of(LadderGridView *view)
+{
+	struct project *project = ladder_document_project(view->document);
+
+	if (view->xref || !project)
+		return view->xref;
+	view->xref = g_new0(struct xref, 1);
+	if (!xref_make(view->xref, project))
+		entry_forget_uses(view);
+	return view->xref;
+}
+
+void entry_forget_uses(LadderGridView *view)
+{
+	if (view->xref)
+		xref_free(view->xref);
+	g_clear_pointer(&view->xref, g_free);
+}
+
 static struct entry_place place_of(const struct asked *asked)
 {
 	LadderGridView *view = asked->view;
@@ -37,6 +57,7 @@ static struct entry_place place_of(const struct asked *asked)
 		.project = ladder_document_project(view->document),
 		.pou = view->pou,
 		.output = asked->cursor.col == view->columns - 1,
+		.xref = uses_of(view),
 	};
 }
 
@@ -116,7 +137,7 @@ static char *element_changed(void *context, const char *line, int cursor, bool *
 /* ---- when it is taken ---- */
 
 static struct rung *put_element(const struct asked *asked, struct cell cell,
-				struct grid_at *at)
+				bool below, struct grid_at *at)
 {
 	LadderGridView *view = asked->view;
 	const struct rung *rung = sheet_pou(view)->rung[asked->cursor.rung];
@@ -136,7 +157,7 @@ static struct rung *put_element(const struct asked *asked, struct cell cell,
 		cell.comment = old->comment;
 		edited = grid_set(rung, at, cell);
 	}
-	if (!edited && asked->parallel)
+	if (!edited && (asked->parallel || below))
 		return grid_parallel(rung, at, NULL, cell);
 	return edited ? edited : grid_place(rung, at, cell, GRID_REPLACE);
 }
@@ -179,7 +200,7 @@ static bool element_taken(void *context, const char *line)
 		entry_cell(place.project, entry, &cell);
 
 	if (good) {
-		struct rung *edited = put_element(asked, cell, &at);
+		struct rung *edited = put_element(asked, cell, entry->below, &at);
 
 		view->cursor = asked->cursor;
 		ladder_document_begin(view->document,

@@ -10,6 +10,8 @@
 #include "editor-gtk/grid_view.h"
 #include "editor-gtk/i18n.h"
 
+#include "engine/view/xref.h"
+
 /* A rung on its way across the sheet. What is not laid out yet has a height that was
  * guessed. */
 struct strip {
@@ -58,6 +60,7 @@ struct _LadderGridView {
 	GtkScrollablePolicy policy[2];
 	GArray *cells;              /* of struct cell_widget                   */
 	GtkWidget *entry;           /* the popup, while it is there            */
+	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
 	double press_x, press_y;
 	bool takes;                 /* the pointer went down on what can be dragged */
 	GtkIMContext *input;
@@ -136,12 +139,14 @@ void sheet_place(LadderGridView *view, struct cell cell, bool parallel);
 void entry_begin(LadderGridView *view, const char *text);
 /** entry_begin_word - asks for what a word still needs, its preview being shown. */
 void entry_begin_word(LadderGridView *view, enum word word, bool parallel);
-/** entry_begin_edit - for what stands at the cursor. */
 /** entry_begin_drop - the same of a word that was dropped on a cell. */
 void entry_begin_drop(LadderGridView *view, enum word word, int row, int col);
+/** entry_begin_edit - for what stands at the cursor. */
 void entry_begin_edit(LadderGridView *view);
 void entry_begin_text(LadderGridView *view, enum verb verb);
 void entry_close(LadderGridView *view);
+/** entry_forget_uses - the project changed: where its names are used is found anew. */
+void entry_forget_uses(LadderGridView *view);
 void entry_allocate(LadderGridView *view);
 
 /* ---- grid_view_clipboard.c ---- */

@@ -6,10 +6,19 @@
 
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/text_complete.h"
+#include "editor-gtk/text_lines.h"
 
 #include <adwaita.h>
 #include <gtksourceview/gtksource.h>
 #include <string.h>
+
+#define REST 2000000 /* us without a key: what follows is another step            */
+
+/* Where a line is wrong, in the text that is shown. */
+struct flaw {
+	int line, column; /* 0-based; column -1: none                          */
+	char *text;
+};
 
 struct _LadderTextView {
 	GtkBox parent;
@@ -19,7 +28,11 @@ struct _LadderTextView {
 	GtkSourceBuffer *buffer;
 	GtkTextTag *error, *warning;
 	GtkLabel *told;          /* why the line of the cursor is wrong         */
+	GArray *faults;          /* of struct flaw, as of the last check       */
 	bool ours;               /* the change that is heard is our own         */
+	int typed_line;          /* of the last step of typing, when, which     */
+	gint64 typed_at;
+	guint typed_step;
 };
 
 G_DEFINE_FINAL_TYPE(LadderTextView, ladder_text_view, GTK_TYPE_BOX)
@@ -41,36 +54,99 @@ static char *text_of_buffer(LadderTextView *view)
 	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
 }
 
-static void show_text(LadderTextView *view)
+/* Bytes that both have at their beginning, whole characters. */
+static gsize common_start(const char *a, const char *b)
+{
+	gsize len = 0;
+
+	while (a[len] && a[len] == b[len])
+		len++;
+	while (len > 0 && ((guchar)a[len] & 0xc0) == 0x80)
+		len--;
+	return len;
+}
+
+/* Bytes that both have at their end, behind the first @start ones. */
+static gsize common_end(const char *a, const char *b, gsize start)
+{
+	const gsize len_a = strlen(a), len_b = strlen(b);
+	gsize len = 0;
+
+	while (len < len_a - start && len < len_b - start &&
+	       a[len_a - 1 - len] == b[len_b - 1 - len])
+		len++;
+	while (len > 0 && ((guchar)a[len_a - len] & 0xc0) == 0x80)
+		len--;
+	return len;
+}
+
+/* Only what differs is exchanged: the cursor, the selection and the page stay where they
+ * are, or go there. */
+static void exchange(LadderTextView *view, const char *now, const char *text)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	const gsize start = common_start(now, text), end = common_end(now, text, start);
+	const int from = (int)g_utf8_strlen(now, (gssize)start);
+	const int gone = (int)g_utf8_strlen(now + start, (gssize)(strlen(now) - start - end));
+	GtkTextIter at, to;
+
+	gtk_text_buffer_get_iter_at_offset(buffer, &at, from);
+	gtk_text_buffer_get_iter_at_offset(buffer, &to, from + gone);
+	gtk_text_buffer_delete(buffer, &at, &to);
+	gtk_text_buffer_insert(buffer, &at, text + start,
+			       (int)(strlen(text) - start - end));
+	if (!gtk_widget_has_focus(GTK_WIDGET(view->view)))
+		return;
+	gtk_text_buffer_place_cursor(buffer, &at);
+	gtk_text_view_scroll_mark_onscreen(GTK_TEXT_VIEW(view->view),
+					   gtk_text_buffer_get_insert(buffer));
+}
+
+static void show_text(LadderTextView *view)
+{
 	char *text = text_of_document(view), *now = text_of_buffer(view);
-	GtkTextIter at;
-	int offset;
 
 	if (text && strcmp(text, now) != 0) {
-		gtk_text_buffer_get_iter_at_mark(buffer, &at,
-						 gtk_text_buffer_get_insert(buffer));
-		offset = gtk_text_iter_get_offset(&at);
 		view->ours = true;
-		gtk_text_buffer_set_text(buffer, text, -1);
-		gtk_text_buffer_get_iter_at_offset(buffer, &at, offset);
-		gtk_text_buffer_place_cursor(buffer, &at);
+		exchange(view, now, text);
 		view->ours = false;
 	}
 	g_free(text);
 	g_free(now);
 }
 
+static int cursor_line(LadderTextView *view)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	GtkTextIter at;
+
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	return gtk_text_iter_get_line(&at);
+}
+
+/* What is typed in one line without a rest is one step. */
+static char *step_key(LadderTextView *view)
+{
+	const gint64 now = g_get_monotonic_time();
+	const int line = cursor_line(view);
+
+	if (line != view->typed_line || now - view->typed_at > REST)
+		view->typed_step++;
+	view->typed_line = line;
+	view->typed_at = now;
+	return g_strdup_printf("text %p %u", (void *)view, view->typed_step);
+}
+
 static void typed(LadderTextView *view)
 {
-	char *text, *before;
+	char *text, *before, *key;
 
 	if (view->ours)
 		return;
 	text = text_of_buffer(view);
+	key = step_key(view);
 	view->ours = true;
-	ladder_document_begin(view->document, _("Type text"), "text");
+	ladder_document_begin(view->document, _("Type text"), key);
 	if (view->pou >= 0) {
 		ladder_document_put_list(view->document, view->pou, text);
 	} else {
@@ -80,6 +156,7 @@ static void typed(LadderTextView *view)
 	}
 	ladder_document_end(view->document);
 	view->ours = false;
+	g_free(key);
 	g_free(text);
 }
 
@@ -129,55 +206,134 @@ static int lines_before(LadderTextView *view)
 	return first.line;
 }
 
-static void mark(LadderTextView *view, const struct diag *diag, int line)
+/* A name or value is marked to its end, else the rest of the line. */
+static void end_of_word(const struct diag *diag, GtkTextIter *end)
+{
+	const int len = diag->column > 0 && diag->arg[0] ? (int)strlen(diag->arg) : 0;
+	GtkTextIter to = *end, from = *end;
+	char *text;
+
+	gtk_text_iter_forward_to_line_end(&to);
+	text = gtk_text_iter_get_slice(&from, &to);
+	if (len > 0 && g_ascii_strncasecmp(text, diag->arg, (gsize)len) == 0)
+		gtk_text_iter_forward_chars(end, (int)g_utf8_strlen(diag->arg, -1));
+	else if (!gtk_text_iter_ends_line(end))
+		*end = to;
+	g_free(text);
+}
+
+static void mark(LadderTextView *view, const struct diag *diag, const struct flaw *fault)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
 	GtkTextIter start, end;
 
-	if (line < 0 || line >= gtk_text_buffer_get_line_count(buffer))
-		return;
-	gtk_text_buffer_get_iter_at_line(buffer, &start, line);
+	gtk_text_buffer_get_iter_at_line(buffer, &start, fault->line);
+	if (fault->column > 0 && fault->column < gtk_text_iter_get_bytes_in_line(&start))
+		gtk_text_iter_set_line_index(&start, fault->column);
+	else
+		while (gtk_text_iter_get_char(&start) == ' ' &&
+		       gtk_text_iter_forward_char(&start))
+			;
 	end = start;
-	gtk_text_iter_forward_to_line_end(&end);
-	if (diag->column > 1 &&
-	    diag->column - 1 < gtk_text_iter_get_bytes_in_line(&start))
-		gtk_text_iter_set_line_index(&start, diag->column - 1);
+	end_of_word(diag, &end);
 	gtk_text_buffer_apply_tag(buffer, diag_severity(diag->id) == SEVERITY_ERROR ?
 				  view->error : view->warning, &start, &end);
 }
 
-static int cursor_line(LadderTextView *view)
+static char *reason(const struct diag *diag)
 {
-	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
-	GtkTextIter at;
+	return g_strdup_printf("%s %s%s%s", diag_code(diag->id), _(diag_text(diag->id)),
+			       diag->arg[0] ? ": " : "", diag->arg);
+}
 
-	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
-	return gtk_text_iter_get_line(&at);
+/* Reasons of a line, one below the other; NULL: it is well. Caller frees. */
+static char *reasons_of(LadderTextView *view, int line)
+{
+	GString *text = NULL;
+
+	for (guint i = 0; i < view->faults->len; i++) {
+		const struct flaw *fault = &g_array_index(view->faults, struct flaw, i);
+
+		if (fault->line != line)
+			continue;
+		if (!text)
+			text = g_string_new(fault->text);
+		else
+			g_string_append_printf(text, "\n%s", fault->text);
+	}
+	return text ? g_string_free(text, FALSE) : NULL;
+}
+
+static void tell_line(LadderTextView *view)
+{
+	char *text = reasons_of(view, cursor_line(view));
+
+	gtk_label_set_text(view->told, text ? text : "");
+	g_free(text);
+}
+
+static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
+			     GtkTooltip *tooltip, LadderTextView *view)
+{
+	GtkTextIter at;
+	char *text;
+	int line = cursor_line(view);
+
+	if (!by_keys) {
+		gtk_text_view_window_to_buffer_coords(GTK_TEXT_VIEW(widget),
+			GTK_TEXT_WINDOW_WIDGET, x, y, &x, &y);
+		gtk_text_view_get_line_at_y(GTK_TEXT_VIEW(widget), &at, y, NULL);
+		line = gtk_text_iter_get_line(&at);
+	}
+	text = reasons_of(view, line);
+	gtk_tooltip_set_text(tooltip, text);
+	g_free(text);
+	return text != NULL;
+}
+
+static void add_fault(LadderTextView *view, const struct diag *diag, int before,
+		      const char *shown, const char *canonical)
+{
+	struct flaw fault = { diag->line - 1 - before, diag->column - 1, NULL };
+
+	if (fault.line < 0)
+		return;
+	text_lines_place(shown, canonical, &fault.line, &fault.column);
+	if (fault.line >= gtk_text_buffer_get_line_count(GTK_TEXT_BUFFER(view->buffer)))
+		return;
+	fault.text = reason(diag);
+	g_array_append_val(view->faults, fault);
+	mark(view, diag, &fault);
+}
+
+static int line_count(const char *text)
+{
+	int count = 0;
+
+	for (; *text; text++)
+		count += *text == '\n';
+	return count;
 }
 
 static void show_errors(LadderTextView *view)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
 	const struct diag_list *diags = ladder_document_diags(view->document);
-	const int before = lines_before(view), line = cursor_line(view);
+	const int before = lines_before(view);
+	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
+	const int lines = canonical ? line_count(canonical) : 0;
 	GtkTextIter start, end;
 
 	gtk_text_buffer_get_bounds(buffer, &start, &end);
 	gtk_text_buffer_remove_tag(buffer, view->error, &start, &end);
 	gtk_text_buffer_remove_tag(buffer, view->warning, &start, &end);
-	gtk_label_set_text(view->told, "");
-	for (int i = 0; i < diags->count; i++) {
-		const struct diag *diag = &diags->diag[i];
-
-		mark(view, diag, diag->line - 1 - before);
-		if (diag->line - 1 - before == line) {
-			char *text = g_strdup_printf("%s %s: %s", diag_code(diag->id),
-						     _(diag_text(diag->id)), diag->arg);
-
-			gtk_label_set_text(view->told, text);
-			g_free(text);
-		}
-	}
+	g_array_set_size(view->faults, 0);
+	for (int i = 0; canonical && i < diags->count; i++)
+		if (diags->diag[i].line - 1 - before <= lines)
+			add_fault(view, &diags->diag[i], before, shown, canonical);
+	g_free(shown);
+	g_free(canonical);
+	tell_line(view);
 }
 
 /* ---- from outside ---- */
@@ -193,17 +349,34 @@ void ladder_text_view_set_pou(LadderTextView *view, int pou)
 	show_text(view);
 }
 
+char *ladder_text_view_reasons(LadderTextView *view, int line)
+{
+	return reasons_of(view, line - 1);
+}
+
+GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view)
+{
+	return view->buffer;
+}
+
 void ladder_text_view_go_here(LadderTextView *view, int line, int column)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
 	GtkTextIter at;
 
-	gtk_text_buffer_get_iter_at_line(buffer, &at, MAX(line - 1, 0));
-	if (column > 1 && column - 1 < gtk_text_iter_get_bytes_in_line(&at))
-		gtk_text_iter_set_line_index(&at, column - 1);
+	line = MAX(line - 1, 0);
+	column--;
+	if (canonical)
+		text_lines_place(shown, canonical, &line, &column);
+	gtk_text_buffer_get_iter_at_line(buffer, &at, line);
+	if (column > 0 && column < gtk_text_iter_get_bytes_in_line(&at))
+		gtk_text_iter_set_line_index(&at, column);
 	gtk_text_buffer_place_cursor(buffer, &at);
 	gtk_text_view_scroll_to_iter(GTK_TEXT_VIEW(view->view), &at, 0.1, FALSE, 0, 0);
 	gtk_widget_grab_focus(GTK_WIDGET(view->view));
+	g_free(shown);
+	g_free(canonical);
 }
 
 void ladder_text_view_go(LadderTextView *view, int line, int column)
@@ -234,9 +407,16 @@ static void ladder_text_view_dispose(GObject *object)
 	G_OBJECT_CLASS(ladder_text_view_parent_class)->dispose(object);
 }
 
+static void ladder_text_view_finalize(GObject *object)
+{
+	g_array_unref(LADDER_TEXT_VIEW(object)->faults);
+	G_OBJECT_CLASS(ladder_text_view_parent_class)->finalize(object);
+}
+
 static void ladder_text_view_class_init(LadderTextViewClass *class)
 {
 	G_OBJECT_CLASS(class)->dispose = ladder_text_view_dispose;
+	G_OBJECT_CLASS(class)->finalize = ladder_text_view_finalize;
 }
 
 static void make_buffer(LadderTextView *view)
@@ -254,11 +434,18 @@ static void make_buffer(LadderTextView *view)
 						   PANGO_UNDERLINE_SINGLE, NULL);
 	g_signal_connect_swapped(buffer, "changed", G_CALLBACK(typed), view);
 	g_signal_connect_swapped(buffer, "notify::cursor-position",
-				 G_CALLBACK(show_errors), view);
+				 G_CALLBACK(tell_line), view);
+}
+
+static void clear_fault(gpointer fault)
+{
+	g_free(((struct flaw *)fault)->text);
 }
 
 static void ladder_text_view_init(LadderTextView *view)
 {
+	view->faults = g_array_new(FALSE, FALSE, sizeof(struct flaw));
+	g_array_set_clear_func(view->faults, clear_fault);
 	gtk_orientable_set_orientation(GTK_ORIENTABLE(view), GTK_ORIENTATION_VERTICAL);
 }
 
@@ -284,7 +471,9 @@ static void build(LadderTextView *view)
 	gtk_widget_add_css_class(GTK_WIDGET(view->told), "error");
 	gtk_box_append(GTK_BOX(view), scroller);
 	gtk_box_append(GTK_BOX(view), GTK_WIDGET(view->told));
-	text_complete_attach(view->view, view->document, view->pou);
+	text_complete_attach(view->view, view->document, &view->pou);
+	gtk_widget_set_has_tooltip(GTK_WIDGET(view->view), TRUE);
+	g_signal_connect(view->view, "query-tooltip", G_CALLBACK(tell_pointed), view);
 	g_object_unref(view->buffer);
 }
 

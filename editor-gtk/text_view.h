@@ -10,7 +10,7 @@
 
 #include "editor-gtk/document.h"
 
-#include <gtk/gtk.h>
+#include <gtksourceview/gtksource.h>
 
 #define LADDER_TYPE_TEXT_VIEW (ladder_text_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderTextView, ladder_text_view, LADDER, TEXT_VIEW, GtkBox)
@@ -19,9 +19,15 @@ G_DECLARE_FINAL_TYPE(LadderTextView, ladder_text_view, LADDER, TEXT_VIEW, GtkBox
 GtkWidget *ladder_text_view_new(LadderDocument *document, int pou);
 int ladder_text_view_pou(LadderTextView *view);
 void ladder_text_view_set_pou(LadderTextView *view, int pou);
+/** ladder_text_view_reasons - what is wrong with line @line, 1-based, of the text that is
+ * shown; NULL: nothing. Caller frees. */
+char *ladder_text_view_reasons(LadderTextView *view, int line);
+/** ladder_text_view_buffer - what is shown. Borrowed. */
+GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view);
 /** ladder_text_view_go - @line: 1-based, of the file; the cursor goes there. */
 void ladder_text_view_go(LadderTextView *view, int line, int column);
-/** ladder_text_view_go_here - @line: 1-based, of the text that is shown. */
+/** ladder_text_view_go_here - @line: 1-based, of the list as a file
+ * holds it. */
 void ladder_text_view_go_here(LadderTextView *view, int line, int column);
 
 #endif

@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_text - a list in its view: colours, words that could follow, errors in their
+ * lines, typing and undoing in the one history.
+ */
+#include "editor-gtk/text_complete.h"
+#include "editor-gtk/text_view.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\n\nVAR\n  Start AT %IX0.0 : BOOL;\n  Stop AT %IX0.1 : BOOL;\n"
+	"  Motor AT %QX0.0 : BOOL;\nEND_VAR\n\n"
+	"PROGRAM Main LD\nRUNG\n  | NO Start | COIL %QX0.5 |\nEND_PROGRAM\n\n"
+	"PROGRAM List IL\nVAR\n  Delay : TON;\nEND_VAR\n  LD    Start\n  ANDN  Stop\n"
+	"  ST    Motor\n  CAL   Delay(IN:=Start, PT:=T#1s)\nEND_PROGRAM\n";
+
+static LadderDocument *document;
+static LadderTextView *view;
+static GtkTextBuffer *buffer;
+
+static void turn(void)
+{
+	while (g_main_context_iteration(NULL, FALSE))
+		;
+}
+
+static char *shown(void)
+{
+	GtkTextIter start, end;
+
+	gtk_text_buffer_get_bounds(buffer, &start, &end);
+	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
+}
+
+static void put_cursor(int line, int column)
+{
+	GtkTextIter at;
+
+	gtk_text_buffer_get_iter_at_line_index(buffer, &at, line, column);
+	gtk_text_buffer_place_cursor(buffer, &at);
+}
+
+static void type(const char *text)
+{
+	for (; *text; text++)
+		gtk_text_buffer_insert_at_cursor(buffer, text, 1);
+}
+
+static bool has_class(int line, int column, const char *name)
+{
+	GtkTextIter at;
+
+	gtk_text_buffer_get_iter_at_line_index(buffer, &at, line, column);
+	return gtk_source_buffer_iter_has_context_class(GTK_SOURCE_BUFFER(buffer), &at,
+							name);
+}
+
+/* Styles of what is at a place; the scheme gives them, so any tag will do. */
+static bool is_coloured(int line, int column)
+{
+	GtkTextIter start, end, at;
+	GSList *tags;
+	bool any = false;
+
+	gtk_text_buffer_get_bounds(buffer, &start, &end);
+	gtk_source_buffer_ensure_highlight(GTK_SOURCE_BUFFER(buffer), &start, &end);
+	gtk_text_buffer_get_iter_at_line_index(buffer, &at, line, column);
+	tags = gtk_text_iter_get_tags(&at);
+	for (GSList *tag = tags; tag; tag = tag->next) {
+		gboolean set;
+
+		g_object_get(tag->data, "foreground-set", &set, NULL);
+		any = any || set;
+		if (!set)
+			g_object_get(tag->data, "weight-set", &set, NULL);
+		any = any || set;
+	}
+	g_slist_free(tags);
+	return any;
+}
+
+/* List: 0 PROGRAM, 1 VAR, 2 Delay : TON, 3 END_VAR, 4 LD, 5 ANDN, 6 ST, 7 CAL, 8 END_PROGRAM. */
+static void test_colours(void)
+{
+	CHECK(text_language() != NULL);
+	CHECK_AS(is_coloured(0, 1), "PROGRAM is a keyword");
+	CHECK_AS(is_coloured(2, 11), "TON behind a colon is a type");
+	CHECK_AS(is_coloured(4, 3) && is_coloured(5, 5), "LD and ANDN are operators");
+	CHECK_AS(!is_coloured(4, 9) && !is_coloured(2, 3), "names are not");
+	put_cursor(6, 13);
+	type(" (* why *)");
+	CHECK_AS(is_coloured(6, 18) && has_class(6, 18, "comment"), "a comment is");
+	ladder_document_undo(document);
+}
+
+static bool offers(const char *text, int line, int column, const char *word, gsize *len)
+{
+	GListStore *words = text_complete_words(document, 1, text, line, column, len);
+	bool found = false;
+
+	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(words)); i++) {
+		gpointer one = g_list_model_get_item(G_LIST_MODEL(words), i);
+
+		found = found || strcmp(text_complete_text(one), word) == 0;
+		g_object_unref(one);
+	}
+	g_object_unref(words);
+	return found;
+}
+
+static void test_words(void)
+{
+	char *text = shown();
+	gsize len;
+
+	CHECK(offers(text, 4, 10, "Start", &len) && len == 2);
+	CHECK(offers(text, 4, 10, "Stop", &len));
+	CHECK_AS(!offers(text, 4, 10, "Motor", &len), "it does not begin with St");
+	CHECK(offers(text, 5, 4, "ANDN", &len) && len == 2);
+	CHECK_AS(!offers(text, 5, 4, "Start", &len), "no name where an operator stands");
+	g_free(text);
+	text = g_strdup("PROGRAM List IL\nVAR\n  Delay : TON;\nEND_VAR\n\n  CAL ( (\n"
+			"  LD    Delay.\nEND_PROGRAM\n");
+	CHECK_AS(offers(text, 6, 14, "Delay.Q", &len) || offers(text, 6, 14, "Q", &len),
+		 "also in a list that cannot be read");
+	g_free(text);
+}
+
+static bool wrong_at(int line, const char *part)
+{
+	char *text = ladder_text_view_reasons(view, line + 1);
+	const bool found = text && strstr(text, part);
+
+	if (!found)
+		printf("# line %d: %s\n", line, text ? text : "nothing");
+	g_free(text);
+	return found;
+}
+
+static int wrong_lines(void)
+{
+	int count = 0;
+
+	for (int i = 0; i < gtk_text_buffer_get_line_count(buffer); i++) {
+		char *text = ladder_text_view_reasons(view, i + 1);
+
+		count += text != NULL;
+		g_free(text);
+	}
+	return count;
+}
+
+static void test_errors(void)
+{
+	char *before = shown(), *after;
+
+	ladder_document_check_now(document);
+	CHECK(wrong_lines() == 0);
+	put_cursor(4, 13);
+	type("x");
+	ladder_document_check_now(document);
+	CHECK_AS(wrong_at(4, "Startx") && wrong_lines() == 1, "an unknown name");
+	put_cursor(4, 0);
+	type("\n\n");
+	ladder_document_check_now(document);
+	CHECK_AS(wrong_at(6, "Startx") && wrong_lines() == 1,
+		 "blank lines before it, which a file does not keep");
+	put_cursor(8, 13);
+	type("\n  BLAH ) 7\n");
+	ladder_document_check_now(document);
+	CHECK_AS(wrong_at(9, "LD"), "a list that cannot be read: the line that is why");
+	CHECK(ladder_document_project(document) != NULL);
+	while (ladder_document_undo(document))
+		;
+	after = shown();
+	CHECK_TEXT(after, before);
+	ladder_document_check_now(document);
+	CHECK(wrong_lines() == 0);
+	g_free(before);
+	g_free(after);
+}
+
+static void test_typing(void)
+{
+	char *before = shown(), *after;
+	GtkTextIter at;
+
+	put_cursor(6, 13);
+	type("2");
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	CHECK_AS(gtk_text_iter_get_line(&at) == 6 &&
+		 gtk_text_iter_get_line_index(&at) == 14, "the cursor stays behind it");
+	type("3\n");
+	put_cursor(7, 0);
+	type("  LD Stop\n");
+	CHECK_TEXT(ladder_document_undo_name(document), "Type text");
+	ladder_document_undo(document);
+	after = shown();
+	CHECK_AS(strstr(after, "Motor23") && !strstr(after, "LD Stop"),
+		 "one line is one step");
+	g_free(after);
+	while (ladder_document_undo(document))
+		;
+	after = shown();
+	CHECK_TEXT(after, before);
+	CHECK(!gtk_text_buffer_get_can_undo(buffer));
+	while (ladder_document_redo(document))
+		;
+	g_free(after);
+	after = shown();
+	CHECK(strstr(after, "Motor23") && strstr(after, "Stop"));
+	while (ladder_document_undo(document))
+		;
+	g_free(after);
+	g_free(before);
+}
+
+int main(void)
+{
+	GtkWidget *window;
+
+	g_setenv("G_DEBUG", "fatal-warnings", TRUE);
+	g_setenv("GTK_A11Y", "test", FALSE);
+	if (!gtk_init_check()) {
+		printf("1..0 # SKIP no display\n");
+		return 0;
+	}
+	adw_init();
+	gtk_source_init();
+	document = ladder_document_new();
+	ladder_document_open_text(document, "/tmp/x/list.rung", sample, strlen(sample), true);
+	ladder_document_check_now(document);
+	window = gtk_window_new();
+	view = LADDER_TEXT_VIEW(ladder_text_view_new(document, 1));
+	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(view));
+	buffer = GTK_TEXT_BUFFER(ladder_text_view_buffer(view));
+	turn();
+	test_colours();
+	test_words();
+	test_errors();
+	test_typing();
+	gtk_window_destroy(GTK_WINDOW(window));
+	turn();
+	g_object_unref(document);
+	return tap_done();
+}
