@@ -68,7 +68,7 @@ struct grid_name grid_names_find(const struct grid_names *names, const char *ope
 {
 	const struct project *project = names->project;
 	const struct var *var = g_hash_table_lookup(names->by_name, operand);
-	struct grid_name found = { operand, "", "", false };
+	struct grid_name found = { operand, "", "", "", false };
 
 	if (!var && *operand == '%') {
 		var = g_hash_table_lookup(names->by_address, operand);
@@ -80,6 +80,8 @@ struct grid_name grid_names_find(const struct grid_names *names, const char *ope
 	if (var) {
 		const struct var_table *own = names->pou ? &names->pou->vars : NULL;
 
+		found.type = var->type != IEC_NONE ? iec_type_row(var->type)->word :
+			     words_row(&project->words, var->fb)->word;
 		found.comment = project_text(project, var->comment);
 		found.local = own && own->count && var >= own->var &&
 			      var < own->var + own->count;

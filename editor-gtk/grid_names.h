@@ -14,6 +14,7 @@
 struct grid_name {
 	const char *symbol;  /* "" if the operand is an address without a name  */
 	const char *address; /* "%IX0.0"; "" if it has none                     */
+	const char *type;    /* "BOOL", "TON"; "" if it is not declared          */
 	const char *comment; /* of the declaration, with its delimiters; ""      */
 	bool local;          /* declared in the POU                             */
 };

@@ -216,7 +216,7 @@ static void add_mark(LadderGridView *view, const struct diag *diag)
 	const bool error = diag_severity(diag->id) == SEVERITY_ERROR;
 	struct sheet_mark mark = {
 		diag->rung - 1, diag->row - 1, diag->col - 1,
-		error ? MARK_ERROR : MARK_WARNING, diag_text(diag->id),
+		error ? MARK_ERROR : MARK_WARNING, diag,
 	};
 
 	if (diag->id == DIAG_COIL_TWICE)
@@ -524,6 +524,7 @@ static void ladder_grid_view_init(LadderGridView *view)
 	add_keys(view);
 	mouse_init(view);
 	cells_init(view);
+	tell_init(view);
 }
 
 GtkWidget *ladder_grid_view_new(LadderDocument *document, int pou)

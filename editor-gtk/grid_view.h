@@ -45,6 +45,13 @@ bool ladder_grid_view_cell(LadderGridView *view, int *row, int *col);
 /** ladder_grid_view_place - "Rung 3 · column C": where the cursor is. Caller frees. */
 char *ladder_grid_view_place(LadderGridView *view);
 
+/** ladder_grid_view_keys - what the next key could do for the element at the cursor:
+ * "Enter: Edit operand · /: Negate". Caller frees. */
+char *ladder_grid_view_keys(LadderGridView *view);
+/** ladder_grid_view_tip - what there is to know of a cell of a rung, 0-based: name,
+ * address, type, comment, why it is wrong; NULL: nothing. Caller frees. */
+char *ladder_grid_view_tip(LadderGridView *view, int rung, int row, int col);
+
 /** ladder_grid_view_do - a SHEET verb. */
 void ladder_grid_view_do(LadderGridView *view, enum verb verb);
 /** ladder_grid_view_put - an element of the palette at the cursor. */

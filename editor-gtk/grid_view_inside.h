@@ -72,7 +72,7 @@ struct _LadderGridView {
 struct sheet_mark {
 	int rung, row, col;
 	unsigned int marks;
-	const char *text;           /* lives with the document's diags         */
+	const struct diag *diag;    /* lives with the document's diags         */
 };
 
 /* ---- grid_view.c ---- */
@@ -148,6 +148,9 @@ void entry_close(LadderGridView *view);
 /** entry_forget_uses - the project changed: where its names are used is found anew. */
 void entry_forget_uses(LadderGridView *view);
 void entry_allocate(LadderGridView *view);
+
+/* ---- grid_view_tell.c ---- */
+void tell_init(LadderGridView *view);
 
 /* ---- grid_view_clipboard.c ---- */
 void clipboard_do(LadderGridView *view, enum verb verb);

@@ -18,6 +18,8 @@ G_DEFINE_FINAL_TYPE(LadderWindow, ladder_window, ADW_TYPE_APPLICATION_WINDOW)
 
 /* ---- messages ---- */
 
+#define TOLD 1500000 /* us a message stays at least, if the cursor moves on    */
+
 void window_toast(LadderWindow *window, const char *text)
 {
 	adw_toast_overlay_add_toast(window->toasts, adw_toast_new(text));
@@ -25,7 +27,17 @@ void window_toast(LadderWindow *window, const char *text)
 
 void ladder_window_tell(LadderWindow *window, const char *text)
 {
-	gtk_label_set_text(window->message_label, text);
+	window->told_at = text[0] ? g_get_monotonic_time() : 0;
+	gtk_label_set_text(window->message_label,
+			   text[0] || !window->keys_text ? text : window->keys_text);
+}
+
+void window_show_keys(LadderWindow *window, char *text)
+{
+	g_free(window->keys_text);
+	window->keys_text = text;
+	if (g_get_monotonic_time() - window->told_at > TOLD)
+		ladder_window_tell(window, "");
 }
 
 void window_banner(LadderWindow *window, const char *text, const char *button,
@@ -218,6 +230,7 @@ static void ladder_window_dispose(GObject *object)
 		g_source_remove(window->disk_timer);
 	window->disk_timer = 0;
 	g_clear_object(&window->document);
+	g_clear_pointer(&window->keys_text, g_free);
 	G_OBJECT_CLASS(ladder_window_parent_class)->dispose(object);
 }
 

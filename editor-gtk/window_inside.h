@@ -28,6 +28,8 @@ struct _LadderWindow {
 	GtkButton *banner_button, *banner_close;
 	GtkBox *find_place, *below;
 	GtkStack *below_stack;
+	gint64 told_at;       /* us; when the message in the status bar came    */
+	char *keys_text;      /* what stands there otherwise                   */
 	GtkLabel *pill, *place_label, *message_label, *checked_label, *zoom_label;
 };
 
@@ -39,6 +41,8 @@ void window_toast(LadderWindow *window, const char *text);
 void window_banner(LadderWindow *window, const char *text, const char *button,
 		   void (*act)(LadderWindow *window));
 void window_banner_close(LadderWindow *window);
+/** window_show_keys - what the next key could do (taken over), where no message stands. */
+void window_show_keys(LadderWindow *window, char *text);
 /** window_show_state - title, undo, redo, status. */
 void window_show_state(LadderWindow *window);
 

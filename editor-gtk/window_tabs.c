@@ -73,6 +73,7 @@ static void show_place(LadderWindow *window)
 	char *zoom = sheet ? g_strdup_printf("%d %%",
 		(int)(ladder_grid_view_zoom(sheet) * 100 + 0.5)) : g_strdup("");
 
+	window_show_keys(window, sheet ? ladder_grid_view_keys(sheet) : g_strdup(""));
 	gtk_label_set_text(window->place_label, place);
 	gtk_label_set_text(window->zoom_label, zoom);
 	g_free(place);
