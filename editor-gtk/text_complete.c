@@ -163,6 +163,27 @@ static char *text_before(GtkTextBuffer *buffer, int *line, int *column)
 	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
 }
 
+/* A word that stands there whole is left alone: Enter then ends the line. */
+static bool is_whole(GListStore *found, const char *prefix, gsize len)
+{
+	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(found)); i++) {
+		LadderProposal *word = g_list_model_get_item(G_LIST_MODEL(found), i);
+
+		g_object_unref(word); /* the list holds it */
+		if (strlen(word->text) == len &&
+		    g_ascii_strncasecmp(word->text, prefix, len) == 0)
+			return true;
+	}
+	return false;
+}
+
+static const char *line_of(const char *text, int line)
+{
+	while (line-- > 0)
+		text = strchr(text, '\n') + 1;
+	return text;
+}
+
 static GListStore *words_here(LadderWords *words, gsize *prefix_len)
 {
 	int line, column;
@@ -171,6 +192,9 @@ static GListStore *words_here(LadderWords *words, gsize *prefix_len)
 	GListStore *found = text_complete_words(words->document, *words->pou, text, line,
 						column, prefix_len);
 
+	if (*prefix_len && is_whole(found, line_of(text, line) + column - *prefix_len,
+				    *prefix_len))
+		g_list_store_remove_all(found);
 	g_free(text);
 	return found;
 }
@@ -309,6 +333,7 @@ void text_complete_attach(GtkSourceView *view, LadderDocument *document, const i
 	words->document = g_object_ref(document);
 	words->pou = pou;
 	words->view = view;
+	g_object_set(gtk_source_view_get_completion(view), "select-on-show", TRUE, NULL);
 	gtk_source_completion_add_provider(gtk_source_view_get_completion(view),
 					   GTK_SOURCE_COMPLETION_PROVIDER(words));
 	g_object_unref(words);

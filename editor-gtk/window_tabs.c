@@ -295,6 +295,13 @@ void tabs_update(LadderWindow *window)
 
 void tabs_init(LadderWindow *window)
 {
+	/* Those keys go to the ends of a text or a rung. */
+	adw_tab_view_remove_shortcuts(window->tabs, ADW_TAB_VIEW_SHORTCUT_CONTROL_HOME |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_END |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_SHIFT_HOME |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_SHIFT_END |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_UP |
+		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_DOWN);
 	g_signal_connect_object(window->document, "project-changed",
 				G_CALLBACK(tabs_update), window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->tabs, "notify::selected-page",

@@ -38,14 +38,12 @@ def a_list(screen):
     editor.keys('ctrl+space')
     editor.shot('list-words')
     editor.keys('Return')
-    editor.type('\\n')
     text = editor.save(path)
     assert 'ANDN  Motor' in text, text
     check(path)
-    editor.keys('ctrl+z')
-    editor.keys('ctrl+z')
-    editor.keys('ctrl+z')
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
     assert editor.save(path) == LIST
+    editor.keys('ctrl+End', 'Up', 'Up', 'End', 'Return')
     editor.type('LD Nobody')
     editor.shot('list-wrong')
     until(lambda: editor.all('Nobody', 'label'), 'what is wrong')
