@@ -245,10 +245,29 @@ no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is le
 endif
 # A person's work, with pointer and keys on a screen of its own: PICTURES=folder keeps what was seen.
 EDITOR_PERSON := $(if $(EDITOR),$(filter-out %/desk.py,$(wildcard tests/editor/person/*.py)))
+# Its languages: editor-gtk/po/. In the build they lie beside the program, in build/locale/.
+MSGFMT   := $(if $(EDITOR),$(shell command -v msgfmt))
+MO       := $(if $(MSGFMT),$(patsubst %,$(BUILD)/locale/%/LC_MESSAGES/rungboard.mo,$(shell cat editor-gtk/po/LINGUAS)))
+all: $(MO)
+$(BUILD)/locale/%/LC_MESSAGES/rungboard.mo: editor-gtk/po/%.po
+	@mkdir -p $(@D)
+	msgfmt -c -o $@ $<
+ifeq ($(MSGFMT),)
+all: $(if $(EDITOR),no-languages)
+no-languages: ; @echo "make: the editor's languages are left out: they need msgfmt (gettext)" >&2
+.PHONY: no-languages
+endif
+pot: ## the editor's texts, for translators: build/rungboard.pot
+	@mkdir -p $(BUILD)
+	@CC='$(CC)' editor-gtk/po/pot.sh $(BUILD)/rungboard.pot
+po: pot ## bring new texts into editor-gtk/po/*.po
+	@for l in $$(cat editor-gtk/po/LINGUAS); do msgmerge -q -U -N --backup=none --add-location=file editor-gtk/po/$$l.po $(BUILD)/rungboard.pot && \
+	  msgattrib --no-obsolete --add-location=file -o editor-gtk/po/$$l.po editor-gtk/po/$$l.po && echo "$$l: $$(msgfmt --statistics -o /dev/null editor-gtk/po/$$l.po 2>&1)" || exit 1; done
+.PHONY: pot po
 # What a desktop needs to find it.
 install: $(if $(EDITOR),install-editor)
 appdir = $(DESTDIR)$(prefix)/share
-install-editor: $(BUILD)/ladder-editor
+install-editor: $(BUILD)/ladder-editor $(MO)
 	install -d $(DESTDIR)$(prefix)/bin $(appdir)/applications $(appdir)/metainfo $(appdir)/mime/packages \
 	  $(appdir)/icons/hicolor/scalable/apps $(appdir)/glib-2.0/schemas $(appdir)/rungboard/ladders \
 	  $(appdir)/gtksourceview-5/language-specs
@@ -260,6 +279,7 @@ install-editor: $(BUILD)/ladder-editor
 	install -m 644 packaging/org.rungboard.Editor.gschema.xml $(appdir)/glib-2.0/schemas/
 	install -m 644 $(BUILD)/rung.lang $(appdir)/gtksourceview-5/language-specs/
 	install -m 644 ladders/*.rung ladders/*.scn $(appdir)/rungboard/ladders/
+	$(foreach m,$(MO),install -Dm 644 $m $(appdir)/$(m:$(BUILD)/%=%);)
 	$(if $(DESTDIR),,-glib-compile-schemas $(appdir)/glib-2.0/schemas; update-mime-database $(appdir)/mime; update-desktop-database $(appdir)/applications)
 .PHONY: install-editor
 # In the build the schema lies beside the program: GSETTINGS_SCHEMA_DIR=build/schemas.

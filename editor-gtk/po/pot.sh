@@ -1,0 +1,48 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+#
+# pot.sh - every text of the editor that a person reads, as a template for translators.
+#
+# pot.sh OUTPUT, in the folder of the project. Four sources: the marked texts of the
+# editor, its .ui files, the engine's diagnostics, and what the engine says of its words
+# (a row's texts are arguments of nested macros, so the preprocessor takes them apart; those
+# of conversions are macros). It merges nothing: `make po` does.
+set -eu
+out=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export LC_ALL=C.UTF-8
+take="xgettext --from-code=UTF-8 --add-location=file --sort-by-file --package-name=Rungboard"
+
+$take -L C -k -k_ -kN_ -kngettext:1,2 -o "$work/editor.pot" \
+	editor-gtk/*.c editor-gtk/*.h editor-gtk/*.def
+$take -L Glade -o "$work/ui.pot" editor-gtk/ui/*.ui 2>/dev/null
+$take -L C -k -kDIAG:4 -o "$work/diag.pot" runtime/engine/diag.def
+
+mkdir -p "$work/runtime/engine/model"
+cat >"$work/rows.c" <<'ROWS'
+#define ELEM(id, word, glyph, family, place, operand, edge, first, next, negate, doc) \
+	N_(family) N_(doc)
+#define FB(id, family, doc, pins) N_(family) N_(doc) pins
+#define FB_DEF(fb, pin, type, value, doc) N_(doc)
+#define FB_IN(fb, pin, type, doc) N_(doc)
+#define FB_OUT(fb, pin, type, doc) N_(doc)
+#define FB_VAR(fb, pin, type)
+#define FB_STORE(fb, pin, type, count)
+#define FN(id, family, doc, result, most, pins) N_(family) N_(doc) pins
+#define FN_IN(pin, classes, doc) N_(doc)
+#define FN_OWN(pin, classes, doc) N_(doc)
+#define SYS(id, address, type, doc) N_(doc)
+#include "engine/catalog.def"
+ROWS
+${CC:-cc} -E -P -Iruntime "$work/rows.c" | sed 's/N_("")//g' \
+	>"$work/runtime/engine/catalog.def"
+sed -n 's/^#define [A-Z_]* *\(".*"\)$/N_(\1)/p' runtime/engine/model/convert.c \
+	>"$work/runtime/engine/model/convert.c"
+(cd "$work" && $take -L C -k -kN_ -o catalog.pot runtime/engine/catalog.def \
+	runtime/engine/model/convert.c)
+
+# The date would differ each time, and nothing reads it.
+xgettext --from-code=UTF-8 --add-location=file --package-name=Rungboard -L PO -o - \
+	"$work/editor.pot" "$work/ui.pot" "$work/diag.pot" "$work/catalog.pot" |
+	sed -e '/^"POT-Creation-Date:/d' -e 's/charset=CHARSET/charset=UTF-8/' >"$out"

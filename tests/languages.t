@@ -1,0 +1,65 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+#
+# languages.t - every text of the editor in every language of editor-gtk/po/.
+#
+# The template is made from the sources as they are now. It does not judge how well
+# something is said.
+cd "$(dirname "$0")/.." || exit 2
+if ! command -v xgettext >/dev/null || ! command -v msgcmp >/dev/null; then
+	echo "1..0 # SKIP xgettext is not here"
+	exit 0
+fi
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+count=0
+
+# told NAME COMMAND... - a test: the command's end, and what it said
+told() {
+	name=$1
+	shift
+	count=$((count + 1))
+	if "$@" >"$work/said" 2>&1; then
+		echo "ok $count - $name"
+	else
+		echo "not ok $count - $name"
+		sed 's/^/# /' "$work/said"
+	fi
+}
+
+# current LANGUAGE - merging the fresh template changes nothing
+current() {
+	msgmerge -q -N --add-location=file -o "$work/merged.po" "editor-gtk/po/$1.po" \
+		"$work/fresh.pot" &&
+		msgattrib --no-obsolete --add-location=file -o "$work/new.po" "$work/merged.po" &&
+		diff "editor-gtk/po/$1.po" "$work/new.po" >"$work/diff" ||
+		{ head -20 "$work/diff"; echo "make po, then translate what is new"; return 1; }
+}
+
+# whole LANGUAGE - all texts, none of them guessed
+whole() {
+	msgcmp "editor-gtk/po/$1.po" "$work/fresh.pot" &&
+		test -z "$(msgattrib --only-fuzzy "editor-gtk/po/$1.po")"
+}
+
+# noticed LANGUAGE - test the test: one text less is noticed
+noticed() {
+	sed '0,/^msgstr "[^"]/s/^msgstr "[^"].*/msgstr ""/' "editor-gtk/po/$1.po" >"$work/less.po"
+	! msgcmp "$work/less.po" "$work/fresh.pot" 2>/dev/null
+}
+
+told "a template of the sources" editor-gtk/po/pot.sh "$work/fresh.pot"
+told "it has the texts of all sources" sh -c "
+	for t in 'Cross reference' 'Match capital and small letters' 'rung is empty' \
+		'on-delay timer' 'seconds since 1970-01-01; ENO FALSE out of range' \
+		'this branch is closed already' 'Contacts'; do
+		grep -qxF \"msgid \\\"\$t\\\"\" $work/fresh.pot || { echo \"\$t\"; exit 1; }
+	done"
+for language in $(cat editor-gtk/po/LINGUAS); do
+	told "$language: every text is translated" whole "$language"
+	told "$language: formats, plurals, access keys agree" msgfmt -c \
+		--check-accelerators=_ -o /dev/null "editor-gtk/po/$language.po"
+	told "$language: is of these sources" current "$language"
+done
+told "a missing text would be noticed" noticed de
+echo "1..$count"
