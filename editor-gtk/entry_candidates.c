@@ -215,6 +215,18 @@ static void make_line(const struct search *s, const char *text, char *out, size_
 		 s->line + s->cursor);
 }
 
+/* Bytes of the text, @most at most, that end with a whole character. */
+static int whole_part(const char *text, int most)
+{
+	int len = (int)strlen(text);
+
+	if (len <= most)
+		return len;
+	while (most > 0 && ((unsigned char)text[most] & 0xc0) == 0x80)
+		most--;
+	return most;
+}
+
 /* Keeps the list sorted; the last one falls off when it is full. One place is left for
  * a new name. */
 static void add(struct search *s, enum entry_kind kind, int fits, const char *text,
@@ -243,8 +255,8 @@ static void add(struct search *s, enum entry_kind kind, int fits, const char *te
 	c->kind = kind;
 	snprintf(c->text, sizeof(c->text), "%s", text);
 	snprintf(c->address, sizeof(c->address), "%s", address);
-	snprintf(c->note, sizeof(c->note), "%s%s%.200s", note, comment[0] ? " " : "",
-		 comment);
+	snprintf(c->note, sizeof(c->note), "%s%s%.*s", note, comment[0] ? " " : "",
+		 whole_part(comment, 200), comment);
 	make_line(s, text, c->line, sizeof(c->line));
 }
 
@@ -352,7 +364,7 @@ static void add_pins(struct search *s)
 		snprintf(text, sizeof(text), "%.*s.%s", (int)s->head, typed(s), pin->name);
 		add(s, ENTRY_PIN, fit(pin->name, typed(s) + skip, typed_len(s) - skip),
 		    text, "", pin->type != IEC_NONE ? iec_type_row(pin->type)->word : "",
-		    explain_pin(row, i));
+		    said(explain_pin(row, i)));
 	}
 }
 
@@ -385,7 +397,7 @@ static void add_system(struct search *s)
 		if (s->want & WANT_BOOL ? row->type == IEC_BOOL :
 		    !s->classes || iec_type_row(row->type)->class & s->classes)
 			add(s, ENTRY_ADDRESS, fits, row->name, row->address, iec_type_row(row->type)->word,
-			    explain_sys((enum sys_id)i));
+			    said(explain_sys((enum sys_id)i)));
 	}
 }
 
@@ -403,7 +415,8 @@ static void add_words(struct search *s)
 	for (int i = 0; (m = entry_mnemonic(i)) != NULL; i++)
 		if (may_stand(s, word_row(m->word)) && typed_len(s) > 0)
 			add(s, ENTRY_WORD, fit(m->text, typed(s), typed_len(s)), m->text,
-			    "", word_row(m->word)->word, explain_word(word_row(m->word)));
+			    "", word_row(m->word)->word,
+			    said(explain_word(word_row(m->word))));
 	for (int i = 0; i < WORD_KNOWN + words->count; i++) {
 		const enum word word = (enum word)(i < WORD_KNOWN ? i :
 						   WORD_FIRST_OWN + i - WORD_KNOWN);
@@ -411,7 +424,7 @@ static void add_words(struct search *s)
 
 		if (may_stand(s, row) && row->kind != WORD_STRUCT)
 			add(s, ENTRY_WORD, fit(row->word, typed(s), typed_len(s)),
-			    row->word, "", row->family, words_explain(row));
+			    row->word, "", said(row->family), said(words_explain(row)));
 	}
 }
 
@@ -458,7 +471,7 @@ static void add_pin_names(struct search *s)
 			 pin->dir == PIN_OUT ? "=>" : ":=");
 		add(s, ENTRY_PIN, fit(pin->name, typed(s), typed_len(s)), text, "",
 		    pin->type != IEC_NONE ? iec_type_row(pin->type)->word : "",
-		    explain_pin(s->row, i));
+		    said(explain_pin(s->row, i)));
 	}
 }
 

@@ -26,7 +26,8 @@ static void tell_diags(LadderGridView *view, const struct diag_list *why)
 
 	if (why->count == 0)
 		return;
-	text = g_strdup_printf("%s: %s", diag_text(why->diag[0].id), why->diag[0].arg);
+	text = g_strdup_printf("%s: %s", said(diag_text(why->diag[0].id)),
+			       why->diag[0].arg);
 	sheet_tell(view, text);
 	g_free(text);
 }

@@ -313,7 +313,7 @@ static char *pin_changed(void *context, const char *line, int cursor, bool *good
 	     i < row->pin_count; i++) {
 		const struct word_pin *pin = &row->pin[i];
 		struct entry_popup_row one = { (char *)pin->name, "",
-			(char *)explain_pin(row, i), _("input"),
+			(char *)said(explain_pin(row, i)), _("input"),
 			(char *)pin->name };
 
 		if (pin->dir == PIN_IN && pin->type == IEC_BOOL &&

@@ -14,4 +14,11 @@
 /** N_ - marks a text of a table for translation; _() it where it is shown. */
 #define N_(text) text
 
+/** said - a text of the engine's tables (diagnostics, what words do), in the language of
+ *  the session. "" stays: gettext would give its own header for it. Lives for ever. */
+static inline const char *said(const char *text)
+{
+	return text[0] ? gettext(text) : text;
+}
+
 #endif

@@ -8,7 +8,6 @@
 #include "editor-gtk/grid_view.h"
 #include "editor-gtk/i18n.h"
 
-#include "engine/base/explain.h"
 
 #include <adwaita.h>
 #include <string.h>
@@ -137,7 +136,7 @@ static GtkWidget *tile_new(const struct word_row *row, enum word word)
 	gtk_box_append(GTK_BOX(box), GTK_WIDGET(icon));
 	gtk_box_append(GTK_BOX(box), label);
 	gtk_button_set_child(GTK_BUTTON(button), box);
-	tip = g_strdup_printf("%s: %s%s%s", name, explain_word(row)[0] ? _(explain_word(row)) : "",
+	tip = g_strdup_printf("%s: %s%s%s", name, said(words_explain(row)),
 			      key ? " · " : "", key ? key : "");
 	gtk_widget_set_tooltip_text(button, tip);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
@@ -162,8 +161,8 @@ static bool fits(const struct word_row *row, const char *search)
 
 	if (!search[0])
 		return true;
-	all = g_strdup_printf("%s %s %s %s", row->word, row->id, row->family,
-			      explain_word(row));
+	all = g_strdup_printf("%s %s %s %s %s %s", row->word, row->id, row->family,
+			      words_explain(row), said(row->family), said(words_explain(row)));
 	fold = g_utf8_casefold(all, -1);
 	want = g_utf8_casefold(search, -1);
 	found = strstr(fold, want);

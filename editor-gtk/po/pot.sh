@@ -39,8 +39,11 @@ ${CC:-cc} -E -P -Iruntime "$work/rows.c" | sed 's/N_("")//g' \
 	>"$work/runtime/engine/catalog.def"
 sed -n 's/^#define [A-Z_]* *\(".*"\)$/N_(\1)/p' runtime/engine/model/convert.c \
 	>"$work/runtime/engine/model/convert.c"
+mkdir "$work/runtime/engine/text" # the family of a project's own blocks
+sed -n 's/.*\.family = \("[A-Za-z]*"\).*/N_(\1)/p' runtime/engine/text/read_words.c \
+	>"$work/runtime/engine/text/read_words.c"
 (cd "$work" && $take -L C -k -kN_ -o catalog.pot runtime/engine/catalog.def \
-	runtime/engine/model/convert.c)
+	runtime/engine/model/convert.c runtime/engine/text/read_words.c)
 
 # The date would differ each time, and nothing reads it.
 xgettext --from-code=UTF-8 --add-location=file --package-name=Rungboard -L PO -o - \
