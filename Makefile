@@ -289,7 +289,13 @@ $(BUILD)/schemas/gschemas.compiled: packaging/org.rungboard.Editor.gschema.xml
 all: $(if $(EDITOR),$(BUILD)/schemas/gschemas.compiled)
 editor-tests: $(EDITOR_TESTS) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
 	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
-.PHONY: editor-tests
+$(BUILD)/tests/bench/editor.o: CPPFLAGS += $(EDITOR_CPP)
+$(BUILD)/tests/bench/editor: $(BUILD)/tests/bench/editor.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+bench-editor: $(BUILD)/tests/bench/editor ## what the editor takes with 5,000 rungs, as a table
+	@perl tests/bench/programs.pl mixed 5000 >$(BUILD)/bench-editor.rung
+	@tests/editor/display $< $(BUILD)/bench-editor.rung
+.PHONY: editor-tests bench-editor
 # ---- end of the editor ----
 
 # ---- golden cases ----
