@@ -15,6 +15,7 @@ struct _LadderEntryPopup {
 	struct entry_popup_calls calls;
 	GPtrArray *lines;   /* of char *, by row                               */
 	bool filling;       /* the line is changed by us                       */
+	guint asking;       /* soon asks what could be meant                   */
 };
 
 G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
@@ -73,6 +74,7 @@ void ladder_entry_popup_ask(LadderEntryPopup *popup)
 	bool good = true;
 	char *told;
 
+	g_clear_handle_id(&popup->asking, g_source_remove);
 	clear_rows(popup);
 	told = popup->calls.changed(popup->calls.context, line_of(popup),
 				    gtk_editable_get_position(GTK_EDITABLE(popup->line)),
@@ -87,9 +89,28 @@ void ladder_entry_popup_ask(LadderEntryPopup *popup)
 	g_free(told);
 }
 
+static gboolean ask_now(gpointer data)
+{
+	LadderEntryPopup *popup = data;
+
+	popup->asking = 0;
+	ladder_entry_popup_ask(popup);
+	return G_SOURCE_REMOVE;
+}
+
+/* The letter is seen first: among thousands of symbols the list takes longer. */
 static void changed(LadderEntryPopup *popup)
 {
-	if (!popup->filling)
+	if (popup->filling)
+		return;
+	gtk_list_box_unselect_all(GTK_LIST_BOX(popup->list));
+	if (!popup->asking)
+		popup->asking = g_idle_add(ask_now, popup);
+}
+
+static void ask_if_due(LadderEntryPopup *popup)
+{
+	if (popup->asking)
 		ladder_entry_popup_ask(popup);
 }
 
@@ -131,6 +152,8 @@ static void row_activated(LadderEntryPopup *popup, GtkListBoxRow *row)
 
 static void choose(LadderEntryPopup *popup, int by)
 {
+	ask_if_due(popup);
+
 	const int count = (int)popup->lines->len;
 	const int to = CLAMP(chosen(popup) + by, -1, count - 1);
 	GtkListBoxRow *row = to < 0 ? NULL :
@@ -160,6 +183,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 		choose(popup, -1);
 		return TRUE;
 	case GDK_KEY_Tab:
+		ask_if_due(popup);
 		if (popup->lines->len == 0)
 			return TRUE;
 		set_line(popup, popup->lines->pdata[MAX(chosen(popup), 0)]);
@@ -177,12 +201,14 @@ static void closed(LadderEntryPopup *popup)
 	void (*gone)(void *) = popup->calls.gone;
 
 	popup->calls.gone = NULL;
+	g_clear_handle_id(&popup->asking, g_source_remove);
 	if (gone)
 		gone(popup->calls.context);
 }
 
 static void ladder_entry_popup_finalize(GObject *object)
 {
+	g_clear_handle_id(&LADDER_ENTRY_POPUP(object)->asking, g_source_remove);
 	g_ptr_array_unref(LADDER_ENTRY_POPUP(object)->lines);
 	G_OBJECT_CLASS(ladder_entry_popup_parent_class)->finalize(object);
 }

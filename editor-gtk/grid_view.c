@@ -82,7 +82,9 @@ static void ladder_grid_view_size_allocate(GtkWidget *widget, int width, int hei
 	strips_lay_out(view, height);
 	configure(view->adjustment[0], strips_width(view) * view->zoom, width);
 	configure(view->adjustment[1], (strips_height(view) + BELOW) * view->zoom, height);
-	cells_update(view);
+	if (height != view->cells_height)
+		cells_later(view);
+	view->cells_height = height;
 	cells_allocate(view);
 	entry_allocate(view);
 	view->allocating = false;
@@ -103,6 +105,7 @@ static void ladder_grid_view_measure(GtkWidget *widget, GtkOrientation orientati
 
 static void scrolled(LadderGridView *view)
 {
+	cells_later(view);
 	if (!view->allocating)
 		gtk_widget_queue_allocate(GTK_WIDGET(view));
 	gtk_widget_queue_draw(GTK_WIDGET(view));

@@ -3,7 +3,8 @@
  * grid_view_cells - the sheet as people hear it: a child for each element that is seen.
  *
  * GTK 4.8 makes only widgets accessible, so there is one that draws nothing for each
- * element of the rungs on the screen. The one at the cursor is told as selected.
+ * element of the rungs on the screen. The one at the cursor is told as selected. They
+ * follow when nothing else is to be done, never while the window is laid out.
  */
 #include "editor-gtk/grid_view_inside.h"
 
@@ -133,7 +134,7 @@ static void drop_from(LadderGridView *view, guint from)
 	g_array_set_size(view->cells, from);
 }
 
-void cells_update(LadderGridView *view)
+static void cells_update(LadderGridView *view)
 {
 	const double zoom = view->zoom;
 	const double top = gtk_adjustment_get_value(view->adjustment[1]) / zoom;
@@ -150,12 +151,41 @@ void cells_update(LadderGridView *view)
 	drop_from(view, used);
 }
 
+static gboolean update_now(gpointer data)
+{
+	LadderGridView *view = data;
+
+	view->cells_idle = 0;
+	cells_update(view);
+	gtk_widget_queue_allocate(GTK_WIDGET(view));
+	return G_SOURCE_REMOVE;
+}
+
+void cells_later(LadderGridView *view)
+{
+	if (!view->cells_idle)
+		view->cells_idle = g_idle_add(update_now, view);
+}
+
+/* It may be older than the rungs: until cells_update() it is not looked at. */
+static bool is_there(LadderGridView *view, const struct cell_widget *cell)
+{
+	const struct rung *shown = sheet_rung(view, cell->rung);
+
+	return shown && cell->rung < (int)view->strips->len && cell->row < shown->rows &&
+	       cell->col < shown->cols;
+}
+
 void cells_allocate(LadderGridView *view)
 {
 	const float zoom = (float)view->zoom;
 
 	for (guint i = 0; i < view->cells->len; i++) {
 		const struct cell_widget *cell = cell_of(view, i);
+
+		if (!is_there(view, cell))
+			continue;
+
 		struct strip *strip = strips_get(view, cell->rung);
 		const int column = rung_layout_column(strip->layout, cell->row, cell->col);
 		graphene_rect_t rect = rung_layout_cell(strip->layout, cell->row, column);
@@ -176,7 +206,7 @@ void cells_allocate(LadderGridView *view)
 
 static void cursor_moved(LadderGridView *view)
 {
-	gtk_widget_queue_allocate(GTK_WIDGET(view));
+	cells_later(view);
 }
 
 void cells_init(LadderGridView *view)
@@ -188,5 +218,6 @@ void cells_init(LadderGridView *view)
 
 void cells_clear(LadderGridView *view)
 {
+	g_clear_handle_id(&view->cells_idle, g_source_remove);
 	drop_from(view, 0);
 }

@@ -59,6 +59,8 @@ struct _LadderGridView {
 	gulong scrolled[2];
 	GtkScrollablePolicy policy[2];
 	GArray *cells;              /* of struct cell_widget                   */
+	guint cells_idle;
+	int cells_height;           /* of the sheet, when they were made       */
 	GtkWidget *entry;           /* the popup, while it is there            */
 	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
 	double press_x, press_y;
@@ -161,8 +163,8 @@ void mouse_init(LadderGridView *view);
 /* ---- grid_view_cells.c ---- */
 void cells_init(LadderGridView *view);
 void cells_clear(LadderGridView *view);
-/** cells_update - widgets for the elements that are seen, named as they are. */
-void cells_update(LadderGridView *view);
+/** cells_later - soon there are widgets for the elements that are seen. */
+void cells_later(LadderGridView *view);
 /** cells_allocate - puts them where their cells are. */
 void cells_allocate(LadderGridView *view);
 

@@ -93,6 +93,7 @@ static gboolean resize_now(gpointer data)
 	LadderGridView *view = data;
 
 	view->resize = 0;
+	cells_later(view);
 	gtk_widget_queue_resize(GTK_WIDGET(view));
 	return G_SOURCE_REMOVE;
 }
