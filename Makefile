@@ -235,9 +235,6 @@ $(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(BUILD)
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 $(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
-bench-editor: $(EDITOR_BENCH) ## what drawing 5,000 rungs costs
-	@$<
-.PHONY: bench-editor
 else
 all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
@@ -292,9 +289,10 @@ editor-tests: $(EDITOR_TESTS) $(BUILD)/ladder all ## the editor's tests: without
 $(BUILD)/tests/bench/editor.o: CPPFLAGS += $(EDITOR_CPP)
 $(BUILD)/tests/bench/editor: $(BUILD)/tests/bench/editor.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
-bench-editor: $(BUILD)/tests/bench/editor ## what the editor takes with 5,000 rungs, as a table
+bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## what drawing 5,000 rungs costs, and the whole editor with them
 	@perl tests/bench/programs.pl mixed 5000 >$(BUILD)/bench-editor.rung
-	@tests/editor/display $< $(BUILD)/bench-editor.rung
+	@$(EDITOR_BENCH)
+	@tests/editor/display $< $(BUILD)/bench-editor.rung 2>/dev/null
 .PHONY: editor-tests bench-editor
 # ---- end of the editor ----
 

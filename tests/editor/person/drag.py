@@ -34,8 +34,7 @@ def elements(screen):
     """an element is dragged into another rung, and back by undo"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
-    editor.click(editor.grid(80, 1))
-    editor.says('column B')
+    until(lambda: len(editor.cells()) == 5, 'the sheet')
     editor.drag(editor.grid(80, 1), editor.grid(80 + 119, 1))
     until(lambda: any('Rung 2' in name and 'Stop' in name for name in editor.cells()), 'Stop in rung 2')
     editor.shot('drag-element')
@@ -50,6 +49,7 @@ def rungs(screen):
     """a rung is dragged by its number before another"""
     path = new_file(screen, PROJECT)
     editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 5, 'the sheet')
     x, y = editor.grid(60, 0)
     editor.drag((x - 85, y + 119), (x - 85, y))
     until(lambda: any('Rung 1' in name and 'Lamp' in name for name in editor.cells()), 'the other order')
