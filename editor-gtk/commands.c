@@ -147,18 +147,30 @@ void commands_show(LadderWindow *window)
 
 /* ---- all keys ---- */
 
+#define KEYS_HIGH 13 /* of a column: more would not fit a screen of 768 lines */
+
+static void append_title(GString *ui, const char *title)
+{
+	g_string_append_printf(ui, "<child><object class='GtkShortcutsGroup'>"
+			       "<property name='title'>%s</property>", title);
+}
+
 static void append_group(GString *ui, enum verb_group group)
 {
 	char *title = g_markup_escape_text(_(verb_group_label(group)), -1);
+	int count = 0;
 
-	g_string_append_printf(ui, "<child><object class='GtkShortcutsGroup'>"
-			       "<property name='title'>%s</property>", title);
+	append_title(ui, title);
 	for (int i = 0; i < VERB_COUNT; i++) {
 		const struct verb_row *row = verb_row((enum verb)i);
 		char **keys, *all, *keys_text, *label;
 
 		if (row->group != group || !row->keys[0])
 			continue;
+		if (++count % KEYS_HIGH == 0) {
+			g_string_append(ui, "</object></child>");
+			append_title(ui, title);
+		}
 		keys = g_strsplit(row->keys, "|", -1);
 		all = g_strjoinv(" ", keys);
 		keys_text = g_markup_escape_text(all, -1);
@@ -182,7 +194,7 @@ void keys_show(LadderWindow *window)
 		"<property name='modal'>1</property><child>"
 		"<object class='GtkShortcutsSection'>"
 		"<property name='section-name'>all</property>"
-		"<property name='max-height'>18</property>");
+		"<property name='max-height'>14</property>");
 	GtkBuilder *builder;
 	GtkWindow *keys;
 

@@ -39,10 +39,14 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
 	GtkWidget *list_row = gtk_list_box_row_new();
 	GtkWidget *note = column(row->note, "dim-label", 18);
+	GtkWidget *text = column(row->text, "heading", 14);
 	char *name = g_strdup_printf("%s, %s %s %s", row->text, row->kind, row->address,
 				     row->note);
 
-	gtk_box_append(GTK_BOX(box), column(row->text, "heading", 14));
+	gtk_label_set_max_width_chars(GTK_LABEL(text), 14);
+	gtk_label_set_max_width_chars(GTK_LABEL(note), 44);
+	gtk_widget_set_tooltip_text(box, name);
+	gtk_box_append(GTK_BOX(box), text);
 	gtk_box_append(GTK_BOX(box), column(row->address, "monospace", 8));
 	gtk_widget_set_hexpand(note, TRUE);
 	gtk_box_append(GTK_BOX(box), note);
@@ -237,6 +241,8 @@ static void ladder_entry_popup_init(LadderEntryPopup *popup)
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(popup->scroller), popup->list);
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(popup->scroller),
 				       GTK_POLICY_NEVER, GTK_POLICY_AUTOMATIC);
+	gtk_scrolled_window_set_propagate_natural_width(
+		GTK_SCROLLED_WINDOW(popup->scroller), TRUE);
 	gtk_scrolled_window_set_max_content_height(
 		GTK_SCROLLED_WINDOW(popup->scroller), LIST_HEIGHT);
 	gtk_scrolled_window_set_propagate_natural_height(

@@ -30,12 +30,22 @@ static void log_free(gpointer pointer)
 	g_free(log);
 }
 
+/* Columns by pixels: how wide a letter is differs. */
+static void set_tabs(GtkTextView *text)
+{
+	PangoTabArray *tabs = pango_tab_array_new_with_positions(2, TRUE,
+		PANGO_TAB_LEFT, 84, PANGO_TAB_LEFT, 190);
+
+	gtk_text_view_set_tabs(text, tabs);
+	pango_tab_array_free(tabs);
+}
+
 static void put(struct log *log, const char *kind, const char *what)
 {
 	GtkTextBuffer *buffer = gtk_text_view_get_buffer(log->text);
 	GDateTime *now = g_date_time_new_now_local();
 	char *time = g_date_time_format(now, "%H:%M:%S");
-	char *line = g_strdup_printf("%s  %-10s %s\n", time, kind, what);
+	char *line = g_strdup_printf("%s\t%s\t%s\n", time, kind, what);
 	GtkTextIter end, second;
 
 	gtk_text_buffer_get_end_iter(buffer, &end);
@@ -91,6 +101,7 @@ GtkWidget *ladder_log_view_new(LadderDocument *document)
 	*log = (struct log){ g_object_ref(document), GTK_TEXT_VIEW(text), -1, -1, true, NULL };
 	gtk_text_view_set_editable(log->text, FALSE);
 	gtk_text_view_set_monospace(log->text, TRUE);
+	set_tabs(log->text);
 	gtk_text_view_set_left_margin(log->text, 14);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(text),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Log"), -1);

@@ -297,6 +297,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 	(void)factory;
 	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(expander), list_row);
 	gtk_label_set_text(GTK_LABEL(text), row->text);
+	gtk_widget_set_tooltip_text(text, row->text);
 	gtk_label_set_text(GTK_LABEL(note), row->note ? row->note : "");
 	g_object_unref(row);
 }
