@@ -155,6 +155,19 @@ static void append_title(GString *ui, const char *title)
 			       "<property name='title'>%s</property>", title);
 }
 
+/* As the shortcuts window wants them; those of the number pad are the same again. */
+static char *keys_shown(const char *text)
+{
+	char **keys = g_strsplit(text, "|", -1);
+	GString *out = g_string_new(keys[0]);
+
+	for (int i = 1; keys[i]; i++)
+		if (!strstr(keys[i], "KP_"))
+			g_string_append_printf(out, " %s", keys[i]);
+	g_strfreev(keys);
+	return g_string_free(out, FALSE);
+}
+
 static void append_group(GString *ui, enum verb_group group)
 {
 	char *title = g_markup_escape_text(_(verb_group_label(group)), -1);
@@ -163,7 +176,7 @@ static void append_group(GString *ui, enum verb_group group)
 	append_title(ui, title);
 	for (int i = 0; i < VERB_COUNT; i++) {
 		const struct verb_row *row = verb_row((enum verb)i);
-		char **keys, *all, *keys_text, *label;
+		char *all, *keys_text, *label;
 
 		if (row->group != group || !row->keys[0])
 			continue;
@@ -171,15 +184,13 @@ static void append_group(GString *ui, enum verb_group group)
 			g_string_append(ui, "</object></child>");
 			append_title(ui, title);
 		}
-		keys = g_strsplit(row->keys, "|", -1);
-		all = g_strjoinv(" ", keys);
+		all = keys_shown(row->keys);
 		keys_text = g_markup_escape_text(all, -1);
 		label = g_markup_escape_text(_(row->label), -1);
 		g_string_append_printf(ui, "<child><object class='GtkShortcutsShortcut'>"
 			"<property name='accelerator'>%s</property>"
 			"<property name='title'>%s</property></object></child>",
 			keys_text, label);
-		g_strfreev(keys);
 		g_free(all);
 		g_free(keys_text);
 		g_free(label);

@@ -116,6 +116,22 @@ static int by_tone(gconstpointer left, gconstpointer right, gpointer unused)
 	       a->tone < b->tone ? GTK_ORDERING_LARGER : GTK_ORDERING_EQUAL;
 }
 
+#define HEADING_ROOM 24 /* padding of a heading, and the arrow of sorting */
+
+/* The width of a column, or more if its heading needs more in some language. */
+static int wide_enough(GtkWidget *view, const char *name, int width)
+{
+	PangoLayout *layout = gtk_widget_create_pango_layout(view, NULL);
+	char *bold = g_markup_printf_escaped("<b>%s</b>", name);
+	int heading;
+
+	pango_layout_set_markup(layout, bold, -1);
+	pango_layout_get_pixel_size(layout, &heading, NULL);
+	g_free(bold);
+	g_object_unref(layout);
+	return MAX(width, heading + HEADING_ROOM);
+}
+
 GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, int text,
 				    unsigned int flags, int width,
 				    GtkListItemFactory *factory)
@@ -128,7 +144,8 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 	gtk_column_view_column_set_expand(column, flags & PANEL_EXPAND);
 	gtk_column_view_column_set_resizable(column, !(flags & PANEL_ICON));
 	if (width)
-		gtk_column_view_column_set_fixed_width(column, width);
+		gtk_column_view_column_set_fixed_width(column,
+			wide_enough(GTK_WIDGET(list->view), name, width));
 	gtk_column_view_append_column(list->view, column);
 	g_object_unref(sorter);
 	g_object_unref(column);
