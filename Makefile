@@ -261,6 +261,12 @@ po: pot ## bring new texts into editor-gtk/po/*.po
 	@for l in $$(cat editor-gtk/po/LINGUAS); do msgmerge -q -U -N --backup=none --add-location=file editor-gtk/po/$$l.po $(BUILD)/rungboard.pot && \
 	  msgattrib --no-obsolete --add-location=file -o editor-gtk/po/$$l.po editor-gtk/po/$$l.po && echo "$$l: $$(msgfmt --statistics -o /dev/null editor-gtk/po/$$l.po 2>&1)" || exit 1; done
 .PHONY: pot po
+ifneq ($(EDITOR),)
+$(BUILD)/man/ladder-editor.1: $(BUILD)/ladder-editor
+	@mkdir -p $(@D)
+	@LC_ALL=C.UTF-8 $< --man >$@
+man: $(BUILD)/man/ladder-editor.1
+endif
 # What a desktop needs to find it.
 install: $(if $(EDITOR),install-editor)
 appdir = $(DESTDIR)$(prefix)/share

@@ -8,8 +8,9 @@
 
 #include "editor-gtk/draft.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/preferences.h"
 #include "editor-gtk/render.h"
-#include "editor-gtk/settings.h"
+#include "editor-gtk/usage.h"
 
 #include <gtksourceview/gtksource.h>
 #include <locale.h>
@@ -178,23 +179,11 @@ static void add_style(void)
 	g_object_unref(css);
 }
 
-static void set_appearance(void)
-{
-	static const AdwColorScheme schemes[] = {
-		ADW_COLOR_SCHEME_DEFAULT, ADW_COLOR_SCHEME_FORCE_LIGHT,
-		ADW_COLOR_SCHEME_FORCE_DARK,
-	};
-
-	adw_style_manager_set_color_scheme(adw_style_manager_get_default(),
-		schemes[CLAMP(settings_enum("appearance", 0), 0, 2)]);
-}
-
 static void startup(GtkApplication *application)
 {
 	gtk_source_init();
 	add_style();
-	set_appearance();
-	verbs_set_keys(application);
+	preferences_follow(ADW_APPLICATION(application));
 	gtk_window_set_default_icon_name(APP_ID);
 }
 
@@ -254,6 +243,8 @@ int app_run(int argc, char **argv)
 	signal(SIGXFSZ, SIG_IGN);
 	if (is_render(argc, argv))
 		return render_main(argc, argv);
+	if (usage_main(argc, argv, &status))
+		return status;
 	application = adw_application_new(APP_ID,
 		G_APPLICATION_HANDLES_OPEN | G_APPLICATION_NON_UNIQUE);
 	g_application_set_option_context_parameter_string(G_APPLICATION(application),

@@ -178,13 +178,13 @@ static void append_group(GString *ui, enum verb_group group)
 		const struct verb_row *row = verb_row((enum verb)i);
 		char *all, *keys_text, *label;
 
-		if (row->group != group || !row->keys[0])
+		if (row->group != group || !verb_keys((enum verb)i)[0])
 			continue;
 		if (++count % KEYS_HIGH == 0) {
 			g_string_append(ui, "</object></child>");
 			append_title(ui, title);
 		}
-		all = keys_shown(row->keys);
+		all = keys_shown(verb_keys((enum verb)i));
 		keys_text = g_markup_escape_text(all, -1);
 		label = g_markup_escape_text(_(row->label), -1);
 		g_string_append_printf(ui, "<child><object class='GtkShortcutsShortcut'>"

@@ -159,7 +159,7 @@ static void ladder_grid_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 	LadderGridView *view = LADDER_GRID_VIEW(widget);
 	const struct theme *theme = theme_get(
 		adw_style_manager_get_dark(adw_style_manager_get_default()) ?
-		THEME_DARK : THEME_LIGHT, THEME_GREEN);
+		THEME_DARK : THEME_LIGHT, THEME_GREEN); /* its ground has no power */
 	const float width = (float)gtk_widget_get_width(widget);
 	const float height = (float)gtk_widget_get_height(widget);
 
@@ -325,6 +325,8 @@ static void add_keys(LadderGridView *view)
 	g_signal_connect(view->input, "commit", G_CALLBACK(key_composed), view);
 	g_signal_connect(view, "notify::has-focus", G_CALLBACK(focus_changed), NULL);
 	gtk_widget_add_controller(GTK_WIDGET(view), keys);
+	/* Those of verbs come before the letters that begin an entry. */
+	gtk_widget_add_controller(GTK_WIDGET(view), verbs_controller());
 }
 
 /* ---- from outside ---- */
@@ -507,7 +509,6 @@ static void ladder_grid_view_class_init(LadderGridViewClass *class)
 		G_TYPE_NONE, 1, G_TYPE_STRING);
 	signals[ZOOM_CHANGED] = g_signal_new("zoom-changed", type, G_SIGNAL_RUN_LAST, 0,
 		NULL, NULL, NULL, G_TYPE_NONE, 0);
-	verbs_add_shortcuts(widget);
 	gtk_widget_class_set_css_name(widget, "sheet");
 	gtk_widget_class_set_accessible_role(widget, GTK_ACCESSIBLE_ROLE_GRID);
 }

@@ -9,6 +9,8 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include "editor-gtk/settings.h"
+
 #include <adwaita.h>
 
 #define TITLE_GUESS  32 /* px above the first row of a rung                    */
@@ -24,11 +26,12 @@ static const struct theme *theme_of(void)
 {
 	AdwStyleManager *manager = adw_style_manager_get_default();
 	const bool dark = adw_style_manager_get_dark(manager);
+	const enum theme_power power = (enum theme_power)settings_enum("power", THEME_GREEN);
 
 	if (adw_style_manager_get_high_contrast(manager))
 		return theme_get(dark ? THEME_CONTRAST_DARK : THEME_CONTRAST,
-				 THEME_GREEN);
-	return theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
+				 power);
+	return theme_get(dark ? THEME_DARK : THEME_LIGHT, power);
 }
 
 /* ---- what is remembered ---- */
@@ -410,6 +413,11 @@ void strips_style(LadderGridView *view)
 	strips_redraw(view, -1);
 }
 
+static void show_chosen(LadderGridView *view)
+{
+	ladder_grid_view_set_show(view, (enum drafting_show)settings_enum("show", SHOW_BOTH));
+}
+
 void strips_init(LadderGridView *view)
 {
 	view->lettering = lettering_new(gtk_widget_get_pango_context(GTK_WIDGET(view)),
@@ -418,6 +426,12 @@ void strips_init(LadderGridView *view)
 				G_CALLBACK(strips_style), view, G_CONNECT_SWAPPED);
 	g_signal_connect_object(adw_style_manager_get_default(), "notify::high-contrast",
 				G_CALLBACK(strips_style), view, G_CONNECT_SWAPPED);
+	if (settings_get()) {
+		g_signal_connect_object(settings_get(), "changed::power",
+					G_CALLBACK(strips_style), view, G_CONNECT_SWAPPED);
+		g_signal_connect_object(settings_get(), "changed::show",
+					G_CALLBACK(show_chosen), view, G_CONNECT_SWAPPED);
+	}
 	g_signal_connect(view, "notify::has-focus", G_CALLBACK(strips_style), NULL);
 	strips_reset(view);
 }

@@ -6,6 +6,24 @@
 
 #define SCHEMA "org.rungboard.Editor"
 
+/* A program that was built and not installed finds it beside itself. */
+static GSettingsSchema *schema_of_build(void)
+{
+	char *self = g_file_read_link("/proc/self/exe", NULL);
+	char *folder = self ? g_path_get_dirname(self) : g_strdup(".");
+	char *schemas = g_build_filename(folder, "schemas", NULL);
+	GSettingsSchemaSource *source = g_settings_schema_source_new_from_directory(schemas,
+		g_settings_schema_source_get_default(), FALSE, NULL);
+	GSettingsSchema *schema = source ?
+		g_settings_schema_source_lookup(source, SCHEMA, FALSE) : NULL;
+
+	g_clear_pointer(&source, g_settings_schema_source_unref);
+	g_free(self);
+	g_free(folder);
+	g_free(schemas);
+	return schema;
+}
+
 GSettings *settings_get(void)
 {
 	static GSettings *settings;
@@ -15,6 +33,9 @@ GSettings *settings_get(void)
 		GSettingsSchemaSource *source = g_settings_schema_source_get_default();
 		GSettingsSchema *schema = source ?
 			g_settings_schema_source_lookup(source, SCHEMA, TRUE) : NULL;
+
+		if (!schema)
+			schema = schema_of_build();
 
 		if (schema) {
 			settings = g_settings_new_full(schema, NULL, NULL);

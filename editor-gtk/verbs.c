@@ -6,6 +6,8 @@
 
 #include "editor-gtk/i18n.h"
 
+#include "engine/base/catalog.h"
+
 #include <string.h>
 
 static const char *const ids[] = {
@@ -43,9 +45,86 @@ const char *verb_group_label(enum verb_group group)
 	return labels[group];
 }
 
-char *verb_keys_label(enum verb verb)
+/* ---- schemes ---- */
+
+struct key_row {
+	enum key_scheme scheme;
+	enum verb verb;    /* VERB_COUNT: a word                               */
+	const char *word;
+	const char *keys;
+};
+
+static const char *const schemes[] = {
+#define SCHEME(id, name) name,
+#include "editor-gtk/key_schemes.def"
+};
+static const struct key_row key_rows[] = {
+#define KEYS(scheme, verb, keys) { SCHEME_##scheme, VERB_##verb, NULL, keys },
+#define PUT(scheme, word, keys) { SCHEME_##scheme, VERB_COUNT, word, keys },
+#include "editor-gtk/key_schemes.def"
+};
+
+/* The keys that hold; only verbs_use_scheme() changes them. */
+static char *keys_now[VERB_COUNT];
+static enum key_scheme scheme_now;
+static GListStore *shortcuts; /* of sheets                                     */
+
+const char *key_scheme_name(enum key_scheme scheme)
 {
-	char **keys = g_strsplit(rows[verb].keys, "|", -1);
+	return schemes[scheme];
+}
+
+static bool same_key(const char *a, const char *b)
+{
+	guint key_a, key_b;
+	GdkModifierType state_a, state_b;
+
+	return gtk_accelerator_parse(a, &key_a, &state_a) &&
+	       gtk_accelerator_parse(b, &key_b, &state_b) && key_a == key_b &&
+	       state_a == state_b;
+}
+
+static bool is_given_away(enum key_scheme scheme, const char *key)
+{
+	bool found = false;
+
+	for (gsize i = 0; !found && i < G_N_ELEMENTS(key_rows); i++) {
+		char **keys;
+
+		if (key_rows[i].scheme != scheme)
+			continue;
+		keys = g_strsplit(key_rows[i].keys, "|", -1);
+		for (char **one = keys; *one; one++)
+			found = found || same_key(*one, key);
+		g_strfreev(keys);
+	}
+	return found;
+}
+
+char *verb_keys_of(enum verb verb, enum key_scheme scheme)
+{
+	GString *left = g_string_new(NULL);
+	char **keys;
+
+	for (gsize i = 0; i < G_N_ELEMENTS(key_rows); i++)
+		if (key_rows[i].scheme == scheme && key_rows[i].verb == verb)
+			return g_string_free(g_string_assign(left, key_rows[i].keys), FALSE);
+	keys = g_strsplit(rows[verb].keys, "|", -1);
+	for (char **key = keys; *key; key++)
+		if (**key && !is_given_away(scheme, *key))
+			g_string_append_printf(left, "%s%s", left->len ? "|" : "", *key);
+	g_strfreev(keys);
+	return g_string_free(left, FALSE);
+}
+
+const char *verb_keys(enum verb verb)
+{
+	return keys_now[verb] ? keys_now[verb] : rows[verb].keys;
+}
+
+char *keys_label(const char *text)
+{
+	char **keys = g_strsplit(text, "|", -1);
 	guint key = 0;
 	GdkModifierType modifiers = 0;
 	char *label = NULL;
@@ -56,33 +135,84 @@ char *verb_keys_label(enum verb verb)
 	return label ? label : g_strdup("");
 }
 
-void verbs_set_keys(GtkApplication *application)
+char *verb_keys_label(enum verb verb)
+{
+	return keys_label(verb_keys(verb));
+}
+
+bool key_scheme_put(enum key_scheme scheme, int index, const char **word,
+		    const char **keys)
+{
+	for (gsize i = 0; i < G_N_ELEMENTS(key_rows); i++) {
+		if (key_rows[i].scheme != scheme || !key_rows[i].word || index-- > 0)
+			continue;
+		*word = key_rows[i].word;
+		*keys = key_rows[i].keys;
+		return true;
+	}
+	return false;
+}
+
+/* ---- whom they are given ---- */
+
+static void add_shortcut(const char *keys, const char *action, GVariant *argument)
+{
+	GtkShortcutTrigger *trigger = gtk_shortcut_trigger_parse_string(keys);
+	GtkShortcut *shortcut;
+
+	g_assert(trigger);
+	shortcut = gtk_shortcut_new(trigger, gtk_named_action_new(action));
+	if (argument)
+		gtk_shortcut_set_arguments(shortcut, argument);
+	g_list_store_append(shortcuts, shortcut);
+	g_object_unref(shortcut);
+}
+
+static void fill_shortcuts(void)
+{
+	const char *word, *keys;
+
+	g_list_store_remove_all(shortcuts);
+	for (int i = 0; i < VERB_COUNT; i++)
+		if (rows[i].where == VERB_SHEET && verb_keys((enum verb)i)[0])
+			add_shortcut(verb_keys((enum verb)i), rows[i].action, NULL);
+	for (int i = 0; key_scheme_put(scheme_now, i, &word, &keys); i++)
+		add_shortcut(keys, "win.place",
+			     g_variant_new_int32((int)word_find(word, strlen(word))));
+}
+
+GtkEventController *verbs_controller(void)
+{
+	if (!shortcuts) {
+		shortcuts = g_list_store_new(GTK_TYPE_SHORTCUT);
+		fill_shortcuts();
+	}
+	return gtk_shortcut_controller_new_for_model(G_LIST_MODEL(shortcuts));
+}
+
+static void give_keys(GtkApplication *application)
 {
 	for (int i = 0; i < VERB_COUNT; i++) {
 		char **keys;
 
-		if (rows[i].where != VERB_WINDOW || !rows[i].keys[0])
+		if (rows[i].where != VERB_WINDOW)
 			continue;
-		keys = g_strsplit(rows[i].keys, "|", -1);
+		keys = g_strsplit(verb_keys((enum verb)i), "|", -1);
 		gtk_application_set_accels_for_action(application, rows[i].action,
 						      (const char *const *)keys);
 		g_strfreev(keys);
 	}
 }
 
-void verbs_add_shortcuts(GtkWidgetClass *class)
+void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme)
 {
+	scheme_now = scheme;
 	for (int i = 0; i < VERB_COUNT; i++) {
-		GtkShortcutTrigger *trigger;
-		GtkShortcut *shortcut;
-
-		if (rows[i].where != VERB_SHEET || !rows[i].keys[0])
-			continue;
-		trigger = gtk_shortcut_trigger_parse_string(rows[i].keys);
-		g_assert(trigger);
-		shortcut = gtk_shortcut_new(trigger,
-					    gtk_named_action_new(rows[i].action));
-		gtk_widget_class_add_shortcut(class, shortcut);
-		g_object_unref(shortcut);
+		g_free(keys_now[i]);
+		keys_now[i] = verb_keys_of((enum verb)i, scheme);
 	}
+	if (shortcuts)
+		fill_shortcuts();
+	if (application)
+		give_keys(application);
 }

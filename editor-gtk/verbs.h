@@ -36,11 +36,31 @@ const struct verb_row *verb_row(enum verb verb);
 enum verb verb_find(const char *action);
 /** verb_group_label - not translated. */
 const char *verb_group_label(enum verb_group group);
+/** verb_keys - that hold now, parted by |; "" for none. Borrowed until another scheme. */
+const char *verb_keys(enum verb verb);
+/** keys_label - the first one as people read it; "" of none. Caller frees. */
+char *keys_label(const char *keys);
 /** verb_keys_label - "Ctrl+S" as people read it; "" if it has none. Caller frees. */
 char *verb_keys_label(enum verb verb);
-/** verbs_set_keys - gives the application the keys of all WINDOW verbs. */
-void verbs_set_keys(GtkApplication *application);
-/** verbs_add_shortcuts - gives a class of widgets the keys of all SHEET verbs. */
-void verbs_add_shortcuts(GtkWidgetClass *class);
+
+/* Maps of keys, key_schemes.def. */
+enum key_scheme {
+#define SCHEME(id, name) SCHEME_##id,
+#include "editor-gtk/key_schemes.def"
+	KEY_SCHEMES
+};
+/** key_scheme_name - of the editor it is like; never translated. */
+const char *key_scheme_name(enum key_scheme scheme);
+/** verb_keys_of - in a scheme. Caller frees. */
+char *verb_keys_of(enum verb verb, enum key_scheme scheme);
+/** key_scheme_put - the word number @index that a scheme has keys for; false: none. */
+bool key_scheme_put(enum key_scheme scheme, int index, const char **word,
+		    const char **keys);
+/** verbs_use_scheme - from now on these keys hold, in all windows and sheets; @application
+ * NULL: there is none. */
+void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme);
+/** verbs_controller - the keys of all SHEET verbs, for a sheet; follows the scheme.
+ * Owns: the widget it is added to. */
+GtkEventController *verbs_controller(void);
 
 #endif

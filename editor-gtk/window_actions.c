@@ -8,6 +8,7 @@
 
 #include "editor-gtk/app.h"
 #include "editor-gtk/commands.h"
+#include "editor-gtk/preferences.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/settings.h"
 
@@ -184,6 +185,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_save_as: window_save_as(window); break;
 	case VERB_print: window_print(window); break;
 	case VERB_export_pdf: window_export_pdf(window); break;
+	case VERB_preferences: preferences_show(window); break;
 	case VERB_close: gtk_window_close(GTK_WINDOW(window)); break;
 	case VERB_undo: do_undo(window); break;
 	case VERB_redo: do_redo(window); break;

@@ -63,4 +63,25 @@ def in_parallel(screen):
     check(path)
 
 
-main([a_list, in_parallel])
+def other_keys(screen):
+    """keys of another editor, chosen in the preferences, hold at once"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+comma')
+    editor.click(editor.find('Keys as in', 'list item'))
+    editor.shot('preferences')
+    editor.click(editor.find('LDmicro', 'list item'))
+    editor.keys('Escape')
+    until(lambda: not editor.all('Keys as in'), 'the preferences to be gone')
+    editor.keys('c')
+    editor.opened()
+    editor.entry('Start')
+    editor.keys('l')
+    editor.opened()
+    editor.entry('Motor')
+    editor.keys('Home', 'n')
+    text = editor.save(path)
+    assert '| NC Start | COIL Motor |' in text, text
+
+
+main([a_list, in_parallel, other_keys])

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_keys - the maps of keys: every key is one, none does two things, every word that is
+ * put exists. What they do is told by the tests of a person's work.
+ */
+#include "editor-gtk/verbs.h"
+#include "engine/base/catalog.h"
+#include "tests/tap.h"
+
+#include <string.h>
+
+/* Key and modifiers as a text, for a set. */
+static char *normal(const char *key)
+{
+	guint value = 0;
+	GdkModifierType state = 0;
+
+	return gtk_accelerator_parse(key, &value, &state) && value ?
+	       g_strdup_printf("%u %u", value, (unsigned)state) : NULL;
+}
+
+static bool takes(GHashTable *taken, const char *keys, const char *what)
+{
+	char **each = g_strsplit(keys, "|", -1);
+	bool good = true;
+
+	for (char **key = each; *key && **key; key++) {
+		char *name = normal(*key);
+		const char *other = name ? g_hash_table_lookup(taken, name) : NULL;
+
+		if (!name || other) {
+			printf("# %s of %s: %s\n", *key, what, other ? other : "no key");
+			good = false;
+		}
+		if (name)
+			g_hash_table_insert(taken, name, (gpointer)what);
+	}
+	g_strfreev(each);
+	return good;
+}
+
+static void test_scheme(enum key_scheme scheme)
+{
+	GHashTable *taken = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+	bool alone = true, known = true;
+	const char *word, *keys;
+
+	for (int i = 0; i < VERB_COUNT; i++) {
+		char *of = verb_keys_of((enum verb)i, scheme);
+
+		alone = takes(taken, of, verb_row((enum verb)i)->action) && alone;
+		g_free(of);
+	}
+	for (int i = 0; key_scheme_put(scheme, i, &word, &keys); i++) {
+		alone = takes(taken, keys, word) && alone;
+		known = known && word_find(word, strlen(word)) != WORD_COUNT;
+	}
+	CHECK_AS(alone, key_scheme_name(scheme));
+	CHECK_AS(known, "its words are words");
+	g_hash_table_unref(taken);
+}
+
+int main(void)
+{
+	char *label;
+
+	for (int i = 0; i < KEY_SCHEMES; i++)
+		test_scheme((enum key_scheme)i);
+	CHECK_TEXT(verb_keys(VERB_contact), "F5");
+	verbs_use_scheme(NULL, SCHEME_MICROWIN);
+	CHECK_TEXT(verb_keys(VERB_contact), "F4");
+	CHECK_AS(strcmp(verb_keys(VERB_side), "") == 0, "its key went to the contact");
+	CHECK_TEXT(verb_keys(VERB_redo), "<Control><Shift>z");
+	label = verb_keys_label(VERB_block);
+	CHECK_TEXT(label, "F9");
+	g_free(label);
+	verbs_use_scheme(NULL, SCHEME_RUNGBOARD);
+	CHECK_TEXT(verb_keys(VERB_contact), "F5");
+	return tap_done();
+}
