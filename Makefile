@@ -290,6 +290,9 @@ $(BUILD)/schemas/gschemas.compiled: packaging/org.rungboard.Editor.gschema.xml
 	@mkdir -p $(@D)
 	glib-compile-schemas --strict --targetdir=$(@D) packaging
 all: $(if $(EDITOR),$(BUILD)/schemas/gschemas.compiled)
+screenshots: $(BUILD)/ladder-editor $(BUILD)/schemas/gschemas.compiled ## docs/editor.png anew: the window with the garage door
+	BUILD=$(BUILD) tests/editor/screenshot.py docs/editor.png
+.PHONY: screenshots
 editor-tests: $(EDITOR_TESTS) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
 	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
 $(BUILD)/tests/bench/editor.o: CPPFLAGS += $(EDITOR_CPP)

@@ -89,6 +89,16 @@ static void name_button(GtkButton *button, const char *verb, const char *step)
 	g_free(text);
 }
 
+/* "~/ladders/door.rung". Caller frees. */
+static char *short_path(const char *path)
+{
+	const char *home = g_get_home_dir();
+	const gsize len = strlen(home);
+
+	return len > 1 && g_str_has_prefix(path, home) && path[len] == G_DIR_SEPARATOR ?
+	       g_strdup_printf("~%s", path + len) : g_strdup(path);
+}
+
 void window_show_state(LadderWindow *window)
 {
 	LadderDocument *document = window->document;
@@ -100,7 +110,10 @@ void window_show_state(LadderWindow *window)
 		ladder_document_is_saved(document) ? "" : "• ", name);
 
 	adw_window_title_set_title(window->title, title);
-	adw_window_title_set_subtitle(window->title, path ? path : _("not saved yet"));
+	char *place = path ? short_path(path) : g_strdup(_("not saved yet"));
+
+	adw_window_title_set_subtitle(window->title, place);
+	g_free(place);
 	gtk_window_set_title(GTK_WINDOW(window), title);
 	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.undo", undo != NULL);
 	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.redo", redo != NULL);

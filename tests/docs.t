@@ -114,6 +114,8 @@ sub check_console {
 	}
 	ok(@steps > 0, "$where: has commands");
 	for my $step (@steps) {
+		# Machines without GTK have no editor.
+		next if $step->{command} =~ /^ladder-editor\b/ && !-x "$build/ladder-editor";
 		my ($text, undef, $signal) = run_in($folder, $step->{command});
 		$text =~ s/[ \t]+$//mg;
 		ok($signal == 0 && $text =~ pattern_of($step->{shown}),
