@@ -30,7 +30,8 @@ PATIENCE = 60  # seconds until what must come did not; no test waits for it in v
 GLib = Gio = None
 ended = []  # what is to be done when a test is over
 BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
-ROLES = {'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'push button': 43,
+ROLES = {'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
+         'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'push button': 43,
          'table': 55, 'table cell': 56, 'text': 61, 'toggle button': 62, 'entry': 79}
 LEAVES = {29, 61}  # roles of what has nothing in it
 A11Y = 'org.a11y.atspi.'
@@ -285,8 +286,18 @@ class Editor:
         _, _, width, height = frame.box()
         x = int(about['Absolute upper-left X']) + (int(about['Width']) - width) // 2
         y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height) // 2
-        left, top, width, height = node.box()
+        left, top, width, height = self.at_rest(node)
         return x + left, y + top, width, height
+
+    @staticmethod
+    def at_rest(node):
+        """Where it is once it has come there: what was just made still moves."""
+        seen = []
+
+        def look():
+            seen.append(node.box())
+            return len(seen) > 1 and seen[-1] == seen[-2] and seen[-1][2] > 0 and seen[-1]
+        return until(look, '"%s" to be at rest' % node.name)
 
     def centre(self, node):
         x, y, width, height = self.place(node)
@@ -447,3 +458,12 @@ def run(number, test):
 
 def main(tests):
     sys.exit(report(tests))
+
+
+if __name__ == '__main__':  # desk.py COMMAND...: runs a command at a desk of its own
+    if missing():
+        sys.exit('needs ' + missing())
+    desk = Screen()
+    status = subprocess.run(sys.argv[1:]).returncode
+    desk.close()
+    sys.exit(status)
