@@ -68,7 +68,7 @@ def other_keys(screen):
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.keys('ctrl+comma')
-    editor.find('Keys as in', 'combo box')
+    editor.find('Keys as in')
     editor.keys('Tab', 'Tab', 'Tab', 'Return', 'Down', 'Down', 'Down')
     editor.shot('preferences')
     editor.keys('Return', 'Escape')
