@@ -8,13 +8,13 @@
 
 #include "editor-gtk/draft.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/memory.h"
 #include "editor-gtk/preferences.h"
 #include "editor-gtk/render.h"
 #include "editor-gtk/usage.h"
 
 #include <gtksourceview/gtksource.h>
 #include <locale.h>
-#include <malloc.h>
 #include <signal.h>
 #include <string.h>
 
@@ -235,10 +235,7 @@ int app_run(int argc, char **argv)
 	int status;
 
 	set_language();
-#ifdef __GLIBC__
-	/* What projects take is given back when they are freed, not kept in holes. */
-	mallopt(M_MMAP_THRESHOLD, 256 * 1024);
-#endif
+	memory_give_back_large();
 	/* A limit on the size of files is told like a full disk. */
 	signal(SIGXFSZ, SIG_IGN);
 	if (is_render(argc, argv))

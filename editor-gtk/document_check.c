@@ -6,8 +6,8 @@
  * project. One thread at a time; a change meanwhile asks for another round.
  */
 #include "editor-gtk/document_inside.h"
+#include "editor-gtk/memory.h"
 
-#include <malloc.h>
 #include <string.h>
 
 #define CHECK_DELAY_MS 120 /* after the last change                            */
@@ -55,9 +55,7 @@ static void check_take(LadderDocument *document, struct check *check)
 	document->checked_version = check->version;
 	document->diags = *ladder_diags(document->checked);
 	document_tell_checked(document);
-#ifdef __GLIBC__
-	malloc_trim(0); /* the copy before it was tens of megabytes of a large one */
-#endif
+	memory_give_back(); /* the copy before it was tens of megabytes of a large one */
 }
 
 static void check_thread(GTask *task, gpointer source, gpointer data,

@@ -11,7 +11,8 @@ flags='-std=c11 -I. -Iruntime -Itests -D_POSIX_C_SOURCE=200809L -Wall -Wextra -W
 # The editor, where its libraries are; their headers are not ours to judge.
 editor() { # compiler
 	gtk=$(pkg-config --cflags gtk4 libadwaita-1 gtksourceview-5 2>/dev/null) || return 0
-	# shellcheck disable=SC2086
+	# Their words are meant to be split.
+	# shellcheck disable=SC2046,SC2086
 	find editor-gtk tests/editor tests/bench/editor*.c -name '*.c' -print0 |
 		xargs -0 -P 2 -n 8 "$1" $flags $(echo "$gtk" | sed 's/-I/-isystem /g') \
 			-DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='""' -DDATADIR='""'
