@@ -12,7 +12,7 @@
 
 G_DEFINE_FINAL_TYPE(LadderDocument, ladder_document, G_TYPE_OBJECT)
 
-enum { RUNGS_CHANGED, PROJECT_CHANGED, LIST_CHANGED, CHECKED, STATE_CHANGED, SIGNALS };
+enum { RUNGS_CHANGED, PROJECT_CHANGED, LIST_CHANGED, BOOKMARKS_CHANGED, CHECKED, STATE_CHANGED, SIGNALS };
 static guint signals[SIGNALS];
 
 static const char EMPTY_PROJECT[] =
@@ -218,6 +218,9 @@ static void apply(LadderDocument *document, const struct change *change, bool ba
 	case CHANGE_TEXT:
 		apply_text(document, change, from->pdata[0], to->pdata[0]);
 		break;
+	case CHANGE_VIEW:
+		document_apply_view(document, to->pdata[0]);
+		break;
 	case CHANGE_LIST:
 		document_apply_list(document, change->pou, to->pdata[0]);
 		break;
@@ -349,7 +352,10 @@ bool ladder_document_splice(LadderDocument *document, int pou, int at, int remov
 	for (int i = 0; i < inserted; i++)
 		rung_free(rungs[i]);
 	if (good && !same_texts(before, after)) {
+		ladder_document_begin(document, _("Edit rungs"), NULL);
 		document_record(document, change_new(CHANGE_RUNGS, pou, (gsize)at, before, after));
+		document_shift_bookmarks(document, pou, at, removed, inserted);
+		ladder_document_end(document);
 	} else {
 		g_ptr_array_unref(before);
 		g_ptr_array_unref(after);
@@ -367,16 +373,21 @@ bool ladder_document_move_rung(LadderDocument *document, int pou, int from, int 
 {
 	const struct project *project = ladder_document_project(document);
 	struct rung *copy;
+	char *view;
 	bool good;
 
 	if (!project || pou < 0 || pou >= project->pou_count || from < 0 || to < 0 ||
 	    from >= project->pou[pou].rung_count || to >= project->pou[pou].rung_count)
 		return false;
 	copy = rung_copy(project->pou[pou].rung[from]);
+	view = g_strdup(project_view(project));
 	ladder_document_begin(document, _("Move rung"), NULL);
 	good = ladder_document_splice(document, pou, from, 1, NULL, 0, NULL) &&
 	       ladder_document_splice(document, pou, to, 0, &copy, 1, NULL);
+	if (good)
+		document_move_bookmarks(document, pou, from, to, view);
 	ladder_document_end(document);
+	g_free(view);
 	return good;
 }
 
@@ -479,6 +490,8 @@ static void ladder_document_class_init(LadderDocumentClass *class)
 		NULL, NULL, G_TYPE_NONE, 0);
 	signals[LIST_CHANGED] = g_signal_new("list-changed", type, flags, 0, NULL,
 		NULL, NULL, G_TYPE_NONE, 1, G_TYPE_INT);
+	signals[BOOKMARKS_CHANGED] = g_signal_new("bookmarks-changed", type, flags, 0,
+		NULL, NULL, NULL, G_TYPE_NONE, 0);
 	signals[CHECKED] = g_signal_new("checked", type, flags, 0, NULL, NULL, NULL,
 		G_TYPE_NONE, 0);
 	signals[STATE_CHANGED] = g_signal_new("state-changed", type, flags, 0, NULL,

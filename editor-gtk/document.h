@@ -10,6 +10,7 @@
  *   rungs-changed (int pou, int at, int removed, int inserted)
  *   project-changed ()   anything may be another: names, POUs, all rungs
  *   list-changed (int pou)  the text of a list that cannot be read changed
+ *   bookmarks-changed ()
  *   checked ()           ladder_document_diags() are new
  *   state-changed ()     saved or not, path, what Undo would undo
  */
@@ -128,6 +129,18 @@ bool ladder_document_redo(LadderDocument *document);
 /** … - translated name of the step; NULL: there is none. Borrowed. */
 const char *ladder_document_undo_name(LadderDocument *document);
 const char *ladder_document_redo_name(LadderDocument *document);
+
+/* ---- bookmarks: rungs to come back to; they follow their rungs ---- */
+
+/** ladder_document_toggle_bookmark - sets or clears one, as a step. */
+void ladder_document_toggle_bookmark(LadderDocument *document, int pou, int rung);
+bool ladder_document_is_bookmarked(LadderDocument *document, int pou, int rung);
+/** ladder_document_next_bookmark - behind that rung, in the order of the file, and round
+ * again; false: there is none. */
+bool ladder_document_next_bookmark(LadderDocument *document, int *pou, int *rung);
+/** ladder_document_rename_bookmarks - a POU has another name; part of an open step. */
+void ladder_document_rename_bookmarks(LadderDocument *document, const char *from,
+				      const char *to);
 
 /* ---- checks ---- */
 

@@ -40,6 +40,15 @@ bool document_take_text(LadderDocument *document, const char *text, gsize len,
 void document_record(LadderDocument *document, struct change *change);
 /** document_apply_list - POU @pou gets the text, in the project or beside it. */
 void document_apply_list(LadderDocument *document, int pou, const char *text);
+/** document_apply_view - the VIEW part becomes another. */
+void document_apply_view(LadderDocument *document, const char *text);
+/** document_shift_bookmarks - they follow rungs that were exchanged. */
+void document_shift_bookmarks(LadderDocument *document, int pou, int at, int removed,
+			      int inserted);
+/** document_move_bookmarks - they are those of @view, which was the part before a rung
+ * moved. */
+void document_move_bookmarks(LadderDocument *document, int pou, int from, int to,
+			     const char *view);
 /** document_one_text - for change_new(). */
 GPtrArray *document_one_text(const char *text, gsize len);
 /** document_changed - another version: it is to be checked, and told. */

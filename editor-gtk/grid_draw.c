@@ -173,6 +173,8 @@ static void draw_number(const struct pen *pen)
 		pen_text(pen, state & RUNG_ADDED ? TOKEN_POWER : state & RUNG_REMOVED ?
 			 TOKEN_ERROR : TOKEN_FORCE, LETTER_HEADING,
 			 lettering_fit(lettering, LETTER_HEADING, sign, -1, 0), x, y + 36);
+	if (state & RUNG_MARKED) /* a ribbon */
+		picture_fill(pen->picture, TOKEN_ACCENT, 1, 7, 0, 6, y + 6);
 	if (state & RUNG_EDITED)
 		picture_disc(pen->picture, TOKEN_ACCENT, 1, RUNG_GUTTER - 6, y - 5, 3);
 }

@@ -54,6 +54,7 @@ enum rung_state {
 	RUNG_SELECTED = 2,
 	RUNG_EDITED = 4,     /* not confirmed yet                               */
 	RUNG_ADDED = 8, RUNG_REMOVED = 16, RUNG_CHANGED = 32, /* in a comparison  */
+	RUNG_MARKED = 128,   /* a bookmark                                      */
 	RUNG_NO_GUTTER = 64, /* paper                                           */
 };
 

@@ -244,12 +244,19 @@ static void checked(LadderGridView *view)
 	strips_redraw(view, -1);
 }
 
+static void bookmarks_changed(LadderGridView *view)
+{
+	strips_redraw(view, -1);
+}
+
 static void listen(LadderGridView *view)
 {
 	view->handler[0] = g_signal_connect_swapped(view->document, "rungs-changed",
 		G_CALLBACK(rungs_changed), view);
 	view->handler[1] = g_signal_connect_swapped(view->document, "project-changed",
 		G_CALLBACK(project_changed), view);
+	view->handler[3] = g_signal_connect_swapped(view->document, "bookmarks-changed",
+		G_CALLBACK(bookmarks_changed), view);
 	view->handler[2] = g_signal_connect_swapped(view->document, "checked",
 		G_CALLBACK(checked), view);
 }
@@ -465,7 +472,7 @@ static void ladder_grid_view_dispose(GObject *object)
 						    view->scrolled[i]);
 		g_clear_object(&view->adjustment[i]);
 	}
-	for (int i = 0; view->document && i < 3; i++)
+	for (int i = 0; view->document && i < 4; i++)
 		g_signal_handler_disconnect(view->document, view->handler[i]);
 	strips_clear(view);
 	g_clear_object(&view->input);

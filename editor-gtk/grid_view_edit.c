@@ -292,6 +292,9 @@ void ladder_grid_view_do(LadderGridView *view, enum verb verb)
 	case VERB_rung_up: do_rung_move(view, -1); break;
 	case VERB_rung_down: do_rung_move(view, 1); break;
 	case VERB_rung_off: do_rung_off(view); break;
+	case VERB_bookmark:
+		ladder_document_toggle_bookmark(view->document, view->pou, view->cursor.rung);
+		break;
 	case VERB_cancel: do_cancel(view); break;
 	default: break;
 	}

@@ -369,6 +369,8 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	if (rung == view->drop.rung)
 		push_mark(marks, view->drop.row, view->drop.col,
 			  view->drop_legal ? MARK_DROP : MARK_ILLEGAL);
+	if (ladder_document_is_bookmarked(view->document, view->pou, rung))
+		scene.state |= RUNG_MARKED;
 	if (view->preview && rung == view->cursor.rung)
 		scene.state |= RUNG_EDITED;
 	scene.mark = (const struct grid_mark *)(void *)marks->data;

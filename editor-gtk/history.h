@@ -14,6 +14,7 @@
 enum change_kind {
 	CHANGE_RUNGS, /* some rungs in a row of a POU                          */
 	CHANGE_TEXT,  /* bytes of the canonical text, or of a text that cannot be read */
+	CHANGE_VIEW,  /* the VIEW part of the file                             */
 	CHANGE_LIST,  /* the text of one POU, which may be one that cannot be read */
 };
 

@@ -17,12 +17,12 @@
 #define LADDER_TYPE_TREE_ROW (ladder_tree_row_get_type())
 G_DECLARE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, LADDER, TREE_ROW, GObject)
 
-enum row_kind { ROW_HEADING, ROW_POU, ROW_SYMBOLS, ROW_FILE };
+enum row_kind { ROW_HEADING, ROW_BOOKMARK, ROW_POU, ROW_SYMBOLS, ROW_FILE };
 
 struct _LadderTreeRow {
 	GObject parent;
 	enum row_kind kind;
-	int pou;
+	int pou, rung;
 	char *text, *note;
 	GListStore *rows;   /* below it; NULL: none                            */
 };
@@ -124,6 +124,32 @@ static void add_files(GListStore *root, const struct project *project)
 	}
 }
 
+static void add_bookmarks(GListStore *root, LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+	LadderTreeRow *heading = NULL;
+
+	if (!project_view(project)[0])
+		return;
+	for (int pou = 0; pou < project->pou_count; pou++)
+		for (int i = 0; i < project->pou[pou].rung_count; i++) {
+			LadderTreeRow *row;
+			char *text;
+
+			if (!ladder_document_is_bookmarked(document, pou, i))
+				continue;
+			if (!heading)
+				heading = add_heading(root, _("Bookmarks"));
+			text = g_strdup_printf(_("%s, rung %d"), project_text(project,
+				project->pou[pou].name), i + 1);
+			row = add_row(heading->rows, ROW_BOOKMARK, text, g_strdup(
+				project_text(project, project->pou[pou].rung[i]->title)));
+			row->pou = pou;
+			row->rung = i;
+			g_free(text);
+		}
+}
+
 struct tree {
 	LadderDocument *document;
 	GListStore *root;
@@ -145,6 +171,7 @@ static void fill(struct tree *tree)
 	row = add_row(tree->root, ROW_SYMBOLS, _("Symbols"),
 		      g_strdup_printf("%d", symbol_count(project)));
 	row->pou = -1;
+	add_bookmarks(tree->root, tree->document);
 	add_files(tree->root, project);
 }
 
@@ -157,8 +184,8 @@ static char *shape_of(const struct project *project)
 			project_text(project, project->pou[i].name),
 			(int)project->pou[i].kind, project->pou[i].rung_count);
 	if (project)
-		g_string_append_printf(shape, "%d %d", symbol_count(project),
-				       project->part_count);
+		g_string_append_printf(shape, "%d %d %s", symbol_count(project),
+				       project->part_count, project_view(project));
 	return g_string_free(shape, FALSE);
 }
 
@@ -193,9 +220,9 @@ static void activated(struct tree *tree, guint position)
 {
 	LadderTreeRow *row = row_at(tree, position);
 
-	if (row && row->kind == ROW_POU)
+	if (row && (row->kind == ROW_POU || row->kind == ROW_BOOKMARK))
 		gtk_widget_activate_action(tree->list, "win.go-to", "(iiii)", row->pou,
-					   0, -1, -1);
+					   row->rung, -1, -1);
 	else if (row && row->kind == ROW_SYMBOLS)
 		gtk_widget_activate_action(tree->list, "win.symbols", NULL);
 }
@@ -299,6 +326,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_label_set_text(GTK_LABEL(text), row->text);
 	gtk_widget_set_tooltip_text(text, row->text);
 	gtk_label_set_text(GTK_LABEL(note), row->note ? row->note : "");
+	gtk_label_set_ellipsize(GTK_LABEL(note), PANGO_ELLIPSIZE_END);
 	g_object_unref(row);
 }
 
@@ -371,6 +399,7 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 	g_object_set_data_full(G_OBJECT(box), "tree", tree, tree_free);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(follow), tree);
 	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(follow), tree);
+	g_signal_connect_swapped(document, "bookmarks-changed", G_CALLBACK(follow), tree);
 	follow(tree);
 	return box;
 }

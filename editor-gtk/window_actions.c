@@ -54,6 +54,18 @@ static void do_next_problem(LadderWindow *window)
 		ladder_window_tell(window, _("no problems"));
 }
 
+static void do_next_bookmark(LadderWindow *window)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+	int pou = sheet ? ladder_grid_view_pou(sheet) : 0;
+	int rung = sheet ? ladder_grid_view_cursor(sheet).rung : -1;
+
+	if (ladder_document_next_bookmark(window->document, &pou, &rung))
+		tabs_go(window, pou, rung, -1, -1);
+	else
+		ladder_window_tell(window, _("no bookmarks"));
+}
+
 static void do_sheet_by(LadderWindow *window, bool next)
 {
 	if (next ? !adw_tab_view_select_next_page(window->tabs) :
@@ -198,6 +210,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_rename: names_rename(window); break;
 	case VERB_go_coil: names_go_driver(window); break;
 	case VERB_go_rung: ask_rung(window); break;
+	case VERB_next_bookmark: do_next_bookmark(window); break;
 	case VERB_next_problem: do_next_problem(window); break;
 	case VERB_next_sheet: do_sheet_by(window, true); break;
 	case VERB_previous_sheet: do_sheet_by(window, false); break;

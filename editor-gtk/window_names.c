@@ -108,11 +108,16 @@ static void rename_target(LadderWindow *window, const struct xref_target *target
 	char *text = ladder_rename(ladder_document_ladder(document), target, name, &len,
 				   &how);
 	char *old = ladder_document_outline(document, &old_len, NULL, NULL);
+	const struct project *project = ladder_document_project(document);
+	char *old_name = target->what == XREF_POU && project ?
+		g_strdup(project_text(project, project->pou[target->index].name)) : NULL;
 	char *told;
 
 	if (text) {
 		ladder_document_begin(document, _("Rename everywhere"), NULL);
 		ladder_document_replace(document, 0, old_len, text, NULL);
+		if (old_name)
+			ladder_document_rename_bookmarks(document, old_name, name);
 		ladder_document_end(document);
 		told = g_strdup_printf(ngettext("%d place changed", "%d places changed",
 			(unsigned long)how.places), how.places);
@@ -121,6 +126,7 @@ static void rename_target(LadderWindow *window, const struct xref_target *target
 	}
 	ladder_window_tell(window, told);
 	g_free(told);
+	g_free(old_name);
 	g_free(old);
 	free(text);
 }

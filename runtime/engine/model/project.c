@@ -146,3 +146,61 @@ const char *project_text(const struct project *project, uint32_t id)
 {
 	return names_text(&project->names, id);
 }
+
+/* ---- VIEW ---- */
+
+static int view_part(const struct project *project)
+{
+	for (int i = 0; i < project->part_count; i++)
+		if (project->part[i].kind == PART_VIEW && !project->part[i].included)
+			return i;
+	return -1;
+}
+
+const char *project_view(const struct project *project)
+{
+	const int at = view_part(project);
+
+	return at < 0 ? "" : project_text(project, project->part[at].text);
+}
+
+bool project_view_is_last(const struct project *project)
+{
+	const int at = view_part(project);
+
+	return at >= 0 && at == project->part_count - 1;
+}
+
+static bool add_view(struct project *project, uint32_t text)
+{
+	struct part *part = arena_push(&project->arena, &project->part,
+				       &project->part_count, sizeof(*part));
+
+	if (!part)
+		return false;
+	*part = (struct part){ .kind = PART_VIEW, .text = text };
+	return true;
+}
+
+bool project_set_view(struct project *project, const char *text)
+{
+	const int at = view_part(project);
+	uint32_t id;
+
+	if (!text[0]) {
+		if (at >= 0) {
+			memmove(&project->part[at], &project->part[at + 1],
+				(size_t)(project->part_count - at - 1) *
+				sizeof(*project->part));
+			project->part_count--;
+		}
+		return true;
+	}
+	id = names_intern(&project->names, text, strlen(text));
+	if (!id)
+		return false;
+	if (at < 0)
+		return add_view(project, id);
+	project->part[at].text = id;
+	return true;
+}

@@ -98,6 +98,13 @@ bool project_has(const struct project *project, struct iec_addr addr);
 /** pou_has_frame - is it called with parameters, on variables that lie elsewhere: a
  * FUNCTION, a FUNCTION_BLOCK? */
 bool pou_has_frame(const struct pou *pou);
+/** project_view - VIEW … END_VIEW of the file itself, whole; "" if it has none. */
+const char *project_view(const struct project *project);
+/** project_view_is_last - is it the last part? */
+bool project_view_is_last(const struct project *project);
+/** project_set_view - that text takes its place, behind all parts if there was none; "":
+ * there is none any more. Borrows nothing.   Fails: false: no memory, nothing changed. */
+bool project_set_view(struct project *project, const char *text);
 /** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK, SUBROUTINE. Lives for ever. */
 const char *pou_word(enum pou_kind kind);
 /** project_text - the string of an id. */
