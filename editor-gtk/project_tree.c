@@ -7,6 +7,7 @@
  */
 #include "editor-gtk/panels.h"
 
+#include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/pou_edit.h"
 
@@ -17,13 +18,14 @@
 #define LADDER_TYPE_TREE_ROW (ladder_tree_row_get_type())
 G_DECLARE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, LADDER, TREE_ROW, GObject)
 
-enum row_kind { ROW_HEADING, ROW_BOOKMARK, ROW_POU, ROW_SYMBOLS, ROW_FILE };
+enum row_kind { ROW_HEADING, ROW_BOOKMARK, ROW_POU, ROW_SYMBOLS, ROW_FILE,
+		ROW_STRUCTURE, ROW_VARIABLE, ROW_TEXT };
 
 struct _LadderTreeRow {
 	GObject parent;
 	enum row_kind kind;
-	int pou, rung;
-	char *text, *note;
+	int pou, rung;      /* pou of a STRUCTURE: its number                  */
+	char *text, *note, *path;
 	GListStore *rows;   /* below it; NULL: none                            */
 };
 
@@ -36,6 +38,7 @@ static void ladder_tree_row_finalize(GObject *object)
 	g_clear_object(&row->rows);
 	g_free(row->text);
 	g_free(row->note);
+	g_free(row->path);
 	G_OBJECT_CLASS(ladder_tree_row_parent_class)->finalize(object);
 }
 
@@ -124,6 +127,53 @@ static void add_files(GListStore *root, const struct project *project)
 	}
 }
 
+static void add_structures(GListStore *root, const struct project *project)
+{
+	LadderTreeRow *heading = NULL;
+
+	for (int i = 0; i < project->structure_count; i++) {
+		LadderTreeRow *row;
+
+		if (!heading)
+			heading = add_heading(root, _("Structures"));
+		row = add_row(heading->rows, ROW_STRUCTURE,
+			      project_text(project, project->structure[i].name), NULL);
+		row->pou = i;
+	}
+}
+
+/* Text files beside the project. */
+static void add_texts(GListStore *root, LadderDocument *document, const char *title,
+		      const char *ending)
+{
+	GPtrArray *files = files_beside(ladder_document_path(document), ending);
+	LadderTreeRow *heading = files->len ? add_heading(root, title) : NULL;
+
+	for (guint i = 0; i < files->len; i++) {
+		char *name = g_path_get_basename(files->pdata[i]);
+		LadderTreeRow *row = add_row(heading->rows, ROW_TEXT, name, NULL);
+
+		row->path = g_strdup(files->pdata[i]);
+		g_free(name);
+	}
+	g_ptr_array_unref(files);
+}
+
+/* What a POU or a structure is made of. */
+static GListModel *variables(const struct project *project, const struct var_table *vars)
+{
+	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
+
+	for (int i = 0; i < vars->count; i++) {
+		const struct var *var = &vars->var[i];
+
+		add_row(rows, ROW_VARIABLE, project_text(project, var->name), g_strdup(
+			var->type != IEC_NONE ? iec_type_row(var->type)->word :
+			words_row(&project->words, var->fb)->word));
+	}
+	return G_LIST_MODEL(rows);
+}
+
 static void add_bookmarks(GListStore *root, LadderDocument *document)
 {
 	const struct project *project = ladder_document_project(document);
@@ -153,16 +203,30 @@ static void add_bookmarks(GListStore *root, LadderDocument *document)
 struct tree {
 	LadderDocument *document;
 	GListStore *root;
+	GtkTreeListModel *model;   /* the selection holds it                   */
 	GtkSingleSelection *selection;
 	GtkWidget *list;
 	char *shape;       /* what is shown, to see whether it changed         */
 };
+
+/* Programs and blocks show what they are made of when they are asked. */
+static void expand_headings(struct tree *tree)
+{
+	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(tree->root)); i++) {
+		GtkTreeListRow *row = gtk_tree_list_model_get_child_row(tree->model, i);
+
+		gtk_tree_list_row_set_expanded(row, TRUE);
+		g_object_unref(row);
+	}
+}
 
 static void fill(struct tree *tree)
 {
 	const struct project *project = ladder_document_project(tree->document);
 	LadderTreeRow *row;
 
+	if (!tree->model)
+		return;
 	g_list_store_remove_all(tree->root);
 	if (!project)
 		return;
@@ -171,13 +235,19 @@ static void fill(struct tree *tree)
 	row = add_row(tree->root, ROW_SYMBOLS, _("Symbols"),
 		      g_strdup_printf("%d", symbol_count(project)));
 	row->pou = -1;
+	add_structures(tree->root, project);
 	add_bookmarks(tree->root, tree->document);
+	add_texts(tree->root, tree->document, _("Scenarios"), ".scn");
+	add_texts(tree->root, tree->document, _("I/O maps"), ".io");
 	add_files(tree->root, project);
+	expand_headings(tree);
 }
 
-static char *shape_of(const struct project *project)
+static char *shape_of(LadderDocument *document)
 {
-	GString *shape = g_string_new(NULL);
+	const struct project *project = ladder_document_project(document);
+	const char *path = ladder_document_path(document);
+	GString *shape = g_string_new(path);
 
 	for (int i = 0; project && i < project->pou_count; i++)
 		g_string_append_printf(shape, "%s %d %d\n",
@@ -191,7 +261,7 @@ static char *shape_of(const struct project *project)
 
 static void follow(struct tree *tree)
 {
-	char *shape = shape_of(ladder_document_project(tree->document));
+	char *shape = shape_of(tree->document);
 
 	if (g_strcmp0(shape, tree->shape) == 0) {
 		g_free(shape);
@@ -223,6 +293,8 @@ static void activated(struct tree *tree, guint position)
 	if (row && (row->kind == ROW_POU || row->kind == ROW_BOOKMARK))
 		gtk_widget_activate_action(tree->list, "win.go-to", "(iiii)", row->pou,
 					   row->rung, -1, -1);
+	else if (row && row->kind == ROW_TEXT)
+		gtk_widget_activate_action(tree->list, "win.open-text", "s", row->path);
 	else if (row && row->kind == ROW_SYMBOLS)
 		gtk_widget_activate_action(tree->list, "win.symbols", NULL);
 }
@@ -258,7 +330,7 @@ static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
 		pou_delete(tree->document, pou);
 }
 
-static GtkWidget *menu_new(struct tree *tree)
+static GMenu *menu_model(void)
 {
 	static const struct { const char *label, *action; } rows[] = {
 		{ N_("New program (LD)"), "tree.add::PROGRAM LD" },
@@ -269,27 +341,105 @@ static GtkWidget *menu_new(struct tree *tree)
 		{ N_("Rename…"), "tree.rename" },
 		{ N_("Delete"), "tree.delete" },
 	};
+	GMenu *menu = g_menu_new();
+
+	for (gsize i = 0; i < G_N_ELEMENTS(rows); i++)
+		g_menu_append(menu, _(rows[i].label), rows[i].action);
+	return menu;
+}
+
+/* Actions of the whole panel: its keys, its menus, and F2 of the window. */
+static void add_actions(struct tree *tree, GtkWidget *panel)
+{
 	const GActionEntry entries[] = {
 		{ .name = "add", .activate = act_add, .parameter_type = "s" },
 		{ .name = "rename", .activate = act_on_pou },
 		{ .name = "delete", .activate = act_on_pou },
 	};
 	GSimpleActionGroup *group = g_simple_action_group_new();
-	GMenu *menu = g_menu_new();
-	GtkWidget *button = gtk_menu_button_new();
 
 	g_action_map_add_action_entries(G_ACTION_MAP(group), entries,
 					G_N_ELEMENTS(entries), tree);
-	gtk_widget_insert_action_group(button, "tree", G_ACTION_GROUP(group));
-	for (gsize i = 0; i < G_N_ELEMENTS(rows); i++)
-		g_menu_append(menu, _(rows[i].label), rows[i].action);
+	gtk_widget_insert_action_group(panel, "tree", G_ACTION_GROUP(group));
+	g_object_unref(group);
+}
+
+static GtkWidget *menu_new(void)
+{
+	GMenu *menu = menu_model();
+	GtkWidget *button = gtk_menu_button_new();
+
 	gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
 	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
 	gtk_widget_set_tooltip_text(button, _("Add, rename or delete"));
 	gtk_widget_add_css_class(button, "flat");
-	g_object_unref(group);
 	g_object_unref(menu);
 	return button;
+}
+
+/* ---- the menu of a row ---- */
+
+static void menu_closed(GtkWidget *popover)
+{
+	/* Not before its action has run. */
+	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, G_SOURCE_FUNC(gtk_widget_unparent),
+			popover, NULL);
+}
+
+static void show_menu(struct tree *tree, double x, double y)
+{
+	GMenu *menu = menu_model();
+	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
+	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
+
+	gtk_widget_set_parent(popover, gtk_widget_get_parent(tree->list));
+	gtk_popover_set_pointing_to(GTK_POPOVER(popover), &at);
+	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
+	gtk_widget_set_halign(popover, GTK_ALIGN_START);
+	g_signal_connect(popover, "closed", G_CALLBACK(menu_closed), NULL);
+	gtk_popover_popup(GTK_POPOVER(popover));
+	g_object_unref(menu);
+}
+
+/* The row below the pointer is the one that is meant. */
+static void right_pressed(struct tree *tree, int count, double x, double y)
+{
+	GtkWidget *picked = gtk_widget_pick(tree->list, x, y, GTK_PICK_DEFAULT);
+	GtkWidget *expander = picked ?
+		gtk_widget_get_ancestor(picked, GTK_TYPE_TREE_EXPANDER) : NULL;
+
+	(void)count;
+	if (picked && !expander)
+		expander = gtk_widget_get_first_child(picked);
+	if (expander && GTK_IS_TREE_EXPANDER(expander))
+		gtk_single_selection_set_selected(tree->selection,
+			gtk_tree_list_row_get_position(gtk_tree_expander_get_list_row(
+				GTK_TREE_EXPANDER(expander))));
+	show_menu(tree, x, y);
+}
+
+static gboolean key_pressed(struct tree *tree, guint key, guint code, GdkModifierType state)
+{
+	(void)code;
+	if (key == GDK_KEY_Menu || (key == GDK_KEY_F10 && state & GDK_SHIFT_MASK))
+		show_menu(tree, 20, 20);
+	else if (key == GDK_KEY_Delete)
+		gtk_widget_activate_action(tree->list, "tree.delete", NULL);
+	else
+		return FALSE;
+	return TRUE;
+}
+
+static void add_controllers(struct tree *tree)
+{
+	GtkGesture *click = gtk_gesture_click_new();
+	GtkEventController *keys = gtk_event_controller_key_new();
+
+	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(click), GDK_BUTTON_SECONDARY);
+	g_signal_connect_swapped(click, "pressed", G_CALLBACK(right_pressed), tree);
+	g_signal_connect_swapped(keys, "key-pressed", G_CALLBACK(key_pressed), tree);
+	gtk_widget_add_controller(tree->list, GTK_EVENT_CONTROLLER(click));
+	gtk_widget_add_controller(tree->list, keys);
 }
 
 /* ---- the widget ---- */
@@ -330,11 +480,17 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 	g_object_unref(row);
 }
 
-static GListModel *children(gpointer item, gpointer unused)
+static GListModel *children(gpointer item, gpointer data)
 {
 	LadderTreeRow *row = LADDER_TREE_ROW(item);
+	const struct tree *tree = data;
+	const struct project *project = ladder_document_project(tree->document);
 
-	(void)unused;
+	if (project && row->kind == ROW_POU && row->pou < project->pou_count &&
+	    project->pou[row->pou].vars.count)
+		return variables(project, &project->pou[row->pou].vars);
+	if (project && row->kind == ROW_STRUCTURE && row->pou < project->structure_count)
+		return variables(project, &project->structure[row->pou].vars);
 	return row->rows ? G_LIST_MODEL(g_object_ref(row->rows)) : NULL;
 }
 
@@ -348,7 +504,7 @@ static void tree_free(gpointer pointer)
 	g_free(tree);
 }
 
-static GtkWidget *heading_new(struct tree *tree)
+static GtkWidget *heading_new(void)
 {
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
 	GtkWidget *label = gtk_label_new(_("PROJECT"));
@@ -357,19 +513,18 @@ static GtkWidget *heading_new(struct tree *tree)
 	gtk_widget_set_hexpand(label, TRUE);
 	gtk_widget_add_css_class(label, "panel-heading");
 	gtk_box_append(GTK_BOX(box), label);
-	gtk_box_append(GTK_BOX(box), menu_new(tree));
+	gtk_box_append(GTK_BOX(box), menu_new());
 	return box;
 }
 
 static void make_list(struct tree *tree)
 {
 	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
-	GtkTreeListModel *model;
 
 	tree->root = g_list_store_new(LADDER_TYPE_TREE_ROW);
-	model = gtk_tree_list_model_new(G_LIST_MODEL(tree->root), FALSE, TRUE, children,
-					NULL, NULL);
-	tree->selection = gtk_single_selection_new(G_LIST_MODEL(model));
+	tree->model = gtk_tree_list_model_new(G_LIST_MODEL(tree->root), FALSE, FALSE,
+					      children, tree, NULL);
+	tree->selection = gtk_single_selection_new(G_LIST_MODEL(tree->model));
 	gtk_single_selection_set_autoselect(tree->selection, FALSE);
 	gtk_single_selection_set_can_unselect(tree->selection, TRUE);
 	g_signal_connect(factory, "setup", G_CALLBACK(setup), NULL);
@@ -390,16 +545,19 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 
 	tree->document = g_object_ref(document);
 	make_list(tree);
+	add_controllers(tree);
+	add_actions(tree, box);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), tree->list);
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
 				       GTK_POLICY_AUTOMATIC);
 	gtk_widget_set_vexpand(scroller, TRUE);
-	gtk_box_append(GTK_BOX(box), heading_new(tree));
+	gtk_box_append(GTK_BOX(box), heading_new());
 	gtk_box_append(GTK_BOX(box), scroller);
 	g_object_set_data_full(G_OBJECT(box), "tree", tree, tree_free);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(follow), tree);
 	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(follow), tree);
 	g_signal_connect_swapped(document, "bookmarks-changed", G_CALLBACK(follow), tree);
+	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(follow), tree);
 	follow(tree);
 	return box;
 }

@@ -26,6 +26,12 @@ static void go_on(LadderWindow *window)
 
 static void do_undo(LadderWindow *window)
 {
+	LadderFileView *file = tabs_file(window);
+
+	if (file) {
+		ladder_file_view_undo(file);
+		return;
+	}
 	char *name = g_strdup(ladder_document_undo_name(window->document));
 
 	if (ladder_document_undo(window->document)) {
@@ -40,8 +46,21 @@ static void do_undo(LadderWindow *window)
 
 static void do_redo(LadderWindow *window)
 {
+	if (tabs_file(window)) {
+		ladder_file_view_redo(tabs_file(window));
+		return;
+	}
 	ladder_document_redo(window->document);
 	go_on(window);
+}
+
+/* Of the tree, if one is there; else of the name at the cursor. */
+static void do_rename(LadderWindow *window)
+{
+	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
+
+	if (!focus || !gtk_widget_activate_action(focus, "tree.rename", NULL))
+		names_rename(window);
 }
 
 /* ---- going ---- */
@@ -207,7 +226,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 		break;
 	case VERB_show_uses: names_show_uses(window); break;
 	case VERB_symbols: tabs_show_widget(window, "symbols"); break;
-	case VERB_rename: names_rename(window); break;
+	case VERB_rename: do_rename(window); break;
 	case VERB_go_coil: names_go_driver(window); break;
 	case VERB_go_rung: ask_rung(window); break;
 	case VERB_next_bookmark: do_next_bookmark(window); break;
@@ -269,6 +288,12 @@ static void open_path(GtkWidget *widget, const char *action, GVariant *path)
 	app_open_path(LADDER_WINDOW(widget), g_variant_get_string(path, NULL));
 }
 
+static void open_text(GtkWidget *widget, const char *action, GVariant *path)
+{
+	(void)action;
+	tabs_show_file(LADDER_WINDOW(widget), g_variant_get_string(path, NULL));
+}
+
 static void open_sample(GtkWidget *widget, const char *action, GVariant *path)
 {
 	(void)action;
@@ -305,6 +330,7 @@ void window_install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.rename-pou", "(is)", rename_pou);
 	gtk_widget_class_install_action(class, "win.show-uses", "s", show_uses);
 	gtk_widget_class_install_action(class, "win.open-path", "s", open_path);
+	gtk_widget_class_install_action(class, "win.open-text", "s", open_text);
 	gtk_widget_class_install_action(class, "win.open-sample", "s", open_sample);
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);

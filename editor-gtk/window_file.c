@@ -116,8 +116,26 @@ void window_save_as(LadderWindow *window)
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
 }
 
+/* The file in front: a scenario, an I/O map. False: there is none. */
+static bool save_beside(LadderWindow *window)
+{
+	LadderFileView *file = tabs_file(window);
+	GError *error = NULL;
+
+	if (!file)
+		return false;
+	if (ladder_file_view_save(file, &error))
+		ladder_window_tell(window, _("Saved"));
+	else
+		ladder_window_warn(window, error->message);
+	g_clear_error(&error);
+	return true;
+}
+
 void window_save(LadderWindow *window)
 {
+	if (save_beside(window))
+		return;
 	if (!ladder_document_path(window->document))
 		window_save_as(window);
 	else if (ladder_document_disk_changed(window->document))

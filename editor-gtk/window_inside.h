@@ -5,6 +5,7 @@
 #ifndef EDITOR_WINDOW_INSIDE_H
 #define EDITOR_WINDOW_INSIDE_H
 
+#include "editor-gtk/file_view.h"
 #include "editor-gtk/grid_view.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/window.h"
@@ -54,6 +55,10 @@ void tabs_update(LadderWindow *window);
 void tabs_show(LadderWindow *window, int pou);
 /** tabs_show_widget - a page that is no POU, by the name it was made with. */
 GtkWidget *tabs_show_widget(LadderWindow *window, const char *name);
+/** tabs_show_file - a text file beside the project. */
+void tabs_show_file(LadderWindow *window, const char *path);
+/** tabs_file - of the page in front; NULL: it is none. */
+LadderFileView *tabs_file(LadderWindow *window);
 /** tabs_sheet - of the page in front; NULL: it is none. */
 LadderGridView *tabs_sheet(LadderWindow *window);
 /** tabs_go - the place of a diagnostic or a use; -1: the whole. */

@@ -64,6 +64,14 @@ LadderGridView *tabs_sheet(LadderWindow *window)
 	return widget && LADDER_IS_GRID_VIEW(widget) ? LADDER_GRID_VIEW(widget) : NULL;
 }
 
+LadderFileView *tabs_file(LadderWindow *window)
+{
+	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
+	GtkWidget *widget = page ? content(page) : NULL;
+
+	return widget && LADDER_IS_FILE_VIEW(widget) ? LADDER_FILE_VIEW(widget) : NULL;
+}
+
 /* ---- status ---- */
 
 static void show_place(LadderWindow *window)
@@ -181,6 +189,24 @@ static AdwTabPage *open_widget(LadderWindow *window, const char *name)
 				_("Text of the file"), false);
 	g_free(key);
 	return page;
+}
+
+void tabs_show_file(LadderWindow *window, const char *path)
+{
+	char *key = g_strdup_printf(" file %s", path), *title = g_path_get_basename(path);
+	AdwTabPage *page = find_page(window, key);
+	GError *error = NULL;
+	GtkWidget *view = page ? NULL : ladder_file_view_new(path, &error);
+
+	if (view)
+		page = add_page(window, view, key, title, false);
+	if (page)
+		adw_tab_view_set_selected_page(window->tabs, page);
+	else
+		ladder_window_warn(window, error->message);
+	g_clear_error(&error);
+	g_free(key);
+	g_free(title);
 }
 
 GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * file_view - a text file beside the project: a scenario, an I/O map.
+ */
+#include "editor-gtk/file_view.h"
+
+#include "editor-gtk/i18n.h"
+
+#include <gio/gio.h>
+#include <gtksourceview/gtksource.h>
+#include <string.h>
+
+#define FILE_MOST (4 << 20) /* bytes of a file that is shown                    */
+
+struct _LadderFileView {
+	GtkBox parent;
+	char *path;
+	GtkTextBuffer *buffer;
+};
+
+G_DEFINE_FINAL_TYPE(LadderFileView, ladder_file_view, GTK_TYPE_BOX)
+
+bool ladder_file_view_is_saved(LadderFileView *view)
+{
+	return !gtk_text_buffer_get_modified(view->buffer);
+}
+
+bool ladder_file_view_save(LadderFileView *view, GError **error)
+{
+	GtkTextIter start, end;
+	char *text;
+	bool good;
+
+	if (ladder_file_view_is_saved(view))
+		return true;
+	gtk_text_buffer_get_bounds(view->buffer, &start, &end);
+	text = gtk_text_buffer_get_text(view->buffer, &start, &end, TRUE);
+	good = g_file_set_contents_full(view->path, text, -1,
+		G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE, 0666, error);
+	if (good)
+		gtk_text_buffer_set_modified(view->buffer, FALSE);
+	g_free(text);
+	return good;
+}
+
+bool ladder_file_view_undo(LadderFileView *view)
+{
+	const bool can = gtk_text_buffer_get_can_undo(view->buffer);
+
+	if (can)
+		gtk_text_buffer_undo(view->buffer);
+	return can;
+}
+
+bool ladder_file_view_redo(LadderFileView *view)
+{
+	const bool can = gtk_text_buffer_get_can_redo(view->buffer);
+
+	if (can)
+		gtk_text_buffer_redo(view->buffer);
+	return can;
+}
+
+/* ---- life ---- */
+
+static void ladder_file_view_dispose(GObject *object)
+{
+	LadderFileView *view = LADDER_FILE_VIEW(object);
+
+	if (view->buffer)
+		ladder_file_view_save(view, NULL);
+	g_clear_object(&view->buffer);
+	G_OBJECT_CLASS(ladder_file_view_parent_class)->dispose(object);
+}
+
+static void ladder_file_view_finalize(GObject *object)
+{
+	g_free(LADDER_FILE_VIEW(object)->path);
+	G_OBJECT_CLASS(ladder_file_view_parent_class)->finalize(object);
+}
+
+static void ladder_file_view_class_init(LadderFileViewClass *class)
+{
+	G_OBJECT_CLASS(class)->dispose = ladder_file_view_dispose;
+	G_OBJECT_CLASS(class)->finalize = ladder_file_view_finalize;
+}
+
+static void ladder_file_view_init(LadderFileView *view)
+{
+	gtk_orientable_set_orientation(GTK_ORIENTABLE(view), GTK_ORIENTATION_VERTICAL);
+}
+
+/* NULL, and why: too long, unreadable, no text. */
+static char *text_of(const char *path, GError **error)
+{
+	char *text;
+	gsize len;
+
+	if (!g_file_get_contents(path, &text, &len, error))
+		return NULL;
+	if (len <= FILE_MOST && g_utf8_validate(text, (gssize)len, NULL))
+		return text;
+	g_free(text);
+	g_set_error(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA, _("%s is no text file"),
+		    path);
+	return NULL;
+}
+
+static GtkWidget *text_widget(LadderFileView *view, const char *name)
+{
+	GtkSourceBuffer *buffer = gtk_source_buffer_new(NULL);
+	GtkWidget *text = gtk_source_view_new_with_buffer(buffer);
+
+	view->buffer = GTK_TEXT_BUFFER(buffer);
+	gtk_text_view_set_monospace(GTK_TEXT_VIEW(text), TRUE);
+	gtk_source_view_set_show_line_numbers(GTK_SOURCE_VIEW(text), TRUE);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(text), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       name, -1);
+	return text;
+}
+
+GtkWidget *ladder_file_view_new(const char *path, GError **error)
+{
+	char *text = text_of(path, error), *name;
+	GtkWidget *scroller;
+	LadderFileView *view;
+
+	if (!text)
+		return NULL;
+	view = g_object_new(LADDER_TYPE_FILE_VIEW, NULL);
+	view->path = g_strdup(path);
+	name = g_path_get_basename(path);
+	scroller = gtk_scrolled_window_new();
+	gtk_widget_set_vexpand(scroller, TRUE);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller),
+				      text_widget(view, name));
+	gtk_box_append(GTK_BOX(view), scroller);
+	gtk_text_buffer_begin_irreversible_action(view->buffer);
+	gtk_text_buffer_set_text(view->buffer, text, -1);
+	gtk_text_buffer_end_irreversible_action(view->buffer);
+	gtk_text_buffer_set_modified(view->buffer, FALSE);
+	g_free(name);
+	g_free(text);
+	return GTK_WIDGET(view);
+}
+
+/* ---- which there are ---- */
+
+static void add_files(GPtrArray *files, const char *folder, const char *stem,
+		      const char *ending)
+{
+	GDir *dir = g_dir_open(folder, 0, NULL);
+	const char *name;
+
+	while (dir && (name = g_dir_read_name(dir)))
+		if (g_str_has_suffix(name, ending) && g_str_has_prefix(name, stem))
+			g_ptr_array_add(files, g_build_filename(folder, name, NULL));
+	if (dir)
+		g_dir_close(dir);
+}
+
+static int by_name(gconstpointer a, gconstpointer b)
+{
+	return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+GPtrArray *files_beside(const char *path, const char *ending)
+{
+	GPtrArray *files = g_ptr_array_new_with_free_func(g_free);
+	char *folder, *boards, *stem;
+	const bool own = strcmp(ending, ".scn") == 0;
+
+	if (!path)
+		return files;
+	folder = g_path_get_dirname(path);
+	boards = g_build_filename(folder, "boards", NULL);
+	stem = g_path_get_basename(path);
+	if (strrchr(stem, '.'))
+		*strrchr(stem, '.') = '\0';
+	add_files(files, folder, own ? stem : "", ending);
+	if (!own)
+		add_files(files, boards, "", ending);
+	g_ptr_array_sort(files, by_name);
+	g_free(folder);
+	g_free(boards);
+	g_free(stem);
+	return files;
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * file_view - a text file beside the project: a scenario, an I/O map.
+ *
+ * It is written by ladder_file_view_save(), and when the view goes. It has an undo of its
+ * own, since it is no part of the document.
+ */
+#ifndef EDITOR_FILE_VIEW_H
+#define EDITOR_FILE_VIEW_H
+
+#include <gtk/gtk.h>
+#include <stdbool.h>
+
+#define LADDER_TYPE_FILE_VIEW (ladder_file_view_get_type())
+G_DECLARE_FINAL_TYPE(LadderFileView, ladder_file_view, LADDER, FILE_VIEW, GtkBox)
+
+/** ladder_file_view_new - NULL: it cannot be read, or is no text; @error says why. */
+GtkWidget *ladder_file_view_new(const char *path, GError **error);
+/** ladder_file_view_save - false: it cannot be written, @error says why; the text stays. */
+bool ladder_file_view_save(LadderFileView *view, GError **error);
+bool ladder_file_view_is_saved(LadderFileView *view);
+/** ladder_file_view_undo, ladder_file_view_redo - false: there is nothing. */
+bool ladder_file_view_undo(LadderFileView *view);
+bool ladder_file_view_redo(LadderFileView *view);
+
+/** files_beside - names of the files in the folder of @path (or NULL: none), and in its
+ * folder `boards`, that end in @ending, sorted; of ".scn" only those whose name begins like
+ * the file's. Caller: g_ptr_array_unref. */
+GPtrArray *files_beside(const char *path, const char *ending);
+
+#endif

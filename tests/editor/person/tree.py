@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""tree - the project's tree by keyboard and pointer: bookmarks, structure, names, files beside the project."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+TEXT = '''RUNGBOARD 1
+
+PROGRAM Main LD
+VAR
+  Delay : TON;
+END_VAR
+RUNG
+  | NO %IX0.0 | TON Delay PT:=T#1s | COIL %QX0.0 |
+RUNG
+  | NO %IX0.1 | COIL %QX0.1 |
+END_PROGRAM
+
+PROGRAM Other LD
+RUNG
+  | NO %IX0.2 | COIL %QX0.2 |
+END_PROGRAM
+'''
+
+
+def bookmarks(screen):
+    """a bookmark is set, saved, listed, gone to, undone"""
+    path = new_file(screen, TEXT)
+    editor = Editor(screen, path)
+    editor.keys('Down', 'ctrl+b')
+    until(lambda: editor.all('Main, rung 2', 'label'), 'the bookmark in the tree')
+    assert editor.save(path) == TEXT + '\nVIEW\n  bookmark Main 2\nEND_VIEW\n'
+    editor.keys('Up')
+    until(lambda: editor.all('Rung 1 ', 'label'), 'the first rung')
+    editor.keys('ctrl+shift+b')
+    until(lambda: editor.all('Rung 2 ', 'label'), 'the rung with the bookmark')
+    editor.shot('bookmarks')
+    editor.keys('ctrl+z')
+    assert editor.save(path) == TEXT
+
+
+def rows(screen):
+    """a program shows its variables, F2 renames it, Delete deletes it, Ctrl+Z brings it back"""
+    path = new_file(screen, TEXT)
+    editor = Editor(screen, path)
+    editor.click([n for n in editor.all('Main', 'label') if n.get_name() == 'Main'][0])
+    editor.keys('shift+Right')
+    until(lambda: editor.all('Delay', 'label'), 'its variables')
+    editor.shot('structure')
+    editor.keys('F2')
+    editor.find('Name', 'text')
+    editor.keys('ctrl+a')
+    editor.type('Pump')
+    editor.keys('Return')
+    until(lambda: editor.all('Pump', 'label'), 'the new name')
+    assert 'PROGRAM Pump LD' in editor.save(path)
+    editor.click([n for n in editor.all('Other', 'label') if n.get_name() == 'Other'][0])
+    editor.keys('Delete')
+    assert 'Other' not in editor.save(path)
+    editor.keys('ctrl+z')
+    assert 'PROGRAM Other' in editor.save(path)
+    check(path)
+
+
+def beside(screen):
+    """a scenario beside the file is opened from the tree, edited and saved"""
+    path = new_file(screen, TEXT)
+    scenario = os.path.join(screen.home, 'new.scn')
+    with open(scenario, 'w') as out:
+        out.write('scenario One\n')
+    editor = Editor(screen, path)
+    editor.click(editor.find('new.scn', 'label'), count=2)
+    editor.click(editor.find('new.scn', 'text'))
+    editor.keys('ctrl+End')
+    editor.type('wait 1s')
+    editor.keys('ctrl+s')
+    until(lambda: open(scenario).read() == 'scenario One\nwait 1s', 'the scenario to be saved')
+    editor.shot('scenario')
+    assert open(path).read() == TEXT
+
+
+main([bookmarks, rows, beside])
