@@ -46,7 +46,7 @@ def rows(screen):
     """a program shows its variables, F2 renames it, Delete deletes it, Ctrl+Z brings it back"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
-    editor.click([n for n in editor.all('Main', 'label') if n.get_name() == 'Main'][0])
+    editor.click([n for n in editor.all('Main', 'label') if n.name == 'Main'][0])
     editor.keys('shift+Right')
     until(lambda: editor.all('Delay', 'label'), 'its variables')
     editor.shot('structure')
@@ -57,7 +57,7 @@ def rows(screen):
     editor.keys('Return')
     until(lambda: editor.all('Pump', 'label'), 'the new name')
     assert 'PROGRAM Pump LD' in editor.save(path)
-    editor.click([n for n in editor.all('Other', 'label') if n.get_name() == 'Other'][0])
+    editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other'][0])
     editor.keys('Delete')
     assert 'Other' not in editor.save(path)
     editor.keys('ctrl+z')
