@@ -42,10 +42,11 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 	GtkWidget *text = column(row->text, "heading", 14);
 	char *name = g_strdup_printf("%s, %s %s %s", row->text, row->kind, row->address,
 				     row->note);
+	char *tip = g_strdup_printf("%s: %s", row->text, row->note);
 
 	gtk_label_set_max_width_chars(GTK_LABEL(text), 14);
 	gtk_label_set_max_width_chars(GTK_LABEL(note), 44);
-	gtk_widget_set_tooltip_text(box, name);
+	gtk_widget_set_tooltip_text(box, tip);
 	gtk_box_append(GTK_BOX(box), text);
 	gtk_box_append(GTK_BOX(box), column(row->address, "monospace", 8));
 	gtk_widget_set_hexpand(note, TRUE);
@@ -57,6 +58,7 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 	gtk_list_box_append(GTK_LIST_BOX(popup->list), list_row);
 	g_ptr_array_add(popup->lines, g_strdup(row->line));
 	g_free(name);
+	g_free(tip);
 }
 
 static void clear_rows(LadderEntryPopup *popup)

@@ -5,7 +5,7 @@
  */
 #include "editor-gtk/grid_pen.h"
 
-#define INSET 3
+#define INSET 3 /* below; above, Chinese names need the room */
 
 unsigned int pen_marks(const struct pen *pen, int row, int column)
 {
@@ -30,8 +30,8 @@ static graphene_rect_t place_of(const struct pen *pen, const struct grid_mark *m
 {
 	graphene_rect_t rect = rung_layout_cell(pen->layout, mark->row, mark->column);
 
-	return GRAPHENE_RECT_INIT(rect.origin.x + 1, rect.origin.y + INSET,
-				  rect.size.width - 2, rect.size.height - 2 * INSET);
+	return GRAPHENE_RECT_INIT(rect.origin.x + 1, rect.origin.y,
+				  rect.size.width - 2, rect.size.height - INSET);
 }
 
 void grid_draw_grounds(const struct pen *pen)

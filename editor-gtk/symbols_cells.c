@@ -175,6 +175,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);
 	} else {
 		gtk_editable_set_text(GTK_EDITABLE(cell), text);
+		gtk_widget_set_tooltip_text(cell, *text ? text : NULL);
 		g_object_set_data(G_OBJECT(cell), "refused", NULL);
 		connect_text(cell, item);
 	}

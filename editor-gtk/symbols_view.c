@@ -440,7 +440,7 @@ static void add_columns(LadderSymbolsView *view)
 	static const struct { enum field field; int width; } column[] = {
 		{ FIELD_NAME, 150 }, { FIELD_TYPE, 110 }, { FIELD_ADDRESS, 90 },
 		{ FIELD_INITIAL, 100 }, { FIELD_RETAIN, 0 }, { FIELD_CONSTANT, 0 },
-		{ FIELD_COMMENT, 0 },
+		{ FIELD_COMMENT, 180 },
 	};
 
 	panel_list_column(&view->list, "", SYMBOLS_USES, PANEL_ICON, 0);

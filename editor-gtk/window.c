@@ -28,8 +28,10 @@ void window_toast(LadderWindow *window, const char *text)
 void ladder_window_tell(LadderWindow *window, const char *text)
 {
 	window->told_at = text[0] ? g_get_monotonic_time() : 0;
-	gtk_label_set_text(window->message_label,
-			   text[0] || !window->keys_text ? text : window->keys_text);
+	if (!text[0] && window->keys_text)
+		text = window->keys_text;
+	gtk_label_set_text(window->message_label, text);
+	gtk_widget_set_tooltip_text(GTK_WIDGET(window->message_label), text);
 }
 
 void window_show_keys(LadderWindow *window, char *text)
