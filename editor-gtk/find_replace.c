@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/find_inside.h"
 
+#include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
 #include "engine/view/xref.h"
 
@@ -229,8 +230,7 @@ static char *reason(const struct diag_list *diags)
 {
 	if (diags->count == 0)
 		return g_strdup(_("It could not be read again"));
-	return g_strdup_printf("%s: %s", _(diag_text(diags->diag[0].id)),
-			       diags->diag[0].arg);
+	return diag_said_whole(&diags->diag[0]);
 }
 
 static bool replace(struct hits hits, const char *step, char **why)

@@ -8,6 +8,7 @@
 #include "editor-gtk/grid_view_inside.h"
 
 #include "editor-gtk/print.h"
+#include "editor-gtk/diag_said.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -26,8 +27,7 @@ static void tell_diags(LadderGridView *view, const struct diag_list *why)
 
 	if (why->count == 0)
 		return;
-	text = g_strdup_printf("%s: %s", said(diag_text(why->diag[0].id)),
-			       why->diag[0].arg);
+	text = diag_said_whole(&why->diag[0]);
 	sheet_tell(view, text);
 	g_free(text);
 }

@@ -6,6 +6,7 @@
  * verbs.
  */
 #include "editor-gtk/grid_view_inside.h"
+#include "editor-gtk/diag_said.h"
 
 #include <string.h>
 
@@ -69,8 +70,8 @@ static void add_faults(LadderGridView *view, GString *text, int rung, int row, i
 			continue;
 		line = g_strdup_printf("%s: %s%s%s",
 			mark->marks == MARK_ERROR ? _("Error") : _("Warning"),
-			_(diag_text(mark->diag->id)), mark->diag->arg[0] ? ": " : "",
-			mark->diag->arg);
+			diag_said(mark->diag), mark->diag->arg[0] ? ": " : "",
+			diag_said_arg(mark->diag));
 		add_line(text, line);
 		g_free(line);
 	}

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/problems.h"
 
+#include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/panel.h"
 #include "engine/view/xref.h"
@@ -103,9 +104,7 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag)
 	set_place(document, diag, row);
 	row->tone = error ? PANEL_ERROR : PANEL_WARNING;
 	row->number = ((gint64)row->pou << 40) + ((gint64)row->rung << 20) + diag->line;
-	row->text[COLUMN_TEXT] = *diag->arg ?
-		g_strdup_printf("%s: %s", _(diag_text(diag->id)), diag->arg) :
-		g_strdup(_(diag_text(diag->id)));
+	row->text[COLUMN_TEXT] = diag_said_whole(diag);
 	row->text[COLUMN_PLACE] = place_text(diag, diag->rung ? -1 : row->row);
 	row->text[COLUMN_CODE] = g_strdup(diag_code(diag->id));
 	row->text[COLUMN_SEVERITY] = g_strdup(error ? _("Error") : _("Warning"));

@@ -8,6 +8,7 @@
  */
 #include "editor-gtk/symbols.h"
 
+#include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
 #include "engine/view/xref.h"
 
@@ -157,11 +158,8 @@ static char *diag_reason(const struct diag_list *diags)
 	for (int i = 0; i < diags->count; i++) {
 		const struct diag *diag = &diags->diag[i];
 
-		if (diag_severity(diag->id) != SEVERITY_ERROR)
-			continue;
-		return *diag->arg ? g_strdup_printf("%s: %s", _(diag_text(diag->id)),
-						    diag->arg) :
-		       g_strdup(_(diag_text(diag->id)));
+		if (diag_severity(diag->id) == SEVERITY_ERROR)
+			return diag_said_whole(diag);
 	}
 	return g_strdup(_("It cannot be read"));
 }

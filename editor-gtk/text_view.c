@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/text_view.h"
 
+#include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/text_complete.h"
 #include "editor-gtk/text_lines.h"
@@ -242,8 +243,8 @@ static void mark(LadderTextView *view, const struct diag *diag, const struct fla
 
 static char *reason(const struct diag *diag)
 {
-	return g_strdup_printf("%s %s%s%s", diag_code(diag->id), _(diag_text(diag->id)),
-			       diag->arg[0] ? ": " : "", diag->arg);
+	return g_strdup_printf("%s %s%s%s", diag_code(diag->id), diag_said(diag),
+			       diag->arg[0] ? ": " : "", diag_said_arg(diag));
 }
 
 /* Reasons of a line, one below the other; NULL: it is well. Caller frees. */

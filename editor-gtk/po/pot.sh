@@ -42,10 +42,19 @@ sed -n 's/^#define [A-Z_]* *\(".*"\)$/N_(\1)/p' runtime/engine/model/convert.c \
 mkdir "$work/runtime/engine/text" # the family of a project's own blocks
 sed -n 's/.*\.family = \("[A-Za-z]*"\).*/N_(\1)/p' runtime/engine/text/read_words.c \
 	>"$work/runtime/engine/text/read_words.c"
+sed -n 's/^\t*\("[a-z ]*"\));$/N_(\1)/p' runtime/engine/text/read_array.c \
+	>"$work/runtime/engine/text/read_array.c" # of an expression, which xgettext misses
 (cd "$work" && $take -L C -k -kN_ -o catalog.pot runtime/engine/catalog.def \
-	runtime/engine/model/convert.c runtime/engine/text/read_words.c)
+	runtime/engine/model/convert.c runtime/engine/text/read_words.c \
+	runtime/engine/text/read_array.c)
+
+# What was expected, or too many: arguments of messages, those of them that are words.
+$take -L C -k -kreader_fail_word:3 -kfail_word:3 -kfail_expected:2 -kreader_name:2 \
+	-o - runtime/engine/text/*.c runtime/engine/model/*.c 2>/dev/null |
+	msggrep --msgid -e '[a-z][a-z][a-z]' -o "$work/args.pot" -
 
 # The date would differ each time, and nothing reads it.
 xgettext --from-code=UTF-8 --add-location=file --package-name=Rungboard -L PO -o - \
-	"$work/editor.pot" "$work/ui.pot" "$work/diag.pot" "$work/catalog.pot" |
+	"$work/editor.pot" "$work/ui.pot" "$work/diag.pot" "$work/catalog.pot" \
+	"$work/args.pot" |
 	sed -e '/^"POT-Creation-Date:/d' -e 's/charset=CHARSET/charset=UTF-8/' >"$out"
