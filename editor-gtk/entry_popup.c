@@ -44,7 +44,7 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 				     row->note);
 	char *tip = g_strdup_printf("%s: %s", row->text, row->note);
 
-	gtk_label_set_max_width_chars(GTK_LABEL(text), 14);
+	gtk_label_set_max_width_chars(GTK_LABEL(text), 22);
 	gtk_label_set_max_width_chars(GTK_LABEL(note), 44);
 	gtk_widget_set_tooltip_text(box, tip);
 	gtk_box_append(GTK_BOX(box), text);
