@@ -10,6 +10,7 @@
 #include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/pou_edit.h"
+#include "editor-gtk/pou_import.h"
 
 #include <string.h>
 
@@ -315,6 +316,15 @@ static void act_add(GSimpleAction *action, GVariant *what, gpointer data)
 	pou_add(tree->list, tree->document, g_variant_get_string(what, NULL));
 }
 
+static void act_import(GSimpleAction *action, GVariant *unused, gpointer data)
+{
+	struct tree *tree = data;
+
+	(void)action;
+	(void)unused;
+	pou_import_ask(tree->list, tree->document);
+}
+
 static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
 {
 	struct tree *tree = data;
@@ -338,6 +348,7 @@ static GMenu *menu_model(void)
 		{ N_("New function block"), "tree.add::FUNCTION_BLOCK LD" },
 		{ N_("New function"), "tree.add::FUNCTION LD" },
 		{ N_("New subroutine"), "tree.add::SUBROUTINE LD" },
+		{ N_("Import from another project…"), "tree.import" },
 		{ N_("Rename…"), "tree.rename" },
 		{ N_("Delete"), "tree.delete" },
 	};
@@ -353,6 +364,7 @@ static void add_actions(struct tree *tree, GtkWidget *panel)
 {
 	const GActionEntry entries[] = {
 		{ .name = "add", .activate = act_add, .parameter_type = "s" },
+		{ .name = "import", .activate = act_import },
 		{ .name = "rename", .activate = act_on_pou },
 		{ .name = "delete", .activate = act_on_pou },
 	};
