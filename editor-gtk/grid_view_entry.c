@@ -115,18 +115,22 @@ static char *element_changed(void *context, const char *line, int cursor, bool *
 {
 	struct asked *asked = context;
 	const struct entry_place place = place_of(asked);
-	struct entry_candidate *found = g_new(struct entry_candidate, CANDIDATES);
-	struct entry *entry = g_new0(struct entry, 1);
-	size_t skipped;
-	char *whole = whole_line(asked, line, &skipped), *told;
-	const size_t at = skipped + (size_t)(g_utf8_offset_to_pointer(line, cursor) - line);
+	struct entry_candidate *found;
+	struct entry *entry;
+	size_t skipped, at;
+	char *whole, *told;
 	int count;
 
+	if (!asked->view->entry)
+		return NULL; /* the popup is being made: it asks again */
+	found = g_new(struct entry_candidate, CANDIDATES);
+	entry = g_new0(struct entry, 1);
+	whole = whole_line(asked, line, &skipped);
+	at = skipped + (size_t)(g_utf8_offset_to_pointer(line, cursor) - line);
 	entry_read(&place, whole, entry);
 	told = outcome(entry, good);
 	count = entry_candidates(&place, whole, at, found, CANDIDATES);
-	/* While the popup is made it is not yet ours. */
-	for (int i = 0; asked->view->entry && i < count; i++)
+	for (int i = 0; i < count; i++)
 		add_candidate(asked, &found[i], skipped);
 	g_free(whole);
 	g_free(entry);
