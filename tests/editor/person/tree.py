@@ -59,6 +59,7 @@ def rows(screen):
     assert 'PROGRAM Pump LD' in editor.save(path)
     editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other'][0])
     editor.keys('Delete')
+    until(lambda: not editor.all('Other', 'label'), 'the program to be gone')
     assert 'Other' not in editor.save(path)
     editor.keys('ctrl+z')
     assert 'PROGRAM Other' in editor.save(path)
