@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import BUILD, EDITOR, Editor, check, main, new_file, until  # noqa: E402
+from desk import BUILD, EDITOR, Editor, check, main, new_file, sh, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 PROJECT "水泵站"
@@ -81,12 +81,16 @@ def session(screen, language):
     until(lambda: editor.all('About Rungboard'), 'all commands')
     names |= editor.names()
     editor.keys('Escape')
+    keys_fit(editor, language)
     editor.keys('ctrl+Page_Up')
     editor.click(editor.grid(60, 3))
     editor.lines = {node.path for node in editor.all(role='text')}  # that of the filter is new
     editor.keys('F5')
     editor.opened()
-    editor.entry('允许')
+    editor.entry('允许', enter=False)
+    until(lambda: any('允许' in node.text() for node in editor.asked()), 'what is pasted')
+    editor.keys('Return')
+    editor.gone()
     until(lambda: any('允许' in name for name in editor.names()), 'the new contact')
     names |= editor.names()
     text = editor.save(path)
@@ -97,6 +101,19 @@ def session(screen, language):
     left = editor.english(names)
     assert not left, 'still English: %s' % left
     printed(screen, path, language)
+
+
+def keys_fit(editor, language):
+    """The window of all keys is no larger than the screen."""
+    until(lambda: len(editor.windows()) == 1, 'one window')
+    editor.keys('F1')
+    until(lambda: len(editor.windows()) == 2, 'the window of keys')
+    editor.shot('language-%s-keys' % language)
+    for window in editor.windows():
+        size = dict(line.split('=') for line in sh('xdotool', 'getwindowgeometry', '--shell', window).split())
+        assert int(size['WIDTH']) <= 1024 and int(size['HEIGHT']) <= 700, size
+    editor.keys('Escape')
+    until(lambda: len(editor.windows()) == 1, 'it to be closed')
 
 
 def printed(screen, path, language):
