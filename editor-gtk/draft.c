@@ -2,7 +2,7 @@
  *
  * draft - what was not saved, kept where a crash does not reach it.
  *
- * A draft is a file "PID-NUMBER.draft": a line with the path, and the text. A file whose
+ * A draft is a file "PID-NUMBER.draft": a line with the path as a URI, and the text. A file whose
  * process is alive belongs to that.
  */
 #include "editor-gtk/draft.h"
@@ -39,12 +39,14 @@ void draft_write(LadderDocument *document)
 	struct keeper *keeper = keeper_of(document);
 	const char *path = ladder_document_path(document);
 	gsize len;
-	char *text, *whole, *dir;
+	char *text, *whole, *dir, *uri;
 
 	if (!keeper || ladder_document_is_saved(document))
 		return;
 	text = ladder_document_text(document, &len);
-	whole = g_strdup_printf(DRAFT_HEAD "%s\n%s", path ? path : "", text);
+	uri = path ? g_filename_to_uri(path, NULL, NULL) : NULL;
+	whole = g_strdup_printf(DRAFT_HEAD "%s\n%s", uri ? uri : "", text);
+	g_free(uri);
 	dir = g_path_get_dirname(keeper->file);
 	g_mkdir_with_parents(dir, 0700);
 	g_file_set_contents_full(keeper->file, whole, (gssize)strlen(whole),
@@ -121,11 +123,21 @@ static void draft_free(gpointer pointer)
 	g_free(draft);
 }
 
+/* Numbers of processes come again: only an editor counts as the draft's owner. Where
+ * /proc does not tell names, any process does. */
 static bool is_alive(const char *name)
 {
 	const long pid = strtol(name, NULL, 10);
+	char *path = g_strdup_printf("/proc/%ld/comm", pid), *comm = NULL, *own = NULL;
+	bool alive = pid > 0 && (kill((pid_t)pid, 0) == 0 || errno == EPERM);
 
-	return pid > 0 && (kill((pid_t)pid, 0) == 0 || errno == EPERM);
+	if (alive && g_file_get_contents("/proc/self/comm", &own, NULL, NULL) &&
+	    g_file_get_contents(path, &comm, NULL, NULL))
+		alive = strcmp(own, comm) == 0;
+	g_free(own);
+	g_free(comm);
+	g_free(path);
+	return alive;
 }
 
 static struct draft *read_draft(const char *file)
@@ -143,7 +155,7 @@ static struct draft *read_draft(const char *file)
 	*line = '\0';
 	draft->file = g_strdup(file);
 	if (all[strlen(DRAFT_HEAD)])
-		draft->path = g_strdup(all + strlen(DRAFT_HEAD));
+		draft->path = g_filename_from_uri(all + strlen(DRAFT_HEAD), NULL, NULL);
 	draft->text = g_strdup(line + 1);
 	draft->len = strlen(draft->text);
 	g_free(all);
