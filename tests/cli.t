@@ -174,7 +174,7 @@ is_run(1, 'fmt of an error', ['fmt', 'broken.rung']);
 SKIP: {
 	my $setpriv = grep { -x "$_/setpriv" } split /:/, $ENV{PATH};
 	skip 'root may write everywhere, and no setpriv(1)', 3 if $> == 0 && !$setpriv;
-	@as_user = qw(setpriv --bounding-set=-dac_override,-dac_read_search) if $> == 0;
+	@as_user = ('setpriv', '--bounding-set=-dac_override,-dac_read_search') if $> == 0;
 	mkdir 'ro'; put('ro/ugly.rung', $ugly); chmod 0555, 'ro';
 	is_run(2, 'fmt in a read-only folder', ['fmt', 'ro/ugly.rung']);
 	is(get('ro/ugly.rung'), $ugly, 'and the file is what it was');
