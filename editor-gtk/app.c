@@ -6,6 +6,7 @@
  */
 #include "editor-gtk/app.h"
 
+#include "editor-gtk/disk.h"
 #include "editor-gtk/draft.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/memory.h"
@@ -105,7 +106,8 @@ void app_open_sample(LadderWindow *window, const char *path)
 	char *text;
 	gsize len;
 
-	if (g_file_get_contents(path, &text, &len, &error)) {
+	text = disk_read(path, LIMIT_TEXT, &len, &error);
+	if (text) {
 		ladder_document_open_text(document, NULL, text, len, true);
 		if (ladder_window_document(window) != document)
 			show_document(the_application(window), document);

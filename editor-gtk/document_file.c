@@ -5,6 +5,7 @@
  * A save leaves the old file or the new one, never a mix. It asks nobody: whether a file
  * that somebody else changed may be written over is the window's question.
  */
+#include "editor-gtk/disk.h"
 #include "editor-gtk/document_inside.h"
 
 #include "engine/scan/code.h"
@@ -15,6 +16,15 @@
 static char *sum_of(const char *text, gsize len)
 {
 	return g_compute_checksum_for_data(G_CHECKSUM_SHA256, (const guchar *)text, len);
+}
+
+/* What stands in the file; NULL: nobody knows. */
+static void set_sum(LadderDocument *document, char *sum)
+{
+	g_free(document->disk_sum);
+	document->disk_sum = sum;
+	document->disk_differs = false;
+	memset(&document->disk_seen, 0, sizeof(document->disk_seen));
 }
 
 static void set_path(LadderDocument *document, const char *path)
@@ -29,22 +39,6 @@ static bool fail(GError **error, GFileError code, const char *text, const char *
 {
 	g_set_error(error, G_FILE_ERROR, code, "%s: %s", path, text);
 	return false;
-}
-
-static char *read_file(const char *path, gsize *len, GError **error)
-{
-	char *text = NULL;
-	GStatBuf about;
-
-	if (g_stat(path, &about) == 0 && about.st_size > (goffset)LIMIT_TEXT) {
-		char *size = g_format_size((guint64)about.st_size);
-
-		g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_FAILED,
-			    _("%s: is too large: %s"), path, size);
-		g_free(size);
-		return NULL;
-	}
-	return g_file_get_contents(path, &text, len, error) ? text : NULL;
 }
 
 /* Bytes that are no text cannot be shown: what stands for them is not what the file
@@ -62,7 +56,7 @@ static void open_bytes(LadderDocument *document, const char *path, const char *t
 	}
 	valid = g_utf8_make_valid(text, (gssize)len);
 	ladder_document_open_text(document, path, valid, strlen(valid), false);
-	document->disk_sum = sum_of(text, len);
+	set_sum(document, sum_of(text, len));
 	document->repaired = 1;
 	for (const char *at = text; at < bad; at++)
 		document->repaired += *at == '\n';
@@ -72,7 +66,7 @@ static void open_bytes(LadderDocument *document, const char *path, const char *t
 bool ladder_document_open(LadderDocument *document, const char *path, GError **error)
 {
 	gsize len;
-	char *text = read_file(path, &len, error);
+	char *text = disk_read(path, LIMIT_TEXT, &len, error);
 
 	if (!text)
 		return false;
@@ -91,9 +85,7 @@ void ladder_document_open_text(LadderDocument *document, const char *path,
 			       const char *text, gsize len, bool saved)
 {
 	set_path(document, path);
-	g_clear_pointer(&document->disk_sum, g_free);
-	if (saved)
-		document->disk_sum = sum_of(text, len);
+	set_sum(document, saved ? sum_of(text, len) : NULL);
 	document_take(document, text, len);
 	if (!saved) {
 		history_never_saved(document->history);
@@ -110,12 +102,10 @@ bool ladder_document_save(LadderDocument *document, const char *path, GError **e
 	path = path ? path : document->path;
 	g_return_val_if_fail(path != NULL, false);
 	text = ladder_document_text(document, &len);
-	good = g_file_set_contents_full(path, text, (gssize)len,
-		G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE, 0666, error);
+	good = disk_save(path, text, len, error);
 	if (good) {
 		set_path(document, path);
-		g_free(document->disk_sum);
-		document->disk_sum = sum_of(text, len);
+		set_sum(document, sum_of(text, len));
 		history_mark_saved(document->history);
 		document_tell_state(document);
 	}
@@ -123,20 +113,38 @@ bool ladder_document_save(LadderDocument *document, const char *path, GError **e
 	return good;
 }
 
+/* The file is read only if it looks another than when it was looked at last. */
+static bool looks_the_same(LadderDocument *document)
+{
+	GStatBuf about;
+	const bool same = g_stat(document->path, &about) == 0 &&
+		about.st_mtim.tv_sec == document->disk_seen.st_mtim.tv_sec &&
+		about.st_mtim.tv_nsec == document->disk_seen.st_mtim.tv_nsec &&
+		about.st_ino == document->disk_seen.st_ino &&
+		about.st_size == document->disk_seen.st_size;
+
+	document->disk_seen = about;
+	return same;
+}
+
 bool ladder_document_disk_changed(LadderDocument *document)
 {
-	char *text = NULL, *sum;
+	char *text, *sum;
 	gsize len;
-	bool changed = false;
 
-	if (!document->path || !document->disk_sum ||
-	    !g_file_get_contents(document->path, &text, &len, NULL))
+	if (!document->path || !document->disk_sum)
 		return false;
-	sum = sum_of(text, len);
-	changed = strcmp(sum, document->disk_sum) != 0;
-	g_free(sum);
+	if (looks_the_same(document))
+		return document->disk_differs;
+	text = disk_read(document->path, LIMIT_TEXT, &len, NULL);
+	document->disk_differs = false;
+	if (text) {
+		sum = sum_of(text, len);
+		document->disk_differs = strcmp(sum, document->disk_sum) != 0;
+		g_free(sum);
+	}
 	g_free(text);
-	return changed;
+	return document->disk_differs;
 }
 
 bool ladder_document_is_saved(LadderDocument *document)

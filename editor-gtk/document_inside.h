@@ -9,6 +9,8 @@
 #include "editor-gtk/history.h"
 #include "editor-gtk/i18n.h"
 
+#include <glib/gstdio.h>
+
 struct _LadderDocument {
 	GObject parent;
 	struct ladder *ladder;    /* holds the live project                    */
@@ -18,6 +20,8 @@ struct _LadderDocument {
 	struct history *history;
 	char *path;
 	char *disk_sum;           /* digest of the file when it was read or saved */
+	GStatBuf disk_seen;       /* of the file when it was looked at last    */
+	bool disk_differs;        /* and whether it was another then           */
 	int repaired;             /* line of the first byte that is no text; 0: none */
 	guint64 version;
 	/* Checks: */

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/file_view.h"
 
+#include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
 
 #include <gio/gio.h>
@@ -15,6 +16,7 @@
 struct _LadderFileView {
 	GtkBox parent;
 	char *path;
+	char *read;         /* what stood in it when it was read or saved      */
 	GtkTextBuffer *buffer;
 };
 
@@ -23,6 +25,25 @@ G_DEFINE_FINAL_TYPE(LadderFileView, ladder_file_view, GTK_TYPE_BOX)
 bool ladder_file_view_is_saved(LadderFileView *view)
 {
 	return !gtk_text_buffer_get_modified(view->buffer);
+}
+
+/* What somebody else wrote meanwhile is not written over before that is told. A file that
+ * is gone does not count. */
+static bool is_as_read(LadderFileView *view, GError **error)
+{
+	gsize len;
+	char *now = disk_read(view->path, FILE_MOST, &len, NULL);
+
+	if (!now || strcmp(now, view->read) == 0) {
+		g_free(now);
+		return true;
+	}
+	g_free(view->read);
+	view->read = now;
+	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_FAILED,
+		    _("%s: somebody else changed it since it was opened; saved again, "
+		      "it is written over"), view->path);
+	return false;
 }
 
 bool ladder_file_view_save(LadderFileView *view, GError **error)
@@ -35,12 +56,20 @@ bool ladder_file_view_save(LadderFileView *view, GError **error)
 		return true;
 	gtk_text_buffer_get_bounds(view->buffer, &start, &end);
 	text = gtk_text_buffer_get_text(view->buffer, &start, &end, TRUE);
-	good = g_file_set_contents_full(view->path, text, -1,
-		G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE, 0666, error);
-	if (good)
+	good = is_as_read(view, error) &&
+	       disk_save(view->path, text, strlen(text), error);
+	if (good) {
 		gtk_text_buffer_set_modified(view->buffer, FALSE);
+		g_free(view->read);
+		view->read = g_steal_pointer(&text);
+	}
 	g_free(text);
 	return good;
+}
+
+char *ladder_file_view_name(LadderFileView *view)
+{
+	return g_path_get_basename(view->path);
 }
 
 bool ladder_file_view_undo(LadderFileView *view)
@@ -65,17 +94,14 @@ bool ladder_file_view_redo(LadderFileView *view)
 
 static void ladder_file_view_dispose(GObject *object)
 {
-	LadderFileView *view = LADDER_FILE_VIEW(object);
-
-	if (view->buffer)
-		ladder_file_view_save(view, NULL);
-	g_clear_object(&view->buffer);
+	g_clear_object(&LADDER_FILE_VIEW(object)->buffer);
 	G_OBJECT_CLASS(ladder_file_view_parent_class)->dispose(object);
 }
 
 static void ladder_file_view_finalize(GObject *object)
 {
 	g_free(LADDER_FILE_VIEW(object)->path);
+	g_free(LADDER_FILE_VIEW(object)->read);
 	G_OBJECT_CLASS(ladder_file_view_parent_class)->finalize(object);
 }
 
@@ -93,12 +119,10 @@ static void ladder_file_view_init(LadderFileView *view)
 /* NULL, and why: too long, unreadable, no text. */
 static char *text_of(const char *path, GError **error)
 {
-	char *text;
 	gsize len;
+	char *text = disk_read(path, FILE_MOST, &len, error);
 
-	if (!g_file_get_contents(path, &text, &len, error))
-		return NULL;
-	if (len <= FILE_MOST && g_utf8_validate(text, (gssize)len, NULL))
+	if (!text || g_utf8_validate_len(text, len, NULL))
 		return text;
 	g_free(text);
 	g_set_error(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA, _("%s is no text file"),
@@ -140,7 +164,7 @@ GtkWidget *ladder_file_view_new(const char *path, GError **error)
 	gtk_text_buffer_end_irreversible_action(view->buffer);
 	gtk_text_buffer_set_modified(view->buffer, FALSE);
 	g_free(name);
-	g_free(text);
+	view->read = text;
 	return GTK_WIDGET(view);
 }
 

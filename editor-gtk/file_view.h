@@ -2,8 +2,8 @@
  *
  * file_view - a text file beside the project: a scenario, an I/O map.
  *
- * It is written by ladder_file_view_save(), and when the view goes. It has an undo of its
- * own, since it is no part of the document.
+ * It is written by ladder_file_view_save() alone: who takes the view away asks before. It
+ * has an undo of its own, since it is no part of the document.
  */
 #ifndef EDITOR_FILE_VIEW_H
 #define EDITOR_FILE_VIEW_H
@@ -16,9 +16,12 @@ G_DECLARE_FINAL_TYPE(LadderFileView, ladder_file_view, LADDER, FILE_VIEW, GtkBox
 
 /** ladder_file_view_new - NULL: it cannot be read, or is no text; @error says why. */
 GtkWidget *ladder_file_view_new(const char *path, GError **error);
-/** ladder_file_view_save - false: it cannot be written, @error says why; the text stays. */
+/** ladder_file_view_save - false: it cannot be written, or somebody else changed it, and
+ * @error says so; the text stays. Saved again, it is written over the other's. */
 bool ladder_file_view_save(LadderFileView *view, GError **error);
 bool ladder_file_view_is_saved(LadderFileView *view);
+/** ladder_file_view_name - of the file, without its folder. Caller frees. */
+char *ladder_file_view_name(LadderFileView *view);
 /** ladder_file_view_undo, ladder_file_view_redo - false: there is nothing. */
 bool ladder_file_view_undo(LadderFileView *view);
 bool ladder_file_view_redo(LadderFileView *view);

@@ -6,6 +6,7 @@
 #include "editor-gtk/symbols_view.h"
 
 #include "editor-gtk/csv.h"
+#include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/import_dialog.h"
 #include "editor-gtk/symbols_cells.h"
@@ -260,30 +261,28 @@ GtkWidget *ladder_symbols_view_import(LadderSymbolsView *view, const char *from,
 	return dialog;
 }
 
-static void import_file(LadderSymbolsView *view, GFile *file)
+static void import_file(LadderSymbolsView *view, const char *path)
 {
-	char *name = g_file_get_basename(file), *text = NULL;
 	GError *error = NULL;
-	gsize len = 0;
+	gsize len;
+	char *text = disk_read(path, FILE_MOST, &len, &error);
+	char *name = g_path_get_basename(path);
 
-	if (!g_file_load_contents(file, NULL, &text, &len, NULL, &error))
-		tell(view, g_strdup(error->message));
-	else if (len > FILE_MOST)
-		tell(view, g_strdup_printf(_("%s is too large"), name));
-	else
+	if (text)
 		ladder_symbols_view_import(view, name, text, len);
+	else
+		tell(view, g_strdup(error->message));
 	g_clear_error(&error);
 	g_free(text);
 	g_free(name);
 }
 
-static void export_file(LadderSymbolsView *view, GFile *file)
+static void export_file(LadderSymbolsView *view, const char *path)
 {
 	char *table = csv_export(panel_watch_document(view->watch));
 	GError *error = NULL;
 
-	if (!g_file_replace_contents(file, table, strlen(table), NULL, FALSE, 0, NULL, NULL,
-				     &error))
+	if (!disk_save(path, table, strlen(table), &error))
 		tell(view, g_strdup(error->message));
 	else
 		tell(view, NULL);
@@ -296,11 +295,13 @@ static void chosen(GtkNativeDialog *dialog, int response, LadderSymbolsView *vie
 	GtkFileChooser *chooser = GTK_FILE_CHOOSER(dialog);
 	GFile *file = response == GTK_RESPONSE_ACCEPT ?
 		gtk_file_chooser_get_file(chooser) : NULL;
+	char *path = file ? g_file_get_path(file) : NULL;
 
-	if (file && gtk_file_chooser_get_action(chooser) == GTK_FILE_CHOOSER_ACTION_OPEN)
-		import_file(view, file);
-	else if (file)
-		export_file(view, file);
+	if (path && gtk_file_chooser_get_action(chooser) == GTK_FILE_CHOOSER_ACTION_OPEN)
+		import_file(view, path);
+	else if (path)
+		export_file(view, path);
+	g_free(path);
 	g_clear_object(&file);
 	g_clear_object(&view->chooser);
 }

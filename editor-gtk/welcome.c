@@ -4,7 +4,10 @@
  */
 #include "editor-gtk/welcome.h"
 
+#include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
+
+#include "engine/base/limits.h"
 
 #include <adwaita.h>
 #include <string.h>
@@ -94,9 +97,11 @@ static void add_recent(GtkWidget *page)
 /* PROJECT "…" of a file, if it is near its beginning. */
 static char *title_of(const char *path)
 {
-	char *text = NULL, *found, *end, *title = NULL;
+	char *found, *end, *title = NULL;
+	gsize len;
+	char *text = disk_read(path, LIMIT_TEXT, &len, NULL);
 
-	if (!g_file_get_contents(path, &text, NULL, NULL))
+	if (!text)
 		return NULL;
 	found = strstr(text, "\nPROJECT \"");
 	if (found) {

@@ -116,27 +116,25 @@ void window_save_as(LadderWindow *window)
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
 }
 
-/* The file in front: a scenario, an I/O map. False: there is none. */
-static bool save_beside(LadderWindow *window)
+bool window_save_file(LadderWindow *window, LadderFileView *file)
 {
-	LadderFileView *file = tabs_file(window);
 	GError *error = NULL;
+	const bool good = ladder_file_view_save(file, &error);
 
-	if (!file)
-		return false;
-	if (ladder_file_view_save(file, &error))
+	if (good)
 		ladder_window_tell(window, _("Saved"));
 	else
 		ladder_window_warn(window, error->message);
 	g_clear_error(&error);
-	return true;
+	return good;
 }
 
 void window_save(LadderWindow *window)
 {
-	if (save_beside(window))
-		return;
-	if (!ladder_document_path(window->document))
+	/* The file in front: a scenario, an I/O map. */
+	if (tabs_file(window))
+		window_save_file(window, tabs_file(window));
+	else if (!ladder_document_path(window->document))
 		window_save_as(window);
 	else if (ladder_document_disk_changed(window->document))
 		window_banner(window, _("Somebody else changed the file since it was "
@@ -163,48 +161,98 @@ static void close_now(LadderWindow *window)
 	g_idle_add(close_idle, g_object_ref(window));
 }
 
+static bool save_files(LadderWindow *window)
+{
+	GPtrArray *files = tabs_unsaved(window);
+	bool good = true;
+
+	for (guint i = 0; good && i < files->len; i++)
+		good = window_save_file(window, files->pdata[i]);
+	g_ptr_array_unref(files);
+	return good;
+}
+
+static void save_and_close(LadderWindow *window)
+{
+	if (!save_files(window))
+		return;
+	window->closing = true;
+	if (ladder_document_is_saved(window->document))
+		close_now(window);
+	else if (!ladder_document_path(window->document))
+		window_save_as(window);
+	else if (save_to(window, NULL))
+		close_now(window);
+	else
+		window->closing = false;
+}
+
 static void close_response(AdwMessageDialog *dialog, const char *response,
 			   LadderWindow *window)
 {
 	(void)dialog;
-	if (g_strcmp0(response, "discard") == 0) {
+	if (g_strcmp0(response, "discard") == 0)
 		close_now(window);
-	} else if (g_strcmp0(response, "save") == 0) {
-		window->closing = true;
-		if (!ladder_document_path(window->document))
-			window_save_as(window);
-		else if (save_to(window, NULL))
-			close_now(window);
-		else
-			window->closing = false;
+	else if (g_strcmp0(response, "save") == 0)
+		save_and_close(window);
+}
+
+GtkWidget *window_ask_save(LadderWindow *window, const char *name)
+{
+	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(window),
+						   _("Save the changes?"), NULL);
+	AdwMessageDialog *message = ADW_MESSAGE_DIALOG(dialog);
+
+	adw_message_dialog_format_body(message,
+		_("“%s” has changes that are not saved."), name);
+	adw_message_dialog_add_responses(message, "cancel", _("Cancel"),
+		"discard", _("Discard"), "save", _("Save"), NULL);
+	adw_message_dialog_set_response_appearance(message, "discard",
+						   ADW_RESPONSE_DESTRUCTIVE);
+	adw_message_dialog_set_response_appearance(message, "save",
+						   ADW_RESPONSE_SUGGESTED);
+	adw_message_dialog_set_default_response(message, "save");
+	adw_message_dialog_set_close_response(message, "cancel");
+	gtk_window_present(GTK_WINDOW(dialog));
+	return dialog;
+}
+
+/* "Pump, pump.scn". */
+static char *unsaved_names(LadderWindow *window, const GPtrArray *files)
+{
+	GString *names = g_string_new(NULL);
+
+	if (!ladder_document_is_saved(window->document)) {
+		char *name = ladder_document_name(window->document);
+
+		g_string_append(names, name);
+		g_free(name);
 	}
+	for (guint i = 0; i < files->len; i++) {
+		char *name = ladder_file_view_name(files->pdata[i]);
+
+		g_string_append_printf(names, "%s%s", names->len ? ", " : "", name);
+		g_free(name);
+	}
+	return g_string_free(names, FALSE);
 }
 
 bool window_may_close(LadderWindow *window)
 {
-	GtkWidget *dialog;
-	char *name;
+	GPtrArray *files = tabs_unsaved(window);
+	const bool good = ladder_document_is_saved(window->document) && files->len == 0;
+	char *names;
 
-	if (ladder_document_is_saved(window->document)) {
+	if (good) {
 		draft_remove(window->document);
-		return true;
+	} else {
+		names = unsaved_names(window, files);
+		g_signal_connect(window_ask_save(window, names), "response",
+				 G_CALLBACK(close_response), window);
+		g_free(names);
 	}
-	name = ladder_document_name(window->document);
-	dialog = adw_message_dialog_new(GTK_WINDOW(window), _("Save the changes?"), NULL);
-	adw_message_dialog_format_body(ADW_MESSAGE_DIALOG(dialog),
-		_("“%s” has changes that are not saved."), name);
-	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog),
-		"cancel", _("Cancel"), "discard", _("Discard"), "save", _("Save"), NULL);
-	adw_message_dialog_set_response_appearance(ADW_MESSAGE_DIALOG(dialog), "discard",
-						   ADW_RESPONSE_DESTRUCTIVE);
-	adw_message_dialog_set_response_appearance(ADW_MESSAGE_DIALOG(dialog), "save",
-						   ADW_RESPONSE_SUGGESTED);
-	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "save");
-	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
-	g_signal_connect(dialog, "response", G_CALLBACK(close_response), window);
-	gtk_window_present(GTK_WINDOW(dialog));
-	g_free(name);
-	return false;
+	g_ptr_array_unref(files);
+	return good;
 }
 
 /* ---- somebody else ---- */

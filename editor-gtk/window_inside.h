@@ -59,6 +59,9 @@ GtkWidget *tabs_show_widget(LadderWindow *window, const char *name);
 void tabs_show_file(LadderWindow *window, const char *path);
 /** tabs_file - of the page in front; NULL: it is none. */
 LadderFileView *tabs_file(LadderWindow *window);
+/** tabs_unsaved - the files beside the project that are not saved, of LadderFileView *.
+ * Caller: g_ptr_array_unref. */
+GPtrArray *tabs_unsaved(LadderWindow *window);
 /** tabs_sheet - of the page in front; NULL: it is none. */
 LadderGridView *tabs_sheet(LadderWindow *window);
 /** tabs_go - the place of a diagnostic or a use; -1: the whole. */
@@ -82,6 +85,11 @@ char *window_chosen_path(GtkNativeDialog *dialog);
 void window_open(LadderWindow *window);
 void window_save(LadderWindow *window);
 void window_save_as(LadderWindow *window);
+/** window_ask_save - shall @name be saved? The answer is the response "save", "discard" or
+ * "cancel" of the dialog that it returns; borrowed. */
+GtkWidget *window_ask_save(LadderWindow *window, const char *name);
+/** window_save_file - of a tab; false: it could not be, and that is told. */
+bool window_save_file(LadderWindow *window, LadderFileView *file);
 /** window_may_close - false: the person is asked first, and the window closes itself. */
 bool window_may_close(LadderWindow *window);
 /** window_watch_disk - tells if somebody else changes the file. */

@@ -72,6 +72,66 @@ LadderFileView *tabs_file(LadderWindow *window)
 	return widget && LADDER_IS_FILE_VIEW(widget) ? LADDER_FILE_VIEW(widget) : NULL;
 }
 
+GPtrArray *tabs_unsaved(LadderWindow *window)
+{
+	GPtrArray *files = g_ptr_array_new();
+
+	for (int i = 0; i < adw_tab_view_get_n_pages(window->tabs); i++) {
+		GtkWidget *widget = content(adw_tab_view_get_nth_page(window->tabs, i));
+
+		if (LADDER_IS_FILE_VIEW(widget) &&
+		    !ladder_file_view_is_saved(LADDER_FILE_VIEW(widget)))
+			g_ptr_array_add(files, widget);
+	}
+	return files;
+}
+
+/* ---- closing one ---- */
+
+struct closing {
+	LadderWindow *window;
+	AdwTabPage *page;
+};
+
+static void close_answered(AdwMessageDialog *dialog, const char *answer,
+			   struct closing *closing)
+{
+	const bool save = strcmp(answer, "save") == 0;
+	const bool close = strcmp(answer, "discard") == 0 ||
+		(save && window_save_file(closing->window,
+					  LADDER_FILE_VIEW(content(closing->page))));
+
+	(void)dialog;
+	adw_tab_view_close_page_finish(closing->window->tabs, closing->page, close);
+}
+
+static void closing_free(gpointer closing, GClosure *closure)
+{
+	(void)closure;
+	g_object_unref(((struct closing *)closing)->page);
+	g_free(closing);
+}
+
+/* A file that is not saved goes only if the person says so. */
+static gboolean close_page(LadderWindow *window, AdwTabPage *page)
+{
+	GtkWidget *widget = content(page), *dialog;
+	struct closing *closing;
+	char *name;
+
+	if (!LADDER_IS_FILE_VIEW(widget) ||
+	    ladder_file_view_is_saved(LADDER_FILE_VIEW(widget)))
+		return GDK_EVENT_PROPAGATE;
+	closing = g_new0(struct closing, 1);
+	*closing = (struct closing){ window, g_object_ref(page) };
+	name = ladder_file_view_name(LADDER_FILE_VIEW(widget));
+	dialog = window_ask_save(window, name);
+	g_signal_connect_data(dialog, "response", G_CALLBACK(close_answered), closing,
+			      closing_free, 0);
+	g_free(name);
+	return GDK_EVENT_STOP;
+}
+
 /* ---- status ---- */
 
 static void show_place(LadderWindow *window)
@@ -263,6 +323,8 @@ static bool update_page(AdwTabPage *page, const struct project *project)
 
 	if (strcmp(name, " welcome") == 0)
 		return false; /* something was opened */
+	if (LADDER_IS_FILE_VIEW(widget))
+		return true; /* it is none of the project's */
 	if (name[0] == ' ')
 		return (strcmp(name, " text") == 0) == !project;
 	pou = pou_number(project, name);
@@ -332,8 +394,7 @@ void tabs_init(LadderWindow *window)
 				G_CALLBACK(tabs_update), window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->tabs, "notify::selected-page",
 				G_CALLBACK(page_selected), window, G_CONNECT_SWAPPED);
-	/* In a sheet they go to the first and the last rung. */
-	adw_tab_view_remove_shortcuts(window->tabs, ADW_TAB_VIEW_SHORTCUT_CONTROL_HOME |
-				      ADW_TAB_VIEW_SHORTCUT_CONTROL_END);
+	g_signal_connect_object(window->tabs, "close-page", G_CALLBACK(close_page), window,
+				G_CONNECT_SWAPPED);
 	tabs_update(window);
 }

@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/text_complete.h"
 #include "editor-gtk/text_view.h"
+#include "tests/editor/screen.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -222,12 +223,11 @@ int main(void)
 {
 	GtkWidget *window;
 
-	g_setenv("G_DEBUG", "fatal-warnings", TRUE);
-	g_setenv("GTK_A11Y", "test", FALSE);
-	if (!gtk_init_check()) {
-		printf("1..0 # SKIP no display\n");
+	if (!screen_start()) {
+		printf("1..0 # SKIP needs Xvfb\n");
 		return 0;
 	}
+	gtk_init();
 	adw_init();
 	gtk_source_init();
 	document = ladder_document_new();

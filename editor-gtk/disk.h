@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * disk - files as the engine reads and saves them, with errors a person can read.
+ *
+ * Only regular files, of a bounded size; a save goes through links, keeps the mode, and
+ * leaves the old file or the new one (engine/base/file.h).
+ */
+#ifndef EDITOR_DISK_H
+#define EDITOR_DISK_H
+
+#include <gio/gio.h>
+#include <stdbool.h>
+
+/** disk_read - all of it, NUL-ended; @limit: bytes at most. Caller frees with g_free().
+ * Fails: NULL, and @error (or NULL) says why. */
+char *disk_read(const char *path, gsize limit, gsize *len, GError **error);
+/** disk_save - in the place of what was there. Fails: false, and @error says why; the old
+ * file is as it was. */
+bool disk_save(const char *path, const char *bytes, gsize len, GError **error);
+
+#endif
