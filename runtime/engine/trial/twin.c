@@ -1,0 +1,279 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * twin - the scans of a program and its plant, and what a person does between them.
+ */
+#include "engine/trial/twin.h"
+
+#include "engine/scan/retain.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Which area of one is which of the other, a byte each. */
+static const struct { enum iec_area out, in; } crosswise[] = {
+	{ AREA_Q, AREA_I }, { AREA_AQ, AREA_AI },
+	{ AREA_XQ, AREA_XI }, { AREA_XAQ, AREA_XAI },
+};
+#define CROSSWISE (sizeof(crosswise) / sizeof(crosswise[0]))
+
+static bool has_plant(const struct twin *twin)
+{
+	return twin->plant.image.program != NULL;
+}
+
+/* Bits of inputs of the program, area by area, as offset in its memory. */
+static size_t mask_size(const struct program *program)
+{
+	return program->areas.size;
+}
+
+/* What lies at @at of an area, @bits of it, is driven. */
+static void drive(struct twin *twin, enum iec_area area, uint32_t bit, uint32_t bits)
+{
+	const struct areas *areas = &twin->resource.image.program->areas;
+
+	for (size_t i = 0; i < CROSSWISE; i++) {
+		const enum iec_area in = crosswise[i].in;
+
+		if (crosswise[i].out != area)
+			continue;
+		for (uint32_t b = bit; b < bit + bits && b < 8 * areas->bytes[in]; b++)
+			twin->plant_drives[areas->at[in] + b / 8] |=
+				(uint8_t)(1u << b % 8);
+	}
+}
+
+/* The plant gives what it declares at its outputs. */
+static void find_driven(struct twin *twin)
+{
+	const struct image *plant = &twin->plant.image;
+	const struct areas *areas = &plant->program->areas;
+	struct symbol_cursor cursor = { .whole = true };
+	struct symbol symbol;
+
+	while (image_next_symbol(plant, &cursor, &symbol)) {
+		const struct location at = symbol.at;
+		enum iec_area area;
+
+		if (at.type == IEC_NONE)
+			continue;
+		if (at.area != AREA_NONE) {
+			drive(twin, at.area, at.where, 1);
+			continue;
+		}
+		area = areas_find(areas, at.where);
+		if (area != AREA_NONE)
+			drive(twin, area, 8 * (at.where - areas->at[area]),
+			      8 * iec_type_size(at.type, 0));
+	}
+}
+
+static bool take_memory(struct twin *twin, const struct program *program,
+			const struct program *plant)
+{
+	uint8_t *memory;
+
+	twin->memory_size = image_memory_size(program);
+	twin->plant_size = plant ? image_memory_size(plant) : 0;
+	/* One block: program, plant, mask; each aligned to 8. */
+	twin->memory_size = (twin->memory_size + 7) & ~(size_t)7;
+	twin->plant_size = (twin->plant_size + 7) & ~(size_t)7;
+	memory = calloc(1, twin->memory_size + twin->plant_size + mask_size(program));
+	if (!memory)
+		return false;
+	resource_init(&twin->resource, program, memory);
+	if (plant)
+		resource_init(&twin->plant, plant, memory + twin->memory_size);
+	twin->plant_drives = memory + twin->memory_size + twin->plant_size;
+	return true;
+}
+
+bool twin_init(struct twin *twin, const struct program *program,
+	      const struct program *plant, int64_t period_ns)
+{
+	memset(twin, 0, sizeof(*twin));
+	if (!take_memory(twin, program, plant))
+		return false;
+	twin->resource.watch = true;
+	twin->period_ns = period_ns;
+	if (plant)
+		find_driven(twin);
+	return true;
+}
+
+void twin_free(struct twin *twin)
+{
+	free(twin->resource.image.memory);
+	memset(twin, 0, sizeof(*twin));
+}
+
+bool twin_clone(struct twin *twin, const struct twin *from)
+{
+	const size_t mask = mask_size(from->resource.image.program);
+
+	memset(twin, 0, sizeof(*twin));
+	if (!take_memory(twin, from->resource.image.program, from->plant.image.program))
+		return false;
+	memcpy(twin->plant_drives, from->plant_drives, mask);
+	twin_copy(twin, from);
+	return true;
+}
+
+static void resource_copy(struct resource *to, const struct resource *from, size_t size)
+{
+	uint8_t *memory = to->image.memory;
+
+	if (!size)
+		return;
+	*to = *from;
+	to->image.memory = to->vm.memory = memory;
+	memcpy(memory, from->image.memory, size);
+}
+
+void twin_copy(struct twin *twin, const struct twin *from)
+{
+	resource_copy(&twin->resource, &from->resource, twin->memory_size);
+	resource_copy(&twin->plant, &from->plant, twin->plant_size);
+	twin->now_ns = from->now_ns;
+	twin->period_ns = from->period_ns;
+	twin->scan = from->scan;
+}
+
+/* ---- acts ---- */
+
+static void clear_outputs(struct resource *resource)
+{
+	struct image *image = &resource->image;
+
+	for (size_t i = 0; i < CROSSWISE; i++) {
+		const enum iec_area area = crosswise[i].out;
+
+		for (uint32_t bit = 0; bit < 8 * image->program->areas.bytes[area]; bit++)
+			image_set_bit(image, area, bit, false);
+	}
+}
+
+static void stop(struct twin *twin)
+{
+	resource_stop(&twin->resource);
+	clear_outputs(&twin->resource);
+	resource_stop(&twin->plant);
+}
+
+static bool start_program(struct resource *resource, bool warm)
+{
+	if (warm)
+		return retain_start(resource);
+	resource_start(resource);
+	return true;
+}
+
+/* Forces outlive a start, as on a board. */
+static bool start(struct twin *twin, bool warm)
+{
+	struct image *image = &twin->resource.image;
+	const int forces = image->force_count;
+	struct force *force = malloc(sizeof(image->force));
+
+	if (!force)
+		return false;
+	memcpy(force, image->force, sizeof(image->force));
+	if (!start_program(&twin->resource, warm)) {
+		free(force);
+		return false;
+	}
+	for (int i = 0; i < forces; i++)
+		image_force(image, force[i].at, force[i].value);
+	free(force);
+	if (has_plant(twin))
+		resource_start(&twin->plant);
+	return true;
+}
+
+static void release_all(struct image *image)
+{
+	while (image->force_count)
+		image_unforce(image, image->force[image->force_count - 1].at);
+}
+
+static bool set_period(struct twin *twin, int64_t ns)
+{
+	if (ns <= 0)
+		return false;
+	twin->period_ns = ns;
+	return true;
+}
+
+bool twin_act(struct twin *twin, const struct act *act)
+{
+	struct image *image = act->plant ? &twin->plant.image : &twin->resource.image;
+
+	if (!image->program)
+		return false;
+	switch (act->kind) {
+	case ACT_SET: return image_set(image, act->at, act->value);
+	case ACT_FORCE: return image_force(image, act->at, act->value);
+	case ACT_RELEASE: return image_unforce(image, act->at);
+	case ACT_RELEASE_ALL: release_all(image); return true;
+	case ACT_START: return start(twin, false);
+	case ACT_WARM: return start(twin, true);
+	case ACT_STOP: stop(twin); return true;
+	case ACT_PERIOD: return set_period(twin, act->value.i);
+	}
+	return false;
+}
+
+/* ---- scans ---- */
+
+static uint32_t least(uint32_t a, uint32_t b)
+{
+	return a < b ? a : b;
+}
+
+/* What the plant does not drive stays: a person's switch. */
+static void plant_to_program(struct twin *twin)
+{
+	const struct areas *here = &twin->resource.image.program->areas;
+	const struct areas *there = &twin->plant.image.program->areas;
+
+	for (size_t i = 0; i < CROSSWISE; i++) {
+		const enum iec_area out = crosswise[i].out, in = crosswise[i].in;
+		uint8_t *to = image_area(&twin->resource.image, in);
+		const uint8_t *from = image_area(&twin->plant.image, out);
+		const uint8_t *mask = twin->plant_drives + here->at[in];
+		const uint32_t bytes = least(here->bytes[in], there->bytes[out]);
+
+		for (uint32_t b = 0; b < bytes; b++)
+			to[b] = (uint8_t)((to[b] & ~mask[b]) | (from[b] & mask[b]));
+	}
+}
+
+static void program_to_plant(struct twin *twin)
+{
+	const struct areas *here = &twin->resource.image.program->areas;
+	const struct areas *there = &twin->plant.image.program->areas;
+
+	for (size_t i = 0; i < CROSSWISE; i++) {
+		const enum iec_area out = crosswise[i].out, in = crosswise[i].in;
+
+		memcpy(image_area(&twin->plant.image, in),
+		       image_area(&twin->resource.image, out),
+		       least(there->bytes[in], here->bytes[out]));
+	}
+}
+
+bool twin_scan(struct twin *twin)
+{
+	if (twin->resource.state != STATE_RUN)
+		return false;
+	twin->now_ns += twin->period_ns;
+	twin->scan++;
+	if (has_plant(twin))
+		plant_to_program(twin);
+	resource_scan(&twin->resource, twin->now_ns);
+	if (has_plant(twin)) {
+		program_to_plant(twin);
+		resource_scan(&twin->plant, twin->now_ns);
+	}
+	return twin->resource.state == STATE_RUN;
+}
