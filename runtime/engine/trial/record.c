@@ -341,7 +341,7 @@ bool replay_next(struct replay *replay, const struct record *record)
 	return twin->scan != before;
 }
 
-bool replay_seek(struct replay *replay, const struct record *record, uint64_t scan)
+bool replay_jump(struct replay *replay, const struct record *record, uint64_t scan)
 {
 	struct twin *twin = &replay->twin;
 	const struct frame *frame;
@@ -354,9 +354,16 @@ bool replay_seek(struct replay *replay, const struct record *record, uint64_t sc
 		state_restore(twin, frame);
 		replay->serial = record->serial;
 	}
-	while (twin->scan < scan && replay_next(replay, record))
+	return true;
+}
+
+bool replay_seek(struct replay *replay, const struct record *record, uint64_t scan)
+{
+	if (!replay_jump(replay, record, scan))
+		return false;
+	while (replay->twin.scan < scan && replay_next(replay, record))
 		;
-	return twin->scan == scan;
+	return replay->twin.scan == scan;
 }
 
 void record_each_act(const struct record *record, uint64_t from,

@@ -6,7 +6,7 @@
  * state now and then and every act between, and runs the scans between again when one is
  * asked for. How many scans it keeps depends on memory alone, not on what they did; the
  * oldest go first. Whoever records and looks in two threads holds a lock: record_act(),
- * record_scan() and replay_seek(), replay_next() of the same record exclude each other.
+ * record_scan() and replay_jump(), replay_next(), replay_seek() of the same record exclude each other.
  */
 #ifndef TRIAL_RECORD_H
 #define TRIAL_RECORD_H
@@ -50,6 +50,9 @@ void replay_free(struct replay *replay);
  * Fails: false: the record does not reach there.
  */
 bool replay_seek(struct replay *replay, const struct record *record, uint64_t scan);
+/** replay_jump - the nearest scan at or before @scan that can be had without running one;
+ * replay_next() goes on from there, a little at a time. As replay_seek. */
+bool replay_jump(struct replay *replay, const struct record *record, uint64_t scan);
 /** replay_next - one scan on. Fails: false: that was the last. */
 bool replay_next(struct replay *replay, const struct record *record);
 

@@ -1,0 +1,546 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim - the window's side of a simulation: orders to the thread, copies from it.
+ *
+ * What it shows is the newest copy, or, when a scan that was is asked for, a replay of the
+ * record. The thread is there from begin to end.
+ */
+#include "editor-gtk/sim_inside.h"
+
+#include "editor-gtk/disk.h"
+#include "editor-gtk/i18n.h"
+
+#include "engine/base/limits.h"
+
+struct _LadderSim {
+	GObject parent;
+	LadderDocument *document;
+	struct sim_rungs *rungs;
+	struct sim_thread *thread;  /* NULL: off                               */
+	struct sim_view view;       /* the newest                              */
+	struct replay replay;       /* the past; twin of no program: none yet  */
+	bool past;
+	enum sim_state told;        /* the last state that signals told of     */
+	gint64 period_ns;
+	double speed;
+	char *plant_path;
+	struct sim_program *plant;
+	/* Another program is built: */
+	guint64 version;            /* of the document that the last one was of */
+	bool building;
+};
+
+enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, SIGNAL_COUNT };
+static guint signals[SIGNAL_COUNT];
+
+G_DEFINE_FINAL_TYPE(LadderSim, ladder_sim, G_TYPE_OBJECT)
+
+static void tell_state(LadderSim *sim)
+{
+	sim->told = ladder_sim_state(sim);
+	g_signal_emit(sim, signals[STATE_CHANGED], 0);
+}
+
+static void tell(LadderSim *sim, const char *text, bool bad)
+{
+	g_signal_emit(sim, signals[TOLD], 0, text, bad);
+}
+
+/* ---- what comes from the thread ---- */
+
+static void forget_replay(LadderSim *sim)
+{
+	replay_free(&sim->replay);
+	sim->past = false;
+}
+
+static void tell_fault(LadderSim *sim)
+{
+	const struct resource *resource = &sim->view.twin.resource;
+	char text[160];
+
+	if (sim->told == ladder_sim_state(sim))
+		return;
+	if (resource->state == STATE_FAULT)
+		resource_fault_print(resource, text, sizeof(text));
+	else if (resource->halted)
+		resource_halt_print(resource, text, sizeof(text));
+	else
+		return;
+	tell(sim, text, true);
+}
+
+static bool take(LadderSim *sim)
+{
+	bool other;
+
+	if (!sim_thread_take(sim->thread, &sim->view, &other))
+		g_error("out of memory");
+	if (other) {
+		forget_replay(sim);
+		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+	}
+	return other;
+}
+
+static gboolean notified(gpointer data)
+{
+	LadderSim *sim = data;
+
+	take(sim);
+	tell_fault(sim);
+	if (sim->told != ladder_sim_state(sim))
+		tell_state(sim);
+	if (!sim->past)
+		g_signal_emit(sim, signals[SHOWN], 0);
+	return G_SOURCE_REMOVE;
+}
+
+/* ---- on and off ---- */
+
+static struct sim_program *build(LadderSim *sim, GError **error)
+{
+	gsize len;
+	char *text = ladder_document_text(sim->document, &len);
+	const char *path = ladder_document_path(sim->document);
+	struct sim_program *program = sim_program_new(
+		g_intern_string(path ? path : "-"), text, len, error);
+
+	g_free(text);
+	return program;
+}
+
+static bool start_thread(LadderSim *sim, struct sim_program *program, GError **error)
+{
+	const gint64 period = sim->period_ns ? sim->period_ns :
+		tasks_tick(program->program, 0, SIM_PERIOD);
+
+	sim->thread = sim_thread_new(program, sim->plant, period, notified, sim);
+	if (!sim->thread) {
+		g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_FAILED,
+				    _("Out of memory"));
+		return false;
+	}
+	if (sim->speed > 0)
+		sim_thread_speed(sim->thread, sim->speed);
+	sim->version = ladder_document_version(sim->document);
+	sim_rungs_same(sim->rungs);
+	take(sim);
+	return true;
+}
+
+bool ladder_sim_begin(LadderSim *sim, GError **error)
+{
+	struct sim_program *program;
+	bool good;
+
+	if (sim->thread)
+		return true;
+	program = build(sim, error);
+	if (!program) {
+		ladder_document_check_now(sim->document);
+		return false;
+	}
+	good = start_thread(sim, program, error);
+	sim_program_unref(program);
+	if (!good)
+		return false;
+	tell_state(sim);
+	g_signal_emit(sim, signals[SHOWN], 0);
+	return true;
+}
+
+void ladder_sim_end(LadderSim *sim)
+{
+	if (!sim->thread)
+		return;
+	g_clear_pointer(&sim->thread, sim_thread_free);
+	forget_replay(sim);
+	sim_view_clear(&sim->view);
+	g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+	tell_state(sim);
+	g_signal_emit(sim, signals[SHOWN], 0);
+}
+
+bool ladder_sim_is_on(LadderSim *sim)
+{
+	return sim->thread != NULL;
+}
+
+static struct sim_program *read_plant(const char *path, GError **error)
+{
+	gsize len;
+	char *text = disk_read(path, LIMIT_TEXT, &len, error);
+	struct sim_program *plant;
+
+	if (!text)
+		return NULL;
+	plant = sim_program_new(g_intern_string(path), text, len, error);
+	if (!plant)
+		g_prefix_error(error, "%s: ", path);
+	g_free(text);
+	return plant;
+}
+
+bool ladder_sim_set_plant(LadderSim *sim, const char *path, GError **error)
+{
+	struct sim_program *plant = path ? read_plant(path, error) : NULL;
+	const bool on = ladder_sim_is_on(sim);
+
+	if (path && !plant)
+		return false;
+	ladder_sim_end(sim);
+	g_clear_pointer(&sim->plant, sim_program_unref);
+	sim->plant = plant;
+	g_free(sim->plant_path);
+	sim->plant_path = g_strdup(path);
+	return !on || ladder_sim_begin(sim, error);
+}
+
+const char *ladder_sim_plant(LadderSim *sim)
+{
+	return sim->plant_path;
+}
+
+/* ---- another program, while it runs ---- */
+
+struct rebuild {
+	char *text;
+	gsize len;
+	const char *file;
+	guint64 version;
+};
+
+static void rebuild_free(gpointer rebuild)
+{
+	g_free(((struct rebuild *)rebuild)->text);
+	g_free(rebuild);
+}
+
+static void rebuild_run(GTask *task, gpointer source, gpointer data,
+			GCancellable *cancellable)
+{
+	struct rebuild *rebuild = data;
+	struct sim_program *program = sim_program_new(rebuild->file, rebuild->text,
+						      rebuild->len, NULL);
+
+	(void)source;
+	(void)cancellable;
+	g_task_return_pointer(task, program, (GDestroyNotify)sim_program_unref);
+}
+
+static void checked(LadderSim *sim);
+
+static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
+{
+	LadderSim *sim = LADDER_SIM(object);
+	struct rebuild *rebuild = g_task_get_task_data(G_TASK(result));
+	struct sim_program *program = g_task_propagate_pointer(G_TASK(result), NULL);
+
+	(void)unused;
+	sim->building = false;
+	if (program && sim->thread) {
+		sim_thread_change(sim->thread, program);
+		sim->version = rebuild->version;
+	}
+	if (program && rebuild->version == ladder_document_version(sim->document))
+		sim_rungs_same(sim->rungs);
+	else
+		checked(sim);
+	sim_program_unref(program);
+}
+
+/* The document's checks say whether it is worth to build it. */
+static void checked(LadderSim *sim)
+{
+	const struct diag_list *diags = ladder_document_diags(sim->document);
+	struct rebuild *rebuild;
+	GTask *task;
+
+	if (!sim->thread || sim->building || diags->errors ||
+	    sim->version == ladder_document_version(sim->document))
+		return;
+	rebuild = g_new0(struct rebuild, 1);
+	rebuild->text = ladder_document_text(sim->document, &rebuild->len);
+	rebuild->file = g_intern_string(ladder_document_path(sim->document) ?
+					ladder_document_path(sim->document) : "-");
+	rebuild->version = ladder_document_version(sim->document);
+	sim->building = true;
+	task = g_task_new(sim, NULL, rebuilt, NULL);
+	g_task_set_task_data(task, rebuild, rebuild_free);
+	g_task_run_in_thread(task, rebuild_run);
+	g_object_unref(task);
+}
+
+/* ---- running ---- */
+
+enum sim_state ladder_sim_state(LadderSim *sim)
+{
+	if (!sim->thread)
+		return SIM_OFF;
+	switch (sim->view.twin.resource.state) {
+	case STATE_STOP: return SIM_STOP;
+	case STATE_FAULT: return SIM_FAULT;
+	case STATE_RUN: break;
+	}
+	return sim->view.running ? SIM_RUN : SIM_PAUSE;
+}
+
+static void order(LadderSim *sim, enum act_kind kind, gint64 value)
+{
+	const struct act act = { .kind = kind, .value.i = value };
+
+	if (sim->thread)
+		sim_thread_act(sim->thread, &act);
+}
+
+static void start_if_stopped(LadderSim *sim)
+{
+	if (sim->view.twin.resource.state != STATE_RUN)
+		order(sim, ACT_START, 0);
+}
+
+void ladder_sim_run(LadderSim *sim)
+{
+	if (!sim->thread)
+		return;
+	ladder_sim_show_now(sim);
+	start_if_stopped(sim);
+	sim_thread_run(sim->thread, true);
+}
+
+void ladder_sim_pause(LadderSim *sim)
+{
+	if (sim->thread)
+		sim_thread_run(sim->thread, false);
+}
+
+void ladder_sim_stop(LadderSim *sim)
+{
+	if (!sim->thread)
+		return;
+	ladder_sim_show_now(sim);
+	sim_thread_run(sim->thread, false);
+	order(sim, ACT_STOP, 0);
+}
+
+void ladder_sim_scan(LadderSim *sim, int scans)
+{
+	if (!sim->thread)
+		return;
+	ladder_sim_show_now(sim);
+	start_if_stopped(sim);
+	sim_thread_scan(sim->thread, scans);
+}
+
+void ladder_sim_reset(LadderSim *sim, bool warm)
+{
+	ladder_sim_show_now(sim);
+	order(sim, warm ? ACT_WARM : ACT_START, 0);
+}
+
+gint64 ladder_sim_period(LadderSim *sim)
+{
+	return sim->thread ? sim->view.twin.period_ns :
+	       sim->period_ns ? sim->period_ns : SIM_PERIOD;
+}
+
+void ladder_sim_set_period(LadderSim *sim, gint64 ns)
+{
+	sim->period_ns = CLAMP(ns, 100000, 60000000000);
+	order(sim, ACT_PERIOD, sim->period_ns);
+	tell_state(sim);
+}
+
+double ladder_sim_speed(LadderSim *sim)
+{
+	return sim->speed;
+}
+
+void ladder_sim_set_speed(LadderSim *sim, double scans)
+{
+	sim->speed = scans > 0 ? scans : 0;
+	if (sim->thread)
+		sim_thread_speed(sim->thread, sim->speed);
+	tell_state(sim);
+}
+
+void ladder_sim_act(LadderSim *sim, const struct act *act)
+{
+	if (!sim->thread)
+		return;
+	ladder_sim_show_now(sim);
+	sim_thread_act(sim->thread, act);
+}
+
+/* ---- what is shown ---- */
+
+const struct twin *ladder_sim_twin(LadderSim *sim)
+{
+	if (!sim->thread)
+		return NULL;
+	return sim->past ? &sim->replay.twin : &sim->view.twin;
+}
+
+struct ladder *ladder_sim_ladder(LadderSim *sim)
+{
+	return sim->view.program ? sim->view.program->ladder : NULL;
+}
+
+struct ladder *ladder_sim_plant_ladder(LadderSim *sim)
+{
+	return sim->view.plant ? sim->view.plant->ladder : NULL;
+}
+
+int ladder_sim_rung(LadderSim *sim, int pou, int rung)
+{
+	return sim->thread ? sim_rungs_find(sim->rungs, pou, rung) : -1;
+}
+
+bool ladder_sim_is_forced(LadderSim *sim, struct location at)
+{
+	const struct twin *twin = ladder_sim_twin(sim);
+
+	return twin && image_is_forced(&twin->resource.image, at);
+}
+
+int ladder_sim_forces(LadderSim *sim)
+{
+	const struct twin *twin = ladder_sim_twin(sim);
+
+	return twin ? twin->resource.image.force_count + twin->plant.image.force_count : 0;
+}
+
+/* ---- the past ---- */
+
+guint64 ladder_sim_first(LadderSim *sim)
+{
+	const struct record *record = ladder_sim_lock_record(sim);
+	guint64 first = 0;
+
+	if (record) {
+		first = record_first(record);
+		ladder_sim_unlock_record(sim);
+	}
+	return first;
+}
+
+guint64 ladder_sim_last(LadderSim *sim)
+{
+	const struct record *record = ladder_sim_lock_record(sim);
+	guint64 last = 0;
+
+	if (record) {
+		last = record_last(record);
+		ladder_sim_unlock_record(sim);
+	}
+	return last;
+}
+
+/* A scan at a time, so that the thread need not wait for long. */
+static bool replay_to(LadderSim *sim, guint64 scan)
+{
+	bool good = true, begun = false;
+
+	while (good) {
+		const struct record *record = sim_thread_lock(sim->thread);
+
+		if (!begun)
+			good = (sim->replay.twin.resource.image.program ||
+				replay_init(&sim->replay, record)) &&
+			       replay_jump(&sim->replay, record, scan);
+		else
+			good = replay_next(&sim->replay, record);
+		begun = true;
+		sim_thread_unlock(sim->thread);
+		if (sim->replay.twin.scan >= scan)
+			return good;
+	}
+	return false;
+}
+
+bool ladder_sim_show(LadderSim *sim, guint64 scan)
+{
+	if (!sim->thread || !replay_to(sim, scan))
+		return false;
+	sim->past = true;
+	g_signal_emit(sim, signals[SHOWN], 0);
+	return true;
+}
+
+void ladder_sim_show_now(LadderSim *sim)
+{
+	if (!sim->past)
+		return;
+	sim->past = false;
+	g_signal_emit(sim, signals[SHOWN], 0);
+}
+
+bool ladder_sim_is_past(LadderSim *sim)
+{
+	return sim->past;
+}
+
+const struct record *ladder_sim_lock_record(LadderSim *sim)
+{
+	return sim->thread ? sim_thread_lock(sim->thread) : NULL;
+}
+
+void ladder_sim_unlock_record(LadderSim *sim)
+{
+	sim_thread_unlock(sim->thread);
+}
+
+/* ---- the object ---- */
+
+static void ladder_sim_dispose(GObject *object)
+{
+	LadderSim *sim = LADDER_SIM(object);
+
+	g_clear_pointer(&sim->thread, sim_thread_free);
+	forget_replay(sim);
+	sim_view_clear(&sim->view);
+	g_clear_pointer(&sim->plant, sim_program_unref);
+	g_clear_pointer(&sim->rungs, sim_rungs_free);
+	if (sim->document)
+		g_signal_handlers_disconnect_by_data(sim->document, sim);
+	g_clear_object(&sim->document);
+	G_OBJECT_CLASS(ladder_sim_parent_class)->dispose(object);
+}
+
+static void ladder_sim_finalize(GObject *object)
+{
+	g_free(LADDER_SIM(object)->plant_path);
+	G_OBJECT_CLASS(ladder_sim_parent_class)->finalize(object);
+}
+
+static void ladder_sim_class_init(LadderSimClass *class)
+{
+	const GType type = G_TYPE_FROM_CLASS(class);
+
+	G_OBJECT_CLASS(class)->dispose = ladder_sim_dispose;
+	G_OBJECT_CLASS(class)->finalize = ladder_sim_finalize;
+	signals[STATE_CHANGED] = g_signal_new("state-changed", type, G_SIGNAL_RUN_LAST, 0,
+		NULL, NULL, NULL, G_TYPE_NONE, 0);
+	signals[PROGRAM_CHANGED] = g_signal_new("program-changed", type, G_SIGNAL_RUN_LAST,
+		0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+	signals[SHOWN] = g_signal_new("shown", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL,
+		NULL, G_TYPE_NONE, 0);
+	signals[TOLD] = g_signal_new("told", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+		G_TYPE_NONE, 2, G_TYPE_STRING, G_TYPE_BOOLEAN);
+}
+
+static void ladder_sim_init(LadderSim *sim)
+{
+	sim->told = SIM_OFF;
+}
+
+LadderSim *ladder_sim_new(LadderDocument *document)
+{
+	LadderSim *sim = g_object_new(LADDER_TYPE_SIM, NULL);
+
+	sim->document = g_object_ref(document);
+	sim->rungs = sim_rungs_new(document);
+	g_signal_connect_swapped(document, "checked", G_CALLBACK(checked), sim);
+	return sim;
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim - the simulation of a document: the engine of the board, run in a thread of its own.
+ *
+ * The thread scans, keeps time and records; it never waits for what is drawn. The window
+ * sees copies: of the newest scan, or of one that was, when it is asked to show that. An
+ * edit that builds takes the place of the program that runs, with its values.
+ *
+ * Signals:
+ *   state-changed ()    mode, RUN or not, period, speed, record: what buttons show
+ *   program-changed ()  another program runs: places of variables are others
+ *   shown ()            ladder_sim_twin() has other values; at most once a frame
+ *   told (const char *text, gboolean bad)  for the log and the status bar
+ */
+#ifndef EDITOR_SIM_H
+#define EDITOR_SIM_H
+
+#include "editor-gtk/document.h"
+
+#include "engine/trial/record.h"
+
+#define LADDER_TYPE_SIM (ladder_sim_get_type())
+G_DECLARE_FINAL_TYPE(LadderSim, ladder_sim, LADDER, SIM, GObject)
+
+#define SIM_SCANS 100000            /* that can be looked at again             */
+#define SIM_BYTES (100u << 20)      /* and what they may take                  */
+#define SIM_PERIOD G_GINT64_CONSTANT(10000000)
+
+/** ladder_sim_new - off. @document: referenced. */
+LadderSim *ladder_sim_new(LadderDocument *document);
+
+/* ---- on and off ---- */
+
+/** ladder_sim_begin - builds the program, and stands in STOP
+ * Fails: false, and @error says why: the program has errors (the document's diagnostics are
+ * those of this very text then), or memory is out. */
+bool ladder_sim_begin(LadderSim *sim, GError **error);
+/** ladder_sim_end - stops, and forgets program, values, record. */
+void ladder_sim_end(LadderSim *sim);
+bool ladder_sim_is_on(LadderSim *sim);
+/** ladder_sim_set_plant - a program beside it, bound crosswise (trial/twin.h); the
+ * simulation begins anew if it is on. @path: NULL: none. Fails: false, @error says why. */
+bool ladder_sim_set_plant(LadderSim *sim, const char *path, GError **error);
+/** ladder_sim_plant - its file; NULL: there is none. Borrowed. */
+const char *ladder_sim_plant(LadderSim *sim);
+
+/* ---- running; nothing of it while it is off ---- */
+
+enum sim_state { SIM_OFF, SIM_STOP, SIM_RUN, SIM_PAUSE, SIM_FAULT };
+enum sim_state ladder_sim_state(LadderSim *sim);
+/** ladder_sim_run - from STOP a cold start, from PAUSE it goes on; a fault is cleared. */
+void ladder_sim_run(LadderSim *sim);
+/** ladder_sim_pause - time stands still; values stay. */
+void ladder_sim_pause(LadderSim *sim);
+/** ladder_sim_stop - outputs are 0. */
+void ladder_sim_stop(LadderSim *sim);
+/** ladder_sim_scan - pauses, and runs so many scans more; from STOP it starts first. */
+void ladder_sim_scan(LadderSim *sim, int scans);
+/** ladder_sim_reset - cold: values as they are declared; goes on as it was: RUN or PAUSE.
+ * @warm: what is VAR RETAIN keeps its value. */
+void ladder_sim_reset(LadderSim *sim, bool warm);
+
+gint64 ladder_sim_period(LadderSim *sim);
+/** ladder_sim_set_period - ns of program time from scan to scan, 100 us to 60 s. */
+void ladder_sim_set_period(LadderSim *sim, gint64 ns);
+double ladder_sim_speed(LadderSim *sim);
+/** ladder_sim_set_speed - scans a second on the wall; 0: as the period says. */
+void ladder_sim_set_speed(LadderSim *sim, double scans);
+
+/** ladder_sim_act - what a person does between two scans; a copy of @act is made. Takes
+ * effect at once, in STOP and PAUSE too, and ends the look at the past. What cannot be done
+ * (no such place) is told. */
+void ladder_sim_act(LadderSim *sim, const struct act *act);
+
+/* ---- what is shown ---- */
+
+/** ladder_sim_twin - as it was after the scan that is shown. NULL: off. Borrowed until the
+ * next `shown` or `program-changed`; to be read only. */
+const struct twin *ladder_sim_twin(LadderSim *sim);
+/** ladder_sim_ladder - what holds the project of the program that runs. NULL: off.
+ * Borrowed until `program-changed`. */
+struct ladder *ladder_sim_ladder(LadderSim *sim);
+/** ladder_sim_plant_ladder - likewise, of the plant; NULL: none. */
+struct ladder *ladder_sim_plant_ladder(LadderSim *sim);
+/** ladder_sim_rung - the rung of the running program, 0-based, that this one of the
+ * document is; -1: it was changed since, or is new. The POU is the same in both. */
+int ladder_sim_rung(LadderSim *sim, int pou, int rung);
+/** ladder_sim_is_forced - is @at (of the program that runs) held? */
+bool ladder_sim_is_forced(LadderSim *sim, struct location at);
+/** ladder_sim_forces - how many places are held, those of the plant too. */
+int ladder_sim_forces(LadderSim *sim);
+
+/* ---- the past ---- */
+
+/** ladder_sim_first, ladder_sim_last - scans that can be shown. */
+guint64 ladder_sim_first(LadderSim *sim);
+guint64 ladder_sim_last(LadderSim *sim);
+/** ladder_sim_show - shows that very scan, while the simulation goes on (or stands) behind
+ * it. False: the record does not reach there. */
+bool ladder_sim_show(LadderSim *sim, guint64 scan);
+/** ladder_sim_show_now - the newest again. */
+void ladder_sim_show_now(LadderSim *sim);
+bool ladder_sim_is_past(LadderSim *sim);
+/** ladder_sim_lock_record - for a replay of one's own, a little at a time: the thread that
+ * scans waits as long as it is held. NULL: off; then there is nothing to unlock. The record
+ * is another one after `program-changed`. */
+const struct record *ladder_sim_lock_record(LadderSim *sim);
+void ladder_sim_unlock_record(LadderSim *sim);
+
+#endif

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim_program - a project that was built to be watched, counted.
+ */
+#include "editor-gtk/sim_inside.h"
+
+#include "editor-gtk/diag_said.h"
+#include "editor-gtk/i18n.h"
+
+static const struct diag *first_error(const struct diag_list *diags)
+{
+	for (int i = 0; i < diags->count; i++)
+		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR)
+			return &diags->diag[i];
+	return NULL;
+}
+
+static void say_why(struct ladder *ladder, GError **error)
+{
+	const struct diag *diag = first_error(ladder_diags(ladder));
+	char *text = diag ? diag_said_whole(diag) : NULL;
+
+	g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA,
+			    text ? text : _("Out of memory"));
+	g_free(text);
+}
+
+struct sim_program *sim_program_new(const char *file, const char *text, gsize len,
+				    GError **error)
+{
+	struct sim_program *program = g_new0(struct sim_program, 1);
+
+	g_atomic_ref_count_init(&program->count);
+	program->text = g_strndup(text, len);
+	program->ladder = ladder_new();
+	if (!program->ladder)
+		g_error("out of memory");
+	ladder_watch(program->ladder, true);
+	if (!ladder_load_text(program->ladder, file, program->text, len) ||
+	    !ladder_build(program->ladder)) {
+		say_why(program->ladder, error);
+		sim_program_unref(program);
+		return NULL;
+	}
+	program->program = ladder_program(program->ladder);
+	return program;
+}
+
+struct sim_program *sim_program_ref(struct sim_program *program)
+{
+	if (program)
+		g_atomic_ref_count_inc(&program->count);
+	return program;
+}
+
+void sim_program_unref(struct sim_program *program)
+{
+	if (!program || !g_atomic_ref_count_dec(&program->count))
+		return;
+	ladder_free(program->ladder);
+	g_free(program->text);
+	g_free(program);
+}

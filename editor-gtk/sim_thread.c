@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim_thread - scans at their times, does what it is told between them, records.
+ *
+ * What it is told comes through a queue; what it has comes out as a copy, at most once a
+ * frame, which it leaves out rather than wait for whoever reads the one before. It sleeps
+ * in the queue: standing still costs nothing.
+ */
+#include "editor-gtk/sim_inside.h"
+
+#define FRAME_US G_GINT64_CONSTANT(16000)
+#define BEHIND_US G_GINT64_CONSTANT(250000) /* more than that is not made up for   */
+
+enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_ACT, ORDER_CHANGE, ORDER_END };
+struct order {
+	enum order_kind kind;
+	int scans;               /* ORDER_RUN: 0, 1                            */
+	double speed;
+	struct act act;
+	char *text;              /* of the act's STRING                        */
+	struct sim_program *program;
+};
+
+struct sim_thread {
+	GThread *thread;
+	GAsyncQueue *orders;
+	GSourceFunc notify;
+	gpointer data;
+	/* Of the thread alone: */
+	struct twin twin;
+	bool run;
+	double speed;
+	double due_us;           /* of the next scan                           */
+	gint64 told_us;          /* when the last copy went out                */
+	bool changed;            /* since then                                 */
+	/* Under `record_lock`: */
+	GMutex record_lock;
+	struct record *record;
+	/* Under `out_lock`: */
+	GMutex out_lock;
+	struct twin out;
+	struct sim_program *program, *plant;
+	bool out_run;
+	/* Between both, atomic: */
+	int notified;
+};
+
+/* ---- out ---- */
+
+static void publish(struct sim_thread *thread, bool must)
+{
+	if (must)
+		g_mutex_lock(&thread->out_lock);
+	else if (!g_mutex_trylock(&thread->out_lock))
+		return;
+	twin_copy(&thread->out, &thread->twin);
+	thread->out_run = thread->run;
+	g_mutex_unlock(&thread->out_lock);
+	thread->changed = false;
+	thread->told_us = g_get_monotonic_time();
+	if (g_atomic_int_compare_and_exchange(&thread->notified, 0, 1))
+		g_idle_add_full(G_PRIORITY_DEFAULT, thread->notify, thread->data, NULL);
+}
+
+/* ---- scans ---- */
+
+static void scan(struct sim_thread *thread)
+{
+	const uint64_t before = thread->twin.scan;
+
+	if (!twin_scan(&thread->twin))
+		thread->run = false; /* FAULT, or the program asked for STOP */
+	if (thread->twin.scan == before)
+		return;
+	g_mutex_lock(&thread->record_lock);
+	record_scan(thread->record, &thread->twin);
+	g_mutex_unlock(&thread->record_lock);
+	thread->changed = true;
+}
+
+static double wall_period_us(const struct sim_thread *thread)
+{
+	return thread->speed > 0 ? 1e6 / thread->speed :
+				   (double)thread->twin.period_ns / 1e3;
+}
+
+/* us until the next scan is due; 0: now. */
+static guint64 wait_us(struct sim_thread *thread)
+{
+	const double wait = thread->due_us - (double)g_get_monotonic_time();
+
+	if (wait >= 0)
+		return (guint64)wait;
+	if (wait < -(double)BEHIND_US)
+		thread->due_us = (double)g_get_monotonic_time();
+	return 0;
+}
+
+static void scan_in_time(struct sim_thread *thread)
+{
+	scan(thread);
+	thread->due_us += wall_period_us(thread);
+	if (g_get_monotonic_time() - thread->told_us >= FRAME_US)
+		publish(thread, false);
+}
+
+/* ---- orders ---- */
+
+static void start_clock(struct sim_thread *thread)
+{
+	thread->due_us = (double)g_get_monotonic_time() + wall_period_us(thread);
+}
+
+static void act(struct sim_thread *thread, const struct act *act)
+{
+	if (!twin_act(&thread->twin, act))
+		return;
+	g_mutex_lock(&thread->record_lock);
+	record_act(thread->record, &thread->twin, act);
+	g_mutex_unlock(&thread->record_lock);
+}
+
+static struct record *new_record(const struct twin *twin)
+{
+	struct record *record = record_new(twin, SIM_SCANS, SIM_BYTES);
+
+	if (!record)
+		g_error("out of memory");
+	return record;
+}
+
+static void change(struct sim_thread *thread, struct sim_program *program)
+{
+	struct twin next;
+
+	if (!twin_init(&next, program->program, thread->plant ?
+		       thread->plant->program : NULL, thread->twin.period_ns)) {
+		sim_program_unref(program);
+		return;
+	}
+	g_mutex_lock(&thread->record_lock);
+	g_mutex_lock(&thread->out_lock);
+	record_free(thread->record);
+	twin_free(&thread->out);
+	twin_free(&thread->twin);
+	thread->twin = next;
+	if (!twin_clone(&thread->out, &next))
+		g_error("out of memory");
+	thread->record = new_record(&next);
+	sim_program_unref(thread->program);
+	thread->program = program;
+	g_mutex_unlock(&thread->out_lock);
+	g_mutex_unlock(&thread->record_lock);
+}
+
+static void scan_some(struct sim_thread *thread, int scans)
+{
+	thread->run = false;
+	while (scans-- > 0)
+		scan(thread);
+}
+
+/* False: it is to end. */
+static bool obey(struct sim_thread *thread, struct order *order)
+{
+	switch (order->kind) {
+	case ORDER_RUN:
+		thread->run = order->scans != 0;
+		start_clock(thread);
+		break;
+	case ORDER_SCAN: scan_some(thread, order->scans); break;
+	case ORDER_SPEED:
+		thread->speed = order->speed;
+		start_clock(thread);
+		break;
+	case ORDER_ACT: act(thread, &order->act); break;
+	case ORDER_CHANGE: change(thread, order->program); break;
+	case ORDER_END: return false;
+	}
+	thread->changed = true;
+	return true;
+}
+
+static struct order *next_order(struct sim_thread *thread)
+{
+	guint64 wait;
+
+	if (!thread->run)
+		return g_async_queue_pop(thread->orders);
+	wait = wait_us(thread);
+	return wait ? g_async_queue_timeout_pop(thread->orders, wait) :
+		      g_async_queue_try_pop(thread->orders);
+}
+
+static void order_free(struct order *order)
+{
+	g_free(order->text);
+	g_free(order);
+}
+
+static gpointer main_of(gpointer data)
+{
+	struct sim_thread *thread = data;
+	bool go_on = true;
+
+	while (go_on) {
+		struct order *order = next_order(thread);
+
+		if (order)
+			go_on = obey(thread, order);
+		else if (thread->run)
+			scan_in_time(thread);
+		/* What scans changed is shown with a later one, if there is one. */
+		if (thread->changed && (order || !thread->run) &&
+		    g_async_queue_length(thread->orders) <= 0)
+			publish(thread, true);
+		if (order)
+			order_free(order);
+	}
+	return NULL;
+}
+
+/* ---- of the window ---- */
+
+struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_program *plant,
+				  gint64 period_ns, GSourceFunc notify, gpointer data)
+{
+	struct sim_thread *thread = g_new0(struct sim_thread, 1);
+
+	if (!twin_init(&thread->twin, program->program, plant ? plant->program : NULL,
+		       period_ns) ||
+	    !twin_clone(&thread->out, &thread->twin)) {
+		twin_free(&thread->twin);
+		g_free(thread);
+		return NULL;
+	}
+	thread->notify = notify;
+	thread->data = data;
+	thread->program = sim_program_ref(program);
+	thread->plant = sim_program_ref(plant);
+	thread->record = new_record(&thread->twin);
+	g_mutex_init(&thread->record_lock);
+	g_mutex_init(&thread->out_lock);
+	thread->orders = g_async_queue_new_full((GDestroyNotify)order_free);
+	thread->thread = g_thread_new("scan", main_of, thread);
+	return thread;
+}
+
+static void tell(struct sim_thread *thread, const struct order *order)
+{
+	g_async_queue_push(thread->orders, g_memdup2(order, sizeof(*order)));
+}
+
+void sim_thread_free(struct sim_thread *thread)
+{
+	if (!thread)
+		return;
+	tell(thread, &(struct order){ .kind = ORDER_END });
+	g_thread_join(thread->thread);
+	while (g_idle_remove_by_data(thread->data))
+		;
+	g_async_queue_unref(thread->orders);
+	record_free(thread->record);
+	twin_free(&thread->twin);
+	twin_free(&thread->out);
+	sim_program_unref(thread->program);
+	sim_program_unref(thread->plant);
+	g_mutex_clear(&thread->record_lock);
+	g_mutex_clear(&thread->out_lock);
+	g_free(thread);
+}
+
+void sim_thread_run(struct sim_thread *thread, bool run)
+{
+	tell(thread, &(struct order){ .kind = ORDER_RUN, .scans = run });
+}
+
+void sim_thread_scan(struct sim_thread *thread, int scans)
+{
+	tell(thread, &(struct order){ .kind = ORDER_SCAN, .scans = scans });
+}
+
+void sim_thread_speed(struct sim_thread *thread, double scans)
+{
+	tell(thread, &(struct order){ .kind = ORDER_SPEED, .speed = scans });
+}
+
+void sim_thread_act(struct sim_thread *thread, const struct act *act)
+{
+	struct order order = { .kind = ORDER_ACT, .act = *act };
+
+	if (act->kind == ACT_SET && act->at.type == IEC_STRING) {
+		order.text = g_memdup2(act->value.s,
+				       sizeof(*act->value.s) + act->value.s->length);
+		order.act.value.s = (const struct iec_string *)(gpointer)order.text;
+	}
+	tell(thread, &order);
+}
+
+void sim_thread_change(struct sim_thread *thread, struct sim_program *program)
+{
+	tell(thread, &(struct order){ .kind = ORDER_CHANGE,
+				      .program = sim_program_ref(program) });
+}
+
+/* ---- copies ---- */
+
+void sim_view_clear(struct sim_view *view)
+{
+	twin_free(&view->twin);
+	g_clear_pointer(&view->program, sim_program_unref);
+	g_clear_pointer(&view->plant, sim_program_unref);
+}
+
+bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *other)
+{
+	bool good = true;
+
+	g_atomic_int_set(&thread->notified, 0);
+	g_mutex_lock(&thread->out_lock);
+	*other = view->program != thread->program;
+	if (*other) {
+		sim_view_clear(view);
+		view->program = sim_program_ref(thread->program);
+		view->plant = sim_program_ref(thread->plant);
+		good = twin_clone(&view->twin, &thread->out);
+	} else {
+		twin_copy(&view->twin, &thread->out);
+	}
+	view->running = thread->out_run;
+	g_mutex_unlock(&thread->out_lock);
+	return good;
+}
+
+const struct record *sim_thread_lock(struct sim_thread *thread)
+{
+	g_mutex_lock(&thread->record_lock);
+	return thread->record;
+}
+
+void sim_thread_unlock(struct sim_thread *thread)
+{
+	g_mutex_unlock(&thread->record_lock);
+}
