@@ -112,3 +112,8 @@ GtkWidget *ladder_log_view_new(LadderDocument *document)
 	put(log, _("system"), path ? path : _("new project"));
 	return scroller;
 }
+
+void ladder_log_view_put(GtkWidget *view, const char *kind, const char *what)
+{
+	put(g_object_get_data(G_OBJECT(view), "log"), kind, what);
+}

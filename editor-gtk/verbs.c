@@ -38,7 +38,8 @@ const char *verb_group_label(enum verb_group group)
 	static const char *const labels[VERBS_GROUPS] = {
 		[VERBS_FILE] = N_("File"), [VERBS_EDIT] = N_("Edit"),
 		[VERBS_DRAW] = N_("Draw"), [VERBS_RUNG] = N_("Rungs"),
-		[VERBS_GO] = N_("Go"), [VERBS_VIEW] = N_("View"),
+		[VERBS_GO] = N_("Go"), [VERBS_RUN] = N_("Simulation"),
+		[VERBS_VIEW] = N_("View"),
 		[VERBS_HELP] = N_("Help"),
 	};
 

@@ -152,7 +152,8 @@ bool ladder_window_is_untouched(LadderWindow *window)
 {
 	return !ladder_document_path(window->document) &&
 	       ladder_document_is_saved(window->document) &&
-	       !ladder_document_undo_name(window->document);
+	       !ladder_document_undo_name(window->document) &&
+	       !ladder_sim_is_on(window->sim);
 }
 
 /* ---- panels ---- */
@@ -193,6 +194,7 @@ static void add_panels(LadderWindow *window)
 	add_below(window, ladder_log_view_new(document), "log", _("Log"));
 	gtk_paned_set_position(window->below_paned, 620);
 	window_find_init(window);
+	window_sim_init(window);
 }
 
 /* ---- settings ---- */
@@ -231,6 +233,7 @@ static gboolean ladder_window_close_request(GtkWindow *gtk_window)
 {
 	LadderWindow *window = LADDER_WINDOW(gtk_window);
 
+	ladder_sim_stop(window->sim);
 	if (!window->closing && !window_may_close(window))
 		return TRUE;
 	keep_settings(window);
@@ -244,6 +247,8 @@ static void ladder_window_dispose(GObject *object)
 	if (window->disk_timer)
 		g_source_remove(window->disk_timer);
 	window->disk_timer = 0;
+	g_clear_handle_id(&window->when_timer, g_source_remove);
+	g_clear_object(&window->sim);
 	g_clear_object(&window->document);
 	g_clear_pointer(&window->keys_text, g_free);
 	G_OBJECT_CLASS(ladder_window_parent_class)->dispose(object);
@@ -260,6 +265,8 @@ static void ladder_window_class_init(LadderWindowClass *class)
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderWindow, name)
 	CHILD(toasts); CHILD(title); CHILD(undo_button); CHILD(redo_button);
 	CHILD(menu_button); CHILD(side_paned); CHILD(side); CHILD(below_paned);
+	CHILD(right_paned); CHILD(right); CHILD(edit_mode); CHILD(simulate_mode);
+	CHILD(sim_buttons); CHILD(run_button); CHILD(forces_button); CHILD(pace_button);
 	CHILD(tab_bar); CHILD(tabs); CHILD(banner); CHILD(banner_label);
 	CHILD(banner_button); CHILD(banner_close); CHILD(find_place); CHILD(below);
 	CHILD(below_stack); CHILD(pill); CHILD(place_label); CHILD(message_label);
@@ -288,6 +295,7 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 					    NULL);
 
 	window->document = g_object_ref(document);
+	window->sim = ladder_sim_new(document);
 	g_signal_connect_object(document, "state-changed", G_CALLBACK(window_show_state),
 				window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(document, "checked", G_CALLBACK(show_checked), window,

@@ -209,6 +209,8 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 			ladder_grid_view_do(sheet, verb);
 		return;
 	}
+	if (window_sim(window, verb))
+		return;
 	switch ((int)verb) {
 	case VERB_new_project: app_new_window(window); break;
 	case VERB_open: window_open(window); break;

@@ -8,20 +8,28 @@
 #include "editor-gtk/file_view.h"
 #include "editor-gtk/grid_view.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/sim.h"
 #include "editor-gtk/window.h"
 
 struct _LadderWindow {
 	AdwApplicationWindow parent;
 	LadderDocument *document;
+	LadderSim *sim;           /* off while it edits                        */
 	bool closing;             /* the person has been asked                 */
 	guint disk_timer;         /* until the file is looked at again         */
+	guint when_timer;         /* until the title tells the simulated time  */
 	void (*banner_do)(LadderWindow *window);
 	/* Template widgets */
 	AdwToastOverlay *toasts;
 	AdwWindowTitle *title;
 	GtkButton *undo_button, *redo_button;
 	GtkMenuButton *menu_button;
-	GtkPaned *side_paned, *side, *below_paned;
+	GtkPaned *side_paned, *side, *right_paned, *below_paned;
+	GtkBox *right;            /* of the simulation                         */
+	GtkToggleButton *edit_mode, *simulate_mode;
+	GtkBox *sim_buttons;
+	GtkButton *run_button, *forces_button;
+	GtkMenuButton *pace_button;
 	AdwTabBar *tab_bar;
 	AdwTabView *tabs;
 	GtkRevealer *banner;
@@ -99,6 +107,11 @@ void window_watch_disk(LadderWindow *window);
 void window_find_init(LadderWindow *window);
 /** window_find - find, replace, next, previous. */
 void window_find(LadderWindow *window, enum verb verb);
+
+/* ---- window_sim.c ---- */
+void window_sim_init(LadderWindow *window);
+/** window_sim - the verbs of the simulation; false: it is none of them. */
+bool window_sim(LadderWindow *window, enum verb verb);
 
 /* ---- window_paper.c ---- */
 void window_print(LadderWindow *window);

@@ -271,6 +271,8 @@ bool twin_scan(struct twin *twin)
 	if (has_plant(twin))
 		plant_to_program(twin);
 	resource_scan(&twin->resource, twin->now_ns);
+	if (twin->resource.state == STATE_FAULT)
+		clear_outputs(&twin->resource); /* as a board drives them        */
 	if (has_plant(twin)) {
 		program_to_plant(twin);
 		resource_scan(&twin->plant, twin->now_ns);

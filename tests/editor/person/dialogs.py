@@ -25,7 +25,7 @@ DIALOGS = [
     ('F1', None), ('ctrl+p', 'Print'),
 ]
 # popups of the window itself
-POPUPS = ['F8', 'F5', 'Return', 'ctrl+t', 'ctrl+l', 'semicolon', 'ctrl+k', 'ctrl+f', 'ctrl+h']
+POPUPS = ['F8', 'F5', 'Return', 'ctrl+shift+t', 'ctrl+l', 'semicolon', 'ctrl+k', 'ctrl+f', 'ctrl+h']
 
 
 def dialogs(screen):

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * window_sim - the simulation in the window: its switch, its buttons, what the status bar
+ * says of it. What it shows in sheets and panels is theirs.
+ */
+#include "editor-gtk/window_inside.h"
+
+#include "editor-gtk/panels.h"
+#include "editor-gtk/problems.h"
+#include "editor-gtk/sim_pace.h"
+
+#define WHEN_US 200000 /* the title tells the time so often                      */
+
+/* ---- what it says ---- */
+
+static void set_pill(LadderWindow *window, const char *text, const char *class)
+{
+	static const char *const classes[] = { "run", "still", "past", "fault" };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(classes); i++)
+		gtk_widget_remove_css_class(GTK_WIDGET(window->pill), classes[i]);
+	if (class)
+		gtk_widget_add_css_class(GTK_WIDGET(window->pill), class);
+	if (g_strcmp0(gtk_label_get_text(window->pill), text) != 0)
+		gtk_label_set_text(window->pill, text);
+}
+
+static void show_pill(LadderWindow *window)
+{
+	static const struct { const char *text, *class; } pills[] = {
+		[SIM_OFF] = { N_("EDIT"), NULL },
+		[SIM_STOP] = { N_("SIMULATION · STOP"), "still" },
+		[SIM_RUN] = { N_("SIMULATION"), "run" },
+		[SIM_PAUSE] = { N_("SIMULATION · PAUSE"), "still" },
+		[SIM_FAULT] = { N_("SIMULATION · FAULT"), "fault" },
+	};
+	const enum sim_state state = ladder_sim_state(window->sim);
+	char *text;
+
+	if (!ladder_sim_is_past(window->sim)) {
+		set_pill(window, _(pills[state].text), pills[state].class);
+		return;
+	}
+	text = g_strdup_printf(_("PAST · scan %llu"),
+			       (unsigned long long)ladder_sim_twin(window->sim)->scan);
+	set_pill(window, text, "past");
+	g_free(text);
+}
+
+static void show_when(LadderWindow *window)
+{
+	const struct twin *twin = ladder_sim_twin(window->sim);
+	char *text;
+
+	if (!twin)
+		return;
+	text = g_strdup_printf(_("Simulating · %g ms · scan %llu · %.2f s"),
+			       (double)twin->period_ns / 1e6,
+			       (unsigned long long)twin->scan, (double)twin->now_ns / 1e9);
+	adw_window_title_set_subtitle(window->title, text);
+	g_free(text);
+}
+
+static void show_forces(LadderWindow *window)
+{
+	const int forces = ladder_sim_forces(window->sim);
+	char *text = g_strdup_printf(ngettext("%d force", "%d forces",
+					      (unsigned long)forces), forces);
+
+	gtk_widget_set_visible(GTK_WIDGET(window->forces_button), forces > 0);
+	if (g_strcmp0(gtk_button_get_label(window->forces_button), text) != 0)
+		gtk_button_set_label(window->forces_button, text);
+	gtk_widget_set_tooltip_text(GTK_WIDGET(window->forces_button),
+				    _("Release all forces"));
+	g_free(text);
+}
+
+static void show_buttons(LadderWindow *window)
+{
+	const bool on = ladder_sim_is_on(window->sim);
+	const bool run = ladder_sim_state(window->sim) == SIM_RUN;
+	const char *name = run ? _("Pause") : _("Run");
+
+	gtk_widget_set_visible(GTK_WIDGET(window->sim_buttons), on);
+	gtk_button_set_icon_name(window->run_button, run ? "media-playback-pause-symbolic" :
+				 "media-playback-start-symbolic");
+	gtk_widget_set_tooltip_text(GTK_WIDGET(window->run_button), name);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(window->run_button),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	gtk_toggle_button_set_active(on ? window->simulate_mode : window->edit_mode, TRUE);
+	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.sim_stop",
+		on && ladder_sim_state(window->sim) != SIM_STOP);
+}
+
+static void state_changed(LadderWindow *window)
+{
+	show_buttons(window);
+	show_pill(window);
+	if (ladder_sim_is_on(window->sim))
+		show_when(window);
+	else
+		window_show_state(window);
+}
+
+static gboolean when_elapsed(gpointer data)
+{
+	LadderWindow *window = data;
+
+	window->when_timer = 0;
+	show_when(window);
+	return G_SOURCE_REMOVE;
+}
+
+static void shown(LadderWindow *window)
+{
+	show_pill(window);
+	show_forces(window);
+	if (!window->when_timer && ladder_sim_is_on(window->sim))
+		window->when_timer = g_timeout_add(WHEN_US / 1000, when_elapsed, window);
+}
+
+/* A fault opens the place where it was. */
+static void go_to_fault(LadderWindow *window)
+{
+	const struct resource *resource = &ladder_sim_twin(window->sim)->resource;
+	const struct fault_place *at = resource->state == STATE_FAULT ?
+		&resource->fault_at : &resource->halt_at;
+	const struct project *project = ladder_document_project(window->document);
+
+	for (int i = 0; project && i < project->pou_count; i++)
+		if (at->rung && g_strcmp0(project_text(project, project->pou[i].name),
+					  at->pou) == 0)
+			tabs_go(window, i, (int)at->rung - 1, (int)at->row - 1,
+				(int)at->col - 1);
+}
+
+static void told(LadderSim *sim, const char *text, gboolean bad, LadderWindow *window)
+{
+	GtkWidget *log = gtk_stack_get_child_by_name(window->below_stack, "log");
+
+	(void)sim;
+	ladder_log_view_put(log, _("simulation"), text);
+	ladder_window_tell(window, text);
+	if (!bad)
+		return;
+	window_banner(window, text, NULL, NULL);
+	go_to_fault(window);
+}
+
+/* ---- what it does ---- */
+
+static bool begin(LadderWindow *window)
+{
+	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
+	GError *error = NULL;
+
+	if (ladder_sim_is_on(window->sim))
+		return true;
+	if (ladder_sim_begin(window->sim, &error)) {
+		window_banner_close(window);
+		gtk_widget_set_visible(GTK_WIDGET(window->right), TRUE);
+		return true;
+	}
+	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
+	gtk_stack_set_visible_child(window->below_stack, problems);
+	ladder_problems_next(LADDER_PROBLEMS(problems), false);
+	ladder_window_tell(window, error->message);
+	g_error_free(error);
+	show_buttons(window);
+	return false;
+}
+
+static void end(LadderWindow *window)
+{
+	ladder_sim_end(window->sim);
+	gtk_widget_set_visible(GTK_WIDGET(window->right), FALSE);
+	window_banner_close(window);
+}
+
+static void mode_toggled(LadderWindow *window)
+{
+	if (gtk_toggle_button_get_active(window->simulate_mode) ==
+	    ladder_sim_is_on(window->sim))
+		return;
+	if (ladder_sim_is_on(window->sim))
+		end(window);
+	else
+		begin(window);
+}
+
+static void run_or_pause(LadderWindow *window)
+{
+	if (ladder_sim_state(window->sim) == SIM_RUN && !ladder_sim_is_past(window->sim))
+		ladder_sim_pause(window->sim);
+	else if (begin(window))
+		ladder_sim_run(window->sim);
+}
+
+static void step_shown(LadderWindow *window, int by)
+{
+	const struct twin *twin = ladder_sim_twin(window->sim);
+
+	if (!twin)
+		return;
+	if (by > 0 && twin->scan >= ladder_sim_last(window->sim))
+		ladder_sim_show_now(window->sim);
+	else if (!ladder_sim_show(window->sim, by > 0 ? twin->scan + 1 : twin->scan - 1))
+		ladder_window_tell(window, _("no scan before this one was kept"));
+}
+
+bool window_sim(LadderWindow *window, enum verb verb)
+{
+	static const struct act release = { .kind = ACT_RELEASE_ALL };
+	LadderSim *sim = window->sim;
+
+	switch ((int)verb) {
+	case VERB_sim_mode:
+		if (ladder_sim_is_on(sim))
+			end(window);
+		else
+			begin(window);
+		return true;
+	case VERB_sim_run: run_or_pause(window); return true;
+	case VERB_sim_scan:
+		if (begin(window))
+			ladder_sim_scan(sim, 1);
+		return true;
+	case VERB_sim_stop: ladder_sim_stop(sim); return true;
+	case VERB_sim_cold: ladder_sim_reset(sim, false); return true;
+	case VERB_sim_warm: ladder_sim_reset(sim, true); return true;
+	case VERB_sim_back: step_shown(window, -1); return true;
+	case VERB_sim_forth: step_shown(window, 1); return true;
+	case VERB_sim_now: ladder_sim_show_now(sim); return true;
+	case VERB_sim_release: ladder_sim_act(sim, &release); return true;
+	case VERB_right:
+		if (ladder_sim_is_on(sim))
+			gtk_widget_set_visible(GTK_WIDGET(window->right),
+				!gtk_widget_get_visible(GTK_WIDGET(window->right)));
+		return true;
+	default: return false;
+	}
+}
+
+void window_sim_init(LadderWindow *window)
+{
+	LadderSim *sim = window->sim;
+
+	gtk_menu_button_set_popover(window->pace_button, sim_pace_new(sim));
+	g_signal_connect_object(sim, "state-changed", G_CALLBACK(state_changed), window,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(sim, "shown", G_CALLBACK(shown), window, G_CONNECT_SWAPPED);
+	g_signal_connect_object(sim, "told", G_CALLBACK(told), window, 0);
+	g_signal_connect_object(window->simulate_mode, "toggled", G_CALLBACK(mode_toggled),
+				window, G_CONNECT_SWAPPED);
+	show_buttons(window);
+}
