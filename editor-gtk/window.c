@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/window_inside.h"
 
+#include "editor-gtk/chart_view.h"
 #include "editor-gtk/palette.h"
 #include "editor-gtk/panels.h"
 #include "editor-gtk/problems.h"
@@ -191,6 +192,7 @@ static void add_panels(LadderWindow *window)
 	add_below(window, uses, "uses", _("Cross reference"));
 	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), document);
 	add_below(window, ladder_code_view_new(document), "list", _("Instruction list"));
+	add_below(window, ladder_chart_view_new(window->sim), "chart", _("Timing chart"));
 	add_below(window, ladder_log_view_new(document), "log", _("Log"));
 	gtk_paned_set_position(window->below_paned, 620);
 	window_find_init(window);

@@ -168,23 +168,39 @@ static bool start_program(struct resource *resource, bool warm)
 	return true;
 }
 
-/* Forces outlive a start, as on a board. */
+static void copy_inputs(struct image *to, const struct image *from)
+{
+	const struct areas *areas = &from->program->areas;
+
+	for (size_t i = 0; i < CROSSWISE; i++) {
+		const enum iec_area in = crosswise[i].in;
+
+		for (uint32_t bit = 0; bit < 8 * areas->bytes[in]; bit++)
+			image_set_bit(to, in, bit, image_get_bit(from, in, bit));
+	}
+}
+
+/* Switches stay as they are and forces are held, as on a board. */
 static bool start(struct twin *twin, bool warm)
 {
 	struct image *image = &twin->resource.image;
-	const int forces = image->force_count;
-	struct force *force = malloc(sizeof(image->force));
+	struct image *before = malloc(sizeof(*before));
+	uint8_t *memory = malloc(twin->memory_size);
+	bool good = before && memory;
 
-	if (!force)
-		return false;
-	memcpy(force, image->force, sizeof(image->force));
-	if (!start_program(&twin->resource, warm)) {
-		free(force);
-		return false;
+	if (good) {
+		*before = *image;
+		before->memory = memcpy(memory, image->memory, twin->memory_size);
+		good = start_program(&twin->resource, warm);
 	}
-	for (int i = 0; i < forces; i++)
-		image_force(image, force[i].at, force[i].value);
-	free(force);
+	if (good)
+		copy_inputs(image, before);
+	for (int i = 0; good && i < before->force_count; i++)
+		image_force(image, before->force[i].at, before->force[i].value);
+	free(memory);
+	free(before);
+	if (!good)
+		return false;
 	if (has_plant(twin))
 		resource_start(&twin->plant);
 	return true;

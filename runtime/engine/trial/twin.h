@@ -17,7 +17,8 @@ enum act_kind {
 	ACT_FORCE,       /* held at both edges of every scan                  */
 	ACT_RELEASE,
 	ACT_RELEASE_ALL,
-	ACT_START,       /* cold; time and scan numbers go on                 */
+	ACT_START,       /* cold, but inputs and forces stay; time and scan
+				     numbers go on                            */
 	ACT_WARM,        /* likewise, but VAR RETAIN keeps its value          */
 	ACT_STOP,        /* outputs are 0                                     */
 	ACT_PERIOD,      /* value.i ns from here on                           */

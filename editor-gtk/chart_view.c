@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * chart_view - the timing chart with its buttons.
+ */
+#include "editor-gtk/chart_view.h"
+
+#include "editor-gtk/i18n.h"
+
+#include "engine/trial/value.h"
+
+#include <string.h>
+
+#define LINES_FIRST 12 /* of those that nobody chose                             */
+
+struct _LadderChartView {
+	GtkBox parent;
+	LadderSim *sim;
+	LadderChartArea *area;
+	bool chosen;             /* a person said what is to be seen            */
+	GtkSearchEntry *wanted;
+	GtkStringList *names;
+	GtkFilterListModel *found;
+	GtkSingleSelection *selection;
+	GtkWidget *popover;
+};
+
+G_DEFINE_FINAL_TYPE(LadderChartView, ladder_chart_view, GTK_TYPE_BOX)
+
+/* ---- names ---- */
+
+static void each_name(LadderChartView *view,
+		      void (*take)(LadderChartView *view, const struct symbol *symbol))
+{
+	const struct twin *twin = ladder_sim_twin(view->sim);
+	struct symbol_cursor cursor = { 0 };
+	struct symbol symbol;
+
+	while (twin && image_next_symbol(&twin->resource.image, &cursor, &symbol))
+		if (symbol.at.type != IEC_NONE && !symbol.at.constant)
+			take(view, &symbol);
+}
+
+static void take_name(LadderChartView *view, const struct symbol *symbol)
+{
+	gtk_string_list_append(view->names, symbol->name);
+}
+
+static bool is_pin(const struct twin *twin, struct location at)
+{
+	const enum iec_area area = at.area != AREA_NONE ? at.area :
+		areas_find(&twin->resource.image.program->areas, at.where);
+
+	return area == AREA_I || area == AREA_Q || area == AREA_AI || area == AREA_AQ;
+}
+
+static void take_first(LadderChartView *view, const struct symbol *symbol)
+{
+	struct chart *chart = ladder_chart_area_chart(view->area);
+
+	if (chart_lines(chart) < LINES_FIRST &&
+	    is_pin(ladder_sim_twin(view->sim), symbol->at))
+		chart_add(chart, symbol->name);
+}
+
+static void program_changed(LadderChartView *view)
+{
+	struct chart *chart = ladder_chart_area_chart(view->area);
+
+	if (view->chosen || !ladder_sim_is_on(view->sim))
+		return;
+	while (chart_lines(chart))
+		chart_remove(chart, 0);
+	each_name(view, take_first);
+	ladder_chart_area_lines_changed(view->area);
+}
+
+bool ladder_chart_view_add(LadderChartView *view, const char *name)
+{
+	if (!chart_add(ladder_chart_area_chart(view->area), name))
+		return false;
+	view->chosen = true;
+	ladder_chart_area_lines_changed(view->area);
+	return true;
+}
+
+static void chosen(LadderChartView *view)
+{
+	view->chosen = true;
+}
+
+/* ---- adding ---- */
+
+static gboolean is_wanted(gpointer item, gpointer data)
+{
+	LadderChartView *view = data;
+	char *name = g_utf8_casefold(gtk_string_object_get_string(item), -1);
+	char *wanted = g_utf8_casefold(gtk_editable_get_text(GTK_EDITABLE(view->wanted)), -1);
+	const bool good = strstr(name, wanted) != NULL;
+
+	g_free(name);
+	g_free(wanted);
+	return good;
+}
+
+static void wanted_changed(LadderChartView *view)
+{
+	gtk_filter_changed(gtk_filter_list_model_get_filter(view->found),
+			   GTK_FILTER_CHANGE_DIFFERENT);
+	gtk_widget_remove_css_class(GTK_WIDGET(view->wanted), "error");
+}
+
+static void add_row(GtkListView *list, guint row, LadderChartView *view)
+{
+	GtkStringObject *name = g_list_model_get_item(G_LIST_MODEL(view->selection), row);
+
+	(void)list;
+	ladder_chart_view_add(view, gtk_string_object_get_string(name));
+	g_object_unref(name);
+}
+
+/* What was typed, if it is something; else the first that has it in its name. */
+static void add_wanted(LadderChartView *view)
+{
+	const char *text = gtk_editable_get_text(GTK_EDITABLE(view->wanted));
+	const struct twin *twin = ladder_sim_twin(view->sim);
+	enum diag_id why;
+
+	if (twin && *text && value_find(&twin->resource.image, text, strlen(text), &why).type !=
+	    IEC_NONE)
+		ladder_chart_view_add(view, text);
+	else if (g_list_model_get_n_items(G_LIST_MODEL(view->selection)))
+		add_row(NULL, gtk_single_selection_get_selected(view->selection), view);
+	else
+		gtk_widget_add_css_class(GTK_WIDGET(view->wanted), "error");
+	gtk_editable_select_region(GTK_EDITABLE(view->wanted), 0, -1);
+}
+
+static void popover_shown(LadderChartView *view)
+{
+	gtk_string_list_splice(view->names, 0,
+		g_list_model_get_n_items(G_LIST_MODEL(view->names)), NULL);
+	each_name(view, take_name);
+	gtk_widget_grab_focus(GTK_WIDGET(view->wanted));
+}
+
+static void setup_name(GtkListItemFactory *factory, GtkListItem *item)
+{
+	GtkWidget *label = gtk_label_new(NULL);
+
+	(void)factory;
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_list_item_set_child(item, label);
+}
+
+static void bind_name(GtkListItemFactory *factory, GtkListItem *item)
+{
+	(void)factory;
+	gtk_label_set_text(GTK_LABEL(gtk_list_item_get_child(item)),
+		gtk_string_object_get_string(gtk_list_item_get_item(item)));
+}
+
+static GtkWidget *new_list(LadderChartView *view)
+{
+	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+	GtkWidget *list;
+
+	view->names = gtk_string_list_new(NULL);
+	view->found = gtk_filter_list_model_new(G_LIST_MODEL(view->names),
+		GTK_FILTER(gtk_custom_filter_new(is_wanted, view, NULL)));
+	view->selection = gtk_single_selection_new(G_LIST_MODEL(view->found));
+	g_signal_connect(factory, "setup", G_CALLBACK(setup_name), NULL);
+	g_signal_connect(factory, "bind", G_CALLBACK(bind_name), NULL);
+	list = gtk_list_view_new(GTK_SELECTION_MODEL(view->selection), factory);
+	gtk_list_view_set_single_click_activate(GTK_LIST_VIEW(list), TRUE);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(list), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       _("Variables"), -1);
+	g_signal_connect(list, "activate", G_CALLBACK(add_row), view);
+	return list;
+}
+
+static GtkWidget *new_popover(LadderChartView *view)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 6);
+	GtkWidget *scroller = gtk_scrolled_window_new();
+
+	view->popover = gtk_popover_new();
+	view->wanted = GTK_SEARCH_ENTRY(gtk_search_entry_new());
+	g_object_set(view->wanted, "placeholder-text", _("Name or address"), NULL);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(view->wanted),
+		GTK_ACCESSIBLE_PROPERTY_LABEL, _("Variable to be seen"), -1);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), new_list(view));
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
+				       GTK_POLICY_AUTOMATIC);
+	gtk_widget_set_size_request(scroller, 260, 260);
+	gtk_box_append(GTK_BOX(box), GTK_WIDGET(view->wanted));
+	gtk_box_append(GTK_BOX(box), scroller);
+	gtk_popover_set_child(GTK_POPOVER(view->popover), box);
+	g_signal_connect_swapped(view->wanted, "search-changed", G_CALLBACK(wanted_changed),
+				 view);
+	g_signal_connect_swapped(view->wanted, "activate", G_CALLBACK(add_wanted), view);
+	g_signal_connect_swapped(view->popover, "show", G_CALLBACK(popover_shown), view);
+	return view->popover;
+}
+
+/* ---- buttons ---- */
+
+static void name_button(GtkWidget *button, const char *name)
+{
+	gtk_widget_set_tooltip_text(button, name);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	gtk_widget_add_css_class(button, "flat");
+}
+
+static void larger(LadderChartView *view)
+{
+	ladder_chart_area_zoom(view->area, 1.6);
+}
+
+static void smaller(LadderChartView *view)
+{
+	ladder_chart_area_zoom(view->area, 1 / 1.6);
+}
+
+static void fit(LadderChartView *view)
+{
+	ladder_chart_area_fit(view->area);
+}
+
+static void add_button(LadderChartView *view, GtkBox *bar, const char *icon,
+		       const char *name, void (*act)(LadderChartView *view))
+{
+	GtkWidget *button = gtk_button_new_from_icon_name(icon);
+
+	name_button(button, name);
+	g_signal_connect_swapped(button, "clicked", G_CALLBACK(act), view);
+	gtk_box_append(bar, button);
+}
+
+static GtkWidget *new_bar(LadderChartView *view)
+{
+	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
+	GtkWidget *add = gtk_menu_button_new();
+
+	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(add), "list-add-symbolic");
+	gtk_menu_button_set_popover(GTK_MENU_BUTTON(add), new_popover(view));
+	name_button(add, _("Add a variable"));
+	gtk_box_append(GTK_BOX(bar), add);
+	add_button(view, GTK_BOX(bar), "zoom-in-symbolic", _("Less time"), larger);
+	add_button(view, GTK_BOX(bar), "zoom-out-symbolic", _("More time"), smaller);
+	add_button(view, GTK_BOX(bar), "zoom-fit-best-symbolic", _("All that is kept"), fit);
+	return bar;
+}
+
+/* ---- the widget ---- */
+
+static void ladder_chart_view_dispose(GObject *object)
+{
+	LadderChartView *view = LADDER_CHART_VIEW(object);
+
+	g_clear_object(&view->sim);
+	G_OBJECT_CLASS(ladder_chart_view_parent_class)->dispose(object);
+}
+
+static void ladder_chart_view_class_init(LadderChartViewClass *class)
+{
+	G_OBJECT_CLASS(class)->dispose = ladder_chart_view_dispose;
+}
+
+static void ladder_chart_view_init(LadderChartView *view)
+{
+	(void)view;
+}
+
+LadderChartArea *ladder_chart_view_area(LadderChartView *view)
+{
+	return view->area;
+}
+
+GtkWidget *ladder_chart_view_new(LadderSim *sim)
+{
+	LadderChartView *view = g_object_new(LADDER_TYPE_CHART_VIEW, NULL);
+	GtkWidget *scroller = gtk_scrolled_window_new(), *area = ladder_chart_area_new(sim);
+
+	view->sim = g_object_ref(sim);
+	view->area = LADDER_CHART_AREA(area);
+	gtk_box_append(GTK_BOX(view), new_bar(view));
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), area);
+	gtk_viewport_set_scroll_to_focus(GTK_VIEWPORT(gtk_widget_get_parent(area)), FALSE);
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
+				       GTK_POLICY_AUTOMATIC);
+	gtk_widget_set_hexpand(scroller, TRUE);
+	gtk_box_append(GTK_BOX(view), scroller);
+	g_signal_connect_object(sim, "program-changed", G_CALLBACK(program_changed), view,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(area, "lines-changed", G_CALLBACK(chosen), view,
+				G_CONNECT_SWAPPED);
+	return GTK_WIDGET(view);
+}
