@@ -6,11 +6,13 @@
  * in it, too, and come before the next scan.
  */
 #include "engine/trial/record.h"
+#include "engine/trial/keep.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define APART_LEAST 16 /* scans from frame to frame: a copy should cost less than they */
+#define BLOCK 16       /* bytes that the system takes for a block of memory  */
 
 struct done {
 	uint64_t after;
@@ -19,19 +21,21 @@ struct done {
 };
 struct frame {
 	uint64_t scan;
-	uint8_t *state;
+	uint8_t *state;          /* trial/keep.h: beside the record's base    */
 	size_t size;
 	struct done *done;
 	size_t count, room;
 };
 struct record {
-	struct twin model;        /* whose programs it is of                   */
+	struct twin base;        /* as it was when the record began           */
 	struct frame *frame;     /* a ring                                    */
 	size_t first, count, room;
-	uint64_t apart;          /* scans from one frame to the next          */
 	uint64_t last;           /* scan that was recorded last               */
 	uint64_t serial;         /* another one whenever it begins anew       */
-	size_t bytes, most;
+	uint64_t scans;          /* that should be kept                       */
+	size_t bytes, most;      /* of frames, acts and texts                 */
+	uint8_t *scratch;        /* where a state is put before its size is known */
+	size_t scratch_size;
 };
 
 static struct frame *frame_at(const struct record *record, size_t index)
@@ -39,92 +43,23 @@ static struct frame *frame_at(const struct record *record, size_t index)
 	return &record->frame[(record->first + index) % record->room];
 }
 
-/* ---- the state of a resource without the forces that it could have ---- */
-
-static size_t packed_size(const struct resource *resource, size_t memory)
-{
-	return sizeof(*resource) - sizeof(resource->image.force) + memory +
-	       (size_t)resource->image.force_count * sizeof(struct force);
-}
-
-static void put(uint8_t **at, const void *from, size_t size)
-{
-	memcpy(*at, from, size);
-	*at += size;
-}
-
-static void get(const uint8_t **at, void *to, size_t size)
-{
-	memcpy(to, *at, size);
-	*at += size;
-}
-
-#define FORCES_AT (offsetof(struct resource, image) + offsetof(struct image, force))
-#define BEHIND_AT (FORCES_AT + sizeof(((struct image *)0)->force))
-
-static void pack(uint8_t **at, const struct resource *resource, size_t memory)
-{
-	const uint8_t *bytes = (const uint8_t *)resource;
-
-	put(at, bytes, FORCES_AT);
-	put(at, bytes + BEHIND_AT, sizeof(*resource) - BEHIND_AT);
-	put(at, resource->image.force,
-	    (size_t)resource->image.force_count * sizeof(struct force));
-	put(at, resource->image.memory, memory);
-}
-
-static void unpack(const uint8_t **at, struct resource *resource, size_t memory)
-{
-	uint8_t *bytes = (uint8_t *)resource, *own = resource->image.memory;
-
-	get(at, bytes, FORCES_AT);
-	get(at, bytes + BEHIND_AT, sizeof(*resource) - BEHIND_AT);
-	get(at, resource->image.force,
-	    (size_t)resource->image.force_count * sizeof(struct force));
-	resource->image.memory = resource->vm.memory = own;
-	get(at, own, memory);
-}
-
-static size_t state_size(const struct twin *twin)
-{
-	size_t size = packed_size(&twin->resource, twin->memory_size) +
-		      sizeof(twin->now_ns) + sizeof(twin->period_ns);
-
-	if (twin->plant.image.program)
-		size += packed_size(&twin->plant, twin->plant_size);
-	return size;
-}
-
-static void state_keep(const struct twin *twin, uint8_t *at)
-{
-	put(&at, &twin->now_ns, sizeof(twin->now_ns));
-	put(&at, &twin->period_ns, sizeof(twin->period_ns));
-	pack(&at, &twin->resource, twin->memory_size);
-	if (twin->plant.image.program)
-		pack(&at, &twin->plant, twin->plant_size);
-}
-
-static void state_restore(struct twin *twin, const struct frame *frame)
-{
-	const uint8_t *at = frame->state;
-
-	get(&at, &twin->now_ns, sizeof(twin->now_ns));
-	get(&at, &twin->period_ns, sizeof(twin->period_ns));
-	unpack(&at, &twin->resource, twin->memory_size);
-	if (twin->plant.image.program)
-		unpack(&at, &twin->plant, twin->plant_size);
-	twin->scan = frame->scan;
-}
-
 /* ---- frames ---- */
+
+static size_t text_size(const struct iec_string *text)
+{
+	return sizeof(*text) + text->length;
+}
 
 static void drop_first(struct record *record)
 {
 	struct frame *frame = frame_at(record, 0);
 
-	for (size_t i = 0; i < frame->count; i++)
+	for (size_t i = 0; i < frame->count; i++) {
+		if (frame->done[i].text)
+			record->bytes -= text_size(frame->done[i].text) + BLOCK;
 		free(frame->done[i].text);
-	record->bytes -= frame->size + frame->room * sizeof(*frame->done);
+	}
+	record->bytes -= frame->size + frame->room * sizeof(*frame->done) + 2 * BLOCK;
 	free(frame->done);
 	free(frame->state);
 	memset(frame, 0, sizeof(*frame));
@@ -151,31 +86,54 @@ static bool make_room(struct record *record)
 	return true;
 }
 
+/* The state of @twin, as long as it is; NULL: no memory. */
+static uint8_t *put_state(struct record *record, const struct twin *twin, size_t *size)
+{
+	const size_t most = keep_most(twin);
+	uint8_t *state;
+
+	if (record->scratch_size < most) {
+		free(record->scratch);
+		record->scratch_size = 0;
+		record->scratch = malloc(most);
+		if (!record->scratch)
+			return NULL;
+		record->scratch_size = most;
+	}
+	*size = keep_put(twin, &record->base, record->scratch);
+	state = malloc(*size);
+	if (state)
+		memcpy(state, record->scratch, *size);
+	return state;
+}
+
 static bool add_frame(struct record *record, const struct twin *twin)
 {
-	const size_t size = state_size(twin);
-	uint8_t *state = malloc(size);
+	size_t size;
+	uint8_t *state = put_state(record, twin, &size);
 	struct frame *frame;
 
 	if (!state || !make_room(record)) {
 		free(state);
 		return false;
 	}
-	state_keep(twin, state);
 	frame = frame_at(record, record->count++);
 	*frame = (struct frame){ .scan = twin->scan, .state = state, .size = size };
-	record->bytes += size;
+	record->bytes += size + 2 * BLOCK;
 	record->last = twin->scan;
 	while (record->bytes > record->most && record->count > 1)
 		drop_first(record);
 	return true;
 }
 
+/* Without memory even for one frame it is empty until there is some. */
 static bool begin_anew(struct record *record, const struct twin *twin)
 {
 	while (record->count)
 		drop_first(record);
 	record->serial++;
+	record->last = twin->scan;
+	twin_copy(&record->base, twin);
 	return add_frame(record, twin);
 }
 
@@ -186,10 +144,8 @@ struct record *record_new(const struct twin *twin, uint64_t scans, size_t bytes)
 	if (!record)
 		return NULL;
 	record->most = bytes;
-	record->apart = 1 + scans * state_size(twin) / (bytes ? bytes : 1);
-	if (record->apart < APART_LEAST)
-		record->apart = APART_LEAST;
-	if (!twin_clone(&record->model, twin) || !begin_anew(record, twin)) {
+	record->scans = scans;
+	if (!twin_clone(&record->base, twin) || !begin_anew(record, twin)) {
 		record_free(record);
 		return NULL;
 	}
@@ -202,7 +158,8 @@ void record_free(struct record *record)
 		return;
 	while (record->count)
 		drop_first(record);
-	twin_free(&record->model);
+	twin_free(&record->base);
+	free(record->scratch);
 	free(record->frame);
 	free(record);
 }
@@ -228,41 +185,68 @@ static bool is_text(const struct act *act)
 	return act->kind == ACT_SET && act->at.type == IEC_STRING;
 }
 
+static struct frame *last_frame(const struct record *record)
+{
+	return record->count ? frame_at(record, record->count - 1) : NULL;
+}
+
+/* The act with a text of its own. */
+static bool own_text(struct record *record, struct done *done)
+{
+	const struct iec_string *text = done->act.value.s;
+	const size_t size = text_size(text);
+
+	done->text = malloc(size);
+	if (!done->text)
+		return false;
+	memcpy(done->text, text, size);
+	done->text->capacity = text->length;
+	done->act.value.s = done->text;
+	record->bytes += size + BLOCK;
+	return true;
+}
+
 bool record_act(struct record *record, const struct twin *twin, const struct act *act)
 {
-	struct frame *frame = frame_at(record, record->count - 1);
+	struct frame *frame = last_frame(record);
 	struct done done = { .after = twin->scan, .act = *act };
 
-	if (is_text(act)) {
-		const size_t size = sizeof(*act->value.s) + act->value.s->length;
-
-		done.text = malloc(size);
-		if (!done.text)
-			return begin_anew(record, twin), false;
-		memcpy(done.text, act->value.s, size);
-		done.act.value.s = done.text;
-	}
-	if (!make_room_for_act(record, frame)) {
-		free(done.text);
-		return begin_anew(record, twin), false;
-	}
+	if (!frame || !make_room_for_act(record, frame) ||
+	    (is_text(act) && !own_text(record, &done)))
+		return begin_anew(record, twin) && !frame;
 	frame->done[frame->count++] = done;
 	return true;
 }
 
+/* Scans from a frame to the next: in proportion to what it takes, so that as many scans
+ * fit as shall be kept, whatever their states look like. Acts may take as much again. */
+static uint64_t apart(const struct record *record, const struct frame *frame)
+{
+	const uint64_t size = frame->size + 2 * BLOCK + sizeof(*frame);
+	uint64_t acts = frame->room * sizeof(*frame->done);
+	uint64_t scans;
+
+	if (acts > size)
+		acts = size;
+	scans = 1 + record->scans * (size + acts) / (record->most ? record->most : 1);
+	return scans < APART_LEAST ? APART_LEAST : scans;
+}
+
 bool record_scan(struct record *record, const struct twin *twin)
 {
-	const struct frame *frame = frame_at(record, record->count - 1);
+	const struct frame *frame = last_frame(record);
 
+	if (!frame)
+		return begin_anew(record, twin);
 	record->last = twin->scan;
-	if (twin->scan - frame->scan < record->apart)
+	if (twin->scan - frame->scan < apart(record, frame))
 		return true;
 	return add_frame(record, twin) || (begin_anew(record, twin), false);
 }
 
 uint64_t record_first(const struct record *record)
 {
-	return frame_at(record, 0)->scan;
+	return record->count ? frame_at(record, 0)->scan : record->last + 1;
 }
 
 uint64_t record_last(const struct record *record)
@@ -273,7 +257,8 @@ uint64_t record_last(const struct record *record)
 size_t record_bytes(const struct record *record)
 {
 	return sizeof(*record) + record->room * sizeof(*record->frame) + record->bytes +
-	       record->model.memory_size + record->model.plant_size;
+	       record->base.memory_size + record->base.plant_size +
+	       record->scratch_size;
 }
 
 /* ---- looking ---- */
@@ -281,7 +266,7 @@ size_t record_bytes(const struct record *record)
 bool replay_init(struct replay *replay, const struct record *record)
 {
 	replay->serial = 0;
-	return twin_clone(&replay->twin, &record->model);
+	return twin_clone(&replay->twin, &record->base);
 }
 
 void replay_free(struct replay *replay)
@@ -311,7 +296,8 @@ static bool reaches(const struct record *record, uint64_t scan)
 	return record->count && scan >= record_first(record) && scan <= record->last;
 }
 
-static void do_again(struct twin *twin, const struct frame *frame)
+/* False: one could not be done now, for want of memory. */
+static bool do_again(struct twin *twin, const struct frame *frame)
 {
 	size_t low = 0, high = frame->count;
 
@@ -324,21 +310,26 @@ static void do_again(struct twin *twin, const struct frame *frame)
 			high = middle;
 	}
 	for (; low < frame->count && frame->done[low].after == twin->scan; low++)
-		twin_act(twin, &frame->done[low].act);
+		if (!twin_act(twin, &frame->done[low].act))
+			return false;
+	return true;
 }
 
 bool replay_next(struct replay *replay, const struct record *record)
 {
 	struct twin *twin = &replay->twin;
-	uint64_t before;
+	const uint64_t before = twin->scan;
 
-	if (replay->serial != record->serial || !reaches(record, twin->scan) ||
-	    twin->scan == record->last)
+	if (replay->serial != record->serial || !reaches(record, before) ||
+	    before == record->last)
 		return false;
-	do_again(twin, frame_of(record, twin->scan));
-	before = twin->scan;
-	twin_scan(twin);
-	return twin->scan != before;
+	if (do_again(twin, frame_of(record, before))) {
+		twin_scan(twin);
+		if (twin->scan != before)
+			return true;
+	}
+	replay->serial = 0; /* it is half on its way: of no scan */
+	return false;
 }
 
 bool replay_jump(struct replay *replay, const struct record *record, uint64_t scan)
@@ -351,7 +342,7 @@ bool replay_jump(struct replay *replay, const struct record *record, uint64_t sc
 	frame = frame_of(record, scan);
 	if (replay->serial != record->serial || twin->scan > scan ||
 	    twin->scan < frame->scan) {
-		state_restore(twin, frame);
+		keep_get(twin, &record->base, frame->state);
 		replay->serial = record->serial;
 	}
 	return true;

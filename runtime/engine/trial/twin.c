@@ -5,6 +5,7 @@
 #include "engine/trial/twin.h"
 
 #include "engine/scan/retain.h"
+#include "engine/trial/stores.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -43,28 +44,48 @@ static void drive(struct twin *twin, enum iec_area area, uint32_t bit, uint32_t 
 	}
 }
 
+static void drive_bits(struct twin *twin, uint64_t bit, uint64_t bits)
+{
+	const struct areas *areas = &twin->plant.image.program->areas;
+	const enum iec_area area = areas_find(areas, (uint32_t)(bit / 8));
+
+	if (area != AREA_NONE)
+		drive(twin, area, (uint32_t)bit - 8 * areas->at[area], (uint32_t)bits);
+}
+
+/* What its rungs write without a name. */
+static void drive_store(void *context, const struct store *store)
+{
+	drive_bits(context, store->bit, store->bits);
+}
+
+static void find_written(struct twin *twin)
+{
+	const struct program *plant = twin->plant.image.program;
+
+	for (uint32_t i = 0; i < plant->bits_count; i++)
+		drive(twin, (enum iec_area)plant->bits[i].area, plant->bits[i].first,
+		      plant->bits[i].count);
+	stores_each(plant, drive_store, twin);
+}
+
 /* The plant gives what it declares at its outputs. */
-static void find_driven(struct twin *twin)
+static void find_declared(struct twin *twin)
 {
 	const struct image *plant = &twin->plant.image;
-	const struct areas *areas = &plant->program->areas;
 	struct symbol_cursor cursor = { .whole = true };
 	struct symbol symbol;
 
 	while (image_next_symbol(plant, &cursor, &symbol)) {
 		const struct location at = symbol.at;
-		enum iec_area area;
 
 		if (at.type == IEC_NONE)
 			continue;
-		if (at.area != AREA_NONE) {
+		if (at.area != AREA_NONE)
 			drive(twin, at.area, at.where, 1);
-			continue;
-		}
-		area = areas_find(areas, at.where);
-		if (area != AREA_NONE)
-			drive(twin, area, 8 * (at.where - areas->at[area]),
-			      8 * iec_type_size(at.type, 0));
+		else
+			drive_bits(twin, 8 * (uint64_t)at.where,
+				   8 * (uint64_t)iec_type_size(at.type, 0));
 	}
 }
 
@@ -96,8 +117,10 @@ bool twin_init(struct twin *twin, const struct program *program,
 		return false;
 	twin->resource.watch = true;
 	twin->period_ns = period_ns;
-	if (plant)
-		find_driven(twin);
+	if (plant) {
+		find_declared(twin);
+		find_written(twin);
+	}
 	return true;
 }
 
@@ -141,6 +164,7 @@ void twin_copy(struct twin *twin, const struct twin *from)
 
 /* ---- acts ---- */
 
+/* As on a board that drives its safe outputs. */
 static void clear_outputs(struct resource *resource)
 {
 	struct image *image = &resource->image;
@@ -181,17 +205,17 @@ static void copy_inputs(struct image *to, const struct image *from)
 }
 
 /* Switches stay as they are and forces are held, as on a board. */
-static bool start(struct twin *twin, bool warm)
+static bool start_again(struct resource *resource, size_t size, bool warm)
 {
-	struct image *image = &twin->resource.image;
+	struct image *image = &resource->image;
 	struct image *before = malloc(sizeof(*before));
-	uint8_t *memory = malloc(twin->memory_size);
+	uint8_t *memory = malloc(size);
 	bool good = before && memory;
 
 	if (good) {
 		*before = *image;
-		before->memory = memcpy(memory, image->memory, twin->memory_size);
-		good = start_program(&twin->resource, warm);
+		before->memory = memcpy(memory, image->memory, size);
+		good = start_program(resource, warm);
 	}
 	if (good)
 		copy_inputs(image, before);
@@ -199,11 +223,15 @@ static bool start(struct twin *twin, bool warm)
 		image_force(image, before->force[i].at, before->force[i].value);
 	free(memory);
 	free(before);
-	if (!good)
-		return false;
-	if (has_plant(twin))
-		resource_start(&twin->plant);
-	return true;
+	return good;
+}
+
+/* The plant first: it starts cold, so that nothing is lost if the other cannot. */
+static bool start(struct twin *twin, bool warm)
+{
+	return (!has_plant(twin) ||
+		start_again(&twin->plant, twin->plant_size, false)) &&
+	       start_again(&twin->resource, twin->memory_size, warm);
 }
 
 static void release_all(struct image *image)
@@ -278,20 +306,23 @@ static void program_to_plant(struct twin *twin)
 	}
 }
 
+/* The world first: what the program gave in its last scan has worked for a period when
+ * it looks again, and its first scan sees switches as they are. */
 bool twin_scan(struct twin *twin)
 {
-	if (twin->resource.state != STATE_RUN)
+	struct resource *resource = &twin->resource;
+
+	if (resource->state != STATE_RUN)
 		return false;
 	twin->now_ns += twin->period_ns;
 	twin->scan++;
-	if (has_plant(twin))
-		plant_to_program(twin);
-	resource_scan(&twin->resource, twin->now_ns);
-	if (twin->resource.state == STATE_FAULT)
-		clear_outputs(&twin->resource); /* as a board drives them        */
 	if (has_plant(twin)) {
 		program_to_plant(twin);
 		resource_scan(&twin->plant, twin->now_ns);
+		plant_to_program(twin);
 	}
-	return twin->resource.state == STATE_RUN;
+	resource_scan(resource, twin->now_ns);
+	if (resource->state == STATE_FAULT)
+		clear_outputs(resource);
+	return resource->state == STATE_RUN;
 }
