@@ -26,8 +26,8 @@ static uint32_t stride_of(const struct program *p, const struct location *at)
 	return run ? code_run_size(run) : iec_type_row(at->type)->size;
 }
 
-bool image_next_declared(const struct program *p, struct declared_cursor *cursor,
-			 struct declared_name *out)
+static bool next(const struct program *p, struct declared_cursor *cursor,
+		 struct declared_name *out)
 {
 	uint32_t i = cursor->index, word;
 
@@ -56,6 +56,16 @@ bool image_next_declared(const struct program *p, struct declared_cursor *cursor
 	cursor->string += (uint32_t)strlen(out->name) + 1;
 	cursor->index++;
 	return true;
+}
+
+bool image_next_declared(const struct program *p, struct declared_cursor *cursor,
+			 struct declared_name *out)
+{
+	while (next(p, cursor, out))
+		if (cursor->memories || !(out->flags & SYMBOL_HIDDEN) ||
+		    !strchr(out->name, ' '))
+			return true;
+	return false;
 }
 
 struct location declared_element(const struct declared_name *array,

@@ -105,7 +105,11 @@ struct declared_name {
  *
  * Owns: nothing.   Scan-safe: no.   Fails: false behind the last one.
  */
-struct declared_cursor { uint32_t index, group, string; };
+struct declared_cursor {
+	uint32_t index, group, string;
+	bool memories;          /* set before: those of edges, too, which have
+				   a blank in their name                      */
+};
 bool image_next_declared(const struct program *program,
 			 struct declared_cursor *cursor,
 			 struct declared_name *out);

@@ -102,6 +102,10 @@ void ld_contact(struct ld *ld, int element, uint32_t operand);
 /** ld_edge - an edge contact; without the element its memory stays. */
 void ld_edge(struct ld *ld, int element, uint32_t operand);
 
+/* ---- ld_memory.c ---- */
+/** ld_memory - the memory of an element that sees edges; 0: no memory. */
+uint32_t ld_memory(struct ld *ld, int element);
+
 /* ---- ld_box.c ---- */
 /** ld_row - the row of a word, be it the project's own. */
 const struct word_row *ld_row(const struct ld *ld, enum word word);

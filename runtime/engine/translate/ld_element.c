@@ -51,7 +51,7 @@ void ld_contact(struct ld *ld, int element, uint32_t operand)
 void ld_edge(struct ld *ld, int element, uint32_t operand)
 {
 	bool rising = row_of(ld, element)->edge == EDGE_RISING;
-	uint32_t memory = temps_edge(ld->temps), eno, value;
+	uint32_t memory = ld_memory(ld, element), eno, value;
 
 	value = ld_fetch(ld, operand, ld->true_id, &eno);
 	ld_emit(ld, OP_LD, 0, eno);

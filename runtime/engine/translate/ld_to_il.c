@@ -60,7 +60,7 @@ static void read_edge(struct ld *ld, int element)
 		ld_edge(ld, element, operand);
 		return;
 	}
-	memory = temps_edge(ld->temps);
+	memory = ld_memory(ld, element);
 	ld_emit(ld, OP_LD, 0, rising ? operand : memory);
 	ld_emit(ld, OP_AND, MOD_N, rising ? memory : operand);
 	state->leaf = ld_store_new(ld);
@@ -158,7 +158,7 @@ static void act_edge(struct ld *ld, int element)
 {
 	const struct network_element *at = &ld->network.element[element];
 	bool rising = row_of(ld, element)->edge == EDGE_RISING;
-	uint32_t power, memory = temps_edge(ld->temps);
+	uint32_t power, memory = ld_memory(ld, element);
 
 	ld_prepare(ld, at->in, 1);
 	ld_load(ld, at->in);

@@ -2,31 +2,17 @@
  *
  * pack_image - writes what the assembler made as a code image.
  */
-#include "engine/translate/assembler.h"
+#include "engine/translate/pack.h"
 
 #include "engine/base/digest.h"
 #include "engine/model/shape.h"
+#include "engine/translate/temps.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* The maps that are made only here. */
-struct maps {
-	char *string;
-	size_t string_used, string_size;
-	uint8_t *declared;   /* by folded name: in how many tables, up to 2 */
-	uint32_t *symbol;
-	int symbol_count;
-	struct code_group *group;
-	int group_count;
-	struct code_power *power;
-	int power_count;
-	struct code_watched *watched;
-	int watched_count;
-};
-
-static uint32_t add_string(struct assembler *as, struct maps *maps,
-			   const char *text, size_t len)
+uint32_t maps_string(struct assembler *as, struct maps *maps, const char *text,
+		     size_t len)
 {
 	size_t used = maps->string_used, size = maps->string_size;
 
@@ -52,7 +38,7 @@ static uint32_t add_name(struct assembler *as, struct maps *maps, uint32_t id)
 {
 	const struct names *names = &as->translation->project->names;
 
-	return add_string(as, maps, names_text(names, id), names_len(names, id));
+	return maps_string(as, maps, names_text(names, id), names_len(names, id));
 }
 
 /* Type, marks and place of a symbol as its word has them. */
@@ -78,8 +64,6 @@ static uint32_t symbol_word(struct assembler *as, const struct maps *maps,
 	return CODE_OPERAND(mark, offset);
 }
 
-#define BOUNDS 32 /* bytes that "[-1000..1000]" takes at most                */
-
 /* The bounds of an array, behind its name. */
 static size_t print_bounds(char *out, struct var_array array)
 {
@@ -101,7 +85,7 @@ static void add_symbol_name(struct assembler *as, struct maps *maps,
 	}
 	memcpy(text, names_text(names, var->name), len);
 	len += print_bounds(text + len, var->array);
-	add_string(as, maps, text, len);
+	maps_string(as, maps, text, len);
 }
 
 static void add_symbol(struct assembler *as, struct maps *maps,
@@ -158,7 +142,7 @@ static void add_part(struct assembler *as, struct maps *maps, const char *name,
 		return;
 	}
 	*symbol = CODE_OPERAND((uint32_t)pin->type | marks, offset);
-	add_string(as, maps, name, strlen(name));
+	maps_string(as, maps, name, strlen(name));
 }
 
 /* Of what has parts, those are named one by one; so are the elements of an array of
@@ -171,12 +155,7 @@ struct level {
 	size_t len;        /* of the name so far                           */
 };
 
-#define NAME_PART (LIMIT_NAME + BOUNDS + 1)
-#define NAME_MOST ((LIMIT_NESTING + 2) * NAME_PART)
-
-/* The index of an element behind the name of what it is one of; or the bounds of all,
- * if they are values. */
-static size_t join_index(char *out, const struct word_pin *pin, uint32_t element)
+size_t maps_join_index(char *out, const struct word_pin *pin, uint32_t element)
 {
 	*out = '\0';
 	if (!pin->elements)
@@ -201,6 +180,19 @@ static const struct word_pin *next_pin(struct level *top, uint32_t *element)
 	return pin;
 }
 
+/* What pin @index of a block remembers of an edge; NULL: it is no such memory. */
+static const char *edge_key(const struct assembler *as, const struct word_row *row,
+			    int index)
+{
+	const struct unit *unit = &as->translation->unit[row->owner];
+
+	index -= unit->pou->vars.count;
+	if (row->kind != WORD_FB || row->pin[row->pin_count - 1].name[0] || index < 0 ||
+	    !unit->temps || index >= unit->temps->edge_key_count)
+		return NULL;
+	return unit->temps->edge_key[index];
+}
+
 /* All parts of one instance or structure of the project, at every depth; its own name
  * stands in @name. */
 static void add_parts(struct assembler *as, struct maps *maps, char *name,
@@ -215,6 +207,7 @@ static void add_parts(struct assembler *as, struct maps *maps, char *name,
 	while (depth >= 0 && !as->failed) {
 		struct level *top = &level[depth];
 		const struct word_pin *pin;
+		const char *part;
 		size_t len = top->len;
 		uint32_t element, at;
 
@@ -223,19 +216,24 @@ static void add_parts(struct assembler *as, struct maps *maps, char *name,
 			continue;
 		}
 		pin = next_pin(top, &element);
-		if (pin->dir == PIN_NONE || !*pin->name)
+		if (pin->dir == PIN_NONE)
+			continue;
+		part = *pin->name ? pin->name :
+		       edge_key(as, top->row, (int)(pin - top->row->pin));
+		if (!part)
 			continue;
 		name[len++] = '.';
-		memcpy(name + len, pin->name, strlen(pin->name) + 1);
-		len += strlen(pin->name);
-		len += join_index(name + len, pin, element);
+		memcpy(name + len, part, strlen(part) + 1);
+		len += strlen(part);
+		len += maps_join_index(name + len, pin, element);
 		at = top->base + pin->offset + element * shape_of(words, pin).unit;
 		if (pin->type == IEC_NONE && word_is_own(pin->word))
 			level[++depth] = (struct level){
 				.row = words_row(words, pin->word), .base = at,
 				.len = len };
 		else
-			add_part(as, maps, name, pin, at, marks);
+			add_part(as, maps, name, pin, at,
+				 *pin->name ? marks : SYMBOL_HIDDEN);
 	}
 }
 
@@ -258,7 +256,7 @@ static void add_whole(struct assembler *as, struct maps *maps,
 	}
 	memcpy(name, project_text(project, var->name), len);
 	for (uint32_t i = 0; i < count && !as->failed; i++) {
-		join_index(name + len, &like, i);
+		maps_join_index(name + len, &like, i);
 		if (word_is_own(var->fb))
 			add_parts(as, maps, name, var->fb, offset + i * unit, marks);
 		else
@@ -302,171 +300,25 @@ static void add_table(struct assembler *as, struct maps *maps,
 	}
 }
 
-static uint32_t power_offset(struct assembler *as, const struct pou *pou,
-			     uint32_t name)
+/* Memories of edges, in a POU without a frame. */
+static void add_edges(struct assembler *as, struct maps *maps, int index)
 {
-	const struct meaning *m;
-	enum diag_id why;
+	const struct unit *unit = &as->translation->unit[index];
+	const struct temps *temps = unit->temps;
+	const struct word_pin like = { .type = IEC_BOOL };
 
-	if (!name)
-		return CODE_TRUE_AT(as->areas);
-	m = scope_find(as->translation->scope, pou, name, &why);
-	if (!m || m->kind == MEANING_LITERAL)
-		return CODE_TRUE_AT(as->areas);
-	return layout_spot(as, m).offset;
-}
-
-static void add_power(struct assembler *as, struct maps *maps)
-{
-	for (int i = 0; i < as->translation->unit_count; i++) {
-		const struct unit *unit = &as->translation->unit[i];
-
-		for (int k = 0; k < unit->power_count; k++) {
-			const struct power_note *note = &unit->power[k];
-			struct code_power *power = arena_push(as->arena,
-				&maps->power, &maps->power_count, sizeof(*power));
-
-			if (!power) {
-				as->failed = true;
-				return;
-			}
-			*power = (struct code_power){
-				.pou = (uint16_t)i, .rung = note->rung,
-				.row = note->row, .col = note->col,
-				.in = power_offset(as, unit->pou, note->in),
-				.out = power_offset(as, unit->pou, note->out),
-			};
-		}
-	}
-}
-
-/* ---- power by instance ---- */
-
-/* An instance whose power is kept, and those inside it. */
-struct kept {
-	int unit;
-	uint32_t base; /* of its power                                        */
-	int next;      /* variable of its block to look at                    */
-	uint32_t element; /* of that                                          */
-	size_t len;    /* of its name                                         */
-};
-
-/* "Belt1" behind the @len bytes of @name; with a dot between. */
-static size_t join_name(char *name, size_t len, const char *part)
-{
-	size_t size = strlen(part);
-
-	if (len > 0)
-		name[len++] = '.';
-	memcpy(name + len, part, size + 1);
-	return len + size;
-}
-
-static void add_watched(struct assembler *as, struct maps *maps,
-			const struct kept *kept, const char *name)
-{
-	const struct frame *frame = &as->frame[kept->unit];
-	struct code_watched *watched = arena_push(as->arena, &maps->watched,
-		&maps->watched_count, sizeof(*watched));
-
-	if (!watched) {
-		as->failed = true;
+	if (!temps || !temps->edge_key_count || pou_has_frame(unit->pou))
 		return;
+	add_group(as, maps, (uint32_t)index + 1, 0);
+	for (int i = 0; i < temps->edge_key_count && !as->failed; i++) {
+		enum diag_id why;
+		const struct meaning *m = scope_find(as->translation->scope, unit->pou,
+						     temps->edge_name[i], &why);
+
+		if (m && m->kind == MEANING_VARIABLE)
+			add_part(as, maps, temps->edge_key[i], &like,
+				 layout_spot(as, m).offset, SYMBOL_HIDDEN);
 	}
-	*watched = (struct code_watched){
-		.pou = (uint32_t)kept->unit, .from = frame->power,
-		.to = kept->base, .size = frame->power_size,
-		.name = add_string(as, maps, name, kept->len),
-	};
-}
-
-/* The next instance inside the one on top, an element at a time; false: no more
- * on this level. */
-static bool next_kept(const struct assembler *as, struct kept *top, int *index,
-		      uint32_t *element)
-{
-	int table = top->unit + 1;
-	const struct var_table *vars = layout_vars(as, table);
-
-	while (top->next < vars->count && !as->power[table][top->next])
-		top->next++;
-	if (top->next == vars->count)
-		return false;
-	*index = top->next;
-	*element = top->element++;
-	if (top->element >= vars->var[*index].array.count) {
-		top->element = 0;
-		top->next++;
-	}
-	return true;
-}
-
-/* Element @element of variable @index of table @table, and at all depths what is in
- * it. */
-static void keep_instance(struct assembler *as, struct maps *maps, char *name,
-			  size_t len, int table, int index, uint32_t element)
-{
-	const struct project *project = as->translation->project;
-	struct kept level[LIMIT_NESTING + 1];
-	int depth = -1;
-
-	do {
-		const struct var *var = &layout_vars(as, table)->var[index];
-		struct word_pin like = { .type = IEC_NONE, .elements = var->array.count, .low = var->array.low };
-		uint32_t base = as->power[table][index], unit = 0;
-		struct kept *inner = &level[depth + 1];
-
-		if (depth >= 0) { /* inside a block: beside that of its cells */
-			base += level[depth].base -
-				as->frame[level[depth].unit].power;
-			len = level[depth].len;
-		}
-		base += element * layout_pou(as, var->fb, &unit)->power_size;
-		*inner = (struct kept){ .unit = (int)unit, .base = base,
-			.len = join_name(name, len,
-					 project_text(project, var->name)) };
-		inner->len += join_index(name + inner->len, &like, element);
-		add_watched(as, maps, inner, name);
-		depth++;
-		while (depth >= 0 &&
-		       !next_kept(as, &level[depth], &index, &element))
-			depth--;
-		if (depth >= 0)
-			table = level[depth].unit + 1;
-	} while (depth >= 0 && !as->failed);
-}
-
-static void keep_table(struct assembler *as, struct maps *maps, char *name,
-		       int table)
-{
-	const struct project *project = as->translation->project;
-	const struct var_table *vars = layout_vars(as, table);
-
-	for (int i = 0; i < vars->count && !as->failed; i++) {
-		size_t len = 0;
-
-		if (!as->power[table][i])
-			continue;
-		if (table && maps->declared[vars->var[i].fold] > 1)
-			len = join_name(name, 0, project_text(project,
-				project->pou[table - 1].name));
-		for (uint32_t k = 0; k == 0 || k < vars->var[i].array.count; k++)
-			if (!as->failed)
-				keep_instance(as, maps, name, len, table, i, k);
-	}
-}
-
-static void keep_powers(struct assembler *as, struct maps *maps)
-{
-	const struct project *project = as->translation->project;
-	char *name = as->power ? arena_alloc(as->arena, NAME_MOST) : NULL;
-
-	if (!name)
-		return;
-	keep_table(as, maps, name, 0);
-	for (int i = 0; i < project->pou_count; i++)
-		if (project->pou[i].kind == POU_PROGRAM)
-			keep_table(as, maps, name, i + 1);
 }
 
 static void count_names(struct maps *maps, const struct var_table *vars)
@@ -490,13 +342,14 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 	add_table(as, maps, NULL, &project->globals);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		add_table(as, maps, &project->pou[i], &project->pou[i].vars);
+	for (int i = 0; i < as->translation->unit_count; i++)
+		add_edges(as, maps, i);
 	drop_empty_group(maps);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		as->entry[i].name = add_name(as, maps, project->pou[i].name);
 	for (int i = 0; i < as->task_count; i++)
 		as->task[i].name = add_name(as, maps, as->task[i].name);
-	add_power(as, maps);
-	keep_powers(as, maps);
+	pack_power(as, maps);
 	return !as->failed;
 }
 

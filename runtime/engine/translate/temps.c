@@ -86,10 +86,19 @@ uint32_t temps_bool(struct temps *temps)
 		    used + 1, IEC_BOOL);
 }
 
-uint32_t temps_edge(struct temps *temps)
+uint32_t temps_edge(struct temps *temps, const char *key)
 {
 	int used = temps->edges++;
 
+	if (used == temps->edge_key_count) {
+		const char **slot = arena_push(temps->translation->arena,
+					       &temps->edge_key,
+					       &temps->edge_key_count, sizeof(*slot));
+
+		if (!slot || !key)
+			return 0;
+		*slot = key;
+	}
 	return next(temps, &temps->edge_name, &temps->edge_count, used, 'E',
 		    used + 1, IEC_BOOL);
 }

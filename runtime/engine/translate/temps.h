@@ -23,6 +23,8 @@ struct temps {
 	int bool_count, edge_count, power_count;
 	uint32_t *number_name[IEC_TYPE_COUNT];
 	int number_count[IEC_TYPE_COUNT];
+	const char **edge_key;            /* what each _En remembers          */
+	int edge_key_count;
 	int numbers_made;
 	struct temp_whole *whole;
 	int whole_count;
@@ -32,7 +34,8 @@ struct temps {
 void temps_rung(struct temps *temps);
 /* The next name of its kind, a string id; 0 when memory is out. */
 uint32_t temps_bool(struct temps *temps);
-uint32_t temps_edge(struct temps *temps);
+/* @key: what it remembers, in the arena of the result; NULL: no memory. */
+uint32_t temps_edge(struct temps *temps, const char *key);
 uint32_t temps_power(struct temps *temps);
 uint32_t temps_number(struct temps *temps, enum iec_type type);
 /* The same of a structure or array like @m. */

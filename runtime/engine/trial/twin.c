@@ -4,6 +4,7 @@
  */
 #include "engine/trial/twin.h"
 
+#include "engine/scan/carry.h"
 #include "engine/scan/retain.h"
 #include "engine/trial/stores.h"
 
@@ -160,6 +161,33 @@ void twin_copy(struct twin *twin, const struct twin *from)
 	twin->now_ns = from->now_ns;
 	twin->period_ns = from->period_ns;
 	twin->scan = from->scan;
+}
+
+/* A plant that is new starts when the program does. */
+static bool change(struct twin *twin, const struct twin *from, struct arena *arena)
+{
+	if (!carry(&twin->resource, &from->resource, arena))
+		return false;
+	if (has_plant(twin) && has_plant(from))
+		return carry(&twin->plant, &from->plant, arena);
+	if (has_plant(twin) && twin->resource.state == STATE_RUN)
+		resource_start(&twin->plant);
+	return true;
+}
+
+bool twin_change(struct twin *twin, const struct twin *from)
+{
+	struct arena arena;
+	bool good;
+
+	arena_init(&arena);
+	good = change(twin, from, &arena);
+	arena_free(&arena);
+	twin->resource.watch = from->resource.watch;
+	twin->now_ns = from->now_ns;
+	twin->period_ns = from->period_ns;
+	twin->scan = from->scan;
+	return good;
 }
 
 /* ---- acts ---- */

@@ -58,6 +58,16 @@ bool twin_clone(struct twin *twin, const struct twin *from);
  * takes to copy the data of both programs. */
 void twin_copy(struct twin *twin, const struct twin *from);
 
+/**
+ * twin_change - the program was edited: @twin, which has the new one, goes on where @from
+ * is, as scan/carry.h tells; so does its plant, if both have one
+ * @twin: initialised, nothing else   @from: stays as it is
+ *
+ * Between two scans. A record of @from cannot go on: it is of other programs.
+ * Owns: nothing.   Scan-safe: no.   Fails: false: no memory; @twin is to be freed.
+ */
+bool twin_change(struct twin *twin, const struct twin *from);
+
 /** twin_act - between two scans. Scan-safe: no.   Fails: false: no such place, one that
  * cannot be set or forced, too many forces, no memory; nothing has changed. */
 bool twin_act(struct twin *twin, const struct act *act);

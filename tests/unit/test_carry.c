@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_carry - a program is changed while it runs: what goes on and what begins anew, by
+ * hand; and random programs with a rung more, which must do what they did without it.
+ */
+#include "engine/scan/carry.h"
+#include "tests/unit/rig.h"
+#include "tests/walker/random.h"
+
+#define SEEDS 150
+#define TEXT_MAX (128 * 1024)
+#define NAMES 4096
+
+/* Goes on in @to where @from is. */
+static void change(struct rig *to, const struct rig *from)
+{
+	struct arena arena;
+
+	arena_init(&arena);
+	resource_init(&to->resource, ladder_program(to->ladder), to->memory);
+	to->resource.watch = from->resource.watch;
+	CHECK(carry(&to->resource, &from->resource, &arena));
+	to->now = from->now;
+	arena_free(&arena);
+}
+
+/* ---- edges ---- */
+
+#define EDGES(first, other) \
+	"VAR\n  Start AT %IX0.0 : BOOL;\n  Ups : INT;\n  Downs : INT;\n" \
+	"  Powers : INT;\n  Inner : Counter;\nEND_VAR\n" \
+	"FUNCTION_BLOCK Counter LD\nVAR_INPUT\n  In : BOOL;\nEND_VAR\n" \
+	"VAR\n  N : INT;\nEND_VAR\n" \
+	"RUNG\n  | P In | [ N := N + 1 ] |\nEND_FUNCTION_BLOCK\n" \
+	"PROGRAM Main LD\n" first \
+	"RUNG\n  | P Start | [ Ups := Ups + 1 ] |\n" \
+	"RUNG\n  | N Start | [ Downs := Downs + 1 ] |\n" other \
+	"RUNG\n  | NO Start | COILP %MX9.0 |\n" \
+	"RUNG\n  | NO %MX9.0 | [ Powers := Powers + 1 ] |\n" \
+	"RUNG\n  | NO Start | Counter Inner |\n" \
+	"END_PROGRAM\n"
+static const char edges[] = EDGES("", "");
+/* Rungs before and between, a new edge among them. */
+static const char more_edges[] = EDGES(
+	"RUNG\n  | P Start | S %MX8.0 |\n", "RUNG\n  | N %IX0.1 | R %MX8.1 |\n");
+
+static void test_edges(void)
+{
+	struct rig old, new;
+
+	rig_open(&old, edges, true);
+	rig_open(&new, more_edges, true);
+	rig_set(&old, "Start", 1);
+	for (int i = 0; i < 5; i++)
+		rig_scan(&old);
+	CHECK(rig_get(&old, "Ups") == 1 && rig_get(&old, "Powers") == 1);
+	change(&new, &old);
+	for (int i = 0; i < 5; i++)
+		rig_scan(&new);
+	CHECK(rig_get(&new, "Ups") == 1);
+	CHECK(rig_get(&new, "Powers") == 1);
+	CHECK(rig_get(&new, "Inner.N") == 1);
+	/* A contact that is new waits for an edge. */
+	CHECK(rig_get(&new, "%MX8.0") == 0);
+	rig_set(&new, "Start", 0);
+	rig_scan(&new);
+	CHECK(rig_get(&new, "Downs") == 1);
+	rig_set(&new, "Start", 1);
+	rig_scan(&new);
+	CHECK(rig_get(&new, "Ups") == 2 && rig_get(&new, "Powers") == 2 &&
+	      rig_get(&new, "Inner.N") == 2 && rig_get(&new, "%MX8.0") == 1);
+	rig_close(&old);
+	rig_close(&new);
+}
+
+/* ---- values ---- */
+
+static const char before[] =
+	"TYPE\n  Item : STRUCT\n    Speed : INT;\n    Name : STRING[8];\n"
+	"  END_STRUCT;\nEND_TYPE\n"
+	"VAR_GLOBAL\n  Kept : DINT;\n  Typed : INT;\n  Gone : INT;\n"
+	"  Wait : TIME := T#50ms;\n  Level : REAL := 2.0;\n  Text : STRING[10];\n"
+	"  Long : STRING[10];\n  List : ARRAY[1..4] OF INT;\n"
+	"  Grid : ARRAY[0..3] OF BOOL;\n  Items : ARRAY[1..2] OF Item;\n"
+	"  Moved AT %MW10 : INT;\n  Stay AT %MW12 : INT;\nEND_VAR\n"
+	"PROGRAM Main LD\nVAR\n  Delay : TON;\n  Other : TON;\n  Queue : FIFO;\n"
+	"  Own : INT;\nEND_VAR\n"
+	"RUNG\n  | NO %IX0.0 | TON Delay PT:=T#100ms | COIL %QX0.0 |\n"
+	"RUNG\n  | NO %IX0.0 | TON Other PT:=T#9s | COIL %QX0.1 |\n"
+	"RUNG\n  | NO %IX0.1 | FIFO Queue IN:=Own SIZE:=8 |\n"
+	"RUNG\n  | NO SYS_FIRST_SCAN | [ Own := Own + 10 ] |\n"
+	"RUNG\n  | [ Own := Own + 1 ] |\n"
+	"END_PROGRAM\n";
+/* Another order, other types, sizes, addresses and constants; areas of other sizes. */
+static const char after[] =
+	"TYPE\n  Item : STRUCT\n    Name : STRING[8];\n    New : INT := 3;\n"
+	"    Speed : INT;\n  END_STRUCT;\nEND_TYPE\n"
+	"VAR_GLOBAL\n  New : INT := 9;\n  Items : ARRAY[1..3] OF Item;\n"
+	"  Grid : ARRAY[2..9] OF BOOL;\n  List : ARRAY[0..2] OF INT;\n"
+	"  Long : STRING[3] := 'abc';\n  TEXT : STRING[20];\n  Level : REAL := 3.0;\n"
+	"  Wait : TIME := T#70ms;\n  Typed : DINT := 5;\n  Kept : DINT;\n"
+	"  Moved AT %MW20 : INT;\n  Stay AT %MW12 : INT;\nEND_VAR\n"
+	"CONFIGURATION Sizes\n  AREA M 16384;\n  AREA I 4;\nEND_CONFIGURATION\n"
+	"PROGRAM Main LD\nVAR\n  Own : INT;\n  Queue : FIFO;\n  Other : TOF;\n"
+	"  Delay : TON;\nEND_VAR\n"
+	"RUNG\n  | NO SYS_FIRST_SCAN | [ Own := Own + 1000 ] |\n"
+	"RUNG\n  | NO %IX0.1 | FIFO Queue IN:=Own SIZE:=8 |\n"
+	"RUNG\n  | NO %IX0.0 | TON Delay PT:=T#200ms | COIL %QX0.0 |\n"
+	"RUNG\n  | NO %IX0.0 | TOF Other PT:=T#9s | COIL %QX0.1 |\n"
+	"END_PROGRAM\n";
+
+static void set_text(struct rig *rig, const char *name, const char *value)
+{
+	struct { struct iec_string head; char bytes[16]; } text;
+
+	text.head.capacity = sizeof(text.bytes);
+	text.head.length = (uint16_t)strlen(value);
+	memcpy(text.head.text, value, strlen(value));
+	image_set(&rig->resource.image, rig_at(rig, name),
+		  (union iec_value){ .s = &text.head });
+}
+
+static bool has_text(struct rig *rig, const char *name, const char *value)
+{
+	const struct iec_string *text = image_get(&rig->resource.image,
+						  rig_at(rig, name)).s;
+
+	return text->length == strlen(value) &&
+	       memcmp(text->text, value, text->length) == 0;
+}
+
+static void fill(struct rig *rig)
+{
+	rig_set(rig, "Kept", 12345);
+	rig_set(rig, "Typed", 7);
+	set_text(rig, "Text", "hello");
+	set_text(rig, "Long", "longer");
+	for (int i = 1; i <= 4; i++) {
+		char name[16];
+
+		snprintf(name, sizeof(name), "List[%d]", i);
+		rig_set(rig, name, 100 + i);
+	}
+	rig_set(rig, "Grid[2]", 1);
+	rig_set(rig, "Grid[1]", 1);
+	rig_set(rig, "Items[2].Speed", 55);
+	set_text(rig, "Items[1].Name", "one");
+	rig_set(rig, "Moved", 77);
+	rig_set(rig, "Stay", 78);
+	rig_set(rig, "%MB200", 79);
+	rig_set(rig, "%IX0.0", 1);
+	rig_set(rig, "%IX0.1", 1);
+	rig_set(rig, "%IX2.5", 1);
+	image_set(&rig->resource.image, rig_at(rig, "Level"),
+		  (union iec_value){ .r = 2.5 });
+}
+
+static void test_values(void)
+{
+	struct rig old, new;
+
+	rig_open(&old, before, true);
+	rig_open(&new, after, true);
+	fill(&old);
+	for (int i = 0; i < 6; i++)
+		rig_scan(&old);
+	change(&new, &old);
+	CHECK(rig_get(&new, "Kept") == 12345 && rig_get(&new, "New") == 9);
+	CHECK(rig_get(&new, "Typed") == 5);
+	CHECK(rig_real(&new, "Level") == 2.5);
+	/* As it began: it takes the value that it begins with now. */
+	CHECK(rig_get(&new, "Wait") == 70000000);
+	CHECK(has_text(&new, "Text", "hello") && has_text(&new, "Long", "abc"));
+	CHECK(rig_get(&new, "List[0]") == 0 && rig_get(&new, "List[1]") == 101 &&
+	      rig_get(&new, "List[2]") == 102);
+	CHECK(rig_get(&new, "Grid[2]") == 1 && rig_get(&new, "Grid[3]") == 0);
+	CHECK(rig_get(&new, "Items[2].Speed") == 55 &&
+	      rig_get(&new, "Items[2].New") == 3 && rig_get(&new, "Items[3].Speed") == 0);
+	CHECK(has_text(&new, "Items[1].Name", "one"));
+	CHECK(rig_get(&new, "Moved") == 77 && rig_get(&new, "Stay") == 78 &&
+	      rig_get(&new, "%MB200") == 79);
+	CHECK(rig_get(&new, "%IX0.0") == 1 && rig_get(&new, "%IX2.5") == 1 &&
+	      rig_get(&new, "%IX2.4") == 0);
+	CHECK(rig_get(&new, "Main.Own") == 16);
+	CHECK(rig_get(&new, "Delay.ET") == 50000000);
+	/* Its constant was edited; another block begins anew. */
+	CHECK(rig_get(&new, "Delay.PT") == 200000000);
+	CHECK(rig_get(&new, "Other.ET") == 0);
+	CHECK(rig_get(&new, "Queue.COUNT") == rig_get(&old, "Queue.COUNT") &&
+	      rig_get(&new, "Queue.COUNT") > 0);
+	rig_scan(&new);
+	CHECK(rig_get(&new, "Delay.ET") == 60000000);
+	CHECK(rig_get(&new, "Main.Own") == 16); /* no first scan */
+	CHECK(new.resource.scans == 7 && new.resource.start_ns == RIG_PERIOD);
+	rig_close(&old);
+	rig_close(&new);
+}
+
+/* ---- forces, faults, tasks ---- */
+
+static void test_forces(void)
+{
+	struct rig old, new;
+
+	rig_open(&old, before, true);
+	rig_open(&new, after, true);
+	rig_scan(&old);
+	rig_set(&old, "Kept", 4);
+	CHECK(rig_force(&old, "Kept", 5) && rig_force(&old, "%QX0.0", 1) &&
+	      rig_force(&old, "Gone", 6) && rig_force(&old, "Delay.ET", 7) &&
+	      rig_force(&old, "List[2]", 8) && rig_force(&old, "List[4]", 9) &&
+	      rig_force(&old, "%IX5.0", 1) && rig_force(&old, "Typed", 3) &&
+	      rig_force(&old, "%MD8", 3));
+	rig_scan(&old);
+	change(&new, &old);
+	/* Not those of what is gone, of another type, or of no address any more. */
+	CHECK(new.resource.image.force_count == 5);
+	CHECK(image_is_forced(&new.resource.image, rig_at(&new, "%QX0.0")));
+	CHECK(image_is_forced(&new.resource.image, rig_at(&new, "Delay.ET")));
+	CHECK(rig_get(&new, "Kept") == 5 && rig_get(&new, "List[2]") == 8 &&
+	      rig_get(&new, "%MD8") == 3);
+	rig_scan(&new);
+	CHECK(rig_get(&new, "%QX0.0") == 1);
+	CHECK(rig_release(&new, "Kept") && rig_get(&new, "Kept") == 4);
+	rig_close(&old);
+	rig_close(&new);
+}
+
+#define TASKS(fast, more) \
+	"VAR_GLOBAL\n  A : INT;\n  B : INT;\n  C : INT;\nEND_VAR\n" \
+	"CONFIGURATION All\n" more "  TASK Fast (INTERVAL := " fast ", PRIORITY := 1);\n" \
+	"  TASK Slow (INTERVAL := T#100ms, PRIORITY := 2);\n" \
+	"  TASK Event (SINGLE := %MX3.3, PRIORITY := 3);\n" \
+	"  PROGRAM P1 WITH Fast : One;\n  PROGRAM P2 WITH Slow : Two;\n" \
+	"  PROGRAM P3 WITH Event : Three;\nEND_CONFIGURATION\n" \
+	"PROGRAM One LD\nRUNG\n  | [ A := A + 1 ] |\nEND_PROGRAM\n" \
+	"PROGRAM Two LD\nRUNG\n  | [ B := B + 1 ] |\nEND_PROGRAM\n" \
+	"PROGRAM Three LD\nRUNG\n  | [ C := C + 1 ] |\nEND_PROGRAM\n"
+
+static void test_tasks(void)
+{
+	struct rig old, new;
+
+	rig_open(&old, TASKS("T#20ms", ""), false);
+	rig_open(&new, TASKS("T#10ms", "  TASK Idle (INTERVAL := T#50ms, PRIORITY := 0);\n"),
+		 false);
+	rig_set(&old, "%MX3.3", 1);
+	for (int i = 0; i < 15; i++)
+		rig_scan(&old); /* at 10 … 150 ms */
+	CHECK(rig_get(&old, "A") == 8 && rig_get(&old, "B") == 2 &&
+	      rig_get(&old, "C") == 1);
+	change(&new, &old);
+	for (int i = 0; i < 6; i++)
+		rig_scan(&new);
+	CHECK(rig_get(&new, "A") == 14); /* every scan now */
+	CHECK(rig_get(&new, "B") == 3);  /* its deadline, 210 ms, stays */
+	CHECK(rig_get(&new, "C") == 1);  /* no new event */
+	CHECK(new.resource.tasks.state[2].overruns == 0);
+	rig_close(&old);
+	rig_close(&new);
+}
+
+static void test_fault(void)
+{
+	struct rig old, new;
+
+	rig_open(&old, "PROGRAM Main LD\nRUNG Again\n  | NO %IX0.0 | JMP Again |\n"
+		 "END_PROGRAM\n", false);
+	rig_open(&new, "PROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n"
+		 "END_PROGRAM\n", false);
+	rig_set(&old, "%IX0.0", 1);
+	CHECK(!rig_scan(&old));
+	change(&new, &old);
+	CHECK(new.resource.state == STATE_FAULT && new.resource.fault == FAULT_BUDGET);
+	/* Its name is the new program's: the old one may go. */
+	CHECK_TEXT(new.resource.fault_at.pou, "Main");
+	rig_close(&old);
+	CHECK_TEXT(new.resource.fault_at.pou, "Main");
+	rig_close(&new);
+}
+
+int main(void)
+{
+	test_values();
+	test_forces();
+	test_tasks();
+	test_fault();
+	test_edges();
+	return tap_done();
+}
