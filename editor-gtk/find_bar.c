@@ -10,7 +10,6 @@
 
 #include <string.h>
 
-enum { PROP_DOCUMENT = 1, PROPS };
 enum { HITS_CHANGED, CLOSED, SIGNALS };
 
 struct _LadderFindBar {
@@ -25,7 +24,6 @@ struct _LadderFindBar {
 
 G_DEFINE_FINAL_TYPE(LadderFindBar, ladder_find_bar, GTK_TYPE_WIDGET)
 
-static GParamSpec *props[PROPS];
 static guint signals[SIGNALS];
 
 /* As the drop-down has them. */
@@ -291,25 +289,6 @@ void ladder_find_bar_set_document(LadderFindBar *bar, LadderDocument *document)
 	if (!panel_watch_set(bar->watch, document))
 		return;
 	look(GTK_WIDGET(bar));
-	g_object_notify_by_pspec(G_OBJECT(bar), props[PROP_DOCUMENT]);
-}
-
-static void set_property(GObject *object, guint id, const GValue *value, GParamSpec *spec)
-{
-	if (id == PROP_DOCUMENT)
-		ladder_find_bar_set_document(LADDER_FIND_BAR(object),
-					     g_value_get_object(value));
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-}
-
-static void get_property(GObject *object, guint id, GValue *value, GParamSpec *spec)
-{
-	if (id == PROP_DOCUMENT)
-		g_value_set_object(value,
-			panel_watch_document(LADDER_FIND_BAR(object)->watch));
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
 
 static void dispose(GObject *object)
@@ -343,16 +322,9 @@ static void bind_children(GtkWidgetClass *class)
 
 static void ladder_find_bar_class_init(LadderFindBarClass *class)
 {
-	GObjectClass *object = G_OBJECT_CLASS(class);
 	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
 
-	object->set_property = set_property;
-	object->get_property = get_property;
-	object->dispose = dispose;
-	props[PROP_DOCUMENT] = g_param_spec_object("document", NULL, NULL,
-		LADDER_TYPE_DOCUMENT, G_PARAM_READWRITE | G_PARAM_EXPLICIT_NOTIFY |
-		G_PARAM_STATIC_STRINGS);
-	g_object_class_install_properties(object, PROPS, props);
+	G_OBJECT_CLASS(class)->dispose = dispose;
 	signals[HITS_CHANGED] = g_signal_new("hits-changed", LADDER_TYPE_FIND_BAR,
 		G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 	signals[CLOSED] = g_signal_new("closed", LADDER_TYPE_FIND_BAR, G_SIGNAL_RUN_LAST, 0,

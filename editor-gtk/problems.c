@@ -12,7 +12,6 @@
 #include <string.h>
 
 enum { COLUMN_TEXT, COLUMN_PLACE, COLUMN_CODE, COLUMN_SEVERITY };
-enum { PROP_DOCUMENT = 1, PROP_TITLE, PROPS };
 
 struct _LadderProblems {
 	GtkWidget parent_instance;
@@ -25,7 +24,7 @@ struct _LadderProblems {
 
 G_DEFINE_FINAL_TYPE(LadderProblems, ladder_problems, GTK_TYPE_WIDGET)
 
-static GParamSpec *props[PROPS];
+static guint title_changed; /* signal */
 
 /* ---- rows ---- */
 
@@ -123,7 +122,7 @@ static void set_title(LadderProblems *problems)
 	if (g_strcmp0(title, problems->title) != 0) {
 		g_free(problems->title);
 		problems->title = g_steal_pointer(&title);
-		g_object_notify_by_pspec(G_OBJECT(problems), props[PROP_TITLE]);
+		g_signal_emit(problems, title_changed, 0);
 	}
 	g_free(title);
 }
@@ -175,6 +174,11 @@ bool ladder_problems_next(LadderProblems *problems, bool back)
 	return true;
 }
 
+const char *ladder_problems_title(LadderProblems *problems)
+{
+	return problems->title;
+}
+
 int ladder_problems_count(LadderProblems *problems, bool errors)
 {
 	return errors ? problems->errors : problems->count;
@@ -195,28 +199,6 @@ void ladder_problems_set_document(LadderProblems *problems, LadderDocument *docu
 	if (document)
 		g_signal_connect_swapped(document, "checked", G_CALLBACK(refresh), problems);
 	refresh(problems);
-	g_object_notify_by_pspec(G_OBJECT(problems), props[PROP_DOCUMENT]);
-}
-
-static void set_property(GObject *object, guint id, const GValue *value, GParamSpec *spec)
-{
-	if (id == PROP_DOCUMENT)
-		ladder_problems_set_document(LADDER_PROBLEMS(object),
-					     g_value_get_object(value));
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-}
-
-static void get_property(GObject *object, guint id, GValue *value, GParamSpec *spec)
-{
-	LadderProblems *problems = LADDER_PROBLEMS(object);
-
-	if (id == PROP_DOCUMENT)
-		g_value_set_object(value, problems->document);
-	else if (id == PROP_TITLE)
-		g_value_set_string(value, problems->title);
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
 
 static void dispose(GObject *object)
@@ -234,17 +216,9 @@ static void dispose(GObject *object)
 
 static void ladder_problems_class_init(LadderProblemsClass *class)
 {
-	GObjectClass *object = G_OBJECT_CLASS(class);
-
-	object->set_property = set_property;
-	object->get_property = get_property;
-	object->dispose = dispose;
-	props[PROP_DOCUMENT] = g_param_spec_object("document", NULL, NULL,
-		LADDER_TYPE_DOCUMENT, G_PARAM_READWRITE | G_PARAM_EXPLICIT_NOTIFY |
-		G_PARAM_STATIC_STRINGS);
-	props[PROP_TITLE] = g_param_spec_string("title", NULL, NULL, NULL,
-		G_PARAM_READABLE | G_PARAM_STATIC_STRINGS);
-	g_object_class_install_properties(object, PROPS, props);
+	G_OBJECT_CLASS(class)->dispose = dispose;
+	title_changed = g_signal_new("title-changed", LADDER_TYPE_PROBLEMS,
+		G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 	gtk_widget_class_set_layout_manager_type(GTK_WIDGET_CLASS(class),
 						 GTK_TYPE_BIN_LAYOUT);
 	gtk_widget_class_set_template_from_resource(GTK_WIDGET_CLASS(class),

@@ -2,8 +2,7 @@
  *
  * problems - the list of what the checks found wrong, and how many there are.
  *
- * Properties: "document" (LadderDocument), "title" (string: "Problems 3", for the tab).
- * To activate a row, or ladder_problems_next(), goes to its place by the action
+ * Signal: title-changed (): ladder_problems_title() is another. To activate a row, or ladder_problems_next(), goes to its place by the action
  * win.go-to (iiii). It corrects nothing.
  */
 #ifndef EDITOR_PROBLEMS_H
@@ -18,6 +17,8 @@ G_DECLARE_FINAL_TYPE(LadderProblems, ladder_problems, LADDER, PROBLEMS, GtkWidge
 
 GtkWidget *ladder_problems_new(void);
 void ladder_problems_set_document(LadderProblems *problems, LadderDocument *document);
+/** ladder_problems_title - "Problems 3", for the tab. Borrowed until it changes. */
+const char *ladder_problems_title(LadderProblems *problems);
 /** ladder_problems_count - all, or errors only. */
 int ladder_problems_count(LadderProblems *problems, bool errors);
 /** ladder_problems_next - selects the next one, around the end, and goes there. False:

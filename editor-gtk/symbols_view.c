@@ -15,7 +15,6 @@
 
 #define FILE_MOST (64 << 20) /* bytes of a table that is read                  */
 
-enum { PROP_DOCUMENT = 1, PROPS };
 
 struct _LadderSymbolsView {
 	GtkWidget parent_instance;
@@ -28,8 +27,6 @@ struct _LadderSymbolsView {
 };
 
 G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
-
-static GParamSpec *props[PROPS];
 
 /* ---- messages ---- */
 
@@ -367,25 +364,6 @@ void ladder_symbols_view_set_document(LadderSymbolsView *view, LadderDocument *d
 		return;
 	view->table = -1;
 	refresh(GTK_WIDGET(view));
-	g_object_notify_by_pspec(G_OBJECT(view), props[PROP_DOCUMENT]);
-}
-
-static void set_property(GObject *object, guint id, const GValue *value, GParamSpec *spec)
-{
-	if (id == PROP_DOCUMENT)
-		ladder_symbols_view_set_document(LADDER_SYMBOLS_VIEW(object),
-						 g_value_get_object(value));
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-}
-
-static void get_property(GObject *object, guint id, GValue *value, GParamSpec *spec)
-{
-	if (id == PROP_DOCUMENT)
-		g_value_set_object(value,
-			panel_watch_document(LADDER_SYMBOLS_VIEW(object)->watch));
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
 }
 
 static void dispose(GObject *object)
@@ -418,16 +396,9 @@ static void bind_children(GtkWidgetClass *class)
 
 static void ladder_symbols_view_class_init(LadderSymbolsViewClass *class)
 {
-	GObjectClass *object = G_OBJECT_CLASS(class);
 	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
 
-	object->set_property = set_property;
-	object->get_property = get_property;
-	object->dispose = dispose;
-	props[PROP_DOCUMENT] = g_param_spec_object("document", NULL, NULL,
-		LADDER_TYPE_DOCUMENT, G_PARAM_READWRITE | G_PARAM_EXPLICIT_NOTIFY |
-		G_PARAM_STATIC_STRINGS);
-	g_object_class_install_properties(object, PROPS, props);
+	G_OBJECT_CLASS(class)->dispose = dispose;
 	gtk_widget_class_install_action(widget, "symbols.add", NULL, add);
 	gtk_widget_class_install_action(widget, "symbols.delete", NULL, delete);
 	gtk_widget_class_install_action(widget, "symbols.import", NULL, import);

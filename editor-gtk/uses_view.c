@@ -9,7 +9,6 @@
 
 #include <string.h>
 
-enum { PROP_DOCUMENT = 1, PROP_SYMBOL, PROPS };
 
 struct _LadderUsesView {
 	GtkWidget parent_instance;
@@ -22,8 +21,6 @@ struct _LadderUsesView {
 };
 
 G_DEFINE_FINAL_TYPE(LadderUsesView, ladder_uses_view, GTK_TYPE_WIDGET)
-
-static GParamSpec *props[PROPS];
 
 static enum uses_mode mode_of(LadderUsesView *view)
 {
@@ -86,7 +83,6 @@ void ladder_uses_view_set_symbol(LadderUsesView *view, int pou, const char *symb
 	/* The cursor may move on at once. */
 	if (mode_of(view) == USES_SYMBOL)
 		panel_watch_later(view->watch);
-	g_object_notify_by_pspec(G_OBJECT(view), props[PROP_SYMBOL]);
 }
 
 void ladder_uses_view_set_document(LadderUsesView *view, LadderDocument *document)
@@ -95,7 +91,6 @@ void ladder_uses_view_set_document(LadderUsesView *view, LadderDocument *documen
 		return;
 	uses_cache_clear(&view->cache);
 	refresh(GTK_WIDGET(view));
-	g_object_notify_by_pspec(G_OBJECT(view), props[PROP_DOCUMENT]);
 }
 
 static void mode_changed(GtkDropDown *modes, GParamSpec *spec, LadderUsesView *view)
@@ -122,30 +117,6 @@ static void activated(GtkColumnView *list, guint at, LadderUsesView *view)
 }
 
 /* ---- the widget ---- */
-
-static void set_property(GObject *object, guint id, const GValue *value, GParamSpec *spec)
-{
-	LadderUsesView *view = LADDER_USES_VIEW(object);
-
-	if (id == PROP_DOCUMENT)
-		ladder_uses_view_set_document(view, g_value_get_object(value));
-	else if (id == PROP_SYMBOL)
-		ladder_uses_view_set_symbol(view, -1, g_value_get_string(value));
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-}
-
-static void get_property(GObject *object, guint id, GValue *value, GParamSpec *spec)
-{
-	LadderUsesView *view = LADDER_USES_VIEW(object);
-
-	if (id == PROP_DOCUMENT)
-		g_value_set_object(value, panel_watch_document(view->watch));
-	else if (id == PROP_SYMBOL)
-		g_value_set_string(value, view->symbol);
-	else
-		G_OBJECT_WARN_INVALID_PROPERTY_ID(object, id, spec);
-}
 
 static void dispose(GObject *object)
 {
@@ -177,17 +148,7 @@ static void bind_children(GtkWidgetClass *class)
 
 static void ladder_uses_view_class_init(LadderUsesViewClass *class)
 {
-	GObjectClass *object = G_OBJECT_CLASS(class);
-
-	object->set_property = set_property;
-	object->get_property = get_property;
-	object->dispose = dispose;
-	props[PROP_DOCUMENT] = g_param_spec_object("document", NULL, NULL,
-		LADDER_TYPE_DOCUMENT, G_PARAM_READWRITE | G_PARAM_EXPLICIT_NOTIFY |
-		G_PARAM_STATIC_STRINGS);
-	props[PROP_SYMBOL] = g_param_spec_string("symbol", NULL, NULL, NULL,
-		G_PARAM_READWRITE | G_PARAM_EXPLICIT_NOTIFY | G_PARAM_STATIC_STRINGS);
-	g_object_class_install_properties(object, PROPS, props);
+	G_OBJECT_CLASS(class)->dispose = dispose;
 	bind_children(GTK_WIDGET_CLASS(class));
 }
 

@@ -3,9 +3,7 @@
  * uses_view - the cross reference: where a symbol is used, all symbols, those that are
  * never used, and memory that has two names.
  *
- * Properties: "document" (LadderDocument), "symbol" (string: a name, Main.Delay or an
- * address; what the list shows when it is to follow the cursor). To activate a row goes
- * to its place by win.go-to (iiii).
+ * To activate a row goes to its place by win.go-to (iiii).
  */
 #ifndef EDITOR_USES_VIEW_H
 #define EDITOR_USES_VIEW_H

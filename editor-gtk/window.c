@@ -169,12 +169,9 @@ static void add_below(LadderWindow *window, GtkWidget *panel, const char *name,
 static void show_problems_title(LadderWindow *window)
 {
 	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
-	char *title;
 
-	g_object_get(problems, "title", &title, NULL);
-	g_object_set(gtk_stack_get_page(window->below_stack, problems), "title", title,
-		     NULL);
-	g_free(title);
+	gtk_stack_page_set_title(gtk_stack_get_page(window->below_stack, problems),
+				 ladder_problems_title(LADDER_PROBLEMS(problems)));
 }
 
 static void add_panels(LadderWindow *window)
@@ -187,7 +184,7 @@ static void add_panels(LadderWindow *window)
 	gtk_paned_set_position(window->side, 230);
 	add_below(window, problems, "problems", _("Problems"));
 	ladder_problems_set_document(LADDER_PROBLEMS(problems), document);
-	g_signal_connect_object(problems, "notify::title", G_CALLBACK(show_problems_title),
+	g_signal_connect_object(problems, "title-changed", G_CALLBACK(show_problems_title),
 				window, G_CONNECT_SWAPPED);
 	add_below(window, uses, "uses", _("Cross reference"));
 	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), document);

@@ -197,9 +197,9 @@ static void test_problems(void)
 {
 	LadderProblems *problems = LADDER_PROBLEMS(ladder_problems_new());
 	GListModel *list = ladder_problems_list(problems);
-	char *title;
+	const char *title;
 
-	g_object_set(problems, "document", document, NULL);
+	ladder_problems_set_document(problems, document);
 	put(GTK_WIDGET(problems));
 	const guint count = g_list_model_get_n_items(list);
 
@@ -211,9 +211,8 @@ static void test_problems(void)
 	}
 	CHECK(count >= 3 && ladder_problems_count(problems, false) == (int)count);
 	CHECK(ladder_problems_count(problems, true) >= 2);
-	g_object_get(problems, "title", &title, NULL);
+	title = ladder_problems_title(problems);
 	CHECK(g_str_has_prefix(title, "Problems ") && title[9] == (char)('0' + count));
-	g_free(title);
 	picture(GTK_WIDGET(problems), "problems");
 	for (guint i = 0; i < count; i++) {
 		LadderPanelRow *row = g_list_model_get_item(list, i);
@@ -241,13 +240,11 @@ static void test_problems(void)
 	reopen("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nEND_PROGRAM\n");
 	turn(20);
 	CHECK(g_list_model_get_n_items(list) == 0 && !ladder_problems_next(problems, false));
-	g_object_get(problems, "title", &title, NULL);
-	CHECK_TEXT(title, "Problems");
-	g_free(title);
+	CHECK_TEXT(ladder_problems_title(problems), "Problems");
 	reopen("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO\n");
 	CHECK_AS(ladder_problems_count(problems, true) > 0, "of a text, too");
 	reopen(sample);
-	g_object_set(problems, "document", NULL, NULL);
+	ladder_problems_set_document(problems, NULL);
 	CHECK(ladder_problems_count(problems, false) == 0);
 	put(NULL);
 }
@@ -260,7 +257,7 @@ static void test_uses(void)
 	GListModel *list = ladder_uses_view_list(view);
 	guint all;
 
-	g_object_set(view, "document", document, NULL);
+	ladder_uses_view_set_document(view, document);
 	put(GTK_WIDGET(view));
 	CHECK(g_list_model_get_n_items(list) == 0);
 	ladder_uses_view_set_symbol(view, 0, "Start");
@@ -367,7 +364,7 @@ static void test_symbols(void)
 	GListModel *list = ladder_symbols_view_list(view);
 	LadderPanelRow *row;
 
-	g_object_set(view, "document", document, NULL);
+	ladder_symbols_view_set_document(view, document);
 	put(widget);
 	CHECK(g_list_model_get_n_items(list) == 7);
 	is_row(list, 1, "\xe7\x94\xb5\xe6\x9c\xba|BOOL|%QX0.0||||"
@@ -424,7 +421,7 @@ static void test_import(void)
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
 	GtkWidget *dialog;
 
-	g_object_set(view, "document", document, NULL);
+	ladder_symbols_view_set_document(view, document);
 	put(GTK_WIDGET(view));
 	dialog = ladder_symbols_view_import(view, "table.csv", table, strlen(table));
 	turn(200);
@@ -458,7 +455,7 @@ static void test_find(void)
 	GtkWidget *widget = GTK_WIDGET(bar);
 	GtkEditable *with;
 
-	g_object_set(bar, "document", document, NULL);
+	ladder_find_bar_set_document(bar, document);
 	g_signal_connect(bar, "hits-changed", G_CALLBACK(count), &told_hits);
 	g_signal_connect(bar, "closed", G_CALLBACK(count), &told_closed);
 	put(widget);
