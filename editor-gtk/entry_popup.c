@@ -3,11 +3,13 @@
  * entry_popup - a line to type in at a place, with what could be meant below it.
  *
  * Enter takes what is typed, or the candidate that the arrows chose: never one that
- * nobody chose.
+ * nobody chose. A key of the window takes what is typed, too, and then does what it does
+ * everywhere: who saves means all that is there to be seen. Undo and redo are the line's.
  */
 #include "editor-gtk/entry_popup.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/verbs.h"
 
 struct _LadderEntryPopup {
 	GtkPopover parent;
@@ -136,18 +138,38 @@ static int chosen(LadderEntryPopup *popup)
 	return row ? gtk_list_box_row_get_index(row) : -1;
 }
 
-static void take(LadderEntryPopup *popup)
+static bool take(LadderEntryPopup *popup)
 {
 	const int row = chosen(popup);
 	char *line = g_strdup(row >= 0 ? popup->lines->pdata[row] : line_of(popup));
+	bool good;
 
 	g_object_ref(popup);
-	if (popup->calls.taken(popup->calls.context, line))
+	good = popup->calls.taken(popup->calls.context, line);
+	if (good)
 		gtk_popover_popdown(GTK_POPOVER(popup));
 	else
 		set_line(popup, line);
 	g_object_unref(popup);
 	g_free(line);
+	return good;
+}
+
+/* False: it is none. A line that cannot be taken stays, and tells why. */
+static bool window_key(LadderEntryPopup *popup, GdkEvent *key)
+{
+	GtkWidget *owner = gtk_widget_get_parent(GTK_WIDGET(popup));
+	const enum verb verb = verb_of_key(key);
+
+	if (verb == VERB_COUNT || verb == VERB_undo || verb == VERB_redo)
+		return false;
+	g_object_ref(popup);
+	if (take(popup) || !*line_of(popup)) { /* of an empty one nothing was begun */
+		gtk_popover_popdown(GTK_POPOVER(popup));
+		gtk_widget_activate_action(owner, verb_row(verb)->action, NULL);
+	}
+	g_object_unref(popup);
+	return true;
 }
 
 static void row_activated(LadderEntryPopup *popup, GtkListBoxRow *row)
@@ -178,7 +200,6 @@ static void choose(LadderEntryPopup *popup, int by)
 static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
 			    GdkModifierType state, LadderEntryPopup *popup)
 {
-	(void)controller;
 	(void)code;
 	(void)state;
 	switch (key) {
@@ -198,7 +219,8 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 		gtk_popover_popdown(GTK_POPOVER(popup));
 		return TRUE;
 	default:
-		return FALSE;
+		return window_key(popup, gtk_event_controller_get_current_event(
+			GTK_EVENT_CONTROLLER(controller)));
 	}
 }
 

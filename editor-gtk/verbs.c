@@ -191,6 +191,27 @@ GtkEventController *verbs_controller(void)
 	return gtk_shortcut_controller_new_for_model(G_LIST_MODEL(shortcuts));
 }
 
+static bool is_pressed(const char *keys, GdkEvent *key)
+{
+	GtkShortcutTrigger *trigger = keys[0] ? gtk_shortcut_trigger_parse_string(keys) :
+		NULL;
+	const bool same = trigger &&
+		gtk_shortcut_trigger_trigger(trigger, key, FALSE) == GDK_KEY_MATCH_EXACT;
+
+	g_clear_object(&trigger);
+	return same;
+}
+
+enum verb verb_of_key(GdkEvent *key)
+{
+	int i = 0;
+
+	while (i < VERB_COUNT && (rows[i].where != VERB_WINDOW ||
+				  !is_pressed(verb_keys((enum verb)i), key)))
+		i++;
+	return (enum verb)i;
+}
+
 static void give_keys(GtkApplication *application)
 {
 	for (int i = 0; i < VERB_COUNT; i++) {

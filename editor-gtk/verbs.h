@@ -59,6 +59,9 @@ bool key_scheme_put(enum key_scheme scheme, int index, const char **word,
 /** verbs_use_scheme - from now on these keys hold, in all windows and sheets; @application
  * NULL: there is none. */
 void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme);
+/** verb_of_key - the WINDOW verb whose key it is, by the keys that hold now; VERB_COUNT:
+ * none. For what keeps its keys from the window. */
+enum verb verb_of_key(GdkEvent *key);
 /** verbs_controller - the keys of all SHEET verbs, for a sheet; follows the scheme.
  * Owns: the widget it is added to. */
 GtkEventController *verbs_controller(void);

@@ -376,7 +376,25 @@ class Editor:
 
     def focused(self):
         """The widget that has the focus of the keyboard; None: none is known."""
-        return next((node for node in self.walk() if node.has(12)), None)
+        nodes = list(self.walk())
+        states = self.ask([(node.path, 'Accessible', 'GetState', None) for node in nodes])
+        return next((node for node, state in zip(nodes, states) if state and state[0][0] >> 12 & 1), None)
+
+    def focus_on(self, name=None, role=None, but=None):
+        """Waits until a widget of a name or role has the focus, another than @but; returns it."""
+        def look():
+            node = self.focused()
+            return node and (name is None or name in node.name) and (
+                role is None or node.role == ROLES[role]) and (but is None or node.path != but.path) and node
+        return until(look, 'the focus on %s "%s"' % (role or 'widget', name))
+
+    def choose(self, text):
+        """Goes down to a text in the list that just opened, and takes it."""
+        row = self.focus_on(role='list item')
+        while not self.all(text, 'label', row.path):
+            self.keys('Down')
+            row = self.focus_on(role='list item', but=row)
+        self.keys('Return')
 
     def to_sheet(self):
         until(lambda: self.sheet().has(12), 'the focus on the sheet')

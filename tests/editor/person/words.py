@@ -83,12 +83,16 @@ def other_keys(screen):
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.keys('ctrl+comma')
-    editor.find('Keys as in')
-    editor.keys('Tab', 'Tab', 'Tab', 'Return', 'Down', 'Down', 'Down')
-    editor.shot('preferences')
+    editor.focus_on('Light or dark')
+    for row in 'Colour of power', 'Above an element', 'Keys as in':
+        editor.keys('Tab')
+        editor.focus_on(row)
     editor.keys('Return')
+    editor.choose('LDmicro')
+    editor.shot('preferences')
     # The first Escape may be the list's, if that is still on its way out.
     until(lambda: editor.keys('Escape') or not editor.all('Keys as in'), 'the preferences to be gone')
+    editor.to_sheet()
     editor.keys('c')
     editor.opened()
     editor.entry('Start')
@@ -100,4 +104,34 @@ def other_keys(screen):
     assert '| NC Start | COIL Motor |' in text, text
 
 
-main([a_list, in_parallel, pointed_at, other_keys])
+def window_keys(screen):
+    """a key of the window takes the line that is open and does what it does; a wrong line stays"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.type('Start')
+    assert 'NO Start |' in editor.save(path)
+    editor.gone()
+    editor.keys('F7')  # its line is empty: nothing was begun
+    editor.opened()
+    editor.keys('ctrl+f')
+    until(lambda: editor.all('Find', 'text'), 'the bar that finds')
+    editor.gone()
+    editor.focus_on(role='text')
+    editor.keys('Escape')
+    editor.to_sheet()
+    editor.type('OUT')
+    editor.keys('ctrl+s')
+    until(lambda: editor.all('operand is still missing', 'label'), 'what is missing')
+    editor.shot('window-keys')
+    assert editor.asked() and 'COIL' not in open(path).read()
+    editor.type(' Motor')
+    editor.keys('ctrl+shift+z', 'ctrl+z')  # the line's own; nothing of the sheet
+    editor.keys('ctrl+a')
+    editor.type('OUT Motor')
+    assert '| NO Start | COIL Motor |' in editor.save(path)
+    editor.gone()
+    check(path)
+
+
+main([a_list, in_parallel, pointed_at, other_keys, window_keys])
