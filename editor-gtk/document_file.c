@@ -116,7 +116,7 @@ bool ladder_document_save(LadderDocument *document, const char *path, GError **e
 /* The file is read only if it looks another than when it was looked at last. */
 static bool looks_the_same(LadderDocument *document)
 {
-	GStatBuf about;
+	GStatBuf about = { 0 };
 	const bool same = g_stat(document->path, &about) == 0 &&
 		about.st_mtim.tv_sec == document->disk_seen.st_mtim.tv_sec &&
 		about.st_mtim.tv_nsec == document->disk_seen.st_mtim.tv_nsec &&

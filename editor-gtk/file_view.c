@@ -22,6 +22,8 @@ struct _LadderFileView {
 
 G_DEFINE_FINAL_TYPE(LadderFileView, ladder_file_view, GTK_TYPE_BOX)
 
+static guint state_changed; /* signal */
+
 bool ladder_file_view_is_saved(LadderFileView *view)
 {
 	return !gtk_text_buffer_get_modified(view->buffer);
@@ -109,6 +111,8 @@ static void ladder_file_view_class_init(LadderFileViewClass *class)
 {
 	G_OBJECT_CLASS(class)->dispose = ladder_file_view_dispose;
 	G_OBJECT_CLASS(class)->finalize = ladder_file_view_finalize;
+	state_changed = g_signal_new("state-changed", LADDER_TYPE_FILE_VIEW,
+		G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 }
 
 static void ladder_file_view_init(LadderFileView *view)
@@ -130,12 +134,19 @@ static char *text_of(const char *path, GError **error)
 	return NULL;
 }
 
+static void tell_state(LadderFileView *view)
+{
+	g_signal_emit(view, state_changed, 0);
+}
+
 static GtkWidget *text_widget(LadderFileView *view, const char *name)
 {
 	GtkSourceBuffer *buffer = gtk_source_buffer_new(NULL);
 	GtkWidget *text = gtk_source_view_new_with_buffer(buffer);
 
 	view->buffer = GTK_TEXT_BUFFER(buffer);
+	g_signal_connect_object(buffer, "modified-changed", G_CALLBACK(tell_state), view,
+				G_CONNECT_SWAPPED);
 	gtk_text_view_set_monospace(GTK_TEXT_VIEW(text), TRUE);
 	gtk_source_view_set_show_line_numbers(GTK_SOURCE_VIEW(text), TRUE);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(text), GTK_ACCESSIBLE_PROPERTY_LABEL,

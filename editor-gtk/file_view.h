@@ -3,7 +3,8 @@
  * file_view - a text file beside the project: a scenario, an I/O map.
  *
  * It is written by ladder_file_view_save() alone: who takes the view away asks before. It
- * has an undo of its own, since it is no part of the document.
+ * has an undo of its own, since it is no part of the document. Signal: state-changed ():
+ * it is saved, or no longer.
  */
 #ifndef EDITOR_FILE_VIEW_H
 #define EDITOR_FILE_VIEW_H

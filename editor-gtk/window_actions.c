@@ -219,6 +219,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_print: window_print(window); break;
 	case VERB_export_pdf: window_export_pdf(window); break;
 	case VERB_preferences: preferences_show(window); break;
+	case VERB_close_tab: tabs_close(window); break;
 	case VERB_close: gtk_window_close(GTK_WINDOW(window)); break;
 	case VERB_undo: do_undo(window); break;
 	case VERB_redo: do_redo(window); break;

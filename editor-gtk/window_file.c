@@ -129,6 +129,17 @@ bool window_save_file(LadderWindow *window, LadderFileView *file)
 	return good;
 }
 
+/* Where it lies already; not over what somebody else wrote there meanwhile. */
+static bool save_here(LadderWindow *window)
+{
+	if (!ladder_document_disk_changed(window->document))
+		return save_to(window, NULL);
+	window_banner(window, _("Somebody else changed the file since it was opened. "
+				"Saving would write over that."), _("Save all the same"),
+		      save_over);
+	return false;
+}
+
 void window_save(LadderWindow *window)
 {
 	/* The file in front: a scenario, an I/O map. */
@@ -136,12 +147,8 @@ void window_save(LadderWindow *window)
 		window_save_file(window, tabs_file(window));
 	else if (!ladder_document_path(window->document))
 		window_save_as(window);
-	else if (ladder_document_disk_changed(window->document))
-		window_banner(window, _("Somebody else changed the file since it was "
-			"opened. Saving would write over that."), _("Save all the same"),
-			save_over);
 	else
-		save_to(window, NULL);
+		save_here(window);
 }
 
 /* ---- closing ---- */
@@ -181,7 +188,7 @@ static void save_and_close(LadderWindow *window)
 		close_now(window);
 	else if (!ladder_document_path(window->document))
 		window_save_as(window);
-	else if (save_to(window, NULL))
+	else if (save_here(window))
 		close_now(window);
 	else
 		window->closing = false;

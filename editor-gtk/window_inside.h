@@ -65,6 +65,8 @@ void tabs_show(LadderWindow *window, int pou);
 GtkWidget *tabs_show_widget(LadderWindow *window, const char *name);
 /** tabs_show_file - a text file beside the project. */
 void tabs_show_file(LadderWindow *window, const char *path);
+/** tabs_close - the page in front; what is not saved in it is asked for first. */
+void tabs_close(LadderWindow *window);
 /** tabs_file - of the page in front; NULL: it is none. */
 LadderFileView *tabs_file(LadderWindow *window);
 /** tabs_unsaved - the files beside the project that are not saved, of LadderFileView *.

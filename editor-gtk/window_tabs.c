@@ -132,6 +132,14 @@ static gboolean close_page(LadderWindow *window, AdwTabPage *page)
 	return GDK_EVENT_STOP;
 }
 
+void tabs_close(LadderWindow *window)
+{
+	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
+
+	if (page)
+		adw_tab_view_close_page(window->tabs, page);
+}
+
 /* ---- status ---- */
 
 static void show_place(LadderWindow *window)
@@ -251,6 +259,17 @@ static AdwTabPage *open_widget(LadderWindow *window, const char *name)
 	return page;
 }
 
+static void show_file_state(AdwTabPage *page, LadderFileView *file)
+{
+	char *name = ladder_file_view_name(file);
+	char *title = g_strdup_printf("%s%s",
+				      ladder_file_view_is_saved(file) ? "" : "• ", name);
+
+	adw_tab_page_set_title(page, title);
+	g_free(title);
+	g_free(name);
+}
+
 void tabs_show_file(LadderWindow *window, const char *path)
 {
 	char *key = g_strdup_printf(" file %s", path), *title = g_path_get_basename(path);
@@ -258,8 +277,11 @@ void tabs_show_file(LadderWindow *window, const char *path)
 	GError *error = NULL;
 	GtkWidget *view = page ? NULL : ladder_file_view_new(path, &error);
 
-	if (view)
+	if (view) {
 		page = add_page(window, view, key, title, false);
+		g_signal_connect_object(view, "state-changed", G_CALLBACK(show_file_state),
+					page, G_CONNECT_SWAPPED);
+	}
 	if (page)
 		adw_tab_view_set_selected_page(window->tabs, page);
 	else

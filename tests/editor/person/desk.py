@@ -58,11 +58,18 @@ def sh(*args, **more):
     return subprocess.run(args, capture_output=True, text=True, timeout=60, **more).stdout.strip()
 
 
+class Gone(AssertionError):
+    """A widget went away while it was looked at."""
+
+
 def until(look, what, seconds=PATIENCE):
-    """Waits until look() gives something, and gives that."""
+    """Waits until look() gives something, and gives that. What goes away meanwhile gives nothing."""
     end = time.monotonic() + seconds
     while True:
-        value = look()
+        try:
+            value = look()
+        except Gone:
+            value = None
         if value:
             return value
         if time.monotonic() > end:
@@ -130,7 +137,7 @@ class Node:
     def ask(self, interface, method, args=None):
         answer = self.editor.ask([(self.path, interface, method, args)])[0]
         if answer is None:
-            raise AssertionError('"%s" is gone' % self.name)
+            raise Gone('"%s" is gone' % self.name)
         return answer
 
     def box(self):
@@ -335,12 +342,14 @@ class Editor:
         sh('xdotool', 'key', '--delay', '20', *keys)
 
     def type(self, text):
-        """Types a text; what no key of the keyboard gives is pasted, as an input method would."""
+        """Types a text; what no key of the keyboard gives is pasted, as an input method would,
+        into a line or a text: when it stands there."""
         if text.isascii():
             sh('xdotool', 'type', '--delay', '15', text)
             return
         self.put_clipboard(text)
         self.keys('ctrl+v')
+        until(lambda: any(text in node.text() for node in self.all(role='text')), 'what is pasted')
 
     def put_clipboard(self, text):
         subprocess.run(['xclip', '-selection', 'clipboard'], input=text, text=True, check=True,
@@ -373,6 +382,16 @@ class Editor:
     def front(self):
         """Brings its window before the others."""
         sh('xdotool', 'windowactivate', '--sync', self.window)
+
+    def reply(self, button):
+        """Presses a button of the dialog that is there, or comes."""
+        path = self.find(role='dialog').path
+        self.press(until(lambda: self.all(button, 'push button', path), 'the button "%s"' % button)[0])
+
+    def answer(self, button):
+        """The same, and waits until the dialog is gone."""
+        self.reply(button)
+        until(lambda: not self.all(role='dialog'), 'the dialog to be gone')
 
     def focused(self):
         """The widget that has the focus of the keyboard; None: none is known."""

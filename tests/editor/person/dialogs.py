@@ -95,7 +95,7 @@ def close(screen):
     editor.to_sheet()
     editor.keys('ctrl+w')
     until(lambda: len(editor.windows()) == 2, 'the question')
-    editor.press(editor.find('Discard', 'push button'))
+    editor.reply('Discard')
     until(lambda: editor.process.poll() is not None, 'the end')
     with open(editor.log) as log:
         assert editor.process.returncode == 0, log.read()

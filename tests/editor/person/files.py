@@ -1,0 +1,168 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""files - what is no program is told, a file stays what it is, and nothing of others is written over unasked."""
+import os
+import stat
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+PROJECT = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | COIL Motor |
+END_PROGRAM
+'''
+SCENARIO = 'scenario One\n'
+NO_FILE = 'not a regular file'
+
+
+def read(path):
+    with open(path) as file:
+        return file.read()
+
+
+def write(path, text):
+    with open(path, 'w') as file:
+        file.write(text)
+
+
+def refused(screen):
+    """a device, a pipe, a folder, what is too large: a banner each, and an empty sheet; no file is touched"""
+    pipe, folder, large = [os.path.join(screen.home, name) for name in ('pipe', 'folder', 'large.rung')]
+    os.mkfifo(pipe)
+    os.mkdir(folder)
+    with open(large, 'w') as file:
+        file.truncate(1 << 40)
+    for path, why in ('/dev/zero', NO_FILE), (pipe, NO_FILE), (folder, NO_FILE), (large, 'file is too large: 1.1'):
+        editor = Editor(screen, path)
+        editor.says(path + ': ' + why)
+        editor.says('not saved yet')
+        editor.to_sheet()
+        editor.shot('files-refused-' + os.path.basename(path))
+        editor.kill()
+
+
+def no_program(screen):
+    """an empty file and a binary one open as text that says what is wrong; the file is untouched"""
+    empty, binary = [os.path.join(screen.home, name) for name in ('empty.rung', 'binary.rung')]
+    write(empty, '')
+    with open(binary, 'wb') as file:
+        file.write(bytes(range(256)) * 4)
+    for path, told in (empty, 'error'), (binary, 'bytes that are no text'):
+        editor = Editor(screen, path)
+        editor.says(told)
+        editor.says('error')
+        editor.shot('files-' + os.path.basename(path))
+        editor.kill()
+    assert read(empty) == '' and os.path.getsize(binary) == 1024
+
+
+def stays_a_link(screen):
+    """a link stays a link when what it leads to is saved, and that keeps who may read it"""
+    os.mkdir(os.path.join(screen.home, 'there'))
+    path = new_file(screen, PROJECT, 'there/real.rung')
+    link = os.path.join(screen.home, 'link.rung')
+    os.symlink('there/real.rung', link)
+    os.chmod(path, 0o640)
+    editor = Editor(screen, link)
+    editor.to_sheet()
+    editor.keys('slash')
+    assert 'NC Start' in editor.save(path)
+    assert os.readlink(link) == 'there/real.rung' and os.listdir(os.path.dirname(path)) == ['real.rung']
+    assert stat.S_IMODE(os.stat(path).st_mode) == 0o640
+    check(link)
+
+
+def scenario(screen):
+    """An editor with a scenario in front that was changed; its path."""
+    path = new_file(screen, PROJECT)
+    beside = os.path.join(screen.home, 'new.scn')
+    write(beside, SCENARIO)
+    editor = Editor(screen, path)
+    editor.click(editor.find('new.scn', 'label'), count=2)
+    change(editor, '# mine\n')
+    return editor, beside
+
+
+def change(editor, text):
+    """Writes at the end of the scenario."""
+    view = editor.find('new.scn', 'text')
+    editor.click(view)
+    until(lambda: view.has(12), 'the focus in the scenario')
+    editor.keys('ctrl+End')
+    editor.type(text.replace('\n', ''))
+    editor.keys('Return')
+    until(lambda: text in view.text(), 'what is typed')
+
+
+def tab(screen):
+    """the tab of a changed scenario asks when it is closed: cancel, discard, save"""
+    editor, path = scenario(screen)
+    editor.says('• new.scn')
+    editor.keys('ctrl+F4')
+    editor.answer('Cancel')
+    assert editor.all('new.scn', 'text') and read(path) == SCENARIO
+    editor.keys('ctrl+F4')
+    editor.answer('Discard')
+    until(lambda: not editor.all('new.scn', 'text'), 'the tab to be gone')
+    assert read(path) == SCENARIO
+    editor.click(editor.find('new.scn', 'label'), count=2)
+    change(editor, '# mine\n')
+    editor.keys('ctrl+F4')
+    editor.answer('Save')
+    until(lambda: not editor.all('new.scn', 'text'), 'the tab to be gone')
+    assert read(path) == SCENARIO + '# mine\n'
+
+
+def window(screen):
+    """so does the window: Cancel keeps it, Save writes the scenario and ends it"""
+    editor, path = scenario(screen)
+    editor.keys('ctrl+w')
+    editor.says('new.scn” has changes')
+    editor.answer('Cancel')
+    assert editor.all('new.scn', 'text') and read(path) == SCENARIO
+    editor.keys('ctrl+w')
+    editor.reply('Save')
+    until(lambda: editor.process.poll() is not None, 'the end')
+    assert editor.process.returncode == 0 and read(path) == SCENARIO + '# mine\n'
+
+
+def written_over(screen):
+    """somebody else changes the scenario meanwhile: the first save is refused and told, the second writes"""
+    editor, path = scenario(screen)
+    write(path, SCENARIO + '# theirs\n')
+    editor.keys('ctrl+s')
+    editor.says('somebody else changed it')
+    editor.shot('files-somebody-else')
+    assert read(path) == SCENARIO + '# theirs\n'
+    editor.save(path)
+    assert read(path) == SCENARIO + '# mine\n'
+
+
+def closing(screen):
+    """somebody else changes the project: saving at the end is refused too, and the window stays"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('slash')
+    editor.find('•')
+    theirs = PROJECT.replace('Start', 'Begin')
+    write(path, theirs)
+    editor.says('changed by somebody else')
+    editor.keys('ctrl+w')
+    editor.answer('Save')
+    editor.says('Saving would write over that')
+    assert read(path) == theirs
+    editor.click(editor.find('Save all the same', 'push button'))
+    until(lambda: 'NC Start' in read(path), 'it to be saved all the same')
+
+
+main([refused, no_program, stays_a_link, tab, window, written_over, closing])
