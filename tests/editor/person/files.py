@@ -107,16 +107,16 @@ def tab(screen):
     """the tab of a changed scenario asks when it is closed: cancel, discard, save"""
     editor, path = scenario(screen)
     editor.says('• new.scn')
-    editor.keys('ctrl+F4')
+    editor.keys('ctrl+shift+w')
     editor.answer('Cancel')
     assert editor.all('new.scn', 'text') and read(path) == SCENARIO
-    editor.keys('ctrl+F4')
+    editor.keys('ctrl+shift+w')
     editor.answer('Discard')
     until(lambda: not editor.all('new.scn', 'text'), 'the tab to be gone')
     assert read(path) == SCENARIO
     editor.click(editor.find('new.scn', 'label'), count=2)
     change(editor, '# mine\n')
-    editor.keys('ctrl+F4')
+    editor.keys('ctrl+shift+w')
     editor.answer('Save')
     until(lambda: not editor.all('new.scn', 'text'), 'the tab to be gone')
     assert read(path) == SCENARIO + '# mine\n'
