@@ -308,7 +308,7 @@ $(BUILD)/tests/bench/editor: $(BUILD)/tests/bench/editor.o $(BUILD)/libeditor.a 
 bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## what drawing 5,000 rungs costs, and the whole editor with them
 	@perl tests/bench/programs.pl mixed 5000 >$(BUILD)/bench-editor.rung
 	@$(EDITOR_BENCH)
-	@GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-editor.rung 2>/dev/null
+	@GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-editor.rung ladders/garage-door.rung 2>/dev/null
 .PHONY: editor-tests bench-editor
 # ---- end of the editor ----
 

@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-/* The cross reference of a place, or one made for a while. */
+/* The addresses of a place, or some made for a while. */
 struct uses {
 	struct xref own;
 	struct xref *xref;
@@ -24,7 +24,7 @@ static bool open_uses(const struct entry_place *place, struct uses *uses)
 	if (uses->xref)
 		return true;
 	uses->xref = &uses->own;
-	return xref_make(&uses->own, place->project);
+	return xref_addresses(&uses->own, place->project);
 }
 
 static void close_uses(struct uses *uses)

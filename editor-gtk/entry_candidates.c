@@ -577,7 +577,7 @@ int entry_candidates(const struct entry_place *place, const char *line, size_t c
 	if (place->xref)
 		return search(place, line, cursor, out, most);
 	known.xref = &own;
-	count = xref_make(&own, place->project) ?
+	count = xref_addresses(&own, place->project) ?
 		search(&known, line, cursor, out, most) : 0;
 	xref_free(&own);
 	return count;

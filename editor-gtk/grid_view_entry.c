@@ -37,7 +37,7 @@ static struct xref *uses_of(LadderGridView *view)
 	if (view->xref || !project)
 		return view->xref;
 	view->xref = g_new0(struct xref, 1);
-	if (!xref_make(view->xref, project))
+	if (!xref_addresses(view->xref, project))
 		entry_forget_uses(view);
 	return view->xref;
 }

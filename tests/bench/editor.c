@@ -2,19 +2,30 @@
  *
  * editor - how long the editor takes with a large program, measured inside it.
  *
- * usage: editor FILE. It prints medians and judges nothing: opening, frames while
- * scrolling, and what a key costs until its picture is there: the work of the key and of
- * the frame that shows it, without the wait for the screen's next frame.
+ * usage: editor FILE SAMPLE. It prints medians beside what is asked for and judges
+ * nothing: the start with the sample, opening the file, frames while scrolling, what a key
+ * costs until its picture is there (without the wait for the screen's next frame),
+ * memory, and what is done while nothing is. Beside time by the clock stands the time of
+ * the processor, which a busy machine changes little: of a start that of the process, of
+ * keys that of the thread that draws.
  */
+#include "editor-gtk/app.h"
 #include "editor-gtk/grid_view.h"
-#include "editor-gtk/window.h"
+#include "editor-gtk/memory.h"
 
 #include <gtksourceview/gtksource.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
 
 #define ROUNDS 60
+#define STARTS 9
+#define IDLE_S 5
+#define BEGUN "RUNGBOARD_BENCH_BEGUN" /* us: when a start began                */
 
 static struct {
 	GdkFrameClock *clock;
@@ -33,13 +44,39 @@ static void after(void)
 	frame.frames++;
 }
 
-static void settle(gint64 us)
+/* us of the processor, of this thread. */
+static gint64 worked(void)
 {
-	const gint64 end = g_get_monotonic_time() + us;
+	struct timespec now;
 
-	while (g_get_monotonic_time() < end)
-		if (!g_main_context_iteration(NULL, FALSE))
-			g_usleep(500);
+	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+	return (gint64)now.tv_sec * G_USEC_PER_SEC + now.tv_nsec / 1000;
+}
+
+/* us of the processor, of the whole process. */
+static gint64 process_worked(void)
+{
+	struct rusage used;
+
+	getrusage(RUSAGE_SELF, &used);
+	return (gint64)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) * G_USEC_PER_SEC +
+	       used.ru_utime.tv_usec + used.ru_stime.tv_usec;
+}
+
+static gboolean quit(gpointer loop)
+{
+	g_main_loop_quit(loop);
+	return G_SOURCE_REMOVE;
+}
+
+/* As the editor waits: asleep. */
+static void settle(guint ms)
+{
+	GMainLoop *loop = g_main_loop_new(NULL, FALSE);
+
+	g_timeout_add(ms, quit, loop);
+	g_main_loop_run(loop);
+	g_main_loop_unref(loop);
 }
 
 static void next_frame(void)
@@ -58,25 +95,49 @@ static int compare(const void *a, const void *b)
 	return (left > right) - (left < right);
 }
 
-/* Medians of @act and of the frame behind it. */
-static void measure(const char *name, void (*act)(LadderGridView *sheet, int round),
-		    LadderGridView *sheet, int rounds)
+static double median(gint64 *us, int count)
 {
-	gint64 work[ROUNDS], whole[ROUNDS];
+	qsort(us, (size_t)count, sizeof(*us), compare);
+	return (double)us[count / 2] / 1000;
+}
+
+/* What a person does: @prepare is not measured (NULL: nothing), @act and the frame that
+ * shows it are; then it is let come to rest. */
+struct deed {
+	const char *name, *most;
+	void (*prepare)(LadderGridView *sheet, int round);
+	void (*act)(LadderGridView *sheet, int round);
+	int rounds;
+	guint rest;          /* ms                                             */
+};
+
+static void measure(const struct deed *deed, LadderGridView *sheet)
+{
+	gint64 clock[ROUNDS], thread[ROUNDS], all[ROUNDS];
+	const int rounds = deed->rounds;
 
 	for (int i = 0; i < rounds; i++) {
-		const gint64 begin = g_get_monotonic_time();
+		gint64 begin, begun;
 
-		act(sheet, i);
-		work[i] = g_get_monotonic_time() - begin;
+		if (deed->prepare) {
+			deed->prepare(sheet, i);
+			settle(deed->rest);
+		}
+		begun = worked();
+		begin = g_get_monotonic_time();
+		deed->act(sheet, i);
+		clock[i] = g_get_monotonic_time() - begin;
 		next_frame();
-		whole[i] = work[i] + frame.spent;
-		settle(5000);
+		clock[i] += frame.spent;
+		thread[i] = worked() - begun;
+		settle(deed->rest);
+		all[i] = worked() - begun;
 	}
-	qsort(work, (size_t)rounds, sizeof(*work), compare);
-	qsort(whole, (size_t)rounds, sizeof(*whole), compare);
-	printf("| %s | %.2f | %.2f | %.2f |\n", name, (double)work[rounds / 2] / 1000,
-	       (double)whole[rounds / 2] / 1000, (double)whole[rounds - 1] / 1000);
+	printf("| %s | %.2f | %.2f |", deed->name, median(thread, rounds),
+	       median(clock, rounds));
+	printf(" %.2f | %.2f | %s |\n", (double)clock[rounds - 1] / 1000,
+	       median(all, rounds), deed->most);
+	fflush(stdout);
 }
 
 static GtkWidget *find(GtkWidget *widget, GType type)
@@ -126,88 +187,134 @@ static void add_rung(LadderGridView *sheet, int round)
 	ladder_grid_view_do(sheet, VERB_rung_below);
 }
 
-static void type(LadderGridView *sheet, int round)
+static void undo(LadderGridView *sheet, int round)
 {
-	GtkWidget *line = find(GTK_WIDGET(sheet), GTK_TYPE_ENTRY);
+	(void)round;
+	gtk_widget_activate_action(GTK_WIDGET(sheet), "win.undo", NULL);
+}
+
+static GtkWidget *line_of(LadderGridView *sheet)
+{
+	return find(GTK_WIDGET(sheet), GTK_TYPE_ENTRY);
+}
+
+static void free_cell(LadderGridView *sheet, int round)
+{
+	(void)round;
+	ladder_grid_view_do(sheet, VERB_cancel);
+	ladder_grid_view_go(sheet, 2500, 0, 0);
+}
+
+/* The letter that opens the line. */
+static void open_entry(LadderGridView *sheet, int round)
+{
+	(void)round;
+	ladder_grid_view_do(sheet, VERB_block);
+}
+
+static void with_entry(LadderGridView *sheet, int round)
+{
+	if (!line_of(sheet))
+		open_entry(sheet, round);
+}
+
+static void letter(LadderGridView *sheet, int round)
+{
 	char text[] = { (char)('a' + round % 26), '\0' };
 	int at = -1;
 
-	gtk_editable_insert_text(GTK_EDITABLE(line), text, -1, &at);
+	gtk_editable_insert_text(GTK_EDITABLE(line_of(sheet)), text, -1, &at);
 }
 
-static void commit(LadderGridView *sheet, const char *text)
-{
-	GtkWidget *line;
-
-	ladder_grid_view_do(sheet, VERB_block);
-	line = find(GTK_WIDGET(sheet), GTK_TYPE_ENTRY);
-	gtk_editable_set_text(GTK_EDITABLE(line), text);
-	g_signal_emit_by_name(line, "activate");
-}
-
-static void known(LadderGridView *sheet, int round)
+static void typed(LadderGridView *sheet, const char *format, int round)
 {
 	char text[40];
 
-	snprintf(text, sizeof(text), "In%d", round);
-	ladder_grid_view_go(sheet, 2500, 0, 0);
-	commit(sheet, text);
+	free_cell(sheet, round);
+	open_entry(sheet, round);
+	settle(50);
+	g_snprintf(text, sizeof(text), format, round);
+	gtk_editable_set_text(GTK_EDITABLE(line_of(sheet)), text);
 }
 
-static void fresh(LadderGridView *sheet, int round)
+static void type_known(LadderGridView *sheet, int round)
 {
-	char text[40];
-
-	snprintf(text, sizeof(text), "Fresh%d", round);
-	ladder_grid_view_go(sheet, 2500, 0, 0);
-	commit(sheet, text);
+	typed(sheet, "In%d", round);
 }
+
+static void type_fresh(LadderGridView *sheet, int round)
+{
+	typed(sheet, "Fresh%d", round);
+}
+
+static void type_timer(LadderGridView *sheet, int round)
+{
+	typed(sheet, "TON Wait%d", round);
+}
+
+static void enter(LadderGridView *sheet, int round)
+{
+	(void)round;
+	g_signal_emit_by_name(line_of(sheet), "activate");
+}
+
+static const struct deed deeds[] = {
+	{ "scroll by 40 px", "2", NULL, scroll, ROUNDS, 20 },
+	{ "scroll by a page", "2", NULL, page, ROUNDS, 20 },
+	{ "move the cursor", "16", NULL, move, ROUNDS, 20 },
+	{ "negate a contact", "16", NULL, negate, 20, 250 },
+	{ "the key that opens an entry", "16", free_cell, open_entry, 20, 100 },
+	{ "a letter into it", "16", with_entry, letter, 20, 100 },
+	{ "Enter: an element", "16", type_known, enter, 20, 250 },
+	{ "Enter: a new symbol", "16", type_fresh, enter, 20, 250 },
+	{ "Enter: a new timer", "16", type_timer, enter, 10, 250 },
+	{ "undo of that", "16", NULL, undo, 10, 250 },
+	{ "undo of a new symbol", "16", NULL, undo, 20, 250 },
+	{ "undo of an element", "16", NULL, undo, 20, 250 },
+	{ "a new rung", "16", NULL, add_rung, 20, 250 },
+};
 
 /* ---- all of it ---- */
 
-static void memory(void)
+static long memory(void)
 {
+	const char *line;
 	char *text = NULL;
+	long kb = 0;
 
 	if (g_file_get_contents("/proc/self/status", &text, NULL, NULL)) {
-		const char *line = strstr(text, "VmRSS:");
-
-		if (line)
-			printf("Memory: %ld MB.\n", strtol(line + 6, NULL, 10) / 1024);
+		line = strstr(text, "VmRSS:");
+		kb = line ? strtol(line + 6, NULL, 10) : 0;
 	}
 	g_free(text);
+	return kb / 1024;
 }
 
-static void keys(LadderGridView *sheet)
+static void idle(void)
 {
-	printf("| what | the key, ms | until its picture, ms | the worst, ms |\n"
-	       "|---|---|---|---|\n");
-	measure("scroll by 40 px", scroll, sheet, ROUNDS);
-	measure("scroll by a page", page, sheet, ROUNDS);
-	ladder_grid_view_go(sheet, 2500, 0, 0);
-	settle(G_USEC_PER_SEC);
-	measure("move the cursor", move, sheet, ROUNDS);
-	measure("negate a contact", negate, sheet, ROUNDS);
-	ladder_grid_view_do(sheet, VERB_block);
-	settle(200000);
-	measure("a letter into the entry", type, sheet, 10);
-	ladder_grid_view_do(sheet, VERB_cancel);
-	measure("an element", known, sheet, 20);
-	measure("an element with a new symbol", fresh, sheet, 20);
-	measure("a new rung", add_rung, sheet, 20);
+	const int frames = frame.frames;
+	const gint64 process = process_worked();
+	gint64 used;
+
+	settle(IDLE_S * 1000);
+	used = process_worked() - process;
+	printf("Idle and unchanged for %d s: %d frames, %.1f ms of the processor, %.2f %% "
+	       "(0 and 0).\n", IDLE_S, frame.frames - frames, (double)used / 1000,
+	       (double)used / (IDLE_S * 1e6) * 100);
 }
 
 static void run(AdwApplication *application, const char *path)
 {
-	const gint64 begin = g_get_monotonic_time();
+	const gint64 begin = g_get_monotonic_time(), begun = worked();
 	LadderDocument *document = ladder_document_new();
 	LadderWindow *window;
 	GtkWidget *sheet;
-	int frames;
 
 	if (!ladder_document_open(document, path, NULL))
 		exit(2);
-	printf("Reading: %.1f ms.\n", (double)(g_get_monotonic_time() - begin) / 1000);
+	printf("Reading: %.1f ms by the clock, %.1f ms of the processor.\n",
+	       (double)(g_get_monotonic_time() - begin) / 1000,
+	       (double)(worked() - begun) / 1000);
 	window = ladder_window_new(application, document);
 	gtk_window_present(GTK_WINDOW(window));
 	frame.clock = gdk_surface_get_frame_clock(
@@ -215,28 +322,106 @@ static void run(AdwApplication *application, const char *path)
 	g_signal_connect(frame.clock, "before-paint", G_CALLBACK(before), NULL);
 	g_signal_connect(frame.clock, "after-paint", G_CALLBACK(after), NULL);
 	next_frame();
-	printf("Opening, to the first picture: %.1f ms.\n",
-	       (double)(g_get_monotonic_time() - begin) / 1000);
-	settle(4 * G_USEC_PER_SEC);
-	memory();
-	frames = frame.frames;
-	settle(G_USEC_PER_SEC);
-	printf("Frames in an idle second: %d.\n\n", frame.frames - frames);
+	printf("Opening, to the first picture: %.1f ms by the clock, %.1f ms of the "
+	       "processor (500).\n", (double)(g_get_monotonic_time() - begin) / 1000,
+	       (double)(worked() - begun) / 1000);
+	settle(4000);
+	printf("Memory: %ld MB (200).\n", memory());
+	idle();
 	sheet = find(GTK_WIDGET(window), LADDER_TYPE_GRID_VIEW);
 	gtk_widget_grab_focus(sheet);
-	keys(LADDER_GRID_VIEW(sheet));
-	settle(2 * G_USEC_PER_SEC);
-	printf("\n");
-	memory();
+	printf("\n| what | thread until its picture, ms | clock, ms | worst, ms | "
+	       "thread until all is done, ms | asked |\n|---|---|---|---|---|---|\n");
+	for (gsize i = 0; i < G_N_ELEMENTS(deeds); i++)
+		measure(&deeds[i], LADDER_GRID_VIEW(sheet));
+	free_cell(LADDER_GRID_VIEW(sheet), 0);
+	settle(2000);
+	printf("\nMemory: %ld MB (200).\n", memory());
+	idle();
 	g_object_unref(document);
+}
+
+/* ---- starts, each in a process of its own ---- */
+
+static bool drawn;
+
+static gboolean render(GSignalInvocationHint *hint, guint count, const GValue *values,
+		       gpointer unused)
+{
+	(void)hint;
+	(void)count;
+	(void)values;
+	(void)unused;
+	drawn = true;
+	return TRUE;
+}
+
+static gboolean shown(GSignalInvocationHint *hint, guint count, const GValue *values,
+		      gpointer unused)
+{
+	const gint64 begun = g_ascii_strtoll(g_getenv(BEGUN), NULL, 10);
+
+	(void)hint;
+	(void)count;
+	(void)values;
+	(void)unused;
+	if (!drawn)
+		return TRUE;
+	printf("%" G_GINT64_FORMAT " %" G_GINT64_FORMAT "\n",
+	       g_get_monotonic_time() - begun, process_worked());
+	fflush(stdout);
+	_exit(0);
+}
+
+/* The editor itself, up to its first picture. */
+static int start(int argc, char **argv)
+{
+	g_type_class_ref(GDK_TYPE_FRAME_CLOCK);
+	g_type_class_ref(GDK_TYPE_SURFACE);
+	g_signal_add_emission_hook(g_signal_lookup("render", GDK_TYPE_SURFACE), 0, render,
+				   NULL, NULL);
+	g_signal_add_emission_hook(g_signal_lookup("after-paint", GDK_TYPE_FRAME_CLOCK), 0,
+				   shown, NULL, NULL);
+	return app_run(argc, argv);
+}
+
+static void starts(const char *program, const char *sample)
+{
+	gint64 clock[STARTS], process[STARTS];
+
+	for (int i = 0; i < STARTS; i++) {
+		char *argv[] = { (char *)program, (char *)sample, NULL }, *out = NULL;
+		char begun[32];
+
+		g_snprintf(begun, sizeof(begun), "%" G_GINT64_FORMAT,
+			   g_get_monotonic_time());
+		g_setenv(BEGUN, begun, TRUE);
+		if (!g_spawn_sync(NULL, argv, NULL, G_SPAWN_DEFAULT, NULL, NULL, &out, NULL,
+				  NULL, NULL) ||
+		    sscanf(out, "%" G_GINT64_FORMAT " %" G_GINT64_FORMAT, &clock[i],
+			   &process[i]) != 2) {
+			fprintf(stderr, "no start\n");
+			exit(2);
+		}
+		g_free(out);
+	}
+	g_unsetenv(BEGUN);
+	printf("Start with %s, to the first picture: %.0f ms by the clock, %.0f ms of the "
+	       "processor, medians of %d (400).\n", sample, median(clock, STARTS),
+	       median(process, STARTS), STARTS);
+	fflush(stdout);
 }
 
 int main(int argc, char **argv)
 {
 	AdwApplication *application;
 
-	if (argc < 2)
+	if (g_getenv(BEGUN))
+		return start(argc, argv);
+	if (argc < 3)
 		return 2;
+	starts(argv[0], argv[2]);
+	memory_give_back_large();
 	application = adw_application_new("org.rungboard.Bench", G_APPLICATION_NON_UNIQUE);
 	g_application_register(G_APPLICATION(application), NULL, NULL);
 	gtk_source_init();

@@ -103,6 +103,19 @@ static void is_next(const struct address_map *map, const char *like, uint32_t co
 	CHECK_TEXT(got, want);
 }
 
+/* What is quick to make gives the same map. */
+static void is_same_map(struct ladder *ladder, const struct address_map *map)
+{
+	struct address_map quick;
+	struct xref xref;
+
+	CHECK(xref_addresses(&xref, ladder_project(ladder)));
+	CHECK(address_map_make(&quick, &xref, &xref.arena));
+	CHECK(memcmp(map->used, quick.used, map->areas.size) == 0);
+	CHECK(memcmp(map->reached, quick.reached, map->areas.size) == 0);
+	xref_free(&xref);
+}
+
 static void test_free(struct ladder *ladder)
 {
 	struct address_map map;
@@ -110,6 +123,7 @@ static void test_free(struct ladder *ladder)
 
 	CHECK(xref_make(&xref, ladder_project(ladder)));
 	CHECK(address_map_make(&map, &xref, &xref.arena));
+	is_same_map(ladder, &map);
 	is_next(&map, "%IX0.0", 1, NULL, "%IX0.1");
 	is_next(&map, "%IX0.0", 1, "%IX0.7", "%IX1.0");
 	is_next(&map, "%IW0", 1, NULL, "%IW2");
@@ -144,6 +158,7 @@ static void test_sizes(void)
 	CHECK(ladder && ladder_load_text(ladder, "sizes.rung", sizes, strlen(sizes)));
 	CHECK(xref_make(&xref, ladder_project(ladder)));
 	CHECK(address_map_make(&map, &xref, &xref.arena));
+	is_same_map(ladder, &map);
 	is_next(&map, "%VW0", 1, "%VW65530", "%VW65534");
 	is_next(&map, "%VW0", 1, "%VW65534", "none");
 	is_next(&map, "%QX0.0", 1, NULL, "none");
@@ -153,6 +168,42 @@ static void test_sizes(void)
 	CHECK(!address_map_is_used(&map, address("%QB8000")));
 	CHECK(!address_map_is_used(&map, address("%MB0")));
 	CHECK(address_map_clashes(&xref, clash, 4) == 0);
+	xref_free(&xref);
+	ladder_free(ladder);
+}
+
+/* Names that look like addresses and are none, and addresses where few look for them. */
+static void test_quick(void)
+{
+	static const char odd[] = "RUNGBOARD 1\n\nVAR\n  Delay : TON;\n  Old : COUNTED;\n"
+		"  I9 : BOOL;\nEND_VAR\n\nFUNCTION_BLOCK COUNTED LD\nVAR_INPUT\n  A : BOOL;\n"
+		"  Q7 : BOOL;\n  M9 : INT;\nEND_VAR\nRUNG\n  | NO Q7 | RET |\n"
+		"END_FUNCTION_BLOCK\n\nCONFIGURATION C\n"
+		"  TASK Fast (SINGLE := %MX40.1, PRIORITY := 1);\n"
+		"  PROGRAM P WITH Fast : Main;\nEND_CONFIGURATION\n\n"
+		"PROGRAM Main LD\nRUNG M50\n  | NO SYS_FIRST_SCAN | NC %MX3.1 | TON Delay "
+		"PT:=%MD8 ET=>%MD12 | COIL Q6 |\nRUNG\n  | NO I3 | COUNTED Old M9:=%MW20 | "
+		"COIL Q12 |\n  | NO I9 | .Q7 |\n"
+		"RUNG\n  | [ %MW30 + %QW8[%MB60] > 3 ] | JMP M50 |\nRUNG OFF\n"
+		"  | NO I4 | COIL %MX71.0 |\nEND_PROGRAM\n\nPROGRAM List IL\nVAR\n"
+		"  Q6 : BOOL;\nEND_VAR\nM51:\n  LD    %MW80\n  GT    %MW82[%MB84]\n"
+		"  JMPC  M51\n  ST    Q6\nEND_PROGRAM\n";
+	struct ladder *ladder = ladder_new();
+	struct address_map map;
+	struct xref xref;
+
+	CHECK(ladder != NULL);
+	ladder_load_text(ladder, "odd.rung", odd, strlen(odd));
+	if (!CHECK(ladder_project(ladder) != NULL))
+		return;
+	CHECK(xref_make(&xref, ladder_project(ladder)));
+	CHECK(address_map_make(&map, &xref, &xref.arena));
+	is_same_map(ladder, &map);
+	CHECK(address_map_is_used(&map, address("%MX40.1")));
+	CHECK(address_map_is_used(&map, address("%MX71.0")));
+	CHECK(address_map_is_used(&map, address("%QX0.6"))); /* by Main alone */
+	CHECK(!address_map_is_used(&map, address("%QX0.7")));
+	CHECK(!address_map_is_used(&map, address("%IX1.1")));
 	xref_free(&xref);
 	ladder_free(ladder);
 }
@@ -187,6 +238,7 @@ int main(void)
 	test_uses(ladder);
 	test_free(ladder);
 	test_sizes();
+	test_quick();
 	test_clashes(ladder);
 	ladder_free(ladder);
 	return tap_done();
