@@ -180,8 +180,12 @@ static bool paste_parallel(struct canvas *c, int row, int col, const struct rung
 		return canvas_fail(c, GRID_ONLY_OUTPUT);
 	if (!insert_columns(c, col + 1, width - 1))
 		return false;
-	below = canvas_branch_row(c, row, col, col + width - 1);
-	if (below < 0 || !insert_rows(c, below + 1, part->rows - 1))
+	below = canvas_branch_row(c, &row, col, col + width - 1);
+	if (below < 0)
+		return false;
+	if (below < row && part->rows > 1)
+		return canvas_fail(c, GRID_CROSSING);
+	if (!insert_rows(c, below + 1, part->rows - 1))
 		return false;
 	put_piece(c, below, col, part);
 	canvas_join_branch(c, row, below, col);

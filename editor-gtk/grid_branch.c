@@ -3,7 +3,9 @@
  * grid_branch - what stands in parallel: branches round elements, outputs below outputs.
  *
  * A branch needs a row in which its cells are free and down to which its ends can be
- * linked without touching another circuit; where there is none it gets a new row.
+ * linked without touching another circuit; where there is none it gets a new row. Below a
+ * box whose pins are fed there is no such row: what feeds them comes from the left, past
+ * where the branch would begin. A branch round it goes above.
  */
 #include "editor-gtk/grid_canvas.h"
 
@@ -52,13 +54,11 @@ static bool may_insert(const struct canvas *c, const struct reach *reach, int ro
 	return true;
 }
 
-/* The first row that is free, or a new one before what is in the way. */
-static int find_row(struct canvas *c, const struct reach *reach)
+/* The first row below that is free, or a new one before what is in the way; -1: none. */
+static int row_below(struct canvas *c, const struct reach *reach)
 {
 	int row = reach->row + 1, put_in = -1;
 
-	if (!canvas_network(c))
-		return -1;
 	for (; row < c->rung->rows; row++) {
 		if (is_free(c, reach, row))
 			return row;
@@ -69,29 +69,65 @@ static int find_row(struct canvas *c, const struct reach *reach)
 	}
 	if (row == c->rung->rows)
 		return canvas_rows(c, row + 1) ? row : -1;
-	if (put_in < 0)
-		canvas_fail(c, GRID_CROSSING);
 	return put_in >= 0 && canvas_insert_row(c, put_in) ? put_in : -1;
 }
 
-int canvas_branch_row(struct canvas *c, int row, int col, int last)
+/* The same above; a row put in there comes right before that of the branch. */
+static int row_above(struct canvas *c, const struct reach *reach)
 {
-	const struct reach reach = { row, col, last, col, last + 1 };
-
-	return find_row(c, &reach);
+	for (int row = reach->row - 1; row >= 0; row--) {
+		if (is_free(c, reach, row))
+			return row;
+		if (!is_passable(c, reach, row))
+			break;
+	}
+	return may_insert(c, reach, reach->row) && canvas_insert_row(c, reach->row) ?
+	       reach->row : -1;
 }
 
-/* Only up to the first row that is joined with @row there already: no wire twice. */
-void canvas_join_branch(struct canvas *c, int row, int below, int bar)
+static int find_row(struct canvas *c, const struct reach *reach)
+{
+	int row = -1;
+
+	if (canvas_network(c))
+		row = row_below(c, reach);
+	if (row < 0)
+		canvas_fail(c, GRID_CROSSING);
+	return row;
+}
+
+int canvas_branch_row(struct canvas *c, int *row, int col, int last)
+{
+	const struct reach reach = { *row, col, last, col, last + 1 };
+	const int rows = c->rung->rows;
+	int found = -1;
+
+	if (canvas_network(c))
+		found = row_below(c, &reach);
+	if (found < 0 && c->refusal == GRID_DONE) {
+		found = row_above(c, &reach);
+		*row += c->rung->rows - rows;
+	}
+	if (found < 0)
+		canvas_fail(c, GRID_CROSSING);
+	return found;
+}
+
+/* Only as far as the first row that is joined with @row there already: no wire twice. */
+void canvas_join_branch(struct canvas *c, int row, int branch, int bar)
 {
 	const bool old = c->rung->rows == c->network.rows;
-	int top = below - 1;
+	int top = branch - 1;
 
-	if (old && net_at(c, below, bar) == net_at(c, row, bar))
+	if (old && net_at(c, branch, bar) == net_at(c, row, bar))
 		return;
+	if (branch < row) {
+		canvas_join_up(c, branch, row, bar);
+		return;
+	}
 	while (top > row && net_at(c, top, bar) != net_at(c, row, bar))
 		top--;
-	canvas_join_up(c, top, below, bar);
+	canvas_join_up(c, top, branch, bar);
 }
 
 /* ---- outputs ---- */
@@ -194,7 +230,7 @@ bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell c
 		return canvas_fail(c, GRID_NO_WORD);
 	if (last == canvas_last(c))
 		return canvas_fail(c, GRID_ONLY_OUTPUT);
-	below = canvas_branch_row(c, row, col, last);
+	below = canvas_branch_row(c, &row, col, last);
 	if (below < 0)
 		return false;
 	for (int i = col; i <= last; i++)
@@ -267,7 +303,7 @@ struct rung *grid_open_branch(const struct rung *rung, struct grid_at *at)
 
 /* First row above @row whose bar @bar belongs to something; if none does, the one
  * right above is drawn out to it. */
-static int row_above(struct canvas *c, int row, int bar)
+static int top_of(struct canvas *c, int row, int bar)
 {
 	for (int top = row - 1; top >= 0; top--)
 		if (canvas_bar_used(c, top, bar))
@@ -293,7 +329,7 @@ struct rung *grid_close_branch(const struct rung *rung, struct grid_at *at)
 		else if (canvas_up(&c, at->row, col + 1))
 			canvas_fail(&c, GRID_CLOSED);
 		else
-			canvas_join_up(&c, row_above(&c, at->row, col + 1), at->row,
+			canvas_join_up(&c, top_of(&c, at->row, col + 1), at->row,
 				       col + 1);
 	}
 	return canvas_close(&c, at);

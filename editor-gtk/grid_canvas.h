@@ -106,13 +106,17 @@ bool canvas_place(struct canvas *c, int row, int col, struct cell cell,
 /** canvas_output - an output at the end of @row; a row below where one stands. Gives
  * its row; -1: it failed. */
 int canvas_output(struct canvas *c, int row, struct cell cell);
-/** canvas_branch_row - a row below @row in which cells @col … @last are free and whose
- * bars @col and @last + 1 can be linked with those of @row; made if there is none.
- * -1: a wire would have to cross. */
-int canvas_branch_row(struct canvas *c, int row, int col, int last);
-/** canvas_join_branch - links bar @bar of row @below, which canvas_branch_row() gave, up
+/**
+ * canvas_branch_row - a row in which cells @col … @last are free and whose bars @col and
+ * @last + 1 can be linked with those of @row; made if there is none
+ *
+ * Below @row, or above it where a wire would have to be crossed below: @row follows when
+ * a row comes before it. -1: a wire would have to cross on both sides.
+ */
+int canvas_branch_row(struct canvas *c, int *row, int col, int last);
+/** canvas_join_branch - links bar @bar of row @branch, which canvas_branch_row() gave,
  * to the circuit of @row. */
-void canvas_join_branch(struct canvas *c, int row, int below, int bar);
+void canvas_join_branch(struct canvas *c, int row, int branch, int bar);
 /** canvas_parallel - as grid_parallel(), round the cells @col … @last. */
 bool canvas_parallel(struct canvas *c, int row, int col, int last, struct cell cell);
 /** canvas_paste - as grid_paste(). */

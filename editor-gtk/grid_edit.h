@@ -64,6 +64,8 @@ struct rung *grid_place(const struct rung *rung, struct grid_at *at, struct cell
  * @area: what the branch goes round, cells of one row; NULL: the element at @at
  *
  * Below an output an output; an output below anything else gets a branch behind it.
+ * Where wires bar the way down, as those that feed the pins of a box, the branch goes
+ * above.
  */
 struct rung *grid_parallel(const struct rung *rung, struct grid_at *at,
 			   const struct grid_area *area, struct cell cell);
@@ -112,6 +114,40 @@ struct rung *grid_insert_column(const struct rung *rung, struct grid_at *at);
  * cursor goes where the wire leads.
  */
 struct rung *grid_wire(const struct rung *rung, struct grid_at *at, enum grid_way way);
+
+/* Where wire begins and ends: bar b of a row is the left end of its display cell b. */
+struct grid_end { int row, bar; };
+
+/**
+ * grid_draw_wire - draws a wire from one end of cells to another
+ * @from, @to: in the last column their bar is that left of the output; the row below
+ *             the last one is made
+ * @along:     at the corner, first up or down and then across, if both ways are free
+ *
+ * In one row it goes round elements that stand between: as a branch in a row of its own.
+ * It never goes through an element; what it touches on its way is joined. The cursor
+ * goes behind its end, or to the first cell of the branch.
+ */
+struct rung *grid_draw_wire(const struct rung *rung, struct grid_at *at,
+			    struct grid_end from, struct grid_end to, bool along);
+/** grid_erase_wire - takes the wires and links away that such a stroke goes over;
+ * elements stay. */
+struct rung *grid_erase_wire(const struct rung *rung, struct grid_at *at,
+			     struct grid_end from, struct grid_end to, bool along);
+
+enum grid_course {
+	GRID_NO_COURSE, /* elements are in the way                             */
+	GRID_ACROSS,    /* first to the left or right                          */
+	GRID_ALONG,     /* first up or down                                    */
+	GRID_ROUND,     /* round what stands between                           */
+};
+/** grid_wire_course - which way grid_draw_wire() would go. */
+enum grid_course grid_wire_course(const struct rung *rung, int columns,
+				  struct grid_end from, struct grid_end to, bool along);
+/** grid_wire_ends - where a wire from @from can end: @legal has @rows * @columns, for
+ * each row the bars 0 … @columns - 1. */
+void grid_wire_ends(const struct rung *rung, int columns, struct grid_end from,
+		    int rows, bool *legal);
 /** grid_open_branch - a link from the left end of the cursor's cell down to a row with
  * room, where the cursor goes. */
 struct rung *grid_open_branch(const struct rung *rung, struct grid_at *at);

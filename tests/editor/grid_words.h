@@ -154,6 +154,20 @@ static inline struct rung *grid_play_drag(const struct rung *rung, struct grid_a
 	return made;
 }
 
+/* `draw 1 2 2 4 [along]`: bars count from 1, too, the left rail. */
+static inline struct rung *grid_play_stroke(const struct rung *rung, struct grid_at *at,
+					    const char *rest, bool erase)
+{
+	struct grid_end from = { at->row, at->col }, to;
+	bool along;
+
+	to.row = (int)strtol(rest, (char **)&rest, 10) - 1;
+	to.bar = (int)strtol(rest, (char **)&rest, 10) - 1;
+	along = strstr(rest, "along") != NULL;
+	return erase ? grid_erase_wire(rung, at, from, to, along) :
+		       grid_draw_wire(rung, at, from, to, along);
+}
+
 static inline struct rung *grid_play(struct grid_bench *bench, const struct rung *rung,
 				     const char *verb, struct grid_at *at,
 				     const char *rest)
@@ -170,6 +184,8 @@ static inline struct rung *grid_play(struct grid_bench *bench, const struct rung
 				 !strcmp(rest, "left") ? GRID_LEFT : GRID_RIGHT);
 	if (!strcmp(verb, "move"))
 		return grid_play_drag(rung, at, rest);
+	if (!strcmp(verb, "draw") || !strcmp(verb, "erase"))
+		return grid_play_stroke(rung, at, rest, verb[0] == 'e');
 	if (end != rest && strchr("0123456789", rest[0])) {
 		area.last_row = (int)number - 1;
 		rest = end;

@@ -64,7 +64,7 @@ static struct rung *wild(struct grid_bench *bench, const struct rung *rung,
 		"delete-area", "delete-row", "delete-column", "insert-row",
 		"insert-column", "open", "close", "gaps", "negate", "cycle", "unpin",
 		"pin", "wire", "wire", "wire", "move", "copy", "paste", "paste-below", "move-area",
-		"round",
+		"round", "draw", "draw", "erase",
 	};
 	static const char *const ways[] = { "up", "down", "left", "right" };
 	const char *verb = verbs[roll((int)(sizeof(verbs) / sizeof(*verbs)))];
@@ -78,6 +78,9 @@ static struct rung *wild(struct grid_bench *bench, const struct rung *rung,
 	else if (!strcmp(verb, "move"))
 		snprintf(rest, sizeof(rest), "%d %d", roll(rung->rows + 2) + 1,
 			 roll(at->columns) + 1);
+	else if (!strcmp(verb, "draw") || !strcmp(verb, "erase"))
+		snprintf(rest, sizeof(rest), "%d %d%s", roll(rung->rows + 2) + 1,
+			 roll(at->columns + 1) + 1, roll(2) ? " along" : "");
 	else if (!strcmp(verb, "move-area"))
 		snprintf(rest, sizeof(rest), "%d %d %d %d", area.last_row + 1,
 			 area.last_col + 1, roll(rung->rows + 2) + 1,
