@@ -139,7 +139,8 @@ enum grid_course {
 	GRID_NO_COURSE, /* elements are in the way                             */
 	GRID_ACROSS,    /* first to the left or right                          */
 	GRID_ALONG,     /* first up or down                                    */
-	GRID_ROUND,     /* round what stands between                           */
+	GRID_ROUND,     /* round what stands between, below it                 */
+	GRID_OVER,      /* or above it                                         */
 };
 /** grid_wire_course - which way grid_draw_wire() would go. */
 enum grid_course grid_wire_course(const struct rung *rung, int columns,

@@ -107,17 +107,19 @@ static bool draw_along(struct canvas *c, int bar, int a, int b)
 	return any;
 }
 
-static void draw_round(struct canvas *c, int row, int a, int b)
+/* Returns which side of them it went. */
+static enum grid_course draw_round(struct canvas *c, int row, int a, int b)
 {
 	const int col = least(a, b), last = most(a, b) - 1;
 	const int branch = canvas_branch_row(c, &row, col, last);
 
 	if (branch < 0)
-		return;
+		return GRID_NO_COURSE;
 	draw_across(c, branch, col, last + 1);
 	canvas_join_branch(c, row, branch, col);
 	canvas_join_branch(c, row, branch, last + 1);
 	canvas_mark(c, branch, col);
+	return branch < row ? GRID_OVER : GRID_ROUND;
 }
 
 static void draw(struct canvas *c, struct grid_end from, struct grid_end to, bool along)
@@ -218,9 +220,7 @@ enum grid_course grid_wire_course(const struct rung *rung, int columns,
 	if (canvas_open(&c, rung, columns, 1))
 		course = course_of(&c, from, to, along);
 	if (course == GRID_ROUND)
-		draw_round(&c, from.row, from.bar, to.bar);
-	if (c.refusal != GRID_DONE)
-		course = GRID_NO_COURSE;
+		course = draw_round(&c, from.row, from.bar, to.bar);
 	c.refusal = GRID_OUTSIDE; /* no rung is wanted */
 	canvas_close(&c, &at);
 	return course;

@@ -141,8 +141,9 @@ static void snapshot_hint(LadderGridView *view, GtkSnapshot *snapshot,
 	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(view),
 		_("Type a name, such as Start, and press Enter: a contact.\n"
 		  "Type OUT Motor: a coil. Type TON: a timer. All dialects are understood.\n"
-		  "Or drag an element from the left. F5 contact, F6 negated, F7 coil, "
-		  "Shift+F5 in parallel, Ins new rung."));
+		  "Or drag an element from the left, and wires from the ends of elements.\n"
+		  "F5 contact, F6 negated, F7 coil, Shift+F5 in parallel, "
+		  "Ins new rung."));
 
 	pango_layout_set_spacing(layout, 6 * PANGO_SCALE);
 	gtk_snapshot_save(snapshot);
@@ -170,6 +171,7 @@ static void ladder_grid_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 		&GRAPHENE_RECT_INIT((float)-gtk_adjustment_get_value(view->adjustment[0]),
 				    0, (float)(RUNG_GUTTER * view->zoom), height));
 	strips_snapshot(view, snapshot);
+	wire_snapshot(view, snapshot, theme);
 	if (is_blank(view))
 		snapshot_hint(view, snapshot, theme);
 	gtk_snapshot_pop(snapshot);
@@ -181,6 +183,7 @@ static void forget_edit(LadderGridView *view)
 {
 	entry_close(view);
 	entry_forget_uses(view);
+	wire_forget(view);
 	g_clear_pointer(&view->preview, rung_free);
 }
 
@@ -485,6 +488,7 @@ static void ladder_grid_view_finalize(GObject *object)
 	LadderGridView *view = LADDER_GRID_VIEW(object);
 
 	entry_forget_uses(view);
+	g_free(view->wire.legal);
 	rung_free(view->preview);
 	rung_free(view->before);
 	g_array_unref(view->strips);
@@ -534,6 +538,7 @@ static void ladder_grid_view_init(LadderGridView *view)
 	gtk_widget_set_overflow(GTK_WIDGET(view), GTK_OVERFLOW_HIDDEN);
 	add_keys(view);
 	mouse_init(view);
+	wire_init(view);
 	cells_init(view);
 	tell_init(view);
 }

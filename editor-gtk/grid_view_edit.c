@@ -171,13 +171,15 @@ static void do_rung_off(LadderGridView *view)
 	sheet_put(view, copy, &at, _(verb_row(VERB_rung_off)->label));
 }
 
-/* Esc: the entry goes first, then what was done to this rung since the cursor came. */
+/* Esc: a stroke or the entry goes first, then what was done to this rung since the cursor came. */
 static void do_cancel(LadderGridView *view)
 {
 	const struct rung *rung = sheet_rung(view, view->cursor.rung);
 	struct grid_at at = { .columns = view->columns };
 
-	if (view->entry || view->preview) {
+	if (view->wire.drawing) {
+		wire_forget(view);
+	} else if (view->entry || view->preview) {
 		entry_close(view);
 	} else if (view->selecting) {
 		cursor_set(view, view->cursor, false);

@@ -27,6 +27,18 @@ struct cell_widget {
 	int rung, row, col;
 };
 
+/* A stroke of wire: where it could begin, and while it is drawn. */
+struct sheet_wire {
+	int hover;                  /* rung where one could begin; -1: not here */
+	int rung;                   /* -1: none                                */
+	bool pressed, drawing;      /* the button is down there; and moved       */
+	bool erase, along;
+	struct grid_end from, to;
+	enum grid_course course;
+	bool *legal;                /* rows * columns of the sheet: may it end there? */
+	int rows;
+};
+
 struct _LadderGridView {
 	GtkWidget parent;
 	LadderDocument *document;
@@ -54,6 +66,7 @@ struct _LadderGridView {
 	struct grid_cursor found;   /* rung -1: nothing                        */
 	struct grid_cursor drop;    /* rung -1: nothing is dragged over it     */
 	bool drop_legal;
+	struct sheet_wire wire;
 
 	GtkAdjustment *adjustment[2]; /* horizontal, vertical                  */
 	gulong scrolled[2];
@@ -63,7 +76,6 @@ struct _LadderGridView {
 	int cells_height;           /* of the sheet, when they were made       */
 	GtkWidget *entry;           /* the popup, while it is there            */
 	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
-	double press_x, press_y;
 	bool takes;                 /* the pointer went down on what can be dragged */
 	GtkIMContext *input;
 	gunichar key;               /* that input methods look at              */
@@ -159,6 +171,18 @@ void clipboard_do(LadderGridView *view, enum verb verb);
 
 /* ---- grid_view_mouse.c ---- */
 void mouse_init(LadderGridView *view);
+
+/* ---- grid_view_wire.c ---- */
+void wire_init(LadderGridView *view);
+/** wire_press - the button went down; true: where a wire can begin. */
+bool wire_press(LadderGridView *view, double x, double y);
+/** wire_drag - it moves on. @state: with Ctrl it erases */
+void wire_drag(LadderGridView *view, double x, double y, GdkModifierType state);
+/** wire_release - it is let go; false: nothing was drawn. */
+bool wire_release(LadderGridView *view);
+/** wire_forget - nothing is drawn after all. */
+void wire_forget(LadderGridView *view);
+void wire_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme);
 
 /* ---- grid_view_cells.c ---- */
 void cells_init(LadderGridView *view);

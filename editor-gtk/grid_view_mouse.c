@@ -68,15 +68,15 @@ static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 	const int rung = sheet_point(view, x, y, &hit);
 
 	gtk_widget_grab_focus(GTK_WIDGET(view));
-	view->press_x = x;
-	view->press_y = y;
 	view->takes = false;
+	wire_forget(view);
 	if (rung < 0)
 		return;
 	if (is_cell(&hit)) {
 		cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column },
 			   state & GDK_SHIFT_MASK);
-		view->takes = !(state & GDK_SHIFT_MASK) && cursor_cell(view, NULL, NULL);
+		view->takes = !(state & GDK_SHIFT_MASK) && !wire_press(view, x, y) &&
+			      cursor_cell(view, NULL, NULL);
 		if (count == 2)
 			ladder_grid_view_do(view, VERB_enter);
 		return;
@@ -88,29 +88,43 @@ static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 		ladder_grid_view_do(view, VERB_rung_title);
 }
 
+/* Sections; with a name, they open at the side. */
+static const struct {
+	const char *name;
+	enum verb verb[14];
+} menu_parts[] = {
+	{ NULL, { VERB_enter, VERB_negate, VERB_cycle, VERB_comment, VERB_COUNT } },
+	{ N_("Put here"), { VERB_contact, VERB_contact_not, VERB_coil, VERB_block,
+		VERB_parallel, VERB_parallel_not, VERB_add_pin, VERB_COUNT } },
+	{ N_("Wires"), { VERB_wire_left, VERB_wire_right, VERB_wire_up, VERB_wire_down,
+		VERB_wire_here, VERB_link_here, VERB_COUNT } },
+	{ N_("Rows and columns"), { VERB_insert_row, VERB_delete_row,
+		VERB_insert_column, VERB_delete_column, VERB_COUNT } },
+	{ N_("Rung"), { VERB_rung_below, VERB_rung_above, VERB_rung_duplicate,
+		VERB_rung_up, VERB_rung_down, VERB_rung_title, VERB_rung_label,
+		VERB_rung_comment, VERB_rung_off, VERB_bookmark, VERB_copy_picture,
+		VERB_rung_delete, VERB_COUNT } },
+	{ NULL, { VERB_cut, VERB_copy, VERB_paste, VERB_paste_parallel, VERB_delete,
+		VERB_COUNT } },
+	{ NULL, { VERB_go_coil, VERB_show_uses, VERB_rename, VERB_COUNT } },
+};
+
 static GMenu *make_menu(void)
 {
-	static const enum verb verbs[][8] = {
-		{ VERB_enter, VERB_negate, VERB_cycle, VERB_comment, VERB_add_pin,
-		  VERB_COUNT },
-		{ VERB_parallel, VERB_parallel_not, VERB_wire_here, VERB_link_here,
-		  VERB_wire_right, VERB_wire_down, VERB_COUNT },
-		{ VERB_cut, VERB_copy, VERB_paste, VERB_paste_parallel, VERB_delete,
-		  VERB_COUNT },
-		{ VERB_rung_below, VERB_rung_above, VERB_rung_duplicate, VERB_rung_title,
-		  VERB_rung_off, VERB_rung_delete, VERB_COUNT },
-		{ VERB_go_coil, VERB_rename, VERB_COUNT },
-	};
 	GMenu *menu = g_menu_new();
 
-	for (gsize i = 0; i < G_N_ELEMENTS(verbs); i++) {
-		GMenu *section = g_menu_new();
+	for (gsize i = 0; i < G_N_ELEMENTS(menu_parts); i++) {
+		GMenu *part = g_menu_new();
 
-		for (const enum verb *verb = verbs[i]; *verb != VERB_COUNT; verb++)
-			g_menu_append(section, _(verb_row(*verb)->label),
+		for (const enum verb *verb = menu_parts[i].verb; *verb != VERB_COUNT; verb++)
+			g_menu_append(part, _(verb_row(*verb)->label),
 				      verb_row(*verb)->action);
-		g_menu_append_section(menu, NULL, G_MENU_MODEL(section));
-		g_object_unref(section);
+		if (menu_parts[i].name)
+			g_menu_append_submenu(menu, _(menu_parts[i].name),
+					      G_MENU_MODEL(part));
+		else
+			g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
+		g_object_unref(part);
 	}
 	return menu;
 }
@@ -139,7 +153,7 @@ static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
 	g_object_unref(menu);
 }
 
-/* ---- selecting by dragging: from a free place, or with Shift ---- */
+/* ---- dragging: a wire from where one can begin; selecting from elsewhere, or with Shift */
 
 static void drag_update(GtkGestureDrag *gesture, double by_x, double by_y,
 			LadderGridView *view)
@@ -149,14 +163,39 @@ static void drag_update(GtkGestureDrag *gesture, double by_x, double by_y,
 	int rung;
 
 	if (view->takes || !gtk_gesture_drag_get_start_point(gesture, &x, &y) ||
-	    !gtk_drag_check_threshold(GTK_WIDGET(view), (int)x, (int)y, (int)(x + by_x),
-				      (int)(y + by_y)))
+	    (!view->wire.drawing &&
+	     !gtk_drag_check_threshold(GTK_WIDGET(view), (int)x, (int)y, (int)(x + by_x),
+				       (int)(y + by_y))))
 		return;
+	if (view->wire.pressed) {
+		gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
+		wire_drag(view, x + by_x, y + by_y,
+			  gtk_event_controller_get_current_event_state(
+				GTK_EVENT_CONTROLLER(gesture)));
+		return;
+	}
 	rung = sheet_point(view, x + by_x, y + by_y, &hit);
 	if (rung != view->cursor.rung || !is_cell(&hit))
 		return;
 	gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
 	cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column }, true);
+}
+
+static void drag_end(GtkGestureDrag *gesture, double by_x, double by_y,
+		     LadderGridView *view)
+{
+	(void)gesture;
+	(void)by_x;
+	(void)by_y;
+	wire_release(view);
+}
+
+static void drag_cancel(GtkGesture *gesture, GdkEventSequence *sequence,
+			LadderGridView *view)
+{
+	(void)gesture;
+	(void)sequence;
+	wire_forget(view);
 }
 
 /* ---- dragging an element or a rung ---- */
@@ -392,6 +431,8 @@ static void add_clicks(LadderGridView *view)
 	g_signal_connect(menu, "pressed", G_CALLBACK(show_menu), view);
 	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(menu));
 	g_signal_connect(drag, "drag-update", G_CALLBACK(drag_update), view);
+	g_signal_connect(drag, "drag-end", G_CALLBACK(drag_end), view);
+	g_signal_connect(drag, "cancel", G_CALLBACK(drag_cancel), view);
 	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(drag));
 }
 

@@ -255,6 +255,8 @@ struct strip *strips_get(LadderGridView *view, int rung)
 		rows = view->cursor.row + 1;
 	if (rung == view->drop.rung)
 		rows = MAX(rows, view->drop.row + 1);
+	if (rung == view->wire.rung && view->wire.drawing)
+		rows = MAX(rows, view->wire.rows); /* one may come below */
 	strip->layout = rung_layout_new(&view->drafting, shown, rung + 1, rows);
 	if (strip->layout->natural > view->rail)
 		widen(view, strip->layout->natural);

@@ -3,11 +3,14 @@
  * rung_hit - what stands at a point of a rung, and the rectangle of a cell.
  */
 #include "editor-gtk/rung_box.h"
+#include "editor-gtk/rung_text.h"
 
 #include <glib.h>
 #include <math.h>
 
 #define REACH 7   /* px: as near as a pointer must come to a wire               */
+#define GRIP  24  /* px left and right of its middle an element is held        */
+#define ROUND 12  /* px left and right of the end of an empty cell             */
 
 static int row_at(const struct rung_layout *layout, float y)
 {
@@ -126,4 +129,92 @@ struct rung_hit rung_layout_hit(const struct drafting *drafting,
 		   fabsf(layout->row[hit.row].wire - y) <= REACH ? RUNG_PART_WIRE :
 								   RUNG_PART_CELL;
 	return hit;
+}
+
+/* ---- ends of cells ---- */
+
+float rung_layout_end_x(const struct rung_layout *layout, int bar)
+{
+	return rung_layout_bar(layout, layout->rung->rows, MIN(bar, layout->columns - 1));
+}
+
+static int nearest_bar(const struct rung_layout *layout, float x)
+{
+	int best = 0;
+
+	for (int bar = 1; bar < layout->columns; bar++)
+		if (fabsf(rung_layout_end_x(layout, bar) - x) <
+		    fabsf(rung_layout_end_x(layout, best) - x))
+			best = bar;
+	return best;
+}
+
+void rung_layout_nearest(const struct rung_layout *layout, float x, float y, int *row,
+			 int *bar)
+{
+	const struct rung_row *last = &layout->row[layout->rows - 1];
+
+	*row = y >= last->y + last->height ? layout->rows : row_at(layout, y);
+	*bar = nearest_bar(layout, x);
+}
+
+/* From where to where an element is held; beside that are its wires. */
+struct held { float from, to; };
+
+static struct held held_of(const struct drafting *drafting,
+			   const struct rung_layout *layout, int row, int column, int col)
+{
+	const struct cell *cell = rung_at(layout->rung, row, col);
+	const struct word_row *word = words_row(&drafting->project->words, cell->word);
+	const float x = layout->column_x[column], width = layout->column_width[column];
+	const float middle = x + width / 2;
+	int at, top = box_row(layout, row, column, &at);
+
+	if (top >= 0) {
+		struct rung_box box;
+
+		rung_box_make(drafting, layout->rung, top, col, &box);
+		rung_box_place(&box, layout->row, x, width);
+		return (struct held){ box.x, top == row ? box.x + box.inner : x + width };
+	}
+	float half = rung_is_framed(word) ?
+		rung_framed(drafting, cell).width / 2 + FRAMED_SIDE : GRIP;
+	return (struct held){ middle - half,
+			      word->place == PLACE_LAST ? layout->right : middle + half };
+}
+
+static bool is_free_end(const struct drafting *drafting, const struct rung_layout *layout,
+			float x, int row, int column)
+{
+	const int col = rung_layout_col(layout, row, column);
+	enum place place = PLACE_NONE;
+
+	if (rung_layout_wired(layout, row, column))
+		return true;
+	if (col >= 0)
+		place = word_row(rung_at(layout->rung, row, col)->word)->place;
+	if (place == PLACE_NONE)
+		return fabsf(rung_layout_end_x(layout, nearest_bar(layout, x)) - x) <= ROUND;
+	const struct held held = held_of(drafting, layout, row, column, col);
+	return x < held.from || x > held.to;
+}
+
+bool rung_layout_end(const struct drafting *drafting, const struct rung_layout *layout,
+		     float x, float y, int *row, int *bar)
+{
+	struct rung_hit link = { .row = row_at(layout, y) };
+
+	if (x < RUNG_LEFT - REACH || x > layout->right || y < layout->top ||
+	    y >= layout->height)
+		return false;
+	*row = link.row;
+	*bar = nearest_bar(layout, x);
+	if (fabsf(layout->row[*row].wire - y) <= REACH)
+		return is_free_end(drafting, layout, x, *row, column_at(layout, x));
+	if (!hits_link(layout, &link, x, y))
+		return false;
+	if (layout->row[link.row].wire - y > y - layout->row[link.row - 1].wire)
+		link.row--;
+	*row = link.row;
+	return true;
 }

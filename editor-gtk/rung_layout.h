@@ -119,4 +119,15 @@ struct rung_hit {
 struct rung_hit rung_layout_hit(const struct drafting *drafting,
 				const struct rung_layout *layout, float x, float y);
 
+/* Ends of cells: bar b is the left end of column b, 0 … columns - 1. */
+/** rung_layout_end_x - x of such a bar. */
+float rung_layout_end_x(const struct rung_layout *layout, int bar);
+/** rung_layout_nearest - the end nearest to a point; below all rows: the next row. */
+void rung_layout_nearest(const struct rung_layout *layout, float x, float y, int *row,
+			 int *bar);
+/** rung_layout_end - the end at which a pointer there would begin a wire: beside an
+ * element, on wire, at the end of an empty cell. False: it would not. */
+bool rung_layout_end(const struct drafting *drafting, const struct rung_layout *layout,
+		     float x, float y, int *row, int *bar);
+
 #endif

@@ -89,6 +89,46 @@ static void check_simple(const struct sheet *sheet)
 	CHECK(hit.row == 1 && hit.column == 0);
 }
 
+static bool begins(const struct sheet *sheet, const struct rung_layout *layout, float x,
+		   float y, int row, int bar)
+{
+	int found_row = -1, found_bar = -1;
+
+	return rung_layout_end(&sheet->drafting, layout, x, y, &found_row, &found_bar) &&
+	       found_row == row && found_bar == bar;
+}
+
+/* Where a pointer begins a wire: beside an element, not on it; on wire; at free ends. */
+static void check_ends(const struct sheet *sheet)
+{
+	const struct rung_layout *layout = sheet->rung[0];
+	const float wire = layout->row[0].wire, x = layout->column_x[0];
+	const float width = layout->column_width[0], last = layout->right;
+	int row, bar;
+
+	CHECK(begins(sheet, layout, x + 8, wire, 0, 0));
+	CHECK(begins(sheet, layout, x + width - 8, wire + 5, 0, 1));
+	CHECK(!begins(sheet, layout, x + width / 2, wire, 0, 0));
+	CHECK(!begins(sheet, layout, x + width - 8, wire + 20, 0, 1));
+	CHECK(!begins(sheet, layout, last - 2, wire, 0, layout->columns - 1));
+	CHECK(!begins(sheet, layout, last + 10, wire, 0, layout->columns - 1));
+	/* The link of the branch below: its lower end, too. */
+	CHECK(begins(sheet, layout, x + width, layout->row[1].wire - 20, 1, 1));
+	/* A free cell: only at its end. */
+	CHECK(begins(sheet, layout, layout->column_x[3], layout->row[1].wire, 1, 3));
+	CHECK(!begins(sheet, layout, layout->column_x[3] + 40, layout->row[1].wire, 1, 3));
+	/* A box: left and right of it, in its first row. */
+	layout = sheet->rung[3];
+	graphene_rect_t box = rung_layout_cell(layout, 0, 1);
+	CHECK(begins(sheet, layout, box.origin.x + 3, layout->row[0].wire, 0, 1));
+	CHECK(!begins(sheet, layout, box.origin.x + box.size.width / 2,
+		      layout->row[0].wire, 0, 1));
+	CHECK(begins(sheet, layout, box.origin.x + box.size.width - 3,
+		     layout->row[0].wire, 0, 2));
+	rung_layout_nearest(layout, box.origin.x + box.size.width * 0.8f, layout->height + 40, &row, &bar);
+	CHECK(row == layout->rows && bar == 2);
+}
+
 /* Rung 4 of the shapes has a timer in column 1: PT below IN, ET below Q. */
 static void check_box(const struct sheet *sheet)
 {
@@ -182,6 +222,7 @@ int main(void)
 		return tap_done();
 	struct sheet *sheet = sheet_of_file(ladder, 0);
 	check_simple(sheet);
+	check_ends(sheet);
 	check_box(sheet);
 	check_more_rows(sheet);
 	CHECK(missed_cells(sheet) == 0);

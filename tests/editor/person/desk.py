@@ -315,6 +315,11 @@ class Editor:
         x, y, _, _ = self.place(self.sheet())
         return x + 61 + 98 * column + 49, y + rung_y
 
+    def end(self, rung_y, bar, by=0):
+        """The left end of a column, and so many px to its right."""
+        x, y, _, _ = self.place(self.sheet())
+        return x + 61 + 98 * bar + by, y + rung_y
+
     def shot(self, name):
         """A picture for a person to look at, if PICTURES names a folder."""
         if os.environ.get('PICTURES'):
@@ -330,13 +335,18 @@ class Editor:
         """What assistive technology does in the place of a click: for other windows."""
         node.ask('Action', 'DoAction', GLib.Variant('(i)', (0,)))
 
-    def drag(self, start, end, steps=10):
+    def drag(self, start, end, steps=10, key=None, look=None):
+        """@key: held down meanwhile; @look: name of a picture of the moment before it is let go"""
         (x0, y0), (x1, y1) = [at if isinstance(at, tuple) else self.centre(at) for at in (start, end)]
-        way = ['mousemove', str(x0), str(y0), 'mousedown', '1']
+        way = ['keydown', key] if key else []
+        way += ['mousemove', str(x0), str(y0), 'mousedown', '1']
         for i in range(1, steps + 1):
             way += ['mousemove', str(x0 + (x1 - x0) * i // steps), str(y0 + (y1 - y0) * i // steps),
                     'sleep', '0.03']
-        sh('xdotool', *way, 'sleep', '0.15', 'mouseup', '1')
+        sh('xdotool', *way, 'sleep', '0.15')
+        if look:
+            self.shot(look)
+        sh('xdotool', 'mouseup', '1', *(['keyup', key] if key else []))
 
     def keys(self, *keys):
         sh('xdotool', 'key', '--delay', '20', *keys)

@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 
@@ -28,6 +28,10 @@ END_PROGRAM
 def rung_lines(path):
     with open(path) as file:
         return [line.strip() for line in file if line.startswith(('RUNG "', '  |'))]
+
+
+def plain(text):
+    return ''.join(text.split())
 
 
 def elements(screen):
@@ -73,4 +77,68 @@ def branch(screen):
     until(lambda: not any('Rung 1' in name and 'Lamp' in name for name in editor.cells()), 'the branch to go')
 
 
-main([elements, rungs, branch])
+def wires(screen):
+    """wires are drawn and erased by dragging alone: down, across, round; Esc gives up"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 5, 'the sheet')
+    wire = 36 + 46  # below a title
+    # From the end of Start down into a row that was not there, then to the right.
+    editor.drag(editor.end(wire, 1, -8), editor.end(wire + 84, 3, 4), look='wire-down')
+    until(lambda: '^' in editor.save(path), 'the link')
+    assert plain(''.join(rung_lines(path)[1:3])) == '|NOStart|NCStop|---|COILMotor||^|---|---|', rung_lines(path)
+    # Up to the wire: a second way round Stop.
+    editor.drag(editor.end(wire + 84, 3, -6), editor.end(wire, 3, 5), look='wire-up')
+    editor.save(path)
+    assert plain(rung_lines(path)[2]).endswith('---^|'), rung_lines(path)
+    editor.says('short circuit')
+    # Ctrl erases: first what leads up, then the rest of it.
+    editor.drag(editor.end(wire, 3, 5), editor.end(wire + 84, 3, 5), key='ctrl', look='wire-erase')
+    editor.save(path)
+    assert not rung_lines(path)[2].endswith('^|'), rung_lines(path)
+    editor.drag(editor.end(wire + 84, 3, -6), editor.end(wire, 1, 5), key='ctrl')
+    editor.save(path)
+    assert len([line for line in rung_lines(path) if '^' in line]) == 0, rung_lines(path)
+    assert rung_lines(path)[2] == 'RUNG "two"', rung_lines(path)
+    check(path)
+
+
+def refused(screen):
+    """a stroke that cannot be is told, and Esc gives one up"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 5, 'the sheet')
+    before = open(path).read()
+    wire = 36 + 46
+    # Along a wire that is there: nothing to do.
+    editor.drag(editor.end(wire, 3), editor.end(wire, 4))
+    editor.says('this wire is there already')
+    (x0, y0), (x1, y1) = editor.end(wire, 1), editor.end(wire + 84, 3)
+    sh('xdotool', 'mousemove', str(x0), str(y0), 'mousedown', '1', 'mousemove', str(x0), str(y0 + 30),
+       'sleep', '0.1', 'mousemove', str(x1), str(y1), 'sleep', '0.2', 'key', 'Escape', 'mouseup', '1')
+    # A selection is still made from a free place.
+    editor.drag(editor.grid(wire + 25, 2), editor.grid(wire + 25, 3))
+    editor.keys('Insert')
+    text = editor.save(path)
+    assert plain(text).replace('RUNGRUNG', 'RUNG', 1) == plain(before), text
+
+
+def by_menu(screen):
+    """the menu of the right button draws wires, too"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 5, 'the sheet')
+    editor.click(editor.grid(80, 0), button=3)
+    editor.find('Wires', 'menu item')
+    editor.shot('menu-of-cell')
+    editor.keys(*['Down'] * 5, 'Return')  # to Wires, and into it
+    down = editor.find('Wire downwards', 'menu item')
+    until(lambda: down.box()[2] > 0, 'the menu of wires')
+    editor.keys(*['Down'] * 4)
+    editor.shot('menu-of-wires')
+    editor.keys('Return')
+    until(lambda: '^' in editor.save(path), 'the link')
+    assert plain(rung_lines(path)[2]) == '|^|', rung_lines(path)
+
+
+main([elements, rungs, branch, wires, refused, by_menu])

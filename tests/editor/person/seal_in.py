@@ -54,7 +54,7 @@ def choose(editor, text):
 
 
 def by_pointer(screen):
-    """the same by pointer: elements dragged from the palette, a branch, names typed"""
+    """the same by pointer: elements from the palette, the branch as a stroke of wire, names typed"""
     path = new_file(screen)
     editor = Editor(screen, path)
     contact = editor.tile('closed while TRUE')
@@ -63,7 +63,10 @@ def by_pointer(screen):
     for tile, column, name in (contact, 0, 'Start'), (negated, 1, 'Stop'), (coil, 5, 'Motor'):
         editor.drag(tile, editor.grid(60, column))
         choose(editor, name)
-    editor.drag(contact, editor.grid(120, 0))
+    # From the wire left of Start round it to the wire right of it: a row comes below.
+    editor.drag(editor.end(60, 0, 10), editor.end(60, 1, 10), look='seal-in-branch')
+    editor.says('A branch of wire')
+    editor.drag(contact, editor.grid(60 + 84, 0))
     choose(editor, 'Motor')
     editor.shot('seal-in-pointer')
     editor.click(editor.find('Save', 'push button'))
