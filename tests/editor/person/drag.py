@@ -123,22 +123,4 @@ def refused(screen):
     assert plain(text).replace('RUNGRUNG', 'RUNG', 1) == plain(before), text
 
 
-def by_menu(screen):
-    """the menu of the right button draws wires, too"""
-    path = new_file(screen, PROJECT)
-    editor = Editor(screen, path)
-    until(lambda: len(editor.cells()) == 5, 'the sheet')
-    editor.click(editor.grid(80, 0), button=3)
-    editor.find('Wires', 'menu item')
-    editor.shot('menu-of-cell')
-    editor.keys(*['Down'] * 5, 'Return')  # to Wires, and into it
-    down = editor.find('Wire downwards', 'menu item')
-    until(lambda: down.box()[2] > 0, 'the menu of wires')
-    editor.keys(*['Down'] * 4)
-    editor.shot('menu-of-wires')
-    editor.keys('Return')
-    until(lambda: '^' in editor.save(path), 'the link')
-    assert plain(rung_lines(path)[2]) == '|^|', rung_lines(path)
-
-
-main([elements, rungs, branch, wires, refused, by_menu])
+main([elements, rungs, branch, wires, refused])
