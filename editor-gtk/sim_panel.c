@@ -169,7 +169,7 @@ static void simulate(GtkWidget *widget, const char *name, GVariant *unused)
 
 	(void)name;
 	(void)unused;
-	if (!gtk_widget_activate_action(widget, "win.simulate", NULL))
+	if (!gtk_widget_activate_action(widget, "win.sim_mode", NULL))
 		ladder_sim_begin(panel->sim, NULL);
 }
 

@@ -433,6 +433,8 @@ static void add_heading(LadderSimRowView *view)
 	GtkGesture *click = gtk_gesture_click_new();
 
 	view->heading = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
+	gtk_widget_set_vexpand(view->heading, TRUE);
+	gtk_widget_add_css_class(view->heading, "heading-line");
 	view->arrow = gtk_image_new();
 	gtk_box_append(GTK_BOX(view->heading), view->arrow);
 	view->title = add_label(view->heading, "sim-heading", true);

@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_sim_panel - the panel of a simulation, in a window: which lines it has, what they show,
+ * what a click, a key, the menu does. SIM_PICTURES=FOLDER saves pictures, for a human eye.
+ */
+#include "editor-gtk/sim_panel.h"
+#include "editor-gtk/sim_panel_view.h"
+#include "tests/editor/screen.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\n\n"
+	"VAR\n  Start AT %IX0.0 : BOOL; (* the green button *)\n"
+	"  Stop AT %IX0.1 : BOOL;\n"
+	"  Overload_of_the_second_motor_behind_the_wall AT %IX0.2 : BOOL;\n"
+	"  \xe7\x94\xb5\xe6\x9c\xba AT %QX0.0 : BOOL; (* \xe4\xb8\xbb\xe7\x94\xb5\xe6\x9c\xba *)\n"
+	"  Alarm AT %MX0.0 : BOOL;\n  Level AT %AIW0 : INT;\n  Speed AT %AQW2 : INT;\n"
+	"  Wait : TIME := T#5s;\n  Count : INT;\n  Temp : REAL := 20.5;\n"
+	"  Name : STRING := 'Pump';\n  Parts : CTU;\n"
+	"END_VAR\n\n"
+	"PROGRAM Main LD\nVAR\n  Delay : TON;\n  Fixed : TON;\nEND_VAR\n"
+	"RUNG \"Start\"\n"
+	"  | NO Start | NC Stop | NC Overload_of_the_second_motor_behind_the_wall | COIL \xe7\x94\xb5\xe6\x9c\xba |\n"
+	"  | NO \xe7\x94\xb5\xe6\x9c\xba ^ |\n"
+	"RUNG\n  | NO \xe7\x94\xb5\xe6\x9c\xba | TON Delay PT:=Wait | COIL %QX0.3 |\n"
+	"RUNG\n  | NO \xe7\x94\xb5\xe6\x9c\xba | TON Fixed PT:=T#100ms | COIL %QX0.4 |\n"
+	"RUNG\n  | NO Start | CTU Parts PV:=4 CV=>Count | COIL Alarm |\n"
+	"RUNG\n  | NO Start | MOVE IN:=Level OUT=>Speed |\n"
+	"RUNG\n  | NO %IX1.3 | COIL %MX2.5 |\n"
+	"END_PROGRAM\n";
+
+static GtkWidget *window;
+static LadderDocument *document;
+static LadderSim *sim;
+static LadderSimPanel *panel;
+
+static void turn(int ms)
+{
+	const gint64 end = g_get_monotonic_time() + ms * 1000;
+
+	do {
+		g_main_context_iteration(NULL, FALSE);
+		g_usleep(500);
+	} while (g_get_monotonic_time() < end);
+}
+
+/* Turns until it holds, for as long as a slow machine may take. */
+#define WAIT(condition) \
+	do { \
+		for (int wait_turns = 0; wait_turns < 2000 && !(condition); wait_turns++) \
+			turn(5); \
+	} while (0)
+#define CHECK_SOON(condition) do { WAIT(condition); CHECK(condition); } while (0)
+
+/* ---- pictures ---- */
+
+static void save_picture(const char *name)
+{
+	GdkPaintable *paintable = gtk_widget_paintable_new(window);
+	GtkSnapshot *snapshot = gtk_snapshot_new();
+	GskRenderNode *node;
+	GdkTexture *texture;
+	char *path;
+
+	turn(400);
+	gdk_paintable_snapshot(paintable, snapshot, gtk_widget_get_width(window),
+			       gtk_widget_get_height(window));
+	node = gtk_snapshot_free_to_node(snapshot);
+	texture = gsk_renderer_render_texture(gtk_native_get_renderer(GTK_NATIVE(window)),
+					      node, NULL);
+	path = g_strdup_printf("%s/%s.png", g_getenv("SIM_PICTURES"), name);
+	gdk_texture_save_to_png(texture, path);
+	g_free(path);
+	g_object_unref(texture);
+	gsk_render_node_unref(node);
+	g_object_unref(paintable);
+}
+
+static void picture(const char *name)
+{
+	AdwStyleManager *style = adw_style_manager_get_default();
+	char *dark;
+
+	if (!g_getenv("SIM_PICTURES"))
+		return;
+	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_FORCE_LIGHT);
+	save_picture(name);
+	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_FORCE_DARK);
+	dark = g_strconcat(name, "-dark", NULL);
+	save_picture(dark);
+	g_free(dark);
+	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_DEFAULT);
+}
+
+/* ---- the panel ---- */
+
+static LadderSimRow *row_of(const char *name)
+{
+	GListModel *list = ladder_sim_panel_list(panel);
+
+	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
+		LadderSimRow *row = g_list_model_get_item(list, i);
+
+		g_object_unref(row);
+		if (row->kind != SIM_HEADING && strcmp(row->name, name) == 0)
+			return row;
+	}
+	return NULL;
+}
+
+static bool shows(const char *name, const char *want)
+{
+	LadderSimRow *row = row_of(name);
+	char *text = row ? ladder_sim_panel_shown(panel, row) : NULL;
+	const bool is = g_strcmp0(text, want) == 0;
+
+	g_free(text);
+	return is;
+}
+
+/* All lines: "[Inputs] Start Stop [Outputs] …". */
+static char *lines(void)
+{
+	GListModel *list = ladder_sim_panel_list(panel);
+	GString *out = g_string_new(NULL);
+
+	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
+		LadderSimRow *row = g_list_model_get_item(list, i);
+
+		g_string_append_printf(out, row->kind == SIM_HEADING ? "[%s] " : "%s ",
+				       row->kind == SIM_HEADING ?
+				       sim_group_name(row->group) : row->name);
+		g_object_unref(row);
+	}
+	return g_string_free(out, FALSE);
+}
+
+static void test_lines(void)
+{
+	char *all = lines();
+
+	CHECK_TEXT(all, "[Inputs] Start Stop Overload_of_the_second_motor_behind_the_wall "
+		   "%IX1.3 [Outputs] \xe7\x94\xb5\xe6\x9c\xba %QX0.3 %QX0.4 "
+		   "[Memory] Alarm %MX2.5 [Timers] Delay Fixed [Counters] Parts "
+		   "[Analogue] Level Speed [Values] Wait Count Temp Name ");
+	g_free(all);
+	CHECK_TEXT(row_of("Start")->comment, "the green button");
+	CHECK_TEXT(row_of("Start")->address, "%IX0.0");
+	CHECK(row_of("Delay")->given.type == IEC_TIME &&
+	      row_of("Delay")->given.where == row_of("Wait")->at.where);
+	CHECK(row_of("Fixed")->given.type == IEC_NONE);
+	CHECK(row_of("Fixed")->start.type == IEC_TIME);
+}
+
+static void test_values(void)
+{
+	CHECK(shows("Start", "0") && shows("Temp", "20.5") && shows("Name", "'Pump'"));
+	sim_row_press(row_of("Start"), sim);
+	CHECK_SOON(shows("Start", "1"));
+	CHECK_AS(shows("\xe7\x94\xb5\xe6\x9c\xba", "0"), "no scan yet");
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(shows("\xe7\x94\xb5\xe6\x9c\xba", "1"));
+	ladder_sim_scan(sim, 3);
+	CHECK_SOON(shows("Delay", "0.03s / 5.00s"));
+	CHECK(shows("Fixed", "0.03s / 0.10s") && shows("Parts", "1 / 4"));
+}
+
+int main(int argc, char **argv)
+{
+	if (!screen_start()) {
+		printf("1..0 # SKIP no Xvfb\n");
+		return 0;
+	}
+	(void)argc;
+	(void)argv;
+	adw_init();
+	GtkCssProvider *css = gtk_css_provider_new();
+
+	gtk_css_provider_load_from_resource(css, "/org/rungboard/Editor/ui/style.css");
+	gtk_style_context_add_provider_for_display(gdk_display_get_default(),
+		GTK_STYLE_PROVIDER(css), GTK_STYLE_PROVIDER_PRIORITY_APPLICATION);
+	document = ladder_document_new();
+	ladder_document_open_text(document, "/tmp/x/test.rung", sample, strlen(sample), true);
+	sim = ladder_sim_new(document);
+	panel = LADDER_SIM_PANEL(ladder_sim_panel_new(sim));
+	window = gtk_window_new();
+	gtk_window_set_default_size(GTK_WINDOW(window), 290, 860);
+	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(panel));
+	gtk_window_present(GTK_WINDOW(window));
+	turn(200);
+	picture("off");
+	GError *error = NULL;
+
+	CHECK(ladder_sim_begin(sim, &error));
+	if (error)
+		printf("# %s\n", error->message);
+	turn(100);
+	test_lines();
+	ladder_sim_reset(sim, false);
+	test_values();
+	picture("on");
+	gtk_window_destroy(GTK_WINDOW(window));
+	g_object_unref(sim);
+	g_object_unref(document);
+	g_object_unref(css);
+	return tap_done();
+}
