@@ -4,9 +4,10 @@
  *
  * The plant is a program, too, bound crosswise: the outputs that it has are inputs here,
  * and what goes out here is its input; each sees the other as it was a scan ago. What the
- * plant neither declares nor uses at its outputs is a person's to switch. Everything that happens is a scan or an act, so that
- * a twin is a function of its start, its acts and their order: whoever keeps these can have
- * any scan again (trial/record.h). Time is a number; nothing here waits or knows a thread.
+ * plant neither declares nor uses at its outputs is a person's to switch. Everything that
+ * happens is a scan or an act, so that a twin is a function of its start, its acts and
+ * their order: whoever keeps these can have any scan again (trial/record.h). Time is a
+ * number; nothing here waits or knows a thread.
  */
 #ifndef TRIAL_TWIN_H
 #define TRIAL_TWIN_H
@@ -74,7 +75,8 @@ bool twin_act(struct twin *twin, const struct act *act);
 /**
  * twin_scan - time goes on by a period: the plant runs once, then the program
  *
- * Does nothing unless the program is in RUN. After a FAULT outputs are 0. Scan-safe: as resource_scan().
+ * Does nothing unless the program is in RUN. After a FAULT outputs are 0. Scan-safe: as
+ * resource_scan().
  * Fails: false: it is not in RUN now. A scan that ends in FAULT or STOP counts.
  */
 bool twin_scan(struct twin *twin);
