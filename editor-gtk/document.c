@@ -12,7 +12,8 @@
 
 G_DEFINE_FINAL_TYPE(LadderDocument, ladder_document, G_TYPE_OBJECT)
 
-enum { RUNGS_CHANGED, PROJECT_CHANGED, LIST_CHANGED, BOOKMARKS_CHANGED, CHECKED, STATE_CHANGED, SIGNALS };
+enum { RUNGS_CHANGED, VARIABLE_CHANGED, PROJECT_CHANGED, LIST_CHANGED, BOOKMARKS_CHANGED,
+       CHECKED, STATE_CHANGED, SIGNALS };
 static guint signals[SIGNALS];
 
 static const char EMPTY_PROJECT[] =
@@ -88,6 +89,12 @@ void document_tell_checked(LadderDocument *document)
 	g_signal_emit(document, signals[CHECKED], 0);
 }
 
+void document_tell_variable(LadderDocument *document, int pou, const char *name,
+			    const char *address)
+{
+	g_signal_emit(document, signals[VARIABLE_CHANGED], 0, pou, name, address);
+}
+
 void document_tell_project(LadderDocument *document)
 {
 	g_signal_emit(document, signals[PROJECT_CHANGED], 0);
@@ -134,9 +141,9 @@ void document_take(LadderDocument *document, const char *text, gsize len)
 
 /* ---- applying a change, forwards or backwards ---- */
 
-static void report_lost(const char *what)
+/* Better a stop than a wrong program. */
+void document_report_lost(const char *what)
 {
-	/* A promise of our own is broken: better a stop than a wrong program. */
 	g_error("the history does not fit the document: %s", what);
 }
 
@@ -156,7 +163,7 @@ static void apply_rungs(LadderDocument *document, const struct change *change,
 						     strlen(text), &diags);
 
 		if (!rung || !project_add_rung(pou, (int)(change->at + i), rung))
-			report_lost(text);
+			document_report_lost(text);
 	}
 	g_signal_emit(document, signals[RUNGS_CHANGED], 0, change->pou,
 		      (int)change->at, (int)from->len, (int)to->len);
@@ -198,7 +205,7 @@ static void apply_text(LadderDocument *document, const struct change *change,
 
 	if (change->at + strlen(from) > len ||
 	    memcmp(text + change->at, from, strlen(from)) != 0)
-		report_lost(from);
+		document_report_lost(from);
 	out = spliced(text, len, change->at, strlen(from), to, &new_len);
 	document_take_text(document, out, new_len, true, NULL);
 	g_free(out);
@@ -214,6 +221,9 @@ static void apply(LadderDocument *document, const struct change *change, bool ba
 	switch (change->kind) {
 	case CHANGE_RUNGS:
 		apply_rungs(document, change, from, to);
+		break;
+	case CHANGE_VARIABLE:
+		document_apply_variable(document, change->pou, (int)change->at, from, to);
 		break;
 	case CHANGE_TEXT:
 		apply_text(document, change, from->pdata[0], to->pdata[0]);
@@ -486,6 +496,8 @@ static void ladder_document_class_init(LadderDocumentClass *class)
 	signals[RUNGS_CHANGED] = g_signal_new("rungs-changed", type, flags, 0, NULL,
 		NULL, NULL, G_TYPE_NONE, 4, G_TYPE_INT, G_TYPE_INT, G_TYPE_INT,
 		G_TYPE_INT);
+	signals[VARIABLE_CHANGED] = g_signal_new("variable-changed", type, flags, 0, NULL,
+		NULL, NULL, G_TYPE_NONE, 3, G_TYPE_INT, G_TYPE_STRING, G_TYPE_STRING);
 	signals[PROJECT_CHANGED] = g_signal_new("project-changed", type, flags, 0, NULL,
 		NULL, NULL, G_TYPE_NONE, 0);
 	signals[LIST_CHANGED] = g_signal_new("list-changed", type, flags, 0, NULL,

@@ -8,6 +8,9 @@
  *
  * Signals:
  *   rungs-changed (int pou, int at, int removed, int inserted)
+ *   variable-changed (int pou, string name, string address)
+ *                        one was added or taken away, -1: a global one; others have
+ *                        other numbers and places in memory, all else is as it was
  *   project-changed ()   anything may be another: names, POUs, all rungs
  *   list-changed (int pou)  the text of a list that cannot be read changed
  *   bookmarks-changed ()
@@ -59,7 +62,8 @@ char *ladder_document_name(LadderDocument *document);
 bool ladder_document_is_saved(LadderDocument *document);
 
 /** ladder_document_project - the live one, to be read only; NULL: a document of text.
- * Pointers into it die with project-changed, rungs with rungs-changed. */
+ * Pointers into it die with project-changed, rungs with rungs-changed, variables with
+ * variable-changed. */
 struct project *ladder_document_project(LadderDocument *document);
 /** ladder_document_ladder - what holds it, for names and rungs as text. */
 struct ladder *ladder_document_ladder(LadderDocument *document);

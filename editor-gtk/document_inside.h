@@ -44,6 +44,15 @@ bool document_take_text(LadderDocument *document, const char *text, gsize len,
 void document_record(LadderDocument *document, struct change *change);
 /** document_apply_list - POU @pou gets the text, in the project or beside it. */
 void document_apply_list(LadderDocument *document, int pou, const char *text);
+/** document_apply_variable - declarations at the end of block @block of a POU (-1: the
+ * globals) become others. */
+void document_apply_variable(LadderDocument *document, int pou, int block,
+			     const GPtrArray *from, const GPtrArray *to);
+/** document_tell_variable - one of this name and address ("": none) came or went. */
+void document_tell_variable(LadderDocument *document, int pou, const char *name,
+			    const char *address);
+/** document_report_lost - a promise of our own is broken: it does not return. */
+void document_report_lost(const char *what);
 /** document_apply_view - the VIEW part becomes another. */
 void document_apply_view(LadderDocument *document, const char *text);
 /** document_shift_bookmarks - they follow rungs that were exchanged. */

@@ -207,6 +207,16 @@ static void rungs_changed(LadderGridView *view, int pou, int at, int removed, in
 	sheet_moved(view);
 }
 
+static void variable_changed(LadderGridView *view, int pou, const char *name,
+			     const char *address)
+{
+	entry_forget_uses(view);
+	if (pou >= 0 && pou != view->pou)
+		return;
+	strips_renamed(view, name, address);
+	cells_later(view);
+}
+
 static void project_changed(LadderGridView *view)
 {
 	forget_edit(view);
@@ -260,6 +270,8 @@ static void listen(LadderGridView *view)
 		G_CALLBACK(project_changed), view);
 	view->handler[3] = g_signal_connect_swapped(view->document, "bookmarks-changed",
 		G_CALLBACK(bookmarks_changed), view);
+	view->handler[4] = g_signal_connect_swapped(view->document, "variable-changed",
+		G_CALLBACK(variable_changed), view);
 	view->handler[2] = g_signal_connect_swapped(view->document, "checked",
 		G_CALLBACK(checked), view);
 }
@@ -475,7 +487,7 @@ static void ladder_grid_view_dispose(GObject *object)
 						    view->scrolled[i]);
 		g_clear_object(&view->adjustment[i]);
 	}
-	for (int i = 0; view->document && i < 4; i++)
+	for (int i = 0; view->document && i < (int)G_N_ELEMENTS(view->handler); i++)
 		g_signal_handler_disconnect(view->document, view->handler[i]);
 	strips_clear(view);
 	g_clear_object(&view->input);

@@ -43,7 +43,7 @@ struct _LadderGridView {
 	GtkWidget parent;
 	LadderDocument *document;
 	int pou;
-	gulong handler[4];          /* of the document's signals               */
+	gulong handler[5];          /* of the document's signals               */
 
 	GArray *strips;             /* of struct strip                         */
 	int columns;                /* of the sheet                            */
@@ -105,6 +105,8 @@ void strips_clear(LadderGridView *view);
 void strips_reset(LadderGridView *view);
 /** strips_splice - some are. */
 void strips_splice(LadderGridView *view, int at, int removed, int inserted);
+/** strips_renamed - a variable of this name, at this address or "", came or went. */
+void strips_renamed(LadderGridView *view, const char *name, const char *address);
 /** strips_dirty - one is to be laid out anew. */
 void strips_dirty(LadderGridView *view, int rung);
 /** strips_redraw - one is to be drawn anew. -1: all. */

@@ -12,6 +12,7 @@
 #include "editor-gtk/settings.h"
 
 #include <adwaita.h>
+#include <string.h>
 
 #define TITLE_GUESS  32 /* px above the first row of a rung                    */
 #define IDLE_RUNGS   64 /* laid out at a time while nothing else is done       */
@@ -72,21 +73,26 @@ static void stack(LadderGridView *view, int from)
 	}
 }
 
-/* The names and the number of columns that all rungs share. */
-static void share(LadderGridView *view)
+static void share_names(LadderGridView *view)
 {
 	const struct pou *pou = sheet_pou(view);
 	struct project *project = ladder_document_project(view->document);
-	int columns = RUNG_LEAST_COLUMNS;
 
 	grid_names_free(view->names);
 	view->names = project && pou ? grid_names_new(project, pou) : NULL;
-	for (int i = 0; i < sheet_rungs(view); i++)
-		columns = grid_display_columns(sheet_rung(view, i), columns);
-	view->columns = columns;
 	view->drafting.project = project;
 	view->drafting.names = view->names;
 	view->drafting.lettering = view->lettering;
+}
+
+/* The number of columns that all rungs share. */
+static void share_columns(LadderGridView *view)
+{
+	int columns = RUNG_LEAST_COLUMNS;
+
+	for (int i = 0; i < sheet_rungs(view); i++)
+		columns = grid_display_columns(sheet_rung(view, i), columns);
+	view->columns = columns;
 	view->drafting.columns = columns;
 }
 
@@ -154,7 +160,8 @@ void strips_reset(LadderGridView *view)
 	for (guint i = 0; i < view->strips->len; i++)
 		forget(strip_of(view, (int)i));
 	g_array_set_size(view->strips, (guint)rungs);
-	share(view);
+	share_names(view);
+	share_columns(view);
 	view->rail = 0;
 	for (int i = 0; i < rungs; i++)
 		guess(view, i);
@@ -174,7 +181,7 @@ void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 	g_array_remove_range(view->strips, (guint)at, (guint)removed);
 	for (int i = 0; i < inserted; i++)
 		g_array_insert_val(view->strips, (guint)at, none);
-	share(view);
+	share_columns(view);
 	if (columns != view->columns) {
 		strips_reset(view);
 		return;
@@ -184,6 +191,36 @@ void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 		if ((int)i < at + inserted || removed != inserted)
 			guess(view, (int)i);
 	stack(view, at);
+	lay_out_later(view);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+static bool names_one(LadderGridView *view, int rung, uint32_t name, uint32_t address)
+{
+	const struct rung *shown = sheet_rung(view, rung);
+	const struct names *names = &view->drafting.project->names;
+
+	for (int i = 0; shown && i < shown->rows * shown->cols; i++) {
+		const uint32_t fold = names_fold(names, shown->cell[i].operand);
+
+		if (fold && (fold == name || fold == address))
+			return true;
+	}
+	return false;
+}
+
+void strips_renamed(LadderGridView *view, const char *name, const char *address)
+{
+	struct names *names = &ladder_document_project(view->document)->names;
+	const uint32_t of = names_fold(names, names_find(names, name, strlen(name)));
+	const uint32_t at = names_fold(names, names_find(names, address, strlen(address)));
+
+	share_names(view);
+	for (int i = 0; i < (int)view->strips->len; i++)
+		if (names_one(view, i, of, at))
+			guess(view, i);
+	stack(view, 0);
 	lay_out_later(view);
 	gtk_widget_queue_resize(GTK_WIDGET(view));
 	gtk_widget_queue_draw(GTK_WIDGET(view));

@@ -16,14 +16,15 @@ enum change_kind {
 	CHANGE_TEXT,  /* bytes of the canonical text, or of a text that cannot be read */
 	CHANGE_VIEW,  /* the VIEW part of the file                             */
 	CHANGE_LIST,  /* the text of one POU, which may be one that cannot be read */
+	CHANGE_VARIABLE, /* a declaration at the end of a block, that was not there */
 };
 
 struct change {
 	enum change_kind kind;
-	int pou;          /* of RUNGS and LIST: its number                     */
-	gsize at;         /* first rung, or first byte                         */
-	GPtrArray *before, *after; /* of char *: a text each rung; of the other
-				      kinds one text                           */
+	int pou;          /* of RUNGS and LIST: its number; of VARIABLE too, -1: global */
+	gsize at;         /* first rung, first byte, or block of variables     */
+	GPtrArray *before, *after; /* of char *: a text each rung or declaration; of
+				      the other kinds one text                 */
 };
 
 struct step {

@@ -57,6 +57,16 @@ static void list_changed(LadderDocument *document, int pou, gpointer watch)
 	changed(watch);
 }
 
+static void variable_changed(LadderDocument *document, int pou, const char *name,
+			     const char *address, gpointer watch)
+{
+	(void)document;
+	(void)pou;
+	(void)name;
+	(void)address;
+	changed(watch);
+}
+
 static void whole_changed(LadderDocument *document, gpointer watch)
 {
 	(void)document;
@@ -84,6 +94,8 @@ struct panel_watch *panel_watch_new(GtkWidget *owner, bool checks,
 			       watch);
 	g_signal_group_connect(watch->group, "rungs-changed", G_CALLBACK(rungs_changed),
 			       watch);
+	g_signal_group_connect(watch->group, "variable-changed",
+			       G_CALLBACK(variable_changed), watch);
 	g_signal_group_connect(watch->group, "list-changed", G_CALLBACK(list_changed), watch);
 	if (checks)
 		g_signal_group_connect(watch->group, "checked", G_CALLBACK(whole_changed),

@@ -568,6 +568,7 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 	g_object_set_data_full(G_OBJECT(box), "tree", tree, tree_free);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(follow), tree);
 	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(follow), tree);
+	g_signal_connect_swapped(document, "variable-changed", G_CALLBACK(follow), tree);
 	g_signal_connect_swapped(document, "bookmarks-changed", G_CALLBACK(follow), tree);
 	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(follow), tree);
 	follow(tree);

@@ -167,6 +167,12 @@ static void document_changed(LadderTextView *view)
 		show_text(view);
 }
 
+static void variable_changed(LadderTextView *view, int pou)
+{
+	if (pou == view->pou)
+		document_changed(view);
+}
+
 /* ---- errors ---- */
 
 struct first_line {
@@ -487,6 +493,8 @@ GtkWidget *ladder_text_view_new(LadderDocument *document, int pou)
 	build(view);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(document_changed),
 				 view);
+	g_signal_connect_swapped(document, "variable-changed",
+				 G_CALLBACK(variable_changed), view);
 	g_signal_connect_swapped(document, "list-changed", G_CALLBACK(document_changed),
 				 view);
 	g_signal_connect_swapped(document, "checked", G_CALLBACK(show_errors), view);

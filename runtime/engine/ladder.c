@@ -414,6 +414,15 @@ struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t le
 	       text_read_rung(ladder->project, text, len, diags) : NULL;
 }
 
+bool ladder_read_var(struct ladder *ladder, int pou, int block, const char *text,
+		     size_t len, struct diag_list *diags)
+{
+	struct project *project = ladder_project(ladder);
+
+	return project && text_read_var(project, pou < 0 ? NULL : &project->pou[pou],
+					block, text, len, diags);
+}
+
 char *ladder_write_rung(struct ladder *ladder, const struct rung *rung)
 {
 	return ladder_project(ladder) ?

@@ -108,6 +108,16 @@ char *ladder_outline(struct ladder *ladder, size_t *len,
  * rung_free().   Scan-safe: no.   Fails: NULL; nothing but strings was added. */
 struct rung *ladder_read_rung(struct ladder *ladder, const char *text, size_t len,
 			      struct diag_list *diags);
+/**
+ * ladder_read_var - one declaration, `Motor AT %QX0.1 : BOOL;`, as the last one of a block
+ * @pou:   its number, not of what is called with parameters; -1: a global variable
+ * @block: of its table of variables; vars_pop() takes it back
+ * @diags: gets what is wrong with it, with places in @text
+ *
+ * Scan-safe: no.   Fails: false; nothing but strings was added.
+ */
+bool ladder_read_var(struct ladder *ladder, int pou, int block, const char *text,
+		     size_t len, struct diag_list *diags);
 /** ladder_write_rung - its canonical text. Owns: the caller, free(). NULL: no memory. */
 char *ladder_write_rung(struct ladder *ladder, const struct rung *rung);
 

@@ -241,6 +241,112 @@ static int pick(int below)
 	return (int)((seed >> 8) % (guint32)below);
 }
 
+/* What stands in the live project, and what a file with its text would hold. */
+static bool reads_again(LadderDocument *document)
+{
+	LadderDocument *other = ladder_document_new();
+	char *text = ladder_document_text(document, NULL);
+	bool same;
+
+	ladder_document_open_text(other, NULL, text, strlen(text), true);
+	same = has_text(other, text);
+	g_free(text);
+	g_object_unref(other);
+	return same;
+}
+
+/* ---- one more variable ---- */
+
+static int told_variable;
+
+static void count_variable(LadderDocument *document, int pou, const char *name,
+			   const char *address, int *count)
+{
+	(void)document;
+	(void)pou;
+	*count += name[0] && address;
+}
+
+/* Of a text with one @ where the line must come. @live: without reading all of it. */
+static void is_declared(const char *marked, int pou, const char *name, const char *type,
+			const char *address, const char *line, bool live)
+{
+	char **halves = g_strsplit(marked, "@", 2);
+	char *before = g_strjoin(NULL, halves[0], halves[1], NULL);
+	char *want = g_strjoin(NULL, halves[0], line, halves[1], NULL);
+	LadderDocument *document = ladder_document_new();
+
+	told_variable = told_project = 0;
+	ladder_document_open_text(document, NULL, before, strlen(before), true);
+	CHECK_AS(has_text(document, before), "the text of the test is canonical");
+	g_signal_connect(document, "variable-changed", G_CALLBACK(count_variable),
+			 &told_variable);
+	g_signal_connect(document, "project-changed", G_CALLBACK(count_one), &told_project);
+	CHECK(ladder_document_declare(document, pou, name, type, address, NULL));
+	CHECK(has_text(document, want) && reads_again(document));
+	CHECK(told_variable == live && told_project == !live);
+	CHECK(ladder_document_undo(document) && has_text(document, before));
+	CHECK(ladder_document_is_saved(document) && !ladder_document_undo(document));
+	CHECK(ladder_document_redo(document) && has_text(document, want));
+	CHECK(told_variable == 3 * live && told_project == 3 * !live);
+	g_object_unref(document);
+	g_strfreev(halves);
+	g_free(before);
+	g_free(want);
+}
+
+static void test_declare(void)
+{
+	static const char body[] = "RUNG\n  | NO Ready | COIL Ready |\nEND_PROGRAM\n";
+	LadderDocument *document = open_sample();
+	struct diag_list why;
+	char *text;
+
+	text = g_strconcat("RUNGBOARD 1\n\nVAR\n  Ready AT %IX0.0 : BOOL; (* a *)\n@"
+			   "END_VAR\n\nVAR RETAIN\n  Count : INT;\nEND_VAR\n\n"
+			   "PROGRAM Main LD\n", body, NULL);
+	is_declared(text, -1, "Lamp1", "BOOL", "%QX0.5",
+		    "  Lamp1 AT %QX0.5 : BOOL;\n", true);
+	is_declared(text, -1, "Slow1", "TON", "", "  Slow1 : TON;\n", true);
+	g_free(text);
+	text = g_strconcat("RUNGBOARD 1\n\nPROGRAM Main LD\nVAR\n  Ready : BOOL;\n"
+			   "  Old   : TON;\nEND_VAR\nVAR\n@END_VAR\nVAR CONSTANT\n"
+			   "  Pi : REAL := 3.1;\nEND_VAR\n", body, NULL);
+	is_declared(text, 0, "Wait", "TON", NULL, "  Wait : TON;\n", true);
+	g_free(text);
+	text = g_strconcat("RUNGBOARD 1\n\nVAR RETAIN\n  Count : INT;\nEND_VAR\n\n"
+			   "@PROGRAM Main LD\n", body, NULL);
+	is_declared(text, -1, "Ready", "BOOL", "", "VAR\n  Ready : BOOL;\nEND_VAR\n\n",
+		    false);
+	g_free(text);
+	text = g_strconcat("RUNGBOARD 1\n\n@PROGRAM Main LD\n", body, NULL);
+	is_declared(text, -1, "Ready", "BOOL", "%IX0.0",
+		    "VAR\n  Ready AT %IX0.0 : BOOL;\nEND_VAR\n\n", false);
+	g_free(text);
+	text = g_strconcat("RUNGBOARD 1\n\nPROGRAM Main LD\n@", body, NULL);
+	is_declared(text, 0, "Wait", "TON", NULL, "VAR\n  Wait : TON;\nEND_VAR\n", false);
+	g_free(text);
+	is_declared("RUNGBOARD 1\n\nFUNCTION_BLOCK Seal LD\nVAR_INPUT\n  A : BOOL;\n"
+		    "END_VAR\nVAR\n  B1 : BOOL;\n@END_VAR\nRUNG\n  | NO A | COIL B1 |\n"
+		    "END_FUNCTION_BLOCK\n", 0, "T1", "TON", NULL, "  T1 : TON;\n", false);
+	is_declared("RUNGBOARD 1\n\nVAR\n  A : BOOL;\nEND_VAR\n\nCONFIGURATION C\n"
+		    "VAR_GLOBAL\n  B1 : BOOL;\n@END_VAR\nEND_CONFIGURATION\n\n"
+		    "PROGRAM Main LD\nRUNG\n  | NO A | COIL B1 |\nEND_PROGRAM\n", -1, "B2",
+		    "BOOL", NULL, "  B2 : BOOL;\n", true);
+	text = ladder_document_text(document, NULL);
+	diag_init(&why);
+	CHECK(!ladder_document_declare(document, -1, "Bad name", "BOOL", NULL, &why));
+	CHECK(why.errors > 0 && has_text(document, text));
+	CHECK(!ladder_document_declare(document, 0, "Good", "NONSENSE", NULL, &why));
+	CHECK(!ladder_document_declare(document, 0, "Good", "BOOL; X : BOOL", NULL, &why));
+	CHECK(!ladder_document_declare(document, -1, "Good", "BOOL", "%IX99999.0", &why));
+	CHECK(has_text(document, text) && !ladder_document_undo_name(document));
+	g_free(text);
+	g_object_unref(document);
+}
+
+/* ---- all of it at random ---- */
+
 static void random_rungs(LadderDocument *document)
 {
 	struct pou *pou = &ladder_document_project(document)->pou[0];
@@ -285,6 +391,19 @@ static void random_symbol(LadderDocument *document)
 	g_free(text);
 }
 
+static void random_declaration(LadderDocument *document)
+{
+	char *name = g_strdup_printf("Fresh%d", pick(1000));
+	const bool timer = pick(3) == 0;
+	char *address = g_strdup_printf("%%MX%d.%d", pick(100), pick(8));
+
+	ladder_document_declare(document, timer || pick(3) ? 0 : -1, name,
+				timer ? "TON" : "BOOL", timer || pick(2) ? NULL : address,
+				NULL);
+	g_free(address);
+	g_free(name);
+}
+
 static void random_edit(LadderDocument *document)
 {
 	char *name = g_strdup_printf("step %d", pick(1000));
@@ -292,7 +411,7 @@ static void random_edit(LadderDocument *document)
 
 	ladder_document_begin(document, name, pick(3) ? NULL : "same");
 	for (int i = pick(3); i >= 0; i--) {
-		switch (pick(5)) {
+		switch (pick(6)) {
 		case 0:
 			random_symbol(document);
 			break;
@@ -303,6 +422,9 @@ static void random_edit(LadderDocument *document)
 			break;
 		case 2:
 			ladder_document_move_rung(document, 0, pick(3), pick(3));
+			break;
+		case 3:
+			random_declaration(document);
 			break;
 		default:
 			random_rungs(document);
@@ -342,6 +464,7 @@ static void test_storm(void)
 			;
 		again = ladder_document_text(document, NULL);
 		bad += strcmp(after, again) != 0;
+		bad += !reads_again(document);
 		g_free(before);
 		g_free(after);
 		g_free(again);
@@ -393,6 +516,7 @@ int main(void)
 	test_text();
 	test_list();
 	test_damaged();
+	test_declare();
 	test_storm();
 	test_files();
 	return tap_done();

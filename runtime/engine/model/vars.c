@@ -6,6 +6,8 @@
  */
 #include "engine/model/vars.h"
 
+#include <string.h>
+
 uint8_t vars_flags(const struct var_table *table, int index)
 {
 	int low = 0, high = table->block_count;
@@ -78,4 +80,31 @@ const char *vars_head(uint8_t flags)
 		if (flags & heads[i].flag)
 			return heads[i].word;
 	return "VAR";
+}
+
+bool vars_push(struct var_table *table, int block, const struct var *var,
+	       struct arena *arena)
+{
+	const int at = table->block[block].first + table->block[block].count;
+
+	if (!arena_push(arena, &table->var, &table->count, sizeof(*var)))
+		return false;
+	memmove(&table->var[at + 1], &table->var[at],
+		(size_t)(table->count - 1 - at) * sizeof(*var));
+	table->var[at] = *var;
+	table->block[block].count++;
+	for (int i = block + 1; i < table->block_count; i++)
+		table->block[i].first++;
+	return true;
+}
+
+void vars_pop(struct var_table *table, int block)
+{
+	const int at = table->block[block].first + --table->block[block].count;
+
+	table->count--;
+	memmove(&table->var[at], &table->var[at + 1],
+		(size_t)(table->count - at) * sizeof(*table->var));
+	for (int i = block + 1; i < table->block_count; i++)
+		table->block[i].first--;
 }

@@ -8,6 +8,7 @@
 #ifndef MODEL_VARS_H
 #define MODEL_VARS_H
 
+#include "engine/base/arena.h"
 #include "engine/base/catalog.h"
 #include "engine/base/names.h"
 
@@ -83,4 +84,10 @@ int64_t var_element(struct var_array array, int64_t index);
 /** vars_find - index by folded name, -1: none. Linear in small tables; large
  * ones are looked up through struct scope (check/scope.h). */
 int vars_find(const struct var_table *table, uint32_t fold);
+/** vars_push - a variable behind the last one of a block; those behind it get other
+ * numbers.   Scan-safe: no.   Fails: false: no memory, nothing changed. */
+bool vars_push(struct var_table *table, int block, const struct var *var,
+	       struct arena *arena);
+/** vars_pop - the last one of a block, which must have one, is no more. Scan-safe: no. */
+void vars_pop(struct var_table *table, int block);
 #endif

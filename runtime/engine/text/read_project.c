@@ -459,3 +459,35 @@ struct rung *text_read_rung(struct project *project, const char *text,
 	rung_free(rung);
 	return NULL;
 }
+
+static bool push_var(struct reader *r, struct var_table *table, int block,
+		     const char *text, size_t len)
+{
+	struct var var;
+	char *copy = reader_open(r, text, len);
+	bool good;
+
+	reader_skip_newlines(r);
+	good = read_var(r, table->block[block].flags, &var);
+	if (good && table->count == LIMIT_VARS)
+		good = reader_fail_word(r, DIAG_TOO_MANY, "variables");
+	if (good && !vars_push(table, block, &var, &r->project->arena))
+		r->no_memory = true;
+	free(copy);
+	return good && !r->no_memory;
+}
+
+bool text_read_var(struct project *project, struct pou *pou, int block,
+		   const char *text, size_t len, struct diag_list *diags)
+{
+	struct reader *r = reader_new(project, "", diags);
+	bool good = false;
+
+	if (r && len <= LIMIT_TEXT) {
+		r->pou = pou;
+		good = push_var(r, pou ? &pou->vars : &project->globals, block, text, len);
+	}
+	fail_memory(project, "", !r || r->no_memory, diags);
+	reader_free(r);
+	return good;
+}

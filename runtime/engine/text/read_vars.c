@@ -396,3 +396,23 @@ void read_members(struct reader *r, struct var_table *table)
 		last->comment = comment_join(r, last->comment, &r->note);
 	}
 }
+
+bool read_var(struct reader *r, uint8_t flags, struct var *out)
+{
+	struct var_table one = { 0 };
+	bool good;
+
+	r->var_flags = flags;
+	r->comments = COMMENT_NOTE;
+	r->across_lines = true;
+	good = read_declaration(r, &one);
+	r->across_lines = false;
+	r->var_flags = 0;
+	if (!good)
+		return false;
+	reader_skip_newlines(r);
+	if (one.count != 1 || r->lex.token.kind != TOKEN_END)
+		return reader_fail_token(r, DIAG_SYNTAX);
+	*out = one.var[0];
+	return true;
+}

@@ -169,6 +169,8 @@ void read_types(struct reader *r);
 /** read_members - declarations of a structure, up to END_STRUCT. */
 void read_members(struct reader *r, struct var_table *table);
 void read_vars(struct reader *r, struct var_table *table, bool global);
+/** read_var - one declaration for a block with these flags, and its comment. */
+bool read_var(struct reader *r, uint8_t flags, struct var *out);
 struct rung *read_rung(struct reader *r);
 void read_il(struct reader *r, struct pou *pou);
 void read_config(struct reader *r, struct config *config);

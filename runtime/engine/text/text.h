@@ -64,6 +64,15 @@ void text_write_il(const struct project *project, const struct il *il,
 /** text_read_rung - from `RUNG …` rows; malloc'ed, the caller rung_free()s it. */
 struct rung *text_read_rung(struct project *project, const char *text, size_t len,
 			    struct diag_list *diags);
+/**
+ * text_read_var - one declaration, which becomes the last one of a block
+ * @pou:   whose, not one that has a frame (its variables are pins and sizes); NULL: global
+ * @block: of its table
+ *
+ * Takes back: vars_pop().   Fails: false; nothing but strings was added.
+ */
+bool text_read_var(struct project *project, struct pou *pou, int block,
+		   const char *text, size_t len, struct diag_list *diags);
 /** text_write_rung - canonical rows and head; malloc'ed, NULL: no memory. */
 char *text_write_rung(const struct project *project, const struct rung *rung);
 /** text_write_cell - `NO Open`, without comment; returns as snprintf. */
