@@ -12,9 +12,10 @@ const char *diag_said(const struct diag *diag);
 
 /**
  * diag_said_arg - what it speaks of: names of the user as they are, what the engine
- * expected or counted in the language of the session. Lives as long as @diag.
+ * expected, counted or says of them in the language of the session. Caller frees with
+ * g_free().
  */
-const char *diag_said_arg(const struct diag *diag);
+char *diag_said_arg(const struct diag *diag);
 
 /** diag_said_whole - "text: what", or the text alone. Caller frees with g_free(). */
 char *diag_said_whole(const struct diag *diag);

@@ -156,6 +156,33 @@ void document_move_bookmarks(LadderDocument *document, int pou, int from, int to
 	g_free(after);
 }
 
+/* ---- names of POUs ---- */
+
+char *document_pou_name(LadderDocument *document, int pou)
+{
+	return g_strdup(pou_name(document, pou));
+}
+
+static bool is_taken(LadderDocument *document, int pou, const char *name)
+{
+	const int pous = ladder_document_project(document)->pou_count;
+
+	for (int i = 0; i < pous; i++)
+		if (i != pou && g_ascii_strcasecmp(pou_name(document, i), name) == 0)
+			return true;
+	return false;
+}
+
+/* While somebody types, a name may be another's for a moment: that one keeps its own. */
+void document_follow_name(LadderDocument *document, int pou, const char *before)
+{
+	const char *now = pou_name(document, pou);
+
+	if (before && now && strcmp(before, now) != 0 && !is_taken(document, pou, before) &&
+	    !is_taken(document, pou, now))
+		ladder_document_rename_bookmarks(document, before, now);
+}
+
 /* ---- from outside ---- */
 
 void ladder_document_rename_bookmarks(LadderDocument *document, const char *from,

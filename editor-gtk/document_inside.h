@@ -55,6 +55,11 @@ void document_tell_variable(LadderDocument *document, int pou, const char *name,
 void document_report_lost(const char *what);
 /** document_apply_view - the VIEW part becomes another. */
 void document_apply_view(LadderDocument *document, const char *text);
+/** document_pou_name - of a POU now; NULL: there is none. Caller frees with g_free(). */
+char *document_pou_name(LadderDocument *document, int pou);
+/** document_follow_name - the text of a POU that was called @before may give it another
+ * name: its bookmarks follow. */
+void document_follow_name(LadderDocument *document, int pou, const char *before);
 /** document_shift_bookmarks - they follow rungs that were exchanged. */
 void document_shift_bookmarks(LadderDocument *document, int pou, int at, int removed,
 			      int inserted);

@@ -120,12 +120,18 @@ char *ladder_document_list(LadderDocument *document, int pou)
 bool ladder_document_put_list(LadderDocument *document, int pou, const char *text)
 {
 	char *before = ladder_document_list(document, pou);
+	char *name = document_pou_name(document, pou);
 	bool same = before && strcmp(before, text) == 0;
 
-	if (before && !same)
+	if (before && !same) {
+		ladder_document_begin(document, _("Type text"), NULL);
 		document_record(document, change_new(CHANGE_LIST, pou, 0,
 					    document_one_text(before, strlen(before)),
 					    document_one_text(text, strlen(text))));
+		document_follow_name(document, pou, name);
+		ladder_document_end(document);
+	}
+	g_free(name);
 	g_free(before);
 	return before;
 }

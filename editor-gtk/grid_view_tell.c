@@ -64,15 +64,15 @@ static void add_faults(LadderGridView *view, GString *text, int rung, int row, i
 	for (guint i = 0; i < view->marks->len; i++) {
 		const struct sheet_mark *mark =
 			&g_array_index(view->marks, struct sheet_mark, i);
-		char *line;
+		char *line, *said;
 
 		if (mark->rung != rung || mark->row != row || mark->col != col)
 			continue;
-		line = g_strdup_printf("%s: %s%s%s",
-			mark->marks == MARK_ERROR ? _("Error") : _("Warning"),
-			diag_said(mark->diag), mark->diag->arg[0] ? ": " : "",
-			diag_said_arg(mark->diag));
+		said = diag_said_whole(mark->diag);
+		line = g_strdup_printf("%s: %s", mark->marks == MARK_ERROR ? _("Error") :
+				       _("Warning"), said);
 		add_line(text, line);
+		g_free(said);
 		g_free(line);
 	}
 }

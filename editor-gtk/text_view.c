@@ -249,8 +249,11 @@ static void mark(LadderTextView *view, const struct diag *diag, const struct fla
 
 static char *reason(const struct diag *diag)
 {
-	return g_strdup_printf("%s %s%s%s", diag_code(diag->id), diag_said(diag),
-			       diag->arg[0] ? ": " : "", diag_said_arg(diag));
+	char *said = diag_said_whole(diag);
+	char *text = g_strdup_printf("%s %s", diag_code(diag->id), said);
+
+	g_free(said);
+	return text;
 }
 
 /* Reasons of a line, one below the other; NULL: it is well. Caller frees. */

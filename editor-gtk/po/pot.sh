@@ -50,7 +50,8 @@ sed -n 's/^\t*\("[a-z ]*"\));$/N_(\1)/p' runtime/engine/text/read_array.c \
 
 # What was expected, or too many: arguments of messages, those of them that are words.
 $take -L C -k -kreader_fail_word:3 -kfail_word:3 -kfail_expected:2 -kreader_name:2 \
-	-o - runtime/engine/text/*.c runtime/engine/model/*.c 2>/dev/null |
+	-kil_need_bool:4 -kreport:4 -kreport_line:5 -o - \
+	runtime/engine/text/*.c runtime/engine/model/*.c runtime/engine/check/*.c 2>/dev/null |
 	msggrep --msgid -e '[a-z][a-z][a-z]' -o "$work/args.pot" -
 
 # The date would differ each time, and nothing reads it.

@@ -134,6 +134,35 @@ static void test_others(void)
 	CHECK(ends_with("  bookmark Pump 1 \"begin\"\n  bookmark Gone 7\nEND_VIEW\n"));
 }
 
+/* Its heading is a line of the list: who types another name there means the same POU. */
+static void test_list(void)
+{
+	char *list, *other;
+
+	open_text(sample);
+	ladder_document_toggle_bookmark(document, 0, 1);
+	ladder_document_toggle_bookmark(document, 1, 0);
+	list = ladder_document_list(document, 0);
+	other = g_strconcat("PROGRAM Pump", list + strlen("PROGRAM Main"), NULL);
+	CHECK(ladder_document_put_list(document, 0, other));
+	CHECK(ladder_document_is_bookmarked(document, 0, 1));
+	CHECK(ends_with("\nVIEW\n  bookmark Pump 2\n  bookmark Other 1\nEND_VIEW\n"));
+	ladder_document_undo(document);
+	CHECK_AS(ends_with("\nVIEW\n  bookmark Main 2\n  bookmark Other 1\nEND_VIEW\n"),
+		 "undone, in one step");
+	g_free(other);
+	/* For a moment two have one name: neither loses its own. */
+	other = g_strconcat("PROGRAM Other", list + strlen("PROGRAM Main"), NULL);
+	CHECK(ladder_document_put_list(document, 0, other));
+	CHECK(ladder_document_is_bookmarked(document, 1, 0));
+	CHECK(ladder_document_put_list(document, 0, list));
+	CHECK(ladder_document_is_bookmarked(document, 0, 1));
+	CHECK(ends_with("\nVIEW\n  bookmark Main 2\n  bookmark Other 1\nEND_VIEW\n"));
+	undo_all();
+	g_free(other);
+	g_free(list);
+}
+
 static void heard(void)
 {
 	told++;
@@ -147,6 +176,7 @@ int main(void)
 	test_set();
 	test_follow();
 	test_others();
+	test_list();
 	g_object_unref(document);
 	return tap_done();
 }

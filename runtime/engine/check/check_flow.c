@@ -28,7 +28,7 @@ bool il_check_flow(struct il_check *c, const struct il_line *line)
 		good = il_report_near(c, line, DIAG_NO_LABEL, &labels);
 	if (line->modifiers & MOD_C)
 		return il_need_result(c, line) &&
-		       il_need_bool(c, line, c->now, "result") && good;
+		       il_need_bool(c, line, c->now, "the result") && good;
 	if (line->op != OP_STP)
 		c->now.there = false;
 	return good;
@@ -50,7 +50,7 @@ static bool check_routine(struct il_check *c, int at, const struct pou *to)
 		return il_report(c, line, DIAG_NOT_SUBROUTINE, il_operand_text(c, line));
 	if (line->modifiers & MOD_C)
 		good = il_need_result(c, line) &&
-		       il_need_bool(c, line, c->now, "result");
+		       il_need_bool(c, line, c->now, "the result");
 	if (is_arg(c, at + 1))
 		good = il_report(c, &c->il->line[at + 1], DIAG_TOO_MANY_OPERANDS,
 				 scope_text(c->scope, c->il->line[at + 1].pin));
@@ -74,7 +74,7 @@ bool il_check_cal(struct il_check *c, int at)
 		return il_report(c, line, DIAG_NOT_INSTANCE, il_operand_text(c, line));
 	if (line->modifiers & MOD_C)
 		good = il_need_result(c, line) &&
-		       il_need_bool(c, line, c->now, "result");
+		       il_need_bool(c, line, c->now, "the result");
 	for (int i = at + 1; is_arg(c, i); i++)
 		good &= il_check_pin(c, scope_row(c->scope, m->word),
 				     &c->il->line[i]);

@@ -260,7 +260,7 @@ static bool check_store(struct il_check *c, const struct il_line *line)
 
 	if (!m || !il_need_result(c, line) || !can_write(c, line, m))
 		return false;
-	if (bits && (!il_need_bool(c, line, c->now, "result") ||
+	if (bits && (!il_need_bool(c, line, c->now, "the result") ||
 		     !il_need_bool(c, line, il_result_of(m), il_operand_text(c, line))))
 		return false;
 	return can_store(c, line, c->now, m->type);

@@ -22,7 +22,7 @@ static bool combine(struct il_check *c, const struct il_line *line, enum op op,
 
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
 	if (!il_is_bits(left) && !il_is_bits(right)) {
-		bool good = il_need_bool(c, line, left, "result");
+		bool good = il_need_bool(c, line, left, "the result");
 
 		good = il_need_bool(c, line, right, what) && good;
 		if (!good) /* goes with everything */
@@ -48,7 +48,7 @@ bool il_open_paren(struct il_check *c, const struct il_line *line, bool good)
 		.word = line->kind == IL_FN ? (enum word)line->word : 0,
 	};
 	if (line->kind == IL_OP && !il_is_bits(c->now) && !c->now.literal)
-		good = good && il_need_bool(c, line, c->now, "result");
+		good = good && il_need_bool(c, line, c->now, "the result");
 	c->now.there = false;
 	if (!line->operand)
 		return good;
@@ -109,7 +109,7 @@ static bool close_paren(struct il_check *c, int at, enum iec_type *common)
 		return close_function(c, at, c->opened[c->depth].left, right,
 				      common);
 	good = combine(c, line, (enum op)c->opened[c->depth].op,
-		       c->opened[c->depth].left, right, "result");
+		       c->opened[c->depth].left, right, "the result");
 	*common = c->now.type;
 	return good;
 }
@@ -128,5 +128,5 @@ bool il_check_not(struct il_check *c, const struct il_line *line)
 	if (good && il_is_bits(now))
 		return true;
 	c->now = (struct result){ .there = true, .type = IEC_BOOL };
-	return good && il_need_bool(c, line, now, "result");
+	return good && il_need_bool(c, line, now, "the result");
 }
