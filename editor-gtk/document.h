@@ -13,7 +13,7 @@
  *                        other numbers and places in memory, all else is as it was
  *   project-changed ()   anything may be another: names, POUs, all rungs
  *   list-changed (int pou)  the text of a list that cannot be read changed
- *   bookmarks-changed ()
+ *   bookmarks-changed ()  or something else of the VIEW part
  *   checked ()           ladder_document_diags() are new
  *   state-changed ()     saved or not, path, what Undo would undo
  */
@@ -145,6 +145,15 @@ bool ladder_document_next_bookmark(LadderDocument *document, int *pou, int *rung
 /** ladder_document_rename_bookmarks - a POU has another name; part of an open step. */
 void ladder_document_rename_bookmarks(LadderDocument *document, const char *from,
 				      const char *to);
+
+/* ---- the VIEW part: what the editor keeps in the file for itself ---- */
+
+/** ladder_document_view - VIEW … END_VIEW as it stands in the file; "": none. Borrowed
+ * until the next change. */
+const char *ladder_document_view(LadderDocument *document);
+/** ladder_document_set_view - another one takes its place; part of an open step. Each line
+ * belongs to who put it there: others' lines stay. Tells bookmarks-changed. */
+void ladder_document_set_view(LadderDocument *document, const char *view);
 
 /* ---- checks ---- */
 

@@ -193,6 +193,21 @@ void ladder_document_rename_bookmarks(LadderDocument *document, const char *from
 	shift_view(document, &shift);
 }
 
+const char *ladder_document_view(LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+
+	return project ? project_view(project) : "";
+}
+
+void ladder_document_set_view(LadderDocument *document, const char *view)
+{
+	char *before = view_text(document);
+
+	put_view(document, before, view);
+	g_free(before);
+}
+
 bool ladder_document_is_bookmarked(LadderDocument *document, int pou, int rung)
 {
 	const struct project *project = ladder_document_project(document);
