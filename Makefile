@@ -241,7 +241,7 @@ all: $(BUILD)/ladder-editor
 $(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 $(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 else
 all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
@@ -333,6 +333,7 @@ HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 $(BUILD)/unit/test_record $(BUILD)/unit/test_carry: $(RANDOM_O)
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
+$(BUILD)/tests/editor/test_sim_trace: $(RANDOM_O)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free,--wrap=mmap64,--wrap=munmap

@@ -7,6 +7,7 @@
 
 #include "editor-gtk/i18n.h"
 
+#include "engine/base/literal.h"
 #include "engine/trial/value.h"
 
 #include <string.h>
@@ -170,6 +171,19 @@ char *sim_value_text(enum iec_type type, union iec_value value)
 	return g_utf8_make_valid(text, -1);
 }
 
+/* 1m30s, -2.5s, 20ms: a literal but for its T#. */
+static bool time_read(const char *text, union iec_value *out)
+{
+	char *whole = strchr(text, '#') ? g_strdup(text) : g_strconcat("T#", text, NULL);
+	struct literal literal;
+	const bool good = literal_parse(whole, strlen(whole), &literal) == LITERAL_OK &&
+			  literal.type == IEC_TIME;
+
+	*out = literal.value;
+	g_free(whole);
+	return good;
+}
+
 bool sim_value_read(enum iec_type type, const char *text, struct iec_text *room,
 		    union iec_value *out)
 {
@@ -179,7 +193,8 @@ bool sim_value_read(enum iec_type type, const char *text, struct iec_text *room,
 
 	if (type == IEC_STRING && own[0] != '\'')
 		quoted = g_strdup_printf("'%s'", own);
-	good = value_parse(type, quoted ? quoted : own, strlen(quoted ? quoted : own), room,
+	good = (type == IEC_TIME && time_read(own, out)) ||
+	       value_parse(type, quoted ? quoted : own, strlen(quoted ? quoted : own), room,
 			   out, &why);
 	g_free(quoted);
 	g_free(own);

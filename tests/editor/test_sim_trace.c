@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_sim_trace - what the panel of a simulation shows is what `ladder trace` shows after the
+ * same clicks: every sample, and hundreds of random programs, with random clicks.
+ *
+ *   test_sim_trace [COUNT [SEED]]    so many random programs
+ *
+ * A click is one on a switch of the panel, or a value typed; what is compared is the text of
+ * the widgets. The trace is run by itself, from a script of the same clicks.
+ */
+#include "editor-gtk/sim_panel.h"
+#include "tests/editor/screen.h"
+#include "tests/tap.h"
+#include "tests/walker/random.h"
+
+#include "engine/trial/script.h"
+
+#include <adwaita.h>
+#include <stdlib.h>
+
+#define PROGRAMS 200
+#define STEPS 8
+#define TEXT_MAX (128 * 1024)
+
+static GtkWidget *window;
+static LadderDocument *document;
+static LadderSim *sim;
+static LadderSimPanel *panel;
+static guint64 compared, unseen;
+
+/* ---- the panel ---- */
+
+/* Turns until that scan is shown; false: it never is. */
+static bool wait_for(guint64 scan)
+{
+	const gint64 end = g_get_monotonic_time() + 20 * G_USEC_PER_SEC;
+
+	while (ladder_sim_twin(sim)->scan != scan && g_get_monotonic_time() < end)
+		g_main_context_iteration(NULL, TRUE);
+	while (g_main_context_iteration(NULL, FALSE))
+		;
+	return ladder_sim_twin(sim)->scan == scan;
+}
+
+/* A new reference; NULL: behind the last. */
+static LadderSimRow *row_at(guint at)
+{
+	return g_list_model_get_item(ladder_sim_panel_list(panel), at);
+}
+
+/* " Name=value" as a trace has it, of a text that a widget shows. */
+static void put(GString *out, const char *name, const char *pin, enum iec_type type,
+		const char *text)
+{
+	struct iec_text room;
+	union iec_value value;
+	char plain[IEC_VALUE_TEXT + 1];
+
+	if (!sim_value_read(type, text, &room, &value)) {
+		g_string_append_printf(out, " %s%s=?%s?", name, pin, text);
+		return;
+	}
+	iec_value_print(type, value, plain, sizeof(plain));
+	g_string_append_printf(out, " %s%s=%s", name, pin, plain);
+}
+
+static void put_row(GString *line, GString *columns, const LadderSimRow *row)
+{
+	const bool timer = row->group == SIM_TIMERS;
+	char *text = ladder_sim_panel_shown(panel, row), *slash;
+
+	if (!text && ladder_sim_panel_select(panel, row->name)) /* it is scrolled to */
+		text = ladder_sim_panel_shown(panel, row);
+	if (!text) {
+		unseen++;
+		return;
+	}
+	compared++;
+	slash = strstr(text, " / ");
+	if (row->kind != SIM_PRESET) {
+		g_string_append_printf(columns, " %s", row->name);
+		put(line, row->name, "", row->at.type, text);
+	} else {
+		*slash = '\0';
+		g_string_append_printf(columns, timer ? " %s.ET %s.PT" : " %s.CV %s.PV",
+				       row->name, row->name);
+		put(line, row->name, timer ? ".ET" : ".CV", row->at.type, text);
+		put(line, row->name, timer ? ".PT" : ".PV", row->preset.type, slash + 3);
+	}
+	g_free(text);
+}
+
+/* A line as the trace will have, of what all widgets show. */
+static void put_panel(GString *out, GString *columns)
+{
+	const struct twin *twin = ladder_sim_twin(sim);
+	LadderSimRow *row;
+
+	g_string_append_printf(out, "%d t=%.17g", (int)twin->scan, (double)twin->now_ns / 1e6);
+	for (guint i = 0; (row = row_at(i)) != NULL; i++) {
+		if (row->kind != SIM_HEADING)
+			put_row(out, columns, row);
+		g_object_unref(row);
+	}
+	g_string_append_c(out, '\n');
+}
+
+/* ---- clicks ---- */
+
+static bool can_be_set(const LadderSimRow *row)
+{
+	return row->kind != SIM_HEADING && row->kind != SIM_LAMP && !row->at.constant &&
+	       row->kind != SIM_PRESET && row->at.type != IEC_STRING;
+}
+
+/* A number that fits every type, or none. */
+static void click(struct random_source *random, const LadderSimRow *row, GString *script)
+{
+	union iec_value value = sim_row_value(row, sim, row->at);
+	char text[IEC_VALUE_TEXT + 1];
+
+	if (sim_row_is_bit(row)) {
+		g_string_append_printf(script, "%s=%d ", row->name, !value.i);
+		sim_row_press(row, sim);
+		sim_row_unpress(row, sim);
+		return;
+	}
+	if (iec_type_row(row->at.type)->class == CLASS_REAL)
+		value.r = random_below(random, 2000) / 8.0;
+	else
+		value.i = random_below(random, 100);
+	iec_value_print(row->at.type, value, text, sizeof(text));
+	g_string_append_printf(script, "%s=%s ", row->name, text);
+	sim_row_set(row, sim, row->at, value);
+}
+
+static void click_some(struct random_source *random, GString *script)
+{
+	const guint rows = g_list_model_get_n_items(ladder_sim_panel_list(panel));
+	guint at = rows ? random_below(random, rows) : 0;
+
+	for (guint n = random_below(random, 4); n && at < rows;
+	     n--, at += 1 + random_below(random, rows)) {
+		LadderSimRow *row = row_at(at);
+
+		if (can_be_set(row))
+			click(random, row, script);
+		g_object_unref(row);
+	}
+}
+
+static void move_some(struct random_source *random, GString *script, guint64 *scan)
+{
+	const guint scans = random_chance(random, 70) ? 1 : 1 + random_below(random, 60);
+
+	g_string_append_printf(script, ". x%u quiet\n", scans);
+	*scan += scans;
+	ladder_sim_scan(sim, (int)scans);
+}
+
+/* ---- the trace ---- */
+
+/* What `ladder trace` prints of the program that runs. Caller frees. */
+static char *trace_of(const char *script)
+{
+	const struct program *program = ladder_program(ladder_sim_ladder(sim));
+	void *memory = g_malloc0(image_memory_size(program));
+	struct sink_memory text;
+	struct sink sink;
+	struct diag_list diags;
+	struct resource resource;
+	struct trace trace;
+	char *out;
+
+	diag_init(&diags);
+	resource_init(&resource, program, memory);
+	sink_memory_init(&text);
+	sink = sink_to_memory(&text);
+	trace_init(&trace, &resource.image, &sink, TRACE_LINES, false);
+	script_run("clicks", script, strlen(script), ladder_sim_period(sim), &resource, &trace,
+		   &diags);
+	for (int i = 0; i < diags.count && diags.diag[i].id != DIAG_FAULT; i++)
+		printf("# %s\n", diags.diag[i].arg);
+	out = g_strdup(sink_memory_text(&text));
+	trace_free(&trace);
+	sink_memory_free(&text);
+	g_free(memory);
+	return out;
+}
+
+static void tell_difference(const char *what, const char *got, const char *want,
+			    const char *script)
+{
+	char **is = g_strsplit_set(got, " \n", -1), **ought = g_strsplit_set(want, " \n", -1);
+	guint i = 0;
+
+	while (is[i] && ought[i] && strcmp(is[i], ought[i]) == 0)
+		i++;
+	printf("# %s: the panel has %s, the trace %s\n", what, is[i] ? is[i] : "no more",
+	       ought[i] ? ought[i] : "no more");
+	is = (g_strfreev(is), g_strsplit(script, "\n", -1));
+	for (i = 1; is[0] && is[i]; i++)
+		printf("#   %s\n", is[i]);
+	g_strfreev(is);
+	g_strfreev(ought);
+}
+
+static bool is_running(void)
+{
+	return ladder_sim_twin(sim)->resource.state == STATE_RUN;
+}
+
+/* A remark that a program stopped is the trace's alone. */
+static void drop_remarks(char *trace)
+{
+	char *remark = strstr(trace, "\n# ");
+
+	if (remark)
+		remark[1] = '\0';
+}
+
+/* One program that runs: clicks, and what came of them. */
+static bool play(const char *what, guint64 seed)
+{
+	GString *got = g_string_new(NULL), *script = g_string_new(NULL);
+	GString *columns = g_string_new("@print");
+	struct random_source random;
+	guint64 scan = 0;
+	char *want;
+	bool same;
+
+	random_seed(&random, seed);
+	ladder_sim_reset(sim, false);
+	while (!is_running())
+		g_main_context_iteration(NULL, TRUE);
+	for (int i = 0; i < STEPS && is_running(); i++) {
+		click_some(&random, script);
+		move_some(&random, script, &scan);
+		if (!wait_for(scan))
+			break;
+		g_string_truncate(columns, strlen("@print"));
+		put_panel(got, columns);
+	}
+	g_string_append_c(columns, '\n');
+	g_string_prepend(script, columns->str);
+	want = trace_of(script->str);
+	drop_remarks(want);
+	same = strcmp(got->str, want) == 0;
+	if (!same)
+		tell_difference(what, got->str, want, script->str);
+	g_free(want);
+	g_string_free(columns, TRUE);
+	g_string_free(script, TRUE);
+	g_string_free(got, TRUE);
+	return same;
+}
+
+/* ---- programs ---- */
+
+/* 1: the same, 0: not, -1: not built. */
+static int play_text(const char *what, const char *text, gsize len, guint64 seed)
+{
+	int same;
+
+	ladder_sim_end(sim);
+	ladder_document_open_text(document, what, text, len, true);
+	if (!ladder_sim_begin(sim, NULL))
+		return -1;
+	while (g_main_context_iteration(NULL, FALSE))
+		;
+	gtk_test_widget_wait_for_draw(window);
+	same = play(what, seed);
+	return same;
+}
+
+static void test_samples(void)
+{
+	GDir *folder = g_dir_open("ladders", 0, NULL);
+	const char *name;
+	int count = 0;
+
+	while (folder && (name = g_dir_read_name(folder)) != NULL) {
+		char *path = g_build_filename("ladders", name, NULL), *text;
+		gsize len;
+
+		if (g_str_has_suffix(name, ".rung") &&
+		    g_file_get_contents(path, &text, &len, NULL)) {
+			count++;
+			CHECK_AS(play_text(path, text, len, 1) == 1, path);
+			g_free(text);
+		}
+		g_free(path);
+	}
+	if (folder)
+		g_dir_close(folder);
+	CHECK_AS(count > 5, "there are samples");
+}
+
+static void test_random(guint64 first, int count)
+{
+	struct random_program *program = g_new(struct random_program, 1);
+	char *text = g_malloc(TEXT_MAX), name[64];
+	int played = 0, bad = 0;
+
+	for (guint64 seed = first; played < count && seed < first + 10 * (guint64)count;
+	     seed++) {
+		random_make(program, seed);
+		g_snprintf(name, sizeof(name), "seed %" G_GUINT64_FORMAT, seed);
+		switch (play_text(name, text, random_print(program, text, TEXT_MAX), seed)) {
+		case 0: bad++; /* fall through */
+		case 1: played++; break;
+		default: break;
+		}
+	}
+	printf("# %d random programs\n", played);
+	CHECK_AS(played == count, "so many were built");
+	CHECK_AS(bad == 0, "random programs: the panel is the trace");
+	g_free(text);
+	g_free(program);
+}
+
+int main(int argc, char **argv)
+{
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	adw_init();
+	document = ladder_document_new();
+	sim = ladder_sim_new(document);
+	panel = LADDER_SIM_PANEL(ladder_sim_panel_new(sim));
+	window = gtk_window_new();
+	gtk_window_set_default_size(GTK_WINDOW(window), 290, 860);
+	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(panel));
+	gtk_window_present(GTK_WINDOW(window));
+	test_samples();
+	test_random(argc > 2 ? (guint64)atoll(argv[2]) : 1, argc > 1 ? atoi(argv[1]) : PROGRAMS);
+	printf("# %" G_GUINT64_FORMAT " texts of widgets compared, %" G_GUINT64_FORMAT
+	       " lines had none\n", compared, unseen);
+	CHECK_AS(compared > 1000 && unseen == 0, "the lines are in sight");
+	gtk_window_destroy(GTK_WINDOW(window));
+	g_object_unref(sim);
+	g_object_unref(document);
+	return tap_done();
+}
