@@ -85,7 +85,8 @@ static void draw_rails(const struct pen *pen)
 {
 	const struct rung_row *last = &pen->layout->row[pen->layout->rows - 1];
 	float width = pen->theme->rail_width, end = last->y + last->height;
-	bool live = pen->scene->live && !pen->rung->off;
+	bool live = pen->scene->live && !pen->rung->off &&
+		    !(pen->scene->state & RUNG_STILL);
 	enum stroke_style style = pen->rung->off ? STROKE_DASHED : STROKE_SOLID;
 
 	picture_line(pen->picture, live ? TOKEN_POWER : TOKEN_IDLE, style, width,

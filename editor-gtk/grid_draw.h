@@ -46,6 +46,7 @@ enum mark {
 	MARK_FOUND = 128,    /* by a search                                     */
 	MARK_TWICE = 256,    /* written elsewhere too: the last one wins          */
 	MARK_CHANGED = 512,  /* differs, in a comparison                        */
+	MARK_BLOCKS = 1024,  /* keeps power away; scene.note says why            */
 };
 struct grid_mark { int row, column; unsigned int marks; };
 
@@ -56,6 +57,7 @@ enum rung_state {
 	RUNG_ADDED = 8, RUNG_REMOVED = 16, RUNG_CHANGED = 32, /* in a comparison  */
 	RUNG_MARKED = 128,   /* a bookmark                                      */
 	RUNG_NO_GUTTER = 64, /* paper                                           */
+	RUNG_STILL = 256,    /* nothing is scanned: live, but no power anywhere  */
 };
 
 struct grid_scene {
@@ -69,6 +71,9 @@ struct grid_scene {
 	/** What stands below a coil on paper ("read in Main 3, 5"); NULL: nothing.
 	 * Owns: the caller of it, g_free. */
 	char *(*reference)(void *context, int row, int col);
+	/** What a MARK_BLOCKS says of (row, column); NULL: nothing. NULL instead of it:
+	 * none says anything. Owns: the callee. */
+	const char *(*note)(void *context, int row, int column);
 	void *context;
 };
 

@@ -65,6 +65,8 @@ static void draw_below(const struct pen *pen, int row, int col, float x, float r
 			 (up > RUNG_HALF ? -up - 4 : BELOW_BASELINE);
 	struct live_value value;
 
+	if (pen_note(pen, row, rung_layout_column(pen->layout, row, col)))
+		return; /* it stands there */
 	if (scene->live && scene->live->value &&
 	    scene->live->value(scene->live->context, row, col, &value)) {
 		pen_text(pen, TOKEN_ACCENT, LETTER_VALUE,

@@ -6,6 +6,7 @@
 #include "editor-gtk/grid_pen.h"
 
 #define INSET 3 /* below; above, Chinese names need the room */
+#define HATCH 9 /* px from line to line                      */
 
 unsigned int pen_marks(const struct pen *pen, int row, int column)
 {
@@ -20,6 +21,14 @@ unsigned int pen_marks(const struct pen *pen, int row, int column)
 	return marks;
 }
 
+const char *pen_note(const struct pen *pen, int row, int column)
+{
+	const struct grid_scene *scene = pen->scene;
+
+	return scene->note && pen_marks(pen, row, column) & MARK_BLOCKS ?
+	       scene->note(scene->context, row, column) : NULL;
+}
+
 static bool is_inside(const struct pen *pen, const struct grid_mark *mark)
 {
 	return mark->row >= 0 && mark->row < pen->layout->rows && mark->column >= 0 &&
@@ -32,6 +41,21 @@ static graphene_rect_t place_of(const struct pen *pen, const struct grid_mark *m
 
 	return GRAPHENE_RECT_INIT(rect.origin.x + 1, rect.origin.y,
 				  rect.size.width - 2, rect.size.height - INSET);
+}
+
+/* Slanting lines, faint enough for what stands upon them. */
+static void draw_hatch(const struct pen *pen, const graphene_rect_t *r)
+{
+	const float width = r->size.width, height = r->size.height;
+
+	for (float at = HATCH; at < width + height; at += HATCH) {
+		const float left = MAX(at - height, 0), right = MIN(at, width);
+
+		picture_line(pen->picture, TOKEN_BLOCKS, STROKE_SOLID, 1,
+			     r->origin.x + left, r->origin.y + at - left,
+			     r->origin.x + right, r->origin.y + at - right);
+		pen->picture->stroke[pen->picture->count - 1].alpha = 0.35f;
+	}
 }
 
 void grid_draw_grounds(const struct pen *pen)
@@ -49,6 +73,8 @@ void grid_draw_grounds(const struct pen *pen)
 				      r.origin.x, r.origin.y, r.size.width,
 				      r.size.height);
 		}
+		if (mark->marks & MARK_BLOCKS)
+			draw_hatch(pen, &r);
 		if (mark->marks & (MARK_CURSOR | MARK_SELECTED))
 			picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash,
 				     r.origin.x, r.origin.y, r.size.width, r.size.height);
@@ -56,12 +82,13 @@ void grid_draw_grounds(const struct pen *pen)
 }
 
 /* A letter on a small ground, its left upper corner at (x, y); returns its width. */
-static float badge(const struct pen *pen, const char *text, float x, float y)
+static float badge(const struct pen *pen, enum token ground, const char *text, float x,
+		   float y)
 {
 	struct lettered fits = lettering_fit(pen->drafting->lettering, LETTER_BADGE, text,
 					     -1, 0);
 
-	picture_fill(pen->picture, TOKEN_FORCE, 1, x, y, fits.width + 6, 13);
+	picture_fill(pen->picture, ground, 1, x, y, fits.width + 6, 13);
 	picture_text(pen->picture, TOKEN_BADGE, LETTER_BADGE, fits, x + 3, y + 10);
 	return fits.width + 6;
 }
@@ -87,7 +114,8 @@ static void mark_framed(const struct pen *pen, unsigned int marks, const struct 
 
 	mark_wrong(pen, marks, middle - 22, y + framed.up + 2, 44);
 	if (marks & (MARK_FORCED | MARK_TWICE))
-		badge(pen, marks & MARK_FORCED ? FORCED : TWICE, x, y - 15);
+		badge(pen, TOKEN_FORCE, marks & MARK_FORCED ? FORCED : TWICE, x,
+		      y - 15);
 }
 
 /* Behind the address if there is room, else below the wire. */
@@ -109,11 +137,11 @@ static void mark_element(const struct pen *pen, unsigned int marks, int row, int
 	bool fits = address > 0 && behind + 13 < r->origin.x + r->size.width;
 	mark_wrong(pen, marks, middle - 22, y + RUNG_HALF + 2, 44);
 	if (marks & MARK_FORCED && fits)
-		badge(pen, FORCED, behind, y - 28);
+		badge(pen, TOKEN_FORCE, FORCED, behind, y - 28);
 	else if (marks & MARK_FORCED)
-		badge(pen, FORCED, middle + half + 3, y + 1.5f);
+		badge(pen, TOKEN_FORCE, FORCED, middle + half + 3, y + 1.5f);
 	if (marks & MARK_TWICE)
-		badge(pen, TWICE, middle + half + 3, y - 15);
+		badge(pen, TOKEN_FORCE, TWICE, middle + half + 3, y - 15);
 }
 
 /* Those of a box stand below it. */
@@ -132,9 +160,22 @@ static void mark_box(const struct pen *pen, unsigned int marks, int row, int col
 		x += 38;
 	}
 	if (marks & MARK_FORCED)
-		x += badge(pen, FORCED, x, y) + 2;
+		x += badge(pen, TOKEN_FORCE, FORCED, x, y) + 2;
 	if (marks & MARK_TWICE)
-		badge(pen, TWICE, x, y);
+		badge(pen, TOKEN_FORCE, TWICE, x, y);
+}
+
+/* Where else its value would be. */
+static void draw_note(const struct pen *pen, const struct grid_mark *mark,
+		      const graphene_rect_t *r)
+{
+	const char *note = pen_note(pen, mark->row, mark->column);
+	struct lettered fits = lettering_fit(pen->drafting->lettering, LETTER_BADGE, note,
+					     -1, r->size.width - 10);
+
+	badge(pen, TOKEN_BLOCKS, fits.text,
+	      r->origin.x + (r->size.width - fits.width) / 2 - 3,
+	      r->origin.y + r->size.height - 17);
 }
 
 static void draw_frames(const struct pen *pen, const struct grid_mark *mark,
@@ -146,6 +187,9 @@ static void draw_frames(const struct pen *pen, const struct grid_mark *mark,
 	if (mark->marks & MARK_DROP)
 		picture_frame(pen->picture, TOKEN_ACCENT, STROKE_DASHED, 1.5f,
 			      r->origin.x, r->origin.y, r->size.width, r->size.height);
+	if (mark->marks & MARK_BLOCKS)
+		picture_frame(pen->picture, TOKEN_BLOCKS, STROKE_SOLID, 2, r->origin.x,
+			      r->origin.y, r->size.width, r->size.height);
 	if (mark->marks & MARK_CHANGED)
 		picture_frame(pen->picture, TOKEN_FORCE, STROKE_DOTTED, 1.5f, r->origin.x,
 			      r->origin.y, r->size.width, r->size.height);
@@ -168,7 +212,9 @@ void grid_draw_marks(const struct pen *pen)
 		else
 			mark_element(pen, mark->marks, mark->row, col, &r);
 		if (mark->marks & MARK_CHANGED)
-			badge(pen, "\xe2\x89\xa0", r.origin.x + 1,
+			badge(pen, TOKEN_FORCE, "\xe2\x89\xa0", r.origin.x + 1,
 			      r.origin.y + r.size.height - 14);
+		if (pen_note(pen, mark->row, mark->column))
+			draw_note(pen, mark, &r);
 	}
 }

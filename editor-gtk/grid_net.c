@@ -46,7 +46,7 @@ void grid_net_make(struct pen *pen)
 			if (is_wire(pen, row, col))
 				join(net, bar, bar - 1);
 		}
-	if (pen->scene->live)
+	if (pen->scene->live && !(pen->scene->state & RUNG_STILL))
 		live[0] = LIVE_KNOWN | LIVE_OUT;
 	for (int row = 0; row < rung->rows; row++)
 		for (int col = 0; col < rung->cols; col++) {

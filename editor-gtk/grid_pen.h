@@ -36,6 +36,9 @@ void pen_text(const struct pen *pen, enum token token, enum letter letter,
 /** pen_marks - those of (row, column). */
 unsigned int pen_marks(const struct pen *pen, int row, int column);
 
+/** pen_note - of a cell that blocks; NULL: none. */
+const char *pen_note(const struct pen *pen, int row, int column);
+
 /* The outline of an element: three characters of the catalogue. */
 struct glyph {
 	const char *strokes;    /* "|/|"                                          */

@@ -199,6 +199,7 @@ static void rungs_changed(LadderGridView *view, int pou, int at, int removed, in
 	if (pou != view->pou)
 		return;
 	forget_edit(view);
+	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	if (removed != inserted)
 		forget_before(view);
 	strips_splice(view, at, removed, inserted);
@@ -221,6 +222,8 @@ static void project_changed(LadderGridView *view)
 {
 	forget_edit(view);
 	forget_before(view);
+	live_forget_all(view);
+	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	strips_reset(view);
 	cursor_fit(view);
 	gtk_widget_queue_resize(GTK_WIDGET(view));
@@ -480,6 +483,7 @@ static void ladder_grid_view_dispose(GObject *object)
 	LadderGridView *view = LADDER_GRID_VIEW(object);
 
 	entry_close(view);
+	live_clear(view);
 	cells_clear(view);
 	for (int i = 0; i < 2; i++) {
 		if (view->adjustment[i])
@@ -506,6 +510,7 @@ static void ladder_grid_view_finalize(GObject *object)
 	g_array_unref(view->strips);
 	g_array_unref(view->marks);
 	g_array_unref(view->cells);
+	g_clear_pointer(&view->live.blockers, g_array_unref);
 	G_OBJECT_CLASS(ladder_grid_view_parent_class)->finalize(object);
 }
 
@@ -549,6 +554,7 @@ static void ladder_grid_view_init(LadderGridView *view)
 	gtk_widget_set_focusable(GTK_WIDGET(view), TRUE);
 	gtk_widget_set_overflow(GTK_WIDGET(view), GTK_OVERFLOW_HIDDEN);
 	add_keys(view);
+	live_init(view);
 	mouse_init(view);
 	wire_init(view);
 	cells_init(view);

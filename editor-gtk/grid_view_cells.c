@@ -55,18 +55,19 @@ static void ladder_cell_init(LadderCell *cell)
 /* ---- names ---- */
 
 /* "Rung 3, contact, closed while TRUE: Start, %IX0.0". */
-static char *name_of(LadderGridView *view, int rung, const struct cell *cell)
+static char *name_of(LadderGridView *view, int rung, int row, int col,
+		     const struct cell *cell)
 {
 	const struct project *project = ladder_document_project(view->document);
-	const struct word_row *row = words_row(&project->words, (enum word)cell->word);
+	const struct word_row *word = words_row(&project->words, (enum word)cell->word);
 	const char *operand = project_text(project, cell->operand);
 	const struct grid_name name = grid_names_find(view->names, operand);
 	GString *text = g_string_new(NULL);
 
 	g_string_printf(text, _("Rung %d, %s"), rung + 1,
-			row->word[0] ? row->word : row->id);
-	if (words_explain(row)[0])
-		g_string_append_printf(text, ", %s", _(words_explain(row)));
+			word->word[0] ? word->word : word->id);
+	if (words_explain(word)[0])
+		g_string_append_printf(text, ", %s", _(words_explain(word)));
 	if (operand[0])
 		g_string_append_printf(text, ": %s", operand);
 	if (name.symbol[0] && g_ascii_strcasecmp(name.symbol, operand) != 0)
@@ -75,6 +76,7 @@ static char *name_of(LadderGridView *view, int rung, const struct cell *cell)
 		g_string_append_printf(text, ", %s", name.address);
 	if (cell->args)
 		g_string_append_printf(text, ", %s", project_text(project, cell->args));
+	act_said(view, rung, row, col, text);
 	return g_string_free(text, FALSE);
 }
 
@@ -90,7 +92,7 @@ static void use_widget(LadderGridView *view, guint index, int rung, int row, int
 		       const struct cell *cell)
 {
 	struct cell_widget *slot;
-	char *name = name_of(view, rung, cell);
+	char *name = name_of(view, rung, row, col, cell);
 	bool selected;
 
 	if (index >= view->cells->len) {

@@ -8,7 +8,9 @@
 #include "editor-gtk/grid_draw.h"
 #include "editor-gtk/grid_edit.h"
 #include "editor-gtk/grid_view.h"
+#include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/live_map.h"
 
 #include "engine/view/xref.h"
 
@@ -19,6 +21,26 @@ struct strip {
 	GskRenderNode *node;        /* NULL: to be drawn                       */
 	float y, height;            /* px at 100 %                             */
 	bool measured;              /* the height is no guess                  */
+	struct live_rung *live;     /* NULL: not yet, or nothing runs           */
+	guint looked;               /* sheet_live.stamp when it was looked at   */
+};
+
+/* What runs, and what of it is shown. */
+struct sheet_live {
+	LadderSim *sim;             /* NULL: none was given                    */
+	gulong handler[3];
+	struct live_map *map;       /* NULL: it is off, or not yet              */
+	char *instance;             /* chosen; NULL: the first one             */
+	guint stamp;                /* another one whenever values are          */
+	guint timer;                /* when something is new no more            */
+	guint say;                  /* when names of cells are told             */
+	guint drawn;                /* rungs, since the view was made           */
+	bool still;                 /* nothing is scanned                      */
+	guint ordered;              /* stamp when this was ordered: */
+	struct location ordered_at;
+	union iec_value ordered_value;
+	int blocked;                /* rung; -1: none                          */
+	GArray *blockers;           /* of struct grid_blocker, notes owned      */
 };
 
 /* A cell that assistive technology can name: a widget that draws nothing. */
@@ -77,6 +99,8 @@ struct _LadderGridView {
 	GtkWidget *entry;           /* the popup, while it is there            */
 	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
 	bool takes;                 /* the pointer went down on what can be dragged */
+	bool toggles;               /* and on what is toggled when it goes up   */
+	struct sheet_live live;
 	GtkIMContext *input;
 	gunichar key;               /* that input methods look at              */
 	bool plain;                 /* and made nothing else of                */
@@ -167,6 +191,48 @@ void entry_allocate(LadderGridView *view);
 
 /* ---- grid_view_tell.c ---- */
 void tell_init(LadderGridView *view);
+
+/* ---- grid_view_live.c ---- */
+void live_init(LadderGridView *view);
+void live_clear(LadderGridView *view);
+/** live_is_on - does something run, or stand, that can be shown? */
+bool live_is_on(LadderGridView *view);
+/** live_look - a rung that is laid out is looked at, if it was not since values changed.
+ * True: its drawing is not what it should be. */
+bool live_look(LadderGridView *view, int rung);
+/** live_rung_of - looked at; NULL: nothing runs, or the rung is being edited. */
+const struct live_rung *live_rung_of(LadderGridView *view, int rung);
+/** live_forget - the places of a strip are others, or not needed. */
+void live_forget(struct strip *strip);
+/** live_forget_all - those of all, and names. */
+void live_forget_all(LadderGridView *view);
+/** live_marks - adds those of forces and blockers. */
+void live_marks(LadderGridView *view, int rung, GArray *marks);
+struct live_place { LadderGridView *view; int rung; };
+/** live_note - what a blocker says of a cell as shown; @place: struct live_place. NULL:
+ * nothing. */
+const char *live_note(void *place, int row, int column);
+
+/* ---- grid_view_act.c: what a person does to what runs ---- */
+void act_init(LadderGridView *view);
+/** act_is_click - is a point, px of the sheet at 100 %, on the shape or the name of the
+ * contact or coil at the cursor, and can that be toggled? */
+bool act_is_click(LadderGridView *view, float x, float y);
+/** act_click - toggles it. */
+void act_click(LadderGridView *view);
+/** act_forget - places are others: what is asked for is asked no more. */
+void act_forget(LadderGridView *view);
+/** act_do - a verb that means something else while it simulates; false: it does not. */
+bool act_do(LadderGridView *view, enum verb verb);
+/** act_menu - a section for the element at the cursor, empty while nothing runs. Caller
+ * unrefs. */
+GMenuModel *act_menu(LadderGridView *view);
+/** act_keys - adds what keys do there; false: nothing. */
+bool act_keys(LadderGridView *view, GString *text);
+/** act_tip - adds what a cell of a rung holds. */
+void act_tip(LadderGridView *view, int rung, int row, int col, GString *text);
+/** act_said - adds ", on", ", forced" to what a cell is called. */
+void act_said(LadderGridView *view, int rung, int row, int col, GString *text);
 
 /* ---- grid_view_clipboard.c ---- */
 void clipboard_do(LadderGridView *view, enum verb verb);

@@ -64,11 +64,16 @@ static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 {
 	const GdkModifierType state = gtk_event_controller_get_current_event_state(
 		GTK_EVENT_CONTROLLER(gesture));
+	/* Of the sheet, since that may scroll to the cursor. */
+	const double at_x = (x + gtk_adjustment_get_value(view->adjustment[0])) / view->zoom;
+	const double at_y = (y + gtk_adjustment_get_value(view->adjustment[1])) / view->zoom;
 	struct rung_hit hit;
 	const int rung = sheet_point(view, x, y, &hit);
 
 	gtk_widget_grab_focus(GTK_WIDGET(view));
-	view->takes = false;
+	view->press_x = x;
+	view->press_y = y;
+	view->takes = view->toggles = false;
 	wire_forget(view);
 	if (rung < 0)
 		return;
@@ -77,7 +82,9 @@ static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 			   state & GDK_SHIFT_MASK);
 		view->takes = !(state & GDK_SHIFT_MASK) && !wire_press(view, x, y) &&
 			      cursor_cell(view, NULL, NULL);
-		if (count == 2)
+		view->toggles = view->takes &&
+			act_is_click(view, (float)at_x, (float)at_y);
+		if (count == 2 && !view->toggles)
 			ladder_grid_view_do(view, VERB_enter);
 		return;
 	}
@@ -88,12 +95,25 @@ static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 		ladder_grid_view_do(view, VERB_rung_title);
 }
 
+/* Not when it is pressed: it may be dragged. */
+static void released(GtkGestureClick *gesture, int count, double x, double y,
+		     LadderGridView *view)
+{
+	(void)gesture;
+	(void)count;
+	if (view->toggles &&
+	    !gtk_drag_check_threshold(GTK_WIDGET(view), (int)view->press_x,
+				      (int)view->press_y, (int)x, (int)y))
+		act_click(view);
+	view->toggles = false;
+}
+
 /* Sections; with a name, they open at the side. */
 static const struct {
 	const char *name;
 	enum verb verb[14];
 } menu_parts[] = {
-	{ NULL, { VERB_enter, VERB_negate, VERB_cycle, VERB_comment, VERB_COUNT } },
+	{ NULL, { VERB_edit_operand, VERB_negate, VERB_cycle, VERB_comment, VERB_COUNT } },
 	{ N_("Put here"), { VERB_contact, VERB_contact_not, VERB_coil, VERB_block,
 		VERB_parallel, VERB_parallel_not, VERB_add_pin, VERB_COUNT } },
 	{ N_("Wires"), { VERB_wire_left, VERB_wire_right, VERB_wire_up, VERB_wire_down,
@@ -109,10 +129,13 @@ static const struct {
 	{ NULL, { VERB_go_coil, VERB_show_uses, VERB_rename, VERB_COUNT } },
 };
 
-static GMenu *make_menu(void)
+static GMenu *make_menu(LadderGridView *view)
 {
 	GMenu *menu = g_menu_new();
+	GMenuModel *live = act_menu(view);
 
+	g_menu_append_section(menu, NULL, live);
+	g_object_unref(live);
 	for (gsize i = 0; i < G_N_ELEMENTS(menu_parts); i++) {
 		GMenu *part = g_menu_new();
 
@@ -139,11 +162,13 @@ static void closed(GtkPopover *popover)
 static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
 		      LadderGridView *view)
 {
-	GMenu *menu = make_menu();
-	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
 	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
+	GtkWidget *popover;
+	GMenu *menu;
 
 	pressed(gesture, MIN(count, 1), x, y, view);
+	menu = make_menu(view);
+	popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
 	gtk_widget_set_parent(popover, GTK_WIDGET(view));
 	gtk_popover_set_pointing_to(GTK_POPOVER(popover), &at);
 	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
@@ -426,6 +451,7 @@ static void add_clicks(LadderGridView *view)
 	GtkGesture *drag = gtk_gesture_drag_new();
 
 	g_signal_connect(click, "pressed", G_CALLBACK(pressed), view);
+	g_signal_connect(click, "released", G_CALLBACK(released), view);
 	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(click));
 	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(menu), GDK_BUTTON_SECONDARY);
 	g_signal_connect(menu, "pressed", G_CALLBACK(show_menu), view);

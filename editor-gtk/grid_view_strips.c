@@ -45,6 +45,7 @@ static void forget_drawing(struct strip *strip)
 static void forget(struct strip *strip)
 {
 	forget_drawing(strip);
+	live_forget(strip);
 	g_clear_pointer(&strip->layout, rung_layout_free);
 }
 
@@ -392,17 +393,40 @@ static void mark_checks(LadderGridView *view, int rung, GArray *marks)
 	}
 }
 
+/* Of a rung that is being edited nothing is known. */
+static struct grid_live live_of(LadderGridView *view, int rung, const struct strip *strip,
+				uint8_t **unknown)
+{
+	const struct rung *shown = sheet_rung(view, rung);
+
+	if (strip->live && shown != view->preview)
+		return (struct grid_live){ strip->live->bits, live_rung_value,
+					   strip->live };
+	*unknown = g_new0(uint8_t, shown->rows * shown->cols);
+	return (struct grid_live){ *unknown, NULL, NULL };
+}
+
 static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 {
 	GArray *marks = g_array_new(FALSE, FALSE, sizeof(struct grid_mark));
+	struct live_place place = { view, rung };
 	struct grid_scene scene = {
 		.drafting = &view->drafting, .layout = strip->layout,
-		.theme = theme_of(),
+		.theme = theme_of(), .note = live_note, .context = &place,
 		.state = rung == view->cursor.rung ? RUNG_CURRENT : 0,
 	};
+	struct grid_live live;
+	uint8_t *unknown = NULL;
 
+	live_look(view, rung);
+	if (live_is_on(view)) {
+		live = live_of(view, rung, strip, &unknown);
+		scene.live = &live;
+		scene.state |= view->live.still ? RUNG_STILL : 0;
+	}
 	mark_selection(view, rung, marks);
 	mark_checks(view, rung, marks);
+	live_marks(view, rung, marks);
 	if (rung == view->found.rung)
 		push_mark(marks, view->found.row, view->found.col, MARK_FOUND);
 	if (rung == view->drop.rung)
@@ -415,7 +439,9 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	scene.mark = (const struct grid_mark *)(void *)marks->data;
 	scene.mark_count = (int)marks->len;
 	strip->node = grid_draw_node(&scene);
+	view->live.drawn++;
 	g_array_unref(marks);
+	g_free(unknown);
 }
 
 void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot)
@@ -431,6 +457,8 @@ void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot)
 
 		if (strip->y * zoom > end)
 			break;
+		if (strip->layout && live_look(view, i))
+			forget_drawing(strip);
 		if (!strip->layout)
 			resize_later(view); /* and it will be drawn */
 		else if (!strip->node)

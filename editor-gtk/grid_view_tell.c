@@ -101,6 +101,7 @@ char *ladder_grid_view_tip(LadderGridView *view, int rung, int row, int col)
 			g_free(line);
 		}
 		add_comment(text, project_text(project, cell->comment));
+		act_tip(view, rung, row, col, text);
 	}
 	add_faults(view, text, rung, row, col);
 	return g_string_free(text, text->len == 0);
@@ -177,15 +178,20 @@ char *ladder_grid_view_keys(LadderGridView *view)
 	const struct cell *cell = cursor_cell(view, NULL, NULL);
 	GString *text = g_string_new(NULL);
 	const enum verb *verb;
+	bool live;
 
 	if (sheet_rungs(view) == 0)
 		return g_string_free(text, FALSE);
 	verb = verbs_of(view, cell);
+	live = act_keys(view, text);
 	if (!cell)
 		g_string_append(text, _("type a name or a word"));
 	for (int i = 0; i < VERBS_TOLD; i++) {
 		char *keys = verb_keys_label(verb[i]);
 
+		/* Those mean something else now. */
+		if (live && (verb[i] == VERB_cycle || verb[i] == VERB_enter))
+			keys[0] = '\0';
 		if (keys[0])
 			g_string_append_printf(text, "%s%s: %s", text->len ? " · " : "",
 					       keys, _(verb_row(verb[i])->label));

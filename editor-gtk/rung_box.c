@@ -14,6 +14,7 @@
 #define NAME_BOUND  140
 #define PADDING     6     /* between a side and what stands inside              */
 #define LEAST_INNER 70
+#define VALUE_INNER 86 /* "12.5/20.0 s" has room                          */
 #define LEAD        14    /* of a side with nothing connected                   */
 
 int rung_box_top(const struct project *project, const struct rung *rung, int row, int col)
@@ -147,7 +148,8 @@ static void measure(const struct drafting *drafting, struct rung_box *box)
 	float type = width_of(drafting, LETTER_TYPE, box->row->word, 2 * NAME_BOUND);
 	float value = box->in.value_width, result = box->out.value_width;
 
-	box->inner = MAX(MAX(names, type) + 2 * PADDING, LEAST_INNER);
+	box->inner = MAX(MAX(names, type) + 2 * PADDING,
+			 box->value ? VALUE_INNER : LEAST_INNER);
 	box->lead = value > 0 ? value + BOX_STUB + 10 : LEAD;
 	box->tail = result > 0 ? result + BOX_STUB + 10 : LEAD;
 	float body = box->lead + box->inner + box->tail;

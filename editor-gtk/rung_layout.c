@@ -310,3 +310,10 @@ graphene_rect_t rung_layout_number(const struct rung_layout *layout)
 {
 	return GRAPHENE_RECT_INIT(0, 0, RUNG_GUTTER, layout->height);
 }
+
+float rung_layout_label(const struct drafting *drafting, const struct cell *cell)
+{
+	const struct rung_label label = rung_label(drafting, cell);
+
+	return MAX(label.symbol.width, label.address.width);
+}

@@ -100,6 +100,9 @@ graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int 
 graphene_rect_t rung_layout_title(const struct rung_layout *layout);
 graphene_rect_t rung_layout_number(const struct rung_layout *layout);
 
+/** rung_layout_label - how wide what stands above an element is. */
+float rung_layout_label(const struct drafting *drafting, const struct cell *cell);
+
 enum rung_part {
 	RUNG_PART_NONE,
 	RUNG_PART_NUMBER,  /* the gutter                                        */

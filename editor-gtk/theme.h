@@ -33,7 +33,8 @@ enum token {
 	TOKEN_ERROR,
 	TOKEN_ACCENT,  /* cursor, selection, live numbers                      */
 	TOKEN_COMMENT, /* comments, addresses                                  */
-	TOKEN_BADGE,   /* text on a ground of TOKEN_FORCE                      */
+	TOKEN_BADGE,   /* text on a ground of TOKEN_FORCE or TOKEN_BLOCKS      */
+	TOKEN_BLOCKS,  /* what keeps power away                                */
 	/* Grounds and hairlines: decoration, nothing is told by them alone. */
 	TOKEN_GUTTER,  /* below the rung numbers                               */
 	TOKEN_LINE,    /* between rungs                                        */

@@ -6,7 +6,7 @@
 #define EDITOR_WINDOW_INSIDE_H
 
 #include "editor-gtk/file_view.h"
-#include "editor-gtk/grid_view.h"
+#include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/sim.h"
 #include "editor-gtk/window.h"

@@ -1,0 +1,177 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""live - the sheet while it simulates: contacts are pressed, wires are lit, values are forced."""
+import gettext
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import BUILD, ROOT, Editor, main, new_file, until  # noqa: E402
+
+POWER = {'light': '#0F8A4C', 'dark': '#33D17A'}
+FORCE = {'light': '#B35C00', 'dark': '#FFA348'}
+PROGRAM = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Stop AT %IX0.1 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Level : INT;
+END_VAR
+
+PROGRAM Main LD
+VAR
+  Delay : TON;
+END_VAR
+RUNG "Motor"
+  | NO Start | NC Stop | COIL Motor |
+  | NO Motor ^|
+RUNG "Delay"
+  | NO Motor | TON Delay PT:=T#500ms | [ Level > 500 ] | COIL %QX0.1 |
+END_PROGRAM
+'''
+
+
+def cell(editor, *parts):
+    """The element whose name has all these parts; waits for it."""
+    def look():
+        found = [node for node in editor.all('Rung ', 'table cell') if all(part in node.name for part in parts)]
+        return found[0] if found else None
+    return until(look, 'the element %s' % ', '.join(parts))
+
+
+def middle(editor, node):
+    """Where its contact or coil is; its wire is 46 px below its top."""
+    x, y, width, _ = editor.place(node)
+    return x + width // 2, y + 46
+
+
+def beside(editor, node):
+    """On its wire: the cursor goes there, and nothing else happens."""
+    x, y, _, _ = editor.place(node)
+    return x + 12, y + 46
+
+
+def pixels(editor, node, color):
+    """How many pixels of a colour the cell shows."""
+    x, y, width, height = editor.place(node)
+    picture = subprocess.run(['import', '-window', 'root', '-crop', '%dx%d+%d+%d' % (width, height, x, y),
+                              '-depth', '8', 'ppm:-'], capture_output=True, check=True).stdout
+    rgb = bytes(int(color[i:i + 2], 16) for i in (1, 3, 5))
+    body = picture[len(re.match(rb'P6\s+\d+\s+\d+\s+\d+\s', picture)[0]):]
+    return sum(body[i:i + 3] == rgb for i in range(0, len(body), 3))
+
+
+def motor(screen):
+    """the motor sample: contacts are pressed with the mouse, coil and wires are lit"""
+    path = os.path.join(screen.home, 'motor.rung')
+    shutil.copy(os.path.join(ROOT, 'ladders', 'motor.rung'), path)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('shift+F4', 'ctrl+r')  # all rungs are to be seen
+    editor.says('SIMULATION')
+    for name in 'StopOk', 'OverloadOk':
+        editor.click(middle(editor, cell(editor, 'Rung 1, NO', name, 'open')))
+        cell(editor, 'Rung 1, NO', name, 'closed')
+    coil = cell(editor, 'Rung 1, COIL', ', off')
+    assert pixels(editor, coil, POWER['light']) == 0
+    editor.shot('live-motor-off')
+    editor.keys('ctrl+r')  # the contactor must answer: nobody is quick enough
+    editor.says('PAUSE')
+    editor.click(middle(editor, cell(editor, 'Rung 1, P,', 'Start')))
+    editor.says('Start = TRUE')
+    editor.keys('ctrl+t')
+    coil = cell(editor, 'Rung 1, COIL', ', on')
+    assert pixels(editor, coil, POWER['light']) > 150, 'the coil and its wires are not lit'
+    editor.click(middle(editor, cell(editor, 'Rung 5, NO', 'Closed')))
+    editor.says('Closed = TRUE')
+    editor.keys('ctrl+r')
+    cell(editor, 'Rung 5, COIL', ', on')
+    editor.shot('live-motor-on')
+    editor.click(middle(editor, cell(editor, 'Rung 1, NO', 'StopOk')))
+    coil = cell(editor, 'Rung 1, COIL', ', off')
+    assert pixels(editor, coil, POWER['light']) < 150
+
+
+def force(screen):
+    """what is forced holds against the program, with a mark in the rung and the status bar"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    editor.click(beside(editor, cell(editor, 'Rung 1, NO', 'Start', 'open')))
+    editor.keys('space')
+    coil = cell(editor, 'Rung 1, COIL', ', on')
+    editor.click(beside(editor, coil))
+    editor.keys('ctrl+shift+f')
+    coil = cell(editor, 'Rung 1, COIL', ', on, forced')
+    assert pixels(editor, coil, FORCE['light']) > 60, 'no mark'
+    editor.says('1 force')
+    editor.keys('space')
+    coil = cell(editor, 'Rung 1, COIL', ', off, forced')
+    editor.shot('live-forced')
+    editor.keys('ctrl+shift+f')
+    cell(editor, 'Rung 1, COIL', 'Motor, %QX0.0, on')
+    assert not [node for node in editor.all('forced', 'table cell')]
+
+
+def numbers(screen):
+    """a number gets another value at its place; what is none is told"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    compare = cell(editor, 'Rung 2, [ ]', 'open')
+    x, y = middle(editor, compare)
+    editor.click((x, y), count=2)
+    editor.opened()
+    editor.type('99999')
+    editor.says('-32768')
+    editor.shot('live-set-wrong')
+    editor.keys('ctrl+a')
+    editor.entry('512')
+    editor.click(middle(editor, cell(editor, 'Rung 1, NO', 'Start')))
+    cell(editor, 'Rung 2, [ ]', 'closed')
+    cell(editor, 'Rung 2, COIL', ', on')
+    editor.shot('live-numbers')
+    before = open(path).read()
+    editor.keys('Home', 'shift+F5')  # and it can be edited meanwhile
+    editor.opened()
+    editor.entry('Stop')
+    editor.shot('live-edited')
+    assert open(path).read() == before
+
+
+class Chinese(Editor):
+    """The same, where what is looked for is said in Chinese."""
+
+    def __init__(self, screen, *files, **env):
+        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
+        super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
+
+    def all(self, name=None, *more, **named):
+        return super().all(name and self.said.gettext(name), *more, **named)
+
+
+def dark_and_small(screen):
+    """a small dark screen, in Chinese"""
+    path = new_file(screen, PROGRAM.replace('Start', '启动').replace('Stop', '停止').replace('Motor', '电机'))
+    editor = Chinese(screen, path, ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+    editor.to_sheet()
+    editor.keys('ctrl+r', 'ctrl+F4')
+    start = until(lambda: [node for node in editor.all(role='table cell') if '启动' in node.name], '启动')[0]
+    editor.click(middle(editor, start))
+    coil = until(lambda: [node for node in editor.all(role='table cell')
+                          if 'COIL' in node.name and node.name.endswith('接通')], 'the coil to be on')[0]
+    assert pixels(editor, coil, POWER['dark']) > 150
+    editor.click(beside(editor, coil))
+    editor.keys('ctrl+shift+f')
+    until(lambda: [node for node in editor.all(role='table cell') if node.name.endswith('已强制')], 'the mark')
+    editor.shot('live-dark-chinese')
+
+
+dark_and_small.size = '1024x700x24'
+main([motor, force, numbers, dark_and_small])

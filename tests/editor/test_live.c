@@ -1,0 +1,393 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_live - a sheet while it simulates: what it shows is what the program computed, only
+ * what changed is drawn, and what a person does reaches the program.
+ */
+#include "editor-gtk/grid_view_live.h"
+#include "editor-gtk/live_map.h"
+#include "tests/editor/screen.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\n"
+	"VAR\n"
+	"  Start AT %IX0.0 : BOOL;\n"
+	"  Stop AT %IX0.1 : BOOL;\n"
+	"  Motor AT %QX0.0 : BOOL;\n"
+	"  Fan AT %QX0.1 : BOOL;\n"
+	"  Level : INT;\n"
+	"  High : BOOL;\n"
+	"END_VAR\n"
+	"FUNCTION_BLOCK Latch LD\n"
+	"VAR_INPUT\n  On : BOOL;\nEND_VAR\n"
+	"VAR_OUTPUT\n  Out : BOOL;\nEND_VAR\n"
+	"RUNG\n  | NO On | COIL Out |\n"
+	"END_FUNCTION_BLOCK\n"
+	"PROGRAM Main LD\n"
+	"VAR\n  Run : TON;\n  First : Latch;\n  Second : Latch;\nEND_VAR\n"
+	"RUNG \"Motor\"\n"
+	"  | NO Start | NC Stop | COIL Motor |\n"
+	"  | NO Motor ^|\n"
+	"RUNG \"Fan\"\n  | NO Motor | TON Run PT:=T#5s | COIL Fan |\n"
+	"RUNG \"Level\"\n  | [ Level > 500 ] | COIL High |\n"
+	"RUNG \"One\"\n  | NO Start | Latch First |\n"
+	"RUNG \"Other\"\n  | NO Stop | Latch Second |\n"
+	"END_PROGRAM\n";
+
+static LadderDocument *document;
+static LadderSim *sim;
+static LadderGridView *view, *body;
+static GtkWidget *window, *stack;
+
+/* ---- waiting ---- */
+
+static void settle(void)
+{
+	while (g_main_context_iteration(NULL, FALSE))
+		;
+}
+
+static bool until(bool (*come)(void))
+{
+	const gint64 end = g_get_monotonic_time() + 30 * G_USEC_PER_SEC;
+
+	while (!come() && g_get_monotonic_time() < end)
+		if (!g_main_context_iteration(NULL, FALSE))
+			g_usleep(1000);
+	return come();
+}
+
+static guint64 scans_wanted;
+
+static bool has_scanned(void)
+{
+	return ladder_sim_twin(sim)->scan >= scans_wanted;
+}
+
+static void scan(int count)
+{
+	scans_wanted = ladder_sim_twin(sim)->scan + (guint64)count;
+	ladder_sim_scan(sim, count);
+	CHECK(until(has_scanned));
+}
+
+static GdkFrameClock *frames;
+static int drawn_frames;
+
+static void count_frame(void)
+{
+	drawn_frames++;
+}
+
+static bool has_drawn(void)
+{
+	return drawn_frames > 1;
+}
+
+/* All that is to be drawn is drawn. */
+static void draw(void)
+{
+	settle();
+	drawn_frames = 0;
+	gdk_frame_clock_begin_updating(frames);
+	until(has_drawn);
+	gdk_frame_clock_end_updating(frames);
+	settle();
+}
+
+/* ---- values ---- */
+
+static struct location find(const char *name)
+{
+	return image_find(&ladder_sim_twin(sim)->resource.image, name, strlen(name));
+}
+
+static gint64 value_of(const char *name)
+{
+	return image_get(&ladder_sim_twin(sim)->resource.image, find(name)).i;
+}
+
+static const char *wanted_name;
+static gint64 wanted_value;
+
+static bool has_value(void)
+{
+	return value_of(wanted_name) == wanted_value;
+}
+
+static bool comes(const char *name, gint64 value)
+{
+	wanted_name = name;
+	wanted_value = value;
+	return until(has_value);
+}
+
+static void set(const char *name, gint64 value)
+{
+	const struct act act = { .kind = ACT_SET, .at = find(name), .value.i = value };
+
+	ladder_sim_act(sim, &act);
+	CHECK(comes(name, value));
+}
+
+static unsigned int bits_of(LadderGridView *of, int rung, int row, int col)
+{
+	unsigned int bits = 0;
+	char text[48];
+
+	CHECK(ladder_grid_view_live(of, rung, row, col, &bits, text));
+	return bits;
+}
+
+/* But for what was new a moment ago. */
+static unsigned int steady(int rung, int row, int col)
+{
+	return bits_of(view, rung, row, col) & ~(unsigned int)LIVE_FRESH;
+}
+
+static const char *text_of(int rung, int row, int col)
+{
+	static char text[48];
+	unsigned int bits;
+
+	CHECK(ladder_grid_view_live(view, rung, row, col, &bits, text));
+	return text;
+}
+
+/* ---- tests ---- */
+
+/* Every cell of every rung says what resource_power() says. */
+static int differences(void)
+{
+	const struct resource *resource = &ladder_sim_twin(sim)->resource;
+	const struct pou *pou = &ladder_document_project(document)->pou[1];
+	int wrong = 0;
+
+	for (int r = 0; r < pou->rung_count; r++)
+		for (int row = 0; row < pou->rung[r]->rows; row++)
+			for (int col = 0; col < pou->rung[r]->cols; col++) {
+				bool in = false, out = false;
+				const bool known = resource_power(resource, 1,
+					(uint32_t)r + 1, (uint32_t)row + 1,
+					(uint32_t)col + 1, &in, &out);
+				unsigned int bits = 0;
+				char text[48];
+
+				ladder_grid_view_live(view, r, row, col, &bits, text);
+				wrong += known != !!(bits & LIVE_KNOWN) ||
+					 in != !!(bits & LIVE_IN) ||
+					 out != !!(bits & LIVE_OUT);
+			}
+	return wrong;
+}
+
+static void test_stop(void)
+{
+	CHECK(ladder_sim_begin(sim, NULL));
+	settle();
+	CHECK_AS(bits_of(view, 0, 0, 0) == 0, "nothing is known in STOP");
+	set("Start", 1);
+	CHECK_AS(steady(0, 0, 0) == LIVE_CLOSED, "but what is on");
+	set("Start", 0);
+}
+
+static void test_power(void)
+{
+	scan(1);
+	CHECK(differences() == 0);
+	CHECK(steady(0, 0, 0) == (LIVE_KNOWN | LIVE_IN));
+	set("Start", 1);
+	scan(1);
+	CHECK(differences() == 0);
+	CHECK(steady(0, 0, 0) ==
+	      (LIVE_KNOWN | LIVE_IN | LIVE_OUT | LIVE_CLOSED));
+	CHECK_AS(bits_of(view, 0, 0, 2) & LIVE_CLOSED, "the coil is on");
+	set("Start", 0);
+	scan(1);
+	CHECK(differences() == 0);
+	CHECK_AS(!(bits_of(view, 0, 0, 0) & LIVE_CLOSED) &&
+		 bits_of(view, 0, 0, 2) & LIVE_CLOSED, "it seals itself in");
+}
+
+static void test_values(void)
+{
+	CHECK_TEXT(text_of(1, 0, 1), "0.0/5.0 s");
+	scan(320);
+	CHECK_TEXT(text_of(1, 0, 1), "3.2/5.0 s");
+	CHECK_TEXT(text_of(2, 0, 0), "0 > 500");
+	set("Level", 512);
+	CHECK_TEXT(text_of(2, 0, 0), "512 > 500");
+	CHECK_TEXT(text_of(0, 0, 0), "");
+}
+
+static void test_bodies(void)
+{
+	set("Start", 1);
+	scan(1);
+	CHECK_TEXT(ladder_grid_view_instance(body), "First");
+	CHECK(bits_of(body, 0, 0, 0) & LIVE_OUT);
+	ladder_grid_view_set_instance(body, "Second");
+	CHECK_TEXT(ladder_grid_view_instance(body), "Second");
+	CHECK(!(bits_of(body, 0, 0, 0) & LIVE_OUT) && bits_of(body, 0, 0, 0) & LIVE_KNOWN);
+	set("Start", 0);
+	scan(1);
+}
+
+/* Of all rungs on the screen those are drawn of which something changed. */
+static void test_drawn(void)
+{
+	guint before;
+
+	g_usleep(1100000); /* nothing is new any more */
+	draw();
+	before = ladder_grid_view_drawn(view);
+	scan(1);
+	draw();
+	CHECK_AS(ladder_grid_view_drawn(view) <= before + 1, "at most the timer's");
+	before = ladder_grid_view_drawn(view);
+	set("Level", 3);
+	draw();
+	CHECK_AS(ladder_grid_view_drawn(view) == before + 1, "the rung with Level alone");
+	before = ladder_grid_view_drawn(view);
+	draw();
+	CHECK_AS(ladder_grid_view_drawn(view) == before, "nothing of what did not change");
+}
+
+static void test_keys(void)
+{
+	char *keys;
+
+	ladder_grid_view_go(view, 0, 0, 0);
+	keys = ladder_grid_view_keys(view);
+	CHECK_AS(g_str_has_prefix(keys, "Space: Toggle"), keys);
+	g_free(keys);
+	ladder_grid_view_do(view, VERB_cycle);
+	CHECK(comes("Start", 1));
+	ladder_grid_view_do(view, VERB_cycle);
+	ladder_grid_view_do(view, VERB_cycle);
+	ladder_grid_view_do(view, VERB_cycle);
+	CHECK_AS(comes("Start", 0), "each key counts, whether it was seen or not");
+	ladder_grid_view_go(view, 0, 0, 2);
+	ladder_grid_view_do(view, VERB_force);
+	scan(1);
+	CHECK(ladder_sim_is_forced(sim, find("Motor")) && value_of("Motor") == 1);
+	CHECK(bits_of(view, 0, 0, 2) & LIVE_FORCED && bits_of(view, 0, 1, 0) & LIVE_FORCED);
+	ladder_grid_view_do(view, VERB_cycle);
+	CHECK(comes("Motor", 0));
+	scan(2);
+	CHECK_AS(value_of("Motor") == 0, "held against the program");
+	ladder_grid_view_do(view, VERB_force);
+	scan(2);
+	CHECK(!ladder_sim_is_forced(sim, find("Motor")));
+	CHECK(!(bits_of(view, 0, 0, 2) & LIVE_FORCED));
+}
+
+static void test_tips(void)
+{
+	char *tip = ladder_grid_view_tip(view, 1, 0, 1);
+
+	CHECK(strstr(tip, "PT = 5.0 s"));
+	g_free(tip);
+	tip = ladder_grid_view_tip(view, 2, 0, 0);
+	CHECK(strstr(tip, "= 3 > 500"));
+	g_free(tip);
+}
+
+static int program_changes;
+
+static void program_changed(void)
+{
+	program_changes++;
+}
+
+static bool has_changed(void)
+{
+	return program_changes > 0;
+}
+
+/* An edited rung is not known until a program with it runs; the others stay. */
+static void test_edit(void)
+{
+	struct rung *edited = rung_copy(ladder_document_project(document)->pou[1].rung[0]);
+
+	g_signal_connect(sim, "program-changed", G_CALLBACK(program_changed), NULL);
+	rung_cell(edited, 0, 0)->word = ELEM_CONTACT_NC;
+	ladder_document_begin(document, "edit", NULL);
+	CHECK(ladder_document_put_rung(document, 1, 0, edited, NULL));
+	ladder_document_end(document);
+	CHECK_AS(!(bits_of(view, 0, 0, 0) & LIVE_KNOWN), "the edited rung");
+	CHECK_AS(bits_of(view, 1, 0, 0) & LIVE_KNOWN, "the one below it");
+	CHECK(until(has_changed));
+	scan(1);
+	CHECK(bits_of(view, 0, 0, 0) & LIVE_KNOWN);
+	CHECK(differences() == 0);
+}
+
+static void test_end(void)
+{
+	unsigned int bits;
+	char text[48];
+
+	ladder_sim_end(sim);
+	settle();
+	CHECK(!ladder_grid_view_live(view, 0, 0, 0, &bits, text));
+	ladder_grid_view_do(view, VERB_force); /* tells, and does nothing */
+}
+
+/* ---- a window ---- */
+
+static GtkWidget *sheet_of(int pou)
+{
+	GtkWidget *scroller = gtk_scrolled_window_new();
+	GtkWidget *sheet = ladder_grid_view_new(document, pou);
+
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
+	ladder_grid_view_set_sim(LADDER_GRID_VIEW(sheet), sim);
+	gtk_stack_add_named(GTK_STACK(stack), scroller, pou == 1 ? "main" : "body");
+	return sheet;
+}
+
+static void make_window(void)
+{
+	window = gtk_window_new();
+	stack = gtk_stack_new();
+	gtk_window_set_child(GTK_WINDOW(window), stack);
+	view = LADDER_GRID_VIEW(sheet_of(1));
+	body = LADDER_GRID_VIEW(sheet_of(0));
+	gtk_window_set_default_size(GTK_WINDOW(window), 1000, 860);
+	gtk_window_present(GTK_WINDOW(window));
+	frames = gtk_widget_get_frame_clock(window);
+	g_signal_connect(frames, "after-paint", G_CALLBACK(count_frame), NULL);
+	draw();
+}
+
+int main(void)
+{
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	adw_init();
+	document = ladder_document_new();
+	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
+	CHECK(ladder_document_project(document)->pou_count == 2);
+	sim = ladder_sim_new(document);
+	make_window();
+	test_stop();
+	test_power();
+	test_values();
+	test_bodies();
+	test_drawn();
+	test_keys();
+	test_tips();
+	test_edit();
+	test_end();
+	gtk_window_destroy(GTK_WINDOW(window));
+	settle();
+	g_object_unref(sim);
+	g_object_unref(document);
+	return tap_done();
+}
