@@ -205,7 +205,7 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 # files need none of them; nor do the tests of those, tests/editor/test_plain_*.c.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
-EDITOR_PLAIN := $(filter $(addprefix editor-gtk/,grid_edit.c grid_display.c grid_canvas.c grid_normalise.c grid_wire.c grid_line.c grid_branch.c grid_delete.c grid_pins.c grid_kind.c grid_block.c grid_drag.c entry.c entry_args.c entry_areas.c entry_candidates.c entry_expression.c entry_names.c entry_words.c text_lines.c),$(wildcard editor-gtk/*.c))
+EDITOR_PLAIN := $(filter $(addprefix editor-gtk/,grid_edit.c grid_display.c grid_canvas.c grid_normalise.c grid_wire.c grid_line.c grid_branch.c grid_delete.c grid_pins.c grid_kind.c grid_block.c grid_drag.c entry.c entry_args.c entry_areas.c entry_candidates.c entry_expression.c entry_names.c entry_words.c text_lines.c iomap_text.c iomap_edit.c iomap_uses.c iomap_check.c),$(wildcard editor-gtk/*.c))
 EDITOR_C := $(wildcard editor-gtk/*.c)
 EDITOR_TESTS_PLAIN := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/test_plain_*.c))
 EDITOR_TESTS := $(EDITOR_TESTS_PLAIN)
@@ -217,7 +217,7 @@ $(EDITOR_TESTS_PLAIN): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor-plain.a $(BUI
 ifneq ($(EDITOR),)
 # Their headers are not ours to warn about.
 EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags gtk4 libadwaita-1 gtksourceview-5)) -I$(BUILD)
-EDITOR_LIB := $(shell $(PKG_CONFIG) --libs gtk4 libadwaita-1 gtksourceview-5)
+EDITOR_LIB := $(shell $(PKG_CONFIG) --libs gtk4 libadwaita-1 gtksourceview-5) $(GPIO_LIB)
 EDITOR_TESTS += $(patsubst %.c,$(BUILD)/%,$(filter-out tests/editor/test_plain_%,$(wildcard tests/editor/test_*.c)))
 EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
@@ -238,10 +238,10 @@ $(BUILD)/libeditor.a: $(EDITOR_OBJ)
 	@rm -f $@
 	$(AR) rcs $@ $^
 all: $(BUILD)/ladder-editor
-$(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
-$(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+$(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+$(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 else
 all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
@@ -303,8 +303,8 @@ screenshots: $(BUILD)/ladder-editor $(BUILD)/schemas/gschemas.compiled ## docs/e
 editor-tests: $(EDITOR_TESTS) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
 	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
 $(BUILD)/tests/bench/editor.o: CPPFLAGS += $(EDITOR_CPP)
-$(BUILD)/tests/bench/editor: $(BUILD)/tests/bench/editor.o $(BUILD)/libeditor.a $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+$(BUILD)/tests/bench/editor: $(BUILD)/tests/bench/editor.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## what drawing 5,000 rungs costs, and the whole editor with them
 	@perl tests/bench/programs.pl mixed 5000 >$(BUILD)/bench-editor.rung
 	@$(EDITOR_BENCH)

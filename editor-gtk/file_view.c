@@ -6,6 +6,7 @@
 
 #include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/iomap_view.h"
 
 #include <gio/gio.h>
 #include <gtksourceview/gtksource.h>
@@ -18,6 +19,7 @@ struct _LadderFileView {
 	char *path;
 	char *read;         /* what stood in it when it was read or saved      */
 	GtkTextBuffer *buffer;
+	GtkWidget *map;     /* the table of an I/O map; NULL: it is none       */
 };
 
 G_DEFINE_FINAL_TYPE(LadderFileView, ladder_file_view, GTK_TYPE_BOX)
@@ -26,6 +28,8 @@ static guint state_changed; /* signal */
 
 bool ladder_file_view_is_saved(LadderFileView *view)
 {
+	if (view->map)
+		ladder_iomap_view_commit(LADDER_IOMAP_VIEW(view->map));
 	return !gtk_text_buffer_get_modified(view->buffer);
 }
 
@@ -67,6 +71,11 @@ bool ladder_file_view_save(LadderFileView *view, GError **error)
 	}
 	g_free(text);
 	return good;
+}
+
+const char *ladder_file_view_path(LadderFileView *view)
+{
+	return view->path;
 }
 
 char *ladder_file_view_name(LadderFileView *view)
@@ -154,7 +163,15 @@ static GtkWidget *text_widget(LadderFileView *view, const char *name)
 	return text;
 }
 
-GtkWidget *ladder_file_view_new(const char *path, GError **error)
+static void set_text(GtkTextBuffer *buffer, const char *text)
+{
+	gtk_text_buffer_begin_irreversible_action(buffer);
+	gtk_text_buffer_set_text(buffer, text, -1);
+	gtk_text_buffer_end_irreversible_action(buffer);
+	gtk_text_buffer_set_modified(buffer, FALSE);
+}
+
+GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GError **error)
 {
 	char *text = text_of(path, error), *name;
 	GtkWidget *scroller;
@@ -169,11 +186,10 @@ GtkWidget *ladder_file_view_new(const char *path, GError **error)
 	gtk_widget_set_vexpand(scroller, TRUE);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller),
 				      text_widget(view, name));
-	gtk_box_append(GTK_BOX(view), scroller);
-	gtk_text_buffer_begin_irreversible_action(view->buffer);
-	gtk_text_buffer_set_text(view->buffer, text, -1);
-	gtk_text_buffer_end_irreversible_action(view->buffer);
-	gtk_text_buffer_set_modified(view->buffer, FALSE);
+	set_text(view->buffer, text);
+	if (g_str_has_suffix(name, ".io"))
+		view->map = ladder_iomap_view_new(view->buffer, scroller, document);
+	gtk_box_append(GTK_BOX(view), view->map ? view->map : scroller);
 	g_free(name);
 	view->read = text;
 	return GTK_WIDGET(view);

@@ -9,14 +9,19 @@
 #ifndef EDITOR_FILE_VIEW_H
 #define EDITOR_FILE_VIEW_H
 
+#include "editor-gtk/document.h"
+
 #include <gtk/gtk.h>
 #include <stdbool.h>
 
 #define LADDER_TYPE_FILE_VIEW (ladder_file_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderFileView, ladder_file_view, LADDER, FILE_VIEW, GtkBox)
 
-/** ladder_file_view_new - NULL: it cannot be read, or is no text; @error says why. */
-GtkWidget *ladder_file_view_new(const char *path, GError **error);
+/** ladder_file_view_new - NULL: it cannot be read, or is no text; @error says why. An I/O
+ * map is shown as a table, too; @document: whose inputs and outputs it maps. */
+GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GError **error);
+/** ladder_file_view_path - Borrowed. */
+const char *ladder_file_view_path(LadderFileView *view);
 /** ladder_file_view_save - false: it cannot be written, or somebody else changed it, and
  * @error says so; the text stays. Saved again, it is written over the other's. */
 bool ladder_file_view_save(LadderFileView *view, GError **error);

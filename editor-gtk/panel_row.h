@@ -9,7 +9,7 @@
 #include <gio/gio.h>
 #include <stdbool.h>
 
-#define PANEL_TEXTS 10
+#define PANEL_TEXTS 12
 
 enum panel_tone { PANEL_PLAIN, PANEL_WARNING, PANEL_ERROR };
 

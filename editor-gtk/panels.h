@@ -14,6 +14,8 @@
 
 /** ladder_project_tree_new - programs, blocks, symbols, files of a project. */
 GtkWidget *ladder_project_tree_new(LadderDocument *document);
+/** ladder_project_tree_look - at the files beside the project: there may be another. */
+void ladder_project_tree_look(GtkWidget *tree);
 /** ladder_code_view_new - the instruction list that a program becomes; the one that
  * ladder_code_view_set_pou() says. */
 GtkWidget *ladder_code_view_new(LadderDocument *document);

@@ -349,6 +349,7 @@ static GMenu *menu_model(void)
 		{ N_("New function"), "tree.add::FUNCTION LD" },
 		{ N_("New subroutine"), "tree.add::SUBROUTINE LD" },
 		{ N_("Import from another project…"), "tree.import" },
+		{ N_("New I/O map…"), "win.new_iomap" },
 		{ N_("Rename…"), "tree.rename" },
 		{ N_("Delete"), "tree.delete" },
 	};
@@ -547,6 +548,11 @@ static void make_list(struct tree *tree)
 	gtk_accessible_update_property(GTK_ACCESSIBLE(tree->list),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Project"), -1);
 	g_signal_connect_swapped(tree->list, "activate", G_CALLBACK(activated), tree);
+}
+
+void ladder_project_tree_look(GtkWidget *box)
+{
+	fill(g_object_get_data(G_OBJECT(box), "tree"));
 }
 
 GtkWidget *ladder_project_tree_new(LadderDocument *document)

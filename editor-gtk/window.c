@@ -105,8 +105,10 @@ static char *short_path(const char *path)
 void window_show_state(LadderWindow *window)
 {
 	LadderDocument *document = window->document;
-	const char *undo = ladder_document_undo_name(document);
-	const char *redo = ladder_document_redo_name(document);
+	/* A file beside the project has an undo of its own. */
+	const bool file = tabs_file(window) != NULL;
+	const char *undo = file ? NULL : ladder_document_undo_name(document);
+	const char *redo = file ? NULL : ladder_document_redo_name(document);
 	const char *path = ladder_document_path(document);
 	char *name = ladder_document_name(document);
 	char *title = g_strdup_printf("%s%s",
@@ -118,8 +120,8 @@ void window_show_state(LadderWindow *window)
 	adw_window_title_set_subtitle(window->title, place);
 	g_free(place);
 	gtk_window_set_title(GTK_WINDOW(window), title);
-	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.undo", undo != NULL);
-	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.redo", redo != NULL);
+	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.undo", file || undo);
+	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.redo", file || redo);
 	name_button(window->undo_button, _("Undo"), undo);
 	name_button(window->redo_button, _("Redo"), redo);
 	g_free(title);

@@ -115,6 +115,10 @@ void window_sim_init(LadderWindow *window);
 /** window_sim - the verbs of the simulation; false: it is none of them. */
 bool window_sim(LadderWindow *window, enum verb verb);
 
+/* ---- window_board.c ---- */
+/** window_new_iomap - asks for a file, and opens it: a point for all that is used. */
+void window_new_iomap(LadderWindow *window);
+
 /* ---- window_paper.c ---- */
 void window_print(LadderWindow *window);
 void window_export_pdf(LadderWindow *window);

@@ -166,6 +166,7 @@ static void page_selected(LadderWindow *window)
 	LadderGridView *sheet = tabs_sheet(window);
 
 	show_place(window);
+	window_show_state(window);
 	ladder_window_tell(window, "");
 	if (!sheet)
 		return;
@@ -276,7 +277,8 @@ void tabs_show_file(LadderWindow *window, const char *path)
 	char *key = g_strdup_printf(" file %s", path), *title = g_path_get_basename(path);
 	AdwTabPage *page = find_page(window, key);
 	GError *error = NULL;
-	GtkWidget *view = page ? NULL : ladder_file_view_new(path, &error);
+	GtkWidget *view = page ? NULL : ladder_file_view_new(path, window->document,
+									 &error);
 
 	if (view) {
 		page = add_page(window, view, key, title, false);

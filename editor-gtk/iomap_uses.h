@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * iomap_uses - which inputs and outputs a program has, bit by bit, and what it calls them.
+ *
+ * Bits only: words have no pin of their own. No toolkit.
+ */
+#ifndef EDITOR_IOMAP_USES_H
+#define EDITOR_IOMAP_USES_H
+
+#include "engine/base/arena.h"
+#include "engine/model/project.h"
+
+struct io_use {
+	struct iec_addr addr;
+	const char *name;    /* of its variable; "" if there is none           */
+	const char *comment; /* of that, with its delimiters; ""                */
+};
+
+struct io_uses {
+	struct arena arena;
+	struct io_use *use;  /* inputs first, by address, each once            */
+	int count;
+};
+
+/** io_uses_make - of @project, which may have errors; only its table of names grows
+ * Owns: io_uses_free(), always.   Fails: false: no memory. */
+bool io_uses_make(struct io_uses *out, struct project *project);
+void io_uses_free(struct io_uses *uses);
+/** io_uses_find - NULL: the program does not have it. */
+const struct io_use *io_uses_find(const struct io_uses *uses, struct iec_addr addr);
+
+#endif

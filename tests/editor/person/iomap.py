@@ -1,0 +1,151 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""iomap - a person edits an I/O map as a table, and runs a program with it on this machine."""
+import os
+import shutil
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import ROOT, Editor, main, until  # noqa: E402
+
+MAP = '''BOARD "Garage"
+# Inputs: a contact to ground.
+
+%IX0.0  sim  pull-up active-low   # the button
+%IX0.1  gpio  line=GPIO5 debounce=5 years
+%QX0.0  sim  safe=0   # up
+'''
+
+
+def garage(screen, text=MAP):
+    """The garage door in a folder of its own, with a map; the paths of both."""
+    path = os.path.join(screen.home, 'garage-door.rung')
+    io = os.path.join(screen.home, 'garage.io')
+    shutil.copy(os.path.join(ROOT, 'ladders', 'garage-door.rung'), path)
+    with open(io, 'w') as file:
+        file.write(text)
+    return path, io
+
+
+def open_map(editor, name='garage.io'):
+    editor.click(editor.find(name, 'label'), count=2)
+    editor.find('Name of the board')
+
+
+def cell(editor, name):
+    return editor.find(name, 'text')
+
+
+def saved(io, text):
+    until(lambda: open(io).read() == text, 'the map to be saved')
+
+
+def shows(editor, name, value):
+    until(lambda: cell(editor, name).text() == value, '%s to be "%s"' % (name, value))
+
+
+def table(screen):
+    """the table: problems marked, a cell edited, undone, saved; nothing else changes"""
+    path, io = garage(screen)
+    editor = Editor(screen, path)
+    open_map(editor)
+    until(lambda: editor.all('bad value of an option'), 'the problem of its row')
+    editor.says('The program uses, the map lacks: %IX0.2 StopOk')
+    editor.click(cell(editor, '%IX0.1, Debounce'))
+    editor.keys('ctrl+a')
+    editor.type('2 s')
+    editor.keys('Return')
+    editor.says('It must be one word')
+    assert not editor.all('•')
+    editor.keys('ctrl+a')
+    editor.type('20ms')
+    editor.keys('Return')
+    shows(editor, '%IX0.1, Debounce', '20ms')
+    editor.shot('iomap-table')
+    editor.keys('ctrl+s')
+    saved(io, MAP.replace('5 years', '20ms years'))
+    editor.keys('ctrl+z')
+    shows(editor, '%IX0.1, Debounce', '5')
+    editor.keys('ctrl+s')
+    saved(io, MAP)
+    editor.keys('ctrl+y')
+    shows(editor, '%IX0.1, Debounce', '20ms')
+    editor.click(editor.find('%IX0.0, Active low', 'check box'))
+    editor.keys('ctrl+s')
+    saved(io, MAP.replace('5 years', '20ms years').replace(' active-low   #', '              #'))
+
+
+def choices(screen):
+    """what there is for a cell is offered, by pointer and by key; points are added and deleted"""
+    path, io = garage(screen, 'BOARD "Desk"\n%IX0.0  sim\n%QX0.0  sim  safe=0')
+    editor = Editor(screen, path)
+    open_map(editor)
+    x, y, width, height = editor.place(cell(editor, '%IX0.0, Pull'))
+    editor.click((x + width - 10, y + height // 2))
+    editor.shot('iomap-choices')
+    editor.find('pull-down a resistor', 'list item')
+    editor.keys('Down', 'Down', 'Return')
+    shows(editor, '%IX0.0, Pull', 'pull-down')
+    editor.keys('Tab')
+    editor.click(cell(editor, '%QX0.0, Safe'))
+    editor.keys('alt+Down')
+    editor.find('1 on while nothing runs', 'list item')
+    editor.keys('Down', 'Return')
+    shows(editor, '%QX0.0, Safe', '1')
+    editor.keys('ctrl+s')
+    saved(io, 'BOARD "Desk"\n%IX0.0  sim pull-down\n%QX0.0  sim  safe=1')
+    editor.click(editor.find('Add them', 'push button'))
+    cell(editor, '%QX0.1, Driver')
+    until(lambda: not editor.all('Add them'), 'nothing to be missing')
+    editor.shot('iomap-added')
+    editor.click(cell(editor, '%QX0.0, Comment'))
+    editor.type('up')
+    editor.keys('Return')
+    shows(editor, '%QX0.0, Comment', 'up')
+    editor.click(editor.find('Delete the point'))
+    until(lambda: not editor.all('%QX0.0, Comment'), 'the point to be gone')
+    editor.keys('ctrl+s')
+    until(lambda: '%QX0.1  sim  safe=0   # MotorDown' in open(io).read(), 'the map')
+    assert '%QX0.0' not in open(io).read() and '%IX0.5  sim   # BeamOk\n' in open(io).read()
+
+
+def as_text(screen):
+    """the text of the map, its wrong line told; closing asks before anything is lost"""
+    path, io = garage(screen)
+    editor = Editor(screen, path)
+    open_map(editor)
+    editor.click(editor.find('Text', 'page tab'))
+    editor.says('Line 5: ')
+    editor.click(editor.find('garage.io', 'text'))
+    editor.keys('ctrl+End')
+    editor.type('%QX0.1 sim')
+    editor.shot('iomap-text')
+    editor.click(editor.find('Table', 'page tab'))
+    cell(editor, '%QX0.1, Driver')
+    editor.keys('ctrl+q', 'ctrl+w')
+    editor.press(editor.find('Save', 'push button'))
+    saved(io, MAP + '%QX0.1 sim')
+
+
+def new_map(screen):
+    """a new map has a point for all that the program uses"""
+    path, io = garage(screen)
+    os.unlink(io)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+k')
+    editor.type('New I/O map')
+    until(lambda: not editor.all('About Rungboard'), 'that command alone')
+    editor.keys('Return')
+    until(lambda: len(editor.windows()) > 1, 'the dialog')
+    editor.keys('Return')
+    io = os.path.join(screen.home, 'garage-door.io')
+    until(lambda: os.path.exists(io), 'the file')
+    editor.find('garage-door.io', 'label')
+    cell(editor, '%IX0.0, Driver')
+    editor.shot('iomap-new')
+    text = open(io).read()
+    assert text.startswith('BOARD "Garage door"\n\n%IX0.0  sim   # ButtonUp\n'), text
+    assert '%QX0.0  sim  safe=0   # MotorUp\n' in text and text.count('\n') == 13, text
+
+
+main([table, choices, as_text, new_map])
