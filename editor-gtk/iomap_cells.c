@@ -138,6 +138,14 @@ static void left(GtkEventControllerFocus *focus, GtkListItem *item)
 	g_idle_add_full(G_PRIORITY_HIGH_IDLE, do_later, later, later_free);
 }
 
+static void entered(GtkEventControllerFocus *focus, GtkListItem *item)
+{
+	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
+	const struct iomap_cells *cells = column_of(cell)->cells;
+
+	cells->entered(cells->owner, gtk_list_item_get_item(item));
+}
+
 /* ---- the cell that has the focus ---- */
 
 /* NULL: none of a table. */
@@ -417,6 +425,8 @@ static void bind_entry(GtkWidget *cell, GtkListItem *item, const char *text)
 	g_signal_connect(cell, "icon-press", G_CALLBACK(icon_pressed), item);
 	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "leave",
 			 G_CALLBACK(left), item);
+	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "enter",
+			 G_CALLBACK(entered), item);
 	g_signal_connect(g_object_get_data(G_OBJECT(cell), "keys"), "key-pressed",
 			 G_CALLBACK(pressed), item);
 }
