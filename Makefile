@@ -241,7 +241,7 @@ all: $(BUILD)/ladder-editor
 $(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 $(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 else
 all: no-editor
 no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is left out: it needs $(EDITOR_NEEDS)" >&2)
@@ -304,7 +304,7 @@ editor-tests: $(EDITOR_TESTS) $(BUILD)/ladder all ## the editor's tests: without
 	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
 $(BUILD)/tests/bench/editor.o: CPPFLAGS += $(EDITOR_CPP)
 $(BUILD)/tests/bench/editor: $(BUILD)/tests/bench/editor.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## what drawing 5,000 rungs costs, and the whole editor with them
 	@perl tests/bench/programs.pl mixed 5000 >$(BUILD)/bench-editor.rung
 	@$(EDITOR_BENCH)

@@ -99,6 +99,7 @@ struct _LadderGridView {
 	GtkWidget *entry;           /* the popup, while it is there            */
 	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
 	bool takes;                 /* the pointer went down on what can be dragged */
+	double press_x, press_y;    /* where that was, px of the widget         */
 	bool toggles;               /* and on what is toggled when it goes up   */
 	struct sheet_live live;
 	GtkIMContext *input;
