@@ -134,7 +134,9 @@ static void change(struct sim_thread *thread, struct sim_program *program)
 	struct twin next;
 
 	if (!twin_init(&next, program->program, thread->plant ?
-		       thread->plant->program : NULL, thread->twin.period_ns)) {
+		       thread->plant->program : NULL, thread->twin.period_ns) ||
+	    !twin_change(&next, &thread->twin)) {
+		twin_free(&next);
 		sim_program_unref(program);
 		return;
 	}

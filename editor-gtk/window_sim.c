@@ -8,6 +8,7 @@
 #include "editor-gtk/panels.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/sim_pace.h"
+#include "editor-gtk/sim_panel.h"
 
 #define WHEN_US 200000 /* the title tells the time so often                      */
 
@@ -244,7 +245,10 @@ bool window_sim(LadderWindow *window, enum verb verb)
 void window_sim_init(LadderWindow *window)
 {
 	LadderSim *sim = window->sim;
+	GtkWidget *panel = ladder_sim_panel_new(sim);
 
+	gtk_widget_set_vexpand(panel, TRUE);
+	gtk_box_append(window->right, panel);
 	gtk_menu_button_set_popover(window->pace_button, sim_pace_new(sim));
 	g_signal_connect_object(sim, "state-changed", G_CALLBACK(state_changed), window,
 				G_CONNECT_SWAPPED);

@@ -180,6 +180,31 @@ static void test_fault(void)
 	CHECK(!ladder_sim_twin(sim) && ladder_sim_state(sim) == SIM_OFF);
 }
 
+/* An edit while it runs: another rung, the values of before. */
+static void test_change(void)
+{
+	gint64 count;
+	char *text;
+
+	open_text(sample);
+	text = ladder_document_text(document, NULL);
+	CHECK(ladder_sim_begin(sim, NULL));
+	ladder_sim_scan(sim, 7);
+	UNTIL(value("Count") == 7);
+	CHECK(ladder_sim_rung(sim, 0, 2) == 2);
+	CHECK(ladder_document_replace(document, (gsize)(strstr(text, "RUNG Again") - text), 0,
+		"RUNG\n  | NC Go | COIL %QX0.1 |\n", NULL));
+	g_free(text);
+	count = value("Count");
+	UNTIL(ladder_sim_rung(sim, 0, 3) == 3 && image_find(image(), "%QX0.1", 6).type !=
+	      IEC_NONE && value("Count") == count);
+	ladder_sim_scan(sim, 1);
+	UNTIL(value("Count") == count + 1);
+	CHECK(value("%QX0.1") == 1);
+	CHECK_AS(ladder_sim_twin(sim)->scan == 8, "scans go on");
+	ladder_sim_end(sim);
+}
+
 static void test_errors(void)
 {
 	GError *error = NULL;
@@ -209,6 +234,7 @@ int main(void)
 	test_past();
 	test_chart();
 	test_fault();
+	test_change();
 	test_errors();
 	CHECK(shown > 0);
 	g_object_unref(sim);
