@@ -80,7 +80,8 @@ sub broken {
 }
 
 my ($made, $noticed) = (0, 0);
-my @programs = glob("$top/ladders/*.rung");
+my @plants = glob("$top/ladders/*.plant.rung");
+my @programs = grep { !/\.plant\.rung$/ } glob("$top/ladders/*.rung");
 for my $program (@programs) {
 	my $name = basename($program, '.rung');
 	my $scenarios = $program =~ s/\.rung$/.scn/r;
@@ -95,6 +96,8 @@ for my $program (@programs) {
 	my $count = () = $text =~ /^ok /mg;
 	cmp_ok($count, '>=', 3, "$name: has scenarios");
 
+	my $plant = $program =~ s/\.rung$/.plant.rung/r;
+	write_text("$folder/$name.plant.rung", read_text($plant)) if -e $plant;
 	write_text("$folder/$name.scn", read_text($scenarios));
 	my @missed;
 	my $of = 0;
@@ -111,6 +114,28 @@ for my $program (@programs) {
 	cmp_ok(@missed, '<', $of / 2, "$name: its scenarios notice broken contacts")
 		or diag(join "\n", @missed);
 }
+for my $plant (@plants) {
+	my $name = basename($plant, '.rung');
+	my ($status, $text) = run($ladder, 'check', $plant);
+
+	ok($status == 0 && $text !~ /warning|error/, "$name: good, no warning")
+		or diag($text);
+	($status, $text) = run($ladder, 'fmt', '--check', $plant);
+	is($status, 0, "$name: canonical") or diag($text);
+	my $scenarios = $plant =~ s/\.plant\.rung$/.scn/r;
+	like(read_text($scenarios), qr/^\s*plant "\Q$name.rung\E"/m, "$name: a scenario is beside it");
+
+	# A world that stands still is noticed.
+	my $other = basename($scenarios, '.scn');
+	my $still = read_text($plant) =~ s/^RUNG\b/RUNG OFF/mgr;
+	write_text("$folder/$_", read_text("$top/ladders/$_"))
+		for "$other.rung", "$other.scn";
+	write_text("$folder/$name.rung", $still);
+	($status, $text) = run($ladder, 'test', "$folder/$other.scn");
+	isnt($status, 0, "$name: it matters what it does");
+	unlike($text, qr/ error LD\d/, "$name: and it is not the file") or diag($text);
+}
+cmp_ok(@plants, '>=', 3, 'some have a plant');
 cmp_ok(@programs, '>=', 8, 'the samples were found');
 cmp_ok($noticed, '>=', $noticed_least * $made,
        "broken contacts are noticed: $noticed of $made");

@@ -222,6 +222,7 @@ enum status board_open(struct board *board, struct machine *machine,
 	memset(board, 0, sizeof(*board));
 	arena_init(&board->arena);
 	board->resource = &machine->resource;
+	board->plant = machine_plant(machine);
 	if (map)
 		status = read_map(board, map);
 	if (status != STATUS_GOOD)
@@ -242,6 +243,8 @@ void board_close(struct board *board)
 void board_start(struct board *board)
 {
 	resource_start(board->resource);
+	if (board->plant)
+		resource_start(&board->plant->resource);
 	if (board->mapped)
 		hal_release(&board->hal);
 	move_all(board);
@@ -300,6 +303,8 @@ bool board_scan(struct board *board, int64_t now_ns)
 
 	if (board->mapped)
 		ReadPhysicalInputs(&board->hal, image, now_ns);
+	if (board->plant && board->resource->state == STATE_RUN)
+		plant_scan(board->plant, image, now_ns);
 	good = resource_scan(board->resource, now_ns);
 	if (board->mapped && good)
 		WritePhysicalOutputs(&board->hal, image, now_ns);

@@ -37,6 +37,7 @@ struct lamps {
 
 struct board {
 	struct resource *resource;
+	struct plant *plant;   /* or NULL                                     */
 	struct arena arena;
 	bool mapped;
 	struct iomap map;

@@ -198,12 +198,16 @@ enum status cmd_run(struct call *call)
 	struct pace pace = { 0 };
 	struct machine machine;
 	const char *rungs = call_option(call, "--rungs");
+	const char *plant = call_option(call, "--plant");
 	enum status status = take_pace(call, &pace);
 
 	if (status != STATUS_GOOD)
 		return status;
 	status = rungs ? machine_watch(&machine, call->arg[0]) :
 			 machine_open(&machine, call->arg[0]);
+	if (status == STATUS_GOOD && plant)
+		status = machine_add_plant(&machine, plant,
+					   (struct diag){ .file = "--plant" });
 	if (status == STATUS_GOOD && rungs)
 		status = watch_rungs(call, &machine, rungs);
 	if (status == STATUS_GOOD) {

@@ -50,11 +50,28 @@ static void run_one(struct tap *tap, struct machine *machine,
 
 	sink_memory_init(&comments);
 	struct sink sink = sink_to_memory(&comments);
-	bool good = scenario_run(file, index, &machine->resource, &sink);
+	bool good = scenario_run_with(file, index, &machine->resource,
+				      machine_plant(machine), &sink);
 
 	print_result(tap, good, file->file, file->scenario[index].name);
 	sink_text(&tap->call->out, sink_memory_text(&comments));
 	sink_memory_free(&comments);
+}
+
+/* The plant that the file names, from its own folder on; true if it names none. */
+static bool find_plant(struct machine *machine, const char *path, const char *text,
+		       size_t len, struct arena *arena)
+{
+	struct diag place;
+	const char *name = scenario_find_plant(path, text, len, arena, &place);
+	char *beside, *plant;
+
+	if (!name)
+		return true;
+	beside = path_beside(path, name);
+	plant = beside ? arena_copy(arena, beside, strlen(beside)) : NULL;
+	free(beside);
+	return plant && machine_add_plant(machine, plant, place) == STATUS_GOOD;
 }
 
 static bool run_text(struct tap *tap, struct machine *machine, const char *path,
@@ -69,8 +86,11 @@ static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 		return false;
 	diag_init(diags);
 	arena_init(&arena);
-	good = scenario_read(path, text, len, &machine->resource.image, &arena,
-			     &file, diags);
+	good = find_plant(machine, path, text, len, &arena) &&
+	       scenario_read_with(path, text, len, &machine->resource.image,
+				  machine_plant(machine) ?
+				  &machine->plant.resource.image : NULL, &arena,
+				  &file, diags);
 	report_diags(diags);
 	for (int i = 0; good && i < file.count && !tap->call->out_failed; i++)
 		run_one(tap, machine, &file, i);

@@ -24,9 +24,9 @@ static enum status run(struct call *call, struct machine *machine,
 		trace_init(&trace, &machine->resource.image, &call->out, form,
 			   call_flag(call, "--changes"));
 		trace.stop = &call->out_failed;
-		status = script_run(call->arg[1], text, len, period_ns,
-				    &machine->resource, &trace, diags) ?
-				 STATUS_GOOD : STATUS_NO;
+		status = script_run_with(call->arg[1], text, len, period_ns,
+					 &machine->resource, machine_plant(machine),
+					 &trace, diags) ? STATUS_GOOD : STATUS_NO;
 		trace_free(&trace);
 		report_diags(diags);
 	} else if (text) {
@@ -40,6 +40,7 @@ static enum status run(struct call *call, struct machine *machine,
 enum status cmd_trace(struct call *call)
 {
 	bool csv = call_flag(call, "--csv"), vcd = call_flag(call, "--vcd");
+	const char *plant = call_option(call, "--plant");
 	struct machine machine;
 	enum status status;
 	int64_t period_ns;
@@ -49,6 +50,9 @@ enum status cmd_trace(struct call *call)
 	if (!report_period(call, "--period", 0, &period_ns))
 		return STATUS_WRONG;
 	status = machine_open(&machine, call->arg[0]);
+	if (status == STATUS_GOOD && plant)
+		status = machine_add_plant(&machine, plant,
+					   (struct diag){ .file = "--plant" });
 	if (status == STATUS_GOOD && !period_ns)
 		period_ns = tasks_tick(ladder_program(machine.ladder), 0,
 				       10 * VALUE_MS);

@@ -41,6 +41,18 @@ char *path_with_ending(const char *path, const char *ending)
 	return out;
 }
 
+char *path_beside(const char *path, const char *name)
+{
+	const char *slash = *name == '/' ? NULL : strrchr(path, '/');
+	size_t folder = slash ? (size_t)(slash + 1 - path) : 0;
+	size_t size = folder + strlen(name) + 1;
+	char *out = malloc(size);
+
+	if (out)
+		snprintf(out, size, "%.*s%s", (int)folder, path, name);
+	return out;
+}
+
 /* Takes over @copy. */
 static bool add(struct paths *paths, char *copy)
 {

@@ -19,6 +19,10 @@ struct paths {
  * Owns: the caller, free(). NULL: no memory. */
 char *path_with_ending(const char *path, const char *ending);
 
+/** path_beside - @name as a path from the folder of the file @path; as it is if it begins
+ * with /.   Owns: the caller, free(). NULL: no memory. */
+char *path_beside(const char *path, const char *name);
+
 /**
  * paths_collect - adds what @path means
  * @ending: of files that are wanted; a folder is searched for them

@@ -194,8 +194,36 @@ enum status machine_watch(struct machine *machine, const char *path)
 	return open_machine(machine, path, true);
 }
 
+enum status machine_add_plant(struct machine *machine, const char *path,
+			      struct diag place)
+{
+	enum status status;
+
+	machine->plant_ladder = ladder_new();
+	if (!machine->plant_ladder)
+		return report_no_memory(path);
+	status = report_load(machine->plant_ladder, path, true);
+	if (status == STATUS_GOOD &&
+	    !plant_init(&machine->plant, ladder_program(machine->plant_ladder),
+			ladder_program(machine->ladder)))
+		return report_no_memory(path);
+	if (status == STATUS_GOOD)
+		return status;
+	place.id = DIAG_NO_PLANT;
+	report_diag(place, "%.60s", path);
+	return status;
+}
+
+struct plant *machine_plant(struct machine *machine)
+{
+	return machine->plant.memory ? &machine->plant : NULL;
+}
+
 void machine_close(struct machine *machine)
 {
+	plant_free(&machine->plant);
+	ladder_free(machine->plant_ladder);
+	machine->plant_ladder = NULL;
 	free(machine->memory);
 	ladder_free(machine->ladder);
 	machine->memory = NULL;

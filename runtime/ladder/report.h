@@ -11,6 +11,8 @@
 
 #include "ladder/command.h"
 
+#include "engine/trial/plant.h"
+
 /** report_open - results of @call go to standard output from here on. */
 void report_open(struct call *call);
 /** report_flush - false, after one message, when they could not be written. */
@@ -41,11 +43,19 @@ struct machine {
 	struct ladder *ladder;
 	void *memory;
 	struct resource resource;
+	struct ladder *plant_ladder;
+	struct plant plant;       /* memory NULL: none                        */
 };
 /** machine_open - loads and builds @path. Owns: machine_close(), always. */
 enum status machine_open(struct machine *machine, const char *path);
 /** machine_watch - the same, with the power of all cells while resource.watch. */
 enum status machine_watch(struct machine *machine, const char *path);
+/** machine_add_plant - the program at @path beside it, as trial/plant.h has it.
+ * Fails: a status after diagnostics, of which the last one is LD016 at @place. */
+enum status machine_add_plant(struct machine *machine, const char *path,
+			      struct diag place);
+/** machine_plant - NULL: it has none. */
+struct plant *machine_plant(struct machine *machine);
 void machine_close(struct machine *machine);
 
 /**

@@ -150,16 +150,28 @@ static bool take_element(const struct image *image, const struct expr_node *from
 	return true;
 }
 
-static bool take_leaf(const struct image *image, const struct expr_node *from,
-		      struct formula_term *term, struct arena *arena,
-		      enum diag_id *why)
+static struct location find_name(const struct formula *formula,
+				 const struct image *image, struct formula_term *term,
+				 const struct expr_node *from, enum diag_id *why)
+{
+	const char *name = from->text;
+	size_t len = from->len;
+	const struct image *side = value_side(image, formula->plant, &name, &len);
+
+	term->plant = side != image;
+	return value_find(side, name, len, why);
+}
+
+static bool take_leaf(const struct formula *formula, const struct image *image,
+		      const struct expr_node *from, struct formula_term *term,
+		      struct arena *arena, enum diag_id *why)
 {
 	term->op = EXPR_LITERAL;
 	if (from->op == EXPR_LITERAL)
 		return take_literal(term, from->text, from->len, arena, why);
 	enum diag_id missing;
 
-	term->at = value_find(image, from->text, from->len, &missing);
+	term->at = find_name(formula, image, term, from, &missing);
 	if (term->at.type == IEC_NONE) {
 		if (take_element(image, from, term, &missing))
 			return true;
@@ -273,8 +285,8 @@ static const struct expr_node *function_of(const struct expr *expr, int at)
 	return &expr->node[at];
 }
 
-struct formula *formula_new(const struct image *image, const struct expr *expr,
-			    struct arena *arena, const char *line_start,
+struct formula *formula_new(const struct image *image, const struct image *plant,
+			    const struct expr *expr, struct arena *arena, const char *line_start,
 			    struct diag_list *diags, struct diag place)
 {
 	struct formula *formula = arena_alloc(arena, sizeof(*formula));
@@ -288,6 +300,7 @@ struct formula *formula_new(const struct image *image, const struct expr *expr,
 		return NULL;
 	}
 	formula->constant = true;
+	formula->plant = plant;
 	formula->count = expr->count;
 	formula->root = expr->root;
 	for (int i = 0; i < expr->count; i++) {
@@ -314,7 +327,7 @@ struct formula *formula_new(const struct image *image, const struct expr *expr,
 			complain(diags, place, DIAG_NOT_ARRAY, line_start, from);
 			return NULL;
 		}
-		if (leaf ? !take_leaf(image, from, term, arena, &why) :
+		if (leaf ? !take_leaf(formula, image, from, term, arena, &why) :
 			   !take_operation(formula, term, &why)) {
 			complain(diags, place, why, line_start,
 				 blame(formula, expr, i, why));
@@ -466,7 +479,7 @@ static bool evaluate(struct formula *formula, struct formula_term *term,
 
 	switch ((enum expr_op)term->op) {
 	case EXPR_NAME:
-		term->value = image_get(image, term->at);
+		term->value = image_get(term->plant ? formula->plant : image, term->at);
 		return true;
 	case EXPR_LITERAL:
 	case EXPR_CALL: /* taken by none */

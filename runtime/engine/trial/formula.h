@@ -25,6 +25,7 @@ struct formula_term {
 	uint16_t fn;           /* enum word of EXPR_FN                       */
 	bool wide;             /* KIND_INT: i holds an unsigned number       */
 	bool single;           /* KIND_REAL: no more than a float            */
+	bool plant;            /* of EXPR_NAME: a variable of the plant      */
 	int16_t left, right;
 	struct location at;    /* of EXPR_NAME; of EXPR_INDEX element 0       */
 	struct location index; /* of EXPR_INDEX without left: read from here  */
@@ -38,10 +39,12 @@ struct formula {
 	struct formula_term *term; /* children before parents                */
 	int count, root;
 	bool constant;             /* speaks of no variable                  */
+	const struct image *plant; /* what `plant.` speaks of; or NULL       */
 };
 
 /**
  * formula_new - gives names places and checks kinds
+ * @plant:      of the program's plant, whose names begin with `plant.`; or NULL
  * @expr:       what expr_parse gave
  * @line_start: of the source line, for columns
  *
@@ -49,8 +52,8 @@ struct formula {
  * and dates add and subtract as in a program.
  * Owns: @arena.   Scan-safe: no.   Fails: NULL and a diagnostic.
  */
-struct formula *formula_new(const struct image *image, const struct expr *expr,
-			    struct arena *arena, const char *line_start,
+struct formula *formula_new(const struct image *image, const struct image *plant,
+			    const struct expr *expr, struct arena *arena, const char *line_start,
 			    struct diag_list *diags, struct diag place);
 
 /**

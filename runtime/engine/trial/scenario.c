@@ -12,6 +12,7 @@ struct run {
 	const struct scenario_file *file;
 	struct scenario *scenario;
 	struct resource *resource;
+	struct plant *plant;          /* beside this scenario; or NULL        */
 	const struct sink *out;
 	int64_t now_ns;
 	uint64_t scan;
@@ -46,7 +47,8 @@ static void print_scan(const struct run *run, const struct formula *formula,
 			named = formula->term[k].op == EXPR_NAME &&
 				formula->term[k].at.where == watch->at.where &&
 				formula->term[k].at.area == watch->at.area &&
-				formula->term[k].at.type == watch->at.type;
+				formula->term[k].at.type == watch->at.type &&
+				formula->term[k].plant == watch->plant;
 		if (!named)
 			continue;
 		iec_value_print(watch->at.type,
@@ -85,12 +87,14 @@ static void report(struct run *run, const struct scenario_step *step,
 static void apply(struct run *run, const struct scenario_step *step)
 {
 	struct image *image = &run->resource->image;
+	struct image *target = step->plant && run->plant ? &run->plant->resource.image
+							 : image;
 	union iec_value value;
 
 	if (formula_value(step->formula, image, &value) &&
 	    formula_fit(step->formula, value, step->target.type, &value) &&
-	    value_has_room(image, step->target, value))
-		image_set(image, step->target, value);
+	    value_has_room(target, step->target, value))
+		image_set(target, step->target, value);
 	else
 		report(run, step, "value out of range");
 }
@@ -125,7 +129,8 @@ static void remember(struct run *run)
 		struct scenario_watch *watch = &scenario->watch[i];
 
 		union iec_value *past = &watch->past[run->scan % SCENARIO_HISTORY];
-		union iec_value value = image_get(&run->resource->image, watch->at);
+		union iec_value value = image_get(watch->plant ? run->file->plant :
+						  &run->resource->image, watch->at);
 
 		if (watch->at.type == IEC_STRING)
 			iec_store((void *)past->s, IEC_STRING, value);
@@ -211,9 +216,17 @@ static void open_steps(struct scenario *scenario)
 	}
 }
 
+static bool has_fault(const struct run *run)
+{
+	return run->resource->state == STATE_FAULT ||
+	       (run->plant && run->plant->resource.state == STATE_FAULT);
+}
+
 static void report_fault(struct run *run)
 {
-	const struct fault_place *at = &run->resource->fault_at;
+	const bool plant = run->resource->state != STATE_FAULT;
+	const struct resource *resource = plant ? &run->plant->resource : run->resource;
+	const struct fault_place *at = &resource->fault_at;
 	char text[96];
 
 	run->held = false;
@@ -221,8 +234,9 @@ static void report_fault(struct run *run)
 	sink_text(run->out, run->file->file);
 	sink_printf(run->out, ":%d: at ", run->scenario->line);
 	print_time(run->out, run->now_ns);
-	sink_text(run->out, " ms: the program stopped with a fault: ");
-	resource_fault_print(run->resource, text, sizeof(text));
+	sink_printf(run->out, " ms: the %s stopped with a fault: ",
+		    plant ? "plant" : "program");
+	resource_fault_print(resource, text, sizeof(text));
 	sink_text(run->out, text);
 	if (at->pou && *at->pou && at->rung) {
 		sink_text(run->out, ": ");
@@ -232,19 +246,38 @@ static void report_fault(struct run *run)
 	sink_text(run->out, "\n");
 }
 
+static void scan(struct run *run)
+{
+	if (run->plant)
+		plant_scan(run->plant, &run->resource->image, run->now_ns);
+	resource_scan(run->resource, run->now_ns);
+}
+
 bool scenario_run(const struct scenario_file *file, int index,
 		  struct resource *resource, const struct sink *out)
+{
+	return scenario_run_with(file, index, resource, NULL, out);
+}
+
+bool scenario_run_with(const struct scenario_file *file, int index,
+		       struct resource *resource, struct plant *plant,
+		       const struct sink *out)
 {
 	struct run run = { .file = file, .scenario = &file->scenario[index],
 			   .resource = resource, .out = out, .held = true };
 
 	open_steps(run.scenario);
 	resource_start(resource);
+	if (run.scenario->with_plant && plant) {
+		run.plant = plant;
+		resource_start(&plant->resource);
+	}
 	do {
 		run.scan++;
 		run.now_ns += run.scenario->period_ns;
 		begin_scan(&run);
-		if (!resource_scan(resource, run.now_ns) && !resource->halted) {
+		scan(&run);
+		if (has_fault(&run)) {
 			report_fault(&run);
 			return false;
 		}

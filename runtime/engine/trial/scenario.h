@@ -4,6 +4,7 @@
  *
  *   scenario "stop wins over start"        # any number in a file
  *     period 10ms                          # if not said: of the tasks, or 10ms
+ *     plant "door.plant.rung"              # before the first scenario: of all
  *     at 0ms     Open = 1, Stop = 0        # before the first scan at t >= 0
  *     at 20ms    expect Motor = 1          # looked at after that scan
  *     at 1s      Stop = 1
@@ -23,6 +24,7 @@
 #include "engine/base/sink.h"
 #include "engine/scan/resource.h"
 #include "engine/trial/formula.h"
+#include "engine/trial/plant.h"
 
 #define SCENARIO_SCANS_MAX 100000000 /* of one scenario, so that it ends      */
 #define SCENARIO_HISTORY 8           /* scans shown behind a failure          */
@@ -40,11 +42,13 @@ struct scenario_step {
 	const char *text;        /* as written, borrowed from the source      */
 	int text_len;
 	bool open;               /* while it runs: not decided yet            */
+	bool plant;              /* of VERB_SET: of the plant                 */
 };
 
 struct scenario_watch {
 	const char *name;
 	struct location at;
+	bool plant;              /* of the plant                              */
 	union iec_value past[SCENARIO_HISTORY]; /* STRINGs: its own copies    */
 };
 
@@ -52,6 +56,7 @@ struct scenario {
 	const char *name;        /* in the arena, without its quotes          */
 	int line;
 	int64_t period_ns;       /* 0: not said yet                           */
+	bool with_plant;         /* the plant of its file is beside it        */
 	struct scenario_step *step;
 	int step_count;
 	struct scenario_watch *watch; /* variables that expectations speak of */
@@ -60,6 +65,7 @@ struct scenario {
 
 struct scenario_file {
 	const char *file;
+	const struct image *plant; /* borrowed; or NULL                       */
 	struct scenario *scenario;
 	int count;
 };
@@ -76,6 +82,32 @@ struct scenario_file {
 bool scenario_read(const char *file, const char *text, size_t len,
 		   const struct image *image, struct arena *arena,
 		   struct scenario_file *out, struct diag_list *diags);
+
+/**
+ * scenario_find_plant - the plant that a scenario file names, before it can be read
+ * @out: gets the name as it is written, the path of a rung file from the scenario file's
+ * folder   @place: of it, for diagnostics
+ *
+ * Owns: @arena.   Scan-safe: no.   Fails: NULL: it names none (or there is no memory).
+ */
+const char *scenario_find_plant(const char *file, const char *text, size_t len,
+				struct arena *arena, struct diag *place);
+/** scenario_plant_token - the name in it, with its quotes; false: there is none.
+ * scenario_is_plant - does the statement at @lex name a plant? Scan-safe: no. */
+bool scenario_plant_token(const char *text, size_t len, struct token *out);
+bool scenario_is_plant(const struct lex *lex);
+/** scenario_read_with - as scenario_read(), with the image of its plant, whose variables
+ * are `plant.Level`. Without one (NULL) a scenario that names a plant is an error.
+ * @plant: borrowed as long as @out */
+bool scenario_read_with(const char *file, const char *text, size_t len,
+			const struct image *image, const struct image *plant,
+			struct arena *arena, struct scenario_file *out,
+			struct diag_list *diags);
+/** scenario_run_with - as scenario_run(). @plant: the one whose image was read with; it is
+ * started, too, if the scenario is beside it; or NULL */
+bool scenario_run_with(const struct scenario_file *file, int index,
+		       struct resource *resource, struct plant *plant,
+		       const struct sink *out);
 
 /**
  * scenario_run - runs one scenario from a cold start

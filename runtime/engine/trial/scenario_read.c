@@ -12,6 +12,9 @@
 struct reader {
 	const char *file;
 	const struct image *image;
+	const struct image *plant; /* NULL: none was given                    */
+	struct token plant_name;   /* the first one; with its quotes          */
+	bool with_plant;           /* named before the first scenario         */
 	struct arena *arena;
 	struct diag_list *diags;
 	struct scenario_file *out;
@@ -105,6 +108,12 @@ static bool take_time(struct reader *reader, int64_t *ns)
 	return true;
 }
 
+/* What is beside this scenario. */
+static const struct image *plant_of(const struct reader *reader)
+{
+	return reader->scenario && reader->scenario->with_plant ? reader->plant : NULL;
+}
+
 static struct formula *take_formula(struct reader *reader)
 {
 	struct diag place = place_of(reader);
@@ -117,14 +126,15 @@ static struct formula *take_formula(struct reader *reader)
 	if (!expr_parse(&reader->lex, reader->expr, reader->diags, place))
 		return NULL;
 	drop_comment(&reader->lex);
-	return formula_new(reader->image, reader->expr, reader->arena,
+	return formula_new(reader->image, plant_of(reader), reader->expr, reader->arena,
 			   line_start, reader->diags, place);
 }
 
 /* Texts change where they stand: room for those that were. */
 static bool own_texts(struct reader *reader, struct scenario_watch *watch)
 {
-	uint16_t capacity = image_get(reader->image, watch->at).s->capacity;
+	uint16_t capacity = image_get(watch->plant ? reader->plant : reader->image,
+				      watch->at).s->capacity;
 
 	for (int i = 0; i < SCENARIO_HISTORY; i++) {
 		struct iec_string *text = arena_alloc(reader->arena,
@@ -152,7 +162,8 @@ static bool watch(struct reader *reader, const struct formula *formula)
 		while (n < scenario->watch_count &&
 		       (seen[n].at.where != term->at.where ||
 			seen[n].at.area != term->at.area ||
-			seen[n].at.type != term->at.type))
+			seen[n].at.type != term->at.type ||
+			seen[n].plant != term->plant))
 			n++;
 		if (n < scenario->watch_count)
 			continue;
@@ -162,6 +173,7 @@ static bool watch(struct reader *reader, const struct formula *formula)
 			return complain(reader, DIAG_NO_MEMORY, "");
 		seen->name = term->name;
 		seen->at = term->at;
+		seen->plant = term->plant;
 		if (seen->at.type == IEC_STRING && !own_texts(reader, seen))
 			return complain(reader, DIAG_NO_MEMORY, "");
 	}
@@ -211,8 +223,8 @@ static bool take_condition(struct reader *reader, enum scenario_verb verb,
 }
 
 static bool check_setting(struct reader *reader, const struct token *name,
-			  struct location target, struct formula *formula,
-			  struct diag place)
+			  const struct image *image, struct location target,
+			  struct formula *formula, struct diag place)
 {
 	union iec_value value;
 
@@ -224,7 +236,7 @@ static bool check_setting(struct reader *reader, const struct token *name,
 	else if (formula->constant &&
 		 (!formula_value(formula, reader->image, &value) ||
 		  !formula_fit(formula, value, target.type, &value) ||
-		  !value_has_room(reader->image, target, value)))
+		  !value_has_room(image, target, value)))
 		place.id = DIAG_LITERAL_RANGE;
 	return place.id == DIAG_COUNT ||
 	       diag_add(reader->diags, place, "%.*s",
@@ -258,6 +270,7 @@ static bool take_setting(struct reader *reader)
 {
 	struct token name = reader->lex.token;
 	struct diag place = place_of(reader);
+	const struct image *side;
 	struct location target;
 	enum diag_id why;
 
@@ -266,7 +279,11 @@ static bool take_setting(struct reader *reader)
 	step_over(reader);
 	if (!take_index(reader, &name))
 		return false;
-	target = value_find(reader->image, name.text, name.len, &why);
+	const char *own = name.text;
+	size_t own_len = name.len;
+
+	side = value_side(reader->image, plant_of(reader), &own, &own_len);
+	target = value_find(side, own, own_len, &why);
 	if (!accept(reader, "=") && !accept(reader, ":=")) {
 		place.id = DIAG_EXPECTED;
 		return diag_add(reader->diags, place, "NAME = VALUE or expect");
@@ -278,9 +295,12 @@ static bool take_setting(struct reader *reader)
 	}
 	struct formula *formula = take_formula(reader);
 
-	return formula &&
-	       check_setting(reader, &name, target, formula, place) &&
-	       add_step(reader, VERB_SET, 0, target, formula);
+	if (!formula || !check_setting(reader, &name, side, target, formula, place) ||
+	    !add_step(reader, VERB_SET, 0, target, formula))
+		return false;
+	reader->scenario->step[reader->scenario->step_count - 1].plant =
+		side != reader->image;
+	return true;
 }
 
 static bool take_expect(struct reader *reader, enum scenario_verb verb,
@@ -348,6 +368,25 @@ static bool take_period(struct reader *reader)
 	return true;
 }
 
+/* It was read before; here it says which scenarios it is beside. */
+static bool take_plant(struct reader *reader)
+{
+	struct scenario *scenario = reader->scenario;
+	bool *with = scenario ? &scenario->with_plant : &reader->with_plant;
+	const struct token *token = &reader->lex.token;
+
+	step_over(reader);
+	if (scenario && scenario->step_count)
+		return complain(reader, DIAG_MISPLACED, "a plant behind steps");
+	if (!reader->plant || *with || token->len != reader->plant_name.len ||
+	    memcmp(token->text, reader->plant_name.text, token->len) != 0)
+		return complain(reader, DIAG_MISPLACED, *with || reader->plant ?
+				"a second plant" : "a plant, where there is none");
+	*with = true;
+	step_over(reader);
+	return true;
+}
+
 /* A scenario that would not end in a lifetime is refused, and so is one that
  * expects nothing: it would always be good. */
 static void close_scenario(struct reader *reader)
@@ -402,6 +441,7 @@ static bool open_scenario(struct reader *reader)
 	if (!reader->scenario->name)
 		return complain(reader, DIAG_NO_MEMORY, "");
 	reader->scenario->line = token->line;
+	reader->scenario->with_plant = reader->with_plant;
 	reader->at_ns = 0;
 	reader->spoiled = false;
 	step_over(reader);
@@ -414,6 +454,8 @@ static bool take_statement(struct reader *reader)
 	reader->line = reader->lex.token.line;
 	if (accept(reader, "scenario"))
 		return open_scenario(reader);
+	if (scenario_is_plant(&reader->lex) && (reader->scenario || !reader->out->count))
+		return take_plant(reader);
 	if (!reader->scenario)
 		return reader->out->count || reader->diags->errors ? false :
 		       complain(reader, DIAG_EXPECTED, "scenario \"name\"");
@@ -477,14 +519,24 @@ bool scenario_read(const char *file, const char *text, size_t len,
 		   const struct image *image, struct arena *arena,
 		   struct scenario_file *out, struct diag_list *diags)
 {
-	struct reader reader = { .file = file, .image = image, .arena = arena,
-				 .diags = diags, .out = out };
+	return scenario_read_with(file, text, len, image, NULL, arena, out, diags);
+}
+
+bool scenario_read_with(const char *file, const char *text, size_t len,
+			const struct image *image, const struct image *plant,
+			struct arena *arena, struct scenario_file *out,
+			struct diag_list *diags)
+{
+	struct reader reader = { .file = file, .image = image, .plant = plant,
+				 .arena = arena, .diags = diags, .out = out };
 	int errors = diags->errors;
 
 	memset(out, 0, sizeof(*out));
 	out->file = file;
+	out->plant = plant;
 	if (!open_reader(&reader, text, len))
 		return false;
+	scenario_plant_token(text, len, &reader.plant_name);
 	while (reader.lex.token.kind != TOKEN_END) {
 		if (!at_end(&reader) && !take_line(&reader))
 			reader.spoiled = true;

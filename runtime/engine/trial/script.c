@@ -21,6 +21,7 @@ struct script {
 	int64_t now_ns, period_ns;
 	uint64_t scan;
 	struct resource *resource;
+	struct plant *plant;  /* NULL: none                                  */
 	struct trace *trace;
 	struct diag_list *diags;
 	bool dry;             /* find errors only                            */
@@ -125,14 +126,22 @@ static bool take_repeat(struct script *script, struct script_word word,
 
 static bool take_setting(struct script *script, struct script_word word)
 {
+	struct image *plant = script->plant ? &script->plant->resource.image : NULL;
+	struct image *image = &script->resource->image;
+	const char *equals = memchr(word.text, '=', word.len), *name = word.text;
+	size_t len = (size_t)(equals - word.text);
 	struct setting setting;
 
-	if (!setting_parse(&script->resource->image, word.text, word.len,
-			   &setting, script->diags,
+	if (value_side(image, plant, &name, &len) == plant && plant) {
+		image = plant;
+		word.len -= (size_t)(name - word.text);
+		word.text = name;
+	}
+	if (!setting_parse(image, word.text, word.len, &setting, script->diags,
 			   place_of(script, word.text)))
 		return false;
 	if (!script->dry)
-		image_set(&script->resource->image, setting.at, setting.value);
+		image_set(image, setting.at, setting.value);
 	return true;
 }
 
@@ -177,6 +186,33 @@ bool script_fault(const struct resource *resource, const char *file, int line,
 	       diag_add(diags, place, "%s", text);
 }
 
+/* False: the plant is in FAULT, or the program is not in RUN. */
+static bool scan(struct script *script)
+{
+	struct plant *plant = script->plant;
+
+	if (plant)
+		plant_scan(plant, &script->resource->image, script->now_ns);
+	return resource_scan(script->resource, script->now_ns) &&
+	       (!plant || plant->resource.state != STATE_FAULT);
+}
+
+static bool tell_fault(const struct script *script)
+{
+	const struct resource *resource = script->resource;
+
+	if (resource->state != STATE_FAULT)
+		resource = &script->plant->resource;
+	return script_fault(resource, script->file, script->line, script->diags);
+}
+
+static void start(struct script *script)
+{
+	resource_start(script->resource);
+	if (script->plant)
+		resource_start(&script->plant->resource);
+}
+
 static void tell_halt(const struct script *script)
 {
 	char text[96];
@@ -199,7 +235,7 @@ static bool run_stroke(struct script *script, const struct stroke *stroke,
 		if (script->resource->halted)
 			continue; /* until a @reset */
 		script->scan++;
-		bool good = resource_scan(script->resource, script->now_ns);
+		bool good = scan(script);
 
 		if (!stroke->quiet || i == stroke->repeat || !good)
 			trace_scan(script->trace, script->scan, script->now_ns);
@@ -208,8 +244,7 @@ static bool run_stroke(struct script *script, const struct stroke *stroke,
 		if (script->resource->halted)
 			tell_halt(script);
 		else if (!good)
-			return script_fault(script->resource, script->file,
-					    script->line, script->diags);
+			return tell_fault(script);
 	}
 	return true;
 }
@@ -298,7 +333,7 @@ static bool directive(struct script *script)
 	else if (!is_word(head, "@reset"))
 		return complain(script, DIAG_UNKNOWN_WORD, head);
 	else if (!script->dry)
-		resource_start(script->resource);
+		start(script);
 	if (good && next_word(script, &rest))
 		return complain(script, DIAG_SYNTAX, rest);
 	return good;
@@ -361,7 +396,14 @@ bool script_run(const char *file, const char *text, size_t len,
 		int64_t period_ns, struct resource *resource,
 		struct trace *trace, struct diag_list *diags)
 {
-	struct script script = { .file = file, .resource = resource,
+	return script_run_with(file, text, len, period_ns, resource, NULL, trace, diags);
+}
+
+bool script_run_with(const char *file, const char *text, size_t len,
+		     int64_t period_ns, struct resource *resource, struct plant *plant,
+		     struct trace *trace, struct diag_list *diags)
+{
+	struct script script = { .file = file, .resource = resource, .plant = plant,
 				 .trace = trace, .diags = diags, .dry = true };
 
 	if (len >= 3 && !memcmp(text, "\xef\xbb\xbf", 3)) {
@@ -370,7 +412,8 @@ bool script_run(const char *file, const char *text, size_t len,
 	}
 	if (!check_bytes(&script, text, len))
 		return false;
-	resource_start(resource);
+	start(&script);
+	trace->plant = plant ? &plant->resource.image : NULL;
 	script.period_ns = period_ns;
 	if (!read_lines(&script, text, len))
 		return false;

@@ -18,6 +18,7 @@
 #define TRIAL_SCRIPT_H
 
 #include "engine/scan/resource.h"
+#include "engine/trial/plant.h"
 #include "engine/trial/trace.h"
 
 /**
@@ -34,6 +35,12 @@
 bool script_run(const char *file, const char *text, size_t len,
 		int64_t period_ns, struct resource *resource,
 		struct trace *trace, struct diag_list *diags);
+
+/** script_run_with - the same beside a plant, which is started and reset with it; a @warm
+ * start it does not notice. @plant: NULL: none */
+bool script_run_with(const char *file, const char *text, size_t len,
+		     int64_t period_ns, struct resource *resource, struct plant *plant,
+		     struct trace *trace, struct diag_list *diags);
 
 /** script_fault - adds the latched fault of @resource as DIAG_FAULT. False. */
 bool script_fault(const struct resource *resource, const char *file, int line,

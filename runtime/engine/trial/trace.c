@@ -44,7 +44,7 @@ void trace_clear(struct trace *trace)
 /* Room for the text that was shown last: as much as its variable has. */
 static bool own_text(struct trace *trace, struct trace_column *column)
 {
-	uint16_t capacity = image_get(trace->image, column->at).s->capacity;
+	uint16_t capacity = image_get(column->image, column->at).s->capacity;
 	struct iec_string *text = arena_alloc(&trace->arena,
 					      iec_type_size(IEC_STRING, capacity));
 
@@ -56,8 +56,8 @@ static bool own_text(struct trace *trace, struct trace_column *column)
 	return true;
 }
 
-static bool add_column(struct trace *trace, const char *name, size_t len,
-		       struct location at)
+static bool add_column(struct trace *trace, const struct image *image, const char *name,
+		       size_t len, struct location at)
 {
 	char *copy = arena_copy(&trace->arena, name, len);
 	struct trace_column *column;
@@ -70,10 +70,11 @@ static bool add_column(struct trace *trace, const char *name, size_t len,
 		return false;
 	column->name = copy;
 	column->at = at;
+	column->image = image;
 	if (at.type == IEC_STRING && !own_text(trace, column))
 		return false;
 	if (trace->begun)
-		trace_update(column, image_get(trace->image, at));
+		trace_update(column, image_get(image, at));
 	return true;
 }
 
@@ -85,7 +86,7 @@ bool trace_show_all(struct trace *trace)
 	while (image_next_symbol(trace->image, &cursor, &symbol)) {
 		if (symbol.flags & SYMBOL_HIDDEN)
 			continue;
-		if (!add_column(trace, symbol.name, strlen(symbol.name),
+		if (!add_column(trace, trace->image, symbol.name, strlen(symbol.name),
 				symbol.at))
 			return false;
 	}
@@ -103,11 +104,15 @@ static bool show_one(struct trace *trace, const char *name, size_t len,
 		     struct diag_list *diags, struct diag place)
 {
 	enum diag_id why;
-	struct location at = value_find(trace->image, name, len, &why);
+	const char *own = name;
+	size_t own_len = len;
+	const struct image *image = value_side(trace->image, trace->plant, &own,
+					       &own_len);
+	struct location at = value_find(image, own, own_len, &why);
 
 	if (at.type == IEC_NONE)
 		return complain(diags, place, why, name, len);
-	if (!add_column(trace, name, len, at))
+	if (!add_column(trace, image, name, len, at))
 		return complain(diags, place, DIAG_NO_MEMORY, "", 0);
 	return true;
 }
@@ -199,7 +204,7 @@ static bool show_declared(struct trace *trace, struct location first,
 		inside = inside || same_place(symbol.at, first);
 		if (!inside)
 			continue;
-		if (!add_column(trace, symbol.name, strlen(symbol.name),
+		if (!add_column(trace, trace->image, symbol.name, strlen(symbol.name),
 				symbol.at))
 			return complain(diags, place, DIAG_NO_MEMORY, "", 0);
 		if (same_place(symbol.at, last))
@@ -280,7 +285,7 @@ static void write_lines(struct trace *trace, uint64_t scan, int64_t now_ns)
 	}
 	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
 		struct trace_column *column = &trace->column[i];
-		union iec_value value = image_get(trace->image, column->at);
+		union iec_value value = image_get(column->image, column->at);
 
 		if (!trace_update(column, value) && trace->changes)
 			continue;

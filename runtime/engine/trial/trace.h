@@ -19,6 +19,7 @@ enum trace_form { TRACE_LINES, TRACE_CSV, TRACE_VCD };
 
 struct trace_column {
 	const char *name;      /* in the trace's arena                       */
+	const struct image *image; /* whose variable it is                    */
 	struct location at;
 	union iec_value last;  /* as shown last; 0 to begin with; a STRING's
 				  bytes are the trace's own                  */
@@ -27,6 +28,8 @@ struct trace_column {
 struct trace {
 	struct arena arena;
 	const struct image *image;
+	const struct image *plant; /* set by the caller after trace_init: what
+				  names such as plant.Level are of; or NULL  */
 	const struct sink *out;
 	enum trace_form form;
 	bool changes;          /* lines and CSV: only what changed           */

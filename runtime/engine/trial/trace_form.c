@@ -44,7 +44,7 @@ void trace_csv(struct trace *trace, uint64_t scan, int64_t now_ns)
 		struct trace_column *column = &trace->column[i];
 
 		changed |= trace_update(column,
-					image_get(trace->image, column->at));
+					image_get(column->image, column->at));
 	}
 	if (trace->changes && !changed)
 		return;
@@ -160,7 +160,7 @@ void trace_vcd(struct trace *trace, int64_t now_ns)
 	for (int i = 0; i < trace->count && !trace_stopped(trace); i++) {
 		struct trace_column *column = &trace->column[i];
 
-		if (!trace_update(column, image_get(trace->image, column->at)))
+		if (!trace_update(column, image_get(column->image, column->at)))
 			continue;
 		if (trace->stamp_ns != now_ns)
 			sink_printf(trace->out, "#%lld\n", (long long)now_ns);

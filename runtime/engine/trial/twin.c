@@ -6,17 +6,10 @@
 
 #include "engine/scan/carry.h"
 #include "engine/scan/retain.h"
-#include "engine/trial/stores.h"
+#include "engine/trial/plant.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* Which area of one is which of the other, a byte each. */
-static const struct { enum iec_area out, in; } crosswise[] = {
-	{ AREA_Q, AREA_I }, { AREA_AQ, AREA_AI },
-	{ AREA_XQ, AREA_XI }, { AREA_XAQ, AREA_XAI },
-};
-#define CROSSWISE (sizeof(crosswise) / sizeof(crosswise[0]))
 
 static bool has_plant(const struct twin *twin)
 {
@@ -27,67 +20,6 @@ static bool has_plant(const struct twin *twin)
 static size_t mask_size(const struct program *program)
 {
 	return program->areas.size;
-}
-
-/* What lies at @at of an area, @bits of it, is driven. */
-static void drive(struct twin *twin, enum iec_area area, uint32_t bit, uint32_t bits)
-{
-	const struct areas *areas = &twin->resource.image.program->areas;
-
-	for (size_t i = 0; i < CROSSWISE; i++) {
-		const enum iec_area in = crosswise[i].in;
-
-		if (crosswise[i].out != area)
-			continue;
-		for (uint32_t b = bit; b < bit + bits && b < 8 * areas->bytes[in]; b++)
-			twin->plant_drives[areas->at[in] + b / 8] |=
-				(uint8_t)(1u << b % 8);
-	}
-}
-
-static void drive_bits(struct twin *twin, uint64_t bit, uint64_t bits)
-{
-	const struct areas *areas = &twin->plant.image.program->areas;
-	const enum iec_area area = areas_find(areas, (uint32_t)(bit / 8));
-
-	if (area != AREA_NONE)
-		drive(twin, area, (uint32_t)bit - 8 * areas->at[area], (uint32_t)bits);
-}
-
-/* What its rungs write without a name. */
-static void drive_store(void *context, const struct store *store)
-{
-	drive_bits(context, store->bit, store->bits);
-}
-
-static void find_written(struct twin *twin)
-{
-	const struct program *plant = twin->plant.image.program;
-
-	for (uint32_t i = 0; i < plant->bits_count; i++)
-		drive(twin, (enum iec_area)plant->bits[i].area, plant->bits[i].first,
-		      plant->bits[i].count);
-	stores_each(plant, drive_store, twin);
-}
-
-/* The plant gives what it declares at its outputs. */
-static void find_declared(struct twin *twin)
-{
-	const struct image *plant = &twin->plant.image;
-	struct symbol_cursor cursor = { .whole = true };
-	struct symbol symbol;
-
-	while (image_next_symbol(plant, &cursor, &symbol)) {
-		const struct location at = symbol.at;
-
-		if (at.type == IEC_NONE)
-			continue;
-		if (at.area != AREA_NONE)
-			drive(twin, at.area, at.where, 1);
-		else
-			drive_bits(twin, 8 * (uint64_t)at.where,
-				   8 * (uint64_t)iec_type_size(at.type, 0));
-	}
 }
 
 static bool take_memory(struct twin *twin, const struct program *program,
@@ -118,10 +50,8 @@ bool twin_init(struct twin *twin, const struct program *program,
 		return false;
 	twin->resource.watch = true;
 	twin->period_ns = period_ns;
-	if (plant) {
-		find_declared(twin);
-		find_written(twin);
-	}
+	if (plant)
+		plant_find(&twin->plant.image, &program->areas, twin->plant_drives);
 	return true;
 }
 
@@ -197,8 +127,8 @@ static void clear_outputs(struct resource *resource)
 {
 	struct image *image = &resource->image;
 
-	for (size_t i = 0; i < CROSSWISE; i++) {
-		const enum iec_area area = crosswise[i].out;
+	for (size_t i = 0; i < PLANT_PAIRS; i++) {
+		const enum iec_area area = plant_pairs[i].out;
 
 		for (uint32_t bit = 0; bit < 8 * image->program->areas.bytes[area]; bit++)
 			image_set_bit(image, area, bit, false);
@@ -224,8 +154,8 @@ static void copy_inputs(struct image *to, const struct image *from)
 {
 	const struct areas *areas = &from->program->areas;
 
-	for (size_t i = 0; i < CROSSWISE; i++) {
-		const enum iec_area in = crosswise[i].in;
+	for (size_t i = 0; i < PLANT_PAIRS; i++) {
+		const enum iec_area in = plant_pairs[i].in;
 
 		for (uint32_t bit = 0; bit < 8 * areas->bytes[in]; bit++)
 			image_set_bit(to, in, bit, image_get_bit(from, in, bit));
@@ -297,43 +227,6 @@ bool twin_act(struct twin *twin, const struct act *act)
 
 /* ---- scans ---- */
 
-static uint32_t least(uint32_t a, uint32_t b)
-{
-	return a < b ? a : b;
-}
-
-/* What the plant does not drive stays: a person's switch. */
-static void plant_to_program(struct twin *twin)
-{
-	const struct areas *here = &twin->resource.image.program->areas;
-	const struct areas *there = &twin->plant.image.program->areas;
-
-	for (size_t i = 0; i < CROSSWISE; i++) {
-		const enum iec_area out = crosswise[i].out, in = crosswise[i].in;
-		uint8_t *to = image_area(&twin->resource.image, in);
-		const uint8_t *from = image_area(&twin->plant.image, out);
-		const uint8_t *mask = twin->plant_drives + here->at[in];
-		const uint32_t bytes = least(here->bytes[in], there->bytes[out]);
-
-		for (uint32_t b = 0; b < bytes; b++)
-			to[b] = (uint8_t)((to[b] & ~mask[b]) | (from[b] & mask[b]));
-	}
-}
-
-static void program_to_plant(struct twin *twin)
-{
-	const struct areas *here = &twin->resource.image.program->areas;
-	const struct areas *there = &twin->plant.image.program->areas;
-
-	for (size_t i = 0; i < CROSSWISE; i++) {
-		const enum iec_area out = crosswise[i].out, in = crosswise[i].in;
-
-		memcpy(image_area(&twin->plant.image, in),
-		       image_area(&twin->resource.image, out),
-		       least(there->bytes[in], here->bytes[out]));
-	}
-}
-
 /* The world first: what the program gave in its last scan has worked for a period when
  * it looks again, and its first scan sees switches as they are. */
 bool twin_scan(struct twin *twin)
@@ -344,11 +237,9 @@ bool twin_scan(struct twin *twin)
 		return false;
 	twin->now_ns += twin->period_ns;
 	twin->scan++;
-	if (has_plant(twin)) {
-		program_to_plant(twin);
-		resource_scan(&twin->plant, twin->now_ns);
-		plant_to_program(twin);
-	}
+	if (has_plant(twin))
+		plant_turn(&twin->plant, twin->plant_drives, &resource->image,
+			   twin->now_ns);
 	resource_scan(resource, twin->now_ns);
 	if (resource->state == STATE_FAULT)
 		clear_outputs(resource);

@@ -275,6 +275,20 @@ struct location value_find(const struct image *image, const char *name,
 	return at;
 }
 
+const struct image *value_side(const struct image *image, const struct image *plant,
+			       const char **name, size_t *len)
+{
+	static const char head[] = "plant.";
+	const size_t skip = sizeof(head) - 1;
+
+	if (!plant || *len <= skip || !ascii_same(*name, head, skip) ||
+	    image_find(image, *name, *len).type != IEC_NONE)
+		return image;
+	*name += skip;
+	*len -= skip;
+	return plant;
+}
+
 bool setting_parse(const struct image *image, const char *text, size_t len,
 		   struct setting *out, struct diag_list *diags,
 		   struct diag place)

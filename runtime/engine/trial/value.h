@@ -55,6 +55,16 @@ bool value_has_room(const struct image *image, struct location at,
 struct location value_find(const struct image *image, const char *name,
 			   size_t len, enum diag_id *why);
 
+/**
+ * value_side - whose name it is: the program's, or, of `plant.Level`, its plant's
+ * @plant: NULL: there is none
+ * @name, @len: lose `plant.` if it is the plant's. A program that has such a name itself
+ * means its own.
+ *
+ * Scan-safe: no.   Returns @image or @plant. */
+const struct image *value_side(const struct image *image, const struct image *plant,
+			       const char **name, size_t *len);
+
 struct setting {
 	struct location at;
 	union iec_value value;

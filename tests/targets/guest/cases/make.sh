@@ -20,6 +20,7 @@ build_image() { # FILE.rung
 
 for rung in ladders/*.rung; do
     name=$(basename "$rung" .rung)
+    case $name in *.plant) continue ;; esac
     map=
     [ "$name" != board-44b0x ] || map=$cases/s3c44b0x.io
     status=0

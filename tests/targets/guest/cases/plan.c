@@ -37,7 +37,8 @@ struct event {
 struct maker {
 	const char *folder;
 	char name[64];
-	struct ladder *ladder;
+	struct ladder *ladder, *plant_ladder;
+	struct plant plant;
 	struct resource resource;
 	struct arena arena;
 	struct diag_list diags;
@@ -415,19 +416,43 @@ static void write_head(const char *map)
 			maker.out[i]->active_low ? " low" : "");
 }
 
+/* Its plant is only there to be named. */
+static bool read_scenarios(const char *scn, const char *text, size_t len,
+			   struct scenario_file *file)
+{
+	struct diag place;
+	const char *name = scenario_find_plant(scn, text, len, &maker.arena, &place);
+	const char *slash = strrchr(scn, '/');
+	const struct image *image = NULL;
+	char path[512];
+
+	snprintf(path, sizeof(path), "%.*s%s", slash ? (int)(slash + 1 - scn) : 0, scn,
+		 name ? name : "");
+	if (name) {
+		maker.plant_ladder = ladder_new();
+		if (!ladder_load(maker.plant_ladder, path) ||
+		    !ladder_build(maker.plant_ladder) ||
+		    !plant_init(&maker.plant, ladder_program(maker.plant_ladder),
+				maker.resource.image.program))
+			return tell(path);
+		image = &maker.plant.resource.image;
+	}
+	return scenario_read_with(scn, text, len, &maker.resource.image, image,
+				  &maker.arena, file, &maker.diags);
+}
+
 static bool make_all(const char *scn)
 {
 	struct scenario_file file;
 	size_t len;
 	char *text = file_read(scn, 1 << 20, &len, &maker.diags);
-	bool good = text && scenario_read(scn, text, len,
-					  &maker.resource.image, &maker.arena,
-					  &file, &maker.diags);
+	bool good = text && read_scenarios(scn, text, len, &file);
 
 	if (!good)
 		return tell(scn);
+	/* A board has a world of its own. */
 	for (int i = 0; good && i < file.count; i++)
-		good = make_scenario(&file, i);
+		good = file.scenario[i].with_plant || make_scenario(&file, i);
 	free(text);
 	printf("# %s: %d scenarios, %.1f %% of output bits are expected\n",
 	       maker.name, file.count,
