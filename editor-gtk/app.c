@@ -14,6 +14,7 @@
 #include "editor-gtk/render.h"
 #include "editor-gtk/usage.h"
 
+#include <glib-unix.h>
 #include <gtksourceview/gtksource.h>
 #include <locale.h>
 #include <signal.h>
@@ -142,6 +143,31 @@ static int restore_drafts(AdwApplication *application)
 	return count;
 }
 
+/* ---- told to end ---- */
+
+/* As at the end of a session: what is not saved is there again at the next start. */
+static gboolean end_now(gpointer application)
+{
+	GList *windows = g_list_copy(gtk_application_get_windows(application));
+
+	for (GList *at = windows; at; at = at->next)
+		if (LADDER_IS_WINDOW(at->data))
+			draft_write(ladder_window_document(LADDER_WINDOW(at->data)));
+	g_list_free(windows);
+	while ((windows = gtk_application_get_windows(application)))
+		gtk_window_destroy(GTK_WINDOW(windows->data));
+	g_application_quit(G_APPLICATION(application));
+	return G_SOURCE_CONTINUE;
+}
+
+static void follow_signals(gpointer application)
+{
+	static const int numbers[] = { SIGTERM, SIGINT, SIGHUP };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(numbers); i++)
+		g_unix_signal_add(numbers[i], end_now, application);
+}
+
 /* ---- the application ---- */
 
 static void activate(AdwApplication *application)
@@ -251,6 +277,7 @@ int app_run(int argc, char **argv)
 	g_signal_connect_after(application, "startup", G_CALLBACK(startup), NULL);
 	g_signal_connect(application, "activate", G_CALLBACK(activate), NULL);
 	g_signal_connect(application, "open", G_CALLBACK(open_files), NULL);
+	follow_signals(application);
 	status = g_application_run(G_APPLICATION(application), argc, argv);
 	g_object_unref(application);
 	return status;

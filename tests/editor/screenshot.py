@@ -24,8 +24,8 @@ def main(out):
         desk.sh('xdotool', 'mousemove', '1279', '799', 'sleep', '1.5')
         subprocess.run(['import', '-window', 'root', '+dither', '-colors', '96', '-strip', 'PNG8:' + out], check=True)
     finally:
-        for end in desk.ended:
-            end()
+        for editor in desk.editors[:]:
+            editor.kill()
         screen.close()
 
 

@@ -12,6 +12,7 @@ tree and never changes, is looked into only for its tiles.
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -22,13 +23,13 @@ import warnings
 warnings.simplefilter('ignore')
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), '..', '..', '..'))
 BUILD = os.path.join(ROOT, os.environ.get('BUILD', 'build'))
-EDITOR = os.path.join(BUILD, 'ladder-editor')
+EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
 LADDER = os.path.join(BUILD, 'ladder')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
 PATIENCE = 60  # seconds until what must come did not; no test waits for it in vain
 
 GLib = Gio = None
-ended = []  # what is to be done when a test is over
+editors = []  # those that were begun
 BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
 ROLES = {'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
          'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'push button': 43,
@@ -163,7 +164,7 @@ class Editor:
         with open(self.log, 'w') as log:
             self.process = subprocess.Popen([*WRAPPER, EDITOR, *files], stdout=log, stderr=subprocess.STDOUT,
                                             preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
-        ended.append(self.kill)
+        editors.append(self)
         self.bus = screen.accessibility()
         self.roles = {}   # path -> role; a widget has the same one all its life
         self.palette = None
@@ -194,8 +195,7 @@ class Editor:
 
     def alive(self):
         if self.process.poll() is not None:
-            with open(self.log) as log:
-                raise AssertionError('the editor ended with %d: %s' % (self.process.returncode, log.read()))
+            raise AssertionError('the editor ended with %d: %s' % (self.process.returncode, self.logged()))
 
     # ---- asking ----
 
@@ -432,6 +432,20 @@ class Editor:
         if self.process.poll() is None:
             self.process.kill()
         self.process.wait()
+        editors.remove(self)
+
+    def end(self):
+        """As a session ends: in good order, whatever is on the screen."""
+        if self.process.poll() is None:
+            os.kill(self.pid, signal.SIGTERM)
+        editors.remove(self)
+        status = self.process.wait(PATIENCE)
+        assert status == 0, 'the editor ended with %d: %s' % (status, self.logged())
+
+    def logged(self):
+        """What it wrote for nobody to see: messages of the toolkit, of sanitizers."""
+        with open(self.log) as log:
+            return log.read()
 
 
 # ---- what came of it ----
@@ -483,12 +497,21 @@ def report(tests):
     return int(failed)
 
 
+def keep_log(editor, number):
+    """Beside the pictures, if there is anything in it."""
+    if os.environ.get('PICTURES') and os.path.getsize(editor.log):
+        shutil.copy(editor.log, os.path.join(os.environ['PICTURES'], 'log-%d.txt' % number))
+
+
 def run(number, test):
     begin = time.monotonic()
     screen = Screen(getattr(test, 'size', '1440x900x24'))
     failed = 1
     try:
         test(screen)
+        for editor in editors[:]:
+            editor.end()
+            keep_log(editor, number)
         print('ok %d - %s # %.1f s' % (number, test.__doc__, time.monotonic() - begin))
         failed = 0
     except Exception as error:
@@ -496,8 +519,9 @@ def run(number, test):
         print('# ' + ''.join(traceback.format_exception(error)[-3:]).replace('\n', '\n# '))
         if os.environ.get('PICTURES'):
             sh('import', '-window', 'root', os.path.join(os.environ['PICTURES'], 'failed-%d.png' % number))
-    for end in ended:
-        end()
+    for editor in editors[:]:
+        print('# ' + editor.logged().replace('\n', '\n# '))
+        editor.kill()
     screen.close()
     sys.stdout.flush()
     return failed

@@ -97,8 +97,7 @@ def close(screen):
     until(lambda: len(editor.windows()) == 2, 'the question')
     editor.reply('Discard')
     until(lambda: editor.process.poll() is not None, 'the end')
-    with open(editor.log) as log:
-        assert editor.process.returncode == 0, log.read()
+    assert editor.process.returncode == 0, editor.logged()
     assert open(path).read() == PROJECT
 
 

@@ -7,6 +7,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, lines, main, new_file, until  # noqa: E402
 
+
 def drafts(screen):
     folder = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
     return [os.path.join(folder, name) for name in os.listdir(folder)] if os.path.isdir(folder) else []
@@ -36,4 +37,17 @@ def after_a_kill(screen):
     until(lambda: not drafts(screen), 'the draft to go with the save')
 
 
-main([after_a_kill])
+def at_the_end_of_a_session(screen):
+    """told to end, it keeps what was drawn last, asks nobody, and gives it back"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.entry('Start')
+    until(lambda: len(editor.cells()) == 1, 'the contact')
+    editor.end()
+    assert len(drafts(screen)) == 1
+    again = Editor(screen)
+    again.says('This was not saved when the editor ended')
+    until(lambda: len(again.cells()) == 1, 'the contact')
+
+
+main([after_a_kill, at_the_end_of_a_session])
