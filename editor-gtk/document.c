@@ -95,9 +95,24 @@ void document_tell_variable(LadderDocument *document, int pou, const char *name,
 	g_signal_emit(document, signals[VARIABLE_CHANGED], 0, pou, name, address);
 }
 
-void document_tell_project(LadderDocument *document)
+void document_tell_list(LadderDocument *document, int pou)
+{
+	g_signal_emit(document, signals[LIST_CHANGED], 0, pou);
+}
+
+void document_tell_bookmarks(LadderDocument *document)
+{
+	g_signal_emit(document, signals[BOOKMARKS_CHANGED], 0);
+}
+
+void document_tell_whole(LadderDocument *document)
 {
 	g_signal_emit(document, signals[PROJECT_CHANGED], 0);
+}
+
+void document_tell_project(LadderDocument *document)
+{
+	document_tell_whole(document);
 	document_changed(document);
 }
 
@@ -210,7 +225,7 @@ static void apply_text(LadderDocument *document, const struct change *change,
 	document_take_text(document, out, new_len, true, NULL);
 	g_free(out);
 	g_free(text);
-	g_signal_emit(document, signals[PROJECT_CHANGED], 0);
+	document_tell_whole(document);
 }
 
 static void apply(LadderDocument *document, const struct change *change, bool back)

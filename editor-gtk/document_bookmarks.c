@@ -104,7 +104,7 @@ void document_apply_view(LadderDocument *document, const char *text)
 {
 	if (!project_set_view(ladder_project(document->ladder), text))
 		g_error("out of memory");
-	g_signal_emit_by_name(document, "bookmarks-changed");
+	document_tell_bookmarks(document);
 }
 
 /* An empty part that is the last one was ours, and goes. */

@@ -73,7 +73,12 @@ GPtrArray *document_one_text(const char *text, gsize len);
 void document_changed(LadderDocument *document);
 void document_tell_state(LadderDocument *document);
 void document_tell_checked(LadderDocument *document);
+/** document_tell_whole - all may be another. */
+void document_tell_whole(LadderDocument *document);
+/** document_tell_project - the same, and document_changed(). */
 void document_tell_project(LadderDocument *document);
+void document_tell_list(LadderDocument *document, int pou);
+void document_tell_bookmarks(LadderDocument *document);
 /** document_check_later - soon, when nobody types. */
 void document_check_later(LadderDocument *document);
 void document_stop_checks(LadderDocument *document);

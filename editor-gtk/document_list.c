@@ -87,11 +87,11 @@ void document_apply_list(LadderDocument *document, int pou, const char *text)
 	if (document_take_text(document, whole, strlen(whole), false, NULL) &&
 	    ladder_project(document->ladder)->pou_count == count) {
 		g_hash_table_remove(document->list, GINT_TO_POINTER(pou));
-		g_signal_emit_by_name(document, "project-changed");
+		document_tell_whole(document);
 	} else {
 		g_hash_table_insert(document->list, GINT_TO_POINTER(pou),
 				    g_strdup(text));
-		g_signal_emit_by_name(document, "list-changed", pou);
+		document_tell_list(document, pou);
 	}
 	g_free(whole);
 }
