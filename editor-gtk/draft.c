@@ -176,6 +176,8 @@ GPtrArray *draft_find(void)
 
 		if (draft)
 			g_ptr_array_add(found, draft);
+		else if (strstr(name, ".draft.") && !is_alive(name))
+			g_unlink(file); /* it died while it wrote that one */
 		g_free(file);
 	}
 	if (names)

@@ -10,7 +10,8 @@ from desk import Editor, check, lines, main, new_file, until  # noqa: E402
 
 def drafts(screen):
     folder = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
-    return [os.path.join(folder, name) for name in os.listdir(folder)] if os.path.isdir(folder) else []
+    names = os.listdir(folder) if os.path.isdir(folder) else []
+    return [os.path.join(folder, name) for name in names if name.endswith('.draft')]  # wholly written
 
 
 def after_a_kill(screen):
