@@ -220,7 +220,8 @@ static void show_heading(LadderSimRowView *view)
 	const LadderSimRow *row = view->row;
 	GtkWidget *item = gtk_widget_get_parent(GTK_WIDGET(view));
 	const char *name = sim_group_name(row->group);
-	char *spoken = g_strdup_printf("%s, %s", name, row->folded ? _("folded") : _("open"));
+	char *spoken = g_strdup_printf("%s, %s", name,
+				       row->folded ? _("folded") : _("unfolded"));
 
 	gtk_label_set_text(GTK_LABEL(view->title), name);
 	gtk_image_set_from_icon_name(GTK_IMAGE(view->arrow), row->folded ?
