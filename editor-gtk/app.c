@@ -263,7 +263,7 @@ int app_run(int argc, char **argv)
 	int status;
 
 	set_language();
-	memory_give_back_large();
+	memory_keep_frames();
 	/* A limit on the size of files is told like a full disk. */
 	signal(SIGXFSZ, SIG_IGN);
 	if (is_render(argc, argv))

@@ -5,6 +5,8 @@
  * Enter takes what is typed, or the candidate that the arrows chose: never one that
  * nobody chose. A key of the window takes what is typed, too, and then does what it does
  * everywhere: who saves means all that is there to be seen. Undo and redo are the line's.
+ * Candidates that are not seen at first become widgets when the person stops typing, or
+ * goes there: most never do.
  */
 #include "editor-gtk/entry_popup.h"
 
@@ -15,7 +17,9 @@ struct _LadderEntryPopup {
 	GtkPopover parent;
 	GtkWidget *line, *list, *scroller, *told;
 	struct entry_popup_calls calls;
-	GPtrArray *lines;   /* of char *, by row                               */
+	GPtrArray *rows;    /* of struct entry_popup_row *                     */
+	guint made;         /* so many of them are widgets                     */
+	guint making;       /* soon makes the others                           */
 	bool filling;       /* the line is changed by us                       */
 	guint asking;       /* soon asks what could be meant                   */
 };
@@ -23,6 +27,8 @@ struct _LadderEntryPopup {
 G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
 
 #define LIST_HEIGHT 190
+#define ROWS_SEEN   8    /* at least so many fill the list                     */
+#define REST_MS     120
 
 static GtkWidget *column(const char *text, const char *class, int chars)
 {
@@ -36,7 +42,30 @@ static GtkWidget *column(const char *text, const char *class, int chars)
 	return label;
 }
 
+static void row_free(gpointer pointer)
+{
+	struct entry_popup_row *row = pointer;
+
+	g_free(row->text);
+	g_free(row->address);
+	g_free(row->note);
+	g_free(row->kind);
+	g_free(row->line);
+	g_free(row);
+}
+
 void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row)
+{
+	struct entry_popup_row *copy = g_new(struct entry_popup_row, 1);
+
+	*copy = (struct entry_popup_row){
+		g_strdup(row->text), g_strdup(row->address), g_strdup(row->note),
+		g_strdup(row->kind), g_strdup(row->line),
+	};
+	g_ptr_array_add(popup->rows, copy);
+}
+
+static void make_row(LadderEntryPopup *popup, const struct entry_popup_row *row)
 {
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
 	GtkWidget *list_row = gtk_list_box_row_new();
@@ -58,18 +87,50 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 	gtk_accessible_update_property(GTK_ACCESSIBLE(list_row),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 	gtk_list_box_append(GTK_LIST_BOX(popup->list), list_row);
-	g_ptr_array_add(popup->lines, g_strdup(row->line));
 	g_free(name);
 	g_free(tip);
+}
+
+static void make_rows(LadderEntryPopup *popup, guint count)
+{
+	while (popup->made < MIN(count, popup->rows->len))
+		make_row(popup, popup->rows->pdata[popup->made++]);
+	if (popup->made == popup->rows->len)
+		g_clear_handle_id(&popup->making, g_source_remove);
+}
+
+static gboolean make_rest(gpointer data)
+{
+	LadderEntryPopup *popup = data;
+
+	popup->making = 0;
+	make_rows(popup, popup->rows->len);
+	return G_SOURCE_REMOVE;
+}
+
+/* What is seen at once. */
+static void make_first(LadderEntryPopup *popup)
+{
+	make_rows(popup, ROWS_SEEN);
+	if (popup->made < popup->rows->len && !popup->making)
+		popup->making = g_timeout_add(REST_MS, make_rest, popup);
 }
 
 static void clear_rows(LadderEntryPopup *popup)
 {
 	GtkWidget *row;
 
-	g_ptr_array_set_size(popup->lines, 0);
+	g_clear_handle_id(&popup->making, g_source_remove);
+	g_ptr_array_set_size(popup->rows, 0);
+	popup->made = 0;
 	while ((row = gtk_widget_get_first_child(popup->list)))
 		gtk_list_box_remove(GTK_LIST_BOX(popup->list), row);
+}
+
+/* Of a candidate. */
+static const char *row_line(LadderEntryPopup *popup, int row)
+{
+	return ((const struct entry_popup_row *)popup->rows->pdata[row])->line;
 }
 
 static const char *line_of(LadderEntryPopup *popup)
@@ -87,13 +148,14 @@ void ladder_entry_popup_ask(LadderEntryPopup *popup)
 	told = popup->calls.changed(popup->calls.context, line_of(popup),
 				    gtk_editable_get_position(GTK_EDITABLE(popup->line)),
 				    &good);
+	make_first(popup);
 	gtk_label_set_text(GTK_LABEL(popup->told), told ? told : "");
 	gtk_widget_set_visible(popup->told, told && told[0]);
 	if (good)
 		gtk_widget_remove_css_class(popup->told, "error");
 	else
 		gtk_widget_add_css_class(popup->told, "error");
-	gtk_widget_set_visible(popup->scroller, popup->lines->len > 0);
+	gtk_widget_set_visible(popup->scroller, popup->rows->len > 0);
 	g_free(told);
 }
 
@@ -141,7 +203,7 @@ static int chosen(LadderEntryPopup *popup)
 static bool take(LadderEntryPopup *popup)
 {
 	const int row = chosen(popup);
-	char *line = g_strdup(row >= 0 ? popup->lines->pdata[row] : line_of(popup));
+	char *line = g_strdup(row >= 0 ? row_line(popup, row) : line_of(popup));
 	bool good;
 
 	g_object_ref(popup);
@@ -181,8 +243,9 @@ static void row_activated(LadderEntryPopup *popup, GtkListBoxRow *row)
 static void choose(LadderEntryPopup *popup, int by)
 {
 	ask_if_due(popup);
+	make_rows(popup, popup->rows->len);
 
-	const int count = (int)popup->lines->len;
+	const int count = (int)popup->rows->len;
 	const int to = CLAMP(chosen(popup) + by, -1, count - 1);
 	GtkListBoxRow *row = to < 0 ? NULL :
 		gtk_list_box_get_row_at_index(GTK_LIST_BOX(popup->list), to);
@@ -211,9 +274,9 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 		return TRUE;
 	case GDK_KEY_Tab:
 		ask_if_due(popup);
-		if (popup->lines->len == 0)
+		if (popup->rows->len == 0)
 			return TRUE;
-		set_line(popup, popup->lines->pdata[MAX(chosen(popup), 0)]);
+		set_line(popup, row_line(popup, MAX(chosen(popup), 0)));
 		return TRUE;
 	case GDK_KEY_Escape:
 		gtk_popover_popdown(GTK_POPOVER(popup));
@@ -230,14 +293,18 @@ static void closed(LadderEntryPopup *popup)
 
 	popup->calls.gone = NULL;
 	g_clear_handle_id(&popup->asking, g_source_remove);
+	g_clear_handle_id(&popup->making, g_source_remove);
 	if (gone)
 		gone(popup->calls.context);
 }
 
 static void ladder_entry_popup_finalize(GObject *object)
 {
-	g_clear_handle_id(&LADDER_ENTRY_POPUP(object)->asking, g_source_remove);
-	g_ptr_array_unref(LADDER_ENTRY_POPUP(object)->lines);
+	LadderEntryPopup *popup = LADDER_ENTRY_POPUP(object);
+
+	g_clear_handle_id(&popup->asking, g_source_remove);
+	g_clear_handle_id(&popup->making, g_source_remove);
+	g_ptr_array_unref(popup->rows);
 	G_OBJECT_CLASS(ladder_entry_popup_parent_class)->finalize(object);
 }
 
@@ -251,7 +318,7 @@ static void ladder_entry_popup_init(LadderEntryPopup *popup)
 	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
 	GtkEventController *keys = gtk_event_controller_key_new();
 
-	popup->lines = g_ptr_array_new_with_free_func(g_free);
+	popup->rows = g_ptr_array_new_with_free_func(row_free);
 	popup->line = gtk_entry_new();
 	popup->told = gtk_label_new(NULL);
 	popup->list = gtk_list_box_new();

@@ -103,11 +103,18 @@ static void ladder_grid_view_measure(GtkWidget *widget, GtkOrientation orientati
 	*least_base = *natural_base = -1;
 }
 
+/* Nothing but the drawing follows at once: to allocate the window and the cells that
+ * assistive technology sees would take longer than to draw. */
 static void scrolled(LadderGridView *view)
 {
 	cells_later(view);
-	if (!view->allocating)
-		gtk_widget_queue_allocate(GTK_WIDGET(view));
+	if (!view->allocating) {
+		view->allocating = true; /* rungs that grow above may scroll it */
+		strips_lay_out(view, gtk_widget_get_height(GTK_WIDGET(view)));
+		view->allocating = false;
+		if (view->entry)
+			gtk_widget_queue_allocate(GTK_WIDGET(view));
+	}
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 

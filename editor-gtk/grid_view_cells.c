@@ -4,9 +4,11 @@
  *
  * GTK 4.8 makes only widgets accessible, so there is one that draws nothing for each
  * element of the rungs on the screen. The one at the cursor is told as selected. They
- * follow when nothing else is to be done, never while the window is laid out.
+ * follow a moment later, never while the window is laid out or scrolled.
  */
 #include "editor-gtk/grid_view_inside.h"
+
+#define FOLLOW_MS 60
 
 #define LADDER_TYPE_CELL (ladder_cell_get_type())
 G_DECLARE_FINAL_TYPE(LadderCell, ladder_cell, LADDER, CELL, GtkWidget)
@@ -166,7 +168,7 @@ static gboolean update_now(gpointer data)
 void cells_later(LadderGridView *view)
 {
 	if (!view->cells_idle)
-		view->cells_idle = g_idle_add(update_now, view);
+		view->cells_idle = g_timeout_add(FOLLOW_MS, update_now, view);
 }
 
 /* It may be older than the rungs: until cells_update() it is not looked at. */

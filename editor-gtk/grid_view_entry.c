@@ -116,7 +116,7 @@ static char *outcome(const struct entry *entry, const char *line, bool *good)
 static char *element_changed(void *context, const char *line, int cursor, bool *good)
 {
 	struct asked *asked = context;
-	const struct entry_place place = place_of(asked);
+	struct entry_place place;
 	struct entry_candidate *found;
 	struct entry *entry;
 	size_t skipped, at;
@@ -125,6 +125,7 @@ static char *element_changed(void *context, const char *line, int cursor, bool *
 
 	if (!asked->view->entry)
 		return NULL; /* the popup is being made: it asks again */
+	place = place_of(asked);
 	found = g_new(struct entry_candidate, CANDIDATES);
 	entry = g_new0(struct entry, 1);
 	whole = whole_line(asked, line, &skipped);

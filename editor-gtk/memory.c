@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * memory - what a large project took goes back to the system when it is freed.
+ * memory - what is kept for the next frame, and what goes back to the system.
  */
 #include "editor-gtk/memory.h"
 
@@ -9,11 +9,12 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 
-#define LARGE (256 * 1024) /* bytes, from where on a block is a mapping of its own */
+#define FRAME (32 * 1024 * 1024) /* bytes: more than a frame takes, the most there can be */
 
-void memory_give_back_large(void)
+void memory_keep_frames(void)
 {
-	mallopt(M_MMAP_THRESHOLD, LARGE);
+	mallopt(M_MMAP_THRESHOLD, FRAME);
+	mallopt(M_TRIM_THRESHOLD, 2 * FRAME);
 }
 
 void memory_give_back(void)
@@ -21,7 +22,7 @@ void memory_give_back(void)
 	malloc_trim(0);
 }
 #else
-void memory_give_back_large(void)
+void memory_keep_frames(void)
 {
 }
 

@@ -345,7 +345,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 		if (strstr(deeds[i].name, word))
 			measure(&deeds[i], LADDER_GRID_VIEW(sheet));
 	free_cell(LADDER_GRID_VIEW(sheet), 0);
-	settle(2000);
+	settle(6000); /* scrollbars fade away */
 	printf("\nMemory: %ld MB (200).\n", memory());
 	idle();
 	g_object_unref(document);
@@ -432,7 +432,7 @@ int main(int argc, char **argv)
 		return 2;
 	if (argc == 3)
 		starts(argv[0], argv[2]);
-	memory_give_back_large();
+	memory_keep_frames();
 	application = adw_application_new("org.rungboard.Bench", G_APPLICATION_NON_UNIQUE);
 	g_application_register(G_APPLICATION(application), NULL, NULL);
 	gtk_source_init();
