@@ -57,6 +57,7 @@ void sheet_tell(LadderGridView *view, const char *text)
 
 void sheet_moved(LadderGridView *view)
 {
+	keys_moved(view);
 	g_signal_emit(view, signals[CURSOR_MOVED], 0);
 }
 
@@ -179,6 +180,7 @@ static void ladder_grid_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 				    0, (float)(RUNG_GUTTER * view->zoom), height));
 	strips_snapshot(view, snapshot);
 	wire_snapshot(view, snapshot, theme);
+	keys_snapshot(view, snapshot, theme);
 	if (is_blank(view))
 		snapshot_hint(view, snapshot, theme);
 	gtk_snapshot_pop(snapshot);
@@ -284,81 +286,6 @@ static void listen(LadderGridView *view)
 		G_CALLBACK(variable_changed), view);
 	view->handler[2] = g_signal_connect_swapped(view->document, "checked",
 		G_CALLBACK(checked), view);
-}
-
-/* ---- keys ---- */
-
-/* Input methods have the first look at a key: what they make of it, if that is not just
- * the key itself, is what the person typed. */
-static bool is_composed(LadderGridView *view, GtkEventControllerKey *controller,
-			gunichar key)
-{
-	GdkEvent *event = gtk_event_controller_get_current_event(
-		GTK_EVENT_CONTROLLER(controller));
-
-	view->key = key;
-	view->plain = false;
-	return gtk_im_context_filter_keypress(view->input, event) && !view->plain;
-}
-
-static void key_released(GtkEventControllerKey *controller, guint key, guint code,
-			 GdkModifierType state, LadderGridView *view)
-{
-	(void)key;
-	(void)code;
-	(void)state;
-	gtk_im_context_filter_keypress(view->input, gtk_event_controller_get_current_event(
-		GTK_EVENT_CONTROLLER(controller)));
-}
-
-static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
-			    GdkModifierType state, LadderGridView *view)
-{
-	const GdkModifierType others = GDK_CONTROL_MASK | GDK_ALT_MASK | GDK_SUPER_MASK;
-	gunichar c = gdk_keyval_to_unicode(key);
-	char text[8] = "";
-
-	(void)code;
-	if (cursor_key(view, key, state) || is_composed(view, controller, c))
-		return TRUE;
-	if (state & others || !(g_unichar_isalpha(c) || c == '%' || c == '[' || c == '_'))
-		return FALSE;
-	text[g_unichar_to_utf8(c, text)] = '\0';
-	entry_begin(view, text);
-	return TRUE;
-}
-
-/* Input methods compose what is no key: Chinese names. */
-static void key_composed(GtkIMContext *input, const char *text, LadderGridView *view)
-{
-	(void)input;
-	if (text[0] && g_utf8_get_char(text) == view->key && !*g_utf8_next_char(text))
-		view->plain = true;
-	else if (!view->entry)
-		entry_begin(view, text);
-}
-
-static void focus_changed(LadderGridView *view)
-{
-	if (gtk_widget_has_focus(GTK_WIDGET(view)))
-		gtk_im_context_focus_in(view->input);
-	else
-		gtk_im_context_focus_out(view->input);
-}
-
-static void add_keys(LadderGridView *view)
-{
-	GtkEventController *keys = gtk_event_controller_key_new();
-
-	view->input = gtk_im_multicontext_new();
-	gtk_im_context_set_client_widget(view->input, GTK_WIDGET(view));
-	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), view);
-	g_signal_connect(keys, "key-released", G_CALLBACK(key_released), view);
-	g_signal_connect(view->input, "commit", G_CALLBACK(key_composed), view);
-	g_signal_connect(view, "notify::has-focus", G_CALLBACK(focus_changed), NULL);
-	gtk_widget_add_controller(GTK_WIDGET(view), keys);
-	/* Those of verbs come before the letters that begin an entry. */
-	gtk_widget_add_controller(GTK_WIDGET(view), verbs_controller());
 }
 
 /* ---- from outside ---- */
@@ -512,6 +439,7 @@ static void ladder_grid_view_finalize(GObject *object)
 
 	entry_forget_uses(view);
 	g_free(view->wire.legal);
+	g_free(view->composed);
 	rung_free(view->preview);
 	rung_free(view->before);
 	g_array_unref(view->strips);
@@ -560,7 +488,7 @@ static void ladder_grid_view_init(LadderGridView *view)
 	set_adjustment(view, 1, NULL);
 	gtk_widget_set_focusable(GTK_WIDGET(view), TRUE);
 	gtk_widget_set_overflow(GTK_WIDGET(view), GTK_OVERFLOW_HIDDEN);
-	add_keys(view);
+	keys_init(view);
 	live_init(view);
 	mouse_init(view);
 	wire_init(view);

@@ -105,6 +105,7 @@ struct _LadderGridView {
 	GtkIMContext *input;
 	gunichar key;               /* that input methods look at              */
 	bool plain;                 /* and made nothing else of                */
+	char *composed;             /* what they have so far; NULL: nothing     */
 };
 
 /* A mark of the checks: rung and cell of the rung, 0-based; row -1: the whole. */
@@ -240,6 +241,13 @@ void clipboard_do(LadderGridView *view, enum verb verb);
 
 /* ---- grid_view_mouse.c ---- */
 void mouse_init(LadderGridView *view);
+
+/* ---- grid_view_keys.c ---- */
+void keys_init(LadderGridView *view);
+/** keys_moved - the cursor is elsewhere: so is what input methods show. */
+void keys_moved(LadderGridView *view);
+/** keys_snapshot - what is being composed, at the cursor. */
+void keys_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme);
 
 /* ---- grid_view_wire.c ---- */
 void wire_init(LadderGridView *view);

@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""compose - names that no key gives: dead keys, a compose key, characters by their number."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, main, new_file, until  # noqa: E402
+
+
+def line(editor):
+    """What stands in the line at the cursor."""
+    return until(editor.asked, 'an entry')[0].text()
+
+
+def take(editor):
+    editor.keys('Return')
+    editor.gone()
+
+
+def on_the_sheet(screen):
+    """what is composed on the sheet begins the entry: é by a dead key, ø by Compose, 阀 by its number"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('dead_acute')
+    editor.shot('composing')
+    editor.keys('e')
+    until(lambda: line(editor) == 'é', 'é in the entry')
+    editor.type('toile')
+    take(editor)
+    editor.keys('Multi_key', 'slash', 'o')  # a slash alone would negate
+    until(lambda: line(editor) == 'ø', 'ø in the entry')
+    take(editor)
+    editor.keys('ctrl+shift+u', '9', '6', '0', '0', 'space')  # a blank alone would change the kind
+    until(lambda: line(editor) == '\u9600', '阀 in the entry')
+    take(editor)
+    text = editor.save(path)
+    assert '| NO étoile | NO ø | NO \u9600 |' in ' '.join(text.split()), text
+
+
+def given_up(screen):
+    """what is composed and given up changes nothing, and the keys are verbs again"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.entry('Start')
+    editor.keys('Home', 'ctrl+shift+u', '9', '6', 'Escape')
+    editor.keys('slash', 'Right')
+    editor.entry('OUT Motor')
+    text = editor.save(path)
+    assert '| NC Start | COIL Motor |' in ' '.join(text.split()), text
+
+
+def in_the_entry(screen):
+    """the line at the cursor composes as well, and so does a label"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.type('T')
+    editor.opened()
+    editor.keys('dead_diaeresis', 'u')
+    editor.type('r')
+    until(lambda: line(editor) == 'Tür', 'ü in the entry')
+    take(editor)
+    editor.keys('ctrl+l')
+    editor.opened()
+    editor.keys('dead_circumflex', 'o')
+    take(editor)
+    text = editor.save(path)
+    assert '| NO Tür |' in ' '.join(text.split()) and 'RUNG ô' in text, text
+
+
+main([on_the_sheet, given_up, in_the_entry])
