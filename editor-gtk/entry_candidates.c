@@ -5,169 +5,17 @@
  * What is offered exists, but for the last one, a new name, which says so: taking the
  * first of the list never makes anything new. It shows nothing.
  */
-#include "editor-gtk/entry_inside.h"
+#include "editor-gtk/entry_search.h"
 #include "editor-gtk/i18n.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/explain.h"
 #include "engine/base/lex.h"
+#include "engine/ladder.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- what is wanted ---- */
-
-enum {
-	WANT_WORD = 1, WANT_BOOL = 2, WANT_ANY = 4, WANT_INSTANCE = 8, WANT_LABEL = 16,
-	WANT_ROUTINE = 32, WANT_PIN_NAME = 64, WANT_NEW = 128,
-};
-
-struct search {
-	const struct entry_place *place;
-	const char *line;
-	size_t cursor, from;       /* the word is line[from … cursor)          */
-	size_t head;               /* of it: up to its last dot; 0: none       */
-	unsigned int want;
-	uint16_t classes;          /* of values; 0: any                        */
-	bool write;
-	const struct word_row *row; /* of the line's word; NULL: none          */
-	enum word word;
-	struct entry_candidate *out;
-	int count, most;
-	int *rank;                 /* of each in out                           */
-};
-
-static bool is_part(char c)
-{
-	return (c >= '0' && c <= '9') || ascii_upper(c) != c || (c >= 'A' && c <= 'Z') ||
-	       c == '_' || c == '%' || c == '.' || (c & 0x80);
-}
-
-static void want_operand(struct search *s)
-{
-	switch (s->row->operand) {
-	case OPND_BOOL_R:
-		s->want = WANT_BOOL | WANT_NEW;
-		return;
-	case OPND_BOOL_W:
-		s->want = WANT_BOOL | WANT_NEW;
-		s->write = true;
-		return;
-	case OPND_LABEL:
-		s->want = WANT_LABEL;
-		return;
-	case OPND_ROUTINE:
-		s->want = WANT_ROUTINE;
-		return;
-	case OPND_EXPR:
-	case OPND_ASSIGN:
-	case OPND_LOOP:
-	case OPND_ANY_R:
-	case OPND_ANY_W:
-		s->want = WANT_ANY;
-		return;
-	case OPND_NONE:
-	case OPND_LOOP_END:
-	case OPND_INSTANCE:
-	case OPND_PIN:
-		return;
-	}
-}
-
-/* Values that go with one: numbers with numbers. */
-static uint16_t classes_with(uint16_t classes)
-{
-	return classes & ANY_NUM ? classes | ANY_NUM : classes;
-}
-
-/* Behind `PT:=`: what fits that pin. */
-static void want_value(struct search *s, const char *rest, size_t len)
-{
-	size_t from;
-	int pin;
-
-	while (len > 0 && strchr(":=>/ ", rest[len - 1]))
-		len--;
-	for (from = len; from > 0 && is_part(rest[from - 1]); from--)
-		;
-	pin = word_pin_find(s->row, rest + from, len - from);
-	s->want = WANT_ANY;
-	if (pin < 0)
-		return;
-	s->classes = s->row->kind == WORD_FN ? word_input(s->row, (uint32_t)pin)->classes :
-			classes_with(iec_type_row(s->row->pin[pin].type)->class);
-}
-
-/* Behind a word: its operand, its instance, its parameters. */
-static void want_behind(struct search *s, const char *rest, size_t len)
-{
-	size_t end = len;
-
-	if (s->row->kind == WORD_ELEM) {
-		want_operand(s);
-		return;
-	}
-	while (end > 0 && rest[end - 1] == ' ')
-		end--;
-	if (end > 0 && strchr("=>/", rest[end - 1])) {
-		want_value(s, rest, end);
-		return;
-	}
-	s->want = WANT_PIN_NAME;
-	if (s->row->kind == WORD_FN)
-		s->want |= WANT_ANY;
-	else if (end == 0)
-		s->want |= WANT_INSTANCE;
-	else
-		s->want |= WANT_ANY;
-}
-
-/* In an expression: what goes with its first operand. */
-static void want_operand_like(struct search *s, const char *text)
-{
-	struct entry_target target;
-	size_t len = 0;
-
-	while (is_part(text[len]))
-		len++;
-	s->want = WANT_ANY;
-	s->write = false;
-	entry_target_find(s->place, text, len, &target);
-	if (target.means == MEANS_VALUE)
-		s->classes = classes_with(iec_type_row(target.type)->class);
-}
-
-/* What may stand at the word before the cursor, by what stands before that. */
-static void find_want(struct search *s)
-{
-	const char *line = s->line;
-	size_t at = strspn(line, " \t"), glyph = entry_glyph(line + at, &s->word);
-	size_t end = at;
-	bool below;
-
-	s->word = glyph ? s->word : WORD_COUNT;
-	if (glyph) {
-		end = at + glyph;
-	} else {
-		while (end < s->from && line[end] != ' ' && line[end] != '[')
-			end++;
-		if (end == at || end == s->from)
-			end = at;
-		else
-			s->word = entry_word_find(s->place, line + at, end - at, &below);
-	}
-	s->write = s->place->output;
-	s->want = WANT_WORD | WANT_BOOL | WANT_NEW;
-	if (s->word != WORD_COUNT && s->from >= end && end > at) {
-		s->row = words_row(&s->place->project->words, s->word);
-		s->want = 0;
-		s->write = false;
-		want_behind(s, line + end, s->from - end);
-	} else if (s->from > at && line[at] != '/' && line[at] != '!') {
-		want_operand_like(s, line + at + (line[at] == '['));
-	}
-}
 
 /* ---- ranking ---- */
 
@@ -428,6 +276,32 @@ static void add_words(struct search *s)
 	}
 }
 
+/* What a function's value may be: its own type, or that of what goes in. */
+static uint16_t classes_of(const struct word_row *row)
+{
+	if (row->result == (int)RESULT_OPEN)
+		return row->result_classes;
+	if (row->result != RESULT_SAME && row->result < IEC_TYPE_COUNT)
+		return iec_type_row(row->result)->class;
+	return row->pin_count > 0 ? row->pin[0].classes : 0;
+}
+
+static void add_function(void *context, const struct ladder_word *word,
+			 const struct word_row *row)
+{
+	struct search *s = context;
+	const int fits = fit(word->text, typed(s), typed_len(s));
+	char text[ENTRY_NAME];
+
+	if (fits > 1)
+		return; /* there are many */
+	if (row && s->classes && !(classes_of(row) & s->classes))
+		return;
+	snprintf(text, sizeof(text), "%s(", word->text);
+	add(s, ENTRY_WORD, fits, text, "",
+	    row ? said(row->family) : "", said(word->note));
+}
+
 static void add_labels(struct search *s)
 {
 	const struct pou *pou = entry_pou(s->place);
@@ -528,6 +402,9 @@ static void find_all(struct search *s)
 	}
 	if (s->want & WANT_WORD)
 		add_words(s);
+	if (s->want & WANT_FUNCTION && typed_len(s) > 0)
+		ladder_functions(s->place->project, typed(s), typed_len(s), add_function,
+				 s);
 	if (s->want & (WANT_NEW | WANT_INSTANCE | WANT_ANY))
 		add_new(s);
 }
@@ -556,10 +433,10 @@ static int search(const struct entry_place *place, const char *line, size_t curs
 		return 0;
 	s.cursor = cursor <= strlen(line) ? cursor : strlen(line);
 	s.from = s.cursor;
-	while (s.from > 0 && is_part(line[s.from - 1]))
+	while (s.from > 0 && entry_is_part(line[s.from - 1]))
 		s.from--;
 	s.head = find_head(&s);
-	find_want(&s);
+	entry_find_want(&s);
 	find_all(&s);
 	free(s.rank);
 	return s.count;

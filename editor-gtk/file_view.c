@@ -197,15 +197,58 @@ GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GErr
 
 /* ---- which there are ---- */
 
-static void add_files(GPtrArray *files, const char *folder, const char *stem,
-		      const char *ending)
+/* Is @name `STEM.io`, `STEM-2.io` …: how long the stem is; 0: it is not. */
+static gsize stem_of(const char *name, const char *stem)
+{
+	const gsize len = strlen(stem);
+
+	return g_str_has_prefix(name, stem) && !g_ascii_isalnum(name[len]) &&
+	       !(name[len] & 0x80) ? len : 0;
+}
+
+/* It is of the program with the longest name that it begins with. */
+static bool is_own(const char *name, const char *stem, const GPtrArray *programs)
+{
+	const gsize len = stem_of(name, stem);
+
+	for (guint i = 0; len > 0 && i < programs->len; i++)
+		if (stem_of(name, programs->pdata[i]) > len)
+			return false;
+	return len > 0;
+}
+
+/* Names without their ending of all rung files in a folder. */
+static GPtrArray *programs_in(const char *folder)
+{
+	GPtrArray *programs = g_ptr_array_new_with_free_func(g_free);
+	GDir *dir = g_dir_open(folder, 0, NULL);
+	const char *name;
+
+	while (dir && (name = g_dir_read_name(dir)))
+		if (g_str_has_suffix(name, ".rung"))
+			g_ptr_array_add(programs, g_strndup(name,
+				strlen(name) - strlen(".rung")));
+	if (dir)
+		g_dir_close(dir);
+	return programs;
+}
+
+struct beside {
+	const char *stem, *ending;
+	bool own;
+	GPtrArray *programs, *files;
+};
+
+static void add_files(struct beside *beside, const char *folder)
 {
 	GDir *dir = g_dir_open(folder, 0, NULL);
 	const char *name;
 
 	while (dir && (name = g_dir_read_name(dir)))
-		if (g_str_has_suffix(name, ending) && g_str_has_prefix(name, stem))
-			g_ptr_array_add(files, g_build_filename(folder, name, NULL));
+		if (g_str_has_suffix(name, beside->ending) &&
+		    is_own(name, beside->stem, beside->programs) == beside->own)
+			g_ptr_array_add(beside->files, g_build_filename(folder, name,
+									NULL));
 	if (dir)
 		g_dir_close(dir);
 }
@@ -215,11 +258,11 @@ static int by_name(gconstpointer a, gconstpointer b)
 	return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-GPtrArray *files_beside(const char *path, const char *ending)
+GPtrArray *files_beside(const char *path, const char *ending, bool own)
 {
 	GPtrArray *files = g_ptr_array_new_with_free_func(g_free);
 	char *folder, *boards, *stem;
-	const bool own = strcmp(ending, ".scn") == 0;
+	struct beside beside = { NULL, ending, own, NULL, files };
 
 	if (!path)
 		return files;
@@ -228,10 +271,12 @@ GPtrArray *files_beside(const char *path, const char *ending)
 	stem = g_path_get_basename(path);
 	if (strrchr(stem, '.'))
 		*strrchr(stem, '.') = '\0';
-	add_files(files, folder, own ? stem : "", ending);
-	if (!own)
-		add_files(files, boards, "", ending);
+	beside.stem = stem;
+	beside.programs = programs_in(folder);
+	add_files(&beside, folder);
+	add_files(&beside, boards);
 	g_ptr_array_sort(files, by_name);
+	g_ptr_array_unref(beside.programs);
 	g_free(folder);
 	g_free(boards);
 	g_free(stem);

@@ -32,9 +32,14 @@ char *ladder_file_view_name(LadderFileView *view);
 bool ladder_file_view_undo(LadderFileView *view);
 bool ladder_file_view_redo(LadderFileView *view);
 
-/** files_beside - names of the files in the folder of @path (or NULL: none), and in its
- * folder `boards`, that end in @ending, sorted; of ".scn" only those whose name begins like
- * the file's. Caller: g_ptr_array_unref. */
-GPtrArray *files_beside(const char *path, const char *ending);
+/**
+ * files_beside - names of files in the folder of @path (or NULL: none), and in its folder
+ * `boards`, that end in @ending, sorted
+ * @own: those of this program: `NAME.io`, `NAME-2.io` beside NAME.rung, unless another
+ *       program has the longer part of that name; false: all others
+ *
+ * Caller: g_ptr_array_unref.
+ */
+GPtrArray *files_beside(const char *path, const char *ending, bool own);
 
 #endif

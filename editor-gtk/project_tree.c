@@ -145,9 +145,9 @@ static void add_structures(GListStore *root, const struct project *project)
 
 /* Text files beside the project. */
 static void add_texts(GListStore *root, LadderDocument *document, const char *title,
-		      const char *ending)
+		      const char *ending, bool own)
 {
-	GPtrArray *files = files_beside(ladder_document_path(document), ending);
+	GPtrArray *files = files_beside(ladder_document_path(document), ending, own);
 	LadderTreeRow *heading = files->len ? add_heading(root, title) : NULL;
 
 	for (guint i = 0; i < files->len; i++) {
@@ -238,8 +238,9 @@ static void fill(struct tree *tree)
 	row->pou = -1;
 	add_structures(tree->root, project);
 	add_bookmarks(tree->root, tree->document);
-	add_texts(tree->root, tree->document, _("Scenarios"), ".scn");
-	add_texts(tree->root, tree->document, _("I/O maps"), ".io");
+	add_texts(tree->root, tree->document, _("Scenarios"), ".scn", true);
+	add_texts(tree->root, tree->document, _("I/O maps"), ".io", true);
+	add_texts(tree->root, tree->document, _("Other I/O maps"), ".io", false);
 	add_files(tree->root, project);
 	expand_headings(tree);
 }

@@ -59,3 +59,30 @@ bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int li
 	arena_free(&arena);
 	return good;
 }
+
+struct function_taker {
+	void (*take)(void *context, const struct ladder_word *word,
+		     const struct word_row *row);
+	void *context;
+};
+
+static void pass_function(void *context, const struct expect_word *word)
+{
+	const struct function_taker *taker = context;
+	const struct ladder_word out = {
+		expect_kind_text(word->kind), word->text, expect_note(word),
+	};
+
+	taker->take(taker->context, &out, word->row);
+}
+
+void ladder_functions(struct project *project, const char *begun, size_t len,
+		      void (*take)(void *context, const struct ladder_word *word,
+				   const struct word_row *row),
+		      void *context)
+{
+	struct function_taker functions = { take, context };
+	const struct expect_taker taker = { pass_function, &functions };
+
+	expect_functions(project, begun, len, &taker);
+}

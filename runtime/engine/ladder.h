@@ -87,6 +87,19 @@ bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int li
 		     void *context, struct ladder_place *place);
 
 /**
+ * ladder_functions - the functions that an expression may call, in no order
+ * @begun: what stands of the name, to its dots: of words made by rule, such as
+ *         INT_TO_REAL, those whose first type it has are among them
+ * @take:  @word: its row; NULL: made by rule
+ *
+ * Owns: nothing; a word lives until @take returns.   Scan-safe: no.
+ */
+void ladder_functions(struct project *project, const char *begun, size_t len,
+		      void (*take)(void *context, const struct ladder_word *word,
+				   const struct word_row *row),
+		      void *context);
+
+/**
  * ladder_write - the canonical text of the project
  * @len: gets its length without the closing NUL
  * Owns: the caller, free().   Fails: NULL when memory is out.

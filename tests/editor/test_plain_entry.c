@@ -194,7 +194,13 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "TON FanDelay PT:=W_", "Wait new:W@" },
 	{ "JMP _", "Top" }, { "CALL A_", "Alarm" },
 	{ "NO I0.0_", "Start" }, { "NO %IX0.0_", "Start" }, { "NO %IX0_", "Start Stop %IX0.7" },
-	{ "Level > L_", "Level Full new:L@" },
+	{ "Level > L_", "Level LEN( LIMIT( LN( LOG( Full new:L@" },
+	{ "Heat > SQ_", "SQRT( new:SQ@" },
+	{ "[ SQ_ ]", "SQRT( new:SQ@" },
+	{ "[ Level + AB_", "ABS( new:AB@" },
+	{ "Level := INT_TO_RE_", "INT_TO_REAL( new:INT_TO_RE@" },
+	{ "Level > LE_", "Level LEN( new:LE@" },
+	{ "NO SQ_", "new:SQ@%IX0.2" },
 	{ "Level := Fu_", "Full new:Fu@" },
 	{ "tonr_", "TONR" }, { "xic_", "XIC" },
 	{ "NO Start_", "Start" },
@@ -205,7 +211,7 @@ static void list(const struct entry_place *place, const char *line, char *out,
 {
 	static struct entry_candidate found[12];
 	char copy[100];
-	const char *cursor = strchr(line, '_');
+	const char *cursor = strrchr(line, '_');
 	const size_t at = (size_t)(cursor - line);
 	int count, n = 0;
 

@@ -32,7 +32,7 @@ static const char text[] =
 	"END_PROGRAM\n"
 	"SUBROUTINE Sub LD\n"
 	"RUNG\n"
-	"  | NO  | TON  | TON Delay  | COIL  | CALL  | [ Le |\n" /* 22 */
+	"  | NO  | TON  | TON Delay  | COIL  | CALL  | [ Le | [ Level + SQ | [ NOT In | [ Level SQ |\n" /* 22 */
 	"END_SUBROUTINE\n"
 	"\n"
 	"PROGRAM More IL\n"
@@ -113,6 +113,11 @@ static void test_cells(struct ladder *ladder)
 	CHECK_AS(strcmp(at(ladder, 22, 44), " Sub ") == 0, "CALL takes subroutines");
 	words = at(ladder, 22, 51);
 	CHECK_AS(has(words, "Level") && !has(words, "Open"), "an expression takes all");
+	CHECK_AS(has(words, "LEN") && has(words, "LEFT"), "and functions");
+	CHECK_AS(has(at(ladder, 22, 66), "SQRT"), "behind an operator, too");
+	words = at(ladder, 22, 77);
+	CHECK_AS(has(words, "INSERT") && !has(words, "INT_TO_REAL"), "and behind NOT");
+	CHECK_AS(at(ladder, 22, 90)[0] == '\0', "but not behind a value");
 	words = at(ladder, 22, 4);
 	CHECK_AS(has(words, "STOP") && has(words, "CTU") && has(words, "ADD"),
 		 "words of a cell");

@@ -325,6 +325,18 @@ void expect_offer(struct scope *scope, const struct pou *pou,
 		offer_pins(&o);
 }
 
+void expect_functions(struct project *project, const char *begun, size_t len,
+		      const struct expect_taker *taker)
+{
+	const struct expect_want want = { .kinds = EXPECT_FUNCTION, .block = WORD_COUNT,
+					  .boxes = true, .begun = begun,
+					  .begun_len = len };
+	const struct offer o = { NULL, project, NULL, &want, taker };
+
+	offer_words(&o);
+	offer_made(&o);
+}
+
 const char *expect_note(const struct expect_word *word)
 {
 	if (word->note)

@@ -65,6 +65,11 @@ struct expect_taker {
 void expect_offer(struct scope *scope, const struct pou *pou,
 		  const struct expect_want *want, const struct expect_taker *taker);
 
+/** expect_functions - the same of functions alone, with those made by rule of which
+ * @begun has the first type. They need no scope. Scan-safe: no. */
+void expect_functions(struct project *project, const char *begun, size_t len,
+		      const struct expect_taker *taker);
+
 /** expect_note - the type of what was offered, or what it does; "": nothing. Lives as
  * @word does, at least. Explanations are linked by who asks for them here. */
 const char *expect_note(const struct expect_word *word);

@@ -211,6 +211,30 @@ static struct expect_want element_want(const struct before *b,
 	return none;
 }
 
+/* Does a value end there, so that an operator must come? */
+static bool ends_value(const struct token *token)
+{
+	static const char *const words[] = { "AND", "OR", "XOR", "MOD", "NOT" };
+
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (is_token(token, words[i]))
+			return false;
+	return token->kind != TOKEN_SYMBOL || is_token(token, ")") ||
+	       is_token(token, "]");
+}
+
+/* In brackets: values, and functions that make some. */
+static struct expect_want expression_want(const struct before *b)
+{
+	struct expect_want want = value_want(0);
+
+	if (b->count > 1 && ends_value(&b->token[b->count - 1]))
+		return (struct expect_want){ .block = WORD_COUNT };
+	want.kinds |= EXPECT_FUNCTION;
+	want.boxes = true;
+	return want;
+}
+
 static struct expect_want cell_want(const struct before *b)
 {
 	struct word_table *words = &scope_project(b->scope)->words;
@@ -224,7 +248,7 @@ static struct expect_want cell_want(const struct before *b)
 		return want;
 	}
 	if (is_token(&b->token[0], "["))
-		return value_want(0);
+		return expression_want(b);
 	word = words_find(words, b->token[0].text, b->token[0].len);
 	row = words_row(words, word);
 	if (word == WORD_COUNT)
