@@ -98,7 +98,6 @@ struct _LadderGridView {
 	int cells_height;           /* of the sheet, when they were made       */
 	GtkWidget *entry;           /* the popup, while it is there            */
 	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
-	double press_x, press_y;    /* where the pointer went down             */
 	bool takes;                 /* the pointer went down on what can be dragged */
 	double press_x, press_y;    /* where that was, px of the widget         */
 	bool toggles;               /* and on what is toggled when it goes up   */
