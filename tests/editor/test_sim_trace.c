@@ -19,7 +19,7 @@
 #include <stdlib.h>
 
 #define PROGRAMS 200
-#define STEPS 8
+#define STEPS 6
 #define TEXT_MAX (128 * 1024)
 
 static GtkWidget *window;
@@ -30,12 +30,18 @@ static guint64 compared, unseen;
 
 /* ---- the panel ---- */
 
+static bool is_running(void)
+{
+	return ladder_sim_twin(sim)->resource.state == STATE_RUN;
+}
+
 /* Turns until that scan is shown; false: it never is. */
 static bool wait_for(guint64 scan)
 {
 	const gint64 end = g_get_monotonic_time() + 20 * G_USEC_PER_SEC;
 
-	while (ladder_sim_twin(sim)->scan != scan && g_get_monotonic_time() < end)
+	while (ladder_sim_twin(sim)->scan != scan && is_running() &&
+	       g_get_monotonic_time() < end)
 		g_main_context_iteration(NULL, TRUE);
 	while (g_main_context_iteration(NULL, FALSE))
 		;
@@ -64,15 +70,16 @@ static void put(GString *out, const char *name, const char *pin, enum iec_type t
 	g_string_append_printf(out, " %s%s=%s", name, pin, plain);
 }
 
-static void put_row(GString *line, GString *columns, const LadderSimRow *row)
+/* @all: also what must be scrolled to. */
+static void put_row(GString *line, GString *columns, const LadderSimRow *row, bool all)
 {
 	const bool timer = row->group == SIM_TIMERS;
 	char *text = ladder_sim_panel_shown(panel, row), *slash;
 
-	if (!text && ladder_sim_panel_select(panel, row->name)) /* it is scrolled to */
+	if (!text && all && ladder_sim_panel_select(panel, row->name))
 		text = ladder_sim_panel_shown(panel, row);
 	if (!text) {
-		unseen++;
+		unseen += all;
 		return;
 	}
 	compared++;
@@ -91,7 +98,7 @@ static void put_row(GString *line, GString *columns, const LadderSimRow *row)
 }
 
 /* A line as the trace will have, of what all widgets show. */
-static void put_panel(GString *out, GString *columns)
+static void put_panel(GString *out, GString *columns, bool all)
 {
 	const struct twin *twin = ladder_sim_twin(sim);
 	LadderSimRow *row;
@@ -99,7 +106,7 @@ static void put_panel(GString *out, GString *columns)
 	g_string_append_printf(out, "%d t=%.17g", (int)twin->scan, (double)twin->now_ns / 1e6);
 	for (guint i = 0; (row = row_at(i)) != NULL; i++) {
 		if (row->kind != SIM_HEADING)
-			put_row(out, columns, row);
+			put_row(out, columns, row, all);
 		g_object_unref(row);
 	}
 	g_string_append_c(out, '\n');
@@ -198,16 +205,13 @@ static void tell_difference(const char *what, const char *got, const char *want,
 		i++;
 	printf("# %s: the panel has %s, the trace %s\n", what, is[i] ? is[i] : "no more",
 	       ought[i] ? ought[i] : "no more");
-	is = (g_strfreev(is), g_strsplit(script, "\n", -1));
-	for (i = 1; is[0] && is[i]; i++)
-		printf("#   %s\n", is[i]);
+	g_strfreev(is);
+	is = g_strsplit(script, "\n", -1);
+	for (i = 0; is[i]; i++)
+		if (is[i][0] != '@')
+			printf("#   %s\n", is[i]);
 	g_strfreev(is);
 	g_strfreev(ought);
-}
-
-static bool is_running(void)
-{
-	return ladder_sim_twin(sim)->resource.state == STATE_RUN;
 }
 
 /* A remark that a program stopped is the trace's alone. */
@@ -223,7 +227,6 @@ static void drop_remarks(char *trace)
 static bool play(const char *what, guint64 seed)
 {
 	GString *got = g_string_new(NULL), *script = g_string_new(NULL);
-	GString *columns = g_string_new("@print");
 	struct random_source random;
 	guint64 scan = 0;
 	char *want;
@@ -234,22 +237,23 @@ static bool play(const char *what, guint64 seed)
 	while (!is_running())
 		g_main_context_iteration(NULL, TRUE);
 	for (int i = 0; i < STEPS && is_running(); i++) {
-		click_some(&random, script);
-		move_some(&random, script, &scan);
-		if (!wait_for(scan))
-			break;
-		g_string_truncate(columns, strlen("@print"));
-		put_panel(got, columns);
+		GString *columns = g_string_new("@print"), *step = g_string_new(NULL);
+
+		click_some(&random, step);
+		move_some(&random, step, &scan);
+		if (wait_for(scan) || !is_running()) {
+			put_panel(got, columns, i + 1 == STEPS);
+			g_string_append_printf(script, "%s\n%s", columns->str, step->str);
+		}
+		g_string_free(columns, TRUE);
+		g_string_free(step, TRUE);
 	}
-	g_string_append_c(columns, '\n');
-	g_string_prepend(script, columns->str);
 	want = trace_of(script->str);
 	drop_remarks(want);
 	same = strcmp(got->str, want) == 0;
 	if (!same)
 		tell_difference(what, got->str, want, script->str);
 	g_free(want);
-	g_string_free(columns, TRUE);
 	g_string_free(script, TRUE);
 	g_string_free(got, TRUE);
 	return same;
