@@ -535,6 +535,11 @@ static void ladder_sim_init(LadderSim *sim)
 	sim->told = SIM_OFF;
 }
 
+LadderDocument *ladder_sim_document(LadderSim *sim)
+{
+	return sim->document;
+}
+
 LadderSim *ladder_sim_new(LadderDocument *document)
 {
 	LadderSim *sim = g_object_new(LADDER_TYPE_SIM, NULL);

@@ -28,6 +28,8 @@ G_DECLARE_FINAL_TYPE(LadderSim, ladder_sim, LADDER, SIM, GObject)
 
 /** ladder_sim_new - off. @document: referenced. */
 LadderSim *ladder_sim_new(LadderDocument *document);
+/** ladder_sim_document - what it simulates. Borrowed. */
+LadderDocument *ladder_sim_document(LadderSim *sim);
 
 /* ---- on and off ---- */
 

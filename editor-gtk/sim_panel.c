@@ -6,6 +6,7 @@
 #include "editor-gtk/sim_panel_inside.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/sim_panel_kept.h"
 
 #include <string.h>
 
@@ -106,7 +107,21 @@ static void look_at_program(LadderSimPanel *panel)
 	sim_panel_let_go(panel);
 	g_ptr_array_unref(panel->rows);
 	panel->rows = rows;
+	sim_kept_read(ladder_document_view(ladder_sim_document(panel->sim)), rows);
 	show_lines(panel);
+}
+
+void sim_panel_read_choices(LadderSimPanel *panel)
+{
+	LadderDocument *document = ladder_sim_document(panel->sim);
+
+	if (!sim_kept_read(ladder_document_view(document), panel->rows))
+		return;
+	for (guint i = 0; i < panel->views->len; i++) {
+		LadderSimRowView *view = g_ptr_array_index(panel->views, i);
+
+		ladder_sim_row_view_bind(view, ladder_sim_row_view_row(view));
+	}
 }
 
 /* ---- what happens ---- */
@@ -139,8 +154,10 @@ static void state_changed(LadderSim *sim, LadderSimPanel *panel)
 		look_at_program(panel);
 	panel->on = on;
 	gtk_stack_set_visible_child_name(GTK_STACK(panel->stack), on ? "on" : "off");
-	if (!on)
-		sim_panel_let_go(panel);
+	if (on)
+		return;
+	sim_panel_let_go(panel);
+	sim_panel_end_asking(panel);
 }
 
 static void search_changed(GtkSearchEntry *entry, LadderSimPanel *panel)
@@ -189,6 +206,13 @@ bool ladder_sim_panel_select(LadderSimPanel *panel, const char *name)
 		return true;
 	}
 	return false;
+}
+
+LadderSimRow *sim_panel_selected(LadderSimPanel *panel)
+{
+	LadderSimRow *row = gtk_single_selection_get_selected_item(panel->selection);
+
+	return row && row->kind != SIM_HEADING ? row : NULL;
 }
 
 LadderSimRowView *sim_panel_view_of(LadderSimPanel *panel, const LadderSimRow *row)
@@ -261,8 +285,11 @@ static void dispose(GObject *object)
 	LadderSimPanel *panel = LADDER_SIM_PANEL(object);
 
 	sim_panel_let_go(panel);
-	if (panel->sim)
+	sim_panel_end_asking(panel);
+	if (panel->sim) {
 		g_signal_handlers_disconnect_by_data(panel->sim, panel);
+		g_signal_handlers_disconnect_by_data(ladder_sim_document(panel->sim), panel);
+	}
 	g_clear_pointer(&panel->views, g_ptr_array_unref);
 	sim_panel_end_keys(panel);
 	g_clear_pointer(&panel->stack, gtk_widget_unparent);
@@ -274,11 +301,25 @@ static void dispose(GObject *object)
 	G_OBJECT_CLASS(ladder_sim_panel_parent_class)->dispose(object);
 }
 
+static void root(GtkWidget *widget)
+{
+	GTK_WIDGET_CLASS(ladder_sim_panel_parent_class)->root(widget);
+	sim_panel_bind_root(LADDER_SIM_PANEL(widget), gtk_widget_get_root(widget));
+}
+
+static void unroot(GtkWidget *widget)
+{
+	sim_panel_unbind_root(LADDER_SIM_PANEL(widget));
+	GTK_WIDGET_CLASS(ladder_sim_panel_parent_class)->unroot(widget);
+}
+
 static void ladder_sim_panel_class_init(LadderSimPanelClass *class)
 {
 	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
 
 	G_OBJECT_CLASS(class)->dispose = dispose;
+	widget->root = root;
+	widget->unroot = unroot;
 	gtk_widget_class_set_layout_manager_type(widget, GTK_TYPE_BIN_LAYOUT);
 	gtk_widget_class_set_css_name(widget, "sim-panel");
 	gtk_widget_class_set_template_from_resource(widget,
@@ -291,6 +332,7 @@ static void ladder_sim_panel_class_init(LadderSimPanelClass *class)
 	gtk_widget_class_install_action(widget, "sim-panel.fold", "i", fold);
 	gtk_widget_class_install_action(widget, "sim-panel.simulate", NULL, simulate);
 	sim_panel_install_keys(widget);
+	sim_panel_install_choices(widget);
 }
 
 static void ladder_sim_panel_init(LadderSimPanel *panel)
@@ -312,6 +354,8 @@ GtkWidget *ladder_sim_panel_new(LadderSim *sim)
 	g_signal_connect(sim, "shown", G_CALLBACK(shown), panel);
 	g_signal_connect(sim, "program-changed", G_CALLBACK(program_changed), panel);
 	g_signal_connect(sim, "state-changed", G_CALLBACK(state_changed), panel);
+	g_signal_connect_swapped(ladder_sim_document(sim), "bookmarks-changed",
+				 G_CALLBACK(sim_panel_read_choices), panel);
 	state_changed(sim, panel);
 	return GTK_WIDGET(panel);
 }

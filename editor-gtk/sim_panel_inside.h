@@ -20,13 +20,23 @@ struct _LadderSimPanel {
 	bool folded[SIM_GROUPS];
 	bool on;
 	LadderSimRow *held;       /* by the space bar                           */
+	GPtrArray *bound;         /* lines that keys of their own hold, struct held */
+	GtkEventController *root_keys; /* of `root`; borrowed                   */
+	GtkRoot *root;            /* it stands in; NULL: none                   */
+	gulong root_active;
+	guint last_code;          /* of the key that is down; 0: none           */
 	GtkWidget *menu;          /* NULL: none yet                             */
+	GtkWidget *asking;        /* for a key or a range; NULL: nothing        */
 	GtkWidget *stack, *found, *search, *list;
 };
 
 /* ---- sim_panel.c ---- */
 /** sim_panel_view_of - the widget of a line; NULL: none shows it. Borrowed. */
 LadderSimRowView *sim_panel_view_of(LadderSimPanel *panel, const LadderSimRow *row);
+/** sim_panel_selected - NULL: no line is, or a heading. Borrowed. */
+LadderSimRow *sim_panel_selected(LadderSimPanel *panel);
+/** sim_panel_read_choices - as the document keeps them now. */
+void sim_panel_read_choices(LadderSimPanel *panel);
 
 /* ---- sim_panel_keys.c ---- */
 void sim_panel_install_keys(GtkWidgetClass *class);
@@ -34,5 +44,19 @@ void sim_panel_begin_keys(LadderSimPanel *panel);
 void sim_panel_end_keys(LadderSimPanel *panel);
 /** sim_panel_let_go - of a push button that a key holds. */
 void sim_panel_let_go(LadderSimPanel *panel);
+
+/* ---- sim_panel_bound.c: keys that are bound to a line, wherever the focus is ---- */
+void sim_panel_bind_root(LadderSimPanel *panel, GtkRoot *root);
+void sim_panel_unbind_root(LadderSimPanel *panel);
+/** sim_panel_let_go_bound - of all that such keys hold. */
+void sim_panel_let_go_bound(LadderSimPanel *panel);
+/** sim_panel_can_bind - letters, digits, function keys, the keypad. */
+bool sim_panel_can_bind(guint key);
+
+/* ---- sim_panel_choose.c: what a person chooses for a line ---- */
+void sim_panel_install_choices(GtkWidgetClass *class);
+/** sim_panel_choices - what can be chosen for a line, for its menu. Caller unrefs. */
+GMenuModel *sim_panel_choices(LadderSimPanel *panel, const LadderSimRow *row);
+void sim_panel_end_asking(LadderSimPanel *panel);
 
 #endif

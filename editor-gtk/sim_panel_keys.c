@@ -6,13 +6,6 @@
 
 #include "editor-gtk/i18n.h"
 
-static LadderSimRow *selected(LadderSimPanel *panel)
-{
-	LadderSimRow *row = gtk_single_selection_get_selected_item(panel->selection);
-
-	return row;
-}
-
 /* ---- keys ---- */
 
 void sim_panel_let_go(LadderSimPanel *panel)
@@ -20,6 +13,7 @@ void sim_panel_let_go(LadderSimPanel *panel)
 	if (panel->held)
 		sim_row_unpress(panel->held, panel->sim);
 	g_clear_object(&panel->held);
+	sim_panel_let_go_bound(panel);
 }
 
 static bool is_typing(LadderSimPanel *panel)
@@ -32,7 +26,7 @@ static bool is_typing(LadderSimPanel *panel)
 /* The line does more than to be activated: space is held. */
 static bool press(LadderSimPanel *panel)
 {
-	LadderSimRow *row = selected(panel);
+	LadderSimRow *row = sim_panel_selected(panel);
 
 	if (panel->held)
 		return true; /* the key repeats itself */
@@ -70,7 +64,9 @@ static void key_released(GtkEventControllerKey *keys, guint key, guint code,
 static void left(GtkEventControllerFocus *focus, LadderSimPanel *panel)
 {
 	(void)focus;
-	sim_panel_let_go(panel);
+	if (panel->held)
+		sim_row_unpress(panel->held, panel->sim);
+	g_clear_object(&panel->held);
 }
 
 /* Return, or a double click. */
@@ -93,7 +89,7 @@ static void activated(GtkListView *list, guint at, LadderSimPanel *panel)
 
 static void force_to(LadderSimPanel *panel, gint64 to)
 {
-	LadderSimRow *row = selected(panel);
+	LadderSimRow *row = sim_panel_selected(panel);
 
 	if (row && sim_row_is_bit(row))
 		sim_row_force(row, panel->sim, (union iec_value){ .i = to });
@@ -102,11 +98,11 @@ static void force_to(LadderSimPanel *panel, gint64 to)
 static void force(GtkWidget *widget, const char *name, GVariant *unused)
 {
 	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
-	LadderSimRow *row = selected(panel);
+	LadderSimRow *row = sim_panel_selected(panel);
 
 	(void)name;
 	(void)unused;
-	if (!row || row->kind == SIM_HEADING)
+	if (!row)
 		return;
 	if (sim_row_is_forced(row, panel->sim))
 		sim_row_release(row, panel->sim);
@@ -143,7 +139,7 @@ static void release_all(GtkWidget *widget, const char *name, GVariant *unused)
 
 static void edit(LadderSimPanel *panel, enum sim_edit what)
 {
-	LadderSimRowView *view = sim_panel_view_of(panel, selected(panel));
+	LadderSimRowView *view = sim_panel_view_of(panel, sim_panel_selected(panel));
 
 	if (view)
 		ladder_sim_row_view_edit(view, what);
@@ -173,6 +169,7 @@ static void add(GMenu *menu, const char *text, const char *action)
 static GMenuModel *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
 {
 	GMenu *menu = g_menu_new(), *values = g_menu_new(), *forces = g_menu_new();
+	GMenuModel *choices = sim_panel_choices(panel, row);
 
 	if (row->kind == SIM_PRESET) {
 		if (row->given.type != IEC_NONE)
@@ -194,17 +191,19 @@ static GMenuModel *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
 		add(forces, _("Release All Forces"), "sim-panel.release-all");
 	g_menu_append_section(menu, NULL, G_MENU_MODEL(values));
 	g_menu_append_section(menu, NULL, G_MENU_MODEL(forces));
+	g_menu_append_section(menu, NULL, choices);
 	g_object_unref(values);
 	g_object_unref(forces);
+	g_object_unref(choices);
 	return G_MENU_MODEL(menu);
 }
 
 static void show_menu(LadderSimPanel *panel, const GdkRectangle *at)
 {
-	LadderSimRow *row = selected(panel);
+	LadderSimRow *row = sim_panel_selected(panel);
 	GMenuModel *model;
 
-	if (!row || row->kind == SIM_HEADING)
+	if (!row)
 		return;
 	model = menu_of(panel, row);
 	if (!panel->menu) {
@@ -222,7 +221,7 @@ static void show_menu(LadderSimPanel *panel, const GdkRectangle *at)
 static void menu_at_line(GtkWidget *widget, const char *name, GVariant *unused)
 {
 	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
-	LadderSimRowView *view = sim_panel_view_of(panel, selected(panel));
+	LadderSimRowView *view = sim_panel_view_of(panel, sim_panel_selected(panel));
 	graphene_rect_t box;
 
 	(void)name;
@@ -243,7 +242,7 @@ static void right_clicked(GtkGestureClick *gesture, int times, double x, double 
 		gtk_widget_get_ancestor(at, LADDER_TYPE_SIM_ROW_VIEW) : at;
 	if (at)
 		row = ladder_sim_row_view_row(LADDER_SIM_ROW_VIEW(at));
-	if (!row || row->kind == SIM_HEADING)
+	if (!row)
 		return;
 	gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
 	ladder_sim_panel_select(panel, row->name);

@@ -83,6 +83,16 @@ void sim_row_become(LadderSimRow *row, const LadderSimRow *from)
 	row->start = from->start;
 }
 
+void sim_row_set_range(LadderSimRow *row, bool ranged, double low, double high)
+{
+	const struct iec_type_row *type = iec_type_row(row->at.type);
+	const bool real = type->class == CLASS_REAL;
+
+	row->ranged = ranged;
+	row->low = ranged ? low : real ? 0 : (double)type->low;
+	row->high = ranged ? high : real ? 100 : (double)type->high;
+}
+
 static bool has(const char *text, const char *folded)
 {
 	char *own = text ? g_utf8_casefold(text, -1) : NULL;

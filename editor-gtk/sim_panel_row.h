@@ -64,6 +64,8 @@ LadderSimRow *sim_row_heading(enum sim_group group, bool folded);
 bool sim_row_is(const LadderSimRow *row, const LadderSimRow *other);
 /** sim_row_become - its places are those of @from, which is the same line. */
 void sim_row_become(LadderSimRow *row, const LadderSimRow *from);
+/** sim_row_set_range - of SIM_SLIDER, SIM_LEVEL; @ranged false: that of its type. */
+void sim_row_set_range(LadderSimRow *row, bool ranged, double low, double high);
 /** sim_row_matches - is @wanted in name, address, comment or block? Any case. */
 bool sim_row_matches(const LadderSimRow *row, const char *wanted);
 

@@ -157,15 +157,6 @@ static bool is_driven(const struct maker *maker, struct iec_addr addr)
 
 /* ---- one line ---- */
 
-static void set_range(LadderSimRow *row)
-{
-	const struct iec_type_row *type = iec_type_row(row->at.type);
-	const bool real = type->class == CLASS_REAL;
-
-	row->low = real ? 0 : (double)type->low;
-	row->high = real ? 100 : (double)type->high;
-}
-
 static void place_bit(LadderSimRow *row, enum iec_area area)
 {
 	row->group = comes_in(area) ? SIM_INPUTS : goes_out(area) ? SIM_OUTPUTS : SIM_MEMORY;
@@ -183,7 +174,7 @@ static void place_value(LadderSimRow *row, enum iec_area area)
 		return;
 	row->group = SIM_ANALOGUE;
 	row->kind = comes_in(area) ? SIM_SLIDER : SIM_LEVEL;
-	set_range(row);
+	sim_row_set_range(row, false, 0, 0);
 }
 
 static LadderSimRow *new_row(struct maker *maker, const char *name, gsize len,

@@ -54,7 +54,7 @@ static LadderSimRow *row_at(guint at)
 	return g_list_model_get_item(ladder_sim_panel_list(panel), at);
 }
 
-/* " Name=value" as a trace has it, of a text that a widget shows. */
+/* " Name=value" as a trace has it, of a text that a widget shows: 1.50s are 1500 there. */
 static void put(GString *out, const char *name, const char *pin, enum iec_type type,
 		const char *text)
 {
@@ -62,8 +62,8 @@ static void put(GString *out, const char *name, const char *pin, enum iec_type t
 	union iec_value value;
 	char plain[IEC_VALUE_TEXT + 1];
 
-	if (!sim_value_read(type, text, &room, &value)) {
-		g_string_append_printf(out, " %s%s=?%s?", name, pin, text);
+	if (type != IEC_TIME || !sim_value_read(type, text, &room, &value)) {
+		g_string_append_printf(out, " %s%s=%s", name, pin, text);
 		return;
 	}
 	iec_value_print(type, value, plain, sizeof(plain));
