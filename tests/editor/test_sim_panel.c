@@ -167,6 +167,190 @@ static void test_values(void)
 	CHECK(shows("Fixed", "0.03s / 0.10s") && shows("Parts", "1 / 4"));
 }
 
+/* ---- what is done ---- */
+
+static GtkWidget *find_widget(GtkWidget *from, GType type)
+{
+	if (G_TYPE_CHECK_INSTANCE_TYPE(from, type) && gtk_widget_get_mapped(from))
+		return from;
+	for (GtkWidget *child = gtk_widget_get_first_child(from); child;
+	     child = gtk_widget_get_next_sibling(child)) {
+		GtkWidget *found = find_widget(child, type);
+
+		if (found)
+			return found;
+	}
+	return NULL;
+}
+
+static void act_on(const char *name, const char *action)
+{
+	CHECK_AS(ladder_sim_panel_select(panel, name), name);
+	CHECK_AS(gtk_widget_activate_action(GTK_WIDGET(panel), action, NULL), action);
+	turn(20);
+}
+
+/* Types into the field of a line. */
+static void type(const char *name, const char *action, const char *text)
+{
+	GtkWidget *entry;
+
+	act_on(name, action);
+	WAIT((entry = find_widget(GTK_WIDGET(panel), GTK_TYPE_ENTRY)) != NULL);
+	CHECK_AS(entry, "there is a field");
+	if (!entry)
+		return;
+	gtk_editable_set_text(GTK_EDITABLE(entry), text);
+	g_signal_emit_by_name(entry, "activate");
+}
+
+static bool is_forced(const char *name)
+{
+	return sim_row_is_forced(row_of(name), sim);
+}
+
+static void test_force(void)
+{
+	act_on("Stop", "sim-panel.force-on");
+	CHECK_SOON(shows("Stop", "1") && is_forced("Stop"));
+	sim_row_press(row_of("Stop"), sim);
+	CHECK_SOON(shows("Stop", "0"));
+	CHECK_AS(is_forced("Stop"), "a click changes what it is forced to");
+	act_on("Stop", "sim-panel.force");
+	CHECK_SOON(!is_forced("Stop"));
+	act_on("Temp", "sim-panel.force");
+	CHECK_SOON(is_forced("Temp") && ladder_sim_forces(sim) == 1);
+	act_on("Name", "sim-panel.force");
+	act_on("Start", "sim-panel.force-off");
+	CHECK_SOON(shows("Start", "0"));
+	CHECK_AS(ladder_sim_forces(sim) == 2, "a text cannot be held");
+	picture("forced");
+	act_on("Start", "sim-panel.release-all");
+	CHECK_SOON(ladder_sim_forces(sim) == 0);
+	CHECK_SOON(shows("Start", "1"));
+}
+
+static void test_typed(void)
+{
+	type("Temp", "sim-panel.edit-value", "-3.5");
+	CHECK_SOON(shows("Temp", "-3.5"));
+	type("Name", "sim-panel.edit-value", "Fan 2");
+	CHECK_SOON(shows("Name", "'Fan 2'"));
+	type("Level", "sim-panel.edit-value", "120");
+	CHECK_SOON(shows("Level", "120"));
+	type("Delay", "sim-panel.edit-preset", "1m2.5s");
+	CHECK_SOON(shows("Wait", "1m02.50s"));
+	type("Parts", "sim-panel.edit-value", "3");
+	CHECK_SOON(shows("Parts", "3 / 4"));
+	type("Fixed", "sim-panel.edit-value", "60ms");
+	CHECK_SOON(shows("Fixed", "0.06s / 0.10s"));
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(shows("Fixed", "0.07s / 0.10s"));
+	CHECK_SOON(shows("Delay", "0.04s / 1m02.50s"));
+	CHECK(shows("Speed", "120"));
+	type("Count", "sim-panel.edit-value", "40000");
+	CHECK_AS(gtk_widget_has_css_class(find_widget(GTK_WIDGET(panel), GTK_TYPE_ENTRY),
+					  "error"), "no INT is that large");
+	ladder_sim_panel_select(panel, "Start");
+	gtk_widget_grab_focus(GTK_WIDGET(panel));
+	gtk_window_set_focus(GTK_WINDOW(window), NULL);
+	CHECK_SOON(!find_widget(GTK_WIDGET(panel), GTK_TYPE_ENTRY));
+}
+
+static bool has(const char *part)
+{
+	char *text = ladder_document_text(document, NULL);
+	const bool found = strstr(text, part);
+
+	if (!found)
+		printf("# %s\n", strstr(text, "VIEW"));
+	g_free(text);
+	return found;
+}
+
+static void test_choices(void)
+{
+	LadderSimRow *start;
+
+	sim_row_press(row_of("Start"), sim);
+	CHECK_SOON(shows("Start", "0"));
+	act_on("Start", "sim-panel.push");
+	CHECK(has("VIEW\n  panel Start push\nEND_VIEW"));
+	start = row_of("Start");
+	CHECK(start->push);
+	sim_row_press(start, sim);
+	CHECK_SOON(shows("Start", "1"));
+	sim_row_unpress(start, sim);
+	CHECK_SOON(shows("Start", "0"));
+	ladder_document_undo(document);
+	CHECK(!row_of("Start")->push && !strstr(ladder_document_view(document), "panel"));
+	ladder_document_redo(document);
+	CHECK(row_of("Start")->push);
+	ladder_document_begin(document, "x", NULL);
+	ladder_document_set_view(document, "VIEW\n  bookmark Main 2\n  panel stop toggle F6 push\n"
+				 "  panel Level range -10 50.5\n  panel Nobody push\n"
+				 "  panel %IX1.3 hold x range 5\n  panel Alarm hold nokey\n"
+				 "  panel\n  panel Speed range 3 3\nEND_VIEW");
+	ladder_document_end(document);
+	CHECK(row_of("Stop")->push && row_of("Stop")->key_toggles);
+	CHECK_TEXT(row_of("Stop")->key, "F6");
+	CHECK_TEXT(row_of("%IX1.3")->key, "x");
+	CHECK(!row_of("Alarm")->key && !row_of("Start")->push && !row_of("Speed")->ranged);
+	CHECK(row_of("Level")->low == -10 && row_of("Level")->high == 50.5);
+	CHECK(row_of("Speed")->low == -32768 && row_of("Speed")->high == 32767);
+	picture("chosen");
+	act_on("Stop", "sim-panel.no-key");
+	act_on("Level", "sim-panel.no-range");
+	CHECK(has("  bookmark Main 2\n  panel Stop push\n  panel Nobody push\n"));
+	CHECK(!row_of("Stop")->key && !row_of("Level")->ranged);
+}
+
+static void test_found(void)
+{
+	GtkWidget *search = find_widget(GTK_WIDGET(panel), GTK_TYPE_SEARCH_ENTRY);
+	char *all;
+
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "i", SIM_VALUES);
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "i", SIM_INPUTS);
+	all = lines();
+	CHECK(g_str_has_prefix(all, "[Inputs] [Outputs] ") && g_str_has_suffix(all, "[Values] "));
+	g_free(all);
+	gtk_editable_set_text(GTK_EDITABLE(search), "GREEN");
+	WAIT(row_of("Start") && !row_of("Alarm"));
+	all = lines();
+	CHECK_TEXT(all, "[Inputs] Start ");
+	g_free(all);
+	gtk_editable_set_text(GTK_EDITABLE(search), "nothing has this");
+	CHECK_SOON(g_list_model_get_n_items(ladder_sim_panel_list(panel)) == 0);
+	picture("none");
+	gtk_editable_set_text(GTK_EDITABLE(search), "");
+	CHECK_SOON(row_of("Alarm"));
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "i", SIM_INPUTS);
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "i", SIM_VALUES);
+	CHECK(row_of("Start") && row_of("Temp"));
+}
+
+/* An edit that builds takes the place of the program, and values stay. */
+static void test_edit(void)
+{
+	LadderSimRow *alarm = row_of("Alarm");
+	struct diag_list *why = g_new0(struct diag_list, 1);
+
+	sim_row_press(alarm, sim);
+	CHECK_SOON(shows("Alarm", "1"));
+	CHECK(ladder_document_declare(document, -1, "Extra", "INT", "%MW10", why));
+	ladder_document_check_now(document);
+	CHECK_SOON(row_of("Extra"));
+	CHECK_SOON(shows("Extra", "0") && shows("Alarm", "1"));
+	g_free(why);
+}
+
+static void test_end(void)
+{
+	ladder_sim_end(sim);
+	CHECK_SOON(g_list_model_get_n_items(ladder_sim_panel_list(panel)) == 0);
+}
+
 int main(int argc, char **argv)
 {
 	if (!screen_start()) {
@@ -201,6 +385,12 @@ int main(int argc, char **argv)
 	ladder_sim_reset(sim, false);
 	test_values();
 	picture("on");
+	test_force();
+	test_typed();
+	test_choices();
+	test_found();
+	test_edit();
+	test_end();
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);
 	g_object_unref(document);
