@@ -196,6 +196,7 @@ static void add_panels(LadderWindow *window)
 	gtk_paned_set_position(window->below_paned, 620);
 	window_find_init(window);
 	window_sim_init(window);
+	window_board_init(window);
 }
 
 /* ---- settings ---- */
@@ -235,6 +236,8 @@ static gboolean ladder_window_close_request(GtkWindow *gtk_window)
 	LadderWindow *window = LADDER_WINDOW(gtk_window);
 
 	ladder_sim_stop(window->sim);
+	if (!window_board_may_close(window))
+		return TRUE;
 	if (!window->closing && !window_may_close(window))
 		return TRUE;
 	keep_settings(window);
@@ -250,6 +253,7 @@ static void ladder_window_dispose(GObject *object)
 	window->disk_timer = 0;
 	g_clear_handle_id(&window->when_timer, g_source_remove);
 	g_clear_object(&window->sim);
+	g_clear_object(&window->board);
 	g_clear_object(&window->document);
 	g_clear_pointer(&window->keys_text, g_free);
 	G_OBJECT_CLASS(ladder_window_parent_class)->dispose(object);
@@ -297,6 +301,7 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 
 	window->document = g_object_ref(document);
 	window->sim = ladder_sim_new(document);
+	window->board = ladder_board_run_new();
 	g_signal_connect_object(document, "state-changed", G_CALLBACK(window_show_state),
 				window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(document, "checked", G_CALLBACK(show_checked), window,

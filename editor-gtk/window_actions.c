@@ -215,6 +215,8 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_new_project: app_new_window(window); break;
 	case VERB_open: window_open(window); break;
 	case VERB_save: window_save(window); break;
+	case VERB_run_board: window_run_board(window); break;
+	case VERB_stop_board: window_stop_board(window); break;
 	case VERB_new_iomap: window_new_iomap(window); break;
 	case VERB_save_as: window_save_as(window); break;
 	case VERB_print: window_print(window); break;

@@ -4,9 +4,12 @@
  */
 #include "editor-gtk/window_inside.h"
 
+#include "editor-gtk/board_view.h"
 #include "editor-gtk/disk.h"
+#include "editor-gtk/iomap_check.h"
 #include "editor-gtk/iomap_rows.h"
 #include "editor-gtk/panels.h"
+#include "editor-gtk/problems.h"
 
 #include <string.h>
 
@@ -65,4 +68,271 @@ void window_new_iomap(LadderWindow *window)
 	g_free(file);
 	g_free(folder);
 	g_free(name);
+}
+
+/* ---- running ---- */
+
+#define MAP_MOST (4 << 20) /* bytes of a map, as ladderd has it                */
+
+static LadderBoardView *board_view(LadderWindow *window)
+{
+	return LADDER_BOARD_VIEW(gtk_stack_get_child_by_name(window->below_stack, "board"));
+}
+
+static void show_board(LadderWindow *window)
+{
+	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
+	gtk_stack_set_visible_child_name(window->below_stack, "board");
+}
+
+const char *window_board_pill(LadderWindow *window, const char **class)
+{
+	const struct board_status *status;
+
+	if (!window->board || ladder_board_run_state(window->board) == BOARD_OFF)
+		return NULL;
+	status = ladder_board_run_status(window->board);
+	*class = strcmp(status->state, "FAULT") == 0 ? "fault" :
+		strcmp(status->state, "RUN") == 0 ? "run" : "still";
+	return _("ON THIS MACHINE");
+}
+
+static void start(LadderWindow *window)
+{
+	const char *map = ladder_board_view_map(board_view(window));
+	const char *path = ladder_document_path(window->document);
+	char *name = map ? g_path_get_basename(map) : g_strdup(""), *text;
+	GError *error = NULL;
+
+	show_board(window);
+	window_banner_close(window);
+	if (ladder_board_run_start(window->board, path, map, &error)) {
+		text = g_strdup_printf(_("Started with %s"), name);
+		ladder_board_view_put(board_view(window), text);
+		ladder_window_tell(window, text);
+		g_free(text);
+	} else {
+		ladder_board_view_put(board_view(window), error->message);
+		ladder_window_warn(window, error->message);
+	}
+	g_clear_error(&error);
+	g_free(name);
+}
+
+/* Of the pins of a map: how many are read, how many are driven. */
+static void count_pins(const char *map, int *inputs, int *outputs)
+{
+	gsize len;
+	char *text = disk_read(map, MAP_MOST, &len, NULL);
+	struct areas areas;
+	struct io_check *check;
+
+	areas_init(&areas);
+	*inputs = *outputs = 0;
+	check = text ? io_check_new(text, len, &areas, NULL, NULL) : NULL;
+	for (int i = 0; check && i < check->map.count; i++) {
+		const struct io_point *point = &check->map.point[i];
+
+		if (driver_row(point->driver)->needs_line)
+			++*(point->output ? outputs : inputs);
+	}
+	io_check_free(check);
+	g_free(text);
+}
+
+static bool save_all(LadderWindow *window)
+{
+	GPtrArray *files = tabs_unsaved(window);
+	GError *error = NULL;
+	bool good = true;
+
+	for (guint i = 0; good && i < files->len; i++)
+		good = window_save_file(window, files->pdata[i]);
+	g_ptr_array_unref(files);
+	if (!good || ladder_document_is_saved(window->document))
+		return good;
+	if (ladder_document_disk_changed(window->document)) {
+		window_save(window); /* it asks */
+		return false;
+	}
+	good = ladder_document_save(window->document, NULL, &error);
+	if (!good)
+		ladder_window_warn(window, error->message);
+	g_clear_error(&error);
+	return good;
+}
+
+static void run_answered(AdwMessageDialog *dialog, const char *answer, LadderWindow *window)
+{
+	(void)dialog;
+	if (strcmp(answer, "run") == 0 && save_all(window))
+		start(window);
+}
+
+static bool is_all_saved(LadderWindow *window)
+{
+	GPtrArray *files = tabs_unsaved(window);
+	const bool saved = ladder_document_is_saved(window->document) && files->len == 0;
+
+	g_ptr_array_unref(files);
+	return saved;
+}
+
+/* Pins are driven, or files written, only if the person says so. */
+static void ask(LadderWindow *window, const char *map, int inputs, int outputs)
+{
+	const bool saved = is_all_saved(window);
+	char *name = ladder_document_name(window->document);
+	char *board = g_path_get_basename(map);
+	GString *body = g_string_new(NULL);
+	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(window),
+						   _("Run on this machine?"), NULL);
+	AdwMessageDialog *message = ADW_MESSAGE_DIALOG(dialog);
+
+	g_string_append_printf(body, _("“%s” with %s."), name, board);
+	if (inputs + outputs)
+		g_string_append_printf(body, _(" It reads %d pins and drives %d."), inputs,
+				       outputs);
+	if (!saved)
+		g_string_append(body, _(" What is not saved is saved first."));
+	adw_message_dialog_set_body(message, body->str);
+	adw_message_dialog_add_responses(message, "cancel", _("Cancel"), "run",
+					 saved ? _("Run") : _("Save and run"), NULL);
+	adw_message_dialog_set_response_appearance(message, "run", ADW_RESPONSE_SUGGESTED);
+	adw_message_dialog_set_default_response(message, "run");
+	adw_message_dialog_set_close_response(message, "cancel");
+	g_signal_connect_object(dialog, "response", G_CALLBACK(run_answered), window, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	g_string_free(body, TRUE);
+	g_free(board);
+	g_free(name);
+}
+
+/* The problems come to the front if there are errors. */
+static bool is_sound(LadderWindow *window)
+{
+	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
+
+	ladder_document_check_now(window->document);
+	if (ladder_document_project(window->document) &&
+	    !ladder_document_diags(window->document)->errors)
+		return true;
+	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
+	gtk_stack_set_visible_child(window->below_stack, problems);
+	ladder_problems_next(LADDER_PROBLEMS(problems), false);
+	ladder_window_tell(window, _("A program with errors cannot be run"));
+	return false;
+}
+
+void window_run_board(LadderWindow *window)
+{
+	LadderFileView *file = tabs_file(window);
+	const char *map;
+	int inputs, outputs;
+
+	if (ladder_board_run_state(window->board) != BOARD_OFF) {
+		show_board(window);
+		ladder_window_tell(window, _("It runs on this machine already"));
+		return;
+	}
+	if (!is_sound(window))
+		return;
+	if (!ladder_document_path(window->document)) {
+		ladder_window_tell(window, _("Save the program first"));
+		window_save_as(window);
+		return;
+	}
+	if (file && g_str_has_suffix(ladder_file_view_path(file), ".io"))
+		ladder_board_view_set_map(board_view(window), ladder_file_view_path(file));
+	map = ladder_board_view_map(board_view(window));
+	if (!map) {
+		window_banner(window, _("There is no I/O map beside the program: which pin "
+			"each input and output is."), _("New I/O map…"), window_new_iomap);
+		return;
+	}
+	count_pins(map, &inputs, &outputs);
+	if (inputs + outputs || !is_all_saved(window))
+		ask(window, map, inputs, outputs);
+	else
+		start(window);
+}
+
+void window_stop_board(LadderWindow *window)
+{
+	show_board(window);
+	ladder_board_run_stop(window->board);
+}
+
+/* ---- its end ---- */
+
+static void stop_answered(AdwMessageDialog *dialog, const char *answer, LadderWindow *window)
+{
+	(void)dialog;
+	if (strcmp(answer, "stop") != 0)
+		return;
+	if (ladder_board_run_state(window->board) == BOARD_OFF) {
+		gtk_window_close(GTK_WINDOW(window));
+		return;
+	}
+	window->close_after_board = true;
+	ladder_board_run_stop(window->board);
+}
+
+bool window_board_may_close(LadderWindow *window)
+{
+	GtkWidget *dialog;
+	AdwMessageDialog *message;
+
+	if (ladder_board_run_state(window->board) == BOARD_OFF)
+		return true;
+	dialog = adw_message_dialog_new(GTK_WINDOW(window),
+					_("Stop what runs on this machine?"),
+					_("The program drives pins. When it is stopped they "
+					  "have their safe values."));
+	message = ADW_MESSAGE_DIALOG(dialog);
+	adw_message_dialog_add_responses(message, "cancel", _("Cancel"), "stop",
+					 _("Stop and close"), NULL);
+	adw_message_dialog_set_response_appearance(message, "stop",
+						   ADW_RESPONSE_DESTRUCTIVE);
+	adw_message_dialog_set_default_response(message, "stop");
+	adw_message_dialog_set_close_response(message, "cancel");
+	g_signal_connect_object(dialog, "response", G_CALLBACK(stop_answered), window, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	return false;
+}
+
+static void board_changed(LadderWindow *window)
+{
+	const enum board_state state = ladder_board_run_state(window->board);
+
+	if (state == BOARD_RUNNING)
+		window->board_ran = true;
+	else if (state == BOARD_STARTING)
+		window->board_ran = false;
+	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.stop_board",
+				      state != BOARD_OFF);
+	window_show_pill(window);
+}
+
+/* What was refused before it ran must be seen. */
+static void board_ended(LadderWindow *window, int status)
+{
+	if (status != 0 && !window->board_ran) {
+		show_board(window);
+		ladder_window_warn(window, _("It was not run: ladderd says why, below."));
+	}
+	if (window->close_after_board)
+		gtk_window_close(GTK_WINDOW(window));
+}
+
+void window_board_init(LadderWindow *window)
+{
+	GtkWidget *view = ladder_board_view_new(window->board, window->document);
+
+	gtk_stack_add_titled(window->below_stack, view, "board", _("Board"));
+	g_signal_connect_object(window->board, "changed", G_CALLBACK(board_changed), window,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(window->board, "ended", G_CALLBACK(board_ended), window,
+				G_CONNECT_SWAPPED);
+	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.stop_board", FALSE);
 }

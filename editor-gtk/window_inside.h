@@ -5,6 +5,7 @@
 #ifndef EDITOR_WINDOW_INSIDE_H
 #define EDITOR_WINDOW_INSIDE_H
 
+#include "editor-gtk/board_run.h"
 #include "editor-gtk/file_view.h"
 #include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/i18n.h"
@@ -14,6 +15,9 @@
 struct _LadderWindow {
 	AdwApplicationWindow parent;
 	LadderDocument *document;
+	LadderBoardRun *board;    /* what runs on this machine                 */
+	bool board_ran;           /* it came to a scan                         */
+	bool close_after_board;   /* the person said so                        */
 	LadderSim *sim;           /* off while it edits                        */
 	bool closing;             /* the person has been asked                 */
 	guint disk_timer;         /* until the file is looked at again         */
@@ -112,12 +116,25 @@ void window_find(LadderWindow *window, enum verb verb);
 
 /* ---- window_sim.c ---- */
 void window_sim_init(LadderWindow *window);
+/** window_show_pill - what the window is doing: edits, simulates, runs on this machine. */
+void window_show_pill(LadderWindow *window);
 /** window_sim - the verbs of the simulation; false: it is none of them. */
 bool window_sim(LadderWindow *window, enum verb verb);
 
 /* ---- window_board.c ---- */
 /** window_new_iomap - asks for a file, and opens it: a point for all that is used. */
 void window_new_iomap(LadderWindow *window);
+void window_board_init(LadderWindow *window);
+/** window_run_board - with the map in front, or the one chosen below; asks before pins are
+ * driven or files are written. */
+void window_run_board(LadderWindow *window);
+void window_stop_board(LadderWindow *window);
+/** window_board_may_close - false: something runs; the person is asked, and the window
+ * closes itself when outputs are safe. */
+bool window_board_may_close(LadderWindow *window);
+/** window_board_pill - of the status bar, translated, while something runs on this machine;
+ * NULL: nothing does. */
+const char *window_board_pill(LadderWindow *window, const char **class);
 
 /* ---- window_paper.c ---- */
 void window_print(LadderWindow *window);

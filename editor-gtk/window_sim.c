@@ -26,7 +26,7 @@ static void set_pill(LadderWindow *window, const char *text, const char *class)
 		gtk_label_set_text(window->pill, text);
 }
 
-static void show_pill(LadderWindow *window)
+void window_show_pill(LadderWindow *window)
 {
 	static const struct { const char *text, *class; } pills[] = {
 		[SIM_OFF] = { N_("EDIT"), NULL },
@@ -36,8 +36,13 @@ static void show_pill(LadderWindow *window)
 		[SIM_FAULT] = { N_("SIMULATION · FAULT"), "fault" },
 	};
 	const enum sim_state state = ladder_sim_state(window->sim);
+	const char *class, *board = window_board_pill(window, &class);
 	char *text;
 
+	if (board) {
+		set_pill(window, board, class);
+		return;
+	}
 	if (!ladder_sim_is_past(window->sim)) {
 		set_pill(window, _(pills[state].text), pills[state].class);
 		return;
@@ -96,7 +101,7 @@ static void show_buttons(LadderWindow *window)
 static void state_changed(LadderWindow *window)
 {
 	show_buttons(window);
-	show_pill(window);
+	window_show_pill(window);
 	if (ladder_sim_is_on(window->sim))
 		show_when(window);
 	else
@@ -114,7 +119,7 @@ static gboolean when_elapsed(gpointer data)
 
 static void shown(LadderWindow *window)
 {
-	show_pill(window);
+	window_show_pill(window);
 	show_forces(window);
 	if (!window->when_timer && ladder_sim_is_on(window->sim))
 		window->when_timer = g_timeout_add(WHEN_US / 1000, when_elapsed, window);

@@ -215,6 +215,7 @@ static void wait_until(struct cycle *cycle, int64_t due_ns)
 		struct timespec until;
 
 		notify_feed(&cycle->notify, now_ns);
+		requests_attend(cycle->requests);
 		serve_requests(cycle);
 		if (cycle->requests->stop || now_ns >= due_ns)
 			return;

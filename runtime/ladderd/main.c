@@ -156,6 +156,7 @@ static int run(struct daemon *daemon)
 	limit_ns = cycle_plan(cycle, options->period_ns, options->watchdog);
 	cycle->most_scans = options->scans;
 	cycle->requests = requests_listen();
+	cycle->requests->attended = options->attended;
 	if (options->retain.path) {
 		cycle->store = store_open(&options->retain,
 					  &cycle->resource.image, &load->arena,

@@ -32,6 +32,7 @@ const char *options_help(void)
 "  --scans N        stop after N scans, or at a FAULT, with a last status\n"
 "  --check          load everything, open nothing, print the memory needed\n"
 "  --trace-io       print each change of an output to stderr, as `%QX0.0 1`\n"
+"  --attended       stop when standard input ends: whoever began it is gone\n"
 "  --help, --version\n"
 "\n"
 "Signals: TERM and INT stop it, USR1 prints the status, HUP resets a FAULT.\n"
@@ -121,6 +122,7 @@ static bool set_scans(struct options *options, const char *value)
 FLAG(set_cold, retain.cold)
 FLAG(set_check, check)
 FLAG(set_trace_io, trace_io)
+FLAG(set_attended, attended)
 FLAG(set_help, help)
 FLAG(set_version, version)
 
@@ -139,6 +141,7 @@ static const struct option_row {
 	{ "--scans",    true,  set_scans },
 	{ "--check",    false, set_check },
 	{ "--trace-io", false, set_trace_io },
+	{ "--attended", false, set_attended },
 	{ "--help",     false, set_help },
 	{ "--version",  false, set_version },
 };

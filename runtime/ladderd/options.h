@@ -17,7 +17,7 @@ struct options {
 	uint64_t scans;        /* 0: for ever                                 */
 	int priority;          /* 0: none                                     */
 	struct store_wish retain; /* path NULL: no                            */
-	bool check, trace_io, help, version;
+	bool check, trace_io, attended, help, version;
 	const char *wrong;     /* the argument that is                        */
 	const char *why;       /* what is wrong with it                       */
 };

@@ -8,6 +8,7 @@
 #include "ladderd/safe.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <string.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -49,6 +50,17 @@ struct requests *requests_listen(void)
 	return &requests;
 }
 
+void requests_attend(struct requests *asked)
+{
+	struct pollfd input = { .fd = STDIN_FILENO, .events = POLLIN };
+	char thrown[64];
+
+	if (!asked->attended || poll(&input, 1, 0) != 1)
+		return;
+	if (!(input.revents & POLLIN) || read(STDIN_FILENO, thrown, sizeof(thrown)) <= 0)
+		asked->stop = 1;
+}
+
 /* The first tick that sees a scan starts its time; the second one after it
  * finds the limit gone. */
 static void on_tick(int signal_number, siginfo_t *about, void *context)
@@ -65,6 +77,7 @@ static void on_tick(int signal_number, siginfo_t *about, void *context)
 	} else if (++monitor->still >= 2) {
 		monitor->tripped = 1;
 		hal_write_safe(monitor->hal);
+		requests_attend(monitor->requests);
 		if (monitor->requests->stop)
 			_exit(1);
 	}
@@ -72,7 +85,7 @@ static void on_tick(int signal_number, siginfo_t *about, void *context)
 }
 
 int monitor_start(struct monitor *monitor, struct hal *hal,
-		  const struct requests *asked, int64_t limit_ns)
+		  struct requests *asked, int64_t limit_ns)
 {
 	struct sigaction action;
 	struct itimerval tick;

@@ -20,13 +20,20 @@ struct requests {
 	volatile sig_atomic_t stop;   /* SIGINT, SIGTERM                      */
 	volatile sig_atomic_t status; /* SIGUSR1                              */
 	volatile sig_atomic_t reset;  /* SIGHUP                               */
+	bool attended;                /* requests_attend() is asked           */
 };
 /** requests_listen - installs the handlers; the struct lives for ever. */
 struct requests *requests_listen(void);
+/**
+ * requests_attend - is standard input, a pipe of whoever began us, still open? If not, a
+ * stop is asked for; what comes from it is thrown away.
+ * Scan-safe: between scans, and in a signal handler: two system calls at most.
+ */
+void requests_attend(struct requests *requests);
 
 struct monitor {
 	struct hal *hal;
-	const struct requests *requests;
+	struct requests *requests;
 	volatile sig_atomic_t scan;   /* odd while a scan runs                */
 	volatile sig_atomic_t tripped;
 	int seen, still;              /* the handler's own                    */
@@ -42,7 +49,7 @@ struct monitor {
  * Fails: -errno.
  */
 int monitor_start(struct monitor *monitor, struct hal *hal,
-		  const struct requests *requests, int64_t limit_ns);
+		  struct requests *requests, int64_t limit_ns);
 void monitor_stop(struct monitor *monitor);
 /* Around each scan. Scan-safe: yes, no system call. */
 void monitor_begin(struct monitor *monitor);

@@ -49,6 +49,25 @@ sub start {
 	return $pid;
 }
 
+# The same with a pipe for its standard input; the pid, and our end of the pipe.
+sub start_attended {
+	my ($program, @args) = @_;
+	unlink "$dir/out", "$dir/err";
+	pipe my $in, my $ours or die "pipe: $!";
+	my $pid = fork;
+	die "fork: $!" unless defined $pid;
+	if (!$pid) {
+		open STDOUT, '>', "$dir/out" or die;
+		open STDERR, '>', "$dir/err" or die;
+		open STDIN, '<&', $in or die;
+		close $ours;
+		exec $program, '--attended', @args;
+		die "exec: $!";
+	}
+	close $in;
+	return ($pid, $ours);
+}
+
 # Waits until a file has what is wanted; generous, and only a hang waits long.
 sub until_has {
 	my ($name, $want) = @_;
@@ -474,6 +493,24 @@ EOT
 		'--scans ends at a STOP');
 }
 
+# ---- ways out: whoever began it is gone ----
+{
+	my ($pid, $pipe) = start_attended($ladderd, $rung, '--io', $map, @traced);
+	ok(until_has('err', qr/^%QX0\.1 0$/m), '--attended: it runs');
+	syswrite $pipe, "what is said to it\n" x 20;
+	kill 'USR1', $pid;
+	ok(until_has('out', qr/^state: RUN$/m), 'whatever is said to it');
+	close $pipe;
+	is(finish($pid), 0, 'it ends when its standard input does');
+	is_safe('input ended');
+	is(run($ladderd, $rung, '--io', $map, '--attended', @traced), 0,
+		'at once if there is none');
+	($pid, $pipe) = start_attended($ladderd, "$dir/halt.rung", '--io', $map, @traced);
+	ok(until_has('err', qr/STOP/), '--attended: in a STOP of the program');
+	close $pipe;
+	is(finish($pid), 0, 'it ends, too');
+}
+
 # ---- ways out: loops of each kind, told with their place ----
 {
 	my $out = "VAR\n  Motor AT %QX0.0 : BOOL;\n  Brake AT %QX0.1 : BOOL;\n" .
@@ -550,6 +587,12 @@ for my $version (qw(v1 v2 uapi)) {
 		is_safe("$version: watchdog");
 		kill 'TERM', $pid;
 		is(finish($pid), 1, 'and it can be ended');
+		is_safe('then');
+		($pid, my $pipe) = start_attended($fake, $rung, '--io', $gpio,
+			'--trace-io', '--watchdog', '20');
+		ok(until_has('err', qr/^%QX0\.1 1$/m), "$version: --attended, a scan hangs");
+		close $pipe;
+		is(finish($pid), 1, 'it ends when whoever began it is gone');
 		is_safe('then');
 	}
 	{

@@ -3,6 +3,8 @@
 """iomap - a person edits an I/O map as a table, and runs a program with it on this machine."""
 import os
 import shutil
+import signal
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -28,7 +30,9 @@ def garage(screen, text=MAP):
 
 
 def open_map(editor, name='garage.io'):
-    editor.click(editor.find(name, 'label'), count=2)
+    """From the tree, which is on the left."""
+    editor.find(name, 'label')
+    editor.click(min(editor.all(name, 'label'), key=lambda node: node.box()[0]), count=2)
     editor.find('Name of the board')
 
 
@@ -127,15 +131,20 @@ def as_text(screen):
     saved(io, MAP + '%QX0.1 sim')
 
 
+def command(editor, name):
+    editor.keys('ctrl+k')
+    until(lambda: editor.all('About Rungboard'), 'all commands')
+    editor.type(name)
+    until(lambda: not editor.all('About Rungboard'), 'that command alone')
+    editor.keys('Return')
+
+
 def new_map(screen):
     """a new map has a point for all that the program uses"""
     path, io = garage(screen)
     os.unlink(io)
     editor = Editor(screen, path)
-    editor.keys('ctrl+k')
-    editor.type('New I/O map')
-    until(lambda: not editor.all('About Rungboard'), 'that command alone')
-    editor.keys('Return')
+    command(editor, 'New I/O map')
     until(lambda: len(editor.windows()) > 1, 'the dialog')
     editor.keys('Return')
     io = os.path.join(screen.home, 'garage-door.io')
@@ -148,4 +157,89 @@ def new_map(screen):
     assert '%QX0.0  sim  safe=0   # MotorUp\n' in text and text.count('\n') == 13, text
 
 
-main([table, choices, as_text, new_map])
+def child(editor):
+    """The process of ladderd that the editor began; None: there is none."""
+    found = subprocess.run(['pgrep', '-P', str(editor.pid), 'ladderd'], capture_output=True, text=True).stdout
+    return int(found) if found else None
+
+
+def is_gone(pid):
+    try:
+        with open('/proc/%d/stat' % pid) as stat:
+            return stat.read().rsplit(')', 1)[1].split()[0] == 'Z'
+    except FileNotFoundError:
+        return True
+
+
+SIM = 'BOARD "Desk"\n' + ''.join('%%IX0.%d  sim\n' % i for i in range(7)) + ''.join(
+    '%%QX0.%d  sim  safe=0\n' % i for i in range(4))
+
+
+def running(screen, text=SIM):
+    path, io = garage(screen, text)
+    editor = Editor(screen, path)
+    command(editor, 'Run on this machine')
+    return editor, io
+
+
+def run_board(screen):
+    """run on this machine with simulated pins: state, log, stop; what is not saved is saved first"""
+    editor, io = running(screen)
+    editor.says('RUN')
+    until(lambda: editor.all('ON THIS MACHINE', 'label'), 'the state of the window')
+    until(lambda: editor.all(' us, at worst ', 'label'), 'the times of scans')
+    assert 'Started with garage.io' in editor.find('What ladderd says', 'text').text()
+    editor.shot('board-run')
+    pid = child(editor)
+    assert pid
+    editor.click(editor.find('Stop', 'push button'))
+    until(lambda: 'Ended; outputs have their safe values' in
+          editor.find('What ladderd says', 'text').text(), 'its end in the log')
+    editor.find('OFF', 'label')
+    assert is_gone(pid) and not editor.all('ON THIS MACHINE')
+    open_map(editor)
+    editor.click(cell(editor, '%IX0.0, Comment'))
+    editor.type('first')
+    editor.keys('Return')
+    shows(editor, '%IX0.0, Comment', 'first')
+    editor.click(editor.find('Run on this machine', 'push button'))
+    editor.find('Run on this machine?')
+    editor.shot('board-ask')
+    editor.press(editor.find('Save and run', 'push button'))
+    saved(io, SIM.replace('%IX0.0  sim', '%IX0.0  sim   # first'))
+    editor.says('RUN')
+
+
+def close_board(screen):
+    """closing the window asks, stops it first; a map that is wrong is refused with the reason"""
+    editor, io = running(screen, SIM + '%QX0.9  sim\n')
+    editor.says('It was not run: ladderd says why, below.')
+    until(lambda: 'LD502' in editor.find('What ladderd says', 'text').text(), 'the reason')
+    editor.shot('board-refused')
+    with open(io, 'w') as file:
+        file.write(SIM)
+    editor.click(editor.find('Run…', 'push button'))
+    until(lambda: editor.all('RUN', 'label'), 'that it runs')
+    pid = child(editor)
+    editor.keys('ctrl+w')
+    editor.find('Stop what runs on this machine?')
+    editor.press(editor.find('Cancel', 'push button'))
+    until(lambda: not editor.all('Stop and close'), 'the question to be gone')
+    assert not is_gone(pid)
+    editor.keys('ctrl+w')
+    editor.press(editor.find('Stop and close', 'push button'))
+    until(lambda: editor.process.poll() is not None, 'the editor to end')
+    assert editor.process.returncode == 0 and is_gone(pid)
+
+
+def killed(screen):
+    """an editor that is killed leaves nothing running"""
+    editor, _ = running(screen)
+    editor.says('RUN')
+    pid = child(editor)
+    assert pid and not is_gone(pid)
+    os.kill(editor.pid, signal.SIGKILL)
+    until(lambda: is_gone(pid), 'ladderd to end')
+
+
+main([run_board])
