@@ -10,6 +10,7 @@
 #include "editor-gtk/problems.h"
 #include "editor-gtk/settings.h"
 #include "editor-gtk/uses_view.h"
+#include "editor-gtk/watch_view.h"
 
 #include <string.h>
 
@@ -190,6 +191,8 @@ static void add_panels(LadderWindow *window)
 				window, G_CONNECT_SWAPPED);
 	add_below(window, uses, "uses", _("Cross reference"));
 	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), document);
+	add_below(window, ladder_watch_view_new(document, window->sim), "watch",
+		  _("Status chart"));
 	add_below(window, ladder_code_view_new(document), "list", _("Instruction list"));
 	add_below(window, ladder_chart_view_new(window->sim), "chart", _("Timing chart"));
 	add_below(window, ladder_log_view_new(document), "log", _("Log"));

@@ -230,6 +230,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_find_previous:
 		window_find(window, verb);
 		break;
+	case VERB_watch_add: names_watch(window); break;
 	case VERB_show_uses: names_show_uses(window); break;
 	case VERB_symbols: tabs_show_widget(window, "symbols"); break;
 	case VERB_rename: do_rename(window); break;

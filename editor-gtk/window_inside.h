@@ -88,6 +88,11 @@ GMenuModel *window_menu(void);
 
 /* ---- window_names.c: of the name at the cursor ---- */
 void names_go_driver(LadderWindow *window);
+/** names_at_cursor - of the element there; NULL: there is none, and that is told. Caller
+ * frees. */
+char *names_at_cursor(LadderWindow *window);
+/** names_watch - it comes into the status chart, which is shown. */
+void names_watch(LadderWindow *window);
 void names_show_uses(LadderWindow *window);
 void names_show_uses_of(LadderWindow *window, const char *name);
 void names_rename(LadderWindow *window);

@@ -9,6 +9,7 @@
 
 #include "editor-gtk/symbols.h"
 #include "editor-gtk/uses_view.h"
+#include "editor-gtk/watch_view.h"
 
 #include "engine/view/xref.h"
 
@@ -206,10 +207,9 @@ void names_rename(LadderWindow *window)
 
 /* ---- all uses ---- */
 
-void names_show_uses(LadderWindow *window)
+char *names_at_cursor(LadderWindow *window)
 {
 	struct project *project = ladder_document_project(window->document);
-	GtkWidget *uses = gtk_stack_get_child_by_name(window->below_stack, "uses");
 	struct xref xref = { 0 };
 	char name[400] = "";
 	int here;
@@ -218,10 +218,31 @@ void names_show_uses(LadderWindow *window)
 		xref_name(project, &xref.use[here].target, &xref.use[here], name,
 			  sizeof(name));
 	xref_free(&xref);
-	if (name[0])
+	return name[0] ? g_strdup(name) : NULL;
+}
+
+void names_show_uses(LadderWindow *window)
+{
+	GtkWidget *uses = gtk_stack_get_child_by_name(window->below_stack, "uses");
+	char *name = names_at_cursor(window);
+
+	if (name)
 		names_show_uses_of(window, name);
 	else
 		ladder_uses_view_set_mode(LADDER_USES_VIEW(uses), USES_ALL);
+	g_free(name);
+}
+
+void names_watch(LadderWindow *window)
+{
+	GtkWidget *watch = gtk_stack_get_child_by_name(window->below_stack, "watch");
+	char *name = names_at_cursor(window);
+
+	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
+	gtk_stack_set_visible_child(window->below_stack, watch);
+	if (name)
+		ladder_watch_view_add(LADDER_WATCH_VIEW(watch), name);
+	g_free(name);
 }
 
 void names_show_uses_of(LadderWindow *window, const char *name)

@@ -1,0 +1,460 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_watch - status charts: how values are shown and read, what a file keeps of a chart,
+ * the table over a simulation that runs. WATCH_PICTURES=FOLDER saves pictures of it.
+ */
+#include "editor-gtk/watch_names.h"
+#include "editor-gtk/watch_row.h"
+#include "editor-gtk/watch_view.h"
+#include "tests/editor/screen.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\n\n"
+	"VAR\n  Start AT %IX0.0 : BOOL;\n  Motor AT %QX0.0 : BOOL;\n  Count : INT;\n"
+	"  Bits : WORD;\n  Long : DWORD;\n  Level : REAL;\n  Label : STRING[8];\n"
+	"  Delay : TON;\n  Table : ARRAY[1..3] OF INT;\nEND_VAR\n\n"
+	"VAR CONSTANT\n  Most : INT := 7;\nEND_VAR\n\n"
+	"PROGRAM Main LD\n"
+	"RUNG\n  | NO Start | COIL Motor |\n"
+	"RUNG\n  | P Start | ADD IN1:=Count IN2:=1 OUT=>Count |\n"
+	"RUNG\n  | NO Motor | TON Delay PT:=T#1m | COIL %QX0.1 |\n"
+	"END_PROGRAM\n";
+
+static GtkWidget *window;
+static LadderDocument *document;
+static LadderSim *sim;
+static LadderWatchView *view;
+static char *original; /* text of the file */
+
+static void turn(int ms)
+{
+	const gint64 end = g_get_monotonic_time() + ms * 1000;
+
+	do {
+		g_main_context_iteration(NULL, FALSE);
+		g_usleep(500);
+	} while (g_get_monotonic_time() < end);
+}
+
+#define WAIT(condition) \
+	do { \
+		for (int wait_turns = 0; wait_turns < 2000 && !(condition); wait_turns++) \
+			turn(5); \
+	} while (0)
+#define CHECK_SOON(condition) do { WAIT(condition); CHECK(condition); } while (0)
+
+/* ---- values ---- */
+
+static bool prints(enum watch_format format, enum iec_type type, int64_t value,
+		   const char *expected)
+{
+	char text[IEC_VALUE_TEXT];
+
+	watch_print(format, type, (union iec_value){ .i = value }, text, sizeof(text));
+	if (strcmp(text, expected) != 0)
+		printf("# %s, not %s\n", text, expected);
+	return strcmp(text, expected) == 0;
+}
+
+static void check_print(void)
+{
+	CHECK(prints(WATCH_AUTO, IEC_BOOL, 1, "1"));
+	CHECK(prints(WATCH_AUTO, IEC_INT, -5, "-5"));
+	CHECK(prints(WATCH_UNSIGNED, IEC_INT, -1, "65535"));
+	CHECK(prints(WATCH_SIGNED, IEC_WORD, 0xfffe, "-2"));
+	CHECK(prints(WATCH_HEX, IEC_INT, -1, "16#FFFF"));
+	CHECK(prints(WATCH_HEX, IEC_DWORD, 0xbeef, "16#0000BEEF"));
+	CHECK(prints(WATCH_BIN, IEC_BYTE, 0x12, "2#0001_0010"));
+	CHECK(prints(WATCH_FLOAT, IEC_DWORD, 0x3fc00000, "1.5"));
+	CHECK(prints(WATCH_TIME, IEC_UINT, 1500, "T#1s500ms"));
+	CHECK(prints(WATCH_AUTO, IEC_TIME, 2500000000, "T#2s500ms"));
+	CHECK(prints(WATCH_SIGNED, IEC_LWORD, -1, "-1"));
+	CHECK(prints(WATCH_UNSIGNED, IEC_ULINT, -1, "18446744073709551615"));
+	CHECK(prints(WATCH_HEX, IEC_BOOL, 1, "1"));
+	CHECK(prints(WATCH_TIME, IEC_ULINT, -1, "18446744073709551615"));
+}
+
+static bool reads(enum watch_format format, enum iec_type type, const char *text,
+		  int64_t expected)
+{
+	union iec_value value = { .i = 0 };
+	struct iec_text room;
+	enum diag_id why;
+
+	return watch_parse(format, type, text, &room, &value, &why) && value.i == expected;
+}
+
+static bool refuses(enum watch_format format, enum iec_type type, const char *text)
+{
+	union iec_value value;
+	struct iec_text room;
+	enum diag_id why;
+
+	return !watch_parse(format, type, text, &room, &value, &why) &&
+	       (why == DIAG_BAD_LITERAL || why == DIAG_LITERAL_RANGE);
+}
+
+static void check_parse(void)
+{
+	CHECK(reads(WATCH_AUTO, IEC_INT, " -5 ", -5));
+	CHECK(reads(WATCH_HEX, IEC_INT, "ffff", -1));
+	CHECK(reads(WATCH_HEX, IEC_WORD, "16#12", 0x12));
+	CHECK(reads(WATCH_BIN, IEC_WORD, "1010", 10));
+	CHECK(reads(WATCH_UNSIGNED, IEC_INT, "65535", -1));
+	CHECK(reads(WATCH_SIGNED, IEC_WORD, "-2", 0xfffe));
+	CHECK(reads(WATCH_FLOAT, IEC_DWORD, "1.5", 0x3fc00000));
+	CHECK(reads(WATCH_TIME, IEC_UINT, "1s500ms", 1500));
+	CHECK(reads(WATCH_AUTO, IEC_TIME, "2s", 2000000000));
+	CHECK(reads(WATCH_AUTO, IEC_TIME, "T#2s", 2000000000));
+	CHECK(reads(WATCH_AUTO, IEC_TIME, "20", 20000000));
+	CHECK(reads(WATCH_AUTO, IEC_BOOL, "TRUE", 1));
+	CHECK(refuses(WATCH_AUTO, IEC_INT, "40000"));
+	CHECK(refuses(WATCH_HEX, IEC_BYTE, "100"));
+	CHECK(refuses(WATCH_SIGNED, IEC_WORD, "-40000"));
+	CHECK(refuses(WATCH_TIME, IEC_UINT, "500us"));
+	CHECK(refuses(WATCH_TIME, IEC_UINT, "2m"));
+	CHECK(refuses(WATCH_AUTO, IEC_BOOL, "2"));
+	CHECK(refuses(WATCH_BIN, IEC_WORD, "12"));
+	CHECK(refuses(WATCH_AUTO, IEC_INT, ""));
+	CHECK(refuses(WATCH_HEX, IEC_INT, "--"));
+}
+
+/* Whatever is shown can be typed again, and is the same value. */
+static void check_round(void)
+{
+	guint32 seed = 1;
+	int bad = 0;
+
+	for (int n = 0; n < 20000; n++) {
+		const enum iec_type type = (enum iec_type)(IEC_BOOL + n % (IEC_LREAL - IEC_BOOL));
+		const enum watch_format format = (enum watch_format)(n / 40 % WATCH_FORMATS);
+		unsigned char memory[8];
+		char text[IEC_VALUE_TEXT];
+		union iec_value value, back = { .i = 0 };
+		struct iec_text room;
+		enum diag_id why;
+
+		for (int i = 0; i < 8; i++)
+			memory[i] = (unsigned char)((seed = seed * 1103515245 + 12345) >> 16);
+		memory[0] &= type == IEC_BOOL ? 1 : 255;
+		value = iec_load(memory, type);
+		if (iec_type_row(type)->class == CLASS_REAL && value.r != value.r)
+			continue;
+		watch_print(format, type, value, text, sizeof(text));
+		if (strchr("nN", text[0]) || strstr(text, "inf"))
+			continue; /* the bits of no number */
+		if (!watch_parse(format, type, text, &room, &back, &why) ||
+		    back.i != value.i) {
+			if (format == WATCH_TIME && strncmp(text, "T#", 2) != 0)
+				continue; /* more ms than a TIME holds */
+			printf("# %s as %s: %s\n", iec_type_row(type)->word,
+			       watch_format_word(format), text);
+			bad++;
+		}
+	}
+	CHECK(bad == 0);
+}
+
+/* ---- what a file keeps ---- */
+
+static bool writes(const char *before, const char *expected)
+{
+	GPtrArray *charts = watch_charts_read(before);
+	char *after = watch_charts_write(before, charts);
+	const bool same = strcmp(after, expected) == 0;
+
+	if (!same)
+		printf("# %s\n", after);
+	g_ptr_array_unref(charts);
+	g_free(after);
+	return same;
+}
+
+static void check_file(void)
+{
+	static const char full[] =
+		"VIEW\n  bookmark Main 1\n  status-chart Two words\n"
+		"    watch auto Start the green one\n    watch hex %QW0\n  status-chart\n"
+		"  bookmark Main 2\nEND_VIEW";
+	GPtrArray *charts = watch_charts_read(full);
+	const struct watch_chart *chart = charts->pdata[0];
+	const struct watch_line *line = chart->lines->pdata[0];
+
+	CHECK(charts->len == 2 && chart->lines->len == 2);
+	CHECK(strcmp(chart->name, "Two words") == 0);
+	CHECK(strcmp(line->name, "Start") == 0 && strcmp(line->comment, "the green one") == 0);
+	CHECK(writes(full, full));
+	CHECK(writes("VIEW\nEND_VIEW", "VIEW\nEND_VIEW"));
+	CHECK(writes("VIEW\n  watch odd X\n  watcher\nEND_VIEW",
+		     "VIEW\n  watch odd X\n  watcher\nEND_VIEW"));
+	CHECK(writes("VIEW\nwatch bin  A   b \nEND_VIEW",
+		     "VIEW\n  status-chart\n    watch bin A b\nEND_VIEW"));
+	g_ptr_array_unref(charts);
+	charts = watch_charts_read("VIEW\nEND_VIEW");
+	g_ptr_array_add(charts, watch_chart_new("a\nEND_VIEW"));
+	g_ptr_array_add(((struct watch_chart *)charts->pdata[0])->lines,
+			watch_line_new(WATCH_AUTO, " Table[ 2 ]\n", "x\ny"));
+	char *text = watch_charts_write("", charts);
+
+	CHECK(strcmp(text, "VIEW\n  status-chart a END_VIEW\n    watch auto Table[2] x y\n"
+		     "END_VIEW") == 0);
+	g_free(text);
+	g_ptr_array_unref(charts);
+}
+
+/* ---- the table ---- */
+
+static guint rows(void)
+{
+	return g_list_model_get_n_items(ladder_watch_view_list(view));
+}
+
+static LadderWatchRow *row(guint at)
+{
+	LadderWatchRow *found = g_list_model_get_item(ladder_watch_view_list(view), at);
+
+	g_object_unref(found);
+	return found;
+}
+
+static LadderWatchRow *row_of(const char *name)
+{
+	for (guint i = 0; i < rows(); i++)
+		if (strcmp(row(i)->line->name, name) == 0)
+			return row(i);
+	return NULL;
+}
+
+/* What its cell shows. */
+static const char *shown(const char *name)
+{
+	const LadderWatchRow *found = row_of(name);
+
+	return found && found->value ? gtk_label_get_text(GTK_LABEL(found->value)) : "?";
+}
+
+static void type_new(const char *name, const char *text)
+{
+	gtk_editable_set_text(GTK_EDITABLE(row_of(name)->fresh), text);
+}
+
+static void do_action(const char *name)
+{
+	gtk_widget_activate_action(GTK_WIDGET(view), name, NULL);
+	turn(20);
+}
+
+static bool file_has(const char *part)
+{
+	char *text = ladder_document_text(document, NULL);
+	const bool has = strstr(text, part) != NULL;
+
+	if (!has)
+		printf("# %s\n", text);
+	g_free(text);
+	return has;
+}
+
+static void save_picture(const char *name, bool dark)
+{
+	GdkPaintable *paintable = gtk_widget_paintable_new(window);
+	GtkSnapshot *snapshot = gtk_snapshot_new();
+	GskRenderNode *node;
+	GdkTexture *texture;
+	char *path;
+
+	turn(100);
+	gdk_paintable_snapshot(paintable, snapshot, gtk_widget_get_width(window),
+			       gtk_widget_get_height(window));
+	node = gtk_snapshot_free_to_node(snapshot);
+	texture = gsk_renderer_render_texture(gtk_native_get_renderer(
+		GTK_NATIVE(window)), node, NULL);
+	path = g_strdup_printf("%s/%s-%s.png", g_getenv("WATCH_PICTURES"), name,
+			       dark ? "dark" : "light");
+	gdk_texture_save_to_png(texture, path);
+	g_free(path);
+	g_object_unref(texture);
+	gsk_render_node_unref(node);
+	g_object_unref(paintable);
+}
+
+static void picture(const char *name)
+{
+	AdwStyleManager *style = adw_style_manager_get_default();
+
+	if (!g_getenv("WATCH_PICTURES"))
+		return;
+	for (int dark = 0; dark < 2; dark++) {
+		adw_style_manager_set_color_scheme(style, dark ?
+			ADW_COLOR_SCHEME_FORCE_DARK : ADW_COLOR_SCHEME_FORCE_LIGHT);
+		save_picture(name, dark);
+	}
+	adw_style_manager_set_color_scheme(style, ADW_COLOR_SCHEME_DEFAULT);
+}
+
+/* Rows can be made while nothing runs; unknown names stay. */
+static void check_making(void)
+{
+	CHECK(rows() == 0);
+	CHECK(ladder_watch_view_add(view, "Start Motor Nobody"));
+	CHECK(rows() == 3 && row(0)->at.type == IEC_BOOL);
+	CHECK(watch_row_is_unknown(row(2)));
+	CHECK(file_has("  status-chart Chart 1\n    watch auto Start\n"));
+	CHECK(ladder_watch_view_add(view, "Table[1..3] Delay"));
+	CHECK(rows() >= 3 + 3 + 4);
+	CHECK(row_of("Table[2]") && row_of("Delay.ET") &&
+	      row_of("Delay.ET")->at.type == IEC_TIME);
+	CHECK(ladder_document_undo(document));
+	turn(50);
+	CHECK(rows() == 3);
+	CHECK(ladder_watch_view_add(view, "%QW0 Count Bits Level Label Most"));
+	CHECK(rows() == 9 && strcmp(shown("Count"), "") == 0);
+	gtk_widget_activate_action(GTK_WIDGET(view), "watch.format", "(ii)", 5, WATCH_HEX);
+	CHECK(row(5)->line->format == WATCH_HEX && file_has("    watch hex Bits\n"));
+	do_action("watch.up"); /* of Most, which was added last */
+	CHECK(strcmp(row(7)->line->name, "Most") == 0);
+	do_action("watch.remove");
+	CHECK(rows() == 8 && !row_of("Most"));
+	CHECK(ladder_watch_view_add(view, "Most"));
+	CHECK(!ladder_watch_view_add(view, " , "));
+}
+
+static void check_running(void)
+{
+	LadderWatchRow *start;
+
+	CHECK(ladder_sim_begin(sim, NULL));
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(strcmp(shown("Motor"), "0") == 0);
+	CHECK(strcmp(shown("Nobody"), "") == 0);
+	CHECK_SOON(strcmp(shown("Bits"), "16#0000") == 0);
+	start = row_of("Start");
+	type_new("Start", "1");
+	type_new("Bits", "beef");
+	type_new("Level", "2.5");
+	type_new("Label", "'abc'");
+	CHECK(strcmp(shown("Start"), "0") == 0);
+	do_action("watch.write-all");
+	CHECK_SOON(strcmp(shown("Start"), "1") == 0 && strcmp(shown("Bits"), "16#BEEF") == 0);
+	CHECK_SOON(strcmp(shown("Level"), "2.5") == 0 && strcmp(shown("Label"), "'abc'") == 0);
+	CHECK(strcmp(gtk_editable_get_text(GTK_EDITABLE(row_of("Start")->fresh)), "") == 0);
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(strcmp(shown("Motor"), "1") == 0 && strcmp(shown("Count"), "1") == 0);
+	CHECK_SOON(strcmp(shown("%QW0"), "1") == 0);
+	CHECK(row_of("Start") == start); /* values make no other rows */
+	type_new("Label", "'much too long'");
+	do_action("watch.write-all");
+	CHECK(*ladder_watch_view_message(view));
+	CHECK(strcmp(shown("Label"), "'abc'") == 0);
+	picture("running");
+	type_new("Label", "");
+}
+
+static void press(GtkWidget *button)
+{
+	g_signal_emit_by_name(button, "clicked");
+	turn(20);
+}
+
+static void check_forces(void)
+{
+	type_new("Motor", "0");
+	press(row_of("Motor")->force);
+	CHECK_SOON(row_of("Motor")->forced && strcmp(shown("Motor"), "0") == 0);
+	CHECK_SOON(gtk_widget_has_css_class(row_of("Motor")->force, "forced"));
+	CHECK(ladder_sim_forces(sim) == 1);
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(ladder_sim_last(sim) == 3);
+	CHECK(strcmp(shown("Motor"), "0") == 0);
+	picture("forced");
+	press(row_of("Motor")->force);
+	CHECK_SOON(!row_of("Motor")->forced && strcmp(shown("Motor"), "1") == 0);
+	CHECK(!gtk_widget_get_sensitive(row_of("Label")->force));
+	CHECK(!gtk_widget_get_sensitive(row_of("Most")->force));
+	CHECK(!gtk_widget_get_sensitive(row_of("Most")->fresh));
+}
+
+/* The past, another program, off. */
+static void check_following(void)
+{
+	CHECK(ladder_sim_show(sim, 1));
+	CHECK_SOON(strcmp(shown("Motor"), "0") == 0 && strcmp(shown("Count"), "0") == 0);
+	ladder_sim_show_now(sim);
+	CHECK_SOON(strcmp(shown("Count"), "1") == 0);
+	CHECK(ladder_document_declare(document, -1, "Nobody", "INT", NULL, NULL));
+	ladder_document_check_now(document);
+	CHECK_SOON(strcmp(shown("Nobody"), "0") == 0);
+	ladder_sim_end(sim);
+	CHECK_SOON(strcmp(shown("Motor"), "") == 0 && strcmp(shown("Nobody"), "") == 0);
+}
+
+static void check_charts(void)
+{
+	do_action("watch.new-chart");
+	CHECK(rows() == 0 && file_has("  status-chart Chart 2\nEND_VIEW"));
+	CHECK(ladder_watch_view_add(view, "Count"));
+	CHECK(rows() == 1);
+	do_action("watch.delete-chart");
+	CHECK(rows() == 9);
+	while (ladder_document_undo(document))
+		turn(1);
+	turn(20);
+	CHECK(rows() == 0);
+	char *text = ladder_document_text(document, NULL);
+
+	CHECK_TEXT(text, original);
+	g_free(text);
+}
+
+static void load_style(void)
+{
+	GtkCssProvider *css = gtk_css_provider_new();
+
+	gtk_css_provider_load_from_resource(css, "/org/rungboard/Editor/ui/style.css");
+	gtk_style_context_add_provider_for_display(gdk_display_get_default(),
+		GTK_STYLE_PROVIDER(css), GTK_STYLE_PROVIDER_PRIORITY_APPLICATION);
+	g_object_unref(css);
+}
+
+static void make(void)
+{
+	document = ladder_document_new();
+	ladder_document_open_text(document, "/tmp/x/test.rung", sample, strlen(sample), true);
+	ladder_document_check_now(document);
+	original = ladder_document_text(document, NULL);
+	sim = ladder_sim_new(document);
+	window = gtk_window_new();
+	gtk_window_set_default_size(GTK_WINDOW(window), 900, 420);
+	view = LADDER_WATCH_VIEW(ladder_watch_view_new(document, sim));
+	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(view));
+	gtk_window_present(GTK_WINDOW(window));
+	turn(150);
+}
+
+int main(void)
+{
+	check_print();
+	check_parse();
+	check_round();
+	check_file();
+	if (!screen_start() || !gtk_init_check())
+		return tap_done();
+	adw_init();
+	load_style();
+	make();
+	check_making();
+	check_running();
+	check_forces();
+	check_following();
+	check_charts();
+	gtk_window_destroy(GTK_WINDOW(window));
+	g_object_unref(sim);
+	WAIT(G_OBJECT(document)->ref_count == 1);
+	g_assert_finalize_object(document);
+	g_free(original);
+	return tap_done();
+}
