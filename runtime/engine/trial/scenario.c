@@ -62,13 +62,22 @@ static void print_scan(const struct run *run, const struct formula *formula,
 	sink_text(run->out, "\n");
 }
 
+static void fail(struct run *run, int line)
+{
+	run->held = false;
+	if (run->scenario->failed_line)
+		return;
+	run->scenario->failed_line = line;
+	run->scenario->failed_scan = run->scan;
+}
+
 static void report(struct run *run, const struct scenario_step *step,
 		   const char *what)
 {
 	uint64_t first = run->scan < SCENARIO_HISTORY ?
 			       1 : run->scan - SCENARIO_HISTORY + 1;
 
-	run->held = false;
+	fail(run, step->line);
 	sink_text(run->out, "# ");
 	sink_text(run->out, run->file->file);
 	sink_printf(run->out, ":%d: at ", step->line);
@@ -229,7 +238,7 @@ static void report_fault(struct run *run)
 	const struct fault_place *at = &resource->fault_at;
 	char text[96];
 
-	run->held = false;
+	fail(run, run->scenario->line);
 	sink_text(run->out, "# ");
 	sink_text(run->out, run->file->file);
 	sink_printf(run->out, ":%d: at ", run->scenario->line);
@@ -267,6 +276,7 @@ bool scenario_run_with(const struct scenario_file *file, int index,
 			   .resource = resource, .out = out, .held = true };
 
 	open_steps(run.scenario);
+	run.scenario->failed_line = 0;
 	resource_start(resource);
 	if (run.scenario->with_plant && plant) {
 		run.plant = plant;
@@ -283,6 +293,8 @@ bool scenario_run_with(const struct scenario_file *file, int index,
 		}
 		remember(&run);
 		judge_all(&run);
+		if (file->stop && *file->stop)
+			return false;
 	} while (!is_done(&run));
 	return run.held;
 }

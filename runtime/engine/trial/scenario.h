@@ -25,6 +25,7 @@
 #include "engine/scan/resource.h"
 #include "engine/trial/formula.h"
 #include "engine/trial/plant.h"
+#include "engine/trial/twin.h"
 
 #define SCENARIO_SCANS_MAX 100000000 /* of one scenario, so that it ends      */
 #define SCENARIO_HISTORY 8           /* scans shown behind a failure          */
@@ -61,6 +62,8 @@ struct scenario {
 	int step_count;
 	struct scenario_watch *watch; /* variables that expectations speak of */
 	int watch_count;
+	int failed_line;         /* of the last run: where it failed first; 0: it held */
+	uint64_t failed_scan;    /* and when                                  */
 };
 
 struct scenario_file {
@@ -68,6 +71,8 @@ struct scenario_file {
 	const struct image *plant; /* borrowed; or NULL                       */
 	struct scenario *scenario;
 	int count;
+	const bool *stop;        /* set by the caller after reading, or NULL: when it
+				    is true, a run ends and has failed        */
 };
 
 /**
@@ -118,4 +123,18 @@ bool scenario_run_with(const struct scenario_file *file, int index,
  */
 bool scenario_run(const struct scenario_file *file, int index,
 		  struct resource *resource, const struct sink *out);
+
+/**
+ * scenario_each_act - what a scenario does, up to a scan
+ * @twin:  of the same program, initialised, nothing else; it runs here
+ * @scans: how many
+ * @take:  gets each act, with the scan after which it is done; what it points to is
+ * borrowed until it returns
+ *
+ * Scan-safe: no.   Fails: false: the twin cannot run so far.
+ */
+bool scenario_each_act(const struct scenario_file *file, int index, struct twin *twin,
+		       uint64_t scans,
+		       void (*take)(void *context, uint64_t after,
+				    const struct act *act), void *context);
 #endif
