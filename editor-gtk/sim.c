@@ -110,17 +110,21 @@ static struct sim_program *build(LadderSim *sim, GError **error)
 	return program;
 }
 
-static bool start_thread(LadderSim *sim, struct sim_program *program, GError **error)
+static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 period_ns,
+			 GError **error)
 {
-	const gint64 period = sim->period_ns ? sim->period_ns :
-		tasks_tick(program->program, 0, SIM_PERIOD);
+	struct sim_thread *thread = sim_thread_new(program, sim->plant, period_ns, notified,
+						   sim);
 
-	sim->thread = sim_thread_new(program, sim->plant, period, notified, sim);
-	if (!sim->thread) {
+	if (!thread) {
 		g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_FAILED,
 				    _("Out of memory"));
 		return false;
 	}
+	/* What ran before is of another program, even if that is the same. */
+	g_clear_pointer(&sim->thread, sim_thread_free);
+	sim_view_clear(&sim->view);
+	sim->thread = thread;
 	if (sim->speed > 0)
 		sim_thread_speed(sim->thread, sim->speed);
 	sim->version = ladder_document_version(sim->document);
@@ -129,24 +133,44 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, GError **e
 	return true;
 }
 
-bool ladder_sim_begin(LadderSim *sim, GError **error)
+/* @period_ns: 0: as the person or the tasks want it. */
+static bool start(LadderSim *sim, gint64 period_ns, GError **error)
 {
-	struct sim_program *program;
+	struct sim_program *program = build(sim, error);
 	bool good;
 
-	if (sim->thread)
-		return true;
-	program = build(sim, error);
 	if (!program) {
 		ladder_document_check_now(sim->document);
 		return false;
 	}
-	good = start_thread(sim, program, error);
+	if (!period_ns)
+		period_ns = sim->period_ns ? sim->period_ns :
+			    tasks_tick(program->program, 0, SIM_PERIOD);
+	good = start_thread(sim, program, period_ns, error);
 	sim_program_unref(program);
 	if (!good)
 		return false;
 	tell_state(sim);
 	g_signal_emit(sim, signals[SHOWN], 0);
+	return true;
+}
+
+bool ladder_sim_begin(LadderSim *sim, GError **error)
+{
+	return sim->thread || start(sim, 0, error);
+}
+
+bool ladder_sim_restart(LadderSim *sim, GError **error)
+{
+	return start(sim, 0, error);
+}
+
+bool ladder_sim_play(LadderSim *sim, gint64 period_ns, GArray *acts, guint64 scans,
+		     GError **error)
+{
+	if (!start(sim, period_ns, error))
+		return false;
+	sim_thread_play(sim->thread, acts, scans);
 	return true;
 }
 

@@ -74,6 +74,25 @@ void ladder_sim_set_speed(LadderSim *sim, double scans);
  * (no such place) is told. */
 void ladder_sim_act(LadderSim *sim, const struct act *act);
 
+/* ---- from the beginning ---- */
+
+/** ladder_sim_restart - begins anew with the program as it is now: scan 0, in STOP, nothing
+ * set, nothing forced, nothing recorded. Tells program-changed. If it is off, it begins.
+ * Fails: as ladder_sim_begin(); what ran goes on. */
+bool ladder_sim_restart(LadderSim *sim, GError **error);
+
+/* An act that is done again. */
+struct sim_played {
+	guint64 after;           /* the scan before it                          */
+	struct act act;
+	struct iec_text text;    /* of a STRING: what act.value.s says          */
+};
+/** ladder_sim_play - begins anew, does @acts (of struct sim_played, in their order) and
+ * stands in PAUSE after scan @scans; all of them can be shown. What is told to it meanwhile
+ * ends it there. Fails: as ladder_sim_restart(). */
+bool ladder_sim_play(LadderSim *sim, gint64 period_ns, GArray *acts, guint64 scans,
+		     GError **error);
+
 /* ---- what is shown ---- */
 
 /** ladder_sim_twin - as it was after the scan that is shown. NULL: off. Borrowed until the

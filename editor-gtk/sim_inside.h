@@ -48,6 +48,8 @@ void sim_thread_run(struct sim_thread *thread, bool run);
 void sim_thread_scan(struct sim_thread *thread, int scans);
 void sim_thread_speed(struct sim_thread *thread, double scans);
 void sim_thread_act(struct sim_thread *thread, const struct act *act);
+/** sim_thread_play - as ladder_sim_play(); it takes a reference of @acts. */
+void sim_thread_play(struct sim_thread *thread, GArray *acts, guint64 scans);
 /** sim_thread_change - another program takes the place of the one that runs. It takes a
  * reference. */
 void sim_thread_change(struct sim_thread *thread, struct sim_program *program);

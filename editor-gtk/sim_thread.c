@@ -11,7 +11,8 @@
 #define FRAME_US G_GINT64_CONSTANT(16000)
 #define BEHIND_US G_GINT64_CONSTANT(250000) /* more than that is not made up for   */
 
-enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_ACT, ORDER_CHANGE, ORDER_END };
+enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_ACT, ORDER_CHANGE,
+		  ORDER_PLAY, ORDER_END };
 struct order {
 	enum order_kind kind;
 	int scans;               /* ORDER_RUN: 0, 1                            */
@@ -19,6 +20,8 @@ struct order {
 	struct act act;
 	char *text;              /* of the act's STRING                        */
 	struct sim_program *program;
+	GArray *acts;            /* of struct sim_played                       */
+	guint64 until;           /* scan                                       */
 };
 
 struct sim_thread {
@@ -162,6 +165,31 @@ static void scan_some(struct sim_thread *thread, int scans)
 		scan(thread);
 }
 
+/* Somebody who wants something else does not wait for the end of it. */
+static void play(struct sim_thread *thread, GArray *acts, guint64 until)
+{
+	const struct act start = { .kind = ACT_START };
+	guint next = 0;
+
+	thread->run = false;
+	act(thread, &start);
+	while (thread->twin.scan < until && g_async_queue_length(thread->orders) <= 0 &&
+	       thread->twin.resource.state == STATE_RUN) {
+		for (; next < acts->len; next++) {
+			struct sim_played *played = &g_array_index(acts, struct sim_played,
+								   next);
+			struct act again = played->act;
+
+			if (played->after > thread->twin.scan)
+				break;
+			if (again.at.type == IEC_STRING)
+				again.value.s = (const struct iec_string *)&played->text;
+			act(thread, &again);
+		}
+		scan(thread);
+	}
+}
+
 /* False: it is to end. */
 static bool obey(struct sim_thread *thread, struct order *order)
 {
@@ -177,6 +205,7 @@ static bool obey(struct sim_thread *thread, struct order *order)
 		break;
 	case ORDER_ACT: act(thread, &order->act); break;
 	case ORDER_CHANGE: change(thread, order->program); break;
+	case ORDER_PLAY: play(thread, order->acts, order->until); break;
 	case ORDER_END: return false;
 	}
 	thread->changed = true;
@@ -196,6 +225,7 @@ static struct order *next_order(struct sim_thread *thread)
 
 static void order_free(struct order *order)
 {
+	g_clear_pointer(&order->acts, g_array_unref);
 	g_free(order->text);
 	g_free(order);
 }
@@ -297,6 +327,12 @@ void sim_thread_act(struct sim_thread *thread, const struct act *act)
 		order.act.value.s = (const struct iec_string *)(gpointer)order.text;
 	}
 	tell(thread, &order);
+}
+
+void sim_thread_play(struct sim_thread *thread, GArray *acts, guint64 scans)
+{
+	tell(thread, &(struct order){ .kind = ORDER_PLAY, .acts = g_array_ref(acts),
+				      .until = scans });
 }
 
 void sim_thread_change(struct sim_thread *thread, struct sim_program *program)

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * scenario_run - runs the scenarios of a project.
+ */
+#include "editor-gtk/scenario_run.h"
+
+#include "editor-gtk/diag_said.h"
+#include "editor-gtk/disk.h"
+#include "editor-gtk/file_view.h"
+#include "editor-gtk/i18n.h"
+#include "editor-gtk/sim_inside.h"
+
+#include "engine/trial/scenario.h"
+
+#include <string.h>
+
+#define FILE_MOST (4 << 20) /* bytes of a scenario file                          */
+
+void scenario_result_free(struct scenario_result *result)
+{
+	g_free(result->path);
+	g_free(result->name);
+	g_free(result->why);
+	g_clear_pointer(&result->acts, g_array_unref);
+	g_free(result);
+}
+
+/* ---- which files ---- */
+
+/* "motor-2.scn" is of motor-2.rung, if that is there. */
+static bool is_of_another(const char *path, const char *program)
+{
+	char *other = g_strdup_printf("%.*s.rung", (int)(strlen(path) - strlen(".scn")),
+				      path);
+	char *own = g_canonicalize_filename(program, NULL);
+	char *plain = g_canonicalize_filename(other, NULL);
+	const bool is = strcmp(own, plain) != 0 &&
+			g_file_test(other, G_FILE_TEST_EXISTS);
+
+	g_free(other);
+	g_free(own);
+	g_free(plain);
+	return is;
+}
+
+GPtrArray *scenario_files(const char *path)
+{
+	GPtrArray *files = files_beside(path, ".scn");
+
+	for (guint i = files->len; i-- > 0;)
+		if (is_of_another(files->pdata[i], path))
+			g_ptr_array_remove_index(files, i);
+	return files;
+}
+
+/* ---- running ---- */
+
+struct job {
+	char *file, *program;
+	gsize len;
+	GPtrArray *files, *texts;
+	bool stop;              /* read by the run                              */
+};
+
+struct running {
+	struct job *job;
+	struct sim_program *program;
+	struct scenario_file *file;
+	const char *path;
+	GPtrArray *results;
+};
+
+static void job_free(gpointer data)
+{
+	struct job *job = data;
+
+	g_free(job->file);
+	g_free(job->program);
+	g_ptr_array_unref(job->files);
+	g_ptr_array_unref(job->texts);
+	g_free(job);
+}
+
+static struct scenario_result *add(GPtrArray *results, enum scenario_outcome outcome,
+				   const char *path, const char *name, char *why)
+{
+	struct scenario_result *result = g_new0(struct scenario_result, 1);
+
+	result->outcome = outcome;
+	result->path = g_strdup(path);
+	result->name = g_strdup(name);
+	result->why = why;
+	g_ptr_array_add(results, result);
+	return result;
+}
+
+static void add_diags(GPtrArray *results, const char *path, const struct diag_list *diags)
+{
+	for (int i = 0; i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+		struct scenario_result *result;
+
+		if (diag_severity(diag->id) != SEVERITY_ERROR)
+			continue;
+		result = add(results, SCENARIO_UNREAD, path, "", diag_said_whole(diag));
+		result->line = diag->line;
+		result->column = diag->column;
+	}
+}
+
+/* The report's first line, without `# file:line: `. */
+static char *why_of(const char *report, const char *file)
+{
+	const char *at = report;
+	const gsize len = strlen(file);
+	char *line;
+
+	if (g_str_has_prefix(at, "# "))
+		at += 2;
+	if (strncmp(at, file, len) == 0 && at[len] == ':') {
+		at += len + 1;
+		at += strspn(at, "0123456789");
+		at += strspn(at, ": ");
+	}
+	line = g_strndup(at, strcspn(at, "\n"));
+	return line;
+}
+
+static void keep_act(void *context, uint64_t after, const struct act *act)
+{
+	struct sim_played played = { .after = after, .act = *act };
+
+	if (act->kind == ACT_SET && act->at.type == IEC_STRING) {
+		struct iec_string *text = iec_text_init(&played.text,
+							act->value.s->length);
+
+		memcpy(text->text, act->value.s->text, act->value.s->length);
+		played.act.value.s = NULL;
+	}
+	g_array_append_val((GArray *)context, played);
+}
+
+/* What led to the failure, to be done again where it can be seen. */
+static void keep_way(struct running *running, int index, struct scenario_result *result)
+{
+	struct twin *twin = g_new0(struct twin, 1);
+
+	result->acts = g_array_new(FALSE, FALSE, sizeof(struct sim_played));
+	if (twin_init(twin, running->program->program, NULL, result->period_ns))
+		scenario_each_act(running->file, index, twin, result->scan, keep_act,
+				  result->acts);
+	twin_free(twin);
+	g_free(twin);
+}
+
+static void run_one(struct running *running, int index, struct resource *resource)
+{
+	const struct scenario *scenario = &running->file->scenario[index];
+	struct scenario_result *result;
+	struct sink_memory report;
+	struct sink out;
+	bool held;
+
+	sink_memory_init(&report);
+	out = sink_to_memory(&report);
+	held = scenario_run(running->file, index, resource, &out);
+	result = add(running->results, held ? SCENARIO_HELD : SCENARIO_FAILED,
+		     running->path, scenario->name,
+		     held ? g_strdup("") : why_of(sink_memory_text(&report),
+						  running->file->file));
+	result->first_line = scenario->line;
+	result->line = scenario->failed_line;
+	result->scan = scenario->failed_scan;
+	result->period_ns = scenario->period_ns;
+	if (!held && !running->job->stop)
+		keep_way(running, index, result);
+	sink_memory_free(&report);
+}
+
+static void run_text(struct running *running, const char *text, gsize len)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	struct resource *resource = g_new0(struct resource, 1);
+	const struct program *program = running->program->program;
+	gpointer memory = g_malloc0(image_memory_size(program));
+	struct scenario_file file;
+	struct arena arena;
+	char *name = g_path_get_basename(running->path);
+
+	diag_init(diags);
+	arena_init(&arena);
+	resource_init(resource, program, memory);
+	running->file = &file;
+	if (scenario_read(name, text, len, &resource->image, &arena, &file, diags)) {
+		file.stop = &running->job->stop;
+		for (int i = 0; i < file.count && !running->job->stop; i++)
+			run_one(running, i, resource);
+	} else {
+		add_diags(running->results, running->path, diags);
+	}
+	arena_free(&arena);
+	g_free(name);
+	g_free(memory);
+	g_free(resource);
+	g_free(diags);
+}
+
+static void run_file(struct running *running, guint index)
+{
+	const char *given = running->job->texts->pdata[index];
+	GError *error = NULL;
+	gsize len;
+	char *text;
+
+	running->path = running->job->files->pdata[index];
+	if (given) {
+		run_text(running, given, strlen(given));
+		return;
+	}
+	text = disk_read(running->path, FILE_MOST, &len, &error);
+	if (text)
+		run_text(running, text, len);
+	else
+		add(running->results, SCENARIO_UNREAD, running->path, "",
+		    g_strdup(error->message));
+	g_clear_error(&error);
+	g_free(text);
+}
+
+static void cancelled(GCancellable *stop, struct job *job)
+{
+	(void)stop;
+	job->stop = true;
+}
+
+static void run(GTask *task, gpointer source, gpointer data, GCancellable *stop)
+{
+	struct job *job = data;
+	struct running running = { .job = job };
+	gulong stopped = 0;
+	GError *error = NULL;
+
+	(void)source;
+	if (stop)
+		stopped = g_cancellable_connect(stop, G_CALLBACK(cancelled), job, NULL);
+	running.results = g_ptr_array_new_with_free_func(
+		(GDestroyNotify)scenario_result_free);
+	running.program = sim_program_new(job->file, job->program, job->len, &error);
+	if (!running.program)
+		add(running.results, SCENARIO_UNREAD, job->file, "",
+		    g_strdup_printf(_("The program has errors: %s"), error->message));
+	for (guint i = 0; running.program && i < job->files->len && !job->stop; i++)
+		run_file(&running, i);
+	if (stop)
+		g_cancellable_disconnect(stop, stopped);
+	g_clear_error(&error);
+	sim_program_unref(running.program);
+	g_task_return_pointer(task, running.results, (GDestroyNotify)g_ptr_array_unref);
+}
+
+void scenario_run_all(const char *file, const char *program, gsize len, GPtrArray *files,
+		      GPtrArray *texts, GCancellable *stop, GAsyncReadyCallback done,
+		      gpointer data)
+{
+	struct job *job = g_new0(struct job, 1);
+	GTask *task = g_task_new(NULL, stop, done, data);
+
+	job->file = g_strdup(file);
+	job->program = g_strndup(program, len);
+	job->len = len;
+	job->files = files;
+	job->texts = texts;
+	g_task_set_task_data(task, job, job_free);
+	g_task_run_in_thread(task, run);
+	g_object_unref(task);
+}
+
+GPtrArray *scenario_run_finish(GAsyncResult *result)
+{
+	return g_task_propagate_pointer(G_TASK(result), NULL);
+}
