@@ -170,7 +170,9 @@ static void fill(LadderBoardView *view)
 	GtkStringList *names = gtk_string_list_new(NULL);
 
 	g_ptr_array_unref(view->paths);
-	view->paths = files_beside(ladder_document_path(view->document), ".io");
+	view->paths = files_beside(ladder_document_path(view->document), ".io", true);
+	g_ptr_array_extend_and_steal(view->paths,
+		files_beside(ladder_document_path(view->document), ".io", false));
 	if (view->map && g_file_test(view->map, G_FILE_TEST_EXISTS) &&
 	    index_of(view->paths, view->map) == GTK_INVALID_LIST_POSITION)
 		g_ptr_array_add(view->paths, g_strdup(view->map));

@@ -27,30 +27,9 @@ void scenario_result_free(struct scenario_result *result)
 
 /* ---- which files ---- */
 
-/* "motor-2.scn" is of motor-2.rung, if that is there. */
-static bool is_of_another(const char *path, const char *program)
-{
-	char *other = g_strdup_printf("%.*s.rung", (int)(strlen(path) - strlen(".scn")),
-				      path);
-	char *own = g_canonicalize_filename(program, NULL);
-	char *plain = g_canonicalize_filename(other, NULL);
-	const bool is = strcmp(own, plain) != 0 &&
-			g_file_test(other, G_FILE_TEST_EXISTS);
-
-	g_free(other);
-	g_free(own);
-	g_free(plain);
-	return is;
-}
-
 GPtrArray *scenario_files(const char *path)
 {
-	GPtrArray *files = files_beside(path, ".scn");
-
-	for (guint i = files->len; i-- > 0;)
-		if (is_of_another(files->pdata[i], path))
-			g_ptr_array_remove_index(files, i);
-	return files;
+	return files_beside(path, ".scn", true);
 }
 
 /* ---- running ---- */
