@@ -330,7 +330,7 @@ TESTS_BIN := $(addprefix $(BIN)/,differential members iec_cases exhaustion savin
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
-$(BUILD)/unit/test_record $(BUILD)/unit/test_carry: $(RANDOM_O)
+$(BUILD)/unit/test_record $(BUILD)/unit/test_carry $(BUILD)/unit/test_why: $(RANDOM_O)
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
 $(BUILD)/tests/editor/test_sim_trace: $(RANDOM_O)

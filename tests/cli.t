@@ -485,5 +485,72 @@ SKIP: {
 	like($screen, qr/FUNCTION_BLOCK Seal as B.*==\| \|-----\( \)-/s, 'live: rungs of an instance');
 	like($screen, qr/==\| \|=====\( \)=/, 'live: with their power when an input comes');
 }
+# ---- a plant beside a program; why ----
+put('world.rung', <<'END');
+RUNGBOARD 1
+
+VAR
+  Motor AT %IX0.0 : BOOL;
+  AtEnd AT %QX0.1 : BOOL;
+  Way   : DINT;
+END_VAR
+
+PROGRAM World LD
+RUNG
+  | NO Motor | [ Way := Way + 1 ] |
+RUNG
+  | [ Way >= 3 ] | COIL AtEnd |
+END_PROGRAM
+END
+my ($moved) = is_run(0, 'trace --plant', ['trace', 'good.rung', '-', '--plant', 'world.rung'],
+	"\@print Motor Stop plant.Way\nOpen=1 x3\nOpen=0 plant.Way=2\n. x2\n\@reset\n.\n");
+is($moved, <<'END', 'the plant moves, and its variables are seen and set');
+1 t=10 Motor=1 Stop=0 plant.Way=0
+2 t=20 Motor=1 Stop=0 plant.Way=1
+3 t=30 Motor=1 Stop=0 plant.Way=2
+4 t=40 Motor=0 Stop=1 plant.Way=3
+5 t=50 Motor=0 Stop=1 plant.Way=3
+6 t=60 Motor=0 Stop=1 plant.Way=3
+7 t=70 Motor=0 Stop=0 plant.Way=0
+END
+($moved) = is_run(0, 'run --plant', ['run', 'good.rung', '--plant', 'world.rung', '--plain',
+	'--set', 'Open=1', '--scans', '6', '--speed', '1000']);
+like($moved, qr/^4 .*Stop=1/m, 'it moves there, too');
+for my $command (['trace', 'good.rung', '-'], ['run', 'good.rung', '--plain'],
+		 ['why', 'good.rung', '-', 'Motor']) {
+	my (undef, $said) = is_run(2, "$command->[0]: no such plant", [@$command, '--plant', 'none.rung'], ".\n");
+	like($said, qr/^none\.rung: error LD002/m, "$command->[0]: the file");
+	like($said, qr/^--plant: error LD016: .*none\.rung$/m, "$command->[0]: and what it was for");
+}
+put('broken.plant.rung', "RUNGBOARD 1\nPROGRAM P LD\nRUNG\n  | NO Nobody | COIL %QX0.1 |\nEND_PROGRAM\n");
+put('p.rung', get('good.rung'));
+sub said_of_scenarios {
+	my ($text) = @_;
+	put('p.scn', $text);
+	my ($status, $out, $err) = run('test', 'p.scn');
+	return "$status $err";
+}
+my $end = "  at 0ms Open = 1\n  at 50ms expect Stop\n";
+is(said_of_scenarios("scenario \"a\"\n  plant \"world.rung\"\n$end"), '0 ', 'a plant in a scenario');
+is(said_of_scenarios("plant \"world.rung\"\nscenario \"a\"\n$end"), '0 ', 'a plant before all of them');
+like(said_of_scenarios("# no plant \"x\" here\nplant \"none.rung\"\nscenario \"a\"\n$end"),
+     qr/^1 none\.rung: error LD002.*^p\.scn:2:7: error LD016: .*none\.rung/ms, 'a plant that is not there: the file, and the place');
+like(said_of_scenarios("scenario \"a\"\n  plant \"broken.plant.rung\"\n$end"),
+     qr/^1 broken\.plant\.rung:4:.*LD301: .*Nobody.*^p\.scn:2:9: error LD016/ms, 'a plant with an error: that, and the place');
+like(said_of_scenarios("scenario \"a\"\n  plant \"world.rung\"\n  plant \"world.rung\"\n$end"),
+     qr/p\.scn:3:9: error LD126: .*second plant/, 'two plants');
+like(said_of_scenarios("scenario \"a\"\n  plant \"world.rung\"\n$end\nscenario \"b\"\n  plant \"good.rung\"\n$end"),
+     qr/p\.scn:7:9: error LD126: .*second plant/, 'another plant in another scenario');
+like(said_of_scenarios("scenario \"a\"\n  at 0ms Open = 1\n  plant \"world.rung\"\n  at 50ms expect Stop\n"),
+     qr/p\.scn:3:9: error LD126/, 'a plant behind steps');
+like(said_of_scenarios("scenario \"a\"\n$end  expect plant.Way > 1\n"),
+     qr/p\.scn:4:10: error LD301: .*plant\.Way/, 'a name of a plant without one');
+like(said_of_scenarios("scenario \"a\"\n  plant \"world.rung\"\n$end  expect plant.Nobody > 1\n"),
+     qr/p\.scn:5:10: error LD301: .*plant\.Nobody/, 'a plant has no such name');
+my ($why) = is_run(0, 'why', ['why', 'good.rung', '-', 'Motor'], "Stop=1\n");
+like($why, qr/^Motor has no power: \w+ rung 1 \(1,\d\)\n  .*Open/, 'why: what holds it back');
+is_run(2, 'why: no such coil', ['why', 'good.rung', '-', 'Nobody'], ".\n");
+is_run(2, 'why: no script', ['why', 'good.rung', 'none.script', 'Motor']);
+
 chdir '/';
 done_testing();

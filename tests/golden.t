@@ -7,6 +7,7 @@
 #   expected.diag   what `ladder check` says on standard error
 #   expected.il     what `ladder il` prints
 #   expected.trace  what `ladder trace main.rung stimulus` prints
+#   expected.why    what `ladder why main.rung stimulus COIL` prints, of each line in `ask`
 #   expected.fault  the same of a program that ends with a fault, and what is said of it
 # The cases together must show every message of diag.def and trace every word of
 # catalog.def. `--bless CASE` rewrites what a case expects and shows the difference:
@@ -27,6 +28,7 @@ my %command = (
 	il    => ['il', 'main.rung'],
 	trace => ['trace', 'main.rung', 'stimulus'],
 	fault => ['trace', 'main.rung', 'stimulus'],
+	why   => [],
 );
 
 sub slurp {
@@ -56,9 +58,23 @@ sub run_case {
 	return (slurp($out_name), slurp($err_name), $status);
 }
 
+# All answers; the last status is that of all if they are the same.
+sub produce_why {
+	my ($dir) = @_;
+	my ($text, $worst) = ('', 0);
+	for my $coil (split /\n/, slurp("$dir/ask")) {
+		my ($out, $err, $status) = run_case($dir, 'why', 'main.rung', 'stimulus', $coil);
+		$text .= "$out$err";
+		$worst = $status if $status > $worst;
+	}
+	my $wanted = $text =~ /: error LD/ ? 1 : 0;
+	return ($text, $worst == $wanted, $worst);
+}
+
 # What kind @_ gives now: the text and whether the exit status is the right one.
 sub produce {
 	my ($dir, $kind) = @_;
+	return produce_why($dir) if $kind eq 'why';
 	my ($out, $err, $status) = run_case($dir, @{$command{$kind}});
 	my $text = $kind eq 'diag' ? $err : $kind eq 'fault' ? "$out$err" : $out;
 	my $wanted = $kind eq 'fault' || ($kind eq 'diag' && $err =~ /: error LD/) ? 1 : 0;

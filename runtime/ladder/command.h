@@ -83,6 +83,7 @@ enum status cmd_code(struct call *call);
 enum status cmd_build(struct call *call);
 enum status cmd_run(struct call *call);
 enum status cmd_trace(struct call *call);
+enum status cmd_why(struct call *call);
 enum status cmd_test(struct call *call);
 enum status cmd_bench(struct call *call);
 enum status cmd_words(struct call *call);
