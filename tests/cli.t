@@ -83,7 +83,7 @@ like($out, qr/^ladder \d+\.\d+\.\d+\n$/, '--version prints it');
 ($out) = is_run(0, '--help', ['--help']);
 my @commands = $out =~ /^  ([a-z]+)  +\S.*$/mg;
 is_deeply([sort grep { $_ ne 'help' } @commands],
-	  [sort qw(check fmt show il code build run trace test bench words diff io push xref)], 'all commands are there');
+	  [sort qw(check fmt show il code build run trace test bench words diff io push xref why)], 'all commands are there');
 ($out, $err) = is_run(2, 'no command', []);
 is($out, '', 'no command: nothing on standard output');
 is_run(2, 'unknown command', ['frobnicate']);
@@ -366,9 +366,10 @@ like($out, qr/^areas         20160 bytes: I 512 Q 512 M 8192 V 8192 /m, 'shows t
 ($out, $err) = is_run(1, 'run of a loop', ['run', 'loop.rung', '--set', 'I0=1', '--scans', '5']);
 like($err, qr/LD008/, 'run of a loop: the fault');
 for my $signal (qw(INT TERM)) {
+	put('.out', '');
 	my $pid = fork // die;
 	if (!$pid) { open STDOUT, '>', '.out'; open STDIN, '<', '/dev/null'; exec $ladder, 'run', 'good.rung', '--set', 'Open=1' or die }
-	for (1 .. 100) { sleep 0.02; last if -s '.out' }
+	for (1 .. 500) { sleep 0.02; last if -s '.out' }
 	kill $signal, $pid; waitpid $pid, 0;
 	is($?, 0, "run ends well with SIG$signal");
 	is(get('.out'), "1 t=10 Open=1 Motor=1\n", "SIG$signal: the lines are there");
