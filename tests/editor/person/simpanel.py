@@ -1,0 +1,155 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""simpanel - the panel of a simulation: switches, push buttons, keys, values, forces."""
+import gettext
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import BUILD, Editor, main, new_file, sh, until  # noqa: E402
+
+PROGRAM = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL; (* the green button *)
+  Stop AT %IX0.1 : BOOL;
+  电机 AT %QX0.0 : BOOL; (* 主电机 *)
+  Level AT %AIW0 : INT;
+  Speed AT %AQW2 : INT;
+  Wait : TIME := T#1m;
+  Overload_of_the_second_motor_behind_the_wall AT %MX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+VAR
+  Delay : TON;
+END_VAR
+RUNG "Motor"
+  | NO Start | NC Stop | NC Overload_of_the_second_motor_behind_the_wall | COIL 电机 |
+  | NO 电机 ^|
+RUNG "Delay"
+  | NO 电机 | TON Delay PT:=Wait | COIL %QX0.1 |
+RUNG
+  | NO Start | MOVE IN:=Level OUT=>Speed |
+END_PROGRAM
+'''
+CHOSEN = '''
+VIEW
+  panel Start push hold x
+  panel Stop toggle F11
+  panel Level range 0 100
+END_VIEW
+'''
+
+
+def begin(screen, text):
+    editor = Editor(screen, new_file(screen, text))
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    return editor
+
+
+def line(editor, *parts):
+    """The line of the panel whose name has all these parts; waits for it."""
+    def look():
+        found = [node for node in editor.all(parts[0], 'list item') if all(part in node.name for part in parts)]
+        return found[0] if found else None
+    return until(look, 'the line %s' % ', '.join(parts))
+
+
+def switch(editor, name, role='check box'):
+    return editor.find('Input ' + name, role)
+
+
+def pointer(screen):
+    """switches and a push button by pointer, a value typed, a force from the menu"""
+    editor = begin(screen, PROGRAM)
+    line(editor, 'Output 电机, %QX0.0, off')
+    editor.click(switch(editor, 'Start, %IX0.0'))
+    line(editor, 'Input Start, %IX0.0, on')
+    line(editor, 'Output 电机, %QX0.0, on')
+    editor.click(switch(editor, 'Start, %IX0.0'))
+    line(editor, 'Input Start, %IX0.0, off')
+    line(editor, 'Output 电机, %QX0.0, on')
+    until(lambda: any(' / 1m00.00s' in node.name and not node.name.startswith('0.00s')
+                      for node in editor.all('1m00.00s', 'label')), 'the timer to count')
+    editor.shot('simpanel-light')
+    editor.click(switch(editor, 'Stop, %IX0.1'))
+    line(editor, 'Output 电机, %QX0.0, off')
+    editor.click(line(editor, 'Output 电机'), button=3)
+    editor.press(editor.find('Force On', 'menu item'))
+    line(editor, 'Output 电机, %QX0.0, on, forced')
+    editor.says('1 force')
+    editor.shot('simpanel-forced')
+    editor.click(editor.find('5.00s', 'label') if editor.all('5.00s', 'label') else
+                 editor.find('1m00.00s', 'label'))
+    editor.focus_on(role='text')
+    editor.keys('ctrl+a')
+    editor.type('2m30s')
+    editor.keys('Return')
+    editor.says('/ 2m30.00s')
+
+
+def keyboard(screen):
+    """the same by keyboard, held and bound keys, a filter"""
+    editor = begin(screen, PROGRAM + CHOSEN)
+    push = switch(editor, 'Start, %IX0.0', 'toggle button')
+    x, y = editor.centre(push)
+    sh('xdotool', 'mousemove', str(x), str(y), 'mousedown', '1')
+    line(editor, 'Input Start, %IX0.0, on')
+    editor.shot('simpanel-held')
+    sh('xdotool', 'mouseup', '1')
+    line(editor, 'Input Start, %IX0.0, off')
+    sh('xdotool', 'keydown', 'space')
+    line(editor, 'Input Start, %IX0.0, on')
+    sh('xdotool', 'keyup', 'space')
+    line(editor, 'Input Start, %IX0.0, off')
+    editor.keys('Down', 'space')
+    line(editor, 'Input Stop, %IX0.1, on')
+    editor.keys('ctrl+shift+f')
+    line(editor, 'Input Stop, %IX0.1, on, forced')
+    editor.keys('ctrl+shift+f')
+    until(lambda: not editor.all('forced', 'list item'), 'the force to go')
+    editor.keys('F11')
+    line(editor, 'Input Stop, %IX0.1, off')
+    editor.click(editor.sheet())
+    sh('xdotool', 'keydown', 'x')
+    line(editor, 'Input Start, %IX0.0, on')
+    sh('xdotool', 'keyup', 'x')
+    line(editor, 'Input Start, %IX0.0, off')
+    editor.click(editor.find('Filter the variables'))
+    editor.type('x')
+    until(lambda: not editor.all('Analogue Level', 'list item'), 'the filter')
+    line(editor, 'Input Start, %IX0.0, off')
+
+
+class Chinese(Editor):
+    """The same, where what is looked for is said in Chinese."""
+
+    def __init__(self, screen, *files, **env):
+        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
+        super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
+
+    def all(self, name=None, *more, **named):
+        return super().all(name and self.said.gettext(name), *more, **named)
+
+
+def small(screen):
+    """1024 x 700, dark, Chinese: all is to be seen, and folds away"""
+    editor = Chinese(screen, new_file(screen, PROGRAM + CHOSEN), ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    node = line(editor, 'Start, %IX0.0')
+    assert node.name.startswith('输入 Start'), node.name
+    left, _, width, _ = editor.place(node)
+    assert left + width <= 1024 and width > 200, (left, width)
+    editor.click(node)
+    editor.shot('simpanel-small')
+    editor.click(node, button=3)
+    editor.find('Is a Switch', 'menu item')
+    editor.shot('simpanel-small-menu')
+
+
+small.size = '1024x700x24'
+main([pointer, keyboard, small])
