@@ -167,12 +167,13 @@ static guint index_of(const GPtrArray *paths, const char *path)
 /* The files may be others than when it was looked last. */
 static void fill(LadderBoardView *view)
 {
+	const char *path = ladder_document_path(view->document);
 	GtkStringList *names = gtk_string_list_new(NULL);
 
 	g_ptr_array_unref(view->paths);
-	view->paths = files_beside(ladder_document_path(view->document), ".io", true);
-	g_ptr_array_extend_and_steal(view->paths,
-		files_beside(ladder_document_path(view->document), ".io", false));
+	/* Those of the program before others. */
+	view->paths = files_beside(path, ".io", true);
+	g_ptr_array_extend_and_steal(view->paths, files_beside(path, ".io", false));
 	if (view->map && g_file_test(view->map, G_FILE_TEST_EXISTS) &&
 	    index_of(view->paths, view->map) == GTK_INVALID_LIST_POSITION)
 		g_ptr_array_add(view->paths, g_strdup(view->map));

@@ -3,7 +3,6 @@
 """iomap - a person edits an I/O map as a table, and runs a program with it on this machine."""
 import os
 import shutil
-import signal
 import subprocess
 import sys
 
@@ -238,8 +237,8 @@ def killed(screen):
     editor.says('RUN')
     pid = child(editor)
     assert pid and not is_gone(pid)
-    os.kill(editor.pid, signal.SIGKILL)
+    editor.kill()
     until(lambda: is_gone(pid), 'ladderd to end')
 
 
-main([run_board])
+main([table, choices, as_text, new_map, run_board, close_board, killed])
