@@ -5,6 +5,7 @@
 #include "editor-gtk/file_view.h"
 
 #include "editor-gtk/disk.h"
+#include "editor-gtk/file_marks.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/iomap_view.h"
 
@@ -19,6 +20,8 @@ struct _LadderFileView {
 	char *path;
 	char *read;         /* what stood in it when it was read or saved      */
 	GtkTextBuffer *buffer;
+	GtkWidget *text;
+	struct file_marks *marks;
 	GtkWidget *map;     /* the table of an I/O map; NULL: it is none       */
 };
 
@@ -54,14 +57,12 @@ static bool is_as_read(LadderFileView *view, GError **error)
 
 bool ladder_file_view_save(LadderFileView *view, GError **error)
 {
-	GtkTextIter start, end;
 	char *text;
 	bool good;
 
 	if (ladder_file_view_is_saved(view))
 		return true;
-	gtk_text_buffer_get_bounds(view->buffer, &start, &end);
-	text = gtk_text_buffer_get_text(view->buffer, &start, &end, TRUE);
+	text = ladder_file_view_text(view);
 	good = is_as_read(view, error) &&
 	       disk_save(view->path, text, strlen(text), error);
 	if (good) {
@@ -71,6 +72,41 @@ bool ladder_file_view_save(LadderFileView *view, GError **error)
 	}
 	g_free(text);
 	return good;
+}
+
+char *ladder_file_view_text(LadderFileView *view)
+{
+	GtkTextIter start, end;
+
+	gtk_text_buffer_get_bounds(view->buffer, &start, &end);
+	return gtk_text_buffer_get_text(view->buffer, &start, &end, TRUE);
+}
+
+void ladder_file_view_append(LadderFileView *view, const char *text)
+{
+	GtkTextIter end;
+
+	gtk_text_buffer_begin_user_action(view->buffer);
+	gtk_text_buffer_get_end_iter(view->buffer, &end);
+	gtk_text_buffer_insert(view->buffer, &end, text, -1);
+	gtk_text_buffer_end_user_action(view->buffer);
+}
+
+struct file_marks *ladder_file_view_marks(LadderFileView *view)
+{
+	return view->marks;
+}
+
+void ladder_file_view_go(LadderFileView *view, int line)
+{
+	GtkTextIter at;
+
+	gtk_text_buffer_get_iter_at_line(view->buffer, &at, MAX(line - 1, 0));
+	gtk_text_buffer_place_cursor(view->buffer, &at);
+	gtk_text_view_scroll_to_mark(GTK_TEXT_VIEW(view->text),
+				     gtk_text_buffer_get_insert(view->buffer), 0.1, FALSE, 0,
+				     0);
+	gtk_widget_grab_focus(view->text);
 }
 
 const char *ladder_file_view_path(LadderFileView *view)
@@ -105,6 +141,7 @@ bool ladder_file_view_redo(LadderFileView *view)
 
 static void ladder_file_view_dispose(GObject *object)
 {
+	g_clear_pointer(&LADDER_FILE_VIEW(object)->marks, file_marks_free);
 	g_clear_object(&LADDER_FILE_VIEW(object)->buffer);
 	G_OBJECT_CLASS(ladder_file_view_parent_class)->dispose(object);
 }
@@ -154,6 +191,7 @@ static GtkWidget *text_widget(LadderFileView *view, const char *name)
 	GtkWidget *text = gtk_source_view_new_with_buffer(buffer);
 
 	view->buffer = GTK_TEXT_BUFFER(buffer);
+	view->text = text;
 	g_signal_connect_object(buffer, "modified-changed", G_CALLBACK(tell_state), view,
 				G_CONNECT_SWAPPED);
 	gtk_text_view_set_monospace(GTK_TEXT_VIEW(text), TRUE);
@@ -161,6 +199,17 @@ static GtkWidget *text_widget(LadderFileView *view, const char *name)
 	gtk_accessible_update_property(GTK_ACCESSIBLE(text), GTK_ACCESSIBLE_PROPERTY_LABEL,
 				       name, -1);
 	return text;
+}
+
+static GtkWidget *told_label(void)
+{
+	GtkWidget *told = gtk_label_new("");
+
+	gtk_label_set_xalign(GTK_LABEL(told), 0);
+	gtk_label_set_wrap(GTK_LABEL(told), TRUE);
+	gtk_widget_set_margin_start(told, 14);
+	gtk_widget_add_css_class(told, "error");
+	return told;
 }
 
 static void set_text(GtkTextBuffer *buffer, const char *text)
@@ -174,7 +223,7 @@ static void set_text(GtkTextBuffer *buffer, const char *text)
 GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GError **error)
 {
 	char *text = text_of(path, error), *name;
-	GtkWidget *scroller;
+	GtkWidget *scroller, *told;
 	LadderFileView *view;
 
 	if (!text)
@@ -190,6 +239,9 @@ GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GErr
 	if (g_str_has_suffix(name, ".io"))
 		view->map = ladder_iomap_view_new(view->buffer, scroller, document);
 	gtk_box_append(GTK_BOX(view), view->map ? view->map : scroller);
+	told = told_label();
+	gtk_box_append(GTK_BOX(view), told);
+	view->marks = file_marks_new(view->buffer, GTK_LABEL(told));
 	g_free(name);
 	view->read = text;
 	return GTK_WIDGET(view);

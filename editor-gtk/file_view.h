@@ -28,6 +28,14 @@ bool ladder_file_view_save(LadderFileView *view, GError **error);
 bool ladder_file_view_is_saved(LadderFileView *view);
 /** ladder_file_view_name - of the file, without its folder. Caller frees. */
 char *ladder_file_view_name(LadderFileView *view);
+/** ladder_file_view_text - as it is typed, saved or not. Caller frees. */
+char *ladder_file_view_text(LadderFileView *view);
+/** ladder_file_view_append - behind what stands there, a step of its own undo. */
+void ladder_file_view_append(LadderFileView *view, const char *text);
+/** ladder_file_view_marks - what is wrong with its lines (file_marks.h). Borrowed. */
+struct file_marks *ladder_file_view_marks(LadderFileView *view);
+/** ladder_file_view_go - the cursor to a line, 1-based, with the focus. */
+void ladder_file_view_go(LadderFileView *view, int line);
 /** ladder_file_view_undo, ladder_file_view_redo - false: there is nothing. */
 bool ladder_file_view_undo(LadderFileView *view);
 bool ladder_file_view_redo(LadderFileView *view);

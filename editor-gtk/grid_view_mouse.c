@@ -126,7 +126,8 @@ static const struct {
 		VERB_rung_delete, VERB_COUNT } },
 	{ NULL, { VERB_cut, VERB_copy, VERB_paste, VERB_paste_parallel, VERB_delete,
 		VERB_COUNT } },
-	{ NULL, { VERB_go_coil, VERB_show_uses, VERB_rename, VERB_COUNT } },
+	{ NULL, { VERB_go_coil, VERB_show_uses, VERB_rename, VERB_watch_add, VERB_expect,
+		VERB_COUNT } },
 };
 
 static GMenu *make_menu(LadderGridView *view)

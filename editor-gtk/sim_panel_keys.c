@@ -166,10 +166,32 @@ static void add(GMenu *menu, const char *text, const char *action)
 	g_menu_append(menu, text, action);
 }
 
+/* An action of the window, with the name of the variable. */
+static void add_named(GMenu *menu, const char *text, const char *action, const char *name)
+{
+	GMenuItem *item = g_menu_item_new(text, NULL);
+
+	g_menu_item_set_action_and_target(item, action, "s", name);
+	g_menu_append_item(menu, item);
+	g_object_unref(item);
+}
+
+/* Of a timer or counter what it tells is Q. */
+static void add_window(GMenu *menu, const LadderSimRow *row)
+{
+	char *name = row->kind == SIM_PRESET ? g_strconcat(row->name, ".Q", NULL) :
+		     g_strdup(row->name);
+
+	add_named(menu, _("Expect this value"), "win.expect-value", name);
+	add_named(menu, _("Add to the status chart"), "win.watch-value", row->name);
+	g_free(name);
+}
+
 static GMenuModel *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
 {
 	GMenu *menu = g_menu_new(), *values = g_menu_new(), *forces = g_menu_new();
 	GMenuModel *choices = sim_panel_choices(panel, row);
+	GMenu *others = g_menu_new();
 
 	if (row->kind == SIM_PRESET) {
 		if (row->given.type != IEC_NONE)
@@ -189,9 +211,13 @@ static GMenuModel *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
 	}
 	if (ladder_sim_forces(panel->sim))
 		add(forces, _("Release All Forces"), "sim-panel.release-all");
+	if (!row->plant)
+		add_window(others, row);
 	g_menu_append_section(menu, NULL, G_MENU_MODEL(values));
 	g_menu_append_section(menu, NULL, G_MENU_MODEL(forces));
 	g_menu_append_section(menu, NULL, choices);
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(others));
+	g_object_unref(others);
 	g_object_unref(values);
 	g_object_unref(forces);
 	g_object_unref(choices);

@@ -193,6 +193,7 @@ static void add_panels(LadderWindow *window)
 	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), document);
 	add_below(window, ladder_watch_view_new(document, window->sim), "watch",
 		  _("Status chart"));
+	add_below(window, window_scenario_init(window), "scenarios", _("Scenarios"));
 	add_below(window, ladder_code_view_new(document), "list", _("Instruction list"));
 	add_below(window, ladder_chart_view_new(window->sim), "chart", _("Timing chart"));
 	add_below(window, ladder_log_view_new(document), "log", _("Log"));
@@ -255,6 +256,7 @@ static void ladder_window_dispose(GObject *object)
 		g_source_remove(window->disk_timer);
 	window->disk_timer = 0;
 	g_clear_handle_id(&window->when_timer, g_source_remove);
+	g_clear_object(&window->recorder);
 	g_clear_object(&window->sim);
 	g_clear_object(&window->board);
 	g_clear_object(&window->document);
@@ -275,6 +277,7 @@ static void ladder_window_class_init(LadderWindowClass *class)
 	CHILD(menu_button); CHILD(side_paned); CHILD(side); CHILD(below_paned);
 	CHILD(right_paned); CHILD(right); CHILD(edit_mode); CHILD(simulate_mode);
 	CHILD(sim_buttons); CHILD(run_button); CHILD(forces_button); CHILD(pace_button);
+	CHILD(record_button);
 	CHILD(tab_bar); CHILD(tabs); CHILD(banner); CHILD(banner_label);
 	CHILD(banner_button); CHILD(banner_close); CHILD(find_place); CHILD(below);
 	CHILD(below_stack); CHILD(pill); CHILD(place_label); CHILD(message_label);

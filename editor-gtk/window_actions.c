@@ -209,7 +209,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 			ladder_grid_view_do(sheet, verb);
 		return;
 	}
-	if (window_sim(window, verb))
+	if (window_sim(window, verb) || window_scenario(window, verb))
 		return;
 	switch ((int)verb) {
 	case VERB_new_project: app_new_window(window); break;
@@ -289,6 +289,18 @@ static void show_uses(GtkWidget *widget, const char *action, GVariant *name)
 	names_show_uses_of(LADDER_WINDOW(widget), g_variant_get_string(name, NULL));
 }
 
+static void expect_value(GtkWidget *widget, const char *action, GVariant *name)
+{
+	(void)action;
+	window_expect(LADDER_WINDOW(widget), g_variant_get_string(name, NULL));
+}
+
+static void watch_value(GtkWidget *widget, const char *action, GVariant *name)
+{
+	(void)action;
+	names_watch_this(LADDER_WINDOW(widget), g_variant_get_string(name, NULL));
+}
+
 static void open_path(GtkWidget *widget, const char *action, GVariant *path)
 {
 	(void)action;
@@ -336,6 +348,8 @@ void window_install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
 	gtk_widget_class_install_action(class, "win.rename-pou", "(is)", rename_pou);
 	gtk_widget_class_install_action(class, "win.show-uses", "s", show_uses);
+	gtk_widget_class_install_action(class, "win.expect-value", "s", expect_value);
+	gtk_widget_class_install_action(class, "win.watch-value", "s", watch_value);
 	gtk_widget_class_install_action(class, "win.open-path", "s", open_path);
 	gtk_widget_class_install_action(class, "win.open-text", "s", open_text);
 	gtk_widget_class_install_action(class, "win.open-sample", "s", open_sample);

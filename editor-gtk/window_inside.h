@@ -9,6 +9,7 @@
 #include "editor-gtk/file_view.h"
 #include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/scenario_record.h"
 #include "editor-gtk/sim.h"
 #include "editor-gtk/window.h"
 
@@ -19,6 +20,7 @@ struct _LadderWindow {
 	bool board_ran;           /* it came to a scan                         */
 	bool close_after_board;   /* the person said so                        */
 	LadderSim *sim;           /* off while it edits                        */
+	LadderRecorder *recorder;
 	bool closing;             /* the person has been asked                 */
 	guint disk_timer;         /* until the file is looked at again         */
 	guint when_timer;         /* until the title tells the simulated time  */
@@ -32,7 +34,7 @@ struct _LadderWindow {
 	GtkBox *right;            /* of the simulation                         */
 	GtkToggleButton *edit_mode, *simulate_mode;
 	GtkBox *sim_buttons;
-	GtkButton *run_button, *forces_button;
+	GtkButton *run_button, *forces_button, *record_button;
 	GtkMenuButton *pace_button;
 	AdwTabBar *tab_bar;
 	AdwTabView *tabs;
@@ -71,6 +73,8 @@ GtkWidget *tabs_show_widget(LadderWindow *window, const char *name);
 void tabs_show_file(LadderWindow *window, const char *path);
 /** tabs_close - the page in front; what is not saved in it is asked for first. */
 void tabs_close(LadderWindow *window);
+/** tabs_find_file - of that path; NULL: it is not open. */
+LadderFileView *tabs_find_file(LadderWindow *window, const char *path);
 /** tabs_file - of the page in front; NULL: it is none. */
 LadderFileView *tabs_file(LadderWindow *window);
 /** tabs_unsaved - the files beside the project that are not saved, of LadderFileView *.
@@ -93,6 +97,7 @@ void names_go_driver(LadderWindow *window);
 char *names_at_cursor(LadderWindow *window);
 /** names_watch - it comes into the status chart, which is shown. */
 void names_watch(LadderWindow *window);
+void names_watch_this(LadderWindow *window, const char *name);
 void names_show_uses(LadderWindow *window);
 void names_show_uses_of(LadderWindow *window, const char *name);
 void names_rename(LadderWindow *window);
@@ -125,6 +130,14 @@ void window_sim_init(LadderWindow *window);
 void window_show_pill(LadderWindow *window);
 /** window_sim - the verbs of the simulation; false: it is none of them. */
 bool window_sim(LadderWindow *window, enum verb verb);
+
+/* ---- window_scenario.c ---- */
+/** window_scenario_init - makes the recorder, and the panel of scenarios that it returns. */
+GtkWidget *window_scenario_init(LadderWindow *window);
+/** window_scenario - the verbs of scenarios; false: it is none of them. */
+bool window_scenario(LadderWindow *window, enum verb verb);
+/** window_expect - while it records: that variable is to have the value it has. */
+void window_expect(LadderWindow *window, const char *name);
 
 /* ---- window_board.c ---- */
 /** window_new_iomap - asks for a file, and opens it: a point for all that is used. */

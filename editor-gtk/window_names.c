@@ -233,15 +233,20 @@ void names_show_uses(LadderWindow *window)
 	g_free(name);
 }
 
-void names_watch(LadderWindow *window)
+void names_watch_this(LadderWindow *window, const char *name)
 {
 	GtkWidget *watch = gtk_stack_get_child_by_name(window->below_stack, "watch");
-	char *name = names_at_cursor(window);
 
 	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
 	gtk_stack_set_visible_child(window->below_stack, watch);
-	if (name)
-		ladder_watch_view_add(LADDER_WATCH_VIEW(watch), name);
+	ladder_watch_view_add(LADDER_WATCH_VIEW(watch), name);
+}
+
+void names_watch(LadderWindow *window)
+{
+	char *name = names_at_cursor(window);
+
+	names_watch_this(window, name ? name : "");
 	g_free(name);
 }
 

@@ -272,6 +272,15 @@ static void show_file_state(AdwTabPage *page, LadderFileView *file)
 	g_free(name);
 }
 
+LadderFileView *tabs_find_file(LadderWindow *window, const char *path)
+{
+	char *key = g_strdup_printf(" file %s", path);
+	AdwTabPage *page = find_page(window, key);
+
+	g_free(key);
+	return page ? LADDER_FILE_VIEW(content(page)) : NULL;
+}
+
 void tabs_show_file(LadderWindow *window, const char *path)
 {
 	char *key = g_strdup_printf(" file %s", path), *title = g_path_get_basename(path);
