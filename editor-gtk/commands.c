@@ -199,19 +199,32 @@ static void append_group(GString *ui, enum verb_group group)
 	g_free(title);
 }
 
+/* A page of groups: of drawing, or of all the rest. */
+static void append_section(GString *ui, const char *name, const char *title, bool drawing)
+{
+	char *escaped = g_markup_escape_text(title, -1);
+
+	g_string_append_printf(ui, "<child><object class='GtkShortcutsSection'>"
+		"<property name='section-name'>%s</property>"
+		"<property name='title'>%s</property>"
+		"<property name='max-height'>14</property>", name, escaped);
+	for (int i = 0; i < VERBS_GROUPS; i++)
+		if ((i == VERBS_EDIT || i == VERBS_DRAW || i == VERBS_RUNG) == drawing)
+			append_group(ui, (enum verb_group)i);
+	g_string_append(ui, "</object></child>");
+	g_free(escaped);
+}
+
 void keys_show(LadderWindow *window)
 {
 	GString *ui = g_string_new("<interface><object class='GtkShortcutsWindow' id='keys'>"
-		"<property name='modal'>1</property><child>"
-		"<object class='GtkShortcutsSection'>"
-		"<property name='section-name'>all</property>"
-		"<property name='max-height'>14</property>");
+				   "<property name='modal'>1</property>");
 	GtkBuilder *builder;
 	GtkWindow *keys;
 
-	for (int i = 0; i < VERBS_GROUPS; i++)
-		append_group(ui, (enum verb_group)i);
-	g_string_append(ui, "</object></child></object></interface>");
+	append_section(ui, "drawing", _("Drawing"), true);
+	append_section(ui, "window", _("Window and simulation"), false);
+	g_string_append(ui, "</object></interface>");
 	builder = gtk_builder_new_from_string(ui->str, -1);
 	keys = GTK_WINDOW(gtk_builder_get_object(builder, "keys"));
 	gtk_window_set_transient_for(keys, GTK_WINDOW(window));

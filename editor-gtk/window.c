@@ -193,9 +193,9 @@ static void add_panels(LadderWindow *window)
 	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), document);
 	add_below(window, ladder_watch_view_new(document, window->sim), "watch",
 		  _("Status chart"));
+	add_below(window, ladder_chart_view_new(window->sim), "chart", _("Timing chart"));
 	add_below(window, window_scenario_init(window), "scenarios", _("Scenarios"));
 	add_below(window, ladder_code_view_new(document), "list", _("Instruction list"));
-	add_below(window, ladder_chart_view_new(window->sim), "chart", _("Timing chart"));
 	add_below(window, ladder_log_view_new(document), "log", _("Log"));
 	gtk_paned_set_position(window->below_paned, 620);
 	window_find_init(window);

@@ -315,7 +315,7 @@ class Editor:
         x, y, _, _ = self.place(self.sheet())
         return x + 61 + 98 * column + 49, y + rung_y
 
-    def end(self, rung_y, bar, by=0):
+    def wire_end(self, rung_y, bar, by=0):
         """The left end of a column, and so many px to its right."""
         x, y, _, _ = self.place(self.sheet())
         return x + 61 + 98 * bar + by, y + rung_y

@@ -84,19 +84,19 @@ def wires(screen):
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     wire = 36 + 46  # below a title
     # From the end of Start down into a row that was not there, then to the right.
-    editor.drag(editor.end(wire, 1, -8), editor.end(wire + 84, 3, 4), look='wire-down')
+    editor.drag(editor.wire_end(wire, 1, -8), editor.wire_end(wire + 84, 3, 4), look='wire-down')
     until(lambda: '^' in editor.save(path), 'the link')
     assert plain(''.join(rung_lines(path)[1:3])) == '|NOStart|NCStop|---|COILMotor||^|---|---|', rung_lines(path)
     # Up to the wire: a second way round Stop.
-    editor.drag(editor.end(wire + 84, 3, -6), editor.end(wire, 3, 5), look='wire-up')
+    editor.drag(editor.wire_end(wire + 84, 3, -6), editor.wire_end(wire, 3, 5), look='wire-up')
     editor.save(path)
     assert plain(rung_lines(path)[2]).endswith('---^|'), rung_lines(path)
     editor.says('short circuit')
     # Ctrl erases: first what leads up, then the rest of it.
-    editor.drag(editor.end(wire, 3, 5), editor.end(wire + 84, 3, 5), key='ctrl', look='wire-erase')
+    editor.drag(editor.wire_end(wire, 3, 5), editor.wire_end(wire + 84, 3, 5), key='ctrl', look='wire-erase')
     editor.save(path)
     assert not rung_lines(path)[2].endswith('^|'), rung_lines(path)
-    editor.drag(editor.end(wire + 84, 3, -6), editor.end(wire, 1, 5), key='ctrl')
+    editor.drag(editor.wire_end(wire + 84, 3, -6), editor.wire_end(wire, 1, 5), key='ctrl')
     editor.save(path)
     assert len([line for line in rung_lines(path) if '^' in line]) == 0, rung_lines(path)
     assert rung_lines(path)[2] == 'RUNG "two"', rung_lines(path)
@@ -111,9 +111,9 @@ def refused(screen):
     before = open(path).read()
     wire = 36 + 46
     # Along a wire that is there: nothing to do.
-    editor.drag(editor.end(wire, 3), editor.end(wire, 4))
+    editor.drag(editor.wire_end(wire, 3), editor.wire_end(wire, 4))
     editor.says('this wire is there already')
-    (x0, y0), (x1, y1) = editor.end(wire, 1), editor.end(wire + 84, 3)
+    (x0, y0), (x1, y1) = editor.wire_end(wire, 1), editor.wire_end(wire + 84, 3)
     sh('xdotool', 'mousemove', str(x0), str(y0), 'mousedown', '1', 'mousemove', str(x0), str(y0 + 30),
        'sleep', '0.1', 'mousemove', str(x1), str(y1), 'sleep', '0.2', 'key', 'Escape', 'mouseup', '1')
     # A selection is still made from a free place.
