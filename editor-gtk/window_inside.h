@@ -19,6 +19,7 @@ struct _LadderWindow {
 	LadderBoardRun *board;    /* what runs on this machine                 */
 	bool board_ran;           /* it came to a scan                         */
 	bool close_after_board;   /* the person said so                        */
+	struct window_why *why;   /* what holds power back                     */
 	LadderSim *sim;           /* off while it edits                        */
 	LadderRecorder *recorder;
 	bool closing;             /* the person has been asked                 */
@@ -153,6 +154,12 @@ bool window_board_may_close(LadderWindow *window);
 /** window_board_pill - of the status bar, translated, while something runs on this machine;
  * NULL: nothing does. */
 const char *window_board_pill(LadderWindow *window, const char **class);
+
+/* ---- window_why.c ---- */
+void window_why_init(LadderWindow *window);
+void window_why_free(LadderWindow *window);
+/** window_why_ask - of the element at the cursor; asked again of the same: no more. */
+void window_why_ask(LadderWindow *window);
 
 /* ---- window_paper.c ---- */
 void window_print(LadderWindow *window);

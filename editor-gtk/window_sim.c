@@ -236,6 +236,7 @@ bool window_sim(LadderWindow *window, enum verb verb)
 	case VERB_sim_warm: ladder_sim_reset(sim, true); return true;
 	case VERB_sim_back: step_shown(window, -1); return true;
 	case VERB_sim_forth: step_shown(window, 1); return true;
+	case VERB_sim_why: window_why_ask(window); return true;
 	case VERB_sim_now: ladder_sim_show_now(sim); return true;
 	case VERB_sim_release: ladder_sim_act(sim, &release); return true;
 	case VERB_right:
@@ -254,6 +255,7 @@ void window_sim_init(LadderWindow *window)
 
 	gtk_widget_set_vexpand(panel, TRUE);
 	gtk_box_append(window->right, panel);
+	window_why_init(window);
 	gtk_menu_button_set_popover(window->pace_button, sim_pace_new(sim));
 	g_signal_connect_object(sim, "state-changed", G_CALLBACK(state_changed), window,
 				G_CONNECT_SWAPPED);

@@ -48,6 +48,8 @@ sed -n 's/^\t*\("[a-z ]*"\));$/N_(\1)/p' runtime/engine/text/read_array.c \
 	runtime/engine/model/convert.c runtime/engine/text/read_words.c \
 	runtime/engine/text/read_array.c)
 
+$take -L C -k -kWHY:2 -kWHY:3 -o "$work/why.pot" runtime/engine/trial/why.def
+
 # What was expected, or too many: arguments of messages, those of them that are words.
 $take -L C -k -kreader_fail_word:3 -kfail_word:3 -kfail_expected:2 -kreader_name:2 \
 	-kil_need_bool:4 -kreport:4 -kreport_line:5 -o - \
@@ -57,5 +59,5 @@ $take -L C -k -kreader_fail_word:3 -kfail_word:3 -kfail_expected:2 -kreader_name
 # The date would differ each time, and nothing reads it.
 xgettext --from-code=UTF-8 --add-location=file --package-name=Rungboard -L PO -o - \
 	"$work/editor.pot" "$work/ui.pot" "$work/diag.pot" "$work/catalog.pot" \
-	"$work/args.pot" |
+	"$work/args.pot" "$work/why.pot" |
 	sed -e '/^"POT-Creation-Date:/d' -e 's/charset=CHARSET/charset=UTF-8/' >"$out"
