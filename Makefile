@@ -481,7 +481,9 @@ asan-editor-run: $(EDITOR_TESTS) all
 check: tests asan arm small cases ## build, then every test
 	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \
 	  prove -j$$(nproc) -e '' tests/arm.sh tests/small.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
-bench: $(BUILD)/ladder $(BUILD)/ladderd ## speed, load time and size, as a table
+$(BUILD)/tests/bench/record: $(BUILD)/tests/bench/record.o $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+bench: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/bench/record ## speed, load time and size, as a table
 	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh
 .SECONDARY:
 .PHONY: tests asan asan-editor asan-editor-run check bench

@@ -61,6 +61,14 @@ fi
 perl "$(dirname "$0")/programs.pl" empty 1 >"$tmp/p.rung"
 "$ladder" bench --json "$tmp/p.rung" >"$tmp/p.json" 2>/dev/null
 echo
+echo '| recorder of a simulation | bytes of state | scans kept | MB | scans from frame to frame | scan us | with recorder us | showing any: median ms | worst ms |'
+echo '|---|---|---|---|---|---|---|---|---|'
+for of in 'noise 1000 100000' 'mixed 1000 100000' 'mixed 5000 30000' 'seal 5000 30000'; do
+	set -- $of
+	perl "$(dirname "$0")/programs.pl" "$1" "$2" >"$tmp/p.rung"
+	"$build/tests/bench/record" "$1, $2 rungs" "$tmp/p.rung" "$3"
+done
+echo
 echo "One whole scan of a program of one rung: $(median "$tmp/p.json" scan_steady_ns) ns."
 if [ -x "$build/ladderd" ]; then
 	cp "$build/ladderd" "$tmp/ladderd"

@@ -34,6 +34,10 @@ uint64_t record_last(const struct record *record);
 /** record_bytes - memory that it uses now. */
 size_t record_bytes(const struct record *record);
 
+/** record_apart - scans from the last frame to the next, as it is now: how many at most
+ * are run again to show one. */
+uint64_t record_apart(const struct record *record);
+
 /* Somebody who looks at a record. */
 struct replay {
 	struct twin twin;         /* as it was right after the scan; its programs are
