@@ -434,7 +434,7 @@ class Editor:
         self.process.wait()
         editors.remove(self)
 
-    def end(self):
+    def finish(self):
         """As a session ends: in good order, whatever is on the screen."""
         if self.process.poll() is None:
             os.kill(self.pid, signal.SIGTERM)
@@ -510,7 +510,7 @@ def run(number, test):
     try:
         test(screen)
         for editor in editors[:]:
-            editor.end()
+            editor.finish()
             keep_log(editor, number)
         print('ok %d - %s # %.1f s' % (number, test.__doc__, time.monotonic() - begin))
         failed = 0

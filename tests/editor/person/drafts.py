@@ -44,7 +44,7 @@ def at_the_end_of_a_session(screen):
     editor = Editor(screen, path)
     editor.entry('Start')
     until(lambda: len(editor.cells()) == 1, 'the contact')
-    editor.end()
+    editor.finish()
     assert len(drafts(screen)) == 1
     again = Editor(screen)
     again.says('This was not saved when the editor ended')

@@ -47,7 +47,7 @@ def refused(screen):
         editor.says('not saved yet')
         editor.to_sheet()
         editor.shot('files-refused-' + os.path.basename(path))
-        editor.end()
+        editor.finish()
 
 
 def no_program(screen):
@@ -61,7 +61,7 @@ def no_program(screen):
         editor.says(told)
         editor.says('error')
         editor.shot('files-' + os.path.basename(path))
-        editor.end()
+        editor.finish()
     assert read(empty) == '' and os.path.getsize(binary) == 1024
 
 
