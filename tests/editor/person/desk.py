@@ -283,7 +283,10 @@ class Editor:
         return self.find(text)
 
     def windows(self):
-        return sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.pid)).split()
+        """Those that the window manager knows: no tooltip, no popup."""
+        known = [int(number, 16) for number in re.findall('0x[0-9a-f]+', sh('xprop', '-root', '_NET_CLIENT_LIST'))]
+        seen = sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.pid)).split()
+        return [window for window in seen if int(window) in known]
 
     def place(self, node):
         """Where a widget of the main window is on the screen: x, y, width, height."""
