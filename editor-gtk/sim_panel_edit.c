@@ -146,18 +146,25 @@ void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what)
 	g_free(text);
 }
 
-static void value_pressed(GtkGestureClick *gesture, int times, double x, double y,
-			  LadderSimRowView *view)
+/* Later: the item of the list takes the focus when it is clicked. */
+static gboolean edit_later(gpointer data)
 {
+	LadderSimRowView *view = data;
 	const bool preset = view->row && view->row->given.type != IEC_NONE;
 
+	ladder_sim_row_view_edit(view, preset ? SIM_EDIT_PRESET : SIM_EDIT_VALUE);
+	g_object_unref(view);
+	return G_SOURCE_REMOVE;
+}
+
+static void value_released(GtkGestureClick *gesture, int times, double x, double y,
+			   LadderSimRowView *view)
+{
+	(void)gesture;
 	(void)times;
 	(void)x;
 	(void)y;
-	gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
-	gtk_widget_activate_action(GTK_WIDGET(view), "list.select-item", "(ubb)",
-				   gtk_list_item_get_position(view->item), FALSE, FALSE);
-	ladder_sim_row_view_edit(view, preset ? SIM_EDIT_PRESET : SIM_EDIT_VALUE);
+	g_idle_add(edit_later, g_object_ref(view));
 }
 
 void sim_view_can_edit(LadderSimRowView *view)
@@ -165,6 +172,6 @@ void sim_view_can_edit(LadderSimRowView *view)
 	GtkGesture *click = gtk_gesture_click_new();
 
 	gtk_widget_set_cursor_from_name(view->value, "text");
-	g_signal_connect(click, "pressed", G_CALLBACK(value_pressed), view);
+	g_signal_connect(click, "released", G_CALLBACK(value_released), view);
 	gtk_widget_add_controller(view->value, GTK_EVENT_CONTROLLER(click));
 }

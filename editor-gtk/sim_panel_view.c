@@ -223,6 +223,7 @@ static void show_heading(LadderSimRowView *view)
 	char *spoken = g_strdup_printf("%s, %s", name,
 				       row->folded ? _("folded") : _("unfolded"));
 
+	gtk_list_item_set_activatable(view->item, TRUE);
 	gtk_label_set_text(GTK_LABEL(view->title), name);
 	gtk_image_set_from_icon_name(GTK_IMAGE(view->arrow), row->folded ?
 				     "pan-end-symbolic" : "pan-down-symbolic");
@@ -258,6 +259,7 @@ static void show_line(LadderSimRowView *view)
 	gtk_widget_set_tooltip_text(view->name, tooltip);
 	gtk_widget_set_tooltip_text(view->address, tooltip);
 	g_free(tooltip);
+	gtk_list_item_set_activatable(view->item, !bit);
 	show_range(view);
 }
 
@@ -308,13 +310,14 @@ static void select_line(LadderSimRowView *view)
 		gtk_widget_grab_focus(item);
 }
 
+/* Not claimed here or below: the item of the list would wait for its release for ever. */
 static void pressed(GtkGestureClick *gesture, int times, double x, double y,
 		    LadderSimRowView *view)
 {
+	(void)gesture;
 	(void)times;
 	(void)x;
 	(void)y;
-	gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
 	select_line(view);
 	g_set_object(&view->held, view->row);
 	if (view->held)
@@ -356,16 +359,26 @@ static void can_be_pressed(LadderSimRowView *view, GtkWidget *widget)
 	gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(click));
 }
 
-static void heading_pressed(GtkGestureClick *gesture, int times, double x, double y,
-			    LadderSimRowView *view)
+/* Later: the item that was clicked goes with it. */
+static gboolean fold_later(gpointer data)
 {
+	LadderSimRowView *view = data;
+
+	if (view->row && view->row->kind == SIM_HEADING)
+		gtk_widget_activate_action(GTK_WIDGET(view), "sim-panel.fold", "i",
+					   (int)view->row->group);
+	g_object_unref(view);
+	return G_SOURCE_REMOVE;
+}
+
+static void heading_released(GtkGestureClick *gesture, int times, double x, double y,
+			     LadderSimRowView *view)
+{
+	(void)gesture;
 	(void)times;
 	(void)x;
 	(void)y;
-	gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
-	select_line(view);
-	gtk_widget_activate_action(GTK_WIDGET(view), "sim-panel.fold", "i",
-				   (int)view->row->group);
+	g_idle_add(fold_later, g_object_ref(view));
 }
 
 static void slid(GtkRange *range, LadderSimRowView *view)
@@ -439,7 +452,7 @@ static void add_heading(LadderSimRowView *view)
 	view->arrow = gtk_image_new();
 	gtk_box_append(GTK_BOX(view->heading), view->arrow);
 	view->title = add_label(view->heading, "sim-heading", true);
-	g_signal_connect(click, "pressed", G_CALLBACK(heading_pressed), view);
+	g_signal_connect(click, "released", G_CALLBACK(heading_released), view);
 	gtk_widget_add_controller(view->heading, GTK_EVENT_CONTROLLER(click));
 	gtk_widget_set_parent(view->heading, GTK_WIDGET(view));
 }

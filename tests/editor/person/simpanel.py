@@ -82,8 +82,7 @@ def pointer(screen):
     line(editor, 'Output 电机, %QX0.0, on, forced')
     editor.says('1 force')
     editor.shot('simpanel-forced')
-    editor.click(editor.find('5.00s', 'label') if editor.all('5.00s', 'label') else
-                 editor.find('1m00.00s', 'label'))
+    editor.click(editor.find('/ 1m00.00s', 'label'))
     editor.focus_on(role='text')
     editor.keys('ctrl+a')
     editor.type('2m30s')
@@ -94,7 +93,7 @@ def pointer(screen):
 def keyboard(screen):
     """the same by keyboard, held and bound keys, a filter"""
     editor = begin(screen, PROGRAM + CHOSEN)
-    push = switch(editor, 'Start, %IX0.0', 'toggle button')
+    push = switch(editor, 'Start, %IX0.0', 'push button')
     x, y = editor.centre(push)
     sh('xdotool', 'mousemove', str(x), str(y), 'mousedown', '1')
     line(editor, 'Input Start, %IX0.0, on')
