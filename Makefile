@@ -307,8 +307,10 @@ $(BUILD)/tests/bench/editor: $(BUILD)/tests/bench/editor.o $(BUILD)/libeditor.a 
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 bench-editor: $(BUILD)/tests/bench/editor $(EDITOR_BENCH) ## what drawing 5,000 rungs costs, and the whole editor with them
 	@perl tests/bench/programs.pl mixed 5000 >$(BUILD)/bench-editor.rung
+	@perl tests/bench/programs.pl lively 5000 >$(BUILD)/bench-lively.rung
 	@$(EDITOR_BENCH)
 	@GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-editor.rung ladders/garage-door.rung 2>/dev/null
+	@echo "All rungs change in each scan:"; GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas BUILD=$(BUILD) /usr/bin/python3 tests/editor/person/desk.py $< $(BUILD)/bench-lively.rung ladders/garage-door.rung Simulating 2>/dev/null | grep Simulating
 .PHONY: editor-tests bench-editor
 # ---- end of the editor ----
 

@@ -432,7 +432,8 @@ GMenuModel *act_menu(LadderGridView *view)
 	if (cell && cell->parts)
 		add_sets(menu, cell);
 	else if (cell && !cell->at.constant)
-		g_menu_append(menu, _(verb_row(VERB_set_value)->label), "win.set-value");
+		g_menu_append(menu, _(verb_row(VERB_set_value)->label),
+			      verb_row(VERB_set_value)->action);
 	if (cell && cell->at.type == IEC_BOOL && !cell->at.constant) {
 		g_menu_append(menu, _("Force on"), "live.on");
 		g_menu_append(menu, _("Force off"), "live.off");

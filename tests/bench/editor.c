@@ -2,15 +2,16 @@
  *
  * editor - how long the editor takes with a large program, measured inside it.
  *
- * usage: editor FILE SAMPLE [WORD]: of what a person does only what WORD stands in. It prints medians beside what is asked for and judges
- * nothing: the start with the sample, opening the file, frames while scrolling, what a key
- * costs until its picture is there (without the wait for the screen's next frame),
- * memory, and what is done while nothing is. Beside time by the clock stands the time of
+ * usage: editor FILE SAMPLE [WORD]: of what a person does only what WORD stands in. It
+ * prints medians beside what is asked for and judges nothing: the start with the sample,
+ * opening the file, frames while scrolling, what a key costs until its picture is there
+ * (without the wait for the screen's next frame), memory, what is done while nothing is,
+ * and what it takes while the program is simulated. Beside time by the clock stands the time of
  * the processor, which a busy machine changes little: of a start that of the process, of
  * keys that of the thread that draws.
  */
 #include "editor-gtk/app.h"
-#include "editor-gtk/grid_view.h"
+#include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/memory.h"
 
 #include <gtksourceview/gtksource.h>
@@ -25,24 +26,16 @@
 #define ROUNDS 60
 #define STARTS 9
 #define IDLE_S 5
+#define SIM_S  5
+#define SIM_FRAMES 1000
 #define BEGUN "RUNGBOARD_BENCH_BEGUN" /* us: when a start began                */
 
 static struct {
 	GdkFrameClock *clock;
 	gint64 begun, spent; /* us, of the last frame                          */
+	gint64 at, worked;   /* of the processor, of this thread                */
 	int frames;
 } frame;
-
-static void before(void)
-{
-	frame.begun = g_get_monotonic_time();
-}
-
-static void after(void)
-{
-	frame.spent = g_get_monotonic_time() - frame.begun;
-	frame.frames++;
-}
 
 /* us of the processor, of this thread. */
 static gint64 worked(void)
@@ -51,6 +44,19 @@ static gint64 worked(void)
 
 	clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
 	return (gint64)now.tv_sec * G_USEC_PER_SEC + now.tv_nsec / 1000;
+}
+
+static void before(void)
+{
+	frame.begun = g_get_monotonic_time();
+	frame.at = worked();
+}
+
+static void after(void)
+{
+	frame.spent = g_get_monotonic_time() - frame.begun;
+	frame.worked = worked() - frame.at;
+	frame.frames++;
 }
 
 /* us of the processor, of the whole process. */
@@ -312,6 +318,44 @@ static void idle(void)
 	       (double)used / (IDLE_S * 1e6) * 100);
 }
 
+/* Running at its period: what a frame costs the thread that draws, and how much of the
+ * processor that thread and all of the editor need. */
+static void simulate(GtkWidget *window, LadderGridView *sheet)
+{
+	guint drawn;
+	gint64 begun, process, draws = 0, work[SIM_FRAMES];
+	int frames = 0, worst = 0;
+	gint64 end;
+
+	gtk_widget_activate_action(window, verb_row(VERB_sim_run)->action, NULL);
+	settle(3000);
+	begun = worked();
+	process = process_worked();
+	drawn = ladder_grid_view_drawn(sheet);
+	end = g_get_monotonic_time() + SIM_S * G_USEC_PER_SEC;
+	for (int seen = frame.frames; g_get_monotonic_time() < end;) {
+		g_main_context_iteration(NULL, TRUE);
+		if (frame.frames == seen)
+			continue;
+		seen = frame.frames;
+		draws += frame.worked;
+		worst = MAX(worst, (int)frame.worked);
+		if (frames < SIM_FRAMES)
+			work[frames] = frame.worked;
+		frames++;
+	}
+	if (frames == 0)
+		work[frames++] = 0;
+	printf("Simulating: %.0f frames and %.0f rungs drawn a second; of the thread a frame takes %.2f ms, the "
+	       "worst %.2f (2); thread %.1f %%, frames alone %.1f %%, the whole editor "
+	       "%.1f %% of a processor.\n", (double)frames / SIM_S,
+	       (double)(ladder_grid_view_drawn(sheet) - drawn) / SIM_S,
+	       median(work, MIN(frames, SIM_FRAMES)), (double)worst / 1000,
+	       (double)(worked() - begun) / (SIM_S * 1e4), (double)draws / (SIM_S * 1e4),
+	       (double)(process_worked() - process) / (SIM_S * 1e4));
+	gtk_widget_activate_action(window, verb_row(VERB_sim_mode)->action, NULL);
+}
+
 static void run(AdwApplication *application, const char *path, const char *word)
 {
 	const gint64 begin = g_get_monotonic_time(), begun = worked();
@@ -348,6 +392,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	settle(6000); /* scrollbars fade away */
 	printf("\nMemory: %ld MB (200).\n", memory());
 	idle();
+	simulate(GTK_WIDGET(window), LADDER_GRID_VIEW(sheet));
 	g_object_unref(document);
 }
 

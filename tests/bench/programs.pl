@@ -28,6 +28,7 @@ my %family = (
 	pid => ['A# : REAL := 4.0; Loop# : PID;', '| PID Loop# PV:=A# SP:=5.0 KP:=1.0 TI:=T#1s |'],
 	array => ['I# : INT := 3; T# : ARRAY[0..7] OF INT; C# : INT;', '| MOVE IN:=T#[I#] OUT=>C# |'],
 	noise => ['A# : LINT := #;', '| [ A# := (A# * 1103515245 + 12345) MOD 2147483648 ] |'],
+	lively => ['On# : BOOL; Count# : DINT;', '| NC On# | [ Count# := Count# + 1 ] | COIL On# |'],
 	own => ['In# : BOOL := TRUE; Out# : BOOL; Own# : Latch;', '| NO In# | Latch Own# | COIL Out# |'],
 );
 my $latch = "FUNCTION_BLOCK Latch LD\nVAR_INPUT\n  Set : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Q : BOOL;\nEND_VAR\n"
