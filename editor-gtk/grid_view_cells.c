@@ -98,7 +98,9 @@ static void use_widget(LadderGridView *view, guint index, int rung, int row, int
 	bool selected;
 
 	if (index >= view->cells->len) {
-		struct cell_widget fresh = { g_object_new(LADDER_TYPE_CELL, NULL), 0, 0, 0 };
+		struct cell_widget fresh = {
+			.widget = g_object_new(LADDER_TYPE_CELL, NULL),
+		};
 
 		gtk_widget_set_parent(fresh.widget, GTK_WIDGET(view));
 		g_array_append_val(view->cells, fresh);
@@ -110,11 +112,13 @@ static void use_widget(LadderGridView *view, guint index, int rung, int row, int
 	selected = rung == view->cursor.rung && row == view->cursor.row &&
 		grid_display_column(sheet_rung(view, rung), view->columns, row, col) ==
 		view->cursor.col;
-	gtk_accessible_update_property(GTK_ACCESSIBLE(slot->widget),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	if (g_strcmp0(name, slot->name) != 0)
+		gtk_accessible_update_property(GTK_ACCESSIBLE(slot->widget),
+					       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 	gtk_accessible_update_state(GTK_ACCESSIBLE(slot->widget),
 				    GTK_ACCESSIBLE_STATE_SELECTED, selected, -1);
-	g_free(name);
+	g_free(slot->name);
+	slot->name = name;
 }
 
 static guint use_rung(LadderGridView *view, int rung, guint used)
@@ -133,8 +137,10 @@ static guint use_rung(LadderGridView *view, int rung, guint used)
 
 static void drop_from(LadderGridView *view, guint from)
 {
-	for (guint i = from; i < view->cells->len; i++)
+	for (guint i = from; i < view->cells->len; i++) {
 		gtk_widget_unparent(cell_of(view, i)->widget);
+		g_free(cell_of(view, i)->name);
+	}
 	g_array_set_size(view->cells, from);
 }
 

@@ -47,6 +47,7 @@ struct sheet_live {
 struct cell_widget {
 	GtkWidget *widget;
 	int rung, row, col;
+	char *name;                 /* that it is called by                     */
 };
 
 /* A stroke of wire: where it could begin, and while it is drawn. */

@@ -296,6 +296,56 @@ static void test_tips(void)
 	g_free(tip);
 }
 
+static void set_animations(gboolean on)
+{
+	g_object_set(gtk_widget_get_settings(window), "gtk-enable-animations", on, NULL);
+}
+
+static bool has_aged(void)
+{
+	unsigned int bits;
+	char text[48];
+
+	return ladder_grid_view_live(view, 2, 0, 1, &bits, text) && !(bits & LIVE_FRESH);
+}
+
+/* What has just changed is marked for a second, and not if motion is not wanted. */
+static void test_fresh(void)
+{
+	g_usleep(1100000);
+	set_animations(FALSE);
+	set("Level", 600);
+	scan(1);
+	CHECK(!(bits_of(view, 2, 0, 0) & LIVE_FRESH));
+	g_usleep(1100000);
+	set_animations(TRUE);
+	set("Level", 3);
+	scan(1);
+	CHECK(bits_of(view, 2, 0, 0) & LIVE_FRESH && bits_of(view, 2, 0, 1) & LIVE_FRESH);
+	CHECK(!(bits_of(view, 0, 0, 1) & LIVE_FRESH));
+	CHECK_AS(until(has_aged), "though nothing is scanned");
+}
+
+static void test_blockers(void)
+{
+	static const struct grid_blocker cells[] = { { 0, 0, "must be on" }, { 1, 0, NULL } };
+	guint before;
+
+	draw();
+	before = ladder_grid_view_drawn(view);
+	ladder_grid_view_set_blockers(view, 0, cells, 2);
+	draw();
+	CHECK(ladder_grid_view_drawn(view) == before + 1);
+	ladder_grid_view_set_blockers(view, -1, NULL, 0);
+	draw();
+	CHECK(ladder_grid_view_drawn(view) == before + 2);
+	/* What is no cell is no harm. */
+	ladder_grid_view_set_blockers(view, 99, cells, 2);
+	ladder_grid_view_set_blockers(view, 3, cells, 2);
+	draw();
+	ladder_grid_view_set_blockers(view, -1, NULL, 0);
+}
+
 static int program_changes;
 
 static void program_changed(void)
@@ -383,6 +433,8 @@ int main(void)
 	test_drawn();
 	test_keys();
 	test_tips();
+	test_fresh();
+	test_blockers();
 	test_edit();
 	test_end();
 	gtk_window_destroy(GTK_WINDOW(window));

@@ -74,8 +74,10 @@ static void draw_live(struct sheet *sheet)
 	cell[2] = LIVE_KNOWN | LIVE_IN | LIVE_OUT | LIVE_CLOSED;
 	cell[rung->cols] = LIVE_KNOWN | LIVE_IN | LIVE_OUT | LIVE_CLOSED;
 	draw(sheet, 0, (struct grid_scene){ .live = &live }, "live");
-	memset(cell, 0, sizeof(cell)); /* not scanned yet */
+	memset(cell, 0, sizeof(cell)); /* edited since */
 	draw(sheet, 0, (struct grid_scene){ .live = &live }, "unknown");
+	cell[1] = LIVE_CLOSED; /* in STOP nothing has power, not even the rail */
+	draw(sheet, 0, (struct grid_scene){ .live = &live, .state = RUNG_STILL }, "still");
 	cell[0] = cell[1] = LIVE_KNOWN | LIVE_IN | LIVE_OUT | LIVE_CLOSED | LIVE_FRESH;
 	cell[2] = cell[3] = LIVE_KNOWN;
 	draw(sheet, 3, (struct grid_scene){ .live = &live }, "timer");
@@ -93,6 +95,31 @@ static void draw_marks(struct sheet *sheet)
 				    .state = RUNG_CURRENT | RUNG_EDITED };
 
 	draw(sheet, 0, scene, "marks");
+}
+
+static const char *note_of(void *context, int row, int column)
+{
+	(void)context;
+	return row == 0 && column == 0 ? "must be on" : NULL;
+}
+
+/* With a note, without one, below a value; a box; at its side a force. */
+static void draw_blockers(struct sheet *sheet)
+{
+	static const struct grid_mark mark[] = {
+		{ 0, 0, MARK_BLOCKS }, { 1, 0, MARK_BLOCKS | MARK_FORCED },
+	};
+	static const struct grid_mark box[] = { { 0, 1, MARK_BLOCKS } };
+	uint8_t cell[64];
+	struct grid_live live = { cell, value_of, NULL };
+	struct grid_scene scene = { .live = &live, .mark = mark, .note = note_of,
+				    .mark_count = G_N_ELEMENTS(mark) };
+
+	memset(cell, LIVE_KNOWN, sizeof(cell));
+	draw(sheet, 0, scene, "blocks");
+	scene.mark = box;
+	scene.mark_count = G_N_ELEMENTS(box);
+	draw(sheet, 3, scene, "blocks-box");
 }
 
 static char *reference_of(void *context, int row, int col)
@@ -121,6 +148,7 @@ int main(int argc, char **argv)
 	}
 	draw_live(sheet);
 	draw_marks(sheet);
+	draw_blockers(sheet);
 	draw(sheet, 0, (struct grid_scene){ .state = RUNG_NO_GUTTER,
 					    .reference = reference_of }, "paper");
 	draw(sheet, 1, (struct grid_scene){ .state = RUNG_NO_GUTTER,

@@ -8,7 +8,8 @@
 #include "tests/tap.h"
 
 static const enum token texts[] = { TOKEN_INK, TOKEN_ERROR, TOKEN_ACCENT, TOKEN_COMMENT };
-static const enum token graphics[] = { TOKEN_IDLE, TOKEN_POWER, TOKEN_FORCE };
+static const enum token graphics[] = { TOKEN_IDLE, TOKEN_POWER, TOKEN_FORCE,
+					TOKEN_BLOCKS };
 
 static int failed;
 
@@ -48,6 +49,8 @@ static void check_theme(const struct theme *theme, const char *name)
 	}
 	at_least(name, TOKEN_BADGE, "a badge",
 		 theme_contrast(&c[TOKEN_BADGE], &c[TOKEN_FORCE]), 4.5);
+	at_least(name, TOKEN_BADGE, "a note",
+		 theme_contrast(&c[TOKEN_BADGE], &c[TOKEN_BLOCKS]), 4.5);
 }
 
 int main(void)
