@@ -569,6 +569,9 @@ void entry_close(LadderGridView *view)
 
 void entry_allocate(LadderGridView *view)
 {
-	if (view->entry)
-		gtk_popover_present(GTK_POPOVER(view->entry));
+	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(view));
+
+	for (; child; child = gtk_widget_get_next_sibling(child))
+		if (GTK_IS_POPOVER(child)) /* the menu, too */
+			gtk_popover_present(GTK_POPOVER(child));
 }

@@ -123,4 +123,29 @@ def refused(screen):
     assert plain(text).replace('RUNGRUNG', 'RUNG', 1) == plain(before), text
 
 
-main([elements, rungs, branch, wires, refused])
+def seen(editor, name):
+    """An item of a menu that is open; a menu that is not has the same items somewhere."""
+    return until(lambda: next((node for node in editor.all(name, 'menu item') if node.box()[2] > 0), None), name)
+
+
+def by_menu(screen):
+    """the menu of the right button draws wires, too"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 5, 'the sheet')
+    editor.click(editor.grid(80, 0), button=3)
+    editor.at_rest(seen(editor, 'Wires'))
+    editor.keys(*['Down'] * 5)
+    until(lambda: seen(editor, 'Wires').has(12), 'the focus on Wires')
+    editor.keys('Return')
+    editor.at_rest(seen(editor, 'Wire downwards'))
+    editor.keys(*['Down'] * 4)
+    until(lambda: seen(editor, 'Wire downwards').has(12), 'the focus on it')
+    editor.shot('menu-of-wires')
+    editor.keys('Return')
+    until(lambda: editor.all('row 2 · column A'), 'the cursor below')
+    editor.save(path)
+    assert plain(rung_lines(path)[2]) == '|^|', rung_lines(path)
+
+
+main([elements, rungs, branch, wires, refused, by_menu])
