@@ -1,0 +1,163 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""scenario - a person records a scenario, saves it, runs all of them, and goes to where one fails."""
+import gettext
+import os
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import BUILD, LADDER, Editor, main, new_file, until  # noqa: E402
+
+PROGRAM = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Stop  AT %IX0.1 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "Motor"
+  | NO Start | NC Stop | COIL Motor |
+  | NO Motor ^|
+END_PROGRAM
+'''
+BAD = '''scenario "starts"
+  at 20ms  Start = 1
+  expect Motor
+
+scenario "starts by itself"
+  at 50ms  expect Motor = 1
+'''
+UNKNOWN = '''scenario "of another machine"
+  at 20ms  Strat = 1
+  expect Motor
+'''
+
+
+def cell(editor, *parts):
+    """The element whose name has all these parts; waits for it."""
+    def look():
+        found = [node for node in editor.all('Rung ', 'table cell') if all(part in node.name for part in parts)]
+        return found[0] if found else None
+    return until(look, 'the element %s' % ', '.join(parts))
+
+
+def middle(editor, node):
+    """Where its contact or coil is; its wire is 46 px below its top."""
+    x, y, width, _ = editor.place(node)
+    return x + width // 2, y + 46
+
+
+def beside(editor, node):
+    """On its wire: the cursor goes there, and nothing else happens."""
+    x, y, _, _ = editor.place(node)
+    return x + 12, y + 46
+
+
+def test(path):
+    done = subprocess.run([LADDER, 'test', path], capture_output=True, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+def text_of(path):
+    return open(path).read() if os.path.exists(path) else ''
+
+
+def row(editor, name):
+    """A row of the list of scenarios, by what it says."""
+    return editor.find(name, 'label')
+
+
+def records(screen):
+    """Record, contacts clicked, a coil expected, Save: the scenario does it again"""
+    path = new_file(screen, PROGRAM, 'motor.rung')
+    kept = '# By hand.\nscenario "kept"\n  expect not Motor'
+    scn = new_file(screen, kept, 'motor.scn')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+alt+r')
+    editor.find('Recording · 0 set', 'push button')
+    editor.click(middle(editor, cell(editor, 'Rung 1, NO', 'Start')))
+    editor.find('Recording · 1 set', 'push button')
+    cell(editor, 'Rung 1, COIL', ', on')
+    editor.click(beside(editor, cell(editor, 'Rung 1, COIL')))
+    editor.keys('ctrl+alt+e')
+    editor.says('Expected: Motor = 1')
+    editor.shot('scenario-recording')
+    editor.click(middle(editor, cell(editor, 'Rung 1, NO', 'Start')))
+    editor.find('Recording · 2 set', 'push button')
+    editor.click(middle(editor, cell(editor, 'Rung 1, NC', 'Stop')))
+    editor.find('Recording · 3 set', 'push button')
+    editor.click(beside(editor, cell(editor, 'Rung 1, COIL')))
+    cell(editor, 'Rung 1, COIL', ', off')
+    editor.keys('ctrl+alt+e')
+    editor.says('Expected: Motor = 0')
+    editor.keys('ctrl+alt+r')
+    editor.find('Name of the scenario', 'text')
+    editor.type('stop wins')
+    editor.shot('scenario-save')
+    editor.keys('Return')
+    text = until(lambda: 'stop wins' in text_of(scn) and text_of(scn), 'the scenario in the file')
+    assert text.startswith(kept + '\n\nscenario "stop wins"\n  period '), text
+    assert 'Start = 1' in text and 'expect Motor = 1' in text and 'Stop = 1' in text, text
+    status, said = test(scn)
+    assert status == 0, said
+    editor.find('2 passed', 'label')
+    editor.shot('scenario-passed')
+
+
+def fails(screen):
+    """Run all: one failed, one of another machine; each opens at its line, and the scan"""
+    path = new_file(screen, PROGRAM, 'motor.rung')
+    new_file(screen, BAD, 'motor.scn')
+    new_file(screen, UNKNOWN, 'motor-other.scn')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+F5')
+    editor.find('2 of 3 failed', 'label')
+    editor.shot('scenario-list')
+    editor.click(row(editor, 'starts by itself'), count=2)
+    editor.find('SIMULATION · PAUSE', 'label')
+    editor.says('at 50 ms: not so: at 50ms  expect Motor = 1')
+    editor.says('scan 5')
+    editor.shot('scenario-failed')
+    editor.click(row(editor, 'unknown name'), count=2)
+    editor.find('motor-other.scn', 'text')
+    editor.says('unknown name: Strat')
+    editor.shot('scenario-unknown')
+
+
+class Chinese(Editor):
+    """The same, where what is looked for is said in Chinese."""
+
+    def __init__(self, screen, *files, **env):
+        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
+        super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
+
+    def all(self, name=None, *more, **named):
+        return super().all(name and self.said.gettext(name), *more, **named)
+
+
+def chinese(screen):
+    """the list, and what is asked at the end of a recording: Chinese, dark, small"""
+    path = new_file(screen, PROGRAM, 'motor.rung')
+    scn = new_file(screen, BAD, 'motor.scn')
+    editor = Chinese(screen, path, ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+    editor.to_sheet()
+    editor.keys('ctrl+F5')
+    until(lambda: editor.all('starts by itself'), 'the list')
+    editor.keys('ctrl+alt+r')
+    until(lambda: editor.all('\u25cf', 'push button'), 'the recording')
+    editor.shot('scenario-chinese')
+    editor.keys('ctrl+alt+r')
+    until(lambda: editor.all(role='dialog'), 'the question')
+    editor.type('by hand')
+    editor.shot('scenario-chinese-save')
+    editor.keys('Return')
+    until(lambda: 'expect Motor = 0' in text_of(scn), 'what all outputs were at the end')
+
+
+chinese.size = '1024x700x24'
+main([records, fails, chinese])

@@ -1,0 +1,130 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""watch - a person makes a status chart, sees values in it, writes and forces them."""
+import gettext
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import BUILD, Editor, main, new_file, until  # noqa: E402
+
+PROGRAM = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Level : INT;
+  High  AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "Motor"
+  | NO Start | COIL Motor |
+RUNG "High"
+  | [ Level > 500 ] | COIL High |
+END_PROGRAM
+'''
+
+
+def chart(editor):
+    """Shows the tab, and adds names to the chart."""
+    editor.to_sheet()
+    editor.keys('ctrl+shift+w')
+    editor.find('Add variables', 'push button')
+
+
+def add(editor, names):
+    editor.click(editor.find('Add variables', 'push button'))
+    editor.opened()
+    editor.entry(names)
+
+
+def shows(editor, text):
+    """A value cell."""
+    return until(lambda: [node for node in editor.all(role='label') if node.name == text], 'the value ' + text)
+
+
+def values(screen):
+    """names typed, values live, new values written at once, the file has the chart"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    chart(editor)
+    editor.shot('watch-first')
+    add(editor, 'Level High Nobody')
+    editor.find('Nobody: the program has no such name')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    editor.click(editor.find('Level, New value', 'text'))
+    editor.type('16#3E7')
+    editor.click(editor.find('Start, New value', 'text'))
+    editor.type('1')
+    editor.shot('watch-typed')
+    editor.click(editor.find('Write all new values', 'push button'))
+    shows(editor, '999')
+    editor.shot('watch-written')
+    editor.click(editor.find('Level, New value', 'text'))
+    editor.type('70000')
+    editor.keys('Return')
+    editor.find('constant out of range')
+    editor.keys('ctrl+a')
+    editor.type('-5')
+    editor.keys('Return')
+    shows(editor, '-5')
+    editor.click(editor.find('Level, Shown as'))
+    editor.press(editor.find('Hexadecimal', 'menu item'))
+    shows(editor, '16#FFFB')
+    text = editor.save(path)
+    assert '  status-chart Chart 1\n    watch auto Start\n    watch hex Level\n' in text, text
+    assert '    watch auto Nobody\n' in text, text
+
+
+def forces(screen):
+    """F holds a value against the program, and lets go of it; a row moves and goes"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    chart(editor)
+    add(editor, 'Motor')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    editor.click(editor.find('Motor, New value', 'text'))
+    editor.type('1')
+    editor.click(editor.find('Motor, Force', 'toggle button'))
+    editor.find('1 force', 'push button')
+    shows(editor, '1')
+    editor.shot('watch-forced')
+    editor.click(editor.find('Motor, Force', 'toggle button'))
+    until(lambda: not editor.all('1 force', 'push button'), 'the force to be gone')
+    editor.click(editor.find('Move the row up', 'push button'))
+    text = editor.save(path)
+    assert '    watch auto Motor\n    watch auto Start\n' in text, text
+    editor.click(editor.find('Remove the row', 'push button'))
+    text = editor.save(path)
+    assert 'Motor\n    watch' not in text and '    watch auto Start\n' in text, text
+
+
+class Chinese(Editor):
+    """The same, where what is looked for is said in Chinese."""
+
+    def __init__(self, screen, *files, **env):
+        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
+        super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
+
+    def all(self, name=None, *more, **named):
+        return super().all(name and self.said.gettext(name), *more, **named)
+
+
+def chinese(screen):
+    """a chart of Chinese names, dark, small"""
+    path = new_file(screen, PROGRAM.replace('Start', '\u542f\u52a8').replace('Level', '\u6db2\u4f4d'))
+    editor = Chinese(screen, path, ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+    chart(editor)
+    add(editor, '\u6db2\u4f4d Motor %QW0')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    until(lambda: [node for node in editor.all(role='label') if node.name == '%QW0'], 'the rows')
+    shows(editor, '0')
+    editor.shot('watch-chinese')
+
+
+chinese.size = '1024x700x24'
+main([values, forces, chinese])
