@@ -44,11 +44,12 @@ sed -n 's/.*\.family = \("[A-Za-z]*"\).*/N_(\1)/p' runtime/engine/text/read_word
 	>"$work/runtime/engine/text/read_words.c"
 sed -n 's/^\t*\("[a-z ]*"\));$/N_(\1)/p' runtime/engine/text/read_array.c \
 	>"$work/runtime/engine/text/read_array.c" # of an expression, which xgettext misses
+mkdir "$work/runtime/engine/trial"
+sed -n 's/^WHY(\w*, *\("[^"]*"\), *\("[^"]*"\))$/N_(\1) N_(\2)/p' runtime/engine/trial/why.def |
+	sed 's/ N_("")//' >"$work/runtime/engine/trial/why.def"
 (cd "$work" && $take -L C -k -kN_ -o catalog.pot runtime/engine/catalog.def \
 	runtime/engine/model/convert.c runtime/engine/text/read_words.c \
-	runtime/engine/text/read_array.c)
-
-$take -L C -k -kWHY:2 -kWHY:3 -o "$work/why.pot" runtime/engine/trial/why.def
+	runtime/engine/text/read_array.c runtime/engine/trial/why.def)
 
 # What was expected, or too many: arguments of messages, those of them that are words.
 $take -L C -k -kreader_fail_word:3 -kfail_word:3 -kfail_expected:2 -kreader_name:2 \
@@ -59,5 +60,5 @@ $take -L C -k -kreader_fail_word:3 -kfail_word:3 -kfail_expected:2 -kreader_name
 # The date would differ each time, and nothing reads it.
 xgettext --from-code=UTF-8 --add-location=file --package-name=Rungboard -L PO -o - \
 	"$work/editor.pot" "$work/ui.pot" "$work/diag.pot" "$work/catalog.pot" \
-	"$work/args.pot" "$work/why.pot" |
+	"$work/args.pot" |
 	sed -e '/^"POT-Creation-Date:/d' -e 's/charset=CHARSET/charset=UTF-8/' >"$out"
