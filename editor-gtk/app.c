@@ -111,7 +111,8 @@ void app_open_sample(LadderWindow *window, const char *path)
 	if (text) {
 		ladder_document_open_text(document, NULL, text, len, true);
 		if (ladder_window_document(window) != document)
-			show_document(the_application(window), document);
+			window = show_document(the_application(window), document);
+		ladder_window_set_origin(window, path);
 		g_free(text);
 	} else {
 		ladder_window_warn(window, error->message);

@@ -218,6 +218,8 @@ bool ladder_sim_set_plant(LadderSim *sim, const char *path, GError **error)
 	sim->plant = plant;
 	g_free(sim->plant_path);
 	sim->plant_path = g_strdup(path);
+	if (!on)
+		tell_state(sim);
 	return !on || ladder_sim_begin(sim, error);
 }
 

@@ -14,6 +14,7 @@ struct pace {
 	GtkSpinButton *period;
 	GtkSwitch *slow;
 	GtkScale *speed;
+	GtkLabel *plant;
 	bool showing; /* what the simulation has, not what a person wants          */
 };
 
@@ -24,6 +25,16 @@ static void pace_free(gpointer pointer)
 	g_signal_handlers_disconnect_by_data(pace->sim, pace);
 	g_object_unref(pace->sim);
 	g_free(pace);
+}
+
+static void show_plant(struct pace *pace)
+{
+	const char *path = ladder_sim_plant(pace->sim);
+	char *name = path ? g_path_get_basename(path) : g_strdup(_("none"));
+
+	gtk_label_set_text(pace->plant, name);
+	gtk_widget_set_tooltip_text(GTK_WIDGET(pace->plant), path);
+	g_free(name);
 }
 
 static void show(struct pace *pace)
@@ -37,6 +48,7 @@ static void show(struct pace *pace)
 	if (speed > 0)
 		gtk_range_set_value(GTK_RANGE(pace->speed), speed);
 	pace->showing = false;
+	show_plant(pace);
 }
 
 static void period_changed(GtkSpinButton *spin, struct pace *pace)
@@ -82,6 +94,7 @@ GtkWidget *sim_pace_new(LadderSim *sim)
 {
 	GtkWidget *popover = gtk_popover_new(), *widget = gtk_grid_new();
 	GtkWidget *starts = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+	GtkWidget *plants = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
 	GtkGrid *grid = GTK_GRID(widget);
 	struct pace *pace = g_new0(struct pace, 1);
 
@@ -101,10 +114,18 @@ GtkWidget *sim_pace_new(LadderSim *sim)
 	row(grid, 0, _("Period, ms"), GTK_WIDGET(pace->period));
 	row(grid, 1, _("Slow motion"), GTK_WIDGET(pace->slow));
 	row(grid, 2, _("Scans a second"), GTK_WIDGET(pace->speed));
+	pace->plant = GTK_LABEL(gtk_label_new(NULL));
+	gtk_label_set_xalign(pace->plant, 0);
+	gtk_label_set_ellipsize(pace->plant, PANGO_ELLIPSIZE_MIDDLE);
+	row(grid, 3, _("Plant"), GTK_WIDGET(pace->plant));
+	gtk_box_append(GTK_BOX(plants), start_button(_("Choose…"), "win.sim_plant"));
+	gtk_box_append(GTK_BOX(plants), start_button(_("Without"), "win.sim_no_plant"));
+	gtk_box_set_homogeneous(GTK_BOX(plants), TRUE);
+	gtk_grid_attach(grid, plants, 0, 4, 2, 1);
 	gtk_box_append(GTK_BOX(starts), start_button(_("Cold start"), "win.sim_cold"));
 	gtk_box_append(GTK_BOX(starts), start_button(_("Warm start"), "win.sim_warm"));
 	gtk_box_set_homogeneous(GTK_BOX(starts), TRUE);
-	gtk_grid_attach(grid, starts, 0, 3, 2, 1);
+	gtk_grid_attach(grid, starts, 0, 5, 2, 1);
 	gtk_popover_set_child(GTK_POPOVER(popover), widget);
 	show(pace);
 	g_signal_connect(pace->period, "value-changed", G_CALLBACK(period_changed), pace);

@@ -262,6 +262,8 @@ static void ladder_window_dispose(GObject *object)
 	g_clear_object(&window->board);
 	g_clear_object(&window->document);
 	g_clear_pointer(&window->keys_text, g_free);
+	g_clear_pointer(&window->origin, g_free);
+	g_clear_pointer(&window->plant, g_free);
 	G_OBJECT_CLASS(ladder_window_parent_class)->dispose(object);
 }
 

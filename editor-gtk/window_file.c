@@ -16,7 +16,7 @@
 
 /* ---- choosing a file ---- */
 
-static GtkFileChooserNative *chooser_new(LadderWindow *window, const char *title,
+GtkFileChooserNative *window_chooser(LadderWindow *window, const char *title,
 					 GtkFileChooserAction action, const char *accept)
 {
 	GtkFileChooserNative *chooser = gtk_file_chooser_native_new(title,
@@ -58,7 +58,7 @@ static void open_response(GtkNativeDialog *dialog, int response, LadderWindow *w
 
 void window_open(LadderWindow *window)
 {
-	GtkFileChooserNative *chooser = chooser_new(window, _("Open"),
+	GtkFileChooserNative *chooser = window_chooser(window, _("Open"),
 		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"));
 
 	g_signal_connect(chooser, "response", G_CALLBACK(open_response), window);
@@ -105,7 +105,7 @@ static void save_response(GtkNativeDialog *dialog, int response, LadderWindow *w
 
 void window_save_as(LadderWindow *window)
 {
-	GtkFileChooserNative *chooser = chooser_new(window, _("Save as"),
+	GtkFileChooserNative *chooser = window_chooser(window, _("Save as"),
 		GTK_FILE_CHOOSER_ACTION_SAVE, _("Save"));
 	const char *path = ladder_document_path(window->document);
 	char *name = path ? g_path_get_basename(path) : g_strdup(_("program.rung"));

@@ -19,6 +19,9 @@ struct _LadderWindow {
 	LadderBoardRun *board;    /* what runs on this machine                 */
 	bool board_ran;           /* it came to a scan                         */
 	bool close_after_board;   /* the person said so                        */
+	char *origin;             /* of a sample: the file it is a copy of     */
+	char *plant;              /* that a person chose; NULL: none           */
+	bool plant_chosen;
 	struct window_why *why;   /* what holds power back                     */
 	LadderSim *sim;           /* off while it edits                        */
 	LadderRecorder *recorder;
@@ -105,6 +108,10 @@ void names_rename(LadderWindow *window);
 void names_rename_pou(LadderWindow *window, int pou, const char *name);
 
 /* ---- window_file.c ---- */
+/** window_chooser - a file chooser for rung files over @window; shown by the caller. Owns:
+ * the caller, g_object_unref when it was answered. */
+GtkFileChooserNative *window_chooser(LadderWindow *window, const char *title,
+				     GtkFileChooserAction action, const char *accept);
 /** window_chosen_path - of a file chooser; NULL: no file of this machine. Caller frees. */
 char *window_chosen_path(GtkNativeDialog *dialog);
 void window_open(LadderWindow *window);
@@ -154,6 +161,13 @@ bool window_board_may_close(LadderWindow *window);
 /** window_board_pill - of the status bar, translated, while something runs on this machine;
  * NULL: nothing does. */
 const char *window_board_pill(LadderWindow *window, const char **class);
+
+/* ---- window_plant.c ---- */
+/** window_plant_ready - the simulation has its plant, as the file is now; false: it has
+ * errors, @error says which. */
+bool window_plant_ready(LadderWindow *window, GError **error);
+void window_plant_choose(LadderWindow *window);
+void window_plant_none(LadderWindow *window);
 
 /* ---- window_why.c ---- */
 void window_why_init(LadderWindow *window);

@@ -162,7 +162,7 @@ static bool begin(LadderWindow *window)
 
 	if (ladder_sim_is_on(window->sim))
 		return true;
-	if (ladder_sim_begin(window->sim, &error)) {
+	if (window_plant_ready(window, &error) && ladder_sim_begin(window->sim, &error)) {
 		window_banner_close(window);
 		gtk_widget_set_visible(GTK_WIDGET(window->right), TRUE);
 		return true;
@@ -236,6 +236,8 @@ bool window_sim(LadderWindow *window, enum verb verb)
 	case VERB_sim_warm: ladder_sim_reset(sim, true); return true;
 	case VERB_sim_back: step_shown(window, -1); return true;
 	case VERB_sim_forth: step_shown(window, 1); return true;
+	case VERB_sim_plant: window_plant_choose(window); return true;
+	case VERB_sim_no_plant: window_plant_none(window); return true;
 	case VERB_sim_why: window_why_ask(window); return true;
 	case VERB_sim_now: ladder_sim_show_now(sim); return true;
 	case VERB_sim_release: ladder_sim_act(sim, &release); return true;
