@@ -102,7 +102,8 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag)
 
 	set_place(document, diag, row);
 	row->tone = error ? PANEL_ERROR : PANEL_WARNING;
-	row->number = ((gint64)row->pou << 40) + ((gint64)row->rung << 20) + diag->line;
+	/* Either may be -1. */
+	row->number = ((gint64)row->pou * (1 << 20) + row->rung) * (1 << 20) + diag->line;
 	row->text[COLUMN_TEXT] = diag_said_whole(diag);
 	row->text[COLUMN_PLACE] = place_text(diag, diag->rung ? -1 : row->row);
 	row->text[COLUMN_CODE] = g_strdup(diag_code(diag->id));
