@@ -99,8 +99,9 @@ static void ladder_grid_view_measure(GtkWidget *widget, GtkOrientation orientati
 
 	(void)for_size;
 	*least = 100;
-	*natural = orientation == GTK_ORIENTATION_HORIZONTAL ?
-		   (int)(strips_width(view) * view->zoom) : 400;
+	*natural = 400;
+	if (orientation == GTK_ORIENTATION_HORIZONTAL)
+		*natural = view->natural = (int)(strips_width(view) * view->zoom);
 	*least_base = *natural_base = -1;
 }
 
@@ -213,7 +214,6 @@ static void rungs_changed(LadderGridView *view, int pou, int at, int removed, in
 		forget_before(view);
 	strips_splice(view, at, removed, inserted);
 	cursor_fit(view);
-	gtk_widget_queue_resize(GTK_WIDGET(view));
 	sheet_moved(view);
 }
 

@@ -178,7 +178,31 @@ static bool is_offered(const struct word_row *row)
 	       row->place != PLACE_PIN && row->kind != WORD_STRUCT;
 }
 
-static GtkWidget *family_new(const char *name, bool open)
+/* Tiles are made when their family is opened: they are most of a window's widgets. */
+static void make_tiles(GtkExpander *expander)
+{
+	GArray *words = g_object_get_data(G_OBJECT(expander), "words");
+	LadderPalette *palette = LADDER_PALETTE(gtk_widget_get_ancestor(
+		GTK_WIDGET(expander), LADDER_TYPE_PALETTE));
+	const struct project *project = ladder_document_project(palette->document);
+
+	if (!gtk_expander_get_expanded(expander))
+		return;
+	for (guint i = 0; i < words->len; i++) {
+		const enum word word = g_array_index(words, enum word, i);
+		const struct word_row *row = word_is_own(word) ?
+			words_row(&project->words, word) : word_row(word);
+		GtkWidget *child = gtk_flow_box_child_new();
+
+		gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child),
+					     tile_new(row, word));
+		gtk_widget_set_focusable(child, FALSE);
+		gtk_flow_box_append(GTK_FLOW_BOX(gtk_expander_get_child(expander)), child);
+	}
+	g_array_set_size(words, 0);
+}
+
+static GtkWidget *family_new(const char *name)
 {
 	GtkWidget *expander = gtk_expander_new(name);
 	GtkWidget *flow = gtk_flow_box_new();
@@ -188,7 +212,10 @@ static GtkWidget *family_new(const char *name, bool open)
 	gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(flow), 8);
 	gtk_flow_box_set_homogeneous(GTK_FLOW_BOX(flow), TRUE);
 	gtk_expander_set_child(GTK_EXPANDER(expander), flow);
-	gtk_expander_set_expanded(GTK_EXPANDER(expander), open);
+	g_object_set_data_full(G_OBJECT(expander), "words",
+			       g_array_new(FALSE, FALSE, sizeof(enum word)),
+			       (GDestroyNotify)g_array_unref);
+	g_signal_connect(expander, "notify::expanded", G_CALLBACK(make_tiles), NULL);
 	gtk_widget_add_css_class(expander, "family");
 	return expander;
 }
@@ -204,21 +231,30 @@ static bool is_common(const char *family)
 	return false;
 }
 
-static void add_tile(LadderPalette *palette, GHashTable *families,
-		     const struct word_row *row, enum word word, bool searching)
+static void add_word(LadderPalette *palette, GHashTable *families,
+		     const struct word_row *row, enum word word)
 {
-	GtkWidget *family = g_hash_table_lookup(families, row->family), *child;
+	GtkWidget *family = g_hash_table_lookup(families, row->family);
+	GArray *words;
 
 	if (!family) {
-		family = family_new(_(row->family), searching || is_common(row->family));
+		family = family_new(_(row->family));
 		gtk_box_append(GTK_BOX(palette->families), family);
 		g_hash_table_insert(families, (gpointer)row->family, family);
 	}
-	child = gtk_flow_box_child_new();
-	gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child), tile_new(row, word));
-	gtk_widget_set_focusable(child, FALSE);
-	gtk_flow_box_append(GTK_FLOW_BOX(gtk_expander_get_child(GTK_EXPANDER(family))),
-			    child);
+	words = g_object_get_data(G_OBJECT(family), "words");
+	g_array_append_val(words, word);
+}
+
+static void open_families(GHashTable *families, bool all)
+{
+	GHashTableIter each;
+	gpointer name, family;
+
+	g_hash_table_iter_init(&each, families);
+	while (g_hash_table_iter_next(&each, &name, &family))
+		if (all || is_common(name))
+			gtk_expander_set_expanded(family, TRUE);
 }
 
 static void fill(LadderPalette *palette)
@@ -234,15 +270,16 @@ static void fill(LadderPalette *palette)
 		const struct word_row *row = word_row((enum word)i);
 
 		if (is_offered(row) && fits(row, search))
-			add_tile(palette, families, row, (enum word)i, search[0]);
+			add_word(palette, families, row, (enum word)i);
 	}
 	for (int i = 0; project && i < project->words.count; i++) {
 		const enum word word = (enum word)(WORD_FIRST_OWN + i);
 		const struct word_row *row = words_row(&project->words, word);
 
 		if (is_offered(row) && fits(row, search))
-			add_tile(palette, families, row, word, search[0]);
+			add_word(palette, families, row, word);
 	}
+	open_families(families, search[0]);
 	palette->own = project ? project->words.count : 0;
 	g_hash_table_unref(families);
 }

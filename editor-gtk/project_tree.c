@@ -208,6 +208,7 @@ struct tree {
 	GtkSingleSelection *selection;
 	GtkWidget *list;
 	char *shape;       /* what is shown, to see whether it changed         */
+	guint timer;       /* soon looks whether it did                        */
 };
 
 /* Programs and blocks show what they are made of when they are asked. */
@@ -264,14 +265,28 @@ static char *shape_of(LadderDocument *document)
 static void follow(struct tree *tree)
 {
 	char *shape = shape_of(tree->document);
+	const bool same = g_strcmp0(shape, tree->shape) == 0;
 
-	if (g_strcmp0(shape, tree->shape) == 0) {
-		g_free(shape);
-		return;
-	}
 	g_free(tree->shape);
 	tree->shape = shape;
-	fill(tree);
+	if (!same)
+		fill(tree);
+}
+
+static gboolean follow_now(gpointer data)
+{
+	struct tree *tree = data;
+
+	tree->timer = 0;
+	follow(tree);
+	return G_SOURCE_REMOVE;
+}
+
+/* A count may be another: no key waits for that. */
+static void follow_later(struct tree *tree)
+{
+	if (!tree->timer)
+		tree->timer = g_timeout_add(100, follow_now, tree);
 }
 
 /* ---- acting ---- */
@@ -512,6 +527,7 @@ static void tree_free(gpointer pointer)
 {
 	struct tree *tree = pointer;
 
+	g_clear_handle_id(&tree->timer, g_source_remove);
 	g_signal_handlers_disconnect_by_data(tree->document, tree);
 	g_object_unref(tree->document);
 	g_free(tree->shape);
@@ -574,10 +590,10 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 	gtk_box_append(GTK_BOX(box), scroller);
 	g_object_set_data_full(G_OBJECT(box), "tree", tree, tree_free);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(follow), tree);
-	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(follow), tree);
-	g_signal_connect_swapped(document, "variable-changed", G_CALLBACK(follow), tree);
+	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(follow_later), tree);
+	g_signal_connect_swapped(document, "variable-changed", G_CALLBACK(follow_later), tree);
 	g_signal_connect_swapped(document, "bookmarks-changed", G_CALLBACK(follow), tree);
-	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(follow), tree);
+	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(follow_later), tree);
 	follow(tree);
 	return box;
 }
