@@ -85,6 +85,18 @@ static void do_selected(struct commands *commands)
 	do_row(commands, gtk_list_box_get_selected_row(GTK_LIST_BOX(commands->list)));
 }
 
+/* The line keeps the focus, so that the list does not follow by itself. */
+static void reveal(struct commands *commands, GtkListBoxRow *row)
+{
+	GtkAdjustment *down = gtk_list_box_get_adjustment(
+		GTK_LIST_BOX(commands->list));
+	graphene_rect_t bounds;
+
+	if (down && gtk_widget_compute_bounds(GTK_WIDGET(row), commands->list, &bounds))
+		gtk_adjustment_clamp_page(down, bounds.origin.y,
+					  bounds.origin.y + bounds.size.height);
+}
+
 static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
 			    GdkModifierType state, struct commands *commands)
 {
@@ -103,8 +115,10 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 		return FALSE;
 	row = gtk_list_box_get_row_at_index(list, (row ?
 		gtk_list_box_row_get_index(row) : -1) + by);
-	if (row)
+	if (row) {
 		gtk_list_box_select_row(list, row);
+		reveal(commands, row);
+	}
 	return TRUE;
 }
 
@@ -119,6 +133,7 @@ void commands_show(LadderWindow *window)
 	commands->dialog = gtk_window_new();
 	commands->search = gtk_search_entry_new();
 	commands->list = gtk_list_box_new();
+	gtk_widget_add_css_class(commands->list, "commands");
 	gtk_header_bar_set_title_widget(GTK_HEADER_BAR(bar), commands->search);
 	gtk_widget_set_hexpand(commands->search, TRUE);
 	gtk_window_set_titlebar(GTK_WINDOW(commands->dialog), bar);

@@ -115,6 +115,16 @@ static char *tip_of_rung(LadderGridView *view, int rung)
 	return g_string_free(text, text->len == 0);
 }
 
+/* What has popped up over the sheet must not be hidden by what is said of that. */
+static bool is_covered(LadderGridView *view)
+{
+	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(view));
+
+	while (child && !(GTK_IS_POPOVER(child) && gtk_widget_get_mapped(child)))
+		child = gtk_widget_get_next_sibling(child);
+	return child;
+}
+
 static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
 			   GtkTooltip *tooltip)
 {
@@ -125,7 +135,7 @@ static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
 	const struct strip *strip;
 	char *text;
 
-	if (rung < 0 || !sheet_rung(view, rung) || view->entry)
+	if (rung < 0 || !sheet_rung(view, rung) || view->entry || is_covered(view))
 		return FALSE;
 	strip = strips_get(view, rung);
 	text = hit.part == RUNG_PART_NUMBER || hit.part == RUNG_PART_TITLE ?

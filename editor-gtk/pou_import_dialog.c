@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/pou_import.h"
 
+#include "editor-gtk/chooser.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/window.h"
 
@@ -136,6 +137,7 @@ void pou_import_ask(GtkWidget *widget, LadderDocument *document)
 	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), rungs);
 	g_object_unref(rungs);
 	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
+	chooser_beside(chooser, document);
 	g_object_set_data_full(G_OBJECT(chooser), "widget", g_object_ref(widget),
 			       g_object_unref);
 	g_signal_connect_data(chooser, "response", G_CALLBACK(file_chosen),

@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/symbols_view.h"
 
+#include "editor-gtk/chooser.h"
 #include "editor-gtk/csv.h"
 #include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
@@ -319,6 +320,7 @@ static void choose(LadderSymbolsView *view, GtkFileChooserAction action,
 	gtk_file_filter_add_suffix(filter, "txt");
 	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(view->chooser), filter);
 	g_object_unref(filter);
+	chooser_beside(view->chooser, panel_watch_document(view->watch));
 	if (action == GTK_FILE_CHOOSER_ACTION_SAVE)
 		gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(view->chooser),
 						  _("symbols.csv"));

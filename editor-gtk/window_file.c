@@ -8,6 +8,7 @@
 #include "editor-gtk/window_inside.h"
 
 #include "editor-gtk/app.h"
+#include "editor-gtk/chooser.h"
 #include "editor-gtk/draft.h"
 
 #include <string.h>
@@ -30,6 +31,7 @@ GtkFileChooserNative *window_chooser(LadderWindow *window, const char *title,
 	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), rungs);
 	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), all);
 	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
+	chooser_beside(chooser, window->document);
 	g_object_unref(rungs);
 	g_object_unref(all);
 	return chooser;

@@ -6,6 +6,7 @@
  */
 #include "editor-gtk/window_inside.h"
 
+#include "editor-gtk/chooser.h"
 #include "editor-gtk/print.h"
 
 static GtkPrintOperation *operation_new(LadderWindow *window)
@@ -67,6 +68,7 @@ void window_export_pdf(LadderWindow *window)
 	char *name = ladder_document_name(window->document);
 	char *file = g_strdup_printf("%s.pdf", name);
 
+	chooser_beside(chooser, window->document);
 	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), file);
 	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
 	g_signal_connect(chooser, "response", G_CALLBACK(export_response), window);

@@ -101,4 +101,23 @@ def close(screen):
     assert open(path).read() == PROJECT
 
 
-main([dialogs, popups, give_back, close])
+def commands(screen):
+    """in the list of all commands the one that Enter does is seen, however far down it is"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    editor.keys('ctrl+k')
+    until(lambda: len(editor.windows()) == 2, 'all commands')
+    editor.keys(*['Down'] * 130)
+
+    def seen():
+        for node in editor.all(role='list item'):
+            if node.has(23):  # selected
+                _, y, _, height = node.box()
+                return node.name == 'About Rungboard' and 40 <= y and y + height <= 520
+        return False
+    until(seen, 'the chosen command in the window')
+    editor.shot('dialogs-commands')
+    editor.keys('Escape')
+
+
+main([dialogs, popups, give_back, close, commands])
