@@ -324,7 +324,7 @@ bool ladder_grid_view_cell(LadderGridView *view, int *row, int *col)
 	return cursor_cell(view, row, col) != NULL;
 }
 
-char *ladder_grid_view_place(LadderGridView *view)
+static char *place_of(LadderGridView *view)
 {
 	if (sheet_rungs(view) == 0)
 		return g_strdup(_("no rung"));
@@ -334,6 +334,19 @@ char *ladder_grid_view_place(LadderGridView *view)
 				       'A' + MIN(view->cursor.col, 25));
 	return g_strdup_printf(_("Rung %d · column %c"), view->cursor.rung + 1,
 			       'A' + MIN(view->cursor.col, 25));
+}
+
+/* Of a block also the instance whose body it is. */
+char *ladder_grid_view_place(LadderGridView *view)
+{
+	const char *instance = ladder_grid_view_instance(view);
+	char *place = place_of(view), *whole;
+
+	if (!instance)
+		return place;
+	whole = g_strdup_printf("%s · %s", place, instance);
+	g_free(place);
+	return whole;
 }
 
 double ladder_grid_view_zoom(LadderGridView *view)

@@ -11,6 +11,8 @@
 
 #include <adwaita.h>
 #include <gtksourceview/gtksource.h>
+#include "editor-gtk/text_live.h"
+
 #include <string.h>
 
 #define REST 2000000 /* us without a key: what follows is another step            */
@@ -24,6 +26,7 @@ struct flaw {
 struct _LadderTextView {
 	GtkBox parent;
 	LadderDocument *document;
+	LadderSim *sim;          /* NULL: none                                 */
 	int pou;
 	GtkSourceView *view;
 	GtkSourceBuffer *buffer;
@@ -282,6 +285,42 @@ static void tell_line(LadderTextView *view)
 	g_free(text);
 }
 
+static char *values_of(LadderTextView *view, int line)
+{
+	const struct project *project = ladder_document_project(view->document);
+	GtkTextIter start, end;
+	char *text, *values;
+
+	if (!view->sim || !project || view->pou < 0 || view->pou >= project->pou_count)
+		return NULL;
+	gtk_text_buffer_get_iter_at_line(GTK_TEXT_BUFFER(view->buffer), &start, line);
+	end = start;
+	gtk_text_iter_forward_to_line_end(&end);
+	text = gtk_text_iter_get_text(&start, &end);
+	values = text_live_line(view->sim, project_text(project,
+		project->pou[view->pou].name), text);
+	g_free(text);
+	return values;
+}
+
+char *ladder_text_view_tip(LadderTextView *view, int line)
+{
+	char *reasons = reasons_of(view, line - 1), *values = values_of(view, line - 1);
+	char *both;
+
+	if (!reasons || !values)
+		return reasons ? reasons : values;
+	both = g_strdup_printf("%s\n%s", reasons, values);
+	g_free(reasons);
+	g_free(values);
+	return both;
+}
+
+void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim)
+{
+	g_set_object(&view->sim, sim);
+}
+
 static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
 			     GtkTooltip *tooltip, LadderTextView *view)
 {
@@ -295,7 +334,7 @@ static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
 		gtk_text_view_get_line_at_y(GTK_TEXT_VIEW(widget), &at, y, NULL);
 		line = gtk_text_iter_get_line(&at);
 	}
-	text = reasons_of(view, line);
+	text = ladder_text_view_tip(view, line + 1);
 	gtk_tooltip_set_text(tooltip, text);
 	g_free(text);
 	return text != NULL;
@@ -414,6 +453,7 @@ static void ladder_text_view_dispose(GObject *object)
 	if (view->document)
 		g_signal_handlers_disconnect_by_data(view->document, view);
 	g_clear_object(&view->document);
+	g_clear_object(&view->sim);
 	G_OBJECT_CLASS(ladder_text_view_parent_class)->dispose(object);
 }
 

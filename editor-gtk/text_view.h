@@ -8,7 +8,7 @@
 #ifndef EDITOR_TEXT_VIEW_H
 #define EDITOR_TEXT_VIEW_H
 
-#include "editor-gtk/document.h"
+#include "editor-gtk/sim.h"
 
 #include <gtksourceview/gtksource.h>
 
@@ -19,6 +19,12 @@ G_DECLARE_FINAL_TYPE(LadderTextView, ladder_text_view, LADDER, TEXT_VIEW, GtkBox
 GtkWidget *ladder_text_view_new(LadderDocument *document, int pou);
 int ladder_text_view_pou(LadderTextView *view);
 void ladder_text_view_set_pou(LadderTextView *view, int pou);
+/** ladder_text_view_set_sim - whose values the tooltip of a line tells; a reference is
+ * kept. NULL: none. */
+void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim);
+/** ladder_text_view_tip - what the tooltip of line @line, 1-based, of the text that is shown
+ * says: why it is wrong, and values; NULL: nothing. Caller frees. */
+char *ladder_text_view_tip(LadderTextView *view, int line);
 /** ladder_text_view_reasons - what is wrong with line @line, 1-based, of the text that is
  * shown; NULL: nothing. Caller frees. */
 char *ladder_text_view_reasons(LadderTextView *view, int line);

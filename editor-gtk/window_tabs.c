@@ -210,11 +210,13 @@ static AdwTabPage *open_pou(LadderWindow *window, int pou)
 {
 	const struct project *project = ladder_document_project(window->document);
 	const char *name = project_text(project, project->pou[pou].name);
+	GtkWidget *text;
 
 	if (project->pou[pou].language == LANGUAGE_LD)
 		return open_sheet(window, pou, name);
-	return add_page(window, ladder_text_view_new(window->document, pou), name, name,
-			false);
+	text = ladder_text_view_new(window->document, pou);
+	ladder_text_view_set_sim(LADDER_TEXT_VIEW(text), window->sim);
+	return add_page(window, text, name, name, false);
 }
 
 void tabs_show(LadderWindow *window, int pou)

@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/live_map.h"
+#include "editor-gtk/text_view.h"
 #include "tests/editor/screen.h"
 #include "tests/tap.h"
 
@@ -35,7 +36,10 @@ static const char sample[] =
 	"RUNG \"Level\"\n  | [ Level > 500 ] | COIL High |\n"
 	"RUNG \"One\"\n  | NO Start | Latch First |\n"
 	"RUNG \"Other\"\n  | NO Stop | Latch Second |\n"
-	"END_PROGRAM\n";
+	"END_PROGRAM\n"
+	"PROGRAM List IL\nVAR\n  Count : INT;\nEND_VAR\n"
+	"  LD Count (* Level *)\n  ADD 1\n  ST Count\n"
+	"  LD Start\n  ANDN Motor\nEND_PROGRAM\n";
 
 static LadderDocument *document;
 static LadderSim *sim;
@@ -256,6 +260,62 @@ static void test_drawn(void)
 	CHECK_AS(ladder_grid_view_drawn(view) == before, "nothing of what did not change");
 }
 
+static bool tells(LadderTextView *of, int line, const char *want)
+{
+	char *tip = ladder_text_view_tip(of, line);
+	const bool good = g_strcmp0(tip, want) == 0;
+
+	if (!good)
+		printf("# line %d: %s\n", line, tip);
+	g_free(tip);
+	return good;
+}
+
+/* A list tells what the variables of a line hold. */
+static void test_list(void)
+{
+	LadderTextView *list = LADDER_TEXT_VIEW(g_object_ref_sink(
+		ladder_text_view_new(document, 2)));
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(ladder_text_view_buffer(list));
+	char count[32];
+	int line = 0;
+
+	settle();
+	for (int i = 0; i < gtk_text_buffer_get_line_count(buffer); i++) {
+		GtkTextIter at, end;
+		char *text;
+
+		gtk_text_buffer_get_iter_at_line(buffer, &at, i);
+		end = at;
+		gtk_text_iter_forward_to_line_end(&end);
+		text = gtk_text_iter_get_text(&at, &end);
+		line = line == 0 && strstr(text, "Count (*") ? i + 1 : line;
+		g_free(text);
+	}
+	CHECK(line > 0);
+	CHECK_AS(tells(list, line, NULL), "not of a simulation it was not given");
+	ladder_text_view_set_sim(list, sim);
+	g_snprintf(count, sizeof(count), "Count = %d", (int)value_of("List.Count"));
+	CHECK(tells(list, line, count));
+	CHECK(tells(list, line + 1, NULL));
+	ladder_text_view_set_sim(list, NULL);
+	g_object_unref(list);
+}
+
+static void test_menu(void)
+{
+	ladder_grid_view_go(view, 0, 0, 1);
+	gtk_widget_activate_action(GTK_WIDGET(view), "live.on", NULL);
+	CHECK(comes("Stop", 1) && ladder_sim_is_forced(sim, find("Stop")));
+	gtk_widget_activate_action(GTK_WIDGET(view), "live.toggle", NULL);
+	CHECK(comes("Stop", 0) && ladder_sim_is_forced(sim, find("Stop")));
+	gtk_widget_activate_action(GTK_WIDGET(view), "live.force", NULL);
+	scan(1);
+	CHECK(!ladder_sim_is_forced(sim, find("Stop")));
+	gtk_widget_activate_action(GTK_WIDGET(body), "live.instance", "s", "First");
+	CHECK_TEXT(ladder_grid_view_instance(body), "First");
+}
+
 static void test_keys(void)
 {
 	char *keys;
@@ -423,7 +483,7 @@ int main(void)
 	adw_init();
 	document = ladder_document_new();
 	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
-	CHECK(ladder_document_project(document)->pou_count == 2);
+	CHECK(ladder_document_project(document)->pou_count == 3);
 	sim = ladder_sim_new(document);
 	make_window();
 	test_stop();
@@ -431,6 +491,8 @@ int main(void)
 	test_values();
 	test_bodies();
 	test_drawn();
+	test_list();
+	test_menu();
 	test_keys();
 	test_tips();
 	test_fresh();

@@ -141,6 +141,12 @@ def numbers(screen):
     editor.keys('Home', 'shift+F5')  # and it can be edited meanwhile
     editor.opened()
     editor.entry('Stop')
+    # The program with it goes on where the other one was: Start is on, and so is the motor.
+    until(lambda: len([node for node in editor.all('Rung 1, NO', 'table cell')
+                       if 'Stop' in node.name and node.name.endswith('open')]) == 1, 'power in the edited rung')
+    cell(editor, 'Rung 1, COIL', ', on')
+    editor.says('SIMULATION')
+    assert not editor.all('SIMULATION · ')
     editor.shot('live-edited')
     assert open(path).read() == before
 
