@@ -169,7 +169,7 @@ static void test_fault(void)
 	act(ACT_SET, "Spin", 1);
 	ladder_sim_run(sim);
 	UNTIL(ladder_sim_state(sim) == SIM_FAULT);
-	CHECK(told && strstr(told, "budget"));
+	CHECK(told && strstr(told, "budget") && strstr(told, "rung 3"));
 	CHECK(ladder_sim_twin(sim)->resource.fault_at.rung == 3);
 	CHECK_AS(value("Lamp") == 0, "outputs are safe in a fault");
 	ladder_sim_run(sim);

@@ -1,0 +1,152 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""chart - the timing chart: its cursor shows the scan that was, in the rungs, too; why a coil is
+off; a rung is added while the program runs."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+PROGRAM = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Stop AT %IX0.1 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "Motor"
+  | NO Start | NC Stop | COIL Motor |
+  | NO Motor ^|
+END_PROGRAM
+'''
+NAMES = 210  # px of the names at the left of the chart
+
+
+def cell(editor, *parts):
+    """The element whose name has all these parts; waits for it."""
+    def look():
+        found = [node for node in editor.all('Rung ', 'table cell') if all(part in node.name for part in parts)]
+        return found[0] if found else None
+    return until(look, 'the element %s' % ', '.join(parts))
+
+
+def beside(editor, node):
+    """On its wire: the cursor goes there, and nothing else happens."""
+    x, y, _, _ = editor.place(node)
+    return x + 12, y + 46
+
+
+def scans(editor, count):
+    for _ in range(count):
+        editor.keys('ctrl+t')
+
+
+def toggle(editor, *parts):
+    editor.click(beside(editor, cell(editor, *parts)))
+    editor.keys('space')
+
+
+def session(screen, **env):
+    """Five scans with nothing, five with Start, five with Stop: 150 ms. It stands."""
+    editor = Editor(screen, new_file(screen, PROGRAM), **env)
+    editor.to_sheet()
+    scans(editor, 5)
+    editor.says('scan 5')
+    toggle(editor, 'NO', 'Start', 'open')
+    scans(editor, 5)
+    cell(editor, 'COIL', ', on')
+    toggle(editor, 'NC', 'Stop', 'closed')
+    scans(editor, 5)
+    cell(editor, 'COIL', ', off')
+    editor.says('scan 15')
+    return editor
+
+
+def rewind(screen):
+    """the cursor of the chart is the scan that the rungs show; keys step it; End comes back"""
+    editor = session(screen)
+    editor.press(editor.find('Timing chart', 'toggle button') if editor.all('Timing chart', 'toggle button')
+                 else editor.find('Timing chart'))
+    chart = editor.find('Timing chart, cursor')
+    editor.click(editor.find('All that is kept'))
+    x, y, width, _ = editor.place(chart)
+    at = lambda scan: (x + NAMES + (width - NAMES) * scan * 10 // 150 + 3, y + 20)
+    editor.drag(at(3), at(7), look='chart-past')
+    editor.says('PAST · scan 7')
+    cell(editor, 'COIL', ', on')
+    editor.keys('Left', 'Left')
+    editor.says('PAST · scan 5')
+    cell(editor, 'COIL', ', off')
+    editor.keys('Right', 'Right', 'Right', 'Right', 'Right', 'Right')
+    editor.says('PAST · scan 11')
+    cell(editor, 'NC', 'Stop', 'open')
+    editor.keys('Escape')
+    editor.says('SIMULATION · PAUSE')
+    editor.keys('alt+Left', 'alt+Left')
+    editor.says('PAST · scan 13')
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    until(lambda: not editor.all('PAST'), 'the newest scan')
+
+
+def why(screen):
+    """why a coil is off is told, of this scan and of one that was"""
+    editor = session(screen)
+    editor.click(beside(editor, cell(editor, 'COIL', 'Motor')))
+    editor.keys('ctrl+F12')
+    editor.says('No power: Stop is TRUE')
+    editor.shot('chart-why')
+    editor.keys(*['alt+Left'] * 11)
+    editor.says('PAST · scan 4')
+    until(lambda: editor.all('No power: Start is FALSE') or editor.all('No power: Motor is FALSE'), 'another reason')
+    editor.keys(*['alt+Right'] * 4)
+    editor.says('It has power: ')
+    editor.keys('ctrl+F12')
+    until(lambda: not editor.all('It has power'), 'no answer')
+
+
+def edit(screen):
+    """a rung is added while it runs, and runs with the values that were"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    toggle(editor, 'NO', 'Start', 'open')
+    cell(editor, 'COIL', 'Motor', ', on')
+    editor.keys('Insert')
+    editor.entry('Motor')
+    editor.entry('OUT Lamp')
+    cell(editor, 'Rung 2, COIL', 'Lamp', ', on')
+    cell(editor, 'Rung 1, COIL', 'Motor', ', on')
+    editor.says('SIMULATION')
+    editor.save(path)
+    editor.keys('ctrl+m')
+    editor.says('EDIT')
+    check(path)
+
+
+def faults(screen):
+    """a program with errors does not start, and the first is shown; an endless loop is a fault with its place"""
+    path = new_file(screen, PROGRAM.replace('NO Start', 'NO Nobody'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    editor.says('Nobody')
+    assert not editor.all('SIMULATION'), 'it runs'
+    editor.finish()
+    path = new_file(screen, PROGRAM.replace('END_PROGRAM', 'RUNG Again\n  | NO Start | JMP Again |\nEND_PROGRAM'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    toggle(editor, 'Rung 1, NO', 'Start', 'open')
+    editor.says('SIMULATION · FAULT')
+    editor.says('instruction budget of the scan exceeded: Main, rung 2 (1,')
+    editor.says('Rung 2')
+    editor.shot('chart-fault')
+    cell(editor, 'COIL', 'Motor', ', off')
+
+
+main([rewind, why, edit, faults])
