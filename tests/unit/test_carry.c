@@ -137,7 +137,7 @@ static void fill(struct rig *rig)
 	set_text(rig, "Text", "hello");
 	set_text(rig, "Long", "longer");
 	for (int i = 1; i <= 4; i++) {
-		char name[16];
+		char name[24];
 
 		snprintf(name, sizeof(name), "List[%d]", i);
 		rig_set(rig, name, 100 + i);
