@@ -389,7 +389,11 @@ class Editor:
         """Ctrl+S, and waits until the file is another."""
         before = open(path).read() if os.path.exists(path) else None
         self.keys('ctrl+s')
-        until(lambda: os.path.exists(path) and open(path).read() != before, 'the file to be saved')
+
+        def look():
+            self.alive()
+            return os.path.exists(path) and open(path).read() != before
+        until(look, 'the file to be saved')
         return open(path).read()
 
     def front(self):
