@@ -99,9 +99,8 @@ static void ladder_grid_view_measure(GtkWidget *widget, GtkOrientation orientati
 
 	(void)for_size;
 	*least = 100;
-	*natural = 400;
-	if (orientation == GTK_ORIENTATION_HORIZONTAL)
-		*natural = view->natural = (int)(strips_width(view) * view->zoom);
+	*natural = orientation == GTK_ORIENTATION_HORIZONTAL ?
+		   (int)(strips_width(view) * view->zoom) : 400;
 	*least_base = *natural_base = -1;
 }
 

@@ -71,7 +71,6 @@ struct _LadderGridView {
 	GArray *strips;             /* of struct strip                         */
 	int columns;                /* of the sheet                            */
 	float rail;                 /* distance of the rails                   */
-	int natural;                /* px: the width that was told last        */
 	struct drafting drafting;
 	struct grid_names *names;
 	struct lettering *lettering;

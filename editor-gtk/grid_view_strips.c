@@ -97,15 +97,6 @@ static void share_columns(LadderGridView *view)
 	view->drafting.columns = columns;
 }
 
-/* Only what is wider than before concerns the window round it. */
-static void strips_allocate(LadderGridView *view)
-{
-	if ((int)(strips_width(view) * view->zoom) != view->natural)
-		gtk_widget_queue_resize(GTK_WIDGET(view));
-	else
-		gtk_widget_queue_allocate(GTK_WIDGET(view));
-}
-
 /* While the window is allocated or drawn nobody may ask for another size. */
 static gboolean resize_now(gpointer data)
 {
@@ -113,7 +104,7 @@ static gboolean resize_now(gpointer data)
 
 	view->resize = 0;
 	cells_later(view);
-	strips_allocate(view);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
 	return G_SOURCE_REMOVE;
 }
 
@@ -202,7 +193,7 @@ void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 			guess(view, (int)i);
 	stack(view, at);
 	lay_out_later(view);
-	strips_allocate(view);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
@@ -232,7 +223,7 @@ void strips_renamed(LadderGridView *view, const char *name, const char *address)
 			guess(view, i);
 	stack(view, 0);
 	lay_out_later(view);
-	strips_allocate(view);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
@@ -247,7 +238,7 @@ void strips_dirty(LadderGridView *view, int rung)
 	guess(view, rung);
 	stack(view, rung);
 	lay_out_later(view);
-	strips_allocate(view);
+	gtk_widget_queue_resize(GTK_WIDGET(view));
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
