@@ -9,6 +9,8 @@
 
 #include <string.h>
 
+#define LOOKS 20 /* a slider waits for its value so long                     */
+
 G_DEFINE_FINAL_TYPE(LadderSimRowView, ladder_sim_row_view, GTK_TYPE_WIDGET)
 
 LadderSimRow *ladder_sim_row_view_row(LadderSimRowView *view)
@@ -108,6 +110,15 @@ static void show_preset(LadderSimRowView *view)
 	g_free(at);
 }
 
+/* A slider that is moved is ahead of what is shown: it is not pulled back. */
+static void show_slider(LadderSimRowView *view, double number)
+{
+	if (view->waiting && number != view->sent)
+		return;
+	view->waiting = 0;
+	gtk_range_set_value(GTK_RANGE(view->scale), number);
+}
+
 static void show_value(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
@@ -120,7 +131,7 @@ static void show_value(LadderSimRowView *view)
 	if (row->kind == SIM_LEVEL)
 		show_fraction(view, number - row->low, row->high - row->low);
 	if (row->kind == SIM_SLIDER)
-		gtk_range_set_value(GTK_RANGE(view->scale), number);
+		show_slider(view, number);
 }
 
 static bool is_other_text(LadderSimRowView *view, const struct iec_string *text)
@@ -167,7 +178,8 @@ void ladder_sim_row_view_update(LadderSimRowView *view)
 
 	if (!view->row || view->row->kind == SIM_HEADING || !ladder_sim_twin(view->sim))
 		return;
-	other = take_values(view) || !view->known;
+	other = take_values(view) || !view->known ||
+		(view->waiting && --view->waiting == 0);
 	forced = sim_row_is_forced(view->row, view->sim);
 	view->telling = true;
 	if (forced != view->forced || !view->known)
@@ -270,6 +282,7 @@ void ladder_sim_row_view_bind(LadderSimRowView *view, LadderSimRow *row)
 	sim_view_end_edit(view);
 	g_set_object(&view->row, row);
 	view->known = view->forced = false;
+	view->waiting = 0;
 	if (view->text)
 		g_string_truncate(view->text, 0);
 	gtk_widget_set_visible(view->heading, heading);
@@ -391,7 +404,10 @@ static void slid(GtkRange *range, LadderSimRowView *view)
 	if (iec_type_row(view->row->at.type)->class == CLASS_REAL)
 		value.r = number;
 	else
-		value.i = (gint64)CLAMP(number, -9e18, 9e18);
+		value.i = (gint64)round(CLAMP(number, -9e18, 9e18));
+	view->sent = iec_type_row(view->row->at.type)->class == CLASS_REAL ? number :
+		     round(number);
+	view->waiting = LOOKS;
 	sim_row_set(view->row, view->sim, view->row->at, value);
 }
 
@@ -484,6 +500,7 @@ static void add_line(LadderSimRowView *view)
 	view->address = add_label(view->line, "sim-address", false);
 	view->name = add_label(view->line, "sim-name", true);
 	view->tag = add_label(view->line, "sim-tag", false);
+	gtk_widget_set_valign(view->tag, GTK_ALIGN_CENTER);
 	view->badge = add_label(view->line, "sim-forced", false);
 	gtk_label_set_text(GTK_LABEL(view->badge), "F");
 	gtk_widget_set_tooltip_text(view->badge, _("Forced"));

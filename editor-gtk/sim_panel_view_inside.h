@@ -20,6 +20,8 @@ struct _LadderSimRowView {
 	union iec_value last[3]; /* value, preset, done                         */
 	GString *text;           /* of a STRING; NULL: none yet                 */
 	bool telling;            /* a change of a widget is no person's         */
+	double sent;             /* by the slider                               */
+	int waiting;             /* so many looks more until that must be shown */
 	GtkWidget *heading, *arrow, *title;
 	GtkWidget *line, *lamp, *address, *name, *tag, *badge, *value, *toggle, *push;
 	GtkWidget *entry;        /* NULL: none yet                              */

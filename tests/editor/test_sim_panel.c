@@ -345,6 +345,73 @@ static void test_edit(void)
 	g_free(why);
 }
 
+/* The tank: its plant gives level and float, and has a level of its own. */
+static void test_plant(void)
+{
+	char *text, *all;
+	gsize len;
+
+	ladder_sim_end(sim);
+	CHECK(g_file_get_contents("ladders/tank-level.rung", &text, &len, NULL));
+	ladder_document_open_text(document, "ladders/tank-level.rung", text, len, true);
+	CHECK(ladder_sim_set_plant(sim, "ladders/tank-level.plant.rung", NULL));
+	CHECK(ladder_sim_begin(sim, NULL));
+	ladder_sim_reset(sim, false);
+	CHECK_SOON(row_of("Raw") && row_of("OverfillOk"));
+	CHECK(row_of("Raw")->driven && row_of("OverfillOk")->driven);
+	CHECK(!row_of("Auto")->driven && !row_of("PumpOk")->driven);
+	all = lines();
+	CHECK_AS(strstr(all, "[Plant] Level "), all);
+	g_free(all);
+	ladder_sim_scan(sim, 2);
+	CHECK_SOON(shows("Raw", "14080") && shows("OverfillOk", "1"));
+	sim_row_press(row_of("OverfillOk"), sim);
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(ladder_sim_twin(sim)->scan == 3);
+	CHECK_AS(shows("OverfillOk", "1"), "the plant gives it");
+	act_on("OverfillOk", "sim-panel.force-off");
+	CHECK_SOON(shows("OverfillOk", "0"));
+	picture("plant");
+	g_free(text);
+}
+
+/* A thousand lines that all change with each scan: what a look at them takes. */
+static void test_many(void)
+{
+	GString *text = g_string_new("RUNGBOARD 1\nVAR\n");
+	gint64 from, took = G_MAXINT64;
+
+	for (int i = 0; i < 1000; i++)
+		g_string_append_printf(text, "  N%d : INT;\n", i);
+	g_string_append(text, "END_VAR\nPROGRAM Main LD\n");
+	for (int i = 0; i < 1000; i++)
+		g_string_append_printf(text, "RUNG\n  | [ N%d := N%d + 1 ] |\n", i, i);
+	g_string_append(text, "END_PROGRAM\n");
+	ladder_sim_end(sim);
+	ladder_sim_set_plant(sim, NULL, NULL);
+	ladder_document_open_text(document, "/tmp/x/many.rung", text->str, text->len, true);
+	from = g_get_monotonic_time();
+	CHECK(ladder_sim_begin(sim, NULL));
+	ladder_sim_reset(sim, false);
+	CHECK_SOON(row_of("N999"));
+	printf("# begun in %d ms\n", (int)(g_get_monotonic_time() - from) / 1000);
+	for (int i = 1; i <= 20; i++) {
+		g_signal_handlers_block_matched(sim, G_SIGNAL_MATCH_DATA, 0, 0, NULL, NULL,
+						panel);
+		ladder_sim_scan(sim, 1);
+		WAIT(ladder_sim_twin(sim)->scan == (guint64)i);
+		g_signal_handlers_unblock_matched(sim, G_SIGNAL_MATCH_DATA, 0, 0, NULL, NULL,
+						  panel);
+		from = g_get_monotonic_time();
+		g_signal_emit_by_name(sim, "shown");
+		took = MIN(took, g_get_monotonic_time() - from);
+	}
+	CHECK(shows("N5", "20"));
+	printf("# a look: %d us\n", (int)took);
+	CHECK_AS(took < 20000, "a look at 1,000 lines takes less than a frame");
+	g_string_free(text, TRUE);
+}
+
 static void test_end(void)
 {
 	ladder_sim_end(sim);
@@ -390,6 +457,8 @@ int main(int argc, char **argv)
 	test_choices();
 	test_found();
 	test_edit();
+	test_plant();
+	test_many();
 	test_end();
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);
