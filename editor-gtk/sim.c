@@ -54,40 +54,6 @@ static void forget_replay(LadderSim *sim)
 	sim->past = false;
 }
 
-/* "Main, rung 2 (1,3)". Caller frees. */
-static char *place_text(const struct fault_place *at)
-{
-	if (at->rung)
-		return g_strdup_printf(_("%s, rung %u (%u,%u)"), at->pou, at->rung, at->row,
-				       at->col);
-	if (at->line)
-		return g_strdup_printf(_("%s, line %u"), at->pou, at->line);
-	return g_strdup(at->pou);
-}
-
-static char *fault_words(const struct resource *resource)
-{
-	char *place = place_text(&resource->fault_at), *text;
-
-	if (resource->fault_at.task)
-		text = g_strdup_printf(_("task %s: %s: %s"), resource->fault_at.task,
-				       said(fault_text(resource->fault)), place);
-	else
-		text = g_strdup_printf("%s: %s", said(fault_text(resource->fault)), place);
-	g_free(place);
-	return text;
-}
-
-static char *halt_words(const struct resource *resource)
-{
-	char *place = place_text(&resource->halt_at);
-	char *text = g_strdup_printf(_("STOP, outputs are off: the program says so: %s"),
-				     place);
-
-	g_free(place);
-	return text;
-}
-
 static void tell_fault(LadderSim *sim)
 {
 	const struct resource *resource = &sim->view.twin.resource;
@@ -96,7 +62,8 @@ static void tell_fault(LadderSim *sim)
 	if (sim->told == ladder_sim_state(sim) ||
 	    (resource->state != STATE_FAULT && !resource->halted))
 		return;
-	text = resource->state == STATE_FAULT ? fault_words(resource) : halt_words(resource);
+	text = resource->state == STATE_FAULT ?
+		sim_fault_words(resource) : sim_halt_words(resource);
 	tell(sim, text, true);
 	g_free(text);
 }

@@ -73,4 +73,11 @@ void sim_rungs_free(struct sim_rungs *rungs);
 void sim_rungs_same(struct sim_rungs *rungs);
 int sim_rungs_find(const struct sim_rungs *rungs, int pou, int rung);
 
+/* ---- sim_words.c ---- */
+
+/** sim_fault_words - "instruction budget exceeded: Main, rung 2 (1,3)". Caller frees. */
+char *sim_fault_words(const struct resource *resource);
+/** sim_halt_words - that the program asked for STOP, and where. Caller frees. */
+char *sim_halt_words(const struct resource *resource);
+
 #endif
