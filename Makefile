@@ -300,7 +300,12 @@ all: $(if $(EDITOR),$(BUILD)/schemas/gschemas.compiled)
 screenshots: $(BUILD)/ladder-editor $(BUILD)/schemas/gschemas.compiled ## docs/editor.png anew: the window with the garage door
 	BUILD=$(BUILD) tests/editor/screenshot.py docs/editor.png
 .PHONY: screenshots
-editor-tests: $(EDITOR_TESTS) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
+# The editor over the fake chips of the HAL's tests, for what it finds on a machine.
+EDITOR_FAKE := $(HAL_TEST)/editor_v2
+$(EDITOR_FAKE): $(BUILD)/editor-gtk/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_FAKE,v2,gpiod_v2) $(BUILD)/libeditor.a $(BUILD)/libladder.a
+	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64 -o $@ $(filter %.o,$^) \
+	  -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
+editor-tests: $(EDITOR_TESTS) $(EDITOR_FAKE) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
 	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
 $(BUILD)/tests/bench/editor.o: CPPFLAGS += $(EDITOR_CPP)
 $(BUILD)/tests/bench/editor: $(BUILD)/tests/bench/editor.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
@@ -465,7 +470,7 @@ ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
 TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
-BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
+BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS) $(EDITOR_FAKE)
 
 tests: all man $(BUILT) $(HAL_DAEMONS)
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
@@ -476,7 +481,7 @@ asan: ## the same with address and undefined-behaviour sanitizers, in build/asan
 # is in tests/editor/leaks.supp.
 asan-editor: ## the editor and its tests with sanitizers, and runs them: in process, and as a person
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' CPPFLAGS='$(CPPFLAGS)' asan-editor-run
-asan-editor-run: $(EDITOR_TESTS) all
+asan-editor-run: $(EDITOR_TESTS) $(EDITOR_FAKE) all
 	BUILD=$(BUILD) G_SLICE=always-malloc ASAN_OPTIONS=fast_unwind_on_malloc=0 \
 	  LSAN_OPTIONS=suppressions=tests/editor/leaks.supp:print_suppressions=0 \
 	  prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)

@@ -236,8 +236,10 @@ static void ladder_board_run_dispose(GObject *object)
 	if (run->cancel)
 		g_cancellable_cancel(run->cancel);
 	g_clear_object(&run->cancel);
-	if (run->child) /* nobody would look after it */
+	if (run->child) { /* nobody would look after it */
 		g_subprocess_send_signal(run->child, SIGTERM);
+		g_output_stream_close(g_subprocess_get_stdin_pipe(run->child), NULL, NULL);
+	}
 	g_clear_object(&run->child);
 	G_OBJECT_CLASS(ladder_board_run_parent_class)->dispose(object);
 }

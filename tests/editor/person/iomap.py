@@ -1,13 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """iomap - a person edits an I/O map as a table, and runs a program with it on this machine."""
+import gettext
 import os
 import shutil
 import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import ROOT, Editor, main, until  # noqa: E402
+import desk  # noqa: E402
+from desk import BUILD, ROOT, Editor, main, until  # noqa: E402
 
 MAP = '''BOARD "Garage"
 # Inputs: a contact to ground.
@@ -241,4 +243,75 @@ def killed(screen):
     until(lambda: is_gone(pid), 'ladderd to end')
 
 
-main([table, choices, as_text, new_map, run_board, close_board, killed])
+FAKE = os.path.join(BUILD, 'tests', 'hal', 'editor_v2')
+LINES = '''BOARD "Panel"
+%IX0.0  gpio  line=IN0
+%IX0.1  gpio  line=NOWHERE
+%IX0.2  gpio  chip=panel offset=0
+%IX0.3  gpio  chip=rest offset=0
+%QX0.0  gpio  line=OUT0  safe=0
+'''
+
+
+def row_says(editor, name, text):
+    until(lambda: [node for node in editor.all(name) if text in node.name], '%s to say "%s"' % (name, text))
+
+
+def lines_here(screen):
+    """lines of this machine (fake chips): offered, named, and marked if they cannot be had; no ladderd"""
+    if not os.path.exists(FAKE):
+        return
+    dev = os.path.join(screen.home, 'dev')
+    os.mkdir(dev)
+    for chip in ('gpiochip0', 'gpiochip1'):
+        open(os.path.join(dev, chip), 'w').close()
+    desk.EDITOR = FAKE
+    path, io = garage(screen, LINES)
+    editor = Editor(screen, path, FAKE_DEV=dev, PATH='')
+    open_map(editor)
+    for name, text in (('%IX0.0', 'gpiochip0 0'), ('%IX0.1', 'no such line on this machine: NOWHERE'),
+                       ('%IX0.2', 'line stands twice in the map: %IX0.0'),
+                       ('%IX0.3', 'line is in use by another owner'), ('%QX0.0', 'gpiochip0 2')):
+        row_says(editor, name + ', gpio', text)
+    editor.click(cell(editor, '%IX0.1, I/O line'))
+    editor.keys('alt+Down')
+    editor.find('IN1 gpiochip0 (panel) 1, free', 'list item')
+    editor.find('rest 0 gpiochip1 (rest) 0, in use', 'list item')
+    editor.shot('iomap-lines')
+    editor.keys('Down', 'Return')
+    shows(editor, '%IX0.1, I/O line', 'IN1')
+    row_says(editor, '%IX0.1, gpio', 'gpiochip0 1')
+    editor.keys('ctrl+s')
+    saved(io, LINES.replace('line=NOWHERE', 'line=IN1'))
+    editor.click(editor.find('Run on this machine', 'push button'))
+    editor.find('It reads 4 pins and drives 1.')
+    editor.press(editor.find('Run', 'push button'))
+    editor.says('ladderd, which runs programs on pins, was not found')
+
+
+class Chinese(Editor):
+    """The same, where what is looked for is said in Chinese."""
+    said = None
+
+    def all(self, name=None, *more, **named):
+        self.said = self.said or gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
+        return super().all(name and self.said.gettext(name), *more, **named)
+
+
+def in_chinese(screen):
+    """the table and the board page in Chinese, dark, 1024 x 700"""
+    path, io = garage(screen)
+    with open(io, 'w') as file:
+        file.write(SIM)
+    editor = Chinese(screen, path, LANGUAGE='zh_CN', ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+    open_map(editor)
+    editor.click(editor.find('在本机运行', 'push button'))
+    until(lambda: editor.all('RUN', 'label'), 'that it runs')
+    editor.find('扫描次数', 'label')
+    until(lambda: editor.all('，最长 ', 'label'), 'the times of scans')
+    editor.shot('iomap-chinese')
+    assert editor.find('停止', 'push button')
+
+
+in_chinese.size = '1024x700x24'
+main([table, choices, as_text, new_map, run_board, close_board, killed, lines_here, in_chinese])
