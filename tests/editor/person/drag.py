@@ -77,6 +77,14 @@ def branch(screen):
     until(lambda: not any('Rung 1' in name and 'Lamp' in name for name in editor.cells()), 'the branch to go')
 
 
+def saved(editor, path, good):
+    """Saves until the file is so; the drag may still be on its way."""
+    def look():
+        editor.keys('ctrl+s')
+        return good(rung_lines(path))
+    until(look, 'the file to be so')
+
+
 def wires(screen):
     """wires are drawn and erased by dragging alone: down, across, round; Esc gives up"""
     path = new_file(screen, PROJECT)
@@ -85,20 +93,17 @@ def wires(screen):
     wire = 36 + 46  # below a title
     # From the end of Start down into a row that was not there, then to the right.
     editor.drag(editor.wire_end(wire, 1, -8), editor.wire_end(wire + 84, 3, 4), look='wire-down')
-    until(lambda: '^' in editor.save(path), 'the link')
+    saved(editor, path, lambda rows: '^' in ''.join(rows))
     assert plain(''.join(rung_lines(path)[1:3])) == '|NOStart|NCStop|---|COILMotor||^|---|---|', rung_lines(path)
     # Up to the wire: a second way round Stop.
     editor.drag(editor.wire_end(wire + 84, 3, -6), editor.wire_end(wire, 3, 5), look='wire-up')
-    editor.save(path)
-    assert plain(rung_lines(path)[2]).endswith('---^|'), rung_lines(path)
+    saved(editor, path, lambda rows: plain(rows[2]).endswith('---^|'))
     editor.says('short circuit')
     # Ctrl erases: first what leads up, then the rest of it.
     editor.drag(editor.wire_end(wire, 3, 5), editor.wire_end(wire + 84, 3, 5), key='ctrl', look='wire-erase')
-    editor.save(path)
-    assert not rung_lines(path)[2].endswith('^|'), rung_lines(path)
+    saved(editor, path, lambda rows: not rows[2].endswith('^|'))
     editor.drag(editor.wire_end(wire + 84, 3, -6), editor.wire_end(wire, 1, 5), key='ctrl')
-    editor.save(path)
-    assert len([line for line in rung_lines(path) if '^' in line]) == 0, rung_lines(path)
+    saved(editor, path, lambda rows: '^' not in ''.join(rows))
     assert rung_lines(path)[2] == 'RUNG "two"', rung_lines(path)
     check(path)
 
