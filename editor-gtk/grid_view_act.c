@@ -360,7 +360,7 @@ static void menu_do(GSimpleAction *action, GVariant *parameter, gpointer data)
 	const struct live_cell *cell = cell_here(view);
 	const char *text = parameter ? g_variant_get_string(parameter, NULL) : NULL;
 
-	if (!live_is_on(view))
+	if (!live_is_on(view) || !view->live.map)
 		return;
 	if (g_str_equal(name, "instance")) {
 		ladder_grid_view_set_instance(view, text);
