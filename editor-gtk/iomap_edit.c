@@ -9,6 +9,7 @@
 #include "engine/base/lex.h"
 #include "engine/base/limits.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -306,11 +307,8 @@ static void set_place(struct draft *draft, const struct io_row *row, const char 
 		target++;
 	if (!row->word[target].len)
 		target = IO_WORD_LINE;
-	strcpy(whole, first);
-	if (*second && !both) {
-		strcat(whole, " ");
-		strcat(whole, second);
-	}
+	snprintf(whole, sizeof(whole), "%s%s%s", first, *second && !both ? " " : "",
+		 both ? "" : second);
 	for (int i = 0; i < 3; i++)
 		for (int k = 0; k < 2; k++)
 			if (row->word[order[k]].at < row->word[order[k + 1]].at) {
@@ -404,10 +402,8 @@ static enum io_refusal set_option(struct draft *draft, const struct io_row *row,
 		return IO_BAD_NAME;
 	if (!*value && (field == IO_ADDRESS || field == IO_DRIVER))
 		return IO_NO_WORD;
-	if (*value) {
-		strcpy(word, option[field].before);
-		strcat(word, value);
-	}
+	if (*value)
+		snprintf(word, sizeof(word), "%s%s", option[field].before, value);
 	if (*word && !is_one_word(word))
 		return IO_MANY_WORDS;
 	set_word(draft, row, option[field].kind, word);
@@ -454,9 +450,13 @@ static enum io_refusal put(struct io_edit *edit, size_t at, size_t removed,
 	*edit = (struct io_edit){ at, removed, malloc(len) };
 	if (!edit->with)
 		return IO_MEMORY;
-	edit->with[0] = '\0';
-	for (int i = 0; i < count; i++)
-		strcat(edit->with, part[i]);
+	len = 0;
+	for (int i = 0; i < count; i++) {
+		const size_t more = strlen(part[i]);
+
+		memcpy(edit->with + len, part[i], more + 1);
+		len += more;
+	}
 	return IO_GOOD;
 }
 

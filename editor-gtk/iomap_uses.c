@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define NAME_ROOM (2 * LIMIT_NAME + 16) /* Program.Name                         */
+
 static const char *keep(struct io_uses *uses, const char *text)
 {
 	const char *kept = arena_copy(&uses->arena, text, strlen(text));
@@ -33,7 +35,7 @@ static void push_array(struct io_uses *uses, const struct project *project,
 {
 	const char *comment = keep(uses, project_text(project, var->comment));
 	struct areas areas;
-	char text[LIMIT_NAME + 32];
+	char text[NAME_ROOM + 32];
 
 	project_areas(project, &areas);
 	for (uint32_t i = 0; i < var->array.count; i++) {
@@ -53,7 +55,7 @@ static void take(struct io_uses *uses, struct xref *xref, const struct xref_use 
 {
 	const struct iec_addr addr = use->target.addr;
 	const struct var *var = xref_var(xref->project, &use->target);
-	char name[2 * LIMIT_NAME + 16];
+	char name[NAME_ROOM];
 
 	if ((addr.area != AREA_I && addr.area != AREA_Q) || addr.bits != 1)
 		return;
