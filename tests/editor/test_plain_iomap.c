@@ -21,16 +21,14 @@ static const char sample[] =
 /* The text with an edit in it; "(why)" if it was refused. Caller: free(). */
 static char *edited(const char *text, enum io_refusal why, struct io_edit *edit)
 {
-	const size_t len = strlen(text);
-	char *out = malloc(len + (edit->with ? strlen(edit->with) : 0) + 16);
+	const size_t room = strlen(text) + (edit->with ? strlen(edit->with) : 0) + 16;
+	char *out = malloc(room);
 
-	if (why != IO_GOOD) {
-		sprintf(out, "(%d)", (int)why);
-		return out;
-	}
-	memcpy(out, text, edit->at);
-	strcpy(out + edit->at, edit->with);
-	strcat(out, text + edit->at + edit->removed);
+	if (why == IO_GOOD)
+		snprintf(out, room, "%.*s%s%s", (int)edit->at, text, edit->with,
+			 text + edit->at + edit->removed);
+	else
+		snprintf(out, room, "(%d)", (int)why);
 	free(edit->with);
 	return out;
 }
@@ -207,10 +205,12 @@ static void storm(void)
 	for (int round = 0; round < 20000; round++) {
 		char text[256] = "";
 		struct io_text io;
+		size_t used = 0;
 
 		for (int i = 0; i < 14; i++) {
 			seed = seed * 1103515245u + 12345u;
-			strcat(text, piece[(seed >> 16) % (sizeof(piece) / sizeof(*piece))]);
+			used += (size_t)snprintf(text + used, sizeof(text) - used, "%s",
+				piece[(seed >> 16) % (sizeof(piece) / sizeof(*piece))]);
 		}
 		io_text_read(&io, text, strlen(text));
 		for (int i = 0; i < io.count; i++)
