@@ -18,12 +18,15 @@ static void set_pill(LadderWindow *window, const char *text, const char *class)
 {
 	static const char *const classes[] = { "run", "still", "past", "fault" };
 
+	/* A label that is told the same again is drawn again. */
+	if (g_strcmp0(gtk_label_get_text(window->pill), text) == 0 &&
+	    (!class || gtk_widget_has_css_class(GTK_WIDGET(window->pill), class)))
+		return;
 	for (gsize i = 0; i < G_N_ELEMENTS(classes); i++)
 		gtk_widget_remove_css_class(GTK_WIDGET(window->pill), classes[i]);
 	if (class)
 		gtk_widget_add_css_class(GTK_WIDGET(window->pill), class);
-	if (g_strcmp0(gtk_label_get_text(window->pill), text) != 0)
-		gtk_label_set_text(window->pill, text);
+	gtk_label_set_text(window->pill, text);
 }
 
 void window_show_pill(LadderWindow *window)
@@ -73,11 +76,10 @@ static void show_forces(LadderWindow *window)
 	char *text = g_strdup_printf(ngettext("%d force", "%d forces",
 					      (unsigned long)forces), forces);
 
-	gtk_widget_set_visible(GTK_WIDGET(window->forces_button), forces > 0);
-	if (g_strcmp0(gtk_button_get_label(window->forces_button), text) != 0)
+	if (g_strcmp0(gtk_button_get_label(window->forces_button), text) != 0) {
+		gtk_widget_set_visible(GTK_WIDGET(window->forces_button), forces > 0);
 		gtk_button_set_label(window->forces_button, text);
-	gtk_widget_set_tooltip_text(GTK_WIDGET(window->forces_button),
-				    _("Release all forces"));
+	}
 	g_free(text);
 }
 
@@ -258,6 +260,8 @@ void window_sim_init(LadderWindow *window)
 	gtk_widget_set_vexpand(panel, TRUE);
 	gtk_box_append(window->right, panel);
 	window_why_init(window);
+	gtk_widget_set_tooltip_text(GTK_WIDGET(window->forces_button),
+				    _("Release all forces"));
 	gtk_menu_button_set_popover(window->pace_button, sim_pace_new(sim));
 	g_signal_connect_object(sim, "state-changed", G_CALLBACK(state_changed), window,
 				G_CONNECT_SWAPPED);
