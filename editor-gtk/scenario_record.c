@@ -24,6 +24,7 @@ struct _LadderRecorder {
 	bool gone;           /* the program that it was of                     */
 	guint64 taken;       /* acts after scans before this one are taken      */
 	guint64 last;        /* scan of the recording                          */
+	char *plant;         /* its file, as the scenario names it; NULL: none  */
 	char *why;           /* what cannot be said, while acts are taken       */
 };
 
@@ -123,7 +124,23 @@ static void forget(LadderRecorder *recorder)
 {
 	g_clear_pointer(&recorder->session, session_free);
 	g_clear_pointer(&recorder->why, g_free);
+	g_clear_pointer(&recorder->plant, g_free);
 	recorder->taken = recorder->last = 0;
+}
+
+/* As a scenario names it: a file beside the program by its name alone. */
+static char *plant_name(LadderRecorder *recorder)
+{
+	const char *plant = ladder_sim_plant(recorder->sim);
+	const char *path = ladder_document_path(ladder_sim_document(recorder->sim));
+	char *folder = plant ? g_path_get_dirname(plant) : NULL;
+	char *here = path ? g_path_get_dirname(path) : NULL, *name;
+
+	name = !plant ? NULL : g_strcmp0(folder, here) == 0 ? g_path_get_basename(plant) :
+	       g_strdup(plant);
+	g_free(folder);
+	g_free(here);
+	return name;
 }
 
 bool ladder_recorder_begin(LadderRecorder *recorder, GError **error)
@@ -143,6 +160,8 @@ bool ladder_recorder_begin(LadderRecorder *recorder, GError **error)
 	recorder->session = session_new(&twin->resource.image, twin->period_ns);
 	if (!recorder->session)
 		g_error("out of memory");
+	recorder->plant = plant_name(recorder);
+	session_plant(recorder->session, recorder->plant);
 	recorder->on = true;
 	recorder->gone = false;
 	if (paused)

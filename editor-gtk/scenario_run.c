@@ -10,6 +10,7 @@
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/sim_inside.h"
 
+#include "engine/base/limits.h"
 #include "engine/trial/scenario.h"
 
 #include <string.h>
@@ -21,6 +22,7 @@ void scenario_result_free(struct scenario_result *result)
 	g_free(result->path);
 	g_free(result->name);
 	g_free(result->why);
+	g_free(result->plant);
 	g_clear_pointer(&result->acts, g_array_unref);
 	g_free(result);
 }
@@ -45,7 +47,10 @@ struct running {
 	struct job *job;
 	struct sim_program *program;
 	struct scenario_file *file;
-	const char *path;
+	const char *path, *text; /* of the scenario file that is run            */
+	gsize len;
+	char *plant_path;
+	struct sim_program *plant; /* that it names; NULL: none                */
 	GPtrArray *results;
 };
 
@@ -122,17 +127,31 @@ static void keep_act(void *context, uint64_t after, const struct act *act)
 /* What led to the failure, to be done again where it can be seen. */
 static void keep_way(struct running *running, int index, struct scenario_result *result)
 {
+	const bool plant = running->file->scenario[index].with_plant && running->plant;
+	struct diag_list *diags = g_new0(struct diag_list, 1);
 	struct twin *twin = g_new0(struct twin, 1);
+	struct scenario_file file;
+	struct arena arena;
 
+	diag_init(diags);
+	arena_init(&arena);
+	result->plant = plant ? g_strdup(running->plant_path) : NULL;
 	result->acts = g_array_new(FALSE, FALSE, sizeof(struct sim_played));
-	if (twin_init(twin, running->program->program, NULL, result->period_ns))
-		scenario_each_act(running->file, index, twin, result->scan, keep_act,
+	if (twin_init(twin, running->program->program,
+		      plant ? running->plant->program : NULL, result->period_ns) &&
+	    scenario_read_with(running->file->file, running->text, running->len,
+			       &twin->resource.image, plant ? &twin->plant.image : NULL,
+			       &arena, &file, diags))
+		scenario_each_act(&file, index, twin, result->scan, keep_act,
 				  result->acts);
 	twin_free(twin);
+	arena_free(&arena);
 	g_free(twin);
+	g_free(diags);
 }
 
-static void run_one(struct running *running, int index, struct resource *resource)
+static void run_one(struct running *running, int index, struct resource *resource,
+		    struct plant *plant)
 {
 	const struct scenario *scenario = &running->file->scenario[index];
 	struct scenario_result *result;
@@ -142,7 +161,7 @@ static void run_one(struct running *running, int index, struct resource *resourc
 
 	sink_memory_init(&report);
 	out = sink_to_memory(&report);
-	held = scenario_run(running->file, index, resource, &out);
+	held = scenario_run_with(running->file, index, resource, plant, &out);
 	result = add(running->results, held ? SCENARIO_HELD : SCENARIO_FAILED,
 		     running->path, scenario->name,
 		     held ? g_strdup("") : why_of(sink_memory_text(&report),
@@ -156,32 +175,88 @@ static void run_one(struct running *running, int index, struct resource *resourc
 	sink_memory_free(&report);
 }
 
-static void run_text(struct running *running, const char *text, gsize len)
+/* The plant that the file names; false: it cannot be had, and that is a result. */
+static bool find_plant(struct running *running)
+{
+	struct scenario_result *result;
+	struct arena arena;
+	struct diag place;
+	const char *name;
+	char *folder = g_path_get_dirname(running->path), *text = NULL;
+	GError *error = NULL;
+	gsize len;
+
+	arena_init(&arena);
+	name = scenario_find_plant(running->path, running->text, running->len, &arena,
+				   &place);
+	if (name) {
+		running->plant_path = g_canonicalize_filename(name, folder);
+		text = disk_read(running->plant_path, LIMIT_TEXT, &len, &error);
+	}
+	if (text)
+		running->plant = sim_program_new(g_intern_string(running->plant_path),
+						 text, len, &error);
+	if (error) {
+		result = add(running->results, SCENARIO_UNREAD, running->path, "",
+			     g_strdup_printf("%s: %s", name, error->message));
+		result->line = place.line;
+	}
+	g_free(folder);
+	g_free(text);
+	arena_free(&arena);
+	return !error || (g_error_free(error), false);
+}
+
+static void run_all_of(struct running *running, struct resource *resource,
+		       struct plant *plant)
 {
 	struct diag_list *diags = g_new0(struct diag_list, 1);
-	struct resource *resource = g_new0(struct resource, 1);
-	const struct program *program = running->program->program;
-	gpointer memory = g_malloc0(image_memory_size(program));
+	char *name = g_path_get_basename(running->path);
 	struct scenario_file file;
 	struct arena arena;
-	char *name = g_path_get_basename(running->path);
 
 	diag_init(diags);
 	arena_init(&arena);
-	resource_init(resource, program, memory);
 	running->file = &file;
-	if (scenario_read(name, text, len, &resource->image, &arena, &file, diags)) {
+	if (scenario_read_with(name, running->text, running->len, &resource->image,
+			       plant ? &plant->resource.image : NULL, &arena, &file,
+			       diags)) {
 		file.stop = &running->job->stop;
 		for (int i = 0; i < file.count && !running->job->stop; i++)
-			run_one(running, i, resource);
+			run_one(running, i, resource, plant);
 	} else {
 		add_diags(running->results, running->path, diags);
 	}
 	arena_free(&arena);
 	g_free(name);
+	g_free(diags);
+}
+
+static void run_text(struct running *running, const char *text, gsize len)
+{
+	const struct program *program = running->program->program;
+	struct resource *resource = g_new0(struct resource, 1);
+	struct plant *plant = NULL;
+	gpointer memory = g_malloc0(image_memory_size(program));
+
+	running->text = text;
+	running->len = len;
+	resource_init(resource, program, memory);
+	if (find_plant(running)) {
+		if (running->plant) {
+			plant = g_new0(struct plant, 1);
+			if (!plant_init(plant, running->plant->program, program))
+				g_error("out of memory");
+		}
+		run_all_of(running, resource, plant);
+	}
+	if (plant)
+		plant_free(plant);
+	g_free(plant);
+	g_clear_pointer(&running->plant, sim_program_unref);
+	g_clear_pointer(&running->plant_path, g_free);
 	g_free(memory);
 	g_free(resource);
-	g_free(diags);
 }
 
 static void run_file(struct running *running, guint index)

@@ -27,6 +27,7 @@ struct scenario_result {
 	guint64 scan;
 	gint64 period_ns;
 	GArray *acts;
+	char *plant;         /* file of the plant beside it; NULL: none        */
 };
 void scenario_result_free(struct scenario_result *result);
 

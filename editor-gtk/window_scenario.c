@@ -68,6 +68,12 @@ static void play(LadderWindow *window, const struct scenario_result *result)
 					     "scenarios again."));
 		return;
 	}
+	if (g_strcmp0(ladder_sim_plant(window->sim), result->plant) != 0 &&
+	    !ladder_sim_set_plant(window->sim, result->plant, &error)) {
+		ladder_window_tell(window, error->message);
+		g_error_free(error);
+		return;
+	}
 	if (!ladder_sim_play(window->sim, result->period_ns, result->acts, result->scan,
 			     &error)) {
 		ladder_window_tell(window, error->message);

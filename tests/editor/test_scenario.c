@@ -243,6 +243,47 @@ static void test_unread(void)
 	CHECK(image_get(&ladder_sim_twin(sim)->resource.image, place("Label")).s->length == 3);
 }
 
+/* A plant that the file names stands beside it, here and when it is shown again. */
+static void test_plant(void)
+{
+	static const char plant[] =
+		"RUNGBOARD 1\n\nVAR\n  Runs AT %IX0.0 : BOOL;\n  Away AT %QX0.1 : BOOL;\n"
+		"END_VAR\n\nPROGRAM Main LD\nRUNG\n  | NO Runs | COIL Away |\n"
+		"END_PROGRAM\n";
+	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
+	char *path = g_build_filename(folder, "belt.plant.rung", NULL);
+	char *text = g_strdup_printf("plant \"%s\"\nscenario \"it stops itself\"\n"
+		"  at 10ms Start = 1\n  expect Motor\n  at 20ms expect plant.Away\n"
+		"  Start = 0\n  at 30ms expect Motor\n", path);
+	struct scenario_result *result;
+
+	CHECK(g_file_set_contents(path, plant, -1, NULL));
+	result = run(text);
+	if (!CHECK(result->outcome == SCENARIO_FAILED && result->scan == 3 &&
+		   result->line == 7))
+		printf("# %d: %s\n", result->line, result->why);
+	CHECK(g_strcmp0(result->plant, path) == 0);
+	CHECK(ladder_sim_set_plant(sim, result->plant, NULL));
+	CHECK(ladder_sim_play(sim, result->period_ns, result->acts, result->scan, NULL));
+	CHECK_SOON(ladder_sim_twin(sim)->scan == 3);
+	CHECK(ladder_sim_show(sim, 2) && value("Stop") == 1 && value("Motor") == 0);
+	begin_paused();
+	scans(3);
+	CHECK(expects("Motor"));
+	ladder_recorder_end(recorder);
+	g_free(text);
+	text = ladder_recorder_text(recorder, "beside a plant");
+	CHECK(strstr(text, "\n  plant \"") && strstr(text, "belt.plant.rung\"\n"));
+	CHECK(run(text)->outcome == SCENARIO_HELD);
+	g_unlink(path);
+	CHECK(run(text)->outcome == SCENARIO_UNREAD && results->len == 1);
+	CHECK(ladder_sim_set_plant(sim, NULL, NULL));
+	g_rmdir(folder);
+	g_free(text);
+	g_free(path);
+	g_free(folder);
+}
+
 static void test_files(void)
 {
 	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
@@ -286,6 +327,7 @@ int main(void)
 	test_running();
 	test_ended();
 	test_unread();
+	test_plant();
 	test_files();
 	g_clear_pointer(&results, g_ptr_array_unref);
 	g_free(why);

@@ -126,7 +126,9 @@ bool scenario_run(const struct scenario_file *file, int index,
 
 /**
  * scenario_each_act - what a scenario does, up to a scan
- * @twin:  of the same program, initialised, nothing else; it runs here
+ * @file:  read with the images of @twin
+ * @twin:  of the same program, with the plant if the scenario has one; initialised,
+ * nothing else; it runs here
  * @scans: how many
  * @take:  gets each act, with the scan after which it is done; what it points to is
  * borrowed until it returns

@@ -11,11 +11,12 @@ static void act(const struct scenario_step *step, struct twin *twin,
 		void *context)
 {
 	const struct image *image = &twin->resource.image;
-	struct act act = { .kind = ACT_SET, .at = step->target };
+	const struct image *target = step->plant ? &twin->plant.image : image;
+	struct act act = { .kind = ACT_SET, .plant = step->plant, .at = step->target };
 
 	if (!formula_value(step->formula, image, &act.value) ||
 	    !formula_fit(step->formula, act.value, step->target.type, &act.value) ||
-	    !value_has_room(image, step->target, act.value))
+	    !value_has_room(target, step->target, act.value))
 		return;
 	take(context, twin->scan, &act);
 	twin_act(twin, &act);

@@ -23,6 +23,7 @@ struct noted {
 struct session {
 	const struct image *image;
 	int64_t period_ns;
+	const char *plant; /* file; NULL: none                                  */
 	struct noted *noted;
 	int count, room, expects;
 };
@@ -46,6 +47,11 @@ void session_free(struct session *session)
 		free(session->noted[i].text);
 	free(session->noted);
 	free(session);
+}
+
+void session_plant(struct session *session, const char *name)
+{
+	session->plant = name;
 }
 
 int session_acts(const struct session *session)
@@ -298,6 +304,11 @@ bool session_write(const struct session *session, const char *name,
 	sink_text(out, "scenario \"");
 	write_name(name, out);
 	sink_printf(out, "\"\n  period %s\n", period + 2); /* T# */
+	if (session->plant) {
+		sink_text(out, "  plant \"");
+		write_name(session->plant, out);
+		sink_text(out, "\"\n");
+	}
 	write_notes(session, order, out);
 	free(order);
 	return true;

@@ -22,6 +22,9 @@ struct session;
 struct session *session_new(const struct image *image, int64_t period_ns);
 void session_free(struct session *session);
 
+/** session_plant - a plant stood beside it; @name: its file, from the folder of the scenario
+ * file, borrowed as long as the session. */
+void session_plant(struct session *session, const char *name);
 /** session_can_hold - can a scenario say it? The start of the first scan, and the period
  * that is anyway, are nothing to be said. */
 bool session_can_hold(const struct session *session, uint64_t after,

@@ -29,14 +29,17 @@ END_PROGRAM
 def chart(editor):
     """Shows the tab, and adds names to the chart."""
     editor.to_sheet()
-    editor.keys('ctrl+shift+w')
+    editor.keys('ctrl+alt+w')
     editor.find('Add variables', 'push button')
 
 
 def add(editor, names):
     editor.click(editor.find('Add variables', 'push button'))
-    editor.opened()
-    editor.entry(names)
+    prompt = 'Names and addresses, such as Motor %IW0 %Q0..7'
+    editor.find(prompt, 'text')
+    editor.type(names)
+    editor.keys('Return')
+    until(lambda: not editor.all(prompt, 'text'), 'the line to be gone')
 
 
 def shows(editor, text):
@@ -50,7 +53,7 @@ def values(screen):
     editor = Editor(screen, path)
     chart(editor)
     editor.shot('watch-first')
-    add(editor, 'Level High Nobody')
+    add(editor, 'Level Nobody')
     editor.find('Nobody: the program has no such name')
     editor.keys('ctrl+r')
     editor.says('SIMULATION')
@@ -67,12 +70,12 @@ def values(screen):
     editor.keys('Return')
     editor.find('constant out of range')
     editor.keys('ctrl+a')
-    editor.type('-5')
+    editor.type('12')
     editor.keys('Return')
-    shows(editor, '-5')
+    shows(editor, '12')
     editor.click(editor.find('Level, Shown as'))
     editor.press(editor.find('Hexadecimal', 'menu item'))
-    shows(editor, '16#FFFB')
+    shows(editor, '16#000C')
     text = editor.save(path)
     assert '  status-chart Chart 1\n    watch auto Start\n    watch hex Level\n' in text, text
     assert '    watch auto Nobody\n' in text, text
@@ -88,11 +91,11 @@ def forces(screen):
     editor.says('SIMULATION')
     editor.click(editor.find('Motor, New value', 'text'))
     editor.type('1')
-    editor.click(editor.find('Motor, Force', 'toggle button'))
+    editor.click(editor.find('Motor, Force'))
     editor.find('1 force', 'push button')
     shows(editor, '1')
     editor.shot('watch-forced')
-    editor.click(editor.find('Motor, Force', 'toggle button'))
+    editor.click(editor.find('Motor, Force'))
     until(lambda: not editor.all('1 force', 'push button'), 'the force to be gone')
     editor.click(editor.find('Move the row up', 'push button'))
     text = editor.save(path)
