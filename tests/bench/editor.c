@@ -452,18 +452,18 @@ static void starts(const char *program, const char *sample)
 
 	for (int i = 0; i < STARTS; i++) {
 		char *argv[] = { (char *)program, (char *)sample, NULL }, *out = NULL;
-		char begun[32];
+		char begun[32], *behind = NULL;
 
 		g_snprintf(begun, sizeof(begun), "%" G_GINT64_FORMAT,
 			   g_get_monotonic_time());
 		g_setenv(BEGUN, begun, TRUE);
 		if (!g_spawn_sync(NULL, argv, NULL, G_SPAWN_DEFAULT, NULL, NULL, &out, NULL,
-				  NULL, NULL) ||
-		    sscanf(out, "%" G_GINT64_FORMAT " %" G_GINT64_FORMAT, &clock[i],
-			   &process[i]) != 2) {
+				  NULL, NULL) || !out || !*out) {
 			fprintf(stderr, "no start\n");
 			exit(2);
 		}
+		clock[i] = g_ascii_strtoll(out, &behind, 10);
+		process[i] = g_ascii_strtoll(behind, NULL, 10);
 		g_free(out);
 	}
 	g_unsetenv(BEGUN);
