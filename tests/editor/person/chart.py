@@ -25,27 +25,13 @@ END_PROGRAM
 NAMES = 210  # px of the names at the left of the chart
 
 
-def cell(editor, *parts):
-    """The element whose name has all these parts; waits for it."""
-    def look():
-        found = [node for node in editor.all('Rung ', 'table cell') if all(part in node.name for part in parts)]
-        return found[0] if found else None
-    return until(look, 'the element %s' % ', '.join(parts))
-
-
-def beside(editor, node):
-    """On its wire: the cursor goes there, and nothing else happens."""
-    x, y, _, _ = editor.place(node)
-    return x + 12, y + 46
-
-
 def scans(editor, count):
     for _ in range(count):
         editor.keys('ctrl+t')
 
 
 def toggle(editor, *parts):
-    editor.click(beside(editor, cell(editor, *parts)))
+    editor.click(editor.beside(editor.element(*parts)))
     editor.keys('space')
 
 
@@ -57,10 +43,10 @@ def session(screen, **env):
     editor.says('scan 5')
     toggle(editor, 'NO', 'Start', 'open')
     scans(editor, 5)
-    cell(editor, 'COIL', ', on')
+    editor.element('COIL', ', on')
     toggle(editor, 'NC', 'Stop', 'closed')
     scans(editor, 5)
-    cell(editor, 'COIL', ', off')
+    editor.element('COIL', ', off')
     editor.says('scan 15')
     return editor
 
@@ -76,13 +62,13 @@ def rewind(screen):
     at = lambda scan: (x + NAMES + (width - NAMES) * scan * 10 // 150 + 3, y + 20)
     editor.drag(at(3), at(7), look='chart-past')
     editor.says('PAST · scan 7')
-    cell(editor, 'COIL', ', on')
+    editor.element('COIL', ', on')
     editor.keys('Left', 'Left')
     editor.says('PAST · scan 5')
-    cell(editor, 'COIL', ', off')
+    editor.element('COIL', ', off')
     editor.keys('Right', 'Right', 'Right', 'Right', 'Right', 'Right')
     editor.says('PAST · scan 11')
-    cell(editor, 'NC', 'Stop', 'open')
+    editor.element('NC', 'Stop', 'open')
     editor.keys('Escape')
     editor.says('SIMULATION · PAUSE')
     editor.keys('alt+Left', 'alt+Left')
@@ -95,7 +81,7 @@ def rewind(screen):
 def why(screen):
     """why a coil is off is told, of this scan and of one that was"""
     editor = session(screen)
-    editor.click(beside(editor, cell(editor, 'COIL', 'Motor')))
+    editor.click(editor.beside(editor.element('COIL', 'Motor')))
     editor.keys('ctrl+F12')
     editor.says('No power: Stop is TRUE')
     editor.shot('chart-why')
@@ -115,12 +101,12 @@ def edit(screen):
     editor.to_sheet()
     editor.keys('ctrl+r')
     toggle(editor, 'NO', 'Start', 'open')
-    cell(editor, 'COIL', 'Motor', ', on')
+    editor.element('COIL', 'Motor', ', on')
     editor.keys('Insert')
     editor.entry('Motor')
     editor.entry('OUT Lamp')
-    cell(editor, 'Rung 2, COIL', 'Lamp', ', on')
-    cell(editor, 'Rung 1, COIL', 'Motor', ', on')
+    editor.element('Rung 2, COIL', 'Lamp', ', on')
+    editor.element('Rung 1, COIL', 'Motor', ', on')
     editor.says('SIMULATION')
     editor.save(path)
     editor.keys('ctrl+m')
@@ -146,7 +132,7 @@ def faults(screen):
     editor.says('instruction budget of the scan exceeded: Main, rung 2 (1,')
     editor.says('Rung 2')
     editor.shot('chart-fault')
-    cell(editor, 'COIL', 'Motor', ', off')
+    editor.element('COIL', 'Motor', ', off')
 
 
 main([rewind, why, edit, faults])

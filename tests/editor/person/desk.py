@@ -9,6 +9,7 @@ The accessibility bus is asked level by level, all questions of a level at once:
 after the other would take seconds on a busy machine. The palette, which is most of the
 tree and never changes, is looked into only for its tiles.
 """
+import gettext
 import os
 import re
 import shutil
@@ -318,6 +319,23 @@ class Editor:
         x, y, _, _ = self.place(self.sheet())
         return x + 61 + 98 * column + 49, y + rung_y
 
+    def element(self, *parts):
+        """The element of a rung whose name has all these parts; waits for it."""
+        def look():
+            found = [node for node in self.all('Rung ', 'table cell') if all(part in node.name for part in parts)]
+            return found[0] if found else None
+        return until(look, 'the element %s' % ', '.join(parts))
+
+    def middle(self, node):
+        """Where the contact or coil of an element is; its wire is 46 px below its top."""
+        x, y, width, _ = self.place(node)
+        return x + width // 2, y + 46
+
+    def beside(self, node):
+        """On the wire of an element: the cursor goes there, and nothing else happens."""
+        x, y, _, _ = self.place(node)
+        return x + 12, y + 46
+
     def wire_end(self, rung_y, bar, by=0):
         """The left end of a column, and so many px to its right."""
         x, y, _, _ = self.place(self.sheet())
@@ -484,6 +502,17 @@ def new_file(screen, text='RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\nEND_PROGRAM\n',
     with open(path, 'w') as file:
         file.write(text)
     return path
+
+
+class Chinese(Editor):
+    """The same, where what is looked for is said in Chinese."""
+
+    def __init__(self, screen, *files, **env):
+        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
+        super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
+
+    def all(self, name=None, *more, **named):
+        return super().all(name and self.said.gettext(name), *more, **named)
 
 
 def report(tests):

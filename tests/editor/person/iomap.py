@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """iomap - a person edits an I/O map as a table, and runs a program with it on this machine."""
-import gettext
 import os
 import shutil
 import subprocess
@@ -9,7 +8,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import desk  # noqa: E402
-from desk import BUILD, ROOT, Editor, main, until  # noqa: E402
+from desk import BUILD, ROOT, Chinese, Editor, main, until  # noqa: E402
 
 MAP = '''BOARD "Garage"
 # Inputs: a contact to ground.
@@ -289,21 +288,12 @@ def lines_here(screen):
     editor.says('ladderd, which runs programs on pins, was not found')
 
 
-class Chinese(Editor):
-    """The same, where what is looked for is said in Chinese."""
-    said = None
-
-    def all(self, name=None, *more, **named):
-        self.said = self.said or gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
-        return super().all(name and self.said.gettext(name), *more, **named)
-
-
 def in_chinese(screen):
     """the table and the board page in Chinese, dark, 1024 x 700"""
     path, io = garage(screen)
     with open(io, 'w') as file:
         file.write(SIM)
-    editor = Chinese(screen, path, LANGUAGE='zh_CN', ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+    editor = Chinese(screen, path, ADW_DEBUG_COLOR_SCHEME='prefer-dark')
     open_map(editor)
     editor.click(editor.find('在本机运行', 'push button'))
     until(lambda: editor.all('RUN', 'label'), 'that it runs')

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """live - the sheet while it simulates: contacts are pressed, wires are lit, values are forced."""
-import gettext
 import os
 import re
 import shutil
@@ -9,7 +8,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import BUILD, ROOT, Editor, main, new_file, until  # noqa: E402
+from desk import ROOT, Chinese, Editor, main, new_file, until  # noqa: E402
 
 POWER = {'light': '#0F8A4C', 'dark': '#33D17A'}
 FORCE = {'light': '#B35C00', 'dark': '#FFA348'}
@@ -35,26 +34,6 @@ END_PROGRAM
 '''
 
 
-def cell(editor, *parts):
-    """The element whose name has all these parts; waits for it."""
-    def look():
-        found = [node for node in editor.all('Rung ', 'table cell') if all(part in node.name for part in parts)]
-        return found[0] if found else None
-    return until(look, 'the element %s' % ', '.join(parts))
-
-
-def middle(editor, node):
-    """Where its contact or coil is; its wire is 46 px below its top."""
-    x, y, width, _ = editor.place(node)
-    return x + width // 2, y + 46
-
-
-def beside(editor, node):
-    """On its wire: the cursor goes there, and nothing else happens."""
-    x, y, _, _ = editor.place(node)
-    return x + 12, y + 46
-
-
 def pixels(editor, node, color):
     """How many pixels of a colour the cell shows."""
     x, y, width, height = editor.place(node)
@@ -74,25 +53,25 @@ def motor(screen):
     editor.keys('shift+F4', 'ctrl+r')  # all rungs are to be seen
     editor.says('SIMULATION')
     for name in 'StopOk', 'OverloadOk':
-        editor.click(middle(editor, cell(editor, 'Rung 1, NO', name, 'open')))
-        cell(editor, 'Rung 1, NO', name, 'closed')
-    coil = cell(editor, 'Rung 1, COIL', ', off')
+        editor.click(editor.middle(editor.element('Rung 1, NO', name, 'open')))
+        editor.element('Rung 1, NO', name, 'closed')
+    coil = editor.element('Rung 1, COIL', ', off')
     assert pixels(editor, coil, POWER['light']) == 0
     editor.shot('live-motor-off')
     editor.keys('ctrl+r')  # the contactor must answer: nobody is quick enough
     editor.says('PAUSE')
-    editor.click(middle(editor, cell(editor, 'Rung 1, P,', 'Start')))
+    editor.click(editor.middle(editor.element('Rung 1, P,', 'Start')))
     editor.says('Start = TRUE')
     editor.keys('ctrl+t')
-    coil = cell(editor, 'Rung 1, COIL', ', on')
+    coil = editor.element('Rung 1, COIL', ', on')
     assert pixels(editor, coil, POWER['light']) > 150, 'the coil and its wires are not lit'
-    editor.click(middle(editor, cell(editor, 'Rung 5, NO', 'Closed')))
+    editor.click(editor.middle(editor.element('Rung 5, NO', 'Closed')))
     editor.says('Closed = TRUE')
     editor.keys('ctrl+r')
-    cell(editor, 'Rung 5, COIL', ', on')
+    editor.element('Rung 5, COIL', ', on')
     editor.shot('live-motor-on')
-    editor.click(middle(editor, cell(editor, 'Rung 1, NO', 'StopOk')))
-    coil = cell(editor, 'Rung 1, COIL', ', off')
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'StopOk')))
+    coil = editor.element('Rung 1, COIL', ', off')
     assert pixels(editor, coil, POWER['light']) < 150
 
 
@@ -102,19 +81,19 @@ def force(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('ctrl+r')
-    editor.click(beside(editor, cell(editor, 'Rung 1, NO', 'Start', 'open')))
+    editor.click(editor.beside(editor.element('Rung 1, NO', 'Start', 'open')))
     editor.keys('space')
-    coil = cell(editor, 'Rung 1, COIL', ', on')
-    editor.click(beside(editor, coil))
+    coil = editor.element('Rung 1, COIL', ', on')
+    editor.click(editor.beside(coil))
     editor.keys('ctrl+shift+f')
-    coil = cell(editor, 'Rung 1, COIL', ', on, forced')
+    coil = editor.element('Rung 1, COIL', ', on, forced')
     assert pixels(editor, coil, FORCE['light']) > 60, 'no mark'
     editor.says('1 force')
     editor.keys('space')
-    coil = cell(editor, 'Rung 1, COIL', ', off, forced')
+    coil = editor.element('Rung 1, COIL', ', off, forced')
     editor.shot('live-forced')
     editor.keys('ctrl+shift+f')
-    cell(editor, 'Rung 1, COIL', 'Motor, %QX0.0, on')
+    editor.element('Rung 1, COIL', 'Motor, %QX0.0, on')
     assert not [node for node in editor.all('forced', 'table cell')]
 
 
@@ -124,8 +103,8 @@ def numbers(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('ctrl+r')
-    compare = cell(editor, 'Rung 2, [ ]', 'open')
-    x, y = middle(editor, compare)
+    compare = editor.element('Rung 2, [ ]', 'open')
+    x, y = editor.middle(compare)
     editor.click((x, y), count=2)
     editor.opened()
     editor.type('99999')
@@ -133,9 +112,9 @@ def numbers(screen):
     editor.shot('live-set-wrong')
     editor.keys('ctrl+a')
     editor.entry('512')
-    editor.click(middle(editor, cell(editor, 'Rung 1, NO', 'Start')))
-    cell(editor, 'Rung 2, [ ]', 'closed')
-    cell(editor, 'Rung 2, COIL', ', on')
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start')))
+    editor.element('Rung 2, [ ]', 'closed')
+    editor.element('Rung 2, COIL', ', on')
     editor.shot('live-numbers')
     before = open(path).read()
     editor.keys('Home', 'shift+F5')  # and it can be edited meanwhile
@@ -144,22 +123,11 @@ def numbers(screen):
     # The program with it goes on where the other one was: Start is on, and so is the motor.
     until(lambda: len([node for node in editor.all('Rung 1, NO', 'table cell')
                        if 'Stop' in node.name and node.name.endswith('open')]) == 1, 'power in the edited rung')
-    cell(editor, 'Rung 1, COIL', ', on')
+    editor.element('Rung 1, COIL', ', on')
     editor.says('SIMULATION')
     assert not editor.all('SIMULATION · ')
     editor.shot('live-edited')
     assert open(path).read() == before
-
-
-class Chinese(Editor):
-    """The same, where what is looked for is said in Chinese."""
-
-    def __init__(self, screen, *files, **env):
-        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
-        super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
-
-    def all(self, name=None, *more, **named):
-        return super().all(name and self.said.gettext(name), *more, **named)
 
 
 def dark_and_small(screen):
@@ -169,11 +137,11 @@ def dark_and_small(screen):
     editor.to_sheet()
     editor.keys('ctrl+r', 'ctrl+F4')
     start = until(lambda: [node for node in editor.all(role='table cell') if '启动' in node.name], '启动')[0]
-    editor.click(middle(editor, start))
+    editor.click(editor.middle(start))
     coil = until(lambda: [node for node in editor.all(role='table cell')
                           if 'COIL' in node.name and node.name.endswith('接通')], 'the coil to be on')[0]
     assert pixels(editor, coil, POWER['dark']) > 150
-    editor.click(beside(editor, coil))
+    editor.click(editor.beside(coil))
     editor.keys('ctrl+shift+f')
     until(lambda: [node for node in editor.all(role='table cell') if node.name.endswith('已强制')], 'the mark')
     editor.shot('live-dark-chinese')

@@ -1,13 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """scenario - a person records a scenario, saves it, runs all of them, and goes to where one fails."""
-import gettext
 import os
 import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import BUILD, LADDER, Editor, main, new_file, until  # noqa: E402
+from desk import LADDER, Chinese, Editor, main, new_file, until  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -36,26 +35,6 @@ UNKNOWN = '''scenario "of another machine"
 '''
 
 
-def cell(editor, *parts):
-    """The element whose name has all these parts; waits for it."""
-    def look():
-        found = [node for node in editor.all('Rung ', 'table cell') if all(part in node.name for part in parts)]
-        return found[0] if found else None
-    return until(look, 'the element %s' % ', '.join(parts))
-
-
-def middle(editor, node):
-    """Where its contact or coil is; its wire is 46 px below its top."""
-    x, y, width, _ = editor.place(node)
-    return x + width // 2, y + 46
-
-
-def beside(editor, node):
-    """On its wire: the cursor goes there, and nothing else happens."""
-    x, y, _, _ = editor.place(node)
-    return x + 12, y + 46
-
-
 def test(path):
     done = subprocess.run([LADDER, 'test', path], capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr
@@ -79,19 +58,19 @@ def records(screen):
     editor.to_sheet()
     editor.keys('ctrl+alt+r')
     editor.find('Recording · 0 set', 'push button')
-    editor.click(middle(editor, cell(editor, 'Rung 1, NO', 'Start')))
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start')))
     editor.find('Recording · 1 set', 'push button')
-    cell(editor, 'Rung 1, COIL', ', on')
-    editor.click(beside(editor, cell(editor, 'Rung 1, COIL')))
+    editor.element('Rung 1, COIL', ', on')
+    editor.click(editor.beside(editor.element('Rung 1, COIL')))
     editor.keys('ctrl+alt+e')
     editor.says('Expected: Motor = 1')
     editor.shot('scenario-recording')
-    editor.click(middle(editor, cell(editor, 'Rung 1, NO', 'Start')))
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start')))
     editor.find('Recording · 2 set', 'push button')
-    editor.click(middle(editor, cell(editor, 'Rung 1, NC', 'Stop')))
+    editor.click(editor.middle(editor.element('Rung 1, NC', 'Stop')))
     editor.find('Recording · 3 set', 'push button')
-    editor.click(beside(editor, cell(editor, 'Rung 1, COIL')))
-    cell(editor, 'Rung 1, COIL', ', off')
+    editor.click(editor.beside(editor.element('Rung 1, COIL')))
+    editor.element('Rung 1, COIL', ', off')
     editor.keys('ctrl+alt+e')
     editor.says('Expected: Motor = 0')
     editor.keys('ctrl+alt+r')
@@ -127,17 +106,6 @@ def fails(screen):
     editor.find('motor-other.scn', 'text')
     editor.says('unknown name: Strat')
     editor.shot('scenario-unknown')
-
-
-class Chinese(Editor):
-    """The same, where what is looked for is said in Chinese."""
-
-    def __init__(self, screen, *files, **env):
-        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
-        super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
-
-    def all(self, name=None, *more, **named):
-        return super().all(name and self.said.gettext(name), *more, **named)
 
 
 def chinese(screen):

@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """simpanel - the panel of a simulation: switches, push buttons, keys, values, forces."""
-import gettext
 import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import BUILD, Editor, main, new_file, sh, until  # noqa: E402
+from desk import Chinese, Editor, main, new_file, sh, until  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -82,7 +81,13 @@ def pointer(screen):
     line(editor, 'Output 电机, %QX0.0, on, forced')
     editor.says('1 force')
     editor.shot('simpanel-forced')
-    editor.click(editor.find('/ 1m00.00s', 'label'))
+    value = editor.find('/ 1m00.00s', 'label')
+
+    def field():
+        """The first click may only close what is left of the menu."""
+        editor.click(value)
+        return editor.asked() or editor.all('Delay, preset', 'text')
+    until(field, 'the field of the preset')
     editor.focus_on(role='text')
     editor.keys('ctrl+a')
     editor.type('2m30s')
@@ -121,17 +126,6 @@ def keyboard(screen):
     editor.type('x')
     until(lambda: not editor.all('Analogue Level', 'list item'), 'the filter')
     line(editor, 'Input Start, %IX0.0, off')
-
-
-class Chinese(Editor):
-    """The same, where what is looked for is said in Chinese."""
-
-    def __init__(self, screen, *files, **env):
-        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
-        super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
-
-    def all(self, name=None, *more, **named):
-        return super().all(name and self.said.gettext(name), *more, **named)
 
 
 def small(screen):

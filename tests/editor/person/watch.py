@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """watch - a person makes a status chart, sees values in it, writes and forces them."""
-import gettext
 import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import BUILD, Editor, main, new_file, until  # noqa: E402
+from desk import Chinese, Editor, main, new_file, until  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -103,17 +102,6 @@ def forces(screen):
     editor.click(editor.find('Remove the row', 'push button'))
     text = editor.save(path)
     assert 'Motor\n    watch' not in text and '    watch auto Start\n' in text, text
-
-
-class Chinese(Editor):
-    """The same, where what is looked for is said in Chinese."""
-
-    def __init__(self, screen, *files, **env):
-        self.said = gettext.translation('rungboard', os.path.join(BUILD, 'locale'), ['zh_CN'])
-        super().__init__(screen, *files, LANGUAGE='zh_CN', **env)
-
-    def all(self, name=None, *more, **named):
-        return super().all(name and self.said.gettext(name), *more, **named)
 
 
 def chinese(screen):
