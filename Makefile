@@ -470,9 +470,9 @@ ASAN     := $(BUILD)/asan
 ASAN_RUN := $(UNIT:$(BUILD)/%=$(ASAN)/%) $(HAL_TESTS:$(BUILD)/%=$(ASAN)/%) \
             $(filter-out %/exhaustion,$(TESTS_BIN:$(BUILD)/%=$(ASAN)/%)) $(EDITOR_TESTS_PLAIN:$(BUILD)/%=$(ASAN)/%)
 TESTS_T  := $(wildcard tests/*.t tests/hal/*.t) tests/compilers.sh tests/pages.sh $(EDITOR_PERSON)
-BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS) $(EDITOR_FAKE)
+BUILT    := $(UNIT) $(HAL_TESTS) $(TESTS_BIN) $(EDITOR_TESTS)
 
-tests: all man $(BUILT) $(HAL_DAEMONS)
+tests: all man $(BUILT) $(EDITOR_FAKE) $(HAL_DAEMONS)
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd

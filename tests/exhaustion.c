@@ -214,8 +214,7 @@ static void act(struct twin *twin, struct record *record, enum act_kind kind,
  * where a person would hear of it. */
 static bool play(struct twin *twin, struct record *record, uint64_t *sum)
 {
-	struct { struct iec_string head; char bytes[8]; } text = {
-		.head = { .capacity = 8, .length = 0 } };
+	struct iec_text room;
 
 	act(twin, record, ACT_START, "", (union iec_value){ 0 });
 	while (twin->resource.state == STATE_RUN && twin->scan < 60) {
@@ -224,7 +223,7 @@ static bool play(struct twin *twin, struct record *record, uint64_t *sum)
 			    (union iec_value){ .i = twin->scan & 1 });
 		if (twin->scan % 20 == 9)
 			act(twin, record, ACT_SET, "Text",
-			    (union iec_value){ .s = &text.head });
+			    (union iec_value){ .s = iec_text_init(&room, 0) });
 		if (twin->scan % 20 == 13)
 			act(twin, record, ACT_WARM, "", (union iec_value){ 0 });
 		twin_scan(twin);

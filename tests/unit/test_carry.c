@@ -112,13 +112,12 @@ static const char after[] =
 
 static void set_text(struct rig *rig, const char *name, const char *value)
 {
-	struct { struct iec_string head; char bytes[16]; } text;
+	struct iec_text room;
+	struct iec_string *text = iec_text_init(&room, (uint16_t)strlen(value));
 
-	text.head.capacity = sizeof(text.bytes);
-	text.head.length = (uint16_t)strlen(value);
-	memcpy(text.head.text, value, strlen(value));
+	memcpy(text->text, value, strlen(value));
 	image_set(&rig->resource.image, rig_at(rig, name),
-		  (union iec_value){ .s = &text.head });
+		  (union iec_value){ .s = text });
 }
 
 static bool has_text(struct rig *rig, const char *name, const char *value)

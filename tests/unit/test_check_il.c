@@ -158,16 +158,16 @@ static void finds_what_is_not_bool(void)
 {
 	CHECK_FIRST(il("  LDN I\n  ST A"), "LD324 I");
 	CHECK_FIRST(il("  LD A\n  AND I\n  ST A"), "LD324 I");
-	CHECK_FIRST(il("  LD I\n  AND A\n  ST A"), "LD324 result");
+	CHECK_FIRST(il("  LD I\n  AND A\n  ST A"), "LD324 the result");
 	CHECK_FIRST(il("  LD A\n  AND 2\n  ST A"), "LD324 2");
-	CHECK_FIRST(il("  LD I\n  NOT"), "LD324 result");
-	CHECK_FIRST(il("  LD I\n  S A"), "LD324 result");
+	CHECK_FIRST(il("  LD I\n  NOT"), "LD324 the result");
+	CHECK_FIRST(il("  LD I\n  S A"), "LD324 the result");
 	CHECK_FIRST(il("  LD A\n  S I"), "LD324 I");
 	CHECK_FIRST(il("  LD A\n  STN I"), "LD324 I");
-	CHECK_FIRST(il("  LD I\n  JMPC L\nL:"), "LD324 result");
-	CHECK_FIRST(il("  LD I\n  RETCN"), "LD324 result");
-	CHECK_FIRST(il("  LD I\n  CALC Up"), "LD324 result");
-	CHECK_FIRST(il("  LD A\n  OR( I\n  )\n  ST A"), "LD324 result");
+	CHECK_FIRST(il("  LD I\n  JMPC L\nL:"), "LD324 the result");
+	CHECK_FIRST(il("  LD I\n  RETCN"), "LD324 the result");
+	CHECK_FIRST(il("  LD I\n  CALC Up"), "LD324 the result");
+	CHECK_FIRST(il("  LD A\n  OR( I\n  )\n  ST A"), "LD324 the result");
 	CHECK_FIRST(il("  MOVE(EN := I, IN := 1, OUT => K)"), "LD324 I");
 	CHECK_FIRST(il("  MOVE(IN := 1, OUT => K, ENO => I)"), "LD324 I");
 }

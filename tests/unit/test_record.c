@@ -98,7 +98,7 @@ static uint64_t state_of(const struct twin *twin)
 struct step {
 	uint64_t after;
 	struct act act;
-	struct { struct iec_string head; char bytes[16]; } text;
+	struct iec_text text;
 };
 
 struct run {
@@ -204,11 +204,11 @@ static bool random_act(struct step *step)
 	else if (act->at.type == IEC_REAL || act->at.type == IEC_LREAL)
 		act->value.r = (double)act->value.i / 8;
 	if (act->at.type == IEC_STRING && act->kind != ACT_PERIOD) {
-		step->text.head.capacity = sizeof(step->text.bytes);
-		step->text.head.length = (uint16_t)random_below(&run.source, 15);
-		memset(step->text.head.text, 'a' + (int)random_below(&run.source, 26),
-		       step->text.head.length);
-		act->value.s = &step->text.head;
+		struct iec_string *text = iec_text_init(&step->text,
+			(uint16_t)random_below(&run.source, 15));
+
+		memset(text->text, 'a' + (int)random_below(&run.source, 26), text->length);
+		act->value.s = text;
 	}
 	return twin_act(&run.twin, act);
 }
