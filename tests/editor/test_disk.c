@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <glib/gstdio.h>
+#include <utime.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
