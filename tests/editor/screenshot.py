@@ -10,6 +10,19 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), 'per
 import desk  # noqa: E402
 
 
+def simulate(editor):
+    """The door of the sample goes up, and the chart shows since when."""
+    editor.press(editor.find('Timing chart'))
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    for name in 'StopOk', 'BeamOk', 'MotorOk', 'ButtonUp':
+        editor.click(editor.find('Input %s, ' % name, 'check box'))
+    editor.element('Rung 3, COIL', 'MotorUp', ', on')
+    desk.sh('sleep', '1.5')
+    editor.keys('ctrl+r')
+    editor.says('PAUSE')
+
+
 def main(out):
     lacks = desk.missing()
     if lacks:
@@ -19,7 +32,7 @@ def main(out):
         shutil.copytree(os.path.join(desk.ROOT, 'ladders'), os.path.join(screen.home, 'ladders'))
         editor = desk.Editor(screen, os.path.join(screen.home, 'ladders', 'garage-door.rung'))
         desk.until(lambda: editor.all('no problems', 'label'), 'the check')
-        editor.keys('Down', 'Down', 'Right')
+        simulate(editor)
         # Nobody points at anything, and the last frame is drawn.
         desk.sh('xdotool', 'mousemove', '1279', '799', 'sleep', '1.5')
         subprocess.run(['import', '-window', 'root', '+dither', '-colors', '96', '-strip', 'PNG8:' + out], check=True)
