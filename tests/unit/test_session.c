@@ -362,9 +362,11 @@ int main(void)
 
 	test_text();
 	test_refused();
-	if (CHECK(glob("ladders/*.rung", 0, NULL, &found) == 0))
+	if (CHECK(glob("ladders/*.rung", 0, NULL, &found) == 0)) {
 		for (size_t i = 0; i < found.gl_pathc; i++)
 			test_sample(found.gl_pathv[i], &falses);
+		globfree(&found);
+	}
 	CHECK(falses > 20);
 	return tap_done();
 }
