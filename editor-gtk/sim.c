@@ -20,6 +20,7 @@ struct _LadderSim {
 	struct sim_view view;       /* the newest                              */
 	struct replay replay;       /* the past; twin of no program: none yet  */
 	bool past;
+	guint refused;              /* of the view's refusal, that were told of */
 	enum sim_state told;        /* the last state that signals told of     */
 	gint64 period_ns;
 	double speed;
@@ -68,6 +69,19 @@ static void tell_fault(LadderSim *sim)
 	g_free(text);
 }
 
+static void tell_refusal(LadderSim *sim)
+{
+	const struct sim_refusal *refusal = &sim->view.refusal;
+
+	if (sim->refused == refusal->count)
+		return;
+	sim->refused = refusal->count;
+	tell(sim, refusal->why == SIM_REFUSED_STALE ?
+	     _("Not done: the program was changed just now") :
+	     _("Not done: this cannot be set or forced, or too much is forced already"),
+	     false);
+}
+
 static bool take(LadderSim *sim)
 {
 	bool other;
@@ -87,6 +101,7 @@ static gboolean notified(gpointer data)
 
 	take(sim);
 	tell_fault(sim);
+	tell_refusal(sim);
 	if (sim->told != ladder_sim_state(sim))
 		tell_state(sim);
 	if (!sim->past)
@@ -315,7 +330,7 @@ static void order(LadderSim *sim, enum act_kind kind, gint64 value)
 	const struct act act = { .kind = kind, .value.i = value };
 
 	if (sim->thread)
-		sim_thread_act(sim->thread, &act);
+		sim_thread_act(sim->thread, NULL, &act);
 }
 
 static void start_if_stopped(LadderSim *sim)
@@ -394,7 +409,7 @@ void ladder_sim_act(LadderSim *sim, const struct act *act)
 	if (!sim->thread)
 		return;
 	ladder_sim_show_now(sim);
-	sim_thread_act(sim->thread, act);
+	sim_thread_act(sim->thread, act->plant ? sim->view.plant : sim->view.program, act);
 }
 
 /* ---- what is shown ---- */

@@ -27,11 +27,22 @@ void sim_program_unref(struct sim_program *program);
 
 struct sim_thread;
 
+/* What was not done, last, and how many were not. */
+enum sim_refused {
+	SIM_REFUSED_PLACE, /* it cannot be set or forced, or too many are held  */
+	SIM_REFUSED_STALE, /* it is a place of a program that runs no more      */
+};
+struct sim_refusal {
+	enum sim_refused why;
+	guint count;
+};
+
 /* What the window sees of the thread. */
 struct sim_view {
 	struct twin twin;        /* a clone: of `program`                      */
 	struct sim_program *program, *plant;
 	bool running;            /* not paused                                 */
+	struct sim_refusal refusal;
 };
 
 /**
@@ -47,7 +58,10 @@ void sim_thread_free(struct sim_thread *thread);
 void sim_thread_run(struct sim_thread *thread, bool run);
 void sim_thread_scan(struct sim_thread *thread, int scans);
 void sim_thread_speed(struct sim_thread *thread, double scans);
-void sim_thread_act(struct sim_thread *thread, const struct act *act);
+/** sim_thread_act - @of: the program or plant whose place it means, NULL: none; if that runs
+ * no more, it is refused: what stands there now is another variable. */
+void sim_thread_act(struct sim_thread *thread, struct sim_program *of,
+		    const struct act *act);
 /** sim_thread_play - as ladder_sim_play(); it takes a reference of @acts. */
 void sim_thread_play(struct sim_thread *thread, GArray *acts, guint64 scans);
 /** sim_thread_change - another program takes the place of the one that runs. It takes a

@@ -35,6 +35,7 @@ struct sim_thread {
 	double speed;
 	double due_us;           /* of the next scan                           */
 	gint64 told_us;          /* when the last copy went out                */
+	struct sim_refusal refusal;
 	bool changed;            /* since then                                 */
 	/* Under `record_lock`: */
 	GMutex record_lock;
@@ -44,6 +45,7 @@ struct sim_thread {
 	struct twin out;
 	struct sim_program *program, *plant;
 	bool out_run;
+	struct sim_refusal out_refusal;
 	/* Between both, atomic: */
 	int notified;
 };
@@ -58,6 +60,7 @@ static void publish(struct sim_thread *thread, bool must)
 		return;
 	twin_copy(&thread->out, &thread->twin);
 	thread->out_run = thread->run;
+	thread->out_refusal = thread->refusal;
 	g_mutex_unlock(&thread->out_lock);
 	thread->changed = false;
 	thread->told_us = g_get_monotonic_time();
@@ -114,13 +117,31 @@ static void start_clock(struct sim_thread *thread)
 	thread->due_us = (double)g_get_monotonic_time() + wall_period_us(thread);
 }
 
+static void refuse(struct sim_thread *thread, enum sim_refused why)
+{
+	thread->refusal.why = why;
+	thread->refusal.count++;
+}
+
 static void act(struct sim_thread *thread, const struct act *act)
 {
-	if (!twin_act(&thread->twin, act))
+	if (!twin_act(&thread->twin, act)) {
+		refuse(thread, SIM_REFUSED_PLACE);
 		return;
+	}
 	g_mutex_lock(&thread->record_lock);
 	record_act(thread->record, &thread->twin, act);
 	g_mutex_unlock(&thread->record_lock);
+}
+
+/* A place of another program is somebody else's memory here. */
+static void act_of(struct sim_thread *thread, const struct order *order)
+{
+	if (!order->program || order->program == thread->program ||
+	    order->program == thread->plant)
+		act(thread, &order->act);
+	else
+		refuse(thread, SIM_REFUSED_STALE);
 }
 
 static struct record *new_record(const struct twin *twin)
@@ -203,8 +224,8 @@ static bool obey(struct sim_thread *thread, struct order *order)
 		thread->speed = order->speed;
 		start_clock(thread);
 		break;
-	case ORDER_ACT: act(thread, &order->act); break;
-	case ORDER_CHANGE: change(thread, order->program); break;
+	case ORDER_ACT: act_of(thread, order); break;
+	case ORDER_CHANGE: change(thread, g_steal_pointer(&order->program)); break;
 	case ORDER_PLAY: play(thread, order->acts, order->until); break;
 	case ORDER_END: return false;
 	}
@@ -226,6 +247,7 @@ static struct order *next_order(struct sim_thread *thread)
 static void order_free(struct order *order)
 {
 	g_clear_pointer(&order->acts, g_array_unref);
+	g_clear_pointer(&order->program, sim_program_unref);
 	g_free(order->text);
 	g_free(order);
 }
@@ -317,9 +339,10 @@ void sim_thread_speed(struct sim_thread *thread, double scans)
 	tell(thread, &(struct order){ .kind = ORDER_SPEED, .speed = scans });
 }
 
-void sim_thread_act(struct sim_thread *thread, const struct act *act)
+void sim_thread_act(struct sim_thread *thread, struct sim_program *of, const struct act *act)
 {
-	struct order order = { .kind = ORDER_ACT, .act = *act };
+	struct order order = { .kind = ORDER_ACT, .act = *act,
+			       .program = sim_program_ref(of) };
 
 	if (act->kind == ACT_SET && act->at.type == IEC_STRING) {
 		order.text = g_memdup2(act->value.s,
@@ -366,6 +389,7 @@ bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *oth
 		twin_copy(&view->twin, &thread->out);
 	}
 	view->running = thread->out_run;
+	view->refusal = thread->out_refusal;
 	g_mutex_unlock(&thread->out_lock);
 	return good;
 }
