@@ -180,7 +180,7 @@ static void write_row(GString *out, const struct symbol_row *symbol)
 	csv_write_field(out, symbol->scope);
 	g_string_append_c(out, ',');
 	csv_write_field(out, symbol->member ? "STRUCT" :
-			vars_head((uint8_t)(symbol->flags & ~VAR_GLOBAL_WORD)));
+			vars_head((uint16_t)(symbol->flags & ~VAR_GLOBAL_WORD)));
 	for (int i = 0; i < SYMBOL_FIELDS; i++) {
 		g_string_append_c(out, ',');
 		csv_write_field(out, symbol->text[i]);

@@ -168,7 +168,7 @@ static void put(struct import *import, int line, char *name, int table, int flag
 	if (old && !*what)
 		tell(import->plan, CSV_SAME, line, name, what);
 	else if (symbol_batch_put(import->plan->batch, table, old ? old->index : -1,
-				  (uint8_t)flags, text, &why))
+				  (uint16_t)flags, text, &why))
 		tell(import->plan, old ? CSV_CHANGE : CSV_ADD, line, name, what);
 	else {
 		tell(import->plan, CSV_REFUSE, line, name, why);

@@ -145,7 +145,7 @@ struct opening {
 	gsize first_pou;      /* the first part that is one; 0: none           */
 };
 
-static uint8_t block_flags(const struct opening *place, const struct text_span *span)
+static uint16_t block_flags(const struct opening *place, const struct text_span *span)
 {
 	const struct var_table *table = span->pou < 0 ? &place->project->globals :
 		&place->project->pou[span->pou].vars;

@@ -149,7 +149,7 @@ static const char *type_word(const struct search *s, const struct var *var)
 		words_row(&s->place->project->words, var->fb)->word;
 }
 
-static bool is_wanted(const struct search *s, const struct var *var, uint8_t flags)
+static bool is_wanted(const struct search *s, const struct var *var, uint16_t flags)
 {
 	const struct word_row *row = words_row(&s->place->project->words, var->fb);
 

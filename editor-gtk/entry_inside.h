@@ -43,7 +43,7 @@ void entry_target_find(const struct entry_place *place, const char *text, size_t
 /** entry_var_find - declared in the POU or globally, any case; NULL: none. @flags gets
  * enum var_flag of its block, may be NULL. */
 const struct var *entry_var_find(const struct entry_place *place, const char *text,
-				 size_t len, uint8_t *flags);
+				 size_t len, uint16_t *flags);
 /** entry_is_name - could a variable be called so? */
 bool entry_is_name(const char *text, size_t len);
 /** entry_name_taken - by a variable, a POU, a label, or in the line itself. */

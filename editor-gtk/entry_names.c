@@ -18,7 +18,7 @@
 
 static const struct var *find_in(const struct project *project,
 				 const struct var_table *table, const char *text,
-				 size_t len, uint8_t *flags)
+				 size_t len, uint16_t *flags)
 {
 	for (int i = 0; i < table->count; i++) {
 		if (!ascii_is(project_text(project, table->var[i].name), text, len))
@@ -31,7 +31,7 @@ static const struct var *find_in(const struct project *project,
 }
 
 const struct var *entry_var_find(const struct entry_place *place, const char *text,
-				 size_t len, uint8_t *flags)
+				 size_t len, uint16_t *flags)
 {
 	const struct pou *pou = entry_pou(place);
 	const struct var *var = pou ? find_in(place->project, &pou->vars, text, len,
@@ -225,7 +225,7 @@ static void walk(const struct entry_place *place, const char *at, const char *en
 		out->means = out->type == IEC_NONE ? MEANS_INSTANCE : MEANS_VALUE;
 }
 
-static bool may_write(const struct var *var, uint8_t flags)
+static bool may_write(const struct var *var, uint16_t flags)
 {
 	return !(flags & (VAR_CONSTANT | VAR_INPUT)) &&
 	       (var->at.area == AREA_NONE ||
@@ -309,7 +309,7 @@ void entry_target_find(const struct entry_place *place, const char *typed, size_
 		       struct entry_target *out)
 {
 	char text[ENTRY_TEXT];
-	uint8_t flags = 0;
+	uint16_t flags = 0;
 	size_t head = 0, whole = 0;
 
 	memset(out, 0, sizeof(*out));

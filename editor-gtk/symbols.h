@@ -21,7 +21,7 @@ struct symbol_row {
 	char *scope;         /* POU or structure; "": the globals             */
 	char *text[SYMBOL_FIELDS]; /* of RETAIN and CONSTANT "1" or ""; a comment
 				without its delimiters                        */
-	uint8_t flags;       /* enum var_flag of its block                    */
+	uint16_t flags;       /* enum var_flag of its block                    */
 	int uses;            /* places but the declaration                    */
 	bool included;       /* declared in another file: not to be changed   */
 	bool member;         /* of a structure: no address, no RETAIN         */
@@ -56,7 +56,7 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 		const char *text, char **why);
 /** symbol_add - another declaration, behind those of its kind.
  * @flags: of its block, apart from RETAIN and CONSTANT, which @text says: 0: VAR */
-bool symbol_add(LadderDocument *document, int table, uint8_t flags,
+bool symbol_add(LadderDocument *document, int table, uint16_t flags,
 		const char *const text[SYMBOL_FIELDS], char **why);
 /** symbol_delete - used or not. */
 bool symbol_delete(LadderDocument *document, int table, int index, char **why);
@@ -81,7 +81,7 @@ void symbol_batch_free(struct symbol_batch *batch);
 /** symbol_batch_put - declaration @index of a table becomes @text; -1: a new one. The
  * name is not followed to where it is used.
  * @flags: as in symbol_add, of a new one. Fails: false, and why. */
-bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint8_t flags,
+bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		      const char *const text[SYMBOL_FIELDS], char **why);
 /** symbol_batch_delete - declaration @index goes. */
 bool symbol_batch_delete(struct symbol_batch *batch, int table, int index, char **why);

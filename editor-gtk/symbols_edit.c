@@ -257,7 +257,7 @@ static bool name_is_free(struct symbol_batch *batch, int table, int index,
 
 /* ---- blocks ---- */
 
-static uint8_t wanted_flags(uint8_t flags, const char *const text[SYMBOL_FIELDS])
+static uint16_t wanted_flags(uint16_t flags, const char *const text[SYMBOL_FIELDS])
 {
 	flags &= (uint8_t)~(VAR_RETAIN | VAR_CONSTANT);
 	if (is_set(text[FIELD_RETAIN]))
@@ -267,7 +267,7 @@ static uint8_t wanted_flags(uint8_t flags, const char *const text[SYMBOL_FIELDS]
 	return flags;
 }
 
-static char *block_head(uint8_t flags)
+static char *block_head(uint16_t flags)
 {
 	return g_strdup_printf("%s%s%s\n", vars_head(flags),
 			       flags & VAR_RETAIN ? " RETAIN" : "",
@@ -276,7 +276,7 @@ static char *block_head(uint8_t flags)
 
 /* Of the last block with these flags, that stands in this file; NULL: none. */
 static const struct text_span *find_block(const struct symbol_batch *batch, int table,
-					  uint8_t flags)
+					  uint16_t flags)
 {
 	const struct var_table *vars = xref_table(batch->project, table);
 	const uint8_t same = (uint8_t)~VAR_GLOBAL_WORD;
@@ -307,7 +307,7 @@ static gsize place_of_globals(const struct symbol_batch *batch)
 	return batch->len;
 }
 
-static void insert_block(struct symbol_batch *batch, int table, uint8_t flags,
+static void insert_block(struct symbol_batch *batch, int table, uint16_t flags,
 			 const char *line)
 {
 	const struct var_table *vars = xref_table(batch->project, table);
@@ -337,7 +337,7 @@ static bool insert_member(struct symbol_batch *batch, int table, const char *lin
 	return last;
 }
 
-static bool insert(struct symbol_batch *batch, int table, uint8_t flags, const char *line,
+static bool insert(struct symbol_batch *batch, int table, uint16_t flags, const char *line,
 		   char **why)
 {
 	const struct text_span *block;
@@ -369,7 +369,7 @@ static int block_of(const struct var_table *vars, int index)
 }
 
 /* It leaves its block, or the block, if it has no other one, gets another head. */
-static bool move(struct symbol_batch *batch, int table, int index, uint8_t flags,
+static bool move(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		 const struct text_span *span, const char *line, char **why)
 {
 	const struct var_table *vars = xref_table(batch->project, table);
@@ -386,14 +386,14 @@ static bool move(struct symbol_batch *batch, int table, int index, uint8_t flags
 	return insert(batch, table, flags, line, why);
 }
 
-static bool put_line(struct symbol_batch *batch, int table, int index, uint8_t flags,
+static bool put_line(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		     const char *const text[SYMBOL_FIELDS], const char *line, char **why)
 {
 	const struct symbol_row *old = index < 0 ? NULL :
 		symbols_at(batch->symbols, table, index);
 	const struct text_span *span = old ?
 		find_span(batch, TEXT_VAR, table, index) : NULL;
-	uint8_t wanted = wanted_flags(old ? old->flags : flags, text);
+	uint16_t wanted = wanted_flags(old ? old->flags : flags, text);
 
 	if (index < 0)
 		return insert(batch, table, wanted, line, why);
@@ -405,7 +405,7 @@ static bool put_line(struct symbol_batch *batch, int table, int index, uint8_t f
 	return true;
 }
 
-bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint8_t flags,
+bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		      const char *const text[SYMBOL_FIELDS], char **why)
 {
 	const struct symbol_row *old;
@@ -562,7 +562,7 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 	return good;
 }
 
-bool symbol_add(LadderDocument *document, int table, uint8_t flags,
+bool symbol_add(LadderDocument *document, int table, uint16_t flags,
 		const char *const text[SYMBOL_FIELDS], char **why)
 {
 	struct symbol_batch *batch = symbol_batch_new(document);

@@ -47,6 +47,10 @@
 #define LIMIT_MEMORY      (512u << 10) /* bytes of M, and of V                */
 #define LIMIT_AREAS       (1u << 20)   /* bytes of all areas together         */
 #define LIMIT_BUDGET      10000000  /* instructions of one scan               */
+#define LIMIT_STEPS       4096      /* of a chart; transitions twice so many  */
+#define LIMIT_STEP_USES   256       /* lines of a step                        */
+#define LIMIT_BRANCHES    256       /* steps behind one FROM or TO            */
+#define LIMIT_MACROS      8         /* macro-steps in one another             */
 #define LIMIT_TASKS       16        /* tasks of a configuration               */
 #define LIMIT_TICK        100000    /* ns: shortest interval of a task        */
 #define LIMIT_INTERVAL    86400000000000 /* ns: longest one, a day            */

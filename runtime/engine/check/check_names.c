@@ -169,7 +169,7 @@ static void report_twice(struct names_check *c, const struct pou *pou,
 }
 
 static void check_var(struct names_check *c, const struct pou *pou,
-		      const struct var_table *table, int index, uint8_t flags)
+		      const struct var_table *table, int index, uint16_t flags)
 {
 	int twice = scope_duplicate(c->scope, pou, index);
 	const struct var *var = &table->var[index];
@@ -483,7 +483,7 @@ static void note_il(struct names_check *c, const struct pou *pou)
  * address may be read from outside; an instance counts as written by its
  * call. */
 static enum diag_id judge_use(const struct var *var, unsigned int use,
-			      uint8_t flags)
+			      uint16_t flags)
 {
 	bool outside = var->at.area != AREA_NONE ||
 		       flags & (VAR_OUTPUT | VAR_IN_OUT | VAR_RESULT);

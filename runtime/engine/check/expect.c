@@ -199,14 +199,14 @@ static bool is_instance(const struct offer *o, const struct var *var)
 	return var->type == IEC_NONE && scope_row(o->scope, var->fb)->kind == WORD_FB;
 }
 
-static bool may_write(const struct var *var, uint8_t flags)
+static bool may_write(const struct var *var, uint16_t flags)
 {
 	return !(flags & (VAR_CONSTANT | VAR_INPUT)) &&
 	       (var->at.area == AREA_NONE ||
 		iec_area_row(var->at.area)->access == ACCESS_WRITE);
 }
 
-static void offer_var(const struct offer *o, const struct var *var, uint8_t flags)
+static void offer_var(const struct offer *o, const struct var *var, uint16_t flags)
 {
 	const char *name = project_text(o->project, var->name);
 	unsigned int kinds = o->want->kinds;

@@ -17,7 +17,7 @@
 struct declared {
 	uint32_t table, fold;
 	int index;            /* of the first declaration of this name */
-	uint8_t flags;        /* of its VAR block */
+	uint16_t flags;        /* of its VAR block */
 };
 
 /* An answer: what a text means in a table, or why it means nothing. */

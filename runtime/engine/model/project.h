@@ -9,13 +9,14 @@
 #define MODEL_PROJECT_H
 
 #include "engine/base/areas.h"
+#include "engine/model/sfc.h"
 #include "engine/model/config.h"
 #include "engine/model/il.h"
 #include "engine/model/rung.h"
 #include "engine/model/vars.h"
 #include "engine/model/words.h"
 
-enum pou_language { LANGUAGE_LD, LANGUAGE_IL };
+enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC };
 enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE };
 
 struct pou {
@@ -27,9 +28,10 @@ struct pou {
 	int edges;              /* cells with a memory: in each instance       */
 	uint32_t edge_offset;   /* in an instance: where those lie             */
 	struct var_table vars;  /* locals                                      */
-	struct rung **rung;     /* of LD; malloc'ed vector of malloc'ed rungs  */
+	struct rung **rung;     /* of LD, SFC; malloc'ed vector of malloc'ed rungs */
 	int rung_count;
-	struct il il;           /* of IL                                       */
+	struct il il;           /* of IL, SFC                                  */
+	struct sfc *sfc;        /* of SFC; NULL: another language              */
 	uint32_t comment;       /* above it                                    */
 	uint32_t tail;          /* comments before its END_PROGRAM             */
 	const char *file;       /* it stands in; borrowed from the arena       */

@@ -130,7 +130,7 @@ static void report_circle(struct shaper *s, int again)
 /* ---- pins ---- */
 
 /* A variable of a VAR_TEMP row, of a POU, or of a structure. */
-static enum pin_dir dir_of(const struct word_row *row, uint8_t flags)
+static enum pin_dir dir_of(const struct word_row *row, uint16_t flags)
 {
 	bool temp = flags & VAR_TEMP && row->kind != WORD_FN;
 
@@ -152,7 +152,7 @@ static void make_pin(const struct shaper *s, struct word_row *row,
 		     int index)
 {
 	const struct var *var = &table->var[index];
-	uint8_t flags = vars_flags(table, index);
+	uint16_t flags = vars_flags(table, index);
 
 	*pin = (struct word_pin){
 		.name = project_text(s->project, var->name),

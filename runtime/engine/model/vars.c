@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-uint8_t vars_flags(const struct var_table *table, int index)
+uint16_t vars_flags(const struct var_table *table, int index)
 {
 	int low = 0, high = table->block_count;
 
@@ -68,9 +68,9 @@ bool vars_is_eno(const struct var_table *table, int index)
 	return index == 1 && vars_flags(table, index) & VAR_RESULT;
 }
 
-const char *vars_head(uint8_t flags)
+const char *vars_head(uint16_t flags)
 {
-	static const struct { uint8_t flag; const char *word; } heads[] = {
+	static const struct { uint16_t flag; const char *word; } heads[] = {
 		{ VAR_GLOBAL_WORD, "VAR_GLOBAL" }, { VAR_INPUT, "VAR_INPUT" },
 		{ VAR_OUTPUT, "VAR_OUTPUT" }, { VAR_IN_OUT, "VAR_IN_OUT" },
 		{ VAR_TEMP, "VAR_TEMP" },

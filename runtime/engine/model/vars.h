@@ -17,6 +17,8 @@ enum var_flag {
 	VAR_INPUT = 8, VAR_OUTPUT = 16, VAR_IN_OUT = 32, VAR_TEMP = 64,
 	VAR_RESULT = 128,    /* of a function; stands in its heading. Behind it
 				in the same block its ENO               */
+	VAR_SFC = 256,       /* what a chart has beside them: model/sfc.h; programs
+				read it, and nothing of it stands in a file */
 };
 
 /* Part of an array's initial values: so many times the same. */
@@ -51,7 +53,7 @@ struct var {
 
 /* One VAR … END_VAR; canonical files keep blocks apart. */
 struct var_block {
-	uint8_t flags;       /* enum var_flag                                  */
+	uint16_t flags;       /* enum var_flag                                  */
 	uint32_t comment;    /* above it                                       */
 	int first, count;    /* in the table                                   */
 	int line;
@@ -65,12 +67,12 @@ struct var_table {
 };
 
 /** vars_flags - of the block that var number @index stands in. */
-uint8_t vars_flags(const struct var_table *table, int index);
+uint16_t vars_flags(const struct var_table *table, int index);
 /** vars_is_eno - the BOOL that a function's body may set, which is declared nowhere?
  * Scan-safe: yes. */
 bool vars_is_eno(const struct var_table *table, int index);
 /** vars_head - the word that a block with these flags begins with: VAR_INPUT. */
-const char *vars_head(uint8_t flags);
+const char *vars_head(uint16_t flags);
 /** var_unit - bytes from one element to the next; without an array the size. Not of
  * an instance. */
 uint32_t var_unit(const struct var *var);

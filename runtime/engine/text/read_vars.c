@@ -288,7 +288,7 @@ static uint8_t may_be(uint8_t head)
 /* The flag of a heading at the cursor; -1: there is none. */
 static int find_head(const struct reader *r)
 {
-	static const uint8_t flags[] = {
+	static const uint16_t flags[] = {
 		0, VAR_GLOBAL_WORD, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP,
 	};
 
@@ -304,7 +304,7 @@ bool reader_is_vars(const struct reader *r)
 }
 
 /* May a block of this kind stand here? */
-static bool has_place(const struct reader *r, uint8_t flag, bool global)
+static bool has_place(const struct reader *r, uint16_t flag, bool global)
 {
 	bool callable = r->pou && pou_has_frame(r->pou);
 
@@ -315,11 +315,11 @@ static bool has_place(const struct reader *r, uint8_t flag, bool global)
 	return flag == 0 || callable;
 }
 
-static uint8_t read_flags(struct reader *r, bool global)
+static uint16_t read_flags(struct reader *r, bool global)
 {
 	const bool function = r->pou && r->pou->kind == POU_FUNCTION;
 	const uint8_t head = (uint8_t)find_head(r);
-	uint8_t flags = head, flag;
+	uint16_t flags = head, flag;
 
 	if (!has_place(r, flags, global))
 		reader_fail_token(r, DIAG_MISPLACED);
@@ -397,7 +397,7 @@ void read_members(struct reader *r, struct var_table *table)
 	}
 }
 
-bool read_var(struct reader *r, uint8_t flags, struct var *out)
+bool read_var(struct reader *r, uint16_t flags, struct var *out)
 {
 	struct var_table one = { 0 };
 	bool good;

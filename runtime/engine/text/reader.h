@@ -55,7 +55,7 @@ struct reader {
 	int arg_count;
 	struct il *il;              /* of the POU, for COMMENT_IL             */
 	const struct pou *pou;      /* in work; NULL: none                    */
-	uint8_t var_flags;          /* of the VAR block in work               */
+	uint16_t var_flags;          /* of the VAR block in work               */
 	bool members;               /* of a structure are read                */
 	bool library;               /* the file was named by USES             */
 	bool keep_pins;             /* pins are the project's own: as written */
@@ -170,7 +170,7 @@ void read_types(struct reader *r);
 void read_members(struct reader *r, struct var_table *table);
 void read_vars(struct reader *r, struct var_table *table, bool global);
 /** read_var - one declaration for a block with these flags, and its comment. */
-bool read_var(struct reader *r, uint8_t flags, struct var *out);
+bool read_var(struct reader *r, uint16_t flags, struct var *out);
 struct rung *read_rung(struct reader *r);
 void read_il(struct reader *r, struct pou *pou);
 void read_config(struct reader *r, struct config *config);

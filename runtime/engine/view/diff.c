@@ -60,7 +60,7 @@ static const char *type_text(const struct project *project,
 }
 
 /* "" of a plain VAR; VAR_GLOBAL says the same. */
-static const char *flags_text(uint8_t flags)
+static const char *flags_text(uint16_t flags)
 {
 	static const char *const text[] = { "", "RETAIN", "CONSTANT",
 					    "RETAIN CONSTANT" };

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc - the words of a chart, what its names mean, and the variables it brings.
+ *
+ * What is wrong with a chart is found in check/check_sfc.c.
+ */
+#include "engine/model/sfc.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+static const char *const qualifiers[QUALIFIER_COUNT] = {
+	"N", "S", "R", "L", "D", "P", "P0", "P1", "SD", "DS", "SL",
+};
+static const char *const controls[CONTROL_COUNT] = {
+	"RESET", "HOLD", "SEMI", "MANUAL", "TIP", "FORCE",
+};
+
+static int find(const char *const *words, int count, const char *text, size_t len)
+{
+	int i = 0;
+
+	while (i < count && (strlen(words[i]) != len || strncasecmp(words[i], text, len)))
+		i++;
+	return i;
+}
+
+const char *qualifier_word(enum qualifier qualifier)
+{
+	return qualifiers[qualifier];
+}
+
+enum qualifier qualifier_find(const char *text, size_t len)
+{
+	return (enum qualifier)find(qualifiers, QUALIFIER_COUNT, text, len);
+}
+
+bool qualifier_has_time(enum qualifier qualifier)
+{
+	return qualifier == QUALIFIER_L || qualifier == QUALIFIER_D ||
+	       qualifier == QUALIFIER_SD || qualifier == QUALIFIER_DS ||
+	       qualifier == QUALIFIER_SL;
+}
+
+const char *control_word(enum control control)
+{
+	return controls[control];
+}
+
+enum control control_find(const char *text, size_t len)
+{
+	return (enum control)find(controls, CONTROL_COUNT, text, len);
+}
+
+int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t name)
+{
+	const uint32_t fold = names_fold(names, name);
+
+	for (int i = 0; fold && i < sfc->step_count; i++)
+		if (names_fold(names, sfc->step[i].name) == fold)
+			return i;
+	return -1;
+}
+
+/* ---- what names mean ---- */
+
+/* By folded name: the number of a step or action; -1: none. The first of a name counts. */
+static int *by_fold(struct names *names, const uint32_t *name, size_t stride, int count)
+{
+	int *out = arena_alloc(names->arena, ((size_t)names->count + 1) * sizeof(*out));
+
+	for (int i = 0; out && i < names->count; i++)
+		out[i] = -1;
+	for (int i = count - 1; out && i >= 0; i--) {
+		const char *at = (const char *)name + (size_t)i * stride;
+		uint32_t id;
+
+		memcpy(&id, at, sizeof(id));
+		out[names_fold(names, id)] = i;
+	}
+	return out;
+}
+
+bool sfc_link(struct sfc *sfc, struct names *names)
+{
+	const struct sfc_step *steps = sfc->step;
+	const struct sfc_action *actions = sfc->action;
+	const int *step = by_fold(names, steps ? &steps->name : NULL, sizeof(*steps),
+				  sfc->step_count);
+	const int *action = by_fold(names, actions ? &actions->name : NULL,
+				    sizeof(*actions), sfc->action_count);
+
+	if (!step || !action)
+		return false;
+	for (int i = 0; i < sfc->ref_count; i++) {
+		struct sfc_ref *ref = &sfc->ref[i];
+
+		ref->step = ref->name ? step[names_fold(names, ref->name)] : -1;
+	}
+	for (int i = 0; i < sfc->use_count; i++) {
+		struct sfc_use *use = &sfc->use[i];
+
+		use->action = use->kind == USE_ACTION && use->operand ?
+			      action[names_fold(names, use->operand)] : -1;
+	}
+	return true;
+}
+
+/* ---- what it declares ---- */
+
+int sfc_x(const struct sfc *sfc, const struct var_table *table, int step)
+{
+	return table->block[sfc->block].first + step;
+}
+
+int sfc_t(const struct sfc *sfc, const struct var_table *table, int step)
+{
+	return sfc_x(sfc, table, sfc->step_count + step);
+}
+
+int sfc_condition(const struct sfc *sfc, const struct var_table *table)
+{
+	return sfc_x(sfc, table, 2 * sfc->step_count);
+}
+
+static bool declare(struct names *names, struct var_table *table, struct arena *arena,
+		    struct var var, const char *name)
+{
+	var.name = names_intern(names, name, strlen(name));
+	var.fold = names_fold(names, var.name);
+	return var.name && vars_push(table, table->block_count - 1, &var, arena);
+}
+
+static bool declare_steps(const struct sfc *sfc, struct names *names,
+			  struct var_table *table, struct arena *arena,
+			  enum iec_type type, char letter)
+{
+	char name[LIMIT_NAME + 8];
+
+	for (int i = 0; i < sfc->step_count; i++) {
+		const struct sfc_step *step = &sfc->step[i];
+
+		snprintf(name, sizeof(name), "%.*s.%c", LIMIT_NAME,
+			 names_text(names, step->name), letter);
+		if (!declare(names, table, arena,
+			     (struct var){ .type = type, .line = step->line }, name))
+			return false;
+	}
+	return true;
+}
+
+bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table,
+		   struct arena *arena)
+{
+	struct var_block *block = arena_push(arena, &table->block, &table->block_count,
+					     sizeof(*block));
+
+	if (!block)
+		return false;
+	*block = (struct var_block){ .flags = VAR_SFC, .first = table->count };
+	sfc->block = table->block_count - 1;
+	return declare_steps(sfc, names, table, arena, IEC_BOOL, 'X') &&
+	       declare_steps(sfc, names, table, arena, IEC_TIME, 'T') &&
+	       declare(names, table, arena, (struct var){ .type = IEC_BOOL },
+		       SFC_CONDITION);
+}

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc - a sequential function chart (IEC 61131-3, 6.7) as data.
+ *
+ * It holds what was written, right or wrong, in the order of the file. Conditions and
+ * bodies are rungs and lines of the POU's own vectors, so that whatever works on rungs
+ * and lists works on them; an expression is a rung of one cell and a coil. Which steps
+ * are active, and what that means, is told in docs/sfc.md.
+ */
+#ifndef MODEL_SFC_H
+#define MODEL_SFC_H
+
+#include "engine/base/arena.h"
+#include "engine/base/limits.h"
+#include "engine/base/names.h"
+#include "engine/model/vars.h"
+
+#include <stddef.h>
+
+/* Of the standard's table 58; the order is that of the words in sfc.c. */
+enum qualifier { QUALIFIER_N, QUALIFIER_S, QUALIFIER_R, QUALIFIER_L, QUALIFIER_D,
+		 QUALIFIER_P, QUALIFIER_P0, QUALIFIER_P1, QUALIFIER_SD, QUALIFIER_DS,
+		 QUALIFIER_SL, QUALIFIER_COUNT };
+
+/* What a condition or an action is made of. */
+enum body_kind {
+	BODY_NONE,       /* nothing was written                                */
+	BODY_EXPRESSION, /* := … ; one rung, [ … ] and the coil                */
+	BODY_RUNGS,      /* of a condition exactly one                         */
+	BODY_LIST,       /* instructions                                       */
+};
+struct sfc_body {
+	enum body_kind kind;
+	int first, count;   /* of pou->rung, or of pou->il.line                */
+};
+
+enum step_kind { STEP_PLAIN, STEP_INITIAL, STEP_MACRO };
+struct sfc_step {
+	uint32_t name;      /* string id                                       */
+	enum step_kind kind;
+	int macro;          /* the step it stands in; -1: none                 */
+	int end;            /* of a macro-step: item of its end                */
+	uint32_t min, max;  /* string ids: supervision times, as written; 0    */
+	uint32_t alarm;     /* string id: operand; 0: none                     */
+	int column;         /* hint for drawing, 1-based; 0: none              */
+	int first_use, use_count;
+	uint32_t comment;   /* above it                                        */
+	uint32_t tail;      /* comments before its end                         */
+	int line, column_at; /* of its name in the file, 1-based               */
+};
+
+/* A line of a step: what it does. */
+enum use_kind { USE_ACTION, USE_SET, USE_RESET };
+struct sfc_use {
+	enum use_kind kind;
+	int step;
+	uint32_t operand;   /* string id: action, or a BOOL; one of SET, RESET  */
+	enum qualifier qualifier; /* of USE_ACTION                             */
+	uint32_t time;      /* string id: operand of L D SD DS SL; 0: none     */
+	int action;         /* that of this name; -1: a BOOL                   */
+	uint8_t more;       /* 1: stands in the line of the one before it      */
+	uint32_t comment;   /* above it                                        */
+	int line, column;
+};
+
+struct sfc_transition {
+	uint32_t name;      /* string id; 0: none                              */
+	int priority;       /* 1 is the highest; 0: by the order of the file   */
+	int macro;          /* the macro-step it stands in; -1: none           */
+	int first_from, from_count; /* of sfc.ref                             */
+	int first_to, to_count;
+	struct sfc_body condition;
+	uint32_t comment, tail;
+	int line, column;
+};
+
+struct sfc_action {
+	uint32_t name;      /* string id                                       */
+	struct sfc_body body;
+	uint32_t comment, tail;
+	int line, column;
+};
+
+/* A name behind FROM or TO. */
+struct sfc_ref {
+	uint32_t name;      /* string id                                       */
+	int step;           /* -1: there is none of this name                  */
+	int line, column;
+};
+
+/* How the chart is operated from outside: CONTROL(RESET := I0.7, …); */
+enum control { CONTROL_RESET, CONTROL_HOLD, CONTROL_SEMI, CONTROL_MANUAL, CONTROL_TIP,
+	       CONTROL_FORCE, CONTROL_COUNT };
+
+enum item_kind { ITEM_STEP, ITEM_MACRO_END, ITEM_TRANSITION, ITEM_ACTION, ITEM_CONTROL };
+struct sfc_item { enum item_kind kind; int index; };
+
+struct sfc {
+	bool until_stable;
+	uint32_t control[CONTROL_COUNT]; /* string ids: operands; 0: none     */
+	uint32_t control_comment;
+	int control_line;
+	struct sfc_step *step;
+	int step_count;
+	struct sfc_use *use;          /* by step                            */
+	int use_count;
+	struct sfc_transition *transition;
+	int transition_count;
+	struct sfc_action *action;
+	int action_count;
+	struct sfc_ref *ref;
+	int ref_count;
+	struct sfc_item *item;        /* what stands where in the file      */
+	int item_count;
+	int block;                      /* of the POU's variables: what
+					   sfc_declare() declared; -1: nothing */
+};
+
+/* The variables that a chart has beside the declared ones, found like any other. */
+#define SFC_CONDITION "TRANSITION" /* BOOL: what a condition's coil writes  */
+
+/** qualifier_word - "N", "SD". Lives for ever. Scan-safe: yes. */
+const char *qualifier_word(enum qualifier qualifier);
+/** qualifier_find - QUALIFIER_COUNT: there is none. Scan-safe: yes. */
+enum qualifier qualifier_find(const char *text, size_t len);
+/** qualifier_has_time - L D SD DS SL. Scan-safe: yes. */
+bool qualifier_has_time(enum qualifier qualifier);
+/** control_word - "RESET". Lives for ever. Scan-safe: yes. */
+const char *control_word(enum control control);
+/** control_find - CONTROL_COUNT: there is none. Scan-safe: yes. */
+enum control control_find(const char *text, size_t len);
+
+/** sfc_x, sfc_t - of step @step: Name.X, Name.T; sfc_condition - SFC_CONDITION: the
+ * number of the variable in @table. After sfc_declare(). Scan-safe: yes. */
+int sfc_x(const struct sfc *sfc, const struct var_table *table, int step);
+int sfc_t(const struct sfc *sfc, const struct var_table *table, int step);
+int sfc_condition(const struct sfc *sfc, const struct var_table *table);
+/** sfc_find_step - by name, case does not count; -1: none. Linear. Scan-safe: yes. */
+int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t name);
+
+/**
+ * sfc_link - finds what each name means, once all is read
+ *
+ * Sets ref.step, use.action and use_count of steps; says nothing of what it does not find.
+ * Scan-safe: no.   Fails: false: no memory.
+ */
+bool sfc_link(struct sfc *sfc, struct names *names);
+
+/**
+ * sfc_declare - declares Name.X and Name.T of every step, and SFC_CONDITION
+ * @table: of the POU; a block with VAR_SFC is put behind its blocks
+ *
+ * All Name.X one after another, in the order of the steps, then all Name.T.
+ * Scan-safe: no.   Fails: false: no memory.
+ */
+bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table,
+		   struct arena *arena);
+#endif
