@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_net - which steps each transition takes and gives, macro-steps resolved.
+ *
+ * A macro-step is active together with what is inside, so it is a step of its own beside
+ * its first one when it is entered, and beside its last one when it is left. What names
+ * lead to nothing is left out: check/check_sfc.c says so.
+ */
+#ifndef MODEL_SFC_NET_H
+#define MODEL_SFC_NET_H
+
+#include "engine/model/sfc.h"
+
+/* Steps by number, each once. */
+struct sfc_steps { int *step; int count; };
+
+struct sfc_arc {
+	int transition;      /* of sfc.transition                              */
+	struct sfc_steps from, to;
+};
+
+struct sfc_net {
+	struct sfc_steps initial;
+	struct sfc_arc *arc; /* the first that is true takes its steps         */
+	int arc_count;
+};
+
+/** sfc_entry, sfc_exit - the step at which a macro-step is entered, left; -1: none.
+ * Linear.   Scan-safe: yes. */
+int sfc_entry(const struct sfc *sfc, int macro);
+int sfc_exit(const struct sfc *sfc, int macro);
+
+/**
+ * sfc_net_make - the net of a chart that was linked
+ *
+ * Owns: @arena.   Scan-safe: no.   Fails: false: no memory.
+ */
+bool sfc_net_make(const struct sfc *sfc, struct arena *arena, struct sfc_net *out);
+
+/** sfc_forced - the steps that are active when @step is made active alone: those around it,
+ * and those in which it is entered.   As sfc_net_make(). */
+bool sfc_forced(const struct sfc *sfc, int step, struct arena *arena,
+		struct sfc_steps *out);
+#endif
