@@ -18,6 +18,9 @@ enum text_part {
 	TEXT_RUNG,  /* number in its POU                                      */
 	TEXT_STRUCT, /* a structure; number in the project                    */
 	TEXT_TITLE, /* PROJECT "…" with its newline, or where it would stand  */
+	TEXT_STEP,  /* of a chart, from its comments to END_STEP; its number  */
+	TEXT_TRANSITION, /* likewise                                          */
+	TEXT_ACTION,
 };
 struct text_span {
 	enum text_part part;

@@ -142,6 +142,15 @@ const char *pou_word(enum pou_kind kind)
 	return words[kind];
 }
 
+const char *pou_language_word(enum pou_language language)
+{
+	static const char *const words[] = {
+		[LANGUAGE_LD] = "LD", [LANGUAGE_IL] = "IL", [LANGUAGE_SFC] = "SFC",
+	};
+
+	return words[language];
+}
+
 const char *project_text(const struct project *project, uint32_t id)
 {
 	return names_text(&project->names, id);

@@ -109,6 +109,8 @@ bool project_view_is_last(const struct project *project);
 bool project_set_view(struct project *project, const char *text);
 /** pou_word - PROGRAM, FUNCTION, FUNCTION_BLOCK, SUBROUTINE. Lives for ever. */
 const char *pou_word(enum pou_kind kind);
+/** pou_language_word - LD, IL, SFC. Lives for ever. */
+const char *pou_language_word(enum pou_language language);
 /** project_text - the string of an id. */
 const char *project_text(const struct project *project, uint32_t id);
 #endif

@@ -7,7 +7,8 @@
 #include "engine/text/text.h"
 #include "engine/text/writer.h"
 
-#define OUTLINE_DEPTH 8 /* parts inside one another: at most four           */
+#define OUTLINE_DEPTH (8 + LIMIT_MACROS) /* parts inside one another; those that are
+					    deeper are not told               */
 
 struct outline {
 	struct sink_memory memory;
@@ -28,11 +29,17 @@ static void outline_write(void *context, const char *text, size_t len)
 static void outline_mark(void *context, int kind, int number, bool begins)
 {
 	struct outline *outline = context;
-	const struct text_span *outer = outline->depth ?
-		&outline->open[outline->depth - 1] : NULL;
-	struct text_span *span = &outline->open[outline->depth - !begins];
+	const int at = outline->depth - !begins;
+	const struct text_span *outer;
+	struct text_span *span;
 
+	if (at >= OUTLINE_DEPTH) {
+		outline->depth += begins ? 1 : -1;
+		return;
+	}
+	span = &outline->open[at];
 	if (begins) {
+		outer = at ? span - 1 : NULL;
 		*span = (struct text_span){ (enum text_part)kind, number,
 			outer ? outer->pou : -1, outer ? outer->structure : -1,
 			outline->memory.len, 0 };

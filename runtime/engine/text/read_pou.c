@@ -37,7 +37,7 @@ static size_t rung_cells(const struct rung *rung)
 	return (size_t)rung->rows * rung->cols;
 }
 
-static void add_rung(struct reader *r, struct pou *pou)
+void reader_add_rung(struct reader *r, struct pou *pou)
 {
 	bool full = pou->rung_count == LIMIT_RUNGS ||
 		    r->all_cells > LIMIT_TEXT / 4;
@@ -64,7 +64,7 @@ static void read_rungs(struct reader *r, struct pou *pou)
 			return;
 		if (lex_is(&r->lex, "RUNG")) {
 			r->place.rung++;
-			add_rung(r, pou);
+			reader_add_rung(r, pou);
 		} else if (reader_is_vars(r)) {
 			if (r->place.rung > 0)
 				reader_fail_token(r, DIAG_MISPLACED);
@@ -81,6 +81,11 @@ static void read_body(struct reader *r, struct pou *pou)
 {
 	if (pou->language == LANGUAGE_LD) {
 		read_rungs(r, pou);
+		return;
+	}
+	if (pou->language == LANGUAGE_SFC) {
+		if (pou->sfc)
+			read_sfc(r, pou);
 		return;
 	}
 	for (reader_skip_newlines(r); reader_is_vars(r); reader_skip_newlines(r))
@@ -150,6 +155,31 @@ static bool read_result(struct reader *r, struct pou *pou)
 	return add_eno(r, table, pou->line);
 }
 
+/* SFC, and perhaps UNTIL STABLE; the cursor stands on SFC. */
+static void begin_chart(struct reader *r, struct pou *pou)
+{
+	if (pou->kind != POU_PROGRAM)
+		reader_fail_word(r, DIAG_SFC_KIND, pou_word(pou->kind));
+	pou->language = LANGUAGE_SFC;
+	pou->sfc = arena_alloc(&r->project->arena, sizeof(*pou->sfc));
+	if (!pou->sfc) {
+		r->no_memory = true;
+		return;
+	}
+	pou->sfc->block = -1;
+	reader_next(r);
+	if (!lex_is(&r->lex, "UNTIL"))
+		return;
+	reader_next(r);
+	if (!lex_is(&r->lex, "STABLE")) {
+		reader_fail_word(r, DIAG_EXPECTED, "STABLE");
+		reader_skip_line(r);
+		return;
+	}
+	pou->sfc->until_stable = true;
+	reader_next(r);
+}
+
 static void read_first_line(struct reader *r, struct pou *pou, int index)
 {
 	reader_next(r);
@@ -168,7 +198,9 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 	}
 	if (lex_is(&r->lex, "IL"))
 		pou->language = LANGUAGE_IL;
-	if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD"))
+	if (lex_is(&r->lex, "SFC"))
+		begin_chart(r, pou);
+	else if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD"))
 		reader_next(r);
 	reader_end_line(r);
 }

@@ -262,14 +262,15 @@ bool read_ends_block(const struct reader *r)
 		"SUBROUTINE", "END_SUBROUTINE",
 		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP",
 	};
+	bool found = r->pou && r->pou->language == LANGUAGE_SFC &&
+		     reader_is_chart_word(r);
 
 	if (r->lex.token.kind != TOKEN_NAME)
 		return false;
-	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
-		if (lex_is(&r->lex, words[i]))
-			return !reader_peek(r, ":") && !reader_peek(r, ",") &&
-			       !reader_peek(r, "AT");
-	return false;
+	for (size_t i = 0; !found && i < sizeof(words) / sizeof(*words); i++)
+		found = lex_is(&r->lex, words[i]);
+	return found && !reader_peek(r, ":") && !reader_peek(r, ",") &&
+	       !reader_peek(r, "AT");
 }
 
 /* A word or a sign where a part, a rung or a declaration should begin. */

@@ -277,7 +277,7 @@ static void read_declarations(struct reader *r, struct var_table *table)
 }
 
 /* What may stand behind a heading. */
-static uint8_t may_be(uint8_t head)
+static uint16_t may_be(uint16_t head)
 {
 	if (head & (VAR_IN_OUT | VAR_TEMP))
 		return 0;
@@ -292,7 +292,7 @@ static int find_head(const struct reader *r)
 		0, VAR_GLOBAL_WORD, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP,
 	};
 
-	for (size_t i = 0; i < sizeof(flags); i++)
+	for (size_t i = 0; i < sizeof(flags) / sizeof(*flags); i++)
 		if (lex_is(&r->lex, vars_head(flags[i])))
 			return flags[i];
 	return -1;
@@ -318,7 +318,7 @@ static bool has_place(const struct reader *r, uint16_t flag, bool global)
 static uint16_t read_flags(struct reader *r, bool global)
 {
 	const bool function = r->pou && r->pou->kind == POU_FUNCTION;
-	const uint8_t head = (uint8_t)find_head(r);
+	const uint16_t head = (uint16_t)find_head(r);
 	uint16_t flags = head, flag;
 
 	if (!has_place(r, flags, global))

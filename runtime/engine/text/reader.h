@@ -172,7 +172,13 @@ void read_vars(struct reader *r, struct var_table *table, bool global);
 /** read_var - one declaration for a block with these flags, and its comment. */
 bool read_var(struct reader *r, uint16_t flags, struct var *out);
 struct rung *read_rung(struct reader *r);
+/** reader_add_rung - the same as the last rung of a POU. */
+void reader_add_rung(struct reader *r, struct pou *pou);
 void read_il(struct reader *r, struct pou *pou);
+/** read_sfc - the items of a chart, up to END_PROGRAM; pou->sfc is there. */
+void read_sfc(struct reader *r, struct pou *pou);
+/** reader_is_chart_word - a word that begins or ends an item of a chart? */
+bool reader_is_chart_word(const struct reader *r);
 void read_config(struct reader *r, struct config *config);
 /** read_ends_block - does a line begin here that never stands inside VAR or an
  * instruction list? A name or label that is spelled so is none. */

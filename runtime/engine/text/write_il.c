@@ -114,7 +114,7 @@ static void write_line(const struct sink *sink, const struct project *project,
 		sink_text(sink, ":");
 		return;
 	case IL_COMMENT:
-		write_id(sink, project, line->operand);
+		write_comments(sink, project, line->operand);
 		return;
 	case IL_ARG_IN:
 	case IL_ARG_OUT:

@@ -18,12 +18,28 @@ void write_id(const struct sink *sink, const struct project *project, uint32_t i
 	sink_write(sink, project_text(project, id), names_len(&project->names, id));
 }
 
+void write_comments(const struct sink *sink, const struct project *project,
+		    uint32_t comments)
+{
+	const char *from = project_text(project, comments);
+	const char *end = from + names_len(&project->names, comments);
+	struct lex lex;
+
+	lex_init(&lex, from, (size_t)(end - from));
+	lex.comments = true;
+	while (lex_next(&lex) == TOKEN_COMMENT) {
+		sink_write(sink, from, (size_t)(lex.token.text - from));
+		from = lex.token.text;
+	}
+	sink_write(sink, from, (size_t)(end - from));
+}
+
 void write_above(const struct sink *sink, const struct project *project,
 		 uint32_t comment)
 {
 	if (!comment)
 		return;
-	write_id(sink, project, comment);
+	write_comments(sink, project, comment);
 	sink_text(sink, "\n");
 }
 
@@ -160,7 +176,7 @@ void write_block(const struct sink *sink, const struct project *project,
 	const struct var *var = table->var ? table->var + block->first : NULL;
 	const struct widths widths = measure(project, var, block->count);
 
-	if (block->flags & VAR_RESULT)
+	if (block->flags & (VAR_RESULT | VAR_SFC))
 		return;
 	write_above(sink, project, block->comment);
 	sink_mark(sink, TEXT_BLOCK, index, true);
@@ -185,6 +201,24 @@ void text_write_vars(const struct project *project, const struct var_table *tabl
 
 /* ---- parts ---- */
 
+static void write_body(const struct sink *sink, const struct project *project,
+		       const struct pou *pou)
+{
+	const int number = (int)(pou - project->pou);
+
+	text_write_vars(project, &pou->vars, sink);
+	sink_mark(sink, TEXT_BODY, number, true);
+	for (int i = 0; i < pou->rung_count; i++) {
+		sink_mark(sink, TEXT_RUNG, i, true);
+		write_rung(sink, project, pou->rung[i]);
+		sink_mark(sink, TEXT_RUNG, i, false);
+	}
+	if (pou->language == LANGUAGE_IL)
+		text_write_il(project, &pou->il, sink);
+	write_above(sink, project, pou->tail);
+	sink_mark(sink, TEXT_BODY, number, false);
+}
+
 static void write_pou(const struct sink *sink, const struct project *project,
 		      const struct pou *pou)
 {
@@ -199,18 +233,15 @@ static void write_pou(const struct sink *sink, const struct project *project,
 		sink_text(sink, " : ");
 		write_type(sink, project, &pou->vars.var[0]);
 	}
-	sink_text(sink, pou->language == LANGUAGE_IL ? " IL\n" : " LD\n");
-	text_write_vars(project, &pou->vars, sink);
-	sink_mark(sink, TEXT_BODY, number, true);
-	for (int i = 0; i < pou->rung_count; i++) {
-		sink_mark(sink, TEXT_RUNG, i, true);
-		write_rung(sink, project, pou->rung[i]);
-		sink_mark(sink, TEXT_RUNG, i, false);
-	}
-	if (pou->language == LANGUAGE_IL)
-		text_write_il(project, &pou->il, sink);
-	write_above(sink, project, pou->tail);
-	sink_mark(sink, TEXT_BODY, number, false);
+	sink_text(sink, " ");
+	sink_text(sink, pou_language_word(pou->language));
+	if (pou->sfc && pou->sfc->until_stable)
+		sink_text(sink, " UNTIL STABLE");
+	sink_text(sink, "\n");
+	if (pou->sfc)
+		write_sfc(sink, project, pou);
+	else
+		write_body(sink, project, pou);
 	sink_text(sink, "END_");
 	sink_text(sink, pou_word(pou->kind));
 	sink_text(sink, "\n");

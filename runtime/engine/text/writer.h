@@ -12,6 +12,9 @@
 
 /** write_id - the string of @id. */
 void write_id(const struct sink *sink, const struct project *project, uint32_t id);
+/** write_comments - comments as they are, each of them handed over at once. */
+void write_comments(const struct sink *sink, const struct project *project,
+		    uint32_t comments);
 /** write_above - comments and a newline, or nothing. */
 void write_above(const struct sink *sink, const struct project *project,
 		 uint32_t comment);
@@ -31,6 +34,9 @@ void write_rung(const struct sink *sink, const struct project *project,
 /** write_cell - an element, without comment. */
 void write_cell(const struct sink *sink, const struct project *project,
 		const struct cell *cell);
+/** write_sfc - a chart: declarations and items, up to the comments before its end. */
+void write_sfc(const struct sink *sink, const struct project *project,
+	       const struct pou *pou);
 /** write_project - all of it; marks its parts, as enum text_part. */
 void write_project(const struct sink *sink, const struct project *project);
 #endif

@@ -1,0 +1,383 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * read_sfc - a sequential function chart: its items, actions, CONTROL, and what they
+ * are made of.
+ *
+ * Steps are read in read_sfc_step.c, transitions in read_sfc_transition.c. What a chart
+ * means and whether it makes sense is found in check/.
+ */
+#include "engine/text/read_sfc.h"
+
+#include "engine/base/literal.h"
+
+#include <string.h>
+
+bool reader_is_chart_word(const struct reader *r)
+{
+	static const char *const words[] = {
+		"STEP", "INITIAL_STEP", "MACRO_STEP", "END_STEP", "TRANSITION",
+		"END_TRANSITION", "ACTION", "END_ACTION", "CONTROL",
+	};
+
+	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
+		if (lex_is(&r->lex, words[i]))
+			return true;
+	return false;
+}
+
+/* ---- parts of items ---- */
+
+bool chart_ends(const struct chart *chart)
+{
+	const struct reader *r = chart->r;
+
+	return r->lex.token.kind == TOKEN_END || r->no_memory ||
+	       (read_ends_block(r) && !lex_is(&r->lex, "RUNG") && !reader_is_vars(r));
+}
+
+void chart_skip_odd(struct chart *chart)
+{
+	struct reader *r = chart->r;
+
+	reader_skip_odd_line(r);
+	reader_skip_newlines(r);
+	while (reader_is(r, '|')) {
+		reader_skip_line(r);
+		reader_skip_newlines(r);
+	}
+}
+
+bool chart_expect(struct chart *chart, const char *symbol)
+{
+	if (!lex_is(&chart->r->lex, symbol))
+		return reader_fail_word(chart->r, DIAG_EXPECTED, symbol);
+	reader_step(chart->r);
+	return true;
+}
+
+bool chart_settings(struct chart *chart,
+		    bool (*one)(struct chart *chart, void *out), void *out)
+{
+	struct reader *r = chart->r;
+	bool good = true, more;
+
+	r->across_lines = true;
+	reader_step(r);
+	more = !reader_is(r, ')');
+	while (good && more) {
+		good = one(chart, out);
+		more = good && reader_is(r, ',');
+		if (more)
+			reader_step(r);
+	}
+	r->across_lines = false;
+	if (good && !reader_is(r, ')'))
+		good = reader_fail_word(r, DIAG_EXPECTED, ", or )");
+	if (good)
+		reader_next(r);
+	return good;
+}
+
+bool chart_operand(struct chart *chart, bool constant, const struct token *word,
+		   uint32_t *id)
+{
+	struct reader *r = chart->r;
+
+	buffer_clear(&r->text);
+	if (!reader_value(r, constant, word))
+		return false;
+	*id = buffer_take(r, &r->text);
+	reader_step(r);
+	return true;
+}
+
+bool chart_setting(struct chart *chart, bool constant, uint32_t *id)
+{
+	const struct token word = chart->r->lex.token;
+
+	if (*id)
+		return reader_fail_token(chart->r, DIAG_DUPLICATE_ARG);
+	reader_step(chart->r);
+	return chart_expect(chart, ":=") && chart_operand(chart, constant, &word, id);
+}
+
+bool chart_number(struct chart *chart, int most, int *out)
+{
+	struct reader *r = chart->r;
+	const struct token *token = &r->lex.token;
+	struct literal literal;
+
+	if (*out)
+		return reader_fail_token(r, DIAG_DUPLICATE_ARG);
+	reader_step(r);
+	if (!chart_expect(chart, ":="))
+		return false;
+	if (token->kind != TOKEN_NUMBER ||
+	    literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
+	    literal.type != IEC_NONE || literal.real)
+		return reader_fail_word(r, DIAG_EXPECTED, "number");
+	if (literal.high || literal.value.i < 1 || literal.value.i > most)
+		return reader_fail_token(r, DIAG_LITERAL_RANGE);
+	*out = (int)literal.value.i;
+	reader_step(r);
+	return true;
+}
+
+/* What is left of an item that could not be read, its END_… too. */
+static void skip_item(struct chart *chart, const char *end)
+{
+	struct reader *r = chart->r;
+
+	for (;;) {
+		reader_skip_newlines(r);
+		if (lex_is(&r->lex, end)) {
+			reader_next(r);
+			return;
+		}
+		if (chart_ends(chart))
+			return;
+		reader_skip_line(r);
+	}
+}
+
+void chart_close(struct chart *chart, const char *end, const struct token *head)
+{
+	struct reader *r = chart->r;
+
+	if (lex_is(&r->lex, end)) {
+		reader_next(r);
+	} else if (r->lex.token.kind == TOKEN_END) {
+		reader_fail_open(r, head);
+	} else {
+		reader_fail_word(r, DIAG_EXPECTED, end);
+		skip_item(chart, end);
+	}
+}
+
+void *chart_push(struct chart *chart, void *vector, int *count, size_t size, int most,
+		 const char *what)
+{
+	struct reader *r = chart->r;
+	void *slot;
+
+	if (*count >= most) {
+		reader_fail_word(r, DIAG_TOO_MANY, what);
+		return NULL;
+	}
+	slot = arena_push(&r->project->arena, vector, count, size);
+	if (!slot)
+		r->no_memory = true;
+	return slot;
+}
+
+void chart_add_item(struct chart *chart, enum item_kind kind, int index)
+{
+	struct sfc *sfc = chart->sfc;
+	struct sfc_item *item = arena_push(&chart->r->project->arena, &sfc->item,
+					   &sfc->item_count, sizeof(*item));
+
+	if (item)
+		*item = (struct sfc_item){ kind, index };
+	else
+		chart->r->no_memory = true;
+}
+
+/* ---- bodies ---- */
+
+static void read_rungs(struct chart *chart, struct sfc_body *body)
+{
+	struct reader *r = chart->r;
+	struct pou *pou = chart->pou;
+
+	*body = (struct sfc_body){ BODY_RUNGS, pou->rung_count, 0 };
+	while (!chart_ends(chart)) {
+		if (lex_is(&r->lex, "RUNG")) {
+			r->place.rung = pou->rung_count + 1;
+			reader_add_rung(r, pou);
+			r->place.rung = 0;
+		} else {
+			chart_skip_odd(chart);
+		}
+		reader_skip_newlines(r);
+	}
+	body->count = pou->rung_count - body->first;
+}
+
+void chart_body(struct chart *chart, struct sfc_body *body)
+{
+	struct reader *r = chart->r;
+	struct pou *pou = chart->pou;
+
+	reader_skip_newlines(r);
+	if (lex_is(&r->lex, "RUNG")) {
+		read_rungs(chart, body);
+	} else if (!chart_ends(chart)) {
+		*body = (struct sfc_body){ BODY_LIST, pou->il.count, 0 };
+		read_il(r, pou);
+		body->count = pou->il.count - body->first;
+	}
+}
+
+/* ---- items ---- */
+
+static void read_action(struct chart *chart)
+{
+	struct reader *r = chart->r;
+	const struct token head = r->lex.token;
+	struct sfc_action action = { 0 }, *slot;
+	struct sfc *sfc = chart->sfc;
+
+	if (chart->macro >= 0)
+		reader_fail_token(r, DIAG_MISPLACED);
+	reader_next(r);
+	action.line = r->lex.token.line;
+	action.column = r->lex.token.column;
+	bool good = reader_name(r, "name of the action", &action.name);
+
+	if (good) {
+		reader_next(r);
+		good = chart_expect(chart, ":");
+	}
+	action.comment = buffer_take(r, &r->above);
+	if (!good) {
+		reader_skip_line(r);
+		reader_skip_newlines(r);
+	}
+	chart_body(chart, &action.body);
+	action.tail = buffer_take(r, &r->above);
+	chart_close(chart, "END_ACTION", &head);
+	slot = chart_push(chart, &sfc->action, &sfc->action_count, sizeof(*slot),
+			  LIMIT_STEPS, "actions");
+	if (!slot)
+		return;
+	*slot = action;
+	chart_add_item(chart, ITEM_ACTION, sfc->action_count - 1);
+}
+
+static bool read_control_part(struct chart *chart, void *out)
+{
+	const struct token *token = &chart->r->lex.token;
+	enum control control = control_find(token->text, token->len);
+	uint32_t *operand = out;
+
+	if (control == CONTROL_COUNT)
+		return reader_fail_token(chart->r, DIAG_UNKNOWN_WORD);
+	return chart_setting(chart, false, &operand[control]);
+}
+
+static void read_control(struct chart *chart)
+{
+	struct reader *r = chart->r;
+	struct sfc *sfc = chart->sfc;
+	const int line = r->lex.token.line;
+	uint32_t control[CONTROL_COUNT] = { 0 };
+	bool second = chart->controlled;
+
+	if (second)
+		reader_fail_word(r, DIAG_TOO_MANY, "CONTROL");
+	else if (chart->macro >= 0)
+		reader_fail_token(r, DIAG_MISPLACED);
+	chart->controlled = true;
+	reader_next(r);
+	bool good = reader_is(r, '(') ?
+		    chart_settings(chart, read_control_part, control) :
+		    reader_fail_word(r, DIAG_EXPECTED, "(");
+
+	if (!good || !chart_expect(chart, ";"))
+		reader_skip_line(r);
+	if (second)
+		return;
+	memcpy(sfc->control, control, sizeof(control));
+	sfc->control_line = line;
+	sfc->control_comment = buffer_take(r, &r->above);
+	chart_add_item(chart, ITEM_CONTROL, 0);
+}
+
+static void read_block(struct chart *chart)
+{
+	if (chart->sfc->item_count)
+		reader_fail_token(chart->r, DIAG_MISPLACED);
+	read_vars(chart->r, &chart->pou->vars, false);
+}
+
+static bool is_step(const struct reader *r)
+{
+	return lex_is(&r->lex, "STEP") || lex_is(&r->lex, "INITIAL_STEP") ||
+	       lex_is(&r->lex, "MACRO_STEP");
+}
+
+/* Too much of something: what follows is not read any more, up to the end of the POU. */
+static void skip_chart(struct chart *chart)
+{
+	struct reader *r = chart->r;
+
+	while (!chart_ends(chart) || reader_is_chart_word(r)) {
+		if (r->no_memory)
+			return;
+		reader_skip_line(r);
+		reader_skip_newlines(r);
+	}
+	chart->macro = -1;
+}
+
+static bool is_full(const struct sfc *sfc)
+{
+	return sfc->step_count >= LIMIT_STEPS ||
+	       sfc->transition_count >= 2 * LIMIT_STEPS ||
+	       sfc->action_count >= LIMIT_STEPS;
+}
+
+static bool read_item(struct chart *chart)
+{
+	struct reader *r = chart->r;
+
+	if (is_step(r))
+		read_step(chart);
+	else if (lex_is(&r->lex, "TRANSITION"))
+		read_transition(chart);
+	else if (lex_is(&r->lex, "ACTION"))
+		read_action(chart);
+	else if (lex_is(&r->lex, "CONTROL"))
+		read_control(chart);
+	else if (lex_is(&r->lex, "END_STEP") && chart->macro >= 0)
+		read_step_end(chart);
+	else if (reader_is_vars(r))
+		read_block(chart);
+	else if (chart_ends(chart) && !reader_is_chart_word(r))
+		return false;
+	else
+		chart_skip_odd(chart);
+	return true;
+}
+
+static void close_macros(struct chart *chart)
+{
+	const struct sfc_step *step = chart->macro < 0 ? NULL :
+				      &chart->sfc->step[chart->macro];
+	const char *name = step ? project_text(chart->r->project, step->name) : "";
+	const struct token head = { .text = name, .len = strlen(name),
+				    .line = step ? step->line : 0,
+				    .column = step ? step->column_at : 0 };
+
+	if (step)
+		reader_fail_open(chart->r, &head);
+}
+
+void read_sfc(struct reader *r, struct pou *pou)
+{
+	struct chart chart = { .r = r, .pou = pou, .sfc = pou->sfc, .macro = -1 };
+	struct project *project = r->project;
+	struct sfc *sfc = pou->sfc;
+	int errors;
+
+	do {
+		reader_skip_newlines(r);
+		errors = r->diags->errors;
+	} while (read_item(&chart) && (errors == r->diags->errors || !is_full(sfc)));
+	if (is_full(sfc) && errors != r->diags->errors)
+		skip_chart(&chart);
+	close_macros(&chart);
+	if (r->no_memory || !sfc_link(sfc, &project->names) ||
+	    !sfc_declare(sfc, &project->names, &pou->vars, &project->arena))
+		r->no_memory = true;
+}
