@@ -137,6 +137,7 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 	/* What ran before is of another program, even if that is the same. */
 	g_clear_pointer(&sim->thread, sim_thread_free);
 	sim_view_clear(&sim->view);
+	sim->refused = 0;
 	sim->thread = thread;
 	if (sim->speed > 0)
 		sim_thread_speed(sim->thread, sim->speed);

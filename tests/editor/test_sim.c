@@ -4,7 +4,10 @@
  * any scan that was; errors keep it off, faults stop it. A chart of it has every scan.
  */
 #include "editor-gtk/chart.h"
+#include "editor-gtk/sim_inside.h"
 #include "tests/tap.h"
+
+#include "engine/base/limits.h"
 
 #include <string.h>
 
@@ -205,6 +208,105 @@ static void test_change(void)
 	ladder_sim_end(sim);
 }
 
+/* ---- what is not done ---- */
+
+static gboolean nothing_to_do(gpointer data)
+{
+	(void)data;
+	return G_SOURCE_REMOVE;
+}
+
+/* Waits until so many acts were refused. */
+static void wait_refused(struct sim_thread *thread, struct sim_view *view, guint count)
+{
+	const gint64 until = g_get_monotonic_time() + 10000000;
+	bool other;
+
+	do {
+		g_usleep(200);
+		CHECK(sim_thread_take(thread, view, &other));
+	} while (view->refusal.count != count && g_get_monotonic_time() < until);
+	CHECK(view->refusal.count == count);
+}
+
+static struct sim_program *program_of(const char *text)
+{
+	return sim_program_new(g_intern_static_string("test.rung"), text, strlen(text),
+			       NULL);
+}
+
+/* Where Far was is another variable now, or none at all. */
+static void test_stale(void)
+{
+	static const char other[] =
+		"RUNGBOARD 1\n\nVAR\n  Near : INT := 5;\nEND_VAR\n\nPROGRAM Main LD\n"
+		"RUNG\n  | --- | [ Near := Near ] |\nEND_PROGRAM\n";
+	struct sim_program *old = program_of(sample), *new = program_of(other);
+	struct sim_thread *thread = sim_thread_new(old, NULL, SIM_PERIOD, nothing_to_do,
+						   NULL);
+	struct sim_view view = { .program = NULL };
+	struct act act = { .kind = ACT_SET, .value.i = -1 };
+	struct twin before;
+	const struct image *image;
+	bool is_other;
+
+	CHECK(sim_thread_take(thread, &view, &is_other) && is_other);
+	image = &view.twin.resource.image;
+	act.at = image_find(image, "Count", 5);
+	sim_thread_act(thread, old, &act);
+	sim_thread_change(thread, new);
+	while (view.program != new)
+		CHECK(sim_thread_take(thread, &view, &is_other));
+	CHECK_AS(view.refusal.count == 0, "the one before the change was done");
+	CHECK(twin_clone(&before, &view.twin));
+	sim_thread_act(thread, old, &act);
+	act.kind = ACT_FORCE;
+	sim_thread_act(thread, old, &act);
+	wait_refused(thread, &view, 2);
+	CHECK(view.refusal.why == SIM_REFUSED_STALE && image->force_count == 0);
+	CHECK_AS(memcmp(image->memory, before.resource.image.memory,
+			view.twin.memory_size) == 0, "no byte is another");
+	act.at = image_find(image, "Near", 4);
+	sim_thread_act(thread, new, &act);
+	sim_thread_act(thread, NULL, &(struct act){ .kind = ACT_RELEASE });
+	wait_refused(thread, &view, 3);
+	CHECK(view.refusal.why == SIM_REFUSED_PLACE && image->force_count == 1);
+	twin_free(&before);
+	sim_view_clear(&view);
+	sim_thread_free(thread);
+	sim_program_unref(old);
+	sim_program_unref(new);
+}
+
+static void told_is(const char *word)
+{
+	UNTIL(told && strstr(told, word));
+	g_clear_pointer(&told, g_free);
+}
+
+/* What is not done is told, each time, and in a new simulation, too. */
+static void test_refused(void)
+{
+	const struct location nowhere = { .type = IEC_NONE };
+
+	open_text(sample);
+	for (int again = 0; again < 2; again++) {
+		CHECK(ladder_sim_begin(sim, NULL));
+		g_clear_pointer(&told, g_free);
+		ladder_sim_act(sim, &(struct act){ .kind = ACT_FORCE, .at = nowhere });
+		told_is("Not done: this cannot be set or forced");
+		for (guint i = 0; i < LIMIT_FORCES; i++)
+			ladder_sim_act(sim, &(struct act){ .kind = ACT_FORCE,
+				.at = { .type = IEC_BOOL, .area = AREA_M, .where = i } });
+		UNTIL(ladder_sim_forces(sim) == LIMIT_FORCES);
+		CHECK(!told);
+		act(ACT_FORCE, "Count", 7);
+		told_is("too much is forced already");
+		CHECK(ladder_sim_forces(sim) == LIMIT_FORCES && value("Count") == 0);
+		ladder_sim_end(sim);
+	}
+}
+
 static void test_errors(void)
 {
 	GError *error = NULL;
@@ -235,6 +337,8 @@ int main(void)
 	test_chart();
 	test_fault();
 	test_change();
+	test_stale();
+	test_refused();
 	test_errors();
 	CHECK(shown > 0);
 	g_object_unref(sim);
