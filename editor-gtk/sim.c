@@ -21,6 +21,7 @@ struct _LadderSim {
 	struct replay replay;       /* the past; twin of no program: none yet  */
 	bool past;
 	guint refused;              /* of the view's refusal, that were told of */
+	bool failed;                /* told that an operation failed           */
 	enum sim_state told;        /* the last state that signals told of     */
 	gint64 period_ns;
 	double speed;
@@ -69,6 +70,21 @@ static void tell_fault(LadderSim *sim)
 	g_free(text);
 }
 
+/* As on the board that is no fault: ENO is FALSE, and it is counted. */
+static void tell_failed(LadderSim *sim)
+{
+	const struct resource *resource = &sim->view.twin.resource;
+	const bool failed = resource->vm.errors != 0;
+	char *text;
+
+	if (failed && !sim->failed && resource->state != STATE_FAULT) {
+		text = sim_failed_words(resource);
+		tell(sim, text, false);
+		g_free(text);
+	}
+	sim->failed = failed;
+}
+
 static void tell_refusal(LadderSim *sim)
 {
 	const struct sim_refusal *refusal = &sim->view.refusal;
@@ -101,6 +117,7 @@ static gboolean notified(gpointer data)
 
 	take(sim);
 	tell_fault(sim);
+	tell_failed(sim);
 	tell_refusal(sim);
 	if (sim->told != ladder_sim_state(sim))
 		tell_state(sim);
@@ -138,6 +155,7 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 	g_clear_pointer(&sim->thread, sim_thread_free);
 	sim_view_clear(&sim->view);
 	sim->refused = 0;
+	sim->failed = false;
 	sim->thread = thread;
 	if (sim->speed > 0)
 		sim_thread_speed(sim->thread, sim->speed);

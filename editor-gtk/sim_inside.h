@@ -89,9 +89,13 @@ int sim_rungs_find(const struct sim_rungs *rungs, int pou, int rung);
 
 /* ---- sim_words.c ---- */
 
+/** sim_place_words - "Main, rung 2 (1,3)", "Main, line 7". Caller frees. */
+char *sim_place_words(const struct fault_place *at);
 /** sim_fault_words - "instruction budget exceeded: Main, rung 2 (1,3)". Caller frees. */
 char *sim_fault_words(const struct resource *resource);
 /** sim_halt_words - that the program asked for STOP, and where. Caller frees. */
 char *sim_halt_words(const struct resource *resource);
+/** sim_failed_words - which operation was the first to fail. Caller frees. */
+char *sim_failed_words(const struct resource *resource);
 
 #endif

@@ -15,10 +15,25 @@ static const struct diag *first_error(const struct diag_list *diags)
 	return NULL;
 }
 
+/* "undeclared name: Nobody: Main, rung 2 (1,3)". Caller frees. */
+static char *words_of(const struct diag *diag)
+{
+	const struct fault_place at = { .pou = diag->pou, .rung = (uint32_t)diag->rung,
+		.row = (uint32_t)diag->row, .col = (uint32_t)diag->col };
+	char *what = diag_said_whole(diag);
+	char *place = diag->pou && diag->rung ? sim_place_words(&at) :
+		      diag->line ? g_strdup_printf(_("line %d"), diag->line) : NULL;
+	char *text = place ? g_strdup_printf("%s: %s", what, place) : g_strdup(what);
+
+	g_free(what);
+	g_free(place);
+	return text;
+}
+
 static void say_why(struct ladder *ladder, GError **error)
 {
 	const struct diag *diag = first_error(ladder_diags(ladder));
-	char *text = diag ? diag_said_whole(diag) : NULL;
+	char *text = diag ? words_of(diag) : NULL;
 
 	g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA,
 			    text ? text : _("Out of memory"));

@@ -6,8 +6,7 @@
 
 #include "editor-gtk/i18n.h"
 
-/* "Main, rung 2 (1,3)". Caller frees. */
-static char *place_text(const struct fault_place *at)
+char *sim_place_words(const struct fault_place *at)
 {
 	if (at->rung)
 		return g_strdup_printf(_("%s, rung %u (%u,%u)"), at->pou, at->rung, at->row,
@@ -19,7 +18,7 @@ static char *place_text(const struct fault_place *at)
 
 char *sim_fault_words(const struct resource *resource)
 {
-	char *place = place_text(&resource->fault_at), *text;
+	char *place = sim_place_words(&resource->fault_at), *text;
 
 	if (resource->fault_at.task)
 		text = g_strdup_printf(_("task %s: %s: %s"), resource->fault_at.task,
@@ -32,9 +31,19 @@ char *sim_fault_words(const struct resource *resource)
 
 char *sim_halt_words(const struct resource *resource)
 {
-	char *place = place_text(&resource->halt_at);
+	char *place = sim_place_words(&resource->halt_at);
 	char *text = g_strdup_printf(_("STOP, outputs are off: the program says so: %s"),
 				     place);
+
+	g_free(place);
+	return text;
+}
+
+char *sim_failed_words(const struct resource *resource)
+{
+	char *place = sim_place_words(&resource->error_at);
+	char *text = g_strdup_printf(_("ENO is FALSE: an operation failed, such as a division "
+				       "by zero: %s"), place);
 
 	g_free(place);
 	return text;

@@ -157,25 +157,47 @@ static void told(LadderSim *sim, const char *text, gboolean bad, LadderWindow *w
 
 /* ---- what it does ---- */
 
-static bool begin(LadderWindow *window)
+/* The program has errors, and the list of them is another one now. */
+static void show_problems(LadderWindow *window)
 {
 	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
+
+	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
+	gtk_stack_set_visible_child(window->below_stack, problems);
+	ladder_problems_next(LADDER_PROBLEMS(problems), false);
+}
+
+/* What is wrong with the plant stands in no list: it is told where it stays. */
+static bool refuse(LadderWindow *window, GError *error, bool plant)
+{
+	char *text = plant ? g_strdup_printf(_("The plant has errors: %s"), error->message) :
+			     g_strdup(error->message);
+
+	if (plant)
+		ladder_window_warn(window, text);
+	else
+		show_problems(window);
+	ladder_window_tell(window, text);
+	g_free(text);
+	g_error_free(error);
+	show_buttons(window);
+	return false;
+}
+
+static bool begin(LadderWindow *window)
+{
 	GError *error = NULL;
 
 	if (ladder_sim_is_on(window->sim))
 		return true;
-	if (window_plant_ready(window, &error) && ladder_sim_begin(window->sim, &error)) {
-		window_banner_close(window);
-		gtk_widget_set_visible(GTK_WIDGET(window->right), TRUE);
-		return true;
-	}
-	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
-	gtk_stack_set_visible_child(window->below_stack, problems);
-	ladder_problems_next(LADDER_PROBLEMS(problems), false);
-	ladder_window_tell(window, error->message);
-	g_error_free(error);
-	show_buttons(window);
-	return false;
+	if (!window_plant_ready(window, &error))
+		return refuse(window, error, true);
+	if (!ladder_sim_begin(window->sim, &error))
+		return refuse(window, error, false);
+	window_banner_close(window);
+	ladder_window_tell(window, ""); /* what kept it from beginning is over */
+	gtk_widget_set_visible(GTK_WIDGET(window->right), TRUE);
+	return true;
 }
 
 static void end(LadderWindow *window)

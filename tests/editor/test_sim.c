@@ -9,6 +9,7 @@
 
 #include "engine/base/limits.h"
 
+#include <glib/gstdio.h>
 #include <string.h>
 
 static const char sample[] =
@@ -307,6 +308,49 @@ static void test_refused(void)
 	}
 }
 
+/* As on the board a division by zero is no fault; but where it was is told, once a start. */
+static void test_failed(void)
+{
+	open_text("RUNGBOARD 1\n\nVAR\n  Parts, Minutes, Rate : INT := 1;\nEND_VAR\n\n"
+		  "PROGRAM Main LD\nRUNG\n  | --- | [ Parts := Parts ] |\n"
+		  "RUNG\n  | --- | [ Rate := Parts / Minutes ] |\nEND_PROGRAM\n");
+	CHECK(ladder_sim_begin(sim, NULL));
+	for (int again = 0; again < 2; again++) {
+		ladder_sim_scan(sim, 2);
+		g_clear_pointer(&told, g_free);
+		act(ACT_SET, "Minutes", 0);
+		UNTIL(value("Minutes") == 0 && !told);
+		ladder_sim_scan(sim, 2);
+		told_is("division by zero: Main, rung 2 (1,2)");
+		CHECK(ladder_sim_state(sim) == SIM_PAUSE);
+		ladder_sim_scan(sim, 2);
+		UNTIL(ladder_sim_twin(sim)->resource.vm.errors == 4);
+		CHECK(!told);
+		ladder_sim_reset(sim, false);
+		UNTIL(ladder_sim_twin(sim)->resource.vm.errors == 0);
+	}
+	ladder_sim_end(sim);
+}
+
+/* A plant that cannot be had is told with the file and the place. */
+static void test_bad_plant(void)
+{
+	GError *error = NULL;
+	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
+	char *path = g_build_filename(folder, "bad.plant.rung", NULL);
+
+	CHECK(g_file_set_contents(path, "RUNGBOARD 1\n\nPROGRAM World LD\nRUNG\n"
+		"  | --- | COIL %QX0.0 |\nRUNG\n  | NO Nobody | COIL %QX0.1 |\n"
+		"END_PROGRAM\n", -1, NULL));
+	CHECK(!ladder_sim_set_plant(sim, path, &error));
+	CHECK(error && g_str_has_prefix(error->message, path) &&
+	      strstr(error->message, "Nobody: World, rung 2 (1,1)"));
+	g_clear_error(&error);
+	CHECK(g_unlink(path) == 0 && g_rmdir(folder) == 0);
+	g_free(path);
+	g_free(folder);
+}
+
 static void test_errors(void)
 {
 	GError *error = NULL;
@@ -339,6 +383,8 @@ int main(void)
 	test_change();
 	test_stale();
 	test_refused();
+	test_failed();
+	test_bad_plant();
 	test_errors();
 	CHECK(shown > 0);
 	g_object_unref(sim);

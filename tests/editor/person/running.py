@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""running - what ends a simulation or keeps it from beginning is told: errors, faults, the end of work."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+PROGRAM = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Parts : INT := 12;
+  Minutes : INT;
+END_VAR
+
+PROGRAM Main LD
+RUNG "Motor"
+  | NO Start | COIL Motor |
+RUNG "Rate"
+  | NO Motor | [ Parts := Parts / Minutes ] |
+END_PROGRAM
+'''
+PLANT = '''RUNGBOARD 1
+
+PROGRAM World LD
+RUNG
+  | NO Nowhere | COIL %QX0.7 |
+END_PROGRAM
+'''
+
+
+def plant(screen):
+    """a plant with errors: it and its place are told where it stays; mended, it runs"""
+    path = new_file(screen, PROGRAM, 'motor.rung')
+    world = new_file(screen, PLANT, 'motor.plant.rung')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    editor.says('The plant has errors')
+    banner = editor.find('The plant has errors', 'label')
+    assert 'motor.plant.rung' in banner.name and 'Nowhere' in banner.name, banner.name
+    assert 'World, rung 1 (1,1)' in banner.name, banner.name
+    editor.shot('running-plant')
+    assert not editor.all('SIMULATION'), 'it runs'
+    with open(world, 'w') as file:
+        file.write(PLANT.replace('Nowhere', '%IX0.0'))
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+    until(lambda: not [node for node in editor.all('The plant has errors') if node.has(25)], 'the banner to go')
+
+
+def zero(screen):
+    """a division by zero is no fault, as on the board, but where it was is told"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
+    editor.says('division by zero: Main, rung 2 (1,')
+    editor.element('Rung 1, COIL', 'Motor', ', on')
+    assert not editor.all('FAULT')
+
+
+def closing(screen):
+    """the window is closed in RUN: it stops, and asks for unsaved work; Cancel keeps it in STOP"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('slash', 'ctrl+r')
+    editor.find('•')
+    editor.element('Rung 1, NC', 'Start', 'closed')
+    editor.element('Rung 1, COIL', 'Motor', ', on')
+    editor.keys('ctrl+w')
+    editor.answer('Cancel')
+    editor.says('SIMULATION · STOP')
+    editor.element('Rung 1, COIL', 'Motor', ', off')
+    editor.keys('ctrl+r')
+    editor.element('Rung 1, COIL', 'Motor', ', on')
+    editor.keys('ctrl+w')
+    editor.reply('Save')
+    until(lambda: editor.process.poll() is not None, 'the end')
+    assert editor.process.returncode == 0 and 'NC Start' in open(path).read()
+    check(path)
+
+
+main([plant, zero, closing])
