@@ -57,6 +57,7 @@ struct live_cell {
 	struct location goal;  /* up to which it counts                         */
 	GArray *parts;         /* of LIVE_TEXT: of struct live_part; NULL: none    */
 	union iec_value value, aim; /* that were seen last                      */
+	union iec_value scanned; /* of a contact: after the scan that is shown    */
 	guint64 sum;           /* of all values of `parts`                       */
 	gint64 changed, flash; /* us: when `at` changed last, when that was new  */
 	float part;            /* as drawn                                      */
@@ -71,6 +72,9 @@ struct live_rung {
 	int number;            /* of the program that runs; -1: changed since      */
 	bool fresh;            /* nothing was looked at yet                     */
 	gint64 until;          /* us: when something stops to be new; 0: nothing is */
+	guint64 scans;         /* since the start at start_ns: the scan that was
+				  looked at last                                */
+	gint64 start_ns;
 	uint8_t *bits;         /* by row; enum live_bit, LIVE_FORCED              */
 	struct live_cell *cell; /* by row                                       */
 	const struct live_map *map;

@@ -333,11 +333,20 @@ static uint8_t power_of(const struct live_cell *cell, const struct resource *res
 			 (memory[cell->out] ? LIVE_OUT : 0));
 }
 
+/* What the scan saw may be another value than the one that is left behind it: of what is
+ * forced, or written again further down. Power that came to the contact tells it, until a
+ * person sets another value. */
+static bool tells_power(const struct live_cell *cell, uint8_t power)
+{
+	return cell->edge || cell->at.type == IEC_NONE ||
+	       (power & LIVE_IN && is_same(cell->value, cell->scanned));
+}
+
 static bool is_closed(const struct live_cell *cell, uint8_t power)
 {
 	switch (cell->kind) {
 	case LIVE_CONTACT:
-		if (cell->edge || cell->at.type == IEC_NONE)
+		if (tells_power(cell, power))
 			return power & LIVE_OUT;
 		return (cell->value.i != 0) != cell->inverse;
 	case LIVE_COIL:
@@ -362,7 +371,8 @@ static bool is_fresh(struct live_cell *cell, bool changed, gint64 now, bool flas
 }
 
 static uint8_t look_at(struct live_rung *rung, struct live_cell *cell,
-		       const struct resource *resource, gint64 now, bool flash, bool *other)
+		       const struct resource *resource, gint64 now, bool flash, bool *other,
+		       bool scanned)
 {
 	const union iec_value before = cell->value;
 	const guint64 sum = cell->sum;
@@ -370,6 +380,8 @@ static uint8_t look_at(struct live_rung *rung, struct live_cell *cell,
 	bool changed;
 
 	*other |= look_at_value(cell, &resource->image, rung->fresh);
+	if (scanned)
+		cell->scanned = cell->value;
 	changed = !rung->fresh && cell->kind != LIVE_BOX &&
 		(!is_same(before, cell->value) || sum != cell->sum);
 	if (is_closed(cell, bits))
@@ -388,16 +400,20 @@ unsigned int live_rung_look(struct live_rung *rung, const struct resource *resou
 			    gint64 now, bool flash)
 {
 	unsigned int changed = rung->fresh ? LIVE_OTHER_VALUE | LIVE_OTHER_STATE : LIVE_SAME;
+	const bool scanned = rung->fresh || rung->scans != resource->scans ||
+			     rung->start_ns != resource->start_ns;
 	bool other = false;
 
 	rung->until = 0;
+	rung->scans = resource->scans;
+	rung->start_ns = resource->start_ns;
 	for (int i = 0; i < rung->rows * rung->cols; i++) {
 		struct live_cell *cell = &rung->cell[i];
 		uint8_t bits;
 
 		if (cell->kind == LIVE_NOTHING && cell->in == LIVE_NOWHERE)
 			continue;
-		bits = look_at(rung, cell, resource, now, flash, &other);
+		bits = look_at(rung, cell, resource, now, flash, &other, scanned);
 		if (bits != rung->bits[i])
 			changed |= LIVE_OTHER_VALUE;
 		if ((bits ^ rung->bits[i]) & (LIVE_CLOSED | LIVE_FORCED))

@@ -36,6 +36,7 @@ static const char sample[] =
 	"RUNG \"Level\"\n  | [ Level > 500 ] | COIL High |\n"
 	"RUNG \"One\"\n  | NO Start | Latch First |\n"
 	"RUNG \"Other\"\n  | NO Stop | Latch Second |\n"
+	"RUNG \"Alarm\"\n  | NO High | COIL %QX0.2 |\n"
 	"END_PROGRAM\n"
 	"PROGRAM List IL\nVAR\n  Count : INT;\nEND_VAR\n"
 	"  LD Count (* Level *)\n  ADD 1\n  ST Count\n"
@@ -225,6 +226,33 @@ static void test_values(void)
 	set("Level", 512);
 	CHECK_TEXT(text_of(2, 0, 0), "512 > 500");
 	CHECK_TEXT(text_of(0, 0, 0), "");
+}
+
+/* A contact is drawn as the scan saw it: what holds a coil comes behind that. What a person
+ * sets since is shown at once. */
+static void test_forced(void)
+{
+	struct act act = { .kind = ACT_FORCE, .at = find("High"), .value.i = 1 };
+
+	set("Level", 3);
+	scan(1);
+	CHECK(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN));
+	ladder_sim_act(sim, &act);
+	CHECK(comes("High", 1));
+	CHECK_AS(steady(5, 0, 0) & LIVE_CLOSED, "set, and not scanned since");
+	scan(1);
+	CHECK(value_of("High") == 1 && value_of("%QX0.2") == 0);
+	CHECK(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN | LIVE_FORCED));
+	CHECK_AS(bits_of(view, 2, 0, 1) & LIVE_CLOSED, "the coil is on");
+	act.kind = ACT_RELEASE;
+	ladder_sim_act(sim, &act);
+	CHECK(comes("High", 0));
+	scan(1);
+	CHECK(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN));
+	CHECK(ladder_sim_show(sim, ladder_sim_last(sim) - 1));
+	CHECK_AS(steady(5, 0, 0) == (LIVE_KNOWN | LIVE_IN | LIVE_FORCED), "likewise then");
+	ladder_sim_show_now(sim);
+	set("Level", 512);
 }
 
 static void test_bodies(void)
@@ -489,6 +517,7 @@ int main(void)
 	test_stop();
 	test_power();
 	test_values();
+	test_forced();
 	test_bodies();
 	test_drawn();
 	test_list();
