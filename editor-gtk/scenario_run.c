@@ -92,22 +92,24 @@ static void add_diags(GPtrArray *results, const char *path, const struct diag_li
 	}
 }
 
-/* The report's first line, without `# file:line: `. */
-static char *why_of(const char *report, const char *file)
+/* "at 50 ms: not so: expect Motor = 1". Caller frees. */
+static char *why_of(const struct scenario *scenario, const struct resource *resource,
+		    const struct plant *plant)
 {
-	const char *at = report;
-	const gsize len = strlen(file);
-	char *line;
+	const struct scenario_step *step = scenario->failed_step;
+	const union iec_value when = { .i = scenario->failed_ns };
+	char time[40], *what, *why;
 
-	if (g_str_has_prefix(at, "# "))
-		at += 2;
-	if (strncmp(at, file, len) == 0 && at[len] == ':') {
-		at += len + 1;
-		at += strspn(at, "0123456789");
-		at += strspn(at, ": ");
-	}
-	line = g_strndup(at, strcspn(at, "\n"));
-	return line;
+	iec_value_print(IEC_TIME, when, time, sizeof(time));
+	if (step)
+		what = g_strndup(step->text, (gsize)step->text_len);
+	else
+		what = sim_fault_words(scenario->failure == FAILURE_PLANT ?
+				       &plant->resource : resource);
+	why = g_strdup_printf(_("at %s ms: %s: %s"), time,
+			      said(scenario_failure_text(scenario->failure)), what);
+	g_free(what);
+	return why;
 }
 
 static void keep_act(void *context, uint64_t after, const struct act *act)
@@ -150,29 +152,32 @@ static void keep_way(struct running *running, int index, struct scenario_result 
 	g_free(diags);
 }
 
+/* The report is for a terminal: the list tells what was first. */
+static void tell_nobody(void *context, const char *text, size_t len)
+{
+	(void)context;
+	(void)text;
+	(void)len;
+}
+
 static void run_one(struct running *running, int index, struct resource *resource,
 		    struct plant *plant)
 {
 	const struct scenario *scenario = &running->file->scenario[index];
 	struct scenario_result *result;
-	struct sink_memory report;
-	struct sink out;
-	bool held;
+	const struct sink out = { .write = tell_nobody };
+	const bool held = scenario_run_with(running->file, index, resource, plant, &out);
 
-	sink_memory_init(&report);
-	out = sink_to_memory(&report);
-	held = scenario_run_with(running->file, index, resource, plant, &out);
 	result = add(running->results, held ? SCENARIO_HELD : SCENARIO_FAILED,
 		     running->path, scenario->name,
-		     held ? g_strdup("") : why_of(sink_memory_text(&report),
-						  running->file->file));
+		     scenario->failed_line ? why_of(scenario, resource, plant) :
+		     g_strdup(""));
 	result->first_line = scenario->line;
 	result->line = scenario->failed_line;
 	result->scan = scenario->failed_scan;
 	result->period_ns = scenario->period_ns;
 	if (!held && !running->job->stop)
 		keep_way(running, index, result);
-	sink_memory_free(&report);
 }
 
 /* The plant that the file names; false: it cannot be had, and that is a result. */

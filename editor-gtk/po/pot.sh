@@ -47,13 +47,15 @@ sed -n 's/^\t*\("[a-z ]*"\));$/N_(\1)/p' runtime/engine/text/read_array.c \
 mkdir "$work/runtime/engine/trial"
 sed -n 's/^WHY(\w*, *\("[^"]*"\), *\("[^"]*"\))$/N_(\1) N_(\2)/p' runtime/engine/trial/why.def |
 	sed 's/ N_("")//' >"$work/runtime/engine/trial/why.def"
+sed -n 's/^\t*\[FAILURE_[A-Z]*\] = \(".*"\),$/N_(\1)/p' runtime/engine/trial/scenario.c \
+	>"$work/runtime/engine/trial/scenario.c"
 mkdir "$work/runtime/engine/scan" # why a scan faults
 sed -n 's/^\t*\[FAULT_[A-Z]*\] = \(".*"\),$/N_(\1)/p' runtime/engine/scan/vm.c \
 	>"$work/runtime/engine/scan/vm.c"
 (cd "$work" && $take -L C -k -kN_ -o catalog.pot runtime/engine/catalog.def \
 	runtime/engine/model/convert.c runtime/engine/text/read_words.c \
 	runtime/engine/text/read_array.c runtime/engine/trial/why.def \
-	runtime/engine/scan/vm.c)
+	runtime/engine/trial/scenario.c runtime/engine/scan/vm.c)
 
 # What was expected, or too many: arguments of messages, those of them that are words.
 $take -L C -k -kreader_fail_word:3 -kfail_word:3 -kfail_expected:2 -kreader_name:2 \

@@ -8,6 +8,7 @@
 #include "tests/unit/trial.h"
 
 static struct bed bed;
+static struct scenario failed; /* the first one, after its run: numbers alone   */
 
 /* The reports of all scenarios of a text; "held" when there is none. */
 static const char *run(const char *text)
@@ -25,6 +26,7 @@ static const char *run(const char *text)
 	}
 	for (int i = 0; i < file.count; i++)
 		held = scenario_run(&file, i, &bed.resource, &bed.out) && held;
+	failed = file.scenario[0];
 	arena_free(&arena);
 	CHECK_AS(held == !*sink_memory_text(&bed.text),
 		 "a report exactly when something failed");
@@ -91,12 +93,17 @@ static void test_report(void)
 		      "#   5 t=50 Level=35\n", 68) == 0);
 	CHECK(strstr(text, "#   12 t=120 Level=84\n") != NULL);
 	CHECK(strstr(text, "13") == NULL);
+	CHECK(failed.failure == FAILURE_FALSE && failed.failed_ns == 120000000 &&
+	      failed.failed_scan == 12 && failed.failed_line == 3 && failed.failed_step);
 	CHECK(strstr(run(S "never Motor\nat 0 Open=1\n"), "never Motor\n"));
 	CHECK(strstr(run(S "expect 1 / Level = 1\n"), "cannot be computed"));
+	CHECK(failed.failure == FAILURE_UNKNOWN && failed.failed_ns == 10000000);
 	CHECK(strstr(run(S "at 0 Level = 30000\nat 20ms Level = Level * 2\n"
 			 "expect TRUE\n"), "value out of range: "));
+	CHECK(failed.failure == FAILURE_RANGE && failed.failed_line == 3);
 	CHECK(strstr(run(S "Heat = 200.0\nexpect TRUE\n"), "# s.scn:1: at 10 "
 		     "ms: the program stopped with a fault: "));
+	CHECK(failed.failure == FAILURE_PROGRAM && !failed.failed_step);
 }
 
 static void test_values(void)

@@ -62,29 +62,48 @@ static void print_scan(const struct run *run, const struct formula *formula,
 	sink_text(run->out, "\n");
 }
 
-static void fail(struct run *run, int line)
+const char *scenario_failure_text(enum scenario_failure failure)
 {
+	static const char *const text[FAILURE_COUNT] = {
+		[FAILURE_FALSE] = "not so",
+		[FAILURE_UNKNOWN] = "cannot be computed",
+		[FAILURE_RANGE] = "value out of range",
+		[FAILURE_PROGRAM] = "the program stopped with a fault",
+		[FAILURE_PLANT] = "the plant stopped with a fault",
+	};
+
+	return text[failure];
+}
+
+/* "# door.scn:7: at 50 ms: not so: ". @step: NULL: of no step. */
+static void fail(struct run *run, const struct scenario_step *step,
+		 enum scenario_failure failure)
+{
+	struct scenario *scenario = run->scenario;
+	const int line = step ? step->line : scenario->line;
+
 	run->held = false;
-	if (run->scenario->failed_line)
-		return;
-	run->scenario->failed_line = line;
-	run->scenario->failed_scan = run->scan;
+	if (!scenario->failed_line) {
+		scenario->failed_line = line;
+		scenario->failed_scan = run->scan;
+		scenario->failed_ns = run->now_ns;
+		scenario->failure = failure;
+		scenario->failed_step = step;
+	}
+	sink_text(run->out, "# ");
+	sink_text(run->out, run->file->file);
+	sink_printf(run->out, ":%d: at ", line);
+	print_time(run->out, run->now_ns);
+	sink_printf(run->out, " ms: %s: ", scenario_failure_text(failure));
 }
 
 static void report(struct run *run, const struct scenario_step *step,
-		   const char *what)
+		   enum scenario_failure failure)
 {
 	uint64_t first = run->scan < SCENARIO_HISTORY ?
 			       1 : run->scan - SCENARIO_HISTORY + 1;
 
-	fail(run, step->line);
-	sink_text(run->out, "# ");
-	sink_text(run->out, run->file->file);
-	sink_printf(run->out, ":%d: at ", step->line);
-	print_time(run->out, run->now_ns);
-	sink_text(run->out, " ms: ");
-	sink_text(run->out, what);
-	sink_text(run->out, ": ");
+	fail(run, step, failure);
 	sink_write(run->out, step->text, (size_t)step->text_len);
 	sink_text(run->out, "\n");
 	if (step->verb == VERB_SET)
@@ -105,7 +124,7 @@ static void apply(struct run *run, const struct scenario_step *step)
 	    value_has_room(target, step->target, value))
 		image_set(target, step->target, value);
 	else
-		report(run, step, "value out of range");
+		report(run, step, FAILURE_RANGE);
 }
 
 /* Settings that are due act; expectations that are due are open from now on. */
@@ -177,7 +196,7 @@ static void judge(struct run *run, struct scenario_step *step)
 		return;
 	step->open = false;
 	if (!good)
-		report(run, step, known ? "not so" : "cannot be computed");
+		report(run, step, known ? FAILURE_FALSE : FAILURE_UNKNOWN);
 }
 
 static void judge_all(struct run *run)
@@ -238,13 +257,7 @@ static void report_fault(struct run *run)
 	const struct fault_place *at = &resource->fault_at;
 	char text[96];
 
-	fail(run, run->scenario->line);
-	sink_text(run->out, "# ");
-	sink_text(run->out, run->file->file);
-	sink_printf(run->out, ":%d: at ", run->scenario->line);
-	print_time(run->out, run->now_ns);
-	sink_printf(run->out, " ms: the %s stopped with a fault: ",
-		    plant ? "plant" : "program");
+	fail(run, NULL, plant ? FAILURE_PLANT : FAILURE_PROGRAM);
 	resource_fault_print(resource, text, sizeof(text));
 	sink_text(run->out, text);
 	if (at->pou && *at->pou && at->rung) {

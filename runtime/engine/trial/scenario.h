@@ -34,6 +34,14 @@ enum scenario_verb {
 	VERB_SET, VERB_EXPECT, VERB_WITHIN, VERB_FOR, VERB_ALWAYS, VERB_NEVER,
 };
 
+/* Why one did not hold. */
+enum scenario_failure {
+	FAILURE_FALSE, FAILURE_UNKNOWN, FAILURE_RANGE, FAILURE_PROGRAM, FAILURE_PLANT,
+	FAILURE_COUNT
+};
+/** scenario_failure_text - "not so", "the program stopped with a fault". Lives for ever. */
+const char *scenario_failure_text(enum scenario_failure failure);
+
 struct scenario_step {
 	enum scenario_verb verb;
 	int line;
@@ -64,6 +72,9 @@ struct scenario {
 	int watch_count;
 	int failed_line;         /* of the last run: where it failed first; 0: it held */
 	uint64_t failed_scan;    /* and when                                  */
+	int64_t failed_ns;
+	enum scenario_failure failure; /* and why                             */
+	const struct scenario_step *failed_step; /* NULL: a fault             */
 };
 
 struct scenario_file {

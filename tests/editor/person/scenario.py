@@ -116,6 +116,7 @@ def chinese(screen):
     editor.to_sheet()
     editor.keys('ctrl+F5')
     until(lambda: editor.all('starts by itself'), 'the list')
+    editor.says('50 ms 时：不成立：at 50ms  expect Motor = 1')
     editor.keys('ctrl+alt+r')
     until(lambda: editor.all('\u25cf', 'push button'), 'the recording')
     editor.shot('scenario-chinese')
