@@ -19,14 +19,29 @@ GListModel *ladder_sim_panel_list(LadderSimPanel *panel)
 
 /* ---- the lines ---- */
 
-static void add_group(LadderSimPanel *panel, GPtrArray *out, guint from, guint to)
+static bool is_folded(LadderSimPanel *panel, const LadderSimRow *row)
+{
+	char *section = sim_row_section(row);
+	const bool folded = g_hash_table_contains(panel->folded, section);
+
+	g_free(section);
+	return folded;
+}
+
+static bool is_section(const LadderSimRow *row, const LadderSimRow *other)
+{
+	return row->group == other->group && g_strcmp0(row->place, other->place) == 0;
+}
+
+/* Lines of the same group and place: one heading, and those below it. */
+static void add_section(LadderSimPanel *panel, GPtrArray *out, guint from, guint to)
 {
 	const LadderSimRow *first = g_ptr_array_index(panel->rows, from);
 	const bool wants = panel->wanted[0] != '\0';
-	const bool folded = panel->folded[first->group] && !wants;
+	const bool folded = !wants && is_folded(panel, first);
 	const guint before = out->len;
 
-	g_ptr_array_add(out, sim_row_heading(first->group, folded));
+	g_ptr_array_add(out, sim_row_heading(first, folded));
 	for (guint i = from; i < to && !folded; i++) {
 		LadderSimRow *row = g_ptr_array_index(panel->rows, i);
 
@@ -46,7 +61,7 @@ static gint find_line(LadderSimPanel *panel, const LadderSimRow *like)
 
 		g_object_unref(row);
 		if (row->kind == SIM_HEADING ? like->kind == SIM_HEADING &&
-					       row->group == like->group :
+					       is_section(row, like) :
 		    like->kind != SIM_HEADING && sim_row_is(row, like))
 			return (gint)i;
 	}
@@ -64,12 +79,10 @@ static void show_lines(LadderSimPanel *panel)
 	if (selected)
 		g_object_ref(selected);
 	for (guint i = 1; i <= panel->rows->len; i++) {
-		const LadderSimRow *first = g_ptr_array_index(panel->rows, from);
-
-		if (i < panel->rows->len && first->group ==
-		    ((LadderSimRow *)g_ptr_array_index(panel->rows, i))->group)
+		if (i < panel->rows->len && is_section(panel->rows->pdata[from],
+						       panel->rows->pdata[i]))
 			continue;
-		add_group(panel, out, from, i);
+		add_section(panel, out, from, i);
 		from = i;
 	}
 	g_list_store_splice(panel->store, 0, g_list_model_get_n_items(
@@ -167,15 +180,14 @@ static void search_changed(GtkSearchEntry *entry, LadderSimPanel *panel)
 	show_lines(panel);
 }
 
-static void fold(GtkWidget *widget, const char *name, GVariant *group)
+static void fold(GtkWidget *widget, const char *name, GVariant *section)
 {
 	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
-	const gint at = g_variant_get_int32(group);
+	const char *key = g_variant_get_string(section, NULL);
 
 	(void)name;
-	if (at < 0 || at >= SIM_GROUPS)
-		return;
-	panel->folded[at] = !panel->folded[at];
+	if (!g_hash_table_remove(panel->folded, key))
+		g_hash_table_add(panel->folded, g_strdup(key));
 	show_lines(panel);
 }
 
@@ -298,6 +310,7 @@ static void dispose(GObject *object)
 	g_clear_pointer(&panel->rows, g_ptr_array_unref);
 	g_clear_object(&panel->sim);
 	g_clear_pointer(&panel->wanted, g_free);
+	g_clear_pointer(&panel->folded, g_hash_table_unref);
 	G_OBJECT_CLASS(ladder_sim_panel_parent_class)->dispose(object);
 }
 
@@ -329,7 +342,7 @@ static void ladder_sim_panel_class_init(LadderSimPanelClass *class)
 	gtk_widget_class_bind_template_child(widget, LadderSimPanel, search);
 	gtk_widget_class_bind_template_child(widget, LadderSimPanel, list);
 	gtk_widget_class_bind_template_callback(widget, search_changed);
-	gtk_widget_class_install_action(widget, "sim-panel.fold", "i", fold);
+	gtk_widget_class_install_action(widget, "sim-panel.fold", "s", fold);
 	gtk_widget_class_install_action(widget, "sim-panel.simulate", NULL, simulate);
 	sim_panel_install_keys(widget);
 	sim_panel_install_choices(widget);
@@ -339,6 +352,7 @@ static void ladder_sim_panel_init(LadderSimPanel *panel)
 {
 	gtk_widget_init_template(GTK_WIDGET(panel));
 	panel->wanted = g_strdup("");
+	panel->folded = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
 	panel->views = g_ptr_array_new();
 	panel->rows = g_ptr_array_new_with_free_func(g_object_unref);
 	make_list(panel, panel->list);

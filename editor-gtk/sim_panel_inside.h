@@ -17,7 +17,7 @@ struct _LadderSimPanel {
 	GtkSingleSelection *selection;
 	GPtrArray *views;         /* widgets that show one; borrowed            */
 	char *wanted;             /* never NULL                                 */
-	bool folded[SIM_GROUPS];
+	GHashTable *folded;       /* sections that are, sim_row_section()        */
 	bool on;
 	LadderSimRow *held;       /* by the space bar                           */
 	GPtrArray *bound;         /* lines that keys of their own hold, struct held */

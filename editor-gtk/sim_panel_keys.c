@@ -77,8 +77,7 @@ static void activated(GtkListView *list, guint at, LadderSimPanel *panel)
 
 	(void)list;
 	if (row && row->kind == SIM_HEADING)
-		gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "i",
-					   (int)row->group);
+		ladder_sim_row_view_fold(GTK_WIDGET(panel), row);
 	else if (view)
 		ladder_sim_row_view_edit(view, row->given.type != IEC_NONE ?
 					 SIM_EDIT_PRESET : SIM_EDIT_VALUE);

@@ -22,6 +22,9 @@ static void finalize(GObject *object)
 	g_free(row->address);
 	g_free(row->comment);
 	g_free(row->block);
+	g_free(row->place);
+	g_free(row->pin);
+	g_free(row->pin_told);
 	g_free(row->key);
 	G_OBJECT_CLASS(ladder_sim_row_parent_class)->finalize(object);
 }
@@ -36,14 +39,20 @@ static void ladder_sim_row_init(LadderSimRow *row)
 	row->name = g_strdup("");
 }
 
-LadderSimRow *sim_row_heading(enum sim_group group, bool folded)
+LadderSimRow *sim_row_heading(const LadderSimRow *first, bool folded)
 {
 	LadderSimRow *row = g_object_new(LADDER_TYPE_SIM_ROW, NULL);
 
-	row->group = group;
+	row->group = first->group;
+	row->place = g_strdup(first->place);
 	row->kind = SIM_HEADING;
 	row->folded = folded;
 	return row;
+}
+
+char *sim_row_section(const LadderSimRow *row)
+{
+	return g_strdup_printf("%d %s", (int)row->group, row->place ? row->place : "");
 }
 
 const char *sim_group_name(enum sim_group group)
@@ -71,7 +80,10 @@ bool sim_row_is(const LadderSimRow *row, const LadderSimRow *other)
 	       strcmp(row->name, other->name) == 0 &&
 	       g_strcmp0(row->address, other->address) == 0 &&
 	       g_strcmp0(row->comment, other->comment) == 0 &&
-	       g_strcmp0(row->block, other->block) == 0;
+	       g_strcmp0(row->block, other->block) == 0 &&
+	       g_strcmp0(row->place, other->place) == 0 &&
+	       g_strcmp0(row->pin, other->pin) == 0 &&
+	       g_strcmp0(row->pin_told, other->pin_told) == 0;
 }
 
 void sim_row_become(LadderSimRow *row, const LadderSimRow *from)
@@ -106,7 +118,8 @@ bool sim_row_matches(const LadderSimRow *row, const char *wanted)
 {
 	char *folded = g_utf8_casefold(wanted, -1);
 	const bool is = has(row->name, folded) || has(row->address, folded) ||
-			has(row->comment, folded) || has(row->block, folded);
+			has(row->comment, folded) || has(row->block, folded) ||
+			has(row->pin_told, folded);
 
 	g_free(folded);
 	return is;

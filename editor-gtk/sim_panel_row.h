@@ -36,6 +36,11 @@ struct _LadderSimRow {
 	char *name;             /* as traces have it: "Start", "Main.Delay"    */
 	char *address;          /* "%IX0.0"; NULL: none                        */
 	char *comment;          /* without its delimiters; NULL: none          */
+	/* Of an input or output, if there is an I/O map beside the project. */
+	char *place;            /* where its pin is: chip or board; NULL: no map */
+	char *pin;              /* "GPIO17", "12" of a chip; NULL: none is known */
+	char *pin_told;         /* both, and what the map says of it; or NULL  */
+	int place_number;       /* in the order of the map                     */
 	char *block;            /* word of the timer or counter; else NULL     */
 	bool plant;             /* of the plant                                */
 	bool driven;            /* by the plant                                */
@@ -58,15 +63,19 @@ struct _LadderSimRow {
 /** sim_rows_new - what the program that runs, and its plant, have to show: of LadderSimRow,
  * group by group, no headings. Empty: the simulation is off. Caller: g_ptr_array_unref. */
 GPtrArray *sim_rows_new(LadderSim *sim);
-/** sim_row_heading - of a group; new reference. */
-LadderSimRow *sim_row_heading(enum sim_group group, bool folded);
+/** sim_row_heading - of a group, and of the place of its lines: as @first has them, which
+ * is one of them; new reference. */
+LadderSimRow *sim_row_heading(const LadderSimRow *first, bool folded);
+/** sim_row_section - what a heading and the lines below it have in common: "0 gpiochip0".
+ * Caller frees. */
+char *sim_row_section(const LadderSimRow *row);
 /** sim_row_is - the same line of the panel, whatever its places are? */
 bool sim_row_is(const LadderSimRow *row, const LadderSimRow *other);
 /** sim_row_become - its places are those of @from, which is the same line. */
 void sim_row_become(LadderSimRow *row, const LadderSimRow *from);
 /** sim_row_set_range - of SIM_SLIDER, SIM_LEVEL; @ranged false: that of its type. */
 void sim_row_set_range(LadderSimRow *row, bool ranged, double low, double high);
-/** sim_row_matches - is @wanted in name, address, comment or block? Any case. */
+/** sim_row_matches - is @wanted in name, address, pin, place, comment or block? Any case. */
 bool sim_row_matches(const LadderSimRow *row, const char *wanted);
 
 /** sim_group_name - translated. Lives for ever. */

@@ -3,9 +3,10 @@
  * sim_panel_rows - which lines the panel has for a program: what it declares, and the
  * addresses that it uses without a name; of its plant what is no wire between both.
  *
- * In the order of groups, there by address, and what has none as it is declared.
+ * In the order of groups, of the places that the I/O map names, and there by address; what
+ * has none as it is declared.
  */
-#include "editor-gtk/sim_panel_row.h"
+#include "editor-gtk/sim_panel_map.h"
 
 #include "engine/model/args.h"
 #include "engine/view/xref.h"
@@ -412,6 +413,8 @@ static int by_group(gconstpointer left, gconstpointer right)
 
 	if (a->group != b->group)
 		return (int)a->group - (int)b->group;
+	if (a->place_number != b->place_number)
+		return a->place_number < b->place_number ? -1 : 1;
 	if (!x || !y)
 		return !x - !y;
 	iec_addr_parse(x, strlen(x), &at[0]);
@@ -440,6 +443,7 @@ GPtrArray *sim_rows_new(LadderSim *sim)
 		maker.project = ladder_project(ladder_sim_plant_ladder(sim));
 		add_program(&maker);
 	}
+	sim_map_take(ladder_document_path(ladder_sim_document(sim)), rows);
 	/* g_ptr_array_sort() of GLib keeps the order of equals. */
 	g_ptr_array_sort(rows, by_group);
 	return rows;

@@ -37,9 +37,10 @@ static void speak(LadderSimRowView *view)
 	const LadderSimRow *row = view->row;
 	GtkWidget *item = gtk_widget_get_parent(GTK_WIDGET(view));
 	const char *state = !sim_row_is_bit(row) ? "" : view->last[0].i ? _("on") : _("off");
-	char *name = g_strdup_printf("%s %s%s%s", kind_name(row), row->name,
+	char *name = g_strdup_printf("%s %s%s%s%s%s", kind_name(row), row->name,
 				     row->address ? ", " : "",
-				     row->address ? row->address : "");
+				     row->address ? row->address : "",
+				     row->pin ? ", " : "", row->pin ? row->pin : "");
 	char *all = g_strdup_printf("%s%s%s%s%s", name, *state ? ", " : "", state,
 				    view->forced ? ", " : "", view->forced ? _("forced") : "");
 
@@ -218,6 +219,8 @@ static char *tooltip_of(const LadderSimRow *row)
 		g_string_append_printf(out, "  %s", row->address);
 	g_string_append_printf(out, "  %s", row->block ? row->block :
 			       iec_type_row(row->at.type)->word);
+	if (row->pin_told)
+		g_string_append_printf(out, "\n%s", row->pin_told);
 	if (row->comment)
 		g_string_append_printf(out, "\n%s", row->comment);
 	if (row->driven)
@@ -232,11 +235,14 @@ static void show_heading(LadderSimRowView *view)
 	const LadderSimRow *row = view->row;
 	GtkWidget *item = gtk_widget_get_parent(GTK_WIDGET(view));
 	const char *name = sim_group_name(row->group);
-	char *spoken = g_strdup_printf("%s, %s", name,
+	char *spoken = g_strdup_printf("%s%s%s, %s", name, row->place ? " · " : "",
+				       row->place ? row->place : "",
 				       row->folded ? _("folded") : _("unfolded"));
 
 	gtk_list_item_set_activatable(view->item, TRUE);
 	gtk_label_set_text(GTK_LABEL(view->title), name);
+	gtk_label_set_text(GTK_LABEL(view->where), row->place ? row->place : "");
+	gtk_widget_set_tooltip_text(view->where, row->place);
 	gtk_image_set_from_icon_name(GTK_IMAGE(view->arrow), row->folded ?
 				     "pan-end-symbolic" : "pan-down-symbolic");
 	gtk_accessible_update_property(GTK_ACCESSIBLE(view), GTK_ACCESSIBLE_PROPERTY_LABEL,
@@ -256,6 +262,8 @@ static void show_line(LadderSimRowView *view)
 	gtk_label_set_text(GTK_LABEL(view->name), row->name);
 	gtk_label_set_text(GTK_LABEL(view->address), row->address ? row->address : "");
 	gtk_widget_set_visible(view->address, row->address != NULL);
+	gtk_label_set_text(GTK_LABEL(view->pin), row->pin ? row->pin : "");
+	gtk_widget_set_visible(view->pin, row->pin != NULL);
 	gtk_label_set_text(GTK_LABEL(view->tag), row->driven ? _("plant") :
 			   row->key ? row->key : "");
 	gtk_widget_set_visible(view->tag, row->driven || row->key);
@@ -270,6 +278,7 @@ static void show_line(LadderSimRowView *view)
 	gtk_widget_set_sensitive(view->scale, !row->driven);
 	gtk_widget_set_tooltip_text(view->name, tooltip);
 	gtk_widget_set_tooltip_text(view->address, tooltip);
+	gtk_widget_set_tooltip_text(view->pin, tooltip);
 	g_free(tooltip);
 	gtk_list_item_set_activatable(view->item, !bit);
 	show_range(view);
@@ -372,14 +381,21 @@ static void can_be_pressed(LadderSimRowView *view, GtkWidget *widget)
 	gtk_widget_add_controller(widget, GTK_EVENT_CONTROLLER(click));
 }
 
+void ladder_sim_row_view_fold(GtkWidget *from, const LadderSimRow *heading)
+{
+	char *section = sim_row_section(heading);
+
+	gtk_widget_activate_action(from, "sim-panel.fold", "s", section);
+	g_free(section);
+}
+
 /* Later: the item that was clicked goes with it. */
 static gboolean fold_later(gpointer data)
 {
 	LadderSimRowView *view = data;
 
 	if (view->row && view->row->kind == SIM_HEADING)
-		gtk_widget_activate_action(GTK_WIDGET(view), "sim-panel.fold", "i",
-					   (int)view->row->group);
+		ladder_sim_row_view_fold(GTK_WIDGET(view), view->row);
 	g_object_unref(view);
 	return G_SOURCE_REMOVE;
 }
@@ -467,7 +483,8 @@ static void add_heading(LadderSimRowView *view)
 	gtk_widget_add_css_class(view->heading, "heading-line");
 	view->arrow = gtk_image_new();
 	gtk_box_append(GTK_BOX(view->heading), view->arrow);
-	view->title = add_label(view->heading, "sim-heading", true);
+	view->title = add_label(view->heading, "sim-heading", false);
+	view->where = add_label(view->heading, "sim-place", true);
 	g_signal_connect(click, "released", G_CALLBACK(heading_released), view);
 	gtk_widget_add_controller(view->heading, GTK_EVENT_CONTROLLER(click));
 	gtk_widget_set_parent(view->heading, GTK_WIDGET(view));
@@ -499,6 +516,9 @@ static void add_line(LadderSimRowView *view)
 	can_be_pressed(view, view->lamp);
 	view->address = add_label(view->line, "sim-address", false);
 	view->name = add_label(view->line, "sim-name", true);
+	view->pin = add_label(view->line, "sim-pin", false);
+	gtk_label_set_max_width_chars(GTK_LABEL(view->pin), 10);
+	gtk_label_set_ellipsize(GTK_LABEL(view->pin), PANGO_ELLIPSIZE_END);
 	view->tag = add_label(view->line, "sim-tag", false);
 	gtk_widget_set_valign(view->tag, GTK_ALIGN_CENTER);
 	view->badge = add_label(view->line, "sim-forced", false);

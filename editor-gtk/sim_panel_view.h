@@ -30,4 +30,8 @@ void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what);
  * stand, of a timer "1.00s / 2.00s", else the value. Caller frees. For tests. */
 char *ladder_sim_row_view_text(LadderSimRowView *view);
 
+/** ladder_sim_row_view_fold - folds or unfolds the section that @heading is of, in the panel
+ * that @from is, or stands in. */
+void ladder_sim_row_view_fold(GtkWidget *from, const LadderSimRow *heading);
+
 #endif

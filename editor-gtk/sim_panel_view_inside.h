@@ -22,8 +22,8 @@ struct _LadderSimRowView {
 	bool telling;            /* a change of a widget is no person's         */
 	double sent;             /* by the slider                               */
 	int waiting;             /* so many looks more until that must be shown */
-	GtkWidget *heading, *arrow, *title;
-	GtkWidget *line, *lamp, *address, *name, *tag, *badge, *value, *toggle, *push;
+	GtkWidget *heading, *arrow, *title, *where;
+	GtkWidget *line, *lamp, *address, *name, *pin, *tag, *badge, *value, *toggle, *push;
 	GtkWidget *entry;        /* NULL: none yet                              */
 	enum sim_edit editing;
 	GtkWidget *bar, *scale;

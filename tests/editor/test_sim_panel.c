@@ -9,6 +9,7 @@
 #include "tests/tap.h"
 
 #include <adwaita.h>
+#include <glib/gstdio.h>
 
 static const char sample[] =
 	"RUNGBOARD 1\n\n"
@@ -120,7 +121,7 @@ static bool shows(const char *name, const char *want)
 	return is;
 }
 
-/* All lines: "[Inputs] Start Stop [Outputs] …". */
+/* All lines: "[Inputs] Start Stop [Outputs] …", of a map "[Inputs gpiochip1] Start …". */
 static char *lines(void)
 {
 	GListModel *list = ladder_sim_panel_list(panel);
@@ -129,9 +130,12 @@ static char *lines(void)
 	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
 		LadderSimRow *row = g_list_model_get_item(list, i);
 
-		g_string_append_printf(out, row->kind == SIM_HEADING ? "[%s] " : "%s ",
-				       row->kind == SIM_HEADING ?
-				       sim_group_name(row->group) : row->name);
+		if (row->kind == SIM_HEADING)
+			g_string_append_printf(out, "[%s%s%s] ", sim_group_name(row->group),
+					       row->place ? " " : "",
+					       row->place ? row->place : "");
+		else
+			g_string_append_printf(out, "%s ", row->name);
 		g_object_unref(row);
 	}
 	return g_string_free(out, FALSE);
@@ -310,8 +314,8 @@ static void test_found(void)
 	GtkWidget *search = find_widget(GTK_WIDGET(panel), GTK_TYPE_SEARCH_ENTRY);
 	char *all;
 
-	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "i", SIM_VALUES);
-	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "i", SIM_INPUTS);
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "6 ");
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 ");
 	all = lines();
 	CHECK(g_str_has_prefix(all, "[Inputs] [Outputs] ") && g_str_has_suffix(all, "[Values] "));
 	g_free(all);
@@ -325,8 +329,8 @@ static void test_found(void)
 	picture("none");
 	gtk_editable_set_text(GTK_EDITABLE(search), "");
 	CHECK_SOON(row_of("Alarm"));
-	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "i", SIM_INPUTS);
-	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "i", SIM_VALUES);
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 ");
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "6 ");
 	CHECK(row_of("Start") && row_of("Temp"));
 }
 
@@ -412,6 +416,44 @@ static void test_many(void)
 	g_string_free(text, TRUE);
 }
 
+/* Inputs and outputs stand by the chips that the I/O map names, in its order, each with
+ * its pin. */
+static void test_map(void)
+{
+	static const char map[] = "BOARD \"Oven\"\n%IX0.1  gpio  chip=relays offset=7  # left\n"
+		"%IX0.0  gpio  line=GPIO17\n%QX0.3 gpio line=GPIO4\n%IX0.2 sim\nwrong line\n"
+		"%QX0.0 gpio chip=relays offset=3\n";
+	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL), *all;
+	char *path = g_build_filename(folder, "test.rung", NULL);
+	char *io = g_build_filename(folder, "test.io", NULL);
+
+	ladder_sim_end(sim);
+	CHECK(g_file_set_contents(io, map, -1, NULL));
+	ladder_document_open_text(document, path, sample, strlen(sample), true);
+	CHECK(ladder_sim_begin(sim, NULL));
+	all = lines();
+	CHECK(g_str_has_prefix(all, "[Inputs relays] Stop [Inputs Oven] Start [Inputs sim] "
+		"Overload_of_the_second_motor_behind_the_wall [Inputs not in the I/O map] "
+		"%IX1.3 [Outputs relays] \xe7\x94\xb5\xe6\x9c\xba [Outputs Oven] %QX0.3 "
+		"[Outputs not in the I/O map] %QX0.4 [Memory] Alarm "));
+	g_free(all);
+	CHECK_TEXT(row_of("Stop")->pin, "7");
+	CHECK_TEXT(row_of("Stop")->pin_told, "relays  7  (left)");
+	CHECK_TEXT(row_of("Start")->pin, "GPIO17");
+	CHECK(!row_of("%IX1.3")->pin && !row_of("Alarm")->place);
+	picture("map");
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 Oven");
+	CHECK(!row_of("Start") && row_of("Stop"));
+	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 Oven");
+	CHECK(row_of("Start"));
+	CHECK(g_unlink(io) == 0 && g_rmdir(folder) == 0);
+	ladder_sim_end(sim);
+	CHECK(ladder_sim_begin(sim, NULL) && !row_of("Start")->place);
+	g_free(io);
+	g_free(path);
+	g_free(folder);
+}
+
 static void test_end(void)
 {
 	ladder_sim_end(sim);
@@ -459,6 +501,7 @@ int main(int argc, char **argv)
 	test_edit();
 	test_plant();
 	test_many();
+	test_map();
 	test_end();
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);
