@@ -563,6 +563,8 @@ void act_said(LadderGridView *view, int rung, int row, int col, GString *text)
 	if (!cell)
 		return;
 	bits = live->bits[row * live->cols + col];
+	if (cell->text[0])
+		g_string_append_printf(text, ", %s", cell->text);
 	if (cell->kind == LIVE_CONTACT || cell->parts)
 		g_string_append_printf(text, ", %s", bits & LIVE_CLOSED ? _("closed") :
 				       _("open"));

@@ -90,11 +90,21 @@ static bool is_named(const struct cell *cell)
 
 /* ---- which there are ---- */
 
+static void name_it(LadderGridView *view, struct cell_widget *slot, const struct cell *cell)
+{
+	char *name = name_of(view, slot->rung, slot->row, slot->col, cell);
+
+	if (g_strcmp0(name, slot->name) != 0)
+		gtk_accessible_update_property(GTK_ACCESSIBLE(slot->widget),
+					       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	g_free(slot->name);
+	slot->name = name;
+}
+
 static void use_widget(LadderGridView *view, guint index, int rung, int row, int col,
 		       const struct cell *cell)
 {
 	struct cell_widget *slot;
-	char *name = name_of(view, rung, row, col, cell);
 	bool selected;
 
 	if (index >= view->cells->len) {
@@ -112,13 +122,9 @@ static void use_widget(LadderGridView *view, guint index, int rung, int row, int
 	selected = rung == view->cursor.rung && row == view->cursor.row &&
 		grid_display_column(sheet_rung(view, rung), view->columns, row, col) ==
 		view->cursor.col;
-	if (g_strcmp0(name, slot->name) != 0)
-		gtk_accessible_update_property(GTK_ACCESSIBLE(slot->widget),
-					       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	name_it(view, slot, cell);
 	gtk_accessible_update_state(GTK_ACCESSIBLE(slot->widget),
 				    GTK_ACCESSIBLE_STATE_SELECTED, selected, -1);
-	g_free(slot->name);
-	slot->name = name;
 }
 
 static guint use_rung(LadderGridView *view, int rung, guint used)
@@ -184,6 +190,18 @@ static bool is_there(LadderGridView *view, const struct cell_widget *cell)
 
 	return shown && cell->rung < (int)view->strips->len && cell->row < shown->rows &&
 	       cell->col < shown->cols;
+}
+
+void cells_rename(LadderGridView *view)
+{
+	for (guint i = 0; view->names && i < view->cells->len; i++) {
+		struct cell_widget *slot = cell_of(view, i);
+		const struct cell *cell = is_there(view, slot) ?
+			rung_at(sheet_rung(view, slot->rung), slot->row, slot->col) : NULL;
+
+		if (cell && is_named(cell))
+			name_it(view, slot, cell);
+	}
 }
 
 void cells_allocate(LadderGridView *view)

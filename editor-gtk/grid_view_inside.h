@@ -33,7 +33,7 @@ struct sheet_live {
 	char *instance;             /* chosen; NULL: the first one             */
 	guint stamp;                /* another one whenever values are          */
 	guint timer;                /* when something is new no more            */
-	guint say;                  /* when names of cells are told             */
+	guint say, say_values;      /* when names of cells are told             */
 	guint drawn;                /* rungs, since the view was made           */
 	bool still;                 /* nothing is scanned                      */
 	guint ordered;              /* stamp when this was ordered: */
@@ -267,6 +267,8 @@ void cells_init(LadderGridView *view);
 void cells_clear(LadderGridView *view);
 /** cells_later - soon there are widgets for the elements that are seen. */
 void cells_later(LadderGridView *view);
+/** cells_rename - what is heard of those that there are is what they show now. */
+void cells_rename(LadderGridView *view);
 /** cells_allocate - puts them where their cells are. */
 void cells_allocate(LadderGridView *view);
 

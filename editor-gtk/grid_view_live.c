@@ -8,6 +8,7 @@
 #include "editor-gtk/grid_view_inside.h"
 
 #define SAY_MS 300 /* names of cells follow so late: reading them takes longer   */
+#define VALUES_MS 1000 /* and so late if there are other numbers in them alone    */
 
 static struct strip *strip_of(LadderGridView *view, int rung)
 {
@@ -90,6 +91,7 @@ static int number_of(LadderGridView *view, const struct rung *shown, int rung)
 /* ---- looking ---- */
 
 static void say_later(LadderGridView *view);
+static void say_values_later(LadderGridView *view);
 
 bool live_look(LadderGridView *view, int rung)
 {
@@ -111,6 +113,8 @@ bool live_look(LadderGridView *view, int rung)
 				 g_get_monotonic_time(), flashes(view));
 	if (changed & LIVE_OTHER_STATE)
 		say_later(view);
+	else if (changed & LIVE_OTHER_TEXT)
+		say_values_later(view);
 	return changed != LIVE_SAME;
 }
 
@@ -233,6 +237,21 @@ static void say_later(LadderGridView *view)
 {
 	if (!view->live.say)
 		view->live.say = g_timeout_add(SAY_MS, say_now, view);
+}
+
+static gboolean say_values_now(gpointer data)
+{
+	LadderGridView *view = data;
+
+	view->live.say_values = 0;
+	cells_rename(view);
+	return G_SOURCE_REMOVE;
+}
+
+static void say_values_later(LadderGridView *view)
+{
+	if (!view->live.say_values)
+		view->live.say_values = g_timeout_add(VALUES_MS, say_values_now, view);
 }
 
 void ladder_grid_view_set_sim(LadderGridView *view, LadderSim *sim)
@@ -385,5 +404,6 @@ void live_clear(LadderGridView *view)
 	ladder_grid_view_set_sim(view, NULL);
 	g_clear_handle_id(&view->live.timer, g_source_remove);
 	g_clear_handle_id(&view->live.say, g_source_remove);
+	g_clear_handle_id(&view->live.say_values, g_source_remove);
 	g_clear_pointer(&view->live.instance, g_free);
 }

@@ -99,7 +99,10 @@ void live_rung_free(struct live_rung *rung);
  *
  * Returns what of it is other than it was: nothing of that is drawn otherwise, if not.
  */
-enum live_change { LIVE_SAME, LIVE_OTHER_VALUE = 1, LIVE_OTHER_STATE = 2 };
+enum live_change {
+	LIVE_SAME, LIVE_OTHER_VALUE = 1, LIVE_OTHER_STATE = 2,
+	LIVE_OTHER_TEXT = 4      /* always with LIVE_OTHER_VALUE                  */
+};
 unsigned int live_rung_look(struct live_rung *rung, const struct resource *resource,
 			    gint64 now, bool flash);
 /** live_rung_value - for struct grid_live; @context: the rung. */

@@ -421,7 +421,7 @@ unsigned int live_rung_look(struct live_rung *rung, const struct resource *resou
 		rung->bits[i] = bits;
 	}
 	rung->fresh = false;
-	return changed | (other ? LIVE_OTHER_VALUE : 0);
+	return changed | (other ? LIVE_OTHER_VALUE | LIVE_OTHER_TEXT : 0);
 }
 
 bool live_rung_value(void *context, int row, int col, struct live_value *out)

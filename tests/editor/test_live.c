@@ -228,6 +228,39 @@ static void test_values(void)
 	CHECK_TEXT(text_of(0, 0, 0), "");
 }
 
+static const char *wanted_text;
+
+/* Some element has it in its accessible name. */
+static bool is_heard(void)
+{
+	bool found = false;
+
+	for (GtkWidget *cell = gtk_widget_get_first_child(GTK_WIDGET(view)); cell && !found;
+	     cell = gtk_widget_get_next_sibling(cell)) {
+		char *name = gtk_test_accessible_check_property(GTK_ACCESSIBLE(cell),
+			GTK_ACCESSIBLE_PROPERTY_LABEL, "-");
+
+		found = name && strstr(name, wanted_text);
+		g_free(name);
+	}
+	return found;
+}
+
+/* A number that changes nothing else is heard, too. */
+static void test_heard(void)
+{
+	set("Level", 7);
+	scan(1);
+	wanted_text = ", 7 > 500, open";
+	CHECK(until(is_heard));
+	set("Level", 8);
+	scan(1);
+	wanted_text = ", 8 > 500, open";
+	CHECK(until(is_heard));
+	set("Level", 512);
+	scan(1);
+}
+
 /* A contact is drawn as the scan saw it: what holds a coil comes behind that. What a person
  * sets since is shown at once. */
 static void test_forced(void)
@@ -517,6 +550,7 @@ int main(void)
 	test_stop();
 	test_power();
 	test_values();
+	test_heard();
 	test_forced();
 	test_bodies();
 	test_drawn();
