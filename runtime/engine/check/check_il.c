@@ -509,6 +509,11 @@ static bool check_line(struct il_check *c, int at, enum iec_type *type)
 		c->depth = 0;
 		c->now.there = false;
 		break;
+	case IL_EACH:
+	case IL_TICK:
+		c->now.there = false;
+		break;
+	case IL_TARGET:
 	case IL_ARG_IN:
 	case IL_ARG_OUT:
 	case IL_COMMENT:

@@ -454,6 +454,9 @@ static unsigned int use_of_line(const struct il_line *line)
 	case IL_CLOSE:
 	case IL_LABEL:
 	case IL_COMMENT:
+	case IL_EACH:
+	case IL_TARGET:
+	case IL_TICK:
 		return 0;
 	}
 	return 0;

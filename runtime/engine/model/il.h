@@ -20,6 +20,12 @@ enum il_kind {
 	IL_ARG_IN,   /* PIN := operand                                         */
 	IL_ARG_OUT,  /* PIN => operand                                         */
 	IL_COMMENT,  /* (* … *)                                                */
+	/* Only translation makes these, of charts. */
+	IL_EACH,     /* operand: the first of the BOOLs; pin: its cursor, a UDINT; as
+			many IL_TARGET follow, each with a label               */
+	IL_TARGET,
+	IL_TICK,     /* operand: what gets the time; pin: the last time; word: how
+			many steps; HOLD, X and T of the first follow          */
 };
 
 enum il_mark {

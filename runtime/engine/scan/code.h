@@ -42,6 +42,11 @@
  *   APUT   en, ok, src, base, index, low, count, stride   likewise; else nothing
  *                               Both: for each further index four more words, index,
  *                               low, count, stride; how many in n from bit 1 on
+ *   EACH   cursor, base, n × target   n BOOLs at base: goes on at the target of the next
+ *                               one from cursor (UDINT) on that is TRUE, and cursor is
+ *                               behind it; none: cursor is 0, and on behind all targets
+ *   TICK   hold, last, dt, x, t   dt := now - last (0 while hold), last := now; TIME;
+ *                               of n BOOLs at x: those that are TRUE have dt added at t
  *   ABLOCK en, ok, dst, src, size, index, low, count, stride   BLOCK, where src (n bit 0:
  *                               dst) is that of the first element; more indices likewise
  */
@@ -54,7 +59,7 @@
 #include "engine/base/diag.h"
 
 #define CODE_MAGIC   "RUNGCODE"
-#define CODE_VERSION 7u
+#define CODE_VERSION 8u
 #define CODE_AREAS   16
 
 enum code_section_kind {

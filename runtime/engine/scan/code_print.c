@@ -157,6 +157,11 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 		return snprintf(out, size, "jmp     %u", at[0]);
 	case VM_JMPC:
 		return snprintf(out, size, "jmpc    b%u %u", at[1], at[0]);
+	case VM_EACH:
+		return snprintf(out, size, "each    %u of b%u @%u", n, at[1], at[0]);
+	case VM_TICK:
+		return snprintf(out, size, "tick    hold b%u %u of b%u @%u dt @%u last @%u",
+				at[0], n, at[3], at[4], at[2], at[1]);
 	case VM_END:
 		return snprintf(out, size, "end");
 	case VM_COUNT:

@@ -4,6 +4,7 @@
  */
 #include "engine/scan/value.h"
 #include "engine/scan/vm.h"
+#include "engine/scan/vm_steps.h"
 
 #include <string.h>
 
@@ -324,96 +325,7 @@ static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 	return store(m, pc[3], &args) && status == FN_OK;
 }
 
-/* What AGET and APUT are about; of ABLOCK the SIZE is in between. Then each index. */
-enum { EN, OK, VALUE, BASE, ELEMENT, SIZE = ELEMENT };
-enum { INDEX, LOW, COUNT, STRIDE };
-
-/* Adds to *where what the index at @at leads to; false: there is no such element. None
- * leads outside: what is below `low` wraps to far above `count`. */
-static inline bool find_index(const uint8_t *m, const uint32_t *at, uint32_t *where)
-{
-	int64_t index = integer(m, at[INDEX]);
-	uint64_t element = (uint64_t)index - (uint64_t)(int32_t)at[LOW];
-
-	if (element >= at[COUNT] ||
-	    (index < 0 && !value_is_signed(CODE_TYPE(at[INDEX]))))
-		return false;
-	*where += (uint32_t)element * at[STRIDE];
-	return true;
-}
-
-/* Those behind the first. */
-static bool find_more(const uint8_t *m, const uint32_t *at, uint32_t more,
-		      uint32_t *where)
-{
-	for (; more > 0; more--) {
-		at += CODE_DIMENSION;
-		if (!find_index(m, at, where))
-			return false;
-	}
-	return true;
-}
-
-static inline bool find_element(const uint8_t *m, const uint32_t *at, uint32_t more,
-				uint32_t *where)
-{
-	return find_index(m, at, where) && (!more || find_more(m, at, more, where));
-}
-
-static void clear_value(uint8_t *m, const uint32_t *at)
-{
-	static const struct iec_string none = { 0, 0 };
-
-	if (CODE_TYPE(at[VALUE]) == IEC_STRING)
-		put_text(m, at[VALUE], &none);
-	else
-		put(m, at[VALUE], (union iec_value){ .i = 0 });
-}
-
-static bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
-{
-	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, at[VALUE], 0 };
-
-	if (!find_element(m, at + ELEMENT, n >> 1, &where))
-		return false;
-	if (n & 1) {
-		m[CODE_OFFSET(at[VALUE])] = m[where / 8] >> where % 8 & 1u;
-		return true;
-	}
-	copy[2] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
-	run_copy(m, copy);
-	return true;
-}
-
-static bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
-{
-	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, 0, at[VALUE] };
-
-	if (!find_element(m, at + ELEMENT, n >> 1, &where))
-		return false;
-	if (n & 1) {
-		uint8_t *byte = &m[where / 8];
-
-		*byte = (uint8_t)((*byte & ~(1u << where % 8)) |
-				  (uint32_t)m[CODE_OFFSET(at[VALUE])]
-				  << where % 8);
-		return true;
-	}
-	copy[1] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
-	run_copy(m, copy);
-	return true;
-}
-
-/* @at[VALUE] and @at[BASE]: where to, where from. */
-static bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
-{
-	uint32_t to = at[VALUE], from = at[BASE];
-
-	if (!find_element(m, at + SIZE + 1, n >> 1, n & 1 ? &to : &from))
-		return false;
-	memcpy(m + to, m + from, at[SIZE]);
-	return true;
-}
+#include "engine/scan/vm_array.h"
 
 static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 {
@@ -439,6 +351,21 @@ static bool spend(struct vm *vm, const uint32_t *from, const uint32_t *to)
 	return true;
 }
 
+/* Back to an EACH it costs what was run since that led here, at @run. */
+static bool spend_each(struct vm *vm, const uint32_t *from, const uint32_t *to,
+		       const uint32_t *run, uint32_t words)
+{
+	uint32_t cost;
+
+	if (to > from || (*to & 0xff) != VM_EACH)
+		return spend(vm, from, to);
+	cost = from >= run ? (uint32_t)(from - run) + 1 : words;
+	if (cost > vm->budget)
+		return false;
+	vm->budget -= cost;
+	return true;
+}
+
 /* A call costs what it may run, but for loops, which cost what they go back over. */
 static bool pay(struct vm *vm, uint32_t cost)
 {
@@ -456,7 +383,8 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	const uint32_t *pc = base + (watch ? at->watch : at->text);
 	uint8_t *m = vm->memory;
 	const uint32_t *back[LIMIT_CALLS]; /* where calls go on afterwards    */
-	uint32_t depth = 0;
+	const uint32_t *run = pc;          /* where EACH led to              */
+	uint32_t depth = 0, found;
 
 	for (;;) {
 		uint32_t word = *pc, n = word >> 8;
@@ -548,7 +476,8 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 2;
 			break;
 		case VM_JMP:
-			if (!spend(vm, pc, base + pc[1]))
+			if (!spend_each(vm, pc, base + pc[1], run,
+					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;
 			pc = base + pc[1];
 			break;
@@ -583,6 +512,24 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			if (m[pc[1]] && !m[pc[2]])
 				count_error(vm, pc, base);
 			pc += 10 + 4 * (n >> 1);
+			break;
+		case VM_EACH:
+			if (!pay(vm, 1 + n / 8))
+				goto out_of_budget;
+			if (!find_step(m, pc + 1, n, &found)) {
+				pc += 3 + n;
+				break;
+			}
+			run = base + pc[3 + found];
+			if (!spend(vm, pc, run))
+				goto out_of_budget;
+			pc = run;
+			break;
+		case VM_TICK:
+			if (!pay(vm, 1 + n))
+				goto out_of_budget;
+			tick(m, pc + 1, n, vm->now_ns);
+			pc += 1 + TICK_WORDS;
 			break;
 		case VM_COUNT:
 		default:

@@ -13,7 +13,8 @@
 
 static bool is_arg(const struct il_line *line)
 {
-	return line->kind == IL_ARG_IN || line->kind == IL_ARG_OUT;
+	return line->kind == IL_ARG_IN || line->kind == IL_ARG_OUT ||
+	       line->kind == IL_TARGET;
 }
 
 /* Operands stand in a column of their own. */
@@ -70,6 +71,19 @@ static void write_operator(const struct sink *sink, const struct project *projec
 	}
 }
 
+static void write_each(const struct sink *sink, const struct project *project,
+		       const struct il_line *line, int targets)
+{
+	sink_text(sink, "  EACH  ");
+	write_id(sink, project, line->operand);
+	sink_text(sink, "(");
+	for (int i = 1; i <= targets; i++) {
+		sink_text(sink, i > 1 ? ", " : "");
+		write_id(sink, project, line[i].operand);
+	}
+	sink_text(sink, ")");
+}
+
 static void write_line(const struct sink *sink, const struct project *project,
 		       const struct il_line *line, int args)
 {
@@ -116,6 +130,15 @@ static void write_line(const struct sink *sink, const struct project *project,
 	case IL_COMMENT:
 		write_comments(sink, project, line->operand);
 		return;
+	case IL_EACH:
+		write_each(sink, project, line, args);
+		return;
+	case IL_TICK:
+		sink_text(sink, "  TICK  ");
+		write_id(sink, project, line->operand);
+		write_args(sink, project, line + 1, args);
+		return;
+	case IL_TARGET:
 	case IL_ARG_IN:
 	case IL_ARG_OUT:
 		return;

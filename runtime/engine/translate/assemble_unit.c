@@ -523,6 +523,13 @@ static void assemble_line(struct list *list)
 	case IL_CALL:
 		list_call(list);
 		break;
+	case IL_EACH:
+		list_each(list);
+		break;
+	case IL_TICK:
+		list_tick(list);
+		break;
+	case IL_TARGET:
 	case IL_ARG_IN:
 	case IL_ARG_OUT:
 	case IL_COMMENT:

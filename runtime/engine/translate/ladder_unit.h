@@ -59,6 +59,13 @@ struct ld {
 	struct diag_list *ignored; /* of texts that were read before          */
 };
 
+/* ---- ld_to_il.c ---- */
+/** ld_begin - before the first rung of a POU: translation, unit, scratch, il and watch are
+ * set.   Fails: false: no memory. */
+bool ld_begin(struct ld *ld);
+/** ld_rungs - adds the instructions of @count rungs from @first on; @skip: as ld_to_il(). */
+bool ld_rungs(struct ld *ld, int first, int count, const uint8_t *skip);
+
 /* ---- ld_power.c: instructions, nets, leaves ---- */
 /** ld_emit - one operator; places it at the present cell. */
 void ld_emit(struct ld *ld, enum op op, uint8_t modifiers, uint32_t operand);

@@ -232,6 +232,7 @@ static void use_list(struct assembler *as, uint8_t *used, const struct pou *pou,
 		const struct meaning *m;
 
 		if (il->line[i].kind == IL_COMMENT ||
+		    il->line[i].kind == IL_TARGET ||
 		    il->line[i].kind == IL_LABEL || !il->line[i].operand)
 			continue;
 		m = scope_find(as->translation->scope, pou, il->line[i].operand,

@@ -73,7 +73,7 @@ static void count_list(struct assembler *as, const struct unit *unit)
 		const struct meaning *m = NULL;
 
 		if (line->operand && line->kind != IL_LABEL &&
-		    line->kind != IL_COMMENT)
+		    line->kind != IL_TARGET && line->kind != IL_COMMENT)
 			m = scope_find(scope, unit->pou, line->operand, &why);
 		if (m && m->var && is_eno(unit->pou, m))
 			as->frame[unit - as->translation->unit].eno = true;

@@ -404,7 +404,7 @@ static void head(struct ld *ld)
 	}
 }
 
-static bool init(struct ld *ld)
+bool ld_begin(struct ld *ld)
 {
 	struct translation *t = ld->translation;
 	struct names *names = &t->project->names;
@@ -429,6 +429,24 @@ static bool init(struct ld *ld)
 	return ld->expr && ld->ignored && ld->out_id && find_targets(ld);
 }
 
+bool ld_rungs(struct ld *ld, int first, int count, const uint8_t *skip)
+{
+	for (int i = first; i < first + count && !ld->failed; i++) {
+		ld->rung = ld->unit->pou->rung[i];
+		ld->number = (uint32_t)i + 1;
+		ld->row = ld->col = 0;
+		if (ld->rung->off)
+			continue;
+		head(ld); /* a label counts even if the rung has errors */
+		if (skip[i])
+			continue;
+		if (!prepare_rung(ld))
+			return false;
+		translate_rung(ld);
+	}
+	return !ld->failed;
+}
+
 bool ld_to_il(struct translation *translation, struct unit *unit,
 	      const uint8_t *skip, bool watch, struct arena *scratch)
 {
@@ -437,20 +455,5 @@ bool ld_to_il(struct translation *translation, struct unit *unit,
 		.il = watch ? &unit->watch : &unit->il, .watch = watch,
 	};
 
-	if (!init(&ld))
-		return false;
-	for (int i = 0; i < unit->pou->rung_count && !ld.failed; i++) {
-		ld.rung = unit->pou->rung[i];
-		ld.number = (uint32_t)i + 1;
-		ld.row = ld.col = 0;
-		if (ld.rung->off)
-			continue;
-		head(&ld); /* a label counts even if the rung has errors */
-		if (skip[i])
-			continue;
-		if (!prepare_rung(&ld))
-			return false;
-		translate_rung(&ld);
-	}
-	return !ld.failed;
+	return ld_begin(&ld) && ld_rungs(&ld, 0, unit->pou->rung_count, skip);
 }

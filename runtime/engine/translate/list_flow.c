@@ -89,6 +89,55 @@ void list_label(struct list *list, const struct il_line *line)
 		list->label[id] = (uint32_t)list->as->text->count + 1;
 }
 
+/* Where a variable that has an address of its own lies. */
+static uint32_t offset_of(struct list *list, uint32_t operand)
+{
+	return layout_spot(list->as, list_meaning(list, operand)).offset;
+}
+
+static int count_behind(const struct list *list, enum il_kind kind)
+{
+	int count = 0;
+
+	while (list->at + 1 + count < list->il->count &&
+	       list->il->line[list->at + 1 + count].kind == kind)
+		count++;
+	return count;
+}
+
+void list_each(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+	const int targets = count_behind(list, IL_TARGET);
+
+	list_place(list);
+	bits_end(list->as);
+	list->straight = false;
+	list->now.kind = RESULT_NONE;
+	emit_op(list->as, VM_EACH, (uint32_t)targets);
+	emit(list->as, offset_of(list, line->pin));
+	emit(list->as, offset_of(list, line->operand));
+	for (int i = 1; i <= targets; i++)
+		add_fixup(list, line[i].operand);
+}
+
+void list_tick(struct list *list)
+{
+	const struct il_line *line = &list->il->line[list->at];
+	struct bits hold = list_bits(list, list_meaning(list, line[1].operand));
+	const uint32_t slot = list_slot(list, &hold);
+
+	list_place(list);
+	bits_end(list->as);
+	list->now.kind = RESULT_NONE;
+	emit_op(list->as, VM_TICK, line->word);
+	emit(list->as, slot);
+	emit(list->as, offset_of(list, line->pin));
+	emit(list->as, offset_of(list, line->operand));
+	emit(list->as, offset_of(list, line[2].operand));
+	emit(list->as, offset_of(list, line[3].operand));
+}
+
 void list_patch(struct list *list, uint32_t end)
 {
 	for (int i = 0; i < list->fixup_count; i++) {

@@ -176,6 +176,9 @@ void list_flow(struct list *list, const struct il_line *line);
 void list_stop(struct list *list, const struct il_line *line);
 /** list_label - a label: nothing waits behind it. */
 void list_label(struct list *list, const struct il_line *line);
+/** list_each - IL_EACH with its labels; list_tick - IL_TICK. */
+void list_each(struct list *list);
+void list_tick(struct list *list);
 /** list_patch - fills in the targets; @end: where RET goes. */
 void list_patch(struct list *list, uint32_t end);
 

@@ -5,6 +5,7 @@
 #include "engine/translate/temps.h"
 
 #include <stdio.h>
+#include <string.h>
 
 bool is_temporary(const char *name, char letter)
 {
@@ -25,40 +26,45 @@ void temps_rung(struct temps *temps)
 		temps->whole[i].used = false;
 }
 
-/* @like: its type. NULL: no memory. */
-static const struct var *declare_like(struct temps *temps, char letter, int number,
-				      const struct var *like)
+uint32_t temps_named(struct temps *temps, const char *name, const struct var *like)
 {
 	struct translation *t = temps->translation;
 	struct unit *unit = temps->unit;
 	struct names *names = &t->project->names;
 	struct var *var = arena_alloc(t->arena, sizeof(*var));
 	struct var **slot;
-	char text[24];
-	int len = snprintf(text, sizeof(text), "_%c%d", letter, number);
 
 	if (!var)
-		return NULL;
+		return 0;
 	*var = *like;
-	var->name = names_intern(names, text, (size_t)len);
+	var->name = names_intern(names, name, strlen(name));
 	var->fold = names_fold(names, var->name);
 	slot = arena_push(t->arena, &unit->temp, &unit->temp_count,
 			  sizeof(*slot));
 	if (!slot || !var->fold ||
 	    !scope_add(t->scope, unit->pou, var,
 		       unit->pou->vars.count + unit->temp_count - 1))
-		return NULL;
+		return 0;
 	*slot = var;
-	return var;
+	return var->name;
+}
+
+/* @like: its type. 0: no memory. */
+static uint32_t declare_like(struct temps *temps, char letter, int number,
+			     const struct var *like)
+{
+	char text[24];
+
+	snprintf(text, sizeof(text), "_%c%d", letter, number);
+	return temps_named(temps, text, like);
 }
 
 static uint32_t declare(struct temps *temps, char letter, int number,
 			enum iec_type type)
 {
 	const struct var like = { .type = type };
-	const struct var *var = declare_like(temps, letter, number, &like);
 
-	return var ? var->name : 0;
+	return declare_like(temps, letter, number, &like);
 }
 
 /* Name number @used of a list, made when it is not there yet. */
@@ -151,8 +157,10 @@ uint32_t temps_whole(struct temps *temps, const struct meaning *m)
 	if (!slot)
 		return 0;
 	slot->used = true;
-	slot->var = declare_like(temps, 'N', ++temps->numbers_made, &like);
-	if (!slot->var)
+	if (!declare_like(temps, 'N', ++temps->numbers_made, &like)) {
 		temps->whole_count--;
-	return slot->var ? slot->var->name : 0;
+		return 0;
+	}
+	slot->var = temps->unit->temp[temps->unit->temp_count - 1];
+	return slot->var->name;
 }

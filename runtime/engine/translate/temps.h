@@ -30,6 +30,9 @@ struct temps {
 	int whole_count;
 };
 
+/** temps_named - declares a variable like @like under a name of its own. Its string id; 0:
+ * no memory. */
+uint32_t temps_named(struct temps *temps, const char *name, const struct var *like);
 /** temps_rung - what belongs to one rung may be used anew. */
 void temps_rung(struct temps *temps);
 /* The next name of its kind, a string id; 0 when memory is out. */

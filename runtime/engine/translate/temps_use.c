@@ -46,6 +46,9 @@ static enum use use_of(const struct il_line *line)
 	case IL_LABEL:
 	case IL_CALL:
 	case IL_COMMENT:
+	case IL_EACH:
+	case IL_TARGET:
+	case IL_TICK:
 		return USE_NONE;
 	}
 	return USE_NONE;

@@ -55,6 +55,10 @@ struct translation {
 bool ld_to_il(struct translation *translation, struct unit *unit,
 	      const uint8_t *skip, bool watch, struct arena *scratch);
 
+/** sfc_to_il - the same of a chart. */
+bool sfc_to_il(struct translation *translation, struct unit *unit,
+	       const uint8_t *skip, bool watch, struct arena *scratch);
+
 /**
  * assemble - the code image of all units
  * @watch: with the instrumented section

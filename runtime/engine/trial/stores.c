@@ -114,6 +114,12 @@ static void visit_code(const struct visit *visit, const uint32_t *code)
 		return;
 	case VM_APUT: take_put(visit, at, n); return;
 	case VM_ABLOCK: take_block(visit, at, n); return;
+	case VM_EACH: take_bytes(visit, at[0], sizeof(uint32_t)); return;
+	case VM_TICK:
+		take_bytes(visit, at[1], sizeof(int64_t));
+		take_bytes(visit, at[2], sizeof(int64_t));
+		take_bytes(visit, at[4], n * sizeof(int64_t));
+		return;
 	case VM_CALL:
 	case VM_STOP:
 	case VM_JMP:

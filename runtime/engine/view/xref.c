@@ -498,6 +498,9 @@ static void walk_line(struct xref_walk *walk, struct il_line *line)
 	case IL_CLOSE:
 	case IL_LABEL:
 	case IL_COMMENT:
+	case IL_EACH:
+	case IL_TARGET:
+	case IL_TICK:
 		return;
 	}
 }

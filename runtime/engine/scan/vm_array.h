@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * vm_array - elements whose index is found out in the scan.
+ *
+ * Private to vm.c, behind its integer(), put(), put_text() and run_copy().
+ */
+#ifndef SCAN_VM_ARRAY_H
+#define SCAN_VM_ARRAY_H
+
+/* What AGET and APUT are about; of ABLOCK the SIZE is in between. Then each index. */
+enum { EN, OK, VALUE, BASE, ELEMENT, SIZE = ELEMENT };
+enum { INDEX, LOW, COUNT, STRIDE };
+
+/* Adds to *where what the index at @at leads to; false: there is no such element. None
+ * leads outside: what is below `low` wraps to far above `count`. */
+static inline bool find_index(const uint8_t *m, const uint32_t *at, uint32_t *where)
+{
+	int64_t index = integer(m, at[INDEX]);
+	uint64_t element = (uint64_t)index - (uint64_t)(int32_t)at[LOW];
+
+	if (element >= at[COUNT] ||
+	    (index < 0 && !value_is_signed(CODE_TYPE(at[INDEX]))))
+		return false;
+	*where += (uint32_t)element * at[STRIDE];
+	return true;
+}
+
+/* Those behind the first. */
+static bool find_more(const uint8_t *m, const uint32_t *at, uint32_t more,
+		      uint32_t *where)
+{
+	for (; more > 0; more--) {
+		at += CODE_DIMENSION;
+		if (!find_index(m, at, where))
+			return false;
+	}
+	return true;
+}
+
+static inline bool find_element(const uint8_t *m, const uint32_t *at, uint32_t more,
+				uint32_t *where)
+{
+	return find_index(m, at, where) && (!more || find_more(m, at, more, where));
+}
+
+static void clear_value(uint8_t *m, const uint32_t *at)
+{
+	static const struct iec_string none = { 0, 0 };
+
+	if (CODE_TYPE(at[VALUE]) == IEC_STRING)
+		put_text(m, at[VALUE], &none);
+	else
+		put(m, at[VALUE], (union iec_value){ .i = 0 });
+}
+
+static bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
+{
+	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, at[VALUE], 0 };
+
+	if (!find_element(m, at + ELEMENT, n >> 1, &where))
+		return false;
+	if (n & 1) {
+		m[CODE_OFFSET(at[VALUE])] = m[where / 8] >> where % 8 & 1u;
+		return true;
+	}
+	copy[2] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
+	run_copy(m, copy);
+	return true;
+}
+
+static bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
+{
+	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, 0, at[VALUE] };
+
+	if (!find_element(m, at + ELEMENT, n >> 1, &where))
+		return false;
+	if (n & 1) {
+		uint8_t *byte = &m[where / 8];
+
+		*byte = (uint8_t)((*byte & ~(1u << where % 8)) |
+				  (uint32_t)m[CODE_OFFSET(at[VALUE])]
+				  << where % 8);
+		return true;
+	}
+	copy[1] = CODE_OPERAND(CODE_TYPE(at[BASE]), where);
+	run_copy(m, copy);
+	return true;
+}
+
+/* @at[VALUE] and @at[BASE]: where to, where from. */
+static bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
+{
+	uint32_t to = at[VALUE], from = at[BASE];
+
+	if (!find_element(m, at + SIZE + 1, n >> 1, n & 1 ? &to : &from))
+		return false;
+	memcpy(m + to, m + from, at[SIZE]);
+	return true;
+}
+#endif

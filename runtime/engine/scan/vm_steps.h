@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * vm_steps - what a chart costs follows its active steps: the next BOOL of many that is
+ * TRUE, and the times of all that are.
+ *
+ * Private to vm.c.
+ */
+#ifndef SCAN_VM_STEPS_H
+#define SCAN_VM_STEPS_H
+
+#include "engine/scan/value.h"
+
+#include <string.h>
+
+/* The number of the first of @n BOOLs that is TRUE, from @from on; @n: none. */
+static inline uint32_t next_true(const uint8_t *bits, uint32_t from, uint32_t n)
+{
+	uint64_t eight;
+
+	for (; from < n && n - from >= sizeof(eight); from += sizeof(eight)) {
+		memcpy(&eight, bits + from, sizeof(eight));
+		if (eight)
+			break;
+	}
+	while (from < n && !bits[from])
+		from++;
+	return from < n ? from : n;
+}
+
+/* EACH: true if there is one, which is *@found. */
+static inline bool find_step(uint8_t *m, const uint32_t *at, uint32_t n, uint32_t *found)
+{
+	uint32_t cursor;
+
+	memcpy(&cursor, m + at[0], sizeof(cursor));
+	*found = next_true(m + at[1], cursor, n);
+	cursor = *found < n ? *found + 1 : 0;
+	memcpy(m + at[0], &cursor, sizeof(cursor));
+	return *found < n;
+}
+
+/* Operands of TICK. */
+enum { TICK_HOLD, TICK_LAST, TICK_DT, TICK_X, TICK_T, TICK_WORDS };
+
+static inline void add_time(uint8_t *at, int64_t dt)
+{
+	int64_t value;
+
+	memcpy(&value, at, sizeof(value));
+	value = (int64_t)((uint64_t)value + (uint64_t)dt);
+	memcpy(at, &value, sizeof(value));
+}
+
+static inline void tick(uint8_t *m, const uint32_t *at, uint32_t n, int64_t now_ns)
+{
+	const uint8_t *x = m + at[TICK_X];
+	uint8_t *t = m + at[TICK_T];
+	int64_t last, dt;
+
+	memcpy(&last, m + at[TICK_LAST], sizeof(last));
+	memcpy(m + at[TICK_LAST], &now_ns, sizeof(now_ns));
+	dt = m[at[TICK_HOLD]] ? 0 : (int64_t)((uint64_t)now_ns - (uint64_t)last);
+	memcpy(m + at[TICK_DT], &dt, sizeof(dt));
+	for (uint32_t i = next_true(x, 0, n); i < n; i = next_true(x, i + 1, n))
+		add_time(t + i * sizeof(dt), dt);
+}
+#endif

@@ -1,0 +1,413 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_act - what steps call for, and what is done (docs/sfc.md, Qualifiers).
+ *
+ * Active steps ask: _Call for what is called for now, _Ask for what is stored. Then each
+ * action that was asked for, or was not done yet, decides: those that are _Due.
+ */
+#include "engine/translate/sfc_unit.h"
+
+static const struct sfc_use *use_at(const struct sfc_il *s, int use)
+{
+	return &s->sfc->use[use];
+}
+
+static bool is_stored(enum qualifier qualifier)
+{
+	return qualifier == QUALIFIER_S || qualifier == QUALIFIER_DS ||
+	       qualifier == QUALIFIER_SD || qualifier == QUALIFIER_SL;
+}
+
+static bool is_timed(enum qualifier qualifier)
+{
+	return qualifier == QUALIFIER_SD || qualifier == QUALIFIER_SL;
+}
+
+/* ---- what is called ---- */
+
+/* Operands by meaning would be better: two spellings of one address are two here, as two
+ * coils are. */
+static int find_bool(const struct sfc_il *s, uint32_t operand)
+{
+	const struct names *names = &s->ld.translation->project->names;
+
+	for (int i = 0; i < s->called_count; i++)
+		if (s->called[i].action < 0 && names_fold(names, s->called[i].operand) ==
+		    names_fold(names, operand))
+			return i;
+	return -1;
+}
+
+static int add_called(struct sfc_il *s, int action, uint32_t operand)
+{
+	s->called[s->called_count] = (struct sfc_called){ .action = action,
+							   .operand = operand };
+	return s->called_count++;
+}
+
+static void add_use(struct sfc_il *s, struct sfc_called *called, int use)
+{
+	const enum qualifier q = use_at(s, use)->qualifier;
+	const bool pulse = q == QUALIFIER_P0 || q == QUALIFIER_P1;
+	int *slot = arena_push(s->ld.translation->arena, &called->use,
+			       &called->use_count, sizeof(*slot));
+
+	if (slot)
+		*slot = use;
+	s->ld.failed |= !slot;
+	called->pulse |= pulse;
+	called->off |= q == QUALIFIER_R;
+	called->level |= !pulse && q != QUALIFIER_R;
+}
+
+void sfc_find_called(struct sfc_il *s)
+{
+	const struct sfc *sfc = s->sfc;
+
+	s->called = sfc_alloc(s, (size_t)sfc->action_count + (size_t)sfc->use_count,
+			      sizeof(*s->called));
+	s->called_of = sfc_alloc(s, (size_t)sfc->use_count, sizeof(*s->called_of));
+	if (!s->called || !s->called_of)
+		return;
+	for (int i = 0; i < sfc->action_count; i++)
+		add_called(s, i, 0);
+	for (int i = 0; i < sfc->use_count; i++) {
+		const struct sfc_use *use = &sfc->use[i];
+		int at = use->action;
+
+		s->called_of[i] = -1;
+		if (use->kind != USE_ACTION || !use->operand)
+			continue;
+		if (at < 0)
+			at = find_bool(s, use->operand);
+		if (at < 0)
+			at = add_called(s, -1, use->operand);
+		s->called_of[i] = at;
+		add_use(s, &s->called[at], i);
+	}
+}
+
+/* ---- what the steps ask for ---- */
+
+/* The result, or what was asked for already. */
+static void also(struct sfc_il *s, uint32_t var)
+{
+	sfc_op(s, OP_OR, 0, var);
+	sfc_op(s, OP_ST, 0, var);
+}
+
+static void load_time(struct sfc_il *s, const struct sfc_use *use, enum word word)
+{
+	sfc_op(s, OP_LD, 0, sfc_t_name(s, use->step));
+	sfc_fn(s, word, use->time);
+}
+
+static void ask(struct sfc_il *s, int number)
+{
+	const struct sfc_use *use = use_at(s, number);
+	const int called = s->called_of[number];
+	const uint32_t call = sfc_var(s, "Call", called, IEC_BOOL);
+
+	s->line = (uint32_t)use->line;
+	switch (use->qualifier) {
+	case QUALIFIER_N: sfc_set(s, call, true); break;
+	case QUALIFIER_R: sfc_set(s, sfc_var(s, "Off", called, IEC_BOOL), true); break;
+	case QUALIFIER_L:
+		load_time(s, use, FN_LT);
+		also(s, call);
+		break;
+	case QUALIFIER_D:
+		load_time(s, use, FN_GE);
+		also(s, call);
+		break;
+	case QUALIFIER_DS:
+		load_time(s, use, FN_GE);
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Ask", number, IEC_BOOL));
+		break;
+	case QUALIFIER_S:
+	case QUALIFIER_SD:
+	case QUALIFIER_SL:
+		sfc_set(s, sfc_var(s, "Ask", number, IEC_BOOL), true);
+		break;
+	case QUALIFIER_P:
+	case QUALIFIER_P0:
+	case QUALIFIER_P1:
+	case QUALIFIER_COUNT:
+		return;
+	}
+	sfc_set(s, sfc_var(s, "Due", called, IEC_BOOL), true);
+}
+
+static bool is_level(const struct sfc_il *s, int use)
+{
+	return s->called_of[use] >= 0 && use_at(s, use)->qualifier != QUALIFIER_P &&
+	       use_at(s, use)->qualifier != QUALIFIER_P0 &&
+	       use_at(s, use)->qualifier != QUALIFIER_P1;
+}
+
+static bool asks(const struct sfc_il *s, int step)
+{
+	const struct sfc_step *at = &s->sfc->step[step];
+
+	for (int i = at->first_use; i < at->first_use + at->use_count; i++)
+		if (is_level(s, i))
+			return true;
+	return false;
+}
+
+static bool any_asks(const struct sfc_il *s)
+{
+	for (int i = 0; i < s->sfc->step_count; i++)
+		if (asks(s, i))
+			return true;
+	return false;
+}
+
+void sfc_pulse(struct sfc_il *s, int step, bool entered)
+{
+	const struct sfc_step *at = &s->sfc->step[step];
+
+	for (int i = at->first_use; i < at->first_use + at->use_count; i++) {
+		const enum qualifier q = use_at(s, i)->qualifier;
+		const int called = s->called_of[i];
+
+		if (called < 0 || (entered ? q != QUALIFIER_P && q != QUALIFIER_P1 :
+					     q != QUALIFIER_P0))
+			continue;
+		s->line = (uint32_t)use_at(s, i)->line;
+		sfc_set(s, sfc_var(s, q == QUALIFIER_P ? "Call" : "Pulse", called,
+				   IEC_BOOL), true);
+		sfc_set(s, sfc_var(s, "Due", called, IEC_BOOL), true);
+	}
+}
+
+void sfc_ask(struct sfc_il *s)
+{
+	const int count = s->sfc->step_count;
+	const uint32_t back = sfc_label(s, "Ask", -1), due = sfc_label(s, "Due", -1);
+	uint32_t *label = sfc_alloc(s, (size_t)(count + s->called_count),
+				    sizeof(*label));
+
+	if (!label)
+		return;
+	sfc_here(s, s->act);
+	for (int i = 0; i < s->called_count; i++)
+		sfc_var(s, "Due", i, IEC_BOOL);
+	for (int i = 0; i < count; i++)
+		label[i] = asks(s, i) ? sfc_label(s, "Do", i) : back;
+	if (any_asks(s))
+		sfc_each(s, back, sfc_x_name(s, 0), label, count);
+	for (int i = 0; i < s->called_count; i++)
+		label[i] = sfc_label(s, "Due", i);
+	if (s->called_count)
+		sfc_each(s, due, sfc_var(s, "Due", 0, IEC_BOOL), label,
+			 s->called_count);
+}
+
+/* ---- what is done ---- */
+
+void sfc_forget(struct sfc_il *s)
+{
+	bool any = false;
+
+	for (int i = 0; i < s->sfc->use_count; i++) {
+		if (s->called_of[i] < 0 || !is_stored(use_at(s, i)->qualifier))
+			continue;
+		if (!any)
+			sfc_op(s, OP_LD, 0, sfc_literal(s, "FALSE"));
+		any = true;
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Kept", i, IEC_BOOL));
+	}
+}
+
+/* R: nothing is called for, nothing stays stored. */
+static void put_off(struct sfc_il *s, int number)
+{
+	const struct sfc_called *called = &s->called[number];
+	const uint32_t off = sfc_var(s, "Off", number, IEC_BOOL);
+	const uint32_t on = sfc_label(s, "On", number);
+
+	sfc_op(s, OP_LD, 0, off);
+	sfc_jump_unless(s, on);
+	sfc_op(s, OP_LD, 0, sfc_literal(s, "FALSE"));
+	sfc_op(s, OP_ST, 0, off);
+	if (called->level)
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Call", number, IEC_BOOL));
+	if (called->pulse)
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Pulse", number, IEC_BOOL));
+	for (int i = 0; i < called->use_count; i++) {
+		if (!is_stored(use_at(s, called->use[i])->qualifier))
+			continue;
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Kept", called->use[i], IEC_BOOL));
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Ask", called->use[i], IEC_BOOL));
+	}
+	sfc_here(s, on);
+}
+
+/* S, DS: a memory. */
+static void keep(struct sfc_il *s, int use)
+{
+	const uint32_t kept = sfc_var(s, "Kept", use, IEC_BOOL);
+	const uint32_t asked = sfc_var(s, "Ask", use, IEC_BOOL);
+
+	sfc_op(s, OP_LD, 0, kept);
+	sfc_op(s, OP_OR, 0, asked);
+	sfc_op(s, OP_ST, 0, kept);
+	sfc_set(s, asked, false);
+}
+
+/* SD, SL: a memory, and how long it has been: _Call if it is time. */
+static void keep_time(struct sfc_il *s, int number, int use)
+{
+	const struct sfc_use *at = use_at(s, use);
+	const uint32_t kept = sfc_var(s, "Kept", use, IEC_BOOL);
+	const uint32_t asked = sfc_var(s, "Ask", use, IEC_BOOL);
+	const uint32_t since = sfc_var(s, "Since", use, IEC_TIME);
+	const uint32_t had = sfc_label(s, "Had", use), on = sfc_label(s, "Kept", use);
+
+	s->line = (uint32_t)at->line;
+	sfc_op(s, OP_LD, 0, kept);
+	sfc_jump_if(s, had);
+	sfc_op(s, OP_LD, 0, sfc_literal(s, "T#0s"));
+	sfc_op(s, OP_ST, 0, since);
+	sfc_op(s, OP_LD, 0, asked);
+	sfc_op(s, OP_ST, 0, kept);
+	sfc_jump(s, on);
+	sfc_here(s, had);
+	sfc_op(s, OP_LD, 0, since);
+	sfc_fn(s, FN_ADD, s->dt);
+	sfc_op(s, OP_ST, 0, since);
+	sfc_here(s, on);
+	sfc_set(s, asked, false);
+	sfc_op(s, OP_LD, 0, since);
+	sfc_fn(s, at->qualifier == QUALIFIER_SD ? FN_GE : FN_LT, at->time);
+	sfc_op(s, OP_AND, 0, kept);
+	also(s, sfc_var(s, "Call", number, IEC_BOOL));
+}
+
+/* The result is TRUE if something is stored, or was there before it: @any. */
+static bool or_kept(struct sfc_il *s, const struct sfc_called *called, bool any,
+		    bool timed)
+{
+	for (int i = 0; i < called->use_count; i++) {
+		const enum qualifier q = use_at(s, called->use[i])->qualifier;
+
+		if (!is_stored(q) || (!timed && is_timed(q)))
+			continue;
+		sfc_op(s, any ? OP_OR : OP_LD, 0,
+		       sfc_var(s, "Kept", called->use[i], IEC_BOOL));
+		any = true;
+	}
+	return any;
+}
+
+/* The result: it is called for, but by P0 or P1. */
+static void load_called(struct sfc_il *s, int number)
+{
+	const struct sfc_called *called = &s->called[number];
+
+	sfc_op(s, OP_LD, 0, called->level ? sfc_var(s, "Call", number, IEC_BOOL) :
+					    sfc_literal(s, "FALSE"));
+	or_kept(s, called, true, false);
+}
+
+static void or_pulse(struct sfc_il *s, int number)
+{
+	if (s->called[number].pulse)
+		sfc_op(s, OP_OR, 0, sfc_var(s, "Pulse", number, IEC_BOOL));
+}
+
+static void end_calls(struct sfc_il *s, int number)
+{
+	const struct sfc_called *called = &s->called[number];
+
+	if (called->level)
+		sfc_set(s, sfc_var(s, "Call", number, IEC_BOOL), false);
+	if (called->pulse)
+		sfc_set(s, sfc_var(s, "Pulse", number, IEC_BOOL), false);
+}
+
+static void do_bool(struct sfc_il *s, int number)
+{
+	load_called(s, number);
+	or_pulse(s, number);
+	sfc_op(s, OP_ST, 0, s->called[number].operand);
+	or_kept(s, &s->called[number], true, true);
+	sfc_op(s, OP_ST, 0, sfc_var(s, "Due", number, IEC_BOOL));
+	end_calls(s, number);
+}
+
+static void do_body(struct sfc_il *s, int number)
+{
+	const struct sfc_called *called = &s->called[number];
+	const struct sfc_body *body = &s->sfc->action[called->action].body;
+	const uint32_t due = sfc_var(s, "Due", number, IEC_BOOL);
+	const uint32_t now = sfc_var(s, "Now", number, IEC_BOOL);
+	const uint32_t was = sfc_var(s, "Was", number, IEC_BOOL);
+	const uint32_t idle = sfc_label(s, "Idle", number);
+	const uint32_t done = sfc_label(s, "Done", number);
+
+	load_called(s, number);
+	sfc_op(s, OP_ST, 0, now);
+	or_pulse(s, number);
+	sfc_op(s, OP_OR, 0, was);
+	sfc_jump_unless(s, idle);
+	sfc_body(s, body, done);
+	sfc_here(s, done);
+	s->line = (uint32_t)s->sfc->action[called->action].line;
+	sfc_op(s, OP_LD, 0, now);
+	sfc_op(s, OP_ST, 0, was);
+	or_kept(s, called, true, true);
+	if (s->ld.watch) /* once more, so that its power goes out */
+		sfc_op(s, OP_LD, 0, sfc_literal(s, "TRUE"));
+	sfc_op(s, OP_ST, 0, due);
+	end_calls(s, number);
+	sfc_jump(s, sfc_label(s, "Due", -1));
+	sfc_here(s, idle);
+	sfc_darken(s, body);
+	if (or_kept(s, called, false, true))
+		sfc_op(s, OP_ST, 0, due);
+	end_calls(s, number);
+}
+
+static void decide(struct sfc_il *s, int number)
+{
+	const struct sfc_called *called = &s->called[number];
+
+	s->line = (uint32_t)(called->use_count ? use_at(s, called->use[0])->line :
+			     s->sfc->action[called->action].line);
+	sfc_here(s, sfc_label(s, "Due", number));
+	sfc_set(s, sfc_var(s, "Due", number, IEC_BOOL), false);
+	if (called->off)
+		put_off(s, number);
+	for (int i = 0; i < called->use_count; i++) {
+		const enum qualifier q = use_at(s, called->use[i])->qualifier;
+
+		if (is_timed(q))
+			keep_time(s, number, called->use[i]);
+		else if (is_stored(q))
+			keep(s, called->use[i]);
+	}
+	if (called->action >= 0)
+		do_body(s, number);
+	else
+		do_bool(s, number);
+	sfc_jump(s, sfc_label(s, "Due", -1));
+}
+
+void sfc_act(struct sfc_il *s)
+{
+	for (int i = 0; i < s->sfc->step_count; i++) {
+		const struct sfc_step *at = &s->sfc->step[i];
+
+		if (!asks(s, i))
+			continue;
+		sfc_here(s, sfc_label(s, "Do", i));
+		for (int k = at->first_use; k < at->first_use + at->use_count; k++)
+			if (is_level(s, k))
+				ask(s, k);
+		sfc_jump(s, sfc_label(s, "Ask", -1));
+	}
+	for (int i = 0; i < s->called_count; i++)
+		decide(s, i);
+}

@@ -1,0 +1,395 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_evolve - which transitions fire, and what that does to steps.
+ *
+ * While conditions are evaluated no step changes: what fires notes which steps are left
+ * and entered, and both are done together afterwards.
+ */
+#include "engine/translate/sfc_unit.h"
+
+/* ---- who evaluates what ---- */
+
+static int find(int *parent, int step)
+{
+	while (parent[step] != step)
+		step = parent[step] = parent[parent[step]];
+	return step;
+}
+
+/* Steps that one arc wants belong together; the smallest one stands for them. */
+static void unite(int *parent, const struct sfc_steps *steps)
+{
+	for (int i = 1; i < steps->count; i++) {
+		const int a = find(parent, steps->step[0]);
+		const int b = find(parent, steps->step[i]);
+
+		parent[a < b ? b : a] = a < b ? a : b;
+	}
+}
+
+static enum step_duty duty_of(const struct sfc_il *s, const struct sfc_duty *duty)
+{
+	bool many = false;
+
+	for (int i = 0; i < duty->arc_count; i++)
+		many |= s->net.arc[duty->arc[i]].from.count > 1;
+	if (!many)
+		return duty->arc_count ? DUTY_OWN : DUTY_NONE;
+	return duty->arc_count == 1 ? DUTY_JOIN : DUTY_GROUP;
+}
+
+static void give_arcs(struct sfc_il *s, int *parent)
+{
+	for (int i = 0; i < s->net.arc_count && !s->ld.failed; i++) {
+		const struct sfc_steps *from = &s->net.arc[i].from;
+		struct sfc_duty *duty;
+		int *slot;
+
+		if (!from->count)
+			continue;
+		duty = &s->duty[find(parent, from->step[0])];
+		slot = arena_push(s->ld.translation->arena, &duty->arc,
+				  &duty->arc_count, sizeof(*slot));
+		if (slot)
+			*slot = i;
+		s->ld.failed |= !slot;
+	}
+}
+
+void sfc_find_duties(struct sfc_il *s)
+{
+	const int count = s->sfc->step_count;
+	int *parent = sfc_alloc(s, (size_t)count, sizeof(*parent));
+
+	s->duty = sfc_alloc(s, (size_t)count, sizeof(*s->duty));
+	if (!parent || !s->duty)
+		return;
+	for (int i = 0; i < count; i++)
+		parent[i] = i;
+	for (int i = 0; i < s->net.arc_count; i++)
+		unite(parent, &s->net.arc[i].from);
+	give_arcs(s, parent);
+	for (int i = 0; i < count; i++)
+		s->duty[i].duty = duty_of(s, &s->duty[i]);
+	for (int i = 0; i < count; i++) {
+		const int group = find(parent, i);
+
+		s->duty[i].group = group;
+		if (s->duty[group].duty == DUTY_GROUP)
+			s->duty[i].duty = DUTY_GROUP;
+	}
+}
+
+/* ---- conditions ---- */
+
+static bool is_off(const struct sfc_il *s, const struct sfc_body *body)
+{
+	return body->kind == BODY_NONE ||
+	       (body->kind != BODY_LIST && s->ld.unit->pou->rung[body->first]->off);
+}
+
+/* The result is whether arc @arc fires. */
+static void put_condition(struct sfc_il *s, int arc)
+{
+	const int number = s->net.arc[arc].transition;
+	const struct sfc_transition *t = &s->sfc->transition[number];
+	const uint32_t end = sfc_label(s, "Known", number);
+	const int before = s->ld.il->count;
+	bool jumps = false;
+
+	s->line = (uint32_t)t->line;
+	if (is_off(s, &t->condition))
+		sfc_set(s, s->condition, false);
+	sfc_body(s, &t->condition, end);
+	if (t->condition.kind == BODY_LIST)
+		sfc_op(s, OP_ST, 0, s->condition);
+	for (int i = before; i < s->ld.il->count; i++) {
+		const struct il_line *line = &s->ld.il->line[i];
+
+		jumps |= line->kind == IL_OP && line->op == OP_JMP &&
+			 line->operand == end;
+	}
+	if (jumps)
+		sfc_here(s, end);
+	sfc_op(s, OP_LD, 0, s->condition);
+	sfc_allow(s);
+}
+
+static void note_fired(struct sfc_il *s, int arc)
+{
+	const struct sfc_arc *a = &s->net.arc[arc];
+
+	s->line = (uint32_t)s->sfc->transition[a->transition].line;
+	sfc_op(s, OP_LD, 0, sfc_literal(s, "TRUE"));
+	sfc_op(s, OP_ST, 0, s->fired);
+	for (int i = 0; i < a->from.count; i++)
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Left", a->from.step[i], IEC_BOOL));
+	for (int i = 0; i < a->to.count; i++)
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Entered", a->to.step[i], IEC_BOOL));
+}
+
+/* The result: all steps that it wants are active, but the first @known of them. */
+static void load_active(struct sfc_il *s, const struct sfc_arc *arc, int known)
+{
+	for (int i = known; i < arc->from.count; i++)
+		sfc_op(s, i == known ? OP_LD : OP_AND, 0,
+		       sfc_x_name(s, arc->from.step[i]));
+}
+
+static void evaluate_own(struct sfc_il *s, const struct sfc_duty *duty)
+{
+	for (int i = 0; i < duty->arc_count; i++) {
+		put_condition(s, duty->arc[i]);
+		sfc_jump_if(s, sfc_label(s, "Fire", duty->arc[i]));
+	}
+	sfc_jump(s, s->next);
+}
+
+static void evaluate_join(struct sfc_il *s, const struct sfc_duty *duty)
+{
+	const struct sfc_arc *arc = &s->net.arc[duty->arc[0]];
+
+	load_active(s, arc, 1);
+	sfc_jump_unless(s, s->next);
+	evaluate_own(s, duty);
+}
+
+/* Whichever of the group's steps is found first evaluates it. */
+static void evaluate_group(struct sfc_il *s, int step)
+{
+	const struct sfc_duty *duty = &s->duty[step];
+	const uint32_t seen = sfc_var(s, "Seen", duty->group, IEC_BOOL);
+
+	sfc_op(s, OP_LD, 0, seen);
+	sfc_jump_if(s, s->next);
+	if (duty->group != step) {
+		sfc_jump(s, sfc_label(s, "Group", duty->group));
+		return;
+	}
+	sfc_here(s, sfc_label(s, "Group", step));
+	sfc_set(s, seen, true);
+	for (int i = 0; i < duty->arc_count; i++) {
+		const struct sfc_arc *arc = &s->net.arc[duty->arc[i]];
+		const uint32_t skip = sfc_label(s, "Skip", duty->arc[i]);
+
+		load_active(s, arc, 0);
+		for (int k = 0; k < arc->from.count; k++)
+			sfc_op(s, OP_AND, MOD_N,
+			       sfc_var(s, "Left", arc->from.step[k], IEC_BOOL));
+		sfc_jump_unless(s, skip);
+		put_condition(s, duty->arc[i]);
+		sfc_jump_unless(s, skip);
+		note_fired(s, duty->arc[i]);
+		sfc_here(s, skip);
+	}
+	sfc_jump(s, s->next);
+}
+
+static void evaluate_step(struct sfc_il *s, int step)
+{
+	const struct sfc_duty *duty = &s->duty[step];
+
+	if (duty->duty == DUTY_NONE)
+		return;
+	s->line = (uint32_t)s->sfc->step[step].line;
+	sfc_here(s, sfc_label(s, "At", step));
+	switch (duty->duty) {
+	case DUTY_OWN: evaluate_own(s, duty); break;
+	case DUTY_JOIN:
+		if (s->net.arc[duty->arc[0]].from.step[0] == step)
+			evaluate_join(s, duty);
+		break;
+	case DUTY_GROUP: evaluate_group(s, step); break;
+	case DUTY_NONE: break;
+	}
+}
+
+/* ---- phases ---- */
+
+/* FALSE into each group's BOOL: none was looked at. */
+static void forget_groups(struct sfc_il *s)
+{
+	bool any = false;
+
+	for (int i = 0; i < s->sfc->step_count; i++) {
+		if (s->duty[i].duty != DUTY_GROUP || s->duty[i].group != i)
+			continue;
+		if (!any)
+			sfc_op(s, OP_LD, 0, sfc_literal(s, "FALSE"));
+		any = true;
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Seen", i, IEC_BOOL));
+	}
+}
+
+void sfc_evaluate(struct sfc_il *s)
+{
+	const int count = s->sfc->step_count;
+	uint32_t *label = sfc_alloc(s, (size_t)count, sizeof(*label));
+
+	for (int i = 0; label && i < count; i++)
+		label[i] = s->duty[i].duty == DUTY_NONE ? s->next :
+			   sfc_label(s, "At", i);
+	if (!label)
+		return;
+	if (s->sfc->until_stable)
+		sfc_here(s, sfc_label(s, "Round", -1));
+	forget_groups(s);
+	sfc_each(s, s->next, sfc_x_name(s, 0), label, count);
+	sfc_op(s, OP_LD, 0, s->fired);
+	sfc_jump_if(s, s->leave);
+}
+
+void sfc_fire(struct sfc_il *s)
+{
+	for (int i = 0; i < s->sfc->step_count; i++)
+		evaluate_step(s, i);
+	for (int i = 0; i < s->sfc->step_count; i++) {
+		const struct sfc_duty *duty = &s->duty[i];
+
+		for (int k = 0; k < duty->arc_count && duty->duty != DUTY_GROUP; k++) {
+			sfc_here(s, sfc_label(s, "Fire", duty->arc[k]));
+			note_fired(s, duty->arc[k]);
+			sfc_jump(s, s->next);
+		}
+	}
+}
+
+/* ---- steps ---- */
+
+static void load_late(struct sfc_il *s, int step, enum word word, uint32_t limit)
+{
+	sfc_op(s, OP_LD, 0, sfc_t_name(s, step));
+	sfc_fn(s, word, limit);
+	sfc_op(s, OP_S, 0, s->sfc->step[step].alarm);
+}
+
+void sfc_supervise(struct sfc_il *s)
+{
+	const int count = s->sfc->step_count;
+	const uint32_t back = sfc_label(s, "Late", -1);
+	const uint32_t on = sfc_label(s, "InTime", -1);
+	uint32_t *label = sfc_alloc(s, (size_t)count, sizeof(*label));
+	bool any = false;
+
+	for (int i = 0; label && i < count; i++) {
+		const bool has = s->sfc->step[i].max && s->sfc->step[i].alarm;
+
+		label[i] = has ? sfc_label(s, "Late", i) : back;
+		any |= has;
+	}
+	if (!any)
+		return;
+	sfc_each(s, back, sfc_x_name(s, 0), label, count);
+	sfc_jump(s, on);
+	for (int i = 0; i < count; i++) {
+		if (label[i] == back)
+			continue;
+		s->line = (uint32_t)s->sfc->step[i].line;
+		sfc_here(s, label[i]);
+		load_late(s, i, FN_GT, s->sfc->step[i].max);
+		sfc_jump(s, back);
+	}
+	sfc_here(s, on);
+}
+
+/* Conditions that are evaluated no more have no power. */
+static void darken_conditions(struct sfc_il *s, int step)
+{
+	for (int i = 0; s->ld.watch && i < s->net.arc_count; i++) {
+		const struct sfc_arc *arc = &s->net.arc[i];
+
+		for (int k = 0; k < arc->from.count; k++)
+			if (arc->from.step[k] == step)
+				sfc_darken(s, &s->sfc->transition[arc->transition]
+						       .condition);
+	}
+}
+
+static void leave_step(struct sfc_il *s, int step)
+{
+	const struct sfc_step *at = &s->sfc->step[step];
+	const uint32_t entered = sfc_var(s, "Entered", step, IEC_BOOL);
+	const uint32_t stay = sfc_label(s, "Stay", step);
+
+	s->line = (uint32_t)at->line;
+	sfc_here(s, sfc_label(s, "Leave", step));
+	sfc_set(s, sfc_var(s, "Left", step, IEC_BOOL), false);
+	sfc_op(s, OP_LD, 0, entered);
+	sfc_jump_if(s, stay);
+	sfc_set(s, sfc_x_name(s, step), false);
+	darken_conditions(s, step);
+	if (at->min && at->alarm)
+		load_late(s, step, FN_LT, at->min);
+	sfc_pulse(s, step, false);
+	sfc_jump(s, s->leave);
+	sfc_here(s, stay);
+	sfc_set(s, entered, false);
+	sfc_jump(s, s->leave);
+}
+
+void sfc_leave(struct sfc_il *s)
+{
+	const int count = s->sfc->step_count;
+	uint32_t *label = sfc_alloc(s, (size_t)count, sizeof(*label));
+
+	for (int i = 0; label && i < count; i++)
+		label[i] = sfc_label(s, "Leave", i);
+	if (!label)
+		return;
+	s->line = (uint32_t)s->ld.unit->pou->line;
+	sfc_each(s, s->leave, sfc_var(s, "Left", 0, IEC_BOOL), label, count);
+	sfc_jump(s, s->enter);
+	for (int i = 0; i < count; i++)
+		leave_step(s, i);
+}
+
+static void enter_step(struct sfc_il *s, int step)
+{
+	const struct sfc_step *at = &s->sfc->step[step];
+
+	s->line = (uint32_t)at->line;
+	sfc_here(s, sfc_label(s, "Enter", step));
+	sfc_set(s, sfc_var(s, "Entered", step, IEC_BOOL), false);
+	sfc_op(s, OP_LD, 0, sfc_x_name(s, step));
+	sfc_jump_if(s, s->enter);
+	sfc_set(s, sfc_x_name(s, step), true);
+	sfc_op(s, OP_LD, 0, sfc_literal(s, "T#0s"));
+	sfc_op(s, OP_ST, 0, sfc_t_name(s, step));
+	for (int i = at->first_use; i < at->first_use + at->use_count; i++) {
+		const struct sfc_use *use = &s->sfc->use[i];
+
+		s->line = (uint32_t)use->line;
+		if (use->kind != USE_ACTION && use->operand)
+			sfc_set(s, use->operand, use->kind == USE_SET);
+	}
+	sfc_pulse(s, step, true);
+	sfc_jump(s, s->enter);
+}
+
+void sfc_enter(struct sfc_il *s)
+{
+	const int count = s->sfc->step_count;
+	const uint32_t again = sfc_label(s, "Again", -1);
+	uint32_t *label = sfc_alloc(s, (size_t)count, sizeof(*label));
+
+	for (int i = 0; label && i < count; i++)
+		label[i] = sfc_label(s, "Enter", i);
+	if (!label)
+		return;
+	s->line = (uint32_t)s->ld.unit->pou->line;
+	sfc_each(s, s->enter, sfc_var(s, "Entered", 0, IEC_BOOL), label, count);
+	if (s->sfc->until_stable) {
+		sfc_op(s, OP_LD, 0, s->fired);
+		sfc_jump_if(s, again);
+	}
+	sfc_set(s, s->fired, false);
+	sfc_jump(s, s->act);
+	if (s->sfc->until_stable) {
+		sfc_here(s, again);
+		sfc_set(s, s->fired, false);
+		sfc_once(s);
+		sfc_jump(s, sfc_label(s, "Round", -1));
+	}
+	for (int i = 0; i < count; i++)
+		enter_step(s, i);
+}
