@@ -4,7 +4,8 @@
  * POUs.
  *
  * The project in memory gets the lists that translation made in place of its
- * rungs, and is written by the one writer; so what is shown can be read again.
+ * rungs, and is written by the one writer; so what is shown can be read again,
+ * but for charts, whose steps (Step.X, EACH, TICK) no list can name.
  */
 #include "ladder/report.h"
 
@@ -21,8 +22,7 @@ static int pick_used(const struct project *project, const struct il *il,
 	if (!used)
 		return -1;
 	for (int i = 0; i < il->count; i++)
-		if (il->line[i].operand < (uint32_t)project->names.count)
-			used[il->line[i].operand] = 1;
+		used[il->line[i].operand] = used[il->line[i].pin] = 1;
 	for (int i = 0; i < count; i++)
 		if (used[temp[i]->name])
 			out[kept++] = *temp[i];
@@ -85,6 +85,7 @@ static bool turn_to_il(struct ladder *ladder, struct project *project)
 
 		pou->il = *ladder_il(ladder, i);
 		pou->language = LANGUAGE_IL;
+		pou->sfc = NULL;
 		if (!add_temporaries(project, pou, temp, count))
 			return false;
 		for (int k = 0; k < pou->rung_count; k++)

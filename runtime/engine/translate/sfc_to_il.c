@@ -134,6 +134,17 @@ static void copy_list(struct sfc_il *s, const struct sfc_body *body)
 			s->ld.failed = true;
 }
 
+/* A label belongs to its body: another one may have the same. */
+static void own_label(struct sfc_il *s, struct il_line *line, int body)
+{
+	const struct names *names = &s->ld.translation->project->names;
+	char text[LIMIT_NAME + 16];
+
+	snprintf(text, sizeof(text), "%.*s@%d", LIMIT_NAME,
+		 names_text(names, line->operand), body);
+	line->operand = sfc_literal(s, text);
+}
+
 void sfc_body(struct sfc_il *s, const struct sfc_body *body, uint32_t end)
 {
 	const int first = s->ld.il->count;
@@ -148,6 +159,9 @@ void sfc_body(struct sfc_il *s, const struct sfc_body *body, uint32_t end)
 	for (int i = first; i < s->ld.il->count; i++) {
 		struct il_line *line = &s->ld.il->line[i];
 
+		if (line->kind == IL_LABEL ||
+		    (line->kind == IL_OP && line->op == OP_JMP))
+			own_label(s, line, first);
 		if (line->kind != IL_OP || line->op != OP_RET)
 			continue;
 		line->op = OP_JMP;
