@@ -224,3 +224,27 @@ struct code_bounds code_bounds(const char *name)
 	out.count = (uint32_t)(high - low + 1);
 	return out;
 }
+
+/* ---- values one behind the other ---- */
+
+bool verify_all(const struct verifier *v, uint32_t first, uint32_t n, enum iec_type type,
+		bool write)
+{
+	uint32_t size = iec_type_row(type)->size;
+
+	if (n == 0 || first > v->data_size || n > (v->data_size - first) / size)
+		return false;
+	for (uint32_t i = 0; i < n; i++)
+		if (!verify_use(v, first + i * size, type, write))
+			return false;
+	return true;
+}
+
+bool verify_tick(const struct verifier *v, const uint32_t *at, uint32_t n)
+{
+	return verify_use(v, at[0], IEC_BOOL, false) &&
+	       verify_use(v, at[1], IEC_TIME, true) &&
+	       verify_use(v, at[2], IEC_TIME, true) &&
+	       verify_all(v, at[3], n, IEC_BOOL, false) &&
+	       verify_all(v, at[4], n, IEC_TIME, true);
+}

@@ -318,28 +318,6 @@ static bool check_math(const struct verifier *v, const uint32_t *at, uint32_t n,
 	       verify_use(v, at[2], type, true) && check_pair(v, at + 3, type);
 }
 
-/* @n values of a type, one behind the other. */
-static bool uses_all(const struct verifier *v, uint32_t first, uint32_t n,
-		     enum iec_type type, bool write)
-{
-	uint32_t size = iec_type_row(type)->size;
-
-	if (n == 0 || first > v->data_size || n > (v->data_size - first) / size)
-		return false;
-	for (uint32_t i = 0; i < n; i++)
-		if (!verify_use(v, first + i * size, type, write))
-			return false;
-	return true;
-}
-
-static bool check_tick(const struct verifier *v, const uint32_t *at, uint32_t n)
-{
-	return reads_bool(v, at[0]) && verify_use(v, at[1], IEC_TIME, true) &&
-	       verify_use(v, at[2], IEC_TIME, true) &&
-	       uses_all(v, at[3], n, IEC_BOOL, false) &&
-	       uses_all(v, at[4], n, IEC_TIME, true);
-}
-
 /* One instruction; jumps and who calls whom are looked at later. */
 static bool check_code(struct verifier *v, const uint32_t *code)
 {
@@ -389,9 +367,9 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 		return n == 0 && at[0] < v->program->entry_count;
 	case VM_EACH:
 		return verify_use(v, at[0], IEC_UDINT, true) &&
-		       uses_all(v, at[1], n, IEC_BOOL, false);
+		       verify_all(v, at[1], n, IEC_BOOL, false);
 	case VM_TICK:
-		return check_tick(v, at, n);
+		return verify_tick(v, at, n);
 	case VM_COUNT:
 		break;
 	}

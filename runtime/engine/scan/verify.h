@@ -69,6 +69,12 @@ bool verify_elements_of(struct verifier *v, uint32_t first, const uint32_t *dim,
  * count them. Scan-safe: yes. */
 bool verify_bits(const struct verifier *v, uint32_t first, uint32_t count,
 		 bool write);
+/** verify_all - may @n values of a type that lie one behind the other be read, or written?
+ * Scan-safe: yes. */
+bool verify_all(const struct verifier *v, uint32_t first, uint32_t n, enum iec_type type,
+		bool write);
+/** verify_tick - the operands of TICK. Scan-safe: yes. */
+bool verify_tick(const struct verifier *v, const uint32_t *at, uint32_t n);
 /** verify_refuse - notes the place of what broke a rule; false. */
 bool verify_refuse(struct verifier *v, const void *at);
 /** verify_runs_before - how many runs begin at @offset or before it. Scan-safe: yes. */

@@ -2,8 +2,8 @@
  *
  * vm - the one switch. It refuses nothing: code_open() has refused before.
  */
-#include "engine/scan/value.h"
 #include "engine/scan/vm.h"
+#include "engine/scan/vm_array.h"
 #include "engine/scan/vm_steps.h"
 
 #include <string.h>
@@ -61,57 +61,6 @@ static const uint32_t *run_lut(uint8_t *m, const uint32_t *pc, uint32_t n)
 	for (; n > 0; n--, pc += 4)
 		look_up(m, pc);
 	return pc;
-}
-
-static bool is_real(uint32_t word)
-{
-	return value_is_real(CODE_TYPE(word));
-}
-
-static int64_t integer(const uint8_t *m, uint32_t word)
-{
-	return value_integer(m + CODE_OFFSET(word), CODE_TYPE(word));
-}
-
-/* An operand as REAL arithmetic needs it: integers that widen are exact. */
-static double real(const uint8_t *m, uint32_t word)
-{
-	return is_real(word) ? value_real(m + CODE_OFFSET(word), CODE_TYPE(word))
-			     : (double)integer(m, word);
-}
-
-static const struct iec_string *text(const uint8_t *m, uint32_t word)
-{
-	return (const void *)(m + CODE_OFFSET(word));
-}
-
-static void put(uint8_t *m, uint32_t word, union iec_value value)
-{
-	value_put(m + CODE_OFFSET(word), CODE_TYPE(word), value);
-}
-
-/* False when a text did not fit whole. */
-static bool put_text(uint8_t *m, uint32_t word, const struct iec_string *from)
-{
-	uint16_t len = from->length;
-
-	iec_store(m + CODE_OFFSET(word), IEC_STRING, (union iec_value){ .s = from });
-	return text(m, word)->length == len;
-}
-
-static void run_copy(uint8_t *m, const uint32_t *pc)
-{
-	union iec_value value;
-
-	if (CODE_TYPE(pc[1]) == IEC_STRING) {
-		put_text(m, pc[1], text(m, pc[2]));
-		return;
-	}
-	if (is_real(pc[1]))
-		value.r = real(m, pc[2]);
-	else
-		value.i = integer(m, pc[2]);
-	put(m, pc[1], value);
 }
 
 /* @size: of a value that is copied as it is; 0: it is widened, or a text. */
@@ -324,8 +273,6 @@ static bool run_fn(uint8_t *m, const uint32_t *pc, uint32_t n)
 		return false;
 	return store(m, pc[3], &args) && status == FN_OK;
 }
-
-#include "engine/scan/vm_array.h"
 
 static void count_error(struct vm *vm, const uint32_t *pc, const uint32_t *base)
 {

@@ -2,10 +2,14 @@
  *
  * vm_array - elements whose index is found out in the scan.
  *
- * Private to vm.c, behind its integer(), put(), put_text() and run_copy().
+ * Private to vm.c.
  */
 #ifndef SCAN_VM_ARRAY_H
 #define SCAN_VM_ARRAY_H
+
+#include "engine/scan/vm_value.h"
+
+#include <string.h>
 
 /* What AGET and APUT are about; of ABLOCK the SIZE is in between. Then each index. */
 enum { EN, OK, VALUE, BASE, ELEMENT, SIZE = ELEMENT };
@@ -26,7 +30,7 @@ static inline bool find_index(const uint8_t *m, const uint32_t *at, uint32_t *wh
 }
 
 /* Those behind the first. */
-static bool find_more(const uint8_t *m, const uint32_t *at, uint32_t more,
+static inline bool find_more(const uint8_t *m, const uint32_t *at, uint32_t more,
 		      uint32_t *where)
 {
 	for (; more > 0; more--) {
@@ -43,7 +47,7 @@ static inline bool find_element(const uint8_t *m, const uint32_t *at, uint32_t m
 	return find_index(m, at, where) && (!more || find_more(m, at, more, where));
 }
 
-static void clear_value(uint8_t *m, const uint32_t *at)
+static inline void clear_value(uint8_t *m, const uint32_t *at)
 {
 	static const struct iec_string none = { 0, 0 };
 
@@ -53,7 +57,7 @@ static void clear_value(uint8_t *m, const uint32_t *at)
 		put(m, at[VALUE], (union iec_value){ .i = 0 });
 }
 
-static bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
+static inline bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
 	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, at[VALUE], 0 };
 
@@ -68,7 +72,7 @@ static bool get_element(uint8_t *m, const uint32_t *at, uint32_t n)
 	return true;
 }
 
-static bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
+static inline bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
 	uint32_t where = CODE_OFFSET(at[BASE]), copy[3] = { 0, 0, at[VALUE] };
 
@@ -88,7 +92,7 @@ static bool put_element(uint8_t *m, const uint32_t *at, uint32_t n)
 }
 
 /* @at[VALUE] and @at[BASE]: where to, where from. */
-static bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
+static inline bool move_element(uint8_t *m, const uint32_t *at, uint32_t n)
 {
 	uint32_t to = at[VALUE], from = at[BASE];
 
