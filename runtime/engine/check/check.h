@@ -31,12 +31,13 @@ bool check_rung(const struct project *project, const struct pou *pou,
 
 /**
  * check_loops - do FOR and NEXT of a ladder pair, each alone in its rung?
+ * @first, @count: rungs of the ladder: of a chart one of its bodies
  * @bad: as in check_names, of this POU; NULL: none
  *
  * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.
  */
-bool check_loops(const struct project *project, const struct pou *pou, uint8_t *bad,
-		 struct diag_list *diags);
+bool check_loops(const struct project *project, const struct pou *pou, int first,
+		 int count, uint8_t *bad, struct diag_list *diags);
 
 /**
  * check_names - declarations, labels, instances, uses of variables in a project

@@ -9,6 +9,7 @@
 struct loops {
 	const struct project *project;
 	const struct pou *pou;
+	int first, end;        /* rungs, 0-based                              */
 	uint8_t *bad;
 	struct diag_list *diags;
 	int open[LIMIT_LOOPS]; /* rungs of FORs without a NEXT, 1-based       */
@@ -84,7 +85,7 @@ static int loop_cell(const struct rung *rung)
 /* A loop without its other end is not translated: one mistake, one message. */
 static void mark_bad(const struct loops *c)
 {
-	for (int i = 0; c->bad && i < c->pou->rung_count; i++) {
+	for (int i = c->first; c->bad && i < c->end; i++) {
 		const struct rung *rung = c->pou->rung[i];
 
 		for (int k = 0; k < rung->rows * rung->cols; k++)
@@ -94,13 +95,14 @@ static void mark_bad(const struct loops *c)
 	}
 }
 
-bool check_loops(const struct project *project, const struct pou *pou, uint8_t *bad,
-		 struct diag_list *diags)
+bool check_loops(const struct project *project, const struct pou *pou, int first,
+		 int count, uint8_t *bad, struct diag_list *diags)
 {
-	struct loops c = { .project = project, .pou = pou, .bad = bad,
-			   .diags = diags, .good = true };
+	struct loops c = { .project = project, .pou = pou, .first = first,
+			   .end = first + count, .bad = bad, .diags = diags,
+			   .good = true };
 
-	for (int number = 1; number <= pou->rung_count; number++) {
+	for (int number = first + 1; number <= c.end; number++) {
 		const struct rung *rung = pou->rung[number - 1];
 
 		for (int i = 0; !rung->off && i < rung->rows * rung->cols; i++) {

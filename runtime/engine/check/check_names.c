@@ -11,6 +11,7 @@
 #include "engine/check/check_config.h"
 #include "engine/check/check_init.h"
 #include "engine/check/check_operand.h"
+#include "engine/check/check_sfc_names.h"
 #include "engine/check/reserved.h"
 
 #include <string.h>
@@ -18,8 +19,8 @@
 /* What a folded name is, apart from a variable. A number of a POU is 1-based. */
 struct mark {
 	int pou;        /* POU of this name */
-	int label_pou;  /* POU in which it was a label last */
-	int target_pou; /* POU in which a jump named it last */
+	int label_in;   /* body in which it was a label last */
+	int target_in;  /* body in which a jump named it last */
 	int member_of;  /* structure that has it, 1-based, the last so far */
 	bool reserved;
 };
@@ -36,6 +37,7 @@ struct names_check {
 	uint32_t marks;
 	int *end;          /* numbers of rungs that never fall through */
 	int ends;
+	int body;          /* in work: one of each POU, of a chart many; from 1 */
 	uint64_t located;  /* elements with an address                        */
 	bool good;
 };
@@ -207,7 +209,7 @@ static void check_table(struct names_check *c, const struct pou *pou,
 	for (int i = 0; i < table->block_count; i++) {
 		const struct var_block *block = &table->block[i];
 
-		for (int k = 0; k < block->count; k++)
+		for (int k = 0; !(block->flags & VAR_SFC) && k < block->count; k++)
 			check_var(c, pou, table, block->first + k,
 				  block->flags);
 	}
@@ -303,29 +305,27 @@ static bool is_at_rail(const struct rung *rung, int row, int col)
 	return col == 0;
 }
 
-static bool check_label(struct names_check *c, int number, int rung_number)
+static bool check_label(struct names_check *c, const struct pou *pou, int rung_number)
 {
-	const struct pou *pou = &c->project->pou[number - 1];
 	uint32_t label = pou->rung[rung_number - 1]->label;
 	struct mark *mark = mark_of(c, names_fold(&c->project->names, label));
 	bool good = true;
 
 	if (!mark)
 		return true;
-	if (mark->label_pou == number)
+	if (mark->label_in == c->body)
 		good = report_rung(c, DIAG_DUPLICATE_LABEL, pou, rung_number,
 				   -1, -1, label);
 	if (reserved_generated(text_of(c, label)))
 		good = report_rung(c, DIAG_RESERVED_NAME, pou, rung_number, -1,
 				   -1, label);
-	mark->label_pou = number;
+	mark->label_in = c->body;
 	return good;
 }
 
 /* Jumps of a rung: their labels, and whether the rung always ends with one. */
-static bool check_jumps(struct names_check *c, int number, int rung_number)
+static bool check_jumps(struct names_check *c, const struct pou *pou, int rung_number)
 {
-	const struct pou *pou = &c->project->pou[number - 1];
 	const struct rung *rung = pou->rung[rung_number - 1];
 	bool good = true, ends = false;
 
@@ -341,8 +341,8 @@ static bool check_jumps(struct names_check *c, int number, int rung_number)
 			continue;
 		mark = mark_of(c, names_fold(&c->project->names,
 					     cell->operand));
-		if (mark && mark->label_pou == number)
-			mark->target_pou = number;
+		if (mark && mark->label_in == c->body)
+			mark->target_in = c->body;
 		else
 			good = report_rung(c, DIAG_NO_LABEL, pou, rung_number,
 					   row, col, cell->operand);
@@ -358,22 +358,21 @@ static bool check_jumps(struct names_check *c, int number, int rung_number)
 }
 
 /* The rungs behind one that always ends, up to the next label jumped to. */
-static void check_reach(struct names_check *c, int number)
+static void check_reach(struct names_check *c, const struct pou *pou, int end)
 {
-	const struct pou *pou = &c->project->pou[number - 1];
 	int told = 0;
 
 	for (int i = 0; i < c->ends; i++) {
 		if (c->end[i] <= told)
 			continue;
-		for (int k = c->end[i] + 1; k <= pou->rung_count; k++) {
+		for (int k = c->end[i] + 1; k <= end; k++) {
 			const struct rung *rung = pou->rung[k - 1];
 			const struct mark *mark = mark_of(c,
 				names_fold(&c->project->names, rung->label));
 
 			if (rung->off)
 				continue;
-			if (mark && mark->target_pou == number)
+			if (mark && mark->target_in == c->body)
 				break;
 			told = k;
 			report_rung(c, DIAG_UNREACHABLE, pou, k, -1, -1,
@@ -388,30 +387,49 @@ static void mark_bad(uint8_t *bad, int rung_number, bool good)
 		bad[rung_number - 1] = 1;
 }
 
-static void check_ladder(struct names_check *c, int number, uint8_t *bad)
+/* Rungs that stand together: of @pou number @first, 0-based, and those behind it. */
+static void check_ladder(struct names_check *c, const struct pou *pou, int first,
+			 int count, bool condition, uint8_t *bad)
 {
-	const struct pou *pou = &c->project->pou[number - 1];
+	const int end = first + count;
 	struct operand_check operands = {
 		.scope = c->scope, .project = c->project, .uses = &c->uses,
 		.expr = c->expr, .diags = c->diags, .pou = pou,
+		.condition = condition,
 	};
 
+	c->body++;
 	c->ends = 0;
 	c->end = NULL;
-	for (int i = 1; i <= pou->rung_count; i++)
+	for (int i = first + 1; i <= end; i++)
 		if (!pou->rung[i - 1]->off)
-			mark_bad(bad, i, check_label(c, number, i));
-	for (int i = 1; i <= pou->rung_count; i++) {
+			mark_bad(bad, i, check_label(c, pou, i));
+	for (int i = first + 1; i <= end; i++) {
 		if (pou->rung[i - 1]->off)
 			continue;
-		mark_bad(bad, i, check_jumps(c, number, i));
+		mark_bad(bad, i, check_jumps(c, pou, i));
 		operands.rung = pou->rung[i - 1];
 		operands.number = i;
 		mark_bad(bad, i, check_operands(&operands));
 		c->good &= operands.good;
 	}
-	check_reach(c, number);
-	c->good &= check_loops(c->project, pou, bad, c->diags);
+	check_reach(c, pou, end);
+	c->good &= check_loops(c->project, pou, first, count, bad, c->diags);
+}
+
+/* Nothing jumps from one condition or action into another. */
+static void check_chart(struct names_check *c, const struct pou *pou, uint8_t *bad)
+{
+	const struct sfc *sfc = pou->sfc;
+
+	for (int i = 0; i < sfc_bodies(sfc); i++) {
+		const struct sfc_body *body = sfc_body(sfc, i);
+
+		if (body->kind != BODY_LIST)
+			check_ladder(c, pou, body->first, body->count,
+				     i < sfc->transition_count, bad);
+	}
+	c->good &= check_sfc_names(c->scope, pou, &c->uses, c->scratch, c->diags);
 }
 
 /* ---- uses ---- */
@@ -517,7 +535,7 @@ static void check_uses(struct names_check *c, int table_number)
 
 		int end = block->first + block->count;
 
-		for (int k = block->first; k < end; k++) {
+		for (int k = block->first; !(block->flags & VAR_SFC) && k < end; k++) {
 			const struct var *var = &table->var[k];
 			unsigned int use = uses_of(&c->uses, table_number, k,
 						   var);
@@ -537,10 +555,12 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 		const struct pou *pou = &c->project->pou[i];
 
 		check_table(c, pou, &pou->vars);
-		if (pou->language == LANGUAGE_IL)
-			note_il(c, pou);
+		note_il(c, pou);
+		if (pou->sfc)
+			check_chart(c, pou, bad ? bad[i] : NULL);
 		else
-			check_ladder(c, i + 1, bad ? bad[i] : NULL);
+			check_ladder(c, pou, 0, pou->rung_count, false,
+				     bad ? bad[i] : NULL);
 	}
 }
 

@@ -53,6 +53,8 @@ const struct meaning *operand_find(struct operand_check *c, struct operand_spot 
 
 	if (!m)
 		report_unknown(c, at, id, why, EXPECT_VARIABLE | EXPECT_INSTANCE);
+	else if (scope_is_condition(m) && !c->condition)
+		operand_report(c, DIAG_SFC_TRANSITION, at, project_text(c->project, id));
 	else
 		uses_add_index(c->uses, c->scope, c->pou, id, m);
 	return m;
@@ -122,6 +124,8 @@ const struct meaning *operand_write(struct operand_check *c, struct operand_spot
 	fault = write_fault(m);
 	if (fault != DIAG_COUNT)
 		return operand_refuse(c, fault, at, id, m);
+	if (scope_is_condition(m)) /* each transition has its own coil */
+		return m;
 	if (uses_add(c->uses, m, always ? USE_WRITTEN | USE_COIL : USE_WRITTEN))
 		operand_report(c, DIAG_COIL_TWICE, at, project_text(c->project, id));
 	return m;

@@ -22,6 +22,7 @@ struct operand_check {
 	const struct pou *pou;
 	const struct rung *rung;
 	int number;               /* of the rung, 1-based */
+	bool condition;           /* of a transition: its coil is TRANSITION   */
 	bool good;                /* false after an error in this rung */
 };
 

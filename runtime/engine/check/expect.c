@@ -201,7 +201,7 @@ static bool is_instance(const struct offer *o, const struct var *var)
 
 static bool may_write(const struct var *var, uint16_t flags)
 {
-	return !(flags & (VAR_CONSTANT | VAR_INPUT)) &&
+	return !(flags & (VAR_CONSTANT | VAR_INPUT | VAR_SFC)) &&
 	       (var->at.area == AREA_NONE ||
 		iec_area_row(var->at.area)->access == ACCESS_WRITE);
 }
@@ -258,6 +258,19 @@ static void offer_labels(const struct offer *o)
 		if (pou->il.line[i].kind == IL_LABEL)
 			give(o, EXPECT_LABEL,
 			     project_text(o->project, pou->il.line[i].operand), "");
+}
+
+static void offer_chart(const struct offer *o)
+{
+	const struct sfc *sfc = o->pou ? o->pou->sfc : NULL;
+	unsigned int kinds = o->want->kinds;
+
+	for (int i = 0; sfc && kinds & EXPECT_STEP && i < sfc->step_count; i++)
+		give(o, EXPECT_STEP, project_text(o->project, sfc->step[i].name), "");
+	for (int i = 0; sfc && kinds & EXPECT_ACTION && i < sfc->action_count; i++)
+		give(o, EXPECT_ACTION, project_text(o->project, sfc->action[i].name), "");
+	for (int i = 0; kinds & EXPECT_QUALIFIER && i < QUALIFIER_COUNT; i++)
+		give(o, EXPECT_QUALIFIER, qualifier_word((enum qualifier)i), "");
 }
 
 static void offer_routines(const struct offer *o)
@@ -321,6 +334,8 @@ void expect_offer(struct scope *scope, const struct pou *pou,
 		offer_labels(&o);
 	if (want->kinds & EXPECT_SUBROUTINE)
 		offer_routines(&o);
+	if (want->kinds & (EXPECT_STEP | EXPECT_ACTION | EXPECT_QUALIFIER))
+		offer_chart(&o);
 	if (want->kinds & EXPECT_PIN)
 		offer_pins(&o);
 }
@@ -377,6 +392,12 @@ const char *expect_kind_text(enum expect_kind kind)
 		return "type";
 	case EXPECT_CONSTANT:
 		return "constant";
+	case EXPECT_STEP:
+		return "step";
+	case EXPECT_ACTION:
+		return "action";
+	case EXPECT_QUALIFIER:
+		return "qualifier";
 	}
 	return "";
 }

@@ -26,6 +26,9 @@ enum expect_kind {
 	EXPECT_PIN         = 1 << 9,  /* of a row, or a member                  */
 	EXPECT_TYPE        = 1 << 10,
 	EXPECT_CONSTANT    = 1 << 11, /* TRUE and FALSE                         */
+	EXPECT_STEP        = 1 << 12, /* of a chart                             */
+	EXPECT_ACTION      = 1 << 13, /* likewise                               */
+	EXPECT_QUALIFIER   = 1 << 14, /* N, SD: what a line of a step may have  */
 };
 
 /* What is wanted. */

@@ -225,6 +225,29 @@ static void mean_variable(const struct scope *scope,
 	out->writable = !out->constant && may_write(var->at) &&
 			!(slot->flags & VAR_INPUT);
 	mean_shape(scope, var, out);
+	if (slot->flags & VAR_SFC)
+		out->writable = scope_is_condition(out);
+}
+
+/* Why a name of a chart's step means nothing without its X or T. */
+static bool is_step(const struct scope *scope, uint32_t table, const char *text,
+		    size_t len, enum diag_id *why)
+{
+	const struct sfc *sfc = table ? scope->project->pou[table - 1].sfc : NULL;
+	const char *dot = memchr(text, '.', len);
+	char x[LIMIT_NAME + 8];
+	struct names *names = &scope->project->names;
+	const struct declared *slot;
+
+	if (dot)
+		len = (size_t)(dot - text);
+	if (!sfc || !len || len > LIMIT_NAME)
+		return false;
+	memcpy(x, text, len);
+	memcpy(x + len, ".X", 2);
+	slot = find_in(scope, table, names_fold(names, names_intern(names, x, len + 2)));
+	*why = dot ? DIAG_NO_PIN : DIAG_SFC_STEP;
+	return slot && slot->flags & VAR_SFC;
 }
 
 bool scope_mean_name(const struct scope *scope, uint32_t table, const char *text,
@@ -314,6 +337,9 @@ static bool mean(struct scope *scope, uint32_t table, uint32_t id,
 	}
 	if (scope_has_index(text, len))
 		return scope_mean_path(scope, table, text, len, out, why);
+	if (is_step(scope, table, text, len, why))
+		return false;
+	*why = DIAG_UNKNOWN_NAME;
 	return mean_system(text, len, out) ||
 	       (memchr(text, '.', len) &&
 		scope_mean_path(scope, table, text, len, out, why)) ||
@@ -326,6 +352,15 @@ enum diag_id meaning_fault(const struct meaning *meaning)
 	if (meaning->kind == MEANING_INSTANCE)
 		return DIAG_INSTANCE_AS_VALUE;
 	return meaning->kind == MEANING_ARRAY ? DIAG_ARRAY_AS_VALUE : DIAG_COUNT;
+}
+
+bool scope_is_condition(const struct meaning *meaning)
+{
+	const struct pou *pou = meaning->pou;
+
+	return pou && pou->sfc && pou->sfc->block >= 0 &&
+	       meaning->kind == MEANING_VARIABLE &&
+	       meaning->index == sfc_condition(pou->sfc, &pou->vars);
 }
 
 struct var_array meaning_reach(const struct meaning *meaning)

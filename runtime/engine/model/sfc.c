@@ -53,6 +53,17 @@ enum control control_find(const char *text, size_t len)
 	return (enum control)find(controls, CONTROL_COUNT, text, len);
 }
 
+int sfc_bodies(const struct sfc *sfc)
+{
+	return sfc->transition_count + sfc->action_count;
+}
+
+const struct sfc_body *sfc_body(const struct sfc *sfc, int body)
+{
+	return body < sfc->transition_count ? &sfc->transition[body].condition :
+	       &sfc->action[body - sfc->transition_count].body;
+}
+
 int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t name)
 {
 	const uint32_t fold = names_fold(names, name);

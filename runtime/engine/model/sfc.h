@@ -135,6 +135,10 @@ enum control control_find(const char *text, size_t len);
 int sfc_x(const struct sfc *sfc, const struct var_table *table, int step);
 int sfc_t(const struct sfc *sfc, const struct var_table *table, int step);
 int sfc_condition(const struct sfc *sfc, const struct var_table *table);
+/** sfc_bodies, sfc_body - the conditions of all transitions, then the bodies of all
+ * actions; @body: 0-based. Scan-safe: yes. */
+int sfc_bodies(const struct sfc *sfc);
+const struct sfc_body *sfc_body(const struct sfc *sfc, int body);
 /** sfc_find_step - by name, case does not count; -1: none. Linear. Scan-safe: yes. */
 int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t name);
 
