@@ -289,6 +289,9 @@ struct placed frame_place(struct walker *walker, const struct frame *frame,
 	struct path path = { frame, text, text + len };
 	struct variable *variable;
 
+	/* Fill.X of a step is one name. */
+	if (frame && frame_find(walker, frame, text, len) >= 0)
+		path.at = path.end;
 	while (path.at < path.end && *path.at != '.' && *path.at != '[')
 		path.at++;
 	variable = frame_variable(walker, frame, text, (size_t)(path.at - text));
@@ -357,7 +360,8 @@ static void show_frame(struct walker *walker, const struct frame *frame,
 		struct variable *at = &frame->variable[i];
 		const char *own = project_text(walker->project, at->var->name);
 
-		if (at->flags & (VAR_TEMP | VAR_IN_OUT))
+		if (at->flags & (VAR_TEMP | VAR_IN_OUT) ||
+		    (at->flags & VAR_SFC && !strcmp(own, SFC_CONDITION)))
 			continue;
 		snprintf(name, sizeof(name), "%.90s%.30s", before, own);
 		for (uint32_t k = 0; at->inner && k < count_of(at->var); k++) {

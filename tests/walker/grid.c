@@ -216,10 +216,14 @@ static bool make_call(struct walker *walker, const struct frame *frame,
 	return at->parameter;
 }
 
-static int rung_labelled(const struct pou *pou, uint32_t label,
-			 struct names *names)
+/* In the body of a chart that it stands in, or else in the POU. */
+static int rung_labelled(const struct pou *pou, const struct sfc_body *body,
+			 uint32_t label, struct names *names)
 {
-	for (int i = 0; i < pou->rung_count; i++)
+	int first = body ? body->first : 0;
+	int end = body ? first + body->count : pou->rung_count;
+
+	for (int i = first; i < end; i++)
 		if (pou->rung[i]->label && names_fold(names, label) ==
 		    names_fold(names, pou->rung[i]->label))
 			return i;
@@ -265,7 +269,7 @@ static bool make_element(struct walker *walker, const struct frame *frame,
 		walker->why = text;
 		return at->operand.kind != PLACED_NOWHERE;
 	case OPND_LABEL:
-		at->target = rung_labelled(frame->pou, cell->operand,
+		at->target = rung_labelled(frame->pou, walker->body, cell->operand,
 					   &walker->project->names);
 		return at->target >= 0;
 	case OPND_ROUTINE:

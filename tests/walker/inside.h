@@ -28,7 +28,7 @@ struct block {
 /* A declared variable: one of three. */
 struct variable {
 	const struct var *var;
-	uint8_t flags;              /* enum var_flag                         */
+	uint16_t flags;             /* enum var_flag                         */
 	struct value *value;        /* of each element                       */
 	struct block *block;        /* an instance of a block of the catalogue */
 	struct frame *inner;        /* of each element: an instance of a block
@@ -88,6 +88,7 @@ struct walker {
 	bool lost;                  /* more steps than there may be          */
 	bool halted;                /* a STOP had power                      */
 	struct walked_pou *pou;
+	const struct sfc_body *body; /* whose rungs are made; NULL: all of a POU */
 	const char *why;            /* of what cannot be walked              */
 };
 

@@ -3,7 +3,7 @@
  * walker - evaluates rungs over the grid, in the two phases of
  * docs/language.md: everything but coils, then coils.
  */
-#include "tests/walker/grid.h"
+#include "tests/walker/sfc.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ static bool make_pou(struct walker *walker, struct frame *frame,
 	out->pou = pou;
 	out->frame = frame;
 	frame->body = out;
-	if (pou->language != LANGUAGE_LD) {
+	if (pou->language == LANGUAGE_IL) {
 		walker->why = "a POU in IL";
 		return false;
 	}
@@ -26,11 +26,15 @@ static bool make_pou(struct walker *walker, struct frame *frame,
 				sizeof(*out->rung) + 1);
 	if (!out->rung)
 		return false;
-	for (int i = 0; i < pou->rung_count; i++)
+	for (int i = 0; i < pou->rung_count; i++) {
+		walker->body = pou->sfc ? chart_body(pou->sfc, i) : NULL;
 		if (!pou->rung[i]->off &&
 		    !grid_make(walker, frame, pou->rung[i], &out->rung[i]))
 			return false;
-	return true;
+	}
+	if (pou->sfc)
+		out->chart = chart_new(walker, out);
+	return !pou->sfc || out->chart;
 }
 
 static bool make_all(struct walker *walker)
@@ -438,11 +442,9 @@ static int walk_rung(struct walker *walker, struct walked_rung *walked)
 	return RUNG_NEXT;
 }
 
-static bool walk_pou(struct walker *walker, struct walked_pou *walked)
+bool walk_rungs(struct walker *walker, struct walked_pou *walked, int first, int count)
 {
-	if (!pou_has_frame(walked->pou))
-		frame_reset(walker, walked->frame, true);
-	for (int i = 0; i < walked->pou->rung_count;) {
+	for (int i = first; i < first + count;) {
 		int next = RUNG_NEXT;
 
 		if (++walker->steps > STEPS_MAX || walker->lost)
@@ -454,6 +456,14 @@ static bool walk_pou(struct walker *walker, struct walked_pou *walked)
 		i = next == RUNG_NEXT ? i + 1 : next;
 	}
 	return true;
+}
+
+static bool walk_pou(struct walker *walker, struct walked_pou *walked)
+{
+	if (!pou_has_frame(walked->pou))
+		frame_reset(walker, walked->frame, true);
+	return walked->chart ? chart_walk(walker, walked->chart) :
+	       walk_rungs(walker, walked, 0, walked->pou->rung_count);
 }
 
 static void set_system(struct walker *walker, enum sys_id id, int64_t value)

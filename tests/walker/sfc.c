@@ -1,0 +1,448 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc - a token game over a chart, word for word as docs/sfc.md tells it.
+ *
+ * Every step, transition and line is looked at in every scan; a macro-step is followed
+ * inwards each time one asks. What the lines of steps ask for is in sfc_lines.c.
+ */
+#include "tests/walker/sfc_inside.h"
+
+#include <limits.h>
+#include <string.h>
+
+#define EVOLUTIONS_MAX 20000 /* of a scan; a chart that needs more never rests */
+
+/* ---- macro-steps ---- */
+
+static int entry_of(const struct sfc *sfc, int macro)
+{
+	int i = 0;
+
+	while (i < sfc->step_count &&
+	       (sfc->step[i].macro != macro || sfc->step[i].kind != STEP_INITIAL))
+		i++;
+	return i;
+}
+
+static bool has_way_out(const struct sfc *sfc, int step)
+{
+	for (int i = 0; i < sfc->transition_count; i++)
+		for (int k = 0; k < sfc->transition[i].from_count; k++)
+			if (sfc->ref[sfc->transition[i].first_from + k].step == step)
+				return true;
+	return false;
+}
+
+static int exit_of(const struct sfc *sfc, int macro)
+{
+	int i = 0;
+
+	while (i < sfc->step_count &&
+	       (sfc->step[i].macro != macro || has_way_out(sfc, i)))
+		i++;
+	return i;
+}
+
+/* Depth of these three: macro-steps in one another, at most 8. */
+static bool can_be_left(const struct chart *chart, int step)
+{
+	if (!value_is_true(*chart->step[step].x))
+		return false;
+	return chart->sfc->step[step].kind != STEP_MACRO ||
+	       can_be_left(chart, exit_of(chart->sfc, step));
+}
+
+/* Nobody who came before takes it. */
+static bool is_free(const struct chart *chart, int step)
+{
+	if (chart->step[step].leaving)
+		return false;
+	return chart->sfc->step[step].kind != STEP_MACRO ||
+	       is_free(chart, exit_of(chart->sfc, step));
+}
+
+static void mark_leaving(struct chart *chart, int step)
+{
+	chart->step[step].leaving = true;
+	if (chart->sfc->step[step].kind == STEP_MACRO)
+		mark_leaving(chart, exit_of(chart->sfc, step));
+}
+
+static void mark_entering(struct chart *chart, int step)
+{
+	chart->step[step].entering = true;
+	if (chart->sfc->step[step].kind == STEP_MACRO)
+		mark_entering(chart, entry_of(chart->sfc, step));
+}
+
+/* ---- made once ---- */
+
+static bool place(struct walker *walker, const struct frame *frame, uint32_t name,
+		  struct placed *out)
+{
+	const char *text = project_text(walker->project, name);
+
+	*out = (struct placed){ .kind = PLACED_NOWHERE };
+	if (!name)
+		return true;
+	*out = walker_place(walker, frame, text, strlen(text));
+	walker->why = text;
+	return out->kind != PLACED_NOWHERE;
+}
+
+static bool make_steps(struct walker *walker, struct chart *chart)
+{
+	const struct sfc *sfc = chart->sfc;
+	const struct frame *frame = chart->walked->frame;
+
+	for (int i = 0; i < sfc->step_count; i++) {
+		const struct sfc_step *from = &sfc->step[i];
+		struct played_step *step = &chart->step[i];
+		const struct var_table *vars = &chart->walked->pou->vars;
+
+		step->x = frame->variable[sfc_x(sfc, vars, i)].value;
+		step->t = frame->variable[sfc_t(sfc, vars, i)].value;
+		if (!place(walker, frame, from->min, &step->min) ||
+		    !place(walker, frame, from->max, &step->max) ||
+		    !place(walker, frame, from->alarm, &step->alarm))
+			return false;
+	}
+	for (int i = 0; i < sfc->step_count; i++)
+		if (sfc->step[i].kind == STEP_MACRO &&
+		    (entry_of(sfc, i) == sfc->step_count ||
+		     exit_of(sfc, i) == sfc->step_count)) {
+			walker->why = "a macro-step without a way in or out";
+			return false;
+		}
+	return true;
+}
+
+static bool make_controls(struct walker *walker, struct chart *chart)
+{
+	for (int i = 0; i < CONTROL_COUNT; i++)
+		if (!place(walker, chart->walked->frame, chart->sfc->control[i],
+			   &chart->control[i]))
+			return false;
+	return true;
+}
+
+static int rank(const struct sfc_transition *transition)
+{
+	return transition->priority ? transition->priority : INT_MAX;
+}
+
+/* Does @a come before @b? */
+static bool is_before(const struct sfc *sfc, int a, int b)
+{
+	int high = rank(&sfc->transition[a]), low = rank(&sfc->transition[b]);
+
+	return high < low || (high == low && a < b);
+}
+
+/* The place of each: so many come before it. */
+static void make_order(struct chart *chart)
+{
+	const struct sfc *sfc = chart->sfc;
+
+	for (int i = 0; i < sfc->transition_count; i++) {
+		int before = 0;
+
+		for (int k = 0; k < sfc->transition_count; k++)
+			before += is_before(sfc, k, i);
+		chart->order[before] = i;
+	}
+}
+
+struct chart *chart_new(struct walker *walker, struct walked_pou *walked)
+{
+	struct chart *chart = arena_alloc(&walker->arena, sizeof(*chart));
+	const struct sfc *sfc = walked->pou->sfc;
+	size_t transitions = (size_t)sfc->transition_count + 1;
+
+	if (!chart)
+		return NULL;
+	chart->sfc = sfc;
+	chart->walked = walked;
+	chart->step = arena_alloc(&walker->arena, ((size_t)sfc->step_count + 1) *
+				  sizeof(*chart->step));
+	chart->order = arena_alloc(&walker->arena, transitions * sizeof(*chart->order));
+	chart->fires = arena_alloc(&walker->arena, transitions * sizeof(*chart->fires));
+	chart->enabled = arena_alloc(&walker->arena, transitions * sizeof(*chart->enabled));
+	if (!chart->step || !chart->order || !chart->fires || !chart->enabled ||
+	    !make_steps(walker, chart) || !make_controls(walker, chart) ||
+	    !lines_make(walker, chart))
+		return NULL;
+	make_order(chart);
+	return chart;
+}
+
+const struct sfc_body *chart_body(const struct sfc *sfc, int rung)
+{
+	const struct sfc_body *body;
+
+	for (int i = 0; i < sfc->transition_count + sfc->action_count; i++) {
+		body = i < sfc->transition_count ? &sfc->transition[i].condition :
+			&sfc->action[i - sfc->transition_count].body;
+		if ((body->kind == BODY_RUNGS || body->kind == BODY_EXPRESSION) &&
+		    rung >= body->first && rung < body->first + body->count)
+			return body;
+	}
+	return NULL;
+}
+
+/* ---- one evolution ---- */
+
+static bool read_bool(struct walker *walker, const struct placed *at)
+{
+	struct placed here;
+
+	return at->kind != PLACED_NOWHERE && placed_find(walker, at, &here) &&
+	       value_is_true(placed_read(&here, IEC_BOOL));
+}
+
+static void write_bool(struct walker *walker, const struct placed *at, bool value)
+{
+	struct placed here;
+
+	if (at->kind != PLACED_NOWHERE && placed_find(walker, at, &here))
+		placed_write(&here, value_bool(value));
+}
+
+int64_t chart_time(const struct placed *at)
+{
+	return placed_read(at, IEC_TIME).i;
+}
+
+static void activate(struct chart *chart, int step)
+{
+	*chart->step[step].x = value_bool(true);
+	chart->step[step].t->i = 0;
+	chart->step[step].entered = true;
+	chart->step[step].begins = true;
+}
+
+static void deactivate(struct chart *chart, int step)
+{
+	*chart->step[step].x = value_bool(false);
+	chart->step[step].left = true;
+}
+
+/* SET and RESET of the steps that became active just now. */
+static void do_lists(struct walker *walker, struct chart *chart)
+{
+	for (int i = 0; i < chart->sfc->step_count; i++) {
+		if (chart->step[i].begins)
+			lines_once(walker, chart, i);
+		chart->step[i].begins = false;
+	}
+}
+
+static bool evaluate(struct walker *walker, struct chart *chart,
+		     const struct sfc_body *body, bool *is_true)
+{
+	const struct sfc *sfc = chart->sfc;
+	int transition = sfc_condition(sfc, &chart->walked->pou->vars);
+	struct value *value = chart->walked->frame->variable[transition].value;
+	struct value result = value_bool(false);
+	bool good;
+
+	*value = value_bool(false);
+	if (body->kind == BODY_LIST) {
+		good = walk_list(walker, chart->walked, body, &result);
+		*is_true = value_is_true(result);
+		return good;
+	}
+	good = walk_rungs(walker, chart->walked, body->first, body->count);
+	*is_true = value_is_true(*value);
+	return good;
+}
+
+/* Which transitions' conditions are true now. */
+static bool evaluate_all(struct walker *walker, struct chart *chart)
+{
+	const struct sfc *sfc = chart->sfc;
+
+	for (int i = 0; i < sfc->transition_count; i++) {
+		int at = chart->order[i];
+		const struct sfc_transition *transition = &sfc->transition[at];
+
+		chart->enabled[at] = true;
+		for (int k = 0; k < transition->from_count; k++)
+			chart->enabled[at] &= can_be_left(chart,
+				sfc->ref[transition->first_from + k].step);
+		chart->fires[at] = false;
+		if (chart->enabled[at] &&
+		    !evaluate(walker, chart, &transition->condition, &chart->fires[at]))
+			return false;
+	}
+	return true;
+}
+
+/* The first that may takes its steps. */
+static bool choose(struct chart *chart)
+{
+	const struct sfc *sfc = chart->sfc;
+	bool any = false;
+
+	for (int i = 0; i < sfc->step_count; i++)
+		chart->step[i].leaving = chart->step[i].entering = false;
+	for (int i = 0; i < sfc->transition_count; i++) {
+		const struct sfc_transition *at = &sfc->transition[chart->order[i]];
+		bool free = chart->fires[chart->order[i]];
+
+		for (int k = 0; k < at->from_count; k++)
+			free = free && is_free(chart, sfc->ref[at->first_from + k].step);
+		for (int k = 0; k < at->from_count && free; k++)
+			mark_leaving(chart, sfc->ref[at->first_from + k].step);
+		for (int k = 0; k < at->to_count && free; k++)
+			mark_entering(chart, sfc->ref[at->first_to + k].step);
+		any |= free;
+	}
+	return any;
+}
+
+static void fire(struct walker *walker, struct chart *chart)
+{
+	for (int i = 0; i < chart->sfc->step_count; i++) {
+		struct played_step *step = &chart->step[i];
+
+		if (!step->leaving || step->entering)
+			continue;
+		if (step->min.kind != PLACED_NOWHERE && step->t->i < chart_time(&step->min))
+			write_bool(walker, &step->alarm, true);
+		deactivate(chart, i);
+	}
+	for (int i = 0; i < chart->sfc->step_count; i++)
+		if (chart->step[i].entering && !value_is_true(*chart->step[i].x))
+			activate(chart, i);
+	do_lists(walker, chart);
+}
+
+/* ---- a scan ---- */
+
+/* What the controls say in this scan. */
+struct orders {
+	bool reset, held_reset, hold, semi, manual, tip;
+	int force; /* number of a step, from 0; -1: none                      */
+};
+
+static bool rises(struct chart *chart, enum control which, bool now)
+{
+	return block_rises(now, &chart->was[which]);
+}
+
+static struct orders read_orders(struct walker *walker, struct chart *chart)
+{
+	const struct placed *from = chart->control;
+	struct orders orders = { .force = -1 };
+	int64_t number = 0;
+
+	orders.held_reset = read_bool(walker, &from[CONTROL_RESET]);
+	orders.reset = rises(chart, CONTROL_RESET, orders.held_reset);
+	orders.hold = read_bool(walker, &from[CONTROL_HOLD]);
+	orders.semi = read_bool(walker, &from[CONTROL_SEMI]);
+	orders.manual = read_bool(walker, &from[CONTROL_MANUAL]);
+	orders.tip = rises(chart, CONTROL_TIP, read_bool(walker, &from[CONTROL_TIP]));
+	if (from[CONTROL_FORCE].kind != PLACED_NOWHERE)
+		number = placed_read(&from[CONTROL_FORCE], IEC_NONE).i;
+	if (number != chart->force && chart->started && !orders.held_reset &&
+	    number >= 1 && number <= chart->sfc->step_count)
+		orders.force = (int)number - 1;
+	chart->force = number;
+	return orders;
+}
+
+/* All steps are left; what is marked becomes active anew. */
+static void begin_anew(struct walker *walker, struct chart *chart)
+{
+	for (int i = 0; i < chart->sfc->step_count; i++)
+		if (value_is_true(*chart->step[i].x))
+			deactivate(chart, i);
+	for (int i = 0; i < chart->sfc->step_count; i++)
+		if (chart->step[i].entering)
+			activate(chart, i);
+	do_lists(walker, chart);
+}
+
+static void begin_initial(struct walker *walker, struct chart *chart)
+{
+	for (int i = 0; i < chart->sfc->step_count; i++)
+		chart->step[i].entering = chart->sfc->step[i].macro < 0 &&
+			chart->sfc->step[i].kind == STEP_INITIAL;
+	begin_anew(walker, chart);
+}
+
+static void force(struct walker *walker, struct chart *chart, int step)
+{
+	const struct sfc *sfc = chart->sfc;
+
+	for (int i = 0; i < sfc->step_count; i++)
+		chart->step[i].entering = false;
+	mark_entering(chart, step);
+	for (int at = sfc->step[step].macro; at >= 0; at = sfc->step[at].macro)
+		chart->step[at].entering = true;
+	begin_anew(walker, chart);
+}
+
+/* Times and supervision. */
+static void pass_time(struct walker *walker, struct chart *chart, bool hold)
+{
+	int64_t passed = hold ? 0 : walker->now_ns - chart->before_ns;
+
+	for (int i = 0; i < chart->sfc->step_count; i++) {
+		struct played_step *step = &chart->step[i];
+
+		if (!value_is_true(*step->x))
+			continue;
+		step->t->i += passed;
+		if (step->max.kind != PLACED_NOWHERE && step->t->i > chart_time(&step->max))
+			write_bool(walker, &step->alarm, true);
+	}
+	lines_pass_time(chart, passed);
+}
+
+static bool evolve(struct walker *walker, struct chart *chart, struct orders orders)
+{
+	bool once = !chart->sfc->until_stable || orders.semi || orders.manual;
+	int count = 0;
+
+	do {
+		if (count++ == EVOLUTIONS_MAX || !evaluate_all(walker, chart))
+			return false;
+		for (int i = 0; i < chart->sfc->transition_count; i++) {
+			if (orders.manual)
+				chart->fires[i] = chart->enabled[i] && orders.tip;
+			else if (orders.semi)
+				chart->fires[i] &= orders.tip;
+		}
+		if (!choose(chart))
+			return true;
+		fire(walker, chart);
+	} while (!once);
+	return true;
+}
+
+bool chart_walk(struct walker *walker, struct chart *chart)
+{
+	struct orders orders = read_orders(walker, chart);
+	bool good = true;
+
+	for (int i = 0; i < chart->sfc->step_count; i++)
+		chart->step[i].entered = chart->step[i].left = false;
+	if (!chart->started) {
+		begin_initial(walker, chart);
+	} else {
+		pass_time(walker, chart, orders.hold);
+		if (orders.reset) {
+			lines_forget(chart);
+			begin_initial(walker, chart);
+		} else if (orders.force >= 0) {
+			force(walker, chart, orders.force);
+		} else if (!orders.held_reset && !orders.hold) {
+			good = evolve(walker, chart, orders);
+		}
+	}
+	chart->started = true;
+	chart->before_ns = walker->now_ns;
+	return good && lines_act(walker, chart);
+}

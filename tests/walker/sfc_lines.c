@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_lines - the walker's qualifiers: which actions and BOOLs the lines of steps call
+ * for, and doing it (docs/sfc.md, Qualifiers).
+ */
+#include "tests/walker/sfc_inside.h"
+
+#include <string.h>
+
+/* ---- made once ---- */
+
+static struct target *new_target(struct chart *chart)
+{
+	return &chart->target[chart->target_count++];
+}
+
+/* The BOOL of this name, which may have been named before. */
+static int bool_named(struct walker *walker, struct chart *chart, uint32_t name)
+{
+	const char *text = project_text(walker->project, name);
+	uint32_t fold = names_fold(&walker->project->names, name);
+	struct target *target;
+
+	for (int i = 0; i < chart->target_count; i++)
+		if (!chart->target[i].action && chart->target[i].fold == fold)
+			return i;
+	target = new_target(chart);
+	target->fold = fold;
+	target->place = walker_place(walker, chart->walked->frame, text, strlen(text));
+	walker->why = text;
+	return target->place.kind == PLACED_NOWHERE ? -1 : chart->target_count - 1;
+}
+
+static bool make_line(struct walker *walker, struct chart *chart,
+		      const struct sfc_use *use)
+{
+	struct played_line *line = &chart->line[chart->line_count++];
+	const char *time = project_text(walker->project, use->time);
+
+	line->use = use;
+	line->target = use->action >= 0 ? use->action :
+		       bool_named(walker, chart, use->operand);
+	if (use->time)
+		line->time = walker_place(walker, chart->walked->frame, time,
+					  strlen(time));
+	return line->target >= 0 && (!use->time || line->time.kind != PLACED_NOWHERE);
+}
+
+static bool make_once(struct walker *walker, struct chart *chart,
+		      const struct sfc_use *use)
+{
+	struct once *once = &chart->once[chart->once_count++];
+	const char *text = project_text(walker->project, use->operand);
+
+	once->use = use;
+	once->place = walker_place(walker, chart->walked->frame, text, strlen(text));
+	walker->why = text;
+	return once->place.kind != PLACED_NOWHERE;
+}
+
+bool lines_make(struct walker *walker, struct chart *chart)
+{
+	const struct sfc *sfc = chart->sfc;
+	size_t lines = (size_t)sfc->use_count + 1;
+	size_t targets = lines + (size_t)sfc->action_count;
+
+	chart->line = arena_alloc(&walker->arena, lines * sizeof(*chart->line));
+	chart->once = arena_alloc(&walker->arena, lines * sizeof(*chart->once));
+	chart->target = arena_alloc(&walker->arena, targets * sizeof(*chart->target));
+	if (!chart->line || !chart->once || !chart->target)
+		return false;
+	for (int i = 0; i < sfc->action_count; i++)
+		new_target(chart)->action = &sfc->action[i];
+	for (int i = 0; i < sfc->step_count; i++)
+		for (int k = 0; k < sfc->step[i].use_count; k++) {
+			const struct sfc_use *use = &sfc->use[sfc->step[i].first_use + k];
+
+			if (use->kind == USE_ACTION ? !make_line(walker, chart, use) :
+						      !make_once(walker, chart, use))
+				return false;
+		}
+	return true;
+}
+
+/* ---- what begins and what ends ---- */
+
+void lines_once(struct walker *walker, struct chart *chart, int step)
+{
+	for (int i = 0; i < chart->once_count; i++) {
+		const struct once *once = &chart->once[i];
+		struct placed here;
+
+		if (once->use->step == step && placed_find(walker, &once->place, &here))
+			placed_write(&here, value_bool(once->use->kind == USE_SET));
+	}
+}
+
+void lines_pass_time(struct chart *chart, int64_t passed)
+{
+	for (int i = 0; i < chart->line_count; i++)
+		chart->line[i].elapsed += passed;
+}
+
+static void forget(struct played_line *line)
+{
+	line->waits = false;
+	line->stored = false;
+}
+
+void lines_forget(struct chart *chart)
+{
+	for (int i = 0; i < chart->line_count; i++)
+		forget(&chart->line[i]);
+}
+
+static void begin_line(struct played_line *line, const struct played_step *step)
+{
+	enum qualifier qualifier = line->use->qualifier;
+
+	if (qualifier == QUALIFIER_S)
+		line->stored |= step->entered;
+	if (qualifier == QUALIFIER_SD || qualifier == QUALIFIER_SL) {
+		if (step->entered && !line->waits)
+			line->elapsed = 0;
+		line->waits |= step->entered;
+	}
+	if (qualifier == QUALIFIER_DS) {
+		line->waits = value_is_true(*step->x) && (line->waits || step->entered);
+		if (line->waits && step->t->i >= chart_time(&line->time))
+			line->stored = true;
+	}
+}
+
+/* Of this target, by an R. */
+static void end_lines(struct chart *chart, int target)
+{
+	for (int i = 0; i < chart->line_count; i++)
+		if (chart->line[i].target == target)
+			forget(&chart->line[i]);
+}
+
+static void begin_and_end(struct chart *chart)
+{
+	for (int i = 0; i < chart->line_count; i++)
+		begin_line(&chart->line[i], &chart->step[chart->line[i].use->step]);
+	for (int i = 0; i < chart->line_count; i++) {
+		const struct played_line *line = &chart->line[i];
+		const struct played_step *step = &chart->step[line->use->step];
+
+		if (line->use->qualifier == QUALIFIER_R &&
+		    (value_is_true(*step->x) || step->entered))
+			end_lines(chart, line->target);
+	}
+}
+
+/* ---- what is called for ---- */
+
+static bool calls(const struct played_line *line, const struct played_step *step)
+{
+	bool x = value_is_true(*step->x);
+
+	switch (line->use->qualifier) {
+	case QUALIFIER_N:
+		return x;
+	case QUALIFIER_S:
+	case QUALIFIER_DS:
+		return line->stored;
+	case QUALIFIER_L:
+		return x && step->t->i < chart_time(&line->time);
+	case QUALIFIER_D:
+		return x && step->t->i >= chart_time(&line->time);
+	case QUALIFIER_P:
+	case QUALIFIER_P1:
+		return step->entered;
+	case QUALIFIER_P0:
+		return step->left;
+	case QUALIFIER_SD:
+		return line->waits && line->elapsed >= chart_time(&line->time);
+	case QUALIFIER_SL:
+		return line->waits && line->elapsed < chart_time(&line->time);
+	case QUALIFIER_R:
+	case QUALIFIER_COUNT:
+		break;
+	}
+	return false;
+}
+
+/* Is the target called for; *@in_passing: by P0 and P1 alone? */
+static bool is_called(const struct chart *chart, int target, bool *in_passing)
+{
+	bool called = false;
+
+	*in_passing = true;
+	for (int i = 0; i < chart->line_count; i++) {
+		const struct played_line *line = &chart->line[i];
+		const struct played_step *step = &chart->step[line->use->step];
+		enum qualifier qualifier = line->use->qualifier;
+
+		if (line->target != target)
+			continue;
+		if (qualifier == QUALIFIER_R && value_is_true(*step->x))
+			return false;
+		if (!calls(line, step))
+			continue;
+		called = true;
+		if (qualifier != QUALIFIER_P0 && qualifier != QUALIFIER_P1)
+			*in_passing = false;
+	}
+	return called;
+}
+
+static bool run_body(struct walker *walker, struct chart *chart,
+		     const struct sfc_body *body)
+{
+	struct value result;
+
+	if (body->kind == BODY_LIST)
+		return walk_list(walker, chart->walked, body, &result);
+	return walk_rungs(walker, chart->walked, body->first, body->count);
+}
+
+/* One target: in the scan in which it is called for no more, once again. */
+static bool act(struct walker *walker, struct chart *chart, struct target *target)
+{
+	bool last = target->was_called && !target->called, good = true;
+	struct placed here;
+
+	if (!target->action) {
+		if ((target->called || last) &&
+		    placed_find(walker, &target->place, &here))
+			placed_write(&here, value_bool(target->called));
+	} else if (target->called || (last && !target->was_in_passing)) {
+		good = run_body(walker, chart, &target->action->body);
+	}
+	target->was_called = target->called;
+	target->was_in_passing = target->in_passing;
+	return good;
+}
+
+/* Who is called is settled before anything is done. */
+bool lines_act(struct walker *walker, struct chart *chart)
+{
+	begin_and_end(chart);
+	for (int i = 0; i < chart->target_count; i++)
+		chart->target[i].called = is_called(chart, i,
+						    &chart->target[i].in_passing);
+	for (int i = 0; i < chart->target_count; i++)
+		if (!act(walker, chart, &chart->target[i]))
+			return false;
+	return true;
+}
