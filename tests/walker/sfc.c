@@ -176,7 +176,7 @@ struct chart *chart_new(struct walker *walker, struct walked_pou *walked)
 	return chart;
 }
 
-const struct sfc_body *chart_body(const struct sfc *sfc, int rung)
+const struct sfc_body *rung_body(const struct sfc *sfc, int rung)
 {
 	const struct sfc_body *body;
 

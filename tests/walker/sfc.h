@@ -14,8 +14,8 @@ struct chart;
 struct chart *chart_new(struct walker *walker, struct walked_pou *walked);
 /** chart_walk - one scan. False: a fault. */
 bool chart_walk(struct walker *walker, struct chart *chart);
-/** chart_body - the condition or action that a rung of a chart stands in; NULL: none. */
-const struct sfc_body *chart_body(const struct sfc *sfc, int rung);
+/** rung_body - the condition or action that a rung of a chart stands in; NULL: none. */
+const struct sfc_body *rung_body(const struct sfc *sfc, int rung);
 
 /* walker.c */
 /** walk_rungs - so many rungs, which no jump leaves. False: too many steps. */

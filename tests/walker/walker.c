@@ -27,7 +27,7 @@ static bool make_pou(struct walker *walker, struct frame *frame,
 	if (!out->rung)
 		return false;
 	for (int i = 0; i < pou->rung_count; i++) {
-		walker->body = pou->sfc ? chart_body(pou->sfc, i) : NULL;
+		walker->body = pou->sfc ? rung_body(pou->sfc, i) : NULL;
 		if (!pou->rung[i]->off &&
 		    !grid_make(walker, frame, pou->rung[i], &out->rung[i]))
 			return false;

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * random_sfc - valid sequential function charts by the thousand, from a seed.
+ *
+ * A chart is grown from sequences in which one token goes from a step to another, so no
+ * two ever meet; a share of charts gets some transitions more, in which they do. Each part
+ * has a key of its own, and can be left out without changing the others, so that a chart
+ * that fails can be cut down. It makes charts; it does not run or judge them.
+ */
+#ifndef WALKER_RANDOM_SFC_H
+#define WALKER_RANDOM_SFC_H
+
+#include "tests/walker/random.h"
+
+#define CHART_STEPS 160
+#define CHART_ARCS  320
+#define CHART_ENDS  4
+#define CHART_PARTS 2000
+
+struct random_step {
+	uint64_t key;
+	int macro;               /* it stands in; -1: none                     */
+	bool initial, is_macro;
+};
+
+struct random_arc {
+	uint64_t key;
+	int macro;
+	int from[CHART_ENDS], from_count;
+	int to[CHART_ENDS], to_count;
+};
+
+struct random_chart {
+	uint64_t seed;
+	uint64_t dropped[CHART_PARTS]; /* keys of what is left out             */
+	int dropped_count;
+	uint64_t part[CHART_PARTS];    /* keys of what is in it, by printing    */
+	int part_count;
+	/* made by printing */
+	struct random_step step[CHART_STEPS];
+	int steps;
+	struct random_arc arc[CHART_ARCS];
+	int arcs;
+	bool unsafe;
+};
+
+/** random_chart_print - its text; the parts that may be left out get into @chart. */
+size_t random_chart_print(struct random_chart *chart, char *out, size_t size);
+
+/* Between the parts of the generator. */
+/** chart_grow - steps and transitions. */
+void chart_grow(struct random_chart *chart);
+/** chart_key - that of part @number of what has key @of. */
+uint64_t chart_key(uint64_t of, uint32_t number);
+/** chart_has - is this part in it? */
+bool chart_has(struct random_chart *chart, uint64_t key);
+struct random_source chart_source(uint64_t key);
+#endif

@@ -1,0 +1,516 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * random_sfc_print - a random chart as text: its lines, conditions and bodies.
+ *
+ * All of it stands on one set of variables, so that one part sees what another does.
+ */
+#include "tests/walker/random_sfc.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define ACTIONS 5
+#define TIMERS  40
+
+struct page {
+	struct random_chart *chart;
+	char *out;
+	size_t size, used;
+	int timers;      /* used so far                                       */
+};
+
+static void put(struct page *page, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+
+static void put(struct page *page, const char *format, ...)
+{
+	va_list list;
+	int n;
+
+	va_start(list, format);
+	n = vsnprintf(page->out + page->used, page->size - page->used, format, list);
+	va_end(list);
+	page->used += (size_t)n;
+	if (page->used >= page->size)
+		page->used = page->size - 1;
+}
+
+/* ---- operands ---- */
+
+static void step_name(struct random_source *source, const struct random_chart *chart,
+		      char *out, size_t size, const char *member)
+{
+	snprintf(out, size, "S%d.%s", (int)random_below(source, (uint32_t)chart->steps),
+		 member);
+}
+
+/* A BOOL to read. */
+static void put_bool(struct page *page, struct random_source *source)
+{
+	char name[16];
+	int number = (int)random_below(source, 8);
+
+	switch (random_below(source, 10)) {
+	case 0:
+	case 1:
+		step_name(source, page->chart, name, sizeof(name), "X");
+		put(page, "%s", name);
+		break;
+	case 2:
+		put(page, "Mark%d", number);
+		break;
+	case 3:
+		put(page, "Out%d", number);
+		break;
+	case 4:
+		put(page, number < 4 ? "Lamp%d" : "b%d", number % 4);
+		break;
+	case 5:
+		put(page, "Alarm%d", number % 4);
+		break;
+	default:
+		put(page, "In%d", number);
+		break;
+	}
+}
+
+static const char *some_time(struct random_source *source)
+{
+	static const char *const times[] = {
+		"T#0ms", "T#1ms", "T#10ms", "T#20ms", "T#25ms", "T#40ms", "T#60ms",
+		"T#100ms", "T#150ms", "T#400ms", "Wait", "T#30ms",
+	};
+
+	return times[random_below(source, sizeof(times) / sizeof(*times))];
+}
+
+/* Something that is TRUE or FALSE, for an expression. */
+static void put_atom(struct page *page, struct random_source *source, int step)
+{
+	char name[16];
+
+	if (random_chance(source, 25) && step >= 0) {
+		put(page, "S%d.T >= %s", step, some_time(source));
+	} else if (random_chance(source, 10)) {
+		step_name(source, page->chart, name, sizeof(name), "T");
+		put(page, "%s < %s", name, some_time(source));
+	} else if (random_chance(source, 5)) {
+		put(page, "TRUE");
+	} else if (random_chance(source, 8)) {
+		put(page, "n%d > %d", (int)random_below(source, 6),
+		    (int)random_below(source, 5));
+	} else {
+		put(page, random_chance(source, 35) ? "NOT " : "");
+		put_bool(page, source);
+	}
+}
+
+/* Comparisons stand in parentheses. */
+static void put_expression(struct page *page, struct random_source *source, int step)
+{
+	int atoms = 1 + (int)random_below(source, 3);
+
+	for (int i = 0; i < atoms; i++) {
+		put(page, i == 0 ? "" : random_chance(source, 30) ? " AND " : " OR ");
+		put(page, atoms > 1 ? "(" : "");
+		put_atom(page, source, step);
+		put(page, atoms > 1 ? ")" : "");
+	}
+}
+
+static void put_contact(struct page *page, struct random_source *source)
+{
+	static const char *const words[] = { "NO", "NO", "NC", "NO", "P", "N" };
+
+	put(page, "%s ", words[random_below(source, 6)]);
+	put_bool(page, source);
+}
+
+static void put_timer(struct page *page, struct random_source *source)
+{
+	static const char *const words[] = { "TON", "TOF", "TP" };
+	int number = page->timers++;
+
+	put(page, "%s t%d_%d PT:=%s", words[number % 3], number % 3, number,
+	    some_time(source));
+}
+
+/* ---- conditions ---- */
+
+static void put_rung_condition(struct page *page, struct random_source *source)
+{
+	uint32_t kind = random_below(source, 5);
+
+	put(page, "    RUNG\n      | ");
+	put_contact(page, source);
+	if (kind == 1 && page->timers < TIMERS) {
+		put(page, " | ");
+		put_timer(page, source);
+	} else if (kind == 2) {
+		put(page, " | [ ");
+		put_expression(page, source, -1);
+		put(page, " ]");
+	} else if (kind == 3) {
+		put(page, " | ");
+		put_contact(page, source);
+	}
+	put(page, " | COIL TRANSITION |\n");
+	if (kind == 4) {
+		put(page, "      | ");
+		put_contact(page, source);
+		put(page, " ^|\n");
+	}
+}
+
+static void put_list_condition(struct page *page, struct random_source *source)
+{
+	static const char *const words[] = { "AND", "OR", "XOR", "ANDN", "ORN" };
+
+	put(page, "    LD ");
+	put_bool(page, source);
+	for (int i = 0; i < (int)random_below(source, 3); i++) {
+		put(page, "\n    %s ", words[random_below(source, 5)]);
+		put_bool(page, source);
+	}
+	put(page, "\n");
+}
+
+static void put_condition(struct page *page, const struct random_arc *arc)
+{
+	struct random_source source = chart_source(chart_key(arc->key, 1));
+	uint32_t kind = random_below(&source, 10);
+
+	if (!chart_has(page->chart, chart_key(arc->key, 2))) {
+		put(page, " := In0;");
+	} else if (kind < 5) {
+		put(page, " := ");
+		put_expression(page, &source, arc->from[0]);
+		put(page, ";");
+	} else {
+		put(page, ":\n");
+		if (kind < 9)
+			put_rung_condition(page, &source);
+		else
+			put_list_condition(page, &source);
+		put(page, "  ");
+	}
+	put(page, " END_TRANSITION\n");
+}
+
+static void put_ends(struct page *page, const int *end, int count)
+{
+	put(page, count > 1 ? "(" : "");
+	for (int i = 0; i < count; i++)
+		put(page, "%sS%d", i ? ", " : "", end[i]);
+	put(page, count > 1 ? ")" : "");
+}
+
+static void put_arc(struct page *page, const struct random_arc *arc, int number)
+{
+	struct random_source source = chart_source(arc->key);
+
+	put(page, "  TRANSITION");
+	if (random_chance(&source, 20))
+		put(page, " Go%d", number);
+	if (random_chance(&source, 30) &&
+	    chart_has(page->chart, chart_key(arc->key, 3)))
+		put(page, " (PRIORITY := %d)", 1 + (int)random_below(&source, 3));
+	put(page, " FROM ");
+	put_ends(page, arc->from, arc->from_count);
+	put(page, " TO ");
+	put_ends(page, arc->to, arc->to_count);
+	put_condition(page, arc);
+}
+
+/* ---- steps ---- */
+
+static void put_target(struct page *page, struct random_source *source)
+{
+	uint32_t number = random_below(source, ACTIONS + 4);
+
+	if (number < ACTIONS)
+		put(page, "A%d", (int)number);
+	else if (random_chance(source, 20))
+		put(page, "b%d", (int)number % 4);
+	else
+		put(page, "Out%d", (int)random_below(source, 6));
+}
+
+static void put_line(struct page *page, uint64_t key)
+{
+	static const char *const words[] = {
+		"N", "S", "R", "P", "P0", "P1", "L", "D", "SD", "DS", "SL", "R", "N",
+	};
+	struct random_source source = chart_source(key);
+	uint32_t word = random_below(&source, 13);
+
+	put(page, "    ");
+	if (random_chance(&source, 15)) {
+		put(page, random_chance(&source, 50) ? "SET " : "RESET ");
+		for (int i = 0; i == 0 || (i < 3 && random_chance(&source, 40)); i++)
+			put(page, i ? ", Mark%d" : "Mark%d", (int)random_below(&source, 8));
+		if (random_chance(&source, 15))
+			put(page, ", Out%d", (int)random_below(&source, 8));
+		put(page, ";\n");
+		return;
+	}
+	put_target(page, &source);
+	if (random_chance(&source, 5))
+		put(page, "();\n");
+	else if (word >= 6 && word < 11)
+		put(page, "(%s, %s);\n", words[word], some_time(&source));
+	else
+		put(page, "(%s);\n", words[word]);
+}
+
+static void put_supervision(struct page *page, const struct random_step *step)
+{
+	struct random_source source = chart_source(chart_key(step->key, 50));
+	const char *between = " (";
+
+	for (int i = 0; i < 3; i++) {
+		bool has = random_chance(&source, i == 2 ? 40 : 20);
+		const char *time = some_time(&source);
+		uint32_t alarm = random_below(&source, 4);
+
+		if (!has || !chart_has(page->chart, chart_key(step->key, 51u + (uint32_t)i)))
+			continue;
+		if (i == 2)
+			put(page, "%sALARM := Alarm%d", between, (int)alarm);
+		else
+			put(page, "%s%s := %s", between, i ? "MAX" : "MIN", time);
+		between = ", ";
+	}
+	put(page, *between == ',' ? "):\n" : ":\n");
+}
+
+static void put_inside(struct page *page, int macro);
+
+static void put_step(struct page *page, int number)
+{
+	const struct random_step *step = &page->chart->step[number];
+	struct random_source source = chart_source(chart_key(step->key, 9));
+	int lines = (int)random_below(&source, 4);
+
+	put(page, "  %s S%d", step->is_macro ? "MACRO_STEP" :
+	    step->initial ? "INITIAL_STEP" : "STEP", number);
+	put_supervision(page, step);
+	for (int i = 0; i < lines; i++) {
+		uint64_t key = chart_key(step->key, 60u + (uint32_t)i);
+
+		if (chart_has(page->chart, key))
+			put_line(page, key);
+	}
+	if (step->is_macro)
+		put_inside(page, number);
+	put(page, "  END_STEP\n");
+}
+
+/* Steps and transitions of a macro-step, or of the chart: in order, or mixed. Depth: of
+ * macro-steps in one another. */
+static void put_inside(struct page *page, int macro)
+{
+	struct random_chart *chart = page->chart;
+	struct random_source source = chart_source(chart_key(chart->seed,
+						   100u + (uint32_t)macro));
+	bool mixed = random_chance(&source, 50);
+	bool back = random_chance(&source, 30);
+
+	for (int pass = 0; pass < 2; pass++)
+		for (int i = 0; i < chart->steps + chart->arcs; i++) {
+			int at = back ? chart->steps + chart->arcs - 1 - i : i;
+			int arc = at - chart->steps;
+			uint64_t key = arc < 0 ? chart->step[at].key : chart->arc[arc].key;
+			int in = arc < 0 ? chart->step[at].macro : chart->arc[arc].macro;
+			bool late = mixed ? key & 1 : arc >= 0;
+
+			if (in != macro || late != pass)
+				continue;
+			if (arc < 0)
+				put_step(page, at);
+			else
+				put_arc(page, &chart->arc[arc], arc);
+		}
+}
+
+/* ---- bodies ---- */
+
+static void put_coil(struct page *page, struct random_source *source)
+{
+	static const char *const words[] = { "COIL", "COIL", "S", "R", "COILNOT",
+					     "COILP", "COILN" };
+
+	put(page, "%s ", words[random_below(source, 7)]);
+	switch (random_below(source, 4)) {
+	case 0:
+		put(page, "Mark%d", (int)random_below(source, 8));
+		break;
+	case 1:
+		put(page, "b%d", (int)random_below(source, 4));
+		break;
+	case 2:
+		put(page, random_chance(source, 20) ? "Alarm%d" : "Lamp%d",
+		    (int)random_below(source, 4));
+		break;
+	default:
+		put(page, "Lamp%d", (int)random_below(source, 8));
+	}
+}
+
+static void put_body_rung(struct page *page, struct random_source *source, bool last)
+{
+	uint32_t kind = random_below(source, 9);
+
+	put(page, "      | ");
+	put_contact(page, source);
+	if (kind == 0 && page->timers < TIMERS) {
+		put(page, " | ");
+		put_timer(page, source);
+	} else if (kind == 1) {
+		put(page, " | [ n%d := n%d + 1 ] |\n", (int)random_below(source, 5) + 1,
+		    (int)random_below(source, 5) + 1);
+		return;
+	} else if (kind == 2 && !last) {
+		put(page, " | JMP Last |\n");
+		return;
+	} else if (kind == 3) {
+		put(page, " | RET |\n");
+		return;
+	} else if (kind == 4) {
+		put(page, " | [ Wait := T#%dms ] |\n", 10 * (int)random_below(source, 12));
+		return;
+	}
+	put(page, " | ");
+	put_coil(page, source);
+	put(page, " |\n");
+	if (kind >= 7) {
+		put(page, "      | ");
+		put_contact(page, source);
+		put(page, " ^|\n");
+	}
+}
+
+static void put_list(struct page *page, struct random_source *source, int number)
+{
+	put(page, "    LD n%d\n    ADD 1\n    ST n%d\n", number % 6, number % 6);
+	put(page, "    LD ");
+	put_bool(page, source);
+	put(page, "\n    AND( ");
+	put_bool(page, source);
+	put(page, "\n    ORN ");
+	put_bool(page, source);
+	put(page, "\n    )\n");
+	if (random_chance(source, 30))
+		put(page, "    JMPCN Last\n");
+	put(page, "    %s Lamp%d\n", random_chance(source, 50) ? "ST" : "S",
+	    (int)random_below(source, 8));
+	put(page, "  Last:\n    LD ");
+	put_bool(page, source);
+	put(page, "\n    %s Mark%d\n", random_chance(source, 50) ? "R" : "STN",
+	    (int)random_below(source, 8));
+}
+
+static void put_action(struct page *page, int number)
+{
+	uint64_t key = chart_key(page->chart->seed, 300u + (uint32_t)number);
+	struct random_source source = chart_source(key);
+	int rungs = 1 + (int)random_below(&source, 4);
+
+	put(page, "  ACTION A%d:\n", number);
+	if (random_chance(&source, 15)) {
+		put_list(page, &source, number);
+		put(page, "  END_ACTION\n");
+		return;
+	}
+	put(page, "    RUNG\n      | [ c%d := c%d + 1 ] |\n", number, number);
+	for (int i = 0; i < rungs; i++) {
+		uint64_t at = chart_key(key, 1u + (uint32_t)i);
+		struct random_source own = chart_source(at);
+
+		if (i + 1 < rungs && !chart_has(page->chart, at))
+			continue;
+		put(page, i + 1 == rungs ? "    RUNG Last\n" : "    RUNG\n");
+		put_body_rung(page, &own, i + 1 == rungs);
+	}
+	put(page, "  END_ACTION\n");
+}
+
+/* ---- the whole ---- */
+
+static void put_control(struct page *page)
+{
+	static const char *const controls[] = {
+		"RESET := CReset", "HOLD := CHold", "SEMI := CSemi", "MANUAL := CManual",
+		"TIP := CTip", "FORCE := CForce",
+	};
+	uint64_t key = chart_key(page->chart->seed, 400);
+	struct random_source source = chart_source(key);
+	const char *between = "  CONTROL(";
+
+	if (!random_chance(&source, 30))
+		return;
+	for (uint32_t i = 0; i < 6; i++) {
+		if (!random_chance(&source, 60) ||
+		    !chart_has(page->chart, chart_key(key, i)))
+			continue;
+		put(page, "%s%s", between, controls[i]);
+		between = ", ";
+	}
+	put(page, *between == ',' ? ");\n" : "");
+}
+
+static void put_many(struct page *page, const char *name, const char *at, int count,
+		     const char *type)
+{
+	for (int i = 0; i < count; i++)
+		if (*at)
+			put(page, "    %s%d AT %s%d : %s;\n", name, i, at, i, type);
+		else
+			put(page, "    %s%d : %s;\n", name, i, type);
+}
+
+static void put_head(struct page *page, bool stable)
+{
+	static const char *const words[] = { "TON", "TOF", "TP" };
+
+	put(page, "RUNGBOARD 1\n\nPROGRAM Chart SFC%s\n  VAR\n",
+	    stable ? " UNTIL STABLE" : "");
+	put_many(page, "In", "%IX0.", 8, "BOOL");
+	put(page, "    CReset AT %%IX1.0 : BOOL;\n    CHold AT %%IX1.1 : BOOL;\n"
+	    "    CSemi AT %%IX1.2 : BOOL;\n    CManual AT %%IX1.3 : BOOL;\n"
+	    "    CTip AT %%IX1.4 : BOOL;\n    CForce AT %%IB2 : USINT;\n");
+	put_many(page, "Out", "%QX0.", 8, "BOOL");
+	put_many(page, "Lamp", "%QX1.", 8, "BOOL");
+	put_many(page, "Mark", "%MX0.", 8, "BOOL");
+	put_many(page, "Alarm", "%MX1.", 4, "BOOL");
+	put_many(page, "b", "", 4, "BOOL");
+	put_many(page, "n", "", 6, "INT");
+	put_many(page, "c", "", ACTIONS, "INT");
+	put(page, "    Wait : TIME := T#40ms;\n");
+	for (int i = 0; i < page->timers; i++)
+		put(page, "    t%d_%d : %s;\n", i % 3, i, words[i % 3]);
+	put(page, "  END_VAR\n\n");
+}
+
+size_t random_chart_print(struct random_chart *chart, char *out, size_t size)
+{
+	static char body[96 * 1024];
+	struct page page = { .chart = chart, .out = body, .size = sizeof(body) };
+	struct page whole = { .chart = chart, .out = out, .size = size };
+	struct random_source source = chart_source(chart_key(chart->seed, 500));
+	bool stable;
+
+	chart->part_count = 0;
+	stable = random_chance(&source, 20) &&
+		 chart_has(chart, chart_key(chart->seed, 501));
+	chart_grow(chart);
+	put_control(&page);
+	put_inside(&page, -1);
+	for (int i = 0; i < ACTIONS; i++)
+		put_action(&page, i);
+	whole.timers = page.timers;
+	put_head(&whole, stable);
+	put(&whole, "%sEND_PROGRAM\n", body);
+	return whole.used;
+}
