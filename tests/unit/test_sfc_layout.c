@@ -1,0 +1,588 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_sfc_layout - charts, thousands of random ones and ones of garbage: nothing crosses,
+ * nothing overlaps, and the lines of the drawing lead where the chart leads.
+ */
+#include "engine/view/sfc_layout.h"
+#include "tests/tap.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { MOST = 5000 };
+
+static struct sfc_step steps[MOST];
+static struct sfc_transition transitions[MOST];
+static struct sfc_ref refs[8 * MOST];
+static struct sfc_use uses[MOST];
+static struct sfc chart = { .step = steps, .transition = transitions, .ref = refs,
+			    .use = uses };
+
+/* ---- charts ---- */
+
+static void clear(void)
+{
+	chart.step_count = chart.transition_count = chart.ref_count = chart.use_count = 0;
+}
+
+static int step(enum step_kind kind, int macro)
+{
+	steps[chart.step_count] = (struct sfc_step){ .kind = kind, .macro = macro,
+		.name = (uint32_t)chart.step_count + 1 };
+	return chart.step_count++;
+}
+
+static void ref(int to)
+{
+	refs[chart.ref_count++] = (struct sfc_ref){ .name = (uint32_t)to + 1,
+						    .step = to };
+}
+
+static int way(int macro)
+{
+	transitions[chart.transition_count] = (struct sfc_transition){ .macro = macro,
+		.first_from = chart.ref_count, .first_to = chart.ref_count };
+	return chart.transition_count++;
+}
+
+static void from(int to)
+{
+	struct sfc_transition *t = &transitions[chart.transition_count - 1];
+
+	ref(to);
+	t->from_count++;
+	t->first_to = chart.ref_count;
+}
+
+static void to(int to)
+{
+	ref(to);
+	transitions[chart.transition_count - 1].to_count++;
+}
+
+static void lead(int a, int b)
+{
+	way(steps[a].macro);
+	from(a);
+	to(b);
+}
+
+/* ---- what must be true of every layout ---- */
+
+static const char *wrong;
+
+static bool covers(const struct sfc_wire *wire, int lane, int row)
+{
+	return lane >= wire->lane && lane <= wire->end_lane && row >= wire->row &&
+	       row <= wire->end_row;
+}
+
+static bool is_down(const struct sfc_wire *wire)
+{
+	return wire->lane == wire->end_lane;
+}
+
+/* Boxes apart from each other, lines touch them at their edges in their lane only. */
+static void check_boxes(const struct sfc_layout *layout)
+{
+	for (int i = 0; i < layout->shape_count; i++) {
+		const struct sfc_shape *a = &layout->shape[i];
+
+		if (a->lane < 0 || a->lane >= layout->lanes || a->top < 0 ||
+		    a->bottom < a->top || a->bottom >= layout->rows)
+			wrong = "a box outside";
+		if (sfc_layout_at(layout, a->lane, a->top) != i ||
+		    sfc_layout_at(layout, a->lane, a->bottom) != i)
+			wrong = "a box that is not found";
+		for (int k = 0; k < i; k++) {
+			const struct sfc_shape *b = &layout->shape[k];
+
+			if (a->lane == b->lane && a->top <= b->bottom &&
+			    b->top <= a->bottom)
+				wrong = "boxes overlap";
+		}
+		for (int k = 0; k < layout->wire_count; k++) {
+			const struct sfc_wire *wire = &layout->wire[k];
+
+			if (a->lane < wire->lane || a->lane > wire->end_lane ||
+			    wire->row > a->bottom || wire->end_row < a->top)
+				continue;
+			if (!is_down(wire) ||
+			    (wire->end_row != a->top && wire->row != a->bottom))
+				wrong = "a line over a box";
+		}
+	}
+}
+
+static void check_wires(const struct sfc_layout *layout)
+{
+	for (int i = 0; i < layout->wire_count; i++) {
+		const struct sfc_wire *a = &layout->wire[i];
+
+		if (a->end_row < a->row || a->end_lane < a->lane ||
+		    (a->row != a->end_row && a->lane != a->end_lane))
+			wrong = "a line that is none";
+		for (int k = 0; k < layout->wire_count; k++) {
+			const struct sfc_wire *b = &layout->wire[k];
+
+			if (i == k || a->lane > b->end_lane || b->lane > a->end_lane ||
+			    a->row > b->end_row || b->row > a->end_row)
+				continue;
+			/* They touch: at an end of those that lead down. */
+			if (!is_down(a) && !is_down(b))
+				wrong = "lines along each other";
+			else if (is_down(a) && is_down(b) && a->end_row != b->row &&
+				 b->end_row != a->row)
+				wrong = "lines down each other";
+			else if (is_down(a) && !is_down(b) && b->row != a->row &&
+				 b->row != a->end_row)
+				wrong = "lines cross";
+		}
+	}
+}
+
+/* Where lines lead from (lane, row): shapes, into the list. */
+static int found[MOST], found_count;
+static bool through[8 * MOST];
+
+static void walk(const struct sfc_layout *layout, int lane, int row)
+{
+	static struct { int lane, row; } stack[8 * MOST];
+	int depth = 0;
+
+	found_count = 0;
+	memset(through, 0, (size_t)layout->wire_count + 1);
+	stack[depth].lane = lane;
+	stack[depth++].row = row;
+	while (depth > 0) {
+		lane = stack[--depth].lane;
+		row = stack[depth].row;
+		for (int i = 0; i < layout->wire_count; i++) {
+			const struct sfc_wire *wire = &layout->wire[i];
+			int at;
+
+			if (through[i] || !covers(wire, lane, row) ||
+			    (is_down(wire) && wire->row != row))
+				continue;
+			through[i] = true;
+			if (!is_down(wire)) {
+				for (int l = wire->lane; l <= wire->end_lane; l++) {
+					stack[depth].lane = l;
+					stack[depth++].row = row;
+				}
+				continue;
+			}
+			at = sfc_layout_at(layout, lane, wire->end_row);
+			if (at >= 0) {
+				found[found_count++] = at;
+			} else {
+				stack[depth].lane = lane;
+				stack[depth++].row = wire->end_row;
+			}
+		}
+	}
+}
+
+/* Is shape @at what a line drawn for @r leads to? */
+static bool is_end(const struct sfc_layout *layout, int at, int r, bool down_to_step,
+		   int transition)
+{
+	const struct sfc_shape *shape = &layout->shape[at];
+
+	if (shape->part == SFC_JUMP)
+		return layout->jump[shape->index].ref == r;
+	if (layout->apart[r])
+		return false;
+	return down_to_step ? shape->part == SFC_STEP && shape->index == refs[r].step :
+			      shape->part == SFC_TRANSITION && shape->index == transition;
+}
+
+static bool is_found(const struct sfc_layout *layout, int r, bool down, int transition)
+{
+	for (int i = 0; i < found_count; i++)
+		if (is_end(layout, found[i], r, down, transition))
+			return true;
+	return false;
+}
+
+/* The first of equal names in a list. */
+static bool is_again(int first, int r)
+{
+	for (int i = first; i < r; i++)
+		if (refs[i].step == refs[r].step && refs[r].step >= 0)
+			return true;
+	return false;
+}
+
+static void check_transition(const struct sfc_layout *layout, int t)
+{
+	const struct sfc_shape *shape = sfc_layout_transition(layout, t);
+	const struct sfc_transition *transition = &transitions[t];
+	int wanted = 0;
+
+	if (shape->part != SFC_TRANSITION || shape->index != t)
+		wrong = "a transition that is another";
+	walk(layout, shape->lane, shape->bottom);
+	for (int i = 0; i < transition->to_count; i++) {
+		int r = transition->first_to + i;
+
+		if (is_again(transition->first_to, r))
+			continue;
+		wanted++;
+		if (!is_found(layout, r, true, t))
+			wrong = "a transition does not lead to its step";
+	}
+	if (found_count != wanted)
+		wrong = "a transition leads elsewhere";
+}
+
+static void check_step(const struct sfc_layout *layout, int s)
+{
+	const struct sfc_shape *shape = sfc_layout_step(layout, s);
+	int wanted = 0;
+
+	if (shape->part != SFC_STEP || shape->index != s ||
+	    shape->bottom - shape->top - 1 != sfc_step_rows(&chart, s))
+		wrong = "a step that is another";
+	walk(layout, shape->lane, shape->bottom);
+	for (int t = 0; t < chart.transition_count; t++) {
+		const struct sfc_transition *transition = &transitions[t];
+
+		for (int i = 0; i < transition->from_count; i++) {
+			int r = transition->first_from + i;
+
+			if (refs[r].step != s || is_again(transition->first_from, r) ||
+			    steps[s].macro != transition->macro)
+				continue;
+			wanted++;
+			if (!is_found(layout, r, false, t))
+				wrong = "a step does not lead to its transition";
+		}
+	}
+	if (found_count != wanted)
+		wrong = "a step leads elsewhere";
+}
+
+static bool is_good(void)
+{
+	struct sfc_layout *layout = sfc_layout_new(&chart);
+
+	wrong = layout ? NULL : "no memory";
+	if (!layout)
+		return false;
+	if (layout->shape_count != chart.step_count + chart.transition_count +
+				   layout->jump_count)
+		wrong = "other boxes than the chart has";
+	check_boxes(layout);
+	check_wires(layout);
+	for (int i = 0; i < chart.transition_count; i++)
+		check_transition(layout, i);
+	for (int i = 0; i < chart.step_count; i++)
+		check_step(layout, i);
+	sfc_layout_free(layout);
+	return !wrong;
+}
+
+/* ---- random charts ---- */
+
+static uint32_t seed;
+
+static int below(int count)
+{
+	seed = seed * 1664525u + 1013904223u;
+	return count > 0 ? (int)((seed >> 8) % (uint32_t)count) : 0;
+}
+
+/* A chart as people draw them: sequences, branches of both kinds, in one another. */
+static int grow(int at, int depth, int macro)
+{
+	int count = 1 + below(3), next;
+
+	for (int i = 0; i < count; i++) {
+		int kind = depth > 0 ? below(4) : 0;
+
+		if (kind == 0 || kind == 3) {
+			next = step(STEP_PLAIN, macro);
+			steps[next].column = below(20) == 0 ? 1 + below(6) : 0;
+			lead(at, next);
+			if (below(5) == 0)
+				lead(at, below(chart.step_count));
+			at = next;
+		} else if (kind == 1) {
+			int end[4], ways = 2 + below(3), last;
+
+			for (int k = 0; k < ways; k++) {
+				next = step(STEP_PLAIN, macro);
+				lead(at, next);
+				end[k] = grow(next, depth - 1, macro);
+			}
+			last = step(STEP_PLAIN, macro);
+			for (int k = 0; k < ways; k++)
+				if (below(5))
+					lead(end[k], last);
+				else
+					lead(end[k], below(chart.step_count));
+			at = last;
+		} else {
+			int begin[4], end[4], ways = 2 + below(3);
+
+			way(macro);
+			from(at);
+			for (int k = 0; k < ways; k++)
+				to(begin[k] = step(STEP_PLAIN, macro));
+			for (int k = 0; k < ways; k++)
+				end[k] = grow(begin[k], depth - 1, macro);
+			next = step(STEP_PLAIN, macro);
+			way(macro);
+			for (int k = 0; k < ways; k++)
+				from(end[k]);
+			to(next);
+			at = next;
+		}
+	}
+	return at;
+}
+
+static void random_chart(uint32_t number)
+{
+	int first;
+
+	seed = number;
+	clear();
+	first = step(STEP_INITIAL, -1);
+	lead(grow(first, 1 + below(3), -1), first);
+	for (int i = below(3); i > 0; i--) {
+		int macro = below(chart.step_count);
+
+		steps[macro].kind = STEP_MACRO;
+		grow(step(STEP_INITIAL, macro), 1, macro);
+	}
+	for (int i = 0; i < chart.transition_count; i++)
+		transitions[i].priority = below(4);
+}
+
+static void random_garbage(uint32_t number)
+{
+	int count, ways;
+
+	seed = number;
+	clear();
+	count = below(24);
+	ways = below(40);
+	for (int i = 0; i < count; i++) {
+		step((enum step_kind)below(3), below(6) ? -1 : below(count + 2) - 1);
+		steps[i].column = below(3) ? 0 : below(200) - 20;
+		steps[i].min = (uint32_t)below(2);
+	}
+	for (int i = 0; i < ways; i++) {
+		way(below(6) ? -1 : below(count) - (count == 0));
+		for (int k = below(below(4) ? 3 : 6); k > 0; k--)
+			from(below(count + 1) - 1);
+		for (int k = below(below(4) ? 3 : 6); k > 0; k--)
+			to(below(count + 1) - 1);
+		transitions[i].priority = below(5) - 1;
+	}
+	for (int i = 0; i < count; i++)
+		steps[i].macro = steps[i].macro >= count ? -1 : steps[i].macro;
+}
+
+static void check_many(void (*make)(uint32_t number), int count, const char *what)
+{
+	int bad = 0, jumps = 0, most = 0;
+
+	for (int i = 1; i <= count; i++) {
+		make((uint32_t)i);
+		if (!is_good() && bad++ == 0)
+			printf("# %s %d: %s\n", what, i, wrong);
+		jumps += chart.ref_count > 0;
+		most = chart.step_count > most ? chart.step_count : most;
+	}
+	printf("# %s: %d, of up to %d steps\n", what, count, most);
+	CHECK_AS(bad == 0 && jumps > count / 2, what);
+}
+
+/* ---- charts that are known ---- */
+
+static void check_sequence(void)
+{
+	struct sfc_layout *layout;
+
+	clear();
+	step(STEP_INITIAL, -1);
+	step(STEP_PLAIN, -1);
+	step(STEP_PLAIN, -1);
+	lead(0, 1);
+	lead(1, 2);
+	lead(2, 0);
+	steps[1].use_count = 3;
+	CHECK(is_good());
+	layout = sfc_layout_new(&chart);
+	CHECK(layout && layout->lanes == 1 && layout->jump_count == 1);
+	CHECK(layout && layout->shape[1].top == 4 && layout->shape[1].bottom == 8);
+	CHECK(layout && layout->jump[0].from == 2 && layout->jump[0].target == 0 &&
+	      !layout->jump[0].to_transition);
+	CHECK(layout && sfc_layout_use(layout, 1, 4) == -1 &&
+	      sfc_layout_use(layout, 1, 7) == 2 && sfc_layout_use(layout, 1, 8) == -1);
+	CHECK(layout && sfc_layout_at(layout, 0, 3) == 3 &&
+	      sfc_layout_at(layout, 1, 3) == -1 && sfc_layout_at(layout, 0, 99) == -1);
+	sfc_layout_free(layout);
+}
+
+/* From S2 to S3 or S4, both to S5; from there S6 and S7 together, to S8. */
+static void check_reference(void)
+{
+	struct sfc_layout *layout;
+
+	clear();
+	for (int i = 0; i < 9; i++)
+		step(i ? STEP_PLAIN : STEP_INITIAL, -1);
+	lead(0, 1);
+	lead(1, 2);
+	lead(2, 3);
+	lead(2, 4);
+	lead(3, 5);
+	lead(4, 5);
+	way(-1);
+	from(5);
+	to(6);
+	to(7);
+	way(-1);
+	from(6);
+	from(7);
+	to(8);
+	lead(8, 0);
+	CHECK(is_good());
+	layout = sfc_layout_new(&chart);
+	CHECK(layout && layout->lanes == 2 && layout->jump_count == 1 &&
+	      layout->frame_count == 1);
+	CHECK(layout && layout->shape[3].lane == 0 && layout->shape[4].lane == 1 &&
+	      layout->shape[3].top == layout->shape[4].top);
+	CHECK(layout && layout->shape[6].lane == 0 && layout->shape[7].lane == 1);
+	int twins = 0;
+	for (int i = 0; layout && i < layout->wire_count; i++)
+		twins += layout->wire[i].twin;
+	CHECK(twins == 2);
+	sfc_layout_free(layout);
+	steps[4].column = 4;
+	layout = sfc_layout_new(&chart);
+	CHECK_AS(layout && layout->shape[4].lane == 3, "a hint is heard");
+	sfc_layout_free(layout);
+	steps[4].column = 0;
+}
+
+/* Each of sixty steps may give up: that takes two lanes, not sixty. */
+static void check_narrow(bool first)
+{
+	struct sfc_layout *layout;
+
+	clear();
+	for (int i = 0; i < 60; i++)
+		step(i ? STEP_PLAIN : STEP_INITIAL, -1);
+	for (int i = 0; i < 60; i++) {
+		lead(i, first ? 0 : (i + 1) % 60);
+		lead(i, first ? (i + 1) % 60 : 0);
+	}
+	CHECK(is_good());
+	layout = sfc_layout_new(&chart);
+	CHECK(layout && layout->lanes == 2 && layout->jump_count == 61);
+	sfc_layout_free(layout);
+}
+
+static void check_macro(void)
+{
+	struct sfc_layout *layout;
+
+	clear();
+	step(STEP_INITIAL, -1);
+	step(STEP_MACRO, -1);
+	step(STEP_INITIAL, 1);
+	step(STEP_PLAIN, 1);
+	lead(0, 1);
+	lead(1, 0);
+	lead(2, 3);
+	CHECK(is_good());
+	layout = sfc_layout_new(&chart);
+	CHECK(layout && layout->frame_count == 2 && layout->frame[1].macro == 1 &&
+	      layout->frame[1].title > layout->frame[0].bottom &&
+	      layout->shape[2].top == layout->frame[1].top);
+	sfc_layout_free(layout);
+	clear();
+	layout = sfc_layout_new(&chart);
+	CHECK_AS(layout && layout->rows == 0 && layout->frame_count == 0, "no chart");
+	CHECK(layout && sfc_layout_at(layout, 0, 0) == -1);
+	sfc_layout_free(layout);
+}
+
+/* ---- time ---- */
+
+static double seconds(void (*make)(void))
+{
+	struct timespec a, b;
+
+	make();
+	clock_gettime(CLOCK_MONOTONIC, &a);
+	struct sfc_layout *layout = sfc_layout_new(&chart);
+	clock_gettime(CLOCK_MONOTONIC, &b);
+	printf("# %d steps, %d transitions: %d lanes, %d rows\n", chart.step_count,
+	       chart.transition_count, layout->lanes, layout->rows);
+	sfc_layout_free(layout);
+	return (double)(b.tv_sec - a.tv_sec) + (double)(b.tv_nsec - a.tv_nsec) / 1e9;
+}
+
+static void thousand(void)
+{
+	clear();
+	seed = 7;
+	step(STEP_INITIAL, -1);
+	for (int at = 0; chart.step_count < 1000;)
+		at = grow(at, 2, -1);
+}
+
+/* All steps but the first have a way to one and the same. */
+static void stairs(int count)
+{
+	clear();
+	for (int i = 0; i < count; i++)
+		step(i ? STEP_PLAIN : STEP_INITIAL, -1);
+	for (int i = 0; i < count - 2; i++) {
+		if (i > 0)
+			lead(i, count - 1);
+		lead(i, i + 1);
+	}
+}
+
+static void staircase(void)
+{
+	stairs(2400);
+}
+
+static void check_time(void)
+{
+	double a = seconds(thousand), b = seconds(staircase);
+
+	printf("# %.1f ms, %.1f ms\n", a * 1e3, b * 1e3);
+	CHECK_AS(a < 0.5 && b < 2, "large charts");
+}
+
+int main(void)
+{
+	struct sfc_layout *layout;
+
+	check_sequence();
+	check_reference();
+	check_narrow(false);
+	check_narrow(true);
+	stairs(60);
+	CHECK_AS(is_good(), "many ways to one step");
+	layout = sfc_layout_new(&chart);
+	printf("# %d lanes\n", layout ? layout->lanes : 0);
+	CHECK(layout && layout->lanes < 8);
+	sfc_layout_free(layout);
+	check_macro();
+	check_many(random_chart, 2000, "random charts");
+	check_many(random_garbage, 4000, "charts of garbage");
+	check_time();
+	return tap_done();
+}
