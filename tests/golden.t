@@ -8,6 +8,7 @@
 #   expected.il     what `ladder il` prints
 #   expected.trace  what `ladder trace main.rung stimulus` prints
 #   expected.why    what `ladder why main.rung stimulus COIL` prints, of each line in `ask`
+#   expected.show   what `ladder show main.rung` draws; expected.ascii: with --ascii
 #   expected.fault  the same of a program that ends with a fault, and what is said of it
 # The cases together must show every message of diag.def and trace every word of
 # catalog.def. `--bless CASE` rewrites what a case expects and shows the difference:
@@ -28,6 +29,8 @@ my %command = (
 	il    => ['il', 'main.rung'],
 	trace => ['trace', 'main.rung', 'stimulus'],
 	fault => ['trace', 'main.rung', 'stimulus'],
+	show  => ['show', 'main.rung'],
+	ascii => ['show', '--ascii', 'main.rung'],
 	why   => [],
 );
 

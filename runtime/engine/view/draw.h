@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * draw - what one rung's drawing needs to know; shared by show.c and
- * show_box.c.
+ * draw - what one rung's drawing needs to know; shared by show.c, show_box.c and
+ * show_sfc.c.
  *
  * Used inside view/ only. Every text line is put out from left to right;
  * nothing is painted over, so the drawing needs no canvas and wide characters
@@ -79,6 +79,12 @@ int draw_clipped(const char *text, size_t len, int limit);
 int draw_text(const struct draw *draw, const char *text, size_t len, int limit);
 /** draw_goes_right - does the cell's right end reach its bar? */
 bool draw_goes_right(const struct draw *draw, int row, int col);
+
+/** draw_rung - draw->rung with its texts, as wide as draw->options say (show.c). */
+void draw_rung(struct draw *draw);
+/** draw_sfc - a chart, and below it what stands in it as rungs and lists (show_sfc.c).
+ * Fails: false: no memory. */
+bool draw_sfc(struct draw *draw, const struct pou *pou);
 
 /** box_top - first row of the box that covers the cell, -1: none does. */
 int box_top(const struct rung *rung, int row, int col);

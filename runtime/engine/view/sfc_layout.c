@@ -388,6 +388,33 @@ static bool find_apart(struct sfc_layout *layout, const struct sfc_graph *graph)
 	return true;
 }
 
+/* Transitions behind a step are asked from left to right, unless one has a priority or
+ * stands elsewhere for being short. */
+static bool find_turns(struct sfc_layout *layout, const struct sfc_graph *graph)
+{
+	const struct sfc *sfc = layout->sfc;
+
+	layout->turn = arena_alloc(&layout->arena, ((size_t)graph->transitions + 1) *
+				   sizeof(int));
+	for (int s = 0; layout->turn && s < graph->steps; s++) {
+		const int first = graph->first[s], end = graph->first[s + 1];
+		bool told = false;
+		int lane = -1;
+
+		for (int e = first; e < end && end - first > 1; e++) {
+			const int at = layout->shape[graph->edge[e].to].lane;
+
+			told |= at < lane ||
+				sfc->transition[graph->edge[e].to - graph->steps]
+				.priority > 0;
+			lane = at;
+		}
+		for (int e = first; told && e < end; e++)
+			layout->turn[graph->edge[e].to - graph->steps] = e - first + 1;
+	}
+	return layout->turn != NULL;
+}
+
 static bool make_layout(struct sfc_layout *layout, struct sfc_weave *weave)
 {
 	struct sewing sewing = { .weave = weave };
@@ -406,7 +433,7 @@ static bool make_layout(struct sfc_layout *layout, struct sfc_weave *weave)
 	place_strips(weave);
 	place_wires(weave);
 	return place_shapes(&sewing) && sort_shapes(weave) &&
-	       find_apart(layout, &weave->graph);
+	       find_apart(layout, &weave->graph) && find_turns(layout, &weave->graph);
 }
 
 struct sfc_layout *sfc_layout_new(const struct sfc *sfc)

@@ -62,6 +62,9 @@ struct sfc_layout {
 	struct sfc_frame *frame;
 	int frame_count;
 	bool *apart;        /* by sfc.ref: no line joins it                    */
+	int *turn;          /* by transition: whose turn it is among those of its
+			       step, from 1, where the drawing does not tell;
+			       else 0                                          */
 	int lanes, rows;
 	struct arena arena; /* for all of it                                   */
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * show - draws rungs as text, the way an electrician draws them.
+ * show - draws rungs and charts as text, the way an electrician draws them.
  *
  * First every column and line of a rung is measured, then each text line is put
  * out from left to right. It draws what stands in the grid, right or wrong.
@@ -472,8 +472,10 @@ static void draw_line(struct draw *draw, int row, int line)
 	sink_text(draw->sink, "\n");
 }
 
-static void draw_rung(struct draw *draw, int wanted)
+void draw_rung(struct draw *draw)
 {
+	const int wanted = draw->options ? draw->options->width : 0;
+
 	for (int row = 0; row < draw->rung->rows; row++)
 		draw->trail[row] = trail_of(draw, row);
 	measure_columns(draw, wanted);
@@ -497,8 +499,7 @@ static int digits(int number)
 	return count;
 }
 
-static int show_ld(struct draw *draw, const struct pou *pou, int rung,
-		   int wanted)
+static int show_ld(struct draw *draw, const struct pou *pou, int rung)
 {
 	int first = rung ? rung - 1 : 0;
 	int end = rung ? rung : pou->rung_count;
@@ -511,13 +512,19 @@ static int show_ld(struct draw *draw, const struct pou *pou, int rung,
 			sink_text(draw->sink, "\n");
 		draw->rung = pou->rung[i];
 		draw->number = i + 1;
-		draw_rung(draw, wanted);
+		draw_rung(draw);
 	}
 	return end - first;
 }
 
-static int show_pou(struct draw *draw, const struct pou *pou, int rung,
-		    int wanted)
+static int show_sfc(struct draw *draw, const struct pou *pou)
+{
+	sink_text(draw->sink, "\n");
+	draw->margin = digits(pou->rung_count);
+	return draw_sfc(draw, pou) ? 1 : -1;
+}
+
+static int show_pou(struct draw *draw, const struct pou *pou, int rung)
 {
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)
@@ -531,9 +538,11 @@ static int show_pou(struct draw *draw, const struct pou *pou, int rung,
 		plain_text(draw->sink, project_text(draw->project, pou->name));
 		if (draw->options && draw->options->instance)
 			sink_printf(draw->sink, " as %.100s", draw->options->instance);
-		sink_text(draw->sink, pou->rung_count ? "\n\n" : "\n");
+		sink_text(draw->sink, pou->rung_count && !pou->sfc ? "\n\n" : "\n");
+		if (pou->sfc)
+			return show_sfc(draw, pou);
 	}
-	return show_ld(draw, pou, rung, wanted);
+	return show_ld(draw, pou, rung);
 }
 
 int view_show(const struct project *project, int pou, int rung,
@@ -556,8 +565,7 @@ int view_show(const struct project *project, int pou, int rung,
 		if (drawn > 0)
 			sink_text(sink, "\n");
 		draw->pou = i;
-		more = show_pou(draw, &project->pou[i], rung,
-				options ? options->width : 0);
+		more = show_pou(draw, &project->pou[i], rung);
 		drawn += more;
 	}
 	free(draw);
