@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/chart_view.h"
 
+#include "editor-gtk/chart_kept.h"
 #include "editor-gtk/i18n.h"
 
 #include "engine/trial/value.h"
@@ -17,6 +18,7 @@ struct _LadderChartView {
 	LadderSim *sim;
 	LadderChartArea *area;
 	bool chosen;             /* a person said what is to be seen            */
+	bool keeping;            /* what the document keeps changes by itself   */
 	GtkSearchEntry *wanted;
 	GtkStringList *names;
 	GtkFilterListModel *found;
@@ -62,30 +64,97 @@ static void take_first(LadderChartView *view, const struct symbol *symbol)
 		chart_add(chart, symbol->name);
 }
 
-static void program_changed(LadderChartView *view)
+static void drop_lines(LadderChartView *view)
 {
 	struct chart *chart = ladder_chart_area_chart(view->area);
 
-	if (view->chosen || !ladder_sim_is_on(view->sim))
-		return;
 	while (chart_lines(chart))
 		chart_remove(chart, 0);
+}
+
+static void program_changed(LadderChartView *view)
+{
+	if (view->chosen || !ladder_sim_is_on(view->sim))
+		return;
+	drop_lines(view);
 	each_name(view, take_first);
 	ladder_chart_area_lines_changed(view->area);
 }
 
-bool ladder_chart_view_add(LadderChartView *view, const char *name)
+/* ---- what the project keeps ---- */
+
+static LadderDocument *document_of(LadderChartView *view)
 {
-	if (!chart_add(ladder_chart_area_chart(view->area), name))
-		return false;
-	view->chosen = true;
-	ladder_chart_area_lines_changed(view->area);
-	return true;
+	return ladder_sim_document(view->sim);
 }
 
-static void chosen(LadderChartView *view)
+/* Of the chart. Caller: g_free(); the names are borrowed. */
+static const char **names_of(LadderChartView *view)
 {
-	view->chosen = true;
+	struct chart *chart = ladder_chart_area_chart(view->area);
+	const char **names = g_new0(const char *, (gsize)chart_lines(chart) + 1);
+
+	for (int i = 0; i < chart_lines(chart); i++)
+		names[i] = chart_name(chart, i);
+	return names;
+}
+
+static void keep(LadderChartView *view)
+{
+	const char **names = names_of(view);
+
+	view->chosen = names[0] != NULL;
+	view->keeping = true;
+	chart_kept_put(document_of(view), names);
+	view->keeping = false;
+	g_free(names);
+}
+
+/* Another file, or an undo: the chart is what the project keeps. */
+static void read_kept(LadderChartView *view)
+{
+	char **kept = view->keeping ? NULL :
+		chart_kept_read(ladder_document_view(document_of(view)));
+	const char **names = names_of(view);
+
+	if (kept && kept[0] && !g_strv_equal((const char *const *)kept, names)) {
+		drop_lines(view);
+		for (char **name = kept; *name; name++)
+			chart_add(ladder_chart_area_chart(view->area), *name);
+		view->chosen = true;
+		ladder_chart_area_lines_changed(view->area);
+	} else if (kept && !kept[0] && view->chosen) {
+		view->chosen = false;
+		drop_lines(view);
+		program_changed(view);
+		ladder_chart_area_lines_changed(view->area);
+	}
+	g_free(names);
+	g_strfreev(kept);
+}
+
+/* "Table[1,2]" of "Table[1, 2]": a blank ends a name where it is kept. Caller frees. */
+static char *without_blanks(const char *name)
+{
+	GString *out = g_string_new(NULL);
+
+	for (; *name; name++)
+		if ((guchar)*name > ' ' && *name != 127)
+			g_string_append_c(out, *name);
+	return g_string_free(out, FALSE);
+}
+
+bool ladder_chart_view_add(LadderChartView *view, const char *name)
+{
+	char *plain = without_blanks(name);
+	const bool good = *plain && chart_add(ladder_chart_area_chart(view->area), plain);
+
+	g_free(plain);
+	if (!good)
+		return false;
+	ladder_chart_area_lines_changed(view->area);
+	keep(view);
+	return true;
 }
 
 /* ---- adding ---- */
@@ -258,6 +327,8 @@ static void ladder_chart_view_dispose(GObject *object)
 {
 	LadderChartView *view = LADDER_CHART_VIEW(object);
 
+	if (view->sim)
+		g_signal_handlers_disconnect_by_data(document_of(view), view);
 	g_clear_object(&view->sim);
 	G_OBJECT_CLASS(ladder_chart_view_parent_class)->dispose(object);
 }
@@ -293,7 +364,12 @@ GtkWidget *ladder_chart_view_new(LadderSim *sim)
 	gtk_box_append(GTK_BOX(view), scroller);
 	g_signal_connect_object(sim, "program-changed", G_CALLBACK(program_changed), view,
 				G_CONNECT_SWAPPED);
-	g_signal_connect_object(area, "lines-changed", G_CALLBACK(chosen), view,
+	g_signal_connect_object(area, "lines-changed", G_CALLBACK(keep), view,
 				G_CONNECT_SWAPPED);
+	g_signal_connect_swapped(document_of(view), "bookmarks-changed",
+				 G_CALLBACK(read_kept), view);
+	g_signal_connect_swapped(document_of(view), "project-changed",
+				 G_CALLBACK(read_kept), view);
+	read_kept(view);
 	return GTK_WIDGET(view);
 }

@@ -28,6 +28,7 @@ struct _LadderSim {
 	char *plant_path;
 	struct sim_program *plant;
 	/* Another program is built: */
+	struct sim_program *newest; /* that the thread was given last          */
 	guint64 version;            /* of the document that the last one was of */
 	bool building;
 };
@@ -157,6 +158,8 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 	sim->refused = 0;
 	sim->failed = false;
 	sim->thread = thread;
+	sim_program_unref(sim->newest);
+	sim->newest = sim_program_ref(program);
 	if (sim->speed > 0)
 		sim_thread_speed(sim->thread, sim->speed);
 	sim->version = ladder_document_version(sim->document);
@@ -289,6 +292,16 @@ static void rebuild_run(GTask *task, gpointer source, gpointer data,
 
 static void checked(LadderSim *sim);
 
+/* A bookmark, or a variable of a chart, makes no other program. */
+static void exchange(LadderSim *sim, struct sim_program *program)
+{
+	if (sim_program_is_same(sim->newest, program))
+		return;
+	sim_thread_change(sim->thread, program);
+	sim_program_unref(sim->newest);
+	sim->newest = sim_program_ref(program);
+}
+
 static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
 {
 	LadderSim *sim = LADDER_SIM(object);
@@ -298,7 +311,7 @@ static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
 	(void)unused;
 	sim->building = false;
 	if (program && sim->thread) {
-		sim_thread_change(sim->thread, program);
+		exchange(sim, program);
 		sim->version = rebuild->version;
 	}
 	if (program && rebuild->version == ladder_document_version(sim->document))
@@ -559,6 +572,7 @@ static void ladder_sim_dispose(GObject *object)
 	forget_replay(sim);
 	sim_view_clear(&sim->view);
 	g_clear_pointer(&sim->plant, sim_program_unref);
+	g_clear_pointer(&sim->newest, sim_program_unref);
 	g_clear_pointer(&sim->rungs, sim_rungs_free);
 	if (sim->document)
 		g_signal_handlers_disconnect_by_data(sim->document, sim);

@@ -22,6 +22,9 @@ struct sim_program *sim_program_new(const char *file, const char *text, gsize le
 				    GError **error);
 struct sim_program *sim_program_ref(struct sim_program *program);
 void sim_program_unref(struct sim_program *program);
+/** sim_program_is_same - do they run the same, and show the same? Texts may differ in what
+ * an editor keeps for itself, such as bookmarks. */
+bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b);
 
 /* ---- sim_thread.c: it scans, and hands out copies ---- */
 

@@ -7,6 +7,8 @@
 #include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
 
+#include <string.h>
+
 static const struct diag *first_error(const struct diag_list *diags)
 {
 	for (int i = 0; i < diags->count; i++)
@@ -59,6 +61,33 @@ struct sim_program *sim_program_new(const char *file, const char *text, gsize le
 	}
 	program->program = ladder_program(program->ladder);
 	return program;
+}
+
+/* The text without its VIEW part. Caller frees. */
+static char *plain_text(const struct sim_program *program)
+{
+	const struct project *project = ladder_project(program->ladder);
+	const char *view = project ? project_view(project) : "";
+	const char *at = *view ? strstr(program->text, view) : NULL;
+
+	return at ? g_strdup_printf("%.*s%s", (int)(at - program->text), program->text,
+				    at + strlen(view)) : g_strdup(program->text);
+}
+
+bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b)
+{
+	const struct code_header *x = a->program->header, *y = b->program->header;
+	char *left, *right;
+	bool same;
+
+	if (x->size != y->size || memcmp(a->program->base, b->program->base, x->size) != 0)
+		return false;
+	left = g_strchomp(plain_text(a));
+	right = g_strchomp(plain_text(b));
+	same = strcmp(left, right) == 0;
+	g_free(left);
+	g_free(right);
+	return same;
 }
 
 struct sim_program *sim_program_ref(struct sim_program *program)

@@ -8,6 +8,7 @@
 #include "editor-gtk/iomap_check.h"
 #include "editor-gtk/iomap_rows.h"
 #include "editor-gtk/iomap_uses.h"
+#include "tests/editor/soon.h"
 #include "tests/tap.h"
 
 #include <glib/gstdio.h>
@@ -145,12 +146,6 @@ static void at_end(LadderBoardRun *run, int with)
 }
 
 /* Turns the loop until it is so; generous, only a hang waits long. */
-#define WAIT(condition) \
-	for (int wait_turns = 0; wait_turns < 3000 && !(condition); wait_turns++) \
-		for (int wait_inner = 0; wait_inner < 10; wait_inner++) { \
-			g_main_context_iteration(NULL, FALSE); \
-			g_usleep(1000); \
-		}
 
 /* A ladderd that is a script. */
 static LadderBoardRun *start(const char *script)

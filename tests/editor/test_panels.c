@@ -10,6 +10,7 @@
 #include "editor-gtk/symbols_view.h"
 #include "editor-gtk/uses_view.h"
 #include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -41,24 +42,6 @@ static void go_to(GSimpleAction *action, GVariant *place, gpointer unused)
 	g_variant_get(place, "(iiii)", &at[0], &at[1], &at[2], &at[3]);
 	g_snprintf(gone_to, sizeof(gone_to), "%d %d %d %d", at[0], at[1], at[2], at[3]);
 }
-
-static void turn(int ms)
-{
-	const gint64 end = g_get_monotonic_time() + ms * 1000;
-
-	do {
-		g_main_context_iteration(NULL, FALSE);
-		g_usleep(1000);
-	} while (g_get_monotonic_time() < end);
-}
-
-/* Turns until it holds, for as long as a slow machine may take. */
-#define WAIT(condition) \
-	do { \
-		for (int wait_turns = 0; wait_turns < 1000 && !(condition); wait_turns++) \
-			turn(10); \
-	} while (0)
-#define CHECK_SOON(condition) do { WAIT(condition); CHECK(condition); } while (0)
 
 static void put(GtkWidget *child)
 {

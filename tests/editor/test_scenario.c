@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/scenario_record.h"
 #include "editor-gtk/scenario_run.h"
+#include "tests/editor/soon.h"
 #include "tests/tap.h"
 
 #include <glib/gstdio.h>
@@ -25,16 +26,6 @@ static LadderSim *sim;
 static LadderRecorder *recorder;
 static char *why;
 static int endings;
-
-#define WAIT(condition) \
-	do { \
-		const gint64 wait_end = g_get_monotonic_time() + 60 * G_USEC_PER_SEC; \
-		while (!(condition) && g_get_monotonic_time() < wait_end) { \
-			g_main_context_iteration(NULL, FALSE); \
-			g_usleep(200); \
-		} \
-	} while (0)
-#define CHECK_SOON(condition) do { WAIT(condition); CHECK(condition); } while (0)
 
 static void ended(LadderRecorder *unused, const char *text, gpointer data)
 {

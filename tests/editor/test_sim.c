@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/chart.h"
 #include "editor-gtk/sim_inside.h"
+#include "tests/editor/soon.h"
 #include "tests/tap.h"
 
 #include "engine/base/limits.h"
@@ -47,15 +48,6 @@ static gint64 value(const char *name)
 	return image_get(image(), image_find(image(), name, strlen(name))).i;
 }
 
-/* Waits for at most ten seconds. */
-#define UNTIL(condition) do { \
-	const gint64 until = g_get_monotonic_time() + 10000000; \
-	while (!(condition) && g_get_monotonic_time() < until) \
-		if (!g_main_context_iteration(NULL, FALSE)) \
-			g_usleep(200); \
-	CHECK_AS(condition, #condition); \
-} while (0)
-
 static void act(enum act_kind kind, const char *name, gint64 to)
 {
 	ladder_sim_act(sim, &(struct act){ .kind = kind, .value.i = to,
@@ -77,18 +69,18 @@ static void test_states(void)
 	CHECK(ladder_sim_begin(sim, NULL));
 	CHECK(ladder_sim_state(sim) == SIM_STOP && states > 0);
 	ladder_sim_scan(sim, 5);
-	UNTIL(ladder_sim_twin(sim)->scan == 5);
+	CHECK_SOON(ladder_sim_twin(sim)->scan == 5);
 	CHECK(ladder_sim_state(sim) == SIM_PAUSE && value("Count") == 5);
 	CHECK(ladder_sim_twin(sim)->now_ns == 5 * SIM_PERIOD);
 	ladder_sim_run(sim);
-	UNTIL(value("Count") > 20);
+	CHECK_SOON(value("Count") > 20);
 	CHECK(ladder_sim_state(sim) == SIM_RUN);
 	ladder_sim_pause(sim);
-	UNTIL(ladder_sim_state(sim) == SIM_PAUSE);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_PAUSE);
 	ladder_sim_reset(sim, false);
-	UNTIL(value("Count") == 0);
+	CHECK_SOON(value("Count") == 0);
 	ladder_sim_stop(sim);
-	UNTIL(ladder_sim_state(sim) == SIM_STOP);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
 }
 
 static void test_acts(void)
@@ -96,20 +88,20 @@ static void test_acts(void)
 	const gint64 before = value("Count");
 
 	act(ACT_SET, "Go", 1);
-	UNTIL(value("Go") == 1);
+	CHECK_SOON(value("Go") == 1);
 	CHECK_AS(value("Lamp") == 0 && value("Count") == before, "at once, without a scan");
 	ladder_sim_scan(sim, 1);
-	UNTIL(value("Lamp") == 1);
+	CHECK_SOON(value("Lamp") == 1);
 	act(ACT_SET, "Go", 0);
 	act(ACT_FORCE, "Lamp", 1);
 	ladder_sim_scan(sim, 2);
-	UNTIL(value("Count") == 3);
+	CHECK_SOON(value("Count") == 3);
 	CHECK(value("Lamp") == 1 && ladder_sim_forces(sim) == 1);
 	CHECK(ladder_sim_is_forced(sim, image_find(image(), "Lamp", 4)));
 	act(ACT_RELEASE, "Lamp", 0);
-	UNTIL(ladder_sim_forces(sim) == 0);
+	CHECK_SOON(ladder_sim_forces(sim) == 0);
 	ladder_sim_scan(sim, 1);
-	UNTIL(value("Count") == 4);
+	CHECK_SOON(value("Count") == 4);
 	CHECK(value("Lamp") == 0);
 }
 
@@ -126,7 +118,7 @@ static void test_past(void)
 	CHECK(ladder_sim_show(sim, last - 1));
 	act(ACT_SET, "Go", 1);
 	CHECK_AS(!ladder_sim_is_past(sim), "an act ends the look at the past");
-	UNTIL(value("Go") == 1);
+	CHECK_SOON(value("Go") == 1);
 }
 
 static void test_chart(void)
@@ -152,7 +144,7 @@ static void test_chart(void)
 	CHECK_AS(good, "every scan of the chart is what the scan was");
 	ladder_sim_show_now(sim);
 	ladder_sim_scan(sim, 30000);
-	UNTIL(ladder_sim_twin(sim)->scan > 30000);
+	CHECK_SOON(ladder_sim_twin(sim)->scan > 30000);
 	while (chart_feed(chart, 1000000))
 		;
 	CHECK(chart_end(chart) - chart_first(chart) == CHART_SCANS);
@@ -169,15 +161,15 @@ static void test_fault(void)
 	g_clear_pointer(&told, g_free);
 	act(ACT_SET, "Go", 1);
 	ladder_sim_scan(sim, 1);
-	UNTIL(value("Lamp") == 1);
+	CHECK_SOON(value("Lamp") == 1);
 	act(ACT_SET, "Spin", 1);
 	ladder_sim_run(sim);
-	UNTIL(ladder_sim_state(sim) == SIM_FAULT);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_FAULT);
 	CHECK(told && strstr(told, "budget") && strstr(told, "rung 3"));
 	CHECK(ladder_sim_twin(sim)->resource.fault_at.rung == 3);
 	CHECK_AS(value("Lamp") == 0, "outputs are safe in a fault");
 	ladder_sim_run(sim);
-	UNTIL(ladder_sim_state(sim) == SIM_RUN);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_RUN);
 	CHECK_AS(value("Spin") == 0 && value("Go") == 1,
 		 "a start is cold and clears the fault; switches stay");
 	ladder_sim_end(sim);
@@ -194,16 +186,16 @@ static void test_change(void)
 	text = ladder_document_text(document, NULL);
 	CHECK(ladder_sim_begin(sim, NULL));
 	ladder_sim_scan(sim, 7);
-	UNTIL(value("Count") == 7);
+	CHECK_SOON(value("Count") == 7);
 	CHECK(ladder_sim_rung(sim, 0, 2) == 2);
 	CHECK(ladder_document_replace(document, (gsize)(strstr(text, "RUNG Again") - text), 0,
 		"RUNG\n  | NC Go | COIL %QX0.1 |\n", NULL));
 	g_free(text);
 	count = value("Count");
-	UNTIL(ladder_sim_rung(sim, 0, 3) == 3 && image_find(image(), "%QX0.1", 6).type !=
+	CHECK_SOON(ladder_sim_rung(sim, 0, 3) == 3 && image_find(image(), "%QX0.1", 6).type !=
 	      IEC_NONE && value("Count") == count);
 	ladder_sim_scan(sim, 1);
-	UNTIL(value("Count") == count + 1);
+	CHECK_SOON(value("Count") == count + 1);
 	CHECK(value("%QX0.1") == 1);
 	CHECK_AS(ladder_sim_twin(sim)->scan == 8, "scans go on");
 	ladder_sim_end(sim);
@@ -281,7 +273,7 @@ static void test_stale(void)
 
 static void told_is(const char *word)
 {
-	UNTIL(told && strstr(told, word));
+	CHECK_SOON(told && strstr(told, word));
 	g_clear_pointer(&told, g_free);
 }
 
@@ -299,7 +291,7 @@ static void test_refused(void)
 		for (guint i = 0; i < LIMIT_FORCES; i++)
 			ladder_sim_act(sim, &(struct act){ .kind = ACT_FORCE,
 				.at = { .type = IEC_BOOL, .area = AREA_M, .where = i } });
-		UNTIL(ladder_sim_forces(sim) == LIMIT_FORCES);
+		CHECK_SOON(ladder_sim_forces(sim) == LIMIT_FORCES);
 		CHECK(!told);
 		act(ACT_FORCE, "Count", 7);
 		told_is("too much is forced already");
@@ -319,15 +311,15 @@ static void test_failed(void)
 		ladder_sim_scan(sim, 2);
 		g_clear_pointer(&told, g_free);
 		act(ACT_SET, "Minutes", 0);
-		UNTIL(value("Minutes") == 0 && !told);
+		CHECK_SOON(value("Minutes") == 0 && !told);
 		ladder_sim_scan(sim, 2);
 		told_is("division by zero: Main, rung 2 (1,2)");
 		CHECK(ladder_sim_state(sim) == SIM_PAUSE);
 		ladder_sim_scan(sim, 2);
-		UNTIL(ladder_sim_twin(sim)->resource.vm.errors == 4);
+		CHECK_SOON(ladder_sim_twin(sim)->resource.vm.errors == 4);
 		CHECK(!told);
 		ladder_sim_reset(sim, false);
-		UNTIL(ladder_sim_twin(sim)->resource.vm.errors == 0);
+		CHECK_SOON(ladder_sim_twin(sim)->resource.vm.errors == 0);
 	}
 	ladder_sim_end(sim);
 }

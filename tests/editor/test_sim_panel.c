@@ -6,6 +6,7 @@
 #include "editor-gtk/sim_panel.h"
 #include "editor-gtk/sim_panel_view.h"
 #include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -36,24 +37,6 @@ static GtkWidget *window;
 static LadderDocument *document;
 static LadderSim *sim;
 static LadderSimPanel *panel;
-
-static void turn(int ms)
-{
-	const gint64 end = g_get_monotonic_time() + ms * 1000;
-
-	do {
-		g_main_context_iteration(NULL, FALSE);
-		g_usleep(500);
-	} while (g_get_monotonic_time() < end);
-}
-
-/* Turns until it holds, for as long as a slow machine may take. */
-#define WAIT(condition) \
-	do { \
-		for (int wait_turns = 0; wait_turns < 2000 && !(condition); wait_turns++) \
-			turn(5); \
-	} while (0)
-#define CHECK_SOON(condition) do { WAIT(condition); CHECK(condition); } while (0)
 
 /* ---- pictures ---- */
 

@@ -6,6 +6,7 @@
 #include "editor-gtk/text_complete.h"
 #include "editor-gtk/text_view.h"
 #include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -21,12 +22,6 @@ static const char sample[] =
 static LadderDocument *document;
 static LadderTextView *view;
 static GtkTextBuffer *buffer;
-
-static void turn(void)
-{
-	while (g_main_context_iteration(NULL, FALSE))
-		;
-}
 
 static char *shown(void)
 {
@@ -237,13 +232,13 @@ int main(void)
 	view = LADDER_TEXT_VIEW(ladder_text_view_new(document, 1));
 	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(view));
 	buffer = GTK_TEXT_BUFFER(ladder_text_view_buffer(view));
-	turn();
+	turn(0);
 	test_colours();
 	test_words();
 	test_errors();
 	test_typing();
 	gtk_window_destroy(GTK_WINDOW(window));
-	turn();
+	turn(0);
 	g_object_unref(document);
 	return tap_done();
 }
