@@ -444,6 +444,16 @@ void ladder_sim_act(LadderSim *sim, const struct act *act)
 	sim_thread_act(sim->thread, act->plant ? sim->view.plant : sim->view.program, act);
 }
 
+void ladder_sim_release_all(LadderSim *sim)
+{
+	struct act act = { .kind = ACT_RELEASE_ALL };
+
+	ladder_sim_act(sim, &act);
+	act.plant = true;
+	if (sim->plant)
+		ladder_sim_act(sim, &act);
+}
+
 /* ---- what is shown ---- */
 
 const struct twin *ladder_sim_twin(LadderSim *sim)

@@ -74,6 +74,9 @@ void ladder_sim_set_speed(LadderSim *sim, double scans);
  * (no such place) is told. */
 void ladder_sim_act(LadderSim *sim, const struct act *act);
 
+/** ladder_sim_release_all - of the program and of its plant, what ladder_sim_forces() counts. */
+void ladder_sim_release_all(LadderSim *sim);
+
 /* ---- from the beginning ---- */
 
 /** ladder_sim_restart - begins anew with the program as it is now: scan 0, in STOP, nothing

@@ -125,15 +125,9 @@ static void force_off(GtkWidget *widget, const char *name, GVariant *unused)
 
 static void release_all(GtkWidget *widget, const char *name, GVariant *unused)
 {
-	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
-	struct act act = { .kind = ACT_RELEASE_ALL };
-
 	(void)name;
 	(void)unused;
-	ladder_sim_act(panel->sim, &act);
-	act.plant = true;
-	if (ladder_sim_plant_ladder(panel->sim))
-		ladder_sim_act(panel->sim, &act);
+	ladder_sim_release_all(LADDER_SIM_PANEL(widget)->sim);
 }
 
 static void edit(LadderSimPanel *panel, enum sim_edit what)

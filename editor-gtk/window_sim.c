@@ -240,7 +240,6 @@ static void step_shown(LadderWindow *window, int by)
 
 bool window_sim(LadderWindow *window, enum verb verb)
 {
-	static const struct act release = { .kind = ACT_RELEASE_ALL };
 	LadderSim *sim = window->sim;
 
 	switch ((int)verb) {
@@ -264,7 +263,7 @@ bool window_sim(LadderWindow *window, enum verb verb)
 	case VERB_sim_no_plant: window_plant_none(window); return true;
 	case VERB_sim_why: window_why_ask(window); return true;
 	case VERB_sim_now: ladder_sim_show_now(sim); return true;
-	case VERB_sim_release: ladder_sim_act(sim, &release); return true;
+	case VERB_sim_release: ladder_sim_release_all(sim); return true;
 	case VERB_right:
 		if (ladder_sim_is_on(sim))
 			gtk_widget_set_visible(GTK_WIDGET(window->right),

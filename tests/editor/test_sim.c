@@ -343,6 +343,39 @@ static void test_bad_plant(void)
 	g_free(folder);
 }
 
+/* What is held of the plant is counted, and released with the rest. */
+static void test_plant_forces(void)
+{
+	struct act act = { .kind = ACT_FORCE, .plant = true, .value.r = 50 };
+	const struct image *plant;
+	GError *error = NULL;
+
+	CHECK(ladder_document_open(document, "ladders/tank-level.rung", NULL));
+	CHECK(ladder_sim_set_plant(sim, "ladders/tank-level.plant.rung", &error));
+	CHECK(ladder_sim_begin(sim, NULL));
+	plant = &ladder_sim_twin(sim)->plant.image;
+	act.at = image_find(plant, "Level", 5);
+	CHECK(act.at.type == IEC_REAL);
+	ladder_sim_act(sim, &act);
+	CHECK_SOON(ladder_sim_forces(sim) == 1);
+	act.plant = false;
+	act.value.i = 1;
+	act.at = image_find(image(), "%IX0.7", 6);
+	ladder_sim_act(sim, &act);
+	CHECK_SOON(ladder_sim_forces(sim) == 2);
+	g_clear_pointer(&told, g_free);
+	ladder_sim_release_all(sim);
+	CHECK_SOON(ladder_sim_forces(sim) == 0);
+	ladder_sim_end(sim);
+	CHECK(ladder_sim_set_plant(sim, NULL, NULL));
+	CHECK(ladder_sim_begin(sim, NULL));
+	ladder_sim_release_all(sim);
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(ladder_sim_twin(sim)->scan == 1);
+	CHECK_AS(!told, "no plant: nothing was refused");
+	ladder_sim_end(sim);
+}
+
 static void test_errors(void)
 {
 	GError *error = NULL;
@@ -377,6 +410,7 @@ int main(void)
 	test_refused();
 	test_failed();
 	test_bad_plant();
+	test_plant_forces();
 	test_errors();
 	CHECK(shown > 0);
 	g_object_unref(sim);

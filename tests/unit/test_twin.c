@@ -138,6 +138,33 @@ static void test_states(void)
 	ladder_free(plant);
 }
 
+/* The controller alone had no power: the world goes on where it is. */
+static void test_warm(void)
+{
+	struct ladder *ladder = build(program), *plant = build(world);
+	struct twin twin;
+
+	CHECK(twin_init(&twin, ladder_program(ladder), ladder_program(plant), PERIOD));
+	CHECK(do_act(&twin, ACT_WARM, false, "", 0));
+	CHECK_AS(twin.plant.state == STATE_RUN, "a plant that never ran begins");
+	do_act(&twin, ACT_SET, false, "Go", 1);
+	scan(&twin, 3);
+	CHECK(get(&twin, true, "Way") == 2);
+	CHECK(do_act(&twin, ACT_WARM, false, "", 0));
+	CHECK(get(&twin, true, "Way") == 2 && get(&twin, false, "Seen") == 0);
+	scan(&twin, 1);
+	CHECK(get(&twin, false, "Seen") == 102);
+	CHECK(do_act(&twin, ACT_STOP, false, "", 0) && twin.plant.state == STATE_STOP);
+	CHECK(do_act(&twin, ACT_WARM, false, "", 0) && twin_scan(&twin));
+	CHECK(twin.plant.state == STATE_RUN && get(&twin, true, "Way") == 2);
+	scan(&twin, 1);
+	CHECK(get(&twin, true, "Way") == 3);
+	CHECK(do_act(&twin, ACT_START, false, "", 0) && get(&twin, true, "Way") == 0);
+	twin_free(&twin);
+	ladder_free(ladder);
+	ladder_free(plant);
+}
+
 /* The program gets a rung more; the plant stays where it is. */
 static void test_change(void)
 {
@@ -170,6 +197,7 @@ int main(void)
 {
 	test_plant();
 	test_states();
+	test_warm();
 	test_change();
 	return tap_done();
 }

@@ -184,11 +184,20 @@ static bool start_again(struct resource *resource, size_t size, bool warm)
 	return good;
 }
 
-/* The plant first: it starts cold, so that nothing is lost if the other cannot. */
+/* A plant that never ran, or stopped by itself, has nothing to go on with. */
+static bool start_plant(struct twin *twin, bool warm)
+{
+	if (warm && twin->plant.state == STATE_STOP && twin->plant.scans &&
+	    !twin->plant.halted)
+		twin->plant.state = STATE_RUN;
+	return (warm && twin->plant.state == STATE_RUN) ||
+	       start_again(&twin->plant, twin->plant_size, false);
+}
+
+/* The plant first: if that cannot, nothing is lost. */
 static bool start(struct twin *twin, bool warm)
 {
-	return (!has_plant(twin) ||
-		start_again(&twin->plant, twin->plant_size, false)) &&
+	return (!has_plant(twin) || start_plant(twin, warm)) &&
 	       start_again(&twin->resource, twin->memory_size, warm);
 }
 

@@ -21,7 +21,8 @@ enum act_kind {
 	ACT_RELEASE_ALL,
 	ACT_START,       /* cold, but inputs and forces stay; time and scan
 				     numbers go on                            */
-	ACT_WARM,        /* likewise, but VAR RETAIN keeps its value          */
+	ACT_WARM,        /* likewise, but VAR RETAIN keeps its value, and the plant
+				     goes on: the controller alone had no power */
 	ACT_STOP,        /* outputs are 0                                     */
 	ACT_PERIOD,      /* value.i ns from here on                           */
 };
