@@ -481,7 +481,7 @@ asan: ## the same with address and undefined-behaviour sanitizers, in build/asan
 # pointers, so each allocation is unwound slowly: it takes half an hour. What others leak
 # is in tests/editor/leaks.supp.
 asan-editor: ## the editor and its tests with sanitizers, and runs them: in process, and as a person
-	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' CPPFLAGS='$(CPPFLAGS)' asan-editor-run
+	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' asan-editor-run
 asan-editor-run: $(EDITOR_TESTS) $(EDITOR_FAKE) all
 	BUILD=$(BUILD) G_SLICE=always-malloc ASAN_OPTIONS=fast_unwind_on_malloc=0 \
 	  LSAN_OPTIONS=suppressions=tests/editor/leaks.supp:print_suppressions=0 \
