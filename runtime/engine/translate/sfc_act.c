@@ -352,7 +352,7 @@ static void do_body(struct sfc_il *s, int number)
 	or_pulse(s, number);
 	sfc_op(s, OP_OR, 0, was);
 	sfc_jump_unless(s, idle);
-	sfc_body(s, body, done);
+	sfc_put_body(s, body, done);
 	sfc_here(s, done);
 	s->line = (uint32_t)s->sfc->action[called->action].line;
 	sfc_op(s, OP_LD, 0, now);

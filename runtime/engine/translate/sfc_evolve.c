@@ -100,7 +100,7 @@ static void put_condition(struct sfc_il *s, int arc)
 	s->line = (uint32_t)t->line;
 	if (is_off(s, &t->condition))
 		sfc_set(s, s->condition, false);
-	sfc_body(s, &t->condition, end);
+	sfc_put_body(s, &t->condition, end);
 	if (t->condition.kind == BODY_LIST)
 		sfc_op(s, OP_ST, 0, s->condition);
 	for (int i = before; i < s->ld.il->count; i++) {

@@ -145,7 +145,7 @@ static void own_label(struct sfc_il *s, struct il_line *line, int body)
 	line->operand = sfc_literal(s, text);
 }
 
-void sfc_body(struct sfc_il *s, const struct sfc_body *body, uint32_t end)
+void sfc_put_body(struct sfc_il *s, const struct sfc_body *body, uint32_t end)
 {
 	const int first = s->ld.il->count;
 

@@ -71,8 +71,8 @@ uint32_t sfc_t_name(const struct sfc_il *s, int step);
  * back to. @label: one a BOOL. */
 void sfc_each(struct sfc_il *s, uint32_t back, uint32_t first, const uint32_t *label,
 	      int count);
-/** sfc_body - the rungs or instructions of a condition or action; RET leads to @end. */
-void sfc_body(struct sfc_il *s, const struct sfc_body *body, uint32_t end);
+/** sfc_put_body - the rungs or instructions of a condition or action; RET leads to @end. */
+void sfc_put_body(struct sfc_il *s, const struct sfc_body *body, uint32_t end);
 /** sfc_darken - while watching: no power in these rungs. */
 void sfc_darken(struct sfc_il *s, const struct sfc_body *body);
 /** sfc_literal - the string id of a text. */
