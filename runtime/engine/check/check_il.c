@@ -204,6 +204,9 @@ static bool can_store(struct il_check *c, const struct il_line *line,
 static bool can_write(struct il_check *c, const struct il_line *line,
 		      const struct meaning *m)
 {
+	if (line->mark & IL_MADE && m->var && m->pou == c->pou &&
+	    vars_flags(&c->pou->vars, m->index) & VAR_SFC)
+		return true;
 	if (m->kind == MEANING_LITERAL || m->constant)
 		return il_report(c, line, DIAG_WRITE_CONSTANT, il_operand_text(c, line));
 	if (!m->writable)

@@ -32,6 +32,7 @@ enum il_mark {
 	IL_NAMED = 1,    /* IL_CALL: one of several in a cell, messages name it */
 	IL_IN_ORDER = 2, /* IL_ARG_IN of CAL: written without its pin, which the
 			    check finds by the order of the inputs             */
+	IL_MADE = 4,     /* translation made it, of a chart: it may write steps */
 };
 
 struct il_line {

@@ -15,6 +15,7 @@
 static void add(struct sfc_il *s, struct il_line line)
 {
 	line.line = s->line;
+	line.mark = IL_MADE;
 	if (!il_add(s->ld.il, line))
 		s->ld.failed = true;
 }
