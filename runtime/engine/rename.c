@@ -98,6 +98,14 @@ static uint32_t fold_of(struct rename *r, const char *name)
 	return names_fold(names, names_intern(names, name, strlen(name)));
 }
 
+/* Of a chart steps, transitions and actions are one family with its variables. */
+static bool is_local(const struct xref_target *target)
+{
+	return (target->what == XREF_VARIABLE && target->table > 0) ||
+	       target->what == XREF_STEP || target->what == XREF_TRANSITION ||
+	       target->what == XREF_ACTION;
+}
+
 /* Do both stand where no two may have one name? */
 static bool share_space(const struct xref_target *a, const struct xref_target *b)
 {
@@ -108,6 +116,8 @@ static bool share_space(const struct xref_target *a, const struct xref_target *b
 
 	if ((a_type || a_global) && (b_type || b_global))
 		return true;
+	if (is_local(a) && is_local(b))
+		return a->table == b->table;
 	return a->what == b->what && !a_type && a->table == b->table;
 }
 
@@ -137,6 +147,9 @@ static bool is_word(const struct rename *r)
 	if (target->what == XREF_STRUCTURE ||
 	    (target->what == XREF_POU && pou_has_frame(&project->pou[target->index])))
 		return words_is_taken(r->name);
+	if (is_local(target) && target->table <= project->pou_count &&
+	    project->pou[target->table - 1].sfc)
+		return sfc_reserved(r->name);
 	return local && project->pou[target->table - 1].kind == POU_FUNCTION &&
 	       fold_of((struct rename *)(uintptr_t)r, r->name) ==
 	       fold_of((struct rename *)(uintptr_t)r, "OUT");

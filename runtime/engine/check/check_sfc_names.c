@@ -7,7 +7,6 @@
  */
 #include "engine/check/check_sfc_names.h"
 
-#include "engine/base/ascii.h"
 #include "engine/check/expect.h"
 #include "engine/check/reserved.h"
 
@@ -41,15 +40,6 @@ static void report(struct sfc_names *c, enum diag_id id, struct spot at, const c
 
 /* ---- names that it gives ---- */
 
-/* Words that stand where a name may, in a chart alone. */
-static bool is_word(const char *name)
-{
-	const size_t len = strlen(name);
-
-	return ascii_is(SFC_CONDITION, name, len) || ascii_is("FROM", name, len) ||
-	       ascii_is("TO", name, len);
-}
-
 static void add_name(struct sfc_names *c, uint32_t name, struct spot at, bool own)
 {
 	const uint32_t fold = names_fold(&c->project->names, name);
@@ -60,7 +50,7 @@ static void add_name(struct sfc_names *c, uint32_t name, struct spot at, bool ow
 
 	if (!fold || fold >= (uint32_t)c->firsts)
 		return;
-	if (own && (reserved_fault(text) == DIAG_RESERVED_NAME || is_word(text)))
+	if (own && (reserved_fault(text) == DIAG_RESERVED_NAME || sfc_reserved(text)))
 		report(c, DIAG_RESERVED_NAME, at, text);
 	if (!c->first[fold])
 		c->first[fold] = at.line ? at.line : 1;
@@ -82,7 +72,7 @@ static void add_variables(struct sfc_names *c)
 			const struct spot at = { var->line, 0 };
 
 			add_name(c, var->name, at, false);
-			if (is_word(project_text(c->project, var->name)))
+			if (sfc_reserved(project_text(c->project, var->name)))
 				report(c, DIAG_RESERVED_NAME, at,
 				       project_text(c->project, var->name));
 		}

@@ -53,6 +53,14 @@ enum control control_find(const char *text, size_t len)
 	return (enum control)find(controls, CONTROL_COUNT, text, len);
 }
 
+bool sfc_reserved(const char *name)
+{
+	/* They stand where a name may. */
+	static const char *const words[] = { SFC_CONDITION, "FROM", "TO" };
+
+	return find(words, 3, name, strlen(name)) < 3;
+}
+
 int sfc_bodies(const struct sfc *sfc)
 {
 	return sfc->transition_count + sfc->action_count;

@@ -135,6 +135,8 @@ enum control control_find(const char *text, size_t len);
 int sfc_x(const struct sfc *sfc, const struct var_table *table, int step);
 int sfc_t(const struct sfc *sfc, const struct var_table *table, int step);
 int sfc_condition(const struct sfc *sfc, const struct var_table *table);
+/** sfc_reserved - a word that nothing in a chart can be called? Scan-safe: yes. */
+bool sfc_reserved(const char *name);
 /** sfc_bodies, sfc_body - the conditions of all transitions, then the bodies of all
  * actions; @body: 0-based. Scan-safe: yes. */
 int sfc_bodies(const struct sfc *sfc);

@@ -68,6 +68,14 @@ bool vars_is_eno(const struct var_table *table, int index)
 	return index == 1 && vars_flags(table, index) & VAR_RESULT;
 }
 
+int vars_declared(const struct var_table *table)
+{
+	const struct var_block *last = table->block_count ?
+		&table->block[table->block_count - 1] : NULL;
+
+	return last && last->flags & VAR_SFC ? last->first : table->count;
+}
+
 const char *vars_head(uint16_t flags)
 {
 	static const struct { uint16_t flag; const char *word; } heads[] = {

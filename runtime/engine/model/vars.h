@@ -71,6 +71,9 @@ uint16_t vars_flags(const struct var_table *table, int index);
 /** vars_is_eno - the BOOL that a function's body may set, which is declared nowhere?
  * Scan-safe: yes. */
 bool vars_is_eno(const struct var_table *table, int index);
+/** vars_declared - how many of its variables stand in the file, which are the first:
+ * without those that a chart brings. Scan-safe: yes. */
+int vars_declared(const struct var_table *table);
 /** vars_head - the word that a block with these flags begins with: VAR_INPUT. */
 const char *vars_head(uint16_t flags);
 /** var_unit - bytes from one element to the next; without an array the size. Not of

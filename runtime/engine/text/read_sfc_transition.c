@@ -164,6 +164,7 @@ static void add_expression(struct chart *chart, struct sfc_body *body, uint32_t 
 	*body = (struct sfc_body){ BODY_EXPRESSION, pou->rung_count, 1 };
 	if (rung) {
 		rung->line = (uint32_t)line;
+		rung->gaps = 1; /* its one row stands in this line */
 		rung->cell[0] = (struct cell){ .word = ELEM_COMPARE, .operand = text };
 		rung->cell[1] = (struct cell){ .word = ELEM_COIL, .operand =
 			reader_intern(r, SFC_CONDITION, strlen(SFC_CONDITION)) };

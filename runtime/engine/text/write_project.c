@@ -219,13 +219,11 @@ static void write_body(const struct sink *sink, const struct project *project,
 	sink_mark(sink, TEXT_BODY, number, false);
 }
 
-static void write_pou(const struct sink *sink, const struct project *project,
-		      const struct pou *pou)
+void text_write_pou(const struct project *project, const struct pou *pou,
+		    const struct sink *sink)
 {
-	const int number = (int)(pou - project->pou);
+	const bool chart = pou->language == LANGUAGE_SFC;
 
-	write_above(sink, project, pou->comment);
-	sink_mark(sink, TEXT_POU, number, true);
 	sink_text(sink, pou_word(pou->kind));
 	sink_text(sink, " ");
 	write_id(sink, project, pou->name);
@@ -235,16 +233,26 @@ static void write_pou(const struct sink *sink, const struct project *project,
 	}
 	sink_text(sink, " ");
 	sink_text(sink, pou_language_word(pou->language));
-	if (pou->sfc && pou->sfc->until_stable)
+	if (chart && pou->sfc->until_stable)
 		sink_text(sink, " UNTIL STABLE");
 	sink_text(sink, "\n");
-	if (pou->sfc)
+	if (chart)
 		write_sfc(sink, project, pou);
 	else
 		write_body(sink, project, pou);
 	sink_text(sink, "END_");
 	sink_text(sink, pou_word(pou->kind));
 	sink_text(sink, "\n");
+}
+
+static void write_pou(const struct sink *sink, const struct project *project,
+		      const struct pou *pou)
+{
+	const int number = (int)(pou - project->pou);
+
+	write_above(sink, project, pou->comment);
+	sink_mark(sink, TEXT_POU, number, true);
+	text_write_pou(project, pou, sink);
 	sink_mark(sink, TEXT_POU, number, false);
 }
 

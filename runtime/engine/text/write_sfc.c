@@ -296,20 +296,34 @@ static bool has_blocks(const struct var_table *table)
 	return false;
 }
 
+static void write_items(const struct sink *sink, const struct project *project,
+			const struct pou *pou, bool follows)
+{
+	struct indent indent = { .to = sink, .depth = 1, .begins = true };
+	const struct sink into = { indent_write, &indent, indent_mark };
+	struct page page = { .project = project, .pou = pou, .sfc = pou->sfc,
+			     .indent = &indent, .sink = &into, .follows = follows };
+
+	for (int i = 0; i < pou->sfc->item_count; i++)
+		write_item(&page, pou->sfc->item[i]);
+	write_above(&into, project, pou->tail);
+}
+
+void text_write_chart(const struct project *project, const struct pou *pou,
+		      const struct sink *sink)
+{
+	write_items(sink, project, pou, false);
+}
+
 void write_sfc(const struct sink *sink, const struct project *project,
 	       const struct pou *pou)
 {
 	struct indent indent = { .to = sink, .depth = 1, .begins = true };
 	const struct sink into = { indent_write, &indent, indent_mark };
-	struct page page = { .project = project, .pou = pou, .sfc = pou->sfc,
-			     .indent = &indent, .sink = &into,
-			     .follows = has_blocks(&pou->vars) };
 	const int number = (int)(pou - project->pou);
 
 	text_write_vars(project, &pou->vars, &into);
 	sink_mark(sink, TEXT_BODY, number, true);
-	for (int i = 0; i < pou->sfc->item_count; i++)
-		write_item(&page, pou->sfc->item[i]);
-	write_above(&into, project, pou->tail);
+	write_items(sink, project, pou, has_blocks(&pou->vars));
 	sink_mark(sink, TEXT_BODY, number, false);
 }

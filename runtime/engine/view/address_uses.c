@@ -176,6 +176,22 @@ static void walk_list(struct walk *walk, const struct il *il)
 	}
 }
 
+static void walk_chart(struct walk *walk, const struct sfc *sfc)
+{
+	for (int i = 0; i < CONTROL_COUNT; i++)
+		scan_whole(walk, sfc->control[i]);
+	for (int i = 0; i < sfc->step_count; i++) {
+		scan_whole(walk, sfc->step[i].min);
+		scan_whole(walk, sfc->step[i].max);
+		scan_whole(walk, sfc->step[i].alarm);
+	}
+	for (int i = 0; i < sfc->use_count; i++) {
+		if (sfc->use[i].action < 0)
+			scan_whole(walk, sfc->use[i].operand);
+		scan_whole(walk, sfc->use[i].time);
+	}
+}
+
 static void walk_config(struct walk *walk, const struct config *config)
 {
 	for (int i = 0; config && i < config->count; i++)
@@ -203,6 +219,8 @@ bool xref_addresses(struct xref *out, struct project *project)
 		for (int k = 0; k < pou->rung_count; k++)
 			walk_rung(&walk, pou->rung[k]);
 		walk_list(&walk, &pou->il);
+		if (pou->sfc)
+			walk_chart(&walk, pou->sfc);
 		mark_table(&walk, &pou->vars, LOCAL, false);
 	}
 	return !out->arena.failed;

@@ -106,12 +106,12 @@ static void compare_var(struct diff *diff, struct difference what,
 static uint32_t *var_names(struct diff *diff, const struct project *project,
 			   const struct var_table *table)
 {
-	uint32_t *name = arena_alloc(&diff->arena, (size_t)(table->count + 1) *
-						   sizeof(*name));
+	const int count = vars_declared(table);
+	uint32_t *name = arena_alloc(&diff->arena, (size_t)(count + 1) * sizeof(*name));
 
 	if (!name)
 		diff->failed = true;
-	for (int i = 0; name && i < table->count; i++)
+	for (int i = 0; name && i < count; i++)
 		name[i] = diff_name(diff, project_text(project,
 						       table->var[i].name));
 	return name;
@@ -138,9 +138,10 @@ static void compare_vars(struct diff *diff, const char *pou,
 
 	if (diff->failed)
 		return;
-	int *in_a = var_index(diff, name_a, a->count);
-	int *in_b = var_index(diff, name_b, b->count);
-	for (int i = 0; !diff->failed && i < a->count; i++) {
+	const int a_count = vars_declared(a), b_count = vars_declared(b);
+	int *in_a = var_index(diff, name_a, a_count);
+	int *in_b = var_index(diff, name_b, b_count);
+	for (int i = 0; !diff->failed && i < a_count; i++) {
 		what.subject = project_text(diff->a, a->var[i].name);
 		what.change = in_b[name_a[i]] ? NULL : "removed";
 		if (what.change)
@@ -149,7 +150,7 @@ static void compare_vars(struct diff *diff, const char *pou,
 			compare_var(diff, what, a, i, b, in_b[name_a[i]] - 1);
 	}
 	what.change = "added";
-	for (int j = 0; !diff->failed && j < b->count; j++)
+	for (int j = 0; !diff->failed && j < b_count; j++)
 		if (!in_a[name_b[j]]) {
 			what.subject = project_text(diff->b, b->var[j].name);
 			diff_say(diff, what);
@@ -177,7 +178,12 @@ static const struct pou *pou_named(const struct project *project,
 
 static const char *language(const struct pou *pou)
 {
-	return pou->language == LANGUAGE_LD ? "LD" : "IL";
+	return pou_language_word(pou->language);
+}
+
+static const char *evolution(const struct pou *pou)
+{
+	return pou->sfc->until_stable ? "UNTIL STABLE" : "";
 }
 
 static void compare_pou(struct diff *diff, const struct pou *a,
@@ -194,6 +200,8 @@ static void compare_pou(struct diff *diff, const struct pou *a,
 		   project_text(diff->a, a->tail),
 		   project_text(diff->b, b->tail));
 	compare_vars(diff, name, &a->vars, &b->vars);
+	if (a->sfc && b->sfc)
+		diff_texts(diff, what, "evolution", evolution(a), evolution(b));
 	if (a->language != b->language)
 		diff_texts(diff, what, "language", language(a), language(b));
 	else if (a->language == LANGUAGE_LD)

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * diff_il - two instruction lists compared line by line, as they are written.
+ * diff_il - two instruction lists or charts compared line by line, as they are written.
  *
  * Lines are counted from the one behind the declarations.
  */
 #include "engine/view/diff.h"
+#include "engine/text/text.h"
 #include "engine/view/view.h"
 
 #include <string.h>
@@ -52,15 +53,27 @@ static bool cut_lines(struct diff *diff, struct lines *lines)
 	return true;
 }
 
+/* The body, between a line before it and one behind it. */
+static bool write_body(const struct project *project, const struct pou *pou,
+		       const struct sink *sink)
+{
+	const struct var_table none = { 0 };
+
+	if (pou->language != LANGUAGE_SFC)
+		return view_print_il(project, pou, &none, NULL, 0, &pou->il, sink);
+	sink_text(sink, "PROGRAM\n");
+	text_write_chart(project, pou, sink);
+	sink_text(sink, "END_PROGRAM\n");
+	return true;
+}
+
 static bool make_lines(struct diff *diff, const struct project *project,
 		       const struct pou *pou, struct lines *lines)
 {
-	const struct var_table none = { 0 };
-	struct sink sink = sink_to_memory(&diff->bytes);
+	const struct sink sink = sink_to_memory(&diff->bytes);
 
 	diff->bytes.len = 0;
-	if (!view_print_il(project, pou, &none, NULL, 0, &pou->il,
-			   &sink) || diff->bytes.failed)
+	if (!write_body(project, pou, &sink) || diff->bytes.failed)
 		return false;
 	lines->text = arena_copy(&diff->arena, diff->bytes.text,
 				 diff->bytes.len);

@@ -11,9 +11,9 @@
 
 #include <string.h>
 
-/* Of a folded name: the POU in which it was a label last, and where, 1-based. */
+/* Of a folded name: the body in which it was a label last, and where, 1-based. */
 struct xref_label {
-	int pou, at;
+	int body, at;
 };
 
 /* ---- targets ---- */
@@ -92,7 +92,7 @@ struct xref_use *xref_add(struct xref_walk *walk, struct xref_target target,
 	return use;
 }
 
-static void scan_all(struct xref_walk *walk, uint32_t *slot, enum xref_kind kind)
+void xref_all(struct xref_walk *walk, uint32_t *slot, enum xref_kind kind)
 {
 	if (!*slot)
 		return;
@@ -101,7 +101,7 @@ static void scan_all(struct xref_walk *walk, uint32_t *slot, enum xref_kind kind
 }
 
 /* The whole text names @target. */
-static void add_whole(struct xref_walk *walk, uint32_t *slot,
+void xref_whole(struct xref_walk *walk, uint32_t *slot,
 		      struct xref_target target, enum xref_kind kind)
 {
 	walk->slot = slot;
@@ -132,13 +132,13 @@ static void walk_table(struct xref_walk *walk, int number)
 {
 	struct var_table *table = xref_table(walk->project, number);
 
-	for (int i = 0; i < table->count; i++) {
+	for (int i = 0; i < vars_declared(table); i++) {
 		struct var *var = &table->var[i];
 
 		if (vars_flags(table, i) & VAR_RESULT)
 			continue;
 		walk->place.line = var->line;
-		add_whole(walk, &var->name, xref_variable(walk->project, number, i),
+		xref_whole(walk, &var->name, xref_variable(walk->project, number, i),
 			  XREF_DECLARED);
 		if (var->type == IEC_NONE)
 			add_word(walk, var->fb, XREF_TYPE);
@@ -200,7 +200,7 @@ static void walk_declarations(struct xref_walk *walk)
 
 		begin_place(walk, -1, structure->file, structure->line,
 			    structure_included(project, i));
-		add_whole(walk, &structure->name, target, XREF_DECLARED);
+		xref_whole(walk, &structure->name, target, XREF_DECLARED);
 		walk_table(walk, project->pou_count + 1 + i);
 	}
 	for (int i = 0; i < project->pou_count; i++) {
@@ -208,7 +208,7 @@ static void walk_declarations(struct xref_walk *walk)
 		struct xref_target target = { .what = XREF_POU, .index = i };
 
 		begin_place(walk, i, pou->file, pou->line, pou->included);
-		add_whole(walk, &pou->name, target, XREF_DECLARED);
+		xref_whole(walk, &pou->name, target, XREF_DECLARED);
 		walk_table(walk, i + 1);
 	}
 }
@@ -245,9 +245,9 @@ static void walk_config(struct xref_walk *walk)
 
 		begin_place(walk, -1, config->file, entry->line,
 			    config_included(walk->project));
-		scan_all(walk, &entry->single, XREF_READ);
+		xref_all(walk, &entry->single, XREF_READ);
 		if (entry->pou)
-			add_whole(walk, &entry->pou, find_program(walk, entry->pou),
+			xref_whole(walk, &entry->pou, find_program(walk, entry->pou),
 				  XREF_RUN);
 	}
 }
@@ -261,11 +261,11 @@ static void note_label(struct xref_walk *walk, int pou, uint32_t *name, int at)
 
 	if (!fold || fold >= walk->labels)
 		return;
-	if (walk->label[fold].pou == pou + 1) /* the second one: the first is meant */
+	if (walk->label[fold].body == walk->body) /* the second one: the first is meant */
 		target.index = walk->label[fold].at - 1;
 	else
-		walk->label[fold] = (struct xref_label){ pou + 1, at };
-	add_whole(walk, name, target, XREF_DECLARED);
+		walk->label[fold] = (struct xref_label){ walk->body, at };
+	xref_whole(walk, name, target, XREF_DECLARED);
 }
 
 static void add_jump(struct xref_walk *walk, uint32_t *name)
@@ -274,9 +274,9 @@ static void add_jump(struct xref_walk *walk, uint32_t *name)
 	struct xref_target target = { XREF_LABEL, walk->place.pou + 1, -1, { 0 } };
 
 	if (fold && fold < walk->labels &&
-	    walk->label[fold].pou == walk->place.pou + 1)
+	    walk->label[fold].body == walk->body)
 		target.index = walk->label[fold].at - 1;
-	add_whole(walk, name, target, XREF_JUMPED);
+	xref_whole(walk, name, target, XREF_JUMPED);
 }
 
 static void add_routine(struct xref_walk *walk, uint32_t *name)
@@ -285,11 +285,11 @@ static void add_routine(struct xref_walk *walk, uint32_t *name)
 	struct xref_target target = { .what = XREF_POU };
 
 	if (!pou) {
-		scan_all(walk, name, XREF_CALLED);
+		xref_all(walk, name, XREF_CALLED);
 		return;
 	}
 	target.index = (int)(pou - walk->project->pou);
-	add_whole(walk, name, target, XREF_CALLED);
+	xref_whole(walk, name, target, XREF_CALLED);
 }
 
 /* ---- cells ---- */
@@ -343,7 +343,7 @@ static void walk_pin(struct xref_walk *walk, struct rung *rung, int row, int col
 	target = xref_pin(walk, (enum word)rung_at(rung, row, col)->word, name,
 			  strlen(name), &dir);
 	if (target.what != XREF_UNKNOWN)
-		add_whole(walk, &cell->operand, target, kind_of_pin(dir, false));
+		xref_whole(walk, &cell->operand, target, kind_of_pin(dir, false));
 }
 
 static enum xref_kind kind_of_write(enum op op, bool list)
@@ -362,17 +362,17 @@ static void walk_operand(struct xref_walk *walk, struct cell *cell,
 	case OPND_BOOL_R:
 	case OPND_ANY_R:
 	case OPND_EXPR:
-		scan_all(walk, &cell->operand, XREF_READ);
+		xref_all(walk, &cell->operand, XREF_READ);
 		return;
 	case OPND_BOOL_W:
-		scan_all(walk, &cell->operand, kind_of_write(row->next, false));
+		xref_all(walk, &cell->operand, kind_of_write(row->next, false));
 		return;
 	case OPND_ANY_W:
 	case OPND_ASSIGN:
-		scan_all(walk, &cell->operand, XREF_WRITTEN);
+		xref_all(walk, &cell->operand, XREF_WRITTEN);
 		return;
 	case OPND_INSTANCE:
-		scan_all(walk, &cell->operand, XREF_CALLED);
+		xref_all(walk, &cell->operand, XREF_CALLED);
 		return;
 	case OPND_LABEL:
 		if (cell->operand)
@@ -423,13 +423,16 @@ static void begin_rung(struct xref_walk *walk, struct pou *pou, int i)
 	walk->place.off = rung->off;
 }
 
-static void walk_rungs(struct xref_walk *walk, struct pou *pou)
+static void walk_rungs(struct xref_walk *walk, struct pou *pou, int first, int count)
 {
-	for (int i = 0; i < pou->rung_count; i++) {
+	const int end = first + count;
+
+	walk->body++;
+	for (int i = first; i < end; i++) {
 		begin_rung(walk, pou, i);
 		note_label(walk, walk->place.pou, &pou->rung[i]->label, i + 1);
 	}
-	for (int i = 0; i < pou->rung_count; i++) {
+	for (int i = first; i < end; i++) {
 		struct rung *rung = pou->rung[i];
 
 		begin_rung(walk, pou, i);
@@ -461,9 +464,9 @@ static void walk_op(struct xref_walk *walk, struct il_line *line)
 	else if (operand == OPND_INSTANCE)
 		walk_call(walk, line);
 	else if (operand == OPND_ANY_W || operand == OPND_BOOL_W)
-		scan_all(walk, &line->operand, kind_of_write((enum op)line->op, true));
+		xref_all(walk, &line->operand, kind_of_write((enum op)line->op, true));
 	else
-		scan_all(walk, &line->operand, XREF_READ);
+		xref_all(walk, &line->operand, XREF_READ);
 }
 
 static void walk_arg(struct xref_walk *walk, struct il_line *line)
@@ -474,8 +477,8 @@ static void walk_arg(struct xref_walk *walk, struct il_line *line)
 	struct xref_target target = xref_pin(walk, walk->call, name, strlen(name), &dir);
 
 	if (target.what != XREF_UNKNOWN)
-		add_whole(walk, &line->pin, target, kind_of_pin(dir, output));
-	scan_all(walk, &line->operand, kind_of_value(dir, output));
+		xref_whole(walk, &line->pin, target, kind_of_pin(dir, output));
+	xref_all(walk, &line->operand, kind_of_value(dir, output));
 }
 
 static void walk_line(struct xref_walk *walk, struct il_line *line)
@@ -489,7 +492,7 @@ static void walk_line(struct xref_walk *walk, struct il_line *line)
 	case IL_CALL:
 		walk->call = (enum word)line->word;
 		add_word(walk, walk->call, XREF_CALLED);
-		scan_all(walk, &line->operand, XREF_READ);
+		xref_all(walk, &line->operand, XREF_READ);
 		return;
 	case IL_ARG_IN:
 	case IL_ARG_OUT:
@@ -505,28 +508,46 @@ static void walk_line(struct xref_walk *walk, struct il_line *line)
 	}
 }
 
-static void begin_line(struct xref_walk *walk, struct pou *pou, const struct il_line *line)
+/* A place of a text that is no ladder. */
+void xref_begin(struct xref_walk *walk, const struct pou *pou, int line, int column)
 {
-	begin_place(walk, (int)(pou - walk->project->pou), pou->file, (int)line->line,
+	begin_place(walk, (int)(pou - walk->project->pou), pou->file, line,
 		    pou->included);
-	walk->place.row = line->line ? (int)line->line - pou->line + 1 : 0;
-	walk->place.col = line->rung ? 0 : line->col;
+	walk->place.row = line ? line - pou->line + 1 : 0;
+	walk->place.col = column;
 }
 
-static void walk_list(struct xref_walk *walk, struct pou *pou)
+static void begin_line(struct xref_walk *walk, struct pou *pou, const struct il_line *line)
 {
-	for (int i = 0; i < pou->il.count; i++) {
+	xref_begin(walk, pou, (int)line->line, line->rung ? 0 : line->col);
+}
+
+static void walk_list(struct xref_walk *walk, struct pou *pou, int first, int count)
+{
+	const int end = first + count;
+
+	walk->body++;
+	for (int i = first; i < end; i++) {
 		struct il_line *line = &pou->il.line[i];
 
 		begin_line(walk, pou, line);
 		if (line->kind == IL_LABEL)
-			note_label(walk, walk->place.pou, &line->operand, i + 1);
+			note_label(walk, walk->place.pou, &line->operand,
+				   pou->rung_count + i + 1);
 	}
 	walk->call = WORD_COUNT;
-	for (int i = 0; i < pou->il.count; i++) {
+	for (int i = first; i < end; i++) {
 		begin_line(walk, pou, &pou->il.line[i]);
 		walk_line(walk, &pou->il.line[i]);
 	}
+}
+
+void xref_body(struct xref_walk *walk, struct pou *pou, const struct sfc_body *body)
+{
+	if (body->kind == BODY_LIST)
+		walk_list(walk, pou, body->first, body->count);
+	else
+		walk_rungs(walk, pou, body->first, body->count);
 }
 
 /* ---- all ---- */
@@ -555,8 +576,12 @@ bool xref_make(struct xref *out, struct project *project)
 	walk_config(&walk);
 	for (int i = 0; i < project->pou_count; i++) {
 		walk.pou = &project->pou[i];
-		walk_rungs(&walk, &project->pou[i]);
-		walk_list(&walk, &project->pou[i]);
+		if (project->pou[i].sfc) {
+			xref_chart(&walk, &project->pou[i]);
+			continue;
+		}
+		walk_rungs(&walk, &project->pou[i], 0, project->pou[i].rung_count);
+		walk_list(&walk, &project->pou[i], 0, project->pou[i].il.count);
 	}
 	return !out->arena.failed && !project->arena.failed;
 }

@@ -18,15 +18,20 @@ enum xref_what {
 	XREF_LABEL,
 	XREF_POU,
 	XREF_STRUCTURE,
+	XREF_STEP,       /* of a chart; Fill in Fill.X, too                   */
+	XREF_TRANSITION,
+	XREF_ACTION,
 };
 
 /* What is spoken of. */
 struct xref_target {
 	enum xref_what what;
 	int table;       /* VARIABLE: 0 the globals, n + 1 those of POU n, behind
-			    them the structures: pou_count + 1 + n. LABEL: n + 1 */
-	int index;       /* VARIABLE: in its table; POU, STRUCTURE: its number;
-			    LABEL: its rung or line of a list; -1: there is none */
+			    them the structures: pou_count + 1 + n. LABEL, STEP,
+			    TRANSITION, ACTION: n + 1                         */
+	int index;       /* VARIABLE: in its table; POU, STRUCTURE, STEP …: its
+			    number; LABEL: its rung, or behind all rungs its line
+			    of a list; -1: there is none                      */
 	struct iec_addr addr; /* of an ADDRESS, and of a variable with AT     */
 };
 
@@ -36,6 +41,7 @@ enum xref_kind {
 	XREF_COIL,       /* written in each scan                              */
 	XREF_SET, XREF_RESET, XREF_CALLED, XREF_JUMPED,
 	XREF_RUN,        /* a program that a configuration names              */
+	XREF_LEFT, XREF_ENTERED, /* a step, by a transition                   */
 	XREF_KINDS
 };
 

@@ -14,6 +14,7 @@ static const char *const kind_words[XREF_KINDS] = {
 	[XREF_WRITTEN] = "written", [XREF_CHANGED] = "changed", [XREF_COIL] = "coil",
 	[XREF_SET] = "set", [XREF_RESET] = "reset", [XREF_CALLED] = "called",
 	[XREF_JUMPED] = "jumped to", [XREF_RUN] = "run",
+	[XREF_LEFT] = "left", [XREF_ENTERED] = "entered",
 };
 
 const char *xref_kind_word(enum xref_kind kind)
@@ -56,12 +57,30 @@ static int label_name(const struct project *project, const struct xref_target *t
 	uint32_t name = 0;
 
 	if (target->index >= 0)
-		name = pou->language == LANGUAGE_LD ? pou->rung[target->index]->label :
-		       pou->il.line[target->index].operand;
+		name = target->index < pou->rung_count ?
+		       pou->rung[target->index]->label :
+		       pou->il.line[target->index - pou->rung_count].operand;
 	else if (use && use->slot)
 		name = *use->slot;
 	return snprintf(out, size, "%s:%s", project_text(project, pou->name),
 			project_text(project, name));
+}
+
+/* Filler.Idle: as a variable of the chart, which cannot have the same name. */
+static int chart_name(const struct project *project, const struct xref_target *target,
+		      const struct xref_use *use, char *out, size_t size)
+{
+	const struct pou *pou = &project->pou[target->table - 1];
+	const int index = target->index;
+
+	if (index < 0)
+		return written_name(project, use, out, size);
+	return snprintf(out, size, "%s.%s", project_text(project, pou->name),
+			project_text(project, target->what == XREF_STEP ?
+				     pou->sfc->step[index].name :
+				     target->what == XREF_ACTION ?
+				     pou->sfc->action[index].name :
+				     pou->sfc->transition[index].name));
 }
 
 int xref_name(const struct project *project, const struct xref_target *target,
@@ -82,6 +101,10 @@ int xref_name(const struct project *project, const struct xref_target *target,
 	case XREF_STRUCTURE:
 		return snprintf(out, size, "%s", project_text(project,
 			project->structure[target->index].name));
+	case XREF_STEP:
+	case XREF_TRANSITION:
+	case XREF_ACTION:
+		return chart_name(project, target, use, out, size);
 	case XREF_VARIABLE:
 		break;
 	}
@@ -129,11 +152,13 @@ static bool is_wanted(const struct xref *xref, const struct xref_use *use,
 
 int64_t xref_rank(const struct xref_target *target)
 {
+	/* In units of 1 << 58: tables need less than 18 bits. */
 	static const int64_t first[] = {
-		[XREF_POU] = 0, [XREF_STRUCTURE] = 1, [XREF_VARIABLE] = 2,
-		[XREF_LABEL] = 3, [XREF_ADDRESS] = 4, [XREF_UNKNOWN] = 5,
+		[XREF_POU] = 0, [XREF_STRUCTURE] = 4, [XREF_VARIABLE] = 8,
+		[XREF_STEP] = 9, [XREF_TRANSITION] = 10, [XREF_ACTION] = 11,
+		[XREF_LABEL] = 12, [XREF_ADDRESS] = 16, [XREF_UNKNOWN] = 20,
 	};
-	int64_t what = first[target->what] << 60;
+	int64_t what = first[target->what] << 58;
 
 	if (target->what == XREF_ADDRESS)
 		return what | (int64_t)target->addr.area << 40 |
@@ -216,7 +241,8 @@ static void print_json(const struct project *project, const struct xref_use *use
 		       const char *name, const struct sink *sink)
 {
 	static const char *const what[] = { "unknown", "variable", "address", "label",
-					    "pou", "structure" };
+					    "pou", "structure", "step",
+					    "transition", "action" };
 	const struct var *var = xref_var((struct project *)(uintptr_t)project,
 					 &use->target);
 

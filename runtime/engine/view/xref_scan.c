@@ -130,16 +130,42 @@ static void scan_other(struct scan *scan, const struct token *token, size_t firs
 		add(scan, none, token->text, first);
 }
 
+/* Fill.X: speaks of the step. TRANSITION is nobody's name. */
+static bool scan_step(struct scan *scan, const struct token *token)
+{
+	const struct pou *pou = scan->walk->pou;
+	const char *dot = memchr(token->text, '.', token->len);
+	const struct meaning *m;
+	int index;
+
+	if (!pou || !pou->sfc || pou->sfc->block < 0)
+		return false;
+	m = mean(scan, token->text, token->len);
+	if (!m || m->pou != pou || m->index < vars_declared(&pou->vars) || !m->var)
+		return false;
+	index = m->index - vars_declared(&pou->vars);
+	scan->level[scan->depth].used = false;
+	if (dot && index < 2 * pou->sfc->step_count)
+		add(scan, (struct xref_target){ XREF_STEP,
+			(int)(pou - scan->walk->project->pou) + 1,
+			index % pou->sfc->step_count, { 0 } },
+		    token->text, (size_t)(dot - token->text));
+	return true;
+}
+
 static void scan_head(struct scan *scan, const struct token *token)
 {
 	struct level *level = &scan->level[scan->depth];
 	const char *end = token->text + token->len;
 	const char *dot = memchr(token->text, '.', token->len);
 	size_t len = dot ? (size_t)(dot - token->text) : token->len;
-	const struct meaning *m = mean(scan, token->text, len);
+	const struct meaning *m;
 	int table;
 
 	level->word = WORD_COUNT;
+	if (scan_step(scan, token))
+		return;
+	m = mean(scan, token->text, len);
 	if (!m || !m->var) {
 		scan_other(scan, token, len);
 		return;
