@@ -11,6 +11,7 @@
 #include "engine/check/check_config.h"
 #include "engine/check/check_init.h"
 #include "engine/check/check_operand.h"
+#include "engine/check/check_sfc.h"
 #include "engine/check/check_sfc_names.h"
 #include "engine/check/reserved.h"
 
@@ -430,6 +431,7 @@ static void check_chart(struct names_check *c, const struct pou *pou, uint8_t *b
 				     i < sfc->transition_count, bad);
 	}
 	c->good &= check_sfc_names(c->scope, pou, &c->uses, c->scratch, c->diags);
+	c->good &= check_sfc(c->scope, pou, c->scratch, c->diags);
 }
 
 /* ---- uses ---- */

@@ -124,8 +124,8 @@ const struct meaning *operand_write(struct operand_check *c, struct operand_spot
 	fault = write_fault(m);
 	if (fault != DIAG_COUNT)
 		return operand_refuse(c, fault, at, id, m);
-	if (scope_is_condition(m)) /* each transition has its own coil */
-		return m;
+	/* What stands in a chart is not done in every scan: it does not fight. */
+	always &= c->pou->language != LANGUAGE_SFC;
 	if (uses_add(c->uses, m, always ? USE_WRITTEN | USE_COIL : USE_WRITTEN))
 		operand_report(c, DIAG_COIL_TWICE, at, project_text(c->project, id));
 	return m;
@@ -397,7 +397,8 @@ static void check_element(struct operand_check *c, struct operand_spot at,
 	if (row->edge != EDGE_NONE && c->pou->kind == POU_FUNCTION)
 		operand_report(c, DIAG_FUNCTION_KEEPS, at,
 		       project_text(c->project, cell->operand));
-	if (cell->word == ELEM_END && c->pou->kind != POU_PROGRAM)
+	if (cell->word == ELEM_END &&
+	    (c->pou->kind != POU_PROGRAM || c->pou->language == LANGUAGE_SFC))
 		operand_report(c, DIAG_END_ELSEWHERE, at, pou_word(c->pou->kind));
 	switch (row->operand) {
 	case OPND_BOOL_R:

@@ -120,7 +120,7 @@ bool sfc_link(struct sfc *sfc, struct names *names)
 	for (int i = 0; i < sfc->use_count; i++) {
 		struct sfc_use *use = &sfc->use[i];
 
-		use->action = use->kind == USE_ACTION && use->operand ?
+		use->action = use->operand ?
 			      action[names_fold(names, use->operand)] : -1;
 	}
 	return true;

@@ -57,7 +57,8 @@ struct sfc_use {
 	uint32_t operand;   /* string id: action, or a BOOL; one of SET, RESET  */
 	enum qualifier qualifier; /* of USE_ACTION                             */
 	uint32_t time;      /* string id: operand of L D SD DS SL; 0: none     */
-	int action;         /* that of this name; -1: a BOOL                   */
+	int action;         /* that of this name; -1: a BOOL. Of SET and RESET
+			       a mistake                                       */
 	uint8_t more;       /* 1: stands in the line of the one before it      */
 	uint32_t comment;   /* above it                                        */
 	int line, column;

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * check_sfc - is a chart whole?
+ *
+ * What names in it mean is check_names'; rungs and lists of conditions and actions are
+ * judged like those of other programs; what a chart can come to is found by
+ * check_tokens.
+ */
+#ifndef CHECK_CHECK_SFC_H
+#define CHECK_CHECK_SFC_H
+
+#include "engine/check/scope.h"
+
+/**
+ * check_sfc - steps, transitions and actions: where they lead, what they lack
+ * @pou:     a chart, linked and declared (model/sfc.h)
+ * @scratch: some memory a chart; dead afterwards
+ *
+ * LD430 … LD449, and labels of lists.
+ * Owns: nothing.   Scan-safe: no.   Fails: false when it added an error.
+ */
+bool check_sfc(struct scope *scope, const struct pou *pou, struct arena *scratch,
+	       struct diag_list *diags);
+#endif
