@@ -34,13 +34,13 @@ struct options {
 /* One input changes now and then; a control less often, and not for long. */
 static void change_inputs(struct random_source *source, uint8_t *inputs)
 {
-	for (int i = 0; i < 2; i++)
+	for (int i = 0; i < 4; i++)
 		if (random_chance(source, 60))
 			inputs[0] ^= (uint8_t)(1u << random_below(source, 8));
 	for (int i = 0; i < 5; i++) {
 		uint8_t bit = (uint8_t)(1u << i);
 
-		if (random_chance(source, inputs[1] & bit ? 40 : i == 4 ? 30 : 4))
+		if (random_chance(source, inputs[1] & bit ? 40 : i == 4 ? 40 : 3))
 			inputs[1] ^= bit;
 	}
 	if (random_chance(source, 4))

@@ -5,7 +5,7 @@
 #include "tests/walker/random_sfc.h"
 
 #define DEEPEST 3      /* structures in one another                            */
-#define MANY_STEPS 40  /* from here on there are only plain sequences          */
+#define MANY_STEPS 20  /* from here on there are only plain sequences          */
 
 uint64_t chart_key(uint64_t of, uint32_t number)
 {

@@ -51,7 +51,7 @@ static void put_bool(struct page *page, struct random_source *source)
 	char name[16];
 	int number = (int)random_below(source, 8);
 
-	switch (random_below(source, 10)) {
+	switch (random_below(source, 16)) {
 	case 0:
 	case 1:
 		step_name(source, page->chart, name, sizeof(name), "X");
@@ -79,7 +79,7 @@ static const char *some_time(struct random_source *source)
 {
 	static const char *const times[] = {
 		"T#0ms", "T#1ms", "T#10ms", "T#20ms", "T#25ms", "T#40ms", "T#60ms",
-		"T#100ms", "T#150ms", "T#400ms", "Wait", "T#30ms",
+		"T#100ms", "T#150ms", "T#15ms", "Wait", "T#30ms",
 	};
 
 	return times[random_below(source, sizeof(times) / sizeof(*times))];
@@ -95,7 +95,7 @@ static void put_atom(struct page *page, struct random_source *source, int step)
 	} else if (random_chance(source, 10)) {
 		step_name(source, page->chart, name, sizeof(name), "T");
 		put(page, "%s < %s", name, some_time(source));
-	} else if (random_chance(source, 5)) {
+	} else if (random_chance(source, 8)) {
 		put(page, "TRUE");
 	} else if (random_chance(source, 8)) {
 		put(page, "n%d > %d", (int)random_below(source, 6),
@@ -109,10 +109,10 @@ static void put_atom(struct page *page, struct random_source *source, int step)
 /* Comparisons stand in parentheses. */
 static void put_expression(struct page *page, struct random_source *source, int step)
 {
-	int atoms = 1 + (int)random_below(source, 3);
+	int atoms = random_chance(source, 50) ? 1 : 2 + (int)random_below(source, 2);
 
 	for (int i = 0; i < atoms; i++) {
-		put(page, i == 0 ? "" : random_chance(source, 30) ? " AND " : " OR ");
+		put(page, i == 0 ? "" : random_chance(source, 20) ? " AND " : " OR ");
 		put(page, atoms > 1 ? "(" : "");
 		put_atom(page, source, step);
 		put(page, atoms > 1 ? ")" : "");
@@ -121,9 +121,9 @@ static void put_expression(struct page *page, struct random_source *source, int 
 
 static void put_contact(struct page *page, struct random_source *source)
 {
-	static const char *const words[] = { "NO", "NO", "NC", "NO", "P", "N" };
+	static const char *const words[] = { "NO", "NO", "NC", "NO", "NO", "NC", "P", "N" };
 
-	put(page, "%s ", words[random_below(source, 6)]);
+	put(page, "%s ", words[random_below(source, 8)]);
 	put_bool(page, source);
 }
 
@@ -138,29 +138,38 @@ static void put_timer(struct page *page, struct random_source *source)
 
 /* ---- conditions ---- */
 
-static void put_rung_condition(struct page *page, struct random_source *source)
+/* Another way to be TRUE, so that charts seldom stand still: some time, an input. */
+static void put_way_out(struct page *page, struct random_source *source, int step)
+{
+	if (random_chance(source, 60))
+		put(page, "[ S%d.T >= T#%dms ]", step, 10 * (int)random_below(source, 6));
+	else
+		put(page, "NO In%d", (int)random_below(source, 8));
+}
+
+static void put_rung_condition(struct page *page, struct random_source *source, int step)
 {
 	uint32_t kind = random_below(source, 5);
+	bool two = (kind == 1 && page->timers < TIMERS) || kind == 2 || kind == 3;
 
 	put(page, "    RUNG\n      | ");
 	put_contact(page, source);
-	if (kind == 1 && page->timers < TIMERS) {
-		put(page, " | ");
+	put(page, two ? " | " : "");
+	if (kind == 1 && two)
 		put_timer(page, source);
-	} else if (kind == 2) {
-		put(page, " | [ ");
+	if (kind == 2) {
+		put(page, "[ ");
 		put_expression(page, source, -1);
 		put(page, " ]");
-	} else if (kind == 3) {
-		put(page, " | ");
-		put_contact(page, source);
 	}
+	if (kind == 3)
+		put_contact(page, source);
 	put(page, " | COIL TRANSITION |\n");
-	if (kind == 4) {
-		put(page, "      | ");
-		put_contact(page, source);
-		put(page, " ^|\n");
-	}
+	if (random_chance(source, 20))
+		return;
+	put(page, "      | ");
+	put_way_out(page, source, step);
+	put(page, two ? " | --- ^|\n" : " ^|\n");
 }
 
 static void put_list_condition(struct page *page, struct random_source *source)
@@ -186,11 +195,13 @@ static void put_condition(struct page *page, const struct random_arc *arc)
 	} else if (kind < 5) {
 		put(page, " := ");
 		put_expression(page, &source, arc->from[0]);
+		if (random_chance(&source, 60))
+			put(page, " OR (S%d.T >= %s)", arc->from[0], some_time(&source));
 		put(page, ";");
 	} else {
 		put(page, ":\n");
 		if (kind < 9)
-			put_rung_condition(page, &source);
+			put_rung_condition(page, &source, arc->from[0]);
 		else
 			put_list_condition(page, &source);
 		put(page, "  ");

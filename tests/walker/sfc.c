@@ -10,7 +10,7 @@
 #include <limits.h>
 #include <string.h>
 
-#define EVOLUTIONS_MAX 20000 /* of a scan; a chart that needs more never rests */
+#define EVOLUTIONS_MAX 1000  /* of a scan; a chart that needs more never rests */
 
 /* ---- macro-steps ---- */
 
