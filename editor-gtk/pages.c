@@ -5,6 +5,8 @@
 #include "editor-gtk/pages_inside.h"
 #include "editor-gtk/grid_draw.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/sfc_bodies.h"
+#include "editor-gtk/sfc_draw.h"
 
 #include <math.h>
 
@@ -168,7 +170,7 @@ static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
 		put_slices(pages, layout, picture, scale);
 }
 
-static void put_ladder(struct pages *pages, const char *heading, int only)
+static struct sheet *new_sheet(struct pages *pages)
 {
 	struct sheet *sheet = sheet_new(pages->project,
 					&pages->project->pou[pages->pou],
@@ -177,12 +179,26 @@ static void put_ladder(struct pages *pages, const char *heading, int only)
 	sheet->drafting.show = pages->show;
 	sheet->drafting.all_comments = true;
 	sheet_layout(sheet);
-	float scale = fminf(1, pages->room_width / sheet->width);
-	int first = only ? only - 1 : 0, end = only ? only : sheet->count;
+	return sheet;
+}
+
+static void put_rungs(struct pages *pages, const struct sheet *sheet, const char *heading,
+		      float scale, int first, int end)
+{
 	float more = first < end ? sheet->rung[first]->height * scale : 0;
+
 	put_heading(pages, heading, fminf(more, pages->room_height - 40));
 	for (int i = first; i < end; i++)
 		put_rung(pages, sheet, i, scale, i == first);
+}
+
+static void put_ladder(struct pages *pages, const char *heading, int only)
+{
+	struct sheet *sheet = new_sheet(pages);
+	float scale = fminf(1, pages->room_width / sheet->width);
+
+	put_rungs(pages, sheet, heading, scale, only ? only - 1 : 0,
+		  only ? only : sheet->count);
 	sheet_free(sheet);
 }
 
@@ -206,14 +222,75 @@ static void put_line(struct pages *pages, const char *line)
 	g_string_free(text, TRUE);
 }
 
-static void put_list(struct pages *pages, const char *heading)
+/* Takes over the lines. */
+static void put_list(struct pages *pages, const char *heading, char **lines)
 {
-	char **lines = listing_il(pages->project, &pages->project->pou[pages->pou]);
-
 	put_heading(pages, heading, 3 * TEXT_LINE);
 	for (int i = 0; lines && lines[i]; i++)
 		put_line(pages, lines[i]);
 	g_strfreev(lines);
+}
+
+/* ---- charts ---- */
+
+/* Rows of a chart, as many as fit on each page; it ends between boxes if it can. */
+static void put_chart_slices(struct pages *pages, const struct sfc_sheet *chart,
+			     const struct picture *picture, float scale)
+{
+	float from = 0, end = 0;
+
+	for (int row = 0; row < chart->layout->rows; row++) {
+		float to = sfc_sheet_y(row) + SFC_ROW / 2.0f;
+
+		if (!sfc_sheet_can_part(chart, row))
+			continue;
+		if (end > from && (to - from) * scale > pages->room_height - pages->y) {
+			put_span(pages, picture, scale, from, end);
+			next_page(pages);
+			from = end;
+		}
+		end = to;
+	}
+	put_span(pages, picture, scale, from, chart->height);
+}
+
+static void put_bodies(struct pages *pages, const struct pou *pou)
+{
+	struct sheet *sheet = new_sheet(pages);
+	float scale = fminf(1, pages->room_width / sheet->width);
+	int count;
+	struct sfc_part_body *bodies = sfc_bodies_new(pages->project, pou, &count);
+
+	for (int i = 0; i < count; i++) {
+		const struct sfc_body *body = bodies[i].body;
+
+		if (body->kind == BODY_LIST)
+			put_list(pages, bodies[i].heading,
+				 sfc_body_lines(pages->project, pou, body));
+		else
+			put_rungs(pages, sheet, bodies[i].heading, scale, body->first,
+				  body->first + body->count);
+	}
+	sfc_bodies_free(bodies, count);
+	sheet_free(sheet);
+}
+
+static void put_chart(struct pages *pages, const char *heading)
+{
+	const struct pou *pou = &pages->project->pou[pages->pou];
+	struct sfc_sheet *chart = sfc_sheet_new(pages->project, pou, pages->lettering);
+	const struct sfc_scene scene = { .sheet = chart, .theme = pages->theme };
+	float scale = fminf(1, pages->room_width / chart->width);
+	struct picture *picture = new_picture(pages);
+
+	sfc_draw(&scene, picture);
+	put_heading(pages, heading, 5 * TEXT_LINE);
+	if (chart->height * scale <= pages->room_height - pages->y)
+		put_whole(pages, picture, chart->height, scale, 0);
+	else
+		put_chart_slices(pages, chart, picture, scale);
+	sfc_sheet_free(chart);
+	put_bodies(pages, pou);
 }
 
 /* ---- symbols ---- */
@@ -261,16 +338,17 @@ static float draw_cells(const struct pages *pages, struct picture *picture,
 static void put_table(struct pages *pages, const struct var_table *table,
 		      const char *heading)
 {
+	const int count = listing_count(table);
 	char *head[LISTING_COLUMNS] = { _("Name"), _("Type"), _("Address"),
 					_("Initial value"), _("Comment") };
 
-	if (!table->count)
+	if (!count)
 		return;
 	put_heading(pages, heading, 5 * TEXT_LINE);
 	struct picture *top = new_picture(pages);
 	float top_height = draw_cells(pages, top, head, true);
 	put_whole(pages, top, top_height, 1, 2 * TEXT_LINE);
-	for (int i = 0; i < table->count; i++) {
+	for (int i = 0; i < count; i++) {
 		struct picture *picture = new_picture(pages);
 		char *cell[LISTING_COLUMNS];
 
@@ -293,7 +371,7 @@ static void put_symbols(struct pages *pages)
 	bool any = project->globals.count > 0;
 
 	for (int i = 0; i < project->pou_count; i++)
-		any |= project->pou[i].vars.count > 0;
+		any |= listing_count(&project->pou[i].vars) > 0;
 	if (!any)
 		return;
 	pages->subject = _("Symbols");
@@ -318,7 +396,9 @@ static void put_pou(struct pages *pages, int index, int rung)
 	pages->subject = name;
 	next_page(pages);
 	if (pou->language == LANGUAGE_IL)
-		put_list(pages, heading);
+		put_list(pages, heading, listing_il(pages->project, pou));
+	else if (pou->sfc && !rung)
+		put_chart(pages, heading);
 	else
 		put_ladder(pages, heading, rung);
 	g_free(heading);

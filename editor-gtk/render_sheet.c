@@ -5,6 +5,8 @@
 #include "editor-gtk/render_sheet.h"
 #include "editor-gtk/grid_draw.h"
 #include "editor-gtk/listing.h"
+#include "editor-gtk/sfc_bodies.h"
+#include "editor-gtk/sfc_draw.h"
 #include "editor-gtk/sheet.h"
 
 #define HEADING   40
@@ -28,11 +30,9 @@ float render_heading(struct lettering *lettering, const char *text, float y,
 	return HEADING;
 }
 
-static float put_list(const struct project *project, const struct pou *pou,
-		      struct lettering *lettering, float y, struct picture *picture)
+static float put_lines(char **lines, struct lettering *lettering, float y,
+		       struct picture *picture)
 {
-	char **lines = listing_il(project, pou);
-
 	for (int i = 0; lines && lines[i]; i++) {
 		GString *text = g_string_new(lines[i]);
 
@@ -71,23 +71,30 @@ static int mark_wrong(const struct diag_list *diags, const struct rung_layout *l
 	return count;
 }
 
-static float put_ladder(const struct project *project, const struct pou *pou,
-			const struct render_options *options,
-			struct lettering *lettering, float y, struct picture *picture)
+static struct sheet *new_sheet(const struct project *project, const struct pou *pou,
+			       const struct render_options *options,
+			       struct lettering *lettering)
 {
 	struct sheet *sheet = sheet_new(project, pou, lettering);
-	const struct theme *theme = theme_get(options->theme, THEME_GREEN);
-	int first = options->rung ? options->rung - 1 : 0;
-	int end = options->rung ? options->rung : pou->rung_count;
 
 	sheet->drafting.show = options->show;
 	sheet->drafting.width = options->width;
 	sheet->drafting.all_comments = true;
 	sheet_layout(sheet);
+	return sheet;
+}
+
+/* Rungs first … end - 1. */
+static float put_rungs(const struct sheet *sheet, const struct render_options *options,
+		       int first, int end, float y, struct picture *picture)
+{
+	const struct theme *theme = theme_get(options->theme, THEME_GREEN);
+	const struct project *project = sheet->drafting.project;
+
 	for (int i = first; i < end; i++) {
 		struct grid_mark mark[LIMIT_DIAGS];
 		int marks = mark_wrong(options->diags, sheet->rung[i],
-				       project_text(project, pou->name), mark);
+				       project_text(project, sheet->pou->name), mark);
 		struct grid_scene scene = { .drafting = &sheet->drafting,
 					    .layout = sheet->rung[i], .theme = theme,
 					    .mark = mark, .mark_count = marks };
@@ -98,7 +105,76 @@ static float put_ladder(const struct project *project, const struct pou *pou,
 		render_grow(picture, sheet->width, y);
 	}
 	picture_move(picture, 0, 0);
+	return y;
+}
+
+static float put_ladder(const struct project *project, const struct pou *pou,
+			const struct render_options *options,
+			struct lettering *lettering, float y, struct picture *picture)
+{
+	struct sheet *sheet = new_sheet(project, pou, options, lettering);
+
+	y = put_rungs(sheet, options, options->rung ? options->rung - 1 : 0,
+		      options->rung ? options->rung : pou->rung_count, y, picture);
 	sheet_free(sheet);
+	return y;
+}
+
+/* What the check says of lines of the file in which steps and transitions begin. */
+static int mark_chart(const struct diag_list *diags, const struct sfc_sheet *sheet,
+		      struct sfc_mark *mark)
+{
+	int count = 0;
+
+	for (int i = 0; diags && i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+		const char *name = project_text(sheet->project, sheet->pou->name);
+		struct sfc_mark at;
+
+		if (!diag->pou || g_ascii_strcasecmp(diag->pou, name) != 0 ||
+		    !sfc_sheet_of_diag(sheet, diag, &at.shape, &at.use))
+			continue;
+		at.signs = diag_severity(diag->id) == SEVERITY_ERROR ? SFC_ERROR :
+								       SFC_WARNING;
+		mark[count++] = at;
+	}
+	return count;
+}
+
+/* A chart, and below it what stands in it as rungs and lists. */
+static float put_chart(const struct project *project, const struct pou *pou,
+		       const struct render_options *options,
+		       struct lettering *lettering, float y, struct picture *picture)
+{
+	struct sfc_sheet *chart = sfc_sheet_new(project, pou, lettering);
+	struct sheet *sheet = new_sheet(project, pou, options, lettering);
+	struct sfc_mark mark[LIMIT_DIAGS];
+	const struct sfc_scene scene = {
+		.sheet = chart, .theme = theme_get(options->theme, THEME_GREEN),
+		.mark = mark, .mark_count = mark_chart(options->diags, chart, mark) };
+	struct sfc_part_body *bodies;
+	int count;
+
+	picture_move(picture, 0, y);
+	sfc_draw(&scene, picture);
+	picture_move(picture, 0, 0);
+	y += chart->height;
+	render_grow(picture, chart->width, y);
+	bodies = sfc_bodies_new(project, pou, &count);
+	for (int i = 0; i < count; i++) {
+		const struct sfc_body *body = bodies[i].body;
+
+		y += render_heading(lettering, bodies[i].heading, y, picture);
+		if (body->kind == BODY_LIST)
+			y = put_lines(sfc_body_lines(project, pou, body), lettering, y,
+				      picture);
+		else
+			y = put_rungs(sheet, options, body->first,
+				      body->first + body->count, y, picture);
+	}
+	sfc_bodies_free(bodies, count);
+	sheet_free(sheet);
+	sfc_sheet_free(chart);
 	return y;
 }
 
@@ -121,9 +197,13 @@ void render_sheets(const struct project *project, int pou,
 		if (several)
 			y += render_heading(lettering, heading, y, picture);
 		g_free(heading);
-		y = one->language == LANGUAGE_IL ?
-		    put_list(project, one, lettering, y + 8, picture) :
-		    put_ladder(project, one, options, lettering, y, picture);
+		if (one->language == LANGUAGE_IL)
+			y = put_lines(listing_il(project, one), lettering, y + 8,
+				      picture);
+		else if (one->sfc && !options->rung)
+			y = put_chart(project, one, options, lettering, y, picture);
+		else
+			y = put_ladder(project, one, options, lettering, y, picture);
 	}
 	render_grow(picture, 1, y);
 }

@@ -4,6 +4,8 @@
  */
 #include "engine/view/sfc_words.h"
 
+#include "engine/text/text.h"
+
 static void put_id(const struct project *project, const struct sink *sink, uint32_t id)
 {
 	sink_text(sink, project_text(project, id));
@@ -155,4 +157,13 @@ void sfc_words_ways(const struct project *project, const struct sfc *sfc, int tr
 	put_refs(project, sfc, t->first_from, t->from_count, sink);
 	sink_text(sink, " \xe2\x86\x92 ");
 	put_refs(project, sfc, t->first_to, t->to_count, sink);
+}
+
+void sfc_words_list(const struct project *project, const struct pou *pou,
+		    const struct sfc_body *body, const struct sink *sink)
+{
+	const struct il list = { .line = pou->il.line + body->first,
+				 .count = body->count };
+
+	text_write_il(project, &list, sink);
 }

@@ -29,4 +29,8 @@ void sfc_words_condition(const struct project *project, const struct pou *pou,
 void sfc_words_ways(const struct project *project, const struct sfc *sfc, int transition,
 		    const struct sink *sink);
 
+/** sfc_words_list - the instructions of a body that is a list, a line each. */
+void sfc_words_list(const struct project *project, const struct pou *pou,
+		    const struct sfc_body *body, const struct sink *sink);
+
 #endif

@@ -6,7 +6,6 @@
  * of it what its longest text takes. Every row is put out from left to right. Conditions
  * and actions that are rungs or lists stand below, under their names.
  */
-#include "engine/text/text.h"
 #include "engine/view/draw.h"
 #include "engine/view/plain.h"
 #include "engine/view/sfc_words.h"
@@ -445,17 +444,14 @@ static void put_row(struct sketch *sketch, int row)
 
 /* ---- what stands below ---- */
 
-static bool put_body(struct sketch *sketch, struct draw *draw,
+static void put_body(const struct sketch *sketch, struct draw *draw,
 		     const struct sfc_body *body)
 {
 	const struct pou *pou = sketch->pou;
 
 	if (body->kind == BODY_LIST) {
-		const struct il list = { .line = pou->il.line + body->first,
-					 .count = body->count };
-
-		text_write_il(draw->project, &list, draw->sink);
-		return true;
+		sfc_words_list(draw->project, pou, body, draw->sink);
+		return;
 	}
 	for (int i = body->first; i < body->first + body->count; i++) {
 		if (i > body->first)
@@ -464,7 +460,6 @@ static bool put_body(struct sketch *sketch, struct draw *draw,
 		draw->number = i + 1;
 		draw_rung(draw);
 	}
-	return true;
 }
 
 static void put_bodies(struct sketch *sketch, struct draw *draw)

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_bodies - conditions and actions of a chart that are rungs or lists, in the order in
+ * which they stand below it.
+ */
+#ifndef EDITOR_SFC_BODIES_H
+#define EDITOR_SFC_BODIES_H
+
+#include "engine/model/project.h"
+
+struct sfc_part_body {
+	const struct sfc_body *body;   /* borrowed from the chart              */
+	int transition, action;        /* one of them; -1: the other           */
+	char *heading;                 /* "Ready: Idle → Fill", "Count"         */
+};
+
+/** sfc_bodies_new - @count gets how many. An expression is none: it stands beside its
+ * transition. Owns: the caller, sfc_bodies_free(). */
+struct sfc_part_body *sfc_bodies_new(const struct project *project, const struct pou *pou,
+				     int *count);
+void sfc_bodies_free(struct sfc_part_body *bodies, int count);
+/** sfc_body_lines - of a list. Owns: the caller, g_strfreev. */
+char **sfc_body_lines(const struct project *project, const struct pou *pou,
+		      const struct sfc_body *body);
+
+#endif
