@@ -6,6 +6,7 @@
 
 #include "editor-gtk/chart_kept.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/watch_names.h"
 
 #include "engine/trial/value.h"
 
@@ -271,6 +272,26 @@ static GtkWidget *new_popover(LadderChartView *view)
 	return view->popover;
 }
 
+/* ---- dropping ---- */
+
+/* Names with blanks between them; of an instance all that it has. */
+static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
+			LadderChartView *view)
+{
+	const struct twin *twin = ladder_sim_twin(view->sim);
+	GPtrArray *names = watch_names_expand(twin ? &twin->resource.image : NULL,
+					      g_value_get_string(value));
+	bool any = false;
+
+	(void)target;
+	(void)x;
+	(void)y;
+	for (guint i = 0; i < names->len; i++)
+		any = ladder_chart_view_add(view, names->pdata[i]) || any;
+	g_ptr_array_unref(names);
+	return any;
+}
+
 /* ---- buttons ---- */
 
 static void name_button(GtkWidget *button, const char *name)
@@ -352,6 +373,7 @@ GtkWidget *ladder_chart_view_new(LadderSim *sim)
 {
 	LadderChartView *view = g_object_new(LADDER_TYPE_CHART_VIEW, NULL);
 	GtkWidget *scroller = gtk_scrolled_window_new(), *area = ladder_chart_area_new(sim);
+	GtkDropTarget *drop = gtk_drop_target_new(G_TYPE_STRING, GDK_ACTION_COPY);
 
 	view->sim = g_object_ref(sim);
 	view->area = LADDER_CHART_AREA(area);
@@ -362,6 +384,8 @@ GtkWidget *ladder_chart_view_new(LadderSim *sim)
 				       GTK_POLICY_AUTOMATIC);
 	gtk_widget_set_hexpand(scroller, TRUE);
 	gtk_box_append(GTK_BOX(view), scroller);
+	g_signal_connect(drop, "drop", G_CALLBACK(dropped), view);
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(drop));
 	g_signal_connect_object(sim, "program-changed", G_CALLBACK(program_changed), view,
 				G_CONNECT_SWAPPED);
 	g_signal_connect_object(area, "lines-changed", G_CALLBACK(keep), view,

@@ -10,6 +10,7 @@
 
 #include "editor-gtk/entry.h"
 #include "editor-gtk/entry_popup.h"
+#include "editor-gtk/popover.h"
 
 #include "engine/base/explain.h"
 
@@ -542,13 +543,6 @@ void entry_begin_text(LadderGridView *view, enum verb verb)
 
 /* ---- closing ---- */
 
-static gboolean drop_popup(gpointer popup)
-{
-	gtk_widget_unparent(popup);
-	g_object_unref(popup);
-	return G_SOURCE_REMOVE;
-}
-
 void entry_close(LadderGridView *view)
 {
 	GtkWidget *entry = view->entry;
@@ -563,7 +557,7 @@ void entry_close(LadderGridView *view)
 		return;
 	gtk_popover_popdown(GTK_POPOVER(entry));
 	/* It may be what is calling. */
-	g_idle_add(drop_popup, g_object_ref(entry));
+	popover_drop_later(entry);
 	strips_redraw(view, view->cursor.rung);
 }
 

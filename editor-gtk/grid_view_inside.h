@@ -195,6 +195,11 @@ void entry_allocate(LadderGridView *view);
 /* ---- grid_view_tell.c ---- */
 void tell_init(LadderGridView *view);
 
+/* ---- grid_view_vars.c ---- */
+/** sheet_variables - of an element of the sheet: "Main.Count Level %IW2"; "": none that
+ * stands somewhere by itself. Caller frees. */
+char *sheet_variables(LadderGridView *view, const struct cell *cell);
+
 /* ---- grid_view_live.c ---- */
 void live_init(LadderGridView *view);
 void live_clear(LadderGridView *view);

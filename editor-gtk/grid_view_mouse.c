@@ -7,6 +7,8 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include "editor-gtk/popover.h"
+
 /* ---- what is dragged ---- */
 
 #define LADDER_TYPE_DRAG (ladder_drag_get_type())
@@ -156,8 +158,7 @@ static GMenu *make_menu(LadderGridView *view)
 static void closed(GtkPopover *popover)
 {
 	/* Not before its action has run. */
-	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, G_SOURCE_FUNC(gtk_widget_unparent),
-			popover, NULL);
+	popover_drop_later(GTK_WIDGET(popover));
 }
 
 static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
@@ -226,6 +227,19 @@ static void drag_cancel(GtkGesture *gesture, GdkEventSequence *sequence,
 
 /* ---- dragging an element or a rung ---- */
 
+/* A chart takes an element as its variables. @element: taken over. */
+static GdkContentProvider *with_names(LadderGridView *view, const struct cell *cell,
+				      GdkContentProvider *element)
+{
+	char *names = sheet_variables(view, cell);
+	GdkContentProvider *both[] = { element, NULL };
+
+	if (*names)
+		both[1] = gdk_content_provider_new_typed(G_TYPE_STRING, names);
+	g_free(names);
+	return both[1] ? gdk_content_provider_new_union(both, 2) : element;
+}
+
 static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double y,
 					LadderGridView *view)
 {
@@ -245,7 +259,8 @@ static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double 
 		return NULL;
 	drag.word = (enum word)cell->word;
 	drag.from = view->cursor;
-	return gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag);
+	return with_names(view, cell,
+			  gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag));
 }
 
 static void drag_begin(GtkDragSource *source, GdkDrag *unused, LadderGridView *view)

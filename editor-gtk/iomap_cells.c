@@ -5,6 +5,7 @@
 #include "editor-gtk/iomap_cells.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/popover.h"
 
 #include <string.h>
 
@@ -229,8 +230,7 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 static void popover_closed(GtkWidget *popover)
 {
 	/* Not before its row has been taken. */
-	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, G_SOURCE_FUNC(gtk_widget_unparent),
-			popover, NULL);
+	popover_drop_later(popover);
 }
 
 static void chosen(GtkWidget *popover, GtkListBoxRow *choice)

@@ -9,6 +9,7 @@
 
 #include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/popover.h"
 #include "editor-gtk/pou_edit.h"
 #include "editor-gtk/pou_import.h"
 
@@ -411,8 +412,7 @@ static GtkWidget *menu_new(void)
 static void menu_closed(GtkWidget *popover)
 {
 	/* Not before its action has run. */
-	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, G_SOURCE_FUNC(gtk_widget_unparent),
-			popover, NULL);
+	popover_drop_later(popover);
 }
 
 static void show_menu(struct tree *tree, double x, double y)

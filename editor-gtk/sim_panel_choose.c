@@ -6,6 +6,7 @@
 #include "editor-gtk/sim_panel_inside.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/popover.h"
 #include "editor-gtk/sim_panel_kept.h"
 
 /* ---- kept ---- */
@@ -63,7 +64,7 @@ static void toggle_push(GtkWidget *widget, const char *name, GVariant *unused)
 
 void sim_panel_end_asking(LadderSimPanel *panel)
 {
-	g_clear_pointer(&panel->asking, gtk_widget_unparent);
+	g_clear_pointer(&panel->asking, popover_drop);
 }
 
 static gboolean end_later(gpointer data)

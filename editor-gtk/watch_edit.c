@@ -7,6 +7,7 @@
 #include "editor-gtk/watch_inside.h"
 
 #include "editor-gtk/entry_popup.h"
+#include "editor-gtk/popover.h"
 #include "editor-gtk/watch_names.h"
 
 #include <string.h>
@@ -147,20 +148,13 @@ static bool line_taken(void *context, const char *line)
 	return true;
 }
 
-static gboolean let_go(gpointer popup)
-{
-	gtk_widget_unparent(popup);
-	g_object_unref(popup);
-	return G_SOURCE_REMOVE;
-}
-
 /* Its own signal is still under way. */
 static void line_gone(void *context)
 {
 	struct ask *ask = context;
 
 	if (ask->view->popup)
-		g_idle_add(let_go, g_object_ref(ask->view->popup));
+		popover_drop_later(ask->view->popup);
 	ask->view->popup = NULL;
 	gtk_widget_grab_focus(ask->view->list);
 	g_free(ask);

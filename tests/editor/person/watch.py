@@ -80,6 +80,30 @@ def values(screen):
     assert '    watch auto Nobody\n' in text, text
 
 
+def dragged(screen):
+    """elements of the sheet are dragged onto both charts: their variables are in them, and in the file"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    chart(editor)
+    x, y = editor.centre(editor.find('Add variables', 'push button'))
+    editor.drag(editor.middle(editor.element('Rung 1, COIL', 'Motor')), (x + 200, y + 90), look='watch-drag')
+    editor.find('Motor, New value')
+    editor.drag(editor.middle(editor.element('Rung 2, [ ]', 'Level')), (x + 200, y + 90))
+    editor.find('Level, Shown as')
+    editor.shot('watch-dragged')
+    editor.press(editor.find('Timing chart', 'toggle button') if editor.all('Timing chart', 'toggle button')
+                 else editor.find('Timing chart'))
+    area = editor.find('Timing chart, cursor')
+    editor.drag(editor.middle(editor.element('Rung 2, COIL', 'High')), editor.centre(area))
+    until(lambda: editor.save(path) and '  timing High\n' in open(path).read(), 'the variable in the chart')
+    editor.shot('watch-dragged-chart')
+    text = open(path).read()
+    assert '  status-chart Chart 1\n    watch auto Start\n    watch auto Motor\n    watch auto Level\n' in text, text
+    assert text.startswith(PROGRAM), 'the program is another one'
+    editor.keys('ctrl+r')
+    editor.says('SIMULATION')
+
+
 def forces(screen):
     """F holds a value against the program, and lets go of it; a row moves and goes"""
     path = new_file(screen, PROGRAM)
@@ -118,4 +142,4 @@ def chinese(screen):
 
 
 chinese.size = '1024x700x24'
-main([values, forces, chinese])
+main([values, dragged, forces, chinese])

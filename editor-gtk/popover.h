@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * popover - how a popover that was made for one question goes away again.
+ */
+#ifndef EDITOR_POPOVER_H
+#define EDITOR_POPOVER_H
+
+#include <gtk/gtk.h>
+
+/** popover_drop - takes it from its parent, now; never in one of its own signals. A pointer
+ * that was in it is not any more: GTK 4.8 asks what is below it for its surface in the next
+ * layout, and one that is gone has none. */
+void popover_drop(GtkWidget *popover);
+/** popover_drop_later - the same when it comes to rest: its signals, and the action that
+ * closed it, have run. */
+void popover_drop_later(GtkWidget *popover);
+
+#endif
