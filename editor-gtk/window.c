@@ -9,6 +9,7 @@
 #include "editor-gtk/panels.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/settings.h"
+#include "editor-gtk/still.h"
 #include "editor-gtk/uses_view.h"
 #include "editor-gtk/watch_view.h"
 
@@ -183,7 +184,8 @@ static void add_panels(LadderWindow *window)
 	GtkWidget *problems = ladder_problems_new(), *uses = ladder_uses_view_new();
 
 	gtk_paned_set_start_child(window->side, ladder_project_tree_new(document));
-	gtk_paned_set_end_child(window->side, ladder_palette_new(document));
+	gtk_paned_set_end_child(window->side,
+				ladder_still_new(ladder_palette_new(document)));
 	gtk_paned_set_position(window->side, 230);
 	add_below(window, problems, "problems", _("Problems"));
 	ladder_problems_set_document(LADDER_PROBLEMS(problems), document);

@@ -7,6 +7,7 @@
 #include "editor-gtk/window_inside.h"
 
 #include "editor-gtk/panels.h"
+#include "editor-gtk/slow_bar.h"
 #include "editor-gtk/symbols_view.h"
 #include "editor-gtk/text_view.h"
 #include "editor-gtk/welcome.h"
@@ -186,6 +187,7 @@ static AdwTabPage *add_page(LadderWindow *window, GtkWidget *widget, const char 
 	if (scrolls) {
 		child = gtk_scrolled_window_new();
 		gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(child), widget);
+		slow_bar_make(GTK_SCROLLED_WINDOW(child));
 	}
 	page = adw_tab_view_append(window->tabs, child);
 	set_name(page, name, title);
