@@ -116,6 +116,7 @@ static void scrolled(LadderGridView *view)
 		if (view->entry)
 			gtk_widget_queue_allocate(GTK_WIDGET(view));
 	}
+	strips_draw_ahead(view);
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 

@@ -76,6 +76,7 @@ struct _LadderGridView {
 	struct lettering *lettering;
 	double zoom;
 	guint idle;                 /* lays out what is not seen               */
+	guint ahead;                /* draws what is seen next                  */
 	guint resize;               /* asks for another size, soon             */
 	bool allocating;
 
@@ -147,6 +148,8 @@ void strips_lay_out(LadderGridView *view, double page);
 float strips_width(LadderGridView *view);
 float strips_height(LadderGridView *view);
 void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot);
+/** strips_draw_ahead - what comes into view next, as soon as nothing else is done. */
+void strips_draw_ahead(LadderGridView *view);
 /** strips_style - colours, type or what names show changed. */
 void strips_style(LadderGridView *view);
 

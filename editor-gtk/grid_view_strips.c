@@ -17,6 +17,7 @@
 #define TITLE_GUESS  32 /* px above the first row of a rung                    */
 #define IDLE_RUNGS   64 /* laid out at a time while nothing else is done       */
 #define NEAR_RUNGS   40 /* kept above and below what is seen                   */
+#define AHEAD       1.3 /* pages above and below that are drawn before          */
 
 static struct strip *strip_of(LadderGridView *view, int rung)
 {
@@ -475,6 +476,33 @@ void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot)
 	lettering_trim(view->lettering);
 }
 
+/* What comes into view next is drawn before: one rung at a time, while nothing else is
+ * done. Of what runs the values would be others by then. */
+static gboolean draw_ahead(gpointer data)
+{
+	LadderGridView *view = data;
+	const double top = gtk_adjustment_get_value(view->adjustment[1]) / view->zoom;
+	const double page = gtk_adjustment_get_page_size(view->adjustment[1]) / view->zoom;
+	int i = strips_at(view, (float)(top - AHEAD * page));
+
+	for (; !live_is_on(view) && i >= 0 && i < (int)view->strips->len; i++) {
+		if ((double)strip_of(view, i)->y > top + (1 + AHEAD) * page)
+			break;
+		if (strip_of(view, i)->node || !sheet_rung(view, i))
+			continue;
+		draw_strip(view, i, strips_get(view, i));
+		return G_SOURCE_CONTINUE;
+	}
+	view->ahead = 0;
+	return G_SOURCE_REMOVE;
+}
+
+void strips_draw_ahead(LadderGridView *view)
+{
+	if (!view->ahead)
+		view->ahead = g_idle_add_full(G_PRIORITY_LOW, draw_ahead, view, NULL);
+}
+
 /* ---- life ---- */
 
 void strips_style(LadderGridView *view)
@@ -511,6 +539,7 @@ void strips_clear(LadderGridView *view)
 		g_source_remove(view->idle);
 	if (view->resize)
 		g_source_remove(view->resize);
+	g_clear_handle_id(&view->ahead, g_source_remove);
 	view->idle = view->resize = 0;
 	for (guint i = 0; i < view->strips->len; i++)
 		forget(strip_of(view, (int)i));
