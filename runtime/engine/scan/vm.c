@@ -427,6 +427,10 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;
 			pc = base + pc[1];
+			n = *pc >> 8;
+			/* Back to the next active step. */
+			if ((*pc & 0xff) == VM_EACH)
+				goto each;
 			break;
 		case VM_JMPC:
 			if (!m[pc[2]]) {
@@ -461,6 +465,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 10 + 4 * (n >> 1);
 			break;
 		case VM_EACH:
+		each:
 			if (!pay(vm, 1 + n / 8))
 				goto out_of_budget;
 			if (!find_step(m, pc + 1, n, &found)) {

@@ -88,6 +88,24 @@ static bool is_off(const struct sfc_il *s, const struct sfc_body *body)
 	       (body->kind != BODY_LIST && s->ld.unit->pou->rung[body->first]->off);
 }
 
+/* Is the last line the coil, and the only one? Then its result need not be stored. */
+static bool ends_with_coil(const struct sfc_il *s, int first)
+{
+	const struct il *il = s->ld.il;
+	int stores = 0;
+
+	for (int i = first; i < il->count; i++) {
+		const struct il_line *line = &il->line[i];
+
+		if (line->kind == IL_LABEL || line->operand != s->condition)
+			continue;
+		if (line->kind != IL_OP || line->op != OP_ST || line->modifiers)
+			return false;
+		stores++;
+	}
+	return stores == 1 && il->line[il->count - 1].operand == s->condition;
+}
+
 /* The result is whether arc @arc fires. */
 static void put_condition(struct sfc_il *s, int arc)
 {
@@ -108,6 +126,11 @@ static void put_condition(struct sfc_il *s, int arc)
 
 		jumps |= line->kind == IL_OP && line->op == OP_JMP &&
 			 line->operand == end;
+	}
+	if (!jumps && ends_with_coil(s, before)) {
+		s->ld.il->count--;
+		sfc_allow(s);
+		return;
 	}
 	if (jumps)
 		sfc_here(s, end);
