@@ -151,8 +151,8 @@ static void search_declaration(struct search *search, const char *whole,
 {
 	char *line;
 
-	/* Those of a list are a part of its text. */
-	if (span->pou >= 0 && search->project->pou[span->pou].language == LANGUAGE_IL)
+	/* Those of a list or chart are a part of its text. */
+	if (span->pou >= 0 && search->project->pou[span->pou].language != LANGUAGE_LD)
 		return;
 	line = g_strndup(whole + span->at, span->len);
 	g_strchomp(line);
@@ -214,8 +214,10 @@ static void search_project(struct search *search, LadderDocument *document)
 		search_declarations(search, whole, span, i);
 		search->place = (struct find_hit){ .pou = i, .rung = -1, .row = -1,
 						   .col = -1, .table = -1, .index = -1 };
-		if (pou->language == LANGUAGE_IL)
+		if (pou->language != LANGUAGE_LD) {
 			search_list(search, document, i);
+			continue;
+		}
 		for (int k = 0; k < pou->rung_count; k++) {
 			search->place.rung = k;
 			search_rung(search, pou->rung[k]);

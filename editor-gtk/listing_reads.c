@@ -139,7 +139,7 @@ struct listing_reads *listing_reads_new(const struct project *project)
 
 		reads->names[reads->pou] = grid_names_new(project, pou);
 		reads->rung = 0;
-		if (pou->language == LANGUAGE_IL)
+		if (pou->il.count)
 			note_il(reads, &pou->il);
 		for (int i = 0; i < pou->rung_count; i++) {
 			const struct rung *rung = pou->rung[i];

@@ -54,7 +54,7 @@ static char *place_text(const struct diag *diag, int row)
 /* Of a list the line of its text, which begins with its heading. */
 static int list_row(const struct project *project, int pou, int line)
 {
-	if (pou < 0 || project->pou[pou].language != LANGUAGE_IL || !line)
+	if (pou < 0 || project->pou[pou].language == LANGUAGE_LD || !line)
 		return -1;
 	return MAX(line - project->pou[pou].line, 0);
 }

@@ -96,7 +96,7 @@ static void add_pous(GListStore *root, const struct project *project, const char
 		note = pou->language == LANGUAGE_LD ?
 			g_strdup_printf(ngettext("%d rung", "%d rungs",
 				(unsigned long)pou->rung_count), pou->rung_count) :
-			g_strdup("IL");
+			g_strdup(pou_language_word(pou->language));
 		row = add_row(heading->rows, ROW_POU, project_text(project, pou->name),
 			      note);
 		row->pou = i;
@@ -108,7 +108,7 @@ static int symbol_count(const struct project *project)
 	int count = project->globals.count;
 
 	for (int i = 0; i < project->pou_count; i++)
-		count += project->pou[i].vars.count;
+		count += vars_declared(&project->pou[i].vars);
 	return count;
 }
 
@@ -166,7 +166,7 @@ static GListModel *variables(const struct project *project, const struct var_tab
 {
 	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
 
-	for (int i = 0; i < vars->count; i++) {
+	for (int i = 0; i < vars_declared(vars); i++) {
 		const struct var *var = &vars->var[i];
 
 		add_row(rows, ROW_VARIABLE, project_text(project, var->name), g_strdup(
@@ -516,7 +516,7 @@ static GListModel *children(gpointer item, gpointer data)
 	const struct project *project = ladder_document_project(tree->document);
 
 	if (project && row->kind == ROW_POU && row->pou < project->pou_count &&
-	    project->pou[row->pou].vars.count)
+	    vars_declared(&project->pou[row->pou].vars))
 		return variables(project, &project->pou[row->pou].vars);
 	if (project && row->kind == ROW_STRUCTURE && row->pou < project->structure_count)
 		return variables(project, &project->structure[row->pou].vars);

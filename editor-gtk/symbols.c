@@ -102,7 +102,7 @@ static int add_table(struct symbols *symbols, const struct project *project,
 {
 	const int first = symbols->count;
 
-	for (int i = 0; i < vars->count; i++)
+	for (int i = 0; i < vars_declared(vars); i++)
 		if (table > project->pou_count ||
 		    !(vars_flags(vars, i) & VAR_RESULT))
 			fill(&symbols->symbol[symbols->count++], project, vars, table, i);

@@ -317,6 +317,17 @@ GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)
 	return content(page);
 }
 
+/* @row, @col 0-based: of the text; of a chart's rung they are its cell. */
+static void go_in_text(LadderTextView *text, const struct pou *pou, int rung, int row,
+		       int col)
+{
+	if (pou->sfc && rung >= 0 && rung < pou->rung_count) {
+		row = rung_line(pou->rung[rung], MAX(row, -1) + 1) - pou->line;
+		col = 0;
+	}
+	ladder_text_view_go_here(text, MAX(row, 0) + 1, col + 1);
+}
+
 void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 {
 	LadderGridView *sheet;
@@ -340,7 +351,9 @@ void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 	if (sheet && ladder_grid_view_pou(sheet) == pou)
 		ladder_grid_view_go(sheet, rung, row, col);
 	else if (page && LADDER_IS_TEXT_VIEW(content(page)))
-		ladder_text_view_go_here(LADDER_TEXT_VIEW(content(page)), row + 1, col + 1);
+		go_in_text(LADDER_TEXT_VIEW(content(page)),
+			   &ladder_document_project(window->document)->pou[pou], rung,
+			   row, col);
 }
 
 /* ---- when the project is another ---- */

@@ -106,6 +106,10 @@ RUNG
   | NO Start | COIL Motor |
 END_PROGRAM
 END
+# A chart of these items.
+sub chart {
+	return "RUNGBOARD 1\nPROGRAM P SFC\n$_[0]END_PROGRAM\n";
+}
 write_file("good.rung", $good);
 write_file("good.script", "Start=1\n.\n");
 write_file("good.io", "BOARD \"sim\"\n%IX0.0 sim\n%QX0.0 sim\n");
@@ -148,6 +152,14 @@ my %file = (
 	"a path of a thousand indices" => $good =~ s/NO Start/"NO A" . "[1].B" x 1000/er,
 	"the same in an expression" => $good =~ s/NO Start/"[ A[i + 1]" . ".B[1]" x 1000 . " > 1 ]"/er,
 	"a million structures of a thousand values" => $good =~ s/^VAR/"TYPE\n  M : STRUCT\n" . join("", map { "    V$_ : BOOL;\n    W$_ : INT;\n" } 100 .. 599) . "  END_STRUCT;\nEND_TYPE\n\nVAR\n  Large : ARRAY[1..1000000] OF M;"/emr,
+	"10,000 steps" => chart(join "", map { "  STEP S_$_:\n  END_STEP\n" } 1 .. 10_000),
+	"10,000 macro-steps in one another" => chart(join "", (map { "  MACRO_STEP M_$_:\n" } 1 .. 10_000), "  END_STEP\n" x 10_000),
+	"100,000 open macro-steps" => chart("  MACRO_STEP M:\n" x 100_000),
+	"a transition from 200,000 steps" => chart("  STEP A:\n  END_STEP\n  TRANSITION FROM (" . join(", ", ("A") x 200_000) . ") TO A := TRUE; END_TRANSITION\n"),
+	"a step of 100,000 lines" => chart("  STEP A:\n" . "    M0.0(N);\n" x 100_000 . "  END_STEP\n"),
+	"a step that sets 200,000 bits" => chart("  STEP A:\n    SET " . join(", ", ("M0.0") x 200_000) . ";\n  END_STEP\n"),
+	"a condition that does not end" => chart("  STEP A:\n  END_STEP\n  TRANSITION FROM A TO A := " . "I0 AND\n" x 100_000),
+	"100,000 actions" => chart("  ACTION A:\n    LD I0\n  END_ACTION\n" x 100_000),
 	"an image that is only its name" => "RUNGCODE",
 	"a damaged image" => "RUNGCODE" . "\x01\0\0\0" . "\xff" x 500,
 );

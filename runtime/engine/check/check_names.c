@@ -424,7 +424,7 @@ static void check_chart(struct names_check *c, const struct pou *pou, uint8_t *b
 	const struct sfc *sfc = pou->sfc;
 
 	for (int i = 0; i < sfc_bodies(sfc); i++) {
-		const struct sfc_body *body = sfc_body(sfc, i);
+		const struct sfc_body *body = sfc_body_at(sfc, i);
 
 		if (body->kind != BODY_LIST)
 			check_ladder(c, pou, body->first, body->count,

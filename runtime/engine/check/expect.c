@@ -55,6 +55,10 @@ static void offer_keywords(const struct offer *o)
 		"PROJECT",
 	};
 	static const char *const inside[] = { "VAR", "VAR_TEMP" };
+	static const char *const chart[] = {
+		"STEP", "INITIAL_STEP", "MACRO_STEP", "TRANSITION", "ACTION", "CONTROL",
+		"SET", "RESET", "END_STEP", "END_TRANSITION", "END_ACTION",
+	};
 	static const char *const called[] = { "VAR_INPUT", "VAR_OUTPUT",
 					      "VAR_IN_OUT" };
 
@@ -66,8 +70,10 @@ static void offer_keywords(const struct offer *o)
 		give(o, EXPECT_KEYWORD, inside[i], "");
 	for (size_t i = 0; pou_has_frame(o->pou) && i < 3; i++)
 		give(o, EXPECT_KEYWORD, called[i], "");
-	if (o->pou->language == LANGUAGE_LD)
+	if (o->pou->language != LANGUAGE_IL)
 		give(o, EXPECT_KEYWORD, "RUNG", "");
+	for (size_t i = 0; o->pou->sfc && i < sizeof(chart) / sizeof(*chart); i++)
+		give(o, EXPECT_KEYWORD, chart[i], "");
 	give(o, EXPECT_KEYWORD, o->pou->kind == POU_PROGRAM ? "END_PROGRAM" :
 	     o->pou->kind == POU_FUNCTION ? "END_FUNCTION" :
 	     o->pou->kind == POU_BLOCK ? "END_FUNCTION_BLOCK" : "END_SUBROUTINE", "");
@@ -201,7 +207,7 @@ static bool is_instance(const struct offer *o, const struct var *var)
 
 static bool may_write(const struct var *var, uint16_t flags)
 {
-	return !(flags & (VAR_CONSTANT | VAR_INPUT | VAR_SFC)) &&
+	return !(flags & (VAR_CONSTANT | VAR_INPUT)) &&
 	       (var->at.area == AREA_NONE ||
 		iec_area_row(var->at.area)->access == ACCESS_WRITE);
 }
@@ -221,6 +227,9 @@ static void offer_var(const struct offer *o, const struct var *var, uint16_t fla
 		return;
 	}
 	if (!(kinds & EXPECT_VARIABLE) || (o->want->write && !may_write(var, flags)))
+		return;
+	/* Fill.X is read, TRANSITION is written. */
+	if (flags & VAR_SFC && o->want->write == (strchr(name, '.') != NULL))
 		return;
 	if (var->type == IEC_NONE || is_class(o, var->type))
 		give(o, EXPECT_VARIABLE, name, type_text(o, var->type, var->fb));
@@ -271,6 +280,10 @@ static void offer_chart(const struct offer *o)
 		give(o, EXPECT_ACTION, project_text(o->project, sfc->action[i].name), "");
 	for (int i = 0; kinds & EXPECT_QUALIFIER && i < QUALIFIER_COUNT; i++)
 		give(o, EXPECT_QUALIFIER, qualifier_word((enum qualifier)i), "");
+	if (kinds & EXPECT_STEP_PART) {
+		give(o, EXPECT_STEP_PART, "X", "BOOL");
+		give(o, EXPECT_STEP_PART, "T", "TIME");
+	}
 }
 
 static void offer_routines(const struct offer *o)
@@ -334,7 +347,8 @@ void expect_offer(struct scope *scope, const struct pou *pou,
 		offer_labels(&o);
 	if (want->kinds & EXPECT_SUBROUTINE)
 		offer_routines(&o);
-	if (want->kinds & (EXPECT_STEP | EXPECT_ACTION | EXPECT_QUALIFIER))
+	if (want->kinds & (EXPECT_STEP | EXPECT_ACTION | EXPECT_QUALIFIER |
+			   EXPECT_STEP_PART))
 		offer_chart(&o);
 	if (want->kinds & EXPECT_PIN)
 		offer_pins(&o);
@@ -398,6 +412,8 @@ const char *expect_kind_text(enum expect_kind kind)
 		return "action";
 	case EXPECT_QUALIFIER:
 		return "qualifier";
+	case EXPECT_STEP_PART:
+		return "part of a step";
 	}
 	return "";
 }

@@ -29,6 +29,7 @@ enum expect_kind {
 	EXPECT_STEP        = 1 << 12, /* of a chart                             */
 	EXPECT_ACTION      = 1 << 13, /* likewise                               */
 	EXPECT_QUALIFIER   = 1 << 14, /* N, SD: what a line of a step may have  */
+	EXPECT_STEP_PART   = 1 << 15, /* X, T                                   */
 };
 
 /* What is wanted. */

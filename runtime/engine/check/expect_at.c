@@ -5,24 +5,13 @@
  * It looks at the text before the cursor only: the POU it lies in, the cell or the
  * instruction, and how far that is. What it cannot tell, it takes for a value.
  */
-#include "engine/check/expect.h"
+#include "engine/check/expect_inside.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#define TOKENS_MOST 128
-
-/* The tokens of one instruction or cell before the cursor, without the word that is
- * being written. */
-struct before {
-	struct scope *scope;
-	const struct pou *pou;
-	struct token token[TOKENS_MOST];
-	int count;
-};
 
 static struct names *names_of(struct scope *scope)
 {
@@ -35,12 +24,12 @@ static bool is_name_byte(char c)
 	       (ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z');
 }
 
-static bool is_token(const struct token *token, const char *text)
+bool expect_is(const struct token *token, const char *text)
 {
 	return token->len == strlen(text) && ascii_same(token->text, text, token->len);
 }
 
-static struct expect_want value_want(uint16_t classes)
+struct expect_want expect_value(uint16_t classes)
 {
 	struct expect_want want = { .kinds = EXPECT_VARIABLE, .classes = classes,
 				    .block = WORD_COUNT };
@@ -50,7 +39,7 @@ static struct expect_want value_want(uint16_t classes)
 	return want;
 }
 
-static struct expect_want write_want(uint16_t classes)
+struct expect_want expect_write(uint16_t classes)
 {
 	return (struct expect_want){ .kinds = EXPECT_VARIABLE, .classes = classes,
 				     .write = true, .block = WORD_COUNT };
@@ -79,7 +68,7 @@ static uint16_t pin_classes(const struct word_row *row, const struct token *pin)
 	int index = row ? word_pin_find(row, pin->text, pin->len) : -1;
 
 	if (index < 0 || index >= row->pin_count)
-		return is_token(pin, "EN") || is_token(pin, "ENO") ? CLASS_BOOL : 0;
+		return expect_is(pin, "EN") || expect_is(pin, "ENO") ? CLASS_BOOL : 0;
 	return row->pin[index].type != IEC_NONE ?
 	       iec_type_row(row->pin[index].type)->class : row->pin[index].classes;
 }
@@ -90,10 +79,10 @@ static struct expect_want parameter_want(const struct before *b, int at,
 {
 	const struct token *last = &b->token[b->count - 1];
 
-	if (b->count - at >= 2 && is_token(last, ":="))
-		return value_want(pin_classes(row, last - 1));
-	if (b->count - at >= 2 && is_token(last, "=>"))
-		return write_want(pin_classes(row, last - 1));
+	if (b->count - at >= 2 && expect_is(last, ":="))
+		return expect_value(pin_classes(row, last - 1));
+	if (b->count - at >= 2 && expect_is(last, "=>"))
+		return expect_write(pin_classes(row, last - 1));
 	return (struct expect_want){ .kinds = EXPECT_PIN, .row = row, .call = true,
 				     .block = WORD_COUNT };
 }
@@ -116,12 +105,12 @@ static struct expect_want operator_want(const struct before *b, int at, enum op 
 			.kinds = EXPECT_INSTANCE | EXPECT_SUBROUTINE,
 			.block = WORD_COUNT };
 	if (row->operand == OPND_BOOL_W && !more)
-		return write_want(CLASS_BOOL);
+		return expect_write(CLASS_BOOL);
 	if (row->operand == OPND_ANY_W && !more)
-		return write_want(0);
-	if (row->operand == OPND_NONE || (more && !is_token(&b->token[at + 1], "(")))
+		return expect_write(0);
+	if (row->operand == OPND_NONE || (more && !expect_is(&b->token[at + 1], "(")))
 		return (struct expect_want){ .block = WORD_COUNT };
-	return value_want(word_operator(word_row(op_function(op))) == op ? ANY_BIT : 0);
+	return expect_value(word_operator(word_row(op_function(op))) == op ? ANY_BIT : 0);
 }
 
 /* ANDN is AND, JMPCN is JMP. */
@@ -140,17 +129,17 @@ static enum op find_op(const struct token *token)
 static bool has_parameters(const struct before *b, int at)
 {
 	for (int i = at; i < b->count; i++)
-		if (is_token(&b->token[i], ":=") || is_token(&b->token[i], "=>"))
+		if (expect_is(&b->token[i], ":=") || expect_is(&b->token[i], "=>"))
 			return true;
 	return false;
 }
 
-static struct expect_want list_want(const struct before *b)
+struct expect_want expect_list(const struct before *b)
 {
 	struct word_table *words = &scope_project(b->scope)->words;
 	const struct word_row *row;
-	struct expect_want want = value_want(0);
-	int at = b->count >= 2 && is_token(&b->token[1], ":") ? 2 : 0;
+	struct expect_want want = expect_value(0);
+	int at = b->count >= 2 && expect_is(&b->token[1], ":") ? 2 : 0;
 	enum op op;
 
 	if (b->count == at)
@@ -165,7 +154,7 @@ static struct expect_want list_want(const struct before *b)
 	row = words_row(words, words_find(words, b->token[at].text, b->token[at].len));
 	if (row->kind != WORD_FN)
 		return (struct expect_want){ .block = WORD_COUNT };
-	if (b->count - at >= 2 && is_token(&b->token[at + 1], "(")) {
+	if (b->count - at >= 2 && expect_is(&b->token[at + 1], "(")) {
 		struct expect_want pins = parameter_want(b, at + 2, row);
 
 		if (b->count - at == 2 && word_opens(row))
@@ -187,9 +176,9 @@ static struct expect_want element_want(const struct before *b,
 
 	switch (row->operand) {
 	case OPND_BOOL_R:
-		return more ? none : value_want(CLASS_BOOL);
+		return more ? none : expect_value(CLASS_BOOL);
 	case OPND_BOOL_W:
-		return more ? none : write_want(CLASS_BOOL);
+		return more ? none : expect_write(CLASS_BOOL);
 	case OPND_LABEL:
 		none.kinds = more ? 0 : EXPECT_LABEL;
 		return none;
@@ -197,7 +186,7 @@ static struct expect_want element_want(const struct before *b,
 		none.kinds = more ? 0 : EXPECT_SUBROUTINE;
 		return none;
 	case OPND_LOOP:
-		return b->count == 1 ? write_want(ANY_INT) : value_want(ANY_INT);
+		return b->count == 1 ? expect_write(ANY_INT) : expect_value(ANY_INT);
 	case OPND_ANY_R:
 	case OPND_ANY_W:
 	case OPND_INSTANCE:
@@ -212,30 +201,30 @@ static struct expect_want element_want(const struct before *b,
 }
 
 /* Does a value end there, so that an operator must come? */
-static bool ends_value(const struct token *token)
+bool expect_ends_value(const struct token *token)
 {
 	static const char *const words[] = { "AND", "OR", "XOR", "MOD", "NOT" };
 
 	for (size_t i = 0; i < sizeof(words) / sizeof(*words); i++)
-		if (is_token(token, words[i]))
+		if (expect_is(token, words[i]))
 			return false;
-	return token->kind != TOKEN_SYMBOL || is_token(token, ")") ||
-	       is_token(token, "]");
+	return token->kind != TOKEN_SYMBOL || expect_is(token, ")") ||
+	       expect_is(token, "]");
 }
 
 /* In brackets: values, and functions that make some. */
 static struct expect_want expression_want(const struct before *b)
 {
-	struct expect_want want = value_want(0);
+	struct expect_want want = expect_value(0);
 
-	if (b->count > 1 && ends_value(&b->token[b->count - 1]))
+	if (b->count > 1 && expect_ends_value(&b->token[b->count - 1]))
 		return (struct expect_want){ .block = WORD_COUNT };
 	want.kinds |= EXPECT_FUNCTION;
 	want.boxes = true;
 	return want;
 }
 
-static struct expect_want cell_want(const struct before *b)
+struct expect_want expect_cell(const struct before *b)
 {
 	struct word_table *words = &scope_project(b->scope)->words;
 	struct expect_want want = { .block = WORD_COUNT };
@@ -247,7 +236,7 @@ static struct expect_want cell_want(const struct before *b)
 		want.boxes = true;
 		return want;
 	}
-	if (is_token(&b->token[0], "["))
+	if (expect_is(&b->token[0], "["))
 		return expression_want(b);
 	word = words_find(words, b->token[0].text, b->token[0].len);
 	row = words_row(words, word);
@@ -267,7 +256,7 @@ static struct expect_want cell_want(const struct before *b)
 
 /* Bytes [*from, to) are what the cursor's instruction, cell or declaration has so
  * far; an instruction may have begun on an earlier line. */
-static size_t line_begin(const char *text, size_t at)
+size_t expect_line(const char *text, size_t at)
 {
 	while (at > 0 && text[at - 1] != '\n')
 		at--;
@@ -282,19 +271,19 @@ static size_t last_byte(const char *text, size_t from, size_t to)
 	return to;
 }
 
-static size_t statement_begin(const char *text, size_t line)
+size_t expect_statement(const char *text, size_t line)
 {
 	for (int lines = 0; line > 0 && lines < 64; lines++) {
 		size_t to = last_byte(text, 0, line);
 
 		if (to == 0 || (text[to - 1] != ',' && text[to - 1] != '('))
 			break;
-		line = line_begin(text, to - 1);
+		line = expect_line(text, to - 1);
 	}
 	return line;
 }
 
-static void read_tokens(struct before *b, const char *text, size_t from, size_t to)
+void expect_tokens(struct before *b, const char *text, size_t from, size_t to)
 {
 	struct lex lex;
 
@@ -315,7 +304,7 @@ static const struct pou *pou_at(const struct project *project, const char *text,
 		    (!found || project->pou[i].line > found->line))
 			found = &project->pou[i];
 	while (found && from > 0) { /* an END_… since then? */
-		size_t begin = line_begin(text, from - 1), word = begin;
+		size_t begin = expect_line(text, from - 1), word = begin;
 
 		while (word < at && (text[word] == ' ' || text[word] == '\t'))
 			word++;
@@ -334,7 +323,7 @@ static const struct pou *pou_at(const struct project *project, const char *text,
 static bool in_vars(const char *text, size_t line)
 {
 	while (line > 0) {
-		size_t begin = line_begin(text, line - 1), word = begin;
+		size_t begin = expect_line(text, line - 1), word = begin;
 
 		while (word < line && (text[word] == ' ' || text[word] == '\t'))
 			word++;
@@ -356,9 +345,17 @@ static struct expect_want declaration_want(const struct before *b)
 {
 	struct expect_want want = { .block = WORD_COUNT };
 
-	if (b->count > 0 && is_token(&b->token[b->count - 1], ":"))
+	if (b->count > 0 && expect_is(&b->token[b->count - 1], ":"))
 		want.kinds = EXPECT_TYPE | EXPECT_BLOCK;
 	return want;
+}
+
+static bool is_step(const struct before *b, const char *word, size_t len)
+{
+	const struct names *names = names_of(b->scope);
+
+	return b->pou && b->pou->sfc &&
+	       sfc_find_step(b->pou->sfc, names, names_find(names, word, len)) >= 0;
 }
 
 /* `Delay.` - what follows is a part of what stands before the dot. */
@@ -377,6 +374,11 @@ static bool part_want(const struct before *b, const char *word, size_t *len,
 	m = meaning_of(b, word, (size_t)(dot - word));
 	*len -= (size_t)(dot + 1 - word);
 	*prefix = dot + 1;
+	if (!m && is_step(b, word, (size_t)(dot - word))) {
+		*want = (struct expect_want){ .kinds = write ? 0 : EXPECT_STEP_PART,
+					      .block = WORD_COUNT };
+		return true;
+	}
 	if (!m || (m->kind != MEANING_INSTANCE && m->kind != MEANING_STRUCT))
 		return false;
 	*want = (struct expect_want){ .kinds = EXPECT_PIN, .classes = want->classes,
@@ -414,18 +416,20 @@ static struct expect_want want_at(struct before *b, const char *text, size_t lin
 	while (bar > line && text[bar - 1] != '|')
 		bar--;
 	if (in_vars(text, line)) {
-		read_tokens(b, text, line, to);
+		expect_tokens(b, text, line, to);
 		return declaration_want(b);
 	}
+	if (b->pou && b->pou->language == LANGUAGE_SFC)
+		return expect_chart(b, text, line, bar, to);
 	if (b->pou && b->pou->language == LANGUAGE_LD && bar > line) {
-		read_tokens(b, text, bar, to);
-		return cell_want(b);
+		expect_tokens(b, text, bar, to);
+		return expect_cell(b);
 	}
 	if (b->pou && b->pou->language == LANGUAGE_IL) {
-		read_tokens(b, text, statement_begin(text, line), to);
-		return list_want(b);
+		expect_tokens(b, text, expect_statement(text, line), to);
+		return expect_list(b);
 	}
-	read_tokens(b, text, line, to);
+	expect_tokens(b, text, line, to);
 	return (struct expect_want){ .kinds = b->count ? 0 : EXPECT_KEYWORD,
 				     .block = WORD_COUNT };
 }
@@ -438,8 +442,8 @@ static void find_want(struct before *b, const char *text, size_t at, int line,
 	while (word > 0 && is_name_byte(text[word - 1]))
 		word--;
 	b->pou = out->pou = pou_at(scope_project(b->scope), text,
-				   line_begin(text, at), line);
-	out->want = want_at(b, text, line_begin(text, at), word);
+				   expect_line(text, at), line);
+	out->want = want_at(b, text, expect_line(text, at), word);
 	out->prefix = text + word;
 	out->prefix_len = at - word;
 	if (!part_want(b, text + word, &out->prefix_len, &out->want, &out->prefix))

@@ -5,7 +5,6 @@
  * First every column and line of a rung is measured, then each text line is put
  * out from left to right. It draws what stands in the grid, right or wrong.
  */
-#include "engine/text/text.h"
 #include "engine/view/draw.h"
 #include "engine/view/plain.h"
 #include "engine/view/view.h"
@@ -527,10 +526,6 @@ static int show_sfc(struct draw *draw, const struct pou *pou)
 
 static int show_pou(struct draw *draw, const struct pou *pou, int rung)
 {
-	if (pou->language == LANGUAGE_SFC && rung == 0) {
-		text_write_pou(draw->project, pou, draw->sink);
-		return 1;
-	}
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)
 			return 0;
