@@ -251,7 +251,8 @@ static bool make_list(struct ladder *ladder, struct unit *unit, bool watch,
 		*il = unit->pou->il;
 		il_order_args(t->scope, unit->pou, il);
 	} else if (unit->pou->language == LANGUAGE_SFC) {
-		if (!sfc_to_il(t, unit, bad, watch, &ladder->scratch))
+		if (!bad[unit->pou->rung_count] &&
+		    !sfc_to_il(t, unit, bad, watch, &ladder->scratch))
 			return no_memory(ladder, unit->pou->file);
 		il_order_args(t->scope, unit->pou, il);
 	} else if (!ld_to_il(t, unit, bad, watch, &ladder->scratch)) {

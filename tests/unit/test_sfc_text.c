@@ -21,17 +21,18 @@ static const char whole[] =
 	"// above the chart\n"
 	"PROGRAM Filler SFC UNTIL STABLE\n"
 	"  VAR\n"
-	"    Start AT %IX0.0 : BOOL; (* button *)\n"
-	"    Full  AT %IX0.1 : BOOL;\n"
-	"    Step  : BOOL;\n"
-	"    Set   : BOOL;\n"
-	"    Lamps : ARRAY[1..3] OF BOOL;\n"
-	"    Wait  : TIME := T#2s;\n"
+	"    Start  AT %IX0.0 : BOOL; (* button *)\n"
+	"    Full   AT %IX0.1 : BOOL;\n"
+	"    Step   : BOOL;\n"
+	"    Set    : BOOL;\n"
+	"    Lamps  : ARRAY[1..3] OF BOOL;\n"
+	"    Wait   : TIME := T#2s;\n"
+	"    Number : INT;\n"
 	"  END_VAR\n"
 	"\n"
 	"  // how it is operated\n"
 	"  CONTROL(RESET := I0.7, HOLD := M1.0, SEMI := M1.1, MANUAL := M1.2, "
-	"TIP := M1.3, FORCE := MW4);\n"
+	"TIP := M1.3, FORCE := Number);\n"
 	"\n"
 	"  (* two lines,\n"
 	"one comment *)\n"
@@ -96,9 +97,9 @@ static const char whole[] =
 	"  // first\n"
 	"  // of all\n"
 	"  Again:\n"
-	"    LD    MW0\n"
+	"    LD    Number\n"
 	"    ADD   1\n"
-	"    ST    MW0\n"
+	"    ST    Number\n"
 	"    JMPC  Again\n"
 	"  END_ACTION\n"
 	"\n"
@@ -110,6 +111,7 @@ static const char whole[] =
 	"  END_ACTION\n"
 	"  // last\n"
 	"END_PROGRAM\n"
+	"\n"
 	"// behind\n";
 
 static struct diag_list diags;
@@ -190,22 +192,22 @@ static void test_model(void)
 	CHECK(sfc != NULL);
 	if (!sfc)
 		return;
-	CHECK(sfc->until_stable && sfc->step_count == 5 && sfc->transition_count == 5);
-	CHECK(sfc->action_count == 2 && sfc->use_count == 9 && sfc->item_count == 15);
+	CHECK(sfc->until_stable && sfc->step_count == 6 && sfc->transition_count == 5);
+	CHECK(sfc->action_count == 2 && sfc->use_count == 9 && sfc->item_count == 16);
 	CHECK(sfc->step[1].use_count == 8 && sfc->step[2].use_count == 1);
-	CHECK(sfc->step[2].kind == STEP_MACRO && sfc->step[4].macro == 3 &&
-	      sfc->step[3].macro == 2 && sfc->step[2].macro == -1);
+	CHECK(sfc->step[2].kind == STEP_MACRO && sfc->step[5].macro == 4 &&
+	      sfc->step[4].macro == 2 && sfc->step[3].macro == 2 && sfc->step[2].macro == -1);
 	CHECK(sfc->item[sfc->step[2].end].kind == ITEM_MACRO_END &&
 	      sfc->item[sfc->step[2].end].index == 2);
 	CHECK(sfc->use[2].action == 0 && sfc->use[0].action == -1);
 	CHECK(!sfc->use[5].more && sfc->use[6].more && !sfc->use[7].more);
-	CHECK(pou->rung_count == 6 && pou->il.count == 11);
+	CHECK(pou->rung_count == 6 && pou->il.count == 10);
 	CHECK(sfc->transition[0].condition.kind == BODY_EXPRESSION &&
 	      sfc->transition[4].condition.kind == BODY_LIST &&
 	      sfc->transition[4].condition.count == 4);
 	CHECK(sfc->step[1].line == 25 && sfc->step[1].column_at == 8);
 	CHECK(sfc->ref[sfc->transition[1].first_to + 1].step == 2);
-	CHECK(vars_declared(&pou->vars) == 6 && pou->vars.count == 6 + 2 * 5 + 1);
+	CHECK(vars_declared(&pou->vars) == 7 && pou->vars.count == 7 + 2 * 6 + 1);
 	project_free(project);
 }
 
@@ -256,7 +258,7 @@ static void test_marks(void)
 	size_t len = 0;
 
 	free(project ? text_outline(project, &len, take, &marks) : NULL);
-	CHECK(marks.count[TEXT_STEP] == 5 && marks.count[TEXT_TRANSITION] == 5 &&
+	CHECK(marks.count[TEXT_STEP] == 6 && marks.count[TEXT_TRANSITION] == 5 &&
 	      marks.count[TEXT_ACTION] == 2 && marks.count[TEXT_RUNG] == 3);
 	CHECK(!marks.faults);
 	project_free(project);

@@ -43,7 +43,8 @@ bool check_loops(const struct project *project, const struct pou *pou, int first
  * check_names - declarations, labels, instances, uses of variables in a project
  * @scope:   of the project
  * @bad:     NULL, or for each POU NULL or a byte a rung; set to 1 for a rung
- *           that has an error, so that translation can leave it out
+ *           that has an error, so that translation can leave it out; behind
+ *           them, of a chart, one for what is no rung
  * @scratch: some memory a project; dead afterwards
  *
  * Unknown and duplicate names, labels, AT types, writes to inputs and

@@ -422,16 +422,20 @@ static void check_ladder(struct names_check *c, const struct pou *pou, int first
 static void check_chart(struct names_check *c, const struct pou *pou, uint8_t *bad)
 {
 	const struct sfc *sfc = pou->sfc;
+	bool good;
 
 	for (int i = 0; i < sfc_bodies(sfc); i++) {
-		const struct sfc_body *body = sfc_body_at(sfc, i);
+		const struct sfc_body *body = sfc_body(sfc, i);
 
 		if (body->kind != BODY_LIST)
 			check_ladder(c, pou, body->first, body->count,
 				     i < sfc->transition_count, bad);
 	}
-	c->good &= check_sfc_names(c->scope, pou, &c->uses, c->scratch, c->diags);
-	c->good &= check_sfc(c->scope, pou, c->scratch, c->diags);
+	good = check_sfc_names(c->scope, pou, &c->uses, c->scratch, c->diags);
+	good &= check_sfc(c->scope, pou, c->scratch, c->diags);
+	c->good &= good;
+	if (bad && !good)
+		bad[pou->rung_count] = 1;
 }
 
 /* ---- uses ---- */

@@ -213,7 +213,7 @@ static void check_control(struct sfc_names *c)
 
 	for (int i = 0; i < CONTROL_COUNT; i++)
 		check_read(c, c->sfc->control[i], at,
-			   i == CONTROL_FORCE ? ANY_INT | ANY_BIT : CLASS_BOOL,
+			   i == CONTROL_FORCE ? ANY_INT : CLASS_BOOL,
 			   i == CONTROL_FORCE ? DIAG_WRONG_TYPE : DIAG_NOT_BOOL);
 }
 

@@ -66,7 +66,7 @@ int sfc_bodies(const struct sfc *sfc)
 	return sfc->transition_count + sfc->action_count;
 }
 
-const struct sfc_body *sfc_body_at(const struct sfc *sfc, int body)
+const struct sfc_body *sfc_body(const struct sfc *sfc, int body)
 {
 	return body < sfc->transition_count ? &sfc->transition[body].condition :
 	       &sfc->action[body - sfc->transition_count].body;

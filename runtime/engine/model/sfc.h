@@ -138,10 +138,10 @@ int sfc_t(const struct sfc *sfc, const struct var_table *table, int step);
 int sfc_condition(const struct sfc *sfc, const struct var_table *table);
 /** sfc_reserved - a word that nothing in a chart can be called? Scan-safe: yes. */
 bool sfc_reserved(const char *name);
-/** sfc_bodies, sfc_body_at - the conditions of all transitions, then the bodies of all
+/** sfc_bodies, sfc_body - the conditions of all transitions, then the bodies of all
  * actions; @body: 0-based. Scan-safe: yes. */
 int sfc_bodies(const struct sfc *sfc);
-const struct sfc_body *sfc_body_at(const struct sfc *sfc, int body);
+const struct sfc_body *sfc_body(const struct sfc *sfc, int body);
 /** sfc_find_step - by name, case does not count; -1: none. Linear. Scan-safe: yes. */
 int sfc_find_step(const struct sfc *sfc, const struct names *names, uint32_t name);
 

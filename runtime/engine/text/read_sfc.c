@@ -161,7 +161,7 @@ void *chart_push(struct chart *chart, void *vector, int *count, size_t size, int
 	void *slot;
 
 	if (*count >= most) {
-		reader_fail_word(r, DIAG_TOO_MANY, what);
+		reader_fail_word(r, DIAG_SFC_TOO_MANY, what);
 		return NULL;
 	}
 	slot = arena_push(&r->project->arena, vector, count, size);
@@ -274,7 +274,7 @@ static void read_control(struct chart *chart)
 	bool second = chart->controlled;
 
 	if (second)
-		reader_fail_word(r, DIAG_TOO_MANY, "CONTROL");
+		reader_fail_word(r, DIAG_SFC_TWICE, "CONTROL");
 	else if (chart->macro >= 0)
 		reader_fail_token(r, DIAG_MISPLACED);
 	chart->controlled = true;

@@ -20,7 +20,7 @@ static void add_use(struct chart *chart, struct sfc_use use)
 
 	use.step = sfc->step_count - 1;
 	if (step->use_count == LIMIT_STEP_USES) /* said once */
-		reader_fail_word(chart->r, DIAG_TOO_MANY, "lines of a step");
+		reader_fail_word(chart->r, DIAG_SFC_TOO_MANY, "lines of a step");
 	step->use_count++;
 	if (step->use_count > LIMIT_STEP_USES)
 		return;

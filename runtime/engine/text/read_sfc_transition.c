@@ -23,7 +23,7 @@ static bool read_ref(struct chart *chart, int count)
 	if (!reader_name(r, "name of a step", &ref.name))
 		return false;
 	if (count == LIMIT_BRANCHES)
-		return reader_fail_word(r, DIAG_TOO_MANY, "steps of a transition");
+		return reader_fail_word(r, DIAG_SFC_TOO_MANY, "steps of a transition");
 	slot = arena_push(&r->project->arena, &sfc->ref, &sfc->ref_count, sizeof(*slot));
 	if (!slot) {
 		r->no_memory = true;
