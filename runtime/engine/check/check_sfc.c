@@ -114,8 +114,6 @@ static void check_transitions(struct sfc_check *c, int *in, int *out, int *seen)
 		transition_text(c, t, text, sizeof(text));
 		check_refs(c, t, t->first_from, t->from_count, out, seen, 2 * i + 1);
 		check_refs(c, t, t->first_to, t->to_count, in, seen, 2 * i + 2);
-		if (!t->from_count || !t->to_count)
-			sfc_report(c, DIAG_SFC_OPEN, t->line, t->column, text);
 		if (t->condition.kind == BODY_NONE)
 			sfc_report(c, DIAG_SFC_NO_CONDITION, t->line, t->column, text);
 	}
