@@ -340,11 +340,11 @@ for my $name (sort keys %control) {
 }
 # Two transitions that want one of two steps each, and one that wants both.
 {
-	my $chart = vars(['A', 'B', 'AB', 'Go'], []) . step('!Idle') . step('L') . step('R') . step('L2') . step('R2') . step('Both') .
-		arc('Idle', '(L, R)', 'Go') . arc('L', 'L2', 'A') . arc('(L, R)', 'Both', 'AB') . arc('R', 'R2', 'B') .
+	my $chart = vars(['A', 'B', 'AB', 'Go'], []) . step('!Idle') . step('Lt') . step('Rt') . step('L2') . step('R2') . step('Both') .
+		arc('Idle', '(Lt, Rt)', 'Go') . arc('Lt', 'L2', 'A') . arc('(Lt, Rt)', 'Both', 'AB') . arc('Rt', 'R2', 'B') .
 		arc('(L2, R2)', 'Idle', 'NOT Go') . arc('Both', 'Idle', 'NOT Go');
-	my $again = $chart =~ s/TRANSITION FROM \(L, R\)/TRANSITION (PRIORITY := 7) FROM (L, R)/r;
-	my $stimulus = "\@print Idle.X L.X R.X L2.X R2.X Both.X\n.\nGo=1\nA=1 AB=1 B=1\n.\nGo=0\n.\nA=0 Go=1\n.\nB=0\n.\nGo=0\n.\n";
+	my $again = $chart =~ s/TRANSITION FROM \(Lt, Rt\)/TRANSITION (PRIORITY := 7) FROM (Lt, Rt)/r;
+	my $stimulus = "\@print Idle.X Lt.X Rt.X L2.X R2.X Both.X\n.\nGo=1\nA=1 AB=1 B=1\n.\nGo=0\n.\nA=0 Go=1\n.\nB=0\n.\nGo=0\n.\n";
 	case('wanted-by-two', $chart, $stimulus);
 	case('wanted-by-two-priority', $again, $stimulus);
 }
@@ -360,11 +360,11 @@ for my $name (sort keys %control) {
 }
 # The final scan: a coil by Step.X, a timer, a list; none for a call in passing.
 {
-	my $chart = vars(['Go', 'End'], ['Lit', 'Kept', 'Late'], 'Off : TOF', 'Runs : INT', 'Lists : INT') . step('!Idle') .
+	my $chart = vars(['Go', 'End'], ['Lit', 'Kept', 'Late'], 'Over : TOF', 'Runs : INT', 'Lists : INT') . step('!Idle') .
 		step('Work', call('Rungs', 'N'), call('List', 'N'), call('Rungs', 'P0')) .
 		arc('Idle', 'Work', 'Go') . arc('Work', 'Idle', 'End') .
 		counting('Rungs', 'Runs', "    RUNG\n      | NO Work.X | COIL Lit |\n    RUNG\n      | NO Go | JMP Last |\n    RUNG\n      | [ TRUE ] | COIL Kept |\n" .
-			"    RUNG\n      | NO End | RET |\n    RUNG Last\n      | NO Work.X | TOF Off PT:=T#15ms | COIL Late |\n") .
+			"    RUNG\n      | NO End | RET |\n    RUNG Last\n      | NO Work.X | TOF Over PT:=T#15ms | COIL Late |\n") .
 		"  ACTION List:\n    LD Lists\n    ADD 1\n    ST Lists\n    LD Work.X\n    JMPC Last\n    LD Lists\n    ADD 100\n    ST Lists\n  Last:\n    LD Go\n    RETC\n    LD Lists\n    ADD 1000\n    ST Lists\n  END_ACTION\n\n";
 	case('final-scan', $chart, "\@print Work.X Lit Kept Late Runs Lists\n.\nGo=1\n.\nGo=0\n.\nEnd=1\nEnd=0\n.\nGo=1\nGo=0 End=1\n.\n");
 }

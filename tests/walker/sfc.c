@@ -166,9 +166,7 @@ struct chart *chart_new(struct walker *walker, struct walked_pou *walked)
 	chart->step = arena_alloc(&walker->arena, ((size_t)sfc->step_count + 1) *
 				  sizeof(*chart->step));
 	chart->order = arena_alloc(&walker->arena, transitions * sizeof(*chart->order));
-	chart->fires = arena_alloc(&walker->arena, transitions * sizeof(*chart->fires));
-	chart->enabled = arena_alloc(&walker->arena, transitions * sizeof(*chart->enabled));
-	if (!chart->step || !chart->order || !chart->fires || !chart->enabled ||
+	if (!chart->step || !chart->order ||
 	    !make_steps(walker, chart) || !make_controls(walker, chart) ||
 	    !lines_make(walker, chart))
 		return NULL;
@@ -257,48 +255,56 @@ static bool evaluate(struct walker *walker, struct chart *chart,
 	return good;
 }
 
-/* Which transitions' conditions are true now. */
-static bool evaluate_all(struct walker *walker, struct chart *chart)
+/* What the controls say in this scan. */
+struct orders {
+	bool reset, held_reset, hold, semi, manual, tip;
+	int force; /* number of a step, from 0; -1: none                      */
+};
+
+/* All it wants is active, and nobody who came before takes it. */
+static bool is_enabled(const struct chart *chart, const struct sfc_transition *transition)
 {
-	const struct sfc *sfc = chart->sfc;
+	for (int k = 0; k < transition->from_count; k++) {
+		int step = chart->sfc->ref[transition->first_from + k].step;
 
-	for (int i = 0; i < sfc->transition_count; i++) {
-		int at = chart->order[i];
-		const struct sfc_transition *transition = &sfc->transition[at];
-
-		chart->enabled[at] = true;
-		for (int k = 0; k < transition->from_count; k++)
-			chart->enabled[at] &= can_be_left(chart,
-				sfc->ref[transition->first_from + k].step);
-		chart->fires[at] = false;
-		if (chart->enabled[at] &&
-		    !evaluate(walker, chart, &transition->condition, &chart->fires[at]))
+		if (!can_be_left(chart, step) || !is_free(chart, step))
 			return false;
 	}
 	return true;
 }
 
+static bool may_fire(struct orders orders, bool is_true)
+{
+	if (orders.manual)
+		return orders.tip;
+	return is_true && (!orders.semi || orders.tip);
+}
+
 /* The first that may takes its steps. */
-static bool choose(struct chart *chart)
+static bool choose(struct walker *walker, struct chart *chart, struct orders orders,
+		   bool *any)
 {
 	const struct sfc *sfc = chart->sfc;
-	bool any = false;
 
 	for (int i = 0; i < sfc->step_count; i++)
 		chart->step[i].leaving = chart->step[i].entering = false;
 	for (int i = 0; i < sfc->transition_count; i++) {
 		const struct sfc_transition *at = &sfc->transition[chart->order[i]];
-		bool free = chart->fires[chart->order[i]];
+		bool is_true;
 
+		if (!is_enabled(chart, at))
+			continue;
+		if (!evaluate(walker, chart, &at->condition, &is_true))
+			return false;
+		if (!may_fire(orders, is_true))
+			continue;
 		for (int k = 0; k < at->from_count; k++)
-			free = free && is_free(chart, sfc->ref[at->first_from + k].step);
-		for (int k = 0; k < at->from_count && free; k++)
 			mark_leaving(chart, sfc->ref[at->first_from + k].step);
-		for (int k = 0; k < at->to_count && free; k++)
+		for (int k = 0; k < at->to_count; k++)
 			mark_entering(chart, sfc->ref[at->first_to + k].step);
-		any |= free;
+		*any = true;
 	}
-	return any;
+	return true;
 }
 
 static void fire(struct walker *walker, struct chart *chart)
@@ -319,12 +325,6 @@ static void fire(struct walker *walker, struct chart *chart)
 }
 
 /* ---- a scan ---- */
-
-/* What the controls say in this scan. */
-struct orders {
-	bool reset, held_reset, hold, semi, manual, tip;
-	int force; /* number of a step, from 0; -1: none                      */
-};
 
 static bool rises(struct chart *chart, enum control which, bool now)
 {
@@ -401,24 +401,22 @@ static void pass_time(struct walker *walker, struct chart *chart, bool hold)
 	lines_pass_time(chart, passed);
 }
 
+/* With UNTIL STABLE the chart is looked at until nothing fires; one TIP is for one
+ * evolution. */
 static bool evolve(struct walker *walker, struct chart *chart, struct orders orders)
 {
-	bool once = !chart->sfc->until_stable || orders.semi || orders.manual;
-	int count = 0;
+	bool any = true;
 
-	do {
-		if (count++ == EVOLUTIONS_MAX || !evaluate_all(walker, chart))
+	for (int count = 0; any; count++) {
+		any = false;
+		if (count == EVOLUTIONS_MAX || !choose(walker, chart, orders, &any))
 			return false;
-		for (int i = 0; i < chart->sfc->transition_count; i++) {
-			if (orders.manual)
-				chart->fires[i] = chart->enabled[i] && orders.tip;
-			else if (orders.semi)
-				chart->fires[i] &= orders.tip;
-		}
-		if (!choose(chart))
+		if (any)
+			fire(walker, chart);
+		if (!chart->sfc->until_stable)
 			return true;
-		fire(walker, chart);
-	} while (!once);
+		orders.tip = false;
+	}
 	return true;
 }
 

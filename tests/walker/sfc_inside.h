@@ -44,7 +44,6 @@ struct chart {
 	struct walked_pou *walked;
 	struct played_step *step;
 	int *order;             /* transitions, the first that is asked first */
-	bool *enabled, *fires;  /* by transition                              */
 	struct placed control[CONTROL_COUNT];
 	bool was[CONTROL_COUNT];
 	int64_t force;          /* in the scan before                         */
