@@ -151,12 +151,17 @@ static void note_fired(struct sfc_il *s, int arc)
 		sfc_op(s, OP_ST, 0, sfc_var(s, "Entered", a->to.step[i], IEC_BOOL));
 }
 
-/* The result: all steps that it wants are active, but the first @known of them. */
+/* The result: all steps that it wants are active; @known is, -1: none is known. */
 static void load_active(struct sfc_il *s, const struct sfc_arc *arc, int known)
 {
-	for (int i = known; i < arc->from.count; i++)
-		sfc_op(s, i == known ? OP_LD : OP_AND, 0,
-		       sfc_x_name(s, arc->from.step[i]));
+	bool any = false;
+
+	for (int i = 0; i < arc->from.count; i++) {
+		if (arc->from.step[i] == known)
+			continue;
+		sfc_op(s, any ? OP_AND : OP_LD, 0, sfc_x_name(s, arc->from.step[i]));
+		any = true;
+	}
 }
 
 static void evaluate_own(struct sfc_il *s, const struct sfc_duty *duty)
@@ -168,13 +173,12 @@ static void evaluate_own(struct sfc_il *s, const struct sfc_duty *duty)
 	sfc_jump(s, s->next);
 }
 
-static void evaluate_join(struct sfc_il *s, const struct sfc_duty *duty)
+/* Another of its steps may be the first that stands behind FROM. */
+static void evaluate_join(struct sfc_il *s, int step)
 {
-	const struct sfc_arc *arc = &s->net.arc[duty->arc[0]];
-
-	load_active(s, arc, 1);
+	load_active(s, &s->net.arc[s->duty[step].arc[0]], step);
 	sfc_jump_unless(s, s->next);
-	evaluate_own(s, duty);
+	evaluate_own(s, &s->duty[step]);
 }
 
 /* Whichever of the group's steps is found first evaluates it. */
@@ -195,7 +199,7 @@ static void evaluate_group(struct sfc_il *s, int step)
 		const struct sfc_arc *arc = &s->net.arc[duty->arc[i]];
 		const uint32_t skip = sfc_label(s, "Skip", duty->arc[i]);
 
-		load_active(s, arc, 0);
+		load_active(s, arc, -1);
 		for (int k = 0; k < arc->from.count; k++)
 			sfc_op(s, OP_AND, MOD_N,
 			       sfc_var(s, "Left", arc->from.step[k], IEC_BOOL));
@@ -218,10 +222,7 @@ static void evaluate_step(struct sfc_il *s, int step)
 	sfc_here(s, sfc_label(s, "At", step));
 	switch (duty->duty) {
 	case DUTY_OWN: evaluate_own(s, duty); break;
-	case DUTY_JOIN:
-		if (s->net.arc[duty->arc[0]].from.step[0] == step)
-			evaluate_join(s, duty);
-		break;
+	case DUTY_JOIN: evaluate_join(s, step); break;
 	case DUTY_GROUP: evaluate_group(s, step); break;
 	case DUTY_NONE: break;
 	}
