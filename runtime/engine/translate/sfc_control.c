@@ -51,7 +51,17 @@ static void put_steps(struct sfc_il *s, const struct sfc_steps *steps)
 		sfc_op(s, OP_ST, 0, sfc_var(s, "Entered", steps->step[i], IEC_BOOL));
 }
 
-/* Every active step is left. */
+bool sfc_may_begin_anew(const struct sfc_il *s)
+{
+	return control(s, CONTROL_RESET) || control(s, CONTROL_FORCE);
+}
+
+uint32_t sfc_anew(struct sfc_il *s)
+{
+	return sfc_var(s, "Anew", -1, IEC_BOOL);
+}
+
+/* Every active step is left, also one that becomes active again. */
 static void leave_all(struct sfc_il *s, const char *name)
 {
 	const int count = s->sfc->step_count;
@@ -65,6 +75,7 @@ static void leave_all(struct sfc_il *s, const char *name)
 	if (!label)
 		return;
 	sfc_each(s, back, sfc_x_name(s, 0), label, count);
+	sfc_set(s, sfc_anew(s), true);
 	sfc_jump(s, s->leave);
 	for (int i = 0; i < count; i++) {
 		sfc_here(s, label[i]);
@@ -93,6 +104,8 @@ static void put_force(struct sfc_il *s)
 	char number[16];
 
 	sfc_op(s, OP_LD, 0, sfc_var(s, "Forced", -1, IEC_BOOL));
+	if (control(s, CONTROL_RESET))
+		sfc_op(s, OP_AND, MOD_N, control(s, CONTROL_RESET));
 	sfc_jump_unless(s, on);
 	for (int i = 0; i < count; i++) {
 		snprintf(number, sizeof(number), "%d", i + 1);
@@ -197,6 +210,7 @@ void sfc_control(struct sfc_il *s)
 	if (control(s, CONTROL_FORCE))
 		note_forced(s);
 	put_start(s);
+	sfc_supervise(s);
 	if (reset)
 		put_reset(s, rises);
 	if (control(s, CONTROL_FORCE))

@@ -284,7 +284,6 @@ static void load_late(struct sfc_il *s, int step, enum word word, uint32_t limit
 {
 	sfc_op(s, OP_LD, 0, sfc_t_name(s, step));
 	sfc_fn(s, word, limit);
-	sfc_op(s, OP_S, 0, s->sfc->step[step].alarm);
 }
 
 void sfc_supervise(struct sfc_il *s)
@@ -311,6 +310,7 @@ void sfc_supervise(struct sfc_il *s)
 		s->line = (uint32_t)s->sfc->step[i].line;
 		sfc_here(s, label[i]);
 		load_late(s, i, FN_GT, s->sfc->step[i].max);
+		sfc_op(s, OP_S, 0, s->sfc->step[i].alarm);
 		sfc_jump(s, back);
 	}
 	sfc_here(s, on);
@@ -339,11 +339,17 @@ static void leave_step(struct sfc_il *s, int step)
 	sfc_here(s, sfc_label(s, "Leave", step));
 	sfc_set(s, sfc_var(s, "Left", step, IEC_BOOL), false);
 	sfc_op(s, OP_LD, 0, entered);
+	if (sfc_may_begin_anew(s))
+		sfc_op(s, OP_AND, MOD_N, sfc_anew(s));
 	sfc_jump_if(s, stay);
 	sfc_set(s, sfc_x_name(s, step), false);
 	darken_conditions(s, step);
-	if (at->min && at->alarm)
+	if (at->min && at->alarm) {
 		load_late(s, step, FN_LT, at->min);
+		if (sfc_may_begin_anew(s))
+			sfc_op(s, OP_AND, MOD_N, sfc_anew(s));
+		sfc_op(s, OP_S, 0, at->alarm);
+	}
 	sfc_pulse(s, step, false);
 	sfc_jump(s, s->leave);
 	sfc_here(s, stay);
@@ -362,6 +368,8 @@ void sfc_leave(struct sfc_il *s)
 		return;
 	s->line = (uint32_t)s->ld.unit->pou->line;
 	sfc_each(s, s->leave, sfc_var(s, "Left", 0, IEC_BOOL), label, count);
+	if (sfc_may_begin_anew(s))
+		sfc_set(s, sfc_anew(s), false);
 	sfc_jump(s, s->enter);
 	for (int i = 0; i < count; i++)
 		leave_step(s, i);

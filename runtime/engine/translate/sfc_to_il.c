@@ -257,7 +257,6 @@ bool sfc_to_il(struct translation *translation, struct unit *unit, const uint8_t
 		return true;
 	add_tick(&s);
 	sfc_control(&s);
-	sfc_supervise(&s);
 	sfc_stop(&s);
 	sfc_evaluate(&s);
 	sfc_ask(&s);

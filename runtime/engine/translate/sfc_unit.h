@@ -91,12 +91,16 @@ void sfc_leave(struct sfc_il *s);
 void sfc_enter(struct sfc_il *s);
 
 /* ---- sfc_control.c ---- */
-/** sfc_control - start, RESET, FORCE, HOLD and the modes. */
+/** sfc_control - start, supervision, RESET, FORCE and the modes. */
 void sfc_control(struct sfc_il *s);
-/** sfc_stop - behind the supervision: RESET and HOLD let nothing fire. */
+/** sfc_stop - RESET and HOLD let nothing fire. */
 void sfc_stop(struct sfc_il *s);
 /** sfc_allow - the result, a condition, as the mode has it. */
 void sfc_allow(struct sfc_il *s);
+/** sfc_anew - TRUE while RESET or FORCE leaves all steps: what becomes active then does
+ * so anew, and no firing left it. sfc_may_begin_anew - it has one of them. */
+uint32_t sfc_anew(struct sfc_il *s);
+bool sfc_may_begin_anew(const struct sfc_il *s);
 /** sfc_once - no TIP counts for another round of the same scan. */
 void sfc_once(struct sfc_il *s);
 
