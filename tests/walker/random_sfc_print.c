@@ -279,6 +279,7 @@ static void put_supervision(struct page *page, const struct random_step *step)
 {
 	struct random_source source = chart_source(chart_key(step->key, 50));
 	const char *between = " (";
+	bool least = false;
 
 	for (int i = 0; i < 3; i++) {
 		bool has = random_chance(&source, i == 2 ? 40 : 20);
@@ -289,8 +290,10 @@ static void put_supervision(struct page *page, const struct random_step *step)
 			continue;
 		if (i == 2)
 			put(page, "%sALARM := Alarm%d", between, (int)alarm);
-		else
-			put(page, "%s%s := %s", between, i ? "MAX" : "MIN", time);
+		else /* a MAX less than its MIN is refused */
+			put(page, "%s%s := %s", between, i ? "MAX" : "MIN",
+			    i && least ? "T#180ms" : time);
+		least = i == 0;
 		between = ", ";
 	}
 	put(page, *between == ',' ? "):\n" : ":\n");
@@ -427,7 +430,11 @@ static void put_action(struct page *page, int number)
 	uint64_t key = chart_key(page->chart->seed, 300u + (uint32_t)number);
 	struct random_source source = chart_source(key);
 	int rungs = 1 + (int)random_below(&source, 4);
+	char call[8];
 
+	snprintf(call, sizeof(call), " A%d(", number);
+	if (!strstr(page->out, call))
+		return;
 	put(page, "  ACTION A%d:\n", number);
 	if (random_chance(&source, 15)) {
 		put_list(page, &source, number);

@@ -56,6 +56,7 @@ static void add_use(struct sfc_il *s, struct sfc_called *called, int use)
 		*slot = use;
 	s->ld.failed |= !slot;
 	called->pulse |= pulse;
+	called->unsure |= !pulse && q != QUALIFIER_N && q != QUALIFIER_P;
 	called->off |= q == QUALIFIER_R;
 	called->level |= !pulse && q != QUALIFIER_R;
 }
@@ -122,13 +123,12 @@ static void ask(struct sfc_il *s, int number)
 		break;
 	case QUALIFIER_DS:
 		load_time(s, use, FN_GE);
+		sfc_op(s, OP_AND, 0, sfc_var(s, "Wait", number, IEC_BOOL));
 		sfc_op(s, OP_ST, 0, sfc_var(s, "Ask", number, IEC_BOOL));
 		break;
 	case QUALIFIER_S:
 	case QUALIFIER_SD:
 	case QUALIFIER_SL:
-		sfc_set(s, sfc_var(s, "Ask", number, IEC_BOOL), true);
-		break;
 	case QUALIFIER_P:
 	case QUALIFIER_P0:
 	case QUALIFIER_P1:
@@ -138,11 +138,26 @@ static void ask(struct sfc_il *s, int number)
 	sfc_set(s, sfc_var(s, "Due", called, IEC_BOOL), true);
 }
 
+/* Asked for in each scan in which the step is active, not once. */
 static bool is_level(const struct sfc_il *s, int use)
 {
-	return s->called_of[use] >= 0 && use_at(s, use)->qualifier != QUALIFIER_P &&
-	       use_at(s, use)->qualifier != QUALIFIER_P0 &&
-	       use_at(s, use)->qualifier != QUALIFIER_P1;
+	switch (use_at(s, use)->qualifier) {
+	case QUALIFIER_N:
+	case QUALIFIER_R:
+	case QUALIFIER_L:
+	case QUALIFIER_D:
+	case QUALIFIER_DS:
+		return s->called_of[use] >= 0;
+	case QUALIFIER_S:
+	case QUALIFIER_P:
+	case QUALIFIER_P0:
+	case QUALIFIER_P1:
+	case QUALIFIER_SD:
+	case QUALIFIER_SL:
+	case QUALIFIER_COUNT:
+		break;
+	}
+	return false;
 }
 
 static bool asks(const struct sfc_il *s, int step)
@@ -163,21 +178,59 @@ static bool any_asks(const struct sfc_il *s)
 	return false;
 }
 
+/* What becomes TRUE when the step becomes active; 0: nothing. An R ends what is stored
+ * also when its step is active only in passing. */
+static uint32_t begun(struct sfc_il *s, int use)
+{
+	const int called = s->called_of[use];
+
+	switch (use_at(s, use)->qualifier) {
+	case QUALIFIER_S:
+	case QUALIFIER_SD:
+	case QUALIFIER_SL: return sfc_var(s, "Ask", use, IEC_BOOL);
+	case QUALIFIER_DS: return sfc_var(s, "Wait", use, IEC_BOOL);
+	case QUALIFIER_P: return sfc_var(s, "Call", called, IEC_BOOL);
+	case QUALIFIER_P1: return sfc_var(s, "Pulse", called, IEC_BOOL);
+	case QUALIFIER_R:
+		return s->sfc->until_stable ? sfc_var(s, "End", called, IEC_BOOL) : 0;
+	case QUALIFIER_N:
+	case QUALIFIER_L:
+	case QUALIFIER_D:
+	case QUALIFIER_P0:
+	case QUALIFIER_COUNT:
+		break;
+	}
+	return 0;
+}
+
+/* A step that is left. */
+static void end_use(struct sfc_il *s, int use)
+{
+	const enum qualifier q = use_at(s, use)->qualifier;
+	const int called = s->called_of[use];
+
+	if (q == QUALIFIER_DS)
+		sfc_set(s, sfc_var(s, "Wait", use, IEC_BOOL), false);
+	if (q != QUALIFIER_P0)
+		return;
+	sfc_set(s, sfc_var(s, "Pulse", called, IEC_BOOL), true);
+	sfc_set(s, sfc_var(s, "Due", called, IEC_BOOL), true);
+}
+
 void sfc_pulse(struct sfc_il *s, int step, bool entered)
 {
 	const struct sfc_step *at = &s->sfc->step[step];
 
 	for (int i = at->first_use; i < at->first_use + at->use_count; i++) {
-		const enum qualifier q = use_at(s, i)->qualifier;
-		const int called = s->called_of[i];
+		const uint32_t what = s->called_of[i] >= 0 ? begun(s, i) : 0;
 
-		if (called < 0 || (entered ? q != QUALIFIER_P && q != QUALIFIER_P1 :
-					     q != QUALIFIER_P0))
-			continue;
 		s->line = (uint32_t)use_at(s, i)->line;
-		sfc_set(s, sfc_var(s, q == QUALIFIER_P ? "Call" : "Pulse", called,
-				   IEC_BOOL), true);
-		sfc_set(s, sfc_var(s, "Due", called, IEC_BOOL), true);
+		if (!entered && s->called_of[i] >= 0)
+			end_use(s, i);
+		if (!entered || !what)
+			continue;
+		sfc_set(s, what, true);
+		sfc_set(s, sfc_var(s, "Due", s->called_of[i], IEC_BOOL), true);
 	}
 }
 
@@ -220,6 +273,21 @@ void sfc_forget(struct sfc_il *s)
 	}
 }
 
+/* Of what is stored, also what only waits. */
+static void end_stored(struct sfc_il *s, const struct sfc_called *called)
+{
+	for (int i = 0; i < called->use_count; i++) {
+		const int use = called->use[i];
+
+		if (!is_stored(use_at(s, use)->qualifier))
+			continue;
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Kept", use, IEC_BOOL));
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Ask", use, IEC_BOOL));
+		if (use_at(s, use)->qualifier == QUALIFIER_DS)
+			sfc_op(s, OP_ST, 0, sfc_var(s, "Wait", use, IEC_BOOL));
+	}
+}
+
 /* R: nothing is called for, nothing stays stored. */
 static void put_off(struct sfc_il *s, int number)
 {
@@ -235,12 +303,21 @@ static void put_off(struct sfc_il *s, int number)
 		sfc_op(s, OP_ST, 0, sfc_var(s, "Call", number, IEC_BOOL));
 	if (called->pulse)
 		sfc_op(s, OP_ST, 0, sfc_var(s, "Pulse", number, IEC_BOOL));
-	for (int i = 0; i < called->use_count; i++) {
-		if (!is_stored(use_at(s, called->use[i])->qualifier))
-			continue;
-		sfc_op(s, OP_ST, 0, sfc_var(s, "Kept", called->use[i], IEC_BOOL));
-		sfc_op(s, OP_ST, 0, sfc_var(s, "Ask", called->use[i], IEC_BOOL));
-	}
+	end_stored(s, called);
+	sfc_here(s, on);
+}
+
+/* An R in passing. */
+static void put_end(struct sfc_il *s, int number)
+{
+	const uint32_t end = sfc_var(s, "End", number, IEC_BOOL);
+	const uint32_t on = sfc_label(s, "Ended", number);
+
+	sfc_op(s, OP_LD, 0, end);
+	sfc_jump_unless(s, on);
+	sfc_op(s, OP_LD, 0, sfc_literal(s, "FALSE"));
+	sfc_op(s, OP_ST, 0, end);
+	end_stored(s, &s->called[number]);
 	sfc_here(s, on);
 }
 
@@ -327,11 +404,31 @@ static void end_calls(struct sfc_il *s, int number)
 		sfc_set(s, sfc_var(s, "Pulse", number, IEC_BOOL), false);
 }
 
+/* It may be looked at without being called for: then it is written only if it was. */
+static void write_called(struct sfc_il *s, int number)
+{
+	const uint32_t now = sfc_var(s, "Now", number, IEC_BOOL);
+	const uint32_t was = sfc_var(s, "Was", number, IEC_BOOL);
+	const uint32_t idle = sfc_label(s, "Idle", number);
+
+	sfc_op(s, OP_ST, 0, now);
+	sfc_op(s, OP_OR, 0, was);
+	sfc_jump_unless(s, idle);
+	sfc_op(s, OP_LD, 0, now);
+	sfc_op(s, OP_ST, 0, s->called[number].operand);
+	sfc_op(s, OP_ST, 0, was);
+	sfc_here(s, idle);
+	sfc_op(s, OP_LD, 0, now);
+}
+
 static void do_bool(struct sfc_il *s, int number)
 {
 	load_called(s, number);
 	or_pulse(s, number);
-	sfc_op(s, OP_ST, 0, s->called[number].operand);
+	if (s->called[number].unsure)
+		write_called(s, number);
+	else
+		sfc_op(s, OP_ST, 0, s->called[number].operand);
 	or_kept(s, &s->called[number], true, true);
 	sfc_op(s, OP_ST, 0, sfc_var(s, "Due", number, IEC_BOOL));
 	end_calls(s, number);
@@ -378,6 +475,8 @@ static void decide(struct sfc_il *s, int number)
 			     s->sfc->action[called->action].line);
 	sfc_here(s, sfc_label(s, "Due", number));
 	sfc_set(s, sfc_var(s, "Due", number, IEC_BOOL), false);
+	if (called->off && s->sfc->until_stable)
+		put_end(s, number);
 	if (called->off)
 		put_off(s, number);
 	for (int i = 0; i < called->use_count; i++) {

@@ -18,6 +18,7 @@ struct sfc_called {
 	int *use;             /* of sfc.use, in their order                    */
 	int use_count;
 	bool level, pulse, off; /* has it N S L D P SD DS SL; P0 P1; R?       */
+	bool unsure;          /* is it looked at also when nothing calls for it? */
 };
 
 /* Which arcs want a step, and who evaluates them. */
@@ -111,7 +112,7 @@ void sfc_find_called(struct sfc_il *s);
  * the scan. */
 void sfc_ask(struct sfc_il *s);
 void sfc_act(struct sfc_il *s);
-/** sfc_pulse - what @step asks for once: when it becomes active, or is left. */
+/** sfc_pulse - what of @step begins when it becomes active, or ends when it is left. */
 void sfc_pulse(struct sfc_il *s, int step, bool entered);
 /** sfc_forget - nothing is stored any more. */
 void sfc_forget(struct sfc_il *s);
