@@ -395,11 +395,14 @@ for my $name (sort keys %control) {
 	case('macro-in-macro', $chart, "\@print Idle.X M.X M.T A.X K.X B.X B.T Over.X Outer Inner Deep Entered\n.\nGo=1\nOut=1\n.\nIn=1\n.\nGo=0\nOut=0 In=0\n" .
 		"CForce=5\n.\nCForce=2\n.\nCForce=4\nCForce=3\nOut=1\n.\n");
 }
-# A chart that never comes to rest.
+# A chart that never comes to rest: in one line of the file, which the message names.
 {
 	my $chart = vars(['Go'], ['Out']) . step('!Idle', call('Out', 'N')) . step('Round') .
 		arc('Idle', 'Round', 'Go') . arc('Round', 'Idle', 'TRUE');
-	case('stable-never', $chart, "\@print Idle.X Round.X Out\n.\n.\nGo=1\n.\n", ' UNTIL STABLE');
+	$chart =~ s/(?<!END_VAR)\s+/ /g;
+	case('stable-never', $chart, "\@print Go\n.\n.\nGo=1\n.\n", ' UNTIL STABLE');
+	my $text = "RUNGBOARD 1\nPROGRAM Main SFC UNTIL STABLE\n$chart\nEND_PROGRAM\n";
+	spew("$to/sfc-stable-never/main.rung", $text);
 }
 # Two rings of one chart: two initial steps.
 {

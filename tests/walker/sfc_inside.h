@@ -23,6 +23,7 @@ struct played_line {
 	bool waits;             /* SD, SL: since it began; DS: while X        */
 	bool stored;            /* S, DS                                      */
 	int64_t elapsed;        /* of SD and SL                               */
+	bool calls;             /* in this scan                               */
 };
 
 /* What lines call: an action, or a BOOL. */

@@ -155,8 +155,9 @@ static void begin_and_end(struct chart *chart)
 
 /* ---- what is called for ---- */
 
-static bool calls(const struct played_line *line, const struct played_step *step)
+static bool calls(const struct chart *chart, const struct played_line *line)
 {
+	const struct played_step *step = &chart->step[line->use->step];
 	bool x = value_is_true(*step->x);
 
 	switch (line->use->qualifier) {
@@ -185,6 +186,11 @@ static bool calls(const struct played_line *line, const struct played_step *step
 	return false;
 }
 
+static bool reads_late(const struct played_line *line)
+{
+	return line->use->qualifier == QUALIFIER_SD || line->use->qualifier == QUALIFIER_SL;
+}
+
 /* Is the target called for; *@in_passing: by P0 and P1 alone? */
 static bool is_called(const struct chart *chart, int target, bool *in_passing)
 {
@@ -200,7 +206,7 @@ static bool is_called(const struct chart *chart, int target, bool *in_passing)
 			continue;
 		if (qualifier == QUALIFIER_R && value_is_true(*step->x))
 			return false;
-		if (!calls(line, step))
+		if (!(reads_late(line) ? calls(chart, line) : line->calls))
 			continue;
 		called = true;
 		if (qualifier != QUALIFIER_P0 && qualifier != QUALIFIER_P1)
@@ -237,15 +243,20 @@ static bool act(struct walker *walker, struct chart *chart, struct target *targe
 	return good;
 }
 
-/* Who is called is settled before anything is done. */
+/* Who calls is settled before anything is done, but for the times of SD and SL, which are
+ * read as late as can be. */
 bool lines_act(struct walker *walker, struct chart *chart)
 {
 	begin_and_end(chart);
-	for (int i = 0; i < chart->target_count; i++)
-		chart->target[i].called = is_called(chart, i,
-						    &chart->target[i].in_passing);
-	for (int i = 0; i < chart->target_count; i++)
-		if (!act(walker, chart, &chart->target[i]))
+	for (int i = 0; i < chart->line_count; i++)
+		if (!reads_late(&chart->line[i]))
+			chart->line[i].calls = calls(chart, &chart->line[i]);
+	for (int i = 0; i < chart->target_count; i++) {
+		struct target *target = &chart->target[i];
+
+		target->called = is_called(chart, i, &target->in_passing);
+		if (!act(walker, chart, target))
 			return false;
+	}
 	return true;
 }
