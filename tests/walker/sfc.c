@@ -219,10 +219,27 @@ static void activate(struct chart *chart, int step)
 	chart->step[step].begins = true;
 }
 
+/* What it waited for is evaluated no more, and has no power that one may look at. */
+static void forget_power(struct chart *chart, int step)
+{
+	const struct sfc *sfc = chart->sfc;
+
+	for (int i = 0; i < sfc->transition_count; i++) {
+		const struct sfc_transition *at = &sfc->transition[i];
+		const struct sfc_body *body = &at->condition;
+
+		for (int k = 0; k < at->from_count; k++)
+			if (sfc->ref[at->first_from + k].step == step &&
+			    body->kind != BODY_LIST && body->kind != BODY_NONE)
+				chart->walked->rung[body->first].scan = 0;
+	}
+}
+
 static void deactivate(struct chart *chart, int step)
 {
 	*chart->step[step].x = value_bool(false);
 	chart->step[step].left = true;
+	forget_power(chart, step);
 }
 
 /* SET and RESET of the steps that became active just now. */

@@ -4,6 +4,7 @@
  */
 #include "engine/translate/pack.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static uint32_t power_offset(struct assembler *as, const struct pou *pou,
@@ -20,10 +21,23 @@ static uint32_t power_offset(struct assembler *as, const struct pou *pou,
 	return layout_spot(as, m).offset;
 }
 
+static int by_cell(const void *left, const void *right)
+{
+	const struct code_power *a = left, *b = right;
+
+	if (a->rung != b->rung)
+		return a->rung < b->rung ? -1 : 1;
+	if (a->row != b->row)
+		return a->row < b->row ? -1 : 1;
+	return (a->col > b->col) - (a->col < b->col);
+}
+
+/* By place, as one looks for them: a chart comes to its rungs in its own order. */
 static void add_power(struct assembler *as, struct maps *maps)
 {
 	for (int i = 0; i < as->translation->unit_count; i++) {
 		const struct unit *unit = &as->translation->unit[i];
+		const int first = maps->power_count;
 
 		for (int k = 0; k < unit->power_count; k++) {
 			const struct power_note *note = &unit->power[k];
@@ -41,6 +55,9 @@ static void add_power(struct assembler *as, struct maps *maps)
 				.out = power_offset(as, unit->pou, note->out),
 			};
 		}
+		if (unit->pou->sfc && maps->power_count > first)
+			qsort(maps->power + first, (size_t)(maps->power_count - first),
+			      sizeof(*maps->power), by_cell);
 	}
 }
 
