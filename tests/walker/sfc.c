@@ -219,11 +219,15 @@ static void activate(struct chart *chart, int step)
 	chart->step[step].begins = true;
 }
 
-/* What it waited for is evaluated no more, and has no power that one may look at. */
+/* What it waited for is evaluated no more, and has no power that one may look at. With
+ * the last step of a macro-step goes what that waited for. Depth: macro-steps. */
 static void forget_power(struct chart *chart, int step)
 {
 	const struct sfc *sfc = chart->sfc;
+	int macro = sfc->step[step].macro;
 
+	if (macro >= 0 && exit_of(sfc, macro) == step)
+		forget_power(chart, macro);
 	for (int i = 0; i < sfc->transition_count; i++) {
 		const struct sfc_transition *at = &sfc->transition[i];
 		const struct sfc_body *body = &at->condition;
