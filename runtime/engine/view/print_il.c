@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * print_il - a POU in IL, whatever it was written in, as a text that reads
- * again.
+ * print_il - a POU as a text that reads again: as it is, or in IL, whatever it was
+ * written in.
  *
  * It has no syntax of its own: it makes a project of that one POU and lets
  * text/ write it. Globals are not part of it.
@@ -79,4 +79,24 @@ bool view_print_il(const struct project *project, const struct pou *pou,
 	free(only.vars.var);
 	free(only.vars.block);
 	return begin != NULL;
+}
+
+char *view_print_pou(const struct project *project, const struct pou *pou)
+{
+	struct pou only = *pou;
+	struct part part = { .kind = PART_POU };
+	struct project one = { .names = project->names, .words = project->words,
+			       .pou = &only, .pou_count = 1,
+			       .part = &part, .part_count = 1 };
+	size_t len;
+	char *text, *begin;
+
+	only.comment = 0;
+	only.included = 0;
+	text = text_write(&one, &len);
+	/* What stands before it is the head of the file. */
+	begin = text ? strstr(text, pou_word(pou->kind)) : NULL;
+	if (begin)
+		memmove(text, begin, strlen(begin) + 1);
+	return text;
 }

@@ -83,6 +83,14 @@ bool view_print_il(const struct project *project, const struct pou *pou,
 		   const struct sink *sink);
 
 /**
+ * view_print_pou - the canonical text of one POU, from PROGRAM to its END_PROGRAM
+ * @pou: one of the project's, or a changed copy of one
+ *
+ * Owns: the caller, free(); NUL-ended.   Scan-safe: no.   Fails: NULL: no memory.
+ */
+char *view_print_pou(const struct project *project, const struct pou *pou);
+
+/**
  * view_words - elements, boxes, instructions, types, areas and system names
  * @word: one of them, any case, with its details; NULL: all, a line each
  * @json: an array of objects; each has kind, word and doc, most have more

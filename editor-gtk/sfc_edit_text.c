@@ -1,0 +1,430 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_edit_text - names, conditions and lines of a chart that is edited; see sfc_edit.h.
+ */
+#include "editor-gtk/sfc_edit.h"
+
+#include "editor-gtk/i18n.h"
+#include "engine/base/ascii.h"
+#include "engine/base/lex.h"
+#include "engine/base/sink.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define NO_MEMORY N_("out of memory")
+
+/* ---- names ---- */
+
+static bool is_called(const struct sfc_edit *edit, uint32_t id, const char *name)
+{
+	return id && strcasecmp(project_text(edit->project, id), name) == 0;
+}
+
+static bool is_taken(const struct sfc_edit *edit, const char *name)
+{
+	const struct sfc *sfc = &edit->sfc;
+	const struct var_table *tables[] = { &edit->pou.vars, &edit->project->globals };
+
+	for (int i = 0; i < sfc->step_count; i++)
+		if (is_called(edit, sfc->step[i].name, name))
+			return true;
+	for (int i = 0; i < sfc->transition_count; i++)
+		if (is_called(edit, sfc->transition[i].name, name))
+			return true;
+	for (int i = 0; i < sfc->action_count; i++)
+		if (is_called(edit, sfc->action[i].name, name))
+			return true;
+	for (int t = 0; t < 2; t++)
+		for (int i = 0; i < tables[t]->count; i++)
+			if (is_called(edit, tables[t]->var[i].name, name))
+				return true;
+	return words_is_taken(name);
+}
+
+const char *sfc_edit_free_name(struct sfc_edit *edit, const char *base)
+{
+	char name[64];
+
+	for (int i = 1;; i++) {
+		snprintf(name, sizeof(name), "%.40s%d", base, i);
+		if (!is_taken(edit, name))
+			break;
+	}
+	return project_text(edit->project, sfc_edit_id(edit, name));
+}
+
+/* A name as the file has them, that nothing else has. */
+static bool can_be_called(struct sfc_edit *edit, const char *name)
+{
+	struct lex lex;
+
+	lex_init(&lex, name, strlen(name));
+	if (lex_next(&lex) != TOKEN_NAME || lex.token.len != strlen(name) ||
+	    lex.token.len > LIMIT_NAME || strchr(name, '.'))
+		return sfc_edit_refuse(edit, N_("this is no name"));
+	if (is_taken(edit, name))
+		return sfc_edit_refuse(edit, N_("something has this name already"));
+	return true;
+}
+
+static bool is_letter(char c)
+{
+	return ascii_digit(c) || (ascii_upper(c) >= 'A' && ascii_upper(c) <= 'Z') ||
+	       c == '_' || (unsigned char)c >= 0x80;
+}
+
+/* Where @old, a point and X or T stand in @text as a name; NULL: nowhere. */
+static const char *find_member(const char *text, const char *old)
+{
+	const size_t len = strlen(old);
+
+	for (const char *at = text; *at; at++) {
+		const bool begins = at == text ||
+				    !(is_letter(at[-1]) || strchr(".#", at[-1]));
+
+		if (begins && strncasecmp(at, old, len) == 0 && at[len] == '.' &&
+		    strchr("XxTt", at[len + 1]) && at[len + 1] &&
+		    !is_letter(at[len + 2]))
+			return at;
+	}
+	return NULL;
+}
+
+/* The text with all of them called @name; 0: no memory. */
+static uint32_t with_name(struct sfc_edit *edit, uint32_t id, const char *old,
+			  const char *name)
+{
+	const char *text = project_text(edit->project, id), *found;
+	struct sink_memory memory;
+	struct sink sink;
+
+	if (!id || !find_member(text, old))
+		return id;
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	for (; (found = find_member(text, old)) != NULL; text = found + strlen(old)) {
+		sink_write(&sink, text, (size_t)(found - text));
+		sink_text(&sink, name);
+	}
+	sink_text(&sink, text);
+	id = memory.failed ? 0 : sfc_edit_id(edit, sink_memory_text(&memory));
+	sink_memory_free(&memory);
+	return id;
+}
+
+/* A rung that may be changed, in the place of one that may not; it stands behind all
+ * others, too, where those are that belong to the edit. NULL: no memory. */
+static struct rung *own_copy(struct sfc_edit *edit, int at)
+{
+	struct rung **to = arena_push(&edit->arena, &edit->pou.rung,
+				      &edit->pou.rung_count, sizeof(*to));
+
+	if (!to)
+		return NULL;
+	*to = rung_copy(edit->pou.rung[at]);
+	if (!*to)
+		edit->pou.rung_count--;
+	else
+		edit->pou.rung[at] = *to;
+	return edit->pou.rung[at];
+}
+
+/* Rungs are copied before they are changed. */
+static bool rename_in_rungs(struct sfc_edit *edit, const char *old, const char *name)
+{
+	const int first = edit->pou.rung_count;
+
+	for (int i = 0; i < first; i++) {
+		struct rung *rung = edit->pou.rung[i];
+		bool named = false;
+
+		for (int c = 0; c < rung->rows * rung->cols; c++)
+			named |= find_member(project_text(edit->project,
+							  rung->cell[c].operand), old) ||
+				 find_member(project_text(edit->project,
+							  rung->cell[c].args), old);
+		if (!named)
+			continue;
+		if (i < edit->rungs) {
+			rung = own_copy(edit, i);
+			if (!rung)
+				return sfc_edit_refuse(edit, NO_MEMORY);
+		}
+		for (int c = 0; c < rung->rows * rung->cols; c++) {
+			rung->cell[c].operand = with_name(edit, rung->cell[c].operand, old,
+							  name);
+			rung->cell[c].args = with_name(edit, rung->cell[c].args, old, name);
+		}
+	}
+	return true;
+}
+
+static bool rename_in_list(struct sfc_edit *edit, const char *old, const char *name)
+{
+	struct il_line *line = arena_alloc(&edit->arena, ((size_t)edit->pou.il.count + 1) *
+					   sizeof(*line));
+
+	if (!line)
+		return sfc_edit_refuse(edit, NO_MEMORY);
+	if (edit->pou.il.count)
+		memcpy(line, edit->pou.il.line, (size_t)edit->pou.il.count * sizeof(*line));
+	for (int i = 0; i < edit->pou.il.count; i++)
+		line[i].operand = with_name(edit, line[i].operand, old, name);
+	edit->pou.il.line = line;
+	return true;
+}
+
+bool sfc_edit_name_step(struct sfc_edit *edit, int step, const char *name)
+{
+	struct sfc *sfc = &edit->sfc;
+	const uint32_t old = sfc->step[step].name;
+	const uint32_t id = sfc_edit_id(edit, name);
+
+	if (names_fold(&edit->project->names, id) !=
+	    names_fold(&edit->project->names, old) && !can_be_called(edit, name))
+		return false;
+	sfc->step[step].name = id;
+	for (int i = 0; i < sfc->ref_count; i++)
+		if (sfc->ref[i].step == step)
+			sfc->ref[i].name = id;
+	return rename_in_rungs(edit, project_text(edit->project, old), name) &&
+	       rename_in_list(edit, project_text(edit->project, old), name);
+}
+
+bool sfc_edit_name_transition(struct sfc_edit *edit, int transition, const char *name)
+{
+	if (*name && !is_called(edit, edit->sfc.transition[transition].name, name) &&
+	    !can_be_called(edit, name))
+		return false;
+	edit->sfc.transition[transition].name = sfc_edit_id(edit, name);
+	return true;
+}
+
+bool sfc_edit_set_priority(struct sfc_edit *edit, int transition, int priority)
+{
+	if (priority < 0)
+		return sfc_edit_refuse(edit, N_("this is no priority"));
+	edit->sfc.transition[transition].priority = priority;
+	return true;
+}
+
+bool sfc_edit_set_kind(struct sfc_edit *edit, int step, enum step_kind kind)
+{
+	if (edit->sfc.step[step].kind == STEP_MACRO || kind == STEP_MACRO)
+		return sfc_edit_refuse(edit, N_("a macro-step stays one"));
+	edit->sfc.step[step].kind = kind;
+	return true;
+}
+
+/* One operand or literal: what stands between commas in the file. */
+static bool is_word(const char *text)
+{
+	return strlen(text) < 200 && !strpbrk(text, ",;()|\n\r\t \"");
+}
+
+bool sfc_edit_set_times(struct sfc_edit *edit, int step, const char *min, const char *max,
+			const char *alarm)
+{
+	struct sfc_step *s = &edit->sfc.step[step];
+
+	if (!is_word(min) || !is_word(max) || !is_word(alarm))
+		return sfc_edit_refuse(edit, N_("this is no time and no bit"));
+	s->min = sfc_edit_id(edit, min);
+	s->max = sfc_edit_id(edit, max);
+	s->alarm = sfc_edit_id(edit, alarm);
+	return true;
+}
+
+/* ---- conditions ---- */
+
+static struct rung *expression_rung(struct sfc_edit *edit, const char *text)
+{
+	struct rung *rung = rung_new(1, 2);
+
+	if (!rung)
+		return NULL;
+	rung->cell[0].word = ELEM_COMPARE;
+	rung->cell[0].operand = sfc_edit_id(edit, text);
+	rung->cell[1].word = ELEM_COIL;
+	rung->cell[1].operand = sfc_edit_id(edit, SFC_CONDITION);
+	return rung;
+}
+
+bool sfc_edit_set_condition(struct sfc_edit *edit, int transition, const char *text)
+{
+	struct sfc_body *body = &edit->sfc.transition[transition].condition;
+	struct rung *rung, **to;
+
+	if (!*text) {
+		*body = (struct sfc_body){ BODY_NONE, 0, 0 };
+		return true;
+	}
+	if (strpbrk(text, ";|\n\r") || strlen(text) > 4000)
+		return sfc_edit_refuse(edit, N_("this is no expression"));
+	rung = expression_rung(edit, text);
+	to = rung ? arena_push(&edit->arena, &edit->pou.rung, &edit->pou.rung_count,
+			       sizeof(*to)) : NULL;
+	if (!to) {
+		rung_free(rung);
+		return sfc_edit_refuse(edit, NO_MEMORY);
+	}
+	*to = rung;
+	*body = (struct sfc_body){ BODY_EXPRESSION, edit->pou.rung_count - 1, 1 };
+	return true;
+}
+
+bool sfc_edit_as_rung(struct sfc_edit *edit, int transition)
+{
+	struct sfc_body *body = &edit->sfc.transition[transition].condition;
+
+	if (body->kind == BODY_NONE && !sfc_edit_set_condition(edit, transition, "TRUE"))
+		return false;
+	if (body->kind == BODY_LIST)
+		return sfc_edit_refuse(edit, N_("this condition is a list"));
+	body->kind = BODY_RUNGS;
+	return true;
+}
+
+/* ---- what a step does ---- */
+
+/* The next word of a line; false: there is none. */
+static bool next_word(const char **at, char *out, size_t size)
+{
+	size_t len;
+
+	while (**at == ' ' || **at == '\t' || **at == ',')
+		(*at)++;
+	len = strcspn(*at, " \t,");
+	snprintf(out, size, "%.*s", (int)(len < size ? len : size - 1), *at);
+	*at += len;
+	return len > 0 && len < size;
+}
+
+bool sfc_doing_read(const char *line, struct sfc_doing *out)
+{
+	const char *at = line;
+	char word[LIMIT_NAME + 1];
+
+	memset(out, 0, sizeof(*out));
+	out->why = N_("the name of an action or a bit is missing");
+	if (!next_word(&at, word, sizeof(word)))
+		return false;
+	const enum qualifier found = qualifier_find(word, strlen(word));
+	const bool alone = at[strspn(at, " \t,")] == '\0';
+	if (!alone && (strcasecmp(word, "SET") == 0 || strcasecmp(word, "RESET") == 0)) {
+		out->kind = strcasecmp(word, "SET") == 0 ? USE_SET : USE_RESET;
+		next_word(&at, word, sizeof(word));
+	} else if (found != QUALIFIER_COUNT && !alone) {
+		out->qualifier = found;
+		if (qualifier_has_time(found) &&
+		    !next_word(&at, out->time, sizeof(out->time)))
+			return false;
+		if (!next_word(&at, word, sizeof(word))) {
+			out->why = qualifier_has_time(found) ?
+				N_("a time and a name belong to this qualifier") : out->why;
+			return false;
+		}
+	}
+	if (strcasecmp(word, "ACTION") == 0) {
+		out->action = true;
+		if (!next_word(&at, word, sizeof(word)))
+			return false;
+	}
+	if (!is_word(word) || at[strspn(at, " \t,")] != '\0') {
+		out->why = N_("too many words");
+		return false;
+	}
+	snprintf(out->name, sizeof(out->name), "%s", word);
+	out->why = NULL;
+	return true;
+}
+
+void sfc_doing_print(const struct project *project, const struct sfc *sfc, int use,
+		     char *out, size_t size)
+{
+	const struct sfc_use *u = &sfc->use[use];
+	const char *name = project_text(project, u->operand);
+
+	if (u->kind != USE_ACTION)
+		snprintf(out, size, "%s %s", u->kind == USE_SET ? "SET" : "RESET", name);
+	else
+		snprintf(out, size, "%s %s%s%s", qualifier_word(u->qualifier),
+			 project_text(project, u->time), u->time ? " " : "", name);
+}
+
+/* An empty one. */
+static bool new_action(struct sfc_edit *edit, const char *name)
+{
+	struct sfc *sfc = &edit->sfc;
+	struct sfc_action *action;
+	struct rung **to;
+
+	if (!can_be_called(edit, name))
+		return false;
+	action = arena_push(&edit->arena, &sfc->action, &sfc->action_count,
+			    sizeof(*action));
+	to = action ? arena_push(&edit->arena, &edit->pou.rung, &edit->pou.rung_count,
+				 sizeof(*to)) : NULL;
+	if (!to)
+		return sfc_edit_refuse(edit, NO_MEMORY);
+	*to = rung_new(1, 1);
+	if (!*to) {
+		edit->pou.rung_count--;
+		return sfc_edit_refuse(edit, NO_MEMORY);
+	}
+	*action = (struct sfc_action){ .name = sfc_edit_id(edit, name),
+		.body = { BODY_RUNGS, edit->pou.rung_count - 1, 1 } };
+	return sfc_edit_put_item(edit, sfc->item_count - 1, ITEM_ACTION,
+				 sfc->action_count - 1);
+}
+
+/* The lines of a step behind all others, with room for one more; without @skip. */
+static bool copy_uses(struct sfc_edit *edit, int step, int skip, bool more)
+{
+	struct sfc *sfc = &edit->sfc;
+	const int old = sfc->step[step].first_use, count = sfc->step[step].use_count;
+	const int first = sfc->use_count;
+
+	for (int i = old; i < old + count + more; i++) {
+		struct sfc_use *to;
+
+		if (i == skip)
+			continue;
+		to = arena_push(&edit->arena, &sfc->use, &sfc->use_count, sizeof(*to));
+		if (!to)
+			return sfc_edit_refuse(edit, NO_MEMORY);
+		*to = i < old + count ? sfc->use[i] : (struct sfc_use){ .step = step };
+	}
+	sfc->step[step].first_use = first;
+	sfc->step[step].use_count = sfc->use_count - first;
+	return true;
+}
+
+bool sfc_edit_set_use(struct sfc_edit *edit, int step, int use,
+		      const struct sfc_doing *doing)
+{
+	struct sfc_step *s = &edit->sfc.step[step];
+	const int line = use < 0 ? s->use_count : use - s->first_use;
+	struct sfc_use *to;
+
+	if (use < 0 && s->use_count >= LIMIT_STEP_USES)
+		return sfc_edit_refuse(edit, N_("this step does too much"));
+	if ((doing->action && !new_action(edit, doing->name)) ||
+	    !copy_uses(edit, step, -1, use < 0))
+		return false;
+	to = &edit->sfc.use[edit->sfc.step[step].first_use + line];
+	to->more = to->kind == doing->kind ? to->more : 0;
+	to->kind = doing->kind;
+	to->qualifier = doing->qualifier;
+	to->operand = sfc_edit_id(edit, doing->name);
+	to->time = sfc_edit_id(edit, doing->time);
+	return true;
+}
+
+bool sfc_edit_delete_use(struct sfc_edit *edit, int use)
+{
+	return copy_uses(edit, edit->sfc.use[use].step, use, false);
+}

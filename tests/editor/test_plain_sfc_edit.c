@@ -1,0 +1,330 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_plain_sfc_edit - edits of charts: known ones by their text, thousands of random ones
+ * by what must hold of each: the text reads, is canonical, and the steps and ways are
+ * those that there should be.
+ */
+#include "editor-gtk/sfc_edit.h"
+#include "engine/ladder.h"
+#include "engine/view/sfc_layout.h"
+#include "tests/tap.h"
+
+#include <stdlib.h>
+
+#define EDITS 4000
+
+/* ---- a chart from a text, an edit, a text again ---- */
+
+static struct ladder *ladder;
+static char *text_now;
+
+static bool load(const char *text)
+{
+	ladder_free(ladder);
+	ladder = ladder_new();
+	return ladder_load_text(ladder, "test.rung", text, strlen(text)) &&
+	       ladder_project(ladder) && ladder_project(ladder)->pou[0].sfc;
+}
+
+static void keep_text(void)
+{
+	size_t len;
+
+	free(text_now);
+	text_now = ladder_write(ladder, &len);
+}
+
+static void begin(const char *body)
+{
+	char text[4000];
+
+	snprintf(text, sizeof(text), "RUNGBOARD 1\n\nPROGRAM Main SFC\n%sEND_PROGRAM\n",
+		 body);
+	CHECK_AS(load(text), "the chart can be read");
+	keep_text();
+}
+
+static struct sfc_edit *edit_new(void)
+{
+	struct project *project = ladder_project(ladder);
+
+	return sfc_edit_new(project, &project->pou[0]);
+}
+
+/* The edit's text takes the place of the POU's. */
+static bool take(struct sfc_edit *edit)
+{
+	char *pou = sfc_edit_text(edit), *whole;
+	size_t size;
+	bool good;
+
+	sfc_edit_free(edit);
+	if (!pou)
+		return false;
+	size = strlen(pou) + 32;
+	whole = malloc(size);
+	snprintf(whole, size, "RUNGBOARD 1\n\n%s", pou);
+	good = load(whole);
+	if (!good)
+		printf("# cannot be read:\n%s\n", whole);
+	free(pou);
+	if (good) {
+		keep_text();
+		good = strcmp(text_now, whole) == 0;
+		if (!good)
+			printf("# not canonical:\n%s\n# is:\n%s\n", whole, text_now);
+	}
+	free(whole);
+	return good;
+}
+
+static const struct sfc *chart(void)
+{
+	return ladder_project(ladder)->pou[0].sfc;
+}
+
+static const char *body(void)
+{
+	static char out[8000];
+	const char *from = strstr(text_now, "SFC\n") + 4;
+	const char *end = strstr(text_now, "END_PROGRAM");
+
+	snprintf(out, sizeof(out), "%.*s", (int)(end - from), from);
+	return out;
+}
+
+#define EDIT(call) do { \
+	struct sfc_edit *edit = edit_new(); \
+	CHECK_AS((call), #call); \
+	CHECK_AS(take(edit), #call " reads again"); \
+} while (0)
+
+/* ---- known edits ---- */
+
+static const char two[] =
+	"  INITIAL_STEP A:\n  END_STEP\n\n"
+	"  TRANSITION FROM A TO B := I0.0; END_TRANSITION\n\n"
+	"  STEP B:\n    Q0.0(N);\n  END_STEP\n\n"
+	"  TRANSITION FROM B TO A := B.T > T#1s; END_TRANSITION\n";
+
+static void check_steps(void)
+{
+	begin("");
+	EDIT(sfc_edit_first(edit, -1) == 0);
+	CHECK_TEXT(body(), "  INITIAL_STEP Step1:\n  END_STEP\n");
+	EDIT(sfc_edit_step_below(edit, 0) == 1);
+	CHECK_TEXT(body(), "  INITIAL_STEP Step1:\n  END_STEP\n\n"
+		   "  TRANSITION FROM Step1 TO Step2:\n  END_TRANSITION\n\n"
+		   "  STEP Step2:\n  END_STEP\n");
+	begin(two);
+	EDIT(sfc_edit_step_below(edit, 0) == 2);
+	CHECK(strstr(body(), "FROM A TO Step1:\n"));
+	CHECK(strstr(body(), "FROM Step1 TO B := I0.0;"));
+	begin(two);
+	EDIT(sfc_edit_step_after(edit, 1) == 2);
+	CHECK(strstr(body(), "FROM B TO Step1 := B.T > T#1s;"));
+	CHECK(strstr(body(), "FROM Step1 TO A:\n"));
+	EDIT(sfc_edit_delete_step(edit, 2));
+	CHECK_TEXT(body(), two);
+	EDIT(sfc_edit_branch(edit, 0) == 2);
+	CHECK(chart()->transition_count == 3);
+	EDIT(sfc_edit_parallel(edit, 0) >= 0);
+	CHECK(strstr(body(), "FROM A TO (B, Step2) := I0.0;"));
+	EDIT(sfc_edit_wait(edit, 2, 1));
+	CHECK(strstr(body(), "FROM (B, Step"));
+}
+
+static void check_ways(void)
+{
+	begin(two);
+	EDIT(sfc_edit_lead(edit, 0, 0) == 2);
+	CHECK(strstr(body(), "FROM A TO A:\n"));
+	EDIT(sfc_edit_move(edit, -1, 1, false));
+	CHECK(strstr(body(), "FROM A TO A:") < strstr(body(), "FROM A TO B"));
+	EDIT(sfc_edit_set_ways(edit, 0, true, "B , Nowhere"));
+	CHECK(strstr(body(), "TO (B, Nowhere):\n"));
+	EDIT(sfc_edit_cut_way(edit, 0, chart()->transition[0].first_to));
+	CHECK(strstr(body(), "TO Nowhere:\n"));
+	EDIT(sfc_edit_cut_way(edit, 0, chart()->transition[0].first_to));
+	CHECK_TEXT(body(), two);
+	EDIT(sfc_edit_delete_transition(edit, 1));
+	EDIT(sfc_edit_delete_step(edit, 0));
+	CHECK_TEXT(body(), "  STEP B:\n    Q0.0(N);\n  END_STEP\n");
+}
+
+static void check_texts(void)
+{
+	struct sfc_doing doing;
+
+	begin(two);
+	EDIT(sfc_edit_name_step(edit, 1, "Fill"));
+	CHECK(strstr(body(), "FROM Fill TO A := Fill.T > T#1s;"));
+	EDIT(sfc_edit_set_condition(edit, 0, "I0.1 AND Fill.X"));
+	EDIT(sfc_edit_set_condition(edit, 1, ""));
+	CHECK(strstr(body(), "FROM A TO Fill := I0.1 AND Fill.X;"));
+	EDIT(sfc_edit_as_rung(edit, 0));
+	CHECK(strstr(body(), "| [ I0.1 AND Fill.X ] | COIL TRANSITION |"));
+	EDIT(sfc_edit_name_step(edit, 1, "Heat"));
+	CHECK(strstr(body(), "| [ I0.1 AND Heat.X ] | COIL TRANSITION |"));
+	EDIT(sfc_edit_name_transition(edit, 0, "Go"));
+	EDIT(sfc_edit_set_priority(edit, 0, 2));
+	EDIT(sfc_edit_set_times(edit, 0, "T#1s", "", "M0.0"));
+	CHECK(strstr(body(), "INITIAL_STEP A (MIN := T#1s, ALARM := M0.0):"));
+	CHECK(strstr(body(), "TRANSITION Go (PRIORITY := 2) FROM A TO Heat:"));
+	EDIT(sfc_edit_set_kind(edit, 0, STEP_PLAIN));
+	CHECK(sfc_doing_read(" l T#3s  Horn", &doing) && doing.qualifier == QUALIFIER_L);
+	EDIT(sfc_edit_set_use(edit, 1, -1, &doing));
+	CHECK(strstr(body(), "    Q0.0(N);\n    Horn(L, T#3s);\n"));
+	CHECK(sfc_doing_read("SET Q0.1", &doing) && doing.kind == USE_SET);
+	EDIT(sfc_edit_set_use(edit, 1, chart()->step[1].first_use, &doing));
+	CHECK(strstr(body(), "    SET Q0.1;\n    Horn(L, T#3s);\n"));
+	CHECK(sfc_doing_read("P1 ACTION Count", &doing) && doing.action);
+	EDIT(sfc_edit_set_use(edit, 0, -1, &doing));
+	CHECK(strstr(body(), "Count(P1);") && strstr(body(), "ACTION Count:\n    RUNG\n"));
+	EDIT(sfc_edit_delete_use(edit, chart()->step[1].first_use));
+	CHECK(!strstr(body(), "SET"));
+}
+
+/* A refusal says why, and the text stays. */
+#define REFUSED(call) do { \
+	struct sfc_edit *edit = edit_new(); \
+	CHECK_AS(!(call) && edit->why, #call); \
+	sfc_edit_free(edit); \
+} while (0)
+
+static void check_refusals(void)
+{
+	struct sfc_doing doing;
+
+	begin(two);
+	REFUSED(sfc_edit_name_step(edit, 0, "B"));
+	REFUSED(sfc_edit_name_step(edit, 0, "1x"));
+	REFUSED(sfc_edit_name_step(edit, 0, "a b"));
+	REFUSED(sfc_edit_name_step(edit, 0, "TON"));
+	REFUSED(sfc_edit_name_step(edit, 0, ""));
+	REFUSED(sfc_edit_set_condition(edit, 0, "A; B"));
+	REFUSED(sfc_edit_set_ways(edit, 0, true, " , "));
+	REFUSED(sfc_edit_wait(edit, 0, 0));
+	REFUSED(sfc_edit_move(edit, -1, 0, true));
+	REFUSED(sfc_edit_set_times(edit, 0, "T#1s, X", "", ""));
+	CHECK(!sfc_doing_read("", &doing) && doing.why);
+	CHECK(!sfc_doing_read("L Horn", &doing) && doing.why);
+	CHECK(!sfc_doing_read("N a b", &doing) && doing.why);
+	CHECK_AS(sfc_doing_read("N", &doing) && strcmp(doing.name, "N") == 0,
+		 "a name that looks like a qualifier");
+}
+
+/* ---- random ones ---- */
+
+static uint64_t state = 88172645463325252u;
+
+static int roll(int count)
+{
+	state ^= state << 13;
+	state ^= state >> 7;
+	state ^= state << 17;
+	return count > 0 ? (int)((state >> 33) % (uint64_t)count) : 0;
+}
+
+static bool edit_text(struct sfc_edit *edit, int step, int transition)
+{
+	static const char *const lines[] = { "N Q0.1", "SET M0.1", "RESET M0.1, ", "Q0.2",
+					     "SD T#2s Q0.3", "ACTION Do", "P ACTION Too" };
+	static const char *const names[] = { "A", "Fill", "Heat", "Step2", "x", "", "1" };
+	struct sfc_doing doing;
+
+	switch (roll(8)) {
+	case 0: return sfc_edit_name_step(edit, step, names[roll(7)]);
+	case 1: return sfc_edit_set_kind(edit, step, (enum step_kind)roll(2));
+	case 2: return sfc_edit_set_times(edit, step, roll(2) ? "T#1s" : "", "MW0", "");
+	case 3: return transition >= 0 &&
+		       sfc_edit_name_transition(edit, transition, names[roll(7)]);
+	case 4: return transition >= 0 &&
+		       sfc_edit_set_condition(edit, transition, roll(3) ? "Fill.X" : "");
+	case 5: return transition >= 0 && sfc_edit_as_rung(edit, transition);
+	case 6: return edit->sfc.use_count && sfc_edit_delete_use(edit,
+							roll(edit->sfc.use_count));
+	default:
+		return sfc_doing_read(lines[roll(7)], &doing) &&
+		       sfc_edit_set_use(edit, step, -1, &doing);
+	}
+}
+
+static bool edit_way(struct sfc_edit *edit, int step, int transition)
+{
+	const struct sfc_transition *t = &edit->sfc.transition[transition];
+
+	switch (roll(8)) {
+	case 0: return sfc_edit_step_after(edit, transition) >= 0;
+	case 1: return sfc_edit_parallel(edit, transition) >= 0;
+	case 2: return sfc_edit_set_ways(edit, transition, roll(2), "Step1, Step3");
+	case 3: return sfc_edit_wait(edit, transition, step);
+	case 4: return sfc_edit_delete_transition(edit, transition);
+	case 5: return sfc_edit_cut_way(edit, transition, t->first_to + roll(t->to_count));
+	case 6: return sfc_edit_cut_way(edit, transition,
+					t->first_from + roll(t->from_count));
+	default: return sfc_edit_move(edit, roll(2) ? step : -1, transition, roll(2));
+	}
+}
+
+static bool edit_any(struct sfc_edit *edit)
+{
+	const int step = roll(edit->sfc.step_count);
+	const int transition = roll(edit->sfc.transition_count + 1) - 1;
+
+	if (!edit->sfc.step_count || roll(60) == 0)
+		return sfc_edit_first(edit, -1) >= 0;
+	if (edit->sfc.step_count > 40)
+		return sfc_edit_delete_step(edit, step);
+	switch (roll(8)) {
+	case 0: return sfc_edit_step_below(edit, step) >= 0;
+	case 1: return sfc_edit_branch(edit, step) >= 0;
+	case 2: return sfc_edit_lead(edit, step, roll(edit->sfc.step_count)) >= 0;
+	case 3: return sfc_edit_delete_step(edit, step);
+	case 4: case 5: return edit_text(edit, step, transition);
+	default: return transition >= 0 && edit_way(edit, step, transition);
+	}
+}
+
+/* Each name of a way that has been found is one of a step that is there. */
+static bool is_whole(void)
+{
+	struct sfc_layout *layout = sfc_layout_new(chart());
+	bool good = layout != NULL;
+
+	sfc_layout_free(layout);
+	return good;
+}
+
+static void check_random(void)
+{
+	int done = 0, bad = 0, most = 0;
+
+	begin("  MACRO_STEP M:\n\n    INITIAL_STEP In:\n    END_STEP\n  END_STEP\n");
+	for (int i = 0; i < EDITS && !bad; i++) {
+		struct sfc_edit *edit = edit_new();
+
+		if (!edit_any(edit)) {
+			sfc_edit_free(edit);
+			continue;
+		}
+		done++;
+		bad += !take(edit) || !is_whole();
+		most = chart()->step_count > most ? chart()->step_count : most;
+	}
+	printf("# %d edits, up to %d steps\n", done, most);
+	CHECK_AS(bad == 0, "what an edit left reads again, and is canonical");
+	CHECK(done > EDITS / 2 && most > 20);
+}
+
+int main(void)
+{
+	check_steps();
+	check_ways();
+	check_texts();
+	check_refusals();
+	check_random();
+	ladder_free(ladder);
+	free(text_now);
+	return tap_done();
+}
