@@ -12,6 +12,16 @@
 
 #include <string.h>
 
+/* Which of eight BOOLs, not all FALSE, is the first that is TRUE? */
+static inline uint32_t first_of_eight(uint64_t eight)
+{
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+	return (uint32_t)__builtin_ctzll(eight) / 8;
+#else
+	return (uint32_t)__builtin_clzll(eight) / 8;
+#endif
+}
+
 /* The number of the first of @n BOOLs that is TRUE, from @from on; @n: none. */
 static inline uint32_t next_true(const uint8_t *bits, uint32_t from, uint32_t n)
 {
@@ -20,7 +30,7 @@ static inline uint32_t next_true(const uint8_t *bits, uint32_t from, uint32_t n)
 	for (; from < n && n - from >= sizeof(eight); from += sizeof(eight)) {
 		memcpy(&eight, bits + from, sizeof(eight));
 		if (eight)
-			break;
+			return from + first_of_eight(eight);
 	}
 	while (from < n && !bits[from])
 		from++;

@@ -55,6 +55,10 @@ void list_flow(struct list *list, const struct il_line *line)
 	}
 	list_place(list);
 	list->straight = false;
+	if (line->op == OP_RET && !(line->modifiers & MOD_C)) {
+		emit_op(list->as, VM_END, 0);
+		return;
+	}
 	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP, 0);
 	add_fixup(list, target);
 	if (line->modifiers & MOD_C)

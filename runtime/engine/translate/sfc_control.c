@@ -134,6 +134,8 @@ static void put_start(struct sfc_il *s)
 	const uint32_t runs = sfc_var(s, "Runs", -1, IEC_BOOL);
 	const uint32_t on = sfc_label(s, "Running", -1);
 
+	if (sfc_starts_itself(s))
+		return;
 	sfc_op(s, OP_LD, 0, runs);
 	sfc_jump_if(s, on);
 	sfc_set(s, runs, true);

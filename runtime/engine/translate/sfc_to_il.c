@@ -79,9 +79,9 @@ void sfc_jump_unless(struct sfc_il *s, uint32_t label)
 }
 
 /* The list that is watched comes second, with the variables of the first. */
-uint32_t sfc_var(struct sfc_il *s, const char *name, int number, enum iec_type type)
+static uint32_t declare(struct sfc_il *s, const char *name, int number,
+			struct var like)
 {
-	const struct var like = { .type = type };
 	const uint32_t id = sfc_label(s, name, number);
 	enum diag_id why;
 
@@ -91,6 +91,26 @@ uint32_t sfc_var(struct sfc_il *s, const char *name, int number, enum iec_type t
 				     names_text(&s->ld.translation->project->names, id),
 				     &like);
 	return id;
+}
+
+uint32_t sfc_var(struct sfc_il *s, const char *name, int number, enum iec_type type)
+{
+	return declare(s, name, number, (struct var){ .type = type });
+}
+
+/* A BOOL with the value that it has before the first scan. */
+static uint32_t declare_bool(struct sfc_il *s, const char *name, int number, bool value)
+{
+	return declare(s, name, number, (struct var){ .type = IEC_BOOL,
+		.has_init = value, .init = { .i = value } });
+}
+
+bool sfc_starts_itself(const struct sfc_il *s)
+{
+	for (int i = 0; i < CONTROL_COUNT; i++)
+		if (s->sfc->control[i])
+			return false;
+	return !s->sfc->until_stable;
 }
 
 uint32_t sfc_x_name(const struct sfc_il *s, int step)
@@ -231,12 +251,14 @@ static bool begin(struct sfc_il *s)
 	s->cursor = sfc_var(s, "Step", -1, IEC_UDINT);
 	s->dt = sfc_var(s, "Dt", -1, IEC_TIME);
 	s->last = sfc_var(s, "Last", -1, IEC_TIME);
-	s->fired = sfc_var(s, "Fired", -1, IEC_BOOL);
+	s->fired = declare_bool(s, "Fired", -1, sfc_starts_itself(s));
 	/* Those of one kind one behind the other: EACH goes through them. */
 	for (int i = 0; i < s->sfc->step_count; i++)
 		sfc_var(s, "Left", i, IEC_BOOL);
 	for (int i = 0; i < s->sfc->step_count; i++)
-		sfc_var(s, "Entered", i, IEC_BOOL);
+		declare_bool(s, "Entered", i, sfc_starts_itself(s) &&
+			     s->sfc->step[i].kind == STEP_INITIAL &&
+			     s->sfc->step[i].macro < 0);
 	sfc_find_duties(s);
 	sfc_find_called(s);
 	return !s->ld.failed;
