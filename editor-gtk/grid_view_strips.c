@@ -173,6 +173,17 @@ void strips_reset(LadderGridView *view)
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
+/* There are more or fewer before it; nothing else of it changed. */
+static void renumber(LadderGridView *view, int rung)
+{
+	struct strip *strip = strip_of(view, rung);
+
+	forget_drawing(strip);
+	live_forget(strip);
+	if (strip->layout)
+		strip->layout->number = rung + 1;
+}
+
 void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 {
 	const struct strip none = { 0 };
@@ -188,10 +199,10 @@ void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 		strips_reset(view);
 		return;
 	}
-	/* Their numbers are others, if there are more or fewer before them. */
-	for (guint i = (guint)at; i < view->strips->len; i++)
-		if ((int)i < at + inserted || removed != inserted)
-			guess(view, (int)i);
+	for (int i = at; i < at + inserted; i++)
+		guess(view, i);
+	for (int i = at + inserted; removed != inserted && i < (int)view->strips->len; i++)
+		renumber(view, i);
 	stack(view, at);
 	lay_out_later(view);
 	gtk_widget_queue_resize(GTK_WIDGET(view));
