@@ -430,6 +430,7 @@ static void ladder_grid_view_dispose(GObject *object)
 	LadderGridView *view = LADDER_GRID_VIEW(object);
 
 	entry_close(view);
+	edge_forget(view);
 	live_clear(view);
 	cells_clear(view);
 	for (int i = 0; i < 2; i++) {

@@ -62,6 +62,15 @@ struct sheet_wire {
 	int rows;
 };
 
+/* Something is dragged near an edge; (x, y) px of the widget. */
+typedef void (*edge_call)(LadderGridView *view, double x, double y, GdkModifierType state);
+struct sheet_edge {
+	guint timer;                /* 0: it does not scroll                   */
+	double x, y;
+	GdkModifierType state;
+	edge_call again;
+};
+
 struct _LadderGridView {
 	GtkWidget parent;
 	LadderDocument *document;
@@ -90,6 +99,8 @@ struct _LadderGridView {
 	struct grid_cursor found;   /* rung -1: nothing                        */
 	struct grid_cursor drop;    /* rung -1: nothing is dragged over it     */
 	bool drop_legal;
+	GtkDropTarget *target;      /* the sheet's own                          */
+	struct sheet_edge edge;
 	struct sheet_wire wire;
 
 	GtkAdjustment *adjustment[2]; /* horizontal, vertical                  */
@@ -250,6 +261,14 @@ void clipboard_do(LadderGridView *view, enum verb verb);
 
 /* ---- grid_view_mouse.c ---- */
 void mouse_init(LadderGridView *view);
+
+/* ---- grid_view_edge.c ---- */
+/** edge_at - something is dragged to (x, y): near an edge the sheet scrolls, until it is
+ * elsewhere, and @again is told the same place in each step. */
+void edge_at(LadderGridView *view, double x, double y, GdkModifierType state,
+	     edge_call again);
+/** edge_forget - it is dragged no more. */
+void edge_forget(LadderGridView *view);
 
 /* ---- grid_view_keys.c ---- */
 void keys_init(LadderGridView *view);

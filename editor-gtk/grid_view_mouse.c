@@ -182,30 +182,45 @@ static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
 
 /* ---- dragging: a wire from where one can begin; selecting from elsewhere, or with Shift */
 
+/* (x, y) px of the widget: a wire grows to there, or the selection does; false: neither. */
+static bool drag_to(LadderGridView *view, double x, double y, GdkModifierType state)
+{
+	struct rung_hit hit;
+	int rung;
+
+	if (view->wire.pressed) {
+		wire_drag(view, x, y, state);
+		return true;
+	}
+	rung = sheet_point(view, x, y, &hit);
+	if (rung != view->cursor.rung || !is_cell(&hit))
+		return false;
+	cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column }, true);
+	return true;
+}
+
+static void drag_again(LadderGridView *view, double x, double y, GdkModifierType state)
+{
+	drag_to(view, x, y, state);
+}
+
 static void drag_update(GtkGestureDrag *gesture, double by_x, double by_y,
 			LadderGridView *view)
 {
+	const GdkModifierType state = gtk_event_controller_get_current_event_state(
+		GTK_EVENT_CONTROLLER(gesture));
 	double x, y;
-	struct rung_hit hit;
-	int rung;
 
 	if (view->takes || !gtk_gesture_drag_get_start_point(gesture, &x, &y) ||
 	    (!view->wire.drawing &&
 	     !gtk_drag_check_threshold(GTK_WIDGET(view), (int)x, (int)y, (int)(x + by_x),
 				       (int)(y + by_y))))
 		return;
-	if (view->wire.pressed) {
+	if (drag_to(view, x + by_x, y + by_y, state))
 		gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
-		wire_drag(view, x + by_x, y + by_y,
-			  gtk_event_controller_get_current_event_state(
-				GTK_EVENT_CONTROLLER(gesture)));
+	else if (!view->edge.timer)
 		return;
-	}
-	rung = sheet_point(view, x + by_x, y + by_y, &hit);
-	if (rung != view->cursor.rung || !is_cell(&hit))
-		return;
-	gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
-	cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column }, true);
+	edge_at(view, x + by_x, y + by_y, state, drag_again);
 }
 
 static void drag_end(GtkGestureDrag *gesture, double by_x, double by_y,
@@ -214,6 +229,7 @@ static void drag_end(GtkGestureDrag *gesture, double by_x, double by_y,
 	(void)gesture;
 	(void)by_x;
 	(void)by_y;
+	edge_forget(view);
 	wire_release(view);
 }
 
@@ -222,6 +238,7 @@ static void drag_cancel(GtkGesture *gesture, GdkEventSequence *sequence,
 {
 	(void)gesture;
 	(void)sequence;
+	edge_forget(view);
 	wire_forget(view);
 }
 
@@ -350,10 +367,10 @@ static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hi
 	return rung;
 }
 
-static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y,
-				 LadderGridView *view)
+/* Marks where it would be dropped; 0: it may not. */
+static GdkDragAction show_drop(LadderGridView *view, double x, double y)
 {
-	const struct ladder_drag *drag = dragged(target);
+	const struct ladder_drag *drag = dragged(view->target);
 	struct rung_hit hit;
 	int rung = drop_at(view, x, y, &hit, drag ? drag->word : ELEM_EMPTY);
 	bool legal;
@@ -373,9 +390,28 @@ static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y,
 	return !legal ? 0 : drag->view ? GDK_ACTION_MOVE : GDK_ACTION_COPY;
 }
 
+static void drop_again(LadderGridView *view, double x, double y, GdkModifierType state)
+{
+	GdkDrop *drop = gtk_drop_target_get_current_drop(view->target);
+	const GdkDragAction action = show_drop(view, x, y);
+
+	(void)state;
+	if (drop)
+		gdk_drop_status(drop, action, action);
+}
+
+static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y,
+				 LadderGridView *view)
+{
+	(void)target;
+	edge_at(view, x, y, 0, drop_again);
+	return show_drop(view, x, y);
+}
+
 static void drop_leave(GtkDropTarget *target, LadderGridView *view)
 {
 	(void)target;
+	edge_forget(view);
 	set_drop(view, -1, 0, 0, false);
 }
 
@@ -414,6 +450,7 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 	int rung;
 
 	(void)target;
+	edge_forget(view);
 	set_drop(view, -1, 0, 0, false);
 	if (drag->view && drag->from.row < 0) {
 		rung = sheet_point(view, x, y, &hit);
@@ -492,6 +529,7 @@ void mouse_init(LadderGridView *view)
 	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), view);
 	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(source));
 	add_clicks(view);
+	view->target = target;
 	gtk_drop_target_set_preload(target, TRUE);
 	g_signal_connect(target, "motion", G_CALLBACK(drop_motion), view);
 	g_signal_connect(target, "leave", G_CALLBACK(drop_leave), view);

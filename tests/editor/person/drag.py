@@ -153,4 +153,40 @@ def by_menu(screen):
     assert plain(rung_lines(path)[2]) == '|^|', rung_lines(path)
 
 
-main([elements, rungs, branch, wires, refused, by_menu])
+def rung_of(node):
+    return int(node.name.split()[1].rstrip(','))
+
+
+def far(screen):
+    """an element is held at the lower edge: the sheet scrolls to a rung that was not seen"""
+    text = PROJECT.replace('END_PROGRAM', 'RUNG\n  | NO Motor | COIL Lamp |\n' * 40 + 'END_PROGRAM')
+    path = new_file(screen, text)
+    editor = Editor(screen, path)
+    stop = editor.element('Rung 1,', 'Stop')
+    last = max(map(rung_of, editor.all('Rung ', 'table cell')))
+    x, y, width, height = editor.place(editor.sheet())
+    to, edge = x + 61 + 98 + 49, y + height - 18
+    start = editor.middle(stop)
+    way = ['mousemove', str(start[0]), str(start[1]), 'mousedown', '1']
+    for i in range(1, 13):
+        way += ['mousemove', str(start[0] + (to - start[0]) * i // 12), str(start[1] + (edge - start[1]) * i // 12),
+                'sleep', '0.03']
+    sh('xdotool', *way)
+
+    def scrolled():
+        # A hand is never quite still; X leaves out the last step of one that is.
+        sh('xdotool', 'mousemove_relative', '1', '0', 'sleep', '0.05', 'mousemove_relative', '--', '-1', '0')
+        return max(map(rung_of, editor.all('Rung ', 'table cell')), default=0) > last + 4
+    until(scrolled, 'the sheet to scroll')
+    sh('xdotool', 'mousemove', str(to), str(y + height // 2))
+    editor.shot('drag-far')
+    seen = editor.element('Rung %d,' % (last + 2), 'Motor')
+    _, wire = editor.middle(seen)
+    sh('xdotool', 'mousemove', str(to), str(wire - 3), 'sleep', '0.1', 'mousemove', str(to), str(wire), 'sleep', '0.1',
+       'mouseup', '1')
+    until(lambda: [node for node in editor.all('Stop', 'table cell') if rung_of(node) > last], 'Stop in a far rung')
+    saved(editor, path, lambda rows: 'Stop' not in rows[1])
+    check(path)
+
+
+main([elements, rungs, branch, wires, refused, by_menu, far])
