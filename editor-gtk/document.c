@@ -162,6 +162,23 @@ void document_report_lost(const char *what)
 	g_error("the history does not fit the document: %s", what);
 }
 
+/* Bodies of a chart know their rungs by number. */
+static void shift_bodies(struct sfc *sfc, int at, int by)
+{
+	for (int i = 0; i < sfc_bodies(sfc); i++) {
+		struct sfc_body *body = i < sfc->transition_count ?
+			&sfc->transition[i].condition :
+			&sfc->action[i - sfc->transition_count].body;
+
+		if (body->kind == BODY_LIST || body->kind == BODY_NONE)
+			continue;
+		if (body->first > at)
+			body->first += by;
+		else if (at < body->first + body->count)
+			body->count += by;
+	}
+}
+
 static void apply_rungs(LadderDocument *document, const struct change *change,
 			const GPtrArray *from, const GPtrArray *to)
 {
@@ -170,6 +187,8 @@ static void apply_rungs(LadderDocument *document, const struct change *change,
 	struct diag_list diags;
 
 	diag_init(&diags);
+	if (pou->sfc)
+		shift_bodies(pou->sfc, (int)change->at, (int)to->len - (int)from->len);
 	for (guint i = 0; i < from->len; i++)
 		rung_free(project_take_rung(pou, (int)change->at));
 	for (guint i = 0; i < to->len; i++) {
@@ -361,6 +380,22 @@ static bool add_texts(LadderDocument *document, GPtrArray *texts,
 	return true;
 }
 
+/* Of a chart: rungs of one body, some before and some after, so that it stays sure which;
+ * a condition has one. */
+static bool fits_body(const struct sfc *sfc, int at, int removed, int inserted)
+{
+	for (int i = 0; i < sfc_bodies(sfc); i++) {
+		const struct sfc_body *body = sfc_body(sfc, i);
+
+		if (body->kind == BODY_LIST || body->kind == BODY_NONE ||
+		    at < body->first || at + removed > body->first + body->count)
+			continue;
+		return removed > 0 && inserted > 0 &&
+		       (i >= sfc->transition_count || removed == inserted);
+	}
+	return false;
+}
+
 bool ladder_document_splice(LadderDocument *document, int pou, int at, int removed,
 			    struct rung **rungs, int inserted, struct diag_list *why)
 {
@@ -368,7 +403,8 @@ bool ladder_document_splice(LadderDocument *document, int pou, int at, int remov
 	GPtrArray *before = change_texts(), *after = change_texts();
 	struct pou *of = project && pou >= 0 && pou < project->pou_count ?
 		&project->pou[pou] : NULL;
-	bool good = of && of->language == LANGUAGE_LD && !of->included && at >= 0 &&
+	bool good = of && of->language != LANGUAGE_IL && !of->included && at >= 0 &&
+		(!of->sfc || fits_body(of->sfc, at, removed, inserted)) &&
 		removed >= 0 && at + removed <= of->rung_count &&
 		of->rung_count - removed + inserted <= LIMIT_RUNGS &&
 		add_texts(document, before, of->rung + at, removed, why) &&

@@ -29,7 +29,8 @@ struct pou *sheet_pou(LadderGridView *view)
 	struct project *project = ladder_document_project(view->document);
 
 	return project && view->pou < project->pou_count &&
-	       project->pou[view->pou].language == LANGUAGE_LD ?
+	       (project->pou[view->pou].language == LANGUAGE_LD ||
+		(project->pou[view->pou].sfc && view->count >= 0)) ?
 	       &project->pou[view->pou] : NULL;
 }
 
@@ -37,17 +38,56 @@ int sheet_rungs(LadderGridView *view)
 {
 	const struct pou *pou = sheet_pou(view);
 
-	return pou ? pou->rung_count : 0;
+	if (!pou || view->count < 0)
+		return pou ? pou->rung_count : 0;
+	return CLAMP(pou->rung_count - view->first, 0, view->count);
 }
 
 struct rung *sheet_rung(LadderGridView *view, int rung)
 {
 	const struct pou *pou = sheet_pou(view);
 
-	if (!pou || rung < 0 || rung >= pou->rung_count)
+	if (!pou || rung < 0 || rung >= sheet_rungs(view))
 		return NULL;
 	return view->preview && rung == view->cursor.rung ? view->preview :
-	       pou->rung[rung];
+	       pou->rung[view->first + rung];
+}
+
+/* In a chart each change has a rung on both sides, so that it is sure whose body it is:
+ * one that comes stands beside one that was there. */
+static bool splice_body(LadderGridView *view, int at, int removed, struct rung **rungs,
+			int inserted, struct diag_list *why)
+{
+	const struct pou *pou = sheet_pou(view);
+	const bool before = at > 0;
+	const int beside = before ? at - 1 : at + removed;
+	struct rung **all;
+	bool good;
+
+	if (!pou || at < 0 || at + removed > sheet_rungs(view) ||
+	    beside >= sheet_rungs(view)) {
+		for (int i = 0; i < inserted; i++)
+			rung_free(rungs[i]);
+		return false;
+	}
+	all = g_new0(struct rung *, inserted + 1);
+	for (int i = 0; i < inserted; i++)
+		all[i + before] = rungs[i];
+	all[before ? 0 : inserted] = rung_copy(pou->rung[view->first + beside]);
+	good = ladder_document_splice(view->document, view->pou,
+				      view->first + at - before, removed + 1, all,
+				      inserted + 1, why);
+	g_free(all);
+	return good;
+}
+
+bool sheet_splice(LadderGridView *view, int at, int removed, struct rung **rungs,
+		  int inserted, struct diag_list *why)
+{
+	if (view->count >= 0 && (removed == 0 || inserted == 0))
+		return splice_body(view, at, removed, rungs, inserted, why);
+	return ladder_document_splice(view->document, view->pou, view->first + at, removed,
+				      rungs, inserted, why);
 }
 
 void sheet_tell(LadderGridView *view, const char *text)
@@ -208,6 +248,14 @@ static void rungs_changed(LadderGridView *view, int pou, int at, int removed, in
 	entry_forget_uses(view);
 	if (pou != view->pou)
 		return;
+	at -= view->first;
+	if (view->count >= 0 && (at < 0 || at + removed > view->count)) {
+		if (at < 0) /* of a body above */
+			view->first += inserted - removed;
+		return;
+	}
+	if (view->count >= 0)
+		view->count += inserted - removed;
 	forget_edit(view);
 	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	if (removed != inserted)
@@ -243,7 +291,7 @@ static void add_mark(LadderGridView *view, const struct diag *diag)
 {
 	const bool error = diag_severity(diag->id) == SEVERITY_ERROR;
 	struct sheet_mark mark = {
-		diag->rung - 1, diag->row - 1, diag->col - 1,
+		diag->rung - 1 - view->first, diag->row - 1, diag->col - 1,
 		error ? MARK_ERROR : MARK_WARNING, diag,
 	};
 
@@ -262,7 +310,8 @@ static void checked(LadderGridView *view)
 	for (int i = 0; pou && i < diags->count; i++) {
 		const struct diag *diag = &diags->diag[i];
 
-		if (diag->rung > 0 && diag->pou &&
+		if (diag->rung > view->first &&
+		    diag->rung <= view->first + sheet_rungs(view) && diag->pou &&
 		    strcmp(diag->pou, project_text(project, pou->name)) == 0)
 			add_mark(view, diag);
 	}
@@ -301,6 +350,20 @@ void ladder_grid_view_set_pou(LadderGridView *view, int pou)
 	project_changed(view);
 }
 
+void ladder_grid_view_set_range(LadderGridView *view, int first, int count)
+{
+	view->first = first;
+	view->count = count;
+	project_changed(view);
+	checked(view);
+}
+
+int ladder_grid_view_range(LadderGridView *view, int *count)
+{
+	*count = view->count;
+	return view->first;
+}
+
 struct grid_cursor ladder_grid_view_cursor(LadderGridView *view)
 {
 	return view->cursor;
@@ -330,9 +393,9 @@ static char *place_of(LadderGridView *view)
 		return g_strdup(_("no rung"));
 	if (view->cursor.row > 0)
 		return g_strdup_printf(_("Rung %d · row %d · column %c"),
-				       view->cursor.rung + 1, view->cursor.row + 1,
+				       view->first + view->cursor.rung + 1, view->cursor.row + 1,
 				       'A' + MIN(view->cursor.col, 25));
-	return g_strdup_printf(_("Rung %d · column %c"), view->cursor.rung + 1,
+	return g_strdup_printf(_("Rung %d · column %c"), view->first + view->cursor.rung + 1,
 			       'A' + MIN(view->cursor.col, 25));
 }
 
@@ -497,6 +560,7 @@ static void ladder_grid_view_init(LadderGridView *view)
 	view->strips = g_array_new(FALSE, TRUE, sizeof(struct strip));
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct sheet_mark));
 	view->cells = g_array_new(FALSE, TRUE, sizeof(struct cell_widget));
+	view->count = -1;
 	view->found.rung = view->drop.rung = view->before_rung = -1;
 	set_adjustment(view, 0, NULL);
 	set_adjustment(view, 1, NULL);

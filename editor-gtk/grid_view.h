@@ -35,6 +35,12 @@ int ladder_grid_view_pou(LadderGridView *view);
 /** ladder_grid_view_set_pou - when POUs were added or removed before it. */
 void ladder_grid_view_set_pou(LadderGridView *view, int pou);
 
+/** ladder_grid_view_set_range - only these rungs of its POU are shown and edited, as rungs 0
+ * … @count - 1 of the sheet: a body of a chart. @count -1: all, as at first. */
+void ladder_grid_view_set_range(LadderGridView *view, int first, int count);
+/** ladder_grid_view_range - the first one; @count gets how many, -1: all. */
+int ladder_grid_view_range(LadderGridView *view, int *count);
+
 struct grid_cursor ladder_grid_view_cursor(LadderGridView *view);
 /** ladder_grid_view_go - moves the cursor and shows it; @row, @col: cells of the rung,
  * as diagnostics have them, 0-based; -1: its first element. */

@@ -66,7 +66,7 @@ static char *name_of(LadderGridView *view, int rung, int row, int col,
 	const struct grid_name name = grid_names_find(view->names, operand);
 	GString *text = g_string_new(NULL);
 
-	g_string_printf(text, _("Rung %d, %s"), rung + 1,
+	g_string_printf(text, _("Rung %d, %s"), view->first + rung + 1,
 			word->word[0] ? word->word : word->id);
 	if (words_explain(word)[0])
 		g_string_append_printf(text, ", %s", _(words_explain(word)));

@@ -98,8 +98,7 @@ static void paste_whole(LadderGridView *view, struct rung **rungs, int count)
 	const int at = view->cursor.rung + (here && !removed);
 
 	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
-	if (ladder_document_splice(view->document, view->pou, at, removed, rungs, count,
-				   NULL))
+	if (sheet_splice(view, at, removed, rungs, count, NULL))
 		cursor_set(view, (struct grid_cursor){ at + count - 1, 0, 0 }, false);
 	ladder_document_end(view->document);
 }

@@ -34,8 +34,8 @@ void cursor_remember(LadderGridView *view)
 		return;
 	g_clear_pointer(&view->before, rung_free);
 	view->before_rung = view->cursor.rung;
-	if (pou && view->cursor.rung < pou->rung_count)
-		view->before = rung_copy(pou->rung[view->cursor.rung]);
+	if (pou && view->cursor.rung < sheet_rungs(view))
+		view->before = rung_copy(pou->rung[view->first + view->cursor.rung]);
 }
 
 void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend)

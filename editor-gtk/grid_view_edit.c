@@ -45,8 +45,7 @@ bool sheet_put(LadderGridView *view, struct rung *rung, const struct grid_at *at
 	diag_init(&why);
 	cursor_remember(view);
 	ladder_document_begin(view->document, name, NULL);
-	good = ladder_document_put_rung(view->document, view->pou, view->cursor.rung,
-					rung, &why);
+	good = sheet_splice(view, view->cursor.rung, 1, &rung, 1, &why);
 	ladder_document_end(view->document);
 	if (!good) {
 		tell_diags(view, &why);
@@ -111,8 +110,7 @@ static bool splice(LadderGridView *view, int at, int removed, struct rung *rung,
 	bool good;
 
 	ladder_document_begin(view->document, _(verb_row(verb)->label), NULL);
-	good = ladder_document_splice(view->document, view->pou, at, removed, &rung,
-				      rung ? 1 : 0, NULL);
+	good = sheet_splice(view, at, removed, &rung, rung ? 1 : 0, NULL);
 	ladder_document_end(view->document);
 	return good;
 }
@@ -149,12 +147,29 @@ static void do_rung_duplicate(LadderGridView *view)
 						       view->cursor.col }, false);
 }
 
+/* Two rungs below each other change places. */
+static bool move_in_body(LadderGridView *view, int upper)
+{
+	struct rung *rungs[2];
+	bool good;
+
+	if (upper < 0 || upper + 1 >= sheet_rungs(view))
+		return false;
+	rungs[0] = rung_copy(sheet_rung(view, upper + 1));
+	rungs[1] = rung_copy(sheet_rung(view, upper));
+	ladder_document_begin(view->document, _("Move rung"), NULL);
+	good = sheet_splice(view, upper, 2, rungs, 2, NULL);
+	ladder_document_end(view->document);
+	return good;
+}
+
 static void do_rung_move(LadderGridView *view, int by)
 {
 	struct grid_cursor to = view->cursor;
 
 	to.rung += by;
-	if (ladder_document_move_rung(view->document, view->pou, view->cursor.rung,
+	if (view->count >= 0 ? move_in_body(view, MIN(view->cursor.rung, to.rung)) :
+	    ladder_document_move_rung(view->document, view->pou, view->cursor.rung,
 				      to.rung))
 		cursor_set(view, to, false);
 }
@@ -297,7 +312,8 @@ void ladder_grid_view_do(LadderGridView *view, enum verb verb)
 	case VERB_rung_down: do_rung_move(view, 1); break;
 	case VERB_rung_off: do_rung_off(view); break;
 	case VERB_bookmark:
-		ladder_document_toggle_bookmark(view->document, view->pou, view->cursor.rung);
+		ladder_document_toggle_bookmark(view->document, view->pou,
+						view->first + view->cursor.rung);
 		break;
 	case VERB_cancel: do_cancel(view); break;
 	default: break;

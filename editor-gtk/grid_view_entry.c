@@ -148,7 +148,7 @@ static struct rung *put_element(const struct asked *asked, struct cell cell,
 				bool below, struct grid_at *at)
 {
 	LadderGridView *view = asked->view;
-	const struct rung *rung = sheet_pou(view)->rung[asked->cursor.rung];
+	const struct rung *rung = sheet_pou(view)->rung[view->first + asked->cursor.rung];
 	const struct cell *old;
 	struct rung *edited = NULL;
 

@@ -75,6 +75,7 @@ struct _LadderGridView {
 	GtkWidget parent;
 	LadderDocument *document;
 	int pou;
+	int first, count;           /* rungs of the POU that are shown; -1: all  */
 	gulong handler[5];          /* of the document's signals               */
 
 	GArray *strips;             /* of struct strip                         */
@@ -133,6 +134,9 @@ struct pou *sheet_pou(LadderGridView *view);
 /** sheet_rung - as it is shown: the preview, if that one is edited. NULL: none. */
 struct rung *sheet_rung(LadderGridView *view, int rung);
 int sheet_rungs(LadderGridView *view);
+/** sheet_splice - as ladder_document_splice, of rungs of the sheet. */
+bool sheet_splice(LadderGridView *view, int at, int removed, struct rung **rungs,
+		  int inserted, struct diag_list *why);
 /** sheet_tell - why something was not done. */
 void sheet_tell(LadderGridView *view, const char *text);
 void sheet_moved(LadderGridView *view);

@@ -155,5 +155,5 @@ void keys_init(LadderGridView *view)
 	gtk_widget_add_controller(GTK_WIDGET(view), captured);
 	gtk_widget_add_controller(GTK_WIDGET(view), keys);
 	/* Those of verbs come before the letters that begin an entry. */
-	gtk_widget_add_controller(GTK_WIDGET(view), verbs_controller());
+	gtk_widget_add_controller(GTK_WIDGET(view), verbs_controller(VERB_SHEET));
 }

@@ -435,9 +435,8 @@ static void move_between(LadderGridView *view, const struct ladder_drag *drag,
 	}
 	ladder_document_begin(view->document, _("Move element"), NULL);
 	if (!same && source)
-		ladder_document_put_rung(view->document, drag->view->pou,
-					 drag->from.rung, source, NULL);
-	ladder_document_put_rung(view->document, view->pou, to.rung, moved, NULL);
+		sheet_splice(drag->view, drag->from.rung, 1, &source, 1, NULL);
+	sheet_splice(view, to.rung, 1, &moved, 1, NULL);
 	ladder_document_end(view->document);
 	cursor_set(view, (struct grid_cursor){ to.rung, at.row, at.col }, false);
 }
@@ -455,7 +454,7 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 	if (drag->view && drag->from.row < 0) {
 		rung = sheet_point(view, x, y, &hit);
 		return rung >= 0 && drag->view == view &&
-		       ladder_document_move_rung(view->document, view->pou,
+		       view->count < 0 && ladder_document_move_rung(view->document, view->pou,
 						 drag->from.rung, rung);
 	}
 	rung = drop_at(view, x, y, &hit, drag->word);

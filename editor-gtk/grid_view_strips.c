@@ -307,7 +307,8 @@ struct strip *strips_get(LadderGridView *view, int rung)
 		rows = MAX(rows, view->drop.row + 1);
 	if (rung == view->wire.rung && view->wire.drawing)
 		rows = MAX(rows, view->wire.rows); /* one may come below */
-	strip->layout = rung_layout_new(&view->drafting, shown, rung + 1, rows);
+	strip->layout = rung_layout_new(&view->drafting, shown,
+					view->first + rung + 1, rows);
 	if (strip->layout->natural > view->rail)
 		widen(view, strip->layout->natural);
 	rung_layout_stretch(strip->layout, view->rail);
@@ -444,7 +445,8 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	if (rung == view->drop.rung)
 		push_mark(marks, view->drop.row, view->drop.col,
 			  view->drop_legal ? MARK_DROP : MARK_ILLEGAL);
-	if (ladder_document_is_bookmarked(view->document, view->pou, rung))
+	if (ladder_document_is_bookmarked(view->document, view->pou,
+					     view->first + rung))
 		scene.state |= RUNG_MARKED;
 	if (view->preview && rung == view->cursor.rung)
 		scene.state |= RUNG_EDITED;

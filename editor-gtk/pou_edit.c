@@ -43,11 +43,13 @@ static char *text_of(const char *what, const char *name)
 	char **words = g_strsplit(what, " ", 2);
 	const bool list = strcmp(words[1], "IL") == 0;
 	const bool function = strcmp(words[0], "FUNCTION") == 0;
+	const bool chart = strcmp(words[1], "SFC") == 0;
 	char *text = g_strdup_printf("\n%s %s%s %s\n%s%sEND_%s\n", words[0], name,
 		function ? " : BOOL" : "", words[1],
 		function || strcmp(words[0], "FUNCTION_BLOCK") == 0 ?
 			"VAR_INPUT\n  In : BOOL;\nEND_VAR\n" : "",
-		list ? "  LD FALSE\n" : "RUNG\n", words[0]);
+		list ? "  LD FALSE\n" : chart ? "  INITIAL_STEP Start:\n  END_STEP\n" :
+			"RUNG\n", words[0]);
 
 	g_strfreev(words);
 	return text;

@@ -93,7 +93,9 @@ static void add_pous(GListStore *root, const struct project *project, const char
 
 		if ((pou->kind == POU_PROGRAM) != programs)
 			continue;
-		note = pou->language == LANGUAGE_LD ?
+		note = pou->sfc ? g_strdup_printf(ngettext("%d step", "%d steps",
+			(unsigned long)pou->sfc->step_count), pou->sfc->step_count) :
+			pou->language == LANGUAGE_LD ?
 			g_strdup_printf(ngettext("%d rung", "%d rungs",
 				(unsigned long)pou->rung_count), pou->rung_count) :
 			g_strdup(pou_language_word(pou->language));
@@ -362,6 +364,7 @@ static GMenu *menu_model(void)
 	static const struct { const char *label, *action; } rows[] = {
 		{ N_("New program (LD)"), "tree.add::PROGRAM LD" },
 		{ N_("New program (IL)"), "tree.add::PROGRAM IL" },
+		{ N_("New program (SFC)"), "tree.add::PROGRAM SFC" },
 		{ N_("New function block"), "tree.add::FUNCTION_BLOCK LD" },
 		{ N_("New function"), "tree.add::FUNCTION LD" },
 		{ N_("New subroutine"), "tree.add::SUBROUTINE LD" },

@@ -73,6 +73,8 @@ bool sfc_edit_set_kind(struct sfc_edit *edit, int step, enum step_kind kind);
 /** sfc_edit_set_times - "" for none. */
 bool sfc_edit_set_times(struct sfc_edit *edit, int step, const char *min, const char *max,
 			const char *alarm);
+/** sfc_is_expression - could it stand behind := of a transition? */
+bool sfc_is_expression(const char *text);
 /** sfc_edit_set_condition - an expression; "": none. */
 bool sfc_edit_set_condition(struct sfc_edit *edit, int transition, const char *text);
 /** sfc_edit_as_rung - the condition is a rung from now on. */

@@ -8,6 +8,7 @@
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
 #include "engine/base/sink.h"
+#include "engine/model/expr.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -240,6 +241,23 @@ bool sfc_edit_set_times(struct sfc_edit *edit, int step, const char *min, const 
 
 /* ---- conditions ---- */
 
+bool sfc_is_expression(const char *text)
+{
+	struct expr *expr = calloc(1, sizeof(*expr));
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	bool good = expr && diags;
+
+	if (good) {
+		diag_init(diags);
+		good = expr_parse_text(text, strlen(text), expr, diags,
+				       (struct diag){ .id = DIAG_BAD_EXPRESSION }) &&
+		       !expr->target;
+	}
+	free(expr);
+	free(diags);
+	return good;
+}
+
 static struct rung *expression_rung(struct sfc_edit *edit, const char *text)
 {
 	struct rung *rung = rung_new(1, 2);
@@ -262,7 +280,7 @@ bool sfc_edit_set_condition(struct sfc_edit *edit, int transition, const char *t
 		*body = (struct sfc_body){ BODY_NONE, 0, 0 };
 		return true;
 	}
-	if (strpbrk(text, ";|\n\r") || strlen(text) > 4000)
+	if (strpbrk(text, ";|\n\r") || strlen(text) > 4000 || !sfc_is_expression(text))
 		return sfc_edit_refuse(edit, N_("this is no expression"));
 	rung = expression_rung(edit, text);
 	to = rung ? arena_push(&edit->arena, &edit->pou.rung, &edit->pou.rung_count,

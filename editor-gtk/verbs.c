@@ -38,6 +38,7 @@ const char *verb_group_label(enum verb_group group)
 	static const char *const labels[VERBS_GROUPS] = {
 		[VERBS_FILE] = N_("File"), [VERBS_EDIT] = N_("Edit"),
 		[VERBS_DRAW] = N_("Draw"), [VERBS_RUNG] = N_("Rungs"),
+		[VERBS_CHART] = N_("Charts"),
 		[VERBS_GO] = N_("Go"), [VERBS_RUN] = N_("Simulation"),
 		[VERBS_VIEW] = N_("View"),
 		[VERBS_HELP] = N_("Help"),
@@ -68,7 +69,7 @@ static const struct key_row key_rows[] = {
 /* The keys that hold; only verbs_use_scheme() changes them. */
 static char *keys_now[VERB_COUNT];
 static enum key_scheme scheme_now;
-static GListStore *shortcuts; /* of sheets                                     */
+static GListStore *shortcuts[VERB_BOTH]; /* by verb_where: of sheets and charts */
 
 const char *key_scheme_name(enum key_scheme scheme)
 {
@@ -156,7 +157,8 @@ bool key_scheme_put(enum key_scheme scheme, int index, const char **word,
 
 /* ---- whom they are given ---- */
 
-static void add_shortcut(const char *keys, const char *action, GVariant *argument)
+static void add_shortcut(GListStore *to, const char *keys, const char *action,
+			 GVariant *argument)
 {
 	GtkShortcutTrigger *trigger = gtk_shortcut_trigger_parse_string(keys);
 	GtkShortcut *shortcut;
@@ -165,30 +167,33 @@ static void add_shortcut(const char *keys, const char *action, GVariant *argumen
 	shortcut = gtk_shortcut_new(trigger, gtk_named_action_new(action));
 	if (argument)
 		gtk_shortcut_set_arguments(shortcut, argument);
-	g_list_store_append(shortcuts, shortcut);
+	g_list_store_append(to, shortcut);
 	g_object_unref(shortcut);
 }
 
-static void fill_shortcuts(void)
+static void fill_shortcuts(enum verb_where where)
 {
 	const char *word, *keys;
 
-	g_list_store_remove_all(shortcuts);
+	g_list_store_remove_all(shortcuts[where]);
 	for (int i = 0; i < VERB_COUNT; i++)
-		if (rows[i].where == VERB_SHEET && verb_keys((enum verb)i)[0])
-			add_shortcut(verb_keys((enum verb)i), rows[i].action, NULL);
-	for (int i = 0; key_scheme_put(scheme_now, i, &word, &keys); i++)
-		add_shortcut(keys, "win.place",
+		if ((rows[i].where == where || rows[i].where == VERB_BOTH) &&
+		    verb_keys((enum verb)i)[0])
+			add_shortcut(shortcuts[where], verb_keys((enum verb)i),
+				     rows[i].action, NULL);
+	for (int i = 0; where == VERB_SHEET &&
+	     key_scheme_put(scheme_now, i, &word, &keys); i++)
+		add_shortcut(shortcuts[where], keys, "win.place",
 			     g_variant_new_int32((int)word_find(word, strlen(word))));
 }
 
-GtkEventController *verbs_controller(void)
+GtkEventController *verbs_controller(enum verb_where where)
 {
-	if (!shortcuts) {
-		shortcuts = g_list_store_new(GTK_TYPE_SHORTCUT);
-		fill_shortcuts();
+	if (!shortcuts[where]) {
+		shortcuts[where] = g_list_store_new(GTK_TYPE_SHORTCUT);
+		fill_shortcuts(where);
 	}
-	return gtk_shortcut_controller_new_for_model(G_LIST_MODEL(shortcuts));
+	return gtk_shortcut_controller_new_for_model(G_LIST_MODEL(shortcuts[where]));
 }
 
 static bool is_pressed(const char *keys, GdkEvent *key)
@@ -233,8 +238,9 @@ void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme)
 		g_free(keys_now[i]);
 		keys_now[i] = verb_keys_of((enum verb)i, scheme);
 	}
-	if (shortcuts)
-		fill_shortcuts();
+	for (int where = VERB_SHEET; where < VERB_BOTH; where++)
+		if (shortcuts[where])
+			fill_shortcuts((enum verb_where)where);
 	if (application)
 		give_keys(application);
 }

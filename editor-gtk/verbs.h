@@ -16,9 +16,9 @@ enum verb {
 #include "editor-gtk/verbs.def"
 	VERB_COUNT
 };
-enum verb_where { VERB_WINDOW, VERB_SHEET };
+enum verb_where { VERB_WINDOW, VERB_SHEET, VERB_CHART, VERB_BOTH };
 enum verb_group {
-	VERBS_FILE, VERBS_EDIT, VERBS_DRAW, VERBS_RUNG, VERBS_GO, VERBS_RUN, VERBS_VIEW, VERBS_HELP,
+	VERBS_FILE, VERBS_EDIT, VERBS_DRAW, VERBS_RUNG, VERBS_CHART, VERBS_GO, VERBS_RUN, VERBS_VIEW, VERBS_HELP,
 	VERBS_GROUPS
 };
 
@@ -62,8 +62,8 @@ void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme);
 /** verb_of_key - the WINDOW verb whose key it is, by the keys that hold now; VERB_COUNT:
  * none. For what keeps its keys from the window. */
 enum verb verb_of_key(GdkEvent *key);
-/** verbs_controller - the keys of all SHEET verbs, for a sheet; follows the scheme.
- * Owns: the widget it is added to. */
-GtkEventController *verbs_controller(void);
+/** verbs_controller - the keys of all SHEET or CHART verbs, and of those of BOTH; follows
+ * the scheme. Owns: the widget it is added to. */
+GtkEventController *verbs_controller(enum verb_where where);
 
 #endif

@@ -22,6 +22,8 @@ static void go_on(LadderWindow *window)
 
 	if (sheet)
 		gtk_widget_grab_focus(GTK_WIDGET(sheet));
+	else if (tabs_chart(window))
+		gtk_widget_grab_focus(GTK_WIDGET(tabs_chart(window)));
 }
 
 static void do_undo(LadderWindow *window)
@@ -139,9 +141,14 @@ static void zoom(LadderWindow *window, double factor)
 {
 	LadderGridView *sheet = tabs_sheet(window);
 
+	LadderSfcView *chart = tabs_chart(window);
+
 	if (sheet)
 		ladder_grid_view_set_zoom(sheet, factor == 0 ? 1 :
 					  ladder_grid_view_zoom(sheet) * factor);
+	else if (chart)
+		ladder_sfc_view_set_zoom(chart, factor == 0 ? 1 :
+					 ladder_sfc_view_zoom(chart) * factor);
 }
 
 static void do_show_as(LadderWindow *window)
@@ -204,9 +211,13 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 {
 	LadderGridView *sheet = tabs_sheet(window);
 
-	if (verb_row(verb)->where == VERB_SHEET) {
-		if (sheet)
+	const enum verb_where where = verb_row(verb)->where;
+
+	if (where != VERB_WINDOW) {
+		if (sheet && where != VERB_CHART)
 			ladder_grid_view_do(sheet, verb);
+		else if (!sheet && tabs_chart(window) && where != VERB_SHEET)
+			ladder_sfc_view_do(tabs_chart(window), verb);
 		return;
 	}
 	if (window_sim(window, verb) || window_scenario(window, verb))

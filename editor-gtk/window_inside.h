@@ -10,6 +10,7 @@
 #include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/scenario_record.h"
+#include "editor-gtk/sfc_view.h"
 #include "editor-gtk/sim.h"
 #include "editor-gtk/window.h"
 
@@ -86,6 +87,8 @@ LadderFileView *tabs_file(LadderWindow *window);
 GPtrArray *tabs_unsaved(LadderWindow *window);
 /** tabs_sheet - of the page in front; NULL: it is none. */
 LadderGridView *tabs_sheet(LadderWindow *window);
+/** tabs_chart - of the page in front; NULL: it is none. */
+LadderSfcView *tabs_chart(LadderWindow *window);
 /** tabs_go - the place of a diagnostic or a use; -1: the whole. */
 void tabs_go(LadderWindow *window, int pou, int rung, int row, int col);
 

@@ -6,6 +6,7 @@
  */
 #include "editor-gtk/window_inside.h"
 
+#include "editor-gtk/chart_page.h"
 #include "editor-gtk/panels.h"
 #include "editor-gtk/slow_bar.h"
 #include "editor-gtk/symbols_view.h"
@@ -62,7 +63,24 @@ LadderGridView *tabs_sheet(LadderWindow *window)
 	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
 	GtkWidget *widget = page ? content(page) : NULL;
 
+	/* Of a chart the rungs below it, while somebody works on them. */
+	if (widget && LADDER_IS_CHART_PAGE(widget)) {
+		LadderGridView *rungs = ladder_chart_page_rungs(LADDER_CHART_PAGE(widget));
+		GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
+
+		return rungs && focus && (focus == GTK_WIDGET(rungs) ||
+			gtk_widget_is_ancestor(focus, GTK_WIDGET(rungs))) ? rungs : NULL;
+	}
 	return widget && LADDER_IS_GRID_VIEW(widget) ? LADDER_GRID_VIEW(widget) : NULL;
+}
+
+LadderSfcView *tabs_chart(LadderWindow *window)
+{
+	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
+	GtkWidget *widget = page ? content(page) : NULL;
+
+	return widget && LADDER_IS_CHART_PAGE(widget) ?
+	       ladder_chart_page_chart(LADDER_CHART_PAGE(widget)) : NULL;
 }
 
 LadderFileView *tabs_file(LadderWindow *window)
@@ -146,11 +164,15 @@ void tabs_close(LadderWindow *window)
 static void show_place(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
-	char *place = sheet ? ladder_grid_view_place(sheet) : g_strdup("");
-	char *zoom = sheet ? g_strdup_printf("%d %%",
-		(int)(ladder_grid_view_zoom(sheet) * 100 + 0.5)) : g_strdup("");
+	LadderSfcView *chart = sheet ? NULL : tabs_chart(window);
+	char *place = sheet ? ladder_grid_view_place(sheet) :
+		      chart ? ladder_sfc_view_place(chart) : g_strdup("");
+	char *zoom = sheet || chart ? g_strdup_printf("%d %%",
+		(int)((sheet ? ladder_grid_view_zoom(sheet) :
+		       ladder_sfc_view_zoom(chart)) * 100 + 0.5)) : g_strdup("");
 
-	window_show_keys(window, sheet ? ladder_grid_view_keys(sheet) : g_strdup(""));
+	window_show_keys(window, sheet ? ladder_grid_view_keys(sheet) :
+			 chart ? ladder_sfc_view_keys(chart) : g_strdup(""));
 	gtk_label_set_text(window->place_label, place);
 	gtk_label_set_text(window->zoom_label, zoom);
 	g_free(place);
@@ -169,6 +191,8 @@ static void page_selected(LadderWindow *window)
 	show_place(window);
 	window_show_state(window);
 	ladder_window_tell(window, "");
+	if (!sheet && tabs_chart(window))
+		gtk_widget_grab_focus(GTK_WIDGET(tabs_chart(window)));
 	if (!sheet)
 		return;
 	ladder_code_view_set_pou(gtk_stack_get_child_by_name(window->below_stack, "list"),
@@ -208,6 +232,20 @@ static AdwTabPage *open_sheet(LadderWindow *window, int pou, const char *name)
 	return add_page(window, sheet, name, name, true);
 }
 
+static AdwTabPage *open_chart(LadderWindow *window, int pou, const char *name)
+{
+	GtkWidget *page = ladder_chart_page_new(window->document, pou, window->sim);
+	LadderSfcView *chart = ladder_chart_page_chart(LADDER_CHART_PAGE(page));
+
+	g_signal_connect_object(chart, "cursor-moved", G_CALLBACK(show_place), window,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(chart, "zoom-changed", G_CALLBACK(show_place), window,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(chart, "told", G_CALLBACK(told), window,
+				G_CONNECT_SWAPPED);
+	return add_page(window, page, name, name, false);
+}
+
 static AdwTabPage *open_pou(LadderWindow *window, int pou)
 {
 	const struct project *project = ladder_document_project(window->document);
@@ -216,6 +254,8 @@ static AdwTabPage *open_pou(LadderWindow *window, int pou)
 
 	if (project->pou[pou].language == LANGUAGE_LD)
 		return open_sheet(window, pou, name);
+	if (project->pou[pou].sfc)
+		return open_chart(window, pou, name);
 	text = ladder_text_view_new(window->document, pou);
 	ladder_text_view_set_sim(LADDER_TEXT_VIEW(text), window->sim);
 	return add_page(window, text, name, name, false);
@@ -317,15 +357,13 @@ GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)
 	return content(page);
 }
 
-/* @row, @col 0-based: of the text; of a chart's rung they are its cell. */
-static void go_in_text(LadderTextView *text, const struct pou *pou, int rung, int row,
-		       int col)
+/* A place in a rung, or a line of the file. */
+static void go_in_chart(LadderChartPage *page, int rung, int row, int col)
 {
-	if (pou->sfc && rung >= 0 && rung < pou->rung_count) {
-		row = rung_line(pou->rung[rung], MAX(row, -1) + 1) - pou->line;
-		col = 0;
-	}
-	ladder_text_view_go_here(text, MAX(row, 0) + 1, col + 1);
+	if (rung >= 0)
+		ladder_chart_page_show_rung(page, rung, row, col);
+	else
+		ladder_sfc_view_go(ladder_chart_page_chart(page), -1, row + 1);
 }
 
 void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
@@ -350,10 +388,10 @@ void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 	sheet = tabs_sheet(window);
 	if (sheet && ladder_grid_view_pou(sheet) == pou)
 		ladder_grid_view_go(sheet, rung, row, col);
+	else if (page && LADDER_IS_CHART_PAGE(content(page)))
+		go_in_chart(LADDER_CHART_PAGE(content(page)), rung, row, col);
 	else if (page && LADDER_IS_TEXT_VIEW(content(page)))
-		go_in_text(LADDER_TEXT_VIEW(content(page)),
-			   &ladder_document_project(window->document)->pou[pou], rung,
-			   row, col);
+		ladder_text_view_go_here(LADDER_TEXT_VIEW(content(page)), row + 1, col + 1);
 }
 
 /* ---- when the project is another ---- */
@@ -362,6 +400,8 @@ static bool fits(GtkWidget *widget, const struct project *project, int pou)
 {
 	const bool ld = project->pou[pou].language == LANGUAGE_LD;
 
+	if (project->pou[pou].sfc)
+		return LADDER_IS_CHART_PAGE(widget);
 	return ld ? LADDER_IS_GRID_VIEW(widget) : LADDER_IS_TEXT_VIEW(widget);
 }
 
@@ -383,6 +423,8 @@ static bool update_page(AdwTabPage *page, const struct project *project)
 		/* It may have another name now. */
 		pou = LADDER_IS_GRID_VIEW(widget) ?
 			ladder_grid_view_pou(LADDER_GRID_VIEW(widget)) :
+			LADDER_IS_CHART_PAGE(widget) ? ladder_sfc_view_pou(
+				ladder_chart_page_chart(LADDER_CHART_PAGE(widget))) :
 			ladder_text_view_pou(LADDER_TEXT_VIEW(widget));
 		if (!project || pou >= project->pou_count || !fits(widget, project, pou))
 			return false;
@@ -397,6 +439,8 @@ static bool update_page(AdwTabPage *page, const struct project *project)
 	else if (LADDER_IS_GRID_VIEW(widget) &&
 		 ladder_grid_view_pou(LADDER_GRID_VIEW(widget)) != pou)
 		ladder_grid_view_set_pou(LADDER_GRID_VIEW(widget), pou);
+	else if (LADDER_IS_CHART_PAGE(widget))
+		ladder_chart_page_set_pou(LADDER_CHART_PAGE(widget), pou);
 	return true;
 }
 

@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * chart_page - a chart above, a body of it below; see chart_page.h.
+ */
+#include "editor-gtk/chart_page.h"
+
+#include "editor-gtk/i18n.h"
+#include "editor-gtk/sfc_bodies.h"
+#include "editor-gtk/text_view.h"
+
+struct _LadderChartPage {
+	GtkBox parent;
+	LadderDocument *document;
+	LadderSim *sim;
+	int pou;
+	gulong handler;
+	GtkWidget *paned, *chart, *below, *place; /* place: of what stands below  */
+	GtkLabel *heading;
+	GtkWidget *rungs, *text;     /* one of them, or none                   */
+};
+
+G_DEFINE_FINAL_TYPE(LadderChartPage, ladder_chart_page, GTK_TYPE_BOX)
+
+LadderSfcView *ladder_chart_page_chart(LadderChartPage *page)
+{
+	return LADDER_SFC_VIEW(page->chart);
+}
+
+LadderGridView *ladder_chart_page_rungs(LadderChartPage *page)
+{
+	return page->rungs ? LADDER_GRID_VIEW(page->rungs) : NULL;
+}
+
+/* ---- what stands below ---- */
+
+static void close_below(LadderChartPage *page)
+{
+	GtkWidget *child = gtk_widget_get_first_child(page->place);
+
+	page->rungs = page->text = NULL;
+	gtk_widget_set_visible(page->below, FALSE);
+	if (child)
+		gtk_box_remove(GTK_BOX(page->place), child);
+}
+
+static void close_clicked(LadderChartPage *page)
+{
+	close_below(page);
+	gtk_widget_grab_focus(page->chart);
+}
+
+/* The heading of a body that begins with this rung; NULL: there is none. Caller frees. */
+static char *heading_of(LadderChartPage *page, int first, int *count)
+{
+	const struct project *project = ladder_document_project(page->document);
+	const struct pou *pou = project && page->pou < project->pou_count ?
+		&project->pou[page->pou] : NULL;
+	struct sfc_part_body *bodies;
+	char *heading = NULL;
+	int bodies_count;
+
+	*count = 0;
+	if (!pou || !pou->sfc)
+		return NULL;
+	bodies = sfc_bodies_new(project, pou, &bodies_count);
+	for (int i = 0; i < bodies_count; i++)
+		if (bodies[i].body->kind != BODY_LIST && bodies[i].body->count > 0 &&
+		    bodies[i].body->first == first) {
+			heading = g_strdup(bodies[i].heading);
+			*count = bodies[i].body->count;
+		}
+	sfc_bodies_free(bodies, bodies_count);
+	return heading;
+}
+
+static void told(LadderChartPage *page, const char *text)
+{
+	g_signal_emit_by_name(page->chart, "told", text);
+}
+
+static void moved(LadderChartPage *page)
+{
+	g_signal_emit_by_name(page->chart, "cursor-moved");
+}
+
+static void put_below(LadderChartPage *page, GtkWidget *widget, const char *heading,
+		      bool scrolls)
+{
+	GtkWidget *child = widget;
+
+	if (scrolls) {
+		child = gtk_scrolled_window_new();
+		gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(child), widget);
+	}
+	gtk_widget_set_vexpand(child, TRUE);
+	gtk_box_append(GTK_BOX(page->place), child);
+	gtk_label_set_text(page->heading, heading);
+	gtk_widget_set_visible(page->below, TRUE);
+}
+
+static void show_rungs(LadderChartPage *page, int first)
+{
+	int count;
+	char *heading = heading_of(page, first, &count);
+
+	close_below(page);
+	if (!heading)
+		return;
+	page->rungs = ladder_grid_view_new(page->document, page->pou);
+	ladder_grid_view_set_range(LADDER_GRID_VIEW(page->rungs), first, count);
+	ladder_grid_view_set_sim(LADDER_GRID_VIEW(page->rungs), page->sim);
+	g_signal_connect_swapped(page->rungs, "told", G_CALLBACK(told), page);
+	g_signal_connect_swapped(page->rungs, "cursor-moved", G_CALLBACK(moved), page);
+	put_below(page, page->rungs, heading, true);
+	gtk_widget_grab_focus(page->rungs);
+	g_free(heading);
+}
+
+static void show_text(LadderChartPage *page)
+{
+	close_below(page);
+	page->text = ladder_text_view_new(page->document, page->pou);
+	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
+	put_below(page, page->text, _("Text of the program"), false);
+	gtk_widget_child_focus(page->text, GTK_DIR_TAB_FORWARD);
+}
+
+static void body_wanted(LadderChartPage *page, int first, int count)
+{
+	if (count > 0)
+		show_rungs(page, first);
+	else
+		show_text(page);
+}
+
+/* Its rungs may have other numbers now, or be gone. */
+static void project_changed(LadderChartPage *page)
+{
+	int first, count, now;
+	char *heading;
+
+	if (!page->rungs)
+		return;
+	first = ladder_grid_view_range(LADDER_GRID_VIEW(page->rungs), &count);
+	heading = heading_of(page, first, &now);
+	if (!heading) {
+		close_below(page);
+	} else {
+		if (now != count)
+			ladder_grid_view_set_range(LADDER_GRID_VIEW(page->rungs), first,
+						   now);
+		gtk_label_set_text(page->heading, heading);
+	}
+	g_free(heading);
+}
+
+void ladder_chart_page_show_rung(LadderChartPage *page, int rung, int row, int col)
+{
+	const struct project *project = ladder_document_project(page->document);
+	const struct sfc *sfc = project && page->pou < project->pou_count ?
+		project->pou[page->pou].sfc : NULL;
+
+	ladder_sfc_view_go(LADDER_SFC_VIEW(page->chart), rung, 0);
+	for (int i = 0; sfc && i < sfc_bodies(sfc); i++) {
+		const struct sfc_body *body = sfc_body(sfc, i);
+
+		if (body->kind != BODY_RUNGS || rung < body->first ||
+		    rung >= body->first + body->count)
+			continue;
+		show_rungs(page, body->first);
+		if (page->rungs)
+			ladder_grid_view_go(LADDER_GRID_VIEW(page->rungs),
+					    rung - body->first, row, col);
+		return;
+	}
+}
+
+void ladder_chart_page_set_pou(LadderChartPage *page, int pou)
+{
+	if (pou == page->pou)
+		return;
+	page->pou = pou;
+	close_below(page);
+	ladder_sfc_view_set_pou(LADDER_SFC_VIEW(page->chart), pou);
+}
+
+/* ---- life ---- */
+
+static void ladder_chart_page_dispose(GObject *object)
+{
+	LadderChartPage *page = LADDER_CHART_PAGE(object);
+
+	if (page->document)
+		g_signal_handler_disconnect(page->document, page->handler);
+	g_clear_object(&page->document);
+	g_clear_object(&page->sim);
+	G_OBJECT_CLASS(ladder_chart_page_parent_class)->dispose(object);
+}
+
+static void ladder_chart_page_class_init(LadderChartPageClass *class)
+{
+	G_OBJECT_CLASS(class)->dispose = ladder_chart_page_dispose;
+}
+
+static void ladder_chart_page_init(LadderChartPage *page)
+{
+	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *close;
+
+	page->paned = gtk_paned_new(GTK_ORIENTATION_VERTICAL);
+	page->below = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	page->place = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	page->heading = GTK_LABEL(gtk_label_new(""));
+	close = gtk_button_new_from_icon_name("window-close-symbolic");
+	gtk_widget_set_tooltip_text(close, _("Close"));
+	gtk_widget_add_css_class(close, "flat");
+	gtk_label_set_xalign(page->heading, 0);
+	gtk_label_set_ellipsize(page->heading, PANGO_ELLIPSIZE_END);
+	gtk_widget_add_css_class(GTK_WIDGET(page->heading), "heading");
+	gtk_widget_set_hexpand(GTK_WIDGET(page->heading), TRUE);
+	gtk_widget_set_margin_start(bar, 12);
+	gtk_box_append(GTK_BOX(bar), GTK_WIDGET(page->heading));
+	gtk_box_append(GTK_BOX(bar), close);
+	gtk_box_append(GTK_BOX(page->below), bar);
+	gtk_box_append(GTK_BOX(page->below), page->place);
+	gtk_widget_set_vexpand(page->place, TRUE);
+	gtk_widget_set_size_request(page->below, -1, 180);
+	gtk_widget_set_visible(page->below, FALSE);
+	gtk_paned_set_end_child(GTK_PANED(page->paned), page->below);
+	gtk_paned_set_resize_end_child(GTK_PANED(page->paned), FALSE);
+	gtk_paned_set_shrink_end_child(GTK_PANED(page->paned), FALSE);
+	gtk_widget_set_hexpand(page->paned, TRUE);
+	gtk_widget_set_vexpand(page->paned, TRUE);
+	gtk_box_append(GTK_BOX(page), page->paned);
+	g_signal_connect_swapped(close, "clicked", G_CALLBACK(close_clicked), page);
+}
+
+GtkWidget *ladder_chart_page_new(LadderDocument *document, int pou, LadderSim *sim)
+{
+	LadderChartPage *page = g_object_new(LADDER_TYPE_CHART_PAGE, NULL);
+	GtkWidget *scroller = gtk_scrolled_window_new();
+
+	page->document = g_object_ref(document);
+	page->sim = sim ? g_object_ref(sim) : NULL;
+	page->pou = pou;
+	page->chart = ladder_sfc_view_new(document, pou);
+	ladder_sfc_view_set_sim(LADDER_SFC_VIEW(page->chart), sim);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), page->chart);
+	gtk_paned_set_start_child(GTK_PANED(page->paned), scroller);
+	g_signal_connect_swapped(page->chart, "body-wanted", G_CALLBACK(body_wanted), page);
+	page->handler = g_signal_connect_swapped(document, "project-changed",
+						 G_CALLBACK(project_changed), page);
+	return GTK_WIDGET(page);
+}

@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_view_clipboard - copying is to write a chart without what is not selected; pasting
+ * is to read one, to give its steps names of their own, and to put its items into this one.
+ */
+#include "editor-gtk/sfc_view_clipboard.h"
+#include "editor-gtk/sfc_view_inside.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- copying ---- */
+
+static bool is_chosen(LadderSfcView *view, int shape)
+{
+	bool any = false;
+
+	for (int i = 0; i < view->sheet->layout->shape_count; i++)
+		any |= view->selected[i];
+	return any ? view->selected[shape] : shape == view->cursor.shape;
+}
+
+/* All its steps are there. */
+static bool is_between(LadderSfcView *view, const struct sfc *sfc, int transition)
+{
+	const struct sfc_transition *t = &sfc->transition[transition];
+
+	if (is_chosen(view, sfc->step_count + transition))
+		return true;
+	for (int i = 0; i < t->from_count + t->to_count; i++) {
+		const int ref = i < t->from_count ? t->first_from + i :
+				t->first_to + i - t->from_count;
+
+		if (sfc->ref[ref].step < 0 || !is_chosen(view, sfc->ref[ref].step))
+			return false;
+	}
+	return t->from_count > 0 && t->to_count > 0;
+}
+
+static bool is_kept(LadderSfcView *view, const struct sfc *sfc, const struct sfc_item *item)
+{
+	switch (item->kind) {
+	case ITEM_STEP:
+	case ITEM_MACRO_END:
+		return is_chosen(view, item->index);
+	case ITEM_TRANSITION:
+		return is_between(view, sfc, item->index);
+	case ITEM_ACTION:
+	case ITEM_CONTROL:
+	default:
+		return false;
+	}
+}
+
+void chart_copy(LadderSfcView *view)
+{
+	struct sfc_edit *edit = chart_edit(view);
+	int kept = 0, inside = -1;
+	char *text;
+
+	if (!edit)
+		return;
+	for (int i = 0; i < edit->sfc.item_count; i++) {
+		const struct sfc_item item = edit->sfc.item[i];
+		const bool macro = item.kind == ITEM_STEP &&
+				   edit->sfc.step[item.index].kind == STEP_MACRO;
+
+		/* What stands in a macro-step goes with it. */
+		if (inside >= 0 || is_kept(view, chart_pou(view)->sfc, &item))
+			edit->sfc.item[kept++] = item;
+		else
+			continue;
+		if (macro && inside < 0)
+			inside = item.index;
+		else if (item.kind == ITEM_MACRO_END && item.index == inside)
+			inside = -1;
+	}
+	edit->sfc.item_count = kept;
+	edit->pou.vars.block_count = 0;
+	text = kept ? sfc_edit_text(edit) : NULL;
+	if (text)
+		gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(view)), text);
+	else
+		chart_tell(view, _("nothing stands here"));
+	free(text);
+	sfc_edit_free(edit);
+}
+
+/* ---- pasting ---- */
+
+static bool is_taken(const struct sfc_edit *here, const char *name)
+{
+	for (int i = 0; i < here->sfc.step_count; i++)
+		if (g_ascii_strcasecmp(project_text(here->project, here->sfc.step[i].name),
+				       name) == 0)
+			return true;
+	return false;
+}
+
+/* Names that neither chart has. */
+static void rename_steps(struct sfc_edit *here, struct sfc_edit *other)
+{
+	for (int i = 0; i < other->sfc.step_count; i++) {
+		const char *old = project_text(other->project, other->sfc.step[i].name);
+		char *name = g_strdup(old);
+
+		for (int k = 2; is_taken(here, name) ||
+		     (strcmp(name, old) != 0 && is_taken(other, name)); k++) {
+			g_free(name);
+			name = g_strdup_printf("%s_%d", old, k);
+		}
+		if (strcmp(name, old) != 0)
+			sfc_edit_name_step(other, i, name);
+		g_free(name);
+	}
+	for (int i = 0; i < other->sfc.transition_count; i++)
+		sfc_edit_name_transition(other, i, "");
+	for (int i = 0; i < other->sfc.step_count; i++)
+		if (other->sfc.step[i].kind == STEP_INITIAL &&
+		    other->sfc.step[i].macro < 0 && here->sfc.step_count > 0)
+			other->sfc.step[i].kind = STEP_PLAIN;
+}
+
+/* What stands between its first line and its last one. */
+static char *items_of(const struct sfc_edit *edit)
+{
+	char *text = sfc_edit_text(edit);
+	const char *from = text ? strchr(text, '\n') : NULL;
+	const char *to = text ? g_strrstr(text, "END_PROGRAM") : NULL;
+	char *items = from && to ? g_strndup(from + 1, (gsize)(to - from - 1)) : NULL;
+
+	free(text);
+	return items;
+}
+
+struct end_of_pou { int pou; struct text_span span; };
+
+static void take_end(void *context, const struct text_span *span)
+{
+	struct end_of_pou *end = context;
+
+	if (span->part == TEXT_BODY && span->pou == end->pou)
+		end->span = *span;
+}
+
+static bool put_items(LadderSfcView *view, const char *items)
+{
+	struct end_of_pou end = { .pou = view->pou };
+	gsize len;
+	char *whole = ladder_document_outline(view->document, &len, take_end, &end), *with;
+	bool good;
+
+	with = g_strdup_printf("\n%s", items);
+	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
+	good = whole && ladder_document_replace(view->document, end.span.at + end.span.len,
+						0, with, NULL);
+	ladder_document_end(view->document);
+	g_free(with);
+	g_free(whole);
+	return good;
+}
+
+/* A whole chart, or items alone: then a chart is made of them. */
+static struct ladder *read_chart(const char *text)
+{
+	for (int try = 0; try < 2; try++) {
+		struct ladder *ladder = ladder_new();
+		char *whole = try ? g_strdup_printf("RUNGBOARD 1\nPROGRAM Copy SFC\n%s\n"
+						    "END_PROGRAM\n", text) :
+				    g_strdup_printf("RUNGBOARD 1\n%s", text);
+		const bool good = ladder &&
+			ladder_load_text(ladder, "", whole, strlen(whole)) &&
+			ladder_project(ladder) && ladder_project(ladder)->pou_count == 1 &&
+			ladder_project(ladder)->pou[0].sfc &&
+			ladder_project(ladder)->pou[0].sfc->step_count > 0;
+
+		g_free(whole);
+		if (good)
+			return ladder;
+		ladder_free(ladder);
+	}
+	return NULL;
+}
+
+static void paste_text(LadderSfcView *view, const char *text)
+{
+	struct ladder *ladder = text ? read_chart(text) : NULL;
+	struct sfc_edit *here = ladder ? chart_edit(view) : NULL, *other = NULL;
+	const int count = here ? here->sfc.step_count : 0;
+	char *items = NULL;
+
+	if (here) {
+		struct project *project = ladder_project(ladder);
+
+		other = sfc_edit_new(project, &project->pou[0]);
+	}
+	if (other) {
+		rename_steps(here, other);
+		items = items_of(other);
+	}
+	if (!items || !put_items(view, items))
+		chart_tell(view, _("The clipboard holds no steps."));
+	else if (view->sheet && view->sheet->layout->sfc->step_count > count)
+		chart_go(view, (struct sfc_at){ count, -1, false }, false);
+	g_free(items);
+	sfc_edit_free(other);
+	sfc_edit_free(here);
+	ladder_free(ladder);
+}
+
+static void pasted(GObject *clipboard, GAsyncResult *result, gpointer data)
+{
+	LadderSfcView *view = data;
+	char *text = gdk_clipboard_read_text_finish(GDK_CLIPBOARD(clipboard), result, NULL);
+
+	paste_text(view, text);
+	g_free(text);
+	g_object_unref(view);
+}
+
+void chart_paste(LadderSfcView *view)
+{
+	gdk_clipboard_read_text_async(gtk_widget_get_clipboard(GTK_WIDGET(view)), NULL,
+				      pasted, g_object_ref(view));
+}

@@ -1,0 +1,557 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_view_entry - what is asked for at a place of a chart: names, conditions, what a step
+ * does, where ways lead.
+ */
+#include "editor-gtk/sfc_view_inside.h"
+
+#include "editor-gtk/entry.h"
+#include "editor-gtk/entry_popup.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define CANDIDATES 40
+
+/* What the popup that is open is for. It lives as long as that does. */
+struct asked {
+	LadderSfcView *view;
+	enum chart_asked what;
+	int index, use;      /* step or transition; line of a step             */
+};
+
+void chart_forget_uses(LadderSfcView *view)
+{
+	if (view->xref)
+		xref_free(view->xref);
+	g_clear_pointer(&view->xref, g_free);
+}
+
+static struct entry_place place_of(LadderSfcView *view, bool output)
+{
+	struct project *project = ladder_document_project(view->document);
+
+	if (!view->xref && project) {
+		view->xref = g_new0(struct xref, 1);
+		if (!xref_addresses(view->xref, project))
+			chart_forget_uses(view);
+	}
+	return (struct entry_place){ .project = project, .pou = view->pou,
+				     .output = output, .xref = view->xref };
+}
+
+/* ---- candidates ---- */
+
+/* Where the word before the cursor begins. */
+static gsize word_start(const char *line, gsize cursor)
+{
+	while (cursor > 0 && !strchr(" ,\t()", line[cursor - 1]))
+		cursor--;
+	return cursor;
+}
+
+static void add_row(LadderSfcView *view, const char *line, gsize start, gsize cursor,
+		    const char *text, const char *address, const char *note,
+		    const char *kind)
+{
+	char *whole = g_strdup_printf("%.*s%s%s", (int)start, line, text, line + cursor);
+	struct entry_popup_row row = { .text = (char *)text, .address = (char *)address,
+				       .note = (char *)note, .kind = (char *)kind,
+				       .line = whole };
+
+	ladder_entry_popup_add(LADDER_ENTRY_POPUP(view->entry), &row);
+	g_free(whole);
+}
+
+static bool begins(const char *text, const char *line, gsize start, gsize cursor)
+{
+	return g_ascii_strncasecmp(text, line + start, cursor - start) == 0;
+}
+
+/* Variables and addresses of the program, no words that are elements. */
+static void offer_names(LadderSfcView *view, const char *line, gsize start, gsize cursor)
+{
+	const struct entry_place place = place_of(view, false);
+	struct entry_candidate *found = g_new(struct entry_candidate, CANDIDATES);
+	char *word = g_strndup(line + start, cursor - start);
+	const int count = entry_candidates(&place, word, strlen(word), found, CANDIDATES);
+
+	for (int i = 0; i < count; i++)
+		if (found[i].kind == ENTRY_VARIABLE || found[i].kind == ENTRY_ADDRESS ||
+		    found[i].kind == ENTRY_INSTANCE || found[i].kind == ENTRY_PIN)
+			add_row(view, line, start, cursor, found[i].text, found[i].address,
+				found[i].note, _(entry_kind_text(found[i].kind)));
+	g_free(word);
+	g_free(found);
+}
+
+static void offer_steps(LadderSfcView *view, const char *line, gsize start, gsize cursor)
+{
+	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++)
+		if (begins(view->sheet->name[i], line, start, cursor))
+			add_row(view, line, start, cursor, view->sheet->name[i], "", "",
+				_("step"));
+}
+
+static void offer_members(LadderSfcView *view, const char *line, gsize start, gsize cursor)
+{
+	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++)
+		for (int k = 0; k < 2; k++) {
+			char *name = g_strdup_printf("%s.%c", view->sheet->name[i],
+						     k ? 'T' : 'X');
+
+			if (cursor > start && begins(name, line, start, cursor))
+				add_row(view, line, start, cursor, name, "", k ?
+					_("how long it has been active") :
+					_("is it active?"), _("step"));
+			g_free(name);
+		}
+}
+
+static void offer_doing(LadderSfcView *view, const char *line, gsize start, gsize cursor)
+{
+	const struct sfc *sfc = view->sheet->layout->sfc;
+
+	for (int i = 0; start == 0 && i < QUALIFIER_COUNT; i++) {
+		char *word = g_strdup_printf("%s ", qualifier_word((enum qualifier)i));
+
+		if (begins(word, line, start, cursor))
+			add_row(view, line, start, cursor, word, "", "", _("qualifier"));
+		g_free(word);
+	}
+	for (int i = 0; i < sfc->action_count; i++) {
+		const char *name = project_text(view->sheet->project, sfc->action[i].name);
+
+		if (begins(name, line, start, cursor))
+			add_row(view, line, start, cursor, name, "", "", _("action"));
+	}
+	offer_names(view, line, start, cursor);
+}
+
+/* ---- while it is typed ---- */
+
+static char *why_not(const struct asked *asked, const char *line)
+{
+	struct sfc_doing doing;
+
+	if (!line[0])
+		return NULL;
+	if (asked->what == ASK_DOES || asked->what == ASK_ANOTHER)
+		return sfc_doing_read(line, &doing) ? NULL : g_strdup(_(doing.why));
+	return asked->what == ASK_CONDITION && !sfc_is_expression(line) ?
+	       g_strdup(_("this is no expression")) : NULL;
+}
+
+static char *line_changed(void *context, const char *line, int cursor, bool *good)
+{
+	struct asked *asked = context;
+	LadderSfcView *view = asked->view;
+	const gsize at = (gsize)(g_utf8_offset_to_pointer(line, cursor) - line);
+	const gsize start = word_start(line, at);
+	char *why;
+
+	*good = true;
+	if (!view->entry || !view->sheet)
+		return NULL; /* the popup is being made: it asks again */
+	switch (asked->what) {
+	case ASK_CONDITION:
+		offer_members(view, line, start, at);
+		offer_names(view, line, start, at);
+		break;
+	case ASK_DOES:
+	case ASK_ANOTHER:
+		offer_doing(view, line, start, at);
+		break;
+	case ASK_LEAD:
+	case ASK_WAIT:
+		offer_steps(view, line, start, at);
+		break;
+	case ASK_STEP:
+	case ASK_TIMES:
+	case ASK_NAME:
+	default:
+		break;
+	}
+	why = why_not(asked, line);
+	*good = !why;
+	return why ? why : g_strdup("");
+}
+
+/* ---- when it is taken ---- */
+
+/* A lone name that nothing has yet becomes a bit, as on the sheet of rungs. */
+static void declare(LadderSfcView *view, const char *name, bool output)
+{
+	const struct entry_place place = place_of(view, output);
+	struct entry *entry = g_new0(struct entry, 1);
+	char *line = output ? g_strdup_printf("OUT %s", name) : g_strdup(name);
+
+	if (!strpbrk(name, " .()<>=+-*/[]") && entry_read(&place, line, entry))
+		for (int i = 0; i < entry->declares; i++)
+			ladder_document_declare(view->document,
+				entry->declare[i].address[0] ? -1 : view->pou,
+				entry->declare[i].name, entry->declare[i].type,
+				entry->declare[i].address, NULL);
+	g_free(line);
+	g_free(entry);
+}
+
+static bool is_action(LadderSfcView *view, const char *name)
+{
+	const struct sfc *sfc = chart_pou(view)->sfc;
+
+	for (int i = 0; i < sfc->action_count; i++)
+		if (g_ascii_strcasecmp(project_text(view->sheet->project,
+						    sfc->action[i].name), name) == 0)
+			return true;
+	return false;
+}
+
+static bool take_doing(struct asked *asked, const char *line)
+{
+	LadderSfcView *view = asked->view;
+	struct sfc_edit *edit;
+	struct sfc_doing doing;
+	bool good;
+
+	if (!line[0] && asked->use >= 0) {
+		edit = chart_edit(view);
+		return chart_put(view, edit, sfc_edit_delete_use(edit, asked->use),
+				 _("Change what a step does"), ITEM_STEP, asked->index);
+	}
+	if (!sfc_doing_read(line, &doing))
+		return false;
+	ladder_document_begin(view->document, _("Change what a step does"), NULL);
+	edit = chart_edit(view);
+	good = chart_put(view, edit, sfc_edit_set_use(edit, asked->index, asked->use,
+						      &doing), "", ITEM_STEP,
+			 asked->index);
+	if (good && !doing.action && !is_action(view, doing.name))
+		declare(view, doing.name, true);
+	ladder_document_end(view->document);
+	return good;
+}
+
+static bool take_condition(struct asked *asked, const char *line)
+{
+	LadderSfcView *view = asked->view;
+	struct sfc_edit *edit;
+	char *why = why_not(asked, line);
+	bool good;
+
+	g_free(why);
+	if (why)
+		return false;
+	ladder_document_begin(view->document, _("Change condition"), NULL);
+	edit = chart_edit(view);
+	good = chart_put(view, edit, sfc_edit_set_condition(edit, asked->index, line), "",
+			 ITEM_TRANSITION, asked->index);
+	if (good && line[0])
+		declare(view, line, false);
+	ladder_document_end(view->document);
+	return good;
+}
+
+/* Of a step: a new transition; of a transition: it leads there. */
+static bool take_lead(struct asked *asked, const char *line)
+{
+	LadderSfcView *view = asked->view;
+	struct sfc_edit *edit = chart_edit(view);
+	int index, way = asked->index;
+
+	if (chart_part(view, &index) == SFC_STEP) {
+		const struct sfc *sfc = chart_pou(view)->sfc;
+		int to = -1;
+
+		for (int i = 0; i < sfc->step_count; i++)
+			if (g_ascii_strcasecmp(view->sheet->name[i], line) == 0)
+				to = i;
+		if (to < 0)
+			edit->why = N_("there is no step of this name");
+		way = to < 0 ? -1 : sfc_edit_lead(edit, asked->index, to);
+		return chart_put(view, edit, way >= 0, _(verb_row(VERB_lead_to)->label),
+				 ITEM_TRANSITION, way);
+	}
+	return chart_put(view, edit, sfc_edit_set_ways(edit, way, true, line),
+			 _(verb_row(VERB_lead_to)->label), ITEM_TRANSITION, way);
+}
+
+static bool take_times(struct asked *asked, const char *line)
+{
+	char *min = g_strdup(""), *max = g_strdup(""), *alarm = g_strdup("");
+	char **words = g_strsplit_set(line, " ,", -1), **to = NULL;
+	struct sfc_edit *edit = chart_edit(asked->view);
+	bool good = true;
+
+	for (char **word = words; *word; word++) {
+		if (!**word || g_str_equal(*word, ":="))
+			continue;
+		if (g_ascii_strcasecmp(*word, "MIN") == 0) {
+			to = &min;
+		} else if (g_ascii_strcasecmp(*word, "MAX") == 0) {
+			to = &max;
+		} else if (g_ascii_strcasecmp(*word, "ALARM") == 0) {
+			to = &alarm;
+		} else if (to) {
+			g_free(*to);
+			*to = g_strdup(*word);
+			to = NULL;
+		} else {
+			good = false;
+		}
+	}
+	if (!good)
+		edit->why = N_("write MIN time, MAX time, ALARM bit");
+	good = chart_put(asked->view, edit, good && sfc_edit_set_times(edit, asked->index,
+			 min, max, alarm), _(verb_row(VERB_step_times)->label), ITEM_STEP,
+			 asked->index);
+	g_strfreev(words);
+	g_free(min);
+	g_free(max);
+	g_free(alarm);
+	return good;
+}
+
+static bool take_name(struct asked *asked, const char *line, bool step)
+{
+	struct sfc_edit *edit = chart_edit(asked->view);
+
+	return step ? chart_put(asked->view, edit, sfc_edit_name_step(edit, asked->index,
+								      line),
+				_("Name a step"), ITEM_STEP, asked->index) :
+		chart_put(asked->view, edit,
+			  sfc_edit_name_transition(edit, asked->index, line),
+			  _("Name a transition"), ITEM_TRANSITION, asked->index);
+}
+
+/* For one more step, by its name. */
+static bool take_wait(struct asked *asked, const char *line)
+{
+	const struct sfc *sfc = chart_pou(asked->view)->sfc;
+	struct sfc_edit *edit = chart_edit(asked->view);
+	bool good = false;
+
+	edit->why = N_("there is no step of this name");
+	for (int i = 0; i < sfc->step_count; i++)
+		if (g_ascii_strcasecmp(asked->view->sheet->name[i], line) == 0)
+			good = sfc_edit_wait(edit, asked->index, i);
+	return chart_put(asked->view, edit, good, _(verb_row(VERB_wait_for)->label),
+			 ITEM_TRANSITION, asked->index);
+}
+
+static bool line_taken(void *context, const char *text)
+{
+	struct asked *asked = context;
+	LadderSfcView *view = asked->view;
+	struct asked kept = *asked;
+	char *line = g_strstrip(g_strdup(text));
+	bool good = false;
+
+	if (view->sheet)
+		switch (kept.what) {
+		case ASK_STEP: good = take_name(&kept, line, true); break;
+		case ASK_NAME: good = take_name(&kept, line, false); break;
+		case ASK_CONDITION: good = take_condition(&kept, line); break;
+		case ASK_DOES:
+		case ASK_ANOTHER: good = take_doing(&kept, line); break;
+		case ASK_LEAD: good = take_lead(&kept, line); break;
+		case ASK_WAIT: good = take_wait(&kept, line); break;
+		case ASK_TIMES: good = take_times(&kept, line); break;
+		default: break;
+		}
+	g_free(line);
+	return good;
+}
+
+static void line_gone(void *context)
+{
+	struct asked *asked = context;
+	LadderSfcView *view = asked->view;
+
+	chart_entry_close(view);
+	gtk_widget_grab_focus(GTK_WIDGET(view));
+}
+
+/* ---- asking ---- */
+
+static char *times_now(const struct project *project, const struct sfc_step *step)
+{
+	GString *text = g_string_new(NULL);
+
+	if (step->min)
+		g_string_append_printf(text, "MIN %s ", project_text(project, step->min));
+	if (step->max)
+		g_string_append_printf(text, "MAX %s ", project_text(project, step->max));
+	if (step->alarm)
+		g_string_append_printf(text, "ALARM %s", project_text(project, step->alarm));
+	return g_strchomp(g_string_free(text, FALSE));
+}
+
+static char *condition_now(const struct pou *pou, const struct project *project,
+			   const struct sfc_body *body)
+{
+	return g_strdup(body->kind == BODY_EXPRESSION && body->count == 1 ?
+			project_text(project, pou->rung[body->first]->cell[0].operand) : "");
+}
+
+static char *text_now(const struct asked *asked)
+{
+	const struct pou *pou = chart_pou(asked->view);
+	const struct project *project = asked->view->sheet->project;
+	char line[LIMIT_NAME + 100];
+
+	switch (asked->what) {
+	case ASK_STEP:
+		return g_strdup(project_text(project, pou->sfc->step[asked->index].name));
+	case ASK_NAME:
+		return g_strdup(project_text(project,
+					     pou->sfc->transition[asked->index].name));
+	case ASK_CONDITION:
+		return condition_now(pou, project,
+				     &pou->sfc->transition[asked->index].condition);
+	case ASK_DOES:
+		sfc_doing_print(project, pou->sfc, asked->use, line, sizeof(line));
+		return g_strdup(line);
+	case ASK_TIMES:
+		return times_now(project, &pou->sfc->step[asked->index]);
+	case ASK_ANOTHER:
+	case ASK_LEAD:
+	case ASK_WAIT:
+	default:
+		return g_strdup("");
+	}
+}
+
+static const char *prompt_of(enum chart_asked what)
+{
+	static const char *const prompts[] = {
+		[ASK_STEP] = N_("Name of the step"),
+		[ASK_CONDITION] = N_("Condition"),
+		[ASK_DOES] = N_("What the step does: N Valve, L T#3s Horn, SET Lamp, "
+				"ACTION Count"),
+		[ASK_ANOTHER] = N_("What the step does: N Valve, L T#3s Horn, SET Lamp, "
+				   "ACTION Count"),
+		[ASK_LEAD] = N_("Lead to the step"),
+		[ASK_WAIT] = N_("Wait also for the step"),
+		[ASK_TIMES] = N_("MIN time, MAX time, ALARM bit"),
+		[ASK_NAME] = N_("Name of the transition"),
+	};
+
+	return prompts[what];
+}
+
+/* Which part it is asked of; SFC_NOTHING: of step or transition. */
+static enum sfc_part part_of(enum chart_asked what)
+{
+	switch (what) {
+	case ASK_STEP:
+	case ASK_DOES:
+	case ASK_ANOTHER:
+	case ASK_TIMES:
+		return SFC_STEP;
+	case ASK_CONDITION:
+	case ASK_WAIT:
+	case ASK_NAME:
+		return SFC_TRANSITION;
+	case ASK_LEAD:
+	default:
+		return SFC_NOTHING;
+	}
+}
+
+void chart_ask(LadderSfcView *view, enum chart_asked what, const char *typed)
+{
+	struct entry_popup_calls calls = { line_changed, line_taken, line_gone, NULL };
+	struct asked *asked;
+	graphene_rect_t box;
+	GdkRectangle cell;
+	char *text;
+	int index;
+	enum sfc_part part = chart_part(view, &index);
+
+	if (view->entry || !view->sheet)
+		return;
+	if (part == SFC_NOTHING || part == SFC_JUMP ||
+	    (part_of(what) != SFC_NOTHING && part_of(what) != part)) {
+		chart_tell(view, part_of(what) == SFC_STEP ?
+			   _("the cursor is on no step") :
+			   _("the cursor is on no transition"));
+		return;
+	}
+	asked = g_new0(struct asked, 1);
+	*asked = (struct asked){ view, what, index,
+				 what == ASK_DOES ? view->cursor.use : -1 };
+	calls.context = asked;
+	text = typed ? g_strdup(typed) : text_now(asked);
+	box = chart_box(view, view->cursor);
+	cell = (GdkRectangle){ (int)((double)box.origin.x * view->zoom),
+			       (int)((double)box.origin.y * view->zoom),
+			       (int)((double)box.size.width * view->zoom),
+			       (int)((double)box.size.height * view->zoom) };
+	view->entry = ladder_entry_popup_new(GTK_WIDGET(view), _(prompt_of(what)), text,
+					     typed != NULL, &calls);
+	g_object_set_data_full(G_OBJECT(view->entry), "asked", asked, g_free);
+	/* Now it can be filled. */
+	ladder_entry_popup_ask(LADDER_ENTRY_POPUP(view->entry));
+	ladder_entry_popup_show(LADDER_ENTRY_POPUP(view->entry), &cell);
+	g_free(text);
+}
+
+/* A condition or an action that is rungs is edited where rungs are. */
+static bool show_body(LadderSfcView *view, int index, enum sfc_part part)
+{
+	const struct sfc *sfc = chart_pou(view)->sfc;
+	const struct sfc_body *body;
+
+	if (part == SFC_TRANSITION)
+		body = &sfc->transition[index].condition;
+	else if (view->cursor.use >= 0 && sfc->use[view->cursor.use].action >= 0)
+		body = &sfc->action[sfc->use[view->cursor.use].action].body;
+	else
+		return false;
+	if (body->kind != BODY_RUNGS && body->kind != BODY_LIST)
+		return false;
+	chart_body_wanted(view, body);
+	return true;
+}
+
+void chart_ask_here(LadderSfcView *view, const char *typed)
+{
+	int index;
+	const enum sfc_part part = chart_part(view, &index);
+
+	if (part == SFC_JUMP) {
+		const struct sfc_jump *jump = &view->sheet->layout->jump[index];
+
+		chart_go(view, (struct sfc_at){ jump->to_transition ? jump->from :
+			view->sheet->layout->sfc->step_count + jump->from, -1, false },
+			false);
+		chart_ask(view, ASK_LEAD, typed);
+		return;
+	}
+	if (part == SFC_NOTHING || (!typed && show_body(view, index, part)))
+		return;
+	chart_ask(view, part == SFC_TRANSITION ? ASK_CONDITION :
+		  view->cursor.use >= 0 ? ASK_DOES : ASK_STEP, typed);
+}
+
+/* ---- closing ---- */
+
+static gboolean drop_popup(gpointer popup)
+{
+	gtk_widget_unparent(popup);
+	g_object_unref(popup);
+	return G_SOURCE_REMOVE;
+}
+
+void chart_entry_close(LadderSfcView *view)
+{
+	GtkWidget *entry = view->entry;
+
+	view->entry = NULL;
+	if (!entry)
+		return;
+	gtk_popover_popdown(GTK_POPOVER(entry));
+	/* It may be what is calling. */
+	g_idle_add(drop_popup, g_object_ref(entry));
+}

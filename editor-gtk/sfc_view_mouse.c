@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_view_mouse - a chart under the pointer: click, select, draw a way, menu, zoom.
+ *
+ * A way is drawn from the lower edge of a step, or from a transition, to another step.
+ */
+#include "editor-gtk/sfc_view_inside.h"
+
+#define SLACK 6
+
+static struct sfc_at at_point(LadderSfcView *view, double x, double y)
+{
+	if (!view->sheet)
+		return (struct sfc_at){ -1, -1, false };
+	return sfc_sheet_at(view->sheet, (float)chart_px(view, x),
+			    (float)chart_px(view, y), SLACK);
+}
+
+static void pressed(GtkGestureClick *gesture, int count, double x, double y,
+		    LadderSfcView *view)
+{
+	const GdkModifierType state = gtk_event_controller_get_current_event_state(
+		GTK_EVENT_CONTROLLER(gesture));
+	const struct sfc_at at = at_point(view, x, y);
+
+	gtk_widget_grab_focus(GTK_WIDGET(view));
+	view->press = at;
+	view->press_x = chart_px(view, x);
+	view->press_y = chart_px(view, y);
+	view->dragging = false;
+	if (at.shape < 0)
+		return;
+	chart_go(view, at, state & GDK_SHIFT_MASK);
+	if (count == 2)
+		chart_ask_here(view, NULL);
+}
+
+/* ---- drawing a way ---- */
+
+static bool can_begin(LadderSfcView *view)
+{
+	const struct sfc_at at = view->press;
+
+	if (!view->sheet || at.shape < 0 || at.use >= 0)
+		return false;
+	return view->sheet->layout->shape[at.shape].part != SFC_JUMP;
+}
+
+static void drag_update(GtkGestureDrag *gesture, double by_x, double by_y,
+			LadderSfcView *view)
+{
+	double x, y;
+
+	if (!can_begin(view) || !gtk_gesture_drag_get_start_point(gesture, &x, &y) ||
+	    (!view->dragging && !gtk_drag_check_threshold(GTK_WIDGET(view), (int)x, (int)y,
+						(int)(x + by_x), (int)(y + by_y))))
+		return;
+	gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
+	view->dragging = true;
+	view->drag_x = chart_px(view, x + by_x);
+	view->drag_y = chart_px(view, y + by_y);
+	view->drop = at_point(view, x + by_x, y + by_y);
+	if (view->drop.shape == view->press.shape)
+		view->drop.shape = -1;
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+static void drag_end(GtkGestureDrag *gesture, double by_x, double by_y,
+		     LadderSfcView *view)
+{
+	(void)gesture;
+	(void)by_x;
+	(void)by_y;
+	if (!view->dragging)
+		return;
+	view->dragging = false;
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+	if (view->drop.shape >= 0)
+		chart_lead(view, view->press, view->drop);
+}
+
+void chart_drag_snapshot(LadderSfcView *view, GtkSnapshot *snapshot,
+			 const struct theme *theme)
+{
+	struct picture picture;
+	graphene_rect_t box;
+	float x, y;
+
+	if (!view->dragging)
+		return;
+	box = chart_box(view, view->press);
+	x = view->sheet->lane[view->sheet->layout->shape[view->press.shape].lane].x;
+	y = box.origin.y + box.size.height;
+	picture_init(&picture);
+	picture_line(&picture, TOKEN_ACCENT, STROKE_DASHED, 2, x, y, (float)view->drag_x,
+		     (float)view->drag_y);
+	picture_disc(&picture, TOKEN_ACCENT, 1, (float)view->drag_x, (float)view->drag_y, 4);
+	picture_snapshot(&picture, theme, view->lettering, snapshot);
+	picture_clear(&picture);
+}
+
+/* ---- menu ---- */
+
+static const struct {
+	const char *name;
+	enum verb verb[8];
+} menu_parts[] = {
+	{ NULL, { VERB_enter, VERB_step_does, VERB_as_rung, VERB_COUNT } },
+	{ NULL, { VERB_step_below, VERB_step_branch, VERB_step_parallel, VERB_lead_to,
+		  VERB_wait_for, VERB_branch_left, VERB_branch_right, VERB_COUNT } },
+	{ NULL, { VERB_step_kind, VERB_step_times, VERB_way_name, VERB_force,
+		  VERB_COUNT } },
+	{ NULL, { VERB_cut, VERB_copy, VERB_paste, VERB_delete, VERB_COUNT } },
+};
+
+static GMenu *make_menu(void)
+{
+	GMenu *menu = g_menu_new();
+
+	for (gsize i = 0; i < G_N_ELEMENTS(menu_parts); i++) {
+		GMenu *part = g_menu_new();
+
+		for (const enum verb *verb = menu_parts[i].verb; *verb != VERB_COUNT; verb++)
+			g_menu_append(part, _(verb_row(*verb)->label),
+				      verb_row(*verb)->action);
+		g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
+		g_object_unref(part);
+	}
+	return menu;
+}
+
+static void closed(GtkPopover *popover)
+{
+	/* Not before its action has run. */
+	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, G_SOURCE_FUNC(gtk_widget_unparent),
+			popover, NULL);
+}
+
+static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
+		      LadderSfcView *view)
+{
+	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
+	GMenu *menu = make_menu();
+	GtkWidget *popover;
+
+	pressed(gesture, MIN(count, 1), x, y, view);
+	popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
+	gtk_widget_set_parent(popover, GTK_WIDGET(view));
+	gtk_popover_set_pointing_to(GTK_POPOVER(popover), &at);
+	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
+	gtk_widget_set_halign(popover, GTK_ALIGN_START);
+	g_signal_connect(popover, "closed", G_CALLBACK(closed), NULL);
+	gtk_popover_popup(GTK_POPOVER(popover));
+	g_object_unref(menu);
+}
+
+/* ---- zoom ---- */
+
+static gboolean scrolled(GtkEventControllerScroll *scroll, double dx, double dy,
+			 LadderSfcView *view)
+{
+	const GdkModifierType state = gtk_event_controller_get_current_event_state(
+		GTK_EVENT_CONTROLLER(scroll));
+
+	(void)dx;
+	if (!(state & GDK_CONTROL_MASK) || dy == 0)
+		return FALSE;
+	ladder_sfc_view_set_zoom(view, view->zoom * (dy < 0 ? 1.1 : 1 / 1.1));
+	return TRUE;
+}
+
+void chart_mouse_init(LadderSfcView *view)
+{
+	GtkGesture *click = gtk_gesture_click_new(), *menu = gtk_gesture_click_new();
+	GtkGesture *drag = gtk_gesture_drag_new();
+	GtkEventController *scroll = gtk_event_controller_scroll_new(
+		GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
+
+	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(click), GDK_BUTTON_PRIMARY);
+	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(menu), GDK_BUTTON_SECONDARY);
+	g_signal_connect(click, "pressed", G_CALLBACK(pressed), view);
+	g_signal_connect(menu, "pressed", G_CALLBACK(show_menu), view);
+	g_signal_connect(drag, "drag-update", G_CALLBACK(drag_update), view);
+	g_signal_connect(drag, "drag-end", G_CALLBACK(drag_end), view);
+	g_signal_connect(scroll, "scroll", G_CALLBACK(scrolled), view);
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(click));
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(menu));
+	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(drag));
+	gtk_widget_add_controller(GTK_WIDGET(view), scroll);
+}
