@@ -42,16 +42,6 @@ static char *type_text(const struct project *project, const struct var *var)
 	return g_string_free(out, FALSE);
 }
 
-int listing_count(const struct var_table *table)
-{
-	int count = table->count;
-
-	for (int i = 0; i < table->block_count; i++)
-		if (table->block[i].flags & VAR_SFC)
-			count = MIN(count, table->block[i].first);
-	return count;
-}
-
 void listing_symbol(const struct project *project, const struct var_table *table,
 		    int index, char *cell[LISTING_COLUMNS])
 {

@@ -19,9 +19,6 @@ enum listing_column {
 	LISTING_NAME, LISTING_TYPE, LISTING_ADDRESS, LISTING_INITIAL, LISTING_COMMENT,
 	LISTING_COLUMNS
 };
-/** listing_count - how many variables of a table were declared by a person: not those
- * that a chart brings, which stand behind them. */
-int listing_count(const struct var_table *table);
 /** listing_symbol - variable @index of a table. Owns: the caller, each g_free. */
 void listing_symbol(const struct project *project, const struct var_table *table,
 		    int index, char *cell[LISTING_COLUMNS]);

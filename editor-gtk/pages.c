@@ -338,7 +338,7 @@ static float draw_cells(const struct pages *pages, struct picture *picture,
 static void put_table(struct pages *pages, const struct var_table *table,
 		      const char *heading)
 {
-	const int count = listing_count(table);
+	const int count = vars_declared(table);
 	char *head[LISTING_COLUMNS] = { _("Name"), _("Type"), _("Address"),
 					_("Initial value"), _("Comment") };
 
@@ -371,7 +371,7 @@ static void put_symbols(struct pages *pages)
 	bool any = project->globals.count > 0;
 
 	for (int i = 0; i < project->pou_count; i++)
-		any |= listing_count(&project->pou[i].vars) > 0;
+		any |= vars_declared(&project->pou[i].vars) > 0;
 	if (!any)
 		return;
 	pages->subject = _("Symbols");

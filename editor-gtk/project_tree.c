@@ -9,6 +9,7 @@
 
 #include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/listing.h"
 #include "editor-gtk/popover.h"
 #include "editor-gtk/pou_edit.h"
 #include "editor-gtk/pou_import.h"

@@ -269,6 +269,7 @@ static void make_sheet(LadderSfcView *view)
 	const struct pou *pou = chart_pou(view);
 
 	forget_sheet(view);
+	view->of = ladder_document_ladder(view->document);
 	view->dragging = false;
 	if (pou) {
 		view->sheet = sfc_sheet_new(ladder_document_project(view->document), pou,
@@ -286,6 +287,12 @@ static void make_sheet(LadderSfcView *view)
 		view->cursor.use = -1;
 	gtk_widget_queue_resize(GTK_WIDGET(view));
 	chart_moved(view);
+}
+
+void chart_fresh(LadderSfcView *view)
+{
+	if (view->of != ladder_document_ladder(view->document))
+		make_sheet(view);
 }
 
 static void rungs_changed(LadderSfcView *view, int pou)
@@ -378,7 +385,8 @@ static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
 
 char *ladder_sfc_view_place(LadderSfcView *view)
 {
-	return view->cursor.shape < 0 ? g_strdup("") : chart_said(view, view->cursor);
+	chart_fresh(view);
+	return view->cursor.shape < 0 || !view->sheet ? g_strdup("") : chart_said(view, view->cursor);
 }
 
 /* ---- from outside ---- */
@@ -399,6 +407,7 @@ void ladder_sfc_view_go(LadderSfcView *view, int rung, int line)
 	const struct diag place = { .rung = rung + 1, .line = line };
 	struct sfc_at at = { -1, -1, false };
 
+	chart_fresh(view);
 	if (view->sheet && sfc_sheet_of_diag(view->sheet, &place, &at.shape, &at.use))
 		chart_go(view, at, false);
 	gtk_widget_grab_focus(GTK_WIDGET(view));

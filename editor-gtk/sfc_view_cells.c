@@ -192,6 +192,7 @@ static gboolean update_now(gpointer data)
 	LadderSfcView *view = data;
 
 	view->cells_later = 0;
+	chart_fresh(view);
 	cells_update(view);
 	gtk_widget_queue_allocate(GTK_WIDGET(view));
 	return G_SOURCE_REMOVE;

@@ -380,6 +380,7 @@ static void select_all(LadderSfcView *view)
 
 void ladder_sfc_view_do(LadderSfcView *view, enum verb verb)
 {
+	chart_fresh(view);
 	if (!view->sheet)
 		return;
 	switch ((int)verb) {
@@ -422,9 +423,11 @@ char *ladder_sfc_view_keys(LadderSfcView *view)
 		[SFC_JUMP] = { VERB_enter, VERB_step_below, VERB_delete, VERB_COUNT },
 	};
 	GString *text = g_string_new(NULL);
+	enum sfc_part part;
 	int index;
-	const enum sfc_part part = chart_part(view, &index);
 
+	chart_fresh(view);
+	part = chart_part(view, &index);
 	for (int i = 0; i < 4 && verbs[part][i] != VERB_COUNT; i++) {
 		char *keys = verb_keys_label(verbs[part][i]);
 

@@ -36,6 +36,7 @@ struct _LadderSfcView {
 	gulong handler[4];          /* of the document's signals               */
 	struct lettering *lettering;
 	struct sfc_sheet *sheet;    /* NULL: the POU is no chart now           */
+	const struct ladder *of;    /* what the sheet was made of              */
 	double zoom;
 	struct sfc_at cursor;       /* shape -1: there is nothing              */
 	bool *selected;             /* by shape                                */
@@ -56,6 +57,9 @@ struct _LadderSfcView {
 /* ---- sfc_view.c ---- */
 /** chart_pou - NULL: there is no chart now. */
 struct pou *chart_pou(LadderSfcView *view);
+/** chart_fresh - the sheet is that of the project as it is: others may hear of a change
+ * before this view does, and ask it. */
+void chart_fresh(LadderSfcView *view);
 void chart_tell(LadderSfcView *view, const char *text);
 void chart_moved(LadderSfcView *view);
 /** chart_part - the part at the cursor, SFC_NOTHING for none; its number in the chart. */

@@ -10,27 +10,34 @@
 
 #define ASIDE 2.5f /* a px aside counts as so many ahead                       */
 
-/* How far a box is in a direction; INFINITY: it is not there. */
-static float way_to_box(const graphene_rect_t *from, const graphene_rect_t *to, int dx, int dy)
+/* Where the cursor is felt to be: upon the lane of a box, in the middle of a line of a step. */
+static graphene_point_t anchor_of(LadderSfcView *view, struct sfc_at at)
 {
-	const float x = from->origin.x + MIN(from->size.width, 80) / 2;
-	const float y = from->origin.y + from->size.height / 2;
-	const float left = to->origin.x, right = left + MIN(to->size.width, 80);
-	const float top = to->origin.y, bottom = top + to->size.height;
-	const float ahead = dx > 0 ? (left + right) / 2 - x : dx < 0 ?
-		x - (left + right) / 2 : dy > 0 ? (top + bottom) / 2 - y :
-		y - (top + bottom) / 2;
-	const float aside = dx ? MAX(0, MAX(top - y, y - bottom)) :
-				 MAX(0, MAX(left - x, x - right));
+	const graphene_rect_t box = chart_box(view, at);
+	graphene_point_t point = { box.origin.x + box.size.width / 2,
+				   box.origin.y + box.size.height / 2 };
+
+	if (at.shape >= 0 && at.use < 0)
+		point.x = view->sheet->lane[view->sheet->layout->shape[at.shape].lane].x;
+	return point;
+}
+
+/* How far a place is in a direction; INFINITY: it is not there. */
+static float way_to_place(const graphene_point_t *from, const graphene_point_t *to, int dx,
+			  int dy)
+{
+	const float ahead = dx ? (to->x - from->x) * (float)dx :
+				 (to->y - from->y) * (float)dy;
+	const float aside = dx ? fabsf(to->y - from->y) : fabsf(to->x - from->x);
 
 	return ahead > 4 ? ahead + ASIDE * aside : INFINITY;
 }
 
-static void try_place(LadderSfcView *view, struct sfc_at at, const graphene_rect_t *from,
+static void try_place(LadderSfcView *view, struct sfc_at at, const graphene_point_t *from,
 		      int dx, int dy, float *least, struct sfc_at *best)
 {
-	graphene_rect_t box = chart_box(view, at);
-	float far = way_to_box(from, &box, dx, dy);
+	const graphene_point_t to = anchor_of(view, at);
+	const float far = way_to_place(from, &to, dx, dy);
 
 	if (at.shape == view->cursor.shape && at.use == view->cursor.use)
 		return;
@@ -43,7 +50,7 @@ static void try_place(LadderSfcView *view, struct sfc_at at, const graphene_rect
 static void go(LadderSfcView *view, int dx, int dy, bool extend)
 {
 	const struct sfc_layout *layout = view->sheet->layout;
-	graphene_rect_t from = chart_box(view, view->cursor);
+	const graphene_point_t from = anchor_of(view, view->cursor);
 	struct sfc_at best = view->cursor;
 	float least = INFINITY;
 

@@ -1,0 +1,223 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""A chart of four steps with a branch, drawn by the keyboard alone and by the pointer alone."""
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+
+EMPTY = 'RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n'
+# To Fill, from there to Heat by I0.1, to Drain by I0.2; back to Start by I0.3.
+SCRIPT = '@10ms 1\n%I0=1\n%I0=0 %I0.2=1\n%I0.2=0 %I0.3=1\n'
+
+
+def chart(editor):
+    return editor.find('Chart')
+
+
+def shapes(editor):
+    return [node.name for node in editor.all(role='table cell')
+            if node.name.startswith(('Step ', 'Transition ', 'Jump ')) or ' does: ' in node.name]
+
+
+def shape(editor, *parts):
+    def look():
+        found = [node for node in editor.all(role='table cell') if all(part in node.name for part in parts)]
+        return found[0] if found else None
+    return until(look, 'what is called %s' % ', '.join(parts))
+
+
+def at(editor, text):
+    """The cursor has come to what is called so."""
+    until(lambda: shape(editor, text).has(23), 'the cursor at ' + text)
+
+
+def on_chart(editor):
+    until(lambda: chart(editor).has(12), 'the focus on the chart')
+
+
+def typed(editor, text):
+    """Into the entry that the first letter opens."""
+    on_chart(editor)
+    editor.type(text[0])
+    editor.opened()
+    editor.entry(text[1:])
+    on_chart(editor)
+
+
+def asked(editor, key, text):
+    on_chart(editor)
+    editor.keys(key)
+    editor.opened()
+    editor.entry(text)
+    on_chart(editor)
+
+
+def finished(editor, path):
+    """What was drawn is saved, checks, and does what it says."""
+    text = editor.save(path)
+    for line in ('TRANSITION FROM Start TO Fill := I0.0;', 'TRANSITION FROM Fill TO Heat := I0.1;',
+                 'TRANSITION FROM Fill TO Drain := I0.2;', 'TRANSITION FROM Heat TO Start := I0.3;',
+                 'TRANSITION FROM Drain TO Start := I0.3;', 'Q0.0(N);', 'Q0.1(L, T#5s);'):
+        assert line in text, (line, text)
+    check(path)
+    return text
+
+
+def by_keyboard(screen):
+    """by the keyboard alone"""
+    path = new_file(screen, EMPTY)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    shape(editor, 'Step Start, initial')
+    editor.keys('Insert')
+    at(editor, 'Step Step1')
+    typed(editor, 'Fill')
+    at(editor, 'Step Fill')
+    asked(editor, 'F9', 'Q0.0')
+    shape(editor, 'Fill does: N Q0.0')
+    editor.keys('Insert')
+    at(editor, 'Step Step1')
+    typed(editor, 'Heat')
+    at(editor, 'Step Heat')
+    editor.keys('Up')
+    at(editor, 'from Fill to Heat')
+    typed(editor, 'I0.1')
+    shape(editor, 'from Fill to Heat, condition I0.1')
+    editor.keys('Up')
+    at(editor, 'Step Fill')
+    editor.keys('F6')
+    at(editor, 'Step Step1')
+    typed(editor, 'Drain')
+    at(editor, 'Step Drain')
+    asked(editor, 'F9', 'L T#5s Q0.1')
+    shape(editor, 'Drain does: L T#5s Q0.1')
+    asked(editor, 'F8', 'Start')
+    at(editor, 'from Drain to Start')
+    typed(editor, 'I0.3')
+    editor.keys('Up')
+    at(editor, 'Step Drain')
+    editor.keys('Up')
+    at(editor, 'from Fill to Drain')
+    typed(editor, 'I0.2')
+    editor.keys('Left')
+    at(editor, 'from Fill to Heat')
+    editor.keys('Down')
+    at(editor, 'Step Heat')
+    asked(editor, 'F8', 'Start')
+    at(editor, 'from Heat to Start')
+    typed(editor, 'I0.3')
+    editor.keys('Home')
+    at(editor, 'Step Start')
+    editor.keys('Down')
+    at(editor, 'from Start to Fill')
+    typed(editor, 'I0.0')
+    editor.shot('chart-keyboard')
+    text = finished(editor, path)
+    # Back to the beginning, and forth again: the same bytes.
+    for _ in range(40):
+        editor.keys('ctrl+z')
+    until(lambda: len(shapes(editor)) == 1, 'the first step alone')
+    for _ in range(40):
+        editor.keys('ctrl+y')
+    until(lambda: len([name for name in shapes(editor) if name.startswith('Step')]) == 4, 'all steps')
+    assert open(path).read() == text
+    got = lines(path, SCRIPT)
+    assert got, got
+
+
+def below(editor, node):
+    """The lower edge of a step, where a way begins."""
+    x, y, width, height = editor.place(node)
+    return x + width // 2, y + height - 4
+
+
+def upon(editor, node):
+    """The bar of a transition, the box of a step."""
+    x, y, _, height = editor.place(node)
+    return x + 11, y + height // 2
+
+
+def menu(editor, node, verb):
+    editor.click(upon(editor, node), button=3)
+    item = until(lambda: editor.all(verb, 'menu item'), 'the menu')[0]
+    editor.press(item)
+
+
+def chosen(editor, node, verb, text=None):
+    """From the menu of a shape; what is asked for then is typed."""
+    menu(editor, node, verb)
+    if text:
+        editor.opened()
+        editor.entry(text)
+    on_chart(editor)
+
+
+def twice(editor, node, text):
+    """A double click asks for what stands there."""
+    editor.click(upon(editor, node), count=2)
+    editor.opened()
+    editor.entry(text)
+    on_chart(editor)
+
+
+def by_pointer(screen):
+    """by the pointer alone, but for names and conditions"""
+    path = new_file(screen, EMPTY)
+    editor = Editor(screen, path)
+    chosen(editor, shape(editor, 'Step Start'), 'Step and transition below')
+    twice(editor, shape(editor, 'Step Step1'), 'Fill')
+    chosen(editor, shape(editor, 'Step Fill'), 'Step and transition below')
+    twice(editor, shape(editor, 'Step Step1'), 'Heat')
+    chosen(editor, shape(editor, 'Step Fill'), 'Alternative branch')
+    twice(editor, shape(editor, 'Step Step1'), 'Drain')
+    editor.drag(below(editor, shape(editor, 'Step Heat')), shape(editor, 'Step Start'), look='chart-way')
+    shape(editor, 'from Heat to Start')
+    editor.drag(below(editor, shape(editor, 'Step Drain')), shape(editor, 'Step Start'))
+    for ways, condition in (('Start to Fill', 'I0.0'), ('Fill to Heat', 'I0.1'), ('Fill to Drain', 'I0.2'),
+                            ('Heat to Start', 'I0.3'), ('Drain to Start', 'I0.3')):
+        twice(editor, shape(editor, 'from ' + ways), condition)
+        shape(editor, 'from %s, condition %s' % (ways, condition))
+    chosen(editor, shape(editor, 'Step Fill'), 'Add what the step does', 'Q0.0')
+    chosen(editor, shape(editor, 'Step Drain'), 'Add what the step does', 'L T#5s Q0.1')
+    shape(editor, 'Drain does: L T#5s Q0.1')
+    editor.shot('chart-pointer')
+    finished(editor, path)
+    # A branch changes places with its neighbour, which is asked first now.
+    chosen(editor, shape(editor, 'from Fill to Drain'), 'Branch to the left')
+    text = editor.save(path)
+    assert text.index('FROM Fill TO Drain') < text.index('FROM Fill TO Heat'), text
+    # What is deleted comes back.
+    chosen(editor, shape(editor, 'Step Drain'), 'Delete')
+    until(lambda: not [name for name in shapes(editor) if 'Drain' in name], 'Drain to be gone')
+    editor.keys('ctrl+z')
+    shape(editor, 'Drain does: L T#5s Q0.1')
+
+
+def bodies(screen):
+    """a condition becomes a rung that is drawn below, an action its own; copied steps get names"""
+    path = new_file(screen, EMPTY)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    editor.keys('Insert')
+    at(editor, 'Step Step1')
+    asked(editor, 'F9', 'ACTION Count')
+    editor.keys('Up')
+    at(editor, 'from Start to Step1')
+    typed(editor, 'I0.0')
+    editor.keys('shift+F9')
+    element = editor.element('I0.0')
+    assert 'Rung 1' in element.name
+    editor.to_sheet()
+    editor.keys('Home', 'shift+F5')
+    editor.opened()
+    editor.entry('I0.1')
+    editor.shot('chart-rung')
+    text = editor.save(path)
+    assert '| NO I0.1 ^|' in text or 'NO I0.1' in text, text
+    check(path)
+
+
+main([by_keyboard, by_pointer, bodies])
