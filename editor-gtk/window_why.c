@@ -69,12 +69,9 @@ static void append_cell(GString *out, const struct why_cell *cell, bool on)
 static char *in_words(const struct why *why)
 {
 	GString *out = g_string_new(why->on ? _("It has power: ") : _("No power: "));
-	char number[16];
 
-	if (why->whole != WHY_COUNT) {
-		g_snprintf(number, sizeof(number), "%d", why->by_rung);
-		append_said(out, why->whole, false, number);
-	}
+	if (why->whole != WHY_COUNT)
+		append_said(out, why->whole, false, why->name);
 	for (int i = 0; i < why->ways; i++) {
 		if (i)
 			g_string_append(out, why->on ? _("; and ") : _("; or "));

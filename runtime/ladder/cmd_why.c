@@ -64,7 +64,6 @@ static void print_answer(struct asked *asked, const struct why_place *place,
 	const struct sink *out = &asked->call->out;
 	const struct why *why = asked->why;
 	const struct pou *pou = &asked->project->pou[place->pou];
-	char number[16];
 
 	sink_text(out, name);
 	sink_printf(out, " has %s: ", why->on ? "power" : "no power");
@@ -72,9 +71,8 @@ static void print_answer(struct asked *asked, const struct why_place *place,
 		  project_text(asked->project, pou->name));
 	sink_printf(out, " rung %d (%d,%d)\n", place->rung, place->row, place->col);
 	if (why->whole != WHY_COUNT) {
-		snprintf(number, sizeof(number), "%d", why->by_rung);
 		sink_text(out, "  ");
-		sink_printf(out, why_text(why->whole, false), number);
+		sink_printf(out, why_text(why->whole, false), why->name);
 		sink_text(out, "\n");
 	}
 	print_ways(out, why);

@@ -16,7 +16,30 @@ static struct why why;
 
 /* ---- random circuits ---- */
 
-/* Contacts and wires, which a coil ends; links at random. */
+/* `[ a AND NOT (b OR c) ]`: parts that are contacts, too. */
+static void put_expression(char *out, size_t size)
+{
+	const int parts = 1 + (int)random_below(&source, 4);
+	int open = 0;
+	size_t used = (size_t)snprintf(out, size, "[ ");
+
+	for (int i = 0; i < parts; i++) {
+		const bool opens = i + 1 < parts && random_chance(&source, 40);
+
+		used += (size_t)snprintf(out + used, size - used, "%s%s%s%%IX0.%u",
+			i == 0 ? "" : random_chance(&source, 50) ? " AND " : " OR ",
+			random_chance(&source, 30) ? "NOT " : "", opens ? "(" : "",
+			random_below(&source, INPUTS));
+		open += opens;
+		if (open && !opens && random_chance(&source, 50)) {
+			used += (size_t)snprintf(out + used, size - used, ")");
+			open--;
+		}
+	}
+	snprintf(out + used, size - used, "%.*s ]", open, "))))");
+}
+
+/* Contacts, expressions and wires, which a coil ends; links at random. */
 static void make_rung(struct random_rung *rung)
 {
 	memset(rung, 0, sizeof(*rung));
@@ -43,6 +66,18 @@ static void make_rung(struct random_rung *rung)
 				cell->kind = dice < 8 ? RANDOM_WIRE : RANDOM_EMPTY;
 			}
 		}
+}
+
+/* An expression alone. */
+static void make_expression(struct random_rung *rung)
+{
+	memset(rung, 0, sizeof(*rung));
+	rung->rows = 1;
+	rung->cols = 2;
+	rung->cell[0][0].kind = RANDOM_SERIES;
+	put_expression(rung->cell[0][0].text, RANDOM_TEXT);
+	rung->cell[0][1].kind = RANDOM_LAST;
+	snprintf(rung->cell[0][1].text, RANDOM_TEXT, "COIL %%QX0.0");
 }
 
 static size_t print_rung(const struct random_rung *rung, char *out, size_t size)
@@ -116,7 +151,7 @@ static unsigned inputs_of(const struct why_way *way)
 	return inputs;
 }
 
-static int asked_off, asked_on, ways, never;
+static int asked_off, asked_on, ways, never, whole;
 
 /* Turned over: exactly these, and then less. */
 static bool is_way(struct rig *rig, unsigned inputs, unsigned flip)
@@ -161,6 +196,11 @@ static bool try_inputs(struct rig *rig, unsigned inputs, int coil)
 		never++;
 		return !can_ever(rig);
 	}
+	/* An expression that no change of its parts makes TRUE is named as a whole. */
+	if (copy.ways == 1 && copy.way[0].cell[0].kind == WHY_COMPARE) {
+		whole++;
+		return !on && !can_ever(rig);
+	}
 	for (int i = 0; i < copy.ways; i++) {
 		const unsigned named = inputs_of(&copy.way[i]);
 
@@ -173,7 +213,7 @@ static bool try_inputs(struct rig *rig, unsigned inputs, int coil)
 	return copy.ways > 0 && copy.whole == WHY_COUNT;
 }
 
-static void test_circuits(void)
+static void test_circuits(void (*make)(struct random_rung *rung))
 {
 	static struct random_rung rung;
 	char text[4096];
@@ -182,7 +222,7 @@ static void test_circuits(void)
 
 	random_seed(&source, 7);
 	for (int i = 0; i < 400000 && built < CIRCUITS; i++) {
-		make_rung(&rung);
+		make(&rung);
 		if (!random_sound(&rung))
 			continue;
 		print_rung(&rung, text, sizeof(text));
@@ -201,7 +241,8 @@ static void test_circuits(void)
 		ladder_free(rig.ladder);
 	}
 	printf("# %d circuits: asked %d times while off, %d while on; %d ways tried, "
-	       "%d times there was none\n", built, asked_off, asked_on, ways, never);
+	       "%d times there was none, %d times an expression can never hold\n", built,
+	       asked_off, asked_on, ways, never, whole);
 	CHECK(built == CIRCUITS && wrong == 0);
 	CHECK(asked_off > 2000 && asked_on > 1000 && ways > 5000);
 }
@@ -295,6 +336,7 @@ int main(void)
 {
 	test_by_hand();
 	test_instance();
-	test_circuits();
+	test_circuits(make_rung);
+	test_circuits(make_expression);
 	return tap_done();
 }

@@ -6,6 +6,7 @@
 
 #include "engine/base/ascii.h"
 #include "engine/model/network.h"
+#include "engine/trial/why_parts.h"
 #include "engine/trial/why_values.h"
 
 #include <stdio.h>
@@ -20,6 +21,7 @@ struct walk {
 	const struct why_place *at;
 	const struct rung *rung;
 	struct network network;
+	struct arena *arena;
 	struct why *out;
 	bool on;
 	int path[LIMIT_COLS];   /* elements, from the asked place to the left */
@@ -127,7 +129,7 @@ static bool same_cell(const struct why_cell *a, const struct why_cell *b)
 {
 	if (is_contact(a->kind) && is_contact(b->kind))
 		return ascii_is(a->name, b->name, strlen(b->name));
-	return a->row == b->row && a->col == b->col;
+	return a->row == b->row && a->col == b->col && strcmp(a->name, b->name) == 0;
 }
 
 /* Is all of @a in @b, too? */
@@ -176,20 +178,69 @@ static void add_way(struct why *why, const struct why_way *way, bool on)
 	why->ways++;
 }
 
+static bool put_cells(struct walk *walk, struct why_way *way, const struct why_cell *cell,
+		      int count)
+{
+	if (way->count + count > WHY_CELLS) {
+		walk->out->more = true;
+		return false;
+	}
+	memcpy(&way->cell[way->count], cell, (size_t)count * sizeof(*cell));
+	way->count += count;
+	return true;
+}
+
+static bool take_apart(struct walk *walk, int element, const struct why_cell *cell,
+		       struct why_parts **out)
+{
+	const uint32_t operand = cell_of(walk, element)->operand;
+	const struct names *names = &walk->at->project->names;
+
+	*out = NULL;
+	if (cell->kind != WHY_COMPARE)
+		return false;
+	*out = arena_alloc(walk->arena, sizeof(**out));
+	return *out && why_parts(walk->at, cell, names_text(names, operand),
+				 names_len(names, operand), walk->on, walk->arena, *out);
+}
+
+/* What stands from number @left of the path on to the right; an expression may have
+ * several ways. Depth: as that of the path. */
+static void add_rest(struct walk *walk, struct why_way *way, int left)
+{
+	const int count = way->count;
+	struct why_parts *parts;
+	struct why_cell cell;
+
+	while (left >= 0 && !walk->on && !walk->blocks[left])
+		left--;
+	if (left < 0) {
+		add_way(walk->out, way, walk->on);
+		return;
+	}
+	if (++walk->steps > STEPS_MOST) {
+		walk->out->more = true;
+		return;
+	}
+	name_cell(walk, walk->path[left], &cell);
+	if (!take_apart(walk, walk->path[left], &cell, &parts)) {
+		if (put_cells(walk, way, &cell, 1))
+			add_rest(walk, way, left - 1);
+		way->count = count;
+		return;
+	}
+	for (int i = 0; i < parts->ways; i++) {
+		if (put_cells(walk, way, parts->way[i].cell, parts->way[i].count))
+			add_rest(walk, way, left - 1);
+		way->count = count;
+	}
+}
+
 /* The rail was reached. */
 static void end_way(struct walk *walk, struct why_way *way)
 {
 	way->count = 0;
-	for (int i = walk->depth - 1; i >= 0; i--) {
-		if (!walk->on && !walk->blocks[i])
-			continue;
-		if (way->count == WHY_CELLS) {
-			walk->out->more = true;
-			return;
-		}
-		name_cell(walk, walk->path[i], &way->cell[way->count++]);
-	}
-	add_way(walk->out, way, walk->on);
+	add_rest(walk, way, walk->depth - 1);
 }
 
 /* Two contacts of one operand that exclude each other: nobody comes by here. */
@@ -329,6 +380,79 @@ static enum why_kind whole_rung(const struct why_place *at, const struct pou *po
 	return *by ? WHY_SKIPPED : WHY_COUNT;
 }
 
+/* ---- charts ---- */
+
+static bool stands_in(const struct sfc_body *body, int rung)
+{
+	return body->kind != BODY_LIST && body->kind != BODY_NONE &&
+	       rung > body->first && rung <= body->first + body->count;
+}
+
+static bool is_active(const struct why_place *at, const struct pou *pou, int step)
+{
+	const struct var_table *vars = &pou->vars;
+
+	return step < 0 || why_operand(at, vars->var[sfc_x(pou->sfc, vars, step)].name);
+}
+
+/* The step without which this condition was not looked at; 0: all are active. */
+static uint32_t missing_step(const struct why_place *at, const struct pou *pou)
+{
+	const struct sfc *sfc = pou->sfc;
+
+	for (int i = 0; i < sfc->transition_count; i++) {
+		const struct sfc_transition *t = &sfc->transition[i];
+
+		for (int k = t->first_from; k < t->first_from + t->from_count; k++)
+			if (stands_in(&t->condition, at->rung) &&
+			    !is_active(at, pou, sfc->ref[k].step))
+				return sfc->step[sfc->ref[k].step].name;
+	}
+	return 0;
+}
+
+/* May it be called for after its step was left? */
+static bool outlives(const struct sfc_use *use)
+{
+	return use->qualifier == QUALIFIER_S || use->qualifier == QUALIFIER_SD ||
+	       use->qualifier == QUALIFIER_DS || use->qualifier == QUALIFIER_SL ||
+	       use->qualifier == QUALIFIER_P0;
+}
+
+/* The action whose body this is, if no step calls for it; 0: one does, or may. */
+static uint32_t uncalled_action(const struct why_place *at, const struct pou *pou)
+{
+	const struct sfc *sfc = pou->sfc;
+	int action = 0;
+
+	while (action < sfc->action_count &&
+	       !stands_in(&sfc->action[action].body, at->rung))
+		action++;
+	if (action == sfc->action_count)
+		return 0;
+	for (int i = 0; i < sfc->use_count; i++) {
+		const struct sfc_use *use = &sfc->use[i];
+
+		if (use->kind == USE_ACTION && use->action == action &&
+		    (outlives(use) || is_active(at, pou, use->step)))
+			return 0;
+	}
+	return sfc->action[action].name;
+}
+
+static void ask_chart(const struct why_place *at, const struct pou *pou, struct why *out)
+{
+	const uint32_t step = missing_step(at, pou);
+	const uint32_t action = step ? 0 : uncalled_action(at, pou);
+
+	if (step)
+		out->whole = WHY_INACTIVE;
+	if (action)
+		out->whole = WHY_UNCALLED;
+	snprintf(out->name, sizeof(out->name), "%.79s",
+		 project_text(at->project, step ? step : action));
+}
+
 bool why_ask(const struct why_place *at, struct arena *arena, struct why *out)
 {
 	struct walk *walk = arena_alloc(arena, sizeof(*walk));
@@ -342,11 +466,15 @@ bool why_ask(const struct why_place *at, struct arena *arena, struct why *out)
 		return false;
 	walk->at = at;
 	walk->out = out;
+	walk->arena = arena;
 	walk->rung = pou->rung[at->rung - 1];
 	if (at->row < 1 || at->row > walk->rung->rows || at->col < 1 ||
 	    at->col > walk->rung->cols)
 		return false;
 	out->whole = whole_rung(at, pou, &out->by_rung);
+	snprintf(out->name, sizeof(out->name), "%d", out->by_rung);
+	if (out->whole == WHY_COUNT && pou->sfc)
+		ask_chart(at, pou, out);
 	if (out->whole != WHY_COUNT)
 		return true;
 	if (!network_make(walk->rung, arena, &walk->network))

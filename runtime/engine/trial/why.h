@@ -52,6 +52,7 @@ struct why {
 	bool on;                 /* power at its left end                     */
 	enum why_kind whole;     /* WHY_COUNT, or what holds for the rung     */
 	int by_rung;             /* of WHY_SKIPPED                            */
+	char name[WHY_NAME];     /* of what `whole` speaks: rung, step, action */
 	struct why_way way[WHY_WAYS]; /* the shortest first                   */
 	int ways;
 	bool more;               /* there are more of them                    */

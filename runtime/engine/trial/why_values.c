@@ -31,6 +31,22 @@ static struct location find(const struct why_place *at, const char *name, size_t
 	return found;
 }
 
+/* The instance or POU whose a name is; NULL: it is no name of theirs. */
+static const char *owner_of(const struct why_place *at, const char *name, size_t len)
+{
+	const struct image *image = &at->resource->image;
+	const char *near = at->instance ? at->instance :
+		project_text(at->project, at->project->pou[at->pou].name);
+	struct declared_name array;
+	char text[2 * LIMIT_NAME + 64];
+	const int used = snprintf(text, sizeof(text), "%s.%.*s", near, (int)len, name);
+
+	if (used < 0 || (size_t)used >= sizeof(text))
+		return NULL;
+	return image_find(image, text, (size_t)used).type != IEC_NONE ||
+	       image_find_array(image, text, (size_t)used, &array) ? near : NULL;
+}
+
 bool why_operand(const struct why_place *at, uint32_t operand)
 {
 	const struct names *names = &at->project->names;
@@ -88,6 +104,41 @@ static void append_pins(const struct why_place *at, const char *name,
 		if (place.type != IEC_NONE)
 			append(at, pin->name, strlen(pin->name), place, out, size);
 	}
+}
+
+void why_values_of(const struct why_place *at, const char *text, size_t len, char *out,
+		   size_t size)
+{
+	*out = '\0';
+	append_names(at, text, len, out, size);
+}
+
+size_t why_qualify(const struct why_place *at, const char *text, size_t len, char *out,
+		   size_t size)
+{
+	const char *copied = text;
+	size_t used = 0;
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	for (lex_next(&lex); used < size; lex_next(&lex)) {
+		const struct token *t = &lex.token;
+		const bool end = t->kind == TOKEN_END;
+		const char *whole = NULL;
+		const char *upto = end ? text + len : t->text;
+
+		if (t->kind == TOKEN_NAME && (t->text == text || t->text[-1] != '.'))
+			whole = owner_of(at, t->text, t->len);
+		if (!end && !whole)
+			continue;
+		used += (size_t)snprintf(out + used, size - used, "%.*s%s%s",
+					 (int)(upto - copied), copied,
+					 whole ? whole : "", whole ? "." : "");
+		copied = upto;
+		if (end)
+			break;
+	}
+	return used < size ? used : 0;
 }
 
 void why_values(const struct why_place *at, const struct cell *cell,
