@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-enum item { OUTSIDE, IN_STEP, IN_BODY };
+enum inside { OUTSIDE, IN_STEP, IN_BODY };
 
 /* Does the line at @at begin with this word? */
 static bool begins(const char *text, size_t at, size_t end, const char *word)
@@ -34,11 +34,11 @@ static bool ends_with(const char *text, size_t at, size_t end, const char *word)
 }
 
 /* What a line says of those below it; -1: nothing. */
-static int item_of(const char *text, size_t at, size_t end)
+static int inside_of(const char *text, size_t at, size_t end)
 {
 	static const struct {
 		const char *word;
-		enum item item;
+		enum inside in;
 	} words[] = {
 		{ "STEP", IN_STEP }, { "INITIAL_STEP", IN_STEP },
 		{ "MACRO_STEP", IN_STEP }, { "TRANSITION", IN_BODY },
@@ -52,18 +52,18 @@ static int item_of(const char *text, size_t at, size_t end)
 			return ends_with(text, at, end, "END_TRANSITION") ||
 			       ends_with(text, at, end, "END_STEP") ||
 			       ends_with(text, at, end, "END_ACTION") ?
-			       OUTSIDE : (int)words[i].item;
+			       OUTSIDE : (int)words[i].in;
 	return -1;
 }
 
-static enum item item_at(const char *text, size_t line)
+static enum inside inside_at(const char *text, size_t line)
 {
 	while (line > 0) {
 		const size_t end = line - 1, at = expect_line(text, end);
-		const int item = item_of(text, at, end);
+		const int in = inside_of(text, at, end);
 
-		if (item >= 0)
-			return (enum item)item;
+		if (in >= 0)
+			return (enum inside)in;
 		line = at;
 	}
 	return OUTSIDE;
@@ -159,7 +159,7 @@ static bool is_step(const struct token *token)
 struct expect_want expect_chart(struct before *b, const char *text, size_t line,
 				size_t bar, size_t to)
 {
-	enum item item;
+	enum inside in;
 
 	if (bar > line) {
 		expect_tokens(b, text, bar, to);
@@ -172,10 +172,10 @@ struct expect_want expect_chart(struct before *b, const char *text, size_t line,
 		return transition_want(b);
 	if (b->count && expect_is(&b->token[0], "CONTROL"))
 		return control_want(b);
-	item = item_at(text, line);
-	if (item == IN_STEP)
+	in = inside_at(text, line);
+	if (in == IN_STEP)
 		return use_want(b);
-	if (item == IN_BODY)
+	if (in == IN_BODY)
 		return expect_list(b);
 	return kinds_want(b->count ? 0 : EXPECT_KEYWORD);
 }
