@@ -9,6 +9,7 @@
 #include "engine/base/file.h"
 #include "engine/check/check.h"
 #include "engine/check/check_il.h"
+#include "engine/check/check_tokens.h"
 #include "engine/text/text.h"
 #include "engine/translate/translate.h"
 
@@ -219,6 +220,20 @@ static bool check_pou(struct ladder *ladder, const struct pou *pou, uint8_t *bad
 	return true;
 }
 
+/* What charts can come to, if they are whole. */
+static void check_states(struct ladder *ladder)
+{
+	struct project *project = ladder->project;
+
+	for (int i = 0; i < project->pou_count && !ladder->diags.errors; i++) {
+		if (!project->pou[i].sfc)
+			continue;
+		arena_reset(&ladder->scratch);
+		check_tokens(ladder->translation.scope, &project->pou[i],
+			     &ladder->scratch, &ladder->diags);
+	}
+}
+
 /* A byte a rung, by POU: 1 where an error stands. NULL: no memory. */
 static uint8_t **check_all(struct ladder *ladder)
 {
@@ -236,6 +251,8 @@ static uint8_t **check_all(struct ladder *ladder)
 	if (bad)
 		check_names(ladder->translation.scope, bad, &ladder->scratch,
 			    &ladder->diags);
+	if (bad && !ladder->scratch.failed)
+		check_states(ladder);
 	return ladder->scratch.failed || project->arena.failed ? NULL : bad;
 }
 

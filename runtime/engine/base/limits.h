@@ -51,6 +51,8 @@
 #define LIMIT_STEP_USES   256       /* lines of a step                        */
 #define LIMIT_BRANCHES    256       /* steps behind one FROM or TO            */
 #define LIMIT_MACROS      8         /* macro-steps in one another             */
+#define LIMIT_MARKINGS    20000     /* states of a chart that are looked at   */
+#define LIMIT_MARKINGS_BYTES (4u << 20) /* and what they take                 */
 #define LIMIT_TASKS       16        /* tasks of a configuration               */
 #define LIMIT_TICK        100000    /* ns: shortest interval of a task        */
 #define LIMIT_INTERVAL    86400000000000 /* ns: longest one, a day            */
