@@ -175,7 +175,7 @@ static void tell_find(struct teller *c, const struct token_find *find)
 
 	switch (find->kind) {
 	case TOKEN_TWICE:
-		report_way(c, DIAG_SFC_TWICE, step->line, step->column_at,
+		report_way(c, DIAG_SFC_ENTERED_TWICE, step->line, step->column_at,
 			   name_of(c, find->step), find->state, find->arc);
 		break;
 	case TOKEN_DEAD:
