@@ -462,6 +462,10 @@ static void put_control(struct page *page)
 		"RESET := CReset", "HOLD := CHold", "SEMI := CSemi", "MANUAL := CManual",
 		"TIP := CTip", "FORCE := CForce",
 	};
+	static const char *const inside[] = {
+		"RESET := Alarm2", "HOLD := Alarm3", "SEMI := Mark7", "MANUAL := Mark6",
+		"TIP := b3", "FORCE := n5",
+	};
 	uint64_t key = chart_key(page->chart->seed, 400);
 	struct random_source source = chart_source(key);
 	const char *between = "  CONTROL(";
@@ -472,7 +476,8 @@ static void put_control(struct page *page)
 		if (!random_chance(&source, 60) ||
 		    !chart_has(page->chart, chart_key(key, i)))
 			continue;
-		put(page, "%s%s", between, controls[i]);
+		put(page, "%s%s", between,
+		    random_chance(&source, 15) ? inside[i] : controls[i]);
 		between = ", ";
 	}
 	put(page, *between == ',' ? ");\n" : "");
@@ -488,12 +493,11 @@ static void put_many(struct page *page, const char *name, const char *at, int co
 			put(page, "    %s%d : %s;\n", name, i, type);
 }
 
-static void put_head(struct page *page, bool stable)
+static void put_head(struct page *page, const char *name, bool stable)
 {
 	static const char *const words[] = { "TON", "TOF", "TP" };
 
-	put(page, "RUNGBOARD 1\n\nPROGRAM Chart SFC%s\n  VAR\n",
-	    stable ? " UNTIL STABLE" : "");
+	put(page, "\nPROGRAM %s SFC%s\n  VAR\n", name, stable ? " UNTIL STABLE" : "");
 	put_many(page, "In", "%IX0.", 8, "BOOL");
 	put(page, "    CReset AT %%IX1.0 : BOOL;\n    CHold AT %%IX1.1 : BOOL;\n"
 	    "    CSemi AT %%IX1.2 : BOOL;\n    CManual AT %%IX1.3 : BOOL;\n"
@@ -511,24 +515,43 @@ static void put_head(struct page *page, bool stable)
 	put(page, "  END_VAR\n\n");
 }
 
-size_t random_chart_print(struct random_chart *chart, char *out, size_t size)
+/* What chart->seed makes. */
+static void put_program(struct page *whole, const char *name)
 {
 	static char body[96 * 1024];
+	struct random_chart *chart = whole->chart;
 	struct page page = { .chart = chart, .out = body, .size = sizeof(body) };
-	struct page whole = { .chart = chart, .out = out, .size = size };
 	struct random_source source = chart_source(chart_key(chart->seed, 500));
-	bool stable;
+	bool stable = random_chance(&source, 20) &&
+		      chart_has(chart, chart_key(chart->seed, 501));
 
-	chart->part_count = 0;
-	stable = random_chance(&source, 20) &&
-		 chart_has(chart, chart_key(chart->seed, 501));
 	chart_grow(chart);
 	put_control(&page);
 	put_inside(&page, -1);
 	for (int i = 0; i < ACTIONS; i++)
 		put_action(&page, i);
-	whole.timers = page.timers;
-	put_head(&whole, stable);
-	put(&whole, "%sEND_PROGRAM\n", body);
+	whole->timers = page.timers;
+	put_head(whole, name, stable);
+	put(whole, "%sEND_PROGRAM\n", body);
+}
+
+size_t random_chart_print(struct random_chart *chart, char *out, size_t size)
+{
+	struct page whole = { .chart = chart, .out = out, .size = size };
+	const uint64_t seed = chart->seed, key = chart_key(seed, 600);
+	struct random_source source = chart_source(key);
+	bool unsafe;
+
+	chart->part_count = 0;
+	put(&whole, "RUNGBOARD 1\n");
+	put_program(&whole, "Chart");
+	if (!random_chance(&source, 10) || !chart_has(chart, key))
+		return whole.used;
+	/* Another one on the same addresses. */
+	unsafe = chart->unsafe;
+	chart->seed = key;
+	put_program(&whole, "Other");
+	chart->seed = seed;
+	chart->unsafe |= unsafe;
 	return whole.used;
 }

@@ -105,7 +105,7 @@ static void put_force(struct sfc_il *s)
 
 	sfc_op(s, OP_LD, 0, sfc_var(s, "Forced", -1, IEC_BOOL));
 	if (control(s, CONTROL_RESET))
-		sfc_op(s, OP_AND, MOD_N, control(s, CONTROL_RESET));
+		sfc_op(s, OP_AND, MOD_N, sfc_var(s, "ResetWas", -1, IEC_BOOL));
 	sfc_jump_unless(s, on);
 	for (int i = 0; i < count; i++) {
 		snprintf(number, sizeof(number), "%d", i + 1);
@@ -144,7 +144,7 @@ static void put_start(struct sfc_il *s)
 	sfc_here(s, on);
 }
 
-/* _Any: whatever its condition; _May: if its condition is TRUE. */
+/* _Any: whatever its condition; _May: if its condition is TRUE; _Auto: without a TIP. */
 static void put_modes(struct sfc_il *s)
 {
 	const uint32_t manual = control(s, CONTROL_MANUAL), semi = control(s, CONTROL_SEMI);
@@ -152,20 +152,20 @@ static void put_modes(struct sfc_il *s)
 
 	if (!control(s, CONTROL_TIP))
 		sfc_set(s, tip, false);
-	if (semi) {
-		sfc_op(s, OP_LD, MOD_N, semi);
-		sfc_op(s, OP_OR, 0, tip);
-	} else {
-		sfc_op(s, OP_LD, 0, sfc_literal(s, "TRUE"));
+	if (manual) {
+		sfc_op(s, OP_LD, 0, manual);
+		sfc_op(s, OP_AND, 0, tip);
+		sfc_op(s, OP_ST, 0, sfc_var(s, "Any", -1, IEC_BOOL));
 	}
+	sfc_op(s, OP_LD, semi ? MOD_N : 0, semi ? semi : sfc_literal(s, "TRUE"));
 	if (manual)
 		sfc_op(s, OP_AND, MOD_N, manual);
+	sfc_op(s, OP_ST, 0, sfc_var(s, "Auto", -1, IEC_BOOL));
+	if (semi)
+		sfc_op(s, OP_OR, 0, tip);
+	if (semi && manual)
+		sfc_op(s, OP_AND, MOD_N, manual);
 	sfc_op(s, OP_ST, 0, sfc_var(s, "May", -1, IEC_BOOL));
-	if (!manual)
-		return;
-	sfc_op(s, OP_LD, 0, manual);
-	sfc_op(s, OP_AND, 0, tip);
-	sfc_op(s, OP_ST, 0, sfc_var(s, "Any", -1, IEC_BOOL));
 }
 
 void sfc_allow(struct sfc_il *s)
@@ -182,10 +182,15 @@ void sfc_once(struct sfc_il *s)
 	if (control(s, CONTROL_MANUAL))
 		sfc_set(s, sfc_var(s, "Any", -1, IEC_BOOL), false);
 	if (control(s, CONTROL_SEMI)) {
-		sfc_op(s, OP_LD, 0, sfc_var(s, "May", -1, IEC_BOOL));
-		sfc_op(s, OP_AND, MOD_N, control(s, CONTROL_SEMI));
+		sfc_op(s, OP_LD, 0, sfc_var(s, "Auto", -1, IEC_BOOL));
 		sfc_op(s, OP_ST, 0, sfc_var(s, "May", -1, IEC_BOOL));
 	}
+}
+
+/* What was there at the beginning of the scan: an alarm or a SET may have changed it. */
+static uint32_t seen(struct sfc_il *s, enum control which)
+{
+	return sfc_var(s, which == CONTROL_RESET ? "ResetWas" : "Hold", -1, IEC_BOOL);
 }
 
 /* Nothing fires while the operand is TRUE. */
@@ -193,7 +198,7 @@ static void put_stop(struct sfc_il *s, enum control which)
 {
 	if (!control(s, which))
 		return;
-	sfc_op(s, OP_LD, 0, control(s, which));
+	sfc_op(s, OP_LD, 0, seen(s, which));
 	sfc_jump_if(s, s->act);
 }
 
@@ -211,14 +216,18 @@ void sfc_control(struct sfc_il *s)
 		put_edge(s, tip, "Tip", "TipWas");
 	if (control(s, CONTROL_FORCE))
 		note_forced(s);
+	if (control(s, CONTROL_HOLD)) {
+		sfc_op(s, OP_LD, 0, control(s, CONTROL_HOLD));
+		sfc_op(s, OP_ST, 0, seen(s, CONTROL_HOLD));
+	}
+	if (has_modes(s))
+		put_modes(s);
 	put_start(s);
 	sfc_supervise(s);
 	if (reset)
 		put_reset(s, rises);
 	if (control(s, CONTROL_FORCE))
 		put_force(s);
-	if (has_modes(s))
-		put_modes(s);
 }
 
 void sfc_stop(struct sfc_il *s)
