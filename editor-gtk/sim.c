@@ -99,6 +99,20 @@ static void tell_refusal(LadderSim *sim)
 	     false);
 }
 
+/* A record is of one program: what was before the edit cannot be shown any more. */
+static void tell_edit(LadderSim *sim)
+{
+	const guint64 first = ladder_sim_first(sim);
+	char *text;
+
+	if (first == 0)
+		return;
+	text = g_strdup_printf(_("The program was changed: the past begins at scan %llu"),
+			       (unsigned long long)first);
+	tell(sim, text, false);
+	g_free(text);
+}
+
 static bool take(LadderSim *sim)
 {
 	bool other;
@@ -108,6 +122,7 @@ static bool take(LadderSim *sim)
 	if (other) {
 		forget_replay(sim);
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+		tell_edit(sim);
 	}
 	return other;
 }
@@ -461,6 +476,11 @@ const struct twin *ladder_sim_twin(LadderSim *sim)
 	if (!sim->thread)
 		return NULL;
 	return sim->past ? &sim->replay.twin : &sim->view.twin;
+}
+
+bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out)
+{
+	return sim->thread && sim_thread_lateness(sim->thread, out);
 }
 
 struct ladder *ladder_sim_ladder(LadderSim *sim)

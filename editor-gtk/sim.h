@@ -96,6 +96,11 @@ struct sim_played {
 bool ladder_sim_play(LadderSim *sim, gint64 period_ns, GArray *acts, guint64 scans,
 		     GError **error);
 
+/* How late scans were against the clock of the wall, while it ran. For measurements. */
+struct sim_lateness { guint64 scans; double median_us, p99_us, worst_us; };
+/** ladder_sim_lateness - since this was asked last. Fails: false: off, or no scan since. */
+bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out);
+
 /* ---- what is shown ---- */
 
 /** ladder_sim_twin - as it was after the scan that is shown. NULL: off. Borrowed until the

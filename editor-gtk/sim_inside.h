@@ -75,6 +75,8 @@ void sim_thread_change(struct sim_thread *thread, struct sim_program *program);
  * program than it was. Fails: false: no memory, @view is as it was. */
 bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *other);
 void sim_view_clear(struct sim_view *view);
+/** sim_thread_lateness - as ladder_sim_lateness(). */
+bool sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out);
 /** sim_thread_lock - the record, which changes only with a program. */
 const struct record *sim_thread_lock(struct sim_thread *thread);
 void sim_thread_unlock(struct sim_thread *thread);

@@ -9,6 +9,7 @@
 #include "editor-gtk/sim_inside.h"
 
 #define FRAME_US G_GINT64_CONSTANT(16000)
+#define LATE_STEPS 320 /* of a table of how late scans were: up to hours     */
 #define BEHIND_US G_GINT64_CONSTANT(250000) /* more than that is not made up for   */
 
 enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_ACT, ORDER_CHANGE,
@@ -48,6 +49,7 @@ struct sim_thread {
 	struct sim_refusal out_refusal;
 	/* Between both, atomic: */
 	int notified;
+	guint late[LATE_STEPS];  /* scans that were so late, by step           */
 };
 
 /* ---- out ---- */
@@ -102,8 +104,24 @@ static guint64 wait_us(struct sim_thread *thread)
 	return 0;
 }
 
+/* Steps of 1/16 of the power of two below: 6 % from step to step. */
+static guint late_step(double us)
+{
+	const guint64 late = us > 0 ? (guint64)us : 0;
+	const guint power = late < 16 ? 0 : g_bit_storage(late) - 5;
+
+	return MIN(power * 16 + (guint)(late >> power), LATE_STEPS - 1);
+}
+
+static double late_us(guint step)
+{
+	return step < 32 ? step : (double)((guint64)(step % 16 + 16) << (step / 16 - 1));
+}
+
 static void scan_in_time(struct sim_thread *thread)
 {
+	g_atomic_int_inc((gint *)&thread->late[late_step(
+		(double)g_get_monotonic_time() - thread->due_us)]);
 	scan(thread);
 	thread->due_us += wall_period_us(thread);
 	if (g_get_monotonic_time() - thread->told_us >= FRAME_US)
@@ -392,6 +410,35 @@ bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *oth
 	view->refusal = thread->out_refusal;
 	g_mutex_unlock(&thread->out_lock);
 	return good;
+}
+
+/* The lateness that a part of all scans does not reach beyond. */
+static double late_of(const guint *late, guint64 scans, double part)
+{
+	const double wanted = part * (double)scans;
+	guint64 seen = 0;
+
+	for (guint i = 0; i < LATE_STEPS; i++) {
+		seen += late[i];
+		if (late[i] && (double)seen >= wanted)
+			return late_us(i);
+	}
+	return 0;
+}
+
+bool sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out)
+{
+	guint late[LATE_STEPS];
+
+	*out = (struct sim_lateness){ .scans = 0 };
+	for (guint i = 0; i < LATE_STEPS; i++) {
+		late[i] = g_atomic_int_and(&thread->late[i], 0);
+		out->scans += late[i];
+	}
+	out->median_us = late_of(late, out->scans, 0.5);
+	out->p99_us = late_of(late, out->scans, 0.99);
+	out->worst_us = late_of(late, out->scans, 1);
+	return out->scans > 0;
 }
 
 const struct record *sim_thread_lock(struct sim_thread *thread)

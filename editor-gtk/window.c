@@ -56,6 +56,11 @@ void window_banner(LadderWindow *window, const char *text, const char *button,
 	gtk_revealer_set_reveal_child(window->banner, TRUE);
 }
 
+LadderSim *ladder_window_sim(LadderWindow *window)
+{
+	return window->sim;
+}
+
 void ladder_window_welcome(LadderWindow *window)
 {
 	tabs_show_widget(window, "welcome");

@@ -2,7 +2,8 @@
  *
  * editor - how long the editor takes with a large program, measured inside it.
  *
- * usage: editor FILE SAMPLE [WORD]: of what a person does only what WORD stands in. It
+ * usage: editor FILE SAMPLE [WORD]: of what a person does only what WORD stands in, and how
+ * late scans are, and what it takes to show one that was. It
  * prints medians beside what is asked for and judges nothing: the start with the sample,
  * opening the file, frames while scrolling, what a key costs until its picture is there
  * (without the wait for the screen's next frame), memory, what is done while nothing is,
@@ -362,6 +363,71 @@ static void simulate(GtkWidget *window, LadderGridView *sheet)
 	gtk_widget_activate_action(window, verb_row(VERB_sim_mode)->action, NULL);
 }
 
+/* ---- the scan thread, and the past ---- */
+
+static void print_late(LadderSim *sim, const char *what)
+{
+	struct sim_lateness late;
+
+	settle(1000);
+	ladder_sim_lateness(sim, &late); /* forget the way there */
+	settle(SIM_S * 1000);
+	if (ladder_sim_lateness(sim, &late))
+		printf("Lateness of the scan thread, %s: median %.2f ms, 99 %% %.2f ms, "
+		       "worst %.2f ms, of %llu scans.\n", what, late.median_us / 1000,
+		       late.p99_us / 1000, late.worst_us / 1000,
+		       (unsigned long long)late.scans);
+	fflush(stdout);
+}
+
+/* Drawing must not delay it: the same with a window that nobody sees. */
+static void late(GtkWidget *window)
+{
+	LadderSim *sim = ladder_window_sim(LADDER_WINDOW(window));
+
+	gtk_widget_activate_action(window, verb_row(VERB_sim_run)->action, NULL);
+	print_late(sim, "while it is drawn");
+	gtk_widget_set_visible(window, FALSE);
+	print_late(sim, "while nothing is drawn");
+	gtk_widget_set_visible(window, TRUE);
+	print_late(sim, "while it is drawn again");
+}
+
+/* Any scan of a record of 100,000: from ladder_sim_show() to the frame with it. */
+static void past(GtkWidget *window, LadderSim *sim)
+{
+	gint64 clock[ROUNDS], shown[ROUNDS];
+	guint64 first, last, scan = 1;
+
+	ladder_sim_pause(sim);
+	ladder_sim_scan(sim, 100000);
+	for (int i = 0; i < 600 && ladder_sim_last(sim) < 100000; i++)
+		settle(100);
+	first = ladder_sim_first(sim);
+	last = ladder_sim_last(sim);
+	settle(2000);
+	for (int i = 0; i < ROUNDS; i++) {
+		const gint64 begin = g_get_monotonic_time();
+
+		scan = first + (scan * 48271 + 11) % (last - first);
+		ladder_sim_show(sim, scan);
+		shown[i] = g_get_monotonic_time() - begin;
+		next_frame();
+		clock[i] = shown[i] + frame.spent;
+		settle(40);
+	}
+	printf("Showing any of %llu scans: median %.2f ms until all views know, %.2f ms with "
+	       "its frame; worst %.2f ms (16).\n", (unsigned long long)(last - first),
+	       median(shown, ROUNDS), median(clock, ROUNDS),
+	       (double)clock[ROUNDS - 1] / 1000);
+	ladder_sim_show_now(sim);
+	ladder_sim_stop(sim);
+	settle(3000);
+	printf("In STOP. ");
+	idle();
+	gtk_widget_activate_action(window, verb_row(VERB_sim_mode)->action, NULL);
+}
+
 static void run(AdwApplication *application, const char *path, const char *word)
 {
 	const gint64 begin = g_get_monotonic_time(), begun = worked();
@@ -399,6 +465,10 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	printf("\nMemory: %ld MB (200).\n", memory());
 	idle();
 	simulate(GTK_WIDGET(window), LADDER_GRID_VIEW(sheet));
+	if (*word) {
+		late(GTK_WIDGET(window));
+		past(GTK_WIDGET(window), ladder_window_sim(window));
+	}
 	g_object_unref(document);
 }
 
