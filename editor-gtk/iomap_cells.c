@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/iomap_cells.h"
 
+#include "editor-gtk/cells.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/popover.h"
 
@@ -40,22 +41,6 @@ static const struct column *column_of(GtkWidget *cell)
 /* ---- what a person did ---- */
 
 /* @why: taken over; NULL: nothing is wrong. */
-static void show_refusal(GtkWidget *cell, char *why)
-{
-	if (why) {
-		gtk_widget_add_css_class(cell, "error");
-		gtk_widget_set_tooltip_text(cell, why);
-		gtk_accessible_update_state(GTK_ACCESSIBLE(cell),
-			GTK_ACCESSIBLE_STATE_INVALID, GTK_ACCESSIBLE_INVALID_TRUE, -1);
-	} else {
-		gtk_widget_remove_css_class(cell, "error");
-		gtk_widget_set_tooltip_text(cell, NULL);
-		gtk_accessible_reset_state(GTK_ACCESSIBLE(cell),
-					   GTK_ACCESSIBLE_STATE_INVALID);
-	}
-	g_free(why);
-}
-
 /* What stands in a cell; NULL: it was refused already, or nothing is to be done. Caller:
  * g_free. */
 static char *meant(GtkWidget *cell, const LadderPanelRow *row)
@@ -82,7 +67,10 @@ static void commit(GtkWidget *cell, GtkListItem *item)
 	g_object_ref(row);
 	g_object_ref(cell);
 	good = column->cells->set(column->cells->owner, row, column->field, text, &why);
-	show_refusal(cell, good ? NULL : why ? why : g_strdup(_("Refused")));
+	if (good)
+		cells_refuse(cell, NULL);
+	else
+		cells_refused(cell, why);
 	g_object_set_data_full(G_OBJECT(cell), "refused", good ? NULL : g_strdup(text),
 			       g_free);
 	g_free(text);
@@ -215,10 +203,10 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 	g_object_ref(row);
 	if (column->cells->set(column->cells->owner, row, column->field, is ? "" : "1",
 			       &why)) {
-		show_refusal(GTK_WIDGET(check), NULL);
+		cells_refuse(GTK_WIDGET(check), NULL);
 	} else {
 		gtk_check_button_set_active(check, is);
-		show_refusal(GTK_WIDGET(check), why ? why : g_strdup(_("Refused")));
+		cells_refused(GTK_WIDGET(check), why);
 	}
 	g_object_unref(row);
 }
@@ -371,24 +359,18 @@ static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 	    strcmp(text, gtk_editable_get_text(GTK_EDITABLE(cell))) == 0)
 		return FALSE;
 	gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	show_refusal(cell, NULL);
+	cells_refuse(cell, NULL);
 	return TRUE;
 }
 
 /* ---- the factory ---- */
 
-static void add_controller(GtkWidget *cell, const char *name, GtkEventController *controller)
-{
-	gtk_widget_add_controller(cell, controller);
-	g_object_set_data(G_OBJECT(cell), name, controller);
-}
-
 static GtkWidget *entry_new(enum io_field field)
 {
 	GtkWidget *cell = gtk_entry_new();
 
-	add_controller(cell, "focus", gtk_event_controller_focus_new());
-	add_controller(cell, "keys", gtk_event_controller_key_new());
+	cells_add(cell, "focus", gtk_event_controller_focus_new());
+	cells_add(cell, "keys", gtk_event_controller_key_new());
 	gtk_entry_set_has_frame(GTK_ENTRY(cell), FALSE);
 	gtk_widget_add_css_class(cell, "field");
 	gtk_editable_set_width_chars(GTK_EDITABLE(cell), 4);
@@ -441,7 +423,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 				     io_field_name(column->field));
 
 	(void)factory;
-	show_refusal(cell, NULL);
+	cells_refuse(cell, NULL);
 	g_object_set_data(G_OBJECT(cell), "item", item);
 	if (column->field == IO_ACTIVE_LOW) {
 		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);

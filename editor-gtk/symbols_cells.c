@@ -4,7 +4,7 @@
  */
 #include "editor-gtk/symbols_cells.h"
 
-#include "editor-gtk/i18n.h"
+#include "editor-gtk/cells.h"
 
 #include <string.h>
 
@@ -21,22 +21,6 @@ static bool is_check(enum field field)
 }
 
 /* ---- what a person did ---- */
-
-static void show_refusal(GtkWidget *cell, char *why)
-{
-	if (why) {
-		gtk_widget_add_css_class(cell, "error");
-		gtk_widget_set_tooltip_text(cell, why);
-		gtk_accessible_update_state(GTK_ACCESSIBLE(cell),
-			GTK_ACCESSIBLE_STATE_INVALID, GTK_ACCESSIBLE_INVALID_TRUE, -1);
-	} else {
-		gtk_widget_remove_css_class(cell, "error");
-		gtk_widget_set_tooltip_text(cell, NULL);
-		gtk_accessible_reset_state(GTK_ACCESSIBLE(cell),
-					   GTK_ACCESSIBLE_STATE_INVALID);
-	}
-	g_free(why);
-}
 
 /* What stands in the cell is what is meant, unless it was refused already. */
 static void commit(GtkWidget *cell, GtkListItem *item)
@@ -57,7 +41,10 @@ static void commit(GtkWidget *cell, GtkListItem *item)
 	g_object_ref(row);
 	good = strcmp(text, panel_row_text(row, cells->field)) == 0 ||
 	       cells->set(cells->owner, row, cells->field, text, &why);
-	show_refusal(cell, good ? NULL : why ? why : g_strdup(_("Refused")));
+	if (good)
+		cells_refuse(cell, NULL);
+	else
+		cells_refused(cell, why);
 	g_object_set_data_full(G_OBJECT(cell), "refused", good ? NULL : text, g_free);
 	if (good)
 		g_free(text);
@@ -92,7 +79,7 @@ static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 	    strcmp(text, gtk_editable_get_text(GTK_EDITABLE(cell))) == 0)
 		return FALSE;
 	gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	show_refusal(cell, NULL);
+	cells_refuse(cell, NULL);
 	return TRUE;
 }
 
@@ -107,21 +94,15 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 		return;
 	g_object_ref(row);
 	if (cells->set(cells->owner, row, cells->field, is ? "" : "1", &why))
-		show_refusal(GTK_WIDGET(check), NULL);
+		cells_refuse(GTK_WIDGET(check), NULL);
 	else {
 		gtk_check_button_set_active(check, is);
-		show_refusal(GTK_WIDGET(check), why ? why : g_strdup(_("Refused")));
+		cells_refused(GTK_WIDGET(check), why);
 	}
 	g_object_unref(row);
 }
 
 /* ---- the factory ---- */
-
-static void add_controller(GtkWidget *cell, const char *name, GtkEventController *controller)
-{
-	gtk_widget_add_controller(cell, controller);
-	g_object_set_data(G_OBJECT(cell), name, controller);
-}
 
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
 {
@@ -133,8 +114,8 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer
 	if (is_check(cells->field)) {
 		gtk_widget_set_halign(cell, GTK_ALIGN_CENTER);
 	} else {
-		add_controller(cell, "focus", gtk_event_controller_focus_new());
-		add_controller(cell, "keys", gtk_event_controller_key_new());
+		cells_add(cell, "focus", gtk_event_controller_focus_new());
+		cells_add(cell, "keys", gtk_event_controller_key_new());
 		gtk_entry_set_has_frame(GTK_ENTRY(cell), FALSE);
 		gtk_widget_add_css_class(cell, "field");
 	}
@@ -168,7 +149,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 				     symbol_field_name(cells->field));
 
 	(void)factory;
-	show_refusal(cell, NULL);
+	cells_refuse(cell, NULL);
 	gtk_widget_set_sensitive(cell, !is_fixed(cells, row));
 	if (is_check(cells->field)) {
 		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cells - what cells that can be edited share; see cells.h.
+ */
+#include "editor-gtk/cells.h"
+
+#include "editor-gtk/i18n.h"
+
+void cells_refuse(GtkWidget *cell, char *why)
+{
+	if (why) {
+		gtk_widget_add_css_class(cell, "error");
+		gtk_widget_set_tooltip_text(cell, why);
+		gtk_accessible_update_state(GTK_ACCESSIBLE(cell),
+			GTK_ACCESSIBLE_STATE_INVALID, GTK_ACCESSIBLE_INVALID_TRUE, -1);
+	} else {
+		gtk_widget_remove_css_class(cell, "error");
+		gtk_widget_set_tooltip_text(cell, NULL);
+		gtk_accessible_reset_state(GTK_ACCESSIBLE(cell),
+					   GTK_ACCESSIBLE_STATE_INVALID);
+	}
+	g_free(why);
+}
+
+void cells_refused(GtkWidget *cell, char *why)
+{
+	cells_refuse(cell, why ? why : g_strdup(_("Refused")));
+}
+
+void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller)
+{
+	gtk_widget_add_controller(cell, controller);
+	g_object_set_data(G_OBJECT(cell), name, controller);
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cells - what the cells of tables that can be edited share. What a cell means, and how
+ * it is edited, is the table's business.
+ */
+#ifndef EDITOR_CELLS_H
+#define EDITOR_CELLS_H
+
+#include <gtk/gtk.h>
+
+/** cells_refuse - marks a cell as refused, and says @why; NULL: it is not. Takes @why. */
+void cells_refuse(GtkWidget *cell, char *why);
+/** cells_refused - the same of an edit that did not succeed; @why may be NULL. Takes it. */
+void cells_refused(GtkWidget *cell, char *why);
+/** cells_add - a controller of @cell, to be found as its data @name. */
+void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller);
+
+#endif
