@@ -231,7 +231,7 @@ $(BUILD)/rung.lang: $(BUILD)/rung-language
 	$< >$@.new && mv $@.new $@
 $(BUILD)/editor-gtk/resources.c: $(EDITOR_RES) $(BUILD)/rung.lang $(wildcard editor-gtk/ui/*)
 	@mkdir -p $(@D)
-	glib-compile-resources --sourcedir=editor-gtk --sourcedir=$(BUILD) --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml
+	glib-compile-resources --sourcedir=editor-gtk --sourcedir=packaging --sourcedir=$(BUILD) --target=$@ --generate-source --c-name rungboard editor-gtk/rungboard.gresource.xml
 $(BUILD)/editor-gtk/resources.o: $(BUILD)/editor-gtk/resources.c
 	$(CC) $(STD) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 $(BUILD)/libeditor.a: $(EDITOR_OBJ)

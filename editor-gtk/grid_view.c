@@ -256,6 +256,7 @@ static void rungs_changed(LadderGridView *view, int pou, int at, int removed, in
 	}
 	if (view->count >= 0)
 		view->count += inserted - removed;
+	strips_stale(view, at, removed); /* a popup that closes asks where the cursor is */
 	forget_edit(view);
 	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	if (removed != inserted)
@@ -277,6 +278,7 @@ static void variable_changed(LadderGridView *view, int pou, const char *name,
 
 static void project_changed(LadderGridView *view)
 {
+	strips_stale(view, 0, (int)view->strips->len);
 	forget_edit(view);
 	forget_before(view);
 	live_forget_all(view);

@@ -105,6 +105,8 @@ static graphene_rect_t rect_at_100(LadderGridView *view)
 	if (view->cursor.rung >= (int)view->strips->len)
 		return GRAPHENE_RECT_INIT(0, 0, 0, 0);
 	strip = strips_get(view, view->cursor.rung);
+	if (!strip->layout) /* it is gone, and the strips do not know it yet */
+		return GRAPHENE_RECT_INIT(0, 0, 0, 0);
 	rect = rung_layout_cell(strip->layout, view->cursor.row, view->cursor.col);
 	rect.origin.y += strip->y;
 	return rect;

@@ -146,6 +146,8 @@ void strips_init(LadderGridView *view);
 void strips_clear(LadderGridView *view);
 /** strips_reset - all rungs may be others. */
 void strips_reset(LadderGridView *view);
+/** strips_stale - so many are gone: what is remembered of them goes before anybody asks. */
+void strips_stale(LadderGridView *view, int at, int count);
 /** strips_splice - some are. */
 void strips_splice(LadderGridView *view, int at, int removed, int inserted);
 /** strips_renamed - a variable of this name, at this address or "", came or went. */

@@ -173,6 +173,12 @@ void strips_reset(LadderGridView *view)
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
+void strips_stale(LadderGridView *view, int at, int count)
+{
+	for (int i = at; i < at + count && i < (int)view->strips->len; i++)
+		forget(strip_of(view, i));
+}
+
 /* There are more or fewer before it; nothing else of it changed. */
 static void renumber(LadderGridView *view, int rung)
 {
@@ -189,8 +195,7 @@ void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 	const struct strip none = { 0 };
 	const int columns = view->columns;
 
-	for (int i = at; i < at + removed; i++)
-		forget(strip_of(view, i));
+	strips_stale(view, at, removed);
 	g_array_remove_range(view->strips, (guint)at, (guint)removed);
 	for (int i = 0; i < inserted; i++)
 		g_array_insert_val(view->strips, (guint)at, none);
