@@ -187,7 +187,7 @@ static void renumber(LadderGridView *view, int rung)
 	forget_drawing(strip);
 	live_forget(strip);
 	if (strip->layout)
-		strip->layout->number = rung + 1;
+		strip->layout->number = view->first + rung + 1;
 }
 
 void strips_splice(LadderGridView *view, int at, int removed, int inserted)
