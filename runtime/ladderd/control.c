@@ -57,6 +57,14 @@ static void add_us(struct block *block, const char *word, int64_t ns)
 	    (long long)(ns % 1000 / 100));
 }
 
+/* Nanoseconds: a program may be done in fewer than a hundred. */
+static void add_fine(struct block *block, const struct stats *stats)
+{
+	add(block, "body: mean %lld ns, max %lld ns, p50 %lld ns\n",
+	    (long long)stats_mean(stats), (long long)stats->max_ns,
+	    (long long)stats_share(stats, 500));
+}
+
 static void add_times(struct block *block, const char *word,
 		      const struct stats *stats)
 {
@@ -132,7 +140,16 @@ static void add_retain(struct block *block, const struct store *store)
 	    (unsigned)status.writes, (unsigned)status.failures);
 }
 
-/* One line a task; a full block goes out between them. */
+/* What fills half a block goes out. */
+static void make_room(struct block *block, bool wait)
+{
+	if (block->len <= BLOCK_BYTES / 2)
+		return;
+	put(STDOUT_FILENO, block->text, block->len, wait);
+	block->len = 0;
+}
+
+/* One line a task. */
 static void put_tasks(const struct resource *resource, struct block *block,
 		      bool wait)
 {
@@ -143,10 +160,7 @@ static void put_tasks(const struct resource *resource, struct block *block,
 		const struct task_state *state = &resource->tasks.state[i];
 		const char *name = task_name(program, i);
 
-		if (block->len > BLOCK_BYTES / 2) {
-			put(STDOUT_FILENO, block->text, block->len, wait);
-			block->len = 0;
-		}
+		make_room(block, wait);
 		if (*name)
 			add(block, "task %.40s: ", name);
 		else
@@ -173,10 +187,12 @@ void control_status(const struct cycle *cycle, bool wait)
 	add(&block, "scans: %llu\n", (unsigned long long)cycle->scans);
 	add_us(&block, "period:", cycle->period_ns);
 	add_times(&block, "\nscan: last", &cycle->scan);
+	add_fine(&block, &cycle->body);
 	add_times(&block, "wake-up: last", &cycle->wake);
 	add(&block, "late: %llu\nresets: %llu\n",
 	    (unsigned long long)cycle->late,
 	    (unsigned long long)cycle->resets);
+	make_room(&block, wait);
 	if (cycle->tasks)
 		put_tasks(&cycle->resource, &block, wait);
 	add_io(&block, &cycle->hal);

@@ -128,8 +128,11 @@ static bool scan_program(struct cycle *cycle, int64_t now_ns)
 {
 	struct resource *resource = &cycle->resource;
 	struct store *store = cycle->store;
+	int64_t begin_ns = clock_now();
+	bool good = resource_scan(resource, now_ns);
 
-	if (!resource_scan(resource, now_ns) && !resource->halted)
+	stats_add(&cycle->body, clock_now() - begin_ns);
+	if (!good && !resource->halted)
 		return false;
 	if (store)
 		store_take(store, &resource->image, now_ns);

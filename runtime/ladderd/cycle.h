@@ -36,6 +36,7 @@ struct cycle {
 	uint64_t resets;       /* of a latched fault                          */
 	int64_t late_row;      /* scans in a row that were late               */
 	struct stats scan, wake;
+	struct stats body;     /* the program alone, no lines                 */
 	int64_t tended_ns;     /* lines, in FAULT                             */
 	int clock_error;       /* errno of a clock that does not work         */
 };
