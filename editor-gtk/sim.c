@@ -5,33 +5,12 @@
  * What it shows is the newest copy, or, when a scan that was is asked for, a replay of the
  * record. The thread is there from begin to end.
  */
-#include "editor-gtk/sim_inside.h"
+#include "editor-gtk/sim_object.h"
 
 #include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
 
 #include "engine/base/limits.h"
-
-struct _LadderSim {
-	GObject parent;
-	LadderDocument *document;
-	struct sim_rungs *rungs;
-	struct sim_thread *thread;  /* NULL: off                               */
-	struct sim_view view;       /* the newest                              */
-	struct replay replay;       /* the past; twin of no program: none yet  */
-	bool past;
-	guint refused;              /* of the view's refusal, that were told of */
-	bool failed;                /* told that an operation failed           */
-	enum sim_state told;        /* the last state that signals told of     */
-	gint64 period_ns;
-	double speed;
-	char *plant_path;
-	struct sim_program *plant;
-	/* Another program is built: */
-	struct sim_program *newest; /* that the thread was given last          */
-	guint64 version;            /* of the document that the last one was of */
-	bool building;
-};
 
 enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
@@ -50,12 +29,6 @@ static void tell(LadderSim *sim, const char *text, bool bad)
 }
 
 /* ---- what comes from the thread ---- */
-
-static void forget_replay(LadderSim *sim)
-{
-	replay_free(&sim->replay);
-	sim->past = false;
-}
 
 static void tell_fault(LadderSim *sim)
 {
@@ -120,7 +93,7 @@ static bool take(LadderSim *sim)
 	if (!sim_thread_take(sim->thread, &sim->view, &other))
 		g_error("out of memory");
 	if (other) {
-		forget_replay(sim);
+		sim_forget_replay(sim);
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 		tell_edit(sim);
 	}
@@ -229,7 +202,7 @@ void ladder_sim_end(LadderSim *sim)
 	if (!sim->thread)
 		return;
 	g_clear_pointer(&sim->thread, sim_thread_free);
-	forget_replay(sim);
+	sim_forget_replay(sim);
 	sim_view_clear(&sim->view);
 	g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 	tell_state(sim);
@@ -469,129 +442,6 @@ void ladder_sim_release_all(LadderSim *sim)
 		ladder_sim_act(sim, &act);
 }
 
-/* ---- what is shown ---- */
-
-const struct twin *ladder_sim_twin(LadderSim *sim)
-{
-	if (!sim->thread)
-		return NULL;
-	return sim->past ? &sim->replay.twin : &sim->view.twin;
-}
-
-bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out)
-{
-	return sim->thread && sim_thread_lateness(sim->thread, out);
-}
-
-struct ladder *ladder_sim_ladder(LadderSim *sim)
-{
-	return sim->view.program ? sim->view.program->ladder : NULL;
-}
-
-struct ladder *ladder_sim_plant_ladder(LadderSim *sim)
-{
-	return sim->view.plant ? sim->view.plant->ladder : NULL;
-}
-
-int ladder_sim_rung(LadderSim *sim, int pou, int rung)
-{
-	return sim->thread ? sim_rungs_find(sim->rungs, pou, rung) : -1;
-}
-
-bool ladder_sim_is_forced(LadderSim *sim, struct location at)
-{
-	const struct twin *twin = ladder_sim_twin(sim);
-
-	return twin && image_is_forced(&twin->resource.image, at);
-}
-
-int ladder_sim_forces(LadderSim *sim)
-{
-	const struct twin *twin = ladder_sim_twin(sim);
-
-	return twin ? twin->resource.image.force_count + twin->plant.image.force_count : 0;
-}
-
-/* ---- the past ---- */
-
-guint64 ladder_sim_first(LadderSim *sim)
-{
-	const struct record *record = ladder_sim_lock_record(sim);
-	guint64 first = 0;
-
-	if (record) {
-		first = record_first(record);
-		ladder_sim_unlock_record(sim);
-	}
-	return first;
-}
-
-guint64 ladder_sim_last(LadderSim *sim)
-{
-	const struct record *record = ladder_sim_lock_record(sim);
-	guint64 last = 0;
-
-	if (record) {
-		last = record_last(record);
-		ladder_sim_unlock_record(sim);
-	}
-	return last;
-}
-
-/* A scan at a time, so that the thread need not wait for long. */
-static bool replay_to(LadderSim *sim, guint64 scan)
-{
-	bool good = true, begun = false;
-
-	while (good) {
-		const struct record *record = sim_thread_lock(sim->thread);
-
-		if (!begun)
-			good = (sim->replay.twin.resource.image.program ||
-				replay_init(&sim->replay, record)) &&
-			       replay_jump(&sim->replay, record, scan);
-		else
-			good = replay_next(&sim->replay, record);
-		begun = true;
-		sim_thread_unlock(sim->thread);
-		if (sim->replay.twin.scan >= scan)
-			return good;
-	}
-	return false;
-}
-
-bool ladder_sim_show(LadderSim *sim, guint64 scan)
-{
-	if (!sim->thread || !replay_to(sim, scan))
-		return false;
-	sim->past = true;
-	g_signal_emit(sim, signals[SHOWN], 0);
-	return true;
-}
-
-void ladder_sim_show_now(LadderSim *sim)
-{
-	if (!sim->past)
-		return;
-	sim->past = false;
-	g_signal_emit(sim, signals[SHOWN], 0);
-}
-
-bool ladder_sim_is_past(LadderSim *sim)
-{
-	return sim->past;
-}
-
-const struct record *ladder_sim_lock_record(LadderSim *sim)
-{
-	return sim->thread ? sim_thread_lock(sim->thread) : NULL;
-}
-
-void ladder_sim_unlock_record(LadderSim *sim)
-{
-	sim_thread_unlock(sim->thread);
-}
-
 /* ---- the object ---- */
 
 static void ladder_sim_dispose(GObject *object)
@@ -599,7 +449,7 @@ static void ladder_sim_dispose(GObject *object)
 	LadderSim *sim = LADDER_SIM(object);
 
 	g_clear_pointer(&sim->thread, sim_thread_free);
-	forget_replay(sim);
+	sim_forget_replay(sim);
 	sim_view_clear(&sim->view);
 	g_clear_pointer(&sim->plant, sim_program_unref);
 	g_clear_pointer(&sim->newest, sim_program_unref);

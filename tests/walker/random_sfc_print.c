@@ -430,7 +430,7 @@ static void put_action(struct page *page, int number)
 	uint64_t key = chart_key(page->chart->seed, 300u + (uint32_t)number);
 	struct random_source source = chart_source(key);
 	int rungs = 1 + (int)random_below(&source, 4);
-	char call[8];
+	char call[16];
 
 	snprintf(call, sizeof(call), " A%d(", number);
 	if (!strstr(page->out, call))

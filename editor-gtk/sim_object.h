@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim_object - what the files of LadderSim share: sim.c runs it, sim_past.c shows it.
+ *
+ * Private to them.
+ */
+#ifndef EDITOR_SIM_OBJECT_H
+#define EDITOR_SIM_OBJECT_H
+
+#include "editor-gtk/sim_inside.h"
+
+struct _LadderSim {
+	GObject parent;
+	LadderDocument *document;
+	struct sim_rungs *rungs;
+	struct sim_thread *thread;  /* NULL: off                               */
+	struct sim_view view;       /* the newest                              */
+	struct replay replay;       /* the past; twin of no program: none yet  */
+	bool past;
+	guint refused;              /* of the view's refusal, that were told of */
+	bool failed;                /* told that an operation failed           */
+	enum sim_state told;        /* the last state that signals told of     */
+	gint64 period_ns;
+	double speed;
+	char *plant_path;
+	struct sim_program *plant;
+	/* Another program is built: */
+	struct sim_program *newest; /* that the thread was given last          */
+	guint64 version;            /* of the document that the last one was of */
+	bool building;
+};
+
+/** sim_forget_replay - now is shown, and nothing of the past is kept. */
+void sim_forget_replay(LadderSim *sim);
+#endif
