@@ -443,8 +443,77 @@ static void test_random(void)
 	CHECK(changed > SEEDS / 2);
 }
 
+/* ---- charts ---- */
+
+#define CHART(first, other) \
+	"VAR\n  Go AT %IX0.0 : BOOL;\n  Valve : BOOL;\n  Late : BOOL;\n" \
+	"  Once : INT;\nEND_VAR\n" \
+	"PROGRAM Main SFC\n" first \
+	"INITIAL_STEP Idle:\nEND_STEP\n" \
+	"STEP Fill:\n  Valve(S);\n  Late(SD, T#100ms);\n  Count(P1);\nEND_STEP\n" \
+	"STEP Hold:\nEND_STEP\nSTEP Empty:\n  Valve(R);\n  Late(R);\nEND_STEP\n" \
+	other \
+	"TRANSITION FROM Idle TO Fill := Go; END_TRANSITION\n" \
+	"TRANSITION FROM Fill TO Hold := Fill.T >= T#30ms; END_TRANSITION\n" \
+	"TRANSITION FROM Hold TO Empty := Hold.T >= T#90ms; END_TRANSITION\n" \
+	"TRANSITION FROM Empty TO Idle := NOT Go; END_TRANSITION\n" \
+	"ACTION Count:\n  LD Once\n  ADD 1\n  ST Once\nEND_ACTION\n" \
+	"END_PROGRAM\n"
+static const char chart[] = CHART("", "");
+/* Steps before and behind, one of them initial; and it is operated from outside. */
+static const char more_chart[] = CHART(
+	"CONTROL(HOLD := %MX7.0);\nINITIAL_STEP Other:\n  %MX8.0(N);\nEND_STEP\n",
+	"STEP Else:\nEND_STEP\n"
+	"TRANSITION FROM Other TO Else := %IX0.7; END_TRANSITION\n"
+	"TRANSITION FROM Else TO Other := %IX0.6; END_TRANSITION\n");
+
+static bool same_chart(struct rig *a, struct rig *b)
+{
+	static const char *const names[] = {
+		"Valve", "Late", "Once", "Main.Idle.X", "Main.Fill.X", "Main.Hold.X",
+		"Main.Empty.X", "Main.Fill.T", "Main.Hold.T", "Main.Empty.T",
+	};
+	bool same = true;
+
+	for (size_t i = 0; i < sizeof(names) / sizeof(*names); i++)
+		same &= rig_get(a, names[i]) == rig_get(b, names[i]);
+	return same;
+}
+
+/* Wherever the chart stands when it is changed, it goes on as it would have. */
+static void test_chart(void)
+{
+	bool same = true, alone = true;
+
+	for (int at = 1; at < 30; at++) {
+		struct rig old, new;
+
+		rig_open(&old, chart, true);
+		rig_open(&new, more_chart, true);
+		for (int i = 0; i < at; i++) {
+			rig_set(&old, "Go", i > 1 && i < 25);
+			rig_scan(&old);
+		}
+		change(&new, &old);
+		for (int i = at; i < 40; i++) {
+			rig_set(&old, "Go", i > 1 && i < 25);
+			rig_set(&new, "Go", i > 1 && i < 25);
+			rig_scan(&old);
+			rig_scan(&new);
+			same &= same_chart(&old, &new);
+			alone &= !rig_get(&new, "Main.Other.X");
+		}
+		CHECK(rig_get(&old, "Once") == 1 && !rig_get(&old, "Valve"));
+		rig_close(&old);
+		rig_close(&new);
+	}
+	CHECK(same);
+	CHECK(alone); /* a start is no part of a change */
+}
+
 int main(void)
 {
+	test_chart();
 	test_random();
 	test_values();
 	test_forces();

@@ -321,6 +321,28 @@ static void add_edges(struct assembler *as, struct maps *maps, int index)
 	}
 }
 
+/* What a chart remembers between scans beside its steps. */
+static void add_memories(struct assembler *as, struct maps *maps, int index)
+{
+	const struct unit *unit = &as->translation->unit[index];
+	const struct temps *temps = unit->temps;
+
+	if (!temps || !temps->memory_count)
+		return;
+	add_group(as, maps, (uint32_t)index + 1, 0);
+	for (int i = 0; i < temps->memory_count && !as->failed; i++) {
+		const struct temp_memory *memory = &temps->memory[i];
+		const struct word_pin like = { .type = memory->var->type };
+		enum diag_id why;
+		const struct meaning *m = scope_find(as->translation->scope, unit->pou,
+						     memory->var->name, &why);
+
+		if (m)
+			add_part(as, maps, memory->key, &like,
+				 layout_spot(as, m).offset, SYMBOL_HIDDEN);
+	}
+}
+
 static void count_names(struct maps *maps, const struct var_table *vars)
 {
 	for (int i = 0; i < vars->count; i++)
@@ -342,8 +364,10 @@ static bool make_maps(struct assembler *as, struct maps *maps)
 	add_table(as, maps, NULL, &project->globals);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		add_table(as, maps, &project->pou[i], &project->pou[i].vars);
-	for (int i = 0; i < as->translation->unit_count; i++)
+	for (int i = 0; i < as->translation->unit_count; i++) {
 		add_edges(as, maps, i);
+		add_memories(as, maps, i);
+	}
 	drop_empty_group(maps);
 	for (int i = 0; i < as->translation->unit_count; i++)
 		as->entry[i].name = add_name(as, maps, project->pou[i].name);

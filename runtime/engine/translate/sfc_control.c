@@ -128,14 +128,11 @@ static void put_force(struct sfc_il *s)
 	sfc_here(s, on);
 }
 
-/* The first scan makes the initial steps active. */
-static void put_start(struct sfc_il *s)
+void sfc_start(struct sfc_il *s)
 {
 	const uint32_t runs = sfc_var(s, "Runs", -1, IEC_BOOL);
 	const uint32_t on = sfc_label(s, "Running", -1);
 
-	if (sfc_starts_itself(s))
-		return;
 	sfc_op(s, OP_LD, 0, runs);
 	sfc_jump_if(s, on);
 	sfc_set(s, runs, true);
@@ -222,7 +219,8 @@ void sfc_control(struct sfc_il *s)
 	}
 	if (has_modes(s))
 		put_modes(s);
-	put_start(s);
+	if (!sfc_starts_itself(s))
+		sfc_start(s);
 	sfc_supervise(s);
 	if (reset)
 		put_reset(s, rises);

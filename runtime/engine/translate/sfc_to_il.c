@@ -78,6 +78,47 @@ void sfc_jump_unless(struct sfc_il *s, uint32_t label)
 	sfc_op(s, OP_JMP, MOD_C | MOD_N, label);
 }
 
+/* Whose state a variable is, if it outlives a scan; the others are FALSE between two. */
+enum owner { OWNER_NONE, OWNER_CHART, OWNER_USE, OWNER_CALLED };
+
+static enum owner owner_of(const char *name)
+{
+	static const struct { const char *name; enum owner owner; } kept[] = {
+		{ "Runs", OWNER_CHART }, { "Last", OWNER_CHART }, { "Fired", OWNER_CHART },
+		{ "ResetWas", OWNER_CHART }, { "TipWas", OWNER_CHART },
+		{ "ForceWas", OWNER_CHART }, { "Kept", OWNER_USE }, { "Wait", OWNER_USE },
+		{ "Since", OWNER_USE }, { "Was", OWNER_CALLED }, { "Due", OWNER_CALLED },
+	};
+
+	for (size_t i = 0; i < sizeof(kept) / sizeof(*kept); i++)
+		if (strcmp(kept[i].name, name) == 0)
+			return kept[i].owner;
+	return OWNER_NONE;
+}
+
+/* A changed chart goes on with what has the same key: "SFC Kept Fill Valve S". */
+static void remember(struct sfc_il *s, const char *name, int number)
+{
+	const struct names *names = &s->ld.translation->project->names;
+	const enum owner owner = owner_of(name);
+	const struct sfc_use *use = owner == OWNER_USE ? &s->sfc->use[number] : NULL;
+	const struct sfc_called *called = owner == OWNER_CALLED ? &s->called[number] : NULL;
+	char key[2 * LIMIT_NAME + 32];
+
+	if (owner == OWNER_NONE)
+		return;
+	snprintf(key, sizeof(key), "SFC %.8s", name);
+	if (use)
+		snprintf(key, sizeof(key), "SFC %.8s %.*s %.*s %s", name, LIMIT_NAME,
+			 names_text(names, s->sfc->step[use->step].name), LIMIT_NAME,
+			 names_text(names, use->operand), qualifier_word(use->qualifier));
+	if (called)
+		snprintf(key, sizeof(key), "SFC %.8s %.*s", name, LIMIT_NAME,
+			 names_text(names, called->action < 0 ? called->operand :
+				    s->sfc->action[called->action].name));
+	s->ld.failed |= !temps_remember(s->ld.temps, key);
+}
+
 /* The list that is watched comes second, with the variables of the first. */
 static uint32_t declare(struct sfc_il *s, const char *name, int number,
 			struct var like)
@@ -90,6 +131,8 @@ static uint32_t declare(struct sfc_il *s, const char *name, int number,
 	s->ld.failed |= !temps_named(s->ld.temps,
 				     names_text(&s->ld.translation->project->names, id),
 				     &like);
+	if (!s->ld.failed)
+		remember(s, name, number);
 	return id;
 }
 
@@ -256,9 +299,7 @@ static bool begin(struct sfc_il *s)
 	for (int i = 0; i < s->sfc->step_count; i++)
 		sfc_var(s, "Left", i, IEC_BOOL);
 	for (int i = 0; i < s->sfc->step_count; i++)
-		declare_bool(s, "Entered", i, sfc_starts_itself(s) &&
-			     s->sfc->step[i].kind == STEP_INITIAL &&
-			     s->sfc->step[i].macro < 0);
+		sfc_var(s, "Entered", i, IEC_BOOL);
 	sfc_find_duties(s);
 	sfc_find_called(s);
 	return !s->ld.failed;

@@ -65,8 +65,8 @@ void sfc_jump_if(struct sfc_il *s, uint32_t label);
 void sfc_jump_unless(struct sfc_il *s, uint32_t label);
 /** sfc_var - a variable of the chart's own: "_Left3"; declared at its first use. */
 uint32_t sfc_var(struct sfc_il *s, const char *name, int number, enum iec_type type);
-/** sfc_starts_itself - does the first scan find that its initial steps are to be entered, as
- * if something had fired? Else the chart looks whether it runs. */
+/** sfc_starts_itself - does the first scan begin as if something had fired, so that only who
+ * leaves steps looks whether the chart runs? */
 bool sfc_starts_itself(const struct sfc_il *s);
 /** sfc_x_name, sfc_t_name - the names of Step.X and Step.T. */
 uint32_t sfc_x_name(const struct sfc_il *s, int step);
@@ -97,6 +97,8 @@ void sfc_enter(struct sfc_il *s);
 /* ---- sfc_control.c ---- */
 /** sfc_control - start, supervision, RESET, FORCE and the modes. */
 void sfc_control(struct sfc_il *s);
+/** sfc_start - the first scan makes the initial steps active; the others go on behind it. */
+void sfc_start(struct sfc_il *s);
 /** sfc_stop - RESET and HOLD let nothing fire. */
 void sfc_stop(struct sfc_il *s);
 /** sfc_allow - the result, a condition, as the mode has it. */

@@ -49,6 +49,20 @@ uint32_t temps_named(struct temps *temps, const char *name, const struct var *li
 	return var->name;
 }
 
+bool temps_remember(struct temps *temps, const char *key)
+{
+	struct arena *arena = temps->translation->arena;
+	const char *copy = arena_copy(arena, key, strlen(key));
+	struct temp_memory *slot = arena_push(arena, &temps->memory, &temps->memory_count,
+					      sizeof(*slot));
+
+	if (slot)
+		*slot = (struct temp_memory){
+			temps->unit->temp[temps->unit->temp_count - 1], copy,
+		};
+	return slot && copy;
+}
+
 /* @like: its type. 0: no memory. */
 static uint32_t declare_like(struct temps *temps, char letter, int number,
 			     const struct var *like)

@@ -14,6 +14,10 @@
 /* One that holds a structure or array. */
 struct temp_whole { const struct var *var; bool used; };
 
+/* A variable of a chart that a changed program must find again (scan/carry.h): what it
+ * remembers, with a blank. */
+struct temp_memory { const struct var *var; const char *key; };
+
 struct temps {
 	struct translation *translation;
 	struct unit *unit;
@@ -28,11 +32,16 @@ struct temps {
 	int numbers_made;
 	struct temp_whole *whole;
 	int whole_count;
+	struct temp_memory *memory;
+	int memory_count;
 };
 
 /** temps_named - declares a variable like @like under a name of its own. Its string id; 0:
  * no memory. */
 uint32_t temps_named(struct temps *temps, const char *name, const struct var *like);
+/** temps_remember - the variable that was declared last is known by @key, too, which is
+ * copied. Fails: false: no memory. */
+bool temps_remember(struct temps *temps, const char *key);
 /** temps_rung - what belongs to one rung may be used anew. */
 void temps_rung(struct temps *temps);
 /* The next name of its kind, a string id; 0 when memory is out. */
