@@ -55,6 +55,26 @@ sub broken_line {
 	return { line => $i + 1, row => $was, text => join("\n", @lines) };
 }
 
+# A condition of a chart that is turned round or always true, or a line of a step that is
+# left out.
+sub broken_chart {
+	my ($i, @lines) = @_;
+	my @all;
+	my $add = sub {
+		my ($row) = @_;
+		my @copy = @lines;
+		$copy[$i] = $row;
+		push @all, { line => $i + 1, row => $row, text => join("\n", @copy) };
+	};
+
+	if ($lines[$i] =~ /^(\s+TRANSITION .* := )(.*)(; END_TRANSITION)$/) {
+		$add->("$1NOT ($2)$3");
+		$add->("$1TRUE$3") if $2 ne 'TRUE';
+	}
+	$add->('') if $lines[$i] =~ /^\s+(?:\w+\(\w+(?:, [\w#]+)?\)|(?:RE)?SET .*);$/;
+	return @all;
+}
+
 # The program once for each contact and each way to break it.
 sub broken {
 	my ($text) = @_;
@@ -62,7 +82,7 @@ sub broken {
 	my %turned = (NO => 'NC', NC => 'NO');
 	my @all;
 	for my $i (0 .. $#lines) {
-		push @all, broken_line($i, @lines);
+		push @all, broken_line($i, @lines), broken_chart($i, @lines);
 		next if $lines[$i] !~ /^\s*\|/;
 		while ($lines[$i] =~ /\| \K(NO|NC) [\w.%]+/g) {
 			my ($word, $at, $end) = ($1, $-[0], $+[0]);
