@@ -48,7 +48,7 @@ static void step_name(struct random_source *source, const struct random_chart *c
 /* A BOOL to read. */
 static void put_bool(struct page *page, struct random_source *source)
 {
-	char name[16];
+	char name[32];
 	int number = (int)random_below(source, 8);
 
 	switch (random_below(source, 16)) {
@@ -88,7 +88,7 @@ static const char *some_time(struct random_source *source)
 /* Something that is TRUE or FALSE, for an expression. */
 static void put_atom(struct page *page, struct random_source *source, int step)
 {
-	char name[16];
+	char name[32];
 
 	if (random_chance(source, 25) && step >= 0) {
 		put(page, "S%d.T >= %s", step, some_time(source));
