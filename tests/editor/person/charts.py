@@ -6,11 +6,12 @@ import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+from desk import Editor, check, main, new_file, trace, until  # noqa: E402
 
 EMPTY = 'RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n'
 # To Fill, from there to Heat by I0.1, to Drain by I0.2; back to Start by I0.3.
-SCRIPT = '@10ms 1\n%I0=1\n%I0=0 %I0.2=1\n%I0.2=0 %I0.3=1\n'
+SCRIPT = ('@print Start.X Fill.X Heat.X Drain.X\n.\n%IX0.0=1\n%IX0.0=0 %IX0.2=1\n%IX0.2=0 %IX0.3=1\n'
+          '%IX0.3=0 %IX0.0=1\n%IX0.0=0 %IX0.1=1\n')
 
 
 def chart(editor):
@@ -64,6 +65,11 @@ def finished(editor, path):
         assert line in text, (line, text)
     check(path)
     return text
+
+
+def active(path):
+    """Which step is active after each scan of the script."""
+    return [' '.join(re.findall(r'(\w+)\.X=1', line)) for line in trace(path, SCRIPT).splitlines()]
 
 
 def by_keyboard(screen):
@@ -124,8 +130,7 @@ def by_keyboard(screen):
         editor.keys('ctrl+y')
     until(lambda: len([name for name in shapes(editor) if name.startswith('Step')]) == 4, 'all steps')
     assert open(path).read() == text
-    got = lines(path, SCRIPT)
-    assert got, got
+    assert active(path) == ['Start', 'Fill', 'Drain', 'Start', 'Fill', 'Heat'], active(path)
 
 
 def below(editor, node):
@@ -163,6 +168,13 @@ def twice(editor, node, text):
     on_chart(editor)
 
 
+def lead(editor, start, end, look=None):
+    """Draws a way; the pointer is there before, as a hand is."""
+    editor.click(upon(editor, shape(editor, start)))
+    at(editor, start)
+    editor.drag(below(editor, shape(editor, start)), shape(editor, end), look=look)
+
+
 def by_pointer(screen):
     """by the pointer alone, but for names and conditions"""
     path = new_file(screen, EMPTY)
@@ -173,9 +185,9 @@ def by_pointer(screen):
     twice(editor, shape(editor, 'Step Step1'), 'Heat')
     chosen(editor, shape(editor, 'Step Fill'), 'Alternative branch')
     twice(editor, shape(editor, 'Step Step1'), 'Drain')
-    editor.drag(below(editor, shape(editor, 'Step Heat')), shape(editor, 'Step Start'), look='chart-way')
+    lead(editor, 'Step Heat', 'Step Start', 'chart-way')
     shape(editor, 'from Heat to Start')
-    editor.drag(below(editor, shape(editor, 'Step Drain')), shape(editor, 'Step Start'))
+    lead(editor, 'Step Drain', 'Step Start')
     for ways, condition in (('Start to Fill', 'I0.0'), ('Fill to Heat', 'I0.1'), ('Fill to Drain', 'I0.2'),
                             ('Heat to Start', 'I0.3'), ('Drain to Start', 'I0.3')):
         twice(editor, shape(editor, 'from ' + ways), condition)
@@ -208,16 +220,35 @@ def bodies(screen):
     at(editor, 'from Start to Step1')
     typed(editor, 'I0.0')
     editor.keys('shift+F9')
-    element = editor.element('I0.0')
-    assert 'Rung 1' in element.name
+    assert 'Rung 1' in editor.element('I0.0').name
     editor.to_sheet()
     editor.keys('Home', 'shift+F5')
     editor.opened()
     editor.entry('I0.1')
     editor.shot('chart-rung')
     text = editor.save(path)
-    assert '| NO I0.1 ^|' in text or 'NO I0.1' in text, text
+    assert '      | NO %IX0.1 ^|\n' in text, text
+    # The action: from the line of the step to its rung, where a coil is put.
+    editor.click(shape(editor, 'Step1 does: N Count'), count=2)
+    until(lambda: editor.all('Action Count', 'label'), 'the heading of the action')
+    editor.to_sheet()
+    editor.entry('Q0.5')
+    editor.entry('OUT Q0.6')
+    editor.keys('Insert')
+    editor.entry('OUT Q0.7')
+    text = editor.save(path)
+    assert text.count('    RUNG\n') == 3 and 'COIL %QX0.7' in text, text
     check(path)
+    editor.keys('ctrl+z', 'ctrl+z')
+    # Steps are copied as text, and get names of their own.
+    editor.click(shape(editor, 'Step Step1'))
+    at(editor, 'Step Step1')
+    on_chart(editor)
+    editor.keys('ctrl+c', 'ctrl+v')
+    shape(editor, 'Step Step1_2')
+    shape(editor, 'Step1_2 does: N Count')
+    text = editor.save(path)
+    assert '  STEP Step1_2:\n    Count(N);\n' in text and text.count('    RUNG\n') == 2, text
 
 
 main([by_keyboard, by_pointer, bodies])
