@@ -132,7 +132,7 @@ static int mark_chart(const struct diag_list *diags, const struct sfc_sheet *she
 		struct sfc_mark at;
 
 		if (!diag->pou || g_ascii_strcasecmp(diag->pou, name) != 0 ||
-		    !sfc_sheet_of_diag(sheet, diag, &at.shape, &at.use))
+		    !sfc_sheet_of_diag(sheet, NULL, diag, &at.shape, &at.use))
 			continue;
 		at.signs = diag_severity(diag->id) == SEVERITY_ERROR ? SFC_ERROR :
 								       SFC_WARNING;

@@ -323,14 +323,17 @@ static bool of_rung(const struct sfc_sheet *sheet, int rung, int *shape, int *us
 	return false;
 }
 
-bool sfc_sheet_of_diag(const struct sfc_sheet *sheet, const struct diag *diag, int *shape,
-		       int *use)
+bool sfc_sheet_of_diag(const struct sfc_sheet *sheet, const struct sfc *checked,
+		       const struct diag *diag, int *shape, int *use)
 {
-	const struct sfc *sfc = sheet->layout->sfc;
+	const struct sfc *mine = sheet->layout->sfc, *sfc = checked ? checked : mine;
 
 	*shape = *use = -1;
 	if (diag->rung > 0)
 		return of_rung(sheet, diag->rung - 1, shape, use);
+	if (sfc->step_count != mine->step_count || sfc->use_count != mine->use_count ||
+	    sfc->transition_count != mine->transition_count)
+		return false;
 	for (int i = 0; diag->line > 0 && i < sfc->use_count; i++)
 		if (sfc->use[i].line == diag->line) {
 			*shape = sfc->use[i].step;

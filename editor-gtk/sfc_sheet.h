@@ -66,10 +66,16 @@ struct sfc_at {
 };
 /** sfc_sheet_at - nearest thing whose box is not farther than @slack px. */
 struct sfc_at sfc_sheet_at(const struct sfc_sheet *sheet, float x, float y, float slack);
-/** sfc_sheet_of_diag - what a diagnostic of this POU speaks of, by its line and, of
- * conditions, by its rung.   Fails: false: of nothing in the chart. */
-bool sfc_sheet_of_diag(const struct sfc_sheet *sheet, const struct diag *diag, int *shape,
-		       int *use);
+/**
+ * sfc_sheet_of_diag - what a diagnostic of this POU speaks of, by its line and, of
+ * conditions and actions, by its rung
+ * @checked: the chart that was checked: it knows the lines; one with other steps, ways or
+ *           lines than this one is not asked
+ *
+ * Fails: false: of nothing in the chart.
+ */
+bool sfc_sheet_of_diag(const struct sfc_sheet *sheet, const struct sfc *checked,
+		       const struct diag *diag, int *shape, int *use);
 /** sfc_sheet_can_part - may a page end below row @row? Not inside a box. */
 bool sfc_sheet_can_part(const struct sfc_sheet *sheet, int row);
 

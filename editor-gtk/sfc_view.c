@@ -303,6 +303,17 @@ static void rungs_changed(LadderSfcView *view, int pou)
 		chart_forget_uses(view);
 }
 
+/* The chart that the checks saw: rungs may have been edited since this one was read, so
+ * that lines are others. NULL: not known. */
+static const struct sfc *checked_chart(LadderSfcView *view)
+{
+	struct ladder *ladder = ladder_document_checked(view->document);
+	const struct project *project = ladder ? ladder_project(ladder) : NULL;
+
+	return project && view->pou < project->pou_count ? project->pou[view->pou].sfc :
+	       NULL;
+}
+
 static void checked(LadderSfcView *view)
 {
 	const struct diag_list *diags = ladder_document_diags(view->document);
@@ -315,7 +326,8 @@ static void checked(LadderSfcView *view)
 		struct sfc_mark mark;
 
 		if (!diag->pou || strcmp(diag->pou, project_text(project, pou->name)) != 0 ||
-		    !sfc_sheet_of_diag(view->sheet, diag, &mark.shape, &mark.use))
+		    !sfc_sheet_of_diag(view->sheet, checked_chart(view), diag, &mark.shape,
+				       &mark.use))
 			continue;
 		mark.signs = diag_severity(diag->id) == SEVERITY_ERROR ? SFC_ERROR :
 									 SFC_WARNING;
@@ -351,7 +363,8 @@ char *ladder_sfc_view_tip(LadderSfcView *view, int shape, int use)
 
 		if (!diag->pou || strcmp(diag->pou, project_text(view->sheet->project,
 								 pou->name)) != 0 ||
-		    !sfc_sheet_of_diag(view->sheet, diag, &of_shape, &of_use) ||
+		    !sfc_sheet_of_diag(view->sheet, checked_chart(view), diag, &of_shape,
+				       &of_use) ||
 		    of_shape != shape || of_use != use)
 			continue;
 		said = diag_said_whole(diag);
@@ -408,7 +421,8 @@ void ladder_sfc_view_go(LadderSfcView *view, int rung, int line)
 	struct sfc_at at = { -1, -1, false };
 
 	chart_fresh(view);
-	if (view->sheet && sfc_sheet_of_diag(view->sheet, &place, &at.shape, &at.use))
+	if (view->sheet && sfc_sheet_of_diag(view->sheet, checked_chart(view), &place,
+					     &at.shape, &at.use))
 		chart_go(view, at, false);
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 }
