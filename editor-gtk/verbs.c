@@ -86,14 +86,23 @@ static bool same_key(const char *a, const char *b)
 	       state_a == state_b;
 }
 
-static bool is_given_away(enum key_scheme scheme, const char *key)
+/* Keys of sheets and of charts are not in each other's way. */
+static bool is_apart(const struct key_row *row, enum verb verb)
+{
+	const enum verb_where where = row->word ? VERB_SHEET : rows[row->verb].where;
+
+	return (where == VERB_SHEET && rows[verb].where == VERB_CHART) ||
+	       (where == VERB_CHART && rows[verb].where == VERB_SHEET);
+}
+
+static bool is_given_away(enum key_scheme scheme, const char *key, enum verb verb)
 {
 	bool found = false;
 
 	for (gsize i = 0; !found && i < G_N_ELEMENTS(key_rows); i++) {
 		char **keys;
 
-		if (key_rows[i].scheme != scheme)
+		if (key_rows[i].scheme != scheme || is_apart(&key_rows[i], verb))
 			continue;
 		keys = g_strsplit(key_rows[i].keys, "|", -1);
 		for (char **one = keys; *one; one++)
@@ -113,7 +122,7 @@ char *verb_keys_of(enum verb verb, enum key_scheme scheme)
 			return g_string_free(g_string_assign(left, key_rows[i].keys), FALSE);
 	keys = g_strsplit(rows[verb].keys, "|", -1);
 	for (char **key = keys; *key; key++)
-		if (**key && !is_given_away(scheme, *key))
+		if (**key && !is_given_away(scheme, *key, verb))
 			g_string_append_printf(left, "%s%s", left->len ? "|" : "", *key);
 	g_strfreev(keys);
 	return g_string_free(left, FALSE);
