@@ -48,6 +48,7 @@ int main(void)
 		"pump-two-lab.io", "pumps.io", "other.io", "boards/pi.io", "pump.scn",
 		"pumps.scn", "pump-two.scn",
 	};
+	GPtrArray *none;
 
 	folder = g_dir_make_tmp("rungboard-beside-XXXXXX", NULL);
 	for (gsize i = 0; i < G_N_ELEMENTS(names); i++)
@@ -59,7 +60,9 @@ int main(void)
 	CHECK(are("pump.rung", ".scn", true, "pump.scn"));
 	CHECK(are("pump-two.rung", ".scn", true, "pump-two.scn"));
 	CHECK(are("new.rung", ".io", true, ""));
-	CHECK(files_beside(NULL, ".io", true)->len == 0);
+	none = files_beside(NULL, ".io", true);
+	CHECK(none->len == 0);
+	g_ptr_array_unref(none);
 	for (gsize i = G_N_ELEMENTS(names); i-- > 0;) {
 		char *path = g_build_filename(folder, names[i], NULL);
 
