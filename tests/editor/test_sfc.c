@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_sfc - charts in the editor: nothing is drawn over anything, every place is hit, what
+ * is active is seen without colour, and rungs of bodies are edited and taken back.
+ */
+#include "editor-gtk/document.h"
+#include "editor-gtk/sfc_draw.h"
+#include "tests/editor/drawn.h"
+#include "tests/tap.h"
+
+#include <stdlib.h>
+
+static struct lettering *lettering;
+
+static struct ladder *load(const char *path)
+{
+	struct ladder *ladder = ladder_new();
+
+	if (ladder_load(ladder, path) || ladder_could_read(ladder))
+		return ladder;
+	ladder_free(ladder);
+	return NULL;
+}
+
+/* ---- drawing ---- */
+
+static bool is_inside(const struct stroke *s, const struct sfc_sheet *sheet)
+{
+	return s->x >= 0 && s->y >= 0 && s->x <= sheet->width && s->y <= sheet->height;
+}
+
+/* Texts lie upon no other text and no stroke. */
+static int count_faults(const struct picture *picture, const struct sfc_sheet *sheet)
+{
+	int faults = 0;
+
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *a = &picture->stroke[i];
+
+		faults += !is_inside(a, sheet);
+		if (a->kind != STROKE_TEXT)
+			continue;
+		for (int k = 0; k < picture->count; k++) {
+			const struct stroke *b = &picture->stroke[k];
+			const bool over = b->kind == STROKE_TEXT ?
+				k > i && meet(ink_of(a), ink_of(b)) :
+				b->kind == STROKE_LINE && crosses(ink_of(a), b);
+
+			if (over && faults++ == 0)
+				printf("# \"%s\" at %g, %g\n", a->text, (double)a->x,
+				       (double)a->y);
+		}
+	}
+	return faults;
+}
+
+static void draw(const struct sfc_sheet *sheet, const struct sfc_live *live,
+		 struct picture *picture)
+{
+	const struct sfc_scene scene = { .sheet = sheet, .live = live,
+					 .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
+
+	picture_init(picture);
+	sfc_draw(&scene, picture);
+}
+
+static void check_hits(const struct sfc_sheet *sheet)
+{
+	int missed = 0;
+
+	for (int i = 0; i < sheet->layout->shape_count; i++) {
+		const graphene_rect_t box = sfc_sheet_box(sheet, i);
+		const struct sfc_at at = sfc_sheet_at(sheet,
+			box.origin.x + box.size.width / 2,
+			box.origin.y + box.size.height / 2, 0);
+
+		missed += at.shape != i || at.use != -1;
+	}
+	for (int i = 0; i < sheet->layout->sfc->use_count; i++) {
+		const graphene_rect_t box = sfc_sheet_use(sheet, i);
+		const struct sfc_at at = sfc_sheet_at(sheet,
+			box.origin.x + box.size.width / 2,
+			box.origin.y + box.size.height / 2, 0);
+
+		missed += at.use != i || at.shape != sheet->layout->sfc->use[i].step;
+	}
+	CHECK_AS(missed == 0, "every box and line is hit in its middle");
+	CHECK(sfc_sheet_at(sheet, -100, -100, 10).shape == -1);
+}
+
+static void check_chart(const char *path)
+{
+	struct ladder *ladder = load(path);
+	const struct pou *pou;
+	struct sfc_sheet *sheet;
+	struct picture picture;
+
+	if (!CHECK_AS(ladder != NULL, path))
+		return;
+	pou = &ladder_project(ladder)->pou[0];
+	sheet = sfc_sheet_new(ladder_project(ladder), pou, lettering);
+	draw(sheet, NULL, &picture);
+	CHECK_AS(count_faults(&picture, sheet) == 0, "nothing lies over anything");
+	check_hits(sheet);
+	picture_clear(&picture);
+	sfc_sheet_free(sheet);
+	ladder_free(ladder);
+}
+
+static int count_strokes(const struct picture *picture, enum stroke_kind kind,
+			 enum token token)
+{
+	int count = 0;
+
+	for (int i = 0; i < picture->count; i++)
+		count += picture->stroke[i].kind == kind && picture->stroke[i].token == token;
+	return count;
+}
+
+static bool time_of(void *context, int step, char *out, size_t size)
+{
+	(void)context;
+	snprintf(out, size, "2.5 s");
+	return step == 1;
+}
+
+static void check_live(void)
+{
+	struct ladder *ladder = load("tests/golden/show-sfc-sequence/main.rung");
+	uint8_t step[16] = { SFC_KNOWN, SFC_KNOWN | SFC_ACTIVE }, way[16] = { 0 };
+	const struct sfc_live live = { step, way, time_of, NULL };
+	struct sfc_sheet *sheet;
+	struct picture picture;
+	char *lines;
+
+	if (!CHECK(ladder != NULL))
+		return;
+	way[1] = SFC_KNOWN | SFC_ENABLED;
+	sheet = sfc_sheet_new(ladder_project(ladder), &ladder_project(ladder)->pou[0],
+			      lettering);
+	draw(sheet, &live, &picture);
+	CHECK_AS(count_strokes(&picture, STROKE_FILL, TOKEN_POWER) == 1 &&
+		 count_strokes(&picture, STROKE_FRAME, TOKEN_POWER) == 1,
+		 "the active step is filled");
+	CHECK_AS(count_strokes(&picture, STROKE_DISC, TOKEN_POWER) == 1,
+		 "and has a dot, for who sees no colours");
+	CHECK_AS(count_strokes(&picture, STROKE_LINE, TOKEN_BLOCKS) == 1,
+		 "the transition that waits is seen");
+	lines = picture_lines(&picture);
+	CHECK(strstr(lines, "2.5 s"));
+	g_free(lines);
+	picture_clear(&picture);
+	sfc_sheet_free(sheet);
+	ladder_free(ladder);
+}
+
+/* ---- rungs of bodies ---- */
+
+static const char chart[] =
+	"RUNGBOARD 1\n\nPROGRAM Main SFC\n"
+	"  INITIAL_STEP A:\n    Count(N);\n    More(N);\n  END_STEP\n\n"
+	"  TRANSITION FROM A TO A:\n    RUNG\n      | NO I0.0 | COIL TRANSITION |\n"
+	"  END_TRANSITION\n\n"
+	"  ACTION Count:\n    RUNG\n      | NO I0.1 | COIL Q0.1 |\n"
+	"    RUNG\n      | NO I0.2 | COIL Q0.2 |\n  END_ACTION\n\n"
+	"  ACTION More:\n    RUNG\n      | NO I0.3 | COIL Q0.3 |\n  END_ACTION\n"
+	"END_PROGRAM\n";
+
+static struct rung *rung_of(LadderDocument *document, const char *text)
+{
+	struct diag_list why;
+
+	diag_init(&why);
+	return ladder_read_rung(ladder_document_ladder(document), text, strlen(text), &why);
+}
+
+static bool splice(LadderDocument *document, int at, int removed, const char *one,
+		   const char *two)
+{
+	struct rung *rungs[2] = { one ? rung_of(document, one) : NULL,
+				  two ? rung_of(document, two) : NULL };
+
+	return ladder_document_splice(document, 0, at, removed, rungs,
+				      (one != NULL) + (two != NULL), NULL);
+}
+
+static bool has_text(LadderDocument *document, const char *want)
+{
+	gsize len;
+	char *text = ladder_document_text(document, &len);
+	const bool has = strstr(text, want) != NULL;
+
+	g_free(text);
+	return has;
+}
+
+static void check_bodies(void)
+{
+	LadderDocument *document = ladder_document_new();
+	const char *new = "RUNG\n| NO I0.7 | COIL Q0.7 |\n";
+
+	ladder_document_open_text(document, NULL, chart, strlen(chart), true);
+	CHECK_AS(!splice(document, 1, 0, new, NULL), "it is not sure whose rung it is");
+	CHECK_AS(!splice(document, 0, 1, new, new), "a condition is one rung");
+	CHECK_AS(!splice(document, 2, 2, new, NULL), "two bodies are not one");
+	CHECK(has_text(document, chart));
+	CHECK(splice(document, 1, 1, new, "RUNG\n| NO I0.1 | COIL Q0.1 |\n"));
+	CHECK(has_text(document, "ACTION Count:\n    RUNG\n      | NO I0.7 | COIL Q0.7 |\n"
+		       "    RUNG\n      | NO I0.1 | COIL Q0.1 |\n    RUNG\n"
+		       "      | NO I0.2 | COIL Q0.2 |\n  END_ACTION\n"));
+	CHECK(splice(document, 4, 1, new, NULL));
+	CHECK(has_text(document, "ACTION More:\n    RUNG\n      | NO I0.7 | COIL Q0.7 |\n"));
+	CHECK(splice(document, 0, 1, "RUNG\n| NO I1.0 | COIL TRANSITION |\n", NULL));
+	CHECK(splice(document, 1, 2, new, NULL));
+	CHECK(has_text(document, "ACTION Count:\n    RUNG\n      | NO I0.7 | COIL Q0.7 |\n"
+		       "    RUNG\n      | NO I0.2 | COIL Q0.2 |\n  END_ACTION\n"));
+	for (int i = 0; i < 4; i++)
+		CHECK(ladder_document_undo(document));
+	CHECK_AS(has_text(document, chart), "all taken back: the same bytes");
+	for (int i = 0; i < 4; i++)
+		ladder_document_redo(document);
+	CHECK(has_text(document, "| NO I1.0 | COIL TRANSITION |"));
+	g_object_unref(document);
+}
+
+int main(void)
+{
+	lettering = lettering_new(NULL, NULL);
+	check_chart("tests/golden/show-sfc-sequence/main.rung");
+	check_chart("tests/golden/show-sfc-ways/main.rung");
+	check_chart("ladders/sequence-s0-s8.rung");
+	check_live();
+	check_bodies();
+	lettering_free(lettering);
+	return tap_done();
+}
