@@ -18,13 +18,13 @@
 struct side {
 	struct resource resource;
 	void *memory;
-	struct location at[COMPARED];
 };
 
 struct duel {
 	struct ladder *ladder;
 	struct walker *walker;
 	struct side side[2];  /* plain; watched                              */
+	struct location at[COMPARED];
 	const struct duel_plan *plan;
 	int scan;
 	bool over;            /* a scan has failed on both sides              */
@@ -39,33 +39,40 @@ static void differ(struct duel *duel, int side, const char *what, double engine,
 		 side ? " (watched)" : "", what, engine, walker);
 }
 
-static bool same_values(struct duel *duel, int side)
+static bool same_value(struct duel *duel, int side, int index, struct value mine)
 {
-	struct image *image = &duel->side[side].resource.image;
+	const struct image *image = &duel->side[side].resource.image;
+	union iec_value theirs = image_get(image, duel->at[index]);
+	const char *name = walker_name(duel->walker, index);
+	bool real = mine.type == IEC_REAL || mine.type == IEC_LREAL;
+	double a = real ? theirs.r : (double)theirs.i;
+	double b = mine.type == IEC_LREAL ? mine.d :
+		   real ? (double)mine.r : (double)mine.i;
 
+	if (mine.type == IEC_STRING) {
+		if (theirs.s->length == mine.len &&
+		    memcmp(theirs.s->text, mine.text, (size_t)mine.len) == 0)
+			return true;
+		differ(duel, side, name, theirs.s->length, mine.len);
+		return false;
+	}
+	if (!(real ? a != b && (a == a || b == b) : theirs.i != mine.i))
+		return true;
+	differ(duel, side, name, a, b);
+	return false;
+}
+
+static bool same_values(struct duel *duel)
+{
 	for (int i = 0; i < walker_count(duel->walker) && i < COMPARED; i++) {
-		struct location at = duel->side[side].at[i];
-		struct value mine = walker_value(duel->walker, i);
-		union iec_value theirs = image_get(image, at);
-		bool real = mine.type == IEC_REAL || mine.type == IEC_LREAL;
-		double a = real ? theirs.r : (double)theirs.i;
-		double b = mine.type == IEC_LREAL ? mine.d :
-			   real ? (double)mine.r : (double)mine.i;
+		struct value mine;
 
 		if (!walker_is_settled(duel->walker, i))
 			continue;
-		if (mine.type == IEC_STRING) {
-			if (theirs.s->length == mine.len &&
-			    memcmp(theirs.s->text, mine.text, (size_t)mine.len) == 0)
-				continue;
-			differ(duel, side, walker_name(duel->walker, i),
-			       theirs.s->length, mine.len);
-			return false;
-		}
-		if (real ? a != b && (a == a || b == b) : theirs.i != mine.i) {
-			differ(duel, side, walker_name(duel->walker, i), a, b);
-			return false;
-		}
+		mine = walker_value(duel->walker, i);
+		for (int side = 0; side < 2; side++)
+			if (!same_value(duel, side, i, mine))
+				return false;
 	}
 	return true;
 }
@@ -178,8 +185,7 @@ static bool same_scan(struct duel *duel, struct random_source *source,
 		if (!good)
 			continue;
 		if (!same_area(duel, side, AREA_Q, WINDOW) ||
-		    !same_area(duel, side, AREA_M, MARKS) ||
-		    !same_values(duel, side))
+		    !same_area(duel, side, AREA_M, MARKS))
 			return false;
 		if (resource->vm.errors != walker_errors(duel->walker)) {
 			differ(duel, side, "failed operations",
@@ -188,6 +194,8 @@ static bool same_scan(struct duel *duel, struct random_source *source,
 			return false;
 		}
 	}
+	if (!duel->over && !same_values(duel))
+		return false;
 	return duel->over || duel->plan->values || !random_chance(source, 50) || same_power(duel);
 }
 
@@ -210,6 +218,23 @@ static bool run_duel(struct duel *duel)
 	return true;
 }
 
+/* Where they are is the same in both images. */
+static bool find_values(struct duel *duel)
+{
+	const struct image *image = &duel->side[0].resource.image;
+
+	for (int i = 0; i < walker_count(duel->walker) && i < COMPARED; i++) {
+		const char *name = walker_name(duel->walker, i);
+
+		duel->at[i] = image_find(image, name, strlen(name));
+		if (duel->at[i].type != IEC_NONE)
+			continue;
+		snprintf(duel->why, sizeof(duel->why), "the image has no %s", name);
+		return false;
+	}
+	return true;
+}
+
 static bool set_up(struct duel *duel)
 {
 	const struct program *program = ladder_program(duel->ladder);
@@ -224,20 +249,8 @@ static bool set_up(struct duel *duel)
 		resource_init(&side->resource, program, side->memory);
 		resource_start(&side->resource);
 		side->resource.watch = i == 1;
-		for (int v = 0; v < walker_count(duel->walker) &&
-		     v < COMPARED; v++) {
-			const char *name = walker_name(duel->walker, v);
-
-			side->at[v] = image_find(&side->resource.image, name,
-						 strlen(name));
-			if (side->at[v].type != IEC_NONE)
-				continue;
-			snprintf(duel->why, sizeof(duel->why),
-				 "the image has no %s", name);
-			return false;
-		}
 	}
-	return true;
+	return find_values(duel);
 }
 
 static enum verdict fight(struct duel *duel, const char *text, size_t len)

@@ -170,7 +170,9 @@ int frame_find(const struct walker *walker, const struct frame *frame, const cha
 		const char *name = project_text(walker->project,
 						frame->variable[i].var->name);
 
-		if (strlen(name) == len && strncasecmp(name, text, len) == 0)
+		/* The letter first: most names differ there. */
+		if ((name[0] | 32) == (text[0] | 32) &&
+		    strncasecmp(name, text, len) == 0 && name[len] == '\0')
 			return i;
 	}
 	return -1;
@@ -307,7 +309,10 @@ static struct shown *show(struct walker *walker, const char *name, const char *m
 
 	if (walker->shown_count == SHOWN_MAX)
 		return NULL;
-	out = &walker->shown[walker->shown_count++];
+	out = arena_push(&walker->arena, &walker->shown, &walker->shown_count,
+			 sizeof(*out));
+	if (!out)
+		return NULL;
 	snprintf(out->name, sizeof(out->name), "%.100s%.24s", name, more);
 	return out;
 }
@@ -386,9 +391,6 @@ static bool show_all(struct walker *walker)
 	struct project *project = walker->project;
 	char name[128];
 
-	walker->shown = arena_alloc(&walker->arena, SHOWN_MAX * sizeof(*walker->shown));
-	if (!walker->shown)
-		return false;
 	show_frame(walker, &walker->globals, "");
 	for (int i = 0; i < project->pou_count; i++) {
 		snprintf(name, sizeof(name), "%.90s.",
