@@ -7,6 +7,8 @@
 # mixed:  N rungs, by turns a timer, a counter, a comparison and arithmetic.
 # dense:  N rungs of 8 x 6 contacts with a link at every cell.
 # empty:  one rung, as little as there can be.
+# chart:  a chart of N steps, 50 in each of its sequences that go side by side, so that
+#         N / 50 are active; 6 transitions for 5 steps, every fifth step being a choice.
 # others: N rungs of one family of words, as %family says.
 use strict;
 use warnings;
@@ -39,8 +41,8 @@ if (defined $kind && $kind eq 'families') {
 	print join(' ', sort keys %family), "\n";
 	exit;
 }
-die "usage: programs.pl seal|mixed|dense|empty|FAMILY N, or programs.pl families\n"
-	unless defined $n && $n =~ /^\d+$/ && ($family{$kind} || $kind =~ /^(seal|mixed|dense|empty)$/);
+die "usage: programs.pl seal|mixed|dense|empty|chart|FAMILY N, or programs.pl families\n"
+	unless defined $n && $n =~ /^\d+$/ && ($family{$kind} || $kind =~ /^(seal|mixed|dense|empty|chart)$/);
 if ($family{$kind}) {
 	my ($declared, $rung) = @{$family{$kind}};
 	print "RUNGBOARD 1\n\n", $kind eq 'own' ? $latch : '', "VAR\n";
@@ -73,12 +75,26 @@ if ($kind eq 'seal') {
 } elsif ($kind eq 'dense') {
 	printf "  In%d %s: BOOL;\n", $_, input($_) for 0 .. 63;
 	printf "  Out%d %s: BOOL;\n", $_, output($_) for 0 .. $n - 1;
+} elsif ($kind eq 'chart') {
+	printf "  In%d %s: BOOL;\n", $_, input($_) for 0 .. 63;
+	printf "  Out%d %s: BOOL;\n", $_, output($_) for 0 .. $n / 5 - 1;
 } else {
 	print "  A : BOOL;\n  B : BOOL;\n";
 }
-print "END_VAR\n\nPROGRAM Main LD\n";
+print "END_VAR\n\nPROGRAM Main ", $kind eq 'chart' ? "SFC\n" : "LD\n";
 
-if ($kind eq 'dense') {
+if ($kind eq 'chart') {
+	my $per = 50;
+	for my $i (0 .. $n - 1) {
+		my $one = int($i / $per) * $per; # the first of its sequence
+		my ($next, $over) = map { $one + ($i - $one + $_) % $per } 1, 3;
+		my ($in, $else) = map { ($_ * 7 + 3) % 64 } $i, $i + 5;
+
+		print $i == $one ? '  INITIAL_STEP' : '  STEP', " S$i:\n    Out", int($i / 5), "(N);\n  END_STEP\n\n";
+		print "  TRANSITION FROM S$i TO S$next := In$in AND S$i.T >= T#20ms; END_TRANSITION\n\n";
+		print "  TRANSITION FROM S$i TO S$over := In$else AND NOT In$in; END_TRANSITION\n\n" if $i % 5 == 0;
+	}
+} elsif ($kind eq 'dense') {
 	for my $i (0 .. $n - 1) {
 		print "RUNG\n";
 		for my $row (0 .. 5) {
