@@ -42,6 +42,15 @@ static char *type_text(const struct project *project, const struct var *var)
 	return g_string_free(out, FALSE);
 }
 
+int listing_symbol_count(const struct project *project)
+{
+	int count = project->globals.count;
+
+	for (int i = 0; i < project->pou_count; i++)
+		count += vars_declared(&project->pou[i].vars);
+	return count;
+}
+
 void listing_symbol(const struct project *project, const struct var_table *table,
 		    int index, char *cell[LISTING_COLUMNS])
 {

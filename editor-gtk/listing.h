@@ -19,6 +19,8 @@ enum listing_column {
 	LISTING_NAME, LISTING_TYPE, LISTING_ADDRESS, LISTING_INITIAL, LISTING_COMMENT,
 	LISTING_COLUMNS
 };
+/** listing_symbol_count - variables of a project that somebody declared: all tables. */
+int listing_symbol_count(const struct project *project);
 /** listing_symbol - variable @index of a table. Owns: the caller, each g_free. */
 void listing_symbol(const struct project *project, const struct var_table *table,
 		    int index, char *cell[LISTING_COLUMNS]);

@@ -106,15 +106,6 @@ static void add_pous(GListStore *root, const struct project *project, const char
 	}
 }
 
-static int symbol_count(const struct project *project)
-{
-	int count = project->globals.count;
-
-	for (int i = 0; i < project->pou_count; i++)
-		count += vars_declared(&project->pou[i].vars);
-	return count;
-}
-
 static void add_files(GListStore *root, const struct project *project)
 {
 	LadderTreeRow *heading = NULL;
@@ -239,7 +230,7 @@ static void fill(struct tree *tree)
 	add_pous(tree->root, project, _("Programs"), true);
 	add_pous(tree->root, project, _("Functions and blocks"), false);
 	row = add_row(tree->root, ROW_SYMBOLS, _("Symbols"),
-		      g_strdup_printf("%d", symbol_count(project)));
+		      g_strdup_printf("%d", listing_symbol_count(project)));
 	row->pou = -1;
 	add_structures(tree->root, project);
 	add_bookmarks(tree->root, tree->document);
@@ -261,7 +252,7 @@ static char *shape_of(LadderDocument *document)
 			project_text(project, project->pou[i].name),
 			(int)project->pou[i].kind, project->pou[i].rung_count);
 	if (project)
-		g_string_append_printf(shape, "%d %d %s", symbol_count(project),
+		g_string_append_printf(shape, "%d %d %s", listing_symbol_count(project),
 				       project->part_count, project_view(project));
 	return g_string_free(shape, FALSE);
 }
