@@ -297,7 +297,8 @@ $(BUILD)/schemas/gschemas.compiled: packaging/org.rungboard.Editor.gschema.xml
 	@mkdir -p $(@D)
 	glib-compile-schemas --strict --targetdir=$(@D) packaging
 all: $(if $(EDITOR),$(BUILD)/schemas/gschemas.compiled)
-screenshots: $(BUILD)/ladder-editor $(BUILD)/schemas/gschemas.compiled ## docs/editor.png anew: the window with the garage door
+screenshots: $(BUILD)/ladder-editor $(BUILD)/schemas/gschemas.compiled ## docs/editor.png and the pictures of charts anew
+	$< --render ladders/sequence-s0-s8.rung -o docs/sequence-s0-s8.png
 	BUILD=$(BUILD) tests/editor/screenshot.py docs/editor.png
 .PHONY: screenshots
 # The editor over the fake chips of the HAL's tests, for what it finds on a machine.
