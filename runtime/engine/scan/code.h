@@ -33,7 +33,7 @@
  *   STOP   cond                 BOOL; asks for STOP at the end of the scan
  *   CALL   entry                runs it up to its END; who calls whom makes no circle
  *   JMP    target               word index in the section, of an instruction
- *   JMPC   target, cond         that begins in the same program
+ *   JMPC   target, cond         that begins in the same program; n 1: if cond is FALSE
  *   AGET   en, ok, dst, base, index, low, count, stride   dst = element `index`; ok:
  *                               there is one (else dst = 0, counted). base: typed,
  *                               of the first element, whose index is low (signed);

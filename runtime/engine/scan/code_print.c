@@ -156,7 +156,8 @@ int code_print(const uint32_t *code, uint32_t part, char *out, size_t size)
 	case VM_JMP:
 		return snprintf(out, size, "jmp     %u", at[0]);
 	case VM_JMPC:
-		return snprintf(out, size, "jmpc    b%u %u", at[1], at[0]);
+		return snprintf(out, size, "jmpc    %sb%u %u", n ? "not " : "", at[1],
+				at[0]);
 	case VM_EACH:
 		return snprintf(out, size, "each    %u of b%u @%u", n, at[1], at[0]);
 	case VM_TICK:

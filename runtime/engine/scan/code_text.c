@@ -329,7 +329,7 @@ static bool check_code(struct verifier *v, const uint32_t *code)
 	case VM_JMP:
 		return n == 0;
 	case VM_JMPC:
-		return n == 0 && reads_bool(v, at[1]);
+		return n <= 1 && reads_bool(v, at[1]);
 	case VM_LUT:
 		return check_lut(v, at, n);
 	case VM_BITGET:

@@ -288,37 +288,37 @@ static void ask_to_stop(struct vm *vm, uint32_t text)
 }
 
 /* A jump costs what it goes back over; forward ones end by themselves. */
-static bool spend(struct vm *vm, const uint32_t *from, const uint32_t *to)
+static inline bool spend(uint32_t *budget, const uint32_t *from, const uint32_t *to)
 {
 	uint32_t cost = to <= from ? (uint32_t)(from - to) + 1 : 0;
 
-	if (cost > vm->budget)
+	if (cost > *budget)
 		return false;
-	vm->budget -= cost;
+	*budget -= cost;
 	return true;
 }
 
 /* Back to an EACH it costs what was run since that led here, at @run. */
-static bool spend_each(struct vm *vm, const uint32_t *from, const uint32_t *to,
+static inline bool spend_each(uint32_t *budget, const uint32_t *from, const uint32_t *to,
 		       const uint32_t *run, uint32_t words)
 {
 	uint32_t cost;
 
 	if (to > from || (*to & 0xff) != VM_EACH)
-		return spend(vm, from, to);
+		return spend(budget, from, to);
 	cost = from >= run ? (uint32_t)(from - run) + 1 : words;
-	if (cost > vm->budget)
+	if (cost > *budget)
 		return false;
-	vm->budget -= cost;
+	*budget -= cost;
 	return true;
 }
 
 /* A call costs what it may run, but for loops, which cost what they go back over. */
-static bool pay(struct vm *vm, uint32_t cost)
+static inline bool pay(uint32_t *budget, uint32_t cost)
 {
-	if (cost > vm->budget)
+	if (cost > *budget)
 		return false;
-	vm->budget -= cost;
+	*budget -= cost;
 	return true;
 }
 
@@ -331,15 +331,17 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 	uint8_t *m = vm->memory;
 	const uint32_t *back[LIMIT_CALLS]; /* where calls go on afterwards    */
 	const uint32_t *run = pc;          /* where EACH led to              */
-	uint32_t depth = 0, found;
+	uint32_t depth = 0, found, budget = vm->budget; /* in a register */
 
 	for (;;) {
 		uint32_t word = *pc, n = word >> 8;
 
 		switch ((enum vm_op)(word & 0xff)) {
 		case VM_END:
-			if (depth == 0)
+			if (depth == 0) {
+				vm->budget = budget;
 				return FAULT_NONE;
+			}
 			pc = back[--depth];
 			break;
 		case VM_LUT:
@@ -405,14 +407,14 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 2;
 			break;
 		case VM_BLOCK:
-			if (!pay(vm, pc[3] / 8))
+			if (!pay(&budget, pc[3] / 8))
 				goto out_of_budget;
 			memcpy(m + pc[1], m + pc[2], pc[3]);
 			pc += 4;
 			break;
 		case VM_CALL:
 			at = &program->entry[pc[1]];
-			if (!pay(vm, watch ? at->watch_words : at->text_words))
+			if (!pay(&budget, watch ? at->watch_words : at->text_words))
 				goto out_of_budget;
 			back[depth++] = pc + 2;
 			pc = base + (watch ? at->watch : at->text);
@@ -423,7 +425,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 2;
 			break;
 		case VM_JMP:
-			if (!spend_each(vm, pc, base + pc[1], run,
+			if (!spend_each(&budget, pc, base + pc[1], run,
 					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;
 			pc = base + pc[1];
@@ -433,13 +435,17 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 				goto each;
 			break;
 		case VM_JMPC:
-			if (!m[pc[2]]) {
+			if (m[pc[2]] == n) {
 				pc += 3;
 				break;
 			}
-			if (!spend(vm, pc, base + pc[1]))
+			if (!spend_each(&budget, pc, base + pc[1], run,
+					watch ? program->watch_words : program->text_words))
 				goto out_of_budget;
 			pc = base + pc[1];
+			n = *pc >> 8;
+			if ((*pc & 0xff) == VM_EACH)
+				goto each;
 			break;
 		case VM_AGET:
 			m[pc[2]] = m[pc[1]] && get_element(m, pc + 1, n);
@@ -457,7 +463,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			pc += 9 + 4 * (n >> 1);
 			break;
 		case VM_ABLOCK:
-			if (!pay(vm, pc[5] / 8))
+			if (!pay(&budget, pc[5] / 8))
 				goto out_of_budget;
 			m[pc[2]] = m[pc[1]] && move_element(m, pc + 1, n);
 			if (m[pc[1]] && !m[pc[2]])
@@ -466,19 +472,19 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 			break;
 		case VM_EACH:
 		each:
-			if (!pay(vm, 1 + n / 8))
+			if (!pay(&budget, 1 + n / 8))
 				goto out_of_budget;
 			if (!find_step(m, pc + 1, n, &found)) {
 				pc += 3 + n;
 				break;
 			}
 			run = base + pc[3 + found];
-			if (!spend(vm, pc, run))
+			if (!spend(&budget, pc, run))
 				goto out_of_budget;
 			pc = run;
 			break;
 		case VM_TICK:
-			if (!pay(vm, 1 + n))
+			if (!pay(&budget, 1 + n))
 				goto out_of_budget;
 			tick(m, pc + 1, n, vm->now_ns);
 			pc += 1 + TICK_WORDS;
@@ -489,6 +495,7 @@ enum fault vm_run(struct vm *vm, uint32_t entry, bool watch)
 		}
 	}
 out_of_budget:
+	vm->budget = budget;
 	vm->fault_text = (uint32_t)(pc - base);
 	return FAULT_BUDGET;
 }

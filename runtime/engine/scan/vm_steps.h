@@ -22,13 +22,32 @@ static inline uint32_t first_of_eight(uint64_t eight)
 #endif
 }
 
+static inline uint64_t eight_at(const uint8_t *bits)
+{
+	uint64_t eight;
+
+	memcpy(&eight, bits, sizeof(eight));
+	return eight;
+}
+
+/* Past BOOLs that are FALSE, 32 at a time: most steps of a large chart. */
+static inline uint32_t skip_false(const uint8_t *bits, uint32_t from, uint32_t n)
+{
+	while (from < n && n - from >= 32 &&
+	       !(eight_at(bits + from) | eight_at(bits + from + 8) |
+		 eight_at(bits + from + 16) | eight_at(bits + from + 24)))
+		from += 32;
+	return from;
+}
+
 /* The number of the first of @n BOOLs that is TRUE, from @from on; @n: none. */
 static inline uint32_t next_true(const uint8_t *bits, uint32_t from, uint32_t n)
 {
 	uint64_t eight;
 
+	from = skip_false(bits, from, n);
 	for (; from < n && n - from >= sizeof(eight); from += sizeof(eight)) {
-		memcpy(&eight, bits + from, sizeof(eight));
+		eight = eight_at(bits + from);
 		if (eight)
 			return from + first_of_eight(eight);
 	}

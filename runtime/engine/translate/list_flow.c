@@ -47,11 +47,8 @@ void list_flow(struct list *list, const struct il_line *line)
 
 	if (line->modifiers & MOD_C) {
 		condition = list_now_bits(list);
-		if (line->modifiers & MOD_N)
-			condition = bits_not(condition);
 		slot = list_slot(list, &condition);
-		if (!(line->modifiers & MOD_N))
-			list->now.bits = bits_leaf(list->as, slot);
+		list->now.bits = bits_leaf(list->as, slot);
 	}
 	list_place(list);
 	list->straight = false;
@@ -59,7 +56,8 @@ void list_flow(struct list *list, const struct il_line *line)
 		emit_op(list->as, VM_END, 0);
 		return;
 	}
-	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP, 0);
+	emit_op(list->as, line->modifiers & MOD_C ? VM_JMPC : VM_JMP,
+		line->modifiers & MOD_C && line->modifiers & MOD_N);
 	add_fixup(list, target);
 	if (line->modifiers & MOD_C)
 		emit(list->as, slot);

@@ -474,7 +474,8 @@ static void decide(struct sfc_il *s, int number)
 	s->line = (uint32_t)(called->use_count ? use_at(s, called->use[0])->line :
 			     s->sfc->action[called->action].line);
 	sfc_here(s, sfc_label(s, "Due", number));
-	sfc_set(s, sfc_var(s, "Due", number, IEC_BOOL), false);
+	if (called->action >= 0) /* do_bool() says it anyway */
+		sfc_set(s, sfc_var(s, "Due", number, IEC_BOOL), false);
 	if (called->off && s->sfc->until_stable)
 		put_end(s, number);
 	if (called->off)

@@ -166,10 +166,15 @@ static void load_active(struct sfc_il *s, const struct sfc_arc *arc, int known)
 
 static void evaluate_own(struct sfc_il *s, const struct sfc_duty *duty)
 {
-	for (int i = 0; i < duty->arc_count; i++) {
+	const int last = duty->arc_count - 1;
+
+	for (int i = 0; i < last; i++) {
 		put_condition(s, duty->arc[i]);
 		sfc_jump_if(s, sfc_label(s, "Fire", duty->arc[i]));
 	}
+	put_condition(s, duty->arc[last]);
+	sfc_jump_unless(s, s->next);
+	note_fired(s, duty->arc[last]);
 	sfc_jump(s, s->next);
 }
 
@@ -270,7 +275,8 @@ void sfc_fire(struct sfc_il *s)
 	for (int i = 0; i < s->sfc->step_count; i++) {
 		const struct sfc_duty *duty = &s->duty[i];
 
-		for (int k = 0; k < duty->arc_count && duty->duty != DUTY_GROUP; k++) {
+		for (int k = 0; k < duty->arc_count - 1 && duty->duty != DUTY_GROUP;
+		     k++) {
 			sfc_here(s, sfc_label(s, "Fire", duty->arc[k]));
 			note_fired(s, duty->arc[k]);
 			sfc_jump(s, s->next);
