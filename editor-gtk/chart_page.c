@@ -55,22 +55,9 @@ static char *heading_of(LadderChartPage *page, int first, int *count)
 	const struct project *project = ladder_document_project(page->document);
 	const struct pou *pou = project && page->pou < project->pou_count ?
 		&project->pou[page->pou] : NULL;
-	struct sfc_part_body *bodies;
-	char *heading = NULL;
-	int bodies_count;
 
 	*count = 0;
-	if (!pou || !pou->sfc)
-		return NULL;
-	bodies = sfc_bodies_new(project, pou, &bodies_count);
-	for (int i = 0; i < bodies_count; i++)
-		if (bodies[i].body->kind != BODY_LIST && bodies[i].body->count > 0 &&
-		    bodies[i].body->first == first) {
-			heading = g_strdup(bodies[i].heading);
-			*count = bodies[i].body->count;
-		}
-	sfc_bodies_free(bodies, bodies_count);
-	return heading;
+	return pou ? sfc_body_heading(project, pou, first, count) : NULL;
 }
 
 static void told(LadderChartPage *page, const char *text)

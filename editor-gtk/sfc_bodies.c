@@ -57,6 +57,25 @@ void sfc_bodies_free(struct sfc_part_body *bodies, int count)
 	g_free(bodies);
 }
 
+char *sfc_body_heading(const struct project *project, const struct pou *pou, int first,
+		       int *count)
+{
+	const struct sfc *sfc = pou->sfc;
+
+	*count = 0;
+	for (int i = 0; sfc && i < sfc_bodies(sfc); i++) {
+		const struct sfc_body *body = sfc_body(sfc, i);
+
+		if (body->kind == BODY_LIST || body->count == 0 || body->first != first)
+			continue;
+		*count = body->count;
+		return i < sfc->transition_count ? transition_heading(project, sfc, i) :
+		       g_strdup_printf(_("Action %s"), project_text(project,
+				sfc->action[i - sfc->transition_count].name));
+	}
+	return NULL;
+}
+
 char **sfc_body_lines(const struct project *project, const struct pou *pou,
 		      const struct sfc_body *body)
 {

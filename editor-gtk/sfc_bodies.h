@@ -19,6 +19,10 @@ struct sfc_part_body {
 struct sfc_part_body *sfc_bodies_new(const struct project *project, const struct pou *pou,
 				     int *count);
 void sfc_bodies_free(struct sfc_part_body *bodies, int count);
+/** sfc_body_heading - of the body whose first rung is @first, expressions too; @count gets
+ * its rungs. Caller frees; NULL: no body begins there. */
+char *sfc_body_heading(const struct project *project, const struct pou *pou, int first,
+		       int *count);
 /** sfc_body_lines - of a list. Owns: the caller, g_strfreev. */
 char **sfc_body_lines(const struct project *project, const struct pou *pou,
 		      const struct sfc_body *body);

@@ -164,7 +164,7 @@ static void draw_texts(const struct nib *nib, int step, const graphene_rect_t *b
 	const bool told = live && live->time &&
 			  live->time(live->context, step, time, sizeof(time));
 	const int rows = 1 + (*times != 0) + told;
-	const float pitch = MIN(17, (box->size.height - 10) / (float)rows);
+	const float pitch = MIN(17, (box->size.height - 16) / (float)rows);
 	const float x = box->origin.x + box->size.width / 2;
 	float y = box->origin.y + box->size.height / 2 -
 		  pitch * (float)(rows - 1) / 2 + BASE;

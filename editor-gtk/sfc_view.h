@@ -32,6 +32,9 @@ void ladder_sfc_view_set_sim(LadderSfcView *view, LadderSim *sim);
 
 /** ladder_sfc_view_do - a CHART verb, or one of BOTH. */
 void ladder_sfc_view_do(LadderSfcView *view, enum verb verb);
+/** ladder_sfc_view_why - the condition of the transition at the cursor shall be seen as
+ * rungs, with their power; false: the cursor is on none. */
+bool ladder_sfc_view_why(LadderSfcView *view);
 /** ladder_sfc_view_go - the cursor goes to what stands in @rung (0-based; -1: none), or at
  * @line of the file. */
 void ladder_sfc_view_go(LadderSfcView *view, int rung, int line);

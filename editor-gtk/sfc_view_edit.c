@@ -369,6 +369,18 @@ static void as_rung(LadderSfcView *view)
 	}
 }
 
+bool ladder_sfc_view_why(LadderSfcView *view)
+{
+	int index;
+
+	chart_fresh(view);
+	if (chart_part(view, &index) != SFC_TRANSITION ||
+	    chart_pou(view)->sfc->transition[index].condition.kind == BODY_NONE)
+		return false;
+	chart_body_wanted(view, &chart_pou(view)->sfc->transition[index].condition);
+	return true;
+}
+
 static void select_all(LadderSfcView *view)
 {
 	if (!view->sheet)

@@ -196,6 +196,9 @@ void window_why_ask(LadderWindow *window)
 		ladder_window_tell(window, _("Simulate first: then it can be told"));
 		return;
 	}
+	/* A condition is shown as rungs first, with the power that they have. */
+	if (!sheet && tabs_chart(window) && ladder_sfc_view_why(tabs_chart(window)))
+		return;
 	if (!sheet || !meant(window, sheet, &row, &col)) {
 		ladder_window_tell(window, _("Put the cursor on the element that is meant"));
 		return;

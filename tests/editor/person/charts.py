@@ -126,10 +126,11 @@ def by_keyboard(screen):
     for _ in range(40):
         editor.keys('ctrl+z')
     until(lambda: len(shapes(editor)) == 1, 'the first step alone')
+    assert editor.save(path) == EMPTY
     for _ in range(40):
         editor.keys('ctrl+y')
     until(lambda: len([name for name in shapes(editor) if name.startswith('Step')]) == 4, 'all steps')
-    assert open(path).read() == text
+    assert editor.save(path) == text
     assert active(path) == ['Start', 'Fill', 'Drain', 'Start', 'Fill', 'Heat'], active(path)
 
 
@@ -251,4 +252,60 @@ def bodies(screen):
     assert '  STEP Step1_2:\n    Count(N);\n' in text and text.count('    RUNG\n') == 2, text
 
 
-main([by_keyboard, by_pointer, bodies])
+RUNS = '''RUNGBOARD 1
+
+PROGRAM Main SFC
+  CONTROL(FORCE := MW0);
+
+  INITIAL_STEP Start:
+  END_STEP
+
+  TRANSITION FROM Start TO Run := Start.T >= T#20ms; END_TRANSITION
+
+  STEP Run:
+    Q0.0(N);
+  END_STEP
+
+  TRANSITION FROM Run TO Start := I0.0; END_TRANSITION
+
+  STEP Apart:
+  END_STEP
+
+  TRANSITION FROM Apart TO Start := I0.1; END_TRANSITION
+END_PROGRAM
+'''
+
+
+def simulated(screen):
+    """a chart that runs: which step is active, why a transition waits, a step that is forced"""
+    path = new_file(screen, RUNS)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    shape(editor, 'Step Start, initial')
+    editor.keys('ctrl+m')
+    editor.says('Simulating')
+    editor.keys('ctrl+t')
+    shape(editor, 'Step Start, initial, active')
+    editor.keys('ctrl+t', 'ctrl+t', 'ctrl+t')
+    shape(editor, 'Step Run, active')
+    until(lambda: 'Step Start, initial' in shapes(editor), 'Start to be left')
+    editor.shot('chart-live')
+    # What the transition waits for, as rungs with power.
+    editor.click(upon(editor, shape(editor, 'from Run to Start')))
+    at(editor, 'from Run to Start')
+    editor.keys('ctrl+F12')
+    until(lambda: editor.all('Condition: Run', 'label'), 'the heading of the condition')
+    editor.element('I0.0')
+    editor.shot('chart-why')
+    editor.click(upon(editor, shape(editor, 'Step Apart')))
+    at(editor, 'Step Apart')
+    on_chart(editor)
+    editor.keys('ctrl+shift+f')
+    editor.keys('ctrl+t')
+    shape(editor, 'Step Apart, active')
+    # The scan before, and the one before that: what was active then.
+    editor.keys('alt+Left')
+    shape(editor, 'Step Run, active')
+
+
+main([by_keyboard, by_pointer, bodies, simulated])
