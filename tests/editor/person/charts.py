@@ -255,7 +255,11 @@ def bodies(screen):
 RUNS = '''RUNGBOARD 1
 
 PROGRAM Main SFC
-  CONTROL(FORCE := MW0);
+  VAR
+    Number : INT;
+  END_VAR
+
+  CONTROL(FORCE := Number);
 
   INITIAL_STEP Start:
   END_STEP
