@@ -36,6 +36,8 @@ sub put {
 for my $sample (sort glob "$tests/../ladders/*.rung") {
 	my $name = basename($sample);
 	my $again = "$dir/$name";
+	# The list of a chart has instructions that no list can be written with: TICK, EACH.
+	next if slurp($sample) =~ /^PROGRAM \w+ SFC/m;
 	put($again, scalar `$ladder il '$sample' 2>/dev/null`);
 	my $said = `$ladder check '$again' 2>&1`;
 	unlike($said, qr/ error LD/, "$name: its list is a program") or next;
