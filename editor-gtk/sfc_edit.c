@@ -58,8 +58,8 @@ static bool copy_chart(struct sfc_edit *edit, const struct pou *pou)
 			   sizeof(*old->action)) &&
 	       copy_vector(arena, &sfc->ref, old->ref, old->ref_count,
 			   sizeof(*old->ref)) &&
-	       copy_vector(arena, &sfc->item, old->item, old->item_count,
-			   sizeof(*old->item)) &&
+	       copy_vector(arena, &sfc->piece, old->piece, old->piece_count,
+			   sizeof(*old->piece)) &&
 	       copy_vector(arena, &edit->pou.rung, pou->rung, pou->rung_count,
 			   sizeof(struct rung *));
 }
@@ -98,52 +98,52 @@ uint32_t sfc_edit_id(struct sfc_edit *edit, const char *text)
 	return names_intern(&edit->project->names, text, strlen(text));
 }
 
-/* ---- items: what stands where in the file ---- */
+/* ---- pieces: what stands where in the file ---- */
 
-bool sfc_edit_put_item(struct sfc_edit *edit, int at, enum item_kind kind, int index)
+bool sfc_edit_put_piece(struct sfc_edit *edit, int at, enum piece_kind kind, int index)
 {
 	struct sfc *sfc = &edit->sfc;
-	struct sfc_item *item = arena_push(&edit->arena, &sfc->item, &sfc->item_count,
-					   sizeof(*item));
+	struct sfc_piece *piece = arena_push(&edit->arena, &sfc->piece, &sfc->piece_count,
+					   sizeof(*piece));
 
-	if (!item)
+	if (!piece)
 		return sfc_edit_refuse(edit, NO_MEMORY);
-	item = sfc->item + at + 1;
-	memmove(item + 1, item, (size_t)(sfc->item_count - at - 2) * sizeof(*item));
-	*item = (struct sfc_item){ kind, index };
+	piece = sfc->piece + at + 1;
+	memmove(piece + 1, piece, (size_t)(sfc->piece_count - at - 2) * sizeof(*piece));
+	*piece = (struct sfc_piece){ kind, index };
 	return true;
 }
 
-static int find_item(const struct sfc_edit *edit, enum item_kind kind, int index)
+static int find_piece(const struct sfc_edit *edit, enum piece_kind kind, int index)
 {
-	for (int i = 0; i < edit->sfc.item_count; i++)
-		if (edit->sfc.item[i].kind == kind && edit->sfc.item[i].index == index)
+	for (int i = 0; i < edit->sfc.piece_count; i++)
+		if (edit->sfc.piece[i].kind == kind && edit->sfc.piece[i].index == index)
 			return i;
 	return -1;
 }
 
-static void drop_items(struct sfc_edit *edit, int first, int last)
+static void drop_pieces(struct sfc_edit *edit, int first, int last)
 {
 	struct sfc *sfc = &edit->sfc;
 
 	if (first < 0 || last < first)
 		return;
-	memmove(sfc->item + first, sfc->item + last + 1,
-		(size_t)(sfc->item_count - last - 1) * sizeof(*sfc->item));
-	sfc->item_count -= last - first + 1;
+	memmove(sfc->piece + first, sfc->piece + last + 1,
+		(size_t)(sfc->piece_count - last - 1) * sizeof(*sfc->piece));
+	sfc->piece_count -= last - first + 1;
 }
 
-/* The last item of a step: of a macro-step that of its END_STEP. */
+/* The last piece of a step: of a macro-step that of its END_STEP. */
 static int step_end(const struct sfc_edit *edit, int step)
 {
-	return find_item(edit, edit->sfc.step[step].kind == STEP_MACRO ?
-			 ITEM_MACRO_END : ITEM_STEP, step);
+	return find_piece(edit, edit->sfc.step[step].kind == STEP_MACRO ?
+			 PIECE_MACRO_END : PIECE_STEP, step);
 }
 
 /* Is it still written? */
 static bool has_transition(const struct sfc_edit *edit, int transition)
 {
-	return find_item(edit, ITEM_TRANSITION, transition) >= 0;
+	return find_piece(edit, PIECE_TRANSITION, transition) >= 0;
 }
 
 /* ---- ways ---- */
@@ -246,11 +246,11 @@ static int new_step(struct sfc_edit *edit, int macro, int behind)
 		return sfc_edit_refuse(edit, NO_MEMORY) - 1;
 	*step = (struct sfc_step){ .name = name, .macro = macro,
 				   .first_use = sfc->use_count };
-	return sfc_edit_put_item(edit, behind, ITEM_STEP, sfc->step_count - 1) ?
+	return sfc_edit_put_piece(edit, behind, PIECE_STEP, sfc->step_count - 1) ?
 	       sfc->step_count - 1 : -1;
 }
 
-/* From @from (-1: none) to @to, behind an item. */
+/* From @from (-1: none) to @to, behind a piece. */
 static int new_transition(struct sfc_edit *edit, int macro, int from, int to, int behind)
 {
 	struct sfc *sfc = &edit->sfc;
@@ -266,7 +266,7 @@ static int new_transition(struct sfc_edit *edit, int macro, int from, int to, in
 				      .first_to = sfc->ref_count };
 	if ((from >= 0 && !add_step(edit, number, false, from)) ||
 	    (to >= 0 && !add_step(edit, number, true, to)) ||
-	    !sfc_edit_put_item(edit, behind, ITEM_TRANSITION, number))
+	    !sfc_edit_put_piece(edit, behind, PIECE_TRANSITION, number))
 		return -1;
 	return number;
 }
@@ -276,11 +276,11 @@ static int behind_ways(const struct sfc_edit *edit, int step)
 {
 	int at = step_end(edit, step);
 
-	for (int i = at + 1; i < edit->sfc.item_count; i++) {
-		const struct sfc_item *item = &edit->sfc.item[i];
+	for (int i = at + 1; i < edit->sfc.piece_count; i++) {
+		const struct sfc_piece *piece = &edit->sfc.piece[i];
 
-		if (item->kind == ITEM_TRANSITION &&
-		    names_step(edit, &edit->sfc.transition[item->index], false, step))
+		if (piece->kind == PIECE_TRANSITION &&
+		    names_step(edit, &edit->sfc.transition[piece->index], false, step))
 			at = i;
 	}
 	return at;
@@ -317,7 +317,7 @@ int sfc_edit_step_after(struct sfc_edit *edit, int transition)
 {
 	const struct sfc_transition old = edit->sfc.transition[transition];
 	const int made = new_step(edit, old.macro,
-				  find_item(edit, ITEM_TRANSITION, transition));
+				  find_piece(edit, PIECE_TRANSITION, transition));
 	struct sfc_transition *t;
 	int next;
 
@@ -344,7 +344,7 @@ int sfc_edit_branch(struct sfc_edit *edit, int step)
 
 	if (way < 0)
 		return -1;
-	made = new_step(edit, macro, find_item(edit, ITEM_TRANSITION, way));
+	made = new_step(edit, macro, find_piece(edit, PIECE_TRANSITION, way));
 	return made >= 0 && add_step(edit, way, true, made) ? made : -1;
 }
 
@@ -354,7 +354,7 @@ int sfc_edit_parallel(struct sfc_edit *edit, int transition)
 	const int last = t->to_count ? edit->sfc.ref[t->first_to + t->to_count - 1].step :
 			 -1;
 	const int behind = last >= 0 ? step_end(edit, last) :
-			   find_item(edit, ITEM_TRANSITION, transition);
+			   find_piece(edit, PIECE_TRANSITION, transition);
 	const int made = new_step(edit, t->macro, behind);
 
 	return made >= 0 && add_step(edit, transition, true, made) ? made : -1;
@@ -363,13 +363,13 @@ int sfc_edit_parallel(struct sfc_edit *edit, int transition)
 int sfc_edit_first(struct sfc_edit *edit, int macro)
 {
 	bool any = false;
-	int at = macro >= 0 ? step_end(edit, macro) - 1 : edit->sfc.item_count - 1, made;
+	int at = macro >= 0 ? step_end(edit, macro) - 1 : edit->sfc.piece_count - 1, made;
 
 	for (int i = 0; i < edit->sfc.step_count; i++)
 		any |= edit->sfc.step[i].macro == macro &&
-		       find_item(edit, ITEM_STEP, i) >= 0;
+		       find_piece(edit, PIECE_STEP, i) >= 0;
 	/* Before the actions. */
-	while (macro < 0 && at >= 0 && edit->sfc.item[at].kind == ITEM_ACTION)
+	while (macro < 0 && at >= 0 && edit->sfc.piece[at].kind == PIECE_ACTION)
 		at--;
 	made = new_step(edit, macro, at);
 	if (made >= 0 && !any)
@@ -430,9 +430,9 @@ bool sfc_edit_wait(struct sfc_edit *edit, int transition, int step)
 
 bool sfc_edit_delete_transition(struct sfc_edit *edit, int transition)
 {
-	const int at = find_item(edit, ITEM_TRANSITION, transition);
+	const int at = find_piece(edit, PIECE_TRANSITION, transition);
 
-	drop_items(edit, at, at);
+	drop_pieces(edit, at, at);
 	return at >= 0;
 }
 
@@ -490,14 +490,14 @@ bool sfc_edit_delete_step(struct sfc_edit *edit, int step)
 {
 	const int way = only_way(edit, step);
 
-	if (find_item(edit, ITEM_STEP, step) < 0)
+	if (find_piece(edit, PIECE_STEP, step) < 0)
 		return sfc_edit_refuse(edit, N_("there is no step here"));
 	for (int t = 0; t < edit->sfc.transition_count; t++)
 		if (t != way && has_transition(edit, t) && !loosen(edit, t, step, way))
 			return false;
 	if (way >= 0)
 		sfc_edit_delete_transition(edit, way);
-	drop_items(edit, find_item(edit, ITEM_STEP, step), step_end(edit, step));
+	drop_pieces(edit, find_piece(edit, PIECE_STEP, step), step_end(edit, step));
 	return true;
 }
 
@@ -518,8 +518,8 @@ static bool comes_before(const struct sfc_edit *edit, int a, int b)
 
 	if (x != y && (x == 0 || y == 0))
 		return x != 0;
-	return x != y ? x < y : find_item(edit, ITEM_TRANSITION, a) <
-				find_item(edit, ITEM_TRANSITION, b);
+	return x != y ? x < y : find_piece(edit, PIECE_TRANSITION, a) <
+				find_piece(edit, PIECE_TRANSITION, b);
 }
 
 /* The nearest way out of the same step before or behind @transition; -1: none. */
@@ -548,9 +548,9 @@ static bool move_way(struct sfc_edit *edit, int transition, bool right)
 
 	if (other < 0)
 		return sfc_edit_refuse(edit, N_("there is no branch on that side"));
-	a = find_item(edit, ITEM_TRANSITION, transition);
-	b = find_item(edit, ITEM_TRANSITION, other);
-	swap_ints(&edit->sfc.item[a].index, &edit->sfc.item[b].index);
+	a = find_piece(edit, PIECE_TRANSITION, transition);
+	b = find_piece(edit, PIECE_TRANSITION, other);
+	swap_ints(&edit->sfc.piece[a].index, &edit->sfc.piece[b].index);
 	swap_ints(&t[transition].priority, &t[other].priority);
 	return true;
 }

@@ -102,8 +102,8 @@ bool sfc_edit_delete_use(struct sfc_edit *edit, int use);
 
 /* ---- shared by the two files ---- */
 uint32_t sfc_edit_id(struct sfc_edit *edit, const char *text);
-/** sfc_edit_put_item - behind item @at (-1: at the beginning). */
-bool sfc_edit_put_item(struct sfc_edit *edit, int at, enum item_kind kind, int index);
+/** sfc_edit_put_piece - behind piece @at (-1: at the beginning). */
+bool sfc_edit_put_piece(struct sfc_edit *edit, int at, enum piece_kind kind, int index);
 /** sfc_edit_refuse - false, with a reason. */
 bool sfc_edit_refuse(struct sfc_edit *edit, const char *why);
 

@@ -395,7 +395,7 @@ static bool new_action(struct sfc_edit *edit, const char *name)
 	}
 	*action = (struct sfc_action){ .name = sfc_edit_id(edit, name),
 		.body = { BODY_RUNGS, edit->pou.rung_count - 1, 1 } };
-	return sfc_edit_put_item(edit, sfc->item_count - 1, ITEM_ACTION,
+	return sfc_edit_put_piece(edit, sfc->piece_count - 1, PIECE_ACTION,
 				 sfc->action_count - 1);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * sfc_view_clipboard - copying is to write a chart without what is not selected; pasting
- * is to read one, to give its steps names of their own, and to put its items into this one.
+ * is to read one, to give its steps names of their own, and to put its pieces into this one.
  */
 #include "editor-gtk/sfc_view_clipboard.h"
 #include "editor-gtk/sfc_view_inside.h"
@@ -37,16 +37,16 @@ static bool is_between(LadderSfcView *view, const struct sfc *sfc, int transitio
 	return t->from_count > 0 && t->to_count > 0;
 }
 
-static bool is_kept(LadderSfcView *view, const struct sfc *sfc, const struct sfc_item *item)
+static bool is_kept(LadderSfcView *view, const struct sfc *sfc, const struct sfc_piece *piece)
 {
-	switch (item->kind) {
-	case ITEM_STEP:
-	case ITEM_MACRO_END:
-		return is_chosen(view, item->index);
-	case ITEM_TRANSITION:
-		return is_between(view, sfc, item->index);
-	case ITEM_ACTION:
-	case ITEM_CONTROL:
+	switch (piece->kind) {
+	case PIECE_STEP:
+	case PIECE_MACRO_END:
+		return is_chosen(view, piece->index);
+	case PIECE_TRANSITION:
+		return is_between(view, sfc, piece->index);
+	case PIECE_ACTION:
+	case PIECE_CONTROL:
 	default:
 		return false;
 	}
@@ -60,22 +60,22 @@ void chart_copy(LadderSfcView *view)
 
 	if (!edit)
 		return;
-	for (int i = 0; i < edit->sfc.item_count; i++) {
-		const struct sfc_item item = edit->sfc.item[i];
-		const bool macro = item.kind == ITEM_STEP &&
-				   edit->sfc.step[item.index].kind == STEP_MACRO;
+	for (int i = 0; i < edit->sfc.piece_count; i++) {
+		const struct sfc_piece piece = edit->sfc.piece[i];
+		const bool macro = piece.kind == PIECE_STEP &&
+				   edit->sfc.step[piece.index].kind == STEP_MACRO;
 
 		/* What stands in a macro-step goes with it. */
-		if (inside >= 0 || is_kept(view, chart_pou(view)->sfc, &item))
-			edit->sfc.item[kept++] = item;
+		if (inside >= 0 || is_kept(view, chart_pou(view)->sfc, &piece))
+			edit->sfc.piece[kept++] = piece;
 		else
 			continue;
 		if (macro && inside < 0)
-			inside = item.index;
-		else if (item.kind == ITEM_MACRO_END && item.index == inside)
+			inside = piece.index;
+		else if (piece.kind == PIECE_MACRO_END && piece.index == inside)
 			inside = -1;
 	}
-	edit->sfc.item_count = kept;
+	edit->sfc.piece_count = kept;
 	edit->pou.vars.block_count = 0;
 	text = kept ? sfc_edit_text(edit) : NULL;
 	if (text)
@@ -122,15 +122,15 @@ static void rename_steps(struct sfc_edit *here, struct sfc_edit *other)
 }
 
 /* What stands between its first line and its last one. */
-static char *items_of(const struct sfc_edit *edit)
+static char *pieces_of(const struct sfc_edit *edit)
 {
 	char *text = sfc_edit_text(edit);
 	const char *from = text ? strchr(text, '\n') : NULL;
 	const char *to = text ? g_strrstr(text, "END_PROGRAM") : NULL;
-	char *items = from && to ? g_strndup(from + 1, (gsize)(to - from - 1)) : NULL;
+	char *pieces = from && to ? g_strndup(from + 1, (gsize)(to - from - 1)) : NULL;
 
 	free(text);
-	return items;
+	return pieces;
 }
 
 struct end_of_pou { int pou; struct text_span span; };
@@ -143,14 +143,14 @@ static void take_end(void *context, const struct text_span *span)
 		end->span = *span;
 }
 
-static bool put_items(LadderSfcView *view, const char *items)
+static bool put_pieces(LadderSfcView *view, const char *pieces)
 {
 	struct end_of_pou end = { .pou = view->pou };
 	gsize len;
 	char *whole = ladder_document_outline(view->document, &len, take_end, &end), *with;
 	bool good;
 
-	with = g_strdup_printf("\n%s", items);
+	with = g_strdup_printf("\n%s", pieces);
 	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
 	good = whole && ladder_document_replace(view->document, end.span.at + end.span.len,
 						0, with, NULL);
@@ -160,7 +160,7 @@ static bool put_items(LadderSfcView *view, const char *items)
 	return good;
 }
 
-/* A whole chart, or items alone: then a chart is made of them. */
+/* A whole chart, or pieces alone: then a chart is made of them. */
 static struct ladder *read_chart(const char *text)
 {
 	for (int try = 0; try < 2; try++) {
@@ -187,7 +187,7 @@ static void paste_text(LadderSfcView *view, const char *text)
 	struct ladder *ladder = text ? read_chart(text) : NULL;
 	struct sfc_edit *here = ladder ? chart_edit(view) : NULL, *other = NULL;
 	const int count = here ? here->sfc.step_count : 0;
-	char *items = NULL;
+	char *pieces = NULL;
 
 	if (here) {
 		struct project *project = ladder_project(ladder);
@@ -196,13 +196,13 @@ static void paste_text(LadderSfcView *view, const char *text)
 	}
 	if (other) {
 		rename_steps(here, other);
-		items = items_of(other);
+		pieces = pieces_of(other);
 	}
-	if (!items || !put_items(view, items))
+	if (!pieces || !put_pieces(view, pieces))
 		chart_tell(view, _("The clipboard holds no steps."));
 	else if (view->sheet && view->sheet->layout->sfc->step_count > count)
 		chart_go(view, (struct sfc_at){ count, -1, false }, false);
-	g_free(items);
+	g_free(pieces);
 	sfc_edit_free(other);
 	sfc_edit_free(here);
 	ladder_free(ladder);

@@ -54,27 +54,27 @@ static bool exchange(LadderSfcView *view, const char *text)
 }
 
 /* The number that it has when the file has been read. */
-static int rank_of(const struct sfc_edit *edit, enum item_kind kind, int index)
+static int rank_of(const struct sfc_edit *edit, enum piece_kind kind, int index)
 {
 	int rank = 0;
 
-	for (int i = 0; i < edit->sfc.item_count; i++) {
-		if (edit->sfc.item[i].kind != kind)
+	for (int i = 0; i < edit->sfc.piece_count; i++) {
+		if (edit->sfc.piece[i].kind != kind)
 			continue;
-		if (edit->sfc.item[i].index == index)
+		if (edit->sfc.piece[i].index == index)
 			return rank;
 		rank++;
 	}
 	return -1;
 }
 
-static void go_rank(LadderSfcView *view, enum item_kind kind, int rank)
+static void go_rank(LadderSfcView *view, enum piece_kind kind, int rank)
 {
 	const struct pou *pou = chart_pou(view);
 
 	if (!pou || rank < 0 || !view->sheet)
 		return;
-	chart_go(view, (struct sfc_at){ kind == ITEM_STEP ? rank :
+	chart_go(view, (struct sfc_at){ kind == PIECE_STEP ? rank :
 					pou->sfc->step_count + rank, -1, false }, false);
 }
 
@@ -86,7 +86,7 @@ struct sfc_edit *chart_edit(LadderSfcView *view)
 }
 
 bool chart_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char *name,
-	       enum item_kind kind, int index)
+	       enum piece_kind kind, int index)
 {
 	const int rank = good && index >= 0 ? rank_of(edit, kind, index) : -1;
 	char *text = good ? sfc_edit_text(edit) : NULL;
@@ -110,7 +110,7 @@ bool chart_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char
 /* A new step at which the cursor goes on. */
 static void put_step(LadderSfcView *view, struct sfc_edit *edit, int step, enum verb verb)
 {
-	chart_put(view, edit, step >= 0, _(verb_row(verb)->label), ITEM_STEP, step);
+	chart_put(view, edit, step >= 0, _(verb_row(verb)->label), PIECE_STEP, step);
 }
 
 /* The transition of a jump, or the step whose jump it is: where one would go on. */
@@ -216,8 +216,8 @@ static void move(LadderSfcView *view, bool right)
 	}
 	good = sfc_edit_move(edit, part == SFC_STEP ? index : -1,
 			     part == SFC_TRANSITION ? index : -1, right);
-	chart_put(view, edit, good, _("Move branch"), part == SFC_STEP ? ITEM_STEP :
-		  ITEM_TRANSITION, index);
+	chart_put(view, edit, good, _("Move branch"), part == SFC_STEP ? PIECE_STEP :
+		  PIECE_TRANSITION, index);
 }
 
 void chart_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to)
@@ -244,7 +244,7 @@ void chart_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to)
 	} else {
 		edit->why = N_("a way leads from a step or transition to a step");
 	}
-	chart_put(view, edit, good, _("Draw a way"), ITEM_TRANSITION, made);
+	chart_put(view, edit, good, _("Draw a way"), PIECE_TRANSITION, made);
 }
 
 /* ---- deleting ---- */
@@ -320,7 +320,7 @@ static void delete(LadderSfcView *view)
 	} else if (!any) {
 		good = delete_shape(view, edit, view->cursor.shape);
 	}
-	chart_put(view, edit, good, _(verb_row(VERB_delete)->label), ITEM_STEP, next);
+	chart_put(view, edit, good, _(verb_row(VERB_delete)->label), PIECE_STEP, next);
 }
 
 /* ---- kinds ---- */
@@ -336,7 +336,7 @@ static void change_kind(LadderSfcView *view)
 	edit = chart_edit(view);
 	chart_put(view, edit, sfc_edit_set_kind(edit, index,
 			pou->sfc->step[index].kind == STEP_INITIAL ? STEP_PLAIN :
-			STEP_INITIAL), _(verb_row(VERB_step_kind)->label), ITEM_STEP, index);
+			STEP_INITIAL), _(verb_row(VERB_step_kind)->label), PIECE_STEP, index);
 }
 
 /* A condition that is an expression becomes a rung; what is one is shown. */
@@ -350,7 +350,7 @@ static void as_rung(LadderSfcView *view)
 	case SFC_TRANSITION:
 		edit = chart_edit(view);
 		if (chart_put(view, edit, sfc_edit_as_rung(edit, index),
-			      _(verb_row(VERB_as_rung)->label), ITEM_TRANSITION, index) &&
+			      _(verb_row(VERB_as_rung)->label), PIECE_TRANSITION, index) &&
 		    chart_part(view, &index) == SFC_TRANSITION)
 			chart_body_wanted(view,
 				&chart_pou(view)->sfc->transition[index].condition);

@@ -217,14 +217,14 @@ static bool take_doing(struct asked *asked, const char *line)
 	if (!line[0] && asked->use >= 0) {
 		edit = chart_edit(view);
 		return chart_put(view, edit, sfc_edit_delete_use(edit, asked->use),
-				 _("Change what a step does"), ITEM_STEP, asked->index);
+				 _("Change what a step does"), PIECE_STEP, asked->index);
 	}
 	if (!sfc_doing_read(line, &doing))
 		return false;
 	ladder_document_begin(view->document, _("Change what a step does"), NULL);
 	edit = chart_edit(view);
 	good = chart_put(view, edit, sfc_edit_set_use(edit, asked->index, asked->use,
-						      &doing), "", ITEM_STEP,
+						      &doing), "", PIECE_STEP,
 			 asked->index);
 	if (good && !doing.action && !is_action(view, doing.name))
 		declare(view, doing.name, true);
@@ -245,7 +245,7 @@ static bool take_condition(struct asked *asked, const char *line)
 	ladder_document_begin(view->document, _("Change condition"), NULL);
 	edit = chart_edit(view);
 	good = chart_put(view, edit, sfc_edit_set_condition(edit, asked->index, line), "",
-			 ITEM_TRANSITION, asked->index);
+			 PIECE_TRANSITION, asked->index);
 	if (good && line[0])
 		declare(view, line, false);
 	ladder_document_end(view->document);
@@ -270,10 +270,10 @@ static bool take_lead(struct asked *asked, const char *line)
 			edit->why = N_("there is no step of this name");
 		way = to < 0 ? -1 : sfc_edit_lead(edit, asked->index, to);
 		return chart_put(view, edit, way >= 0, _(verb_row(VERB_lead_to)->label),
-				 ITEM_TRANSITION, way);
+				 PIECE_TRANSITION, way);
 	}
 	return chart_put(view, edit, sfc_edit_set_ways(edit, way, true, line),
-			 _(verb_row(VERB_lead_to)->label), ITEM_TRANSITION, way);
+			 _(verb_row(VERB_lead_to)->label), PIECE_TRANSITION, way);
 }
 
 static bool take_times(struct asked *asked, const char *line)
@@ -303,7 +303,7 @@ static bool take_times(struct asked *asked, const char *line)
 	if (!good)
 		edit->why = N_("write MIN time, MAX time, ALARM bit");
 	good = chart_put(asked->view, edit, good && sfc_edit_set_times(edit, asked->index,
-			 min, max, alarm), _(verb_row(VERB_step_times)->label), ITEM_STEP,
+			 min, max, alarm), _(verb_row(VERB_step_times)->label), PIECE_STEP,
 			 asked->index);
 	g_strfreev(words);
 	g_free(min);
@@ -318,10 +318,10 @@ static bool take_name(struct asked *asked, const char *line, bool step)
 
 	return step ? chart_put(asked->view, edit, sfc_edit_name_step(edit, asked->index,
 								      line),
-				_("Name a step"), ITEM_STEP, asked->index) :
+				_("Name a step"), PIECE_STEP, asked->index) :
 		chart_put(asked->view, edit,
 			  sfc_edit_name_transition(edit, asked->index, line),
-			  _("Name a transition"), ITEM_TRANSITION, asked->index);
+			  _("Name a transition"), PIECE_TRANSITION, asked->index);
 }
 
 /* For one more step, by its name. */
@@ -336,7 +336,7 @@ static bool take_wait(struct asked *asked, const char *line)
 		if (g_ascii_strcasecmp(asked->view->sheet->name[i], line) == 0)
 			good = sfc_edit_wait(edit, asked->index, i);
 	return chart_put(asked->view, edit, good, _(verb_row(VERB_wait_for)->label),
-			 ITEM_TRANSITION, asked->index);
+			 PIECE_TRANSITION, asked->index);
 }
 
 static bool line_taken(void *context, const char *text)

@@ -76,9 +76,9 @@ void chart_body_wanted(LadderSfcView *view, const struct sfc_body *body);
 /* ---- sfc_view_edit.c ---- */
 /** chart_put - the edit's text takes the place of the chart (taken over; @good false or a
  * NULL: nothing but its reason is told). The cursor goes to step or transition @index (of
- * the edit) if @kind is ITEM_STEP, ITEM_TRANSITION. @name: of the step of the history. */
+ * the edit) if @kind is PIECE_STEP, PIECE_TRANSITION. @name: of the step of the history. */
 bool chart_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char *name,
-	       enum item_kind kind, int index);
+	       enum piece_kind kind, int index);
 struct sfc_edit *chart_edit(LadderSfcView *view);
 /** chart_lead - a way from what stands at @from to what stands at @to. */
 void chart_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to);

@@ -37,12 +37,12 @@ static inline void *chart_push(struct chart *c, void *vector, int *count, size_t
 	return slot;
 }
 
-static inline void chart_note(struct chart *c, enum item_kind kind, int index)
+static inline void chart_note(struct chart *c, enum piece_kind kind, int index)
 {
-	struct sfc_item *item = chart_push(c, &c->sfc->item, &c->sfc->item_count,
-					   sizeof(*item));
+	struct sfc_piece *piece = chart_push(c, &c->sfc->piece, &c->sfc->piece_count,
+					   sizeof(*piece));
 
-	*item = (struct sfc_item){ kind, index };
+	*piece = (struct sfc_piece){ kind, index };
 }
 
 /* The word from @at on, up to one of @ends; @at moves behind it. */
@@ -65,7 +65,7 @@ static inline void chart_step(struct chart *c, const char *text, enum step_kind 
 				   .name = chart_word(c, &text, " "),
 				   .first_use = sfc->use_count,
 				   .line = 10 + sfc->step_count };
-	chart_note(c, ITEM_STEP, sfc->step_count - 1);
+	chart_note(c, PIECE_STEP, sfc->step_count - 1);
 	if (kind == STEP_MACRO)
 		c->macro[++c->depth] = sfc->step_count - 1;
 }
@@ -115,7 +115,7 @@ static inline void chart_transition(struct chart *c, const char *text)
 	text += *text == '>';
 	t->first_to = sfc->ref_count;
 	t->to_count = chart_refs(c, &text);
-	chart_note(c, ITEM_TRANSITION, sfc->transition_count - 1);
+	chart_note(c, PIECE_TRANSITION, sfc->transition_count - 1);
 	if (strcmp(text, "=") == 0)
 		return;
 	chart_rung(c, *text ? text + 1 : "%IX0.0");
@@ -129,7 +129,7 @@ static inline void chart_action(struct chart *c, const char *text)
 
 	*action = (struct sfc_action){ .name = chart_word(c, &text, " "),
 				       .line = 200 + c->sfc->action_count };
-	chart_note(c, ITEM_ACTION, c->sfc->action_count - 1);
+	chart_note(c, PIECE_ACTION, c->sfc->action_count - 1);
 }
 
 /* Of the last step. */
@@ -155,7 +155,7 @@ static inline void chart_line(struct chart *c, const char *text)
 		use->time = chart_word(c, &text, "");
 }
 
-static inline void chart_item(struct chart *c, const char *text)
+static inline void chart_piece(struct chart *c, const char *text)
 {
 	const char *rest = text + 1 + (text[1] == ' ');
 
@@ -199,14 +199,14 @@ static inline void chart_end(struct chart *c)
 
 static inline void chart_open(struct chart *c, const char *text)
 {
-	char item[200];
+	char piece[200];
 
 	chart_begin(c);
 	while (*text) {
 		const size_t len = strcspn(text, ";");
 
-		snprintf(item, sizeof(item), "%.*s", (int)len, text);
-		chart_item(c, item);
+		snprintf(piece, sizeof(piece), "%.*s", (int)len, text);
+		chart_piece(c, piece);
 		text += len;
 		text += strspn(text, "; \n");
 	}

@@ -193,12 +193,12 @@ static void test_model(void)
 	if (!sfc)
 		return;
 	CHECK(sfc->until_stable && sfc->step_count == 6 && sfc->transition_count == 5);
-	CHECK(sfc->action_count == 2 && sfc->use_count == 9 && sfc->item_count == 16);
+	CHECK(sfc->action_count == 2 && sfc->use_count == 9 && sfc->piece_count == 16);
 	CHECK(sfc->step[1].use_count == 8 && sfc->step[2].use_count == 1);
 	CHECK(sfc->step[2].kind == STEP_MACRO && sfc->step[5].macro == 4 &&
 	      sfc->step[4].macro == 2 && sfc->step[3].macro == 2 && sfc->step[2].macro == -1);
-	CHECK(sfc->item[sfc->step[2].end].kind == ITEM_MACRO_END &&
-	      sfc->item[sfc->step[2].end].index == 2);
+	CHECK(sfc->piece[sfc->step[2].end].kind == PIECE_MACRO_END &&
+	      sfc->piece[sfc->step[2].end].index == 2);
 	CHECK(sfc->use[2].action == 0 && sfc->use[0].action == -1);
 	CHECK(!sfc->use[5].more && sfc->use[6].more && !sfc->use[7].more);
 	CHECK(pou->rung_count == 6 && pou->il.count == 10);

@@ -79,20 +79,20 @@ static void add_variables(struct sfc_names *c)
 	}
 }
 
-static void add_item(struct sfc_names *c, struct sfc_item item)
+static void add_piece(struct sfc_names *c, struct sfc_piece piece)
 {
 	const struct sfc *sfc = c->sfc;
 
-	if (item.kind == ITEM_STEP) {
-		const struct sfc_step *step = &sfc->step[item.index];
+	if (piece.kind == PIECE_STEP) {
+		const struct sfc_step *step = &sfc->step[piece.index];
 
 		add_name(c, step->name, (struct spot){ step->line, step->column_at }, true);
-	} else if (item.kind == ITEM_TRANSITION) {
-		const struct sfc_transition *t = &sfc->transition[item.index];
+	} else if (piece.kind == PIECE_TRANSITION) {
+		const struct sfc_transition *t = &sfc->transition[piece.index];
 
 		add_name(c, t->name, (struct spot){ t->line, t->column }, true);
-	} else if (item.kind == ITEM_ACTION) {
-		const struct sfc_action *action = &sfc->action[item.index];
+	} else if (piece.kind == PIECE_ACTION) {
+		const struct sfc_action *action = &sfc->action[piece.index];
 
 		add_name(c, action->name, (struct spot){ action->line, action->column },
 			 true);
@@ -108,8 +108,8 @@ static void check_given(struct sfc_names *c, struct arena *scratch)
 		return;
 	}
 	add_variables(c);
-	for (int i = 0; i < c->sfc->item_count; i++)
-		add_item(c, c->sfc->item[i]);
+	for (int i = 0; i < c->sfc->piece_count; i++)
+		add_piece(c, c->sfc->piece[i]);
 }
 
 /* ---- names that it uses ---- */

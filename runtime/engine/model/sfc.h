@@ -39,7 +39,7 @@ struct sfc_step {
 	uint32_t name;      /* string id                                       */
 	enum step_kind kind;
 	int macro;          /* the step it stands in; -1: none                 */
-	int end;            /* of a macro-step: item of its end                */
+	int end;            /* of a macro-step: piece of its end                */
 	uint32_t min, max;  /* string ids: supervision times, as written; 0    */
 	uint32_t alarm;     /* string id: operand; 0: none                     */
 	int column;         /* hint for drawing, 1-based; 0: none              */
@@ -93,8 +93,8 @@ struct sfc_ref {
 enum control { CONTROL_RESET, CONTROL_HOLD, CONTROL_SEMI, CONTROL_MANUAL, CONTROL_TIP,
 	       CONTROL_FORCE, CONTROL_COUNT };
 
-enum item_kind { ITEM_STEP, ITEM_MACRO_END, ITEM_TRANSITION, ITEM_ACTION, ITEM_CONTROL };
-struct sfc_item { enum item_kind kind; int index; };
+enum piece_kind { PIECE_STEP, PIECE_MACRO_END, PIECE_TRANSITION, PIECE_ACTION, PIECE_CONTROL };
+struct sfc_piece { enum piece_kind kind; int index; };
 
 struct sfc {
 	bool until_stable;
@@ -111,8 +111,8 @@ struct sfc {
 	int action_count;
 	struct sfc_ref *ref;
 	int ref_count;
-	struct sfc_item *item;        /* what stands where in the file      */
-	int item_count;
+	struct sfc_piece *piece;        /* what stands where in the file      */
+	int piece_count;
 	int block;                      /* of the POU's variables: what
 					   sfc_declare() declared; -1: nothing */
 };

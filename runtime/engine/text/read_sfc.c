@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * read_sfc - a sequential function chart: its items, actions, CONTROL, and what they
+ * read_sfc - a sequential function chart: its pieces, actions, CONTROL, and what they
  * are made of.
  *
  * Steps are read in read_sfc_step.c, transitions in read_sfc_transition.c. What a chart
@@ -25,7 +25,7 @@ bool reader_is_chart_word(const struct reader *r)
 	return false;
 }
 
-/* ---- parts of items ---- */
+/* ---- parts of pieces ---- */
 
 bool chart_ends(const struct chart *chart)
 {
@@ -123,8 +123,8 @@ bool chart_number(struct chart *chart, int most, int *out)
 	return true;
 }
 
-/* What is left of an item that could not be read, its END_… too. */
-static void skip_item(struct chart *chart, const char *end)
+/* What is left of an piece that could not be read, its END_… too. */
+static void skip_piece(struct chart *chart, const char *end)
 {
 	struct reader *r = chart->r;
 
@@ -150,7 +150,7 @@ void chart_close(struct chart *chart, const char *end, const struct token *head)
 		reader_fail_open(r, head);
 	} else {
 		reader_fail_word(r, DIAG_EXPECTED, end);
-		skip_item(chart, end);
+		skip_piece(chart, end);
 	}
 }
 
@@ -170,14 +170,14 @@ void *chart_push(struct chart *chart, void *vector, int *count, size_t size, int
 	return slot;
 }
 
-void chart_add_item(struct chart *chart, enum item_kind kind, int index)
+void chart_add_piece(struct chart *chart, enum piece_kind kind, int index)
 {
 	struct sfc *sfc = chart->sfc;
-	struct sfc_item *item = arena_push(&chart->r->project->arena, &sfc->item,
-					   &sfc->item_count, sizeof(*item));
+	struct sfc_piece *piece = arena_push(&chart->r->project->arena, &sfc->piece,
+					   &sfc->piece_count, sizeof(*piece));
 
-	if (item)
-		*item = (struct sfc_item){ kind, index };
+	if (piece)
+		*piece = (struct sfc_piece){ kind, index };
 	else
 		chart->r->no_memory = true;
 }
@@ -218,7 +218,7 @@ void chart_body(struct chart *chart, struct sfc_body *body)
 	}
 }
 
-/* ---- items ---- */
+/* ---- pieces ---- */
 
 static void read_action(struct chart *chart)
 {
@@ -251,7 +251,7 @@ static void read_action(struct chart *chart)
 	if (!slot)
 		return;
 	*slot = action;
-	chart_add_item(chart, ITEM_ACTION, sfc->action_count - 1);
+	chart_add_piece(chart, PIECE_ACTION, sfc->action_count - 1);
 }
 
 static bool read_control_part(struct chart *chart, void *out)
@@ -290,12 +290,12 @@ static void read_control(struct chart *chart)
 	memcpy(sfc->control, control, sizeof(control));
 	sfc->control_line = line;
 	sfc->control_comment = buffer_take(r, &r->above);
-	chart_add_item(chart, ITEM_CONTROL, 0);
+	chart_add_piece(chart, PIECE_CONTROL, 0);
 }
 
 static void read_block(struct chart *chart)
 {
-	if (chart->sfc->item_count)
+	if (chart->sfc->piece_count)
 		reader_fail_token(chart->r, DIAG_MISPLACED);
 	read_vars(chart->r, &chart->pou->vars, false);
 }
@@ -327,7 +327,7 @@ static bool is_full(const struct sfc *sfc)
 	       sfc->action_count >= LIMIT_STEPS;
 }
 
-static bool read_item(struct chart *chart)
+static bool read_piece(struct chart *chart)
 {
 	struct reader *r = chart->r;
 
@@ -373,7 +373,7 @@ void read_sfc(struct reader *r, struct pou *pou)
 	do {
 		reader_skip_newlines(r);
 		errors = r->diags->errors;
-	} while (read_item(&chart) && (errors == r->diags->errors || !is_full(sfc)));
+	} while (read_piece(&chart) && (errors == r->diags->errors || !is_full(sfc)));
 	if (is_full(sfc) && errors != r->diags->errors)
 		skip_chart(&chart);
 	close_macros(&chart);

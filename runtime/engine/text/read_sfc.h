@@ -17,7 +17,7 @@ struct chart {
 	bool controlled;      /* a CONTROL was read                            */
 };
 
-/** chart_ends - does a line begin here that ends an item, or the whole chart? RUNG and
+/** chart_ends - does a line begin here that ends an piece, or the whole chart? RUNG and
  * VAR, which are misplaced in some of them, do not. */
 bool chart_ends(const struct chart *chart);
 /** chart_skip_odd - says that a line does not belong here, and skips it; of a rung its
@@ -45,7 +45,7 @@ void chart_body(struct chart *chart, struct sfc_body *body);
  * is no memory; NULL then. */
 void *chart_push(struct chart *chart, void *vector, int *count, size_t size, int most,
 		 const char *what);
-void chart_add_item(struct chart *chart, enum item_kind kind, int index);
+void chart_add_piece(struct chart *chart, enum piece_kind kind, int index);
 
 /** read_step - STEP, INITIAL_STEP or MACRO_STEP with its lines; of a macro-step not what
  * is inside. */

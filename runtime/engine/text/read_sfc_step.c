@@ -200,7 +200,7 @@ static bool push_step(struct chart *chart, struct sfc_step step)
 	step.end = -1;
 	step.first_use = sfc->use_count;
 	*slot = step;
-	chart_add_item(chart, ITEM_STEP, sfc->step_count - 1);
+	chart_add_piece(chart, PIECE_STEP, sfc->step_count - 1);
 	return true;
 }
 
@@ -239,8 +239,8 @@ void read_step_end(struct chart *chart)
 	struct sfc_step *step = &sfc->step[chart->macro];
 
 	step->tail = buffer_take(r, &r->above);
-	step->end = sfc->item_count;
-	chart_add_item(chart, ITEM_MACRO_END, chart->macro);
+	step->end = sfc->piece_count;
+	chart_add_piece(chart, PIECE_MACRO_END, chart->macro);
 	chart->macro = step->macro;
 	chart->depth--;
 	reader_next(r);

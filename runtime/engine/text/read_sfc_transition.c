@@ -201,10 +201,10 @@ static void push(struct chart *chart, struct sfc_transition transition)
 	if (!slot)
 		return;
 	*slot = transition;
-	chart_add_item(chart, ITEM_TRANSITION, sfc->transition_count - 1);
+	chart_add_piece(chart, PIECE_TRANSITION, sfc->transition_count - 1);
 }
 
-/* What could not be read goes on up to END_TRANSITION, or the next item. */
+/* What could not be read goes on up to END_TRANSITION, or the next piece. */
 static void skip_rest(struct chart *chart)
 {
 	struct reader *r = chart->r;

@@ -44,7 +44,7 @@ static void indent_mark(void *context, int kind, int number, bool begins)
 	sink_mark(indent->to, kind, number, begins);
 }
 
-/* ---- parts of items ---- */
+/* ---- parts of pieces ---- */
 
 static void write_words(const struct page *page, const char *before, uint32_t id,
 			const char *after)
@@ -136,7 +136,7 @@ static void write_uses(const struct page *page, const struct sfc_step *step)
 	}
 }
 
-/* Up to its lines; of a macro-step what is inside follows as items. */
+/* Up to its lines; of a macro-step what is inside follows as pieces. */
 static void write_step(struct page *page, int index)
 {
 	const struct sfc_step *step = &page->sfc->step[index];
@@ -262,26 +262,26 @@ static void write_control(const struct page *page)
 	sink_text(page->sink, count ? ");\n" : "();\n");
 }
 
-static void write_item(struct page *page, struct sfc_item item)
+static void write_piece(struct page *page, struct sfc_piece piece)
 {
-	if (page->follows && item.kind != ITEM_MACRO_END)
+	if (page->follows && piece.kind != PIECE_MACRO_END)
 		sink_text(page->sink, "\n");
-	switch (item.kind) {
-	case ITEM_STEP:
-		write_step(page, item.index);
-		if (page->sfc->step[item.index].kind == STEP_MACRO)
+	switch (piece.kind) {
+	case PIECE_STEP:
+		write_step(page, piece.index);
+		if (page->sfc->step[piece.index].kind == STEP_MACRO)
 			return;
 		break;
-	case ITEM_MACRO_END:
-		write_macro_end(page, item.index);
+	case PIECE_MACRO_END:
+		write_macro_end(page, piece.index);
 		break;
-	case ITEM_TRANSITION:
-		write_transition(page, item.index);
+	case PIECE_TRANSITION:
+		write_transition(page, piece.index);
 		break;
-	case ITEM_ACTION:
-		write_action(page, item.index);
+	case PIECE_ACTION:
+		write_action(page, piece.index);
 		break;
-	case ITEM_CONTROL:
+	case PIECE_CONTROL:
 		write_control(page);
 		break;
 	}
@@ -296,7 +296,7 @@ static bool has_blocks(const struct var_table *table)
 	return false;
 }
 
-static void write_items(const struct sink *sink, const struct project *project,
+static void write_pieces(const struct sink *sink, const struct project *project,
 			const struct pou *pou, bool follows)
 {
 	struct indent indent = { .to = sink, .depth = 1, .begins = true };
@@ -304,15 +304,15 @@ static void write_items(const struct sink *sink, const struct project *project,
 	struct page page = { .project = project, .pou = pou, .sfc = pou->sfc,
 			     .indent = &indent, .sink = &into, .follows = follows };
 
-	for (int i = 0; i < pou->sfc->item_count; i++)
-		write_item(&page, pou->sfc->item[i]);
+	for (int i = 0; i < pou->sfc->piece_count; i++)
+		write_piece(&page, pou->sfc->piece[i]);
 	write_above(&into, project, pou->tail);
 }
 
 void text_write_chart(const struct project *project, const struct pou *pou,
 		      const struct sink *sink)
 {
-	write_items(sink, project, pou, false);
+	write_pieces(sink, project, pou, false);
 }
 
 void write_sfc(const struct sink *sink, const struct project *project,
@@ -324,6 +324,6 @@ void write_sfc(const struct sink *sink, const struct project *project,
 
 	text_write_vars(project, &pou->vars, &into);
 	sink_mark(sink, TEXT_BODY, number, true);
-	write_items(sink, project, pou, has_blocks(&pou->vars));
+	write_pieces(sink, project, pou, has_blocks(&pou->vars));
 	sink_mark(sink, TEXT_BODY, number, false);
 }

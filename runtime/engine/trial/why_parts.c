@@ -15,19 +15,19 @@
 #include <strings.h>
 
 #define LEAVES_MOST 24
-#define NODES_MOST  96
+#define TERMS_MOST  96
 #define TRIES_MOST  50000 /* sets of leaves that are tried                     */
 
 struct span { const char *text; size_t len; };
 
-enum node_kind { NODE_LEAF, NODE_NOT, NODE_AND, NODE_OR };
-struct node {
-	enum node_kind kind;
-	int left, right;      /* nodes; of a leaf its number                  */
+enum term_kind { TERM_LEAF, TERM_NOT, TERM_AND, TERM_OR };
+struct term {
+	enum term_kind kind;
+	int left, right;      /* terms; of a leaf its number                  */
 };
 
 struct tree {
-	struct node node[NODES_MOST]; /* children before parents              */
+	struct term term[TERMS_MOST]; /* children before parents              */
 	int count;
 	struct span leaf[LEAVES_MOST]; /* each text once                      */
 	int leaves;
@@ -127,13 +127,13 @@ static bool same_span(struct span a, struct span b)
 	return a.len == b.len && strncasecmp(a.text, b.text, a.len) == 0;
 }
 
-static int add_node(struct tree *tree, enum node_kind kind, int left, int right)
+static int add_term(struct tree *tree, enum term_kind kind, int left, int right)
 {
-	if (tree->count == NODES_MOST || left < 0 || right < 0) {
+	if (tree->count == TERMS_MOST || left < 0 || right < 0) {
 		tree->failed = true;
 		return -1;
 	}
-	tree->node[tree->count] = (struct node){ kind, left, right };
+	tree->term[tree->count] = (struct term){ kind, left, right };
 	return tree->count++;
 }
 
@@ -144,11 +144,11 @@ static int add_leaf(struct tree *tree, struct span text)
 	while (i < tree->leaves && !same_span(tree->leaf[i], text))
 		i++;
 	if (i == LEAVES_MOST)
-		return add_node(tree, NODE_LEAF, -1, 0);
+		return add_term(tree, TERM_LEAF, -1, 0);
 	tree->leaf[i] = text;
 	if (i == tree->leaves)
 		tree->leaves++;
-	return add_node(tree, NODE_LEAF, i, 0);
+	return add_term(tree, TERM_LEAF, i, 0);
 }
 
 /* A name or an address, perhaps with a path. */
@@ -169,7 +169,7 @@ static bool is_operand(struct span leaf)
 	return !first;
 }
 
-/* Depth: each level takes a node or a bracket, and expr.c has bounded both. */
+/* Depth: each level takes a term or a bracket, and expr.c has bounded both. */
 static int grow(struct tree *tree, struct span all)
 {
 	struct span left, right, inner = all;
@@ -177,24 +177,24 @@ static int grow(struct tree *tree, struct span all)
 	int a, b;
 
 	if (tree->failed || !all.len)
-		return add_node(tree, NODE_LEAF, -1, 0);
+		return add_term(tree, TERM_LEAF, -1, 0);
 	if (split(all, "OR", 0, &left, &right)) {
 		a = grow(tree, left);
 		b = grow(tree, right);
-		return add_node(tree, NODE_OR, a, b);
+		return add_term(tree, TERM_OR, a, b);
 	}
 	if (split(all, "XOR", 0, &left, &right))
 		return add_leaf(tree, all);
 	if (split(all, "AND", '&', &left, &right)) {
 		a = grow(tree, left);
 		b = grow(tree, right);
-		return add_node(tree, NODE_AND, a, b);
+		return add_term(tree, TERM_AND, a, b);
 	}
 	if (unwrap(&inner))
 		return grow(tree, inner);
 	if (skip_not(&inner) && (is_operand(inner) || unwrap(&inner))) {
 		a = grow(tree, inner);
-		return add_node(tree, NODE_NOT, a, 0);
+		return add_term(tree, TERM_NOT, a, 0);
 	}
 	tree->count = before;
 	return add_leaf(tree, all);
@@ -202,16 +202,16 @@ static int grow(struct tree *tree, struct span all)
 
 static bool value_with(const struct tree *tree, uint32_t leaves)
 {
-	bool value[NODES_MOST] = { false };
+	bool value[TERMS_MOST] = { false };
 
 	for (int i = 0; i < tree->count; i++) {
-		const struct node *n = &tree->node[i];
+		const struct term *n = &tree->term[i];
 
 		switch (n->kind) {
-		case NODE_LEAF: value[i] = leaves >> n->left & 1u; break;
-		case NODE_NOT: value[i] = !value[n->left]; break;
-		case NODE_AND: value[i] = value[n->left] && value[n->right]; break;
-		case NODE_OR: value[i] = value[n->left] || value[n->right]; break;
+		case TERM_LEAF: value[i] = leaves >> n->left & 1u; break;
+		case TERM_NOT: value[i] = !value[n->left]; break;
+		case TERM_AND: value[i] = value[n->left] && value[n->right]; break;
+		case TERM_OR: value[i] = value[n->left] || value[n->right]; break;
 		}
 	}
 	return tree->count && value[tree->count - 1];
@@ -306,26 +306,26 @@ static bool has_smaller(const struct search *s, uint32_t set)
 static bool holds_by(const struct tree *tree, uint32_t set)
 {
 	/* Three values: sure TRUE, sure FALSE, neither. */
-	bool yes[NODES_MOST] = { false }, no[NODES_MOST] = { false };
+	bool yes[TERMS_MOST] = { false }, no[TERMS_MOST] = { false };
 
 	for (int i = 0; i < tree->count; i++) {
-		const struct node *n = &tree->node[i];
+		const struct term *n = &tree->term[i];
 		const int a = n->left, b = n->right;
 
 		switch (n->kind) {
-		case NODE_LEAF:
+		case TERM_LEAF:
 			yes[i] = (set & tree->value) >> a & 1u;
 			no[i] = (set & ~tree->value) >> a & 1u;
 			break;
-		case NODE_NOT:
+		case TERM_NOT:
 			yes[i] = no[a];
 			no[i] = yes[a];
 			break;
-		case NODE_AND:
+		case TERM_AND:
 			yes[i] = yes[a] && yes[b];
 			no[i] = no[a] || no[b];
 			break;
-		case NODE_OR:
+		case TERM_OR:
 			yes[i] = yes[a] || yes[b];
 			no[i] = no[a] && no[b];
 			break;
