@@ -200,7 +200,7 @@ static bool play(const char *dir, struct player *player)
 	player->period_ns = 10000000;
 	player->ladder = ladder_new();
 	if (player->ladder && ladder_load_text(player->ladder, "main.rung", text, len) &&
-	    (ladder_build(player->ladder) || getenv("SFC_UNBUILT")))
+	    ladder_build(player->ladder))
 		player->walker = walker_new(ladder_project(player->ladder), &why);
 	if (player->walker) {
 		slurp(dir, "stimulus", text);
