@@ -98,6 +98,7 @@ static void show_rungs(LadderChartPage *page, int first)
 	ladder_grid_view_set_sim(LADDER_GRID_VIEW(page->rungs), page->sim);
 	g_signal_connect_swapped(page->rungs, "told", G_CALLBACK(told), page);
 	g_signal_connect_swapped(page->rungs, "cursor-moved", G_CALLBACK(moved), page);
+	g_signal_connect_swapped(page->rungs, "notify::has-focus", G_CALLBACK(moved), page);
 	put_below(page, page->rungs, heading, true);
 	gtk_widget_grab_focus(page->rungs);
 	g_free(heading);

@@ -147,7 +147,7 @@ static float put_chart(const struct project *project, const struct pou *pou,
 		       struct lettering *lettering, float y, struct picture *picture)
 {
 	struct sfc_sheet *chart = sfc_sheet_new(project, pou, lettering);
-	struct sheet *sheet = new_sheet(project, pou, options, lettering);
+	struct sheet *sheet = NULL;
 	struct sfc_mark mark[LIMIT_DIAGS];
 	const struct sfc_scene scene = {
 		.sheet = chart, .theme = theme_get(options->theme, THEME_GREEN),
@@ -161,6 +161,8 @@ static float put_chart(const struct project *project, const struct pou *pou,
 	y += chart->height;
 	render_grow(picture, chart->width, y);
 	bodies = sfc_bodies_new(project, pou, &count);
+	if (count)
+		sheet = new_sheet(project, pou, options, lettering);
 	for (int i = 0; i < count; i++) {
 		const struct sfc_body *body = bodies[i].body;
 
