@@ -41,6 +41,13 @@ static uint32_t add_name(struct assembler *as, struct maps *maps, uint32_t id)
 	return maps_string(as, maps, names_text(names, id), names_len(names, id));
 }
 
+/* What conditions of a chart write means nothing to anybody else. */
+static bool is_condition(const struct pou *pou, int index)
+{
+	return pou && pou->sfc && pou->sfc->block >= 0 &&
+	       index == sfc_condition(pou->sfc, &pou->vars);
+}
+
 /* Type, marks and place of a symbol as its word has them. */
 static uint32_t symbol_word(struct assembler *as, const struct maps *maps,
 			    const struct pou *pou, const struct var *var, int index)
@@ -59,7 +66,7 @@ static uint32_t symbol_word(struct assembler *as, const struct maps *maps,
 	if (maps->declared[var->fold] > 1)
 		mark |= SYMBOL_SHARED;
 	if (is_temporary(name, 'T') || is_temporary(name, 'N') ||
-	    is_temporary(name, 'E'))
+	    is_temporary(name, 'E') || is_condition(pou, index))
 		mark |= SYMBOL_HIDDEN;
 	return CODE_OPERAND(mark, offset);
 }
