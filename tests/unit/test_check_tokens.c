@@ -107,7 +107,7 @@ static void test_giving_up(void)
 	for (int i = 1; i < 17; i++)
 		snprintf(text + strlen(text), 20, ",B%d", i);
 	for (int i = 0; i < 17; i++)
-		snprintf(text + strlen(text), 60, "; S B%d; S C%d; T B%d>C%d", i, i, i, i);
+		snprintf(text + strlen(text), 80, "; S B%d; S C%d; T B%d>C%d", i, i, i, i);
 	for (int i = 1; i < 17; i++)
 		snprintf(join + strlen(join), 20, ",C%d", i);
 	append(join, sizeof(join), ">Z");
