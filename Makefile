@@ -51,12 +51,9 @@ ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/
             $(addprefix runtime/engine/,base/diag.c base/nearest.c base/sink.c model/convert.c model/shape.c scan/code*.c scan/declared.c \
             scan/retain_*.c scan/symbols.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
             hal/gpio_find.c hal/hal_open.c hal/iomap.c)
-ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/areas.c base/catalog.c base/file.c base/iec_days.c base/iec_print.c \
-            base/literal_*.c model/config.c model/expr.c model/loop.c model/project.c model/words.c \
+ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
             scan/big.c scan/decimal.c scan/fb_analog.c scan/fb_clock.c scan/fb_pid.c scan/fb_store.c scan/fn_bits.c scan/fn_convert.c \
-            scan/fn_real.c scan/fn_select.c scan/fn_string.c scan/fn_text*.c scan/fn_time.c scan/math*.c scan/number.c scan/retain*.c \
-            translate/assemble.c translate/call*.c translate/element.c translate/layout_*.c translate/ld_box.c translate/ld_expr.c \
-            translate/ld_loop.c translate/list_*.c translate/temps*.c)))
+            scan/fn_real.c scan/fn_select.c scan/fn_string.c scan/fn_text*.c scan/fn_time.c scan/math*.c scan/number.c scan/retain*.c)))
 $(call obj,$(filter-out $(OFTEN),$(ONCE))): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
 
 all: $(BUILD)/libladder.a ## build everything that can be built here

@@ -160,9 +160,12 @@ static void offer_towards(const struct offer *o, const char *from, const char *i
 
 	for (int i = 0; (to = type_name(i)) != NULL; i++) {
 		snprintf(text, sizeof(text), "%s%s%s", from, infix, to);
-		if (convert_make(text, strlen(text), &made))
-			give(o, EXPECT_FUNCTION, text,
-			     explain_word(word_row(made.row.runs)));
+		struct expect_word word = { .kind = EXPECT_FUNCTION, .text = text };
+
+		if (!convert_make(text, strlen(text), &made))
+			continue;
+		word.row = word_row(made.row.runs);
+		o->taker->take(o->taker->context, &word);
 	}
 }
 
