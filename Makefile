@@ -331,7 +331,7 @@ BIN       := $(BUILD)/tests/bin
 FUZZ      := read code script scenario iomap retain
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
-TESTS_BIN := $(addprefix $(BIN)/,differential sfc_differential sfc_trace members iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
+TESTS_BIN := $(addprefix $(BIN)/,differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
@@ -339,6 +339,7 @@ $(BUILD)/unit/test_record $(BUILD)/unit/test_carry $(BUILD)/unit/test_why: $(RAN
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/sfc_differential: $(BUILD)/tests/sfc_differential.o $(WALKER)
 $(BIN)/sfc_trace: $(BUILD)/tests/sfc_trace.o $(WALKER)
+$(BIN)/sfc_ladder: $(BUILD)/tests/sfc_ladder.o $(RANDOM_O)
 $(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
 $(BUILD)/tests/editor/test_sim_trace: $(RANDOM_O)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o

@@ -9,6 +9,7 @@
 #   expected.trace  what `ladder trace main.rung stimulus` prints
 #   expected.why    what `ladder why main.rung stimulus COIL` prints, of each line in `ask`
 #   expected.show   what `ladder show main.rung` draws; expected.ascii: with --ascii
+#   expected.ladder what `ladder export --as ld` prints, and what is said of it
 #   expected.fault  the same of a program that ends with a fault, and what is said of it
 # The cases together must show every message of diag.def and trace every word of
 # catalog.def. `--bless CASE` rewrites what a case expects and shows the difference:
@@ -29,6 +30,7 @@ my %command = (
 	il    => ['il', 'main.rung'],
 	trace => ['trace', 'main.rung', 'stimulus'],
 	fault => ['trace', 'main.rung', 'stimulus'],
+	ladder => ['export', '--as', 'ld', 'main.rung'],
 	show  => ['show', 'main.rung'],
 	ascii => ['show', '--ascii', 'main.rung'],
 	why   => [],
@@ -79,8 +81,8 @@ sub produce {
 	my ($dir, $kind) = @_;
 	return produce_why($dir) if $kind eq 'why';
 	my ($out, $err, $status) = run_case($dir, @{$command{$kind}});
-	my $text = $kind eq 'diag' ? $err : $kind eq 'fault' ? "$out$err" : $out;
-	my $wanted = $kind eq 'fault' || ($kind eq 'diag' && $err =~ /: error LD/) ? 1 : 0;
+	my $text = $kind eq 'diag' ? $err : $kind =~ /fault|ladder/ ? "$out$err" : $out;
+	my $wanted = $kind eq 'fault' || ($kind =~ /diag|ladder/ && $err =~ /: error LD/) ? 1 : 0;
 	return ($text, $status == $wanted, $status);
 }
 
@@ -161,7 +163,7 @@ sub missing_words {
 my $elsewhere = qr/^LD(?:0|316|327|5|61|606|607)/;
 
 sub missing_codes {
-	my $shown = join '', map { slurp("$_/expected.diag") // '' } cases();
+	my $shown = join '', map { slurp("$_/expected.diag") // slurp("$_/expected.ladder") // '' } cases();
 	my @codes = slurp("$engine/diag.def") =~ /^DIAG\(\w+,\s*"(LD\d+)"/mg;
 	return grep { !/$elsewhere/ && $shown !~ / $_: / } @codes;
 }

@@ -12,6 +12,7 @@
 #include "engine/check/check_tokens.h"
 #include "engine/text/text.h"
 #include "engine/translate/translate.h"
+#include "engine/view/sfc_ladder.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -449,6 +450,26 @@ char *ladder_write_rung(struct ladder *ladder, const struct rung *rung)
 {
 	return ladder_project(ladder) ?
 	       text_write_rung(ladder->project, rung) : NULL;
+}
+
+char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags)
+{
+	struct project *project = ladder_project(ladder);
+	struct sink_memory memory;
+	struct sink sink;
+
+	if (!project)
+		return NULL;
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	if (sfc_ladder(project, &sink, diags) && !memory.failed) {
+		*len = memory.len;
+		return memory.text;
+	}
+	if (memory.failed)
+		no_memory(ladder, project->file);
+	sink_memory_free(&memory);
+	return NULL;
 }
 
 char *ladder_outline(struct ladder *ladder, size_t *len,

@@ -106,6 +106,15 @@ void ladder_functions(struct project *project, const char *begun, size_t len,
  */
 char *ladder_write(struct ladder *ladder, size_t *len);
 /**
+ * ladder_export_ladder - the project with ladders in the place of its charts
+ * @diags: gets LD460 for what has none
+ *
+ * The text is not canonical. It declares names of its own; their spellings stay in the
+ * table of names. Owns: the caller, free().   Scan-safe: no.
+ * Fails: NULL after a diagnostic, or when nothing was loaded.
+ */
+char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags);
+/**
  * ladder_outline - what ladder_write gives, and where its parts are
  * @take: is handed each part when it ends, so inner ones before outer ones; or NULL
  *

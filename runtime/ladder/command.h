@@ -76,6 +76,7 @@ void command_man(const struct command_row *row, const struct sink *out);
 
 enum status cmd_check(struct call *call);
 enum status cmd_complete(struct call *call);
+enum status cmd_export(struct call *call);
 enum status cmd_fmt(struct call *call);
 enum status cmd_show(struct call *call);
 enum status cmd_il(struct call *call);
