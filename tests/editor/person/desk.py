@@ -92,7 +92,8 @@ class Screen:
         os.environ.pop('XDG_DATA_HOME', None)
         self.start_bus()
         read, write = os.pipe()
-        self.start('Xvfb', '-displayfd', str(write), '-screen', '0', size, '-nolisten', 'tcp', '-noreset',
+        # -r: no key repeats itself while a busy machine is late to let go of it.
+        self.start('Xvfb', '-displayfd', str(write), '-screen', '0', size, '-nolisten', 'tcp', '-noreset', '-r',
                    pass_fds=[write])
         os.close(write)
         number = b''
