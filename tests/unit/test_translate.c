@@ -487,6 +487,19 @@ static bool same_as_list(const char *path)
 	return own || memcmp(a, b, 32) == 0;
 }
 
+/* The list of a chart has EACH and TICK, which no list that is read can have. */
+static bool has_chart(const char *path)
+{
+	struct ladder *ladder = ladder_new();
+	bool found = false;
+
+	if (ladder_load(ladder, path))
+		for (int i = 0; i < ladder_project(ladder)->pou_count; i++)
+			found |= ladder_project(ladder)->pou[i].sfc != NULL;
+	ladder_free(ladder);
+	return found;
+}
+
 static void prints_the_same_program(const char *folder, int least)
 {
 	DIR *dir = opendir(folder);
@@ -500,6 +513,8 @@ static void prints_the_same_program(const char *folder, int least)
 		if (len < 5 || strcmp(entry->d_name + len - 5, ".rung") != 0)
 			continue;
 		snprintf(path, sizeof(path), "%s/%s", folder, entry->d_name);
+		if (has_chart(path))
+			continue;
 		CHECK_AS(same_as_list(path), path);
 		count++;
 	}
