@@ -5,6 +5,7 @@
 #include "engine/view/sfc_ladder_parts.h"
 
 #include "engine/base/ascii.h"
+#include "engine/check/scope.h"
 #include "engine/text/text.h"
 #include "engine/view/address_map.h"
 
@@ -261,14 +262,18 @@ static void check_table(struct lad *e)
 	}
 }
 
-static void check_control(struct lad *e)
+/* What FORCE was in the scan before has its type. */
+static void type_number(struct lad *e)
 {
-	static const enum control none[] = { CONTROL_SEMI, CONTROL_MANUAL, CONTROL_TIP,
-					     CONTROL_FORCE };
+	const uint32_t force = e->sfc->control[CONTROL_FORCE];
+	struct scope *scope = force ? scope_new(e->project, e->arena) : NULL;
+	enum diag_id why;
+	const struct meaning *m = scope ? scope_find(scope, e->pou, force, &why) : NULL;
 
-	for (size_t i = 0; i < sizeof(none) / sizeof(*none); i++)
-		if (e->sfc->control[none[i]])
-			lad_refuse(e, e->sfc->control_line, 0, control_word(none[i]));
+	if (m && m->type != IEC_NONE)
+		e->chart[LAD_NUMBER].type = iec_type_row(m->type)->word;
+	else if (force)
+		lad_refuse(e, e->sfc->control_line, 0, "FORCE");
 }
 
 static void check_place(struct lad *e)
@@ -292,7 +297,6 @@ static bool begin(struct lad *e)
 	const size_t actions = (size_t)e->sfc->action_count;
 
 	check_table(e);
-	check_control(e);
 	check_place(e);
 	e->step = arena_alloc(e->arena, steps * sizeof(*e->step));
 	e->arc = arena_alloc(e->arena, arcs * sizeof(*e->arc));
@@ -303,6 +307,7 @@ static bool begin(struct lad *e)
 	    !sfc_net_make(e->sfc, e->arena, &e->net) || !find_addresses(e))
 		return false;
 	lad_names(e);
+	type_number(e);
 	return e->good;
 }
 

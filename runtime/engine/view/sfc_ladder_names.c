@@ -56,7 +56,7 @@ static void name_steps(struct lad *e)
 		[LAD_X] = { "X", "BOOL" }, [LAD_T] = { "T", "TIME" },
 		[LAD_START] = { "Start", "BOOL" }, [LAD_LEFT] = { "Left", "BOOL" },
 		[LAD_END] = { "End", "BOOL" }, [LAD_STARTED] = { "Started", "BOOL" },
-		[LAD_ENDED] = { "Ended", "BOOL" },
+		[LAD_ENDED] = { "Ended", "BOOL" }, [LAD_FORCED] = { "Forced", "BOOL" },
 	};
 
 	for (int i = 0; i < e->sfc->step_count; i++)
@@ -85,6 +85,8 @@ static void name_arcs(struct lad *e)
 
 		make_var(e, &e->arc[i][LAD_FIRES], "BOOL", base, NULL);
 		make_var(e, &e->arc[i][LAD_RESULT], "BOOL",
+			 lad_text(e, "%s_Result", base), NULL);
+		make_var(e, &e->arc[i][LAD_TRUE], "BOOL",
 			 lad_text(e, "%s_True", base), NULL);
 	}
 }
@@ -115,6 +117,9 @@ static void name_chart(struct lad *e)
 		[LAD_CLOCK] = { "Clock", "TON" }, [LAD_PASSED] = { "Passed", "TIME" },
 		[LAD_LAST] = { "Last", "TIME" }, [LAD_ANEW] = { "Anew", "BOOL" },
 		[LAD_STANDS] = { "Stands", "BOOL" },
+		[LAD_CHANGED] = { "Changed", "BOOL" }, [LAD_NUMBER] = { "Number", "" },
+		[LAD_SET] = { "Forced", "BOOL" }, [LAD_GO] = { "Go", "BOOL" },
+		[LAD_HAND] = { "ByHand", "BOOL" },
 	};
 	const char *name = project_text(e->project, e->pou->name);
 

@@ -23,18 +23,21 @@ struct lad_var {
 };
 
 /* Of a step: it is active; its time; it became active, was left by a transition, was
- * left at all, in this evolution; the same in this scan, of UNTIL STABLE. */
+ * left at all, in this evolution; the same in this scan, of UNTIL STABLE; FORCE. */
 enum lad_step { LAD_X, LAD_T, LAD_START, LAD_LEFT, LAD_END, LAD_STARTED, LAD_ENDED,
-		LAD_STEP_VARS };
-/* Of an arc: it fires; what its condition gave. */
-enum lad_arc { LAD_FIRES, LAD_RESULT, LAD_ARC_VARS };
+		LAD_FORCED, LAD_STEP_VARS };
+/* Of an arc: it fires; what its condition gave; it is enabled and true. */
+enum lad_arc { LAD_FIRES, LAD_RESULT, LAD_TRUE, LAD_ARC_VARS };
 /* Of a line: it is stored; since when; it waits for its step; its time allows it. */
 enum lad_line { LAD_STORED, LAD_SINCE, LAD_ARMED, LAD_ALLOWED, LAD_LINE_VARS };
 /* Of what is called: it is called for; not only by a pulse; that of the scan before. */
 enum lad_call { LAD_CALLED, LAD_LEVEL, LAD_WAS, LAD_CALL_VARS };
-/* Of the chart. */
+/* Of the chart: it runs; this is its first scan; time; RESET rises; nothing fires; FORCE
+ * has changed, what it was, a step is forced; transitions fire if they are true, or
+ * whatever they are. */
 enum lad_chart { LAD_RUNS, LAD_FIRST, LAD_CLOCK, LAD_PASSED, LAD_LAST, LAD_ANEW,
-		 LAD_STANDS, LAD_CHART_VARS };
+		 LAD_STANDS, LAD_CHANGED, LAD_NUMBER, LAD_SET, LAD_GO, LAD_HAND,
+		 LAD_CHART_VARS };
 
 /* What steps call: an action, or a BOOL. */
 struct lad_called {
@@ -119,6 +122,15 @@ void lad_write(struct lad *e, const struct lad_rung *r, const char *label,
 	       const char *title);
 /** lad_expression - an expression as contacts where that means the same; else a cell. */
 void lad_expression(struct lad *e, struct lad_rung *r, const char *text);
+
+/* ---- sfc_ladder_control.c ---- */
+bool lad_has_reset(const struct lad *e);
+bool lad_has_force(const struct lad *e);
+/** lad_has_gate - can it be that nothing fires? */
+bool lad_has_gate(const struct lad *e);
+/** lad_has_modes - does somebody say when transitions fire? */
+bool lad_has_modes(const struct lad *e);
+void lad_control(struct lad *e);
 
 /* ---- the two programs ---- */
 void lad_steps(struct lad *e);

@@ -32,45 +32,7 @@ static const char *text_of(const struct lad *e, uint32_t id)
 	return project_text(e->project, id);
 }
 
-static bool has_reset(const struct lad *e)
-{
-	return e->sfc->control[CONTROL_RESET];
-}
-
-static bool has_gate(const struct lad *e)
-{
-	return has_reset(e) || e->sfc->control[CONTROL_HOLD];
-}
-
-/* ---- the beginning ---- */
-
-static void write_control(struct lad *e)
-{
-	const char *reset = lad_words(e, text_of(e, e->sfc->control[CONTROL_RESET]));
-	const char *hold = lad_words(e, text_of(e, e->sfc->control[CONTROL_HOLD]));
-	struct lad_rung *r = lad_begin(e);
-
-	if (has_reset(e)) {
-		lad_head(r, lad_text(e, "P %s", reset));
-		lad_head(r, no(e, &e->chart[LAD_RUNS]));
-		lad_out(r, coil(e, "COIL", &e->chart[LAD_ANEW]));
-		lad_write(e, r, "", "RESET: all begins anew");
-		r = lad_begin(e);
-		lad_cell(r, lad_text(e, "NO %s", reset));
-	}
-	if (*hold) {
-		lad_way(r);
-		lad_cell(r, lad_text(e, "NO %s", hold));
-	}
-	if (has_gate(e)) {
-		lad_out(r, coil(e, "COIL", &e->chart[LAD_STANDS]));
-		lad_write(e, r, "", "While this is TRUE nothing fires");
-	}
-	r = lad_begin(e);
-	lad_head(r, nc(e, &e->chart[LAD_RUNS]));
-	lad_out(r, coil(e, "COIL", &e->chart[LAD_FIRST]));
-	lad_write(e, r, "", "The first scan");
-}
+/* ---- times ---- */
 
 /* Is a time counted anywhere? */
 static bool has_times(const struct lad *e)
@@ -241,24 +203,54 @@ static void write_condition(struct lad *e, struct lad_rung *r, int arc)
 	}
 }
 
+/* What has to be before a condition is asked: a cell each. */
+static void put_enabled(struct lad *e, struct lad_rung *r, int number,
+			void (*put)(struct lad_rung *r, char *cell))
+{
+	const struct sfc_arc *arc = &e->net.arc[number];
+
+	for (int k = 0; k < arc->from.count; k++)
+		put(r, no(e, &e->step[arc->from.step[k]][LAD_X]));
+	if (lad_has_gate(e))
+		put(r, nc(e, &e->chart[LAD_STANDS]));
+	for (int k = 0; k < number; k++)
+		if (share(&arc->from, &e->net.arc[k].from))
+			put(r, nc(e, &e->arc[k][LAD_FIRES]));
+}
+
+/* By modes: it fires if it is true and may, or by hand. */
+static void write_fires(struct lad *e, int arc, const char *title)
+{
+	struct lad_rung *r = lad_begin(e);
+
+	lad_cell(r, no(e, &e->arc[arc][LAD_TRUE]));
+	lad_cell(r, no(e, &e->chart[LAD_GO]));
+	if (e->sfc->control[CONTROL_MANUAL]) {
+		lad_way(r);
+		lad_cell(r, no(e, &e->chart[LAD_HAND]));
+		put_enabled(e, r, arc, lad_cell);
+	}
+	lad_out(r, coil(e, "COIL", &e->arc[arc][LAD_FIRES]));
+	lad_write(e, r, "", title);
+}
+
 static void write_arcs(struct lad *e)
 {
+	const bool modes = lad_has_modes(e);
+
 	for (int i = 0; i < e->net.arc_count; i++) {
 		const struct sfc_arc *arc = &e->net.arc[i];
 		struct lad_rung *r = lad_begin(e);
+		const char *title = lad_text(e, "%s -> %s", steps_text(e, &arc->from),
+					     steps_text(e, &arc->to));
 
-		for (int k = 0; k < arc->from.count; k++)
-			lad_head(r, no(e, &e->step[arc->from.step[k]][LAD_X]));
-		if (has_gate(e))
-			lad_head(r, nc(e, &e->chart[LAD_STANDS]));
-		for (int k = 0; k < i; k++)
-			if (share(&arc->from, &e->net.arc[k].from))
-				lad_head(r, nc(e, &e->arc[k][LAD_FIRES]));
+		put_enabled(e, r, i, lad_head);
 		write_condition(e, r, i);
-		lad_out(r, coil(e, "COIL", &e->arc[i][LAD_FIRES]));
+		lad_out(r, coil(e, "COIL", &e->arc[i][modes ? LAD_TRUE : LAD_FIRES]));
 		lad_write(e, r, i == 0 && e->sfc->until_stable ? text_of(e, e->again) : "",
-			  lad_text(e, "%s -> %s", steps_text(e, &arc->from),
-				   steps_text(e, &arc->to)));
+			  modes ? lad_text(e, "%s: is it true?", title) : title);
+		if (modes)
+			write_fires(e, i, title);
 	}
 }
 
@@ -267,6 +259,30 @@ static void write_arcs(struct lad *e)
 static bool is_initial(const struct lad *e, int step)
 {
 	return has(&e->net.initial, step);
+}
+
+static void put_forced(struct lad *e, struct lad_rung *r, int step)
+{
+	struct sfc_steps steps;
+
+	for (int i = 0; lad_has_force(e) && i < e->sfc->step_count; i++) {
+		e->good &= sfc_forced(e->sfc, i, e->arena, &steps);
+		if (!has(&steps, step))
+			continue;
+		lad_way(r);
+		lad_cell(r, no(e, &e->step[i][LAD_FORCED]));
+	}
+}
+
+/* With UNTIL STABLE actions ask what was gathered; times and SET ask in each round. */
+static bool reads_start(const struct lad *e, int step)
+{
+	const struct sfc_step *at = &e->sfc->step[step];
+	bool sets = false;
+
+	for (int i = 0; i < at->use_count; i++)
+		sets |= e->sfc->use[at->first_use + i].kind != USE_ACTION;
+	return !e->sfc->until_stable || sets || e->step[step][LAD_T].used;
 }
 
 /* Pulses of a step that anything asks for. */
@@ -285,13 +301,15 @@ static void write_start(struct lad *e, int step)
 		lad_way(r);
 		lad_cell(r, no(e, &e->chart[LAD_FIRST]));
 	}
-	if (is_initial(e, step) && has_reset(e)) {
+	if (is_initial(e, step) && lad_has_reset(e)) {
 		lad_way(r);
 		lad_cell(r, no(e, &e->chart[LAD_ANEW]));
 	}
+	put_forced(e, r, step);
 	if (!r || !r->ways)
 		return;
-	lad_out(r, coil(e, "COIL", &e->step[step][LAD_START]));
+	if (reads_start(e, step))
+		lad_out(r, coil(e, "COIL", &e->step[step][LAD_START]));
 	if (e->sfc->until_stable && e->step[step][LAD_STARTED].used)
 		lad_out(r, coil(e, "S", &e->step[step][LAD_STARTED]));
 	lad_write(e, r, "", lad_text(e, "%s becomes active", lad_name(e, step)));
@@ -322,12 +340,18 @@ static void write_end(struct lad *e, int step)
 	struct lad_rung *r = lad_begin(e);
 
 	lad_cell(r, no(e, &e->step[step][LAD_LEFT]));
-	if (has_reset(e)) {
+	if (lad_has_reset(e)) {
 		lad_way(r);
 		lad_cell(r, no(e, &e->chart[LAD_ANEW]));
 		lad_cell(r, no(e, &e->step[step][LAD_X]));
 	}
-	lad_out(r, coil(e, "COIL", &e->step[step][LAD_END]));
+	if (lad_has_force(e)) {
+		lad_way(r);
+		lad_cell(r, no(e, &e->chart[LAD_SET]));
+		lad_cell(r, no(e, &e->step[step][LAD_X]));
+	}
+	if (!e->sfc->until_stable)
+		lad_out(r, coil(e, "COIL", &e->step[step][LAD_END]));
 	if (e->sfc->until_stable && e->step[step][LAD_ENDED].used)
 		lad_out(r, coil(e, "S", &e->step[step][LAD_ENDED]));
 	lad_write(e, r, "", lad_text(e, "%s ends", lad_name(e, step)));
@@ -366,6 +390,21 @@ static void write_pulses(struct lad *e)
 
 /* ---- firing ---- */
 
+static void write_leaving(struct lad *e, struct lad_var *when, const char *title)
+{
+	for (int i = 0; i < e->sfc->step_count; i++) {
+		struct lad_rung *r = lad_begin(e);
+
+		lad_head(r, no(e, when));
+		for (; i < e->sfc->step_count; i++) {
+			lad_out(r, coil(e, "R", &e->step[i][LAD_X]));
+			if (i % 100 == 99)
+				break;
+		}
+		lad_write(e, r, "", title);
+	}
+}
+
 static void write_resets(struct lad *e)
 {
 	for (int i = 0; i < e->net.arc_count; i++) {
@@ -377,17 +416,10 @@ static void write_resets(struct lad *e)
 			lad_out(r, coil(e, "R", &e->step[arc->from.step[k]][LAD_X]));
 		lad_write(e, r, "", lad_text(e, "Leave %s", steps_text(e, &arc->from)));
 	}
-	for (int i = 0; has_reset(e) && i < e->sfc->step_count; i++) {
-		struct lad_rung *r = lad_begin(e);
-
-		lad_head(r, no(e, &e->chart[LAD_ANEW]));
-		for (; i < e->sfc->step_count; i++) {
-			lad_out(r, coil(e, "R", &e->step[i][LAD_X]));
-			if (i % 100 == 99)
-				break;
-		}
-		lad_write(e, r, "", "RESET leaves all steps");
-	}
+	if (lad_has_reset(e))
+		write_leaving(e, &e->chart[LAD_ANEW], "RESET leaves all steps");
+	if (lad_has_force(e))
+		write_leaving(e, &e->chart[LAD_SET], "FORCE leaves all steps");
 }
 
 static void write_sets(struct lad *e)
@@ -405,13 +437,23 @@ static void write_sets(struct lad *e)
 	}
 	r = lad_begin(e);
 	lad_cell(r, no(e, &e->chart[LAD_FIRST]));
-	if (has_reset(e)) {
+	if (lad_has_reset(e)) {
 		lad_way(r);
 		lad_cell(r, no(e, &e->chart[LAD_ANEW]));
 	}
 	for (int i = 0; i < e->net.initial.count; i++)
 		lad_out(r, coil(e, "S", &e->step[e->net.initial.step[i]][LAD_X]));
 	lad_write(e, r, "", "Begin");
+	for (int i = 0; lad_has_force(e) && i < e->sfc->step_count; i++) {
+		struct sfc_steps steps;
+
+		e->good &= sfc_forced(e->sfc, i, e->arena, &steps);
+		r = lad_begin(e);
+		lad_head(r, no(e, &e->step[i][LAD_FORCED]));
+		for (int k = 0; k < steps.count; k++)
+			lad_out(r, coil(e, "S", &e->step[steps.step[k]][LAD_X]));
+		lad_write(e, r, "", lad_text(e, "FORCE enters %s", lad_name(e, i)));
+	}
 }
 
 static void write_begins(struct lad *e)
@@ -446,14 +488,24 @@ static void write_begins(struct lad *e)
 /* UNTIL STABLE: once more if anything fired. */
 static void write_again(struct lad *e)
 {
+	const char *semi = lad_words(e, text_of(e, e->sfc->control[CONTROL_SEMI]));
 	struct lad_rung *r = lad_begin(e);
 
 	if (!e->sfc->until_stable || !e->net.arc_count)
 		return;
+	if (*semi) {
+		lad_head(r, lad_text(e, "NO %s", semi));
+		lad_out(r, coil(e, "R", &e->chart[LAD_GO]));
+		lad_write(e, r, "", "SEMI: one TIP is one evolution");
+		r = lad_begin(e);
+	}
 	for (int i = 0; i < e->net.arc_count; i++) {
 		lad_way(r);
 		lad_cell(r, no(e, &e->arc[i][LAD_FIRES]));
 	}
+	/* One TIP is one evolution. */
+	if (lad_has_modes(e))
+		lad_out(r, coil(e, "R", &e->chart[LAD_HAND]));
 	lad_out(r, lad_text(e, "JMP %s", text_of(e, e->again)));
 	lad_write(e, r, "", "Until nothing fires");
 }
@@ -477,7 +529,7 @@ void lad_steps(struct lad *e)
 {
 	struct lad_rung *r;
 
-	write_control(e);
+	lad_control(e);
 	write_clock(e);
 	write_times(e);
 	write_gathered(e);
