@@ -190,11 +190,12 @@ static void write_refs(const struct page *page, const char *before, int first, i
 /* Is the rung still what := expression; says, and nothing else? */
 static bool is_expression(const struct page *page, const struct sfc_body *body)
 {
-	const struct rung *rung = body->count == 1 ? page->pou->rung[body->first] : NULL;
+	const struct rung *rung = body->kind == BODY_EXPRESSION && body->count == 1 ?
+				  page->pou->rung[body->first] : NULL;
 	const struct cell *cell = rung ? rung->cell : NULL;
 
-	return body->kind == BODY_EXPRESSION && rung && rung->rows == 1 &&
-	       rung->cols == 2 && !rung->label && !rung->title && !rung->comment &&
+	return rung && rung->rows == 1 && rung->cols == 2 &&
+	       !rung->label && !rung->title && !rung->comment &&
 	       !rung->off && cell[0].word == ELEM_COMPARE && !cell[0].comment &&
 	       cell[1].word == ELEM_COIL && !cell[1].comment && cell[0].operand;
 }
