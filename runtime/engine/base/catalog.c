@@ -17,6 +17,7 @@
 #define INIT_BOOL(value) { .i = (value) }
 #define INIT_BYTE(value) { .i = (value) }
 #define INIT_INT(value)  { .i = (value) }
+#define INIT_DINT(value) { .i = (value) }
 #define INIT_TIME(value) { .i = (value) }
 #define INIT_REAL(value) { .r = (value) }
 #define FB_IN(fb, pin, type, text)  { FB_PIN(fb, pin, PIN_IN, type) },

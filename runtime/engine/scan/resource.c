@@ -193,6 +193,21 @@ static bool is_too_slow(const struct resource *resource, uint32_t index,
 		resource->tasks.state[index].late_row >= resource->patience);
 }
 
+/* SYS_CYCLE. Who runs for the first time had no run before: as if it were regular. */
+static void write_cycle(struct resource *resource, uint32_t index)
+{
+	struct task_state *state = &resource->tasks.state[index];
+	int64_t cycle_ns = task_interval(&resource->image.program->task[index]);
+
+	if (state->began)
+		cycle_ns = resource->vm.now_ns - state->began_ns;
+	else if (!cycle_ns)
+		cycle_ns = resource->period_ns;
+	state->began = true;
+	state->began_ns = resource->vm.now_ns;
+	store64(image_area(&resource->image, AREA_SM) + 48, cycle_ns);
+}
+
 /* The programs of a task, with a budget of its own. */
 static void run_task(struct resource *resource, uint32_t index, bool watch)
 {
@@ -201,6 +216,7 @@ static void run_task(struct resource *resource, uint32_t index, bool watch)
 	struct vm *vm = &resource->vm;
 	enum fault fault = FAULT_NONE;
 
+	write_cycle(resource, index);
 	vm->budget = program->header->budget;
 	for (uint32_t i = 0; i < task->count && fault == FAULT_NONE; i++)
 		fault = vm_run(vm, program->call[task->first + i], watch);

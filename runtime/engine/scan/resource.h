@@ -45,7 +45,7 @@ struct resource {
 	/* Told by the caller once; not touched by a start. */
 	int64_t (*clock_ns)(void);   /* to time declared tasks; NULL: not     */
 	int64_t tick_ns;             /* from one cycle to the next; 0: unknown */
-	int64_t period_ns;           /* patience with tasks without INTERVAL  */
+	int64_t period_ns;           /* of cycles, where tasks have no INTERVAL */
 	uint32_t patience;           /* a task's watchdog: so many late runs in
 					a row, or one run of so many periods;
 					0: none. WATCHDOG counts anyway.      */

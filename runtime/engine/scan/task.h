@@ -14,6 +14,8 @@
 /* All since the start of the resource. */
 struct task_state {
 	int64_t next_ns;    /* TASK_INTERVAL: its next deadline               */
+	int64_t began_ns;   /* its last run                                   */
+	bool began;
 	uint64_t runs;
 	uint64_t overruns;  /* periods left out; events that came too soon    */
 	uint32_t late_row;  /* runs in a row that left out a period           */

@@ -235,6 +235,7 @@ static bool run_stroke(struct script *script, const struct stroke *stroke,
 		if (script->resource->halted)
 			continue; /* until a @reset */
 		script->scan++;
+		script->resource->period_ns = step;
 		bool good = scan(script);
 
 		if (!stroke->quiet || i == stroke->repeat || !good)

@@ -246,6 +246,7 @@ bool twin_scan(struct twin *twin)
 		return false;
 	twin->now_ns += twin->period_ns;
 	twin->scan++;
+	resource->period_ns = twin->period_ns;
 	if (has_plant(twin))
 		plant_turn(&twin->plant, twin->plant_drives, &resource->image,
 			   twin->now_ns);

@@ -13,6 +13,7 @@
 #define OURS "beyond the standard"
 #define S7_200 OURS "; a word of the S7-200"
 #define ANNEX_F OURS "; an example of edition 2, annex F, has the name"
+#define CLASSIC OURS "; as ClassicLadder has it"
 #define LANG(section) "language.md#" section
 #define BLOCKS(section) "blocks.md#" section
 #define FILES(section) "rung-file.md#" section
