@@ -12,6 +12,7 @@ runtime/engine/base     engine/base/ engine/catalog.def engine/diag.def
 runtime/engine/scan     engine/base/ engine/catalog.def
 runtime/engine/model    engine/base/ engine/catalog.def
 runtime/engine/text     engine/base/ engine/model/
+runtime/engine/import   engine/base/
 runtime/engine/check    engine/base/ engine/model/
 runtime/engine/translate engine/base/ engine/model/ engine/check/ engine/scan/code.h engine/catalog.def
 runtime/engine/trial    engine/

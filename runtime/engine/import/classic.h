@@ -119,7 +119,7 @@ struct classic_io {
 	int device;              /* -1 none, 0 and 1 ports of a PC, 2 Raspberry Pi, 3 AT91, 100… Comedi */
 	int sub_device, channel, count;
 	bool inverted;
-	int data;
+	int setup;
 };
 
 /* KEY=VALUE of general.txt, project_infos.txt, com_params.txt. */
