@@ -328,7 +328,7 @@ bless: $(BUILD)/ladder ## rewrite what CASE=name expects and show the difference
 # ---- second evaluator, fuzz targets, exhaustion, house checks ----
 # Programs that speak TAP, and scripts that do; `check` runs both lists.
 BIN       := $(BUILD)/tests/bin
-FUZZ      := read code script scenario iomap retain
+FUZZ      := read code script scenario iomap retain classic
 WALKER    := $(call obj,$(wildcard tests/walker/*.c))
 RANDOM_O  := $(call obj,$(wildcard tests/walker/random*.c tests/walker/words*.c))
 TESTS_BIN := $(addprefix $(BIN)/,differential sfc_differential sfc_ladder sfc_trace members iec_cases exhaustion saving storing $(FUZZ:%=fuzz_%))
@@ -370,7 +370,7 @@ TARGET  ?= read
 SECONDS ?= 60
 FUZZ_CC ?= clang
 FUZZ_FLAGS := -O1 -g -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
-fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap|retain SECONDS=60
+fuzz: $(BIN)/fuzz_$(TARGET) ## fuzz one reader with clang: TARGET=read|code|script|scenario|iomap|retain|classic SECONDS=60
 	@mkdir -p $(BUILD)/fuzz/$(TARGET)
 	$(BIN)/fuzz_$(TARGET) --write $(BUILD)/fuzz/$(TARGET) >/dev/null
 	$(FUZZ_CC) $(STD) $(CPPFLAGS) $(FUZZ_FLAGS) -o $(BUILD)/fuzz/fuzz_$(TARGET) tests/fuzz/fuzz_$(TARGET).c tests/fuzz/expect.c \

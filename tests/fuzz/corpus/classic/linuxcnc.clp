@@ -1,0 +1,54 @@
+_FILES_CLASSICLADDER
+_FILE-rung_0.csv
+#VER=2.0
+#LABEL=
+#COMMENT=
+#PREVRUNG=-1
+#NEXTRUNG=-1
+1-0-50/0 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 50-0-60/0
+1-0-60/0 , 0-1-0/0 , 0-0-50/3 , 0-0-50/3 , 0-0-50/3 , 0-0-50/3 , 0-0-50/3 , 0-0-50/3 , 0-0-50/3 , 0-1-60/1
+1-0-50/1 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 9-0-0/0 , 99-0-0/0 , 99-0-0/0 , 60-0-0/0
+_/FILE-rung_0.csv
+_FILE-general.txt
+PERIODIC_REFRESH=1
+_/FILE-general.txt
+_FILE-com_params.txt
+MODBUS_MASTER_SERIAL_PORT=
+MODBUS_MAP_COIL_READ=0
+_/FILE-com_params.txt
+_FILE-timers.csv
+1,10
+2,5
+_/FILE-timers.csv
+_FILE-timers_iec.csv
+1,0,0
+1,3,1
+_/FILE-timers_iec.csv
+_FILE-monostables.csv
+1,10
+_/FILE-monostables.csv
+_FILE-counters.csv
+0
+5
+_/FILE-counters.csv
+_FILE-arithmetic_expressions.csv
+#VER=2.0
+0000,@310/0@:=2^3
+_/FILE-arithmetic_expressions.csv
+_FILE-sections.csv
+#VER=1.0
+#NAME000=Prog1
+000,0,-1,0,0,0
+_/FILE-sections.csv
+_FILE-symbols.csv
+#VER=1.0
+%I9, ,
+%I0,GUI-E,
+_/FILE-symbols.csv
+_FILE-ioconf.csv
+#VER=1.0
+0,0,0,0,0,0
+_/FILE-ioconf.csv
+_FILE-counters2.csv
+_/FILE-counters2.csv
+_/FILES_CLASSICLADDER
