@@ -17,6 +17,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 struct ladder {
 	struct diag_list diags;
@@ -29,6 +30,7 @@ struct ladder {
 	size_t image_len;
 	struct program program;
 	bool good, built, unreadable, watch; /* good: the last load was */
+	struct foreign *foreign;  /* NULL: rung files and images alone      */
 };
 
 struct ladder *ladder_new(void)
@@ -53,6 +55,8 @@ static void unload(struct ladder *ladder)
 	ladder->loaded = NULL;
 	ladder->image = NULL;
 	ladder->image_len = 0;
+	if (ladder->foreign)
+		ladder->foreign->forget(ladder->foreign);
 	ladder->good = ladder->built = false;
 	memset(&ladder->translation, 0, sizeof(ladder->translation));
 	memset(&ladder->program, 0, sizeof(ladder->program));
@@ -63,7 +67,20 @@ void ladder_free(struct ladder *ladder)
 	if (!ladder)
 		return;
 	unload(ladder);
+	ladder_set_foreign(ladder, NULL);
 	free(ladder);
+}
+
+void ladder_set_foreign(struct ladder *ladder, struct foreign *foreign)
+{
+	if (ladder->foreign)
+		ladder->foreign->free(ladder->foreign);
+	ladder->foreign = foreign;
+}
+
+struct foreign *ladder_foreign(const struct ladder *ladder)
+{
+	return ladder->foreign;
 }
 
 static bool no_memory(struct ladder *ladder, const char *file)
@@ -142,12 +159,18 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 	struct text_source source = { .load = load_include };
 	bool good;
 
-	if (is_image(bytes, len)) {
+	if (bytes && is_image(bytes, len)) {
 		ladder->loaded = malloc(len);
 		if (!ladder->loaded)
 			return no_memory(ladder, file);
 		memcpy(ladder->loaded, bytes, len);
 		return open_image(ladder, file, ladder->loaded, len);
+	}
+	if (ladder->foreign && (!bytes || ladder->foreign->is(bytes, len))) {
+		bytes = ladder->foreign->read(ladder->foreign, file, bytes, len, &len, &file,
+					      &ladder->diags);
+		if (!bytes)
+			return false;
 	}
 	ladder->project = project_new(file);
 	if (!ladder->project)
@@ -157,6 +180,12 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 	if (ladder->project->arena.failed)
 		good = no_memory(ladder, file);
 	return good;
+}
+
+static void place_foreign(struct ladder *ladder)
+{
+	if (ladder->foreign)
+		ladder->foreign->place(ladder->foreign, &ladder->diags);
 }
 
 /* Keeps the diagnostics' names: the project goes only when nothing points into
@@ -169,7 +198,15 @@ bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
 	ladder->unreadable = false;
 	ladder->good = load_bytes(ladder, file, text, len) &&
 		       ladder->diags.errors == 0;
+	place_foreign(ladder);
 	return ladder->good;
+}
+
+static bool is_folder(const char *path)
+{
+	struct stat about;
+
+	return stat(path, &about) == 0 && S_ISDIR(about.st_mode);
 }
 
 bool ladder_load(struct ladder *ladder, const char *path)
@@ -177,14 +214,20 @@ bool ladder_load(struct ladder *ladder, const char *path)
 	size_t len;
 	char *bytes;
 
+	bool folder;
+
 	unload(ladder);
 	diag_init(&ladder->diags);
 	bytes = file_read(path, LIMIT_TEXT, &len, &ladder->diags);
-	ladder->unreadable = !bytes;
-	if (!bytes)
+	folder = !bytes && ladder->foreign && is_folder(path);
+	ladder->unreadable = !bytes && !folder;
+	if (ladder->unreadable)
 		return false;
-	ladder->good = load_bytes(ladder, path, bytes, len) &&
+	if (folder)
+		diag_init(&ladder->diags);
+	ladder->good = load_bytes(ladder, path, bytes, bytes ? len : 0) &&
 		       ladder->diags.errors == 0;
+	place_foreign(ladder);
 	free(bytes);
 	return ladder->good;
 }
@@ -338,7 +381,7 @@ static bool begin_translation(struct ladder *ladder)
 	return t->scope && t->unit;
 }
 
-bool ladder_build(struct ladder *ladder)
+static bool build(struct ladder *ladder)
 {
 	struct project *project = ladder->project;
 	uint8_t **bad;
@@ -365,6 +408,14 @@ bool ladder_build(struct ladder *ladder)
 	arena_reset(&ladder->scratch);
 	return open_image(ladder, project->file, ladder->image,
 			  ladder->image_len);
+}
+
+bool ladder_build(struct ladder *ladder)
+{
+	bool good = build(ladder);
+
+	place_foreign(ladder);
+	return good;
 }
 
 /* ---- what there is ---- */

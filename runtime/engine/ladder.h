@@ -21,6 +21,28 @@ struct xref_target;
 struct ladder *ladder_new(void);
 void ladder_free(struct ladder *ladder);
 
+/* What an import took, changed and left out: engine/import/report.h. */
+struct classic_report;
+/**
+ * ladder_take_classic - loads take projects of ClassicLadder, too, from now on
+ * @faithful: faults of the original are repeated
+ *
+ * They are converted as they are loaded: ladder_project() and ladder_write() have the rung
+ * file that they become. Only who calls this links the import. Fails: false: no memory.
+ */
+bool ladder_take_classic(struct ladder *ladder, bool faithful);
+/** ladder_classic_task - shall what they become have a TASK with their period? Off at
+ * first: it is for text that is to be a file of its own. */
+void ladder_classic_task(struct ladder *ladder, bool task);
+/** ladder_import_report - of what was loaded last; NULL: it was no such project. Lives
+ * until the next load. */
+const struct classic_report *ladder_import_report(const struct ladder *ladder);
+/** ladder_import_io - the I/O map of such a project; NULL: it has none. As long. */
+const char *ladder_import_io(const struct ladder *ladder);
+/** ladder_period - from scan to scan as an imported project wants it, ns; 0: it is none,
+ * or says nothing. */
+int64_t ladder_period(const struct ladder *ladder);
+
 /**
  * ladder_load - reads a rung file or a code image
  * @path: told apart by its first bytes, not by its name. Must stay valid.

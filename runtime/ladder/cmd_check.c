@@ -42,7 +42,7 @@ static void print_json(const char *path, const struct diag_list *diags,
 static enum status check_one(struct call *call, const char *path, bool json,
 			     bool first)
 {
-	struct ladder *ladder = ladder_new();
+	struct ladder *ladder = program_new(false);
 	enum status status = STATUS_WRONG;
 
 	if (!ladder)

@@ -78,7 +78,7 @@ enum status cmd_export(struct call *call)
 
 	if (!as || strcmp(as, "ld") != 0)
 		return report_usage(call, "--as ld must be given");
-	ladder = ladder_new();
+	ladder = program_new(false);
 	if (!ladder)
 		return report_no_memory(path);
 	status = report_load(ladder, path, true);

@@ -49,16 +49,16 @@ enum status cmd_trace(struct call *call)
 		return report_usage(call, "--csv and --vcd exclude each other");
 	if (!report_period(call, "--period", 0, &period_ns))
 		return STATUS_WRONG;
-	status = machine_open(&machine, call->arg[0]);
+	status = call_flag(call, "--faithful") ?
+		 machine_open_faithful(&machine, call->arg[0]) :
+		 machine_open(&machine, call->arg[0]);
 	if (status == STATUS_GOOD && plant)
 		status = machine_add_plant(&machine, plant,
 					   (struct diag){ .file = "--plant" });
-	if (status == STATUS_GOOD && !period_ns)
-		period_ns = tasks_tick(ladder_program(machine.ladder), 0,
-				       10 * VALUE_MS);
 	if (status == STATUS_GOOD)
 		status = run(call, &machine, csv ? TRACE_CSV :
-			     vcd ? TRACE_VCD : TRACE_LINES, period_ns);
+			     vcd ? TRACE_VCD : TRACE_LINES,
+			     program_period(machine.ladder, period_ns));
 	machine_close(&machine);
 	return status;
 }

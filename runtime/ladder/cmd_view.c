@@ -66,8 +66,7 @@ static enum status show_after(struct call *call, const char *script,
 		machine.resource.watch = true;
 		trace_init(&trace, &machine.resource.image, &nowhere, TRACE_LINES, false);
 		if (!script_run(script, text, len,
-				tasks_tick(ladder_program(machine.ladder), 0,
-					   10 * VALUE_MS),
+				program_period(machine.ladder, 0),
 				&machine.resource, &trace, diags))
 			status = STATUS_NO;
 		trace_free(&trace);
@@ -99,7 +98,7 @@ enum status cmd_show(struct call *call)
 	options.width = (int)width;
 	if (script)
 		return show_after(call, script, &options);
-	ladder = ladder_new();
+	ladder = program_new(false);
 	if (!ladder)
 		return report_no_memory(call->arg[0]);
 	status = report_load(ladder, call->arg[0], false);
@@ -152,7 +151,7 @@ static enum status diff(struct call *call, struct ladder *a, struct ladder *b)
 
 enum status cmd_diff(struct call *call)
 {
-	struct ladder *a = ladder_new(), *b = ladder_new();
+	struct ladder *a = program_new(false), *b = program_new(false);
 	enum status status = STATUS_WRONG, other;
 
 	if (a && b) {

@@ -179,8 +179,7 @@ static enum status run(struct call *call, struct machine *machine, const char *t
 	machine->resource.watch = true;
 	trace_init(&trace, &machine->resource.image, &nowhere, TRACE_LINES, false);
 	if (!script_run_with(call->arg[1], text, len,
-			     tasks_tick(ladder_program(machine->ladder), 0,
-					10 * VALUE_MS),
+			     program_period(machine->ladder, 0),
 			     &machine->resource, machine_plant(machine), &trace, diags))
 		status = STATUS_NO;
 	trace_free(&trace);

@@ -17,7 +17,7 @@ static enum status no_image(const char *path)
 enum status cmd_xref(struct call *call)
 {
 	const char *name = call->arg_count > 1 ? call->arg[1] : NULL;
-	struct ladder *ladder = ladder_new();
+	struct ladder *ladder = program_new(false);
 	enum status status;
 	int shown;
 

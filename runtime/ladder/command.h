@@ -79,6 +79,7 @@ enum status cmd_complete(struct call *call);
 enum status cmd_export(struct call *call);
 enum status cmd_fmt(struct call *call);
 enum status cmd_show(struct call *call);
+enum status cmd_import(struct call *call);
 enum status cmd_il(struct call *call);
 enum status cmd_code(struct call *call);
 enum status cmd_build(struct call *call);

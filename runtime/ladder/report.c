@@ -163,12 +163,31 @@ enum status report_load(struct ladder *ladder, const char *path, bool build)
 	return ladder_could_read(ladder) ? STATUS_NO : STATUS_WRONG;
 }
 
-static enum status open_machine(struct machine *machine, const char *path, bool watch)
+struct ladder *program_new(bool faithful)
+{
+	struct ladder *ladder = ladder_new();
+
+	if (ladder && !ladder_take_classic(ladder, faithful)) {
+		ladder_free(ladder);
+		return NULL;
+	}
+	return ladder;
+}
+
+int64_t program_period(const struct ladder *ladder, int64_t given)
+{
+	if (!given)
+		given = ladder_period(ladder);
+	return given ? given : tasks_tick(ladder_program(ladder), 0, 10 * VALUE_MS);
+}
+
+static enum status open_machine(struct machine *machine, const char *path, bool watch,
+				bool faithful)
 {
 	enum status status;
 
 	memset(machine, 0, sizeof(*machine));
-	machine->ladder = ladder_new();
+	machine->ladder = program_new(faithful);
 	if (!machine->ladder)
 		return report_no_memory(path);
 	ladder_watch(machine->ladder, watch);
@@ -186,12 +205,17 @@ static enum status open_machine(struct machine *machine, const char *path, bool 
 
 enum status machine_open(struct machine *machine, const char *path)
 {
-	return open_machine(machine, path, false);
+	return open_machine(machine, path, false, false);
+}
+
+enum status machine_open_faithful(struct machine *machine, const char *path)
+{
+	return open_machine(machine, path, false, true);
 }
 
 enum status machine_watch(struct machine *machine, const char *path)
 {
-	return open_machine(machine, path, true);
+	return open_machine(machine, path, true, false);
 }
 
 enum status machine_add_plant(struct machine *machine, const char *path,
@@ -199,7 +223,7 @@ enum status machine_add_plant(struct machine *machine, const char *path,
 {
 	enum status status;
 
-	machine->plant_ladder = ladder_new();
+	machine->plant_ladder = program_new(false);
 	if (!machine->plant_ladder)
 		return report_no_memory(path);
 	status = report_load(machine->plant_ladder, path, true);

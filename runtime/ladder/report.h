@@ -31,6 +31,11 @@ void report_diag(struct diag place, const char *format, ...)
 /** report_json_diags - a list as a JSON array. */
 void report_json_diags(const struct diag_list *diags, const struct sink *out);
 
+/** program_new - what takes every file that a command takes: ladder_new, and projects of
+ * ClassicLadder. @faithful: with the faults of these. NULL: no memory. */
+struct ladder *program_new(bool faithful);
+/** program_period - from scan to scan: @given, or as the program wants it; ns. */
+int64_t program_period(const struct ladder *ladder, int64_t given);
 /**
  * report_load - reads a program and, if @build, checks and translates it
  *
@@ -48,6 +53,8 @@ struct machine {
 };
 /** machine_open - loads and builds @path. Owns: machine_close(), always. */
 enum status machine_open(struct machine *machine, const char *path);
+/** machine_open_faithful - an imported project with the faults of its original. */
+enum status machine_open_faithful(struct machine *machine, const char *path);
 /** machine_watch - the same, with the power of all cells while resource.watch. */
 enum status machine_watch(struct machine *machine, const char *path);
 /** machine_add_plant - the program at @path beside it, as trial/plant.h has it.

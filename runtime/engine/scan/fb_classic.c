@@ -111,8 +111,10 @@ void fb_CL_TP_step(struct fb_CL_TP *fb, int64_t now_ns)
 void fb_CL_TIMER_step(struct fb_CL_TIMER *fb, int64_t now_ns)
 {
 	(void)now_ns;
-	if (!fb->E) {
+	if (!fb->E || !fb->begun)
 		fb->rest = in_ns(fb->P, fb->BASE);
+	fb->begun = 1;
+	if (!fb->E) {
 		fb->D = fb->R = 0;
 	} else if (fb->rest <= 0) {
 		fb->R = 0;
@@ -200,7 +202,7 @@ void fb_CL_REGISTER_step(struct fb_CL_REGISTER *fb, int64_t now_ns)
 	if (out && fb->S > 0)
 		pop(fb);
 	if (fb->RESET)
-		fb->S = 0;
+		fb->S = fb->O = 0;
 	fb->E = fb->S == 0;
 	fb->F = fb->S == size;
 }

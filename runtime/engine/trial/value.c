@@ -5,6 +5,8 @@
  */
 #include "engine/trial/value.h"
 
+#include "engine/trial/classic_name.h"
+
 #include "engine/base/ascii.h"
 
 #include <stdio.h>
@@ -272,6 +274,8 @@ struct location value_find(const struct image *image, const char *name,
 	}
 	if (at.type == IEC_NONE && len > 1 && *name == '%')
 		at = image_find(image, name + 1, len - 1);
+	if (at.type == IEC_NONE)
+		at = classic_name_find(image, name, len);
 	return at;
 }
 

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_convert - what the parts of the conversion share. Private to classic_*.c.
+ */
+#ifndef IMPORT_CLASSIC_CONVERT_H
+#define IMPORT_CLASSIC_CONVERT_H
+
+#include "engine/import/classic_rung.h"
+
+#include <stdarg.h>
+
+enum classic_kind {
+	CLASSIC_TIMER, CLASSIC_MONOSTABLE, CLASSIC_IEC_TIMER, CLASSIC_COUNTER,
+	CLASSIC_REGISTER, CLASSIC_KINDS
+};
+
+/* Functions of ClassicLadder's arithmetic that a project needs: classic_functions.c. */
+enum classic_function {
+	CLASSIC_DIVIDE, CLASSIC_REMAINDER, CLASSIC_POWER, CLASSIC_AND, CLASSIC_XOR,
+	CLASSIC_OR, CLASSIC_SHIFT_LEFT, CLASSIC_SHIFT_RIGHT, CLASSIC_ROTATE_LEFT,
+	CLASSIC_ROTATE_RIGHT, CLASSIC_FUNCTIONS
+};
+
+/* One variable that the project uses, and what it is called here. */
+struct classic_name {
+	int type, number;      /* of a block: type of its first row in classic.def */
+	const char *name;
+	const char *comment;   /* of its symbol; ""                                */
+	bool used;
+};
+
+struct classic_names {
+	struct classic_name *list;
+	int count;
+};
+
+struct classic_page_name { int section; const char *pou; };
+
+struct conversion {
+	const struct classic_project *project;
+	struct classic_options options;
+	struct arena *arena;
+	struct classic_text *out;
+	struct classic_report *report;
+	struct classic_names names;
+	const char **taken;    /* every name that is given, for none twice         */
+	int taken_count;
+	const char **pou;      /* of each section, in the order of sections        */
+	const char **label;    /* of each rung, in the order of rungs; NULL: none  */
+	const char *function_name[CLASSIC_FUNCTIONS]; /* NULL: not needed         */
+	const char *section_pou; /* that is written now                            */
+	int section;           /* its index                                        */
+	int rungs_written;     /* in it                                            */
+	struct classic_place at; /* of what is written now                         */
+	size_t cap;
+	int cap_lines;
+	int temporaries;       /* BOOLs between the parts of a rung                */
+	struct { const char **name; int count; } temps, programs;
+	const char *system;    /* the program of system bits; NULL: none is needed */
+};
+
+/* ---- text: classic_rung.c ---- */
+void put(struct conversion *c, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+/** text_of - a formatted string in the arena; "" without memory. */
+const char *text_of(struct conversion *c, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+/** put_quoted - as a text of a rung file. */
+void put_quoted(struct conversion *c, const char *text);
+/** in_section - does its chain of rungs hold this one? */
+bool in_section(const struct conversion *c, const struct classic_section *section,
+		int rung);
+/** tell - a line of the report about what is written now. */
+void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
+	__attribute__((format(printf, 3, 4)));
+
+/** add_program - one more that runs in each scan, behind the others. */
+void add_program(struct conversion *c, const char *name);
+
+/* ---- names: classic_names.c ---- */
+/** find_names - gives everything that the project uses its name. */
+void find_names(struct conversion *c);
+/** name_new - @wish, or something like it that nothing else has. */
+const char *name_new(struct conversion *c, const char *wish);
+/** operand_of - how @variable is written; NULL after telling why it cannot be.
+ * @is_bool: what it is */
+const char *operand_of(struct conversion *c, struct classic_variable variable,
+		       bool *is_bool);
+/** instance_of - of a block. */
+const char *instance_of(struct conversion *c, enum classic_kind kind, int number);
+/** iec_word - CL_TON and its like. */
+const char *iec_word(const struct classic_block *block);
+/** step_of - its name; NULL: there is none. */
+const char *step_of(struct conversion *c, int number);
+/** kind_of - of a pin's type; CLASSIC_KINDS: it is no pin. */
+enum classic_kind kind_of(int type);
+/** time_is_used - does anything read %X@number.V? */
+bool time_is_used(struct conversion *c, int number);
+/** put_comment_line - a line of its own, whatever stands in @text. */
+void put_comment_line(struct conversion *c, const char *indent, const char *text);
+void write_declarations(struct conversion *c);
+/** name_system - decides whether there is a program of system bits, which runs first. */
+void name_system(struct conversion *c);
+void write_system(struct conversion *c);
+
+/* ---- expressions: classic_expression.c ---- */
+/** comparison_of, assignment_of - what stands in `[ … ]`; NULL after telling why not. */
+const char *comparison_of(struct conversion *c, const char *text);
+const char *assignment_of(struct conversion *c, const char *text);
+/** expression_uses - calls @take for each variable in @text. */
+void expression_uses(const char *text,
+		     void (*take)(void *context, struct classic_variable variable),
+		     void *context);
+void write_functions(struct conversion *c);
+
+/* ---- rungs: classic_grid.c, charts: classic_chart.c ---- */
+void convert_rung(struct conversion *c, const struct classic_rung *rung);
+void convert_chart(struct conversion *c, const struct classic_section *section);
+/** convert_times - a fault of step times, behind a chart. */
+void convert_times(struct conversion *c, const struct classic_section *section);
+#endif

@@ -1,0 +1,482 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_expression - the arithmetic of ClassicLadder, "@200/0@:=@200/1@*2", as
+ * expressions of a rung file.
+ *
+ * Whole numbers of 32 bits; from the strongest: ! | * / % | + - | & | ^ | or. What IEC
+ * 61131-3 says otherwise (division by zero, bits of numbers) becomes a function that the
+ * file brings along. Texts come from files: depth is bounded, anything that is no
+ * expression is told and left out.
+ */
+#include "engine/import/classic_convert.h"
+
+#include "engine/base/ascii.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEPTH = 40, ARGUMENTS = 10 };
+
+struct parse {
+	struct conversion *c;
+	const char *at;
+	const char *whole;
+	int depth;
+	bool failed;
+};
+
+/* A part of an expression: its text, and how strongly it holds together here. */
+struct part {
+	const char *text;
+	int rank;          /* 0: an operand or call; greater: weaker           */
+	bool constant;
+	int32_t value;     /* of a constant                                    */
+};
+
+enum { RANK_OPERAND, RANK_SIGN, RANK_PRODUCT, RANK_SUM };
+
+static struct part parse_or(struct parse *p);
+
+static struct part fail(struct parse *p)
+{
+	p->failed = true;
+	return (struct part){ .text = "0", .constant = true };
+}
+
+static struct part constant(struct parse *p, int64_t value)
+{
+	/* Larger ones wrap there. */
+	int32_t number = (int32_t)(uint32_t)(uint64_t)value;
+
+	return (struct part){ .text = text_of(p->c, "%d", number), .constant = true,
+			      .value = number, .rank = number < 0 ? RANK_SIGN :
+								    RANK_OPERAND };
+}
+
+static const char *inside(struct parse *p, struct part part, int rank)
+{
+	return part.rank > rank ? text_of(p->c, "(%s)", part.text) : part.text;
+}
+
+static bool accept(struct parse *p, const char *word)
+{
+	size_t len = strlen(word);
+
+	if (strncmp(p->at, word, len))
+		return false;
+	p->at += len;
+	return true;
+}
+
+/* ---- variables ---- */
+
+/* "200/12" at @text; NULL: it is none. */
+static const char *read_pair(const char *text, int *type, int *number)
+{
+	char *end;
+	long value;
+
+	if (!ascii_digit(*text))
+		return NULL;
+	value = strtol(text, &end, 10);
+	if (*end != '/' || value > CLASSIC_LIMIT || !ascii_digit(end[1]))
+		return NULL;
+	*type = (int)value;
+	value = strtol(end + 1, &end, 10);
+	if (value > CLASSIC_LIMIT)
+		return NULL;
+	*number = (int)value;
+	return end;
+}
+
+/* "@200/12[200/4]@" at @text; NULL: it is none. */
+static const char *read_variable(const char *text, struct classic_variable *variable)
+{
+	variable->index_type = -1;
+	variable->index_number = 0;
+	if (*text != '@')
+		return NULL;
+	text = read_pair(text + 1, &variable->type, &variable->number);
+	if (text && *text == '[') {
+		text = read_pair(text + 1, &variable->index_type,
+				 &variable->index_number);
+		text = text && *text == ']' ? text + 1 : NULL;
+	}
+	return text && *text == '@' ? text + 1 : NULL;
+}
+
+void expression_uses(const char *text,
+		     void (*take)(void *context, struct classic_variable variable),
+		     void *context)
+{
+	struct classic_variable variable;
+
+	while ((text = strchr(text, '@'))) {
+		const char *end = read_variable(text, &variable);
+
+		if (end)
+			take(context, variable);
+		text = end ? end : text + 1;
+	}
+}
+
+static struct part parse_variable(struct parse *p)
+{
+	struct classic_variable variable;
+	const char *end = read_variable(p->at, &variable), *text;
+	bool is_bool;
+
+	if (!end)
+		return fail(p);
+	p->at = end;
+	text = operand_of(p->c, variable, &is_bool);
+	if (!text)
+		return fail(p);
+	return (struct part){ .text = is_bool ? text_of(p->c, "BOOL_TO_DINT(%s)", text) :
+						text };
+}
+
+/* ---- constants ---- */
+
+static struct part parse_hex(struct parse *p)
+{
+	uint64_t value = 0;
+	const char *from = ++p->at;
+
+	for (;; p->at++) {
+		char upper = ascii_upper(*p->at);
+		int digit = ascii_digit(upper) ? upper - '0' :
+			    upper >= 'A' && upper <= 'F' ? upper - 'A' + 10 : -1;
+
+		if (digit < 0)
+			break;
+		value = (value << 4 | (uint64_t)digit) & UINT32_MAX;
+	}
+	return p->at == from ? fail(p) : constant(p, (int64_t)value);
+}
+
+/* 'AB': its bytes, the first one the highest. */
+static struct part parse_character(struct parse *p)
+{
+	uint64_t value = 0;
+
+	for (p->at++; *p->at && *p->at != '\''; p->at++)
+		value = (value << 8 | (unsigned char)*p->at) & UINT32_MAX;
+	if (!accept(p, "'"))
+		return fail(p);
+	return constant(p, (int64_t)value);
+}
+
+static struct part parse_decimal(struct parse *p)
+{
+	int64_t value = 0;
+
+	if (!ascii_digit(*p->at))
+		return fail(p);
+	for (; ascii_digit(*p->at); p->at++)
+		value = (value * 10 + (*p->at - '0')) & UINT32_MAX;
+	return constant(p, value);
+}
+
+/* ---- functions ---- */
+
+static const char *function_call(struct parse *p, enum classic_function function,
+				 const char *a, const char *b);
+
+struct known { const char *name; const char *here; int function; };
+
+static const struct known known_functions[] = {
+	{ "ABS", "ABS", -1 }, { "MINI", "MIN", -1 }, { "MAXI", "MAX", -1 },
+	{ "AVG", "", -1 }, { "MOY", "", -1 },
+	{ "POW", NULL, CLASSIC_POWER }, { "SHL", NULL, CLASSIC_SHIFT_LEFT },
+	{ "SHR", NULL, CLASSIC_SHIFT_RIGHT }, { "ROL", NULL, CLASSIC_ROTATE_LEFT },
+	{ "ROR", NULL, CLASSIC_ROTATE_RIGHT },
+};
+enum { KNOWN = sizeof(known_functions) / sizeof(*known_functions) };
+
+/* "(a + b + c) / 3" */
+static const char *average(struct parse *p, const struct part *part, int count)
+{
+	const char *sum = inside(p, part[0], RANK_SUM);
+
+	for (int i = 1; i < count; i++)
+		sum = text_of(p->c, "%s + %s", sum, inside(p, part[i], RANK_PRODUCT));
+	return text_of(p->c, "(%s) / %d", sum, count);
+}
+
+static struct part call(struct parse *p, const struct known *known,
+			const struct part *part, int count)
+{
+	const char *list = part[0].text;
+
+	if (known->function >= 0 && count == 2)
+		return (struct part){ .text = function_call(
+			p, (enum classic_function)known->function, part[0].text,
+			part[1].text) };
+	if (known->function >= 0)
+		return fail(p);
+	if (!*known->here)
+		return (struct part){ .text = average(p, part, count),
+				      .rank = RANK_PRODUCT };
+	if (!strcmp(known->here, "ABS") ? count != 1 : count < 2)
+		return count == 1 ? part[0] : fail(p);
+	for (int i = 1; i < count; i++)
+		list = text_of(p->c, "%s, %s", list, part[i].text);
+	return (struct part){ .text = text_of(p->c, "%s(%s)", known->here, list) };
+}
+
+static struct part parse_function(struct parse *p)
+{
+	struct part part[ARGUMENTS];
+	const struct known *known = NULL;
+	int count = 0;
+
+	for (int i = 0; i < KNOWN && !known; i++)
+		if (accept(p, known_functions[i].name))
+			known = &known_functions[i];
+	if (!known || !accept(p, "("))
+		return fail(p);
+	do {
+		if (count == ARGUMENTS)
+			return fail(p);
+		part[count++] = parse_or(p);
+	} while (!p->failed && accept(p, ","));
+	if (p->failed || !accept(p, ")"))
+		return fail(p);
+	return call(p, known, part, count);
+}
+
+/* ---- operators ---- */
+
+static const char *const function_name[CLASSIC_FUNCTIONS] = {
+	[CLASSIC_DIVIDE] = "Quotient", [CLASSIC_REMAINDER] = "Remainder",
+	[CLASSIC_POWER] = "Power", [CLASSIC_AND] = "BitAnd", [CLASSIC_XOR] = "BitXor",
+	[CLASSIC_OR] = "BitOr", [CLASSIC_SHIFT_LEFT] = "ShiftLeft",
+	[CLASSIC_SHIFT_RIGHT] = "ShiftRight", [CLASSIC_ROTATE_LEFT] = "RotateLeft",
+	[CLASSIC_ROTATE_RIGHT] = "RotateRight",
+};
+
+static const char *function_call(struct parse *p, enum classic_function function,
+				 const char *a, const char *b)
+{
+	if (!p->c->function_name[function])
+		p->c->function_name[function] = name_new(p->c, function_name[function]);
+	return text_of(p->c, "%s(%s, %s)", p->c->function_name[function], a, b);
+}
+
+static struct part parse_term(struct parse *p)
+{
+	struct part part;
+
+	if (p->failed || ++p->depth > DEPTH)
+		return fail(p);
+	if (accept(p, "!")) {
+		part = parse_term(p);
+		part = (struct part){ .text = text_of(p->c, "BOOL_TO_DINT(%s = 0)",
+						      inside(p, part, RANK_SUM)) };
+	} else if (accept(p, "(")) {
+		part = parse_or(p);
+		if (!accept(p, ")"))
+			part = fail(p);
+	} else if (*p->at == '@') {
+		part = parse_variable(p);
+	} else if (*p->at == '$') {
+		part = parse_hex(p);
+	} else if (*p->at == '\'') {
+		part = parse_character(p);
+	} else if (*p->at == '-' && ascii_digit(p->at[1])) {
+		p->at++;
+		part = parse_decimal(p);
+		part = constant(p, -(int64_t)part.value);
+	} else if (accept(p, "-")) {
+		part = parse_term(p);
+		if (p->c->options.faithful)
+			part = constant(p, 0);
+		else
+			part = (struct part){ .text = text_of(p->c, "-%s",
+				inside(p, part, RANK_OPERAND)), .rank = RANK_SIGN };
+	} else if (*p->at >= 'A' && *p->at <= 'Z') {
+		part = parse_function(p);
+	} else {
+		part = parse_decimal(p);
+	}
+	p->depth--;
+	return part;
+}
+
+/* Division by what cannot be zero needs no help. */
+static struct part divide(struct parse *p, struct part a, struct part b, bool rest)
+{
+	if (b.constant && b.value != 0 && b.value != -1)
+		return (struct part){ .text = text_of(p->c, "%s %s %s",
+			inside(p, a, RANK_PRODUCT), rest ? "MOD" : "/",
+			inside(p, b, RANK_OPERAND)), .rank = RANK_PRODUCT };
+	return (struct part){ .text = function_call(
+		p, rest ? CLASSIC_REMAINDER : CLASSIC_DIVIDE, a.text, b.text) };
+}
+
+static struct part parse_product(struct parse *p)
+{
+	struct part part = parse_term(p), other;
+
+	while (!p->failed && (*p->at == '*' || *p->at == '/' || *p->at == '%')) {
+		char op = *p->at++;
+
+		other = parse_term(p);
+		if (op == '*')
+			part = (struct part){ .text = text_of(p->c, "%s * %s",
+				inside(p, part, RANK_PRODUCT),
+				inside(p, other, RANK_OPERAND)), .rank = RANK_PRODUCT };
+		else
+			part = divide(p, part, other, op == '%');
+	}
+	return part;
+}
+
+static struct part parse_sum(struct parse *p)
+{
+	struct part part = parse_product(p), other;
+
+	while (!p->failed && (*p->at == '+' || *p->at == '-')) {
+		char op = *p->at++;
+
+		other = parse_product(p);
+		part = (struct part){ .text = text_of(p->c, "%s %c %s", part.text, op,
+			inside(p, other, other.rank == RANK_SIGN ? RANK_OPERAND :
+								   RANK_PRODUCT)),
+			.rank = RANK_SUM };
+	}
+	return part;
+}
+
+static struct part parse_and(struct parse *p)
+{
+	struct part part = parse_sum(p), other;
+
+	while (!p->failed && accept(p, "&")) {
+		other = parse_sum(p);
+		part = (struct part){ .text = function_call(p, CLASSIC_AND, part.text,
+							    other.text) };
+	}
+	return part;
+}
+
+/* LinuxCNC has a power here. */
+static struct part parse_xor(struct parse *p)
+{
+	struct part part = parse_and(p), other;
+	bool power = p->c->project->dialect == CLASSIC_LINUXCNC;
+
+	while (!p->failed && accept(p, "^")) {
+		other = parse_and(p);
+		part = (struct part){ .text = function_call(
+			p, power ? CLASSIC_POWER : CLASSIC_XOR, part.text, other.text) };
+	}
+	return part;
+}
+
+static struct part parse_or(struct parse *p)
+{
+	struct part part, other;
+
+	if (++p->depth > DEPTH)
+		return fail(p);
+	part = parse_xor(p);
+	while (!p->failed && accept(p, "|")) {
+		other = parse_xor(p);
+		part = (struct part){ .text = function_call(p, CLASSIC_OR, part.text,
+							    other.text) };
+	}
+	p->depth--;
+	return part;
+}
+
+/* ---- whole expressions ---- */
+
+static const char *not_understood(struct parse *p)
+{
+	tell(p->c, REPORT_LOST, "expression \"%.60s\" is not understood at \"%.20s\"",
+	     p->whole, p->at);
+	return NULL;
+}
+
+/* Blanks are allowed around := alone, but in old files stand elsewhere, too. */
+static struct parse begin(struct conversion *c, const char *text)
+{
+	char *copy = arena_copy(c->arena, text, strlen(text)), *to = copy;
+
+	for (const char *at = copy; at && *at; at++)
+		if (*at != ' ' && *at != '\t')
+			*to++ = *at;
+	if (copy)
+		*to = '\0';
+	return (struct parse){ .c = c, .at = copy ? copy : "", .whole = text };
+}
+
+/* What stands between both sides; NULL: nothing. */
+static const char *comparison(struct parse *p)
+{
+	static const struct { const char *there, *here; } op[] = {
+		{ "==", "=" }, { "=>", "=" }, { "<>", "<>" }, { "<=", "<=" },
+		{ ">=", ">=" }, { "!=", "<>" }, { "=", "=" }, { "<", "<" }, { ">", ">" },
+	};
+
+	for (size_t i = 0; i < sizeof(op) / sizeof(*op); i++)
+		if (accept(p, op[i].there)) {
+			if (!strcmp(op[i].there, "!=") && p->c->options.faithful)
+				return "=";
+			if (!strcmp(op[i].there, "!="))
+				tell(p->c, REPORT_CHANGED, "\"!=\" means unequal here; "
+				     "ClassicLadder reads it as equal");
+			return op[i].here;
+		}
+	return NULL;
+}
+
+const char *comparison_of(struct conversion *c, const char *text)
+{
+	struct parse p = begin(c, text);
+	struct part left = parse_or(&p), right;
+	const char *op;
+
+	if (p.failed || !(op = comparison(&p)))
+		return not_understood(&p);
+	right = parse_or(&p);
+	if (p.failed)
+		return not_understood(&p);
+	if (*p.at)
+		tell(c, REPORT_CHANGED, "what stands behind the first comparison of \"%.40s\" "
+		     "does not count, here as there", text);
+	return text_of(c, "%s %s %s", left.text, op, right.text);
+}
+
+static const char *stored(struct parse *p, const char *target, bool is_bool)
+{
+	struct part value = parse_or(p);
+
+	if (p->failed)
+		return not_understood(p);
+	if (*p->at)
+		tell(p->c, REPORT_CHANGED, "\"%.20s\" at the end of an expression does not "
+		     "count, here as there", p->at);
+	if (is_bool)
+		return text_of(p->c, "%s := %s <> 0", target, value.text);
+	return text_of(p->c, "%s := %s", target, value.text);
+}
+
+const char *assignment_of(struct conversion *c, const char *text)
+{
+	struct parse p = begin(c, text);
+	struct classic_variable variable;
+	const char *end = read_variable(p.at, &variable), *target;
+	bool is_bool;
+
+	if (!end)
+		return not_understood(&p);
+	p.at = end;
+	if (!accept(&p, ":=") && !accept(&p, "="))
+		return not_understood(&p);
+	target = operand_of(c, variable, &is_bool);
+	return target ? stored(&p, target, is_bool) : NULL;
+}

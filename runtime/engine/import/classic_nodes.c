@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_nodes - a rung whose columns cannot be kept as one drawing: every cell that
+ * gives power becomes a rung of its own, in the order in which they work there.
+ *
+ * Power of a node is a BOOL. Longer than the original, but the same in every scan.
+ */
+#include "engine/import/classic_grid.h"
+
+struct nodes {
+	struct grid *grid;
+	/* The BOOL of what the cell left of node (x, y) gives; NULL: nothing. */
+	const char *given[CLASSIC_ROWS][CLASSIC_COLUMNS + 1];
+};
+
+/* How the power of a node is asked for: a contact, or, at the rail, nothing. */
+static void put_power(struct nodes *nodes, int y, int x)
+{
+	struct conversion *c = nodes->grid->c;
+	bool any = false;
+	int from, to;
+
+	if (x == 0)
+		return;
+	grid_run(nodes->grid, y, x, &from, &to);
+	for (int i = from; i < to; i++) {
+		if (!nodes->given[i][x])
+			continue;
+		put(c, " NO %s |", nodes->given[i][x]);
+		any = true;
+		break;
+	}
+	if (!any)
+		put(c, " NC SYS_ALWAYS_ON |");
+}
+
+/* The other feeders of the node, as branches below the first row. */
+static void put_branches(struct nodes *nodes, int y, int x)
+{
+	struct conversion *c = nodes->grid->c;
+	bool first = true;
+	int from, to;
+
+	if (x == 0)
+		return;
+	grid_run(nodes->grid, y, x, &from, &to);
+	for (int i = from; i < to; i++) {
+		if (nodes->given[i][x] && !first)
+			put(c, "  | NO %s ^|\n", nodes->given[i][x]);
+		if (nodes->given[i][x])
+			first = false;
+	}
+}
+
+static void write_part(struct nodes *nodes, const struct grid_part *part)
+{
+	struct conversion *c = nodes->grid->c;
+	int end = part_end(part);
+	bool gives = part->kind <= PART_CONTACT && end < CLASSIC_COLUMNS;
+
+	if ((part->kind <= PART_CONTACT && (!gives || !part->fed)) ||
+	    (part->kind == PART_ACT && !part->fed))
+		return;
+	if (gives)
+		nodes->given[part->y][end] = grid_temporary(nodes->grid);
+	grid_head(nodes->grid);
+	put(c, "  |");
+	put_power(nodes, part->y, part->x);
+	put(c, " %s |", part->text);
+	if (gives)
+		put(c, " COIL %s |", nodes->given[part->y][end]);
+	put(c, "\n");
+	put_branches(nodes, part->y, part->x);
+}
+
+/* Of a box every input has a BOOL of its own, so that its rows stay one below another. */
+static void write_box(struct nodes *nodes, const struct grid_part *part)
+{
+	struct conversion *c = nodes->grid->c;
+	const char *in[4] = { NULL };
+
+	for (int i = 0; i < part->rows; i++) {
+		if (!part->box->input[i] || (i && !nodes->grid->fed[part->y + i][part->x]))
+			continue;
+		in[i] = grid_temporary(nodes->grid);
+		grid_head(nodes->grid);
+		put(c, "  |");
+		put_power(nodes, part->y + i, part->x);
+		put(c, " COIL %s |\n", in[i]);
+		put_branches(nodes, part->y + i, part->x);
+	}
+	grid_head(nodes->grid);
+	put(c, "  | NO %s | %s", in[0], part->text);
+	for (int i = 1; i < part->rows; i++)
+		if (in[i])
+			put(c, " %s:=%s", part->box->input[i], in[i]);
+	put(c, " |\n");
+	for (int i = 0; i < part->rows; i++)
+		if (part->box->output[i])
+			nodes->given[part->y + i][part_end(part)] =
+				text_of(c, "%s.%s", part->instance, part->box->output[i]);
+}
+
+void grid_write_nodes(struct grid *grid)
+{
+	struct nodes *nodes = arena_alloc(grid->c->arena, sizeof(*nodes));
+
+	if (!nodes)
+		return;
+	nodes->grid = grid;
+	tell(grid->c, REPORT_CHANGED, "its columns depend on one another: it became several "
+	     "rungs");
+	for (int i = 0; i < grid->parts; i++) {
+		if (grid->part[i].kind == PART_BOX)
+			write_box(nodes, &grid->part[i]);
+		else
+			write_part(nodes, &grid->part[i]);
+	}
+}

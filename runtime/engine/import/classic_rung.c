@@ -1,0 +1,434 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_rung - the order of the text: declarations, functions, then the sections as
+ * they run. It also holds what all parts write with.
+ */
+#include "engine/import/classic_convert.h"
+
+#include "engine/base/limits.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* ---- text ---- */
+
+static bool room_for(struct conversion *c, size_t more)
+{
+	struct classic_text *out = c->out;
+	size_t cap = c->cap ? c->cap : 4096;
+	char *text;
+
+	while (cap - out->len <= more)
+		cap *= 2;
+	if (cap == c->cap)
+		return true;
+	text = arena_grow(c->arena, out->text, out->len, cap);
+	if (!text)
+		return false;
+	out->text = text;
+	c->cap = cap;
+	return true;
+}
+
+/* What was written since @from ends lines that come from where we are. */
+static void count_lines(struct conversion *c, size_t from)
+{
+	struct classic_text *out = c->out;
+
+	for (size_t i = from; i < out->len; i++) {
+		struct classic_place *place;
+
+		if (out->text[i] != '\n')
+			continue;
+		place = arena_push(c->arena, &out->place, &out->lines, sizeof(*place));
+		if (place)
+			*place = c->at;
+	}
+}
+
+void put(struct conversion *c, const char *format, ...)
+{
+	struct classic_text *out = c->out;
+	size_t from = out->len;
+	va_list args;
+	int need;
+
+	va_start(args, format);
+	need = vsnprintf(NULL, 0, format, args);
+	va_end(args);
+	if (need < 0 || !room_for(c, (size_t)need + 1))
+		return;
+	va_start(args, format);
+	vsnprintf(out->text + out->len, (size_t)need + 1, format, args);
+	va_end(args);
+	out->len += (size_t)need;
+	count_lines(c, from);
+}
+
+/* Takes the last line back. */
+static void unput(struct conversion *c)
+{
+	struct classic_text *out = c->out;
+
+	if (out->len)
+		out->len--;
+	while (out->len && out->text[out->len - 1] != '\n')
+		out->len--;
+	if (out->text)
+		out->text[out->len] = '\0';
+	if (out->lines)
+		out->lines--;
+}
+
+static char *format_in(struct arena *arena, const char *format, va_list args)
+{
+	va_list again;
+	char *text;
+	int need;
+
+	va_copy(again, args);
+	need = vsnprintf(NULL, 0, format, again);
+	va_end(again);
+	text = need < 0 ? NULL : arena_alloc(arena, (size_t)need + 1);
+	if (text)
+		vsnprintf(text, (size_t)need + 1, format, args);
+	return text;
+}
+
+const char *text_of(struct conversion *c, const char *format, ...)
+{
+	va_list args;
+	char *text;
+
+	va_start(args, format);
+	text = format_in(c->arena, format, args);
+	va_end(args);
+	return text ? text : "";
+}
+
+void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
+{
+	struct report_line line = {
+		.kind = kind, .member = c->at.member, .line = c->at.line,
+		.pou = c->section_pou, .rung = c->section_pou ? c->rungs_written : 0,
+	};
+	va_list args;
+	char *text;
+
+	va_start(args, format);
+	text = format_in(c->arena, format, args);
+	va_end(args);
+	if (text)
+		report_add(c->report, line, "%s", text);
+}
+
+/* ---- the names of sections and rungs ---- */
+
+static bool is_called(const struct classic_rung *rung, int number)
+{
+	for (int y = 0; y < CLASSIC_ROWS; y++)
+		for (int x = 0; x < CLASSIC_COLUMNS; x++)
+			if (rung->cell[y][x].element == 54 &&
+			    rung->cell[y][x].variable.number == number)
+				return true;
+	return false;
+}
+
+/* Only what is jumped to needs a label; what has one keeps it. */
+static void name_labels(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	for (int i = 0; i < project->rungs; i++) {
+		const struct classic_rung *rung = project->rung[i];
+		bool wanted = rung->label[0] != '\0';
+
+		for (int k = 0; k < project->rungs && !wanted; k++)
+			wanted = is_called(project->rung[k], rung->number);
+		if (wanted)
+			c->label[i] = name_new(c, rung->label[0] ? rung->label :
+					       text_of(c, "Rung%d", rung->number));
+	}
+}
+
+static bool name_pous(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	c->pou = arena_alloc(c->arena, ((size_t)project->sections + 1) * sizeof(*c->pou));
+	c->label = arena_alloc(c->arena, ((size_t)project->rungs + 1) * sizeof(*c->label));
+	if (!c->pou || !c->label)
+		return false;
+	for (int i = 0; i < project->sections; i++) {
+		const struct classic_section *section = &project->section[i];
+
+		c->pou[i] = name_new(c, section->name[0] ? section->name :
+				     text_of(c, "Section%d", section->number));
+	}
+	name_labels(c);
+	return true;
+}
+
+/* ---- sections ---- */
+
+bool in_section(const struct conversion *c, const struct classic_section *section,
+		int number)
+{
+	const struct classic_rung *rung = classic_rung(c->project, section->first);
+
+	for (int i = 0; rung && i < c->project->rungs; i++) {
+		if (rung->number == number)
+			return true;
+		if (rung->number == section->last || rung->next < 0)
+			return false;
+		rung = classic_rung(c->project, rung->next);
+	}
+	return false;
+}
+
+/* In the order of their chain, each at most once. */
+static void write_rungs(struct conversion *c, const struct classic_section *section)
+{
+	const struct classic_rung *rung = classic_rung(c->project, section->first);
+
+	for (int i = 0; rung && i < c->project->rungs; i++) {
+		c->at = rung->place;
+		convert_rung(c, rung);
+		if (rung->number == section->last || rung->next < 0)
+			return;
+		rung = classic_rung(c->project, rung->next);
+	}
+}
+
+static void put_temporaries(struct conversion *c)
+{
+	for (int i = 0; i < c->temps.count; i++)
+		put(c, "%s  %s : BOOL;\n", i ? "" : "VAR (* between the parts of a rung *)\n",
+		    c->temps.name[i]);
+	put(c, "%s", c->temps.count ? "END_VAR\n\n" : "");
+}
+
+static void write_section(struct conversion *c, int index)
+{
+	const struct classic_section *section = &c->project->section[index];
+	bool called = section->subroutine >= 0;
+
+	c->at = section->place;
+	c->section = index;
+	c->section_pou = c->pou[index];
+	c->rungs_written = 0;
+	if (section->sequential) {
+		convert_chart(c, section);
+	} else {
+		if (!called)
+			add_program(c, c->pou[index]);
+		put(c, "%s %s LD\n", called ? "SUBROUTINE" : "PROGRAM", c->pou[index]);
+		write_rungs(c, section);
+		c->at = section->place;
+		put(c, "%s\n\n", called ? "END_SUBROUTINE" : "END_PROGRAM");
+	}
+	c->section_pou = NULL;
+}
+
+/* ---- head ---- */
+
+void put_quoted(struct conversion *c, const char *text)
+{
+	put(c, "\"");
+	for (; *text; text++) {
+		if ((unsigned char)*text < ' ')
+			put(c, " ");
+		else
+			put(c, "%s%c", *text == '"' || *text == '$' ? "$" : "", *text);
+	}
+	put(c, "\"");
+}
+
+static const char *title_of(struct conversion *c)
+{
+	const char *name = classic_setting(c->project, "PROJECT_NAME");
+	const char *slash = strrchr(c->project->file, '/');
+
+	return name && *name ? name : slash ? slash + 1 : c->project->file;
+}
+
+/* What an area must have beyond its usual size, in bytes; 0: nothing. */
+static long beyond(const struct conversion *c, int type, int unit, long usual)
+{
+	long most = 0;
+
+	for (int i = 0; i < c->names.count; i++) {
+		long bytes = ((long)c->names.list[i].number * unit + unit) / 8 + 8;
+
+		if (c->names.list[i].number > CLASSIC_LIMIT)
+			continue; /* all of them: no more than the largest */
+		if (c->names.list[i].type == type && bytes > most)
+			most = bytes;
+	}
+	return most > usual ? (most + 7) / 8 * 8 : 0;
+}
+
+static void write_areas(struct conversion *c)
+{
+	static const struct { int type, unit; long usual; const char *area; } row[] = {
+		{ 0, 1, 8192, "M" }, { 50, 1, 512, "I" }, { 60, 1, 512, "Q" },
+		{ 65, 1, 512, "XQ" }, { 200, 32, 8192, "V" }, { 270, 32, 256, "AI" },
+		{ 280, 32, 256, "AQ" }, { 310, 32, 512, "XAQ" },
+	};
+
+	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
+		long bytes = beyond(c, row[i].type, row[i].unit, row[i].usual);
+
+		if (bytes)
+			put(c, "  AREA %s %ld;\n", row[i].area, bytes);
+	}
+}
+
+void add_program(struct conversion *c, const char *name)
+{
+	const char **slot = arena_push(c->arena, &c->programs.name, &c->programs.count,
+				       sizeof(*slot));
+
+	if (slot)
+		*slot = name;
+}
+
+/* Nothing is said that is so anyway. */
+static void write_configuration(struct conversion *c)
+{
+	size_t before;
+
+	put(c, "CONFIGURATION %s\n", name_new(c, "Controller"));
+	before = c->out->len;
+	write_areas(c);
+	if (c->options.task && c->programs.count) {
+		put(c, "  TASK Scan (INTERVAL := T#%dms);\n", c->project->period);
+		for (int i = 0; i < c->programs.count; i++)
+			put(c, "  PROGRAM %s WITH Scan : %s;\n",
+			    name_new(c, text_of(c, "%s_1", c->programs.name[i])),
+			    c->programs.name[i]);
+	}
+	if (c->out->len > before)
+		put(c, "END_CONFIGURATION\n\n");
+	else
+		unput(c);
+}
+
+static void write_head(struct conversion *c)
+{
+	put(c, "RUNGBOARD 1\nPROJECT ");
+	put_quoted(c, title_of(c));
+	put(c, "\n\n");
+}
+
+/* ---- the report ---- */
+
+static void tell_counts(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+	static const char *const dialect[] = { "ClassicLadder", "ClassicLadder of LinuxCNC",
+					       "a bare rung file" };
+	int programs = 0;
+
+	for (int i = 0; i < project->sections; i++)
+		programs += project->section[i].subroutine < 0;
+	c->at = (struct classic_place){ "", 0 };
+	tell(c, REPORT_TAKEN, "%s: %d rungs, %d programs, %d subroutines, %d steps, "
+	     "%d transitions, %d expressions, %d symbols", dialect[project->dialect],
+	     project->rungs, programs, project->sections - programs, project->steps,
+	     project->transitions, project->expressions, project->symbols);
+	tell(c, REPORT_TAKEN, "the scan's period, %d ms", project->period);
+}
+
+static void tell_faults(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	if (c->options.faithful) {
+		tell(c, REPORT_TAKEN, "faults of the original are repeated");
+		return;
+	}
+	if (project->iec_timer.count)
+		tell(c, REPORT_CHANGED, "timers (%%TM): what was left of a unit when a time "
+		     "was cut short does not shorten the next one, and a scan longer than a "
+		     "unit counts whole");
+	if (project->monostable.count)
+		tell(c, REPORT_CHANGED, "monostables (%%M): one whose time is no multiple of "
+		     "the period can be started again");
+	if (project->reg.count)
+		tell(c, REPORT_CHANGED, "registers (%%R): the place behind the last one is "
+		     "not written to");
+}
+
+/* Members that mean nothing to a program, or not yet. */
+static void tell_members(struct conversion *c)
+{
+	static const struct { const char *name, *text; } row[] = {
+		{ "modbusioconf.csv", "Modbus requests stay in the original file: "
+				      "they are for a driver of Modbus" },
+		{ "config_events.csv", "the log of events" },
+		{ "spy_vars.csv", "the list of watched variables" },
+	};
+
+	for (int i = 0; i < c->project->members; i++) {
+		const struct classic_member *member = &c->project->member[i];
+		const char *line = memchr(member->text, '\n', member->len);
+		bool empty = !line || (size_t)(line - member->text) + 1 >= member->len;
+
+		c->at = (struct classic_place){ member->name, member->line };
+		for (size_t k = 0; k < sizeof(row) / sizeof(*row); k++)
+			if (!strcmp(member->name, row[k].name) && !empty)
+				tell(c, REPORT_LOST, "%s", row[k].text);
+	}
+}
+
+/* ---- all of it ---- */
+
+static void write_all(struct conversion *c)
+{
+	struct classic_text sections = { 0 }, *whole = c->out;
+
+	/* What the sections need is known when they are written. */
+	c->out = &sections;
+	c->cap = 0;
+	for (int i = 0; i < c->project->sections; i++)
+		write_section(c, i);
+	c->out = whole;
+	c->cap = 0;
+	c->at = (struct classic_place){ "", 0 };
+	write_head(c);
+	name_system(c);
+	write_configuration(c);
+	write_declarations(c);
+	put_temporaries(c);
+	write_functions(c);
+	write_system(c);
+	for (int i = 0, from = 0; i < sections.lines; i++) {
+		const char *end = memchr(sections.text + from, '\n',
+					 sections.len - (size_t)from);
+
+		c->at = sections.place[i];
+		put(c, "%.*s\n", (int)(end - sections.text) - from, sections.text + from);
+		from = (int)(end - sections.text) + 1;
+	}
+}
+
+bool classic_to_rung(const struct classic_project *project,
+		     struct classic_options options, struct arena *arena,
+		     struct classic_text *out, struct classic_report *report)
+{
+	struct conversion c = {
+		.project = project, .options = options, .arena = arena, .out = out,
+		.report = report, .at = { "", 0 },
+	};
+
+	memset(out, 0, sizeof(*out));
+	find_names(&c);
+	if (!name_pous(&c))
+		return false;
+	tell_counts(&c);
+	tell_faults(&c);
+	write_all(&c);
+	tell_members(&c);
+	return !arena->failed && !report->arena.failed && out->text;
+}

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * ladder_classic - the facade's way to projects of ClassicLadder.
+ *
+ * A file of its own, so that a program that does not ask for them does not link them.
+ */
+#include "engine/ladder_inside.h"
+
+#include "engine/import/classic_rung.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct classic_foreign {
+	struct foreign foreign;   /* first: the one is the other               */
+	struct arena arena;
+	struct classic_report report;
+	struct classic_options options;
+	struct classic_text text;
+	const char *io;           /* its I/O map; NULL: none                   */
+	const struct classic_project *project; /* NULL: nothing was read       */
+	const char *path;         /* as the user wrote it                      */
+	const char *name;         /* of the text: the same letters elsewhere   */
+};
+
+static void forget(struct foreign *foreign)
+{
+	struct classic_foreign *classic = (struct classic_foreign *)foreign;
+
+	arena_free(&classic->arena);
+	report_free(&classic->report);
+	classic->project = NULL;
+	classic->io = NULL;
+	memset(&classic->text, 0, sizeof(classic->text));
+}
+
+static void free_foreign(struct foreign *foreign)
+{
+	forget(foreign);
+	free(foreign);
+}
+
+static const char *read_foreign(struct foreign *foreign, const char *path,
+				const void *bytes, size_t len, size_t *text_len,
+				const char **name, struct diag_list *diags)
+{
+	struct classic_foreign *classic = (struct classic_foreign *)foreign;
+	struct diag place = { .id = DIAG_NO_MEMORY, .file = path };
+
+	forget(foreign);
+	classic->path = path;
+	classic->project = bytes ?
+		classic_read(&classic->arena, path, bytes, len, &classic->report, diags) :
+		classic_read_folder(&classic->arena, path, &classic->report, diags);
+	if (!classic->project)
+		return NULL;
+	classic->name = arena_copy(&classic->arena, path, strlen(path));
+	if (!classic->name ||
+	    !classic_to_rung(classic->project, classic->options, &classic->arena,
+			     &classic->text, &classic->report)) {
+		diag_add(diags, place, "%s", "");
+		return NULL;
+	}
+	classic->io = classic_io_map(classic->project, &classic->arena, &classic->report);
+	*name = classic->name;
+	*text_len = classic->text.len;
+	return classic->text.text;
+}
+
+static void place_diags(const struct foreign *foreign, struct diag_list *diags)
+{
+	const struct classic_foreign *classic = (const struct classic_foreign *)foreign;
+
+	for (int i = 0; i < diags->count; i++) {
+		struct diag *diag = &diags->diag[i];
+		int line = diag->line;
+
+		if (!classic->project || diag->file != classic->name)
+			continue;
+		diag->file = classic->path;
+		diag->column = 0;
+		diag->line = line > 0 && line <= classic->text.lines ?
+			     classic->text.place[line - 1].line : 0;
+	}
+}
+
+bool ladder_take_classic(struct ladder *ladder, bool faithful)
+{
+	struct classic_foreign *classic = calloc(1, sizeof(*classic));
+
+	if (!classic)
+		return false;
+	classic->foreign = (struct foreign){ classic_is, read_foreign, place_diags, forget,
+					     free_foreign };
+	classic->options.faithful = faithful;
+	arena_init(&classic->arena);
+	report_init(&classic->report);
+	ladder_set_foreign(ladder, &classic->foreign);
+	return true;
+}
+
+void ladder_classic_task(struct ladder *ladder, bool task)
+{
+	struct classic_foreign *classic = (struct classic_foreign *)ladder_foreign(ladder);
+
+	if (classic)
+		classic->options.task = task;
+}
+
+const struct classic_report *ladder_import_report(const struct ladder *ladder)
+{
+	const struct classic_foreign *classic =
+		(const struct classic_foreign *)ladder_foreign(ladder);
+
+	return classic && classic->project ? &classic->report : NULL;
+}
+
+const char *ladder_import_io(const struct ladder *ladder)
+{
+	const struct classic_foreign *classic =
+		(const struct classic_foreign *)ladder_foreign(ladder);
+
+	return classic ? classic->io : NULL;
+}
+
+int64_t ladder_period(const struct ladder *ladder)
+{
+	const struct classic_foreign *classic =
+		(const struct classic_foreign *)ladder_foreign(ladder);
+
+	return classic && classic->project ? classic->project->period * INT64_C(1000000) : 0;
+}

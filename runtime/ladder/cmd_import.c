@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cmd_import - `ladder import`: a project of ClassicLadder becomes a rung file, an I/O
+ * map and a report of what became of it.
+ */
+#include "ladder/report.h"
+
+#include "engine/base/file.h"
+#include "engine/import/report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const kind_text[REPORT_KINDS] = {
+	[REPORT_TAKEN] = "taken", [REPORT_CHANGED] = "changed", [REPORT_LOST] = "lost",
+};
+
+static void print_line(const char *path, const struct report_line *line,
+		       const struct sink *out)
+{
+	sink_text(out, path);
+	if (line->line)
+		sink_printf(out, ":%d", line->line);
+	sink_printf(out, ": %s: ", kind_text[line->kind]);
+	if (line->member && line->member[0]) {
+		sink_text(out, line->member);
+		sink_text(out, ": ");
+	}
+	if (line->pou) {
+		sink_text(out, line->pou);
+		sink_printf(out, line->rung ? " rung %d: " : ": ", line->rung);
+	}
+	sink_text(out, line->text);
+	sink_text(out, "\n");
+}
+
+static void print_text(const char *path, const struct classic_report *report,
+		       const struct sink *out)
+{
+	int count[REPORT_KINDS] = { 0 };
+
+	for (int i = 0; i < report->count; i++) {
+		print_line(path, &report->line[i], out);
+		count[report->line[i].kind]++;
+	}
+	sink_text(out, path);
+	sink_printf(out, ": %d changed, %d lost\n", count[REPORT_CHANGED], count[REPORT_LOST]);
+}
+
+static void print_json_line(const struct report_line *line, const struct sink *out)
+{
+	sink_printf(out, "  {\"kind\": \"%s\", \"member\": ", kind_text[line->kind]);
+	sink_json_text(out, line->member);
+	sink_printf(out, ", \"line\": %d, \"pou\": ", line->line);
+	sink_json_text(out, line->pou);
+	sink_printf(out, ", \"rung\": %d, \"text\": ", line->rung);
+	sink_json_text(out, line->text);
+	sink_text(out, "}");
+}
+
+static void print_json(const char *path, const struct classic_report *report,
+		       const struct sink *out)
+{
+	sink_text(out, "{\"file\": ");
+	sink_json_text(out, path);
+	sink_text(out, ", \"report\": [\n");
+	for (int i = 0; i < report->count; i++) {
+		print_json_line(&report->line[i], out);
+		sink_text(out, i + 1 < report->count ? ",\n" : "\n");
+	}
+	sink_text(out, "]}\n");
+}
+
+static bool save(const char *path, const char *text, size_t len)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	bool good = false;
+
+	if (!diags)
+		return report_no_memory(path) == STATUS_GOOD;
+	diag_init(diags);
+	good = file_save(path, text, len, diags);
+	report_diags(diags);
+	free(diags);
+	return good;
+}
+
+/* OUT.rung: OUT.io */
+static bool save_io(const char *out, const char *map)
+{
+	const char *dot = strrchr(out, '.');
+	size_t stem = dot && !strchr(dot, '/') ? (size_t)(dot - out) : strlen(out);
+	char *path = malloc(stem + sizeof(".io"));
+	bool good;
+
+	if (!path)
+		return report_no_memory(out) == STATUS_GOOD;
+	memcpy(path, out, stem);
+	memcpy(path + stem, ".io", sizeof(".io"));
+	good = save(path, map, strlen(map));
+	free(path);
+	return good;
+}
+
+static enum status write_files(struct ladder *ladder, const char *out)
+{
+	const char *map = ladder_import_io(ladder);
+	size_t len;
+	char *text = ladder_write(ladder, &len);
+	bool good;
+
+	if (!text)
+		return report_no_memory(out);
+	good = save(out, text, len) && (!map || save_io(out, map));
+	free(text);
+	return good ? STATUS_GOOD : STATUS_WRONG;
+}
+
+static enum status import(struct call *call, struct ladder *ladder)
+{
+	const char *path = call->arg[0], *out = call_option(call, "-o");
+	const struct classic_report *report;
+	enum status status = report_load(ladder, path, true);
+
+	if (status != STATUS_GOOD)
+		return status;
+	report = ladder_import_report(ladder);
+	if (!report)
+		return report_usage(call, "%s is not a project of ClassicLadder", path);
+	if (out)
+		status = write_files(ladder, out);
+	if (status == STATUS_GOOD && call_flag(call, "--json"))
+		print_json(path, report, &call->out);
+	else if (status == STATUS_GOOD)
+		print_text(path, report, &call->out);
+	return status;
+}
+
+enum status cmd_import(struct call *call)
+{
+	struct ladder *ladder = program_new(call_flag(call, "--faithful"));
+	enum status status;
+
+	if (!ladder)
+		return report_no_memory(call->arg[0]);
+	ladder_classic_task(ladder, true);
+	status = import(call, ladder);
+	ladder_free(ladder);
+	return status;
+}
