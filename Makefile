@@ -354,7 +354,11 @@ CLASSIC_O := $(call obj,$(wildcard tests/classic/engine*.c) tests/classic/run.c)
 $(BIN)/classic_trace: $(BUILD)/tests/classic/classic_trace.o $(CLASSIC_O) $(BUILD)/libladder.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
-tests: $(BIN)/classic_trace
+CLASSIC_RANDOM := $(call obj,tests/classic/random_project.c tests/classic/random_expression.c) $(RANDOM_O)
+$(BIN)/classic_random: $(BUILD)/tests/classic/classic_random.o $(CLASSIC_RANDOM) $(BUILD)/libladder.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+tests: $(BIN)/classic_trace $(BIN)/classic_random
 FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(RANDOM_O)
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o

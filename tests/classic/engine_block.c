@@ -59,13 +59,14 @@ static void start_again(const struct engine *engine, struct iec_timer *iec)
 
 static void count_time(const struct engine *engine, struct iec_timer *iec)
 {
+	int32_t units, room = iec->preset - iec->value;
+
 	iec->rest += engine->period;
-	while (iec->rest >= iec->base && iec->value < iec->preset) {
-		iec->rest -= iec->base;
-		iec->value++;
-		if (engine->faithful) /* F2 */
-			return;
-	}
+	units = iec->rest / iec->base;
+	if (engine->faithful && units > 1) /* F2 */
+		units = 1;
+	iec->rest -= units * iec->base;
+	iec->value += units < room ? units : room;
 }
 
 static void iec_timer(const struct engine *engine, struct iec_timer *iec,

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * random_expression - comparisons and assignments of random projects.
+ *
+ * At most 49 bytes each, as ClassicLadder holds. Divisions by zero and results of more
+ * than 32 bits are wanted. What the original cannot read is made only if odd.
+ */
+#include "tests/classic/random_inside.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LONGEST = 49 };
+
+struct expression { char text[200]; size_t len; int parens; };
+
+static void add(struct expression *expression, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+
+static void add(struct expression *expression, const char *format, ...)
+{
+	size_t room = sizeof(expression->text) - expression->len;
+	va_list args;
+	int len;
+
+	va_start(args, format);
+	len = vsnprintf(expression->text + expression->len, room, format, args);
+	va_end(args);
+	if (len > 0 && (size_t)len < room)
+		expression->len += (size_t)len;
+}
+
+static void add_variable(struct making *making, struct expression *expression)
+{
+	static const int types[] = { 200, 200, 200, 200, 200, 270, 230, 231, 240, 241, 250,
+				     251, 260, 261, 301, 302, 220, 280 };
+	int type = types[making_below(making, 18)];
+	int most = type == 200 ? WORDS : type == 220 ? STEPS : BLOCKS;
+
+	if (type == 200 && making_chance(making, 12))
+		add(expression, "@200/%d[200/%d]@", making_below(making, 4),
+		    FIRST_INDEX + making_below(making, INDICES));
+	else
+		add(expression, "@%d/%d@", type, making_below(making, most));
+}
+
+static void add_constant(struct making *making, struct expression *expression)
+{
+	if (making_chance(making, 70))
+		add(expression, "%d", making_below(making, making_chance(making, 80) ? 20 : 100000));
+	else if (making_chance(making, 50))
+		add(expression, "$%X", making_below(making, 300));
+	else if (making_chance(making, 50))
+		add(expression, "'%c'", 'A' + making_below(making, 26));
+	else
+		add(expression, "-%d", making_below(making, 50));
+}
+
+static void add_function(struct making *making, struct expression *expression)
+{
+	static const char *const many[] = { "MINI", "MAXI", "AVG", "MOY" };
+	static const char *const two[] = { "SHL", "SHR", "ROL", "ROR", "POW" };
+
+	if (making_chance(making, 25)) {
+		add(expression, "ABS(");
+		add_variable(making, expression);
+	} else if (making_chance(making, 60)) {
+		add(expression, "%s(", many[making_below(making, 4)]);
+		for (int i = making_below(making, 2); i >= 0; i--) {
+			add_variable(making, expression);
+			add(expression, ",");
+		}
+		add(expression, "%d", making_below(making, 30));
+	} else {
+		add(expression, "%s(", two[making_below(making, 5)]);
+		add_variable(making, expression);
+		add(expression, ",%d", making_below(making, 9));
+	}
+	add(expression, ")");
+}
+
+static void add_term(struct making *making, struct expression *expression)
+{
+	if (making_chance(making, 6))
+		add(expression, "!");
+	if (making_chance(making, 55))
+		add_variable(making, expression);
+	else if (making_chance(making, 80))
+		add_constant(making, expression);
+	else
+		add_function(making, expression);
+}
+
+static void add_sum(struct making *making, struct expression *expression)
+{
+	static const char operators[] = "++-**/%&|^";
+	int more = making_below(making, 4);
+	bool open = false;
+
+	while (more-- > 0) {
+		bool begin = !open && making_chance(making, 15);
+
+		if (begin)
+			add(expression, "(");
+		add_term(making, expression);
+		if (open)
+			add(expression, ")");
+		open = begin;
+		add(expression, "%c", operators[making_below(making, 10)]);
+	}
+	add_term(making, expression);
+	if (open)
+		add(expression, ")");
+}
+
+/* Spoiled a little, as a person would. */
+static void spoil(struct making *making, struct expression *expression)
+{
+	static const char odd[] = "+-*/@()=!<>,$'9";
+
+	if (making_chance(making, 50) && expression->len)
+		expression->text[making_below(making, (int)expression->len)] =
+			odd[making_below(making, 15)];
+	else
+		expression->text[making_below(making, (int)expression->len + 1)] = '\0';
+	expression->len = strlen(expression->text);
+}
+
+static void put_compare(struct making *making, int number)
+{
+	static const char *const usual[] = { "=", "<>", "<", ">", "<=", ">=" };
+	static const char *const unusual[] = { "==", "!=", "=>" };
+	struct expression expression;
+
+	do {
+		expression = (struct expression){ .len = 0 };
+		add_sum(making, &expression);
+		add(&expression, "%s", making_chance(making, 92) ? usual[making_below(making, 6)] :
+					unusual[making_below(making, 3)]);
+		add_sum(making, &expression);
+	} while (expression.len > LONGEST);
+	if (making->odd && making_chance(making, 5))
+		spoil(making, &expression);
+	making_put(making, "%04d,%s\n", number, expression.text);
+}
+
+static void put_operate(struct making *making, int number)
+{
+	static const int targets[] = { 230, 240, 250, 251, 260, 280, 300 };
+	struct expression expression;
+
+	do {
+		expression = (struct expression){ .len = 0 };
+		if (making_chance(making, 10))
+			add(&expression, "@200/%d@:=@200/%d@&7", FIRST_INDEX +
+			    making_below(making, INDICES), making_below(making, WORDS));
+		else if (making_chance(making, 70))
+			add(&expression, "@200/%d@", making_below(making, WORDS));
+		else if (making_chance(making, 30))
+			add(&expression, "@200/%d[200/%d]@", making_below(making, 4),
+			    FIRST_INDEX + making_below(making, INDICES));
+		else
+			add(&expression, "@%d/%d@", targets[making_below(making, 7)],
+			    making_below(making, BLOCKS));
+		if (expression.text[expression.len - 1] == '@') {
+			/* Times and counts that are written stay small.              */
+			bool block = expression.text[1] == '2' && expression.text[2] > '2' &&
+				     expression.text[2] < '7';
+
+			add(&expression, "%s", making_chance(making, 85) ? ":=" : "=");
+			if (block)
+				add(&expression, "(");
+			add_sum(making, &expression);
+			if (block)
+				add(&expression, ")&15");
+		}
+	} while (expression.len > LONGEST);
+	if (making->odd && making_chance(making, 3))
+		spoil(making, &expression);
+	making_put(making, "%04d,%s\n", number, expression.text);
+}
+
+void put_expressions(struct making *making)
+{
+	making->compares = making_below(making, 8);
+	making->operates = making_below(making, 12);
+	making_put(making, "_FILE-arithmetic_expressions.csv\n#VER=2.0\n");
+	for (int i = 0; i < making->compares; i++)
+		put_compare(making, i);
+	for (int i = 0; i < making->operates; i++)
+		put_operate(making, making->compares + i);
+	making_put(making, "_/FILE-arithmetic_expressions.csv\n");
+}

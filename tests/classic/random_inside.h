@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * random_inside - what the two files that make random projects share.
+ */
+#ifndef CLASSIC_RANDOM_INSIDE_H
+#define CLASSIC_RANDOM_INSIDE_H
+
+#include "tests/walker/random.h"
+
+enum {
+	ROWS = 8, COLUMNS = 12,
+	BITS = 24, INPUTS = 8, OUTPUTS = 10, WORDS = 12, BLOCKS = 4, STEPS = 12,
+	FIRST_INDEX = 40, INDICES = 3  /* words that hold 0 to 7               */
+};
+
+struct cell { int element, type, number, index; bool top; };
+struct grid { struct cell cell[ROWS][COLUMNS]; };
+
+struct making {
+	struct random_source random;
+	bool odd, failed;
+	char *text;
+	size_t len, size;
+	int compares, operates;  /* expressions: those first, then these       */
+	int used[5];             /* blocks of each kind                        */
+	int target;              /* last rung of the section                   */
+	int subroutines, callable; /* those from callable on may be called     */
+	int pages, pages_put, transitions;
+};
+
+/** making_put - more text. */
+void making_put(struct making *making, const char *format, ...)
+	__attribute__((format(printf, 2, 3)));
+/** making_below - 0 to count - 1. */
+int making_below(struct making *making, int count);
+bool making_chance(struct making *making, int percent);
+/** put_expressions - the member, and how many of each kind there are. */
+void put_expressions(struct making *making);
+#endif
