@@ -55,8 +55,10 @@ static void unload(struct ladder *ladder)
 	ladder->loaded = NULL;
 	ladder->image = NULL;
 	ladder->image_len = 0;
-	if (ladder->foreign)
+	if (ladder->foreign) {
 		ladder->foreign->forget(ladder->foreign);
+		ladder->foreign->loaded = false;
+	}
 	ladder->good = ladder->built = false;
 	memset(&ladder->translation, 0, sizeof(ladder->translation));
 	memset(&ladder->program, 0, sizeof(ladder->program));
@@ -171,6 +173,7 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 					      &ladder->diags);
 		if (!bytes)
 			return false;
+		ladder->foreign->loaded = true;
 	}
 	ladder->project = project_new(file);
 	if (!ladder->project)
@@ -415,6 +418,7 @@ bool ladder_build(struct ladder *ladder)
 	bool good = build(ladder);
 
 	place_foreign(ladder);
+	ladder->program.classic = ladder->foreign && ladder->foreign->loaded;
 	return good;
 }
 

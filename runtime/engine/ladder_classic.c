@@ -91,7 +91,7 @@ bool ladder_take_classic(struct ladder *ladder, bool faithful)
 	if (!classic)
 		return false;
 	classic->foreign = (struct foreign){ classic_is, read_foreign, place_diags, forget,
-					     free_foreign };
+					     free_foreign, false };
 	classic->options.faithful = faithful;
 	arena_init(&classic->arena);
 	report_init(&classic->report);

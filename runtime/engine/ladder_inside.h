@@ -24,6 +24,7 @@ struct foreign {
 	void (*place)(const struct foreign *foreign, struct diag_list *diags);
 	void (*forget)(struct foreign *foreign); /* what was read last */
 	void (*free)(struct foreign *foreign);
+	bool loaded;      /* what was loaded last was one                     */
 };
 /** ladder_foreign - owned by @ladder from then on; NULL: none. */
 void ladder_set_foreign(struct ladder *ladder, struct foreign *foreign);

@@ -4,7 +4,7 @@
  *
  * There, transitions fire in the order of their numbers: here that is their priority. The
  * seconds of a step (%X3.V), which count the scan in which it became active, are those of
- * a CL_STEP in a program behind the chart.
+ * a CL_STEP in an action of it.
  */
 #include "engine/import/classic_convert.h"
 
@@ -135,28 +135,50 @@ void convert_chart(struct conversion *c, const struct classic_section *section)
 	write_notes(c, section);
 	c->at = section->place;
 	put(c, "END_PROGRAM\n\n");
-	convert_times(c, section);
+	convert_others(c, section);
 }
 
-/* ---- the seconds of steps ---- */
+/* ---- what a page does for the others ---- */
 
-/* The fault of the original: each page lets the time of all steps go on. */
-void convert_times(struct conversion *c, const struct classic_section *section)
+static void begin_more(struct conversion *c, const char **name)
+{
+	if (*name)
+		return;
+	*name = name_new(c, text_of(c, "%s_Others", c->section_pou));
+	add_program(c, *name);
+	put(c, "PROGRAM %s LD\n", *name);
+}
+
+static bool is_first(const struct conversion *c, const struct classic_section *section)
+{
+	for (int i = 0; i < c->project->sections; i++)
+		if (c->project->section[i].sequential)
+			return &c->project->section[i] == section;
+	return false;
+}
+
+/* When one page has run, the bits of all steps are what they are: in the first scan those
+ * of pages that have not run yet, too. And, a fault of the original, each page lets the
+ * time of all steps go on. */
+void convert_others(struct conversion *c, const struct classic_section *section)
 {
 	const char *name = NULL;
 
-	for (int i = 0; c->options.faithful && i < c->project->steps; i++) {
+	for (int i = 0; i < c->project->steps; i++) {
 		const struct classic_step *step = &c->project->step[i];
+		int number = step->number;
 
-		if (!time_is_used(c, step->number) || on_page(section, step->page))
+		if (on_page(section, step->page))
 			continue;
-		if (!name) {
-			name = name_new(c, text_of(c, "%s_Times", c->section_pou));
-			add_program(c, name);
-			put(c, "PROGRAM %s LD\n", name);
+		if (step->initial && is_first(c, section)) {
+			begin_more(c, &name);
+			put(c, "RUNG\n  | NO SYS_FIRST_SCAN | S %s |\n", step_of(c, number));
 		}
+		if (!c->options.faithful || !time_is_used(c, number))
+			continue;
+		begin_more(c, &name);
 		put(c, "RUNG\n  | NO %s | CL_STEP XTime%d T:=T#1s DT:=SYS_CYCLE |\n",
-		    step_of(c, step->number), step->number);
+		    step_of(c, number), number);
 	}
 	if (name)
 		put(c, "END_PROGRAM\n\n");

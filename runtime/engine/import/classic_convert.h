@@ -116,6 +116,6 @@ void write_functions(struct conversion *c);
 /* ---- rungs: classic_grid.c, charts: classic_chart.c ---- */
 void convert_rung(struct conversion *c, const struct classic_rung *rung);
 void convert_chart(struct conversion *c, const struct classic_section *section);
-/** convert_times - a fault of step times, behind a chart. */
-void convert_times(struct conversion *c, const struct classic_section *section);
+/** convert_others - what a page does for the steps of other pages, behind its chart. */
+void convert_others(struct conversion *c, const struct classic_section *section);
 #endif

@@ -155,21 +155,29 @@ static const char *text_of_part(struct grid *grid, struct grid_part *part,
 
 /* ---- where they stand ---- */
 
-/* All its cells but the one with the code are occupied ones. */
-static bool is_whole(const struct grid *grid, const struct grid_part *part, int alive)
+/* The cells of an element are occupied ones but for that with the code; what stands at the
+ * edge of the grid may have less of them. In a file that no editor wrote others may stand
+ * there, which work for themselves. */
+static void settle(struct grid *grid, struct grid_part *part, int alive)
 {
-	if (part->x < 0 || part->y + part->rows > CLASSIC_ROWS)
-		return false;
-	for (int y = part->y; y < part->y + part->rows; y++)
+	if (part->x < 0) {
+		part->columns += part->x;
+		part->x = 0;
+		part->odd = true;
+	}
+	for (int i = 0; i < part->rows; i++)
 		for (int x = part->x; x < part_end(part); x++) {
-			int code = grid->rung->cell[y][x].element;
+			int y = part->y + i;
+			bool own = (x == alive && !i) ||
+				   (y < CLASSIC_ROWS &&
+				    grid->rung->cell[y][x].element == OCCUPIED);
 
-			if (x == alive && y == part->y)
-				continue;
-			if (code != OCCUPIED)
-				return false;
+			part->odd |= !own;
+			if (part->box && x == alive)
+				part->gives[i] = own && part->box->output[i];
 		}
-	return true;
+	if (part->y + part->rows > CLASSIC_ROWS)
+		part->rows = CLASSIC_ROWS - part->y;
 }
 
 static void find_part(struct grid *grid, int y, int x)
@@ -191,10 +199,7 @@ static void find_part(struct grid *grid, int y, int x)
 		.box = row->box, .reads.type = -1, .reads.index_type = -1,
 		.expression = -1,
 	};
-	if (!is_whole(grid, part, x)) {
-		tell(grid->c, REPORT_LOST, "element %d is cut off", cell->element);
-		return;
-	}
+	settle(grid, part, x);
 	part->text = text_of_part(grid, part, cell, row);
 	if (part->text)
 		grid->parts++;
@@ -210,6 +215,37 @@ static void find_parts(struct grid *grid)
 	for (int x = 0; x < CLASSIC_COLUMNS; x++)
 		for (int y = 0; y < CLASSIC_ROWS; y++)
 			find_part(grid, y, x);
+}
+
+/* Does a part begin at this node, and is it needed? A box has no input in some rows. */
+static bool node_needed(const struct grid *grid, int y, int x)
+{
+	int from, to;
+
+	if (x >= CLASSIC_COLUMNS)
+		return false;
+	grid_run(grid, y, x, &from, &to);
+	for (int i = 0; i < grid->parts; i++) {
+		const struct grid_part *part = &grid->part[i];
+
+		for (int row = from; part->needed && part->x == x && row < to; row++)
+			if (row == part->y ||
+			    (part->box && row > part->y && row < part->y + part->rows &&
+			     part->box->input[row - part->y]))
+				return true;
+	}
+	return false;
+}
+
+static void find_need(struct grid *grid)
+{
+	for (int i = grid->parts - 1; i >= 0; i--) {
+		struct grid_part *part = &grid->part[i];
+
+		part->needed = part->kind == PART_BOX || part->kind == PART_COIL ||
+			       (part->fed && (part->kind == PART_ACT ||
+				node_needed(grid, part->y, part_end(part))));
+	}
 }
 
 static void feed_node(struct grid *grid, int y, int x)
@@ -307,6 +343,7 @@ void convert_rung(struct conversion *c, const struct classic_rung *rung)
 	grid->rung = rung;
 	find_parts(grid);
 	find_power(grid);
+	find_need(grid);
 	if (!acts(grid))
 		write_empty(grid);
 	else if (!grid_write_pieces(grid))

@@ -30,9 +30,12 @@ struct grid_part {
 	const char *text;    /* "NO I0", "[ Word0 > 5 ]", "CL_TON TM0 …"       */
 	const char *instance; /* of a box                                      */
 	const struct part_box *box;
+	bool gives[4];       /* of a box: the rows that have an output         */
 	struct classic_variable reads; /* of a contact                         */
 	int expression;      /* that it reads; -1: none                        */
 	bool fed;            /* power can reach it (a box: its first row)      */
+	bool needed;         /* something behind it acts                       */
+	bool odd;            /* not all its cells are its own: drawn by nobody */
 };
 
 enum { GRID_PARTS = CLASSIC_ROWS * CLASSIC_COLUMNS };
@@ -72,7 +75,7 @@ static inline int part_end(const struct grid_part *part)
 static inline bool part_gives(const struct grid_part *part, int y)
 {
 	if (part->kind == PART_BOX)
-		return y - part->y < part->rows && part->box->output[y - part->y];
+		return y - part->y < part->rows && part->gives[y - part->y];
 	return part->kind <= PART_CONTACT && y == part->y;
 }
 

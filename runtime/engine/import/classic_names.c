@@ -53,7 +53,7 @@ enum {
 	STEP_ROWS = sizeof(step_rows) / sizeof(*step_rows),
 	STEP_TYPE = 30, STEP_TIME = 220, /* %X3.A, %X3.V */
 	SYSTEM_BIT = 70, SYSTEM_WORD = 290,
-	LINUXCNC_IN = 300, LINUXCNC_OUT = 310,
+	LINUXCNC_IN = 300, LINUXCNC_INPUT = 1300, /* classic.def */
 	ARRAY = CLASSIC_LIMIT + 1, /* the number of all words of a type */
 };
 
@@ -194,7 +194,7 @@ static struct classic_name *entry(struct conversion *c, int type, int number)
 static int known_type(const struct conversion *c, int type)
 {
 	if (c->project->dialect == CLASSIC_LINUXCNC && type == LINUXCNC_IN)
-		return 270;
+		return LINUXCNC_INPUT;
 	return type;
 }
 
@@ -263,6 +263,26 @@ static void use_cell(struct conversion *c, const struct classic_cell *cell)
 	}
 }
 
+static void use_blocks(struct conversion *c, const struct classic_blocks *blocks,
+		       enum classic_kind kind)
+{
+	for (int i = 0; i < blocks->count; i++)
+		use(c, block_type(kind), blocks->block[i].number);
+}
+
+static void use_more(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	for (int i = 0; i < project->steps; i++)
+		use(c, STEP_TIME, project->step[i].number);
+	use_blocks(c, &project->timer, CLASSIC_TIMER);
+	use_blocks(c, &project->monostable, CLASSIC_MONOSTABLE);
+	use_blocks(c, &project->counter, CLASSIC_COUNTER);
+	use_blocks(c, &project->iec_timer, CLASSIC_IEC_TIMER);
+	use_blocks(c, &project->reg, CLASSIC_REGISTER);
+}
+
 static void use_all(struct conversion *c)
 {
 	const struct classic_project *project = c->project;
@@ -273,12 +293,11 @@ static void use_all(struct conversion *c)
 				use_cell(c, &project->rung[i]->cell[y][x]);
 	for (int i = 0; i < project->transitions; i++)
 		use_variable(c, project->transition[i].condition);
-	for (int i = 0; i < project->steps; i++) {
+	for (int i = 0; i < project->steps; i++)
 		use(c, STEP_TYPE, project->step[i].number);
-		/* Whoever looks at the original itself may ask for any of them. */
-		if (!c->options.task)
-			use(c, STEP_TIME, project->step[i].number);
-	}
+	/* Whoever looks at the original itself may ask for anything that it has. */
+	if (!c->options.task)
+		use_more(c);
 }
 
 /* ---- symbols ---- */
@@ -436,6 +455,8 @@ static const char *plain_operand(struct conversion *c, int type, int number,
 	*is_bool = memory ? memory->size == 1 : pin ? pin->is_bool : type == STEP_TYPE;
 	if (number < 0)
 		return NULL;
+	if (type == STEP_TIME && !has_step(c, number))
+		return "0";
 	if (pin) {
 		name = instance_of(c, pin->kind, number);
 		return name ? text_of(c, "%s.%s", name, pin->pin) : NULL;
@@ -533,8 +554,8 @@ static void put_instance(struct conversion *c, enum classic_kind kind, int numbe
 	switch (kind) {
 	case CLASSIC_TIMER:
 		block = classic_block(&project->timer, number);
-		put(c, "CL_TIMER := (P := %d, BASE := %s)", block ? block->preset : 0,
-		    base_of(block));
+		put(c, "CL_TIMER := (P := %d, V := %d, BASE := %s)",
+		    block ? block->preset : 0, block ? block->preset : 0, base_of(block));
 		break;
 	case CLASSIC_MONOSTABLE:
 		block = classic_block(&project->monostable, number);

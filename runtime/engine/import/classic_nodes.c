@@ -52,15 +52,37 @@ static void put_branches(struct nodes *nodes, int y, int x)
 	}
 }
 
+/* The one BOOL that is the power of a node; NULL: there are several, or none. */
+static const char *only_power(const struct nodes *nodes, int y, int x)
+{
+	const char *only = NULL;
+	int from, to;
+
+	if (x == 0)
+		return "SYS_ALWAYS_ON";
+	grid_run(nodes->grid, y, x, &from, &to);
+	for (int i = from; i < to; i++) {
+		if (nodes->given[i][x] && only)
+			return NULL;
+		if (nodes->given[i][x])
+			only = nodes->given[i][x];
+	}
+	return only;
+}
+
 static void write_part(struct nodes *nodes, const struct grid_part *part)
 {
 	struct conversion *c = nodes->grid->c;
+	const char *power = only_power(nodes, part->y, part->x);
 	int end = part_end(part);
-	bool gives = part->kind <= PART_CONTACT && end < CLASSIC_COLUMNS;
+	bool gives = part->kind <= PART_CONTACT;
 
-	if ((part->kind <= PART_CONTACT && (!gives || !part->fed)) ||
-	    (part->kind == PART_ACT && !part->fed))
+	if (!part->needed)
 		return;
+	if (part->kind == PART_WIRE && power) {
+		nodes->given[part->y][end] = power;
+		return;
+	}
 	if (gives)
 		nodes->given[part->y][end] = grid_temporary(nodes->grid);
 	grid_head(nodes->grid);
@@ -96,7 +118,7 @@ static void write_box(struct nodes *nodes, const struct grid_part *part)
 			put(c, " %s:=%s", part->box->input[i], in[i]);
 	put(c, " |\n");
 	for (int i = 0; i < part->rows; i++)
-		if (part->box->output[i])
+		if (part->gives[i])
 			nodes->given[part->y + i][part_end(part)] =
 				text_of(c, "%s.%s", part->instance, part->box->output[i]);
 }

@@ -93,7 +93,7 @@ static void cut_at_box(struct grid *grid, struct cuts *cuts, const struct grid_p
 	int end = part_end(box);
 
 	for (int i = 1; i < box->rows; i++)
-		if (box->box->output[i] && is_used(grid, box->y + i, end))
+		if (box->gives[i] && is_used(grid, box->y + i, end))
 			cuts->at[end] = true;
 	for (int i = 0; i < grid->parts; i++) {
 		const struct grid_part *part = &grid->part[i];
@@ -127,6 +127,8 @@ static bool can_cut(const struct grid *grid, const struct cuts *cuts)
 	for (int i = 0; i < grid->parts; i++) {
 		const struct grid_part *part = &grid->part[i];
 
+		if (part->odd)
+			return false;
 		for (int x = part->x + 1; x < part_end(part); x++) {
 			if (cuts->at[x])
 				return false;
@@ -408,7 +410,7 @@ static void trim_links(struct piece *piece)
 		}
 }
 
-/* ---- short circuits ---- */
+/* ---- which way power goes ---- */
 
 struct bars { uint8_t set[CLASSIC_ROWS][PIECE_COLUMNS + 1]; };
 
@@ -420,30 +422,86 @@ static void join(struct bars *bars, uint8_t a, uint8_t b)
 				bars->set[y][x] = a;
 }
 
-/* Is an element bridged by wires? What it does is right there and an error here. */
-static bool is_bridged(const struct piece *piece)
+static bool is_through(const struct piece_cell *cell)
 {
-	struct bars bars;
+	return cell->text && !cell->box_row &&
+	       (cell->kind == PART_CONTACT || cell->kind == PART_BOX);
+}
 
+/* What wires and links join is one place. */
+static void find_bars(const struct piece *piece, struct bars *bars)
+{
 	for (int y = 0; y < CLASSIC_ROWS; y++)
 		for (int x = 0; x <= PIECE_COLUMNS; x++)
-			bars.set[y][x] = x ? (uint8_t)(y * (PIECE_COLUMNS + 1) + x) : 0;
+			bars->set[y][x] = x ? (uint8_t)(y * (PIECE_COLUMNS + 1) + x) : 0;
 	for (int y = 0; y < piece->rows; y++)
-		for (int x = 0; x <= piece->columns; x++) {
-			if (y && x && piece->link[y][x])
-				join(&bars, bars.set[y][x], bars.set[y - 1][x]);
-			if (x && piece->cell[y][x - 1].text &&
+		for (int x = 1; x <= piece->columns; x++) {
+			if (y && piece->link[y][x])
+				join(bars, bars->set[y][x], bars->set[y - 1][x]);
+			if (piece->cell[y][x - 1].text &&
 			    piece->cell[y][x - 1].kind == PART_WIRE)
-				join(&bars, bars.set[y][x], bars.set[y][x - 1]);
+				join(bars, bars->set[y][x], bars->set[y][x - 1]);
 		}
+}
+
+/* Where power goes that is at bar @x of row @y: along links, and wires to the right. */
+static void spread(const struct piece *piece, int y, int x,
+		   bool reached[CLASSIC_ROWS][PIECE_COLUMNS + 1])
+{
+	int from, to;
+
+	if (x == 0)
+		from = y, to = y + 1;
+	else
+		run_of(piece, y, x, &from, &to);
+	for (int i = from; i < to; i++) {
+		const struct piece_cell *cell = &piece->cell[i][x];
+
+		if (reached[i][x])
+			continue;
+		reached[i][x] = true;
+		if (x < piece->columns && cell->text && cell->kind == PART_WIRE)
+			spread(piece, i, x + 1, reached);
+	}
+}
+
+/* Does all that is joined to this place get the power that goes out from there? */
+static bool reaches_all(const struct piece *piece, const struct bars *bars, uint8_t set,
+			bool reached[CLASSIC_ROWS][PIECE_COLUMNS + 1])
+{
 	for (int y = 0; y < piece->rows; y++)
-		for (int x = 0; x < piece->columns; x++)
-			if (piece->cell[y][x].text &&
-			    (piece->cell[y][x].kind == PART_CONTACT ||
-			     piece->cell[y][x].kind == PART_BOX) &&
-			    bars.set[y][x] == bars.set[y][x + 1])
-				return true;
-	return false;
+		for (int x = 0; x < piece->columns; x++) {
+			const struct piece_cell *cell = &piece->cell[y][x];
+
+			if (cell->text && cell->kind != PART_WIRE &&
+			    strcmp(cell->text, ".") && bars->set[y][x] == set &&
+			    !reached[y][x])
+				return false;
+		}
+	return true;
+}
+
+/* Wires lead both ways here, there only to the right: is it the same? */
+static bool is_same_power(const struct piece *piece)
+{
+	bool reached[CLASSIC_ROWS][PIECE_COLUMNS + 1] = { { false } };
+	struct bars bars;
+
+	find_bars(piece, &bars);
+	for (int y = 0; y < piece->rows; y++)
+		spread(piece, y, 0, reached);
+	if (!reaches_all(piece, &bars, 0, reached))
+		return false;
+	for (int y = 0; y < piece->rows; y++)
+		for (int x = 0; x < piece->columns; x++) {
+			if (!is_through(&piece->cell[y][x]))
+				continue;
+			memset(reached, 0, sizeof(reached));
+			spread(piece, y, x + 1, reached);
+			if (!reaches_all(piece, &bars, bars.set[y][x + 1], reached))
+				return false;
+		}
+	return true;
 }
 
 /* ---- less of it ---- */
@@ -548,10 +606,13 @@ static void prepare(struct piece *piece)
 	mark(piece);
 	sweep(piece);
 	trim_links(piece);
-	if (is_bridged(piece))
+	if (!is_same_power(piece))
 		piece->broken = true;
 	drop_rows(piece);
 	drop_columns(piece);
+	/* What was only a wire beside another is nothing now. */
+	trim_links(piece);
+	drop_rows(piece);
 }
 
 bool grid_write_pieces(struct grid *grid)

@@ -273,7 +273,7 @@ static void write_areas(struct conversion *c)
 	static const struct { int type, unit; long usual; const char *area; } row[] = {
 		{ 0, 1, 8192, "M" }, { 50, 1, 512, "I" }, { 60, 1, 512, "Q" },
 		{ 65, 1, 512, "XQ" }, { 200, 32, 8192, "V" }, { 270, 32, 256, "AI" },
-		{ 280, 32, 256, "AQ" }, { 310, 32, 512, "XAQ" },
+		{ 280, 32, 256, "AQ" }, { 310, 32, 512, "XAQ" }, { 1300, 32, 512, "XAI" },
 	};
 
 	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {

@@ -201,6 +201,8 @@ struct program {
 	uint32_t entry_count, task_count, call_count, run_count, bits_count,
 		 symbol_count, group_count, power_count, place_count, watched_count, text_words, watch_words,
 		 string_bytes;
+	bool classic;           /* set by who loaded a project of ClassicLadder:
+				   names from outside are those of it first   */
 };
 
 #define CODE_DIMENSION 4u /* words of an index: its operand, low, count, stride */

@@ -16,7 +16,7 @@
 #define CLASSIC_REGISTER   "Reg"
 
 struct memory_row { const char *prefix, *area; long first; int size; };
-struct pin_row { const char *prefix, *attribute, *instance, *pin; };
+struct pin_row { const char *prefix, *attribute, *instance, *pin; bool is_bool; };
 
 static const struct memory_row memory_rows[] = {
 #define CLASSIC_MEMORY(type, prefix, area, first, size, name) \
@@ -26,8 +26,9 @@ static const struct memory_row memory_rows[] = {
 
 static const struct pin_row pin_rows[] = {
 #define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
-	{ prefix, attribute, kind, pin },
-#define CLASSIC_STEP(type, attribute, name, pin) { "X", attribute, name, pin },
+	{ prefix, attribute, kind, pin, is_bool },
+#define CLASSIC_STEP(type, attribute, name, pin) \
+	{ "X", attribute, name, pin, sizeof(pin) == 1 },
 #include "engine/import/classic.def"
 };
 
@@ -110,6 +111,19 @@ static struct location find_pin(const struct image *image, const struct pin_row 
 	return at;
 }
 
+/* There, blocks and steps that nothing uses are there all the same, and are 0: a place of
+ * the system area that nobody writes. */
+static struct location nothing(const struct image *image, bool is_bool)
+{
+	const char *address = is_bool ? "%SMX56.0" : "%SMD56";
+	struct location at = image_find(image, address, strlen(address));
+
+	if (!is_bool && at.type == IEC_DWORD)
+		at.type = IEC_DINT;
+	at.constant = true;
+	return at;
+}
+
 struct location classic_name_find(const struct image *image, const char *name, size_t len)
 {
 	struct parts parts;
@@ -120,7 +134,11 @@ struct location classic_name_find(const struct image *image, const char *name, s
 		return find_memory(image, &parts);
 	for (size_t i = 0; i < sizeof(pin_rows) / sizeof(*pin_rows); i++)
 		if (!strcmp(pin_rows[i].prefix, parts.prefix) &&
-		    !strcmp(pin_rows[i].attribute, parts.attribute))
-			return find_pin(image, &pin_rows[i], parts.number);
+		    !strcmp(pin_rows[i].attribute, parts.attribute)) {
+			struct location at = find_pin(image, &pin_rows[i], parts.number);
+
+			return at.type == IEC_NONE && image->program->classic ?
+			       nothing(image, pin_rows[i].is_bool) : at;
+		}
 	return (struct location){ .type = IEC_NONE };
 }

@@ -264,8 +264,13 @@ static bool is_ambiguous(const struct program *p, const char *name, size_t len)
 struct location value_find(const struct image *image, const char *name,
 			   size_t len, enum diag_id *why)
 {
-	struct location at = image_find(image, name, len);
+	struct location at = { .type = IEC_NONE };
 
+	/* In a project of ClassicLadder %QW3 is what it is there. */
+	if (image->program->classic)
+		at = classic_name_find(image, name, len);
+	if (at.type == IEC_NONE)
+		at = image_find(image, name, len);
 	*why = DIAG_UNKNOWN_NAME;
 	if (at.type != IEC_NONE && is_ambiguous(image->program, name, len)) {
 		*why = DIAG_AMBIGUOUS_NAME;
