@@ -441,6 +441,14 @@ static bool evolve(struct walker *walker, struct chart *chart, struct orders ord
 	return true;
 }
 
+static bool is_uncontrolled(const struct sfc *sfc)
+{
+	for (int i = 0; i < CONTROL_COUNT; i++)
+		if (sfc->control[i])
+			return false;
+	return true;
+}
+
 bool chart_walk(struct walker *walker, struct chart *chart)
 {
 	struct orders orders = read_orders(walker, chart);
@@ -450,6 +458,8 @@ bool chart_walk(struct walker *walker, struct chart *chart)
 		chart->step[i].entered = chart->step[i].left = false;
 	if (!chart->started) {
 		begin_initial(walker, chart);
+		if (chart->sfc->until_stable && is_uncontrolled(chart->sfc))
+			good = evolve(walker, chart, orders);
 	} else {
 		pass_time(walker, chart, orders.hold);
 		if (orders.reset) {

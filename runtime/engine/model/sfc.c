@@ -184,3 +184,11 @@ bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table,
 	       declare(names, table, arena, (struct var){ .type = IEC_BOOL },
 		       SFC_CONDITION);
 }
+
+bool sfc_rests_at_once(const struct sfc *sfc)
+{
+	for (int i = 0; i < CONTROL_COUNT; i++)
+		if (sfc->control[i])
+			return false;
+	return sfc->until_stable;
+}

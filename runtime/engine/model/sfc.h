@@ -162,4 +162,7 @@ bool sfc_link(struct sfc *sfc, struct names *names);
  */
 bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table,
 		   struct arena *arena);
+/** sfc_rests_at_once - does it evolve in the first scan, too, until it is stable? Scan-safe:
+ * yes. */
+bool sfc_rests_at_once(const struct sfc *sfc);
 #endif

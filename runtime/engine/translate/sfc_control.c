@@ -137,6 +137,9 @@ void sfc_start(struct sfc_il *s)
 	sfc_jump_if(s, on);
 	sfc_set(s, runs, true);
 	put_steps(s, &s->net.initial);
+	/* What has fired is looked at once more. */
+	if (sfc_rests_at_once(s->sfc))
+		sfc_set(s, s->fired, true);
 	sfc_jump(s, s->enter);
 	sfc_here(s, on);
 }

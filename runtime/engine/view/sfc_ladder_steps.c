@@ -499,6 +499,14 @@ static void write_again(struct lad *e)
 		lad_write(e, r, "", "SEMI: one TIP is one evolution");
 		r = lad_begin(e);
 	}
+	if (sfc_rests_at_once(e->sfc)) {
+		lad_head(r, no(e, &e->chart[LAD_FIRST]));
+		lad_out(r, coil(e, "R", &e->chart[LAD_FIRST]));
+		lad_out(r, coil(e, "S", &e->chart[LAD_RUNS]));
+		lad_out(r, lad_text(e, "JMP %s", text_of(e, e->again)));
+		lad_write(e, r, "", "In the first scan, too");
+		r = lad_begin(e);
+	}
 	for (int i = 0; i < e->net.arc_count; i++) {
 		lad_way(r);
 		lad_cell(r, no(e, &e->arc[i][LAD_FIRES]));
