@@ -25,6 +25,8 @@ FRAME    := $(if $(filter -O2 -Os,$(CFLAGS)),-Wframe-larger-than=1024)
 # What a program does not call is left out of it.
 comma    := ,
 LEAN     := -ffunction-sections -fdata-sections -fno-asynchronous-unwind-tables
+# A static program stands where it was linked; without MMU (SMALL=1) it stands anywhere.
+LEAN     += $(if $(filter 1,$(STATIC)),$(if $(filter 1,$(SMALL)),,-fno-pie))
 LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
 # Tables of names are full of pointers: packed, their relocations take 1 KB instead of 60.
 LEAN_LD  += $(if $(STATIC),,$(if $(shell $(CC) -Wl,--help 2>/dev/null | grep -- '-z pack-relative-relocs'),-Wl$(comma)-z$(comma)pack-relative-relocs))
