@@ -41,9 +41,10 @@ CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/ba
             retain_plan.c retain_slot.c symbols.c),%/catalog_small.c),$(CORE))
 # SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def.
 ifeq ($(WORDS),core)
-CORE     := $(filter-out $(addprefix runtime/engine/scan/,big.c decimal.c fb_analog.c fb_classic.c fb_clock.c fb_pid.c fb_pulse.c fb_store.c \
-            fn_bits.c fn_convert.c fn_real.c fn_select.c fn_string.c fn_text.c fn_text_to.c fn_time.c math.c math_angle.c \
-            math_table.c number.c wide.c),$(CORE))
+CORE     := $(filter-out $(addprefix runtime/engine/base/,big.c decimal.c number.c) \
+            $(addprefix runtime/engine/scan/,fb_analog.c fb_classic.c fb_clock.c fb_pid.c fb_pulse.c fb_store.c fn_bits.c \
+            fn_convert.c fn_real.c fn_select.c fn_string.c fn_text.c fn_text_to.c fn_time.c math.c math_angle.c \
+            math_number.c math_table.c wide.c),$(CORE))
 endif
 LIBRARY  := $(if $(filter 1,$(SMALL)),$(CORE),$(ENGINE))
 $(call obj,$(ENGINE)): WARN += $(FRAME)
@@ -54,8 +55,8 @@ ONCE     := $(wildcard runtime/engine/check/*.c runtime/engine/text/*.c runtime/
             scan/retain_*.c scan/symbols.c translate/call_own.c translate/layout_constant.c translate/pack_*.c) \
             hal/gpio_find.c hal/hal_open.c hal/iomap.c)
 ONCE     += $(if $(CROSS)$(STATIC),$(wildcard $(addprefix runtime/engine/,base/*.c model/*.c translate/*.c ladder.c \
-            scan/big.c scan/decimal.c scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_pid.c scan/fb_store.c scan/fn_bits.c scan/fn_convert.c \
-            scan/fn_real.c scan/fn_select.c scan/fn_string.c scan/fn_text*.c scan/fn_time.c scan/math*.c scan/number.c scan/retain*.c)))
+            scan/fb_analog.c scan/fb_classic.c scan/fb_clock.c scan/fb_pid.c scan/fb_store.c scan/fn_bits.c scan/fn_convert.c \
+            scan/fn_real.c scan/fn_select.c scan/fn_string.c scan/fn_text*.c scan/fn_time.c scan/math*.c scan/retain*.c)))
 $(call obj,$(filter-out $(OFTEN),$(ONCE))): COLD = $(if $(filter -O2,$(CFLAGS)),-Os)
 
 all: $(BUILD)/libladder.a ## build everything that can be built here

@@ -68,8 +68,8 @@ extern const uint64_t math_2_pi[20];
 #endif
 ''')
 with open(SCAN + 'math_table.c', 'w') as f:
-    f.write(HEAD % 'tables of math and the coefficients of number.'
-            + '#include "engine/scan/math_table.h"\n#include "engine/scan/number.h"\n\n')
+    f.write(HEAD % 'tables of math and the coefficients of math_number.'
+            + '#include "engine/scan/math_table.h"\n#include "engine/scan/math_number.h"\n\n')
     f.write(array('uint8_t math_log_factor[32]', [c - 1 for c in factors], 8, str) + '\n')
     f.write(array('struct wide math_log_table[32]', logs, 2, wide) + '\n')
     f.write(array('uint64_t math_exp_table[16]', [fixed(mpf(2)**(mpf(i) / 16 - 1)) for i in range(16)]) + '\n')

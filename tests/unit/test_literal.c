@@ -6,6 +6,8 @@
 #include "engine/base/literal.h"
 #include "tests/tap.h"
 
+#include <stdlib.h>
+
 static struct literal last;
 
 static enum literal_result parse(const char *text)
@@ -63,6 +65,52 @@ static void reals(void)
 	CHECK(parse("1e400") == LITERAL_RANGE);
 	CHECK(parse("1e99999999999999999999") == LITERAL_RANGE);
 	CHECK(parse("REAL#1e39") == LITERAL_RANGE);
+}
+
+/* Many digits are read exactly or not at all. */
+static void long_reals(void)
+{
+	char text[420];
+
+	memset(text, '0', sizeof(text));
+	text[0] = '1';
+	strcpy(text + 309, ".0");
+	CHECK_AS(is_real(text, IEC_NONE, 1e308), "zeros behind are as many as they like");
+	memset(text, '0', sizeof(text));
+	strcpy(text + 1, ".0");
+	text[3] = '0';
+	strcpy(text + 303, "25");
+	CHECK_AS(is_real(text, IEC_NONE, 2.5e-302), "and those in front");
+	memset(text, '3', sizeof(text));
+	strcpy(text + 1, ".0");
+	text[3] = '3';
+	text[256] = '\0';
+	CHECK_AS(parse(text) == LITERAL_OK, "255 digits");
+	text[256] = '3';
+	text[257] = '\0';
+	CHECK_AS(parse(text) == LITERAL_RANGE, "no digit is cut off");
+	CHECK(parse("1._5") == LITERAL_BAD && parse("1.5_") == LITERAL_BAD);
+}
+
+/* As libc reads them, which is exact, too. */
+static void reals_of_libc(void)
+{
+	uint64_t seed = 4711;
+	int wrong = 0, looked = 0;
+
+	for (int i = 0; i < 20000; i++) {
+		char text[64];
+		double value;
+
+		seed = seed * 6364136223846793005u + 1442695040888963407u;
+		memcpy(&value, &seed, sizeof(value));
+		if (!(value - value == 0))
+			continue;
+		snprintf(text, sizeof(text), "%.*e", (int)(seed >> 20 & 15) + 5, value);
+		looked++;
+		wrong += !is_real(text, IEC_NONE, strtod(text, NULL));
+	}
+	CHECK(looked > 15000 && wrong == 0);
 }
 
 static void times(void)
@@ -346,6 +394,8 @@ int main(void)
 {
 	integers();
 	reals();
+	long_reals();
+	reals_of_libc();
 	times();
 	malformed();
 	fit();

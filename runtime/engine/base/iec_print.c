@@ -2,10 +2,11 @@
  *
  * iec_print - values as text (see iec.h).
  *
- * The same bytes on every machine: printf and strtof follow the user's language,
- * so no decimal point of theirs is ever used. Not for the scan.
+ * The same bytes on every machine: printf follows the user's language, so no decimal
+ * point of it is ever used. Not for the scan.
  */
 #include "engine/base/iec.h"
+#include "engine/base/decimal.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -13,47 +14,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A number as its significant digits: 0.d1d2d3… x 10^(exponent + 1). */
-struct decimal {
-	char digit[20];
-	int count, exponent;
-};
-
-/* The digits of "%.Ne", whatever stands for its decimal point. */
-static void split(struct decimal *out, double value, int count)
-{
-	char text[40];
-	const char *at = text;
-
-	snprintf(text, sizeof(text), "%.*e", count - 1, fabs(value));
-	out->count = 0;
-	for (; *at && *at != 'e'; at++)
-		if (*at >= '0' && *at <= '9' && out->count < count)
-			out->digit[out->count++] = *at;
-	out->exponent = *at ? (int)strtol(at + 1, NULL, 10) : 0;
-}
-
-static bool reads_back(const struct decimal *decimal, double value, bool wide)
-{
-	char text[40];
-
-	snprintf(text, sizeof(text), "%.*se%d", decimal->count, decimal->digit,
-		 decimal->exponent - (decimal->count - 1));
-	return wide ? strtod(text, NULL) == value :
-		      (double)strtof(text, NULL) == value;
-}
-
-/* As "%.Ng" does it: fixed for exponents from -4 up to the digits, else with e. */
-static int print_decimal(const struct decimal *decimal, const char *sign,
-			 int precision, char *out, size_t size)
+/* As "%.Ng" does it: fixed for exponents from -4 up to the digits, at least six, else
+ * with e. */
+static int print_decimal(const struct decimal *decimal, const char *sign, char *out,
+			 size_t size)
 {
 	const char *digit = decimal->digit;
 	int count = decimal->count, exponent = decimal->exponent;
 	int whole = exponent + 1;
 
-	while (count > 1 && digit[count - 1] == '0')
-		count--;
-	if (exponent < -4 || exponent >= precision)
+	if (exponent < -4 || whole > (count > 6 ? count : 6))
 		return snprintf(out, size, "%s%c%s%.*se%c%02d", sign, digit[0],
 				count > 1 ? "." : "", count - 1, digit + 1,
 				exponent < 0 ? '-' : '+', abs(exponent));
@@ -62,17 +32,16 @@ static int print_decimal(const struct decimal *decimal, const char *sign,
 				"0000", count, digit);
 	if (whole >= count)
 		return snprintf(out, size, "%s%.*s%.*s", sign, count, digit,
-				whole - count, "00000000000000000");
+				whole - count, "00000");
 	return snprintf(out, size, "%s%.*s.%.*s", sign, whole, digit,
 			count - whole, digit + whole);
 }
 
-/* The fewest digits that read back: of a REAL 6 to 9, of an LREAL 6 to 17. */
+/* The fewest digits that read back. */
 static int print_real(double value, bool wide, char *out, size_t size)
 {
 	const char *sign = signbit(value) ? "-" : "";
-	struct decimal decimal = { .count = 0 };
-	int precision = 6, most = wide ? 17 : 9;
+	struct decimal decimal;
 
 	if (isnan(value))
 		return snprintf(out, size, "nan");
@@ -80,13 +49,8 @@ static int print_real(double value, bool wide, char *out, size_t size)
 		return snprintf(out, size, "%sinf", sign);
 	if (value == 0)
 		return snprintf(out, size, "%s0", sign);
-	for (; precision <= most; precision++) {
-		split(&decimal, value, precision);
-		if (reads_back(&decimal, fabs(value), wide))
-			break;
-	}
-	return print_decimal(&decimal, sign, precision < most ? precision : most,
-			     out, size);
+	decimal_of(fabs(value), !wide, &decimal);
+	return print_decimal(&decimal, sign, out, size);
 }
 
 static int print_time(int64_t ns, char *out, size_t size)

@@ -7,12 +7,12 @@
  */
 #include "engine/base/literal.h"
 #include "engine/base/ascii.h"
+#include "engine/base/decimal.h"
 #include "engine/base/literal_part.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static bool take_minus(struct rest *rest)
@@ -23,40 +23,14 @@ static bool take_minus(struct rest *rest)
 	return false;
 }
 
-#define REAL_TEXT 400 /* digits of a real literal that are looked at         */
-
-/* Copies digits without underscores; false: none, or a stray underscore. */
-static bool copy_digits(struct rest *rest, char *out, size_t *len)
-{
-	size_t before = *len;
-	bool digit = false;
-
-	for (; !literal_end(rest); rest->at++) {
-		if (*rest->at == '_' && digit && rest->end - rest->at > 1 &&
-		    ascii_digit(rest->at[1]))
-			continue;
-		if (!ascii_digit(*rest->at))
-			break;
-		digit = true;
-		if (*len < REAL_TEXT)
-			out[*len] = *rest->at;
-		++*len;
-	}
-	return *len != before;
-}
-
-/* 1.5E-3 goes to strtod as 15e-4: the locale's decimal point cannot matter. */
 static enum literal_result parse_real(struct rest rest, bool minus, double *out)
 {
-	char text[REAL_TEXT + 32];
-	size_t len = 0, whole;
+	struct decimal_text text;
 	uint64_t exponent = 0;
 	bool down = false;
 
-	if (!copy_digits(&rest, text, &len))
-		return LITERAL_BAD;
-	whole = len;
-	if (literal_byte(&rest, '.') && !copy_digits(&rest, text, &len))
+	rest.at = decimal_take(rest.at, rest.end, &text);
+	if (!rest.at)
 		return LITERAL_BAD;
 	if (!literal_end(&rest) && ascii_upper(*rest.at) == 'E') {
 		rest.at++;
@@ -66,12 +40,10 @@ static enum literal_result parse_real(struct rest rest, bool minus, double *out)
 	}
 	if (!literal_end(&rest))
 		return LITERAL_BAD;
-	if (len > REAL_TEXT || exponent > 100000)
+	if (text.more || exponent > 100000)
 		return LITERAL_RANGE;
-	snprintf(text + len, sizeof(text) - len, "e%ld",
-		 (down ? -(long)exponent : (long)exponent) -
-		 (long)(len - whole));
-	*out = strtod(text, NULL);
+	text.exponent += down ? -(int64_t)exponent : (int64_t)exponent;
+	*out = text.count ? decimal_value(text.digit, text.count, text.exponent, false) : 0;
 	if (!isfinite(*out))
 		return LITERAL_RANGE;
 	if (minus)

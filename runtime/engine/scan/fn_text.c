@@ -3,7 +3,7 @@
  * fn_text - values as text. The way back is in fn_text_to.c.
  */
 #include "engine/scan/fn_text.h"
-#include "engine/scan/decimal.h"
+#include "engine/base/decimal.h"
 
 #include <string.h>
 

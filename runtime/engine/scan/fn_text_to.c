@@ -6,7 +6,7 @@
  * in while a program runs. It allocates nothing and never rounds but REAL and LREAL.
  */
 #include "engine/scan/fn_text.h"
-#include "engine/scan/decimal.h"
+#include "engine/base/decimal.h"
 #include "engine/base/ascii.h"
 
 #include <string.h>
@@ -128,34 +128,6 @@ static bool to_whole(enum iec_type type, struct rest rest, int64_t *out)
 
 /* ---- REAL ---- */
 
-/* The digits of a number, without zeros in front: 0.digits * 10^exponent. */
-struct digits {
-	char digit[IEC_STRING_MOST];
-	int count;
-	int64_t exponent;
-	bool any;
-};
-
-/* Digits before the point, or behind it. */
-static bool add_digits(struct rest *rest, bool behind, struct digits *out)
-{
-	for (; ascii_digit(peek(rest)); rest->at++) {
-		out->any = true;
-		if (out->count > 0 || *rest->at != '0')
-			out->digit[out->count++] = *rest->at;
-		else if (behind)
-			out->exponent--;
-		if (!behind && out->count > 0)
-			out->exponent++;
-		if (rest->end - rest->at > 1 && rest->at[1] == '_') {
-			rest->at++;
-			if (rest->end - rest->at < 2 || !ascii_digit(rest->at[1]))
-				return false;
-		}
-	}
-	return true;
-}
-
 /* E-3; what is far out of range stays far out of it. */
 static bool take_exponent(struct rest *rest, int64_t *exponent)
 {
@@ -178,21 +150,17 @@ static bool take_exponent(struct rest *rest, int64_t *exponent)
 
 static bool to_real(enum iec_type type, struct rest rest, double *out)
 {
-	struct digits digits = { .count = 0 };
+	struct decimal_text text;
 	bool minus = accept(&rest, '-');
 	double value = 0;
 
 	if (!minus)
 		accept(&rest, '+');
-	if (!add_digits(&rest, false, &digits) || !digits.any)
+	rest.at = decimal_take(rest.at, rest.end, &text);
+	if (!rest.at || !take_exponent(&rest, &text.exponent) || !at_end(&rest))
 		return false;
-	digits.any = false;
-	if (accept(&rest, '.') && (!add_digits(&rest, true, &digits) || !digits.any))
-		return false;
-	if (!take_exponent(&rest, &digits.exponent) || !at_end(&rest))
-		return false;
-	if (digits.count > 0)
-		value = decimal_value(digits.digit, digits.count, digits.exponent,
+	if (text.count > 0)
+		value = decimal_value(text.digit, text.count, text.exponent,
 				      type == IEC_REAL);
 	*out = minus ? -value : value;
 	return value <= 1.7976931348623157e308;

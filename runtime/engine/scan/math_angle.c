@@ -9,7 +9,7 @@
 #include "engine/scan/math.h"
 #include "engine/scan/math_bits.h"
 #include "engine/scan/math_table.h"
-#include "engine/scan/number.h"
+#include "engine/scan/math_number.h"
 
 #include <math.h>
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * math_table - tables of math and the coefficients of number.
+ * math_table - tables of math and the coefficients of math_number.
  *
  * Written by tests/math/tables.py; do not change by hand.
  */
 #include "engine/scan/math_table.h"
-#include "engine/scan/number.h"
+#include "engine/scan/math_number.h"
 
 const uint8_t math_log_factor[32] = {
 	255, 244, 236, 230, 223, 217, 212, 206,

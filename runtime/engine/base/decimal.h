@@ -3,15 +3,17 @@
  * decimal - REAL and LREAL as decimal digits, and back: exact, so that the same bytes come
  * out on every machine.
  *
- * Not printf and strtod: a scan has no libc, and those follow the user's language.
+ * Not printf and strtod: a scan has no libc, and those follow the user's language. Texts
+ * of literals and of STRINGs in a running program are read and written by this alone.
  */
-#ifndef SCAN_DECIMAL_H
-#define SCAN_DECIMAL_H
+#ifndef BASE_DECIMAL_H
+#define BASE_DECIMAL_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
 #define DECIMAL_DIGITS 17 /* tell every LREAL from its neighbours */
+#define DECIMAL_MOST 255  /* digits of a text that can be read    */
 
 struct decimal {
 	char digit[DECIMAL_DIGITS]; /* '0' to '9'; the first and last are not 0 */
@@ -31,10 +33,26 @@ void decimal_of(double value, bool single, struct decimal *out);
 /**
  * decimal_value - 0.@digit * 10^@exponent, rounded once to a REAL or LREAL
  * @digit: '0' to '9', the first is not '0'
- * @count: 1 to 255 of them
+ * @count: 1 to DECIMAL_MOST of them
  *
  * To the nearest, ties to even; infinite if it is too large.
  * Scan-safe: yes; 1 KB of stack.
  */
 double decimal_value(const char *digit, int count, int64_t exponent, bool single);
+
+/* 0.digits * 10^exponent; no digits: 0. */
+struct decimal_text {
+	char digit[DECIMAL_MOST]; /* '0' to '9', the first is not '0'         */
+	int count;
+	bool more;                /* one that is not 0 did not fit            */
+	int64_t exponent;
+};
+
+/**
+ * decimal_take - digits with single underscores between them, and a point among them
+ *
+ * Returns what stands behind them; NULL: there are none, or a point or an underscore has
+ * no digit behind it.   Scan-safe: yes.
+ */
+const char *decimal_take(const char *at, const char *end, struct decimal_text *out);
 #endif

@@ -1,35 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * number - floating point of 64 bits' precision made of integers: what math
- * reckons with between a double that comes in and the one that goes out.
- *
- * Eleven bits more than a double has leave room for the errors of a few steps,
- * and integers are the same on every machine, with or without a unit for floating
- * point. There are no infinities here and no NaN; callers keep them out.
+ * math_number - what math reckons with between a double that comes in and the one that
+ * goes out: division and power series of numbers (base/number.h).
  */
-#ifndef SCAN_NUMBER_H
-#define SCAN_NUMBER_H
+#ifndef SCAN_MATH_NUMBER_H
+#define SCAN_MATH_NUMBER_H
 
+#include "engine/base/number.h"
 #include "engine/scan/wide.h"
-
-struct number {
-	uint64_t part;   /* of 2^64; the top bit is set                       */
-	int32_t power;   /* value: part / 2^64 * 2^power                      */
-	bool negative;
-};
 
 /* 1 / k! and 1 / k, of 2^64, for k >= 2. */
 #define NUMBER_FACTORIALS 20
 #define NUMBER_INVERSES 17
 extern const uint64_t number_factorial[NUMBER_FACTORIALS + 1];
 extern const uint64_t number_inverse[NUMBER_INVERSES + 1];
-
-/** number_of - @x, which is finite and not 0. Exact. Scan-safe: yes. */
-struct number number_of(double x);
-
-/** number_double - the nearest double, ties to even; ±inf if too large, subnormals
- * rounded once. Scan-safe: yes. */
-double number_double(struct number n);
 
 /** number_wide - @n / 2^128 * 2^@power, cut; for @n = 0 something tiny.
  * Scan-safe: yes. */

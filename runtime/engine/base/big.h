@@ -6,8 +6,8 @@
  * Callers know their bounds; what does not fit is lost at the top. No division: digits
  * are few, and subtraction finds them.
  */
-#ifndef SCAN_BIG_H
-#define SCAN_BIG_H
+#ifndef BASE_BIG_H
+#define BASE_BIG_H
 
 #include <stdbool.h>
 #include <stdint.h>

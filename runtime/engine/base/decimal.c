@@ -3,9 +3,10 @@
  * decimal - REAL and LREAL as decimal digits, and back, in whole numbers of any size
  * that these need. No step rounds but the last.
  */
-#include "engine/scan/decimal.h"
-#include "engine/scan/big.h"
-#include "engine/scan/number.h"
+#include "engine/base/decimal.h"
+#include "engine/base/ascii.h"
+#include "engine/base/big.h"
+#include "engine/base/number.h"
 
 #include <string.h>
 
@@ -170,4 +171,43 @@ double decimal_value(const char *digit, int count, int64_t exponent, bool single
 	n.part = divide(&over, &under);
 	n.power += shift;
 	return single ? to_single(n) : number_double(n);
+}
+
+/* ---- from a text ---- */
+
+static void add_digit(struct decimal_text *out, char digit, bool behind)
+{
+	if (out->count == 0 && digit == '0') {
+		out->exponent -= behind;
+		return;
+	}
+	out->exponent += !behind;
+	if (out->count < DECIMAL_MOST)
+		out->digit[out->count++] = digit;
+	else
+		out->more |= digit != '0';
+}
+
+/* Those before the point, or behind it. */
+static const char *take_part(const char *at, const char *end, bool behind,
+			     struct decimal_text *out)
+{
+	if (at == end || !ascii_digit(*at))
+		return NULL;
+	for (;;) {
+		add_digit(out, *at++, behind);
+		if (at < end && *at == '_' && (++at == end || !ascii_digit(*at)))
+			return NULL;
+		if (at == end || !ascii_digit(*at))
+			return at;
+	}
+}
+
+const char *decimal_take(const char *at, const char *end, struct decimal_text *out)
+{
+	out->count = 0;
+	out->more = false;
+	out->exponent = 0;
+	at = take_part(at, end, false, out);
+	return at && at < end && *at == '.' ? take_part(at + 1, end, true, out) : at;
 }

@@ -2,7 +2,7 @@
  *
  * big - unsigned integers of up to 1984 bits, word by word.
  */
-#include "engine/scan/big.h"
+#include "engine/base/big.h"
 
 #include <string.h>
 
