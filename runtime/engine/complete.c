@@ -52,7 +52,7 @@ bool ladder_complete(struct ladder *ladder, const char *text, size_t len, int li
 	scope = scope_new(project, &arena);
 	if (scope && expect_at(scope, text, len, line, column, &at)) {
 		filter.at = &at;
-		expect_offer(scope, at.pou, &at.want, &taker);
+		expect_offer(project, at.pou, &at.want, &taker);
 		*place = (struct ladder_place){ at.prefix_len, filter.words };
 		good = !arena.failed;
 	}

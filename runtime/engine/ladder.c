@@ -10,6 +10,7 @@
 #include "engine/check/check.h"
 #include "engine/check/check_il.h"
 #include "engine/check/check_tokens.h"
+#include "engine/check/expect.h"
 #include "engine/text/text.h"
 #include "engine/translate/translate.h"
 #include "engine/view/sfc_ladder.h"
@@ -20,6 +21,7 @@
 #include <sys/stat.h>
 
 struct ladder {
+	const struct advice *advice; /* of every project; NULL: none           */
 	struct diag_list diags;
 	struct project *project;
 	struct arena arena;       /* of the translation                     */
@@ -34,6 +36,16 @@ struct ladder {
 };
 
 struct ladder *ladder_new(void)
+{
+	static const struct advice desk = { expect_nearest, check_tokens };
+	struct ladder *ladder = ladder_new_terse();
+
+	if (ladder)
+		ladder->advice = &desk;
+	return ladder;
+}
+
+struct ladder *ladder_new_terse(void)
 {
 	struct ladder *ladder = calloc(1, sizeof(*ladder));
 
@@ -178,6 +190,7 @@ static bool load_bytes(struct ladder *ladder, const char *file,
 	ladder->project = project_new(file);
 	if (!ladder->project)
 		return no_memory(ladder, file);
+	ladder->project->advice = ladder->advice;
 	good = text_read(ladder->project, file, bytes, len, &source,
 			 &ladder->diags);
 	if (ladder->project->arena.failed)
@@ -272,11 +285,13 @@ static void check_states(struct ladder *ladder)
 {
 	struct project *project = ladder->project;
 
+	if (!project->advice)
+		return;
 	for (int i = 0; i < project->pou_count && !ladder->diags.errors; i++) {
 		if (!project->pou[i].sfc)
 			continue;
 		arena_reset(&ladder->scratch);
-		check_tokens(ladder->translation.scope, &project->pou[i],
+		project->advice->tokens(ladder->translation.scope, &project->pou[i],
 			     &ladder->scratch, &ladder->diags);
 	}
 }

@@ -19,6 +19,10 @@ struct xref_target;
 
 /** ladder_new - nothing loaded. Owns: the caller, ladder_free(). NULL: no memory. */
 struct ladder *ladder_new(void);
+/** ladder_new_terse - the same; messages do not say what may have been meant, and nothing
+ * is told of the states that charts can come to (LD450 … LD455). Every error is told, and
+ * every other warning. For boards: what it takes is not linked (model/advice.h). */
+struct ladder *ladder_new_terse(void);
 void ladder_free(struct ladder *ladder);
 
 /* What an import took, changed and left out: engine/import/report.h. */

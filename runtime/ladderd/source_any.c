@@ -16,7 +16,7 @@ const char *source_kinds(void)
 
 bool source_load(struct source *source, const char *path)
 {
-	struct ladder *ladder = ladder_new();
+	struct ladder *ladder = ladder_new_terse();
 	bool good;
 
 	diag_init(&source->diags);

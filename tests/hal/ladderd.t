@@ -241,6 +241,19 @@ for (['no such program', "$dir/none.rung", $map, 2, qr/none\.rung/],
 	unlike(get('err'), qr/^%Q/m, "$what: no pin is touched");
 	is(get('out'), '', "$what: nothing on stdout");
 }
+# Errors and other warnings are those of `ladder check`; advice is for people at a desk.
+my $near = put('near.rung', "RUNGBOARD 1\n\nVAR_GLOBAL\n  Valve : BOOL;\nEND_VAR\n\n".
+	       "PROGRAM M LD\nRUNG\n  | NO Valv | COIL Valve |\nEND_PROGRAM\n");
+for (['LD301 names its word', $near, 1, qr/rung 1 \(1,1\): error LD301: [^\n]*: Valv/, qr/ \(Valve\?\)/],
+     ['a chart is checked', 'tests/golden/diag-LD451-dead-end/main.rung', 0, qr/warning LD439: /,
+      qr/warning LD451: /]) {
+	my ($what, $file, $status, $told, $advice) = @$_;
+	is(run($ladderd, $file, '--io', $map, '--check'), $status, $what);
+	like(get('err'), $told, 'says so');
+	unlike(get('err'), $advice, 'and no more than that');
+	my $desk = `$build/ladder check $file 2>&1`;
+	like($desk, $_, "$what: ladder check says it") for $told, $advice;
+}
 my $half = put('half.io', "BOARD \"x\"\n%IX0.0 sim\n%QX0.0 sim\n");
 is(run($ladderd, $rung, '--io', $half, '--scans', '1'), 0, 'an output less');
 like(get('err'), qr/half\.io.*warning LD515.*Brake/, 'is a warning');

@@ -3,6 +3,7 @@
  * test_check_sfc - charts that are not whole, made without the reader.
  */
 #include "engine/check/check.h"
+#include "engine/check/expect.h"
 #include "tests/tap.h"
 #include "tests/unit/chart.h"
 
@@ -22,6 +23,8 @@ static const char *told(const struct diag_list *diags)
 	return text;
 }
 
+static const struct advice advice = { .nearest = expect_nearest };
+
 static const char *check_now(void)
 {
 	struct diag_list diags;
@@ -31,6 +34,7 @@ static const char *check_now(void)
 
 	arena_init(&arena);
 	diag_init(&diags);
+	chart.project->advice = &advice;
 	scope = scope_new(chart.project, &arena);
 	CHECK(check_names(scope, NULL, &arena, &diags) == (diags.errors == 0));
 	text = told(&diags);

@@ -6,7 +6,7 @@
  */
 #include "engine/check/il_check.h"
 
-#include "engine/check/expect.h"
+#include "engine/model/advice.h"
 
 static bool is_label(struct il_check *c, uint32_t name)
 {
@@ -18,14 +18,12 @@ static bool is_label(struct il_check *c, uint32_t name)
 /* With C the result must be there, without it nothing goes on. */
 bool il_check_flow(struct il_check *c, const struct il_line *line)
 {
-	const struct expect_want labels = { .kinds = EXPECT_LABEL,
-					    .block = WORD_COUNT };
 	bool good = true;
 
 	if (c->depth > 0 && line->op != OP_STP)
 		good = il_report(c, line, DIAG_IL_OPEN_PAREN, op_row(line->op)->word);
 	if (line->op == OP_JMP && !is_label(c, line->operand))
-		good = il_report_near(c, line, DIAG_NO_LABEL, &labels);
+		good = il_report_near(c, line, DIAG_NO_LABEL, EXPECT_LABEL);
 	if (line->modifiers & MOD_C)
 		return il_need_result(c, line) &&
 		       il_need_bool(c, line, c->now, "the result") && good;

@@ -4,7 +4,7 @@
  */
 #include "engine/check/il_check.h"
 
-#include "engine/check/expect.h"
+#include "engine/model/advice.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -69,30 +69,25 @@ const char *il_operand_text(struct il_check *c, const struct il_line *line)
 	return scope_text(c->scope, line->operand);
 }
 
-/* A search through all names takes
- * its time, so only the first few get it. */
-bool il_report_near(struct il_check *c, const struct il_line *line,
-			enum diag_id id, const struct expect_want *want)
+bool il_report_near(struct il_check *c, const struct il_line *line, enum diag_id id,
+		    unsigned int kinds)
 {
 	char text[LIMIT_ARG];
 
-	if (c->diags->count >= SUGGEST_MOST)
-		return il_report(c, line, id, il_operand_text(c, line));
-	expect_nearest(c->scope, c->pou, want, il_operand_text(c, line), text,
-		       sizeof(text));
+	advice_word(scope_project(c->scope), c->pou, kinds, c->diags,
+		    il_operand_text(c, line), text, sizeof(text));
 	return il_report(c, line, id, text);
 }
 
 static void report_unknown(struct il_check *c, const struct il_line *line,
 			   enum diag_id why)
 {
-	struct expect_want want = { .kinds = EXPECT_VARIABLE | EXPECT_INSTANCE,
-				    .block = WORD_COUNT };
+	unsigned int kinds = EXPECT_VARIABLE | EXPECT_INSTANCE;
 
 	if (line->kind == IL_OP && line->op == OP_CAL)
-		want.kinds = EXPECT_INSTANCE | EXPECT_SUBROUTINE;
+		kinds = EXPECT_INSTANCE | EXPECT_SUBROUTINE;
 	if (why == DIAG_UNKNOWN_NAME)
-		il_report_near(c, line, why, &want);
+		il_report_near(c, line, why, kinds);
 	else
 		il_report(c, line, why, il_operand_text(c, line));
 }

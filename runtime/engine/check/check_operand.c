@@ -7,7 +7,7 @@
 #include "engine/check/operand_check.h"
 
 #include "engine/base/ascii.h"
-#include "engine/check/expect.h"
+#include "engine/model/advice.h"
 #include "engine/model/args.h"
 #include "engine/model/loop.h"
 
@@ -32,15 +32,14 @@ bool operand_report(struct operand_check *c, enum diag_id id, struct operand_spo
 static void report_unknown(struct operand_check *c, struct operand_spot at, uint32_t id,
 			   enum diag_id why, unsigned int kinds)
 {
-	const struct expect_want want = { .kinds = kinds, .block = WORD_COUNT };
 	const char *name = project_text(c->project, id);
 	char text[LIMIT_ARG];
 
-	if (why != DIAG_UNKNOWN_NAME || c->diags->count >= SUGGEST_MOST) {
+	if (why != DIAG_UNKNOWN_NAME) {
 		operand_report(c, why, at, name);
 		return;
 	}
-	expect_nearest(c->scope, c->pou, &want, name, text, sizeof(text));
+	advice_word(c->project, c->pou, kinds, c->diags, name, text, sizeof(text));
 	operand_report(c, why, at, text);
 }
 

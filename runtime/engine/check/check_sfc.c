@@ -6,8 +6,7 @@
  */
 #include "engine/check/sfc_check.h"
 
-#include "engine/base/nearest.h"
-#include "engine/check/expect.h"
+#include "engine/model/advice.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -53,18 +52,10 @@ static void report_ref(struct sfc_check *c, enum diag_id id, const struct sfc_re
 
 static void report_no_step(struct sfc_check *c, const struct sfc_ref *ref)
 {
-	const char *wanted = sfc_name(c, ref->name);
-	struct nearest nearest;
 	char text[LIMIT_ARG];
 
-	if (c->diags->count >= SUGGEST_MOST) {
-		report_ref(c, DIAG_SFC_NO_STEP, ref);
-		return;
-	}
-	nearest_init(&nearest, wanted, strlen(wanted));
-	for (int i = 0; i < c->sfc->step_count; i++)
-		nearest_offer(&nearest, sfc_name(c, c->sfc->step[i].name));
-	nearest_print(&nearest, text, sizeof(text));
+	advice_word(c->project, c->pou, EXPECT_STEP, c->diags, sfc_name(c, ref->name), text,
+		    sizeof(text));
 	sfc_report(c, DIAG_SFC_NO_STEP, ref->line, ref->column, text);
 }
 

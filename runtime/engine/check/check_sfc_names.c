@@ -7,8 +7,8 @@
  */
 #include "engine/check/check_sfc_names.h"
 
-#include "engine/check/expect.h"
 #include "engine/check/reserved.h"
+#include "engine/model/advice.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -117,7 +117,6 @@ static void check_given(struct sfc_names *c, struct arena *scratch)
 static const struct meaning *find(struct sfc_names *c, uint32_t id, struct spot at,
 				  unsigned int kinds)
 {
-	const struct expect_want want = { .kinds = kinds, .block = WORD_COUNT };
 	const char *name = project_text(c->project, id);
 	enum diag_id why = DIAG_UNKNOWN_NAME;
 	const struct meaning *m = scope_find(c->scope, c->pou, id, &why);
@@ -127,8 +126,8 @@ static const struct meaning *find(struct sfc_names *c, uint32_t id, struct spot 
 		uses_add_index(c->uses, c->scope, c->pou, id, m);
 		return m;
 	}
-	if (why == DIAG_UNKNOWN_NAME && c->diags->count < SUGGEST_MOST)
-		expect_nearest(c->scope, c->pou, &want, name, text, sizeof(text));
+	if (why == DIAG_UNKNOWN_NAME)
+		advice_word(c->project, c->pou, kinds, c->diags, name, text, sizeof(text));
 	else
 		snprintf(text, sizeof(text), "%.*s", LIMIT_ARG - 1, name);
 	report(c, why, at, text);

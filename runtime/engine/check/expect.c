@@ -6,13 +6,13 @@
 
 #include "engine/base/ascii.h"
 #include "engine/base/explain.h"
+#include "engine/base/nearest.h"
 #include "engine/model/convert.h"
 
 #include <stdio.h>
 #include <string.h>
 
 struct offer {
-	struct scope *scope;
 	const struct project *project;
 	const struct pou *pou;
 	const struct expect_want *want;
@@ -194,7 +194,7 @@ static void offer_types(const struct offer *o)
 static const char *type_text(const struct offer *o, enum iec_type type, enum word word)
 {
 	return type != IEC_NONE ? iec_type_row(type)->word :
-				  scope_row(o->scope, word)->word;
+				  words_row(&o->project->words, word)->word;
 }
 
 static bool is_class(const struct offer *o, enum iec_type type)
@@ -205,7 +205,7 @@ static bool is_class(const struct offer *o, enum iec_type type)
 
 static bool is_instance(const struct offer *o, const struct var *var)
 {
-	return var->type == IEC_NONE && scope_row(o->scope, var->fb)->kind == WORD_FB;
+	return var->type == IEC_NONE && words_row(&o->project->words, var->fb)->kind == WORD_FB;
 }
 
 static bool may_write(const struct var *var, uint16_t flags)
@@ -321,10 +321,10 @@ static void offer_pins(const struct offer *o)
 	give(o, EXPECT_PIN, "OUT", "");
 }
 
-void expect_offer(struct scope *scope, const struct pou *pou,
+void expect_offer(const struct project *project, const struct pou *pou,
 		  const struct expect_want *want, const struct expect_taker *taker)
 {
-	const struct offer o = { scope, scope_project(scope), pou, want, taker };
+	const struct offer o = { project, pou, want, taker };
 
 	if (want->kinds & EXPECT_KEYWORD)
 		offer_keywords(&o);
@@ -357,13 +357,13 @@ void expect_offer(struct scope *scope, const struct pou *pou,
 		offer_pins(&o);
 }
 
-void expect_functions(struct project *project, const char *begun, size_t len,
+void expect_functions(const struct project *project, const char *begun, size_t len,
 		      const struct expect_taker *taker)
 {
 	const struct expect_want want = { .kinds = EXPECT_FUNCTION, .block = WORD_COUNT,
 					  .boxes = true, .begun = begun,
 					  .begun_len = len };
-	const struct offer o = { NULL, project, NULL, &want, taker };
+	const struct offer o = { project, NULL, &want, taker };
 
 	offer_words(&o);
 	offer_made(&o);
@@ -421,22 +421,29 @@ const char *expect_kind_text(enum expect_kind kind)
 	return "";
 }
 
-static void take_nearest(void *context, const struct expect_word *word)
+/* A word that is put together while it is offered is gone when the nearest are printed. */
+static bool stays(const struct expect_word *word)
 {
-	nearest_offer(context, word->text);
+	if (word->kind == EXPECT_OPERATOR)
+		return word->text == op_row(word->op)->word;
+	return word->kind != EXPECT_FUNCTION || word->text == word->row->word;
 }
 
-void expect_nearest(struct scope *scope, const struct pou *pou,
-		    const struct expect_want *want, const char *wanted, char *out,
-		    size_t size)
+static void take_nearest(void *context, const struct expect_word *word)
+{
+	if (stays(word))
+		nearest_offer(context, word->text);
+}
+
+void expect_nearest(const struct project *project, const struct pou *pou,
+		    unsigned int kinds, const char *wanted, char *out, size_t size)
 {
 	struct nearest nearest;
 	const struct expect_taker taker = { take_nearest, &nearest };
-	struct expect_want begun = *want;
+	const struct expect_want want = { .kinds = kinds, .block = WORD_COUNT,
+					  .begun = wanted, .begun_len = strlen(wanted) };
 
-	begun.begun = wanted;
-	begun.begun_len = strlen(wanted);
 	nearest_init(&nearest, wanted, strlen(wanted));
-	expect_offer(scope, pou, &begun, &taker);
+	expect_offer(project, pou, &want, &taker);
 	nearest_print(&nearest, out, size);
 }

@@ -3,34 +3,15 @@
  * expect - which words could stand at a place: of a list, of a cell, of a file.
  *
  * The editor's completion and `ladder complete` ask by place (expect_at), messages of
- * the checks by what they looked for (expect_offer); the words come from one source.
+ * the checks by what they looked for (expect_nearest); the words come from one source.
  * The project may have errors, only what could be read of it is known. It changes
  * nothing and judges nothing.
  */
 #ifndef CHECK_EXPECT_H
 #define CHECK_EXPECT_H
 
-#include "engine/base/nearest.h"
 #include "engine/check/scope.h"
-
-enum expect_kind {
-	EXPECT_KEYWORD     = 1 << 0,
-	EXPECT_OPERATOR    = 1 << 1,  /* with its modifiers: LD LDN             */
-	EXPECT_FUNCTION    = 1 << 2,
-	EXPECT_BLOCK       = 1 << 3,
-	EXPECT_ELEMENT     = 1 << 4,  /* words of cells                         */
-	EXPECT_INSTANCE    = 1 << 5,
-	EXPECT_SUBROUTINE  = 1 << 6,
-	EXPECT_LABEL       = 1 << 7,
-	EXPECT_VARIABLE    = 1 << 8,
-	EXPECT_PIN         = 1 << 9,  /* of a row, or a member                  */
-	EXPECT_TYPE        = 1 << 10,
-	EXPECT_CONSTANT    = 1 << 11, /* TRUE and FALSE                         */
-	EXPECT_STEP        = 1 << 12, /* of a chart                             */
-	EXPECT_ACTION      = 1 << 13, /* likewise                               */
-	EXPECT_QUALIFIER   = 1 << 14, /* N, SD: what a line of a step may have  */
-	EXPECT_STEP_PART   = 1 << 15, /* X, T                                   */
-};
+#include "engine/model/advice.h"
 
 /* What is wanted. */
 struct expect_want {
@@ -66,12 +47,12 @@ struct expect_taker {
 
 /** expect_offer - hands over every word of what is wanted, unordered. @pou NULL: of no
  * POU. Owns: nothing.   Scan-safe: no. */
-void expect_offer(struct scope *scope, const struct pou *pou,
+void expect_offer(const struct project *project, const struct pou *pou,
 		  const struct expect_want *want, const struct expect_taker *taker);
 
 /** expect_functions - the same of functions alone, with those made by rule of which
- * @begun has the first type. They need no scope. Scan-safe: no. */
-void expect_functions(struct project *project, const char *begun, size_t len,
+ * @begun has the first type. Scan-safe: no. */
+void expect_functions(const struct project *project, const char *begun, size_t len,
 		      const struct expect_taker *taker);
 
 /** expect_note - the type of what was offered, or what it does; "": nothing. Lives as
@@ -81,14 +62,10 @@ const char *expect_note(const struct expect_word *word);
 /** expect_kind_text - "variable". Lives for ever. */
 const char *expect_kind_text(enum expect_kind kind);
 
-/** expect_nearest - @wanted, with the words of @want that may be meant behind it, as
- * nearest_print(). Scan-safe: no. */
-void expect_nearest(struct scope *scope, const struct pou *pou,
-		    const struct expect_want *want, const char *wanted, char *out,
-		    size_t size);
-
-/* After so many messages nobody is told what may have been meant. */
-#define SUGGEST_MOST 20
+/** expect_nearest - @wanted, with the words of @kinds that may be meant behind it, as
+ * nearest_print(). Who needs it asks advice_word(). Scan-safe: no. */
+void expect_nearest(const struct project *project, const struct pou *pou,
+		    unsigned int kinds, const char *wanted, char *out, size_t size);
 
 /* A place in a text. */
 struct expect_place {

@@ -46,9 +46,9 @@ bool il_report_types(struct il_check *c, const struct il_line *line,
 bool il_report_constant(struct il_check *c, const struct il_line *line,
 			const struct literal *literal, enum iec_type to);
 struct expect_want;
-/** il_report_near - the same with the words of @want that may have been meant. */
+/** il_report_near - the same with the words of @kinds that may have been meant. */
 bool il_report_near(struct il_check *c, const struct il_line *line, enum diag_id id,
-		    const struct expect_want *want);
+		    unsigned int kinds);
 /** il_is_unknown - after an error was told: a result that fits everywhere. */
 bool il_is_unknown(struct result result);
 /** il_find - what an operand means; NULL after a diagnostic. */

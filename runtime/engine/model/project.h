@@ -16,6 +16,7 @@
 #include "engine/model/vars.h"
 #include "engine/model/words.h"
 
+struct advice;
 enum pou_language { LANGUAGE_LD, LANGUAGE_IL, LANGUAGE_SFC };
 enum pou_kind { POU_PROGRAM, POU_FUNCTION, POU_BLOCK, POU_SUBROUTINE };
 
@@ -63,6 +64,7 @@ struct part {
 
 struct project {
 	struct arena arena;
+	const struct advice *advice; /* of who reads its messages; NULL: none    */
 	struct names names;
 	struct word_table words; /* of the catalogue and its own              */
 	const char *file;

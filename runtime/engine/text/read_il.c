@@ -8,8 +8,9 @@
 #include "engine/text/reader.h"
 
 #include "engine/base/ascii.h"
-#include "engine/base/nearest.h"
+#include "engine/model/advice.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static bool add_line(struct reader *r, struct il_line line)
@@ -302,20 +303,11 @@ static bool read_operator(struct reader *r, struct il_line line)
 /* Neither an operator nor a function: which one may be meant? */
 static bool fail_word(struct reader *r)
 {
-	const struct word_table *words = &r->project->words;
-	struct nearest nearest;
-	char text[LIMIT_ARG];
+	char word[LIMIT_ARG], text[LIMIT_ARG];
 
-	nearest_init(&nearest, r->lex.token.text, r->lex.token.len);
-	for (int i = 0; i < OP_COUNT; i++)
-		nearest_offer(&nearest, op_row((enum op)i)->word);
-	for (int i = 0; i < WORD_COUNT; i++)
-		if (word_row((enum word)i)->kind == WORD_FN)
-			nearest_offer(&nearest, word_row((enum word)i)->word);
-	for (int i = 0; i < words->count; i++)
-		if (words->row[i]->kind == WORD_FN)
-			nearest_offer(&nearest, words->row[i]->word);
-	nearest_print(&nearest, text, sizeof(text));
+	snprintf(word, sizeof(word), "%.*s", (int)r->lex.token.len, r->lex.token.text);
+	advice_word(r->project, NULL, EXPECT_OPERATOR | EXPECT_FUNCTION, r->diags, word,
+		    text, sizeof(text));
 	return reader_fail_word(r, DIAG_UNKNOWN_WORD, text);
 }
 
