@@ -67,28 +67,30 @@ static void reals(void)
 	CHECK(parse("REAL#1e39") == LITERAL_RANGE);
 }
 
+/* @count digits, of zeros the first is 1, and @end. */
+static const char *long_text(char digit, int count, const char *end)
+{
+	static char text[420];
+	size_t len = strlen(end) + 1;
+
+	memset(text, digit, sizeof(text));
+	if (digit == '0')
+		text[0] = '1';
+	memcpy(text + count, end, len);
+	return text;
+}
+
 /* Many digits are read exactly or not at all. */
 static void long_reals(void)
 {
-	char text[420];
+	char text[420] = "0.";
 
-	memset(text, '0', sizeof(text));
-	text[0] = '1';
-	strcpy(text + 309, ".0");
-	CHECK_AS(is_real(text, IEC_NONE, 1e308), "zeros behind are as many as they like");
-	memset(text, '0', sizeof(text));
-	strcpy(text + 1, ".0");
-	text[3] = '0';
-	strcpy(text + 303, "25");
-	CHECK_AS(is_real(text, IEC_NONE, 2.5e-302), "and those in front");
-	memset(text, '3', sizeof(text));
-	strcpy(text + 1, ".0");
-	text[3] = '3';
-	text[256] = '\0';
-	CHECK_AS(parse(text) == LITERAL_OK, "255 digits");
-	text[256] = '3';
-	text[257] = '\0';
-	CHECK_AS(parse(text) == LITERAL_RANGE, "no digit is cut off");
+	CHECK_AS(is_real(long_text('0', 309, ".0"), IEC_NONE, 1e308), "any zeros behind");
+	memset(text + 2, '0', 301);
+	text[303] = '5';
+	CHECK_AS(is_real(text, IEC_NONE, 5e-302), "and any in front");
+	CHECK_AS(is_real(long_text('3', 254, "3e-254"), IEC_NONE, 10.0 / 3), "255 digits");
+	CHECK_AS(parse(long_text('3', 255, "3e-254")) == LITERAL_RANGE, "none is cut off");
 	CHECK(parse("1._5") == LITERAL_BAD && parse("1.5_") == LITERAL_BAD);
 }
 
