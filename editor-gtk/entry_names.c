@@ -206,7 +206,7 @@ static const char *step(const struct entry_place *place, const char *at, const c
 	if (pin < 0 || pin >= row->pin_count)
 		return NULL;
 	out->type = row->pin[pin].type;
-	out->word = row->pin[pin].word;
+	out->word = out->type == IEC_NONE ? row->pin[pin].word : WORD_COUNT;
 	out->array = row->pin[pin].elements > 0;
 	out->write &= row->kind == WORD_STRUCT || row->pin[pin].dir == PIN_IN;
 	return stop;

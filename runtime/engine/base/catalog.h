@@ -122,24 +122,28 @@ struct word_row {
 	};
 };
 #else
-/* Small on purpose: a board has hundreds of them in its memory. */
+/* Small on purpose, 24 bytes where a pointer has four: a board has hundreds of them in
+ * its memory. See limits.h for what the numbers can be. */
 struct word_pin {
 	const char *name;
+	uint32_t elements : 26; /* own rows, FB_STORE: of an array; 0: none      */
+	enum pin_dir dir : 4;
+	bool own : 1;        /* of a function's pin: does not share the type   */
+	bool has_init : 1;   /* has a value until it is given one              */
 	union {
 		union iec_value init; /* its value until it is given one, of
 					 has_init; of a pin of the catalogue  */
 		int32_t low;          /* own rows: of an array                */
 	};
-	uint32_t elements;   /* own rows, FB_STORE: of an array; 0: none        */
-	uint32_t offset;     /* of an FB pin in its struct                     */
-	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
-	uint16_t capacity;   /* own rows: of a STRING                          */
-	enum word word : 16; /* type IEC_NONE, own rows: an instance, structure */
-	enum iec_type type : 8; /* of an FB pin; of a function's the type it must
+	uint32_t offset : 26; /* of an FB pin in its struct                    */
+	enum iec_type type : 6; /* of an FB pin; of a function's the type it must
 				be made, IEC_NONE if any of its classes will do */
-	enum pin_dir dir : 4;
-	bool own : 1;        /* of a function's pin: does not share the type   */
-	bool has_init : 1;   /* has a value until it is given one              */
+	uint16_t classes;    /* of a function's pin: enum iec_class, or'ed     */
+	union {
+		uint16_t word;       /* enum word; own rows, of type IEC_NONE: an
+					instance, structure                    */
+		uint16_t capacity;   /* own rows, of any other type: of a STRING */
+	};
 };
 
 /** pin_array - the bounds of what is declared so. Scan-safe: yes. */

@@ -148,7 +148,8 @@ static bool check_result(struct il_check *c, const struct il_line *arg,
 	if (!m || !var)
 		return false;
 	pin.type = var->type;
-	pin.word = var->fb;
+	if (var->type == IEC_NONE)
+		pin.word = var->fb;
 	return check_value(c, arg, m, &pin);
 }
 

@@ -29,7 +29,7 @@ static bool is_like(const struct meaning *m, const struct word_pin *pin)
 		       (pin->type != IEC_NONE || m->word == pin->word) &&
 		       (pin->type != IEC_STRING || m->capacity == pin->capacity);
 	return (m->kind == MEANING_STRUCT || m->kind == MEANING_INSTANCE) &&
-	       m->word == pin->word;
+	       pin->type == IEC_NONE && m->word == pin->word;
 }
 
 bool il_check_shape(struct il_check *c, const struct il_line *arg,
@@ -54,9 +54,12 @@ bool il_check_shape(struct il_check *c, const struct il_line *arg,
 /* As it would be declared. */
 static struct word_pin pin_like(const struct meaning *m)
 {
-	struct word_pin pin = { .type = m->type, .word = (enum word)m->word,
-				.capacity = m->capacity };
+	struct word_pin pin = { .type = m->type };
 
+	if (m->type == IEC_NONE)
+		pin.word = (enum word)m->word;
+	else
+		pin.capacity = m->capacity;
 	if (m->kind == MEANING_ARRAY) {
 		pin.elements = m->array.count;
 		pin.low = m->array.low;

@@ -469,8 +469,10 @@ bool scope_add(struct scope *scope, const struct pou *pou,
 
 uint32_t scope_size(const struct scope *scope, const struct meaning *meaning)
 {
-	struct word_pin like = { .type = meaning->type, .word = meaning->word };
+	struct word_pin like = { .type = meaning->type };
 
+	if (meaning->type == IEC_NONE)
+		like.word = (enum word)meaning->word;
 	if (meaning->kind == MEANING_ARRAY)
 		return meaning->stride * meaning->array.count;
 	return (uint32_t)shape_of(&scope->project->words, &like).size;

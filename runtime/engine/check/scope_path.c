@@ -68,8 +68,8 @@ static void mean_pin(const struct scope *scope, const struct word_pin *pin,
 	m->array = pin_array(pin);
 	if (pin->elements) {
 		m->kind = MEANING_ARRAY;
-		m->word = pin->word;
-		m->capacity = pin->capacity;
+		m->word = pin->type == IEC_NONE ? pin->word : 0;
+		m->capacity = pin->type == IEC_NONE ? 0 : pin->capacity;
 		m->stride = shape_of(&scope_project(scope)->words, pin).unit;
 	} else if (pin->type == IEC_NONE) {
 		scope_mean_whole(scope, pin->word, m);

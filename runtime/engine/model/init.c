@@ -56,10 +56,7 @@ void init_begin(struct init_walk *walk, const struct project *project,
 	walk->project = project;
 	walk->scratch = scratch;
 	walk->why = DIAG_COUNT;
-	walk->level[0].item = (struct word_pin){
-		.type = var->type, .word = var->fb, .capacity = var->capacity,
-		.elements = var->array.count, .low = var->array.low,
-	};
+	walk->level[0].item = shape_pin(var);
 	lex_init(&walk->lex, names_text(names, var->init_text),
 		 names_len(names, var->init_text));
 	lex_next(&walk->lex);

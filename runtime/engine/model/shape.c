@@ -77,12 +77,22 @@ struct extent shape_of(const struct word_table *words, const struct word_pin *pi
 	return out;
 }
 
+struct word_pin shape_pin(const struct var *var)
+{
+	struct word_pin pin = {
+		.type = var->type, .elements = var->array.count, .low = var->array.low,
+	};
+
+	if (var->type == IEC_NONE)
+		pin.word = var->fb;
+	else
+		pin.capacity = var->capacity;
+	return pin;
+}
+
 struct extent shape_of_var(const struct word_table *words, const struct var *var)
 {
-	struct word_pin like = {
-		.type = var->type, .word = var->fb, .capacity = var->capacity,
-		.elements = var->array.count, .low = var->array.low,
-	};
+	const struct word_pin like = shape_pin(var);
 
 	return shape_of(words, &like);
 }
@@ -154,13 +164,11 @@ static void make_pin(const struct shaper *s, struct word_row *row,
 	const struct var *var = &table->var[index];
 	uint16_t flags = vars_flags(table, index);
 
-	*pin = (struct word_pin){
-		.name = project_text(s->project, var->name),
-		.dir = dir_of(row, flags), .type = var->type, .word = var->fb,
-		.capacity = var->capacity, .elements = var->array.count, .low = var->array.low,
-		.classes = iec_type_row(var->type)->class,
-		.has_init = var->has_init,
-	};
+	*pin = shape_pin(var);
+	pin->name = project_text(s->project, var->name);
+	pin->dir = dir_of(row, flags);
+	pin->classes = iec_type_row(var->type)->class;
+	pin->has_init = var->has_init;
 	row->retain |= pin->dir != PIN_NONE && flags & VAR_RETAIN;
 }
 

@@ -28,6 +28,8 @@ bool shape_make(struct project *project, struct diag_list *diags);
 struct extent { uint64_t size; uint32_t unit, align; };
 /** shape_of - of what is declared like @pin: type, capacity, word and array count. */
 struct extent shape_of(const struct word_table *words, const struct word_pin *pin);
+/** shape_pin - a pin without a name that is declared like @var. */
+struct word_pin shape_pin(const struct var *var);
 /** shape_of_var - the same of a declared variable. */
 struct extent shape_of_var(const struct word_table *words, const struct var *var);
 /** shape_vars - the table that the word's row was made from; NULL: none. */
