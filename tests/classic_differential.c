@@ -41,7 +41,7 @@ static bool write_text(const char *folder, const char *name, const char *text)
 	return file && fputs(text, file) >= 0 && fclose(file) == 0;
 }
 
-/* What a command prints; free(). */
+/* What a command prints, or its last words when it fails; free(). */
 static char *printed(const char *command)
 {
 	FILE *pipe = popen(command, "r");
@@ -99,12 +99,14 @@ static void tell(struct duel *duel, unsigned long long seed, bool faithful,
 static void compare(struct duel *duel, unsigned long long seed, const struct loaded *loaded,
 		    bool faithful, const char *script)
 {
-	char command[600];
+	char command[800];
 	char *want = evaluated(loaded, faithful, script), *got;
 
 	snprintf(command, sizeof(command),
-		 "%s trace --changes %s %s/x.clprj %s/x.script 2>/dev/null", duel->ladder,
-		 faithful ? "--faithful" : "", duel->folder, duel->folder);
+		 "%s trace --changes %s %s/x.clprj %s/x.script 2>%s/x.err || "
+		 "grep error %s/x.err || echo it died", duel->ladder,
+		 faithful ? "--faithful" : "", duel->folder, duel->folder, duel->folder,
+		 duel->folder);
 	got = printed(command);
 	if (strcmp(got, want) != 0) {
 		duel->differ++;
@@ -185,6 +187,8 @@ int main(int argc, char **argv)
 	snprintf(path, sizeof(path), "%s/x.clprj", duel.folder);
 	unlink(path);
 	snprintf(path, sizeof(path), "%s/x.script", duel.folder);
+	unlink(path);
+	snprintf(path, sizeof(path), "%s/x.err", duel.folder);
 	unlink(path);
 	rmdir(duel.folder);
 	return tap_done();

@@ -26,6 +26,7 @@ struct making {
 	int target;              /* last rung of the section                   */
 	int subroutines, callable; /* those from callable on may be called     */
 	int pages, pages_put, transitions;
+	int steps[4];            /* of each page                               */
 };
 
 /** making_put - more text. */

@@ -207,6 +207,9 @@ static void add_odd(struct making *making, struct grid *grid)
 	struct cell *cell = &grid->cell[y][x];
 
 	cell->element = codes[making_below(making, 14)];
+	/* What begins left of the rung has no meaning that was ever seen.      */
+	if (x < 3 && (cell->element == 20 || cell->element == 60 || cell->element / 10 == 1))
+		cell->element = 9;
 	cell->top = making_chance(making, 50);
 	cell->index = -1;
 	cell->type = 0;
@@ -317,6 +320,7 @@ static void put_page(struct making *making, int page, int first_transition)
 	int steps = 2 + making_below(making, STEPS / 2 - 2), first = page * STEPS / 2;
 	int transitions = steps + making_below(making, 4);
 
+	making->steps[page] = steps;
 	for (int i = 0; i < steps; i++)
 		making_put(making, "S%d,%d,%d,%d,%d,%d\n", first + i, i == 0 || making_chance(making, 8),
 		    first + i, page, 1 + i % 8 * 2, 1 + i / 8 * 4);
@@ -415,11 +419,20 @@ static void put_script(struct making *making)
 
 	making_put(making, "@print %%Q0..%d %%B0..%d %%W0..%d %%QW0..3 %%QLED0..8", OUTPUTS + 7,
 	    BITS + 7, WORDS - 1);
-	for (int i = 0; i < BLOCKS; i++)
-		making_put(making, " %%TM%d.Q %%TM%d.V %%T%d.D %%T%d.V %%M%d.R %%C%d.D %%C%d.V %%R%d.S",
-		    i, i, i, i, i, i, i, i);
-	for (int i = 0; i < STEPS; i++)
-		making_put(making, " %%X%d.A %%X%d.V", i, i);
+	for (int i = 0; i < making->used[0]; i++)
+		making_put(making, " %%T%d.D %%T%d.R %%T%d.V", i, i, i);
+	for (int i = 0; i < making->used[1]; i++)
+		making_put(making, " %%M%d.R %%M%d.V", i, i);
+	for (int i = 0; i < making->used[2]; i++)
+		making_put(making, " %%C%d.D %%C%d.E %%C%d.F %%C%d.V", i, i, i, i);
+	for (int i = 0; i < making->used[3]; i++)
+		making_put(making, " %%TM%d.Q %%TM%d.V", i, i);
+	for (int i = 0; i < making->used[4]; i++)
+		making_put(making, " %%R%d.S %%R%d.O", i, i);
+	for (int page = 0; page < making->pages; page++)
+		for (int i = 0; i < making->steps[page]; i++)
+			making_put(making, " %%X%d.A %%X%d.V", page * STEPS / 2 + i,
+				   page * STEPS / 2 + i);
 	making_put(making, "\n");
 	for (int i = 0; i < lines; i++) {
 		int settings = making_below(making, 4);
