@@ -28,7 +28,7 @@ struct duel {
 	const char *ladder;
 	char folder[64];
 	const char *keep;
-	int differ, told;
+	int differ, told, endless;
 };
 
 static bool write_text(const char *folder, const char *name, const char *text)
@@ -67,7 +67,8 @@ static char *printed(const char *command)
 	return text ? text : calloc(1, 1);
 }
 
-static char *evaluated(const struct loaded *loaded, bool faithful, const char *script)
+static char *evaluated(const struct loaded *loaded, bool faithful, const char *script,
+		       bool *endless)
 {
 	char *text = NULL;
 	size_t len = 0;
@@ -75,7 +76,7 @@ static char *evaluated(const struct loaded *loaded, bool faithful, const char *s
 
 	if (!memory)
 		abort();
-	run_script(loaded->project, faithful, true, script, memory);
+	run_script(loaded->project, faithful, true, script, memory, endless);
 	fclose(memory);
 	return text;
 }
@@ -100,7 +101,8 @@ static void compare(struct duel *duel, unsigned long long seed, const struct loa
 		    bool faithful, const char *script)
 {
 	char command[800];
-	char *want = evaluated(loaded, faithful, script), *got;
+	bool endless;
+	char *want = evaluated(loaded, faithful, script, &endless), *got, *fault;
 
 	snprintf(command, sizeof(command),
 		 "%s trace --changes %s %s/x.clprj %s/x.script 2>%s/x.err || "
@@ -108,6 +110,13 @@ static void compare(struct duel *duel, unsigned long long seed, const struct loa
 		 faithful ? "--faithful" : "", duel->folder, duel->folder, duel->folder,
 		 duel->folder);
 	got = printed(command);
+	/* A page that goes round and round is a fault here; there it is 50 rounds.  */
+	fault = endless ? strstr(got, duel->folder) : NULL;
+	if (fault && strstr(fault, "error LD008")) {
+		*fault = '\0';
+		want[strlen(got) < strlen(want) ? strlen(got) : strlen(want)] = '\0';
+		duel->endless++;
+	}
 	if (strcmp(got, want) != 0) {
 		duel->differ++;
 		tell(duel, seed, faithful, got, want);
@@ -183,7 +192,8 @@ int main(int argc, char **argv)
 		snprintf(what, sizeof(what), "random projects from seed %llu", seed + i);
 		CHECK_AS(duel.differ == before, what);
 	}
-	printf("# %d of %llu traces differ\n", duel.differ, 2 * count);
+	printf("# %d of %llu traces differ; %d go round and round in a scan, and end\n",
+	       duel.differ, 2 * count, duel.endless);
 	snprintf(path, sizeof(path), "%s/x.clprj", duel.folder);
 	unlink(path);
 	snprintf(path, sizeof(path), "%s/x.script", duel.folder);

@@ -33,7 +33,7 @@ static void put(struct engine *engine, int index, bool active)
 {
 	int at = position(engine->project, index);
 
-	if (at < 0)
+	if (at < 0 || engine->active[at] == active)
 		return;
 	engine->active[at] = active;
 	engine->active_ms[at] = 0;
@@ -70,14 +70,14 @@ void engine_chart(struct engine *engine, int page)
 {
 	const struct classic_project *project = engine->project;
 
-	for (int round = 0; round < ROUNDS; round++) {
-		bool fired = false;
+	bool fired = true;
 
+	for (int round = 0; fired && round < ROUNDS; round++) {
+		fired = false;
 		for (int i = 0; i < project->transitions; i++)
 			if (project->transition[i].page == page)
 				fired |= fire(engine, &project->transition[i]);
-		if (!fired)
-			break;
 	}
+	engine->endless |= fired;
 	publish(engine, page);
 }
