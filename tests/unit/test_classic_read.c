@@ -298,8 +298,8 @@ static void test_messages(void)
 static void test_cells(void)
 {
 	CHECK_TEXT(told(BOX(MEMBER("rung_0.csv", "9-0-0/0 , 3-0-0-19\n"))),
-		   "LD705 3: rung_0.csv:  3-0-0-19");
-	CHECK_TEXT(told(BOX(MEMBER("rung_0.csv", "9-0-0/0 , 3-0\n"))), "LD705 3: rung_0.csv:  3-0");
+		   "LD705 3: rung_0.csv: 3-0-0-19");
+	CHECK_TEXT(told(BOX(MEMBER("rung_0.csv", "9-0-0/0 , 3-0\n"))), "LD705 3: rung_0.csv: 3-0");
 	CHECK_TEXT(told(BOX(MEMBER("rung_0.csv", "9-0-0/0 9-0-0/0\n"))),
 		   "LD705 3: rung_0.csv: 9-0-0/0 9-0-0/0");
 	CHECK_TEXT(told(BOX(MEMBER("rung_0.csv", "1-0-50/0[200/0\n"))),
@@ -491,7 +491,10 @@ static void test_packed(void)
 	      diags.diag[0].id == DIAG_IMPORT_PACKED);
 	memcpy(changed, dynamic, sizeof(dynamic));
 	memset(changed + sizeof(dynamic) - 4, 0x7f, 4);
-	CHECK_AS(!read_bytes(changed, sizeof(changed)) && diags.diag[0].id == DIAG_TOO_LARGE,
+	CHECK_AS(!read_bytes(changed, sizeof(changed)) && diags.diag[0].id == DIAG_IMPORT_PACKED,
+		 "no bytes can hold two gigabytes");
+	changed[sizeof(dynamic) - 1] = changed[sizeof(dynamic) - 2] = 0;
+	CHECK_AS(!unpack(changed, sizeof(changed), 10000, &len, &why) && why == DIAG_TOO_LARGE,
 		 "a bomb is not unpacked");
 	CHECK(!read_bytes(stored, sizeof(stored)) && diags.diag[0].id == DIAG_IMPORT_LINE);
 }

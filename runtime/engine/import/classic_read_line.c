@@ -79,8 +79,15 @@ bool classic_fail_at(struct classic_reader *reader, enum diag_id id,
 {
 	struct diag diag = { .id = id, .file = reader->project->file,
 			     .line = place.line };
-	int shown = len > LIMIT_ARG ? LIMIT_ARG : (int)len;
+	int shown;
 
+	while (len && is_blank(text[len - 1]))
+		len--;
+	while (len && is_blank(*text)) {
+		text++;
+		len--;
+	}
+	shown = len > LIMIT_ARG ? LIMIT_ARG : (int)len;
 	if (diag_severity(id) == SEVERITY_ERROR)
 		reader->good = false;
 	if (!place.member || !*place.member)

@@ -15,6 +15,7 @@ enum {
 	LITERALS = 288,
 	DISTANCES = 30,
 	HEAD = 10, TAIL = 8,     /* bytes around the packed text               */
+	MOST_OF_ONE = 1032,         /* bytes that may come of one                 */
 	END_OF_BLOCK = 256
 };
 
@@ -318,6 +319,8 @@ char *inflate_gzip(struct arena *arena, const void *bytes, size_t len, size_t li
 
 	*why = DIAG_IMPORT_PACKED;
 	if (len < HEAD + TAIL)
+		return NULL;
+	if (word_at(tail + 4) / MOST_OF_ONE > len)
 		return NULL;
 	if (word_at(tail + 4) > limit) {
 		*why = DIAG_TOO_LARGE;
