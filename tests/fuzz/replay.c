@@ -4,7 +4,8 @@
  *
  *   fuzz_X [--rounds N] [--seed S] [--write FOLDER] [FOLDER…]
  *
- * Without a folder: tests/fuzz/corpus/X and the samples. FUZZ_ROUNDS is N.
+ * Without a folder: tests/fuzz/corpus/X and the samples; for ClassicLadder's projects those
+ * in the folder SAMPLES says, too. FUZZ_ROUNDS is N.
  * Every file of the folders is one TAP line; then N mutations of them follow
  * with a fixed seed, so that each `make check` fuzzes a little. --write puts the
  * seeds as the target wants them into a folder, for libFuzzer to begin with. A
@@ -234,12 +235,18 @@ static void write_seeds(const struct corpus *corpus, const char *folder)
 /* The folder of the target that this program was linked with. */
 static void read_own(struct corpus *corpus, const char *program)
 {
-	const char *name = strrchr(program, '_');
+	const char *name = strrchr(program, '_'), *more = getenv("SAMPLES");
 	char path[256];
 
 	snprintf(path, sizeof(path), "tests/fuzz/corpus/%s",
 		 name ? name + 1 : "");
 	read_folder(corpus, path);
+	if (strcmp(path, "tests/fuzz/corpus/classic") == 0) {
+		read_folder(corpus, "tests/classic/projects");
+		snprintf(path, sizeof(path), "%.200s/classicladder", more ? more : "");
+		read_folder(corpus, path);
+		return;
+	}
 	read_folder(corpus, strcmp(path, "tests/fuzz/corpus/iomap") == 0 ?
 			    "ladders/boards" : "ladders");
 }

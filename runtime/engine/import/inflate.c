@@ -15,7 +15,7 @@ enum {
 	LITERALS = 288,
 	DISTANCES = 30,
 	HEAD = 10, TAIL = 8,     /* bytes around the packed text               */
-	MOST_OF_ONE = 1032,         /* bytes that may come of one                 */
+	MOST_OF_ONE = 1032,      /* bytes that may come of one                 */
 	END_OF_BLOCK = 256
 };
 
