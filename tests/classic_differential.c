@@ -97,6 +97,20 @@ static void tell(struct duel *duel, unsigned long long seed, bool faithful,
 		       (int)strcspn(want + line, "\n"), want + line);
 }
 
+/* Both end before the scan of the fault, which is the last line before its message. */
+static void cut_alike(char *got, char *fault, char *want)
+{
+	size_t len = (size_t)(fault - got);
+
+	while (len && got[--len] != '\n')
+		;
+	while (len && got[len - 1] != '\n')
+		len--;
+	got[len] = '\0';
+	if (strlen(want) > len)
+		want[len] = '\0';
+}
+
 static void compare(struct duel *duel, unsigned long long seed, const struct loaded *loaded,
 		    bool faithful, const char *script)
 {
@@ -113,8 +127,7 @@ static void compare(struct duel *duel, unsigned long long seed, const struct loa
 	/* A page that goes round and round is a fault here; there it is 50 rounds.  */
 	fault = endless ? strstr(got, duel->folder) : NULL;
 	if (fault && strstr(fault, "error LD008")) {
-		*fault = '\0';
-		want[strlen(got) < strlen(want) ? strlen(got) : strlen(want)] = '\0';
+		cut_alike(got, fault, want);
 		duel->endless++;
 	}
 	if (strcmp(got, want) != 0) {

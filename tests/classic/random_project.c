@@ -317,7 +317,7 @@ static void put_links(struct making *making, int first, int count, int most)
 
 static void put_page(struct making *making, int page, int first_transition)
 {
-	int steps = 2 + making_below(making, STEPS / 2 - 2), first = page * STEPS / 2;
+	int steps = 3 + making_below(making, STEPS / 2 - 3), first = page * STEPS / 2;
 	int transitions = steps + making_below(making, 4);
 
 	making->steps[page] = steps;
@@ -340,6 +340,11 @@ static void put_page(struct making *making, int page, int first_transition)
 		for (int k = 0; k < 20; k++)
 			making_put(making, "-1,");
 		read_bit(making, &cell);
+		if (cell.type == 50 || making_chance(making, 50)) {
+			/* Seldom true, so that few pages go round and round.           */
+			cell.type = 50;
+			cell.number = INPUTS + making_below(making, INPUTS);
+		}
 		making_put(making, "%d,1,%d\nC%d,0,%d/%d\n", page, i, first_transition + i,
 		    cell.type, cell.number);
 	}
@@ -400,8 +405,12 @@ static void put_project(struct making *making)
 
 static void put_setting(struct making *making)
 {
-	if (making_chance(making, 75))
-		making_put(making, "%%I%d=%d ", making_below(making, INPUTS), making_below(making, 2));
+	if (making->pages && making_chance(making, 40))
+		making_put(making, "%%I%d=%d ", INPUTS + making_below(making, INPUTS),
+			   making_chance(making, 35));
+	else if (making_chance(making, 75))
+		making_put(making, "%%I%d=%d ", making_below(making, INPUTS),
+			   making_below(making, 2));
 	else if (making_chance(making, 30))
 		making_put(making, "%%B%d=%d ", making_below(making, BITS), making_below(making, 2));
 	else if (making_chance(making, 40))
