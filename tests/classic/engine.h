@@ -30,7 +30,7 @@ struct old_timer { int32_t base, preset, value; bool done, running; };
 struct monostable { int32_t base, preset, value; bool running, before; };
 struct iec_timer { int32_t base, preset, value, rest; int mode; bool q, before; };
 struct counter { int32_t preset, value, last; bool done, empty, full, up, down; };
-struct fifo { int mode; int32_t in, out, put, get, count; bool push, pop; };
+struct fifo { int mode; int32_t in, out, put, get, count; bool push, pop, empty, full; };
 
 struct engine {
 	const struct classic_project *project;

@@ -164,8 +164,8 @@ static void fifo(struct engine *engine, int number, const bool in[4], bool out[4
 			}
 		}
 	}
-	out[0] = fifo->count == 0;
-	out[1] = fifo->count >= size;
+	out[0] = fifo->empty = fifo->count == 0;
+	out[1] = fifo->full = fifo->count >= size;
 }
 
 void engine_block(struct engine *engine, int element, int number, const bool in[4],

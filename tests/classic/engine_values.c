@@ -96,9 +96,9 @@ static int32_t block_get(const struct engine *engine, int type, int64_t at)
 	case V_COUNTER_V:
 		return engine->counter[at].value;
 	case V_REGISTER_E:
-		return fifo->count == 0;
+		return fifo->empty;
 	case V_REGISTER_F:
-		return fifo->count >= engine->project->register_list;
+		return fifo->full;
 	case V_REGISTER_I:
 		return fifo->in;
 	case V_REGISTER_O:
