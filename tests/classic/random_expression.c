@@ -61,7 +61,7 @@ static void add_constant(struct making *making, struct expression *expression)
 static void add_function(struct making *making, struct expression *expression)
 {
 	static const char *const many[] = { "MINI", "MAXI", "AVG", "MOY" };
-	static const char *const two[] = { "SHL", "SHR", "ROL", "ROR", "POW" };
+	static const char *const two[] = { "SHL", "SHR", "ROL", "ROR" };
 
 	if (making_chance(making, 25)) {
 		add(expression, "ABS(");
@@ -73,8 +73,11 @@ static void add_function(struct making *making, struct expression *expression)
 			add(expression, ",");
 		}
 		add(expression, "%d", making_below(making, 30));
+	} else if (making_chance(making, 20)) { /* no more than 32 bits           */
+		add(expression, "POW(@261/%d@,%d", making_below(making, BLOCKS),
+		    making_below(making, 5));
 	} else {
-		add(expression, "%s(", two[making_below(making, 5)]);
+		add(expression, "%s(", two[making_below(making, 4)]);
 		add_variable(making, expression);
 		add(expression, ",%d", making_below(making, 9));
 	}

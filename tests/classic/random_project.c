@@ -111,14 +111,14 @@ static bool add_block(struct making *making, struct grid *grid, int x, int y)
 
 	if (!is_free(grid, x, y, 2, rows[kind]) || (x == 0 && !making->odd))
 		return false;
-	if (*next >= BLOCKS && !making->odd)
+	if (*next >= BLOCKS)
 		return false;
 	for (int i = 0; i < rows[kind]; i++)
 		grid->cell[y + i][x].element = grid->cell[y + i][x + 1].element = 99;
 	alive = &grid->cell[y][x + 1];
 	alive->element = 10 + kind;
-	alive->number = *next < BLOCKS && !(making->odd && making_chance(making, 10)) ?
-			(*next)++ : making_below(making, BLOCKS);
+	alive->number = making->before[kind] && making->odd && making_chance(making, 10) ?
+			making_below(making, making->before[kind]) : (*next)++;
 	if (kind == 0 && making_chance(making, 50))
 		grid->cell[y + 1][x].top = true; /* E and C together            */
 	return true;
@@ -202,20 +202,18 @@ static void add_coil(struct making *making, struct grid *grid, int y, int rung)
 /* What the editor would not do: something anywhere. */
 static void add_odd(struct making *making, struct grid *grid)
 {
-	static const int codes[] = { 0, 1, 2, 3, 9, 99, 103, 50, 53, 20, 60, 13, 11, 200 };
+	static const int codes[] = { 0, 1, 2, 3, 9, 99, 103, 50, 53, 20, 60, 51, 4, 200 };
 	int y = making_below(making, ROWS), x = making_below(making, COLUMNS);
 	struct cell *cell = &grid->cell[y][x];
 
 	cell->element = codes[making_below(making, 14)];
 	/* What begins left of the rung has no meaning that was ever seen.      */
-	if (x < 3 && (cell->element == 20 || cell->element == 60 || cell->element / 10 == 1))
+	if (x < 2 && (cell->element == 20 || cell->element == 60))
 		cell->element = 9;
 	cell->top = making_chance(making, 50);
 	cell->index = -1;
 	cell->type = 0;
 	cell->number = making_below(making, BITS);
-	if (cell->element == 11 || cell->element == 13)
-		cell->number = making_below(making, BLOCKS);
 	if (cell->element == 20 && making->compares)
 		cell->number = making_below(making, making->compares);
 	if (cell->element == 60 && making->operates)
@@ -241,6 +239,7 @@ static void put_rung(struct making *making, int number, int previous, int next)
 	struct grid grid;
 	int rows = making_chance(making, 30) ? 8 : 1 + making_below(making, 5);
 
+	memcpy(making->before, making->used, sizeof(making->used));
 	memset(&grid, 0, sizeof(grid));
 	for (int y = 0; y < ROWS; y++)
 		for (int x = 0; x < COLUMNS; x++)
