@@ -148,7 +148,7 @@ void ladder_chart_page_show_rung(LadderChartPage *page, int rung, int row, int c
 	const struct sfc *sfc = project && page->pou < project->pou_count ?
 		project->pou[page->pou].sfc : NULL;
 
-	ladder_sfc_view_go(LADDER_SFC_VIEW(page->chart), rung, 0);
+	ladder_sfc_view_go(LADDER_SFC_VIEW(page->chart), rung);
 	for (int i = 0; sfc && i < sfc_bodies(sfc); i++) {
 		const struct sfc_body *body = sfc_body(sfc, i);
 

@@ -48,12 +48,75 @@ static void check_run(struct check *check)
 		ladder_build(check->ladder);
 }
 
+/* ---- lines of charts ---- */
+
+static void copy_place(int *line, int *column, int to_line, int to_column)
+{
+	*line = to_line;
+	*column = to_column;
+}
+
+/* @is, just read, is the same chart as @was. */
+static void take_chart_lines(struct sfc *was, const struct sfc *is)
+{
+	for (int i = 0; i < was->step_count; i++)
+		copy_place(&was->step[i].line, &was->step[i].column_at, is->step[i].line,
+			   is->step[i].column_at);
+	for (int i = 0; i < was->use_count; i++)
+		copy_place(&was->use[i].line, &was->use[i].column, is->use[i].line,
+			   is->use[i].column);
+	for (int i = 0; i < was->transition_count; i++)
+		copy_place(&was->transition[i].line, &was->transition[i].column,
+			   is->transition[i].line, is->transition[i].column);
+	for (int i = 0; i < was->action_count; i++)
+		copy_place(&was->action[i].line, &was->action[i].column,
+			   is->action[i].line, is->action[i].column);
+	for (int i = 0; i < was->ref_count; i++)
+		copy_place(&was->ref[i].line, &was->ref[i].column, is->ref[i].line,
+			   is->ref[i].column);
+	was->control_line = is->control_line;
+}
+
+static bool is_same_chart(const struct pou *was, const struct pou *is)
+{
+	return was->sfc && is->sfc && was->sfc->step_count == is->sfc->step_count &&
+	       was->sfc->use_count == is->sfc->use_count &&
+	       was->sfc->transition_count == is->sfc->transition_count &&
+	       was->sfc->action_count == is->sfc->action_count &&
+	       was->sfc->ref_count == is->sfc->ref_count &&
+	       was->il.count == is->il.count;
+}
+
+/* A rung that was edited moves what stands below it, and a file need not be written as it
+ * is read: where things are in the canonical text is known when that was read. */
+static void take_lines(LadderDocument *document)
+{
+	struct project *project = ladder_document_project(document);
+	const struct project *read = ladder_project(document->checked);
+
+	if (!project || !read || document->checked_version != document->version ||
+	    project->pou_count != read->pou_count)
+		return;
+	for (int i = 0; i < project->pou_count; i++) {
+		struct pou *was = &project->pou[i];
+		const struct pou *is = &read->pou[i];
+
+		if (!is_same_chart(was, is))
+			continue;
+		take_chart_lines(was->sfc, is->sfc);
+		for (int k = 0; k < was->il.count; k++)
+			was->il.line[k].line = is->il.line[k].line;
+		was->line = is->line;
+	}
+}
+
 static void check_take(LadderDocument *document, struct check *check)
 {
 	ladder_free(document->checked);
 	document->checked = g_steal_pointer(&check->ladder);
 	document->checked_version = check->version;
 	document->diags = *ladder_diags(document->checked);
+	take_lines(document);
 	document_tell_checked(document);
 	memory_give_back(); /* the copy before it was tens of megabytes of a large one */
 }

@@ -102,6 +102,20 @@ static void search_rung(struct search *search, const struct rung *rung)
 	}
 }
 
+static void search_line(struct search *search, const char *line, int row)
+{
+	const guint first = search->find->hit->len;
+
+	search->place.where = FIND_LISTS;
+	search->place.row = row;
+	search_text(search, line);
+	for (guint k = first; k < search->find->hit->len; k++) {
+		struct find_hit *hit = search->find->hit->pdata[k];
+
+		hit->col = (int)hit->at;
+	}
+}
+
 static void search_list(struct search *search, LadderDocument *document, int pou)
 {
 	char *text = ladder_document_list(document, pou), **line;
@@ -111,20 +125,81 @@ static void search_list(struct search *search, LadderDocument *document, int pou
 		return;
 	}
 	line = g_strsplit(text, "\n", -1);
-	search->place.where = FIND_LISTS;
-	for (int i = 0; line[i]; i++) {
-		const guint first = search->find->hit->len;
-
-		search->place.row = i;
-		search_text(search, line[i]);
-		for (guint k = first; k < search->find->hit->len; k++) {
-			struct find_hit *hit = search->find->hit->pdata[k];
-
-			hit->col = (int)hit->at;
-		}
-	}
+	for (int i = 0; line[i]; i++)
+		search_line(search, line[i], i);
 	g_strfreev(line);
 	g_free(text);
+}
+
+/* ---- charts: their rungs as rungs, the rest line by line ---- */
+
+struct chart_parts {
+	int pou;
+	struct text_span whole;  /* of the POU                                  */
+	GArray *apart;           /* struct text_span: rungs and declarations     */
+};
+
+static void take_part(void *context, const struct text_span *span)
+{
+	struct chart_parts *parts = context;
+
+	if (span->part == TEXT_POU && span->number == parts->pou)
+		parts->whole = *span;
+	else if (span->pou == parts->pou &&
+		 (span->part == TEXT_RUNG || span->part == TEXT_VAR))
+		g_array_append_val(parts->apart, *span);
+}
+
+static bool is_apart(const struct chart_parts *parts, gsize at)
+{
+	for (guint i = 0; i < parts->apart->len; i++) {
+		const struct text_span *span = &g_array_index(parts->apart, struct text_span,
+							      i);
+
+		if (at >= span->at && at < span->at + span->len)
+			return true;
+	}
+	return false;
+}
+
+static void search_lines(struct search *search, const char *whole,
+			 const struct chart_parts *parts)
+{
+	const char *at = whole + parts->whole.at, *end = at + parts->whole.len;
+
+	for (int row = 0; at < end; row++) {
+		const char *next = memchr(at, '\n', (gsize)(end - at));
+		char *line = g_strndup(at, (gsize)((next ? next : end) - at));
+
+		if (!is_apart(parts, (gsize)(at - whole)))
+			search_line(search, line, row);
+		g_free(line);
+		at = next ? next + 1 : end;
+	}
+}
+
+/* An expression is a line, and no rung. */
+static void search_chart(struct search *search, LadderDocument *document, int number)
+{
+	struct chart_parts parts = { .pou = number,
+		.apart = g_array_new(FALSE, FALSE, sizeof(struct text_span)) };
+	const struct pou *pou = &search->project->pou[number];
+	gsize len;
+	char *whole = ladder_document_outline(document, &len, take_part, &parts);
+
+	if (search->find->options.where & (FIND_LISTS | FIND_OPERANDS | FIND_COMMENTS))
+		search_lines(search, whole, &parts);
+	for (guint i = 0; i < parts.apart->len; i++) {
+		const struct text_span *span = &g_array_index(parts.apart, struct text_span,
+							      i);
+
+		if (span->part != TEXT_RUNG || span->number >= pou->rung_count)
+			continue;
+		search->place.rung = span->number;
+		search_rung(search, pou->rung[span->number]);
+	}
+	g_array_unref(parts.apart);
+	g_free(whole);
 }
 
 /* Declarations as they stand in the canonical text. */
@@ -151,8 +226,8 @@ static void search_declaration(struct search *search, const char *whole,
 {
 	char *line;
 
-	/* Those of a list or chart are a part of its text. */
-	if (span->pou >= 0 && search->project->pou[span->pou].language != LANGUAGE_LD)
+	/* Those of a list are a part of its text. */
+	if (span->pou >= 0 && search->project->pou[span->pou].language == LANGUAGE_IL)
 		return;
 	line = g_strndup(whole + span->at, span->len);
 	g_strchomp(line);
@@ -214,6 +289,10 @@ static void search_project(struct search *search, LadderDocument *document)
 		search_declarations(search, whole, span, i);
 		search->place = (struct find_hit){ .pou = i, .rung = -1, .row = -1,
 						   .col = -1, .table = -1, .index = -1 };
+		if (pou->sfc) {
+			search_chart(search, document, i);
+			continue;
+		}
 		if (pou->language != LANGUAGE_LD) {
 			search_list(search, document, i);
 			continue;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * find_replace - hits become another text: rungs, lists and declarations are given to
+ * find_replace - hits become another text: rungs, lists, charts and declarations are given to
  * the document anew, which refuses what could not be read again.
  */
 #include "editor-gtk/find_inside.h"
@@ -93,13 +93,11 @@ static bool replace_in_rung(const struct hits *hits, struct diag_list *why)
 
 /* ---- lists ---- */
 
-static bool replace_in_list(const struct hits *hits)
+/* All its lines, with the hits replaced. Caller frees. */
+static char *replaced_lines(const struct hits *hits, const char *text)
 {
-	const int pou = hits->hit[0]->pou;
-	char *text = ladder_document_list(hits->document, pou);
 	char **line = g_strsplit(text, "\n", -1), *whole;
 	struct hits rest = *hits;
-	bool good;
 
 	while (rest.count > 0) {
 		const struct hits same = same_text(rest);
@@ -112,9 +110,45 @@ static bool replace_in_list(const struct hits *hits)
 		rest.count -= same.count;
 	}
 	whole = g_strjoinv("\n", line);
-	good = ladder_document_put_list(hits->document, pou, whole);
-	g_free(whole);
 	g_strfreev(line);
+	return whole;
+}
+
+static bool replace_in_list(const struct hits *hits)
+{
+	const int pou = hits->hit[0]->pou;
+	char *text = ladder_document_list(hits->document, pou);
+	char *whole = replaced_lines(hits, text);
+	const bool good = ladder_document_put_list(hits->document, pou, whole);
+
+	g_free(whole);
+	g_free(text);
+	return good;
+}
+
+struct pou_place { int pou; struct text_span span; };
+
+static void take_pou(void *context, const struct text_span *span)
+{
+	struct pou_place *place = context;
+
+	if (span->part == TEXT_POU && span->number == place->pou)
+		place->span = *span;
+}
+
+/* Unlike a list it is refused if it cannot be read. */
+static bool replace_in_chart(const struct hits *hits, struct diag_list *why)
+{
+	struct pou_place place = { .pou = hits->hit[0]->pou };
+	gsize len;
+	char *text = ladder_document_outline(hits->document, &len, take_pou, &place);
+	char *old = g_strndup(text + place.span.at, place.span.len);
+	char *whole = replaced_lines(hits, old);
+	const bool good = ladder_document_replace(hits->document, place.span.at,
+						  place.span.len, whole, why);
+
+	g_free(whole);
+	g_free(old);
 	g_free(text);
 	return good;
 }
@@ -217,12 +251,19 @@ static struct hits one_go(struct hits hits)
 	return hits;
 }
 
+static bool is_chart(const struct hits *hits)
+{
+	const struct project *project = ladder_document_project(hits->document);
+
+	return project->pou[hits->hit[0]->pou].sfc != NULL;
+}
+
 static bool replace_go(const struct hits *hits, struct diag_list *why)
 {
 	if (hits->hit[0]->where == FIND_DECLARATIONS)
 		return replace_declarations(hits, why);
 	if (hits->hit[0]->where == FIND_LISTS)
-		return replace_in_list(hits);
+		return is_chart(hits) ? replace_in_chart(hits, why) : replace_in_list(hits);
 	return replace_in_rung(hits, why);
 }
 

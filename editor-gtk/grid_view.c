@@ -366,6 +366,11 @@ int ladder_grid_view_range(LadderGridView *view, int *count)
 	return view->first;
 }
 
+int ladder_grid_view_first(LadderGridView *view)
+{
+	return view->first;
+}
+
 struct grid_cursor ladder_grid_view_cursor(LadderGridView *view)
 {
 	return view->cursor;

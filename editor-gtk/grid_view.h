@@ -40,6 +40,8 @@ void ladder_grid_view_set_pou(LadderGridView *view, int pou);
 void ladder_grid_view_set_range(LadderGridView *view, int first, int count);
 /** ladder_grid_view_range - the first one; @count gets how many, -1: all. */
 int ladder_grid_view_range(LadderGridView *view, int *count);
+/** ladder_grid_view_first - the same: what a cursor's rung is counted from. */
+int ladder_grid_view_first(LadderGridView *view);
 
 struct grid_cursor ladder_grid_view_cursor(LadderGridView *view);
 /** ladder_grid_view_go - moves the cursor and shows it; @row, @col: cells of the rung,

@@ -176,6 +176,16 @@ static void draw_texts(const struct nib *nib, int step, const graphene_rect_t *b
 		draw_middle(nib, TOKEN_ACCENT, LETTER_VALUE, time, x, y + pitch);
 }
 
+static void draw_comment(const struct nib *nib, int shape)
+{
+	const char *text = nib->sheet->comment[shape];
+	const graphene_point_t at = sfc_sheet_comment(nib->sheet, shape);
+
+	if (*text)
+		picture_text(nib->picture, TOKEN_COMMENT, LETTER_COMMENT,
+			     fit(nib, LETTER_COMMENT, text), at.x, at.y + BASE);
+}
+
 /* What it does: a table beside the box, qualifiers on the left. */
 static void draw_table(const struct nib *nib, int step)
 {
@@ -205,6 +215,10 @@ static void draw_table(const struct nib *nib, int step)
 		picture_text(nib->picture, TOKEN_INK, LETTER_SYMBOL,
 			     fit(nib, LETTER_SYMBOL, nib->sheet->does[use]),
 			     table->x + table->what + SFC_CELL, at + BASE);
+		if (*nib->sheet->use_comment[use])
+			picture_text(nib->picture, TOKEN_COMMENT, LETTER_COMMENT,
+				     fit(nib, LETTER_COMMENT, nib->sheet->use_comment[use]),
+				     table->x + w + SFC_APART, at + BASE);
 	}
 }
 
@@ -219,6 +233,7 @@ static void draw_step(const struct nib *nib, int step)
 			     box.origin.y + 13, TOKEN_DOT);
 	draw_texts(nib, step, &box);
 	draw_table(nib, step);
+	draw_comment(nib, step);
 }
 
 /* ---- transitions and jumps ---- */
@@ -237,6 +252,7 @@ static void draw_transition(const struct nib *nib, int shape)
 	picture_text(nib->picture, TOKEN_INK, LETTER_OPERAND,
 		     fit(nib, LETTER_OPERAND, nib->sheet->name[shape]),
 		     x + SFC_BAR + 7, y + BASE);
+	draw_comment(nib, shape);
 }
 
 static void draw_jump(const struct nib *nib, int shape)

@@ -114,7 +114,7 @@ bool sfc_edit_put_piece(struct sfc_edit *edit, int at, enum piece_kind kind, int
 	return true;
 }
 
-static int find_piece(const struct sfc_edit *edit, enum piece_kind kind, int index)
+int sfc_edit_find_piece(const struct sfc_edit *edit, enum piece_kind kind, int index)
 {
 	for (int i = 0; i < edit->sfc.piece_count; i++)
 		if (edit->sfc.piece[i].kind == kind && edit->sfc.piece[i].index == index)
@@ -134,16 +134,16 @@ static void drop_pieces(struct sfc_edit *edit, int first, int last)
 }
 
 /* The last piece of a step: of a macro-step that of its END_STEP. */
-static int step_end(const struct sfc_edit *edit, int step)
+int sfc_edit_step_end(const struct sfc_edit *edit, int step)
 {
-	return find_piece(edit, edit->sfc.step[step].kind == STEP_MACRO ?
+	return sfc_edit_find_piece(edit, edit->sfc.step[step].kind == STEP_MACRO ?
 			 PIECE_MACRO_END : PIECE_STEP, step);
 }
 
 /* Is it still written? */
 static bool has_transition(const struct sfc_edit *edit, int transition)
 {
-	return find_piece(edit, PIECE_TRANSITION, transition) >= 0;
+	return sfc_edit_find_piece(edit, PIECE_TRANSITION, transition) >= 0;
 }
 
 /* ---- ways ---- */
@@ -183,7 +183,7 @@ static bool put_ref(struct sfc_edit *edit, uint32_t name, int step)
 }
 
 /* A copy of the names of one side behind all others, without @skip, where it may grow. */
-static bool copy_refs(struct sfc_edit *edit, int transition, bool to, int skip)
+bool sfc_edit_copy_refs(struct sfc_edit *edit, int transition, bool to, int skip)
 {
 	struct sfc_transition *t = &edit->sfc.transition[transition];
 	const int old = *first_of(t, to), count = *count_of(t, to);
@@ -202,7 +202,7 @@ static bool copy_refs(struct sfc_edit *edit, int transition, bool to, int skip)
 
 static bool add_step(struct sfc_edit *edit, int transition, bool to, int step)
 {
-	return copy_refs(edit, transition, to, -1) &&
+	return sfc_edit_copy_refs(edit, transition, to, -1) &&
 	       put_ref(edit, edit->sfc.step[step].name, step) &&
 	       (*count_of(&edit->sfc.transition[transition], to))++ >= 0;
 }
@@ -274,7 +274,7 @@ static int new_transition(struct sfc_edit *edit, int macro, int from, int to, in
 /* Behind a step and all ways out of it, so that a new one is the last of them. */
 static int behind_ways(const struct sfc_edit *edit, int step)
 {
-	int at = step_end(edit, step);
+	int at = sfc_edit_step_end(edit, step);
 
 	for (int i = at + 1; i < edit->sfc.piece_count; i++) {
 		const struct sfc_piece *piece = &edit->sfc.piece[i];
@@ -290,7 +290,7 @@ int sfc_edit_step_below(struct sfc_edit *edit, int step)
 {
 	const int count = edit->sfc.transition_count;
 	const int macro = edit->sfc.step[step].macro;
-	const int made = new_step(edit, macro, step_end(edit, step));
+	const int made = new_step(edit, macro, sfc_edit_step_end(edit, step));
 
 	if (made < 0)
 		return -1;
@@ -299,7 +299,7 @@ int sfc_edit_step_below(struct sfc_edit *edit, int step)
 
 		if (!names_step(edit, transition, false, step) || !has_transition(edit, t))
 			continue;
-		if (!copy_refs(edit, t, false, -1))
+		if (!sfc_edit_copy_refs(edit, t, false, -1))
 			return -1;
 		for (int i = 0; i < transition->from_count; i++) {
 			struct sfc_ref *ref = &edit->sfc.ref[transition->first_from + i];
@@ -309,7 +309,8 @@ int sfc_edit_step_below(struct sfc_edit *edit, int step)
 					.name = edit->sfc.step[made].name };
 		}
 	}
-	return new_transition(edit, macro, step, made, step_end(edit, step)) < 0 ? -1 :
+	return new_transition(edit, macro, step, made,
+			      sfc_edit_step_end(edit, step)) < 0 ? -1 :
 	       made;
 }
 
@@ -317,14 +318,14 @@ int sfc_edit_step_after(struct sfc_edit *edit, int transition)
 {
 	const struct sfc_transition old = edit->sfc.transition[transition];
 	const int made = new_step(edit, old.macro,
-				  find_piece(edit, PIECE_TRANSITION, transition));
+				  sfc_edit_find_piece(edit, PIECE_TRANSITION, transition));
 	struct sfc_transition *t;
 	int next;
 
 	if (made < 0)
 		return -1;
 	if (old.to_count) {
-		next = new_transition(edit, old.macro, made, -1, step_end(edit, made));
+		next = new_transition(edit, old.macro, made, -1, sfc_edit_step_end(edit, made));
 		if (next < 0)
 			return -1;
 		edit->sfc.transition[next].first_to = old.first_to;
@@ -344,7 +345,7 @@ int sfc_edit_branch(struct sfc_edit *edit, int step)
 
 	if (way < 0)
 		return -1;
-	made = new_step(edit, macro, find_piece(edit, PIECE_TRANSITION, way));
+	made = new_step(edit, macro, sfc_edit_find_piece(edit, PIECE_TRANSITION, way));
 	return made >= 0 && add_step(edit, way, true, made) ? made : -1;
 }
 
@@ -353,8 +354,8 @@ int sfc_edit_parallel(struct sfc_edit *edit, int transition)
 	const struct sfc_transition *t = &edit->sfc.transition[transition];
 	const int last = t->to_count ? edit->sfc.ref[t->first_to + t->to_count - 1].step :
 			 -1;
-	const int behind = last >= 0 ? step_end(edit, last) :
-			   find_piece(edit, PIECE_TRANSITION, transition);
+	const int behind = last >= 0 ? sfc_edit_step_end(edit, last) :
+			   sfc_edit_find_piece(edit, PIECE_TRANSITION, transition);
 	const int made = new_step(edit, t->macro, behind);
 
 	return made >= 0 && add_step(edit, transition, true, made) ? made : -1;
@@ -363,11 +364,12 @@ int sfc_edit_parallel(struct sfc_edit *edit, int transition)
 int sfc_edit_first(struct sfc_edit *edit, int macro)
 {
 	bool any = false;
-	int at = macro >= 0 ? step_end(edit, macro) - 1 : edit->sfc.piece_count - 1, made;
+	int at = macro >= 0 ? sfc_edit_step_end(edit, macro) - 1 :
+		 edit->sfc.piece_count - 1, made;
 
 	for (int i = 0; i < edit->sfc.step_count; i++)
 		any |= edit->sfc.step[i].macro == macro &&
-		       find_piece(edit, PIECE_STEP, i) >= 0;
+		       sfc_edit_find_piece(edit, PIECE_STEP, i) >= 0;
 	/* Before the actions. */
 	while (macro < 0 && at >= 0 && edit->sfc.piece[at].kind == PIECE_ACTION)
 		at--;
@@ -430,7 +432,7 @@ bool sfc_edit_wait(struct sfc_edit *edit, int transition, int step)
 
 bool sfc_edit_delete_transition(struct sfc_edit *edit, int transition)
 {
-	const int at = find_piece(edit, PIECE_TRANSITION, transition);
+	const int at = sfc_edit_find_piece(edit, PIECE_TRANSITION, transition);
 
 	drop_pieces(edit, at, at);
 	return at >= 0;
@@ -443,7 +445,7 @@ bool sfc_edit_cut_way(struct sfc_edit *edit, int transition, int ref)
 
 	if (*count_of(t, to) < 2)
 		return sfc_edit_delete_transition(edit, transition);
-	return copy_refs(edit, transition, to, ref);
+	return sfc_edit_copy_refs(edit, transition, to, ref);
 }
 
 /* The one way out of a step, if it leaves no other step; -1: none, or several. */
@@ -490,14 +492,15 @@ bool sfc_edit_delete_step(struct sfc_edit *edit, int step)
 {
 	const int way = only_way(edit, step);
 
-	if (find_piece(edit, PIECE_STEP, step) < 0)
+	if (sfc_edit_find_piece(edit, PIECE_STEP, step) < 0)
 		return sfc_edit_refuse(edit, N_("there is no step here"));
 	for (int t = 0; t < edit->sfc.transition_count; t++)
 		if (t != way && has_transition(edit, t) && !loosen(edit, t, step, way))
 			return false;
 	if (way >= 0)
 		sfc_edit_delete_transition(edit, way);
-	drop_pieces(edit, find_piece(edit, PIECE_STEP, step), step_end(edit, step));
+	drop_pieces(edit, sfc_edit_find_piece(edit, PIECE_STEP, step),
+		    sfc_edit_step_end(edit, step));
 	return true;
 }
 
@@ -518,8 +521,8 @@ static bool comes_before(const struct sfc_edit *edit, int a, int b)
 
 	if (x != y && (x == 0 || y == 0))
 		return x != 0;
-	return x != y ? x < y : find_piece(edit, PIECE_TRANSITION, a) <
-				find_piece(edit, PIECE_TRANSITION, b);
+	return x != y ? x < y : sfc_edit_find_piece(edit, PIECE_TRANSITION, a) <
+				sfc_edit_find_piece(edit, PIECE_TRANSITION, b);
 }
 
 /* The nearest way out of the same step before or behind @transition; -1: none. */
@@ -548,8 +551,8 @@ static bool move_way(struct sfc_edit *edit, int transition, bool right)
 
 	if (other < 0)
 		return sfc_edit_refuse(edit, N_("there is no branch on that side"));
-	a = find_piece(edit, PIECE_TRANSITION, transition);
-	b = find_piece(edit, PIECE_TRANSITION, other);
+	a = sfc_edit_find_piece(edit, PIECE_TRANSITION, transition);
+	b = sfc_edit_find_piece(edit, PIECE_TRANSITION, other);
 	swap_ints(&edit->sfc.piece[a].index, &edit->sfc.piece[b].index);
 	swap_ints(&t[transition].priority, &t[other].priority);
 	return true;
@@ -566,7 +569,7 @@ bool sfc_edit_move(struct sfc_edit *edit, int step, int transition, bool right)
 	struct sfc_transition *t = &edit->sfc.transition[transition];
 	if (step < 0 || t->to_count < 2)
 		return move_way(edit, transition, right);
-	if (!copy_refs(edit, transition, true, -1))
+	if (!sfc_edit_copy_refs(edit, transition, true, -1))
 		return false;
 	for (int i = t->first_to; i < t->first_to + t->to_count; i++) {
 		const int other = i + (right ? 1 : -1);

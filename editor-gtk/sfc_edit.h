@@ -100,7 +100,31 @@ bool sfc_edit_set_use(struct sfc_edit *edit, int step, int use,
 		      const struct sfc_doing *doing);
 bool sfc_edit_delete_use(struct sfc_edit *edit, int use);
 
-/* ---- shared by the two files ---- */
+/* ---- sfc_edit_macro.c: charts in steps; comments ---- */
+
+/** sfc_edit_macro_make - the steps of @chosen (by step) become the inside of a new
+ * macro-step; one of them must be where it is entered, one where it is left. Returns the
+ * macro-step. */
+int sfc_edit_macro_make(struct sfc_edit *edit, const bool *chosen);
+/** sfc_edit_macro_open - the inside of a macro-step stands in its place. Returns the step
+ * that is entered. */
+int sfc_edit_macro_open(struct sfc_edit *edit, int macro);
+/** sfc_edit_set_comment - of PIECE_STEP, PIECE_TRANSITION; "": none. */
+bool sfc_edit_set_comment(struct sfc_edit *edit, enum piece_kind kind, int index,
+			  const char *text);
+/** sfc_edit_set_use_comment - of a line of what a step does. */
+bool sfc_edit_set_use_comment(struct sfc_edit *edit, int use, const char *text);
+
+/* ---- shared by the three files ---- */
+/** sfc_edit_find_piece - -1: it is not written any more. */
+int sfc_edit_find_piece(const struct sfc_edit *edit, enum piece_kind kind, int index);
+/** sfc_edit_step_end - its last piece: of a macro-step that of its END_STEP. */
+int sfc_edit_step_end(const struct sfc_edit *edit, int step);
+/** sfc_edit_copy_refs - the names behind FROM (@to false) or TO become the transition's own,
+ * behind all others; without @skip (-1: all of them). */
+bool sfc_edit_copy_refs(struct sfc_edit *edit, int transition, bool to, int skip);
+/** sfc_edit_asks_for - does anything in the chart name @step.X or @step.T? */
+bool sfc_edit_asks_for(const struct sfc_edit *edit, int step);
 uint32_t sfc_edit_id(struct sfc_edit *edit, const char *text);
 /** sfc_edit_put_piece - behind piece @at (-1: at the beginning). */
 bool sfc_edit_put_piece(struct sfc_edit *edit, int at, enum piece_kind kind, int index);

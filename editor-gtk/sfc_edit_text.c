@@ -178,6 +178,48 @@ static bool rename_in_list(struct sfc_edit *edit, const char *old, const char *n
 	return true;
 }
 
+/* Times and bits of steps and of what they do. */
+static void rename_in_steps(struct sfc_edit *edit, const char *old, const char *name)
+{
+	struct sfc *sfc = &edit->sfc;
+
+	for (int i = 0; i < sfc->use_count; i++) {
+		sfc->use[i].time = with_name(edit, sfc->use[i].time, old, name);
+		sfc->use[i].operand = with_name(edit, sfc->use[i].operand, old, name);
+	}
+	for (int i = 0; i < sfc->step_count; i++) {
+		sfc->step[i].min = with_name(edit, sfc->step[i].min, old, name);
+		sfc->step[i].max = with_name(edit, sfc->step[i].max, old, name);
+		sfc->step[i].alarm = with_name(edit, sfc->step[i].alarm, old, name);
+	}
+}
+
+bool sfc_edit_asks_for(const struct sfc_edit *edit, int step)
+{
+	const struct sfc *sfc = &edit->sfc;
+	const char *name = project_text(edit->project, sfc->step[step].name);
+	bool found = false;
+
+	for (int i = 0; i < edit->pou.rung_count && !found; i++) {
+		const struct rung *rung = edit->pou.rung[i];
+
+		for (int c = 0; c < rung->rows * rung->cols; c++)
+			found |= find_member(project_text(edit->project,
+						rung->cell[c].operand), name) ||
+				 find_member(project_text(edit->project,
+						rung->cell[c].args), name);
+	}
+	for (int i = 0; i < edit->pou.il.count && !found; i++)
+		found = find_member(project_text(edit->project,
+						 edit->pou.il.line[i].operand), name);
+	for (int i = 0; i < sfc->use_count && !found; i++)
+		found = find_member(project_text(edit->project, sfc->use[i].time), name);
+	for (int i = 0; i < sfc->step_count && !found; i++)
+		found = find_member(project_text(edit->project, sfc->step[i].min), name) ||
+			find_member(project_text(edit->project, sfc->step[i].max), name);
+	return found;
+}
+
 bool sfc_edit_name_step(struct sfc_edit *edit, int step, const char *name)
 {
 	struct sfc *sfc = &edit->sfc;
@@ -191,6 +233,7 @@ bool sfc_edit_name_step(struct sfc_edit *edit, int step, const char *name)
 	for (int i = 0; i < sfc->ref_count; i++)
 		if (sfc->ref[i].step == step)
 			sfc->ref[i].name = id;
+	rename_in_steps(edit, project_text(edit->project, old), name);
 	return rename_in_rungs(edit, project_text(edit->project, old), name) &&
 	       rename_in_list(edit, project_text(edit->project, old), name);
 }
@@ -206,7 +249,7 @@ bool sfc_edit_name_transition(struct sfc_edit *edit, int transition, const char 
 
 bool sfc_edit_set_priority(struct sfc_edit *edit, int transition, int priority)
 {
-	if (priority < 0)
+	if (priority < 0 || priority > 65535)
 		return sfc_edit_refuse(edit, N_("this is no priority"));
 	edit->sfc.transition[transition].priority = priority;
 	return true;

@@ -3,6 +3,7 @@
  * sfc_sheet - widths of lanes, texts, and what is hit; see sfc_sheet.h.
  */
 #include "editor-gtk/sfc_sheet.h"
+#include "editor-gtk/rung_text.h"
 #include "engine/view/sfc_words.h"
 
 #include <glib.h>
@@ -30,6 +31,14 @@ static char *take(struct sink_memory *memory)
 	return text;
 }
 
+static uint32_t comment_of(const struct sfc *sfc, int shape)
+{
+	if (shape < sfc->step_count)
+		return sfc->step[shape].comment;
+	shape -= sfc->step_count;
+	return shape < sfc->transition_count ? sfc->transition[shape].comment : 0;
+}
+
 static void make_texts(struct sfc_sheet *sheet)
 {
 	const struct sfc *sfc = sheet->pou->sfc;
@@ -42,9 +51,13 @@ static void make_texts(struct sfc_sheet *sheet)
 	sheet->times = g_new0(char *, sfc->step_count + 1);
 	sheet->what = g_new0(char *, sfc->use_count + 1);
 	sheet->does = g_new0(char *, sfc->use_count + 1);
+	sheet->comment = g_new0(char *, sheet->layout->shape_count + 1);
+	sheet->use_comment = g_new0(char *, sfc->use_count + 1);
 	for (int i = 0; i < sheet->layout->shape_count; i++) {
 		sfc_words_shape(sheet->project, sheet->pou, sheet->layout, i, &sink);
 		sheet->name[i] = take(&memory);
+		sheet->comment[i] = rung_comment_text(project_text(sheet->project,
+						      comment_of(sfc, i)));
 	}
 	for (int i = 0; i < sfc->step_count; i++) {
 		sfc_words_times(sheet->project, sfc, i, &sink);
@@ -55,6 +68,8 @@ static void make_texts(struct sfc_sheet *sheet)
 		sheet->what[i] = take(&memory);
 		sheet->does[i] = g_strdup(project_text(sheet->project,
 						       sfc->use[i].operand));
+		sheet->use_comment[i] = rung_comment_text(project_text(sheet->project,
+						sfc->use[i].comment));
 	}
 }
 
@@ -76,6 +91,22 @@ static struct sfc_table measure_table(const struct sfc_sheet *sheet, int step)
 	return table;
 }
 
+/* With the air before it; 0: there is none. */
+static float comment_width(const struct sfc_sheet *sheet, const char *comment)
+{
+	return *comment ? SFC_APART + width_of(sheet, LETTER_COMMENT, comment) : 0;
+}
+
+static float widest_comment(const struct sfc_sheet *sheet, int step)
+{
+	const struct sfc_step *s = &sheet->pou->sfc->step[step];
+	float widest = 0;
+
+	for (int i = s->first_use; i < s->first_use + s->use_count; i++)
+		widest = MAX(widest, comment_width(sheet, sheet->use_comment[i]));
+	return widest;
+}
+
 static void measure_shapes(struct sfc_sheet *sheet)
 {
 	const struct sfc_layout *layout = sheet->layout;
@@ -92,7 +123,8 @@ static void measure_shapes(struct sfc_sheet *sheet)
 							 LEAST_HALF));
 		} else {
 			lane->right = MAX(lane->right, SFC_BAR + TEXT_GAP +
-					  width_of(sheet, LETTER_OPERAND, sheet->name[i]));
+					  width_of(sheet, LETTER_OPERAND, sheet->name[i]) +
+					  comment_width(sheet, sheet->comment[i]));
 		}
 	}
 }
@@ -114,7 +146,11 @@ static void measure(struct sfc_sheet *sheet)
 		sheet->table[s] = measure_table(sheet, s);
 		if (layout->sfc->step[s].use_count)
 			lane->right = MAX(lane->right, lane->half + SFC_LEAD +
-					  sheet->table[s].what + sheet->table[s].does);
+					  sheet->table[s].what + sheet->table[s].does +
+					  widest_comment(sheet, s));
+		if (*sheet->comment[s])
+			lane->right = MAX(lane->right, lane->half +
+					  comment_width(sheet, sheet->comment[s]));
 	}
 	for (int l = 0; l < layout->lanes; l++) {
 		struct sfc_lane *lane = &sheet->lane[l];
@@ -182,6 +218,8 @@ void sfc_sheet_free(struct sfc_sheet *sheet)
 	g_strfreev(sheet->times);
 	g_strfreev(sheet->what);
 	g_strfreev(sheet->does);
+	g_strfreev(sheet->comment);
+	g_strfreev(sheet->use_comment);
 	g_hash_table_unref(sheet->twins);
 	sfc_layout_free(sheet->layout);
 	g_free(sheet->lane);
@@ -208,6 +246,18 @@ graphene_rect_t sfc_sheet_box(const struct sfc_sheet *sheet, int shape)
 					  (float)((s->bottom - s->top) * SFC_ROW));
 	return GRAPHENE_RECT_INIT(lane->x - SFC_BAR, sfc_sheet_y(s->top) - SFC_ROW / 2.0f,
 				  2 * SFC_BAR + TEXT_GAP + text, SFC_ROW);
+}
+
+graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape)
+{
+	const struct sfc_shape *s = &sheet->layout->shape[shape];
+	const struct sfc_lane *lane = &sheet->lane[s->lane];
+	const graphene_rect_t box = sfc_sheet_box(sheet, shape);
+
+	return s->part == SFC_STEP ?
+	       GRAPHENE_POINT_INIT(lane->x + lane->half + SFC_APART, sfc_sheet_y(s->top)) :
+	       GRAPHENE_POINT_INIT(box.origin.x + box.size.width + SFC_APART,
+				   sfc_sheet_y(s->top));
 }
 
 graphene_rect_t sfc_sheet_use(const struct sfc_sheet *sheet, int use)

@@ -23,6 +23,7 @@
 #define SFC_BAR    11     /* half of a transition's bar                         */
 #define SFC_BOUND  340    /* of a text                                          */
 #define SFC_CELL   7      /* beside the text in a cell of what a step does        */
+#define SFC_APART  12     /* before a comment                                    */
 
 struct sfc_lane { float x, half, right; };
 /* Columns of the table of what a step does. */
@@ -38,6 +39,8 @@ struct sfc_sheet {
 	char **name;                   /* by shape: what stands in or at it    */
 	char **times;                  /* by step                             */
 	char **what, **does;           /* by use                              */
+	char **comment;                /* by shape, without delimiters         */
+	char **use_comment;            /* by use                              */
 	GHashTable *twins;             /* places on double lines              */
 	float width, height;
 };
@@ -47,6 +50,9 @@ struct sfc_sheet *sfc_sheet_new(const struct project *project, const struct pou 
 				struct lettering *lettering);
 void sfc_sheet_free(struct sfc_sheet *sheet);
 
+/** sfc_sheet_comment - where the comment of step or transition @shape begins: x, and the
+ * middle of its line. */
+graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape);
 /** sfc_sheet_y - of a row's middle. */
 float sfc_sheet_y(int row);
 /** sfc_sheet_box - of a shape: the box of a step, bar and text of a transition, arrow

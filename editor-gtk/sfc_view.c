@@ -140,6 +140,11 @@ static GArray *all_marks(LadderSfcView *view)
 		if (view->selected[i])
 			g_array_append_val(marks, mark);
 	}
+	if (view->found.shape >= 0) {
+		struct sfc_mark mark = { view->found.shape, view->found.use, SFC_FOUND };
+
+		g_array_append_val(marks, mark);
+	}
 	g_array_append_vals(marks, view->marks->data, view->marks->len);
 	if (view->cursor.shape >= 0) {
 		struct sfc_mark mark = { view->cursor.shape, view->cursor.use, SFC_CURSOR };
@@ -260,6 +265,7 @@ static void forget_sheet(LadderSfcView *view)
 	chart_forget_uses(view);
 	chart_live_forget(view);
 	g_array_set_size(view->marks, 0);
+	view->found.shape = -1;
 	g_clear_pointer(&view->sheet, sfc_sheet_free);
 	g_clear_pointer(&view->selected, g_free);
 }
@@ -415,14 +421,13 @@ void ladder_sfc_view_set_pou(LadderSfcView *view, int pou)
 	make_sheet(view);
 }
 
-void ladder_sfc_view_go(LadderSfcView *view, int rung, int line)
+void ladder_sfc_view_go(LadderSfcView *view, int rung)
 {
-	const struct diag place = { .rung = rung + 1, .line = line };
+	const struct diag place = { .rung = rung + 1 };
 	struct sfc_at at = { -1, -1, false };
 
 	chart_fresh(view);
-	if (view->sheet && sfc_sheet_of_diag(view->sheet, checked_chart(view), &place,
-					     &at.shape, &at.use))
+	if (view->sheet && sfc_sheet_of_diag(view->sheet, NULL, &place, &at.shape, &at.use))
 		chart_go(view, at, false);
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 }

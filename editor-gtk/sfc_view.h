@@ -17,6 +17,7 @@
 
 #include "editor-gtk/sim.h"
 #include "editor-gtk/verbs.h"
+#include "engine/view/xref.h"
 
 #include <gtk/gtk.h>
 
@@ -35,9 +36,18 @@ void ladder_sfc_view_do(LadderSfcView *view, enum verb verb);
 /** ladder_sfc_view_why - the condition of the transition at the cursor shall be seen as
  * rungs, with their power; false: the cursor is on none. */
 bool ladder_sfc_view_why(LadderSfcView *view);
-/** ladder_sfc_view_go - the cursor goes to what stands in @rung (0-based; -1: none), or at
- * @line of the file. */
-void ladder_sfc_view_go(LadderSfcView *view, int rung, int line);
+/** ladder_sfc_view_go - the cursor goes to what stands in @rung (0-based). */
+void ladder_sfc_view_go(LadderSfcView *view, int rung);
+/** ladder_sfc_view_go_row - to what stands in a line of the POU's text, counted from its
+ * heading, 0-based; to nothing, if that is no step, transition or action. */
+void ladder_sfc_view_go_row(LadderSfcView *view, int row);
+/** ladder_sfc_view_row - the line of the cursor, counted so; -1: it has none. */
+int ladder_sfc_view_row(LadderSfcView *view);
+/** ladder_sfc_view_set_found - marks what stands in a line; -1: nothing. */
+void ladder_sfc_view_set_found(LadderSfcView *view, int row);
+/** ladder_sfc_view_use - of the name at the cursor: a step, what a line does, the first
+ * name of a condition, a transition; NULL: there is none. Borrowed from @xref. */
+const struct xref_use *ladder_sfc_view_use(LadderSfcView *view, const struct xref *xref);
 /** ladder_sfc_view_place - "Step Fill": where the cursor is. Caller frees. */
 char *ladder_sfc_view_place(LadderSfcView *view);
 /** ladder_sfc_view_keys - what the next key could do. Caller frees. */

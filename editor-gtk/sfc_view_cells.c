@@ -97,6 +97,8 @@ static void say_transition(LadderSfcView *view, GString *text, int index)
 char *chart_said(LadderSfcView *view, struct sfc_at at)
 {
 	const struct sfc_shape *shape = &view->sheet->layout->shape[at.shape];
+	const char *comment = at.use >= 0 ? view->sheet->use_comment[at.use] :
+			      view->sheet->comment[at.shape];
 	GString *text = g_string_new(NULL);
 
 	if (at.use >= 0)
@@ -110,6 +112,8 @@ char *chart_said(LadderSfcView *view, struct sfc_at at)
 		say_transition(view, text, shape->index);
 	else
 		g_string_append_printf(text, _("Jump to %s"), view->sheet->name[at.shape]);
+	if (*comment)
+		g_string_append_printf(text, ", %s", comment);
 	return g_string_free(text, FALSE);
 }
 

@@ -339,6 +339,47 @@ static void change_kind(LadderSfcView *view)
 			STEP_INITIAL), _(verb_row(VERB_step_kind)->label), PIECE_STEP, index);
 }
 
+/* ---- macro-steps ---- */
+
+/* The steps that are selected, else the one at the cursor. */
+static void macro_make(LadderSfcView *view)
+{
+	struct sfc_edit *edit = chart_edit(view);
+	const int count = edit ? edit->sfc.step_count : 0;
+	bool *chosen = g_new0(bool, count + 1), any = false;
+	int index, made;
+
+	for (int i = 0; i < count; i++)
+		any |= chosen[i] = view->selected[i];
+	if (!any && chart_part(view, &index) == SFC_STEP)
+		chosen[index] = true;
+	made = edit ? sfc_edit_macro_make(edit, chosen) : -1;
+	chart_put(view, edit, made >= 0, _(verb_row(VERB_macro_make)->label), PIECE_STEP,
+		  made);
+	g_free(chosen);
+}
+
+/* That at the cursor, else the one in which the cursor is. */
+static void macro_open(LadderSfcView *view)
+{
+	const struct sfc *sfc = chart_pou(view)->sfc;
+	struct sfc_edit *edit = chart_edit(view);
+	int index, macro = -1, made = -1;
+	const enum sfc_part part = part_here(view, &index);
+
+	if (part == SFC_STEP)
+		macro = sfc->step[index].kind == STEP_MACRO ? index :
+			sfc->step[index].macro;
+	else if (part == SFC_TRANSITION)
+		macro = sfc->transition[index].macro;
+	if (edit && macro < 0)
+		edit->why = N_("this is no macro-step");
+	if (edit && macro >= 0)
+		made = sfc_edit_macro_open(edit, macro);
+	chart_put(view, edit, made >= 0, _(verb_row(VERB_macro_open)->label), PIECE_STEP,
+		  made);
+}
+
 /* A condition that is an expression becomes a rung; what is one is shown. */
 static void as_rung(LadderSfcView *view)
 {
@@ -408,6 +449,11 @@ void ladder_sfc_view_do(LadderSfcView *view, enum verb verb)
 	case VERB_step_does: chart_ask(view, ASK_ANOTHER, NULL); break;
 	case VERB_step_times: chart_ask(view, ASK_TIMES, NULL); break;
 	case VERB_way_name: chart_ask(view, ASK_NAME, NULL); break;
+	case VERB_way_priority: chart_ask(view, ASK_PRIORITY, NULL); break;
+	case VERB_chart_comment: chart_ask(view, ASK_COMMENT, NULL); break;
+	case VERB_go_rung: chart_ask(view, ASK_GO, NULL); break;
+	case VERB_macro_make: macro_make(view); break;
+	case VERB_macro_open: macro_open(view); break;
 	case VERB_enter: chart_ask_here(view, NULL); break;
 	case VERB_delete: delete(view); break;
 	case VERB_cut:

@@ -7,11 +7,10 @@
 
 #include "editor-gtk/entry.h"
 #include "editor-gtk/entry_popup.h"
+#include "editor-gtk/rung_text.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#define CANDIDATES 40
 
 /* What the popup that is open is for. It lives as long as that does. */
 struct asked {
@@ -19,114 +18,6 @@ struct asked {
 	enum chart_asked what;
 	int index, use;      /* step or transition; line of a step             */
 };
-
-void chart_forget_uses(LadderSfcView *view)
-{
-	if (view->xref)
-		xref_free(view->xref);
-	g_clear_pointer(&view->xref, g_free);
-}
-
-static struct entry_place place_of(LadderSfcView *view, bool output)
-{
-	struct project *project = ladder_document_project(view->document);
-
-	if (!view->xref && project) {
-		view->xref = g_new0(struct xref, 1);
-		if (!xref_addresses(view->xref, project))
-			chart_forget_uses(view);
-	}
-	return (struct entry_place){ .project = project, .pou = view->pou,
-				     .output = output, .xref = view->xref };
-}
-
-/* ---- candidates ---- */
-
-/* Where the word before the cursor begins. */
-static gsize word_start(const char *line, gsize cursor)
-{
-	while (cursor > 0 && !strchr(" ,\t()", line[cursor - 1]))
-		cursor--;
-	return cursor;
-}
-
-static void add_row(LadderSfcView *view, const char *line, gsize start, gsize cursor,
-		    const char *text, const char *address, const char *note,
-		    const char *kind)
-{
-	char *whole = g_strdup_printf("%.*s%s%s", (int)start, line, text, line + cursor);
-	struct entry_popup_row row = { .text = (char *)text, .address = (char *)address,
-				       .note = (char *)note, .kind = (char *)kind,
-				       .line = whole };
-
-	ladder_entry_popup_add(LADDER_ENTRY_POPUP(view->entry), &row);
-	g_free(whole);
-}
-
-static bool begins(const char *text, const char *line, gsize start, gsize cursor)
-{
-	return g_ascii_strncasecmp(text, line + start, cursor - start) == 0;
-}
-
-/* Variables and addresses of the program, no words that are elements. */
-static void offer_names(LadderSfcView *view, const char *line, gsize start, gsize cursor)
-{
-	const struct entry_place place = place_of(view, false);
-	struct entry_candidate *found = g_new(struct entry_candidate, CANDIDATES);
-	char *word = g_strndup(line + start, cursor - start);
-	const int count = entry_candidates(&place, word, strlen(word), found, CANDIDATES);
-
-	for (int i = 0; i < count; i++)
-		if (found[i].kind == ENTRY_VARIABLE || found[i].kind == ENTRY_ADDRESS ||
-		    found[i].kind == ENTRY_INSTANCE || found[i].kind == ENTRY_PIN)
-			add_row(view, line, start, cursor, found[i].text, found[i].address,
-				found[i].note, _(entry_kind_text(found[i].kind)));
-	g_free(word);
-	g_free(found);
-}
-
-static void offer_steps(LadderSfcView *view, const char *line, gsize start, gsize cursor)
-{
-	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++)
-		if (begins(view->sheet->name[i], line, start, cursor))
-			add_row(view, line, start, cursor, view->sheet->name[i], "", "",
-				_("step"));
-}
-
-static void offer_members(LadderSfcView *view, const char *line, gsize start, gsize cursor)
-{
-	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++)
-		for (int k = 0; k < 2; k++) {
-			char *name = g_strdup_printf("%s.%c", view->sheet->name[i],
-						     k ? 'T' : 'X');
-
-			if (cursor > start && begins(name, line, start, cursor))
-				add_row(view, line, start, cursor, name, "", k ?
-					_("how long it has been active") :
-					_("is it active?"), _("step"));
-			g_free(name);
-		}
-}
-
-static void offer_doing(LadderSfcView *view, const char *line, gsize start, gsize cursor)
-{
-	const struct sfc *sfc = view->sheet->layout->sfc;
-
-	for (int i = 0; start == 0 && i < QUALIFIER_COUNT; i++) {
-		char *word = g_strdup_printf("%s ", qualifier_word((enum qualifier)i));
-
-		if (begins(word, line, start, cursor))
-			add_row(view, line, start, cursor, word, "", "", _("qualifier"));
-		g_free(word);
-	}
-	for (int i = 0; i < sfc->action_count; i++) {
-		const char *name = project_text(view->sheet->project, sfc->action[i].name);
-
-		if (begins(name, line, start, cursor))
-			add_row(view, line, start, cursor, name, "", "", _("action"));
-	}
-	offer_names(view, line, start, cursor);
-}
 
 /* ---- while it is typed ---- */
 
@@ -147,31 +38,12 @@ static char *line_changed(void *context, const char *line, int cursor, bool *goo
 	struct asked *asked = context;
 	LadderSfcView *view = asked->view;
 	const gsize at = (gsize)(g_utf8_offset_to_pointer(line, cursor) - line);
-	const gsize start = word_start(line, at);
 	char *why;
 
 	*good = true;
 	if (!view->entry || !view->sheet)
 		return NULL; /* the popup is being made: it asks again */
-	switch (asked->what) {
-	case ASK_CONDITION:
-		offer_members(view, line, start, at);
-		offer_names(view, line, start, at);
-		break;
-	case ASK_DOES:
-	case ASK_ANOTHER:
-		offer_doing(view, line, start, at);
-		break;
-	case ASK_LEAD:
-	case ASK_WAIT:
-		offer_steps(view, line, start, at);
-		break;
-	case ASK_STEP:
-	case ASK_TIMES:
-	case ASK_NAME:
-	default:
-		break;
-	}
+	chart_offer(view, asked->what, line, at);
 	why = why_not(asked, line);
 	*good = !why;
 	return why ? why : g_strdup("");
@@ -182,7 +54,7 @@ static char *line_changed(void *context, const char *line, int cursor, bool *goo
 /* A lone name that nothing has yet becomes a bit, as on the sheet of rungs. */
 static void declare(LadderSfcView *view, const char *name, bool output)
 {
-	const struct entry_place place = place_of(view, output);
+	const struct entry_place place = chart_entry_place(view, output);
 	struct entry *entry = g_new0(struct entry, 1);
 	char *line = output ? g_strdup_printf("OUT %s", name) : g_strdup(name);
 
@@ -339,6 +211,53 @@ static bool take_wait(struct asked *asked, const char *line)
 			 PIECE_TRANSITION, asked->index);
 }
 
+/* 1 is asked first; nothing: by the order of the file. */
+static bool take_priority(struct asked *asked, const char *line)
+{
+	struct sfc_edit *edit = chart_edit(asked->view);
+	guint64 number = 0;
+	bool good = !*line || g_ascii_string_to_unsigned(line, 10, 1, 65535, &number, NULL);
+
+	if (!good)
+		edit->why = N_("this is no priority");
+	good = good && sfc_edit_set_priority(edit, asked->index, (int)number);
+	return chart_put(asked->view, edit, good, _("Change priority"), PIECE_TRANSITION,
+			 asked->index);
+}
+
+static bool take_comment(struct asked *asked, const char *line)
+{
+	LadderSfcView *view = asked->view;
+	struct sfc_edit *edit = chart_edit(view);
+	const bool step = view->cursor.shape < edit->sfc.step_count;
+	const struct sfc_at at = view->cursor;
+	bool good;
+
+	if (asked->use >= 0)
+		good = sfc_edit_set_use_comment(edit, asked->use, line);
+	else
+		good = sfc_edit_set_comment(edit, step ? PIECE_STEP : PIECE_TRANSITION,
+					    asked->index, line);
+	good = chart_put(view, edit, good, _("Change comment"), step ? PIECE_STEP :
+			 PIECE_TRANSITION, asked->index);
+	if (good && asked->use >= 0)
+		chart_go(view, at, false);
+	return good;
+}
+
+static bool take_go(struct asked *asked, const char *line)
+{
+	LadderSfcView *view = asked->view;
+
+	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++)
+		if (g_ascii_strcasecmp(view->sheet->name[i], line) == 0) {
+			chart_go(view, (struct sfc_at){ i, -1, false }, false);
+			return true;
+		}
+	chart_tell(view, _("there is no step of this name"));
+	return false;
+}
+
 static bool line_taken(void *context, const char *text)
 {
 	struct asked *asked = context;
@@ -357,6 +276,9 @@ static bool line_taken(void *context, const char *text)
 		case ASK_LEAD: good = take_lead(&kept, line); break;
 		case ASK_WAIT: good = take_wait(&kept, line); break;
 		case ASK_TIMES: good = take_times(&kept, line); break;
+		case ASK_PRIORITY: good = take_priority(&kept, line); break;
+		case ASK_COMMENT: good = take_comment(&kept, line); break;
+		case ASK_GO: good = take_go(&kept, line); break;
 		default: break;
 		}
 	g_free(line);
@@ -394,6 +316,16 @@ static char *condition_now(const struct pou *pou, const struct project *project,
 			project_text(project, pou->rung[body->first]->cell[0].operand) : "");
 }
 
+static char *comment_now(const struct asked *asked)
+{
+	LadderSfcView *view = asked->view;
+	const struct sfc *sfc = chart_pou(view)->sfc;
+
+	return rung_comment_text(project_text(view->sheet->project, asked->use >= 0 ?
+		sfc->use[asked->use].comment : view->cursor.shape < sfc->step_count ?
+		sfc->step[asked->index].comment : sfc->transition[asked->index].comment));
+}
+
 static char *text_now(const struct asked *asked)
 {
 	const struct pou *pou = chart_pou(asked->view);
@@ -414,6 +346,12 @@ static char *text_now(const struct asked *asked)
 		return g_strdup(line);
 	case ASK_TIMES:
 		return times_now(project, &pou->sfc->step[asked->index]);
+	case ASK_PRIORITY:
+		return pou->sfc->transition[asked->index].priority ? g_strdup_printf("%d",
+			pou->sfc->transition[asked->index].priority) : g_strdup("");
+	case ASK_COMMENT:
+		return comment_now(asked);
+	case ASK_GO:
 	case ASK_ANOTHER:
 	case ASK_LEAD:
 	case ASK_WAIT:
@@ -435,6 +373,9 @@ static const char *prompt_of(enum chart_asked what)
 		[ASK_WAIT] = N_("Wait also for the step"),
 		[ASK_TIMES] = N_("MIN time, MAX time, ALARM bit"),
 		[ASK_NAME] = N_("Name of the transition"),
+		[ASK_PRIORITY] = N_("Priority: 1 is asked first"),
+		[ASK_COMMENT] = N_("Comment"),
+		[ASK_GO] = N_("Go to the step"),
 	};
 
 	return prompts[what];
@@ -452,8 +393,11 @@ static enum sfc_part part_of(enum chart_asked what)
 	case ASK_CONDITION:
 	case ASK_WAIT:
 	case ASK_NAME:
+	case ASK_PRIORITY:
 		return SFC_TRANSITION;
 	case ASK_LEAD:
+	case ASK_COMMENT:
+	case ASK_GO:
 	default:
 		return SFC_NOTHING;
 	}
@@ -471,8 +415,8 @@ void chart_ask(LadderSfcView *view, enum chart_asked what, const char *typed)
 
 	if (view->entry || !view->sheet)
 		return;
-	if (part == SFC_NOTHING || part == SFC_JUMP ||
-	    (part_of(what) != SFC_NOTHING && part_of(what) != part)) {
+	if (what != ASK_GO && (part == SFC_NOTHING || part == SFC_JUMP ||
+			       (part_of(what) != SFC_NOTHING && part_of(what) != part))) {
 		chart_tell(view, part_of(what) == SFC_STEP ?
 			   _("the cursor is on no step") :
 			   _("the cursor is on no transition"));
@@ -480,7 +424,8 @@ void chart_ask(LadderSfcView *view, enum chart_asked what, const char *typed)
 	}
 	asked = g_new0(struct asked, 1);
 	*asked = (struct asked){ view, what, index,
-				 what == ASK_DOES ? view->cursor.use : -1 };
+				 what == ASK_DOES || what == ASK_COMMENT ?
+				 view->cursor.use : -1 };
 	calls.context = asked;
 	text = typed ? g_strdup(typed) : text_now(asked);
 	box = chart_box(view, view->cursor);

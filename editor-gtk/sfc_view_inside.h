@@ -6,6 +6,7 @@
 #ifndef EDITOR_SFC_VIEW_INSIDE_H
 #define EDITOR_SFC_VIEW_INSIDE_H
 
+#include "editor-gtk/entry.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/live_map.h"
 #include "editor-gtk/sfc_draw.h"
@@ -41,6 +42,7 @@ struct _LadderSfcView {
 	struct sfc_at cursor;       /* shape -1: there is nothing              */
 	bool *selected;             /* by shape                                */
 	GArray *marks;              /* of struct sfc_mark: what the checks say   */
+	struct sfc_at found;        /* what find came to; shape -1: nothing      */
 	GtkWidget *entry;           /* the popup, while it is there            */
 	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
 	GArray *cells;              /* of struct sfc_cell                      */
@@ -85,14 +87,25 @@ void chart_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to);
 
 /* ---- sfc_view_entry.c ---- */
 enum chart_asked { ASK_STEP, ASK_CONDITION, ASK_DOES, ASK_ANOTHER, ASK_LEAD, ASK_WAIT,
-		   ASK_TIMES, ASK_NAME };
+		   ASK_TIMES, ASK_NAME, ASK_PRIORITY, ASK_COMMENT, ASK_GO };
 /** chart_ask - for something of what stands at the cursor. @typed: already; NULL: what
  * there is. */
 void chart_ask(LadderSfcView *view, enum chart_asked what, const char *typed);
 /** chart_ask_here - for what is asked for there first. */
 void chart_ask_here(LadderSfcView *view, const char *typed);
 void chart_entry_close(LadderSfcView *view);
+
+/* ---- sfc_view_offer.c ---- */
+/** chart_offer - fills the popup with what could be meant at byte @at of @line. */
+void chart_offer(LadderSfcView *view, enum chart_asked what, const char *line, gsize at);
+/** chart_entry_place - where names are looked up; borrowed until the chart changes. */
+struct entry_place chart_entry_place(LadderSfcView *view, bool output);
 void chart_forget_uses(LadderSfcView *view);
+
+/* ---- sfc_view_find.c ---- */
+/** chart_line_of - from which line of the file on (1-based) a place stands there, its
+ * comments too. */
+int chart_line_of(LadderSfcView *view, struct sfc_at at);
 
 /* ---- sfc_view_mouse.c ---- */
 void chart_mouse_init(LadderSfcView *view);

@@ -103,12 +103,14 @@ void chart_drag_snapshot(LadderSfcView *view, GtkSnapshot *snapshot,
 
 static const struct {
 	const char *name;
-	enum verb verb[8];
+	enum verb verb[9];
 } menu_parts[] = {
 	{ NULL, { VERB_enter, VERB_step_does, VERB_as_rung, VERB_COUNT } },
 	{ NULL, { VERB_step_below, VERB_step_branch, VERB_step_parallel, VERB_lead_to,
 		  VERB_wait_for, VERB_branch_left, VERB_branch_right, VERB_COUNT } },
-	{ NULL, { VERB_step_kind, VERB_step_times, VERB_way_name, VERB_force,
+	{ NULL, { VERB_step_kind, VERB_step_times, VERB_way_name, VERB_way_priority,
+		  VERB_chart_comment, VERB_macro_make, VERB_macro_open, VERB_COUNT } },
+	{ NULL, { VERB_rename, VERB_show_uses, VERB_go_coil, VERB_watch_add, VERB_force,
 		  VERB_COUNT } },
 	{ NULL, { VERB_cut, VERB_copy, VERB_paste, VERB_delete, VERB_COUNT } },
 };

@@ -25,6 +25,7 @@ static const char *kind_text(const struct xref_use *use)
 		[XREF_SET] = N_("set"), [XREF_RESET] = N_("reset"),
 		[XREF_CALLED] = N_("called"), [XREF_JUMPED] = N_("jumped to"),
 		[XREF_RUN] = N_("run by a task"),
+		[XREF_LEFT] = N_("left"), [XREF_ENTERED] = N_("entered"),
 	};
 
 	return use->target.what == XREF_UNKNOWN ? _("unknown name") : _(text[use->kind]);

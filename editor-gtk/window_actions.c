@@ -246,7 +246,12 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_symbols: tabs_show_widget(window, "symbols"); break;
 	case VERB_rename: do_rename(window); break;
 	case VERB_go_coil: names_go_driver(window); break;
-	case VERB_go_rung: ask_rung(window); break;
+	case VERB_go_rung:
+		if (!sheet && tabs_chart(window))
+			ladder_sfc_view_do(tabs_chart(window), verb); /* a step */
+		else
+			ask_rung(window);
+		break;
 	case VERB_next_bookmark: do_next_bookmark(window); break;
 	case VERB_next_problem: do_next_problem(window); break;
 	case VERB_next_sheet: do_sheet_by(window, true); break;

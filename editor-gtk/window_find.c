@@ -19,13 +19,18 @@ static void mark_hit(LadderWindow *window)
 	const struct find *find = ladder_find_bar_find(bar);
 	const int current = ladder_find_bar_current(bar);
 	LadderGridView *sheet = tabs_sheet(window);
-	const struct find_hit *hit;
+	LadderSfcView *chart = tabs_chart(window);
+	const struct find_hit *hit = find && current >= 0 ? find->hit->pdata[current] :
+				     NULL;
 
+	if (chart)
+		ladder_sfc_view_set_found(chart, hit && hit->rung < 0 &&
+			hit->pou == ladder_sfc_view_pou(chart) ? hit->row : -1);
 	if (!sheet)
 		return;
-	hit = find && current >= 0 ? find->hit->pdata[current] : NULL;
-	if (hit && hit->pou == ladder_grid_view_pou(sheet))
-		ladder_grid_view_set_found(sheet, hit->rung, hit->row, hit->col);
+	if (hit && hit->rung >= 0 && hit->pou == ladder_grid_view_pou(sheet))
+		ladder_grid_view_set_found(sheet, hit->rung - ladder_grid_view_first(sheet),
+					   hit->row, hit->col);
 	else
 		ladder_grid_view_set_found(sheet, -1, 0, 0);
 }
@@ -33,23 +38,31 @@ static void mark_hit(LadderWindow *window)
 static void closed(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
+	LadderSfcView *chart = tabs_chart(window);
 
-	if (!sheet)
-		return;
-	ladder_grid_view_set_found(sheet, -1, 0, 0);
-	gtk_widget_grab_focus(GTK_WIDGET(sheet));
+	if (chart)
+		ladder_sfc_view_set_found(chart, -1);
+	if (sheet)
+		ladder_grid_view_set_found(sheet, -1, 0, 0);
+	if (sheet || chart)
+		gtk_widget_grab_focus(sheet ? GTK_WIDGET(sheet) : GTK_WIDGET(chart));
 }
 
 static void tell_place(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
+	LadderSfcView *chart = sheet ? NULL : tabs_chart(window);
 	struct grid_cursor cursor;
 
+	if (chart)
+		ladder_find_bar_set_place(bar_of(window), ladder_sfc_view_pou(chart), -1,
+					  ladder_sfc_view_row(chart), -1);
 	if (!sheet)
 		return;
 	cursor = ladder_grid_view_cursor(sheet);
-	ladder_find_bar_set_place(bar_of(window), ladder_grid_view_pou(sheet), cursor.rung,
-				  cursor.row, cursor.col);
+	ladder_find_bar_set_place(bar_of(window), ladder_grid_view_pou(sheet),
+				  ladder_grid_view_first(sheet) + cursor.rung, cursor.row,
+				  cursor.col);
 }
 
 void window_find(LadderWindow *window, enum verb verb)

@@ -22,7 +22,8 @@ static bool is_here(const struct xref_use *use, LadderGridView *sheet, int row, 
 {
 	const struct grid_cursor cursor = ladder_grid_view_cursor(sheet);
 
-	return use->pou == ladder_grid_view_pou(sheet) && use->rung == cursor.rung + 1 &&
+	return use->pou == ladder_grid_view_pou(sheet) &&
+	       use->rung == ladder_grid_view_first(sheet) + cursor.rung + 1 &&
 	       use->row == row + 1 && use->col == col + 1;
 }
 
@@ -32,6 +33,11 @@ static int use_here(LadderWindow *window, const struct xref *xref)
 	LadderGridView *sheet = tabs_sheet(window);
 	int row, col;
 
+	if (!sheet && tabs_chart(window)) {
+		const struct xref_use *use = ladder_sfc_view_use(tabs_chart(window), xref);
+
+		return use ? (int)(use - xref->use) : -1;
+	}
 	if (!sheet || !ladder_grid_view_cell(sheet, &row, &col))
 		return -1;
 	for (int i = 0; i < xref->count; i++)
@@ -67,7 +73,8 @@ static void go_to_use(LadderWindow *window, const struct xref_use *use)
 static bool drives(enum xref_kind kind)
 {
 	return kind == XREF_COIL || kind == XREF_SET || kind == XREF_RESET ||
-	       kind == XREF_WRITTEN || kind == XREF_CHANGED || kind == XREF_CALLED;
+	       kind == XREF_WRITTEN || kind == XREF_CHANGED || kind == XREF_CALLED ||
+	       kind == XREF_ENTERED;
 }
 
 /* The next one that drives it, round and round. */
@@ -183,11 +190,26 @@ static void ask_name(LadderWindow *window, const struct xref_target *target,
 	gtk_widget_grab_focus(renaming->line);
 }
 
+/* What it is declared as; NULL: it is not, or is a POU, which the tree renames. */
+static const char *declared_name(const struct xref *xref, const struct xref_target *target)
+{
+	if (target->what != XREF_VARIABLE && target->what != XREF_STEP &&
+	    target->what != XREF_TRANSITION && target->what != XREF_ACTION)
+		return NULL;
+	for (int i = 0; i < xref->count; i++) {
+		const struct xref_use *use = &xref->use[i];
+
+		if (use->kind == XREF_DECLARED && use->slot &&
+		    xref_same(&use->target, target))
+			return project_text(xref->project, *use->slot);
+	}
+	return NULL;
+}
+
 void names_rename(LadderWindow *window)
 {
-	struct project *project = ladder_document_project(window->document);
 	struct xref xref = { 0 };
-	const struct var *var;
+	const char *name;
 	int here, uses = 0;
 
 	if (begin(window, &xref, &here)) {
@@ -195,9 +217,9 @@ void names_rename(LadderWindow *window)
 
 		for (int i = 0; i < xref.count; i++)
 			uses += xref_same(&xref.use[i].target, target);
-		var = target->what == XREF_VARIABLE ? xref_var(project, target) : NULL;
-		if (var)
-			ask_name(window, target, project_text(project, var->name), uses);
+		name = declared_name(&xref, target);
+		if (name)
+			ask_name(window, target, name, uses);
 		else
 			ladder_window_tell(window, _("Only a declared name can be "
 				"changed; this one has no declaration."));
@@ -242,11 +264,26 @@ void names_watch_this(LadderWindow *window, const char *name)
 	ladder_watch_view_add(LADDER_WATCH_VIEW(watch), name);
 }
 
+static bool at_step(LadderWindow *window)
+{
+	struct xref xref = { 0 };
+	int here;
+	const bool is = !tabs_sheet(window) && tabs_chart(window) &&
+			begin(window, &xref, &here) &&
+			xref.use[here].target.what == XREF_STEP;
+
+	xref_free(&xref);
+	return is;
+}
+
+/* Of a step, whether it is active. */
 void names_watch(LadderWindow *window)
 {
 	char *name = names_at_cursor(window);
+	char *active = name && at_step(window) ? g_strconcat(name, ".X", NULL) : NULL;
 
-	names_watch_this(window, name ? name : "");
+	names_watch_this(window, active ? active : name ? name : "");
+	g_free(active);
 	g_free(name);
 }
 

@@ -357,13 +357,13 @@ GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)
 	return content(page);
 }
 
-/* A place in a rung, or a line of the file. */
+/* A place in a rung, or a line of the POU's text. */
 static void go_in_chart(LadderChartPage *page, int rung, int row, int col)
 {
 	if (rung >= 0)
 		ladder_chart_page_show_rung(page, rung, row, col);
 	else
-		ladder_sfc_view_go(ladder_chart_page_chart(page), -1, row + 1);
+		ladder_sfc_view_go_row(ladder_chart_page_chart(page), row);
 }
 
 void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
@@ -386,10 +386,10 @@ void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 	tabs_show(window, pou);
 	page = adw_tab_view_get_selected_page(window->tabs);
 	sheet = tabs_sheet(window);
-	if (sheet && ladder_grid_view_pou(sheet) == pou)
-		ladder_grid_view_go(sheet, rung, row, col);
-	else if (page && LADDER_IS_CHART_PAGE(content(page)))
+	if (page && LADDER_IS_CHART_PAGE(content(page)))
 		go_in_chart(LADDER_CHART_PAGE(content(page)), rung, row, col);
+	else if (sheet && ladder_grid_view_pou(sheet) == pou)
+		ladder_grid_view_go(sheet, rung, row, col);
 	else if (page && LADDER_IS_TEXT_VIEW(content(page)))
 		ladder_text_view_go_here(LADDER_TEXT_VIEW(content(page)), row + 1, col + 1);
 }

@@ -123,7 +123,8 @@ static bool ask(LadderWindow *window, struct window_why *asked, struct why *why)
 {
 	const struct twin *twin = ladder_sim_twin(window->sim);
 	const int pou = ladder_grid_view_pou(asked->sheet);
-	const int rung = ladder_sim_rung(window->sim, pou, asked->rung);
+	const int rung = ladder_sim_rung(window->sim, pou, asked->rung +
+					 ladder_grid_view_first(asked->sheet));
 	struct arena arena;
 	bool good;
 
@@ -173,7 +174,7 @@ static bool meant(LadderWindow *window, LadderGridView *sheet, int *row, int *co
 {
 	const struct project *project = ladder_document_project(window->document);
 	const struct rung *rung = project->pou[ladder_grid_view_pou(sheet)]
-		.rung[ladder_grid_view_cursor(sheet).rung];
+		.rung[ladder_grid_view_first(sheet) + ladder_grid_view_cursor(sheet).rung];
 
 	if (ladder_grid_view_cell(sheet, row, col))
 		return true;

@@ -214,6 +214,138 @@ static void check_refusals(void)
 		 "a name that looks like a qualifier");
 }
 
+/* ---- macro-steps ---- */
+
+static const char six[] =
+	"  INITIAL_STEP A:\n    Q0.0(N);\n  END_STEP\n\n"
+	"  TRANSITION FROM A TO B := I0.0; END_TRANSITION\n\n"
+	"  STEP B:\n    Q0.1(L, T#20ms);\n  END_STEP\n\n"
+	"  TRANSITION FROM B TO (C, D) := I0.1; END_TRANSITION\n\n"
+	"  TRANSITION FROM B TO A := I0.2; END_TRANSITION\n\n"
+	"  STEP C:\n    Q0.2(P);\n  END_STEP\n\n"
+	"  STEP D:\n    Q0.3(S);\n  END_STEP\n\n"
+	"  TRANSITION FROM (C, D) TO E := I0.3; END_TRANSITION\n\n"
+	"  STEP E:\n    Q0.3(R);\n  END_STEP\n\n"
+	"  TRANSITION FROM E TO F := I0.4; END_TRANSITION\n\n"
+	"  STEP F:\n    SET M0.0;\n  END_STEP\n\n"
+	"  TRANSITION FROM F TO E := I0.5; END_TRANSITION\n\n"
+	"  TRANSITION FROM F TO A := I0.6; END_TRANSITION\n";
+
+static int fold(struct sfc_edit *edit, unsigned int which)
+{
+	bool chosen[16] = { false };
+
+	for (int i = 0; i < edit->sfc.step_count; i++)
+		chosen[i] = which >> i & 1;
+	return sfc_edit_macro_make(edit, chosen);
+}
+
+/* What it does on random inputs: a sum over all steps and outputs of all scans. */
+static uint64_t traced(void)
+{
+	static const char *const names[] = { "A.X", "B.X", "C.X", "D.X", "E.X", "F.X",
+					     "%QB0", "%MB0", "B.T", "F.T" };
+	struct resource resource;
+	uint64_t sum = 0, inputs = 1;
+	void *memory;
+
+	if (!ladder_build(ladder))
+		return 0;
+	memory = calloc(1, image_memory_size(ladder_program(ladder)));
+	resource_init(&resource, ladder_program(ladder), memory);
+	resource_start(&resource);
+	for (int scan = 1; scan <= 3000; scan++) {
+		const struct location in = image_find(&resource.image, "%IB0", 4);
+
+		inputs = inputs * 6364136223846793005u + 1442695040888963407u;
+		if (scan % 3 == 0)
+			image_set(&resource.image, in,
+				  (union iec_value){ .i = (int64_t)(inputs >> 50 & 127) });
+		resource_scan(&resource, scan * (int64_t)10000000);
+		for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++) {
+			const struct location at = image_find(&resource.image, names[i],
+							      strlen(names[i]));
+
+			sum = sum * 1099511628211u +
+			      (uint64_t)(at.type ? image_get(&resource.image, at).i : -1);
+		}
+	}
+	free(memory);
+	return sum;
+}
+
+static void check_macros(void)
+{
+	uint64_t before;
+	int made = 0;
+
+	begin(two);
+	EDIT(fold(edit, 2) == 2);
+	CHECK_TEXT(body(),
+		"  INITIAL_STEP A:\n  END_STEP\n\n"
+		"  TRANSITION FROM A TO Macro1 := I0.0; END_TRANSITION\n\n"
+		"  MACRO_STEP Macro1:\n"
+		"    INITIAL_STEP B:\n      Q0.0(N);\n    END_STEP\n  END_STEP\n\n"
+		"  TRANSITION FROM Macro1 TO A := B.T > T#1s; END_TRANSITION\n");
+	EDIT(sfc_edit_macro_open(edit, 1) == 2);
+	CHECK_TEXT(body(), two);
+	REFUSED(fold(edit, 1) >= 0);
+	REFUSED(fold(edit, 0) >= 0);
+	REFUSED(sfc_edit_macro_open(edit, 0) >= 0);
+	/* Whatever can be put into one does what it did, also when it is out again. */
+	begin(six);
+	before = traced();
+	CHECK(before != 0);
+	for (unsigned int which = 1; which < 64; which++) {
+		struct sfc_edit *edit;
+		bool good;
+
+		begin(six);
+		edit = edit_new();
+		if (fold(edit, which) < 0) {
+			CHECK_AS(edit->why, "a refusal says why");
+			sfc_edit_free(edit);
+			continue;
+		}
+		made++;
+		good = take(edit) && traced() == before;
+		for (int i = 0; good && i < chart()->step_count; i++)
+			if (chart()->step[i].kind == STEP_MACRO) {
+				edit = edit_new();
+				good = sfc_edit_macro_open(edit, i) >= 0 && take(edit) &&
+				       traced() == before;
+				break;
+			}
+		CHECK_AS(good, "a macro-step of some steps");
+		if (!good)
+			printf("# steps %x\n%s\n", which, text_now);
+	}
+	printf("# %d of 63\n", made);
+	CHECK(made == 6);
+	begin(six);
+	REFUSED(fold(edit, 4 | 8) >= 0);  /* C and D: entered at two */
+	REFUSED(fold(edit, 2 | 16) >= 0); /* B and E: likewise */
+	EDIT(fold(edit, 16 | 32) == 6);
+	CHECK(strstr(body(), "FROM Macro1 TO Macro1 := I0.5;"));
+}
+
+static void check_comments(void)
+{
+	begin(two);
+	EDIT(sfc_edit_set_comment(edit, PIECE_STEP, 1, "fills"));
+	EDIT(sfc_edit_set_comment(edit, PIECE_TRANSITION, 0, "begins"));
+	EDIT(sfc_edit_set_use_comment(edit, 0, "the valve"));
+	CHECK(strstr(body(), "  (* begins *)\n  TRANSITION FROM A TO B"));
+	CHECK(strstr(body(), "  (* fills *)\n  STEP B:\n    (* the valve *)\n    Q0.0(N);"));
+	EDIT(sfc_edit_set_comment(edit, PIECE_STEP, 1, ""));
+	EDIT(sfc_edit_set_comment(edit, PIECE_TRANSITION, 0, ""));
+	EDIT(sfc_edit_set_use_comment(edit, 0, ""));
+	CHECK_TEXT(body(), two);
+	REFUSED(sfc_edit_set_comment(edit, PIECE_STEP, 0, "a *) b"));
+	REFUSED(sfc_edit_set_comment(edit, PIECE_STEP, 0, "a\nb"));
+	REFUSED(sfc_edit_set_priority(edit, 0, 65536));
+}
+
 /* ---- random ones ---- */
 
 static uint64_t state = 88172645463325252u;
@@ -267,6 +399,16 @@ static bool edit_way(struct sfc_edit *edit, int step, int transition)
 	}
 }
 
+static bool fold_any(struct sfc_edit *edit)
+{
+	bool chosen[256] = { false };
+	const int count = 1 + roll(3);
+
+	for (int i = 0; i < count; i++)
+		chosen[roll(edit->sfc.step_count)] = true;
+	return sfc_edit_macro_make(edit, chosen) >= 0;
+}
+
 static bool edit_any(struct sfc_edit *edit)
 {
 	const int step = roll(edit->sfc.step_count);
@@ -276,7 +418,8 @@ static bool edit_any(struct sfc_edit *edit)
 		return sfc_edit_first(edit, -1) >= 0;
 	if (edit->sfc.step_count > 40)
 		return sfc_edit_delete_step(edit, step);
-	switch (roll(8)) {
+	switch (roll(9)) {
+	case 8: return roll(2) ? fold_any(edit) : sfc_edit_macro_open(edit, step) >= 0;
 	case 0: return sfc_edit_step_below(edit, step) >= 0;
 	case 1: return sfc_edit_branch(edit, step) >= 0;
 	case 2: return sfc_edit_lead(edit, step, roll(edit->sfc.step_count)) >= 0;
@@ -323,6 +466,8 @@ int main(void)
 	check_ways();
 	check_texts();
 	check_refusals();
+	check_macros();
+	check_comments();
 	check_random();
 	ladder_free(ladder);
 	free(text_now);
