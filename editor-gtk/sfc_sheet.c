@@ -254,10 +254,13 @@ graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape)
 	const struct sfc_lane *lane = &sheet->lane[s->lane];
 	const graphene_rect_t box = sfc_sheet_box(sheet, shape);
 
-	return s->part == SFC_STEP ?
-	       GRAPHENE_POINT_INIT(lane->x + lane->half + SFC_APART, sfc_sheet_y(s->top)) :
-	       GRAPHENE_POINT_INIT(box.origin.x + box.size.width + SFC_APART,
-				   sfc_sheet_y(s->top));
+	if (s->part != SFC_STEP)
+		return GRAPHENE_POINT_INIT(box.origin.x + box.size.width + SFC_APART,
+					   sfc_sheet_y(s->top));
+	/* Above the table of what it does, if there is one. */
+	return GRAPHENE_POINT_INIT(lane->x + lane->half + SFC_APART,
+		sheet->pou->sfc->step[s->index].use_count ? sfc_sheet_y(s->top) - 1 :
+		box.origin.y + box.size.height / 2);
 }
 
 graphene_rect_t sfc_sheet_use(const struct sfc_sheet *sheet, int use)

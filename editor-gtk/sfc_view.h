@@ -43,6 +43,8 @@ void ladder_sfc_view_go(LadderSfcView *view, int rung);
 void ladder_sfc_view_go_row(LadderSfcView *view, int row);
 /** ladder_sfc_view_row - the line of the cursor, counted so; -1: it has none. */
 int ladder_sfc_view_row(LadderSfcView *view);
+/** ladder_sfc_view_is_at - is the cursor where ladder_sfc_view_go_row() would go? */
+bool ladder_sfc_view_is_at(LadderSfcView *view, int row);
 /** ladder_sfc_view_set_found - marks what stands in a line; -1: nothing. */
 void ladder_sfc_view_set_found(LadderSfcView *view, int row);
 /** ladder_sfc_view_use - of the name at the cursor: a step, what a line does, the first

@@ -95,6 +95,18 @@ int ladder_sfc_view_row(LadderSfcView *view)
 	       MAX(chart_line_of(view, view->cursor) - chart_pou(view)->line, -1) : -1;
 }
 
+bool ladder_sfc_view_is_at(LadderSfcView *view, int row)
+{
+	struct sfc_at at;
+
+	chart_fresh(view);
+	if (!view->sheet)
+		return false;
+	at = at_line(view, chart_pou(view)->line + row);
+	return at.shape < 0 || (at.shape == view->cursor.shape &&
+				at.use == view->cursor.use);
+}
+
 /* ---- what find has come to ---- */
 
 void ladder_sfc_view_set_found(LadderSfcView *view, int row)

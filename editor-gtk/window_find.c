@@ -48,13 +48,25 @@ static void closed(LadderWindow *window)
 		gtk_widget_grab_focus(sheet ? GTK_WIDGET(sheet) : GTK_WIDGET(chart));
 }
 
+/* The cursor of a chart still is where find left it. */
+static bool is_at_hit(LadderWindow *window, LadderSfcView *chart)
+{
+	const struct find *find = ladder_find_bar_find(bar_of(window));
+	const int current = ladder_find_bar_current(bar_of(window));
+	const struct find_hit *hit = find && current >= 0 ? find->hit->pdata[current] :
+				     NULL;
+
+	return hit && hit->pou == ladder_sfc_view_pou(chart) && hit->rung < 0 &&
+	       ladder_sfc_view_is_at(chart, hit->row);
+}
+
 static void tell_place(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
 	LadderSfcView *chart = sheet ? NULL : tabs_chart(window);
 	struct grid_cursor cursor;
 
-	if (chart)
+	if (chart && !is_at_hit(window, chart))
 		ladder_find_bar_set_place(bar_of(window), ladder_sfc_view_pou(chart), -1,
 					  ladder_sfc_view_row(chart), -1);
 	if (!sheet)

@@ -1,0 +1,258 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Names, comments, priorities and macro-steps on the sheet of a chart, by keys and by pointer."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+TANK = '''RUNGBOARD 1
+
+PROGRAM Main SFC
+  VAR
+    Start AT %IX0.0 : BOOL;
+    Full  AT %IX0.1 : BOOL;
+    Hot   AT %IX0.2 : BOOL;
+    Valve AT %QX0.0 : BOOL;
+    Count : INT;
+  END_VAR
+
+  INITIAL_STEP Idle:
+  END_STEP
+
+  TRANSITION FROM Idle TO Fill := Start; END_TRANSITION
+
+  STEP Fill:
+    Valve(N);
+    Counting(P1);
+  END_STEP
+
+  TRANSITION FROM Fill TO Heat := Full; END_TRANSITION
+
+  TRANSITION FROM Fill TO Idle := NOT Start; END_TRANSITION
+
+  STEP Heat:
+  END_STEP
+
+  TRANSITION FROM Heat TO Idle := Hot AND Fill.T > T#1s; END_TRANSITION
+
+  ACTION Counting:
+    RUNG
+      | NO Valve | ADD IN1:=Count IN2:=1 OUT=>Count | COIL %MX1.0 |
+  END_ACTION
+END_PROGRAM
+'''
+
+
+def on_chart(editor):
+    until(lambda: editor.find('Chart').has(12), 'the focus on the chart')
+
+
+def shape(editor, *parts):
+    def look():
+        found = [node for node in editor.all(role='table cell') if all(part in node.name for part in parts)]
+        return found[0] if found else None
+    return until(look, 'what is called %s' % ', '.join(parts))
+
+
+def at(editor, text):
+    """The cursor is on what is called so."""
+    until(lambda: shape(editor, text).has(23), 'the cursor at ' + text)
+
+
+def go(editor, text):
+    """By the key that asks for a step."""
+    on_chart(editor)
+    editor.keys('ctrl+g')
+    editor.opened()
+    editor.entry(text)
+    on_chart(editor)
+    at(editor, 'Step ' + text)
+
+
+def asked(editor, key, text):
+    on_chart(editor)
+    editor.keys(key)
+    editor.opened()
+    if text:
+        editor.entry(text)
+    else:
+        editor.keys('ctrl+a', 'BackSpace', 'Return')
+        editor.gone()
+    on_chart(editor)
+
+
+def rename(editor, text):
+    line = until(editor.asked, 'the new name')[0]
+    until(lambda: line.has(12), 'the focus in the line')
+    editor.keys('ctrl+a')
+    editor.type(text)
+    editor.keys('Return')
+    until(lambda: not editor.all(role='dialog'), 'the dialog to be gone')
+    on_chart(editor)
+
+
+def opened(screen):
+    path = new_file(screen, TANK)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    shape(editor, 'Step Idle, initial')
+    return path, editor
+
+
+def upon(editor, node):
+    x, y, _, height = editor.place(node)
+    return x + 11, y + height // 2
+
+
+def menu(editor, node, verb):
+    editor.click(upon(editor, node), button=3)
+    item = until(lambda: editor.all(verb, 'menu item'), 'the menu')[0]
+    editor.press(item)
+
+
+def renamed(screen):
+    """F2 renames steps, what lines do, names of conditions; F12 and Shift+F12 on them"""
+    path, editor = opened(screen)
+    go(editor, 'Fill')
+    editor.keys('F2')
+    rename(editor, 'Filling')
+    shape(editor, 'Step Filling')
+    text = editor.save(path)
+    assert 'Fill ' not in text and 'Filling.T > T#1s' in text and 'FROM Filling TO Heat' in text, text
+    check(path)
+    # The variable of a line of the step, by the menu of the pointer.
+    menu(editor, shape(editor, 'Filling does: N Valve'), 'Rename everywhere')
+    rename(editor, 'Inlet')
+    text = editor.save(path)
+    assert 'Valve' not in text and '    Inlet(N);' in text and '| NO Inlet |' in text, text
+    # The action that the other line calls.
+    editor.click(shape(editor, 'Filling does: P1 Counting'))
+    at(editor, 'does: P1 Counting')
+    editor.keys('F2')
+    rename(editor, 'Tally')
+    shape(editor, 'does: P1 Tally')
+    # The name of a condition.
+    editor.click(upon(editor, shape(editor, 'from Filling to Heat')))
+    at(editor, 'from Filling to Heat')
+    editor.keys('F2')
+    rename(editor, 'Level')
+    shape(editor, 'from Filling to Heat, condition Level')
+    text = editor.save(path)
+    assert 'ACTION Tally:' in text and '    Level AT %IX0.1 : BOOL;' in text, text
+    check(path)
+    # All uses of the step; a row of them leads back to the chart.
+    go(editor, 'Filling')
+    editor.keys('shift+F12')
+    until(lambda: editor.all('Main.Filling', 'label'), 'the uses')
+    editor.says('entered')
+    editor.shot('chart-uses')
+    # Where it is driven: the transition that enters it.
+    go(editor, 'Filling')
+    editor.keys('F12')
+    at(editor, 'from Idle to Filling')
+    for _ in range(4):
+        editor.keys('ctrl+z')
+    until(lambda: shape(editor, 'Step Fill'), 'the old name')
+    assert editor.save(path) == TANK
+
+
+def found(screen):
+    """find goes over steps, conditions and into the rungs of actions; replace"""
+    path, editor = opened(screen)
+    editor.keys('ctrl+f')
+    editor.type('heat')
+    editor.keys('Return')
+    at(editor, 'from Fill to Heat')
+    editor.shot('chart-found')
+    on_chart(editor)
+    editor.keys('F3')
+    at(editor, 'Step Heat')
+    editor.keys('F3')
+    at(editor, 'from Heat to Idle')
+    editor.keys('shift+F3')
+    at(editor, 'Step Heat')
+    # A rung of an action opens below the chart.
+    editor.keys('Escape', 'ctrl+f')
+    editor.type('MX1')
+    editor.keys('Return')
+    until(lambda: editor.all('Action Counting', 'label'), 'the heading of the action')
+    editor.element('MX1.0')
+    editor.shot('chart-found-rung')
+    # Replace all: in rungs, lines and declarations, one step of the history.
+    editor.keys('ctrl+h', 'ctrl+a')
+    editor.type('Count')
+    line = until(lambda: editor.all('Replace with', 'text'), 'the second line')[0]
+    editor.click(line)
+    until(lambda: line.has(12), 'the focus in the second line')
+    editor.type('Number')
+    editor.press(until(lambda: editor.all('Replace all', 'push button'), 'the button')[0])
+    shape(editor, 'does: P1 Numbering')
+    text = editor.save(path)
+    assert 'Count' not in text and 'ACTION Numbering:' in text and 'IN1:=Number' in text, text
+    check(path)
+    editor.click(upon(editor, shape(editor, 'Step Idle')))
+    on_chart(editor)
+    editor.keys('ctrl+z')
+    shape(editor, 'does: P1 Counting')
+    assert editor.save(path) == TANK
+
+
+def folded(screen):
+    """a macro-step is made and taken apart; priorities; comments"""
+    path, editor = opened(screen)
+    go(editor, 'Heat')
+    editor.keys('ctrl+shift+Down')
+    at(editor, 'Step Macro1')
+    shape(editor, 'Step Heat, initial')
+    editor.shot('chart-macro')
+    text = editor.save(path)
+    assert '  MACRO_STEP Macro1:\n    INITIAL_STEP Heat:\n    END_STEP\n  END_STEP\n' in text, text
+    check(path)
+    # What cannot be one says why, and nothing changes.
+    go(editor, 'Idle')
+    editor.keys('ctrl+shift+Down')
+    editor.says('the initial step stays outside')
+    # Taken out again, by the menu.
+    menu(editor, shape(editor, 'Step Heat, initial'), 'Take out of the macro-step')
+    until(lambda: not editor.all('Step Macro1', 'table cell'), 'the macro-step to be gone')
+    text = editor.save(path)
+    assert text == TANK, text
+    on_chart(editor)
+    editor.keys('ctrl+z')
+    shape(editor, 'Step Macro1')
+    editor.keys('ctrl+z')
+    until(lambda: not editor.all('Step Macro1', 'table cell'), 'the macro-step to be gone')
+    # Who is asked first.
+    editor.click(upon(editor, shape(editor, 'from Fill to Idle')))
+    at(editor, 'from Fill to Idle')
+    asked(editor, 'ctrl+shift+p', '1')
+    text = editor.save(path)
+    assert 'TRANSITION (PRIORITY := 1) FROM Fill TO Idle' in text, text
+    asked(editor, 'ctrl+shift+p', '')
+    assert editor.save(path) == TANK
+    menu(editor, shape(editor, 'from Fill to Heat'), 'Priority of the transition')
+    editor.opened()
+    editor.entry('2')
+    on_chart(editor)
+    shape(editor, 'from Fill to Heat')
+    # Comments of all three.
+    asked(editor, 'semicolon', 'until it is full')
+    shape(editor, 'from Fill to Heat', 'until it is full')
+    go(editor, 'Heat')
+    asked(editor, 'semicolon', 'steam')
+    shape(editor, 'Step Heat', 'steam')
+    menu(editor, shape(editor, 'does: N Valve'), 'Comment of step or transition')
+    editor.opened()
+    editor.entry('the inlet')
+    shape(editor, 'does: N Valve', 'the inlet')
+    editor.shot('chart-comments')
+    text = editor.save(path)
+    for line in ('  (* until it is full *)\n  TRANSITION (PRIORITY := 2) FROM Fill TO Heat', '  (* steam *)\n  STEP Heat:',
+                 '    (* the inlet *)\n    Valve(N);'):
+        assert line in text, (line, text)
+    check(path)
+
+
+main([renamed, found, folded])
