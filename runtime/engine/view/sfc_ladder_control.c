@@ -97,6 +97,12 @@ static void write_modes(struct lad *e)
 	}
 	lad_out(r, coil(e, "COIL", &e->chart[LAD_GO]));
 	lad_write(e, r, "", "Transitions fire when they are true");
+	if (*semi && e->sfc->until_stable) {
+		r = lad_begin(e);
+		lad_head(r, lad_text(e, "NO %s", semi));
+		lad_out(r, coil(e, "COIL", &e->chart[LAD_ONCE]));
+		lad_write(e, r, "", "SEMI, whatever the chart makes of it in this scan");
+	}
 	r = lad_begin(e);
 	if (*manual)
 		lad_head(r, lad_text(e, "NC %s", manual));

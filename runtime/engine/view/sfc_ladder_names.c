@@ -119,7 +119,7 @@ static void name_chart(struct lad *e)
 		[LAD_STANDS] = { "Stands", "BOOL" },
 		[LAD_CHANGED] = { "Changed", "BOOL" }, [LAD_NUMBER] = { "Number", "" },
 		[LAD_SET] = { "Forced", "BOOL" }, [LAD_GO] = { "Go", "BOOL" },
-		[LAD_HAND] = { "ByHand", "BOOL" },
+		[LAD_HAND] = { "ByHand", "BOOL" }, [LAD_ONCE] = { "Once", "BOOL" },
 	};
 	const char *name = project_text(e->project, e->pou->name);
 

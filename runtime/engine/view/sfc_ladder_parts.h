@@ -36,7 +36,7 @@ enum lad_call { LAD_CALLED, LAD_LEVEL, LAD_WAS, LAD_CALL_VARS };
  * has changed, what it was, a step is forced; transitions fire if they are true, or
  * whatever they are. */
 enum lad_chart { LAD_RUNS, LAD_FIRST, LAD_CLOCK, LAD_PASSED, LAD_LAST, LAD_ANEW,
-		 LAD_STANDS, LAD_CHANGED, LAD_NUMBER, LAD_SET, LAD_GO, LAD_HAND,
+		 LAD_STANDS, LAD_CHANGED, LAD_NUMBER, LAD_SET, LAD_GO, LAD_HAND, LAD_ONCE,
 		 LAD_CHART_VARS };
 
 /* What steps call: an action, or a BOOL. */

@@ -488,13 +488,12 @@ static void write_begins(struct lad *e)
 /* UNTIL STABLE: once more if anything fired. */
 static void write_again(struct lad *e)
 {
-	const char *semi = lad_words(e, text_of(e, e->sfc->control[CONTROL_SEMI]));
 	struct lad_rung *r = lad_begin(e);
 
 	if (!e->sfc->until_stable || !e->net.arc_count)
 		return;
-	if (*semi) {
-		lad_head(r, lad_text(e, "NO %s", semi));
+	if (e->sfc->control[CONTROL_SEMI]) {
+		lad_head(r, no(e, &e->chart[LAD_ONCE]));
 		lad_out(r, coil(e, "R", &e->chart[LAD_GO]));
 		lad_write(e, r, "", "SEMI: one TIP is one evolution");
 		r = lad_begin(e);
