@@ -279,6 +279,22 @@ static void run_file(const char *path, uint64_t seeds, int scans)
 	free(text);
 }
 
+/* More steps than the type of FORCE has numbers: the others cannot be forced. */
+static void run_many(void)
+{
+	static char text[TEXT_MAX];
+	size_t len = (size_t)snprintf(text, sizeof(text), "RUNGBOARD 1\nPROGRAM P SFC\n"
+		"VAR F AT %%IB2 : SINT; END_VAR\nCONTROL(FORCE := F);\n");
+
+	for (int i = 0; i < 150; i++)
+		len += (size_t)snprintf(text + len, sizeof(text) - len,
+			"%s S%d:\nEND_STEP\nTRANSITION FROM S%d TO S%d := I0.%d; "
+			"END_TRANSITION\n", i ? "STEP" : "INITIAL_STEP", i, i,
+			(i + 1) % 150, i % 8);
+	len += (size_t)snprintf(text + len, sizeof(text) - len, "END_PROGRAM\n");
+	CHECK_AS(judge(text, len, 1, 200) == SAME, "a SINT that forces 127 of 150 steps");
+}
+
 static void run_folder(const char *folder)
 {
 	DIR *dir = opendir(folder);
@@ -317,5 +333,7 @@ int main(int argc, char **argv)
 		run_random(seed, count);
 	if (argc == 1)
 		run_folder("ladders");
+	if (argc == 1)
+		run_many();
 	return tap_done();
 }

@@ -270,10 +270,16 @@ static void type_number(struct lad *e)
 	enum diag_id why;
 	const struct meaning *m = scope ? scope_find(scope, e->pou, force, &why) : NULL;
 
-	if (m && m->type != IEC_NONE)
-		e->chart[LAD_NUMBER].type = iec_type_row(m->type)->word;
-	else if (force)
+	e->reach = 0;
+	if (m && m->type != IEC_NONE) {
+		const struct iec_type_row *row = iec_type_row(m->type);
+
+		e->chart[LAD_NUMBER].type = row->word;
+		e->reach = iec_is_wide(m->type) || row->high > e->sfc->step_count ?
+			   e->sfc->step_count : (int)row->high;
+	} else if (force) {
 		lad_refuse(e, e->sfc->control_line, 0, "FORCE");
+	}
 }
 
 static void check_place(struct lad *e)

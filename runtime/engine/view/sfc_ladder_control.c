@@ -60,7 +60,7 @@ static void write_force(struct lad *e, const char *reset)
 	r = lad_begin(e);
 	lad_out(r, lad_text(e, "[ %s := %s ]", number, force));
 	lad_write(e, r, "", "What it is now");
-	for (int i = 0; i < e->sfc->step_count; i++) {
+	for (int i = 0; i < e->reach; i++) {
 		r = lad_begin(e);
 		lad_head(r, no(e, &e->chart[LAD_CHANGED]));
 		lad_head(r, lad_text(e, "[ %s = %d ]", number, i + 1));
@@ -68,10 +68,9 @@ static void write_force(struct lad *e, const char *reset)
 		lad_write(e, r, "", lad_text(e, "%s is forced", lad_name(e, i)));
 	}
 	r = lad_begin(e);
-	for (int i = 0; i < e->sfc->step_count; i++) {
-		lad_way(r);
-		lad_cell(r, no(e, &e->step[i][LAD_FORCED]));
-	}
+	lad_head(r, no(e, &e->chart[LAD_CHANGED]));
+	lad_head(r, lad_text(e, "[ %s >= 1 ]", number));
+	lad_head(r, lad_text(e, "[ %s <= %d ]", number, e->reach));
 	lad_out(r, coil(e, "COIL", &e->chart[LAD_SET]));
 	lad_write(e, r, "", "A step is forced");
 }

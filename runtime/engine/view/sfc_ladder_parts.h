@@ -59,6 +59,7 @@ struct lad {
 	struct lad_var (*arc)[LAD_ARC_VARS];
 	struct lad_var (*line)[LAD_LINE_VARS]; /* by sfc.use                   */
 	struct lad_var chart[LAD_CHART_VARS];
+	int reach;               /* so many steps the type of FORCE can name   */
 	struct lad_called *called;
 	int called_count;
 	uint32_t *body;      /* names of subroutines: by sfc_body()            */

@@ -265,7 +265,7 @@ static void put_forced(struct lad *e, struct lad_rung *r, int step)
 {
 	struct sfc_steps steps;
 
-	for (int i = 0; lad_has_force(e) && i < e->sfc->step_count; i++) {
+	for (int i = 0; lad_has_force(e) && i < e->reach; i++) {
 		e->good &= sfc_forced(e->sfc, i, e->arena, &steps);
 		if (!has(&steps, step))
 			continue;
@@ -444,7 +444,7 @@ static void write_sets(struct lad *e)
 	for (int i = 0; i < e->net.initial.count; i++)
 		lad_out(r, coil(e, "S", &e->step[e->net.initial.step[i]][LAD_X]));
 	lad_write(e, r, "", "Begin");
-	for (int i = 0; lad_has_force(e) && i < e->sfc->step_count; i++) {
+	for (int i = 0; lad_has_force(e) && i < e->reach; i++) {
 		struct sfc_steps steps;
 
 		e->good &= sfc_forced(e->sfc, i, e->arena, &steps);
