@@ -244,8 +244,10 @@ static void put_target(struct page *page, struct random_source *source)
 		put(page, "A%d", (int)number);
 	else if (random_chance(source, 20))
 		put(page, "b%d", (int)number % 4);
-	else
-		put(page, "Out%d", (int)random_below(source, 6));
+	else /* by its name, or by its address: one BOOL */
+		put(page, random_chance(source, 25) ? "%%QX0.%d" :
+		    random_chance(source, 10) ? "q0.%d" : "Out%d",
+		    (int)random_below(source, 6));
 }
 
 static void put_line(struct page *page, uint64_t key)

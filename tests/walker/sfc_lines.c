@@ -14,6 +14,16 @@ static struct target *new_target(struct chart *chart)
 	return &chart->target[chart->target_count++];
 }
 
+/* Two texts for the same bit? */
+static bool is_one(const struct placed *a, const struct placed *b)
+{
+	if (a->kind != b->kind || a->index || b->index)
+		return false;
+	if (a->kind == PLACED_VALUE)
+		return a->value == b->value;
+	return a->kind == PLACED_AREA && a->byte == b->byte && a->bit == b->bit;
+}
+
 /* The BOOL of this name, which may have been named before. */
 static int bool_named(struct walker *walker, struct chart *chart, uint32_t name)
 {
@@ -21,12 +31,16 @@ static int bool_named(struct walker *walker, struct chart *chart, uint32_t name)
 	uint32_t fold = names_fold(&walker->project->names, name);
 	struct target *target;
 
+	const struct placed place = walker_place(walker, chart->walked->frame, text,
+						 strlen(text));
+
 	for (int i = 0; i < chart->target_count; i++)
-		if (!chart->target[i].action && chart->target[i].fold == fold)
+		if (!chart->target[i].action && (chart->target[i].fold == fold ||
+						 is_one(&chart->target[i].place, &place)))
 			return i;
 	target = new_target(chart);
 	target->fold = fold;
-	target->place = walker_place(walker, chart->walked->frame, text, strlen(text));
+	target->place = place;
 	walker->why = text;
 	return target->place.kind == PLACED_NOWHERE ? -1 : chart->target_count - 1;
 }

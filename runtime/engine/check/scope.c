@@ -354,6 +354,17 @@ enum diag_id meaning_fault(const struct meaning *meaning)
 	return meaning->kind == MEANING_ARRAY ? DIAG_ARRAY_AS_VALUE : DIAG_COUNT;
 }
 
+bool meaning_same(const struct meaning *a, const struct meaning *b)
+{
+	if (a->opens || b->opens)
+		return false;
+	if (a->addr.area != AREA_NONE || b->addr.area != AREA_NONE)
+		return a->addr.area == b->addr.area && a->addr.byte == b->addr.byte &&
+		       a->addr.bits == b->addr.bits && a->addr.bit == b->addr.bit;
+	return a->var && a->var == b->var && a->offset == b->offset &&
+	       a->kind == b->kind;
+}
+
 bool scope_is_condition(const struct meaning *meaning)
 {
 	const struct pou *pou = meaning->pou;

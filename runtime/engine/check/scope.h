@@ -113,6 +113,9 @@ struct var_array meaning_reach(const struct meaning *meaning);
 /** meaning_fault - why @meaning is no value: DIAG_INSTANCE_AS_VALUE or
  * DIAG_ARRAY_AS_VALUE; DIAG_COUNT: it is one. Scan-safe: yes. */
 enum diag_id meaning_fault(const struct meaning *meaning);
+/** meaning_same - one variable, or one bit, however it is written? Of an index that is
+ * found out in the scan nothing is known. Scan-safe: yes. */
+bool meaning_same(const struct meaning *a, const struct meaning *b);
 /** scope_is_condition - TRANSITION of a chart? Scan-safe: yes. */
 bool scope_is_condition(const struct meaning *meaning);
 /** scope_pou - the POU of this name, unless a variable of @pou has it too; NULL: none.

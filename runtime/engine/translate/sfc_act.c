@@ -25,24 +25,33 @@ static bool is_timed(enum qualifier qualifier)
 
 /* ---- what is called ---- */
 
-/* Operands by meaning would be better: two spellings of one address are two here, as two
- * coils are. */
-static int find_bool(const struct sfc_il *s, uint32_t operand)
-{
-	const struct names *names = &s->ld.translation->project->names;
-
-	for (int i = 0; i < s->called_count; i++)
-		if (s->called[i].action < 0 && names_fold(names, s->called[i].operand) ==
-		    names_fold(names, operand))
-			return i;
-	return -1;
-}
-
 static int add_called(struct sfc_il *s, int action, uint32_t operand)
 {
 	s->called[s->called_count] = (struct sfc_called){ .action = action,
 							   .operand = operand };
 	return s->called_count++;
+}
+
+/* The same text, or another one for the same bit: one BOOL. */
+static int find_bool(struct sfc_il *s, uint32_t operand)
+{
+	const struct names *names = &s->ld.translation->project->names;
+	enum diag_id why;
+	const struct meaning *m = scope_find(s->ld.translation->scope, s->ld.unit->pou,
+					     operand, &why);
+	int at;
+
+	for (int i = 0; i < s->called_count; i++) {
+		const struct sfc_called *c = &s->called[i];
+
+		if (c->action < 0 &&
+		    (names_fold(names, c->operand) == names_fold(names, operand) ||
+		     (m && c->meaning && meaning_same(m, c->meaning))))
+			return i;
+	}
+	at = add_called(s, -1, operand);
+	s->called[at].meaning = m;
+	return at;
 }
 
 static void add_use(struct sfc_il *s, struct sfc_called *called, int use)
@@ -81,8 +90,6 @@ void sfc_find_called(struct sfc_il *s)
 			continue;
 		if (at < 0)
 			at = find_bool(s, use->operand);
-		if (at < 0)
-			at = add_called(s, -1, use->operand);
 		s->called_of[i] = at;
 		add_use(s, &s->called[at], i);
 	}

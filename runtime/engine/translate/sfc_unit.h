@@ -14,7 +14,8 @@
 /* What steps call: an action, or a BOOL. */
 struct sfc_called {
 	int action;           /* -1: a BOOL                                    */
-	uint32_t operand;     /* of a BOOL                                     */
+	uint32_t operand;     /* of a BOOL, as it is written first             */
+	const struct meaning *meaning; /* of it; NULL: it has none             */
 	int *use;             /* of sfc.use, in their order                    */
 	int use_count;
 	bool level, pulse, off; /* has it N S L D P SD DS SL; P0 P1; R?       */

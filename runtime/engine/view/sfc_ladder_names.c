@@ -6,6 +6,7 @@
 #include "engine/view/sfc_ladder_parts.h"
 
 #include "engine/base/ascii.h"
+#include "engine/check/scope.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -203,18 +204,44 @@ static bool is_alone(const struct lad *e, int number)
 	return true;
 }
 
-static uint32_t fold_of(const struct lad *e, uint32_t name)
+/* However it is written. */
+static bool find_same(struct lad *e)
 {
-	return names_fold(&e->project->names, name);
+	const size_t lines = (size_t)e->sfc->use_count + 1;
+	struct scope *scope = scope_new(e->project, e->arena);
+	const struct meaning **m = arena_alloc(e->arena, lines * sizeof(*m));
+	const struct names *names = &e->project->names;
+	enum diag_id why;
+
+	e->same = arena_alloc(e->arena, lines * sizeof(*e->same));
+	if (!scope || !m || !e->same)
+		return false;
+	for (int i = 0; i < e->sfc->use_count; i++) {
+		const struct sfc_use *use = e->sfc->use;
+		int k = 0;
+
+		e->same[i] = i;
+		if (use[i].kind != USE_ACTION || use[i].action >= 0)
+			continue;
+		m[i] = scope_find(scope, e->pou, use[i].operand, &why);
+		for (; k < i; k++)
+			if (use[k].kind == USE_ACTION && use[k].action < 0 &&
+			    (names_fold(names, use[k].operand) ==
+			     names_fold(names, use[i].operand) ||
+			     (m[i] && m[k] && meaning_same(m[i], m[k]))))
+				break;
+		e->same[i] = k < i ? e->same[k] : i;
+	}
+	return true;
 }
 
 /* Of all lines with this BOOL: no program can change them. */
-static bool has_fixed_times(const struct lad *e, uint32_t operand)
+static bool has_fixed_times(const struct lad *e, int line)
 {
 	for (int i = 0; i < e->sfc->use_count; i++) {
 		const struct sfc_use *use = &e->sfc->use[i];
 
-		if (use->time && fold_of(e, use->operand) == fold_of(e, operand) &&
+		if (use->time && e->same[i] == line &&
 		    !strchr(project_text(e->project, use->time), '#'))
 			return false;
 	}
@@ -226,12 +253,11 @@ static void add_called(struct lad *e, int action, uint32_t operand, int use)
 	struct lad_called *called;
 	const char *base;
 
-	for (int i = e->sfc->action_count; action < 0 && i < e->called_count; i++)
-		if (fold_of(e, e->called[i].operand) == fold_of(e, operand))
-			return;
+	if (action < 0 && e->same[use] != use)
+		return;
 	called = &e->called[e->called_count++];
-	*called = (struct lad_called){ .action = action, .operand = operand };
-	called->alone = action < 0 && is_alone(e, use) && has_fixed_times(e, operand);
+	*called = (struct lad_called){ .action = action, .operand = operand, .use = use };
+	called->alone = action < 0 && is_alone(e, use) && has_fixed_times(e, use);
 	base = plain(e, project_text(e->project, operand));
 	make_var(e, &called->var[LAD_CALLED], "BOOL", lad_text(e, "%s_Called", base), NULL);
 	make_var(e, &called->var[LAD_LEVEL], "BOOL", lad_text(e, "%s_Level", base), NULL);
@@ -254,5 +280,8 @@ void lad_names(struct lad *e)
 	name_arcs(e);
 	name_lines(e);
 	name_chart(e);
-	find_called(e);
+	if (find_same(e))
+		find_called(e);
+	else
+		e->good = false;
 }

@@ -43,13 +43,10 @@ static struct lad_var *ended(struct lad *e, int step)
 static bool is_of(const struct lad *e, const struct sfc_use *use,
 		  const struct lad_called *called)
 {
-	const struct names *names = &e->project->names;
-
 	if (use->kind != USE_ACTION)
 		return false;
 	return called->action >= 0 ? use->action == called->action :
-	       use->action < 0 && names_fold(names, use->operand) ==
-	       names_fold(names, called->operand);
+	       use->action < 0 && e->same[use - e->sfc->use] == called->use;
 }
 
 static char *title_of(struct lad *e, const struct sfc_use *use)

@@ -42,7 +42,8 @@ enum lad_chart { LAD_RUNS, LAD_FIRST, LAD_CLOCK, LAD_PASSED, LAD_LAST, LAD_ANEW,
 /* What steps call: an action, or a BOOL. */
 struct lad_called {
 	int action;          /* -1: a BOOL                                     */
-	uint32_t operand;
+	uint32_t operand;    /* as it is written first                         */
+	int use;             /* of a BOOL: the first line with it              */
 	bool alone;          /* nothing else writes it: a coil will do         */
 	struct lad_var var[LAD_CALL_VARS];
 };
@@ -62,6 +63,7 @@ struct lad {
 	int reach;               /* so many steps the type of FORCE can name   */
 	struct lad_called *called;
 	int called_count;
+	int *same;           /* by line: the first one with the same BOOL      */
 	uint32_t *body;      /* names of subroutines: by sfc_body()            */
 	uint32_t steps_name, outputs_name, again; /* POUs, a label             */
 	uint32_t *renamed;   /* by variable of the POU: its new name; 0: as it was */
