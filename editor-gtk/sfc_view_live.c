@@ -8,6 +8,8 @@
  */
 #include "editor-gtk/sfc_view_inside.h"
 
+#include "engine/model/sfc_net.h"
+
 #include <string.h>
 
 bool chart_live_is_on(LadderSfcView *view)
@@ -164,7 +166,63 @@ void ladder_sfc_view_set_sim(LadderSfcView *view, LadderSim *sim)
 	live->handler[2] = g_signal_connect_swapped(sim, "shown", G_CALLBACK(shown), view);
 }
 
-/* A step is made active by the number that CONTROL has for it. */
+static void act_set(LadderSfcView *view, struct location at, int64_t value)
+{
+	const struct act act = { .kind = ACT_SET, .at = at, .value.i = value };
+
+	if (at.type != IEC_NONE)
+		ladder_sim_act(view->live.sim, &act);
+}
+
+/* What a step that becomes active does once. */
+static void set_once(LadderSfcView *view, const struct sfc_step *step)
+{
+	for (int i = step->first_use; i < step->first_use + step->use_count; i++) {
+		const struct sfc_use *use = &view->sheet->layout->sfc->use[i];
+		const char *name = project_text(view->sheet->project, use->operand);
+
+		if (use->kind != USE_ACTION)
+			act_set(view, live_map_find(view->live.map, name, strlen(name)),
+				use->kind == USE_SET);
+	}
+}
+
+static bool is_among(const struct sfc_steps *steps, int step)
+{
+	for (int i = 0; i < steps->count; i++)
+		if (steps->step[i] == step)
+			return true;
+	return false;
+}
+
+/* Between two scans: all steps are left, and those that belong to @index are active, as
+ * FORCE has it; only what pulses and what is stored needs a scan to begin. */
+static void force_between(LadderSfcView *view, int index)
+{
+	const struct sfc *sfc = view->sheet->layout->sfc;
+	const struct chart_live *live = &view->live;
+	struct sfc_steps steps;
+	struct arena arena;
+
+	arena_init(&arena);
+	if (!sfc_forced(sfc, index, &arena, &steps))
+		g_error("out of memory");
+	for (int i = 0; i < sfc->step_count; i++) {
+		const bool active = is_among(&steps, i);
+
+		if (active != ((live->step[i] & SFC_ACTIVE) != 0))
+			act_set(view, live->active[i], active);
+		if (active)
+			act_set(view, live->time[i], 0);
+		if (active)
+			set_once(view, &sfc->step[i]);
+	}
+	arena_free(&arena);
+	chart_tell(view, _("The step is active. What begins with P, S, SD, DS or SL does so "
+			   "by CONTROL(FORCE := …) alone."));
+}
+
+/* By the number that CONTROL has for it; else by hand. */
 void chart_live_force(LadderSfcView *view)
 {
 	const struct pou *pou = chart_pou(view);
@@ -184,8 +242,7 @@ void chart_live_force(LadderSfcView *view)
 	}
 	act.at = live_map_find(view->live.map, name, strlen(name));
 	if (!*name || act.at.type == IEC_NONE) {
-		chart_tell(view, _("a step is forced by a number: the chart has no "
-				   "CONTROL(FORCE := …)"));
+		force_between(view, index);
 		return;
 	}
 	act.value.i = index + 1;

@@ -6,6 +6,9 @@
 
 #include "engine/base/ascii.h"
 
+#include "engine/trial/value.h"
+
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,6 +72,7 @@ static int show_named(const struct project *project, const char *name,
 /* ---- power ---- */
 
 struct powered {
+	const struct project *project;
 	const struct resource *resource;
 	const char *instance; /* NULL: whichever was called last              */
 };
@@ -84,6 +88,38 @@ static bool power_of(void *context, int pou, int rung, int row, int col, bool *i
 					 (uint32_t)row, (uint32_t)col, in, out);
 	return resource_power(powered->resource, (uint32_t)pou, (uint32_t)rung,
 			      (uint32_t)row, (uint32_t)col, in, out);
+}
+
+/* A value of a step: of `Main.Fill.X`, or `Fill.X` where there is one program alone. */
+static bool value_of(const struct powered *powered, int pou, int step, char member,
+		     struct location *at)
+{
+	const struct project *project = powered->project;
+	const char *name = project_text(project, project->pou[pou].sfc->step[step].name);
+	char text[2 * LIMIT_NAME + 8];
+
+	snprintf(text, sizeof(text), "%s.%s.%c", project_text(project,
+		 project->pou[pou].name), name, member);
+	*at = image_find(&powered->resource->image, text, strlen(text));
+	if (at->type != IEC_NONE)
+		return true;
+	snprintf(text, sizeof(text), "%s.%c", name, member);
+	*at = image_find(&powered->resource->image, text, strlen(text));
+	return at->type != IEC_NONE;
+}
+
+static bool step_of(void *context, int pou, int step, char *time, size_t size)
+{
+	const struct powered *powered = context;
+	const struct image *image = &powered->resource->image;
+	struct location at;
+
+	if (!value_of(powered, pou, step, 'X', &at) || !image_get(image, at).i)
+		return false;
+	if (value_of(powered, pou, step, 'T', &at))
+		snprintf(time, size, "%lld ms", (long long)image_get(image, at).i /
+			 VALUE_MS);
+	return true;
 }
 
 /* The instance of a block whose name this is; NULL: there is none. */
@@ -129,11 +165,12 @@ int rungs_show(const struct project *project, const char *name,
 	       const struct resource *resource, struct view_show_options options,
 	       const struct sink *out)
 {
-	struct powered powered = { .resource = resource };
+	struct powered powered = { .project = project, .resource = resource };
 	int shown;
 
 	if (resource) {
 		options.power = power_of;
+		options.step = step_of;
 		options.context = &powered;
 	}
 	if (!name)

@@ -24,6 +24,7 @@ struct sfc_strokes {
 	struct edges step[3];    /* by enum step_kind                          */
 	const char *twin, *twin_up, *twin_down, *twin_both;
 	const char *arrow, *arrow_on; /* to a step; to a transition             */
+	const char *token;       /* of an active step                          */
 };
 static const struct sfc_strokes unicode = {
 	.step = {
@@ -32,7 +33,7 @@ static const struct sfc_strokes unicode = {
 		{ { "╒", "╕", "╘", "╛" }, "═", "│", "╧", "╤", "├" },
 	},
 	.twin = "═", .twin_up = "╧", .twin_down = "╤", .twin_both = "╪",
-	.arrow = "▼", .arrow_on = "▽",
+	.arrow = "▼", .arrow_on = "▽", .token = "● ",
 };
 static const struct sfc_strokes ascii = {
 	.step = {
@@ -41,7 +42,7 @@ static const struct sfc_strokes ascii = {
 		{ { "+", "+", "+", "+" }, "=", "|", "+", "+", "|" },
 	},
 	.twin = "=", .twin_up = "+", .twin_down = "+", .twin_both = "+",
-	.arrow = "v", .arrow_on = "V",
+	.arrow = "v", .arrow_on = "V", .token = "* ",
 };
 
 struct words { const char *text; size_t len; int columns; };
@@ -64,6 +65,7 @@ struct sketch {
 	struct words *shape;     /* by shape                                   */
 	struct words *times;     /* by step                                    */
 	struct words *what, *does; /* by use: qualifier, name                  */
+	bool *active;            /* by step: what runs has it so               */
 	struct lane *lane;
 	struct sfc_wire *down, *across; /* by lane and row; by row and lane    */
 	int down_count, across_count;
@@ -103,6 +105,23 @@ static struct words keep(struct sketch *sketch, struct sink_memory *memory)
 	return words;
 }
 
+/* An active step has a mark and its time beside its name. */
+static void put_name(struct sketch *sketch, int shape, const struct sink *sink)
+{
+	const struct sfc_shape *s = &sketch->layout->shape[shape];
+	const struct view_show_options *options = sketch->draw->options;
+	char time[48] = "";
+
+	if (s->part == SFC_STEP && options && options->step)
+		sketch->active[s->index] = options->step(options->context,
+			sketch->draw->pou, s->index, time, sizeof(time));
+	if (s->part == SFC_STEP && sketch->active[s->index])
+		sink_text(sink, sketch->strokes->token);
+	sfc_words_shape(sketch->draw->project, sketch->pou, sketch->layout, shape, sink);
+	sink_text(sink, *time ? " " : "");
+	sink_text(sink, time);
+}
+
 static bool make_texts(struct sketch *sketch)
 {
 	const struct project *project = sketch->draw->project;
@@ -113,7 +132,7 @@ static bool make_texts(struct sketch *sketch)
 	sink_memory_init(&memory);
 	sink = sink_to_memory(&memory);
 	for (int i = 0; i < sketch->layout->shape_count; i++) {
-		sfc_words_shape(project, sketch->pou, sketch->layout, i, &sink);
+		put_name(sketch, i, &sink);
 		sketch->shape[i] = keep(sketch, &memory);
 	}
 	for (int i = 0; i < sfc->step_count; i++) {
@@ -339,15 +358,30 @@ static void put_step(struct sketch *sketch, int step, int row, unsigned ways)
 	put_table(sketch, step, line);
 }
 
+/* All steps that it leaves are active. */
+static bool is_enabled(const struct sketch *sketch, int transition)
+{
+	const struct sfc *sfc = sketch->layout->sfc;
+	const struct sfc_transition *t = &sfc->transition[transition];
+	bool enabled = t->from_count > 0;
+
+	for (int i = t->first_from; i < t->first_from + t->from_count; i++)
+		enabled = enabled && sfc->ref[i].step >= 0 &&
+			  sketch->active[sfc->ref[i].step];
+	return enabled;
+}
+
 static void put_transition(struct sketch *sketch, int shape, unsigned ways)
 {
 	const struct strokes *strokes = sketch->draw->strokes;
+	const char *bar = is_enabled(sketch, sketch->layout->shape[shape].index) ?
+			  strokes->powered : strokes->across;
 	const struct lane *lane = &sketch->lane[sketch->layout->shape[shape].lane];
 
 	put_to(sketch, lane->x - 1);
-	put(sketch, strokes->across, 1);
+	put(sketch, bar, 1);
 	put(sketch, strokes->joint[ways | JOIN_LEFT | JOIN_RIGHT], 1);
-	put(sketch, strokes->across, 1);
+	put(sketch, bar, 1);
 	put(sketch, " ", 1);
 	put_words(sketch, sketch->shape[shape]);
 }
@@ -509,6 +543,8 @@ static bool make_room(struct sketch *sketch)
 				   sizeof(*sketch->what));
 	sketch->does = arena_alloc(arena, ((size_t)sfc->use_count + 1) *
 				   sizeof(*sketch->does));
+	sketch->active = arena_alloc(arena, ((size_t)sfc->step_count + 1) *
+				     sizeof(*sketch->active));
 	sketch->lane = arena_alloc(arena, ((size_t)layout->lanes + 1) *
 				   sizeof(*sketch->lane));
 	sketch->down = arena_alloc(arena, wires * sizeof(*sketch->down));

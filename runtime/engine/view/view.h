@@ -19,6 +19,9 @@ struct view_show_options {
 	 * none, or does not tell, wires are drawn thin. NULL: nobody knows. */
 	bool (*power)(void *context, int pou, int rung, int row, int col, bool *in,
 		      bool *out);
+	/* Is a step of a chart active, and for how long ("" if that is not told)? NULL:
+	 * nobody knows. */
+	bool (*step)(void *context, int pou, int step, char *time, size_t size);
 	void *context;
 	const char *instance; /* of a block whose rungs are drawn; or NULL    */
 };

@@ -198,6 +198,7 @@ def by_pointer(screen):
     shape(editor, 'Drain does: L T#5s Q0.1')
     editor.shot('chart-pointer')
     finished(editor, path)
+    assert active(path) == ['Start', 'Fill', 'Drain', 'Start', 'Fill', 'Heat'], active(path)
     # A branch changes places with its neighbour, which is asked first now.
     chosen(editor, shape(editor, 'from Fill to Drain'), 'Branch to the left')
     text = editor.save(path)
@@ -312,4 +313,36 @@ def simulated(screen):
     shape(editor, 'Step Run, active')
 
 
-main([by_keyboard, by_pointer, bodies, simulated])
+PLAIN = RUNS.replace('  VAR\n    Number : INT;\n  END_VAR\n\n  CONTROL(FORCE := Number);\n\n', '').replace(
+    '  STEP Apart:\n', '  STEP Apart:\n    SET Q0.1;\n    Q0.2(N);\n')
+
+
+def forced(screen):
+    """by the pointer: a chart that runs, is forced without CONTROL, and whose variables are traced"""
+    assert 'CONTROL' not in PLAIN and 'Q0.2(N)' in PLAIN
+    path = new_file(screen, PLAIN)
+    editor = Editor(screen, path)
+    shape(editor, 'Step Start, initial')
+    editor.click(editor.find('Simulate'))
+    editor.says('Simulating')
+    editor.click(editor.find('One scan'))
+    shape(editor, 'Step Start, initial, active')
+    chosen(editor, shape(editor, 'Step Apart'), 'Force or release')
+    shape(editor, 'Step Apart, active')
+    until(lambda: 'Step Start, initial' in shapes(editor), 'Start to be left')
+    editor.shot('chart-forced')
+    # It is in the status chart from its menu, and goes on from where it was forced.
+    chosen(editor, shape(editor, 'Step Apart'), 'Add to the status chart')
+    editor.find('Apart.X')
+    editor.click(editor.find('One scan'))
+    until(lambda: [node for node in editor.all('1', 'label') if node.name == '1'], 'its value')
+    editor.click(editor.find('Run'))
+    shape(editor, 'Step Apart, active')
+    editor.shot('chart-traced')
+    # The scan before it was forced: what was active then, and nothing else.
+    editor.click(editor.find('Pause'))
+    editor.keys('alt+Left')
+    shape(editor, 'Step Apart, active')
+
+
+main([by_keyboard, by_pointer, bodies, simulated, forced])
