@@ -6,11 +6,13 @@
  * nobody chose. A key of the window takes what is typed, too, and then does what it does
  * everywhere: who saves means all that is there to be seen. Undo and redo are the line's.
  * Candidates that are not seen at first become widgets when the person stops typing, or
- * goes there: most never do.
+ * goes there: most never do. What was made once is used again: an owner keeps its popup.
  */
 #include "editor-gtk/entry_popup.h"
 
+#include "editor-gtk/entry_row.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/popover.h"
 #include "editor-gtk/verbs.h"
 
 struct _LadderEntryPopup {
@@ -18,10 +20,11 @@ struct _LadderEntryPopup {
 	GtkWidget *line, *list, *scroller, *told;
 	struct entry_popup_calls calls;
 	GPtrArray *rows;    /* of struct entry_popup_row *                     */
-	guint made;         /* so many of them are widgets                     */
+	guint made;         /* so many of them are seen, as widgets            */
 	guint making;       /* soon makes the others                           */
 	bool filling;       /* the line is changed by us                       */
 	guint asking;       /* soon asks what could be meant                   */
+	bool spare;         /* closed, and kept for what is asked next          */
 };
 
 G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
@@ -29,18 +32,6 @@ G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
 #define LIST_HEIGHT 190
 #define ROWS_SEEN   8    /* at least so many fill the list                     */
 #define REST_MS     120
-
-static GtkWidget *column(const char *text, const char *class, int chars)
-{
-	GtkWidget *label = gtk_label_new(text);
-
-	gtk_label_set_xalign(GTK_LABEL(label), 0);
-	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
-	gtk_label_set_width_chars(GTK_LABEL(label), chars);
-	if (class)
-		gtk_widget_add_css_class(label, class);
-	return label;
-}
 
 static void row_free(gpointer pointer)
 {
@@ -65,36 +56,40 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 	g_ptr_array_add(popup->rows, copy);
 }
 
-static void make_row(LadderEntryPopup *popup, const struct entry_popup_row *row)
+/* The widget of a candidate: one that said another before, or a new one. */
+static GtkListBoxRow *widget_of(LadderEntryPopup *popup, int index)
 {
-	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 12);
-	GtkWidget *list_row = gtk_list_box_row_new();
-	GtkWidget *note = column(row->note, "dim-label", 18);
-	GtkWidget *text = column(row->text, "heading", 14);
+	GtkListBox *list = GTK_LIST_BOX(popup->list);
+	GtkListBoxRow *widget = gtk_list_box_get_row_at_index(list, index);
+
+	if (widget)
+		return widget;
+	widget = GTK_LIST_BOX_ROW(gtk_list_box_row_new());
+	gtk_list_box_row_set_child(widget, ladder_entry_row_new());
+	gtk_widget_set_focusable(GTK_WIDGET(widget), FALSE);
+	gtk_list_box_append(list, GTK_WIDGET(widget));
+	return widget;
+}
+
+static void make_row(LadderEntryPopup *popup, guint index)
+{
+	const struct entry_popup_row *row = popup->rows->pdata[index];
+	GtkListBoxRow *widget = widget_of(popup, (int)index);
 	char *name = g_strdup_printf("%s, %s %s %s", row->text, row->kind, row->address,
 				     row->note);
-	char *tip = g_strdup_printf("%s: %s", row->text, row->note);
 
-	gtk_label_set_max_width_chars(GTK_LABEL(text), 22);
-	gtk_label_set_max_width_chars(GTK_LABEL(note), 44);
-	gtk_widget_set_tooltip_text(box, tip);
-	gtk_box_append(GTK_BOX(box), text);
-	gtk_box_append(GTK_BOX(box), column(row->address, "monospace", 8));
-	gtk_widget_set_hexpand(note, TRUE);
-	gtk_box_append(GTK_BOX(box), note);
-	gtk_list_box_row_set_child(GTK_LIST_BOX_ROW(list_row), box);
-	gtk_widget_set_focusable(list_row, FALSE);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(list_row),
+	ladder_entry_row_say(LADDER_ENTRY_ROW(gtk_list_box_row_get_child(widget)),
+			     row->text, row->address, row->note);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(widget),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	gtk_list_box_append(GTK_LIST_BOX(popup->list), list_row);
+	gtk_widget_set_visible(GTK_WIDGET(widget), TRUE);
 	g_free(name);
-	g_free(tip);
 }
 
 static void make_rows(LadderEntryPopup *popup, guint count)
 {
 	while (popup->made < MIN(count, popup->rows->len))
-		make_row(popup, popup->rows->pdata[popup->made++]);
+		make_row(popup, popup->made++);
 	if (popup->made == popup->rows->len)
 		g_clear_handle_id(&popup->making, g_source_remove);
 }
@@ -108,23 +103,31 @@ static gboolean make_rest(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
+/* Those of candidates that are none any more. */
+static void hide_rest(LadderEntryPopup *popup)
+{
+	GtkListBox *list = GTK_LIST_BOX(popup->list);
+	GtkListBoxRow *row;
+
+	for (guint i = popup->made; (row = gtk_list_box_get_row_at_index(list, (int)i)); i++)
+		gtk_widget_set_visible(GTK_WIDGET(row), FALSE);
+}
+
 /* What is seen at once. */
 static void make_first(LadderEntryPopup *popup)
 {
 	make_rows(popup, ROWS_SEEN);
+	hide_rest(popup);
 	if (popup->made < popup->rows->len && !popup->making)
 		popup->making = g_timeout_add(REST_MS, make_rest, popup);
 }
 
 static void clear_rows(LadderEntryPopup *popup)
 {
-	GtkWidget *row;
-
 	g_clear_handle_id(&popup->making, g_source_remove);
 	g_ptr_array_set_size(popup->rows, 0);
 	popup->made = 0;
-	while ((row = gtk_widget_get_first_child(popup->list)))
-		gtk_list_box_remove(GTK_LIST_BOX(popup->list), row);
+	gtk_list_box_unselect_all(GTK_LIST_BOX(popup->list));
 }
 
 /* Of a candidate. */
@@ -356,20 +359,58 @@ static void ladder_entry_popup_init(LadderEntryPopup *popup)
 	g_signal_connect(popup, "closed", G_CALLBACK(closed), NULL);
 }
 
+static LadderEntryPopup *spare_of(GtkWidget *owner)
+{
+	GtkWidget *child = gtk_widget_get_first_child(owner);
+
+	while (child && !(LADDER_IS_ENTRY_POPUP(child) && LADDER_ENTRY_POPUP(child)->spare))
+		child = gtk_widget_get_next_sibling(child);
+	return child ? LADDER_ENTRY_POPUP(child) : NULL;
+}
+
+/* As if nothing had been typed into it. */
+static void use_again(LadderEntryPopup *popup)
+{
+	popup->spare = false;
+	gtk_editable_set_enable_undo(GTK_EDITABLE(popup->line), FALSE);
+	gtk_editable_set_enable_undo(GTK_EDITABLE(popup->line), TRUE);
+	gtk_adjustment_set_value(gtk_scrolled_window_get_vadjustment(
+		GTK_SCROLLED_WINDOW(popup->scroller)), 0);
+}
+
 GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const char *text,
 				  bool typed, const struct entry_popup_calls *calls)
 {
-	LadderEntryPopup *popup = g_object_new(LADDER_TYPE_ENTRY_POPUP, NULL);
+	LadderEntryPopup *popup = spare_of(owner);
 
+	if (popup) {
+		use_again(popup);
+	} else {
+		popup = g_object_new(LADDER_TYPE_ENTRY_POPUP, NULL);
+		gtk_widget_set_parent(GTK_WIDGET(popup), owner);
+	}
 	popup->calls = *calls;
 	gtk_entry_set_placeholder_text(GTK_ENTRY(popup->line), prompt);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(popup->line),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, prompt, -1);
-	gtk_widget_set_parent(GTK_WIDGET(popup), owner);
 	set_line(popup, text);
 	if (!typed)
 		gtk_editable_select_region(GTK_EDITABLE(popup->line), 0, -1);
 	return GTK_WIDGET(popup);
+}
+
+void ladder_entry_popup_keep(LadderEntryPopup *popup)
+{
+	popup->spare = true;
+	gtk_popover_popdown(GTK_POPOVER(popup));
+}
+
+void ladder_entry_popup_drop(GtkWidget *owner)
+{
+	LadderEntryPopup *popup = spare_of(owner);
+
+	if (popup)
+		popover_drop(GTK_WIDGET(popup));
 }
 
 void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell)

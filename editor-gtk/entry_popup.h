@@ -32,7 +32,7 @@ struct entry_popup_calls {
 };
 
 /** ladder_entry_popup_new - @prompt: what is asked for; @text: there at first, and
- * selected unless @typed; @owner: its parent. */
+ * selected unless @typed; @owner: its parent, of whom a popup that was kept is used again. */
 GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const char *text,
 				  bool typed, const struct entry_popup_calls *calls);
 /** ladder_entry_popup_add - one more candidate; its strings are copied. */
@@ -41,5 +41,10 @@ void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_ro
 void ladder_entry_popup_ask(LadderEntryPopup *popup);
 /** ladder_entry_popup_show - at @cell of its owner. */
 void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell);
+/** ladder_entry_popup_keep - closes it, and keeps it for what its owner asks next: to make
+ * one takes as long as all that a key does else. It may be what is calling. */
+void ladder_entry_popup_keep(LadderEntryPopup *popup);
+/** ladder_entry_popup_drop - takes what was kept from @owner, who is going. */
+void ladder_entry_popup_drop(GtkWidget *owner);
 
 #endif

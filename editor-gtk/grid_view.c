@@ -6,6 +6,7 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include "editor-gtk/entry_popup.h"
 #include "editor-gtk/settings.h"
 
 #include <adwaita.h>
@@ -500,6 +501,7 @@ static void ladder_grid_view_dispose(GObject *object)
 	LadderGridView *view = LADDER_GRID_VIEW(object);
 
 	entry_close(view);
+	ladder_entry_popup_drop(GTK_WIDGET(view));
 	edge_forget(view);
 	live_clear(view);
 	cells_clear(view);

@@ -264,6 +264,7 @@ static void ask(LadderGridView *view, const char *name, struct location at)
 	prompt = g_strdup_printf(_("value of %s"), name);
 	view->entry = ladder_entry_popup_new(GTK_WIDGET(view), prompt, now, false, &calls);
 	g_object_set_data_full(G_OBJECT(view->entry), "set", asked, asked_free);
+	view->entry_sets = true;
 	ladder_entry_popup_ask(LADDER_ENTRY_POPUP(view->entry));
 	ladder_entry_popup_show(LADDER_ENTRY_POPUP(view->entry), &place);
 	g_free(prompt);
@@ -286,7 +287,7 @@ static void set_here(LadderGridView *view)
 void act_forget(LadderGridView *view)
 {
 	view->live.ordered = 0;
-	if (view->entry && g_object_get_data(G_OBJECT(view->entry), "set"))
+	if (view->entry && view->entry_sets)
 		entry_close(view);
 }
 

@@ -10,7 +10,6 @@
 
 #include "editor-gtk/entry.h"
 #include "editor-gtk/entry_popup.h"
-#include "editor-gtk/popover.h"
 
 #include "engine/base/explain.h"
 
@@ -19,7 +18,7 @@
 
 #define CANDIDATES 40
 
-/* What the popup that is open is for. It lives as long as that does. */
+/* What the popup that is open is for. It lives until that is asked for something else. */
 struct asked {
 	LadderGridView *view;
 	enum word word;       /* fixed; ELEM_EMPTY: the line begins with it     */
@@ -548,6 +547,7 @@ void entry_close(LadderGridView *view)
 	GtkWidget *entry = view->entry;
 
 	view->entry = NULL;
+	view->entry_sets = false;
 	if (view->preview) {
 		g_clear_pointer(&view->preview, rung_free);
 		strips_dirty(view, view->cursor.rung);
@@ -555,9 +555,7 @@ void entry_close(LadderGridView *view)
 	}
 	if (!entry)
 		return;
-	gtk_popover_popdown(GTK_POPOVER(entry));
-	/* It may be what is calling. */
-	popover_drop_later(entry);
+	ladder_entry_popup_keep(LADDER_ENTRY_POPUP(entry));
 	strips_redraw(view, view->cursor.rung);
 }
 

@@ -111,6 +111,7 @@ struct _LadderGridView {
 	guint cells_idle;
 	int cells_height;           /* of the sheet, when they were made       */
 	GtkWidget *entry;           /* the popup, while it is there            */
+	bool entry_sets;            /* it asks for a value of what runs         */
 	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
 	bool takes;                 /* the pointer went down on what can be dragged */
 	double press_x, press_y;    /* where that was, px of the widget         */

@@ -236,7 +236,7 @@ static void open_entry(LadderGridView *sheet, int round)
 
 static void with_entry(LadderGridView *sheet, int round)
 {
-	if (!line_of(sheet))
+	if (!line_of(sheet) || !gtk_widget_get_mapped(line_of(sheet)))
 		open_entry(sheet, round);
 }
 
