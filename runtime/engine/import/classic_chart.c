@@ -15,6 +15,14 @@ static bool on_page(const struct classic_section *section, int page)
 	return section->page == page;
 }
 
+static bool is_first(const struct conversion *c, const struct classic_section *section)
+{
+	for (int i = 0; i < c->project->sections; i++)
+		if (c->project->section[i].sequential)
+			return &c->project->section[i] == section;
+	return false;
+}
+
 static const struct classic_step *step_at(const struct conversion *c, int index)
 {
 	for (int i = 0; i < c->project->steps; i++)
@@ -42,15 +50,19 @@ static void write_step(struct conversion *c, const struct classic_step *step)
 	put(c, "  END_STEP\n\n");
 }
 
-static void write_seconds(struct conversion *c, const struct classic_step *step)
+static void write_seconds(struct conversion *c, const struct classic_section *section,
+			  const struct classic_step *step)
 {
 	const char *name = chart_step(c, step);
+	/* Pages before this one have counted already. */
+	bool counted = c->options.faithful && step->initial && !is_first(c, section);
 
 	if (!time_is_used(c, step->number))
 		return;
 	c->at = step->place;
 	put(c, "  ACTION Seconds%d:\n    RUNG\n      | NO %s.X | CL_STEP XTime%d T:=%s.T "
-	    "DT:=SYS_CYCLE |\n  END_ACTION\n\n", step->number, name, step->number, name);
+	    "%sDT:=SYS_CYCLE |\n  END_ACTION\n\n", step->number, name, step->number, name,
+	    counted ? "KEEP:=SYS_FIRST_SCAN " : "");
 }
 
 /* "Idle" or "(Fill, Stir)"; NULL: none of them is there. */
@@ -111,6 +123,27 @@ static bool has_steps(const struct conversion *c, const struct classic_section *
 	return false;
 }
 
+/* What the first page said of this one's steps (see below) ends: they speak themselves. */
+static void begin_later(struct conversion *c, const struct classic_section *section)
+{
+	const char *name = NULL;
+
+	for (int i = 0; i < c->project->steps && !is_first(c, section); i++) {
+		const struct classic_step *step = &c->project->step[i];
+
+		if (!on_page(section, step->page) || !step->initial)
+			continue;
+		if (!name) {
+			name = name_new(c, text_of(c, "%s_Begin", c->section_pou));
+			add_program(c, name);
+			put(c, "PROGRAM %s LD\n", name);
+		}
+		put(c, "RUNG\n  | NO SYS_FIRST_SCAN | R %s |\n", step_of(c, step->number));
+	}
+	if (name)
+		put(c, "END_PROGRAM\n\n");
+}
+
 void convert_chart(struct conversion *c, const struct classic_section *section)
 {
 	const struct classic_project *project = c->project;
@@ -121,6 +154,7 @@ void convert_chart(struct conversion *c, const struct classic_section *section)
 	}
 	if (section->subroutine >= 0)
 		tell(c, REPORT_CHANGED, "a page is no subroutine: it runs in each scan");
+	begin_later(c, section);
 	add_program(c, c->section_pou);
 	put(c, "PROGRAM %s SFC UNTIL STABLE\n", c->section_pou);
 	for (int i = 0; i < project->steps; i++)
@@ -131,7 +165,7 @@ void convert_chart(struct conversion *c, const struct classic_section *section)
 			write_transition(c, &project->transition[i]);
 	for (int i = 0; i < project->steps; i++)
 		if (on_page(section, project->step[i].page))
-			write_seconds(c, &project->step[i]);
+			write_seconds(c, section, &project->step[i]);
 	write_notes(c, section);
 	c->at = section->place;
 	put(c, "END_PROGRAM\n\n");
@@ -147,14 +181,6 @@ static void begin_more(struct conversion *c, const char **name)
 	*name = name_new(c, text_of(c, "%s_Others", c->section_pou));
 	add_program(c, *name);
 	put(c, "PROGRAM %s LD\n", *name);
-}
-
-static bool is_first(const struct conversion *c, const struct classic_section *section)
-{
-	for (int i = 0; i < c->project->sections; i++)
-		if (c->project->section[i].sequential)
-			return &c->project->section[i] == section;
-	return false;
 }
 
 /* When one page has run, the bits of all steps are what they are: in the first scan those

@@ -30,7 +30,11 @@ static const struct body bodies[CLASSIC_FUNCTIONS] = {
 		"RUNG\n  | [ B <> 0 ] | [ @ := A MOD B ] |\n"
 		"RUNG\n  | [ B = 0 ] | S %%SX0.7 |\n", NULL },
 	[CLASSIC_POWER] = { "A to the power of B",
-		"RUNG\n  | [ @ := TRUNC(EXPT(DINT_TO_LREAL(A), B)) ] |\n", NULL },
+		"RUNG\n  | [ @ := 1 ] |\n"
+		"RUNG\n  | [ Rest > 0 ] | FOR Bit := 1 TO 31 |\n"
+		"RUNG\n  | [ Rest MOD 2 = 1 ] | [ @ := @ * Base ] |\n"
+		"RUNG\n  | [ Base := Base * Base ] |\nRUNG\n  | [ Rest := Rest / 2 ] |\n"
+		"RUNG\n  | NEXT |\n", NULL },
 	[CLASSIC_AND] = { "the bits that both have", BITS("AND"), NULL },
 	[CLASSIC_XOR] = { "the bits that one of them has", BITS("XOR"), NULL },
 	[CLASSIC_OR] = { "the bits that any of them has", BITS("OR"), NULL },
@@ -75,6 +79,9 @@ static void write_function(struct conversion *c, enum classic_function function)
 		put(c, "VAR\n  Bits : DWORD;\n  Left : DINT;\n  Right : DINT;\nEND_VAR\n"
 		    "RUNG\n  | [ Bits := DINT_TO_DWORD(A) ] |\n"
 		    "RUNG\n  | [ Left := 32 - B ] |\nRUNG\n  | [ Right := B - 1 ] |\n");
+	if (function == CLASSIC_POWER)
+		put(c, "VAR\n  Bit : DINT;\n  Base : DINT;\n  Rest : DINT;\nEND_VAR\n"
+		    "RUNG\n  | [ Base := A ] |\nRUNG\n  | [ Rest := B ] |\n");
 	put_body(c, faithful ? body->faithful : body->rungs, name);
 	put(c, "END_FUNCTION\n\n");
 }

@@ -62,6 +62,23 @@ static const struct element_row *row_of(int code)
 
 /* ---- their texts; NULL: it is left out ---- */
 
+static bool is_shared(const struct grid *grid, const struct classic_cell *cell)
+{
+	const struct classic_project *project = grid->c->project;
+	int count = 0;
+
+	for (int i = 0; i < project->rungs; i++)
+		for (int y = 0; y < CLASSIC_ROWS; y++)
+			for (int x = 0; x < CLASSIC_COLUMNS; x++) {
+				const struct classic_cell *other =
+					&project->rung[i]->cell[y][x];
+
+				count += other->element == cell->element &&
+					 other->variable.number == cell->variable.number;
+			}
+	return count > 1;
+}
+
 static const char *block_text(struct grid *grid, struct grid_part *part,
 			      const struct classic_cell *cell, enum classic_kind kind)
 {
@@ -74,10 +91,21 @@ static const char *block_text(struct grid *grid, struct grid_part *part,
 	bool timed = kind != CLASSIC_COUNTER && kind != CLASSIC_REGISTER;
 
 	part->instance = instance_of(grid->c, kind, cell->variable.number);
+	part->shared = is_shared(grid, cell);
 	if (!part->instance)
 		return NULL;
 	return text_of(grid->c, "%s %s%s", name, part->instance,
 		       timed ? " DT:=SYS_CYCLE" : "");
+}
+
+const char *grid_box_text(const struct grid *grid, const struct grid_part *part)
+{
+	const char *text = part->text;
+
+	for (int i = 1; i < part->rows && part->shared; i++)
+		if (part->box->input[i] && !grid->fed[part->y + i][part->x])
+			text = text_of(grid->c, "%s %s:=FALSE", text, part->box->input[i]);
+	return text;
 }
 
 /* A rung that is not there ends the section. */

@@ -35,6 +35,7 @@ struct grid_part {
 	int expression;      /* that it reads; -1: none                        */
 	bool fed;            /* power can reach it (a box: its first row)      */
 	bool needed;         /* something behind it acts                       */
+	bool shared;         /* of a box: the block stands elsewhere, too       */
 	bool odd;            /* not all its cells are its own: drawn by nobody */
 };
 
@@ -79,6 +80,9 @@ static inline bool part_gives(const struct grid_part *part, int y)
 	return part->kind <= PART_CONTACT && y == part->y;
 }
 
+/** grid_box_text - of a box, with FALSE at the inputs that nothing feeds but another place
+ * may have fed. */
+const char *grid_box_text(const struct grid *grid, const struct grid_part *part);
 /** grid_head - the line with RUNG, once with its label and comment. */
 void grid_head(struct grid *grid);
 /** grid_temporary - a BOOL between the parts of this rung. */

@@ -112,7 +112,7 @@ static void write_box(struct nodes *nodes, const struct grid_part *part)
 		put_branches(nodes, part->y + i, part->x);
 	}
 	grid_head(nodes->grid);
-	put(c, "  | NO %s | %s", in[0], part->text);
+	put(c, "  | NO %s | %s", in[0], grid_box_text(nodes->grid, part));
 	for (int i = 1; i < part->rows; i++)
 		if (in[i])
 			put(c, " %s:=%s", part->box->input[i], in[i]);

@@ -154,7 +154,7 @@ static void set_box(struct piece *piece, const struct grid_part *part, int x, bo
 	struct conversion *c = piece->grid->c;
 	int last = 0;
 
-	set(piece, part->y, x, part->text, PART_BOX);
+	set(piece, part->y, x, grid_box_text(piece->grid, part), PART_BOX);
 	piece->cell[part->y][x].gives = !cut && part->box->output[0];
 	for (int i = 1; i < part->rows; i++)
 		if (part->box->input[i] && piece->grid->fed[part->y + i][part->x])

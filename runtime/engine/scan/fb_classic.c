@@ -111,9 +111,11 @@ void fb_CL_TP_step(struct fb_CL_TP *fb, int64_t now_ns)
 void fb_CL_TIMER_step(struct fb_CL_TIMER *fb, int64_t now_ns)
 {
 	(void)now_ns;
-	if (!fb->E || !fb->begun)
-		fb->rest = in_ns(fb->P, fb->BASE);
+	if (!fb->begun) /* V is the preset it began with, whatever P is by now */
+		fb->rest = in_ns(fb->V, fb->BASE);
 	fb->begun = 1;
+	if (!fb->E)
+		fb->rest = in_ns(fb->P, fb->BASE);
 	if (!fb->E) {
 		fb->D = fb->R = 0;
 	} else if (fb->rest <= 0) {
@@ -212,7 +214,7 @@ void fb_CL_REGISTER_step(struct fb_CL_REGISTER *fb, int64_t now_ns)
 void fb_CL_STEP_step(struct fb_CL_STEP *fb, int64_t now_ns)
 {
 	(void)now_ns;
-	if (!fb->X || fb->T == 0)
+	if (!fb->X || (fb->T == 0 && !fb->KEEP))
 		fb->rest = 0;
 	if (fb->X && __builtin_add_overflow(fb->rest, not_negative(fb->DT), &fb->rest))
 		fb->rest = INT64_MAX;
