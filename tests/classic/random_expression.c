@@ -35,8 +35,8 @@ static void add(struct expression *expression, const char *format, ...)
 static void add_variable(struct making *making, struct expression *expression)
 {
 	static const int types[] = { 200, 200, 200, 200, 200, 270, 230, 231, 240, 241, 250,
-				     251, 260, 261, 301, 302, 220, 280 };
-	int type = types[making_below(making, 18)];
+				     251, 260, 261, 220, 280, 301, 302 };
+	int type = types[making_below(making, making->linuxcnc ? 16 : 18)];
 	int most = type == 200 ? WORDS : type == 220 ? STEPS : BLOCKS;
 
 	if (type == 200 && making_chance(making, 12))
@@ -73,6 +73,8 @@ static void add_function(struct making *making, struct expression *expression)
 			add(expression, ",");
 		}
 		add(expression, "%d", making_below(making, 30));
+	} else if (making->linuxcnc) {
+		add(expression, "ABS(@200/%d@", making_below(making, WORDS));
 	} else if (making_chance(making, 20)) { /* no more than 32 bits           */
 		add(expression, "POW(@261/%d@,%d", making_below(making, BLOCKS),
 		    making_below(making, 5));
@@ -98,7 +100,7 @@ static void add_term(struct making *making, struct expression *expression)
 
 static void add_sum(struct making *making, struct expression *expression)
 {
-	static const char operators[] = "++-**/%&|^";
+	static const char operators[] = "++-**/%&|^"; /* ^ is a power in LinuxCNC */
 	int more = making_below(making, 4);
 	bool open = false;
 
@@ -111,7 +113,7 @@ static void add_sum(struct making *making, struct expression *expression)
 		if (open)
 			add(expression, ")");
 		open = begin;
-		add(expression, "%c", operators[making_below(making, 10)]);
+		add(expression, "%c", operators[making_below(making, making->linuxcnc ? 9 : 10)]);
 	}
 	add_term(making, expression);
 	if (open)
@@ -150,7 +152,7 @@ static void put_operate(struct making *making, int number)
 			add(&expression, "@200/%d[200/%d]@", making_below(making, 4),
 			    FIRST_INDEX + making_below(making, INDICES));
 		else
-			add(&expression, "@%d/%d@", targets[making_below(making, 7)],
+			add(&expression, "@%d/%d@", targets[making_below(making, making->linuxcnc ? 6 : 7)],
 			    making_below(making, BLOCKS));
 		if (expression.text[expression.len - 1] == '@') {
 			/* Times and counts that are written stay small.              */

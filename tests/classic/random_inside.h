@@ -14,11 +14,11 @@ enum {
 };
 
 struct cell { int element, type, number, index; bool top; };
-struct grid { struct cell cell[ROWS][COLUMNS]; };
+struct grid { int rows, columns; struct cell cell[ROWS][COLUMNS]; };
 
 struct making {
 	struct random_source random;
-	bool odd, failed;
+	bool odd, linuxcnc, failed;
 	char *text;
 	size_t len, size;
 	int compares, operates;  /* expressions: those first, then these       */

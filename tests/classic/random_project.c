@@ -65,13 +65,13 @@ static void read_bit(struct making *making, struct cell *cell)
 		cell->type = 60;
 		cell->number = making_below(making, OUTPUTS);
 	} else if (making_chance(making, 60)) {
-		cell->type = block_bits[making_below(making, 9)];
+		cell->type = block_bits[making_below(making, making->linuxcnc ? 7 : 9)];
 		cell->number = making_below(making, BLOCKS);
 	} else if (making_chance(making, 60)) {
 		cell->type = 30;
 		cell->number = making_below(making, STEPS);
 	} else {
-		cell->type = making_chance(making, 50) ? 70 : 65;
+		cell->type = making->linuxcnc ? 75 : making_chance(making, 50) ? 70 : 65;
 		cell->number = making_below(making, 9);
 	}
 	if (cell->type == 0 && making_chance(making, 10))
@@ -80,9 +80,10 @@ static void read_bit(struct making *making, struct cell *cell)
 
 static void written_bit(struct making *making, struct cell *cell)
 {
-	cell->type = making_chance(making, 55) ? 0 : making_chance(making, 95) ? 60 : 65;
+	cell->type = making_chance(making, 55) ? 0 : making_chance(making, 95) ? 60 :
+		     making->linuxcnc ? 75 : 65;
 	cell->number = making_below(making, cell->type == 0 ? BITS : OUTPUTS);
-	if (cell->type != 65 && making_chance(making, 5)) {
+	if (cell->type != 65 && cell->type != 75 && making_chance(making, 5)) {
 		cell->index = FIRST_INDEX + making_below(making, INDICES);
 		if (cell->type == 0 && cell->number > BITS - 8)
 			cell->number = 0;
@@ -95,7 +96,7 @@ static bool is_free(const struct grid *grid, int x, int y, int columns, int rows
 {
 	for (int i = 0; i < rows; i++)
 		for (int j = 0; j < columns; j++)
-			if (y + i >= ROWS || x + j >= COLUMNS - 1 ||
+			if (y + i >= grid->rows || x + j >= grid->columns - 1 ||
 			    grid->cell[y + i][x + j].element != 0)
 				return false;
 	return true;
@@ -105,7 +106,7 @@ static bool is_free(const struct grid *grid, int x, int y, int columns, int rows
 static bool add_block(struct making *making, struct grid *grid, int x, int y)
 {
 	static const int rows[] = { 2, 2, 4, 2, 3 };
-	int kind = making_below(making, 5);
+	int kind = making_below(making, making->linuxcnc ? 4 : 5);
 	int *next = &making->used[kind];
 	struct cell *alive;
 
@@ -144,7 +145,8 @@ static void add_contact(struct making *making, struct cell *cell)
 static void add_row(struct making *making, struct grid *grid, int y)
 {
 	bool ends_early = y > 0 && making_chance(making, 35);
-	int end = ends_early ? 2 + making_below(making, COLUMNS - 3) : COLUMNS - 1;
+	int end = ends_early ? 2 + making_below(making, grid->columns - 3) :
+		  grid->columns - 1;
 	int x = y > 0 && making_chance(making, 30) ? 1 + making_below(making, 4) : 0;
 
 	if (x > 0 && grid->cell[y][x].element == 0)
@@ -167,22 +169,22 @@ static void add_row(struct making *making, struct grid *grid, int y)
 			grid->cell[y][x++].element = 9;
 		cell->top = top || (y > 0 && cell->element != 99 && making_chance(making, 6));
 	}
-	if (ends_early && x < COLUMNS)
+	if (ends_early && x < grid->columns)
 		grid->cell[y][x].top = true;
 }
 
 static void add_coil(struct making *making, struct grid *grid, int y, int rung)
 {
-	struct cell *cell = &grid->cell[y][COLUMNS - 1];
+	int last = grid->columns - 1;
+	struct cell *cell = &grid->cell[y][last];
 
-	if (making->operates && making_chance(making, 25) && grid->cell[y][9].element % 99 <= 9 &&
-	    grid->cell[y][10].element % 99 <= 9 && grid->cell[y][9].element != 99 &&
-	    grid->cell[y][10].element != 99) {
-		bool top = grid->cell[y][9].top;
+	if (making->operates && making_chance(making, 25) && grid->cell[y][last - 2].element <= 9 &&
+	    grid->cell[y][last - 1].element <= 9) {
+		bool top = grid->cell[y][last - 2].top;
 
-		grid->cell[y][9] = grid->cell[y][10] = (struct cell){ .element = 99,
-								      .index = -1 };
-		grid->cell[y][9].top = top;
+		grid->cell[y][last - 2] = grid->cell[y][last - 1] =
+			(struct cell){ .element = 99, .index = -1 };
+		grid->cell[y][last - 2].top = top;
 		cell->element = 60;
 		cell->number = making->compares + making_below(making, making->operates);
 	} else if (making->target > rung && making_chance(making, 12)) {
@@ -203,7 +205,7 @@ static void add_coil(struct making *making, struct grid *grid, int y, int rung)
 static void add_odd(struct making *making, struct grid *grid)
 {
 	static const int codes[] = { 0, 1, 2, 3, 9, 99, 103, 50, 53, 20, 60, 51, 4, 200 };
-	int y = making_below(making, ROWS), x = making_below(making, COLUMNS);
+	int y = making_below(making, grid->rows), x = making_below(making, grid->columns);
 	struct cell *cell = &grid->cell[y][x];
 
 	cell->element = codes[making_below(making, 14)];
@@ -222,39 +224,43 @@ static void add_odd(struct making *making, struct grid *grid)
 
 static void put_grid(struct making *making, const struct grid *grid)
 {
-	for (int y = 0; y < ROWS; y++)
-		for (int x = 0; x < COLUMNS; x++) {
+	for (int y = 0; y < grid->rows; y++)
+		for (int x = 0; x < grid->columns; x++) {
 			const struct cell *cell = &grid->cell[y][x];
 
 			making_put(making, "%d-%d-%d/%d", cell->element, cell->top, cell->type,
 			    cell->number);
 			if (cell->index >= 0)
 				making_put(making, "[200/%d]", cell->index);
-			making_put(making, "%s", x + 1 < COLUMNS ? " , " : "\n");
+			making_put(making, "%s", x + 1 < grid->columns ? " , " : "\n");
 		}
 }
 
 static void put_rung(struct making *making, int number, int previous, int next)
 {
 	struct grid grid;
-	int rows = making_chance(making, 30) ? 8 : 1 + making_below(making, 5);
+	int rows = 1 + making_below(making, 5);
 
 	memcpy(making->before, making->used, sizeof(making->used));
 	memset(&grid, 0, sizeof(grid));
+	grid.rows = making->linuxcnc ? ROWS - 2 : ROWS;
+	grid.columns = making->linuxcnc ? COLUMNS - 2 : COLUMNS;
+	if (making_chance(making, 30))
+		rows = grid.rows;
 	for (int y = 0; y < ROWS; y++)
 		for (int x = 0; x < COLUMNS; x++)
 			grid.cell[y][x].index = -1;
 	for (int y = 0; y < rows; y++) {
 		add_row(making, &grid, y);
-		if (grid.cell[y][COLUMNS - 2].element == 9 || making_chance(making, 50))
+		if (grid.cell[y][grid.columns - 2].element == 9 || making_chance(making, 50))
 			add_coil(making, &grid, y, number);
 	}
 	if (making->odd && making_chance(making, 20))
 		for (int i = making_below(making, 4); i >= 0; i--)
 			add_odd(making, &grid);
-	making_put(making, "_FILE-rung_%d.csv\n#VER=3.0\n#LABEL=%s\n#COMMENT=\n#PREVRUNG=%d\n"
-	    "#NEXTRUNG=%d\n#NBRLINES=8\n", number, making_chance(making, 20) ? "L" : "", previous,
-	    next);
+	making_put(making, "_FILE-rung_%d.csv\n#VER=%d.0\n#LABEL=%s\n#COMMENT=\n#PREVRUNG=%d\n"
+		   "#NEXTRUNG=%d\n", number, making->linuxcnc ? 2 : 3,
+		   making_chance(making, 20) ? "L" : "", previous, next);
 	put_grid(making, &grid);
 	making_put(making, "_/FILE-rung_%d.csv\n", number);
 }
@@ -360,24 +366,34 @@ static void put_chart(struct making *making)
 
 /* ---- the rest ---- */
 
+/* Upstream writes numbered lines, LinuxCNC one for each block from 0. */
 static void put_blocks(struct making *making, const char *name, const char *letters,
 		       int numbers)
 {
-	making_put(making, "_FILE-%s\n#VER=2.0\n", name);
+	making_put(making, "_FILE-%s\n%s", name, making->linuxcnc ? "" : "#VER=2.0\n");
 	for (int i = 0; i < BLOCKS; i++) {
 		int base = making_chance(making, 70) ? 2 : 1;
 
+		if (!making->linuxcnc)
+			making_put(making, "%s%d,", letters, i);
 		if (numbers == 1)
-			making_put(making, "%s%d,%d\n", letters, i, 1 + making_below(making, 5));
+			making_put(making, "%d", 1 + making_below(making, 5));
 		else
-			making_put(making, "%s%d,%d,%d", letters, i, base,
-			    1 + making_below(making, base == 2 ? 9 : 3));
+			making_put(making, "%d,%d", base,
+				   1 + making_below(making, base == 2 ? 9 : 3));
 		if (numbers == 3)
 			making_put(making, ",%d", making_below(making, 3));
-		if (numbers > 1)
-			making_put(making, "\n");
+		making_put(making, "\n");
 	}
 	making_put(making, "_/FILE-%s\n", name);
+}
+
+static void put_registers(struct making *making)
+{
+	making_put(making, "_FILE-registers.csv\n#VER=1.0\n");
+	for (int i = 0; i < BLOCKS; i++)
+		making_put(making, "R%d,%d\n", i, 1 + making_below(making, 2));
+	making_put(making, "_/FILE-registers.csv\n");
 }
 
 static void put_project(struct making *making)
@@ -392,10 +408,11 @@ static void put_project(struct making *making)
 	put_blocks(making, "monostables.csv", "M", 2);
 	put_blocks(making, "counters.csv", "C", 1);
 	put_blocks(making, "timers_iec.csv", "TM", 3);
-	making_put(making, "_FILE-registers.csv\n#VER=1.0\n");
-	for (int i = 0; i < BLOCKS; i++)
-		making_put(making, "R%d,%d\n", i, 1 + making_below(making, 2));
-	making_put(making, "_/FILE-registers.csv\n");
+	if (making->linuxcnc)
+		making_put(making, "_FILE-com_params.txt\nMODBUS_MAP_COIL_READ=0\n"
+			   "_/FILE-com_params.txt\n");
+	else
+		put_registers(making);
 	put_expressions(making);
 	put_sections(making);
 	put_chart(making);
@@ -425,8 +442,8 @@ static void put_script(struct making *making)
 {
 	int lines = 20 + making_below(making, 60);
 
-	making_put(making, "@print %%Q0..%d %%B0..%d %%W0..%d %%QW0..3 %%QLED0..8", OUTPUTS + 7,
-	    BITS + 7, WORDS - 1);
+	making_put(making, "@print %%Q0..%d %%B0..%d %%W0..%d %%QW0..3 %s", OUTPUTS + 7,
+		   BITS + 7, WORDS - 1, making->linuxcnc ? "%E0..8" : "%QLED0..8");
 	for (int i = 0; i < making->used[0]; i++)
 		making_put(making, " %%T%d.D %%T%d.R %%T%d.V", i, i, i);
 	for (int i = 0; i < making->used[1]; i++)
@@ -459,7 +476,7 @@ static void put_script(struct making *making)
 
 bool random_project(uint64_t seed, bool odd, struct random_texts *texts)
 {
-	struct making making = { .odd = odd };
+	struct making making = { .odd = odd, .linuxcnc = seed % 5 == 3 };
 
 	random_seed(&making.random, seed);
 	put_project(&making);
