@@ -272,7 +272,8 @@ struct engine *engine_new(const struct classic_project *project, bool faithful)
 		if (project->reg.block[i].number >= engine->fifos)
 			engine->fifos = project->reg.block[i].number + 1;
 	good = zeroed(&engine->bits, 8 * all, 1) && zeroed(&engine->word, all, 4) &&
-	       zeroed(&engine->input_word, all, 4) && zeroed(&engine->output_word, all, 4) &&
+	       zeroed(&engine->input_word, all, 4) && zeroed(&engine->input_number, all, 4) &&
+	       zeroed(&engine->output_word, all, 4) &&
 	       zeroed(&engine->system_word, all, 4) && zeroed(&engine->step_v, all, 4) &&
 	       zeroed(&engine->timer, all, sizeof(*engine->timer)) &&
 	       zeroed(&engine->mono, all, sizeof(*engine->mono)) &&
@@ -300,6 +301,7 @@ void engine_free(struct engine *engine)
 	free(engine->bits);
 	free(engine->word);
 	free(engine->input_word);
+	free(engine->input_number);
 	free(engine->output_word);
 	free(engine->system_word);
 	free(engine->step_v);

@@ -43,7 +43,7 @@ struct engine {
 	uint8_t *bits;           /* all of them; faithful: one behind the other, as
 				    in the original, where %Q15 may be %S0      */
 	uint8_t *bit, *input, *output, *led, *system, *error, *step_a;
-	int32_t *word, *input_word, *output_word, *system_word, *step_v;
+	int32_t *word, *input_word, *input_number, *output_word, *system_word, *step_v;
 	struct old_timer *timer;
 	struct monostable *mono;
 	struct iec_timer *iec;

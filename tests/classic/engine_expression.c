@@ -265,6 +265,9 @@ static int32_t term(struct text *text)
 		    !text->engine->faithful) { /* F8 */
 			text->at++;
 			result = wrap(-(int64_t)term(text));
+		} else { /* nothing is left of it */
+			text->at++;
+			term(text);
 		}
 	} else if (accept(text, '(')) {
 		result = disjunction(text);

@@ -115,7 +115,7 @@ int32_t engine_get(const struct engine *engine, int type, int64_t number)
 	if (number < 0 || number >= CLASSIC_LIMIT)
 		return 0;
 	if (is_lc(engine) && type == V_INPUT_FLOAT)
-		return engine->input_word[number];
+		return engine->input_number[number];
 	if (bit_of(engine, type))
 		return bit_of(engine, type)[number];
 	if (word_of(engine, type))
@@ -128,7 +128,7 @@ void engine_set(struct engine *engine, int type, int64_t number, int32_t value)
 	if (number < 0 || number >= CLASSIC_LIMIT)
 		return;
 	if (is_lc(engine) && type == V_INPUT_FLOAT)
-		engine->input_word[number] = value;
+		engine->input_number[number] = value;
 	else if (bit_of(engine, type))
 		bit_of(engine, type)[number] = value != 0;
 	else if (word_of(engine, type))
@@ -166,6 +166,7 @@ void engine_reset(struct engine *engine)
 	memset(engine->bits, 0, 8 * all);
 	memset(engine->word, 0, words);
 	memset(engine->input_word, 0, words);
+	memset(engine->input_number, 0, words);
 	memset(engine->output_word, 0, words);
 	memset(engine->system_word, 0, words);
 	memset(engine->step_v, 0, words);

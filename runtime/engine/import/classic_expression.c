@@ -29,6 +29,7 @@ struct parse {
 /* A part of an expression: its text, and how strongly it holds together here. */
 struct part {
 	const char *text;
+	const char *a, *b; /* of a product of two that may be large: its factors */
 	int rank;          /* 0: an operand or call; greater: weaker           */
 	bool constant;
 	int32_t value;     /* of a constant                                    */
@@ -54,8 +55,16 @@ static struct part constant(struct parse *p, int64_t value)
 								    RANK_OPERAND };
 }
 
+static const char *function_call(struct parse *p, enum classic_function function,
+				 const char *a, const char *b);
+
+/* As an operand of something else. A product that overflows there goes on with what is
+ * left of it, and must not end the expression: a function of its own. */
 static const char *inside(struct parse *p, struct part part, int rank)
 {
+	if (part.a)
+		return function_call(p, CLASSIC_PRODUCT, part.a, part.b);
+
 	return part.rank > rank ? text_of(p->c, "(%s)", part.text) : part.text;
 }
 
@@ -181,9 +190,6 @@ static struct part parse_decimal(struct parse *p)
 
 /* ---- functions ---- */
 
-static const char *function_call(struct parse *p, enum classic_function function,
-				 const char *a, const char *b);
-
 struct known { const char *name; const char *here; int function; };
 
 static const struct known known_functions[] = {
@@ -208,12 +214,12 @@ static const char *average(struct parse *p, const struct part *part, int count)
 static struct part call(struct parse *p, const struct known *known,
 			const struct part *part, int count)
 {
-	const char *list = part[0].text;
+	const char *list = inside(p, part[0], RANK_SUM);
 
 	if (known->function >= 0 && count == 2)
 		return (struct part){ .text = function_call(
-			p, (enum classic_function)known->function, part[0].text,
-			part[1].text) };
+			p, (enum classic_function)known->function,
+			inside(p, part[0], RANK_SUM), inside(p, part[1], RANK_SUM)) };
 	if (known->function >= 0)
 		return fail(p);
 	if (!*known->here)
@@ -222,7 +228,7 @@ static struct part call(struct parse *p, const struct known *known,
 	if (!strcmp(known->here, "ABS") ? count != 1 : count < 2)
 		return count == 1 ? part[0] : fail(p);
 	for (int i = 1; i < count; i++)
-		list = text_of(p->c, "%s, %s", list, part[i].text);
+		list = text_of(p->c, "%s, %s", list, inside(p, part[i], RANK_SUM));
 	return (struct part){ .text = text_of(p->c, "%s(%s)", known->here, list) };
 }
 
@@ -251,7 +257,7 @@ static struct part parse_function(struct parse *p)
 
 static const char *const function_name[CLASSIC_FUNCTIONS] = {
 	[CLASSIC_DIVIDE] = "Quotient", [CLASSIC_REMAINDER] = "Remainder",
-	[CLASSIC_POWER] = "Power", [CLASSIC_AND] = "BitAnd", [CLASSIC_XOR] = "BitXor",
+	[CLASSIC_PRODUCT] = "Product", [CLASSIC_POWER] = "Power", [CLASSIC_AND] = "BitAnd", [CLASSIC_XOR] = "BitXor",
 	[CLASSIC_OR] = "BitOr", [CLASSIC_SHIFT_LEFT] = "ShiftLeft",
 	[CLASSIC_SHIFT_RIGHT] = "ShiftRight", [CLASSIC_ROTATE_LEFT] = "RotateLeft",
 	[CLASSIC_ROTATE_RIGHT] = "RotateRight",
@@ -313,7 +319,21 @@ static struct part divide(struct parse *p, struct part a, struct part b, bool re
 			inside(p, a, RANK_PRODUCT), rest ? "MOD" : "/",
 			inside(p, b, RANK_OPERAND)), .rank = RANK_PRODUCT };
 	return (struct part){ .text = function_call(
-		p, rest ? CLASSIC_REMAINDER : CLASSIC_DIVIDE, a.text, b.text) };
+		p, rest ? CLASSIC_REMAINDER : CLASSIC_DIVIDE, inside(p, a, RANK_SUM),
+		inside(p, b, RANK_SUM)) };
+}
+
+static struct part multiply(struct parse *p, struct part a, struct part b)
+{
+	const char *left = inside(p, a, RANK_PRODUCT), *right = inside(p, b, RANK_OPERAND);
+	struct part part = { .text = text_of(p->c, "%s * %s", left, right),
+			     .rank = RANK_PRODUCT };
+
+	if (!a.constant && !b.constant) {
+		part.a = left;
+		part.b = right;
+	}
+	return part;
 }
 
 static struct part parse_product(struct parse *p)
@@ -324,12 +344,8 @@ static struct part parse_product(struct parse *p)
 		char op = *p->at++;
 
 		other = parse_term(p);
-		if (op == '*')
-			part = (struct part){ .text = text_of(p->c, "%s * %s",
-				inside(p, part, RANK_PRODUCT),
-				inside(p, other, RANK_OPERAND)), .rank = RANK_PRODUCT };
-		else
-			part = divide(p, part, other, op == '%');
+		part = op == '*' ? multiply(p, part, other) :
+				   divide(p, part, other, op == '%');
 	}
 	return part;
 }
@@ -342,7 +358,8 @@ static struct part parse_sum(struct parse *p)
 		char op = *p->at++;
 
 		other = parse_product(p);
-		part = (struct part){ .text = text_of(p->c, "%s %c %s", part.text, op,
+		part = (struct part){ .text = text_of(p->c, "%s %c %s",
+			inside(p, part, RANK_SUM), op,
 			inside(p, other, other.rank == RANK_SIGN ? RANK_OPERAND :
 								   RANK_PRODUCT)),
 			.rank = RANK_SUM };
@@ -356,8 +373,8 @@ static struct part parse_and(struct parse *p)
 
 	while (!p->failed && accept(p, "&")) {
 		other = parse_sum(p);
-		part = (struct part){ .text = function_call(p, CLASSIC_AND, part.text,
-							    other.text) };
+		part = (struct part){ .text = function_call(p, CLASSIC_AND,
+			inside(p, part, RANK_SUM), inside(p, other, RANK_SUM)) };
 	}
 	return part;
 }
@@ -371,7 +388,8 @@ static struct part parse_xor(struct parse *p)
 	while (!p->failed && accept(p, "^")) {
 		other = parse_and(p);
 		part = (struct part){ .text = function_call(
-			p, power ? CLASSIC_POWER : CLASSIC_XOR, part.text, other.text) };
+			p, power ? CLASSIC_POWER : CLASSIC_XOR, inside(p, part, RANK_SUM),
+			inside(p, other, RANK_SUM)) };
 	}
 	return part;
 }
@@ -385,8 +403,8 @@ static struct part parse_or(struct parse *p)
 	part = parse_xor(p);
 	while (!p->failed && accept(p, "|")) {
 		other = parse_xor(p);
-		part = (struct part){ .text = function_call(p, CLASSIC_OR, part.text,
-							    other.text) };
+		part = (struct part){ .text = function_call(p, CLASSIC_OR,
+			inside(p, part, RANK_SUM), inside(p, other, RANK_SUM)) };
 	}
 	p->depth--;
 	return part;
@@ -448,7 +466,8 @@ const char *comparison_of(struct conversion *c, const char *text)
 	if (*p.at)
 		tell(c, REPORT_CHANGED, "what stands behind the first comparison of \"%.40s\" "
 		     "does not count, here as there", text);
-	return text_of(c, "%s %s %s", left.text, op, right.text);
+	return text_of(c, "%s %s %s", inside(&p, left, RANK_SUM), op,
+		       inside(&p, right, RANK_SUM));
 }
 
 static const char *stored(struct parse *p, const char *target, bool is_bool)
@@ -461,7 +480,7 @@ static const char *stored(struct parse *p, const char *target, bool is_bool)
 		tell(p->c, REPORT_CHANGED, "\"%.20s\" at the end of an expression does not "
 		     "count, here as there", p->at);
 	if (is_bool)
-		return text_of(p->c, "%s := %s <> 0", target, value.text);
+		return text_of(p->c, "%s := %s <> 0", target, inside(p, value, RANK_SUM));
 	return text_of(p->c, "%s := %s", target, value.text);
 }
 

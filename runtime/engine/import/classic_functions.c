@@ -23,6 +23,8 @@ struct body { const char *title, *rungs, *faithful; };
 	"RUNG\n  | [ Bits := Bits AND 16#7FFFFFFF ] |\n"
 
 static const struct body bodies[CLASSIC_FUNCTIONS] = {
+	[CLASSIC_PRODUCT] = { "A * B, of which 32 bits are left",
+		"RUNG\n  | [ @ := A * B ] |\n", NULL },
 	[CLASSIC_DIVIDE] = { "A / B; by zero it is 0 and %%S7 remembers it",
 		"RUNG\n  | [ B <> 0 ] | [ @ := A / B ] |\n"
 		"RUNG\n  | [ B = 0 ] | S %%SX0.7 |\n", NULL },
@@ -34,7 +36,10 @@ static const struct body bodies[CLASSIC_FUNCTIONS] = {
 		"RUNG\n  | [ Rest > 0 ] | FOR Bit := 1 TO 31 |\n"
 		"RUNG\n  | [ Rest MOD 2 = 1 ] | [ @ := @ * Base ] |\n"
 		"RUNG\n  | [ Base := Base * Base ] |\nRUNG\n  | [ Rest := Rest / 2 ] |\n"
-		"RUNG\n  | NEXT |\n", NULL },
+		"RUNG\n  | NEXT |\n",
+		/* LinuxCNC's: a square for each of B, of which 32 make 0 or 1. */
+		"RUNG\n  | [ @ := A ] | [ Rest := MIN(B, 40) ] |\nRUNG\n  | FOR Bit := 1 TO Rest |\n"
+		"RUNG\n  | [ @ := @ * @ ] |\nRUNG\n  | NEXT |\n" },
 	[CLASSIC_AND] = { "the bits that both have", BITS("AND"), NULL },
 	[CLASSIC_XOR] = { "the bits that one of them has", BITS("XOR"), NULL },
 	[CLASSIC_OR] = { "the bits that any of them has", BITS("OR"), NULL },
@@ -69,7 +74,9 @@ static void write_function(struct conversion *c, enum classic_function function)
 	const struct body *body = &bodies[function];
 	const char *name = c->function_name[function];
 	bool shift = function >= CLASSIC_SHIFT_LEFT;
-	bool faithful = c->options.faithful && body->faithful;
+	bool faithful = c->options.faithful && body->faithful &&
+			(function != CLASSIC_POWER ||
+			 c->project->dialect == CLASSIC_LINUXCNC);
 
 	put_body(c, "(* ", name);
 	put_body(c, body->title, name);
