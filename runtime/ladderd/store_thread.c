@@ -235,7 +235,7 @@ static int start_thread(struct store *store, pthread_attr_t *attr)
 
 int store_begin(struct store *store)
 {
-	const long least = PTHREAD_STACK_MIN; /* glibc asks: it depends on the processor */
+	const long least = PTHREAD_STACK_MIN; /* of glibc: it asks the processor */
 	pthread_attr_t attr;
 	int error;
 

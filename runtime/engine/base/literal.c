@@ -43,7 +43,9 @@ static enum literal_result parse_real(struct rest rest, bool minus, double *out)
 	if (text.more || exponent > 100000)
 		return LITERAL_RANGE;
 	text.exponent += down ? -(int64_t)exponent : (int64_t)exponent;
-	*out = text.count ? decimal_value(text.digit, text.count, text.exponent, false) : 0;
+	*out = 0;
+	if (text.count)
+		*out = decimal_value(text.digit, text.count, text.exponent, false);
 	if (!isfinite(*out))
 		return LITERAL_RANGE;
 	if (minus)

@@ -205,7 +205,8 @@ static bool is_class(const struct offer *o, enum iec_type type)
 
 static bool is_instance(const struct offer *o, const struct var *var)
 {
-	return var->type == IEC_NONE && words_row(&o->project->words, var->fb)->kind == WORD_FB;
+	return var->type == IEC_NONE &&
+	       words_row(&o->project->words, var->fb)->kind == WORD_FB;
 }
 
 static bool may_write(const struct var *var, uint16_t flags)

@@ -54,6 +54,7 @@ struct advice {
  *
  * Scan-safe: no.
  */
-void advice_word(const struct project *project, const struct pou *pou, unsigned int kinds,
-		 const struct diag_list *diags, const char *wanted, char *out, size_t size);
+void advice_word(const struct project *project, const struct pou *pou,
+		 unsigned int kinds, const struct diag_list *diags, const char *wanted,
+		 char *out, size_t size);
 #endif
