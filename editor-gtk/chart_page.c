@@ -16,6 +16,7 @@ struct _LadderChartPage {
 	gulong handler;
 	GtkWidget *paned, *chart, *below, *place; /* place: of what stands below  */
 	GtkLabel *heading;
+	char *shown;                 /* heading of the body whose rungs stand below */
 	GtkWidget *rungs, *text;     /* one of them, or none                   */
 };
 
@@ -38,6 +39,7 @@ static void close_below(LadderChartPage *page)
 	GtkWidget *child = gtk_widget_get_first_child(page->place);
 
 	page->rungs = page->text = NULL;
+	g_clear_pointer(&page->shown, g_free);
 	gtk_widget_set_visible(page->below, FALSE);
 	if (child)
 		gtk_box_remove(GTK_BOX(page->place), child);
@@ -101,7 +103,7 @@ static void show_rungs(LadderChartPage *page, int first)
 	g_signal_connect_swapped(page->rungs, "notify::has-focus", G_CALLBACK(moved), page);
 	put_below(page, page->rungs, heading, true);
 	gtk_widget_grab_focus(page->rungs);
-	g_free(heading);
+	page->shown = heading;
 }
 
 static void show_text(LadderChartPage *page)
@@ -121,25 +123,48 @@ static void body_wanted(LadderChartPage *page, int first, int count)
 		show_text(page);
 }
 
+/* The first rung of the body that was shown, wherever it is now: the nearest one of its
+ * name, else what begins where it began (it may have another name). -1: it is gone. */
+static int find_shown(LadderChartPage *page, int first)
+{
+	const struct project *project = ladder_document_project(page->document);
+	const struct sfc *sfc = project && page->pou < project->pou_count ?
+		project->pou[page->pou].sfc : NULL;
+	int best = -1, count;
+
+	for (int i = 0; sfc && i < sfc_bodies(sfc); i++) {
+		const int at = sfc_body(sfc, i)->first;
+		char *heading = sfc_body(sfc, i)->kind == BODY_LIST ? NULL :
+				heading_of(page, at, &count);
+
+		if (g_strcmp0(heading, page->shown) == 0 &&
+		    (best < 0 || ABS(at - first) < ABS(best - first)))
+			best = at;
+		g_free(heading);
+	}
+	return best < 0 ? first : best;
+}
+
 /* Its rungs may have other numbers now, or be gone. */
 static void project_changed(LadderChartPage *page)
 {
-	int first, count, now;
+	int first, count, now, was;
 	char *heading;
 
 	if (!page->rungs)
 		return;
-	first = ladder_grid_view_range(LADDER_GRID_VIEW(page->rungs), &count);
+	was = ladder_grid_view_range(LADDER_GRID_VIEW(page->rungs), &count);
+	first = find_shown(page, was);
 	heading = heading_of(page, first, &now);
 	if (!heading) {
 		close_below(page);
-	} else {
-		if (now != count)
-			ladder_grid_view_set_range(LADDER_GRID_VIEW(page->rungs), first,
-						   now);
-		gtk_label_set_text(page->heading, heading);
+		return;
 	}
-	g_free(heading);
+	if (now != count || first != was)
+		ladder_grid_view_set_range(LADDER_GRID_VIEW(page->rungs), first, now);
+	gtk_label_set_text(page->heading, heading);
+	g_free(page->shown);
+	page->shown = heading;
 }
 
 void ladder_chart_page_show_rung(LadderChartPage *page, int rung, int row, int col)
@@ -182,6 +207,7 @@ static void ladder_chart_page_dispose(GObject *object)
 		g_signal_handler_disconnect(page->document, page->handler);
 	g_clear_object(&page->document);
 	g_clear_object(&page->sim);
+	g_clear_pointer(&page->shown, g_free);
 	G_OBJECT_CLASS(ladder_chart_page_parent_class)->dispose(object);
 }
 

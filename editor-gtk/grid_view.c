@@ -251,8 +251,10 @@ static void rungs_changed(LadderGridView *view, int pou, int at, int removed, in
 		return;
 	at -= view->first;
 	if (view->count >= 0 && (at < 0 || at + removed > view->count)) {
-		if (at < 0) /* of a body above */
+		if (at < 0 && inserted != removed) { /* of a body above */
 			view->first += inserted - removed;
+			strips_renumber(view);
+		}
 		return;
 	}
 	if (view->count >= 0)

@@ -149,6 +149,8 @@ void strips_clear(LadderGridView *view);
 void strips_reset(LadderGridView *view);
 /** strips_stale - so many are gone: what is remembered of them goes before anybody asks. */
 void strips_stale(LadderGridView *view, int at, int count);
+/** strips_renumber - the rungs shown have other numbers, and are what they were. */
+void strips_renumber(LadderGridView *view);
 /** strips_splice - some are. */
 void strips_splice(LadderGridView *view, int at, int removed, int inserted);
 /** strips_renamed - a variable of this name, at this address or "", came or went. */

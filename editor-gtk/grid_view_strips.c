@@ -190,6 +190,14 @@ static void renumber(LadderGridView *view, int rung)
 		strip->layout->number = view->first + rung + 1;
 }
 
+void strips_renumber(LadderGridView *view)
+{
+	for (int i = 0; i < (int)view->strips->len; i++)
+		renumber(view, i);
+	cells_later(view);
+	gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
 void strips_splice(LadderGridView *view, int at, int removed, int inserted)
 {
 	const struct strip none = { 0 };

@@ -255,4 +255,59 @@ def folded(screen):
     check(path)
 
 
-main([renamed, found, folded])
+TWO = '''RUNGBOARD 1
+
+PROGRAM Main SFC
+  INITIAL_STEP Idle:
+    One(N);
+    Two(N);
+  END_STEP
+
+  TRANSITION FROM Idle TO Idle:
+  END_TRANSITION
+
+  ACTION One:
+    RUNG
+      | NO %IX0.0 | COIL %QX0.0 |
+  END_ACTION
+
+  ACTION Two:
+    RUNG
+      | NO %IX0.1 | COIL %QX0.1 |
+  END_ACTION
+END_PROGRAM
+'''
+
+
+def numbered(screen):
+    """rungs below a chart keep their numbers and their action when others come and go above them"""
+    path = new_file(screen, TWO)
+    editor = Editor(screen, path)
+    shape(editor, 'Step Idle, initial')
+    editor.click(shape(editor, 'Idle does: N One'), count=2)
+    until(lambda: editor.all('Action One', 'label'), 'the heading of the action')
+    editor.to_sheet()
+    editor.keys('Insert')
+    editor.entry('Q0.2')
+    editor.element('Rung 2', 'QX0.2')
+    editor.click(shape(editor, 'Idle does: N Two'), count=2)
+    until(lambda: editor.all('Action Two', 'label'), 'the heading of the other action')
+    editor.element('Rung 3', 'QX0.1')
+    # A condition that comes is one more rung above.
+    editor.click(upon(editor, shape(editor, 'from Idle to Idle')), count=2)
+    editor.opened()
+    editor.entry('I0.2')
+    editor.element('Rung 4', 'QX0.1')
+    editor.find('Action Two')
+    # It goes, then the other action's rung.
+    on_chart(editor)
+    editor.keys('ctrl+z')
+    editor.element('Rung 3', 'QX0.1')
+    for _ in range(3):
+        editor.keys('ctrl+z')
+    editor.element('Rung 2', 'QX0.1')
+    editor.find('Action Two')
+    editor.shot('chart-numbers')
+
+
+main([renamed, found, folded, numbered])
