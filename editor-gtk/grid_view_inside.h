@@ -84,6 +84,7 @@ struct _LadderGridView {
 	struct drafting drafting;
 	struct grid_names *names;
 	struct lettering *lettering;
+	const struct theme *theme;  /* NULL: to be looked up                   */
 	double zoom;
 	guint idle;                 /* lays out what is not seen               */
 	guint ahead;                /* draws what is seen next                  */

@@ -24,16 +24,18 @@ static struct strip *strip_of(LadderGridView *view, int rung)
 	return &g_array_index(view->strips, struct strip, rung);
 }
 
-static const struct theme *theme_of(void)
+/* Asked for once: a setting is looked up by names, which takes as long as a few wires. */
+static const struct theme *theme_of(LadderGridView *view)
 {
 	AdwStyleManager *manager = adw_style_manager_get_default();
 	const bool dark = adw_style_manager_get_dark(manager);
-	const enum theme_power power = (enum theme_power)settings_enum("power", THEME_GREEN);
+	const bool contrast = adw_style_manager_get_high_contrast(manager);
 
-	if (adw_style_manager_get_high_contrast(manager))
-		return theme_get(dark ? THEME_CONTRAST_DARK : THEME_CONTRAST,
-				 power);
-	return theme_get(dark ? THEME_DARK : THEME_LIGHT, power);
+	if (!view->theme)
+		view->theme = theme_get(contrast ? dark ? THEME_CONTRAST_DARK : THEME_CONTRAST :
+					dark ? THEME_DARK : THEME_LIGHT,
+			(enum theme_power)settings_enum("power", THEME_GREEN));
+	return view->theme;
 }
 
 /* ---- what is remembered ---- */
@@ -438,7 +440,7 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	struct live_place place = { view, rung };
 	struct grid_scene scene = {
 		.drafting = &view->drafting, .layout = strip->layout,
-		.theme = theme_of(), .note = live_note, .context = &place,
+		.theme = theme_of(view), .note = live_note, .context = &place,
 		.state = rung == view->cursor.rung ? RUNG_CURRENT : 0,
 	};
 	struct grid_live live;
@@ -533,6 +535,7 @@ void strips_draw_ahead(LadderGridView *view)
 
 void strips_style(LadderGridView *view)
 {
+	view->theme = NULL;
 	strips_redraw(view, -1);
 }
 
