@@ -33,6 +33,7 @@ struct part {
 	int rank;          /* 0: an operand or call; greater: weaker           */
 	bool constant;
 	int32_t value;     /* of a constant                                    */
+	bool large;        /* it has bits of all places: a sum with it may wrap */
 };
 
 enum { RANK_OPERAND, RANK_SIGN, RANK_PRODUCT, RANK_SUM };
@@ -217,7 +218,7 @@ static struct part call(struct parse *p, const struct known *known,
 	const char *list = inside(p, part[0], RANK_SUM);
 
 	if (known->function >= 0 && count == 2)
-		return (struct part){ .text = function_call(
+		return (struct part){ .large = true, .text = function_call(
 			p, (enum classic_function)known->function,
 			inside(p, part[0], RANK_SUM), inside(p, part[1], RANK_SUM)) };
 	if (known->function >= 0)
@@ -257,6 +258,7 @@ static struct part parse_function(struct parse *p)
 
 static const char *const function_name[CLASSIC_FUNCTIONS] = {
 	[CLASSIC_DIVIDE] = "Quotient", [CLASSIC_REMAINDER] = "Remainder",
+	[CLASSIC_SUM] = "Sum", [CLASSIC_DIFFERENCE] = "Difference",
 	[CLASSIC_PRODUCT] = "Product", [CLASSIC_POWER] = "Power", [CLASSIC_AND] = "BitAnd", [CLASSIC_XOR] = "BitXor",
 	[CLASSIC_OR] = "BitOr", [CLASSIC_SHIFT_LEFT] = "ShiftLeft",
 	[CLASSIC_SHIFT_RIGHT] = "ShiftRight", [CLASSIC_ROTATE_LEFT] = "RotateLeft",
@@ -350,6 +352,19 @@ static struct part parse_product(struct parse *p)
 	return part;
 }
 
+/* One that is likely to wrap must not end the expression. */
+static struct part add(struct parse *p, struct part a, struct part b, char op)
+{
+	int rank = b.rank == RANK_SIGN ? RANK_OPERAND : RANK_PRODUCT;
+
+	if (a.large || b.large || a.a || b.a)
+		return (struct part){ .large = true, .text = function_call(
+			p, op == '+' ? CLASSIC_SUM : CLASSIC_DIFFERENCE,
+			inside(p, a, RANK_SUM), inside(p, b, RANK_SUM)) };
+	return (struct part){ .text = text_of(p->c, "%s %c %s", inside(p, a, RANK_SUM), op,
+					      inside(p, b, rank)), .rank = RANK_SUM };
+}
+
 static struct part parse_sum(struct parse *p)
 {
 	struct part part = parse_product(p), other;
@@ -358,11 +373,7 @@ static struct part parse_sum(struct parse *p)
 		char op = *p->at++;
 
 		other = parse_product(p);
-		part = (struct part){ .text = text_of(p->c, "%s %c %s",
-			inside(p, part, RANK_SUM), op,
-			inside(p, other, other.rank == RANK_SIGN ? RANK_OPERAND :
-								   RANK_PRODUCT)),
-			.rank = RANK_SUM };
+		part = add(p, part, other, op);
 	}
 	return part;
 }

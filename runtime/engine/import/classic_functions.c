@@ -23,6 +23,10 @@ struct body { const char *title, *rungs, *faithful; };
 	"RUNG\n  | [ Bits := Bits AND 16#7FFFFFFF ] |\n"
 
 static const struct body bodies[CLASSIC_FUNCTIONS] = {
+	[CLASSIC_SUM] = { "A + B, of which 32 bits are left",
+		"RUNG\n  | [ @ := A + B ] |\n", NULL },
+	[CLASSIC_DIFFERENCE] = { "A - B, of which 32 bits are left",
+		"RUNG\n  | [ @ := A - B ] |\n", NULL },
 	[CLASSIC_PRODUCT] = { "A * B, of which 32 bits are left",
 		"RUNG\n  | [ @ := A * B ] |\n", NULL },
 	[CLASSIC_DIVIDE] = { "A / B; by zero it is 0 and %%S7 remembers it",
