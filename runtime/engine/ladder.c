@@ -18,7 +18,6 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 struct ladder {
 	const struct advice *advice; /* of every project; NULL: none           */
@@ -218,13 +217,6 @@ bool ladder_load_text(struct ladder *ladder, const char *file, const void *text,
 	return ladder->good;
 }
 
-static bool is_folder(const char *path)
-{
-	struct stat about;
-
-	return stat(path, &about) == 0 && S_ISDIR(about.st_mode);
-}
-
 bool ladder_load(struct ladder *ladder, const char *path)
 {
 	size_t len;
@@ -235,7 +227,7 @@ bool ladder_load(struct ladder *ladder, const char *path)
 	unload(ladder);
 	diag_init(&ladder->diags);
 	bytes = file_read(path, LIMIT_TEXT, &len, &ladder->diags);
-	folder = !bytes && ladder->foreign && is_folder(path);
+	folder = !bytes && ladder->foreign && ladder->foreign->is_folder(path);
 	ladder->unreadable = !bytes && !folder;
 	if (ladder->unreadable)
 		return false;

@@ -8,8 +8,10 @@
 
 #include "engine/import/classic_rung.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 struct classic_foreign {
 	struct foreign foreign;   /* first: the one is the other               */
@@ -67,6 +69,23 @@ static const char *read_foreign(struct foreign *foreign, const char *path,
 	return classic->text.text;
 }
 
+/* Projects of before 2008 are folders that have one of these. */
+static bool is_folder(const char *path)
+{
+	static const char *const name[] = { "sections.csv", "rung_0.csv", "general.txt",
+					    "timers.csv" };
+	char whole[600];
+	struct stat about;
+
+	for (size_t i = 0; i < sizeof(name) / sizeof(*name); i++) {
+		int len = snprintf(whole, sizeof(whole), "%s/%s", path, name[i]);
+
+		if (len > 0 && (size_t)len < sizeof(whole) && stat(whole, &about) == 0)
+			return true;
+	}
+	return false;
+}
+
 static void place_diags(const struct foreign *foreign, struct diag_list *diags)
 {
 	const struct classic_foreign *classic = (const struct classic_foreign *)foreign;
@@ -90,8 +109,8 @@ bool ladder_take_classic(struct ladder *ladder, bool faithful)
 
 	if (!classic)
 		return false;
-	classic->foreign = (struct foreign){ classic_is, read_foreign, place_diags, forget,
-					     free_foreign, false };
+	classic->foreign = (struct foreign){ classic_is, is_folder, read_foreign,
+					     place_diags, forget, free_foreign, false };
 	classic->options.faithful = faithful;
 	arena_init(&classic->arena);
 	report_init(&classic->report);

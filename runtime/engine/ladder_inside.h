@@ -15,6 +15,7 @@ struct project *ladder_read_project(struct ladder *ladder);
  * file. A board has none. */
 struct foreign {
 	bool (*is)(const void *bytes, size_t len);
+	bool (*is_folder)(const char *path);
 	/* Text and its name for diagnostics, both @foreign's until its next call; NULL
 	 * after a diagnostic. @bytes NULL: @path is a folder. */
 	const char *(*read)(struct foreign *foreign, const char *path, const void *bytes,
