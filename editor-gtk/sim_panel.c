@@ -17,6 +17,9 @@ GListModel *ladder_sim_panel_list(LadderSimPanel *panel)
 	return G_LIST_MODEL(panel->selection);
 }
 
+#define AT_A_TIME 12 /* lines that are not seen                                 */
+#define BEHIND_MS 30
+
 /* ---- the lines ---- */
 
 static bool is_folded(LadderSimPanel *panel, const LadderSimRow *row)
@@ -139,10 +142,57 @@ void sim_panel_read_choices(LadderSimPanel *panel)
 
 /* ---- what happens ---- */
 
+static bool is_seen(LadderSimPanel *panel, GtkWidget *view)
+{
+	const float height = (float)gtk_widget_get_height(panel->list);
+	graphene_rect_t box;
+
+	return gtk_widget_compute_bounds(view, panel->list, &box) &&
+	       box.origin.y + box.size.height > 0 && box.origin.y < height;
+}
+
+/* A list has some two hundred widgets, most of them beyond its edges: those follow a few at
+ * a time, for assistive technology, and at once when they come into sight. */
+static gboolean look_at_some(gpointer data)
+{
+	LadderSimPanel *panel = data;
+
+	for (guint i = 0; i < AT_A_TIME && panel->behind > 0; i++) {
+		if (--panel->behind < panel->views->len)
+			ladder_sim_row_view_update(g_ptr_array_index(panel->views,
+								     panel->behind));
+	}
+	if (panel->behind == 0 && panel->again) {
+		panel->again = false;
+		panel->behind = panel->views->len;
+	}
+	if (panel->behind > 0)
+		return G_SOURCE_CONTINUE;
+	panel->behind_timer = 0;
+	return G_SOURCE_REMOVE;
+}
+
 static void look(LadderSimPanel *panel)
 {
-	for (guint i = 0; i < panel->views->len; i++)
-		ladder_sim_row_view_update(g_ptr_array_index(panel->views, i));
+	guint seen = 0;
+
+	for (guint i = 0; i < panel->views->len; i++) {
+		GtkWidget *view = g_ptr_array_index(panel->views, i);
+
+		if (!is_seen(panel, view))
+			continue;
+		ladder_sim_row_view_update(LADDER_SIM_ROW_VIEW(view));
+		seen++;
+	}
+	if (seen == panel->views->len)
+		return;
+	/* A round that has begun is not begun again, or its end never came. */
+	if (panel->behind_timer) {
+		panel->again = true;
+		return;
+	}
+	panel->behind = panel->views->len;
+	panel->behind_timer = g_timeout_add(BEHIND_MS, look_at_some, panel);
 }
 
 static void shown(LadderSim *sim, LadderSimPanel *panel)
@@ -239,6 +289,8 @@ char *ladder_sim_panel_shown(LadderSimPanel *panel, const LadderSimRow *row)
 {
 	LadderSimRowView *view = sim_panel_view_of(panel, row);
 
+	if (view)
+		ladder_sim_row_view_update(view); /* as if it came into sight */
 	return view ? ladder_sim_row_view_text(view) : NULL;
 }
 
@@ -287,6 +339,8 @@ static void make_list(LadderSimPanel *panel, GtkWidget *list)
 	gtk_single_selection_set_can_unselect(panel->selection, TRUE);
 	gtk_list_view_set_factory(GTK_LIST_VIEW(list), factory);
 	gtk_list_view_set_model(GTK_LIST_VIEW(list), GTK_SELECTION_MODEL(panel->selection));
+	g_signal_connect_object(gtk_scrollable_get_vadjustment(GTK_SCROLLABLE(list)),
+				"value-changed", G_CALLBACK(look), panel, G_CONNECT_SWAPPED);
 	g_object_unref(factory);
 }
 
@@ -296,6 +350,7 @@ static void dispose(GObject *object)
 {
 	LadderSimPanel *panel = LADDER_SIM_PANEL(object);
 
+	g_clear_handle_id(&panel->behind_timer, g_source_remove);
 	sim_panel_let_go(panel);
 	sim_panel_end_asking(panel);
 	if (panel->sim) {

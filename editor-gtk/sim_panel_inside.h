@@ -16,6 +16,9 @@ struct _LadderSimPanel {
 	GListStore *store;        /* those that stand there, and headings       */
 	GtkSingleSelection *selection;
 	GPtrArray *views;         /* widgets that show one; borrowed            */
+	guint behind;             /* so many of them are looked at later         */
+	guint behind_timer;
+	bool again;               /* there was something new meanwhile          */
 	char *wanted;             /* never NULL                                 */
 	GHashTable *folded;       /* sections that are, sim_row_section()        */
 	bool on;

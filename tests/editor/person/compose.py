@@ -2,10 +2,19 @@
 # SPDX-License-Identifier: MIT
 """compose - names that no key gives: dead keys, a compose key, characters by their number."""
 import os
+import shutil
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, main, new_file, until  # noqa: E402
+from desk import Editor, main, new_file, sh, until  # noqa: E402
+
+
+def keyboard(screen):
+    """Dead keys by AltGr, Compose by Menu. A key that the keyboard lacks xdotool makes, and
+    takes away before a busy machine has looked at what it was."""
+    if shutil.which('setxkbmap'):
+        sh('setxkbmap', '-layout', 'us', '-variant', 'altgr-intl', '-option', 'compose:menu')
+    return screen
 
 
 def line(editor):
@@ -21,7 +30,7 @@ def take(editor):
 def on_the_sheet(screen):
     """what is composed on the sheet begins the entry: é by a dead key, ø by Compose, 阀 by its number"""
     path = new_file(screen)
-    editor = Editor(screen, path)
+    editor = Editor(keyboard(screen), path)
     editor.to_sheet()
     editor.keys('dead_acute')
     editor.shot('composing')
@@ -42,7 +51,7 @@ def on_the_sheet(screen):
 def given_up(screen):
     """what is composed and given up changes nothing, and the keys are verbs again"""
     path = new_file(screen)
-    editor = Editor(screen, path)
+    editor = Editor(keyboard(screen), path)
     editor.entry('Start')
     editor.keys('Home', 'ctrl+shift+u', '9', '6', 'Escape')
     editor.keys('slash', 'Right')
@@ -54,7 +63,7 @@ def given_up(screen):
 def in_the_entry(screen):
     """the line at the cursor composes as well, and so does a label"""
     path = new_file(screen)
-    editor = Editor(screen, path)
+    editor = Editor(keyboard(screen), path)
     editor.type('T')
     editor.opened()
     editor.keys('dead_diaeresis', 'u')
