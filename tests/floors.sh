@@ -12,7 +12,7 @@ runtime/engine/base     engine/base/ engine/catalog.def engine/diag.def
 runtime/engine/scan     engine/base/ engine/catalog.def
 runtime/engine/model    engine/base/ engine/catalog.def
 runtime/engine/text     engine/base/ engine/model/
-runtime/engine/import   engine/base/
+runtime/engine/import   engine/base/ engine/check/
 runtime/engine/check    engine/base/ engine/model/
 runtime/engine/translate engine/base/ engine/model/ engine/check/ engine/scan/code.h engine/catalog.def
 runtime/engine/trial    engine/
@@ -20,9 +20,9 @@ runtime/engine/view     engine/
 runtime/engine/exchange engine/
 runtime/engine          engine/
 hal                     engine/base/ engine/scan/image.h hal/
-runtime/ladder          engine/ladder.h engine/base/ engine/model/ engine/scan/ engine/view/ engine/trial/ engine/exchange/ hal/ ladder/
+runtime/ladder          engine/ladder.h engine/base/ engine/import/report.h engine/model/ engine/scan/ engine/view/ engine/trial/ engine/exchange/ hal/ ladder/
 runtime/ladderd         engine/ladder.h engine/base/ engine/model/ engine/scan/ hal/ ladderd/
-editor-gtk              engine/ladder.h engine/base/ engine/model/ engine/scan/ engine/view/ engine/trial/ hal/ editor-gtk/
+editor-gtk              engine/ladder.h engine/base/ engine/import/report.h engine/model/ engine/scan/ engine/view/ engine/trial/ hal/ editor-gtk/
 '
 # Libraries that a room may include with < >; all others are libc's.
 foreign='gpiod.h:hal gtk/:editor-gtk glib:editor-gtk gio/:editor-gtk adwaita.h:editor-gtk gtksourceview/:editor-gtk pango/:editor-gtk cairo:editor-gtk libintl.h:editor-gtk'

@@ -328,15 +328,24 @@ static void tell_counts(struct conversion *c)
 	const struct classic_project *project = c->project;
 	static const char *const dialect[] = { "ClassicLadder", "ClassicLadder of LinuxCNC",
 					       "a bare rung file" };
-	int programs = 0;
+	struct { int count; const char *what; } part[] = {
+		{ project->rungs, "rung" }, { 0, "program" }, { 0, "subroutine" },
+		{ project->steps, "step" }, { project->transitions, "transition" },
+		{ project->expressions, "expression" }, { project->symbols, "symbol" },
+	};
+	const char *text = dialect[project->dialect], *comma = ": ";
 
 	for (int i = 0; i < project->sections; i++)
-		programs += project->section[i].subroutine < 0;
+		part[project->section[i].subroutine < 0 ? 1 : 2].count++;
+	for (size_t i = 0; i < sizeof(part) / sizeof(*part); i++) {
+		if (!part[i].count)
+			continue;
+		text = text_of(c, "%s%s%d %s%s", text, comma, part[i].count, part[i].what,
+			       part[i].count > 1 ? "s" : "");
+		comma = ", ";
+	}
 	c->at = (struct classic_place){ "", 0 };
-	tell(c, REPORT_TAKEN, "%s: %d rungs, %d programs, %d subroutines, %d steps, "
-	     "%d transitions, %d expressions, %d symbols", dialect[project->dialect],
-	     project->rungs, programs, project->sections - programs, project->steps,
-	     project->transitions, project->expressions, project->symbols);
+	tell(c, REPORT_TAKEN, "%s", text);
 	tell(c, REPORT_TAKEN, "the scan's period, %d ms", project->period);
 }
 
