@@ -77,6 +77,33 @@ void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 /** add_program - one more that runs in each scan, behind the others. */
 void add_program(struct conversion *c, const char *name);
 
+/* ---- rows of classic.def: classic_names.c ---- */
+struct classic_memory_row {
+	int type;
+	const char *prefix, *area;
+	int first, size;
+	const char *name;
+};
+struct classic_pin_row {
+	int type;
+	const char *prefix;
+	enum classic_kind kind;
+	const char *pin;
+	bool is_bool;
+};
+enum {
+	STEP_TYPE = 30, STEP_TIME = 220, /* %X3.A, %X3.V                           */
+	CLASSIC_ALL = CLASSIC_LIMIT + 1  /* the number of all words of a type      */
+};
+/** memory_of, pin_of - NULL: it is none. */
+const struct classic_memory_row *memory_of(int type);
+const struct classic_pin_row *pin_of(int type);
+/** address_of - "%IX0.3", "%VD4" */
+const char *address_of(struct conversion *c, const struct classic_memory_row *row,
+		       int number);
+/** name_of - what it is called; NULL: nothing. */
+const char *name_of(struct conversion *c, int type, int number);
+
 /* ---- names: classic_names.c ---- */
 /** find_names - gives everything that the project uses its name. */
 void find_names(struct conversion *c);
@@ -98,6 +125,7 @@ enum classic_kind kind_of(int type);
 bool time_is_used(struct conversion *c, int number);
 /** put_comment_line - a line of its own, whatever stands in @text. */
 void put_comment_line(struct conversion *c, const char *indent, const char *text);
+/* ---- declarations: classic_declare.c ---- */
 void write_declarations(struct conversion *c);
 /** name_system - decides whether there is a program of system bits, which runs first. */
 void name_system(struct conversion *c);

@@ -246,7 +246,7 @@ static void find_parts(struct grid *grid)
 }
 
 /* Does a part begin at this node, and is it needed? A box has no input in some rows. */
-static bool node_needed(const struct grid *grid, int y, int x)
+static bool junction_needed(const struct grid *grid, int y, int x)
 {
 	int from, to;
 
@@ -272,11 +272,11 @@ static void find_need(struct grid *grid)
 
 		part->needed = part->kind == PART_BOX || part->kind == PART_COIL ||
 			       (part->fed && (part->kind == PART_ACT ||
-				node_needed(grid, part->y, part_end(part))));
+				junction_needed(grid, part->y, part_end(part))));
 	}
 }
 
-static void feed_node(struct grid *grid, int y, int x)
+static void feed_junction(struct grid *grid, int y, int x)
 {
 	int from, to;
 
@@ -298,7 +298,7 @@ static void find_power(struct grid *grid)
 		part->fed = grid->fed[part->y][part->x];
 		for (int y = part->y; y < part->y + part->rows; y++)
 			if (part_gives(part, y) && (part->kind == PART_BOX || part->fed))
-				feed_node(grid, y, part_end(part));
+				feed_junction(grid, y, part_end(part));
 	}
 }
 
@@ -375,5 +375,5 @@ void convert_rung(struct conversion *c, const struct classic_rung *rung)
 	if (!acts(grid))
 		write_empty(grid);
 	else if (!grid_write_pieces(grid))
-		grid_write_nodes(grid);
+		grid_unfold(grid);
 }

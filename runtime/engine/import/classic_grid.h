@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * classic_grid - one rung of ClassicLadder as elements between nodes. Private to
- * classic_grid.c, classic_piece.c and classic_nodes.c.
+ * classic_grid.c, classic_piece.c and classic_unfold.c.
  *
  * Node x of row y is the left end of cell (x, y); node 0 is the rail. Linked rows are one
  * node, a run. There, cells work column by column; an element works where its last column
@@ -90,6 +90,6 @@ const char *grid_temporary(struct grid *grid);
 /** grid_write_pieces - as it looks there, cut where order matters; false: it cannot be,
  * and nothing was written. */
 bool grid_write_pieces(struct grid *grid);
-/** grid_write_nodes - a rung for each node, in the order of columns: always right. */
-void grid_write_nodes(struct grid *grid);
+/** grid_unfold - a rung for each node, in the order of columns: always right. */
+void grid_unfold(struct grid *grid);
 #endif

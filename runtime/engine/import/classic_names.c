@@ -17,27 +17,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct memory_row {
-	int type;
-	const char *prefix, *area;
-	int first, size;
-	const char *name;
-};
-struct pin_row {
-	int type;
-	const char *prefix;
-	enum classic_kind kind;
-	const char *pin;
-	bool is_bool;
-};
 struct step_row { int type; const char *name, *pin; };
 
-static const struct memory_row memory_rows[] = {
+static const struct classic_memory_row memory_rows[] = {
 #define CLASSIC_MEMORY(type, prefix, area, first, size, name) \
 	{ type, prefix, area, first, size, name },
 #include "engine/import/classic.def"
 };
-static const struct pin_row pin_rows[] = {
+static const struct classic_pin_row pin_rows[] = {
 #define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
 	{ type, prefix, kind, pin, is_bool },
 #include "engine/import/classic.def"
@@ -51,10 +38,7 @@ enum {
 	MEMORY_ROWS = sizeof(memory_rows) / sizeof(*memory_rows),
 	PIN_ROWS = sizeof(pin_rows) / sizeof(*pin_rows),
 	STEP_ROWS = sizeof(step_rows) / sizeof(*step_rows),
-	STEP_TYPE = 30, STEP_TIME = 220, /* %X3.A, %X3.V */
-	SYSTEM_BIT = 70, SYSTEM_WORD = 290,
 	LINUXCNC_IN = 300, LINUXCNC_INPUT = 1300, /* classic.def */
-	ARRAY = CLASSIC_LIMIT + 1, /* the number of all words of a type */
 };
 
 /* The names of blocks; a monostable is not %M0 here, which is an address. */
@@ -63,7 +47,7 @@ static const char *const instance_prefix[CLASSIC_KINDS] = {
 	[CLASSIC_IEC_TIMER] = "TM", [CLASSIC_COUNTER] = "C", [CLASSIC_REGISTER] = "Reg",
 };
 
-static const struct memory_row *memory_of(int type)
+const struct classic_memory_row *memory_of(int type)
 {
 	for (int i = 0; i < MEMORY_ROWS; i++)
 		if (memory_rows[i].type == type)
@@ -73,12 +57,12 @@ static const struct memory_row *memory_of(int type)
 
 static bool is_word(int type)
 {
-	const struct memory_row *row = memory_of(type);
+	const struct classic_memory_row *row = memory_of(type);
 
 	return row && row->size > 1;
 }
 
-static const struct pin_row *pin_of(int type)
+const struct classic_pin_row *pin_of(int type)
 {
 	for (int i = 0; i < PIN_ROWS; i++)
 		if (pin_rows[i].type == type)
@@ -88,7 +72,7 @@ static const struct pin_row *pin_of(int type)
 
 enum classic_kind kind_of(int type)
 {
-	const struct pin_row *row = pin_of(type);
+	const struct classic_pin_row *row = pin_of(type);
 
 	return row ? row->kind : CLASSIC_KINDS;
 }
@@ -208,7 +192,7 @@ static bool has_step(const struct conversion *c, int number)
 
 static void use(struct conversion *c, int type, int number)
 {
-	const struct pin_row *pin;
+	const struct classic_pin_row *pin;
 	struct classic_name *name;
 
 	type = known_type(c, type);
@@ -231,7 +215,7 @@ static void use_variable(void *context, struct classic_variable variable)
 	use(c, variable.index_type, variable.index_number);
 	/* Of words there is an array; a bit with an index is an address. */
 	if (is_word(known_type(c, variable.type)))
-		use(c, known_type(c, variable.type), ARRAY);
+		use(c, known_type(c, variable.type), CLASSIC_ALL);
 }
 
 static enum classic_kind kind_of_element(int element)
@@ -369,8 +353,8 @@ static bool says_nothing(const struct classic_symbol *symbol)
 static void give_name(struct conversion *c, struct classic_name *name)
 {
 	const struct classic_symbol *symbol = symbol_of(c, name->type, name->number);
-	const struct memory_row *memory = memory_of(name->type);
-	const struct pin_row *pin = pin_of(name->type);
+	const struct classic_memory_row *memory = memory_of(name->type);
+	const struct classic_pin_row *pin = pin_of(name->type);
 	const char *own = pin ? instance_prefix[pin->kind] :
 			  memory ? memory->name : "X";
 	const char *wish;
@@ -381,7 +365,7 @@ static void give_name(struct conversion *c, struct classic_name *name)
 		name->comment = symbol->comment;
 	if (!memory && !pin && name->type != STEP_TYPE)
 		return; /* the time of a step has an instance of its own */
-	if (name->number == ARRAY)
+	if (name->number == CLASSIC_ALL)
 		wish = text_of(c, "%ss", own);
 	else if (memory && symbol)
 		wish = symbol->name;
@@ -416,7 +400,7 @@ void find_names(struct conversion *c)
 
 /* ---- operands ---- */
 
-static const char *name_of(struct conversion *c, int type, int number)
+const char *name_of(struct conversion *c, int type, int number)
 {
 	for (int i = 0; i < c->names.count; i++)
 		if (c->names.list[i].type == type && c->names.list[i].number == number)
@@ -435,7 +419,7 @@ const char *step_of(struct conversion *c, int number)
 }
 
 /* "%IX0.3", "%VD4" */
-static const char *address_of(struct conversion *c, const struct memory_row *row,
+const char *address_of(struct conversion *c, const struct classic_memory_row *row,
 			      int number)
 {
 	long bit = row->first + (long)number * row->size;
@@ -448,8 +432,8 @@ static const char *address_of(struct conversion *c, const struct memory_row *row
 static const char *plain_operand(struct conversion *c, int type, int number,
 				 bool *is_bool)
 {
-	const struct memory_row *memory = memory_of(type);
-	const struct pin_row *pin = pin_of(type);
+	const struct classic_memory_row *memory = memory_of(type);
+	const struct classic_pin_row *pin = pin_of(type);
 	const char *name;
 
 	*is_bool = memory ? memory->size == 1 : pin ? pin->is_bool : type == STEP_TYPE;
@@ -474,21 +458,21 @@ static const char *plain_operand(struct conversion *c, int type, int number,
 	return name ? name : address_of(c, memory, number);
 }
 
-static const char *indexed(struct conversion *c, const struct memory_row *memory,
+static const char *indexed(struct conversion *c, const struct classic_memory_row *memory,
 			   int number, const char *index)
 {
 	if (memory->size == 1)
 		return text_of(c, "%s[%s]", address_of(c, memory, number), index);
 	if (!number)
-		return text_of(c, "%s[%s]", name_of(c, memory->type, ARRAY), index);
-	return text_of(c, "%s[%s + %d]", name_of(c, memory->type, ARRAY), index, number);
+		return text_of(c, "%s[%s]", name_of(c, memory->type, CLASSIC_ALL), index);
+	return text_of(c, "%s[%s + %d]", name_of(c, memory->type, CLASSIC_ALL), index, number);
 }
 
 const char *operand_of(struct conversion *c, struct classic_variable variable,
 		       bool *is_bool)
 {
 	int type = known_type(c, variable.type);
-	const struct memory_row *memory = memory_of(type);
+	const struct classic_memory_row *memory = memory_of(type);
 	const char *text, *index;
 	bool index_bool;
 
@@ -507,247 +491,4 @@ const char *operand_of(struct conversion *c, struct classic_variable variable,
 		     variable.type, variable.number,
 		     variable.index_type < 0 ? "" : ", with an index");
 	return text;
-}
-
-static bool uses(struct conversion *c, int type, int number)
-{
-	for (int i = 0; i < c->names.count; i++)
-		if (c->names.list[i].type == type && c->names.list[i].number == number)
-			return c->names.list[i].used;
-	return false;
-}
-
-/* ---- declarations ---- */
-
-/* A comment cannot hold its own end. */
-static const char *comment_text(struct conversion *c, const char *text)
-{
-	char *copy = arena_copy(c->arena, text, strlen(text));
-
-	for (char *at = copy; at && *at; at++)
-		if ((at[0] == '*' && at[1] == ')') || (at[0] == '(' && at[1] == '*'))
-			at[0] = '+';
-	return copy ? copy : "";
-}
-
-static const char *const base_text[] = { "T#1m", "T#1s", "T#100ms" };
-
-static const char *base_of(const struct classic_block *block)
-{
-	return base_text[block && block->base >= 0 && block->base <= 2 ? block->base : 1];
-}
-
-const char *iec_word(const struct classic_block *block)
-{
-	static const char *const word[] = { "CL_TON", "CL_TOF", "CL_TP" };
-
-	return word[block && block->mode >= 0 && block->mode <= 2 ? block->mode : 0];
-}
-
-/* ": CL_TON := (P := 20, BASE := T#100ms)" */
-static void put_instance(struct conversion *c, enum classic_kind kind, int number)
-{
-	const struct classic_project *project = c->project;
-	const char *faithful = c->options.faithful ? ", FAITHFUL := TRUE" : "";
-	const struct classic_block *block;
-
-	switch (kind) {
-	case CLASSIC_TIMER:
-		block = classic_block(&project->timer, number);
-		put(c, "CL_TIMER := (P := %d, V := %d, BASE := %s)",
-		    block ? block->preset : 0, block ? block->preset : 0, base_of(block));
-		break;
-	case CLASSIC_MONOSTABLE:
-		block = classic_block(&project->monostable, number);
-		put(c, "CL_MONO := (P := %d, BASE := %s%s)", block ? block->preset : 0,
-		    base_of(block), faithful);
-		break;
-	case CLASSIC_IEC_TIMER:
-		block = classic_block(&project->iec_timer, number);
-		put(c, "%s := (P := %d, BASE := %s%s)", iec_word(block),
-		    block ? block->preset : 0, base_of(block), faithful);
-		break;
-	case CLASSIC_COUNTER:
-		block = classic_block(&project->counter, number);
-		put(c, "CL_COUNTER := (P := %d)", block ? block->preset : 0);
-		break;
-	case CLASSIC_REGISTER:
-		block = classic_block(&project->reg, number);
-		put(c, "CL_REGISTER := (SIZE := %d, LAST_OUT := %s)",
-		    project->register_list < 500 ? project->register_list : 500,
-		    block && block->mode == 2 ? "TRUE" : "FALSE");
-		break;
-	case CLASSIC_KINDS:
-		break;
-	}
-}
-
-/* "%TM0" */
-static const char *original(struct conversion *c, const struct classic_name *name)
-{
-	const struct memory_row *memory = memory_of(name->type);
-	const struct pin_row *pin = pin_of(name->type);
-
-	return text_of(c, "%%%s%d", memory ? memory->prefix : pin ? pin->prefix : "X",
-		       name->number);
-}
-
-void put_comment_line(struct conversion *c, const char *indent, const char *text)
-{
-	char *copy = arena_copy(c->arena, text, strlen(text));
-
-	for (char *at = copy; at && *at; at++)
-		if ((unsigned char)*at < ' ')
-			*at = ' ';
-	put(c, "%s(* %s *)\n", indent, copy ? comment_text(c, copy) : "");
-}
-
-bool time_is_used(struct conversion *c, int number)
-{
-	return uses(c, STEP_TIME, number);
-}
-
-static void put_comment(struct conversion *c, const struct classic_name *name)
-{
-	put(c, " (* %s%s%s *)\n", original(c, name), name->comment[0] ? ": " : "",
-	    comment_text(c, name->comment));
-}
-
-/* How many words of a kind the project has, as it says itself. */
-static int words_of(struct conversion *c, const struct memory_row *memory)
-{
-	static const struct { const char *prefix, *key; int usual; } row[] = {
-		{ "W", "SIZE_NBR_WORDS", 200 }, { "IW", "SIZE_NBR_PHYS_WORDS_INPUTS", 25 },
-		{ "QW", "SIZE_NBR_PHYS_WORDS_OUTPUTS", 25 },
-	};
-	int count = 16;
-
-	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
-		const char *text = classic_setting(c->project, row[i].key);
-
-		if (!strcmp(row[i].prefix, memory->prefix))
-			count = text ? atoi(text) : row[i].usual;
-	}
-	for (int i = 0; i < c->names.count; i++)
-		if (c->names.list[i].type == memory->type &&
-		    c->names.list[i].number < ARRAY && c->names.list[i].number >= count)
-			count = c->names.list[i].number + 1;
-	return count < 1 ? 1 : count > CLASSIC_LIMIT ? CLASSIC_LIMIT : count;
-}
-
-static void put_step(struct conversion *c, const struct classic_name *name)
-{
-	if (name->type == STEP_TIME)
-		put(c, "  XTime%d : CL_STEP; (* %%X%d.V *)\n", name->number, name->number);
-	else
-		put(c, "  %s : BOOL; (* %%X%d.A *)\n", name->name, name->number);
-}
-
-void write_declarations(struct conversion *c)
-{
-	bool any = false;
-
-	for (int i = 0; i < c->names.count; i++) {
-		const struct classic_name *name = &c->names.list[i];
-		const struct memory_row *memory = memory_of(name->type);
-		const struct pin_row *pin = pin_of(name->type);
-
-		if (name->type != STEP_TIME && !name->name)
-			continue;
-		if (!any)
-			put(c, "VAR\n");
-		any = true;
-		if (!memory && !pin) {
-			put_step(c, name);
-			continue;
-		}
-		if (name->number == ARRAY) {
-			put(c, "  %s AT %s : ARRAY[0..%d] OF DINT; (* %%%s *)\n", name->name,
-			    address_of(c, memory, 0), words_of(c, memory) - 1,
-			    memory->prefix);
-			continue;
-		}
-		if (memory) {
-			put(c, "  %s AT %s : %s;", name->name,
-			    address_of(c, memory, name->number),
-			    memory->size == 1 ? "BOOL" : "DINT");
-		} else {
-			put(c, "  %s : ", name->name);
-			put_instance(c, pin->kind, name->number);
-			put(c, ";");
-		}
-		put_comment(c, name);
-	}
-	if (any)
-		put(c, "END_VAR\n\n");
-}
-
-/* ---- the system's bits and words ---- */
-
-struct system_row { int type, number; const char *rung; };
-
-static const struct system_row system_rows[] = {
-	{ SYSTEM_BIT, 0, "| [ Flash MOD 1000 < 500 ] | COIL %s |" },
-	{ SYSTEM_BIT, 1, "| [ Flash MOD 1000 < 500 ] | COILNOT %s |" },
-	{ SYSTEM_BIT, 2, "| [ Flash < 30000 ] | COIL %s |" },
-	{ SYSTEM_BIT, 3, "| [ Flash < 30000 ] | COILNOT %s |" },
-	{ SYSTEM_BIT, 4, "| NO SYS_FIRST_SCAN | COIL %s |" },
-	{ SYSTEM_BIT, 5, "| NO SYS_FIRST_SCAN | COIL %s |" },
-	{ SYSTEM_WORD, 0, "| [ %s := (SYS_HOUR * 100 + SYS_MINUTE) * 100 + SYS_SECOND ] |" },
-	{ SYSTEM_WORD, 1, "| [ %s := (SYS_YEAR MOD 100 * 100 + SYS_MONTH) * 100 + SYS_DAY ] |" },
-	{ SYSTEM_WORD, 2, "| [ %s := SYS_WEEKDAY MOD 7 ] |" },
-};
-enum { SYSTEM_ROWS = sizeof(system_rows) / sizeof(*system_rows), FLASH_ROWS = 4 };
-
-static bool uses_row(struct conversion *c, int row)
-{
-	return uses(c, system_rows[row].type, system_rows[row].number);
-}
-
-/* Its time begins with the first scan, and counts it. */
-static void write_flash(struct conversion *c)
-{
-	put(c, "VAR\n  Flash : DINT; (* ms, a minute round *)\nEND_VAR\n");
-	put(c, "RUNG\n  | [ Flash := (Flash + TIME_TO_DINT(SYS_CYCLE)) MOD 60000 ] |\n");
-}
-
-void name_system(struct conversion *c)
-{
-	for (int i = 0; i < SYSTEM_ROWS && !c->system; i++)
-		if (uses_row(c, i))
-			c->system = name_new(c, "SystemBits");
-	if (!c->system)
-		return;
-	add_program(c, c->system);
-	/* It runs first. */
-	for (int i = c->programs.count - 1; i > 0; i--)
-		c->programs.name[i] = c->programs.name[i - 1];
-	if (c->programs.count)
-		c->programs.name[0] = c->system;
-}
-
-/* The rows are ours: each has one %s. */
-static void write_system_row(struct conversion *c, int row)
-{
-	const char *text = system_rows[row].rung, *hole = strstr(text, "%s");
-	const char *name = name_of(c, system_rows[row].type, system_rows[row].number);
-
-	put(c, "RUNG\n  %.*s%s%s\n", (int)(hole - text), text, name, hole + 2);
-}
-
-void write_system(struct conversion *c)
-{
-	bool flash = false;
-
-	if (!c->system)
-		return;
-	for (int i = 0; i < FLASH_ROWS; i++)
-		flash |= uses_row(c, i);
-	put(c, "PROGRAM %s LD\n", c->system);
-	if (flash)
-		write_flash(c);
-	for (int i = 0; i < SYSTEM_ROWS; i++)
-		if (uses_row(c, i))
-			write_system_row(c, i);
-	put(c, "END_PROGRAM\n\n");
 }
