@@ -259,6 +259,9 @@ GtkWidget *ladder_chart_page_new(LadderDocument *document, int pou, LadderSim *s
 	page->chart = ladder_sfc_view_new(document, pou);
 	ladder_sfc_view_set_sim(LADDER_SFC_VIEW(page->chart), sim);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), page->chart);
+	/* The chart shows its cursor; all of it cannot be shown when it gets the focus. */
+	gtk_viewport_set_scroll_to_focus(GTK_VIEWPORT(gtk_scrolled_window_get_child(
+		GTK_SCROLLED_WINDOW(scroller))), FALSE);
 	gtk_paned_set_start_child(GTK_PANED(page->paned), scroller);
 	g_signal_connect_swapped(page->chart, "body-wanted", G_CALLBACK(body_wanted), page);
 	page->handler = g_signal_connect_swapped(document, "project-changed",

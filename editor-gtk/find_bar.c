@@ -111,6 +111,7 @@ static void go(LadderFindBar *bar, int number)
 	else
 		gtk_widget_activate_action(GTK_WIDGET(bar), "win.go-to", "(iiii)", hit->pou,
 					   hit->rung, hit->row, hit->col);
+	g_signal_emit(bar, signals[HITS_CHANGED], 0); /* another is marked */
 }
 
 bool ladder_find_bar_next(LadderFindBar *bar, bool back)

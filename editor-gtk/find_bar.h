@@ -2,7 +2,8 @@
  *
  * find_bar - the bar that finds and replaces in all texts of the document.
  *
- * Signals: hits-changed (): ladder_find_bar_find() is another, for marks on the sheet;
+ * Signals: hits-changed (): ladder_find_bar_find() is another, or the hit it stands on, for
+ * marks on the sheet;
  * closed (): it was, the focus may go back.
  * Actions: find.next, find.previous, find.replace, find.replace-all, find.close. It goes
  * to a hit by the action win.go-to (iiii), as panel_go_to() tells.

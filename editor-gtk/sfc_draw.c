@@ -176,14 +176,22 @@ static void draw_texts(const struct nib *nib, int step, const graphene_rect_t *b
 		draw_middle(nib, TOKEN_ACCENT, LETTER_VALUE, time, x, y + pitch);
 }
 
+/* As much of a comment as there is room for. */
+static void draw_aside(const struct nib *nib, int shape, const char *text, float x, float y)
+{
+	const float room = sfc_sheet_room(nib->sheet, nib->layout->shape[shape].lane, x);
+
+	if (*text && room > SFC_APART)
+		picture_text(nib->picture, TOKEN_COMMENT, LETTER_COMMENT,
+			     lettering_fit(nib->sheet->lettering, LETTER_COMMENT, text, -1,
+					   (int)MIN(room, SFC_BOUND)), x, y + BASE);
+}
+
 static void draw_comment(const struct nib *nib, int shape)
 {
-	const char *text = nib->sheet->comment[shape];
 	const graphene_point_t at = sfc_sheet_comment(nib->sheet, shape);
 
-	if (*text)
-		picture_text(nib->picture, TOKEN_COMMENT, LETTER_COMMENT,
-			     fit(nib, LETTER_COMMENT, text), at.x, at.y + BASE);
+	draw_aside(nib, shape, nib->sheet->comment[shape], at.x, at.y);
 }
 
 /* What it does: a table beside the box, qualifiers on the left. */
@@ -215,10 +223,8 @@ static void draw_table(const struct nib *nib, int step)
 		picture_text(nib->picture, TOKEN_INK, LETTER_SYMBOL,
 			     fit(nib, LETTER_SYMBOL, nib->sheet->does[use]),
 			     table->x + table->what + SFC_CELL, at + BASE);
-		if (*nib->sheet->use_comment[use])
-			picture_text(nib->picture, TOKEN_COMMENT, LETTER_COMMENT,
-				     fit(nib, LETTER_COMMENT, nib->sheet->use_comment[use]),
-				     table->x + w + SFC_APART, at + BASE);
+		draw_aside(nib, step, nib->sheet->use_comment[use],
+			   table->x + w + SFC_APART, at);
 	}
 }
 

@@ -91,10 +91,14 @@ static struct sfc_table measure_table(const struct sfc_sheet *sheet, int step)
 	return table;
 }
 
-/* With the air before it; 0: there is none. */
-static float comment_width(const struct sfc_sheet *sheet, const char *comment)
+/* The room it asks for: comments do not drive branches apart. */
+static float comment_width(const struct sfc_sheet *sheet, int lane, const char *comment)
 {
-	return *comment ? SFC_APART + width_of(sheet, LETTER_COMMENT, comment) : 0;
+	const float width = *comment ? width_of(sheet, LETTER_COMMENT, comment) : 0;
+
+	if (!*comment)
+		return 0;
+	return SFC_APART + (lane == sheet->layout->lanes - 1 ? width : MIN(width, SFC_ASIDE));
 }
 
 static float widest_comment(const struct sfc_sheet *sheet, int step)
@@ -103,7 +107,8 @@ static float widest_comment(const struct sfc_sheet *sheet, int step)
 	float widest = 0;
 
 	for (int i = s->first_use; i < s->first_use + s->use_count; i++)
-		widest = MAX(widest, comment_width(sheet, sheet->use_comment[i]));
+		widest = MAX(widest, comment_width(sheet, sheet->layout->shape[step].lane,
+						   sheet->use_comment[i]));
 	return widest;
 }
 
@@ -124,7 +129,8 @@ static void measure_shapes(struct sfc_sheet *sheet)
 		} else {
 			lane->right = MAX(lane->right, SFC_BAR + TEXT_GAP +
 					  width_of(sheet, LETTER_OPERAND, sheet->name[i]) +
-					  comment_width(sheet, sheet->comment[i]));
+					  comment_width(sheet, shape->lane,
+							sheet->comment[i]));
 		}
 	}
 }
@@ -150,7 +156,8 @@ static void measure(struct sfc_sheet *sheet)
 					  widest_comment(sheet, s));
 		if (*sheet->comment[s])
 			lane->right = MAX(lane->right, lane->half +
-					  comment_width(sheet, sheet->comment[s]));
+					  comment_width(sheet, layout->shape[s].lane,
+							sheet->comment[s]));
 	}
 	for (int l = 0; l < layout->lanes; l++) {
 		struct sfc_lane *lane = &sheet->lane[l];
@@ -261,6 +268,14 @@ graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape)
 	return GRAPHENE_POINT_INIT(lane->x + lane->half + SFC_APART,
 		sheet->pou->sfc->step[s->index].use_count ? sfc_sheet_y(s->top) - 1 :
 		box.origin.y + box.size.height / 2);
+}
+
+float sfc_sheet_room(const struct sfc_sheet *sheet, int lane, float x)
+{
+	const struct sfc_lane *next = &sheet->lane[lane + 1];
+
+	return lane == sheet->layout->lanes - 1 ? SFC_BOUND :
+	       MAX(next->x - MAX(next->half, SFC_BAR) - 10 - x, 0);
 }
 
 graphene_rect_t sfc_sheet_use(const struct sfc_sheet *sheet, int use)

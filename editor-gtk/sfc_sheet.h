@@ -24,6 +24,7 @@
 #define SFC_BOUND  340    /* of a text                                          */
 #define SFC_CELL   7      /* beside the text in a cell of what a step does        */
 #define SFC_APART  12     /* before a comment                                    */
+#define SFC_ASIDE  110    /* so much room a comment may ask for between lanes    */
 
 struct sfc_lane { float x, half, right; };
 /* Columns of the table of what a step does. */
@@ -53,6 +54,8 @@ void sfc_sheet_free(struct sfc_sheet *sheet);
 /** sfc_sheet_comment - where the comment of step or transition @shape begins: x, and the
  * middle of its line. */
 graphene_point_t sfc_sheet_comment(const struct sfc_sheet *sheet, int shape);
+/** sfc_sheet_room - up to what is beside lane @lane, from @x on. */
+float sfc_sheet_room(const struct sfc_sheet *sheet, int lane, float x);
 /** sfc_sheet_y - of a row's middle. */
 float sfc_sheet_y(int row);
 /** sfc_sheet_box - of a shape: the box of a step, bar and text of a transition, arrow

@@ -360,7 +360,9 @@ char *ladder_sfc_view_tip(LadderSfcView *view, int shape, int use)
 {
 	const struct diag_list *diags = ladder_document_diags(view->document);
 	const struct pou *pou = chart_pou(view);
-	GString *text = g_string_new(NULL);
+	const char *comment = !view->sheet ? "" : use >= 0 ? view->sheet->use_comment[use] :
+			      view->sheet->comment[shape];
+	GString *text = g_string_new(comment);
 
 	for (int i = 0; pou && view->sheet && i < diags->count; i++) {
 		const struct diag *diag = &diags->diag[i];

@@ -54,7 +54,7 @@ const struct xref_use *ladder_sfc_view_use(LadderSfcView *view, const struct xre
 char *ladder_sfc_view_place(LadderSfcView *view);
 /** ladder_sfc_view_keys - what the next key could do. Caller frees. */
 char *ladder_sfc_view_keys(LadderSfcView *view);
-/** ladder_sfc_view_tip - what is wrong with a shape (sfc_layout.h), and what its line @use
+/** ladder_sfc_view_tip - comment of a shape, and what is wrong with it (sfc_layout.h), and what its line @use
  * (-1: none) means; NULL: nothing. Caller frees. */
 char *ladder_sfc_view_tip(LadderSfcView *view, int shape, int use);
 

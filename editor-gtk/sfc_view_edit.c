@@ -359,19 +359,23 @@ static void macro_make(LadderSfcView *view)
 	g_free(chosen);
 }
 
-/* That at the cursor, else the one in which the cursor is. */
-static void macro_open(LadderSfcView *view)
+int chart_macro_here(LadderSfcView *view)
 {
 	const struct sfc *sfc = chart_pou(view)->sfc;
-	struct sfc_edit *edit = chart_edit(view);
-	int index, macro = -1, made = -1;
+	int index;
 	const enum sfc_part part = part_here(view, &index);
 
 	if (part == SFC_STEP)
-		macro = sfc->step[index].kind == STEP_MACRO ? index :
-			sfc->step[index].macro;
-	else if (part == SFC_TRANSITION)
-		macro = sfc->transition[index].macro;
+		return sfc->step[index].kind == STEP_MACRO ? index : sfc->step[index].macro;
+	return part == SFC_TRANSITION ? sfc->transition[index].macro : -1;
+}
+
+static void macro_open(LadderSfcView *view)
+{
+	struct sfc_edit *edit = chart_edit(view);
+	const int macro = chart_macro_here(view);
+	int made = -1;
+
 	if (edit && macro < 0)
 		edit->why = N_("this is no macro-step");
 	if (edit && macro >= 0)

@@ -115,7 +115,32 @@ static const struct {
 	{ NULL, { VERB_cut, VERB_copy, VERB_paste, VERB_delete, VERB_COUNT } },
 };
 
-static GMenu *make_menu(void)
+/* Has it anything to do with what the cursor is on? */
+static bool applies(LadderSfcView *view, enum verb verb)
+{
+	int index;
+	const enum sfc_part part = chart_part(view, &index);
+
+	switch ((int)verb) {
+	case VERB_step_does: case VERB_step_kind: case VERB_step_times: case VERB_macro_make:
+	case VERB_step_branch:
+		return part == SFC_STEP && view->cursor.use < 0;
+	case VERB_wait_for: case VERB_way_name: case VERB_way_priority:
+		return part == SFC_TRANSITION;
+	case VERB_macro_open:
+		return chart_macro_here(view) >= 0;
+	case VERB_as_rung:
+		return part == SFC_TRANSITION || view->cursor.use >= 0;
+	case VERB_chart_comment:
+		return part == SFC_STEP || part == SFC_TRANSITION;
+	case VERB_force:
+		return part == SFC_STEP && chart_live_is_on(view);
+	default:
+		return true;
+	}
+}
+
+static GMenu *make_menu(LadderSfcView *view)
 {
 	GMenu *menu = g_menu_new();
 
@@ -123,8 +148,9 @@ static GMenu *make_menu(void)
 		GMenu *part = g_menu_new();
 
 		for (const enum verb *verb = menu_parts[i].verb; *verb != VERB_COUNT; verb++)
-			g_menu_append(part, _(verb_row(*verb)->label),
-				      verb_row(*verb)->action);
+			if (applies(view, *verb))
+				g_menu_append(part, _(verb_row(*verb)->label),
+					      verb_row(*verb)->action);
 		g_menu_append_section(menu, NULL, G_MENU_MODEL(part));
 		g_object_unref(part);
 	}
@@ -142,10 +168,11 @@ static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
 		      LadderSfcView *view)
 {
 	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
-	GMenu *menu = make_menu();
+	GMenu *menu;
 	GtkWidget *popover;
 
 	pressed(gesture, MIN(count, 1), x, y, view);
+	menu = make_menu(view);
 	popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
 	gtk_widget_set_parent(popover, GTK_WIDGET(view));
 	gtk_popover_set_pointing_to(GTK_POPOVER(popover), &at);

@@ -255,6 +255,25 @@ def folded(screen):
     check(path)
 
 
+def far(screen):
+    """a chart that is larger than the window: what one goes to is seen, and has the focus"""
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../../ladders/washing-machine.rung')) as file:
+        path = new_file(screen, file.read())
+    editor = Editor(screen, path)
+    shape(editor, 'Step Standby')
+    # Only what is seen is told to assistive technology.
+    for step in ('Blocked', 'Standby', 'Stuck'):
+        go(editor, step)
+    editor.keys('ctrl+f')
+    editor.type('DrumRight')
+    editor.keys('Return')
+    editor.says('4 of 4')
+    on_chart(editor)
+    until(lambda: [node for node in editor.all('DrumRight', 'table cell') if node.has(23)], 'what is found')
+    editor.shot('chart-far')
+    editor.keys('Escape')
+
+
 TWO = '''RUNGBOARD 1
 
 PROGRAM Main SFC
@@ -279,24 +298,34 @@ END_PROGRAM
 '''
 
 
+def enter(editor, text):
+    """What stands below it, or an entry: a click and a key."""
+    editor.click(upon(editor, shape(editor, text)))
+    at(editor, text)
+    on_chart(editor)
+    editor.keys('Return')
+
+
 def numbered(screen):
     """rungs below a chart keep their numbers and their action when others come and go above them"""
     path = new_file(screen, TWO)
     editor = Editor(screen, path)
     shape(editor, 'Step Idle, initial')
-    editor.click(shape(editor, 'Idle does: N One'), count=2)
+    enter(editor, 'Idle does: N One')
     until(lambda: editor.all('Action One', 'label'), 'the heading of the action')
     editor.to_sheet()
     editor.keys('Insert')
     editor.entry('Q0.2')
     editor.element('Rung 2', 'QX0.2')
-    editor.click(shape(editor, 'Idle does: N Two'), count=2)
+    editor.to_sheet()
+    enter(editor, 'Idle does: N Two')
     until(lambda: editor.all('Action Two', 'label'), 'the heading of the other action')
     editor.element('Rung 3', 'QX0.1')
     # A condition that comes is one more rung above.
-    editor.click(upon(editor, shape(editor, 'from Idle to Idle')), count=2)
+    enter(editor, 'from Idle to Idle')
     editor.opened()
     editor.entry('I0.2')
+    on_chart(editor)
     editor.element('Rung 4', 'QX0.1')
     editor.find('Action Two')
     # It goes, then the other action's rung.
@@ -310,4 +339,4 @@ def numbered(screen):
     editor.shot('chart-numbers')
 
 
-main([renamed, found, folded, numbered])
+main([renamed, found, folded, far, numbered])
