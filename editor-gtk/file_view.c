@@ -8,6 +8,7 @@
 #include "editor-gtk/file_marks.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/iomap_view.h"
+#include "editor-gtk/text_scheme.h"
 
 #include <gio/gio.h>
 #include <gtksourceview/gtksource.h>
@@ -192,6 +193,7 @@ static GtkWidget *text_widget(LadderFileView *view, const char *name)
 
 	view->buffer = GTK_TEXT_BUFFER(buffer);
 	view->text = text;
+	text_scheme_follow(buffer);
 	g_signal_connect_object(buffer, "modified-changed", G_CALLBACK(tell_state), view,
 				G_CONNECT_SWAPPED);
 	gtk_text_view_set_monospace(GTK_TEXT_VIEW(text), TRUE);

@@ -262,7 +262,7 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 static void add_columns(LadderIomapView *view)
 {
 	static const struct { enum io_field field; int width; } column[] = {
-		{ IO_DRIVER, 76 }, { IO_LINE, 150 }, { IO_PULL, 104 }, { IO_ACTIVE_LOW, 70 },
+		{ IO_DRIVER, 76 }, { IO_LINE, 150 }, { IO_PULL, 118 }, { IO_ACTIVE_LOW, 70 },
 		{ IO_DEBOUNCE, 76 }, { IO_SAFE, 60 }, { IO_DRIVE, 110 },
 		{ IO_COMMENT, 130 },
 	};

@@ -57,6 +57,32 @@ static void chosen(AdwMessageDialog *dialog, const char *response, struct asking
 	g_free(wanted);
 }
 
+/* Nothing is imported by somebody who chose nothing. */
+static void toggled(GtkWidget *check, AdwMessageDialog *dialog)
+{
+	const struct asking *asking = g_object_get_data(G_OBJECT(dialog), "asking");
+	gboolean any = FALSE;
+
+	(void)check;
+	for (guint i = 0; i < asking->checks->len; i++)
+		any = any || gtk_check_button_get_active(asking->checks->pdata[i]);
+	adw_message_dialog_set_response_enabled(dialog, "import", any);
+}
+
+/* One that is the only one need not be chosen. */
+static void choose_first(GtkWidget *dialog, struct asking *asking)
+{
+	GtkWidget *first = asking->checks->len == 1 ? asking->checks->pdata[0] : NULL;
+
+	g_object_set_data(G_OBJECT(dialog), "asking", asking);
+	for (guint i = 0; i < asking->checks->len; i++)
+		g_signal_connect(asking->checks->pdata[i], "toggled", G_CALLBACK(toggled),
+				 dialog);
+	if (first && gtk_widget_get_sensitive(first))
+		gtk_check_button_set_active(GTK_CHECK_BUTTON(first), TRUE);
+	toggled(NULL, ADW_MESSAGE_DIALOG(dialog));
+}
+
 static GtkWidget *checks_new(struct asking *asking)
 {
 	const struct project *project = ladder_project(asking->from);
@@ -90,6 +116,7 @@ static void ask_which(GtkWidget *widget, LadderDocument *document, struct ladder
 	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), checks_new(asking));
 	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog),
 		"cancel", _("Cancel"), "import", _("Import"), NULL);
+	choose_first(dialog, asking);
 	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "import");
 	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
 	g_signal_connect_data(dialog, "response", G_CALLBACK(chosen), asking, asking_free, 0);

@@ -8,8 +8,8 @@
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/text_complete.h"
 #include "editor-gtk/text_lines.h"
+#include "editor-gtk/text_scheme.h"
 
-#include <adwaita.h>
 #include <gtksourceview/gtksource.h>
 #include "editor-gtk/text_live.h"
 
@@ -435,17 +435,6 @@ void ladder_text_view_go(LadderTextView *view, int line, int column)
 
 /* ---- life ---- */
 
-static void follow_dark(LadderTextView *view)
-{
-	GtkSourceStyleSchemeManager *schemes = gtk_source_style_scheme_manager_get_default();
-	const bool dark = adw_style_manager_get_dark(adw_style_manager_get_default());
-	GtkSourceStyleScheme *scheme = gtk_source_style_scheme_manager_get_scheme(schemes,
-		dark ? "Adwaita-dark" : "Adwaita");
-
-	if (scheme)
-		gtk_source_buffer_set_style_scheme(view->buffer, scheme);
-}
-
 static void ladder_text_view_dispose(GObject *object)
 {
 	LadderTextView *view = LADDER_TEXT_VIEW(object);
@@ -541,9 +530,7 @@ GtkWidget *ladder_text_view_new(LadderDocument *document, int pou)
 	g_signal_connect_swapped(document, "list-changed", G_CALLBACK(document_changed),
 				 view);
 	g_signal_connect_swapped(document, "checked", G_CALLBACK(show_errors), view);
-	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
-				G_CALLBACK(follow_dark), view, G_CONNECT_SWAPPED);
-	follow_dark(view);
+	text_scheme_follow(view->buffer);
 	show_text(view);
 	return GTK_WIDGET(view);
 }

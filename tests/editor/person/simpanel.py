@@ -124,7 +124,7 @@ def keyboard(screen):
     sh('xdotool', 'keyup', 'x')
     line(editor, 'Input Start, %IX0.0, off')
     editor.click(editor.find('Filter the variables'))
-    editor.focus_on(role='text')
+    editor.focus_on(role='entry')
     editor.type('x')  # elsewhere it would be a key that holds Start on
     until(lambda: not editor.all('Analogue Level', 'list item'), 'the filter')
     line(editor, 'Input Start, %IX0.0, off')
