@@ -2,14 +2,11 @@
  *
  * editor - how long the editor takes with a large program, measured inside it.
  *
- * usage: editor FILE SAMPLE [WORD]: of what a person does only what WORD stands in, and how
- * late scans are, and what it takes to show one that was. It
- * prints medians beside what is asked for and judges nothing: the start with the sample,
- * opening the file, frames while scrolling, what a key costs until its picture is there
- * (without the wait for the screen's next frame), memory, what is done while nothing is,
- * and what it takes while the program is simulated. Beside time by the clock stands the time of
- * the processor, which a busy machine changes little: of a start that of the process, of
- * keys that of the thread that draws.
+ * usage: editor FILE SAMPLE [WORD]: of what a person does only what WORD stands in
+ *
+ * It prints medians beside what is asked for and judges nothing. Beside time by the clock
+ * stands that of the processor, which a busy machine changes little: of a start that of the
+ * process, of keys that of the thread that draws.
  */
 #include "editor-gtk/app.h"
 #include "editor-gtk/grid_view_live.h"
@@ -529,10 +526,7 @@ static bool drawn;
 static gboolean render(GSignalInvocationHint *hint, guint count, const GValue *values,
 		       gpointer unused)
 {
-	(void)hint;
-	(void)count;
-	(void)values;
-	(void)unused;
+	(void)hint, (void)count, (void)values, (void)unused;
 	drawn = true;
 	return TRUE;
 }
@@ -542,10 +536,7 @@ static gboolean shown(GSignalInvocationHint *hint, guint count, const GValue *va
 {
 	const gint64 begun = g_ascii_strtoll(g_getenv(BEGUN), NULL, 10);
 
-	(void)hint;
-	(void)count;
-	(void)values;
-	(void)unused;
+	(void)hint, (void)count, (void)values, (void)unused;
 	if (!drawn)
 		return TRUE;
 	printf("%" G_GINT64_FORMAT " %" G_GINT64_FORMAT "\n",
