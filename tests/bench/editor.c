@@ -535,7 +535,6 @@ static gboolean shown(GSignalInvocationHint *hint, guint count, const GValue *va
 		      gpointer unused)
 {
 	const gint64 begun = g_ascii_strtoll(g_getenv(BEGUN), NULL, 10);
-
 	(void)hint, (void)count, (void)values, (void)unused;
 	if (!drawn)
 		return TRUE;
