@@ -110,10 +110,32 @@ static const struct {
 		  VERB_wait_for, VERB_branch_left, VERB_branch_right, VERB_COUNT } },
 	{ NULL, { VERB_step_kind, VERB_step_times, VERB_way_name, VERB_way_priority,
 		  VERB_chart_comment, VERB_macro_make, VERB_macro_open, VERB_COUNT } },
-	{ NULL, { VERB_rename, VERB_show_uses, VERB_go_coil, VERB_watch_add, VERB_force,
-		  VERB_COUNT } },
+	{ NULL, { VERB_rename, VERB_show_uses, VERB_watch_add, VERB_force, VERB_COUNT } },
 	{ NULL, { VERB_cut, VERB_copy, VERB_paste, VERB_delete, VERB_COUNT } },
 };
+
+/* Is there another branch beside it? */
+static bool has_neighbour(LadderSfcView *view, enum sfc_part part, int index)
+{
+	const struct sfc *sfc = view->sheet->layout->sfc;
+	int step = part == SFC_STEP ? index : -1, ways = 0, from = -1;
+
+	for (int i = 0; i < sfc->transition_count; i++) {
+		const struct sfc_transition *t = &sfc->transition[i];
+		bool leads = part == SFC_TRANSITION && i == index;
+
+		for (int k = t->first_to; step >= 0 && k < t->first_to + t->to_count; k++)
+			leads |= sfc->ref[k].step == step;
+		if (leads && step >= 0 && t->to_count > 1)
+			return true;
+		if (leads && t->from_count > 0)
+			from = sfc->ref[t->first_from].step;
+	}
+	for (int i = 0; from >= 0 && i < sfc->transition_count; i++)
+		for (int k = 0; k < sfc->transition[i].from_count; k++)
+			ways += sfc->ref[sfc->transition[i].first_from + k].step == from;
+	return ways > 1;
+}
 
 /* Has it anything to do with what the cursor is on? */
 static bool applies(LadderSfcView *view, enum verb verb)
@@ -122,6 +144,8 @@ static bool applies(LadderSfcView *view, enum verb verb)
 	const enum sfc_part part = chart_part(view, &index);
 
 	switch ((int)verb) {
+	case VERB_branch_left: case VERB_branch_right:
+		return has_neighbour(view, part, index);
 	case VERB_step_does: case VERB_step_kind: case VERB_step_times: case VERB_macro_make:
 	case VERB_step_branch:
 		return part == SFC_STEP && view->cursor.use < 0;
