@@ -2,32 +2,32 @@
  *
  * editor - how long the editor takes with a large program, measured inside it.
  *
- * usage: editor FILE SAMPLE [WORD]: of what a person does only what WORD stands in
- *
- * It prints medians beside what is asked for and judges nothing. Beside time by the clock
- * stands that of the processor, which a busy machine changes little: of a start that of the
- * process, of keys that of the thread that draws.
+ * usage: editor FILE SAMPLE [WORD]: of what a person does only what WORD stands in, and how
+ * late scans are, and what it takes to show one that was. It
+ * prints medians beside what is asked for and judges nothing: the start with the sample,
+ * opening the file, frames while scrolling, what a key costs until its picture is there
+ * (without the wait for the screen's next frame), memory, what is done while nothing is,
+ * and what it takes while the program is simulated. Beside time by the clock stands the time of
+ * the processor, which a busy machine changes little: of a start that of the process, of
+ * keys that of the thread that draws.
  */
 #include "editor-gtk/app.h"
 #include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/memory.h"
 #include "editor-gtk/sfc_view.h"
+#include "tests/bench/editor_start.h"
 
 #include <gtksourceview/gtksource.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
 #define ROUNDS 60
-#define STARTS 9
 #define IDLE_S 5
 #define SIM_S  5
 #define SIM_FRAMES 1000
-#define BEGUN "RUNGBOARD_BENCH_BEGUN" /* us: when a start began                */
 
 static struct {
 	GdkFrameClock *clock;
@@ -58,16 +58,6 @@ static void after(void)
 	frame.frames++;
 }
 
-/* us of the processor, of the whole process. */
-static gint64 process_worked(void)
-{
-	struct rusage used;
-
-	getrusage(RUSAGE_SELF, &used);
-	return (gint64)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) * G_USEC_PER_SEC +
-	       used.ru_utime.tv_usec + used.ru_stime.tv_usec;
-}
-
 static gboolean quit(gpointer loop)
 {
 	g_main_loop_quit(loop);
@@ -91,19 +81,6 @@ static void next_frame(void)
 
 	while (frame.frames == seen && g_get_monotonic_time() < end)
 		g_main_context_iteration(NULL, TRUE);
-}
-
-static int compare(const void *a, const void *b)
-{
-	const gint64 left = *(const gint64 *)a, right = *(const gint64 *)b;
-
-	return (left > right) - (left < right);
-}
-
-static double median(gint64 *us, int count)
-{
-	qsort(us, (size_t)count, sizeof(*us), compare);
-	return (double)us[count / 2] / 1000;
 }
 
 /* What a person does: @prepare is not measured (NULL: nothing), @act and the frame that
@@ -519,75 +496,11 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	g_object_unref(document);
 }
 
-/* ---- starts, each in a process of its own ---- */
-
-static bool drawn;
-
-static gboolean render(GSignalInvocationHint *hint, guint count, const GValue *values,
-		       gpointer unused)
-{
-	(void)hint, (void)count, (void)values, (void)unused;
-	drawn = true;
-	return TRUE;
-}
-
-static gboolean shown(GSignalInvocationHint *hint, guint count, const GValue *values,
-		      gpointer unused)
-{
-	const gint64 begun = g_ascii_strtoll(g_getenv(BEGUN), NULL, 10);
-	(void)hint, (void)count, (void)values, (void)unused;
-	if (!drawn)
-		return TRUE;
-	printf("%" G_GINT64_FORMAT " %" G_GINT64_FORMAT "\n",
-	       g_get_monotonic_time() - begun, process_worked());
-	fflush(stdout);
-	_exit(0);
-}
-
-/* The editor itself, up to its first picture. */
-static int start(int argc, char **argv)
-{
-	g_type_class_ref(GDK_TYPE_FRAME_CLOCK);
-	g_type_class_ref(GDK_TYPE_SURFACE);
-	g_signal_add_emission_hook(g_signal_lookup("render", GDK_TYPE_SURFACE), 0, render,
-				   NULL, NULL);
-	g_signal_add_emission_hook(g_signal_lookup("after-paint", GDK_TYPE_FRAME_CLOCK), 0,
-				   shown, NULL, NULL);
-	return app_run(argc, argv);
-}
-
-static void starts(const char *program, const char *sample)
-{
-	gint64 clock[STARTS], process[STARTS];
-
-	for (int i = 0; i < STARTS; i++) {
-		char *argv[] = { (char *)program, (char *)sample, NULL }, *out = NULL;
-		char begun[32], *behind = NULL;
-
-		g_snprintf(begun, sizeof(begun), "%" G_GINT64_FORMAT,
-			   g_get_monotonic_time());
-		g_setenv(BEGUN, begun, TRUE);
-		if (!g_spawn_sync(NULL, argv, NULL, G_SPAWN_DEFAULT, NULL, NULL, &out, NULL,
-				  NULL, NULL) || !out || !*out) {
-			fprintf(stderr, "no start\n");
-			exit(2);
-		}
-		clock[i] = g_ascii_strtoll(out, &behind, 10);
-		process[i] = g_ascii_strtoll(behind, NULL, 10);
-		g_free(out);
-	}
-	g_unsetenv(BEGUN);
-	printf("Start with %s, to the first picture: %.0f ms by the clock, %.0f ms of the "
-	       "processor, medians of %d (400).\n", sample, median(clock, STARTS),
-	       median(process, STARTS), STARTS);
-	fflush(stdout);
-}
-
 int main(int argc, char **argv)
 {
 	AdwApplication *application;
 
-	if (g_getenv(BEGUN))
+	if (start_is_one())
 		return start(argc, argv);
 	if (argc < 3)
 		return 2;
