@@ -430,7 +430,7 @@ static void put_setting(struct making *making)
 	else if (making_chance(making, 30))
 		making_put(making, "%%B%d=%d ", making_below(making, BITS), making_below(making, 2));
 	else if (making_chance(making, 40))
-		making_put(making, "%%IW%d=%d ", making_below(making, 8), making_below(making, 40));
+		making_put(making, "%%IW%d=%d ", making_below(making, 8), making_below(making, 40) - 10);
 	else if (making_chance(making, 60))
 		making_put(making, "%%W%d=%d ", making_below(making, WORDS), making_below(making, 300) - 100);
 	else

@@ -330,8 +330,11 @@ static struct part multiply(struct parse *p, struct part a, struct part b)
 	const char *left = inside(p, a, RANK_PRODUCT), *right = inside(p, b, RANK_OPERAND);
 	struct part part = { .text = text_of(p->c, "%s * %s", left, right),
 			     .rank = RANK_PRODUCT };
+	int64_t product = (int64_t)a.value * b.value;
 
-	if (!a.constant && !b.constant) {
+	if (a.constant && b.constant && product != (int32_t)product)
+		return constant(p, product);
+	if (a.large || b.large || (!a.constant && !b.constant)) {
 		part.a = left;
 		part.b = right;
 	}
