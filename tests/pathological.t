@@ -8,6 +8,7 @@ use strict;
 use warnings;
 use Cwd qw(abs_path);
 use File::Temp qw(tempdir);
+use IO::Compress::Gzip qw(gzip);
 use FindBin;
 use POSIX qw(:sys_wait_h);
 
@@ -110,6 +111,21 @@ END
 sub chart {
 	return "RUNGBOARD 1\nPROGRAM P SFC\n$_[0]END_PROGRAM\n";
 }
+# A ClassicLadder project of these members, name and text in turn.
+sub classic {
+	my $text = "_FILES_CLASSICLADDER\n";
+	while (my ($name, $lines) = splice @_, 0, 2) {
+		$text .= "_FILE-$name\n${lines}_/FILE-$name\n";
+	}
+	return "${text}_/FILES_CLASSICLADDER\n";
+}
+sub packed {
+	my ($text) = @_;
+	my $packed;
+	gzip(\$text => \$packed, Time => 0) or die;
+	return $packed;
+}
+my $row = "1-0-50/0 , 9-0-0/0 , 50-0-60/0\n";
 write_file("good.rung", $good);
 write_file("good.script", "Start=1\n.\n");
 write_file("good.io", "BOARD \"sim\"\n%IX0.0 sim\n%QX0.0 sim\n");
@@ -162,6 +178,24 @@ my %file = (
 	"100,000 actions" => chart("  ACTION A:\n    LD I0\n  END_ACTION\n" x 100_000),
 	"an image that is only its name" => "RUNGCODE",
 	"a damaged image" => "RUNGCODE" . "\x01\0\0\0" . "\xff" x 500,
+	"ClassicLadder: only its first line" => "_FILES_CLASSICLADDER\n",
+	"ClassicLadder: cut in half" => substr(classic("rung_0.csv", $row x 8), 0, 150),
+	"ClassicLadder: a member without an end" => classic("rung_0.csv", "${row}_FILE-timers.csv\n1,5\n"),
+	"ClassicLadder: 100,000 members" => classic(map { ("rung_$_.csv", $row) } 1 .. 100_000),
+	"ClassicLadder: one member 50,000 times" => classic(("rung_0.csv", $row) x 50_000),
+	"ClassicLadder: 100,000 cells in a row" => classic("rung_0.csv", "9-0-0/0 , " x 100_000 . "\n"),
+	"ClassicLadder: dashes for slashes" => classic("rung_0.csv", $row =~ s{/}{-}gr),
+	"ClassicLadder: numbers of 400 digits" => classic("rung_0.csv", "1-0-50/" . "9" x 400 . "\n"),
+	"ClassicLadder: numbers below zero" => classic("timers.csv", "-1,-1\n", "rung_0.csv", "1-0-50/-3[200/-9]\n"),
+	"ClassicLadder: a label of a million letters" => classic("rung_0.csv", "#LABEL=" . "L" x 1_000_000 . "\n$row"),
+	"ClassicLadder: rungs in a circle" => classic("sections.csv", "000,0,-1,0,2,0\n", "rung_0.csv", "#NEXTRUNG=1\n$row",
+		"rung_1.csv", "#NEXTRUNG=0\n$row", "rung_2.csv", $row),
+	"ClassicLadder: no rung is there" => classic("sections.csv", "000,0,-1,0,2,0\n"),
+	"ClassicLadder: NUL bytes" => classic("rung_0.csv", "$row\0\0\n"),
+	"ClassicLadder: a bomb, 64 MB of zeros" => packed("\0" x (64 << 20)),
+	"ClassicLadder: packed, and cut" => substr(packed(classic("rung_0.csv", $row x 8)), 0, -9),
+	"ClassicLadder: only gzip's first bytes" => "\x1f\x8b",
+	"numeric rungs: half a cell" => ";Rung:\n1-0-50-\n",
 );
 for my $text (sort keys %file) {
 	my $name = write_file("bad.rung", $file{$text});
@@ -196,6 +230,11 @@ for my $text (sort keys %file) {
 write_file("crlf.rung", $good =~ s/\n/\r\n/gr);
 ($status, $out, $err) = run(undef, $ladder, "check", "crlf.rung");
 check($status eq "0", "CRLF is read", "exit $status", $err);
+
+# ClassicLadder itself has no more than 2,000 members; here they may be more.
+write_file("many.clprj", classic(map { ("rung_$_.csv", "#NEXTRUNG=" . ($_ + 1) . "\n$row") } 0 .. 2999));
+($status, $out, $err) = run(undef, $ladder, "check", "many.clprj");
+check($status eq "0", "ClassicLadder: 3,000 members are read", "exit $status", substr($err, 0, 300));
 
 # 100,000 rungs: more than one POU may have, and soon refused or read.
 write_file("many.rung", $good =~ s/RUNG\n.*\n/"RUNG\n  | NO Start | COIL Motor |\n" x 100_000/er);

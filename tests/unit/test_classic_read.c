@@ -540,7 +540,13 @@ static void test_folder(void)
 	}
 	diag_init(&diags);
 	CHECK(!classic_read_folder(&arena, folder, &report, &diags) &&
+	      diags.diag[0].id == DIAG_NOT_A_FILE);
+	put_file(folder, "notes.txt", "not ours either\n");
+	diag_init(&diags);
+	CHECK(!classic_read_folder(&arena, folder, &report, &diags) &&
 	      diags.diag[0].id == DIAG_IMPORT_NOTHING);
+	snprintf(path, sizeof(path), "%s/notes.txt", folder);
+	unlink(path);
 	rmdir(folder);
 	diag_init(&diags);
 	CHECK(!classic_read_folder(&arena, folder, &report, &diags) &&

@@ -332,6 +332,11 @@ struct classic_project *classic_read_folder(struct arena *arena, const char *fol
 	if (!begin(&reader, arena, folder, report, diags) ||
 	    (!add_files(&reader, folder) && !arena->failed))
 		return NULL;
+	if (reader.project->members == 0 && !arena->failed) {
+		classic_fail_at(&reader, DIAG_NOT_A_FILE, (struct classic_place){ "", 0 },
+				"", 0);
+		return NULL;
+	}
 	if (reader.project->members > 1)
 		qsort(reader.project->member, (size_t)reader.project->members,
 		      sizeof(*reader.project->member), member_order);
