@@ -6,6 +6,7 @@
  */
 #include "editor-gtk/app.h"
 
+#include "editor-gtk/classic_open.h"
 #include "editor-gtk/disk.h"
 #include "editor-gtk/draft.h"
 #include "editor-gtk/i18n.h"
@@ -90,11 +91,44 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 	return window;
 }
 
+/* Never saved: it becomes a file of ours where the person says. */
+static LadderWindow *open_classic(AdwApplication *application, LadderWindow *window,
+				  const char *path, GError **error)
+{
+	LadderDocument *document;
+	char *told = NULL, *text;
+	gsize len = 0;
+
+	text = classic_import(path, &len, &told, error);
+	if (!text)
+		return NULL;
+	document = window && ladder_window_is_untouched(window) ?
+		g_object_ref(ladder_window_document(window)) : ladder_document_new();
+	ladder_document_open_text(document, NULL, text, len, false);
+	if (!window || ladder_window_document(window) != document)
+		window = show_document(application, document);
+	ladder_window_set_origin(window, path);
+	app_remember(path);
+	if (*told)
+		ladder_window_warn(window, told);
+	g_object_unref(document);
+	g_free(told);
+	g_free(text);
+	return window;
+}
+
+static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
+			      const char *path, GError **error)
+{
+	return classic_is_project(path) ? open_classic(application, window, path, error) :
+					  open_in(application, window, path, error);
+}
+
 void app_open_path(LadderWindow *window, const char *path)
 {
 	GError *error = NULL;
 
-	if (!open_in(the_application(window), window, path, &error))
+	if (!open_any(the_application(window), window, path, &error))
 		ladder_window_warn(window, error->message);
 	g_clear_error(&error);
 }
@@ -185,7 +219,7 @@ static void open_files(AdwApplication *application, GFile **files, int count,
 	for (int i = 0; i < count; i++) {
 		char *path = g_file_get_path(files[i]);
 		GError *error = NULL;
-		LadderWindow *window = path ? open_in(application, NULL, path, &error) :
+		LadderWindow *window = path ? open_any(application, NULL, path, &error) :
 			NULL;
 
 		if (!window) {

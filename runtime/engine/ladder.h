@@ -35,6 +35,8 @@ struct classic_report;
  * file that they become. Only who calls this links the import. Fails: false: no memory.
  */
 bool ladder_take_classic(struct ladder *ladder, bool faithful);
+/** ladder_is_classic - is there such a project, a file or a folder, at @path? */
+bool ladder_is_classic(const char *path);
 /** ladder_classic_task - shall what they become have a TASK with their period? Off at
  * first: it is for text that is to be a file of its own. */
 void ladder_classic_task(struct ladder *ladder, bool task);

@@ -149,3 +149,19 @@ int64_t ladder_period(const struct ladder *ladder)
 
 	return classic && classic->project ? classic->project->period * INT64_C(1000000) : 0;
 }
+
+bool ladder_is_classic(const char *path)
+{
+	char head[512];
+	FILE *file;
+	size_t len;
+
+	if (is_folder(path))
+		return true;
+	file = fopen(path, "rb");
+	if (!file)
+		return false;
+	len = fread(head, 1, sizeof(head), file);
+	fclose(file);
+	return classic_is(head, len);
+}
