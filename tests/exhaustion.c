@@ -130,6 +130,10 @@ static enum stage try_all(const char *file, const char *text, size_t len,
 	*told = true;
 	if (!ladder)
 		return STAGE_NEW;
+	if (!ladder_take_classic(ladder, false)) {
+		ladder_free(ladder);
+		return STAGE_NEW;
+	}
 	if (ladder_load_text(ladder, file, text, len)) {
 		stage = STAGE_BUILD;
 		if (ladder_build(ladder))
@@ -315,6 +319,8 @@ int main(int argc, char **argv)
 		starve_file("tests/fuzz/corpus/code/il.rung");
 		starve_file("tests/fuzz/corpus/code/tasks.rung");
 		starve_file("tests/fuzz/corpus/code/arrays-in-blocks.rung");
+		starve_file("tests/fuzz/corpus/classic/linuxcnc.clp");
+		starve_file("tests/fuzz/corpus/classic/packed.clprjz");
 	}
 	return tap_done();
 }

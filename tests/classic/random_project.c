@@ -345,7 +345,8 @@ static void put_page(struct making *making, int page, int first_transition)
 		for (int k = 0; k < 20; k++)
 			making_put(making, "-1,");
 		read_bit(making, &cell);
-		if (cell.type == 50 || making_chance(making, 50)) {
+		/* What %X of another page is in the first scan nobody has seen.        */
+		if (cell.type == 50 || cell.type == 30 || making_chance(making, 50)) {
 			/* Seldom true, so that few pages go round and round.           */
 			cell.type = 50;
 			cell.number = INPUTS + making_below(making, INPUTS);
