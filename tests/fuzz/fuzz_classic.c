@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
- * fuzz_classic - any bytes as a ClassicLadder project.
+ * fuzz_classic - any bytes as a ClassicLadder project, and what is read is imported.
  *
  * Seeds that are packed are unpacked before they are changed, or the checksum would
  * refuse them all; one that stays packed goes to the unpacker itself.
  */
 #include "engine/import/classic.h"
 #include "engine/import/inflate.h"
+#include "engine/ladder.h"
 #include "tests/fuzz/fuzz.h"
 
 #include <stdlib.h>
@@ -61,6 +62,18 @@ static void unpack(const uint8_t *bytes, size_t len)
 	arena_free(&arena);
 }
 
+/* What is good as a file becomes a program, or it is said why not. */
+static void import(const uint8_t *bytes, size_t len)
+{
+	struct ladder *ladder = ladder_new();
+
+	if (!ladder || !ladder_take_classic(ladder, len & 1))
+		abort();
+	if (!ladder_load_text(ladder, "fuzz.clprj", bytes, len) || !ladder_build(ladder))
+		fuzz_expect(ladder_diags(ladder)->errors > 0, "no program, no error");
+	ladder_free(ladder);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 {
 	struct classic_report report;
@@ -75,8 +88,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t len)
 	classic_is(bytes, len);
 	project = classic_read(&arena, "fuzz.clprj", bytes, len, &report, &diags);
 	fuzz_expect(!project == (diags.errors > 0), "a project, or an error");
-	if (project)
+	if (project) {
 		look_at(project);
+		import(bytes, len);
+	}
 	for (int i = 0; i < diags.count; i++) {
 		char text[400];
 

@@ -201,7 +201,7 @@ static const char *beside(struct random_source *source, const char *type)
 	return variable(source, type, false);
 }
 
-void put(struct builder *builder, const char *format, ...)
+void words_put(struct builder *builder, const char *format, ...)
 {
 	size_t left = builder->size - builder->used;
 	va_list args;
@@ -233,30 +233,30 @@ void number(struct builder *builder, const char *type, int depth, bool tight)
 	bool swap = random_chance(source, 20);
 
 	if (depth == 0 || near_full(builder)) {
-		put(builder, "%s", term(source, type, false));
+		words_put(builder, "%s", term(source, type, false));
 		return;
 	}
 	if (tight)
-		put(builder, "(");
+		words_put(builder, "(");
 	if (is_dated(type) || (strcmp(type, "TIME") == 0 && random_chance(source, 30))) {
 		if (is_dated(type))
 			random_moment(builder, type, depth - 1);
 		else
 			random_timely(builder, depth - 1);
-		put(builder, tight ? ")" : "");
+		words_put(builder, tight ? ")" : "");
 		return;
 	}
 	if (swap)
-		put(builder, "%s", beside(source, type));
+		words_put(builder, "%s", beside(source, type));
 	else
 		number(builder, type, depth - 1, true);
-	put(builder, op == 'M' ? " MOD " : " %c ", op);
+	words_put(builder, op == 'M' ? " MOD " : " %c ", op);
 	if (swap || random_chance(source, 30))
 		number(builder, type, depth - 1, true);
 	else
-		put(builder, "%s", beside(source, type));
+		words_put(builder, "%s", beside(source, type));
 	if (tight)
-		put(builder, ")");
+		words_put(builder, ")");
 }
 
 /* Bits of exactly @type. */
@@ -266,20 +266,20 @@ static void bits(struct builder *builder, const char *type, int depth)
 	struct random_source *source = builder->source;
 
 	if (depth == 0 || near_full(builder)) {
-		put(builder, "%s", variable(source, type, false));
+		words_put(builder, "%s", variable(source, type, false));
 	} else if (random_chance(source, 25)) {
-		put(builder, "(NOT ");
+		words_put(builder, "(NOT ");
 		bits(builder, type, depth - 1);
-		put(builder, ")");
+		words_put(builder, ")");
 	} else {
-		put(builder, "(");
+		words_put(builder, "(");
 		bits(builder, type, depth - 1);
-		put(builder, " %s ", op[random_below(source, 3)]);
+		words_put(builder, " %s ", op[random_below(source, 3)]);
 		if (random_chance(source, 50))
 			bits(builder, type, depth - 1);
 		else
-			put(builder, "%s", beside(source, type));
-		put(builder, ")");
+			words_put(builder, "%s", beside(source, type));
+		words_put(builder, ")");
 	}
 }
 
@@ -296,8 +296,8 @@ static void relation(struct builder *builder, int depth)
 		bits(builder, type, depth);
 	else
 		number(builder, type, plain ? 0 : depth, false);
-	put(builder, " %s ", rel[random_below(source, 6)]);
-	put(builder, "%s", beside(source, type));
+	words_put(builder, " %s ", rel[random_below(source, 6)]);
+	words_put(builder, "%s", beside(source, type));
 }
 
 static void truth(struct builder *builder, int depth)
@@ -306,21 +306,21 @@ static void truth(struct builder *builder, int depth)
 	struct random_source *source = builder->source;
 
 	if (depth == 0 || near_full(builder)) {
-		put(builder, "%s", term(source, "BOOL", false));
+		words_put(builder, "%s", term(source, "BOOL", false));
 	} else if (random_chance(source, 45)) {
-		put(builder, "(");
+		words_put(builder, "(");
 		relation(builder, depth - 1);
-		put(builder, ")");
+		words_put(builder, ")");
 	} else if (random_chance(source, 25)) {
-		put(builder, "NOT (");
+		words_put(builder, "NOT (");
 		truth(builder, depth - 1);
-		put(builder, ")");
+		words_put(builder, ")");
 	} else {
-		put(builder, "(");
+		words_put(builder, "(");
 		truth(builder, depth - 1);
-		put(builder, " %s ", op[random_below(source, 4)]);
+		words_put(builder, " %s ", op[random_below(source, 4)]);
 		truth(builder, depth - 1);
-		put(builder, ")");
+		words_put(builder, ")");
 	}
 }
 
@@ -330,16 +330,16 @@ void random_series(struct random_source *source, char *out, size_t size)
 	struct builder builder = { source, out, size, 0 };
 
 	if (random_chance(source, 12)) {
-		put(&builder, "NOT");
+		words_put(&builder, "NOT");
 	} else if (random_chance(source, 25)) {
-		put(&builder, "[ ");
+		words_put(&builder, "[ ");
 		if (random_chance(source, 60))
 			relation(&builder, 2);
 		else
 			truth(&builder, 3);
-		put(&builder, " ]");
+		words_put(&builder, " ]");
 	} else {
-		put(&builder, "%s %s", contact[random_below(source, 5)],
+		words_put(&builder, "%s %s", contact[random_below(source, 5)],
 		    variable(source, "BOOL", false));
 	}
 }
@@ -352,28 +352,28 @@ static void assignment(struct builder *builder)
 	size_t i = random_below(source, (uint32_t)count);
 
 	if (random_chance(source, 20)) {
-		put(builder, "[ %s := ", term(source, "BOOL", true));
+		words_put(builder, "[ %s := ", term(source, "BOOL", true));
 		truth(builder, 2);
 	} else if (random_chance(source, 20)) {
 		i = PLAIN_NARROWER + random_below(source, 3);
-		put(builder, "[ %s := ", variable(source, narrower[i][0], true));
+		words_put(builder, "[ %s := ", variable(source, narrower[i][0], true));
 		bits(builder, narrower[i][random_below(source, 2)], 2);
 	} else if (random_chance(source, 15)) {
-		put(builder, "[ %s := ",
+		words_put(builder, "[ %s := ",
 		    variable(source, narrower[i][0], true));
-		put(builder, "%s", variable(source, narrower[i][1], false));
+		words_put(builder, "%s", variable(source, narrower[i][1], false));
 	} else if (random_chance(source, 15) && i < PLAIN_NARROWER) {
-		put(builder, "[ %s := ",
+		words_put(builder, "[ %s := ",
 		    variable(source, narrower[i][0], true));
 		number(builder, narrower[i][1], 2, false);
 	} else if (random_chance(source, 10)) {
-		put(builder, "[ %s := %s", term(source, type, true),
+		words_put(builder, "[ %s := %s", term(source, type, true),
 		    literal(source, type));
 	} else {
-		put(builder, "[ %s := ", term(source, type, true));
+		words_put(builder, "[ %s := ", term(source, type, true));
 		number(builder, type, 2, false);
 	}
-	put(builder, " ]");
+	words_put(builder, " ]");
 }
 
 void random_last(struct random_source *source, int later, char *out, size_t size)
@@ -384,13 +384,13 @@ void random_last(struct random_source *source, int later, char *out, size_t size
 	struct builder builder = { source, out, size, 0 };
 
 	if (later && random_chance(source, 15))
-		put(&builder, "JMP L%d", later);
+		words_put(&builder, "JMP L%d", later);
 	else if (random_chance(source, 3))
-		put(&builder, "RET");
+		words_put(&builder, "RET");
 	else if (random_chance(source, 20))
 		assignment(&builder);
 	else
-		put(&builder, "%s %s", coil[random_below(source, 8)],
+		words_put(&builder, "%s %s", coil[random_below(source, 8)],
 		    variable(source, "BOOL", true));
 }
 
@@ -406,18 +406,18 @@ static void logic(struct builder *builder)
 	int count = 2 + (int)random_below(source, 3);
 
 	if (*fn == 'N') {
-		put(builder, "NOT IN:=%s%s", is_bool && random_chance(source, 30) ? "/" :
+		words_put(builder, "NOT IN:=%s%s", is_bool && random_chance(source, 30) ? "/" :
 		    "", variable(source, of, false));
 	} else {
-		put(builder, "%s IN1:=%s", fn, variable(source, of, false));
+		words_put(builder, "%s IN1:=%s", fn, variable(source, of, false));
 		for (int i = 2; i <= count; i++)
 			if (is_bool && random_chance(source, 40))
-				put(builder, " IN%d:=/%s", i, variable(source, of, false));
+				words_put(builder, " IN%d:=/%s", i, variable(source, of, false));
 			else
-				put(builder, " IN%d:=%s", i, beside(source, of));
+				words_put(builder, " IN%d:=%s", i, beside(source, of));
 	}
 	if (!is_bool || random_chance(source, 50))
-		put(builder, " OUT=>%s", variable(source, of, true));
+		words_put(builder, " OUT=>%s", variable(source, of, true));
 }
 
 /* MIN and MAX. */
@@ -427,11 +427,11 @@ static void choice(struct builder *builder)
 	const char *type = any_number(source);
 	int count = 2 + (int)random_below(source, 3);
 
-	put(builder, "%s IN1:=%s", random_chance(source, 50) ? "MIN" : "MAX",
+	words_put(builder, "%s IN1:=%s", random_chance(source, 50) ? "MIN" : "MAX",
 	    variable(source, type, false));
 	for (int i = 2; i <= count; i++)
-		put(builder, " IN%d:=%s", i, beside(source, type));
-	put(builder, " OUT=>%s", variable(source, type, true));
+		words_put(builder, " IN%d:=%s", i, beside(source, type));
+	words_put(builder, " OUT=>%s", variable(source, type, true));
 }
 
 static void function(struct builder *builder)
@@ -458,19 +458,19 @@ static void function(struct builder *builder)
 		type = random_chance(source, 40) ? "WORD" :
 		       random_chance(source, 50) ? "LWORD" : "BOOL";
 	if (strcmp(fn, "MOVE") == 0) {
-		put(builder, "MOVE IN:=%s", variable(source, type, false));
+		words_put(builder, "MOVE IN:=%s", variable(source, type, false));
 	} else {
-		put(builder, "%s IN1:=%s", fn, variable(source, type, false));
+		words_put(builder, "%s IN1:=%s", fn, variable(source, type, false));
 		for (int i = 2; i <= count; i++)
-			put(builder, " IN%d:=%s", i, beside(source, type));
+			words_put(builder, " IN%d:=%s", i, beside(source, type));
 	}
 	if (!compare && random_chance(source, 15) &&
 	    strcmp(type, narrower[wide][1]) == 0)
 		type = narrower[wide][0];
 	if (!compare)
-		put(builder, " OUT=>%s", variable(source, type, true));
+		words_put(builder, " OUT=>%s", variable(source, type, true));
 	else if (random_chance(source, 30))
-		put(builder, " OUT=>%s", variable(source, "BOOL", true));
+		words_put(builder, " OUT=>%s", variable(source, "BOOL", true));
 }
 
 int random_box(struct random_source *source, char *out, size_t size,
@@ -483,7 +483,7 @@ int random_box(struct random_source *source, char *out, size_t size,
 		return 0;
 	}
 	if (random_chance(source, 5)) {
-		put(&builder, "EQ OUT=>%s", variable(source, "BOOL", true));
+		words_put(&builder, "EQ OUT=>%s", variable(source, "BOOL", true));
 		pin[0] = "IN1";
 		pin[1] = "IN2";
 		return 2;
@@ -528,9 +528,9 @@ size_t random_declare(const char *body, char *out, size_t size)
 {
 	struct builder builder = { NULL, out, size, 0 };
 
-	put(&builder, "VAR\n");
+	words_put(&builder, "VAR\n");
 	if (is_used(body, "loop_a"))
-		put(&builder, "  loop_a : INT;\n");
+		words_put(&builder, "  loop_a : INT;\n");
 	for (size_t i = 0; i < POOL; i++) {
 		const struct pool_row *row = &pool[i];
 		bool at = *row->rest == 'A';
@@ -539,22 +539,22 @@ size_t random_declare(const char *body, char *out, size_t size)
 		    is_constant(row) ||
 		    !is_used(body, row->name))
 			continue;
-		put(&builder, "  %s %s : %s %s;\n", row->name,
+		words_put(&builder, "  %s %s : %s %s;\n", row->name,
 		    at ? row->rest : "", row->type, at ? "" : row->rest);
 	}
 	random_declare_blocks(&builder, body);
 	random_declare_own(&builder, body);
 	for (size_t i = 0; i < ARRAYS; i++)
 		if (!array[i].constant && is_used(body, array[i].name))
-			put(&builder, "  %s %s;\n", array[i].name, array[i].rest);
-	put(&builder, "END_VAR\n");
+			words_put(&builder, "  %s %s;\n", array[i].name, array[i].rest);
+	words_put(&builder, "END_VAR\n");
 	for (size_t i = 0; i < ARRAYS; i++)
 		if (array[i].constant && is_used(body, array[i].name))
-			put(&builder, "VAR CONSTANT\n  %s %s;\nEND_VAR\n",
+			words_put(&builder, "VAR CONSTANT\n  %s %s;\nEND_VAR\n",
 			    array[i].name, array[i].rest);
 	for (size_t i = 0; i < POOL; i++)
 		if (is_constant(&pool[i]) && is_used(body, pool[i].name))
-			put(&builder, "VAR CONSTANT\n  %s : %s %s;\nEND_VAR\n",
+			words_put(&builder, "VAR CONSTANT\n  %s : %s %s;\nEND_VAR\n",
 			    pool[i].name, pool[i].type, pool[i].rest);
 	return builder.used;
 }

@@ -14,7 +14,7 @@ struct builder {
 	size_t size, used;
 };
 
-void put(struct builder *builder, const char *format, ...);
+void words_put(struct builder *builder, const char *format, ...);
 /** variable - one of just this type that may be read, or written. */
 const char *variable(struct random_source *source, const char *type, bool write);
 /** term - a variable, or an element with a computed index: for expressions. */

@@ -44,7 +44,7 @@ static int bool_pin(struct builder *builder, const char *name,
 	if (random_chance(source, 55))
 		pin[fed++] = name;
 	else if (random_chance(source, 60))
-		put(builder, " %s:=%s%s", name, random_chance(source, 30) ? "/" : "",
+		words_put(builder, " %s:=%s%s", name, random_chance(source, 30) ? "/" : "",
 		    variable(source, "BOOL", false));
 	return fed;
 }
@@ -57,11 +57,11 @@ static void preset(struct builder *builder, const char *fb)
 	bool is_long = type[0] == 'L' || strcmp(type, "ULINT") == 0;
 
 	if (random_chance(source, 90))
-		put(builder, " PV:=%s", random_chance(source, 60) ? "2" :
+		words_put(builder, " PV:=%s", random_chance(source, 60) ? "2" :
 		    is_long || random_chance(source, 50) ?
 		    literal(source, type) : variable(source, type, false));
 	if (!is_long && random_chance(source, 20))
-		put(builder, " CV=>%s", variable(source, type, true));
+		words_put(builder, " CV=>%s", variable(source, type, true));
 }
 
 /* What may stand at an input that is not BOOL. */
@@ -88,7 +88,7 @@ static int any_block(struct builder *builder, const char *const *which,
 	const struct word_row *row = word_row(word);
 	int fed = 0, power = word_first_bool(row, PIN_IN);
 
-	put(builder, "%s %s", which[1], which[0]);
+	words_put(builder, "%s %s", which[1], which[0]);
 	for (int i = 0; i < row->pin_count; i++) {
 		const struct word_pin *at = &row->pin[i];
 
@@ -98,10 +98,10 @@ static int any_block(struct builder *builder, const char *const *which,
 			fed = bool_pin(builder, at->name, pin, fed);
 		else if (at->dir == PIN_IN &&
 			 random_chance(source, at->has_init ? 35 : 90))
-			put(builder, " %s:=%s", at->name, input(source, at->type));
+			words_put(builder, " %s:=%s", at->name, input(source, at->type));
 		else if (at->dir == PIN_OUT && at->type != IEC_LWORD &&
 			 random_chance(source, 10))
-			put(builder, " %s=>%s", at->name,
+			words_put(builder, " %s=>%s", at->name,
 			    variable(source, iec_type_row(at->type)->word, true));
 	}
 	return fed;
@@ -114,14 +114,14 @@ static int block(struct builder *builder, const char *pin[3])
 	const char *fb = which[1];
 	int fed = 0;
 
-	put(builder, "%s %s", fb, which[0]);
+	words_put(builder, "%s %s", fb, which[0]);
 	if (*fb == 'T') {
 		if (random_chance(source, 90))
-			put(builder, " PT:=%s", random_chance(source, 10) ?
+			words_put(builder, " PT:=%s", random_chance(source, 10) ?
 			    "T#0s" : random_chance(source, 10) ? "time_a" :
 			    random_chance(source, 30) ? "T#25ms" : "T#10ms");
 		if (random_chance(source, 20))
-			put(builder, " ET=>%s", variable(source, "TIME", true));
+			words_put(builder, " ET=>%s", variable(source, "TIME", true));
 	} else if (strncmp(fb, "CTUD", 4) == 0) {
 		fed = bool_pin(builder, "CD", pin, fed);
 		fed = bool_pin(builder, "R", pin, fed);
@@ -138,7 +138,7 @@ static int block(struct builder *builder, const char *pin[3])
 	if (*fb == 'C')
 		preset(builder, fb);
 	if (random_chance(source, 15))
-		put(builder, " %s=>%s", *fb == 'S' || fb[1] == 'S' ? "Q1" :
+		words_put(builder, " %s=>%s", *fb == 'S' || fb[1] == 'S' ? "Q1" :
 		    strncmp(fb, "CTUD", 4) == 0 ? "QU" : "Q",
 		    variable(source, "BOOL", true));
 	return fed;
@@ -157,9 +157,9 @@ void random_declare_blocks(struct builder *builder, const char *body)
 {
 	for (size_t i = 0; i < INSTANCES; i++)
 		if (is_used(body, instance[i][0]))
-			put(builder, "  %s : %s;\n", instance[i][0],
+			words_put(builder, "  %s : %s;\n", instance[i][0],
 			    instance[i][1]);
 	for (size_t i = 0; i < MORE; i++)
 		if (is_used(body, more[i][0]))
-			put(builder, "  %s : %s;\n", more[i][0], more[i][1]);
+			words_put(builder, "  %s : %s;\n", more[i][0], more[i][1]);
 }

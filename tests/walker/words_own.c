@@ -75,9 +75,9 @@ static void maybe(struct builder *builder, uint32_t percent, const char *pin,
 	if (!random_chance(source, percent))
 		return;
 	if (!write && random_chance(source, 20))
-		put(builder, " %s:=%s", pin, literal(source, type));
+		words_put(builder, " %s:=%s", pin, literal(source, type));
 	else
-		put(builder, " %s%s%s", pin, write ? "=>" : ":=",
+		words_put(builder, " %s%s%s", pin, write ? "=>" : ":=",
 		    variable(source, type, write));
 }
 
@@ -85,11 +85,11 @@ static void call_inner(struct builder *builder, const char *instance)
 {
 	struct random_source *source = builder->source;
 
-	put(builder, "Inner %s dint_a:=%s", instance, variable(source, "DINT", true));
+	words_put(builder, "Inner %s dint_a:=%s", instance, variable(source, "DINT", true));
 	maybe(builder, 60, "int_i", "INT", false);
 	maybe(builder, 40, "usint_i", "USINT", false);
 	if (random_chance(source, 50))
-		put(builder, " in_b:=%s%s", random_chance(source, 30) ? "/" : "",
+		words_put(builder, " in_b:=%s%s", random_chance(source, 30) ? "/" : "",
 		    variable(source, "BOOL", false));
 	maybe(builder, 20, "out_a", "BOOL", true);
 	maybe(builder, 20, "int_b", "INT", true);
@@ -97,7 +97,7 @@ static void call_inner(struct builder *builder, const char *instance)
 
 static void call_outer(struct builder *builder)
 {
-	put(builder, "Holder outer_a");
+	words_put(builder, "Holder outer_a");
 	maybe(builder, 60, "int_i", "INT", false);
 	maybe(builder, 20, "lint_a", "LINT", true);
 }
@@ -106,7 +106,7 @@ static void call_reckon(struct builder *builder)
 {
 	struct random_source *source = builder->source;
 
-	put(builder, "Reckon int_i:=%s in_a:=%s dint_b:=%s", variable(source, "INT", false),
+	words_put(builder, "Reckon int_i:=%s in_a:=%s dint_b:=%s", variable(source, "INT", false),
 	    variable(source, "BOOL", false), variable(source, "DINT", true));
 	maybe(builder, 40, "usint_i", "USINT", false);
 	maybe(builder, 30, "bool_c", "BOOL", true);
@@ -140,7 +140,7 @@ void random_without_memory(struct random_source *source, char *text, size_t size
 		bool coil = i > 1;
 
 		if (strncmp(text, with[i][0], strlen(with[i][0])) == 0)
-			put(&builder, "%s %s", with[i][1],
+			words_put(&builder, "%s %s", with[i][1],
 			    variable(source, "BOOL", coil));
 	}
 }
@@ -154,7 +154,7 @@ void random_declare_own(struct builder *builder, const char *body)
 
 	for (size_t i = 0; i < sizeof(own) / sizeof(*own); i++)
 		if (is_used(body, own[i][0]))
-			put(builder, "  %s : %s;\n", own[i][0], own[i][1]);
+			words_put(builder, "  %s : %s;\n", own[i][0], own[i][1]);
 }
 
 const char *random_types(const char *body)

@@ -19,12 +19,12 @@ void random_timely(struct builder *builder, int depth)
 
 	if (random_chance(source, 40)) {
 		number(builder, type, depth, true);
-		put(builder, " - ");
+		words_put(builder, " - ");
 		number(builder, type, depth, true);
 		return;
 	}
 	number(builder, "TIME", depth, true);
-	put(builder, random_chance(source, 50) ? " * %s" : " / %s",
+	words_put(builder, random_chance(source, 50) ? " * %s" : " / %s",
 	    random_chance(source, 30) ? random_chance(source, 50) ? "3" : "0.5" :
 	    variable(source, by, false));
 }
@@ -35,11 +35,11 @@ void random_moment(struct builder *builder, const char *type, int depth)
 	struct random_source *source = builder->source;
 
 	if (strcmp(type, "DATE") == 0) {
-		put(builder, "%s", term(source, type, false));
+		words_put(builder, "%s", term(source, type, false));
 		return;
 	}
 	number(builder, type, depth, true);
-	put(builder, random_chance(source, 50) ? " + " : " - ");
+	words_put(builder, random_chance(source, 50) ? " + " : " - ");
 	number(builder, "TIME", depth, true);
 }
 
@@ -78,13 +78,13 @@ void random_text(struct builder *builder)
 	const char *word = words[which].word;
 	bool test = strlen(word) == 2;
 
-	put(builder, "%s", word);
+	words_put(builder, "%s", word);
 	for (int i = 0; i < 4 && words[which].pins[i]; i++)
-		put(builder, " %s:=%s", words[which].pins[i] + 1,
+		words_put(builder, " %s:=%s", words[which].pins[i] + 1,
 		    words[which].pins[i][0] == 'T' ? text_of(source) : place_of(source));
 	if (strcmp(word, "LEN") == 0 || strcmp(word, "FIND") == 0)
-		put(builder, " OUT=>%s", variable(source, "INT", true));
+		words_put(builder, " OUT=>%s", variable(source, "INT", true));
 	else if (!test)
-		put(builder, " OUT=>%s", variable(source, random_chance(source, 70) ?
+		words_put(builder, " OUT=>%s", variable(source, random_chance(source, 70) ?
 						  "STRING[9]" : "STRING[4]", true));
 }
