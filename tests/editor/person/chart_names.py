@@ -299,9 +299,15 @@ END_PROGRAM
 
 
 def enter(editor, text):
-    """What stands below it, or an entry: a click and a key."""
-    editor.click(upon(editor, shape(editor, text)))
-    at(editor, text)
+    """What stands below it, or an entry: a click and a key. A click again, long after the
+    first: where a popover was GTK 4.8 loses some under X11."""
+    def look():
+        editor.click(upon(editor, shape(editor, text)))
+        try:
+            return until(lambda: shape(editor, text).has(23), 'the cursor', 2)
+        except AssertionError:
+            return False
+    until(look, 'the cursor at ' + text)
     on_chart(editor)
     editor.keys('Return')
 
