@@ -154,10 +154,58 @@ static void test_replace(void)
 	g_object_unref(document);
 }
 
+/* ---- charts ---- */
+
+static const char chart[] =
+	"RUNGBOARD 1\n\nPROGRAM Main SFC\n  VAR\n    Full : BOOL;\n  END_VAR\n\n"
+	"  INITIAL_STEP Fill:\n    (* full? *)\n    Full(N);\n    Do(P1);\n  END_STEP\n\n"
+	"  TRANSITION FROM Fill TO Fill := Full AND Fill.X; END_TRANSITION\n\n"
+	"  TRANSITION FROM Fill TO Fill:\n    RUNG\n      | NO Full | COIL TRANSITION |\n"
+	"  END_TRANSITION\n\n  ACTION Do:\n    LD    Full\n    ST    %MX0.0\n"
+	"  END_ACTION\nEND_PROGRAM\n";
+
+/* An expression is a line; a rung is found as a rung, a declaration as one. */
+static void test_chart(void)
+{
+	LadderDocument *document = ladder_document_new();
+	struct find *find;
+	int rungs = 0, lines = 0, declared = 0;
+	char *why = NULL;
+
+	ladder_document_open_text(document, NULL, chart, strlen(chart), true);
+	find = find_new(document, "Full", (struct find_options){ FIND_EVERYWHERE, true,
+								 true });
+	for (guint i = 0; i < find->hit->len; i++) {
+		const struct find_hit *hit = find->hit->pdata[i];
+
+		rungs += hit->rung >= 0;
+		declared += hit->where == FIND_DECLARATIONS;
+		lines += hit->where == FIND_LISTS;
+		if (hit->where == FIND_LISTS)
+			CHECK(strstr(hit->text, "Full") == hit->text + hit->at);
+	}
+	CHECK(rungs == 1 && declared == 1 && lines == 3);
+	CHECK(find_replace_all(document, find, "Empty", NULL) == 5);
+	CHECK(has(document, "    Empty(N);\n") && has(document, "| NO Empty | COIL TR") &&
+	      has(document, ":= Empty AND Fill.X;") && has(document, "    Empty : BOOL;"));
+	CHECK(ladder_document_undo(document));
+	CHECK(has(document, "    Full(N);\n") && !ladder_document_undo_name(document));
+	find_free(find);
+	/* What could not be read again is refused, and all stays as it was. */
+	find = find_new(document, "INITIAL_STEP", (struct find_options){ FIND_EVERYWHERE,
+									 true, true });
+	CHECK(find_replace_all(document, find, "STEP STEP", &why) == -1 && why && *why);
+	CHECK(has(document, "  INITIAL_STEP Fill:"));
+	g_free(why);
+	find_free(find);
+	g_object_unref(document);
+}
+
 int main(void)
 {
 	test_hits();
 	test_order();
 	test_replace();
+	test_chart();
 	return tap_done();
 }
