@@ -372,8 +372,11 @@ static LadderEntryPopup *spare_of(GtkWidget *owner)
 static void use_again(LadderEntryPopup *popup)
 {
 	popup->spare = false;
+	popup->filling = true;
 	gtk_editable_set_enable_undo(GTK_EDITABLE(popup->line), FALSE);
+	gtk_editable_set_text(GTK_EDITABLE(popup->line), "");
 	gtk_editable_set_enable_undo(GTK_EDITABLE(popup->line), TRUE);
+	popup->filling = false;
 	gtk_adjustment_set_value(gtk_scrolled_window_get_vadjustment(
 		GTK_SCROLLED_WINDOW(popup->scroller)), 0);
 }

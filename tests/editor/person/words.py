@@ -134,4 +134,22 @@ def window_keys(screen):
     check(path)
 
 
-main([a_list, in_parallel, pointed_at, other_keys, window_keys])
+def again(screen):
+    """a line that opens again remembers nothing of the one before: no text, no candidate, no undo"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.type('TON')
+    editor.opened()
+    editor.keys('Down', 'Escape')
+    editor.gone()
+    editor.type('q')
+    editor.opened()
+    until(lambda: editor.asked()[0].text() == 'q', 'only what was typed now')
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
+    until(lambda: editor.asked()[0].text() == '', 'the line to be empty')
+    editor.entry('Start')
+    assert '| NO Start |' in editor.save(path)
+
+
+main([a_list, in_parallel, pointed_at, other_keys, window_keys, again])
