@@ -11,6 +11,7 @@
 #include "engine/base/diag.h"
 #include "engine/base/version.h"
 #include "engine/model/outline.h"
+#include "engine/import/classic.h"
 #include "engine/model/project.h"
 #include "engine/scan/resource.h"
 
@@ -142,6 +143,21 @@ char *ladder_write(struct ladder *ladder, size_t *len);
  * Fails: NULL after a diagnostic, or when nothing was loaded.
  */
 char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags);
+/** ladder_charts_fit_classic - can each chart be a sequential page of ClassicLadder? Else
+ * ladder_export_ladder() comes first. Scan-safe: no. */
+bool ladder_charts_fit_classic(struct ladder *ladder);
+/**
+ * ladder_export_classic - the project as one of ClassicLadder's (view/to_classic.h)
+ * @dialect: of ClassicLadder, of LinuxCNC, or a bare rung file
+ * @report:  gets what means something else there
+ * @diags:   gets LD730 to LD738 for what cannot be said there
+ *
+ * Owns: the caller, free().   Scan-safe: no.   Fails: NULL after a diagnostic, or when
+ * nothing was loaded.
+ */
+char *ladder_export_classic(struct ladder *ladder, enum classic_dialect dialect,
+			    size_t *len, struct classic_report *report,
+			    struct diag_list *diags);
 /**
  * ladder_outline - what ladder_write gives, and where its parts are
  * @take: is handed each part when it ends, so inner ones before outer ones; or NULL

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
  * cmd_export - `ladder export`: a program in another language. Of charts there are
- * ladders; what comes out is read, checked and written in canonical form.
+ * ladders; what comes out is read, checked and written in canonical form. Or the whole as a
+ * project of ClassicLadder.
  */
 #include "ladder/report.h"
 
 #include "engine/base/file.h"
+#include "engine/import/classic.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,20 +73,108 @@ static enum status export_loaded(struct call *call, struct ladder *ladder,
 	return status;
 }
 
+/* ---- ClassicLadder ---- */
+
+static const struct { const char *word; enum classic_dialect dialect; } classic_words[] = {
+	{ "classicladder", CLASSIC_UPSTREAM }, { "linuxcnc", CLASSIC_LINUXCNC },
+	{ "numeric", CLASSIC_NUMERIC },
+};
+enum { CLASSIC_WORDS = sizeof(classic_words) / sizeof(*classic_words) };
+
+/* What means something else there; on standard error, because the file may be on the
+ * other one. */
+static void print_changes(const char *path, const struct classic_report *report)
+{
+	for (int i = 0; i < report->count; i++) {
+		const struct report_line *line = &report->line[i];
+
+		fprintf(stderr, "%s:%d: changed: %s\n", path, line->line, line->text);
+	}
+}
+
+static enum status export_classic(struct call *call, struct ladder *ladder,
+				  const char *path, enum classic_dialect dialect)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct classic_report report;
+	enum status status = STATUS_NO;
+	size_t len;
+	char *text;
+
+	if (!diags)
+		return report_no_memory(path);
+	diag_init(diags);
+	report_init(&report);
+	text = ladder_export_classic(ladder, dialect, &len, &report, diags);
+	report_diags(diags);
+	free(diags);
+	if (text) {
+		print_changes(path, &report);
+		status = write_out(call, text, len);
+	}
+	report_free(&report);
+	free(text);
+	return status;
+}
+
+/* A chart that can be no page goes there as a ladder. */
+static enum status export_as_ladder(struct call *call, struct ladder *ladder,
+				    const char *path, enum classic_dialect dialect)
+{
+	struct diag_list *diags = calloc(1, sizeof(*diags));
+	struct ladder *again = ladder_new();
+	enum status status = STATUS_NO;
+	char *text = NULL;
+	size_t len;
+
+	if (!diags || !again) {
+		free(diags);
+		ladder_free(again);
+		return report_no_memory(path);
+	}
+	diag_init(diags);
+	text = ladder_export_ladder(ladder, &len, diags);
+	report_diags(diags);
+	if (text && ladder_load_text(again, path, text, len) && ladder_build(again)) {
+		status = export_classic(call, again, path, dialect);
+	} else if (text) {
+		report_diags(ladder_diags(again));
+	}
+	free(text);
+	free(diags);
+	ladder_free(again);
+	return status;
+}
+
+static enum status export_any(struct call *call, struct ladder *ladder, const char *path,
+			      int word)
+{
+	if (word == CLASSIC_WORDS)
+		return export_loaded(call, ladder, path);
+	if (ladder_charts_fit_classic(ladder))
+		return export_classic(call, ladder, path, classic_words[word].dialect);
+	return export_as_ladder(call, ladder, path, classic_words[word].dialect);
+}
+
 enum status cmd_export(struct call *call)
 {
 	const char *path = call->arg[0], *as = call_option(call, "--as");
 	struct ladder *ladder;
 	enum status status;
+	int word = 0;
 
-	if (!as || strcmp(as, "ld") != 0)
-		return report_usage(call, "--as ld must be given");
+	while (as && word < CLASSIC_WORDS && strcmp(as, classic_words[word].word) != 0)
+		word++;
+	if (!as || (word == CLASSIC_WORDS && strcmp(as, "ld") != 0))
+		return report_usage(call, "--as ld, classicladder, linuxcnc or numeric must "
+				    "be given");
 	ladder = program_new(false);
 	if (!ladder)
 		return report_no_memory(path);
+	ladder_classic_task(ladder, true);
 	status = report_load(ladder, path, true);
 	if (status == STATUS_GOOD)
-		status = export_loaded(call, ladder, path);
+		status = export_any(call, ladder, path, word);
 	ladder_free(ladder);
 	return status;
 }
