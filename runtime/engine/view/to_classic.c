@@ -51,7 +51,7 @@ static struct diag place_of(const struct leaving *e, enum diag_id id)
 	return place;
 }
 
-bool refuse(struct leaving *e, enum diag_id id, const char *format, ...)
+bool out_refuse(struct leaving *e, enum diag_id id, const char *format, ...)
 {
 	char text[LIMIT_ARG];
 	va_list args;
@@ -110,7 +110,7 @@ struct classic_rung *rung_begin(struct leaving *e)
 	if (!e->good || !rung || !e->section)
 		return NULL;
 	if (number >= 1900) {
-		refuse(e, DIAG_EXPORT_MANY, "%d", number);
+		out_refuse(e, DIAG_EXPORT_MANY, "%d", number);
 		return NULL;
 	}
 	slot = arena_push(e->arena, &e->out->rung, &e->out->rungs, sizeof(*slot));
@@ -143,7 +143,7 @@ int add_expression(struct leaving *e, const char *text)
 		if (!strcmp(e->out->expression[i].text, text))
 			return i;
 	if (e->out->expressions >= CLASSIC_LIMIT - 1) {
-		refuse(e, DIAG_EXPORT_MANY, "%s", text);
+		out_refuse(e, DIAG_EXPORT_MANY, "%s", text);
 		return 0;
 	}
 	one = arena_push(e->arena, &e->out->expression, &e->out->expressions, sizeof(*one));
@@ -333,7 +333,7 @@ static void write_initial(struct leaving *e)
 		e->pou = slot->pou;
 		e->rung_index = -1;
 		if (var->array.count || var->init_count) {
-			refuse(e, DIAG_EXPORT_TYPE, "%s", slot->name);
+			out_refuse(e, DIAG_EXPORT_TYPE, "%s", slot->name);
 			return;
 		}
 		if (!var->init.i)
@@ -341,7 +341,7 @@ static void write_initial(struct leaving *e)
 		if (var->type != IEC_BOOL) {
 			item.code = CL_OPERATE;
 			item.width = 3;
-			item.text = out_text(e, "%s:=%d", encode(e, item.variable),
+			item.text = out_text(e, "%s:=%d", out_encode(e, item.variable),
 					     (int)var->init.i);
 		}
 		first_scan_only(e, &item);
@@ -467,11 +467,11 @@ static void leave_pou(struct leaving *e, const struct pou *pou, int *page)
 	e->helpers = e->helpers_used = 0;
 	e->helper = NULL;
 	if (pou->sfc && e->dialect == CLASSIC_NUMERIC)
-		refuse(e, DIAG_EXPORT_CHART, "%s", project_text(e->project, pou->name));
+		out_refuse(e, DIAG_EXPORT_CHART, "%s", project_text(e->project, pou->name));
 	else if (pou->sfc)
 		leave_chart(e, pou, (*page)++);
 	else if (pou->language == LANGUAGE_IL)
-		refuse(e, DIAG_EXPORT_POU, "%s", project_text(e->project, pou->name));
+		out_refuse(e, DIAG_EXPORT_POU, "%s", project_text(e->project, pou->name));
 	else
 		leave_ladder(e, pou);
 }
@@ -494,7 +494,7 @@ static void leave_all(struct leaving *e)
 		if (pou[i]->sfc)
 			chart_prepare(e, pou[i], page++);
 	if (page > 5)
-		refuse(e, DIAG_EXPORT_MANY, "%d", page);
+		out_refuse(e, DIAG_EXPORT_MANY, "%d", page);
 	if (!e->good || !names_prepare(e))
 		return;
 	write_initial(e);
@@ -574,7 +574,7 @@ static void check_numeric(struct leaving *e)
 
 	e->pou = NULL;
 	if (out->sections > 1)
-		refuse(e, DIAG_EXPORT_NUMERIC, "%s", out->section[1].name);
+		out_refuse(e, DIAG_EXPORT_NUMERIC, "%s", out->section[1].name);
 	for (int i = 0; i < out->rungs * CLASSIC_ROWS * CLASSIC_COLUMNS && e->good; i++) {
 		int at = i % (CLASSIC_ROWS * CLASSIC_COLUMNS);
 		const struct classic_cell *cell = &out->rung[i / (CLASSIC_ROWS *
@@ -582,7 +582,7 @@ static void check_numeric(struct leaving *e)
 
 		if (cell->element > CL_OLD_TIMER && cell->element != CL_PART &&
 		    (cell->element < CL_COIL || cell->element > CL_JUMP))
-			refuse(e, DIAG_EXPORT_NUMERIC, "rung %d",
+			out_refuse(e, DIAG_EXPORT_NUMERIC, "rung %d",
 			       i / (CLASSIC_ROWS * CLASSIC_COLUMNS));
 	}
 }

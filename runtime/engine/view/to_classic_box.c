@@ -122,7 +122,7 @@ static bool base_of(struct leaving *e, int64_t ns, const char *name, int *base)
 			*base = i;
 			return true;
 		}
-	return refuse(e, DIAG_EXPORT_TIME, "%s", name);
+	return out_refuse(e, DIAG_EXPORT_TIME, "%s", name);
 }
 
 /* A time as units of the finest base that holds it. */
@@ -135,7 +135,7 @@ static bool time_units(struct leaving *e, int64_t ns, const char *name,
 			block->preset = (int)(ns / base_ns[i]);
 			return true;
 		}
-	return refuse(e, DIAG_EXPORT_TIME, "%s", name);
+	return out_refuse(e, DIAG_EXPORT_TIME, "%s", name);
 }
 
 /* What the declaration of one of ClassicLadder's own blocks says. */
@@ -184,7 +184,7 @@ static bool iec_time(struct leaving *e, struct out_item *item, const char *text)
 	int64_t ns;
 
 	if (!block || !number_of(text, IEC_TIME, &ns))
-		return refuse(e, DIAG_EXPORT_TIME, "%s", text);
+		return out_refuse(e, DIAG_EXPORT_TIME, "%s", text);
 	block->mode = item->word == FB_TON ? 0 : item->word == FB_TOF ? 1 : 2;
 	tell_change(e, "timer %s counts one scan later there", item->slot->name);
 	return time_units(e, ns, item->slot->name, block);
@@ -195,18 +195,18 @@ static bool counter_preset(struct leaving *e, struct out_item *item, const char 
 	struct classic_block *block = block_entry(e, BLOCK_COUNTER, item->slot->number);
 	struct out_operand operand;
 
-	if (!block || !operand_text(e, text, strlen(text), &operand))
+	if (!block || !there_text(e, text, strlen(text), &operand))
 		return false;
 	tell_change(e, "counter %s counts from 0 to 9999 there", item->slot->name);
 	if (operand.is_constant) {
 		block->preset = operand.value;
 		return operand.value >= 0 && operand.value <= 9999 ? true :
-		       refuse(e, DIAG_EXPORT_MANY, "%s", text);
+		       out_refuse(e, DIAG_EXPORT_MANY, "%s", text);
 	}
 	item->before = arena_alloc(e->arena, sizeof(*item->before));
 	if (item->before)
 		*item->before = (struct out_before){ out_text(e, "@250/%d@:=%s",
-			item->slot->number, encode(e, operand.variable)), -1, NULL };
+			item->slot->number, out_encode(e, operand.variable)), -1, NULL };
 	return true;
 }
 
@@ -217,11 +217,11 @@ static bool output_to(struct leaving *e, struct out_item *item, const struct arg
 	const char *name = out_text(e, "%s.%.*s", item->slot->name, (int)arg->pin_len,
 				    arg->pin);
 
-	if (!operand_text(e, arg->value, arg->value_len, &target) ||
-	    !operand_text(e, name, strlen(name), &pin))
+	if (!there_text(e, arg->value, arg->value_len, &target) ||
+	    !there_text(e, name, strlen(name), &pin))
 		return false;
-	later(e, item, out_text(e, "%s:=%s", encode(e, target.variable),
-				encode(e, pin.variable)), -1);
+	later(e, item, out_text(e, "%s:=%s", out_encode(e, target.variable),
+				out_encode(e, pin.variable)), -1);
 	return true;
 }
 
@@ -240,9 +240,9 @@ static bool box_argument(struct leaving *e, const struct box_row *row,
 		return iec_time(e, item, value);
 	if (ascii_is("PV", arg->pin, arg->pin_len))
 		return counter_preset(e, item, value);
-	if (at < 0 || !operand_text(e, value, strlen(value), &operand) ||
+	if (at < 0 || !there_text(e, value, strlen(value), &operand) ||
 	    operand.variable.index_type >= 0 || operand.is_constant)
-		return refuse(e, DIAG_EXPORT_WORD, "%.*s:=%s", (int)arg->pin_len, arg->pin,
+		return out_refuse(e, DIAG_EXPORT_WORD, "%.*s:=%s", (int)arg->pin_len, arg->pin,
 			      value);
 	item->given[at] = operand.variable;
 	item->inverse[at] = arg->inverse;
@@ -273,11 +273,11 @@ bool box_item(struct leaving *e, const struct network *network,
 
 	item->word = (enum word)cell->word;
 	if (!row || word->kind != WORD_FB)
-		return refuse(e, DIAG_EXPORT_WORD, "%s", word->word);
+		return out_refuse(e, DIAG_EXPORT_WORD, "%s", word->word);
 	m = scope_find(e->scope, e->pou, cell->operand, &why);
 	item->slot = m && m->var ? slot_find(e, m->var) : NULL;
 	if (!item->slot || m->kind != MEANING_INSTANCE)
-		return refuse(e, DIAG_EXPORT_TYPE, "%s",
+		return out_refuse(e, DIAG_EXPORT_TYPE, "%s",
 			      project_text(e->project, cell->operand));
 	item->code = row->code;
 	item->width = 2;
@@ -290,7 +290,7 @@ bool box_item(struct leaving *e, const struct network *network,
 	first = word->pin_count ? pin_row(row, word_pins(word)[0].name,
 					  strlen(word_pins(word)[0].name)) : -1;
 	if (first < 0)
-		return refuse(e, DIAG_EXPORT_WORD, "%s", word->word);
+		return out_refuse(e, DIAG_EXPORT_WORD, "%s", word->word);
 	item->pin[first] = at->in;
 	for (int i = 0; i < at->pins; i++) {
 		const struct network_pin *pin = &network->pin[at->first_pin + i];
@@ -298,7 +298,7 @@ bool box_item(struct leaving *e, const struct network *network,
 		int to = pin_row(row, name, strlen(name));
 
 		if (to < 0)
-			return refuse(e, DIAG_EXPORT_WORD, "%s.%s", word->word, name);
+			return out_refuse(e, DIAG_EXPORT_WORD, "%s.%s", word->word, name);
 		item->pin[to] = pin->in;
 		item->moved |= pin->row != at->row + to;
 	}

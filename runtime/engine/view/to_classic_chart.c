@@ -233,7 +233,7 @@ static bool plain_condition(struct leaving *e, const struct sfc_body *body,
 	if (body->kind != BODY_EXPRESSION || rung->cell[0].word != ELEM_COMPARE ||
 	    strpbrk(text, " ()=<>&"))
 		return false;
-	if (!operand_text(e, text, strlen(text), &operand) || !operand.is_bool ||
+	if (!there_text(e, text, strlen(text), &operand) || !operand.is_bool ||
 	    operand.is_constant || operand.variable.index_type >= 0)
 		return false;
 	*out = operand.variable;

@@ -79,7 +79,7 @@ static void put_wires(struct drawing *d, int y, int from, int to)
 		put_code(d, y, x, CL_WIRE);
 }
 
-void put_item(struct leaving *e, struct classic_rung *rung, int y, int x,
+void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
 	      const struct out_item *item)
 {
 	int alive = item->width - 1;
@@ -140,7 +140,7 @@ static void place_item(struct drawing *d, int index)
 			put_code(d, y + i, x + k, CL_PART);
 	if (d->bad)
 		return;
-	put_item(d->e, rung, y, x, item);
+	out_put(d->e, rung, y, x, item);
 	d->x[index] = x + item->width - 1;
 	d->item_at[y][d->x[index]] = index + 1;
 	put_wires(d, y, x + item->width, end);
@@ -232,19 +232,21 @@ static void give_power(struct drawing *d, struct power *power, int index, int y,
 
 static bool means_the_same(struct drawing *d)
 {
-	struct power power = { { { { { 0, 0 } } } } };
+	struct power *power = arena_alloc(d->e->arena, sizeof(*power));
 
+	if (!power)
+		return false;
 	for (int x = 0; x < d->e->columns; x++)
 		for (int y = 0; y < d->e->rows; y++) {
 			int index = d->item_at[y][x] - 1;
 
 			if (d->rung->cell[y][x].element == CL_WIRE)
-				power.out[y][x] = left_of(d, &power, y, x);
+				power->out[y][x] = left_of(d, power, y, x);
 			if (index < 0 || d->rung->cell[y][x].element == CL_WIRE)
 				continue;
-			if (!check_item(d, &power, index, y, x))
+			if (!check_item(d, power, index, y, x))
 				return false;
-			give_power(d, &power, index, y, x);
+			give_power(d, power, index, y, x);
 		}
 	return true;
 }
@@ -296,7 +298,7 @@ static bool acts_dead(const struct out_rung *r)
 	return false;
 }
 
-bool draw_rung(struct leaving *e, struct out_rung *r)
+bool same_rung(struct leaving *e, struct out_rung *r)
 {
 	struct drawing *d = arena_alloc(e->arena, sizeof(*d));
 	struct classic_rung *rung;

@@ -36,11 +36,11 @@ static struct term build(struct building *b, int node, int depth);
 
 static struct term failed(struct building *b, const char *text, size_t len)
 {
-	refuse(b->e, DIAG_EXPORT_EXPRESSION, "%.*s", (int)(len > 40 ? 40 : len), text);
+	out_refuse(b->e, DIAG_EXPORT_EXPRESSION, "%.*s", (int)(len > 40 ? 40 : len), text);
 	return (struct term){ .text = "0", .constant = true };
 }
 
-const char *encode(struct leaving *e, struct classic_variable variable)
+const char *out_encode(struct leaving *e, struct classic_variable variable)
 {
 	if (variable.index_type < 0)
 		return out_text(e, "@%d/%d@", variable.type, variable.number);
@@ -69,7 +69,7 @@ static struct term apart(struct building *b, struct term part)
 		return part;
 	word = new_word(b->e);
 	before(b, out_text(b->e, "@%d/%d@:=%s", CL_WORD, word, part.text), -1);
-	return (struct term){ .text = encode(b->e, variable_of(CL_WORD, word)),
+	return (struct term){ .text = out_encode(b->e, variable_of(CL_WORD, word)),
 			      .is_bool = part.is_bool };
 }
 
@@ -82,7 +82,7 @@ static struct term settled(struct building *b, struct term part)
 		return part;
 	bit = new_bit(b->e);
 	before(b, out_text(b->e, "%s%s%s", part.left, part.compare, part.right), bit);
-	return (struct term){ .text = encode(b->e, variable_of(CL_BIT, bit)),
+	return (struct term){ .text = out_encode(b->e, variable_of(CL_BIT, bit)),
 			      .is_bool = true };
 }
 
@@ -133,12 +133,12 @@ static struct term operand(struct building *b, const struct expr_node *node)
 {
 	struct out_operand is;
 
-	if (!operand_text(b->e, node->text, node->len, &is))
+	if (!there_text(b->e, node->text, node->len, &is))
 		return (struct term){ .text = "0", .constant = true };
 	if (is.is_constant)
 		return (struct term){ .text = out_text(b->e, "%d", is.value),
 			.constant = true, .value = is.value, .is_bool = is.is_bool };
-	return (struct term){ .text = encode(b->e, is.variable), .is_bool = is.is_bool };
+	return (struct term){ .text = out_encode(b->e, is.variable), .is_bool = is.is_bool };
 }
 
 /* Words[i + 3]: a number and a variable. */
@@ -149,7 +149,7 @@ static bool index_of(struct building *b, int node, int *offset,
 	struct out_operand left, right;
 
 	*offset = 0;
-	if (at->op == EXPR_NAME && operand_text(b->e, at->text, at->len, &left) &&
+	if (at->op == EXPR_NAME && there_text(b->e, at->text, at->len, &left) &&
 	    !left.is_constant && !left.is_bool && left.variable.index_type < 0) {
 		*variable = left.variable;
 		return true;
@@ -158,9 +158,9 @@ static bool index_of(struct building *b, int node, int *offset,
 	    b->expr->node[at->left].op != EXPR_NAME ||
 	    b->expr->node[at->right].op != EXPR_LITERAL)
 		return false;
-	if (!operand_text(b->e, b->expr->node[at->left].text, b->expr->node[at->left].len,
+	if (!there_text(b->e, b->expr->node[at->left].text, b->expr->node[at->left].len,
 			  &left) || left.is_bool || left.variable.index_type >= 0 ||
-	    !operand_text(b->e, b->expr->node[at->right].text,
+	    !there_text(b->e, b->expr->node[at->right].text,
 			  b->expr->node[at->right].len, &right))
 		return false;
 	*variable = left.variable;
@@ -184,7 +184,7 @@ static bool element(struct building *b, const char *text, size_t len, int index,
 	if (!m || m->kind != MEANING_ARRAY || !m->var || !index_of(b, index, &offset, &by))
 		return false;
 	id = scope_first(e->scope, e->pou, id, "", 0);
-	if (!id || !operand_find(e, id, out) || out->variable.index_type >= 0)
+	if (!id || !there_find(e, id, out) || out->variable.index_type >= 0)
 		return false;
 	out->variable.number += offset - m->array.low;
 	out->variable.index_type = by.type;
@@ -354,7 +354,7 @@ static struct term build(struct building *b, int node, int depth)
 		return operand(b, at);
 	case EXPR_INDEX:
 		if (!at->tail.len && at->len && element(b, at->text, at->len, at->left, &is))
-			return (struct term){ .text = encode(b->e, is.variable),
+			return (struct term){ .text = out_encode(b->e, is.variable),
 					      .is_bool = is.is_bool };
 		return failed(b, at->text, at->len);
 	case EXPR_NEG:
@@ -397,18 +397,18 @@ static bool assignment(struct building *b, struct out_item *item)
 	const char *value, *name;
 
 	if (expr->target_tail.len || expr->target_base >= 0)
-		return refuse(b->e, DIAG_EXPORT_EXPRESSION, "%.*s",
+		return out_refuse(b->e, DIAG_EXPORT_EXPRESSION, "%.*s",
 			      (int)expr->target_len, expr->target);
 	if (expr->target_index >= 0) {
 		if (!element(b, expr->target, expr->target_len, expr->target_index, &target))
-			return refuse(b->e, DIAG_EXPORT_EXPRESSION, "%.*s",
+			return out_refuse(b->e, DIAG_EXPORT_EXPRESSION, "%.*s",
 				      (int)expr->target_len, expr->target);
-	} else if (!operand_text(b->e, expr->target, expr->target_len, &target)) {
+	} else if (!there_text(b->e, expr->target, expr->target_len, &target)) {
 		return false;
 	}
 	part = build(b, expr->root, 0);
 	value = target.is_bool ? truth_value(b, part) : settled(b, part).text;
-	name = encode(b->e, target.variable);
+	name = out_encode(b->e, target.variable);
 	if (strlen(name) + 2 + strlen(value) > CLASSIC_EXPRESSION)
 		value = apart(b, (struct term){ .text = value }).text;
 	item->text = out_text(b->e, "%s:=%s", name, value);
@@ -423,7 +423,7 @@ bool cell_expression(struct leaving *e, const char *text, struct out_item *item)
 
 	b.last = &b.first;
 	if (!scrap || !expr_parse_text(text, strlen(text), e->expr, scrap, (struct diag){ 0 }))
-		return refuse(e, DIAG_EXPORT_EXPRESSION, "%.40s", text);
+		return out_refuse(e, DIAG_EXPORT_EXPRESSION, "%.40s", text);
 	if (e->expr->target) {
 		if (!assignment(&b, item))
 			return false;
@@ -437,6 +437,6 @@ bool cell_expression(struct leaving *e, const char *text, struct out_item *item)
 	}
 	item->before = b.first;
 	if (strlen(item->text) > CLASSIC_EXPRESSION)
-		return refuse(e, DIAG_EXPORT_EXPRESSION, "%.40s", text);
+		return out_refuse(e, DIAG_EXPORT_EXPRESSION, "%.40s", text);
 	return e->good;
 }

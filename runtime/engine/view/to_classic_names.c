@@ -52,7 +52,7 @@ void size_note(struct leaving *e, int type, int number)
 	if (type >= 0 && type < 400 && number >= e->sizes[type])
 		e->sizes[type] = number + 1;
 	if (number >= CLASSIC_LIMIT)
-		refuse(e, DIAG_EXPORT_MANY, "%d", number);
+		out_refuse(e, DIAG_EXPORT_MANY, "%d", number);
 }
 
 int new_bit(struct leaving *e)
@@ -107,7 +107,7 @@ static bool bit_of(struct leaving *e, struct iec_addr addr, struct classic_varia
 {
 	int bit = (int)addr.byte * 8 + addr.bit;
 
-	switch (addr.area) {
+	switch ((int)addr.area) {
 	case AREA_I: *out = variable_of(50, bit); return true;
 	case AREA_Q: *out = variable_of(60, bit); return true;
 	case AREA_M: *out = variable_of(CL_BIT, bit); return true;
@@ -135,7 +135,7 @@ static bool word_of(struct leaving *e, struct iec_addr addr, struct classic_vari
 		number = (int)addr.byte / 2;
 	else if (addr.bits != 32 || addr.byte % 4)
 		return false;
-	switch (addr.area) {
+	switch ((int)addr.area) {
 	case AREA_V: *out = variable_of(CL_WORD, number); return true;
 	case AREA_AI: *out = variable_of(270, number); return true;
 	case AREA_AQ: *out = variable_of(280, number); return true;
@@ -355,7 +355,7 @@ static void number_blocks(struct leaving *e)
 		if (slot->number < 0)
 			slot->number = *next;
 		if (slot->number >= CLASSIC_LIMIT)
-			refuse(e, DIAG_EXPORT_MANY, "%s", slot->name);
+			out_refuse(e, DIAG_EXPORT_MANY, "%s", slot->name);
 	}
 }
 
@@ -390,7 +390,7 @@ static bool meaning_operand(struct leaving *e, const struct meaning *m,
 
 static bool no_number(struct leaving *e, const char *text)
 {
-	return refuse(e, DIAG_EXPORT_TYPE, "%s", text);
+	return out_refuse(e, DIAG_EXPORT_TYPE, "%s", text);
 }
 
 static bool pin_operand(struct leaving *e, const struct meaning *m, const char *text,
@@ -486,7 +486,7 @@ static bool meaning_operand(struct leaving *e, const struct meaning *m,
 			    const char *text, struct out_operand *out)
 {
 	*out = (struct out_operand){ .variable = variable_of(-1, 0) };
-	switch (m->kind) {
+	switch ((int)m->kind) {
 	case MEANING_VARIABLE:
 		return slot_operand(e, m, text, out);
 	case MEANING_PIN:
@@ -516,7 +516,7 @@ static bool meaning_operand(struct leaving *e, const struct meaning *m,
 	}
 }
 
-bool operand_find(struct leaving *e, uint32_t text, struct out_operand *out)
+bool there_find(struct leaving *e, uint32_t text, struct out_operand *out)
 {
 	enum diag_id why;
 	const struct meaning *m = scope_find(e->scope, e->pou, text, &why);
@@ -527,9 +527,9 @@ bool operand_find(struct leaving *e, uint32_t text, struct out_operand *out)
 	return meaning_operand(e, m, project_text(e->project, text), out);
 }
 
-bool operand_text(struct leaving *e, const char *text, size_t len, struct out_operand *out)
+bool there_text(struct leaving *e, const char *text, size_t len, struct out_operand *out)
 {
-	return operand_find(e, names_intern(&e->project->names, text, len), out);
+	return there_find(e, names_intern(&e->project->names, text, len), out);
 }
 
 /* ---- symbols ---- */

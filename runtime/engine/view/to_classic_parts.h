@@ -108,8 +108,8 @@ struct leaving {
 };
 
 /* ---- to_classic.c ---- */
-/** refuse - a diagnostic about the cell in work. Returns false. */
-bool refuse(struct leaving *e, enum diag_id id, const char *format, ...)
+/** out_refuse - a diagnostic about the cell in work. Returns false. */
+bool out_refuse(struct leaving *e, enum diag_id id, const char *format, ...)
 	__attribute__((format(printf, 3, 4)));
 /** tell_change - a line of the report about it. */
 void tell_change(struct leaving *e, const char *format, ...)
@@ -130,9 +130,9 @@ int routine_number(struct leaving *e, uint32_t name);
 /* ---- to_classic_names.c ---- */
 bool names_prepare(struct leaving *e);
 void names_symbols(struct leaving *e);
-/** operand_find - what a text means there; false after telling. */
-bool operand_find(struct leaving *e, uint32_t text, struct out_operand *out);
-bool operand_text(struct leaving *e, const char *text, size_t len, struct out_operand *out);
+/** there_find - what a text means there; false after telling. */
+bool there_find(struct leaving *e, uint32_t text, struct out_operand *out);
+bool there_text(struct leaving *e, const char *text, size_t len, struct out_operand *out);
 /** slot_find - of an instance; NULL: none. */
 struct out_slot *slot_find(struct leaving *e, const struct var *var);
 int new_bit(struct leaving *e);
@@ -148,8 +148,8 @@ int extra_bit(struct leaving *e, struct out_slot *slot, int index);
 /* ---- to_classic_expression.c ---- */
 /** cell_expression - of a [ … ] cell; false after telling. */
 bool cell_expression(struct leaving *e, const char *text, struct out_item *item);
-/** encode - @200/3@. */
-const char *encode(struct leaving *e, struct classic_variable variable);
+/** out_encode - @200/3@. */
+const char *out_encode(struct leaving *e, struct classic_variable variable);
 
 /* ---- to_classic_box.c ---- */
 /** box_item - an instance in a rung. */
@@ -171,11 +171,11 @@ struct out_rung {
 	bool *net_seen;
 };
 void leave_rung(struct leaving *e, const struct rung *rung);
-/** draw_rung - as it is drawn here. False: it does not fit, or would mean something
+/** same_rung - as it is drawn here. False: it does not fit, or would mean something
  * else; nothing was written. */
-bool draw_rung(struct leaving *e, struct out_rung *r);
-/** put_item - an element whose left top cell is at (y, x). */
-void put_item(struct leaving *e, struct classic_rung *rung, int y, int x,
+bool same_rung(struct leaving *e, struct out_rung *r);
+/** out_put - an element whose left top cell is at (y, x). */
+void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
 	      const struct out_item *item);
 /** note_jump - a jump at that cell: its rung is found when all are there. */
 void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_item *item);
@@ -190,6 +190,8 @@ void split_rung(struct leaving *e, struct out_rung *r);
 /** draw_step - a rung of a contact, or the rail (@code CL_WIRE), and an output. */
 void draw_step(struct leaving *e, int code, struct classic_variable variable,
 	       const struct out_item *output);
+/** draw_before - what must be worked out, a rung each. */
+void draw_before(struct leaving *e, const struct out_before *before);
 /** pin_kind - of which kind of block is this type a pin? -1: of none. */
 int pin_kind(int type);
 

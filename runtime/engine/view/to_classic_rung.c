@@ -39,7 +39,7 @@ static bool function_item(struct leaving *e, const struct cell *cell,
 					 value ? op : "", (int)arg.value_len, arg.value);
 	}
 	if (!op || !target || !value)
-		return refuse(e, DIAG_EXPORT_WORD, "%s",
+		return out_refuse(e, DIAG_EXPORT_WORD, "%s",
 			      scope_row(e->scope, (enum word)cell->word)->word);
 	item->code = CL_OPERATE;
 	item->width = 3;
@@ -54,7 +54,7 @@ static bool contact_item(struct leaving *e, const struct word_row *row,
 	struct out_operand operand;
 	bool edge = row->edge != EDGE_NONE;
 
-	if (!operand_find(e, cell->operand, &operand))
+	if (!there_find(e, cell->operand, &operand))
 		return false;
 	item->code = row->edge == EDGE_RISING ? CL_RISING :
 		     edge ? CL_FALLING : row->negate ? CL_NC : CL_NO;
@@ -62,7 +62,7 @@ static bool contact_item(struct leaving *e, const struct word_row *row,
 	if (!operand.is_constant)
 		return true;
 	if (edge)
-		return refuse(e, DIAG_EXPORT_WORD, "%s", row->word);
+		return out_refuse(e, DIAG_EXPORT_WORD, "%s", row->word);
 	item->code = CL_WIRE;
 	item->dead = (operand.value != 0) == row->negate;
 	return true;
@@ -73,7 +73,7 @@ static bool coil_item(struct leaving *e, const struct word_row *row,
 {
 	struct out_operand operand;
 
-	if (!operand_find(e, cell->operand, &operand))
+	if (!there_find(e, cell->operand, &operand))
 		return false;
 	item->variable = operand.variable;
 	item->code = row->number == ELEM_COIL_SET ? CL_SET :
@@ -106,7 +106,7 @@ static bool flow_item(struct leaving *e, const struct word_row *row,
 		if (item->variable.number >= 0)
 			return true;
 	}
-	return refuse(e, DIAG_EXPORT_WORD, "%s", row->word);
+	return out_refuse(e, DIAG_EXPORT_WORD, "%s", row->word);
 }
 
 static bool element_item(struct leaving *e, const struct word_row *row,
@@ -279,7 +279,7 @@ void leave_rung(struct leaving *e, const struct rung *rung)
 	}
 	if (!prepare(e, &r))
 		return;
-	if (!draw_rung(e, &r))
+	if (!same_rung(e, &r))
 		split_rung(e, &r);
 	if (e->good && e->out->rungs == first)
 		rung_begin(e);

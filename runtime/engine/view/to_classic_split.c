@@ -11,6 +11,9 @@
 
 enum { CHAIN = 16 };
 
+/* Items are large: their functions share no frame. */
+#define APART __attribute__((noinline))
+
 /* What has power there: always, never, or while a bit is. */
 struct net_power { bool known, always, never; struct classic_variable bit; };
 
@@ -54,7 +57,7 @@ static int draw_way(struct leaving *e, struct classic_rung *rung, int y,
 	if (way->never)
 		x = 1;
 	for (int i = 0; i < way->count && !way->never; i++) {
-		put_item(e, rung, y, x, &way->item[i]);
+		out_put(e, rung, y, x, &way->item[i]);
 		x += way->item[i].width;
 	}
 	for (; x < to; x++)
@@ -78,17 +81,22 @@ static void draw_ways(struct leaving *e, const struct way *way, int ways,
 		draw_way(e, rung, i, &way[i], i ? join : end);
 		rung->cell[i][join].top = i > 0;
 	}
-	put_item(e, rung, 0, end, output);
+	out_put(e, rung, 0, end, output);
 	if (output->code == CL_JUMP)
 		note_jump(e, &rung->cell[0][end], output);
 }
 
-static void way_add(struct way *way, struct out_item item)
+static APART void way_add(struct way *way, struct out_item item)
 {
 	if (way->count == CHAIN)
 		return;
 	way->item[way->count++] = item;
 	way->width += item.width;
+}
+
+static APART void way_contact(struct way *way, int code, struct classic_variable variable)
+{
+	way_add(way, contact(code, variable));
 }
 
 void draw_step(struct leaving *e, int code, struct classic_variable variable,
@@ -99,7 +107,7 @@ void draw_step(struct leaving *e, int code, struct classic_variable variable,
 	if (!way)
 		return;
 	if (code != CL_WIRE)
-		way_add(way, contact(code, variable));
+		way_contact(way, code, variable);
 	draw_ways(e, way, 1, output);
 }
 
@@ -156,7 +164,7 @@ static bool is_simple(const struct splitting *s, int index)
 }
 
 /* The way through one feeder, back to the rail or to a bit. */
-static void find_way(struct splitting *s, int index, struct way *way)
+static APART void find_way(struct splitting *s, int index, struct way *way)
 {
 	int chain[CHAIN], count = 0, width = 1, in, back = index;
 	struct out_item first;
@@ -166,7 +174,7 @@ static void find_way(struct splitting *s, int index, struct way *way)
 	if (given->known) {
 		way->never = given->never;
 		if (!given->always && !given->never)
-			way_add(way, contact(CL_NO, given->bit));
+			way_contact(way, CL_NO, given->bit);
 		return;
 	}
 	for (;;) {
@@ -217,7 +225,7 @@ static int find_ways(struct splitting *s, int net, struct way *way)
 
 			draw_ways(s->e, way, count, &output);
 			memset(way, 0, sizeof(*way));
-			way_add(way, contact(CL_NO, output.variable));
+			way_contact(way, CL_NO, output.variable);
 			count = 1;
 		}
 		copy_way(&way[count++], next);
@@ -287,15 +295,17 @@ static void give(struct splitting *s, int index, int bit)
 }
 
 /* Its inputs one below the other, its first output a bit. */
-static void draw_block(struct splitting *s, int index)
+static APART void draw_block(struct splitting *s, int index)
 {
 	const struct out_item *item = &s->r->item[index];
-	struct out_item input[4], output;
+	struct out_item *input = arena_alloc(s->e->arena, 4 * sizeof(*input)), output;
 	struct classic_rung *rung;
 	bool has[4] = { false }, always[4] = { false }, never;
 	bool read = item->out != NET_RAIL && s->r->network.reader_count[item->out];
 	int bit = read ? helper_bit(s->e) : 0;
 
+	if (!input)
+		return;
 	for (int i = 0; i < item->height && i < 4; i++) {
 		if (item->given[i].type >= 0) {
 			has[i] = true;
@@ -314,17 +324,17 @@ static void draw_block(struct splitting *s, int index)
 		return;
 	for (int i = 0; i < item->height && i < 4; i++) {
 		if (has[i])
-			put_item(s->e, rung, i, 0, &input[i]);
+			out_put(s->e, rung, i, 0, &input[i]);
 		else if (always[i])
 			rung->cell[i][0].element = CL_WIRE;
 	}
-	put_item(s->e, rung, 0, 1, item);
+	out_put(s->e, rung, 0, 1, item);
 	if (!read)
 		return;
 	for (int x = 3; x < s->e->columns - 1; x++)
 		rung->cell[0][x].element = CL_WIRE;
 	output = coil(CL_COIL, bit);
-	put_item(s->e, rung, 0, s->e->columns - 1, &output);
+	out_put(s->e, rung, 0, s->e->columns - 1, &output);
 	give(s, index, bit);
 }
 
@@ -336,7 +346,7 @@ static void compare_bit(struct leaving *e, const char *text, int bit)
 }
 
 /* An edge of an input counts only while the count can go on: there it would go round. */
-static void gate(struct splitting *s, int row, const struct out_item *item,
+static APART void gate(struct splitting *s, int row, const struct out_item *item,
 		 const char *limit)
 {
 	bool never = false;
@@ -354,14 +364,14 @@ static void gate(struct splitting *s, int row, const struct out_item *item,
 	draw_step(s->e, item->given[row].type >= 0 && item->inverse[row] ? CL_FALLING :
 		  CL_RISING, bit, &output);
 	compare_bit(s->e, out_text(s->e, "@251/%d@%s", item->slot->number, limit), allowed);
-	way_add(way, contact(CL_NO, output.variable));
-	way_add(way, contact(CL_NO, variable_of(CL_BIT, allowed)));
+	way_contact(way, CL_NO, output.variable);
+	way_contact(way, CL_NO, variable_of(CL_BIT, allowed));
 	output = coil(CL_COIL, helper_bit(s->e));
 	draw_ways(s->e, way, 1, &output);
 	s->gate[row] = output.variable;
 }
 
-static void draw_counter(struct splitting *s, int index)
+static APART void draw_counter(struct splitting *s, int index)
 {
 	const struct out_item *item = &s->r->item[index];
 	struct out_slot *slot = slot_find(s->e, item->slot->var);
@@ -401,7 +411,7 @@ static struct classic_variable input_bit(struct splitting *s, const struct out_i
 }
 
 /* Edges and bistables: a bit that stays. */
-static void draw_bits(struct splitting *s, int index)
+static APART void draw_bits(struct splitting *s, int index)
 {
 	const struct out_item *item = &s->r->item[index];
 	struct out_slot *slot = slot_find(s->e, item->slot->var);
@@ -417,18 +427,18 @@ static void draw_bits(struct splitting *s, int index)
 			  &output);
 	} else {
 		b = input_bit(s, item, 1);
-		way_add(&way[0], contact(CL_NO, a));
+		way_contact(&way[0], CL_NO, a);
 		if (item->word == FB_RS)
-			way_add(&way[0], contact(CL_NC, b));
-		way_add(&way[1], contact(CL_NO, output.variable));
-		way_add(&way[1], contact(CL_NC, b));
+			way_contact(&way[0], CL_NC, b);
+		way_contact(&way[1], CL_NO, output.variable);
+		way_contact(&way[1], CL_NC, b);
 		draw_ways(s->e, way, 2, &output);
 	}
 	give(s, index, bit);
 }
 
 /* An assignment or call in the middle: power goes on behind it. */
-static void draw_middle(struct splitting *s, int index)
+static APART void draw_middle(struct splitting *s, int index)
 {
 	const struct out_item *item = &s->r->item[index];
 	struct out_item first;
@@ -441,7 +451,7 @@ static void draw_middle(struct splitting *s, int index)
 			  has ? first.variable : variable_of(0, 0), item);
 }
 
-static void draw_inverted(struct splitting *s, int index)
+static APART void draw_inverted(struct splitting *s, int index)
 {
 	bool never;
 	struct classic_variable bit = net_bit(s, s->r->item[index].in, &never);
@@ -466,7 +476,7 @@ static bool is_changed(const struct splitting *s, const struct out_item *item)
 	return item->before != NULL;
 }
 
-static void draw_read(struct splitting *s, int index)
+static APART void draw_read(struct splitting *s, int index)
 {
 	const struct out_item *item = &s->r->item[index];
 	struct out_item output;
@@ -535,7 +545,7 @@ static bool acts_always(const struct out_item *item)
 
 struct acting { struct way *way; struct out_item *output; int count; };
 
-static void flush(struct splitting *s, struct acting *acting)
+static APART void flush(struct splitting *s, struct acting *acting)
 {
 	struct classic_rung *rung;
 
@@ -547,7 +557,7 @@ static void flush(struct splitting *s, struct acting *acting)
 		int end = s->e->columns - output->width;
 
 		draw_way(s->e, rung, i, &acting->way[i], end);
-		put_item(s->e, rung, i, end, output);
+		out_put(s->e, rung, i, end, output);
 		if (output->code == CL_JUMP) {
 			s->e->row = output->row + 1;
 			s->e->col = output->col + 1;
@@ -557,7 +567,7 @@ static void flush(struct splitting *s, struct acting *acting)
 	acting->count = 0;
 }
 
-static void act(struct splitting *s, const struct out_item *item, struct acting *acting)
+static APART void act(struct splitting *s, const struct out_item *item, struct acting *acting)
 {
 	struct out_item first;
 	struct way *way;
@@ -586,7 +596,7 @@ static void act(struct splitting *s, const struct out_item *item, struct acting 
 }
 
 /* One output, and its ways fit into a rung: no bit is needed. */
-static bool act_alone(struct splitting *s, int index)
+static APART bool act_alone(struct splitting *s, int index)
 {
 	const struct out_item *item = &s->r->item[index];
 	const struct network *n = &s->r->network;
