@@ -70,7 +70,7 @@ static void put_instance(struct conversion *c, enum classic_kind kind, int numbe
 		break;
 	case CLASSIC_COUNTER:
 		block = classic_block(&project->counter, number);
-		put(c, "CL_COUNTER := (P := %d)", block ? block->preset : 0);
+		put(c, "CL_COUNTER := (P := %d, V := 0)", block ? block->preset : 0);
 		break;
 	case CLASSIC_REGISTER:
 		block = classic_block(&project->reg, number);

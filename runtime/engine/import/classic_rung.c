@@ -410,7 +410,6 @@ static void write_all(struct conversion *c)
 	write_configuration(c);
 	write_declarations(c);
 	put_temporaries(c);
-	write_functions(c);
 	write_system(c);
 	for (int i = 0, from = 0; i < sections.lines; i++) {
 		const char *end = memchr(sections.text + from, '\n',
@@ -420,6 +419,8 @@ static void write_all(struct conversion *c)
 		put(c, "%.*s\n", (int)(end - sections.text) - from, sections.text + from);
 		from = (int)(end - sections.text) + 1;
 	}
+	c->at = (struct classic_place){ "", 0 };
+	write_functions(c);
 }
 
 bool classic_to_rung(const struct classic_project *project,
