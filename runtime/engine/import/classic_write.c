@@ -287,7 +287,10 @@ static void write_io(struct writer *w)
 /* What a program has nothing to say of; a member must not be empty. */
 static void write_rest(struct writer *w)
 {
-	put_member(w, "com_params.txt", "MODBUS_ELEMENT_OFFSET=0\n");
+	put_member(w, "com_params.txt", w->upstream ? "MODBUS_ELEMENT_OFFSET=0\n" :
+		   "MODBUS_ELEMENT_OFFSET=0\nMODBUS_MAP_COIL_READ=0\n"
+		   "MODBUS_MAP_COIL_WRITE=0\nMODBUS_MAP_INPUT=0\nMODBUS_MAP_HOLDING=0\n"
+		   "MODBUS_MAP_REGISTER_READ=0\nMODBUS_MAP_REGISTER_WRITE=0\n");
 	put_member(w, "modbusioconf.csv", w->upstream ? "#VER=2.0\n" : "#VER=1.0\n");
 	if (!w->upstream)
 		return;

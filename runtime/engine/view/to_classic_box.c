@@ -272,7 +272,8 @@ bool box_item(struct leaving *e, const struct network *network,
 	int first;
 
 	item->word = (enum word)cell->word;
-	if (!row || word->kind != WORD_FB)
+	if (!row || word->kind != WORD_FB ||
+	    (row->kind == BLOCK_REGISTER && e->dialect != CLASSIC_UPSTREAM))
 		return out_refuse(e, DIAG_EXPORT_WORD, "%s", word->word);
 	m = scope_find(e->scope, e->pou, cell->operand, &why);
 	item->slot = m && m->var ? slot_find(e, m->var) : NULL;
