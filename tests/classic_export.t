@@ -98,6 +98,9 @@ for my $seed (1 .. 25) {
 }
 {
 	my $out = export("$ours/numeric.txt", 'numeric', 'numeric');
-	is(defined $out ? slurp($out) : '', slurp("$ours/numeric.txt"), 'numeric: the same text');
+	my $again = defined $out ? export($out, 'numeric', 'again') : undef;
+	is(defined $again ? slurp($again) : '', defined $out ? slurp($out) : 'none',
+		'numeric: the second text is the first');
+	same_trace('numeric', "$ours/numeric.txt", "$ours/numeric.script", $out) if defined $out;
 }
 done_testing();

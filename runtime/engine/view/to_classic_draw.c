@@ -308,6 +308,9 @@ bool same_rung(struct leaving *e, struct out_rung *r)
 	d->e = e;
 	d->r = r;
 	d->rung = arena_alloc(e->arena, sizeof(*d->rung));
+	for (int i = 0; d->rung && i < CLASSIC_ROWS * CLASSIC_COLUMNS; i++)
+		d->rung->cell[i / CLASSIC_COLUMNS][i % CLASSIC_COLUMNS].variable =
+			variable_of(0, 0);
 	if (!d->rung || !actors_apart(r) || acts_dead(r) || !find_columns(d))
 		return false;
 	place_all(d);

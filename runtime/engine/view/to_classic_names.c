@@ -230,6 +230,11 @@ static void note_all(struct leaving *e)
 		if (strncmp(text, "(*", 2) != 0)
 			note_text(e, text);
 	}
+	/* Others may look at low numbers that the program does not use: Modbus, spies. */
+	if (e->dialect == CLASSIC_UPSTREAM && e->next_bit < 300)
+		e->next_bit = 300;
+	if (e->dialect == CLASSIC_UPSTREAM && e->next_word < 100)
+		e->next_word = 100;
 	if (e->bit_index && e->next_bit < 500)
 		e->next_bit = 500;
 	if (e->word_index && e->next_word < 200)
