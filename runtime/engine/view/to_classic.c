@@ -497,6 +497,7 @@ static void leave_all(struct leaving *e)
 		out_refuse(e, DIAG_EXPORT_MANY, "%d", page);
 	if (!e->good || !names_prepare(e))
 		return;
+	blocks_prepare(e);
 	write_initial(e);
 	page = 0;
 	for (int i = 0; i < count && e->good; i++)

@@ -33,6 +33,8 @@ static const struct box_row box_rows[] = {
 	{ FB_RS, CL_PART, -1, { "S", "R1" } },
 };
 
+enum { OWN_ROWS = 7 }; /* of ClassicLadder's own */
+
 static const struct box_row *row_of(enum word word)
 {
 	for (size_t i = 0; i < sizeof(box_rows) / sizeof(*box_rows); i++)
@@ -166,6 +168,23 @@ static bool own_block(struct leaving *e, const struct out_slot *slot,
 	return true;
 }
 
+/* A preset counts even if its block stands in no rung. */
+void blocks_prepare(struct leaving *e)
+{
+	for (int i = 0; i < e->slots && e->good; i++) {
+		const struct out_slot *slot = &e->slot[i];
+		const struct box_row *row = slot->block < 0 ? NULL : row_of(slot->var->fb);
+		struct classic_block *block;
+
+		if (!row || row >= &box_rows[OWN_ROWS] ||
+		    (slot->pou && pou_has_frame(slot->pou)))
+			continue;
+		block = block_entry(e, slot->block, slot->number);
+		if (block)
+			own_block(e, slot, block);
+	}
+}
+
 static void later(struct leaving *e, struct out_item *item, const char *text, int bit)
 {
 	struct out_before *one = arena_alloc(e->arena, sizeof(*one)), **last = &item->after;
@@ -177,13 +196,29 @@ static void later(struct leaving *e, struct out_item *item, const char *text, in
 	*last = one;
 }
 
+/* Nothing there can write a TIME: a variable has the value that it is declared with. */
+static bool declared_time(struct leaving *e, const char *name, int64_t *ns)
+{
+	uint32_t id = names_intern(&e->project->names, name, strlen(name));
+	enum diag_id why;
+	const struct meaning *m = scope_find(e->scope, e->pou, id, &why);
+
+	if (!m || m->kind != MEANING_VARIABLE || m->var->type != IEC_TIME ||
+	    !m->var->has_init || m->var->array.count)
+		return false;
+	if (!m->constant)
+		tell_change(e, "%s is fixed there", name);
+	*ns = m->var->init.i;
+	return true;
+}
+
 /* PT:=T#3s of a timer of IEC 61131-3. */
 static bool iec_time(struct leaving *e, struct out_item *item, const char *text)
 {
 	struct classic_block *block = block_entry(e, BLOCK_IEC, item->slot->number);
 	int64_t ns;
 
-	if (!block || !number_of(text, IEC_TIME, &ns))
+	if (!block || (!number_of(text, IEC_TIME, &ns) && !declared_time(e, text, &ns)))
 		return out_refuse(e, DIAG_EXPORT_TIME, "%s", text);
 	block->mode = item->word == FB_TON ? 0 : item->word == FB_TOF ? 1 : 2;
 	tell_change(e, "timer %s counts one scan later there", item->slot->name);

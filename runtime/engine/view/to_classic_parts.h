@@ -157,6 +157,8 @@ bool box_item(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
 	      struct out_item *item);
 
+/** blocks_prepare - presets and modes of all blocks. */
+void blocks_prepare(struct leaving *e);
 /** box_is_plain - can it be drawn as it stands? Scan-safe: yes. */
 bool box_is_plain(const struct out_item *item);
 

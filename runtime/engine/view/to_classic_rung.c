@@ -15,7 +15,8 @@
 
 static const struct { enum word word; const char *op; } function_rows[] = {
 	{ FN_MOVE, "" }, { FN_ADD, " + " }, { FN_SUB, " - " }, { FN_MUL, " * " },
-	{ FN_DIV, " / " }, { FN_MOD, " MOD " },
+	{ FN_DIV, " / " }, { FN_MOD, " MOD " }, { FN_EQ, " = " }, { FN_NE, " <> " },
+	{ FN_GT, " > " }, { FN_GE, " >= " }, { FN_LT, " < " }, { FN_LE, " <= " },
 };
 
 static bool function_item(struct leaving *e, const struct cell *cell,
@@ -38,7 +39,12 @@ static bool function_item(struct leaving *e, const struct cell *cell,
 			value = out_text(e, "%s%s%.*s", value ? value : "",
 					 value ? op : "", (int)arg.value_len, arg.value);
 	}
-	if (!op || !target || !value)
+	if (op && value && !target && strpbrk(op, "<>=")) {
+		item->code = CL_COMPARE;
+		item->width = 3;
+		return cell_expression(e, value, item);
+	}
+	if (!op || !target || !value || strpbrk(op, "<>="))
 		return out_refuse(e, DIAG_EXPORT_WORD, "%s",
 			      scope_row(e->scope, (enum word)cell->word)->word);
 	item->code = CL_OPERATE;
