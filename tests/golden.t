@@ -10,6 +10,8 @@
 #   expected.why    what `ladder why main.rung stimulus COIL` prints, of each line in `ask`
 #   expected.show   what `ladder show main.rung` draws; expected.ascii: with --ascii
 #   expected.ladder what `ladder export --as ld` prints, and what is said of it
+#   expected.classic what `ladder export --as classicladder` prints, and what is said of it;
+#                   expected.numeric: --as numeric
 #   expected.fault  the same of a program that ends with a fault, and what is said of it
 # The cases together must show every message of diag.def and trace every word of
 # catalog.def. `--bless CASE` rewrites what a case expects and shows the difference:
@@ -31,6 +33,8 @@ my %command = (
 	trace => ['trace', 'main.rung', 'stimulus'],
 	fault => ['trace', 'main.rung', 'stimulus'],
 	ladder => ['export', '--as', 'ld', 'main.rung'],
+	classic => ['export', '--as', 'classicladder', 'main.rung'],
+	numeric => ['export', '--as', 'numeric', 'main.rung'],
 	show  => ['show', 'main.rung'],
 	ascii => ['show', '--ascii', 'main.rung'],
 	why   => [],
@@ -163,7 +167,8 @@ sub missing_words {
 my $elsewhere = qr/^LD(?:0|316|327|5|61|606|607)/;
 
 sub missing_codes {
-	my $shown = join '', map { slurp("$_/expected.diag") // slurp("$_/expected.ladder") // '' } cases();
+	my $shown = join '', map { slurp("$_/expected.diag") // slurp("$_/expected.ladder") //
+		slurp("$_/expected.classic") // slurp("$_/expected.numeric") // '' } cases();
 	my @codes = slurp("$engine/diag.def") =~ /^DIAG\(\w+,\s*"(LD\d+)"/mg;
 	return grep { !/$elsewhere/ && $shown !~ / $_: / } @codes;
 }
