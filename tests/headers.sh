@@ -8,7 +8,7 @@ n=0 failed=0
 for header in $(find runtime hal editor-gtk tests -name '*.h' 2>/dev/null | sort); do
 	case $header in
 	tests/hal/*) continue;; # fakes of a library's headers
-	editor-gtk/*|tests/editor/*) flags=$(pkg-config --cflags gtk4 libadwaita-1 gtksourceview-5 2>/dev/null) || continue;;
+	editor-gtk/*|tests/editor/*|tests/bench/editor*) flags=$(pkg-config --cflags gtk4 libadwaita-1 gtksourceview-5 2>/dev/null) || continue;;
 	*) flags=;;
 	esac
 	n=$((n + 1))
