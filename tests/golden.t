@@ -85,8 +85,8 @@ sub produce {
 	my ($dir, $kind) = @_;
 	return produce_why($dir) if $kind eq 'why';
 	my ($out, $err, $status) = run_case($dir, @{$command{$kind}});
-	my $text = $kind eq 'diag' ? $err : $kind =~ /fault|ladder/ ? "$out$err" : $out;
-	my $wanted = $kind eq 'fault' || ($kind =~ /diag|ladder/ && $err =~ /: error LD/) ? 1 : 0;
+	my $text = $kind eq 'diag' ? $err : $kind =~ /fault|ladder|classic|numeric/ ? "$out$err" : $out;
+	my $wanted = $kind eq 'fault' || ($kind =~ /diag|ladder|classic|numeric/ && $err =~ /: error LD/) ? 1 : 0;
 	return ($text, $status == $wanted, $status);
 }
 
