@@ -7,7 +7,7 @@
 #include "ladder/report.h"
 
 #include "engine/base/file.h"
-#include "engine/import/classic.h"
+#include "engine/import/report.h"
 
 #include <stdio.h>
 #include <stdlib.h>
