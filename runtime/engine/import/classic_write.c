@@ -73,19 +73,19 @@ static void put_member(struct writer *w, const char *member, const char *text)
 
 /* ---- settings ---- */
 
-static bool is_info(const char *key)
+static bool is_about(const char *key)
 {
 	return !strncmp(key, "PROJECT_", 8) || !strncmp(key, "PARAM_", 6) ||
 	       !strcmp(key, "CREA_DATE") || !strcmp(key, "MODIF_DATE");
 }
 
-static void write_settings(struct writer *w, const char *member, bool info)
+static void write_settings(struct writer *w, const char *member, bool about)
 {
 	begin(w, member);
 	for (int i = 0; i < w->project->settings; i++) {
 		const struct classic_setting *setting = &w->project->setting[i];
 
-		if (is_info(setting->key) != info)
+		if (is_about(setting->key) != about)
 			continue;
 		sink_text(w->sink, setting->key);
 		sink_text(w->sink, "=");

@@ -154,7 +154,7 @@ int add_expression(struct leaving *e, const char *text)
 	return one->number;
 }
 
-void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_item *item)
+void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_part *item)
 {
 	struct out_jump *jump = arena_push(e->arena, &e->jump, &e->jumps, sizeof(*jump));
 
@@ -307,7 +307,7 @@ static bool is_needless(struct leaving *e, const struct pou *pou)
 
 /* ---- initial values ---- */
 
-static void first_scan_only(struct leaving *e, const struct out_item *output)
+static void first_scan_only(struct leaving *e, const struct out_part *output)
 {
 	bool upstream = e->dialect == CLASSIC_UPSTREAM;
 
@@ -324,7 +324,7 @@ static void write_initial(struct leaving *e)
 	for (int i = 0; i < e->slots && e->good; i++) {
 		const struct out_slot *slot = &e->slot[i];
 		const struct var *var = slot->var;
-		struct out_item item = { .code = CL_SET, .width = 1, .height = 1,
+		struct out_part item = { .code = CL_SET, .width = 1, .height = 1,
 			.variable = variable_of(slot->type, slot->number) };
 
 		if (slot->block >= 0 || slot->type < 0 || !var->has_init ||
@@ -352,7 +352,7 @@ static void write_initial(struct leaving *e)
 /* The bit that says that a scan has been is set behind all of them. */
 static void write_started(struct leaving *e)
 {
-	struct out_item item = { .code = CL_SET, .width = 1, .height = 1 };
+	struct out_part item = { .code = CL_SET, .width = 1, .height = 1 };
 
 	if (e->started < 0)
 		return;

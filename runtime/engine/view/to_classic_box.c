@@ -185,7 +185,7 @@ void blocks_prepare(struct leaving *e)
 	}
 }
 
-static void later(struct leaving *e, struct out_item *item, const char *text, int bit)
+static void later(struct leaving *e, struct out_part *item, const char *text, int bit)
 {
 	struct out_before *one = arena_alloc(e->arena, sizeof(*one)), **last = &item->after;
 
@@ -213,7 +213,7 @@ static bool declared_time(struct leaving *e, const char *name, int64_t *ns)
 }
 
 /* PT:=T#3s of a timer of IEC 61131-3. */
-static bool iec_time(struct leaving *e, struct out_item *item, const char *text)
+static bool iec_time(struct leaving *e, struct out_part *item, const char *text)
 {
 	struct classic_block *block = block_entry(e, BLOCK_IEC, item->slot->number);
 	int64_t ns;
@@ -225,7 +225,7 @@ static bool iec_time(struct leaving *e, struct out_item *item, const char *text)
 	return time_units(e, ns, item->slot->name, block);
 }
 
-static bool counter_preset(struct leaving *e, struct out_item *item, const char *text)
+static bool counter_preset(struct leaving *e, struct out_part *item, const char *text)
 {
 	struct classic_block *block = block_entry(e, BLOCK_COUNTER, item->slot->number);
 	struct out_operand operand;
@@ -246,7 +246,7 @@ static bool counter_preset(struct leaving *e, struct out_item *item, const char 
 }
 
 /* Q=>Lamp, CV=>Count: copied behind the block. */
-static bool output_to(struct leaving *e, struct out_item *item, const struct arg *arg)
+static bool output_to(struct leaving *e, struct out_part *item, const struct arg *arg)
 {
 	struct out_operand target, pin;
 	const char *name = out_text(e, "%s.%.*s", item->slot->name, (int)arg->pin_len,
@@ -261,7 +261,7 @@ static bool output_to(struct leaving *e, struct out_item *item, const struct arg
 }
 
 static bool box_argument(struct leaving *e, const struct box_row *row,
-			 const struct arg *arg, struct out_item *item)
+			 const struct arg *arg, struct out_part *item)
 {
 	const char *value = out_text(e, "%.*s", (int)arg->value_len, arg->value);
 	int at = pin_row(row, arg->pin, arg->pin_len);
@@ -284,7 +284,7 @@ static bool box_argument(struct leaving *e, const struct box_row *row,
 	return true;
 }
 
-bool box_is_plain(const struct out_item *item)
+bool box_is_plain(const struct out_part *item)
 {
 	for (int i = 0; i < 4; i++)
 		if (item->given[i].type >= 0)
@@ -294,7 +294,7 @@ bool box_is_plain(const struct out_item *item)
 
 bool box_item(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
-	      struct out_item *item)
+	      struct out_part *item)
 {
 	static const int height[BLOCK_KINDS] = { 2, 2, 2, 4, 3 };
 	const struct box_row *row = row_of((enum word)cell->word);

@@ -46,7 +46,7 @@ static void expected(const struct out_rung *r, int net, struct sources *out, int
 		return;
 	}
 	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++) {
-		const struct out_item *item = &r->item[n->feeder[i]];
+		const struct out_part *item = &r->item[n->feeder[i]];
 
 		if (item->dead)
 			continue;
@@ -80,7 +80,7 @@ static void put_wires(struct drawing *d, int y, int from, int to)
 }
 
 void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
-	      const struct out_item *item)
+	      const struct out_part *item)
 {
 	int alive = item->width - 1;
 	struct classic_cell *cell;
@@ -123,7 +123,7 @@ static bool find_columns(struct drawing *d)
 
 static void place_item(struct drawing *d, int index)
 {
-	const struct out_item *item = &d->r->item[index];
+	const struct out_part *item = &d->r->item[index];
 	int x = d->pos[item->col], end = d->pos[item->col + 1], y = item->row;
 	struct classic_rung *rung = d->rung;
 
@@ -205,7 +205,7 @@ static bool is_expected(struct drawing *d, struct sources left, int net)
 static bool check_item(struct drawing *d, const struct power *power, int index, int y,
 		       int x)
 {
-	const struct out_item *item = &d->r->item[index];
+	const struct out_part *item = &d->r->item[index];
 
 	x -= item->width - 1;
 	if (!is_block(item))
@@ -221,7 +221,7 @@ static bool check_item(struct drawing *d, const struct power *power, int index, 
 
 static void give_power(struct drawing *d, struct power *power, int index, int y, int x)
 {
-	const struct out_item *item = &d->r->item[index];
+	const struct out_part *item = &d->r->item[index];
 
 	if (item->actor)
 		return;
@@ -257,10 +257,10 @@ static bool same_order(const struct drawing *d)
 	const struct out_rung *r = d->r;
 
 	for (int i = 0; i < r->count; i++) {
-		const struct out_item *box = &r->item[i];
+		const struct out_part *box = &r->item[i];
 
 		for (int k = 0; is_block(box) && k < r->count; k++) {
-			const struct out_item *item = &r->item[k];
+			const struct out_part *item = &r->item[k];
 			int there = (d->x[k] - d->x[i]) * 256 + item->row - box->row;
 
 			if (k == i || item->actor || item->order < 0 || item->dead ||

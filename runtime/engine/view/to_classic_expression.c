@@ -389,7 +389,7 @@ static const char *truth_value(struct building *b, struct term part)
 	return settled(b, part).text;
 }
 
-static bool assignment(struct building *b, struct out_item *item)
+static bool assignment(struct building *b, struct out_part *item)
 {
 	const struct expr *expr = b->expr;
 	struct out_operand target;
@@ -415,7 +415,7 @@ static bool assignment(struct building *b, struct out_item *item)
 	return b->e->good;
 }
 
-bool cell_expression(struct leaving *e, const char *text, struct out_item *item)
+bool cell_expression(struct leaving *e, const char *text, struct out_part *item)
 {
 	struct building b = { .e = e, .expr = e->expr };
 	struct diag_list *scrap = arena_alloc(e->arena, sizeof(*scrap));

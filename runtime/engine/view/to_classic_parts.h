@@ -55,7 +55,7 @@ struct out_before {
 };
 
 /* An element of a rung in ClassicLadder's terms. */
-struct out_item {
+struct out_part {
 	int code, width, height;
 	struct classic_variable variable; /* of blocks: number                 */
 	const char *text;      /* of compare, operate                          */
@@ -147,7 +147,7 @@ int extra_bit(struct leaving *e, struct out_slot *slot, int index);
 
 /* ---- to_classic_expression.c ---- */
 /** cell_expression - of a [ … ] cell; false after telling. */
-bool cell_expression(struct leaving *e, const char *text, struct out_item *item);
+bool cell_expression(struct leaving *e, const char *text, struct out_part *item);
 /** out_encode - @200/3@. */
 const char *out_encode(struct leaving *e, struct classic_variable variable);
 
@@ -155,18 +155,18 @@ const char *out_encode(struct leaving *e, struct classic_variable variable);
 /** box_item - an instance in a rung. */
 bool box_item(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
-	      struct out_item *item);
+	      struct out_part *item);
 
 /** blocks_prepare - presets and modes of all blocks. */
 void blocks_prepare(struct leaving *e);
 /** box_is_plain - can it be drawn as it stands? Scan-safe: yes. */
-bool box_is_plain(const struct out_item *item);
+bool box_is_plain(const struct out_part *item);
 
 /* ---- to_classic_rung.c, to_classic_draw.c, to_classic_split.c ---- */
 struct out_rung {
 	struct network network;
 	const struct rung *rung;
-	struct out_item *item; /* by element of the network                    */
+	struct out_part *item; /* by element of the network                    */
 	int count, order;
 	bool plain;            /* nothing in it must be worked out before     */
 	bool boxes;            /* something in its middle does more than read  */
@@ -178,20 +178,20 @@ void leave_rung(struct leaving *e, const struct rung *rung);
 bool same_rung(struct leaving *e, struct out_rung *r);
 /** out_put - an element whose left top cell is at (y, x). */
 void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
-	      const struct out_item *item);
+	      const struct out_part *item);
 /** note_jump - a jump at that cell: its rung is found when all are there. */
-void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_item *item);
+void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_part *item);
 /** item_touches - does @item read what @box writes, or is it the same block? */
-bool item_touches(const struct out_item *item, const struct out_item *box);
+bool item_touches(const struct out_part *item, const struct out_part *box);
 /** is_block - one of ClassicLadder's own. Scan-safe: yes. */
-static inline bool is_block(const struct out_item *item)
+static inline bool is_block(const struct out_part *item)
 {
 	return item->code >= CL_OLD_TIMER && item->code <= CL_REGISTER_BOX;
 }
 void split_rung(struct leaving *e, struct out_rung *r);
 /** draw_step - a rung of a contact, or the rail (@code CL_WIRE), and an output. */
 void draw_step(struct leaving *e, int code, struct classic_variable variable,
-	       const struct out_item *output);
+	       const struct out_part *output);
 /** draw_before - what must be worked out, a rung each. */
 void draw_before(struct leaving *e, const struct out_before *before);
 /** pin_kind - of which kind of block is this type a pin? -1: of none. */

@@ -9,6 +9,7 @@
 #include "engine/model/args.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- functions with EN as assignments ---- */
@@ -20,7 +21,7 @@ static const struct { enum word word; const char *op; } function_rows[] = {
 };
 
 static bool function_item(struct leaving *e, const struct cell *cell,
-			  struct out_item *item)
+			  struct out_part *item)
 {
 	const char *args = project_text(e->project, cell->args), *op = NULL;
 	const char *target = NULL, *value = NULL;
@@ -55,7 +56,7 @@ static bool function_item(struct leaving *e, const struct cell *cell,
 /* ---- elements ---- */
 
 static bool contact_item(struct leaving *e, const struct word_row *row,
-			 const struct cell *cell, struct out_item *item)
+			 const struct cell *cell, struct out_part *item)
 {
 	struct out_operand operand;
 	bool edge = row->edge != EDGE_NONE;
@@ -75,7 +76,7 @@ static bool contact_item(struct leaving *e, const struct word_row *row,
 }
 
 static bool coil_item(struct leaving *e, const struct word_row *row,
-		      const struct cell *cell, struct out_item *item)
+		      const struct cell *cell, struct out_part *item)
 {
 	struct out_operand operand;
 
@@ -91,7 +92,7 @@ static bool coil_item(struct leaving *e, const struct word_row *row,
 }
 
 static bool flow_item(struct leaving *e, const struct word_row *row,
-		      const struct cell *cell, struct out_item *item)
+		      const struct cell *cell, struct out_part *item)
 {
 	item->code = CL_JUMP;
 	switch ((int)row->number) {
@@ -116,7 +117,7 @@ static bool flow_item(struct leaving *e, const struct word_row *row,
 }
 
 static bool element_item(struct leaving *e, const struct word_row *row,
-			 const struct cell *cell, struct out_item *item)
+			 const struct cell *cell, struct out_part *item)
 {
 	const char *text = project_text(e->project, cell->operand);
 
@@ -146,12 +147,12 @@ static bool make_item(struct leaving *e, struct out_rung *r, int index)
 	const struct network_element *at = &r->network.element[index];
 	const struct cell *cell = rung_at(r->rung, at->row, at->col);
 	const struct word_row *row = scope_row(e->scope, (enum word)at->word);
-	struct out_item *item = &r->item[index];
+	struct out_part *item = &r->item[index];
 	bool box = row->place == PLACE_BOX || row->kind != WORD_ELEM;
 
 	e->row = at->row + 1;
 	e->col = at->col + 1;
-	*item = (struct out_item){ .width = 1, .height = 1, .row = at->row,
+	*item = (struct out_part){ .width = 1, .height = 1, .row = at->row,
 		.col = at->col, .in = at->in, .out = at->out, .order = -1,
 		.variable = variable_of(0, 0) };
 	for (int i = 0; i < 4; i++) {
@@ -187,7 +188,7 @@ static void visit_net(struct out_rung *r, int net)
 static void visit(struct out_rung *r, int index)
 {
 	const struct network_element *at = &r->network.element[index];
-	struct out_item *item = &r->item[index];
+	struct out_part *item = &r->item[index];
 
 	if (item->order >= 0)
 		return;
@@ -200,7 +201,7 @@ static void visit(struct out_rung *r, int index)
 
 /* ---- what touches what ---- */
 
-static bool reads_pin(struct classic_variable variable, const struct out_item *box)
+static bool reads_pin(struct classic_variable variable, const struct out_part *box)
 {
 	int kind = pin_kind(variable.type);
 
@@ -208,7 +209,7 @@ static bool reads_pin(struct classic_variable variable, const struct out_item *b
 	       variable.number == box->slot->number;
 }
 
-bool item_touches(const struct out_item *item, const struct out_item *box)
+bool item_touches(const struct out_part *item, const struct out_part *box)
 {
 	if (!box->slot || box->slot->block < 0)
 		return true;
@@ -216,10 +217,11 @@ bool item_touches(const struct out_item *item, const struct out_item *box)
 		return item->slot->block == box->slot->block &&
 		       item->slot->number == box->slot->number;
 	for (const char *at = item->text; at && (at = strpbrk(at, "@[")); at++) {
-		struct classic_variable variable = variable_of(-1, 0);
+		char *slash, *end;
+		const long type = strtol(at + 1, &slash, 10);
+		const long number = *slash == '/' ? strtol(slash + 1, &end, 10) : -1;
 
-		if (sscanf(at + 1, "%d/%d", &variable.type, &variable.number) == 2 &&
-		    reads_pin(variable, box))
+		if (number >= 0 && reads_pin(variable_of((int)type, (int)number), box))
 			return true;
 	}
 	if (item->text)
@@ -247,7 +249,7 @@ static bool prepare(struct leaving *e, struct out_rung *r)
 			return false;
 	r->plain = true;
 	for (int i = 0; i < r->count; i++) {
-		const struct out_item *item = &r->item[i];
+		const struct out_part *item = &r->item[i];
 		bool box = is_block(item) || item->code == CL_PART;
 		bool middle = !item->actor && (item->code == CL_OPERATE ||
 					       item->code == CL_CALL);

@@ -18,7 +18,7 @@ enum { CHAIN = 16 };
 struct net_power { bool known, always, never; struct classic_variable bit; };
 
 /* Contacts in series, from the rail on. */
-struct way { struct out_item item[CHAIN]; int count, width; bool never; };
+struct way { struct out_part item[CHAIN]; int count, width; bool never; };
 
 struct splitting {
 	struct leaving *e;
@@ -31,13 +31,13 @@ struct splitting {
 
 static void settle(struct splitting *s, int net);
 
-static struct out_item contact(int code, struct classic_variable variable)
+static struct out_part contact(int code, struct classic_variable variable)
 {
-	return (struct out_item){ .code = code, .width = 1, .height = 1,
+	return (struct out_part){ .code = code, .width = 1, .height = 1,
 				  .variable = variable };
 }
 
-static struct out_item coil(int code, int bit)
+static struct out_part coil(int code, int bit)
 {
 	return contact(code, variable_of(CL_BIT, bit));
 }
@@ -67,7 +67,7 @@ static int draw_way(struct leaving *e, struct classic_rung *rung, int y,
 
 /* Ways side by side, then an output. */
 static void draw_ways(struct leaving *e, const struct way *way, int ways,
-		      const struct out_item *output)
+		      const struct out_part *output)
 {
 	struct classic_rung *rung = rung_begin(e);
 	int join = 1, end = e->columns - output->width;
@@ -86,7 +86,7 @@ static void draw_ways(struct leaving *e, const struct way *way, int ways,
 		note_jump(e, &rung->cell[0][end], output);
 }
 
-static APART void way_add(struct way *way, struct out_item item)
+static APART void way_add(struct way *way, struct out_part item)
 {
 	if (way->count == CHAIN)
 		return;
@@ -100,7 +100,7 @@ static APART void way_contact(struct way *way, int code, struct classic_variable
 }
 
 void draw_step(struct leaving *e, int code, struct classic_variable variable,
-	       const struct out_item *output)
+	       const struct out_part *output)
 {
 	struct way *way = arena_alloc(e->arena, sizeof(*way));
 
@@ -114,7 +114,7 @@ void draw_step(struct leaving *e, int code, struct classic_variable variable,
 void draw_before(struct leaving *e, const struct out_before *before)
 {
 	for (; before && e->good; before = before->next) {
-		struct out_item item = { .code = CL_OPERATE, .width = 3, .height = 1,
+		struct out_part item = { .code = CL_OPERATE, .width = 3, .height = 1,
 					 .text = before->text };
 		struct way *way = arena_alloc(e->arena, sizeof(*way));
 
@@ -131,7 +131,7 @@ void draw_before(struct leaving *e, const struct out_before *before)
 
 /* ---- ways ---- */
 
-static bool power_contact(struct splitting *s, int net, struct out_item *out, bool *never)
+static bool power_contact(struct splitting *s, int net, struct out_part *out, bool *never)
 {
 	struct net_power *power;
 
@@ -157,7 +157,7 @@ static int only_feeder(const struct splitting *s, int net)
 
 static bool is_simple(const struct splitting *s, int index)
 {
-	const struct out_item *item = &s->r->item[index];
+	const struct out_part *item = &s->r->item[index];
 
 	return !s->given[index].known && !item->invert && !item->before &&
 	       ((item->code >= CL_NO && item->code <= CL_WIRE) || item->code == CL_COMPARE);
@@ -167,7 +167,7 @@ static bool is_simple(const struct splitting *s, int index)
 static APART void find_way(struct splitting *s, int index, struct way *way)
 {
 	int chain[CHAIN], count = 0, width = 1, in, back = index;
-	struct out_item first;
+	struct out_part first;
 	const struct net_power *given = &s->given[index];
 
 	memset(way, 0, sizeof(*way));
@@ -191,7 +191,7 @@ static APART void find_way(struct splitting *s, int index, struct way *way)
 	if (power_contact(s, in, &first, &way->never))
 		way_add(way, first);
 	while (count-- > 0) {
-		struct out_item item = s->r->item[chain[count]];
+		struct out_part item = s->r->item[chain[count]];
 
 		item.height = 1;
 		if (item.code != CL_WIRE)
@@ -211,7 +211,7 @@ static int find_ways(struct splitting *s, int net, struct way *way)
 	int count = 0;
 
 	for (int i = n->first_feeder[net]; i < n->first_feeder[net + 1]; i++) {
-		const struct out_item *item = &s->r->item[n->feeder[i]];
+		const struct out_part *item = &s->r->item[n->feeder[i]];
 		struct way *next = arena_alloc(s->e->arena, sizeof(*next));
 
 		if (!next || item->dead || item->actor)
@@ -221,7 +221,7 @@ static int find_ways(struct splitting *s, int net, struct way *way)
 			continue;
 		if (count == s->e->rows) {
 			int bit = helper_bit(s->e);
-			struct out_item output = coil(CL_COIL, bit);
+			struct out_part output = coil(CL_COIL, bit);
 
 			draw_ways(s->e, way, count, &output);
 			memset(way, 0, sizeof(*way));
@@ -245,7 +245,7 @@ static void settle(struct splitting *s, int net)
 	const struct network *n = &s->r->network;
 	struct net_power *power = &s->net[net];
 	struct way *way;
-	struct out_item output;
+	struct out_part output;
 	int count;
 
 	if (net == NET_RAIL || power->known)
@@ -276,7 +276,7 @@ static void settle(struct splitting *s, int net)
 /* A bit that is the power of a net. */
 static struct classic_variable net_bit(struct splitting *s, int net, bool *never)
 {
-	struct out_item first, output;
+	struct out_part first, output;
 
 	if (power_contact(s, net, &first, never))
 		return first.variable;
@@ -297,8 +297,8 @@ static void give(struct splitting *s, int index, int bit)
 /* Its inputs one below the other, its first output a bit. */
 static APART void draw_block(struct splitting *s, int index)
 {
-	const struct out_item *item = &s->r->item[index];
-	struct out_item *input = arena_alloc(s->e->arena, 4 * sizeof(*input)), output;
+	const struct out_part *item = &s->r->item[index];
+	struct out_part *input = arena_alloc(s->e->arena, 4 * sizeof(*input)), output;
 	struct classic_rung *rung;
 	bool has[4] = { false }, always[4] = { false }, never;
 	bool read = item->out != NET_RAIL && s->r->network.reader_count[item->out];
@@ -346,13 +346,13 @@ static void compare_bit(struct leaving *e, const char *text, int bit)
 }
 
 /* An edge of an input counts only while the count can go on: there it would go round. */
-static APART void gate(struct splitting *s, int row, const struct out_item *item,
+static APART void gate(struct splitting *s, int row, const struct out_part *item,
 		 const char *limit)
 {
 	bool never = false;
 	int pulse, allowed = helper_bit(s->e);
 	struct classic_variable bit;
-	struct out_item output;
+	struct out_part output;
 	struct way *way = arena_alloc(s->e->arena, sizeof(*way));
 
 	if (!way || (item->pin[row] == NET_NONE && item->given[row].type < 0))
@@ -373,7 +373,7 @@ static APART void gate(struct splitting *s, int row, const struct out_item *item
 
 static APART void draw_counter(struct splitting *s, int index)
 {
-	const struct out_item *item = &s->r->item[index];
+	const struct out_part *item = &s->r->item[index];
 	struct out_slot *slot = slot_find(s->e, item->slot->var);
 	int number = slot->number, up = -1;
 
@@ -393,10 +393,10 @@ static APART void draw_counter(struct splitting *s, int index)
 	give(s, index, up);
 }
 
-static struct classic_variable input_bit(struct splitting *s, const struct out_item *item,
+static struct classic_variable input_bit(struct splitting *s, const struct out_part *item,
 					 int row)
 {
-	struct out_item output;
+	struct out_part output;
 	bool never;
 
 	if (item->given[row].type < 0)
@@ -413,11 +413,11 @@ static struct classic_variable input_bit(struct splitting *s, const struct out_i
 /* Edges and bistables: a bit that stays. */
 static APART void draw_bits(struct splitting *s, int index)
 {
-	const struct out_item *item = &s->r->item[index];
+	const struct out_part *item = &s->r->item[index];
 	struct out_slot *slot = slot_find(s->e, item->slot->var);
 	int bit = extra_bit(s->e, slot, 0);
 	struct classic_variable a = input_bit(s, item, 0), b;
-	struct out_item output = coil(CL_COIL, bit);
+	struct out_part output = coil(CL_COIL, bit);
 	struct way *way = ways_room(s);
 
 	if (!way)
@@ -440,8 +440,8 @@ static APART void draw_bits(struct splitting *s, int index)
 /* An assignment or call in the middle: power goes on behind it. */
 static APART void draw_middle(struct splitting *s, int index)
 {
-	const struct out_item *item = &s->r->item[index];
-	struct out_item first;
+	const struct out_part *item = &s->r->item[index];
+	struct out_part first;
 	bool never, has = power_contact(s, item->in, &first, &never);
 
 	s->given[index] = (struct net_power){ .known = true, .always = !has && !never,
@@ -455,17 +455,17 @@ static APART void draw_inverted(struct splitting *s, int index)
 {
 	bool never;
 	struct classic_variable bit = net_bit(s, s->r->item[index].in, &never);
-	struct out_item output = coil(CL_COIL, helper_bit(s->e));
+	struct out_part output = coil(CL_COIL, helper_bit(s->e));
 
 	draw_step(s->e, CL_NC, bit, &output);
 	give(s, index, output.variable.number);
 }
 
 /* Must it be read at once, before a block changes it? */
-static bool is_changed(const struct splitting *s, const struct out_item *item)
+static bool is_changed(const struct splitting *s, const struct out_part *item)
 {
 	for (int i = 0; i < s->r->count; i++) {
-		const struct out_item *box = &s->r->item[i];
+		const struct out_part *box = &s->r->item[i];
 		bool writes = is_block(box) || box->code == CL_PART ||
 			      (!box->actor && (box->code == CL_OPERATE ||
 					       box->code == CL_CALL));
@@ -478,8 +478,8 @@ static bool is_changed(const struct splitting *s, const struct out_item *item)
 
 static APART void draw_read(struct splitting *s, int index)
 {
-	const struct out_item *item = &s->r->item[index];
-	struct out_item output;
+	const struct out_part *item = &s->r->item[index];
+	struct out_part output;
 	struct way *way = arena_alloc(s->e->arena, sizeof(*way));
 
 	draw_before(s->e, item->before);
@@ -497,7 +497,7 @@ static APART void draw_read(struct splitting *s, int index)
 
 static void work_out(struct splitting *s, int index)
 {
-	const struct out_item *item = &s->r->item[index];
+	const struct out_part *item = &s->r->item[index];
 
 	if (s->done[index] || item->dead || item->actor || !s->e->good)
 		return;
@@ -538,12 +538,12 @@ static void work_out(struct splitting *s, int index)
 /* ---- outputs ---- */
 
 /* Without power a coil writes, anything else does nothing. */
-static bool acts_always(const struct out_item *item)
+static bool acts_always(const struct out_part *item)
 {
 	return item->code == CL_COIL || item->code == CL_COIL_NOT;
 }
 
-struct acting { struct way *way; struct out_item *output; int count; };
+struct acting { struct way *way; struct out_part *output; int count; };
 
 static APART void flush(struct splitting *s, struct acting *acting)
 {
@@ -553,7 +553,7 @@ static APART void flush(struct splitting *s, struct acting *acting)
 		return;
 	rung = rung_begin(s->e);
 	for (int i = 0; rung && i < acting->count; i++) {
-		const struct out_item *output = &acting->output[i];
+		const struct out_part *output = &acting->output[i];
 		int end = s->e->columns - output->width;
 
 		draw_way(s->e, rung, i, &acting->way[i], end);
@@ -567,9 +567,9 @@ static APART void flush(struct splitting *s, struct acting *acting)
 	acting->count = 0;
 }
 
-static APART void act(struct splitting *s, const struct out_item *item, struct acting *acting)
+static APART void act(struct splitting *s, const struct out_part *item, struct acting *acting)
 {
-	struct out_item first;
+	struct out_part first;
 	struct way *way;
 	bool never, has;
 
@@ -598,7 +598,7 @@ static APART void act(struct splitting *s, const struct out_item *item, struct a
 /* One output, and its ways fit into a rung: no bit is needed. */
 static APART bool act_alone(struct splitting *s, int index)
 {
-	const struct out_item *item = &s->r->item[index];
+	const struct out_part *item = &s->r->item[index];
 	const struct network *n = &s->r->network;
 	struct way *way = ways_room(s);
 	int count;
