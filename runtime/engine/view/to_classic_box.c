@@ -292,7 +292,7 @@ bool box_is_plain(const struct out_part *item)
 	return item->code != CL_PART && !item->moved && !item->after && !item->before;
 }
 
-bool box_item(struct leaving *e, const struct network *network,
+bool box_part(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
 	      struct out_part *item)
 {

@@ -17,7 +17,7 @@ struct drawing {
 	struct out_rung *r;
 	struct classic_rung *rung;
 	int pos[LIMIT_COLS + 1];
-	int item_at[CLASSIC_ROWS][CLASSIC_COLUMNS]; /* number + 1, at its last column */
+	int part_at[CLASSIC_ROWS][CLASSIC_COLUMNS]; /* number + 1, at its last column */
 	int x[ITEMS];
 	bool bad;
 };
@@ -121,7 +121,7 @@ static bool find_columns(struct drawing *d)
 	return d->pos[cols] <= d->e->columns;
 }
 
-static void place_item(struct drawing *d, int index)
+static void place_part(struct drawing *d, int index)
 {
 	const struct out_part *item = &d->r->item[index];
 	int x = d->pos[item->col], end = d->pos[item->col + 1], y = item->row;
@@ -142,7 +142,7 @@ static void place_item(struct drawing *d, int index)
 		return;
 	out_put(d->e, rung, y, x, item);
 	d->x[index] = x + item->width - 1;
-	d->item_at[y][d->x[index]] = index + 1;
+	d->part_at[y][d->x[index]] = index + 1;
 	put_wires(d, y, x + item->width, end);
 }
 
@@ -156,7 +156,7 @@ static void place_all(struct drawing *d)
 	const struct rung *rung = d->r->rung;
 
 	for (int i = 0; i < d->r->count; i++)
-		place_item(d, i);
+		place_part(d, i);
 	for (int y = 0; y < rung->rows; y++) {
 		for (int c = 0; c < rung->cols; c++) {
 			const struct cell *cell = rung_at(rung, y, c);
@@ -202,7 +202,7 @@ static bool is_expected(struct drawing *d, struct sources left, int net)
 	return want.bit[0] == left.bit[0] && want.bit[1] == left.bit[1];
 }
 
-static bool check_item(struct drawing *d, const struct power *power, int index, int y,
+static bool check_part(struct drawing *d, const struct power *power, int index, int y,
 		       int x)
 {
 	const struct out_part *item = &d->r->item[index];
@@ -238,13 +238,13 @@ static bool means_the_same(struct drawing *d)
 		return false;
 	for (int x = 0; x < d->e->columns; x++)
 		for (int y = 0; y < d->e->rows; y++) {
-			int index = d->item_at[y][x] - 1;
+			int index = d->part_at[y][x] - 1;
 
 			if (d->rung->cell[y][x].element == CL_WIRE)
 				power->out[y][x] = left_of(d, power, y, x);
 			if (index < 0 || d->rung->cell[y][x].element == CL_WIRE)
 				continue;
-			if (!check_item(d, power, index, y, x))
+			if (!check_part(d, power, index, y, x))
 				return false;
 			give_power(d, power, index, y, x);
 		}
@@ -264,7 +264,7 @@ static bool same_order(const struct drawing *d)
 			int there = (d->x[k] - d->x[i]) * 256 + item->row - box->row;
 
 			if (k == i || item->actor || item->order < 0 || item->dead ||
-			    item->code == CL_WIRE || !item_touches(item, box))
+			    item->code == CL_WIRE || !part_touches(item, box))
 				continue;
 			if ((item->order < box->order) != (there < 0))
 				return false;

@@ -32,7 +32,7 @@ struct building {
 	struct out_before *first, **last;
 };
 
-static struct term build(struct building *b, int node, int depth);
+static struct term build(struct building *b, int term, int depth);
 
 static struct term failed(struct building *b, const char *text, size_t len)
 {
@@ -129,11 +129,11 @@ static struct term compared(struct building *b, struct term left, const char *op
 			      .is_bool = true, .text = "" };
 }
 
-static struct term operand(struct building *b, const struct expr_node *node)
+static struct term operand(struct building *b, const struct expr_node *term)
 {
 	struct out_operand is;
 
-	if (!there_text(b->e, node->text, node->len, &is))
+	if (!there_text(b->e, term->text, term->len, &is))
 		return (struct term){ .text = "0", .constant = true };
 	if (is.is_constant)
 		return (struct term){ .text = out_text(b->e, "%d", is.value),
@@ -142,10 +142,10 @@ static struct term operand(struct building *b, const struct expr_node *node)
 }
 
 /* Words[i + 3]: a number and a variable. */
-static bool index_of(struct building *b, int node, int *offset,
+static bool index_of(struct building *b, int term, int *offset,
 		     struct classic_variable *variable)
 {
-	const struct expr_node *at = &b->expr->node[node];
+	const struct expr_node *at = &b->expr->node[term];
 	struct out_operand left, right;
 
 	*offset = 0;
@@ -197,6 +197,8 @@ static bool element(struct building *b, const char *text, size_t len, int index,
 struct known { const char *here, *op; enum rank rank; bool upstream; };
 
 static const struct known known[] = {
+	{ "Sum", "+", RANK_SUM, false }, { "Difference", "-", RANK_SUM, false },
+	{ "Product", "*", RANK_PRODUCT, false },
 	{ "Quotient", "/", RANK_PRODUCT, false }, { "Remainder", "%", RANK_PRODUCT, false },
 	{ "BitAnd", "&", RANK_AND, false }, { "BitXor", "^", RANK_XOR, true },
 	{ "BitOr", "|", RANK_OR, false }, { "Power", "POW", RANK_TERM, false },
@@ -219,10 +221,10 @@ static const struct known *known_function(const char *text, size_t len)
 
 enum { ARGUMENTS = 10 };
 
-static int arguments(struct building *b, const struct expr_node *node, struct term *part,
+static int arguments(struct building *b, const struct expr_node *term, struct term *part,
 		     int depth)
 {
-	int at = node->left, count = 0, list[ARGUMENTS];
+	int at = term->left, count = 0, list[ARGUMENTS];
 
 	for (; at >= 0 && count < ARGUMENTS; at = b->expr->node[at].right)
 		list[count++] = b->expr->node[at].left;
@@ -243,42 +245,42 @@ static const char *call_text(struct building *b, const char *name, struct term *
 	return out_text(b->e, "%s)", text);
 }
 
-static struct term call(struct building *b, const struct expr_node *node, int depth)
+static struct term call(struct building *b, const struct expr_node *term, int depth)
 {
-	const struct known *own = known_function(node->text, node->len);
+	const struct known *own = known_function(term->text, term->len);
 	struct term part[ARGUMENTS];
-	int count = arguments(b, node, part, depth);
+	int count = arguments(b, term, part, depth);
 	bool upstream = b->e->dialect == CLASSIC_UPSTREAM;
 	const char *name = NULL;
 
 	if (!b->e->good || count < 1)
-		return failed(b, node->text, node->len);
+		return failed(b, term->text, term->len);
 	if (own && count == 2 && own->rank != RANK_TERM && (upstream || !own->upstream))
 		return binary(b, part[0], own->op, part[1], own->rank);
 	if (own && count == 2 && !upstream && !strcmp(own->op, "POW"))
 		return binary(b, part[0], "^", part[1], RANK_XOR);
 	if (own && count == 2 && upstream)
 		name = own->op;
-	else if (ascii_is("ABS", node->text, node->len))
+	else if (ascii_is("ABS", term->text, term->len))
 		name = "ABS";
-	else if (ascii_is("MIN", node->text, node->len))
+	else if (ascii_is("MIN", term->text, term->len))
 		name = "MINI";
-	else if (ascii_is("MAX", node->text, node->len))
+	else if (ascii_is("MAX", term->text, term->len))
 		name = "MAXI";
-	else if (count == 1 && (ascii_is("BOOL_TO_DINT", node->text, node->len) ||
-				ascii_is("BOOL_TO_INT", node->text, node->len) ||
-				ascii_is("INT_TO_DINT", node->text, node->len) ||
-				ascii_is("UINT_TO_DINT", node->text, node->len) ||
-				ascii_is("WORD_TO_DINT", node->text, node->len)))
+	else if (count == 1 && (ascii_is("BOOL_TO_DINT", term->text, term->len) ||
+				ascii_is("BOOL_TO_INT", term->text, term->len) ||
+				ascii_is("INT_TO_DINT", term->text, term->len) ||
+				ascii_is("UINT_TO_DINT", term->text, term->len) ||
+				ascii_is("WORD_TO_DINT", term->text, term->len)))
 		return (struct term){ .text = part[0].text, .rank = part[0].rank,
 				      .constant = part[0].constant,
 				      .value = part[0].value };
 	if (!name)
-		return failed(b, node->text, node->len);
+		return failed(b, term->text, term->len);
 	for (int i = 0; i < count && strlen(call_text(b, name, part, count)) > ROOM; i++)
 		part[i] = apart(b, part[i]);
 	if (strlen(call_text(b, name, part, count)) > ROOM)
-		return failed(b, node->text, node->len);
+		return failed(b, term->text, term->len);
 	return (struct term){ .text = call_text(b, name, part, count) };
 }
 
@@ -300,12 +302,12 @@ static struct term negated(struct building *b, struct term part)
 			      .is_bool = true };
 }
 
-static struct term function(struct building *b, const struct expr_node *node, int depth)
+static struct term function(struct building *b, const struct expr_node *term, int depth)
 {
-	struct term left = build(b, node->left, depth);
-	struct term right = build(b, node->right, depth);
+	struct term left = build(b, term->left, depth);
+	struct term right = build(b, term->right, depth);
 
-	switch ((int)node->fn) {
+	switch ((int)term->fn) {
 	case FN_ADD: return binary(b, left, "+", right, RANK_SUM);
 	case FN_SUB: return binary(b, left, "-", right, RANK_SUM);
 	case FN_MUL: return binary(b, left, "*", right, RANK_PRODUCT);
@@ -321,15 +323,15 @@ static struct term function(struct building *b, const struct expr_node *node, in
 	return failed(b, "", 0);
 }
 
-static struct term logic(struct building *b, const struct expr_node *node, int depth)
+static struct term logic(struct building *b, const struct expr_node *term, int depth)
 {
-	struct term left = build(b, node->left, depth), right = build(b, node->right, depth);
+	struct term left = build(b, term->left, depth), right = build(b, term->right, depth);
 	bool is_bool = left.is_bool && right.is_bool;
 	struct term part;
 
-	if (node->op == EXPR_AND)
+	if (term->op == EXPR_AND)
 		part = binary(b, left, "&", right, RANK_AND);
-	else if (node->op == EXPR_OR)
+	else if (term->op == EXPR_OR)
 		part = binary(b, left, "|", right, RANK_OR);
 	else if (is_bool)
 		part = settled(b, compared(b, left, "<>", right));
@@ -341,9 +343,9 @@ static struct term logic(struct building *b, const struct expr_node *node, int d
 	return part;
 }
 
-static struct term build(struct building *b, int node, int depth)
+static struct term build(struct building *b, int term, int depth)
 {
-	const struct expr_node *at = &b->expr->node[node];
+	const struct expr_node *at = &b->expr->node[term];
 	struct out_operand is;
 	struct term part;
 

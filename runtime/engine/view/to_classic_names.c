@@ -67,16 +67,16 @@ int new_word(struct leaving *e)
 	return e->next_word++;
 }
 
-int helper_bit(struct leaving *e)
+int spare_bit(struct leaving *e)
 {
-	if (e->helpers_used == e->helpers) {
-		int *slot = arena_push(e->arena, &e->helper, &e->helpers, sizeof(*slot));
+	if (e->helpers_used == e->spares) {
+		int *slot = arena_push(e->arena, &e->spare, &e->spares, sizeof(*slot));
 
 		if (!slot)
 			return 0;
 		*slot = new_bit(e);
 	}
-	return e->helper[e->helpers_used++];
+	return e->spare[e->helpers_used++];
 }
 
 int never_bit(struct leaving *e)
@@ -539,91 +539,13 @@ bool there_text(struct leaving *e, const char *text, size_t len, struct out_oper
 
 /* ---- symbols ---- */
 
-/* Of "(* %B3: the pump *)": "the pump". */
-static const char *plain_comment(struct leaving *e, const char *text)
-{
-	size_t len = strlen(text);
-	const char *colon;
-	char *copy;
-
-	if (len < 4 || text[0] != '(')
-		return "";
-	copy = arena_copy(e->arena, text + 2, len - 4);
-	while (copy && *copy == ' ')
-		copy++;
-	for (len = copy ? strlen(copy) : 0; len && copy[len - 1] == ' '; len--)
-		copy[len - 1] = '\0';
-	if (!copy || *copy != '%')
-		return copy ? copy : "";
-	colon = strstr(copy, ": ");
-	return colon && !memchr(copy, ' ', (size_t)(colon - copy)) ? colon + 2 :
-	       strchr(copy, ' ') ? copy : "";
-}
-
-/* Is the name what an import makes of no symbol? */
-static bool says_number(const struct out_slot *slot, const char *own)
-{
-	char text[LIMIT_NAME + 16];
-
-	snprintf(text, sizeof(text), "%s%d", own, slot->number);
-	return !strcmp(text, slot->name);
-}
-
-static bool symbol_taken(const struct leaving *e, const char *name)
-{
-	for (int i = 0; i < e->out->symbols; i++)
-		if (!strcmp(e->out->symbol[i].name, name))
-			return true;
-	return false;
-}
-
-/* At most 9 bytes, and no other has it. */
-static const char *symbol_name(struct leaving *e, const char *name)
-{
-	const char *cut = out_text(e, "%.*s", classic_cut(name, CLASSIC_SYMBOL), name);
-
-	for (int i = 2; symbol_taken(e, cut) && i < CLASSIC_LIMIT; i++) {
-		int digits = snprintf(NULL, 0, "%d", i);
-
-		cut = out_text(e, "%.*s%d", classic_cut(name, CLASSIC_SYMBOL - digits),
-			       name, i);
-	}
-	return cut;
-}
-
-static void add_symbol(struct leaving *e, const struct out_slot *slot, const char *prefix,
-		       const char *own)
-{
-	const char *comment = plain_comment(e, slot->comment), *name = slot->name;
-	struct classic_symbol *symbol;
-	size_t len = strlen(own);
-
-	if (says_number(slot, own) && !*comment)
-		return;
-	if (slot->block >= 0 && !strncmp(name, own, len)) {
-		/* TM0_Delay */
-		while (ascii_digit(name[len]))
-			len++;
-		if (name[len] == '_' && name[len + 1])
-			name += len + 1;
-	}
-	symbol = arena_push(e->arena, &e->out->symbol, &e->out->symbols, sizeof(*symbol));
-	if (!symbol)
-		return;
-	e->out->symbols--;
-	symbol->variable = out_text(e, "%%%s%d", prefix, slot->number);
-	symbol->name = says_number(slot, own) ? "" : symbol_name(e, name);
-	symbol->comment = comment;
-	e->out->symbols++;
-}
-
 void names_symbols(struct leaving *e)
 {
 	for (int i = 0; i < e->slots; i++) {
 		const struct out_slot *slot = &e->slot[i];
 
 		if (slot->block >= 0) {
-			add_symbol(e, slot, block_there[slot->block],
+			out_symbol(e, slot, block_there[slot->block],
 				   block_here[slot->block]);
 			continue;
 		}
@@ -631,7 +553,7 @@ void names_symbols(struct leaving *e)
 			if (slot->type >= 0 &&
 			    written_type(e, memory_rows[k].type) == slot->type &&
 			    slot->count == 1)
-				add_symbol(e, slot, memory_rows[k].prefix,
+				out_symbol(e, slot, memory_rows[k].prefix,
 					   memory_rows[k].name ? memory_rows[k].name : "");
 	}
 }

@@ -96,7 +96,7 @@ struct leaving {
 	int started, never;    /* bits: a scan has been; never TRUE. -1: not needed */
 	/* the POU in work */
 	const struct pou *pou;
-	int *helper; int helpers, helpers_used;
+	int *spare; int spares, helpers_used;
 	int rung_index, row, col;
 	struct classic_section *section;
 	struct out_label *label; int labels;
@@ -137,8 +137,8 @@ bool there_text(struct leaving *e, const char *text, size_t len, struct out_oper
 struct out_slot *slot_find(struct leaving *e, const struct var *var);
 int new_bit(struct leaving *e);
 int new_word(struct leaving *e);
-/** helper_bit - one that lasts for a rung. */
-int helper_bit(struct leaving *e);
+/** spare_bit - one that lasts for a rung. */
+int spare_bit(struct leaving *e);
 int never_bit(struct leaving *e);
 void size_note(struct leaving *e, int type, int number);
 struct classic_variable variable_of(int type, int number);
@@ -152,8 +152,8 @@ bool cell_expression(struct leaving *e, const char *text, struct out_part *item)
 const char *out_encode(struct leaving *e, struct classic_variable variable);
 
 /* ---- to_classic_box.c ---- */
-/** box_item - an instance in a rung. */
-bool box_item(struct leaving *e, const struct network *network,
+/** box_part - an instance in a rung. */
+bool box_part(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
 	      struct out_part *item);
 
@@ -181,8 +181,8 @@ void out_put(struct leaving *e, struct classic_rung *rung, int y, int x,
 	      const struct out_part *item);
 /** note_jump - a jump at that cell: its rung is found when all are there. */
 void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_part *item);
-/** item_touches - does @item read what @box writes, or is it the same block? */
-bool item_touches(const struct out_part *item, const struct out_part *box);
+/** part_touches - does @item read what @box writes, or is it the same block? */
+bool part_touches(const struct out_part *item, const struct out_part *box);
 /** is_block - one of ClassicLadder's own. Scan-safe: yes. */
 static inline bool is_block(const struct out_part *item)
 {
@@ -196,6 +196,16 @@ void draw_step(struct leaving *e, int code, struct classic_variable variable,
 void draw_before(struct leaving *e, const struct out_before *before);
 /** pin_kind - of which kind of block is this type a pin? -1: of none. */
 int pin_kind(int type);
+
+/* ---- to_classic_initial.c ---- */
+/** leave_initial - what variables begin with; leave_started - that the first scan has been. */
+void leave_initial(struct leaving *e);
+void leave_started(struct leaving *e);
+
+/* ---- to_classic_symbols.c ---- */
+/** out_symbol - of a variable that is @prefix and a number there, @own and one here. */
+void out_symbol(struct leaving *e, const struct out_slot *slot, const char *prefix,
+		const char *own);
 
 /* ---- to_classic_chart.c ---- */
 bool chart_fits(const struct project *project, const struct pou *pou);

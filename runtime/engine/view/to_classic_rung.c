@@ -20,7 +20,7 @@ static const struct { enum word word; const char *op; } function_rows[] = {
 	{ FN_GT, " > " }, { FN_GE, " >= " }, { FN_LT, " < " }, { FN_LE, " <= " },
 };
 
-static bool function_item(struct leaving *e, const struct cell *cell,
+static bool function_part(struct leaving *e, const struct cell *cell,
 			  struct out_part *item)
 {
 	const char *args = project_text(e->project, cell->args), *op = NULL;
@@ -55,7 +55,7 @@ static bool function_item(struct leaving *e, const struct cell *cell,
 
 /* ---- elements ---- */
 
-static bool contact_item(struct leaving *e, const struct word_row *row,
+static bool contact_part(struct leaving *e, const struct word_row *row,
 			 const struct cell *cell, struct out_part *item)
 {
 	struct out_operand operand;
@@ -75,7 +75,7 @@ static bool contact_item(struct leaving *e, const struct word_row *row,
 	return true;
 }
 
-static bool coil_item(struct leaving *e, const struct word_row *row,
+static bool coil_part(struct leaving *e, const struct word_row *row,
 		      const struct cell *cell, struct out_part *item)
 {
 	struct out_operand operand;
@@ -91,7 +91,7 @@ static bool coil_item(struct leaving *e, const struct word_row *row,
 	return true;
 }
 
-static bool flow_item(struct leaving *e, const struct word_row *row,
+static bool flow_part(struct leaving *e, const struct word_row *row,
 		      const struct cell *cell, struct out_part *item)
 {
 	item->code = CL_JUMP;
@@ -116,7 +116,7 @@ static bool flow_item(struct leaving *e, const struct word_row *row,
 	return out_refuse(e, DIAG_EXPORT_WORD, "%s", row->word);
 }
 
-static bool element_item(struct leaving *e, const struct word_row *row,
+static bool element_part(struct leaving *e, const struct word_row *row,
 			 const struct cell *cell, struct out_part *item)
 {
 	const char *text = project_text(e->project, cell->operand);
@@ -131,10 +131,10 @@ static bool element_item(struct leaving *e, const struct word_row *row,
 		return true;
 	}
 	if (row->operand == OPND_BOOL_R)
-		return contact_item(e, row, cell, item);
+		return contact_part(e, row, cell, item);
 	if (row->operand == OPND_BOOL_W)
-		return coil_item(e, row, cell, item);
-	return flow_item(e, row, cell, item);
+		return coil_part(e, row, cell, item);
+	return flow_part(e, row, cell, item);
 }
 
 static bool is_unread(const struct out_rung *r, const struct network_element *at)
@@ -142,7 +142,7 @@ static bool is_unread(const struct out_rung *r, const struct network_element *at
 	return at->out == NET_RAIL || r->network.reader_count[at->out] == 0;
 }
 
-static bool make_item(struct leaving *e, struct out_rung *r, int index)
+static bool make_part(struct leaving *e, struct out_rung *r, int index)
 {
 	const struct network_element *at = &r->network.element[index];
 	const struct cell *cell = rung_at(r->rung, at->row, at->col);
@@ -163,10 +163,10 @@ static bool make_item(struct leaving *e, struct out_rung *r, int index)
 		      (row->kind == WORD_ELEM && box && is_unread(r, at));
 	item->output = item->actor || (box && is_unread(r, at));
 	if (row->kind == WORD_FN)
-		return function_item(e, cell, item);
+		return function_part(e, cell, item);
 	if (row->kind != WORD_ELEM)
-		return box_item(e, &r->network, at, cell, item);
-	return element_item(e, row, cell, item);
+		return box_part(e, &r->network, at, cell, item);
+	return element_part(e, row, cell, item);
 }
 
 /* ---- the order of evaluation here ---- */
@@ -209,7 +209,7 @@ static bool reads_pin(struct classic_variable variable, const struct out_part *b
 	       variable.number == box->slot->number;
 }
 
-bool item_touches(const struct out_part *item, const struct out_part *box)
+bool part_touches(const struct out_part *item, const struct out_part *box)
 {
 	if (!box->slot || box->slot->block < 0)
 		return true;
@@ -245,7 +245,7 @@ static bool prepare(struct leaving *e, struct out_rung *r)
 	if (!r->item || !r->net_seen)
 		return false;
 	for (int i = 0; i < r->count; i++)
-		if (!make_item(e, r, i))
+		if (!make_part(e, r, i))
 			return false;
 	r->plain = true;
 	for (int i = 0; i < r->count; i++) {

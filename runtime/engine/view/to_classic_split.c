@@ -5,20 +5,12 @@
  *
  * The power of a net is a bit; a rung gives it: a row for each way that leads there.
  */
-#include "engine/view/to_classic_parts.h"
+#include "engine/view/to_classic_way.h"
 
 #include <string.h>
 
-enum { CHAIN = 16 };
-
-/* Items are large: their functions share no frame. */
-#define APART __attribute__((noinline))
-
 /* What has power there: always, never, or while a bit is. */
 struct net_power { bool known, always, never; struct classic_variable bit; };
-
-/* Contacts in series, from the rail on. */
-struct way { struct out_part item[CHAIN]; int count, width; bool never; };
 
 struct splitting {
 	struct leaving *e;
@@ -31,102 +23,9 @@ struct splitting {
 
 static void settle(struct splitting *s, int net);
 
-static struct out_part contact(int code, struct classic_variable variable)
-{
-	return (struct out_part){ .code = code, .width = 1, .height = 1,
-				  .variable = variable };
-}
-
-static struct out_part coil(int code, int bit)
-{
-	return contact(code, variable_of(CL_BIT, bit));
-}
-
 static int longest(const struct splitting *s)
 {
 	return s->e->columns - 3;
-}
-
-/* ---- drawing ---- */
-
-static int draw_way(struct leaving *e, struct classic_rung *rung, int y,
-		    const struct way *way, int to)
-{
-	int x = 0;
-
-	if (way->never)
-		x = 1;
-	for (int i = 0; i < way->count && !way->never; i++) {
-		out_put(e, rung, y, x, &way->item[i]);
-		x += way->item[i].width;
-	}
-	for (; x < to; x++)
-		rung->cell[y][x].element = CL_WIRE;
-	return x;
-}
-
-/* Ways side by side, then an output. */
-static void draw_ways(struct leaving *e, const struct way *way, int ways,
-		      const struct out_part *output)
-{
-	struct classic_rung *rung = rung_begin(e);
-	int join = 1, end = e->columns - output->width;
-
-	if (!rung)
-		return;
-	for (int i = 0; i < ways; i++)
-		if (way[i].width > join)
-			join = way[i].width;
-	for (int i = 0; i < ways; i++) {
-		draw_way(e, rung, i, &way[i], i ? join : end);
-		rung->cell[i][join].top = i > 0;
-	}
-	out_put(e, rung, 0, end, output);
-	if (output->code == CL_JUMP)
-		note_jump(e, &rung->cell[0][end], output);
-}
-
-static APART void way_add(struct way *way, struct out_part item)
-{
-	if (way->count == CHAIN)
-		return;
-	way->item[way->count++] = item;
-	way->width += item.width;
-}
-
-static APART void way_contact(struct way *way, int code, struct classic_variable variable)
-{
-	way_add(way, contact(code, variable));
-}
-
-void draw_step(struct leaving *e, int code, struct classic_variable variable,
-	       const struct out_part *output)
-{
-	struct way *way = arena_alloc(e->arena, sizeof(*way));
-
-	if (!way)
-		return;
-	if (code != CL_WIRE)
-		way_contact(way, code, variable);
-	draw_ways(e, way, 1, output);
-}
-
-void draw_before(struct leaving *e, const struct out_before *before)
-{
-	for (; before && e->good; before = before->next) {
-		struct out_part item = { .code = CL_OPERATE, .width = 3, .height = 1,
-					 .text = before->text };
-		struct way *way = arena_alloc(e->arena, sizeof(*way));
-
-		if (!way)
-			return;
-		if (before->bit >= 0) {
-			item.code = CL_COMPARE;
-			way_add(way, item);
-			item = coil(CL_COIL, before->bit);
-		}
-		draw_ways(e, way, 1, &item);
-	}
 }
 
 /* ---- ways ---- */
@@ -220,7 +119,7 @@ static int find_ways(struct splitting *s, int net, struct way *way)
 		if (next->never)
 			continue;
 		if (count == s->e->rows) {
-			int bit = helper_bit(s->e);
+			int bit = spare_bit(s->e);
 			struct out_part output = coil(CL_COIL, bit);
 
 			draw_ways(s->e, way, count, &output);
@@ -268,7 +167,7 @@ static void settle(struct splitting *s, int net)
 		power->bit = way[0].item[0].variable;
 		return;
 	}
-	power->bit = variable_of(CL_BIT, helper_bit(s->e));
+	power->bit = variable_of(CL_BIT, spare_bit(s->e));
 	output = contact(CL_COIL, power->bit);
 	draw_ways(s->e, way, count, &output);
 }
@@ -280,7 +179,7 @@ static struct classic_variable net_bit(struct splitting *s, int net, bool *never
 
 	if (power_contact(s, net, &first, never))
 		return first.variable;
-	output = coil(CL_COIL, *never ? never_bit(s->e) : helper_bit(s->e));
+	output = coil(CL_COIL, *never ? never_bit(s->e) : spare_bit(s->e));
 	if (!*never)
 		draw_step(s->e, CL_WIRE, variable_of(0, 0), &output);
 	return output.variable;
@@ -302,7 +201,7 @@ static APART void draw_block(struct splitting *s, int index)
 	struct classic_rung *rung;
 	bool has[4] = { false }, always[4] = { false }, never;
 	bool read = item->out != NET_RAIL && s->r->network.reader_count[item->out];
-	int bit = read ? helper_bit(s->e) : 0;
+	int bit = read ? spare_bit(s->e) : 0;
 
 	if (!input)
 		return;
@@ -350,7 +249,7 @@ static APART void gate(struct splitting *s, int row, const struct out_part *item
 		 const char *limit)
 {
 	bool never = false;
-	int pulse, allowed = helper_bit(s->e);
+	int pulse, allowed = spare_bit(s->e);
 	struct classic_variable bit;
 	struct out_part output;
 	struct way *way = arena_alloc(s->e->arena, sizeof(*way));
@@ -359,14 +258,14 @@ static APART void gate(struct splitting *s, int row, const struct out_part *item
 		return;
 	bit = item->given[row].type >= 0 ? item->given[row] :
 	      net_bit(s, item->pin[row], &never);
-	pulse = helper_bit(s->e);
+	pulse = spare_bit(s->e);
 	output = coil(CL_COIL, pulse);
 	draw_step(s->e, item->given[row].type >= 0 && item->inverse[row] ? CL_FALLING :
 		  CL_RISING, bit, &output);
 	compare_bit(s->e, out_text(s->e, "@251/%d@%s", item->slot->number, limit), allowed);
 	way_contact(way, CL_NO, output.variable);
 	way_contact(way, CL_NO, variable_of(CL_BIT, allowed));
-	output = coil(CL_COIL, helper_bit(s->e));
+	output = coil(CL_COIL, spare_bit(s->e));
 	draw_ways(s->e, way, 1, &output);
 	s->gate[row] = output.variable;
 }
@@ -405,7 +304,7 @@ static struct classic_variable input_bit(struct splitting *s, const struct out_p
 		       net_bit(s, item->pin[row], &never);
 	if (!item->inverse[row])
 		return item->given[row];
-	output = coil(CL_COIL, helper_bit(s->e));
+	output = coil(CL_COIL, spare_bit(s->e));
 	draw_step(s->e, CL_NC, item->given[row], &output);
 	return output.variable;
 }
@@ -455,7 +354,7 @@ static APART void draw_inverted(struct splitting *s, int index)
 {
 	bool never;
 	struct classic_variable bit = net_bit(s, s->r->item[index].in, &never);
-	struct out_part output = coil(CL_COIL, helper_bit(s->e));
+	struct out_part output = coil(CL_COIL, spare_bit(s->e));
 
 	draw_step(s->e, CL_NC, bit, &output);
 	give(s, index, output.variable.number);
@@ -470,7 +369,7 @@ static bool is_changed(const struct splitting *s, const struct out_part *item)
 			      (!box->actor && (box->code == CL_OPERATE ||
 					       box->code == CL_CALL));
 
-		if (writes && item_touches(item, box))
+		if (writes && part_touches(item, box))
 			return true;
 	}
 	return item->before != NULL;
@@ -490,7 +389,7 @@ static APART void draw_read(struct splitting *s, int index)
 		s->given[index] = (struct net_power){ .known = true, .never = true };
 		return;
 	}
-	output = coil(CL_COIL, helper_bit(s->e));
+	output = coil(CL_COIL, spare_bit(s->e));
 	draw_ways(s->e, way, 1, &output);
 	give(s, index, output.variable.number);
 }
