@@ -194,9 +194,12 @@ static void cells_update(LadderSfcView *view)
 static gboolean update_now(gpointer data)
 {
 	LadderSfcView *view = data;
+	struct sfc_live now;
 
 	view->cells_later = 0;
 	chart_fresh(view);
+	/* What is said is what is shown now, drawn already or not. */
+	chart_live_look(view, &now);
 	cells_update(view);
 	gtk_widget_queue_allocate(GTK_WIDGET(view));
 	return G_SOURCE_REMOVE;

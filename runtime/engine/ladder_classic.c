@@ -153,11 +153,15 @@ int64_t ladder_period(const struct ladder *ladder)
 bool ladder_is_classic(const char *path)
 {
 	char head[512];
+	struct stat about;
 	FILE *file;
 	size_t len;
 
 	if (is_folder(path))
 		return true;
+	/* A pipe would wait for somebody to write. */
+	if (stat(path, &about) != 0 || !S_ISREG(about.st_mode))
+		return false;
 	file = fopen(path, "rb");
 	if (!file)
 		return false;

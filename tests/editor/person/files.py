@@ -50,6 +50,21 @@ def refused(screen):
         editor.finish()
 
 
+def classic(screen):
+    """a project of ClassicLadder opens as a file of ours that is not saved yet, and says what became of it"""
+    project = os.path.join(screen.home, 'pump.txt')
+    cells = ' , '.join(['9-0-0-0'] * 8)
+    write(project, ';Rung:\n#LABEL=\n#COMMENT=The pump\n1-0-50-0 , 103-0-0-0 , ' + cells[:-10] +
+          ' , 50-0-60-0\n1-0-60-1 , 9-0-0-0 , ' + cells[:-10] + ' , 50-0-60-1\n')
+    before = read(project)
+    editor = Editor(screen, project)
+    editor.says('not saved yet')
+    editor.says('element 103 does not conduct')
+    editor.shot('files-classic')
+    editor.finish()
+    check(read(project) == before, 'the project is as it was')
+
+
 def no_program(screen):
     """an empty file and a binary one open as text that says what is wrong; the file is untouched"""
     empty, binary = [os.path.join(screen.home, name) for name in ('empty.rung', 'binary.rung')]
