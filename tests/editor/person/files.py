@@ -62,7 +62,7 @@ def classic(screen):
     editor.says('element 103 does not conduct')
     editor.shot('files-classic')
     editor.finish()
-    check(read(project) == before, 'the project is as it was')
+    assert read(project) == before
 
 
 def no_program(screen):
@@ -180,4 +180,4 @@ def closing(screen):
     until(lambda: 'NC Start' in read(path), 'it to be saved all the same')
 
 
-main([refused, no_program, stays_a_link, tab, window, written_over, closing])
+main([refused, classic, no_program, stays_a_link, tab, window, written_over, closing])
