@@ -307,8 +307,13 @@ static void mark(struct piece *piece)
 		}
 }
 
-/* The first input of a box that nothing feeds has no power: a contact says so. */
-static void feed_box(struct piece *piece, int y, int x)
+static bool works_without_power(const struct piece_cell *cell)
+{
+	return cell->kind == PART_COIL || (cell->kind == PART_BOX && !cell->box_row);
+}
+
+/* A coil, or the first input of a box, that nothing feeds has no power: a contact says so. */
+static void feed_false(struct piece *piece, int y, int x)
 {
 	for (int i = 0; i < x; i++)
 		if (piece->cell[y][i].text || piece->link[y][i + 1] ||
@@ -330,18 +335,16 @@ static void sweep(struct piece *piece)
 
 			if (!cell->text || (cell->fed && cell->needed))
 				continue;
-			if (cell->kind == PART_BOX && !cell->box_row)
+			if (works_without_power(cell))
 				continue;
-			if (cell->kind == PART_COIL && !cell->fed)
-				piece->broken = true;
 			if (!cell->box_row || strcmp(cell->text, "."))
 				cell->text = cell->box_row ? "." : NULL;
 		}
 	for (int y = 0; y < piece->rows; y++)
 		for (int x = 0; x < piece->columns; x++)
-			if (piece->cell[y][x].text && piece->cell[y][x].kind == PART_BOX &&
-			    !piece->cell[y][x].box_row && !piece->cell[y][x].fed)
-				feed_box(piece, y, x);
+			if (piece->cell[y][x].text && !piece->cell[y][x].fed &&
+			    works_without_power(&piece->cell[y][x]))
+				feed_false(piece, y, x);
 }
 
 /* ---- links: only between rows that have something there ---- */
