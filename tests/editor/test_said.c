@@ -73,7 +73,9 @@ static int english(const char *line, int *seen)
 		return 0;
 	arg = strstr(code, diag_text(diag.id));
 	arg = arg ? arg + strlen(diag_text(diag.id)) : "";
-	if (!g_str_has_prefix(arg, ": ") || !is_sentence(arg + 2))
+	/* Of imported files it is what stands there. */
+	if (!g_str_has_prefix(arg, ": ") || !is_sentence(arg + 2) ||
+	    g_str_has_prefix(code + 1, "LD7"))
 		return 0;
 	++*seen;
 	g_strlcpy(diag.arg, arg + 2, sizeof(diag.arg));

@@ -266,8 +266,12 @@ static void block_list(struct example *example, const struct word_row *row)
 			sink_printf(&example->out, ", %s := ", row->pin[i].name);
 			put_value(example, &row->pin[i]);
 		}
-	sink_printf(&example->out, ")\nLD Box.%s\nST Output\n",
-		    row->pin[word_first_bool(row, PIN_OUT)].name);
+	sink_text(&example->out, ")\n");
+	if (word_first_bool(row, PIN_OUT) < 0)
+		sink_text(&example->out, "LD Input\nST Output\n");
+	else
+		sink_printf(&example->out, "LD Box.%s\nST Output\n",
+			    row->pin[word_first_bool(row, PIN_OUT)].name);
 }
 
 /* ---- elements and names ---- */
