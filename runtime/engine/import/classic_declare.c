@@ -12,10 +12,7 @@ enum { SYSTEM_BIT = 70, SYSTEM_WORD = 290 };
 
 static bool uses(struct conversion *c, int type, int number)
 {
-	for (int i = 0; i < c->names.count; i++)
-		if (c->names.list[i].type == type && c->names.list[i].number == number)
-			return c->names.list[i].used;
-	return false;
+	return used_name(c, type, number) != NULL;
 }
 
 /* ---- declarations ---- */
@@ -114,26 +111,24 @@ static void put_comment(struct conversion *c, const struct classic_name *name)
 	    comment_text(c, name->comment));
 }
 
-/* How many words of a kind the project has, as it says itself. */
-static int words_of(struct conversion *c, const struct classic_memory_row *memory)
+int words_of(struct conversion *c, const struct classic_memory_row *memory)
 {
 	static const struct { const char *prefix, *key; int usual; } row[] = {
 		{ "W", "SIZE_NBR_WORDS", 200 }, { "IW", "SIZE_NBR_PHYS_WORDS_INPUTS", 25 },
 		{ "QW", "SIZE_NBR_PHYS_WORDS_OUTPUTS", 25 },
 	};
-	int count = 16;
+	int used = used_numbers(c, memory), most = memory_numbers(memory);
+	long count = 16;
 
 	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
 		const char *text = classic_setting(c->project, row[i].key);
 
 		if (!strcmp(row[i].prefix, memory->prefix))
-			count = text ? (int)strtol(text, NULL, 10) : row[i].usual;
+			count = text ? strtol(text, NULL, 10) : row[i].usual;
 	}
-	for (int i = 0; i < c->names.count; i++)
-		if (c->names.list[i].type == memory->type &&
-		    c->names.list[i].number < CLASSIC_ALL && c->names.list[i].number >= count)
-			count = c->names.list[i].number + 1;
-	return count < 1 ? 1 : count > CLASSIC_LIMIT ? CLASSIC_LIMIT : count;
+	if (count < used)
+		count = used;
+	return count < 1 ? 1 : count > most ? most : (int)count;
 }
 
 static void put_step(struct conversion *c, const struct classic_name *name)
@@ -185,18 +180,19 @@ void write_declarations(struct conversion *c)
 
 /* ---- the system's bits and words ---- */
 
+/* @ is the program's time, ? the variable. */
 struct system_row { int type, number; const char *rung; };
 
 static const struct system_row system_rows[] = {
-	{ SYSTEM_BIT, 0, "| [ Flash MOD 1000 < 500 ] | COIL %s |" },
-	{ SYSTEM_BIT, 1, "| [ Flash MOD 1000 < 500 ] | COILNOT %s |" },
-	{ SYSTEM_BIT, 2, "| [ Flash < 30000 ] | COIL %s |" },
-	{ SYSTEM_BIT, 3, "| [ Flash < 30000 ] | COILNOT %s |" },
-	{ SYSTEM_BIT, 4, "| NO SYS_FIRST_SCAN | COIL %s |" },
-	{ SYSTEM_BIT, 5, "| NO SYS_FIRST_SCAN | COIL %s |" },
-	{ SYSTEM_WORD, 0, "| [ %s := (SYS_HOUR * 100 + SYS_MINUTE) * 100 + SYS_SECOND ] |" },
-	{ SYSTEM_WORD, 1, "| [ %s := (SYS_YEAR MOD 100 * 100 + SYS_MONTH) * 100 + SYS_DAY ] |" },
-	{ SYSTEM_WORD, 2, "| [ %s := SYS_WEEKDAY MOD 7 ] |" },
+	{ SYSTEM_BIT, 0, "| [ @ MOD 1000 < 500 ] | COIL ? |" },
+	{ SYSTEM_BIT, 1, "| [ @ MOD 1000 < 500 ] | COILNOT ? |" },
+	{ SYSTEM_BIT, 2, "| [ @ < 30000 ] | COIL ? |" },
+	{ SYSTEM_BIT, 3, "| [ @ < 30000 ] | COILNOT ? |" },
+	{ SYSTEM_BIT, 4, "| NO SYS_FIRST_SCAN | COIL ? |" },
+	{ SYSTEM_BIT, 5, "| NO SYS_FIRST_SCAN | COIL ? |" },
+	{ SYSTEM_WORD, 0, "| [ ? := (SYS_HOUR * 100 + SYS_MINUTE) * 100 + SYS_SECOND ] |" },
+	{ SYSTEM_WORD, 1, "| [ ? := (SYS_YEAR MOD 100 * 100 + SYS_MONTH) * 100 + SYS_DAY ] |" },
+	{ SYSTEM_WORD, 2, "| [ ? := SYS_WEEKDAY MOD 7 ] |" },
 };
 enum { SYSTEM_ROWS = sizeof(system_rows) / sizeof(*system_rows), FLASH_ROWS = 4 };
 
@@ -208,8 +204,9 @@ static bool uses_row(struct conversion *c, int row)
 /* Its time begins with the first scan, and counts it. */
 static void write_flash(struct conversion *c)
 {
-	put(c, "VAR\n  Flash : DINT; (* ms, a minute round *)\nEND_VAR\n");
-	put(c, "RUNG\n  | [ Flash := (Flash + TIME_TO_DINT(SYS_CYCLE)) MOD 60000 ] |\n");
+	put(c, "VAR\n  %s : DINT; (* ms, a minute round *)\nEND_VAR\n", c->flash);
+	put(c, "RUNG\n  | [ %s := (%s + TIME_TO_DINT(SYS_CYCLE)) MOD 60000 ] |\n", c->flash,
+	    c->flash);
 }
 
 void name_system(struct conversion *c)
@@ -219,6 +216,7 @@ void name_system(struct conversion *c)
 			c->system = name_new(c, "SystemBits");
 	if (!c->system)
 		return;
+	c->flash = name_new(c, "Flash");
 	add_program(c, c->system);
 	/* It runs first. */
 	for (int i = c->programs.count - 1; i > 0; i--)
@@ -227,13 +225,20 @@ void name_system(struct conversion *c)
 		c->programs.name[0] = c->system;
 }
 
-/* The rows are ours: each has one %s. */
 static void write_system_row(struct conversion *c, int row)
 {
-	const char *text = system_rows[row].rung, *hole = strstr(text, "%s");
 	const char *name = name_of(c, system_rows[row].type, system_rows[row].number);
 
-	put(c, "RUNG\n  %.*s%s%s\n", (int)(hole - text), text, name, hole + 2);
+	put(c, "RUNG\n  ");
+	for (const char *at = system_rows[row].rung; *at; at++) {
+		if (*at == '@')
+			put(c, "%s", c->flash);
+		else if (*at == '?')
+			put(c, "%s", name);
+		else
+			put(c, "%c", *at);
+	}
+	put(c, "\n");
 }
 
 void write_system(struct conversion *c)

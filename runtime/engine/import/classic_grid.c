@@ -62,23 +62,6 @@ static const struct element_row *row_of(int code)
 
 /* ---- their texts; NULL: it is left out ---- */
 
-static bool is_shared(const struct grid *grid, const struct classic_cell *cell)
-{
-	const struct classic_project *project = grid->c->project;
-	int count = 0;
-
-	for (int i = 0; i < project->rungs; i++)
-		for (int y = 0; y < CLASSIC_ROWS; y++)
-			for (int x = 0; x < CLASSIC_COLUMNS; x++) {
-				const struct classic_cell *other =
-					&project->rung[i]->cell[y][x];
-
-				count += other->element == cell->element &&
-					 other->variable.number == cell->variable.number;
-			}
-	return count > 1;
-}
-
 static const char *block_text(struct grid *grid, struct grid_part *part,
 			      const struct classic_cell *cell, enum classic_kind kind)
 {
@@ -91,7 +74,7 @@ static const char *block_text(struct grid *grid, struct grid_part *part,
 	bool timed = kind != CLASSIC_COUNTER && kind != CLASSIC_REGISTER;
 
 	part->instance = instance_of(grid->c, kind, cell->variable.number);
-	part->shared = is_shared(grid, cell);
+	part->shared = is_shared_block(grid->c, kind, cell->variable.number);
 	if (!part->instance)
 		return NULL;
 	return text_of(grid->c, "%s %s%s", name, part->instance,
@@ -113,10 +96,10 @@ static const char *jump_text(struct grid *grid, int number)
 {
 	struct conversion *c = grid->c;
 
-	for (int i = 0; i < c->project->rungs; i++)
-		if (c->project->rung[i]->number == number &&
-		    in_section(c, &c->project->section[c->section], number))
-			return text_of(c, "JMP %s", c->label[i]);
+	const char *label = label_of(c, number);
+
+	if (label)
+		return text_of(c, "JMP %s", label);
 	tell(c, REPORT_CHANGED, "a jump to rung %d, which this section has not, ends it, "
 	     "here as there", number);
 	return "RET";
@@ -312,9 +295,10 @@ void grid_head(struct grid *grid)
 	put(c, "RUNG");
 	c->rungs_written++;
 	if (!grid->begun) {
-		for (int i = 0; i < c->project->rungs; i++)
-			if (c->project->rung[i] == grid->rung && c->label[i])
-				put(c, " %s", c->label[i]);
+		const char *label = label_of(c, grid->rung->number);
+
+		if (label)
+			put(c, " %s", label);
 		if (grid->rung->comment[0]) {
 			put(c, " ");
 			put_quoted(c, grid->rung->comment);
@@ -349,11 +333,8 @@ static bool acts(const struct grid *grid)
 static void write_empty(struct grid *grid)
 {
 	struct conversion *c = grid->c;
-	bool target = false;
 
-	for (int i = 0; i < c->project->rungs; i++)
-		target |= c->project->rung[i] == grid->rung && c->label[i];
-	if (target) {
+	if (label_of(c, grid->rung->number)) {
 		grid_head(grid);
 		put(c, "  | NC SYS_ALWAYS_ON | RET |\n");
 	} else if (grid->rung->comment[0]) {
@@ -363,8 +344,10 @@ static void write_empty(struct grid *grid)
 
 void convert_rung(struct conversion *c, const struct classic_rung *rung)
 {
-	struct grid *grid = arena_alloc(c->arena, sizeof(*grid));
+	struct grid *grid;
 
+	arena_reset(&c->scratch);
+	grid = arena_alloc(&c->scratch, sizeof(*grid));
 	if (!grid)
 		return;
 	grid->c = c;

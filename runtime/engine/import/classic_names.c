@@ -10,10 +10,8 @@
 #include "engine/import/classic_convert.h"
 
 #include "engine/base/ascii.h"
-#include "engine/base/lex.h"
-#include "engine/check/reserved.h"
+#include "engine/base/limits.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,8 +36,8 @@ enum {
 	MEMORY_ROWS = sizeof(memory_rows) / sizeof(*memory_rows),
 	PIN_ROWS = sizeof(pin_rows) / sizeof(*pin_rows),
 	STEP_ROWS = sizeof(step_rows) / sizeof(*step_rows),
-	LINUXCNC_IN = 300, LINUXCNC_INPUT = 1300, /* classic.def */
 };
+_Static_assert((int)MEMORY_ROWS == (int)MEMORY_KINDS, "a row for each kind of memory");
 
 /* The names of blocks; a monostable is not %M0 here, which is an address. */
 static const char *const instance_prefix[CLASSIC_KINDS] = {
@@ -55,7 +53,25 @@ const struct classic_memory_row *memory_of(int type)
 	return NULL;
 }
 
-static bool is_word(int type)
+int memory_place(const struct classic_memory_row *row)
+{
+	return (int)(row - memory_rows);
+}
+
+/* The system area has its usual size, and holds three kinds; what is beyond is nothing. */
+int memory_numbers(const struct classic_memory_row *row)
+{
+	switch (row->type) {
+	case 70:
+	case 75:
+		return 256;
+	case 290:
+		return 16;
+	}
+	return row->size == 1 || row->type == 200 ? CLASSIC_LIMIT : LIMIT_AREA * 8 / row->size;
+}
+
+bool is_word(int type)
 {
 	const struct classic_memory_row *row = memory_of(type);
 
@@ -77,211 +93,12 @@ enum classic_kind kind_of(int type)
 	return row ? row->kind : CLASSIC_KINDS;
 }
 
-/* The type that stands for a block in the list of names: that of its first pin. */
-static int block_type(enum classic_kind kind)
+int block_type(enum classic_kind kind)
 {
 	for (int i = 0; i < PIN_ROWS; i++)
 		if (pin_rows[i].kind == kind)
 			return pin_rows[i].type;
 	return -1;
-}
-
-/* ---- new names ---- */
-
-static bool is_taken(const struct conversion *c, const char *name)
-{
-	size_t len = strlen(name);
-
-	for (int i = 0; i < c->taken_count; i++)
-		if (strlen(c->taken[i]) == len && ascii_same(c->taken[i], name, len))
-			return true;
-	return false;
-}
-
-static const char *take(struct conversion *c, const char *name)
-{
-	const char **slot = arena_push(c->arena, &c->taken, &c->taken_count,
-				       sizeof(*slot));
-
-	if (slot)
-		*slot = name;
-	return name;
-}
-
-/* Bytes of the character at @text if a name may hold it, else 0. */
-static size_t name_char(const char *text, size_t len)
-{
-	size_t step = utf8_length(text, len);
-	char upper = ascii_upper(*text);
-
-	if (step > 1)
-		return step;
-	return (upper >= 'A' && upper <= 'Z') || ascii_digit(upper) || upper == '_';
-}
-
-/* Letters, digits and _ of @wish; anything else becomes _. */
-static const char *as_name(struct conversion *c, const char *wish)
-{
-	size_t len = strlen(wish), at = 0, out = 0;
-	char *name = arena_alloc(c->arena, len + 3);
-
-	if (!name)
-		return "_";
-	if (len > LIMIT_NAME - 8)
-		len = LIMIT_NAME - 8;
-	if (!len || ascii_digit(wish[0]))
-		name[out++] = 'N';
-	while (at < len) {
-		size_t step = name_char(wish + at, len - at);
-
-		if (step)
-			memcpy(name + out, wish + at, step);
-		else
-			name[out] = '_';
-		out += step ? step : 1;
-		at += step ? step : 1;
-	}
-	return name;
-}
-
-const char *name_new(struct conversion *c, const char *wish)
-{
-	const char *base = as_name(c, wish), *name = base;
-	enum diag_id fault = reserved_fault(name);
-
-	if (fault != DIAG_COUNT)
-		base = name = text_of(c, "%s_", base);
-	for (int i = 2; is_taken(c, name) && !c->arena->failed; i++)
-		name = text_of(c, "%s_%d", base, i);
-	return take(c, name);
-}
-
-/* ---- what is used ---- */
-
-static struct classic_name *entry(struct conversion *c, int type, int number)
-{
-	struct classic_name *name;
-
-	for (int i = 0; i < c->names.count; i++)
-		if (c->names.list[i].type == type && c->names.list[i].number == number)
-			return &c->names.list[i];
-	name = arena_push(c->arena, &c->names.list, &c->names.count, sizeof(*name));
-	if (name) {
-		name->type = type;
-		name->number = number;
-		name->comment = "";
-	}
-	return name;
-}
-
-/* A register of LinuxCNC's has another meaning: its numbers with a point. */
-static int known_type(const struct conversion *c, int type)
-{
-	if (c->project->dialect == CLASSIC_LINUXCNC && type == LINUXCNC_IN)
-		return LINUXCNC_INPUT;
-	return type;
-}
-
-static bool has_step(const struct conversion *c, int number)
-{
-	for (int i = 0; i < c->project->steps; i++)
-		if (c->project->step[i].number == number)
-			return true;
-	return false;
-}
-
-static void use(struct conversion *c, int type, int number)
-{
-	const struct classic_pin_row *pin;
-	struct classic_name *name;
-
-	type = known_type(c, type);
-	pin = pin_of(type);
-	if (type < 0 || number < 0 || (type == STEP_TIME && !has_step(c, number)))
-		return;
-	name = entry(c, pin ? block_type(pin->kind) : type, number);
-	if (name)
-		name->used = true;
-}
-
-static void use_variable(void *context, struct classic_variable variable)
-{
-	struct conversion *c = context;
-
-	if (variable.index_type < 0) {
-		use(c, variable.type, variable.number);
-		return;
-	}
-	use(c, variable.index_type, variable.index_number);
-	/* Of words there is an array; a bit with an index is an address. */
-	if (is_word(known_type(c, variable.type)))
-		use(c, known_type(c, variable.type), CLASSIC_ALL);
-}
-
-static enum classic_kind kind_of_element(int element)
-{
-	switch (element) {
-	case 10: return CLASSIC_TIMER;
-	case 11: return CLASSIC_MONOSTABLE;
-	case 12: return CLASSIC_COUNTER;
-	case 13: return CLASSIC_IEC_TIMER;
-	case 14: return CLASSIC_REGISTER;
-	}
-	return CLASSIC_KINDS;
-}
-
-static void use_cell(struct conversion *c, const struct classic_cell *cell)
-{
-	enum classic_kind kind = kind_of_element(cell->element);
-	const char *text;
-
-	if (kind != CLASSIC_KINDS) {
-		use(c, block_type(kind), cell->variable.number);
-	} else if (cell->element == 20 || cell->element == 60) {
-		text = classic_expression(c->project, cell->variable.number);
-		if (text)
-			expression_uses(text, use_variable, c);
-	} else if ((cell->element >= 1 && cell->element <= 4) ||
-		   (cell->element >= 50 && cell->element <= 53)) {
-		use_variable(c, cell->variable);
-	}
-}
-
-static void use_blocks(struct conversion *c, const struct classic_blocks *blocks,
-		       enum classic_kind kind)
-{
-	for (int i = 0; i < blocks->count; i++)
-		use(c, block_type(kind), blocks->block[i].number);
-}
-
-static void use_more(struct conversion *c)
-{
-	const struct classic_project *project = c->project;
-
-	for (int i = 0; i < project->steps; i++)
-		use(c, STEP_TIME, project->step[i].number);
-	use_blocks(c, &project->timer, CLASSIC_TIMER);
-	use_blocks(c, &project->monostable, CLASSIC_MONOSTABLE);
-	use_blocks(c, &project->counter, CLASSIC_COUNTER);
-	use_blocks(c, &project->iec_timer, CLASSIC_IEC_TIMER);
-	use_blocks(c, &project->reg, CLASSIC_REGISTER);
-}
-
-static void use_all(struct conversion *c)
-{
-	const struct classic_project *project = c->project;
-
-	for (int i = 0; i < project->rungs; i++)
-		for (int y = 0; y < CLASSIC_ROWS; y++)
-			for (int x = 0; x < CLASSIC_COLUMNS; x++)
-				use_cell(c, &project->rung[i]->cell[y][x]);
-	for (int i = 0; i < project->transitions; i++)
-		use_variable(c, project->transition[i].condition);
-	for (int i = 0; i < project->steps; i++)
-		use(c, STEP_TYPE, project->step[i].number);
-	/* Whoever looks at the original itself may ask for anything that it has. */
-	if (!c->options.task)
-		use_more(c);
 }
 
 /* ---- symbols ---- */
@@ -315,16 +132,41 @@ static bool parse_symbol(const char *text, int *type, int *number)
 	return len == 1 && *text == 'X' && (!*end || !strcmp(end, ".A"));
 }
 
-static const struct classic_symbol *symbol_of(const struct conversion *c, int type,
-					      int number)
-{
-	int of, index;
+/* A symbol with what it names, so that it is found by that. */
+struct known_symbol { int type, number, index; };
 
-	for (int i = 0; i < c->project->symbols; i++)
-		if (parse_symbol(c->project->symbol[i].variable, &of, &index) &&
-		    of == type && index == number)
-			return &c->project->symbol[i];
-	return NULL;
+static int by_what(const void *a, const void *b)
+{
+	const struct known_symbol *x = a, *y = b;
+
+	return x->type != y->type ? (x->type < y->type ? -1 : 1) :
+	       x->number != y->number ? (x->number < y->number ? -1 : 1) :
+	       x->index < y->index ? -1 : x->index > y->index;
+}
+
+/* Of several for one thing the first counts. */
+static void find_symbols(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+	struct known_symbol *list = NULL, *added, what;
+	int count = 0;
+
+	for (int i = 0; i < project->symbols; i++) {
+		what.index = i;
+		if (!parse_symbol(project->symbol[i].variable, &what.type, &what.number))
+			continue;
+		added = arena_push(c->arena, &list, &count, sizeof(what));
+		if (added)
+			*added = what;
+	}
+	if (count)
+		qsort(list, (size_t)count, sizeof(*list), by_what);
+	for (int i = count - 1; i >= 0; i--) {
+		struct classic_name *name = used_name(c, list[i].type, list[i].number);
+
+		if (name)
+			name->symbol = &project->symbol[list[i].index];
+	}
 }
 
 static void tell_symbol(struct conversion *c, const struct classic_symbol *symbol,
@@ -350,9 +192,15 @@ static bool says_nothing(const struct classic_symbol *symbol)
 	return !*variable && (!*name || !strcmp(name, "_"));
 }
 
+/* Blocks and steps are found by what they were called, and nothing else looks like it. */
+static bool looks_like_step(const char *name)
+{
+	return ascii_upper(name[0]) == 'X' && ascii_digit(name[1]);
+}
+
 static void give_name(struct conversion *c, struct classic_name *name)
 {
-	const struct classic_symbol *symbol = symbol_of(c, name->type, name->number);
+	const struct classic_symbol *symbol = name->symbol;
 	const struct classic_memory_row *memory = memory_of(name->type);
 	const struct classic_pin_row *pin = pin_of(name->type);
 	const char *own = pin ? instance_prefix[pin->kind] :
@@ -368,7 +216,8 @@ static void give_name(struct conversion *c, struct classic_name *name)
 	if (name->number == CLASSIC_ALL)
 		wish = text_of(c, "%ss", own);
 	else if (memory && symbol)
-		wish = symbol->name;
+		wish = looks_like_step(symbol->name) ? text_of(c, "N%s", symbol->name) :
+						       symbol->name;
 	else if (memory && !own)
 		return; /* %IX0.3 */
 	else if (symbol)
@@ -380,32 +229,38 @@ static void give_name(struct conversion *c, struct classic_name *name)
 		tell_symbol(c, symbol, name->name);
 }
 
-static int by_type(const void *a, const void *b)
+/* What the text calls a step, its action, and the block that has its seconds. */
+static void reserve_steps(struct conversion *c)
 {
-	const struct classic_name *x = a, *y = b;
+	static const char *const prefix[] = { "Step", "Seconds", "XTime" };
 
-	return x->type != y->type ? (x->type < y->type ? -1 : 1) :
-	       x->number < y->number ? -1 : x->number > y->number;
+	for (int i = 0; i < c->project->steps; i++)
+		for (size_t k = 0; k < sizeof(prefix) / sizeof(*prefix); k++)
+			name_reserve(c, text_of(c, "%s%d", prefix[k],
+						c->project->step[i].number));
 }
 
 void find_names(struct conversion *c)
 {
-	use_all(c);
-	if (c->names.count)
-		qsort(c->names.list, (size_t)c->names.count, sizeof(*c->names.list),
-		      by_type);
+	names_init(&c->taken, c->arena);
+	reserve_steps(c);
+	find_symbols(c);
+	/* Those first whose names are looked for by their form. */
 	for (int i = 0; i < c->names.count; i++)
-		give_name(c, &c->names.list[i]);
+		if (!memory_of(c->names.list[i].type))
+			give_name(c, &c->names.list[i]);
+	for (int i = 0; i < c->names.count; i++)
+		if (memory_of(c->names.list[i].type))
+			give_name(c, &c->names.list[i]);
 }
 
 /* ---- operands ---- */
 
-const char *name_of(struct conversion *c, int type, int number)
+const char *name_of(const struct conversion *c, int type, int number)
 {
-	for (int i = 0; i < c->names.count; i++)
-		if (c->names.list[i].type == type && c->names.list[i].number == number)
-			return c->names.list[i].name;
-	return NULL;
+	const struct classic_name *name = used_name(c, type, number);
+
+	return name ? name->name : NULL;
 }
 
 const char *instance_of(struct conversion *c, enum classic_kind kind, int number)
@@ -452,7 +307,7 @@ static const char *plain_operand(struct conversion *c, int type, int number,
 			return !name || !*step_rows[i].pin ? name :
 			       text_of(c, "%s.%s", name, step_rows[i].pin);
 		}
-	if (!memory)
+	if (!memory || number >= memory_numbers(memory))
 		return NULL;
 	name = name_of(c, type, number);
 	return name ? name : address_of(c, memory, number);
@@ -461,6 +316,8 @@ static const char *plain_operand(struct conversion *c, int type, int number,
 static const char *indexed(struct conversion *c, const struct classic_memory_row *memory,
 			   int number, const char *index)
 {
+	if (number >= memory_numbers(memory))
+		return NULL;
 	if (memory->size == 1)
 		return text_of(c, "%s[%s]", address_of(c, memory, number), index);
 	if (!number)

@@ -499,8 +499,9 @@ static void prepare(struct piece *piece)
 
 bool grid_write_pieces(struct grid *grid)
 {
-	struct piece *pieces = arena_alloc(grid->c->arena, CLASSIC_COLUMNS * sizeof(*pieces));
-	struct cuts *cuts = arena_alloc(grid->c->arena, sizeof(*cuts));
+	struct arena *scratch = &grid->c->scratch;
+	struct piece *pieces = arena_alloc(scratch, CLASSIC_COLUMNS * sizeof(*pieces));
+	struct cuts *cuts = arena_alloc(scratch, sizeof(*cuts));
 	int count = 0;
 
 	if (!pieces || !cuts)

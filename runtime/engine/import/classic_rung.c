@@ -124,16 +124,6 @@ void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 
 /* ---- the names of sections and rungs ---- */
 
-static bool is_called(const struct classic_rung *rung, int number)
-{
-	for (int y = 0; y < CLASSIC_ROWS; y++)
-		for (int x = 0; x < CLASSIC_COLUMNS; x++)
-			if (rung->cell[y][x].element == 54 &&
-			    rung->cell[y][x].variable.number == number)
-				return true;
-	return false;
-}
-
 /* Only what is jumped to needs a label; what has one keeps it. */
 static void name_labels(struct conversion *c)
 {
@@ -141,11 +131,8 @@ static void name_labels(struct conversion *c)
 
 	for (int i = 0; i < project->rungs; i++) {
 		const struct classic_rung *rung = project->rung[i];
-		bool wanted = rung->label[0] != '\0';
 
-		for (int k = 0; k < project->rungs && !wanted; k++)
-			wanted = is_called(project->rung[k], rung->number);
-		if (wanted)
+		if (rung->label[0] || is_jumped_to(c, rung->number))
 			c->label[i] = name_new(c, rung->label[0] ? rung->label :
 					       text_of(c, "Rung%d", rung->number));
 	}
@@ -157,7 +144,9 @@ static bool name_pous(struct conversion *c)
 
 	c->pou = arena_alloc(c->arena, ((size_t)project->sections + 1) * sizeof(*c->pou));
 	c->label = arena_alloc(c->arena, ((size_t)project->rungs + 1) * sizeof(*c->label));
-	if (!c->pou || !c->label)
+	c->section_of = arena_alloc(c->arena, ((size_t)project->rungs + 1) *
+				    sizeof(*c->section_of));
+	if (!c->pou || !c->label || !c->section_of)
 		return false;
 	for (int i = 0; i < project->sections; i++) {
 		const struct classic_section *section = &project->section[i];
@@ -171,19 +160,42 @@ static bool name_pous(struct conversion *c)
 
 /* ---- sections ---- */
 
-bool in_section(const struct conversion *c, const struct classic_section *section,
-		int number)
+/* The place of a rung of the project among all of them. */
+static int index_of(const struct conversion *c, int number)
 {
-	const struct classic_rung *rung = classic_rung(c->project, section->first);
+	const struct classic_project *project = c->project;
+	int low = 0, high = project->rungs;
 
-	for (int i = 0; rung && i < c->project->rungs; i++) {
-		if (rung->number == number)
-			return true;
-		if (rung->number == section->last || rung->next < 0)
-			return false;
-		rung = classic_rung(c->project, rung->next);
+	while (low < high) {
+		int middle = low + (high - low) / 2;
+
+		if (project->rung[middle]->number < number)
+			low = middle + 1;
+		else
+			high = middle;
 	}
-	return false;
+	return low < project->rungs && project->rung[low]->number == number ? low : -1;
+}
+
+const char *label_of(const struct conversion *c, int number)
+{
+	int index = index_of(c, number);
+
+	return index >= 0 && c->section_of[index] == c->section + 1 ? c->label[index] : NULL;
+}
+
+static void mark_rungs(struct conversion *c, const struct classic_section *section)
+{
+	int index = index_of(c, section->first);
+
+	while (index >= 0 && c->section_of[index] != c->section + 1) {
+		const struct classic_rung *rung = c->project->rung[index];
+
+		c->section_of[index] = c->section + 1;
+		if (rung->number == section->last)
+			return;
+		index = index_of(c, rung->next);
+	}
 }
 
 /* In the order of their chain, each at most once. */
@@ -191,6 +203,7 @@ static void write_rungs(struct conversion *c, const struct classic_section *sect
 {
 	const struct classic_rung *rung = classic_rung(c->project, section->first);
 
+	mark_rungs(c, section);
 	for (int i = 0; rung && i < c->project->rungs; i++) {
 		c->at = rung->place;
 		convert_rung(c, rung);
@@ -252,35 +265,38 @@ static const char *title_of(struct conversion *c)
 	return name && *name ? name : slash ? slash + 1 : c->project->file;
 }
 
-/* What an area must have beyond its usual size, in bytes; 0: nothing. */
-static long beyond(const struct conversion *c, int type, int unit, long usual)
+static bool has_array(const struct conversion *c, int type)
 {
-	long most = 0;
+	return used_name(c, type, CLASSIC_ALL) != NULL;
+}
 
-	for (int i = 0; i < c->names.count; i++) {
-		long bytes = ((long)c->names.list[i].number * unit + unit) / 8 + 8;
+/* What an area must have beyond its usual size, in bytes; 0: nothing. A few more are there
+ * for what stands behind the last that is named. */
+static long beyond(struct conversion *c, const struct classic_memory_row *row, long usual)
+{
+	long numbers = has_array(c, row->type) ? words_of(c, row) : used_numbers(c, row);
+	long most = (long)memory_numbers(row) * row->size / 8;
+	long bytes = numbers * row->size / 8 + 16;
 
-		if (c->names.list[i].number > CLASSIC_LIMIT)
-			continue; /* all of them: no more than the largest */
-		if (c->names.list[i].type == type && bytes > most)
-			most = bytes;
-	}
-	return most > usual ? (most + 7) / 8 * 8 : 0;
+	bytes = bytes / 8 * 8;
+	if (bytes > most)
+		bytes = (most + 7) / 8 * 8;
+	return bytes > usual ? bytes : 0;
 }
 
 static void write_areas(struct conversion *c)
 {
-	static const struct { int type, unit; long usual; const char *area; } row[] = {
-		{ 0, 1, 8192, "M" }, { 50, 1, 512, "I" }, { 60, 1, 512, "Q" },
-		{ 65, 1, 512, "XQ" }, { 200, 32, 8192, "V" }, { 270, 32, 256, "AI" },
-		{ 280, 32, 256, "AQ" }, { 310, 32, 512, "XAQ" }, { 1300, 32, 512, "XAI" },
+	static const struct { int type; long usual; } row[] = {
+		{ 0, 8192 }, { 50, 512 }, { 60, 512 }, { 65, 512 }, { 200, 8192 },
+		{ 270, 256 }, { 280, 256 }, { 310, 512 }, { LINUXCNC_INPUT, 512 },
 	};
 
 	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
-		long bytes = beyond(c, row[i].type, row[i].unit, row[i].usual);
+		const struct classic_memory_row *memory = memory_of(row[i].type);
+		long bytes = beyond(c, memory, row[i].usual);
 
 		if (bytes)
-			put(c, "  AREA %s %ld;\n", row[i].area, bytes);
+			put(c, "  AREA %s %ld;\n", memory->area, bytes);
 	}
 }
 
@@ -302,10 +318,12 @@ static void write_configuration(struct conversion *c)
 	before = c->out->len;
 	write_areas(c);
 	if (c->options.task && c->programs.count) {
-		put(c, "  TASK Scan (INTERVAL := T#%dms);\n", c->project->period);
+		const char *task = name_new(c, "Scan");
+
+		put(c, "  TASK %s (INTERVAL := T#%dms);\n", task, c->project->period);
 		for (int i = 0; i < c->programs.count; i++)
-			put(c, "  PROGRAM %s WITH Scan : %s;\n",
-			    name_new(c, text_of(c, "%s_1", c->programs.name[i])),
+			put(c, "  PROGRAM %s WITH %s : %s;\n",
+			    name_new(c, text_of(c, "%s_1", c->programs.name[i])), task,
 			    c->programs.name[i]);
 	}
 	if (c->out->len > before)
@@ -431,14 +449,20 @@ bool classic_to_rung(const struct classic_project *project,
 		.project = project, .options = options, .arena = arena, .out = out,
 		.report = report, .at = { "", 0 },
 	};
+	bool good;
 
 	memset(out, 0, sizeof(*out));
+	if (!find_uses(&c))
+		return false;
 	find_names(&c);
 	if (!name_pous(&c))
 		return false;
+	arena_init(&c.scratch);
 	tell_counts(&c);
 	tell_faults(&c);
 	write_all(&c);
 	tell_members(&c);
-	return !arena->failed && !report->arena.failed && out->text;
+	good = !arena->failed && !c.scratch.failed && !report->arena.failed && out->text;
+	arena_free(&c.scratch);
+	return good;
 }

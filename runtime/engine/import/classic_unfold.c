@@ -125,7 +125,7 @@ static void write_box(struct unfolded *u, const struct grid_part *part)
 
 void grid_unfold(struct grid *grid)
 {
-	struct unfolded *u = arena_alloc(grid->c->arena, sizeof(*u));
+	struct unfolded *u = arena_alloc(&grid->c->scratch, sizeof(*u));
 
 	if (!u)
 		return;
