@@ -192,7 +192,7 @@ static void test_model(void)
 	CHECK(sfc != NULL);
 	if (!sfc)
 		return;
-	CHECK(sfc->until_stable && sfc->step_count == 6 && sfc->transition_count == 5);
+	CHECK(sfc->evolution == EVOLVE_UNTIL_STABLE && sfc->step_count == 6 && sfc->transition_count == 5);
 	CHECK(sfc->action_count == 2 && sfc->use_count == 9 && sfc->piece_count == 16);
 	CHECK(sfc->step[1].use_count == 8 && sfc->step[2].use_count == 1);
 	CHECK(sfc->step[2].kind == STEP_MACRO && sfc->step[5].macro == 4 &&

@@ -18,6 +18,7 @@ struct page {
 	char *out;
 	size_t size, used;
 	int timers;      /* used so far                                       */
+	bool in_order;
 };
 
 static void put(struct page *page, const char *format, ...)
@@ -220,6 +221,7 @@ static void put_ends(struct page *page, const int *end, int count)
 static void put_arc(struct page *page, const struct random_arc *arc, int number)
 {
 	struct random_source source = chart_source(arc->key);
+	int open_end = 0;
 
 	put(page, "  TRANSITION");
 	if (random_chance(&source, 20))
@@ -227,10 +229,17 @@ static void put_arc(struct page *page, const struct random_arc *arc, int number)
 	if (random_chance(&source, 30) &&
 	    chart_has(page->chart, chart_key(arc->key, 3)))
 		put(page, " (PRIORITY := %d)", 1 + (int)random_below(&source, 3));
-	put(page, " FROM ");
-	put_ends(page, arc->from, arc->from_count);
-	put(page, " TO ");
-	put_ends(page, arc->to, arc->to_count);
+	/* IN ORDER: out of nothing, into nothing. */
+	if (page->in_order && arc->macro < 0 && random_chance(&source, 8))
+		open_end = 1 + (int)random_below(&source, 2);
+	if (open_end != 1) {
+		put(page, " FROM ");
+		put_ends(page, arc->from, arc->from_count);
+	}
+	if (open_end != 2) {
+		put(page, " TO ");
+		put_ends(page, arc->to, arc->to_count);
+	}
 	put_condition(page, arc);
 }
 
@@ -495,11 +504,11 @@ static void put_many(struct page *page, const char *name, const char *at, int co
 			put(page, "    %s%d : %s;\n", name, i, type);
 }
 
-static void put_head(struct page *page, const char *name, bool stable)
+static void put_head(struct page *page, const char *name, const char *evolution)
 {
 	static const char *const words[] = { "TON", "TOF", "TP" };
 
-	put(page, "\nPROGRAM %s SFC%s\n  VAR\n", name, stable ? " UNTIL STABLE" : "");
+	put(page, "\nPROGRAM %s SFC%s\n  VAR\n", name, evolution);
 	put_many(page, "In", "%IX0.", 8, "BOOL");
 	put(page, "    CReset AT %%IX1.0 : BOOL;\n    CHold AT %%IX1.1 : BOOL;\n"
 	    "    CSemi AT %%IX1.2 : BOOL;\n    CManual AT %%IX1.3 : BOOL;\n"
@@ -524,8 +533,10 @@ static void put_program(struct page *whole, const char *name)
 	struct random_chart *chart = whole->chart;
 	struct page page = { .chart = chart, .out = body, .size = sizeof(body) };
 	struct random_source source = chart_source(chart_key(chart->seed, 500));
-	bool stable = random_chance(&source, 20) &&
-		      chart_has(chart, chart_key(chart->seed, 501));
+	uint32_t evolution = random_below(&source, 5);
+	bool stable = evolution == 0 && chart_has(chart, chart_key(chart->seed, 501));
+
+	page.in_order = evolution == 1;
 
 	chart_grow(chart);
 	put_control(&page);
@@ -533,7 +544,7 @@ static void put_program(struct page *whole, const char *name)
 	for (int i = 0; i < ACTIONS; i++)
 		put_action(&page, i);
 	whole->timers = page.timers;
-	put_head(whole, name, stable);
+	put_head(whole, name, page.in_order ? " IN ORDER" : stable ? " UNTIL STABLE" : "");
 	put(whole, "%sEND_PROGRAM\n", body);
 }
 

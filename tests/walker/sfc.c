@@ -10,6 +10,7 @@
 #include <limits.h>
 #include <string.h>
 
+#define ROUNDS_MAX 50        /* of a scan, IN ORDER                           */
 #define EVOLUTIONS_MAX 1000  /* of a scan; a chart that needs more never rests */
 
 /* ---- macro-steps ---- */
@@ -246,14 +247,18 @@ static void deactivate(struct chart *chart, int step)
 	forget_power(chart, step);
 }
 
+static void do_list(struct walker *walker, struct chart *chart, int step)
+{
+	if (chart->step[step].begins)
+		lines_once(walker, chart, step);
+	chart->step[step].begins = false;
+}
+
 /* SET and RESET of the steps that became active just now. */
 static void do_lists(struct walker *walker, struct chart *chart)
 {
-	for (int i = 0; i < chart->sfc->step_count; i++) {
-		if (chart->step[i].begins)
-			lines_once(walker, chart, i);
-		chart->step[i].begins = false;
-	}
+	for (int i = 0; i < chart->sfc->step_count; i++)
+		do_list(walker, chart, i);
 }
 
 static bool evaluate(struct walker *walker, struct chart *chart,
@@ -345,6 +350,69 @@ static void fire(struct walker *walker, struct chart *chart)
 	do_lists(walker, chart);
 }
 
+/* ---- IN ORDER ---- */
+
+static bool is_each_active(const struct chart *chart, const struct sfc_transition *at)
+{
+	for (int k = 0; k < at->from_count; k++)
+		if (!can_be_left(chart, chart->sfc->ref[at->first_from + k].step))
+			return false;
+	return true;
+}
+
+static void fire_at_once(struct walker *walker, struct chart *chart,
+			 const struct sfc_transition *at)
+{
+	const struct sfc *sfc = chart->sfc;
+
+	for (int i = 0; i < sfc->step_count; i++)
+		chart->step[i].leaving = chart->step[i].entering = false;
+	for (int k = 0; k < at->from_count; k++)
+		mark_leaving(chart, sfc->ref[at->first_from + k].step);
+	for (int k = 0; k < at->to_count; k++)
+		mark_entering(chart, sfc->ref[at->first_to + k].step);
+	for (int i = 0; i < sfc->step_count; i++) {
+		struct played_step *step = &chart->step[i];
+
+		if (!step->leaving)
+			continue;
+		if (step->min.kind != PLACED_NOWHERE && step->t->i < chart_time(&step->min))
+			write_bool(walker, &step->alarm, true);
+		deactivate(chart, i);
+	}
+	for (int i = 0; i < sfc->step_count; i++) {
+		if (chart->step[i].entering && !value_is_true(*chart->step[i].x))
+			activate(chart, i);
+		do_list(walker, chart, i);
+	}
+}
+
+/* Transition after transition, each at once, until a round brings nothing. */
+static bool evolve_in_order(struct walker *walker, struct chart *chart, struct orders orders)
+{
+	bool any = true;
+
+	for (int round = 0; any && round < ROUNDS_MAX; round++) {
+		any = false;
+		for (int i = 0; i < chart->sfc->transition_count; i++) {
+			const struct sfc_transition *at =
+				&chart->sfc->transition[chart->order[i]];
+			bool is_true;
+
+			if (!is_each_active(chart, at))
+				continue;
+			if (!evaluate(walker, chart, &at->condition, &is_true))
+				return false;
+			if (!may_fire(orders, is_true))
+				continue;
+			fire_at_once(walker, chart, at);
+			orders.tip = false;
+			any = true;
+		}
+	}
+	return true;
+}
+
 /* ---- a scan ---- */
 
 static bool rises(struct chart *chart, enum control which, bool now)
@@ -428,13 +496,15 @@ static bool evolve(struct walker *walker, struct chart *chart, struct orders ord
 {
 	bool any = true;
 
+	if (chart->sfc->evolution == EVOLVE_IN_ORDER)
+		return evolve_in_order(walker, chart, orders);
 	for (int count = 0; any; count++) {
 		any = false;
 		if (count == EVOLUTIONS_MAX || !choose(walker, chart, orders, &any))
 			return false;
 		if (any)
 			fire(walker, chart);
-		if (!chart->sfc->until_stable)
+		if (!sfc_goes_round(chart->sfc))
 			return true;
 		orders.tip = false;
 	}
@@ -458,7 +528,7 @@ bool chart_walk(struct walker *walker, struct chart *chart)
 		chart->step[i].entered = chart->step[i].left = false;
 	if (!chart->started) {
 		begin_initial(walker, chart);
-		if (chart->sfc->until_stable && is_uncontrolled(chart->sfc))
+		if (sfc_goes_round(chart->sfc) && is_uncontrolled(chart->sfc))
 			good = evolve(walker, chart, orders);
 	} else {
 		pass_time(walker, chart, orders.hold);

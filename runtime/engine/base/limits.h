@@ -48,6 +48,7 @@
 #define LIMIT_AREAS       (1u << 20)   /* bytes of all areas together         */
 #define LIMIT_BUDGET      10000000  /* instructions of one scan               */
 #define LIMIT_STEPS       4096      /* of a chart; transitions twice so many  */
+#define LIMIT_ROUNDS      50        /* of a chart IN ORDER in one scan      */
 #define LIMIT_STEP_USES   256       /* lines of a step                        */
 #define LIMIT_BRANCHES    256       /* steps behind one FROM or TO            */
 #define LIMIT_MACROS      8         /* macro-steps in one another             */

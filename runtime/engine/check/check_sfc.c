@@ -170,12 +170,21 @@ static bool can_be_reset(const struct sfc *sfc)
 	return sfc->control[CONTROL_RESET] || sfc->control[CONTROL_FORCE];
 }
 
+/* A transition out of nothing, which only a chart IN ORDER can have. */
+static bool has_source(const struct sfc *sfc)
+{
+	for (int i = 0; i < sfc->transition_count; i++)
+		if (!sfc->transition[i].from_count)
+			return sfc->evolution == EVOLVE_IN_ORDER;
+	return false;
+}
+
 static void check_steps(struct sfc_check *c, const int *in, const int *out)
 {
 	const struct sfc *sfc = c->sfc;
 	int last;
 
-	if (count_initial(sfc, -1, &last) == 0)
+	if (count_initial(sfc, -1, &last) == 0 && !has_source(sfc))
 		sfc_report(c, DIAG_SFC_NO_INITIAL, c->pou->line, 0,
 			   sfc_name(c, c->pou->name));
 	for (int i = 0; i < sfc->step_count; i++) {

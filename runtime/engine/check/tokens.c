@@ -49,7 +49,8 @@ static bool is_within(const struct sfc_steps *some, const struct sfc_steps *all)
 }
 
 /* An arc before it wants no more than it does and is always true: whenever this one is
- * enabled, that one is, and if that one is kept from its steps so is this one. */
+ * enabled, that one is, and if that one is kept from its steps so is this one. IN ORDER one
+ * between them may bring the steps back. */
 static bool is_behind(const struct tokens *t, int arc, const uint8_t *always)
 {
 	const struct sfc_steps *from = &t->net.arc[arc].from;
@@ -89,7 +90,7 @@ bool tokens_begin(struct tokens *t, const struct sfc *sfc, const uint8_t *always
 	for (int i = 0; i < t->net.arc_count; i++)
 		t->never[i] = !t->net.arc[i].from.count ||
 			      (always[t->net.arc[i].transition] == 2 && !manual) ||
-			      is_behind(t, i, always);
+			      (sfc->evolution != EVOLVE_IN_ORDER && is_behind(t, i, always));
 	return true;
 }
 

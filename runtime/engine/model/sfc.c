@@ -190,5 +190,20 @@ bool sfc_rests_at_once(const struct sfc *sfc)
 	for (int i = 0; i < CONTROL_COUNT; i++)
 		if (sfc->control[i])
 			return false;
-	return sfc->until_stable;
+	return sfc_goes_round(sfc);
+}
+
+bool sfc_goes_round(const struct sfc *sfc)
+{
+	return sfc->evolution != EVOLVE_ONCE;
+}
+
+const char *sfc_evolution_words(enum sfc_evolution evolution)
+{
+	static const char *const words[] = {
+		[EVOLVE_ONCE] = "", [EVOLVE_UNTIL_STABLE] = "UNTIL STABLE",
+		[EVOLVE_IN_ORDER] = "IN ORDER",
+	};
+
+	return words[evolution];
 }

@@ -96,8 +96,12 @@ enum control { CONTROL_RESET, CONTROL_HOLD, CONTROL_SEMI, CONTROL_MANUAL, CONTRO
 enum piece_kind { PIECE_STEP, PIECE_MACRO_END, PIECE_TRANSITION, PIECE_ACTION, PIECE_CONTROL };
 struct sfc_piece { enum piece_kind kind; int index; };
 
+/* How it goes on in a scan (docs/sfc.md): what is true fires together, once; the same
+ * until nothing fires; or one transition after the other, each at once. */
+enum sfc_evolution { EVOLVE_ONCE, EVOLVE_UNTIL_STABLE, EVOLVE_IN_ORDER };
+
 struct sfc {
-	bool until_stable;
+	enum sfc_evolution evolution;
 	uint32_t control[CONTROL_COUNT]; /* string ids: operands; 0: none     */
 	uint32_t control_comment;
 	int control_line;
@@ -162,6 +166,11 @@ bool sfc_link(struct sfc *sfc, struct names *names);
  */
 bool sfc_declare(struct sfc *sfc, struct names *names, struct var_table *table,
 		   struct arena *arena);
+/** sfc_evolution_words - what stands behind SFC: "UNTIL STABLE", "IN ORDER", "". Lives for
+ * ever. Scan-safe: yes. */
+const char *sfc_evolution_words(enum sfc_evolution evolution);
+/** sfc_goes_round - can it evolve more than once in a scan? Scan-safe: yes. */
+bool sfc_goes_round(const struct sfc *sfc);
 /** sfc_rests_at_once - does it evolve in the first scan, too, until it is stable? Scan-safe:
  * yes. */
 bool sfc_rests_at_once(const struct sfc *sfc);

@@ -155,7 +155,21 @@ static bool read_result(struct reader *r, struct pou *pou)
 	return add_eno(r, table, pou->line);
 }
 
-/* SFC, and perhaps UNTIL STABLE; the cursor stands on SFC. */
+/* The second word of two. */
+static void read_evolution(struct reader *r, struct sfc *sfc, const char *word,
+			   enum sfc_evolution evolution)
+{
+	reader_next(r);
+	if (!lex_is(&r->lex, word)) {
+		reader_fail_word(r, DIAG_EXPECTED, word);
+		reader_skip_line(r);
+		return;
+	}
+	sfc->evolution = evolution;
+	reader_next(r);
+}
+
+/* SFC, and perhaps UNTIL STABLE or IN ORDER; the cursor stands on SFC. */
 static void begin_chart(struct reader *r, struct pou *pou)
 {
 	if (pou->kind != POU_PROGRAM)
@@ -168,16 +182,10 @@ static void begin_chart(struct reader *r, struct pou *pou)
 	}
 	pou->sfc->block = -1;
 	reader_next(r);
-	if (!lex_is(&r->lex, "UNTIL"))
-		return;
-	reader_next(r);
-	if (!lex_is(&r->lex, "STABLE")) {
-		reader_fail_word(r, DIAG_EXPECTED, "STABLE");
-		reader_skip_line(r);
-		return;
-	}
-	pou->sfc->until_stable = true;
-	reader_next(r);
+	if (lex_is(&r->lex, "UNTIL"))
+		read_evolution(r, pou->sfc, "STABLE", EVOLVE_UNTIL_STABLE);
+	else if (lex_is(&r->lex, "IN"))
+		read_evolution(r, pou->sfc, "ORDER", EVOLVE_IN_ORDER);
 }
 
 static void read_first_line(struct reader *r, struct pou *pou, int index)

@@ -79,22 +79,42 @@ static bool read_part(struct chart *chart, void *out)
 	return chart_number(chart, PRIORITY_MOST, &transition->priority);
 }
 
+/* IN ORDER one of FROM and TO may be left out. */
+static bool may_be_open(const struct chart *chart)
+{
+	return chart->sfc->evolution == EVOLVE_IN_ORDER;
+}
+
+static bool read_ways(struct chart *chart, struct sfc_transition *transition)
+{
+	struct reader *r = chart->r;
+	const bool source = may_be_open(chart) && lex_is(&r->lex, "TO");
+
+	transition->first_from = transition->first_to = chart->sfc->ref_count;
+	if (!source && (!chart_expect(chart, "FROM") ||
+			!read_refs(chart, &transition->first_from,
+				   &transition->from_count)))
+		return false;
+	if (may_be_open(chart) && !source && !lex_is(&r->lex, "TO"))
+		return true;
+	return chart_expect(chart, "TO") &&
+	       read_refs(chart, &transition->first_to, &transition->to_count);
+}
+
 /* Up to the names behind TO. */
 static bool read_head(struct chart *chart, struct sfc_transition *transition)
 {
 	struct reader *r = chart->r;
 
-	if (r->lex.token.kind == TOKEN_NAME && !lex_is(&r->lex, "FROM")) {
+	if (r->lex.token.kind == TOKEN_NAME && !lex_is(&r->lex, "FROM") &&
+	    !(may_be_open(chart) && lex_is(&r->lex, "TO"))) {
 		if (!reader_name(r, "name of the transition", &transition->name))
 			return false;
 		reader_next(r);
 	}
 	if (reader_is(r, '(') && !chart_settings(chart, read_part, transition))
 		return false;
-	return chart_expect(chart, "FROM") &&
-	       read_refs(chart, &transition->first_from, &transition->from_count) &&
-	       chart_expect(chart, "TO") &&
-	       read_refs(chart, &transition->first_to, &transition->to_count);
+	return read_ways(chart, transition);
 }
 
 /* ---- := expression; ---- */

@@ -233,8 +233,10 @@ void text_write_pou(const struct project *project, const struct pou *pou,
 	}
 	sink_text(sink, " ");
 	sink_text(sink, pou_language_word(pou->language));
-	if (chart && pou->sfc->until_stable)
-		sink_text(sink, " UNTIL STABLE");
+	if (chart && sfc_goes_round(pou->sfc)) {
+		sink_text(sink, " ");
+		sink_text(sink, sfc_evolution_words(pou->sfc->evolution));
+	}
 	sink_text(sink, "\n");
 	if (chart)
 		write_sfc(sink, project, pou);

@@ -180,6 +180,8 @@ static void write_refs(const struct page *page, const char *before, int first, i
 {
 	const struct sfc_ref *ref = page->sfc->ref + first;
 
+	if (!count)
+		return;
 	sink_text(page->sink, before);
 	sink_text(page->sink, count == 1 ? "" : "(");
 	for (int i = 0; i < count; i++)

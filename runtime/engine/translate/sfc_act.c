@@ -199,7 +199,7 @@ static uint32_t begun(struct sfc_il *s, int use)
 	case QUALIFIER_P: return sfc_var(s, "Call", called, IEC_BOOL);
 	case QUALIFIER_P1: return sfc_var(s, "Pulse", called, IEC_BOOL);
 	case QUALIFIER_R:
-		return s->sfc->until_stable ? sfc_var(s, "End", called, IEC_BOOL) : 0;
+		return sfc_goes_round(s->sfc) ? sfc_var(s, "End", called, IEC_BOOL) : 0;
 	case QUALIFIER_N:
 	case QUALIFIER_L:
 	case QUALIFIER_D:
@@ -483,7 +483,7 @@ static void decide(struct sfc_il *s, int number)
 	sfc_here(s, sfc_label(s, "Due", number));
 	if (called->action >= 0) /* do_bool() says it anyway */
 		sfc_set(s, sfc_var(s, "Due", number, IEC_BOOL), false);
-	if (called->off && s->sfc->until_stable)
+	if (called->off && sfc_goes_round(s->sfc))
 		put_end(s, number);
 	if (called->off)
 		put_off(s, number);

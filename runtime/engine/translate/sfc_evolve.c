@@ -106,8 +106,7 @@ static bool ends_with_coil(const struct sfc_il *s, int first)
 	return stores == 1 && il->line[il->count - 1].operand == s->condition;
 }
 
-/* The result is whether arc @arc fires. */
-static void put_condition(struct sfc_il *s, int arc)
+void sfc_put_condition(struct sfc_il *s, int arc)
 {
 	const int number = s->net.arc[arc].transition;
 	const struct sfc_transition *t = &s->sfc->transition[number];
@@ -151,8 +150,7 @@ static void note_fired(struct sfc_il *s, int arc)
 		sfc_op(s, OP_ST, 0, sfc_var(s, "Entered", a->to.step[i], IEC_BOOL));
 }
 
-/* The result: all steps that it wants are active; @known is, -1: none is known. */
-static void load_active(struct sfc_il *s, const struct sfc_arc *arc, int known)
+void sfc_load_active(struct sfc_il *s, const struct sfc_arc *arc, int known)
 {
 	bool any = false;
 
@@ -169,10 +167,10 @@ static void evaluate_own(struct sfc_il *s, const struct sfc_duty *duty)
 	const int last = duty->arc_count - 1;
 
 	for (int i = 0; i < last; i++) {
-		put_condition(s, duty->arc[i]);
+		sfc_put_condition(s, duty->arc[i]);
 		sfc_jump_if(s, sfc_label(s, "Fire", duty->arc[i]));
 	}
-	put_condition(s, duty->arc[last]);
+	sfc_put_condition(s, duty->arc[last]);
 	sfc_jump_unless(s, s->next);
 	note_fired(s, duty->arc[last]);
 	sfc_jump(s, s->next);
@@ -181,7 +179,7 @@ static void evaluate_own(struct sfc_il *s, const struct sfc_duty *duty)
 /* Another of its steps may be the first that stands behind FROM. */
 static void evaluate_join(struct sfc_il *s, int step)
 {
-	load_active(s, &s->net.arc[s->duty[step].arc[0]], step);
+	sfc_load_active(s, &s->net.arc[s->duty[step].arc[0]], step);
 	sfc_jump_unless(s, s->next);
 	evaluate_own(s, &s->duty[step]);
 }
@@ -204,12 +202,12 @@ static void evaluate_group(struct sfc_il *s, int step)
 		const struct sfc_arc *arc = &s->net.arc[duty->arc[i]];
 		const uint32_t skip = sfc_label(s, "Skip", duty->arc[i]);
 
-		load_active(s, arc, -1);
+		sfc_load_active(s, arc, -1);
 		for (int k = 0; k < arc->from.count; k++)
 			sfc_op(s, OP_AND, MOD_N,
 			       sfc_var(s, "Left", arc->from.step[k], IEC_BOOL));
 		sfc_jump_unless(s, skip);
-		put_condition(s, duty->arc[i]);
+		sfc_put_condition(s, duty->arc[i]);
 		sfc_jump_unless(s, skip);
 		note_fired(s, duty->arc[i]);
 		sfc_here(s, skip);
@@ -260,7 +258,7 @@ void sfc_evaluate(struct sfc_il *s)
 			   sfc_label(s, "At", i);
 	if (!label)
 		return;
-	if (s->sfc->until_stable)
+	if (sfc_goes_round(s->sfc))
 		sfc_here(s, sfc_label(s, "Round", -1));
 	forget_groups(s);
 	sfc_each(s, s->next, sfc_x_name(s, 0), label, count);
@@ -335,19 +333,10 @@ static void darken_conditions(struct sfc_il *s, int step)
 	}
 }
 
-static void leave_step(struct sfc_il *s, int step)
+void sfc_end_step(struct sfc_il *s, int step)
 {
 	const struct sfc_step *at = &s->sfc->step[step];
-	const uint32_t entered = sfc_var(s, "Entered", step, IEC_BOOL);
-	const uint32_t stay = sfc_label(s, "Stay", step);
 
-	s->line = (uint32_t)at->line;
-	sfc_here(s, sfc_label(s, "Leave", step));
-	sfc_set(s, sfc_var(s, "Left", step, IEC_BOOL), false);
-	sfc_op(s, OP_LD, 0, entered);
-	if (sfc_may_begin_anew(s))
-		sfc_op(s, OP_AND, MOD_N, sfc_anew(s));
-	sfc_jump_if(s, stay);
 	sfc_set(s, sfc_x_name(s, step), false);
 	darken_conditions(s, step);
 	if (at->min && at->alarm) {
@@ -357,6 +346,21 @@ static void leave_step(struct sfc_il *s, int step)
 		sfc_op(s, OP_S, 0, at->alarm);
 	}
 	sfc_pulse(s, step, false);
+}
+
+static void leave_step(struct sfc_il *s, int step)
+{
+	const uint32_t entered = sfc_var(s, "Entered", step, IEC_BOOL);
+	const uint32_t stay = sfc_label(s, "Stay", step);
+
+	s->line = (uint32_t)s->sfc->step[step].line;
+	sfc_here(s, sfc_label(s, "Leave", step));
+	sfc_set(s, sfc_var(s, "Left", step, IEC_BOOL), false);
+	sfc_op(s, OP_LD, 0, entered);
+	if (sfc_may_begin_anew(s))
+		sfc_op(s, OP_AND, MOD_N, sfc_anew(s));
+	sfc_jump_if(s, stay);
+	sfc_end_step(s, step);
 	sfc_jump(s, s->leave);
 	sfc_here(s, stay);
 	sfc_set(s, entered, false);
@@ -383,15 +387,10 @@ void sfc_leave(struct sfc_il *s)
 		leave_step(s, i);
 }
 
-static void enter_step(struct sfc_il *s, int step)
+void sfc_begin_step(struct sfc_il *s, int step)
 {
 	const struct sfc_step *at = &s->sfc->step[step];
 
-	s->line = (uint32_t)at->line;
-	sfc_here(s, sfc_label(s, "Enter", step));
-	sfc_set(s, sfc_var(s, "Entered", step, IEC_BOOL), false);
-	sfc_op(s, OP_LD, 0, sfc_x_name(s, step));
-	sfc_jump_if(s, s->enter);
 	sfc_set(s, sfc_x_name(s, step), true);
 	sfc_op(s, OP_LD, 0, sfc_literal(s, "T#0s"));
 	sfc_op(s, OP_ST, 0, sfc_t_name(s, step));
@@ -403,7 +402,24 @@ static void enter_step(struct sfc_il *s, int step)
 			sfc_set(s, use->operand, use->kind == USE_SET);
 	}
 	sfc_pulse(s, step, true);
+}
+
+static void enter_step(struct sfc_il *s, int step)
+{
+	s->line = (uint32_t)s->sfc->step[step].line;
+	sfc_here(s, sfc_label(s, "Enter", step));
+	sfc_set(s, sfc_var(s, "Entered", step, IEC_BOOL), false);
+	sfc_op(s, OP_LD, 0, sfc_x_name(s, step));
+	sfc_jump_if(s, s->enter);
+	sfc_begin_step(s, step);
 	sfc_jump(s, s->enter);
+}
+
+/* Can it be that this part enters the step? IN ORDER transitions do so themselves. */
+static bool is_entered(const struct sfc_il *s, int step)
+{
+	return !sfc_is_in_order(s) || sfc_may_begin_anew(s) ||
+	       (s->sfc->step[step].kind == STEP_INITIAL && s->sfc->step[step].macro < 0);
 }
 
 void sfc_enter(struct sfc_il *s)
@@ -413,23 +429,24 @@ void sfc_enter(struct sfc_il *s)
 	uint32_t *label = sfc_alloc(s, (size_t)count, sizeof(*label));
 
 	for (int i = 0; label && i < count; i++)
-		label[i] = sfc_label(s, "Enter", i);
+		label[i] = is_entered(s, i) ? sfc_label(s, "Enter", i) : s->enter;
 	if (!label)
 		return;
 	s->line = (uint32_t)s->ld.unit->pou->line;
 	sfc_each(s, s->enter, sfc_var(s, "Entered", 0, IEC_BOOL), label, count);
-	if (s->sfc->until_stable) {
+	if (sfc_goes_round(s->sfc)) {
 		sfc_op(s, OP_LD, 0, s->fired);
-		sfc_jump_if(s, again);
+		sfc_jump_if(s, sfc_is_in_order(s) ? sfc_label(s, "Order", -1) : again);
 	}
 	sfc_set(s, s->fired, false);
 	sfc_jump(s, s->act);
-	if (s->sfc->until_stable) {
+	if (s->sfc->evolution == EVOLVE_UNTIL_STABLE) {
 		sfc_here(s, again);
 		sfc_set(s, s->fired, false);
 		sfc_once(s);
 		sfc_jump(s, sfc_label(s, "Round", -1));
 	}
 	for (int i = 0; i < count; i++)
-		enter_step(s, i);
+		if (is_entered(s, i))
+			enter_step(s, i);
 }

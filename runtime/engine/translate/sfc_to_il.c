@@ -153,7 +153,7 @@ bool sfc_starts_itself(const struct sfc_il *s)
 	for (int i = 0; i < CONTROL_COUNT; i++)
 		if (s->sfc->control[i])
 			return false;
-	return !s->sfc->until_stable;
+	return !sfc_goes_round(s->sfc);
 }
 
 uint32_t sfc_x_name(const struct sfc_il *s, int step)
@@ -300,7 +300,8 @@ static bool begin(struct sfc_il *s)
 		sfc_var(s, "Left", i, IEC_BOOL);
 	for (int i = 0; i < s->sfc->step_count; i++)
 		sfc_var(s, "Entered", i, IEC_BOOL);
-	sfc_find_duties(s);
+	if (!sfc_is_in_order(s))
+		sfc_find_duties(s);
 	sfc_find_called(s);
 	return !s->ld.failed;
 }
@@ -314,6 +315,8 @@ bool sfc_to_il(struct translation *translation, struct unit *unit, const uint8_t
 		.sfc = unit->pou->sfc, .skip = skip,
 	};
 
+	const bool in_order = sfc_is_in_order(&s);
+
 	if (!begin(&s))
 		return false;
 	if (s.sfc->step_count == 0)
@@ -321,11 +324,16 @@ bool sfc_to_il(struct translation *translation, struct unit *unit, const uint8_t
 	add_tick(&s);
 	sfc_control(&s);
 	sfc_stop(&s);
-	sfc_evaluate(&s);
+	if (in_order)
+		sfc_order(&s);
+	else
+		sfc_evaluate(&s);
 	sfc_ask(&s);
 	sfc_op(&s, OP_RET, 0, 0);
-	sfc_fire(&s);
-	sfc_leave(&s);
+	if (!in_order)
+		sfc_fire(&s);
+	if (!in_order || sfc_may_begin_anew(&s))
+		sfc_leave(&s);
 	sfc_enter(&s);
 	sfc_act(&s);
 	return !s.ld.failed;

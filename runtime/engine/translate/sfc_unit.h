@@ -47,6 +47,7 @@ struct sfc_il {
 	struct sfc_called *called;
 	int called_count;
 	int *called_of;       /* by line of a step; -1: SET, RESET, nothing    */
+	int entries;          /* labels of steps that are entered IN ORDER     */
 	uint32_t next, act, leave, enter; /* labels                           */
 	uint32_t cursor, dt, last, condition, fired;
 };
@@ -94,6 +95,20 @@ void sfc_evaluate(struct sfc_il *s);
 void sfc_fire(struct sfc_il *s);
 void sfc_leave(struct sfc_il *s);
 void sfc_enter(struct sfc_il *s);
+/** sfc_put_condition - the result is whether arc @arc fires. */
+void sfc_put_condition(struct sfc_il *s, int arc);
+/** sfc_load_active - the result: all steps that it wants are active; @known is, -1: none
+ * is known. */
+void sfc_load_active(struct sfc_il *s, const struct sfc_arc *arc, int known);
+/** sfc_end_step, sfc_begin_step - all that happens when it is left, becomes active. */
+void sfc_end_step(struct sfc_il *s, int step);
+void sfc_begin_step(struct sfc_il *s, int step);
+
+/* ---- sfc_order.c: IN ORDER ---- */
+/** sfc_is_in_order - does the chart evolve so? */
+bool sfc_is_in_order(const struct sfc_il *s);
+/** sfc_order - all rounds of a scan; where the first scan comes to: label "Order". */
+void sfc_order(struct sfc_il *s);
 
 /* ---- sfc_control.c ---- */
 /** sfc_control - start, supervision, RESET, FORCE and the modes. */

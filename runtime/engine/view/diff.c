@@ -183,7 +183,7 @@ static const char *language(const struct pou *pou)
 
 static const char *evolution(const struct pou *pou)
 {
-	return pou->sfc->until_stable ? "UNTIL STABLE" : "";
+	return sfc_evolution_words(pou->sfc->evolution);
 }
 
 static void compare_pou(struct diff *diff, const struct pou *a,

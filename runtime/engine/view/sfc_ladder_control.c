@@ -96,7 +96,7 @@ static void write_modes(struct lad *e)
 	}
 	lad_out(r, coil(e, "COIL", &e->chart[LAD_GO]));
 	lad_write(e, r, "", "Transitions fire when they are true");
-	if (*semi && e->sfc->until_stable) {
+	if (*semi && sfc_goes_round(e->sfc)) {
 		r = lad_begin(e);
 		lad_head(r, lad_text(e, "NO %s", semi));
 		lad_out(r, coil(e, "COIL", &e->chart[LAD_ONCE]));

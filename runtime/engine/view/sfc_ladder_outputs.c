@@ -31,12 +31,12 @@ static const char *text_of(const struct lad *e, uint32_t id)
 /* The pulse of a step in this scan. */
 static struct lad_var *began(struct lad *e, int step)
 {
-	return &e->step[step][e->sfc->until_stable ? LAD_STARTED : LAD_START];
+	return &e->step[step][sfc_goes_round(e->sfc) ? LAD_STARTED : LAD_START];
 }
 
 static struct lad_var *ended(struct lad *e, int step)
 {
-	return &e->step[step][e->sfc->until_stable ? LAD_ENDED : LAD_END];
+	return &e->step[step][sfc_goes_round(e->sfc) ? LAD_ENDED : LAD_END];
 }
 
 /* Does line @use call for @called? */
@@ -146,7 +146,7 @@ static void write_ended(struct lad *e, int line, const struct lad_called *called
 			continue;
 		lad_way(r);
 		lad_cell(r, no(e, &e->step[use->step][LAD_X]));
-		if (e->sfc->until_stable) {
+		if (sfc_goes_round(e->sfc)) {
 			lad_way(r);
 			lad_cell(r, no(e, began(e, use->step)));
 		}

@@ -247,7 +247,7 @@ static void write_arcs(struct lad *e)
 		put_enabled(e, r, i, lad_head);
 		write_condition(e, r, i);
 		lad_out(r, coil(e, "COIL", &e->arc[i][modes ? LAD_TRUE : LAD_FIRES]));
-		lad_write(e, r, i == 0 && e->sfc->until_stable ? text_of(e, e->again) : "",
+		lad_write(e, r, i == 0 && sfc_goes_round(e->sfc) ? text_of(e, e->again) : "",
 			  modes ? lad_text(e, "%s: is it true?", title) : title);
 		if (modes)
 			write_fires(e, i, title);
@@ -282,7 +282,7 @@ static bool reads_start(const struct lad *e, int step)
 
 	for (int i = 0; i < at->use_count; i++)
 		sets |= e->sfc->use[at->first_use + i].kind != USE_ACTION;
-	return !e->sfc->until_stable || sets || e->step[step][LAD_T].used;
+	return !sfc_goes_round(e->sfc) || sets || e->step[step][LAD_T].used;
 }
 
 /* Pulses of a step that anything asks for. */
@@ -310,7 +310,7 @@ static void write_start(struct lad *e, int step)
 		return;
 	if (reads_start(e, step))
 		lad_out(r, coil(e, "COIL", &e->step[step][LAD_START]));
-	if (e->sfc->until_stable && e->step[step][LAD_STARTED].used)
+	if (sfc_goes_round(e->sfc) && e->step[step][LAD_STARTED].used)
 		lad_out(r, coil(e, "S", &e->step[step][LAD_STARTED]));
 	lad_write(e, r, "", lad_text(e, "%s becomes active", lad_name(e, step)));
 }
@@ -350,9 +350,9 @@ static void write_end(struct lad *e, int step)
 		lad_cell(r, no(e, &e->chart[LAD_SET]));
 		lad_cell(r, no(e, &e->step[step][LAD_X]));
 	}
-	if (!e->sfc->until_stable)
+	if (!sfc_goes_round(e->sfc))
 		lad_out(r, coil(e, "COIL", &e->step[step][LAD_END]));
-	if (e->sfc->until_stable && e->step[step][LAD_ENDED].used)
+	if (sfc_goes_round(e->sfc) && e->step[step][LAD_ENDED].used)
 		lad_out(r, coil(e, "S", &e->step[step][LAD_ENDED]));
 	lad_write(e, r, "", lad_text(e, "%s ends", lad_name(e, step)));
 }
@@ -490,7 +490,7 @@ static void write_again(struct lad *e)
 {
 	struct lad_rung *r = lad_begin(e);
 
-	if (!e->sfc->until_stable || !e->net.arc_count)
+	if (!sfc_goes_round(e->sfc) || !e->net.arc_count)
 		return;
 	if (e->sfc->control[CONTROL_SEMI]) {
 		lad_head(r, no(e, &e->chart[LAD_ONCE]));
@@ -520,7 +520,7 @@ static void write_again(struct lad *e)
 /* What UNTIL STABLE gathers begins FALSE in each scan. */
 static void write_gathered(struct lad *e)
 {
-	for (int i = 0; e->sfc->until_stable && i < e->sfc->step_count; i++)
+	for (int i = 0; sfc_goes_round(e->sfc) && i < e->sfc->step_count; i++)
 		for (int k = LAD_STARTED; k <= LAD_ENDED; k++) {
 			struct lad_rung *r = lad_begin(e);
 

@@ -75,7 +75,7 @@ bool chart_fits(const struct project *project, const struct pou *pou)
 {
 	const struct sfc *sfc = pou->sfc;
 
-	if (!sfc->until_stable)
+	if (!sfc_goes_round(sfc))
 		return false;
 	for (int i = 0; i < CONTROL_COUNT; i++)
 		if (sfc->control[i])
