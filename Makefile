@@ -366,7 +366,11 @@ $(BIN)/classic_random: $(BUILD)/tests/classic/classic_random.o $(CLASSIC_RANDOM)
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 $(BIN)/classic_differential: $(BUILD)/tests/classic_differential.o $(CLASSIC_O) $(CLASSIC_RANDOM)
-tests: $(BIN)/classic_trace $(BIN)/classic_random
+# Ladders that never were ClassicLadder's, of what it has.
+$(BIN)/ladder_random: $(call obj,$(wildcard tests/classic/ladder_*.c) tests/walker/random.c tests/walker/random_print.c)
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^
+tests: $(BIN)/classic_trace $(BIN)/classic_random $(BIN)/ladder_random
 FUZZ_WITH := $(BUILD)/tests/fuzz/expect.o $(BUILD)/tests/fuzz/replay.o $(RANDOM_O)
 $(FUZZ:%=$(BIN)/fuzz_%): $(BIN)/fuzz_%: $(BUILD)/tests/fuzz/fuzz_%.o $(FUZZ_WITH)
 $(BIN)/fuzz_script $(BIN)/fuzz_scenario: $(BUILD)/tests/fuzz/sandbox.o

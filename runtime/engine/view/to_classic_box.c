@@ -33,7 +33,7 @@ static const struct box_row box_rows[] = {
 	{ FB_RS, CL_PART, -1, { "S", "R1" } },
 };
 
-enum { OWN_ROWS = 7 }; /* of ClassicLadder's own */
+enum { OWN_ROWS = 7, TIMER_ROWS = 3 }; /* of ClassicLadder's own; of IEC 61131-3 */
 
 static const struct box_row *row_of(enum word word)
 {
@@ -315,6 +315,8 @@ bool box_part(struct leaving *e, const struct network *network,
 	if (!item->slot || m->kind != MEANING_INSTANCE)
 		return out_refuse(e, DIAG_EXPORT_TYPE, "%s",
 			      project_text(e->project, cell->operand));
+	if (item->slot->calls++ && row >= &box_rows[OWN_ROWS + TIMER_ROWS])
+		return out_refuse(e, DIAG_EXPORT_TWICE, "%s", item->slot->name);
 	item->code = row->code;
 	item->width = 2;
 	item->height = row->kind >= 0 ? height[row->kind] : 2;

@@ -235,6 +235,20 @@ static int arguments(struct building *b, const struct expr_node *term, struct te
 	return count;
 }
 
+/* Functions there take variables; upstream's constants, too. Anything else is a word. */
+static struct term atom(struct building *b, struct term part)
+{
+	const char *end = *part.text == '@' ? strchr(part.text + 1, '@') : NULL;
+	int word;
+
+	if ((end && !end[1]) || (part.constant && part.value >= 0 &&
+				 b->e->dialect == CLASSIC_UPSTREAM))
+		return part;
+	word = new_word(b->e);
+	before(b, out_text(b->e, "@%d/%d@:=%s", CL_WORD, word, part.text), -1);
+	return (struct term){ .text = out_encode(b->e, variable_of(CL_WORD, word)) };
+}
+
 static const char *call_text(struct building *b, const char *name, struct term *part,
 			     int count)
 {
@@ -277,6 +291,8 @@ static struct term call(struct building *b, const struct expr_node *term, int de
 				      .value = part[0].value };
 	if (!name)
 		return failed(b, term->text, term->len);
+	for (int i = 0; i < count; i++)
+		part[i] = atom(b, part[i]);
 	for (int i = 0; i < count && strlen(call_text(b, name, part, count)) > ROOM; i++)
 		part[i] = apart(b, part[i]);
 	if (strlen(call_text(b, name, part, count)) > ROOM)

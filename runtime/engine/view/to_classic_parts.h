@@ -36,6 +36,7 @@ struct out_slot {
 	int type, number, count;
 	int block;             /* enum block_kind; -1: memory, a step          */
 	const char *name, *comment;
+	int calls;             /* boxes of it                                  */
 	int extra[4];          /* bits of an instance that stands for several;
 				  -1: none yet                                 */
 };
@@ -70,7 +71,7 @@ struct out_part {
 	struct classic_variable given[4]; /* instead of a net: a variable; type -1 */
 	bool inverse[4];
 	bool moved;            /* its inputs stand in other rows there          */
-	const struct out_slot *slot;
+	struct out_slot *slot;
 	enum word word;
 	int row, col;
 	int order;             /* when it is evaluated; -1: never              */
