@@ -88,7 +88,10 @@ static void print_changes(const char *path, const struct classic_report *report)
 	for (int i = 0; i < report->count; i++) {
 		const struct report_line *line = &report->line[i];
 
-		fprintf(stderr, "%s:%d: changed: %s\n", path, line->line, line->text);
+		if (line->line)
+			fprintf(stderr, "%s:%d: changed: %s\n", path, line->line, line->text);
+		else
+			fprintf(stderr, "%s: changed: %s\n", path, line->text);
 	}
 }
 

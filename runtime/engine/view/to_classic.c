@@ -65,27 +65,42 @@ bool out_refuse(struct leaving *e, enum diag_id id, const char *format, ...)
 	return false;
 }
 
-void tell_change(struct leaving *e, const char *format, ...)
+static __attribute__((format(printf, 3, 0)))
+void tell_at(struct leaving *e, struct diag place, const char *format, va_list args)
 {
-	const struct diag place = place_of(e, DIAG_NO_MEMORY);
 	struct report_line line = { .kind = REPORT_CHANGED, .member = "",
 		.line = place.line, .pou = place.pou, .rung = place.rung };
-	char text[160];
-	va_list args;
+	char text[400];
 
-	va_start(args, format);
 	vsnprintf(text, sizeof(text), format, args);
-	va_end(args);
 	for (int i = 0; i < e->report->count; i++)
 		if (!strcmp(e->report->line[i].text, text))
 			return;
 	report_add(e->report, line, "%s", text);
 }
 
+void tell_change(struct leaving *e, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	tell_at(e, place_of(e, DIAG_NO_MEMORY), format, args);
+	va_end(args);
+}
+
+void tell_line(struct leaving *e, int line, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	tell_at(e, (struct diag){ .line = line }, format, args);
+	va_end(args);
+}
+
 /* ---- rungs ---- */
 
 /* Of "the text $"so$"": without its quotes. */
-static const char *plain_title(struct leaving *e, const char *text)
+const char *plain_title(struct leaving *e, const char *text)
 {
 	char *copy = arena_copy(e->arena, text, strlen(text)), *to = copy;
 	bool quoted = text[0] == '"';
@@ -100,6 +115,17 @@ static const char *plain_title(struct leaving *e, const char *text)
 	if (copy)
 		*to = '\0';
 	return copy ? copy : "";
+}
+
+static void check_head(struct leaving *e, const struct classic_rung *rung)
+{
+	const int most = e->dialect == CLASSIC_UPSTREAM ? CLASSIC_COMMENT_LONG :
+							  CLASSIC_COMMENT;
+
+	if (strlen(rung->label) > CLASSIC_LABEL)
+		tell_change(e, "label %s is cut to %d bytes", rung->label, CLASSIC_LABEL);
+	if (strlen(rung->comment) > (size_t)most)
+		tell_change(e, "a title is cut to %d bytes: %s", most, rung->comment);
 }
 
 struct classic_rung *rung_begin(struct leaving *e)
@@ -123,6 +149,7 @@ struct classic_rung *rung_begin(struct leaving *e)
 	rung->number = number;
 	rung->label = e->rung_label ? project_text(e->project, e->rung_label) : "";
 	rung->comment = e->comment ? plain_title(e, e->comment) : "";
+	check_head(e, rung);
 	e->rung_label = 0;
 	e->comment = NULL;
 	rung->previous = e->section->first < 0 ? -1 : number - 1;
@@ -200,6 +227,8 @@ void section_begin(struct leaving *e, const char *name, int subroutine, bool seq
 	for (int i = 2; name_taken(e, section->name) && i < 1000; i++)
 		section->name = out_text(e, "%.*s_%d",
 			classic_cut(name, CLASSIC_SECTION_NAME - 4), name, i);
+	if (strcmp(name, section->name) != 0)
+		tell_change(e, "section %s is called %s there", name, section->name);
 }
 
 static void patch_jumps(struct leaving *e)
@@ -347,8 +376,11 @@ static bool find_order(struct leaving *e, const struct pou **list, int *count)
 			return diag_add(e->diags, place, "%s",
 					project_text(e->project, entry->name));
 		}
-		if (its && its->interval_ns)
-			e->out->period = (int)(its->interval_ns / 1000000);
+		if (its && its->interval_ns) {
+			e->out->period = (int)((its->interval_ns + 500000) / 1000000);
+			e->out->period += !e->out->period;
+			e->has_period = true;
+		}
 		task = entry->task;
 		first = false;
 		list[(*count)++] = program_named(e->project, entry->pou);
@@ -394,6 +426,7 @@ static void leave_ladder(struct leaving *e, const struct pou *pou)
 		return;
 	}
 	section_begin(e, project_text(e->project, pou->name), routine, false);
+	leave_temporaries(e, pou);
 	for (int i = 0; i < pou->rung_count && e->good; i++) {
 		e->rung_index = i;
 		e->row = e->col = 0;
@@ -449,66 +482,6 @@ static void leave_all(struct leaving *e)
 	leave_started(e);
 }
 
-/* ---- settings ---- */
-
-static void setting(struct leaving *e, const char *key, const char *value)
-{
-	struct classic_setting *one = arena_push(e->arena, &e->out->setting,
-						 &e->out->settings, sizeof(*one));
-
-	if (one) {
-		one->key = key;
-		one->value = value;
-	}
-}
-
-static void size(struct leaving *e, const char *key, int count, int usual)
-{
-	setting(e, key, out_text(e, "%d", count > usual ? count : usual));
-}
-
-static int last_of(const struct classic_blocks *blocks)
-{
-	return blocks->count ? blocks->block[blocks->count - 1].number + 1 : 0;
-}
-
-/* An array of all words tells how many there are. */
-static int word_count(const struct leaving *e, int type, int usual)
-{
-	for (int i = 0; i < e->slots; i++)
-		if (e->slot[i].type == type && e->slot[i].count > 1 && !e->slot[i].number &&
-		    e->slot[i].count < usual)
-			return e->slot[i].count;
-	return usual;
-}
-
-static void settings(struct leaving *e)
-{
-	struct classic_project *out = e->out;
-
-	setting(e, "PROJECT_NAME", plain_title(e, project_text(e->project,
-							       e->project->title)));
-	setting(e, "PERIODIC_REFRESH", out_text(e, "%d", out->period));
-	setting(e, "PERIODIC_INPUTS_REFRESH", "10");
-	setting(e, "REAL_INPUTS_OUTPUTS_ONLY_ON_TARGET", "0");
-	size(e, "SIZE_NBR_RUNGS", out->rungs, 100);
-	size(e, "SIZE_NBR_BITS", e->sizes[CL_BIT], 500);
-	size(e, "SIZE_NBR_WORDS", e->sizes[CL_WORD], word_count(e, CL_WORD, 200));
-	size(e, "SIZE_NBR_TIMERS", last_of(&out->timer), 10);
-	size(e, "SIZE_NBR_MONOSTABLES", last_of(&out->monostable), 10);
-	size(e, "SIZE_NBR_COUNTERS", last_of(&out->counter), 10);
-	size(e, "SIZE_NBR_TIMERS_IEC", last_of(&out->iec_timer), 10);
-	size(e, "SIZE_NBR_REGISTERS", last_of(&out->reg), 10);
-	setting(e, "SIZE_REGISTER_LIST", out_text(e, "%d", out->register_list));
-	size(e, "SIZE_NBR_PHYS_INPUTS", e->sizes[50], 50);
-	size(e, "SIZE_NBR_PHYS_OUTPUTS", e->sizes[60], 50);
-	size(e, "SIZE_NBR_ARITHM_EXPR", out->expressions, 100);
-	size(e, "SIZE_NBR_SECTIONS", out->sections, 10);
-	size(e, "SIZE_NBR_SYMBOLS", out->symbols, 100);
-	size(e, "SIZE_NBR_PHYS_WORDS_INPUTS", e->sizes[270], word_count(e, 270, 25));
-	size(e, "SIZE_NBR_PHYS_WORDS_OUTPUTS", e->sizes[280], word_count(e, 280, 25));
-}
-
 /* ---- all of it ---- */
 
 /* A bare rung file holds rungs of one section and old timers. */
@@ -552,8 +525,11 @@ struct classic_project *to_classic(struct project *project, enum classic_dialect
 		e->out->period = 50;
 		e->out->register_list = 500;
 		leave_all(e);
-		names_symbols(e);
-		settings(e);
+		if (e->good) {
+			names_symbols(e);
+			leave_told(e);
+			leave_settings(e);
+		}
 		if (dialect == CLASSIC_NUMERIC && e->good)
 			check_numeric(e);
 	}

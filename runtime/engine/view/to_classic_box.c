@@ -131,8 +131,10 @@ static bool base_of(struct leaving *e, int64_t ns, const char *name, int *base)
 static bool time_units(struct leaving *e, int64_t ns, const char *name,
 		       struct classic_block *block)
 {
+	/* A timer counts one unit a scan at most: its base is no less than a scan. */
 	for (int i = 2; i >= 0; i--)
-		if (ns >= 0 && ns % base_ns[i] == 0 && ns / base_ns[i] <= 9999) {
+		if (ns > 0 && ns % base_ns[i] == 0 && ns / base_ns[i] <= 9999 &&
+		    base_ns[i] >= e->out->period * INT64_C(1000000)) {
 			block->base = i;
 			block->preset = (int)(ns / base_ns[i]);
 			return true;
@@ -202,10 +204,14 @@ static bool declared_time(struct leaving *e, const char *name, int64_t *ns)
 	uint32_t id = names_intern(&e->project->names, name, strlen(name));
 	enum diag_id why;
 	const struct meaning *m = scope_find(e->scope, e->pou, id, &why);
+	struct out_slot *slot;
 
 	if (!m || m->kind != MEANING_VARIABLE || m->var->type != IEC_TIME ||
 	    !m->var->has_init || m->var->array.count)
 		return false;
+	slot = slot_find(e, m->var);
+	if (slot)
+		slot->calls++;
 	if (!m->constant)
 		tell_change(e, "%s is fixed there", name);
 	*ns = m->var->init.i;
@@ -216,13 +222,19 @@ static bool declared_time(struct leaving *e, const char *name, int64_t *ns)
 static bool iec_time(struct leaving *e, struct out_part *item, const char *text)
 {
 	struct classic_block *block = block_entry(e, BLOCK_IEC, item->slot->number);
+	struct classic_block before;
 	int64_t ns;
 
 	if (!block || (!number_of(text, IEC_TIME, &ns) && !declared_time(e, text, &ns)))
 		return out_refuse(e, DIAG_EXPORT_TIME, "%s", text);
 	block->mode = item->word == FB_TON ? 0 : item->word == FB_TOF ? 1 : 2;
-	tell_change(e, "timer %s counts one scan later there", item->slot->name);
-	return time_units(e, ns, item->slot->name, block);
+	before = *block;
+	if (!time_units(e, ns, item->slot->name, block))
+		return false;
+	if (item->slot->calls > 1 && before.base * 10000 + before.preset !=
+				     block->base * 10000 + block->preset)
+		return out_refuse(e, DIAG_EXPORT_TWICE, "%s", item->slot->name);
+	return true;
 }
 
 static bool counter_preset(struct leaving *e, struct out_part *item, const char *text)
@@ -292,6 +304,48 @@ bool box_is_plain(const struct out_part *item)
 	return item->code != CL_PART && !item->moved && !item->after && !item->before;
 }
 
+static bool has_argument(const char *args, const char *pin)
+{
+	struct arg arg;
+
+	for (const char *next = args; args_next(&next, &arg);)
+		if (!arg.output && ascii_is(pin, arg.pin, arg.pin_len))
+			return true;
+	return false;
+}
+
+/* What a declaration gives to a block of IEC 61131-3: its preset may stand there. */
+static bool iec_given(struct leaving *e, struct out_part *item, const char *args)
+{
+	const char *text = project_text(e->project, item->slot->var->init_text);
+	const char *pin = item->code == CL_IEC ? "PT" : item->code == CL_COUNT ? "PV" : "";
+	const char *value = *text && *pin ? member_of(e, text, pin) : NULL;
+
+	for (const char *at = strstr(text, ":="); at; at = strstr(at + 2, ":="))
+		if (!value || strstr(at + 2, ":="))
+			return out_refuse(e, DIAG_EXPORT_WORD, "%s := %s", item->slot->name,
+					  text);
+	if (!*pin || has_argument(args, pin))
+		return true;
+	if (item->code == CL_IEC)
+		return iec_time(e, item, value ? value : "T#0s");
+	return counter_preset(e, item, value ? value : "0");
+}
+
+/* Time goes on there by itself, and a counter begins with 0. */
+static bool own_given(struct leaving *e, struct out_part *item, const char *args)
+{
+	const char *text = project_text(e->project, item->slot->var->init_text);
+	int64_t value = 0;
+
+	if (item->code == CL_COUNT)
+		return !number_of(member_of(e, text, "V"), IEC_DINT, &value) || !value ? true :
+		       out_refuse(e, DIAG_EXPORT_WORD, "%s := %s", item->slot->name, text);
+	if (item->code == CL_REGISTER_BOX || has_argument(args, "DT"))
+		return true;
+	return out_refuse(e, DIAG_EXPORT_WORD, "%s: DT", item->slot->name);
+}
+
 bool box_part(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
 	      struct out_part *item)
@@ -312,7 +366,7 @@ bool box_part(struct leaving *e, const struct network *network,
 		return out_refuse(e, DIAG_EXPORT_WORD, "%s", word->word);
 	m = scope_find(e->scope, e->pou, cell->operand, &why);
 	item->slot = m && m->var ? slot_find(e, m->var) : NULL;
-	if (!item->slot || m->kind != MEANING_INSTANCE)
+	if (!item->slot || m->kind != MEANING_INSTANCE || m->var->array.count)
 		return out_refuse(e, DIAG_EXPORT_TYPE, "%s",
 			      project_text(e->project, cell->operand));
 	if (item->slot->calls++ && row >= &box_rows[OWN_ROWS + TIMER_ROWS])
@@ -348,5 +402,6 @@ bool box_part(struct leaving *e, const struct network *network,
 	for (const char *next = args; args_next(&next, &arg);)
 		if (!box_argument(e, row, &arg, item))
 			return false;
-	return e->good;
+	return e->good && (row < &box_rows[OWN_ROWS] ? own_given(e, item, args) :
+						       iec_given(e, item, args));
 }

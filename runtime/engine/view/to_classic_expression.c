@@ -189,21 +189,29 @@ static bool element(struct building *b, const char *text, size_t len, int index,
 	out->variable.number += offset - m->array.low;
 	out->variable.index_type = by.type;
 	out->variable.index_number = by.number;
+	e->indexes = true;
 	return out->variable.number >= 0;
 }
 
 /* ---- functions ---- */
 
-struct known { const char *here, *op; enum rank rank; bool upstream; };
+/* @title: what an import writes above it, so that no other function of that name is meant. */
+struct known { const char *here, *op; enum rank rank; bool upstream; const char *title; };
 
 static const struct known known[] = {
-	{ "Sum", "+", RANK_SUM, false }, { "Difference", "-", RANK_SUM, false },
-	{ "Product", "*", RANK_PRODUCT, false },
-	{ "Quotient", "/", RANK_PRODUCT, false }, { "Remainder", "%", RANK_PRODUCT, false },
-	{ "BitAnd", "&", RANK_AND, false }, { "BitXor", "^", RANK_XOR, true },
-	{ "BitOr", "|", RANK_OR, false }, { "Power", "POW", RANK_TERM, false },
-	{ "ShiftLeft", "SHL", RANK_TERM, true }, { "ShiftRight", "SHR", RANK_TERM, true },
-	{ "RotateLeft", "ROL", RANK_TERM, true }, { "RotateRight", "ROR", RANK_TERM, true },
+	{ "Sum", "+", RANK_SUM, false, "A + B, of" },
+	{ "Difference", "-", RANK_SUM, false, "A - B, of" },
+	{ "Product", "*", RANK_PRODUCT, false, "A * B, of" },
+	{ "Quotient", "/", RANK_PRODUCT, false, "A / B; by" },
+	{ "Remainder", "%", RANK_PRODUCT, false, "A MOD B; by" },
+	{ "BitAnd", "&", RANK_AND, false, "the bits that both" },
+	{ "BitXor", "^", RANK_XOR, true, "the bits that one" },
+	{ "BitOr", "|", RANK_OR, false, "the bits that any" },
+	{ "Power", "POW", RANK_TERM, false, "A to the power" },
+	{ "ShiftLeft", "SHL", RANK_TERM, true, "A, B places to the left" },
+	{ "ShiftRight", "SHR", RANK_TERM, true, "A, B places to the right" },
+	{ "RotateLeft", "ROL", RANK_TERM, true, "A, B places round to the left" },
+	{ "RotateRight", "ROR", RANK_TERM, true, "A, B places round to the right" },
 };
 
 /* An import's own, or of that name with a number. */
@@ -216,6 +224,27 @@ static const struct known *known_function(const char *text, size_t len)
 		    (len == own || text[own] == '_'))
 			return &known[i];
 	}
+	return NULL;
+}
+
+bool pou_is_imported(const struct project *project, const struct pou *pou)
+{
+	const char *name = project_text(project, pou->name);
+	const struct known *row = known_function(name, strlen(name));
+
+	return row && pou->kind == POU_FUNCTION &&
+	       strstr(project_text(project, pou->comment), row->title);
+}
+
+/* The operator that a call stands for; NULL: it calls something else. */
+static const struct known *operator_of(const struct building *b, const char *text, size_t len)
+{
+	const struct project *project = b->e->project;
+
+	for (int i = 0; i < project->pou_count; i++)
+		if (ascii_is(project_text(project, project->pou[i].name), text, len) &&
+		    pou_is_imported(project, &project->pou[i]))
+			return known_function(text, len);
 	return NULL;
 }
 
@@ -261,7 +290,7 @@ static const char *call_text(struct building *b, const char *name, struct term *
 
 static struct term call(struct building *b, const struct expr_node *term, int depth)
 {
-	const struct known *own = known_function(term->text, term->len);
+	const struct known *own = operator_of(b, term->text, term->len);
 	struct term part[ARGUMENTS];
 	int count = arguments(b, term, part, depth);
 	bool upstream = b->e->dialect == CLASSIC_UPSTREAM;
@@ -269,6 +298,8 @@ static struct term call(struct building *b, const struct expr_node *term, int de
 
 	if (!b->e->good || count < 1)
 		return failed(b, term->text, term->len);
+	b->e->divides |= own && own->rank == RANK_PRODUCT && *own->op != '*' && !upstream &&
+			 count == 2 && !(part[1].constant && part[1].value);
 	if (own && count == 2 && own->rank != RANK_TERM && (upstream || !own->upstream))
 		return binary(b, part[0], own->op, part[1], own->rank);
 	if (own && count == 2 && !upstream && !strcmp(own->op, "POW"))
@@ -323,6 +354,9 @@ static struct term function(struct building *b, const struct expr_node *term, in
 	struct term left = build(b, term->left, depth);
 	struct term right = build(b, term->right, depth);
 
+	b->e->sums |= term->fn == FN_ADD || term->fn == FN_SUB || term->fn == FN_MUL;
+	b->e->divides |= (term->fn == FN_DIV || term->fn == FN_MOD) &&
+			 !(right.constant && right.value);
 	switch ((int)term->fn) {
 	case FN_ADD: return binary(b, left, "+", right, RANK_SUM);
 	case FN_SUB: return binary(b, left, "-", right, RANK_SUM);

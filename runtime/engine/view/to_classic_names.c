@@ -122,6 +122,7 @@ static bool bit_of(struct leaving *e, struct iec_addr addr, struct classic_varia
 		return false;
 	}
 	/* SYS_FIRST_SCAN, SYS_CLOCK_1MIN, SYS_CLOCK_1S */
+	e->clocks |= bit == 4 || bit == 5;
 	*out = variable_of(CL_SYSTEM_BIT, bit == 1 ? 4 : bit == 4 ? 2 : 0);
 	return e->dialect == CLASSIC_UPSTREAM && (bit == 1 || bit == 4 || bit == 5);
 }
@@ -130,11 +131,21 @@ static bool word_of(struct leaving *e, struct iec_addr addr, struct classic_vari
 {
 	int number = (int)addr.byte / 4;
 	bool lc = e->dialect == CLASSIC_LINUXCNC;
+	bool analog = addr.area == AREA_AI || addr.area == AREA_AQ;
 
-	if ((addr.area == AREA_AI || addr.area == AREA_AQ) && addr.bits == 16)
+	if (analog && addr.bits == 16)
 		number = (int)addr.byte / 2;
-	else if (addr.bits != 32 || addr.byte % 4)
+	else if (addr.bits != 32)
 		return false;
+	if (addr.byte % (addr.bits / 8u))
+		return false;
+	if (analog) {
+		uint8_t *wide = &e->wide[addr.area == AREA_AQ];
+
+		*wide |= addr.bits == 16 ? 1 : 2;
+		if (*wide == 3) /* %AIW2 and %AID4 would both be %IW1 */
+			return false;
+	}
 	switch ((int)addr.area) {
 	case AREA_V: *out = variable_of(CL_WORD, number); return true;
 	case AREA_AI: *out = variable_of(270, number); return true;
@@ -311,7 +322,8 @@ static void memory_slot(struct leaving *e, struct out_slot *slot)
 			slot->number = operand.variable.number;
 			return;
 		}
-		if (var->at.area != AREA_V && var->at.area != AREA_M)
+		if ((var->at.area != AREA_V && var->at.area != AREA_M) ||
+		    is_shared(e, var))
 			return;
 	}
 	slot->type = var->type == IEC_BOOL ? CL_BIT : CL_WORD;
@@ -468,6 +480,7 @@ static bool element_operand(struct leaving *e, const struct meaning *m, const ch
 	if (out->variable.number < low)
 		return no_number(e, text);
 	out->variable.number -= low;
+	e->indexes = true;
 	out->variable.index_type = index.variable.type;
 	out->variable.index_number = index.variable.number;
 	return true;

@@ -94,6 +94,10 @@ struct leaving {
 	int next_bit, next_word, next_block[BLOCK_KINDS];
 	int sizes[400];        /* by type: highest number + 1                  */
 	bool word_index, bit_index;
+	bool has_period;       /* a task says it                              */
+	bool divides, sums, indexes, clocks; /* what means something else there: told
+				  once for all                                */
+	uint8_t wide[2];       /* widths of %AI, %AQ in use: 1 16 bits, 2 32   */
 	int started, never;    /* bits: a scan has been; never TRUE. -1: not needed */
 	/* the POU in work */
 	const struct pou *pou;
@@ -115,6 +119,9 @@ bool out_refuse(struct leaving *e, enum diag_id id, const char *format, ...)
 /** tell_change - a line of the report about it. */
 void tell_change(struct leaving *e, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
+/** tell_line - about the project, with a line of its file; 0: none. */
+void tell_line(struct leaving *e, int line, const char *format, ...)
+	__attribute__((format(printf, 3, 4)));
 const char *out_text(struct leaving *e, const char *format, ...)
 	__attribute__((format(printf, 2, 3)));
 /** rung_begin - one more rung behind the last of the section. NULL: no memory, or there
@@ -125,8 +132,18 @@ void section_begin(struct leaving *e, const char *name, int subroutine, bool seq
 void section_end(struct leaving *e, bool drop);
 /** add_expression - its number. */
 int add_expression(struct leaving *e, const char *text);
+/** blocks_end - the highest number + 1. Scan-safe: yes. */
+int blocks_end(const struct classic_blocks *blocks);
 /** routine_number - of a subroutine; -1: it is none. */
 int routine_number(struct leaving *e, uint32_t name);
+
+/** plain_title - a quoted text without its quotes. */
+const char *plain_title(struct leaving *e, const char *text);
+
+/* ---- to_classic_settings.c, to_classic_shared.c ---- */
+void leave_settings(struct leaving *e);
+/** is_shared - has anything else a part of its memory? Scan-safe: no. */
+bool is_shared(struct leaving *e, const struct var *var);
 
 /* ---- to_classic_names.c ---- */
 bool names_prepare(struct leaving *e);
@@ -151,6 +168,13 @@ int extra_bit(struct leaving *e, struct out_slot *slot, int index);
 bool cell_expression(struct leaving *e, const char *text, struct out_part *item);
 /** out_encode - @200/3@. */
 const char *out_encode(struct leaving *e, struct classic_variable variable);
+
+/** pou_is_imported - one of the functions that an import brings along? Scan-safe: yes. */
+bool pou_is_imported(const struct project *project, const struct pou *pou);
+
+/* ---- to_classic_told.c ---- */
+/** leave_told - what has been written nowhere. */
+void leave_told(struct leaving *e);
 
 /* ---- to_classic_box.c ---- */
 /** box_part - an instance in a rung. */
@@ -202,6 +226,8 @@ int pin_kind(int type);
 /** leave_initial - what variables begin with; leave_started - that the first scan has been. */
 void leave_initial(struct leaving *e);
 void leave_started(struct leaving *e);
+/** leave_temporaries - VAR_TEMP of the POU begin anew each time it runs. */
+void leave_temporaries(struct leaving *e, const struct pou *pou);
 
 /* ---- to_classic_symbols.c ---- */
 /** out_symbol - of a variable that is @prefix and a number there, @own and one here. */

@@ -65,6 +65,8 @@ void out_symbol(struct leaving *e, const struct out_slot *slot, const char *pref
 		const char *own)
 {
 	const char *comment = plain_comment(e, slot->comment), *name = slot->name;
+	const int most = e->dialect == CLASSIC_UPSTREAM ? CLASSIC_COMMENT :
+							  CLASSIC_SYMBOL_COMMENT;
 	struct classic_symbol *symbol;
 	size_t len = strlen(own);
 
@@ -84,5 +86,11 @@ void out_symbol(struct leaving *e, const struct out_slot *slot, const char *pref
 	symbol->variable = out_text(e, "%%%s%d", prefix, slot->number);
 	symbol->name = says_number(slot, own) ? "" : symbol_name(e, name);
 	symbol->comment = comment;
+	if (*symbol->name && strcmp(symbol->name, name) != 0)
+		tell_line(e, slot->var->line, "%s is called %s there", slot->name,
+			  symbol->name);
+	if (strlen(comment) > (size_t)most)
+		tell_line(e, slot->var->line, "the comment of %s is cut to %d bytes",
+			  slot->name, most);
 	e->out->symbols++;
 }
