@@ -95,13 +95,17 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 static LadderWindow *open_classic(AdwApplication *application, LadderWindow *window,
 				  const char *path, GError **error)
 {
+	char *place = g_strdup(path), *text;
 	LadderDocument *document;
-	char *told = NULL, *text;
+	struct ladder *ladder;
+	LadderOrigin *origin;
 	gsize len = 0;
 
-	text = classic_import(path, &len, &told, error);
-	if (!text)
+	text = classic_import(place, &len, &ladder, error);
+	if (!text) {
+		g_free(place);
 		return NULL;
+	}
 	document = window && ladder_window_is_untouched(window) ?
 		g_object_ref(ladder_window_document(window)) : ladder_document_new();
 	ladder_document_open_text(document, NULL, text, len, false);
@@ -109,10 +113,10 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 		window = show_document(application, document);
 	ladder_window_set_origin(window, path);
 	app_remember(path);
-	if (*told)
-		ladder_window_warn(window, told);
+	origin = ladder_origin_new(document, place, ladder);
+	ladder_window_set_classic(window, origin);
+	g_object_unref(origin);
 	g_object_unref(document);
-	g_free(told);
 	g_free(text);
 	return window;
 }

@@ -6,6 +6,7 @@
  */
 #include "editor-gtk/render.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/render_classic.h"
 #include "editor-gtk/render_diff.h"
 #include "editor-gtk/render_options.h"
 #include "editor-gtk/render_sheet.h"
@@ -36,8 +37,10 @@ static struct ladder *load(const char *path, enum render_status *status)
 	struct ladder *ladder = ladder_new();
 
 	*status = RENDER_WRONG;
-	if (!ladder)
+	if (!ladder || !ladder_take_classic(ladder, false)) {
+		ladder_free(ladder);
 		return NULL;
+	}
 	if (ladder_load(ladder, path) && ladder_project(ladder)) {
 		*status = RENDER_GOOD;
 		return ladder;
@@ -77,7 +80,7 @@ static bool is_there(const struct project *project, const struct render_options 
 			options->file, options->pou);
 		return false;
 	}
-	if (!options->rung)
+	if (!options->rung || options->original)
 		return true;
 	first = pou >= 0 ? &project->pou[pou] : project->pou_count ? project->pou : NULL;
 	if (first && options->rung <= first->rung_count)
@@ -184,23 +187,39 @@ static enum render_status write_pdf(const struct project *project, int pou,
 		failed(options->out, cairo_status_to_string(result));
 }
 
-static enum render_status draw(const struct project *project,
-			       const struct render_options *options,
+/* Rungs as they are, or were there. */
+static bool draw_rungs(struct ladder *ladder, int pou, const struct render_options *options,
+		       struct lettering *lettering, struct picture *picture)
+{
+	if (!options->original)
+		render_sheets(ladder_project(ladder), pou, options, lettering, picture);
+	else if (!render_classic(ladder, pou, options, lettering, picture))
+		return false;
+	return true;
+}
+
+static enum render_status draw(struct ladder *ladder, const struct render_options *options,
 			       struct lettering *lettering)
 {
+	const struct project *project = ladder_project(ladder);
 	int pou = options->pou ? find_pou(project, options->pou) : -1;
 	enum render_status status;
 	struct picture picture;
 
 	if (!is_there(project, options, pou))
 		return RENDER_WRONG;
-	if (options->rung && pou < 0)
+	if (options->rung && pou < 0 && !options->original)
 		pou = 0;
 	if (options->format == RENDER_PDF)
 		return write_pdf(project, pou, options, lettering);
 	picture_init(&picture);
-	render_sheets(project, pou, options, lettering, &picture);
-	status = write_picture(&picture, options, lettering);
+	if (draw_rungs(ladder, pou, options, lettering, &picture)) {
+		status = write_picture(&picture, options, lettering);
+	} else {
+		fprintf(stderr, _("ladder-editor: %s: nothing of it comes from "
+				  "ClassicLadder\n"), options->file);
+		status = RENDER_WRONG;
+	}
 	picture_clear(&picture);
 	return status;
 }
@@ -246,7 +265,7 @@ int render_main(int argc, char **argv)
 	struct lettering *lettering = lettering_new(context, NULL);
 	enum render_status drawn = options.older ?
 		draw_difference(ladder_project(ladder), &options, lettering) :
-		draw(ladder_project(ladder), &options, lettering);
+		draw(ladder, &options, lettering);
 	lettering_free(lettering);
 	g_object_unref(context);
 	ladder_free(ladder);

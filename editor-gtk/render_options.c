@@ -77,6 +77,10 @@ static bool take_flag(const char *name, struct render_options *out)
 		out->paper.landscape = true;
 	else if (!strcmp(name, "--check"))
 		out->check = true;
+	else if (!strcmp(name, "--original"))
+		out->original = ORIGINAL_ALONE;
+	else if (!strcmp(name, "--before-after"))
+		out->original = ORIGINAL_BOTH;
 	else if (!strcmp(name, "--help") || !strcmp(name, "-h"))
 		out->help = true;
 	else
@@ -164,6 +168,9 @@ static bool judge(const struct render_options *out, int files, bool compare)
 		return wrong(_("--rung does not go with --diff"));
 	if (out->check && (compare || out->format == RENDER_PDF))
 		return wrong(_("--check goes with one file and .svg or .png"));
+	if (out->original && (compare || out->check || out->format == RENDER_PDF))
+		return wrong(_("--original and --before-after go with one file and .svg or "
+			       ".png"));
 	if (compare && out->format == RENDER_PDF)
 		return wrong(_("--diff draws .svg and .png, not %.80s"), out->out);
 	return true;
@@ -212,6 +219,8 @@ void render_options_help(void)
 		"  --rung N         only this rung, from 1\n"
 		"  --show WHAT      above elements: both (symbol and address), symbols, addresses\n"
 		"  --check          marks what is wrong in the rungs, and says it\n"
+		"  --original       of a project of ClassicLadder: the rungs as it has them\n"
+		"  --before-after   the same, and below each what becomes of it here\n"
 		"  --dark, --contrast, --print\n"
 		"                   colours: dark, high contrast, black on white\n"
 		"  --width PX       pixels from rail to rail at least\n"

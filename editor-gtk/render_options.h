@@ -12,6 +12,8 @@
 #include "engine/base/diag.h"
 
 enum render_format { RENDER_SVG, RENDER_PDF, RENDER_PNG };
+/* Of a project of ClassicLadder: as it becomes here, as it is there, both. */
+enum render_original { ORIGINAL_NO, ORIGINAL_ALONE, ORIGINAL_BOTH };
 /* As `ladder` has them. */
 enum render_status { RENDER_GOOD, RENDER_NO, RENDER_WRONG };
 
@@ -26,6 +28,7 @@ struct render_options {
 	enum drafting_show show;
 	float width, scale;
 	struct paper paper;
+	enum render_original original;
 	bool check;          /* mark what is wrong, and say it                   */
 	bool help;
 	const struct diag_list *diags; /* of the check; NULL: none was wanted    */

@@ -204,10 +204,13 @@ static void add_panels(LadderWindow *window)
 	add_below(window, window_scenario_init(window), "scenarios", _("Scenarios"));
 	add_below(window, ladder_code_view_new(document), "list", _("Instruction list"));
 	add_below(window, ladder_log_view_new(document), "log", _("Log"));
+	add_below(window, window_report_new(window), "report", _("Report"));
+	window_report_hide(window);
 	gtk_paned_set_position(window->below_paned, 620);
 	window_find_init(window);
 	window_sim_init(window);
 	window_board_init(window);
+	window_drop_init(window);
 }
 
 /* ---- settings ---- */
@@ -267,6 +270,7 @@ static void ladder_window_dispose(GObject *object)
 	window_why_free(window);
 	g_clear_object(&window->sim);
 	g_clear_object(&window->board);
+	g_clear_object(&window->classic);
 	g_clear_object(&window->document);
 	g_clear_pointer(&window->keys_text, g_free);
 	g_clear_pointer(&window->origin, g_free);

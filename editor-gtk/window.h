@@ -8,6 +8,7 @@
 #ifndef EDITOR_WINDOW_H
 #define EDITOR_WINDOW_H
 
+#include "editor-gtk/classic_origin.h"
 #include "editor-gtk/document.h"
 #include "editor-gtk/sim.h"
 #include "editor-gtk/verbs.h"
@@ -34,6 +35,8 @@ void ladder_window_offer_restored(LadderWindow *window);
 /** ladder_window_set_origin - the file that an unsaved project is a copy of: a plant may
  * stand beside it. */
 void ladder_window_set_origin(LadderWindow *window, const char *path);
+/** ladder_window_set_classic - what its document was taken from; that is told. */
+void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin);
 /** ladder_window_sim - what it simulates with; for measurements. Borrowed. */
 LadderSim *ladder_window_sim(LadderWindow *window);
 /** ladder_window_do - as if its key was pressed. */

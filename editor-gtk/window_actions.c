@@ -230,6 +230,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_stop_board: window_stop_board(window); break;
 	case VERB_new_iomap: window_new_iomap(window); break;
 	case VERB_save_as: window_save_as(window); break;
+	case VERB_export_classic: window_export_classic(window); break;
 	case VERB_print: window_print(window); break;
 	case VERB_export_pdf: window_export_pdf(window); break;
 	case VERB_preferences: preferences_show(window); break;
@@ -256,6 +257,8 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_next_problem: do_next_problem(window); break;
 	case VERB_next_sheet: do_sheet_by(window, true); break;
 	case VERB_previous_sheet: do_sheet_by(window, false); break;
+	case VERB_show_report: window_show_report(window); break;
+	case VERB_show_original: window_show_original(window); break;
 	case VERB_show_as: do_show_as(window); break;
 	case VERB_zoom_in: zoom(window, 1.25); break;
 	case VERB_zoom_out: zoom(window, 0.8); break;

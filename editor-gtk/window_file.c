@@ -9,6 +9,7 @@
 
 #include "editor-gtk/app.h"
 #include "editor-gtk/chooser.h"
+#include "editor-gtk/classic_save.h"
 #include "editor-gtk/draft.h"
 
 #include <string.h>
@@ -58,10 +59,28 @@ static void open_response(GtkNativeDialog *dialog, int response, LadderWindow *w
 	g_object_unref(dialog);
 }
 
+/* All that opens, before one or the other. */
+static void add_programs(GtkFileChooser *chooser)
+{
+	GtkFileFilter *filter = gtk_file_filter_new();
+
+	gtk_file_filter_set_name(filter, _("Programs"));
+	gtk_file_filter_add_pattern(filter, "*.rung");
+	gtk_file_filter_add_pattern(filter, "*.clprj");
+	gtk_file_filter_add_pattern(filter, "*.clprjz");
+	gtk_file_filter_add_pattern(filter, "*.clp");
+	gtk_file_chooser_add_filter(chooser, filter);
+	gtk_file_chooser_set_filter(chooser, filter);
+	g_object_unref(filter);
+}
+
 void window_open(LadderWindow *window)
 {
 	GtkFileChooserNative *chooser = window_chooser(window, _("Open"),
 		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"));
+
+	add_programs(GTK_FILE_CHOOSER(chooser));
+	window_classic_filter(GTK_FILE_CHOOSER(chooser), false);
 
 	g_signal_connect(chooser, "response", G_CALLBACK(open_response), window);
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
@@ -90,17 +109,93 @@ static void save_over(LadderWindow *window)
 	save_to(window, NULL);
 }
 
+/* ---- a name that gets its ending here ---- */
+
+struct named {
+	LadderWindow *window;
+	char *path;
+	void (*save)(LadderWindow *window, const char *path);
+};
+
+static void named_free(gpointer data, GClosure *closure)
+{
+	struct named *named = data;
+
+	(void)closure;
+	g_free(named->path);
+	g_free(named);
+}
+
+static void replace_response(AdwMessageDialog *dialog, const char *response,
+			     struct named *named)
+{
+	(void)dialog;
+	if (g_strcmp0(response, "replace") == 0)
+		named->save(named->window, named->path);
+	else
+		named->window->closing = false;
+}
+
+static void ask_replace(struct named *named)
+{
+	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(named->window),
+						   _("Replace the file?"), NULL);
+	AdwMessageDialog *message = ADW_MESSAGE_DIALOG(dialog);
+	char *name = g_path_get_basename(named->path);
+
+	adw_message_dialog_format_body(message, _("“%s” is there already."), name);
+	adw_message_dialog_add_responses(message, "cancel", _("Cancel"), "replace",
+					 _("Replace"), NULL);
+	adw_message_dialog_set_response_appearance(message, "replace",
+						   ADW_RESPONSE_DESTRUCTIVE);
+	adw_message_dialog_set_default_response(message, "cancel");
+	adw_message_dialog_set_close_response(message, "cancel");
+	g_signal_connect_data(dialog, "response", G_CALLBACK(replace_response), named,
+			      named_free, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+	g_free(name);
+}
+
+void window_save_named(LadderWindow *window, const char *path, const char *ending,
+		       void (*save)(LadderWindow *window, const char *path))
+{
+	const char *slash = strrchr(path, '/');
+	const bool bare = !strchr(slash ? slash : path, '.');
+	struct named *named = g_new(struct named, 1);
+
+	*named = (struct named){ window, g_strconcat(path, bare ? ending : NULL, NULL), save };
+	if (bare && g_file_test(named->path, G_FILE_TEST_EXISTS)) {
+		ask_replace(named);
+		return;
+	}
+	save(window, named->path);
+	named_free(named, NULL);
+}
+
+/* For ClassicLadder it is written and not saved: the window stays. */
+static void save_chosen(LadderWindow *window, const char *path)
+{
+	if (classic_save_is(path)) {
+		window->closing = false;
+		window_export_to(window, path);
+	} else if (save_to(window, path) && window->closing) {
+		gtk_window_close(GTK_WINDOW(window));
+	} else {
+		window->closing = false;
+	}
+}
+
 static void save_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
 {
+	GtkFileFilter *filter = gtk_file_chooser_get_filter(GTK_FILE_CHOOSER(dialog));
+	const char *kind = filter ? gtk_file_filter_get_name(filter) : NULL;
 	char *path = response == GTK_RESPONSE_ACCEPT ? window_chosen_path(dialog) : NULL;
-	char *full = path && !strchr(strrchr(path, '/') ? strrchr(path, '/') : path, '.') ?
-		g_strconcat(path, ".rung", NULL) : g_strdup(path);
 
-	if (full && save_to(window, full) && window->closing)
-		gtk_window_close(GTK_WINDOW(window));
+	if (path)
+		window_save_named(window, path, kind && g_str_has_prefix(kind, "Classic") ?
+				  ".clprj" : ".rung", save_chosen);
 	else
 		window->closing = false;
-	g_free(full);
 	g_free(path);
 	g_object_unref(dialog);
 }
@@ -110,8 +205,10 @@ void window_save_as(LadderWindow *window)
 	GtkFileChooserNative *chooser = window_chooser(window, _("Save as"),
 		GTK_FILE_CHOOSER_ACTION_SAVE, _("Save"));
 	const char *path = ladder_document_path(window->document);
-	char *name = path ? g_path_get_basename(path) : g_strdup(_("program.rung"));
+	char *name = path ? g_path_get_basename(path) : window->classic ?
+		window_name_with(window, ".rung") : g_strdup(_("program.rung"));
 
+	window_classic_filter(GTK_FILE_CHOOSER(chooser), false);
 	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), name);
 	g_free(name);
 	g_signal_connect(chooser, "response", G_CALLBACK(save_response), window);

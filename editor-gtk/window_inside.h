@@ -6,6 +6,7 @@
 #define EDITOR_WINDOW_INSIDE_H
 
 #include "editor-gtk/board_run.h"
+#include "editor-gtk/classic_origin.h"
 #include "editor-gtk/file_view.h"
 #include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/i18n.h"
@@ -21,6 +22,8 @@ struct _LadderWindow {
 	bool board_ran;           /* it came to a scan                         */
 	bool close_after_board;   /* the person said so                        */
 	char *origin;             /* of a sample: the file it is a copy of     */
+	LadderOrigin *classic;    /* what it was taken from; NULL: nothing     */
+	bool report_of_export;    /* the report is not that of @classic        */
 	char *plant;              /* that a person chose; NULL: none           */
 	bool plant_chosen;
 	struct window_why *why;   /* what holds power back                     */
@@ -129,6 +132,33 @@ bool window_save_file(LadderWindow *window, LadderFileView *file);
 bool window_may_close(LadderWindow *window);
 /** window_watch_disk - tells if somebody else changes the file. */
 void window_watch_disk(LadderWindow *window);
+
+/** window_save_named - @save(@window, @path), which gets @ending if it has none; the person
+ * is asked if a file of that name is there, of which the dialog did not know. */
+void window_save_named(LadderWindow *window, const char *path, const char *ending,
+		       void (*save)(LadderWindow *window, const char *path));
+
+/* ---- window_classic.c ---- */
+/** window_report_new - the panel, to be hidden when it is in its place. */
+GtkWidget *window_report_new(LadderWindow *window);
+void window_report_hide(LadderWindow *window);
+void window_show_report(LadderWindow *window);
+/** window_show_original - of the rung at the cursor; from then on it follows. */
+void window_show_original(LadderWindow *window);
+void window_follow_original(LadderWindow *window);
+void window_export_classic(LadderWindow *window);
+/** window_export_to - the document stays as it is, also unsaved. False: that is told. */
+bool window_export_to(LadderWindow *window, const char *path);
+/** window_classic_filter - one more; @numbers: bare rung files, too, and it is the first. */
+void window_classic_filter(GtkFileChooser *chooser, bool numbers);
+/** window_name_with - of the document or what it was taken from, with another ending.
+ * Caller frees. */
+char *window_name_with(LadderWindow *window, const char *ending);
+
+/* ---- window_drop.c ---- */
+void window_drop_init(LadderWindow *window);
+/** window_drop_files - of GFile. */
+void window_drop_files(LadderWindow *window, const GSList *files);
 
 /* ---- window_find.c ---- */
 void window_find_init(LadderWindow *window);

@@ -225,6 +225,8 @@ static AdwTabPage *open_sheet(LadderWindow *window, int pou, const char *name)
 	ladder_grid_view_set_sim(LADDER_GRID_VIEW(sheet), window->sim);
 	g_signal_connect_object(sheet, "cursor-moved", G_CALLBACK(show_place), window,
 				G_CONNECT_SWAPPED);
+	g_signal_connect_object(sheet, "cursor-moved", G_CALLBACK(window_follow_original),
+				window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(sheet, "zoom-changed", G_CALLBACK(show_place), window,
 				G_CONNECT_SWAPPED);
 	g_signal_connect_object(sheet, "told", G_CALLBACK(told), window,

@@ -22,7 +22,7 @@ runtime/engine          engine/
 hal                     engine/base/ engine/scan/image.h hal/
 runtime/ladder          engine/ladder.h engine/base/ engine/import/report.h engine/model/ engine/scan/ engine/view/ engine/trial/ engine/exchange/ hal/ ladder/
 runtime/ladderd         engine/ladder.h engine/base/ engine/model/ engine/scan/ hal/ ladderd/
-editor-gtk              engine/ladder.h engine/base/ engine/import/report.h engine/model/ engine/scan/ engine/view/ engine/trial/ hal/ editor-gtk/
+editor-gtk              engine/ladder.h engine/base/ engine/import/report.h engine/import/classic_say.h engine/model/ engine/scan/ engine/view/ engine/trial/ hal/ editor-gtk/
 '
 # Libraries that a room may include with < >; all others are libc's.
 foreign='gpiod.h:hal gtk/:editor-gtk glib:editor-gtk gio/:editor-gtk adwaita.h:editor-gtk gtksourceview/:editor-gtk pango/:editor-gtk cairo:editor-gtk libintl.h:editor-gtk'

@@ -46,6 +46,13 @@ void ladder_classic_task(struct ladder *ladder, bool task);
 const struct classic_report *ladder_import_report(const struct ladder *ladder);
 /** ladder_import_io - the I/O map of such a project; NULL: it has none. As long. */
 const char *ladder_import_io(const struct ladder *ladder);
+/** ladder_import_project - such a project as its files tell it; NULL: it was none. As
+ * long. */
+const struct classic_project *ladder_import_project(const struct ladder *ladder);
+/** ladder_import_rung - the rung of it that became rung @rung (0-based) of POU @pou; of one
+ * several may have become. NULL: it comes from none. As long. */
+const struct classic_rung *ladder_import_rung(const struct ladder *ladder, int pou,
+					      int rung);
 /** ladder_period - from scan to scan as an imported project wants it, ns; 0: it is none,
  * or says nothing. */
 int64_t ladder_period(const struct ladder *ladder);

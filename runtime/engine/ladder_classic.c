@@ -142,6 +142,40 @@ const char *ladder_import_io(const struct ladder *ladder)
 	return classic ? classic->io : NULL;
 }
 
+const struct classic_project *ladder_import_project(const struct ladder *ladder)
+{
+	const struct classic_foreign *classic =
+		(const struct classic_foreign *)ladder_foreign(ladder);
+
+	return classic ? classic->project : NULL;
+}
+
+/* The line with RUNG knows where it comes from. */
+const struct classic_rung *ladder_import_rung(const struct ladder *ladder, int pou,
+					      int rung)
+{
+	const struct classic_foreign *classic =
+		(const struct classic_foreign *)ladder_foreign(ladder);
+	const struct project *project = ladder_project((struct ladder *)ladder);
+	const struct classic_place *place;
+	uint32_t line;
+
+	if (!classic || !classic->project || !project || pou < 0 ||
+	    pou >= project->pou_count || rung < 0 || rung >= project->pou[pou].rung_count)
+		return NULL;
+	line = project->pou[pou].rung[rung]->line;
+	if (!line || line > (uint32_t)classic->text.lines)
+		return NULL;
+	place = &classic->text.place[line - 1];
+	for (int i = 0; i < classic->project->rungs; i++) {
+		const struct classic_rung *one = classic->project->rung[i];
+
+		if (one->place.member == place->member && one->place.line == place->line)
+			return one;
+	}
+	return NULL;
+}
+
 int64_t ladder_period(const struct ladder *ladder)
 {
 	const struct classic_foreign *classic =

@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * window_classic - a project that came from ClassicLadder, or goes there: its report, the
+ * originals of its rungs, and writing it. A document that is exported is not saved by that.
+ */
+#include "editor-gtk/window_inside.h"
+
+#include "editor-gtk/chooser.h"
+#include "editor-gtk/classic_save.h"
+#include "editor-gtk/report_lines.h"
+#include "editor-gtk/report_view.h"
+
+#include <string.h>
+
+#define REPORT_ROOM 300 /* px that the panel gets at least, if there is room    */
+#define SHEET_ROOM  180
+
+static LadderReportView *report_of(LadderWindow *window)
+{
+	return LADDER_REPORT_VIEW(gtk_stack_get_child_by_name(window->below_stack,
+							      "report"));
+}
+
+static void set_visible(LadderWindow *window, bool visible)
+{
+	gtk_stack_page_set_visible(gtk_stack_get_page(window->below_stack,
+		GTK_WIDGET(report_of(window))), visible);
+}
+
+/* ---- the panel ---- */
+
+static void make_room(LadderWindow *window)
+{
+	const int height = gtk_widget_get_height(GTK_WIDGET(window->below_paned));
+	const int most = MAX(height - REPORT_ROOM, SHEET_ROOM);
+
+	if (height && gtk_paned_get_position(window->below_paned) > most)
+		gtk_paned_set_position(window->below_paned, most);
+}
+
+static void show_panel(LadderWindow *window)
+{
+	set_visible(window, true);
+	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
+	gtk_stack_set_visible_child(window->below_stack, GTK_WIDGET(report_of(window)));
+	make_room(window);
+}
+
+static void close_panel(LadderWindow *window)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	gtk_stack_set_visible_child_name(window->below_stack, "problems");
+	set_visible(window, false);
+	if (sheet)
+		gtk_widget_grab_focus(GTK_WIDGET(sheet));
+}
+
+void window_show_report(LadderWindow *window)
+{
+	if (!ladder_report_view_has(report_of(window))) {
+		ladder_window_tell(window, _("Nothing was taken from ClassicLadder or "
+					     "written for it."));
+		return;
+	}
+	if (window->classic && window->report_of_export)
+		ladder_report_view_import(report_of(window), window->classic);
+	window->report_of_export = false;
+	show_panel(window);
+	ladder_report_view_focus(report_of(window));
+}
+
+static void follow(LadderWindow *window)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	if (sheet)
+		ladder_report_view_follow(report_of(window), ladder_grid_view_pou(sheet),
+					  ladder_grid_view_cursor(sheet).rung, true);
+}
+
+void window_follow_original(LadderWindow *window)
+{
+	if (gtk_widget_get_mapped(GTK_WIDGET(report_of(window))))
+		follow(window);
+}
+
+void window_show_original(LadderWindow *window)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	if (!window->classic) {
+		ladder_window_tell(window, _("Nothing of this project was taken from "
+					     "ClassicLadder."));
+		return;
+	}
+	show_panel(window);
+	follow(window);
+	if (sheet)
+		gtk_widget_grab_focus(GTK_WIDGET(sheet));
+}
+
+GtkWidget *window_report_new(LadderWindow *window)
+{
+	GtkWidget *report = ladder_report_view_new(window->document);
+
+	g_signal_connect_object(report, "close-wanted", G_CALLBACK(close_panel), window,
+				G_CONNECT_SWAPPED);
+	return report;
+}
+
+void window_report_hide(LadderWindow *window)
+{
+	set_visible(window, false);
+}
+
+void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin)
+{
+	g_set_object(&window->classic, origin);
+	ladder_report_view_import(report_of(window), origin);
+	window->report_of_export = false;
+	set_visible(window, true);
+	window_banner(window, ladder_report_view_title(report_of(window)), _("Show report"),
+		      window_show_report);
+}
+
+/* ---- writing one ---- */
+
+/* The report of the writing is there, whatever else happens. */
+static void tell_export(LadderWindow *window, const char *path, GPtrArray *lines)
+{
+	char *name = g_path_get_basename(path);
+
+	ladder_report_view_export(report_of(window), name, lines);
+	window->report_of_export = window->classic != NULL;
+	g_free(name);
+}
+
+static void show_export(LadderWindow *window)
+{
+	window->report_of_export = false; /* that one, not the import's        */
+	window_show_report(window);
+	window->report_of_export = window->classic != NULL;
+}
+
+static void tell_written(LadderWindow *window, const char *path, guint changed)
+{
+	char *name = g_path_get_basename(path);
+	char *text = changed ?
+		g_strdup_printf(ngettext("%s was written for ClassicLadder; %u thing means "
+					 "something else there.",
+					 "%s was written for ClassicLadder; %u things mean "
+					 "something else there.", changed), name, changed) :
+		g_strdup_printf(_("%s was written for ClassicLadder."), name);
+
+	if (changed)
+		window_banner(window, text, _("Show report"), show_export);
+	else
+		window_toast(window, text);
+	g_free(text);
+	g_free(name);
+}
+
+bool window_export_to(LadderWindow *window, const char *path)
+{
+	GPtrArray *lines = g_ptr_array_new_with_free_func(left_line_free);
+	GError *error = NULL;
+	const bool good = classic_save(window->document, path, lines, &error);
+
+	tell_export(window, path, lines);
+	if (good) {
+		window_banner_close(window);
+		tell_written(window, path, lines->len);
+	} else {
+		window_banner(window, error->message,
+			      lines->len ? _("Show report") : NULL, show_export);
+		if (lines->len)
+			show_export(window);
+	}
+	g_clear_error(&error);
+	g_ptr_array_unref(lines);
+	return good;
+}
+
+/* ---- asking where ---- */
+
+void window_classic_filter(GtkFileChooser *chooser, bool numbers)
+{
+	GtkFileFilter *filter = gtk_file_filter_new();
+
+	gtk_file_filter_set_name(filter, "ClassicLadder (*.clprj, *.clprjz, *.clp)");
+	gtk_file_filter_add_pattern(filter, "*.clprj");
+	gtk_file_filter_add_pattern(filter, "*.clprjz");
+	gtk_file_filter_add_pattern(filter, "*.clp");
+	if (numbers)
+		gtk_file_filter_add_pattern(filter, "*.txt");
+	gtk_file_chooser_add_filter(chooser, filter);
+	if (numbers)
+		gtk_file_chooser_set_filter(chooser, filter);
+	g_object_unref(filter);
+}
+
+char *window_name_with(LadderWindow *window, const char *ending)
+{
+	const char *path = ladder_document_path(window->document);
+	char *name, *dot;
+
+	if (!path && window->classic)
+		path = ladder_origin_path(window->classic);
+	name = path ? g_path_get_basename(path) : g_strdup("program");
+	dot = strrchr(name, '.');
+	if (dot && dot != name)
+		*dot = '\0';
+	dot = g_strconcat(name, ending, NULL);
+	g_free(name);
+	return dot;
+}
+
+static void export_chosen(LadderWindow *window, const char *path)
+{
+	window_export_to(window, path);
+}
+
+static void export_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
+{
+	char *path = response == GTK_RESPONSE_ACCEPT ? window_chosen_path(dialog) : NULL;
+
+	if (path)
+		window_save_named(window, path, ".clprj", export_chosen);
+	g_free(path);
+	g_object_unref(dialog);
+}
+
+void window_export_classic(LadderWindow *window)
+{
+	GtkFileChooserNative *chooser = gtk_file_chooser_native_new(
+		_("Export as ClassicLadder"), GTK_WINDOW(window),
+		GTK_FILE_CHOOSER_ACTION_SAVE, _("Export"), _("Cancel"));
+	char *name = window_name_with(window, ".clprj");
+
+	window_classic_filter(GTK_FILE_CHOOSER(chooser), true);
+	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
+	chooser_beside(chooser, window->document);
+	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), name);
+	g_free(name);
+	g_signal_connect(chooser, "response", G_CALLBACK(export_response), window);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}
