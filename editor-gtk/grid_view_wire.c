@@ -82,7 +82,8 @@ static void hover(LadderGridView *view, double x, double y)
 	struct grid_end end = { -1, -1 };
 	const int rung = view->preview ? -1 : begin_at(view, x, y, &end);
 
-	if (view->wire.drawing || (rung == view->wire.hover &&
+	/* A quick hand is far from where it pressed before the stroke begins. */
+	if (view->wire.pressed || (rung == view->wire.hover &&
 	    end.row == view->wire.from.row && end.bar == view->wire.from.bar))
 		return;
 	view->wire.hover = view->wire.rung = rung;
@@ -101,7 +102,7 @@ static void moved(GtkEventControllerMotion *motion, double x, double y,
 static void left(GtkEventControllerMotion *motion, LadderGridView *view)
 {
 	(void)motion;
-	if (!view->wire.drawing)
+	if (!view->wire.pressed)
 		wire_forget(view);
 }
 

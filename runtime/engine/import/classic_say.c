@@ -18,8 +18,6 @@ static const struct said_row rows[] = {
 #include "engine/import/classic.def"
 };
 
-enum { LINUXCNC_IN = 300, LINUXCNC_INPUT = 1300 }; /* classic.def */
-
 static void say_plain(enum classic_dialect dialect, int type, int number, char *out,
 		      size_t size)
 {

@@ -108,6 +108,16 @@ def wires(screen):
     check(path)
 
 
+def quick(screen):
+    """a hand so quick that the pointer is seen where the stroke begins and where it ends, no more"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 5, 'the sheet')
+    editor.drag(editor.wire_end(36 + 46, 0, 10), editor.wire_end(36 + 46, 1, 10), steps=1)
+    editor.says('A branch of wire')
+    saved(editor, path, lambda rows: '^' in ''.join(rows))
+
+
 def refused(screen):
     """a stroke that cannot be is told, and Esc gives one up"""
     path = new_file(screen, PROJECT)
@@ -189,4 +199,4 @@ def far(screen):
     check(path)
 
 
-main([elements, rungs, branch, wires, refused, by_menu, far])
+main([elements, rungs, branch, wires, quick, refused, by_menu, far])
