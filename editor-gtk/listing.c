@@ -26,7 +26,7 @@ char **listing_il(const struct project *project, const struct pou *pou)
 	return lines;
 }
 
-static char *type_text(const struct project *project, const struct var *var)
+char *listing_type(const struct project *project, const struct var *var)
 {
 	const char *word = var->type == IEC_NONE ?
 		words_row(&project->words, var->fb)->word :
@@ -42,12 +42,27 @@ static char *type_text(const struct project *project, const struct var *var)
 	return g_string_free(out, FALSE);
 }
 
+int listing_first(const struct var_table *table)
+{
+	const int count = vars_declared(table);
+	int first = 0;
+
+	while (first < count && vars_flags(table, first) & VAR_RESULT)
+		first++;
+	return first;
+}
+
+int listing_count(const struct var_table *table)
+{
+	return vars_declared(table) - listing_first(table);
+}
+
 int listing_symbol_count(const struct project *project)
 {
 	int count = project->globals.count;
 
 	for (int i = 0; i < project->pou_count; i++)
-		count += vars_declared(&project->pou[i].vars);
+		count += listing_count(&project->pou[i].vars);
 	return count;
 }
 
@@ -57,7 +72,7 @@ void listing_symbol(const struct project *project, const struct var_table *table
 	const struct var *var = &table->var[index];
 
 	cell[LISTING_NAME] = g_strdup(project_text(project, var->name));
-	cell[LISTING_TYPE] = type_text(project, var);
+	cell[LISTING_TYPE] = listing_type(project, var);
 	cell[LISTING_ADDRESS] = g_strdup(project_text(project, var->at_text));
 	cell[LISTING_INITIAL] = g_strdup(var->has_init ?
 					 project_text(project, var->init_text) : "");

@@ -19,6 +19,13 @@ enum listing_column {
 	LISTING_NAME, LISTING_TYPE, LISTING_ADDRESS, LISTING_INITIAL, LISTING_COMMENT,
 	LISTING_COLUMNS
 };
+/** listing_first - the first variable that stands in a declaration: result and ENO of a
+ * function, which do not, are before it. */
+int listing_first(const struct var_table *table);
+/** listing_count - how many of them there are. */
+int listing_count(const struct var_table *table);
+/** listing_type - "ARRAY[1..4] OF INT". Owns: the caller, g_free. */
+char *listing_type(const struct project *project, const struct var *var);
 /** listing_symbol_count - variables of a project that somebody declared: all tables. */
 int listing_symbol_count(const struct project *project);
 /** listing_symbol - variable @index of a table. Owns: the caller, each g_free. */

@@ -338,17 +338,17 @@ static float draw_cells(const struct pages *pages, struct picture *picture,
 static void put_table(struct pages *pages, const struct var_table *table,
 		      const char *heading)
 {
-	const int count = vars_declared(table);
+	const int count = vars_declared(table), first = listing_first(table);
 	char *head[LISTING_COLUMNS] = { _("Name"), _("Type"), _("Address"),
 					_("Initial value"), _("Comment") };
 
-	if (!count)
+	if (first == count)
 		return;
 	put_heading(pages, heading, 5 * TEXT_LINE);
 	struct picture *top = new_picture(pages);
 	float top_height = draw_cells(pages, top, head, true);
 	put_whole(pages, top, top_height, 1, 2 * TEXT_LINE);
-	for (int i = 0; i < count; i++) {
+	for (int i = first; i < count; i++) {
 		struct picture *picture = new_picture(pages);
 		char *cell[LISTING_COLUMNS];
 
@@ -371,7 +371,7 @@ static void put_symbols(struct pages *pages)
 	bool any = project->globals.count > 0;
 
 	for (int i = 0; i < project->pou_count; i++)
-		any |= vars_declared(&project->pou[i].vars) > 0;
+		any |= listing_count(&project->pou[i].vars) > 0;
 	if (!any)
 		return;
 	pages->subject = _("Symbols");

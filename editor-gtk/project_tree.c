@@ -160,13 +160,9 @@ static GListModel *variables(const struct project *project, const struct var_tab
 {
 	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
 
-	for (int i = 0; i < vars_declared(vars); i++) {
-		const struct var *var = &vars->var[i];
-
-		add_row(rows, ROW_VARIABLE, project_text(project, var->name), g_strdup(
-			var->type != IEC_NONE ? iec_type_row(var->type)->word :
-			words_row(&project->words, var->fb)->word));
-	}
+	for (int i = listing_first(vars); i < vars_declared(vars); i++)
+		add_row(rows, ROW_VARIABLE, project_text(project, vars->var[i].name),
+			listing_type(project, &vars->var[i]));
 	return G_LIST_MODEL(rows);
 }
 
@@ -397,6 +393,9 @@ static GtkWidget *menu_new(void)
 	gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
 	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
 	gtk_widget_set_tooltip_text(button, _("Add, rename or delete"));
+	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       _("Add, rename or delete"), -1);
 	gtk_widget_add_css_class(button, "flat");
 	g_object_unref(menu);
 	return button;
@@ -511,7 +510,7 @@ static GListModel *children(gpointer item, gpointer data)
 	const struct project *project = ladder_document_project(tree->document);
 
 	if (project && row->kind == ROW_POU && row->pou < project->pou_count &&
-	    vars_declared(&project->pou[row->pou].vars))
+	    listing_count(&project->pou[row->pou].vars))
 		return variables(project, &project->pou[row->pou].vars);
 	if (project && row->kind == ROW_STRUCTURE && row->pou < project->structure_count)
 		return variables(project, &project->structure[row->pou].vars);

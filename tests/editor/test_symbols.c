@@ -40,6 +40,29 @@ static bool has(LadderDocument *document, const char *part)
 	return found;
 }
 
+/* What the tree, the table and the paper list: what is declared, no result, no ENO. */
+static void test_function(void)
+{
+	LadderDocument *document = opened("RUNGBOARD 1\n\nVAR\n  Start : BOOL;\nEND_VAR\n\n"
+		"FUNCTION Sum : INT LD\nVAR_INPUT\n  A : INT;\n  T : ARRAY[1..4] OF INT;\n"
+		"END_VAR\nRUNG\n  | [ Sum := A + T[1] ] |\nEND_FUNCTION\n\n"
+		"FUNCTION Two : INT LD\nRUNG\n  | [ Two := 2 ] |\nEND_FUNCTION\n");
+	const struct project *project = ladder_document_project(document);
+	struct symbols *symbols = symbols_new(document);
+	char *type;
+
+	CHECK(symbols->count == 3 && listing_symbol_count(project) == 3);
+	CHECK(listing_first(&project->globals) == 0 && listing_count(&project->globals) == 1);
+	CHECK(listing_first(&project->pou[0].vars) == 2);
+	CHECK(listing_count(&project->pou[0].vars) == 2);
+	CHECK(listing_count(&project->pou[1].vars) == 0);
+	type = listing_type(project, &project->pou[0].vars.var[3]);
+	CHECK_TEXT(type, "ARRAY[1..4] OF INT");
+	g_free(type);
+	symbols_free(symbols);
+	g_object_unref(document);
+}
+
 static void test_rows(void)
 {
 	LadderDocument *document = opened(sample);
@@ -402,6 +425,7 @@ int main(void)
 	test_import();
 	test_storm();
 	test_rows();
+	test_function();
 	test_fields();
 	test_names();
 	test_hostile();
