@@ -226,6 +226,8 @@ static void ladder_chart_page_init(LadderChartPage *page)
 	page->heading = GTK_LABEL(gtk_label_new(""));
 	close = gtk_button_new_from_icon_name("window-close-symbolic");
 	gtk_widget_set_tooltip_text(close, _("Close"));
+	gtk_accessible_update_property(GTK_ACCESSIBLE(close),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Close"), -1);
 	gtk_widget_add_css_class(close, "flat");
 	gtk_label_set_xalign(page->heading, 0);
 	gtk_label_set_ellipsize(page->heading, PANGO_ELLIPSIZE_END);

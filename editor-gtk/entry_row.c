@@ -3,6 +3,7 @@
  * entry_row - a candidate in one widget; see entry_row.h. It knows nothing of lists.
  */
 #include "editor-gtk/entry_row.h"
+#include "editor-gtk/tip.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -131,7 +132,7 @@ static gboolean ladder_entry_row_query_tooltip(GtkWidget *widget, int x, int y,
 	(void)x;
 	(void)y;
 	(void)keyboard;
-	gtk_tooltip_set_text(tooltip, text);
+	tip_show(tooltip, text);
 	g_free(text);
 	return TRUE;
 }

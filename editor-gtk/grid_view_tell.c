@@ -7,6 +7,7 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 #include "editor-gtk/diag_said.h"
+#include "editor-gtk/tip.h"
 
 #include <string.h>
 
@@ -133,6 +134,7 @@ static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
 				.column = view->cursor.col };
 	int rung = by_keys ? view->cursor.rung : sheet_point(view, x, y, &hit);
 	const struct strip *strip;
+	gboolean told;
 	char *text;
 
 	if (rung < 0 || !sheet_rung(view, rung) || view->entry || is_covered(view))
@@ -142,9 +144,9 @@ static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
 		tip_of_rung(view, rung) : hit.part == RUNG_PART_NONE ? NULL :
 		ladder_grid_view_tip(view, rung, hit.row,
 				     rung_layout_col(strip->layout, hit.row, hit.column));
-	gtk_tooltip_set_text(tooltip, text);
+	told = tip_show(tooltip, text);
 	g_free(text);
-	return text != NULL;
+	return told;
 }
 
 void tell_init(LadderGridView *view)

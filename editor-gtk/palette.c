@@ -8,7 +8,6 @@
 #include "editor-gtk/grid_view.h"
 #include "editor-gtk/i18n.h"
 
-
 #include <adwaita.h>
 #include <string.h>
 
@@ -197,6 +196,9 @@ static void make_tiles(GtkExpander *expander)
 		gtk_flow_box_child_set_child(GTK_FLOW_BOX_CHILD(child),
 					     tile_new(row, word));
 		gtk_widget_set_focusable(child, FALSE);
+		gtk_accessible_update_property(GTK_ACCESSIBLE(child),
+			GTK_ACCESSIBLE_PROPERTY_LABEL,
+			row->word[0] ? row->word : row->id, -1);
 		gtk_flow_box_append(GTK_FLOW_BOX(gtk_expander_get_child(expander)), child);
 	}
 	g_array_set_size(words, 0);
@@ -217,6 +219,10 @@ static GtkWidget *family_new(const char *name)
 			       (GDestroyNotify)g_array_unref);
 	g_signal_connect(expander, "notify::expanded", G_CALLBACK(make_tiles), NULL);
 	gtk_widget_add_css_class(expander, "family");
+	gtk_accessible_update_property(GTK_ACCESSIBLE(expander),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(flow),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 	return expander;
 }
 

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/diag_said.h"
 #include "editor-gtk/settings.h"
+#include "editor-gtk/tip.h"
 
 #include <adwaita.h>
 #include <string.h>
@@ -389,6 +390,7 @@ static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
 {
 	LadderSfcView *view = LADDER_SFC_VIEW(widget);
 	struct sfc_at at = view->cursor;
+	gboolean told;
 	char *text;
 
 	if (!view->sheet || view->entry)
@@ -399,9 +401,9 @@ static gboolean tip_wanted(GtkWidget *widget, int x, int y, gboolean by_keys,
 	if (at.shape < 0)
 		return FALSE;
 	text = ladder_sfc_view_tip(view, at.shape, at.use);
-	gtk_tooltip_set_text(tooltip, text);
+	told = tip_show(tooltip, text);
 	g_free(text);
-	return text != NULL;
+	return told;
 }
 
 char *ladder_sfc_view_place(LadderSfcView *view)

@@ -9,6 +9,7 @@
 #include "editor-gtk/text_complete.h"
 #include "editor-gtk/text_lines.h"
 #include "editor-gtk/text_scheme.h"
+#include "editor-gtk/tip.h"
 
 #include <gtksourceview/gtksource.h>
 #include "editor-gtk/text_live.h"
@@ -325,6 +326,7 @@ static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
 			     GtkTooltip *tooltip, LadderTextView *view)
 {
 	GtkTextIter at;
+	gboolean told;
 	char *text;
 	int line = cursor_line(view);
 
@@ -335,9 +337,9 @@ static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
 		line = gtk_text_iter_get_line(&at);
 	}
 	text = ladder_text_view_tip(view, line + 1);
-	gtk_tooltip_set_text(tooltip, text);
+	told = tip_show(tooltip, text);
 	g_free(text);
-	return text != NULL;
+	return told;
 }
 
 static void add_fault(LadderTextView *view, const struct diag *diag, int before,

@@ -9,7 +9,9 @@
 #include "editor-gtk/panels.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/settings.h"
+#include "editor-gtk/spoken.h"
 #include "editor-gtk/still.h"
+#include "editor-gtk/tip.h"
 #include "editor-gtk/uses_view.h"
 #include "editor-gtk/watch_view.h"
 
@@ -282,6 +284,7 @@ static void ladder_window_class_init(LadderWindowClass *class)
 {
 	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
 
+	tip_init();
 	G_OBJECT_CLASS(class)->dispose = ladder_window_dispose;
 	GTK_WINDOW_CLASS(class)->close_request = ladder_window_close_request;
 	gtk_widget_class_set_template_from_resource(widget,
@@ -331,5 +334,6 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 	tabs_init(window);
 	window_show_state(window);
 	window_watch_disk(window);
+	spoken_parts(GTK_WIDGET(window));
 	return window;
 }

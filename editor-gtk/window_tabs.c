@@ -9,6 +9,7 @@
 #include "editor-gtk/chart_page.h"
 #include "editor-gtk/panels.h"
 #include "editor-gtk/slow_bar.h"
+#include "editor-gtk/spoken.h"
 #include "editor-gtk/symbols_view.h"
 #include "editor-gtk/text_view.h"
 #include "editor-gtk/welcome.h"
@@ -215,6 +216,7 @@ static AdwTabPage *add_page(LadderWindow *window, GtkWidget *widget, const char 
 	}
 	page = adw_tab_view_append(window->tabs, child);
 	set_name(page, name, title);
+	spoken_parts(GTK_WIDGET(window->tab_bar));
 	return page;
 }
 

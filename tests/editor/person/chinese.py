@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""chinese - a project in Chinese: names, titles and comments, in every list."""
+"""chinese - a project in Chinese: names, titles and comments, in every list, and under the pointer."""
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 PROJECT "水泵站"
@@ -52,4 +53,27 @@ def project(screen):
     assert lines(path, '@print 报警灯\n报警=1\n') == ['报警灯=1']
 
 
-main([project])
+def size(window):
+    """Width and height, in px."""
+    about = dict(re.findall(r'(Width|Height): +(\d+)', sh('xwininfo', '-id', window)))
+    return int(about.get('Width', 0)), int(about.get('Height', 0))
+
+
+def tip(screen):
+    """a Chinese name under the pointer stands on one line"""
+    editor = Editor(screen, new_file(screen, PROJECT, '水泵站.rung'))
+    editor.to_sheet()
+    row = until(lambda: [node for node in editor.all('主程序', 'label') if node.name == '主程序'], 'the program')[0]
+    x, y = editor.centre(row)
+    sh('xdotool', 'mousemove', str(x - 2), str(y), 'sleep', '0.1', 'mousemove', str(x), str(y))
+
+    def shown():
+        seen = sh('xdotool', 'search', '--onlyvisible', '--pid', str(editor.pid)).split()
+        known = editor.windows()
+        return [size(window) for window in seen if window not in known and size(window)[0] < 200]
+    width, height = until(shown, 'the tooltip')[0]
+    editor.shot('chinese-tip')
+    assert width > height, 'the tooltip is %d x %d' % (width, height)
+
+
+main([project, tip])
