@@ -4,6 +4,7 @@
  * come and go as CSV.
  */
 #include "editor-gtk/csv.h"
+#include "editor-gtk/listing.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>
