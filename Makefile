@@ -348,7 +348,7 @@ $(BIN)/sfc_differential: $(BUILD)/tests/sfc_differential.o $(WALKER)
 $(BIN)/sfc_trace: $(BUILD)/tests/sfc_trace.o $(WALKER)
 $(BIN)/sfc_ladder: $(BUILD)/tests/sfc_ladder.o $(RANDOM_O)
 $(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
-$(BUILD)/tests/editor/test_sim_trace: $(RANDOM_O)
+$(BUILD)/tests/editor/test_sim_trace $(BUILD)/tests/editor/test_sim_older: $(RANDOM_O)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free,--wrap=mmap64,--wrap=munmap

@@ -10,13 +10,15 @@
 
 struct line {
 	char *name;
-	struct location at;
-	double *sample;    /* CHART_SCANS of them, by scan                     */
+	struct location at;   /* in the program whose scan is shown             */
+	struct location here; /* in that of the scan that is taken              */
+	double *sample;       /* CHART_SCANS of them, by scan                   */
 };
 struct chart {
 	LadderSim *sim;
-	struct replay replay;
-	bool replays;      /* `replay` is of the program that runs             */
+	struct sim_replay *replay;
+	guint64 program;   /* that `here` of the lines is of; 0: of none        */
+	guint64 life;      /* of the simulation, that the samples are of        */
 	GPtrArray *lines;  /* of struct line                                   */
 	gint64 *time;
 	guint64 first, end;
@@ -36,6 +38,8 @@ struct chart *chart_new(LadderSim *sim)
 	struct chart *chart = g_new0(struct chart, 1);
 
 	chart->sim = sim;
+	chart->replay = sim_replay_new();
+	chart->life = ladder_sim_life(sim);
 	chart->lines = g_ptr_array_new_with_free_func(line_free);
 	chart->time = g_new0(gint64, CHART_SCANS);
 	return chart;
@@ -45,7 +49,7 @@ void chart_free(struct chart *chart)
 {
 	if (!chart)
 		return;
-	replay_free(&chart->replay);
+	sim_replay_free(chart->replay);
 	g_ptr_array_unref(chart->lines);
 	g_free(chart->time);
 	g_free(chart);
@@ -58,20 +62,18 @@ static struct line *line_at(const struct chart *chart, int line)
 
 /* ---- lines ---- */
 
-static void locate(struct chart *chart, struct line *line)
+static struct location locate(const struct line *line, const struct twin *twin)
 {
-	const struct twin *twin = ladder_sim_twin(chart->sim);
 	enum diag_id why;
 
-	line->at = (struct location){ .type = IEC_NONE };
-	if (twin)
-		line->at = value_find(&twin->resource.image, line->name,
-				      strlen(line->name), &why);
+	return twin ? value_find(&twin->resource.image, line->name, strlen(line->name),
+				 &why) : (struct location){ .type = IEC_NONE };
 }
 
 static void begin_anew(struct chart *chart)
 {
 	chart->first = chart->end = 0;
+	chart->program = 0;
 }
 
 bool chart_add(struct chart *chart, const char *name)
@@ -86,7 +88,7 @@ bool chart_add(struct chart *chart, const char *name)
 	line = g_new0(struct line, 1);
 	line->name = g_strdup(name);
 	line->sample = g_new0(double, CHART_SCANS);
-	locate(chart, line);
+	line->at = locate(line, ladder_sim_twin(chart->sim));
 	g_ptr_array_add(chart->lines, line);
 	begin_anew(chart);
 	return true;
@@ -121,12 +123,16 @@ struct location chart_at(const struct chart *chart, int line)
 
 void chart_program_changed(struct chart *chart)
 {
-	replay_free(&chart->replay);
-	memset(&chart->replay, 0, sizeof(chart->replay));
-	chart->replays = false;
-	begin_anew(chart);
+	const struct twin *twin = ladder_sim_twin(chart->sim);
+
+	if (chart->life != ladder_sim_life(chart->sim)) {
+		chart->life = ladder_sim_life(chart->sim);
+		sim_replay_free(chart->replay);
+		chart->replay = sim_replay_new();
+		begin_anew(chart);
+	}
 	for (int i = 0; i < chart_lines(chart); i++)
-		locate(chart, line_at(chart, i));
+		line_at(chart, i)->at = locate(line_at(chart, i), twin);
 }
 
 /* ---- samples ---- */
@@ -141,17 +147,29 @@ static double number(struct location at, union iec_value value)
 	}
 }
 
-static void take(struct chart *chart)
+/* Behind an edit a name may stand elsewhere. */
+static void find_here(struct chart *chart, const struct twin *twin)
 {
-	const struct twin *twin = &chart->replay.twin;
+	const guint64 program = sim_replay_program(chart->replay);
+
+	if (chart->program == program)
+		return;
+	chart->program = program;
+	for (int i = 0; i < chart_lines(chart); i++)
+		line_at(chart, i)->here = locate(line_at(chart, i), twin);
+}
+
+static void take(struct chart *chart, const struct twin *twin)
+{
 	const guint64 slot = twin->scan % CHART_SCANS;
 
+	find_here(chart, twin);
 	chart->time[slot] = twin->now_ns;
 	for (int i = 0; i < chart_lines(chart); i++) {
 		struct line *line = line_at(chart, i);
 
-		line->sample[slot] = line->at.type == IEC_NONE ? 0 :
-			number(line->at, image_get(&twin->resource.image, line->at));
+		line->sample[slot] = line->here.type == IEC_NONE ? 0 :
+			number(line->here, image_get(&twin->resource.image, line->here));
 	}
 	chart->end = twin->scan + 1;
 	if (chart->end - chart->first > CHART_SCANS)
@@ -160,9 +178,8 @@ static void take(struct chart *chart)
 
 /* Where it goes on: behind what it has, or, if the record or the room does not reach back
  * so far, later. */
-static guint64 next_scan(struct chart *chart, const struct record *record)
+static guint64 next_scan(struct chart *chart, guint64 first, guint64 last)
 {
-	const guint64 first = record_first(record), last = record_last(record);
 	const guint64 room = last >= CHART_SCANS ? last + 1 - CHART_SCANS : 0;
 	const guint64 least = MAX(first, room);
 
@@ -171,25 +188,22 @@ static guint64 next_scan(struct chart *chart, const struct record *record)
 	return chart->end;
 }
 
-/* One scan; false: there is none. */
+/* One scan, or a step to it; false: there is none. */
 static bool step(struct chart *chart)
 {
-	const struct record *record = ladder_sim_lock_record(chart->sim);
-	bool good = record != NULL;
+	const guint64 last = ladder_sim_last(chart->sim);
+	const struct twin *twin;
 	guint64 scan;
 
-	if (!good)
+	if (!ladder_sim_is_on(chart->sim))
 		return false;
-	if (!chart->replays)
-		chart->replays = replay_init(&chart->replay, record);
-	scan = next_scan(chart, record);
-	good = chart->replays && scan <= record_last(record) &&
-	       replay_jump(&chart->replay, record, scan) &&
-	       (chart->replay.twin.scan >= scan || replay_next(&chart->replay, record));
-	ladder_sim_unlock_record(chart->sim);
-	if (good && chart->replay.twin.scan == scan)
-		take(chart);
-	return good;
+	scan = next_scan(chart, ladder_sim_first(chart->sim), last);
+	if (scan > last || !ladder_sim_replay(chart->sim, chart->replay, scan))
+		return false;
+	twin = sim_replay_twin(chart->replay);
+	if (twin->scan == scan)
+		take(chart, twin);
+	return true;
 }
 
 bool chart_feed(struct chart *chart, gint64 us)

@@ -2,8 +2,8 @@
  *
  * chart - what variables were, scan by scan: the numbers behind a timing chart.
  *
- * It follows the record of a simulation with a replay of its own, a little at a time, so
- * that a variable that is asked for late has its past, too. It draws nothing.
+ * It follows the record of a simulation with a replay of its own, a little at a time and
+ * over edits, so that a variable that is asked for late has its past, too. It draws nothing.
  */
 #ifndef EDITOR_CHART_H
 #define EDITOR_CHART_H
@@ -28,10 +28,11 @@ void chart_move(struct chart *chart, int line, int to);
 int chart_lines(const struct chart *chart);
 /** chart_name - borrowed until the line goes. */
 const char *chart_name(const struct chart *chart, int line);
-/** chart_at - where it is in the program that runs; type IEC_NONE: nowhere. */
+/** chart_at - where it is in the program whose scan is shown; type IEC_NONE: nowhere. */
 struct location chart_at(const struct chart *chart, int line);
 
-/** chart_program_changed - another program runs, or none: all begins anew. */
+/** chart_program_changed - another program runs, or is shown, or none: what is in the chart
+ * stays, unless the simulation began anew. */
 void chart_program_changed(struct chart *chart);
 /** chart_feed - takes scans from the record for at most @us; true: there are more. */
 bool chart_feed(struct chart *chart, gint64 us);

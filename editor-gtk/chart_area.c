@@ -149,9 +149,14 @@ static void shown(LadderChartArea *area)
 
 static void program_changed(LadderChartArea *area)
 {
+	const guint64 life = ladder_sim_life(area->sim);
+
 	chart_program_changed(area->chart);
-	area->mark_ns = -1;
-	area->follows = true;
+	if (area->life != life) {
+		area->mark_ns = -1;
+		area->follows = true;
+	}
+	area->life = life;
 	gtk_widget_queue_draw(GTK_WIDGET(area));
 }
 

@@ -311,6 +311,26 @@ static void draw_cursors(struct drawing *drawing)
 	draw_cursor(drawing, (double)twin->now_ns, TOKEN_FORCE, label);
 }
 
+/* Where the program was changed. */
+static void draw_edits(struct drawing *drawing)
+{
+	const struct chart *chart = drawing->area->chart;
+	guint64 scan = chart_first(chart);
+	struct sim_edited edit;
+
+	while (ladder_sim_next_edit(drawing->area->sim, scan, &edit) &&
+	       edit.scan < chart_end(chart)) {
+		const double x = chart_x(drawing->area, (double)chart_time(chart, edit.scan));
+
+		scan = edit.scan + 1;
+		if (x < CHART_NAMES || x > drawing->width)
+			continue;
+		for (double y = 0; y < drawing->bottom - CHART_RULER; y += 6)
+			fill(drawing, TOKEN_COMMENT, 1, x, y, 1, 3);
+		text(drawing, LETTER_ADDRESS, TOKEN_COMMENT, _("edit"), x + 4, 11, 0);
+	}
+}
+
 /* Those that are seen. */
 static void draw_lines(struct drawing *drawing)
 {
@@ -356,6 +376,7 @@ void chart_draw(LadderChartArea *area, GtkSnapshot *snapshot)
 	drawing.ns_per_px = area->span_ns / chart_plot_width(area);
 	draw_lines(&drawing);
 	draw_ruler(&drawing);
+	draw_edits(&drawing);
 	draw_cursors(&drawing);
 	lettering_trim(area->lettering);
 }

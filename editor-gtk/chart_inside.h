@@ -22,6 +22,7 @@ struct _LadderChartArea {
 	double right_ns;          /* time at the right edge, unless it follows  */
 	bool follows;             /* the newest scan                            */
 	int selected;             /* line; -1: none                             */
+	guint64 life;             /* of the simulation, that it was seen in last */
 	gint64 mark_ns;           /* second cursor, to measure from; -1: none   */
 	double drag_x;            /* where a drag began                         */
 	double pan_ns;            /* right_ns when a pan began                  */

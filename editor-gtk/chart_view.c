@@ -19,6 +19,7 @@ struct _LadderChartView {
 	LadderSim *sim;
 	LadderChartArea *area;
 	bool chosen;             /* a person said what is to be seen            */
+	int compared;            /* lines that are those of the program        */
 	bool keeping;            /* what the document keeps changes by itself   */
 	GtkSearchEntry *wanted;
 	GtkStringList *names;
@@ -73,9 +74,30 @@ static void drop_lines(LadderChartView *view)
 		chart_remove(chart, 0);
 }
 
+/* Are its lines those that nobody chose, already? */
+static void compare_first(LadderChartView *view, const struct symbol *symbol)
+{
+	struct chart *chart = ladder_chart_area_chart(view->area);
+
+	if (view->compared >= LINES_FIRST ||
+	    !is_pin(ladder_sim_twin(view->sim), symbol->at))
+		return;
+	if (view->compared >= chart_lines(chart) ||
+	    strcmp(chart_name(chart, view->compared), symbol->name) != 0)
+		view->compared = INT_MAX;
+	else
+		view->compared++;
+}
+
 static void program_changed(LadderChartView *view)
 {
-	if (view->chosen || !ladder_sim_is_on(view->sim))
+	struct chart *chart = ladder_chart_area_chart(view->area);
+
+	if (view->chosen || !ladder_sim_is_on(view->sim) || ladder_sim_is_past(view->sim))
+		return;
+	view->compared = 0;
+	each_name(view, compare_first);
+	if (view->compared == chart_lines(chart) && view->compared > 0)
 		return;
 	drop_lines(view);
 	each_name(view, take_first);

@@ -280,6 +280,17 @@ void document_record(LadderDocument *document, struct change *change)
 
 /* ---- changes ---- */
 
+void ladder_document_fix(LadderDocument *document)
+{
+	document->fixed = true;
+	document_stop_checks(document);
+}
+
+bool ladder_document_is_fixed(LadderDocument *document)
+{
+	return document->fixed;
+}
+
 void ladder_document_begin(LadderDocument *document, const char *name, const char *key)
 {
 	history_begin(document->history, name, key);
@@ -403,7 +414,7 @@ bool ladder_document_splice(LadderDocument *document, int pou, int at, int remov
 	GPtrArray *before = change_texts(), *after = change_texts();
 	struct pou *of = project && pou >= 0 && pou < project->pou_count ?
 		&project->pou[pou] : NULL;
-	bool good = of && of->language != LANGUAGE_IL && !of->included && at >= 0 &&
+	bool good = of && !document->fixed && of->language != LANGUAGE_IL && !of->included && at >= 0 &&
 		(!of->sfc || fits_body(of->sfc, at, removed, inserted)) &&
 		removed >= 0 && at + removed <= of->rung_count &&
 		of->rung_count - removed + inserted <= LIMIT_RUNGS &&
@@ -508,7 +519,7 @@ bool ladder_document_replace(LadderDocument *document, gsize at, gsize removed,
 
 	if (why)
 		diag_init(why);
-	if (at <= len && removed <= len - at) {
+	if (!document->fixed && at <= len && removed <= len - at) {
 		out = spliced(text, len, at, removed, with, &new_len);
 		clean = canonical(document, out, new_len, why);
 		good = clean || document->text;

@@ -51,6 +51,11 @@ bool ladder_document_save(LadderDocument *document, const char *path, GError **e
  * A file that is gone does not count. */
 bool ladder_document_disk_changed(LadderDocument *document);
 
+/** ladder_document_fix - it stays as it is: nothing changes it from here on, and it is
+ * checked no more. */
+void ladder_document_fix(LadderDocument *document);
+bool ladder_document_is_fixed(LadderDocument *document);
+
 /** ladder_document_repaired - line of the first byte that was no UTF-8 when the file was
  * read, and is now U+FFFD; 0: all was well. */
 int ladder_document_repaired(LadderDocument *document);

@@ -112,7 +112,8 @@ static void put_view(LadderDocument *document, const char *before, const char *a
 {
 	char *plain = g_strstrip(g_strdup(after));
 
-	if (strcmp(before, after) == 0 || !ladder_document_project(document)) {
+	if (strcmp(before, after) == 0 || document->fixed ||
+	    !ladder_document_project(document)) {
 		g_free(plain);
 		return;
 	}

@@ -161,8 +161,9 @@ static gboolean check_begin(gpointer data)
 
 void document_check_later(LadderDocument *document)
 {
-	if (document->check_timer)
-		g_source_remove(document->check_timer);
+	document_stop_checks(document);
+	if (document->fixed)
+		return;
 	document->check_timer = g_timeout_add(CHECK_DELAY_MS, check_begin, document);
 }
 

@@ -203,7 +203,7 @@ bool ladder_document_declare(LadderDocument *document, int pou, const char *name
 	bool good;
 	int block;
 
-	if (!project || pou >= project->pou_count)
+	if (!project || pou >= project->pou_count || document->fixed)
 		return false;
 	declaration = g_strdup_printf("%s%s%s : %s;", name,
 				      address && address[0] ? " AT " : "",

@@ -23,6 +23,7 @@ struct _LadderDocument {
 	GStatBuf disk_seen;       /* of the file when it was looked at last    */
 	bool disk_differs;        /* and whether it was another then           */
 	int repaired;             /* line of the first byte that is no text; 0: none */
+	bool fixed;               /* nothing changes it                        */
 	guint64 version;
 	/* Checks: */
 	struct ladder *checked;

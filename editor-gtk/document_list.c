@@ -123,7 +123,7 @@ bool ladder_document_put_list(LadderDocument *document, int pou, const char *tex
 	char *name = document_pou_name(document, pou);
 	bool same = before && strcmp(before, text) == 0;
 
-	if (before && !same) {
+	if (before && !same && !document->fixed) {
 		ladder_document_begin(document, _("Type text"), NULL);
 		document_record(document, change_new(CHANGE_LIST, pou, 0,
 					    document_one_text(before, strlen(before)),

@@ -31,6 +31,8 @@ struct grid_cursor {
 /** ladder_grid_view_new - shows POU @pou of @document; scrolls by itself, in a
  * GtkScrolledWindow. */
 GtkWidget *ladder_grid_view_new(LadderDocument *document, int pou);
+/** ladder_grid_view_document - whose rungs it shows. Borrowed. */
+LadderDocument *ladder_grid_view_document(LadderGridView *view);
 int ladder_grid_view_pou(LadderGridView *view);
 /** ladder_grid_view_set_pou - when POUs were added or removed before it. */
 void ladder_grid_view_set_pou(LadderGridView *view, int pou);

@@ -27,14 +27,15 @@ static const struct live_cell *cell_of(const struct live_rung *live, int row, in
 	       &live->cell[row * live->cols + col] : NULL;
 }
 
-/* At the cursor; NULL: nothing that has a value. */
+/* At the cursor; NULL: nothing that has a value, or had one before an edit. */
 static const struct live_cell *cell_here(LadderGridView *view)
 {
 	const struct live_rung *live = live_rung_of(view, view->cursor.rung);
 	const struct live_cell *cell;
 	int row, col;
 
-	if (!live || !cursor_cell(view, &row, &col))
+	if (!live || ladder_document_is_fixed(view->document) ||
+	    !cursor_cell(view, &row, &col))
 		return NULL;
 	cell = cell_of(live, row, col);
 	return cell && cell->at.type != IEC_NONE ? cell : NULL;

@@ -13,6 +13,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* ---- whose rungs they are ---- */
+
+LadderDocument *ladder_grid_view_document(LadderGridView *view)
+{
+	return view->document;
+}
+
+bool sheet_is_fixed(LadderGridView *view)
+{
+	if (!ladder_document_is_fixed(view->document))
+		return false;
+	sheet_tell(view, _("This is the program before an edit: it can be looked at, not "
+			   "changed"));
+	return true;
+}
+
 /* ---- one rung becomes another ---- */
 
 struct grid_at sheet_at(LadderGridView *view)
@@ -266,9 +282,15 @@ static void do_copy_picture(LadderGridView *view)
 
 /* ---- the table ---- */
 
+static bool changes(enum verb verb)
+{
+	return verb != VERB_copy && verb != VERB_copy_picture && verb != VERB_select_all &&
+	       verb != VERB_cancel;
+}
+
 void ladder_grid_view_do(LadderGridView *view, enum verb verb)
 {
-	if (act_do(view, verb))
+	if ((changes(verb) && sheet_is_fixed(view)) || act_do(view, verb))
 		return;
 	switch ((int)verb) {
 	case VERB_cut:

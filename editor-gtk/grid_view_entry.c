@@ -380,7 +380,7 @@ static void open_element(struct asked *asked, const char *prompt, const char *te
 
 void entry_begin(LadderGridView *view, const char *text)
 {
-	if (sheet_pou(view) && sheet_rungs(view) > 0)
+	if (sheet_pou(view) && sheet_rungs(view) > 0 && !sheet_is_fixed(view))
 		open_element(ask(view), _("element and operand"), text, true);
 }
 
@@ -451,7 +451,7 @@ void entry_begin_word(LadderGridView *view, enum word word, bool parallel)
 	struct grid_area area;
 	bool chosen;
 
-	if (!rung)
+	if (!rung || sheet_is_fixed(view))
 		return;
 	asked = ask(view);
 	rung = sheet_rung(view, view->cursor.rung); /* the preview is gone */
@@ -467,8 +467,11 @@ void entry_begin_word(LadderGridView *view, enum word word, bool parallel)
 void entry_begin_drop(LadderGridView *view, enum word word, int row, int col)
 {
 	const struct cell cell = { .word = (uint16_t)word };
-	struct asked *asked = ask(view);
+	struct asked *asked;
 
+	if (sheet_is_fixed(view))
+		return;
+	asked = ask(view);
 	asked->word = word;
 	asked->at = (struct grid_at){ .columns = view->columns, .row = row, .col = col };
 	begin_word(asked, grid_drop(sheet_rung(view, view->cursor.rung), &asked->at,
@@ -482,7 +485,7 @@ void entry_begin_edit(LadderGridView *view)
 	struct asked *asked;
 	char *text;
 
-	if (!sheet_pou(view) || sheet_rungs(view) == 0)
+	if (!sheet_pou(view) || sheet_rungs(view) == 0 || sheet_is_fixed(view))
 		return;
 	if (!cell) {
 		entry_begin(view, "");

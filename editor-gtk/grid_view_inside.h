@@ -139,6 +139,8 @@ int sheet_rungs(LadderGridView *view);
 /** sheet_splice - as ladder_document_splice, of rungs of the sheet. */
 bool sheet_splice(LadderGridView *view, int at, int removed, struct rung **rungs,
 		  int inserted, struct diag_list *why);
+/** sheet_is_fixed - is it a program that nobody can change? That is told. */
+bool sheet_is_fixed(LadderGridView *view);
 /** sheet_tell - why something was not done. */
 void sheet_tell(LadderGridView *view, const char *text);
 void sheet_moved(LadderGridView *view);

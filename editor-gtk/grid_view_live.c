@@ -70,8 +70,8 @@ static int number_of(LadderGridView *view, const struct rung *shown, int rung)
 {
 	const struct project *mine = ladder_document_project(view->document);
 	const struct project *running = ladder_project(ladder_sim_ladder(view->live.sim));
-	const int number = ladder_sim_rung(view->live.sim, view->pou,
-						  view->first + rung);
+	const int number = ladder_sim_rung(view->live.sim, view->document,
+						  view->pou, view->first + rung);
 	const struct rung *other;
 
 	if (number < 0 || view->pou >= running->pou_count ||

@@ -451,6 +451,8 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 	(void)target;
 	edge_forget(view);
 	set_drop(view, -1, 0, 0, false);
+	if (sheet_is_fixed(view))
+		return FALSE;
 	if (drag->view && drag->from.row < 0) {
 		rung = sheet_point(view, x, y, &hit);
 		return rung >= 0 && drag->view == view &&

@@ -48,7 +48,8 @@ static graphene_point_t in_strip(LadderGridView *view, int rung, double x, doubl
 static int begin_at(LadderGridView *view, double x, double y, struct grid_end *end)
 {
 	struct rung_hit hit;
-	const int rung = view->entry ? -1 : sheet_point(view, x, y, &hit);
+	const bool drawn = !view->entry && !ladder_document_is_fixed(view->document);
+	const int rung = drawn ? sheet_point(view, x, y, &hit) : -1;
 	graphene_point_t at;
 
 	if (rung < 0)

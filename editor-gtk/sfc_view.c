@@ -34,6 +34,15 @@ void chart_tell(LadderSfcView *view, const char *text)
 	g_signal_emit(view, signals[TOLD], 0, text);
 }
 
+bool chart_is_fixed(LadderSfcView *view)
+{
+	if (!ladder_document_is_fixed(view->document))
+		return false;
+	chart_tell(view, _("This is the program before an edit: it can be looked at, not "
+			   "changed"));
+	return true;
+}
+
 void chart_body_wanted(LadderSfcView *view, const struct sfc_body *body)
 {
 	const bool rungs = body->kind == BODY_RUNGS || body->kind == BODY_EXPRESSION;

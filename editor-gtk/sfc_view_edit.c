@@ -435,10 +435,16 @@ static void select_all(LadderSfcView *view)
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 }
 
+static bool changes(enum verb verb)
+{
+	return verb != VERB_copy && verb != VERB_select_all && verb != VERB_go_rung &&
+	       verb != VERB_enter;
+}
+
 void ladder_sfc_view_do(LadderSfcView *view, enum verb verb)
 {
 	chart_fresh(view);
-	if (!view->sheet)
+	if (!view->sheet || (changes(verb) && chart_is_fixed(view)))
 		return;
 	switch ((int)verb) {
 	case VERB_step_below: step_below(view); break;

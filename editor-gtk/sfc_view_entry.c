@@ -413,7 +413,7 @@ void chart_ask(LadderSfcView *view, enum chart_asked what, const char *typed)
 	int index;
 	enum sfc_part part = chart_part(view, &index);
 
-	if (view->entry || !view->sheet)
+	if (view->entry || !view->sheet || (what != ASK_GO && chart_is_fixed(view)))
 		return;
 	if (what != ASK_GO && (part == SFC_NOTHING || part == SFC_JUMP ||
 			       (part_of(what) != SFC_NOTHING && part_of(what) != part))) {

@@ -63,6 +63,8 @@ struct pou *chart_pou(LadderSfcView *view);
  * before this view does, and ask it. */
 void chart_fresh(LadderSfcView *view);
 void chart_tell(LadderSfcView *view, const char *text);
+/** chart_is_fixed - is it a program that nobody can change? That is told. */
+bool chart_is_fixed(LadderSfcView *view);
 void chart_moved(LadderSfcView *view);
 /** chart_part - the part at the cursor, SFC_NOTHING for none; its number in the chart. */
 enum sfc_part chart_part(LadderSfcView *view, int *index);

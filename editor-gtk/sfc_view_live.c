@@ -80,7 +80,7 @@ static bool was_true(LadderSfcView *view, const struct sfc_body *body)
 	if ((body->kind != BODY_EXPRESSION && body->kind != BODY_RUNGS) || rung < 0 ||
 	    rung >= pou->rung_count)
 		return false;
-	number = ladder_sim_rung(view->live.sim, view->pou, rung);
+	number = ladder_sim_rung(view->live.sim, view->document, view->pou, rung);
 	return number >= 0 &&
 	       resource_power(resource, (uint32_t)view->pou, (uint32_t)number + 1, 1,
 			      pou->rung[rung]->cols, &in, &out) && in;

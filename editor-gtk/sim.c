@@ -72,16 +72,18 @@ static void tell_refusal(LadderSim *sim)
 	     false);
 }
 
-/* A record is of one program: what was before the edit cannot be shown any more. */
+/* Scans before can be shown; a program that has run none is not worth a word. */
 static void tell_edit(LadderSim *sim)
 {
-	const guint64 first = ladder_sim_first(sim);
+	const struct record *record = ladder_sim_lock_record(sim);
+	const guint64 scan = record_first(record);
 	char *text;
 
-	if (first == 0)
+	ladder_sim_unlock_record(sim);
+	if (scan == 0)
 		return;
-	text = g_strdup_printf(_("The program was changed: the past begins at scan %llu"),
-			       (unsigned long long)first);
+	text = g_strdup_printf(_("The program was changed after scan %llu; it goes on with "
+				 "its values"), (unsigned long long)scan);
 	tell(sim, text, false);
 	g_free(text);
 }
@@ -146,6 +148,7 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 	sim->refused = 0;
 	sim->failed = false;
 	sim->thread = thread;
+	sim->life++;
 	sim_program_unref(sim->newest);
 	sim->newest = sim_program_ref(program);
 	if (sim->speed > 0)
@@ -204,6 +207,7 @@ void ladder_sim_end(LadderSim *sim)
 	g_clear_pointer(&sim->thread, sim_thread_free);
 	sim_forget_replay(sim);
 	sim_view_clear(&sim->view);
+	sim->life++;
 	g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 	tell_state(sim);
 	g_signal_emit(sim, signals[SHOWN], 0);
@@ -428,6 +432,11 @@ void ladder_sim_act(LadderSim *sim, const struct act *act)
 {
 	if (!sim->thread)
 		return;
+	if (ladder_sim_older(sim, NULL)) {
+		tell(sim, _("Not done: this is the program as it was before an edit. Show the "
+			    "newest scan first"), false);
+		return;
+	}
 	ladder_sim_show_now(sim);
 	sim_thread_act(sim->thread, act->plant ? sim->view.plant : sim->view.program, act);
 }

@@ -4,11 +4,13 @@
  *
  * The thread scans, keeps time and records; it never waits for what is drawn. The window
  * sees copies: of the newest scan, or of one that was, when it is asked to show that. An
- * edit that builds takes the place of the program that runs, with its values.
+ * edit that builds takes the place of the program that runs, with its values; scans before
+ * it are shown with the program that ran them.
  *
  * Signals:
  *   state-changed ()    mode, RUN or not, period, speed, record: what buttons show
- *   program-changed ()  another program runs: places of variables are others
+ *   program-changed ()  another program runs, or is the one whose scan is shown: places of
+ *                       variables are others
  *   shown ()            ladder_sim_twin() has other values; at most once a frame
  *   told (const char *text, gboolean bad)  for the log and the status bar
  */
@@ -71,7 +73,7 @@ void ladder_sim_set_speed(LadderSim *sim, double scans);
 
 /** ladder_sim_act - what a person does between two scans; a copy of @act is made. Takes
  * effect at once, in STOP and PAUSE too, and ends the look at the past. What cannot be done
- * (no such place) is told. */
+ * (no such place, one of a program before an edit) is told. */
 void ladder_sim_act(LadderSim *sim, const struct act *act);
 
 /** ladder_sim_release_all - of the program and of its plant, what ladder_sim_forces() counts. */
@@ -106,14 +108,15 @@ bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out);
 /** ladder_sim_twin - as it was after the scan that is shown. NULL: off. Borrowed until the
  * next `shown` or `program-changed`; to be read only. */
 const struct twin *ladder_sim_twin(LadderSim *sim);
-/** ladder_sim_ladder - what holds the project of the program that runs. NULL: off.
- * Borrowed until `program-changed`. */
+/** ladder_sim_ladder - what holds the project of the program whose scan is shown: the one
+ * that runs, or one before an edit. NULL: off. Borrowed until `program-changed`. */
 struct ladder *ladder_sim_ladder(LadderSim *sim);
 /** ladder_sim_plant_ladder - likewise, of the plant; NULL: none. */
 struct ladder *ladder_sim_plant_ladder(LadderSim *sim);
-/** ladder_sim_rung - the rung of the running program, 0-based, that this one of the
- * document is; -1: it was changed since, or is new. The POU is the same in both. */
-int ladder_sim_rung(LadderSim *sim, int pou, int rung);
+/** ladder_sim_rung - the rung of ladder_sim_ladder(), 0-based, that this one of @document
+ * is; -1: it was changed since, or is new, or the scan that is shown is of a program before
+ * an edit, and @document is not ladder_sim_older(). The POU is the same in both. */
+int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung);
 /** ladder_sim_is_forced - is @at (of the program that runs) held? */
 bool ladder_sim_is_forced(LadderSim *sim, struct location at);
 /** ladder_sim_forces - how many places are held, those of the plant too. */
@@ -130,10 +133,42 @@ bool ladder_sim_show(LadderSim *sim, guint64 scan);
 /** ladder_sim_show_now - the newest again. */
 void ladder_sim_show_now(LadderSim *sim);
 bool ladder_sim_is_past(LadderSim *sim);
-/** ladder_sim_lock_record - for a replay of one's own, a little at a time: the thread that
- * scans waits as long as it is held. NULL: off; then there is nothing to unlock. The record
- * is another one after `program-changed`. */
+/** ladder_sim_lock_record - of the program that runs: the thread that scans waits as long as
+ * it is held. NULL: off; then there is nothing to unlock. It is another one after an edit. */
 const struct record *ladder_sim_lock_record(LadderSim *sim);
 void ladder_sim_unlock_record(LadderSim *sim);
+/** ladder_sim_record_bytes - what all records take, with the programs before edits. */
+gsize ladder_sim_record_bytes(LadderSim *sim);
+
+/* ---- programs before an edit ---- */
+
+/* An edit while it simulated. */
+struct sim_edited {
+	guint64 scan;            /* the last one of the program before          */
+	gint64 us;               /* when, as g_get_real_time()                 */
+};
+/** ladder_sim_next_edit - the first after that scan or later whose scans before are kept.
+ * Fails: false: there is none. */
+bool ladder_sim_next_edit(LadderSim *sim, guint64 scan, struct sim_edited *out);
+/** ladder_sim_older - the program whose scan is shown, if another took its place since: a
+ * fixed document, as it was; @edit gets what ended it. NULL: the one that runs is shown.
+ * Borrowed until `program-changed`. */
+LadderDocument *ladder_sim_older(LadderSim *sim, struct sim_edited *edit);
+/** ladder_sim_life - another number whenever it begins anew, from scan 0. */
+guint64 ladder_sim_life(LadderSim *sim);
+
+/* Somebody who looks at scans, a little at a time, also over edits. */
+struct sim_replay;
+/** sim_replay_new - of no scan yet. Owns: sim_replay_free(). */
+struct sim_replay *sim_replay_new(void);
+void sim_replay_free(struct sim_replay *replay);
+/** ladder_sim_replay - nearer to @scan: to where it can be had from, or one scan further.
+ * Fails: false: that scan is not kept, or memory is out. */
+bool ladder_sim_replay(LadderSim *sim, struct sim_replay *replay, guint64 scan);
+/** sim_replay_twin - as it was after the scan where it stands; NULL: of none. Borrowed
+ * until the next step. */
+const struct twin *sim_replay_twin(const struct sim_replay *replay);
+/** sim_replay_program - another number if places of variables are others; 0: of none. */
+guint64 sim_replay_program(const struct sim_replay *replay);
 
 #endif

@@ -26,6 +26,41 @@ void sim_program_unref(struct sim_program *program);
  * an editor keeps for itself, such as bookmarks. */
 bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b);
 
+/* ---- sim_eras.c: the record, from edit to edit ---- */
+
+/* The scans that one program ran: those after `record_first()` of its record, which is the
+ * last one of the program before; of the first era, from there on. */
+struct sim_era {
+	guint64 id;              /* from 1                                     */
+	struct record *record;
+	struct sim_program *program, *plant; /* references                      */
+	gint64 edited_us;        /* when another program took its place, of the
+				    clock; 0: this one runs                    */
+	gsize size;              /* of what ended, with its program            */
+};
+struct sim_eras;
+/** sim_eras_new - of a twin as it is. @program, @plant: it takes references. Whoever uses
+ * them in two threads holds a lock. Owns: sim_eras_free(). Fails: NULL: no memory. */
+struct sim_eras *sim_eras_new(const struct twin *twin, struct sim_program *program,
+			      struct sim_program *plant);
+void sim_eras_free(struct sim_eras *eras);
+/** sim_eras_newest - of the program that runs. Borrowed until the next change. */
+const struct sim_era *sim_eras_newest(const struct sim_eras *eras);
+/** sim_eras_find - whose scan it is; NULL: it is not kept. Borrowed likewise. */
+const struct sim_era *sim_eras_find(const struct sim_eras *eras, guint64 scan);
+/** sim_eras_first - of the oldest. */
+guint64 sim_eras_first(const struct sim_eras *eras);
+/** sim_eras_bytes - what all of them take; of the program that runs its record alone. */
+gsize sim_eras_bytes(const struct sim_eras *eras);
+/** sim_eras_act, sim_eras_scan - as record_act(), record_scan(); all of them together take
+ * SIM_BYTES, and the oldest go first, whole. */
+void sim_eras_act(struct sim_eras *eras, const struct twin *twin, const struct act *act);
+void sim_eras_scan(struct sim_eras *eras, const struct twin *twin);
+/** sim_eras_change - @program runs from here on, in @twin. One that ran no scan leaves
+ * nothing. Fails: false: no memory; nothing has changed. */
+bool sim_eras_change(struct sim_eras *eras, const struct twin *twin,
+		     struct sim_program *program);
+
 /* ---- sim_thread.c: it scans, and hands out copies ---- */
 
 struct sim_thread;
@@ -77,8 +112,8 @@ bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *oth
 void sim_view_clear(struct sim_view *view);
 /** sim_thread_lateness - as ladder_sim_lateness(). */
 bool sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out);
-/** sim_thread_lock - the record, which changes only with a program. */
-const struct record *sim_thread_lock(struct sim_thread *thread);
+/** sim_thread_lock - the records of all programs; the thread waits as long. */
+const struct sim_eras *sim_thread_lock(struct sim_thread *thread);
 void sim_thread_unlock(struct sim_thread *thread);
 
 /* ---- sim_rungs.c: which rung of the document is which of the program that runs ---- */

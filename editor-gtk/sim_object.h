@@ -15,8 +15,11 @@ struct _LadderSim {
 	struct sim_rungs *rungs;
 	struct sim_thread *thread;  /* NULL: off                               */
 	struct sim_view view;       /* the newest                              */
-	struct replay replay;       /* the past; twin of no program: none yet  */
+	struct sim_replay *replay;  /* the past                                */
 	bool past;
+	LadderDocument *older;      /* of a program before an edit; NULL: none yet */
+	guint64 older_era;          /* whose it is                             */
+	guint64 life;               /* how often it began                      */
 	guint refused;              /* of the view's refusal, that were told of */
 	bool failed;                /* told that an operation failed           */
 	enum sim_state told;        /* the last state that signals told of     */
@@ -32,4 +35,6 @@ struct _LadderSim {
 
 /** sim_forget_replay - now is shown, and nothing of the past is kept. */
 void sim_forget_replay(LadderSim *sim);
+/** sim_shown_program - whose scan is shown; NULL: off. Borrowed. */
+struct sim_program *sim_shown_program(LadderSim *sim);
 #endif

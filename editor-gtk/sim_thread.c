@@ -40,7 +40,7 @@ struct sim_thread {
 	bool changed;            /* since then                                 */
 	/* Under `record_lock`: */
 	GMutex record_lock;
-	struct record *record;
+	struct sim_eras *eras;
 	/* Under `out_lock`: */
 	GMutex out_lock;
 	struct twin out;
@@ -81,7 +81,7 @@ static void scan(struct sim_thread *thread)
 	if (thread->twin.scan == before)
 		return;
 	g_mutex_lock(&thread->record_lock);
-	record_scan(thread->record, &thread->twin);
+	sim_eras_scan(thread->eras, &thread->twin);
 	g_mutex_unlock(&thread->record_lock);
 	thread->changed = true;
 }
@@ -148,7 +148,7 @@ static void act(struct sim_thread *thread, const struct act *act)
 		return;
 	}
 	g_mutex_lock(&thread->record_lock);
-	record_act(thread->record, &thread->twin, act);
+	sim_eras_act(thread->eras, &thread->twin, act);
 	g_mutex_unlock(&thread->record_lock);
 }
 
@@ -162,39 +162,36 @@ static void act_of(struct sim_thread *thread, const struct order *order)
 		refuse(thread, SIM_REFUSED_STALE);
 }
 
-static struct record *new_record(const struct twin *twin)
+/* @next takes the place of the twin; what is of the one before is let go. */
+static void take_place(struct sim_thread *thread, const struct twin *next,
+		       struct sim_program *program)
 {
-	struct record *record = record_new(twin, SIM_SCANS, SIM_BYTES);
-
-	if (!record)
+	g_mutex_lock(&thread->record_lock);
+	g_mutex_lock(&thread->out_lock);
+	twin_free(&thread->out);
+	twin_free(&thread->twin);
+	thread->twin = *next;
+	if (!twin_clone(&thread->out, next) ||
+	    !sim_eras_change(thread->eras, next, program))
 		g_error("out of memory");
-	return record;
+	sim_program_unref(thread->program);
+	thread->program = program;
+	g_mutex_unlock(&thread->out_lock);
+	g_mutex_unlock(&thread->record_lock);
 }
 
 static void change(struct sim_thread *thread, struct sim_program *program)
 {
 	struct twin next;
 
-	if (!twin_init(&next, program->program, thread->plant ?
-		       thread->plant->program : NULL, thread->twin.period_ns) ||
-	    !twin_change(&next, &thread->twin)) {
-		twin_free(&next);
-		sim_program_unref(program);
+	if (twin_init(&next, program->program, thread->plant ?
+		      thread->plant->program : NULL, thread->twin.period_ns) &&
+	    twin_change(&next, &thread->twin)) {
+		take_place(thread, &next, program);
 		return;
 	}
-	g_mutex_lock(&thread->record_lock);
-	g_mutex_lock(&thread->out_lock);
-	record_free(thread->record);
-	twin_free(&thread->out);
-	twin_free(&thread->twin);
-	thread->twin = next;
-	if (!twin_clone(&thread->out, &next))
-		g_error("out of memory");
-	thread->record = new_record(&next);
-	sim_program_unref(thread->program);
-	thread->program = program;
-	g_mutex_unlock(&thread->out_lock);
-	g_mutex_unlock(&thread->record_lock);
+	twin_free(&next);
+	sim_program_unref(program);
 }
 
 static void scan_some(struct sim_thread *thread, int scans)
@@ -310,7 +307,9 @@ struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_progra
 	thread->data = data;
 	thread->program = sim_program_ref(program);
 	thread->plant = sim_program_ref(plant);
-	thread->record = new_record(&thread->twin);
+	thread->eras = sim_eras_new(&thread->twin, program, plant);
+	if (!thread->eras)
+		g_error("out of memory");
 	g_mutex_init(&thread->record_lock);
 	g_mutex_init(&thread->out_lock);
 	thread->orders = g_async_queue_new_full((GDestroyNotify)order_free);
@@ -332,7 +331,7 @@ void sim_thread_free(struct sim_thread *thread)
 	while (g_idle_remove_by_data(thread->data))
 		;
 	g_async_queue_unref(thread->orders);
-	record_free(thread->record);
+	sim_eras_free(thread->eras);
 	twin_free(&thread->twin);
 	twin_free(&thread->out);
 	sim_program_unref(thread->program);
@@ -441,10 +440,10 @@ bool sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out)
 	return out->scans > 0;
 }
 
-const struct record *sim_thread_lock(struct sim_thread *thread)
+const struct sim_eras *sim_thread_lock(struct sim_thread *thread)
 {
 	g_mutex_lock(&thread->record_lock);
-	return thread->record;
+	return thread->eras;
 }
 
 void sim_thread_unlock(struct sim_thread *thread)

@@ -146,7 +146,7 @@ static void typed(LadderTextView *view)
 {
 	char *text, *before, *key;
 
-	if (view->ours)
+	if (view->ours || ladder_document_is_fixed(view->document))
 		return;
 	text = text_of_buffer(view);
 	key = step_key(view);
@@ -525,6 +525,8 @@ GtkWidget *ladder_text_view_new(LadderDocument *document, int pou)
 	view->document = g_object_ref(document);
 	view->pou = pou;
 	build(view);
+	gtk_text_view_set_editable(GTK_TEXT_VIEW(view->view),
+				   !ladder_document_is_fixed(document));
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(document_changed),
 				 view);
 	g_signal_connect_swapped(document, "variable-changed",

@@ -270,6 +270,7 @@ static void ladder_window_dispose(GObject *object)
 	g_clear_handle_id(&window->when_timer, g_source_remove);
 	g_clear_object(&window->recorder);
 	window_why_free(window);
+	window_older_free(window);
 	g_clear_object(&window->sim);
 	g_clear_object(&window->board);
 	g_clear_object(&window->classic);

@@ -18,12 +18,12 @@
 
 static void go_on(LadderWindow *window)
 {
-	LadderGridView *sheet = tabs_sheet(window);
+	LadderGridView *sheet = tabs_seen_sheet(window);
 
 	if (sheet)
 		gtk_widget_grab_focus(GTK_WIDGET(sheet));
-	else if (tabs_chart(window))
-		gtk_widget_grab_focus(GTK_WIDGET(tabs_chart(window)));
+	else if (tabs_seen_chart(window))
+		gtk_widget_grab_focus(GTK_WIDGET(tabs_seen_chart(window)));
 }
 
 static void do_undo(LadderWindow *window)
@@ -89,6 +89,8 @@ static void do_next_bookmark(LadderWindow *window)
 
 static void do_sheet_by(LadderWindow *window, bool next)
 {
+	if (window_older_by(window, next ? 1 : -1))
+		return;
 	if (next ? !adw_tab_view_select_next_page(window->tabs) :
 		   !adw_tab_view_select_previous_page(window->tabs))
 		return;
@@ -99,7 +101,7 @@ static void go_rung(AdwMessageDialog *dialog, const char *response, GtkEntry *nu
 {
 	LadderWindow *window = LADDER_WINDOW(gtk_window_get_transient_for(
 		GTK_WINDOW(dialog)));
-	LadderGridView *sheet = tabs_sheet(window);
+	LadderGridView *sheet = tabs_seen_sheet(window);
 
 	if (sheet && g_strcmp0(response, "go") == 0)
 		ladder_grid_view_go(sheet, (int)g_ascii_strtoll(gtk_editable_get_text(
@@ -108,13 +110,14 @@ static void go_rung(AdwMessageDialog *dialog, const char *response, GtkEntry *nu
 
 static void ask_rung(LadderWindow *window)
 {
-	const struct project *project = ladder_document_project(window->document);
-	LadderGridView *sheet = tabs_sheet(window);
+	LadderGridView *sheet = tabs_seen_sheet(window);
+	const struct project *project;
 	GtkWidget *dialog, *number;
 	char *text;
 
 	if (!sheet)
 		return;
+	project = ladder_document_project(ladder_grid_view_document(sheet));
 	dialog = adw_message_dialog_new(GTK_WINDOW(window), _("Go to rung"), NULL);
 	number = gtk_entry_new();
 	gtk_entry_set_input_purpose(GTK_ENTRY(number), GTK_INPUT_PURPOSE_DIGITS);
@@ -139,9 +142,9 @@ static void ask_rung(LadderWindow *window)
 
 static void zoom(LadderWindow *window, double factor)
 {
-	LadderGridView *sheet = tabs_sheet(window);
+	LadderGridView *sheet = tabs_seen_sheet(window);
 
-	LadderSfcView *chart = tabs_chart(window);
+	LadderSfcView *chart = tabs_seen_chart(window);
 
 	if (sheet)
 		ladder_grid_view_set_zoom(sheet, factor == 0 ? 1 :
@@ -153,7 +156,7 @@ static void zoom(LadderWindow *window, double factor)
 
 static void do_show_as(LadderWindow *window)
 {
-	LadderGridView *sheet = tabs_sheet(window);
+	LadderGridView *sheet = tabs_seen_sheet(window);
 
 	if (!sheet)
 		return;
@@ -209,15 +212,15 @@ static void do_about(LadderWindow *window)
 
 void ladder_window_do(LadderWindow *window, enum verb verb)
 {
-	LadderGridView *sheet = tabs_sheet(window);
+	LadderGridView *sheet = tabs_seen_sheet(window);
 
 	const enum verb_where where = verb_row(verb)->where;
 
 	if (where != VERB_WINDOW) {
 		if (sheet && where != VERB_CHART)
 			ladder_grid_view_do(sheet, verb);
-		else if (!sheet && tabs_chart(window) && where != VERB_SHEET)
-			ladder_sfc_view_do(tabs_chart(window), verb);
+		else if (!sheet && tabs_seen_chart(window) && where != VERB_SHEET)
+			ladder_sfc_view_do(tabs_seen_chart(window), verb);
 		return;
 	}
 	if (window_sim(window, verb) || window_scenario(window, verb))
@@ -248,8 +251,8 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_rename: do_rename(window); break;
 	case VERB_go_coil: names_go_driver(window); break;
 	case VERB_go_rung:
-		if (!sheet && tabs_chart(window))
-			ladder_sfc_view_do(tabs_chart(window), verb); /* a step */
+		if (!sheet && tabs_seen_chart(window))
+			ladder_sfc_view_do(tabs_seen_chart(window), verb); /* a step */
 		else
 			ask_rung(window);
 		break;

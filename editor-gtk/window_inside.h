@@ -27,6 +27,7 @@ struct _LadderWindow {
 	char *plant;              /* that a person chose; NULL: none           */
 	bool plant_chosen;
 	struct window_why *why;   /* what holds power back                     */
+	struct window_older *older; /* the program before an edit              */
 	LadderSim *sim;           /* off while it edits                        */
 	LadderRecorder *recorder;
 	bool closing;             /* the person has been asked                 */
@@ -88,12 +89,29 @@ LadderFileView *tabs_file(LadderWindow *window);
 /** tabs_unsaved - the files beside the project that are not saved, of LadderFileView *.
  * Caller: g_ptr_array_unref. */
 GPtrArray *tabs_unsaved(LadderWindow *window);
+/** tabs_page_new - a sheet, a chart or a list: POU @pou of @document, that tells the
+ * window. It scrolls. */
+GtkWidget *tabs_page_new(LadderWindow *window, LadderDocument *document, int pou);
+/** tabs_show_place - in the status bar: of the cursor that is seen. */
+void tabs_show_place(LadderWindow *window);
+/** tabs_seen_sheet, tabs_seen_chart - as tabs_sheet(), tabs_chart(), but also of a program
+ * before an edit, whose document is not the window's. */
+LadderGridView *tabs_seen_sheet(LadderWindow *window);
+LadderSfcView *tabs_seen_chart(LadderWindow *window);
 /** tabs_sheet - of the page in front; NULL: it is none. */
 LadderGridView *tabs_sheet(LadderWindow *window);
 /** tabs_chart - of the page in front; NULL: it is none. */
 LadderSfcView *tabs_chart(LadderWindow *window);
 /** tabs_go - the place of a diagnostic or a use; -1: the whole. */
 void tabs_go(LadderWindow *window, int pou, int rung, int row, int col);
+
+/* ---- window_older.c: a program before an edit, in the place of the tabs ---- */
+void window_older_init(LadderWindow *window);
+void window_older_free(LadderWindow *window);
+/** window_older_page - what is seen of it; NULL: the program that runs is seen. */
+GtkWidget *window_older_page(LadderWindow *window);
+/** window_older_by - so many of its POUs further. False: it is not seen. */
+bool window_older_by(LadderWindow *window, int by);
 
 /* ---- window_actions.c ---- */
 void window_install_actions(GtkWidgetClass *class);

@@ -281,6 +281,7 @@ void window_sim_init(LadderWindow *window)
 	gtk_widget_set_vexpand(panel, TRUE);
 	gtk_box_append(window->right, panel);
 	window_why_init(window);
+	window_older_init(window);
 	gtk_widget_set_tooltip_text(GTK_WIDGET(window->forces_button),
 				    _("Release all forces"));
 	gtk_menu_button_set_popover(window->pace_button, sim_pace_new(sim));

@@ -21,12 +21,15 @@
 /* ---- what a page is ---- */
 
 /* The widget inside of scrolling. */
-static GtkWidget *content(AdwTabPage *page)
+static GtkWidget *inside(GtkWidget *child)
 {
-	GtkWidget *child = adw_tab_page_get_child(page);
-
 	return GTK_IS_SCROLLED_WINDOW(child) ?
 	       gtk_scrolled_window_get_child(GTK_SCROLLED_WINDOW(child)) : child;
+}
+
+static GtkWidget *content(AdwTabPage *page)
+{
+	return inside(adw_tab_page_get_child(page));
 }
 
 static const char *name_of(AdwTabPage *page)
@@ -59,10 +62,18 @@ static int pou_number(const struct project *project, const char *name)
 	return -1;
 }
 
-LadderGridView *tabs_sheet(LadderWindow *window)
+/* Of the page that is seen; NULL: there is none. */
+static GtkWidget *seen(LadderWindow *window)
 {
+	GtkWidget *older = window_older_page(window);
 	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
-	GtkWidget *widget = page ? content(page) : NULL;
+
+	return older ? inside(older) : page ? content(page) : NULL;
+}
+
+LadderGridView *tabs_seen_sheet(LadderWindow *window)
+{
+	GtkWidget *widget = seen(window);
 
 	/* Of a chart the rungs below it, while somebody works on them. */
 	if (widget && LADDER_IS_CHART_PAGE(widget)) {
@@ -75,13 +86,22 @@ LadderGridView *tabs_sheet(LadderWindow *window)
 	return widget && LADDER_IS_GRID_VIEW(widget) ? LADDER_GRID_VIEW(widget) : NULL;
 }
 
-LadderSfcView *tabs_chart(LadderWindow *window)
+LadderSfcView *tabs_seen_chart(LadderWindow *window)
 {
-	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
-	GtkWidget *widget = page ? content(page) : NULL;
+	GtkWidget *widget = seen(window);
 
 	return widget && LADDER_IS_CHART_PAGE(widget) ?
 	       ladder_chart_page_chart(LADDER_CHART_PAGE(widget)) : NULL;
+}
+
+LadderGridView *tabs_sheet(LadderWindow *window)
+{
+	return window_older_page(window) ? NULL : tabs_seen_sheet(window);
+}
+
+LadderSfcView *tabs_chart(LadderWindow *window)
+{
+	return window_older_page(window) ? NULL : tabs_seen_chart(window);
 }
 
 LadderFileView *tabs_file(LadderWindow *window)
@@ -162,10 +182,10 @@ void tabs_close(LadderWindow *window)
 
 /* ---- status ---- */
 
-static void show_place(LadderWindow *window)
+void tabs_show_place(LadderWindow *window)
 {
-	LadderGridView *sheet = tabs_sheet(window);
-	LadderSfcView *chart = sheet ? NULL : tabs_chart(window);
+	LadderGridView *sheet = tabs_seen_sheet(window);
+	LadderSfcView *chart = sheet ? NULL : tabs_seen_chart(window);
 	char *place = sheet ? ladder_grid_view_place(sheet) :
 		      chart ? ladder_sfc_view_place(chart) : g_strdup("");
 	char *zoom = sheet || chart ? g_strdup_printf("%d %%",
@@ -189,7 +209,7 @@ static void page_selected(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
 
-	show_place(window);
+	tabs_show_place(window);
 	window_show_state(window);
 	ladder_window_tell(window, "");
 	if (!sheet && tabs_chart(window))
@@ -203,66 +223,76 @@ static void page_selected(LadderWindow *window)
 
 /* ---- making pages ---- */
 
-static AdwTabPage *add_page(LadderWindow *window, GtkWidget *widget, const char *name,
-			    const char *title, bool scrolls)
+static AdwTabPage *add_page(LadderWindow *window, GtkWidget *child, const char *name,
+			    const char *title)
 {
-	GtkWidget *child = widget;
-	AdwTabPage *page;
+	AdwTabPage *page = adw_tab_view_append(window->tabs, child);
 
-	if (scrolls) {
-		child = gtk_scrolled_window_new();
-		gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(child), widget);
-		slow_bar_make(GTK_SCROLLED_WINDOW(child));
-	}
-	page = adw_tab_view_append(window->tabs, child);
 	set_name(page, name, title);
 	spoken_parts(GTK_WIDGET(window->tab_bar));
 	return page;
 }
 
-static AdwTabPage *open_sheet(LadderWindow *window, int pou, const char *name)
+/* What a sheet or a chart tells. */
+static void listen(LadderWindow *window, gpointer view)
 {
-	GtkWidget *sheet = ladder_grid_view_new(window->document, pou);
-
-	ladder_grid_view_set_sim(LADDER_GRID_VIEW(sheet), window->sim);
-	g_signal_connect_object(sheet, "cursor-moved", G_CALLBACK(show_place), window,
+	g_signal_connect_object(view, "cursor-moved", G_CALLBACK(tabs_show_place), window,
 				G_CONNECT_SWAPPED);
-	g_signal_connect_object(sheet, "cursor-moved", G_CALLBACK(window_follow_original),
-				window, G_CONNECT_SWAPPED);
-	g_signal_connect_object(sheet, "zoom-changed", G_CALLBACK(show_place), window,
+	g_signal_connect_object(view, "zoom-changed", G_CALLBACK(tabs_show_place), window,
 				G_CONNECT_SWAPPED);
-	g_signal_connect_object(sheet, "told", G_CALLBACK(told), window,
-				G_CONNECT_SWAPPED);
-	return add_page(window, sheet, name, name, true);
+	g_signal_connect_object(view, "told", G_CALLBACK(told), window, G_CONNECT_SWAPPED);
 }
 
-static AdwTabPage *open_chart(LadderWindow *window, int pou, const char *name)
+static GtkWidget *new_sheet(LadderWindow *window, LadderDocument *document, int pou)
 {
-	GtkWidget *page = ladder_chart_page_new(window->document, pou, window->sim);
-	LadderSfcView *chart = ladder_chart_page_chart(LADDER_CHART_PAGE(page));
+	GtkWidget *sheet = ladder_grid_view_new(document, pou);
+	GtkWidget *scroller = gtk_scrolled_window_new();
 
-	g_signal_connect_object(chart, "cursor-moved", G_CALLBACK(show_place), window,
-				G_CONNECT_SWAPPED);
-	g_signal_connect_object(chart, "zoom-changed", G_CALLBACK(show_place), window,
-				G_CONNECT_SWAPPED);
-	g_signal_connect_object(chart, "told", G_CALLBACK(told), window,
-				G_CONNECT_SWAPPED);
-	return add_page(window, page, name, name, false);
+	ladder_grid_view_set_sim(LADDER_GRID_VIEW(sheet), window->sim);
+	listen(window, sheet);
+	g_signal_connect_object(sheet, "cursor-moved", G_CALLBACK(window_follow_original),
+				window, G_CONNECT_SWAPPED);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), sheet);
+	slow_bar_make(GTK_SCROLLED_WINDOW(scroller));
+	return scroller;
+}
+
+static GtkWidget *new_chart(LadderWindow *window, LadderDocument *document, int pou)
+{
+	GtkWidget *page = ladder_chart_page_new(document, pou, window->sim);
+
+	listen(window, ladder_chart_page_chart(LADDER_CHART_PAGE(page)));
+	return page;
+}
+
+GtkWidget *tabs_page_new(LadderWindow *window, LadderDocument *document, int pou)
+{
+	const struct project *project = ladder_document_project(document);
+	GtkWidget *text;
+
+	if (project->pou[pou].language == LANGUAGE_LD)
+		return new_sheet(window, document, pou);
+	if (project->pou[pou].sfc)
+		return new_chart(window, document, pou);
+	text = ladder_text_view_new(document, pou);
+	ladder_text_view_set_sim(LADDER_TEXT_VIEW(text), window->sim);
+	return text;
 }
 
 static AdwTabPage *open_pou(LadderWindow *window, int pou)
 {
 	const struct project *project = ladder_document_project(window->document);
 	const char *name = project_text(project, project->pou[pou].name);
-	GtkWidget *text;
 
-	if (project->pou[pou].language == LANGUAGE_LD)
-		return open_sheet(window, pou, name);
-	if (project->pou[pou].sfc)
-		return open_chart(window, pou, name);
-	text = ladder_text_view_new(window->document, pou);
-	ladder_text_view_set_sim(LADDER_TEXT_VIEW(text), window->sim);
-	return add_page(window, text, name, name, false);
+	return add_page(window, tabs_page_new(window, window->document, pou), name, name);
+}
+
+/* What is opened is of the program that runs. */
+static void select_page(LadderWindow *window, AdwTabPage *page)
+{
+	if (window_older_page(window))
+		ladder_sim_show_now(window->sim);
+	adw_tab_view_set_selected_page(window->tabs, page);
 }
 
 void tabs_show(LadderWindow *window, int pou)
@@ -275,7 +305,7 @@ void tabs_show(LadderWindow *window, int pou)
 	page = find_page(window, project_text(project, project->pou[pou].name));
 	if (!page)
 		page = open_pou(window, pou);
-	adw_tab_view_set_selected_page(window->tabs, page);
+	select_page(window, page);
 }
 
 /* A table of thousands of symbols is not made before somebody looks at it. */
@@ -299,12 +329,12 @@ static AdwTabPage *open_widget(LadderWindow *window, const char *name)
 	AdwTabPage *page = find_page(window, key);
 
 	if (!page && strcmp(name, "symbols") == 0)
-		page = add_page(window, symbols_page(window), key, _("Symbols"), false);
+		page = add_page(window, symbols_page(window), key, _("Symbols"));
 	else if (!page && strcmp(name, "welcome") == 0)
-		page = add_page(window, welcome_new(), key, _("Welcome"), false);
+		page = add_page(window, welcome_new(), key, _("Welcome"));
 	else if (!page && strcmp(name, "text") == 0)
 		page = add_page(window, ladder_text_view_new(window->document, -1), key,
-				_("Text of the file"), false);
+				_("Text of the file"));
 	g_free(key);
 	return page;
 }
@@ -338,12 +368,12 @@ void tabs_show_file(LadderWindow *window, const char *path)
 									 &error);
 
 	if (view) {
-		page = add_page(window, view, key, title, false);
+		page = add_page(window, view, key, title);
 		g_signal_connect_object(view, "state-changed", G_CALLBACK(show_file_state),
 					page, G_CONNECT_SWAPPED);
 	}
 	if (page)
-		adw_tab_view_set_selected_page(window->tabs, page);
+		select_page(window, page);
 	else
 		ladder_window_warn(window, error->message);
 	g_clear_error(&error);
@@ -357,7 +387,7 @@ GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)
 
 	if (!page)
 		return NULL;
-	adw_tab_view_set_selected_page(window->tabs, page);
+	select_page(window, page);
 	return content(page);
 }
 
@@ -477,7 +507,7 @@ void tabs_update(LadderWindow *window)
 		open_widget(window, "symbols");
 		tabs_show(window, 0);
 	}
-	show_place(window);
+	tabs_show_place(window);
 }
 
 void tabs_init(LadderWindow *window)

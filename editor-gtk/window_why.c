@@ -123,8 +123,9 @@ static bool ask(LadderWindow *window, struct window_why *asked, struct why *why)
 {
 	const struct twin *twin = ladder_sim_twin(window->sim);
 	const int pou = ladder_grid_view_pou(asked->sheet);
-	const int rung = ladder_sim_rung(window->sim, pou, asked->rung +
-					 ladder_grid_view_first(asked->sheet));
+	const int rung = ladder_sim_rung(window->sim,
+		ladder_grid_view_document(asked->sheet), pou,
+		asked->rung + ladder_grid_view_first(asked->sheet));
 	struct arena arena;
 	bool good;
 
@@ -170,9 +171,10 @@ static void look(LadderWindow *window)
 }
 
 /* The element at the cursor, else the first output of its rung. */
-static bool meant(LadderWindow *window, LadderGridView *sheet, int *row, int *col)
+static bool meant(LadderGridView *sheet, int *row, int *col)
 {
-	const struct project *project = ladder_document_project(window->document);
+	const struct project *project = ladder_document_project(
+		ladder_grid_view_document(sheet));
 	const struct rung *rung = project->pou[ladder_grid_view_pou(sheet)]
 		.rung[ladder_grid_view_first(sheet) + ladder_grid_view_cursor(sheet).rung];
 
@@ -188,7 +190,8 @@ static bool meant(LadderWindow *window, LadderGridView *sheet, int *row, int *co
 void window_why_ask(LadderWindow *window)
 {
 	struct window_why *asked = why_of(window);
-	LadderGridView *sheet = tabs_sheet(window);
+	LadderGridView *sheet = tabs_seen_sheet(window);
+	LadderSfcView *chart = tabs_seen_chart(window);
 	int row, col;
 	const int rung = sheet ? ladder_grid_view_cursor(sheet).rung : -1;
 	bool again;
@@ -198,9 +201,9 @@ void window_why_ask(LadderWindow *window)
 		return;
 	}
 	/* A condition is shown as rungs first, with the power that they have. */
-	if (!sheet && tabs_chart(window) && ladder_sfc_view_why(tabs_chart(window)))
+	if (!sheet && chart && ladder_sfc_view_why(chart))
 		return;
-	if (!sheet || !meant(window, sheet, &row, &col)) {
+	if (!sheet || !meant(sheet, &row, &col)) {
 		ladder_window_tell(window, _("Put the cursor on the element that is meant"));
 		return;
 	}

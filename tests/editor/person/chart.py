@@ -114,6 +114,50 @@ def edit(screen):
     check(path)
 
 
+def over_an_edit(screen):
+    """a scan before an edit is shown with the rungs that ran it, which nobody can change"""
+    editor = session(screen)
+    toggle(editor, 'NC', 'Stop', 'open')
+    editor.keys('Escape', 'Home', 'Delete')  # no Start, no motor: another program
+    editor.says('The program was changed after scan 15')
+    scans(editor, 5)
+    editor.says('scan 20')
+    editor.press(editor.find('Timing chart', 'toggle button') if editor.all('Timing chart', 'toggle button')
+                 else editor.find('Timing chart'))
+    chart = editor.find('Timing chart, cursor')
+    editor.click(editor.find('All that is kept'))
+    x, y, width, _ = editor.place(chart)
+    at = lambda scan: (x + NAMES + (width - NAMES) * scan * 10 // 200 + 3, y + 20)
+    editor.drag(at(18), at(7), look='chart-older')
+    editor.says('PAST · scan 7')
+    editor.says('Before the edit of ')
+    editor.element('NO', 'Start', 'closed')
+    editor.element('COIL', ', on')
+    # What was cannot be changed, and not be acted upon.
+    editor.click(editor.beside(editor.element('NO', 'Start')))
+    editor.keys('space')
+    editor.says('This is the program before an edit')
+    editor.keys('Delete', 'a')
+    editor.element('NO', 'Start', 'closed')
+    editor.keys('alt+Right', 'alt+Right', 'alt+Right', 'alt+Right')
+    editor.says('PAST · scan 11')
+    editor.click(editor.beside(editor.element('COIL', ', off')))
+    editor.keys('ctrl+F12')
+    editor.says('No power: Stop is TRUE')
+    editor.shot('chart-older-why')
+    # Behind the edit the sheet is the document's again.
+    editor.keys(*['alt+Right'] * 5)
+    editor.says('PAST · scan 16')
+    until(lambda: not [node for node in editor.all('Before the edit of ') if node.has(25)], 'the bar to go')
+    assert not [node for node in editor.all('NO', 'table cell') if 'Start' in node.name]
+    editor.keys(*['alt+Left'] * 2)
+    editor.says('Before the edit of ')
+    editor.press(editor.find('Show the newest scan', 'push button'))
+    editor.says('SIMULATION · PAUSE')
+    editor.keys('ctrl+z')
+    editor.element('NO', 'Start')
+
+
 def faults(screen):
     """a program with errors does not start, and the first is shown; an endless loop is a fault with its place"""
     path = new_file(screen, PROGRAM.replace('NO Start', 'NO Nobody'))
@@ -135,4 +179,4 @@ def faults(screen):
     editor.element('COIL', 'Motor', ', off')
 
 
-main([rewind, why, edit, faults])
+main([rewind, why, edit, over_an_edit, faults])
