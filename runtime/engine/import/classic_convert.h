@@ -151,6 +151,9 @@ void find_names(struct conversion *c);
  * @is_bool: what it is */
 const char *operand_of(struct conversion *c, struct classic_variable variable,
 		       bool *is_bool);
+/** target_of - the same of what is written; NULL, too, when no program can write it. */
+const char *target_of(struct conversion *c, struct classic_variable variable,
+		      bool *is_bool);
 /** instance_of - of a block. */
 const char *instance_of(struct conversion *c, enum classic_kind kind, int number);
 /** iec_word - CL_TON and its like. */

@@ -11,6 +11,7 @@
 #include "engine/import/classic_convert.h"
 
 #include "engine/base/ascii.h"
+#include "engine/base/limits.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -273,6 +274,29 @@ static const char *function_call(struct parse *p, enum classic_function function
 	return text_of(p->c, "%s(%s, %s)", p->c->function_name[function], a, b);
 }
 
+static struct part parse_term(struct parse *p);
+
+/* Behind a minus, which there is 0. Two are none, so that they do not stand one in another. */
+static struct part negative(struct parse *p)
+{
+	bool odd = true;
+	struct part part;
+
+	while (p->at[0] == '-' && !ascii_digit(p->at[1])) {
+		p->at++;
+		odd = !odd;
+	}
+	part = parse_term(p);
+	if (p->c->options.faithful)
+		return constant(p, 0);
+	if (part.constant)
+		return constant(p, odd ? -(int64_t)part.value : part.value);
+	if (!odd)
+		return part;
+	return (struct part){ .text = text_of(p->c, "-%s", inside(p, part, RANK_OPERAND)),
+			      .rank = RANK_SIGN };
+}
+
 static struct part parse_term(struct parse *p)
 {
 	struct part part;
@@ -298,12 +322,7 @@ static struct part parse_term(struct parse *p)
 		part = parse_decimal(p);
 		part = constant(p, -(int64_t)part.value);
 	} else if (accept(p, "-")) {
-		part = parse_term(p);
-		if (p->c->options.faithful)
-			part = constant(p, 0);
-		else
-			part = (struct part){ .text = text_of(p->c, "-%s",
-				inside(p, part, RANK_OPERAND)), .rank = RANK_SIGN };
+		part = negative(p);
 	} else if (*p->at >= 'A' && *p->at <= 'Z') {
 		part = parse_function(p);
 	} else {
@@ -433,6 +452,27 @@ static const char *not_understood(struct parse *p)
 	return NULL;
 }
 
+/* Longer or deeper than an expression may be here; the original has 49 bytes for one. */
+static const char *if_fits(struct parse *p, const char *text)
+{
+	int depth = 0, deepest = 0, words = 0;
+	bool inside = false;
+
+	for (const char *at = text; *at; at++) {
+		bool word = *at != ' ' && *at != '(' && *at != ')' && *at != ',' && *at != '[';
+
+		depth += *at == '(' || *at == '[';
+		depth -= *at == ')' || *at == ']';
+		deepest = depth > deepest ? depth : deepest;
+		words += word && !inside;
+		inside = word;
+	}
+	if (deepest < LIMIT_EXPR_DEPTH - 4 && words < LIMIT_EXPR_NODES - 4)
+		return text;
+	tell(p->c, REPORT_LOST, "expression \"%.60s\" is too large", p->whole);
+	return NULL;
+}
+
 /* Blanks are allowed around := alone, but in old files stand elsewhere, too. */
 static struct parse begin(struct conversion *c, const char *text)
 {
@@ -480,8 +520,8 @@ const char *comparison_of(struct conversion *c, const char *text)
 	if (*p.at)
 		tell(c, REPORT_CHANGED, "what stands behind the first comparison of \"%.40s\" "
 		     "does not count, here as there", text);
-	return text_of(c, "%s %s %s", inside(&p, left, RANK_SUM), op,
-		       inside(&p, right, RANK_SUM));
+	return if_fits(&p, text_of(c, "%s %s %s", inside(&p, left, RANK_SUM), op,
+				   inside(&p, right, RANK_SUM)));
 }
 
 static const char *stored(struct parse *p, const char *target, bool is_bool)
@@ -494,8 +534,9 @@ static const char *stored(struct parse *p, const char *target, bool is_bool)
 		tell(p->c, REPORT_CHANGED, "\"%.20s\" at the end of an expression does not "
 		     "count, here as there", p->at);
 	if (is_bool)
-		return text_of(p->c, "%s := %s <> 0", target, inside(p, value, RANK_SUM));
-	return text_of(p->c, "%s := %s", target, value.text);
+		return if_fits(p, text_of(p->c, "%s := %s <> 0", target,
+					  inside(p, value, RANK_SUM)));
+	return if_fits(p, text_of(p->c, "%s := %s", target, value.text));
 }
 
 const char *assignment_of(struct conversion *c, const char *text)
@@ -510,6 +551,6 @@ const char *assignment_of(struct conversion *c, const char *text)
 	p.at = end;
 	if (!accept(&p, ":=") && !accept(&p, "="))
 		return not_understood(&p);
-	target = operand_of(c, variable, &is_bool);
+	target = target_of(c, variable, &is_bool);
 	return target ? stored(&p, target, is_bool) : NULL;
 }

@@ -137,7 +137,9 @@ static const char *operand_text(struct grid *grid, struct grid_part *part,
 				const struct classic_cell *cell, const char *word)
 {
 	bool is_bool;
-	const char *text = operand_of(grid->c, cell->variable, &is_bool);
+	const char *text = part->kind == PART_CONTACT ?
+			   operand_of(grid->c, cell->variable, &is_bool) :
+			   target_of(grid->c, cell->variable, &is_bool);
 
 	part->reads = cell->variable;
 	if (text && !is_bool) {

@@ -349,3 +349,25 @@ const char *operand_of(struct conversion *c, struct classic_variable variable,
 		     variable.index_type < 0 ? "" : ", with an index");
 	return text;
 }
+
+/* What a program may write there; the rest is an input, or what a block or a chart says. */
+static bool is_writable(int type)
+{
+	static const int row[] = { 0, 60, 65, 70, 75, 200, 230, 231, 240, 250, 251, 260,
+				   280, 290, 300, 310 };
+
+	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++)
+		if (row[i] == type)
+			return true;
+	return false;
+}
+
+const char *target_of(struct conversion *c, struct classic_variable variable, bool *is_bool)
+{
+	const char *text = operand_of(c, variable, is_bool);
+
+	if (!text || is_writable(known_type(c, variable.type)))
+		return text;
+	tell(c, REPORT_LOST, "%s is written, which a program cannot: it was left out", text);
+	return NULL;
+}

@@ -71,10 +71,11 @@ static int number_behind(struct conversion *c, const char *base)
 const char *name_new(struct conversion *c, const char *wish)
 {
 	const char *base = as_name(c, wish), *name = base;
-	enum diag_id fault = reserved_fault(name);
 
-	if (fault != DIAG_COUNT)
+	if (reserved_fault(base) != DIAG_COUNT)
 		base = name = text_of(c, "%s_", base);
+	if (reserved_fault(base) != DIAG_COUNT) /* SYS_… */
+		base = name = text_of(c, "N%s", base);
 	while (!claim(c, name) && !c->arena->failed)
 		name = text_of(c, "%s_%d", base, number_behind(c, base));
 	return name;

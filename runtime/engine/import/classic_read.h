@@ -117,4 +117,9 @@ const char *classic_read_variable(const char *at, const char *end, char slash,
 /** classic_whole - brings everything into its order and looks whether it fits together:
  * chains of rungs, steps, dialect. */
 void classic_whole(struct classic_reader *reader);
+
+/* ---- classic_read_calls.c ---- */
+/** classic_calls - tells where subroutines call one another in a circle, or deeper than a
+ * program can here. Chains of rungs must be good, sections in order. */
+void classic_calls(struct classic_reader *reader);
 #endif

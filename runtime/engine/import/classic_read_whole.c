@@ -122,9 +122,10 @@ static void check_links(struct classic_reader *reader,
 		}
 }
 
-/* Rungs one after the other to the last; each is seen once, or they go in a circle. */
-static void check_chain(struct classic_reader *reader,
-			const struct classic_section *section)
+/* Rungs one after the other to the last; each is seen once, or they go in a circle. How
+ * many they are. */
+static int check_chain(struct classic_reader *reader,
+		       const struct classic_section *section)
 {
 	struct classic_project *project = reader->project;
 	struct classic_place place = section->place;
@@ -147,22 +148,40 @@ static void check_chain(struct classic_reader *reader,
 				text[to] = digit;
 			}
 			classic_fail_at(reader, DIAG_IMPORT_NO_RUNG, place, text, (size_t)len);
-			return;
+			return seen;
 		}
 		if (number == section->last)
-			return;
+			return seen + 1;
 		if (seen > project->rungs) {
 			classic_fail_at(reader, DIAG_IMPORT_CIRCLE, place, section->name,
 					strlen(section->name));
-			return;
+			return seen;
 		}
 		place = rung->place;
 		number = rung->next;
 		if (number < 0) {
 			classic_fail_at(reader, DIAG_IMPORT_CHAIN, place, section->name,
 					strlen(section->name));
-			return;
+			return seen + 1;
 		}
+	}
+}
+
+/* A rung may belong to several sections, but so it does in no project that was drawn: a few
+ * lines could stand for millions of rungs. */
+static void check_sections(struct classic_reader *reader)
+{
+	struct classic_project *project = reader->project;
+	int rungs = 0;
+
+	for (int i = 0; i < project->sections && rungs <= CLASSIC_LIMIT; i++) {
+		struct classic_section *section = &project->section[i];
+
+		if (!section->sequential)
+			rungs += check_chain(reader, section);
+		if (rungs > CLASSIC_LIMIT)
+			classic_fail_at(reader, DIAG_IMPORT_OVERLAP, section->place,
+					section->name, strlen(section->name));
 	}
 }
 
@@ -242,9 +261,7 @@ void classic_whole(struct classic_reader *reader)
 				"", 0);
 		return;
 	}
-	for (int i = 0; i < project->sections; i++)
-		if (!project->section[i].sequential)
-			check_chain(reader, &project->section[i]);
+	check_sections(reader);
 	for (int i = 0; i < project->transitions; i++) {
 		const struct classic_transition *transition = &project->transition[i];
 
@@ -252,4 +269,6 @@ void classic_whole(struct classic_reader *reader)
 		check_links(reader, transition, transition->deactivate,
 			    transition->deactivates);
 	}
+	if (reader->good)
+		classic_calls(reader);
 }

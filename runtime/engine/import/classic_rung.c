@@ -221,6 +221,16 @@ static void put_temporaries(struct conversion *c)
 	put(c, "%s", c->temps.count ? "END_VAR\n\n" : "");
 }
 
+static bool shown_before(const struct conversion *c, int index)
+{
+	const struct classic_section *section = c->project->section;
+
+	for (int i = 0; i < index; i++)
+		if (section[i].sequential && section[i].page == section[index].page)
+			return true;
+	return false;
+}
+
 static void write_section(struct conversion *c, int index)
 {
 	const struct classic_section *section = &c->project->section[index];
@@ -230,7 +240,10 @@ static void write_section(struct conversion *c, int index)
 	c->section = index;
 	c->section_pou = c->pou[index];
 	c->rungs_written = 0;
-	if (section->sequential) {
+	if (section->sequential && shown_before(c, index)) {
+		tell(c, REPORT_CHANGED, "section \"%s\" shows page %d once more: a page runs "
+		     "once a scan", section->name, section->page);
+	} else if (section->sequential) {
 		convert_chart(c, section);
 	} else {
 		if (!called)
@@ -420,6 +433,8 @@ static void write_all(struct conversion *c)
 	c->cap = 0;
 	for (int i = 0; i < c->project->sections; i++)
 		write_section(c, i);
+	if (!c->out->len)
+		put(c, "PROGRAM %s LD\nEND_PROGRAM\n\n", name_new(c, "Nothing"));
 	c->out = whole;
 	c->cap = 0;
 	c->at = (struct classic_place){ "", 0 };
