@@ -73,7 +73,7 @@ static void write_script(struct random_source *source, const char *text, FILE *f
 	static const int period[] = { 50, 50, 10, 100, 30, 20 };
 	const char *at = strstr(text, "VAR\n"), *end = strstr(text, "END_VAR");
 
-	fprintf(file, "@period %d\n@print %%Q7..8 %%B26", period[random_below(source, 6)]);
+	fprintf(file, "@period %d\n@print %%Q7..8", period[random_below(source, 6)]);
 	for (at = at ? strchr(at, '\n') + 1 : end; at && at < end; at = strchr(at, '\n') + 1) {
 		const char *type = strchr(at, ':');
 

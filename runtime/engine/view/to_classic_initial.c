@@ -76,6 +76,12 @@ static bool is_temporary(const struct out_slot *slot)
 void leave_initial(struct leaving *e)
 {
 	section_begin(e, "Initial", -1, false);
+	if (e->first >= 0) {
+		const struct out_part first = { .code = CL_COIL, .width = 1, .height = 1,
+			.variable = variable_of(CL_BIT, e->first) };
+
+		first_scan_only(e, &first);
+	}
 	for (int i = 0; i < e->slots && e->good; i++) {
 		const struct out_slot *slot = &e->slot[i];
 		const struct var *var = slot->var;

@@ -183,6 +183,7 @@ static void note_address(struct leaving *e, const char *text, size_t len, bool i
 
 	if (iec_addr_parse(text, len, &addr) != ADDR_OK)
 		return;
+	e->asks_first |= addr.area == AREA_SM;
 	if (addr.area == AREA_M && addr.bits == 1) {
 		int bit = (int)addr.byte * 8 + addr.bit;
 
@@ -231,6 +232,16 @@ static void note_array(struct leaving *e, const struct var *var)
 	}
 }
 
+static bool names_first(const char *text)
+{
+	static const char word[] = "SYS_FIRST_SCAN";
+
+	for (; *text; text++)
+		if (ascii_is(word, text, strnlen(text, sizeof(word) - 1)))
+			return true;
+	return false;
+}
+
 static void note_all(struct leaving *e)
 {
 	const struct names *names = &e->project->names;
@@ -240,6 +251,7 @@ static void note_all(struct leaving *e)
 
 		if (strncmp(text, "(*", 2) != 0)
 			note_text(e, text);
+		e->asks_first |= names_first(text);
 	}
 	/* Others may look at low numbers that the program does not use: Modbus, spies. */
 	if (e->dialect == CLASSIC_UPSTREAM && e->next_bit < 300)
@@ -250,6 +262,7 @@ static void note_all(struct leaving *e)
 		e->next_bit = 500;
 	if (e->word_index && e->next_word < 200)
 		e->next_word = 200;
+	e->first = e->asks_first && e->dialect != CLASSIC_UPSTREAM ? new_bit(e) : -1;
 }
 
 /* ---- slots ---- */
@@ -520,10 +533,8 @@ static bool meaning_operand(struct leaving *e, const struct meaning *m,
 		}
 		if (m->addr.area == AREA_SM && e->dialect != CLASSIC_UPSTREAM &&
 		    m->addr.bits == 1 && !m->addr.byte && m->addr.bit == 1) {
-			if (e->started < 0)
-				e->started = new_bit(e);
 			*out = (struct out_operand){ .is_bool = true,
-				.variable = variable_of(CL_BIT, e->started) };
+				.variable = variable_of(CL_BIT, e->first) };
 			return true;
 		}
 		return address_variable(e, m->addr, out) || no_number(e, text);

@@ -98,6 +98,8 @@ struct leaving {
 	bool divides, sums, indexes, clocks; /* what means something else there: told
 				  once for all                                */
 	uint8_t wide[2];       /* widths of %AI, %AQ in use: 1 16 bits, 2 32   */
+	bool asks_first;       /* a text may name SYS_FIRST_SCAN                */
+	int first;             /* a bit that is it; -1: none                   */
 	int started, never;    /* bits: a scan has been; never TRUE. -1: not needed */
 	/* the POU in work */
 	const struct pou *pou;
