@@ -398,9 +398,13 @@ static void work_out(struct splitting *s, int index)
 {
 	const struct out_part *item = &s->r->item[index];
 
-	if (s->done[index] || item->dead || item->actor || !s->e->good)
+	if (s->done[index] || item->actor || !s->e->good)
 		return;
 	s->done[index] = true;
+	if (item->dead) { /* what leads there works all the same */
+		settle(s, item->in);
+		return;
+	}
 	s->e->row = item->row + 1;
 	s->e->col = item->col + 1;
 	if (item->in != NET_RAIL)
