@@ -222,19 +222,12 @@ static bool declared_time(struct leaving *e, const char *name, int64_t *ns)
 static bool iec_time(struct leaving *e, struct out_part *item, const char *text)
 {
 	struct classic_block *block = block_entry(e, BLOCK_IEC, item->slot->number);
-	struct classic_block before;
 	int64_t ns;
 
 	if (!block || (!number_of(text, IEC_TIME, &ns) && !declared_time(e, text, &ns)))
 		return out_refuse(e, DIAG_EXPORT_TIME, "%s", text);
 	block->mode = item->word == FB_TON ? 0 : item->word == FB_TOF ? 1 : 2;
-	before = *block;
-	if (!time_units(e, ns, item->slot->name, block))
-		return false;
-	if (item->slot->calls > 1 && before.base * 10000 + before.preset !=
-				     block->base * 10000 + block->preset)
-		return out_refuse(e, DIAG_EXPORT_TWICE, "%s", item->slot->name);
-	return true;
+	return time_units(e, ns, item->slot->name, block);
 }
 
 static bool counter_preset(struct leaving *e, struct out_part *item, const char *text)
@@ -369,7 +362,9 @@ bool box_part(struct leaving *e, const struct network *network,
 	if (!item->slot || m->kind != MEANING_INSTANCE || m->var->array.count)
 		return out_refuse(e, DIAG_EXPORT_TYPE, "%s",
 			      project_text(e->project, cell->operand));
-	if (item->slot->calls++ && row >= &box_rows[OWN_ROWS + TIMER_ROWS])
+	if ((item->slot->calls++ && row >= &box_rows[OWN_ROWS]) ||
+	    (row >= &box_rows[OWN_ROWS] && row < &box_rows[OWN_ROWS + TIMER_ROWS] &&
+	     runs_often(e)))
 		return out_refuse(e, DIAG_EXPORT_TWICE, "%s", item->slot->name);
 	item->code = row->code;
 	item->width = 2;

@@ -184,6 +184,8 @@ bool box_part(struct leaving *e, const struct network *network,
 	      const struct network_element *at, const struct cell *cell,
 	      struct out_part *item);
 
+/** runs_often - may the rung in work run more than once in a scan? Scan-safe: no. */
+bool runs_often(struct leaving *e);
 /** blocks_prepare - presets and modes of all blocks. */
 void blocks_prepare(struct leaving *e);
 /** box_is_plain - can it be drawn as it stands? Scan-safe: yes. */
