@@ -38,7 +38,13 @@ struct classic_names {
 /* What one look at the project finds: classic_use.c. */
 struct classic_uses;
 
-struct classic_page_name { int section; const char *pou; };
+/* A step as it is here: classic_chart.c. */
+struct chart_step {
+	const char *name;
+	bool publishes;        /* %X3 is this one's: several may have a number     */
+	bool begins;           /* %X3 is TRUE before its page runs, and is seen    */
+	bool late;             /* but not from the very beginning on               */
+};
 
 struct conversion {
 	const struct classic_project *project;
@@ -63,6 +69,7 @@ struct conversion {
 	int cap_lines;
 	int temporaries;       /* BOOLs between the parts of a rung                */
 	struct { const char **name; int count; } temps, programs;
+	struct chart_step *step; /* of each step; NULL: not needed yet             */
 	const char *system;    /* the program of system bits; NULL: none is needed */
 	const char *flash;     /* its time                                         */
 };
@@ -188,6 +195,8 @@ void write_functions(struct conversion *c);
 /* ---- rungs: classic_grid.c, charts: classic_chart.c ---- */
 void convert_rung(struct conversion *c, const struct classic_rung *rung);
 void convert_chart(struct conversion *c, const struct classic_section *section);
+/** step_begins - is %X@number TRUE from the very beginning on? */
+bool step_begins(struct conversion *c, int number);
 /** convert_others - what a page does for the steps of other pages, behind its chart. */
 void convert_others(struct conversion *c, const struct classic_section *section);
 #endif

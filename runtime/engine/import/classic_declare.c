@@ -136,7 +136,8 @@ static void put_step(struct conversion *c, const struct classic_name *name)
 	if (name->type == STEP_TIME)
 		put(c, "  XTime%d : CL_STEP; (* %%X%d.V *)\n", name->number, name->number);
 	else
-		put(c, "  %s : BOOL; (* %%X%d.A *)\n", name->name, name->number);
+		put(c, "  %s : BOOL%s; (* %%X%d.A *)\n", name->name,
+		    step_begins(c, name->number) ? " := TRUE" : "", name->number);
 }
 
 void write_declarations(struct conversion *c)
