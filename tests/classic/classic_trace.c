@@ -40,7 +40,7 @@ int main(int argc, char **argv)
 	if (upstream)
 		loaded.project->dialect = CLASSIC_UPSTREAM;
 	script = load_text(file[1]);
-	if (!script || !run_script(loaded.project, faithful, changes, script, stdout, NULL))
+	if (!script || !run_script(loaded.project, faithful, changes, script, stdout))
 		status = 1;
 	free(script);
 	unload_project(&loaded);

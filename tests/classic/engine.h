@@ -36,7 +36,6 @@ struct engine {
 	const struct classic_project *project;
 	bool faithful;           /* the original's faults, too                 */
 	bool stopped;            /* too many jumps                             */
-	bool endless;            /* a page did not come to rest in a scan      */
 	int scans;
 	int32_t period;          /* ms, of this scan                           */
 	int64_t now;             /* ms, when this scan began                   */

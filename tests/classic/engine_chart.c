@@ -78,6 +78,5 @@ void engine_chart(struct engine *engine, int page)
 			if (project->transition[i].page == page)
 				fired |= fire(engine, &project->transition[i]);
 	}
-	engine->endless |= fired;
 	publish(engine, page);
 }

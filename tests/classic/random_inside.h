@@ -9,7 +9,7 @@
 
 enum {
 	ROWS = 8, COLUMNS = 12,
-	BITS = 24, INPUTS = 8, OUTPUTS = 10, WORDS = 12, BLOCKS = 4, STEPS = 12,
+	BITS = 24, INPUTS = 8, OUTPUTS = 10, WORDS = 12, BLOCKS = 4, PAGES = 3, PAGE_STEPS = 6, STEPS = PAGES * PAGE_STEPS,
 	FIRST_INDEX = 40, INDICES = 3  /* words that hold 0 to 7               */
 };
 
@@ -25,8 +25,8 @@ struct making {
 	int used[5], before[5];  /* blocks of each kind; before this rung      */
 	int target;              /* last rung of the section                   */
 	int subroutines, callable; /* those from callable on may be called     */
-	int pages, pages_put, transitions;
-	int steps[4];            /* of each page                               */
+	int pages, transitions;
+	int steps[PAGES];        /* of each page                               */
 };
 
 /** making_put - more text. */

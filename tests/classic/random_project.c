@@ -275,13 +275,36 @@ static void put_rungs(struct making *making, int first, int count)
 			 i + 1 < count ? first + i + 1 : -1);
 }
 
+/* One of them in front of the others still to come, as long as there are any. */
+static int choose(struct making *making, int *left, int kinds)
+{
+	int total = 0, at;
+
+	for (int i = 0; i < kinds; i++)
+		total += left[i];
+	if (!total)
+		return -1;
+	at = making_below(making, total);
+	for (int i = 0; i < kinds; i++) {
+		if (at < left[i]) {
+			left[i]--;
+			return i;
+		}
+		at -= left[i];
+	}
+	return -1;
+}
+
+/* Main sections, sub-routines and pages in any order; now and then a page that no section
+ * shows. */
 static void put_sections(struct making *making)
 {
-	int mains = 1 + making_below(making, 2), rung = 0, sections = 0;
-	int first[16], count[16];
+	enum { MAIN, SUBROUTINE, PAGE, KINDS };
+	int mains = 1 + making_below(making, 3), rung = 0, sections = 0, kind;
+	int first[16], count[16], left[KINDS], done[KINDS] = { 0 }, turn;
 
 	making->subroutines = making_chance(making, 40) ? 1 + making_below(making, 3) : 0;
-	making->pages = making_chance(making, 45) ? 1 + making_below(making, 2) : 0;
+	making->pages = making_chance(making, 60) ? 1 + making_below(making, PAGES) : 0;
 	for (int i = 0; i < mains + making->subroutines; i++) {
 		first[i] = rung;
 		count[i] = 1 + making_below(making, 4);
@@ -289,21 +312,22 @@ static void put_sections(struct making *making)
 		put_rungs(making, rung, count[i]);
 		rung += count[i];
 	}
+	left[MAIN] = mains;
+	left[SUBROUTINE] = making->subroutines;
+	left[PAGE] = making->pages - (making->pages > 1 && making_chance(making, 10));
+	turn = making->pages ? making_below(making, making->pages) : 0;
 	making_put(making, "_FILE-sections.csv\n#VER=1.0\n");
-	if (making->pages && making_chance(making, 50)) {
-		making->pages--;
-		making_put(making, "%03d,1,-1,0,0,%d\n", sections++, making->pages);
-		making->pages += 1;
-		making->pages_put = 1;
+	while ((kind = choose(making, left, KINDS)) >= 0) {
+		int n = done[kind]++, at = kind == SUBROUTINE ? mains + n : n;
+
+		if (kind == PAGE)
+			making_put(making, "%03d,1,-1,0,0,%d\n", sections++,
+				   (turn + n) % making->pages);
+		else
+			making_put(making, "%03d,0,%d,%d,%d,0\n", sections++,
+				   kind == MAIN ? -1 : n, first[at],
+				   first[at] + count[at] - 1);
 	}
-	for (int i = 0; i < mains; i++)
-		making_put(making, "%03d,0,-1,%d,%d,0\n", sections++, first[i],
-		    first[i] + count[i] - 1);
-	for (int i = 0; i < making->subroutines; i++)
-		making_put(making, "%03d,0,%d,%d,%d,0\n", sections++, i, first[mains + i],
-		    first[mains + i] + count[mains + i] - 1);
-	for (int i = 0; i < making->pages - making->pages_put; i++)
-		making_put(making, "%03d,1,-1,0,0,%d\n", sections++, i);
 	making_put(making, "_/FILE-sections.csv\n");
 }
 
@@ -312,7 +336,8 @@ static void put_sections(struct making *making)
 /* A list of up to @most steps of the page, ten numbers. */
 static void put_links(struct making *making, int first, int count, int most)
 {
-	int links = making_chance(making, 80) ? 1 : 1 + making_below(making, most);
+	/* None now and then: out of nothing, into nothing.                     */
+	int links = making_chance(making, 75) ? 1 : making_below(making, most + 1);
 	int at = making_below(making, count);
 
 	for (int i = 0; i < 10; i++) {
@@ -322,13 +347,15 @@ static void put_links(struct making *making, int first, int count, int most)
 
 static void put_page(struct making *making, int page, int first_transition)
 {
-	int steps = 3 + making_below(making, STEPS / 2 - 3), first = page * STEPS / 2;
+	int steps = 3 + making_below(making, PAGE_STEPS - 3), first = page * PAGE_STEPS;
 	int transitions = steps + making_below(making, 4);
 
 	making->steps[page] = steps;
 	for (int i = 0; i < steps; i++)
 		making_put(making, "S%d,%d,%d,%d,%d,%d\n", first + i, i == 0 || making_chance(making, 8),
-		    first + i, page, 1 + i % 8 * 2, 1 + i / 8 * 4);
+		    /* Some have a number that another one has, too.                */
+		    making_chance(making, 95) ? first + i : making_below(making, STEPS),
+		    page, 1 + i % 8 * 2, 1 + i / 8 * 4);
 	for (int i = 0; i < transitions; i++) {
 		struct cell cell = { .index = -1 };
 
@@ -345,9 +372,7 @@ static void put_page(struct making *making, int page, int first_transition)
 		for (int k = 0; k < 20; k++)
 			making_put(making, "-1,");
 		read_bit(making, &cell);
-		/* What %X of another page is in the first scan nobody has seen.        */
-		if (cell.type == 50 || cell.type == 30 || making_chance(making, 50)) {
-			/* Seldom true, so that few pages go round and round.           */
+		if (making_chance(making, 40)) {
 			cell.type = 50;
 			cell.number = INPUTS + making_below(making, INPUTS);
 		}
@@ -457,8 +482,8 @@ static void put_script(struct making *making)
 		making_put(making, " %%R%d.S %%R%d.O", i, i);
 	for (int page = 0; page < making->pages; page++)
 		for (int i = 0; i < making->steps[page]; i++)
-			making_put(making, " %%X%d.A %%X%d.V", page * STEPS / 2 + i,
-				   page * STEPS / 2 + i);
+			making_put(making, " %%X%d.A %%X%d.V", page * PAGE_STEPS + i,
+				   page * PAGE_STEPS + i);
 	making_put(making, "\n");
 	for (int i = 0; i < lines; i++) {
 		int settings = making_below(making, 4);

@@ -176,7 +176,7 @@ static void command(struct engine *engine, struct shown *shown, const char *at, 
 }
 
 bool run_script(const struct classic_project *project, bool faithful, bool changes,
-		const char *script, FILE *out, bool *endless)
+		const char *script, FILE *out)
 {
 	struct engine *engine = engine_new(project, faithful);
 	struct shown *shown = calloc(1, sizeof(*shown));
@@ -209,8 +209,6 @@ bool run_script(const struct classic_project *project, bool faithful, bool chang
 		}
 		script = *end ? end + 1 : end;
 	}
-	if (endless)
-		*endless = engine && engine->endless;
 	free(shown);
 	engine_free(engine);
 	return good;

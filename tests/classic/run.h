@@ -26,9 +26,8 @@ char *load_text(const char *path);
  *
  * A line sets variables and is a scan: `%I0=1 %W3=-4`, `.`, `+N` it takes N ms, `xN` N of
  * them, `quiet` the last alone is shown. `@print %Q0..7 …`, `@echo …`, `@period N`,
- * `@reset`. With @changes only what changed is shown. @endless: NULL, or is told whether
- * a sequential page did not come to rest.
+ * `@reset`. With @changes only what changed is shown.
  */
 bool run_script(const struct classic_project *project, bool faithful, bool changes,
-		const char *script, FILE *out, bool *endless);
+		const char *script, FILE *out);
 #endif
