@@ -72,7 +72,8 @@ static void read_bit(struct making *making, struct cell *cell)
 		cell->number = making_below(making, STEPS);
 	} else {
 		cell->type = making->linuxcnc ? 75 : making_chance(making, 50) ? 70 : 65;
-		cell->number = making_below(making, 9);
+		/* %S7 and %S8 tell of divisions and shifts, in what has no power, too. */
+		cell->number = making_below(making, cell->type == 70 ? 7 : 9);
 	}
 	if (cell->type == 0 && making_chance(making, 10))
 		cell->index = FIRST_INDEX + making_below(making, INDICES);
@@ -458,7 +459,9 @@ static void put_setting(struct making *making)
 	else if (making_chance(making, 40))
 		making_put(making, "%%IW%d=%d ", making_below(making, 8), making_below(making, 40) - 10);
 	else if (making_chance(making, 60))
-		making_put(making, "%%W%d=%d ", making_below(making, WORDS), making_below(making, 300) - 100);
+		making_put(making, "%%W%d=%d ", making_below(making, WORDS),
+			   making_chance(making, 80) ? making_below(making, 300) - 100 :
+			   2147483647 - making_below(making, 20));
 	else
 		making_put(making, "%%W%d=%d ", FIRST_INDEX + making_below(making, INDICES),
 		    making_below(making, 8));

@@ -30,11 +30,13 @@ struct parse {
 /* A part of an expression: its text, and how strongly it holds together here. */
 struct part {
 	const char *text;
-	const char *a, *b; /* of a product of two that may be large: its factors */
+	const char *a, *b; /* of what may wrap: its operands, of this function */
+	enum classic_function function;
 	int rank;          /* 0: an operand or call; greater: weaker           */
 	bool constant;
 	int32_t value;     /* of a constant                                    */
-	bool large;        /* it has bits of all places: a sum with it may wrap */
+	bool known;        /* it lies between these two; else it can be any    */
+	int32_t low, high;
 };
 
 enum { RANK_OPERAND, RANK_SIGN, RANK_PRODUCT, RANK_SUM };
@@ -53,21 +55,42 @@ static struct part constant(struct parse *p, int64_t value)
 	int32_t number = (int32_t)(uint32_t)(uint64_t)value;
 
 	return (struct part){ .text = text_of(p->c, "%d", number), .constant = true,
-			      .value = number, .rank = number < 0 ? RANK_SIGN :
-								    RANK_OPERAND };
+			      .value = number, .known = true, .low = number,
+			      .high = number, .rank = number < 0 ? RANK_SIGN :
+								   RANK_OPERAND };
 }
 
 static const char *function_call(struct parse *p, enum classic_function function,
 				 const char *a, const char *b);
+static struct part add(struct parse *p, struct part a, struct part b, char op);
 
-/* As an operand of something else. A product that overflows there goes on with what is
- * left of it, and must not end the expression: a function of its own. */
+/* As an operand of something else. What overflows there goes on with what is left of it,
+ * and must not end the expression: a function of its own. */
 static const char *inside(struct parse *p, struct part part, int rank)
 {
 	if (part.a)
-		return function_call(p, CLASSIC_PRODUCT, part.a, part.b);
-
+		return function_call(p, part.function, part.a, part.b);
 	return part.rank > rank ? text_of(p->c, "(%s)", part.text) : part.text;
+}
+
+/* ---- how large it can be ---- */
+
+static int32_t low_of(struct part part)
+{
+	return part.known ? part.low : INT32_MIN;
+}
+
+static int32_t high_of(struct part part)
+{
+	return part.known ? part.high : INT32_MAX;
+}
+
+/* What goes beyond 32 bits wraps, and can be anything. */
+static void keep_range(struct part *part, int64_t low, int64_t high)
+{
+	part->known = low >= INT32_MIN && high <= INT32_MAX;
+	part->low = part->known ? (int32_t)low : 0;
+	part->high = part->known ? (int32_t)high : 0;
 }
 
 static bool accept(struct parse *p, const char *word)
@@ -144,8 +167,9 @@ static struct part parse_variable(struct parse *p)
 	text = operand_of(p->c, variable, &is_bool);
 	if (!text)
 		return fail(p);
-	return (struct part){ .text = is_bool ? text_of(p->c, "BOOL_TO_DINT(%s)", text) :
-						text };
+	return !is_bool ? (struct part){ .text = text } :
+	       (struct part){ .text = text_of(p->c, "BOOL_TO_DINT(%s)", text),
+			      .known = true, .high = 1 };
 }
 
 /* ---- constants ---- */
@@ -206,11 +230,11 @@ enum { KNOWN = sizeof(known_functions) / sizeof(*known_functions) };
 /* "(a + b + c) / 3" */
 static const char *average(struct parse *p, const struct part *part, int count)
 {
-	const char *sum = inside(p, part[0], RANK_SUM);
+	struct part sum = part[0];
 
 	for (int i = 1; i < count; i++)
-		sum = text_of(p->c, "%s + %s", sum, inside(p, part[i], RANK_PRODUCT));
-	return text_of(p->c, "(%s) / %d", sum, count);
+		sum = add(p, sum, part[i], '+');
+	return text_of(p->c, "%s / %d", inside(p, sum, RANK_PRODUCT), count);
 }
 
 static struct part call(struct parse *p, const struct known *known,
@@ -219,7 +243,7 @@ static struct part call(struct parse *p, const struct known *known,
 	const char *list = inside(p, part[0], RANK_SUM);
 
 	if (known->function >= 0 && count == 2)
-		return (struct part){ .large = true, .text = function_call(
+		return (struct part){ .text = function_call(
 			p, (enum classic_function)known->function,
 			inside(p, part[0], RANK_SUM), inside(p, part[1], RANK_SUM)) };
 	if (known->function >= 0)
@@ -274,6 +298,21 @@ static const char *function_call(struct parse *p, enum classic_function function
 	return text_of(p->c, "%s(%s, %s)", p->c->function_name[function], a, b);
 }
 
+/* Of the least number it is that number itself. */
+static struct part negate(struct parse *p, struct part part)
+{
+	const char *text = inside(p, part, RANK_OPERAND);
+	struct part out = { .text = text_of(p->c, "-%s", text), .rank = RANK_SIGN };
+
+	keep_range(&out, -(int64_t)high_of(part), -(int64_t)low_of(part));
+	if (!out.known) {
+		out.a = "0";
+		out.b = text;
+		out.function = CLASSIC_DIFFERENCE;
+	}
+	return out;
+}
+
 static struct part parse_term(struct parse *p);
 
 /* Behind a minus, which there is 0. Two are none, so that they do not stand one in another. */
@@ -293,8 +332,7 @@ static struct part negative(struct parse *p)
 		return constant(p, odd ? -(int64_t)part.value : part.value);
 	if (!odd)
 		return part;
-	return (struct part){ .text = text_of(p->c, "-%s", inside(p, part, RANK_OPERAND)),
-			      .rank = RANK_SIGN };
+	return negate(p, part);
 }
 
 static struct part parse_term(struct parse *p)
@@ -306,7 +344,8 @@ static struct part parse_term(struct parse *p)
 	if (accept(p, "!")) {
 		part = parse_term(p);
 		part = (struct part){ .text = text_of(p->c, "BOOL_TO_DINT(%s = 0)",
-						      inside(p, part, RANK_SUM)) };
+						      inside(p, part, RANK_SUM)),
+				      .known = true, .high = 1 };
 	} else if (accept(p, "(")) {
 		part = parse_or(p);
 		if (!accept(p, ")"))
@@ -335,13 +374,35 @@ static struct part parse_term(struct parse *p)
 /* Division by what cannot be zero needs no help. */
 static struct part divide(struct parse *p, struct part a, struct part b, bool rest)
 {
-	if (b.constant && b.value != 0 && b.value != -1)
-		return (struct part){ .text = text_of(p->c, "%s %s %s",
+	if (b.constant && b.value != 0 && b.value != -1) {
+		const int64_t by = b.value < 0 ? -(int64_t)b.value : b.value;
+		const int64_t most = rest ? by - 1 : -(int64_t)INT32_MIN / by;
+		struct part part = { .text = text_of(p->c, "%s %s %s",
 			inside(p, a, RANK_PRODUCT), rest ? "MOD" : "/",
 			inside(p, b, RANK_OPERAND)), .rank = RANK_PRODUCT };
+
+		keep_range(&part, -most, most);
+		return part;
+	}
 	return (struct part){ .text = function_call(
 		p, rest ? CLASSIC_REMAINDER : CLASSIC_DIVIDE, inside(p, a, RANK_SUM),
 		inside(p, b, RANK_SUM)) };
+}
+
+/* The least and the greatest of all products. */
+static void keep_product(struct part *part, struct part a, struct part b)
+{
+	const int64_t corner[] = {
+		(int64_t)low_of(a) * low_of(b), (int64_t)low_of(a) * high_of(b),
+		(int64_t)high_of(a) * low_of(b), (int64_t)high_of(a) * high_of(b),
+	};
+	int64_t low = corner[0], high = corner[0];
+
+	for (int i = 1; i < 4; i++) {
+		low = corner[i] < low ? corner[i] : low;
+		high = corner[i] > high ? corner[i] : high;
+	}
+	keep_range(part, low, high);
 }
 
 static struct part multiply(struct parse *p, struct part a, struct part b)
@@ -353,9 +414,11 @@ static struct part multiply(struct parse *p, struct part a, struct part b)
 
 	if (a.constant && b.constant && product != (int32_t)product)
 		return constant(p, product);
-	if (a.large || b.large || (!a.constant && !b.constant)) {
+	keep_product(&part, a, b);
+	if (!part.known) {
 		part.a = left;
 		part.b = right;
+		part.function = CLASSIC_PRODUCT;
 	}
 	return part;
 }
@@ -374,17 +437,22 @@ static struct part parse_product(struct parse *p)
 	return part;
 }
 
-/* One that is likely to wrap must not end the expression. */
 static struct part add(struct parse *p, struct part a, struct part b, char op)
 {
-	int rank = b.rank == RANK_SIGN ? RANK_OPERAND : RANK_PRODUCT;
+	const bool plus = op == '+';
+	const char *left = inside(p, a, RANK_SUM);
+	const char *right = inside(p, b, b.rank == RANK_SIGN ? RANK_OPERAND : RANK_PRODUCT);
+	struct part part = { .text = text_of(p->c, "%s %c %s", left, op, right),
+			     .rank = RANK_SUM };
 
-	if (a.large || b.large || a.a || b.a)
-		return (struct part){ .large = true, .text = function_call(
-			p, op == '+' ? CLASSIC_SUM : CLASSIC_DIFFERENCE,
-			inside(p, a, RANK_SUM), inside(p, b, RANK_SUM)) };
-	return (struct part){ .text = text_of(p->c, "%s %c %s", inside(p, a, RANK_SUM), op,
-					      inside(p, b, rank)), .rank = RANK_SUM };
+	keep_range(&part, (int64_t)low_of(a) + (plus ? low_of(b) : -(int64_t)high_of(b)),
+		   (int64_t)high_of(a) + (plus ? high_of(b) : -(int64_t)low_of(b)));
+	if (!part.known) {
+		part.a = left;
+		part.b = right;
+		part.function = plus ? CLASSIC_SUM : CLASSIC_DIFFERENCE;
+	}
+	return part;
 }
 
 static struct part parse_sum(struct parse *p)
@@ -407,7 +475,9 @@ static struct part parse_and(struct parse *p)
 	while (!p->failed && accept(p, "&")) {
 		other = parse_sum(p);
 		part = (struct part){ .text = function_call(p, CLASSIC_AND,
-			inside(p, part, RANK_SUM), inside(p, other, RANK_SUM)) };
+			inside(p, part, RANK_SUM), inside(p, other, RANK_SUM)),
+			.known = other.constant && other.value >= 0,
+			.high = other.value };
 	}
 	return part;
 }

@@ -81,8 +81,9 @@ static void name_arcs(struct lad *e)
 			&e->sfc->transition[e->net.arc[i].transition];
 		const char *base = t->name ?
 			lad_text(e, "%s_Fires", project_text(e->project, t->name)) :
-			lad_text(e, "%s_%s", first_name(e, t->first_from),
-				 first_name(e, t->first_to));
+			lad_text(e, "%s_%s",
+				 t->from_count ? first_name(e, t->first_from) : "In",
+				 t->to_count ? first_name(e, t->first_to) : "Out");
 
 		make_var(e, &e->arc[i][LAD_FIRES], "BOOL", base, NULL);
 		make_var(e, &e->arc[i][LAD_RESULT], "BOOL",
@@ -121,6 +122,7 @@ static void name_chart(struct lad *e)
 		[LAD_CHANGED] = { "Changed", "BOOL" }, [LAD_NUMBER] = { "Number", "" },
 		[LAD_SET] = { "Forced", "BOOL" }, [LAD_GO] = { "Go", "BOOL" },
 		[LAD_HAND] = { "ByHand", "BOOL" }, [LAD_ONCE] = { "Once", "BOOL" },
+		[LAD_ROUNDS] = { "Rounds", "INT" }, [LAD_FIRED] = { "Fired", "BOOL" },
 	};
 	const char *name = project_text(e->project, e->pou->name);
 
@@ -130,6 +132,7 @@ static void name_chart(struct lad *e)
 	e->steps_name = lad_fresh(e, lad_text(e, "%s_Steps", name));
 	e->outputs_name = lad_fresh(e, lad_text(e, "%s_Outputs", name));
 	e->again = lad_fresh(e, lad_text(e, "%s_Again", name));
+	e->round = lad_is_in_order(e) ? lad_fresh(e, lad_text(e, "%s_Round", name)) : 0;
 	for (int i = 0; i < sfc_bodies(e->sfc); i++) {
 		const int action = i - e->sfc->transition_count;
 

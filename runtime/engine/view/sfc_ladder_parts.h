@@ -34,9 +34,10 @@ enum lad_line { LAD_STORED, LAD_SINCE, LAD_ARMED, LAD_ALLOWED, LAD_LINE_VARS };
 enum lad_call { LAD_CALLED, LAD_LEVEL, LAD_WAS, LAD_CALL_VARS };
 /* Of the chart: it runs; this is its first scan; time; RESET rises; nothing fires; FORCE
  * has changed, what it was, a step is forced; transitions fire if they are true, or
- * whatever they are. */
+ * whatever they are; IN ORDER rounds so far, one has fired in this one. */
 enum lad_chart { LAD_RUNS, LAD_FIRST, LAD_CLOCK, LAD_PASSED, LAD_LAST, LAD_ANEW,
 		 LAD_STANDS, LAD_CHANGED, LAD_NUMBER, LAD_SET, LAD_GO, LAD_HAND, LAD_ONCE,
+		 LAD_ROUNDS, LAD_FIRED,
 		 LAD_CHART_VARS };
 
 /* What steps call: an action, or a BOOL. */
@@ -65,7 +66,7 @@ struct lad {
 	int called_count;
 	int *same;           /* by line: the first one with the same BOOL      */
 	uint32_t *body;      /* names of subroutines: by sfc_body()            */
-	uint32_t steps_name, outputs_name, again; /* POUs, a label             */
+	uint32_t steps_name, outputs_name, again, round; /* POUs, labels      */
 	uint32_t *renamed;   /* by variable of the POU: its new name; 0: as it was */
 	const char *condition; /* what TRANSITION is in what is written        */
 	struct iec_addr at, last; /* of the first step and the last one        */
@@ -135,7 +136,18 @@ bool lad_has_gate(const struct lad *e);
 bool lad_has_modes(const struct lad *e);
 void lad_control(struct lad *e);
 
+/* ---- IN ORDER: sfc_ladder_order.c ---- */
+bool lad_is_in_order(const struct lad *e);
+/** lad_order - rounds of transitions, each with what it does to its steps. */
+void lad_order(struct lad *e);
+
 /* ---- the two programs ---- */
+/** lad_arc - the rungs that tell whether an arc fires; @label: of the first one. */
+void lad_arc(struct lad *e, int arc, const char *label);
+/** lad_once - what a step has to SET and RESET. */
+void lad_once(struct lad *e, struct lad_rung *r, int step);
+/** lad_steps_text - "Fill + Stir". */
+char *lad_steps_text(struct lad *e, const struct sfc_steps *steps);
 void lad_steps(struct lad *e);
 void lad_outputs(struct lad *e);
 /** lad_body - the body as a subroutine. @result: NULL, or what gets its last result. */

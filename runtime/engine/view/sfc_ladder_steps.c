@@ -119,7 +119,7 @@ static bool has(const struct sfc_steps *steps, int step)
 	return false;
 }
 
-static char *steps_text(struct lad *e, const struct sfc_steps *steps)
+char *lad_steps_text(struct lad *e, const struct sfc_steps *steps)
 {
 	char *text = (char *)"";
 
@@ -211,9 +211,11 @@ static void put_enabled(struct lad *e, struct lad_rung *r, int number,
 
 	for (int k = 0; k < arc->from.count; k++)
 		put(r, no(e, &e->step[arc->from.step[k]][LAD_X]));
+	if (!arc->from.count)
+		put(r, nc(e, &e->chart[LAD_FIRST]));
 	if (lad_has_gate(e))
 		put(r, nc(e, &e->chart[LAD_STANDS]));
-	for (int k = 0; k < number; k++)
+	for (int k = 0; k < number && !lad_is_in_order(e); k++)
 		if (share(&arc->from, &e->net.arc[k].from))
 			put(r, nc(e, &e->arc[k][LAD_FIRES]));
 }
@@ -234,24 +236,34 @@ static void write_fires(struct lad *e, int arc, const char *title)
 	lad_write(e, r, "", title);
 }
 
-static void write_arcs(struct lad *e)
+void lad_arc(struct lad *e, int arc, const char *label)
 {
 	const bool modes = lad_has_modes(e);
+	struct lad_rung *r = lad_begin(e);
+	const char *title = lad_text(e, "%s -> %s",
+				     lad_steps_text(e, &e->net.arc[arc].from),
+				     lad_steps_text(e, &e->net.arc[arc].to));
 
-	for (int i = 0; i < e->net.arc_count; i++) {
-		const struct sfc_arc *arc = &e->net.arc[i];
-		struct lad_rung *r = lad_begin(e);
-		const char *title = lad_text(e, "%s -> %s", steps_text(e, &arc->from),
-					     steps_text(e, &arc->to));
+	put_enabled(e, r, arc, lad_head);
+	write_condition(e, r, arc);
+	lad_out(r, coil(e, "COIL", &e->arc[arc][modes ? LAD_TRUE : LAD_FIRES]));
+	lad_write(e, r, label, modes ? lad_text(e, "%s: is it true?", title) : title);
+	if (modes)
+		write_fires(e, arc, title);
+}
 
-		put_enabled(e, r, i, lad_head);
-		write_condition(e, r, i);
-		lad_out(r, coil(e, "COIL", &e->arc[i][modes ? LAD_TRUE : LAD_FIRES]));
-		lad_write(e, r, i == 0 && sfc_goes_round(e->sfc) ? text_of(e, e->again) : "",
-			  modes ? lad_text(e, "%s: is it true?", title) : title);
-		if (modes)
-			write_fires(e, i, title);
-	}
+static void write_arcs(struct lad *e)
+{
+	const char *again = sfc_goes_round(e->sfc) ? text_of(e, e->again) : "";
+
+	for (int i = 0; i < e->net.arc_count; i++)
+		lad_arc(e, i, i == 0 ? again : "");
+}
+
+/* Those that act together, behind all of their conditions; IN ORDER each has acted. */
+static int arcs_together(const struct lad *e)
+{
+	return lad_is_in_order(e) ? 0 : e->net.arc_count;
 }
 
 /* ---- which steps begin and end ---- */
@@ -290,7 +302,7 @@ static void write_start(struct lad *e, int step)
 {
 	struct lad_rung *r = lad_begin(e);
 
-	for (int i = 0; i < e->net.arc_count; i++) {
+	for (int i = 0; i < arcs_together(e); i++) {
 		if (!has(&e->net.arc[i].to, step))
 			continue;
 		lad_way(r);
@@ -319,7 +331,7 @@ static void write_left(struct lad *e, int step)
 {
 	struct lad_rung *r = lad_begin(e);
 
-	for (int i = 0; i < e->net.arc_count; i++) {
+	for (int i = 0; i < arcs_together(e); i++) {
 		if (!has(&e->net.arc[i].from, step))
 			continue;
 		lad_way(r);
@@ -328,7 +340,7 @@ static void write_left(struct lad *e, int step)
 	if (!r || !r->ways)
 		lad_cell(r, nc(e, &e->step[step][LAD_LEFT])), lad_cell(r,
 			 no(e, &e->step[step][LAD_LEFT])); /* never */
-	for (int i = 0; i < e->net.arc_count; i++)
+	for (int i = 0; i < arcs_together(e); i++)
 		if (has(&e->net.arc[i].to, step))
 			lad_head(r, nc(e, &e->arc[i][LAD_FIRES]));
 	lad_out(r, coil(e, "COIL", &e->step[step][LAD_LEFT]));
@@ -339,7 +351,10 @@ static void write_end(struct lad *e, int step)
 {
 	struct lad_rung *r = lad_begin(e);
 
-	lad_cell(r, no(e, &e->step[step][LAD_LEFT]));
+	if (!lad_is_in_order(e)) {
+		lad_way(r);
+		lad_cell(r, no(e, &e->step[step][LAD_LEFT]));
+	}
 	if (lad_has_reset(e)) {
 		lad_way(r);
 		lad_cell(r, no(e, &e->chart[LAD_ANEW]));
@@ -350,6 +365,8 @@ static void write_end(struct lad *e, int step)
 		lad_cell(r, no(e, &e->chart[LAD_SET]));
 		lad_cell(r, no(e, &e->step[step][LAD_X]));
 	}
+	if (!r || !r->ways)
+		return;
 	if (!sfc_goes_round(e->sfc))
 		lad_out(r, coil(e, "COIL", &e->step[step][LAD_END]));
 	if (sfc_goes_round(e->sfc) && e->step[step][LAD_ENDED].used)
@@ -376,7 +393,7 @@ static void write_pulses(struct lad *e)
 
 		if (e->step[i][LAD_START].used || e->step[i][LAD_STARTED].used)
 			write_start(e, i);
-		if (step->min && step->alarm)
+		if (step->min && step->alarm && !lad_is_in_order(e))
 			lad_use(e, &e->step[i][LAD_LEFT]);
 		if (e->step[i][LAD_LEFT].used)
 			write_left(e, i);
@@ -384,7 +401,7 @@ static void write_pulses(struct lad *e)
 			write_end(e, i);
 	}
 	for (int i = 0; i < e->sfc->step_count; i++)
-		if (e->sfc->step[i].min && e->sfc->step[i].alarm)
+		if (e->sfc->step[i].min && e->sfc->step[i].alarm && !lad_is_in_order(e))
 			write_minimum(e, i);
 }
 
@@ -407,14 +424,14 @@ static void write_leaving(struct lad *e, struct lad_var *when, const char *title
 
 static void write_resets(struct lad *e)
 {
-	for (int i = 0; i < e->net.arc_count; i++) {
+	for (int i = 0; i < arcs_together(e); i++) {
 		const struct sfc_arc *arc = &e->net.arc[i];
 		struct lad_rung *r = lad_begin(e);
 
 		lad_head(r, no(e, &e->arc[i][LAD_FIRES]));
 		for (int k = 0; k < arc->from.count; k++)
 			lad_out(r, coil(e, "R", &e->step[arc->from.step[k]][LAD_X]));
-		lad_write(e, r, "", lad_text(e, "Leave %s", steps_text(e, &arc->from)));
+		lad_write(e, r, "", lad_text(e, "Leave %s", lad_steps_text(e, &arc->from)));
 	}
 	if (lad_has_reset(e))
 		write_leaving(e, &e->chart[LAD_ANEW], "RESET leaves all steps");
@@ -426,14 +443,14 @@ static void write_sets(struct lad *e)
 {
 	struct lad_rung *r;
 
-	for (int i = 0; i < e->net.arc_count; i++) {
+	for (int i = 0; i < arcs_together(e); i++) {
 		const struct sfc_arc *arc = &e->net.arc[i];
 
 		r = lad_begin(e);
 		lad_head(r, no(e, &e->arc[i][LAD_FIRES]));
 		for (int k = 0; k < arc->to.count; k++)
 			lad_out(r, coil(e, "S", &e->step[arc->to.step[k]][LAD_X]));
-		lad_write(e, r, "", lad_text(e, "Enter %s", steps_text(e, &arc->to)));
+		lad_write(e, r, "", lad_text(e, "Enter %s", lad_steps_text(e, &arc->to)));
 	}
 	r = lad_begin(e);
 	lad_cell(r, no(e, &e->chart[LAD_FIRST]));
@@ -456,10 +473,23 @@ static void write_sets(struct lad *e)
 	}
 }
 
+void lad_once(struct lad *e, struct lad_rung *r, int step)
+{
+	const struct sfc_step *at = &e->sfc->step[step];
+
+	for (int k = 0; k < at->use_count; k++) {
+		const struct sfc_use *use = &e->sfc->use[at->first_use + k];
+
+		if (use->kind == USE_ACTION)
+			continue;
+		lad_out(r, lad_text(e, "%s %s", use->kind == USE_SET ? "S" : "R",
+				    lad_words(e, text_of(e, use->operand))));
+	}
+}
+
 static void write_begins(struct lad *e)
 {
 	for (int i = 0; i < e->sfc->step_count; i++) {
-		const struct sfc_step *step = &e->sfc->step[i];
 		struct lad_rung *r = lad_begin(e);
 
 		if (e->step[i][LAD_T].used) {
@@ -470,14 +500,7 @@ static void write_begins(struct lad *e)
 						     lad_name(e, i)));
 		}
 		r = lad_begin(e);
-		for (int k = 0; k < step->use_count; k++) {
-			const struct sfc_use *use = &e->sfc->use[step->first_use + k];
-
-			if (use->kind == USE_ACTION)
-				continue;
-			lad_out(r, lad_text(e, "%s %s", use->kind == USE_SET ? "S" : "R",
-					    lad_words(e, text_of(e, use->operand))));
-		}
+		lad_once(e, r, i);
 		if (!r || !r->outs)
 			continue;
 		lad_head(r, no(e, &e->step[i][LAD_START]));
@@ -492,7 +515,7 @@ static void write_again(struct lad *e)
 
 	if (!sfc_goes_round(e->sfc) || !e->net.arc_count)
 		return;
-	if (e->sfc->control[CONTROL_SEMI]) {
+	if (e->sfc->control[CONTROL_SEMI] && !lad_is_in_order(e)) {
 		lad_head(r, no(e, &e->chart[LAD_ONCE]));
 		lad_out(r, coil(e, "R", &e->chart[LAD_GO]));
 		lad_write(e, r, "", "SEMI: one TIP is one evolution");
@@ -506,6 +529,8 @@ static void write_again(struct lad *e)
 		lad_write(e, r, "", "In the first scan, too");
 		r = lad_begin(e);
 	}
+	if (lad_is_in_order(e))
+		return;
 	for (int i = 0; i < e->net.arc_count; i++) {
 		lad_way(r);
 		lad_cell(r, no(e, &e->arc[i][LAD_FIRES]));
@@ -540,7 +565,10 @@ void lad_steps(struct lad *e)
 	write_clock(e);
 	write_times(e);
 	write_gathered(e);
-	write_arcs(e);
+	if (lad_is_in_order(e))
+		lad_order(e);
+	else
+		write_arcs(e);
 	write_pulses(e);
 	write_resets(e);
 	write_sets(e);
