@@ -185,7 +185,8 @@ static const struct classic_step *step_at(const struct conversion *c, int index)
 	return NULL;
 }
 
-/* Pages before this one have counted already: a fault that is repeated. */
+/* Pages before this one have counted already: a fault that is repeated. Only what is left
+ * begins anew then, not what begins. */
 static bool has_counted(const struct conversion *c, const struct classic_section *section,
 			const struct classic_step *step)
 {
@@ -211,7 +212,7 @@ static void write_step(struct conversion *c, const struct classic_section *secti
 	if (here.publishes && time_is_used(c, number)) {
 		put(c, "    Seconds%d(N);\n", number);
 		if (has_counted(c, section, step))
-			put(c, "    Seconds%d(P1);\n", number);
+			put(c, "    Anew%d(P0);\n", number);
 	}
 	put(c, "  END_STEP\n\n");
 	if (!here.publishes)
@@ -229,11 +230,15 @@ static void write_actions(struct conversion *c, const struct classic_section *se
 	if (here.begins)
 		put(c, "  ACTION Tell%s:\n    RUNG\n      | NO %s.X | COIL %s |\n"
 		    "  END_ACTION\n\n", x, here.name, x);
-	if (here.publishes && time_is_used(c, step->number))
-		put(c, "  ACTION Seconds%d:\n    RUNG\n      | NO %s.X | CL_STEP XTime%d "
-		    "T:=%s.T %sDT:=SYS_CYCLE |\n  END_ACTION\n\n", step->number,
-		    here.name, step->number, here.name,
-		    has_counted(c, section, step) ? "KEEP:=SYS_FIRST_SCAN " : "");
+	if (!here.publishes || !time_is_used(c, step->number))
+		return;
+	if (has_counted(c, section, step))
+		put(c, "  ACTION Anew%d:\n    RUNG\n      | NC SYS_ALWAYS_ON | CL_STEP XTime%d "
+		    "T:=T#0s DT:=SYS_CYCLE |\n  END_ACTION\n\n", step->number,
+		    step->number);
+	put(c, "  ACTION Seconds%d:\n    RUNG\n      | NO %s.X | CL_STEP XTime%d T:=%s.T "
+	    "%sDT:=SYS_CYCLE |\n  END_ACTION\n\n", step->number, here.name, step->number,
+	    here.name, has_counted(c, section, step) ? "KEEP:=SYS_FIRST_SCAN " : "");
 }
 
 /* ---- transitions ---- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * to_classic_chart - a chart as a sequential page: it runs UNTIL STABLE, its conditions are
+ * to_classic_chart - a chart as a sequential page: it runs IN ORDER, which is how pages run
+ * there, or UNTIL STABLE, which is the same as long as it comes to rest; its conditions are
  * one bit each, and its steps do nothing but tell that they are active.
  *
  * Conditions that are more become bits that a section in front works out; BOOLs that
@@ -290,6 +291,10 @@ static void transition(struct leaving *e, const struct sfc_transition *from, int
 	for (int i = 0; i < from->to_count; i++) {
 		step = step_at(e, page, sfc->ref[from->first_to + i].step);
 		to->activate[to->activates++] = step ? step->index : 0;
+		if (step && !i && !from->from_count) {
+			to->x = step->x;
+			to->y = step->y > 0 ? step->y - 1 : 0;
+		}
 	}
 	condition(e, &from->condition, &to->condition);
 }
