@@ -250,6 +250,7 @@ for my $kind (@structures) {
 	my $stimulus = print_steps();
 	$stimulus =~ s/\n/ Seen Pulse\n/;
 	case("stable-$kind", $chart, "$stimulus.\n.\nGo=1\n.\nGo=0\n.\nPick=1 Skip=1\nGo=1\n.\nGo=0\n.\n", ' UNTIL STABLE');
+	case("order-$kind", $chart, "$stimulus.\n.\nGo=1\n.\nGo=0\n.\nPick=1 Skip=1\nGo=1\n.\nGo=0\n.\n", ' IN ORDER');
 }
 
 # ---- qualifiers within structures: one step that calls with all of them ----
@@ -273,6 +274,7 @@ for my $kind (qw(selective simultaneous loop macro)) {
 		arc('Goal', 'Wipe', 'Back AND NOT Go') . arc('Wipe', 'Idle', 'NOT Back');
 	my $stimulus = "\@print Idle.X Passing.X Goal.X @all\n.\nGo=1\n.\n.\nGo=0\nBack=1\n.\nBack=0\n.\n";
 	case('in-stable', $chart, $stimulus, ' UNTIL STABLE');
+	case('in-order', $chart, $stimulus, ' IN ORDER');
 }
 
 # ---- supervision ----
@@ -403,6 +405,33 @@ for my $name (sort keys %control) {
 	case('stable-never', $chart, "\@print Go\n.\n.\nGo=1\n.\n", ' UNTIL STABLE');
 	my $text = "RUNGBOARD 1\nPROGRAM Main SFC UNTIL STABLE\n$chart\nEND_PROGRAM\n";
 	spew("$to/sfc-stable-never/main.rung", $text);
+}
+# IN ORDER: the same goes round 50 times a scan, and on. Each round counts.
+{
+	my $chart = vars(['Go'], ['Out'], 'Rounds : INT') . step('!Idle', call('Out', 'N')) . step('Round') .
+		arc('Idle', 'Round', 'Go') .
+		"  TRANSITION FROM Round TO Idle:\n    RUNG\n      | [ Rounds := Rounds + 1 ] | COIL TRANSITION |\n  END_TRANSITION\n\n";
+	case('order-never', $chart, "\@print Idle.X Round.X Out Rounds\n.\n.\nGo=1\n.\n.\nGo=0\n.\n", ' IN ORDER');
+}
+# Out of nothing, into nothing; first come, first served; what enters itself begins anew.
+{
+	my $chart = vars(['New', 'Go', 'Pick', 'Gone', 'Self'], ['Seen', 'Pulse', 'Ended']) .
+		step('A', "    SET Seen;\n", call('Pulse', 'P1'), call('Ended', 'P0')) . step('B') . step('C') .
+		"  TRANSITION FROM B := Gone; END_TRANSITION\n\n" .
+		"  TRANSITION FROM (C, B) := FALSE; END_TRANSITION\n\n" .
+		arc('A', 'B', 'Go') . arc('A', 'C', 'Go OR Pick') . arc('A', 'A', 'Self') . arc('C', '(A, B)', 'Gone') .
+		"  TRANSITION (PRIORITY := 1) TO A := New; END_TRANSITION\n\n";
+	case('order-open', $chart, "\@print A.X A.T B.X C.X Seen Pulse Ended\n.\nNew=1\nNew=0\n.\nSelf=1\n.\nSelf=0\n.\nGo=1\n" .
+		"Go=0 New=1\nNew=0\nPick=1\n.\nPick=0 Gone=1\nGone=0\n.\n", ' IN ORDER');
+}
+# One TIP is one transition.
+{
+	my $chart = vars(['Hold', 'Semi', 'Manual', 'Tip', 'Back'], ['Out'], 'Force : INT') .
+		"  CONTROL(RESET := Back, HOLD := Hold, SEMI := Semi, MANUAL := Manual, TIP := Tip, FORCE := Force);\n\n" .
+		step('!A') . step('B', call('Out', 'P')) . step('C') . step('D') .
+		arc('A', 'B', 'TRUE') . arc('B', 'C', 'TRUE') . arc('C', 'D', 'FALSE') . arc('D', 'A', 'FALSE');
+	case('order-control', $chart, "\@print A.X B.X C.X D.X Out\nSemi=1\n.\nTip=1\n.\nTip=0\nTip=1\n.\nTip=0\nManual=1\nTip=1\n.\nTip=0\nTip=1\n" .
+		"Tip=0\nSemi=0 Manual=0\n.\nBack=1\n.\nHold=1 Back=0\n.\nHold=0\n.\nForce=4\n.\nForce=1\n.\n", ' IN ORDER');
 }
 # Two rings of one chart: two initial steps.
 {

@@ -183,6 +183,26 @@ static void test_forms(void)
 		  "END_PROGRAM\n");
 }
 
+/* FROM or TO may be missing in a chart IN ORDER, not in another one. */
+static void test_in_order(void)
+{
+#define OPEN "  STEP TO_A:\n  END_STEP\n\n" \
+	     "  TRANSITION TO TO_A := I0; END_TRANSITION\n\n" \
+	     "  TRANSITION Away (PRIORITY := 2) FROM TO_A := I1; END_TRANSITION\n" \
+	     "END_PROGRAM\n"
+	static const char in_order[] = "RUNGBOARD 1\n\nPROGRAM P SFC IN ORDER\n" OPEN;
+	struct project *project = read(in_order, strlen(in_order));
+	const struct sfc *sfc = project ? project->pou[0].sfc : NULL;
+
+	canonical(in_order, in_order);
+	canonical(HEAD OPEN, "refused");
+	CHECK(sfc && sfc->evolution == EVOLVE_IN_ORDER && sfc->transition_count == 2 &&
+	      !sfc->transition[0].name && !sfc->transition[0].from_count &&
+	      sfc->transition[0].to_count == 1 && sfc->transition[1].from_count == 1 &&
+	      !sfc->transition[1].to_count);
+	project_free(project);
+}
+
 static void test_model(void)
 {
 	struct project *project = read(whole, strlen(whole));
@@ -192,7 +212,8 @@ static void test_model(void)
 	CHECK(sfc != NULL);
 	if (!sfc)
 		return;
-	CHECK(sfc->evolution == EVOLVE_UNTIL_STABLE && sfc->step_count == 6 && sfc->transition_count == 5);
+	CHECK(sfc->evolution == EVOLVE_UNTIL_STABLE && sfc->step_count == 6 &&
+	      sfc->transition_count == 5);
 	CHECK(sfc->action_count == 2 && sfc->use_count == 9 && sfc->piece_count == 16);
 	CHECK(sfc->step[1].use_count == 8 && sfc->step[2].use_count == 1);
 	CHECK(sfc->step[2].kind == STEP_MACRO && sfc->step[5].macro == 4 &&
@@ -410,6 +431,7 @@ static void test_damage(void)
 int main(void)
 {
 	test_forms();
+	test_in_order();
 	test_model();
 	test_outline();
 	test_marks();
