@@ -153,9 +153,12 @@ static void find_steps(struct conversion *c)
 		c->step[i].begins = c->step[i].publishes && begins(c, r, step);
 		c->step[i].late = c->step[i].begins && r->before[step->number];
 	}
-	for (int i = 0; c->step && i < project->steps; i++)
-		c->step[i].name = name_new(c, text_of(c, "Step%d",
-						      project->step[i].number));
+	for (int i = 0; c->step && i < project->steps; i++) {
+		const char *name = text_of(c, "Step%d", project->step[i].number);
+
+		/* It was reserved for one of them. */
+		c->step[i].name = c->step[i].publishes ? name : name_new(c, name);
+	}
 }
 
 static struct chart_step here_of(struct conversion *c, const struct classic_step *step)
@@ -206,7 +209,7 @@ static void write_step(struct conversion *c, const struct classic_section *secti
 	put(c, "  %s %s (COLUMN := %d):\n", step->initial ? "INITIAL_STEP" : "STEP",
 	    here.name, step->x < 0 ? 1 : step->x + 1);
 	if (here.begins)
-		put(c, "    Tell%s(N);\n    Tell%s(P1);\n", x, x);
+		put(c, "    Tell%d(N);\n    Tell%d(P1);\n", number, number);
 	else if (here.publishes)
 		put(c, "    %s(N);\n", x);
 	if (here.publishes && time_is_used(c, number)) {
@@ -228,8 +231,8 @@ static void write_actions(struct conversion *c, const struct classic_section *se
 
 	c->at = step->place;
 	if (here.begins)
-		put(c, "  ACTION Tell%s:\n    RUNG\n      | NO %s.X | COIL %s |\n"
-		    "  END_ACTION\n\n", x, here.name, x);
+		put(c, "  ACTION Tell%d:\n    RUNG\n      | NO %s.X | COIL %s |\n"
+		    "  END_ACTION\n\n", step->number, here.name, x);
 	if (!here.publishes || !time_is_used(c, step->number))
 		return;
 	if (has_counted(c, section, step))

@@ -229,10 +229,10 @@ static void give_name(struct conversion *c, struct classic_name *name)
 		tell_symbol(c, symbol, name->name);
 }
 
-/* What the text calls a step, its action, and the block that has its seconds. */
+/* What the text calls a step, its actions, and the block that has its seconds. */
 static void reserve_steps(struct conversion *c)
 {
-	static const char *const prefix[] = { "Step", "Seconds", "XTime" };
+	static const char *const prefix[] = { "Step", "Seconds", "XTime", "Tell", "Anew" };
 
 	for (int i = 0; i < c->project->steps; i++)
 		for (size_t k = 0; k < sizeof(prefix) / sizeof(*prefix); k++)
