@@ -142,7 +142,8 @@ static guint count_of(const GPtrArray *rows, const char *kind)
 
 char *report_lines_title(const char *name, const GPtrArray *rows)
 {
-	const guint changed = count_of(rows, _("Changed")), lost = count_of(rows, _("Left out"));
+	const guint changed = count_of(rows, _("Changed"));
+	const guint lost = count_of(rows, _("Left out"));
 	const guint refused = count_of(rows, _("Refused"));
 
 	if (refused)

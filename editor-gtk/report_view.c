@@ -21,7 +21,7 @@ struct _LadderReportView {
 	char *name;                /* of the file of the export                 */
 	char *said;
 	const struct classic_rung *shown; /* of @origin                         */
-	bool filling;
+	bool filling, shared;
 };
 
 G_DEFINE_FINAL_TYPE(LadderReportView, ladder_report_view, GTK_TYPE_WIDGET)
@@ -141,7 +141,57 @@ static void activated(GtkColumnView *list, guint at, LadderReportView *view)
 	g_clear_object(&row);
 }
 
+/* ---- texts of several lines, and behind each where it stood ---- */
+
+static void setup_text(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	GtkWidget *label = gtk_label_new(NULL);
+
+	(void)factory;
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_label_set_wrap(GTK_LABEL(label), TRUE);
+	gtk_list_item_set_child(item, label);
+}
+
+static void bind_text(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+	GtkWidget *label = gtk_list_item_get_child(item);
+	char *markup;
+
+	(void)factory;
+	markup = g_markup_printf_escaped("%s  <span alpha=\"70%%\" size=\"small\">%s</span>",
+					 panel_row_text(row, REPORT_TEXT),
+					 panel_row_text(row, REPORT_THERE));
+	gtk_label_set_markup(GTK_LABEL(label), markup);
+	g_free(markup);
+	panel_speak(label, row);
+}
+
+static GtkListItemFactory *text_factory(void)
+{
+	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+
+	g_signal_connect(factory, "setup", G_CALLBACK(setup_text), NULL);
+	g_signal_connect(factory, "bind", G_CALLBACK(bind_text), NULL);
+	return factory;
+}
+
 /* ---- the widget ---- */
+
+#define LIST_MOST 620 /* px of the list at first; the picture has the rest     */
+
+/* Once: from then on the person's hand counts. */
+static void share_room(GtkPaned *paned, GParamSpec *spec, LadderReportView *view)
+{
+	const int width = gtk_widget_get_width(GTK_WIDGET(paned));
+
+	(void)spec;
+	if (width < 2 || view->shared)
+		return;
+	view->shared = true;
+	gtk_paned_set_position(paned, MIN(width / 2, LIST_MOST));
+}
 
 static void copy(GtkWidget *widget, const char *name, GVariant *unused)
 {
@@ -192,6 +242,7 @@ static void ladder_report_view_class_init(LadderReportViewClass *class)
 	gtk_widget_class_bind_template_child(widget, LadderReportView, picture_place);
 	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
 	gtk_widget_class_bind_template_callback(widget, activated);
+	gtk_widget_class_bind_template_callback(widget, share_room);
 	gtk_widget_class_install_action(widget, "report.copy", NULL, copy);
 	gtk_widget_class_install_action(widget, "report.close", NULL, close_this);
 	gtk_widget_class_add_binding_action(widget, GDK_KEY_c, GDK_CONTROL_MASK,
@@ -206,10 +257,9 @@ static void ladder_report_view_init(LadderReportView *view)
 	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
 		widget, LADDER_TYPE_REPORT_VIEW, "view")));
 	panel_list_column(&view->list, "", REPORT_KIND, PANEL_ICON, 0);
-	panel_list_column(&view->list, _("What"), REPORT_KIND, 0, 90);
-	panel_list_column(&view->list, _("Told"), REPORT_TEXT, PANEL_EXPAND, 0);
-	panel_list_column(&view->list, _("There"), REPORT_THERE, 0, 110);
-	panel_list_column(&view->list, _("Here"), REPORT_HERE, PANEL_NUMBER, 120);
+	panel_list_column(&view->list, _("What"), REPORT_KIND, 0, 76);
+	panel_list_add(&view->list, _("Told"), REPORT_TEXT, PANEL_EXPAND, 0, text_factory());
+	panel_list_column(&view->list, _("Here"), REPORT_HERE, PANEL_NUMBER, 104);
 	g_signal_connect_object(view->list.selection, "selection-changed",
 				G_CALLBACK(selected), view, G_CONNECT_SWAPPED);
 	view->picture = ladder_classic_picture_new();

@@ -56,6 +56,15 @@ static void close_panel(LadderWindow *window)
 		gtk_widget_grab_focus(GTK_WIDGET(sheet));
 }
 
+static void follow(LadderWindow *window)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	if (sheet)
+		ladder_report_view_follow(report_of(window), ladder_grid_view_pou(sheet),
+					  ladder_grid_view_cursor(sheet).rung, true);
+}
+
 void window_show_report(LadderWindow *window)
 {
 	if (!ladder_report_view_has(report_of(window))) {
@@ -67,16 +76,8 @@ void window_show_report(LadderWindow *window)
 		ladder_report_view_import(report_of(window), window->classic);
 	window->report_of_export = false;
 	show_panel(window);
+	follow(window);
 	ladder_report_view_focus(report_of(window));
-}
-
-static void follow(LadderWindow *window)
-{
-	LadderGridView *sheet = tabs_sheet(window);
-
-	if (sheet)
-		ladder_report_view_follow(report_of(window), ladder_grid_view_pou(sheet),
-					  ladder_grid_view_cursor(sheet).rung, true);
 }
 
 void window_follow_original(LadderWindow *window)

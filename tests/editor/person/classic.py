@@ -1,0 +1,270 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""classic - a project of ClassicLadder: its report, the originals of its rungs, the way back, files dropped."""
+import gzip
+import os
+import shutil
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import LADDER, ROLES, ROOT, Chinese, Editor, main, new_file, sh, until  # noqa: E402
+
+PROJECTS = os.path.join(ROOT, 'tests', 'classic', 'projects')
+LOST = 'element 103 does not conduct'
+SIMPLE = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | COIL Motor |
+END_PROGRAM
+'''
+REAL = SIMPLE.replace('END_VAR', '  Level : REAL;\nEND_VAR').replace(
+    'END_PROGRAM', 'RUNG\n  | [ Level > 1.5 ] | COIL Motor |\nEND_PROGRAM')
+
+
+def read(path, how='r'):
+    with open(path, how) as file:
+        return file.read()
+
+
+def opened(screen, name='linuxcnc.clp', kind=Editor, **env):
+    path = os.path.join(screen.home, name)
+    shutil.copy(os.path.join(PROJECTS, name), path)
+    editor = kind(screen, path, **env)
+    until(lambda: editor.all(name + ': ') or editor.all(name + '：'), 'the message')
+    return editor
+
+
+def report(editor):
+    editor.click(editor.find('Show report', 'push button'))
+    return editor.find(LOST, 'label')
+
+
+def rows(editor):
+    """What a screen reader says of the lines."""
+    return [node.name for node in editor.all(': ') if node.name.startswith(('Left out', 'Changed', 'Refused'))]
+
+
+def command(editor, name):
+    editor.keys('ctrl+k')
+    until(lambda: editor.all('About Rungboard'), 'all commands')
+    editor.type(name)
+    until(lambda: not editor.all('About Rungboard'), 'that command alone')
+    editor.keys('Return')
+
+
+def mouse(screen):
+    """a message of one line, a button that shows the report; a line leads to its rung, and its original is shown"""
+    editor = opened(screen)
+    line = report(editor)
+    editor.find('Original of the rung: Estop chain')  # of the rung at the cursor
+    editor.shot('classic-report')
+    editor.click(line)
+    editor.find('Original of the rung: rung_1.csv')
+    editor.click(line, count=2)
+    editor.to_sheet()
+    editor.says('Rung 3 · column A')
+    editor.shot('classic-place')
+
+
+def keyboard(screen):
+    """the same by keys; the original follows the cursor, and says so of a rung that has none"""
+    editor = opened(screen)
+    editor.to_sheet()
+    editor.keys('ctrl+alt+o')
+    editor.find('Original of the rung: Estop chain')
+    editor.to_sheet()
+    editor.keys('ctrl+g')
+    editor.focus_on(role='text')
+    editor.type('3')
+    editor.keys('Return')
+    editor.find('Original of the rung: rung_1.csv')
+    editor.keys('Insert')
+    editor.find('Nothing of ClassicLadder became this rung')
+    editor.keys('Escape', 'ctrl+z', 'ctrl+Home')
+    editor.find('Original of the rung: Estop chain')
+    command(editor, 'report of import')
+    editor.focus_on('Left out: element 103', 'table row')
+    editor.keys('Return')
+    editor.to_sheet()
+    editor.says('Rung 3 · column A')
+
+
+def edits(screen):
+    """lines follow their rungs: one is deleted, comes back, is moved; the report is closed and opened again"""
+    editor = opened(screen)
+    report(editor)
+    until(lambda: any('Prog1, rung 3' in row for row in rows(editor)), 'the place')
+    editor.click(editor.sheet())
+    editor.to_sheet()
+    editor.keys('ctrl+Home', 'ctrl+Delete')
+    until(lambda: any('Prog1, rung 2' in row for row in rows(editor)), 'another place')
+    editor.keys('ctrl+z')
+    until(lambda: any('Prog1, rung 3' in row for row in rows(editor)), 'its place')
+    editor.find('Original of the rung: Estop chain')
+    editor.keys('alt+Down')
+    editor.find('Original of the rung: Estop chain')
+    editor.click(editor.find('Close the report', 'push button'))
+    until(lambda: not any(node.has(25) for node in editor.all(LOST)), 'the report to be away')
+    editor.to_sheet()
+    editor.keys('ctrl+alt+o')
+    editor.find(LOST, 'label')
+
+
+def copied(screen):
+    """the report is copied as text"""
+    editor = opened(screen)
+    report(editor)
+    editor.click(editor.find('Copy the report', 'push button'))
+    until(lambda: 'Left out\t' + LOST + '\trung_1.csv:24\tProg1, rung 3\n' in
+          sh('xclip', '-o', '-selection', 'clipboard') + '\n', 'the text')
+
+
+def save_as(editor, name):
+    before = len(editor.windows())
+    editor.keys('ctrl+shift+s')
+    until(lambda: len(editor.windows()) > before, 'the dialog')
+    editor.keys('ctrl+a')
+    editor.type(name)
+    editor.keys('Return')
+    until(lambda: len(editor.windows()) == before, 'the end of the dialog')
+
+
+def trace(path):
+    script = os.path.join(os.path.dirname(path), 'script')
+    with open(script, 'w') as file:
+        file.write('@print %Q0\n%I0=0\n%I0=1\n')
+    return sh(LADDER, 'trace', path, script, '--changes')
+
+
+def written(screen):
+    """Save as .clprj, .clprjz, .clp: that is written, and does the same; the document stays what it was, and unsaved"""
+    editor = Editor(screen, new_file(screen, SIMPLE))
+    editor.to_sheet()
+    editor.keys('slash')
+    until(lambda: editor.all('• new'), 'the change')
+    for name in 'a.clprj', 'a.clprjz', 'a.clp':
+        path = os.path.join(screen.home, name)
+        save_as(editor, path)
+        until(lambda: os.path.exists(path), name)
+        editor.says(name + ' was written for ClassicLadder')
+        assert '%Q0=1' in trace(path), trace(path)
+    assert gzip.decompress(read(path + 'rjz', 'rb')) == read(os.path.join(screen.home, 'a.clprj'), 'rb')
+    assert editor.all('• new') and read(os.path.join(screen.home, 'new.rung')) == SIMPLE
+    editor.shot('classic-written')
+
+
+def exported(screen):
+    """the command for it, by the list of all; a file that is there is not written over unasked, whatever gives its ending"""
+    editor = Editor(screen, new_file(screen, SIMPLE))
+    path = os.path.join(screen.home, 'b.clprj')
+    new_file(screen, 'precious', 'b.clprj')
+    editor.to_sheet()
+    for answer in 'Cancel', 'Replace':
+        command(editor, 'export as classic')
+        until(lambda: len(editor.windows()) == 2, 'the dialog')
+        editor.keys('ctrl+a')
+        editor.type(path[:-6])
+        editor.keys('Return')
+        editor.find('Replace the file?')
+        assert read(path) == 'precious'
+        editor.answer(answer)
+        editor.to_sheet()
+    editor.says('b.clprj was written')
+    assert '%Q0=1' in trace(path)
+
+
+def refused(screen):
+    """what ClassicLadder cannot hold: nothing is written, and each reason leads to its rung"""
+    editor = Editor(screen, new_file(screen, REAL))
+    editor.to_sheet()
+    path = os.path.join(screen.home, 'c.clprj')
+    save_as(editor, path)
+    editor.says('ClassicLadder cannot hold this project')
+    editor.focus_on('Refused: ', 'table row')
+    editor.shot('classic-refused')
+    editor.keys('Return')
+    editor.to_sheet()
+    editor.says('Rung 2')
+    assert not os.path.exists(path)
+
+
+def source(screen, *paths):
+    """A window like that of a file manager, in the corner, with those files."""
+    screen.start('/usr/bin/python3', os.path.abspath(__file__), '--drag', *paths)
+    window = until(lambda: sh('xdotool', 'search', '--onlyvisible', '--name', 'drop source'), 'the window of files')
+    sh('xdotool', 'windowmove', '--sync', window.split()[0], '1200', '700')
+    sh('xdotool', 'windowraise', window.split()[0])
+    return 1280, 760
+
+
+def dropped(screen):
+    """files are dropped on the window: each program opens, one in its place, the others in windows of their own"""
+    names = ['linuxcnc.clp', 'elements.clprj']
+    paths = [shutil.copy(os.path.join(PROJECTS, name), screen.home) for name in names]
+    paths += [new_file(screen, SIMPLE), new_file(screen, 'hello', 'letter.odt')]
+    editor = Editor(screen)
+    start = source(screen, *paths)
+    before = len(editor.windows())
+    editor.drag(start, editor.centre(editor.find('Find an element')), look='classic-drop')
+    until(lambda: len(editor.windows()) == before + 2, 'the windows')
+    for name in *names, 'new':
+        editor.says(name)
+    editor.says('Not opened: letter.odt')
+    editor.shot('classic-dropped')
+
+
+def small(screen):
+    """report and originals on a small screen, in the dark, in Chinese"""
+    for kind, name, env in ((Editor, 'light', {}), (Chinese, 'dark', {'ADW_DEBUG_COLOR_SCHEME': 'prefer-dark'})):
+        editor = opened(screen, kind=kind, **env)
+        editor.shot('classic-small-first-' + name)
+        line = report(editor)
+        editor.click(line)
+        editor.shot('classic-small-' + name)
+        editor.keys('Return')
+        until(lambda: (node := editor.focused()) and node.role != ROLES['table row'], 'the focus in the sheet')
+        editor.finish()
+
+
+small.size = '1024x700x24'
+
+
+def drag(paths):
+    """What source() starts."""
+    import gi
+    gi.require_version('Gtk', '4.0')
+    from gi.repository import Gdk, Gio, GLib, Gtk
+    listed = ''.join(Gio.File.new_for_path(path).get_uri() + '\r\n' for path in paths)
+
+    def activate(application):
+        files = Gtk.DragSource()
+        files.set_content(Gdk.ContentProvider.new_for_bytes('text/uri-list', GLib.Bytes.new(listed.encode())))
+        label = Gtk.Label(label='files')
+        label.add_controller(files)
+        Gtk.ApplicationWindow(application=application, title='drop source', default_width=160,
+                              default_height=90, child=label).present()
+
+    application = Gtk.Application(flags=Gio.ApplicationFlags.NON_UNIQUE)
+    application.connect('activate', activate)
+    application.run([])
+
+
+def can_drag():
+    import subprocess
+    return subprocess.run(['/usr/bin/python3', '-c', 'import gi; gi.require_version("Gtk", "4.0")'],
+                          capture_output=True).returncode == 0
+
+
+if __name__ == '__main__':
+    if sys.argv[1:2] == ['--drag']:
+        drag(sys.argv[2:])
+    else:
+        only = sys.argv[1:]
+        tests = [mouse, keyboard, edits, copied, written, exported, refused, small] + ([dropped] if can_drag() else [])
+        main([test for test in tests if not only or test.__name__ in only])
