@@ -108,11 +108,13 @@ void ladder_classic_picture_show(LadderClassicPicture *picture, LadderOrigin *or
 
 /* ---- the widget ---- */
 
-/* Never larger than natural. */
+#define SCALE_LEAST 0.55f /* names can be read; what is wider scrolls           */
+
+/* As wide as there is room, never larger than natural. */
 static float scale_for(LadderClassicPicture *picture, int width)
 {
 	return width > 0 && picture->strokes.width > 0 ?
-	       MIN(1, (float)width / picture->strokes.width) : 1;
+	       CLAMP((float)width / picture->strokes.width, SCALE_LEAST, 1) : 1;
 }
 
 static GtkSizeRequestMode request_mode(GtkWidget *widget)
@@ -129,8 +131,8 @@ static void measure(GtkWidget *widget, GtkOrientation orientation, int for_size,
 
 	*minimum_baseline = *natural_baseline = -1;
 	if (orientation == GTK_ORIENTATION_HORIZONTAL) {
-		*minimum = 200;
-		*natural = MAX(200, (int)ceilf(picture->strokes.width));
+		*minimum = (int)ceilf(picture->strokes.width * SCALE_LEAST);
+		*natural = (int)ceilf(picture->strokes.width);
 		return;
 	}
 	*minimum = *natural = (int)ceilf(picture->strokes.height *

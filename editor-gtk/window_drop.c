@@ -28,6 +28,7 @@ static void tell_refused(LadderWindow *window, const GPtrArray *refused)
 	text = g_strdup_printf(_("Not opened: %s. Rung files and projects of ClassicLadder "
 				 "can be dropped here."), names->str);
 	ladder_window_warn(window, text);
+	gtk_window_present(GTK_WINDOW(window)); /* others opened before it          */
 	g_free(text);
 	g_string_free(names, TRUE);
 }
