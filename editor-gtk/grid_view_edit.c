@@ -303,6 +303,7 @@ void ladder_grid_view_do(LadderGridView *view, enum verb verb)
 	case VERB_copy_picture: do_copy_picture(view); break;
 	case VERB_delete: do_delete(view); break;
 	case VERB_select_all: do_select_all(view); break;
+	case VERB_context_menu: mouse_menu(view); break;
 	case VERB_enter: case VERB_edit_operand: entry_begin_edit(view); break;
 	case VERB_contact: entry_begin_word(view, ELEM_CONTACT_NO, false); break;
 	case VERB_contact_not: entry_begin_word(view, ELEM_CONTACT_NC, false); break;

@@ -273,6 +273,8 @@ void clipboard_do(LadderGridView *view, enum verb verb);
 
 /* ---- grid_view_mouse.c ---- */
 void mouse_init(LadderGridView *view);
+/** mouse_menu - what the right button shows, at the cursor. */
+void mouse_menu(LadderGridView *view);
 
 /* ---- grid_view_edge.c ---- */
 /** edge_at - something is dragged to (x, y): near an edge the sheet scrolls, until it is

@@ -161,23 +161,38 @@ static void closed(GtkPopover *popover)
 	popover_drop_later(GTK_WIDGET(popover));
 }
 
-static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
-		      LadderGridView *view)
+static void open_menu(LadderGridView *view, const GdkRectangle *at)
 {
-	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
-	GtkWidget *popover;
-	GMenu *menu;
+	GMenu *menu = make_menu(view);
+	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
 
-	pressed(gesture, MIN(count, 1), x, y, view);
-	menu = make_menu(view);
-	popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
 	gtk_widget_set_parent(popover, GTK_WIDGET(view));
-	gtk_popover_set_pointing_to(GTK_POPOVER(popover), &at);
+	gtk_popover_set_pointing_to(GTK_POPOVER(popover), at);
 	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
 	gtk_widget_set_halign(popover, GTK_ALIGN_START);
 	g_signal_connect(popover, "closed", G_CALLBACK(closed), NULL);
 	gtk_popover_popup(GTK_POPOVER(popover));
 	g_object_unref(menu);
+}
+
+static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
+		      LadderGridView *view)
+{
+	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
+
+	pressed(gesture, MIN(count, 1), x, y, view);
+	open_menu(view, &at);
+}
+
+void mouse_menu(LadderGridView *view)
+{
+	graphene_rect_t cell;
+
+	cursor_reveal(view);
+	cell = cursor_rect(view);
+	open_menu(view, &(GdkRectangle){ (int)cell.origin.x, (int)cell.origin.y,
+					 (int)(cell.size.width / 2),
+					 (int)cell.size.height });
 }
 
 /* ---- dragging: a wire from where one can begin; selecting from elsewhere, or with Shift */

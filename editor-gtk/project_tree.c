@@ -197,7 +197,7 @@ struct tree {
 	GListStore *root;
 	GtkTreeListModel *model;   /* the selection holds it                   */
 	GtkSingleSelection *selection;
-	GtkWidget *list;
+	GtkWidget *list, *panel;   /* the panel holds all of it                */
 	char *shape;       /* what is shown, to see whether it changed         */
 	guint timer;       /* soon looks whether it did                        */
 };
@@ -413,13 +413,17 @@ static void show_menu(struct tree *tree, double x, double y)
 {
 	GMenu *menu = menu_model();
 	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
-	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
 
-	gtk_widget_set_parent(popover, gtk_widget_get_parent(tree->list));
-	gtk_popover_set_pointing_to(GTK_POPOVER(popover), &at);
+	/* Not to the scroller, which takes the arrows to itself. */
+	gtk_widget_set_parent(popover, tree->panel);
+	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);
+	gtk_popover_set_pointing_to(GTK_POPOVER(popover),
+				    &(GdkRectangle){ (int)x, (int)y, 1, 1 });
 	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
 	gtk_widget_set_halign(popover, GTK_ALIGN_START);
 	g_signal_connect(popover, "closed", G_CALLBACK(menu_closed), NULL);
+	g_signal_connect_swapped(popover, "closed", G_CALLBACK(gtk_widget_grab_focus),
+				 tree->list);
 	gtk_popover_popup(GTK_POPOVER(popover));
 	g_object_unref(menu);
 }
@@ -573,6 +577,7 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 	struct tree *tree = g_new0(struct tree, 1);
 
 	tree->document = g_object_ref(document);
+	tree->panel = box;
 	make_list(tree);
 	add_controllers(tree);
 	add_actions(tree, box);

@@ -473,6 +473,7 @@ void ladder_sfc_view_do(LadderSfcView *view, enum verb verb)
 	case VERB_copy: chart_copy(view); break;
 	case VERB_paste: chart_paste(view); break;
 	case VERB_select_all: select_all(view); break;
+	case VERB_context_menu: chart_mouse_menu(view); break;
 	case VERB_force: chart_live_force(view); break;
 	default: break;
 	}

@@ -113,6 +113,8 @@ int chart_line_of(LadderSfcView *view, struct sfc_at at);
 
 /* ---- sfc_view_mouse.c ---- */
 void chart_mouse_init(LadderSfcView *view);
+/** chart_mouse_menu - what the right button shows, at the cursor. */
+void chart_mouse_menu(LadderSfcView *view);
 /** chart_drag_snapshot - the way that is drawn just now. */
 void chart_drag_snapshot(LadderSfcView *view, GtkSnapshot *snapshot,
 			 const struct theme *theme);

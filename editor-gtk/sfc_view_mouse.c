@@ -188,23 +188,38 @@ static void closed(GtkPopover *popover)
 			popover, NULL);
 }
 
-static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
-		      LadderSfcView *view)
+static void open_menu(LadderSfcView *view, const GdkRectangle *at)
 {
-	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
-	GMenu *menu;
-	GtkWidget *popover;
+	GMenu *menu = make_menu(view);
+	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
 
-	pressed(gesture, MIN(count, 1), x, y, view);
-	menu = make_menu(view);
-	popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
 	gtk_widget_set_parent(popover, GTK_WIDGET(view));
-	gtk_popover_set_pointing_to(GTK_POPOVER(popover), &at);
+	gtk_popover_set_pointing_to(GTK_POPOVER(popover), at);
 	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
 	gtk_widget_set_halign(popover, GTK_ALIGN_START);
 	g_signal_connect(popover, "closed", G_CALLBACK(closed), NULL);
 	gtk_popover_popup(GTK_POPOVER(popover));
 	g_object_unref(menu);
+}
+
+static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
+		      LadderSfcView *view)
+{
+	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
+
+	pressed(gesture, MIN(count, 1), x, y, view);
+	open_menu(view, &at);
+}
+
+void chart_mouse_menu(LadderSfcView *view)
+{
+	graphene_rect_t box = GRAPHENE_RECT_INIT(0, 0, 1, 1);
+
+	if (view->sheet && view->cursor.shape >= 0)
+		box = chart_box(view, view->cursor);
+	graphene_rect_scale(&box, (float)view->zoom, (float)view->zoom, &box);
+	open_menu(view, &(GdkRectangle){ (int)box.origin.x, (int)box.origin.y,
+					 (int)box.size.width, (int)box.size.height });
 }
 
 /* ---- zoom ---- */

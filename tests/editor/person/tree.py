@@ -66,6 +66,38 @@ def rows(screen):
     check(path)
 
 
+def menu_item(editor, name):
+    """It has the focus, in a menu that is open."""
+    return any(node.name == name and node.has(12) for node in editor.all(name, 'menu item'))
+
+
+def menus(screen):
+    """the menu of a row, and that of the sheet, by keyboard alone; Esc gives the keys back"""
+    path = new_file(screen, TEXT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    for key in 'Menu', 'shift+F10':
+        editor.keys(key)
+        until(lambda: menu_item(editor, 'Edit operand, not value'), 'the menu of the sheet')
+        editor.keys('Escape')
+        editor.to_sheet()
+    editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other'][0])
+    editor.keys('Menu')
+    until(lambda: menu_item(editor, 'New program (LD)'), 'the menu of the tree')
+    editor.keys('Escape')
+    until(lambda: not menu_item(editor, 'New program (LD)'), 'it to be gone')
+    editor.keys('Menu')
+    until(lambda: menu_item(editor, 'New program (LD)'), 'the menu of the tree again')
+    until(lambda: menu_item(editor, 'New function') or editor.keys('Down'), 'the row of a new function')
+    editor.keys('Return')
+    editor.find('Name', 'text')
+    editor.keys('ctrl+a')
+    editor.type('Sum')
+    editor.keys('Return')
+    until(lambda: [n for n in editor.all('Sum', 'label') if n.name == 'Sum'], 'the function in the tree')
+    assert 'FUNCTION Sum : BOOL LD' in editor.save(path)
+
+
 def beside(screen):
     """a scenario beside the file is opened from the tree, edited and saved"""
     path = new_file(screen, TEXT)
@@ -83,4 +115,4 @@ def beside(screen):
     assert open(path).read() == TEXT
 
 
-main([bookmarks, rows, beside])
+main([bookmarks, rows, menus, beside])
