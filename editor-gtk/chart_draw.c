@@ -311,6 +311,16 @@ static void draw_cursors(struct drawing *drawing)
 	draw_cursor(drawing, (double)twin->now_ns, TOKEN_FORCE, label);
 }
 
+static void label_edit(struct drawing *drawing, double x)
+{
+	const double top = drawing->bottom - CHART_RULER - 14;
+	const float width = lettering_fit(drawing->area->lettering, LETTER_ADDRESS,
+					  _("edit"), -1, 0).width;
+
+	fill(drawing, TOKEN_SHEET, 1, x + 2, top, (double)width + 4, 14);
+	text(drawing, LETTER_ADDRESS, TOKEN_COMMENT, _("edit"), x + 4, top + 11, 0);
+}
+
 /* Where the program was changed. */
 static void draw_edits(struct drawing *drawing)
 {
@@ -327,7 +337,7 @@ static void draw_edits(struct drawing *drawing)
 			continue;
 		for (double y = 0; y < drawing->bottom - CHART_RULER; y += 6)
 			fill(drawing, TOKEN_COMMENT, 1, x, y, 1, 3);
-		text(drawing, LETTER_ADDRESS, TOKEN_COMMENT, _("edit"), x + 4, 11, 0);
+		label_edit(drawing, x);
 	}
 }
 

@@ -46,6 +46,7 @@ enum mark {
 	MARK_FOUND = 128,    /* by a search                                     */
 	MARK_TWICE = 256,    /* written elsewhere too: the last one wins          */
 	MARK_CHANGED = 512,  /* differs, in a comparison                        */
+	MARK_FAILED = 2048,  /* what it does failed in the scan that is shown     */
 	MARK_BLOCKS = 1024,  /* keeps power away; scene.note says why            */
 };
 struct grid_mark { int row, column; unsigned int marks; };

@@ -95,6 +95,7 @@ static float badge(const struct pen *pen, enum token ground, const char *text, f
 
 #define FORCED "F"
 #define TWICE  "2\xc3\x97"
+#define FAILED "!"
 
 static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float y, float w)
 {
@@ -116,6 +117,8 @@ static void mark_framed(const struct pen *pen, unsigned int marks, const struct 
 	if (marks & (MARK_FORCED | MARK_TWICE))
 		badge(pen, TOKEN_FORCE, marks & MARK_FORCED ? FORCED : TWICE, x,
 		      y - 15);
+	if (marks & MARK_FAILED)
+		badge(pen, TOKEN_ERROR, FAILED, x, y + 2);
 }
 
 /* Behind the address if there is room, else below the wire. */
@@ -162,7 +165,9 @@ static void mark_box(const struct pen *pen, unsigned int marks, int row, int col
 	if (marks & MARK_FORCED)
 		x += badge(pen, TOKEN_FORCE, FORCED, x, y) + 2;
 	if (marks & MARK_TWICE)
-		badge(pen, TOKEN_FORCE, TWICE, x, y);
+		x += badge(pen, TOKEN_FORCE, TWICE, x, y) + 2;
+	if (marks & MARK_FAILED)
+		badge(pen, TOKEN_ERROR, FAILED, x, y);
 }
 
 /* Where else its value would be. */

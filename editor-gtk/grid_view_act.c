@@ -554,6 +554,9 @@ void act_tip(LadderGridView *view, int rung, int row, int col, GString *text)
 	}
 	if (live->bits[row * live->cols + col] & LIVE_FORCED)
 		g_string_append_printf(text, "\n%s", _("forced"));
+	if (live->bits[row * live->cols + col] & LIVE_FAILED)
+		g_string_append_printf(text, "\n%s", _("ENO is FALSE: it failed in this "
+							"scan"));
 }
 
 void act_said(LadderGridView *view, int rung, int row, int col, GString *text)
@@ -575,4 +578,7 @@ void act_said(LadderGridView *view, int rung, int row, int col, GString *text)
 				       _("off"));
 	if (bits & LIVE_FORCED)
 		g_string_append_printf(text, ", %s", _("forced"));
+	if (bits & LIVE_FAILED)
+		g_string_append_printf(text, ", %s", _("ENO is FALSE: it failed in this "
+						       "scan"));
 }

@@ -318,6 +318,12 @@ void ladder_grid_view_set_blockers(LadderGridView *view, int rung,
 		strips_redraw(view, rung);
 }
 
+static unsigned int marks_of(uint8_t bits)
+{
+	return (bits & LIVE_FORCED ? MARK_FORCED : 0) |
+	       (bits & LIVE_FAILED ? MARK_FAILED : 0);
+}
+
 static void push(GArray *marks, int row, int column, unsigned int mark)
 {
 	const struct grid_mark one = { row, column, mark };
@@ -333,10 +339,11 @@ void live_marks(LadderGridView *view, int rung, GArray *marks)
 	if (shown == view->preview)
 		return;
 	for (int i = 0; live && i < live->rows * live->cols; i++)
-		if (live->bits[i] & LIVE_FORCED)
+		if (marks_of(live->bits[i]))
 			push(marks, i / live->cols,
 			     grid_display_column(shown, view->columns, i / live->cols,
-						 i % live->cols), MARK_FORCED);
+						 i % live->cols),
+			     marks_of(live->bits[i]));
 	for (guint i = 0; rung == view->live.blocked && i < view->live.blockers->len; i++) {
 		const struct grid_blocker *one =
 			&g_array_index(view->live.blockers, struct grid_blocker, i);

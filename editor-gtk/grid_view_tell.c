@@ -192,7 +192,7 @@ char *ladder_grid_view_keys(LadderGridView *view)
 	const enum verb *verb;
 	bool live;
 
-	if (sheet_rungs(view) == 0)
+	if (sheet_rungs(view) == 0 || ladder_document_is_fixed(view->document))
 		return g_string_free(text, FALSE);
 	verb = verbs_of(view, cell);
 	live = act_keys(view, text);

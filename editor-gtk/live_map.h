@@ -51,6 +51,7 @@ struct live_cell {
 	enum { LIVE_NOTHING, LIVE_CONTACT, LIVE_COIL, LIVE_TEXT, LIVE_BOX } kind;
 	bool inverse;          /* closed while FALSE                            */
 	bool edge;             /* closed as its power says                      */
+	bool fails;            /* no power behind it means that it failed        */
 	struct location at;    /* of its operand, of the first variable of an
 				  expression, of what counts in a box           */
 	const char *name;      /* of that variable; else ""                     */
@@ -64,8 +65,9 @@ struct live_cell {
 	char text[48];         /* likewise; "": no value is shown               */
 };
 #define LIVE_NOWHERE UINT32_MAX
-/* In live_rung.bits beside enum live_bit; it is a mark when it is drawn. */
+/* In live_rung.bits beside enum live_bit; they are marks when they are drawn. */
 #define LIVE_FORCED 128
+#define LIVE_FAILED 64 /* its operation failed: power came, and ENO is FALSE     */
 
 struct live_rung {
 	int rows, cols;
@@ -75,7 +77,7 @@ struct live_rung {
 	guint64 scans;         /* since the start at start_ns: the scan that was
 				  looked at last                                */
 	gint64 start_ns;
-	uint8_t *bits;         /* by row; enum live_bit, LIVE_FORCED              */
+	uint8_t *bits;         /* by row; enum live_bit, LIVE_FORCED, LIVE_FAILED */
 	struct live_cell *cell; /* by row                                       */
 	const struct live_map *map;
 	const struct project *project;

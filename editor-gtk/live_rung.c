@@ -161,6 +161,19 @@ static void find_text(const struct live_map *map, const struct word_row *word,
 	}
 }
 
+/* Does it store what is no BOOL? A function with a BOOL for a result gives that as power. */
+static bool stores_number(const struct live_rung *rung, const char *args)
+{
+	const char *out = strstr(args, "OUT=>");
+	struct location at;
+
+	if (!out)
+		return false;
+	out += strlen("OUT=>");
+	at = live_map_find(rung->map, out, token_length(out));
+	return at.type != IEC_NONE && at.type != IEC_BOOL;
+}
+
 static void find_cell(struct live_rung *rung, int row, int col)
 {
 	const struct cell *shown = rung_at(rung->shown, row, col);
@@ -174,6 +187,8 @@ static void find_cell(struct live_rung *rung, int row, int col)
 		find_count(rung->map, word, operand, cell);
 	} else if (word->kind != WORD_ELEM) {
 		cell->kind = LIVE_BOX;
+		cell->fails = word->kind == WORD_FN && stores_number(rung,
+			project_text(rung->project, shown->args));
 	} else if (word->operand == OPND_BOOL_R || word->operand == OPND_BOOL_W) {
 		cell->kind = word->operand == OPND_BOOL_R ? LIVE_CONTACT : LIVE_COIL;
 		cell->edge = word->edge != EDGE_NONE;
@@ -181,6 +196,7 @@ static void find_cell(struct live_rung *rung, int row, int col)
 		cell->at = live_map_find(rung->map, operand, strlen(operand));
 	} else if (word->operand == OPND_EXPR || word->operand == OPND_ASSIGN) {
 		find_text(rung->map, word, operand, cell);
+		cell->fails = word->operand == OPND_ASSIGN;
 	}
 }
 
@@ -388,6 +404,8 @@ static uint8_t look_at(struct live_rung *rung, struct live_cell *cell,
 		bits |= LIVE_CLOSED;
 	if (is_forced(cell, &resource->image))
 		bits |= LIVE_FORCED;
+	if (cell->fails && (bits & (LIVE_IN | LIVE_OUT)) == LIVE_IN)
+		bits |= LIVE_FAILED;
 	if (is_fresh(cell, changed, now, flash)) {
 		bits |= LIVE_FRESH;
 		rung->until = rung->until ? MIN(rung->until, cell->flash + FLASH) :
@@ -416,7 +434,7 @@ unsigned int live_rung_look(struct live_rung *rung, const struct resource *resou
 		bits = look_at(rung, cell, resource, now, flash, &other, scanned);
 		if (bits != rung->bits[i])
 			changed |= LIVE_OTHER_VALUE;
-		if ((bits ^ rung->bits[i]) & (LIVE_CLOSED | LIVE_FORCED))
+		if ((bits ^ rung->bits[i]) & (LIVE_CLOSED | LIVE_FORCED | LIVE_FAILED))
 			changed |= LIVE_OTHER_STATE;
 		rung->bits[i] = bits;
 	}

@@ -49,6 +49,8 @@ static void check_theme(const struct theme *theme, const char *name)
 	}
 	at_least(name, TOKEN_BADGE, "a badge",
 		 theme_contrast(&c[TOKEN_BADGE], &c[TOKEN_FORCE]), 4.5);
+	at_least(name, TOKEN_BADGE, "a badge of what failed",
+		 theme_contrast(&c[TOKEN_BADGE], &c[TOKEN_ERROR]), 4.5);
 	at_least(name, TOKEN_BADGE, "a note",
 		 theme_contrast(&c[TOKEN_BADGE], &c[TOKEN_BLOCKS]), 4.5);
 }

@@ -14,6 +14,8 @@ VAR
   Motor AT %QX0.0 : BOOL;
   Parts : INT := 12;
   Minutes : INT;
+  Rest : INT;
+  Done : BOOL;
 END_VAR
 
 PROGRAM Main LD
@@ -21,6 +23,8 @@ RUNG "Motor"
   | NO Start | COIL Motor |
 RUNG "Rate"
   | NO Motor | [ Parts := Parts / Minutes ] |
+RUNG "As a box"
+  | NO Motor | DIV IN1:=Parts IN2:=Minutes OUT=>Rest | COIL Done |
 END_PROGRAM
 '''
 PLANT = '''RUNGBOARD 1
@@ -62,6 +66,15 @@ def zero(screen):
     editor.says('division by zero: Main, rung 2 (1,')
     editor.element('Rung 1, COIL', 'Motor', ', on')
     assert not editor.all('FAULT')
+    # What fails is marked as long as it does, and the log tells it once.
+    editor.element('Rung 2, [ := ]', 'ENO is FALSE')
+    editor.element('Rung 3, DIV', 'ENO is FALSE')
+    editor.shot('running-zero')
+    editor.press(editor.find('Log', 'toggle button') if editor.all('Log', 'toggle button') else editor.find('Log'))
+    told = [node for node in editor.all('division by zero: Main, rung 2 (1,') if node.role != 'panel']
+    assert len([node for node in told if 'simulation' in node.name]) <= 1, [node.name for node in told]
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'closed')))
+    until(lambda: not [node for node in editor.all('ENO is FALSE', 'table cell')], 'the marks to go')
 
 
 def closing(screen):
