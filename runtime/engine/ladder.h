@@ -28,6 +28,7 @@ void ladder_free(struct ladder *ladder);
 
 /* What an import took, changed and left out: engine/import/report.h. */
 struct classic_report;
+struct classic_lines;
 /**
  * ladder_take_classic - loads take projects of ClassicLadder, too, from now on
  * @faithful: faults of the original are repeated
@@ -156,15 +157,16 @@ bool ladder_charts_fit_classic(struct ladder *ladder);
 /**
  * ladder_export_classic - the project as one of ClassicLadder's (view/to_classic.h)
  * @dialect: of ClassicLadder, of LinuxCNC, or a bare rung file
+ * @lines:   of its I/O map (view/to_classic.h); NULL: none
  * @report:  gets what means something else there
- * @diags:   gets LD730 to LD738 for what cannot be said there
+ * @diags:   gets LD730 to LD739 for what cannot be said there
  *
  * Owns: the caller, free().   Scan-safe: no.   Fails: NULL after a diagnostic, or when
  * nothing was loaded.
  */
 char *ladder_export_classic(struct ladder *ladder, enum classic_dialect dialect,
-			    size_t *len, struct classic_report *report,
-			    struct diag_list *diags);
+			    const struct classic_lines *lines, size_t *len,
+			    struct classic_report *report, struct diag_list *diags);
 /**
  * ladder_outline - what ladder_write gives, and where its parts are
  * @take: is handed each part when it ends, so inner ones before outer ones; or NULL

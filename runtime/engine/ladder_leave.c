@@ -17,8 +17,8 @@ bool ladder_charts_fit_classic(struct ladder *ladder)
 }
 
 char *ladder_export_classic(struct ladder *ladder, enum classic_dialect dialect,
-			    size_t *len, struct classic_report *report,
-			    struct diag_list *diags)
+			    const struct classic_lines *lines, size_t *len,
+			    struct classic_report *report, struct diag_list *diags)
 {
 	struct project *project = ladder_project(ladder);
 	const struct classic_project *classic;
@@ -31,7 +31,7 @@ char *ladder_export_classic(struct ladder *ladder, enum classic_dialect dialect,
 	arena_init(&arena);
 	sink_memory_init(&memory);
 	sink = sink_to_memory(&memory);
-	classic = to_classic(project, dialect, &arena, report, diags);
+	classic = to_classic(project, dialect, lines, &arena, report, diags);
 	if (classic)
 		classic_write(classic, &sink);
 	arena_free(&arena);

@@ -4,7 +4,8 @@
  * ladders; what comes out is read, checked and written in canonical form. Or the whole as a
  * project of ClassicLadder.
  */
-#include "ladder/report.h"
+#include "ladder/export_io.h"
+#include "ladder/paths.h"
 
 #include "engine/base/file.h"
 #include "engine/import/report.h"
@@ -12,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static enum status write_out(struct call *call, const char *text, size_t len)
 {
@@ -75,6 +77,34 @@ static enum status export_loaded(struct call *call, struct ladder *ladder,
 
 /* ---- ClassicLadder ---- */
 
+/* What an export goes on with. */
+struct leaving_to {
+	enum classic_dialect dialect;
+	struct classic_lines lines;
+	struct arena arena; /* of the lines                                     */
+};
+
+/* The map that is given, the one that an import of the project itself gives, or the one
+ * that stands beside the rung file. */
+static bool find_lines(struct call *call, struct ladder *ladder, struct leaving_to *to)
+{
+	const char *given = call_option(call, "--io"), *own = ladder_import_io(ladder);
+	char *beside = path_with_ending(call->arg[0], ".io"), *text;
+	const char *path = given ? given : beside;
+	bool good = true;
+	size_t len;
+
+	if (own && !given) {
+		good = export_lines(call->arg[0], own, strlen(own), &to->arena, &to->lines);
+	} else if (given || (beside && access(beside, R_OK) == 0)) {
+		text = report_read(path, &len);
+		good = text && export_lines(path, text, len, &to->arena, &to->lines);
+		free(text);
+	}
+	free(beside);
+	return good;
+}
+
 static const struct { const char *word; enum classic_dialect dialect; } classic_words[] = {
 	{ "classicladder", CLASSIC_UPSTREAM }, { "linuxcnc", CLASSIC_LINUXCNC },
 	{ "numeric", CLASSIC_NUMERIC },
@@ -96,7 +126,7 @@ static void print_changes(const char *path, const struct classic_report *report)
 }
 
 static enum status export_classic(struct call *call, struct ladder *ladder,
-				  const char *path, enum classic_dialect dialect)
+				  const char *path, const struct leaving_to *to)
 {
 	struct diag_list *diags = calloc(1, sizeof(*diags));
 	struct classic_report report;
@@ -108,7 +138,7 @@ static enum status export_classic(struct call *call, struct ladder *ladder,
 		return report_no_memory(path);
 	diag_init(diags);
 	report_init(&report);
-	text = ladder_export_classic(ladder, dialect, &len, &report, diags);
+	text = ladder_export_classic(ladder, to->dialect, &to->lines, &len, &report, diags);
 	report_diags(diags);
 	free(diags);
 	if (text) {
@@ -122,7 +152,7 @@ static enum status export_classic(struct call *call, struct ladder *ladder,
 
 /* A chart that can be no page goes there as a ladder. */
 static enum status export_as_ladder(struct call *call, struct ladder *ladder,
-				    const char *path, enum classic_dialect dialect)
+				    const char *path, const struct leaving_to *to)
 {
 	struct diag_list *diags = calloc(1, sizeof(*diags));
 	struct ladder *again = ladder_new();
@@ -139,7 +169,7 @@ static enum status export_as_ladder(struct call *call, struct ladder *ladder,
 	text = ladder_export_ladder(ladder, &len, diags);
 	report_diags(diags);
 	if (text && ladder_load_text(again, path, text, len) && ladder_build(again)) {
-		status = export_classic(call, again, path, dialect);
+		status = export_classic(call, again, path, to);
 	} else if (text) {
 		report_diags(ladder_diags(again));
 	}
@@ -152,11 +182,21 @@ static enum status export_as_ladder(struct call *call, struct ladder *ladder,
 static enum status export_any(struct call *call, struct ladder *ladder, const char *path,
 			      int word)
 {
+	struct leaving_to to = { .lines = { NULL, 0, 0 } };
+	enum status status;
+
 	if (word == CLASSIC_WORDS)
 		return export_loaded(call, ladder, path);
-	if (ladder_charts_fit_classic(ladder))
-		return export_classic(call, ladder, path, classic_words[word].dialect);
-	return export_as_ladder(call, ladder, path, classic_words[word].dialect);
+	to.dialect = classic_words[word].dialect;
+	arena_init(&to.arena);
+	if (!find_lines(call, ladder, &to))
+		status = STATUS_NO;
+	else if (ladder_charts_fit_classic(ladder))
+		status = export_classic(call, ladder, path, &to);
+	else
+		status = export_as_ladder(call, ladder, path, &to);
+	arena_free(&to.arena);
+	return status;
 }
 
 enum status cmd_export(struct call *call)

@@ -505,8 +505,8 @@ static void check_numeric(struct leaving *e)
 }
 
 struct classic_project *to_classic(struct project *project, enum classic_dialect dialect,
-				   struct arena *arena, struct classic_report *report,
-				   struct diag_list *diags)
+				   const struct classic_lines *lines, struct arena *arena,
+				   struct classic_report *report, struct diag_list *diags)
 {
 	struct leaving *e = arena_alloc(arena, sizeof(*e));
 	int before = diags->errors;
@@ -515,7 +515,7 @@ struct classic_project *to_classic(struct project *project, enum classic_dialect
 		return NULL;
 	*e = (struct leaving){ .project = project, .dialect = dialect, .arena = arena,
 		.columns = classic_columns(dialect), .rows = classic_rows(dialect),
-		.report = report, .diags = diags, .started = -1, .never = -1,
+		.lines = lines, .report = report, .diags = diags, .started = -1, .never = -1,
 		.rung_index = -1, .good = true,
 		.scope = scope_new(project, arena),
 		.out = arena_alloc(arena, sizeof(struct classic_project)),

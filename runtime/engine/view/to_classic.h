@@ -15,18 +15,26 @@
 #include "engine/import/report.h"
 #include "engine/model/project.h"
 
+/* An I/O map in their terms; what it cannot say there was told when it was made. */
+struct classic_lines {
+	const struct classic_io *io;
+	int count;
+	int sample_ms;         /* inputs are looked at so often; 0: as usual    */
+};
+
 /** classic_charts_fit - can each chart be a sequential page? Else they are written as
  * ladders first (sfc_ladder.h). Scan-safe: no. */
 bool classic_charts_fit(const struct project *project);
 /**
  * to_classic - @project as a ClassicLadder project
  * @project: without errors; its table of names grows
+ * @lines:   of its I/O map; NULL: none. Borrowed as long as what is returned lives
  * @arena:   owns what is returned
  * @report:  gets what means something else there
  *
  * Owns: @arena.   Scan-safe: no.   Fails: NULL and at least one diagnostic.
  */
 struct classic_project *to_classic(struct project *project, enum classic_dialect dialect,
-				   struct arena *arena, struct classic_report *report,
-				   struct diag_list *diags);
+				   const struct classic_lines *lines, struct arena *arena,
+				   struct classic_report *report, struct diag_list *diags);
 #endif

@@ -88,6 +88,7 @@ struct leaving {
 	struct scope *scope;
 	struct classic_report *report;
 	struct diag_list *diags;
+	const struct classic_lines *lines; /* of an I/O map; NULL: none        */
 	struct classic_project *out;
 	struct expr *expr;
 	struct out_slot *slot; int slots;

@@ -38,17 +38,50 @@ static int word_count(const struct leaving *e, int type, int usual)
 	return usual;
 }
 
+/* A table of 64 lines. LinuxCNC has pins of its own: HAL's. */
+static void leave_lines(struct leaving *e)
+{
+	enum { LINES = 32 };
+	int used[2] = { 0, 0 };
+
+	if (!e->lines || !e->lines->count)
+		return;
+	if (e->dialect != CLASSIC_UPSTREAM) {
+		tell_line(e, 0, e->dialect == CLASSIC_LINUXCNC ?
+			  "the I/O map stays here: LinuxCNC connects pins of HAL" :
+			  "the I/O map stays here: a bare rung file has none");
+		return;
+	}
+	for (int i = 0; i < e->lines->count; i++) {
+		const struct classic_io *from = &e->lines->io[i];
+		struct classic_io *to;
+
+		if (used[from->output]++ == LINES) {
+			out_refuse(e, DIAG_EXPORT_MANY, "%s", from->output ?
+				   "lines of outputs in the I/O map" :
+				   "lines of inputs in the I/O map");
+			return;
+		}
+		to = arena_push(e->arena, &e->out->io, &e->out->ios, sizeof(*to));
+		if (to)
+			*to = *from;
+		size_note(e, from->output ? 60 : 50, from->first + from->count - 1);
+	}
+}
+
 void leave_settings(struct leaving *e)
 {
 	struct classic_project *out = e->out;
 
 	const char *title = plain_title(e, project_text(e->project, e->project->title));
 
+	leave_lines(e);
 	setting(e, "PROJECT_NAME", title);
 	if (strlen(title) > CLASSIC_COMMENT)
 		tell_line(e, 0, "the project's name is cut to %d bytes", CLASSIC_COMMENT);
 	setting(e, "PERIODIC_REFRESH", out_text(e, "%d", out->period));
-	setting(e, "PERIODIC_INPUTS_REFRESH", "10");
+	setting(e, "PERIODIC_INPUTS_REFRESH", out_text(e, "%d", e->lines &&
+		e->lines->sample_ms ? e->lines->sample_ms : 10));
 	setting(e, "REAL_INPUTS_OUTPUTS_ONLY_ON_TARGET", "0");
 	size(e, "SIZE_NBR_RUNGS", out->rungs, 100);
 	size(e, "SIZE_NBR_BITS", e->sizes[CL_BIT], 500);
