@@ -283,21 +283,6 @@ static bool actors_apart(const struct out_rung *r)
 	return true;
 }
 
-/* A jump or assignment without power does nothing; a coil writes. */
-static bool acts_dead(const struct out_rung *r)
-{
-	for (int i = 0; i < r->count; i++) {
-		struct sources sources = { { 0, 0 } };
-
-		if (!r->item[i].actor)
-			continue;
-		expected(r, r->item[i].in, &sources, 0);
-		if (!sources.bit[0] && !sources.bit[1])
-			return true;
-	}
-	return false;
-}
-
 bool same_rung(struct leaving *e, struct out_rung *r)
 {
 	struct drawing *d = arena_alloc(e->arena, sizeof(*d));
@@ -311,7 +296,7 @@ bool same_rung(struct leaving *e, struct out_rung *r)
 	for (int i = 0; d->rung && i < CLASSIC_ROWS * CLASSIC_COLUMNS; i++)
 		d->rung->cell[i / CLASSIC_COLUMNS][i % CLASSIC_COLUMNS].variable =
 			variable_of(0, 0);
-	if (!d->rung || !actors_apart(r) || acts_dead(r) || !find_columns(d))
+	if (!d->rung || !actors_apart(r) || !find_columns(d))
 		return false;
 	place_all(d);
 	if (d->bad || !means_the_same(d) || !same_order(d))
