@@ -314,16 +314,43 @@ static bool writes_system(struct leaving *e, const struct pou *pou,
 			slot->pou == pou);
 }
 
+static bool is_step(struct leaving *e, const struct pou *pou, const struct cell *cell)
+{
+	const char *text = project_text(e->project, cell->operand);
+	const struct out_slot *slot = target_slot(e, pou, text, strlen(text));
+
+	return slot && slot->type == CL_STEP_BIT;
+}
+
 /* Bits of steps of other pages, and their times. */
 static bool writes_steps(struct leaving *e, const struct pou *pou, const struct cell *cell)
 {
-	const char *text = project_text(e->project, cell->operand);
-	const struct out_slot *slot;
+	return cell->word == FB_CL_STEP ||
+	       (cell->word == ELEM_COIL_SET && is_step(e, pou, cell));
+}
 
-	if (cell->word == FB_CL_STEP)
-		return true;
-	slot = target_slot(e, pou, text, strlen(text));
-	return cell->word == ELEM_COIL_SET && slot && slot->type == CL_STEP_BIT;
+/* Steps of a page that sections before it do not see yet. */
+static bool hides_steps(struct leaving *e, const struct pou *pou, const struct cell *cell)
+{
+	return cell->word == ELEM_COIL_RESET && is_step(e, pou, cell);
+}
+
+/* Nothing but the first scan and steps is asked. */
+static bool asks_steps(struct leaving *e, const struct pou *pou)
+{
+	for (int i = 0; i < pou->rung_count; i++)
+		for (int k = 0; k < pou->rung[i]->rows * pou->rung[i]->cols; k++) {
+			const struct cell *cell = &pou->rung[i]->cell[k];
+
+			if (scope_row(e->scope, (enum word)cell->word)->place !=
+				    PLACE_SERIES || is_step(e, pou, cell))
+				continue;
+			if (cell->word != ELEM_CONTACT_NO ||
+			    strcmp(project_text(e->project, cell->operand),
+				   "SYS_FIRST_SCAN") != 0)
+				return false;
+		}
+	return true;
 }
 
 static bool is_needless(struct leaving *e, const struct pou *pou)
@@ -331,7 +358,10 @@ static bool is_needless(struct leaving *e, const struct pou *pou)
 	const char *name = project_text(e->project, pou->name);
 
 	return (!strncmp(name, "SystemBits", 10) && writes_only(e, pou, writes_system)) ||
-	       writes_only(e, pou, writes_steps);
+	       (strstr(name, "_Others") && asks_steps(e, pou) &&
+		writes_only(e, pou, writes_steps)) ||
+	       (strstr(name, "_Begin") && asks_steps(e, pou) &&
+		writes_only(e, pou, hides_steps));
 }
 
 /* ---- programs in the order in which they run ---- */
