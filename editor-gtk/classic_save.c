@@ -79,7 +79,7 @@ static char *export_loaded(struct ladder *ladder, enum classic_dialect dialect, 
 
 	diag_init(diags);
 	report_init(&report);
-	text = ladder_export_classic(ladder, dialect, len, &report, diags);
+	text = ladder_export_classic(ladder, dialect, NULL, len, &report, diags);
 	add_diags(lines, diags);
 	if (text)
 		add_changes(lines, &report);
