@@ -266,7 +266,9 @@ static bool same_order(const struct drawing *d)
 			if (k == i || item->actor || item->order < 0 || item->dead ||
 			    item->code == CL_WIRE || !part_touches(item, box))
 				continue;
-			if ((item->order < box->order) != (there < 0))
+			/* What an import would cut is cut here: it stays as it is then. */
+			if ((item->order < box->order) != (there < 0) ||
+			    (d->x[k] <= d->x[i] && item->row < box->row))
 				return false;
 		}
 	}
@@ -283,6 +285,21 @@ static bool actors_apart(const struct out_rung *r)
 	return true;
 }
 
+/* A jump that nothing feeds would only want a rung to go to. */
+static bool jumps_dead(const struct out_rung *r)
+{
+	for (int i = 0; i < r->count; i++) {
+		struct sources sources = { { 0, 0 } };
+
+		if (!r->item[i].actor || r->item[i].code != CL_JUMP)
+			continue;
+		expected(r, r->item[i].in, &sources, 0);
+		if (!sources.bit[0] && !sources.bit[1])
+			return true;
+	}
+	return false;
+}
+
 bool same_rung(struct leaving *e, struct out_rung *r)
 {
 	struct drawing *d = arena_alloc(e->arena, sizeof(*d));
@@ -296,7 +313,7 @@ bool same_rung(struct leaving *e, struct out_rung *r)
 	for (int i = 0; d->rung && i < CLASSIC_ROWS * CLASSIC_COLUMNS; i++)
 		d->rung->cell[i / CLASSIC_COLUMNS][i % CLASSIC_COLUMNS].variable =
 			variable_of(0, 0);
-	if (!d->rung || !actors_apart(r) || !find_columns(d))
+	if (!d->rung || !actors_apart(r) || jumps_dead(r) || !find_columns(d))
 		return false;
 	place_all(d);
 	if (d->bad || !means_the_same(d) || !same_order(d))
