@@ -300,6 +300,7 @@ $(BUILD)/schemas/gschemas.compiled: packaging/org.rungboard.Editor.gschema.xml
 all: $(if $(EDITOR),$(BUILD)/schemas/gschemas.compiled)
 screenshots: $(BUILD)/ladder-editor $(BUILD)/schemas/gschemas.compiled ## docs/editor.png and the pictures of charts anew
 	$< --render ladders/sequence-s0-s8.rung -o docs/sequence-s0-s8.png
+	$< --render tests/classic/projects/linuxcnc.clp --rung 3 --before-after -o docs/from-classicladder.png
 	BUILD=$(BUILD) tests/editor/screenshot.py docs/editor.png
 .PHONY: screenshots
 # The editor over the fake chips of the HAL's tests, for what it finds on a machine.

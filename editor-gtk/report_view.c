@@ -65,9 +65,9 @@ static void refresh(GtkWidget *widget)
 
 void ladder_report_view_import(LadderReportView *view, LadderOrigin *origin)
 {
-	g_set_object(&view->origin, origin);
+	if (g_set_object(&view->origin, origin))
+		view->shown = NULL;
 	g_clear_pointer(&view->lines, g_ptr_array_unref);
-	view->shown = NULL;
 	refresh(GTK_WIDGET(view));
 }
 

@@ -72,9 +72,6 @@ void window_show_report(LadderWindow *window)
 					     "written for it."));
 		return;
 	}
-	if (window->classic && window->report_of_export)
-		ladder_report_view_import(report_of(window), window->classic);
-	window->report_of_export = false;
 	show_panel(window);
 	follow(window);
 	ladder_report_view_focus(report_of(window));
@@ -95,6 +92,7 @@ void window_show_original(LadderWindow *window)
 					     "ClassicLadder."));
 		return;
 	}
+	ladder_report_view_import(report_of(window), window->classic);
 	show_panel(window);
 	follow(window);
 	if (sheet)
@@ -119,7 +117,6 @@ void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin)
 {
 	g_set_object(&window->classic, origin);
 	ladder_report_view_import(report_of(window), origin);
-	window->report_of_export = false;
 	set_visible(window, true);
 	window_banner(window, ladder_report_view_title(report_of(window)), _("Show report"),
 		      window_show_report);
@@ -127,21 +124,16 @@ void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin)
 
 /* ---- writing one ---- */
 
-/* The report of the writing is there, whatever else happens. */
+/* In the place of the import's, which comes again with an original. */
 static void tell_export(LadderWindow *window, const char *path, GPtrArray *lines)
 {
 	char *name = g_path_get_basename(path);
 
-	ladder_report_view_export(report_of(window), name, lines);
-	window->report_of_export = window->classic != NULL;
+	if (lines->len || !window->classic)
+		ladder_report_view_export(report_of(window), name, lines);
+	else
+		ladder_report_view_import(report_of(window), window->classic);
 	g_free(name);
-}
-
-static void show_export(LadderWindow *window)
-{
-	window->report_of_export = false; /* that one, not the import's        */
-	window_show_report(window);
-	window->report_of_export = window->classic != NULL;
 }
 
 static void tell_written(LadderWindow *window, const char *path, guint changed)
@@ -155,7 +147,7 @@ static void tell_written(LadderWindow *window, const char *path, guint changed)
 		g_strdup_printf(_("%s was written for ClassicLadder."), name);
 
 	if (changed)
-		window_banner(window, text, _("Show report"), show_export);
+		window_banner(window, text, _("Show report"), window_show_report);
 	else
 		window_toast(window, text);
 	g_free(text);
@@ -174,9 +166,9 @@ bool window_export_to(LadderWindow *window, const char *path)
 		tell_written(window, path, lines->len);
 	} else {
 		window_banner(window, error->message,
-			      lines->len ? _("Show report") : NULL, show_export);
+			      lines->len ? _("Show report") : NULL, window_show_report);
 		if (lines->len)
-			show_export(window);
+			window_show_report(window);
 	}
 	g_clear_error(&error);
 	g_ptr_array_unref(lines);

@@ -23,7 +23,6 @@ struct _LadderWindow {
 	bool close_after_board;   /* the person said so                        */
 	char *origin;             /* of a sample: the file it is a copy of     */
 	LadderOrigin *classic;    /* what it was taken from; NULL: nothing     */
-	bool report_of_export;    /* the report is not that of @classic        */
 	char *plant;              /* that a person chose; NULL: none           */
 	bool plant_chosen;
 	struct window_why *why;   /* what holds power back                     */

@@ -59,6 +59,7 @@ def classic(screen):
     before = read(project)
     editor = Editor(screen, project)
     editor.says('not saved yet')
+    editor.click(editor.find('Show report', 'push button'))
     editor.says('element 103 does not conduct')
     editor.shot('files-classic')
     editor.finish()
