@@ -90,12 +90,8 @@ def menus(screen):
     until(lambda: menu_item(editor, 'New program (LD)'), 'the menu of the tree again')
     until(lambda: menu_item(editor, 'New function') or editor.keys('Down'), 'the row of a new function')
     editor.keys('Return')
-    editor.find('Name', 'text')
-    editor.keys('ctrl+a')
-    editor.type('Sum')
-    editor.keys('Return')
-    until(lambda: [n for n in editor.all('Sum', 'label') if n.name == 'Sum'], 'the function in the tree')
-    assert 'FUNCTION Sum : BOOL LD' in editor.save(path)
+    until(lambda: editor.all('Function1', 'label'), 'the function in the tree')
+    assert 'FUNCTION Function1 : BOOL LD' in editor.save(path)
 
 
 def beside(screen):
