@@ -26,7 +26,7 @@ struct making {
 	int target;              /* last rung of the section                   */
 	int subroutines, callable; /* those from callable on may be called     */
 	int pages, transitions;
-	int steps[PAGES];        /* of each page                               */
+	bool numbered[STEPS];    /* there is a step of this number             */
 };
 
 /** making_put - more text. */

@@ -351,12 +351,16 @@ static void put_page(struct making *making, int page, int first_transition)
 	int steps = 3 + making_below(making, PAGE_STEPS - 3), first = page * PAGE_STEPS;
 	int transitions = steps + making_below(making, 4);
 
-	making->steps[page] = steps;
-	for (int i = 0; i < steps; i++)
-		making_put(making, "S%d,%d,%d,%d,%d,%d\n", first + i, i == 0 || making_chance(making, 8),
-		    /* Some have a number that another one has, too.                */
-		    making_chance(making, 95) ? first + i : making_below(making, STEPS),
-		    page, 1 + i % 8 * 2, 1 + i / 8 * 4);
+	for (int i = 0; i < steps; i++) {
+		/* Some have a number that another one has, too.                   */
+		int number = making_chance(making, 95) ? first + i :
+			     making_below(making, STEPS);
+
+		making->numbered[number] = true;
+		making_put(making, "S%d,%d,%d,%d,%d,%d\n", first + i,
+			   i == 0 || making_chance(making, 8), number, page,
+			   1 + i % 8 * 2, 1 + i / 8 * 4);
+	}
 	for (int i = 0; i < transitions; i++) {
 		struct cell cell = { .index = -1 };
 
@@ -483,10 +487,9 @@ static void put_script(struct making *making)
 		making_put(making, " %%TM%d.Q %%TM%d.V", i, i);
 	for (int i = 0; i < making->used[4]; i++)
 		making_put(making, " %%R%d.S %%R%d.O", i, i);
-	for (int page = 0; page < making->pages; page++)
-		for (int i = 0; i < making->steps[page]; i++)
-			making_put(making, " %%X%d.A %%X%d.V", page * PAGE_STEPS + i,
-				   page * PAGE_STEPS + i);
+	for (int i = 0; i < STEPS; i++)
+		if (making->numbered[i])
+			making_put(making, " %%X%d.A %%X%d.V", i, i);
 	making_put(making, "\n");
 	for (int i = 0; i < lines; i++) {
 		int settings = making_below(making, 4);

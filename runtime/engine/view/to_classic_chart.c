@@ -72,6 +72,41 @@ static const struct cell *seconds_of(const struct pou *pou, const struct sfc_bod
 	return found;
 }
 
+/* The coil of a step's bit that an import puts into an action, where it must be told in the
+ * first scan, too; NULL: it is none. @step: whose it is. */
+static const struct cell *bit_of(const struct project *project, const struct pou *pou,
+				 const struct sfc_body *body, int step)
+{
+	const char *name = project_text(project, pou->sfc->step[step].name);
+	const size_t len = strlen(name);
+	const struct rung *rung;
+	const char *text;
+
+	if (body->kind != BODY_RUNGS || body->count != 1)
+		return NULL;
+	rung = pou->rung[body->first];
+	text = project_text(project, rung->cell[0].operand);
+	if (rung->rows != 1 || rung->cols != 2 || rung->cell[0].word != ELEM_CONTACT_NO ||
+	    rung->cell[1].word != ELEM_COIL || strlen(text) != len + 2 ||
+	    !ascii_is(name, text, len) || !ascii_is(".X", text + len, 2))
+		return NULL;
+	return &rung->cell[1];
+}
+
+/* A line holds a BOOL or an action of an import. */
+static bool line_fits(const struct project *project, const struct pou *pou,
+		      const struct sfc_use *use)
+{
+	const struct sfc_body *body = use->action < 0 ? NULL :
+				      &pou->sfc->action[use->action].body;
+
+	if (use->kind != USE_ACTION)
+		return false;
+	if (body && bit_of(project, pou, body, use->step))
+		return use->qualifier == QUALIFIER_N || use->qualifier == QUALIFIER_P1;
+	return use->qualifier == QUALIFIER_N && (!body || seconds_of(pou, body));
+}
+
 bool chart_fits(const struct project *project, const struct pou *pou)
 {
 	const struct sfc *sfc = pou->sfc;
@@ -86,10 +121,7 @@ bool chart_fits(const struct project *project, const struct pou *pou)
 		    sfc->step[i].min || sfc->step[i].max)
 			return false;
 	for (int i = 0; i < sfc->use_count; i++)
-		if (sfc->use[i].kind != USE_ACTION || sfc->use[i].qualifier != QUALIFIER_N)
-			return false;
-	for (int i = 0; i < sfc->action_count; i++)
-		if (!seconds_of(pou, &sfc->action[i].body))
+		if (!line_fits(project, pou, &sfc->use[i]))
 			return false;
 	for (int i = 0; i < sfc->transition_count; i++) {
 		const struct sfc_transition *t = &sfc->transition[i];
@@ -120,19 +152,40 @@ static bool number_taken(const struct leaving *e, int number)
 	return false;
 }
 
-/* Step7 is %X7. */
+/* Step7 is %X7. -1: any number will do. */
+static int number_wished(const char *name)
+{
+	char *end;
+	long wish;
+
+	if (strncmp(name, "Step", 4) != 0 || !ascii_digit(name[4]))
+		return -1;
+	wish = strtol(name + 4, &end, 10);
+	return !*end && wish < CLASSIC_LIMIT ? (int)wish : -1;
+}
+
+/* By a step of any chart. */
+static bool is_wished(const struct leaving *e, int number)
+{
+	for (int i = 0; i < e->project->pou_count; i++) {
+		const struct sfc *sfc = e->project->pou[i].sfc;
+
+		for (int k = 0; sfc && k < sfc->step_count; k++)
+			if (number_wished(project_text(e->project,
+						       sfc->step[k].name)) == number)
+				return true;
+	}
+	return false;
+}
+
 static int step_number(const struct leaving *e, const char *name)
 {
-	int number = 0;
-	char *end;
+	int number = number_wished(name);
 
-	if (!strncmp(name, "Step", 4) && ascii_digit(name[4])) {
-		long wish = strtol(name + 4, &end, 10);
-
-		if (!*end && wish < CLASSIC_LIMIT && !number_taken(e, (int)wish))
-			return (int)wish;
-	}
-	while (number_taken(e, number))
+	if (number >= 0 && !number_taken(e, number))
+		return number;
+	number = e->free_step;
+	while (number_taken(e, number) || is_wished(e, number))
 		number++;
 	return number;
 }
@@ -181,10 +234,16 @@ static void use_slots(struct leaving *e, const struct pou *pou, int step, int nu
 	for (int i = 0; i < sfc->use_count; i++) {
 		const struct sfc_use *use = &sfc->use[i];
 		const struct var *var;
-		const struct cell *seconds;
+		const struct cell *seconds, *bit;
 
 		if (use->step != step)
 			continue;
+		if (use->action >= 0 && (bit = bit_of(e->project, pou,
+				&sfc->action[use->action].body, step))) {
+			step_slot(e, pou, var_of(e, pou, bit->operand, MEANING_VARIABLE),
+				  CL_STEP_BIT, number);
+			continue;
+		}
 		if (use->action >= 0) {
 			seconds = seconds_of(pou, &sfc->action[use->action].body);
 			var = seconds ? var_of(e, pou, seconds->operand,
@@ -205,12 +264,15 @@ void chart_prepare(struct leaving *e, const struct pou *pou, int page)
 
 	for (int i = 0; i < sfc->step_count; i++) {
 		const struct sfc_step *step = &sfc->step[i];
-		int number = step_number(e, project_text(e->project, step->name));
+		const char *name = project_text(e->project, step->name);
+		int number = step_number(e, name);
 		struct classic_step *to = arena_push(e->arena, &e->out->step,
 						     &e->out->steps, sizeof(*to));
 
 		if (!to)
 			return;
+		if (number_wished(name) != number)
+			e->free_step = number + 1;
 		*to = (struct classic_step){ .index = e->out->steps - 1,
 			.initial = step->kind == STEP_INITIAL, .number = number,
 			.page = page, .x = step->column > 0 ? step->column - 1 :

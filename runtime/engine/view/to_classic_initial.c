@@ -87,8 +87,9 @@ void leave_initial(struct leaving *e)
 		const struct var *var = slot->var;
 		struct out_part item;
 
-		if (slot->block >= 0 || slot->type < 0 || !var->has_init ||
-		    var->type == IEC_NONE || (slot->pou && pou_has_frame(slot->pou)))
+		/* A page tells itself what its steps are. */
+		if (slot->block >= 0 || slot->type < 0 || slot->type == CL_STEP_BIT ||
+		    !var->has_init || var->type == IEC_NONE || (slot->pou && pou_has_frame(slot->pou)))
 			continue;
 		e->pou = slot->pou;
 		e->rung_index = -1;

@@ -101,6 +101,7 @@ struct leaving {
 	uint8_t wide[2];       /* widths of %AI, %AQ in use: 1 16 bits, 2 32   */
 	bool asks_first;       /* a text may name SYS_FIRST_SCAN                */
 	int first;             /* a bit that is it; -1: none                   */
+	int free_step;         /* numbers of steps before it are given         */
 	int started, never;    /* bits: a scan has been; never TRUE. -1: not needed */
 	/* the POU in work */
 	const struct pou *pou;
