@@ -5,7 +5,8 @@
  * Items stand between semicolons: `I Name` an initial step, `S Name` a step, `M Name`
  * a macro-step and `E` its end, `T A,B>C,D` a transition whose condition is an input,
  * `T A>B=TRUE` with that expression, `T A>B=` without a condition, `A Name` an empty
- * action, `L Name Q Time` a line of the step before it.
+ * action, `L Name Q Time` a line of the step before it; `O`: the chart is IN ORDER, and
+ * either side of `>` may be empty.
  */
 #ifndef TESTS_CHART_H
 #define TESTS_CHART_H
@@ -167,6 +168,7 @@ static inline void chart_piece(struct chart *c, const char *text)
 	case 'T': chart_transition(c, rest); break;
 	case 'A': chart_action(c, rest); break;
 	case 'L': chart_line(c, rest); break;
+	case 'O': c->sfc->evolution = EVOLVE_IN_ORDER; break;
 	default: abort();
 	}
 }

@@ -445,10 +445,10 @@ static void test_random(void)
 
 /* ---- charts ---- */
 
-#define CHART(first, other) \
+#define CHART(evolution, first, other) \
 	"VAR\n  Go AT %IX0.0 : BOOL;\n  Valve : BOOL;\n  Late : BOOL;\n" \
 	"  Once : INT;\nEND_VAR\n" \
-	"PROGRAM Main SFC\n" first \
+	"PROGRAM Main SFC" evolution "\n" first \
 	"INITIAL_STEP Idle:\nEND_STEP\n" \
 	"STEP Fill:\n  Valve(S);\n  Late(SD, T#100ms);\n  Count(P1);\nEND_STEP\n" \
 	"STEP Hold:\nEND_STEP\nSTEP Empty:\n  Valve(R);\n  Late(R);\nEND_STEP\n" \
@@ -459,13 +459,16 @@ static void test_random(void)
 	"TRANSITION FROM Empty TO Idle := NOT Go; END_TRANSITION\n" \
 	"ACTION Count:\n  LD Once\n  ADD 1\n  ST Once\nEND_ACTION\n" \
 	"END_PROGRAM\n"
-static const char chart[] = CHART("", "");
+static const char chart[] = CHART("", "", "");
+static const char chart_in_order[] = CHART(" IN ORDER", "", "");
 /* Steps before and behind, one of them initial; and it is operated from outside. */
-static const char more_chart[] = CHART(
-	"CONTROL(HOLD := %MX7.0);\nINITIAL_STEP Other:\n  %MX8.0(N);\nEND_STEP\n",
-	"STEP Else:\nEND_STEP\n"
-	"TRANSITION FROM Other TO Else := %IX0.7; END_TRANSITION\n"
-	"TRANSITION FROM Else TO Other := %IX0.6; END_TRANSITION\n");
+#define MORE(evolution) CHART(evolution, \
+	"CONTROL(HOLD := %MX7.0);\nINITIAL_STEP Other:\n  %MX8.0(N);\nEND_STEP\n", \
+	"STEP Else:\nEND_STEP\n" \
+	"TRANSITION FROM Other TO Else := %IX0.7; END_TRANSITION\n" \
+	"TRANSITION FROM Else TO Other := %IX0.6; END_TRANSITION\n")
+static const char more_chart[] = MORE("");
+static const char more_in_order[] = MORE(" IN ORDER");
 
 static bool same_chart(struct rig *a, struct rig *b)
 {
@@ -481,15 +484,15 @@ static bool same_chart(struct rig *a, struct rig *b)
 }
 
 /* Wherever the chart stands when it is changed, it goes on as it would have. */
-static void test_chart(void)
+static void test_chart(const char *from, const char *to)
 {
 	bool same = true, alone = true;
 
 	for (int at = 1; at < 30; at++) {
 		struct rig old, new;
 
-		rig_open(&old, chart, true);
-		rig_open(&new, more_chart, true);
+		rig_open(&old, from, true);
+		rig_open(&new, to, true);
 		for (int i = 0; i < at; i++) {
 			rig_set(&old, "Go", i > 1 && i < 25);
 			rig_scan(&old);
@@ -513,7 +516,10 @@ static void test_chart(void)
 
 int main(void)
 {
-	test_chart();
+	test_chart(chart, more_chart);
+	test_chart(chart_in_order, more_in_order);
+	test_chart(chart, more_in_order);
+	test_chart(chart_in_order, more_chart);
 	test_random();
 	test_values();
 	test_forces();

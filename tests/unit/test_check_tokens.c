@@ -92,6 +92,17 @@ static void test_unreached(void)
 	CHECK_TEXT(check("I A; S B; S C; T A>A; T B>C; T C>A"), "");
 }
 
+/* One between two transitions may bring a step back; what comes out of nothing is looked
+ * over. */
+static void test_in_order(void)
+{
+	CHECK_TEXT(check("O; I A; S B; S C; T A>B=TRUE; T A>C; T B>A; T C>A"), "");
+	CHECK_TEXT(check("O; I A; S B; S C; S D; T A>B,C; T A>D; T D>B; T B,C>A"),
+		   "LD451:12 A -> D -> B; LD452:103 D -> B");
+	CHECK_TEXT(check("O; S A; S B; T >A; T A>B; T B>"), "");
+	CHECK_TEXT(check("O; I A; S B; T A>B; T B,A>"), "");
+}
+
 static void append(char *text, size_t size, const char *more)
 {
 	const size_t used = strlen(text);
@@ -512,6 +523,7 @@ int main(void)
 	test_faults();
 	test_long_ways();
 	test_unreached();
+	test_in_order();
 	test_giving_up();
 	test_random();
 	return tap_done();

@@ -116,7 +116,7 @@ static struct expect_want transition_want(const struct before *b)
 	if (condition)
 		return b->count > condition && expect_ends_value(last) ? nothing : want;
 	for (int i = 1; i < b->count; i++)
-		named |= expect_is(&b->token[i], "FROM");
+		named |= expect_is(&b->token[i], "FROM") || expect_is(&b->token[i], "TO");
 	if (named && (expect_is(last, "FROM") || expect_is(last, "TO") ||
 		      expect_is(last, "(") || expect_is(last, ",")))
 		return kinds_want(EXPECT_STEP);
