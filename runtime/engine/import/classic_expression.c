@@ -8,7 +8,7 @@
  * file brings along. Texts come from files: depth is bounded, anything that is no
  * expression is told and left out.
  */
-#include "engine/import/classic_convert.h"
+#include "engine/import/classic_part.h"
 
 #include "engine/base/ascii.h"
 #include "engine/base/limits.h"
@@ -26,20 +26,6 @@ struct parse {
 	int depth;
 	bool failed;
 };
-
-/* A part of an expression: its text, and how strongly it holds together here. */
-struct part {
-	const char *text;
-	const char *a, *b; /* of what may wrap: its operands, of this function */
-	enum classic_function function;
-	int rank;          /* 0: an operand or call; greater: weaker           */
-	bool constant;
-	int32_t value;     /* of a constant                                    */
-	bool known;        /* it lies between these two; else it can be any    */
-	int32_t low, high;
-};
-
-enum { RANK_OPERAND, RANK_SIGN, RANK_PRODUCT, RANK_SUM };
 
 static struct part parse_or(struct parse *p);
 
@@ -71,26 +57,6 @@ static const char *inside(struct parse *p, struct part part, int rank)
 	if (part.a)
 		return function_call(p, part.function, part.a, part.b);
 	return part.rank > rank ? text_of(p->c, "(%s)", part.text) : part.text;
-}
-
-/* ---- how large it can be ---- */
-
-static int32_t low_of(struct part part)
-{
-	return part.known ? part.low : INT32_MIN;
-}
-
-static int32_t high_of(struct part part)
-{
-	return part.known ? part.high : INT32_MAX;
-}
-
-/* What goes beyond 32 bits wraps, and can be anything. */
-static void keep_range(struct part *part, int64_t low, int64_t high)
-{
-	part->known = low >= INT32_MIN && high <= INT32_MAX;
-	part->low = part->known ? (int32_t)low : 0;
-	part->high = part->known ? (int32_t)high : 0;
 }
 
 static bool accept(struct parse *p, const char *word)
@@ -304,7 +270,7 @@ static struct part negate(struct parse *p, struct part part)
 	const char *text = inside(p, part, RANK_OPERAND);
 	struct part out = { .text = text_of(p->c, "-%s", text), .rank = RANK_SIGN };
 
-	keep_range(&out, -(int64_t)high_of(part), -(int64_t)low_of(part));
+	part_keep(&out, -(int64_t)part_high(part), -(int64_t)part_low(part));
 	if (!out.known) {
 		out.a = "0";
 		out.b = text;
@@ -381,28 +347,12 @@ static struct part divide(struct parse *p, struct part a, struct part b, bool re
 			inside(p, a, RANK_PRODUCT), rest ? "MOD" : "/",
 			inside(p, b, RANK_OPERAND)), .rank = RANK_PRODUCT };
 
-		keep_range(&part, -most, most);
+		part_keep(&part, -most, most);
 		return part;
 	}
 	return (struct part){ .text = function_call(
 		p, rest ? CLASSIC_REMAINDER : CLASSIC_DIVIDE, inside(p, a, RANK_SUM),
 		inside(p, b, RANK_SUM)) };
-}
-
-/* The least and the greatest of all products. */
-static void keep_product(struct part *part, struct part a, struct part b)
-{
-	const int64_t corner[] = {
-		(int64_t)low_of(a) * low_of(b), (int64_t)low_of(a) * high_of(b),
-		(int64_t)high_of(a) * low_of(b), (int64_t)high_of(a) * high_of(b),
-	};
-	int64_t low = corner[0], high = corner[0];
-
-	for (int i = 1; i < 4; i++) {
-		low = corner[i] < low ? corner[i] : low;
-		high = corner[i] > high ? corner[i] : high;
-	}
-	keep_range(part, low, high);
 }
 
 static struct part multiply(struct parse *p, struct part a, struct part b)
@@ -414,7 +364,7 @@ static struct part multiply(struct parse *p, struct part a, struct part b)
 
 	if (a.constant && b.constant && product != (int32_t)product)
 		return constant(p, product);
-	keep_product(&part, a, b);
+	part_keep_product(&part, a, b);
 	if (!part.known) {
 		part.a = left;
 		part.b = right;
@@ -445,8 +395,8 @@ static struct part add(struct parse *p, struct part a, struct part b, char op)
 	struct part part = { .text = text_of(p->c, "%s %c %s", left, op, right),
 			     .rank = RANK_SUM };
 
-	keep_range(&part, (int64_t)low_of(a) + (plus ? low_of(b) : -(int64_t)high_of(b)),
-		   (int64_t)high_of(a) + (plus ? high_of(b) : -(int64_t)low_of(b)));
+	part_keep(&part, (int64_t)part_low(a) + (plus ? part_low(b) : -(int64_t)part_high(b)),
+		   (int64_t)part_high(a) + (plus ? part_high(b) : -(int64_t)part_low(b)));
 	if (!part.known) {
 		part.a = left;
 		part.b = right;
