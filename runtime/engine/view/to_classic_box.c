@@ -227,6 +227,9 @@ static bool iec_time(struct leaving *e, struct out_part *item, const char *text)
 	if (!block || (!number_of(text, IEC_TIME, &ns) && !declared_time(e, text, &ns)))
 		return out_refuse(e, DIAG_EXPORT_TIME, "%s", text);
 	block->mode = item->word == FB_TON ? 0 : item->word == FB_TOF ? 1 : 2;
+	if (may_rest(e))
+		tell_change(e, "timer %s stands still there while its rung is not reached",
+			    item->slot->name);
 	return time_units(e, ns, item->slot->name, block);
 }
 

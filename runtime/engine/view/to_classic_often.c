@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * to_classic_often - does a rung run more than once in a scan: in a loop, in a subroutine
- * that is called in several places? A timer of ClassicLadder would count each time.
+ * that is called in several places? Or not at all? A timer of ClassicLadder counts each time
+ * that it is looked at.
  */
 #include "engine/view/to_classic_parts.h"
 
@@ -52,6 +53,29 @@ static void find_calls(const struct leaving *e, const struct pou *called,
 						place->count + 1 };
 			}
 	}
+}
+
+/* Does a rung before @index lead past it? */
+static bool is_skipped(const struct leaving *e, const struct pou *pou, int index)
+{
+	for (int i = 0; i < index; i++) {
+		const struct rung *rung = pou->rung[i];
+
+		for (int k = 0; !rung->off && k < rung->rows * rung->cols; k++) {
+			const struct cell *cell = &rung->cell[k];
+
+			if (cell->word == ELEM_RETURN || cell->word == ELEM_END ||
+			    (cell->word == ELEM_JUMP &&
+			     target_of(e, pou, cell->operand) > index))
+				return true;
+		}
+	}
+	return false;
+}
+
+bool may_rest(struct leaving *e)
+{
+	return e->pou->kind == POU_SUBROUTINE || is_skipped(e, e->pou, e->rung_index);
 }
 
 bool runs_often(struct leaving *e)

@@ -188,6 +188,8 @@ bool box_part(struct leaving *e, const struct network *network,
 
 /** runs_often - may the rung in work run more than once in a scan? Scan-safe: no. */
 bool runs_often(struct leaving *e);
+/** may_rest - may a scan pass it over? Scan-safe: yes. */
+bool may_rest(struct leaving *e);
 /** blocks_prepare - presets and modes of all blocks. */
 void blocks_prepare(struct leaving *e);
 /** box_is_plain - can it be drawn as it stands? Scan-safe: yes. */
