@@ -89,6 +89,9 @@ const char *label_of(const struct conversion *c, int rung);
 void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 	__attribute__((format(printf, 3, 4)));
 
+/** write_kept - what only ClassicLadder understands (classic_keep.c). */
+void write_kept(struct conversion *c);
+
 /** add_program - one more that runs in each scan, behind the others. */
 void add_program(struct conversion *c, const char *name);
 

@@ -404,9 +404,9 @@ static void tell_faults(struct conversion *c)
 static void tell_members(struct conversion *c)
 {
 	static const struct { const char *name, *text; } row[] = {
-		{ "modbusioconf.csv", "Modbus requests stay in the original file: "
+		{ "modbusioconf.csv", "Modbus requests are kept for an export: "
 				      "they are for a driver of Modbus" },
-		{ "config_events.csv", "the log of events" },
+		{ "config_events.csv", "the log of events is kept for an export" },
 		{ "spy_vars.csv", "the list of watched variables" },
 	};
 
@@ -454,6 +454,7 @@ static void write_all(struct conversion *c)
 	}
 	c->at = (struct classic_place){ "", 0 };
 	write_functions(c);
+	write_kept(c);
 }
 
 bool classic_to_rung(const struct classic_project *project,

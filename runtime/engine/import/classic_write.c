@@ -64,10 +64,21 @@ static void end(struct writer *w, const char *member)
 	sink_text(w->sink, "\n");
 }
 
+/* What is kept of it, as it is; NULL: nothing. */
+static const char *kept(const struct writer *w, const char *member)
+{
+	for (int i = 0; i < w->project->members; i++)
+		if (!strcmp(w->project->member[i].name, member))
+			return w->project->member[i].text;
+	return NULL;
+}
+
 static void put_member(struct writer *w, const char *member, const char *text)
 {
+	const char *own = kept(w, member);
+
 	begin(w, member);
-	sink_text(w->sink, text);
+	sink_text(w->sink, own ? own : text);
 	end(w, member);
 }
 
@@ -225,6 +236,8 @@ static void write_pages(struct writer *w)
 
 	begin(w, "sequential.csv");
 	sink_text(w->sink, "#VER=1.0\n");
+	if (kept(w, "sequential.csv"))
+		sink_text(w->sink, kept(w, "sequential.csv"));
 	for (int i = 0; i < project->steps; i++) {
 		const struct classic_step *step = &project->step[i];
 

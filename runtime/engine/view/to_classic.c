@@ -558,6 +558,7 @@ struct classic_project *to_classic(struct project *project, enum classic_dialect
 		if (e->good) {
 			names_symbols(e);
 			leave_told(e);
+			leave_kept(e);
 			leave_settings(e);
 		}
 		if (dialect == CLASSIC_NUMERIC && e->good)

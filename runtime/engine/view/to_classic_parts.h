@@ -144,6 +144,10 @@ int routine_number(struct leaving *e, uint32_t name);
 /** plain_title - a quoted text without its quotes. */
 const char *plain_title(struct leaving *e, const char *text);
 
+/* ---- to_classic_kept.c ---- */
+/** leave_kept - what an import kept goes back. */
+void leave_kept(struct leaving *e);
+
 /* ---- to_classic_settings.c, to_classic_shared.c ---- */
 void leave_settings(struct leaving *e);
 /** is_shared - has anything else a part of its memory? Scan-safe: no. */

@@ -248,8 +248,6 @@ void leave_told(struct leaving *e)
 	told_pous(e);
 	told_comments(e);
 	told_config(e);
-	if (*project_view(e->project))
-		tell_line(e, 0, "what the editor keeps (VIEW) stays here");
 	told_sizes(e);
 	told_faults(e);
 }
