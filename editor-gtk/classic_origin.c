@@ -226,6 +226,11 @@ const struct classic_report *ladder_origin_report(LadderOrigin *origin)
 	return ladder_import_report(origin->ladder);
 }
 
+const char *ladder_origin_io(LadderOrigin *origin)
+{
+	return ladder_import_io(origin->ladder);
+}
+
 const struct classic_rung *ladder_origin_of(LadderOrigin *origin, int pou, int rung)
 {
 	const struct origin_pou *of = pou >= 0 && pou < (int)origin->pous->len ?

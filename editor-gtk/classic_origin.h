@@ -26,6 +26,8 @@ LadderOrigin *ladder_origin_new(LadderDocument *document, char *path,
 const char *ladder_origin_path(LadderOrigin *origin);
 const struct classic_project *ladder_origin_project(LadderOrigin *origin);
 const struct classic_report *ladder_origin_report(LadderOrigin *origin);
+/** ladder_origin_io - its table of lines as an I/O map; NULL: it has none. Borrowed. */
+const char *ladder_origin_io(LadderOrigin *origin);
 /** ladder_origin_of - what rung @rung of POU @pou came of, 0-based; NULL: of nothing there. */
 const struct classic_rung *ladder_origin_of(LadderOrigin *origin, int pou, int rung);
 /** ladder_origin_became - the rungs of @pou that came of @from, int, 0-based; @pou gets

@@ -168,6 +168,24 @@ static gboolean write_file(const char *path, const char *text, gsize len, gboole
 	return good;
 }
 
+/* Its lines stay here: `ladder export --io` takes them along. */
+static void tell_map(LadderDocument *document, GPtrArray *lines)
+{
+	const char *path = ladder_document_path(document);
+	const char *dot = path ? strrchr(path, '.') : NULL;
+	char *map = dot ? g_strdup_printf("%.*s.io", (int)(dot - path), path) : NULL;
+
+	if (map && g_file_test(map, G_FILE_TEST_EXISTS)) {
+		char *name = g_path_get_basename(map);
+
+		add_line(lines, false, NULL, 0, 0, 0, g_strdup_printf(
+			 _("the I/O map %s is not in it: ladder export --io takes it along"),
+			 name));
+		g_free(name);
+	}
+	g_free(map);
+}
+
 gboolean classic_save(LadderDocument *document, const char *path, GPtrArray *lines,
 		      GError **error)
 {
@@ -190,6 +208,8 @@ gboolean classic_save(LadderDocument *document, const char *path, GPtrArray *lin
 		return FALSE;
 	}
 	good = write_file(path, text, len, kinds[kind].packed, error);
+	if (good)
+		tell_map(document, lines);
 	free(text);
 	return good;
 }

@@ -7,6 +7,7 @@
 
 #include "editor-gtk/chooser.h"
 #include "editor-gtk/classic_save.h"
+#include "editor-gtk/disk.h"
 #include "editor-gtk/report_lines.h"
 #include "editor-gtk/report_view.h"
 
@@ -120,6 +121,36 @@ void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin)
 	set_visible(window, true);
 	window_banner(window, ladder_report_view_title(report_of(window)), _("Show report"),
 		      window_show_report);
+}
+
+/* "pump.rung": "pump.io". Caller frees. */
+static char *map_beside(const char *path)
+{
+	const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
+	const gsize len = dot && dot > slash + 1 ? (gsize)(dot - path) : strlen(path);
+
+	return g_strdup_printf("%.*s.io", (int)len, path);
+}
+
+void window_classic_saved(LadderWindow *window)
+{
+	const char *io = window->classic ? ladder_origin_io(window->classic) : NULL;
+	char *path = io ? map_beside(ladder_document_path(window->document)) : NULL;
+	GError *error = NULL;
+
+	if (io && !g_file_test(path, G_FILE_TEST_EXISTS)) {
+		char *name = g_path_get_basename(path);
+		char *text = g_strdup_printf(_("Saved, and the I/O map beside it: %s"), name);
+
+		if (disk_save(path, io, strlen(io), &error))
+			window_toast(window, text);
+		else
+			ladder_window_warn(window, error->message);
+		g_free(text);
+		g_free(name);
+	}
+	g_clear_error(&error);
+	g_free(path);
 }
 
 /* ---- writing one ---- */

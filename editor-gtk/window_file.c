@@ -97,6 +97,7 @@ static bool save_to(LadderWindow *window, const char *path)
 		app_remember(ladder_document_path(window->document));
 		ladder_window_tell(window, _("Saved"));
 		window_banner_close(window);
+		window_classic_saved(window);
 		return true;
 	}
 	window_banner(window, error->message, _("Save as…"), window_save_as);

@@ -163,6 +163,9 @@ void window_show_report(LadderWindow *window);
 /** window_show_original - of the rung at the cursor; from then on it follows. */
 void window_show_original(LadderWindow *window);
 void window_follow_original(LadderWindow *window);
+/** window_classic_saved - the document has a file now: the I/O map of what it was taken from
+ * comes to stand beside it, if nothing stands there. */
+void window_classic_saved(LadderWindow *window);
 void window_export_classic(LadderWindow *window);
 /** window_export_to - the document stays as it is, also unsaved. False: that is told. */
 bool window_export_to(LadderWindow *window, const char *path);

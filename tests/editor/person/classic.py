@@ -7,7 +7,7 @@ import shutil
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import LADDER, ROLES, ROOT, Chinese, Editor, main, new_file, sh, until  # noqa: E402
+from desk import LADDER, ROLES, ROOT, Chinese, Editor, check, main, new_file, sh, until  # noqa: E402
 
 PROJECTS = os.path.join(ROOT, 'tests', 'classic', 'projects')
 LOST = 'element 103 does not conduct'
@@ -160,6 +160,23 @@ def written(screen):
     editor.shot('classic-written')
 
 
+def saved(screen):
+    """saved as a rung file of its own name, with its I/O map beside it; the project itself stays what it is"""
+    editor = opened(screen, 'members.clprj')
+    before = read(os.path.join(screen.home, 'members.clprj'), 'rb')
+    path = os.path.join(screen.home, 'members.rung')
+    editor.to_sheet()
+    save_as(editor, path)
+    until(lambda: os.path.exists(path[:-4] + 'io'), 'the map')
+    editor.says('the I/O map beside it: members.io')
+    check(path)
+    sh(LADDER, 'import', os.path.join(screen.home, 'members.clprj'), '-o', os.path.join(screen.home, 'same.rung'))
+    assert read(os.path.join(screen.home, 'same.io')) == read(path[:-4] + 'io')
+    assert read(os.path.join(screen.home, 'members.clprj'), 'rb') == before
+    save_as(editor, os.path.join(screen.home, 'back.clprj'))
+    editor.says('back.clprj was written for ClassicLadder; 1 thing')
+
+
 def exported(screen):
     """the command for it, by the list of all; a file that is there is not written over unasked, whatever gives its ending"""
     editor = Editor(screen, new_file(screen, SIMPLE))
@@ -267,5 +284,5 @@ if __name__ == '__main__':
         drag(sys.argv[2:])
     else:
         only = sys.argv[1:]
-        tests = [mouse, keyboard, edits, copied, written, exported, refused, small] + ([dropped] if can_drag() else [])
+        tests = [mouse, keyboard, edits, copied, written, saved, exported, refused, small] + ([dropped] if can_drag() else [])
         main([test for test in tests if not only or test.__name__ in only])
