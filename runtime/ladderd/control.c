@@ -228,6 +228,17 @@ void control_tell_halt(const struct cycle *cycle)
 	put(STDERR_FILENO, block.text, block.len, false);
 }
 
+void control_tell_failed(const struct cycle *cycle)
+{
+	struct block block = { .len = 0 };
+
+	add(&block, "ladderd: an operation failed, ENO is FALSE");
+	add_line(&block, &cycle->resource.error_at);
+	add_place(&block, &cycle->resource.error_at);
+	add(&block, "\n");
+	put(STDERR_FILENO, block.text, block.len, false);
+}
+
 void control_tell_fault(const struct cycle *cycle)
 {
 	const struct resource *resource = &cycle->resource;

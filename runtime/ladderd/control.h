@@ -23,6 +23,8 @@ void control_tell(const char *text);
 void control_tell_error(const char *text, const char *why);
 /** control_tell_halt - the same when the program asked for STOP, and where. */
 void control_tell_halt(const struct cycle *cycle);
+/** control_tell_failed - the same with the operation that failed first: no fault. */
+void control_tell_failed(const struct cycle *cycle);
 /** control_tell_fault - the same with the fault and its place. */
 void control_tell_fault(const struct cycle *cycle);
 /** control_trace - "%QX0.0 1" on stderr; for struct hal. Scan-safe: yes, also

@@ -183,6 +183,16 @@ static bool is_too_slow(const struct cycle *cycle, int64_t took_ns)
 	       took_ns >= cycle->watchdog * cycle->period_ns;
 }
 
+/* Once a start: the status has the number of them. */
+static void tell_failed(struct cycle *cycle)
+{
+	const bool failed = cycle->resource.vm.errors != 0;
+
+	if (failed && !cycle->failed)
+		control_tell_failed(cycle);
+	cycle->failed = failed;
+}
+
 static void scan_once(struct cycle *cycle, int64_t *due_ns)
 {
 	struct resource *resource = &cycle->resource;
@@ -208,6 +218,7 @@ static void scan_once(struct cycle *cycle, int64_t *due_ns)
 		enter_fault(cycle, fault);
 	else if (resource->halted)
 		enter_stop(cycle);
+	tell_failed(cycle);
 }
 
 /* Sleeps until @due_ns, awake for requests. */

@@ -35,6 +35,7 @@ struct cycle {
 	uint64_t late;         /* periods that were left out                  */
 	uint64_t resets;       /* of a latched fault                          */
 	int64_t late_row;      /* scans in a row that were late               */
+	bool failed;           /* told that an operation failed, since a start */
 	struct stats scan, wake;
 	struct stats body;     /* the program alone, no lines                 */
 	int64_t tended_ns;     /* lines, in FAULT                             */

@@ -561,6 +561,19 @@ EOT
 	}
 }
 
+# ---- no way out: what fails is no fault, and is told once with its place ----
+{
+	my $file = put('divides.rung', "RUNGBOARD 1\nVAR\n  Motor AT %QX0.0 : BOOL;\n" .
+		"  Parts : INT := 12;\n  Minutes : INT;\nEND_VAR\nPROGRAM Main LD\n" .
+		"RUNG\n  | COIL Motor |\n" .
+		"RUNG\n  | NO Motor | [ Parts := Parts / Minutes ] |\nEND_PROGRAM\n");
+	is(run($ladderd, $file, '--io', $map, '--scans', '20', '--trace-io'), 0,
+		'a division by zero is no fault');
+	my @told = get('err') =~ /^ladderd: an operation failed, ENO is FALSE, Main rung 2 \(1,\d+\)$/mg;
+	is(@told, 1, 'told once, with rung and cell');
+	like(get('err'), qr/^%QX0\.0 1$/m, 'what is right goes on');
+}
+
 # ---- ways out: lines that fail, scans that hang, on every gpio driver ----
 for my $version (qw(v1 v2 uapi)) {
 	my $fake = "$build/tests/hal/ladderd_$version";
