@@ -32,7 +32,7 @@ PATIENCE = 60  # seconds until what must come did not; no test waits for it in v
 GLib = Gio = None
 editors = []  # those that were begun
 BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
-ROLES = {'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
+ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
          'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'push button': 43,
          'table': 55, 'table cell': 56, 'table row': 90, 'text': 61, 'toggle button': 62, 'entry': 79}
 LEAVES = {29, 61}  # roles of what has nothing in it
