@@ -76,23 +76,23 @@ void text_lines_place(const char *shown, const char *canonical, int *line, int *
 {
 	const char *wanted = line_at(canonical, *line), *best_at = NULL;
 	const int full = full_before(canonical, *line);
-	int best = -1, count = 0, number = 0;
+	int best = -1, nearest = 0, count = 0, number = 0;
 	bool best_same = false;
 
-	if (!wanted)
+	if (!wanted || strcmp(shown, canonical) == 0)
 		return;
 	for (const char *at = shown; at; at = next_line(at), number++) {
 		bool same;
-		int distance, old;
+		int distance;
 
 		if (is_blank(at))
 			continue;
 		same = says_same(at, wanted);
 		distance = abs(count++ - full);
-		old = best < 0 ? 0 : abs(full_before(shown, best) - full);
 		if (best < 0 || (same && !best_same) ||
-		    (same == best_same && distance < old)) {
+		    (same == best_same && distance < nearest)) {
 			best = number;
+			nearest = distance;
 			best_at = at;
 			best_same = same;
 		}

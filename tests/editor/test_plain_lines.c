@@ -5,12 +5,34 @@
 #include "editor-gtk/text_lines.h"
 #include "tests/tap.h"
 
-#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
 
 static int line_of(const char *shown, const char *canonical, int line)
 {
 	text_lines_place(shown, canonical, &line, NULL);
 	return line;
+}
+
+/* A file of 100,000 lines that all say the same, as somebody indents it. */
+static void many(void)
+{
+	enum { COUNT = 100000 };
+	char *shown = malloc(COUNT * 6 + 1), *canonical = malloc(COUNT * 5 + 1);
+	const clock_t begin = clock();
+	int good = 0;
+
+	for (int i = 0; i < COUNT; i++) {
+		memcpy(shown + i * 6, "LD  A\n", 7);
+		memcpy(canonical + i * 5, "LD A\n", 6);
+	}
+	for (int line = 0; line < COUNT; line += COUNT / 20)
+		good += line_of(shown, canonical, line) == line;
+	CHECK(good == 20);
+	CHECK_AS(clock() - begin < 5 * CLOCKS_PER_SEC, "the time grows with the lines, no more");
+	free(shown);
+	free(canonical);
 }
 
 int main(void)
@@ -37,5 +59,6 @@ int main(void)
 	CHECK_AS(line_of("A\nB\n", "x\ny\nz\nv\nw\n", 4) == 1, "not behind the last one");
 	CHECK_AS(line_of("", "x\ny\n", 1) == 1 && line_of("a\n", "", 7) == 7,
 		 "nothing to go by: left alone");
+	many();
 	return tap_done();
 }
