@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * to_classic_chart - a chart as a sequential page: it runs IN ORDER, which is how pages run
- * there, or UNTIL STABLE, which is the same as long as it comes to rest; its conditions are
+ * there, or UNTIL STABLE, which is nearly so, and told; its conditions are
  * one bit each, and its steps do nothing but tell that they are active.
  *
  * Conditions that are more become bits that a section in front works out; BOOLs that
@@ -410,6 +410,9 @@ void leave_chart(struct leaving *e, const struct pou *pou, int page)
 	const struct sfc *sfc = pou->sfc;
 	const char *name = project_text(e->project, pou->name);
 
+	if (sfc->evolution == EVOLVE_UNTIL_STABLE)
+		tell_change(e, "a chart UNTIL STABLE goes on transition by transition there, "
+			    "as one IN ORDER does");
 	section_begin(e, out_text(e, "%.*s_If", classic_cut(name, 16), name), -1, false);
 	for (int i = 0; i < sfc->transition_count && e->good; i++)
 		transition(e, &sfc->transition[i], page);
