@@ -359,6 +359,9 @@ sub test_kept {
 			for my $line (split /\n/, $members->{$member} // '') {
 				next if $member eq 'sequential.csv' ? $line !~ /^[NP]\d/ : $line !~ /^[^#;]/;
 				next if $line =~ /^PROJECT_NAME=|=$/;
+				# A comma ends a field; letters are UTF-8 from the import on.
+				$line =~ s/^(N\d+(,\d+){3},.*?),/$1;/ while $line =~ /^N\d+(,\d+){3},.*?,/;
+				next if $line =~ /[^ -~]/;
 				$lines++;
 				like($there, qr/^\Q$line\E$/m, "$name: $member keeps $line");
 			}
