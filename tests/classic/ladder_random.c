@@ -25,6 +25,18 @@ static FILE *open_beside(const char *name, const char *end)
 	return file;
 }
 
+/* Of the loop that random.c makes, and STOP; NULL: it stays. */
+static const char *in_its_place(const char *text)
+{
+	if (!strcmp(text, "STOP"))
+		return "RET";
+	if (strncmp(text, "[ loop_", 7) != 0)
+		return NULL;
+	if (strchr(text, '<'))
+		return "[ num_b < 3 ]";
+	return strstr(text, ":= 0") ? "[ num_b := 0 ]" : "[ num_b := num_b + 1 ]";
+}
+
 /* Own blocks are none of ClassicLadder's; a stop neither. */
 static void leave_out(struct random_program *program)
 {
@@ -35,14 +47,10 @@ static void leave_out(struct random_program *program)
 			char *text = program->rung[i].cell[k / RANDOM_COLS]
 							  [k % RANDOM_COLS].text;
 
-			if (!strcmp(text, "STOP"))
-				strcpy(text, "RET");
-			if (!strncmp(text, "[ loop_", 7) && strchr(text, '<'))
-				strcpy(text, "[ num_b < 3 ]");
-			else if (!strncmp(text, "[ loop_a := 0", 13))
-				strcpy(text, "[ num_b := 0 ]");
-			else if (!strncmp(text, "[ loop_", 7))
-				strcpy(text, "[ num_b := num_b + 1 ]");
+			const char *other = in_its_place(text);
+
+			if (other)
+				snprintf(text, RANDOM_TEXT, "%s", other);
 		}
 	program->sized = false;
 }

@@ -62,6 +62,29 @@ static void unpack(const uint8_t *bytes, size_t len)
 	arena_free(&arena);
 }
 
+/* And back: a text that is read again, or it is said why not. */
+static void leave(struct ladder *ladder, enum classic_dialect dialect)
+{
+	struct classic_report report;
+	struct diag_list diags;
+	struct arena arena;
+	size_t len = 0;
+	char *text;
+
+	arena_init(&arena);
+	report_init(&report);
+	diag_init(&diags);
+	text = ladder_export_classic(ladder, dialect, NULL, &len, &report, &diags);
+	fuzz_expect(!text == (diags.errors > 0), "an export, or an error");
+	diag_init(&diags);
+	if (text && dialect != CLASSIC_NUMERIC)
+		fuzz_expect(classic_read(&arena, "again.clprj", text, len, &report, &diags),
+			    "what is exported can be read");
+	free(text);
+	arena_free(&arena);
+	report_free(&report);
+}
+
 /* What is good as a file becomes a program, or it is said why not. */
 static void import(const uint8_t *bytes, size_t len)
 {
@@ -71,6 +94,9 @@ static void import(const uint8_t *bytes, size_t len)
 		abort();
 	if (!ladder_load_text(ladder, "fuzz.clprj", bytes, len) || !ladder_build(ladder))
 		fuzz_expect(ladder_diags(ladder)->errors > 0, "no program, no error");
+	else if (ladder_charts_fit_classic(ladder))
+		leave(ladder, len % 3 ? CLASSIC_UPSTREAM : len % 2 ? CLASSIC_LINUXCNC :
+						       CLASSIC_NUMERIC);
 	ladder_free(ladder);
 }
 

@@ -43,7 +43,7 @@ static bool says_something(const char *line, size_t len)
 }
 
 /* PARAM_AUTHOR=MLD, but no name: that is the title. */
-static bool is_info(const char *line, size_t len)
+static bool says_who(const char *line, size_t len)
 {
 	const char *equals = memchr(line, '=', len);
 
@@ -120,7 +120,7 @@ void write_kept(struct conversion *c)
 
 	if (c->project->dialect == CLASSIC_NUMERIC)
 		return;
-	keep(c, "project_infos.txt", &any, is_info);
+	keep(c, "project_infos.txt", &any, says_who);
 	keep(c, "sequential.csv", &any, is_note);
 	if (has_lines(c, "modbusioconf.csv")) {
 		keep(c, "general.txt", &any, is_serial);

@@ -50,7 +50,7 @@ static bool take_line(const struct leaving *e, const char *line, size_t len, str
 	return !*other;
 }
 
-static void keep_info(struct leaving *e, const char *text)
+static void keep_setting(struct leaving *e, const char *text)
 {
 	static const char *const known[] = { "PROJECT_SITE", "PARAM_VERSION", "PARAM_AUTHOR",
 		"PARAM_COMPANY", "CREA_DATE", "MODIF_DATE", "PARAM_COMMENT",
@@ -140,7 +140,7 @@ static void keep_line(struct leaving *e, const struct kept *kept)
 		return;
 	if (word_is("project_infos.txt", kept->member, kept->member_len) ||
 	    word_is("general.txt", kept->member, kept->member_len))
-		keep_info(e, text);
+		keep_setting(e, text);
 	else if (word_is("sequential.csv", kept->member, kept->member_len))
 		keep_note(e, text);
 	for (size_t i = 0; i < sizeof(whole) / sizeof(*whole); i++)
