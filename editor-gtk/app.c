@@ -85,6 +85,8 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 	}
 	if (!window || ladder_window_document(window) != document)
 		window = show_document(application, document);
+	else
+		ladder_window_opened(window);
 	app_remember(path);
 	tell_repaired(window, ladder_document_repaired(document));
 	g_object_unref(document);
@@ -111,6 +113,8 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 	ladder_document_open_text(document, NULL, text, len, false);
 	if (!window || ladder_window_document(window) != document)
 		window = show_document(application, document);
+	else
+		ladder_window_opened(window);
 	ladder_window_set_origin(window, path);
 	app_remember(path);
 	origin = ladder_origin_new(document, place, ladder);
@@ -150,6 +154,8 @@ void app_open_sample(LadderWindow *window, const char *path)
 		ladder_document_open_text(document, NULL, text, len, true);
 		if (ladder_window_document(window) != document)
 			window = show_document(the_application(window), document);
+		else
+			ladder_window_opened(window);
 		ladder_window_set_origin(window, path);
 		g_free(text);
 	} else {

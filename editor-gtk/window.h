@@ -35,6 +35,8 @@ void ladder_window_offer_restored(LadderWindow *window);
 /** ladder_window_set_origin - the file that an unsaved project is a copy of: a plant may
  * stand beside it. */
 void ladder_window_set_origin(LadderWindow *window, const char *path);
+/** ladder_window_opened - its untouched document became a file: the sheets of that open. */
+void ladder_window_opened(LadderWindow *window);
 /** ladder_window_set_classic - what its document was taken from; that is told. */
 void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin);
 /** ladder_window_sim - what it simulates with; for measurements. Borrowed. */

@@ -510,6 +510,18 @@ void tabs_update(LadderWindow *window)
 	tabs_show_place(window);
 }
 
+/* The sheet of the empty project would go on as that of the first program, alone. */
+void ladder_window_opened(LadderWindow *window)
+{
+	for (int i = adw_tab_view_get_n_pages(window->tabs) - 1; i >= 0; i--) {
+		AdwTabPage *page = adw_tab_view_get_nth_page(window->tabs, i);
+
+		if (!LADDER_IS_FILE_VIEW(content(page)))
+			adw_tab_view_close_page(window->tabs, page);
+	}
+	tabs_update(window);
+}
+
 void tabs_init(LadderWindow *window)
 {
 	/* Those keys go to the ends of a text or a rung. */

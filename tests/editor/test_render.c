@@ -290,6 +290,25 @@ static void check_document(void)
 	g_free(text);
 }
 
+/* Of a project of ClassicLadder: as it becomes, as it was, both; of no other. */
+static void check_original(void)
+{
+#define CLASSIC "tests/classic/projects/linuxcnc.clp"
+	CHECK(render(CLASSIC " --rung 3 -o OUT/after.svg") == 0);
+	CHECK(has("after.svg", ">TM0<") && !has("after.svg", ">%TM0<"));
+	CHECK(render(CLASSIC " --rung 3 --original -o OUT/before.svg") == 0);
+	CHECK(has("before.svg", ">%TM0<") && !has("before.svg", ">TM0<"));
+	CHECK(has("before.svg", ">103<") && !has("before.svg", ">Estop chain<"));
+	CHECK(render(CLASSIC " --before-after -o OUT/both.svg") == 0);
+	CHECK(has("both.svg", ">%TM0<") && has("both.svg", ">TM0<"));
+	CHECK(has("both.svg", ">Estop chain<") && has("both.svg", ">Here: Power, rung 1<"));
+	CHECK(render(SHAPES " --original -o OUT/none.svg") == 2);
+	CHECK(strstr(said, "nothing of it comes from ClassicLadder"));
+	CHECK(render(CLASSIC " --original -o OUT/a.pdf") == 2);
+	CHECK(render(CLASSIC " --rung 99 --original -o OUT/none.svg") == 2);
+#undef CLASSIC
+}
+
 static void clear_folder(void)
 {
 	GDir *dir = g_dir_open(folder, 0, NULL);
@@ -317,6 +336,7 @@ int main(void)
 	check_wrong();
 	check_tall();
 	check_marks();
+	check_original();
 	check_document();
 	clear_folder();
 	g_free(folder);

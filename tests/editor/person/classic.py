@@ -234,6 +234,7 @@ def dropped(screen):
     for name in *names, 'new':
         editor.says(name)
     editor.says('Not opened: letter.odt')
+    until(lambda: any('GUI_E' in name for name in editor.cells()), 'the sheet of the first one')
     editor.shot('classic-dropped')
 
 
