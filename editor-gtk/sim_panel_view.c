@@ -53,6 +53,8 @@ static void speak(LadderSimRowView *view)
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(view->push),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(view->scale),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(view->lamp),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, all, -1);
 	g_free(all);
