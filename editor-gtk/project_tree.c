@@ -200,6 +200,8 @@ struct tree {
 	GtkWidget *list, *panel;   /* the panel holds all of it                */
 	char *shape;       /* what is shown, to see whether it changed         */
 	guint timer;       /* soon looks whether it did                        */
+	LadderTreeRow *going; /* what was activated, ...                       */
+	guint going_soon;  /* ... goes there soon                              */
 };
 
 /* Programs and blocks show what they are made of when they are asked. */
@@ -237,6 +239,23 @@ static void fill(struct tree *tree)
 	expand_headings(tree);
 }
 
+/* Rows go and others come: who had the keys there keeps them, at the row of that place. */
+static void refill(struct tree *tree)
+{
+	GtkRoot *root = gtk_widget_get_root(tree->list);
+	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+	const bool here = focus && gtk_widget_is_ancestor(focus, tree->list);
+	guint at = gtk_single_selection_get_selected(tree->selection), count;
+
+	fill(tree);
+	count = g_list_model_get_n_items(G_LIST_MODEL(tree->selection));
+	if (!here)
+		return;
+	if (at != GTK_INVALID_LIST_POSITION && count)
+		gtk_single_selection_set_selected(tree->selection, MIN(at, count - 1));
+	gtk_widget_grab_focus(tree->list);
+}
+
 static char *shape_of(LadderDocument *document)
 {
 	const struct project *project = ladder_document_project(document);
@@ -261,7 +280,7 @@ static void follow(struct tree *tree)
 	g_free(tree->shape);
 	tree->shape = shape;
 	if (!same)
-		fill(tree);
+		refill(tree);
 }
 
 static gboolean follow_now(gpointer data)
@@ -294,17 +313,34 @@ static LadderTreeRow *row_at(struct tree *tree, guint position)
 	return row;
 }
 
+static gboolean go(gpointer data)
+{
+	struct tree *tree = data;
+	LadderTreeRow *row = tree->going;
+
+	tree->going_soon = 0;
+	if (row->kind == ROW_POU || row->kind == ROW_BOOKMARK)
+		gtk_widget_activate_action(tree->list, "win.go-to", "(iiii)", row->pou,
+					   row->rung, -1, -1);
+	else if (row->kind == ROW_TEXT)
+		gtk_widget_activate_action(tree->list, "win.open-text", "s", row->path);
+	else if (row->kind == ROW_SYMBOLS)
+		gtk_widget_activate_action(tree->list, "win.symbols", NULL);
+	g_clear_object(&tree->going);
+	return G_SOURCE_REMOVE;
+}
+
+/* Not at once: the row that was clicked takes the focus after this, and who went to a
+ * rung would still have the keys in the tree. */
 static void activated(struct tree *tree, guint position)
 {
 	LadderTreeRow *row = row_at(tree, position);
 
-	if (row && (row->kind == ROW_POU || row->kind == ROW_BOOKMARK))
-		gtk_widget_activate_action(tree->list, "win.go-to", "(iiii)", row->pou,
-					   row->rung, -1, -1);
-	else if (row && row->kind == ROW_TEXT)
-		gtk_widget_activate_action(tree->list, "win.open-text", "s", row->path);
-	else if (row && row->kind == ROW_SYMBOLS)
-		gtk_widget_activate_action(tree->list, "win.symbols", NULL);
+	if (!row)
+		return;
+	g_set_object(&tree->going, row);
+	if (!tree->going_soon)
+		tree->going_soon = g_idle_add(go, tree);
 }
 
 static int selected_pou(struct tree *tree)
@@ -450,7 +486,7 @@ static gboolean key_pressed(struct tree *tree, guint key, guint code, GdkModifie
 	(void)code;
 	if (key == GDK_KEY_Menu || (key == GDK_KEY_F10 && state & GDK_SHIFT_MASK))
 		show_menu(tree, 20, 20);
-	else if (key == GDK_KEY_Delete)
+	else if (key == GDK_KEY_Delete && !(state & gtk_accelerator_get_default_mod_mask()))
 		gtk_widget_activate_action(tree->list, "tree.delete", NULL);
 	else
 		return FALSE;
@@ -526,6 +562,8 @@ static void tree_free(gpointer pointer)
 	struct tree *tree = pointer;
 
 	g_clear_handle_id(&tree->timer, g_source_remove);
+	g_clear_handle_id(&tree->going_soon, g_source_remove);
+	g_clear_object(&tree->going);
 	g_signal_handlers_disconnect_by_data(tree->document, tree);
 	g_object_unref(tree->document);
 	g_free(tree->shape);

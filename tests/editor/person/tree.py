@@ -66,6 +66,27 @@ def rows(screen):
     check(path)
 
 
+def keys(screen):
+    """a double click leads the keys to the sheet; what is typed right after Delete in the tree is not lost"""
+    path = new_file(screen, TEXT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+
+    def row():
+        return until(lambda: [n for n in editor.all('Other', 'label') if n.name == 'Other' and n.box()[2] > 0],
+                     'its row')[0]
+    editor.click(row(), count=2)
+    until(lambda: [n for n in editor.all('Sheet') if n.box()[2] > 0 and n.has(12)], 'the focus on its sheet')
+    editor.keys('Insert', 'ctrl+Delete', 'ctrl+Delete')
+    assert 'PROGRAM Other LD\nRUNG\nEND_PROGRAM' in editor.save(path)
+    editor.click(row())
+    until(lambda: not [n for n in editor.all('Sheet') if n.has(12)], 'the focus in the tree')
+    editor.keys('ctrl+Delete')
+    editor.keys('Delete', 'ctrl+s')
+    until(lambda: 'Other' not in open(path).read(), 'it to be saved without the program')
+    check(path)
+
+
 def menu_item(editor, name):
     """It has the focus, in a menu that is open."""
     return any(node.name == name and node.has(12) for node in editor.all(name, 'menu item'))
@@ -111,4 +132,4 @@ def beside(screen):
     assert open(path).read() == TEXT
 
 
-main([bookmarks, rows, menus, beside])
+main([bookmarks, rows, keys, menus, beside])
