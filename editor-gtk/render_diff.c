@@ -95,21 +95,49 @@ static bool same_cell(const struct comparison *of, const struct cell *a,
 	       same_text(of, a->comment, b->comment);
 }
 
+/* Has it a column of outputs? That one is drawn at the right, however far it is. */
+static bool has_outputs(const struct rung *rung)
+{
+	bool has = false;
+
+	for (int row = 0; row < rung->rows && !has; row++) {
+		const enum word word = (enum word)rung_at(rung, row, rung->cols - 1)->word;
+
+		has = !word_is_own(word) && word_row(word)->place == PLACE_LAST;
+	}
+	return has;
+}
+
+/* The cell of @rung where @own, which may be wider or narrower, has this one. */
+static const struct cell *cell_like(const struct rung *rung, const struct rung *own,
+				    int row, int col, bool outputs)
+{
+	static const struct cell nothing = { .word = ELEM_EMPTY };
+	static const struct cell wire = { .word = ELEM_WIRE };
+
+	if (row >= rung->rows)
+		return &nothing;
+	if (outputs && col == own->cols - 1)
+		return rung_at(rung, row, rung->cols - 1);
+	if (col < rung->cols - outputs)
+		return rung_at(rung, row, col);
+	/* Wire that only leads on to an output that is farther away is the same. */
+	return outputs && rung_at(own, row, col)->word == ELEM_WIRE ? &wire : &nothing;
+}
+
 /* Marks of the cells of @layout that the other rung has otherwise or has not. */
 static int mark_cells(const struct comparison *of, const struct rung *a,
 		      const struct rung *b, const struct rung_layout *layout,
 		      struct grid_mark *mark)
 {
-	static const struct cell nothing;
 	const struct rung *own = layout->rung;
+	const bool outputs = has_outputs(a) && has_outputs(b);
 	int count = 0;
 
 	for (int row = 0; row < own->rows; row++)
 		for (int col = 0; col < own->cols && count < MOST_MARKS; col++) {
-			const struct cell *x = row < a->rows && col < a->cols ?
-				rung_at(a, row, col) : &nothing;
-			const struct cell *y = row < b->rows && col < b->cols ?
-				rung_at(b, row, col) : &nothing;
+			const struct cell *x = cell_like(a, own, row, col, outputs);
+			const struct cell *y = cell_like(b, own, row, col, outputs);
 
 			if (!same_cell(of, x, y))
 				mark[count++] = (struct grid_mark){

@@ -177,6 +177,32 @@ static void check_diff(void)
 	g_free(path);
 }
 
+static void write_rung(const char *name, const char *rows)
+{
+	char *path = in_folder(name), *text = g_strdup_printf("RUNGBOARD 1\n\n"
+		"PROGRAM Main LD\nRUNG\n%sEND_PROGRAM\n", rows);
+
+	CHECK(g_file_set_contents(path, text, -1, NULL));
+	g_free(text);
+	g_free(path);
+}
+
+/* A contact more moves the output on, which is the same all the same. */
+static void check_moved(void)
+{
+	char *text, **parts;
+
+	write_rung("one.rung", "  | NO %IX0.0 | COIL %QX0.0 |\n  | NO %IX0.1 ^ |\n");
+	write_rung("two.rung", "  | NO %IX0.0 | NC %IX0.2 | COIL %QX0.0 |\n"
+		   "  | NO %IX0.1 ^ |\n");
+	CHECK(render("--diff OUT/one.rung OUT/two.rung -o OUT/moved.svg") == 0);
+	text = content("moved.svg", NULL);
+	parts = g_strsplit(text, ">\xe2\x89\xa0</text>", -1);
+	CHECK_AS(g_strv_length(parts) == 2, "the new contact alone is marked");
+	g_strfreev(parts);
+	g_free(text);
+}
+
 static void check_wrong(void)
 {
 	static const struct { const char *words, *said; int status; } wrong[] = {
@@ -333,6 +359,7 @@ int main(void)
 	check_png();
 	check_pdf();
 	check_diff();
+	check_moved();
 	check_wrong();
 	check_tall();
 	check_marks();
