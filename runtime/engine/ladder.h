@@ -47,6 +47,11 @@ void ladder_classic_task(struct ladder *ladder, bool task);
 const struct classic_report *ladder_import_report(const struct ladder *ladder);
 /** ladder_import_io - the I/O map of such a project; NULL: it has none. As long. */
 const char *ladder_import_io(const struct ladder *ladder);
+/** ladder_import_line - the line in such a project that line @line of what it became comes
+ * from; 0: none. Of what was a rung file @line itself. @ladder is a struct ladder. */
+int ladder_import_line(const void *ladder, int line);
+/** ladder_import_places - the same for messages about what it became. */
+void ladder_import_places(const struct ladder *ladder, struct diag_list *diags);
 /** ladder_import_project - such a project as its files tell it; NULL: it was none. As
  * long. */
 const struct classic_project *ladder_import_project(const struct ladder *ladder);

@@ -8,6 +8,7 @@
 
 #include "engine/import/classic_rung.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -22,6 +23,7 @@ struct classic_foreign {
 	const char *io;           /* its I/O map; NULL: none                   */
 	const struct classic_project *project; /* NULL: nothing was read       */
 	const char *path;         /* as the user wrote it                      */
+	bool folder;              /* it is one                                 */
 	const char *name;         /* of the text: the same letters elsewhere   */
 };
 
@@ -51,6 +53,7 @@ static const char *read_foreign(struct foreign *foreign, const char *path,
 
 	forget(foreign);
 	classic->path = path;
+	classic->folder = !bytes;
 	classic->project = bytes ?
 		classic_read(&classic->arena, path, bytes, len, &classic->report, diags) :
 		classic_read_folder(&classic->arena, path, &classic->report, diags);
@@ -86,20 +89,41 @@ static bool is_folder(const char *path)
 	return false;
 }
 
+static int line_of(const struct classic_foreign *classic, int line)
+{
+	return line > 0 && line <= classic->text.lines ?
+	       classic->text.place[line - 1].line : 0;
+}
+
+/* Of a folder a line is one of a file in it. */
+static const char *file_of(struct classic_foreign *classic, int line)
+{
+	const char *member = line > 0 && line <= classic->text.lines ?
+			     classic->text.place[line - 1].member : "";
+	size_t path = strlen(classic->path), size = path + strlen(member) + 2;
+	char *whole = classic->folder && *member ? arena_alloc(&classic->arena, size) : NULL;
+
+	if (!whole)
+		return classic->path;
+	snprintf(whole, size, "%s%s%s", classic->path,
+		 path && classic->path[path - 1] == '/' ? "" : "/", member);
+	return whole;
+}
+
 static void place_diags(const struct foreign *foreign, struct diag_list *diags)
 {
 	const struct classic_foreign *classic = (const struct classic_foreign *)foreign;
 
 	for (int i = 0; i < diags->count; i++) {
 		struct diag *diag = &diags->diag[i];
-		int line = diag->line;
 
-		if (!classic->project || diag->file != classic->name)
+		/* Those of the project itself, and what has its place, have the path. */
+		if (!classic->project || !diag->file || diag->file == classic->path ||
+		    strcmp(diag->file, classic->path))
 			continue;
-		diag->file = classic->path;
+		diag->file = file_of((struct classic_foreign *)(uintptr_t)classic, diag->line);
 		diag->column = 0;
-		diag->line = line > 0 && line <= classic->text.lines ?
-			     classic->text.place[line - 1].line : 0;
+		diag->line = line_of(classic, diag->line);
 	}
 }
 
@@ -140,6 +164,23 @@ const char *ladder_import_io(const struct ladder *ladder)
 		(const struct classic_foreign *)ladder_foreign(ladder);
 
 	return classic ? classic->io : NULL;
+}
+
+int ladder_import_line(const void *ladder, int line)
+{
+	const struct classic_foreign *classic =
+		(const struct classic_foreign *)ladder_foreign(ladder);
+
+	return classic && classic->project ? line_of(classic, line) : line;
+}
+
+void ladder_import_places(const struct ladder *ladder, struct diag_list *diags)
+{
+	const struct classic_foreign *classic =
+		(const struct classic_foreign *)ladder_foreign(ladder);
+
+	if (classic)
+		place_diags(&classic->foreign, diags);
 }
 
 const struct classic_project *ladder_import_project(const struct ladder *ladder)

@@ -281,7 +281,7 @@ enum status cmd_bench(struct call *call)
 
 	if (!report_count(call, "--scans", 2000, 10000000, &bench.scans))
 		return STATUS_WRONG;
-	status = machine_open(&bench.machine, call->arg[0]);
+	status = machine_open_file(&bench.machine, call->arg[0]);
 	if (status == STATUS_GOOD)
 		status = run(&bench);
 	free(bench.sample);

@@ -192,7 +192,7 @@ static void print_code(const struct call *call, const struct program *program)
 enum status cmd_code(struct call *call)
 {
 	struct machine machine;
-	enum status status = machine_open(&machine, call->arg[0]);
+	enum status status = machine_open_file(&machine, call->arg[0]);
 
 	if (status == STATUS_GOOD)
 		print_code(call, ladder_program(machine.ladder));
@@ -256,7 +256,7 @@ enum status cmd_build(struct call *call)
 		return report_usage(call, "-o OUT is missing");
 	if (is_in_the_way(path))
 		return STATUS_WRONG;
-	status = machine_open(&machine, call->arg[0]);
+	status = machine_open_file(&machine, call->arg[0]);
 	if (status == STATUS_GOOD)
 		status = save(machine.ladder, call_flag(call, "--small"), path);
 	machine_close(&machine);

@@ -146,6 +146,8 @@ enum status cmd_complete(struct call *call)
 
 	if (!read_number(call->arg[1], &line) || !read_number(call->arg[2], &column))
 		return report_usage(call, "LINE and COLUMN are numbers from 1 on");
+	if (report_classic(call->arg[0]))
+		return STATUS_NO;
 	ladder = ladder_new();
 	if (!ladder)
 		return report_no_memory(call->arg[0]);

@@ -67,6 +67,7 @@ static enum status export_loaded(struct call *call, struct ladder *ladder,
 		return report_no_memory(path);
 	diag_init(diags);
 	text = ladder_export_ladder(ladder, &len, diags);
+	ladder_import_places(ladder, diags);
 	report_diags(diags);
 	free(diags);
 	if (text)
@@ -139,6 +140,7 @@ static enum status export_classic(struct call *call, struct ladder *ladder,
 	diag_init(diags);
 	report_init(&report);
 	text = ladder_export_classic(ladder, to->dialect, &to->lines, &len, &report, diags);
+	ladder_import_places(ladder, diags);
 	report_diags(diags);
 	free(diags);
 	if (text) {
@@ -167,6 +169,7 @@ static enum status export_as_ladder(struct call *call, struct ladder *ladder,
 	}
 	diag_init(diags);
 	text = ladder_export_ladder(ladder, &len, diags);
+	ladder_import_places(ladder, diags);
 	report_diags(diags);
 	if (text && ladder_load_text(again, path, text, len) && ladder_build(again)) {
 		status = export_classic(call, again, path, to);

@@ -66,9 +66,12 @@ static enum status format_loaded(struct call *call, struct ladder *ladder,
 
 static enum status format_one(struct call *call, const char *path)
 {
-	struct ladder *ladder = ladder_new();
+	struct ladder *ladder;
 	enum status status;
 
+	if (report_classic(path))
+		return STATUS_NO;
+	ladder = ladder_new();
 	if (!ladder)
 		return report_no_memory(path);
 	status = report_load(ladder, path, false);

@@ -98,7 +98,7 @@ static bool turn_to_il(struct ladder *ladder, struct project *project)
 enum status cmd_il(struct call *call)
 {
 	struct machine machine;
-	enum status status = machine_open(&machine, call->arg[0]);
+	enum status status = machine_open_file(&machine, call->arg[0]);
 	struct project *project = NULL;
 	char *text = NULL;
 	size_t len;

@@ -191,7 +191,7 @@ static enum status read_and_send(struct push *push)
 	enum status status, map;
 
 	/* Both are read, so that one call tells all that is wrong. */
-	status = machine_open(&machine, call->arg[0]);
+	status = machine_open_file(&machine, call->arg[0]);
 	map = read_map(push, call->arg[1], status == STATUS_GOOD ?
 		       ladder_program(machine.ladder) : NULL);
 	if (status < map)

@@ -204,7 +204,7 @@ enum status cmd_run(struct call *call)
 	if (status != STATUS_GOOD)
 		return status;
 	status = rungs ? machine_watch(&machine, call->arg[0]) :
-			 machine_open(&machine, call->arg[0]);
+			 machine_open_file(&machine, call->arg[0]);
 	if (status == STATUS_GOOD && plant)
 		status = machine_add_plant(&machine, plant,
 					   (struct diag){ .file = "--plant" });

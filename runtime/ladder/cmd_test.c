@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 struct tap {
 	struct call *call;
@@ -99,15 +100,34 @@ static bool run_text(struct tap *tap, struct machine *machine, const char *path,
 	return good;
 }
 
+/* NAME.rung, or a project of ClassicLadder that has its name; NULL: no memory. */
+static char *program_of(const char *path)
+{
+	static const char *const ending[] = { ".clprj", ".clp", ".clprjz" };
+	char *program = path_with_ending(path, ".rung");
+	struct stat about;
+
+	for (size_t i = 0; program && i < sizeof(ending) / sizeof(*ending); i++) {
+		char *other = stat(program, &about) ? path_with_ending(path, ending[i]) : NULL;
+
+		if (other && stat(other, &about) == 0) {
+			free(program);
+			return other;
+		}
+		free(other);
+	}
+	return program;
+}
+
 /* One scenario file with its program. */
 static void run_file(struct tap *tap, const char *path)
 {
-	char *program = path_with_ending(path, ".rung");
+	char *program = program_of(path);
 	struct machine machine = { 0 };
 	char *text = NULL;
 	size_t len;
 
-	if (!program || machine_open(&machine, program) != STATUS_GOOD) {
+	if (!program || machine_open_file(&machine, program) != STATUS_GOOD) {
 		print_result(tap, false, path, "its program is good");
 	} else {
 		text = report_read(path, &len);
@@ -121,12 +141,13 @@ static void run_file(struct tap *tap, const char *path)
 
 enum status cmd_test(struct call *call)
 {
+	static const char *const programs[] = { ".rung", ".clprj", ".clp", ".clprjz", NULL };
 	struct tap tap = { .call = call };
 	struct paths paths = { 0 };
 	enum status status = STATUS_GOOD;
 
 	for (int i = 0; i < call->arg_count; i++)
-		if (!paths_collect(&paths, call->arg[i], ".scn", ".rung"))
+		if (!paths_collect(&paths, call->arg[i], ".scn", programs))
 			status = STATUS_WRONG;
 	if (status == STATUS_GOOD && !paths.count)
 		status = report_usage(call, "no scenario files here");

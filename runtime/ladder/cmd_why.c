@@ -19,6 +19,7 @@ struct asked {
 	const struct project *project;
 	const struct resource *resource;
 	const char *coil;
+	struct location at;      /* of it, if it has a place for all to see        */
 	struct why *why;
 	int found;
 	bool failed;
@@ -91,6 +92,19 @@ static void answer(struct asked *asked, const struct why_place *place, const cha
 	asked->found++;
 }
 
+/* The same under another name: %QX0.1, %Q1 of ClassicLadder. */
+static bool is_same(const struct asked *asked, const char *operand)
+{
+	struct location at;
+	enum diag_id why;
+
+	if (asked->at.type != IEC_BOOL || asked->at.constant || !*operand)
+		return false;
+	at = value_find(&asked->resource->image, operand, strlen(operand), &why);
+	return at.type == IEC_BOOL && at.area == asked->at.area &&
+	       at.where == asked->at.where;
+}
+
 /* Is it asked for? `Motor`, `Main.Motor`, `Belt1.Motor`; `Main:3` is all in a rung. */
 static bool is_asked(const struct asked *asked, const char *body, int rung,
 		     const char *operand, bool inside)
@@ -107,7 +121,8 @@ static bool is_asked(const struct asked *asked, const char *body, int rung,
 		    ascii_is(operand, coil + len + 1, strlen(coil) - len - 1))
 			return true;
 	}
-	return !inside && *operand && ascii_is(operand, coil, strlen(coil));
+	return !inside && ((*operand && ascii_is(operand, coil, strlen(coil))) ||
+			   is_same(asked, operand));
 }
 
 static void ask_rung(struct asked *asked, struct why_place *place, const char *body)
@@ -151,9 +166,11 @@ static enum status ask(struct call *call, struct machine *machine)
 		.why = calloc(1, sizeof(*asked.why)),
 	};
 	const struct program *program = machine->resource.image.program;
+	enum diag_id why;
 
 	if (!asked.why)
 		return report_no_memory(call->arg[0]);
+	asked.at = value_find(&machine->resource.image, asked.coil, strlen(asked.coil), &why);
 	for (int i = 0; i < asked.project->pou_count; i++)
 		if (!pou_has_frame(&asked.project->pou[i]))
 			ask_body(&asked, i, NULL);

@@ -27,8 +27,10 @@ enum status cmd_xref(struct call *call)
 	if (status == STATUS_GOOD && !ladder_project(ladder))
 		status = no_image(call->arg[0]);
 	if (status == STATUS_GOOD) {
+		struct xref_lines lines = { ladder_import_line, ladder };
+
 		shown = xref_print(ladder_project(ladder), name,
-				   call_flag(call, "--json"), &call->out);
+				   call_flag(call, "--json"), &lines, &call->out);
 		if (shown < 0)
 			status = report_no_memory(call->arg[0]);
 		else if (shown == 0 && name)

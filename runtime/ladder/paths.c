@@ -131,7 +131,7 @@ static bool search(struct paths *paths, const char *folder, const char *ending,
 }
 
 bool paths_collect(struct paths *paths, const char *path, const char *ending,
-		   const char *other)
+		   const char *const *others)
 {
 	struct stat status;
 
@@ -139,7 +139,9 @@ bool paths_collect(struct paths *paths, const char *path, const char *ending,
 		return complain(path, DIAG_CANNOT_READ, strerror(errno));
 	if (S_ISDIR(status.st_mode))
 		return search(paths, path, ending, 1);
-	if (has_ending(path, other)) {
+	while (*others && !has_ending(path, *others))
+		others++;
+	if (*others) {
 		char *beside = path_with_ending(path, ending);
 		bool there = beside && stat(beside, &status) == 0;
 
@@ -153,7 +155,7 @@ bool paths_collect(struct paths *paths, const char *path, const char *ending,
 	}
 	if (!has_ending(path, ending))
 		return complain(path, DIAG_NOT_A_FILE,
-				"wanted: .scn, .rung or a folder");
+				"wanted: .scn, .rung, .clprj or a folder");
 	char *copy = malloc(strlen(path) + 1);
 
 	if (copy)

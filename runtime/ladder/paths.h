@@ -26,12 +26,12 @@ char *path_beside(const char *path, const char *name);
 /**
  * paths_collect - adds what @path means
  * @ending: of files that are wanted; a folder is searched for them
- * @other:  a file of this ending stands for the one beside it
+ * @others: a file of one of these endings stands for the one beside it; NULL behind them
  *
  * Owns: @paths, paths_free().
  * Fails: false after a diagnostic (nothing there, no memory).
  */
 bool paths_collect(struct paths *paths, const char *path, const char *ending,
-		   const char *other);
+		   const char *const *others);
 void paths_free(struct paths *paths);
 #endif

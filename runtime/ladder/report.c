@@ -163,6 +163,14 @@ enum status report_load(struct ladder *ladder, const char *path, bool build)
 	return ladder_could_read(ladder) ? STATUS_NO : STATUS_WRONG;
 }
 
+bool report_classic(const char *path)
+{
+	if (!ladder_is_classic(path))
+		return false;
+	report_diag((struct diag){ .id = DIAG_IMPORT_FIRST, .file = path }, "%s", "");
+	return true;
+}
+
 struct ladder *program_new(bool faithful)
 {
 	struct ladder *ladder = ladder_new();
@@ -181,16 +189,18 @@ int64_t program_period(const struct ladder *ladder, int64_t given)
 	return given ? given : tasks_tick(ladder_program(ladder), 0, 10 * VALUE_MS);
 }
 
-static enum status open_machine(struct machine *machine, const char *path, bool watch,
-				bool faithful)
+enum { WATCHED = 1, FAITHFUL = 2, AS_FILE = 4 };
+
+static enum status open_machine(struct machine *machine, const char *path, int how)
 {
 	enum status status;
 
 	memset(machine, 0, sizeof(*machine));
-	machine->ladder = program_new(faithful);
+	machine->ladder = program_new(how & FAITHFUL);
 	if (!machine->ladder)
 		return report_no_memory(path);
-	ladder_watch(machine->ladder, watch);
+	ladder_classic_task(machine->ladder, how & AS_FILE);
+	ladder_watch(machine->ladder, how & WATCHED);
 	status = report_load(machine->ladder, path, true);
 	if (status != STATUS_GOOD)
 		return status;
@@ -205,17 +215,22 @@ static enum status open_machine(struct machine *machine, const char *path, bool 
 
 enum status machine_open(struct machine *machine, const char *path)
 {
-	return open_machine(machine, path, false, false);
+	return open_machine(machine, path, 0);
 }
 
 enum status machine_open_faithful(struct machine *machine, const char *path)
 {
-	return open_machine(machine, path, false, true);
+	return open_machine(machine, path, FAITHFUL);
+}
+
+enum status machine_open_file(struct machine *machine, const char *path)
+{
+	return open_machine(machine, path, AS_FILE);
 }
 
 enum status machine_watch(struct machine *machine, const char *path)
 {
-	return open_machine(machine, path, true, false);
+	return open_machine(machine, path, WATCHED);
 }
 
 enum status machine_add_plant(struct machine *machine, const char *path,

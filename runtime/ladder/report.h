@@ -53,6 +53,12 @@ struct machine {
 };
 /** machine_open - loads and builds @path. Owns: machine_close(), always. */
 enum status machine_open(struct machine *machine, const char *path);
+/** report_classic - is @path a project of ClassicLadder? Then it is told that this command
+ * wants a rung file. */
+bool report_classic(const char *path);
+/** machine_open_file - an imported project as `ladder import` would write it: with its
+ * period. */
+enum status machine_open_file(struct machine *machine, const char *path);
 /** machine_open_faithful - an imported project with the faults of its original. */
 enum status machine_open_faithful(struct machine *machine, const char *path);
 /** machine_watch - the same, with the power of all cells while resource.watch. */

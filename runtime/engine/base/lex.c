@@ -287,7 +287,9 @@ static enum token_kind scan_symbol(struct lex *lex)
 	}
 	if (*at == '%' && left >= 2 && class_at(at + 1) == IS_LETTER) {
 		at = skip_alnum(at + 1, end);
-		while (at != end && *at == '.' && is_digit_at(at + 1, end))
+		/* %QX0.1, and %TM0.V of ClassicLadder. */
+		while (end - at > 1 && *at == '.' && (is_digit_at(at + 1, end) ||
+						      class_at(at + 1) == IS_LETTER))
 			at = skip_alnum(at + 1, end);
 		lex->at = at;
 		return TOKEN_ADDRESS;

@@ -151,8 +151,11 @@ void write_declarations(struct conversion *c)
 
 		if (name->type != STEP_TIME && !name->name)
 			continue;
+		c->at = (struct classic_place){ "", 0 };
 		if (!any)
 			put(c, "VAR\n");
+		if (name->symbol)
+			c->at = name->symbol->place;
 		any = true;
 		if (!memory && !pin) {
 			put_step(c, name);
@@ -175,6 +178,7 @@ void write_declarations(struct conversion *c)
 		}
 		put_comment(c, name);
 	}
+	c->at = (struct classic_place){ "", 0 };
 	if (any)
 		put(c, "END_VAR\n\n");
 }

@@ -113,13 +113,20 @@ const char *xref_kind_word(enum xref_kind kind);
 /** xref_text - the whole text that the use stands in; "" for none. */
 const char *xref_text(const struct xref *xref, const struct xref_use *use);
 
+/* What a line of a text is called that was made from something else. */
+struct xref_lines {
+	int (*of)(const void *context, int line);
+	const void *context;
+};
+
 /**
  * xref_print - uses, sorted by what they speak of, a line or JSON object each
  * @name: NULL: all; else of what has this name (any case), with or without its POU, or
  *        of what touches this address
+ * @lines: NULL: lines are those of the text
  * Returns how many; -1: no memory.
  */
 int xref_print(struct project *project, const char *name, bool json,
-	       const struct sink *sink);
+	       const struct xref_lines *lines, const struct sink *sink);
 
 #endif

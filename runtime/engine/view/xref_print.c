@@ -263,7 +263,7 @@ static void print_json(const struct project *project, const struct xref_use *use
 }
 
 int xref_print(struct project *project, const char *name, bool json,
-	       const struct sink *sink)
+	       const struct xref_lines *lines, const struct sink *sink)
 {
 	struct xref xref;
 	struct wanted wanted;
@@ -273,12 +273,14 @@ int xref_print(struct project *project, const char *name, bool json,
 	want(&wanted, name);
 	sink_text(sink, json && order ? "[" : "");
 	for (int i = 0; order && i < xref.count; i++) {
-		const struct xref_use *use = &xref.use[order[i]];
+		struct xref_use *use = &xref.use[order[i]];
 		char text[2 * LIMIT_NAME + 8];
 
 		if (!is_wanted(&xref, use, &wanted))
 			continue;
 		xref_name(project, &use->target, use, text, sizeof(text));
+		if (lines)
+			use->line = lines->of(lines->context, use->line);
 		if (json) {
 			sink_text(sink, shown ? ",\n " : "\n ");
 			print_json(project, use, text, sink);
