@@ -71,8 +71,8 @@ static void symbols(void)
 {
 	CHECK_TEXT(tokens(":= => <= >= <> ** : = < > * ^|"),
 		   "Y::= Y:=> Y:<= Y:>= Y:<> Y:** Y:: Y:= Y:< Y:> Y:* Y:^ Y:|");
-	CHECK_TEXT(tokens("%IX0.3 %Q0..7 %MW4) % 5 %"),
-		   "A:%IX0.3 A:%Q0 Y:. Y:. L:7 A:%MW4 Y:) Y:% L:5 Y:%");
+	CHECK_TEXT(tokens("%IX0.3 %Q0..7 %TM0.V %MW4) % 5 %"),
+		   "A:%IX0.3 A:%Q0 Y:. Y:. L:7 A:%TM0.V A:%MW4 Y:) Y:% L:5 Y:%");
 	CHECK_TEXT(tokens("\"a b\" \"x$\"y$$\" \"\""),
 		   "S:\"a b\" S:\"x$\"y$$\" S:\"\"");
 	CHECK_TEXT(tokens("\"open\nx"), "!:\"open N:x");
