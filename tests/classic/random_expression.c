@@ -90,6 +90,8 @@ static void add_term(struct making *making, struct expression *expression)
 {
 	if (making_chance(making, 6))
 		add(expression, "!");
+	if (making_chance(making, 4))
+		add(expression, "%.*s", 1 + making_below(making, 4), "----");
 	if (making_chance(making, 55))
 		add_variable(making, expression);
 	else if (making_chance(making, 80))

@@ -403,15 +403,16 @@ static void put_blocks(struct making *making, const char *name, const char *lett
 {
 	making_put(making, "_FILE-%s\n%s", name, making->linuxcnc ? "" : "#VER=2.0\n");
 	for (int i = 0; i < BLOCKS; i++) {
-		int base = making_chance(making, 70) ? 2 : 1;
+		int base = making_chance(making, 70) ? 2 : making_chance(making, 90) ? 1 : 0;
+		int least = making_chance(making, 90) ? 1 : 0;
 
 		if (!making->linuxcnc)
 			making_put(making, "%s%d,", letters, i);
 		if (numbers == 1)
-			making_put(making, "%d", 1 + making_below(making, 5));
+			making_put(making, "%d", least + making_below(making, 5));
 		else
 			making_put(making, "%d,%d", base,
-				   1 + making_below(making, base == 2 ? 9 : 3));
+				   least + making_below(making, base == 2 ? 9 : base ? 3 : 1));
 		if (numbers == 3)
 			making_put(making, ",%d", making_below(making, 3));
 		making_put(making, "\n");
