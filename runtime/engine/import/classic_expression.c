@@ -281,13 +281,19 @@ static struct part negate(struct parse *p, struct part part)
 
 static struct part parse_term(struct parse *p);
 
+/* A minus in front of one belongs to it, there too. */
+static bool is_literal(char first)
+{
+	return ascii_digit(first) || first == '$' || first == '\'';
+}
+
 /* Behind a minus, which there is 0. Two are none, so that they do not stand one in another. */
 static struct part negative(struct parse *p)
 {
 	bool odd = true;
 	struct part part;
 
-	while (p->at[0] == '-' && !ascii_digit(p->at[1])) {
+	while (p->at[0] == '-' && !is_literal(p->at[1])) {
 		p->at++;
 		odd = !odd;
 	}
@@ -322,9 +328,9 @@ static struct part parse_term(struct parse *p)
 		part = parse_hex(p);
 	} else if (*p->at == '\'') {
 		part = parse_character(p);
-	} else if (*p->at == '-' && ascii_digit(p->at[1])) {
+	} else if (*p->at == '-' && is_literal(p->at[1])) {
 		p->at++;
-		part = parse_decimal(p);
+		part = parse_term(p);
 		part = constant(p, -(int64_t)part.value);
 	} else if (accept(p, "-")) {
 		part = negative(p);
