@@ -15,6 +15,9 @@ use Cwd qw(abs_path);
 use File::Basename qw(basename dirname);
 use Test::More;
 
+use lib dirname(abs_path(__FILE__));
+use ClassicTest;
+
 chdir dirname(abs_path(__FILE__)) . '/..' or die;
 my $build = $ENV{BUILD} || 'build';
 my $ladder = $ENV{LADDER} || "$build/ladder";
@@ -40,28 +43,6 @@ my %ours_never = (
 	'ring' => ['F6: a ring with a slot that is another register\'s is not repeated', '13 t=1300 '],
 );
 
-sub slurp {
-	my ($path) = @_;
-	open my $in, '<:raw', $path or return undef;
-	local $/;
-	my $text = <$in>;
-	return defined $text ? $text : '';
-}
-
-sub run {
-	my (@command) = @_;
-	# Warnings are not what is compared; an error is seen by the exit status.
-	open my $out, '-|', 'sh', '-c', 'exec "$@" 2>/dev/null', 'sh', @command
-		or return "cannot run $command[0]\n";
-	binmode $out;
-	local $/;
-	my $text = <$out>;
-	close $out;
-	$text = '' unless defined $text;
-	$text .= "exit status " . ($? >> 8) . "\n" if $?;
-	return $text;
-}
-
 # The line of @_ where the wanted text goes another way; undef: they are the same.
 sub first_difference {
 	my ($got, $want) = @_;
@@ -83,14 +64,6 @@ sub same {
 		ok(defined $line && index($line, $reason->[1]) == 0, "$what: not from $reason->[1]on ($reason->[0])")
 			or diag(defined $line ? "differs at: $line" : 'it is the same');
 	}
-}
-
-sub project_of {
-	my ($base) = @_;
-	for my $end ('.clp', '.clprj', '.clprjz', '.txt', '') {
-		return "$base$end" if -e "$base$end";
-	}
-	return undef;
 }
 
 sub test_ours {
