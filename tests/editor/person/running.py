@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: MIT
 """running - what ends a simulation or keeps it from beginning is told: errors, faults, the end of work."""
 import os
-import re
 import sys
-import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, main, new_file, until  # noqa: E402
@@ -79,44 +77,6 @@ def zero(screen):
     until(lambda: not [node for node in editor.all('ENO is FALSE', 'table cell')], 'the marks to go')
 
 
-def paces(screen):
-    """slow motion, another period, a slider, a cold start and STOP, by pointer and keys"""
-    editor = Editor(screen, new_file(screen, PROGRAM.replace('Minutes : INT', 'Minutes AT %AIW0 : INT := 3')))
-    editor.to_sheet()
-    editor.keys('ctrl+r')
-    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
-    editor.element('Rung 1, COIL', 'Motor', ', on')
-    scan = lambda: int(re.search(r'scan (\d+)', editor.find('Simulating · ', 'label').name)[1])
-    editor.press(editor.find('Period, speed, start', 'push button'))
-    editor.press(editor.find('Slow motion', 'check box'))
-    editor.find('Scans a second', 'slider')
-    speed = editor.find('Scans a second', 'slider')
-    x, y, width, height = editor.place(speed)
-    editor.drag((x + width // 2, y + height // 2), (x + 2, y + height // 2))
-    editor.shot('running-slow')
-    before, begin = scan(), time.monotonic()
-    until(lambda: scan() >= before + 3, 'three scans')
-    assert time.monotonic() - begin > 1.5, 'slow motion is not slow'
-    editor.press(editor.find('Slow motion', 'check box'))
-    period = editor.find('Period, ms', 'spin button')
-    editor.click(period)
-    editor.keys('ctrl+a')
-    editor.type('20')
-    editor.keys('Tab')
-    editor.says('Simulating · 20 ms')
-    editor.press(editor.find('Cold start', 'push button'))
-    editor.keys('Escape')
-    slider = editor.find('Analogue Minutes, %AIW0', 'slider')
-    x, y, width, height = editor.place(slider)
-    editor.drag((x + width // 2, y + height // 2), (x + width - 4, y + height // 2))
-    until(lambda: [node for node in editor.all('Rung 2, [:=]', 'table cell') if node.name.endswith(', 0')],
-          'twelve parts in thousands of minutes')
-    editor.shot('running-slider')
-    editor.keys('ctrl+shift+r')
-    editor.says('SIMULATION · STOP')
-    editor.element('Rung 1, COIL', 'Motor', ', off')
-
-
 def closing(screen):
     """the window is closed in RUN: it stops, and asks for unsaved work; Cancel keeps it in STOP"""
     path = new_file(screen, PROGRAM)
@@ -139,4 +99,4 @@ def closing(screen):
     check(path)
 
 
-main([plant, zero, paces, closing])
+main([plant, zero, closing])
