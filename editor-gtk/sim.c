@@ -20,6 +20,7 @@ G_DEFINE_FINAL_TYPE(LadderSim, ladder_sim, G_TYPE_OBJECT)
 static void tell_state(LadderSim *sim)
 {
 	sim->told = ladder_sim_state(sim);
+	sim->told_period = ladder_sim_period(sim);
 	g_signal_emit(sim, signals[STATE_CHANGED], 0);
 }
 
@@ -110,7 +111,8 @@ static gboolean notified(gpointer data)
 	tell_fault(sim);
 	tell_failed(sim);
 	tell_refusal(sim);
-	if (sim->told != ladder_sim_state(sim))
+	if (sim->told != ladder_sim_state(sim) ||
+	    sim->told_period != ladder_sim_period(sim))
 		tell_state(sim);
 	if (!sim->past)
 		g_signal_emit(sim, signals[SHOWN], 0);
@@ -412,7 +414,8 @@ void ladder_sim_set_period(LadderSim *sim, gint64 ns)
 {
 	sim->period_ns = CLAMP(ns, 100000, 60000000000);
 	order(sim, ACT_PERIOD, sim->period_ns);
-	tell_state(sim);
+	if (!sim->thread) /* else when it holds: until then it is what it was */
+		tell_state(sim);
 }
 
 double ladder_sim_speed(LadderSim *sim)

@@ -23,6 +23,7 @@ struct _LadderSim {
 	guint refused;              /* of the view's refusal, that were told of */
 	bool failed;                /* told that an operation failed           */
 	enum sim_state told;        /* the last state that signals told of     */
+	gint64 told_period;         /* and period, ns                          */
 	gint64 period_ns;
 	double speed;
 	char *plant_path;

@@ -83,6 +83,19 @@ static void test_states(void)
 	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
 }
 
+/* What is shown of it follows when it holds, and not a moment before. */
+static void test_period(void)
+{
+	const gint64 before = ladder_sim_period(sim);
+	const int told_states = states;
+
+	ladder_sim_set_period(sim, 2 * before);
+	CHECK_AS(states == told_states, "a field that was typed into is not set back");
+	CHECK_SOON(states > told_states && ladder_sim_period(sim) == 2 * before);
+	ladder_sim_set_period(sim, before);
+	CHECK_SOON(ladder_sim_period(sim) == before);
+}
+
 static void test_acts(void)
 {
 	const gint64 before = value("Count");
@@ -405,6 +418,7 @@ int main(void)
 	g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(count), &states);
 	g_signal_connect(sim, "told", G_CALLBACK(keep_told), NULL);
 	test_states();
+	test_period();
 	test_acts();
 	test_past();
 	test_chart();
