@@ -248,14 +248,15 @@ static struct value compute_neg(struct chain *c, const struct expr_node *node,
 {
 	const struct expr_node *inner = &c->expr->node[node->left];
 	struct value zero, value;
+	enum iec_type type;
 
 	if (inner->op == EXPR_LITERAL && !memchr(inner->text, '#', inner->len))
 		return constant(c, inner->text, inner->len, true, hint);
 	value = chain_compute(c, node->left, hint, 0);
 	zero = value.type == IEC_TIME ? constant(c, "T#0s", 4, false, IEC_NONE)
 				      : constant(c, "0", 1, false, IEC_NONE);
-	return operate(c, FN_SUB, zero, value, value.type ? value.type : hint,
-		       target);
+	type = value.type ? value.type : hint;
+	return operate(c, FN_SUB, zero, value, type ? type : IEC_DINT, target);
 }
 
 /* An input beside one of @type: a bare constant takes that type by itself, an
