@@ -226,6 +226,12 @@ sub test_numbers {
 	my (undef, $report) = fine('what cannot be');
 	like($report, qr/:14: lost: rung_0\.csv: .*%IX0\.3 is written, which a program cannot/, 'told with its place');
 	like($report, qr/lost: rung_1\.csv: .*type 70, number 300/, 'a system bit that does not exist');
+	# Each line names the rung here that it speaks of; of one that became none, none.
+	my @good = [row('1-0-50/0', '50-0-60/0')];
+	project(rung => [@good, [row('1-0-70/300', '9-0-0/0')], @good, [row('1-0-70/301', '50-0-60/1')]]);
+	(undef, $report) = fine('rungs that are told of');
+	like($report, qr/: lost: rung_1\.csv: Main: variable of type 70, number 300/, 'a rung that became none');
+	like($report, qr/: lost: rung_3\.csv: Main rung 3: variable of type 70, number 301/, 'the rung that it became');
 }
 
 # Arrays reach as far as the project says, and not beyond.

@@ -64,6 +64,7 @@ struct conversion {
 	const char *section_pou; /* that is written now                            */
 	int section;           /* its index                                        */
 	int rungs_written;     /* in it                                            */
+	int rung;              /* in it, of which is told now; 0: none             */
 	struct classic_place at; /* of what is written now                         */
 	size_t cap;
 	int cap_lines;

@@ -295,7 +295,7 @@ void grid_head(struct grid *grid)
 
 	grid->c->at = grid->rung->place;
 	put(c, "RUNG");
-	c->rungs_written++;
+	c->rung = ++c->rungs_written;
 	if (!grid->begun) {
 		const char *label = label_of(c, grid->rung->number);
 
@@ -344,8 +344,16 @@ static void write_empty(struct grid *grid)
 	}
 }
 
+/* What was told of it from line @first of the report on is of no rung here. */
+static void lead_nowhere(struct conversion *c, int first)
+{
+	for (int i = first; i < c->report->count; i++)
+		c->report->line[i].rung = 0;
+}
+
 void convert_rung(struct conversion *c, const struct classic_rung *rung)
 {
+	const int first = c->report->count;
 	struct grid *grid;
 
 	arena_reset(&c->scratch);
@@ -354,11 +362,15 @@ void convert_rung(struct conversion *c, const struct classic_rung *rung)
 		return;
 	grid->c = c;
 	grid->rung = rung;
+	c->rung = c->rungs_written + 1;
 	find_parts(grid);
 	find_power(grid);
 	find_need(grid);
-	if (!acts(grid))
+	if (!acts(grid)) {
+		lead_nowhere(c, first);
 		write_empty(grid);
-	else if (!grid_write_pieces(grid))
+	} else if (!grid_write_pieces(grid)) {
 		grid_unfold(grid);
+	}
+	c->rung = 0;
 }

@@ -110,7 +110,7 @@ void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
 {
 	struct report_line line = {
 		.kind = kind, .member = c->at.member, .line = c->at.line,
-		.pou = c->section_pou, .rung = c->section_pou ? c->rungs_written : 0,
+		.pou = c->section_pou, .rung = c->section_pou ? c->rung : 0,
 	};
 	va_list args;
 	char *text;
@@ -239,7 +239,7 @@ static void write_section(struct conversion *c, int index)
 	c->at = section->place;
 	c->section = index;
 	c->section_pou = c->pou[index];
-	c->rungs_written = 0;
+	c->rungs_written = c->rung = 0;
 	if (section->sequential && shown_before(c, index)) {
 		tell(c, REPORT_CHANGED, "section \"%s\" shows page %d once more: a page runs "
 		     "once a scan", section->name, section->page);
