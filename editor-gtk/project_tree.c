@@ -2,195 +2,19 @@
  *
  * project_tree - what a project is made of: programs, blocks, types, symbols, files.
  *
- * A row goes where it is double clicked or entered; programs and blocks are added,
- * renamed and deleted from its menu.
+ * Its rows are made by tree_rows.h. One goes where it is double clicked or entered;
+ * programs and blocks are added, renamed and deleted from its menu.
  */
 #include "editor-gtk/panels.h"
 
-#include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/listing.h"
 #include "editor-gtk/popover.h"
 #include "editor-gtk/pou_edit.h"
 #include "editor-gtk/pou_import.h"
+#include "editor-gtk/tree_rows.h"
 
 #include <string.h>
-
-/* ---- rows ---- */
-
-#define LADDER_TYPE_TREE_ROW (ladder_tree_row_get_type())
-G_DECLARE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, LADDER, TREE_ROW, GObject)
-
-enum row_kind { ROW_HEADING, ROW_BOOKMARK, ROW_POU, ROW_SYMBOLS, ROW_FILE,
-		ROW_STRUCTURE, ROW_VARIABLE, ROW_TEXT };
-
-struct _LadderTreeRow {
-	GObject parent;
-	enum row_kind kind;
-	int pou, rung;      /* pou of a STRUCTURE: its number                  */
-	char *text, *note, *path;
-	GListStore *rows;   /* below it; NULL: none                            */
-};
-
-G_DEFINE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, G_TYPE_OBJECT)
-
-static void ladder_tree_row_finalize(GObject *object)
-{
-	LadderTreeRow *row = LADDER_TREE_ROW(object);
-
-	g_clear_object(&row->rows);
-	g_free(row->text);
-	g_free(row->note);
-	g_free(row->path);
-	G_OBJECT_CLASS(ladder_tree_row_parent_class)->finalize(object);
-}
-
-static void ladder_tree_row_class_init(LadderTreeRowClass *class)
-{
-	G_OBJECT_CLASS(class)->finalize = ladder_tree_row_finalize;
-}
-
-static void ladder_tree_row_init(LadderTreeRow *row)
-{
-	row->pou = -1;
-}
-
-static LadderTreeRow *add(GListStore *into, enum row_kind kind, const char *text,
-			  char *note, GListStore *rows)
-{
-	LadderTreeRow *row = g_object_new(LADDER_TYPE_TREE_ROW, NULL);
-
-	row->kind = kind;
-	row->text = g_strdup(text);
-	row->note = note;
-	row->rows = rows;
-	g_list_store_append(into, row);
-	g_object_unref(row);
-	return row;
-}
-
-static LadderTreeRow *add_row(GListStore *into, enum row_kind kind, const char *text,
-			      char *note)
-{
-	return add(into, kind, text, note, NULL);
-}
-
-static LadderTreeRow *add_heading(GListStore *into, const char *text)
-{
-	return add(into, ROW_HEADING, text, NULL, g_list_store_new(LADDER_TYPE_TREE_ROW));
-}
-
-/* ---- filling ---- */
-
-static void add_pous(GListStore *root, const struct project *project, const char *title,
-		     bool programs)
-{
-	LadderTreeRow *heading = add_heading(root, title);
-
-	for (int i = 0; i < project->pou_count; i++) {
-		const struct pou *pou = &project->pou[i];
-		char *note;
-		LadderTreeRow *row;
-
-		if ((pou->kind == POU_PROGRAM) != programs)
-			continue;
-		note = pou->sfc ? g_strdup_printf(ngettext("%d step", "%d steps",
-			(unsigned long)pou->sfc->step_count), pou->sfc->step_count) :
-			pou->language == LANGUAGE_LD ?
-			g_strdup_printf(ngettext("%d rung", "%d rungs",
-				(unsigned long)pou->rung_count), pou->rung_count) :
-			g_strdup(pou_language_word(pou->language));
-		row = add_row(heading->rows, ROW_POU, project_text(project, pou->name),
-			      note);
-		row->pou = i;
-	}
-}
-
-static void add_files(GListStore *root, const struct project *project)
-{
-	LadderTreeRow *heading = NULL;
-
-	for (int i = 0; i < project->part_count; i++) {
-		const struct part *part = &project->part[i];
-
-		if ((part->kind != PART_INCLUDE && part->kind != PART_USES) ||
-		    part->included)
-			continue;
-		if (!heading)
-			heading = add_heading(root, _("Files"));
-		add_row(heading->rows, ROW_FILE, project_text(project, part->text),
-			g_strdup(part->kind == PART_USES ? "USES" : "INCLUDE"));
-	}
-}
-
-static void add_structures(GListStore *root, const struct project *project)
-{
-	LadderTreeRow *heading = NULL;
-
-	for (int i = 0; i < project->structure_count; i++) {
-		LadderTreeRow *row;
-
-		if (!heading)
-			heading = add_heading(root, _("Structures"));
-		row = add_row(heading->rows, ROW_STRUCTURE,
-			      project_text(project, project->structure[i].name), NULL);
-		row->pou = i;
-	}
-}
-
-/* Text files beside the project. */
-static void add_texts(GListStore *root, LadderDocument *document, const char *title,
-		      const char *ending, bool own)
-{
-	GPtrArray *files = files_beside(ladder_document_path(document), ending, own);
-	LadderTreeRow *heading = files->len ? add_heading(root, title) : NULL;
-
-	for (guint i = 0; i < files->len; i++) {
-		char *name = g_path_get_basename(files->pdata[i]);
-		LadderTreeRow *row = add_row(heading->rows, ROW_TEXT, name, NULL);
-
-		row->path = g_strdup(files->pdata[i]);
-		g_free(name);
-	}
-	g_ptr_array_unref(files);
-}
-
-/* What a POU or a structure is made of. */
-static GListModel *variables(const struct project *project, const struct var_table *vars)
-{
-	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
-
-	for (int i = listing_first(vars); i < vars_declared(vars); i++)
-		add_row(rows, ROW_VARIABLE, project_text(project, vars->var[i].name),
-			listing_type(project, &vars->var[i]));
-	return G_LIST_MODEL(rows);
-}
-
-static void add_bookmarks(GListStore *root, LadderDocument *document)
-{
-	const struct project *project = ladder_document_project(document);
-	LadderTreeRow *heading = NULL;
-
-	if (!project_view(project)[0])
-		return;
-	for (int pou = 0; pou < project->pou_count; pou++)
-		for (int i = 0; i < project->pou[pou].rung_count; i++) {
-			LadderTreeRow *row;
-			char *text;
-
-			if (!ladder_document_is_bookmarked(document, pou, i))
-				continue;
-			if (!heading)
-				heading = add_heading(root, _("Bookmarks"));
-			text = g_strdup_printf(_("%s, rung %d"), project_text(project,
-				project->pou[pou].name), i + 1);
-			row = add_row(heading->rows, ROW_BOOKMARK, text, g_strdup(
-				project_text(project, project->pou[pou].rung[i]->title)));
-			row->pou = pou;
-			row->rung = i;
-			g_free(text);
-		}
-}
 
 struct tree {
 	LadderDocument *document;
@@ -217,25 +41,12 @@ static void expand_headings(struct tree *tree)
 
 static void fill(struct tree *tree)
 {
-	const struct project *project = ladder_document_project(tree->document);
-	LadderTreeRow *row;
-
 	if (!tree->model)
 		return;
 	g_list_store_remove_all(tree->root);
-	if (!project)
+	if (!ladder_document_project(tree->document))
 		return;
-	add_pous(tree->root, project, _("Programs"), true);
-	add_pous(tree->root, project, _("Functions and blocks"), false);
-	row = add_row(tree->root, ROW_SYMBOLS, _("Symbols"),
-		      g_strdup_printf("%d", listing_symbol_count(project)));
-	row->pou = -1;
-	add_structures(tree->root, project);
-	add_bookmarks(tree->root, tree->document);
-	add_texts(tree->root, tree->document, _("Scenarios"), ".scn", true);
-	add_texts(tree->root, tree->document, _("I/O maps"), ".io", true);
-	add_texts(tree->root, tree->document, _("Other I/O maps"), ".io", false);
-	add_files(tree->root, project);
+	tree_rows_fill(tree->root, tree->document);
 	expand_headings(tree);
 }
 
@@ -545,16 +356,9 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 
 static GListModel *children(gpointer item, gpointer data)
 {
-	LadderTreeRow *row = LADDER_TREE_ROW(item);
 	const struct tree *tree = data;
-	const struct project *project = ladder_document_project(tree->document);
 
-	if (project && row->kind == ROW_POU && row->pou < project->pou_count &&
-	    listing_count(&project->pou[row->pou].vars))
-		return variables(project, &project->pou[row->pou].vars);
-	if (project && row->kind == ROW_STRUCTURE && row->pou < project->structure_count)
-		return variables(project, &project->structure[row->pou].vars);
-	return row->rows ? G_LIST_MODEL(g_object_ref(row->rows)) : NULL;
+	return tree_row_children(LADDER_TREE_ROW(item), tree->document);
 }
 
 static void tree_free(gpointer pointer)
