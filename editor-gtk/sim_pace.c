@@ -43,7 +43,9 @@ static void show(struct pace *pace)
 
 	pace->showing = true;
 	gtk_spin_button_set_value(pace->period, (double)ladder_sim_period(pace->sim) / 1e6);
-	gtk_switch_set_active(pace->slow, speed > 0);
+	/* Even its own state, set again, ends the movement of one that is on its way. */
+	if (gtk_switch_get_active(pace->slow) != (speed > 0))
+		gtk_switch_set_active(pace->slow, speed > 0);
 	gtk_widget_set_sensitive(GTK_WIDGET(pace->speed), speed > 0);
 	if (speed > 0)
 		gtk_range_set_value(GTK_RANGE(pace->speed), speed);
@@ -82,6 +84,22 @@ static GtkWidget *row(GtkGrid *grid, int at, const char *text, GtkWidget *widget
 	return widget;
 }
 
+/* In a popover the keys that press a button do not come to a switch by themselves. */
+static GtkSwitch *switch_new(void)
+{
+	GtkWidget *widget = gtk_switch_new();
+	GtkEventController *keys = gtk_shortcut_controller_new();
+	GtkShortcutTrigger *trigger = gtk_alternative_trigger_new(
+		gtk_keyval_trigger_new(GDK_KEY_space, 0),
+		gtk_keyval_trigger_new(GDK_KEY_Return, 0));
+
+	gtk_shortcut_controller_add_shortcut(GTK_SHORTCUT_CONTROLLER(keys),
+		gtk_shortcut_new(trigger, g_object_ref(gtk_activate_action_get())));
+	gtk_widget_add_controller(widget, keys);
+	gtk_widget_set_halign(widget, GTK_ALIGN_START);
+	return GTK_SWITCH(widget);
+}
+
 static GtkWidget *start_button(const char *label, const char *action)
 {
 	GtkWidget *button = gtk_button_new_with_label(label);
@@ -101,8 +119,7 @@ GtkWidget *sim_pace_new(LadderSim *sim)
 	pace->sim = g_object_ref(sim);
 	pace->period = GTK_SPIN_BUTTON(gtk_spin_button_new_with_range(0.1, 60000, 1));
 	gtk_spin_button_set_digits(pace->period, 1);
-	pace->slow = GTK_SWITCH(gtk_switch_new());
-	gtk_widget_set_halign(GTK_WIDGET(pace->slow), GTK_ALIGN_START);
+	pace->slow = switch_new();
 	pace->speed = GTK_SCALE(gtk_scale_new_with_range(GTK_ORIENTATION_HORIZONTAL,
 							 SLOWEST, FASTEST, 1));
 	gtk_scale_set_draw_value(pace->speed, TRUE);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """running - what ends a simulation or keeps it from beginning is told: errors, faults, the end of work."""
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -77,6 +78,50 @@ def zero(screen):
     until(lambda: not [node for node in editor.all('ENO is FALSE', 'table cell')], 'the marks to go')
 
 
+def paces(screen):
+    """another period, slow motion, a slider and STOP, by pointer and keys"""
+    editor = Editor(screen, new_file(screen, PROGRAM.replace('Minutes : INT', 'Minutes AT %AIW0 : INT := 3')))
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
+    editor.element('Rung 1, COIL', 'Motor', ', on')
+    scan = lambda: int(re.search(r'scan (\d+)', editor.find('Simulating · ', 'label').name)[1])
+    editor.click(editor.find('Period, speed, start', 'push button'))
+    editor.focus_on('Period, ms')
+    editor.keys('ctrl+a')
+    editor.type('20')
+    editor.keys('Tab')
+    editor.says('Simulating · 20 ms')
+    switch = editor.focus_on('Slow motion')
+    editor.keys('space')
+    until(lambda: switch.has(4), 'the switch to be on')
+    editor.keys('Tab')
+    speed = editor.focus_on(but=switch)
+    editor.keys('Home')  # one a second
+    editor.shot('running-slow')
+
+    def by():
+        """How many scans the title goes on by: it is written five times a second at most."""
+        before = scan()
+        return until(lambda: scan() > before and scan(), 'the next scan') - before
+    until(lambda: by() == 1 and by() == 1, 'one scan after the other')
+    editor.keys('shift+Tab')
+    editor.focus_on('Slow motion', but=speed)
+    editor.keys('space')
+    until(lambda: not switch.has(4), 'the switch to be off')
+    editor.keys('Escape')
+    until(lambda: not editor.all('Slow motion', 'check box'), 'the popover to be gone')
+    slider = editor.find('Analogue Minutes, %AIW0', 'slider')
+    x, y, width, height = editor.place(slider)
+    editor.drag((x + width // 2, y + height // 2), (x + width - 4, y + height // 2))
+    until(lambda: [node for node in editor.all('Rung 2, [:=]', 'table cell') if node.name.endswith(', 0')],
+          'twelve parts in thousands of minutes')
+    editor.shot('running-slider')
+    editor.keys('ctrl+shift+r')
+    editor.says('SIMULATION · STOP')
+    editor.element('Rung 1, COIL', 'Motor', ', off')
+
+
 def closing(screen):
     """the window is closed in RUN: it stops, and asks for unsaved work; Cancel keeps it in STOP"""
     path = new_file(screen, PROGRAM)
@@ -99,4 +144,4 @@ def closing(screen):
     check(path)
 
 
-main([plant, zero, closing])
+main([plant, zero, paces, closing])
