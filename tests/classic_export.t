@@ -211,7 +211,7 @@ sub test_ladders {
 
 my $body = "PROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n";
 sub with_rung { return "VAR\n$_[0]\nEND_VAR\nPROGRAM Main LD\nRUNG\n  $_[1]\nEND_PROGRAM\n" }
-my $task = "TASK T (INTERVAL := %s);\n PROGRAM M WITH T : Main;\nEND_CONFIGURATION\n$body";
+sub with_task { return "CONFIGURATION C\nTASK T (INTERVAL := $_[0]);\n PROGRAM M WITH T : Main;\nEND_CONFIGURATION\n$body" }
 
 # What, the file, what is told or (with LD) refused; -: nothing, and what stands in the file.
 my @table = (
@@ -249,12 +249,12 @@ my @table = (
 		'changed: section ProgramWithALongName is called ProgramWithALongNam'],
 	['a long project', "PROJECT \"" . 'x' x 40 . "\"\n$body", "changed: the project's name is cut"],
 	['no task', $body, 'changed: no task says how long a scan is: 50 ms'],
-	['a task', "CONFIGURATION C\n" . sprintf($task, 'T#20ms'), '-', qr/^PERIODIC_REFRESH=20$/m],
-	['half a millisecond', "CONFIGURATION C\n" . sprintf($task, 'T#500us'), 'changed: T: a scan has 1 ms there'],
-	['a watchdog', "CONFIGURATION C\n" . sprintf($task, 'T#20ms, WATCHDOG := T#1s'), 'changed: T: nothing there watches'],
+	['a task', with_task('T#20ms'), '-', qr/^PERIODIC_REFRESH=20$/m],
+	['half a millisecond', with_task('T#500us'), 'changed: T: a scan has 1 ms there'],
+	['a watchdog', with_task('T#20ms, WATCHDOG := T#1s'), 'changed: T: nothing there watches'],
 	['an event', "VAR\n e AT %IX0.0 : BOOL;\nEND_VAR\nCONFIGURATION C\n TASK T (SINGLE := e);\n PROGRAM M WITH T : Main;\nEND_CONFIGURATION\n$body", 'error LD737'],
 	['a size', "CONFIGURATION C\n AREA V 16384;\nEND_CONFIGURATION\n$body", 'changed: AREA: ClassicLadder has sizes of its own'],
-	['a program without a task', "CONFIGURATION C\n" . sprintf($task, 'T#20ms') . $body =~ s/Main/Other/r,
+	['a program without a task', with_task('T#20ms') . $body =~ s/Main/Other/r,
 		'changed: PROGRAM Other stays here'],
 	['what the editor keeps', "${body}VIEW\n  bookmark Main 1\nEND_VIEW\n", 'changed: what the editor keeps'],
 	['a structure', "TYPE\n Pair : STRUCT\n  a : BOOL;\n END_STRUCT;\nEND_TYPE\n$body", 'changed: structure Pair stays here'],

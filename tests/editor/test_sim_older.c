@@ -69,7 +69,7 @@ static void run_change(struct run *run, const char *text)
 {
 	struct sim_program *program = sim_program_new(g_intern_static_string("-"), text,
 						      strlen(text), NULL);
-	struct twin next;
+	struct twin next = { 0 };
 
 	CHECK(program && twin_init(&next, program->program, NULL, run->twin.period_ns) &&
 	      twin_change(&next, &run->twin));
