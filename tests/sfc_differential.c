@@ -22,7 +22,7 @@
 #define TEXT_MAX (128 * 1024)
 
 #ifndef DIFFERENTIAL_COUNT
-#define DIFFERENTIAL_COUNT 20000
+#define DIFFERENTIAL_COUNT 12000
 #endif
 
 struct options {
