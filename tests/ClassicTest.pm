@@ -9,7 +9,7 @@ package ClassicTest;
 use strict;
 use warnings;
 use Exporter 'import';
-our @EXPORT = qw(run slurp spill project_of members strict);
+our @EXPORT = qw(run said slurp spill project_of members strict);
 
 # What a command prints; warnings are not what is compared, an error is seen by its status.
 sub run {
@@ -23,6 +23,17 @@ sub run {
 	$text = '' unless defined $text;
 	$text .= "exit status " . ($? >> 8) . "\n" if $?;
 	return $text;
+}
+
+# What a command says, wherever it prints it, and its exit status; 128 and more: by a signal.
+sub said {
+	my (@command) = @_;
+	open my $out, '-|', 'sh', '-c', 'exec "$@" 2>&1 </dev/null', 'sh', @command or die;
+	binmode $out;
+	local $/;
+	my $text = <$out>;
+	close $out;
+	return (defined $text ? $text : '', $? & 127 ? 128 + ($? & 127) : $? >> 8);
 }
 
 sub slurp {

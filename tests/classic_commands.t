@@ -13,6 +13,9 @@ use File::Temp qw(tempdir);
 use IO::Compress::Gzip qw(gzip);
 use Test::More;
 
+use lib dirname(abs_path(__FILE__));
+use ClassicTest;
+
 chdir dirname(abs_path(__FILE__)) . '/..' or die;
 my $build = abs_path($ENV{BUILD} || 'build');
 my $ladder = abs_path($ENV{LADDER} || "$build/ladder");
@@ -41,30 +44,17 @@ my %member = (
 	'symbols.csv' => "#VER=1.0\n%I0,Start,the button\n%TM0,Pause,x\n%Q0,Motor,\n%W7,Seven,\n",
 );
 
-sub save { my ($path, $text) = @_; open my $out, '>:raw', $path or die; print $out $text; close $out or die }
-sub slurp { open my $in, '<:raw', $_[0] or return undef; local $/; return <$in> }
-
 my $text = join '', "_FILES_CLASSICLADDER\n", (map { "_FILE-$_\n$member{$_}_/FILE-$_\n" } sort keys %member),
 	"_/FILES_CLASSICLADDER\n";
-save('pump.clprj', $text);
-save('old.clp', $text);
+spill('pump.clprj', $text);
+spill('old.clp', $text);
 gzip \$text => 'packed.clprjz' or die;
 mkdir 'folder' or die;
-save("folder/$_", $member{$_}) for keys %member;
-save("$_.scn", "scenario \"runs\"\n  at 100ms %I0 = 1\n  within 40ms expect %Q0\n"
+spill("folder/$_", $member{$_}) for keys %member;
+spill("$_.scn", "scenario \"runs\"\n  at 100ms %I0 = 1\n  within 40ms expect %Q0\n"
 	. "  within 3s expect %Q1, %TM0.V = 2, %X2.A\n") for 'pump', 'old', 'packed';
-save('script', "\@print %Q0..1 %TM0.V %X2.A Motor\n%I0=1\n. x60\n");
-save('map', "BOARD \"none\"\n");
-
-sub run {
-	my (@command) = @_;
-	open my $out, '-|', 'sh', '-c', 'exec "$@" 2>&1 </dev/null', 'sh', @command or die;
-	binmode $out;
-	local $/;
-	my $text = <$out>;
-	close $out;
-	return (defined $text ? $text : '', $? >> 8);
-}
+spill('script', "\@print %Q0..1 %TM0.V %X2.A Motor\n%I0=1\n. x60\n");
+spill('map', "BOARD \"none\"\n");
 
 my $refused = qr/error LD717: .*ladder import/;
 # Of each command: arguments, status, what it prints. FILE is the project. Rows of one
@@ -117,7 +107,7 @@ sub test_form {
 		# A folder has no name that a scenario could have, too.
 		next if $command eq 'test' && -d $file;
 		my @argument = map { s/^FILE$/$file/r } @$argument;
-		my ($text, $got) = run($ladder, $command, @argument);
+		my ($text, $got) = said($ladder, $command, @argument);
 		$text =~ s/^\Q$file\E/FILE/mg;
 		$text =~ s/\t\Q$file\E/\tFILE/g;
 		my $name = "ladder $command @argument";
@@ -129,30 +119,30 @@ sub test_form {
 
 # The line is the project's own.
 sub test_places {
-	my ($text) = run($ladder, 'check', 'pump.clprj');
+	my ($text) = said($ladder, 'check', 'pump.clprj');
 	my ($line) = $text =~ /^pump\.clprj:(\d+): warning LD312/;
 	is((split /\n/, slurp('pump.clprj'))[$line - 1], '%W7,Seven,', 'a warning stands where the symbol stands');
-	($text) = run($ladder, 'check', 'folder');
+	($text) = said($ladder, 'check', 'folder');
 	($line) = $text =~ m{^folder/symbols\.csv:(\d+): warning LD312};
 	is((split /\n/, $member{'symbols.csv'})[$line - 1], '%W7,Seven,', 'the same in a folder');
-	($text) = run($ladder, 'xref', 'pump.clprj', 'Motor');
+	($text) = said($ladder, 'xref', 'pump.clprj', 'Motor');
 	($line) = $text =~ /^Motor\tcoil\tpump\.clprj:(\d+)/m;
 	is((split /\n/, slurp('pump.clprj'))[$line - 1], '#VER=3.0', 'a coil where its rung begins');
 }
 
 # What was built has the project's period, and its names.
 sub test_image {
-	my ($text) = run($ladder, 'trace', 'out.rungc', 'script', '--changes');
+	my ($text) = said($ladder, 'trace', 'out.rungc', 'script', '--changes');
 	like($text, qr/^1 t=40 %Q0=1 Motor=1$/m, 'the image scans as often as the project');
-	run($ladder, 'import', 'pump.clprj', '-o', 'imported.rung');
-	run($ladder, 'build', 'imported.rung', '-o', 'imported.rungc');
+	said($ladder, 'import', 'pump.clprj', '-o', 'imported.rung');
+	said($ladder, 'build', 'imported.rung', '-o', 'imported.rungc');
 	is(slurp('imported.rungc') eq slurp('out.rungc') ? 1 : 0, 1, 'and is that of the rung file of it');
 }
 
 # A board has no import.
 sub test_ladderd {
 	for my $file ('pump.clprj', 'packed.clprjz') {
-		my ($text, $status) = run("$build/ladderd", '--io', 'map', $file);
+		my ($text, $status) = said("$build/ladderd", '--io', 'map', $file);
 		like($text, $refused, "ladderd $file");
 		isnt($status, 0, "ladderd $file: status");
 	}

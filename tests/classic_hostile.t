@@ -13,21 +13,14 @@ use File::Basename qw(dirname);
 use File::Temp qw(tempdir);
 use Test::More;
 
+use lib dirname(abs_path(__FILE__));
+use ClassicTest;
+
 chdir dirname(abs_path(__FILE__)) . '/..' or die;
 my $ladder = $ENV{LADDER} || ($ENV{BUILD} || 'build') . '/ladder';
 my $tmp = tempdir(CLEANUP => 1);
 my $file = "$tmp/project.clprj";
 my $wire = '9-0-0/0';
-
-sub run {
-	my (@command) = @_;
-	open my $out, '-|', 'sh', '-c', 'exec "$@" 2>&1', 'sh', @command or die;
-	binmode $out;
-	local $/;
-	my $text = <$out>;
-	close $out;
-	return (defined $text ? $text : '', $?);
-}
 
 # A row whose last cell stands in the last column.
 sub row {
@@ -67,15 +60,15 @@ sub project {
 # No message of ours about a text that nobody wrote.
 sub fine {
 	my ($what) = @_;
-	my ($text, $status) = run($ladder, 'check', $file);
+	my ($text, $status) = said($ladder, 'check', $file);
 	my @wrong = grep { /error LD[0-6]/ } split /\n/, $text;
-	my ($report, $imported) = run($ladder, 'import', $file, '-o', "$tmp/out.rung");
+	my ($report, $imported) = said($ladder, 'import', $file, '-o', "$tmp/out.rung");
 	push @wrong, grep { /error LD[0-6]/ } split /\n/, $report;
 	if ($imported == 0 && !@wrong) {
-		my ($own) = run($ladder, 'check', "$tmp/out.rung");
+		my ($own) = said($ladder, 'check', "$tmp/out.rung");
 		push @wrong, grep { /error LD/ } split /\n/, $own;
 	}
-	push @wrong, "ended by signal $status" if $status & 127;
+	push @wrong, "ended by signal $status" if $status >= 128;
 	ok(!@wrong, $what) or diag(join "\n", @wrong[0 .. ($#wrong < 3 ? $#wrong : 3)]);
 	return ($text, $report);
 }
@@ -134,17 +127,15 @@ sub words_of {
 	return sort keys %word;
 }
 
-sub slurp { open my $in, '<:raw', $_[0] or die "$_[0]: $!\n"; local $/; return <$in> }
-
 sub test_names {
 	everything([]);
 	my ($text) = fine('every element');
 	my @said;
 	for my $faithful ([], ['--faithful']) {
-		run($ladder, 'import', @$faithful, $file, '-o', "$tmp/said.rung");
+		said($ladder, 'import', @$faithful, $file, '-o', "$tmp/said.rung");
 		push @said, words_of(slurp("$tmp/said.rung"));
 	}
-	my ($catalogue) = run($ladder, 'words');
+	my ($catalogue) = said($ladder, 'words');
 	my @word = words_of(@said, $catalogue, qw(Words InWords OutWords SysWords x3 X3_a T0_a Rung1_Power Main_1));
 	cmp_ok(scalar @word, '>', 400, 'names that the importer or the language uses');
 	# Without the scan's task, too: read as it is.
@@ -185,7 +176,7 @@ sub test_they_work {
 	open my $script, '>', "$tmp/script" or die;
 	print $script "\@print %Q1 %Q2 %Q3 %Q4 %X1.A %X15.A\n.\n%B4=1\n";
 	close $script;
-	my ($text) = run($ladder, 'trace', '--changes', $file, "$tmp/script");
+	my ($text) = said($ladder, 'trace', '--changes', $file, "$tmp/script");
 	is(join('', grep { /^\d/ } map { "$_\n" } split /\n/, $text), "1 t=50 %Q4=1 %X1.A=1\n2 t=100 %Q2=1 %Q3=1\n",
 		'steps and bits are found by what they were called');
 }
@@ -246,7 +237,7 @@ sub test_sizes {
 	open my $script, '>', "$tmp/script" or die;
 	print $script "\@print %W4999\n%W1=41 %W4=4989\n%W4=4990\n";
 	close $script;
-	my ($text) = run($ladder, 'trace', '--changes', $file, "$tmp/script");
+	my ($text) = said($ladder, 'trace', '--changes', $file, "$tmp/script");
 	like($text, qr/^1 t=50 %W4999=42$/m, 'the last word of 5000');
 }
 
@@ -310,7 +301,7 @@ sub seconds_of {
 			row('1-0-0/1', '54-0-0/' . (($i * 31) % $rungs))] } 0 .. $rungs - 1],
 		symbol => [map { "%B$_,Bit of $_,c" } 0 .. $rungs - 1]);
 	my @before = times;
-	my ($text, $status) = run($ladder, 'import', $file, '-o', "$tmp/out.rung");
+	my ($text, $status) = said($ladder, 'import', $file, '-o', "$tmp/out.rung");
 	my @after = times;
 	is($status, 0, "$rungs rungs") or diag(substr $text, 0, 300);
 	return $after[2] - $before[2];

@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-const struct classic_rung *classic_rung(const struct classic_project *project, int number)
+int classic_rung_index(const struct classic_project *project, int number)
 {
 	int low = 0, high = project->rungs;
 
@@ -20,8 +20,14 @@ const struct classic_rung *classic_rung(const struct classic_project *project, i
 		else
 			high = middle;
 	}
-	return low < project->rungs && project->rung[low]->number == number ?
-	       project->rung[low] : NULL;
+	return low < project->rungs && project->rung[low]->number == number ? low : -1;
+}
+
+const struct classic_rung *classic_rung(const struct classic_project *project, int number)
+{
+	const int index = classic_rung_index(project, number);
+
+	return index < 0 ? NULL : project->rung[index];
 }
 
 const struct classic_block *classic_block(const struct classic_blocks *blocks, int number)

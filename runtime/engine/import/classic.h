@@ -175,6 +175,8 @@ struct classic_project *classic_read_folder(struct arena *arena, const char *fol
 					    struct classic_report *report,
 					    struct diag_list *diags);
 
+/** classic_rung_index - the place among all rungs of the one with a number; -1: none is. */
+int classic_rung_index(const struct classic_project *project, int number);
 /** classic_rung - by its number; NULL: none. Likewise the others. */
 const struct classic_rung *classic_rung(const struct classic_project *project, int number);
 const struct classic_block *classic_block(const struct classic_blocks *blocks, int number);

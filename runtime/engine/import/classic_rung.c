@@ -160,33 +160,16 @@ static bool name_pous(struct conversion *c)
 
 /* ---- sections ---- */
 
-/* The place of a rung of the project among all of them. */
-static int index_of(const struct conversion *c, int number)
-{
-	const struct classic_project *project = c->project;
-	int low = 0, high = project->rungs;
-
-	while (low < high) {
-		int middle = low + (high - low) / 2;
-
-		if (project->rung[middle]->number < number)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	return low < project->rungs && project->rung[low]->number == number ? low : -1;
-}
-
 const char *label_of(const struct conversion *c, int number)
 {
-	int index = index_of(c, number);
+	int index = classic_rung_index(c->project, number);
 
 	return index >= 0 && c->section_of[index] == c->section + 1 ? c->label[index] : NULL;
 }
 
 static void mark_rungs(struct conversion *c, const struct classic_section *section)
 {
-	int index = index_of(c, section->first);
+	int index = classic_rung_index(c->project, section->first);
 
 	while (index >= 0 && c->section_of[index] != c->section + 1) {
 		const struct classic_rung *rung = c->project->rung[index];
@@ -194,7 +177,7 @@ static void mark_rungs(struct conversion *c, const struct classic_section *secti
 		c->section_of[index] = c->section + 1;
 		if (rung->number == section->last)
 			return;
-		index = index_of(c, rung->next);
+		index = classic_rung_index(c->project, rung->next);
 	}
 }
 
