@@ -387,9 +387,10 @@ static void tell_faults(struct conversion *c)
 static void tell_members(struct conversion *c)
 {
 	static const struct { const char *name, *text; } row[] = {
-		{ "modbusioconf.csv", "Modbus requests are kept for an export: "
-				      "they are for a driver of Modbus" },
-		{ "config_events.csv", "the log of events is kept for an export" },
+		{ "modbusioconf.csv", "no Modbus requests are made: they are kept for an "
+				      "export, and for a driver of Modbus" },
+		{ "config_events.csv", "no events are logged: their list is kept for an "
+				       "export" },
 		{ "spy_vars.csv", "the list of watched variables" },
 	};
 
