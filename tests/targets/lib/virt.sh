@@ -1,11 +1,12 @@
 # shellcheck shell=sh disable=SC2154,SC2086,SC2034
 # SPDX-License-Identifier: MIT
 # virt - the two vehicles that are emulated `virt` machines under Debian's own kernel.
-# Sourced after build.sh.
+# Sourced after build.sh. GPIO_DRIVERS: which of the three gpio drivers are tried.
 
 # virt ARCH FLAVOUR KARCH TRIPLET EMULATOR
 virt() {
 	deb=$1 triplet=$4
+	drivers=${GPIO_DRIVERS:-uapi gpiod1 gpiod2}
 	needs $KERNEL_NEEDS pkg-config=pkg-config modprobe=kmod "${5%% *}=qemu-system-arm" \
 		"$triplet-gcc=gcc-$triplet"
 	once "stock-$1" stock "$1" "$2" "$3" "$4-"
@@ -13,12 +14,12 @@ virt() {
 	once "gpiod2-$1" gpiod "$1" "$triplet" bookworm-backports
 	once "cyclictest-$1" cyclictest "$1" "$triplet"
 
-	programs CROSS="$triplet-" -- uapi gpiod1 gpiod2
+	programs CROSS="$triplet-" -- $drivers
 	command_line
 	disk "$triplet-gcc" "$out/build/guest" "$out/build/replay" "$out/ladder" "$out"/ladderd-* \
 		"$out/cases" "$cache/cyclictest-$1/guest"/*
 	cp -r "$cache/stock-$1/sim" "$root/modules"
-	guest_runs /guest /cases /ladderd-uapi /ladderd-gpiod1 /ladderd-gpiod2
+	guest_runs /guest /cases $(printf '/ladderd-%s ' $drivers)
 	guest_runs /replay /cases/programs.bundle
 	disk_close
 	# Without the machine's own gpio chip: the suite's are the first and only ones.
