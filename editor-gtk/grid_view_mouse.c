@@ -155,33 +155,13 @@ static GMenu *make_menu(LadderGridView *view)
 	return menu;
 }
 
-static void closed(GtkPopover *popover)
-{
-	/* Not before its action has run. */
-	popover_drop_later(GTK_WIDGET(popover));
-}
-
-static void open_menu(LadderGridView *view, const GdkRectangle *at)
-{
-	GMenu *menu = make_menu(view);
-	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
-
-	gtk_widget_set_parent(popover, GTK_WIDGET(view));
-	gtk_popover_set_pointing_to(GTK_POPOVER(popover), at);
-	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
-	gtk_widget_set_halign(popover, GTK_ALIGN_START);
-	g_signal_connect(popover, "closed", G_CALLBACK(closed), NULL);
-	gtk_popover_popup(GTK_POPOVER(popover));
-	g_object_unref(menu);
-}
-
 static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
 		      LadderGridView *view)
 {
 	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
 
 	pressed(gesture, MIN(count, 1), x, y, view);
-	open_menu(view, &at);
+	popover_menu(GTK_WIDGET(view), make_menu(view), &at, GTK_WIDGET(view));
 }
 
 void mouse_menu(LadderGridView *view)
@@ -190,9 +170,10 @@ void mouse_menu(LadderGridView *view)
 
 	cursor_reveal(view);
 	cell = cursor_rect(view);
-	open_menu(view, &(GdkRectangle){ (int)cell.origin.x, (int)cell.origin.y,
-					 (int)(cell.size.width / 2),
-					 (int)cell.size.height });
+	popover_menu(GTK_WIDGET(view), make_menu(view),
+		     &(GdkRectangle){ (int)cell.origin.x, (int)cell.origin.y,
+				      (int)(cell.size.width / 2), (int)cell.size.height },
+		     GTK_WIDGET(view));
 }
 
 /* ---- dragging: a wire from where one can begin; selecting from elsewhere, or with Shift */

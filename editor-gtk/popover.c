@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * popover - takes popovers from their parents.
+ * popover - opens menus below a place, and takes popovers from their parents.
  */
 #include "editor-gtk/popover.h"
 
@@ -23,4 +23,19 @@ static gboolean drop(gpointer popover)
 void popover_drop_later(GtkWidget *popover)
 {
 	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, drop, g_object_ref(popover), NULL);
+}
+
+void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWidget *then)
+{
+	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
+
+	gtk_widget_set_parent(popover, parent);
+	gtk_popover_set_pointing_to(GTK_POPOVER(popover), at);
+	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
+	gtk_widget_set_halign(popover, GTK_ALIGN_START);
+	g_signal_connect(popover, "closed", G_CALLBACK(popover_drop_later), NULL);
+	g_signal_connect_object(popover, "closed", G_CALLBACK(gtk_widget_grab_focus), then,
+				G_CONNECT_SWAPPED);
+	gtk_popover_popup(GTK_POPOVER(popover));
+	g_object_unref(menu);
 }

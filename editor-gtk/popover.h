@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * popover - how a popover that was made for one question goes away again.
+ * popover - a menu at a place, and how a popover that was made for one question goes away again.
  */
 #ifndef EDITOR_POPOVER_H
 #define EDITOR_POPOVER_H
@@ -14,5 +14,8 @@ void popover_drop(GtkWidget *popover);
 /** popover_drop_later - the same when it comes to rest: its signals, and the action that
  * closed it, have run. */
 void popover_drop_later(GtkWidget *popover);
+/** popover_menu - opens @menu, which it takes, at @at of @parent; it is gone when it closes,
+ * and the keys go to @then: GTK gives them back only to what had them when the menu was drawn. */
+void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWidget *then);
 
 #endif

@@ -250,29 +250,12 @@ static GtkWidget *menu_new(void)
 
 /* ---- the menu of a row ---- */
 
-static void menu_closed(GtkWidget *popover)
-{
-	/* Not before its action has run. */
-	popover_drop_later(popover);
-}
-
 static void show_menu(struct tree *tree, double x, double y)
 {
-	GMenu *menu = menu_model();
-	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
-
 	/* Not to the scroller, which takes the arrows to itself. */
-	gtk_widget_set_parent(popover, tree->panel);
 	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);
-	gtk_popover_set_pointing_to(GTK_POPOVER(popover),
-				    &(GdkRectangle){ (int)x, (int)y, 1, 1 });
-	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
-	gtk_widget_set_halign(popover, GTK_ALIGN_START);
-	g_signal_connect(popover, "closed", G_CALLBACK(menu_closed), NULL);
-	g_signal_connect_swapped(popover, "closed", G_CALLBACK(gtk_widget_grab_focus),
-				 tree->list);
-	gtk_popover_popup(GTK_POPOVER(popover));
-	g_object_unref(menu);
+	popover_menu(tree->panel, menu_model(), &(GdkRectangle){ (int)x, (int)y, 1, 1 },
+		     tree->list);
 }
 
 /* The row below the pointer is the one that is meant. */

@@ -6,6 +6,8 @@
  */
 #include "editor-gtk/sfc_view_inside.h"
 
+#include "editor-gtk/popover.h"
+
 #define SLACK 6
 
 static struct sfc_at at_point(LadderSfcView *view, double x, double y)
@@ -181,34 +183,13 @@ static GMenu *make_menu(LadderSfcView *view)
 	return menu;
 }
 
-static void closed(GtkPopover *popover)
-{
-	/* Not before its action has run. */
-	g_idle_add_full(G_PRIORITY_DEFAULT_IDLE, G_SOURCE_FUNC(gtk_widget_unparent),
-			popover, NULL);
-}
-
-static void open_menu(LadderSfcView *view, const GdkRectangle *at)
-{
-	GMenu *menu = make_menu(view);
-	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
-
-	gtk_widget_set_parent(popover, GTK_WIDGET(view));
-	gtk_popover_set_pointing_to(GTK_POPOVER(popover), at);
-	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
-	gtk_widget_set_halign(popover, GTK_ALIGN_START);
-	g_signal_connect(popover, "closed", G_CALLBACK(closed), NULL);
-	gtk_popover_popup(GTK_POPOVER(popover));
-	g_object_unref(menu);
-}
-
 static void show_menu(GtkGestureClick *gesture, int count, double x, double y,
 		      LadderSfcView *view)
 {
 	const GdkRectangle at = { (int)x, (int)y, 1, 1 };
 
 	pressed(gesture, MIN(count, 1), x, y, view);
-	open_menu(view, &at);
+	popover_menu(GTK_WIDGET(view), make_menu(view), &at, GTK_WIDGET(view));
 }
 
 void chart_mouse_menu(LadderSfcView *view)
@@ -218,8 +199,10 @@ void chart_mouse_menu(LadderSfcView *view)
 	if (view->sheet && view->cursor.shape >= 0)
 		box = chart_box(view, view->cursor);
 	graphene_rect_scale(&box, (float)view->zoom, (float)view->zoom, &box);
-	open_menu(view, &(GdkRectangle){ (int)box.origin.x, (int)box.origin.y,
-					 (int)box.size.width, (int)box.size.height });
+	popover_menu(GTK_WIDGET(view), make_menu(view),
+		     &(GdkRectangle){ (int)box.origin.x, (int)box.origin.y,
+				      (int)box.size.width, (int)box.size.height },
+		     GTK_WIDGET(view));
 }
 
 /* ---- zoom ---- */
