@@ -3,10 +3,10 @@
 
 What the person sees is found by its accessible name, what the person does is done with a
 real pointer and real keys. A test is a function; report() runs it and speaks TAP. It needs
-Xvfb, openbox, xdotool, xclip, AT-SPI, python3-gi; without them all is skipped.
+Xvfb, openbox, xdotool, xclip, AT-SPI, python3-gi, python3-dbus; without them all is skipped.
 
-The accessibility bus is asked level by level, all questions of a level at once: one node
-after the other would take seconds on a busy machine. The palette, which is most of the
+The accessibility bus gives all that the toolkit knows in one answer (org.a11y.atspi.Cache):
+one node after the other would take most of a test's time. The palette, which is most of the
 tree and never changes, is looked into only for its tiles.
 """
 import gettext
@@ -27,21 +27,21 @@ BUILD = os.path.join(ROOT, os.environ.get('BUILD', 'build'))
 EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
 LADDER = os.path.join(BUILD, 'ladder')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
-PATIENCE = 60  # seconds until what must come did not; no test waits for it in vain
+PATIENCE = int(os.environ.get('PATIENCE', '60'))  # seconds until what must come did not; no test waits for it in vain
 
-GLib = Gio = None
+GLib = Gio = dbus = None
 editors = []  # those that were begun
+WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of what never hides a part of its own
 BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
 ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
          'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'push button': 43,
          'table': 55, 'table cell': 56, 'table row': 90, 'text': 61, 'toggle button': 62, 'entry': 79}
-LEAVES = {29, 61}  # roles of what has nothing in it
 A11Y = 'org.a11y.atspi.'
 
 
 def missing():
     """What is not here, as one text; '' if all is."""
-    global GLib, Gio
+    global GLib, Gio, dbus
     lacks = [tool for tool in ('Xvfb', 'openbox', 'xdotool', 'xwininfo', 'xprop', 'xclip', 'import',
                                'dbus-daemon') if not shutil.which(tool)]
     if not os.path.exists(EDITOR):
@@ -53,6 +53,11 @@ def missing():
         GLib, Gio = glib, gio
     except ImportError:
         lacks.append('python3-gi')
+    try:
+        import dbus.bus as found
+        dbus = found
+    except ImportError:
+        lacks.append('python3-dbus')
     return ', '.join(lacks)
 
 
@@ -76,7 +81,7 @@ def until(look, what, seconds=PATIENCE):
             return value
         if time.monotonic() > end:
             raise AssertionError('it did not come: ' + what)
-        time.sleep(0.03)
+        time.sleep(0.06)
 
 
 class Screen:
@@ -106,13 +111,14 @@ class Screen:
         until(lambda: 'window id' in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'), 'the window manager')
 
     def accessibility(self):
-        """A connection of its own to the accessibility bus."""
+        """Connections of its own to the accessibility bus: one to ask much at once, one for what is large."""
         session = Gio.bus_get_sync(Gio.BusType.SESSION)
         address = session.call_sync('org.a11y.Bus', '/org/a11y/bus', 'org.a11y.Bus', 'GetAddress',
                                     None, None, 0, -1, None).unpack()[0]
         flags = Gio.DBusConnectionFlags
         return Gio.DBusConnection.new_for_address_sync(
-            address, flags.AUTHENTICATION_CLIENT | flags.MESSAGE_BUS_CONNECTION, None, None)
+            address, flags.AUTHENTICATION_CLIENT | flags.MESSAGE_BUS_CONNECTION, None, None
+        ), dbus.BusConnection(address)
 
     def start_bus(self):
         bus = subprocess.Popen(['dbus-daemon', '--session', '--nofork', '--print-address=1'],
@@ -134,8 +140,13 @@ class Screen:
 class Node:
     """A widget, as the accessibility bus knows it."""
 
-    def __init__(self, editor, path, role):
-        self.editor, self.path, self.role, self.name = editor, path, role, ''
+    def __init__(self, editor, item):
+        """@item: as org.a11y.atspi.Cache.GetItems gives it"""
+        self.editor = editor
+        self.path, self.parent = str(item[0][1]), str(item[2][1])
+        self.place, self.children = int(item[3]), int(item[4])  # among those that are seen
+        self.name, self.role, self.states = str(item[6]), int(item[7]), int(item[9][0])
+        self.widget = A11Y + 'Component' in item[5]  # the page of a stack is none: only what it holds is seen
 
     def ask(self, interface, method, args=None):
         answer = self.editor.ask([(self.path, interface, method, args)])[0]
@@ -167,8 +178,7 @@ class Editor:
             self.process = subprocess.Popen([*WRAPPER, EDITOR, *files], stdout=log, stderr=subprocess.STDOUT,
                                             preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
         editors.append(self)
-        self.bus = screen.accessibility()
-        self.roles = {}   # path -> role; a widget has the same one all its life
+        self.bus, self.whole = screen.accessibility()
         self.palette = None
         self.name, self.root = until(self.application, 'the editor on the accessibility bus')
         self.window = until(self.windows, 'a window')[0]
@@ -225,38 +235,66 @@ class Editor:
         self.alive()
         return answers
 
-    def level(self, paths):
-        """The nodes at these paths, and the paths below them."""
-        name = GLib.Variant('(ss)', (A11Y + 'Accessible', 'Name'))
-        fresh = [path for path in paths if path not in self.roles]
-        inner = [path for path in paths if self.roles.get(path) not in LEAVES]
-        answers = self.ask([(path, 'org.freedesktop.DBus.Properties', 'Get', name) for path in paths] +
-                           [(path, 'Accessible', 'GetRole', None) for path in fresh] +
-                           [(path, 'Accessible', 'GetChildren', None) for path in inner])
-        names = answers[:len(paths)]
-        for path, role in zip(fresh, answers[len(paths):]):
-            if role:
-                self.roles[path] = role[0]
-        nodes = []
-        for path, answer in zip(paths, names):
-            if answer and path in self.roles:
-                nodes.append(Node(self, path, self.roles[path]))
-                nodes[-1].name = answer[0]
-        below = [child for answer in answers[len(paths) + len(fresh):] if answer for _, child in answer[0]]
-        return nodes, below
-
     # ---- seeing ----
 
-    def walk(self, path=None):
-        paths = [path or self.root]
+    def known(self):
+        """All that the toolkit knows, seen or not: path -> node."""
+        try:
+            items = self.whole.call_blocking(self.name, '/org/a11y/atspi/cache', A11Y + 'Cache', 'GetItems', '', ())
+        except dbus.DBusException:
+            self.alive()
+            raise
+        nodes = [Node(self, item) for item in items]
+        return {node.path: node for node in nodes}
+
+    def seen(self, nodes, top=None):
+        """The paths below each node that are seen: path -> paths in their order. What is hidden has
+        the place of the next that is seen, and one that nobody asked for is not known yet: so all
+        are asked, but for what never hides a part of its own, and the palette unless it is @top."""
+        family = {path: [] for path in nodes}
+        for node in nodes.values():
+            family.setdefault(node.parent, []).append(node)
+        below, asked, paths = {}, [], [self.root] + ([top] if top else [])
         while paths:
-            nodes, paths = self.level(paths)
-            yield from nodes
-            for node in nodes:
+            path = paths.pop()
+            node, children = nodes.get(path), sorted(family.get(path, []), key=lambda child: child.place)
+            if node and not node.children and path != self.root:
+                continue
+            below[path] = [child.path for child in children]
+            if not node or node.role not in WHOLE or [child.place for child in children] != list(range(node.children)):
+                asked.append(path)
+            paths += [child for child in below[path] if child != self.palette]
+        answers = self.ask([(path, 'Accessible', 'GetChildren', None) for path in asked])
+        for path, answer in zip(asked, answers):
+            below[path] = [child for _, child in answer[0]] if answer else []
+        return below
+
+    def waken(self, paths, known):
+        """A widget comes into being on the bus by being asked for, and what is below it, too."""
+        while paths:
+            known |= paths
+            answers = self.ask([(path, 'Accessible', 'GetChildren', None) for path in paths])
+            paths = {child for answer in answers if answer for _, child in answer[0]} - known
+
+    def walk(self, path=None):
+        unknown, before = {self.root}, set()
+        while unknown - before:
+            nodes, before = self.known(), unknown
+            below = self.seen(nodes, path)
+            unknown = {child for paths in below.values() for child in paths if child not in nodes}
+            self.waken(unknown, set(nodes))
+        paths = [path] if path else below.get(self.root, [])
+        while paths:
+            level = [nodes[each] for each in paths if each in nodes]
+            yield from level
+            paths = []
+            for node in level:
                 if node.name == 'Elements' and node.role == 49:
                     self.palette = node.path
-            if self.palette and path != self.palette:
-                paths = [each for each in paths if each != self.palette]
+                if node.path != self.palette or node.path == path:
+                    for child in below.get(node.path, []):
+                        page = child in nodes and not nodes[child].widget
+                        paths += below.get(child, []) if page else [child]
 
     def all(self, name=None, role=None, below=None):
         """All widgets whose name holds a text; of a role."""
@@ -294,8 +332,8 @@ class Editor:
         """Where a widget of the main window is on the screen: x, y, width, height."""
         about = dict(re.findall(r'(Absolute upper-left X|Absolute upper-left Y|Width|Height): +(-?\d+)',
                                 sh('xwininfo', '-id', self.window)))
-        frame = Node(self, self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][0][1], 23)
-        _, _, width, height = frame.box()
+        frame = self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][0][1]
+        _, _, width, height = self.ask([(frame, 'Component', 'GetExtents', GLib.Variant('(u)', (1,)))])[0][0]
         x = int(about['Absolute upper-left X']) + (int(about['Width']) - width) // 2
         y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height) // 2
         left, top, width, height = self.at_rest(node)
@@ -431,9 +469,7 @@ class Editor:
 
     def focused(self):
         """The widget that has the focus of the keyboard; None: none is known."""
-        nodes = list(self.walk())
-        states = self.ask([(node.path, 'Accessible', 'GetState', None) for node in nodes])
-        return next((node for node, state in zip(nodes, states) if state and state[0][0] >> 12 & 1), None)
+        return next((node for node in self.walk() if node.states >> 12 & 1), None)
 
     def focus_on(self, name=None, role=None, but=None):
         """Waits until a widget of a name or role has the focus, another than @but; returns it."""
