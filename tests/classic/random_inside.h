@@ -22,7 +22,7 @@ struct making {
 	char *text;
 	size_t len, size;
 	int compares, operates;  /* expressions: those first, then these       */
-	int used[5], before[5];  /* blocks of each kind; before this rung      */
+	int used[5];             /* blocks of each kind                        */
 	int target;              /* last rung of the section                   */
 	int subroutines, callable; /* those from callable on may be called     */
 	int pages, transitions;

@@ -119,8 +119,8 @@ static bool add_block(struct making *making, struct grid *grid, int x, int y)
 		grid->cell[y + i][x].element = grid->cell[y + i][x + 1].element = 99;
 	alive = &grid->cell[y][x + 1];
 	alive->element = 10 + kind;
-	alive->number = making->before[kind] && making->odd && making_chance(making, 10) ?
-			making_below(making, making->before[kind]) : (*next)++;
+	alive->number = *next && making->odd && making_chance(making, 20) ?
+			making_below(making, *next) : (*next)++;
 	if (kind == 0 && making_chance(making, 50))
 		grid->cell[y + 1][x].top = true; /* E and C together            */
 	return true;
@@ -242,7 +242,6 @@ static void put_rung(struct making *making, int number, int previous, int next)
 	struct grid grid;
 	int rows = 1 + making_below(making, 5);
 
-	memcpy(making->before, making->used, sizeof(making->used));
 	memset(&grid, 0, sizeof(grid));
 	grid.rows = making->linuxcnc ? ROWS - 2 : ROWS;
 	grid.columns = making->linuxcnc ? COLUMNS - 2 : COLUMNS;

@@ -81,6 +81,14 @@ static const char *block_text(struct grid *grid, struct grid_part *part,
 		       timed ? " DT:=SYS_CYCLE" : "");
 }
 
+bool grid_called_again(const struct grid *grid, const struct grid_part *part)
+{
+	for (const struct grid_part *other = part + 1; other < grid->part + grid->parts; other++)
+		if (other->kind == PART_BOX && !strcmp(other->instance, part->instance))
+			return true;
+	return false;
+}
+
 const char *grid_box_text(const struct grid *grid, const struct grid_part *part)
 {
 	const char *text = part->text;

@@ -85,6 +85,9 @@ static inline bool part_gives(const struct grid_part *part, int y)
 const char *grid_box_text(const struct grid *grid, const struct grid_part *part);
 /** grid_head - the line with RUNG, once with its label and comment. */
 void grid_head(struct grid *grid);
+/** grid_called_again - is the block of this part called once more in the rung, after it? Then
+ * what it says here is not what it says at the end. */
+bool grid_called_again(const struct grid *grid, const struct grid_part *part);
 /** grid_temporary - a BOOL between the parts of this rung. */
 const char *grid_temporary(struct grid *grid);
 /** grid_write_pieces - as it looks there, cut where order matters; false: it cannot be,

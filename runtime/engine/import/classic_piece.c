@@ -85,6 +85,9 @@ static void cut_at_box(struct grid *grid, struct cuts *cuts, const struct grid_p
 		cuts->at[end] = true;
 		if (part_end(part) <= end)
 			cuts->at[box->x] = true;
+		/* A block works with its last column: what stands beside it may look before. */
+		if (part->x < end && part_end(part) > box->x)
+			cuts->at[end - 1] = true;
 	}
 }
 
@@ -102,13 +105,24 @@ static void find_cuts(struct grid *grid, struct cuts *cuts)
 	cuts->at[0] = cuts->at[CLASSIC_COLUMNS] = true;
 }
 
-/* No cut and no link of other rows goes through the inside of an element. */
+static bool gives_any(const struct grid_part *part)
+{
+	for (int i = 0; i < part->rows; i++)
+		if (part->gives[i])
+			return true;
+	return false;
+}
+
+/* No cut and no link of other rows goes through the inside of an element, and what a block
+ * says is the same in all columns behind it. */
 static bool can_cut(const struct grid *grid, const struct cuts *cuts)
 {
 	for (int i = 0; i < grid->parts; i++) {
 		const struct grid_part *part = &grid->part[i];
 
 		if (part->odd)
+			return false;
+		if (part->kind == PART_BOX && gives_any(part) && grid_called_again(grid, part))
 			return false;
 		for (int x = part->x + 1; x < part_end(part); x++) {
 			if (cuts->at[x])

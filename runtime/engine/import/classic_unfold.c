@@ -95,6 +95,16 @@ static void write_part(struct unfolded *u, const struct grid_part *part)
 	put_branches(u, part->y, part->x);
 }
 
+/* What the block says after this call of it. */
+static void keep_output(struct unfolded *u, const char **given)
+{
+	const char *kept = grid_temporary(u->grid);
+
+	grid_head(u->grid);
+	put(u->grid->c, "  | NO %s | COIL %s |\n", *given, kept);
+	*given = kept;
+}
+
 /* Of a box every input has a BOOL of its own, so that its rows stay one below another. */
 static void write_box(struct unfolded *u, const struct grid_part *part)
 {
@@ -117,10 +127,15 @@ static void write_box(struct unfolded *u, const struct grid_part *part)
 		if (in[i])
 			put(c, " %s:=%s", part->box->input[i], in[i]);
 	put(c, " |\n");
-	for (int i = 0; i < part->rows; i++)
-		if (part->gives[i])
-			u->given[part->y + i][part_end(part)] =
-				text_of(c, "%s.%s", part->instance, part->box->output[i]);
+	for (int i = 0; i < part->rows; i++) {
+		const char **given = &u->given[part->y + i][part_end(part)];
+
+		if (!part->gives[i])
+			continue;
+		*given = text_of(c, "%s.%s", part->instance, part->box->output[i]);
+		if (grid_called_again(u->grid, part))
+			keep_output(u, given);
+	}
 }
 
 void grid_unfold(struct grid *grid)
