@@ -137,6 +137,11 @@ class Screen:
         shutil.rmtree(self.home, ignore_errors=True)
 
 
+def window_coordinates():
+    """What GetExtents is asked for: places in the window."""
+    return GLib.Variant('(u)', (1,))
+
+
 class Node:
     """A widget, as the accessibility bus knows it."""
 
@@ -156,7 +161,7 @@ class Node:
 
     def box(self):
         """x, y, width, height in its window."""
-        return self.ask('Component', 'GetExtents', GLib.Variant('(u)', (1,)))[0]
+        return self.ask('Component', 'GetExtents', window_coordinates())[0]
 
     def text(self):
         return self.ask('Text', 'GetText', GLib.Variant('(ii)', (0, 1 << 20)))[0]
@@ -333,7 +338,7 @@ class Editor:
         about = dict(re.findall(r'(Absolute upper-left X|Absolute upper-left Y|Width|Height): +(-?\d+)',
                                 sh('xwininfo', '-id', self.window)))
         frame = self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][0][1]
-        _, _, width, height = self.ask([(frame, 'Component', 'GetExtents', GLib.Variant('(u)', (1,)))])[0][0]
+        _, _, width, height = self.ask([(frame, 'Component', 'GetExtents', window_coordinates())])[0][0]
         x = int(about['Absolute upper-left X']) + (int(about['Width']) - width) // 2
         y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height) // 2
         left, top, width, height = self.at_rest(node)
