@@ -21,11 +21,10 @@ import time
 import traceback
 import warnings
 
+from outcome import BUILD, LADDER, ROOT, check, lines, new_file, trace  # noqa: F401
+
 warnings.simplefilter('ignore')
-ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), '..', '..', '..'))
-BUILD = os.path.join(ROOT, os.environ.get('BUILD', 'build'))
 EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
-LADDER = os.path.join(BUILD, 'ladder')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
 PATIENCE = int(os.environ.get('PATIENCE', '60'))  # seconds until what must come did not; no test waits for it in vain
 
@@ -513,37 +512,6 @@ class Editor:
         """What it wrote for nobody to see: messages of the toolkit, of sanitizers."""
         with open(self.log) as log:
             return log.read()
-
-
-# ---- what came of it ----
-
-def check(path):
-    """ladder check must be content."""
-    done = subprocess.run([LADDER, 'check', path], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return done.stderr
-
-
-def trace(path, script):
-    """What the saved program does."""
-    with tempfile.NamedTemporaryFile('w', suffix='.script') as file:
-        file.write(script)
-        file.flush()
-        done = subprocess.run([LADDER, 'trace', path, file.name], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
-
-
-def lines(path, script):
-    """What `ladder trace` prints last in each line."""
-    return [line.split()[-1] for line in trace(path, script).splitlines()]
-
-
-def new_file(screen, text='RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\nEND_PROGRAM\n', name='new.rung'):
-    path = os.path.join(screen.home, name)
-    with open(path, 'w') as file:
-        file.write(text)
-    return path
 
 
 class Chinese(Editor):
