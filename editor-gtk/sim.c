@@ -45,16 +45,19 @@ static void tell_fault(LadderSim *sim)
 	g_free(text);
 }
 
-/* As on the board that is no fault: ENO is FALSE, and it is counted. */
+/* As on the board that is no fault: ENO is FALSE, and it is counted. But a person who tries
+ * a program out shall see it. */
 static void tell_failed(LadderSim *sim)
 {
 	const struct resource *resource = &sim->view.twin.resource;
 	const bool failed = resource->vm.errors != 0;
+	bool paused;
 	char *text;
 
 	if (failed && !sim->failed && resource->state != STATE_FAULT) {
-		text = sim_failed_words(resource);
-		tell(sim, text, false);
+		paused = sim->heeds && !sim->view.running;
+		text = sim_failed_words(resource, paused);
+		tell(sim, text, paused);
 		g_free(text);
 	}
 	sim->failed = failed;
@@ -155,6 +158,7 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 	sim->newest = sim_program_ref(program);
 	if (sim->speed > 0)
 		sim_thread_speed(sim->thread, sim->speed);
+	sim_thread_heed(sim->thread, sim->heeds);
 	sim->version = ladder_document_version(sim->document);
 	sim_rungs_same(sim->rungs);
 	take(sim);
@@ -431,6 +435,19 @@ void ladder_sim_set_speed(LadderSim *sim, double scans)
 	tell_state(sim);
 }
 
+bool ladder_sim_heeds(LadderSim *sim)
+{
+	return sim->heeds;
+}
+
+void ladder_sim_set_heeds(LadderSim *sim, bool heeds)
+{
+	sim->heeds = heeds;
+	if (sim->thread)
+		sim_thread_heed(sim->thread, heeds);
+	tell_state(sim);
+}
+
 void ladder_sim_act(LadderSim *sim, const struct act *act)
 {
 	if (!sim->thread)
@@ -497,6 +514,7 @@ static void ladder_sim_class_init(LadderSimClass *class)
 static void ladder_sim_init(LadderSim *sim)
 {
 	sim->told = SIM_OFF;
+	sim->heeds = true;
 }
 
 LadderDocument *ladder_sim_document(LadderSim *sim)

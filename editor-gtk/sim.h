@@ -70,6 +70,12 @@ void ladder_sim_set_period(LadderSim *sim, gint64 ns);
 double ladder_sim_speed(LadderSim *sim);
 /** ladder_sim_set_speed - scans a second on the wall; 0: as the period says. */
 void ladder_sim_set_speed(LadderSim *sim, double scans);
+bool ladder_sim_heeds(LadderSim *sim);
+/** ladder_sim_set_heeds - pause after the first scan of a start in which an operation failed,
+ * such as a division by zero? That is told with its place. It does when nobody says so. On a
+ * board such an operation gives ENO FALSE, and scans go on; so do they here when
+ * ladder_sim_run() is called again, in single scans, and in ladder_sim_play(). */
+void ladder_sim_set_heeds(LadderSim *sim, bool heeds);
 
 /** ladder_sim_act - what a person does between two scans; a copy of @act is made. Takes
  * effect at once, in STOP and PAUSE too, and ends the look at the past. What cannot be done

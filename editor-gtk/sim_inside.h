@@ -96,6 +96,8 @@ void sim_thread_free(struct sim_thread *thread);
 void sim_thread_run(struct sim_thread *thread, bool run);
 void sim_thread_scan(struct sim_thread *thread, int scans);
 void sim_thread_speed(struct sim_thread *thread, double scans);
+/** sim_thread_heed - as ladder_sim_set_heeds(). */
+void sim_thread_heed(struct sim_thread *thread, bool heed);
 /** sim_thread_act - @of: the program or plant whose place it means, NULL: none; if that runs
  * no more, it is refused: what stands there now is another variable. */
 void sim_thread_act(struct sim_thread *thread, struct sim_program *of,
@@ -135,7 +137,8 @@ char *sim_place_words(const struct fault_place *at);
 char *sim_fault_words(const struct resource *resource);
 /** sim_halt_words - that the program asked for STOP, and where. Caller frees. */
 char *sim_halt_words(const struct resource *resource);
-/** sim_failed_words - which operation was the first to fail. Caller frees. */
-char *sim_failed_words(const struct resource *resource);
+/** sim_failed_words - which operation was the first to fail; @paused: and that time stands
+ * still for it. Caller frees. */
+char *sim_failed_words(const struct resource *resource, bool paused);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_pace - period, slow motion, cold and warm start.
+ * sim_pace - period, slow motion, what it pauses at, cold and warm start.
  */
 #include "editor-gtk/sim_pace.h"
 
@@ -12,7 +12,7 @@
 struct pace {
 	LadderSim *sim;
 	GtkSpinButton *period;
-	GtkSwitch *slow;
+	GtkSwitch *slow, *heed;
 	GtkScale *speed;
 	GtkLabel *plant;
 	bool showing; /* what the simulation has, not what a person wants          */
@@ -46,6 +46,8 @@ static void show(struct pace *pace)
 	/* Even its own state, set again, ends the movement of one that is on its way. */
 	if (gtk_switch_get_active(pace->slow) != (speed > 0))
 		gtk_switch_set_active(pace->slow, speed > 0);
+	if (gtk_switch_get_active(pace->heed) != ladder_sim_heeds(pace->sim))
+		gtk_switch_set_active(pace->heed, ladder_sim_heeds(pace->sim));
 	gtk_widget_set_sensitive(GTK_WIDGET(pace->speed), speed > 0);
 	if (speed > 0)
 		gtk_range_set_value(GTK_RANGE(pace->speed), speed);
@@ -65,6 +67,12 @@ static void speed_changed(struct pace *pace)
 	if (!pace->showing)
 		ladder_sim_set_speed(pace->sim, gtk_switch_get_active(pace->slow) ?
 			gtk_range_get_value(GTK_RANGE(pace->speed)) : 0);
+}
+
+static void heed_changed(struct pace *pace)
+{
+	if (!pace->showing)
+		ladder_sim_set_heeds(pace->sim, gtk_switch_get_active(pace->heed));
 }
 
 static void name_it(GtkWidget *widget, GtkWidget *label)
@@ -120,6 +128,7 @@ GtkWidget *sim_pace_new(LadderSim *sim)
 	pace->period = GTK_SPIN_BUTTON(gtk_spin_button_new_with_range(0.1, 60000, 1));
 	gtk_spin_button_set_digits(pace->period, 1);
 	pace->slow = switch_new();
+	pace->heed = switch_new();
 	pace->speed = GTK_SCALE(gtk_scale_new_with_range(GTK_ORIENTATION_HORIZONTAL,
 							 SLOWEST, FASTEST, 1));
 	gtk_scale_set_draw_value(pace->speed, TRUE);
@@ -131,22 +140,25 @@ GtkWidget *sim_pace_new(LadderSim *sim)
 	row(grid, 0, _("Period, ms"), GTK_WIDGET(pace->period));
 	row(grid, 1, _("Slow motion"), GTK_WIDGET(pace->slow));
 	row(grid, 2, _("Scans a second"), GTK_WIDGET(pace->speed));
+	row(grid, 3, _("Pause at a failed operation"), GTK_WIDGET(pace->heed));
 	pace->plant = GTK_LABEL(gtk_label_new(NULL));
 	gtk_label_set_xalign(pace->plant, 0);
 	gtk_label_set_ellipsize(pace->plant, PANGO_ELLIPSIZE_MIDDLE);
-	row(grid, 3, _("Plant"), GTK_WIDGET(pace->plant));
+	row(grid, 4, _("Plant"), GTK_WIDGET(pace->plant));
 	gtk_box_append(GTK_BOX(plants), start_button(_("Choose…"), "win.sim_plant"));
 	gtk_box_append(GTK_BOX(plants), start_button(_("Without"), "win.sim_no_plant"));
 	gtk_box_set_homogeneous(GTK_BOX(plants), TRUE);
-	gtk_grid_attach(grid, plants, 0, 4, 2, 1);
+	gtk_grid_attach(grid, plants, 0, 5, 2, 1);
 	gtk_box_append(GTK_BOX(starts), start_button(_("Cold start"), "win.sim_cold"));
 	gtk_box_append(GTK_BOX(starts), start_button(_("Warm start"), "win.sim_warm"));
 	gtk_box_set_homogeneous(GTK_BOX(starts), TRUE);
-	gtk_grid_attach(grid, starts, 0, 5, 2, 1);
+	gtk_grid_attach(grid, starts, 0, 6, 2, 1);
 	gtk_popover_set_child(GTK_POPOVER(popover), widget);
 	show(pace);
 	g_signal_connect(pace->period, "value-changed", G_CALLBACK(period_changed), pace);
 	g_signal_connect_swapped(pace->slow, "notify::active", G_CALLBACK(speed_changed),
+				 pace);
+	g_signal_connect_swapped(pace->heed, "notify::active", G_CALLBACK(heed_changed),
 				 pace);
 	g_signal_connect_swapped(pace->speed, "value-changed", G_CALLBACK(speed_changed),
 				 pace);

@@ -12,11 +12,11 @@
 #define LATE_STEPS 320 /* of a table of how late scans were: up to hours     */
 #define BEHIND_US G_GINT64_CONSTANT(250000) /* more than that is not made up for   */
 
-enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_ACT, ORDER_CHANGE,
+enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_HEED, ORDER_ACT, ORDER_CHANGE,
 		  ORDER_PLAY, ORDER_END };
 struct order {
 	enum order_kind kind;
-	int scans;               /* ORDER_RUN: 0, 1                            */
+	int scans;               /* ORDER_RUN, ORDER_HEED: 0, 1                */
 	double speed;
 	struct act act;
 	char *text;              /* of the act's STRING                        */
@@ -33,6 +33,7 @@ struct sim_thread {
 	/* Of the thread alone: */
 	struct twin twin;
 	bool run;
+	bool heed;               /* pauses when an operation fails             */
 	double speed;
 	double due_us;           /* of the next scan                           */
 	gint64 told_us;          /* when the last copy went out                */
@@ -118,11 +119,23 @@ static double late_us(guint step)
 	return step < 32 ? step : (double)((guint64)(step % 16 + 16) << (step / 16 - 1));
 }
 
+/* Time stands still after the first scan of a start in which an operation failed: the
+ * values are those that the board would have, and a person sees where it was. */
+static void scan_heeding(struct sim_thread *thread)
+{
+	const struct vm *vm = &thread->twin.resource.vm;
+	const bool failed = vm->errors != 0;
+
+	scan(thread);
+	if (thread->heed && !failed && vm->errors)
+		thread->run = false;
+}
+
 static void scan_in_time(struct sim_thread *thread)
 {
 	g_atomic_int_inc((gint *)&thread->late[late_step(
 		(double)g_get_monotonic_time() - thread->due_us)]);
-	scan(thread);
+	scan_heeding(thread);
 	thread->due_us += wall_period_us(thread);
 	if (g_get_monotonic_time() - thread->told_us >= FRAME_US)
 		publish(thread, false);
@@ -239,6 +252,7 @@ static bool obey(struct sim_thread *thread, struct order *order)
 		thread->speed = order->speed;
 		start_clock(thread);
 		break;
+	case ORDER_HEED: thread->heed = order->scans != 0; break;
 	case ORDER_ACT: act_of(thread, order); break;
 	case ORDER_CHANGE: change(thread, g_steal_pointer(&order->program)); break;
 	case ORDER_PLAY: play(thread, order->acts, order->until); break;
@@ -354,6 +368,11 @@ void sim_thread_scan(struct sim_thread *thread, int scans)
 void sim_thread_speed(struct sim_thread *thread, double scans)
 {
 	tell(thread, &(struct order){ .kind = ORDER_SPEED, .speed = scans });
+}
+
+void sim_thread_heed(struct sim_thread *thread, bool heed)
+{
+	tell(thread, &(struct order){ .kind = ORDER_HEED, .scans = heed });
 }
 
 void sim_thread_act(struct sim_thread *thread, struct sim_program *of, const struct act *act)

@@ -39,11 +39,13 @@ char *sim_halt_words(const struct resource *resource)
 	return text;
 }
 
-char *sim_failed_words(const struct resource *resource)
+char *sim_failed_words(const struct resource *resource, bool paused)
 {
 	char *place = sim_place_words(&resource->error_at);
-	char *text = g_strdup_printf(_("ENO is FALSE: an operation failed, such as a division "
-				       "by zero: %s"), place);
+	char *text = g_strdup_printf(paused ?
+		_("Paused: an operation failed, such as a division by zero: %s. Run goes on "
+		  "with ENO FALSE, as the board does") :
+		_("ENO is FALSE: an operation failed, such as a division by zero: %s"), place);
 
 	g_free(place);
 	return text;

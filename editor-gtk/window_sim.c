@@ -100,8 +100,19 @@ static void show_buttons(LadderWindow *window)
 		on && ladder_sim_state(window->sim) != SIM_STOP);
 }
 
+static void go_on(LadderWindow *window)
+{
+	ladder_sim_run(window->sim);
+}
+
 static void state_changed(LadderWindow *window)
 {
+	/* What it stood still for is past. */
+	if (ladder_sim_state(window->sim) == SIM_RUN && window->banner_do == go_on) {
+		window_banner_close(window);
+		window->banner_do = NULL;
+		ladder_window_tell(window, "");
+	}
 	show_buttons(window);
 	window_show_pill(window);
 	if (ladder_sim_is_on(window->sim))
@@ -127,12 +138,22 @@ static void shown(LadderWindow *window)
 		window->when_timer = g_timeout_add(WHEN_US / 1000, when_elapsed, window);
 }
 
+/* What the simulation stands still for. */
+static const struct fault_place *stopped_at(const struct resource *resource)
+{
+	switch (resource->state) {
+	case STATE_FAULT: return &resource->fault_at;
+	case STATE_STOP: return &resource->halt_at;
+	case STATE_RUN: break;
+	}
+	return &resource->error_at;
+}
+
 /* A fault opens the place where it was. */
 static void go_to_fault(LadderWindow *window)
 {
-	const struct resource *resource = &ladder_sim_twin(window->sim)->resource;
-	const struct fault_place *at = resource->state == STATE_FAULT ?
-		&resource->fault_at : &resource->halt_at;
+	const struct fault_place *at =
+		stopped_at(&ladder_sim_twin(window->sim)->resource);
 	const struct project *project = ladder_document_project(window->document);
 
 	for (int i = 0; project && i < project->pou_count; i++)
@@ -151,7 +172,7 @@ static void told(LadderSim *sim, const char *text, gboolean bad, LadderWindow *w
 	ladder_window_tell(window, text);
 	if (!bad)
 		return;
-	window_banner(window, text, NULL, NULL);
+	window_banner(window, text, _("Run"), go_on);
 	go_to_fault(window);
 }
 
