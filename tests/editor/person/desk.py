@@ -399,8 +399,9 @@ class Editor:
         """What assistive technology does in the place of a click: for other windows."""
         node.ask('Action', 'DoAction', GLib.Variant('(i)', (0,)))
 
-    def drag(self, start, end, steps=10, key=None, look=None):
-        """@key: held down meanwhile; @look: name of a picture of the moment before it is let go"""
+    def drag(self, start, end, steps=10, key=None, look=None, ready=None):
+        """@key: held down meanwhile; @look: name of a picture of the moment before it is let go;
+        @ready: what is waited for before, if it is not this window's own that is dragged"""
         (x0, y0), (x1, y1) = [at if isinstance(at, tuple) else self.centre(at) for at in (start, end)]
         way = ['keydown', key] if key else []
         way += ['mousemove', str(x0), str(y0), 'mousedown', '1']
@@ -408,6 +409,8 @@ class Editor:
             way += ['mousemove', str(x0 + (x1 - x0) * i // steps), str(y0 + (y1 - y0) * i // steps),
                     'sleep', '0.03']
         sh('xdotool', *way, 'sleep', '0.15')
+        if ready:
+            until(ready, 'what is dragged to be welcome')
         if look:
             self.shot(look)
         sh('xdotool', 'mouseup', '1', *(['keyup', key] if key else []))
