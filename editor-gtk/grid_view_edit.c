@@ -241,8 +241,8 @@ void sheet_place(LadderGridView *view, struct cell cell, bool parallel)
 
 void ladder_grid_view_put(LadderGridView *view, enum word word)
 {
+	gtk_widget_grab_focus(GTK_WIDGET(view)); /* before a line opens, which takes it  */
 	entry_begin_word(view, word, false);
-	gtk_widget_grab_focus(GTK_WIDGET(view));
 }
 
 static void do_select_all(LadderGridView *view)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * palette - every element and block as a tile, by family, to be clicked or dragged.
+ * palette - every element and block as a tile, by family, to be clicked, dragged, or found.
  */
 #include "editor-gtk/palette.h"
 
@@ -19,6 +19,8 @@ struct _LadderPalette {
 	LadderDocument *document;
 	GtkWidget *search, *families;
 	int own;                    /* words of the project that are shown     */
+	enum word best;             /* of what is looked for                   */
+	int rank;                   /* how well it fits                        */
 };
 
 G_DEFINE_FINAL_TYPE(LadderPalette, ladder_palette, GTK_TYPE_BOX)
@@ -237,9 +239,22 @@ static bool is_common(const char *family)
 	return false;
 }
 
+/* How well a word is what is looked for: 0 is the word itself, RANK_NONE nothing yet. */
+#define RANK_NONE 3
+static int rank(const struct word_row *row, const char *search)
+{
+	const gsize len = strlen(search);
+	const char *word = row->word[0] ? row->word : row->id;
+
+	if (g_ascii_strncasecmp(word, search, len) != 0)
+		return RANK_NONE - 1;
+	return word[len] ? RANK_NONE - 2 : 0;
+}
+
 static void add_word(LadderPalette *palette, GHashTable *families,
 		     const struct word_row *row, enum word word)
 {
+	const int fit = rank(row, gtk_editable_get_text(GTK_EDITABLE(palette->search)));
 	GtkWidget *family = g_hash_table_lookup(families, row->family);
 	GArray *words;
 
@@ -250,6 +265,10 @@ static void add_word(LadderPalette *palette, GHashTable *families,
 	}
 	words = g_object_get_data(G_OBJECT(family), "words");
 	g_array_append_val(words, word);
+	if (fit < palette->rank) {
+		palette->rank = fit;
+		palette->best = word;
+	}
 }
 
 static void open_families(GHashTable *families, bool all)
@@ -270,6 +289,7 @@ static void fill(LadderPalette *palette)
 	GHashTable *families = g_hash_table_new(g_str_hash, g_str_equal);
 	GtkWidget *family;
 
+	palette->rank = RANK_NONE;
 	while ((family = gtk_widget_get_first_child(palette->families)))
 		gtk_box_remove(GTK_BOX(palette->families), family);
 	for (int i = 0; i < WORD_COUNT; i++) {
@@ -288,6 +308,26 @@ static void fill(LadderPalette *palette)
 	open_families(families, search[0]);
 	palette->own = project ? project->words.count : 0;
 	g_hash_table_unref(families);
+}
+
+static void leave(LadderPalette *palette)
+{
+	gtk_editable_set_text(GTK_EDITABLE(palette->search), "");
+	gtk_widget_activate_action(GTK_WIDGET(palette), "win.to-sheet", NULL);
+}
+
+/* What is typed counts at once, and not when the entry says so a little later. */
+static void place_best(LadderPalette *palette)
+{
+	const bool asked = gtk_editable_get_text(GTK_EDITABLE(palette->search))[0];
+	enum word best;
+
+	fill(palette);
+	if (!asked || palette->rank == RANK_NONE)
+		return;
+	best = palette->best; /* the next line makes it another            */
+	gtk_editable_set_text(GTK_EDITABLE(palette->search), "");
+	gtk_widget_activate_action(GTK_WIDGET(palette), "win.place", "i", (int)best);
 }
 
 /* Rows of own words die with the project. */
@@ -335,6 +375,15 @@ static void ladder_palette_init(LadderPalette *palette)
 	gtk_box_append(GTK_BOX(palette), scroller);
 	g_signal_connect_swapped(palette->search, "search-changed", G_CALLBACK(fill),
 				 palette);
+	g_signal_connect_swapped(palette->search, "activate", G_CALLBACK(place_best),
+				 palette);
+	g_signal_connect_swapped(palette->search, "stop-search", G_CALLBACK(leave),
+				 palette);
+}
+
+void ladder_palette_find(GtkWidget *palette)
+{
+	gtk_widget_grab_focus(LADDER_PALETTE(palette)->search);
 }
 
 GtkWidget *ladder_palette_new(LadderDocument *document)

@@ -14,5 +14,8 @@
 
 /** ladder_palette_new - a click does "win.place", a drag is ladder_grid_view_drag(). */
 GtkWidget *ladder_palette_new(LadderDocument *document);
+/** ladder_palette_find - the keys go to its search; Return there does "win.place" with the
+ * one that fits best, Escape empties it and does "win.to-sheet". */
+void ladder_palette_find(GtkWidget *palette);
 
 #endif

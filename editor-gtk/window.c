@@ -191,8 +191,8 @@ static void add_panels(LadderWindow *window)
 	GtkWidget *problems = ladder_problems_new(), *uses = ladder_uses_view_new();
 
 	gtk_paned_set_start_child(window->side, ladder_project_tree_new(document));
-	gtk_paned_set_end_child(window->side,
-				ladder_still_new(ladder_palette_new(document)));
+	window->palette = ladder_palette_new(document);
+	gtk_paned_set_end_child(window->side, ladder_still_new(window->palette));
 	gtk_paned_set_position(window->side, 230);
 	add_below(window, problems, "problems", _("Problems"));
 	ladder_problems_set_document(LADDER_PROBLEMS(problems), document);

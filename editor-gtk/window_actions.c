@@ -8,6 +8,7 @@
 
 #include "editor-gtk/app.h"
 #include "editor-gtk/commands.h"
+#include "editor-gtk/palette.h"
 #include "editor-gtk/preferences.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/settings.h"
@@ -245,6 +246,10 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_find_previous:
 		window_find(window, verb);
 		break;
+	case VERB_find_element:
+		gtk_widget_set_visible(GTK_WIDGET(window->side), TRUE);
+		ladder_palette_find(window->palette);
+		break;
 	case VERB_watch_add: names_watch(window); break;
 	case VERB_show_uses: names_show_uses(window); break;
 	case VERB_symbols: tabs_show_widget(window, "symbols"); break;
@@ -362,6 +367,13 @@ static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 		ladder_grid_view_put(sheet, (enum word)g_variant_get_int32(word));
 }
 
+static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	go_on(LADDER_WINDOW(widget));
+}
+
 void window_install_actions(GtkWidgetClass *class)
 {
 	for (int i = 0; i < VERB_COUNT; i++)
@@ -377,6 +389,7 @@ void window_install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.open-sample", "s", open_sample);
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
+	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
 }
 
 GMenuModel *window_menu(void)

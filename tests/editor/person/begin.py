@@ -1,0 +1,141 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""begin - the welcome page, the palette's search and families, tables of symbols in files."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+PROGRAM = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL; (* the green one *)
+  Lamp  AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "Lamp"
+  | NO Start | COIL Lamp |
+END_PROGRAM
+'''
+
+
+def name_file(editor, path):
+    """Types a path into the chooser of files that comes."""
+    chooser = until(lambda: [window for window in editor.windows() if window != editor.window], 'the dialog')[0]
+    editor.keys('ctrl+a')
+    editor.type(path)
+    editor.keys('Return')
+    until(lambda: chooser not in editor.windows(), 'the end of the dialog')
+
+
+def sample(screen):
+    """a sample opens as a copy that has no file; once saved it is the first of those used lately"""
+    editor = Editor(screen)
+    editor.shot('begin-welcome')
+    editor.click(editor.find('dosing.rung', 'label'))
+    first = editor.element('Rung 1, ').name
+    assert editor.all('not saved yet'), [node.name for node in editor.all(role='label')]
+    path = os.path.join(screen.home, 'mine.rung')
+    editor.keys('ctrl+s')
+    name_file(editor, path)
+    until(lambda: os.path.exists(path), 'the file')
+    check(path)
+    editor.says('mine')
+    editor.finish()
+    again = Editor(screen)
+    again.click(again.find(path, 'label'))
+    again.says('mine')
+    again.element(first)
+
+
+def empty(screen):
+    """New project leads from the welcome page to a sheet that says what to do; a name is a contact"""
+    editor = Editor(screen)
+    editor.click(editor.find('An empty sheet', 'label'))
+    editor.to_sheet()
+    until(lambda: not editor.all('Samples, opened as copies'), 'the page to be gone')
+    editor.shot('begin-empty')
+    editor.entry('Start')
+    editor.element('Rung 1, NO', 'Start')
+
+
+def searched(screen):
+    """the palette finds an element by its word or what it does; Return puts it at the cursor, Escape gives up"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+shift+e')
+    editor.focus_on('Find an element')
+    editor.type('on-delay')
+    until(lambda: not editor.all('Coils', 'push button', editor.palette), 'the coils to be gone')
+    editor.tile('TON')
+    editor.shot('begin-search')
+    editor.keys('Escape')
+    editor.to_sheet()
+    until(lambda: editor.all('Coils', 'push button', editor.palette), 'all elements')
+    editor.keys('Home', 'Right', 'ctrl+shift+e')
+    editor.focus_on('Find an element')
+    editor.type('TON')
+    editor.keys('Return')
+    editor.opened()
+    editor.entry('Delay')
+    text = editor.save(path)
+    assert 'TON Delay' in text, text
+    check(path)
+    editor.keys('ctrl+z')
+
+
+def folded(screen):
+    """a family is closed and opened by pointer and by key; the sides of the window fold"""
+    editor = Editor(screen, new_file(screen, PROGRAM))
+    editor.tile('TON')
+    x, y, width, _ = editor.place(editor.all('Timers', 'push button', editor.palette)[0])
+    title = x + width // 2, y + 10
+    editor.click(title)
+    until(lambda: not editor.all('TON:', 'push button', editor.palette), 'the tiles to be gone')
+    editor.click(title)
+    editor.tile('TON:')
+    editor.keys('ctrl+shift+e')
+    editor.focus_on('Find an element')
+    editor.keys('Tab')  # to the wires, which are closed at first
+    before = len(editor.all(role='push button', below=editor.palette))
+    editor.keys('space')
+    until(lambda: len(editor.all(role='push button', below=editor.palette)) > before, 'the tiles of the wires')
+    editor.keys('space')
+    for key, what in ('F4', 'Find an element'), ('shift+F4', 'Instruction list'):
+        editor.keys(key)
+        until(lambda: not editor.all(what), what + ' to be gone')
+        editor.keys(key)
+        editor.says(what)
+
+
+def tables(screen):
+    """symbols go into a table and come back from it, changed"""
+    path = new_file(screen, PROGRAM)
+    table = os.path.join(screen.home, 'names.csv')
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    editor.press(editor.find('Export', 'push button'))
+    name_file(editor, table)
+    until(lambda: os.path.exists(table), 'the table')
+    with open(table, newline='') as file:
+        text = file.read()
+    assert 'Start,BOOL,%IX0.0' in text and 'the green one' in text, text
+    with open(table, 'w', newline='') as file:
+        file.write(text.replace('the green one', 'on the door') + ',,Horn,BOOL,%QX0.1,,,,\r\n')
+    editor.press(editor.find('Import', 'push button'))
+    name_file(editor, table)
+    editor.shot('begin-table')
+    editor.says('1 new, 1 changed, 1 unchanged, 0 refused')
+    editor.press(next(node for node in editor.all('Import', 'push button') if node.name.endswith('Import Import')))
+    until(lambda: len(editor.windows()) == 1, 'the end of the plan')
+    saved = editor.save(path)
+    assert 'on the door' in saved and 'Horn AT %QX0.1 : BOOL' in ' '.join(saved.split()), saved
+    check(path)
+    editor.keys('ctrl+z')
+    assert editor.save(path) == PROGRAM
+
+
+main([sample, empty, searched, folded, tables])
