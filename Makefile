@@ -500,15 +500,20 @@ tests: all man $(BUILT) $(EDITOR_FAKE) $(HAL_DAEMONS)
 asan: ## the same with address and undefined-behaviour sanitizers, in build/asan/
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' \
 	  CPPFLAGS='$(CPPFLAGS) -DDIFFERENTIAL_COUNT=1000' $(ASAN_RUN) $(ASAN)/ladder $(ASAN)/ladderd
-# The editor ends in good order at a TERM, and what leaks is told. Libraries have no frame
-# pointers, so each allocation is unwound slowly: it takes half an hour. What others leak
-# is in tests/editor/leaks.supp.
-asan-editor: ## the editor and its tests with sanitizers, and runs them: in process, and as a person
+asan-editor: ## the editor and its tests with sanitizers: in process, and as a person; ten minutes
 	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' asan-editor-run
 asan-editor-run: $(EDITOR_TESTS) $(EDITOR_FAKE) all
-	BUILD=$(BUILD) G_SLICE=always-malloc ASAN_OPTIONS=fast_unwind_on_malloc=0 \
+	BUILD=$(BUILD) G_SLICE=always-malloc ASAN_OPTIONS=detect_leaks=0 PATIENCE=180 \
+	  prove -j$$(nproc) -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
+# The editor ends in good order at a TERM, and what leaks is told. Libraries have no frame
+# pointers, so each allocation is unwound slowly: it takes hours. What others leak is in
+# tests/editor/leaks.supp.
+leaks-editor: ## the same for what leaks; PERSON=tests/editor/person/tree.py: of these alone
+	$(MAKE) BUILD=$(ASAN) CFLAGS='$(SANITIZE)' LDFLAGS='$(SANITIZE)' leaks-editor-run
+leaks-editor-run: $(EDITOR_TESTS) $(EDITOR_FAKE) all
+	BUILD=$(BUILD) G_SLICE=always-malloc ASAN_OPTIONS=fast_unwind_on_malloc=0 PATIENCE=600 \
 	  LSAN_OPTIONS=suppressions=tests/editor/leaks.supp:print_suppressions=0 \
-	  prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
+	  prove -j$$(nproc) -e '' $(if $(PERSON),$(PERSON),$(EDITOR_TESTS) $(EDITOR_PERSON))
 check: tests asan arm small cases ## build, then every test
 	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \
 	  prove -j$$(nproc) -e '' tests/arm.sh tests/small.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
@@ -517,7 +522,7 @@ $(BUILD)/tests/bench/record: $(BUILD)/tests/bench/record.o $(BUILD)/libladder.a
 bench: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/bench/record ## speed, load time and size, as a table
 	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh
 .SECONDARY:
-.PHONY: tests asan asan-editor asan-editor-run check bench
+.PHONY: tests asan asan-editor asan-editor-run leaks-editor leaks-editor-run check bench
 # ---- end of everything ----
 
 clean: ## remove everything that was built

@@ -129,7 +129,7 @@ def tables(screen):
     name_file(editor, table)
     editor.shot('begin-table')
     editor.says('1 new, 1 changed, 1 unchanged, 0 refused')
-    editor.press(next(node for node in editor.all('Import', 'push button') if node.name.endswith('Import Import')))
+    editor.press(next(node for node in editor.all('Import', 'push button') if node.name in ('Import', 'Import Import')))
     until(lambda: len(editor.windows()) == 1, 'the end of the plan')
     saved = editor.save(path)
     assert 'on the door' in saved and 'Horn AT %QX0.1 : BOOL' in ' '.join(saved.split()), saved
