@@ -327,9 +327,11 @@ class Editor:
         return self.find(text)
 
     def windows(self):
-        """Those that the window manager knows: no tooltip, no popup."""
+        """Those that the window manager knows: no tooltip, no popup. Nothing is found, too, when
+        one goes away while it is looked for: then it is looked again."""
         known = [int(number, 16) for number in re.findall('0x[0-9a-f]+', sh('xprop', '-root', '_NET_CLIENT_LIST'))]
-        seen = sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.pid)).split()
+        looks = (sh('xdotool', 'search', '--onlyvisible', '--pid', str(self.pid)).split() for _ in range(3))
+        seen = next(filter(None, looks), [])
         return [window for window in seen if int(window) in known]
 
     def place(self, node):
@@ -410,7 +412,9 @@ class Editor:
                     'sleep', '0.03']
         sh('xdotool', *way, 'sleep', '0.15')
         if ready:
-            until(ready, 'what is dragged to be welcome')
+            # One that began late has seen no movement yet.
+            until(lambda: sh('xdotool', 'mousemove', str(x1 + 1), str(y1), 'mousemove', str(x1), str(y1)) or ready(),
+                  'what is dragged to be welcome')
         if look:
             self.shot(look)
         sh('xdotool', 'mouseup', '1', *(['keyup', key] if key else []))
