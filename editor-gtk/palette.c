@@ -14,13 +14,16 @@
 #define LADDER_TYPE_PALETTE (ladder_palette_get_type())
 G_DECLARE_FINAL_TYPE(LadderPalette, ladder_palette, LADDER, PALETTE, GtkBox)
 
+/* How well a word is what is looked for: it is, it begins so, its explanation tells of it. */
+enum rank { RANK_IS, RANK_BEGINS, RANK_TOLD, RANK_NONE };
+
 struct _LadderPalette {
 	GtkBox parent;
 	LadderDocument *document;
 	GtkWidget *search, *families;
 	int own;                    /* words of the project that are shown     */
 	enum word best;             /* of what is looked for                   */
-	int rank;                   /* how well it fits                        */
+	enum rank rank;             /* how well it fits                        */
 };
 
 G_DEFINE_FINAL_TYPE(LadderPalette, ladder_palette, GTK_TYPE_BOX)
@@ -239,22 +242,20 @@ static bool is_common(const char *family)
 	return false;
 }
 
-/* How well a word is what is looked for: 0 is the word itself, RANK_NONE nothing yet. */
-#define RANK_NONE 3
-static int rank(const struct word_row *row, const char *search)
+static enum rank rank_of(const struct word_row *row, const char *search)
 {
 	const gsize len = strlen(search);
 	const char *word = row->word[0] ? row->word : row->id;
 
 	if (g_ascii_strncasecmp(word, search, len) != 0)
-		return RANK_NONE - 1;
-	return word[len] ? RANK_NONE - 2 : 0;
+		return RANK_TOLD;
+	return word[len] ? RANK_BEGINS : RANK_IS;
 }
 
 static void add_word(LadderPalette *palette, GHashTable *families,
 		     const struct word_row *row, enum word word)
 {
-	const int fit = rank(row, gtk_editable_get_text(GTK_EDITABLE(palette->search)));
+	const enum rank fit = rank_of(row, gtk_editable_get_text(GTK_EDITABLE(palette->search)));
 	GtkWidget *family = g_hash_table_lookup(families, row->family);
 	GArray *words;
 
