@@ -320,11 +320,12 @@ static void leave(LadderPalette *palette)
 /* What is typed counts at once, and not when the entry says so a little later. */
 static void place_best(LadderPalette *palette)
 {
-	const bool asked = gtk_editable_get_text(GTK_EDITABLE(palette->search))[0];
 	enum word best;
 
+	if (!gtk_editable_get_text(GTK_EDITABLE(palette->search))[0])
+		return;
 	fill(palette);
-	if (!asked || palette->rank == RANK_NONE)
+	if (palette->rank == RANK_NONE)
 		return;
 	best = palette->best; /* the next line makes it another            */
 	gtk_editable_set_text(GTK_EDITABLE(palette->search), "");
