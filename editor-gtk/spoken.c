@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * spoken - names for parts of the toolkit's widgets; see spoken.h.
+ * spoken - what the toolkit's widgets leave out, or tell too much of; see spoken.h.
  */
 #include "editor-gtk/spoken.h"
 
@@ -32,8 +32,27 @@ static void name_part(GtkWidget *widget)
 			GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
 }
 
+/* A reader finds what is in a revealer, revealed or not. It moves in and out as before. */
+static void hide_closed(GtkRevealer *revealer)
+{
+	gtk_widget_set_visible(GTK_WIDGET(revealer),
+			       gtk_revealer_get_reveal_child(revealer) ||
+			       gtk_revealer_get_child_revealed(revealer));
+}
+
+static void keep_hidden(GtkRevealer *revealer)
+{
+	g_signal_handlers_disconnect_by_func(revealer, hide_closed, NULL);
+	g_signal_connect(revealer, "notify::reveal-child", G_CALLBACK(hide_closed), NULL);
+	g_signal_connect(revealer, "notify::child-revealed", G_CALLBACK(hide_closed), NULL);
+	hide_closed(revealer);
+}
+
 void spoken_parts(GtkWidget *root)
 {
-	for (GtkWidget *widget = next(root, root); widget; widget = next(widget, root))
+	for (GtkWidget *widget = next(root, root); widget; widget = next(widget, root)) {
 		name_part(widget);
+		if (GTK_IS_REVEALER(widget))
+			keep_hidden(GTK_REVEALER(widget));
+	}
 }

@@ -229,6 +229,7 @@ static AdwTabPage *add_page(LadderWindow *window, GtkWidget *child, const char *
 	AdwTabPage *page = adw_tab_view_append(window->tabs, child);
 
 	set_name(page, name, title);
+	spoken_parts(child);
 	spoken_parts(GTK_WIDGET(window->tab_bar));
 	return page;
 }

@@ -111,7 +111,7 @@ def edits(screen):
     editor.keys('alt+Down')
     editor.find('Original of the rung: Estop chain')
     editor.click(editor.find('Close the report', 'push button'))
-    until(lambda: not any(node.has(25) for node in editor.all(LOST)), 'the report to be away')
+    until(lambda: not editor.all('Report', 'page tab'), 'the report to be away')
     editor.to_sheet()
     editor.keys('ctrl+alt+o')
     editor.find(LOST, 'label')
