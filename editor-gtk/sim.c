@@ -31,12 +31,13 @@ static void tell(LadderSim *sim, const char *text, bool bad)
 
 /* ---- what comes from the thread ---- */
 
-static void tell_fault(LadderSim *sim)
+/* Of a start that was ended and is not yet begun anew. */
+static void tell_end(LadderSim *sim)
 {
 	const struct resource *resource = &sim->view.twin.resource;
 	char *text;
 
-	if (sim->told == ladder_sim_state(sim) ||
+	if (sim->known.ends == sim->view.events.ends ||
 	    (resource->state != STATE_FAULT && !resource->halted))
 		return;
 	text = resource->state == STATE_FAULT ?
@@ -47,20 +48,18 @@ static void tell_fault(LadderSim *sim)
 
 /* As on the board that is no fault: ENO is FALSE, and it is counted. But a person who tries
  * a program out shall see it. */
-static void tell_failed(LadderSim *sim)
+static void tell_failure(LadderSim *sim)
 {
 	const struct resource *resource = &sim->view.twin.resource;
-	const bool failed = resource->vm.errors != 0;
-	bool paused;
+	const bool paused = sim->view.events.paused;
 	char *text;
 
-	if (failed && !sim->failed && resource->state != STATE_FAULT) {
-		paused = sim->heeds && !sim->view.running;
-		text = sim_failed_words(resource, paused);
-		tell(sim, text, paused);
-		g_free(text);
-	}
-	sim->failed = failed;
+	if (sim->known.failures == sim->view.events.failures || !resource->vm.errors ||
+	    resource->state == STATE_FAULT)
+		return;
+	text = sim_failed_words(resource, paused);
+	tell(sim, text, paused);
+	g_free(text);
 }
 
 static void tell_refusal(LadderSim *sim)
@@ -111,8 +110,9 @@ static gboolean notified(gpointer data)
 	LadderSim *sim = data;
 
 	take(sim);
-	tell_fault(sim);
-	tell_failed(sim);
+	tell_end(sim);
+	tell_failure(sim);
+	sim->known = sim->view.events;
 	tell_refusal(sim);
 	if (sim->told != ladder_sim_state(sim) ||
 	    sim->told_period != ladder_sim_period(sim))
@@ -151,7 +151,7 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 	g_clear_pointer(&sim->thread, sim_thread_free);
 	sim_view_clear(&sim->view);
 	sim->refused = 0;
-	sim->failed = false;
+	sim->known = (struct sim_events){ .ends = 0 };
 	sim->thread = thread;
 	sim->life++;
 	sim_program_unref(sim->newest);

@@ -75,12 +75,20 @@ struct sim_refusal {
 	guint count;
 };
 
+/* What came of scans by themselves; each counted, since copies of values leave some out. */
+struct sim_events {
+	guint ends;              /* in FAULT, or because the program said STOP  */
+	guint failures;          /* starts in which an operation failed        */
+	bool paused;             /* for the last failure                       */
+};
+
 /* What the window sees of the thread. */
 struct sim_view {
 	struct twin twin;        /* a clone: of `program`                      */
 	struct sim_program *program, *plant;
 	bool running;            /* not paused                                 */
 	struct sim_refusal refusal;
+	struct sim_events events;
 };
 
 /**

@@ -21,7 +21,7 @@ struct _LadderSim {
 	guint64 older_era;          /* whose it is                             */
 	guint64 life;               /* how often it began                      */
 	guint refused;              /* of the view's refusal, that were told of */
-	bool failed;                /* told that an operation failed           */
+	struct sim_events known;    /* of the view's, that were told of         */
 	enum sim_state told;        /* the last state that signals told of     */
 	gint64 told_period;         /* and period, ns                          */
 	gint64 period_ns;

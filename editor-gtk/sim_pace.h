@@ -9,7 +9,8 @@
 
 #include <gtk/gtk.h>
 
-/** sim_pace_new - a popover: period, slow motion, what it pauses at, cold and warm start. @sim: referenced. */
+/** sim_pace_new - a popover: period, slow motion, what it pauses at, cold and warm start.
+ * @sim: referenced. */
 GtkWidget *sim_pace_new(LadderSim *sim);
 
 #endif

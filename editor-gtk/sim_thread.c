@@ -38,6 +38,7 @@ struct sim_thread {
 	double due_us;           /* of the next scan                           */
 	gint64 told_us;          /* when the last copy went out                */
 	struct sim_refusal refusal;
+	struct sim_events events;
 	bool changed;            /* since then                                 */
 	/* Under `record_lock`: */
 	GMutex record_lock;
@@ -48,6 +49,7 @@ struct sim_thread {
 	struct sim_program *program, *plant;
 	bool out_run;
 	struct sim_refusal out_refusal;
+	struct sim_events out_events;
 	/* Between both, atomic: */
 	int notified;
 	guint late[LATE_STEPS];  /* scans that were so late, by step           */
@@ -64,6 +66,7 @@ static void publish(struct sim_thread *thread, bool must)
 	twin_copy(&thread->out, &thread->twin);
 	thread->out_run = thread->run;
 	thread->out_refusal = thread->refusal;
+	thread->out_events = thread->events;
 	g_mutex_unlock(&thread->out_lock);
 	thread->changed = false;
 	thread->told_us = g_get_monotonic_time();
@@ -75,12 +78,19 @@ static void publish(struct sim_thread *thread, bool must)
 
 static void scan(struct sim_thread *thread)
 {
+	const struct vm *vm = &thread->twin.resource.vm;
 	const uint64_t before = thread->twin.scan;
+	const bool failed = vm->errors != 0, goes_on = twin_scan(&thread->twin);
 
-	if (!twin_scan(&thread->twin))
+	if (!goes_on)
 		thread->run = false; /* FAULT, or the program asked for STOP */
 	if (thread->twin.scan == before)
 		return;
+	thread->events.ends += !goes_on;
+	if (!failed && vm->errors) {
+		thread->events.failures++;
+		thread->events.paused = false;
+	}
 	g_mutex_lock(&thread->record_lock);
 	sim_eras_scan(thread->eras, &thread->twin);
 	g_mutex_unlock(&thread->record_lock);
@@ -123,12 +133,13 @@ static double late_us(guint step)
  * values are those that the board would have, and a person sees where it was. */
 static void scan_heeding(struct sim_thread *thread)
 {
-	const struct vm *vm = &thread->twin.resource.vm;
-	const bool failed = vm->errors != 0;
+	const guint failures = thread->events.failures;
 
 	scan(thread);
-	if (thread->heed && !failed && vm->errors)
-		thread->run = false;
+	if (!thread->heed || thread->events.failures == failures)
+		return;
+	thread->run = false;
+	thread->events.paused = true;
 }
 
 static void scan_in_time(struct sim_thread *thread)
@@ -426,6 +437,7 @@ bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *oth
 	}
 	view->running = thread->out_run;
 	view->refusal = thread->out_refusal;
+	view->events = thread->out_events;
 	g_mutex_unlock(&thread->out_lock);
 	return good;
 }

@@ -341,6 +341,62 @@ static void test_failed(void)
 	ladder_sim_end(sim);
 }
 
+/* It pauses for the first one of a start, and says so each time; what a person asked for, scan
+ * by scan, is not paused, and neither is anything when it is not wanted. */
+static void test_heeds(void)
+{
+	GArray *acts = g_array_new(FALSE, FALSE, sizeof(struct sim_played));
+
+	open_text("RUNGBOARD 1\n\nVAR\n  Parts, Minutes, Rate : INT;\nEND_VAR\n\n"
+		  "PROGRAM Main LD\nRUNG\n  | --- | [ Rate := Parts / Minutes ] |\nEND_PROGRAM\n");
+	CHECK(ladder_sim_begin(sim, NULL) && ladder_sim_heeds(sim));
+	for (int again = 0; again < 20; again++) {
+		ladder_sim_run(sim);
+		told_is("! Paused: an operation failed");
+		CHECK_SOON(ladder_sim_state(sim) == SIM_PAUSE);
+		CHECK(ladder_sim_twin(sim)->resource.vm.errors == 1);
+		ladder_sim_reset(sim, again % 2);
+	}
+	ladder_sim_run(sim);
+	told_is("! Paused");
+	ladder_sim_run(sim);
+	CHECK_SOON(ladder_sim_twin(sim)->resource.vm.errors > 3);
+	CHECK_AS(!told && ladder_sim_state(sim) == SIM_RUN, "it goes on, and nothing is said anew");
+	ladder_sim_stop(sim);
+	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
+	ladder_sim_scan(sim, 1);
+	CHECK_SOON(told && g_str_has_prefix(told, "ENO is FALSE"));
+	g_clear_pointer(&told, g_free);
+	CHECK(ladder_sim_play(sim, SIM_PERIOD, acts, 5, NULL));
+	CHECK_SOON(told && g_str_has_prefix(told, "ENO is FALSE"));
+	CHECK_SOON(ladder_sim_twin(sim)->scan == 5);
+	g_clear_pointer(&told, g_free);
+	ladder_sim_set_heeds(sim, false);
+	ladder_sim_reset(sim, false);
+	ladder_sim_run(sim);
+	CHECK_SOON(told && g_str_has_prefix(told, "ENO is FALSE"));
+	CHECK_SOON(ladder_sim_twin(sim)->resource.vm.errors > 3);
+	CHECK(ladder_sim_state(sim) == SIM_RUN);
+	ladder_sim_set_heeds(sim, true);
+	ladder_sim_end(sim);
+	g_array_unref(acts);
+}
+
+/* A start that ends at once is told as often as it is asked for. */
+static void test_fault_again(void)
+{
+	open_text("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG Again\n  | --- | JMP Again |\n"
+		  "END_PROGRAM\n");
+	CHECK(ladder_sim_begin(sim, NULL));
+	for (int again = 0; again < 5; again++) {
+		g_clear_pointer(&told, g_free);
+		ladder_sim_run(sim);
+		told_is("! instruction budget of the scan exceeded: Main, rung 1");
+		CHECK(ladder_sim_state(sim) == SIM_FAULT);
+	}
+	ladder_sim_end(sim);
+}
+
 /* A plant that cannot be had is told with the file and the place. */
 static void test_bad_plant(void)
 {
@@ -427,6 +483,8 @@ int main(void)
 	test_stale();
 	test_refused();
 	test_failed();
+	test_heeds();
+	test_fault_again();
 	test_bad_plant();
 	test_plant_forces();
 	test_errors();

@@ -85,6 +85,7 @@ def searched(screen):
     assert 'TON Delay' in text, text
     check(path)
     editor.keys('ctrl+z')
+    assert editor.save(path) == PROGRAM
 
 
 def folded(screen):

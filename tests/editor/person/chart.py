@@ -148,7 +148,7 @@ def over_an_edit(screen):
     # Behind the edit the sheet is the document's again.
     editor.keys(*['alt+Right'] * 5)
     editor.says('PAST · scan 16')
-    until(lambda: not [node for node in editor.all('Before the edit of ') if node.has(25)], 'the bar to go')
+    until(lambda: not editor.all('Before the edit of '), 'the bar to go')
     assert not [node for node in editor.all('NO', 'table cell') if 'Start' in node.name]
     editor.keys(*['alt+Left'] * 2)
     editor.says('Before the edit of ')
@@ -173,10 +173,19 @@ def faults(screen):
     editor.keys('ctrl+r')
     toggle(editor, 'Rung 1, NO', 'Start', 'open')
     editor.says('SIMULATION · FAULT')
-    editor.says('instruction budget of the scan exceeded: Main, rung 2 (1,')
+    bar = 'instruction budget of the scan exceeded: Main, rung 2 (1,'  # the status bar says it, too
+    until(lambda: len(editor.all(bar, 'label')) > 1, 'the bar')
     editor.says('Rung 2')
     editor.shot('chart-fault')
     editor.element('COIL', 'Motor', ', off')
+    # Run begins anew, and it is a fault again: that is told again, and does not go with the bar.
+    _, of_the_bar = [node for node in editor.all('Run', 'push button') if node.name == 'Run']
+    stands = editor.find('Simulating · 10 ms · scan ').name
+    editor.click(of_the_bar)
+    until(lambda: editor.find('Simulating · 10 ms · scan ').name != stands, 'another scan')
+    editor.says('SIMULATION · FAULT')
+    until(lambda: len(editor.all(bar, 'label')) > 1, 'the bar again')
+    editor.shot('chart-fault-again')
 
 
 main([rewind, why, edit, over_an_edit, faults])
