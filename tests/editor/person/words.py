@@ -116,6 +116,7 @@ def window_keys(screen):
     editor.opened()
     editor.keys('ctrl+f')
     until(lambda: editor.all('Find', 'text'), 'the bar that finds')
+    editor.lines |= {node.path for node in editor.all(role='text') if 'Find' in node.name}
     editor.gone()
     editor.focus_on(role='text')
     editor.keys('Escape')
