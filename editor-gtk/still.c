@@ -6,8 +6,13 @@
 
 #include <stdbool.h>
 
+#define REST (250 * G_TIME_SPAN_MILLISECOND) /* us without a change                */
+
 struct _LadderStill {
 	GtkWidget parent_instance;
+	gint64 changed;         /* us, when it was last another                */
+	guint timer;            /* looks whether it came to rest                */
+	bool at_rest;           /* it did: what is drawn next is an image       */
 };
 
 G_DEFINE_FINAL_TYPE(LadderStill, ladder_still, GTK_TYPE_WIDGET)
@@ -45,27 +50,50 @@ static void draw_image(GtkWidget *widget, GtkSnapshot *snapshot, GskRenderNode *
 	cairo_surface_destroy(image);
 }
 
+static gboolean look(gpointer data)
+{
+	LadderStill *still = data;
+
+	if (g_get_monotonic_time() - still->changed < REST)
+		return G_SOURCE_CONTINUE;
+	still->timer = 0;
+	still->at_rest = true;
+	gtk_widget_queue_draw(GTK_WIDGET(still));
+	return G_SOURCE_REMOVE;
+}
+
+/* It may be drawn again in the next frame, and an image of it be in vain. */
+static void look_later(LadderStill *still)
+{
+	still->changed = g_get_monotonic_time();
+	if (!still->timer)
+		still->timer = g_timeout_add(REST / G_TIME_SPAN_MILLISECOND, look, still);
+}
+
 static void ladder_still_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 {
+	LadderStill *still = LADDER_STILL(widget);
 	GtkWidget *child = gtk_widget_get_first_child(widget);
 	GtkSnapshot *own = gtk_snapshot_new();
 	GskRenderNode *node;
 
 	gtk_widget_snapshot_child(widget, child, own);
 	node = gtk_snapshot_free_to_node(own);
-	if (!node)
-		return;
-	if (is_by_cairo(widget))
+	if (node && still->at_rest)
 		draw_image(widget, snapshot, node);
-	else
+	else if (node)
 		gtk_snapshot_append_node(snapshot, node);
-	gsk_render_node_unref(node);
+	if (!still->at_rest && is_by_cairo(widget))
+		look_later(still);
+	still->at_rest = false;
+	g_clear_pointer(&node, gsk_render_node_unref);
 }
 
 static void ladder_still_dispose(GObject *object)
 {
 	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(object));
 
+	g_clear_handle_id(&LADDER_STILL(object)->timer, g_source_remove);
 	if (child)
 		gtk_widget_unparent(child);
 	G_OBJECT_CLASS(ladder_still_parent_class)->dispose(object);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * still - round a widget that seldom changes: an image of it, while it does not.
+ * still - round a widget: an image of it, once it has not changed for a moment.
  *
  * The cairo renderer goes through every node of a window in each frame, also those that
  * are far from what changed: a palette alone has hundreds. An image is one of them. A
@@ -14,7 +14,7 @@
 #define LADDER_TYPE_STILL (ladder_still_get_type())
 G_DECLARE_FINAL_TYPE(LadderStill, ladder_still, LADDER, STILL, GtkWidget)
 
-/** ladder_still_new - @child is drawn within its bounds alone. */
+/** ladder_still_new - @child is drawn within its bounds alone. It may be <child> in a template. */
 GtkWidget *ladder_still_new(GtkWidget *child);
 
 #endif

@@ -190,7 +190,8 @@ static void add_panels(LadderWindow *window)
 	LadderDocument *document = window->document;
 	GtkWidget *problems = ladder_problems_new(), *uses = ladder_uses_view_new();
 
-	gtk_paned_set_start_child(window->side, ladder_project_tree_new(document));
+	window->tree = ladder_project_tree_new(document);
+	gtk_paned_set_start_child(window->side, ladder_still_new(window->tree));
 	window->palette = ladder_palette_new(document);
 	gtk_paned_set_end_child(window->side, ladder_still_new(window->palette));
 	gtk_paned_set_position(window->side, 230);
@@ -288,6 +289,7 @@ static void ladder_window_class_init(LadderWindowClass *class)
 	tip_init();
 	G_OBJECT_CLASS(class)->dispose = ladder_window_dispose;
 	GTK_WINDOW_CLASS(class)->close_request = ladder_window_close_request;
+	g_type_ensure(LADDER_TYPE_STILL);
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/window.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderWindow, name)

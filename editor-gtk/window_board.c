@@ -21,7 +21,7 @@ static void make_map(LadderWindow *window, const char *path)
 	GError *error = NULL;
 
 	if (disk_save(path, text, strlen(text), &error)) {
-		ladder_project_tree_look(gtk_paned_get_start_child(window->side));
+		ladder_project_tree_look(window->tree);
 		tabs_show_file(window, path);
 	} else {
 		ladder_window_warn(window, error->message);

@@ -44,7 +44,7 @@ struct _LadderWindow {
 	GtkBox *sim_buttons;
 	GtkButton *run_button, *forces_button, *record_button;
 	GtkMenuButton *pace_button;
-	GtkWidget *palette;
+	GtkWidget *tree, *palette;
 	AdwTabBar *tab_bar;
 	AdwTabView *tabs;
 	GtkRevealer *banner;

@@ -188,7 +188,7 @@ static void save(LadderWindow *window, const char *name, const char *file)
 	char *scenario = ladder_recorder_text(window->recorder, name);
 
 	if (scenario && append(window, path, scenario)) {
-		ladder_project_tree_look(gtk_paned_get_start_child(window->side));
+		ladder_project_tree_look(window->tree);
 		tabs_show_file(window, path);
 		run_all(window);
 	}

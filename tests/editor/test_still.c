@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_still - a widget at rest is an image, and one that changes is shown at once.
+ */
+#include "editor-gtk/still.h"
+#include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
+#include "tests/tap.h"
+
+static GtkWidget *window, *still, *label;
+
+/* What its last drawing is made of: nodes, as the toolkit writes them. */
+static bool is_drawn_by(const char *kind)
+{
+	GdkPaintable *paintable = gtk_widget_paintable_new(still);
+	GtkSnapshot *snapshot = gtk_snapshot_new();
+	GskRenderNode *node;
+	GBytes *text;
+	bool found;
+
+	gdk_paintable_snapshot(paintable, snapshot, gtk_widget_get_width(still),
+			       gtk_widget_get_height(still));
+	node = gtk_snapshot_free_to_node(snapshot);
+	g_object_unref(paintable);
+	if (!node)
+		return false;
+	text = gsk_render_node_serialize(node);
+	found = g_strstr_len(g_bytes_get_data(text, NULL), (gssize)g_bytes_get_size(text),
+			     kind) != NULL;
+	g_bytes_unref(text);
+	gsk_render_node_unref(node);
+	return found;
+}
+
+static void test_rest(void)
+{
+	CHECK_SOON(is_drawn_by("text {"));
+	CHECK_SOON(is_drawn_by("cairo {") && !is_drawn_by("text {"));
+	for (int again = 0; again < 3; again++) {
+		gtk_label_set_text(GTK_LABEL(label), again % 2 ? "ON" : "OFF");
+		CHECK_SOON(is_drawn_by(again % 2 ? "\"ON\"" : "\"OFF\""));
+		CHECK_SOON(is_drawn_by("cairo {") && !is_drawn_by("text {"));
+	}
+}
+
+/* It goes on changing, goes away and comes back. */
+static void test_change(void)
+{
+	char text[16];
+
+	for (int i = 0; i < 20; i++) {
+		g_snprintf(text, sizeof(text), "%d", 1000 + i);
+		gtk_label_set_text(GTK_LABEL(label), text);
+		CHECK_SOON(is_drawn_by(text));
+	}
+	gtk_widget_set_visible(label, FALSE);
+	gtk_widget_set_visible(still, FALSE);
+	gtk_widget_set_visible(still, TRUE);
+	gtk_widget_set_visible(label, TRUE);
+	CHECK_SOON(is_drawn_by("\"1019\""));
+	CHECK_SOON(is_drawn_by("cairo {"));
+}
+
+int main(void)
+{
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	window = gtk_window_new();
+	label = gtk_label_new("Stop");
+	still = ladder_still_new(label);
+	gtk_window_set_child(GTK_WINDOW(window), still);
+	gtk_window_present(GTK_WINDOW(window));
+	test_rest();
+	test_change();
+	gtk_label_set_text(GTK_LABEL(label), "it goes while it waits for rest");
+	gtk_window_destroy(GTK_WINDOW(window));
+	return tap_done();
+}
