@@ -360,11 +360,14 @@ static void begin(GtkWidget *widget, const char *action, GVariant *unused)
 
 static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 {
-	LadderGridView *sheet = tabs_sheet(LADDER_WINDOW(widget));
+	LadderWindow *window = LADDER_WINDOW(widget);
+	LadderGridView *sheet = tabs_sheet(window);
 
 	(void)name;
 	if (sheet)
 		ladder_grid_view_put(sheet, (enum word)g_variant_get_int32(word));
+	else
+		ladder_window_tell(window, _("Elements go into rungs: open a sheet first."));
 }
 
 static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)

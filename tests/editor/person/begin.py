@@ -86,6 +86,12 @@ def searched(screen):
     check(path)
     editor.keys('ctrl+z')
     assert editor.save(path) == PROGRAM
+    # Beside the sheets there is nothing that it could be put into.
+    editor.keys('ctrl+Page_Down', 'ctrl+shift+e')
+    editor.focus_on('Find an element')
+    editor.type('TON')
+    editor.keys('Return')
+    editor.says('Elements go into rungs: open a sheet first.')
 
 
 def folded(screen):
