@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import ROLES, ROOT, Editor, main, sh, until, window_coordinates  # noqa: E402
+from desk import EXTENTS, ROLES, ROOT, Editor, main, sh, until  # noqa: E402
 
 SCALE = 2
 SELECTED, SENSITIVE = 23, 24  # states, as AtspiStateType counts
@@ -62,7 +62,7 @@ def faint(editor, where, known):
                                 if each.strip().startswith(('Absolute', 'Width', 'Height'))]
     nodes = [node for node in editor.walk() if node.role == ROLES['frame'] or (
         node.role in (ROLES['label'], ROLES['text']) and node.name.strip() and node.states >> SENSITIVE & 1)]
-    boxes = editor.ask([(node.path, 'Component', 'GetExtents', window_coordinates()) for node in nodes])
+    boxes = editor.ask([(node.path, *EXTENTS) for node in nodes])
     frame = next(box[0] for node, box in zip(nodes, boxes) if node.role == ROLES['frame'])
     picture, told = Picture(), []
     for node, box in zip(nodes, boxes):

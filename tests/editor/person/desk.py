@@ -3,7 +3,7 @@
 
 What the person sees is found by its accessible name, what the person does is done with a
 real pointer and real keys. A test is a function; report() runs it and speaks TAP. It needs
-Xvfb, openbox, xdotool, xclip, AT-SPI, python3-gi, python3-dbus; without them all is skipped.
+Xvfb, openbox, xdotool, xclip, AT-SPI, python3-dbus; without them all is skipped.
 
 The accessibility bus gives all that the toolkit knows in one answer (org.a11y.atspi.Cache):
 one node after the other would take most of a test's time. The palette, which is most of the
@@ -28,7 +28,7 @@ EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
 PATIENCE = int(os.environ.get('PATIENCE', '60'))  # seconds until what must come did not; no test waits for it in vain
 
-GLib = Gio = dbus = None
+dbus = None
 editors = []  # those that were begun
 WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of what never hides a part of its own
 BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
@@ -36,11 +36,12 @@ ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item':
          'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'push button': 43,
          'table': 55, 'table cell': 56, 'table row': 90, 'text': 61, 'toggle button': 62, 'entry': 79}
 A11Y = 'org.a11y.atspi.'
+EXTENTS = ('Component', 'GetExtents', 'u', 1)  # in the window
 
 
 def missing():
     """What is not here, as one text; '' if all is."""
-    global GLib, Gio, dbus
+    global dbus
     lacks = [tool for tool in ('Xvfb', 'openbox', 'xdotool', 'xwininfo', 'xprop', 'xclip', 'import',
                                'dbus-daemon') if not shutil.which(tool)]
     if not os.path.exists(EDITOR):
@@ -48,13 +49,8 @@ def missing():
     if not any(os.path.exists(path) for path in BUS_LAUNCHERS):
         lacks.append('at-spi2-core')
     try:
-        from gi.repository import GLib as glib, Gio as gio
-        GLib, Gio = glib, gio
-    except ImportError:
-        lacks.append('python3-gi')
-    try:
-        import dbus.bus as found
-        dbus = found
+        import dbus.bus
+        import dbus.lowlevel  # noqa: F401
     except ImportError:
         lacks.append('python3-dbus')
     return ', '.join(lacks)
@@ -110,14 +106,10 @@ class Screen:
         until(lambda: 'window id' in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'), 'the window manager')
 
     def accessibility(self):
-        """Connections of its own to the accessibility bus: one to ask much at once, one for what is large."""
-        session = Gio.bus_get_sync(Gio.BusType.SESSION)
-        address = session.call_sync('org.a11y.Bus', '/org/a11y/bus', 'org.a11y.Bus', 'GetAddress',
-                                    None, None, 0, -1, None).unpack()[0]
-        flags = Gio.DBusConnectionFlags
-        return Gio.DBusConnection.new_for_address_sync(
-            address, flags.AUTHENTICATION_CLIENT | flags.MESSAGE_BUS_CONNECTION, None, None
-        ), dbus.BusConnection(address)
+        """A connection of its own to the accessibility bus."""
+        session = dbus.bus.BusConnection(os.environ['DBUS_SESSION_BUS_ADDRESS'])
+        address = session.call_blocking('org.a11y.Bus', '/org/a11y/bus', 'org.a11y.Bus', 'GetAddress', '', ())
+        return dbus.bus.BusConnection(address)
 
     def start_bus(self):
         bus = subprocess.Popen(['dbus-daemon', '--session', '--nofork', '--print-address=1'],
@@ -138,11 +130,6 @@ class Screen:
         shutil.rmtree(self.home, ignore_errors=True)
 
 
-def window_coordinates():
-    """What GetExtents is asked for: places in the window."""
-    return GLib.Variant('(u)', (1,))
-
-
 class Node:
     """A widget, as the accessibility bus knows it."""
 
@@ -154,18 +141,18 @@ class Node:
         self.name, self.role, self.states = str(item[6]), int(item[7]), int(item[9][0])
         self.widget = A11Y + 'Component' in item[5]  # the page of a stack is none: only what it holds is seen
 
-    def ask(self, interface, method, args=None):
-        answer = self.editor.ask([(self.path, interface, method, args)])[0]
+    def ask(self, *question):
+        answer = self.editor.ask([(self.path, *question)])[0]
         if answer is None:
             raise Gone('"%s" is gone' % self.name)
         return answer
 
     def box(self):
         """x, y, width, height in its window."""
-        return self.ask('Component', 'GetExtents', window_coordinates())[0]
+        return self.ask(*EXTENTS)[0]
 
     def text(self):
-        return self.ask('Text', 'GetText', GLib.Variant('(ii)', (0, 1 << 20)))[0]
+        return str(self.ask('Text', 'GetText', 'ii', 0, 1 << 20)[0])
 
     def has(self, state):
         """11: can have the focus, 12: has it, 24: sensitive …, as AtspiStateType counts."""
@@ -184,7 +171,7 @@ class Editor:
             self.process = subprocess.Popen([*WRAPPER, EDITOR, *files], stdout=log, stderr=subprocess.STDOUT,
                                             preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
         editors.append(self)
-        self.bus, self.whole = screen.accessibility()
+        self.bus = screen.accessibility()
         self.palette = None
         self.name, self.root = until(self.application, 'the editor on the accessibility bus')
         self.window = until(self.windows, 'a window')[0]
@@ -194,11 +181,10 @@ class Editor:
     def application(self):
         self.alive()
         for name, path in self.call('org.a11y.atspi.Registry', '/org/a11y/atspi/accessible/root',
-                                    'Accessible', 'GetChildren')[0]:
-            pid = self.bus.call_sync('org.freedesktop.DBus', '/', 'org.freedesktop.DBus',
-                                     'GetConnectionUnixProcessID', GLib.Variant('(s)', (name,)),
-                                     None, 0, -1, None).unpack()[0]
-            if self.is_ours(pid) and self.call(name, path, 'Accessible', 'GetChildren')[0]:
+                                    'Accessible', 'GetChildren'):
+            pid = self.bus.call_blocking('org.freedesktop.DBus', '/', 'org.freedesktop.DBus',
+                                         'GetConnectionUnixProcessID', 's', (name,))
+            if self.is_ours(pid) and self.call(name, path, 'Accessible', 'GetChildren'):
                 return name, path
         return None
 
@@ -218,26 +204,21 @@ class Editor:
     # ---- asking ----
 
     def call(self, name, path, interface, method):
-        return self.bus.call_sync(name, path, A11Y + interface, method, None, None, 0, -1, None).unpack()
+        return self.bus.call_blocking(name, path, A11Y + interface, method, '', ())
 
     def ask(self, questions):
-        """Answers of (path, interface, method, args), all asked at once; None: it is gone."""
-        answers = [None] * len(questions)
-        waiting = [len(questions)]
+        """Answers of (path, interface, method, signature, arguments…), all asked at once; None: it is gone."""
+        answers, waiting = [None] * len(questions), []
+        for index, (path, interface, method, *args) in enumerate(questions):
+            message = dbus.lowlevel.MethodCallMessage(self.name, path, A11Y + interface, method)
+            message.append(*args[1:], signature=args[0] if args else '')
 
-        def done(bus, result, index):
-            try:
-                answers[index] = bus.call_finish(result).unpack()
-            except GLib.Error:  # it went while we asked
-                pass
-            waiting[0] -= 1
-
-        for index, (path, interface, method, args) in enumerate(questions):
-            self.bus.call(self.name, path, interface if '.' in interface else A11Y + interface, method,
-                          args, None, 0, 30000, None, done, index)
-        context = GLib.MainContext.default()
-        while waiting[0]:
-            context.iteration(True)
+            def done(answer, index=index):
+                if isinstance(answer, dbus.lowlevel.MethodReturnMessage):  # else it went while we asked
+                    answers[index] = answer.get_args_list()
+            waiting.append(self.bus.send_message_with_reply(message, done, 60))
+        for reply in waiting:
+            reply.block()
         self.alive()
         return answers
 
@@ -246,8 +227,8 @@ class Editor:
     def known(self):
         """All that the toolkit knows, seen or not: path -> node."""
         try:
-            items = self.whole.call_blocking(self.name, '/org/a11y/atspi/cache', A11Y + 'Cache', 'GetItems', '', ())
-        except dbus.DBusException:
+            items = self.bus.call_blocking(self.name, '/org/a11y/atspi/cache', A11Y + 'Cache', 'GetItems', '', ())
+        except dbus.exceptions.DBusException:
             self.alive()
             raise
         nodes = [Node(self, item) for item in items]
@@ -270,7 +251,7 @@ class Editor:
             if not node or node.role not in WHOLE or [child.place for child in children] != list(range(node.children)):
                 asked.append(path)
             paths += [child for child in below[path] if child != self.palette]
-        answers = self.ask([(path, 'Accessible', 'GetChildren', None) for path in asked])
+        answers = self.ask([(path, 'Accessible', 'GetChildren') for path in asked])
         for path, answer in zip(asked, answers):
             below[path] = [child for _, child in answer[0]] if answer else []
         return below
@@ -279,7 +260,7 @@ class Editor:
         """A widget comes into being on the bus by being asked for, and what is below it, too."""
         while paths:
             known |= paths
-            answers = self.ask([(path, 'Accessible', 'GetChildren', None) for path in paths])
+            answers = self.ask([(path, 'Accessible', 'GetChildren') for path in paths])
             paths = {child for answer in answers if answer for _, child in answer[0]} - known
 
     def walk(self, path=None):
@@ -340,8 +321,8 @@ class Editor:
         """Where a widget of the main window is on the screen: x, y, width, height."""
         about = dict(re.findall(r'(Absolute upper-left X|Absolute upper-left Y|Width|Height): +(-?\d+)',
                                 sh('xwininfo', '-id', self.window)))
-        frame = self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][0][1]
-        _, _, width, height = self.ask([(frame, 'Component', 'GetExtents', window_coordinates())])[0][0]
+        frame = self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][1]
+        _, _, width, height = self.ask([(frame, *EXTENTS)])[0][0]
         x = int(about['Absolute upper-left X']) + (int(about['Width']) - width) // 2
         y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height) // 2
         left, top, width, height = self.at_rest(node)
@@ -401,7 +382,7 @@ class Editor:
 
     def press(self, node):
         """What assistive technology does in the place of a click: for other windows."""
-        node.ask('Action', 'DoAction', GLib.Variant('(i)', (0,)))
+        node.ask('Action', 'DoAction', 'i', 0)
 
     def drag(self, start, end, steps=10, key=None, look=None, ready=None):
         """@key: held down meanwhile; @look: name of a picture of the moment before it is let go;
