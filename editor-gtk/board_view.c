@@ -6,6 +6,7 @@
 
 #include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/tip.h"
 
 #include <string.h>
 
@@ -106,13 +107,13 @@ static void show_about(LadderBoardView *view, enum board_state state,
 		other ? _("The program was changed since it was started") : "";
 
 	gtk_label_set_text(GTK_LABEL(view->about), text);
-	gtk_widget_set_tooltip_text(view->about, *text ? text : NULL);
+	tip_set(view->about, text);
 }
 
 static void show_value(LadderBoardView *view, enum row row, const char *text)
 {
 	gtk_label_set_text(GTK_LABEL(view->value[row]), text);
-	gtk_widget_set_tooltip_text(view->value[row], *text ? text : NULL);
+	tip_set(view->value[row], text);
 }
 
 /* "10000.0 us" is 10 ms. */

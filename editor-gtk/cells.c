@@ -5,17 +5,18 @@
 #include "editor-gtk/cells.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/tip.h"
 
 void cells_refuse(GtkWidget *cell, char *why)
 {
 	if (why) {
 		gtk_widget_add_css_class(cell, "error");
-		gtk_widget_set_tooltip_text(cell, why);
+		tip_set(cell, why);
 		gtk_accessible_update_state(GTK_ACCESSIBLE(cell),
 			GTK_ACCESSIBLE_STATE_INVALID, GTK_ACCESSIBLE_INVALID_TRUE, -1);
 	} else {
 		gtk_widget_remove_css_class(cell, "error");
-		gtk_widget_set_tooltip_text(cell, NULL);
+		tip_set(cell, NULL);
 		gtk_accessible_reset_state(GTK_ACCESSIBLE(cell),
 					   GTK_ACCESSIBLE_STATE_INVALID);
 	}

@@ -5,6 +5,7 @@
 #include "editor-gtk/chart_inside.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/popover.h"
 
 #include <adwaita.h>
 
@@ -305,15 +306,20 @@ static void do_line(GtkWidget *widget, const char *name, GVariant *unused)
 static void open_menu(GtkGestureClick *click, int count, double x, double y,
 		      LadderChartArea *area)
 {
+	GMenu *menu;
+
 	(void)click;
 	(void)count;
 	area->selected = line_at(area, y);
 	gtk_widget_queue_draw(GTK_WIDGET(area));
 	if (area->selected < 0)
 		return;
-	gtk_popover_set_pointing_to(GTK_POPOVER(area->menu),
-		&(GdkRectangle){ (int)x, (int)y, 1, 1 });
-	gtk_popover_popup(GTK_POPOVER(area->menu));
+	menu = g_menu_new();
+	g_menu_append(menu, _("Move up"), "line.up");
+	g_menu_append(menu, _("Move down"), "line.down");
+	g_menu_append(menu, _("Remove"), "line.remove");
+	popover_menu(GTK_WIDGET(area), menu, &(GdkRectangle){ (int)x, (int)y, 1, 1 },
+		     GTK_WIDGET(area));
 }
 
 /* ---- keys ---- */
@@ -373,14 +379,6 @@ static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 	chart_draw(LADDER_CHART_AREA(widget), snapshot);
 }
 
-static void area_allocate(GtkWidget *widget, int width, int height, int baseline)
-{
-	(void)width;
-	(void)height;
-	(void)baseline;
-	gtk_popover_present(GTK_POPOVER(LADDER_CHART_AREA(widget)->menu));
-}
-
 /* The ruler stays in sight. */
 static void watch_scrolling(LadderChartArea *area)
 {
@@ -407,7 +405,6 @@ static void ladder_chart_area_dispose(GObject *object)
 	LadderChartArea *area = LADDER_CHART_AREA(object);
 
 	g_clear_handle_id(&area->idle, g_source_remove);
-	g_clear_pointer(&area->menu, gtk_widget_unparent);
 	g_clear_pointer(&area->chart, chart_free);
 	g_clear_pointer(&area->lettering, lettering_free);
 	g_clear_object(&area->scrolled);
@@ -423,7 +420,6 @@ static void ladder_chart_area_class_init(LadderChartAreaClass *class)
 	G_OBJECT_CLASS(class)->dispose = ladder_chart_area_dispose;
 	widget->measure = area_measure;
 	widget->snapshot = area_snapshot;
-	widget->size_allocate = area_allocate;
 	widget->map = area_map;
 	gtk_widget_class_set_accessible_role(widget, GTK_ACCESSIBLE_ROLE_SLIDER);
 	gtk_widget_class_install_action(widget, "line.up", NULL, do_line);
@@ -447,16 +443,8 @@ static void add_drag(LadderChartArea *area, guint button, GCallback begin, GCall
 
 static void add_menu(LadderChartArea *area)
 {
-	GMenu *menu = g_menu_new();
 	GtkGesture *click = gtk_gesture_click_new();
 
-	g_menu_append(menu, _("Move up"), "line.up");
-	g_menu_append(menu, _("Move down"), "line.down");
-	g_menu_append(menu, _("Remove"), "line.remove");
-	area->menu = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
-	g_object_unref(menu);
-	gtk_widget_set_parent(area->menu, GTK_WIDGET(area));
-	gtk_popover_set_has_arrow(GTK_POPOVER(area->menu), FALSE);
 	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(click), GDK_BUTTON_SECONDARY);
 	g_signal_connect(click, "pressed", G_CALLBACK(open_menu), area);
 	gtk_widget_add_controller(GTK_WIDGET(area), GTK_EVENT_CONTROLLER(click));

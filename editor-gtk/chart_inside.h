@@ -27,7 +27,6 @@ struct _LadderChartArea {
 	double drag_x;            /* where a drag began                         */
 	double pan_ns;            /* right_ns when a pan began                  */
 	guint idle;               /* fills what is not there yet                */
-	GtkWidget *menu;
 	GtkAdjustment *scrolled;  /* up and down; NULL: not at all             */
 };
 

@@ -7,6 +7,7 @@
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/sfc_bodies.h"
 #include "editor-gtk/text_view.h"
+#include "editor-gtk/tip.h"
 
 struct _LadderChartPage {
 	GtkBox parent;
@@ -225,7 +226,7 @@ static void ladder_chart_page_init(LadderChartPage *page)
 	page->place = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
 	page->heading = GTK_LABEL(gtk_label_new(""));
 	close = gtk_button_new_from_icon_name("window-close-symbolic");
-	gtk_widget_set_tooltip_text(close, _("Close"));
+	tip_set(close, _("Close"));
 	gtk_accessible_update_property(GTK_ACCESSIBLE(close),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Close"), -1);
 	gtk_widget_add_css_class(close, "flat");

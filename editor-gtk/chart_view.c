@@ -6,6 +6,7 @@
 
 #include "editor-gtk/chart_kept.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/tip.h"
 #include "editor-gtk/watch_names.h"
 
 #include "engine/trial/value.h"
@@ -318,7 +319,7 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 
 static void name_button(GtkWidget *button, const char *name)
 {
-	gtk_widget_set_tooltip_text(button, name);
+	tip_set(button, name);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 	gtk_widget_add_css_class(button, "flat");

@@ -7,6 +7,7 @@
 
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/panel.h"
+#include "editor-gtk/tip.h"
 
 #include <string.h>
 
@@ -50,7 +51,7 @@ static struct find_options options_of(LadderFindBar *bar)
 static void set_message(LadderFindBar *bar, const char *text, bool error)
 {
 	gtk_label_set_text(GTK_LABEL(bar->message), text);
-	gtk_widget_set_tooltip_text(bar->message, *text ? text : NULL);
+	tip_set(bar->message, text);
 	if (error)
 		gtk_widget_add_css_class(bar->message, "error");
 	else

@@ -7,6 +7,7 @@
 #include "editor-gtk/cells.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/popover.h"
+#include "editor-gtk/tip.h"
 
 #include <string.h>
 
@@ -401,7 +402,7 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer
 static void bind_entry(GtkWidget *cell, GtkListItem *item, const char *text)
 {
 	gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	gtk_widget_set_tooltip_text(cell, *text ? text : NULL);
+	tip_set(cell, text);
 	g_object_set_data(G_OBJECT(cell), "refused", NULL);
 	g_signal_connect(cell, "activate", G_CALLBACK(activated), item);
 	g_signal_connect(cell, "icon-press", G_CALLBACK(icon_pressed), item);

@@ -6,6 +6,7 @@
 
 #include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/tip.h"
 
 #include <string.h>
 
@@ -36,7 +37,7 @@ static void show_message(LadderIomapView *view)
 					     view->said_wrong);
 
 	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
-	gtk_widget_set_tooltip_text(view->message, text);
+	tip_set(view->message, text);
 	gtk_widget_set_visible(view->message, text != NULL);
 	gtk_widget_remove_css_class(view->message, wrong ? "dim-label" : "error");
 	gtk_widget_add_css_class(view->message, wrong ? "error" : "dim-label");

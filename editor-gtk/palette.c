@@ -7,6 +7,7 @@
 #include "editor-gtk/grid_draw.h"
 #include "editor-gtk/grid_view.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/tip.h"
 
 #include <adwaita.h>
 #include <string.h>
@@ -142,7 +143,7 @@ static GtkWidget *tile_new(const struct word_row *row, enum word word)
 	gtk_button_set_child(GTK_BUTTON(button), box);
 	tip = g_strdup_printf("%s: %s%s%s", name, said(words_explain(row)),
 			      key ? " · " : "", key ? key : "");
-	gtk_widget_set_tooltip_text(button, tip);
+	tip_set(button, tip);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
 	gtk_widget_set_focus_on_click(button, FALSE);

@@ -5,6 +5,7 @@
 #include "editor-gtk/panel.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/tip.h"
 
 /* ---- cells ---- */
 
@@ -49,7 +50,7 @@ static void bind_label(GtkSignalListItemFactory *factory, GtkListItem *item,
 
 	(void)factory;
 	gtk_label_set_text(GTK_LABEL(label), text);
-	gtk_widget_set_tooltip_text(label, *text ? text : NULL);
+	tip_set(label, text);
 	panel_speak(label, row);
 }
 
@@ -74,7 +75,7 @@ static void bind_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
 	if (row->tone != PANEL_PLAIN)
 		gtk_widget_add_css_class(image, row->tone == PANEL_ERROR ? "error" :
 					 "warning");
-	gtk_widget_set_tooltip_text(image, row->note);
+	tip_set(image, row->note);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(image), GTK_ACCESSIBLE_PROPERTY_LABEL,
 		row->note ? row->note : row->tone == PANEL_ERROR ? _("Error") :
 		row->tone == PANEL_WARNING ? _("Warning") : "", -1);

@@ -39,3 +39,19 @@ void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWid
 	gtk_popover_popup(GTK_POPOVER(popover));
 	g_object_unref(menu);
 }
+
+static void make_menu(GtkMenuButton *button, gpointer make)
+{
+	GMenu *menu;
+
+	if (gtk_menu_button_get_menu_model(button))
+		return;
+	menu = ((GMenu *(*)(void))make)();
+	gtk_menu_button_set_menu_model(button, G_MENU_MODEL(menu));
+	g_object_unref(menu);
+}
+
+void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void))
+{
+	gtk_menu_button_set_create_popup_func(button, make_menu, (gpointer)make, NULL);
+}

@@ -17,5 +17,8 @@ void popover_drop_later(GtkWidget *popover);
 /** popover_menu - opens @menu, which it takes, at @at of @parent; it is gone when it closes,
  * and the keys go to @then: GTK gives them back only to what had them when the menu was drawn. */
 void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWidget *then);
+/** popover_menu_of - what @button opens is made by @make, which gives it away, the first time:
+ * most menus are never seen. */
+void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void));
 
 #endif

@@ -12,6 +12,7 @@
 #include "editor-gtk/popover.h"
 #include "editor-gtk/pou_edit.h"
 #include "editor-gtk/pou_import.h"
+#include "editor-gtk/tip.h"
 #include "editor-gtk/tree_rows.h"
 
 #include <string.h>
@@ -234,17 +235,15 @@ static void add_actions(struct tree *tree, GtkWidget *panel)
 
 static GtkWidget *menu_new(void)
 {
-	GMenu *menu = menu_model();
 	GtkWidget *button = gtk_menu_button_new();
 
-	gtk_menu_button_set_menu_model(GTK_MENU_BUTTON(button), G_MENU_MODEL(menu));
+	popover_menu_of(GTK_MENU_BUTTON(button), menu_model);
 	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
-	gtk_widget_set_tooltip_text(button, _("Add, rename or delete"));
+	tip_set(button, _("Add, rename or delete"));
 	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL,
 				       _("Add, rename or delete"), -1);
 	gtk_widget_add_css_class(button, "flat");
-	g_object_unref(menu);
 	return button;
 }
 
@@ -331,7 +330,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 	(void)factory;
 	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(expander), list_row);
 	gtk_label_set_text(GTK_LABEL(text), row->text);
-	gtk_widget_set_tooltip_text(text, row->text);
+	tip_set(text, row->text);
 	gtk_label_set_text(GTK_LABEL(note), row->note ? row->note : "");
 	gtk_label_set_ellipsize(GTK_LABEL(note), PANGO_ELLIPSIZE_END);
 	g_object_unref(row);

@@ -8,6 +8,7 @@
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/panel.h"
 #include "editor-gtk/report_lines.h"
+#include "editor-gtk/tip.h"
 
 struct _LadderReportView {
 	GtkWidget parent_instance;
@@ -55,7 +56,7 @@ static void refresh(GtkWidget *widget)
 	g_free(view->said);
 	view->said = report_lines_title(name, rows);
 	gtk_label_set_text(GTK_LABEL(view->title), view->said);
-	gtk_widget_set_tooltip_text(view->title, view->said);
+	tip_set(view->title, view->said);
 	gtk_widget_set_visible(view->picture_place, view->origin != NULL);
 	if (view->origin)
 		show_picture(view, view->shown);

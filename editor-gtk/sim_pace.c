@@ -5,6 +5,7 @@
 #include "editor-gtk/sim_pace.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/tip.h"
 
 #define SLOWEST 1
 #define FASTEST 50 /* scans a second of slow motion                             */
@@ -33,7 +34,7 @@ static void show_plant(struct pace *pace)
 	char *name = path ? g_path_get_basename(path) : g_strdup(_("none"));
 
 	gtk_label_set_text(pace->plant, name);
-	gtk_widget_set_tooltip_text(GTK_WIDGET(pace->plant), path);
+	tip_set(GTK_WIDGET(pace->plant), path);
 	g_free(name);
 }
 

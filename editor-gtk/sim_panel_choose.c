@@ -8,6 +8,7 @@
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/popover.h"
 #include "editor-gtk/sim_panel_kept.h"
+#include "editor-gtk/tip.h"
 
 /* ---- kept ---- */
 
@@ -206,7 +207,7 @@ static void range_given(GtkWidget *entry, LadderSimPanel *panel)
 	draft->high = number_in(high, &good[1]);
 	if (!good[0] || !good[1] || draft->low >= draft->high) {
 		gtk_widget_add_css_class(entry, "error");
-		gtk_widget_set_tooltip_text(entry, _("From a number to a larger one"));
+		tip_set(entry, _("From a number to a larger one"));
 		g_object_unref(draft);
 		return;
 	}

@@ -8,6 +8,7 @@
 #include "editor-gtk/sim_panel_view_inside.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/tip.h"
 
 static struct location place_of(const LadderSimRowView *view)
 {
@@ -41,7 +42,7 @@ static void mark_bad(LadderSimRowView *view, bool bad)
 		gtk_widget_add_css_class(view->entry, "error");
 	else
 		gtk_widget_remove_css_class(view->entry, "error");
-	gtk_widget_set_tooltip_text(view->entry, why);
+	tip_set(view->entry, why);
 	gtk_accessible_update_state(GTK_ACCESSIBLE(view->entry), GTK_ACCESSIBLE_STATE_INVALID,
 				    bad ? GTK_ACCESSIBLE_INVALID_TRUE :
 					  GTK_ACCESSIBLE_INVALID_FALSE, -1);

@@ -6,6 +6,7 @@
 #include "editor-gtk/sim_panel_view_inside.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/tip.h"
 
 #include <string.h>
 
@@ -244,7 +245,7 @@ static void show_heading(LadderSimRowView *view)
 	gtk_list_item_set_activatable(view->item, TRUE);
 	gtk_label_set_text(GTK_LABEL(view->title), name);
 	gtk_label_set_text(GTK_LABEL(view->where), row->place ? row->place : "");
-	gtk_widget_set_tooltip_text(view->where, row->place);
+	tip_set(view->where, row->place);
 	gtk_image_set_from_icon_name(GTK_IMAGE(view->arrow), row->folded ?
 				     "pan-end-symbolic" : "pan-down-symbolic");
 	gtk_accessible_update_property(GTK_ACCESSIBLE(view), GTK_ACCESSIBLE_PROPERTY_LABEL,
@@ -278,9 +279,9 @@ static void show_line(LadderSimRowView *view)
 	gtk_widget_set_visible(view->bar, row->kind == SIM_PRESET || row->kind == SIM_LEVEL);
 	gtk_widget_set_visible(view->scale, row->kind == SIM_SLIDER);
 	gtk_widget_set_sensitive(view->scale, !row->driven);
-	gtk_widget_set_tooltip_text(view->name, tooltip);
-	gtk_widget_set_tooltip_text(view->address, tooltip);
-	gtk_widget_set_tooltip_text(view->pin, tooltip);
+	tip_set(view->name, tooltip);
+	tip_set(view->address, tooltip);
+	tip_set(view->pin, tooltip);
 	g_free(tooltip);
 	gtk_list_item_set_activatable(view->item, !bit);
 	show_range(view);
@@ -525,7 +526,7 @@ static void add_line(LadderSimRowView *view)
 	gtk_widget_set_valign(view->tag, GTK_ALIGN_CENTER);
 	view->badge = add_label(view->line, "sim-forced", false);
 	gtk_label_set_text(GTK_LABEL(view->badge), "F");
-	gtk_widget_set_tooltip_text(view->badge, _("Forced"));
+	tip_set(view->badge, _("Forced"));
 	gtk_widget_set_valign(view->badge, GTK_ALIGN_CENTER);
 	view->value = add_label(view->line, "sim-value", false);
 	gtk_label_set_xalign(GTK_LABEL(view->value), 1);

@@ -5,6 +5,7 @@
 #include "editor-gtk/symbols_cells.h"
 
 #include "editor-gtk/cells.h"
+#include "editor-gtk/tip.h"
 
 #include <string.h>
 
@@ -156,7 +157,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);
 	} else {
 		gtk_editable_set_text(GTK_EDITABLE(cell), text);
-		gtk_widget_set_tooltip_text(cell, *text ? text : NULL);
+		tip_set(cell, text);
 		g_object_set_data(G_OBJECT(cell), "refused", NULL);
 		connect_text(cell, item);
 	}

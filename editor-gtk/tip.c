@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define COLUMNS 60          /* of a line                                       */
+#define TIP     "tip"       /* of a widget                                     */
 #define UNSEEN  0x2060      /* WORD JOINER: a character without width          */
 
 static int columns_of(gunichar c)
@@ -88,14 +89,34 @@ static gboolean query_tooltip(GtkWidget *widget, int x, int y, gboolean by_keys,
 			      GtkTooltip *tooltip)
 {
 	const char *markup = gtk_widget_get_tooltip_markup(widget);
+	const char *text = g_object_get_data(G_OBJECT(widget), TIP);
 
 	(void)x;
 	(void)y;
 	(void)by_keys;
+	if (text)
+		return tip_show(tooltip, text);
 	if (gtk_widget_get_tooltip_text(widget))
 		return tip_show(tooltip, gtk_widget_get_tooltip_text(widget));
 	gtk_tooltip_set_markup(tooltip, markup);
 	return markup != NULL;
+}
+
+void tip_set(GtkWidget *widget, const char *text)
+{
+	if (text && !*text)
+		text = NULL;
+	if (g_strcmp0(g_object_get_data(G_OBJECT(widget), TIP), text) == 0)
+		return;
+	g_object_set_data_full(G_OBJECT(widget), TIP, g_strdup(text), g_free);
+	if (!text)
+		text = gtk_widget_get_tooltip_text(widget);
+	gtk_widget_set_has_tooltip(widget, text != NULL);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(widget),
+				       GTK_ACCESSIBLE_PROPERTY_DESCRIPTION,
+				       text ? text : "", -1);
+	if (gtk_widget_get_state_flags(widget) & GTK_STATE_FLAG_PRELIGHT)
+		gtk_widget_trigger_tooltip_query(widget);
 }
 
 void tip_init(void)

@@ -25,6 +25,16 @@ char *tip_text(const char *text);
 /** tip_show - what a handler of query-tooltip says; @text: NULL for nothing. */
 gboolean tip_show(GtkTooltip *tooltip, const char *text);
 
+/**
+ * tip_set - the tooltip of a widget, which describes it to a reader, too; NULL or "": none,
+ * or that of its file.
+ *
+ * The toolkit's own function waits in GTK 4.8 for the X server to say where the pointer is,
+ * each time: a list would wait for each cell that it shows. Here only that of a widget which
+ * the pointer is on is looked at again.
+ */
+void tip_set(GtkWidget *widget, const char *text);
+
 /** tip_init - the tooltips of all widgets whose class is not in use yet stand so. */
 void tip_init(void);
 

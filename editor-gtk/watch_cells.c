@@ -6,6 +6,7 @@
  * that changes goes to its label and to nothing else.
  */
 #include "editor-gtk/watch_inside.h"
+#include "editor-gtk/tip.h"
 
 #include <string.h>
 
@@ -47,7 +48,7 @@ static void show_value(LadderWatchRow *row)
 	char *text = watch_row_value(row);
 
 	gtk_label_set_text(GTK_LABEL(row->value), text);
-	gtk_widget_set_tooltip_text(row->value, *text ? text : NULL);
+	tip_set(row->value, text);
 	g_free(text);
 }
 
@@ -216,7 +217,7 @@ static void bind_name(GtkWidget *cell, LadderWatchRow *row)
 	gtk_label_set_text(GTK_LABEL(cell), row->line->name);
 	set_class(cell, "error", unknown);
 	set_class(cell, "watch-unknown", unknown);
-	gtk_widget_set_tooltip_text(cell, tip ? tip : row->line->name);
+	tip_set(cell, tip ? tip : row->line->name);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(cell), GTK_ACCESSIBLE_PROPERTY_LABEL,
 				       tip ? tip : row->line->name, -1);
 	g_free(tip);
@@ -254,7 +255,7 @@ static void bind_comment(GtkWidget *cell, LadderWatchRow *row, GtkListItem *item
 	GtkEventController *focus = gtk_event_controller_focus_new();
 
 	gtk_editable_set_text(GTK_EDITABLE(cell), row->line->comment);
-	gtk_widget_set_tooltip_text(cell, *row->line->comment ? row->line->comment : NULL);
+	tip_set(cell, row->line->comment);
 	name_cell(cell, row, COMMENT);
 	g_signal_connect(cell, "activate", G_CALLBACK(comment_activated), item);
 	g_signal_connect(focus, "leave", G_CALLBACK(comment_unfocused), item);

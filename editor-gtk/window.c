@@ -7,6 +7,7 @@
 #include "editor-gtk/chart_view.h"
 #include "editor-gtk/palette.h"
 #include "editor-gtk/panels.h"
+#include "editor-gtk/popover.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/settings.h"
 #include "editor-gtk/spoken.h"
@@ -36,7 +37,7 @@ void ladder_window_tell(LadderWindow *window, const char *text)
 	if (!text[0] && window->keys_text)
 		text = window->keys_text;
 	gtk_label_set_text(window->message_label, text);
-	gtk_widget_set_tooltip_text(GTK_WIDGET(window->message_label), text);
+	tip_set(GTK_WIDGET(window->message_label), text);
 }
 
 void window_show_keys(LadderWindow *window, char *text)
@@ -97,7 +98,7 @@ static void name_button(GtkButton *button, const char *verb, const char *step)
 {
 	char *text = step ? g_strdup_printf("%s: %s", verb, step) : g_strdup(verb);
 
-	gtk_widget_set_tooltip_text(GTK_WIDGET(button), text);
+	tip_set(GTK_WIDGET(button), text);
 	g_free(text);
 }
 
@@ -308,12 +309,8 @@ static void ladder_window_class_init(LadderWindowClass *class)
 
 static void ladder_window_init(LadderWindow *window)
 {
-	GMenuModel *menu;
-
 	gtk_widget_init_template(GTK_WIDGET(window));
-	menu = window_menu();
-	gtk_menu_button_set_menu_model(window->menu_button, menu);
-	g_object_unref(menu);
+	popover_menu_of(window->menu_button, window_menu);
 	g_signal_connect_swapped(window->banner_button, "clicked",
 				 G_CALLBACK(banner_clicked), window);
 	g_signal_connect_swapped(window->banner_close, "clicked",

@@ -395,7 +395,7 @@ void window_install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
 }
 
-GMenuModel *window_menu(void)
+GMenu *window_menu(void)
 {
 	GMenu *menu = g_menu_new();
 
@@ -410,5 +410,5 @@ GMenuModel *window_menu(void)
 				      G_MENU_MODEL(part));
 		g_object_unref(part);
 	}
-	return G_MENU_MODEL(menu);
+	return menu;
 }

@@ -115,8 +115,8 @@ bool window_older_by(LadderWindow *window, int by);
 
 /* ---- window_actions.c ---- */
 void window_install_actions(GtkWidgetClass *class);
-/** window_menu - the main menu, of the rows of verbs.def. */
-GMenuModel *window_menu(void);
+/** window_menu - the main menu, of the rows of verbs.def. Caller: g_object_unref. */
+GMenu *window_menu(void);
 
 /* ---- window_names.c: of the name at the cursor ---- */
 void names_go_driver(LadderWindow *window);

@@ -9,6 +9,7 @@
 #include "editor-gtk/file_marks.h"
 #include "editor-gtk/panels.h"
 #include "editor-gtk/scenario_view.h"
+#include "editor-gtk/tip.h"
 
 #include <string.h>
 
@@ -273,7 +274,7 @@ static void show_recorder(LadderWindow *window)
 			       ladder_recorder_acts(window->recorder), expects);
 	if (g_strcmp0(gtk_button_get_label(window->record_button), text) != 0)
 		gtk_button_set_label(window->record_button, text);
-	gtk_widget_set_tooltip_text(GTK_WIDGET(window->record_button), _("End recording"));
+	tip_set(GTK_WIDGET(window->record_button), _("End recording"));
 	g_free(text);
 }
 

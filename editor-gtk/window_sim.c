@@ -9,6 +9,7 @@
 #include "editor-gtk/problems.h"
 #include "editor-gtk/sim_pace.h"
 #include "editor-gtk/sim_panel.h"
+#include "editor-gtk/tip.h"
 
 #define WHEN_US 200000 /* the title tells the time so often                      */
 
@@ -92,7 +93,7 @@ static void show_buttons(LadderWindow *window)
 	gtk_widget_set_visible(GTK_WIDGET(window->sim_buttons), on);
 	gtk_button_set_icon_name(window->run_button, run ? "media-playback-pause-symbolic" :
 				 "media-playback-start-symbolic");
-	gtk_widget_set_tooltip_text(GTK_WIDGET(window->run_button), name);
+	tip_set(GTK_WIDGET(window->run_button), name);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(window->run_button),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
 	gtk_toggle_button_set_active(on ? window->simulate_mode : window->edit_mode, TRUE);
@@ -303,7 +304,7 @@ void window_sim_init(LadderWindow *window)
 	gtk_box_append(window->right, panel);
 	window_why_init(window);
 	window_older_init(window);
-	gtk_widget_set_tooltip_text(GTK_WIDGET(window->forces_button),
+	tip_set(GTK_WIDGET(window->forces_button),
 				    _("Release all forces"));
 	gtk_menu_button_set_popover(window->pace_button, sim_pace_new(sim));
 	g_signal_connect_object(sim, "state-changed", G_CALLBACK(state_changed), window,

@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import ROLES, Editor, main, new_file, until  # noqa: E402
+from desk import A11Y, ROLES, Editor, main, new_file, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 
@@ -30,6 +30,25 @@ def nameless(editor):
     names = [node for node in found if not node.name or node.name.startswith(('Gtk', 'Adw', '_'))]
     return sorted({'%d %s' % (node.role, node.name) for node in names
                    if node.name != 'GtkColumnViewCell' and node.box()[2] > 0})
+
+
+def described(editor, node):
+    """What a reader says after the name: what the tooltip shows."""
+    return editor.bus.call_blocking(editor.name, node.path, 'org.freedesktop.DBus.Properties', 'Get', 'ss',
+                                    (A11Y + 'Accessible', 'Description'))
+
+
+def tips(screen):
+    """what a tooltip shows describes its widget, also what changes: a tile, a button without a text"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    assert 'closed while FALSE' in described(editor, editor.tile('NC'))
+    undo = editor.find('Undo', 'push button')
+    assert described(editor, undo) == 'Undo', described(editor, undo)
+    editor.keys('Insert')
+    until(lambda: described(editor, undo).startswith('Undo: '), 'the name of the step')
+    editor.keys('ctrl+z')
+    until(lambda: described(editor, undo) == 'Undo', 'nothing to be undone')
 
 
 def window(screen):
@@ -58,4 +77,4 @@ def simulated(screen):
     assert not nameless(editor), nameless(editor)
 
 
-main([window, simulated])
+main([window, simulated, tips])
