@@ -94,7 +94,8 @@ static void program_changed(LadderChartView *view)
 {
 	struct chart *chart = ladder_chart_area_chart(view->area);
 
-	if (view->chosen || !ladder_sim_is_on(view->sim) || ladder_sim_is_past(view->sim))
+	if (view->chosen || !ladder_sim_is_on(view->sim) ||
+	    (ladder_sim_is_past(view->sim) && chart_lines(chart)))
 		return;
 	view->compared = 0;
 	each_name(view, compare_first);
@@ -418,5 +419,6 @@ GtkWidget *ladder_chart_view_new(LadderSim *sim)
 	g_signal_connect_swapped(document_of(view), "project-changed",
 				 G_CALLBACK(read_kept), view);
 	read_kept(view);
+	program_changed(view); /* one may be running already */
 	return GTK_WIDGET(view);
 }

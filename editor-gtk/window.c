@@ -4,17 +4,13 @@
  */
 #include "editor-gtk/window_inside.h"
 
-#include "editor-gtk/chart_view.h"
 #include "editor-gtk/palette.h"
 #include "editor-gtk/panels.h"
 #include "editor-gtk/popover.h"
-#include "editor-gtk/problems.h"
 #include "editor-gtk/settings.h"
 #include "editor-gtk/spoken.h"
 #include "editor-gtk/still.h"
 #include "editor-gtk/tip.h"
-#include "editor-gtk/uses_view.h"
-#include "editor-gtk/watch_view.h"
 
 #include <string.h>
 
@@ -171,45 +167,15 @@ bool ladder_window_is_untouched(LadderWindow *window)
 
 /* ---- panels ---- */
 
-static void add_below(LadderWindow *window, GtkWidget *panel, const char *name,
-		      const char *title)
-{
-	gtk_stack_add_titled(window->below_stack, panel, name, title);
-}
-
-/* A tab whose name tells how much is in it. */
-static void show_problems_title(LadderWindow *window)
-{
-	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
-
-	gtk_stack_page_set_title(gtk_stack_get_page(window->below_stack, problems),
-				 ladder_problems_title(LADDER_PROBLEMS(problems)));
-}
-
 static void add_panels(LadderWindow *window)
 {
-	LadderDocument *document = window->document;
-	GtkWidget *problems = ladder_problems_new(), *uses = ladder_uses_view_new();
-
-	window->tree = ladder_project_tree_new(document);
+	window->tree = ladder_project_tree_new(window->document);
 	gtk_paned_set_start_child(window->side, ladder_still_new(window->tree));
-	window->palette = ladder_palette_new(document);
+	window->palette = ladder_palette_new(window->document);
 	gtk_paned_set_end_child(window->side, ladder_still_new(window->palette));
 	gtk_paned_set_position(window->side, 230);
-	add_below(window, problems, "problems", _("Problems"));
-	ladder_problems_set_document(LADDER_PROBLEMS(problems), document);
-	g_signal_connect_object(problems, "title-changed", G_CALLBACK(show_problems_title),
-				window, G_CONNECT_SWAPPED);
-	add_below(window, uses, "uses", _("Cross reference"));
-	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), document);
-	add_below(window, ladder_watch_view_new(document, window->sim), "watch",
-		  _("Status chart"));
-	add_below(window, ladder_chart_view_new(window->sim), "chart", _("Timing chart"));
-	add_below(window, window_scenario_init(window), "scenarios", _("Scenarios"));
-	add_below(window, ladder_code_view_new(document), "list", _("Instruction list"));
-	add_below(window, ladder_log_view_new(document), "log", _("Log"));
-	add_below(window, window_report_new(window), "report", _("Report"));
-	window_report_hide(window);
+	window_scenario_init(window);
+	below_init(window);
 	gtk_paned_set_position(window->below_paned, 620);
 	window_find_init(window);
 	window_sim_init(window);

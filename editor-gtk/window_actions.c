@@ -70,7 +70,7 @@ static void do_rename(LadderWindow *window)
 
 static void do_next_problem(LadderWindow *window)
 {
-	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
+	GtkWidget *problems = below_panel(window, "problems");
 
 	if (!ladder_problems_next(LADDER_PROBLEMS(problems), false))
 		ladder_window_tell(window, _("no problems"));

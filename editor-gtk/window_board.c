@@ -76,13 +76,7 @@ void window_new_iomap(LadderWindow *window)
 
 static LadderBoardView *board_view(LadderWindow *window)
 {
-	return LADDER_BOARD_VIEW(gtk_stack_get_child_by_name(window->below_stack, "board"));
-}
-
-static void show_board(LadderWindow *window)
-{
-	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
-	gtk_stack_set_visible_child_name(window->below_stack, "board");
+	return LADDER_BOARD_VIEW(below_panel(window, "board"));
 }
 
 const char *window_board_pill(LadderWindow *window, const char **class)
@@ -104,7 +98,7 @@ static void start(LadderWindow *window)
 	char *name = map ? g_path_get_basename(map) : g_strdup(""), *text;
 	GError *error = NULL;
 
-	show_board(window);
+	below_show(window, "board");
 	window_banner_close(window);
 	if (ladder_board_run_start(window->board, path, map, &error)) {
 		text = g_strdup_printf(_("Started with %s"), name);
@@ -211,15 +205,11 @@ static void ask(LadderWindow *window, const char *map, int inputs, int outputs)
 /* The problems come to the front if there are errors. */
 static bool is_sound(LadderWindow *window)
 {
-	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
-
 	ladder_document_check_now(window->document);
 	if (ladder_document_project(window->document) &&
 	    !ladder_document_diags(window->document)->errors)
 		return true;
-	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
-	gtk_stack_set_visible_child(window->below_stack, problems);
-	ladder_problems_next(LADDER_PROBLEMS(problems), false);
+	ladder_problems_next(LADDER_PROBLEMS(below_show(window, "problems")), false);
 	ladder_window_tell(window, _("A program with errors cannot be run"));
 	return false;
 }
@@ -231,7 +221,7 @@ void window_run_board(LadderWindow *window)
 	int inputs, outputs;
 
 	if (ladder_board_run_state(window->board) != BOARD_OFF) {
-		show_board(window);
+		below_show(window, "board");
 		ladder_window_tell(window, _("It runs on this machine already"));
 		return;
 	}
@@ -259,7 +249,7 @@ void window_run_board(LadderWindow *window)
 
 void window_stop_board(LadderWindow *window)
 {
-	show_board(window);
+	below_show(window, "board");
 	ladder_board_run_stop(window->board);
 }
 
@@ -318,18 +308,20 @@ static void board_changed(LadderWindow *window)
 static void board_ended(LadderWindow *window, int status)
 {
 	if (status != 0 && !window->board_ran) {
-		show_board(window);
+		below_show(window, "board");
 		ladder_window_warn(window, _("It was not run: ladderd says why, below."));
 	}
 	if (window->close_after_board)
 		gtk_window_close(GTK_WINDOW(window));
 }
 
+GtkWidget *window_board_new(LadderWindow *window)
+{
+	return ladder_board_view_new(window->board, window->document);
+}
+
 void window_board_init(LadderWindow *window)
 {
-	GtkWidget *view = ladder_board_view_new(window->board, window->document);
-
-	gtk_stack_add_titled(window->below_stack, view, "board", _("Board"));
 	g_signal_connect_object(window->board, "changed", G_CALLBACK(board_changed), window,
 				G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->board, "ended", G_CALLBACK(board_ended), window,

@@ -18,14 +18,7 @@
 
 static LadderReportView *report_of(LadderWindow *window)
 {
-	return LADDER_REPORT_VIEW(gtk_stack_get_child_by_name(window->below_stack,
-							      "report"));
-}
-
-static void set_visible(LadderWindow *window, bool visible)
-{
-	gtk_stack_page_set_visible(gtk_stack_get_page(window->below_stack,
-		GTK_WIDGET(report_of(window))), visible);
+	return LADDER_REPORT_VIEW(below_panel(window, "report"));
 }
 
 /* ---- the panel ---- */
@@ -41,9 +34,8 @@ static void make_room(LadderWindow *window)
 
 static void show_panel(LadderWindow *window)
 {
-	set_visible(window, true);
-	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
-	gtk_stack_set_visible_child(window->below_stack, GTK_WIDGET(report_of(window)));
+	below_offer(window, "report", true);
+	below_show(window, "report");
 	make_room(window);
 }
 
@@ -52,7 +44,7 @@ static void close_panel(LadderWindow *window)
 	LadderGridView *sheet = tabs_sheet(window);
 
 	gtk_stack_set_visible_child_name(window->below_stack, "problems");
-	set_visible(window, false);
+	below_offer(window, "report", false);
 	if (sheet)
 		gtk_widget_grab_focus(GTK_WIDGET(sheet));
 }
@@ -68,7 +60,7 @@ static void follow(LadderWindow *window)
 
 void window_show_report(LadderWindow *window)
 {
-	if (!ladder_report_view_has(report_of(window))) {
+	if (!below_made(window, "report") || !ladder_report_view_has(report_of(window))) {
 		ladder_window_tell(window, _("Nothing was taken from ClassicLadder or "
 					     "written for it."));
 		return;
@@ -80,7 +72,9 @@ void window_show_report(LadderWindow *window)
 
 void window_follow_original(LadderWindow *window)
 {
-	if (gtk_widget_get_mapped(GTK_WIDGET(report_of(window))))
+	GtkWidget *report = below_made(window, "report");
+
+	if (report && gtk_widget_get_mapped(report))
 		follow(window);
 }
 
@@ -109,16 +103,11 @@ GtkWidget *window_report_new(LadderWindow *window)
 	return report;
 }
 
-void window_report_hide(LadderWindow *window)
-{
-	set_visible(window, false);
-}
-
 void ladder_window_set_classic(LadderWindow *window, LadderOrigin *origin)
 {
 	g_set_object(&window->classic, origin);
 	ladder_report_view_import(report_of(window), origin);
-	set_visible(window, true);
+	below_offer(window, "report", true);
 	window_banner(window, ladder_report_view_title(report_of(window)), _("Show report"),
 		      window_show_report);
 }

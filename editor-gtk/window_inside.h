@@ -70,6 +70,17 @@ void window_show_keys(LadderWindow *window, char *text);
 /** window_show_state - title, undo, redo, status. */
 void window_show_state(LadderWindow *window);
 
+/* ---- window_below.c: the panels below the sheets ---- */
+void below_init(LadderWindow *window);
+/** below_panel - by the name of its tab; made now, if nobody has seen it yet. Borrowed. */
+GtkWidget *below_panel(LadderWindow *window, const char *name);
+/** below_made - the same; NULL: nobody has seen it yet. */
+GtkWidget *below_made(LadderWindow *window, const char *name);
+/** below_show - the same, brought to the front. */
+GtkWidget *below_show(LadderWindow *window, const char *name);
+/** below_offer - whether it has a tab to be seen by. */
+void below_offer(LadderWindow *window, const char *name, bool offered);
+
 /* ---- window_tabs.c ---- */
 void tabs_init(LadderWindow *window);
 /** tabs_update - those there should be: POUs may have come and gone. */
@@ -157,9 +168,8 @@ void window_save_named(LadderWindow *window, const char *path, const char *endin
 		       void (*save)(LadderWindow *window, const char *path));
 
 /* ---- window_classic.c ---- */
-/** window_report_new - the panel, to be hidden when it is in its place. */
+/** window_report_new - the panel; it is offered when there is a report. */
 GtkWidget *window_report_new(LadderWindow *window);
-void window_report_hide(LadderWindow *window);
 void window_show_report(LadderWindow *window);
 /** window_show_original - of the rung at the cursor; from then on it follows. */
 void window_show_original(LadderWindow *window);
@@ -194,8 +204,10 @@ void window_show_pill(LadderWindow *window);
 bool window_sim(LadderWindow *window, enum verb verb);
 
 /* ---- window_scenario.c ---- */
-/** window_scenario_init - makes the recorder, and the panel of scenarios that it returns. */
-GtkWidget *window_scenario_init(LadderWindow *window);
+/** window_scenario_init - makes the recorder. */
+void window_scenario_init(LadderWindow *window);
+/** window_scenario_new - the panel of scenarios. */
+GtkWidget *window_scenario_new(LadderWindow *window);
 /** window_scenario - the verbs of scenarios; false: it is none of them. */
 bool window_scenario(LadderWindow *window, enum verb verb);
 /** window_expect - while it records: that variable is to have the value it has. */
@@ -205,6 +217,8 @@ void window_expect(LadderWindow *window, const char *name);
 /** window_new_iomap - asks for a file, and opens it: a point for all that is used. */
 void window_new_iomap(LadderWindow *window);
 void window_board_init(LadderWindow *window);
+/** window_board_new - the panel of what runs on this machine. */
+GtkWidget *window_board_new(LadderWindow *window);
 /** window_run_board - with the map in front, or the one chosen below; asks before pins are
  * driven or files are written. */
 void window_run_board(LadderWindow *window);

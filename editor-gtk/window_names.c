@@ -245,23 +245,19 @@ char *names_at_cursor(LadderWindow *window)
 
 void names_show_uses(LadderWindow *window)
 {
-	GtkWidget *uses = gtk_stack_get_child_by_name(window->below_stack, "uses");
 	char *name = names_at_cursor(window);
 
 	if (name)
 		names_show_uses_of(window, name);
 	else
-		ladder_uses_view_set_mode(LADDER_USES_VIEW(uses), USES_ALL);
+		ladder_uses_view_set_mode(LADDER_USES_VIEW(below_show(window, "uses")),
+					  USES_ALL);
 	g_free(name);
 }
 
 void names_watch_this(LadderWindow *window, const char *name)
 {
-	GtkWidget *watch = gtk_stack_get_child_by_name(window->below_stack, "watch");
-
-	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
-	gtk_stack_set_visible_child(window->below_stack, watch);
-	ladder_watch_view_add(LADDER_WATCH_VIEW(watch), name);
+	ladder_watch_view_add(LADDER_WATCH_VIEW(below_show(window, "watch")), name);
 }
 
 static bool at_step(LadderWindow *window)
@@ -289,10 +285,8 @@ void names_watch(LadderWindow *window)
 
 void names_show_uses_of(LadderWindow *window, const char *name)
 {
-	GtkWidget *uses = gtk_stack_get_child_by_name(window->below_stack, "uses");
+	GtkWidget *uses = below_show(window, "uses");
 
-	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
-	gtk_stack_set_visible_child(window->below_stack, uses);
 	ladder_uses_view_set_symbol(LADDER_USES_VIEW(uses), -1, name);
 	ladder_uses_view_set_mode(LADDER_USES_VIEW(uses), USES_SYMBOL);
 }

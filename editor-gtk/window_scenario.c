@@ -17,14 +17,7 @@
 
 static LadderScenarioView *view_of(LadderWindow *window)
 {
-	return LADDER_SCENARIO_VIEW(gtk_stack_get_child_by_name(window->below_stack,
-								"scenarios"));
-}
-
-static void show_view(LadderWindow *window)
-{
-	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
-	gtk_stack_set_visible_child_name(window->below_stack, "scenarios");
+	return LADDER_SCENARIO_VIEW(below_panel(window, "scenarios"));
 }
 
 /* ---- running ---- */
@@ -38,8 +31,8 @@ static char *typed_text(gpointer window, const char *path)
 
 static void run_all(LadderWindow *window)
 {
-	show_view(window);
-	ladder_scenario_view_run(view_of(window), typed_text, window);
+	ladder_scenario_view_run(LADDER_SCENARIO_VIEW(below_show(window, "scenarios")),
+				 typed_text, window);
 }
 
 /* All that is wrong with that file, each at its line. */
@@ -363,15 +356,18 @@ bool window_scenario(LadderWindow *window, enum verb verb)
 	}
 }
 
-GtkWidget *window_scenario_init(LadderWindow *window)
+GtkWidget *window_scenario_new(LadderWindow *window)
 {
-	GtkWidget *view;
+	GtkWidget *view = ladder_scenario_view_new(window->document, window->recorder);
 
-	window->recorder = ladder_recorder_new(window->sim);
-	view = ladder_scenario_view_new(window->document, window->recorder);
 	g_signal_connect_object(view, "opened", G_CALLBACK(opened), window, 0);
+	return view;
+}
+
+void window_scenario_init(LadderWindow *window)
+{
+	window->recorder = ladder_recorder_new(window->sim);
 	g_signal_connect_object(window->recorder, "changed", G_CALLBACK(show_recorder),
 				window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->recorder, "ended", G_CALLBACK(ended), window, 0);
-	return view;
 }

@@ -166,10 +166,8 @@ static void go_to_fault(LadderWindow *window)
 
 static void told(LadderSim *sim, const char *text, gboolean bad, LadderWindow *window)
 {
-	GtkWidget *log = gtk_stack_get_child_by_name(window->below_stack, "log");
-
 	(void)sim;
-	ladder_log_view_put(log, _("simulation"), text);
+	ladder_log_view_put(below_panel(window, "log"), _("simulation"), text);
 	ladder_window_tell(window, text);
 	if (!bad)
 		return;
@@ -182,11 +180,7 @@ static void told(LadderSim *sim, const char *text, gboolean bad, LadderWindow *w
 /* The program has errors, and the list of them is another one now. */
 static void show_problems(LadderWindow *window)
 {
-	GtkWidget *problems = gtk_stack_get_child_by_name(window->below_stack, "problems");
-
-	gtk_widget_set_visible(GTK_WIDGET(window->below), TRUE);
-	gtk_stack_set_visible_child(window->below_stack, problems);
-	ladder_problems_next(LADDER_PROBLEMS(problems), false);
+	ladder_problems_next(LADDER_PROBLEMS(below_show(window, "problems")), false);
 }
 
 /* What is wrong with the plant stands in no list: it is told where it stays. */

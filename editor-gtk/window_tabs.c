@@ -208,6 +208,7 @@ static void told(LadderWindow *window, const char *text)
 static void page_selected(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
+	GtkWidget *list = below_made(window, "list");
 
 	tabs_show_place(window);
 	window_show_state(window);
@@ -216,8 +217,8 @@ static void page_selected(LadderWindow *window)
 		gtk_widget_grab_focus(GTK_WIDGET(tabs_chart(window)));
 	if (!sheet)
 		return;
-	ladder_code_view_set_pou(gtk_stack_get_child_by_name(window->below_stack, "list"),
-				 ladder_grid_view_pou(sheet));
+	if (list)
+		ladder_code_view_set_pou(list, ladder_grid_view_pou(sheet));
 	gtk_widget_grab_focus(GTK_WIDGET(sheet));
 }
 
@@ -310,17 +311,31 @@ void tabs_show(LadderWindow *window, int pou)
 }
 
 /* A table of thousands of symbols is not made before somebody looks at it. */
-static void symbols_seen(GtkWidget *symbols, LadderWindow *window)
+static GtkWidget *symbols_in(AdwBin *place, LadderWindow *window)
 {
-	ladder_symbols_view_set_document(LADDER_SYMBOLS_VIEW(symbols), window->document);
+	GtkWidget *symbols = adw_bin_get_child(place);
+
+	if (!symbols) {
+		symbols = ladder_symbols_view_new();
+		ladder_symbols_view_set_document(LADDER_SYMBOLS_VIEW(symbols),
+						 window->document);
+		adw_bin_set_child(place, symbols);
+		spoken_parts(symbols);
+	}
+	return symbols;
+}
+
+static void symbols_seen(AdwBin *place, LadderWindow *window)
+{
+	symbols_in(place, window);
 }
 
 static GtkWidget *symbols_page(LadderWindow *window)
 {
-	GtkWidget *symbols = ladder_symbols_view_new();
+	GtkWidget *place = adw_bin_new();
 
-	g_signal_connect(symbols, "map", G_CALLBACK(symbols_seen), window);
-	return symbols;
+	g_signal_connect(place, "map", G_CALLBACK(symbols_seen), window);
+	return place;
 }
 
 /* Names of POUs have no blank before them. */
@@ -413,9 +428,10 @@ void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 		return;
 	}
 	if (pou < 0) {
-		GtkWidget *symbols = tabs_show_widget(window, "symbols");
+		GtkWidget *place = tabs_show_widget(window, "symbols");
 
-		ladder_symbols_view_show(LADDER_SYMBOLS_VIEW(symbols), row, col);
+		ladder_symbols_view_show(LADDER_SYMBOLS_VIEW(
+			symbols_in(ADW_BIN(place), window)), row, col);
 		return;
 	}
 	tabs_show(window, pou);

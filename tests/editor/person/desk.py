@@ -380,6 +380,10 @@ class Editor:
         x, y = at if isinstance(at, tuple) else self.centre(at)
         sh('xdotool', 'mousemove', str(x), str(y), 'click', '--repeat', str(count), '--delay', '60', str(button))
 
+    def into(self, name):
+        """Clicks into a line or a text until it has the keys: what lies round it may still move."""
+        until(lambda: self.find(name, 'text').has(12) or self.click(self.find(name, 'text')), 'the keys in "%s"' % name)
+
     def press(self, node):
         """What assistive technology does in the place of a click: for other windows."""
         node.ask('Action', 'DoAction', 'i', 0)

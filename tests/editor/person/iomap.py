@@ -120,7 +120,7 @@ def as_text(screen):
     open_map(editor)
     editor.click(editor.find('Text', 'page tab'))
     editor.says('Line 5: ')
-    editor.click(editor.find('garage.io', 'text'))
+    editor.into('garage.io')
     editor.keys('ctrl+End')
     editor.type('%QX0.1 sim')
     editor.shot('iomap-text')

@@ -123,7 +123,7 @@ def beside(screen):
         out.write('scenario One\n')
     editor = Editor(screen, path)
     editor.click(editor.find('new.scn', 'label'), count=2)
-    editor.click(editor.find('new.scn', 'text'))
+    editor.into('new.scn')
     editor.keys('ctrl+End')
     editor.type('wait 1s')
     editor.keys('ctrl+s')
