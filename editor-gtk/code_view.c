@@ -78,6 +78,7 @@ GtkWidget *ladder_code_view_new(LadderDocument *document)
 
 	code->document = g_object_ref(document);
 	code->text = text;
+	code->stale = true;
 	code->buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(text));
 	gtk_text_view_set_editable(GTK_TEXT_VIEW(text), FALSE);
 	gtk_text_view_set_monospace(GTK_TEXT_VIEW(text), TRUE);

@@ -47,6 +47,7 @@ static GtkWidget *make_uses(LadderWindow *window)
 	GtkWidget *uses = ladder_uses_view_new();
 
 	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), window->document);
+	g_signal_connect_object(uses, "map", G_CALLBACK(names_uses_seen), window, 0);
 	return uses;
 }
 

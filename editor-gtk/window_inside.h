@@ -138,6 +138,9 @@ char *names_at_cursor(LadderWindow *window);
 void names_watch(LadderWindow *window);
 void names_watch_this(LadderWindow *window, const char *name);
 void names_show_uses(LadderWindow *window);
+/** names_uses_seen - the cross reference came to sight: it is asked for the name at the
+ * cursor, if there is one. */
+void names_uses_seen(GtkWidget *uses, LadderWindow *window);
 void names_show_uses_of(LadderWindow *window, const char *name);
 void names_rename(LadderWindow *window);
 void names_rename_pou(LadderWindow *window, int pou, const char *name);

@@ -46,7 +46,7 @@ static int use_here(LadderWindow *window, const struct xref *xref)
 	return -1;
 }
 
-static bool begin(LadderWindow *window, struct xref *xref, int *here)
+static bool find_here(LadderWindow *window, struct xref *xref, int *here)
 {
 	struct project *project = ladder_document_project(window->document);
 
@@ -55,9 +55,17 @@ static bool begin(LadderWindow *window, struct xref *xref, int *here)
 	if (!xref_make(xref, project))
 		g_error("out of memory");
 	*here = use_here(window, xref);
-	if (*here < 0)
-		ladder_window_tell(window, _("There is no name at the cursor."));
 	return *here >= 0;
+}
+
+/* The same, and if there is none that is told. */
+static bool begin(LadderWindow *window, struct xref *xref, int *here)
+{
+	const bool found = find_here(window, xref, here);
+
+	if (!found && ladder_document_project(window->document))
+		ladder_window_tell(window, _("There is no name at the cursor."));
+	return found;
 }
 
 /* ---- going ---- */
@@ -229,18 +237,32 @@ void names_rename(LadderWindow *window)
 
 /* ---- all uses ---- */
 
-char *names_at_cursor(LadderWindow *window)
+static char *name_by(LadderWindow *window,
+		     bool (*find)(LadderWindow *window, struct xref *xref, int *here))
 {
-	struct project *project = ladder_document_project(window->document);
 	struct xref xref = { 0 };
 	char name[400] = "";
 	int here;
 
-	if (begin(window, &xref, &here))
-		xref_name(project, &xref.use[here].target, &xref.use[here], name,
-			  sizeof(name));
+	if (find(window, &xref, &here))
+		xref_name(ladder_document_project(window->document), &xref.use[here].target,
+			  &xref.use[here], name, sizeof(name));
 	xref_free(&xref);
 	return name[0] ? g_strdup(name) : NULL;
+}
+
+char *names_at_cursor(LadderWindow *window)
+{
+	return name_by(window, begin);
+}
+
+void names_uses_seen(GtkWidget *uses, LadderWindow *window)
+{
+	char *name = name_by(window, find_here);
+
+	if (name)
+		ladder_uses_view_set_symbol(LADDER_USES_VIEW(uses), -1, name);
+	g_free(name);
 }
 
 void names_show_uses(LadderWindow *window)

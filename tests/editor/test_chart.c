@@ -131,6 +131,24 @@ static void test_file(void)
 	g_free(text);
 }
 
+/* One that is made while it runs, or while a scan that was is shown. */
+static void test_late(void)
+{
+	LadderChartView *first = view;
+
+	ladder_sim_scan(sim, 5);
+	CHECK_SOON(ladder_sim_twin(sim)->scan == 5);
+	for (int past = 0; past < 2; past++) {
+		CHECK(!past || ladder_sim_show(sim, 2));
+		CHECK(ladder_sim_is_past(sim) == (past == 1));
+		view = LADDER_CHART_VIEW(g_object_ref_sink(ladder_chart_view_new(sim)));
+		CHECK(has("Start Motor"));
+		g_object_unref(view);
+	}
+	ladder_sim_show_now(sim);
+	view = first;
+}
+
 int main(void)
 {
 	GtkWidget *window;
@@ -151,6 +169,7 @@ int main(void)
 	test_text();
 	test_choice();
 	test_file();
+	test_late();
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);
 	g_object_unref(document);

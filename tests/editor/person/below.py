@@ -1,0 +1,82 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""below - the panels below the sheets, each seen for the first time: while it edits, while it simulates."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, main, new_file, until  # noqa: E402
+
+PROJECT = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Horn  AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | COIL Motor |
+RUNG
+  | NO Motor | COIL Horn |
+END_PROGRAM
+
+PROGRAM Other LD
+RUNG
+  | NO Horn | COIL %QX0.2 |
+END_PROGRAM
+'''
+
+
+def click(editor, tab):
+    editor.click(next(node for node in editor.all(tab, 'page tab') if node.name == tab))
+
+
+def listed(editor, text):
+    """The instruction list has that line."""
+    click(editor, 'Instruction list')
+    until(lambda: any(text in node.text() for node in editor.all('Instruction list', 'text')), 'the line ' + text)
+
+
+def edits(screen):
+    """the cross reference is that of the name at the cursor, each time it comes to sight; the list that of the sheet"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    click(editor, 'Cross reference')
+    editor.says('Main, rung 1 (1, 1)')
+    assert not editor.all('Main, rung 2 (1, 1)'), 'another name is listed'
+    click(editor, 'Log')
+    editor.click(editor.beside(editor.element('Rung 2, NO', 'Motor')))
+    click(editor, 'Cross reference')
+    editor.says('Main, rung 2 (1, 1)')
+    editor.keys('ctrl+Page_Down')
+    editor.element('NO', 'Horn')
+    listed(editor, 'PROGRAM Other IL')
+    editor.keys('ctrl+Page_Up')
+    listed(editor, 'PROGRAM Main IL')
+
+
+def simulates(screen):
+    """a status chart, first seen in the past, has its values from then; the timing chart steps from there"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    editor.keys('ctrl+t', 'space', 'ctrl+t', 'ctrl+t')
+    editor.element('Rung 2, COIL', 'Horn', ', on')
+    editor.keys('alt+Left', 'alt+Left')
+    editor.says('PAST · scan 1')
+    editor.element('Rung 1, COIL', 'Motor', ', off')
+    editor.keys('ctrl+alt+w')
+    editor.find('Start, New value', 'text')
+    until(lambda: [node for node in editor.all(role='label') if node.name == '0'], 'the value of that scan')
+    click(editor, 'Timing chart')
+    editor.click(editor.find('All that is kept'))
+    until(lambda: editor.find('Timing chart, cursor').has(12) or editor.click(editor.find('Timing chart, cursor')), 'the keys')
+    editor.shot('below-past')
+    editor.keys('Escape')
+    editor.element('Rung 2, COIL', 'Horn', ', on')
+    click(editor, 'Status chart')
+    until(lambda: [node for node in editor.all(role='label') if node.name == '1'], 'the value of now')
+
+
+main([edits, simulates])
