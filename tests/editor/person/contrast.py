@@ -62,6 +62,8 @@ def faint(editor, where, known):
                                 if each.strip().startswith(('Absolute', 'Width', 'Height'))]
     nodes = [node for node in editor.walk() if node.role == ROLES['frame'] or (
         node.role in (ROLES['label'], ROLES['text']) and node.name.strip() and node.states >> SENSITIVE & 1)]
+    texts = editor.ask([(node.path, 'Text', 'GetText', 'ii', 0, -1) for node in nodes])
+    nodes = [node for node, text in zip(nodes, texts) if node.role != ROLES['text'] or text and text[0].strip()]
     boxes = editor.ask([(node.path, *EXTENTS) for node in nodes])
     frame = next(box[0] for node, box in zip(nodes, boxes) if node.role == ROLES['frame'])
     picture, told = Picture(), []
@@ -88,11 +90,21 @@ def look(screen, theme):
     editor.keys('ctrl+r')
     editor.says('SIMULATION')
     told += faint(editor, 'simulating', known)
+    editor.keys('ctrl+alt+w')
+    editor.find('StopOk, New value')
+    told += faint(editor, 'Status chart', known)
+    editor.keys('ctrl+F5')
+    editor.find('passed')
+    told += faint(editor, 'Scenarios', known)
     for tab in 'Cross reference', 'Status chart', 'Timing chart', 'Scenarios', 'Instruction list', 'Log', 'Board':
         editor.press(editor.find(tab, 'page tab'))
         until(lambda: editor.find(tab, 'page tab').states >> SELECTED & 1, 'the tab ' + tab)
         told += faint(editor, tab, known)
         editor.shot('contrast-%s-%s' % (theme, tab.split()[0]))
+    editor.keys('ctrl+alt+s')
+    editor.find('Add a symbol', 'push button')
+    told += faint(editor, 'the symbols', known)
+    editor.shot('contrast-%s-symbols' % theme)
     assert not told, '\n'.join(told)
     assert len(known) >= 100, 'only %d texts were seen' % len(known)
 
