@@ -30,6 +30,7 @@ PATIENCE = int(os.environ.get('PATIENCE', '60'))  # seconds until what must come
 
 dbus = None
 editors = []  # those that were begun
+DOUBLE_CLICK = 0.4  # s, of the toolkit
 WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of what never hides a part of its own
 BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
 ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
@@ -170,6 +171,7 @@ class Editor:
         with open(self.log, 'w') as log:
             self.process = subprocess.Popen([*WRAPPER, EDITOR, *files], stdout=log, stderr=subprocess.STDOUT,
                                             preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
+        self.clicked = 0.0  # when the last click began
         editors.append(self)
         self.bus = screen.accessibility()
         self.palette = None
@@ -378,6 +380,9 @@ class Editor:
 
     def click(self, at, button=1, count=1):
         x, y = at if isinstance(at, tuple) else self.centre(at)
+        if count > 1:  # a click just before would be one of them
+            time.sleep(max(0.0, self.clicked + 2 * DOUBLE_CLICK - time.monotonic()))
+        self.clicked = time.monotonic()
         sh('xdotool', 'mousemove', str(x), str(y), 'click', '--repeat', str(count), '--delay', '60', str(button))
 
     def into(self, name):
