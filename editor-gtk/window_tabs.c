@@ -208,7 +208,7 @@ static void told(LadderWindow *window, const char *text)
 static void page_selected(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
-	GtkWidget *list = below_made(window, "list");
+	GtkWidget *list;
 
 	tabs_show_place(window);
 	window_show_state(window);
@@ -217,6 +217,7 @@ static void page_selected(LadderWindow *window)
 		gtk_widget_grab_focus(GTK_WIDGET(tabs_chart(window)));
 	if (!sheet)
 		return;
+	list = below_made(window, "list");
 	if (list)
 		ladder_code_view_set_pou(list, ladder_grid_view_pou(sheet));
 	gtk_widget_grab_focus(GTK_WIDGET(sheet));

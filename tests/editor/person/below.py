@@ -79,4 +79,21 @@ def simulates(screen):
     until(lambda: [node for node in editor.all(role='label') if node.name == '1'], 'the value of now')
 
 
-main([edits, simulates])
+def chosen(screen):
+    """the menu of a line in the timing chart, by pointer: one is moved, one is removed; the keys are in the chart again"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+t')
+    click(editor, 'Timing chart')
+    area = editor.find('Timing chart, cursor')
+    for line, word, lines in (1, 'Move up', ('Motor', 'Start', 'Horn')), (0, 'Remove', ('Start', 'Horn')):
+        x, y, _, _ = editor.place(area)
+        editor.click((x + 60, y + 20 + 22 * line), button=3)
+        editor.press(editor.find(word, 'menu item'))
+        until(lambda: not editor.all(word, 'menu item') and area.has(12), 'the keys in the chart')
+        text = editor.save(path)
+        assert 'VIEW\n' + ''.join('  timing %s\n' % name for name in lines) + 'END_VIEW\n' in text, text
+
+
+main([edits, simulates, chosen])
