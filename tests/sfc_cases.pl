@@ -426,7 +426,7 @@ for my $name (sort keys %control) {
 }
 # One TIP is one transition.
 {
-	my $chart = vars(['Hold', 'Semi', 'Manual', 'Tip', 'Back'], ['Out'], 'Force : INT') .
+	my $chart = vars(['Hold', 'Semi', 'Manual', 'Tip', 'Back'], ['Out'], 'Force AT %IB2 : USINT') .
 		"  CONTROL(RESET := Back, HOLD := Hold, SEMI := Semi, MANUAL := Manual, TIP := Tip, FORCE := Force);\n\n" .
 		step('!A') . step('B', call('Out', 'P')) . step('C') . step('D') .
 		arc('A', 'B', 'TRUE') . arc('B', 'C', 'TRUE') . arc('C', 'D', 'FALSE') . arc('D', 'A', 'FALSE');
