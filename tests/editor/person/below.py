@@ -29,13 +29,9 @@ END_PROGRAM
 '''
 
 
-def click(editor, tab):
-    editor.click(next(node for node in editor.all(tab, 'page tab') if node.name == tab))
-
-
 def listed(editor, text):
     """The instruction list has that line."""
-    click(editor, 'Instruction list')
+    editor.tab('Instruction list')
     until(lambda: any(text in node.text() for node in editor.all('Instruction list', 'text')), 'the line ' + text)
 
 
@@ -43,14 +39,21 @@ def edits(screen):
     """the cross reference is that of the name at the cursor, each time it comes to sight; the list that of the sheet"""
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
-    click(editor, 'Cross reference')
+    editor.tab('Cross reference')
     editor.says('Main, rung 1 (1, 1)')
     assert not editor.all('Main, rung 2 (1, 1)'), 'another name is listed'
-    click(editor, 'Log')
+    editor.tab('Log')
     editor.click(editor.beside(editor.element('Rung 2, NO', 'Motor')))
-    click(editor, 'Cross reference')
+    editor.tab('Cross reference')
     editor.says('Main, rung 2 (1, 1)')
-    editor.keys('ctrl+Page_Down')
+    editor.keys('Insert')
+    editor.says('Rung 3')
+    editor.tab('Log')
+    editor.to_sheet()
+    editor.keys('shift+F12')  # of no name: all that is used
+    editor.find('There is no name at the cursor')
+    editor.says('Other, rung 1 (1, 1)')
+    editor.keys('ctrl+z', 'ctrl+Page_Down')
     editor.element('NO', 'Horn')
     listed(editor, 'PROGRAM Other IL')
     editor.keys('ctrl+Page_Up')
@@ -69,13 +72,13 @@ def simulates(screen):
     editor.keys('ctrl+alt+w')
     editor.find('Start, New value', 'text')
     until(lambda: [node for node in editor.all(role='label') if node.name == '0'], 'the value of that scan')
-    click(editor, 'Timing chart')
+    editor.tab('Timing chart')
     editor.click(editor.find('All that is kept'))
     until(lambda: editor.find('Timing chart, cursor').has(12) or editor.click(editor.find('Timing chart, cursor')), 'the keys')
     editor.shot('below-past')
     editor.keys('Escape')
     editor.element('Rung 2, COIL', 'Horn', ', on')
-    click(editor, 'Status chart')
+    editor.tab('Status chart')
     until(lambda: [node for node in editor.all(role='label') if node.name == '1'], 'the value of now')
 
 
@@ -85,7 +88,7 @@ def chosen(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('ctrl+t')
-    click(editor, 'Timing chart')
+    editor.tab('Timing chart')
     area = editor.find('Timing chart, cursor')
     for line, word, lines in (1, 'Move up', ('Motor', 'Start', 'Horn')), (0, 'Remove', ('Start', 'Horn')):
         x, y, _, _ = editor.place(area)

@@ -54,8 +54,7 @@ def session(screen, **env):
 def rewind(screen):
     """the cursor of the chart is the scan that the rungs show; keys step it; End comes back"""
     editor = session(screen)
-    editor.press(editor.find('Timing chart', 'toggle button') if editor.all('Timing chart', 'toggle button')
-                 else editor.find('Timing chart'))
+    editor.tab('Timing chart')
     chart = editor.find('Timing chart, cursor')
     editor.click(editor.find('All that is kept'))
     x, y, width, _ = editor.place(chart)
@@ -122,8 +121,7 @@ def over_an_edit(screen):
     editor.says('The program was changed after scan 15')
     scans(editor, 5)
     editor.says('scan 20')
-    editor.press(editor.find('Timing chart', 'toggle button') if editor.all('Timing chart', 'toggle button')
-                 else editor.find('Timing chart'))
+    editor.tab('Timing chart')
     chart = editor.find('Timing chart, cursor')
     editor.click(editor.find('All that is kept'))
     x, y, width, _ = editor.place(chart)

@@ -389,6 +389,10 @@ class Editor:
         """Clicks into a line or a text until it has the keys: what lies round it may still move."""
         until(lambda: self.find(name, 'text').has(12) or self.click(self.find(name, 'text')), 'the keys in "%s"' % name)
 
+    def tab(self, name):
+        """Clicks on the tab of exactly that name, below the sheets or in a panel."""
+        self.click(until(lambda: [node for node in self.all(name, 'page tab') if node.name == name], 'the tab ' + name)[0])
+
     def press(self, node):
         """What assistive technology does in the place of a click: for other windows."""
         node.ask('Action', 'DoAction', 'i', 0)

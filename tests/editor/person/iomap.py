@@ -192,6 +192,8 @@ def run_board(screen):
     editor.shot('board-run')
     pid = child(editor)
     assert pid
+    with open('/proc/%d/environ' % pid) as environ:  # what spares the editor GL is not for others
+        assert 'GDK_DEBUG' not in environ.read()
     editor.click(editor.find('Stop', 'push button'))
     until(lambda: 'Ended; outputs have their safe values' in
           editor.find('What ladderd says', 'text').text(), 'its end in the log')

@@ -57,7 +57,7 @@ def window(screen):
     editor.to_sheet()
     assert not nameless(editor), nameless(editor)
     for panel in 'Cross reference', 'Status chart', 'Timing chart', 'Scenarios', 'Log', 'Board':
-        editor.click(next(node for node in editor.all(panel, 'page tab') if node.name == panel))
+        editor.tab(panel)
         assert not nameless(editor), (panel, nameless(editor))
     editor.keys('ctrl+alt+s')
     until(lambda: editor.all('Add a symbol', 'push button')[0].box()[2] > 0, 'the symbols')
