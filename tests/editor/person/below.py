@@ -7,6 +7,7 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, main, new_file, until  # noqa: E402
 
+SELECTED = 23  # as AtspiStateType counts
 PROJECT = '''RUNGBOARD 1
 
 VAR
@@ -52,6 +53,7 @@ def edits(screen):
     editor.to_sheet()
     editor.keys('shift+F12')  # of no name: all that is used
     editor.find('There is no name at the cursor')
+    until(lambda: editor.find('Cross reference', 'page tab').states >> SELECTED & 1, 'the cross reference')
     editor.says('Other, rung 1 (1, 1)')
     editor.keys('ctrl+z', 'ctrl+Page_Down')
     editor.element('NO', 'Horn')
