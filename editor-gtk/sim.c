@@ -46,19 +46,19 @@ static void tell_end(LadderSim *sim)
 	g_free(text);
 }
 
-/* As on the board that is no fault: ENO is FALSE, and it is counted. But a person who tries
- * a program out shall see it. */
+/* On a board that is no fault: ENO is FALSE, and it is counted. But a person who tries a
+ * program out shall see it. */
 static void tell_failure(LadderSim *sim)
 {
 	const struct resource *resource = &sim->view.twin.resource;
-	const bool paused = sim->view.events.paused;
+	const bool faulted = sim->view.events.faulted;
 	char *text;
 
 	if (sim->known.failures == sim->view.events.failures || !resource->vm.errors ||
 	    resource->state == STATE_FAULT)
 		return;
-	text = sim_failed_words(resource, paused);
-	tell(sim, text, paused);
+	text = sim_failed_words(resource, faulted);
+	tell(sim, text, faulted);
 	g_free(text);
 }
 
@@ -352,7 +352,7 @@ enum sim_state ladder_sim_state(LadderSim *sim)
 	case STATE_FAULT: return SIM_FAULT;
 	case STATE_RUN: break;
 	}
-	return sim->view.running ? SIM_RUN : SIM_PAUSE;
+	return sim->view.running ? SIM_RUN : sim->view.fault ? SIM_FAULT : SIM_PAUSE;
 }
 
 static void order(LadderSim *sim, enum act_kind kind, gint64 value)

@@ -52,7 +52,8 @@ const char *ladder_sim_plant(LadderSim *sim);
 
 enum sim_state { SIM_OFF, SIM_STOP, SIM_RUN, SIM_PAUSE, SIM_FAULT };
 enum sim_state ladder_sim_state(LadderSim *sim);
-/** ladder_sim_run - from STOP a cold start, from PAUSE it goes on; a fault is cleared. */
+/** ladder_sim_run - from STOP, and a FAULT of the engine, a cold start; from PAUSE, and a
+ * FAULT for an operation that failed, it goes on. */
 void ladder_sim_run(LadderSim *sim);
 /** ladder_sim_pause - time stands still; values stay. */
 void ladder_sim_pause(LadderSim *sim);
@@ -71,10 +72,11 @@ double ladder_sim_speed(LadderSim *sim);
 /** ladder_sim_set_speed - scans a second on the wall; 0: as the period says. */
 void ladder_sim_set_speed(LadderSim *sim, double scans);
 bool ladder_sim_heeds(LadderSim *sim);
-/** ladder_sim_set_heeds - pause after the first scan of a start in which an operation failed,
- * such as a division by zero? That is told with its place. It does when nobody says so. On a
- * board such an operation gives ENO FALSE, and scans go on; so do they here when
- * ladder_sim_run() is called again, in single scans, and in ladder_sim_play(). */
+/** ladder_sim_set_heeds - FAULT after the first scan of a start in which an operation failed,
+ * such as a division by zero? That is told with its place; outputs read as 0 in it. It does
+ * when nobody says so. On a board such an operation gives ENO FALSE, and scans go on; so do
+ * they here, with outputs as the program left them, when ladder_sim_run() is called again,
+ * in single scans, and in ladder_sim_play(). */
 void ladder_sim_set_heeds(LadderSim *sim, bool heeds);
 
 /** ladder_sim_act - what a person does between two scans; a copy of @act is made. Takes

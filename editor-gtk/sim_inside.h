@@ -79,7 +79,7 @@ struct sim_refusal {
 struct sim_events {
 	guint ends;              /* in FAULT, or because the program said STOP  */
 	guint failures;          /* starts in which an operation failed        */
-	bool paused;             /* for the last failure                       */
+	bool faulted;            /* for the last failure                       */
 };
 
 /* What the window sees of the thread. */
@@ -87,6 +87,7 @@ struct sim_view {
 	struct twin twin;        /* a clone: of `program`                      */
 	struct sim_program *program, *plant;
 	bool running;            /* not paused                                 */
+	bool fault;              /* an operation failed: outputs are off       */
 	struct sim_refusal refusal;
 	struct sim_events events;
 };
@@ -145,8 +146,8 @@ char *sim_place_words(const struct fault_place *at);
 char *sim_fault_words(const struct resource *resource);
 /** sim_halt_words - that the program asked for STOP, and where. Caller frees. */
 char *sim_halt_words(const struct resource *resource);
-/** sim_failed_words - which operation was the first to fail; @paused: and that time stands
+/** sim_failed_words - which operation was the first to fail; @faulted: and that time stands
  * still for it. Caller frees. */
-char *sim_failed_words(const struct resource *resource, bool paused);
+char *sim_failed_words(const struct resource *resource, bool faulted);
 
 #endif

@@ -26,7 +26,7 @@ struct _LadderSim {
 	gint64 told_period;         /* and period, ns                          */
 	gint64 period_ns;
 	double speed;
-	bool heeds;                 /* pauses when an operation fails          */
+	bool heeds;                 /* FAULT when an operation fails           */
 	char *plant_path;
 	struct sim_program *plant;
 	/* Another program is built: */

@@ -141,7 +141,7 @@ GtkWidget *sim_pace_new(LadderSim *sim)
 	row(grid, 0, _("Period, ms"), GTK_WIDGET(pace->period));
 	row(grid, 1, _("Slow motion"), GTK_WIDGET(pace->slow));
 	row(grid, 2, _("Scans a second"), GTK_WIDGET(pace->speed));
-	row(grid, 3, _("Pause at a failed operation"), GTK_WIDGET(pace->heed));
+	row(grid, 3, _("FAULT at a failed operation"), GTK_WIDGET(pace->heed));
 	pace->plant = GTK_LABEL(gtk_label_new(NULL));
 	gtk_label_set_xalign(pace->plant, 0);
 	gtk_label_set_ellipsize(pace->plant, PANGO_ELLIPSIZE_MIDDLE);

@@ -33,7 +33,8 @@ struct sim_thread {
 	/* Of the thread alone: */
 	struct twin twin;
 	bool run;
-	bool heed;               /* pauses when an operation fails             */
+	bool heed;               /* FAULT when an operation fails              */
+	bool fault;              /* it is: for that                            */
 	double speed;
 	double due_us;           /* of the next scan                           */
 	gint64 told_us;          /* when the last copy went out                */
@@ -47,7 +48,7 @@ struct sim_thread {
 	GMutex out_lock;
 	struct twin out;
 	struct sim_program *program, *plant;
-	bool out_run;
+	bool out_run, out_fault;
 	struct sim_refusal out_refusal;
 	struct sim_events out_events;
 	/* Between both, atomic: */
@@ -64,7 +65,10 @@ static void publish(struct sim_thread *thread, bool must)
 	else if (!g_mutex_trylock(&thread->out_lock))
 		return;
 	twin_copy(&thread->out, &thread->twin);
+	if (thread->fault)
+		twin_outputs_off(&thread->out);
 	thread->out_run = thread->run;
+	thread->out_fault = thread->fault;
 	thread->out_refusal = thread->refusal;
 	thread->out_events = thread->events;
 	g_mutex_unlock(&thread->out_lock);
@@ -86,10 +90,11 @@ static void scan(struct sim_thread *thread)
 		thread->run = false; /* FAULT, or the program asked for STOP */
 	if (thread->twin.scan == before)
 		return;
+	thread->fault = false;
 	thread->events.ends += !goes_on;
 	if (!failed && vm->errors) {
 		thread->events.failures++;
-		thread->events.paused = false;
+		thread->events.faulted = false;
 	}
 	g_mutex_lock(&thread->record_lock);
 	sim_eras_scan(thread->eras, &thread->twin);
@@ -129,8 +134,9 @@ static double late_us(guint step)
 	return step < 32 ? step : (double)((guint64)(step % 16 + 16) << (step / 16 - 1));
 }
 
-/* Time stands still after the first scan of a start in which an operation failed: the
- * values are those that the board would have, and a person sees where it was. */
+/* FAULT after the first scan of a start in which an operation failed: time stands still, and
+ * a person sees where it was. Whoever looks finds outputs off; what the board would give is
+ * kept here, and goes on from there. */
 static void scan_heeding(struct sim_thread *thread)
 {
 	const guint failures = thread->events.failures;
@@ -139,7 +145,7 @@ static void scan_heeding(struct sim_thread *thread)
 	if (!thread->heed || thread->events.failures == failures)
 		return;
 	thread->run = false;
-	thread->events.paused = true;
+	thread->fault = thread->events.faulted = true;
 }
 
 static void scan_in_time(struct sim_thread *thread)
@@ -171,6 +177,8 @@ static void act(struct sim_thread *thread, const struct act *act)
 		refuse(thread, SIM_REFUSED_PLACE);
 		return;
 	}
+	if (act->kind == ACT_START || act->kind == ACT_WARM || act->kind == ACT_STOP)
+		thread->fault = false;
 	g_mutex_lock(&thread->record_lock);
 	sim_eras_act(thread->eras, &thread->twin, act);
 	g_mutex_unlock(&thread->record_lock);
@@ -436,6 +444,7 @@ bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *oth
 		twin_copy(&view->twin, &thread->out);
 	}
 	view->running = thread->out_run;
+	view->fault = thread->out_fault;
 	view->refusal = thread->out_refusal;
 	view->events = thread->out_events;
 	g_mutex_unlock(&thread->out_lock);

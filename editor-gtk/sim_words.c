@@ -39,12 +39,12 @@ char *sim_halt_words(const struct resource *resource)
 	return text;
 }
 
-char *sim_failed_words(const struct resource *resource, bool paused)
+char *sim_failed_words(const struct resource *resource, bool faulted)
 {
 	char *place = sim_place_words(&resource->error_at);
-	char *text = g_strdup_printf(paused ?
-		_("Paused: an operation failed, such as a division by zero: %s. Run goes on "
-		  "with ENO FALSE, as the board does") :
+	char *text = g_strdup_printf(faulted ?
+		_("FAULT: an operation failed, such as a division by zero: %s. Outputs are "
+		  "off; Run goes on with ENO FALSE, as the board does") :
 		_("ENO is FALSE: an operation failed, such as a division by zero: %s"), place);
 
 	g_free(place);

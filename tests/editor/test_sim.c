@@ -341,27 +341,36 @@ static void test_failed(void)
 	ladder_sim_end(sim);
 }
 
-/* It pauses for the first one of a start, and says so each time; what a person asked for, scan
- * by scan, is not paused, and neither is anything when it is not wanted. */
+/* FAULT for the first one of a start, told each time, with outputs off, which come again when
+ * it goes on; none in what a person asked for, scan by scan, and none when it is not wanted. */
 static void test_heeds(void)
 {
 	GArray *acts = g_array_new(FALSE, FALSE, sizeof(struct sim_played));
 
-	open_text("RUNGBOARD 1\n\nVAR\n  Parts, Minutes, Rate : INT;\nEND_VAR\n\n"
-		  "PROGRAM Main LD\nRUNG\n  | --- | [ Rate := Parts / Minutes ] |\nEND_PROGRAM\n");
+	open_text("RUNGBOARD 1\n\nVAR\n  Parts, Minutes, Rate : INT;\n  Lamp AT %QX0.0 : BOOL;\n"
+		  "END_VAR\n\nPROGRAM Main LD\n"
+		  "RUNG\n  | --- | COIL Lamp |\n"
+		  "RUNG\n  | --- | [ Rate := Parts / Minutes ] |\nEND_PROGRAM\n");
 	CHECK(ladder_sim_begin(sim, NULL) && ladder_sim_heeds(sim));
 	for (int again = 0; again < 20; again++) {
 		ladder_sim_run(sim);
-		told_is("! Paused: an operation failed");
-		CHECK_SOON(ladder_sim_state(sim) == SIM_PAUSE);
+		told_is("! FAULT: an operation failed");
+		CHECK_SOON(ladder_sim_state(sim) == SIM_FAULT);
 		CHECK(ladder_sim_twin(sim)->resource.vm.errors == 1);
+		CHECK_AS(value("Lamp") == 0, "outputs are off");
 		ladder_sim_reset(sim, again % 2);
+		CHECK_SOON(ladder_sim_state(sim) == SIM_PAUSE);
 	}
 	ladder_sim_run(sim);
-	told_is("! Paused");
+	told_is("! FAULT");
+	CHECK_SOON(ladder_sim_state(sim) == SIM_FAULT);
+	CHECK(ladder_sim_show(sim, ladder_sim_last(sim)) && value("Lamp") == 1);
+	ladder_sim_show_now(sim);
+	CHECK(value("Lamp") == 0);
 	ladder_sim_run(sim);
 	CHECK_SOON(ladder_sim_twin(sim)->resource.vm.errors > 3);
 	CHECK_AS(!told && ladder_sim_state(sim) == SIM_RUN, "it goes on, and nothing is said anew");
+	CHECK_AS(value("Lamp") == 1, "with the outputs that it had");
 	ladder_sim_stop(sim);
 	CHECK_SOON(ladder_sim_state(sim) == SIM_STOP);
 	ladder_sim_scan(sim, 1);

@@ -122,10 +122,9 @@ bool twin_change(struct twin *twin, const struct twin *from)
 
 /* ---- acts ---- */
 
-/* As on a board that drives its safe outputs. */
-static void clear_outputs(struct resource *resource)
+void twin_outputs_off(struct twin *twin)
 {
-	struct image *image = &resource->image;
+	struct image *image = &twin->resource.image;
 
 	for (size_t i = 0; i < PLANT_PAIRS; i++) {
 		const enum iec_area area = plant_pairs[i].out;
@@ -138,7 +137,7 @@ static void clear_outputs(struct resource *resource)
 static void stop(struct twin *twin)
 {
 	resource_stop(&twin->resource);
-	clear_outputs(&twin->resource);
+	twin_outputs_off(twin);
 	resource_stop(&twin->plant);
 }
 
@@ -252,6 +251,6 @@ bool twin_scan(struct twin *twin)
 			   twin->now_ns);
 	resource_scan(resource, twin->now_ns);
 	if (resource->state == STATE_FAULT)
-		clear_outputs(resource);
+		twin_outputs_off(twin);
 	return resource->state == STATE_RUN;
 }

@@ -73,6 +73,9 @@ bool twin_change(struct twin *twin, const struct twin *from);
 /** twin_act - between two scans. Scan-safe: no.   Fails: false: no such place, one that
  * cannot be set or forced, too many forces, no memory; nothing has changed. */
 bool twin_act(struct twin *twin, const struct act *act);
+/** twin_outputs_off - as on a board that drives its safe outputs, which are 0 here.
+ * Scan-safe: yes.   Fails: no. */
+void twin_outputs_off(struct twin *twin);
 /**
  * twin_scan - time goes on by a period: the plant runs once, then the program
  *

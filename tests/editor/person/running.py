@@ -99,24 +99,24 @@ def runs(editor):
 
 
 def zero(screen):
-    """a division by zero pauses, and is told with its place; Run goes on as the board does; so does one that is told to"""
+    """a division by zero is a FAULT, told with its place, and outputs are off; Run goes on as the board does; so does one that is told to"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('ctrl+r')
     editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
-    editor.find('Paused: an operation failed, such as a division by zero: Main, rung 2 (1,')
-    editor.says('SIMULATION · PAUSE')
-    # The values of that very scan, as the board has them, and what failed is marked.
-    editor.element('Rung 1, COIL', 'Motor', ', on')
+    editor.find('FAULT: an operation failed, such as a division by zero: Main, rung 2 (1,')
+    editor.says('SIMULATION · FAULT')
+    # Outputs are off, and what failed is marked.
+    editor.element('Rung 1, COIL', 'Motor', ', off')
     editor.element('Rung 2, [:=]', 'ENO is FALSE')
     editor.element('Rung 3, DIV', 'ENO is FALSE')
-    assert not editor.all('FAULT')
     editor.shot('running-zero')
     _, of_the_bar = [node for node in editor.all('Run', 'push button') if node.name == 'Run']
     editor.click(of_the_bar)
     runs(editor)
-    until(lambda: not editor.all('Paused: an operation failed'), 'the bar to be gone')
+    until(lambda: not editor.all('FAULT: an operation failed'), 'the bar to be gone')
+    editor.element('Rung 1, COIL', 'Motor', ', on')
     editor.shot('running-on')
     editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'closed')))
     until(lambda: not [node for node in editor.all('ENO is FALSE', 'table cell')], 'the marks to go')
@@ -128,7 +128,7 @@ def zero(screen):
     told = [node.name for node in editor.all('division by zero: Main, rung 2 (1,') if 'simulation' in node.name]
     assert len(told) <= 1, told
     # A cold start forgets that it was told; but it can be switched off.
-    switch = at_the_clock(editor, 'Pause at a failed operation')
+    switch = at_the_clock(editor, 'FAULT at a failed operation')
     assert switch.has(4)
     editor.keys('space')
     until(lambda: not switch.has(4), 'the switch to be off')
@@ -204,7 +204,7 @@ def paces(screen):
 
 def closing(screen):
     """the window is closed in RUN: it stops, and asks for unsaved work; Cancel keeps it in STOP"""
-    path = new_file(screen, PROGRAM)
+    path = new_file(screen, PROGRAM.replace('Minutes : INT', 'Minutes : INT := 4'))
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('slash', 'ctrl+r')
