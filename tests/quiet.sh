@@ -21,7 +21,7 @@ say() {
 
 # Files of scan/ that run in a scan; the others look at an image between scans
 # (symbols, carry, text of an instruction, the verifier) and may use more.
-between='code|code_[a-z]*|declared|carry|symbols|retain_[a-z]*'
+between='code|code_[a-z]*|declared|carry|symbols|symbol_index|retain_[a-z]*'
 scan=
 for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
@@ -49,7 +49,7 @@ for object in "$objects"/scan/*.o; do
 	name=$(basename "$object" .o)
 	printf '%s' "$name" | grep -Eqx "$between" || continue
 	open=$($NM -u "$object" | awk '{print $NF}' |
-	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|r?chr|n?cmp|n?casecmp)|arena_[a-z]*|(areas|iec|word|digest|code|verify|image|resource|retain|declared|task|tasks|vm_row|sys)[a-z0-9_]*")
+	       grep -Evx "mem(cpy|move|set|cmp|chr)|$helpers|snprintf|str(len|r?chr|n?cmp|n?casecmp)|arena_[a-z]*|(areas|iec|word|digest|code|verify|image|resource|retain|declared|symbol|task|tasks|vm_row|sys)[a-z0-9_]*")
 	[ -z "$open" ]; say $? "$name, between scans, asks the system for nothing" "$open"
 done
 

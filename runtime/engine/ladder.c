@@ -11,6 +11,7 @@
 #include "engine/check/check_il.h"
 #include "engine/check/check_tokens.h"
 #include "engine/check/expect.h"
+#include "engine/scan/symbol_index.h"
 #include "engine/text/text.h"
 #include "engine/translate/translate.h"
 #include "engine/view/sfc_ladder.h"
@@ -158,6 +159,7 @@ static bool open_image(struct ladder *ladder, const char *file,
 		      &where)) {
 		ladder->image = bytes;
 		ladder->image_len = len;
+		ladder->program.index = symbol_index_new(&ladder->program, &ladder->arena);
 		return true;
 	}
 	memset(&ladder->program, 0, sizeof(ladder->program));

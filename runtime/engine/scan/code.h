@@ -198,6 +198,7 @@ struct program {
 	const struct code_watched *watched;
 	const uint32_t *text, *watch;
 	const char *string;
+	const struct symbol_index *index; /* NULL: none; set by who opened it */
 	uint32_t entry_count, task_count, call_count, run_count, bits_count,
 		 symbol_count, group_count, power_count, place_count, watched_count, text_words, watch_words,
 		 string_bytes;

@@ -6,7 +6,7 @@
  * For whoever shows, records or sets variables between scans. The scan itself
  * knows no names.
  */
-#include "engine/scan/image.h"
+#include "engine/scan/symbol_index.h"
 
 #include "engine/base/ascii.h"
 
@@ -102,22 +102,39 @@ static struct location match(const struct program *p,
 	return pin < 0 ? none : pin_location(symbol, &row->pin[pin]);
 }
 
+/* Likewise, perhaps behind the name of its program. */
+static struct location match_whole(const struct program *p,
+				   const struct declared_name *symbol,
+				   const char *text, size_t len)
+{
+	struct location at = match(p, symbol, text, len);
+	size_t skip = strlen(symbol->pou);
+
+	if (at.type == IEC_NONE && skip && len > skip + 1 && text[skip] == '.' &&
+	    ascii_same(symbol->pou, text, skip))
+		at = match(p, symbol, text + skip + 1, len - skip - 1);
+	return at;
+}
+
+/* Of several the one that was declared first. */
 static struct location find_declared(const struct program *p, const char *text,
 				     size_t len)
 {
-	struct location at = { .type = IEC_NONE };
-	struct declared_cursor cursor = { 0 };
+	struct symbol_search search = { .text = text, .len = len };
+	struct location first = { .type = IEC_NONE }, at;
+	uint32_t number = UINT32_MAX;
 	struct declared_name symbol;
 
-	while (at.type == IEC_NONE && image_next_declared(p, &cursor, &symbol)) {
-		size_t skip = strlen(symbol.pou);
-
-		at = match(p, &symbol, text, len);
-		if (at.type == IEC_NONE && skip && len > skip + 1 &&
-		    text[skip] == '.' && ascii_same(symbol.pou, text, skip))
-			at = match(p, &symbol, text + skip + 1, len - skip - 1);
+	while (symbol_search_next(p, &search, &symbol)) {
+		if (search.number >= number)
+			continue;
+		at = match_whole(p, &symbol, text, len);
+		if (at.type == IEC_NONE)
+			continue;
+		first = at;
+		number = search.number;
 	}
-	return at;
+	return first;
 }
 
 /* Is @text this name, perhaps behind that of its program? */

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * symbol_index - where a name may stand among the symbols of a program.
+ *
+ * A hash of chains: each symbol is in it by its name and by that behind its program's. A
+ * text is looked for by each beginning of it that may be such a name.
+ */
+#include "engine/scan/symbol_index.h"
+
+#include <string.h>
+
+struct entry {
+	uint32_t hash;
+	uint32_t symbol;        /* index of `at`                              */
+	uint32_t next;          /* 1 + index of `entry`; 0: none              */
+};
+
+struct symbol_index {
+	struct declared_cursor *at; /* of each symbol: just before it         */
+	struct entry *entry;
+	uint32_t *chain;        /* likewise, by the low bits of the hash      */
+	uint32_t mask, count;
+};
+
+#define HASH_OF_NOTHING 2166136261u
+
+/* FNV-1a over the bytes without the bit that tells a from A. */
+static uint32_t hash_more(uint32_t hash, const char *text, size_t len)
+{
+	for (size_t i = 0; i < len; i++)
+		hash = (hash ^ ((uint8_t)text[i] & 0xdfu)) * 16777619u;
+	return hash;
+}
+
+static uint32_t *chain_of(const struct symbol_index *index, uint32_t hash)
+{
+	return &index->chain[(hash ^ hash >> 15) & index->mask];
+}
+
+static void enter(struct symbol_index *index, uint32_t hash, uint32_t symbol)
+{
+	uint32_t *chain = chain_of(index, hash);
+
+	index->entry[index->count++] = (struct entry){ hash, symbol, *chain };
+	*chain = index->count;
+}
+
+static void enter_names(struct symbol_index *index, const struct declared_name *symbol,
+			uint32_t number)
+{
+	uint32_t hash;
+
+	enter(index, hash_more(HASH_OF_NOTHING, symbol->name, symbol->array.head), number);
+	if (!*symbol->pou)
+		return;
+	hash = hash_more(HASH_OF_NOTHING, symbol->pou, strlen(symbol->pou));
+	hash = hash_more(hash, ".", 1);
+	enter(index, hash_more(hash, symbol->name, symbol->array.head), number);
+}
+
+/* As many chains as there may be names, at most half of a power of two. */
+static bool make_room(struct symbol_index *index, size_t symbols, struct arena *arena)
+{
+	size_t chains = 16;
+
+	while (chains < 2 * symbols)
+		chains *= 2;
+	index->mask = (uint32_t)chains - 1;
+	index->at = arena_alloc(arena, symbols * sizeof(*index->at));
+	index->entry = arena_alloc(arena, 2 * symbols * sizeof(*index->entry));
+	index->chain = arena_alloc(arena, chains * sizeof(*index->chain));
+	return index->at && index->entry && index->chain;
+}
+
+const struct symbol_index *symbol_index_new(const struct program *program,
+					    struct arena *arena)
+{
+	struct symbol_index *index = arena_alloc(arena, sizeof(*index));
+	struct declared_cursor cursor = { 0 }, before = cursor;
+	struct declared_name symbol;
+
+	if (!index || !make_room(index, program->symbol_count, arena))
+		return NULL;
+	for (; image_next_declared(program, &cursor, &symbol); before = cursor) {
+		index->at[cursor.index - 1] = before;
+		enter_names(index, &symbol, cursor.index - 1);
+	}
+	return index;
+}
+
+/* ---- looking ---- */
+
+/* Behind a name stand a pin, an index, or the blanks before one. */
+static bool may_end(char c)
+{
+	return c == '.' || c == '[' || c == ' ';
+}
+
+/* The chain of the next beginning of the text; false: there is none. */
+static bool next_chain(const struct symbol_index *index, struct symbol_search *search)
+{
+	const size_t begin = search->end;
+
+	if (begin == search->len)
+		return false;
+	if (begin == 0)
+		search->hash = HASH_OF_NOTHING;
+	do
+		search->end++;
+	while (search->end < search->len && !may_end(search->text[search->end]));
+	search->hash = hash_more(search->hash, search->text + begin, search->end - begin);
+	search->entry = *chain_of(index, search->hash);
+	return true;
+}
+
+static bool next_entry(const struct symbol_index *index, struct symbol_search *search)
+{
+	do {
+		while (search->entry) {
+			const struct entry *entry = &index->entry[search->entry - 1];
+
+			search->entry = entry->next;
+			if (entry->hash != search->hash)
+				continue;
+			search->all = index->at[entry->symbol];
+			return true;
+		}
+	} while (next_chain(index, search));
+	return false;
+}
+
+bool symbol_search_next(const struct program *program, struct symbol_search *search,
+			struct declared_name *out)
+{
+	if (program->index && !next_entry(program->index, search))
+		return false;
+	if (!image_next_declared(program, &search->all, out))
+		return false;
+	search->number = search->all.index - 1;
+	return true;
+}
