@@ -514,6 +514,13 @@ leaks-editor-run: $(EDITOR_TESTS) $(EDITOR_FAKE) all
 	BUILD=$(BUILD) G_SLICE=always-malloc ASAN_OPTIONS=fast_unwind_on_malloc=0 PATIENCE=600 \
 	  LSAN_OPTIONS=suppressions=tests/editor/leaks.supp:print_suppressions=0 \
 	  prove -j$$(nproc) -e '' $(if $(PERSON),$(PERSON),$(EDITOR_TESTS) $(EDITOR_PERSON))
+# Some two minutes a test. The toolkits' own lists of what they keep are used where they are.
+SUPP := $(wildcard /usr/share/glib-2.0/valgrind/glib.supp /usr/share/gtk-4.0/valgrind/gtk.supp) tests/editor/valgrind.supp
+valgrind-editor: all ## editor tests as a person under valgrind: lost memory, what was never written; PERSON=… as above
+	BUILD=$(BUILD) GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas G_SLICE=always-malloc PATIENCE=600 \
+	  WRAPPER='valgrind -q --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite --error-exitcode=9 \
+	  --num-callers=60 $(addprefix --suppressions=,$(SUPP))' \
+	  prove -e '' $(if $(PERSON),$(PERSON),$(EDITOR_PERSON))
 check: tests asan arm small cases ## build, then every test
 	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \
 	  prove -j$$(nproc) -e '' tests/arm.sh tests/small.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
@@ -522,7 +529,7 @@ $(BUILD)/tests/bench/record: $(BUILD)/tests/bench/record.o $(BUILD)/libladder.a
 bench: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/bench/record ## speed, load time and size, as a table
 	@BUILD=$(BUILD) CC='$(CC)' tests/bench/bench.sh
 .SECONDARY:
-.PHONY: tests asan asan-editor asan-editor-run leaks-editor leaks-editor-run check bench
+.PHONY: tests asan asan-editor asan-editor-run leaks-editor leaks-editor-run valgrind-editor check bench
 # ---- end of everything ----
 
 clean: ## remove everything that was built

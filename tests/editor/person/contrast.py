@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import EXTENTS, ROLES, ROOT, Editor, main, sh, until  # noqa: E402
+from desk import EXTENTS, ROLES, ROOT, Chinese, Editor, main, sh, until  # noqa: E402
 
 SCALE = 2
 SELECTED, SENSITIVE = 23, 24  # states, as AtspiStateType counts
@@ -55,22 +55,36 @@ def ink(colors):
     return max(ratio(color, behind) for color, count in colors.items() if count >= 3)
 
 
+def whole(node, nodes, boxes):
+    """Is it seen as a whole? What is scrolled away, in part too, has another thing at its place."""
+    x, y, width, height = boxes[node.path]
+    while node.parent in nodes and nodes[node.parent].role != ROLES['frame']:
+        node = nodes[node.parent]
+        left, top, wide, high = boxes.get(node.path, (x, y, width, height))
+        if x < left or y < top or x + width > left + wide or y + height > top + high:
+            return False
+    return True
+
+
 def faint(editor, where, known):
     """Texts with less than 4.5 : 1, each as a line, but for those that are @known, as path and name."""
     about = sh('xwininfo', '-id', editor.window)
     left, top, width, height = [int(each.split()[-1]) for each in about.splitlines()
                                 if each.strip().startswith(('Absolute', 'Width', 'Height'))]
-    nodes = [node for node in editor.walk() if node.role == ROLES['frame'] or (
-        node.role in (ROLES['label'], ROLES['text']) and node.name.strip() and node.states >> SENSITIVE & 1)]
-    texts = editor.ask([(node.path, 'Text', 'GetText', 'ii', 0, -1) for node in nodes])
-    nodes = [node for node, text in zip(nodes, texts) if node.role != ROLES['text'] or text and text[0].strip()]
-    boxes = editor.ask([(node.path, *EXTENTS) for node in nodes])
-    frame = next(box[0] for node, box in zip(nodes, boxes) if node.role == ROLES['frame'])
+    nodes = {node.path: node for node in editor.walk()}
+    boxes = editor.ask([(path, *EXTENTS) for path in nodes])
+    boxes = {path: box[0] for path, box in zip(nodes, boxes) if box}
+    frame = next(boxes[node.path] for node in nodes.values() if node.role == ROLES['frame'])
+    texts = [node for node in nodes.values() if node.role in (ROLES['label'], ROLES['text']) and
+             node.path in boxes and node.name.strip() and node.states >> SENSITIVE & 1]
+    typed = editor.ask([(node.path, 'Text', 'GetText', 'ii', 0, -1) for node in texts])
+    texts = [node for node, text in zip(texts, typed) if node.role != ROLES['text'] or text and text[0].strip()]
     picture, told = Picture(), []
-    for node, box in zip(nodes, boxes):
-        if not box or node.role == ROLES['frame'] or min(box[0][2:]) < 2 or (node.path, node.name) in known:
+    for node in texts:
+        box = boxes[node.path]
+        if min(box[2:]) < 2 or (node.path, node.name) in known or not whole(node, nodes, boxes):
             continue
-        x, y, w, h = [SCALE * each for each in box[0]]
+        x, y, w, h = [SCALE * each for each in box]
         value = ink(picture.colors(left + width // 2 - frame[2] + x, top + height // 2 - frame[3] + y, w, h))
         if value is not None:
             known.add((node.path, node.name))
@@ -79,19 +93,19 @@ def faint(editor, where, known):
     return told
 
 
-def look(screen, theme):
-    """The window with a program, simulated, and each panel below the sheet."""
-    editor = Editor(screen, os.path.join(ROOT, 'ladders', 'garage-door.rung'), GDK_SCALE=str(SCALE),
-                    ADW_DEBUG_COLOR_SCHEME='prefer-dark' if theme == 'dark' else 'prefer-light')
+def look(screen, theme, name, kind=Editor):
+    """The window with a program, simulated, and each panel below the sheet. @name: of the pictures"""
+    editor = kind(screen, os.path.join(ROOT, 'ladders', 'garage-door.rung'), GDK_SCALE=str(SCALE),
+                  ADW_DEBUG_COLOR_SCHEME='prefer-' + theme)
     editor.to_sheet()
     known = set()
     told = faint(editor, 'the sheet', known)
-    editor.shot('contrast-' + theme)
+    editor.shot('contrast-' + name)
     editor.keys('ctrl+r')
     editor.says('SIMULATION')
     told += faint(editor, 'simulating', known)
     editor.keys('ctrl+alt+w')
-    editor.find('StopOk, New value')
+    until(lambda: [node for node in editor.all('New value') if node.name.startswith('StopOk')], 'the line of StopOk')
     told += faint(editor, 'Status chart', known)
     editor.keys('ctrl+F5')
     editor.find('passed')
@@ -100,24 +114,35 @@ def look(screen, theme):
         editor.press(editor.find(tab, 'page tab'))
         until(lambda: editor.find(tab, 'page tab').states >> SELECTED & 1, 'the tab ' + tab)
         told += faint(editor, tab, known)
-        editor.shot('contrast-%s-%s' % (theme, tab.split()[0]))
+        editor.shot('contrast-%s-%s' % (name, tab.split()[0]))
     editor.keys('ctrl+alt+s')
     editor.find('Add a symbol', 'push button')
     told += faint(editor, 'the symbols', known)
-    editor.shot('contrast-%s-symbols' % theme)
+    editor.shot('contrast-%s-symbols' % name)
     assert not told, '\n'.join(told)
     assert len(known) >= 100, 'only %d texts were seen' % len(known)
 
 
 def light(screen):
     """light: no text is fainter than 4.5 : 1, in the window, while it simulates, in each panel"""
-    look(screen, 'light')
+    look(screen, 'light', 'light')
 
 
 def dark(screen):
     """dark: the same"""
-    look(screen, 'dark')
+    look(screen, 'dark', 'dark')
+
+
+def small_light(screen):
+    """1024x700, in Chinese: the same"""
+    look(screen, 'light', 'small-light', Chinese)
+
+
+def small_dark(screen):
+    """1024x700, in Chinese and in the dark: the same"""
+    look(screen, 'dark', 'small-dark', Chinese)
 
 
 light.size = dark.size = '2880x1800x24'
-main([light, dark])
+small_light.size = small_dark.size = '2048x1400x24'
+main([light, dark, small_light, small_dark])

@@ -27,6 +27,7 @@ warnings.simplefilter('ignore')
 EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
 PATIENCE = int(os.environ.get('PATIENCE', '60'))  # seconds until what must come did not; no test waits for it in vain
+SLOWLY = max(1, PATIENCE / 60)  # a hand knows a slow machine
 
 dbus = None
 editors = []  # those that were begun
@@ -405,8 +406,8 @@ class Editor:
         way += ['mousemove', str(x0), str(y0), 'mousedown', '1']
         for i in range(1, steps + 1):
             way += ['mousemove', str(x0 + (x1 - x0) * i // steps), str(y0 + (y1 - y0) * i // steps),
-                    'sleep', '0.03']
-        sh('xdotool', *way, 'sleep', '0.15')
+                    'sleep', str(0.03 * SLOWLY)]
+        sh('xdotool', *way, 'sleep', str(0.15 * SLOWLY))
         if ready:
             # One that began late has seen no movement yet.
             until(lambda: sh('xdotool', 'mousemove', str(x1 + 1), str(y1), 'mousemove', str(x1), str(y1)) or ready(),
