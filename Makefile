@@ -224,7 +224,7 @@ EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
 $(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
-  $(EDITOR_TESTS:%=%.o) $(EDITOR_BENCH).o: CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"' -DLOCALEDIR='"$(prefix)/share/locale"' -DDATADIR='"$(prefix)/share"'
+  $(EDITOR_TESTS:%=%.o) $(EDITOR_BENCH).o: CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"'
 # Colours of rung files and lists, for GtkSourceView: made of the catalogue's words.
 $(BUILD)/rung-language: $(call obj,packaging/rung_language.c) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
@@ -280,7 +280,7 @@ install: $(if $(EDITOR),install-editor)
 appdir = $(DESTDIR)$(prefix)/share
 install-editor: $(BUILD)/ladder-editor $(MO)
 	install -d $(DESTDIR)$(prefix)/bin $(appdir)/applications $(appdir)/metainfo $(appdir)/mime/packages \
-	  $(appdir)/icons/hicolor/scalable/apps $(appdir)/glib-2.0/schemas $(appdir)/rungboard/ladders \
+	  $(appdir)/icons/hicolor/scalable/apps $(appdir)/glib-2.0/schemas $(appdir)/rungboard/ladders/boards \
 	  $(appdir)/gtksourceview-5/language-specs
 	install -m 755 $(BUILD)/ladder-editor $(DESTDIR)$(prefix)/bin/ladder-editor
 	install -m 644 packaging/org.rungboard.Editor.desktop $(appdir)/applications/
@@ -290,6 +290,7 @@ install-editor: $(BUILD)/ladder-editor $(MO)
 	install -m 644 packaging/org.rungboard.Editor.gschema.xml $(appdir)/glib-2.0/schemas/
 	install -m 644 $(BUILD)/rung.lang $(appdir)/gtksourceview-5/language-specs/
 	install -m 644 ladders/*.rung ladders/*.scn $(appdir)/rungboard/ladders/
+	install -m 644 ladders/boards/*.io $(appdir)/rungboard/ladders/boards/
 	$(foreach m,$(MO),install -Dm 644 $m $(appdir)/$(m:$(BUILD)/%=%);)
 	$(if $(DESTDIR),,-glib-compile-schemas $(appdir)/glib-2.0/schemas; update-mime-database $(appdir)/mime; update-desktop-database $(appdir)/applications)
 .PHONY: install-editor
@@ -515,11 +516,11 @@ leaks-editor-run: $(EDITOR_TESTS) $(EDITOR_FAKE) all
 	  LSAN_OPTIONS=suppressions=tests/editor/leaks.supp:print_suppressions=0 \
 	  prove -j$$(nproc) -e '' $(if $(PERSON),$(PERSON),$(EDITOR_TESTS) $(EDITOR_PERSON))
 # Some two minutes a test. The toolkits' own lists of what they keep are used where they are.
-SUPP := $(wildcard /usr/share/glib-2.0/valgrind/glib.supp /usr/share/gtk-4.0/valgrind/gtk.supp) tests/editor/valgrind.supp
+VALGRIND := valgrind -q --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite \
+            --error-exitcode=9 --num-callers=60 $(addprefix --suppressions=,$(wildcard \
+            /usr/share/glib-2.0/valgrind/glib.supp /usr/share/gtk-4.0/valgrind/gtk.supp) tests/editor/valgrind.supp)
 valgrind-editor: all ## editor tests as a person under valgrind: lost memory, what was never written; PERSON=… as above
-	BUILD=$(BUILD) GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas G_SLICE=always-malloc PATIENCE=600 \
-	  WRAPPER='valgrind -q --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite --error-exitcode=9 \
-	  --num-callers=60 $(addprefix --suppressions=,$(SUPP))' \
+	BUILD=$(BUILD) GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas G_SLICE=always-malloc PATIENCE=600 WRAPPER='$(VALGRIND)' \
 	  prove -e '' $(if $(PERSON),$(PERSON),$(EDITOR_PERSON))
 check: tests asan arm small cases ## build, then every test
 	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \

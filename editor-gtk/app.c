@@ -6,6 +6,7 @@
  */
 #include "editor-gtk/app.h"
 
+#include "editor-gtk/beside.h"
 #include "editor-gtk/classic_open.h"
 #include "editor-gtk/disk.h"
 #include "editor-gtk/draft.h"
@@ -277,24 +278,12 @@ static void startup(GtkApplication *application)
 	gtk_window_set_default_icon_name(APP_ID);
 }
 
-/* Where the languages lie: as told, beside the program as in the build, or installed. */
+/* Where the languages lie; NULL: there are none. */
 static char *languages_folder(void)
 {
 	const char *told = g_getenv("RUNGBOARD_LOCALE");
-	char *program, *folder, *beside;
 
-	if (told)
-		return g_strdup(told);
-	program = g_file_read_link("/proc/self/exe", NULL);
-	folder = g_path_get_dirname(program ? program : "");
-	beside = g_build_filename(folder, "locale", NULL);
-	if (!program || !g_file_test(beside, G_FILE_TEST_IS_DIR)) {
-		g_free(beside);
-		beside = g_strdup(LOCALEDIR);
-	}
-	g_free(folder);
-	g_free(program);
-	return beside;
+	return told ? g_strdup(told) : beside_find("locale", "locale");
 }
 
 /* Numbers stay as programs and pictures have them, with a point: files are written here. */
@@ -305,7 +294,8 @@ static void set_language(void)
 	setlocale(LC_ALL, "");
 	setlocale(LC_NUMERIC, "C");
 	gtk_disable_setlocale();
-	bindtextdomain(GETTEXT_PACKAGE, folder);
+	if (folder)
+		bindtextdomain(GETTEXT_PACKAGE, folder);
 	g_free(folder);
 	bind_textdomain_codeset(GETTEXT_PACKAGE, "UTF-8");
 	textdomain(GETTEXT_PACKAGE);

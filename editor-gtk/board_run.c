@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/board_run.h"
 
+#include "editor-gtk/beside.h"
 #include "editor-gtk/i18n.h"
 
 #include <signal.h>
@@ -135,17 +136,9 @@ static gboolean ask(gpointer data)
 
 char *board_find_ladderd(void)
 {
-	char *program = g_file_read_link("/proc/self/exe", NULL);
-	char *folder = g_path_get_dirname(program ? program : "");
-	char *beside = g_build_filename(folder, "ladderd", NULL);
+	char *beside = beside_find("ladderd", NULL);
 
-	if (!program || !g_file_test(beside, G_FILE_TEST_IS_EXECUTABLE)) {
-		g_free(beside);
-		beside = g_find_program_in_path("ladderd");
-	}
-	g_free(folder);
-	g_free(program);
-	return beside;
+	return beside ? beside : g_find_program_in_path("ladderd");
 }
 
 /* Before it listens to it, this signal would end it. */

@@ -116,7 +116,7 @@ GtkWidget *ladder_import_dialog_new(struct csv_plan *plan, const char *from)
 	dialog->plan = plan;
 	for (guint i = 0; i < plan->entry->len; i++)
 		g_ptr_array_add(rows, row_of(plan->entry->pdata[i]));
-	panel_rows_update(dialog->list.store, rows);
+	panel_list_update(&dialog->list, rows);
 	gtk_window_set_title(GTK_WINDOW(dialog), title);
 	gtk_label_set_text(GTK_LABEL(dialog->summary), summary);
 	gtk_widget_action_set_enabled(GTK_WIDGET(dialog), "import.apply",

@@ -167,7 +167,7 @@ static void refresh(GtkWidget *widget)
 	for (int i = 0; i < io.count; i++)
 		g_ptr_array_add(rows, iomap_row_new(&view->uses, &view->machine, &io,
 						    check, i));
-	panel_rows_update(view->list.store, rows);
+	panel_list_update(&view->list, rows);
 	select_row(view, was);
 	if (focus && !(iomap_cells_place(list, &now, &now_field) && now == row &&
 		       now_field == field))

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/panel.h"
 
+#include "editor-gtk/focus.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/tip.h"
 
@@ -209,6 +210,12 @@ void panel_list_want(struct panel_list *list, const char *wanted)
 	g_free(list->wanted);
 	list->wanted = g_strdup(wanted);
 	gtk_filter_changed(GTK_FILTER(list->filter), GTK_FILTER_CHANGE_DIFFERENT);
+}
+
+void panel_list_update(struct panel_list *list, GPtrArray *rows)
+{
+	panel_rows_update(list->store, rows);
+	focus_mend(GTK_WIDGET(list->view));
 }
 
 LadderPanelRow *panel_list_row(struct panel_list *list)

@@ -42,6 +42,8 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 				    GtkListItemFactory *factory);
 /** panel_list_want - shows only rows that have this text in them. */
 void panel_list_want(struct panel_list *list, const char *wanted);
+/** panel_list_update - the list becomes @rows, as panel_rows_update(); keys are not lost. */
+void panel_list_update(struct panel_list *list, GPtrArray *rows);
 /** panel_list_row - the selected one; NULL: none. Borrowed. */
 LadderPanelRow *panel_list_row(struct panel_list *list);
 /** panel_list_select - the first row for which @is holds, scrolled to. */

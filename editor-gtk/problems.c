@@ -137,7 +137,7 @@ static void refresh(LadderProblems *problems)
 
 	for (int i = 0; diags && i < diags->count; i++)
 		g_ptr_array_add(rows, row_of(document, &diags->diag[i]));
-	panel_rows_update(problems->list.store, rows);
+	panel_list_update(&problems->list, rows);
 	problems->count = diags ? diags->count + diags->dropped : 0;
 	problems->errors = diags ? diags->errors : 0;
 	gtk_stack_set_visible_child_name(GTK_STACK(problems->stack),

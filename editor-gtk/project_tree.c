@@ -7,6 +7,7 @@
  */
 #include "editor-gtk/panels.h"
 
+#include "editor-gtk/focus.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/listing.h"
 #include "editor-gtk/popover.h"
@@ -66,6 +67,7 @@ static void refill(struct tree *tree)
 	if (at != GTK_INVALID_LIST_POSITION && count)
 		gtk_single_selection_set_selected(tree->selection, MIN(at, count - 1));
 	gtk_widget_grab_focus(tree->list);
+	focus_mend(tree->list);
 }
 
 static char *shape_of(LadderDocument *document)

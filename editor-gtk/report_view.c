@@ -51,7 +51,7 @@ static void refresh(GtkWidget *widget)
 	rows = view->lines ? report_lines_export(view->lines, view->document) :
 	       report_lines_import(view->origin, view->document);
 	view->filling = true;
-	panel_rows_update(view->list.store, rows);
+	panel_list_update(&view->list, rows);
 	view->filling = false;
 	g_free(view->said);
 	view->said = report_lines_title(name, rows);

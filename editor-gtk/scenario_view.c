@@ -85,7 +85,7 @@ static void show_rows(LadderScenarioView *view)
 
 	for (guint i = 0; view->results && i < view->results->len; i++)
 		g_ptr_array_add(rows, row_of(view->results->pdata[i], (int)i));
-	panel_rows_update(view->list.store, rows);
+	panel_list_update(&view->list, rows);
 	gtk_label_set_label(GTK_LABEL(view->empty), view->running ? _("They run…") :
 		view->results ? _("The project has no scenarios yet: record one.") :
 		_("Scenarios say what a program must do. They lie beside it, in files "

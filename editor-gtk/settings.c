@@ -4,22 +4,21 @@
  */
 #include "editor-gtk/settings.h"
 
+#include "editor-gtk/beside.h"
+
 #define SCHEMA "org.rungboard.Editor"
 
-/* A program that was built and not installed finds it beside itself. */
-static GSettingsSchema *schema_of_build(void)
+/* A program that was built, or installed where the desktop does not look, has its own. */
+static GSettingsSchema *own_schema(void)
 {
-	char *self = g_file_read_link("/proc/self/exe", NULL);
-	char *folder = self ? g_path_get_dirname(self) : g_strdup(".");
-	char *schemas = g_build_filename(folder, "schemas", NULL);
-	GSettingsSchemaSource *source = g_settings_schema_source_new_from_directory(schemas,
-		g_settings_schema_source_get_default(), FALSE, NULL);
+	char *schemas = beside_find("schemas", "glib-2.0/schemas");
+	GSettingsSchemaSource *source = schemas ?
+		g_settings_schema_source_new_from_directory(schemas,
+			g_settings_schema_source_get_default(), FALSE, NULL) : NULL;
 	GSettingsSchema *schema = source ?
 		g_settings_schema_source_lookup(source, SCHEMA, FALSE) : NULL;
 
 	g_clear_pointer(&source, g_settings_schema_source_unref);
-	g_free(self);
-	g_free(folder);
 	g_free(schemas);
 	return schema;
 }
@@ -35,7 +34,7 @@ GSettings *settings_get(void)
 			g_settings_schema_source_lookup(source, SCHEMA, TRUE) : NULL;
 
 		if (!schema)
-			schema = schema_of_build();
+			schema = own_schema();
 
 		if (schema) {
 			settings = g_settings_new_full(schema, NULL, NULL);

@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/sim_panel_inside.h"
 
+#include "editor-gtk/focus.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/sim_panel_kept.h"
 
@@ -90,6 +91,7 @@ static void show_lines(LadderSimPanel *panel)
 	}
 	g_list_store_splice(panel->store, 0, g_list_model_get_n_items(
 			    G_LIST_MODEL(panel->store)), out->pdata, out->len);
+	focus_mend(GTK_WIDGET(panel));
 	at = find_line(panel, selected);
 	gtk_single_selection_set_selected(panel->selection, at < 0 ?
 					  GTK_INVALID_LIST_POSITION : (guint)at);

@@ -121,7 +121,7 @@ static void refresh(GtkWidget *widget)
 	for (int i = 0; symbols && i < symbols->count; i++)
 		if (view->table < 0 || symbols->symbol[i].table == view->table)
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
-	panel_rows_update(view->list.store, rows);
+	panel_list_update(&view->list, rows);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
 }

@@ -51,7 +51,7 @@ static void refresh(GtkWidget *widget)
 	GPtrArray *rows = uses_rows(&view->cache, document, mode_of(view), view->pou,
 				    view->symbol);
 
-	panel_rows_update(view->list.store, rows);
+	panel_list_update(&view->list, rows);
 	g_ptr_array_unref(rows);
 	show_empty(view);
 }

@@ -7,6 +7,8 @@
  */
 #include "editor-gtk/watch_inside.h"
 
+#include "editor-gtk/focus.h"
+
 #include <string.h>
 
 G_DEFINE_FINAL_TYPE(LadderWatchView, ladder_watch_view, GTK_TYPE_WIDGET)
@@ -196,6 +198,7 @@ static void exchange(LadderWatchView *view, GPtrArray *rows)
 	if (old - first - last || rows->len - first - last)
 		g_list_store_splice(view->store, first, old - first - last,
 				    rows->pdata + first, rows->len - first - last);
+	focus_mend(view->list);
 }
 
 static void look(LadderWatchView *view)

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/welcome.h"
 
+#include "editor-gtk/beside.h"
 #include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
 
@@ -16,14 +17,13 @@
 
 char *welcome_samples(void)
 {
-	const char *const places[] = {
-		g_getenv("RUNGBOARD_LADDERS"), DATADIR "/rungboard/ladders", "ladders",
-	};
+	const char *told = g_getenv("RUNGBOARD_LADDERS");
+	char *found = told ? g_strdup(told) : beside_find("../ladders", "rungboard/ladders");
+	char *samples = found && g_file_test(found, G_FILE_TEST_IS_DIR) ?
+		g_canonicalize_filename(found, NULL) : NULL;
 
-	for (gsize i = 0; i < G_N_ELEMENTS(places); i++)
-		if (places[i] && g_file_test(places[i], G_FILE_TEST_IS_DIR))
-			return g_canonicalize_filename(places[i], NULL);
-	return NULL;
+	g_free(found);
+	return samples;
 }
 
 /* ---- rows ---- */
