@@ -238,7 +238,10 @@ $(BUILD)/editor-gtk/resources.o: $(BUILD)/editor-gtk/resources.c
 $(BUILD)/libeditor.a: $(EDITOR_OBJ)
 	@rm -f $@
 	$(AR) rcs $@ $^
-all: $(BUILD)/ladder-editor
+all: $(BUILD)/ladder-editor $(BUILD)/ladders
+# Samples lie beside the program, wherever BUILD is.
+$(BUILD)/ladders:
+	ln -sfn '$(CURDIR)/ladders' $@
 $(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 $(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a

@@ -6,11 +6,11 @@
  */
 #include "editor-gtk/app.h"
 
-#include "editor-gtk/beside.h"
 #include "editor-gtk/classic_open.h"
 #include "editor-gtk/disk.h"
 #include "editor-gtk/draft.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/installed.h"
 #include "editor-gtk/memory.h"
 #include "editor-gtk/preferences.h"
 #include "editor-gtk/render.h"
@@ -283,7 +283,7 @@ static char *languages_folder(void)
 {
 	const char *told = g_getenv("RUNGBOARD_LOCALE");
 
-	return told ? g_strdup(told) : beside_find("locale", "locale");
+	return told ? g_strdup(told) : installed_folder("locale", "locale");
 }
 
 /* Numbers stay as programs and pictures have them, with a point: files are written here. */

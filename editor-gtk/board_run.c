@@ -4,8 +4,8 @@
  */
 #include "editor-gtk/board_run.h"
 
-#include "editor-gtk/beside.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/installed.h"
 
 #include <signal.h>
 #include <string.h>
@@ -136,9 +136,7 @@ static gboolean ask(gpointer data)
 
 char *board_find_ladderd(void)
 {
-	char *beside = beside_find("ladderd", NULL);
-
-	return beside ? beside : g_find_program_in_path("ladderd");
+	return installed_program("ladderd");
 }
 
 /* Before it listens to it, this signal would end it. */

@@ -4,14 +4,14 @@
  */
 #include "editor-gtk/settings.h"
 
-#include "editor-gtk/beside.h"
+#include "editor-gtk/installed.h"
 
 #define SCHEMA "org.rungboard.Editor"
 
 /* A program that was built, or installed where the desktop does not look, has its own. */
 static GSettingsSchema *own_schema(void)
 {
-	char *schemas = beside_find("schemas", "glib-2.0/schemas");
+	char *schemas = installed_folder("schemas", "glib-2.0/schemas");
 	GSettingsSchemaSource *source = schemas ?
 		g_settings_schema_source_new_from_directory(schemas,
 			g_settings_schema_source_get_default(), FALSE, NULL) : NULL;

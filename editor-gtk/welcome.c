@@ -4,9 +4,9 @@
  */
 #include "editor-gtk/welcome.h"
 
-#include "editor-gtk/beside.h"
 #include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/installed.h"
 
 #include "engine/base/limits.h"
 
@@ -18,9 +18,8 @@
 char *welcome_samples(void)
 {
 	const char *told = g_getenv("RUNGBOARD_LADDERS");
-	char *found = told ? g_strdup(told) : beside_find("../ladders", "rungboard/ladders");
-	char *samples = found && g_file_test(found, G_FILE_TEST_IS_DIR) ?
-		g_canonicalize_filename(found, NULL) : NULL;
+	char *found = told ? g_strdup(told) : installed_folder("ladders", "rungboard/ladders");
+	char *samples = found ? g_canonicalize_filename(found, NULL) : NULL;
 
 	g_free(found);
 	return samples;

@@ -58,7 +58,7 @@ static void enter_names(struct symbol_index *index, const struct declared_name *
 	enter(index, hash_more(hash, symbol->name, symbol->array.head), number);
 }
 
-/* As many chains as there may be names, at most half of a power of two. */
+/* No fewer chains than there may be names, and a power of two. */
 static bool make_room(struct symbol_index *index, size_t symbols, struct arena *arena)
 {
 	size_t chains = 16;

@@ -112,6 +112,13 @@ def zero(screen):
     editor.element('Rung 2, [:=]', 'ENO is FALSE')
     editor.element('Rung 3, DIV', 'ENO is FALSE')
     editor.shot('running-zero')
+    # That very scan, with the values that the board would have.
+    editor.keys('alt+Left', 'alt+Right')
+    editor.says('PAST')
+    editor.element('Rung 1, COIL', 'Motor', ', on')
+    editor.keys('alt+End')
+    editor.says('SIMULATION · FAULT')
+    editor.element('Rung 1, COIL', 'Motor', ', off')
     _, of_the_bar = [node for node in editor.all('Run', 'push button') if node.name == 'Run']
     editor.click(of_the_bar)
     runs(editor)
