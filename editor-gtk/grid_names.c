@@ -5,39 +5,38 @@
 #include "editor-gtk/grid_names.h"
 
 #include <glib.h>
+#include <string.h>
 
+/* By the id that all spellings of a name share. Numbers, not pointers: a table of variables
+ * that grows may move. */
 struct grid_names {
 	const struct project *project;
 	const struct pou *pou;       /* or NULL                                 */
-	GHashTable *by_name, *by_address; /* text: struct var                  */
+	int *by_name, *by_address;   /* 1 + the number of a variable; 0: none   */
+	uint32_t count;              /* of ids                                  */
 };
 
-static guint hash_any_case(gconstpointer key)
+/* Globals come first, then locals. */
+static const struct var *var_of(const struct grid_names *names, int number)
 {
-	guint hash = 2166136261u;
+	const struct var_table *globals = &names->project->globals;
 
-	for (const char *at = key; *at; at++)
-		hash = (hash ^ (guchar)g_ascii_tolower(*at)) * 16777619u;
-	return hash;
-}
-
-static gboolean equal_any_case(gconstpointer a, gconstpointer b)
-{
-	return g_ascii_strcasecmp(a, b) == 0;
+	return number < globals->count ? &globals->var[number] :
+	       &names->pou->vars.var[number - globals->count];
 }
 
 /* Locals come last and hide globals; the first of two at one address is its name. */
-static void add_table(struct grid_names *names, const struct var_table *table)
+static void add_table(struct grid_names *names, const struct var_table *table, int before)
 {
-	for (int i = 0; i < table->count; i++) {
-		struct var *var = &table->var[i];
-		char *name = (char *)project_text(names->project, var->name);
-		char *address = (char *)project_text(names->project, var->at_text);
+	const struct names *ids = &names->project->names;
 
-		g_hash_table_insert(names->by_name, name, var);
-		if (*address && !var->array.count &&
-		    !g_hash_table_contains(names->by_address, address))
-			g_hash_table_insert(names->by_address, address, var);
+	for (int i = 0; i < table->count; i++) {
+		const struct var *var = &table->var[i];
+		const uint32_t address = names_fold(ids, var->at_text);
+
+		names->by_name[var->fold] = before + i + 1;
+		if (!var->array.count && !names->by_address[address])
+			names->by_address[address] = before + i + 1;
 	}
 }
 
@@ -47,11 +46,12 @@ struct grid_names *grid_names_new(const struct project *project, const struct po
 
 	names->project = project;
 	names->pou = pou;
-	names->by_name = g_hash_table_new(hash_any_case, equal_any_case);
-	names->by_address = g_hash_table_new(hash_any_case, equal_any_case);
-	add_table(names, &project->globals);
+	names->count = (uint32_t)MAX(project->names.count, 1);
+	names->by_name = g_new0(int, names->count);
+	names->by_address = g_new0(int, names->count);
+	add_table(names, &project->globals, 0);
 	if (pou)
-		add_table(names, &pou->vars);
+		add_table(names, &pou->vars, project->globals.count);
 	return names;
 }
 
@@ -59,19 +59,26 @@ void grid_names_free(struct grid_names *names)
 {
 	if (!names)
 		return;
-	g_hash_table_unref(names->by_name);
-	g_hash_table_unref(names->by_address);
+	g_free(names->by_name);
+	g_free(names->by_address);
 	g_free(names);
+}
+
+/* The empty name is nobody's, and what came later was not declared. */
+static const struct var *look_up(const struct grid_names *names, const int *table, uint32_t id)
+{
+	return id > 0 && id < names->count && table[id] ? var_of(names, table[id] - 1) : NULL;
 }
 
 struct grid_name grid_names_find(const struct grid_names *names, const char *operand)
 {
 	const struct project *project = names->project;
-	const struct var *var = g_hash_table_lookup(names->by_name, operand);
+	const uint32_t id = names_find_any(&project->names, operand, strlen(operand));
+	const struct var *var = look_up(names, names->by_name, id);
 	struct grid_name found = { operand, "", "", "", false };
 
 	if (!var && *operand == '%') {
-		var = g_hash_table_lookup(names->by_address, operand);
+		var = look_up(names, names->by_address, id);
 		found.symbol = var ? project_text(project, var->name) : "";
 		found.address = operand;
 	} else if (var) {

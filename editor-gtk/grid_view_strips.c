@@ -241,8 +241,8 @@ static bool names_one(LadderGridView *view, int rung, uint32_t name, uint32_t ad
 void strips_renamed(LadderGridView *view, const char *name, const char *address)
 {
 	struct names *names = &ladder_document_project(view->document)->names;
-	const uint32_t of = names_fold(names, names_find(names, name, strlen(name)));
-	const uint32_t at = names_fold(names, names_find(names, address, strlen(address)));
+	const uint32_t of = names_find_any(names, name, strlen(name));
+	const uint32_t at = names_find_any(names, address, strlen(address));
 
 	share_names(view);
 	for (int i = 0; i < (int)view->strips->len; i++)

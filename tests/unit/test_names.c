@@ -49,6 +49,10 @@ static void folds(struct names *names)
 	CHECK(names_fold(names, fold) == fold);
 	CHECK(names_fold(names, mixed) == fold);
 	CHECK(names_fold(names, other) != fold);
+	CHECK(names_find_any(names, "PUMP", 4) == fold && names_find_any(names, "pump", 4) == fold);
+	CHECK_AS(names_find_any(names, "pUMp", 4) == fold && names_find(names, "pUMp", 4) == 0,
+		 "a spelling that nobody used");
+	CHECK(names_find_any(names, "pUM", 3) == 0 && names_find_any(names, "", 0) == 0);
 	CHECK(names_fold(names, 0) == 0);
 	CHECK(names_fold(names, 4000000000u) == 0);
 	CHECK_AS(names_fold(names, names_intern(names, "a@", 2)) !=

@@ -130,6 +130,16 @@ uint32_t names_find(const struct names *names, const char *text, size_t len)
 				     &fold)];
 }
 
+uint32_t names_find_any(const struct names *names, const char *text, size_t len)
+{
+	uint32_t fold, slot;
+
+	if (len == 0 || len >= UINT32_MAX || !names->count)
+		return 0;
+	slot = find_slot(names, text, len, hash_bytes(text, len), &fold);
+	return fold ? fold : names_fold(names, names->slot[slot]);
+}
+
 const char *names_text(const struct names *names, uint32_t id)
 {
 	return id < (uint32_t)names->count ? names->entry[id].text : "";

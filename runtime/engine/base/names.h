@@ -38,6 +38,10 @@ uint32_t names_intern(struct names *names, const char *text, size_t len);
 /** names_find - as names_intern, but 0 if the string is not in the table. */
 uint32_t names_find(const struct names *names, const char *text, size_t len);
 
+/** names_find_any - the id that all spellings of a text share (names_fold()), though this
+ * one may not be in the table; 0: none is. */
+uint32_t names_find_any(const struct names *names, const char *text, size_t len);
+
 /** names_text - the NUL-ended string of @id; lives with the arena. */
 const char *names_text(const struct names *names, uint32_t id);
 

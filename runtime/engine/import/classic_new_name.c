@@ -60,7 +60,7 @@ static bool claim(struct conversion *c, const char *name)
 /* The number behind @base that is to be tried next. */
 static int number_behind(struct conversion *c, const char *base)
 {
-	uint32_t id = names_fold(&c->taken, names_find(&c->taken, base, strlen(base)));
+	uint32_t id = names_find_any(&c->taken, base, strlen(base));
 
 	while (c->tried_count <= (int)id)
 		if (!arena_push(c->arena, &c->tried, &c->tried_count, sizeof(*c->tried)))

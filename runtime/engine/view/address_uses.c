@@ -57,10 +57,8 @@ static void mark_table(struct walk *walk, const struct var_table *table, enum ma
 /* A variable may be called as an address is; then that is what is meant. */
 static bool is_declared(struct walk *walk, const char *text, size_t len)
 {
-	const struct names *names = &walk->project->names;
-
 	walk->own = true;
-	return walk->mark[names_fold(names, names_find(names, text, len))] &
+	return walk->mark[names_find_any(&walk->project->names, text, len)] &
 	       (GLOBAL | LOCAL);
 }
 
