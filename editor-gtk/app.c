@@ -243,7 +243,7 @@ static void open_files(AdwApplication *application, GFile **files, int count,
 	}
 }
 
-static void add_style(void)
+void app_style(void)
 {
 	GtkCssProvider *css = gtk_css_provider_new();
 
@@ -273,7 +273,7 @@ static void startup(GtkApplication *application)
 {
 	forget_gl();
 	gtk_source_init();
-	add_style();
+	app_style();
 	preferences_follow(ADW_APPLICATION(application));
 	gtk_window_set_default_icon_name(APP_ID);
 }

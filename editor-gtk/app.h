@@ -11,6 +11,8 @@
 
 /** app_run - all of ladder-editor; returns its exit status. */
 int app_run(int argc, char **argv);
+/** app_style - gives the display the editor's style sheet: for all its windows. */
+void app_style(void);
 /** app_new_window - with a new project. */
 void app_new_window(LadderWindow *window);
 /** app_open_path - in the window, if nothing was done in it yet; else in another. */

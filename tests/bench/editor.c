@@ -510,6 +510,7 @@ int main(int argc, char **argv)
 	application = adw_application_new("org.rungboard.Bench", G_APPLICATION_NON_UNIQUE);
 	g_application_register(G_APPLICATION(application), NULL, NULL);
 	gtk_source_init();
+	app_style();
 	run(application, argv[1], argc > 3 ? argv[3] : "");
 	return 0;
 }
