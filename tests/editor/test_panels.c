@@ -9,6 +9,7 @@
 #include "editor-gtk/problems.h"
 #include "editor-gtk/symbols_view.h"
 #include "editor-gtk/uses_view.h"
+#include "tests/editor/keys.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -316,14 +317,6 @@ static GtkWidget *cell_of(GtkWidget *view, GType type, const char *text)
 	}
 }
 
-/* Without a focus they go to the window. */
-static bool keys_arrive(void)
-{
-	GtkWidget *focus = gtk_root_get_focus(GTK_ROOT(window));
-
-	return !focus || gtk_widget_is_ancestor(focus, window);
-}
-
 static void type_into(LadderSymbolsView *view, GtkWidget *cell, const char *text)
 {
 	CHECK(cell);
@@ -333,7 +326,7 @@ static void type_into(LadderSymbolsView *view, GtkWidget *cell, const char *text
 	gtk_editable_set_text(GTK_EDITABLE(cell), text);
 	g_signal_emit_by_name(cell, "activate");
 	ladder_symbols_view_refresh(view);
-	CHECK_AS(keys_arrive(), "a key that comes at once is not lost");
+	CHECK_AS(keys_arrive(window), "a key that comes at once is not lost");
 	turn(50);
 	CHECK_AS(gtk_root_get_focus(GTK_ROOT(window)), "the focus is in the table again");
 }

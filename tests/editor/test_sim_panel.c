@@ -3,8 +3,10 @@
  * test_sim_panel - the panel of a simulation, in a window: which lines it has, what they show,
  * what a click, a key, the menu does. SIM_PICTURES=FOLDER saves pictures, for a human eye.
  */
+#include "editor-gtk/app.h"
 #include "editor-gtk/sim_panel.h"
 #include "editor-gtk/sim_panel_view.h"
+#include "tests/editor/keys.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
@@ -297,8 +299,11 @@ static void test_found(void)
 	GtkWidget *search = find_widget(GTK_WIDGET(panel), GTK_TYPE_SEARCH_ENTRY);
 	char *all;
 
+	CHECK(ladder_sim_panel_select(panel, "Start"));
+	CHECK(gtk_widget_grab_focus(find_widget(GTK_WIDGET(panel), GTK_TYPE_LIST_VIEW)));
 	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "6 ");
 	gtk_widget_activate_action(GTK_WIDGET(panel), "sim-panel.fold", "s", "0 ");
+	CHECK_AS(keys_arrive(window), "a key that comes at once is not lost");
 	all = lines();
 	CHECK(g_str_has_prefix(all, "[Inputs] [Outputs] ") && g_str_has_suffix(all, "[Values] "));
 	g_free(all);
@@ -452,11 +457,7 @@ int main(int argc, char **argv)
 	(void)argc;
 	(void)argv;
 	adw_init();
-	GtkCssProvider *css = gtk_css_provider_new();
-
-	gtk_css_provider_load_from_resource(css, "/org/rungboard/Editor/ui/style.css");
-	gtk_style_context_add_provider_for_display(gdk_display_get_default(),
-		GTK_STYLE_PROVIDER(css), GTK_STYLE_PROVIDER_PRIORITY_APPLICATION);
+	app_style();
 	document = ladder_document_new();
 	ladder_document_open_text(document, "/tmp/x/test.rung", sample, strlen(sample), true);
 	sim = ladder_sim_new(document);
@@ -489,6 +490,5 @@ int main(int argc, char **argv)
 	gtk_window_destroy(GTK_WINDOW(window));
 	g_object_unref(sim);
 	g_object_unref(document);
-	g_object_unref(css);
 	return tap_done();
 }
