@@ -3,7 +3,8 @@
  * picture_paint - the list of strokes as render nodes, and upon a cairo surface.
  *
  * Rectangles and straight lines become colour nodes and text becomes text nodes: they
- * cost a renderer next to nothing. Only what is round or slanting goes through cairo.
+ * cost a renderer next to nothing, and circles become borders. Only what is broken goes
+ * through cairo.
  */
 #include "editor-gtk/picture.h"
 
@@ -127,27 +128,33 @@ static graphene_rect_t bounds_of(const struct stroke *s)
 	return GRAPHENE_RECT_INIT(s->x, s->y, s->w, s->h);
 }
 
-/* Only these go through cairo: what is round, slanting or broken. */
+/* Half the angle of an arc that is the same above and below its centre; 0: it is not. */
+static float opening_of(const struct stroke *s)
+{
+	return fabsf(sinf((s->h + s->to) / 2)) < 0.001f ? (s->to - s->h) / 2 : 0;
+}
+
+/* Only these go through cairo, which draws them into an image of their own first: what is
+ * broken, and arcs that stand askew. */
 static bool wants_cairo(const struct stroke *s)
 {
 	switch (s->kind) {
 	case STROKE_TEXT:
 	case STROKE_FILL:
+	case STROKE_DISC:
 		return false;
 	case STROKE_FRAME:
-		return s->style != STROKE_SOLID;
 	case STROKE_LINE:
-		return s->style != STROKE_SOLID || (s->x != s->w && s->y != s->h);
+		return s->style != STROKE_SOLID;
 	case STROKE_ARC:
-	case STROKE_DISC:
+		return opening_of(s) == 0;
 	case STROKE_WAVE:
 		return true;
 	}
 	return true;
 }
 
-/* Strokes from @from on that follow one another, as one node: both arcs of a coil and
- * the light in it. Returns the first behind them. */
+/* Strokes from @from on that follow one another, as one node. Returns the first behind them. */
 static int by_cairo(GtkSnapshot *snapshot, const struct picture *picture, int from,
 		    const struct theme *theme)
 {
@@ -183,6 +190,56 @@ static void straight(GtkSnapshot *snapshot, const struct stroke *s, const GdkRGB
 	gtk_snapshot_append_color(snapshot, color, &rect);
 }
 
+static void slanting(GtkSnapshot *snapshot, const struct stroke *s, const GdkRGBA *color)
+{
+	const float dx = s->w - s->x, dy = s->h - s->y;
+
+	gtk_snapshot_save(snapshot);
+	gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(s->x, s->y));
+	gtk_snapshot_rotate(snapshot, atan2f(dy, dx) * 180 / (float)G_PI);
+	gtk_snapshot_append_color(snapshot, color, &GRAPHENE_RECT_INIT(0, -s->width / 2,
+		hypotf(dx, dy), s->width));
+	gtk_snapshot_restore(snapshot);
+}
+
+static void line_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
+			     const GdkRGBA *color)
+{
+	if (s->x == s->w || s->y == s->h)
+		straight(snapshot, s, color);
+	else
+		slanting(snapshot, s, color);
+}
+
+/* A ring; of the same width as its radius it is a disc. */
+static void ring(GtkSnapshot *snapshot, const struct stroke *s, float radius, float thick,
+		 const GdkRGBA *color)
+{
+	const float width[4] = { thick, thick, thick, thick };
+	const GdkRGBA colors[4] = { *color, *color, *color, *color };
+	GskRoundedRect circle;
+
+	gsk_rounded_rect_init_from_rect(&circle, &GRAPHENE_RECT_INIT(s->x - radius,
+		s->y - radius, 2 * radius, 2 * radius), radius);
+	gtk_snapshot_append_border(snapshot, &circle, width, colors);
+}
+
+/* What is seen of its ring. The ends of an arc are upright so, not across it. */
+static void arc_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
+			    const GdkRGBA *color)
+{
+	const float opening = opening_of(s), outer = s->w + s->width / 2;
+	const float end = s->w * cosf(opening), half = outer * sinf(opening);
+	const bool left = cosf((s->h + s->to) / 2) < 0;
+
+	if (opening < (float)G_PI)
+		gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(
+			left ? s->x - outer : s->x + end, s->y - half, outer - end, 2 * half));
+	ring(snapshot, s, outer, s->width, color);
+	if (opening < (float)G_PI)
+		gtk_snapshot_pop(snapshot);
+}
+
 static void text_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
 			     const GdkRGBA *color, struct lettering *lettering)
 {
@@ -208,24 +265,46 @@ static void frame_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
 	gtk_snapshot_append_border(snapshot, &rect, width, colors);
 }
 
+static void stroke_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
+			       const struct theme *theme, struct lettering *lettering)
+{
+	const GdkRGBA color = color_of(s, theme);
+
+	switch (s->kind) {
+	case STROKE_TEXT:
+		text_on_snapshot(snapshot, s, &color, lettering);
+		return;
+	case STROKE_FILL:
+		gtk_snapshot_append_color(snapshot, &color,
+			&GRAPHENE_RECT_INIT(s->x, s->y, s->w, s->h));
+		return;
+	case STROKE_FRAME:
+		frame_on_snapshot(snapshot, s, &color);
+		return;
+	case STROKE_LINE:
+		line_on_snapshot(snapshot, s, &color);
+		return;
+	case STROKE_ARC:
+		arc_on_snapshot(snapshot, s, &color);
+		return;
+	case STROKE_DISC:
+		ring(snapshot, s, s->w, s->w, &color);
+		return;
+	case STROKE_WAVE:
+		return;
+	}
+}
+
 void picture_snapshot(const struct picture *picture, const struct theme *theme,
 		      struct lettering *lettering, GtkSnapshot *snapshot)
 {
 	for (int i = 0; i < picture->count; i++) {
 		const struct stroke *s = &picture->stroke[i];
-		GdkRGBA color = color_of(s, theme);
 
 		if (wants_cairo(s))
 			i = by_cairo(snapshot, picture, i, theme) - 1;
-		else if (s->kind == STROKE_TEXT)
-			text_on_snapshot(snapshot, s, &color, lettering);
-		else if (s->kind == STROKE_FILL)
-			gtk_snapshot_append_color(snapshot, &color,
-				&GRAPHENE_RECT_INIT(s->x, s->y, s->w, s->h));
-		else if (s->kind == STROKE_FRAME)
-			frame_on_snapshot(snapshot, s, &color);
 		else
-			straight(snapshot, s, &color);
+			stroke_on_snapshot(snapshot, s, theme, lettering);
 	}
 }
 

@@ -3,6 +3,9 @@
  * test_strokes - drawings, stroke by stroke, against tests/editor/drawing/. Measured by
  * rule and not with fonts, so that they are the same on every machine.
  *
+ * Then each as the screen has it, of nodes, and as paper has it, of cairo's paths: they are
+ * the same.
+ *
  * With --bless the files are written anew; read the difference.
  */
 #include "tests/editor/drawn.h"
@@ -129,11 +132,159 @@ static char *reference_of(void *context, int row, int col)
 	return row == 1 ? NULL : g_strdup("read in Main 3, 5");
 }
 
+/* ---- on the screen as on paper ---- */
+
+#define ZOOM 4
+
+static cairo_t *white(int width, int height)
+{
+	cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+							    width * ZOOM, height * ZOOM);
+	cairo_t *cr = cairo_create(image);
+
+	cairo_surface_destroy(image);
+	cairo_set_source_rgb(cr, 1, 1, 1);
+	cairo_paint(cr);
+	cairo_scale(cr, ZOOM, ZOOM);
+	return cr;
+}
+
+/* Of the bytes that are not white in either: how many are quite another, in thousandths. */
+static long differs(cairo_t *one, cairo_t *other)
+{
+	cairo_surface_t *left = cairo_get_target(one), *right = cairo_get_target(other);
+	const int stride = cairo_image_surface_get_stride(left);
+	const long size = (long)stride * cairo_image_surface_get_height(left);
+	const unsigned char *a, *b;
+	long inked = 0, others = 0;
+
+	cairo_surface_flush(left);
+	cairo_surface_flush(right);
+	a = cairo_image_surface_get_data(left);
+	b = cairo_image_surface_get_data(right);
+	for (long i = 0; i < size; i++) {
+		if (i % 4 == 3) /* RGB24 has none */
+			continue;
+		inked += a[i] < 250 || b[i] < 250;
+		others += abs(a[i] - b[i]) > 128;
+	}
+	return inked ? others * 1000 / inked : 1000;
+}
+
+static bool has_cairo(GskRenderNode *node)
+{
+	GBytes *text = gsk_render_node_serialize(node);
+	const bool has = g_strstr_len(g_bytes_get_data(text, NULL),
+				      (gssize)g_bytes_get_size(text), "cairo {") != NULL;
+
+	g_bytes_unref(text);
+	return has;
+}
+
+static bool is_broken(const struct picture *picture)
+{
+	for (int i = 0; i < picture->count; i++)
+		if (picture->stroke[i].style != STROKE_SOLID ||
+		    picture->stroke[i].kind == STROKE_WAVE)
+			return true;
+	return false;
+}
+
+/* Both ways to draw; @broken: with what only cairo has. The ends of arcs are not cut alike. */
+static void both_ways(const struct picture *picture, int width, int height, bool broken,
+		      struct lettering *lettering, const char *name)
+{
+	const struct theme *theme = theme_get(THEME_LIGHT, THEME_GREEN);
+	GskRenderNode *node = picture_node(picture, theme, lettering);
+	cairo_t *screen = white(width, height), *paper = white(width, height);
+	long part;
+
+	gsk_render_node_draw(node, screen);
+	picture_cairo(picture, theme, lettering, paper);
+	part = differs(screen, paper);
+	if (!CHECK_AS(part < 30, name))
+		printf("# %ld of 1000 bytes differ\n", part);
+	CHECK_AS(has_cairo(node) == broken, "what is not broken needs no image of its own");
+	cairo_destroy(screen);
+	cairo_destroy(paper);
+	gsk_render_node_unref(node);
+}
+
+static void shape(struct picture *picture, int which)
+{
+	switch (which) {
+	case 0:
+		picture_arc(picture, TOKEN_INK, 2, 30, 20, 20, (float)G_PI - 0.73f,
+			    (float)G_PI + 0.73f);
+		return;
+	case 1:
+		picture_arc(picture, TOKEN_INK, 2, 30, 20, 20, -0.73f, 0.73f);
+		return;
+	case 2:
+		picture_arc(picture, TOKEN_INK, 1.5f, 30, 20, 5, 0, (float)(2 * G_PI));
+		return;
+	case 3:
+		picture_disc(picture, TOKEN_POWER, 0.5f, 30, 20, 13);
+		return;
+	case 4:
+		picture_line(picture, TOKEN_INK, STROKE_SOLID, 2, 10, 35, 50, 5);
+		return;
+	case 5:
+		picture_line(picture, TOKEN_INK, STROKE_SOLID, 2, 50, 30, 10, 20);
+		return;
+	case 6:
+		picture_line(picture, TOKEN_INK, STROKE_DASHED, 2, 10, 35, 50, 5);
+		return;
+	default:
+		picture_arc(picture, TOKEN_INK, 2, 30, 20, 15, 0.3f, 1.9f); /* askew */
+		return;
+	}
+}
+
+static void check_shapes(struct lettering *lettering)
+{
+	static const char *const names[] = {
+		"left arc", "right arc", "circle", "disc", "slash", "backward", "dashed",
+		"arc askew",
+	};
+
+	for (int i = 0; i < (int)G_N_ELEMENTS(names); i++) {
+		struct picture picture;
+
+		picture_init(&picture);
+		shape(&picture, i);
+		both_ways(&picture, 60, 40, i >= 6, lettering, names[i]);
+		picture_clear(&picture);
+	}
+}
+
+static void check_rungs(struct sheet *sheet, struct lettering *lettering)
+{
+	for (int i = 0; i < sheet->count; i++) {
+		const struct grid_scene scene = {
+			.drafting = &sheet->drafting, .layout = sheet->rung[i],
+			.theme = theme_get(THEME_LIGHT, THEME_GREEN),
+		};
+		struct picture picture;
+		char name[32];
+
+		picture_init(&picture);
+		grid_draw(&scene, &picture);
+		snprintf(name, sizeof(name), "rung %d both ways", i + 1);
+		both_ways(&picture, (int)rung_layout_width(sheet->rung[i]),
+			  (int)sheet->rung[i]->height, is_broken(&picture), lettering, name);
+		picture_clear(&picture);
+	}
+}
+
 int main(int argc, char **argv)
 {
+	PangoContext *context = lettering_context();
 	struct lettering *lettering = lettering_new(NULL, NULL);
+	struct lettering *with_fonts = lettering_new(context, NULL);
 	struct ladder *ladder = drawn_load(FOLDER "shapes.rung", NULL);
 
+	gtk_init_check(); /* the types of nodes; there need be no display       */
 	bless = argc > 1 && strcmp(argv[1], "--bless") == 0;
 	if (!CHECK(ladder))
 		return tap_done();
@@ -155,8 +306,12 @@ int main(int argc, char **argv)
 					    .reference = reference_of }, "paper-2");
 	draw(sheet, 0, (struct grid_scene){ .state = RUNG_REMOVED | RUNG_CHANGED },
 	     "removed");
+	check_shapes(with_fonts);
+	check_rungs(sheet, with_fonts);
 	sheet_free(sheet);
 	ladder_free(ladder);
+	lettering_free(with_fonts);
 	lettering_free(lettering);
+	g_object_unref(context);
 	return tap_done();
 }
