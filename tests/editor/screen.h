@@ -6,7 +6,9 @@
 #ifndef TESTS_EDITOR_SCREEN_H
 #define TESTS_EDITOR_SCREEN_H
 
-#include <glib.h>
+#include "tests/editor/soon.h"
+
+#include <gtk/gtk.h>
 #include <stdbool.h>
 #include <unistd.h>
 
@@ -52,6 +54,15 @@ static inline bool screen_start(void)
 	close(pipes[0]);
 	screen_environment(display);
 	return len > 1;
+}
+
+/** screen_show - @window, until its child has its place there: rows are made then. */
+static inline void screen_show(GtkWidget *window)
+{
+	GtkWidget *child = gtk_window_get_child(GTK_WINDOW(window));
+
+	gtk_window_present(GTK_WINDOW(window));
+	CHECK_SOON(gtk_widget_get_mapped(child) && gtk_widget_get_width(child) > 0);
 }
 
 #endif

@@ -6,6 +6,8 @@
 #include "editor-gtk/find_bar.h"
 #include "editor-gtk/import_dialog.h"
 #include "editor-gtk/panel_row.h"
+#include "editor-gtk/panels.h"
+#include "editor-gtk/pou_edit.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/symbols_view.h"
 #include "editor-gtk/uses_view.h"
@@ -47,8 +49,9 @@ static void go_to(GSimpleAction *action, GVariant *place, gpointer unused)
 static void put(GtkWidget *child)
 {
 	gtk_window_set_child(GTK_WINDOW(window), child);
-	gtk_window_present(GTK_WINDOW(window));
-	turn(150);
+	if (child)
+		screen_show(window);
+	turn(0);
 }
 
 static void make_window(void)
@@ -222,8 +225,8 @@ static void test_problems(void)
 	CHECK(ladder_problems_next(problems, false));
 	CHECK(ladder_problems_next(problems, true));
 	reopen("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nEND_PROGRAM\n");
-	turn(20);
-	CHECK(g_list_model_get_n_items(list) == 0 && !ladder_problems_next(problems, false));
+	CHECK_SOON(g_list_model_get_n_items(list) == 0);
+	CHECK(!ladder_problems_next(problems, false));
 	CHECK_TEXT(ladder_problems_title(problems), "Problems");
 	reopen("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO\n");
 	CHECK_AS(ladder_problems_count(problems, true) > 0, "of a text, too");
@@ -327,8 +330,7 @@ static void type_into(LadderSymbolsView *view, GtkWidget *cell, const char *text
 	g_signal_emit_by_name(cell, "activate");
 	ladder_symbols_view_refresh(view);
 	CHECK_AS(keys_arrive(window), "a key that comes at once is not lost");
-	turn(50);
-	CHECK_AS(gtk_root_get_focus(GTK_ROOT(window)), "the focus is in the table again");
+	CHECK_SOON(gtk_root_get_focus(GTK_ROOT(window))); /* in the table again */
 }
 
 static guint row_named(GListModel *list, const char *name)
@@ -367,8 +369,7 @@ static void test_symbols(void)
 	CHECK(has("| NO \xe5\x90\xaf\xe5\x8a\xa8 |"));
 	ladder_document_check_now(document); /* it is unused: its row changes */
 	ladder_symbols_view_refresh(view);
-	turn(250);
-	cell = cell_of(widget, GTK_TYPE_ENTRY, "Stock");
+	WAIT((cell = cell_of(widget, GTK_TYPE_ENTRY, "Stock")) != NULL);
 	type_into(view, cell, "Hours");
 	CHECK_AS(gtk_widget_has_css_class(cell, "error") &&
 		 strstr(ladder_symbols_view_message(view), "Hours"), "a refusal is told");
@@ -377,7 +378,6 @@ static void test_symbols(void)
 	CHECK(!gtk_widget_has_css_class(cell, "error"));
 	cell = nth_widget(widget, GTK_TYPE_CHECK_BUTTON, 0);
 	gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), TRUE);
-	turn(20);
 	CHECK(has("VAR RETAIN\n  Hours           : UDINT;\n  \xe5\x90\xaf\xe5\x8a\xa8  AT %IX0.0 : BOOL;") ||
 	      has("VAR RETAIN\n  Hours : UDINT;\n  \xe5\x90\xaf\xe5\x8a\xa8  AT %IX0.0 : BOOL;"));
 	while (ladder_document_undo(document))
@@ -419,7 +419,6 @@ static void test_import(void)
 	CHECK(!ladder_document_undo_name(document));
 	dialog = ladder_symbols_view_import(view, "table.csv", table, strlen(table));
 	gtk_widget_activate_action(dialog, "import.apply", NULL);
-	turn(200);
 	CHECK(has("AT %IX0.5 : BOOL; (* go *)") && has("\xe9\x98\x80    AT %QX1.0"));
 	CHECK_TEXT(ladder_document_undo_name(document), "Import symbols");
 	ladder_document_undo(document);
@@ -488,6 +487,48 @@ static void test_find(void)
 	put(NULL);
 }
 
+/* ---- the tree ---- */
+
+static guint rows_of(GtkWidget *list)
+{
+	return g_list_model_get_n_items(G_LIST_MODEL(
+		gtk_list_view_get_model(GTK_LIST_VIEW(list))));
+}
+
+static bool has_focus(GtkWidget *widget)
+{
+	GtkWidget *focus = gtk_root_get_focus(GTK_ROOT(window));
+
+	return focus && gtk_widget_is_ancestor(focus, widget);
+}
+
+/* The rows of all programs are others when one of them goes. */
+static void test_tree(void)
+{
+	GtkWidget *tree = ladder_project_tree_new(document);
+	GtkWidget *list;
+	guint rows;
+
+	put(tree);
+	list = nth_widget(tree, GTK_TYPE_LIST_VIEW, 0);
+	rows = rows_of(list);
+	CHECK(rows > 3 && gtk_widget_grab_focus(list) && keys_arrive(window));
+	CHECK(pou_delete(document, 1));
+	WAIT(rows_of(list) != rows);
+	CHECK_AS(keys_arrive(window), "a key that comes at once is not lost");
+	CHECK(rows_of(list) == rows - 1);
+	CHECK_SOON(has_focus(list));
+	CHECK(ladder_document_undo(document));
+	CHECK_SOON(rows_of(list) == rows);
+	CHECK(gtk_widget_grab_focus(list));
+	reopen("RUNGBOARD 9\n");
+	WAIT(rows_of(list) == 0);
+	CHECK_AS(rows_of(list) == 0 && keys_arrive(window), "nor is one when all rows go");
+	reopen(sample);
+	CHECK_SOON(rows_of(list) == rows);
+	put(NULL);
+}
+
 int main(void)
 {
 	if (!screen_start() || !gtk_init_check()) {
@@ -503,6 +544,7 @@ int main(void)
 	test_symbols();
 	test_import();
 	test_find();
+	test_tree();
 	gtk_window_destroy(GTK_WINDOW(window));
 	WAIT(G_OBJECT(document)->ref_count == 1);
 	g_assert_finalize_object(document);

@@ -465,15 +465,13 @@ int main(int argc, char **argv)
 	window = gtk_window_new();
 	gtk_window_set_default_size(GTK_WINDOW(window), 290, 860);
 	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(panel));
-	gtk_window_present(GTK_WINDOW(window));
-	turn(200);
+	screen_show(window);
 	picture("off");
 	GError *error = NULL;
 
 	CHECK(ladder_sim_begin(sim, &error));
 	if (error)
 		printf("# %s\n", error->message);
-	turn(100);
 	test_lines();
 	ladder_sim_reset(sim, false);
 	test_values();

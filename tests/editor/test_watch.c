@@ -295,8 +295,7 @@ static void check_making(void)
 	CHECK(row_of("Table[2]") && row_of("Delay.ET") &&
 	      row_of("Delay.ET")->at.type == IEC_TIME);
 	CHECK(ladder_document_undo(document));
-	turn(50);
-	CHECK(rows() == 3);
+	CHECK_SOON(rows() == 3);
 	CHECK(ladder_watch_view_add(view, "%QW0 Count Bits Level Label Most"));
 	CHECK(rows() == 9 && strcmp(shown("Count"), "") == 0);
 	gtk_widget_activate_action(GTK_WIDGET(view), "watch.format", "(ii)", 5, WATCH_HEX);
@@ -392,9 +391,8 @@ static void check_charts(void)
 	do_action("watch.delete-chart");
 	CHECK(rows() == 9);
 	while (ladder_document_undo(document))
-		turn(1);
-	turn(20);
-	CHECK(rows() == 0);
+		turn(0);
+	CHECK_SOON(rows() == 0);
 	char *text = ladder_document_text(document, NULL);
 
 	CHECK_TEXT(text, original);
@@ -412,8 +410,7 @@ static void make(void)
 	gtk_window_set_default_size(GTK_WINDOW(window), 900, 420);
 	view = LADDER_WATCH_VIEW(ladder_watch_view_new(document, sim));
 	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(view));
-	gtk_window_present(GTK_WINDOW(window));
-	turn(150);
+	screen_show(window);
 }
 
 int main(void)
