@@ -9,8 +9,8 @@
 #include "editor-gtk/sim_panel_map.h"
 
 #include "editor-gtk/disk.h"
-#include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/iomap_beside.h"
 #include "editor-gtk/iomap_text.h"
 
 #include "engine/base/limits.h"
@@ -18,23 +18,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- which map ---- */
-
-/* NAME.io of NAME.rung, else the first of its own. Caller frees; NULL: there is none. */
-static char *map_of(const char *path)
-{
-	GPtrArray *files = files_beside(path, ".io", true);
-	const char *dot = path ? strrchr(path, '.') : NULL;
-	char *best = dot ? g_strdup_printf("%.*s.io", (int)(dot - path), path) : NULL;
-
-	if (best && !g_file_test(best, G_FILE_TEST_EXISTS))
-		g_clear_pointer(&best, g_free);
-	if (!best && files->len > 0)
-		best = g_strdup(files->pdata[0]);
-	g_ptr_array_unref(files);
-	return best;
-}
 
 /* ---- what it says ---- */
 
@@ -152,7 +135,7 @@ static void take(struct map *map, LadderSimRow *row)
 
 void sim_map_take(const char *path, GPtrArray *rows)
 {
-	char *file = path ? map_of(path) : NULL, *text = NULL;
+	char *file = iomap_beside(path), *text = NULL;
 	struct map map;
 	gsize len;
 

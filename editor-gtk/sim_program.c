@@ -6,6 +6,7 @@
 
 #include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/iomap_beside.h"
 
 #include <string.h>
 
@@ -60,6 +61,7 @@ struct sim_program *sim_program_new(const char *file, const char *text, gsize le
 		return NULL;
 	}
 	program->program = ladder_program(program->ladder);
+	program->safe = iomap_safe_beside(file, &program->program->areas);
 	return program;
 }
 
@@ -74,13 +76,22 @@ static char *plain_text(const struct sim_program *program)
 				    at + strlen(view)) : g_strdup(program->text);
 }
 
+/* Of two programs with the same areas. */
+static bool is_safe_same(const struct sim_program *a, const struct sim_program *b)
+{
+	return a->safe && b->safe ?
+	       memcmp(a->safe, b->safe, a->program->areas.bytes[AREA_Q]) == 0 :
+	       a->safe == b->safe;
+}
+
 bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b)
 {
 	const struct code_header *x = a->program->header, *y = b->program->header;
 	char *left, *right;
 	bool same;
 
-	if (x->size != y->size || memcmp(a->program->base, b->program->base, x->size) != 0)
+	if (x->size != y->size || memcmp(a->program->base, b->program->base, x->size) != 0 ||
+	    !is_safe_same(a, b))
 		return false;
 	left = g_strchomp(plain_text(a));
 	right = g_strchomp(plain_text(b));
@@ -103,5 +114,6 @@ void sim_program_unref(struct sim_program *program)
 		return;
 	ladder_free(program->ladder);
 	g_free(program->text);
+	g_free(program->safe);
 	g_free(program);
 }

@@ -66,7 +66,7 @@ static void publish(struct sim_thread *thread, bool must)
 		return;
 	twin_copy(&thread->out, &thread->twin);
 	if (thread->fault)
-		twin_outputs_off(&thread->out);
+		twin_outputs_safe(&thread->out);
 	thread->out_run = thread->run;
 	thread->out_fault = thread->fault;
 	thread->out_refusal = thread->refusal;
@@ -212,12 +212,20 @@ static void take_place(struct sim_thread *thread, const struct twin *next,
 	g_mutex_unlock(&thread->record_lock);
 }
 
+static bool twin_of(struct twin *twin, const struct sim_program *program,
+		    const struct sim_program *plant, int64_t period_ns)
+{
+	if (!twin_init(twin, program->program, plant ? plant->program : NULL, period_ns))
+		return false;
+	twin_set_safe(twin, program->safe);
+	return true;
+}
+
 static void change(struct sim_thread *thread, struct sim_program *program)
 {
 	struct twin next;
 
-	if (twin_init(&next, program->program, thread->plant ?
-		      thread->plant->program : NULL, thread->twin.period_ns) &&
+	if (twin_of(&next, program, thread->plant, thread->twin.period_ns) &&
 	    twin_change(&next, &thread->twin)) {
 		take_place(thread, &next, program);
 		return;
@@ -329,8 +337,7 @@ struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_progra
 {
 	struct sim_thread *thread = g_new0(struct sim_thread, 1);
 
-	if (!twin_init(&thread->twin, program->program, plant ? plant->program : NULL,
-		       period_ns) ||
+	if (!twin_of(&thread->twin, program, plant, period_ns) ||
 	    !twin_clone(&thread->out, &thread->twin)) {
 		twin_free(&thread->twin);
 		g_free(thread);

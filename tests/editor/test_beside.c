@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_beside - which scenarios and I/O maps of a folder belong to a program.
+ * test_beside - which scenarios and I/O maps of a folder belong to a program, and which
+ * outputs its map has at 1 while nothing runs.
  */
 #include "editor-gtk/file_view.h"
+#include "editor-gtk/iomap_beside.h"
 #include "tests/tap.h"
 
 #include <glib/gstdio.h>
@@ -41,6 +43,51 @@ static bool are(const char *program, const char *ending, bool own, const char *w
 	return same;
 }
 
+static bool map_is(const char *program, const char *wanted)
+{
+	char *path = g_build_filename(folder, program, NULL), *map = iomap_beside(path);
+	const bool same = wanted ? map && strcmp(map + strlen(folder) + 1, wanted) == 0 :
+				   !map;
+
+	if (!same)
+		printf("# %s, not %s\n", map ? map : "none", wanted ? wanted : "none");
+	g_free(map);
+	g_free(path);
+	return same;
+}
+
+/* The first two bytes of safe outputs under pump.io with this text; -1: NULL. */
+static int safe_of(const char *text)
+{
+	struct areas areas;
+	char *map = g_build_filename(folder, "pump.io", NULL);
+	char *program = g_build_filename(folder, "pump.rung", NULL);
+	guint8 *safe;
+	int got;
+
+	areas_init(&areas);
+	CHECK(g_file_set_contents(map, text, -1, NULL));
+	safe = iomap_safe_beside(program, &areas);
+	got = safe ? safe[0] | safe[1] << 8 : -1;
+	g_free(safe);
+	g_free(map);
+	g_free(program);
+	return got;
+}
+
+static void test_safe(void)
+{
+	CHECK(map_is("pump.rung", "pump.io") && map_is("pump-two.rung", "pump-two.io"));
+	CHECK(map_is("new.rung", NULL) && iomap_beside(NULL) == NULL);
+	CHECK(safe_of("") == -1);
+	CHECK(safe_of("BOARD \"Desk\"\n%IX0.0 sim\n%QX0.0 sim safe=0\n%QX0.7 sim\n") == -1);
+	CHECK(safe_of("BOARD \"Desk\"\n%QX0.0 sim safe=0\n%QX0.6 sim safe=1\n"
+		      "%QX1.1 sim safe=1 active-low\n") == 0x0240);
+	/* ladderd takes none of it. */
+	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX0.7 nothing\n") == -1);
+	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX60000.7 sim safe=1\n") == -1);
+}
+
 int main(void)
 {
 	static const char *const names[] = {
@@ -63,6 +110,7 @@ int main(void)
 	none = files_beside(NULL, ".io", true);
 	CHECK(none->len == 0);
 	g_ptr_array_unref(none);
+	test_safe();
 	for (gsize i = G_N_ELEMENTS(names); i-- > 0;) {
 		char *path = g_build_filename(folder, names[i], NULL);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_twin - a program and its plant: which inputs the plant gives, whose turn it is, what
- * a start and a fault leave; and a change of the program beside it.
+ * a start, a stop and a fault leave; and a change of the program beside it.
  */
 #include "engine/trial/twin.h"
 #include "tests/unit/rig.h"
@@ -138,6 +138,49 @@ static void test_states(void)
 	ladder_free(plant);
 }
 
+/* Q0.1 is 1 while nothing runs, so are two that the program does not use. */
+static void test_safe(void)
+{
+	static const uint8_t safe[512] = { 0x02, 0x81 };
+	static char more[sizeof(program) + 64];
+	struct ladder *ladder, *plant = build(world);
+	struct twin twin, other;
+
+	snprintf(more, sizeof(more), "%.*sRUNG\n  | NO Out | COIL %%QX0.1 |\n%s",
+		 (int)(strstr(program, "RUNG\n") - program), program,
+		 strstr(program, "RUNG\n"));
+	ladder = build(more);
+	CHECK(ladder_program(ladder)->areas.bytes[AREA_Q] <= sizeof(safe));
+	CHECK(twin_init(&twin, ladder_program(ladder), ladder_program(plant), PERIOD));
+	CHECK(get(&twin, false, "%QX0.1") == 0);
+	twin_set_safe(&twin, safe);
+	CHECK(get(&twin, false, "Out") == 0 && get(&twin, false, "%QX0.1") == 1 &&
+	      get(&twin, false, "%QX1.0") == 1 && get(&twin, false, "%QX1.7") == 1 &&
+	      get(&twin, false, "%QX1.1") == 0);
+	CHECK(do_act(&twin, ACT_START, false, "", 0) && twin_scan(&twin));
+	CHECK_AS(get(&twin, false, "%QX0.1") == 0 && get(&twin, false, "%QX1.0") == 0,
+		 "a start begins with outputs of the program");
+	do_act(&twin, ACT_SET, false, "Go", 1);
+	CHECK(do_act(&twin, ACT_FORCE, false, "%QX1.7", 0));
+	scan(&twin, 2);
+	CHECK(get(&twin, false, "Out") == 1 && get(&twin, false, "%QX0.1") == 1);
+	CHECK(twin_clone(&other, &twin));
+	CHECK(do_act(&twin, ACT_STOP, false, "", 0));
+	CHECK(get(&twin, false, "Out") == 0 && get(&twin, false, "%QX0.1") == 1 &&
+	      get(&twin, false, "Set") == 0);
+	CHECK_AS(get(&twin, false, "%QX1.7") == 1, "a force holds nothing while it stands");
+	do_act(&other, ACT_SET, false, "Loop", 1);
+	CHECK(!twin_scan(&other) && other.resource.state == STATE_FAULT);
+	CHECK_AS(get(&other, false, "Out") == 0 && get(&other, false, "%QX1.0") == 1,
+		 "a clone has the same");
+	twin_set_safe(&other, NULL);
+	CHECK(get(&other, false, "%QX0.1") == 0 && get(&other, false, "%QX1.0") == 0);
+	twin_free(&other);
+	twin_free(&twin);
+	ladder_free(ladder);
+	ladder_free(plant);
+}
+
 /* The controller alone had no power: the world goes on where it is. */
 static void test_warm(void)
 {
@@ -197,6 +240,7 @@ int main(void)
 {
 	test_plant();
 	test_states();
+	test_safe();
 	test_warm();
 	test_change();
 	return tap_done();

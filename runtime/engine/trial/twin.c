@@ -69,6 +69,7 @@ bool twin_clone(struct twin *twin, const struct twin *from)
 	if (!take_memory(twin, from->resource.image.program, from->plant.image.program))
 		return false;
 	memcpy(twin->plant_drives, from->plant_drives, mask);
+	twin->safe = from->safe;
 	twin_copy(twin, from);
 	return true;
 }
@@ -122,7 +123,12 @@ bool twin_change(struct twin *twin, const struct twin *from)
 
 /* ---- acts ---- */
 
-void twin_outputs_off(struct twin *twin)
+static bool is_safe_on(const struct twin *twin, enum iec_area area, uint32_t bit)
+{
+	return area == AREA_Q && twin->safe && (twin->safe[bit / 8] >> bit % 8 & 1);
+}
+
+void twin_outputs_safe(struct twin *twin)
 {
 	struct image *image = &twin->resource.image;
 
@@ -130,14 +136,21 @@ void twin_outputs_off(struct twin *twin)
 		const enum iec_area area = plant_pairs[i].out;
 
 		for (uint32_t bit = 0; bit < 8 * image->program->areas.bytes[area]; bit++)
-			image_set_bit(image, area, bit, false);
+			image_set_bit(image, area, bit, is_safe_on(twin, area, bit));
 	}
+}
+
+void twin_set_safe(struct twin *twin, const uint8_t *safe)
+{
+	twin->safe = safe;
+	if (twin->resource.state != STATE_RUN)
+		twin_outputs_safe(twin);
 }
 
 static void stop(struct twin *twin)
 {
 	resource_stop(&twin->resource);
-	twin_outputs_off(twin);
+	twin_outputs_safe(twin);
 	resource_stop(&twin->plant);
 }
 
@@ -251,6 +264,6 @@ bool twin_scan(struct twin *twin)
 			   twin->now_ns);
 	resource_scan(resource, twin->now_ns);
 	if (resource->state == STATE_FAULT)
-		twin_outputs_off(twin);
+		twin_outputs_safe(twin);
 	return resource->state == STATE_RUN;
 }

@@ -23,7 +23,7 @@ enum act_kind {
 				     numbers go on                            */
 	ACT_WARM,        /* likewise, but VAR RETAIN keeps its value, and the plant
 				     goes on: the controller alone had no power */
-	ACT_STOP,        /* outputs are 0                                     */
+	ACT_STOP,        /* outputs are safe                                  */
 	ACT_PERIOD,      /* value.i ns from here on                           */
 };
 struct act {
@@ -42,6 +42,7 @@ struct twin {
 	size_t memory_size, plant_size;
 	uint8_t *plant_drives;    /* a bit for each bit of I that the plant gives;
 				     borrowed by copies                       */
+	const uint8_t *safe;      /* as twin_set_safe() has it                  */
 };
 
 /**
@@ -73,13 +74,22 @@ bool twin_change(struct twin *twin, const struct twin *from);
 /** twin_act - between two scans. Scan-safe: no.   Fails: false: no such place, one that
  * cannot be set or forced, too many forces, no memory; nothing has changed. */
 bool twin_act(struct twin *twin, const struct act *act);
-/** twin_outputs_off - as on a board that drives its safe outputs, which are 0 here.
+/**
+ * twin_set_safe - what its outputs are while nothing runs, as an I/O map has it: now, if
+ * nothing runs, and whenever it stops
+ * @safe: a bit for each bit of Q, 8 a byte; borrowed, by clones, too. NULL, as at first:
+ *        all 0
+ *
+ * Outputs that are no bits are 0: no pin has them. Scan-safe: yes.   Fails: no.
+ */
+void twin_set_safe(struct twin *twin, const uint8_t *safe);
+/** twin_outputs_safe - as on a board that drives its safe outputs, whatever is forced.
  * Scan-safe: yes.   Fails: no. */
-void twin_outputs_off(struct twin *twin);
+void twin_outputs_safe(struct twin *twin);
 /**
  * twin_scan - time goes on by a period: the plant runs once, then the program
  *
- * Does nothing unless the program is in RUN. After a FAULT outputs are 0. Scan-safe: as
+ * Does nothing unless the program is in RUN. After a FAULT outputs are safe. Scan-safe: as
  * resource_scan().
  * Fails: false: it is not in RUN now. A scan that ends in FAULT or STOP counts.
  */

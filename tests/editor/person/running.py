@@ -28,6 +28,24 @@ RUNG "As a box"
   | NO Motor | DIV IN1:=Parts IN2:=Minutes OUT=>Rest | COIL Done |
 END_PROGRAM
 '''
+LOOP = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Jam AT %IX0.1 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Alarm AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "Motor"
+  | NO Start | COIL Motor |
+RUNG "Alarm"
+  | NC Start | NO Jam | COIL Alarm |
+RUNG Again
+  | NO Jam | JMP Again |
+END_PROGRAM
+'''
 PLANT = '''RUNGBOARD 1
 
 PROGRAM World LD
@@ -148,6 +166,36 @@ def zero(screen):
     runs(editor)
 
 
+def safe(screen):
+    """before a start, in FAULT and in STOP outputs are what the I/O map says a board drives then"""
+    path = new_file(screen, LOOP)
+    with open(path.replace('.rung', '.io'), 'w') as file:
+        file.write('BOARD "Desk"\n%IX0.0 sim\n%IX0.1 sim\n%QX0.0 sim safe=0\n%QX0.1 sim safe=1\n')
+
+    def outputs(motor, alarm):
+        editor.element('Rung 1, COIL', 'Motor', motor)
+        editor.element('Rung 2, COIL', 'Alarm', alarm)
+
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    runs(editor)
+    outputs(', off', ', off')
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start', 'open')))
+    outputs(', on', ', off')
+    editor.click(editor.middle(editor.element('Rung 3, NO', 'Jam', 'open')))
+    editor.says('SIMULATION · FAULT')
+    outputs(', off', ', on')
+    editor.shot('running-safe')
+    editor.click(editor.middle(editor.element('Rung 3, NO', 'Jam')))
+    editor.keys('ctrl+r')
+    runs(editor)
+    outputs(', on', ', off')
+    editor.keys('ctrl+shift+r')
+    editor.says('SIMULATION · STOP')
+    outputs(', off', ', on')
+
+
 def starts(screen):
     """a warm start keeps what is VAR RETAIN, a cold one nothing"""
     editor = Editor(screen, new_file(screen, RETAIN))
@@ -231,4 +279,4 @@ def closing(screen):
     check(path)
 
 
-main([plant, zero, starts, paces, closing])
+main([plant, zero, safe, starts, paces, closing])

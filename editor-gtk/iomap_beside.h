@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * iomap_beside - the I/O map of a project, as its file is on the disk.
+ */
+#ifndef EDITOR_IOMAP_BESIDE_H
+#define EDITOR_IOMAP_BESIDE_H
+
+#include "engine/base/areas.h"
+
+#include <glib.h>
+
+/** iomap_beside - NAME.io of NAME.rung, else the first of its own (file_view.h). @path: of
+ * the project. Caller: g_free(). Any thread. NULL: there is none. */
+char *iomap_beside(const char *path);
+/**
+ * iomap_safe_beside - the outputs of that map, as `ladderd` drives them while nothing runs
+ * @areas: of the program
+ *
+ * Returns a bit for each bit of Q, 8 a byte; NULL: all 0, or there is no map, or one that
+ * `ladderd` would not take. Caller: g_free(). Any thread.
+ */
+guint8 *iomap_safe_beside(const char *path, const struct areas *areas);
+
+#endif
