@@ -80,6 +80,7 @@ static void put_below(LadderChartPage *page, GtkWidget *widget, const char *head
 
 	if (scrolls) {
 		child = gtk_scrolled_window_new();
+		gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(child), FALSE);
 		gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(child), widget);
 	}
 	gtk_widget_set_vexpand(child, TRUE);
@@ -262,6 +263,7 @@ GtkWidget *ladder_chart_page_new(LadderDocument *document, int pou, LadderSim *s
 	page->chart = ladder_sfc_view_new(document, pou);
 	ladder_sfc_view_set_sim(LADDER_SFC_VIEW(page->chart), sim);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), page->chart);
+	gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(scroller), FALSE);
 	/* The chart shows its cursor; all of it cannot be shown when it gets the focus. */
 	gtk_viewport_set_scroll_to_focus(GTK_VIEWPORT(gtk_scrolled_window_get_child(
 		GTK_SCROLLED_WINDOW(scroller))), FALSE);

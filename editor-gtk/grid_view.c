@@ -149,7 +149,7 @@ static void ladder_grid_view_measure(GtkWidget *widget, GtkOrientation orientati
  * assistive technology sees would take longer than to draw. */
 static void scrolled(LadderGridView *view)
 {
-	cells_later(view);
+	cells_scrolled(view);
 	if (!view->allocating) {
 		view->allocating = true; /* rungs that grow above may scroll it */
 		strips_lay_out(view, gtk_widget_get_height(GTK_WIDGET(view)));

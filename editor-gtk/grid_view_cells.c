@@ -183,6 +183,12 @@ void cells_later(LadderGridView *view)
 		view->cells_idle = g_timeout_add(FOLLOW_MS, update_now, view);
 }
 
+void cells_scrolled(LadderGridView *view)
+{
+	g_clear_handle_id(&view->cells_idle, g_source_remove);
+	cells_later(view);
+}
+
 /* It may be older than the rungs: until cells_update() it is not looked at. */
 static bool is_there(LadderGridView *view, const struct cell_widget *cell)
 {

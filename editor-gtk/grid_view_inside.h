@@ -308,6 +308,8 @@ void cells_init(LadderGridView *view);
 void cells_clear(LadderGridView *view);
 /** cells_later - soon there are widgets for the elements that are seen. */
 void cells_later(LadderGridView *view);
+/** cells_scrolled - likewise, when it comes to rest. */
+void cells_scrolled(LadderGridView *view);
 /** cells_rename - what is heard of those that there are is what they show now. */
 void cells_rename(LadderGridView *view);
 /** cells_allocate - puts them where their cells are. */

@@ -7,12 +7,29 @@
  */
 #include "editor-gtk/slow_bar.h"
 
+#include <math.h>
+
 #define FOLLOW_MS 100
 
 struct slow_bar {
 	GtkAdjustment *adjustment; /* of the bar, which holds it              */
+	GtkWidget *range;          /* in the bar: borrowed                    */
+	gboolean level;
+	double value;              /* that the slider shows                   */
 	guint timer;
 };
+
+/* Does the slider stand a pixel from where it should? In a long sheet a wheel's step is
+ * less. */
+static gboolean is_behind(const struct slow_bar *bar)
+{
+	GtkAdjustment *of = bar->adjustment;
+	const double way = gtk_adjustment_get_upper(of) - gtk_adjustment_get_lower(of);
+	const int length = bar->level ? gtk_widget_get_width(bar->range) :
+					gtk_widget_get_height(bar->range);
+
+	return fabs(gtk_adjustment_get_value(of) - bar->value) * length >= way;
+}
 
 static gboolean follow(gpointer data)
 {
@@ -23,9 +40,15 @@ static gboolean follow(gpointer data)
 	return G_SOURCE_REMOVE;
 }
 
+/* GTK lays the slider out: by follow(), or because what is scrolled has another size. */
+static void followed(struct slow_bar *bar)
+{
+	bar->value = gtk_adjustment_get_value(bar->adjustment);
+}
+
 static void moved(struct slow_bar *bar)
 {
-	if (!bar->timer)
+	if (!bar->timer && is_behind(bar))
 		bar->timer = g_timeout_add(FOLLOW_MS, follow, bar);
 }
 
@@ -51,17 +74,24 @@ static void make(GtkScrollbar *scrollbar)
 	struct slow_bar *bar = g_new0(struct slow_bar, 1);
 
 	bar->adjustment = gtk_scrollbar_get_adjustment(scrollbar);
+	bar->range = range;
+	bar->level = gtk_orientable_get_orientation(GTK_ORIENTABLE(scrollbar)) ==
+		     GTK_ORIENTATION_HORIZONTAL;
+	followed(bar);
 	g_signal_handlers_block_matched(bar->adjustment,
 		G_SIGNAL_MATCH_ID | G_SIGNAL_MATCH_DATA,
 		g_signal_lookup("value-changed", GTK_TYPE_ADJUSTMENT), 0, NULL, NULL, range);
 	g_object_set_data_full(G_OBJECT(scrollbar), "slow-bar", bar, bar_free);
 	g_signal_connect_data(bar->adjustment, "value-changed", G_CALLBACK(moved), bar,
 			      NULL, G_CONNECT_SWAPPED);
+	g_signal_connect_data(bar->adjustment, "changed", G_CALLBACK(followed), bar, NULL,
+			      G_CONNECT_SWAPPED);
 	g_signal_connect_swapped(range, "change-value", G_CALLBACK(by_hand), bar);
 }
 
 void slow_bar_make(GtkScrolledWindow *scroller)
 {
+	gtk_scrolled_window_set_overlay_scrolling(scroller, FALSE);
 	make(GTK_SCROLLBAR(gtk_scrolled_window_get_hscrollbar(scroller)));
 	make(GTK_SCROLLBAR(gtk_scrolled_window_get_vscrollbar(scroller)));
 }

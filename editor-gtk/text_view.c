@@ -505,6 +505,7 @@ static void build(LadderTextView *view)
 				       GTK_ACCESSIBLE_PROPERTY_LABEL,
 				       _("Text of the program"), -1);
 	gtk_widget_set_vexpand(scroller, TRUE);
+	gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(scroller), FALSE);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller),
 				      GTK_WIDGET(view->view));
 	gtk_label_set_xalign(view->told, 0);

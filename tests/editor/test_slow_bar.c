@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_slow_bar - the slider of a bar comes after what is scrolled, but not for part of a
+ * pixel.
+ */
+#include "editor-gtk/slow_bar.h"
+#include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
+#include "tests/tap.h"
+
+#include <math.h>
+
+static GtkScrolledWindow *scroller;
+static GtkAdjustment *down;
+
+/* px from the upper end of the bar. */
+static int slider(void)
+{
+	GtkWidget *bar = gtk_scrolled_window_get_vscrollbar(scroller);
+	int start, end;
+
+	gtk_range_get_slider_range(GTK_RANGE(gtk_widget_get_first_child(bar)), &start, &end);
+	return start;
+}
+
+/* Where it belongs, give or take a pixel. */
+static bool is_there(void)
+{
+	GtkWidget *bar = gtk_scrolled_window_get_vscrollbar(scroller);
+	GtkWidget *range = gtk_widget_get_first_child(bar);
+	const double page = gtk_adjustment_get_page_size(down);
+	const double rest = gtk_adjustment_get_upper(down) - page;
+	int start, end;
+
+	gtk_range_get_slider_range(GTK_RANGE(range), &start, &end);
+	return fabs(gtk_adjustment_get_value(down) / rest *
+		    (gtk_widget_get_height(range) - (end - start)) - start) < 4;
+}
+
+static void test_follows(void)
+{
+	const double rest = gtk_adjustment_get_upper(down) -
+			    gtk_adjustment_get_page_size(down);
+	int before;
+
+	CHECK(slider() < 4);
+	for (int i = 1; i <= 10; i++) {
+		before = slider();
+		gtk_adjustment_set_value(down, rest * i / 10);
+		CHECK_SOON(slider() > before && is_there());
+	}
+	gtk_adjustment_set_value(down, 0);
+	CHECK_SOON(slider() < 4);
+}
+
+static void count(int *times)
+{
+	++*times;
+}
+
+/* The window is laid out for a step that is seen, and for no other. */
+static void test_less(void)
+{
+	GtkWidget *bar = gtk_scrolled_window_get_vscrollbar(scroller);
+	const double pixel = gtk_adjustment_get_upper(down) / gtk_widget_get_height(bar);
+	const int before = slider();
+	int times = 0;
+
+	g_signal_connect_swapped(down, "changed", G_CALLBACK(count), &times);
+	for (int i = 1; i <= 20; i++) {
+		gtk_adjustment_set_value(down, pixel * i / 25);
+		turn(10);
+	}
+	turn(200);
+	CHECK_AS(times == 0, "nothing follows 20 steps of a 25th of a pixel");
+	for (int i = 21; i <= 500; i++)
+		gtk_adjustment_set_value(down, pixel * i / 25);
+	CHECK_SOON(slider() > before && is_there());
+	CHECK_AS(times > 0, "it follows all of them");
+	g_signal_handlers_disconnect_by_data(down, &times);
+}
+
+int main(void)
+{
+	GtkWidget *window, *child;
+
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	window = gtk_window_new();
+	child = gtk_drawing_area_new();
+	scroller = GTK_SCROLLED_WINDOW(gtk_scrolled_window_new());
+	gtk_widget_set_size_request(child, 200, 20000);
+	gtk_scrolled_window_set_child(scroller, child);
+	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(scroller));
+	gtk_window_set_default_size(GTK_WINDOW(window), 300, 400);
+	slow_bar_make(scroller);
+	down = gtk_scrolled_window_get_vadjustment(scroller);
+	screen_show(window);
+	CHECK_SOON(gtk_adjustment_get_upper(down) >= 20000);
+	CHECK_AS(gtk_widget_get_width(child) < gtk_widget_get_width(GTK_WIDGET(scroller)),
+		 "the bar stands beside it");
+	test_follows();
+	test_less();
+	gtk_window_destroy(GTK_WINDOW(window));
+	return tap_done();
+}
