@@ -17,14 +17,15 @@ struct sim_program {
 	char *text;              /* that it was built from                     */
 	guint8 *safe;            /* for twin_set_safe(): of the I/O map beside it */
 };
-/** sim_program_new - @file: interned, for diagnostics, and the I/O map is beside it. Owns: sim_program_unref(). Any
- * thread. Fails: NULL, and @error is the first thing that is wrong with it. */
+/** sim_program_new - @file: interned, for diagnostics, and the I/O map is beside it. Owns:
+ * sim_program_unref(). Any thread. Fails: NULL, and @error is the first thing that is wrong
+ * with it. */
 struct sim_program *sim_program_new(const char *file, const char *text, gsize len,
 				    GError **error);
 struct sim_program *sim_program_ref(struct sim_program *program);
 void sim_program_unref(struct sim_program *program);
-/** sim_program_is_same - do they run the same, stop the same, and show the same? Texts may differ in what
- * an editor keeps for itself, such as bookmarks. */
+/** sim_program_is_same - do they run the same, stop the same, and show the same? Texts may
+ * differ in what an editor keeps for itself, such as bookmarks. */
 bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b);
 
 /* ---- sim_eras.c: the record, from edit to edit ---- */

@@ -65,7 +65,8 @@ static void publish(struct sim_thread *thread, bool must)
 	else if (!g_mutex_trylock(&thread->out_lock))
 		return;
 	twin_copy(&thread->out, &thread->twin);
-	if (thread->fault)
+	/* A record, and with it a scenario, has the outputs of the scan. */
+	if (thread->fault || thread->twin.resource.halted)
 		twin_outputs_safe(&thread->out);
 	thread->out_run = thread->run;
 	thread->out_fault = thread->fault;

@@ -33,6 +33,7 @@ LOOP = '''RUNGBOARD 1
 VAR
   Start AT %IX0.0 : BOOL;
   Jam AT %IX0.1 : BOOL;
+  Halt AT %IX0.2 : BOOL;
   Motor AT %QX0.0 : BOOL;
   Alarm AT %QX0.1 : BOOL;
 END_VAR
@@ -44,6 +45,8 @@ RUNG "Alarm"
   | NC Start | NO Jam | COIL Alarm |
 RUNG Again
   | NO Jam | JMP Again |
+RUNG "The program itself"
+  | NO Halt | STOP |
 END_PROGRAM
 '''
 PLANT = '''RUNGBOARD 1
@@ -170,7 +173,7 @@ def safe(screen):
     """before a start, in FAULT and in STOP outputs are what the I/O map says a board drives then"""
     path = new_file(screen, LOOP)
     with open(path.replace('.rung', '.io'), 'w') as file:
-        file.write('BOARD "Desk"\n%IX0.0 sim\n%IX0.1 sim\n%QX0.0 sim safe=0\n%QX0.1 sim safe=1\n')
+        file.write('BOARD "Desk"\n%IX0.0 sim\n%IX0.1 sim\n%IX0.2 sim\n%QX0.0 sim safe=0\n%QX0.1 sim safe=1\n')
 
     def outputs(motor, alarm):
         editor.element('Rung 1, COIL', 'Motor', motor)
@@ -194,6 +197,13 @@ def safe(screen):
     editor.keys('ctrl+shift+r')
     editor.says('SIMULATION · STOP')
     outputs(', off', ', on')
+    editor.keys('ctrl+r')
+    runs(editor)
+    outputs(', on', ', off')
+    editor.click(editor.middle(editor.element('Rung 4, NO', 'Halt', 'open')))
+    editor.says('SIMULATION · STOP')
+    outputs(', off', ', on')
+    editor.shot('running-halt')
 
 
 def starts(screen):
