@@ -57,7 +57,7 @@ enum sim_state ladder_sim_state(LadderSim *sim);
 void ladder_sim_run(LadderSim *sim);
 /** ladder_sim_pause - time stands still; values stay. */
 void ladder_sim_pause(LadderSim *sim);
-/** ladder_sim_stop - outputs are 0. */
+/** ladder_sim_stop - outputs are safe. */
 void ladder_sim_stop(LadderSim *sim);
 /** ladder_sim_scan - pauses, and runs so many scans more; from STOP it starts first. */
 void ladder_sim_scan(LadderSim *sim, int scans);

@@ -89,7 +89,7 @@ struct sim_view {
 	struct twin twin;        /* a clone: of `program`                      */
 	struct sim_program *program, *plant;
 	bool running;            /* not paused                                 */
-	bool fault;              /* an operation failed: outputs are off       */
+	bool fault;              /* an operation failed: outputs are safe      */
 	struct sim_refusal refusal;
 	struct sim_events events;
 };

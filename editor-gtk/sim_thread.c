@@ -136,7 +136,7 @@ static double late_us(guint step)
 }
 
 /* FAULT after the first scan of a start in which an operation failed: time stands still, and
- * a person sees where it was. Whoever looks finds outputs off; what the board would give is
+ * a person sees where it was. Whoever looks finds outputs safe; what the board would give is
  * kept here, and goes on from there. */
 static void scan_heeding(struct sim_thread *thread)
 {

@@ -32,7 +32,7 @@ char *sim_fault_words(const struct resource *resource)
 char *sim_halt_words(const struct resource *resource)
 {
 	char *place = sim_place_words(&resource->halt_at);
-	char *text = g_strdup_printf(_("STOP, outputs are off: the program says so: %s"),
+	char *text = g_strdup_printf(_("STOP, outputs are safe: the program says so: %s"),
 				     place);
 
 	g_free(place);
