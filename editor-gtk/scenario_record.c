@@ -250,8 +250,9 @@ static bool expect_at(LadderRecorder *recorder, const struct twin *shown_twin,
 	seen = image_get(&shown_twin->resource.image, at);
 	was = image_get(&after->resource.image, at);
 	if (!is_same_value(at.type, seen, was)) {
-		*said = g_strdup_printf(_("%s was set after this scan: expect it after "
-					  "the next one"), name);
+		*said = g_strdup_printf(shown_twin->resource.state != STATE_RUN ?
+			_("%s is what a board drives in STOP: expect it in an earlier scan") :
+			_("%s was set after this scan: expect it after the next one"), name);
 		return false;
 	}
 	if (!session_expect(recorder->session, after->scan, at, was)) {

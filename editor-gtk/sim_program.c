@@ -61,7 +61,8 @@ struct sim_program *sim_program_new(const char *file, const char *text, gsize le
 		return NULL;
 	}
 	program->program = ladder_program(program->ladder);
-	program->safe = iomap_safe_beside(file, &program->program->areas);
+	program->safe = iomap_safe_beside(g_str_equal(file, "-") ? NULL : file,
+					  &program->program->areas);
 	return program;
 }
 

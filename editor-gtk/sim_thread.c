@@ -213,21 +213,14 @@ static void take_place(struct sim_thread *thread, const struct twin *next,
 	g_mutex_unlock(&thread->record_lock);
 }
 
-static bool twin_of(struct twin *twin, const struct sim_program *program,
-		    const struct sim_program *plant, int64_t period_ns)
-{
-	if (!twin_init(twin, program->program, plant ? plant->program : NULL, period_ns))
-		return false;
-	twin_set_safe(twin, program->safe);
-	return true;
-}
-
 static void change(struct sim_thread *thread, struct sim_program *program)
 {
 	struct twin next;
 
-	if (twin_of(&next, program, thread->plant, thread->twin.period_ns) &&
+	if (twin_init(&next, program->program, thread->plant ?
+		      thread->plant->program : NULL, thread->twin.period_ns) &&
 	    twin_change(&next, &thread->twin)) {
+		twin_set_safe(&next, program->safe);
 		take_place(thread, &next, program);
 		return;
 	}
@@ -333,12 +326,21 @@ static gpointer main_of(gpointer data)
 
 /* ---- of the window ---- */
 
+static bool start_twin(struct twin *twin, const struct sim_program *program,
+		       const struct sim_program *plant, int64_t period_ns)
+{
+	if (!twin_init(twin, program->program, plant ? plant->program : NULL, period_ns))
+		return false;
+	twin_set_safe(twin, program->safe);
+	return true;
+}
+
 struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_program *plant,
 				  gint64 period_ns, GSourceFunc notify, gpointer data)
 {
 	struct sim_thread *thread = g_new0(struct sim_thread, 1);
 
-	if (!twin_of(&thread->twin, program, plant, period_ns) ||
+	if (!start_twin(&thread->twin, program, plant, period_ns) ||
 	    !twin_clone(&thread->out, &thread->twin)) {
 		twin_free(&thread->twin);
 		g_free(thread);

@@ -12,8 +12,8 @@
 #define FOLLOW_MS 100
 
 struct slow_bar {
-	GtkAdjustment *adjustment; /* of the bar, which holds it              */
-	GtkWidget *range;          /* in the bar: borrowed                    */
+	GtkAdjustment *adjustment; /* a reference                             */
+	GtkWidget *scrollbar;      /* which has this                          */
 	gboolean level;
 	double value;              /* that the slider shows                   */
 	guint timer;
@@ -25,8 +25,8 @@ static gboolean is_behind(const struct slow_bar *bar)
 {
 	GtkAdjustment *of = bar->adjustment;
 	const double way = gtk_adjustment_get_upper(of) - gtk_adjustment_get_lower(of);
-	const int length = bar->level ? gtk_widget_get_width(bar->range) :
-					gtk_widget_get_height(bar->range);
+	const int length = bar->level ? gtk_widget_get_width(bar->scrollbar) :
+					gtk_widget_get_height(bar->scrollbar);
 
 	return fabs(gtk_adjustment_get_value(of) - bar->value) * length >= way;
 }
@@ -65,6 +65,8 @@ static void bar_free(gpointer data)
 	struct slow_bar *bar = data;
 
 	g_clear_handle_id(&bar->timer, g_source_remove);
+	g_signal_handlers_disconnect_by_data(bar->adjustment, bar);
+	g_object_unref(bar->adjustment);
 	g_free(bar);
 }
 
@@ -73,8 +75,8 @@ static void make(GtkScrollbar *scrollbar)
 	GtkWidget *range = gtk_widget_get_first_child(GTK_WIDGET(scrollbar));
 	struct slow_bar *bar = g_new0(struct slow_bar, 1);
 
-	bar->adjustment = gtk_scrollbar_get_adjustment(scrollbar);
-	bar->range = range;
+	bar->adjustment = g_object_ref(gtk_scrollbar_get_adjustment(scrollbar));
+	bar->scrollbar = GTK_WIDGET(scrollbar);
 	bar->level = gtk_orientable_get_orientation(GTK_ORIENTABLE(scrollbar)) ==
 		     GTK_ORIENTATION_HORIZONTAL;
 	followed(bar);

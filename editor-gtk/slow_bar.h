@@ -4,8 +4,8 @@
  *
  * To move the slider of a bar GTK 4.8 lays out the window, and for that asks the X server
  * where the screens are, and waits for it: a fourth of the time of a frame. A person does
- * not see whether the slider is there 16 or 100 ms later, nor part of a pixel: less than
- * that it does not follow. A slider that is dragged keeps up.
+ * not see whether the slider is there 16 or 100 ms later, nor that it is a pixel off: for
+ * less it does not follow. A slider that is dragged keeps up.
  *
  * The bars stand beside what is scrolled: one that fades in above it has a second of frames
  * drawn up to the edge of the window, through a clip of four rectangles.

@@ -85,7 +85,7 @@ static void test_safe(void)
 		      "%QX1.1 sim safe=1 active-low\n") == 0x0240);
 	/* ladderd takes none of it. */
 	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX0.7 nothing\n") == -1);
-	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX60000.7 sim safe=1\n") == -1);
+	CHECK(safe_of("BOARD \"Desk\"\n%QX0.6 sim safe=1\n%QX600.7 sim safe=1\n") == -1);
 }
 
 int main(void)

@@ -142,12 +142,13 @@ static void test_states(void)
 static void test_safe(void)
 {
 	static const uint8_t safe[512] = { 0x02, 0x81 };
-	static char more[sizeof(program) + 64];
+	static char more[sizeof(program) + 128];
 	struct ladder *ladder, *plant = build(world);
 	struct twin twin, other;
 
-	snprintf(more, sizeof(more), "%.*sRUNG\n  | NO Out | COIL %%QX0.1 |\n%s",
-		 (int)(strstr(program, "RUNG\n") - program), program,
+	snprintf(more, sizeof(more), "%.*sVAR RETAIN\n  Kept AT %%QX1.0 : BOOL;\nEND_VAR\n"
+		 "PROGRAM Main LD\nRUNG\n  | NO Out | COIL %%QX0.1 |\n%s",
+		 (int)(strstr(program, "PROGRAM") - program), program,
 		 strstr(program, "RUNG\n"));
 	ladder = build(more);
 	CHECK(ladder_program(ladder)->areas.bytes[AREA_Q] <= sizeof(safe));
@@ -173,6 +174,9 @@ static void test_safe(void)
 	CHECK(!twin_scan(&other) && other.resource.state == STATE_FAULT);
 	CHECK_AS(get(&other, false, "Out") == 0 && get(&other, false, "%QX1.0") == 1,
 		 "a clone has the same");
+	CHECK(do_act(&other, ACT_SET, false, "Loop", 0));
+	CHECK(do_act(&other, ACT_WARM, false, "", 0) && get(&other, false, "Kept") == 0);
+	CHECK(twin_scan(&other) && do_act(&other, ACT_STOP, false, "", 0));
 	twin_set_safe(&other, NULL);
 	CHECK(get(&other, false, "%QX0.1") == 0 && get(&other, false, "%QX1.0") == 0);
 	twin_free(&other);
@@ -236,8 +240,30 @@ static void test_change(void)
 	ladder_free(plant);
 }
 
+/* An edit at rest: the board drives what the map says of the new program. */
+static void test_safe_change(void)
+{
+	static const uint8_t before[512] = { 0x02 }, after[512] = { 0x04 };
+	struct ladder *ladder = build(program);
+	struct twin twin, next;
+
+	CHECK(twin_init(&twin, ladder_program(ladder), NULL, PERIOD));
+	twin_set_safe(&twin, before);
+	CHECK(twin_init(&next, ladder_program(ladder), NULL, PERIOD));
+	CHECK(twin_change(&next, &twin));
+	twin_set_safe(&next, after);
+	CHECK(get(&next, false, "%QX0.1") == 0 && get(&next, false, "%QX0.2") == 1);
+	CHECK(do_act(&next, ACT_START, false, "", 0) && twin_scan(&next));
+	twin_set_safe(&next, before);
+	CHECK_AS(get(&next, false, "%QX0.1") == 0, "in RUN nothing but the program sets it");
+	twin_free(&twin);
+	twin_free(&next);
+	ladder_free(ladder);
+}
+
 int main(void)
 {
+	test_safe_change();
 	test_plant();
 	test_states();
 	test_safe();

@@ -123,21 +123,25 @@ bool twin_change(struct twin *twin, const struct twin *from)
 
 /* ---- acts ---- */
 
-static bool is_safe_on(const struct twin *twin, enum iec_area area, uint32_t bit)
+static bool is_on(const uint8_t *bits, enum iec_area area, uint32_t bit)
 {
-	return area == AREA_Q && twin->safe && (twin->safe[bit / 8] >> bit % 8 & 1);
+	return area == AREA_Q && bits && (bits[bit / 8] >> bit % 8 & 1);
 }
 
-void twin_outputs_safe(struct twin *twin)
+/* @bits: of Q; NULL: all 0. */
+static void put_outputs(struct image *image, const uint8_t *bits)
 {
-	struct image *image = &twin->resource.image;
-
 	for (size_t i = 0; i < PLANT_PAIRS; i++) {
 		const enum iec_area area = plant_pairs[i].out;
 
 		for (uint32_t bit = 0; bit < 8 * image->program->areas.bytes[area]; bit++)
-			image_set_bit(image, area, bit, is_safe_on(twin, area, bit));
+			image_set_bit(image, area, bit, is_on(bits, area, bit));
 	}
+}
+
+void twin_outputs_safe(struct twin *twin)
+{
+	put_outputs(&twin->resource.image, twin->safe);
 }
 
 void twin_set_safe(struct twin *twin, const uint8_t *safe)
@@ -206,9 +210,12 @@ static bool start_plant(struct twin *twin, bool warm)
 	       start_again(&twin->plant, twin->plant_size, false);
 }
 
-/* The plant first: if that cannot, nothing is lost. */
+/* The plant first: if that cannot, nothing is lost. What a board drives at rest is nothing
+ * that it retains. */
 static bool start(struct twin *twin, bool warm)
 {
+	if (twin->resource.state != STATE_RUN)
+		put_outputs(&twin->resource.image, NULL);
 	return (!has_plant(twin) || start_plant(twin, warm)) &&
 	       start_again(&twin->resource, twin->memory_size, warm);
 }

@@ -76,7 +76,7 @@ bool twin_change(struct twin *twin, const struct twin *from);
 bool twin_act(struct twin *twin, const struct act *act);
 /**
  * twin_set_safe - what its outputs are while nothing runs, as an I/O map has it: now, if
- * nothing runs, and whenever it stops
+ * nothing runs, and whenever it stops; after twin_change(), which brings the old ones
  * @safe: a bit for each bit of Q, 8 a byte; borrowed, by clones, too. NULL, as at first:
  *        all 0
  *

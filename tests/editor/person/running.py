@@ -172,13 +172,17 @@ def zero(screen):
 def safe(screen):
     """before a start, in FAULT and in STOP outputs are what the I/O map says a board drives then"""
     path = new_file(screen, LOOP)
-    with open(path.replace('.rung', '.io'), 'w') as file:
-        file.write('BOARD "Desk"\n%IX0.0 sim\n%IX0.1 sim\n%IX0.2 sim\n%QX0.0 sim safe=0\n%QX0.1 sim safe=1\n')
+
+    def map_says(motor, alarm):
+        with open(path.replace('.rung', '.io'), 'w') as file:
+            file.write('BOARD "Desk"\n%%IX0.0 sim\n%%IX0.1 sim\n%%IX0.2 sim\n'
+                       '%%QX0.0 sim safe=%d\n%%QX0.1 sim safe=%d\n' % (motor, alarm))
 
     def outputs(motor, alarm):
         editor.element('Rung 1, COIL', 'Motor', motor)
         editor.element('Rung 2, COIL', 'Alarm', alarm)
 
+    map_says(0, 1)
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('ctrl+r')
@@ -204,6 +208,11 @@ def safe(screen):
     editor.says('SIMULATION · STOP')
     outputs(', off', ', on')
     editor.shot('running-halt')
+    # Another map comes with the next edit.
+    map_says(1, 0)
+    editor.keys('ctrl+Home', 'slash')
+    editor.element('Rung 1, NC', 'Start')
+    outputs(', on', ', off')
 
 
 def starts(screen):
