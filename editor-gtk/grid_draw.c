@@ -138,7 +138,7 @@ static void draw_ground(const struct pen *pen)
 	unsigned int state = pen->scene->state;
 	float width = rung_layout_width(layout);
 
-	if (!(state & RUNG_NO_GUTTER))
+	if (!(state & (RUNG_NO_GUTTER | RUNG_ON_GUTTER)))
 		picture_fill(pen->picture, TOKEN_GUTTER, 1, 0, 0, RUNG_GUTTER,
 			     layout->height);
 	if (state & RUNG_SELECTED)

@@ -59,6 +59,7 @@ enum rung_state {
 	RUNG_MARKED = 128,   /* a bookmark                                      */
 	RUNG_NO_GUTTER = 64, /* paper                                           */
 	RUNG_STILL = 256,    /* nothing is scanned: live, but no power anywhere  */
+	RUNG_ON_GUTTER = 512, /* a sheet, which has drawn the gutter of all       */
 };
 
 struct grid_scene {

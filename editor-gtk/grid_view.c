@@ -9,7 +9,6 @@
 #include "editor-gtk/entry_popup.h"
 #include "editor-gtk/settings.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 enum { PROP_0, PROP_HADJUSTMENT, PROP_VADJUSTMENT, PROP_HPOLICY, PROP_VPOLICY };
@@ -208,9 +207,7 @@ static void snapshot_hint(LadderGridView *view, GtkSnapshot *snapshot,
 static void ladder_grid_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 {
 	LadderGridView *view = LADDER_GRID_VIEW(widget);
-	const struct theme *theme = theme_get(
-		adw_style_manager_get_dark(adw_style_manager_get_default()) ?
-		THEME_DARK : THEME_LIGHT, THEME_GREEN); /* its ground has no power */
+	const struct theme *theme = strips_theme(view);
 	const float width = (float)gtk_widget_get_width(widget);
 	const float height = (float)gtk_widget_get_height(widget);
 

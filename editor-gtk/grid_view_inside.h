@@ -88,6 +88,7 @@ struct _LadderGridView {
 	double zoom;
 	guint idle;                 /* lays out what is not seen               */
 	guint ahead;                /* draws what is seen next                  */
+	int forgot_at;              /* the first rung kept, when others were forgotten */
 	guint resize;               /* asks for another size, soon             */
 	bool allocating;
 
@@ -166,6 +167,8 @@ void strips_redraw(LadderGridView *view, int rung);
 int strips_at(LadderGridView *view, float y);
 /** strips_get - laid out. */
 struct strip *strips_get(LadderGridView *view, int rung);
+/** strips_theme - of the desktop now: light or dark, with more contrast or not. */
+const struct theme *strips_theme(LadderGridView *view);
 /** strips_lay_out - what is seen in a page of @page px, before it is drawn. */
 void strips_lay_out(LadderGridView *view, double page);
 float strips_width(LadderGridView *view);

@@ -25,7 +25,7 @@ static struct strip *strip_of(LadderGridView *view, int rung)
 }
 
 /* Asked for once: a setting is looked up by names, which takes as long as a few wires. */
-static const struct theme *theme_of(LadderGridView *view)
+const struct theme *strips_theme(LadderGridView *view)
 {
 	AdwStyleManager *manager = adw_style_manager_get_default();
 	const bool dark = adw_style_manager_get_dark(manager);
@@ -128,6 +128,17 @@ static void forget_far(LadderGridView *view)
 	for (int i = 0; i < (int)view->strips->len; i++)
 		if ((i < first || i > last) && i != view->cursor.rung)
 			forget(strip_of(view, i));
+	view->forgot_at = first;
+}
+
+/* To look at all rungs for each step of a wheel would take a part of its frame. */
+static void forget_behind(LadderGridView *view)
+{
+	const double top = gtk_adjustment_get_value(view->adjustment[1]) / view->zoom;
+	const int first = strips_at(view, (float)top) - NEAR_RUNGS;
+
+	if (ABS(first - view->forgot_at) >= NEAR_RUNGS / 2)
+		forget_far(view);
 }
 
 static gboolean lay_out_more(gpointer data)
@@ -348,7 +359,7 @@ void strips_lay_out(LadderGridView *view, double page)
 			break;
 		strips_get(view, i);
 	}
-	forget_far(view);
+	forget_behind(view);
 }
 
 int strips_at(LadderGridView *view, float y)
@@ -440,8 +451,8 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	struct live_place place = { view, rung };
 	struct grid_scene scene = {
 		.drafting = &view->drafting, .layout = strip->layout,
-		.theme = theme_of(view), .note = live_note, .context = &place,
-		.state = rung == view->cursor.rung ? RUNG_CURRENT : 0,
+		.theme = strips_theme(view), .note = live_note, .context = &place,
+		.state = RUNG_ON_GUTTER | (rung == view->cursor.rung ? RUNG_CURRENT : 0),
 	};
 	struct grid_live live;
 	uint8_t *unknown = NULL;
