@@ -18,8 +18,8 @@ struct sim_program {
 	guint8 *safe;            /* for twin_set_safe(): of the I/O map beside it */
 };
 /** sim_program_new - @file: interned, for diagnostics, and the I/O map is beside it; "-": it
- * has none. Owns: sim_program_unref(). Any thread. Fails: NULL, and @error is the first thing that is wrong
- * with it. */
+ * has none. Owns: sim_program_unref(). Any thread. Fails: NULL, and @error is the first thing
+ * that is wrong with it. */
 struct sim_program *sim_program_new(const char *file, const char *text, gsize len,
 				    GError **error);
 struct sim_program *sim_program_ref(struct sim_program *program);

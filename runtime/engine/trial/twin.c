@@ -158,8 +158,11 @@ static void stop(struct twin *twin)
 	resource_stop(&twin->plant);
 }
 
+/* What a board drives at rest is nothing that it retains. */
 static bool start_program(struct resource *resource, bool warm)
 {
+	if (warm && resource->state != STATE_RUN)
+		put_outputs(&resource->image, NULL);
 	if (warm)
 		return retain_start(resource);
 	resource_start(resource);
@@ -210,12 +213,9 @@ static bool start_plant(struct twin *twin, bool warm)
 	       start_again(&twin->plant, twin->plant_size, false);
 }
 
-/* The plant first: if that cannot, nothing is lost. What a board drives at rest is nothing
- * that it retains. */
+/* The plant first: if that cannot, nothing is lost. */
 static bool start(struct twin *twin, bool warm)
 {
-	if (twin->resource.state != STATE_RUN)
-		put_outputs(&twin->resource.image, NULL);
 	return (!has_plant(twin) || start_plant(twin, warm)) &&
 	       start_again(&twin->resource, twin->memory_size, warm);
 }
