@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""looks - the window in the dark and on a small screen is used as any other."""
+"""looks - the window in the dark, with more contrast and on a small screen is used as any other."""
 import os
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -69,5 +70,16 @@ def small(screen):
     assert width >= 600 and height >= 250, 'the sheet is %d x %d' % (width, height)
 
 
+def high(screen):
+    """more contrast in the dark: the sheet is black, also where no rung is"""
+    editor = draw(screen, 'looks-high', ADW_DEBUG_COLOR_SCHEME='prefer-dark', ADW_DEBUG_HIGH_CONTRAST='1')
+    left, top, width, height = editor.place(editor.sheet())
+    for x in left + 6, left + width - 60:
+        ground = subprocess.run(['import', '-window', 'root', '-crop', '20x30+%d+%d' % (x, top + height // 3),
+                                 '-depth', '8', 'rgb:-'], capture_output=True, check=True).stdout
+        # The line below a rung is #8b8b92.
+        assert set(ground) <= {0, 0x8b, 0x92} and ground.count(0) > 1500, set(ground)
+
+
 small.size = '1024x700x24'
-main([light, dark, small])
+main([light, dark, high, small])
