@@ -87,6 +87,24 @@ def records(screen):
     editor.shot('scenario-passed')
 
 
+def rests(screen):
+    """what a board drives after the word STOP is no value of the program: it cannot be expected, and it is said why"""
+    path = new_file(screen, PROGRAM.replace('END_PROGRAM', 'RUNG\n  | NO Stop | STOP |\nEND_PROGRAM'), 'motor.rung')
+    with open(path.replace('.rung', '.io'), 'w') as file:
+        file.write('BOARD "Desk"\n%QX0.0 sim safe=1\n')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+alt+r')
+    editor.find('Recording · 0 set', 'push button')
+    editor.click(editor.middle(editor.element('Rung 2, NO', 'Stop')))
+    editor.says('SIMULATION · STOP')
+    editor.element('Rung 1, COIL', 'Motor', ', on')
+    editor.click(editor.beside(editor.element('Rung 1, COIL')))
+    editor.keys('ctrl+alt+e')
+    editor.says('Motor is what a board drives in STOP')
+    editor.shot('scenario-rests')
+
+
 def fails(screen):
     """Run all: one failed, one of another machine; each opens at its line, and the scan"""
     path = new_file(screen, PROGRAM, 'motor.rung')
@@ -129,4 +147,4 @@ def chinese(screen):
 
 
 chinese.size = '1024x700x24'
-main([records, fails, chinese])
+main([records, rests, fails, chinese])
