@@ -211,6 +211,7 @@ GskRenderNode *grid_draw_node(const struct grid_scene *scene)
 	struct picture picture;
 
 	picture_init(&picture);
+	picture.scale = scene->scale;
 	grid_draw(scene, &picture);
 	GskRenderNode *node = picture_node(&picture, scene->theme,
 					   scene->drafting->lettering);

@@ -70,6 +70,7 @@ struct grid_scene {
 	const struct grid_mark *mark;
 	int mark_count;
 	unsigned int state;            /* enum rung_state, or'ed                  */
+	float scale;                   /* device px of a px; 0: any               */
 	/** What stands below a coil on paper ("read in Main 3, 5"); NULL: nothing.
 	 * Owns: the caller of it, g_free. */
 	char *(*reference)(void *context, int row, int col);

@@ -438,7 +438,7 @@ void ladder_grid_view_set_zoom(LadderGridView *view, double zoom)
 	gtk_adjustment_set_upper(down, (strips_height(view) + BELOW) * zoom);
 	gtk_adjustment_set_value(down, at * zoom - middle);
 	gtk_widget_queue_resize(GTK_WIDGET(view));
-	gtk_widget_queue_draw(GTK_WIDGET(view));
+	strips_redraw(view, -1); /* images of it have their size              */
 	g_signal_emit(view, signals[ZOOM_CHANGED], 0);
 }
 

@@ -453,6 +453,7 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 		.drafting = &view->drafting, .layout = strip->layout,
 		.theme = strips_theme(view), .note = live_note, .context = &place,
 		.state = RUNG_ON_GUTTER | (rung == view->cursor.rung ? RUNG_CURRENT : 0),
+		.scale = (float)(view->zoom * gtk_widget_get_scale_factor(GTK_WIDGET(view))),
 	};
 	struct grid_live live;
 	uint8_t *unknown = NULL;
@@ -570,6 +571,7 @@ void strips_init(LadderGridView *view)
 					G_CALLBACK(show_chosen), view, G_CONNECT_SWAPPED);
 	}
 	g_signal_connect(view, "notify::has-focus", G_CALLBACK(strips_style), NULL);
+	g_signal_connect(view, "notify::scale-factor", G_CALLBACK(strips_style), NULL);
 	strips_reset(view);
 }
 

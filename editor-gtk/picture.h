@@ -43,6 +43,7 @@ struct picture {
 	int count, size;
 	float width, height;     /* px at 100 %                                 */
 	float dx, dy;            /* added to what is put in                     */
+	float scale;             /* device px of a px, for nodes; 0: any        */
 	GStringChunk *texts;
 };
 

@@ -3,12 +3,13 @@
  * picture_paint - the list of strokes as render nodes, and upon a cairo surface.
  *
  * Rectangles and straight lines become colour nodes and text becomes text nodes: they
- * cost a renderer next to nothing, and circles become borders. Only what is broken goes
- * through cairo.
+ * cost a renderer next to nothing. Arcs become images where it is known how large they
+ * are shown, else borders. Only what is broken goes through cairo.
  */
 #include "editor-gtk/picture.h"
 
 #include <math.h>
+#include <string.h>
 #include <pango/pangocairo.h>
 
 #define WAVE_STEP 3     /* px from crest to trough                              */
@@ -224,20 +225,112 @@ static void ring(GtkSnapshot *snapshot, const struct stroke *s, float radius, fl
 	gtk_snapshot_append_border(snapshot, &circle, width, colors);
 }
 
-/* What is seen of its ring. The ends of an arc are upright so, not across it. */
-static void arc_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
-			    const GdkRGBA *color)
+/* What an arc takes from the radius @inner on, where it ends. */
+static graphene_rect_t arc_bounds(const struct stroke *s, float inner)
 {
 	const float opening = opening_of(s), outer = s->w + s->width / 2;
-	const float end = s->w * cosf(opening), half = outer * sinf(opening);
+	const bool wide = opening > (float)G_PI_2;
+	const float half = wide ? outer : outer * sinf(opening);
+	const float end = (wide ? outer : inner) * cosf(opening);
 	const bool left = cosf((s->h + s->to) / 2) < 0;
 
-	if (opening < (float)G_PI)
-		gtk_snapshot_push_clip(snapshot, &GRAPHENE_RECT_INIT(
-			left ? s->x - outer : s->x + end, s->y - half, outer - end, 2 * half));
-	ring(snapshot, s, outer, s->width, color);
-	if (opening < (float)G_PI)
+	return GRAPHENE_RECT_INIT(left ? s->x - outer : s->x + end, s->y - half,
+				  outer - end, 2 * half);
+}
+
+/* What is seen of its ring. The ends of an arc are upright so, not across it. */
+static void arc_as_ring(GtkSnapshot *snapshot, const struct stroke *s,
+			const GdkRGBA *color)
+{
+	const graphene_rect_t seen = arc_bounds(s, s->w);
+	const bool whole = opening_of(s) >= (float)G_PI;
+
+	if (!whole)
+		gtk_snapshot_push_clip(snapshot, &seen);
+	ring(snapshot, s, s->w + s->width / 2, s->width, color);
+	if (!whole)
 		gtk_snapshot_pop(snapshot);
+}
+
+/* All that an image of an arc depends on: of as many bytes as its members. */
+struct arc_key {
+	struct { float x, y, radius, from, to, width; } at; /* px of the image  */
+	GdkRGBA color;
+	float scale;
+};
+G_STATIC_ASSERT(sizeof(struct arc_key) == 11 * sizeof(float));
+
+static guint arc_hash(gconstpointer key)
+{
+	const guchar *byte = key;
+	guint hash = 5381;
+
+	for (gsize i = 0; i < sizeof(struct arc_key); i++)
+		hash = hash * 33 + byte[i];
+	return hash;
+}
+
+static gboolean arc_equal(gconstpointer a, gconstpointer b)
+{
+	return memcmp(a, b, sizeof(struct arc_key)) == 0;
+}
+
+static GdkTexture *arc_draw(const struct arc_key *key, int width, int height)
+{
+	const struct stroke arc = { .kind = STROKE_ARC, .x = key->at.x, .y = key->at.y,
+		.w = key->at.radius, .h = key->at.from, .to = key->at.to,
+		.width = key->at.width };
+	cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
+	cairo_t *cr = cairo_create(image);
+	GBytes *bytes;
+	GdkTexture *texture;
+
+	cairo_scale(cr, (double)key->scale, (double)key->scale);
+	gdk_cairo_set_source_rgba(cr, &key->color);
+	draw_shape(cr, &arc);
+	cairo_destroy(cr);
+	cairo_surface_flush(image);
+	bytes = g_bytes_new_with_free_func(cairo_image_surface_get_data(image),
+		(gsize)(cairo_image_surface_get_stride(image) * height),
+		(GDestroyNotify)cairo_surface_destroy, image);
+	texture = gdk_memory_texture_new(width, height, GDK_MEMORY_DEFAULT, bytes,
+		(gsize)cairo_image_surface_get_stride(image));
+	g_bytes_unref(bytes);
+	return texture;
+}
+
+/* Painted in a quarter of the time that a path takes. There are few: two for each colour
+ * and each weight of coils that was seen. They are kept for as long as the program runs. */
+static void arc_as_image(GtkSnapshot *snapshot, const struct stroke *s,
+			 const GdkRGBA *color, float scale)
+{
+	static GHashTable *images;
+	graphene_rect_t box = arc_bounds(s, s->w - s->width / 2);
+	GdkTexture *image;
+
+	graphene_rect_round_extents(&box, &box);
+	const struct arc_key key = {
+		{ s->x - box.origin.x, s->y - box.origin.y, s->w, s->h, s->to, s->width },
+		*color, scale };
+	if (!images)
+		images = g_hash_table_new_full(arc_hash, arc_equal, g_free, g_object_unref);
+	image = g_hash_table_lookup(images, &key);
+	if (!image) {
+		image = arc_draw(&key, (int)(box.size.width * scale),
+				 (int)(box.size.height * scale));
+		g_hash_table_insert(images, g_memdup2(&key, sizeof(key)), image);
+	}
+	gtk_snapshot_append_texture(snapshot, image, &box);
+}
+
+/* An image looks as sharp as a path where its px are those of the screen. */
+static void arc_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
+			    const GdkRGBA *color, float scale)
+{
+	if (scale >= 1 && scale == floorf(scale))
+		arc_as_image(snapshot, s, color, scale);
+	else
+		arc_as_ring(snapshot, s, color);
 }
 
 static void text_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
@@ -265,7 +358,7 @@ static void frame_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
 	gtk_snapshot_append_border(snapshot, &rect, width, colors);
 }
 
-static void stroke_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
+static void stroke_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s, float scale,
 			       const struct theme *theme, struct lettering *lettering)
 {
 	const GdkRGBA color = color_of(s, theme);
@@ -285,7 +378,7 @@ static void stroke_on_snapshot(GtkSnapshot *snapshot, const struct stroke *s,
 		line_on_snapshot(snapshot, s, &color);
 		return;
 	case STROKE_ARC:
-		arc_on_snapshot(snapshot, s, &color);
+		arc_on_snapshot(snapshot, s, &color, scale);
 		return;
 	case STROKE_DISC:
 		ring(snapshot, s, s->w, s->w, &color);
@@ -304,7 +397,7 @@ void picture_snapshot(const struct picture *picture, const struct theme *theme,
 		if (wants_cairo(s))
 			i = by_cairo(snapshot, picture, i, theme) - 1;
 		else
-			stroke_on_snapshot(snapshot, s, theme, lettering);
+			stroke_on_snapshot(snapshot, s, picture->scale, theme, lettering);
 	}
 }
 

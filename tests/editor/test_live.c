@@ -6,6 +6,7 @@
 #include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/live_map.h"
 #include "editor-gtk/text_view.h"
+#include "tests/editor/nodes.h"
 #include "tests/editor/screen.h"
 #include "tests/tap.h"
 
@@ -535,6 +536,20 @@ static void make_window(void)
 	draw();
 }
 
+/* Coils are images, but where their px would not be those of the screen. */
+static void test_zoom(void)
+{
+	static const struct { double zoom; bool image; } cases[] = {
+		{ 1.1, false }, { 2, true }, { 0.5, false }, { 1, true },
+	};
+
+	for (gsize i = 0; i < G_N_ELEMENTS(cases); i++) {
+		ladder_grid_view_set_zoom(view, cases[i].zoom);
+		draw();
+		CHECK(widget_has(GTK_WIDGET(view), "texture {") == cases[i].image);
+	}
+}
+
 int main(void)
 {
 	if (!screen_start() || !gtk_init_check()) {
@@ -547,6 +562,7 @@ int main(void)
 	CHECK(ladder_document_project(document)->pou_count == 3);
 	sim = ladder_sim_new(document);
 	make_window();
+	test_zoom();
 	test_stop();
 	test_power();
 	test_values();

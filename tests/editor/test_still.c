@@ -3,33 +3,16 @@
  * test_still - a widget at rest is an image, and one that changes is shown at once.
  */
 #include "editor-gtk/still.h"
+#include "tests/editor/nodes.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 
 static GtkWidget *window, *still, *label;
 
-/* What its last drawing is made of: nodes, as the toolkit writes them. */
 static bool is_drawn_by(const char *kind)
 {
-	GdkPaintable *paintable = gtk_widget_paintable_new(still);
-	GtkSnapshot *snapshot = gtk_snapshot_new();
-	GskRenderNode *node;
-	GBytes *text;
-	bool found;
-
-	gdk_paintable_snapshot(paintable, snapshot, gtk_widget_get_width(still),
-			       gtk_widget_get_height(still));
-	node = gtk_snapshot_free_to_node(snapshot);
-	g_object_unref(paintable);
-	if (!node)
-		return false;
-	text = gsk_render_node_serialize(node);
-	found = g_strstr_len(g_bytes_get_data(text, NULL), (gssize)g_bytes_get_size(text),
-			     kind) != NULL;
-	g_bytes_unref(text);
-	gsk_render_node_unref(node);
-	return found;
+	return widget_has(still, kind);
 }
 
 static void test_rest(void)

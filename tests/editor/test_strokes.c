@@ -9,6 +9,7 @@
  * With --bless the files are written anew; read the difference.
  */
 #include "tests/editor/drawn.h"
+#include "tests/editor/nodes.h"
 #include "tests/tap.h"
 
 #include <glib.h>
@@ -82,16 +83,6 @@ static long differs(cairo_t *one, cairo_t *other)
 	return inked ? others * 1000 / inked : 1000;
 }
 
-static bool has_cairo(GskRenderNode *node)
-{
-	GBytes *text = gsk_render_node_serialize(node);
-	const bool has = g_strstr_len(g_bytes_get_data(text, NULL),
-				      (gssize)g_bytes_get_size(text), "cairo {") != NULL;
-
-	g_bytes_unref(text);
-	return has;
-}
-
 static bool is_broken(const struct picture *picture)
 {
 	for (int i = 0; i < picture->count; i++)
@@ -101,24 +92,35 @@ static bool is_broken(const struct picture *picture)
 	return false;
 }
 
-/* Both ways to draw; @broken: with what only cairo has. The ends of arcs are not cut alike. */
-static void both_ways(const struct picture *picture, int width, int height, bool broken,
-		      const char *name)
+/* @broken: with what only cairo has. @scale: of the screen; 0: it is not known. */
+static void as_paper(struct picture *picture, int width, int height, bool broken,
+		     float scale, const char *name)
 {
 	const struct theme *theme = theme_get(THEME_LIGHT, THEME_GREEN);
-	GskRenderNode *node = picture_node(picture, theme, with_fonts);
 	cairo_t *screen = white(width, height), *paper = white(width, height);
+	GskRenderNode *node;
 	long part;
 
+	picture->scale = scale;
+	node = picture_node(picture, theme, with_fonts);
 	gsk_render_node_draw(node, screen);
 	picture_cairo(picture, theme, with_fonts, paper);
 	part = differs(screen, paper);
 	if (!CHECK_AS(part < 30, "the screen has what paper has"))
 		printf("# %s: %ld of 1000 bytes differ\n", name, part);
-	CHECK_AS(has_cairo(node) == broken, "what is not broken needs no image of its own");
+	CHECK_AS(node_has(node, "cairo {") == broken,
+		 "what is not broken needs no image of its own");
 	cairo_destroy(screen);
 	cairo_destroy(paper);
 	gsk_render_node_unref(node);
+}
+
+/* Both ways to draw. Where the scale is not known the ends of arcs are not cut alike. */
+static void both_ways(struct picture *picture, int width, int height, bool broken,
+		      const char *name)
+{
+	as_paper(picture, width, height, broken, 0, name);
+	as_paper(picture, width, height, broken, ZOOM, name);
 }
 
 /* ---- scenes ---- */
@@ -270,6 +272,30 @@ static void check_shapes(void)
 	}
 }
 
+/* Arcs are images where these are as large as they are shown, and made once. */
+static void check_images(void)
+{
+	static const float scales[] = { 0, 0.5f, 1, 1.1f, 2 };
+
+	for (int i = 0; i < (int)G_N_ELEMENTS(scales); i++) {
+		struct picture picture;
+		GskRenderNode *node, *again;
+
+		picture_init(&picture);
+		picture.scale = scales[i];
+		shape(&picture, 0);
+		node = picture_node(&picture, theme_get(THEME_DARK, THEME_GREEN), with_fonts);
+		again = picture_node(&picture, theme_get(THEME_DARK, THEME_GREEN), with_fonts);
+		CHECK(node_has(node, "texture {") == (i == 2 || i == 4));
+		if (gsk_render_node_get_node_type(node) == GSK_TEXTURE_NODE)
+			CHECK(gsk_texture_node_get_texture(node) ==
+			      gsk_texture_node_get_texture(again));
+		gsk_render_node_unref(node);
+		gsk_render_node_unref(again);
+		picture_clear(&picture);
+	}
+}
+
 int main(int argc, char **argv)
 {
 	PangoContext *context = lettering_context();
@@ -300,6 +326,7 @@ int main(int argc, char **argv)
 	draw(sheet, 0, (struct grid_scene){ .state = RUNG_REMOVED | RUNG_CHANGED },
 	     "removed");
 	check_shapes();
+	check_images();
 	sheet_free(sheet);
 	ladder_free(ladder);
 	lettering_free(with_fonts);
