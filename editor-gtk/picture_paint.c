@@ -299,18 +299,29 @@ static GdkTexture *arc_draw(const struct arc_key *key, int width, int height)
 	return texture;
 }
 
-/* Painted in a quarter of the time that a path takes. There are few: two for each colour
- * and each weight of coils that was seen. They are kept for as long as the program runs. */
-static void arc_as_image(GtkSnapshot *snapshot, const struct stroke *s,
+/* To a quarter of a px: nobody sees less, and there are few images. */
+static struct stroke arc_placed(const struct stroke *s)
+{
+	struct stroke placed = *s;
+
+	placed.x = roundf(s->x * 4) / 4;
+	placed.y = roundf(s->y * 4) / 4;
+	return placed;
+}
+
+/* Painted in a third of the time that a path takes. Images are kept for as long as the
+ * program runs: two for each colour, weight and quarter of a px of coils that was seen. */
+static void arc_as_image(GtkSnapshot *snapshot, const struct stroke *stroke,
 			 const GdkRGBA *color, float scale)
 {
 	static GHashTable *images;
-	graphene_rect_t box = arc_bounds(s, s->w - s->width / 2);
+	const struct stroke s = arc_placed(stroke);
+	graphene_rect_t box = arc_bounds(&s, s.w - s.width / 2);
 	GdkTexture *image;
 
 	graphene_rect_round_extents(&box, &box);
 	const struct arc_key key = {
-		{ s->x - box.origin.x, s->y - box.origin.y, s->w, s->h, s->to, s->width },
+		{ s.x - box.origin.x, s.y - box.origin.y, s.w, s.h, s.to, s.width },
 		*color, scale };
 	if (!images)
 		images = g_hash_table_new_full(arc_hash, arc_equal, g_free, g_object_unref);
