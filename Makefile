@@ -314,7 +314,7 @@ $(EDITOR_FAKE): $(BUILD)/editor-gtk/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_F
 	  -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 editor-tests: $(EDITOR_TESTS) $(EDITOR_FAKE) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person
 	BUILD=$(BUILD) prove -e '' $(EDITOR_TESTS) $(EDITOR_PERSON)
-BENCH_EDITOR := $(BUILD)/tests/bench/editor.o $(BUILD)/tests/bench/editor_start.o
+BENCH_EDITOR := $(addprefix $(BUILD)/tests/bench/,editor.o editor_ground.o editor_start.o)
 $(BENCH_EDITOR): CPPFLAGS += $(EDITOR_CPP)
 $(BUILD)/tests/bench/editor: $(BENCH_EDITOR) $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm

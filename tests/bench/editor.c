@@ -15,6 +15,7 @@
 #include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/memory.h"
 #include "editor-gtk/sfc_view.h"
+#include "tests/bench/editor_ground.h"
 #include "tests/bench/editor_start.h"
 
 #include <gtksourceview/gtksource.h>
@@ -30,7 +31,6 @@
 #define SIM_FRAMES 1000
 
 static struct {
-	GdkFrameClock *clock;
 	gint64 begun, spent; /* us, of the last frame                          */
 	gint64 at, worked;   /* of the processor, of this thread                */
 	int frames;
@@ -271,6 +271,43 @@ static const struct deed deeds[] = {
 	{ "a new rung", "16", NULL, add_rung, 20, 250 },
 };
 
+/* ---- what the toolkit takes ---- */
+
+static void watch_frames(GtkWidget *window)
+{
+	GdkFrameClock *clock = gdk_surface_get_frame_clock(
+		gtk_native_get_surface(GTK_NATIVE(window)));
+
+	g_signal_connect(clock, "before-paint", G_CALLBACK(before), NULL);
+	g_signal_connect(clock, "after-paint", G_CALLBACK(after), NULL);
+	next_frame();
+}
+
+static GtkWidget *ground;
+
+static void change_ground(LadderGridView *sheet, int round)
+{
+	(void)sheet;
+	(void)round;
+	ground_change(ground);
+}
+
+/* As many pixels as rungs take in the view, with nothing on them: what is beyond it is ours. */
+static void measure_ground(LadderGridView *sheet)
+{
+	static const struct deed deed = {
+		"as many pixels, nothing drawn", "-", NULL, change_ground, ROUNDS, 20 };
+	GtkAdjustment *across = gtk_scrollable_get_hadjustment(GTK_SCROLLABLE(sheet));
+
+	ground = ground_window((int)gtk_adjustment_get_upper(across),
+			       gtk_widget_get_height(GTK_WIDGET(sheet)));
+	watch_frames(ground);
+	settle(500);
+	measure(&deed, sheet);
+	gtk_window_destroy(GTK_WINDOW(ground));
+	settle(500);
+}
+
 /* ---- all of it ---- */
 
 static long memory(void)
@@ -459,11 +496,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	       (double)(worked() - begun) / 1000);
 	window = ladder_window_new(application, document);
 	gtk_window_present(GTK_WINDOW(window));
-	frame.clock = gdk_surface_get_frame_clock(
-		gtk_native_get_surface(GTK_NATIVE(window)));
-	g_signal_connect(frame.clock, "before-paint", G_CALLBACK(before), NULL);
-	g_signal_connect(frame.clock, "after-paint", G_CALLBACK(after), NULL);
-	next_frame();
+	watch_frames(GTK_WIDGET(window));
 	chart = find(GTK_WIDGET(window), LADDER_TYPE_SFC_VIEW);
 	printf("Opening, to the first picture: %.1f ms by the clock, %.1f ms of the "
 	       "processor (%d).\n", (double)(g_get_monotonic_time() - begin) / 1000,
@@ -481,6 +514,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	gtk_widget_grab_focus(sheet);
 	printf("\n| what | thread until its picture, ms | clock, ms | worst, ms | "
 	       "thread until all is done, ms | asked |\n|---|---|---|---|---|---|\n");
+	measure_ground(LADDER_GRID_VIEW(sheet));
 	for (gsize i = 0; i < G_N_ELEMENTS(deeds); i++)
 		if (strstr(deeds[i].name, word))
 			measure(&deeds[i], LADDER_GRID_VIEW(sheet));
