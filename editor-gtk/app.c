@@ -94,6 +94,21 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 	return window;
 }
 
+/* The window that has this file open; NULL: none. */
+static LadderWindow *window_of(AdwApplication *application, const char *path)
+{
+	GList *at = gtk_application_get_windows(GTK_APPLICATION(application));
+	char *whole = g_canonicalize_filename(path, NULL);
+	LadderWindow *found = NULL;
+
+	for (; at && !found; at = at->next)
+		if (LADDER_IS_WINDOW(at->data) && g_strcmp0(whole, ladder_document_path(
+			    ladder_window_document(LADDER_WINDOW(at->data)))) == 0)
+			found = LADDER_WINDOW(at->data);
+	g_free(whole);
+	return found;
+}
+
 /* Never saved: it becomes a file of ours where the person says. */
 static LadderWindow *open_classic(AdwApplication *application, LadderWindow *window,
 				  const char *path, GError **error)
@@ -129,6 +144,12 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
 			      const char *path, GError **error)
 {
+	LadderWindow *there = window_of(application, path);
+
+	if (there) { /* twice, each would write over the other's */
+		gtk_window_present(GTK_WINDOW(there));
+		return there;
+	}
 	return classic_is_project(path) ? open_classic(application, window, path, error) :
 					  open_in(application, window, path, error);
 }
@@ -178,8 +199,8 @@ static int restore_drafts(AdwApplication *application)
 		LadderDocument *document = ladder_document_new();
 		LadderWindow *window;
 
-		ladder_document_open_text(document, draft->path, draft->text, draft->len,
-					  false);
+		ladder_document_restore(document, draft->path, draft->sum, draft->text,
+					draft->len);
 		window = show_document(application, document);
 		ladder_window_offer_restored(window);
 		draft_forget(draft); /* it has a draft of its own again */

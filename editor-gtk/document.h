@@ -47,9 +47,20 @@ void ladder_document_open_text(LadderDocument *document, const char *path,
  * nothing is lost.
  */
 bool ladder_document_save(LadderDocument *document, const char *path, GError **error);
-/** ladder_document_disk_changed - does the file differ from what was read or saved last?
- * A file that is gone does not count. */
-bool ladder_document_disk_changed(LadderDocument *document);
+enum disk_state {
+	DISK_AS_READ,  /* or saved; or nothing is known: there is no file yet   */
+	DISK_OTHER,    /* somebody else wrote it                               */
+	DISK_GONE,     /* what the document holds is all there is of it        */
+};
+/** ladder_document_disk - looks at the file. A document whose file is gone is not saved. */
+enum disk_state ladder_document_disk(LadderDocument *document);
+/** ladder_document_disk_sum - of the file as it was read or saved last; NULL: it is not
+ * known. Borrowed. */
+const char *ladder_document_disk_sum(LadderDocument *document);
+/** ladder_document_restore - from a draft of the file @path (NULL: none), which had
+ * the sum @sum (NULL: nobody knows) when it was read. */
+void ladder_document_restore(LadderDocument *document, const char *path, const char *sum,
+			     const char *text, gsize len);
 
 /** ladder_document_fix - it stays as it is: nothing changes it from here on, and it is
  * checked no more. */

@@ -23,7 +23,7 @@ static void set_sum(LadderDocument *document, char *sum)
 {
 	g_free(document->disk_sum);
 	document->disk_sum = sum;
-	document->disk_differs = false;
+	document->disk = DISK_AS_READ;
 	memset(&document->disk_seen, 0, sizeof(document->disk_seen));
 }
 
@@ -114,42 +114,68 @@ bool ladder_document_save(LadderDocument *document, const char *path, GError **e
 }
 
 /* The file is read only if it looks another than when it was looked at last. */
-static bool looks_the_same(LadderDocument *document)
+static bool looks_the_same(LadderDocument *document, const GStatBuf *about)
 {
-	GStatBuf about = { 0 };
-	const bool same = g_stat(document->path, &about) == 0 &&
-		about.st_mtim.tv_sec == document->disk_seen.st_mtim.tv_sec &&
-		about.st_mtim.tv_nsec == document->disk_seen.st_mtim.tv_nsec &&
-		about.st_ino == document->disk_seen.st_ino &&
-		about.st_size == document->disk_seen.st_size;
+	const GStatBuf *seen = &document->disk_seen;
+	const bool same = about->st_mtim.tv_sec == seen->st_mtim.tv_sec &&
+		about->st_mtim.tv_nsec == seen->st_mtim.tv_nsec &&
+		about->st_ino == seen->st_ino && about->st_size == seen->st_size;
 
-	document->disk_seen = about;
+	document->disk_seen = *about;
 	return same;
 }
 
-bool ladder_document_disk_changed(LadderDocument *document)
+/* A file that cannot be read is there: nobody knows what it says. */
+static enum disk_state look_at_disk(LadderDocument *document)
 {
+	enum disk_state state = DISK_AS_READ;
+	GStatBuf about = { 0 };
 	char *text, *sum;
 	gsize len;
 
-	if (!document->path || !document->disk_sum)
-		return false;
-	if (looks_the_same(document))
-		return document->disk_differs;
+	if (g_stat(document->path, &about) != 0)
+		return DISK_GONE;
+	if (looks_the_same(document, &about))
+		return document->disk;
 	text = disk_read(document->path, LIMIT_TEXT, &len, NULL);
-	document->disk_differs = false;
 	if (text) {
 		sum = sum_of(text, len);
-		document->disk_differs = strcmp(sum, document->disk_sum) != 0;
+		state = strcmp(sum, document->disk_sum) ? DISK_OTHER : DISK_AS_READ;
 		g_free(sum);
 	}
 	g_free(text);
-	return document->disk_differs;
+	return state;
+}
+
+enum disk_state ladder_document_disk(LadderDocument *document)
+{
+	const enum disk_state before = document->disk;
+
+	if (!document->path || !document->disk_sum)
+		return DISK_AS_READ;
+	document->disk = look_at_disk(document);
+	if (document->disk == DISK_GONE) /* one that comes is looked at, whatever it is */
+		memset(&document->disk_seen, 0, sizeof(document->disk_seen));
+	if ((document->disk == DISK_GONE) != (before == DISK_GONE))
+		document_tell_state(document);
+	return document->disk;
+}
+
+const char *ladder_document_disk_sum(LadderDocument *document)
+{
+	return document->disk_sum;
+}
+
+void ladder_document_restore(LadderDocument *document, const char *path, const char *sum,
+			     const char *text, gsize len)
+{
+	ladder_document_open_text(document, path, text, len, false);
+	set_sum(document, g_strdup(sum));
 }
 
 bool ladder_document_is_saved(LadderDocument *document)
 {
-	return history_is_saved(document->history);
+	return history_is_saved(document->history) && document->disk != DISK_GONE;
 }
 
 int ladder_document_repaired(LadderDocument *document)

@@ -21,7 +21,7 @@ struct _LadderDocument {
 	char *path;
 	char *disk_sum;           /* digest of the file when it was read or saved */
 	GStatBuf disk_seen;       /* of the file when it was looked at last    */
-	bool disk_differs;        /* and whether it was another then           */
+	enum disk_state disk;     /* and what it was then                      */
 	int repaired;             /* line of the first byte that is no text; 0: none */
 	bool fixed;               /* nothing changes it                        */
 	guint64 version;

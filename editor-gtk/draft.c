@@ -2,8 +2,8 @@
  *
  * draft - what was not saved, kept where a crash does not reach it.
  *
- * A draft is a file "PID-NUMBER.draft": a line with the path as a URI, and the text. A file whose
- * process is alive belongs to that.
+ * A draft is a file "PID-NUMBER.draft": a line with the path as a URI and the sum of what
+ * stood there, if they are known, and the text. A file whose process is alive belongs to that.
  */
 #include "editor-gtk/draft.h"
 
@@ -39,13 +39,14 @@ void draft_write(LadderDocument *document)
 	struct keeper *keeper = keeper_of(document);
 	const char *path = ladder_document_path(document);
 	gsize len;
+	const char *sum = ladder_document_disk_sum(document);
 	char *text, *whole, *dir, *uri;
 
 	if (!keeper || ladder_document_is_saved(document))
 		return;
 	text = ladder_document_text(document, &len);
 	uri = path ? g_filename_to_uri(path, NULL, NULL) : NULL;
-	whole = g_strdup_printf(DRAFT_HEAD "%s\n%s", uri ? uri : "", text);
+	whole = g_strdup_printf(DRAFT_HEAD "%s %s\n%s", uri ? uri : "", sum ? sum : "", text);
 	g_free(uri);
 	dir = g_path_get_dirname(keeper->file);
 	g_mkdir_with_parents(dir, 0700);
@@ -119,6 +120,7 @@ static void draft_free(gpointer pointer)
 
 	g_free(draft->file);
 	g_free(draft->path);
+	g_free(draft->sum);
 	g_free(draft->text);
 	g_free(draft);
 }
@@ -140,6 +142,18 @@ static bool is_alive(const char *name)
 	return alive;
 }
 
+/* "URI SUM", and either may lack; a URI has no blanks. */
+static void read_head(struct draft *draft, const char *head)
+{
+	char **words = g_strsplit(head, " ", 2);
+
+	if (words[0] && *words[0])
+		draft->path = g_filename_from_uri(words[0], NULL, NULL);
+	if (words[0] && words[1] && *words[1])
+		draft->sum = g_strdup(words[1]);
+	g_strfreev(words);
+}
+
 static struct draft *read_draft(const char *file)
 {
 	struct draft *draft = g_new0(struct draft, 1);
@@ -154,8 +168,7 @@ static struct draft *read_draft(const char *file)
 	}
 	*line = '\0';
 	draft->file = g_strdup(file);
-	if (all[strlen(DRAFT_HEAD)])
-		draft->path = g_filename_from_uri(all + strlen(DRAFT_HEAD), NULL, NULL);
+	read_head(draft, all + strlen(DRAFT_HEAD));
 	draft->text = g_strdup(line + 1);
 	draft->len = strlen(draft->text);
 	g_free(all);

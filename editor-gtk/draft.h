@@ -21,6 +21,7 @@ void draft_write(LadderDocument *document);
 struct draft {
 	char *file;  /* of the draft                                           */
 	char *path;  /* of the user's file; NULL: it had none                  */
+	char *sum;   /* ladder_document_disk_sum() of that then; NULL: unknown  */
 	char *text;
 	gsize len;
 };

@@ -145,7 +145,7 @@ static bool save_all(LadderWindow *window)
 	g_ptr_array_unref(files);
 	if (!good || ladder_document_is_saved(window->document))
 		return good;
-	if (ladder_document_disk_changed(window->document)) {
+	if (ladder_document_disk(window->document) == DISK_OTHER) {
 		window_save(window); /* it asks */
 		return false;
 	}

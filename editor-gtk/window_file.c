@@ -97,6 +97,7 @@ static bool save_to(LadderWindow *window, const char *path)
 		app_remember(ladder_document_path(window->document));
 		ladder_window_tell(window, _("Saved"));
 		window_banner_close(window);
+		window->disk_told = DISK_AS_READ;
 		window_classic_saved(window);
 		return true;
 	}
@@ -232,7 +233,7 @@ bool window_save_file(LadderWindow *window, LadderFileView *file)
 /* Where it lies already; not over what somebody else wrote there meanwhile. */
 static bool save_here(LadderWindow *window)
 {
-	if (!ladder_document_disk_changed(window->document))
+	if (ladder_document_disk(window->document) != DISK_OTHER)
 		return save_to(window, NULL);
 	window_banner(window, _("Somebody else changed the file since it was opened. "
 				"Saving would write over that."), _("Save all the same"),
@@ -347,8 +348,11 @@ static char *unsaved_names(LadderWindow *window, const GPtrArray *files)
 bool window_may_close(LadderWindow *window)
 {
 	GPtrArray *files = tabs_unsaved(window);
-	const bool good = ladder_document_is_saved(window->document) && files->len == 0;
+	bool good;
 	char *names;
+
+	ladder_document_disk(window->document); /* it may be gone since           */
+	good = ladder_document_is_saved(window->document) && files->len == 0;
 
 	if (good) {
 		draft_remove(window->document);
@@ -375,16 +379,31 @@ static void reload(LadderWindow *window)
 	g_free(path);
 }
 
-static gboolean look(gpointer data)
+static void tell_disk(LadderWindow *window, enum disk_state state)
 {
-	LadderWindow *window = data;
-
-	if (ladder_document_disk_changed(window->document) &&
-	    !gtk_revealer_get_reveal_child(window->banner))
+	if (state == DISK_GONE)
+		window_banner(window, _("The file is gone. What you see here is all there "
+					"is of it."), _("Save"), save_over);
+	else if (state == DISK_OTHER)
 		window_banner(window, ladder_document_is_saved(window->document) ?
 			_("The file was changed by somebody else.") :
 			_("The file was changed by somebody else. Reading it again "
 			  "would lose what you did since."), _("Read it again"), reload);
+	else if (window->disk_told == DISK_GONE)
+		window_banner_close(window); /* it is there again                */
+}
+
+/* Told once: who closes the banner knows. */
+static gboolean look(gpointer data)
+{
+	LadderWindow *window = data;
+	const enum disk_state state = ladder_document_disk(window->document);
+
+	if (state == window->disk_told || (state != DISK_AS_READ &&
+	    gtk_revealer_get_reveal_child(window->banner) && window->disk_told == DISK_AS_READ))
+		return G_SOURCE_CONTINUE;
+	tell_disk(window, state);
+	window->disk_told = state;
 	return G_SOURCE_CONTINUE;
 }
 

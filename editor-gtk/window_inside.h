@@ -31,6 +31,7 @@ struct _LadderWindow {
 	LadderRecorder *recorder;
 	bool closing;             /* the person has been asked                 */
 	guint disk_timer;         /* until the file is looked at again         */
+	enum disk_state disk_told; /* what was told of it                      */
 	guint when_timer;         /* until the title tells the simulated time  */
 	void (*banner_do)(LadderWindow *window);
 	/* Template widgets */

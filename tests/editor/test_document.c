@@ -475,6 +475,62 @@ static void test_storm(void)
 
 /* ---- files ---- */
 
+/* One that is gone: nobody else has what the document holds. */
+static void test_gone(void)
+{
+	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
+	char *path = g_build_filename(folder, "a.rung", NULL);
+	char *away = g_build_filename(folder, "away", NULL);
+	LadderDocument *document = open_sample();
+
+	CHECK(ladder_document_save(document, path, NULL));
+	CHECK(ladder_document_is_saved(document));
+	CHECK(g_rename(path, away) == 0);
+	CHECK(ladder_document_disk(document) == DISK_GONE);
+	CHECK(!ladder_document_is_saved(document));
+	CHECK(g_rename(away, path) == 0);
+	CHECK(ladder_document_disk(document) == DISK_AS_READ);
+	CHECK(ladder_document_is_saved(document));
+	CHECK(g_unlink(path) == 0 && ladder_document_disk(document) == DISK_GONE);
+	CHECK(g_file_set_contents(path, "other", -1, NULL));
+	CHECK(ladder_document_disk(document) == DISK_OTHER);
+	CHECK(g_unlink(path) == 0 && ladder_document_disk(document) == DISK_GONE);
+	CHECK(ladder_document_save(document, NULL, NULL));
+	CHECK(ladder_document_is_saved(document));
+	CHECK(ladder_document_disk(document) == DISK_AS_READ);
+	CHECK(g_unlink(path) == 0 && g_rmdir(folder) == 0);
+	g_object_unref(document);
+	g_free(away);
+	g_free(path);
+	g_free(folder);
+}
+
+/* What a draft holds is not what stands in the file, and the file may be another since. */
+static void test_restored(void)
+{
+	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
+	char *path = g_build_filename(folder, "a.rung", NULL);
+	LadderDocument *document = open_sample(), *again = ladder_document_new();
+	char *text = ladder_document_text(document, NULL), *sum;
+
+	CHECK(ladder_document_save(document, path, NULL));
+	sum = g_strdup(ladder_document_disk_sum(document));
+	ladder_document_restore(again, path, sum, text, strlen(text));
+	CHECK(!ladder_document_is_saved(again));
+	CHECK(ladder_document_disk(again) == DISK_AS_READ);
+	CHECK(g_file_set_contents(path, "other", -1, NULL));
+	CHECK(ladder_document_disk(again) == DISK_OTHER);
+	ladder_document_restore(again, path, NULL, text, strlen(text));
+	CHECK(ladder_document_disk(again) == DISK_AS_READ && !ladder_document_disk_sum(again));
+	CHECK(g_unlink(path) == 0 && g_rmdir(folder) == 0);
+	g_object_unref(document);
+	g_object_unref(again);
+	g_free(text);
+	g_free(sum);
+	g_free(path);
+	g_free(folder);
+}
+
 static void test_files(void)
 {
 	char *folder = g_dir_make_tmp("rungboard-XXXXXX", NULL);
@@ -486,9 +542,9 @@ static void test_files(void)
 	CHECK(ladder_document_save(document, path, NULL));
 	CHECK(g_file_get_contents(path, &got, NULL, NULL) && strcmp(got, text) == 0);
 	CHECK_TEXT(ladder_document_path(document), path);
-	CHECK(!ladder_document_disk_changed(document));
+	CHECK(ladder_document_disk(document) == DISK_AS_READ);
 	CHECK(g_file_set_contents(path, "other", -1, NULL));
-	CHECK(ladder_document_disk_changed(document));
+	CHECK(ladder_document_disk(document) == DISK_OTHER);
 	CHECK(!ladder_document_save(document, "/nowhere/at/all.rung", &error) && error);
 	CHECK_TEXT(ladder_document_path(document), path);
 	g_clear_error(&error);
@@ -519,5 +575,7 @@ int main(void)
 	test_declare();
 	test_storm();
 	test_files();
+	test_gone();
+	test_restored();
 	return tap_done();
 }

@@ -38,6 +38,33 @@ def after_a_kill(screen):
     until(lambda: not drafts(screen), 'the draft to go with the save')
 
 
+def changed_meanwhile(screen):
+    """somebody else changes the file after the kill: it is not written over unasked, and one window has it"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.entry('Start')
+    editor.entry('OUT Motor')
+    other = editor.save(path) + '(* of somebody else *)\n'
+    editor.keys('Home', 'shift+F5')
+    editor.opened()
+    editor.entry('Motor')
+    until(lambda: any('^' in open(file).read() for file in drafts(screen)), 'the draft')
+    editor.kill()
+    with open(path, 'w') as file:
+        file.write(other)
+    again = Editor(screen, path)
+    again.says('This was not saved when the editor ended')
+    until(lambda: len(again.cells()) == 3, 'the three elements')
+    assert len(again.windows()) == 1
+    again.to_sheet()
+    again.keys('ctrl+s')
+    again.says('Saving would write over that')
+    assert open(path).read() == other
+    again.click(again.find('Save all the same', 'push button'))
+    until(lambda: open(path).read() != other, 'the file to be written')
+    assert lines(path, '@print Motor\nStart=0\nStart=1\nStart=0\n') == ['Motor=0', 'Motor=1', 'Motor=1']
+
+
 def at_the_end_of_a_session(screen):
     """told to end, it keeps what was drawn last, asks nobody, and gives it back"""
     path = new_file(screen)
@@ -51,4 +78,4 @@ def at_the_end_of_a_session(screen):
     until(lambda: len(again.cells()) == 1, 'the contact')
 
 
-main([after_a_kill, at_the_end_of_a_session])
+main([after_a_kill, changed_meanwhile, at_the_end_of_a_session])

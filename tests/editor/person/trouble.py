@@ -88,6 +88,34 @@ def vanished(screen):
     saved_well(path)
 
 
+def bar(editor):
+    """The button of the banner: below the one in the head of the window, which has a picture."""
+    return max(editor.all('Save', 'push button'), key=lambda button: editor.middle(button)[1])
+
+
+def gone(screen):
+    """the file is gone, nothing was drawn: it is told and asked before the last copy goes"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 1, 'the contact')
+    os.unlink(path)
+    editor.keys('ctrl+w')
+    editor.answer('Cancel')
+    editor.says('The file is gone')
+    editor.shot('trouble-gone')
+    editor.keys('ctrl+w')
+    editor.answer('Cancel')
+    editor.click(bar(editor))
+    until(lambda: os.path.exists(path) and open(path).read() == PROJECT, 'the file')
+    until(lambda: not editor.all('The file is gone'), 'the banner to go')
+    os.rename(path, path + '~')
+    editor.says('The file is gone')
+    os.rename(path + '~', path)
+    until(lambda: not editor.all('The file is gone'), 'the banner to go')
+    editor.keys('ctrl+w')
+    until(lambda: editor.process.poll() is not None, 'the window to close')
+
+
 def somebody_else(screen):
     """somebody else changes the file: it is told, and read again when wanted"""
     path = new_file(screen, PROJECT)
@@ -102,4 +130,4 @@ def somebody_else(screen):
     saved_well(path)
 
 
-main([read_only, full_disk, vanished, somebody_else])
+main([read_only, full_disk, vanished, gone, somebody_else])
