@@ -189,6 +189,29 @@ void app_open_sample(LadderWindow *window, const char *path)
 
 /* ---- after a crash ---- */
 
+static LadderWindow *restore_document(AdwApplication *application, const struct draft *draft)
+{
+	LadderDocument *document = ladder_document_new();
+	LadderWindow *window;
+
+	ladder_document_restore(document, draft->path, draft->sum, draft->text, draft->len);
+	window = show_document(application, document);
+	g_object_unref(document);
+	return window;
+}
+
+/* With its project, if that is still there. */
+static LadderWindow *restore_file(AdwApplication *application, const struct draft *draft)
+{
+	LadderWindow *window = draft->beside ?
+		open_any(application, NULL, draft->beside, NULL) : NULL;
+
+	if (!window)
+		window = new_window(application);
+	ladder_window_restore_file(window, draft);
+	return window;
+}
+
 static int restore_drafts(AdwApplication *application)
 {
 	GPtrArray *drafts = draft_find();
@@ -196,18 +219,37 @@ static int restore_drafts(AdwApplication *application)
 
 	for (int i = 0; i < count; i++) {
 		const struct draft *draft = drafts->pdata[i];
-		LadderDocument *document = ladder_document_new();
-		LadderWindow *window;
 
-		ladder_document_restore(document, draft->path, draft->sum, draft->text,
-					draft->len);
-		window = show_document(application, document);
-		ladder_window_offer_restored(window);
+		ladder_window_offer_restored(draft->is_file ?
+			restore_file(application, draft) :
+			restore_document(application, draft));
 		draft_forget(draft); /* it has a draft of its own again */
-		g_object_unref(document);
 	}
 	g_ptr_array_unref(drafts);
 	return count;
+}
+
+static LadderWindow *window_with(LadderDocument *document)
+{
+	GList *at = gtk_application_get_windows(GTK_APPLICATION(g_application_get_default()));
+
+	for (; at; at = at->next)
+		if (LADDER_IS_WINDOW(at->data) &&
+		    ladder_window_document(LADDER_WINDOW(at->data)) == document)
+			return LADDER_WINDOW(at->data);
+	return NULL;
+}
+
+static void tell_draft_failed(gpointer object, const char *why)
+{
+	LadderWindow *window = LADDER_IS_DOCUMENT(object) ? window_with(object) :
+		LADDER_WINDOW(gtk_widget_get_root(GTK_WIDGET(object)));
+	char *text = g_strdup_printf(_("What is not saved would be lost in a crash, no draft "
+				       "of it can be kept: %s"), why);
+
+	if (window)
+		ladder_window_warn(window, text);
+	g_free(text);
 }
 
 /* ---- told to end ---- */
@@ -219,7 +261,7 @@ static gboolean end_now(gpointer application)
 
 	for (GList *at = windows; at; at = at->next)
 		if (LADDER_IS_WINDOW(at->data))
-			draft_write(ladder_window_document(LADDER_WINDOW(at->data)));
+			ladder_window_keep_drafts(LADDER_WINDOW(at->data));
 	g_list_free(windows);
 	while ((windows = gtk_application_get_windows(application)))
 		gtk_window_destroy(GTK_WINDOW(windows->data));
@@ -297,6 +339,7 @@ static void startup(GtkApplication *application)
 	app_style();
 	preferences_follow(ADW_APPLICATION(application));
 	gtk_window_set_default_icon_name(APP_ID);
+	draft_on_failure(tell_draft_failed);
 }
 
 /* Where the languages lie; NULL: there are none. */

@@ -2,8 +2,9 @@
  *
  * draft - what was not saved, kept where a crash does not reach it.
  *
- * A draft is a file "PID-NUMBER.draft": a line with the path as a URI and the sum of what
- * stood there, if they are known, and the text. A file whose process is alive belongs to that.
+ * A draft is a file "PID-NUMBER.draft": a line with the path as a URI, the sum of what stood
+ * there and, of a file beside a project, the URI of that, as far as they are known; and the
+ * text. A draft whose process is alive belongs to that.
  */
 #include "editor-gtk/draft.h"
 
@@ -17,61 +18,119 @@
 #define DRAFT_SECONDS 2 /* after the last change                               */
 #define DRAFT_HEAD    "RUNGBOARD-DRAFT 1 "
 
+#define DRAFT_BESIDE  "beside:"
+
 struct keeper {
 	char *file;
 	guint timer;
+	LadderDocument *beside; /* whose file it is; NULL: it is a document    */
+	bool told;              /* that it cannot be kept                      */
 };
+
+static void (*failed)(gpointer object, const char *why);
 
 static char *folder(void)
 {
 	return g_build_filename(g_get_user_state_dir(), "rungboard", "drafts", NULL);
 }
 
-static struct keeper *keeper_of(LadderDocument *document)
+static struct keeper *keeper_of(gpointer object)
 {
-	return g_object_get_data(G_OBJECT(document), "draft");
+	return g_object_get_data(G_OBJECT(object), "draft");
 }
 
 /* ---- keeping ---- */
 
-void draft_write(LadderDocument *document)
+static bool is_saved(gpointer object)
 {
-	struct keeper *keeper = keeper_of(document);
-	const char *path = ladder_document_path(document);
-	gsize len;
-	const char *sum = ladder_document_disk_sum(document);
-	char *text, *whole, *dir, *uri;
-
-	if (!keeper || ladder_document_is_saved(document))
-		return;
-	text = ladder_document_text(document, &len);
-	uri = path ? g_filename_to_uri(path, NULL, NULL) : NULL;
-	whole = g_strdup_printf(DRAFT_HEAD "%s %s\n%s", uri ? uri : "", sum ? sum : "", text);
-	g_free(uri);
-	dir = g_path_get_dirname(keeper->file);
-	g_mkdir_with_parents(dir, 0700);
-	g_file_set_contents_full(keeper->file, whole, (gssize)strlen(whole),
-		G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE, 0600, NULL);
-	g_free(dir);
-	g_free(whole);
-	g_free(text);
+	return keeper_of(object)->beside ?
+		!gtk_text_buffer_get_modified(ladder_file_view_buffer(object)) :
+		ladder_document_is_saved(object);
 }
 
-static gboolean write_now(gpointer document)
+static char *uri_of(const char *path)
 {
-	keeper_of(document)->timer = 0;
-	draft_write(document);
+	char *uri = path ? g_filename_to_uri(path, NULL, NULL) : NULL;
+
+	return uri ? uri : g_strdup("");
+}
+
+static char *document_draft(LadderDocument *document)
+{
+	const char *sum = ladder_document_disk_sum(document);
+	char *uri = uri_of(ladder_document_path(document));
+	char *text = ladder_document_text(document, NULL);
+	char *whole = g_strdup_printf(DRAFT_HEAD "%s %s\n%s", uri, sum ? sum : "", text);
+
+	g_free(text);
+	g_free(uri);
+	return whole;
+}
+
+static char *file_draft(LadderFileView *view, LadderDocument *beside)
+{
+	char *uri = uri_of(ladder_file_view_path(view));
+	char *project = uri_of(ladder_document_path(beside));
+	char *sum = ladder_file_view_sum(view), *text = ladder_file_view_text(view);
+	char *whole = g_strdup_printf(DRAFT_HEAD "%s %s " DRAFT_BESIDE "%s\n%s", uri, sum,
+				      project, text);
+
+	g_free(text);
+	g_free(sum);
+	g_free(project);
+	g_free(uri);
+	return whole;
+}
+
+/* Told once, until it can be kept again. */
+static void tell_failed(gpointer object, struct keeper *keeper, const char *why)
+{
+	if (failed && !keeper->told)
+		failed(object, why);
+	keeper->told = true;
+}
+
+static void write_draft(gpointer object)
+{
+	struct keeper *keeper = keeper_of(object);
+	char *whole = keeper->beside ? file_draft(object, keeper->beside) :
+				       document_draft(object);
+	char *dir = g_path_get_dirname(keeper->file);
+	GError *error = NULL;
+
+	g_mkdir_with_parents(dir, 0700);
+	if (g_file_set_contents_full(keeper->file, whole, (gssize)strlen(whole),
+		    G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE, 0600,
+		    &error))
+		keeper->told = false;
+	else
+		tell_failed(object, keeper, error->message);
+	g_clear_error(&error);
+	g_free(dir);
+	g_free(whole);
+}
+
+void draft_write(gpointer object)
+{
+	if (keeper_of(object) && !is_saved(object))
+		write_draft(object);
+}
+
+static gboolean write_now(gpointer object)
+{
+	keeper_of(object)->timer = 0;
+	draft_write(object);
 	return G_SOURCE_REMOVE;
 }
 
-static void state_changed(LadderDocument *document, struct keeper *keeper)
+static void state_changed(gpointer object, struct keeper *keeper)
 {
-	if (ladder_document_is_saved(document)) {
+	if (is_saved(object)) {
 		g_unlink(keeper->file);
 		return;
 	}
 	if (!keeper->timer)
-		keeper->timer = g_timeout_add_seconds(DRAFT_SECONDS, write_now, document);
+		keeper->timer = g_timeout_add_seconds(DRAFT_SECONDS, write_now, object);
 }
 
 static void keeper_free(gpointer pointer)
@@ -80,29 +139,47 @@ static void keeper_free(gpointer pointer)
 
 	if (keeper->timer)
 		g_source_remove(keeper->timer);
+	g_clear_object(&keeper->beside);
 	g_free(keeper->file);
 	g_free(keeper);
 }
 
-void draft_keep(LadderDocument *document)
+static void keep(gpointer object, LadderDocument *beside)
 {
 	static int number;
 	struct keeper *keeper = g_new0(struct keeper, 1);
 	char *dir = folder();
 	char *name = g_strdup_printf("%ld-%d.draft", (long)getpid(), ++number);
 
+	keeper->beside = beside ? g_object_ref(beside) : NULL;
 	keeper->file = g_build_filename(dir, name, NULL);
-	g_object_set_data_full(G_OBJECT(document), "draft", keeper, keeper_free);
-	g_signal_connect(document, "state-changed", G_CALLBACK(state_changed), keeper);
-	if (!ladder_document_is_saved(document))
-		draft_write(document);
+	g_object_set_data_full(G_OBJECT(object), "draft", keeper, keeper_free);
+	g_signal_connect(object, "state-changed", G_CALLBACK(state_changed), keeper);
+	draft_write(object);
 	g_free(name);
 	g_free(dir);
 }
 
-void draft_remove(LadderDocument *document)
+void draft_keep(LadderDocument *document)
 {
-	struct keeper *keeper = keeper_of(document);
+	keep(document, NULL);
+}
+
+static void text_changed(LadderFileView *view)
+{
+	state_changed(view, keeper_of(view));
+}
+
+void draft_keep_file(LadderFileView *view, LadderDocument *document)
+{
+	keep(view, document);
+	g_signal_connect_object(ladder_file_view_buffer(view), "changed",
+				G_CALLBACK(text_changed), view, G_CONNECT_SWAPPED);
+}
+
+void draft_remove(gpointer object)
+{
+	struct keeper *keeper = keeper_of(object);
 
 	if (!keeper)
 		return;
@@ -110,6 +187,11 @@ void draft_remove(LadderDocument *document)
 		g_source_remove(keeper->timer);
 	keeper->timer = 0;
 	g_unlink(keeper->file);
+}
+
+void draft_on_failure(void (*tell)(gpointer object, const char *why))
+{
+	failed = tell;
 }
 
 /* ---- finding ---- */
@@ -121,6 +203,7 @@ static void draft_free(gpointer pointer)
 	g_free(draft->file);
 	g_free(draft->path);
 	g_free(draft->sum);
+	g_free(draft->beside);
 	g_free(draft->text);
 	g_free(draft);
 }
@@ -142,15 +225,23 @@ static bool is_alive(const char *name)
 	return alive;
 }
 
-/* "URI SUM", and either may lack; a URI has no blanks. */
+static char *path_of(const char *uri)
+{
+	return *uri ? g_filename_from_uri(uri, NULL, NULL) : NULL;
+}
+
+/* "URI SUM beside:URI": any may lack. A URI has no blanks. */
 static void read_head(struct draft *draft, const char *head)
 {
-	char **words = g_strsplit(head, " ", 2);
+	char **words = g_strsplit(head, " ", 3);
+	const int count = (int)g_strv_length(words);
 
-	if (words[0] && *words[0])
-		draft->path = g_filename_from_uri(words[0], NULL, NULL);
-	if (words[0] && words[1] && *words[1])
-		draft->sum = g_strdup(words[1]);
+	draft->path = count > 0 ? path_of(words[0]) : NULL;
+	draft->sum = count > 1 && *words[1] ? g_strdup(words[1]) : NULL;
+	draft->is_file = draft->path && count > 2 &&
+			 g_str_has_prefix(words[2], DRAFT_BESIDE);
+	if (draft->is_file)
+		draft->beside = path_of(words[2] + strlen(DRAFT_BESIDE));
 	g_strfreev(words);
 }
 
@@ -175,6 +266,13 @@ static struct draft *read_draft(const char *file)
 	return draft;
 }
 
+static int documents_first(gconstpointer a, gconstpointer b)
+{
+	const struct draft *const *one = a, *const *other = b;
+
+	return (int)(*one)->is_file - (int)(*other)->is_file;
+}
+
 GPtrArray *draft_find(void)
 {
 	GPtrArray *found = g_ptr_array_new_with_free_func(draft_free);
@@ -196,6 +294,7 @@ GPtrArray *draft_find(void)
 	if (names)
 		g_dir_close(names);
 	g_free(dir);
+	g_ptr_array_sort(found, documents_first);
 	return found;
 }
 

@@ -10,23 +10,31 @@
 #define EDITOR_DRAFT_H
 
 #include "editor-gtk/document.h"
+#include "editor-gtk/file_view.h"
 
 /** draft_keep - from now on drafts of @document are kept. */
 void draft_keep(LadderDocument *document);
-/** draft_remove - of @document: it is saved, or not wanted. */
-void draft_remove(LadderDocument *document);
-/** draft_write - at once. */
-void draft_write(LadderDocument *document);
+/** draft_keep_file - of a text file beside @document, too. */
+void draft_keep_file(LadderFileView *view, LadderDocument *document);
+/** draft_remove - of a document or file view: it is saved, or not wanted. */
+void draft_remove(gpointer object);
+/** draft_write - of a document or file view that is not saved, at once. */
+void draft_write(gpointer object);
+/** draft_on_failure - who is told that what is not saved cannot be kept, and why. NULL:
+ * nobody. */
+void draft_on_failure(void (*tell)(gpointer object, const char *why));
 
 struct draft {
-	char *file;  /* of the draft                                           */
-	char *path;  /* of the user's file; NULL: it had none                  */
-	char *sum;   /* ladder_document_disk_sum() of that then; NULL: unknown  */
+	char *file;   /* of the draft                                          */
+	char *path;   /* of the user's file; NULL: it had none                 */
+	char *sum;    /* of what stood there; NULL: unknown                    */
+	bool is_file; /* a text file beside a project, that had a path         */
+	char *beside; /* of the project then; NULL: it had none                */
 	char *text;
 	gsize len;
 };
-/** draft_find - those of editors that are gone. Owns: the caller, g_ptr_array_unref; of
- * struct draft *. */
+/** draft_find - those of editors that are gone, documents before the files beside them.
+ * Owns: the caller, g_ptr_array_unref; of struct draft *. */
 GPtrArray *draft_find(void);
 /** draft_forget - deletes its file. */
 void draft_forget(const struct draft *draft);

@@ -30,11 +30,23 @@ G_DEFINE_FINAL_TYPE(LadderFileView, ladder_file_view, GTK_TYPE_BOX)
 
 static guint state_changed; /* signal */
 
+/* Of a file that is gone this is the last copy. */
 bool ladder_file_view_is_saved(LadderFileView *view)
 {
 	if (view->map)
 		ladder_iomap_view_commit(LADDER_IOMAP_VIEW(view->map));
-	return !gtk_text_buffer_get_modified(view->buffer);
+	return !gtk_text_buffer_get_modified(view->buffer) &&
+	       g_file_test(view->path, G_FILE_TEST_EXISTS);
+}
+
+GtkTextBuffer *ladder_file_view_buffer(LadderFileView *view)
+{
+	return view->buffer;
+}
+
+char *ladder_file_view_sum(LadderFileView *view)
+{
+	return g_compute_checksum_for_string(G_CHECKSUM_SHA256, view->read, -1);
 }
 
 /* What somebody else wrote meanwhile is not written over before that is told. A file that
@@ -222,18 +234,14 @@ static void set_text(GtkTextBuffer *buffer, const char *text)
 	gtk_text_buffer_set_modified(buffer, FALSE);
 }
 
-GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GError **error)
+/* @text: what stands in the file; taken over. */
+static LadderFileView *view_of(const char *path, char *text, LadderDocument *document)
 {
-	char *text = text_of(path, error), *name;
-	GtkWidget *scroller, *told;
-	LadderFileView *view;
+	LadderFileView *view = g_object_new(LADDER_TYPE_FILE_VIEW, NULL);
+	char *name = g_path_get_basename(path);
+	GtkWidget *scroller = gtk_scrolled_window_new(), *told = told_label();
 
-	if (!text)
-		return NULL;
-	view = g_object_new(LADDER_TYPE_FILE_VIEW, NULL);
 	view->path = g_strdup(path);
-	name = g_path_get_basename(path);
-	scroller = gtk_scrolled_window_new();
 	gtk_widget_set_vexpand(scroller, TRUE);
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller),
 				      text_widget(view, name));
@@ -241,11 +249,44 @@ GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GErr
 	if (g_str_has_suffix(name, ".io"))
 		view->map = ladder_iomap_view_new(view->buffer, scroller, document);
 	gtk_box_append(GTK_BOX(view), view->map ? view->map : scroller);
-	told = told_label();
 	gtk_box_append(GTK_BOX(view), told);
 	view->marks = file_marks_new(view->buffer, GTK_LABEL(told));
-	g_free(name);
 	view->read = text;
+	g_free(name);
+	return view;
+}
+
+GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GError **error)
+{
+	char *text = text_of(path, error);
+
+	return text ? GTK_WIDGET(view_of(path, text, document)) : NULL;
+}
+
+/* What was typed. @sum: of what it was typed into; another stands there now: it is asked before
+ * that is written over. */
+static void put_text(LadderFileView *view, const char *text, const char *sum)
+{
+	char *now = ladder_file_view_sum(view);
+
+	gtk_text_buffer_begin_user_action(view->buffer);
+	gtk_text_buffer_set_text(view->buffer, text, -1);
+	gtk_text_buffer_end_user_action(view->buffer);
+	gtk_text_buffer_set_modified(view->buffer, TRUE);
+	if (g_strcmp0(now, sum) != 0) {
+		g_free(view->read);
+		view->read = g_strdup("");
+	}
+	g_free(now);
+}
+
+GtkWidget *ladder_file_view_restore(const char *path, const char *sum, const char *text,
+				    LadderDocument *document)
+{
+	char *there = text_of(path, NULL);
+	LadderFileView *view = view_of(path, there ? there : g_strdup(""), document);
+
+	put_text(view, text, sum);
 	return GTK_WIDGET(view);
 }
 

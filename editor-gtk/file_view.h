@@ -20,11 +20,20 @@ G_DECLARE_FINAL_TYPE(LadderFileView, ladder_file_view, LADDER, FILE_VIEW, GtkBox
 /** ladder_file_view_new - NULL: it cannot be read, or is no text; @error says why. An I/O
  * map is shown as a table, too; @document: whose inputs and outputs it maps. */
 GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GError **error);
+/** ladder_file_view_restore - from a draft @text of a file that had the sum @sum. It need
+ * not be there any more. */
+GtkWidget *ladder_file_view_restore(const char *path, const char *sum, const char *text,
+				    LadderDocument *document);
+/** ladder_file_view_sum - of the file as it was read or saved last. Caller frees. */
+char *ladder_file_view_sum(LadderFileView *view);
+/** ladder_file_view_buffer - what is typed into. Borrowed. */
+GtkTextBuffer *ladder_file_view_buffer(LadderFileView *view);
 /** ladder_file_view_path - Borrowed. */
 const char *ladder_file_view_path(LadderFileView *view);
 /** ladder_file_view_save - false: it cannot be written, or somebody else changed it, and
  * @error says so; the text stays. Saved again, it is written over the other's. */
 bool ladder_file_view_save(LadderFileView *view, GError **error);
+/** ladder_file_view_is_saved - false, too, if the file is gone. */
 bool ladder_file_view_is_saved(LadderFileView *view);
 /** ladder_file_view_name - of the file, without its folder. Caller frees. */
 char *ladder_file_view_name(LadderFileView *view);

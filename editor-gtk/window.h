@@ -10,6 +10,7 @@
 
 #include "editor-gtk/classic_origin.h"
 #include "editor-gtk/document.h"
+#include "editor-gtk/draft.h"
 #include "editor-gtk/sim.h"
 #include "editor-gtk/verbs.h"
 
@@ -32,6 +33,10 @@ void ladder_window_welcome(LadderWindow *window);
 void ladder_window_warn(LadderWindow *window, const char *text);
 /** ladder_window_offer_restored - says that this was not saved when the editor died. */
 void ladder_window_offer_restored(LadderWindow *window);
+/** ladder_window_restore_file - a text file beside the project, in front. */
+void ladder_window_restore_file(LadderWindow *window, const struct draft *draft);
+/** ladder_window_keep_drafts - of all that is not saved, at once. */
+void ladder_window_keep_drafts(LadderWindow *window);
 /** ladder_window_set_origin - the file that an unsaved project is a copy of: a plant may
  * stand beside it. */
 void ladder_window_set_origin(LadderWindow *window, const char *path);

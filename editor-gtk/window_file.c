@@ -261,10 +261,24 @@ static gboolean close_idle(gpointer window)
 	return G_SOURCE_REMOVE;
 }
 
+/* Nobody wants them, or all is saved. */
+static void drop_drafts(LadderWindow *window)
+{
+	draft_remove(window->document);
+	tabs_each_file(window, draft_remove);
+}
+
+void ladder_window_keep_drafts(LadderWindow *window)
+{
+	g_ptr_array_unref(tabs_unsaved(window)); /* what is typed into a table is taken in */
+	draft_write(window->document);
+	tabs_each_file(window, draft_write);
+}
+
 /* Not while its dialog, which goes with it, still tells what was answered. */
 static void close_now(LadderWindow *window)
 {
-	draft_remove(window->document);
+	drop_drafts(window);
 	window->closing = true;
 	g_idle_add(close_idle, g_object_ref(window));
 }
@@ -355,7 +369,7 @@ bool window_may_close(LadderWindow *window)
 	good = ladder_document_is_saved(window->document) && files->len == 0;
 
 	if (good) {
-		draft_remove(window->document);
+		drop_drafts(window);
 	} else {
 		names = unsaved_names(window, files);
 		g_signal_connect(window_ask_save(window, names), "response",

@@ -98,6 +98,8 @@ void tabs_close(LadderWindow *window);
 LadderFileView *tabs_find_file(LadderWindow *window, const char *path);
 /** tabs_file - of the page in front; NULL: it is none. */
 LadderFileView *tabs_file(LadderWindow *window);
+/** tabs_each_file - all that are open. */
+void tabs_each_file(LadderWindow *window, void (*act)(gpointer file));
 /** tabs_unsaved - the files beside the project that are not saved, of LadderFileView *.
  * Caller: g_ptr_array_unref. */
 GPtrArray *tabs_unsaved(LadderWindow *window);

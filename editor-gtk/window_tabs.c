@@ -126,6 +126,16 @@ GPtrArray *tabs_unsaved(LadderWindow *window)
 	return files;
 }
 
+void tabs_each_file(LadderWindow *window, void (*act)(gpointer file))
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(window->tabs); i++) {
+		GtkWidget *widget = content(adw_tab_view_get_nth_page(window->tabs, i));
+
+		if (LADDER_IS_FILE_VIEW(widget))
+			act(widget);
+	}
+}
+
 /* ---- closing one ---- */
 
 struct closing {
@@ -142,6 +152,8 @@ static void close_answered(AdwMessageDialog *dialog, const char *answer,
 					  LADDER_FILE_VIEW(content(closing->page))));
 
 	(void)dialog;
+	if (close)
+		draft_remove(content(closing->page));
 	adw_tab_view_close_page_finish(closing->window->tabs, closing->page, close);
 }
 
@@ -376,26 +388,40 @@ LadderFileView *tabs_find_file(LadderWindow *window, const char *path)
 	return page ? LADDER_FILE_VIEW(content(page)) : NULL;
 }
 
-void tabs_show_file(LadderWindow *window, const char *path)
+/* @view: made for it; NULL: it may be there already, else @error says why there is none. */
+static void show_file(LadderWindow *window, const char *path, GtkWidget *view, GError *error)
 {
 	char *key = g_strdup_printf(" file %s", path), *title = g_path_get_basename(path);
-	AdwTabPage *page = find_page(window, key);
-	GError *error = NULL;
-	GtkWidget *view = page ? NULL : ladder_file_view_new(path, window->document,
-									 &error);
+	AdwTabPage *page = view ? add_page(window, view, key, title) :
+				  find_page(window, key);
 
 	if (view) {
-		page = add_page(window, view, key, title);
 		g_signal_connect_object(view, "state-changed", G_CALLBACK(show_file_state),
 					page, G_CONNECT_SWAPPED);
+		show_file_state(page, LADDER_FILE_VIEW(view));
+		draft_keep_file(LADDER_FILE_VIEW(view), window->document);
 	}
 	if (page)
 		select_page(window, page);
 	else
 		ladder_window_warn(window, error->message);
-	g_clear_error(&error);
 	g_free(key);
 	g_free(title);
+}
+
+void tabs_show_file(LadderWindow *window, const char *path)
+{
+	GError *error = NULL;
+
+	show_file(window, path, tabs_find_file(window, path) ? NULL :
+		  ladder_file_view_new(path, window->document, &error), error);
+	g_clear_error(&error);
+}
+
+void ladder_window_restore_file(LadderWindow *window, const struct draft *draft)
+{
+	show_file(window, draft->path, ladder_file_view_restore(draft->path, draft->sum,
+		  draft->text, window->document), NULL);
 }
 
 GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)

@@ -5,7 +5,21 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+
+PROJECT = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | COIL Motor |
+END_PROGRAM
+'''
+SCENARIO = 'scenario One\n'
 
 
 def drafts(screen):
@@ -65,6 +79,68 @@ def changed_meanwhile(screen):
     assert lines(path, '@print Motor\nStart=0\nStart=1\nStart=0\n') == ['Motor=0', 'Motor=1', 'Motor=1']
 
 
+def scenario(screen):
+    """An editor, its scenario with a line more that is not saved, and the path of that."""
+    path = new_file(screen, PROJECT)
+    beside = os.path.join(screen.home, 'new.scn')
+    with open(beside, 'w') as file:
+        file.write(SCENARIO)
+    editor = Editor(screen, path)
+    editor.click(editor.find('new.scn', 'label'), count=2)
+    view = editor.find('new.scn', 'text')
+    editor.click(view)
+    until(lambda: view.has(12), 'the focus in the scenario')
+    editor.keys('ctrl+End')
+    editor.type('# mine')
+    until(lambda: any('# mine' in open(file).read() for file in drafts(screen)), 'the draft')
+    return editor, beside
+
+
+def beside_a_project(screen):
+    """a scenario that was typed comes back with its project; what another wrote meanwhile is not written over"""
+    editor, path = scenario(screen)
+    editor.kill()
+    with open(path, 'w') as file:
+        file.write('# theirs')
+    again = Editor(screen)
+    again.says('This was not saved when the editor ended')
+    again.says('• new.scn')
+    again.shot('drafts-scenario')
+    assert again.find('new.scn', 'text').text() == SCENARIO + '# mine' and len(again.windows()) == 1
+    again.keys('ctrl+s')
+    again.says('somebody else changed it')
+    assert open(path).read() == '# theirs'
+    again.save(path)
+    assert open(path).read() == SCENARIO + '# mine'
+    until(lambda: not drafts(screen), 'the draft to go with the save')
+    os.unlink(path)
+    again.keys('ctrl+shift+w')
+    again.answer('Save')
+    until(lambda: os.path.exists(path), 'the file that was gone')
+    assert open(path).read() == SCENARIO + '# mine'
+
+
+def not_wanted(screen):
+    """its draft goes with the tab, and with the window"""
+    for key in 'ctrl+shift+w', 'ctrl+w':
+        editor, path = scenario(screen)
+        editor.keys(key)
+        editor.reply('Discard')
+        until(lambda: not drafts(screen), 'the draft to go')
+        assert open(path).read() == SCENARIO
+        editor.kill()
+
+
+def no_room(screen):
+    """a draft that cannot be written is told"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    sh('prlimit', '--pid', str(editor.process.pid), '--fsize=50:')
+    editor.entry('Start')
+    editor.says('no draft of it can be kept')
+    editor.shot('drafts-no-room')
+
+
 def at_the_end_of_a_session(screen):
     """told to end, it keeps what was drawn last, asks nobody, and gives it back"""
     path = new_file(screen)
@@ -78,4 +154,4 @@ def at_the_end_of_a_session(screen):
     until(lambda: len(again.cells()) == 1, 'the contact')
 
 
-main([after_a_kill, changed_meanwhile, at_the_end_of_a_session])
+main([after_a_kill, changed_meanwhile, beside_a_project, not_wanted, no_room, at_the_end_of_a_session])
