@@ -268,6 +268,9 @@ static void apply(LadderDocument *document, const struct change *change, bool ba
 	case CHANGE_LIST:
 		document_apply_list(document, change->pou, to->pdata[0]);
 		break;
+	case CHANGE_FILE:
+		document_apply_file(document, change, from->pdata[0], to->pdata[0]);
+		break;
 	}
 }
 
@@ -308,7 +311,10 @@ static void apply_all(LadderDocument *document, const struct step *step, bool ba
 
 	for (int i = 0; i < count; i++)
 		apply(document, step->change->pdata[back ? count - 1 - i : i], back);
-	document_changed(document);
+	if (step_is_aside(step))
+		document_tell_state(document);
+	else
+		document_changed(document);
 }
 
 void ladder_document_cancel(LadderDocument *document)
@@ -542,6 +548,7 @@ static void ladder_document_finalize(GObject *object)
 	ladder_free(document->ladder);
 	ladder_free(document->checked);
 	history_free(document->history);
+	g_clear_pointer(&document->files, g_array_unref);
 	g_hash_table_unref(document->list);
 	g_free(document->text);
 	g_free(document->path);

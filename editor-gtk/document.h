@@ -143,6 +143,20 @@ char *ladder_document_list(LadderDocument *document, int pou);
  * read is kept beside the project until it can, and ladder_document_diags() tell why. */
 bool ladder_document_put_list(LadderDocument *document, int pou, const char *text);
 
+/* ---- text files beside the document (document_beside.c): one history for all ---- */
+
+/** file_apply - @file gets @to in the place of @from, which stands at byte @at. */
+typedef void (*file_apply)(gpointer file, gsize at, const char *from, const char *to);
+/** ladder_document_attach - a number for @file, whose steps the history takes from now on.
+ * Borrowed until ladder_document_detach(). */
+int ladder_document_attach(LadderDocument *document, file_apply apply, gpointer file);
+/** ladder_document_detach - it is gone, and nothing of it can be undone. */
+void ladder_document_detach(LadderDocument *document, int file);
+/** ladder_document_note - a step that was done to a file: at byte @at @before became
+ * @after. The document is as saved as it was. @name, @key: as of ladder_document_begin(). */
+void ladder_document_note(LadderDocument *document, int file, const char *name,
+			  const char *key, gsize at, const char *before, const char *after);
+
 /** ladder_document_undo, ladder_document_redo - false: there is nothing. */
 bool ladder_document_undo(LadderDocument *document);
 bool ladder_document_redo(LadderDocument *document);

@@ -18,6 +18,7 @@ struct _LadderDocument {
 	gsize text_len;
 	GHashTable *list;         /* POU number -> text that cannot be read    */
 	struct history *history;
+	GArray *files;            /* beside it, whose steps are in the history  */
 	char *path;
 	char *disk_sum;           /* digest of the file when it was read or saved */
 	GStatBuf disk_seen;       /* of the file when it was looked at last    */
@@ -33,6 +34,9 @@ struct _LadderDocument {
 	guint64 checked_version;  /* that `checked` or the thread is of        */
 };
 
+/** document_apply_file - a file beside gets @to in the place of @from. */
+void document_apply_file(LadderDocument *document, const struct change *change,
+			 const char *from, const char *to);
 /** document_file - what diagnostics call it. Borrowed. */
 const char *document_file(const LadderDocument *document);
 /** document_take - the text becomes the document; nothing can be undone. */

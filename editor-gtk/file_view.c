@@ -5,6 +5,7 @@
 #include "editor-gtk/file_view.h"
 
 #include "editor-gtk/disk.h"
+#include "editor-gtk/file_history.h"
 #include "editor-gtk/file_marks.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/iomap_view.h"
@@ -24,11 +25,12 @@ struct _LadderFileView {
 	GtkWidget *text;
 	struct file_marks *marks;
 	GtkWidget *map;     /* the table of an I/O map; NULL: it is none       */
+	struct file_history *history;
 };
 
 G_DEFINE_FINAL_TYPE(LadderFileView, ladder_file_view, GTK_TYPE_BOX)
 
-static guint state_changed; /* signal */
+static guint state_changed, was_undone; /* signals */
 
 /* Of a file that is gone this is the last copy. */
 bool ladder_file_view_is_saved(LadderFileView *view)
@@ -132,22 +134,13 @@ char *ladder_file_view_name(LadderFileView *view)
 	return g_path_get_basename(view->path);
 }
 
-bool ladder_file_view_undo(LadderFileView *view)
+/* A step of its history: the text is what was saved, or it is not. */
+static void undone(gpointer data, const char *text)
 {
-	const bool can = gtk_text_buffer_get_can_undo(view->buffer);
+	LadderFileView *view = data;
 
-	if (can)
-		gtk_text_buffer_undo(view->buffer);
-	return can;
-}
-
-bool ladder_file_view_redo(LadderFileView *view)
-{
-	const bool can = gtk_text_buffer_get_can_redo(view->buffer);
-
-	if (can)
-		gtk_text_buffer_redo(view->buffer);
-	return can;
+	gtk_text_buffer_set_modified(view->buffer, strcmp(text, view->read) != 0);
+	g_signal_emit(view, was_undone, 0);
 }
 
 /* ---- life ---- */
@@ -155,6 +148,7 @@ bool ladder_file_view_redo(LadderFileView *view)
 static void ladder_file_view_dispose(GObject *object)
 {
 	g_clear_pointer(&LADDER_FILE_VIEW(object)->marks, file_marks_free);
+	g_clear_pointer(&LADDER_FILE_VIEW(object)->history, file_history_free);
 	g_clear_object(&LADDER_FILE_VIEW(object)->buffer);
 	G_OBJECT_CLASS(ladder_file_view_parent_class)->dispose(object);
 }
@@ -172,6 +166,8 @@ static void ladder_file_view_class_init(LadderFileViewClass *class)
 	G_OBJECT_CLASS(class)->finalize = ladder_file_view_finalize;
 	state_changed = g_signal_new("state-changed", LADDER_TYPE_FILE_VIEW,
 		G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+	was_undone = g_signal_new("undone", LADDER_TYPE_FILE_VIEW, G_SIGNAL_RUN_LAST, 0,
+		NULL, NULL, NULL, G_TYPE_NONE, 0);
 }
 
 static void ladder_file_view_init(LadderFileView *view)
@@ -252,6 +248,7 @@ static LadderFileView *view_of(const char *path, char *text, LadderDocument *doc
 	gtk_box_append(GTK_BOX(view), told);
 	view->marks = file_marks_new(view->buffer, GTK_LABEL(told));
 	view->read = text;
+	view->history = file_history_new(view->buffer, document, name, undone, view);
 	g_free(name);
 	return view;
 }

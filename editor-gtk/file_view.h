@@ -2,9 +2,9 @@
  *
  * file_view - a text file beside the project: a scenario, an I/O map.
  *
- * It is written by ladder_file_view_save() alone: who takes the view away asks before. It
- * has an undo of its own, since it is no part of the document. Signal: state-changed ():
- * it is saved, or no longer.
+ * It is written by ladder_file_view_save() alone: who takes the view away asks before. What
+ * is done to it is undone with the rest, in the document's history. Signals: state-changed ():
+ * it is saved, or no longer; undone (): a step of it was undone or done again.
  */
 #ifndef EDITOR_FILE_VIEW_H
 #define EDITOR_FILE_VIEW_H
@@ -39,15 +39,12 @@ bool ladder_file_view_is_saved(LadderFileView *view);
 char *ladder_file_view_name(LadderFileView *view);
 /** ladder_file_view_text - as it is typed, saved or not. Caller frees. */
 char *ladder_file_view_text(LadderFileView *view);
-/** ladder_file_view_append - behind what stands there, a step of its own undo. */
+/** ladder_file_view_append - behind what stands there, a step of its own. */
 void ladder_file_view_append(LadderFileView *view, const char *text);
 /** ladder_file_view_marks - what is wrong with its lines (file_marks.h). Borrowed. */
 struct file_marks *ladder_file_view_marks(LadderFileView *view);
 /** ladder_file_view_go - the cursor to a line, 1-based, with the focus. */
 void ladder_file_view_go(LadderFileView *view, int line);
-/** ladder_file_view_undo, ladder_file_view_redo - false: there is nothing. */
-bool ladder_file_view_undo(LadderFileView *view);
-bool ladder_file_view_redo(LadderFileView *view);
 
 /**
  * files_beside - names of files in the folder of @path (or NULL: none), and in its folder

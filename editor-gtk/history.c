@@ -116,13 +116,19 @@ void history_begin(struct history *history, const char *name, const char *key)
 	history->open->change = g_ptr_array_new_with_free_func(change_free);
 }
 
+/* Whole texts are exchanged, not pieces of one. */
+static bool is_whole(const struct change *change)
+{
+	return change->kind != CHANGE_TEXT && change->kind != CHANGE_FILE;
+}
+
 /* The text of the later change of the same place takes the place of the former's. */
 static bool join_change(struct step *step, struct change *change)
 {
 	struct change *last = step->change->len ?
 		step->change->pdata[step->change->len - 1] : NULL;
 
-	if (!last || last->kind == CHANGE_TEXT || last->kind != change->kind ||
+	if (!last || !is_whole(last) || last->kind != change->kind ||
 	    last->pou != change->pou || last->at != change->at ||
 	    last->after->len != change->before->len)
 		return false;
@@ -144,23 +150,72 @@ void history_add(struct history *history, struct change *change)
 		g_ptr_array_add(history->open->change, change);
 }
 
+bool step_is_aside(const struct step *step)
+{
+	for (guint i = 0; i < step->change->len; i++)
+		if (((const struct change *)step->change->pdata[i])->kind != CHANGE_FILE)
+			return false;
+	return true;
+}
+
+/* Is the document the same when steps @from to @to - 1 are done and when they are not? */
+static bool are_aside(const struct history *history, int from, int to)
+{
+	for (int i = from; i < to; i++)
+		if (!step_is_aside(history->step->pdata[i]))
+			return false;
+	return true;
+}
+
 static void forget_undone(struct history *history)
 {
+	if (history->saved > history->now)
+		history->saved = are_aside(history, history->now, history->saved) ?
+			history->now : SAVED_NEVER;
 	for (int i = history->now; i < (int)history->step->len; i++)
 		history->bytes -= step_bytes(history->step->pdata[i]);
 	g_ptr_array_set_size(history->step, history->now);
-	if (history->saved > history->now)
-		history->saved = SAVED_NEVER;
+}
+
+static void forget_step(struct history *history, int index)
+{
+	struct step *step = history->step->pdata[index];
+	const bool aside = step_is_aside(step);
+
+	history->bytes -= step_bytes(step);
+	if (history->now > index)
+		history->now--;
+	if (history->saved > index || (history->saved == index && !aside && index == 0))
+		history->saved--; /* 0 becomes never */
+	g_ptr_array_remove_index(history->step, index);
 }
 
 static void forget_oldest(struct history *history)
 {
-	while (history->bytes > HISTORY_BYTES && history->step->len > 1) {
-		history->bytes -= step_bytes(history->step->pdata[0]);
-		g_ptr_array_remove_index(history->step, 0);
-		history->now--;
-		if (history->saved >= 0)
-			history->saved--; /* 0 becomes never */
+	while (history->bytes > HISTORY_BYTES && history->step->len > 1)
+		forget_step(history, 0);
+}
+
+static void forget_changes(struct history *history, struct step *step, int file)
+{
+	history->bytes -= step_bytes(step);
+	for (guint i = step->change->len; i-- > 0;) {
+		const struct change *change = step->change->pdata[i];
+
+		if (change->kind == CHANGE_FILE && change->pou == file)
+			g_ptr_array_remove_index(step->change, i);
+	}
+	history->bytes += step_bytes(step);
+}
+
+void history_forget_file(struct history *history, int file)
+{
+	for (int i = (int)history->step->len; i-- > 0;) {
+		struct step *step = history->step->pdata[i];
+
+		forget_changes(history, step, file);
+		if (step->change->len == 0)
+			forget_step(history, i);
 	}
 }
 
@@ -263,7 +318,9 @@ void history_mark_saved(struct history *history)
 
 bool history_is_saved(const struct history *history)
 {
-	return history->saved == history->now;
+	return history->saved >= 0 &&
+	       are_aside(history, MIN(history->saved, history->now),
+			 MAX(history->saved, history->now));
 }
 
 void history_never_saved(struct history *history)

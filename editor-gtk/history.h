@@ -17,11 +17,13 @@ enum change_kind {
 	CHANGE_VIEW,  /* the VIEW part of the file                             */
 	CHANGE_LIST,  /* the text of one POU, which may be one that cannot be read */
 	CHANGE_VARIABLE, /* a declaration at the end of a block, that was not there */
+	CHANGE_FILE,  /* bytes of a text file beside the document, that is saved by itself */
 };
 
 struct change {
 	enum change_kind kind;
-	int pou;          /* of RUNGS and LIST: its number; of VARIABLE too, -1: global */
+	int pou;          /* of RUNGS and LIST: its number; of VARIABLE too, -1: global;
+			     of FILE: the file's                               */
 	gsize at;         /* first rung, first byte, or block of variables     */
 	GPtrArray *before, *after; /* of char *: a text each rung or declaration; of
 				      the other kinds one text                 */
@@ -69,8 +71,14 @@ const struct step *history_open_step(const struct history *history);
 /** history_cancel - forgets the step that is open. */
 void history_cancel(struct history *history);
 
+/** history_forget_file - what was done to file @file is not to be undone any more. */
+void history_forget_file(struct history *history, int file);
+/** step_is_aside - does it change files beside the document and nothing of that? */
+bool step_is_aside(const struct step *step);
+
 /** history_mark_saved - what there is now is what stands in the file. */
 void history_mark_saved(struct history *history);
+/** history_is_saved - of the document; files beside it are no part of that. */
 bool history_is_saved(const struct history *history);
 /** history_never_saved - what there is differs from any file. */
 void history_never_saved(struct history *history);

@@ -111,10 +111,8 @@ static char *short_path(const char *path)
 void window_show_state(LadderWindow *window)
 {
 	LadderDocument *document = window->document;
-	/* A file beside the project has an undo of its own. */
-	const bool file = tabs_file(window) != NULL;
-	const char *undo = file ? NULL : ladder_document_undo_name(document);
-	const char *redo = file ? NULL : ladder_document_redo_name(document);
+	const char *undo = ladder_document_undo_name(document);
+	const char *redo = ladder_document_redo_name(document);
 	const char *path = ladder_document_path(document);
 	char *name = ladder_document_name(document);
 	char *title = g_strdup_printf("%s%s",
@@ -126,8 +124,8 @@ void window_show_state(LadderWindow *window)
 	adw_window_title_set_subtitle(window->title, place);
 	g_free(place);
 	gtk_window_set_title(GTK_WINDOW(window), title);
-	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.undo", file || undo);
-	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.redo", file || redo);
+	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.undo", undo != NULL);
+	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.redo", redo != NULL);
 	name_button(window->undo_button, _("Undo"), undo);
 	name_button(window->redo_button, _("Redo"), redo);
 	g_free(title);
@@ -242,6 +240,8 @@ static void ladder_window_dispose(GObject *object)
 	g_clear_object(&window->sim);
 	g_clear_object(&window->board);
 	g_clear_object(&window->classic);
+	if (window->document) /* files beside it go only with the tabs            */
+		g_signal_handlers_disconnect_by_data(window->document, window);
 	g_clear_object(&window->document);
 	g_clear_pointer(&window->keys_text, g_free);
 	g_clear_pointer(&window->origin, g_free);

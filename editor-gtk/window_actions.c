@@ -29,12 +29,6 @@ static void go_on(LadderWindow *window)
 
 static void do_undo(LadderWindow *window)
 {
-	LadderFileView *file = tabs_file(window);
-
-	if (file) {
-		ladder_file_view_undo(file);
-		return;
-	}
 	char *name = g_strdup(ladder_document_undo_name(window->document));
 
 	if (ladder_document_undo(window->document)) {
@@ -49,10 +43,6 @@ static void do_undo(LadderWindow *window)
 
 static void do_redo(LadderWindow *window)
 {
-	if (tabs_file(window)) {
-		ladder_file_view_redo(tabs_file(window));
-		return;
-	}
 	ladder_document_redo(window->document);
 	go_on(window);
 }

@@ -388,6 +388,12 @@ LadderFileView *tabs_find_file(LadderWindow *window, const char *path)
 	return page ? LADDER_FILE_VIEW(content(page)) : NULL;
 }
 
+/* Nothing is undone out of sight. */
+static void show_undone(LadderFileView *file, LadderWindow *window)
+{
+	tabs_show_file(window, ladder_file_view_path(file));
+}
+
 /* @view: made for it; NULL: it may be there already, else @error says why there is none. */
 static void show_file(LadderWindow *window, const char *path, GtkWidget *view, GError *error)
 {
@@ -398,6 +404,8 @@ static void show_file(LadderWindow *window, const char *path, GtkWidget *view, G
 	if (view) {
 		g_signal_connect_object(view, "state-changed", G_CALLBACK(show_file_state),
 					page, G_CONNECT_SWAPPED);
+		g_signal_connect_object(view, "undone", G_CALLBACK(show_undone), window,
+					0);
 		show_file_state(page, LADDER_FILE_VIEW(view));
 		draft_keep_file(LADDER_FILE_VIEW(view), window->document);
 	}

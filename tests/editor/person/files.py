@@ -151,6 +151,30 @@ def window(screen):
     assert editor.process.returncode == 0 and read(path) == SCENARIO + '# mine\n'
 
 
+def one_history(screen):
+    """Ctrl+Z takes back what was done last, on a sheet or in a scenario, and shows it; Ctrl+Y does it again"""
+    editor, path = scenario(screen)
+    editor.click(editor.find('Main', 'label'), count=2)
+    editor.to_sheet()
+    editor.keys('slash')
+    until(lambda: any('negated' in cell or 'closed' in cell for cell in editor.cells()), 'the negated contact')
+    negated = editor.cells()
+    editor.keys('ctrl+z')
+    until(lambda: editor.cells() != negated, 'the contact as it was')
+    assert editor.all('• new.scn')
+    editor.keys('ctrl+z')
+    editor.says('Undone: Change new.scn')
+    view = editor.find('new.scn', 'text')
+    until(lambda: view.text() == SCENARIO + '# mine', 'the scenario in front, before the last key')
+    editor.shot('files-one-history')
+    editor.keys('ctrl+z')
+    until(lambda: view.text() == SCENARIO and not editor.all('• new.scn'), 'the scenario as it was saved')
+    for _ in range(3):
+        editor.keys('ctrl+y')
+    until(lambda: editor.cells() == negated, 'all of it again')
+    assert read(path) == SCENARIO
+
+
 def written_over(screen):
     """somebody else changes the scenario meanwhile: the first save is refused and told, the second writes"""
     editor, path = scenario(screen)
@@ -181,4 +205,4 @@ def closing(screen):
     until(lambda: 'NC Start' in read(path), 'it to be saved all the same')
 
 
-main([refused, classic, no_program, stays_a_link, tab, window, written_over, closing])
+main([refused, classic, no_program, stays_a_link, tab, window, one_history, written_over, closing])
