@@ -5,6 +5,8 @@
  * Everything is drawn by grid_draw and pages; what is compared by render_diff.
  */
 #include "editor-gtk/render.h"
+#include "editor-gtk/diag_said.h"
+#include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/render_classic.h"
 #include "editor-gtk/render_diff.h"
@@ -21,11 +23,14 @@
 
 static void say_diags(const struct diag_list *diags)
 {
-	char line[512];
-
 	for (int i = 0; i < diags->count; i++) {
-		diag_print(&diags->diag[i], line, sizeof(line));
-		fprintf(stderr, "%s\n", line);
+		const struct diag *diag = &diags->diag[i];
+		char *line = diag_said_line(diag);
+		char *size = disk_told_size(diag->file, diag, LIMIT_TEXT);
+
+		fprintf(stderr, "%s%s\n", line, size);
+		g_free(line);
+		g_free(size);
 	}
 	if (diags->dropped)
 		fprintf(stderr, _("and %d more\n"), diags->dropped);

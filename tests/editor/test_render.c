@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #define SHAPES "tests/editor/drawing/shapes.rung"
+#define HUGE_BYTES ((off_t)1 << 40)
 
 static char *folder;
 static char *said; /* what the last call said on stderr                         */
@@ -242,6 +243,20 @@ static void check_wrong(void)
 	g_free(bad);
 }
 
+static void check_large(void)
+{
+	char *path = in_folder("huge.rung");
+
+	CHECK(g_file_set_contents(path, "", 0, NULL) && truncate(path, HUGE_BYTES) == 0);
+	CHECK(render("OUT/huge.rung -o OUT/a.svg") == 2);
+	CHECK(g_str_has_prefix(said, path));
+	/* GLib puts a blank that breaks no line before a unit. */
+	if (!CHECK(strstr(said, ": error LD004: file is too large: 1.1\302\240TB, "
+			  "at most 67.1\302\240MB\n")))
+		printf("# %s", said);
+	g_free(path);
+}
+
 /* A rung of 256 rows takes several pages, and none of it is lost. */
 static void check_tall(void)
 {
@@ -361,6 +376,7 @@ int main(void)
 	check_diff();
 	check_moved();
 	check_wrong();
+	check_large();
 	check_tall();
 	check_marks();
 	check_original();
