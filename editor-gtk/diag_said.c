@@ -123,3 +123,40 @@ char *diag_said_whole(const struct diag *diag)
 	g_free(arg);
 	return whole;
 }
+
+/* "pump.rung:14:3: ". */
+static void add_file(GString *line, const struct diag *diag)
+{
+	if (!diag->file)
+		return;
+	g_string_append_printf(line, "%s:", diag->file);
+	if (diag->line > 0)
+		g_string_append_printf(line, "%d:", diag->line);
+	if (diag->line > 0 && diag->column > 0)
+		g_string_append_printf(line, "%d:", diag->column);
+	g_string_append_c(line, ' ');
+}
+
+static void add_rung(GString *line, const struct diag *diag)
+{
+	if (diag->line <= 0 && diag->pou)
+		g_string_append_printf(line, "%s: ", diag->pou);
+	if (diag->rung > 0 && diag->row > 0)
+		g_string_append_printf(line, _("rung %d (%d,%d): "), diag->rung, diag->row,
+				       diag->col);
+	else if (diag->rung > 0)
+		g_string_append_printf(line, _("rung %d: "), diag->rung);
+}
+
+char *diag_said_line(const struct diag *diag)
+{
+	GString *line = g_string_new(NULL);
+	char *whole = diag_said_whole(diag);
+
+	add_file(line, diag);
+	add_rung(line, diag);
+	g_string_append_printf(line, "%s %s: %s", diag_severity(diag->id) == SEVERITY_ERROR ?
+			       _("error") : _("warning"), diag_code(diag->id), whole);
+	g_free(whole);
+	return g_string_free(line, FALSE);
+}

@@ -20,4 +20,8 @@ char *diag_said_arg(const struct diag *diag);
 /** diag_said_whole - "text: what", or the text alone. Caller frees with g_free(). */
 char *diag_said_whole(const struct diag *diag);
 
+/** diag_said_line - as diag_print(), place, code and text; in English it is the same. Caller
+ * frees with g_free(). */
+char *diag_said_line(const struct diag *diag);
+
 #endif

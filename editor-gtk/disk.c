@@ -5,30 +5,37 @@
 #include "editor-gtk/disk.h"
 
 #include "editor-gtk/diag_said.h"
+#include "editor-gtk/i18n.h"
 
 #include "engine/base/file.h"
 
 #include <glib/gstdio.h>
 #include <stdlib.h>
 
-/* ": 1.1 TB" if that is what is wrong. Caller frees. */
-static char *size_told(const char *path, const struct diag *diag)
+char *disk_told_size(const char *path, const struct diag *diag, gsize limit)
 {
 	GStatBuf about;
-	char *size, *text;
+	char *size, *most, *told, *text;
 
-	if (diag->id != DIAG_TOO_LARGE || g_stat(path, &about) != 0 || about.st_size <= 0)
+	/* Of what comes out of it when it is unpacked nobody knows here. */
+	if (diag->id != DIAG_TOO_LARGE || !path || g_stat(path, &about) != 0 ||
+	    about.st_size <= 0 || (guint64)about.st_size <= limit)
 		return g_strdup("");
 	size = g_format_size((guint64)about.st_size);
-	text = g_strdup_printf(": %s", size);
+	most = g_format_size(limit);
+	told = g_strdup_printf(_("%s, at most %s"), size, most);
+	text = g_strdup_printf(": %s", told);
 	g_free(size);
+	g_free(most);
+	g_free(told);
 	return text;
 }
 
-static void tell(GError **error, const char *path, const struct diag_list *diags)
+/* @limit: bytes it may have. */
+static void tell(GError **error, const char *path, const struct diag_list *diags, gsize limit)
 {
 	char *text = diag_said_whole(&diags->diag[0]);
-	char *size = size_told(path, &diags->diag[0]);
+	char *size = disk_told_size(path, &diags->diag[0], limit);
 
 	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_FAILED, "%s: %s%s", path, text, size);
 	g_free(text);
@@ -45,7 +52,7 @@ char *disk_read(const char *path, gsize limit, gsize *len, GError **error)
 	if (bytes)
 		copy = g_memdup2(bytes, *len + 1);
 	else
-		tell(error, path, &diags);
+		tell(error, path, &diags, limit);
 	free(bytes);
 	return copy;
 }
@@ -58,6 +65,6 @@ bool disk_save(const char *path, const char *bytes, gsize len, GError **error)
 	diag_init(&diags);
 	good = file_save(path, bytes, len, &diags);
 	if (!good)
-		tell(error, path, &diags);
+		tell(error, path, &diags, len);
 	return good;
 }

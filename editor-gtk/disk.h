@@ -8,12 +8,17 @@
 #ifndef EDITOR_DISK_H
 #define EDITOR_DISK_H
 
+#include "engine/base/diag.h"
+
 #include <gio/gio.h>
 #include <stdbool.h>
 
 /** disk_read - all of it, NUL-ended; @limit: bytes at most. Caller frees with g_free().
  * Fails: NULL, and @error (or NULL) says why. */
 char *disk_read(const char *path, gsize limit, gsize *len, GError **error);
+/** disk_told_size - ": 1.1 TB, at most 67.1 MB" of a file that @diag says is larger than
+ * @limit; "" of any other. Caller frees with g_free(). */
+char *disk_told_size(const char *path, const struct diag *diag, gsize limit);
 /** disk_save - in the place of what was there. Fails: false, and @error says why; the old
  * file is as it was. */
 bool disk_save(const char *path, const char *bytes, gsize len, GError **error);

@@ -82,6 +82,12 @@ void picture_cairo(const struct picture *picture, const struct theme *theme,
  * @ground: the sheet's colour below everything; else it is transparent */
 char *picture_svg(const struct picture *picture, const struct theme *theme, float scale,
 		  bool ground);
+/** picture_png - a whole PNG file, on the sheet's colour. Owns: the caller, g_bytes_unref.
+ * Fails: NULL, there is no memory for it. */
+GBytes *picture_png(const struct picture *picture, const struct theme *theme,
+		    struct lettering *lettering, float scale);
+/** picture_append - cairo writes into a GByteArray, the closure. */
+cairo_status_t picture_append(void *bytes, const unsigned char *data, unsigned int len);
 /** picture_lines - a line for each stroke, for tests. Owns: the caller, g_free. */
 char *picture_lines(const struct picture *picture);
 

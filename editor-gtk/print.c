@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/print.h"
 #include "editor-gtk/grid_draw.h"
+#include "editor-gtk/pages_pdf.h"
 
 #include <math.h>
 
@@ -30,15 +31,21 @@ static void job_free(gpointer pointer, GClosure *closure)
 	g_free(job);
 }
 
+/* The setup's sizes are turned already. */
+static struct paper paper_of(GtkPageSetup *setup, const char *date)
+{
+	return (struct paper){
+		.width = (float)gtk_page_setup_get_paper_width(setup, GTK_UNIT_MM),
+		.height = (float)gtk_page_setup_get_paper_height(setup, GTK_UNIT_MM),
+		.date = date,
+	};
+}
+
 static void begin_print(GtkPrintOperation *operation, GtkPrintContext *context,
 			struct job *job)
 {
-	GtkPageSetup *setup = gtk_print_context_get_page_setup(context);
-	struct paper paper = {
-		.width = (float)gtk_page_setup_get_paper_width(setup, GTK_UNIT_MM),
-		.height = (float)gtk_page_setup_get_paper_height(setup, GTK_UNIT_MM),
-		.date = job->date, /* the setup's sizes are turned already       */
-	};
+	const struct paper paper = paper_of(gtk_print_context_get_page_setup(context),
+					    job->date);
 
 	pages_free(job->pages);
 	job->pages = pages_new(job->project, job->file, job->pou, 0, job->show, &paper,
@@ -75,6 +82,24 @@ GtkPrintOperation *print_operation_new(const struct project *project, const char
 	return operation;
 }
 
+GBytes *print_pdf(const struct project *project, const char *file,
+		  enum drafting_show show, const char *date)
+{
+	GtkPageSetup *setup = gtk_page_setup_new();
+	const struct paper paper = paper_of(setup, date);
+	PangoContext *context = lettering_context();
+	struct lettering *lettering = lettering_new(context, NULL);
+	struct pages *pages = pages_new(project, file, -1, 0, show, &paper, lettering);
+	const char *title = project_text(project, project->title);
+	GBytes *pdf = pages_pdf(pages, &paper, *title ? title : file, NULL);
+
+	pages_free(pages);
+	lettering_free(lettering);
+	g_object_unref(context);
+	g_object_unref(setup);
+	return pdf;
+}
+
 /* ---- a rung as a picture ---- */
 
 static void draw_rung(const struct sheet *sheet, int index, const struct theme *theme,
@@ -102,31 +127,16 @@ GBytes *print_rung_svg(const struct sheet *sheet, int index, const struct theme 
 	return g_bytes_new_take(svg, strlen(svg));
 }
 
-static cairo_status_t append(void *closure, const unsigned char *data, unsigned int len)
-{
-	g_byte_array_append(closure, data, len);
-	return CAIRO_STATUS_SUCCESS;
-}
-
 GBytes *print_rung_png(const struct sheet *sheet, int index, const struct theme *theme,
 		       float scale)
 {
-	GByteArray *bytes = g_byte_array_new();
 	struct picture picture;
+	GBytes *png;
 
 	draw_rung(sheet, index, theme, &picture);
-	cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24,
-		(int)(picture.width * scale), (int)(picture.height * scale));
-	cairo_t *cr = cairo_create(surface);
-	gdk_cairo_set_source_rgba(cr, &theme->color[TOKEN_SHEET]);
-	cairo_paint(cr);
-	cairo_scale(cr, (double)scale, (double)scale);
-	picture_cairo(&picture, theme, sheet->drafting.lettering, cr);
-	cairo_destroy(cr);
-	cairo_surface_write_to_png_stream(surface, append, bytes);
-	cairo_surface_destroy(surface);
+	png = picture_png(&picture, theme, sheet->drafting.lettering, scale);
 	picture_clear(&picture);
-	return g_byte_array_free_to_bytes(bytes);
+	return png;
 }
 
 GdkContentProvider *print_rung_picture(const struct sheet *sheet, int index,
@@ -137,11 +147,11 @@ GdkContentProvider *print_rung_picture(const struct sheet *sheet, int index,
 	GBytes *svg = print_rung_svg(sheet, index, theme);
 	GBytes *png = print_rung_png(sheet, index, theme, scale);
 	GdkContentProvider *both[2] = {
-		gdk_content_provider_new_for_bytes("image/png", png),
 		gdk_content_provider_new_for_bytes("image/svg+xml", svg),
+		png ? gdk_content_provider_new_for_bytes("image/png", png) : NULL,
 	};
 
 	g_bytes_unref(svg);
 	g_bytes_unref(png);
-	return gdk_content_provider_new_union(both, 2);
+	return gdk_content_provider_new_union(both, png ? 2 : 1);
 }

@@ -25,6 +25,16 @@ GtkPrintOperation *print_operation_new(const struct project *project, const char
 				       int pou, enum drafting_show show, const char *date);
 
 /**
+ * print_pdf - all pages as a PDF in memory, on the paper that is usual here
+ * @file: its name in the title block
+ * @date: in the title block; NULL: none
+ *
+ * Owns: the caller, g_bytes_unref.   Fails: NULL, there is no memory for it.
+ */
+GBytes *print_pdf(const struct project *project, const char *file,
+		  enum drafting_show show, const char *date);
+
+/**
  * print_rung_picture - a rung as SVG and PNG, for the clipboard or a drag
  * @index: of the sheet
  * @scale: of the PNG
@@ -33,7 +43,8 @@ GtkPrintOperation *print_operation_new(const struct project *project, const char
  */
 GdkContentProvider *print_rung_picture(const struct sheet *sheet, int index,
 				       const struct theme *theme, float scale);
-/** print_rung_svg, print_rung_png - the bytes of those. Owns: the caller, g_bytes_unref. */
+/** print_rung_svg, print_rung_png - the bytes of those. Owns: the caller, g_bytes_unref;
+ * a PNG is NULL when there is no memory for one so large. */
 GBytes *print_rung_svg(const struct sheet *sheet, int index, const struct theme *theme);
 GBytes *print_rung_png(const struct sheet *sheet, int index, const struct theme *theme,
 		       float scale);

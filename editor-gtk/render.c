@@ -5,14 +5,17 @@
  * Everything is drawn by grid_draw and pages; what is compared by render_diff.
  */
 #include "editor-gtk/render.h"
+#include "editor-gtk/diag_said.h"
+#include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/pages_pdf.h"
 #include "editor-gtk/render_classic.h"
 #include "editor-gtk/render_diff.h"
 #include "editor-gtk/render_options.h"
 #include "editor-gtk/render_sheet.h"
 #include "engine/ladder.h"
 
-#include <cairo-pdf.h>
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -21,11 +24,14 @@
 
 static void say_diags(const struct diag_list *diags)
 {
-	char line[512];
-
 	for (int i = 0; i < diags->count; i++) {
-		diag_print(&diags->diag[i], line, sizeof(line));
-		fprintf(stderr, "%s\n", line);
+		const struct diag *diag = &diags->diag[i];
+		char *line = diag_said_line(diag);
+		char *size = disk_told_size(diag->file, diag, LIMIT_TEXT);
+
+		fprintf(stderr, "%s%s\n", line, size);
+		g_free(line);
+		g_free(size);
 	}
 	if (diags->dropped)
 		fprintf(stderr, _("and %d more\n"), diags->dropped);
@@ -90,20 +96,30 @@ static bool is_there(const struct project *project, const struct render_options 
 	return false;
 }
 
+/* Whole, or what was there stays. @bytes: taken over; NULL: there was no memory for them. */
+static enum render_status write_out(GBytes *bytes, const char *path)
+{
+	enum render_status status = RENDER_GOOD;
+	GError *error = NULL;
+
+	if (!bytes)
+		return failed(path, g_strerror(ENOMEM));
+	if (!disk_save(path, g_bytes_get_data(bytes, NULL), g_bytes_get_size(bytes), &error)) {
+		fprintf(stderr, "ladder-editor: %s\n", error->message);
+		g_error_free(error);
+		status = RENDER_WRONG;
+	}
+	g_bytes_unref(bytes);
+	return status;
+}
+
 static enum render_status write_svg(const struct picture *picture,
 				    const struct render_options *options,
 				    const struct theme *theme)
 {
 	char *svg = picture_svg(picture, theme, options->scale, true);
-	GError *error = NULL;
-	enum render_status status = RENDER_GOOD;
 
-	if (!g_file_set_contents(options->out, svg, -1, &error)) {
-		status = failed(options->out, error->message);
-		g_error_free(error);
-	}
-	g_free(svg);
-	return status;
+	return write_out(g_bytes_new_take(svg, strlen(svg)), options->out);
 }
 
 static enum render_status write_png(const struct picture *picture,
@@ -117,18 +133,8 @@ static enum render_status write_png(const struct picture *picture,
 	if (width > MOST_PIXELS || height > MOST_PIXELS)
 		return failed(options->out, _("it would be too large; draw one POU or one "
 					      "rung, or an .svg"));
-	cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24,
-							      (int)width, (int)height);
-	cairo_t *cr = cairo_create(surface);
-	gdk_cairo_set_source_rgba(cr, &theme->color[TOKEN_SHEET]);
-	cairo_paint(cr);
-	cairo_scale(cr, scale, scale);
-	picture_cairo(picture, theme, lettering, cr);
-	cairo_destroy(cr);
-	cairo_status_t result = cairo_surface_write_to_png(surface, options->out);
-	cairo_surface_destroy(surface);
-	return result == CAIRO_STATUS_SUCCESS ? RENDER_GOOD :
-		failed(options->out, cairo_status_to_string(result));
+	return write_out(picture_png(picture, theme, lettering, options->scale),
+			 options->out);
 }
 
 static enum render_status write_picture(struct picture *picture,
@@ -142,49 +148,19 @@ static enum render_status write_picture(struct picture *picture,
 	return write_png(picture, options, theme, lettering);
 }
 
-/* The table of contents that a reader shows beside the pages: POUs, symbols. */
-static void add_outline(cairo_surface_t *surface, const struct pages *pages, int page)
-{
-	const char *subject = pages_subject(pages, page);
-	char place[32];
-
-	if (page > 0 && strcmp(subject, pages_subject(pages, page - 1)) == 0)
-		return;
-	snprintf(place, sizeof(place), "page=%d", page + 1);
-	cairo_pdf_surface_add_outline(surface, CAIRO_PDF_OUTLINE_ROOT, subject, place, 0);
-}
-
 /* A PDF names neither the day nor the machine it was made on. */
 static enum render_status write_pdf(const struct project *project, int pou,
 				    const struct render_options *options,
 				    struct lettering *lettering)
 {
-	const struct paper *paper = &options->paper;
 	struct pages *pages = pages_new(project, options->file, pou, options->rung,
-					options->show, paper, lettering);
-	double width = (double)(paper->landscape ? paper->height : paper->width);
-	double height = (double)(paper->landscape ? paper->width : paper->height);
-	cairo_surface_t *surface = cairo_pdf_surface_create(options->out, width / 25.4 * 72,
-							    height / 25.4 * 72);
-	cairo_t *cr = cairo_create(surface);
+					options->show, &options->paper, lettering);
 	const char *title = project_text(project, project->title);
+	GBytes *pdf = pages_pdf(pages, &options->paper, *title ? title : options->file,
+				"2000-01-01T00:00:00Z");
 
-	cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE,
-				       "2000-01-01T00:00:00Z");
-	cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE,
-				       *title ? title : options->file);
-	for (int page = 0; page < pages_count(pages); page++) {
-		pages_paint(pages, page, cr);
-		add_outline(surface, pages, page);
-		cairo_show_page(cr);
-	}
-	cairo_destroy(cr);
-	cairo_surface_finish(surface);
-	cairo_status_t result = cairo_surface_status(surface);
-	cairo_surface_destroy(surface);
 	pages_free(pages);
-	return result == CAIRO_STATUS_SUCCESS ? RENDER_GOOD :
-		failed(options->out, cairo_status_to_string(result));
+	return write_out(pdf, options->out);
 }
 
 /* Rungs as they are, or were there. */

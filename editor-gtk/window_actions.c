@@ -212,6 +212,9 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 			ladder_grid_view_do(sheet, verb);
 		else if (!sheet && tabs_seen_chart(window) && where != VERB_SHEET)
 			ladder_sfc_view_do(tabs_seen_chart(window), verb);
+		else if (verb == VERB_copy_picture)
+			ladder_window_tell(window, _("Rungs are copied as pictures: open a "
+						     "sheet first."));
 		return;
 	}
 	if (window_sim(window, verb) || window_scenario(window, verb))

@@ -2,72 +2,142 @@
  *
  * window_paper - a project on paper: to a printer, into a PDF.
  *
- * The pages are print.c's. What cannot be written is told in a banner.
+ * The pages are print.c's. What cannot be written is told in a banner; a PDF is there whole,
+ * or what was there stays.
  */
 #include "editor-gtk/window_inside.h"
 
 #include "editor-gtk/chooser.h"
+#include "editor-gtk/disk.h"
 #include "editor-gtk/print.h"
+#include "editor-gtk/problems.h"
+
+#include <errno.h>
+
+/* What is printed, and how: the title block and what stands above elements. */
+struct printing {
+	const struct project *project;
+	char *file, *date;
+	enum drafting_show show;
+};
+
+static struct printing printing_of(LadderWindow *window)
+{
+	const char *path = ladder_document_path(window->document);
+	LadderGridView *sheet = tabs_sheet(window);
+	GDateTime *now = g_date_time_new_now_local();
+	const struct printing printing = {
+		.project = ladder_document_project(window->document),
+		.file = path ? g_path_get_basename(path) : g_strdup(""),
+		.date = g_date_time_format(now, "%x"),
+		.show = sheet ? ladder_grid_view_show(sheet) : SHOW_BOTH,
+	};
+
+	g_date_time_unref(now);
+	return printing;
+}
+
+/* A file that is open as text has no pages: the panel shows what is wrong with it. */
+static bool has_pages(LadderWindow *window)
+{
+	if (ladder_document_project(window->document))
+		return true;
+	window_toast(window, _("There is nothing to print: the file cannot be read as a "
+			       "program."));
+	ladder_problems_next(LADDER_PROBLEMS(below_show(window, "problems")), false);
+	return false;
+}
+
+/* ---- to a printer ---- */
 
 static GtkPrintOperation *operation_new(LadderWindow *window)
 {
-	const struct project *project = ladder_document_project(window->document);
-	const char *path = ladder_document_path(window->document);
-	LadderGridView *sheet = tabs_sheet(window);
-	char *file = path ? g_path_get_basename(path) : g_strdup("");
-	GDateTime *now = g_date_time_new_now_local();
-	char *date = g_date_time_format(now, "%x");
-	GtkPrintOperation *operation;
+	const struct printing printing = printing_of(window);
+	GtkPrintOperation *operation = print_operation_new(printing.project, printing.file,
+							   -1, printing.show, printing.date);
 
-	operation = print_operation_new(project, file, -1, sheet ?
-					ladder_grid_view_show(sheet) : SHOW_BOTH, date);
 	/* The operation asks for them again while it runs. */
-	g_object_set_data_full(G_OBJECT(operation), "file", file, g_free);
-	g_object_set_data_full(G_OBJECT(operation), "date", date, g_free);
-	g_date_time_unref(now);
+	g_object_set_data_full(G_OBJECT(operation), "file", printing.file, g_free);
+	g_object_set_data_full(G_OBJECT(operation), "date", printing.date, g_free);
 	return operation;
 }
 
-static void run(LadderWindow *window, GtkPrintOperation *operation,
-		GtkPrintOperationAction action)
+void window_print(LadderWindow *window)
 {
+	GtkPrintOperation *operation;
 	GError *error = NULL;
 
-	if (gtk_print_operation_run(operation, action, GTK_WINDOW(window), &error) ==
+	if (!has_pages(window))
+		return;
+	operation = operation_new(window);
+	if (gtk_print_operation_run(operation, GTK_PRINT_OPERATION_ACTION_PRINT_DIALOG,
+				    GTK_WINDOW(window), &error) ==
 	    GTK_PRINT_OPERATION_RESULT_ERROR)
 		ladder_window_warn(window, error->message);
 	g_clear_error(&error);
 	g_object_unref(operation);
 }
 
-void window_print(LadderWindow *window)
+/* ---- into a PDF ---- */
+
+static GBytes *pdf_of(LadderWindow *window)
 {
-	if (ladder_document_project(window->document))
-		run(window, operation_new(window), GTK_PRINT_OPERATION_ACTION_PRINT_DIALOG);
+	struct printing printing = printing_of(window);
+	GBytes *pdf = print_pdf(printing.project, printing.file, printing.show,
+				printing.date);
+
+	g_free(printing.file);
+	g_free(printing.date);
+	return pdf;
+}
+
+static bool save_pdf(const char *path, GBytes *pdf, GError **error)
+{
+	if (pdf)
+		return disk_save(path, g_bytes_get_data(pdf, NULL), g_bytes_get_size(pdf),
+				 error);
+	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_NOMEM, "%s: %s", path,
+		    g_strerror(ENOMEM));
+	return false;
+}
+
+static void export_to(LadderWindow *window, const char *path)
+{
+	GBytes *pdf = pdf_of(window);
+	GError *error = NULL;
+
+	if (save_pdf(path, pdf, &error)) {
+		if (window->banner_do == window_export_pdf) /* it told of one before */
+			window_banner_close(window);
+		window_toast(window, path);
+	} else {
+		window_banner(window, error->message, _("Save as…"), window_export_pdf);
+	}
+	g_clear_error(&error);
+	g_bytes_unref(pdf);
 }
 
 static void export_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
 {
 	char *path = response == GTK_RESPONSE_ACCEPT ? window_chosen_path(dialog) : NULL;
 
-	if (path && ladder_document_project(window->document)) {
-		GtkPrintOperation *operation = operation_new(window);
-
-		gtk_print_operation_set_export_filename(operation, path);
-		run(window, operation, GTK_PRINT_OPERATION_ACTION_EXPORT);
-		window_toast(window, path);
-	}
+	if (path && has_pages(window))
+		export_to(window, path);
 	g_free(path);
 	g_object_unref(dialog);
 }
 
 void window_export_pdf(LadderWindow *window)
 {
-	GtkFileChooserNative *chooser = gtk_file_chooser_native_new(_("Export as PDF"),
-		GTK_WINDOW(window), GTK_FILE_CHOOSER_ACTION_SAVE, _("Export"), _("Cancel"));
-	char *name = ladder_document_name(window->document);
-	char *file = g_strdup_printf("%s.pdf", name);
+	GtkFileChooserNative *chooser;
+	char *name, *file;
 
+	if (!has_pages(window))
+		return;
+	chooser = gtk_file_chooser_native_new(_("Export as PDF"), GTK_WINDOW(window),
+		GTK_FILE_CHOOSER_ACTION_SAVE, _("Export"), _("Cancel"));
+	name = ladder_document_name(window->document);
+	file = g_strdup_printf("%s.pdf", name);
 	chooser_beside(chooser, window->document);
 	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), file);
 	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);

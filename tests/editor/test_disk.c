@@ -84,7 +84,8 @@ static void test_disk_read(void)
 	text = disk_read(spot.path, 3, &len, NULL);
 	CHECK_AS(text && len == 3 && memcmp(text, "a\0b", 4) == 0, "with its NUL, and one more");
 	g_free(text);
-	CHECK_AS(refused(spot.path, 2, "too large: 3"), "how large is told");
+	CHECK_AS(refused(spot.path, 2, "too large: 3 bytes, at most 2 bytes"),
+		 "how large is told");
 	CHECK(!disk_read(spot.path, 2, &len, NULL));
 	spot_free(&spot);
 }

@@ -31,6 +31,35 @@ static void check_export(const struct project *project)
 	g_object_unref(operation);
 }
 
+/* The same pages without an operation. */
+static void check_pdf(const struct project *project)
+{
+	GBytes *pdf = print_pdf(project, "shapes.rung", SHOW_BOTH, "2026-03-01");
+	size_t len = 0;
+	const char *bytes = pdf ? g_bytes_get_data(pdf, &len) : "";
+
+	CHECK(len > 5000 && memcmp(bytes, "%PDF", 4) == 0);
+	CHECK(len > 5000 && memcmp(bytes + len - 6, "%%EOF\n", 6) == 0);
+	g_bytes_unref(pdf);
+}
+
+/* A picture of more pixels than a PNG may have is none; the drawing is there. */
+static void check_too_large(const struct project *project, struct lettering *lettering)
+{
+	struct sheet *sheet = sheet_new(project, &project->pou[0], lettering);
+	const struct theme *theme = theme_get(THEME_LIGHT, THEME_GREEN);
+
+	sheet_layout(sheet);
+	CHECK(!print_rung_png(sheet, 0, theme, 1000));
+	GdkContentProvider *one = print_rung_picture(sheet, 0, theme, 1000);
+	GdkContentFormats *formats = gdk_content_provider_ref_formats(one);
+	CHECK(gdk_content_formats_contain_mime_type(formats, "image/svg+xml"));
+	CHECK(!gdk_content_formats_contain_mime_type(formats, "image/png"));
+	gdk_content_formats_unref(formats);
+	g_object_unref(one);
+	sheet_free(sheet);
+}
+
 static void check_picture(const struct project *project, struct lettering *lettering)
 {
 	struct sheet *sheet = sheet_new(project, &project->pou[0], lettering);
@@ -88,7 +117,9 @@ int main(void)
 	PangoContext *context = lettering_context();
 	struct lettering *lettering = lettering_new(context, NULL);
 	check_export(ladder_project(ladder));
+	check_pdf(ladder_project(ladder));
 	check_picture(ladder_project(ladder), lettering);
+	check_too_large(ladder_project(ladder), lettering);
 	check_node(ladder_project(ladder), lettering);
 	lettering_free(lettering);
 	g_object_unref(context);

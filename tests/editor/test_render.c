@@ -11,10 +11,15 @@
 
 #include <glib.h>
 #include <glib/gstdio.h>
+#include <signal.h>
 #include <stdlib.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #define SHAPES "tests/editor/drawing/shapes.rung"
+#define FULL_BYTES 500          /* more than a message, less than a picture     */
+#define OLD "what was there"
+#define HUGE_BYTES ((off_t)1 << 40)
 
 static char *folder;
 static char *said; /* what the last call said on stderr                         */
@@ -218,9 +223,9 @@ static void check_wrong(void)
 		{ SHAPES " --show all -o OUT/a.svg", "--show is", 2 },
 		{ SHAPES " --scale", "--scale wants a value", 2 },
 		{ SHAPES " --what -o OUT/a.svg", "no option --what", 2 },
-		{ SHAPES " -o OUT/no/such/folder.svg", "cannot write", 2 },
-		{ SHAPES " -o OUT/no/such/folder.pdf", "cannot write", 2 },
-		{ SHAPES " -o OUT/no/such/folder.png", "cannot write", 2 },
+		{ SHAPES " -o OUT/no/such/folder.svg", "unchanged: No such file", 2 },
+		{ SHAPES " -o OUT/no/such/folder.pdf", "unchanged: No such file", 2 },
+		{ SHAPES " -o OUT/no/such/folder.png", "unchanged: No such file", 2 },
 		{ SHAPES " --scale 10 --width 9000 -o OUT/a.png", "too large", 2 },
 		{ "OUT/none.rung -o OUT/a.svg", "LD0", 2 },
 		{ "OUT/bad.rung -o OUT/a.svg", "LD1", 1 },
@@ -240,6 +245,55 @@ static void check_wrong(void)
 			printf("# status %d: %s", status, said);
 	}
 	g_free(bad);
+}
+
+static int count_files(void)
+{
+	GDir *dir = g_dir_open(folder, 0, NULL);
+	int count = 0;
+
+	while (dir && g_dir_read_name(dir))
+		count++;
+	if (dir)
+		g_dir_close(dir);
+	return count;
+}
+
+/* As on a disk that is full: path and reason are told, what was there stays. */
+static void check_full(const char *name)
+{
+	char *path = in_folder(name), *words = g_strdup_printf(SHAPES " -o OUT/%s", name);
+
+	CHECK(g_file_set_contents(path, OLD, -1, NULL));
+	const int files = count_files();
+	struct rlimit limit;
+	getrlimit(RLIMIT_FSIZE, &limit);
+	setrlimit(RLIMIT_FSIZE, &(struct rlimit){ FULL_BYTES, limit.rlim_max });
+	CHECK(render(words) == 2);
+	setrlimit(RLIMIT_FSIZE, &limit);
+	if (!CHECK(strstr(said, path) && strstr(said, "File too large")))
+		printf("# %s\n", said);
+	char *now = content(name, NULL);
+	CHECK_TEXT(now, OLD);
+	CHECK_AS(count_files() == files, "and nothing else is left");
+	CHECK(render(words) == 0 && !has(name, OLD));
+	g_free(now);
+	g_free(words);
+	g_free(path);
+}
+
+static void check_large(void)
+{
+	char *path = in_folder("huge.rung");
+
+	CHECK(g_file_set_contents(path, "", 0, NULL) && truncate(path, HUGE_BYTES) == 0);
+	CHECK(render("OUT/huge.rung -o OUT/a.svg") == 2);
+	CHECK(g_str_has_prefix(said, path));
+	/* GLib puts a blank that breaks no line before a unit. */
+	if (!CHECK(strstr(said, ": error LD004: file is too large: 1.1\302\240TB, "
+			  "at most 67.1\302\240MB\n")))
+		printf("# %s", said);
+	g_free(path);
 }
 
 /* A rung of 256 rows takes several pages, and none of it is lost. */
@@ -355,12 +409,17 @@ int main(void)
 	folder = g_dir_make_tmp("render-XXXXXX", NULL);
 	if (!CHECK(folder))
 		return tap_done();
+	signal(SIGXFSZ, SIG_IGN); /* as the program does: a file's limit is a full disk */
 	check_svg();
 	check_png();
 	check_pdf();
 	check_diff();
 	check_moved();
 	check_wrong();
+	check_full("full.svg");
+	check_full("full.png");
+	check_full("full.pdf");
+	check_large();
 	check_tall();
 	check_marks();
 	check_original();

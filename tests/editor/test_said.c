@@ -121,10 +121,49 @@ static int english_golden(int *seen)
 	return left;
 }
 
+/* What is printed: of no place, of files and lines, of rungs. */
+static const struct diag printed[] = {
+	{ .id = DIAG_NO_MEMORY },
+	{ .id = DIAG_CANNOT_READ, .file = "a.rung", .arg = "No such file" },
+	{ .id = DIAG_EXPECTED, .file = "a.rung", .line = 4, .arg = "name" },
+	{ .id = DIAG_EXPECTED, .file = "a.rung", .line = 4, .column = 7, .arg = "name" },
+	{ .id = DIAG_UNKNOWN_NAME, .file = "a.rung", .line = 4, .pou = "Main", .rung = 2,
+	  .row = 1, .col = 3, .arg = "Missing" },
+	{ .id = DIAG_EMPTY_RUNG, .pou = "Main", .rung = 2 },
+	{ .id = DIAG_NOT_SYNCED, .file = "a.rung" },
+};
+
+/* In English editors and scripts read it as what `ladder check` prints. */
+static void check_lines_english(void)
+{
+	for (gsize i = 0; i < G_N_ELEMENTS(printed); i++) {
+		char plain[512], *line = diag_said_line(&printed[i]);
+
+		diag_print(&printed[i], plain, sizeof(plain));
+		CHECK_TEXT(line, plain);
+		g_free(line);
+	}
+}
+
+static void check_lines_german(void)
+{
+	char *line = diag_said_line(&printed[4]);
+	char *rung = g_strdup_printf(gettext("rung %d (%d,%d): "), 2, 1, 3);
+	char *wanted = g_strdup_printf("a.rung:4: %s%s LD301: %s: Missing", rung,
+		gettext("error"), diag_said(&printed[4]));
+
+	CHECK(strcmp(diag_said(&printed[4]), diag_text(DIAG_UNKNOWN_NAME)) != 0);
+	CHECK_TEXT(line, wanted);
+	g_free(line);
+	g_free(rung);
+	g_free(wanted);
+}
+
 int main(void)
 {
 	int seen = 0;
 
+	check_lines_english();
 	in_german();
 	if (strcmp(gettext("Undo"), "Undo") == 0) {
 		printf("1..0 # SKIP the languages are not built: they need msgfmt\n");
@@ -146,6 +185,7 @@ int main(void)
 	CHECK(says(DIAG_UNKNOWN_NAME, "A does not take B", "A does not take B"));
 	CHECK(says(DIAG_WRONG_TYPE, " does not take B", " does not take B"));
 	CHECK(says(DIAG_WRONG_TYPE, "A does not take ", "A does not take "));
+	check_lines_german();
 	CHECK(english_golden(&seen) == 0);
 	CHECK(seen > 60);
 	return tap_done();

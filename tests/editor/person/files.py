@@ -22,6 +22,7 @@ END_PROGRAM
 '''
 SCENARIO = 'scenario One\n'
 NO_FILE = 'not a regular file'
+TOO_LARGE = 'file is too large: 1.1\N{NO-BREAK SPACE}TB, at most 67.1\N{NO-BREAK SPACE}MB'
 
 
 def read(path):
@@ -41,7 +42,7 @@ def refused(screen):
     os.mkdir(folder)
     with open(large, 'w') as file:
         file.truncate(1 << 40)
-    for path, why in ('/dev/zero', NO_FILE), (pipe, NO_FILE), (folder, NO_FILE), (large, 'file is too large: 1.1'):
+    for path, why in ('/dev/zero', NO_FILE), (pipe, NO_FILE), (folder, NO_FILE), (large, TOO_LARGE):
         editor = Editor(screen, path)
         editor.says(path + ': ' + why)
         editor.says('not saved yet')

@@ -98,6 +98,7 @@ def session(screen, language):
     left = editor.english(names)
     assert not left, 'still English: %s' % left
     printed(screen, path, language)
+    rendered(screen, path, language)
 
 
 def keys_fit(editor, language):
@@ -124,6 +125,20 @@ def printed(screen, path, language):
     for wanted in PRINTED[language] + ['启动', '水泵电机的接触器', '水泵站']:
         assert wanted in text, '"%s" is not printed:\n%s' % (wanted, text)
     assert 'Program unit' not in text and 'read in' not in text, text
+
+
+def rendered(screen, path, language):
+    """What --render says of a file: place, how bad, and text are all in that language."""
+    said = catalogue(language).gettext
+    none = os.path.join(screen.home, 'none.rung')
+    places = {none: ('', 'LD002', 'cannot read this file'),
+              path: (said('rung %d (%d,%d): ') % (2, 1, 1), 'LD301', 'unknown name')}
+    for file, (rung, code, text) in places.items():
+        done = subprocess.run([EDITOR, '--render', '--check', file, '-o', os.path.join(screen.home, 'a.svg')],
+                              capture_output=True, text=True, env={**os.environ, 'LANGUAGE': language})
+        wanted = ' %s%s %s: %s: ' % (rung, said('error'), code, said(text))
+        assert done.returncode and done.stderr.startswith(file + ':') and wanted in done.stderr, (wanted, done)
+        assert text not in done.stderr, done.stderr
 
 
 def chinese(screen):

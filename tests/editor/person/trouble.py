@@ -4,10 +4,11 @@
 import ctypes
 import os
 import shutil
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from desk import EDITOR, Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 
@@ -130,4 +131,103 @@ def somebody_else(screen):
     saved_well(path)
 
 
-main([read_only, full_disk, vanished, gone, somebody_else])
+def command(editor, name):
+    editor.keys('ctrl+k')
+    until(lambda: editor.all('About Rungboard'), 'all commands')
+    editor.type(name)
+    until(lambda: not editor.all('About Rungboard'), 'that command alone')
+    editor.keys('Return')
+
+
+def export(editor, path):
+    """As a PDF, to a path that is typed into the chooser of files."""
+    command(editor, 'Export as PDF')
+    chooser = until(lambda: [window for window in editor.windows() if window != editor.window and
+                             'PDF' in sh('xdotool', 'getwindowname', window)], 'the dialog')[0]
+    editor.keys('ctrl+a')
+    editor.type(path)
+    editor.keys('Return')
+    until(lambda: chooser not in editor.windows(), 'the end of the dialog')
+
+
+def toasts(editor, path):
+    """Its whole text is the path of what was written."""
+    return [node for node in editor.all(path, 'label') if node.name == path]
+
+
+def refused_pdf(editor, path, why):
+    """A banner with path and reason, no toast, and nothing in the folder but what was there."""
+    files = os.listdir(os.path.dirname(path))
+    export(editor, path)
+    banner = editor.find(why, 'label').name
+    assert banner.startswith(path + ': '), banner
+    assert not toasts(editor, path) and os.listdir(os.path.dirname(path)) == files
+
+
+def written_pdf(editor, path):
+    """Whole, a toast, and the banner of before is gone."""
+    export(editor, path)
+    until(lambda: toasts(editor, path), 'the toast')
+    until(lambda: not editor.all('cannot write this file'), 'the banner to be gone')
+    with open(path, 'rb') as file:
+        pdf = file.read()
+    assert pdf.startswith(b'%PDF') and pdf.endswith(b'%%EOF\n'), pdf[-40:]
+
+
+def pdf_locked(screen):
+    """a PDF into a folder that cannot be written: a banner with path and reason, no toast; elsewhere it is written"""
+    folder = os.path.join(screen.home, 'locked')
+    os.mkdir(folder)
+    os.chmod(folder, 0o555)
+    editor = Editor(screen, new_file(screen, PROJECT), before=mere_mortal)
+    editor.to_sheet()
+    refused_pdf(editor, os.path.join(folder, 'a.pdf'), 'Permission denied')
+    editor.shot('trouble-pdf-locked')
+    written_pdf(editor, os.path.join(screen.home, 'a.pdf'))
+    editor.shot('trouble-pdf-written')
+
+
+def pdf_full(screen):
+    """a PDF on a disk that is full: a banner with path and reason, no toast, nothing half written"""
+    folder = os.path.join(screen.home, 'full')
+    os.mkdir(folder)
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    sh('prlimit', '--pid', str(editor.process.pid), '--fsize=500:')
+    refused_pdf(editor, os.path.join(folder, 'a.pdf'), 'File too large')
+    sh('prlimit', '--pid', str(editor.process.pid), '--fsize=unlimited:')
+    written_pdf(editor, os.path.join(folder, 'a.pdf'))
+
+
+def no_pages(screen):
+    """a damaged file is text: printing, a PDF and a picture of a rung say why they are not to be had"""
+    editor = Editor(screen, new_file(screen, PROJECT.replace('| NO Start |', '| NOO Start |')))
+    editor.find('Text of the program')
+    why = 'There is nothing to print: the file cannot be read'
+    editor.keys('ctrl+p')
+    editor.find(why, 'label')
+    editor.shot('trouble-no-pages')
+    until(lambda: not editor.all(why), 'the toast to be gone')
+    command(editor, 'Export as PDF')
+    editor.says(why)
+    assert len(editor.windows()) == 1
+    command(editor, 'Copy rung as a picture')
+    editor.says('open a sheet first')
+
+
+def rendered_locked(screen):
+    """--render into a folder that cannot be written: path and reason are told, nothing is left"""
+    folder = os.path.join(screen.home, 'locked')
+    os.mkdir(folder)
+    os.chmod(folder, 0o555)
+    project = new_file(screen, PROJECT)
+    for ending in 'svg', 'png', 'pdf':
+        path = os.path.join(folder, 'a.' + ending)
+        done = subprocess.run([EDITOR, '--render', project, '-o', path], preexec_fn=mere_mortal,
+                              capture_output=True, text=True)
+        assert done.returncode == 2 and path in done.stderr and 'Permission denied' in done.stderr, done
+    assert not os.listdir(folder)
+
+
+main([read_only, full_disk, vanished, gone, somebody_else, pdf_locked, pdf_full, no_pages,
+      rendered_locked])
