@@ -13,6 +13,7 @@
 #include "editor-gtk/installed.h"
 #include "editor-gtk/memory.h"
 #include "editor-gtk/preferences.h"
+#include "editor-gtk/recent.h"
 #include "editor-gtk/render.h"
 #include "editor-gtk/usage.h"
 
@@ -52,15 +53,6 @@ void app_new_window(LadderWindow *window)
 	new_window(the_application(window));
 }
 
-void app_remember(const char *path)
-{
-	char *uri = path ? g_filename_to_uri(path, NULL, NULL) : NULL;
-
-	if (uri)
-		gtk_recent_manager_add_item(gtk_recent_manager_get_default(), uri);
-	g_free(uri);
-}
-
 static void tell_repaired(LadderWindow *window, int line)
 {
 	char *text;
@@ -88,7 +80,7 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 		window = show_document(application, document);
 	else
 		ladder_window_opened(window);
-	app_remember(path);
+	recent_add(path);
 	tell_repaired(window, ladder_document_repaired(document));
 	g_object_unref(document);
 	return window;
@@ -117,7 +109,7 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 	else
 		ladder_window_opened(window);
 	ladder_window_set_origin(window, path);
-	app_remember(path);
+	recent_add(path);
 	origin = ladder_origin_new(document, place, ladder);
 	ladder_window_set_classic(window, origin);
 	g_object_unref(origin);

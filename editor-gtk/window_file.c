@@ -11,6 +11,7 @@
 #include "editor-gtk/chooser.h"
 #include "editor-gtk/classic_save.h"
 #include "editor-gtk/draft.h"
+#include "editor-gtk/recent.h"
 
 #include <string.h>
 
@@ -94,7 +95,7 @@ static bool save_to(LadderWindow *window, const char *path)
 
 	if (ladder_document_save(window->document, path, &error)) {
 		draft_remove(window->document);
-		app_remember(ladder_document_path(window->document));
+		recent_add(ladder_document_path(window->document));
 		ladder_window_tell(window, _("Saved"));
 		window_banner_close(window);
 		window_classic_saved(window);
