@@ -9,6 +9,7 @@
 #include "editor-gtk/classic_open.h"
 #include "editor-gtk/disk.h"
 #include "editor-gtk/draft.h"
+#include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/installed.h"
 #include "editor-gtk/memory.h"
@@ -118,9 +119,56 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 	return window;
 }
 
+/* Which of them has that project; NULL: none. The one that was used last is the first. */
+static LadderWindow *window_of(AdwApplication *application, const char *project)
+{
+	GList *at = gtk_application_get_windows(GTK_APPLICATION(application));
+
+	for (; at; at = at->next)
+		if (LADDER_IS_WINDOW(at->data) &&
+		    g_strcmp0(ladder_document_path(ladder_window_document(at->data)),
+			      project) == 0)
+			return at->data;
+	return NULL;
+}
+
+/* A map of no project in particular, that the tree of this window lists. */
+static bool is_listed(LadderWindow *window, const char *path)
+{
+	GPtrArray *maps = files_beside(ladder_document_path(ladder_window_document(window)),
+				       ".io", false);
+	const bool found = g_ptr_array_find_with_equal_func(maps, path, g_str_equal, NULL);
+
+	g_ptr_array_unref(maps);
+	return found;
+}
+
+/* A scenario or an I/O map: in its project, if that is to be found. */
+static LadderWindow *open_beside(AdwApplication *application, LadderWindow *window,
+				 const char *path, GError **error)
+{
+	char *project = file_project(path);
+	LadderWindow *shown = project ? window_of(application, project) : NULL;
+
+	if (project && !shown)
+		shown = open_in(application, window, project, error);
+	else if (!project)
+		shown = window && (ladder_window_is_untouched(window) ||
+				   is_listed(window, path)) ? window :
+			new_window(application);
+	if (shown) {
+		ladder_window_show_file(shown, path);
+		gtk_window_present(GTK_WINDOW(shown));
+	}
+	g_free(project);
+	return shown;
+}
+
 static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
 			      const char *path, GError **error)
 {
+	if (file_is_beside(path))
+		return open_beside(application, window, path, error);
 	return classic_is_project(path) ? open_classic(application, window, path, error) :
 					  open_in(application, window, path, error);
 }

@@ -65,6 +65,11 @@ void ladder_window_welcome(LadderWindow *window)
 	tabs_show_widget(window, "welcome");
 }
 
+void ladder_window_show_file(LadderWindow *window, const char *path)
+{
+	tabs_show_file(window, path);
+}
+
 void ladder_window_warn(LadderWindow *window, const char *text)
 {
 	window_banner(window, text, NULL, NULL);

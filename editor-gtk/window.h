@@ -32,6 +32,8 @@ void ladder_window_welcome(LadderWindow *window);
 void ladder_window_warn(LadderWindow *window, const char *text);
 /** ladder_window_offer_restored - says that this was not saved when the editor died. */
 void ladder_window_offer_restored(LadderWindow *window);
+/** ladder_window_show_file - a text file beside the project, in front of its sheets. */
+void ladder_window_show_file(LadderWindow *window, const char *path);
 /** ladder_window_set_origin - the file that an unsaved project is a copy of: a plant may
  * stand beside it. */
 void ladder_window_set_origin(LadderWindow *window, const char *path);

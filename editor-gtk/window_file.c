@@ -61,12 +61,14 @@ static void open_response(GtkNativeDialog *dialog, int response, LadderWindow *w
 }
 
 /* All that opens, before one or the other. */
-static void add_programs(GtkFileChooser *chooser)
+static void add_all(GtkFileChooser *chooser)
 {
 	GtkFileFilter *filter = gtk_file_filter_new();
 
-	gtk_file_filter_set_name(filter, _("Programs"));
+	gtk_file_filter_set_name(filter, _("Programs, scenarios, I/O maps"));
 	gtk_file_filter_add_pattern(filter, "*.rung");
+	gtk_file_filter_add_pattern(filter, "*.scn");
+	gtk_file_filter_add_pattern(filter, "*.io");
 	gtk_file_filter_add_pattern(filter, "*.clprj");
 	gtk_file_filter_add_pattern(filter, "*.clprjz");
 	gtk_file_filter_add_pattern(filter, "*.clp");
@@ -80,7 +82,7 @@ void window_open(LadderWindow *window)
 	GtkFileChooserNative *chooser = window_chooser(window, _("Open"),
 		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"));
 
-	add_programs(GTK_FILE_CHOOSER(chooser));
+	add_all(GTK_FILE_CHOOSER(chooser));
 	window_classic_filter(GTK_FILE_CHOOSER(chooser), false);
 
 	g_signal_connect(chooser, "response", G_CALLBACK(open_response), window);
