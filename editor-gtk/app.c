@@ -9,10 +9,12 @@
 #include "editor-gtk/classic_open.h"
 #include "editor-gtk/disk.h"
 #include "editor-gtk/draft.h"
+#include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/installed.h"
 #include "editor-gtk/memory.h"
 #include "editor-gtk/preferences.h"
+#include "editor-gtk/recent.h"
 #include "editor-gtk/render.h"
 #include "editor-gtk/usage.h"
 
@@ -52,15 +54,6 @@ void app_new_window(LadderWindow *window)
 	new_window(the_application(window));
 }
 
-void app_remember(const char *path)
-{
-	char *uri = path ? g_filename_to_uri(path, NULL, NULL) : NULL;
-
-	if (uri)
-		gtk_recent_manager_add_item(gtk_recent_manager_get_default(), uri);
-	g_free(uri);
-}
-
 static void tell_repaired(LadderWindow *window, int line)
 {
 	char *text;
@@ -88,7 +81,7 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 		window = show_document(application, document);
 	else
 		ladder_window_opened(window);
-	app_remember(path);
+	recent_add(path);
 	tell_repaired(window, ladder_document_repaired(document));
 	g_object_unref(document);
 	return window;
@@ -132,13 +125,45 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 	else
 		ladder_window_opened(window);
 	ladder_window_set_origin(window, path);
-	app_remember(path);
+	recent_add(path);
 	origin = ladder_origin_new(document, place, ladder);
 	ladder_window_set_classic(window, origin);
 	g_object_unref(origin);
 	g_object_unref(document);
 	g_free(text);
 	return window;
+}
+
+/* A map of no project in particular, that the tree of this window lists. */
+static bool is_listed(LadderWindow *window, const char *path)
+{
+	GPtrArray *maps = files_beside(ladder_document_path(ladder_window_document(window)),
+				       ".io", false);
+	const bool found = g_ptr_array_find_with_equal_func(maps, path, g_str_equal, NULL);
+
+	g_ptr_array_unref(maps);
+	return found;
+}
+
+/* A scenario or an I/O map: in its project, if that is to be found. */
+static LadderWindow *open_beside(AdwApplication *application, LadderWindow *window,
+				 const char *path, GError **error)
+{
+	char *project = file_project(path);
+	LadderWindow *shown = project ? window_of(application, project) : NULL;
+
+	if (project && !shown)
+		shown = open_in(application, window, project, error);
+	else if (!project)
+		shown = window && (ladder_window_is_untouched(window) ||
+				   is_listed(window, path)) ? window :
+			new_window(application);
+	if (shown) {
+		ladder_window_show_file(shown, path);
+		gtk_window_present(GTK_WINDOW(shown));
+	}
+	g_free(project);
+	return shown;
 }
 
 static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
@@ -150,6 +175,8 @@ static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
 		gtk_window_present(GTK_WINDOW(there));
 		return there;
 	}
+	if (file_is_beside(path))
+		return open_beside(application, window, path, error);
 	return classic_is_project(path) ? open_classic(application, window, path, error) :
 					  open_in(application, window, path, error);
 }

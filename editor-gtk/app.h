@@ -17,8 +17,6 @@ void app_style(void);
 void app_new_window(LadderWindow *window);
 /** app_open_path - in the window, if nothing was done in it yet; else in another. */
 void app_open_path(LadderWindow *window, const char *path);
-/** app_remember - among the files opened last. */
-void app_remember(const char *path);
 /** app_open_sample - a copy without a file, likewise. */
 void app_open_sample(LadderWindow *window, const char *path);
 

@@ -63,6 +63,13 @@ static void waited(GObject *child, GAsyncResult *result, gpointer data)
 	close_one(run);
 }
 
+char *board_ended_text(int status)
+{
+	return status == 0 ? g_strdup(_("Ended; outputs have their safe values")) :
+		status < 0 ? g_strdup(_("ladderd was ended by a signal")) :
+		g_strdup_printf(_("ladderd ended with status %d"), status);
+}
+
 /* ---- what it says ---- */
 
 static void read_on(LadderBoardRun *run, GDataInputStream *stream);

@@ -33,6 +33,8 @@ void ladder_board_run_reset(LadderBoardRun *run);
 enum board_state ladder_board_run_state(LadderBoardRun *run);
 /** ladder_board_run_status - as it was told last. Borrowed. */
 const struct board_status *ladder_board_run_status(LadderBoardRun *run);
+/** board_ended_text - what `ended` with that status means. Caller: g_free. */
+char *board_ended_text(int status);
 /** board_find_ladderd - beside this program, else in PATH; NULL: there is none. Caller:
  * g_free. */
 char *board_find_ladderd(void);

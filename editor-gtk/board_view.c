@@ -64,9 +64,7 @@ static void told(LadderBoardView *view, const char *line)
 
 static void ended(LadderBoardView *view, int status)
 {
-	char *text = status == 0 ? g_strdup(_("Ended; outputs have their safe values")) :
-		status < 0 ? g_strdup(_("ladderd was ended by a signal")) :
-		g_strdup_printf(_("ladderd ended with status %d"), status);
+	char *text = board_ended_text(status);
 
 	ladder_board_view_put(view, text);
 	g_free(text);

@@ -374,3 +374,58 @@ GPtrArray *files_beside(const char *path, const char *ending, bool own)
 	g_free(stem);
 	return files;
 }
+
+/* ---- whose one is ---- */
+
+bool file_is_beside(const char *path)
+{
+	return g_str_has_suffix(path, ".scn") || g_str_has_suffix(path, ".io");
+}
+
+/* Borrowed; NULL: there are none, or several. */
+static const char *only_one(const GPtrArray *programs)
+{
+	const char *only = NULL;
+
+	for (guint i = 0; i < programs->len; i++) {
+		if (g_str_has_suffix(programs->pdata[i], ".plant"))
+			continue;
+		if (only)
+			return NULL;
+		only = programs->pdata[i];
+	}
+	return only;
+}
+
+static char *project_in(const char *folder, const char *name)
+{
+	GPtrArray *programs = programs_in(folder);
+	const char *best = NULL;
+	char *file, *path;
+
+	for (guint i = 0; i < programs->len; i++)
+		if (stem_of(name, programs->pdata[i]) > (best ? strlen(best) : 0))
+			best = programs->pdata[i];
+	if (!best)
+		best = only_one(programs);
+	file = best ? g_strconcat(best, ".rung", NULL) : NULL;
+	path = file ? g_build_filename(folder, file, NULL) : NULL;
+	g_free(file);
+	g_ptr_array_unref(programs);
+	return path;
+}
+
+char *file_project(const char *path)
+{
+	char *folder = g_path_get_dirname(path), *name = g_path_get_basename(path);
+	char *last = g_path_get_basename(folder), *above = g_path_get_dirname(folder);
+	char *project = project_in(folder, name);
+
+	if (!project && strcmp(last, "boards") == 0)
+		project = project_in(above, name);
+	g_free(above);
+	g_free(last);
+	g_free(name);
+	g_free(folder);
+	return project;
+}

@@ -55,5 +55,15 @@ void ladder_file_view_go(LadderFileView *view, int line);
  * Caller: g_ptr_array_unref.
  */
 GPtrArray *files_beside(const char *path, const char *ending, bool own);
+/** file_is_beside - is @path, by its ending, one of those: `.scn`, `.io`? */
+bool file_is_beside(const char *path);
+/**
+ * file_project - whose scenario or I/O map @path is
+ *
+ * The program of its folder that has the longest part of its name, else the only one there
+ * that is no plant; for a folder `boards`, also of the folder that it stands in. Caller:
+ * g_free(). NULL: it is anybody's.
+ */
+char *file_project(const char *path);
 
 #endif

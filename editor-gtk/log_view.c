@@ -2,7 +2,8 @@
  *
  * log_view - what happened to a document, with the time of day.
  *
- * System, compile and operator messages in one list; it keeps the last thousand.
+ * Messages of system, compile, operator, simulation and communication (with what runs on
+ * this machine) in one list; it keeps the last thousand.
  */
 #include "editor-gtk/panels.h"
 
@@ -34,7 +35,7 @@ static void log_free(gpointer pointer)
 static void set_tabs(GtkTextView *text)
 {
 	PangoTabArray *tabs = pango_tab_array_new_with_positions(2, TRUE,
-		PANGO_TAB_LEFT, 84, PANGO_TAB_LEFT, 190);
+		PANGO_TAB_LEFT, 84, PANGO_TAB_LEFT, 206);
 
 	gtk_text_view_set_tabs(text, tabs);
 	pango_tab_array_free(tabs);

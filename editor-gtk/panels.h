@@ -22,7 +22,7 @@ GtkWidget *ladder_code_view_new(LadderDocument *document);
 void ladder_code_view_set_pou(GtkWidget *view, int pou);
 /** ladder_log_view_new - what happened, with the time: opened, saved, checked. */
 GtkWidget *ladder_log_view_new(LadderDocument *document);
-/** ladder_log_view_put - a line with the time. @kind: "system", "operator", translated. */
+/** ladder_log_view_put - a line with the time. @kind: "system", "operator" …, translated. */
 void ladder_log_view_put(GtkWidget *view, const char *kind, const char *what);
 
 #endif

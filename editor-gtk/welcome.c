@@ -7,13 +7,12 @@
 #include "editor-gtk/disk.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/installed.h"
+#include "editor-gtk/recent.h"
 
 #include "engine/base/limits.h"
 
 #include <adwaita.h>
 #include <string.h>
-
-#define RECENT_MOST 8
 
 char *welcome_samples(void)
 {
@@ -70,27 +69,16 @@ static GtkWidget *add_group(GtkWidget *page, const char *title)
 
 static void add_recent(GtkWidget *page)
 {
-	GList *all = gtk_recent_manager_get_items(gtk_recent_manager_get_default());
-	GtkWidget *group = NULL;
-	int count = 0;
+	GPtrArray *paths = recent_paths();
+	GtkWidget *group = paths->len ? add_group(page, _("Recent")) : NULL;
 
-	for (GList *at = all; at && count < RECENT_MOST; at = at->next) {
-		char *path = g_filename_from_uri(gtk_recent_info_get_uri(at->data), NULL,
-						 NULL);
+	for (guint i = 0; i < paths->len; i++) {
+		char *name = g_path_get_basename(paths->pdata[i]);
 
-		if (path && g_str_has_suffix(path, ".rung") &&
-		    g_file_test(path, G_FILE_TEST_EXISTS)) {
-			char *name = g_path_get_basename(path);
-
-			if (!group)
-				group = add_group(page, _("Recent"));
-			add_row(group, name, path, "win.open-path", path);
-			g_free(name);
-			count++;
-		}
-		g_free(path);
+		add_row(group, name, paths->pdata[i], "win.open-path", paths->pdata[i]);
+		g_free(name);
 	}
-	g_list_free_full(all, (GDestroyNotify)gtk_recent_info_unref);
+	g_ptr_array_unref(paths);
 }
 
 /* PROJECT "…" of a file, if it is near its beginning. */

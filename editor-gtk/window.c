@@ -44,15 +44,27 @@ void window_show_keys(LadderWindow *window, char *text)
 		ladder_window_tell(window, "");
 }
 
-void window_banner(LadderWindow *window, const char *text, const char *button,
-		   void (*act)(LadderWindow *window))
+void window_log(LadderWindow *window, const char *kind, const char *text)
 {
+	ladder_log_view_put(below_panel(window, "log"), kind, text);
+}
+
+void window_banner_of(LadderWindow *window, const char *kind, const char *text,
+		      const char *button, void (*act)(LadderWindow *window))
+{
+	window_log(window, kind, text);
 	gtk_label_set_text(window->banner_label, text);
 	gtk_widget_set_visible(GTK_WIDGET(window->banner_button), button != NULL);
 	if (button)
 		gtk_button_set_label(window->banner_button, button);
 	window->banner_do = act;
 	gtk_revealer_set_reveal_child(window->banner, TRUE);
+}
+
+void window_banner(LadderWindow *window, const char *text, const char *button,
+		   void (*act)(LadderWindow *window))
+{
+	window_banner_of(window, _("system"), text, button, act);
 }
 
 LadderSim *ladder_window_sim(LadderWindow *window)
@@ -63,6 +75,11 @@ LadderSim *ladder_window_sim(LadderWindow *window)
 void ladder_window_welcome(LadderWindow *window)
 {
 	tabs_show_widget(window, "welcome");
+}
+
+void ladder_window_show_file(LadderWindow *window, const char *path)
+{
+	tabs_show_file(window, path);
 }
 
 void ladder_window_warn(LadderWindow *window, const char *text)
@@ -244,6 +261,7 @@ static void ladder_window_dispose(GObject *object)
 		g_signal_handlers_disconnect_by_data(window->document, window);
 	g_clear_object(&window->document);
 	g_clear_pointer(&window->keys_text, g_free);
+	g_clear_pointer(&window->board_said, g_free);
 	g_clear_pointer(&window->origin, g_free);
 	g_clear_pointer(&window->plant, g_free);
 	G_OBJECT_CLASS(ladder_window_parent_class)->dispose(object);

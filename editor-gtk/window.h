@@ -37,6 +37,8 @@ void ladder_window_offer_restored(LadderWindow *window);
 void ladder_window_restore_file(LadderWindow *window, const struct draft *draft);
 /** ladder_window_keep_drafts - of all that is not saved, at once. */
 void ladder_window_keep_drafts(LadderWindow *window);
+/** ladder_window_show_file - a text file beside the project, in front of its sheets. */
+void ladder_window_show_file(LadderWindow *window, const char *path);
 /** ladder_window_set_origin - the file that an unsaved project is a copy of: a plant may
  * stand beside it. */
 void ladder_window_set_origin(LadderWindow *window, const char *path);

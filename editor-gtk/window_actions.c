@@ -11,6 +11,7 @@
 #include "editor-gtk/palette.h"
 #include "editor-gtk/preferences.h"
 #include "editor-gtk/problems.h"
+#include "editor-gtk/recent.h"
 #include "editor-gtk/settings.h"
 
 #include "engine/base/version.h"
@@ -394,11 +395,18 @@ GMenu *window_menu(void)
 
 	for (int group = 0; group < VERBS_GROUPS; group++) {
 		GMenu *part = g_menu_new();
+		int recent = -1;
 
-		for (int i = 0; i < VERB_COUNT; i++)
-			if ((int)verb_row((enum verb)i)->group == group)
-				g_menu_append(part, _(verb_row((enum verb)i)->label),
-					      verb_row((enum verb)i)->action);
+		for (int i = 0; i < VERB_COUNT; i++) {
+			if ((int)verb_row((enum verb)i)->group != group)
+				continue;
+			g_menu_append(part, _(verb_row((enum verb)i)->label),
+				      verb_row((enum verb)i)->action);
+			if (i == VERB_open)
+				recent = g_menu_model_get_n_items(G_MENU_MODEL(part));
+		}
+		if (recent >= 0)
+			recent_follow(part, recent);
 		g_menu_append_submenu(menu, _(verb_group_label((enum verb_group)group)),
 				      G_MENU_MODEL(part));
 		g_object_unref(part);

@@ -91,6 +91,17 @@ const char *window_board_pill(LadderWindow *window, const char **class)
 	return _("ON THIS MACHINE");
 }
 
+/* What stays in the log when the page is gone. */
+static void log_board(LadderWindow *window, const char *text)
+{
+	window_log(window, _("communication"), text);
+}
+
+static void warn_board(LadderWindow *window, const char *text)
+{
+	window_banner_of(window, _("communication"), text, NULL, NULL);
+}
+
 static void start(LadderWindow *window)
 {
 	const char *map = ladder_board_view_map(board_view(window));
@@ -103,11 +114,12 @@ static void start(LadderWindow *window)
 	if (ladder_board_run_start(window->board, path, map, &error)) {
 		text = g_strdup_printf(_("Started with %s"), name);
 		ladder_board_view_put(board_view(window), text);
+		log_board(window, text);
 		ladder_window_tell(window, text);
 		g_free(text);
 	} else {
 		ladder_board_view_put(board_view(window), error->message);
-		ladder_window_warn(window, error->message);
+		warn_board(window, error->message);
 	}
 	g_clear_error(&error);
 	g_free(name);
@@ -291,6 +303,29 @@ bool window_board_may_close(LadderWindow *window)
 	return false;
 }
 
+/* "RUN", "FAULT: division by zero …", "STOP: …". Caller frees. */
+static char *said_by(enum board_state state, const struct board_status *status)
+{
+	const char *why = strcmp(status->state, "FAULT") == 0 ? status->fault : status->stop;
+
+	if (state == BOARD_STOPPING)
+		return g_strdup(_("STOPPING"));
+	if (state != BOARD_RUNNING)
+		return NULL;
+	return g_strdup_printf("%s%s%s", status->state, *why ? ": " : "", why);
+}
+
+/* It is asked for its state again and again: the log has it when it is another. */
+static void log_state(LadderWindow *window, enum board_state state)
+{
+	char *said = said_by(state, ladder_board_run_status(window->board));
+
+	if (said && g_strcmp0(said, window->board_said) != 0)
+		log_board(window, said);
+	g_free(window->board_said);
+	window->board_said = said;
+}
+
 static void board_changed(LadderWindow *window)
 {
 	const enum board_state state = ladder_board_run_state(window->board);
@@ -301,15 +336,20 @@ static void board_changed(LadderWindow *window)
 		window->board_ran = false;
 	gtk_widget_action_set_enabled(GTK_WIDGET(window), "win.stop_board",
 				      state != BOARD_OFF);
+	log_state(window, state);
 	window_show_pill(window);
 }
 
 /* What was refused before it ran must be seen. */
 static void board_ended(LadderWindow *window, int status)
 {
+	char *text = board_ended_text(status);
+
+	log_board(window, text);
+	g_free(text);
 	if (status != 0 && !window->board_ran) {
 		below_show(window, "board");
-		ladder_window_warn(window, _("It was not run: ladderd says why, below."));
+		warn_board(window, _("It was not run: ladderd says why, below."));
 	}
 	if (window->close_after_board)
 		gtk_window_close(GTK_WINDOW(window));
@@ -323,6 +363,8 @@ GtkWidget *window_board_new(LadderWindow *window)
 void window_board_init(LadderWindow *window)
 {
 	g_signal_connect_object(window->board, "changed", G_CALLBACK(board_changed), window,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(window->board, "told", G_CALLBACK(log_board), window,
 				G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->board, "ended", G_CALLBACK(board_ended), window,
 				G_CONNECT_SWAPPED);

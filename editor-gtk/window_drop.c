@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * window_drop - files that are dropped on the window open as if they had been chosen. What
- * is no program is told, and nothing is done with it.
+ * is none of ours is told, and nothing is done with it.
  */
 #include "editor-gtk/window_inside.h"
 
@@ -10,11 +10,12 @@
 
 #include <string.h>
 
-static bool is_program(const char *path)
+static bool can_open(const char *path)
 {
 	const char *dot = strrchr(path, '.');
 
-	return (dot && g_ascii_strcasecmp(dot, ".rung") == 0) || classic_is_project(path);
+	return (dot && g_ascii_strcasecmp(dot, ".rung") == 0) || file_is_beside(path) ||
+	       classic_is_project(path);
 }
 
 static void tell_refused(LadderWindow *window, const GPtrArray *refused)
@@ -25,8 +26,8 @@ static void tell_refused(LadderWindow *window, const GPtrArray *refused)
 	for (guint i = 0; i < refused->len; i++)
 		g_string_append_printf(names, "%s%s", i ? ", " : "",
 				       (const char *)refused->pdata[i]);
-	text = g_strdup_printf(_("Not opened: %s. Rung files and projects of ClassicLadder "
-				 "can be dropped here."), names->str);
+	text = g_strdup_printf(_("Not opened: %s. Rung files, scenarios, I/O maps and projects "
+				 "of ClassicLadder can be dropped here."), names->str);
 	ladder_window_warn(window, text);
 	gtk_window_present(GTK_WINDOW(window)); /* others opened before it          */
 	g_free(text);
@@ -40,7 +41,7 @@ void window_drop_files(LadderWindow *window, const GSList *files)
 	for (; files; files = files->next) {
 		char *path = g_file_get_path(files->data);
 
-		if (path && is_program(path))
+		if (path && can_open(path))
 			app_open_path(window, path);
 		else
 			g_ptr_array_add(refused, g_file_get_basename(files->data));

@@ -11,6 +11,7 @@
 #include "editor-gtk/chooser.h"
 #include "editor-gtk/classic_save.h"
 #include "editor-gtk/draft.h"
+#include "editor-gtk/recent.h"
 
 #include <string.h>
 
@@ -60,12 +61,14 @@ static void open_response(GtkNativeDialog *dialog, int response, LadderWindow *w
 }
 
 /* All that opens, before one or the other. */
-static void add_programs(GtkFileChooser *chooser)
+static void add_all(GtkFileChooser *chooser)
 {
 	GtkFileFilter *filter = gtk_file_filter_new();
 
-	gtk_file_filter_set_name(filter, _("Programs"));
+	gtk_file_filter_set_name(filter, _("Programs, scenarios, I/O maps"));
 	gtk_file_filter_add_pattern(filter, "*.rung");
+	gtk_file_filter_add_pattern(filter, "*.scn");
+	gtk_file_filter_add_pattern(filter, "*.io");
 	gtk_file_filter_add_pattern(filter, "*.clprj");
 	gtk_file_filter_add_pattern(filter, "*.clprjz");
 	gtk_file_filter_add_pattern(filter, "*.clp");
@@ -79,7 +82,7 @@ void window_open(LadderWindow *window)
 	GtkFileChooserNative *chooser = window_chooser(window, _("Open"),
 		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"));
 
-	add_programs(GTK_FILE_CHOOSER(chooser));
+	add_all(GTK_FILE_CHOOSER(chooser));
 	window_classic_filter(GTK_FILE_CHOOSER(chooser), false);
 
 	g_signal_connect(chooser, "response", G_CALLBACK(open_response), window);
@@ -94,7 +97,7 @@ static bool save_to(LadderWindow *window, const char *path)
 
 	if (ladder_document_save(window->document, path, &error)) {
 		draft_remove(window->document);
-		app_remember(ladder_document_path(window->document));
+		recent_add(ladder_document_path(window->document));
 		ladder_window_tell(window, _("Saved"));
 		window_banner_close(window);
 		window->disk_told = DISK_AS_READ;

@@ -20,6 +20,7 @@ struct _LadderWindow {
 	LadderDocument *document;
 	LadderBoardRun *board;    /* what runs on this machine                 */
 	bool board_ran;           /* it came to a scan                         */
+	char *board_said;         /* its state that the log has; NULL: none    */
 	bool close_after_board;   /* the person said so                        */
 	char *origin;             /* of a sample: the file it is a copy of     */
 	LadderOrigin *classic;    /* what it was taken from; NULL: nothing     */
@@ -61,10 +62,15 @@ struct _LadderWindow {
 /* ---- window.c ---- */
 /** window_toast - a message that goes by itself. */
 void window_toast(LadderWindow *window, const char *text);
+/** window_log - a line of the log (ladder_log_view_put). */
+void window_log(LadderWindow *window, const char *kind, const char *text);
 /** window_banner - a message that stays until it is closed; @act on the button @button;
- * NULL: none. */
+ * NULL: none. The log keeps it, as one of the system. */
 void window_banner(LadderWindow *window, const char *text, const char *button,
 		   void (*act)(LadderWindow *window));
+/** window_banner_of - the same; the log keeps it as one of @kind, translated. */
+void window_banner_of(LadderWindow *window, const char *kind, const char *text,
+		      const char *button, void (*act)(LadderWindow *window));
 void window_banner_close(LadderWindow *window);
 /** window_show_keys - what the next key could do (taken over), where no message stands. */
 void window_show_keys(LadderWindow *window, char *text);

@@ -5,7 +5,6 @@
  */
 #include "editor-gtk/window_inside.h"
 
-#include "editor-gtk/panels.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/sim_pace.h"
 #include "editor-gtk/sim_panel.h"
@@ -167,11 +166,12 @@ static void go_to_fault(LadderWindow *window)
 static void told(LadderSim *sim, const char *text, gboolean bad, LadderWindow *window)
 {
 	(void)sim;
-	ladder_log_view_put(below_panel(window, "log"), _("simulation"), text);
 	ladder_window_tell(window, text);
-	if (!bad)
+	if (!bad) {
+		window_log(window, _("simulation"), text);
 		return;
-	window_banner(window, text, _("Run"), go_on);
+	}
+	window_banner_of(window, _("simulation"), text, _("Run"), go_on);
 	go_to_fault(window);
 }
 

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: MIT
 """begin - the welcome page, the palette's search and families, tables of symbols in files."""
 import os
+import shutil
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import ROOT, Editor, check, main, new_file, until  # noqa: E402
 
+CLASSIC = os.path.join(ROOT, 'tests', 'classic', 'projects', 'linuxcnc.clp')
 PROGRAM = '''RUNGBOARD 1
 
 VAR
@@ -48,6 +50,58 @@ def sample(screen):
     again.click(again.find(path, 'label'))
     again.says('mine')
     again.element(first)
+
+
+def listed(editor):
+    """Names of the files used lately, as the welcome page has them."""
+    names = [node.name for node in editor.all(editor.screen.home, 'label')]
+    return [os.path.basename(name) for name in names]
+
+
+def to_item(editor, name):
+    """Down to that item of the menu that is open."""
+    item = editor.focus_on(role='menu item')
+    while item.name != name:
+        editor.keys('Down')
+        item = editor.focus_on(role='menu item', but=item)
+
+
+def lately(screen):
+    """what was used lately is listed by the last time, projects of all kinds; so in the menu, by keys"""
+    files = [new_file(screen, PROGRAM, 'f_%d.rung' % number) for number in range(10)]
+    files.append(shutil.copy(CLASSIC, os.path.join(screen.home, 'mill.clp')))
+    kept = os.path.join(screen.home, '.local', 'share', 'recently-used.xbel')
+    # All within a second, and one of them again.
+    editor = Editor(screen, *files, files[1])
+    until(lambda: os.path.exists(kept) and 'mill.clp' in open(kept).read(), 'the files to be kept')
+    editor.finish()
+    shutil.rmtree(os.path.join(screen.home, 'state'))  # the draft of what is not saved yet
+    os.unlink(files[9])
+    wanted = ['f_1.rung', 'mill.clp', *('f_%d.rung' % number for number in (8, 7, 6, 5, 4, 3))]
+    editor = Editor(screen)
+    until(lambda: listed(editor), 'the files of before')
+    editor.shot('begin-recent')
+    assert listed(editor) == wanted, listed(editor)
+    editor.keys('F10')
+    to_item(editor, 'File')
+    editor.keys('Right')
+    to_item(editor, 'Open recent')
+    editor.keys('Right')
+    folder = os.path.basename(screen.home)
+    to_item(editor, os.path.join(folder, 'f_7.rung'))
+    editor.shot('begin-recent-menu')
+    rows = [os.path.basename(node.name) for node in editor.all(folder, 'menu item')]
+    assert rows == wanted, rows
+    editor.keys('Return')
+    editor.element('Rung 1, NO', 'Start')
+    editor.says('f_7')
+
+    def newest():
+        editor.keys('F10')
+        rows = until(lambda: [node.name for node in editor.all(folder, 'menu item')], 'the rows')
+        editor.keys('Escape')
+        return rows[0].endswith('f_7.rung')
+    until(newest, 'it to be the newest')
 
 
 def empty(screen):
@@ -145,4 +199,4 @@ def tables(screen):
     assert editor.save(path) == PROGRAM
 
 
-main([sample, empty, searched, folded, tables])
+main([sample, lately, empty, searched, folded, tables])

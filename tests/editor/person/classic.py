@@ -224,7 +224,8 @@ def dropped(screen):
     """files are dropped on the window: each program opens, one in its place, the others in windows of their own"""
     names = ['linuxcnc.clp', 'elements.clprj']
     paths = [shutil.copy(os.path.join(PROJECTS, name), screen.home) for name in names]
-    paths += [new_file(screen, SIMPLE), new_file(screen, 'hello', 'letter.odt')]
+    paths += [new_file(screen, SIMPLE), new_file(screen, 'hello', 'letter.odt'),
+              new_file(screen, 'scenario One\n', 'new.scn')]
     editor = Editor(screen)
     start = source(screen, *paths)
     before = len(editor.windows())
@@ -236,7 +237,7 @@ def dropped(screen):
     # The window has a frame as long as it would take what is dragged: from another program it comes late.
     editor.drag(start, editor.centre(editor.find('Find an element')), look='classic-drop', ready=lambda: edge() != plain)
     until(lambda: len(editor.windows()) == before + 2, 'the windows')
-    for name in *names, 'new':
+    for name in *names, 'new', 'new.scn':
         editor.says(name)
     editor.says('Not opened: letter.odt')
     until(lambda: any('GUI_E' in name for name in editor.cells()), 'the sheet of the first one')

@@ -461,6 +461,15 @@ class Editor:
         until(look, 'the file to be saved')
         return open(path).read()
 
+    def logs(self, kind, text):
+        """Waits until the log, which is shown, has a line of that kind with a text; gives all of it."""
+        self.tab('Log')
+        line = re.compile(r'^[0-9:]{8}\t%s\t.*%s' % (kind, re.escape(text)), re.MULTILINE)
+
+        def look():
+            return next((log for log in (node.text() for node in self.all('Log', 'text')) if line.search(log)), None)
+        return until(look, 'the line "%s" of %s in the log' % (text, kind))
+
     def front(self):
         """Brings its window before the others."""
         sh('xdotool', 'windowactivate', '--sync', self.window)

@@ -82,6 +82,53 @@ def no_program(screen):
     assert read(empty) == '' and os.path.getsize(binary) == 1024
 
 
+def open_file(editor, path):
+    """Ctrl+O, and the path."""
+    before = editor.windows()
+    editor.keys('ctrl+o')
+    chooser = until(lambda: [window for window in editor.windows() if window not in before], 'the dialog')[0]
+    editor.keys('ctrl+a')
+    editor.type(path)
+    editor.keys('Return')
+    until(lambda: chooser not in editor.windows(), 'the end of the dialog')
+
+
+def beside(screen):
+    """a scenario opens in the only project of its folder, a map in that of its name, others in an empty one"""
+    for name in 'pump.rung', 'pump.plant.rung', 'boards/pump.io', 'morning.scn', 'far/lone.scn', 'far/lone.io':
+        os.makedirs(os.path.dirname(os.path.join(screen.home, name)), exist_ok=True)
+        write(os.path.join(screen.home, name), PROJECT if name.endswith('.rung') else SCENARIO if
+              name.endswith('.scn') else '%IX0.0  sim\n')
+    scenario = os.path.join(screen.home, 'morning.scn')
+    editor = Editor(screen, scenario)
+    editor.find('morning.scn', 'text')
+    editor.says(os.path.join('~', 'pump.rung'))
+    open_file(editor, os.path.join(screen.home, 'boards', 'pump.io'))
+    editor.find('%IX0.0, Driver')
+    assert len(editor.windows()) == 1
+    open_file(editor, os.path.join(screen.home, 'far', 'lone.scn'))
+    editor.find('lone.scn', 'text')
+    editor.find('New project', 'label')
+    editor.shot('files-beside')
+    assert len(editor.windows()) == 2
+    # That one is untouched yet: a second one has room there.
+    open_file(editor, os.path.join(screen.home, 'far', 'lone.io'))
+    editor.find('lone.io')
+    assert len(editor.windows()) == 2 and not editor.all('Text of the file')
+    editor.finish()
+    # A map of a folder with several programs is of the one that lists it.
+    write(os.path.join(screen.home, 'fan.rung'), PROJECT)
+    panel = os.path.join(screen.home, 'boards', 'panel.io')
+    os.rename(os.path.join(screen.home, 'far', 'lone.io'), panel)
+    editor = Editor(screen, os.path.join(screen.home, 'pump.rung'))
+    open_file(editor, panel)
+    editor.find('%IX0.0, Driver')
+    assert len(editor.windows()) == 1
+    editor.finish()
+    editor = Editor(screen, os.path.join(screen.home, 'none.scn'))
+    editor.says('none.scn: cannot read this file')
+
+
 def stays_a_link(screen):
     """a link stays a link when what it leads to is saved, and that keeps who may read it"""
     os.mkdir(os.path.join(screen.home, 'there'))
@@ -206,4 +253,4 @@ def closing(screen):
     until(lambda: 'NC Start' in read(path), 'it to be saved all the same')
 
 
-main([refused, classic, no_program, stays_a_link, tab, window, one_history, written_over, closing])
+main([refused, classic, no_program, beside, stays_a_link, tab, window, one_history, written_over, closing])

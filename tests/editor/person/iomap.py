@@ -3,6 +3,7 @@
 """iomap - a person edits an I/O map as a table, and runs a program with it on this machine."""
 import os
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -198,6 +199,11 @@ def run_board(screen):
     until(lambda: 'Ended; outputs have their safe values' in
           editor.find('What ladderd says', 'text').text(), 'its end in the log')
     editor.find('OFF', 'label')
+    for line in 'Started with garage.io', 'RUN', 'STOPPING', 'Ended; outputs have their safe values':
+        log = editor.logs('communication', line)
+    assert log.count('RUN') == 1, log
+    editor.shot('board-log')
+    editor.tab('Board')
     assert is_gone(pid) and not editor.all('ON THIS MACHINE')
     open_map(editor)
     editor.click(cell(editor, '%IX0.0, Comment'))
@@ -218,6 +224,9 @@ def close_board(screen):
     editor.says('It was not run: ladderd says why, below.')
     until(lambda: 'LD502' in editor.find('What ladderd says', 'text').text(), 'the reason')
     editor.shot('board-refused')
+    for line in 'LD502', 'ladderd ended with status', 'It was not run: ladderd says why':
+        editor.logs('communication', line)
+    editor.tab('Board')
     with open(io, 'w') as file:
         file.write(SIM)
     editor.click(editor.find('Run…', 'push button'))
@@ -232,6 +241,20 @@ def close_board(screen):
     editor.press(editor.find('Stop and close', 'push button'))
     until(lambda: editor.process.poll() is not None, 'the editor to end')
     assert editor.process.returncode == 0 and is_gone(pid)
+
+
+def lost(screen):
+    """what stops itself, and what is lost, is in the log with the reason"""
+    path, io = garage(screen, 'BOARD "Desk"\n%IX0.0  sim\n%QX0.0  sim  safe=0\n')
+    with open(path, 'w') as file:
+        file.write('RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NC %IX0.0 | STOP |\nRUNG\n'
+                   '  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n')
+    editor = Editor(screen, path)
+    command(editor, 'Run on this machine')
+    editor.logs('communication', 'STOP: ')
+    os.kill(child(editor), signal.SIGKILL)
+    editor.logs('communication', 'ladderd was ended by a signal')
+    editor.shot('board-lost')
 
 
 def killed(screen):
@@ -288,6 +311,7 @@ def lines_here(screen):
     editor.find('It reads 4 pins and drives 1.')
     editor.press(editor.find('Run', 'push button'))
     editor.says('ladderd, which runs programs on pins, was not found')
+    editor.logs('communication', 'ladderd, which runs programs on pins, was not found')
 
 
 def in_chinese(screen):
@@ -306,4 +330,4 @@ def in_chinese(screen):
 
 
 in_chinese.size = '1024x700x24'
-main([table, choices, as_text, new_map, run_board, close_board, killed, lines_here, in_chinese])
+main([table, choices, as_text, new_map, run_board, close_board, lost, killed, lines_here, in_chinese])

@@ -54,6 +54,8 @@ def read_only(screen):
     editor.keys('ctrl+s')
     editor.says('ermission denied')
     editor.shot('trouble-read-only')
+    editor.logs('system', 'ermission denied')
+    editor.shot('trouble-log')
     assert open(path).read() == PROJECT and len(editor.cells()) == 2
     os.chmod(folder, 0o755)
     editor.save(path)
@@ -126,6 +128,7 @@ def somebody_else(screen):
         file.write(PROJECT.replace('| NO Start |', '| NO Start | COIL Motor |'))
     editor.says('changed by somebody else')
     editor.shot('trouble-somebody-else')
+    editor.logs('system', 'The file was changed by somebody else.')
     editor.click(editor.find('Read it again', 'push button'))
     until(lambda: len(editor.cells()) == 2, 'what the other wrote')
     saved_well(path)

@@ -1,0 +1,29 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""samples - what comes with Rungboard opens from the command line, whatever it is."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import ROOT, Editor, main, until  # noqa: E402
+
+
+def samples(screen):
+    """every file of ladders/ opens: programs, scenarios and maps, each as what it is"""
+    folder = os.path.join(ROOT, 'ladders')
+    paths = [os.path.join(where, name) for where in (folder, os.path.join(folder, 'boards'))
+             for name in sorted(os.listdir(where)) if name != 'boards']
+    texts = [os.path.basename(path) for path in paths if not path.endswith('.rung')]
+    maps = [path for path in paths if path.endswith('.io')]
+    # The scenario stands in the window of its program.
+    programs = [path for path in paths if path.endswith('.rung')]
+    assert len(paths) == len(programs) + len(texts) and len(programs) > 20 and len(texts) > 20, paths
+    editor = Editor(screen, *paths)
+    until(lambda: len(editor.windows()) == len(programs) + len(maps), 'the windows')
+    names = {node.name for node in editor.all()}
+    assert not set(texts) - names, set(texts) - names
+    told = [name for name in names if 'Text of the file' in name or 'RUNGBOARD' in name]
+    assert not told, told
+
+
+main([samples])
