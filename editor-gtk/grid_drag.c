@@ -62,6 +62,20 @@ enum grid_drop grid_can_drop(const struct rung *rung, int columns, int row, int 
 	return drop;
 }
 
+bool grid_takes(const struct rung *rung, int columns, int rows, enum word word, bool *takes)
+{
+	struct grid_at at = { .columns = columns };
+	const int cells = rows * columns;
+	struct canvas c;
+	const bool open = canvas_open(&c, rung, columns, 1);
+
+	for (int i = 0; i < cells; i++)
+		takes[i] = open && judge(&c, i / columns, i % columns, word) != GRID_DROP_NOT;
+	c.refusal = GRID_OUTSIDE; /* no rung is wanted */
+	canvas_close(&c, &at);
+	return open;
+}
+
 static bool drop(struct canvas *c, int row, int col, struct cell cell)
 {
 	const enum grid_drop how = judge(c, row, col, (enum word)cell.word);

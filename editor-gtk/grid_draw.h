@@ -69,6 +69,8 @@ struct grid_scene {
 	const struct grid_live *live;  /* NULL: not running                       */
 	const struct grid_mark *mark;
 	int mark_count;
+	const bool *takes;             /* cells as shown, by row, that take what is
+					* dragged; NULL: nothing is              */
 	unsigned int state;            /* enum rung_state, or'ed                  */
 	float scale;                   /* device px of a px; 0: any               */
 	/** What stands below a coil on paper ("read in Main 3, 5"); NULL: nothing.

@@ -203,6 +203,10 @@ enum grid_drop {
  * cell (@row, @col), and how? */
 enum grid_drop grid_can_drop(const struct rung *rung, int columns, int row, int col,
 			     enum word word);
+/** grid_takes - which of all display cells grid_can_drop() lets have it.
+ * @takes: @rows * @columns, by row; a row below the rung counts
+ * Fails: false, and none takes it, if there is no memory. */
+bool grid_takes(const struct rung *rung, int columns, int rows, enum word word, bool *takes);
 /** grid_drop - does what grid_can_drop() says. */
 struct rung *grid_drop(const struct rung *rung, struct grid_at *at, struct cell cell);
 /**

@@ -5,8 +5,12 @@
  */
 #include "editor-gtk/grid_pen.h"
 
+#include <math.h>
+
 #define INSET 3 /* below; above, Chinese names need the room */
 #define HATCH 9 /* px from line to line                      */
+#define CORNER 7 /* px of a side, at a corner that is marked  */
+#define CORNER_INSET 3 /* px, inside of what else is framed   */
 
 unsigned int pen_marks(const struct pen *pen, int row, int column)
 {
@@ -75,7 +79,7 @@ void grid_draw_grounds(const struct pen *pen)
 		}
 		if (mark->marks & MARK_BLOCKS)
 			draw_hatch(pen, &r);
-		if (mark->marks & (MARK_CURSOR | MARK_SELECTED))
+		if (mark->marks & (MARK_CURSOR | MARK_SELECTED | MARK_DROP))
 			picture_fill(pen->picture, TOKEN_ACCENT, pen->theme->wash,
 				     r.origin.x, r.origin.y, r.size.width, r.size.height);
 	}
@@ -96,6 +100,7 @@ static float badge(const struct pen *pen, enum token ground, const char *text, f
 #define FORCED "F"
 #define TWICE  "2\xc3\x97"
 #define FAILED "!"
+#define REFUSED "\xc3\x97"
 
 static void mark_wrong(const struct pen *pen, unsigned int marks, float x, float y, float w)
 {
@@ -183,6 +188,26 @@ static void draw_note(const struct pen *pen, const struct grid_mark *mark,
 	      r->origin.y + r->size.height - 17);
 }
 
+/* Its four corners: all round so many cells would be more than what stands in them, and
+ * what is broken would be an image for each rung. */
+static void draw_corners(const struct pen *pen, const graphene_rect_t *r)
+{
+	const float left = r->origin.x + CORNER_INSET, top = r->origin.y + CORNER_INSET;
+	const float right = r->origin.x + r->size.width - CORNER_INSET;
+	const float bottom = r->origin.y + r->size.height - CORNER_INSET;
+	const float thick = floorf(pen->theme->idle_width);
+
+	for (int i = 0; i < 4; i++) {
+		const bool after = i % 2, below = i / 2;
+
+		picture_fill(pen->picture, TOKEN_ACCENT, 1, after ? right - CORNER : left,
+			     below ? bottom - thick : top, CORNER, thick);
+		picture_fill(pen->picture, TOKEN_ACCENT, 1, after ? right - thick : left,
+			     below ? bottom - CORNER : top + thick, thick,
+			     CORNER - thick);
+	}
+}
+
 static void draw_frames(const struct pen *pen, const struct grid_mark *mark,
 			const graphene_rect_t *r)
 {
@@ -192,6 +217,9 @@ static void draw_frames(const struct pen *pen, const struct grid_mark *mark,
 	if (mark->marks & MARK_DROP)
 		picture_frame(pen->picture, TOKEN_ACCENT, STROKE_DASHED, 1.5f,
 			      r->origin.x, r->origin.y, r->size.width, r->size.height);
+	if (mark->marks & MARK_ILLEGAL)
+		picture_frame(pen->picture, TOKEN_ERROR, STROKE_SOLID, 1.5f, r->origin.x,
+			      r->origin.y, r->size.width, r->size.height);
 	if (mark->marks & MARK_BLOCKS)
 		picture_frame(pen->picture, TOKEN_BLOCKS, STROKE_SOLID, 2, r->origin.x,
 			      r->origin.y, r->size.width, r->size.height);
@@ -200,8 +228,22 @@ static void draw_frames(const struct pen *pen, const struct grid_mark *mark,
 			      r->origin.y, r->size.width, r->size.height);
 }
 
+static void draw_takes(const struct pen *pen)
+{
+	const int columns = pen->layout->columns;
+
+	for (int i = 0; pen->scene->takes && i < pen->layout->rows * columns; i++) {
+		const struct grid_mark mark = { i / columns, i % columns, 0 };
+		const graphene_rect_t r = place_of(pen, &mark);
+
+		if (pen->scene->takes[i])
+			draw_corners(pen, &r);
+	}
+}
+
 void grid_draw_marks(const struct pen *pen)
 {
+	draw_takes(pen);
 	for (int i = 0; i < pen->scene->mark_count; i++) {
 		const struct grid_mark *mark = &pen->scene->mark[i];
 
@@ -218,6 +260,9 @@ void grid_draw_marks(const struct pen *pen)
 			mark_element(pen, mark->marks, mark->row, col, &r);
 		if (mark->marks & MARK_CHANGED)
 			badge(pen, TOKEN_FORCE, "\xe2\x89\xa0", r.origin.x + 1,
+			      r.origin.y + r.size.height - 14);
+		if (mark->marks & MARK_ILLEGAL)
+			badge(pen, TOKEN_ERROR, REFUSED, r.origin.x + 1,
 			      r.origin.y + r.size.height - 14);
 		if (pen_note(pen, mark->row, mark->column))
 			draw_note(pen, mark, &r);

@@ -219,6 +219,7 @@ static void ladder_grid_view_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 				    0, (float)(RUNG_GUTTER * view->zoom), height));
 	strips_snapshot(view, snapshot);
 	wire_snapshot(view, snapshot, theme);
+	drop_snapshot(view, snapshot, theme);
 	keys_snapshot(view, snapshot, theme);
 	if (is_blank(view))
 		snapshot_hint(view, snapshot, theme);
@@ -569,7 +570,7 @@ static void ladder_grid_view_init(LadderGridView *view)
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct sheet_mark));
 	view->cells = g_array_new(FALSE, TRUE, sizeof(struct cell_widget));
 	view->count = -1;
-	view->found.rung = view->drop.rung = view->before_rung = -1;
+	view->found.rung = view->drop.rung = view->before_rung = view->drop_line = -1;
 	set_adjustment(view, 0, NULL);
 	set_adjustment(view, 1, NULL);
 	gtk_widget_set_focusable(GTK_WIDGET(view), TRUE);

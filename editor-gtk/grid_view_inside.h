@@ -100,8 +100,10 @@ struct _LadderGridView {
 	int before_rung;
 	GArray *marks;              /* of struct sheet_mark: what checks say   */
 	struct grid_cursor found;   /* rung -1: nothing                        */
-	struct grid_cursor drop;    /* rung -1: nothing is dragged over it     */
+	struct grid_cursor drop;    /* rung -1: no element is dragged over it   */
 	bool drop_legal;
+	enum word drop_word;        /* what is; ELEM_EMPTY: nothing            */
+	int drop_line;              /* before which rung one would come that is dragged; -1 */
 	GtkDropTarget *target;      /* the sheet's own                          */
 	struct sheet_edge edge;
 	struct sheet_wire wire;
@@ -278,6 +280,29 @@ void clipboard_do(LadderGridView *view, enum verb verb);
 void mouse_init(LadderGridView *view);
 /** mouse_menu - what the right button shows, at the cursor. */
 void mouse_menu(LadderGridView *view);
+
+/* ---- grid_view_drop.c: what is seen of it while something is dragged ---- */
+/** drop_word - what is dragged over the sheet; ELEM_EMPTY: no element. */
+void drop_word(LadderGridView *view, enum word word);
+/** drop_at_cell - the cell that the pointer means; @rung -1: none. */
+void drop_at_cell(LadderGridView *view, int rung, int row, int col, bool legal);
+/** drop_line - a dragged rung would come before @before; -1: none is dragged. */
+void drop_line(LadderGridView *view, int before);
+/** drop_boundary - the end of a rung nearest to @y px of the widget: number of the rung
+ * behind it, or how many there are. */
+int drop_boundary(LadderGridView *view, double y);
+/** drop_forget - nothing is dragged over it any more. */
+void drop_forget(LadderGridView *view);
+/** drop_takes - the cells of a rung as laid out that take it, by row, but for the one that
+ * is meant; NULL: no element is dragged. Owns: the caller, g_free. */
+bool *drop_takes(LadderGridView *view, int rung, const struct rung_layout *layout);
+/** drop_mark - adds that of the one that is meant. */
+void drop_mark(LadderGridView *view, int rung, GArray *marks);
+/** drop_snapshot - the line where a rung would come. */
+void drop_snapshot(LadderGridView *view, GtkSnapshot *snapshot, const struct theme *theme);
+/** drop_rung_ghost - a rung of the sheet hangs from the pointer, which took it at
+ * view->press_x, press_y. */
+void drop_rung_ghost(LadderGridView *view, GtkDragSource *source, int rung);
 
 /* ---- grid_view_edge.c ---- */
 /** edge_at - something is dragged to (x, y): near an edge the sheet scrolls, until it is

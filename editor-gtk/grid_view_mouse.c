@@ -7,6 +7,7 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include "editor-gtk/ghost.h"
 #include "editor-gtk/popover.h"
 
 /* ---- what is dragged ---- */
@@ -276,52 +277,28 @@ static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double 
 			  gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag));
 }
 
-static void drag_begin(GtkDragSource *source, GdkDrag *unused, LadderGridView *view)
+static void drag_begin(GtkDragSource *source, GdkDrag *begun, LadderGridView *view)
 {
 	const struct project *project = ladder_document_project(view->document);
-	const struct cell *cell = cursor_cell(view, NULL, NULL);
-	struct picture picture;
-	GskRenderNode *node;
-	GtkSnapshot *snapshot = gtk_snapshot_new();
-	GdkPaintable *paintable;
+	const struct ladder_drag *drag;
+	GValue value = G_VALUE_INIT;
 
-	(void)unused;
-	picture_init(&picture);
-	if (cell && project)
-		grid_draw_icon(words_row(&project->words, (enum word)cell->word),
-			       theme_get(THEME_LIGHT, THEME_GREEN), view->lettering, 64,
-			       40, &picture);
-	node = picture_node(&picture, theme_get(THEME_LIGHT, THEME_GREEN), view->lettering);
-	if (node) {
-		gtk_snapshot_append_node(snapshot, node);
-		gsk_render_node_unref(node);
-	}
-	picture_clear(&picture);
-	paintable = gtk_snapshot_free_to_paintable(snapshot, &GRAPHENE_SIZE_INIT(64, 40));
-	if (paintable) {
-		gtk_drag_source_set_icon(source, paintable, 32, 20);
-		g_object_unref(paintable);
-	}
+	g_value_init(&value, LADDER_TYPE_DRAG);
+	if (!gdk_content_provider_get_value(gdk_drag_get_content(begun), &value, NULL))
+		goto unset;
+	drag = g_value_get_boxed(&value);
+	if (drag->from.row < 0)
+		drop_rung_ghost(view, source, drag->from.rung);
+	else if (project)
+		ghost_element(source, words_row(&project->words, drag->word),
+			      strips_theme(view), view->lettering);
+unset:
+	g_value_unset(&value);
 }
 
 /* ---- dropping ---- */
 
 #define DROP_BELOW 18 /* px under the wire, from where on it is meant          */
-
-static void set_drop(LadderGridView *view, int rung, int row, int col, bool legal)
-{
-	const int before = view->drop.rung;
-
-	if (rung == before && row == view->drop.row && col == view->drop.col &&
-	    legal == view->drop_legal)
-		return;
-	view->drop = (struct grid_cursor){ rung, row, col };
-	view->drop_legal = legal;
-	if (before >= 0)
-		strips_dirty(view, before);
-	if (rung >= 0)
-		strips_dirty(view, rung); /* it may need a row more */
-}
 
 static const struct ladder_drag *dragged(GtkDropTarget *target)
 {
@@ -363,26 +340,39 @@ static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hi
 	return rung;
 }
 
+static bool is_rung(const struct ladder_drag *drag)
+{
+	return drag && drag->view && drag->from.row < 0;
+}
+
+/* Rungs change places within a program. */
+static bool takes_rung(LadderGridView *view, const struct ladder_drag *drag)
+{
+	return drag->view == view && view->count < 0;
+}
+
 /* Marks where it would be dropped; 0: it may not. */
 static GdkDragAction show_drop(LadderGridView *view, double x, double y)
 {
 	const struct ladder_drag *drag = dragged(view->target);
+	const enum word word = drag ? drag->word : ELEM_EMPTY;
 	struct rung_hit hit;
-	int rung = drop_at(view, x, y, &hit, drag ? drag->word : ELEM_EMPTY);
 	bool legal;
+	int rung;
 
-	if (drag && drag->view && drag->from.row < 0) {
-		rung = sheet_point(view, x, y, &hit);
-		set_drop(view, rung, 0, 0, drag->view == view);
-		return rung >= 0 ? GDK_ACTION_MOVE : 0;
+	if (is_rung(drag)) {
+		drop_line(view, takes_rung(view, drag) ? drop_boundary(view, y) : -1);
+		return takes_rung(view, drag) ? GDK_ACTION_MOVE : 0;
 	}
+	drop_word(view, word);
+	rung = drop_at(view, x, y, &hit, word);
 	if (rung < 0) {
-		set_drop(view, -1, 0, 0, false);
+		drop_at_cell(view, -1, 0, 0, false);
 		return 0;
 	}
 	legal = drag && grid_can_drop(sheet_rung(view, rung), view->columns, hit.row,
 				      hit.column, drag->word) != GRID_DROP_NOT;
-	set_drop(view, rung, hit.row, hit.column, legal);
+	drop_at_cell(view, rung, hit.row, hit.column, legal);
 	return !legal ? 0 : drag->view ? GDK_ACTION_MOVE : GDK_ACTION_COPY;
 }
 
@@ -408,7 +398,16 @@ static void drop_leave(GtkDropTarget *target, LadderGridView *view)
 {
 	(void)target;
 	edge_forget(view);
-	set_drop(view, -1, 0, 0, false);
+	drop_forget(view);
+}
+
+/* The rung goes between those where the line is, which count without it. */
+static bool move_rung(LadderGridView *view, const struct ladder_drag *drag, int before)
+{
+	const int from = drag->from.rung, to = before > from ? before - 1 : before;
+
+	return takes_rung(view, drag) && to != from &&
+	       ladder_document_move_rung(view->document, view->pou, from, to);
 }
 
 /* From one rung to another is one step. */
@@ -446,15 +445,11 @@ static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, do
 
 	(void)target;
 	edge_forget(view);
-	set_drop(view, -1, 0, 0, false);
+	drop_forget(view);
 	if (sheet_is_fixed(view))
 		return FALSE;
-	if (drag->view && drag->from.row < 0) {
-		rung = sheet_point(view, x, y, &hit);
-		return rung >= 0 && drag->view == view &&
-		       view->count < 0 && ladder_document_move_rung(view->document, view->pou,
-						 drag->from.rung, rung);
-	}
+	if (is_rung(drag))
+		return move_rung(view, drag, drop_boundary(view, y));
 	rung = drop_at(view, x, y, &hit, drag->word);
 	if (rung < 0)
 		return FALSE;

@@ -457,6 +457,7 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	};
 	struct grid_live live;
 	uint8_t *unknown = NULL;
+	bool *takes = drop_takes(view, rung, strip->layout);
 
 	live_look(view, rung);
 	if (live_is_on(view)) {
@@ -469,9 +470,8 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	live_marks(view, rung, marks);
 	if (rung == view->found.rung)
 		push_mark(marks, view->found.row, view->found.col, MARK_FOUND);
-	if (rung == view->drop.rung)
-		push_mark(marks, view->drop.row, view->drop.col,
-			  view->drop_legal ? MARK_DROP : MARK_ILLEGAL);
+	drop_mark(view, rung, marks);
+	scene.takes = takes;
 	if (ladder_document_is_bookmarked(view->document, view->pou,
 					     view->first + rung))
 		scene.state |= RUNG_MARKED;
@@ -483,6 +483,7 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	view->live.drawn++;
 	g_array_unref(marks);
 	g_free(unknown);
+	g_free(takes);
 }
 
 void strips_snapshot(LadderGridView *view, GtkSnapshot *snapshot)

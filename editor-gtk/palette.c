@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/palette.h"
 
+#include "editor-gtk/ghost.h"
 #include "editor-gtk/grid_draw.h"
 #include "editor-gtk/grid_view.h"
 #include "editor-gtk/i18n.h"
@@ -45,11 +46,20 @@ struct _LadderIcon {
 
 G_DEFINE_FINAL_TYPE(LadderIcon, ladder_icon, GTK_TYPE_WIDGET)
 
+static const struct theme *icon_theme(void)
+{
+	AdwStyleManager *manager = adw_style_manager_get_default();
+	const bool dark = adw_style_manager_get_dark(manager);
+
+	if (adw_style_manager_get_high_contrast(manager))
+		return theme_get(dark ? THEME_CONTRAST_DARK : THEME_CONTRAST, THEME_GREEN);
+	return theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
+}
+
 static void ladder_icon_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
 {
 	LadderIcon *icon = LADDER_ICON(widget);
-	const bool dark = adw_style_manager_get_dark(adw_style_manager_get_default());
-	const struct theme *theme = theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN);
+	const struct theme *theme = icon_theme();
 	struct picture picture;
 
 	picture_init(&picture);
@@ -81,6 +91,9 @@ static void ladder_icon_init(LadderIcon *icon)
 	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
 				G_CALLBACK(gtk_widget_queue_draw), icon,
 				G_CONNECT_SWAPPED);
+	g_signal_connect_object(adw_style_manager_get_default(), "notify::high-contrast",
+				G_CALLBACK(gtk_widget_queue_draw), icon,
+				G_CONNECT_SWAPPED);
 }
 
 /* ---- tiles ---- */
@@ -108,13 +121,10 @@ static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double 
 	return ladder_grid_view_drag((enum word)GPOINTER_TO_INT(word));
 }
 
-static void drag_begin(GtkDragSource *source, GdkDrag *unused, GtkWidget *icon)
+static void drag_begin(GtkDragSource *source, GdkDrag *unused, LadderIcon *icon)
 {
-	GdkPaintable *paintable = gtk_widget_paintable_new(icon);
-
 	(void)unused;
-	gtk_drag_source_set_icon(source, paintable, ICON_WIDTH / 2, ICON_HEIGHT / 2);
-	g_object_unref(paintable);
+	ghost_element(source, icon->row, icon_theme(), icon->lettering);
 }
 
 static void clicked(GtkButton *button, gpointer word)

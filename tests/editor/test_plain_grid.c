@@ -16,6 +16,49 @@ static const struct sample samples[] = {
 #include "tests/editor/grid_cases.def"
 };
 
+/* ---- where something that is dragged may go ---- */
+
+#define TAKES_ROWS 4
+
+/* A line for each row of the sheet: x takes it. */
+static const struct {
+	const char *rung, *cell, *takes;
+} takes[] = {
+	/* Also in the row that would come below, and in none after that. */
+	{ "| NO A | NC B | COIL Q |\n", "NO X", "xxxxx. xxxxx. ...... ......" },
+	{ "| NO A | NC B | COIL Q |\n", "COIL X", ".....x .....x ...... ......" },
+	{ "| NO A | NC B | COIL Q |\n", "CTU C1", "xxxxx. xxxxx. ...... ......" },
+	{ "| NO A | NC B | COIL Q |\n", "---", "...... ...... ...... ......" },
+	/* Not on the pins of a box. */
+	{ "| NO A | CTU C1 | COIL Q |\n| NO B | .R |\n", "NO X", "xxxxx. x.xxx. xxxxx. ......" },
+};
+
+static void check_takes(struct grid_bench *bench, const char *rung_text, const char *cell,
+			const char *want)
+{
+	struct rung *rung = grid_read(bench, rung_text);
+	const enum word word = (enum word)grid_read_cell(bench, cell).word;
+	bool all[TAKES_ROWS * GRID_COLUMNS] = { false }, alike = true;
+	char got[TAKES_ROWS * (GRID_COLUMNS + 1)], *to = got;
+
+	if (!CHECK(rung) || !CHECK(grid_takes(rung, GRID_COLUMNS, TAKES_ROWS, word, all)))
+		return;
+	for (int row = 0; row < TAKES_ROWS; row++) {
+		for (int col = 0; col < GRID_COLUMNS; col++) {
+			const bool one = all[row * GRID_COLUMNS + col];
+
+			*to++ = one ? 'x' : '.';
+			alike &= one == (grid_can_drop(rung, GRID_COLUMNS, row, col, word) !=
+					 GRID_DROP_NOT);
+		}
+		*to++ = row + 1 < TAKES_ROWS ? ' ' : '\0';
+	}
+	CHECK_AS(alike, "each cell by itself is judged alike");
+	if (!CHECK_AS(strcmp(got, want) == 0, cell))
+		printf("# got:  %s\n# want: %s\n", got, want);
+	rung_free(rung);
+}
+
 int main(void)
 {
 	struct grid_bench bench;
@@ -31,6 +74,8 @@ int main(void)
 		if (!CHECK_AS(!strcmp(got, want), s->name))
 			printf("# got:\n%s# want:\n%s", got, want);
 	}
+	for (size_t i = 0; i < sizeof(takes) / sizeof(*takes); i++)
+		check_takes(&bench, takes[i].rung, takes[i].cell, takes[i].takes);
 	grid_bench_close(&bench);
 	return tap_done();
 }

@@ -181,8 +181,11 @@ static void draw_marks(struct sheet *sheet)
 	};
 	struct grid_scene scene = { .mark = mark, .mark_count = G_N_ELEMENTS(mark),
 				    .state = RUNG_CURRENT | RUNG_EDITED };
+	bool takes[64] = { [1] = true };
 
 	draw(sheet, 0, scene, "marks");
+	takes[sheet->rung[0]->columns + 2] = true; /* of the second row, the third one */
+	draw(sheet, 0, (struct grid_scene){ .takes = takes }, "takes");
 }
 
 static const char *note_of(void *context, int row, int column)

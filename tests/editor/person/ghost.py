@@ -1,0 +1,116 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""ghost - what is seen while an element or a rung is dragged, light, dark and with contrast."""
+import os
+import re
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, main, new_file, until  # noqa: E402
+
+PROJECT = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Stop AT %IX0.1 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Lamp AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "one"
+  | NO Start | NC Stop | COIL Motor |
+RUNG "two"
+  | NO Motor | COIL Lamp |
+END_PROGRAM
+'''
+ROW = 36  # px from the top of a rung with a title to that of its first row
+RUNG = ROW + 84 + 9
+THEMES = {'light': ({}, (0x1a, 0x5f, 0xb4)),
+          'dark': ({'ADW_DEBUG_COLOR_SCHEME': 'prefer-dark'}, (0x78, 0xae, 0xed)),
+          'contrast': ({'ADW_DEBUG_HIGH_CONTRAST': '1'}, (0x00, 0x3c, 0x8c)),
+          'contrast-dark': ({'ADW_DEBUG_HIGH_CONTRAST': '1', 'ADW_DEBUG_COLOR_SCHEME': 'prefer-dark'},
+                            (0x99, 0xc9, 0xff))}
+COLUMNS = range(6)
+
+
+def pixels(x, y, width, height):
+    """The colours of a place on the screen, line by line."""
+    picture = subprocess.run(['import', '-window', 'root', '-crop', '%dx%d+%d+%d' % (width, height, x, y),
+                              '-depth', '8', 'ppm:-'], capture_output=True, check=True).stdout
+    body = picture[len(re.match(rb'P6\s+\d+\s+\d+\s+\d+\s', picture)[0]):]
+    return [tuple(body[i:i + 3]) for i in range(0, len(body), 3)]
+
+
+def marked(editor, rung_y, accent, row=0):
+    """The columns of a row whose left upper corner is marked."""
+    x, y, _, _ = editor.place(editor.sheet())
+    return [column for column in COLUMNS
+            if pixels(x + 61 + 98 * column + 2, y + rung_y + ROW + 84 * row + 1, 9, 6).count(accent) >= 5]
+
+
+def luminance(color):
+    """0 to 1, by eye."""
+    return (0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]) / 255
+
+
+def inked(editor, x, y, width, height):
+    """How many pixels are quite another than the sheet: of a ghost upon nothing, its ink."""
+    left, top, wide, high = editor.place(editor.sheet())
+    ground = luminance(pixels(left + wide - 30, top + high - 30, 1, 1)[0])
+    return sum(abs(luminance(color) - ground) > 0.4 for color in pixels(x, y, width, height))
+
+
+def sheets(screen, *names):
+    """One editor after the other, which know nothing of each other: its name, itself, its colour of marks."""
+    for name in names:
+        env, accent = THEMES[name]
+        path = new_file(screen, PROJECT)
+        editor = Editor(screen, path, XDG_STATE_HOME=os.path.join(screen.home, name), **env)
+        until(lambda editor=editor: len(editor.cells()) == 5, 'the sheet')
+        yield name, editor, accent
+        editor.finish()
+
+
+def below(editor):
+    """Where nothing stands, and nothing is taken."""
+    x, y = editor.grid(2 * RUNG + 84 + 160, 2)
+    return x, y
+
+
+def ghosts(screen):
+    """a dragged element is seen where there is nothing else, of the sheet and of the palette"""
+    for name, editor, _ in sheets(screen, *THEMES):
+        x, y = below(editor)
+        for kind, start in (('sheet', editor.grid(ROW + 46, 1)), ('palette', editor.tile('closed while FALSE'))):
+            editor.drag(start, (x, y), look='ghost-%s-%s' % (kind, name),
+                        ready=lambda: 60 < inked(editor, x - 24, y - 14, 48, 28) < 48 * 28 // 2)
+            until(lambda: inked(editor, x - 24, y - 14, 48, 28) == 0, 'the ghost to go')
+
+
+def cells(screen):
+    """the cells that take it are marked, and the one that is meant is another"""
+    for name, editor, accent in sheets(screen, 'light', 'dark'):
+        to = editor.grid(RUNG + ROW + 46, 3)
+        editor.drag(editor.grid(ROW + 46, 1), to, look='takes-contact-' + name, ready=lambda: (
+            marked(editor, 0, accent) == [0, 1, 2, 3, 4] and marked(editor, RUNG, accent) == [0, 1, 2, 4]))
+        until(lambda: not marked(editor, 0, accent), 'the marks to go')
+        to = editor.grid(ROW + 46, 2)
+        editor.drag(editor.grid(RUNG + ROW + 46, 5), to, look='takes-coil-' + name, ready=lambda: (
+            marked(editor, 0, accent) == [5] and marked(editor, RUNG, accent) == [5]))
+
+
+def lines(screen):
+    """a dragged rung is seen, and a line where it would come: of two ends the nearer"""
+    for name, editor, accent in sheets(screen, 'dark'):
+        x, y, width, _ = editor.place(editor.sheet())
+        for at, line in ((RUNG + 30, RUNG), (RUNG + 90, 2 * RUNG), (below(editor)[1] - y, 2 * RUNG), (40, 1)):
+            assert 'Lamp' in editor.cells()[-1], editor.cells()
+            editor.drag((x + 20, y + RUNG + 50), (x + 20, y + at), look='line-%d-%s' % (at, name), ready=lambda: (
+                set(pixels(x + width - 300, y + line, 280, 1)) == {accent} and
+                (at < 2 * RUNG or 60 < inked(editor, x + 350, y + at - 30, 120, 60) < 120 * 60 // 2)))
+        until(lambda: 'Motor' in editor.cells()[-1], 'the other order')
+
+
+main([ghosts, cells, lines])
