@@ -26,6 +26,8 @@ TWO = PROJECT.replace('END_PROGRAM', '''RUNG
 RUNG
   | NO Start | NO Start | COIL Motor |
 END_PROGRAM''')
+BOX = PROJECT.replace('  Motor', '  Parts : CTU;\n  Motor').replace(
+    '  | NO Start | COIL Motor |', '  | NO Start | CTU Parts |' + ' NO Start |' * 25 + ' COIL Motor |\n  | NO Start | .R |')
 HEARD = re.compile(r'path=(\S+);[^;]*; member=PropertyChange\n +string "accessible-description"\n.*\n.*\n'
                    r' +variant +string "(.+)"')
 USED = [ROLES[role] for role in ('check box', 'combo box', 'menu item', 'spin button', 'page tab',
@@ -170,4 +172,27 @@ def edited(screen):
     reader.says('Rung 1, empty cell, row 1, column A', lambda: editor.keys('Delete'))
 
 
-main([window, simulated, tips, cursor, edited])
+def boxes(screen):
+    """each row of a block, columns behind Z; while it simulates what flows, and nobody repeats it"""
+    editor = Editor(screen, new_file(screen, BOX))
+    editor.to_sheet()
+    until(lambda: described(editor, editor.sheet()), 'the first cell')
+    reader = Reader(editor)
+    editor.keys('Right')
+    counter = until(reader.said, 'the block')[0]
+    assert counter.startswith('Rung 1, CTU, ') and counter.endswith(', row 1, column B'), counter
+    reader.says(counter.replace('row 1', 'row 2'), lambda: editor.keys('Down'))
+    assert at_cursor(editor).name == counter.split(', row')[0], at_cursor(editor).name
+    coil = 'Rung 1, COIL, TRUE while powered: Motor, %QX0.0'
+    reader.says('Rung 1, empty cell, row 2, column AB', lambda: editor.keys('End'))
+    reader.says(coil + ', row 1, column AB', lambda: editor.keys('Up'))
+    editor.keys('ctrl+m')
+    editor.element('COIL', 'off')
+    start = 'Rung 1, NO, closed while TRUE: Start, %IX0.0'
+    reader.says(start + ', open, row 1, column A', lambda: editor.keys('Home'))
+    editor.keys('space')
+    editor.element('Rung 1', 'Start', 'closed')
+    assert reader.said()[-1] == start + ', open, row 1, column A', reader.said()
+
+
+main([window, simulated, tips, cursor, edited, boxes])
