@@ -260,8 +260,10 @@ static void rungs_changed(LadderGridView *view, int pou, int at, int removed, in
 	strips_stale(view, at, removed); /* a popup that closes asks where the cursor is */
 	forget_edit(view);
 	ladder_grid_view_set_blockers(view, -1, NULL, 0);
-	if (removed != inserted)
+	if (removed != inserted) {
 		forget_before(view);
+		cells_tell_again(view);
+	}
 	strips_splice(view, at, removed, inserted);
 	cursor_fit(view);
 	sheet_moved(view);

@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_cells - the sheet as people hear it: a child for each element that is seen.
+ * grid_view_cells - the sheet as people hear it: a child for each element that is seen, and
+ * for the cell at the cursor, whatever it holds.
  *
  * GTK 4.8 makes only widgets accessible, so there is one that draws nothing for each
  * element of the rungs on the screen. The one at the cursor is told as selected. They
  * follow a moment later, never while the window is laid out or scrolled.
+ *
+ * GTK 4.8 tells nobody of an active descendant. The sheet keeps the focus, and so the keys;
+ * it is described by the cell that its cursor came to: of that readers hear, and say it.
  */
 #include "editor-gtk/grid_view_inside.h"
 
 #define FOLLOW_MS 60
+#define LETTERS   ('Z' - 'A' + 1) /* that name columns                         */
 
 #define LADDER_TYPE_CELL (ladder_cell_get_type())
 G_DECLARE_FINAL_TYPE(LadderCell, ladder_cell, LADDER, CELL, GtkWidget)
@@ -28,6 +33,12 @@ static void cell_go(GtkWidget *widget, const char *name, GVariant *unused)
 	LadderGridView *view = LADDER_GRID_VIEW(gtk_widget_get_parent(widget));
 
 	(void)unused;
+	if (widget == view->spot.widget) { /* there the cursor is already */
+		gtk_widget_grab_focus(GTK_WIDGET(view));
+		if (g_str_has_suffix(name, ".edit"))
+			ladder_grid_view_do(view, VERB_enter);
+		return;
+	}
 	for (guint i = 0; i < view->cells->len; i++) {
 		struct cell_widget cell = *cell_of(view, i);
 
@@ -57,14 +68,13 @@ static void ladder_cell_init(LadderCell *cell)
 /* ---- names ---- */
 
 /* "Rung 3, contact, closed while TRUE: Start, %IX0.0". */
-static char *name_of(LadderGridView *view, int rung, int row, int col,
-		     const struct cell *cell)
+static void say_element(LadderGridView *view, int rung, const struct cell *cell,
+			GString *text)
 {
 	const struct project *project = ladder_document_project(view->document);
 	const struct word_row *word = words_row(&project->words, (enum word)cell->word);
 	const char *operand = project_text(project, cell->operand);
 	const struct grid_name name = grid_names_find(view->names, operand);
-	GString *text = g_string_new(NULL);
 
 	g_string_printf(text, _("Rung %d, %s"), view->first + rung + 1,
 			word->word[0] ? word->word : word->id);
@@ -78,7 +88,54 @@ static char *name_of(LadderGridView *view, int rung, int row, int col,
 		g_string_append_printf(text, ", %s", name.address);
 	if (cell->args)
 		g_string_append_printf(text, ", %s", project_text(project, cell->args));
+}
+
+static char *name_of(LadderGridView *view, int rung, int row, int col,
+		     const struct cell *cell)
+{
+	GString *text = g_string_new(NULL);
+
+	say_element(view, rung, cell, text);
 	act_said(view, rung, row, col, text);
+	return g_string_free(text, FALSE);
+}
+
+static bool is_wire(LadderGridView *view, const struct grid_cursor *at)
+{
+	struct grid_place place;
+
+	return grid_display_find(sheet_rung(view, at->rung), view->columns, at->row,
+				 at->col, &place) != GRID_SEEN_EMPTY;
+}
+
+/* "Rung 3, empty cell, row 1, column B"; of an element its name and where it is, so that
+ * the next one is called otherwise. @values: of what runs, too */
+static char *name_at_cursor(LadderGridView *view, bool values)
+{
+	const struct grid_cursor *at = &view->cursor;
+	GString *text = g_string_new(NULL);
+	char column[] = { (char)('A' + at->col % LETTERS), '\0', '\0' };
+	const struct cell *cell;
+	int row, col;
+
+	if (sheet_rungs(view) == 0) {
+		g_string_append(text, _("no rung"));
+		return g_string_free(text, FALSE);
+	}
+	cell = cursor_cell(view, &row, &col);
+	if (cell)
+		say_element(view, at->rung, cell, text);
+	else
+		g_string_printf(text, _("Rung %d, %s"), view->first + at->rung + 1,
+				is_wire(view, at) ? _("wire") : _("empty cell"));
+	if (cell && values)
+		act_said(view, at->rung, row, col, text);
+	if (at->col >= LETTERS) {
+		column[1] = column[0];
+		column[0] = (char)('A' + at->col / LETTERS - 1);
+	}
+	g_string_append(text, ", ");
+	g_string_append_printf(text, _("row %d, column %s"), at->row + 1, column);
 	return g_string_free(text, FALSE);
 }
 
@@ -101,11 +158,18 @@ static void name_it(LadderGridView *view, struct cell_widget *slot, const struct
 	slot->name = name;
 }
 
+static bool is_at_cursor(LadderGridView *view, const struct cell_widget *slot)
+{
+	int row, col;
+
+	return slot->rung == view->cursor.rung && cursor_cell(view, &row, &col) &&
+	       slot->row == row && slot->col == col;
+}
+
 static void use_widget(LadderGridView *view, guint index, int rung, int row, int col,
 		       const struct cell *cell)
 {
 	struct cell_widget *slot;
-	bool selected;
 
 	if (index >= view->cells->len) {
 		struct cell_widget fresh = {
@@ -119,12 +183,10 @@ static void use_widget(LadderGridView *view, guint index, int rung, int row, int
 	slot->rung = rung;
 	slot->row = row;
 	slot->col = col;
-	selected = rung == view->cursor.rung && row == view->cursor.row &&
-		grid_display_column(sheet_rung(view, rung), view->columns, row, col) ==
-		view->cursor.col;
 	name_it(view, slot, cell);
 	gtk_accessible_update_state(GTK_ACCESSIBLE(slot->widget),
-				    GTK_ACCESSIBLE_STATE_SELECTED, selected, -1);
+				    GTK_ACCESSIBLE_STATE_SELECTED,
+				    is_at_cursor(view, slot), -1);
 }
 
 static guint use_rung(LadderGridView *view, int rung, guint used)
@@ -150,6 +212,50 @@ static void drop_from(LadderGridView *view, guint from)
 	g_array_set_size(view->cells, from);
 }
 
+/* Nothing is laid out anew because it comes or goes: it is there, and hidden. */
+static void show_spot(LadderGridView *view)
+{
+	struct sheet_spot *spot = &view->spot;
+	const bool shown = sheet_rungs(view) > 0 && !cursor_cell(view, NULL, NULL);
+	char *name;
+
+	if (!spot->widget) {
+		spot->widget = g_object_new(LADDER_TYPE_CELL, NULL);
+		gtk_widget_set_parent(spot->widget, GTK_WIDGET(view));
+	}
+	if (shown) {
+		name = name_at_cursor(view, false);
+		gtk_accessible_update_property(GTK_ACCESSIBLE(spot->widget),
+					       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+		g_free(name);
+	}
+	gtk_accessible_update_state(GTK_ACCESSIBLE(spot->widget),
+				    GTK_ACCESSIBLE_STATE_HIDDEN, !shown,
+				    GTK_ACCESSIBLE_STATE_SELECTED, shown, -1);
+}
+
+/* When the cursor is elsewhere, or something else is there; not for each new value: a
+ * timer would never be silent. While an entry is open, that one is heard. */
+static void tell_spot(LadderGridView *view)
+{
+	char *told, *text;
+
+	if (view->entry)
+		return;
+	told = name_at_cursor(view, false);
+	if (g_strcmp0(told, view->spot.told) != 0) {
+		text = name_at_cursor(view, true);
+		/* What is called the same may be another one. */
+		gtk_accessible_reset_property(GTK_ACCESSIBLE(view),
+					      GTK_ACCESSIBLE_PROPERTY_DESCRIPTION);
+		gtk_accessible_update_property(GTK_ACCESSIBLE(view),
+			GTK_ACCESSIBLE_PROPERTY_DESCRIPTION, text, -1);
+		g_free(text);
+	}
+	g_free(view->spot.told);
+	view->spot.told = told;
+}
+
 static void cells_update(LadderGridView *view)
 {
 	const double zoom = view->zoom;
@@ -165,6 +271,10 @@ static void cells_update(LadderGridView *view)
 			used = use_rung(view, i, used);
 		}
 	drop_from(view, used);
+	if (view->names) {
+		show_spot(view);
+		tell_spot(view);
+	}
 }
 
 static gboolean update_now(gpointer data)
@@ -189,6 +299,12 @@ void cells_scrolled(LadderGridView *view)
 	cells_later(view);
 }
 
+void cells_tell_again(LadderGridView *view)
+{
+	g_clear_pointer(&view->spot.told, g_free);
+	cells_later(view);
+}
+
 /* It may be older than the rungs: until cells_update() it is not looked at. */
 static bool is_there(LadderGridView *view, const struct cell_widget *cell)
 {
@@ -208,6 +324,27 @@ void cells_rename(LadderGridView *view)
 		if (cell && is_named(cell))
 			name_it(view, slot, cell);
 	}
+}
+
+static void allocate(GtkWidget *widget, const GtkAllocation *place)
+{
+	gtk_widget_measure(widget, GTK_ORIENTATION_HORIZONTAL, -1, NULL, NULL, NULL, NULL);
+	gtk_widget_size_allocate(widget, place, -1);
+}
+
+/* A rung far from what is seen is not laid out for this. */
+static void allocate_spot(LadderGridView *view)
+{
+	const int rung = view->cursor.rung;
+	graphene_rect_t rect;
+
+	if (!view->spot.widget || rung >= (int)view->strips->len ||
+	    !g_array_index(view->strips, struct strip, rung).layout)
+		return;
+	rect = cursor_rect(view);
+	allocate(view->spot.widget, &(GtkAllocation){
+		(int)rect.origin.x, (int)rect.origin.y, MAX((int)rect.size.width, 1),
+		MAX((int)rect.size.height, 1) });
 }
 
 void cells_allocate(LadderGridView *view)
@@ -232,10 +369,9 @@ void cells_allocate(LadderGridView *view)
 				(float)gtk_adjustment_get_value(view->adjustment[1]));
 		place.width = MAX((int)(rect.size.width * zoom), 1);
 		place.height = MAX((int)(rect.size.height * zoom), 1);
-		gtk_widget_measure(cell->widget, GTK_ORIENTATION_HORIZONTAL, -1, NULL,
-				   NULL, NULL, NULL);
-		gtk_widget_size_allocate(cell->widget, &place, -1);
+		allocate(cell->widget, &place);
 	}
+	allocate_spot(view);
 }
 
 static void cursor_moved(LadderGridView *view)
@@ -254,4 +390,6 @@ void cells_clear(LadderGridView *view)
 {
 	g_clear_handle_id(&view->cells_idle, g_source_remove);
 	drop_from(view, 0);
+	g_clear_pointer(&view->spot.widget, gtk_widget_unparent);
+	g_clear_pointer(&view->spot.told, g_free);
 }

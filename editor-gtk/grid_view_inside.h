@@ -50,6 +50,12 @@ struct cell_widget {
 	char *name;                 /* that it is called by                     */
 };
 
+/* The cell at the cursor, for those who hear it. */
+struct sheet_spot {
+	GtkWidget *widget;          /* of a wire or an empty cell; hidden at an element */
+	char *told;                 /* that the sheet is described by, without values */
+};
+
 /* A stroke of wire: where it could begin, and while it is drawn. */
 struct sheet_wire {
 	int hover;                  /* rung where one could begin; -1: not here */
@@ -112,6 +118,7 @@ struct _LadderGridView {
 	gulong scrolled[2];
 	GtkScrollablePolicy policy[2];
 	GArray *cells;              /* of struct cell_widget                   */
+	struct sheet_spot spot;
 	guint cells_idle;
 	int cells_height;           /* of the sheet, when they were made       */
 	GtkWidget *entry;           /* the popup, while it is there            */
@@ -338,6 +345,8 @@ void cells_clear(LadderGridView *view);
 void cells_later(LadderGridView *view);
 /** cells_scrolled - likewise, when it comes to rest. */
 void cells_scrolled(LadderGridView *view);
+/** cells_tell_again - another rung is at the cursor, though it may be called the same. */
+void cells_tell_again(LadderGridView *view);
 /** cells_rename - what is heard of those that there are is what they show now. */
 void cells_rename(LadderGridView *view);
 /** cells_allocate - puts them where their cells are. */

@@ -45,7 +45,7 @@ def missing():
     """What is not here, as one text; '' if all is."""
     global dbus
     lacks = [tool for tool in ('Xvfb', 'openbox', 'xdotool', 'xwininfo', 'xprop', 'xclip', 'import',
-                               'dbus-daemon') if not shutil.which(tool)]
+                               'dbus-daemon', 'dbus-monitor') if not shutil.which(tool)]
     if not os.path.exists(EDITOR):
         lacks.append(EDITOR)
     if not any(os.path.exists(path) for path in BUS_LAUNCHERS):
@@ -107,11 +107,14 @@ class Screen:
             self.start('xcompmgr')
         until(lambda: 'window id' in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'), 'the window manager')
 
+    @staticmethod
+    def accessibility_address():
+        session = dbus.bus.BusConnection(os.environ['DBUS_SESSION_BUS_ADDRESS'])
+        return session.call_blocking('org.a11y.Bus', '/org/a11y/bus', 'org.a11y.Bus', 'GetAddress', '', ())
+
     def accessibility(self):
         """A connection of its own to the accessibility bus."""
-        session = dbus.bus.BusConnection(os.environ['DBUS_SESSION_BUS_ADDRESS'])
-        address = session.call_blocking('org.a11y.Bus', '/org/a11y/bus', 'org.a11y.Bus', 'GetAddress', '', ())
-        return dbus.bus.BusConnection(address)
+        return dbus.bus.BusConnection(self.accessibility_address())
 
     def start_bus(self):
         bus = subprocess.Popen(['dbus-daemon', '--session', '--nofork', '--print-address=1'],
@@ -304,9 +307,13 @@ class Editor:
     def sheet(self):
         return self.find('Sheet')
 
+    def elements(self):
+        """Those that are seen on sheets: not the wire or the empty cell that the cursor is on."""
+        return [node for node in self.all('Rung ', 'table cell') if not re.search(r', row \d+, column \w+$', node.name)]
+
     def cells(self):
-        """Names of the elements that are seen on sheets."""
-        return [node.name for node in self.all('Rung ', 'table cell')]
+        """Their names."""
+        return [node.name for node in self.elements()]
 
     def says(self, text):
         """Waits until a text stands somewhere in the window."""
@@ -353,7 +360,7 @@ class Editor:
     def element(self, *parts):
         """The element of a rung whose name has all these parts; waits for it."""
         def look():
-            found = [node for node in self.all('Rung ', 'table cell') if all(part in node.name for part in parts)]
+            found = [node for node in self.elements() if all(part in node.name for part in parts)]
             return found[0] if found else None
         return until(look, 'the element %s' % ', '.join(parts))
 

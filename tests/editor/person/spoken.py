@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 """spoken - what a screen reader says of the window: everything that can be used has a name of its own."""
 import os
+import re
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -19,6 +21,15 @@ RUNG
   | NO Start | COIL Motor |
 END_PROGRAM
 '''
+TWO = PROJECT.replace('END_PROGRAM', '''RUNG
+  | NO Start | NO Start | COIL Motor |
+RUNG
+  | NO Start | NO Start | COIL Motor |
+END_PROGRAM''')
+BOX = PROJECT.replace('  Motor', '  Parts : CTU;\n  Motor').replace(
+    '  | NO Start | COIL Motor |', '  | NO Start | CTU Parts |' + ' NO Start |' * 25 + ' COIL Motor |\n  | NO Start | .R |')
+HEARD = re.compile(r'path=(\S+);[^;]*; member=PropertyChange\n +string "accessible-description"\n.*\n.*\n'
+                   r' +variant +string "(.+)"')
 USED = [ROLES[role] for role in ('check box', 'combo box', 'menu item', 'spin button', 'page tab',
                                  'push button', 'table', 'table cell', 'text', 'toggle button', 'entry')]
 
@@ -77,4 +88,111 @@ def simulated(screen):
     assert not nameless(editor), nameless(editor)
 
 
-main([window, simulated, tips])
+class Reader:
+    """What is told on the accessibility bus as a screen reader gets it: of the widget with the
+    focus a new description is said."""
+
+    def __init__(self, editor):
+        self.editor, self.path = editor, os.path.join(editor.screen.home, 'heard')
+        with open(self.path, 'w') as out:
+            self.monitor = subprocess.Popen(
+                ['dbus-monitor', '--address', editor.screen.accessibility_address(),
+                 "type='signal',interface='org.a11y.atspi.Event.Object'"], stdout=out, stderr=subprocess.DEVNULL)
+        editor.screen.running.append(self.monitor)
+        until(lambda: 'NameLost' in open(self.path).read(), 'the monitor to listen')
+
+    def said(self):
+        sheet = self.editor.sheet().path
+        return [text for path, text in HEARD.findall(open(self.path).read()) if path == sheet]
+
+    def says(self, text, then=None):
+        """Waits for it: the next that is said after what @then did."""
+        before = len(self.said())
+        if then:
+            then()
+        said = until(lambda: self.said()[before:], text)
+        assert said == [text], (text, said)
+        assert self.editor.sheet().has(12), 'the sheet has the focus no more'
+
+
+def at_cursor(editor):
+    """The node that is told as selected; waits until there is but one."""
+    def look():
+        found = [node for node in editor.all('Rung ', 'table cell') if node.has(23)]
+        return found[0] if len(found) == 1 else None
+    return until(look, 'one cell at the cursor')
+
+
+def actions(node):
+    return [str(action[0]) for action in node.ask('Action', 'GetActions')[0]]
+
+
+def cursor(screen):
+    """the cell that the cursor comes to: an element, a wire, nothing, in a new rung and a deleted one"""
+    editor = Editor(screen, new_file(screen, TWO))
+    editor.to_sheet()
+    start = 'NO, closed while TRUE: Start, %IX0.0'
+    until(lambda: described(editor, editor.sheet()) == 'Rung 1, ' + start + ', row 1, column A', 'the first cell')
+    assert at_cursor(editor).name == 'Rung 1, ' + start
+    reader = Reader(editor)
+    reader.says('Rung 1, wire, row 1, column B', lambda: editor.keys('Right'))
+    wire = at_cursor(editor)
+    assert wire.name == 'Rung 1, wire, row 1, column B' and wire.role == ROLES['table cell'], wire.name
+    at, sheet = wire.box(), editor.sheet().box()
+    assert at[2] > 0 and sheet[0] < at[0] < sheet[0] + sheet[2] and sheet[1] < at[1] < sheet[1] + sheet[3], at
+    reader.says('Rung 1, ' + start + ', row 1, column A', lambda: editor.click(editor.element('Rung 1', 'Start')))
+    assert at_cursor(editor).name == 'Rung 1, ' + start and not editor.all('wire', 'table cell')
+    reader.says('Rung 2, ' + start + ', row 1, column A', lambda: editor.keys('Down'))
+    reader.says('Rung 2, ' + start + ', row 1, column B', lambda: editor.keys('Right'))  # called the same
+    reader.says('Rung 3, empty cell, row 1, column A', lambda: editor.keys('Insert'))
+    empty = at_cursor(editor)
+    assert empty.name == 'Rung 3, empty cell, row 1, column A' and actions(empty) == ['cell.edit', 'cell.go']
+    reader.says('Rung 3, empty cell, row 1, column B', lambda: editor.keys('Right'))
+    reader.says('Rung 3, ' + start + ', row 1, column A', lambda: editor.keys('ctrl+Delete'))
+    reader.says('Rung 2, ' + start + ', row 1, column A', lambda: editor.keys('Up'))
+    reader.says('Rung 2, ' + start + ', row 1, column A', lambda: editor.keys('ctrl+Delete'))  # another one
+    assert len(editor.cells()) == 5, editor.cells()
+
+
+def edited(screen):
+    """an element that is placed where the cursor is, and its entry through assistive technology"""
+    editor = Editor(screen, new_file(screen))
+    editor.to_sheet()
+    until(lambda: described(editor, editor.sheet()) == 'Rung 1, empty cell, row 1, column A', 'the empty cell')
+    reader = Reader(editor)
+    cell = at_cursor(editor)
+    cell.ask('Action', 'DoAction', 'i', actions(cell).index('cell.edit'))
+    editor.opened()
+    editor.entry('NO %IX0.0')
+    until(lambda: reader.said()[-1:] == ['Rung 1, empty cell, row 1, column B'], 'the next cell')
+    assert at_cursor(editor).name == 'Rung 1, empty cell, row 1, column B'
+    assert len(editor.cells()) == 1, editor.cells()
+    reader.says('Rung 1, NO, closed while TRUE: %IX0.0, row 1, column A', lambda: editor.keys('Left'))
+    reader.says('Rung 1, NC, closed while FALSE: %IX0.0, row 1, column A', lambda: editor.keys('slash'))
+    reader.says('Rung 1, empty cell, row 1, column A', lambda: editor.keys('Delete'))
+
+
+def boxes(screen):
+    """each row of a block, columns behind Z; while it simulates what flows, and nobody repeats it"""
+    editor = Editor(screen, new_file(screen, BOX))
+    editor.to_sheet()
+    until(lambda: described(editor, editor.sheet()), 'the first cell')
+    reader = Reader(editor)
+    editor.keys('Right')
+    counter = until(reader.said, 'the block')[0]
+    assert counter.startswith('Rung 1, CTU, ') and counter.endswith(', row 1, column B'), counter
+    reader.says(counter.replace('row 1', 'row 2'), lambda: editor.keys('Down'))
+    assert at_cursor(editor).name == counter.split(', row')[0], at_cursor(editor).name
+    coil = 'Rung 1, COIL, TRUE while powered: Motor, %QX0.0'
+    reader.says('Rung 1, empty cell, row 2, column AB', lambda: editor.keys('End'))
+    reader.says(coil + ', row 1, column AB', lambda: editor.keys('Up'))
+    editor.keys('ctrl+m')
+    editor.element('COIL', 'off')
+    start = 'Rung 1, NO, closed while TRUE: Start, %IX0.0'
+    reader.says(start + ', open, row 1, column A', lambda: editor.keys('Home'))
+    editor.keys('space')
+    editor.element('Rung 1', 'Start', 'closed')
+    assert reader.said()[-1] == start + ', open, row 1, column A', reader.said()
+
+
+main([window, simulated, tips, cursor, edited, boxes])
