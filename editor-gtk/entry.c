@@ -3,7 +3,8 @@
  * entry - what a line of quick entry means.
  *
  * An expression, a drawn element, a mnemonic with its operand, or just a name: in this
- * order. A name that is declared wins over a mnemonic that stands alone.
+ * order. A name that is declared wins over a mnemonic that stands alone, and so does one
+ * that AT or a colon stands behind.
  */
 #include "editor-gtk/entry_inside.h"
 #include "editor-gtk/grid_edit.h"
@@ -59,9 +60,16 @@ static bool keep_instance(const struct entry_place *place, struct entry_target *
 static bool take_bool(const struct entry_place *place, const char *text, size_t len,
 		      bool write, struct entry *entry)
 {
+	const size_t name = entry_declared_len(text, len, ENTRY_WORD_GIVEN);
 	struct entry_target target;
-	char address[32];
+	char address[ENTRY_ADDRESS_TEXT];
 
+	if (name > 0) {
+		if (!entry_declaration(place, text, len, name, write, address,
+				       sizeof(address), entry))
+			return false;
+		len = name;
+	}
 	entry_target_find(place, text, len, &target);
 	switch (target.means) {
 	case MEANS_NOTHING:
@@ -71,8 +79,10 @@ static bool take_bool(const struct entry_place *place, const char *text, size_t 
 	case MEANS_INSTANCE:
 		return keep_instance(place, &target, text, len, write, entry);
 	case MEANS_NEW:
-		entry_proposal(place, entry, write, address, sizeof(address));
-		return entry_declare(place, entry, text, len, "BOOL", address) &&
+		if (name == 0)
+			entry_proposals(place, entry, write);
+		return entry_declare(place, entry, text, len, "BOOL",
+				     name ? address : entry->choice[0]) &&
 		       keep_operand(entry, text, len);
 	case MEANS_VALUE:
 		break;
@@ -317,6 +327,8 @@ static bool read_line(const struct entry_place *place, const char *text, size_t 
 	trim(&rest, &rest_len);
 	if (is_expression(text, len))
 		return entry_expression(place, text, len, out);
+	if (entry_declared_len(text, len, ENTRY_WORD_POSSIBLE))
+		return take_symbol(place, text, len, out);
 	if (rest_len == 0 && is_there(place, text, len))
 		return take_symbol(place, text, len, out);
 	word = entry_word_find(place, text, head, &out->below);
@@ -338,7 +350,7 @@ static bool read_line(const struct entry_place *place, const char *text, size_t 
 	}
 	if (word != WORD_COUNT && word != ELEM_WIRE && word != ELEM_PIN)
 		return take_word(place, word, rest, rest_len, out);
-	if (rest_len > 0)
+	if (rest_len > 0 && !entry_declared_len(text, len, ENTRY_WORD_GIVEN))
 		return entry_wrong(out, N_("there is no such word"), text, head);
 	return take_symbol(place, text, len, out);
 }
@@ -362,7 +374,7 @@ bool entry_read(const struct entry_place *place, const char *line, struct entry 
 		return entry_wrong(out, N_("this is not UTF-8"), "", 0);
 	if (read_line(place, copy, len, out))
 		return true;
-	out->declares = 0;
+	out->declares = out->choices = 0;
 	return false;
 }
 

@@ -14,6 +14,8 @@
 #define ENTRY_TEXT 1024  /* bytes of an operand or of parameters, with NUL      */
 #define ENTRY_NAME 320   /* of a name, an address, a note                       */
 #define ENTRY_NEW_MOST 4 /* variables that one line may declare                 */
+#define ENTRY_CHOICES 3  /* addresses that a new one may get                    */
+#define ENTRY_ADDRESS_TEXT 32 /* bytes of one, with NUL                         */
 
 /* Where the line is typed. */
 struct entry_place {
@@ -29,7 +31,8 @@ struct entry_place {
 struct entry_new {
 	char name[ENTRY_NAME];
 	char type[ENTRY_NAME];    /* "BOOL", "TON"                             */
-	char address[32];         /* "%IX0.3"; "": none                        */
+	char address[ENTRY_ADDRESS_TEXT]; /* "%IX0.3"; "": none                */
+	char shares[ENTRY_NAME];  /* a variable that lies there already        */
 };
 
 enum entry_sense {
@@ -47,8 +50,13 @@ struct entry {
 	char args[ENTRY_TEXT];    /* "PT:=T#1s"; "": none                      */
 	struct entry_new declare[ENTRY_NEW_MOST];
 	int declares;             /* 0: everything named is there already      */
+	char choice[ENTRY_CHOICES][ENTRY_ADDRESS_TEXT]; /* of the last one, as it
+				     is proposed, then instead; "": none       */
+	int choices;              /* 0: the line or the place says it          */
 	const char *why;          /* N_() text; NULL: nothing is wrong         */
 	char what[ENTRY_NAME];    /* that @why speaks of                       */
+	const struct var *known;  /* whose declaration it speaks of, borrowed
+				     of the project; NULL: of none             */
 };
 
 /**
@@ -81,9 +89,9 @@ struct entry_candidate {
  * @out:    caller's, room for @most
  *
  * What is typed exactly, then what begins with it, then what has it inside; in each
- * of these variables of the fitting type, addresses in use, pins, words. The last one is
- * a new name, where one may stand: nothing is ever declared that is not chosen so or
- * told by entry_read(). Returns how many.
+ * of these variables of the fitting type, addresses in use, pins, words. The last ones
+ * are a new name, where one may stand, with each address that it may get: nothing is ever
+ * declared that is not chosen so or told by entry_read(). Returns how many.
  * Owns: nothing.   Scan-safe: no.
  */
 int entry_candidates(const struct entry_place *place, const char *line, size_t cursor,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_areas - addresses in use, and the one that a new name gets.
+ * entry_areas - addresses in use, and those that a new name may get.
  *
  * What is used and what is free the engine knows (view/address_map.h); which area a new
  * one belongs to is the habit of the project.
@@ -9,6 +9,7 @@
 
 #include "engine/view/address_map.h"
 
+#include <stdio.h>
 #include <string.h>
 
 /* The addresses of a place, or some made for a while. */
@@ -86,8 +87,12 @@ static enum iec_area habit(const struct xref *xref, bool output)
 	return is_used(xref, AREA_M) && !is_used(xref, AREA_Q) ? AREA_M : AREA_Q;
 }
 
-void entry_proposal(const struct entry_place *place, const struct entry *entry,
-		    bool output, char *out, size_t size)
+static void add_choice(struct entry *entry, struct iec_addr addr)
+{
+	iec_addr_print(addr, entry->choice[entry->choices++], ENTRY_ADDRESS_TEXT);
+}
+
+void entry_proposals(const struct entry_place *place, struct entry *entry, bool output)
 {
 	const struct pou *pou = entry_pou(place);
 	struct address_map map;
@@ -95,14 +100,54 @@ void entry_proposal(const struct entry_place *place, const struct entry *entry,
 	struct arena arena;
 	struct uses uses;
 
-	out[0] = '\0';
+	entry->choices = 0;
 	if (!pou || pou_has_frame(pou))
 		return;
 	arena_init(&arena);
-	if (open_uses(place, &uses) && address_map_make(&map, uses.xref, &arena) &&
-	    (next_bit(&map, habit(uses.xref, output), entry, &addr) ||
-	     next_bit(&map, AREA_M, entry, &addr)))
-		iec_addr_print(addr, out, size);
+	if (open_uses(place, &uses) && address_map_make(&map, uses.xref, &arena)) {
+		const enum iec_area first = habit(uses.xref, output);
+		const enum iec_area second = first == AREA_M ? AREA_Q : AREA_M;
+
+		if (next_bit(&map, first, entry, &addr))
+			add_choice(entry, addr);
+		if (next_bit(&map, second, entry, &addr))
+			add_choice(entry, addr);
+	}
+	entry->choice[entry->choices++][0] = '\0';
 	close_uses(&uses);
 	arena_free(&arena);
+}
+
+/* Bits from the begin of the area. */
+static uint64_t bits_from(struct iec_addr addr)
+{
+	return (uint64_t)addr.byte * 8 + addr.bit;
+}
+
+static bool lies_on(const struct var *var, struct iec_addr bit)
+{
+	const uint32_t count = var->array.count ? var->array.count : 1;
+	const struct iec_addr last = vars_shift(var->at, count - 1);
+
+	return var->at.area == bit.area && bits_from(bit) >= bits_from(var->at) &&
+	       bits_from(bit) < bits_from(last) + last.bits;
+}
+
+static const struct var *find_on(const struct var_table *table, struct iec_addr bit)
+{
+	for (int i = 0; i < table->count; i++)
+		if (table->var[i].at.area != AREA_NONE && lies_on(&table->var[i], bit))
+			return &table->var[i];
+	return NULL;
+}
+
+void entry_shares(const struct entry_place *place, struct iec_addr bit, char *out,
+		  size_t size)
+{
+	const struct project *project = place->project;
+	const struct var *var = find_on(&project->globals, bit);
+
+	for (int i = 0; !var && i < project->pou_count; i++)
+		var = find_on(&project->pou[i].vars, bit);
+	snprintf(out, size, "%s", var ? project_text(project, var->name) : "");
 }

@@ -43,7 +43,8 @@ bool entry_declare(const struct entry_place *place, struct entry *entry, const c
 {
 	struct entry_new *made;
 
-	(void)place;
+	struct iec_addr addr;
+
 	for (int i = 0; i < entry->declares; i++)
 		if (ascii_is(entry->declare[i].name, name, len))
 			return true;
@@ -53,6 +54,8 @@ bool entry_declare(const struct entry_place *place, struct entry *entry, const c
 	snprintf(made->name, sizeof(made->name), "%.*s", (int)len, name);
 	snprintf(made->type, sizeof(made->type), "%s", type);
 	snprintf(made->address, sizeof(made->address), "%s", address);
+	if (iec_addr_parse(address, strlen(address), &addr) == ADDR_OK)
+		entry_shares(place, addr, made->shares, sizeof(made->shares));
 	return true;
 }
 

@@ -2,8 +2,8 @@
  *
  * entry_candidates - what the word before the cursor could become, best first.
  *
- * What is offered exists, but for the last one, a new name, which says so: taking the
- * first of the list never makes anything new. It shows nothing.
+ * What is offered exists, but for a new name at the end, which says so: taking the first
+ * of the list makes nothing new if anything is there. It shows nothing.
  */
 #include "editor-gtk/entry_search.h"
 #include "editor-gtk/i18n.h"
@@ -75,12 +75,19 @@ static int whole_part(const char *text, int most)
 	return most;
 }
 
-/* Keeps the list sorted; the last one falls off when it is full. One place is left for
- * a new name. */
+/* Kept for a new name: for one with each of its addresses, if that is not most of all. */
+static int kept(const struct search *s)
+{
+	if (!(s->want & WANT_NEW))
+		return 0;
+	return s->most > 2 * ENTRY_CHOICES ? ENTRY_CHOICES : 1;
+}
+
+/* Keeps the list sorted; the last one falls off when it is full. */
 static void add(struct search *s, enum entry_kind kind, int fits, const char *text,
 		const char *address, const char *note, const char *comment)
 {
-	const int room = s->most - (s->want & WANT_NEW ? 1 : 0);
+	const int room = s->most - kept(s);
 	const int rank = fits * 10 + kind_rank(s, kind);
 	int at = s->count;
 	struct entry_candidate *c;
@@ -349,34 +356,7 @@ static void add_pin_names(struct search *s)
 	}
 }
 
-/* ---- a new name ---- */
-
-/* The last one, if the line with it would declare something: just what. */
-static void add_new(struct search *s)
-{
-	struct entry *entry = malloc(sizeof(*entry));
-	struct entry_candidate *c = &s->out[s->count];
-	bool made;
-
-	if (!entry || s->count == s->most || typed_len(s) == 0) {
-		free(entry);
-		return;
-	}
-	made = entry_read(s->place, s->line, entry) && entry->declares > 0 &&
-	       ascii_is(entry->declare[entry->declares - 1].name, typed(s), typed_len(s));
-	if (made) {
-		const struct entry_new *declared = &entry->declare[entry->declares - 1];
-
-		memset(c, 0, sizeof(*c));
-		c->kind = ENTRY_NEW;
-		snprintf(c->text, sizeof(c->text), "%s", declared->name);
-		snprintf(c->address, sizeof(c->address), "%s", declared->address);
-		snprintf(c->note, sizeof(c->note), "%s", declared->type);
-		snprintf(c->line, sizeof(c->line), "%s", s->line);
-		s->count++;
-	}
-	free(entry);
-}
+/* ---- all of them ---- */
 
 static void find_all(struct search *s)
 {
@@ -406,7 +386,7 @@ static void find_all(struct search *s)
 		ladder_functions(s->place->project, typed(s), typed_len(s), add_function,
 				 s);
 	if (s->want & (WANT_NEW | WANT_INSTANCE | WANT_ANY))
-		add_new(s);
+		entry_add_new(s);
 }
 
 /* Bytes up to the last dot of the word, if an instance or structure stands there. */
@@ -436,8 +416,10 @@ static int search(const struct entry_place *place, const char *line, size_t curs
 	while (s.from > 0 && entry_is_part(line[s.from - 1]))
 		s.from--;
 	s.head = find_head(&s);
-	entry_find_want(&s);
-	find_all(&s);
+	if (!entry_is_said(&s)) {
+		entry_find_want(&s);
+		find_all(&s);
+	}
 	free(s.rank);
 	return s.count;
 }

@@ -44,6 +44,10 @@ void entry_target_find(const struct entry_place *place, const char *text, size_t
  * enum var_flag of its block, may be NULL. */
 const struct var *entry_var_find(const struct entry_place *place, const char *text,
 				 size_t len, uint16_t *flags);
+/** entry_address_parse - in any spelling. False: it is none; a wrong one is one and gets
+ * @why, N_() text. */
+bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
+			 const char **why);
 /** entry_is_name - could a variable be called so? */
 bool entry_is_name(const char *text, size_t len);
 /** entry_name_taken - by a variable, a POU, a label, or in the line itself. */
@@ -56,10 +60,12 @@ void entry_fresh_name(const struct entry_place *place, const struct entry *entry
 const char *entry_family_base(const struct word_row *row);
 
 /* entry_areas.c */
-/** entry_proposal - a free bit for a new Boolean, canonical; "": none. What is called has
- * its own memory. */
-void entry_proposal(const struct entry_place *place, const struct entry *entry,
-		    bool output, char *out, size_t size);
+/** entry_proposals - the choice of @entry: free bits for a new Boolean, the one it gets
+ * first, and at the end none. No choice for what is called: that has its own memory. */
+void entry_proposals(const struct entry_place *place, struct entry *entry, bool output);
+/** entry_shares - name of a variable that has the bit too, "": none. */
+void entry_shares(const struct entry_place *place, struct iec_addr bit, char *out,
+		  size_t size);
 /** entry_each_address - hands over every address that is used by itself. */
 void entry_each_address(const struct entry_place *place,
 			void (*take)(void *context, struct iec_addr addr),
@@ -94,6 +100,19 @@ bool entry_declare(const struct entry_place *place, struct entry *entry, const c
 bool entry_wrong(struct entry *entry, const char *why, const char *what, size_t len);
 /** entry_append - to a text of @size; false if it does not fit. */
 bool entry_append(char *out, size_t size, const char *text, size_t len);
+
+/* entry_declaration.c */
+/* What a name with `%` behind it could be, too: a word with its operand. */
+enum entry_doubt { ENTRY_WORD_POSSIBLE, ENTRY_WORD_GIVEN };
+/** entry_declared_len - bytes of the name that a declaration begins with, `Open AT` or
+ * `Open :`, or `Open %` if no word is in doubt; 0: it is no declaration. */
+size_t entry_declared_len(const char *text, size_t len, enum entry_doubt doubt);
+/** entry_declaration - what is said behind the @name bytes of a name. @address gets it,
+ * canonical, "": none. Fails: false, the entry says why: it is no BOOL, or another than
+ * the name has. */
+bool entry_declaration(const struct entry_place *place, const char *text, size_t len,
+		       size_t name, bool write, char *address, size_t size,
+		       struct entry *entry);
 
 /* entry_expression.c */
 /** entry_expression - a comparison or an assignment. */

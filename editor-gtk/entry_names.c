@@ -138,9 +138,8 @@ static bool parse_letter(const char *text, size_t len, struct iec_addr *out)
 	return iec_addr_parse(other, len, out) == ADDR_OK;
 }
 
-/* Returns whether it is an address; a wrong one says why. */
-static bool parse_address(const char *text, size_t len, struct iec_addr *out,
-			  const char **why)
+bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
+			 const char **why)
 {
 	switch (iec_addr_parse(text, len, out)) {
 	case ADDR_OK:
@@ -333,7 +332,7 @@ void entry_target_find(const struct entry_place *place, const char *typed, size_
 		walk(place, text + head, text + len, out);
 	} else if (find_system(text, len, out)) {
 		return;
-	} else if (parse_address(text, whole, &out->addr, &out->why)) {
+	} else if (entry_address_parse(text, whole, &out->addr, &out->why)) {
 		if (out->why)
 			out->means = MEANS_WRONG;
 		else

@@ -32,6 +32,7 @@ G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
 #define LIST_HEIGHT 190
 #define ROWS_SEEN   8    /* at least so many fill the list                     */
 #define REST_MS     120
+#define TOLD_WIDTH  60   /* characters: most of what is told fits a line        */
 
 static void row_free(gpointer pointer)
 {
@@ -330,7 +331,10 @@ static void ladder_entry_popup_init(LadderEntryPopup *popup)
 	gtk_widget_add_css_class(popup->line, "monospace");
 	gtk_label_set_xalign(GTK_LABEL(popup->told), 0);
 	gtk_label_set_wrap(GTK_LABEL(popup->told), TRUE);
-	gtk_label_set_max_width_chars(GTK_LABEL(popup->told), 44);
+	/* Its own width, not that of its shortest lines: else the popover, which takes its
+	 * height from another width, cuts the last one off. */
+	gtk_label_set_natural_wrap_mode(GTK_LABEL(popup->told), GTK_NATURAL_WRAP_NONE);
+	gtk_label_set_max_width_chars(GTK_LABEL(popup->told), TOLD_WIDTH);
 	gtk_widget_add_css_class(popup->told, "caption");
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(popup->scroller), popup->list);
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(popup->scroller),

@@ -33,4 +33,9 @@ bool entry_is_part(char c);
 /** entry_find_want - what may stand at the word before the cursor, by what stands before
  * that. */
 void entry_find_want(struct search *s);
+/** entry_add_new - a new name behind the others, if the line would declare it. */
+void entry_add_new(struct search *s);
+/** entry_is_said - does the cursor stand in what a line says of its name, `AT %I`? It is
+ * offered then. */
+bool entry_is_said(struct search *s);
 #endif

@@ -93,26 +93,6 @@ static void add_candidate(const struct asked *asked, const struct entry_candidat
 	ladder_entry_popup_add(LADDER_ENTRY_POPUP(asked->view->entry), &row);
 }
 
-static char *outcome(const struct entry *entry, const char *line, bool *good)
-{
-	GString *text = g_string_new(NULL);
-
-	*good = entry->sense != ENTRY_WRONG;
-	if (entry->sense == ENTRY_WRONG && entry->why)
-		g_string_append_printf(text, "%s%s%s", _(entry->why),
-				       entry->what[0] ? ": " : "", entry->what);
-	else if (entry->sense == ENTRY_PART && line[0])
-		g_string_append(text, _("the operand is still missing"));
-	for (int i = 0; i < entry->declares; i++) {
-		const struct entry_new *declare = &entry->declare[i];
-
-		g_string_append_printf(text, _("%snew: %s%s%s : %s"), i ? "; " : "",
-				       declare->name, declare->address[0] ? " AT " : "",
-				       declare->address, declare->type);
-	}
-	return g_string_free(text, FALSE);
-}
-
 static char *element_changed(void *context, const char *line, int cursor, bool *good)
 {
 	struct asked *asked = context;
@@ -131,7 +111,7 @@ static char *element_changed(void *context, const char *line, int cursor, bool *
 	whole = whole_line(asked, line, &skipped);
 	at = skipped + (size_t)(g_utf8_offset_to_pointer(line, cursor) - line);
 	entry_read(&place, whole, entry);
-	told = outcome(entry, line, good);
+	told = entry_outcome(asked->view, entry, line, good);
 	count = entry_candidates(&place, whole, at, found, CANDIDATES);
 	for (int i = 0; i < count; i++)
 		add_candidate(asked, &found[i], skipped);

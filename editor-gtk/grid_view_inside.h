@@ -230,6 +230,13 @@ void entry_close(LadderGridView *view);
 void entry_forget_uses(LadderGridView *view);
 void entry_allocate(LadderGridView *view);
 
+/* ---- grid_view_outcome.c ---- */
+struct entry;
+/** entry_outcome - what is told of a @line that was read: what is wrong, what would be
+ * declared. @good: is nothing wrong? Caller frees with g_free(). */
+char *entry_outcome(LadderGridView *view, const struct entry *entry, const char *line,
+		    bool *good);
+
 /* ---- grid_view_tell.c ---- */
 void tell_init(LadderGridView *view);
 

@@ -58,7 +58,7 @@ static void declare(LadderSfcView *view, const char *name, bool output)
 	struct entry *entry = g_new0(struct entry, 1);
 	char *line = output ? g_strdup_printf("OUT %s", name) : g_strdup(name);
 
-	if (!strpbrk(name, " .()<>=+-*/[]") && entry_read(&place, line, entry))
+	if (!strpbrk(name, " .:()<>=+-*/[]") && entry_read(&place, line, entry))
 		for (int i = 0; i < entry->declares; i++)
 			ladder_document_declare(view->document,
 				entry->declare[i].address[0] ? -1 : view->pou,

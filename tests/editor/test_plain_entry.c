@@ -123,6 +123,53 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "NO Open", "NO Open + Open BOOL %IX0.2" },
 	{ "S Horn", "S Horn + Horn BOOL %QX0.3" },
 	{ "XIC 启动", "NO 启动 + 启动 BOOL %IX0.2" },
+	/* what is said of it is not proposed */
+	{ "Open %IX0.5", "NO Open + Open BOOL %IX0.5" },
+	{ "Open AT %IX0.5", "NO Open + Open BOOL %IX0.5" },
+	{ "Open : BOOL", "NO Open + Open BOOL" }, { "Open:bool", "NO Open + Open BOOL" },
+	{ "Open at %IX0.5 : BOOL", "NO Open + Open BOOL %IX0.5" },
+	{ "Open %IX0.5:BOOL", "NO Open + Open BOOL %IX0.5" },
+	{ "Open AT I:0/5 : BOOL", "NO Open + Open BOOL %IX0.5" },
+	{ "Open AT E0.5", "NO Open + Open BOOL %IX0.5" },
+	{ "XIC Open %MX3.1", "NO Open + Open BOOL %MX3.1" },
+	{ "OR Open : BOOL", "below NO Open + Open BOOL" },
+	{ "-|/|- Open %IX0.5", "NC Open + Open BOOL %IX0.5" },
+	{ "/Open %IX0.5", "NC Open + Open BOOL %IX0.5" },
+	{ "OUT Lamp %QX0.5", "COIL Lamp + Lamp BOOL %QX0.5" },
+	{ "SET Lamp AT %MX0.5", "S Lamp + Lamp BOOL %MX0.5" },
+	{ "= Lamp : BOOL", "COIL Lamp + Lamp BOOL" },
+	{ ">Lamp %QX0.5", "COIL Lamp + Lamp BOOL %QX0.5" },
+	{ ">/Lamp : BOOL", "COILNOT Lamp + Lamp BOOL" },
+	{ "启动 %IX0.5", "NO 启动 + 启动 BOOL %IX0.5" },
+	{ "A %IX0.5", "NO %IX0.5" }, { "A AT %IX0.5", "NO A + A BOOL %IX0.5" },
+	{ "A : BOOL", "NO A + A BOOL" },
+	{ "Open %IX0.0", "NO Open + Open BOOL %IX0.0 beside Start" },
+	{ ">Lamp %QX1.3", "COIL Lamp + Lamp BOOL %QX1.3 beside Lamps" },
+	{ "Start %IX0.0", "NO Start" }, { "start AT I0.0 : BOOL", "NO Start" },
+	{ "Start : BOOL", "NO Start" }, { "FanDelay : TON", "NO FanDelay.Q" },
+	{ "Start %IX0.5", "! it is declared as (Start AT %IX0.0 : BOOL)" },
+	{ "Start : INT", "! it is declared as (Start AT %IX0.0 : BOOL)" },
+	{ "Lamps : BOOL", "! it is declared as (Lamps AT %QX1.0 : ARRAY OF BOOL)" },
+	{ "FanDelay : TOF", "! it is declared as (FanDelay : TON)" },
+	{ "Level : INT", "! this is no BOOL: compare it, as in Level > 5 (Level)" },
+	{ "OUT Start %IX0.0", "! this cannot be written (Start)" },
+	{ "Open %IW2", "! this is no address of a BOOL (%IW2)" },
+	{ "Open %IX0.9", "! there is no such address (%IX0.9)" },
+	{ "Open %IX60000.0", "! there is no such address (%IX60000.0)" },
+	{ "Open %ZX0.1 : BOOL", "! this is no address (%ZX0.1)" },
+	{ "Open AT Start", "! this is no address (Start)" },
+	{ "Open AT", "! an address is missing behind AT (Open)" },
+	{ "Open AT : BOOL", "! an address is missing behind AT (Open)" },
+	{ "Open :", "! a type is missing behind the colon (Open)" },
+	{ "Open : FROB", "! there is no such type (FROB)" },
+	{ "Open : INT", "! this is no BOOL (INT)" },
+	{ "Open : ARRAY[0..3] OF BOOL", "! this is no BOOL (ARRAY[0..3] OF BOOL)" },
+	{ "Open : BOOL := TRUE", "! only an address and a type stand behind a name (:= TRUE)" },
+	{ "Open %IX0.5 now", "! only an address and a type stand behind a name (now)" },
+	{ "OUT Lamp %IX0.5", "! this cannot be written (%IX0.5)" },
+	{ "PROGRAM : BOOL", "! no variable can be called so (PROGRAM)" },
+	{ "SYS_FIRST_SCAN : BOOL", "! no variable can be called so (SYS_FIRST_SCAN)" },
+	{ "P1.On %IX0.5", "! no variable can be called so (P1.On)" },
 	/* wrong */
 	{ "Level", "! this is no BOOL: compare it, as in Level > 5 (Level)" },
 	{ ">Start", "! this cannot be written (Start)" },
@@ -157,9 +204,11 @@ static void say(struct project *project, const struct entry *e, char *out, size_
 	text_write_cell(project, &cell, cell_text, sizeof(cell_text));
 	n = snprintf(out, size, "%s%s", e->below ? "below " : "", cell_text);
 	for (int i = 0; i < e->declares; i++)
-		n += snprintf(out + n, size - (size_t)n, " + %s %s%s%s",
+		n += snprintf(out + n, size - (size_t)n, " + %s %s%s%s%s%s",
 			      e->declare[i].name, e->declare[i].type,
-			      e->declare[i].address[0] ? " " : "", e->declare[i].address);
+			      e->declare[i].address[0] ? " " : "", e->declare[i].address,
+			      e->declare[i].shares[0] ? " beside " : "",
+			      e->declare[i].shares);
 }
 
 static void check_lines(struct entry_place *place)
@@ -181,11 +230,11 @@ static void check_lines(struct entry_place *place)
 /* The list for a line whose cursor stands at `_`; `>` begins one of the last column. */
 static const struct { const char *line, *offers; } offered[] = {
 	{ "Fan_", "Fan FanDelay" },
-	{ "fa_", "Fan FanDelay new:fa@%IX0.2" },
-	{ ">fa_", "Fan new:fa@%QX0.3" },
-	{ "NO Mo_", "Motor new:Mo@%IX0.2" },
-	{ "COIL Sta_", "new:Sta@%QX0.3" },
-	{ "XIC tor_", "Motor new:tor@%IX0.2" },
+	{ "fa_", "Fan FanDelay new:fa@%IX0.2 new:fa@%MX0.1 new:fa@" },
+	{ ">fa_", "Fan new:fa@%QX0.3 new:fa@%MX0.1 new:fa@" },
+	{ "NO Mo_", "Motor new:Mo@%IX0.2 new:Mo@%MX0.1 new:Mo@" },
+	{ "COIL Sta_", "new:Sta@%QX0.3 new:Sta@%MX0.1 new:Sta@" },
+	{ "XIC tor_", "Motor new:tor@%IX0.2 new:tor@%MX0.1 new:tor@" },
 	{ "FanDelay._", "FanDelay.IN FanDelay.Q" },
 	{ "NO FanDelay.q_", "FanDelay.Q" },
 	{ "TON _", "FanDelay Q=> PT:= ET=>" },
@@ -200,11 +249,33 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "[ Level + AB_", "ABS( new:AB@" },
 	{ "Level := INT_TO_RE_", "INT_TO_REAL( new:INT_TO_RE@" },
 	{ "Level > LE_", "Level LEN( new:LE@" },
-	{ "NO SQ_", "new:SQ@%IX0.2" },
+	{ "NO SQ_", "new:SQ@%IX0.2 new:SQ@%MX0.1 new:SQ@" },
 	{ "Level := Fu_", "Full new:Fu@" },
 	{ "tonr_", "TONR" }, { "xic_", "XIC" },
 	{ "NO Start_", "Start" },
+	/* said of a new name */
+	{ "/Gate_", "new:Gate@%IX0.2 new:Gate@%MX0.1 new:Gate@" },
+	{ "Open AT_", "new:Open@%IX0.2 new:Open@%MX0.1 new:Open@" },
+	{ "Open AT _", "new:Open@%IX0.2 new:Open@%MX0.1 new:Open@" },
+	{ "Open %_", "new:Open@%IX0.2 new:Open@%MX0.1" },
+	{ "XIC Open AT %m_", "new:Open@%MX0.1" }, { ">/Lamp %q_", "new:Lamp@%QX0.3" },
+	{ "Open AT %IX0.5_", "" }, { "Open AT %IX0.5 : _", "new:Open@%IX0.5" },
+	{ "Open :_", "new:Open@" }, { "-(S)- Lamp : bo_", "new:Lamp@" }, { "Open : I_", "" },
+	{ "Gate_ %IX0.5", "new:Gate@%IX0.5" }, { "Start %_", "" }, { "Motor : _", "" },
 };
+
+/* What a row of a new name shows is what its line declares. */
+static void check_row(const struct entry_place *place, const struct entry_candidate *row)
+{
+	struct entry entry;
+	const struct entry_new *made = &entry.declare[0];
+
+	if (!entry_read(place, row->line, &entry)) /* an expression that is not whole */
+		return;
+	if (!CHECK_AS(entry.declares == 1 && !strcmp(made->name, row->text) &&
+		      !strcmp(made->address, row->address), row->line))
+		printf("# declares %s AT %s\n", made->name, made->address);
+}
 
 static void list(const struct entry_place *place, const char *line, char *out,
 		 size_t size)
@@ -221,6 +292,8 @@ static void list(const struct entry_place *place, const char *line, char *out,
 	for (int i = 0; i < count; i++) {
 		const bool new = found[i].kind == ENTRY_NEW;
 
+		if (new)
+			check_row(place, &found[i]);
 		n += snprintf(out + n, size - (size_t)n, "%s%s%s%s%s", i ? " " : "",
 			      new ? "new:" : "", found[i].text, new ? "@" : "",
 			      new ? found[i].address : "");
@@ -285,7 +358,7 @@ static void make_line(char *out, size_t size)
 		"FOR", "RET", "NOT", "AND", "[", "]", "(", ")", ":=", "=>", ">", "<=", "+",
 		"/", "!", "-", "-|/|-", ".", ".Q", ".On", "PT", "IN1", "OUT", ",", "5", "2.5s",
 		"T#1s", "16#FF", "%IX0.0", "%MW4", "I0.1", "X7", "Y10", "I:0/3", "'text'",
-		"\"", "%", "_T1", "启", "\xff", "$", "(*", "//", "|", "^", "DIV", "MUX",
+		"\"", "%", ":", "AT", "BOOL", "_T1", "启", "\xff", "$", "(*", "//", "|", "^", "DIV", "MUX",
 	};
 	size_t n = 0;
 
@@ -348,7 +421,8 @@ static void check_any(struct entry_place *place)
 						 (size_t)roll((int)strlen(line) + 2), found,
 						 1 + roll(8));
 			for (int k = 0; k + 1 < count; k++)
-				if (found[k].kind == ENTRY_NEW)
+				if (found[k].kind == ENTRY_NEW &&
+				    found[k + 1].kind != ENTRY_NEW)
 					wrong = "a new name is not the last";
 		}
 		if (wrong)

@@ -352,6 +352,21 @@ class Editor:
         x, y, width, height = self.place(node)
         return x + width // 2, y + height // 2
 
+    def popped(self, node):
+        """The middle of a widget in a popover: that is a window of its own, of just its size."""
+        left, top, width, height = self.at_rest(node)
+        nodes = self.known()
+        windows = [re.findall(r'(?:upper-left [XY]|Width|Height): +(-?\d+)', sh('xwininfo', '-id', each))
+                   for each in sh('xdotool', 'search', '--onlyvisible', '--class', 'ladder-editor').split()]
+        while node.parent in nodes:
+            node = nodes[node.parent]
+            x0, y0, *size = node.box() if node.widget else (0, 0)
+            for about in windows:
+                x, y, _, _, *of_window = [int(number) for number in about]
+                if size and of_window == size:
+                    return x + left - x0 + width // 2, y + top - y0 + height // 2
+        raise AssertionError('"%s" is in no popover' % node.name)
+
     def grid(self, rung_y, column):
         """A point of the sheet: so many px below its top, in the middle of a column of 98 px."""
         x, y, _, _ = self.place(self.sheet())
@@ -450,6 +465,13 @@ class Editor:
     def asked(self):
         """The line that is open at the cursor."""
         return [node for node in self.all(role='text') if node.path not in self.lines]
+
+    def candidate(self, *parts):
+        """The row below the entry whose name has all these parts; waits for it."""
+        def look():
+            found = [node for node in self.all(parts[0], 'list item') if all(part in node.name for part in parts)]
+            return found[0] if found else None
+        return until(look, 'the candidate %s' % ', '.join(parts))
 
     def gone(self):
         until(lambda: not self.asked(), 'the entry to be gone')

@@ -45,18 +45,32 @@ def by_keyboard(screen):
     assert editor.save(path) == text
 
 
-def choose(editor, text):
+SYMBOLS = '''RUNGBOARD 1
+
+VAR_GLOBAL
+  Start AT %IX0.0 : BOOL;
+  Stop AT %IX0.1 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+END_PROGRAM
+'''
+
+
+def choose(editor, *parts):
     """Clicks a candidate of the entry that opened."""
     editor.opened()
-    editor.type(text)
-    editor.keys('Return')
+    editor.click(editor.popped(editor.candidate(*parts)))
     editor.gone()
 
 
 def by_pointer(screen):
-    """the same by pointer: elements from the palette, the branch as a stroke of wire, names typed"""
-    path = new_file(screen)
+    """the same by pointer: elements from the palette, the branch as a stroke of wire, symbols from the list"""
+    path = new_file(screen, SYMBOLS)
     editor = Editor(screen, path)
+    editor.keys = editor.type = None  # nothing is typed
     contact = editor.tile('closed while TRUE')
     negated = editor.tile('closed while FALSE')
     coil = editor.tile('TRUE while powered')

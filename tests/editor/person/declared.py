@@ -1,0 +1,111 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""declared - a new name at the cursor: its address and type are typed with it, or taken from the list."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+PROJECT = '''RUNGBOARD 1
+
+VAR_GLOBAL
+  Start_of_belt AT %IX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start_of_belt |
+END_PROGRAM
+'''
+
+
+def bottom(node):
+    _, y, _, height = node.box()
+    return y + height
+
+
+def typed(screen):
+    """an address and a type behind a name are declared with the element, in one step"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    before = open(path).read()
+    editor.to_sheet()
+    editor.entry('Open %IX0.5')
+    editor.entry('XIO Gate : BOOL')
+    editor.entry('OUT Lamp AT %QX0.7 : BOOL')
+    text = editor.save(path)
+    for wanted in 'Open AT %IX0.5 : BOOL;', 'Gate : BOOL;', 'Lamp AT %QX0.7 : BOOL;':
+        assert '  %s\n' % wanted in text, text
+    assert '| NO Open | NC Gate | COIL Lamp |' in text, text
+    check(path)
+    editor.keys('ctrl+z')
+    text = editor.save(path)
+    assert 'Lamp' not in text and 'Gate : BOOL;' in text, text
+    editor.keys('ctrl+z', 'ctrl+z')
+    assert editor.save(path) == before
+
+
+def refused(screen):
+    """what cannot be is told at once, and where another declaration stands; the line stays"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('End')
+    editor.type('OUT Start_of_belt %QX0.1')
+    told = editor.says('it is declared as: Start_of_belt AT %IX0.0 : BOOL, line 4')
+    until(lambda: bottom(told) <= bottom(editor.known()[told.parent]), 'all of it to be seen')
+    editor.shot('declared-otherwise')
+    editor.keys('Return')
+    editor.says('it is declared as: Start_of_belt')
+    assert editor.asked()[0].text() == 'OUT Start_of_belt %QX0.1'
+    editor.keys('ctrl+a')
+    editor.type('OUT Lamp %QX0.9')
+    editor.says('there is no such address: %QX0.9')
+    editor.keys('ctrl+a')
+    editor.type('OUT Lamp : LAMP')
+    editor.says('there is no such type: LAMP')
+    editor.keys('Escape')
+    editor.gone()
+    editor.keys('Home')
+    editor.type('Begin %IX0.0')
+    editor.says('new: Begin AT %IX0.0 : BOOL (Start_of_belt lies there, too)')
+    editor.shot('declared-shared')
+    editor.keys('Return')
+    editor.gone()
+    assert editor.save(path).count(' AT %IX0.0 : BOOL;') == 2
+
+
+def chosen(screen):
+    """the list offers a new name with each address that it may get: by pointer, by keys, to be changed"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.type('Open')
+    editor.candidate('Open, new %IX0.0 BOOL')
+    editor.candidate('Open, new  BOOL, no address')
+    marker = editor.candidate('Open, new %MX0.0 BOOL')
+    editor.shot('declared-list')
+    editor.click(editor.popped(marker))
+    editor.gone()
+    editor.type('Gate')
+    editor.opened()
+    editor.keys('Down', 'Down', 'Down', 'Return')
+    editor.gone()
+    editor.type('OUT Lamp')
+    editor.candidate('Lamp, new %MX0.1 BOOL')  # there are markers, and no outputs yet
+    editor.candidate('Lamp, new %QX0.0 BOOL')
+    editor.keys('Down', 'Down', 'Tab')
+    until(lambda: editor.asked()[0].text() == 'OUT Lamp AT %QX0.0', 'the address in the line')
+    editor.keys('BackSpace')
+    editor.type('6')
+    editor.keys('Return')
+    editor.gone()
+    text = editor.save(path)
+    for wanted in 'Open AT %MX0.0 : BOOL;', 'Gate : BOOL;', 'Lamp AT %QX0.6 : BOOL;':
+        assert '  %s\n' % wanted in text, text
+    assert '| NO Open | NO Gate | COIL Lamp |' in text, text
+    check(path)
+
+
+main([typed, refused, chosen])
