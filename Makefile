@@ -302,11 +302,13 @@ $(BUILD)/schemas/gschemas.compiled: packaging/org.rungboard.Editor.gschema.xml
 	@mkdir -p $(@D)
 	glib-compile-schemas --strict --targetdir=$(@D) packaging
 all: $(if $(EDITOR),$(BUILD)/schemas/gschemas.compiled)
-screenshots: $(BUILD)/ladder-editor $(BUILD)/schemas/gschemas.compiled ## docs/editor.png and the pictures of charts anew
-	$< --render ladders/sequence-s0-s8.rung -o docs/sequence-s0-s8.png
-	$< --render tests/classic/projects/linuxcnc.clp --rung 3 --before-after -o docs/from-classicladder.png
-	BUILD=$(BUILD) tests/editor/screenshot.py docs/editor.png
-.PHONY: screenshots
+pictures: $(BUILD)/ladder-editor ## docs/tutorial/*.svg anew, of the rung files beside them
+	$(foreach r,$(wildcard docs/tutorial/*.rung),$< --render $r -o $(r:.rung=.svg) &&) :
+screenshots: pictures $(BUILD)/schemas/gschemas.compiled ## the same, docs/editor.png, the windows of the tutorial and the pictures of charts
+	$(BUILD)/ladder-editor --render ladders/sequence-s0-s8.rung -o docs/sequence-s0-s8.png
+	$(BUILD)/ladder-editor --render tests/classic/projects/linuxcnc.clp --rung 3 --before-after -o docs/from-classicladder.png
+	$(foreach p,editor tutorial/empty tutorial/sealed,BUILD=$(BUILD) tests/editor/screenshot.py docs/$p.png &&) :
+.PHONY: pictures screenshots
 # The editor over the fake chips of the HAL's tests, for what it finds on a machine.
 EDITOR_FAKE := $(HAL_TEST)/editor_v2
 $(EDITOR_FAKE): $(BUILD)/editor-gtk/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_FAKE,v2,gpiod_v2) $(BUILD)/libeditor.a $(BUILD)/libladder.a

@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""screenshot - the window as the documents show it: screenshot.py docs/editor.png; `make screenshots`."""
+"""screenshot - the window as the documents show it: screenshot.py docs/editor.png; `make screenshots`.
+
+What is in a picture follows from its name: SCENES.
+"""
 import os
 import shutil
 import subprocess
@@ -10,8 +13,11 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), 'per
 import desk  # noqa: E402
 
 
-def simulate(editor):
+def door(screen):
     """The door of the sample goes up, and the chart shows since when."""
+    shutil.copytree(os.path.join(desk.ROOT, 'ladders'), os.path.join(screen.home, 'ladders'))
+    editor = desk.Editor(screen, os.path.join(screen.home, 'ladders', 'garage-door.rung'))
+    desk.until(lambda: editor.all('no problems', 'label'), 'the check')
     editor.press(editor.find('Timing chart'))
     editor.to_sheet()
     editor.keys('ctrl+r')
@@ -23,18 +29,42 @@ def simulate(editor):
     editor.says('PAUSE')
 
 
+def empty(screen):
+    """What a newcomer sees first, of docs/tutorial.md."""
+    editor = desk.Editor(screen)
+    editor.focus_on('New project')
+    editor.keys('Return')
+    editor.to_sheet()
+    editor.says('1 error')
+
+
+def sealed(screen):
+    """The tutorial's motor runs, and nobody holds Start."""
+    path = os.path.join(screen.home, 'motor.rung')
+    shutil.copy(os.path.join(desk.ROOT, 'docs', 'tutorial', '4-seal-in.rung'), path)
+    editor = desk.Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+Home', 'ctrl+r')
+    editor.says('SIMULATION')
+    for now in 'closed', 'open':
+        editor.keys('space')
+        editor.element('Rung 1, NO', 'Start', now)
+    editor.element('Rung 1, COIL', ', on')
+
+
+SCENES = {'editor': (door, 1280, 800), 'empty': (empty, 1024, 640), 'sealed': (sealed, 1280, 640)}
+
+
 def main(out):
     lacks = desk.missing()
     if lacks:
         sys.exit('screenshot: it needs ' + lacks)
-    screen = desk.Screen('1280x800x24')
+    scene, width, height = SCENES[os.path.splitext(os.path.basename(out))[0]]
+    screen = desk.Screen('%dx%dx24' % (width, height))
     try:
-        shutil.copytree(os.path.join(desk.ROOT, 'ladders'), os.path.join(screen.home, 'ladders'))
-        editor = desk.Editor(screen, os.path.join(screen.home, 'ladders', 'garage-door.rung'))
-        desk.until(lambda: editor.all('no problems', 'label'), 'the check')
-        simulate(editor)
+        scene(screen)
         # Nobody points at anything, and the last frame is drawn.
-        desk.sh('xdotool', 'mousemove', '1279', '799', 'sleep', '1.5')
+        desk.sh('xdotool', 'mousemove', str(width - 1), str(height - 1), 'sleep', '1.5')
         subprocess.run(['import', '-window', 'root', '+dither', '-colors', '96', '-strip', 'PNG8:' + out], check=True)
     finally:
         for editor in desk.editors[:]:

@@ -176,6 +176,7 @@ class Editor:
             self.process = subprocess.Popen([*WRAPPER, EDITOR, *files], stdout=log, stderr=subprocess.STDOUT,
                                             preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
         self.clicked = 0.0  # when the last click began
+        self.scale = int(env.get('GDK_SCALE', 1))  # pixels of the screen for one of a widget
         editors.append(self)
         self.bus = screen.accessibility()
         self.palette = None
@@ -333,9 +334,9 @@ class Editor:
                                 sh('xwininfo', '-id', self.window)))
         frame = self.call(self.name, self.root, 'Accessible', 'GetChildren')[0][1]
         _, _, width, height = self.ask([(frame, *EXTENTS)])[0][0]
-        x = int(about['Absolute upper-left X']) + (int(about['Width']) - width) // 2
-        y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height) // 2
-        left, top, width, height = self.at_rest(node)
+        x = int(about['Absolute upper-left X']) + (int(about['Width']) - width * self.scale) // 2
+        y = int(about['Absolute upper-left Y']) + (int(about['Height']) - height * self.scale) // 2
+        left, top, width, height = (each * self.scale for each in self.at_rest(node))
         return x + left, y + top, width, height
 
     @staticmethod

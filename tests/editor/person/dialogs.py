@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: MIT
 """dialogs - each can be cancelled with Esc, and the sheet has the focus again."""
 import os
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import Editor, check, main, new_file, sh, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 
@@ -19,6 +20,8 @@ RUNG
   | NO Start | COIL Motor |
 END_PROGRAM
 '''
+MAP = 'BOARD "Desk"\n%IX0.0  gpio  line=NOWHERE\n%QX0.0  sim  safe=0\n'
+OTHER = PROJECT.replace('Main', 'Other').replace('Motor', 'Pump')
 # key, and what is seen then
 DIALOGS = [
     ('ctrl+o', 'Open'), ('ctrl+shift+s', 'Save as'), ('F2', 'Rename everywhere'), ('ctrl+g', 'Go to rung'),
@@ -120,4 +123,124 @@ def commands(screen):
     editor.keys('Escape')
 
 
-main([dialogs, popups, give_back, close, commands])
+def kept(editor):
+    """Title and files, as they are now: what a dialog that is cancelled must leave alone."""
+    home, files = editor.screen.home, {}
+    for name in os.listdir(home):
+        path = os.path.join(home, name)
+        if os.path.isfile(path) and not name.startswith(('.', 'editor-')):  # editor-….log is of desk.py
+            with open(path, 'rb') as file:
+                files[name] = file.read()
+    return editor.all(role='frame')[0].name, len(editor.all('•')), files
+
+
+def command(editor, name):
+    editor.keys('ctrl+k')
+    until(lambda: editor.all('About Rungboard'), 'all commands')
+    editor.type(name)
+    until(lambda: not editor.all('About Rungboard'), 'that command alone')
+    editor.keys('Return')
+
+
+def titled(editor, title):
+    """Waits for a window of that title."""
+    until(lambda: [window for window in editor.windows() if sh('xdotool', 'getwindowname', window) == title],
+          'the window "%s"' % title)
+
+
+def escape(editor, before, picture):
+    """Esc, and nothing is another than before."""
+    editor.shot('dialogs-' + picture)
+    editor.keys('Escape')
+    until(lambda: len(editor.windows()) == 1, 'the end of the dialog')
+    assert kept(editor) == before, '%s: %s, not %s' % (picture, kept(editor), before)
+
+
+def writers(screen):
+    """what writes a file by a command: Esc in its dialog, and there is none"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    before = kept(editor)
+    for title, offered in (('Export as PDF', 'new.rung.pdf'), ('New I/O map', 'new.io'),
+                           ('Export as ClassicLadder', 'new.clprj')):
+        command(editor, title)
+        titled(editor, title)
+        until(lambda: editor.focused() and editor.focused().text() == offered, 'the name ' + offered)
+        escape(editor, before, offered)
+        editor.to_sheet()
+
+
+def replaced(screen):
+    """the question whether a file is replaced: Esc, and it is not; find and replace: Esc, and nothing was"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    other = new_file(screen, OTHER, 'other.rung')
+    editor.to_sheet()
+    before = kept(editor)
+    # The chooser of files asks for itself, and is there again; the editor asks where it gives the ending.
+    for name, question, windows in (other, 'Do you want to replace it?', 3), (other[:-5], 'Replace the file?', 2):
+        editor.keys('ctrl+shift+s')
+        titled(editor, 'Save as')
+        editor.keys('ctrl+a')
+        editor.type(name)
+        editor.keys('Return')
+        editor.find(question)
+        until(lambda: len(editor.windows()) == windows, 'the question alone')
+        if windows > 2:
+            editor.keys('Escape')
+            until(lambda: len(editor.windows()) == 2, 'the chooser')
+        escape(editor, before, 'replace-%d' % windows)
+        editor.to_sheet()
+    editor.keys('ctrl+h')
+    editor.focus_on(role='text')
+    editor.type('Motor')
+    editor.says('2 hits')
+    editor.into('Replace with')
+    editor.type('Engine')
+    escape(editor, before, 'find-replace')
+    editor.to_sheet()
+    assert any('Motor' in name for name in editor.cells()), editor.cells()
+
+
+def imported(screen):
+    """import from another project: Esc where the project is chosen, and where its parts are"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    other = new_file(screen, OTHER, 'other.rung')
+    editor.click([node for node in editor.all('Main', 'label') if node.name == 'Main'][0])
+    before = kept(editor)
+
+    def item():
+        """The item of the menu, which has the keys."""
+        return any(node.has(12) for node in editor.all('Import from another project', 'menu item'))
+    for chosen in False, True:
+        editor.keys('Menu')
+        editor.find('Import from another project', 'menu item')
+        until(lambda: item() or editor.keys('Down'), 'the item')
+        editor.keys('Return')
+        titled(editor, 'Import from another project')
+        if chosen:
+            editor.keys('ctrl+a')
+            editor.type(other)
+            editor.keys('Return')
+            editor.find('Other', 'check box')
+        escape(editor, before, 'import-%d' % chosen)
+    assert not editor.all('Other', 'label')
+
+
+def board(screen):
+    """run on this machine: Esc at the question, and nothing runs, nothing is saved"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    new_file(screen, MAP, 'new.io')
+    editor.to_sheet()
+    for change in (), ('slash',):  # of pins, and of what is not saved too
+        editor.keys(*change)
+        until(lambda: bool(editor.all('•')) == bool(change), 'the mark of a change')
+        before = kept(editor)
+        command(editor, 'Run on this machine')
+        editor.find('Run on this machine?')
+        escape(editor, before, 'board-%d' % len(change))
+        editor.to_sheet()
+        began = subprocess.run(['pgrep', '-P', str(editor.pid), 'ladderd'], capture_output=True, text=True)
+        assert not began.stdout and not editor.all('Started with'), 'it ran'
+
+
+main([dialogs, popups, give_back, close, commands, writers, replaced, imported, board])

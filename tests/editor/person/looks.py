@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""looks - the window in the dark, with more contrast and on a small screen is used as any other."""
+"""looks - the window in the dark, with more contrast, on a small screen and a very large one is used as any other."""
 import os
 import subprocess
 import sys
@@ -81,5 +81,51 @@ def high(screen):
         assert set(ground) <= {0, 0x8b, 0x92} and ground.count(0) > 1500, set(ground)
 
 
+def fills(editor, width, height):
+    """Waits until the window has the whole screen, and its parts are where they belong."""
+    def inside():
+        edge = editor.scale  # a frame may be drawn round what it holds
+        places = [node.box() for node in editor.walk() if node.widget]
+        return all(x >= -edge and y >= -edge and (x + w - edge) * editor.scale <= width and
+                   (y + h - edge) * editor.scale <= height for x, y, w, h in places if w > 0)
+    frame = editor.all(role='frame')[0]
+    until(lambda: width - 24 <= frame.box()[2] * editor.scale <= width and
+          height - 24 <= frame.box()[3] * editor.scale <= height, 'the window to fill the screen')
+    until(inside, 'all parts to be inside')
+    left, top, wide, high = editor.place(editor.sheet())
+    search_x, _, search_wide, _ = editor.place(editor.find('Find an element'))
+    _, tabs_y, _, _ = editor.place(editor.find('Problems', 'page tab'))
+    _, state_y, _, state_high = editor.place(editor.find('no problems', 'label'))
+    assert search_x + search_wide <= left and left < 600 * editor.scale, 'the palette ends at %d' % left
+    assert top + high <= tabs_y and top < 200 * editor.scale, 'the sheet ends at %d' % (top + high)
+    assert height - 60 * editor.scale <= state_y and state_y + state_high <= height, 'the state is at %d' % state_y
+    return left + wide
+
+
+def large(screen, name='looks-4k', **env):
+    """a screen of 3840x2160: the window fills it, all is inside and where the pointer finds it"""
+    editor = draw(screen, name + '-window', **env)
+    editor.keys('F11', 'ctrl+Home')
+    assert fills(editor, 3840, 2160) >= 3800, 'the sheet does not reach the right side'
+    editor.click(editor.tile('closed while FALSE'))
+    editor.opened()
+    editor.keys('Escape')
+    editor.to_sheet()
+    editor.keys('ctrl+r')
+    switch = editor.find('Input Start, %IX0.0', 'check box')
+    right = fills(editor, 3840, 2160)
+    x, _, width, _ = editor.place(switch)
+    assert right <= x and x + width <= 3840, 'the switch is at %d to %d' % (x, x + width)
+    editor.click(switch)
+    editor.element('Rung 1, COIL', 'Motor', ', on')
+    editor.shot(name)
+
+
+def sharp(screen):
+    """the same with two pixels for one"""
+    large(screen, 'looks-4k-sharp', GDK_SCALE='2')
+
+
 small.size = '1024x700x24'
-main([light, dark, high, small])
+large.size = sharp.size = '3840x2160x24'
+main([light, dark, high, small, large, sharp])

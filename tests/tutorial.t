@@ -1,0 +1,104 @@
+#!/usr/bin/perl
+# SPDX-License-Identifier: MIT
+#
+# The pictures of docs/tutorial.md are what ladder-editor draws of the rung files beside
+# them: each is rendered anew. `make pictures` writes them. The keys of the tutorial are
+# pressed in tests/editor/person/tutorial.py.
+#
+# How wide a text is depends on the fonts of a machine, and with it where boxes stand. So of
+# a text counts what it says, in which style and in which line, and of all horizontal places
+# only their order.
+use strict;
+use warnings;
+use utf8;
+use Cwd qw(abs_path);
+use File::Basename qw(dirname basename);
+use File::Temp qw(tempdir);
+use Test::More;
+
+my $top = abs_path(dirname(__FILE__) . '/..');
+my $build = abs_path($ENV{BUILD} // "$top/build");
+my $editor = "$build/ladder-editor";
+my $folder = "$top/docs/tutorial";
+plan skip_all => 'there is no ladder-editor' if !-x $editor;
+$ENV{LC_ALL} = 'C.UTF-8';
+$ENV{LANGUAGE} = '';
+my $work = tempdir(CLEANUP => 1);
+
+sub read_text {
+	my ($path) = @_;
+	open my $in, '<:encoding(UTF-8)', $path or die "$path: $!";
+	local $/;
+	return <$in>;
+}
+
+# Each horizontal place of a tag goes through @place->(); widths are places of right ends.
+sub with_places {
+	my ($tag, $place) = @_;
+	my $left = $tag =~ / x="([-.\d]+)"/ ? $1 : 0;
+	$tag =~ s/( (?:x|x1|x2|cx)=")([-.\d]+)/$1 . $place->($2)/ge;
+	$tag =~ s/( width=")([-.\d]+)/$1 . $place->($left + $2)/ge;
+	$tag =~ s/( d="M| 0 0 1 )([-.\d]+)/$1 . $place->($2)/ge;
+	return $tag;
+}
+
+# What a picture shows, whatever the fonts are.
+sub shown {
+	my ($svg) = @_;
+	my (%rank, @lines);
+	for (split /\n/, $svg) {
+		s/ x="[^"]*"| textLength="[^"]*"//g if /^<text /;
+		s/ (?:width|viewBox)="[^"]*"//g if /^<svg /;
+		push @lines, $_;
+		with_places($_, sub { $rank{sprintf '%.0f', $_[0]} = 0; return $_[0] }) if /^<[a-z]/;
+	}
+	my $count = 0;
+	$rank{$_} = ++$count for sort { $a <=> $b } keys %rank;
+	return join "\n", map { /^<[a-z]/ ? with_places($_, sub { $rank{sprintf '%.0f', $_[0]} }) : $_ } @lines;
+}
+
+sub rendered {
+	my ($rung) = @_;
+	my $path = "$work/picture.svg";
+	unlink $path;
+	system($editor, '--render', $rung, '-o', $path) == 0 or die "$rung is not drawn";
+	return read_text($path);
+}
+
+sub written {
+	my ($name, $text) = @_;
+	open my $out, '>:encoding(UTF-8)', "$work/$name" or die "$name: $!";
+	print $out $text;
+	close $out or die "$name: $!";
+	return "$work/$name";
+}
+
+my $tutorial = read_text("$top/docs/tutorial.md");
+my %drawn;
+for my $rung (glob("$folder/*.rung")) {
+	my $name = basename($rung, '.rung');
+	$drawn{$name} = read_text($rung);
+	is(shown(rendered($rung)), shown(read_text("$folder/$name.svg")),
+	   "$name.svg is $name.rung; if not: make pictures, and look at them");
+	ok(index($tutorial, "](tutorial/$name.svg)") >= 0, "$name.svg is shown");
+}
+cmp_ok(scalar keys %drawn, '>=', 5, 'pictures were found');
+is_deeply([map { basename($_, '.svg') } glob("$folder/*.svg")], [sort keys %drawn], 'each has its rung file');
+# The others are what a person comes to: tutorial.py.
+for my $name ('4-seal-in', 'fan') {
+	ok(index($tutorial, $drawn{$name}) >= 0, "$name.rung is told in the tutorial");
+}
+
+# Test the test: another program is another picture.
+my $seal = $drawn{'4-seal-in'};
+my %other = (
+	'an element' => $seal =~ s/NC Stop/NO Stop/r,
+	'a name' => $seal =~ s/\bStop\b/Halt/gr,
+	'an address' => $seal =~ s/%IX0\.1/%IX0.2/r,
+	'where a branch ends' => $seal =~ s/NO Motor \^\|/NO Motor | --- ^|/r,
+);
+for my $what (sort keys %other) {
+	isnt(shown(rendered(written('other.rung', $other{$what}))), shown(read_text("$folder/4-seal-in.svg")),
+	     "$what is noticed");
+}
+done_testing();
