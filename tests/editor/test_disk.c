@@ -133,30 +133,30 @@ static void test_disk_changed(void)
 	GStatBuf about;
 	char *text;
 
-	CHECK_AS(!ladder_document_disk_changed(document), "it has no file");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "it has no file");
 	CHECK(g_file_set_contents(spot.path, SAMPLE, -1, NULL));
 	CHECK(ladder_document_open(document, spot.path, NULL));
-	CHECK(!ladder_document_disk_changed(document));
+	CHECK(ladder_document_disk(document) == DISK_AS_READ);
 	CHECK(g_utime(spot.path, NULL) == 0);
-	CHECK_AS(!ladder_document_disk_changed(document), "another time, the same bytes");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "another time, the same bytes");
 	CHECK(g_stat(spot.path, &about) == 0 && write_at(spot.path, "rUNG", &about));
-	CHECK_AS(!ladder_document_disk_changed(document),
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ,
 		 "the same time: it is not read again");
 	CHECK(g_utime(spot.path, NULL) == 0);
-	CHECK(ladder_document_disk_changed(document));
-	CHECK_AS(ladder_document_disk_changed(document), "asked again, told again");
+	CHECK(ladder_document_disk(document) == DISK_OTHER);
+	CHECK_AS(ladder_document_disk(document) == DISK_OTHER, "asked again, told again");
 	CHECK(g_file_set_contents(spot.path, SAMPLE, -1, NULL));
-	CHECK_AS(!ladder_document_disk_changed(document), "and it may come back");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "and it may come back");
 	g_unlink(spot.path);
-	CHECK_AS(!ladder_document_disk_changed(document), "gone: nothing is written over");
+	CHECK_AS(ladder_document_disk(document) == DISK_GONE, "gone: nothing is written over");
 	CHECK(mkfifo(spot.path, 0600) == 0);
-	CHECK_AS(!ladder_document_disk_changed(document), "it does not hang at a pipe");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "it does not hang at a pipe");
 	g_unlink(spot.path);
 	CHECK(g_file_set_contents(spot.path, "other", -1, NULL));
-	CHECK(ladder_document_disk_changed(document));
+	CHECK(ladder_document_disk(document) == DISK_OTHER);
 	text = ladder_document_text(document, NULL);
 	CHECK(ladder_document_save(document, NULL, NULL) && holds(spot.path, text));
-	CHECK_AS(!ladder_document_disk_changed(document), "saved: it is ours again");
+	CHECK_AS(ladder_document_disk(document) == DISK_AS_READ, "saved: it is ours again");
 	g_free(text);
 	g_object_unref(document);
 	spot_free(&spot);
