@@ -87,7 +87,15 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 	return window;
 }
 
-/* The window that has this file open; NULL: none. */
+static bool has_open(LadderWindow *window, const char *path)
+{
+	LadderDocument *document = ladder_window_document(window);
+
+	return g_strcmp0(path, ladder_document_path(document)) == 0 ||
+	       ladder_window_has_file(window, path);
+}
+
+/* The window that has this project, or this file of one, open; NULL: none. */
 static LadderWindow *window_of(AdwApplication *application, const char *path)
 {
 	GList *at = gtk_application_get_windows(GTK_APPLICATION(application));
@@ -95,9 +103,8 @@ static LadderWindow *window_of(AdwApplication *application, const char *path)
 	LadderWindow *found = NULL;
 
 	for (; at && !found; at = at->next)
-		if (LADDER_IS_WINDOW(at->data) && g_strcmp0(whole, ladder_document_path(
-			    ladder_window_document(LADDER_WINDOW(at->data)))) == 0)
-			found = LADDER_WINDOW(at->data);
+		if (LADDER_IS_WINDOW(at->data) && has_open(at->data, whole))
+			found = at->data;
 	g_free(whole);
 	return found;
 }
@@ -172,6 +179,8 @@ static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
 	LadderWindow *there = window_of(application, path);
 
 	if (there) { /* twice, each would write over the other's */
+		if (file_is_beside(path))
+			ladder_window_show_file(there, path);
 		gtk_window_present(GTK_WINDOW(there));
 		return there;
 	}
@@ -216,29 +225,40 @@ void app_open_sample(LadderWindow *window, const char *path)
 
 /* ---- after a crash ---- */
 
-static LadderWindow *restore_document(AdwApplication *application, const struct draft *draft)
+/* Of two drafts of one file the second is a program that has no file yet. */
+static bool restore_document(AdwApplication *application, const struct draft *draft)
 {
+	const bool twice = draft->path && window_of(application, draft->path);
 	LadderDocument *document = ladder_document_new();
 	LadderWindow *window;
+	bool kept;
 
-	ladder_document_restore(document, draft->path, draft->sum, draft->text, draft->len);
+	ladder_document_restore(document, twice ? NULL : draft->path,
+				twice ? NULL : draft->sum, draft->text, draft->len);
 	window = show_document(application, document);
+	kept = draft_is_kept(document);
+	if (kept)
+		ladder_window_offer_restored(window);
 	g_object_unref(document);
-	return window;
+	return kept;
 }
 
 /* With its project, if that is still there. */
-static LadderWindow *restore_file(AdwApplication *application, const struct draft *draft)
+static bool restore_file(AdwApplication *application, const struct draft *draft)
 {
 	LadderWindow *window = draft->beside ?
 		open_any(application, NULL, draft->beside, NULL) : NULL;
+	bool kept;
 
 	if (!window)
 		window = new_window(application);
-	ladder_window_restore_file(window, draft);
-	return window;
+	kept = ladder_window_restore_file(window, draft);
+	if (kept)
+		ladder_window_offer_restored(window);
+	return kept;
 }
 
+/* A draft goes when what it holds has one of this editor's again. */
 static int restore_drafts(AdwApplication *application)
 {
 	GPtrArray *drafts = draft_find();
@@ -247,10 +267,9 @@ static int restore_drafts(AdwApplication *application)
 	for (int i = 0; i < count; i++) {
 		const struct draft *draft = drafts->pdata[i];
 
-		ladder_window_offer_restored(draft->is_file ?
-			restore_file(application, draft) :
-			restore_document(application, draft));
-		draft_forget(draft); /* it has a draft of its own again */
+		if (draft->is_file ? restore_file(application, draft) :
+				     restore_document(application, draft))
+			draft_forget(draft);
 	}
 	g_ptr_array_unref(drafts);
 	return count;

@@ -150,7 +150,7 @@ void document_take(LadderDocument *document, const char *text, gsize len)
 {
 	g_hash_table_remove_all(document->list);
 	document_take_text(document, text, len, true, NULL);
-	history_clear(document->history);
+	history_restart(document->history);
 	document_tell_project(document);
 }
 

@@ -43,8 +43,7 @@ static struct keeper *keeper_of(gpointer object)
 
 static bool is_saved(gpointer object)
 {
-	return keeper_of(object)->beside ?
-		!gtk_text_buffer_get_modified(ladder_file_view_buffer(object)) :
+	return keeper_of(object)->beside ? !ladder_file_view_differs(object) :
 		ladder_document_is_saved(object);
 }
 
@@ -189,6 +188,21 @@ void draft_remove(gpointer object)
 	g_unlink(keeper->file);
 }
 
+bool draft_is_kept(gpointer object)
+{
+	return keeper_of(object) && !keeper_of(object)->told;
+}
+
+void draft_stop(gpointer object)
+{
+	struct keeper *keeper = keeper_of(object);
+
+	if (!keeper)
+		return;
+	g_signal_handlers_disconnect_by_data(object, keeper);
+	g_object_set_data(G_OBJECT(object), "draft", NULL);
+}
+
 void draft_on_failure(void (*tell)(gpointer object, const char *why))
 {
 	failed = tell;
@@ -260,7 +274,7 @@ static struct draft *read_draft(const char *file)
 	*line = '\0';
 	draft->file = g_strdup(file);
 	read_head(draft, all + strlen(DRAFT_HEAD));
-	draft->text = g_strdup(line + 1);
+	draft->text = g_utf8_make_valid(line + 1, -1);
 	draft->len = strlen(draft->text);
 	g_free(all);
 	return draft;

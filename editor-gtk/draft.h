@@ -20,6 +20,10 @@ void draft_keep_file(LadderFileView *view, LadderDocument *document);
 void draft_remove(gpointer object);
 /** draft_write - of a document or file view that is not saved, at once. */
 void draft_write(gpointer object);
+/** draft_is_kept - of a document or file view: a crash would lose nothing but seconds. */
+bool draft_is_kept(gpointer object);
+/** draft_stop - no more are kept of it; what there is stays. */
+void draft_stop(gpointer object);
 /** draft_on_failure - who is told that what is not saved cannot be kept, and why. NULL:
  * nobody. */
 void draft_on_failure(void (*tell)(gpointer object, const char *why));

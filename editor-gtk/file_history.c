@@ -14,6 +14,7 @@ struct file_history {
 	int file;          /* its number there                                 */
 	char *name;
 	char *known;       /* the text when it was looked at last              */
+	int saves;         /* a step does not go past one                      */
 	bool inside;       /* an act of a person, which is one step            */
 	bool applying;     /* what comes is of the history                     */
 	void (*undone)(gpointer data, const char *text);
@@ -71,7 +72,8 @@ static char *key_of(const struct file_history *history, gsize at, const char *be
 		return NULL;
 	for (gsize i = 0; i < at; i++)
 		line += history->known[i] == '\n';
-	return g_strdup_printf("file %d line %d", history->file, line);
+	return g_strdup_printf("file %d save %d line %d", history->file, history->saves,
+			       line);
 }
 
 static void note(struct file_history *history, gsize at, const char *before,
@@ -170,6 +172,11 @@ struct file_history *file_history_new(GtkTextBuffer *buffer, LadderDocument *doc
 	g_signal_connect_swapped(buffer, "begin-user-action", G_CALLBACK(act_begun), history);
 	g_signal_connect_swapped(buffer, "end-user-action", G_CALLBACK(act_ended), history);
 	return history;
+}
+
+void file_history_saved(struct file_history *history)
+{
+	history->saves++;
 }
 
 void file_history_free(struct file_history *history)

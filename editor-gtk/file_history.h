@@ -23,6 +23,8 @@ struct file_history *file_history_new(GtkTextBuffer *buffer, LadderDocument *doc
 				      const char *name,
 				      void (*undone)(gpointer data, const char *text),
 				      gpointer data);
+/** file_history_saved - it can be undone to what stands there now. */
+void file_history_saved(struct file_history *history);
 /** file_history_free - its steps are forgotten. NULL: nothing. */
 void file_history_free(struct file_history *history);
 

@@ -25,6 +25,7 @@ struct _LadderFileView {
 	GtkWidget *text;
 	struct file_marks *marks;
 	GtkWidget *map;     /* the table of an I/O map; NULL: it is none       */
+	bool gone;          /* the file was, when it was looked for            */
 	struct file_history *history;
 };
 
@@ -32,13 +33,41 @@ G_DEFINE_FINAL_TYPE(LadderFileView, ladder_file_view, GTK_TYPE_BOX)
 
 static guint state_changed, was_undone; /* signals */
 
-/* Of a file that is gone this is the last copy. */
-bool ladder_file_view_is_saved(LadderFileView *view)
+static void tell_state(LadderFileView *view)
 {
+	g_signal_emit(view, state_changed, 0);
+}
+
+void ladder_file_view_commit(gpointer file)
+{
+	LadderFileView *view = file;
+
 	if (view->map)
 		ladder_iomap_view_commit(LADDER_IOMAP_VIEW(view->map));
-	return !gtk_text_buffer_get_modified(view->buffer) &&
-	       g_file_test(view->path, G_FILE_TEST_EXISTS);
+}
+
+/* Of a file that is gone this is the last copy. */
+bool ladder_file_view_differs(LadderFileView *view)
+{
+	return gtk_text_buffer_get_modified(view->buffer) ||
+	       !g_file_test(view->path, G_FILE_TEST_EXISTS);
+}
+
+bool ladder_file_view_is_saved(LadderFileView *view)
+{
+	ladder_file_view_commit(view);
+	return !ladder_file_view_differs(view);
+}
+
+void ladder_file_view_look(gpointer file)
+{
+	LadderFileView *view = file;
+	const bool gone = !g_file_test(view->path, G_FILE_TEST_EXISTS);
+
+	if (gone == view->gone)
+		return;
+	view->gone = gone;
+	tell_state(view);
 }
 
 GtkTextBuffer *ladder_file_view_buffer(LadderFileView *view)
@@ -81,9 +110,12 @@ bool ladder_file_view_save(LadderFileView *view, GError **error)
 	good = is_as_read(view, error) &&
 	       disk_save(view->path, text, strlen(text), error);
 	if (good) {
-		gtk_text_buffer_set_modified(view->buffer, FALSE);
+		view->gone = false;
 		g_free(view->read);
 		view->read = g_steal_pointer(&text);
+		file_history_saved(view->history);
+		gtk_text_buffer_set_modified(view->buffer, FALSE);
+		tell_state(view); /* it may have been gone, and nothing else      */
 	}
 	g_free(text);
 	return good;
@@ -189,11 +221,6 @@ static char *text_of(const char *path, GError **error)
 	return NULL;
 }
 
-static void tell_state(LadderFileView *view)
-{
-	g_signal_emit(view, state_changed, 0);
-}
-
 static GtkWidget *text_widget(LadderFileView *view, const char *name)
 {
 	GtkSourceBuffer *buffer = gtk_source_buffer_new(NULL);
@@ -260,9 +287,7 @@ GtkWidget *ladder_file_view_new(const char *path, LadderDocument *document, GErr
 	return text ? GTK_WIDGET(view_of(path, text, document)) : NULL;
 }
 
-/* What was typed. @sum: of what it was typed into; another stands there now: it is asked before
- * that is written over. */
-static void put_text(LadderFileView *view, const char *text, const char *sum)
+void ladder_file_view_put(LadderFileView *view, const char *text, const char *sum)
 {
 	char *now = ladder_file_view_sum(view);
 
@@ -283,7 +308,7 @@ GtkWidget *ladder_file_view_restore(const char *path, const char *sum, const cha
 	char *there = text_of(path, NULL);
 	LadderFileView *view = view_of(path, there ? there : g_strdup(""), document);
 
-	put_text(view, text, sum);
+	ladder_file_view_put(view, text, sum);
 	return GTK_WIDGET(view);
 }
 

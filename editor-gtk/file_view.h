@@ -33,8 +33,19 @@ const char *ladder_file_view_path(LadderFileView *view);
 /** ladder_file_view_save - false: it cannot be written, or somebody else changed it, and
  * @error says so; the text stays. Saved again, it is written over the other's. */
 bool ladder_file_view_save(LadderFileView *view, GError **error);
-/** ladder_file_view_is_saved - false, too, if the file is gone. */
+/** ladder_file_view_commit - what a person is typing in a cell counts now. @file: a
+ * LadderFileView */
+void ladder_file_view_commit(gpointer file);
+/** ladder_file_view_is_saved - with what is typed in a cell; false, too, if the file is gone. */
 bool ladder_file_view_is_saved(LadderFileView *view);
+/** ladder_file_view_differs - from its file; what is typed in a cell does not count yet. */
+bool ladder_file_view_differs(LadderFileView *view);
+/** ladder_file_view_look - is the file still there? State-changed tells. @file: a
+ * LadderFileView */
+void ladder_file_view_look(gpointer file);
+/** ladder_file_view_put - the whole text of a draft, as a step. @sum: of what it was typed
+ * into; if another text stands there now, it is asked before that is written over. */
+void ladder_file_view_put(LadderFileView *view, const char *text, const char *sum);
 /** ladder_file_view_name - of the file, without its folder. Caller frees. */
 char *ladder_file_view_name(LadderFileView *view);
 /** ladder_file_view_text - as it is typed, saved or not. Caller frees. */

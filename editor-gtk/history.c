@@ -96,14 +96,6 @@ void history_free(struct history *history)
 	g_free(history);
 }
 
-void history_clear(struct history *history)
-{
-	g_ptr_array_set_size(history->step, 0);
-	history_cancel(history);
-	history->now = history->saved = 0;
-	history->bytes = 0;
-}
-
 /* ---- doing ---- */
 
 void history_begin(struct history *history, const char *name, const char *key)
@@ -238,6 +230,16 @@ static bool join_step(struct history *history, struct step *step)
 	history->bytes += step_bytes(last);
 	step_free(step);
 	return true;
+}
+
+void history_restart(struct history *history)
+{
+	history_cancel(history);
+	forget_undone(history);
+	for (int i = history->now; i-- > 0;)
+		if (!step_is_aside(history->step->pdata[i]))
+			forget_step(history, i);
+	history->saved = history->now;
 }
 
 bool history_end(struct history *history)

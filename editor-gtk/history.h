@@ -40,8 +40,9 @@ struct history;
 /** history_new - nothing was done. Owns: the caller, history_free(). */
 struct history *history_new(void);
 void history_free(struct history *history);
-/** history_clear - nothing was done, and that is saved. */
-void history_clear(struct history *history);
+/** history_restart - it is another document, and that is saved; what was done to files
+ * beside it stays. */
+void history_restart(struct history *history);
 
 /** change_new - one text became another. @before, @after: taken over. */
 struct change *change_new(enum change_kind kind, int pou, gsize at,

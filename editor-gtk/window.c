@@ -257,8 +257,10 @@ static void ladder_window_dispose(GObject *object)
 	g_clear_object(&window->sim);
 	g_clear_object(&window->board);
 	g_clear_object(&window->classic);
-	if (window->document) /* files beside it go only with the tabs            */
+	if (window->document) { /* files beside it go only with the tabs         */
 		g_signal_handlers_disconnect_by_data(window->document, window);
+		draft_stop(window->document);
+	}
 	g_clear_object(&window->document);
 	g_clear_pointer(&window->keys_text, g_free);
 	g_clear_pointer(&window->board_said, g_free);

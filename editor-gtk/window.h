@@ -33,10 +33,13 @@ void ladder_window_welcome(LadderWindow *window);
 void ladder_window_warn(LadderWindow *window, const char *text);
 /** ladder_window_offer_restored - says that this was not saved when the editor died. */
 void ladder_window_offer_restored(LadderWindow *window);
-/** ladder_window_restore_file - a text file beside the project, in front. */
-void ladder_window_restore_file(LadderWindow *window, const struct draft *draft);
+/** ladder_window_restore_file - a text file beside the project, in front. Fails: false,
+ * it has no draft again, and that is told. */
+bool ladder_window_restore_file(LadderWindow *window, const struct draft *draft);
 /** ladder_window_keep_drafts - of all that is not saved, at once. */
 void ladder_window_keep_drafts(LadderWindow *window);
+/** ladder_window_has_file - is that text file open there? */
+bool ladder_window_has_file(LadderWindow *window, const char *path);
 /** ladder_window_show_file - a text file beside the project, in front of its sheets. */
 void ladder_window_show_file(LadderWindow *window, const char *path);
 /** ladder_window_set_origin - the file that an unsaved project is a copy of: a plant may

@@ -30,8 +30,10 @@ static void go_on(LadderWindow *window)
 
 static void do_undo(LadderWindow *window)
 {
-	char *name = g_strdup(ladder_document_undo_name(window->document));
+	char *name;
 
+	tabs_each_file(window, ladder_file_view_commit);
+	name = g_strdup(ladder_document_undo_name(window->document));
 	if (ladder_document_undo(window->document)) {
 		char *text = g_strdup_printf(_("Undone: %s"), name);
 
@@ -44,6 +46,7 @@ static void do_undo(LadderWindow *window)
 
 static void do_redo(LadderWindow *window)
 {
+	tabs_each_file(window, ladder_file_view_commit);
 	ladder_document_redo(window->document);
 	go_on(window);
 }

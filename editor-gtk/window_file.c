@@ -271,9 +271,30 @@ static void drop_drafts(LadderWindow *window)
 	tabs_each_file(window, draft_remove);
 }
 
+/* Of two drafts of one file the second is a step that can be undone. */
+bool ladder_window_restore_file(LadderWindow *window, const struct draft *draft)
+{
+	LadderFileView *there = tabs_find_file(window, draft->path);
+
+	if (there)
+		ladder_file_view_put(there, draft->text, draft->sum);
+	else
+		tabs_put_file(window, draft->path, ladder_file_view_restore(draft->path,
+			      draft->sum, draft->text, window->document));
+	there = tabs_find_file(window, draft->path);
+	draft_write(there);
+	return draft_is_kept(there);
+}
+
+bool ladder_window_has_file(LadderWindow *window, const char *path)
+{
+	return tabs_find_file(window, path) != NULL;
+}
+
 void ladder_window_keep_drafts(LadderWindow *window)
 {
-	g_ptr_array_unref(tabs_unsaved(window)); /* what is typed into a table is taken in */
+	tabs_each_file(window, ladder_file_view_commit);
+	ladder_document_disk(window->document); /* it may be gone since           */
 	draft_write(window->document);
 	tabs_each_file(window, draft_write);
 }
@@ -392,6 +413,8 @@ static void reload(LadderWindow *window)
 
 	if (!ladder_document_open(window->document, path, &error))
 		window_banner(window, error->message, NULL, NULL);
+	else
+		window->disk_told = DISK_AS_READ;
 	g_clear_error(&error);
 	g_free(path);
 }
@@ -416,6 +439,7 @@ static gboolean look(gpointer data)
 	LadderWindow *window = data;
 	const enum disk_state state = ladder_document_disk(window->document);
 
+	tabs_each_file(window, ladder_file_view_look);
 	if (state == window->disk_told || (state != DISK_AS_READ &&
 	    gtk_revealer_get_reveal_child(window->banner) && window->disk_told == DISK_AS_READ))
 		return G_SOURCE_CONTINUE;

@@ -100,6 +100,8 @@ GtkWidget *tabs_show_widget(LadderWindow *window, const char *name);
 void tabs_show_file(LadderWindow *window, const char *path);
 /** tabs_close - the page in front; what is not saved in it is asked for first. */
 void tabs_close(LadderWindow *window);
+/** tabs_put_file - the same, with a view that was made for it: a draft. */
+void tabs_put_file(LadderWindow *window, const char *path, GtkWidget *view);
 /** tabs_find_file - of that path; NULL: it is not open. */
 LadderFileView *tabs_find_file(LadderWindow *window, const char *path);
 /** tabs_file - of the page in front; NULL: it is none. */

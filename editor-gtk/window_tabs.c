@@ -372,7 +372,7 @@ static void show_file_state(AdwTabPage *page, LadderFileView *file)
 {
 	char *name = ladder_file_view_name(file);
 	char *title = g_strdup_printf("%s%s",
-				      ladder_file_view_is_saved(file) ? "" : "• ", name);
+				      ladder_file_view_differs(file) ? "• " : "", name);
 
 	adw_tab_page_set_title(page, title);
 	g_free(title);
@@ -420,16 +420,16 @@ static void show_file(LadderWindow *window, const char *path, GtkWidget *view, G
 void tabs_show_file(LadderWindow *window, const char *path)
 {
 	GError *error = NULL;
+	GtkWidget *view = tabs_find_file(window, path) ? NULL :
+		ladder_file_view_new(path, window->document, &error);
 
-	show_file(window, path, tabs_find_file(window, path) ? NULL :
-		  ladder_file_view_new(path, window->document, &error), error);
+	show_file(window, path, view, error);
 	g_clear_error(&error);
 }
 
-void ladder_window_restore_file(LadderWindow *window, const struct draft *draft)
+void tabs_put_file(LadderWindow *window, const char *path, GtkWidget *view)
 {
-	show_file(window, draft->path, ladder_file_view_restore(draft->path, draft->sum,
-		  draft->text, window->document), NULL);
+	show_file(window, path, view, NULL);
 }
 
 GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)

@@ -140,6 +140,36 @@ static void test_saved(void)
 	end();
 }
 
+/* What was saved can be come back to, in the middle of a word, too. */
+static void test_save_between(void)
+{
+	start();
+	insert(0, 0, "a");
+	insert(0, 1, "b");
+	file_history_saved(history[0]);
+	insert(0, 2, "c");
+	CHECK(ladder_document_undo(document) && is_text(0, "ab"));
+	CHECK(ladder_document_undo(document) && is_text(0, ""));
+	end();
+}
+
+/* The document is read again: what was done to it is gone, what was done beside it is not. */
+static void test_read_again(void)
+{
+	start();
+	insert(0, 0, "one");
+	ladder_document_toggle_bookmark(document, 0, 0);
+	insert(1, 0, "two\n");
+	insert(0, 3, " more");
+	CHECK(ladder_document_undo(document));
+	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
+	CHECK(ladder_document_is_saved(document) && !ladder_document_redo_name(document));
+	CHECK(ladder_document_undo(document) && is_text(1, "größer = 1\n门 = 2\n"));
+	CHECK(ladder_document_undo(document) && is_text(0, ""));
+	CHECK(!ladder_document_undo(document) && ladder_document_is_saved(document));
+	end();
+}
+
 /* Of one that is closed nothing is undone; the rest is. */
 static void test_closed(void)
 {
@@ -265,6 +295,8 @@ int main(void)
 	test_order();
 	test_typing();
 	test_saved();
+	test_save_between();
+	test_read_again();
 	test_closed();
 	test_random();
 	g_free(told_text);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """drafts - work that was not saved is there again after a kill."""
 import os
+import resource
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -120,6 +121,48 @@ def beside_a_project(screen):
     assert open(path).read() == SCENARIO + '# mine'
 
 
+def gone(screen):
+    """a scenario whose file is gone is a draft, though nothing was typed; so at the end of a session"""
+    editor, path = scenario(screen)
+    editor.save(path)
+    until(lambda: not drafts(screen), 'the draft to go with the save')
+    os.unlink(path)
+    editor.says('• new.scn')
+    until(lambda: drafts(screen), 'the draft of the last copy')
+    editor.finish()
+    again = Editor(screen)
+    again.says('• new.scn')
+    assert again.find('new.scn', 'text').text() == SCENARIO + '# mine'
+
+
+def no_room_again(screen):
+    """what cannot be kept as a draft again stays in the old one"""
+    editor, _ = scenario(screen)
+    editor.kill()
+    old = drafts(screen)
+    again = Editor(screen, before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (50, resource.RLIM_INFINITY)))
+    again.says('no draft of it can be kept')
+    assert again.find('new.scn', 'text').text() == SCENARIO + '# mine' and drafts(screen) == old
+
+
+def twice(screen):
+    """two drafts of one file are both there: the second is a step behind the first"""
+    editor, path = scenario(screen)
+    editor.kill()
+    old = drafts(screen)[0]
+    with open(old) as file:
+        first = file.read()
+    with open(old.replace('.draft', '9.draft'), 'w') as file:
+        file.write(first.replace('# mine', '# other'))
+    again = Editor(screen)
+    again.says('• new.scn')
+    view = again.find('new.scn', 'text')
+    texts = {view.text()}
+    again.keys('ctrl+z')
+    until(lambda: view.text() not in texts, 'the other')
+    assert texts | {view.text()} == {SCENARIO + '# mine', SCENARIO + '# other'} and len(again.windows()) == 1
+
+
 def not_wanted(screen):
     """its draft goes with the tab, and with the window"""
     for key in 'ctrl+shift+w', 'ctrl+w':
@@ -154,4 +197,5 @@ def at_the_end_of_a_session(screen):
     until(lambda: len(again.cells()) == 1, 'the contact')
 
 
-main([after_a_kill, changed_meanwhile, beside_a_project, not_wanted, no_room, at_the_end_of_a_session])
+main([after_a_kill, changed_meanwhile, beside_a_project, gone, twice, not_wanted, no_room,
+      no_room_again, at_the_end_of_a_session])

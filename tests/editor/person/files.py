@@ -115,6 +115,10 @@ def beside(screen):
     open_file(editor, os.path.join(screen.home, 'far', 'lone.io'))
     editor.find('lone.io')
     assert len(editor.windows()) == 2 and not editor.all('Text of the file')
+    # What is open is shown where it is.
+    open_file(editor, scenario)
+    open_file(editor, os.path.join(screen.home, 'far', 'lone.scn'))
+    assert len(editor.windows()) == 2
     editor.finish()
     # A map of a folder with several programs is of the one that lists it.
     write(os.path.join(screen.home, 'fan.rung'), PROJECT)

@@ -80,6 +80,32 @@ def table(screen):
     saved(io, MAP.replace('5 years', '20ms years').replace(' active-low   #', '              #'))
 
 
+def undone(screen):
+    """Ctrl+Z while a cell is typed into: what is typed counts, and is what goes first, saved before or not"""
+    path, io = garage(screen)
+    editor = Editor(screen, path)
+    open_map(editor)
+    for save in True, False:
+        editor.click(cell(editor, '%IX0.0, Pull'))
+        editor.keys('ctrl+a')
+        editor.type('pull-down')
+        editor.keys('Return')
+        shows(editor, '%IX0.0, Pull', 'pull-down')
+        if save:
+            editor.keys('ctrl+s')
+            saved(io, MAP.replace('pull-up', 'pull-down'))
+        editor.click(cell(editor, '%QX0.0, Safe'))
+        editor.keys('ctrl+a')
+        editor.type('1')
+        editor.keys('ctrl+z')
+        shows(editor, '%QX0.0, Safe', '0')
+        shows(editor, '%IX0.0, Pull', 'pull-down')
+        editor.keys('ctrl+z')
+        shows(editor, '%IX0.0, Pull', 'pull-up')
+    editor.keys('ctrl+s')
+    saved(io, MAP)
+
+
 def choices(screen):
     """what there is for a cell is offered, by pointer and by key; points are added and deleted"""
     path, io = garage(screen, 'BOARD "Desk"\n%IX0.0  sim\n%QX0.0  sim  safe=0')
@@ -330,4 +356,4 @@ def in_chinese(screen):
 
 
 in_chinese.size = '1024x700x24'
-main([table, choices, as_text, new_map, run_board, close_board, lost, killed, lines_here, in_chinese])
+main([table, undone, choices, as_text, new_map, run_board, close_board, lost, killed, lines_here, in_chinese])
