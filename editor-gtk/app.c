@@ -181,6 +181,8 @@ static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
 	if (there) { /* twice, each would write over the other's */
 		if (file_is_beside(path))
 			ladder_window_show_file(there, path);
+		else
+			recent_add(path);
 		gtk_window_present(GTK_WINDOW(there));
 		return there;
 	}
