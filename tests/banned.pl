@@ -103,6 +103,9 @@ say_rule("every source opens with why it exists",
 say_rule("no file is longer than 600 lines",
 	 map { "$_: " . ($text{$_} =~ tr/\n//) }
 	 grep { ($text{$_} =~ tr/\n//) > 600 } @files);
+say_rule("nor is a script of a person",
+	 grep { open my $in, '<', $_ or die "$_: $!"; my $count = () = <$in>; $count > 600 }
+	 glob 'tests/editor/person/*.py');
 say_rule("no blanks at line ends",
 	 map { my $f = $_; my $l = 0;
 	       map { $l++; /[ \t]$/ ? "$f:$l" : () } split /\n/, $text{$f} } @files);

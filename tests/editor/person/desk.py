@@ -21,6 +21,7 @@ import time
 import traceback
 import warnings
 
+from node import A11Y, EXTENTS, ROLES, WHOLE, Gone, Node
 from outcome import BUILD, LADDER, ROOT, check, lines, new_file, trace  # noqa: F401
 
 warnings.simplefilter('ignore')
@@ -32,13 +33,7 @@ SLOWLY = max(1, PATIENCE / 60)  # a hand knows a slow machine
 dbus = None
 editors = []  # those that were begun
 DOUBLE_CLICK = 0.4  # s, of the toolkit
-WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of what never hides a part of its own
 BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
-ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
-         'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'push button': 43,
-         'table': 55, 'table cell': 56, 'table row': 90, 'text': 61, 'toggle button': 62, 'entry': 79}
-A11Y = 'org.a11y.atspi.'
-EXTENTS = ('Component', 'GetExtents', 'u', 1)  # in the window
 
 
 def missing():
@@ -60,10 +55,6 @@ def missing():
 
 def sh(*args, **more):
     return subprocess.run(args, capture_output=True, text=True, timeout=60, **more).stdout.strip()
-
-
-class Gone(AssertionError):
-    """A widget went away while it was looked at."""
 
 
 def until(look, what, seconds=PATIENCE):
@@ -133,35 +124,6 @@ class Screen:
             process.kill()
             process.wait()
         shutil.rmtree(self.home, ignore_errors=True)
-
-
-class Node:
-    """A widget, as the accessibility bus knows it."""
-
-    def __init__(self, editor, item):
-        """@item: as org.a11y.atspi.Cache.GetItems gives it"""
-        self.editor = editor
-        self.path, self.parent = str(item[0][1]), str(item[2][1])
-        self.place, self.children = int(item[3]), int(item[4])  # among those that are seen
-        self.name, self.role, self.states = str(item[6]), int(item[7]), int(item[9][0])
-        self.widget = A11Y + 'Component' in item[5]  # the page of a stack is none: only what it holds is seen
-
-    def ask(self, *question):
-        answer = self.editor.ask([(self.path, *question)])[0]
-        if answer is None:
-            raise Gone('"%s" is gone' % self.name)
-        return answer
-
-    def box(self):
-        """x, y, width, height in its window."""
-        return self.ask(*EXTENTS)[0]
-
-    def text(self):
-        return str(self.ask('Text', 'GetText', 'ii', 0, 1 << 20)[0])
-
-    def has(self, state):
-        """11: can have the focus, 12: has it, 24: sensitive …, as AtspiStateType counts."""
-        return bool(self.ask('Accessible', 'GetState')[0][0] >> state & 1)
 
 
 class Editor:

@@ -7,21 +7,10 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, main, new_file, sh, until  # noqa: E402
+from projects import ONE_RUNG  # noqa: E402
 
-PROJECT = '''RUNGBOARD 1
-
-VAR
-  Start AT %IX0.0 : BOOL;
-  Motor AT %QX0.0 : BOOL;
-END_VAR
-
-PROGRAM Main LD
-RUNG
-  | NO Start | COIL Motor |
-END_PROGRAM
-'''
 MAP = 'BOARD "Desk"\n%IX0.0  gpio  line=NOWHERE\n%QX0.0  sim  safe=0\n'
-OTHER = PROJECT.replace('Main', 'Other').replace('Motor', 'Pump')
+OTHER = ONE_RUNG.replace('Main', 'Other').replace('Motor', 'Pump')
 # key, and what is seen then
 DIALOGS = [
     ('ctrl+o', 'Open'), ('ctrl+shift+s', 'Save as'), ('F2', 'Rename everywhere'), ('ctrl+g', 'Go to rung'),
@@ -33,7 +22,7 @@ POPUPS = ['F8', 'F5', 'Return', 'ctrl+shift+t', 'ctrl+l', 'semicolon', 'ctrl+k',
 
 def dialogs(screen):
     """dialogs: Esc cancels, nothing is changed, the sheet has the focus"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()
     for key, _ in DIALOGS:
@@ -44,13 +33,13 @@ def dialogs(screen):
         until(lambda: len(editor.windows()) == before, 'the end of the dialog of ' + key)
         editor.to_sheet()
     editor.says('no problems')
-    assert open(path).read() == PROJECT
+    assert open(path).read() == ONE_RUNG
     assert not editor.all('•')
 
 
 def popups(screen):
     """popups of the window: Esc closes them, nothing is changed, the sheet has the focus"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()
     for key in POPUPS:
@@ -64,7 +53,7 @@ def popups(screen):
 
 def give_back(screen):
     """Esc gives a rung back as the cursor found it; a palette click leaves the focus here"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('slash', 'Right')
@@ -85,7 +74,7 @@ def give_back(screen):
 
 def close(screen):
     """closing with changes asks; Esc keeps the window, Discard ends it"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('slash')
@@ -101,12 +90,12 @@ def close(screen):
     editor.reply('Discard')
     until(lambda: editor.process.poll() is not None, 'the end')
     assert editor.process.returncode == 0, editor.logged()
-    assert open(path).read() == PROJECT
+    assert open(path).read() == ONE_RUNG
 
 
 def commands(screen):
     """in the list of all commands the one that Enter does is seen, however far down it is"""
-    editor = Editor(screen, new_file(screen, PROJECT))
+    editor = Editor(screen, new_file(screen, ONE_RUNG))
     editor.to_sheet()
     editor.keys('ctrl+k')
     until(lambda: len(editor.windows()) == 2, 'all commands')
@@ -158,7 +147,7 @@ def escape(editor, before, picture):
 
 def writers(screen):
     """what writes a file by a command: Esc in its dialog, and there is none"""
-    editor = Editor(screen, new_file(screen, PROJECT))
+    editor = Editor(screen, new_file(screen, ONE_RUNG))
     editor.to_sheet()
     before = kept(editor)
     for title, offered in (('Export as PDF', 'new.rung.pdf'), ('New I/O map', 'new.io'),
@@ -172,7 +161,7 @@ def writers(screen):
 
 def replaced(screen):
     """the question whether a file is replaced: Esc, and it is not; find and replace: Esc, and nothing was"""
-    editor = Editor(screen, new_file(screen, PROJECT))
+    editor = Editor(screen, new_file(screen, ONE_RUNG))
     other = new_file(screen, OTHER, 'other.rung')
     editor.to_sheet()
     before = kept(editor)
@@ -203,7 +192,7 @@ def replaced(screen):
 
 def imported(screen):
     """import from another project: Esc where the project is chosen, and where its parts are"""
-    editor = Editor(screen, new_file(screen, PROJECT))
+    editor = Editor(screen, new_file(screen, ONE_RUNG))
     other = new_file(screen, OTHER, 'other.rung')
     editor.click([node for node in editor.all('Main', 'label') if node.name == 'Main'][0])
     before = kept(editor)
@@ -228,7 +217,7 @@ def imported(screen):
 
 def board(screen):
     """run on this machine: Esc at the question, and nothing runs, nothing is saved"""
-    editor = Editor(screen, new_file(screen, PROJECT))
+    editor = Editor(screen, new_file(screen, ONE_RUNG))
     new_file(screen, MAP, 'new.io')
     editor.to_sheet()
     for change in (), ('slash',):  # of pins, and of what is not saved too

@@ -7,19 +7,8 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from projects import ONE_RUNG  # noqa: E402
 
-PROJECT = '''RUNGBOARD 1
-
-VAR
-  Start AT %IX0.0 : BOOL;
-  Motor AT %QX0.0 : BOOL;
-END_VAR
-
-PROGRAM Main LD
-RUNG
-  | NO Start | COIL Motor |
-END_PROGRAM
-'''
 SCENARIO = 'scenario One\n'
 
 
@@ -82,7 +71,7 @@ def changed_meanwhile(screen):
 
 def scenario(screen):
     """An editor, its scenario with a line more that is not saved, and the path of that."""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, ONE_RUNG)
     beside = os.path.join(screen.home, 'new.scn')
     with open(beside, 'w') as file:
         file.write(SCENARIO)

@@ -6,23 +6,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
-
-PROJECT = '''RUNGBOARD 1
-
-VAR
-  Start AT %IX0.0 : BOOL;
-  Stop AT %IX0.1 : BOOL;
-  Motor AT %QX0.0 : BOOL;
-  Lamp AT %QX0.1 : BOOL;
-END_VAR
-
-PROGRAM Main LD
-RUNG "one"
-  | NO Start | NC Stop | COIL Motor |
-RUNG "two"
-  | NO Motor | COIL Lamp |
-END_PROGRAM
-'''
+from projects import TWO_RUNGS  # noqa: E402
 
 
 def rung_lines(path):
@@ -36,7 +20,7 @@ def plain(text):
 
 def elements(screen):
     """an element is dragged into another rung, and back by undo"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     editor.drag(editor.grid(80, 1), editor.grid(80 + 119, 1))
@@ -51,7 +35,7 @@ def elements(screen):
 
 def rungs(screen):
     """a rung is dragged by its number before another"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     x, y = editor.grid(60, 0)
@@ -64,7 +48,7 @@ def rungs(screen):
 
 def branch(screen):
     """a branch and a wire by keys: open it, fill it, close it"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('Home', 'shift+F5')
@@ -87,7 +71,7 @@ def saved(editor, path, good):
 
 def wires(screen):
     """wires are drawn and erased by dragging alone: down, across, round; Esc gives up"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     wire = 36 + 46  # below a title
@@ -110,7 +94,7 @@ def wires(screen):
 
 def quick(screen):
     """a hand so quick that the pointer is seen where the stroke begins and where it ends, no more"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     editor.drag(editor.wire_end(36 + 46, 0, 10), editor.wire_end(36 + 46, 1, 10), steps=1)
@@ -120,7 +104,7 @@ def quick(screen):
 
 def refused(screen):
     """a stroke that cannot be is told, and Esc gives one up"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     before = open(path).read()
@@ -145,7 +129,7 @@ def seen(editor, name):
 
 def by_menu(screen):
     """the menu of the right button draws wires, too"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, TWO_RUNGS)
     editor = Editor(screen, path)
     until(lambda: len(editor.cells()) == 5, 'the sheet')
     editor.click(editor.grid(80, 0), button=3)
@@ -169,7 +153,7 @@ def rung_of(node):
 
 def far(screen):
     """an element is held at the lower edge: the sheet scrolls to a rung that was not seen"""
-    text = PROJECT.replace('END_PROGRAM', 'RUNG\n  | NO Motor | COIL Lamp |\n' * 40 + 'END_PROGRAM')
+    text = TWO_RUNGS.replace('END_PROGRAM', 'RUNG\n  | NO Motor | COIL Lamp |\n' * 40 + 'END_PROGRAM')
     path = new_file(screen, text)
     editor = Editor(screen, path)
     stop = editor.element('Rung 1,', 'Stop')

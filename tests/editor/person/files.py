@@ -7,19 +7,8 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, main, new_file, until  # noqa: E402
+from projects import ONE_RUNG  # noqa: E402
 
-PROJECT = '''RUNGBOARD 1
-
-VAR
-  Start AT %IX0.0 : BOOL;
-  Motor AT %QX0.0 : BOOL;
-END_VAR
-
-PROGRAM Main LD
-RUNG
-  | NO Start | COIL Motor |
-END_PROGRAM
-'''
 SCENARIO = 'scenario One\n'
 NO_FILE = 'not a regular file'
 TOO_LARGE = 'file is too large: 1.1\N{NO-BREAK SPACE}TB, at most 67.1\N{NO-BREAK SPACE}MB'
@@ -97,7 +86,7 @@ def beside(screen):
     """a scenario opens in the only project of its folder, a map in that of its name, others in an empty one"""
     for name in 'pump.rung', 'pump.plant.rung', 'boards/pump.io', 'morning.scn', 'far/lone.scn', 'far/lone.io':
         os.makedirs(os.path.dirname(os.path.join(screen.home, name)), exist_ok=True)
-        write(os.path.join(screen.home, name), PROJECT if name.endswith('.rung') else SCENARIO if
+        write(os.path.join(screen.home, name), ONE_RUNG if name.endswith('.rung') else SCENARIO if
               name.endswith('.scn') else '%IX0.0  sim\n')
     scenario = os.path.join(screen.home, 'morning.scn')
     editor = Editor(screen, scenario)
@@ -121,7 +110,7 @@ def beside(screen):
     assert len(editor.windows()) == 2
     editor.finish()
     # A map of a folder with several programs is of the one that lists it.
-    write(os.path.join(screen.home, 'fan.rung'), PROJECT)
+    write(os.path.join(screen.home, 'fan.rung'), ONE_RUNG)
     panel = os.path.join(screen.home, 'boards', 'panel.io')
     os.rename(os.path.join(screen.home, 'far', 'lone.io'), panel)
     editor = Editor(screen, os.path.join(screen.home, 'pump.rung'))
@@ -136,7 +125,7 @@ def beside(screen):
 def stays_a_link(screen):
     """a link stays a link when what it leads to is saved, and that keeps who may read it"""
     os.mkdir(os.path.join(screen.home, 'there'))
-    path = new_file(screen, PROJECT, 'there/real.rung')
+    path = new_file(screen, ONE_RUNG, 'there/real.rung')
     link = os.path.join(screen.home, 'link.rung')
     os.symlink('there/real.rung', link)
     os.chmod(path, 0o640)
@@ -151,7 +140,7 @@ def stays_a_link(screen):
 
 def scenario(screen):
     """An editor with a scenario in front that was changed; its path."""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, ONE_RUNG)
     beside = os.path.join(screen.home, 'new.scn')
     write(beside, SCENARIO)
     editor = Editor(screen, path)
@@ -241,12 +230,12 @@ def written_over(screen):
 
 def closing(screen):
     """somebody else changes the project: saving at the end is refused too, and the window stays"""
-    path = new_file(screen, PROJECT)
+    path = new_file(screen, ONE_RUNG)
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('slash')
     editor.find('•')
-    theirs = PROJECT.replace('Start', 'Begin')
+    theirs = ONE_RUNG.replace('Start', 'Begin')
     write(path, theirs)
     editor.says('changed by somebody else')
     editor.keys('ctrl+w')

@@ -8,23 +8,8 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, main, new_file, until  # noqa: E402
+from projects import TWO_RUNGS  # noqa: E402
 
-PROJECT = '''RUNGBOARD 1
-
-VAR
-  Start AT %IX0.0 : BOOL;
-  Stop AT %IX0.1 : BOOL;
-  Motor AT %QX0.0 : BOOL;
-  Lamp AT %QX0.1 : BOOL;
-END_VAR
-
-PROGRAM Main LD
-RUNG "one"
-  | NO Start | NC Stop | COIL Motor |
-RUNG "two"
-  | NO Motor | COIL Lamp |
-END_PROGRAM
-'''
 ROW = 36  # px from the top of a rung with a title to that of its first row
 RUNG = ROW + 84 + 9
 THEMES = {'light': ({}, (0x1a, 0x5f, 0xb4)),
@@ -66,7 +51,7 @@ def sheets(screen, *names):
     """One editor after the other, which know nothing of each other: its name, itself, its colour of marks."""
     for name in names:
         env, accent = THEMES[name]
-        path = new_file(screen, PROJECT)
+        path = new_file(screen, TWO_RUNGS)
         editor = Editor(screen, path, XDG_STATE_HOME=os.path.join(screen.home, name), **env)
         until(lambda editor=editor: len(editor.cells()) == 5, 'the sheet')
         yield name, editor, accent

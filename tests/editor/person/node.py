@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: MIT
+"""node - a widget as the accessibility bus knows it: what it is called, is, has and where.
+
+It finds none and touches none: desk.py does.
+"""
+WHOLE = {11, 29, 37, 43, 48, 61, 62}  # roles of what never hides a part of its own
+ROLES = {'slider': 51, 'check box': 7, 'combo box': 11, 'list': 31, 'menu item': 35, 'spin button': 52,
+         'dialog': 16, 'frame': 23, 'label': 29, 'list item': 32, 'page tab': 37, 'push button': 43,
+         'table': 55, 'table cell': 56, 'table row': 90, 'text': 61, 'toggle button': 62, 'entry': 79}
+A11Y = 'org.a11y.atspi.'
+EXTENTS = ('Component', 'GetExtents', 'u', 1)  # in the window
+
+
+class Gone(AssertionError):
+    """A widget went away while it was looked at."""
+
+
+class Node:
+    """A widget, as the accessibility bus knows it."""
+
+    def __init__(self, editor, item):
+        """@item: as org.a11y.atspi.Cache.GetItems gives it"""
+        self.editor = editor
+        self.path, self.parent = str(item[0][1]), str(item[2][1])
+        self.place, self.children = int(item[3]), int(item[4])  # among those that are seen
+        self.name, self.role, self.states = str(item[6]), int(item[7]), int(item[9][0])
+        self.widget = A11Y + 'Component' in item[5]  # the page of a stack is none: only what it holds is seen
+
+    def ask(self, *question):
+        answer = self.editor.ask([(self.path, *question)])[0]
+        if answer is None:
+            raise Gone('"%s" is gone' % self.name)
+        return answer
+
+    def box(self):
+        """x, y, width, height in its window."""
+        return self.ask(*EXTENTS)[0]
+
+    def text(self):
+        return str(self.ask('Text', 'GetText', 'ii', 0, 1 << 20)[0])
+
+    def has(self, state):
+        """11: can have the focus, 12: has it, 24: sensitive …, as AtspiStateType counts."""
+        return bool(self.ask('Accessible', 'GetState')[0][0] >> state & 1)
