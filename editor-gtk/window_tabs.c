@@ -11,6 +11,7 @@
 #include "editor-gtk/slow_bar.h"
 #include "editor-gtk/spoken.h"
 #include "editor-gtk/symbols_view.h"
+#include "editor-gtk/tab_home.h"
 #include "editor-gtk/text_view.h"
 #include "editor-gtk/welcome.h"
 
@@ -583,6 +584,7 @@ void tabs_init(LadderWindow *window)
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_SHIFT_END |
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_UP |
 		ADW_TAB_VIEW_SHORTCUT_CONTROL_PAGE_DOWN);
+	tab_home_make(window->tab_bar);
 	g_signal_connect_object(window->document, "project-changed",
 				G_CALLBACK(tabs_update), window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->tabs, "notify::selected-page",

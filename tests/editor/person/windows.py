@@ -24,6 +24,10 @@ END_PROGRAM
 TARGET = SOURCE[:SOURCE.index('RUNG "')] + 'RUNG\nEND_PROGRAM\n'
 
 
+PANEL = 230  # px, of the tree
+SHEETS = ('Main', 'Other', 'Second', 'Symbols')
+
+
 def clipboard():
     return sh('timeout', '10', 'xclip', '-selection', 'clipboard', '-o')
 
@@ -66,4 +70,61 @@ def from_text(screen):
     assert len(editor.cells()) == 2, 'what is no rung was pasted'
 
 
-main([other_window, from_text])
+def a_tab(screen):
+    """a tab stays in the window of its project: another takes none, and let go anywhere it comes back to its place"""
+    more = SOURCE + '\nPROGRAM Second LD\nRUNG\n  | NO Stop | COIL %QX0.1 |\nEND_PROGRAM\n'
+    paths = new_file(screen, more, 'one.rung'), new_file(screen, more.replace('Main', 'Other'), 'two.rung')
+    editor = Editor(screen, *paths)
+    one, two = until(lambda: len(editor.windows()) == 2 and sorted(editor.windows(), key=int), 'two windows')
+    for window, x, y in (one, 0, 0), (two, 300, 720):
+        sh('xdotool', 'windowsize', '--sync', window, '1024', '700', 'windowmove', '--sync', window, str(x), str(y))
+
+    def tabs(name):
+        """Of the window with that program, from left to right: right of the tree, and of a tooltip's corner."""
+        for frame in editor.all(role='frame'):
+            named = [(node.box()[0], node) for node in editor.all(role='label', below=frame.path) if node.name in SHEETS]
+            if name in [node.name for _, node in named]:
+                return [node for left, node in sorted(named, key=lambda each: each[0]) if left > PANEL]
+        return []
+
+    def order(name):
+        return [node.name for node in tabs(name)]
+
+    def stay():
+        until(lambda: (order('Main'), order('Other')) == (['Main', 'Second', 'Symbols'], ['Other', 'Second', 'Symbols']),
+              'the tabs where they were')
+    stay()
+    x, y = editor.centre(tabs('Main')[1])
+
+    def let_go(below):
+        """Dragged straight down. Again: GTK 4.8 loses some presses after something was dragged away."""
+        def done():
+            way = [step for by in range(0, below + 1, below // 10) for step in
+                   ('mousemove', str(x), str(y + by), *(() if by else ('mousedown', '1')), 'sleep', '0.03')]
+            sh('xdotool', *way, 'sleep', '0.2')
+            out = order('Main') == ['Main', 'Symbols']
+            editor.shot('windows-tab-%d' % below)
+            sh('xdotool', 'mouseup', '1')
+            return out
+        until(done, 'the tab to be out of its bar')
+        stay()
+    for below in 720, 200:
+        let_go(below)
+    # Its own bar takes it, in another order.
+
+    def moved():
+        editor.drag((x, y), (x - 250, y))
+        try:
+            return until(lambda: order('Main') == ['Second', 'Main', 'Symbols'], 'the other order', 1)
+        except AssertionError:
+            return False
+    until(moved, 'the other order')
+    editor.click(editor.all('closed while TRUE: Stop', 'table cell')[0])
+    editor.keys('slash')
+    until(lambda: len(editor.all('closed while FALSE: Stop', 'table cell')) == 3, 'the negated contact')
+    editor.save(paths[0])
+    assert lines(paths[0], '@print %QX0.1\nStop=0\nStop=1\n') == ['%QX0.1=1', '%QX0.1=0']
+    assert lines(paths[1], '@print %QX0.1\nStop=0\nStop=1\n') == ['%QX0.1=0', '%QX0.1=1']
+
+
+main([other_window, from_text, a_tab])
