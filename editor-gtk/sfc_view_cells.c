@@ -4,7 +4,8 @@
  * is seen.
  *
  * As of rungs: GTK 4.8 makes only widgets accessible, so there is one that draws nothing
- * for each. The one at the cursor is told as selected. They follow a moment later.
+ * for each. The one at the cursor is told as selected, and when the cursor comes to it
+ * described by the chart, which has the focus. They follow a moment later.
  */
 #include "editor-gtk/sfc_view_inside.h"
 
@@ -63,7 +64,7 @@ static void add_names(GString *text, const struct project *project, const struct
 				       project_text(project, sfc->ref[first + i].name));
 }
 
-static void say_step(LadderSfcView *view, GString *text, int index)
+static void say_step(LadderSfcView *view, GString *text, int index, bool live)
 {
 	const struct sfc *sfc = view->sheet->layout->sfc;
 
@@ -74,7 +75,7 @@ static void say_step(LadderSfcView *view, GString *text, int index)
 		g_string_append_printf(text, ", %s", _("macro-step"));
 	if (view->sheet->times[index][0])
 		g_string_append_printf(text, ", %s", view->sheet->times[index]);
-	if (chart_live_is_on(view) && view->live.step &&
+	if (live && chart_live_is_on(view) && view->live.step &&
 	    view->live.step[index] & SFC_ACTIVE)
 		g_string_append_printf(text, ", %s", _("active"));
 }
@@ -94,7 +95,8 @@ static void say_transition(LadderSfcView *view, GString *text, int index)
 	g_string_free(to, TRUE);
 }
 
-char *chart_said(LadderSfcView *view, struct sfc_at at)
+/* @live: and what it is now. */
+static char *called(LadderSfcView *view, struct sfc_at at, bool live)
 {
 	const struct sfc_shape *shape = &view->sheet->layout->shape[at.shape];
 	const char *comment = at.use >= 0 ? view->sheet->use_comment[at.use] :
@@ -107,7 +109,7 @@ char *chart_said(LadderSfcView *view, struct sfc_at at)
 				       view->sheet->what[at.use],
 				       view->sheet->does[at.use]);
 	else if (shape->part == SFC_STEP)
-		say_step(view, text, shape->index);
+		say_step(view, text, shape->index, live);
 	else if (shape->part == SFC_TRANSITION)
 		say_transition(view, text, shape->index);
 	else
@@ -115,6 +117,36 @@ char *chart_said(LadderSfcView *view, struct sfc_at at)
 	if (*comment)
 		g_string_append_printf(text, ", %s", comment);
 	return g_string_free(text, FALSE);
+}
+
+char *chart_said(LadderSfcView *view, struct sfc_at at)
+{
+	return called(view, at, true);
+}
+
+/* When the cursor is elsewhere, or something else is there; not when a step becomes
+ * active. While an entry is open, that one is heard. */
+static void tell_cursor(LadderSfcView *view)
+{
+	const struct sfc_at at = view->cursor;
+	char *told, *text;
+
+	if (view->entry || !view->sheet || at.shape < 0)
+		return;
+	text = called(view, at, false);
+	/* What is called the same may be another one. */
+	told = g_strdup_printf("%d %d %s", at.shape, at.use, text);
+	g_free(text);
+	if (g_strcmp0(told, view->told) != 0) {
+		text = called(view, at, true);
+		gtk_accessible_reset_property(GTK_ACCESSIBLE(view),
+					      GTK_ACCESSIBLE_PROPERTY_DESCRIPTION);
+		gtk_accessible_update_property(GTK_ACCESSIBLE(view),
+			GTK_ACCESSIBLE_PROPERTY_DESCRIPTION, text, -1);
+		g_free(text);
+	}
+	g_free(view->told);
+	view->told = told;
 }
 
 /* ---- which there are ---- */
@@ -201,6 +233,7 @@ static gboolean update_now(gpointer data)
 	/* What is said is what is shown now, drawn already or not. */
 	chart_live_look(view, &now);
 	cells_update(view);
+	tell_cursor(view);
 	gtk_widget_queue_allocate(GTK_WIDGET(view));
 	return G_SOURCE_REMOVE;
 }
@@ -258,4 +291,5 @@ void chart_cells_clear(LadderSfcView *view)
 {
 	g_clear_handle_id(&view->cells_later, g_source_remove);
 	drop_from(view, 0);
+	g_clear_pointer(&view->told, g_free);
 }

@@ -47,6 +47,7 @@ struct _LadderSfcView {
 	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
 	GArray *cells;              /* of struct sfc_cell                      */
 	guint cells_later;
+	char *told;                 /* of the cursor, to people who hear; NULL: nothing */
 	graphene_rect_t seen;       /* when they were made last                */
 	struct sfc_at press;        /* where the button went down              */
 	double press_x, press_y;    /* px at 100 %                              */

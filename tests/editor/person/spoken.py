@@ -28,6 +28,27 @@ RUNG
 END_PROGRAM''')
 BOX = PROJECT.replace('  Motor', '  Parts : CTU;\n  Motor').replace(
     '  | NO Start | COIL Motor |', '  | NO Start | CTU Parts |' + ' NO Start |' * 25 + ' COIL Motor |\n  | NO Start | .R |')
+CHART = '''RUNGBOARD 1
+
+PROGRAM Main SFC
+  VAR
+    Start AT %IX0.0 : BOOL;
+    Full  AT %IX0.1 : BOOL;
+    Valve AT %QX0.0 : BOOL;
+  END_VAR
+
+  INITIAL_STEP Idle:
+  END_STEP
+
+  TRANSITION FROM Idle TO Fill := Start; END_TRANSITION
+
+  STEP Fill:
+    Valve(N);
+  END_STEP
+
+  TRANSITION FROM Fill TO Idle := Full; END_TRANSITION
+END_PROGRAM
+'''
 HEARD = re.compile(r'path=(\S+);[^;]*; member=PropertyChange\n +string "accessible-description"\n.*\n.*\n'
                    r' +variant +string "(.+)"')
 USED = [ROLES[role] for role in ('check box', 'combo box', 'menu item', 'spin button', 'page tab',
@@ -92,8 +113,9 @@ class Reader:
     """What is told on the accessibility bus as a screen reader gets it: of the widget with the
     focus a new description is said."""
 
-    def __init__(self, editor):
-        self.editor, self.path = editor, os.path.join(editor.screen.home, 'heard')
+    def __init__(self, editor, name='Sheet'):
+        self.editor, self.name = editor, name
+        self.path = os.path.join(editor.screen.home, 'heard')
         with open(self.path, 'w') as out:
             self.monitor = subprocess.Popen(
                 ['dbus-monitor', '--address', editor.screen.accessibility_address(),
@@ -102,7 +124,7 @@ class Reader:
         until(lambda: 'NameLost' in open(self.path).read(), 'the monitor to listen')
 
     def said(self):
-        sheet = self.editor.sheet().path
+        sheet = self.editor.find(self.name).path
         return [text for path, text in HEARD.findall(open(self.path).read()) if path == sheet]
 
     def says(self, text, then=None):
@@ -112,7 +134,7 @@ class Reader:
             then()
         said = until(lambda: self.said()[before:], text)
         assert said == [text], (text, said)
-        assert self.editor.sheet().has(12), 'the sheet has the focus no more'
+        assert self.editor.find(self.name).has(12), 'the focus went away'
 
 
 def at_cursor(editor):
@@ -121,6 +143,11 @@ def at_cursor(editor):
         found = [node for node in editor.all('Rung ', 'table cell') if node.has(23)]
         return found[0] if len(found) == 1 else None
     return until(look, 'one cell at the cursor')
+
+
+def shape(editor, name):
+    """Of a chart."""
+    return until(lambda: [node for node in editor.all(name, 'table cell') if node.name == name], name)[0]
 
 
 def actions(node):
@@ -195,4 +222,28 @@ def boxes(screen):
     assert reader.said()[-1] == start + ', open, row 1, column A', reader.said()
 
 
-main([window, simulated, tips, cursor, edited, boxes])
+def chart(screen):
+    """of a chart the step, condition and line that the cursor comes to; not that a step becomes active"""
+    path = new_file(screen, CHART)
+    editor = Editor(screen, path)
+    until(lambda: editor.find('Chart').has(12), 'the focus on the chart')
+    until(lambda: described(editor, editor.find('Chart')).startswith('Step Idle, initial'), 'the first step')
+    reader = Reader(editor, 'Chart')
+    condition = 'Transition 1, from Idle to Fill, condition Start'
+    reader.says(condition, lambda: editor.keys('Down'))
+    reader.says('Step Fill', lambda: editor.keys('Down'))
+    reader.says('Fill does: N Valve', lambda: editor.keys('Right'))
+    reader.says(condition, lambda: editor.click(shape(editor, condition)))
+    reader.says('Step Fill', lambda: editor.keys('Down'))
+    editor.keys('ctrl+m')
+    editor.says('Simulating')
+    editor.keys('ctrl+t')
+    shape(editor, 'Step Idle, initial, active')
+    editor.click(until(lambda: editor.all('Start', 'check box'), 'the switch')[0])
+    editor.keys('ctrl+t', 'ctrl+t')
+    shape(editor, 'Step Fill, active')
+    assert reader.said()[-1] == 'Step Fill', reader.said()
+    reader.says('Step Idle, initial', lambda: editor.click(shape(editor, 'Step Idle, initial')))
+
+
+main([window, simulated, tips, cursor, edited, boxes, chart])
