@@ -130,19 +130,17 @@ static void export_response(GtkNativeDialog *dialog, int response, LadderWindow 
 void window_export_pdf(LadderWindow *window)
 {
 	GtkFileChooserNative *chooser;
-	char *name, *file;
+	char *file;
 
 	if (!has_pages(window))
 		return;
 	chooser = gtk_file_chooser_native_new(_("Export as PDF"), GTK_WINDOW(window),
 		GTK_FILE_CHOOSER_ACTION_SAVE, _("Export"), _("Cancel"));
-	name = ladder_document_name(window->document);
-	file = g_strdup_printf("%s.pdf", name);
+	file = window_name_with(window, ".pdf");
 	chooser_beside(chooser, window->document);
 	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), file);
 	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
 	g_signal_connect(chooser, "response", G_CALLBACK(export_response), window);
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
 	g_free(file);
-	g_free(name);
 }

@@ -150,7 +150,7 @@ def writers(screen):
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     editor.to_sheet()
     before = kept(editor)
-    for title, offered in (('Export as PDF', 'new.rung.pdf'), ('New I/O map', 'new.io'),
+    for title, offered in (('Export as PDF', 'new.pdf'), ('New I/O map', 'new.io'),
                            ('Export as ClassicLadder', 'new.clprj')):
         command(editor, title)
         titled(editor, title)
