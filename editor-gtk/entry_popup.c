@@ -142,6 +142,21 @@ static const char *line_of(LadderEntryPopup *popup)
 	return gtk_editable_get_text(GTK_EDITABLE(popup->line));
 }
 
+/* All lines of it are asked for: a popover takes its height from more width than it gives,
+ * and cuts the last one off where that matters. */
+static void show_told(LadderEntryPopup *popup, const char *text)
+{
+	GtkWidget *told = popup->told;
+	int width, height;
+
+	gtk_widget_set_size_request(told, -1, -1);
+	gtk_label_set_text(GTK_LABEL(told), text);
+	gtk_widget_set_visible(told, text[0]);
+	gtk_widget_measure(told, GTK_ORIENTATION_HORIZONTAL, -1, NULL, &width, NULL, NULL);
+	gtk_widget_measure(told, GTK_ORIENTATION_VERTICAL, width, &height, NULL, NULL, NULL);
+	gtk_widget_set_size_request(told, width, height);
+}
+
 void ladder_entry_popup_ask(LadderEntryPopup *popup)
 {
 	bool good = true;
@@ -153,8 +168,7 @@ void ladder_entry_popup_ask(LadderEntryPopup *popup)
 				    gtk_editable_get_position(GTK_EDITABLE(popup->line)),
 				    &good);
 	make_first(popup);
-	gtk_label_set_text(GTK_LABEL(popup->told), told ? told : "");
-	gtk_widget_set_visible(popup->told, told && told[0]);
+	show_told(popup, told ? told : "");
 	if (good)
 		gtk_widget_remove_css_class(popup->told, "error");
 	else
@@ -331,9 +345,6 @@ static void ladder_entry_popup_init(LadderEntryPopup *popup)
 	gtk_widget_add_css_class(popup->line, "monospace");
 	gtk_label_set_xalign(GTK_LABEL(popup->told), 0);
 	gtk_label_set_wrap(GTK_LABEL(popup->told), TRUE);
-	/* Its own width, not that of its shortest lines: else the popover, which takes its
-	 * height from another width, cuts the last one off. */
-	gtk_label_set_natural_wrap_mode(GTK_LABEL(popup->told), GTK_NATURAL_WRAP_NONE);
 	gtk_label_set_max_width_chars(GTK_LABEL(popup->told), TOLD_WIDTH);
 	gtk_widget_add_css_class(popup->told, "caption");
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(popup->scroller), popup->list);

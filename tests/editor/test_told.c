@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_told - what an entry tells below its line is seen whole, however long it is.
+ */
+#include "editor-gtk/entry_popup.h"
+#include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+#define LONGEST 200 /* characters */
+
+static GString *telling;
+
+static char *changed(void *context, const char *line, int cursor, bool *good)
+{
+	(void)context, (void)line, (void)cursor;
+	*good = true;
+	return g_strdup(telling->str);
+}
+
+static bool taken(void *context, const char *line)
+{
+	(void)context, (void)line;
+	return true;
+}
+
+static GtkWidget *label_in(GtkWidget *widget, const char *text)
+{
+	GtkWidget *found = NULL;
+
+	if (GTK_IS_LABEL(widget) && strcmp(gtk_label_get_text(GTK_LABEL(widget)), text) == 0)
+		return widget;
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child && !found;
+	     child = gtk_widget_get_next_sibling(child))
+		found = label_in(child, text);
+	return found;
+}
+
+/* Is what is told as high as it needs to be in its width, and inside of what holds it? */
+static bool is_whole(GtkWidget *popup)
+{
+	GtkWidget *label = label_in(popup, telling->str);
+	graphene_rect_t bounds;
+	int needed;
+
+	if (!label || gtk_widget_get_width(label) == 0)
+		return false;
+	gtk_widget_measure(label, GTK_ORIENTATION_VERTICAL, gtk_widget_get_width(label),
+			   &needed, NULL, NULL, NULL);
+	return gtk_widget_get_height(label) >= needed &&
+	       gtk_widget_compute_bounds(label, gtk_widget_get_parent(label), &bounds) &&
+	       bounds.origin.y + bounds.size.height <=
+		       (float)gtk_widget_get_height(gtk_widget_get_parent(label));
+}
+
+static void test_lengths(GtkWidget *owner, const char *const *word, int words)
+{
+	const struct entry_popup_calls calls = { changed, taken, NULL, NULL };
+	GtkWidget *popup = ladder_entry_popup_new(owner, "Name", "", false, &calls);
+
+	g_string_truncate(telling, 0);
+	ladder_entry_popup_show(LADDER_ENTRY_POPUP(popup), &(GdkRectangle){ 10, 10, 50, 50 });
+	for (int i = 0; g_utf8_strlen(telling->str, -1) < LONGEST; i++) {
+		g_string_append(telling, word[i % words]);
+		ladder_entry_popup_ask(LADDER_ENTRY_POPUP(popup));
+		WAIT(is_whole(popup));
+		CHECK_AS(is_whole(popup), telling->str);
+	}
+	ladder_entry_popup_keep(LADDER_ENTRY_POPUP(popup));
+}
+
+int main(void)
+{
+	static const char *const english[] = { "a new ", "input ", "Pump ", "%IX0.5 ", "or any ",
+					       "of ", "its ", "parts, " };
+	static const char *const chinese[] = { "新", "变量", "，", "输入", "地址", "的" };
+	GtkWidget *window, *owner;
+
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	adw_init();
+	window = gtk_window_new();
+	owner = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	gtk_window_set_child(GTK_WINDOW(window), owner);
+	gtk_window_set_default_size(GTK_WINDOW(window), 900, 600);
+	screen_show(window);
+	telling = g_string_new("");
+	test_lengths(owner, english, G_N_ELEMENTS(english));
+	test_lengths(owner, chinese, G_N_ELEMENTS(chinese));
+	ladder_entry_popup_drop(owner);
+	g_string_free(telling, TRUE);
+	gtk_window_destroy(GTK_WINDOW(window));
+	return tap_done();
+}
