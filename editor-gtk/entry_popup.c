@@ -142,21 +142,6 @@ static const char *line_of(LadderEntryPopup *popup)
 	return gtk_editable_get_text(GTK_EDITABLE(popup->line));
 }
 
-/* All lines of it are asked for: a popover takes its height from more width than it gives,
- * and cuts the last one off where that matters. */
-static void show_told(LadderEntryPopup *popup, const char *text)
-{
-	GtkWidget *told = popup->told;
-	int width, height;
-
-	gtk_widget_set_size_request(told, -1, -1);
-	gtk_label_set_text(GTK_LABEL(told), text);
-	gtk_widget_set_visible(told, text[0]);
-	gtk_widget_measure(told, GTK_ORIENTATION_HORIZONTAL, -1, NULL, &width, NULL, NULL);
-	gtk_widget_measure(told, GTK_ORIENTATION_VERTICAL, width, &height, NULL, NULL, NULL);
-	gtk_widget_set_size_request(told, width, height);
-}
-
 void ladder_entry_popup_ask(LadderEntryPopup *popup)
 {
 	bool good = true;
@@ -168,7 +153,7 @@ void ladder_entry_popup_ask(LadderEntryPopup *popup)
 				    gtk_editable_get_position(GTK_EDITABLE(popup->line)),
 				    &good);
 	make_first(popup);
-	show_told(popup, told ? told : "");
+	popover_tell(GTK_LABEL(popup->told), told ? told : "");
 	if (good)
 		gtk_widget_remove_css_class(popup->told, "error");
 	else

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * popover - opens menus below a place, and takes popovers from their parents.
+ * popover - opens menus below a place, tells, and takes popovers from their parents.
  */
 #include "editor-gtk/popover.h"
 
@@ -54,4 +54,19 @@ static void make_menu(GtkMenuButton *button, gpointer make)
 void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void))
 {
 	gtk_menu_button_set_create_popup_func(button, make_menu, (gpointer)make, NULL);
+}
+
+/* GTK 4.8 takes a popover's height from more width than it gives to what is inside: of a
+ * text that just needs one line more, that line is cut off unless it is asked for. */
+void popover_tell(GtkLabel *label, const char *text)
+{
+	GtkWidget *widget = GTK_WIDGET(label);
+	int width, height;
+
+	gtk_widget_set_size_request(widget, -1, -1);
+	gtk_label_set_text(label, text);
+	gtk_widget_set_visible(widget, text[0]);
+	gtk_widget_measure(widget, GTK_ORIENTATION_HORIZONTAL, -1, NULL, &width, NULL, NULL);
+	gtk_widget_measure(widget, GTK_ORIENTATION_VERTICAL, width, NULL, &height, NULL, NULL);
+	gtk_widget_set_size_request(widget, width, height);
 }

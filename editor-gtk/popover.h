@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * popover - a menu at a place, and how a popover that was made for one question goes away again.
+ * popover - a menu at a place, a text in a popover, and how one that was made for one
+ * question goes away again.
  */
 #ifndef EDITOR_POPOVER_H
 #define EDITOR_POPOVER_H
@@ -20,5 +21,8 @@ void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWid
 /** popover_menu_of - what @button opens is made by @make, which gives it away, the first time:
  * most menus are never seen. */
 void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void));
+/** popover_tell - a text that is seen whole, of a label that wraps; once it has the parent
+ * whose style it takes. An empty one hides the label. */
+void popover_tell(GtkLabel *label, const char *text);
 
 #endif

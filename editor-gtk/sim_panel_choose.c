@@ -144,11 +144,12 @@ static void ask_key(LadderSimPanel *panel, bool toggles)
 	}
 	text = g_strdup_printf(toggles ? _("Press the key that toggles %s") :
 			       _("Press the key that holds %s on"), row->name);
-	label = gtk_label_new(text);
+	label = gtk_label_new(NULL);
 	gtk_label_set_wrap(GTK_LABEL(label), TRUE);
 	gtk_label_set_max_width_chars(GTK_LABEL(label), 28);
 	gtk_widget_set_focusable(label, TRUE);
 	ask(panel, label);
+	popover_tell(GTK_LABEL(label), text);
 	gtk_widget_grab_focus(label);
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	g_object_set_data(G_OBJECT(keys), "toggles", toggles ? panel : NULL);
