@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """chinese - a project in Chinese: names, titles and comments, in every list, and under the pointer."""
+import gettext
 import os
 import re
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from desk import BUILD, Chinese, Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 PROJECT "水泵站"
@@ -23,6 +25,10 @@ RUNG "电机的启动和停止"
   | NO 启动 | NC 停止 | COIL 电机 |
 END_PROGRAM
 '''
+HELD = PROJECT.replace('COIL 电机 |\n', 'COIL 电机 |\n  | NO 电机 ^|\n')
+WRONG = HELD.replace('  停止 AT', '  启动 AT %IX0.2 : BOOL;\n  停止 AT').replace('NC 停止', 'NC 未声明')
+LINE = 34  # px of a line of the timing chart
+NAMES = 128  # px to the values, which are right of the names
 
 
 def project(screen):
@@ -76,4 +82,101 @@ def tip(screen):
     assert width > height, 'the tooltip is %d x %d' % (width, height)
 
 
-main([project, tip])
+def pixels(x, y, width, height):
+    """The lines of a place on the screen, each as the brightness of its pixels."""
+    body = subprocess.run(['import', '-window', 'root', '-crop', '%dx%d+%d+%d' % (width, height, x, y), '-colorspace',
+                           'gray', '-depth', '8', 'gray:-'], capture_output=True, check=True).stdout
+    return [body[i:i + width] for i in range(0, len(body), width)]
+
+
+def ink(editor, line):
+    """Of a name in the timing chart: the first and the last line and column of pixels that are no background."""
+    x, y, _, _ = editor.place(editor.find('Timing chart, cursor'))
+    rows = pixels(x, y + LINE * line, NAMES, LINE)
+    upon = [(row, column) for row, data in enumerate(rows) for column, grey in enumerate(data)
+            if abs(grey - rows[0][0]) > 80]
+    return [edge(each) for each in zip(*upon) for edge in (min, max)]
+
+
+def at_the_bottom(editor, text):
+    """It is told in the status bar: that is the last of the window, and as high as a line."""
+    node = editor.says(text)
+    _, y, _, height = editor.place(node)
+    _, top, _, whole = editor.place(editor.find(role='frame'))
+    assert 0 <= top + whole - y - height < 20, (text, y, height, top + whole)
+
+
+def listed(editor, said, name):
+    """Cross reference, rename, log, status bar and timing chart; @said: a text in the editor's language."""
+    path = os.path.join(editor.screen.home, '水泵站.rung')
+    editor.to_sheet()
+    editor.keys('End', 'shift+F12')
+    for use, row, column in ('coil', 1, 3), ('read', 2, 1):
+        place = said('%s, rung %d (%d, %d)') % ('主程序', 1, row, column)
+        editor.find('电机 %%QX0.0 %s, %s. 电机' % (said(use), place), 'table row')
+        until(lambda place=place: [node for node in editor.all(place, 'label') if node.name == place], place)
+    editor.shot('chinese-uses-' + name)
+    editor.keys('F2')
+    line = until(editor.asked, 'the new name')[0]
+    until(lambda: line.has(12), 'the focus in the line')
+    editor.keys('ctrl+a')
+    editor.type('水泵电机')
+    editor.keys('Return')
+    editor.to_sheet()
+    text = editor.save(path)
+    assert '  水泵电机 AT %QX0.0 : BOOL; (* 水泵电机的接触器 *)' in text and text.count(' 水泵电机 ') == 3, text
+    check(path)
+    script = '@print 水泵电机\n启动=1\n启动=0\n停止=1\n'
+    assert lines(path, script) == ['水泵电机=1', '水泵电机=1', '水泵电机=0']
+    editor.tab(said('Log'))
+    log = [(said('system'), path), (said('operator'), said('Rename everywhere')), (said('system'), path)]
+
+    def logged():
+        return [tuple(line.split('\t')[1:]) for node in editor.all('Log', 'text') for line in node.text().splitlines()]
+    until(lambda: [line for line in logged() if line in log] == log, 'the lines of the log')
+    editor.shot('chinese-log-' + name)
+    editor.keys('Home', 'ctrl+r')
+    editor.tab(said('Timing chart'))
+    contact = until(lambda: [node for node in editor.all('启动', 'table cell') if 'NO' in node.name], 'the contact')[0]
+    editor.click(editor.middle(contact))
+    at_the_bottom(editor, '启动 = TRUE')
+    names = [until(lambda line=line: ink(editor, line), 'a name in the chart') for line in range(3)]
+    editor.shot('chinese-timing-' + name)
+    for top, bottom, left, right in names:
+        assert 3 < top < bottom - 9 < LINE - 12 and 8 < left < right < NAMES - 8, names
+    start, stop, motor = [right - left for _, _, left, right in names]
+    assert abs(start - stop) < 5 and 1.8 < motor / start < 2.4, 'not all of a name is there: %s' % names
+
+
+def wrong(editor, said, name):
+    """The list of problems: a name that is declared twice and one that is not, each with its place."""
+    editor.to_sheet()
+    for problem, place in ((said('name is declared twice') + ': 启动', said('line %d') % 6),
+                           (said('unknown name') + ': 未声明',
+                            said('%s, rung %d, row %d, column %d') % ('主程序', 1, 1, 2))):
+        _, y, _, _ = editor.place(editor.find(problem, 'label'))
+        _, beside, _, _ = editor.place(editor.find(place, 'label'))
+        assert beside == y, (problem, place)
+    editor.shot('chinese-problems-' + name)
+
+
+def below(screen):
+    """the lists below the sheets and the status bar show Chinese names, and where they are"""
+    said = gettext.NullTranslations().gettext
+    editor = Editor(screen, new_file(screen, HELD, '水泵站.rung'))
+    listed(editor, said, 'wide')
+    editor.finish()
+    wrong(Editor(screen, new_file(screen, WRONG, '水泵站.rung')), said, 'wide')
+
+
+def small(screen):
+    """so they do in Chinese, dark and small"""
+    editor = Chinese(screen, new_file(screen, HELD, '水泵站.rung'), ADW_DEBUG_COLOR_SCHEME='prefer-dark')
+    said = editor.said.gettext
+    listed(editor, said, 'small')
+    editor.finish()
+    wrong(Chinese(screen, new_file(screen, WRONG, '水泵站.rung'), ADW_DEBUG_COLOR_SCHEME='prefer-dark'), said, 'small')
+
+
+small.size = '1024x700x24'
+main([project, tip, below] + ([small] if os.path.isdir(os.path.join(BUILD, 'locale')) else []))

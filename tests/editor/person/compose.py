@@ -6,7 +6,7 @@ import shutil
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, main, new_file, sh, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 
 def keyboard(screen):
@@ -44,8 +44,12 @@ def on_the_sheet(screen):
     editor.keys('ctrl+shift+u', '9', '6', '0', '0', 'space')  # a blank alone would change the kind
     until(lambda: line(editor) == '\u9600', '阀 in the entry')
     take(editor)
+    editor.entry('OUT Motor')
     text = editor.save(path)
-    assert '| NO étoile | NO ø | NO \u9600 |' in ' '.join(text.split()), text
+    assert '| NO étoile | NO ø | NO \u9600 | COIL Motor |' in ' '.join(text.split()), text
+    check(path)
+    script = '@print Motor\nétoile=1\nø=1\n\u9600=1\nø=0\n'
+    assert lines(path, script) == ['Motor=0', 'Motor=0', 'Motor=1', 'Motor=0']
 
 
 def given_up(screen):
@@ -58,6 +62,8 @@ def given_up(screen):
     editor.entry('OUT Motor')
     text = editor.save(path)
     assert '| NC Start | COIL Motor |' in ' '.join(text.split()), text
+    check(path)
+    assert lines(path, '@print Motor\nStart=0\nStart=1\n') == ['Motor=1', 'Motor=0']
 
 
 def in_the_entry(screen):
@@ -74,8 +80,11 @@ def in_the_entry(screen):
     editor.opened()
     editor.keys('dead_circumflex', 'o')
     take(editor)
+    editor.entry('OUT Motor')
     text = editor.save(path)
-    assert '| NO Tür |' in ' '.join(text.split()) and 'RUNG ô' in text, text
+    assert '| NO Tür | COIL Motor |' in ' '.join(text.split()) and 'RUNG ô' in text, text
+    check(path)
+    assert lines(path, '@print Motor\nTür=1\nTür=0\n') == ['Motor=1', 'Motor=0']
 
 
 main([on_the_sheet, given_up, in_the_entry])

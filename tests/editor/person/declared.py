@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, until  # noqa: E402
 
 PROJECT = '''RUNGBOARD 1
 
@@ -39,6 +39,7 @@ def typed(screen):
         assert '  %s\n' % wanted in text, text
     assert '| NO Open | NC Gate | COIL Lamp |' in text, text
     check(path)
+    assert lines(path, '@print %QX0.7\n%IX0.5=1\nGate=1\n') == ['%QX0.7=1', '%QX0.7=0']
     editor.keys('ctrl+z')
     text = editor.save(path)
     assert 'Lamp' not in text and 'Gate : BOOL;' in text, text
@@ -74,6 +75,11 @@ def refused(screen):
     editor.keys('Return')
     editor.gone()
     assert editor.save(path).count(' AT %IX0.0 : BOOL;') == 2
+    editor.keys('End')
+    editor.entry('OUT Lamp %QX0.1')
+    editor.save(path)
+    check(path)
+    assert lines(path, '@print %QX0.1\nBegin=1\nStart_of_belt=0\n') == ['%QX0.1=1', '%QX0.1=0']
 
 
 def chosen(screen):
@@ -106,6 +112,7 @@ def chosen(screen):
         assert '  %s\n' % wanted in text, text
     assert '| NO Open | NO Gate | COIL Lamp |' in text, text
     check(path)
+    assert lines(path, '@print %QX0.6\n%MX0.0=1\nGate=1\nOpen=0\n') == ['%QX0.6=0', '%QX0.6=1', '%QX0.6=0']
 
 
 main([typed, refused, chosen])

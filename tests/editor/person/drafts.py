@@ -66,6 +66,7 @@ def changed_meanwhile(screen):
     assert open(path).read() == other
     again.click(again.find('Save all the same', 'push button'))
     until(lambda: open(path).read() != other, 'the file to be written')
+    check(path)
     assert lines(path, '@print Motor\nStart=0\nStart=1\nStart=0\n') == ['Motor=0', 'Motor=1', 'Motor=1']
 
 

@@ -14,6 +14,13 @@ def rung_lines(path):
         return [line.strip() for line in file if line.startswith(('RUNG "', '  |'))]
 
 
+def as_before(path):
+    """The program is good, and its rungs do what they did."""
+    check(path)
+    assert lines(path, '@print Motor\nStart=1\nStop=1\n') == ['Motor=1', 'Motor=0']
+    assert lines(path, '@print Lamp\nStart=1\nStop=1\n') == ['Lamp=1', 'Lamp=0']
+
+
 def plain(text):
     return ''.join(text.split())
 
@@ -28,9 +35,12 @@ def elements(screen):
     editor.shot('drag-element')
     editor.save(path)
     check(path)
+    assert lines(path, '@print Motor\nStart=1\nStop=1\n') == ['Motor=1', 'Motor=1']
     assert lines(path, '@print Lamp\nStart=1\nStop=1\n') == ['Lamp=1', 'Lamp=0']
     editor.keys('ctrl+z')
     until(lambda: any('Rung 1' in name and 'Stop' in name for name in editor.cells()), 'Stop in rung 1')
+    editor.save(path)
+    as_before(path)
 
 
 def rungs(screen):
@@ -44,6 +54,8 @@ def rungs(screen):
     editor.save(path)
     assert rung_lines(path)[0] == 'RUNG "two"', rung_lines(path)
     check(path)
+    # Lamp is now before Motor, which it follows: a scan late.
+    assert lines(path, '@print Lamp\nStart=1\n.\nStop=1\n.\n') == ['Lamp=0', 'Lamp=1', 'Lamp=1', 'Lamp=0']
 
 
 def branch(screen):
@@ -57,8 +69,12 @@ def branch(screen):
     text = editor.save(path)
     assert 'NO Lamp' in text, text
     check(path)
+    assert lines(path, '@print Motor\nStart=1\nStart=0\nStop=1\n') == ['Motor=1', 'Motor=1', 'Motor=0']
     editor.keys('ctrl+z')
     until(lambda: not any('Rung 1' in name and 'Lamp' in name for name in editor.cells()), 'the branch to go')
+    editor.save(path)
+    as_before(path)
+    assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
 
 
 def saved(editor, path, good):
@@ -89,7 +105,7 @@ def wires(screen):
     editor.drag(editor.wire_end(wire + 84, 3, -6), editor.wire_end(wire, 1, 5), key='ctrl')
     saved(editor, path, lambda rows: '^' not in ''.join(rows))
     assert rung_lines(path)[2] == 'RUNG "two"', rung_lines(path)
-    check(path)
+    as_before(path)
 
 
 def quick(screen):
@@ -100,6 +116,10 @@ def quick(screen):
     editor.drag(editor.wire_end(36 + 46, 0, 10), editor.wire_end(36 + 46, 1, 10), steps=1)
     editor.says('A branch of wire')
     saved(editor, path, lambda rows: '^' in ''.join(rows))
+    editor.entry('Lamp')
+    saved(editor, path, lambda rows: 'NO Lamp ^' in rows[2])
+    check(path)
+    assert lines(path, '@print Motor\nStart=1\nStart=0\nStop=1\n') == ['Motor=1', 'Motor=1', 'Motor=0']
 
 
 def refused(screen):
@@ -120,6 +140,11 @@ def refused(screen):
     editor.keys('Insert')
     text = editor.save(path)
     assert plain(text).replace('RUNGRUNG', 'RUNG', 1) == plain(before), text
+    editor.entry('Lamp')
+    editor.entry('OUT %QX0.2')
+    editor.save(path)
+    as_before(path)
+    assert lines(path, '@print %QX0.2\nStart=1\n.\nStop=1\n.\n') == ['%QX0.2=0', '%QX0.2=1', '%QX0.2=1', '%QX0.2=0']
 
 
 def seen(editor, name):
@@ -145,6 +170,10 @@ def by_menu(screen):
     until(lambda: editor.all('row 2 · column A'), 'the cursor below')
     editor.save(path)
     assert plain(rung_lines(path)[2]) == '|^|', rung_lines(path)
+    editor.entry('Lamp')
+    assert 'NO Lamp ^' in editor.save(path)
+    check(path)
+    assert lines(path, '@print Motor\nStart=1\nStart=0\nStop=1\n') == ['Motor=1', 'Motor=1', 'Motor=0']
 
 
 def rung_of(node):
@@ -153,7 +182,9 @@ def rung_of(node):
 
 def far(screen):
     """an element is held at the lower edge: the sheet scrolls to a rung that was not seen"""
-    text = TWO_RUNGS.replace('END_PROGRAM', 'RUNG\n  | NO Motor | COIL Lamp |\n' * 40 + 'END_PROGRAM')
+    # Each rung has a coil of its own: what one does is not done again by the next.
+    more = ''.join('RUNG\n  | NO Motor | COIL %%MX%d.%d |\n' % divmod(number, 8) for number in range(40))
+    text = TWO_RUNGS.replace('END_PROGRAM', more + 'END_PROGRAM')
     path = new_file(screen, text)
     editor = Editor(screen, path)
     stop = editor.element('Rung 1,', 'Stop')
@@ -183,6 +214,9 @@ def far(screen):
     until(lambda: [node for node in editor.all('Stop', 'table cell') if rung_of(node) > last], 'Stop in a far rung')
     saved(editor, path, lambda rows: 'Stop' not in rows[1])
     check(path)
+    coil = next(row for row in rung_lines(path)[4:] if 'NC Stop' in row).split()[-2]
+    assert lines(path, '@print Motor\nStart=1\nStop=1\n') == ['Motor=1', 'Motor=1']
+    assert lines(path, '@print %s\nStart=1\nStop=1\n' % coil) == [coil + '=1', coil + '=0']
 
 
 main([elements, rungs, branch, wires, quick, refused, by_menu, far])

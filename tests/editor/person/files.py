@@ -6,7 +6,7 @@ import stat
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, until  # noqa: E402
 from projects import ONE_RUNG  # noqa: E402
 
 SCENARIO = 'scenario One\n'
@@ -136,6 +136,7 @@ def stays_a_link(screen):
     assert os.readlink(link) == 'there/real.rung' and os.listdir(os.path.dirname(path)) == ['real.rung']
     assert stat.S_IMODE(os.stat(path).st_mode) == 0o640
     check(link)
+    assert lines(link, '@print Motor\nStart=0\nStart=1\n') == ['Motor=1', 'Motor=0']
 
 
 def scenario(screen):
@@ -244,6 +245,8 @@ def closing(screen):
     assert read(path) == theirs
     editor.click(editor.find('Save all the same', 'push button'))
     until(lambda: 'NC Start' in read(path), 'it to be saved all the same')
+    check(path)
+    assert lines(path, '@print Motor\nStart=0\nStart=1\n') == ['Motor=1', 'Motor=0']
 
 
 main([refused, classic, no_program, beside, stays_a_link, tab, window, one_history, written_over, closing])

@@ -47,6 +47,7 @@ def rename(screen):
     assert 'Pump' not in before and before.count('Motor') == 3, before
     editor.keys('ctrl+shift+z')
     assert editor.save(path) == text
+    assert lines(path, '@print Pump\nStart=0\nStart=1\n') == ['Pump=0', 'Pump=1']
 
 
 def find(screen):

@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, until  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -47,6 +47,7 @@ def finds(screen):
     text = editor.save(path)
     assert 'Lamp' not in text and text.count('Bell') == 4, text
     check(path)
+    assert lines(path, '@print Horn\nStart=1\nStart=0\n') == ['Horn=1', 'Horn=0']
     editor.keys('ctrl+z')
     assert editor.save(path) == PROGRAM
 
@@ -66,6 +67,8 @@ def renames(screen):
     text = editor.save(path)
     assert text.count('\u7535\u673a') == 3 and '"Lamp"' in text, text
     check(path)
+    assert lines(path, '@print \u7535\u673a\nStart=1\nStart=0\n') == ['\u7535\u673a=1', '\u7535\u673a=0']
+    assert lines(path, '@print Horn\nStart=1\nStart=0\n') == ['Horn=1', 'Horn=0']
     editor.keys('ctrl+z')
     assert editor.save(path) == PROGRAM
 
@@ -91,6 +94,8 @@ def tables(screen):
     text = editor.save(path)
     assert 'Siren AT %QX0.1 : BOOL; (* loud *)' in text and 'COIL Siren' in text, text
     check(path)
+    assert lines(path, '@print Siren\nStart=1\nStart=0\n') == ['Siren=1', 'Siren=0']
+    assert lines(path, '@print %QX0.1\nStart=1\n') == ['%QX0.1=1']
 
 
 main([finds, renames, tables])

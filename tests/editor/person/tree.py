@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, until  # noqa: E402
 
 TEXT = '''RUNGBOARD 1
 
@@ -24,6 +24,9 @@ RUNG
   | NO %IX0.2 | COIL %QX0.2 |
 END_PROGRAM
 '''
+FIRST = '@print %QX0.0\n%IX0.0=1\n+999\n+1\n'
+MARKED = '@print %QX0.1\n%IX0.1=1\n%IX0.1=0\n'
+OTHER = '@print %QX0.2\n%IX0.2=1\n%IX0.2=0\n'
 
 
 def bookmarks(screen):
@@ -33,6 +36,8 @@ def bookmarks(screen):
     editor.keys('Down', 'ctrl+b')
     until(lambda: editor.all('Main, rung 2', 'label'), 'the bookmark in the tree')
     assert editor.save(path) == TEXT + '\nVIEW\n  bookmark Main 2\nEND_VIEW\n'
+    check(path)
+    assert lines(path, MARKED) == ['%QX0.1=1', '%QX0.1=0']
     editor.keys('Up')
     until(lambda: editor.all('Rung 1 ', 'label'), 'the first rung')
     editor.keys('ctrl+shift+b')
@@ -40,6 +45,8 @@ def bookmarks(screen):
     editor.shot('bookmarks')
     editor.keys('ctrl+z')
     assert editor.save(path) == TEXT
+    check(path)
+    assert lines(path, MARKED) == ['%QX0.1=1', '%QX0.1=0']
 
 
 def rows(screen):
@@ -57,13 +64,22 @@ def rows(screen):
     editor.keys('Return')
     until(lambda: editor.all('Pump', 'label'), 'the new name')
     assert 'PROGRAM Pump LD' in editor.save(path)
+    check(path)
+    assert lines(path, FIRST) == ['%QX0.0=0', '%QX0.0=0', '%QX0.0=1']
     editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other'][0])
     editor.keys('Delete')
     until(lambda: not editor.all('Other', 'label'), 'the program to be gone')
     assert 'Other' not in editor.save(path)
+    assert lines(path, OTHER) == ['%QX0.2=0', '%QX0.2=0']
     editor.keys('ctrl+z')
     assert 'PROGRAM Other' in editor.save(path)
     check(path)
+    assert lines(path, OTHER) == ['%QX0.2=1', '%QX0.2=0']
+
+
+def sheet_of(editor):
+    """Waits until the sheet that is seen has the keys."""
+    until(lambda: [n for n in editor.all('Sheet') if n.box()[2] > 0 and n.has(12)], 'the focus on its sheet')
 
 
 def keys(screen):
@@ -76,7 +92,7 @@ def keys(screen):
         return until(lambda: [n for n in editor.all('Other', 'label') if n.name == 'Other' and n.box()[2] > 0],
                      'its row')[0]
     editor.click(row(), count=2)
-    until(lambda: [n for n in editor.all('Sheet') if n.box()[2] > 0 and n.has(12)], 'the focus on its sheet')
+    sheet_of(editor)
     editor.keys('Insert', 'ctrl+Delete', 'ctrl+Delete')
     assert 'PROGRAM Other LD\nRUNG\nEND_PROGRAM' in editor.save(path)
     editor.click(row())
@@ -85,6 +101,7 @@ def keys(screen):
     editor.keys('Delete', 'ctrl+s')
     until(lambda: 'Other' not in open(path).read(), 'it to be saved without the program')
     check(path)
+    assert lines(path, MARKED) == ['%QX0.1=1', '%QX0.1=0']
 
 
 def menu_item(editor, name):
@@ -112,7 +129,13 @@ def menus(screen):
     until(lambda: menu_item(editor, 'New function') or editor.keys('Down'), 'the row of a new function')
     editor.keys('Return')
     until(lambda: editor.all('Function1', 'label'), 'the function in the tree')
-    assert 'FUNCTION Function1 : BOOL LD' in editor.save(path)
+    sheet_of(editor)
+    editor.entry('In')
+    editor.entry('OUT Function1')
+    text = editor.save(path)
+    assert 'FUNCTION Function1 : BOOL LD' in text and '| NO In | COIL Function1 |' in text, text
+    check(path)
+    assert lines(path, OTHER) == ['%QX0.2=1', '%QX0.2=0']
 
 
 def beside(screen):

@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, sh, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 LIST = '''RUNGBOARD 1
 
@@ -33,7 +33,7 @@ def a_list(screen):
     path = file_with(screen, LIST)
     editor = Editor(screen, path)
     editor.click(until(lambda: editor.all('Text of the program', 'text'), 'the list')[0])
-    editor.keys('ctrl+End', 'Up', 'Up', 'End', 'Return')
+    editor.keys('ctrl+End', 'Up', 'Up', 'Up', 'End', 'Return')
     editor.type('ANDN Mo')
     editor.keys('ctrl+space')
     editor.shot('list-words')
@@ -41,8 +41,11 @@ def a_list(screen):
     text = editor.save(path)
     assert 'ANDN  Motor' in text, text
     check(path)
+    assert lines(path, '@print Motor\nStart=1\n.\nStart=0\n') == ['Motor=1', 'Motor=0', 'Motor=0']
     editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
     assert editor.save(path) == LIST
+    check(path)
+    assert lines(path, '@print Motor\nStart=1\n.\nStart=0\n') == ['Motor=1', 'Motor=1', 'Motor=0']
     editor.keys('ctrl+End', 'Up', 'Up', 'End', 'Return')
     editor.type('LD Nobody')
     editor.shot('list-wrong')
@@ -61,6 +64,7 @@ def in_parallel(screen):
     text = editor.save(path)
     assert 'NO Motor ^|' in text, text
     check(path)
+    assert lines(path, '@print Motor\nStart=0\nStart=1\nStart=0\n') == ['Motor=0', 'Motor=1', 'Motor=1']
 
 
 def pointed_at(screen):
@@ -102,6 +106,8 @@ def other_keys(screen):
     editor.keys('Home', 'n')
     text = editor.save(path)
     assert '| NC Start | COIL Motor |' in text, text
+    check(path)
+    assert lines(path, '@print Motor\nStart=0\nStart=1\n') == ['Motor=1', 'Motor=0']
 
 
 def window_keys(screen):
@@ -133,6 +139,7 @@ def window_keys(screen):
     assert '| NO Start | COIL Motor |' in editor.save(path)
     editor.gone()
     check(path)
+    assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
 
 
 def again(screen):
@@ -150,7 +157,10 @@ def again(screen):
     editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
     until(lambda: editor.asked()[0].text() == '', 'the line to be empty')
     editor.entry('Start')
-    assert '| NO Start |' in editor.save(path)
+    editor.entry('OUT Motor')
+    assert '| NO Start | COIL Motor |' in editor.save(path)
+    check(path)
+    assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
 
 
 main([a_list, in_parallel, pointed_at, other_keys, window_keys, again])
