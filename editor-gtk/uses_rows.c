@@ -86,9 +86,9 @@ static LadderPanelRow *add_row(struct maker *maker, const struct xref_use *use)
 		row->index = use->target.index;
 	}
 	row->tone = use->target.what == XREF_UNKNOWN ? PANEL_ERROR : PANEL_PLAIN;
-	row->spoken = g_strdup_printf("%s %s %s, %s. %s", row->text[USES_NAME],
+	row->spoken = g_strdup_printf("%s %s %s, %s%s%s", row->text[USES_NAME],
 		row->text[USES_ADDRESS], row->text[USES_KIND], row->text[USES_PLACE],
-		row->text[USES_TEXT]);
+		row->text[USES_TEXT][0] ? ". " : "", row->text[USES_TEXT]);
 	g_ptr_array_add(maker->rows, row);
 	return row;
 }

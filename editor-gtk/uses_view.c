@@ -9,6 +9,8 @@
 
 #include <string.h>
 
+enum { LOST, SIGNALS };
+static guint signals[SIGNALS];
 
 struct _LadderUsesView {
 	GtkWidget parent_instance;
@@ -18,6 +20,7 @@ struct _LadderUsesView {
 	struct uses_cache cache;
 	char *symbol;
 	int pou;
+	bool lost;      /* there is no such symbol                             */
 };
 
 G_DEFINE_FINAL_TYPE(LadderUsesView, ladder_uses_view, GTK_TYPE_WIDGET)
@@ -52,13 +55,21 @@ static void refresh(GtkWidget *widget)
 				    view->symbol);
 
 	panel_list_update(&view->list, rows);
+	view->lost = mode_of(view) == USES_SYMBOL && rows->len == 0;
 	g_ptr_array_unref(rows);
 	show_empty(view);
+	if (view->lost)
+		g_signal_emit(view, signals[LOST], 0);
 }
 
 void ladder_uses_view_refresh(LadderUsesView *view)
 {
 	refresh(GTK_WIDGET(view));
+}
+
+bool ladder_uses_view_is_lost(LadderUsesView *view)
+{
+	return view->lost;
 }
 
 GListModel *ladder_uses_view_list(LadderUsesView *view)
@@ -149,6 +160,8 @@ static void bind_children(GtkWidgetClass *class)
 static void ladder_uses_view_class_init(LadderUsesViewClass *class)
 {
 	G_OBJECT_CLASS(class)->dispose = dispose;
+	signals[LOST] = g_signal_new("lost", LADDER_TYPE_USES_VIEW, G_SIGNAL_RUN_LAST, 0, NULL,
+				     NULL, NULL, G_TYPE_NONE, 0);
 	bind_children(GTK_WIDGET_CLASS(class));
 }
 

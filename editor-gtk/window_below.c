@@ -48,6 +48,7 @@ static GtkWidget *make_uses(LadderWindow *window)
 
 	ladder_uses_view_set_document(LADDER_USES_VIEW(uses), window->document);
 	g_signal_connect_object(uses, "map", G_CALLBACK(names_uses_seen), window, 0);
+	g_signal_connect_object(uses, "lost", G_CALLBACK(names_uses_seen), window, 0);
 	return uses;
 }
 

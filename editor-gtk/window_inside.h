@@ -149,6 +149,8 @@ char *names_at_cursor(LadderWindow *window);
 void names_watch(LadderWindow *window);
 void names_watch_this(LadderWindow *window, const char *name);
 void names_show_uses(LadderWindow *window);
+/** names_follow - the cursor went on: a cross reference that has nothing is asked anew. */
+void names_follow(LadderWindow *window);
 /** names_uses_seen - the cross reference came to sight: it is asked for the name at the
  * cursor, if there is one. */
 void names_uses_seen(GtkWidget *uses, LadderWindow *window);

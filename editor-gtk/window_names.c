@@ -113,27 +113,28 @@ struct renaming {
 	LadderWindow *window;
 	GtkWidget *line, *dialog;
 	struct xref_target target;
+	char *old;
 };
 
+/* @old: what it is called until now; valid until the document changes. */
 static void rename_target(LadderWindow *window, const struct xref_target *target,
-			  const char *name)
+			  const char *old, const char *name)
 {
 	LadderDocument *document = window->document;
 	struct ladder_rename how;
 	size_t len, old_len;
 	char *text = ladder_rename(ladder_document_ladder(document), target, name, &len,
 				   &how);
-	char *old = ladder_document_outline(document, &old_len, NULL, NULL);
-	const struct project *project = ladder_document_project(document);
-	char *old_name = target->what == XREF_POU && project ?
-		g_strdup(project_text(project, project->pou[target->index].name)) : NULL;
+	char *step = g_strdup_printf(_("Rename %s to %s"), old, name);
+	char *before = ladder_document_outline(document, &old_len, NULL, NULL);
+	char *old_pou = target->what == XREF_POU ? g_strdup(old) : NULL;
 	char *told;
 
 	if (text) {
-		ladder_document_begin(document, _("Rename everywhere"), NULL);
+		ladder_document_begin(document, step, NULL);
 		ladder_document_replace(document, 0, old_len, text, NULL);
-		if (old_name)
-			ladder_document_rename_bookmarks(document, old_name, name);
+		if (old_pou)
+			ladder_document_rename_bookmarks(document, old_pou, name);
 		ladder_document_end(document);
 		told = g_strdup_printf(ngettext("%d place changed", "%d places changed",
 			(unsigned long)how.places), how.places);
@@ -142,16 +143,20 @@ static void rename_target(LadderWindow *window, const struct xref_target *target
 	}
 	ladder_window_tell(window, told);
 	g_free(told);
-	g_free(old_name);
-	g_free(old);
+	g_free(old_pou);
+	g_free(before);
+	g_free(step);
 	free(text);
 }
 
 void names_rename_pou(LadderWindow *window, int pou, const char *name)
 {
+	const struct project *project = ladder_document_project(window->document);
 	const struct xref_target target = { .what = XREF_POU, .index = pou };
 
-	rename_target(window, &target, name);
+	if (project)
+		rename_target(window, &target, project_text(project, project->pou[pou].name),
+			      name);
 }
 
 static void rename_now(AdwMessageDialog *dialog, const char *response,
@@ -161,12 +166,15 @@ static void rename_now(AdwMessageDialog *dialog, const char *response,
 
 	(void)dialog;
 	if (strcmp(response, "rename") == 0)
-		rename_target(renaming->window, &renaming->target, name);
+		rename_target(renaming->window, &renaming->target, renaming->old, name);
 }
 
-static void renaming_free(gpointer renaming, GClosure *closure)
+static void renaming_free(gpointer data, GClosure *closure)
 {
+	struct renaming *renaming = data;
+
 	(void)closure;
+	g_free(renaming->old);
 	g_free(renaming);
 }
 
@@ -177,7 +185,8 @@ static void ask_name(LadderWindow *window, const struct xref_target *target,
 	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(window),
 						   _("Rename everywhere"), NULL);
 
-	*renaming = (struct renaming){ window, gtk_entry_new(), dialog, *target };
+	*renaming = (struct renaming){ window, gtk_entry_new(), dialog, *target,
+					g_strdup(name) };
 	adw_message_dialog_format_body(ADW_MESSAGE_DIALOG(dialog),
 		ngettext("%s stands in %d place.", "%s stands in %d places.",
 			 (unsigned long)uses), name, uses);
@@ -263,6 +272,15 @@ void names_uses_seen(GtkWidget *uses, LadderWindow *window)
 	if (name)
 		ladder_uses_view_set_symbol(LADDER_USES_VIEW(uses), -1, name);
 	g_free(name);
+}
+
+void names_follow(LadderWindow *window)
+{
+	GtkWidget *uses = below_made(window, "uses");
+
+	if (uses && gtk_widget_get_mapped(uses) &&
+	    ladder_uses_view_is_lost(LADDER_USES_VIEW(uses)))
+		names_uses_seen(uses, window);
 }
 
 void names_show_uses(LadderWindow *window)

@@ -254,6 +254,8 @@ static void listen(LadderWindow *window, gpointer view)
 {
 	g_signal_connect_object(view, "cursor-moved", G_CALLBACK(tabs_show_place), window,
 				G_CONNECT_SWAPPED);
+	g_signal_connect_object(view, "cursor-moved", G_CALLBACK(names_follow), window,
+				G_CONNECT_SWAPPED);
 	g_signal_connect_object(view, "zoom-changed", G_CALLBACK(tabs_show_place), window,
 				G_CONNECT_SWAPPED);
 	g_signal_connect_object(view, "told", G_CALLBACK(told), window, G_CONNECT_SWAPPED);

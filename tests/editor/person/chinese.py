@@ -128,8 +128,9 @@ def listed(editor, said, name):
     check(path)
     script = '@print 水泵电机\n启动=1\n启动=0\n停止=1\n'
     assert lines(path, script) == ['水泵电机=1', '水泵电机=1', '水泵电机=0']
+    editor.find('水泵电机 %%QX0.0 %s, ' % said('coil'), 'table row')
     editor.tab(said('Log'))
-    log = [(said('system'), path), (said('operator'), said('Rename everywhere')), (said('system'), path)]
+    log = [(said('system'), path), (said('operator'), said('Rename %s to %s') % ('电机', '水泵电机')), (said('system'), path)]
 
     def logged():
         return [tuple(line.split('\t')[1:]) for node in editor.all('Log', 'text') for line in node.text().splitlines()]

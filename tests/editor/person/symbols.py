@@ -73,6 +73,31 @@ def renames(screen):
     assert editor.save(path) == PROGRAM
 
 
+def uses(screen):
+    """the cross reference keeps what was asked for as long as there is such a name, then takes that at the cursor"""
+    path = new_file(screen, PROGRAM.replace('NO Start', 'NO %MX1.0', 1))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('Home', 'shift+F12')
+    row = '%MX1.0 %MX1.0 read, Main, rung 1 (1, 1)'
+    editor.find(row, 'table row')
+    editor.keys('End')
+    assert editor.all(row, 'table row')
+    editor.keys('Home', 'Delete')
+    editor.says('Nothing is used here. Place the cursor on an element.')
+    editor.keys('End')
+    editor.find('Lamp %QX0.0 coil, Main, rung 1', 'table row')
+    editor.keys('F2')
+    until(lambda: editor.all('Rename everywhere'), 'the question for a name')
+    editor.keys('ctrl+a')
+    editor.type('Signal')
+    editor.keys('Return')
+    editor.find('Signal %QX0.0 coil, Main, rung 1', 'table row')
+    editor.to_sheet()
+    editor.keys('ctrl+z')
+    editor.find('Lamp %QX0.0 coil, Main, rung 1', 'table row')
+
+
 def tables(screen):
     """the symbol table: a comment, a name that is refused, one that is not"""
     path = new_file(screen, PROGRAM)
@@ -98,4 +123,4 @@ def tables(screen):
     assert lines(path, '@print %QX0.1\nStart=1\n') == ['%QX0.1=1']
 
 
-main([finds, renames, tables])
+main([finds, renames, uses, tables])
