@@ -18,20 +18,35 @@ static inline bool node_has(GskRenderNode *node, const char *kind)
 	return found;
 }
 
-/** widget_has - its last drawing; false: there is none. */
-static inline bool widget_has(GtkWidget *widget, const char *kind)
+/** widget_node - its last drawing; NULL: it waits to be drawn. Owned by the caller. */
+static inline GskRenderNode *widget_node(GtkWidget *widget)
 {
 	GdkPaintable *paintable = gtk_widget_paintable_new(widget);
 	GtkSnapshot *snapshot = gtk_snapshot_new();
-	GskRenderNode *node;
-	bool found;
 
 	gdk_paintable_snapshot(paintable, snapshot, gtk_widget_get_width(widget),
 			       gtk_widget_get_height(widget));
-	node = gtk_snapshot_free_to_node(snapshot);
-	found = node && node_has(node, kind);
-	g_clear_pointer(&node, gsk_render_node_unref);
 	g_object_unref(paintable);
+	return gtk_snapshot_free_to_node(snapshot);
+}
+
+/** widget_is_drawn - nothing in it waits to be drawn. */
+static inline bool widget_is_drawn(GtkWidget *widget)
+{
+	GskRenderNode *node = widget_node(widget);
+	const bool drawn = node != NULL;
+
+	g_clear_pointer(&node, gsk_render_node_unref);
+	return drawn;
+}
+
+/** widget_has - its last drawing; false: there is none. */
+static inline bool widget_has(GtkWidget *widget, const char *kind)
+{
+	GskRenderNode *node = widget_node(widget);
+	const bool found = node && node_has(node, kind);
+
+	g_clear_pointer(&node, gsk_render_node_unref);
 	return found;
 }
 

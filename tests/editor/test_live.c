@@ -59,11 +59,12 @@ static void settle(void)
 static bool until(bool (*come)(void))
 {
 	const gint64 end = g_get_monotonic_time() + 30 * G_USEC_PER_SEC;
+	bool has;
 
-	while (!come() && g_get_monotonic_time() < end)
+	while (!(has = come()) && g_get_monotonic_time() < end)
 		if (!g_main_context_iteration(NULL, FALSE))
 			g_usleep(1000);
-	return come();
+	return has;
 }
 
 static guint64 scans_wanted;
@@ -88,20 +89,20 @@ static void count_frame(void)
 	drawn_frames++;
 }
 
-static bool has_drawn(void)
+/* All that is to be drawn is drawn, also what was asked for beside the last frame. */
+static bool is_drawn(void)
 {
-	return drawn_frames > 1;
+	settle();
+	return drawn_frames > 1 && widget_is_drawn(window);
 }
 
-/* All that is to be drawn is drawn. */
 static void draw(void)
 {
 	settle();
 	drawn_frames = 0;
 	gdk_frame_clock_begin_updating(frames);
-	until(has_drawn);
+	CHECK(until(is_drawn));
 	gdk_frame_clock_end_updating(frames);
-	settle();
 }
 
 /* ---- values ---- */
