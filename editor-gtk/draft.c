@@ -2,9 +2,9 @@
  *
  * draft - what was not saved, kept where a crash does not reach it.
  *
- * A draft is a file "PID-NUMBER.draft": a line with the path as a URI, the sum of what stood
- * there and, of a file beside a project, the URI of that, as far as they are known; and the
- * text. A draft whose process is alive belongs to that.
+ * A draft is a file "PID-RANDOM-NUMBER.draft": a line with the path as a URI, the sum of what
+ * stood there and, of a file beside a project, the URI of that, as far as they are known; and
+ * the text. A draft whose process is alive belongs to that.
  */
 #include "editor-gtk/draft.h"
 
@@ -32,6 +32,17 @@ static void (*failed)(gpointer object, const char *why);
 static char *folder(void)
 {
 	return g_build_filename(g_get_user_state_dir(), "rungboard", "drafts", NULL);
+}
+
+/* How the names of its drafts begin. After a restart, and in containers at every start, an
+ * editor has the number of one that died: it must not take its drafts for its own. */
+static const char *own_begin(void)
+{
+	static char begin[32];
+
+	if (!*begin)
+		g_snprintf(begin, sizeof(begin), "%ld-%08x-", (long)getpid(), g_random_int());
+	return begin;
 }
 
 static struct keeper *keeper_of(gpointer object)
@@ -148,7 +159,7 @@ static void keep(gpointer object, LadderDocument *beside)
 	static int number;
 	struct keeper *keeper = g_new0(struct keeper, 1);
 	char *dir = folder();
-	char *name = g_strdup_printf("%ld-%d.draft", (long)getpid(), ++number);
+	char *name = g_strdup_printf("%s%d.draft", own_begin(), ++number);
 
 	keeper->beside = beside ? g_object_ref(beside) : NULL;
 	keeper->file = g_build_filename(dir, name, NULL);
@@ -236,7 +247,7 @@ static bool is_alive(const char *name)
 	g_free(own);
 	g_free(comm);
 	g_free(path);
-	return alive;
+	return alive && (pid != getpid() || g_str_has_prefix(name, own_begin()));
 }
 
 static char *path_of(const char *uri)
@@ -259,22 +270,27 @@ static void read_head(struct draft *draft, const char *head)
 	g_strfreev(words);
 }
 
+/* What has no head, of another version or damaged, is text all of it: nothing is lost. */
 static struct draft *read_draft(const char *file)
 {
-	struct draft *draft = g_new0(struct draft, 1);
-	char *all = NULL, *line;
+	struct draft *draft;
+	char *all = NULL, *text, *line;
 	gsize len;
 
-	if (!g_file_get_contents(file, &all, &len, NULL) ||
-	    !g_str_has_prefix(all, DRAFT_HEAD) || !(line = strchr(all, '\n'))) {
+	if (!g_file_get_contents(file, &all, &len, NULL) || len == 0) {
 		g_free(all);
-		g_free(draft);
 		return NULL;
 	}
-	*line = '\0';
+	draft = g_new0(struct draft, 1);
 	draft->file = g_strdup(file);
-	read_head(draft, all + strlen(DRAFT_HEAD));
-	draft->text = g_utf8_make_valid(line + 1, -1);
+	text = all;
+	line = strchr(all, '\n');
+	if (line && g_str_has_prefix(all, DRAFT_HEAD)) {
+		*line = '\0';
+		read_head(draft, all + strlen(DRAFT_HEAD));
+		text = line + 1;
+	}
+	draft->text = g_utf8_make_valid(text, (gssize)(len - (gsize)(text - all)));
 	draft->len = strlen(draft->text);
 	g_free(all);
 	return draft;

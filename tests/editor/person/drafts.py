@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """drafts - work that was not saved is there again after a kill."""
 import os
+import re
 import resource
 import sys
 
@@ -153,6 +154,34 @@ def twice(screen):
     assert texts | {view.text()} == {SCENARIO + '# mine', SCENARIO + '# other'} and len(again.windows()) == 1
 
 
+def same_number(screen):
+    """the next editor has the number of the one that died: its draft comes back all the same"""
+    editor, path = scenario(screen)
+    editor.kill()
+    old = drafts(screen)[0]
+    again = Editor(screen, path, before=lambda: os.rename(old, re.sub(r'/[0-9]+-', f'/{os.getpid()}-', old)))
+    again.says('• new.scn')
+    assert again.find('new.scn', 'text').text() == SCENARIO + '# mine'
+    again.save(path)
+    until(lambda: not drafts(screen), 'the draft to go with the save')
+
+
+def of_another_version(screen):
+    """what is no draft of this version opens as text with its problems: nothing is lost, nothing silent"""
+    folder = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, '1-2.draft'), 'wb') as file:
+        file.write(b'RUNGBOARD-DRAFT 2\n' + ONE_RUNG.encode() + b'\0\xff mine')
+    editor = Editor(screen)
+    editor.says('This was not saved when the editor ended')
+    text = until(lambda: [view for view in editor.all('', 'text') if 'RUNGBOARD-DRAFT' in view.text()], 'the text')
+    assert ONE_RUNG in text[0].text() and text[0].text().endswith('mine')
+    editor.says('1 error')
+    editor.shot('drafts-another-version')
+    until(lambda: not any(name.endswith('/1-2.draft') for name in drafts(screen)), 'that one to go')
+    assert ONE_RUNG in open(drafts(screen)[0]).read()
+
+
 def not_wanted(screen):
     """its draft goes with the tab, and with the window"""
     for key in 'ctrl+shift+w', 'ctrl+w':
@@ -187,5 +216,5 @@ def at_the_end_of_a_session(screen):
     until(lambda: len(again.cells()) == 1, 'the contact')
 
 
-main([after_a_kill, changed_meanwhile, beside_a_project, gone, twice, not_wanted, no_room,
-      no_room_again, at_the_end_of_a_session])
+main([after_a_kill, changed_meanwhile, beside_a_project, gone, twice, same_number,
+      of_another_version, not_wanted, no_room, no_room_again, at_the_end_of_a_session])
