@@ -110,20 +110,27 @@ static void fill_scopes(LadderSymbolsView *view, struct project *project)
 	g_ptr_array_unref(name);
 }
 
-static void refresh(GtkWidget *widget)
+static void fill_rows(LadderSymbolsView *view)
 {
-	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
 	LadderDocument *document = panel_watch_document(view->watch);
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	struct symbols *symbols = document ? symbols_new(document) : NULL;
 
-	fill_scopes(view, document ? ladder_document_project(document) : NULL);
 	for (int i = 0; symbols && i < symbols->count; i++)
 		if (view->table < 0 || symbols->symbol[i].table == view->table)
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
 	panel_list_update(&view->list, rows);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
+}
+
+static void refresh(GtkWidget *widget)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	LadderDocument *document = panel_watch_document(view->watch);
+
+	fill_scopes(view, document ? ladder_document_project(document) : NULL);
+	fill_rows(view);
 }
 
 void ladder_symbols_view_refresh(LadderSymbolsView *view)
@@ -352,7 +359,7 @@ static void scope_changed(GtkDropDown *scopes, GParamSpec *spec, LadderSymbolsVi
 	if (view->busy || !view->watch)
 		return;
 	view->table = (int)gtk_drop_down_get_selected(scopes) - 1;
-	refresh(GTK_WIDGET(view));
+	fill_rows(view); /* another list of scopes, within this signal, would never end it */
 }
 
 static void search_changed(GtkSearchEntry *entry, LadderSymbolsView *view)

@@ -123,4 +123,34 @@ def tables(screen):
     assert lines(path, '@print %QX0.1\nStart=1\n') == ['%QX0.1=1']
 
 
-main([finds, renames, uses, tables])
+def scopes(screen):
+    """the table of one program, of none, of all: chosen by keys and by mouse; names that come later"""
+    path = new_file(screen, PROGRAM.replace('PROGRAM Main LD\n', 'PROGRAM Main LD\nVAR\n  Own : INT;\nEND_VAR\n'))
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+
+    def shows(*names):
+        until(lambda: sorted(name for name in ('Start', 'Lamp', 'Horn', 'Own')
+                             if editor.all(name + ', Name')) == sorted(names), 'the rows ' + ' '.join(names))
+    shows('Start', 'Lamp', 'Horn', 'Own')
+    scope = editor.find('Scope', 'combo box')
+    editor.click(scope)
+    editor.keys('Down', 'Down', 'Return')
+    shows('Own')
+    editor.keys('space', 'Up', 'Return')
+    shows('Start', 'Lamp', 'Horn')
+    editor.shot('names-scopes')
+    editor.into('Horn, Name')
+    editor.keys('ctrl+a')
+    editor.type('Siren')
+    editor.keys('Return')
+    until(lambda: editor.all('Siren, Name'), 'the new name among the global ones')
+    assert not editor.all('Own, Name')
+    editor.click(editor.find('Scope', 'combo box'))
+    editor.click(until(lambda: [node for node in editor.all('All symbols', 'label') if node.box()[2]],
+                       'the list of scopes')[0])
+    until(lambda: editor.all('Own, Name') and editor.all('Siren, Name'), 'all of them')
+    assert 'Siren AT %QX0.1' in editor.save(path)
+
+
+main([finds, renames, uses, tables, scopes])
