@@ -118,38 +118,47 @@ void document_tell_project(LadderDocument *document)
 
 /* ---- the text becomes the project ---- */
 
-/* Takes over what could be read; else the text itself, if @as_text. */
-bool document_take_text(LadderDocument *document, const char *text, gsize len,
-		      bool as_text, struct diag_list *why)
+struct ladder *document_read(LadderDocument *document, const char *text, gsize len,
+			     struct diag_list *why)
 {
 	struct ladder *ladder = ladder_new();
 	const char *file = g_intern_string(document_file(document));
 
 	if (!ladder)
 		g_error("out of memory");
-	if (ladder_load_text(ladder, file, text, len) && ladder_project(ladder)) {
-		ladder_free(document->ladder);
-		document->ladder = ladder;
-		g_clear_pointer(&document->text, g_free);
-		return true;
-	}
+	if (ladder_load_text(ladder, file, text, len) && ladder_project(ladder))
+		return ladder;
 	if (why)
 		*why = *ladder_diags(ladder);
 	ladder_free(ladder);
-	if (!as_text)
-		return false;
+	return NULL;
+}
+
+void document_take_ladder(LadderDocument *document, struct ladder *ladder)
+{
+	ladder_free(document->ladder);
+	document->ladder = ladder;
+	g_clear_pointer(&document->text, g_free);
+}
+
+/* Takes over what can be read; else the text itself. */
+static void take_text(LadderDocument *document, const char *text, gsize len)
+{
+	struct ladder *ladder = document_read(document, text, len, NULL);
+
+	if (ladder) {
+		document_take_ladder(document, ladder);
+		return;
+	}
 	g_free(document->text);
-	document->text = g_malloc(len + 1);
-	memcpy(document->text, text, len);
-	document->text[len] = '\0';
+	document->text = memcpy(g_malloc0(len + 1), text, len);
 	document->text_len = len;
-	return true;
 }
 
 void document_take(LadderDocument *document, const char *text, gsize len)
 {
 	g_hash_table_remove_all(document->list);
-	document_take_text(document, text, len, true, NULL);
+	take_text(document, text, len);
 	history_restart(document->history);
 	document_tell_project(document);
 }
@@ -241,7 +250,7 @@ static void apply_text(LadderDocument *document, const struct change *change,
 	    memcmp(text + change->at, from, strlen(from)) != 0)
 		document_report_lost(from);
 	out = spliced(text, len, change->at, strlen(from), to, &new_len);
-	document_take_text(document, out, new_len, true, NULL);
+	take_text(document, out, new_len);
 	g_free(out);
 	g_free(text);
 	document_tell_whole(document);
@@ -482,20 +491,15 @@ GPtrArray *document_one_text(const char *text, gsize len)
 static char *canonical(LadderDocument *document, const char *text, gsize len,
 		       struct diag_list *why)
 {
-	struct ladder *ladder = ladder_new();
+	struct ladder *ladder = document_read(document, text, len, why);
 	char *out = NULL;
 	gsize out_len;
 
-	if (!ladder)
-		g_error("out of memory");
-	if (ladder_load_text(ladder, g_intern_string(document_file(document)), text,
-			     len) &&
-	    ladder_project(ladder) &&
-	    (g_hash_table_size(document->list) == 0 ||
-	     ladder_project(ladder)->pou_count ==
-	     ladder_project(document->ladder)->pou_count))
+	if (ladder && (g_hash_table_size(document->list) == 0 ||
+		       ladder_project(ladder)->pou_count ==
+		       ladder_project(document->ladder)->pou_count))
 		out = ladder_write(ladder, &out_len);
-	else if (why)
+	else if (ladder && why)
 		*why = *ladder_diags(ladder);
 	ladder_free(ladder);
 	return out;
@@ -584,7 +588,7 @@ static void ladder_document_init(LadderDocument *document)
 	document->history = history_new();
 	document->list = g_hash_table_new_full(NULL, NULL, NULL, g_free);
 	diag_init(&document->diags);
-	document_take_text(document, EMPTY_PROJECT, strlen(EMPTY_PROJECT), true, NULL);
+	take_text(document, EMPTY_PROJECT, strlen(EMPTY_PROJECT));
 	document_check_later(document);
 }
 

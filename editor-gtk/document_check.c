@@ -18,6 +18,7 @@ struct check {
 	const char *file;  /* interned                                         */
 	guint64 version;
 	struct ladder *ladder;
+	bool read;         /* all of it                                        */
 };
 
 static void check_free(gpointer pointer)
@@ -44,7 +45,8 @@ static void check_run(struct check *check)
 	check->ladder = ladder_new();
 	if (!check->ladder)
 		g_error("out of memory");
-	if (ladder_load_text(check->ladder, check->file, check->text, check->len))
+	check->read = ladder_load_text(check->ladder, check->file, check->text, check->len);
+	if (check->read)
 		ladder_build(check->ladder);
 }
 
@@ -116,6 +118,9 @@ static void check_take(LadderDocument *document, struct check *check)
 	document->checked = g_steal_pointer(&check->ladder);
 	document->checked_version = check->version;
 	document->diags = *ladder_diags(document->checked);
+	if (check->read && check->version == document->version)
+		document_check_lists(document, ladder_project(document->checked),
+				     &document->diags);
 	take_lines(document);
 	document_tell_checked(document);
 	memory_give_back(); /* the copy before it was tens of megabytes of a large one */

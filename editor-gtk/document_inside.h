@@ -41,14 +41,20 @@ void document_apply_file(LadderDocument *document, const struct change *change,
 const char *document_file(const LadderDocument *document);
 /** document_take - the text becomes the document; nothing can be undone. */
 void document_take(LadderDocument *document, const char *text, gsize len);
-/** document_take_text - the text becomes the project; if it cannot be read, and @as_text,
- * the document of text. Fails: false and @why (or NULL), nothing changed. */
-bool document_take_text(LadderDocument *document, const char *text, gsize len,
-			bool as_text, struct diag_list *why);
+/** document_read - what is to become of the text; it is nobody's project yet. Owns: the
+ * caller, ladder_free(). Fails: NULL, @why (or NULL) says why it cannot be read. */
+struct ladder *document_read(LadderDocument *document, const char *text, gsize len,
+			     struct diag_list *why);
+/** document_take_ladder - becomes the project. @ladder: owned here from now on. */
+void document_take_ladder(LadderDocument *document, struct ladder *ladder);
 /** document_record - does a change, and the history has it. */
 void document_record(LadderDocument *document, struct change *change);
 /** document_apply_list - POU @pou gets the text, in the project or beside it. */
 void document_apply_list(LadderDocument *document, int pou, const char *text);
+/** document_check_lists - tells of lists that stand beside the project though all can be
+ * read: one has more than its POU, or no POU. @read: what came of the whole text. */
+void document_check_lists(LadderDocument *document, const struct project *read,
+			  struct diag_list *diags);
 /** document_apply_variable - declarations at the end of block @block of a POU (-1: the
  * globals) become others. */
 void document_apply_variable(LadderDocument *document, int pou, int block,

@@ -70,30 +70,104 @@ char *ladder_document_text(LadderDocument *document, gsize *len)
 	return copy;
 }
 
+/* The canonical text, and where its POUs are. Caller frees both. */
+static char *outline(struct ladder *ladder, struct pou_spans *spans)
+{
+	gsize len;
+	char *text;
+
+	spans->count = ladder_project(ladder)->pou_count;
+	spans->span = g_new0(struct text_span, spans->count + 1);
+	text = ladder_outline(ladder, &len, take_pou, spans);
+	if (!text)
+		g_error("out of memory");
+	return text;
+}
+
+/* All but POU @pou is as it was: there is no POU more in its text, nor none. */
+static bool same_beside(struct ladder *ladder, int pou, const char *was,
+			const struct text_span *at)
+{
+	struct pou_spans spans;
+	char *is = outline(ladder, &spans);
+	const struct text_span *now = &spans.span[pou];
+	const bool same = spans.count > pou && now->at == at->at &&
+		memcmp(is, was, at->at) == 0 &&
+		strcmp(is + now->at + now->len, was + at->at + at->len) == 0;
+
+	free(is);
+	g_free(spans.span);
+	return same;
+}
+
 /* A list that can be read goes into the project, another one stands beside it. */
 void document_apply_list(LadderDocument *document, int pou, const char *text)
 {
-	struct project *project = ladder_project(document->ladder);
-	struct pou_spans spans = { NULL, project->pou_count };
-	const int count = project->pou_count;
-	gsize len;
-	char *plain, *whole;
+	struct pou_spans spans;
+	char *plain = outline(document->ladder, &spans);
+	char *whole = with_list(plain, &spans.span[pou], text);
+	struct ladder *ladder = document_read(document, whole, strlen(whole), NULL);
 
-	spans.span = g_new0(struct text_span, count + 1);
-	plain = ladder_outline(document->ladder, &len, take_pou, &spans);
-	whole = with_list(plain, &spans.span[pou], text);
-	free(plain);
-	g_free(spans.span);
-	if (document_take_text(document, whole, strlen(whole), false, NULL) &&
-	    ladder_project(document->ladder)->pou_count == count) {
+	if (ladder && ladder_project(ladder)->pou_count == spans.count &&
+	    same_beside(ladder, pou, plain, &spans.span[pou])) {
+		document_take_ladder(document, ladder);
 		g_hash_table_remove(document->list, GINT_TO_POINTER(pou));
 		document_tell_whole(document);
 	} else {
+		ladder_free(ladder);
 		g_hash_table_insert(document->list, GINT_TO_POINTER(pou),
 				    g_strdup(text));
 		document_tell_list(document, pou);
 	}
+	free(plain);
+	g_free(spans.span);
 	g_free(whole);
+}
+
+/* The one of the first POU that has one. */
+static int first_list(LadderDocument *document)
+{
+	GHashTableIter iter;
+	gpointer pou;
+	int first = -1;
+
+	g_hash_table_iter_init(&iter, document->list);
+	while (g_hash_table_iter_next(&iter, &pou, NULL))
+		if (first < 0 || GPOINTER_TO_INT(pou) < first)
+			first = GPOINTER_TO_INT(pou);
+	return first;
+}
+
+/* The line where the text of POU @pou begins, when no list stands before it. */
+static int first_line(LadderDocument *document, int pou)
+{
+	struct pou_spans spans;
+	char *text = outline(document->ladder, &spans);
+	int line = 1;
+
+	for (gsize i = 0; i < spans.span[pou].at; i++)
+		line += text[i] == '\n';
+	free(text);
+	g_free(spans.span);
+	return line;
+}
+
+void document_check_lists(LadderDocument *document, const struct project *read,
+			  struct diag_list *diags)
+{
+	const struct project *project = ladder_document_project(document);
+	const int pou = first_list(document);
+	const bool fewer = project && read->pou_count < project->pou_count;
+	const bool more = project && read->pou_count > project->pou_count;
+	struct diag place = { .file = g_intern_string(document_file(document)) };
+
+	if (pou < 0 || !project)
+		return;
+	place.pou = g_intern_string(project_text(project, project->pou[pou].name));
+	place.id = fewer ? DIAG_EXPECTED : DIAG_MISPLACED;
+	place.line = more ? read->pou[pou + 1].line : first_line(document, pou);
+	diag_add(diags, place, "%s", fewer ? "PROGRAM" : more ?
+		 project_text(read, read->pou[pou + 1].name) : "");
 }
 
 char *ladder_document_list(LadderDocument *document, int pou)

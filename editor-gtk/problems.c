@@ -51,10 +51,15 @@ static char *place_text(const struct diag *diag, int row)
 	return diag->line ? g_strdup_printf(_("line %d"), diag->line) : g_strdup("");
 }
 
+static bool is_list(const struct project *project, int pou)
+{
+	return pou >= 0 && project->pou[pou].language != LANGUAGE_LD;
+}
+
 /* Of a list the line of its text, which begins with its heading. */
 static int list_row(const struct project *project, int pou, int line)
 {
-	if (pou < 0 || project->pou[pou].language == LANGUAGE_LD || !line)
+	if (!is_list(project, pou) || !line)
 		return -1;
 	return MAX(line - project->pou[pou].line, 0);
 }
@@ -89,8 +94,10 @@ static void set_place(LadderDocument *document, const struct diag *diag,
 	}
 	row->pou = pou_of(project, diag->pou);
 	row->rung = diag->rung - 1;
-	row->row = diag->rung ? diag->row - 1 : list_row(was, was ? row->pou : -1,
+	row->row = diag->rung ? diag->row - 1 : list_row(was, was ? pou_of(was, diag->pou) : -1,
 							 diag->line);
+	if (row->row < 0 && !diag->rung && diag->line && is_list(project, row->pou))
+		row->row = 0; /* its text has no such POU */
 	if (row->row < 0 && !diag->rung)
 		find_declaration(project, diag, row);
 }

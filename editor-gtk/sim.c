@@ -124,6 +124,14 @@ static gboolean notified(gpointer data)
 
 /* ---- on and off ---- */
 
+/* It is not, while a list with more or less than its POU stands beside the project. */
+static bool is_as_shown(LadderSim *sim, const struct sim_program *program)
+{
+	const struct project *shown = ladder_document_project(sim->document);
+
+	return shown && shown->pou_count == ladder_project(program->ladder)->pou_count;
+}
+
 static struct sim_program *build(LadderSim *sim, GError **error)
 {
 	gsize len;
@@ -132,6 +140,11 @@ static struct sim_program *build(LadderSim *sim, GError **error)
 	struct sim_program *program = sim_program_new(
 		g_intern_string(path ? path : "-"), text, len, error);
 
+	if (program && !is_as_shown(sim, program)) {
+		ladder_document_check_now(sim->document);
+		sim_program_say_why(ladder_document_diags(sim->document), error);
+		g_clear_pointer(&program, sim_program_unref);
+	}
 	g_free(text);
 	return program;
 }

@@ -17,6 +17,8 @@ struct sim_program {
 	char *text;              /* that it was built from                     */
 	guint8 *safe;            /* for twin_set_safe(): of the I/O map beside it */
 };
+/** sim_program_say_why - the first error, with its place. */
+void sim_program_say_why(const struct diag_list *diags, GError **error);
 /** sim_program_new - @file: interned, for diagnostics, and the I/O map is beside it; "-": it
  * has none. Owns: sim_program_unref(). Any thread. Fails: NULL, and @error is the first thing
  * that is wrong with it. */

@@ -33,9 +33,9 @@ static char *words_of(const struct diag *diag)
 	return text;
 }
 
-static void say_why(struct ladder *ladder, GError **error)
+void sim_program_say_why(const struct diag_list *diags, GError **error)
 {
-	const struct diag *diag = first_error(ladder_diags(ladder));
+	const struct diag *diag = first_error(diags);
 	char *text = diag ? words_of(diag) : NULL;
 
 	g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA,
@@ -56,7 +56,7 @@ struct sim_program *sim_program_new(const char *file, const char *text, gsize le
 	ladder_watch(program->ladder, true);
 	if (!ladder_load_text(program->ladder, file, program->text, len) ||
 	    !ladder_build(program->ladder)) {
-		say_why(program->ladder, error);
+		sim_program_say_why(ladder_diags(program->ladder), error);
 		sim_program_unref(program);
 		return NULL;
 	}

@@ -20,6 +20,8 @@ static const char SAMPLE[] =
 	"RUNG There\n  | NC Start | [ Count := Count + 1 ] |\nEND_PROGRAM\n\n"
 	"PROGRAM Other IL\n  LD Start\n  ST %QX0.3\nEND_PROGRAM\n";
 
+#define LIST "PROGRAM Other IL\n  LD    I0\n  ST    Q1\nEND_PROGRAM\n"
+
 static LadderDocument *open_sample(void)
 {
 	LadderDocument *document = ladder_document_new();
@@ -404,6 +406,20 @@ static void random_declaration(LadderDocument *document)
 	g_free(name);
 }
 
+/* One that can be read, one that cannot, one with more than its POU, and none. */
+static const char *some_list(void)
+{
+	static const char *const lists[] = {
+		LIST, "PROGRAM Other IL\n  LD (\nEND_PROGRAM\n",
+		"PROGRAM Other IL\n  LD I0\nEND_PROGRAM\nPROGRAM More IL\nEND_PROGRAM\n",
+		"PROGRAM Other IL\n  LD I0\nEND_PROGRAM\nTYPE Pair : STRUCT\n  A : INT;\n"
+			"END_STRUCT;\nEND_TYPE\n",
+		"(* none *)", "",
+	};
+
+	return lists[pick((int)G_N_ELEMENTS(lists))];
+}
+
 static void random_edit(LadderDocument *document)
 {
 	char *name = g_strdup_printf("step %d", pick(1000));
@@ -416,9 +432,7 @@ static void random_edit(LadderDocument *document)
 			random_symbol(document);
 			break;
 		case 1:
-			ladder_document_put_list(document, 1, pick(3) ?
-				"PROGRAM Other IL\n  LD I0\n  ST Q1\nEND_PROGRAM\n" :
-				"PROGRAM Other IL\n  LD (\nEND_PROGRAM\n");
+			ladder_document_put_list(document, 1, some_list());
 			break;
 		case 2:
 			ladder_document_move_rung(document, 0, pick(3), pick(3));
@@ -464,6 +478,7 @@ static void test_storm(void)
 			;
 		again = ladder_document_text(document, NULL);
 		bad += strcmp(after, again) != 0;
+		ladder_document_put_list(document, 1, LIST);
 		bad += !reads_again(document);
 		g_free(before);
 		g_free(after);

@@ -71,4 +71,64 @@ def damaged(screen):
     assert lines(path, '@print Motor\nStart=0\nStart=1\n') == ['Motor=0', 'Motor=1']
 
 
-main([typed, damaged])
+TWO = IL.replace('LD Start', '  LD    Start\n  ST    Motor').replace('    LD', '  LD') + '''
+PROGRAM Second IL
+  LD    Start
+  ST    %QX0.1
+END_PROGRAM
+'''
+EXTRA = '\nPROGRAM Extra IL\n  LD Start\nEND_PROGRAM\n'
+
+
+def in_the_list(screen):
+    path = new_file(screen, TWO)
+    editor = Editor(screen, path)
+    view = editor.find('Text of the program')
+    editor.click(view)
+    until(lambda: view.has(12), 'the focus in the text')
+    return editor, path, view
+
+
+def back_and_forth(editor, path, view, said):
+    """It is told, saved as it is seen and not simulated; undone, it is as it was."""
+    editor.says(said)
+    seen = view.text().strip()
+    text = editor.save(path)
+    assert seen in text and text.count('PROGRAM Second IL') == 1 and text.count('Extra') == seen.count('Extra'), text
+    editor.keys('ctrl+m')
+    editor.says(said)
+    assert not editor.all('SIMULATION')
+    editor.keys(*['ctrl+z'] * 8)
+    editor.says('no problems')
+    assert editor.save(path) == TWO
+    editor.keys(*['ctrl+y'] * 8)
+    editor.says(said)
+    assert editor.save(path) == text
+    check(path)
+
+
+def emptied(screen):
+    """a list that is emptied and written anew: nothing of the others is touched, undo gives it back"""
+    editor, path, view = in_the_list(screen)
+    editor.keys('ctrl+a', 'Delete')
+    back_and_forth(editor, path, view, 'expected: PROGRAM')
+    editor.keys(*['ctrl+z'] * 8)
+    editor.keys('ctrl+Prior', 'ctrl+Prior')  # it was shown that Motor is not used
+    editor.click(view)
+    until(lambda: view.has(12), 'the focus in the text')
+    editor.keys('ctrl+a')
+    editor.type('x y')
+    editor.says('error')
+    assert 'x y' in editor.save(path) and 'PROGRAM Second IL' in open(path).read()
+
+
+def one_more(screen):
+    """a program written behind the list's own stands there once, and is told not to belong there"""
+    editor, path, view = in_the_list(screen)
+    editor.keys('ctrl+End')
+    editor.put_clipboard(EXTRA)
+    editor.keys('ctrl+v')
+    back_and_forth(editor, path, view, 'does not belong here: Extra')
+
+
+main([typed, damaged, emptied, one_more])

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_lists - the text of a POU that can be read, and is more or less than that POU. No
+ * display.
+ */
+#include "editor-gtk/document.h"
+
+#include "tests/tap.h"
+
+#include <string.h>
+
+static const char SAMPLE[] =
+	"RUNGBOARD 1\n\nVAR\n  Start AT %IX0.0 : BOOL;\nEND_VAR\n\n"
+	"PROGRAM Main IL\n  LD    Start\n  ST    %QX0.0\nEND_PROGRAM\n\n"
+	"PROGRAM Other IL\n  LD    Start\n  ST    %QX0.3\nEND_PROGRAM\n\n"
+	"PROGRAM Last LD\nRUNG\n  | NO Start | COIL %QX0.1 |\nEND_PROGRAM\n";
+
+/* It touches no other POU, stays as it was written, and is told at its place. */
+static void test_put(LadderDocument *document, const char *list, enum diag_id id,
+		     const char *about, int line)
+{
+	const struct diag_list *diags = ladder_document_diags(document);
+	const struct diag *diag;
+	char *text, *seen;
+
+	CHECK(ladder_document_put_list(document, 1, list));
+	CHECK(ladder_document_project(document)->pou_count == 3);
+	seen = ladder_document_list(document, 1);
+	CHECK_TEXT(seen, list);
+	text = ladder_document_text(document, NULL);
+	CHECK(strstr(text, list) && strstr(text, "PROGRAM Main IL\n  LD    Start\n") &&
+	      strstr(text, "PROGRAM Last LD\nRUNG\n"));
+	ladder_document_check_now(document);
+	diag = &diags->diag[diags->count - 1];
+	CHECK(diags->errors == 1 && diag->id == id && diag->line == line);
+	CHECK_TEXT(diag->arg, about);
+	CHECK_TEXT(diag->pou, "Other");
+	g_free(text);
+	g_free(seen);
+}
+
+int main(void)
+{
+	LadderDocument *document = ladder_document_new();
+	char *text;
+
+	ladder_document_open_text(document, NULL, SAMPLE, strlen(SAMPLE), true);
+	test_put(document, "", DIAG_EXPECTED, "PROGRAM", 12);
+	test_put(document, "(* none *)\n", DIAG_EXPECTED, "PROGRAM", 12);
+	test_put(document, "PROGRAM Other IL\n  LD Start\nEND_PROGRAM\n"
+		 "PROGRAM More IL\n  LD Start\nEND_PROGRAM\n", DIAG_MISPLACED, "More", 15);
+	test_put(document, "PROGRAM Other IL\n  LD Start\nEND_PROGRAM\n"
+		 "TYPE\n  Pair : STRUCT\n    A : INT;\n  END_STRUCT;\nEND_TYPE\n",
+		 DIAG_MISPLACED, "", 12);
+	CHECK(ladder_document_put_list(document, 1, "PROGRAM Mine IL\n  LD Start\nEND_PROGRAM\n"));
+	ladder_document_check_now(document);
+	CHECK(ladder_document_diags(document)->errors == 0);
+	while (ladder_document_undo(document))
+		;
+	text = ladder_document_text(document, NULL);
+	CHECK_TEXT(text, SAMPLE);
+	g_free(text);
+	g_object_unref(document);
+	return tap_done();
+}
