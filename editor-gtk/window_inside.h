@@ -30,6 +30,7 @@ struct _LadderWindow {
 	struct window_older *older; /* the program before an edit              */
 	LadderSim *sim;           /* off while it edits                        */
 	LadderRecorder *recorder;
+	int pou_count;            /* when the tabs were updated                */
 	bool closing;             /* the person has been asked                 */
 	guint disk_timer;         /* until the file is looked at again         */
 	enum disk_state disk_told; /* what was told of it                      */

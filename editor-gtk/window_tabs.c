@@ -494,8 +494,8 @@ static bool fits(GtkWidget *widget, const struct project *project, int pou)
 	return ld ? LADDER_IS_GRID_VIEW(widget) : LADDER_IS_TEXT_VIEW(widget);
 }
 
-/* A page whose POU has another number, or is gone. */
-static bool update_page(AdwTabPage *page, const struct project *project)
+/* A page whose POU has another number, or is gone. @renamed: it may have another name. */
+static bool update_page(AdwTabPage *page, const struct project *project, bool renamed)
 {
 	GtkWidget *widget = content(page);
 	const char *name = name_of(page);
@@ -509,13 +509,12 @@ static bool update_page(AdwTabPage *page, const struct project *project)
 		return (strcmp(name, " text") == 0) == !project;
 	pou = pou_number(project, name);
 	if (pou < 0) {
-		/* It may have another name now. */
 		pou = LADDER_IS_GRID_VIEW(widget) ?
 			ladder_grid_view_pou(LADDER_GRID_VIEW(widget)) :
 			LADDER_IS_CHART_PAGE(widget) ? ladder_sfc_view_pou(
 				ladder_chart_page_chart(LADDER_CHART_PAGE(widget))) :
 			ladder_text_view_pou(LADDER_TEXT_VIEW(widget));
-		if (!project || pou >= project->pou_count || !fits(widget, project, pou))
+		if (!renamed || pou >= project->pou_count || !fits(widget, project, pou))
 			return false;
 		set_name(page, project_text(project, project->pou[pou].name),
 			 project_text(project, project->pou[pou].name));
@@ -544,11 +543,13 @@ static bool has_pou_page(LadderWindow *window)
 void tabs_update(LadderWindow *window)
 {
 	const struct project *project = ladder_document_project(window->document);
+	const bool renamed = project && project->pou_count == window->pou_count;
 
+	window->pou_count = project ? project->pou_count : 0;
 	for (int i = adw_tab_view_get_n_pages(window->tabs) - 1; i >= 0; i--) {
 		AdwTabPage *page = adw_tab_view_get_nth_page(window->tabs, i);
 
-		if (!update_page(page, project))
+		if (!update_page(page, project, renamed))
 			adw_tab_view_close_page(window->tabs, page);
 	}
 	if (!project) {

@@ -77,6 +77,29 @@ def rows(screen):
     assert lines(path, OTHER) == ['%QX0.2=1', '%QX0.2=0']
 
 
+def of_others(screen):
+    """a program that is not the last is deleted: its tab goes, and is not one of its neighbour's"""
+    third = '\nPROGRAM Third LD\nRUNG\n  | NO %IX0.3 | COIL %QX0.3 |\nEND_PROGRAM\n'
+    path = new_file(screen, TEXT + third)
+    editor = Editor(screen, path)
+    bottom = editor.find('Sheet').box()[1]
+
+    def tabs():
+        labels = [node for node in editor.all(role='label') if node.name in ('Main', 'Other', 'Third')]
+        return sorted(node.name for node in labels if node.box()[2] > 0 and bottom - 50 < node.box()[1] < bottom)
+    until(lambda: tabs() == ['Main', 'Other', 'Third'], 'the three tabs')
+    editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other' and n.box()[0] < 200][0])
+    editor.keys('Delete')
+    until(lambda: tabs() == ['Main', 'Third'], 'the tab of Other to go')
+    editor.shot('tree-of-others')
+    assert editor.save(path) == TEXT[:TEXT.index('\nPROGRAM Other')] + third
+    editor.keys('ctrl+z')
+    until(lambda: [n for n in editor.all('Other', 'label') if n.name == 'Other'], 'the program again')
+    assert tabs() == ['Main', 'Third'], tabs()
+    assert editor.save(path) == TEXT + third
+    check(path)
+
+
 def sheet_of(editor):
     """Waits until the sheet that is seen has the keys."""
     until(lambda: [n for n in editor.all('Sheet') if n.box()[2] > 0 and n.has(12)], 'the focus on its sheet')
@@ -155,4 +178,4 @@ def beside(screen):
     assert open(path).read() == TEXT
 
 
-main([bookmarks, rows, keys, menus, beside])
+main([bookmarks, rows, of_others, keys, menus, beside])
