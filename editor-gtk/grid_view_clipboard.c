@@ -7,10 +7,12 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include "editor-gtk/diag_said.h"
+
 #include <stdlib.h>
 #include <string.h>
 
-#define PASTE_MOST 1000 /* rungs at a time                                     */
+#define PASTE_MOST (LIMIT_RUNGS + 1) /* one is too much for any POU: it is told */
 
 /* ---- copying ---- */
 
@@ -91,6 +93,13 @@ static int read_rungs(LadderGridView *view, const char *text, struct rung **rung
 	return count;
 }
 
+static void tell_too_many(LadderGridView *view)
+{
+	const struct diag diag = { .id = DIAG_TOO_MANY };
+
+	sheet_tell(view, diag_said(&diag));
+}
+
 static void paste_whole(LadderGridView *view, struct rung **rungs, int count)
 {
 	const struct rung *here = sheet_rung(view, view->cursor.rung);
@@ -100,6 +109,8 @@ static void paste_whole(LadderGridView *view, struct rung **rungs, int count)
 	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
 	if (sheet_splice(view, at, removed, rungs, count, NULL))
 		cursor_set(view, (struct grid_cursor){ at + count - 1, 0, 0 }, false);
+	else if (sheet_rungs(view) - removed + count > LIMIT_RUNGS)
+		tell_too_many(view);
 	ladder_document_end(view->document);
 }
 

@@ -70,6 +70,24 @@ def from_text(screen):
     assert len(editor.cells()) == 2, 'what is no rung was pasted'
 
 
+def many(screen):
+    """thousands of rungs are pasted, all of them; more than a program holds are none, and that is told"""
+    path = new_file(screen, TARGET)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    rung = 'RUNG\n  | NO Start | COIL Motor |\n'
+    editor.put_clipboard(rung * 50001)
+    editor.keys('ctrl+v')
+    editor.says('too many in one project')
+    assert open(path).read() == TARGET
+    editor.put_clipboard(rung * 3000)
+    editor.keys('ctrl+v')
+    until(lambda: editor.all('3000 rungs', 'label'), 'the rungs in the tree')
+    assert editor.save(path).count(rung) == 3000
+    check(path)
+    assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
+
+
 def a_tab(screen):
     """a tab stays in the window of its project: another takes none, and let go anywhere it comes back to its place"""
     more = SOURCE + '\nPROGRAM Second LD\nRUNG\n  | NO Stop | COIL %QX0.1 |\nEND_PROGRAM\n'
@@ -127,4 +145,4 @@ def a_tab(screen):
     assert lines(paths[1], '@print %QX0.1\nStop=0\nStop=1\n') == ['%QX0.1=0', '%QX0.1=1']
 
 
-main([other_window, from_text, a_tab])
+main([other_window, from_text, many, a_tab])
