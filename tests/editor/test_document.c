@@ -412,8 +412,8 @@ static const char *some_list(void)
 	static const char *const lists[] = {
 		LIST, "PROGRAM Other IL\n  LD (\nEND_PROGRAM\n",
 		"PROGRAM Other IL\n  LD I0\nEND_PROGRAM\nPROGRAM More IL\nEND_PROGRAM\n",
-		"PROGRAM Other IL\n  LD I0\nEND_PROGRAM\nTYPE Pair : STRUCT\n  A : INT;\n"
-			"END_STRUCT;\nEND_TYPE\n",
+		("PROGRAM Other IL\n  LD I0\nEND_PROGRAM\nTYPE Pair : STRUCT\n  A : INT;\n"
+		 "END_STRUCT;\nEND_TYPE\n"),
 		"(* none *)", "",
 	};
 
