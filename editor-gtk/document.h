@@ -143,6 +143,9 @@ char *ladder_document_list(LadderDocument *document, int pou);
  * read is kept beside the project until it can, and ladder_document_diags() tell why. */
 bool ladder_document_put_list(LadderDocument *document, int pou, const char *text);
 
+/** ladder_document_is_whole - all of its text is in the project: no list stands beside it. */
+bool ladder_document_is_whole(LadderDocument *document);
+
 /* ---- text files beside the document (document_beside.c): one history for all ---- */
 
 /** file_apply - @file gets @to in the place of @from, which stands at byte @at. */

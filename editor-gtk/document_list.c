@@ -191,6 +191,11 @@ char *ladder_document_list(LadderDocument *document, int pou)
 	return out;
 }
 
+bool ladder_document_is_whole(LadderDocument *document)
+{
+	return g_hash_table_size(document->list) == 0;
+}
+
 bool ladder_document_put_list(LadderDocument *document, int pou, const char *text)
 {
 	char *before = ladder_document_list(document, pou);

@@ -109,7 +109,7 @@ static void paste_whole(LadderGridView *view, struct rung **rungs, int count)
 	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
 	if (sheet_splice(view, at, removed, rungs, count, NULL))
 		cursor_set(view, (struct grid_cursor){ at + count - 1, 0, 0 }, false);
-	else if (sheet_rungs(view) - removed + count > LIMIT_RUNGS)
+	else if (sheet_pou(view)->rung_count - removed + count > LIMIT_RUNGS)
 		tell_too_many(view);
 	ladder_document_end(view->document);
 }

@@ -124,14 +124,6 @@ static gboolean notified(gpointer data)
 
 /* ---- on and off ---- */
 
-/* It is not, while a list with more or less than its POU stands beside the project. */
-static bool is_as_shown(LadderSim *sim, const struct sim_program *program)
-{
-	const struct project *shown = ladder_document_project(sim->document);
-
-	return shown && shown->pou_count == ladder_project(program->ladder)->pou_count;
-}
-
 static struct sim_program *build(LadderSim *sim, GError **error)
 {
 	gsize len;
@@ -140,7 +132,8 @@ static struct sim_program *build(LadderSim *sim, GError **error)
 	struct sim_program *program = sim_program_new(
 		g_intern_string(path ? path : "-"), text, len, error);
 
-	if (program && !is_as_shown(sim, program)) {
+	/* It would not be what is shown: a list has more or less than its POU. */
+	if (program && !ladder_document_is_whole(sim->document)) {
 		ladder_document_check_now(sim->document);
 		sim_program_say_why(ladder_document_diags(sim->document), error);
 		g_clear_pointer(&program, sim_program_unref);
@@ -340,6 +333,7 @@ static void checked(LadderSim *sim)
 	GTask *task;
 
 	if (!sim->thread || sim->building || diags->errors ||
+	    !ladder_document_is_whole(sim->document) ||
 	    sim->version == ladder_document_version(sim->document))
 		return;
 	rebuild = g_new0(struct rebuild, 1);

@@ -3,7 +3,7 @@
  * test_lists - the text of a POU that can be read, and is more or less than that POU. No
  * display.
  */
-#include "editor-gtk/document.h"
+#include "editor-gtk/sim.h"
 
 #include "tests/tap.h"
 
@@ -14,6 +14,16 @@ static const char SAMPLE[] =
 	"PROGRAM Main IL\n  LD    Start\n  ST    %QX0.0\nEND_PROGRAM\n\n"
 	"PROGRAM Other IL\n  LD    Start\n  ST    %QX0.3\nEND_PROGRAM\n\n"
 	"PROGRAM Last LD\nRUNG\n  | NO Start | COIL %QX0.1 |\nEND_PROGRAM\n";
+
+static void is_not_simulated(LadderDocument *document)
+{
+	LadderSim *sim = ladder_sim_new(document);
+	GError *error = NULL;
+
+	CHECK(!ladder_sim_begin(sim, &error) && error && !ladder_sim_is_on(sim));
+	g_clear_error(&error);
+	g_object_unref(sim);
+}
 
 /* It touches no other POU, stays as it was written, and is told at its place. */
 static void test_put(LadderDocument *document, const char *list, enum diag_id id,
@@ -35,6 +45,7 @@ static void test_put(LadderDocument *document, const char *list, enum diag_id id
 	CHECK(diags->errors == 1 && diag->id == id && diag->line == line);
 	CHECK_TEXT(diag->arg, about);
 	CHECK_TEXT(diag->pou, "Other");
+	is_not_simulated(document);
 	g_free(text);
 	g_free(seen);
 }
@@ -52,6 +63,14 @@ int main(void)
 	test_put(document, "PROGRAM Other IL\n  LD Start\nEND_PROGRAM\n"
 		 "TYPE\n  Pair : STRUCT\n    A : INT;\n  END_STRUCT;\nEND_TYPE\n",
 		 DIAG_MISPLACED, "", 12);
+	/* One more and one less: as many as before, and others. */
+	CHECK(ladder_document_put_list(document, 1, "") &&
+	      ladder_document_put_list(document, 0, "PROGRAM Main IL\nEND_PROGRAM\n"
+				       "PROGRAM More IL\nEND_PROGRAM\n"));
+	ladder_document_check_now(document);
+	CHECK(ladder_document_diags(document)->errors > 0);
+	is_not_simulated(document);
+	CHECK(ladder_document_undo(document));
 	CHECK(ladder_document_put_list(document, 1, "PROGRAM Mine IL\n  LD Start\nEND_PROGRAM\n"));
 	ladder_document_check_now(document);
 	CHECK(ladder_document_diags(document)->errors == 0);

@@ -30,15 +30,28 @@ RUNG
   | NO Start | COIL Motor
 END_PROGRAM
 '''
+TWO = IL.replace('LD Start', 'LD    Start\n  ST    Motor') + '''
+PROGRAM Second IL
+  LD    Start
+  ST    %QX0.1
+END_PROGRAM
+'''
+EXTRA = '\nPROGRAM Extra IL\n  LD Start\nEND_PROGRAM\n'
 
 
-def typed(screen):
-    """an instruction list is typed, with a mistake that is mended"""
-    path = new_file(screen, IL)
+def in_the_text(screen, text):
+    """An editor with the focus in the text of that program, its path, and that text."""
+    path = new_file(screen, text)
     editor = Editor(screen, path)
     view = editor.find('Text of the program')
     editor.click(view)
     until(lambda: view.has(12), 'the focus in the text')
+    return editor, path, view
+
+
+def typed(screen):
+    """an instruction list is typed, with a mistake that is mended"""
+    editor, path, _ = in_the_text(screen, IL)
     editor.keys('ctrl+Home', 'Down', 'End', 'Return')
     editor.type('STT Motor')
     editor.says('error')
@@ -54,13 +67,9 @@ def typed(screen):
 
 def damaged(screen):
     """a damaged file opens as text with what is wrong, is mended there, and drawn"""
-    path = new_file(screen, DAMAGED)
-    editor = Editor(screen, path)
+    editor, path, _ = in_the_text(screen, DAMAGED)
     editor.says('error')
     editor.shot('text-damaged')
-    view = editor.find('Text of the program')
-    editor.click(view)
-    until(lambda: view.has(12), 'the focus in the text')
     editor.keys('ctrl+End', 'Up', 'Up', 'End')
     editor.type(' |')
     until(lambda: len(editor.cells()) == 2, 'the sheet with its two elements')
@@ -69,24 +78,6 @@ def damaged(screen):
     editor.save(path)
     check(path)
     assert lines(path, '@print Motor\nStart=0\nStart=1\n') == ['Motor=0', 'Motor=1']
-
-
-TWO = IL.replace('LD Start', '  LD    Start\n  ST    Motor').replace('    LD', '  LD') + '''
-PROGRAM Second IL
-  LD    Start
-  ST    %QX0.1
-END_PROGRAM
-'''
-EXTRA = '\nPROGRAM Extra IL\n  LD Start\nEND_PROGRAM\n'
-
-
-def in_the_list(screen):
-    path = new_file(screen, TWO)
-    editor = Editor(screen, path)
-    view = editor.find('Text of the program')
-    editor.click(view)
-    until(lambda: view.has(12), 'the focus in the text')
-    return editor, path, view
 
 
 def back_and_forth(editor, path, view, said):
@@ -109,7 +100,7 @@ def back_and_forth(editor, path, view, said):
 
 def emptied(screen):
     """a list that is emptied and written anew: nothing of the others is touched, undo gives it back"""
-    editor, path, view = in_the_list(screen)
+    editor, path, view = in_the_text(screen, TWO)
     editor.keys('ctrl+a', 'Delete')
     back_and_forth(editor, path, view, 'expected: PROGRAM')
     editor.keys(*['ctrl+z'] * 8)
@@ -124,7 +115,7 @@ def emptied(screen):
 
 def one_more(screen):
     """a program written behind the list's own stands there once, and is told not to belong there"""
-    editor, path, view = in_the_list(screen)
+    editor, path, view = in_the_text(screen, TWO)
     editor.keys('ctrl+End')
     editor.put_clipboard(EXTRA)
     editor.keys('ctrl+v')
