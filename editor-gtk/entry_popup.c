@@ -15,6 +15,8 @@
 #include "editor-gtk/popover.h"
 #include "editor-gtk/verbs.h"
 
+#include <string.h>
+
 struct _LadderEntryPopup {
 	GtkPopover parent;
 	GtkWidget *line, *list, *scroller, *told;
@@ -290,6 +292,39 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 	}
 }
 
+/* ---- what is pasted ---- */
+
+/* Lines as one, with blanks between them. */
+static char *joined(const char *text, gsize len)
+{
+	char *all = g_strstrip(g_strndup(text, len));
+	char **lines = g_strsplit_set(all, "\r\n", -1);
+	GString *out = g_string_new(NULL);
+
+	for (int i = 0; lines[i]; i++)
+		if (*g_strstrip(lines[i]))
+			g_string_append_printf(out, "%s%s", out->len ? " " : "", lines[i]);
+	g_strfreev(lines);
+	g_free(all);
+	return g_string_free(out, FALSE);
+}
+
+/* The toolkit would show their ends as signs, and a file could not hold them. */
+static void comes(GtkEditable *line, const char *text, int len, int *at)
+{
+	const gsize size = len < 0 ? strlen(text) : (gsize)len;
+	char *one;
+
+	if (!memchr(text, '\n', size) && !memchr(text, '\r', size))
+		return;
+	one = joined(text, size);
+	g_signal_stop_emission_by_name(line, "insert-text");
+	gtk_editable_insert_text(line, one, -1, at);
+	g_free(one);
+}
+
+/* ---- the widget ---- */
+
 static void closed(LadderEntryPopup *popup)
 {
 	void (*gone)(void *) = popup->calls.gone;
@@ -352,6 +387,8 @@ static void ladder_entry_popup_init(LadderEntryPopup *popup)
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), popup);
 	gtk_widget_add_controller(popup->line, keys);
+	g_signal_connect(gtk_editable_get_delegate(GTK_EDITABLE(popup->line)), "insert-text",
+			 G_CALLBACK(comes), NULL);
 	g_signal_connect_swapped(popup->line, "changed", G_CALLBACK(changed), popup);
 	g_signal_connect_swapped(popup->line, "activate", G_CALLBACK(take), popup);
 	g_signal_connect_swapped(popup->list, "row-activated", G_CALLBACK(row_activated),

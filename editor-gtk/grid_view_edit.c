@@ -41,9 +41,8 @@ static void tell_diags(LadderGridView *view, const struct diag_list *why)
 {
 	char *text;
 
-	if (why->count == 0)
-		return;
-	text = diag_said_whole(&why->diag[0]);
+	text = why->count ? diag_said_whole(&why->diag[0]) :
+	       g_strdup(_("A file cannot hold this"));
 	sheet_tell(view, text);
 	g_free(text);
 }

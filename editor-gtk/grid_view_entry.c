@@ -8,7 +8,9 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include "editor-gtk/comment_text.h"
 #include "editor-gtk/entry.h"
+#include "editor-gtk/entry_inside.h"
 #include "editor-gtk/entry_popup.h"
 
 #include "engine/base/explain.h"
@@ -212,16 +214,6 @@ static void element_gone(void *context)
 
 /* ---- texts ---- */
 
-static char *comment_text(const char *text)
-{
-	/* Its delimiters belong to the file. */
-	gsize len = strlen(text);
-
-	if (len >= 4 && g_str_has_prefix(text, "(*") && g_str_has_suffix(text, "*)"))
-		return g_strstrip(g_strndup(text + 2, len - 4));
-	return g_strstrip(g_strdup(g_str_has_prefix(text, "//") ? text + 2 : text));
-}
-
 static uint32_t intern_comment(struct project *project, const char *text)
 {
 	char *whole = g_strdup_printf("(* %s *)", text);
@@ -265,6 +257,46 @@ static bool add_pin(LadderGridView *view, const char *name)
 			 _(verb_row(VERB_add_pin)->label));
 }
 
+/* As it stands in the file now. */
+static char *text_now(LadderGridView *view, enum verb verb)
+{
+	const struct project *project = ladder_document_project(view->document);
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	const struct cell *cell = cursor_cell(view, NULL, NULL);
+
+	switch ((int)verb) {
+	case VERB_rung_title:
+		return g_strdup(project_text(project, rung->title));
+	case VERB_rung_label:
+		return g_strdup(project_text(project, rung->label));
+	case VERB_rung_comment:
+		return comment_text(project_text(project, rung->comment));
+	default:
+		return comment_text(cell ? project_text(project, cell->comment) : "");
+	}
+}
+
+/* Why a file could not hold it; NULL: it could. */
+static const char *refusal(enum verb verb, const char *line)
+{
+	const bool comment = verb == VERB_rung_comment || verb == VERB_comment;
+
+	if (comment && (strstr(line, "(*") || strstr(line, "*)")))
+		return _("a comment holds no (* and no *)");
+	if (verb == VERB_rung_label && line[0] && !entry_is_name(line, strlen(line)))
+		return _("this is no name");
+	return NULL;
+}
+
+static bool is_as_before(const struct asked *asked, const char *line)
+{
+	char *before = text_now(asked->view, asked->verb);
+	const bool same = strcmp(before, line) == 0;
+
+	g_free(before);
+	return same;
+}
+
 static bool text_taken(void *context, const char *line)
 {
 	struct asked *asked = context;
@@ -276,6 +308,10 @@ static bool text_taken(void *context, const char *line)
 
 	if (asked->verb == VERB_add_pin)
 		return add_pin(view, line);
+	if (is_as_before(asked, line))
+		return true;
+	if (refusal(asked->verb, line))
+		return false;
 	copy = rung_copy(rung);
 	if (!set_text(view, asked->verb, line, copy,
 		      cursor_cell(view, &row, &col) ? rung_cell(copy, row, col) : NULL)) {
@@ -314,11 +350,12 @@ static char *pin_changed(void *context, const char *line, int cursor, bool *good
 
 static char *text_changed(void *context, const char *line, int cursor, bool *good)
 {
-	(void)context;
-	(void)line;
+	const struct asked *asked = context;
+	const char *why = refusal(asked->verb, line);
+
 	(void)cursor;
-	*good = true;
-	return NULL;
+	*good = !why;
+	return g_strdup(why);
 }
 
 /* ---- opening ---- */
@@ -480,24 +517,6 @@ void entry_begin_edit(LadderGridView *view)
 	asked->edit = true;
 	open_element(asked, _("operand"), text, false);
 	g_free(text);
-}
-
-static char *text_now(LadderGridView *view, enum verb verb)
-{
-	const struct project *project = ladder_document_project(view->document);
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	const struct cell *cell = cursor_cell(view, NULL, NULL);
-
-	switch ((int)verb) {
-	case VERB_rung_title:
-		return g_strdup(project_text(project, rung->title));
-	case VERB_rung_label:
-		return g_strdup(project_text(project, rung->label));
-	case VERB_rung_comment:
-		return comment_text(project_text(project, rung->comment));
-	default:
-		return comment_text(cell ? project_text(project, cell->comment) : "");
-	}
 }
 
 void entry_begin_text(LadderGridView *view, enum verb verb)

@@ -4,7 +4,7 @@
  * listing_reads.c.
  */
 #include "editor-gtk/listing.h"
-#include "editor-gtk/rung_text.h"
+#include "editor-gtk/comment_text.h"
 #include "engine/view/view.h"
 
 char **listing_il(const struct project *project, const struct pou *pou)
@@ -76,5 +76,5 @@ void listing_symbol(const struct project *project, const struct var_table *table
 	cell[LISTING_ADDRESS] = g_strdup(project_text(project, var->at_text));
 	cell[LISTING_INITIAL] = g_strdup(var->has_init ?
 					 project_text(project, var->init_text) : "");
-	cell[LISTING_COMMENT] = rung_comment_text(project_text(project, var->comment));
+	cell[LISTING_COMMENT] = comment_text(project_text(project, var->comment));
 }

@@ -99,24 +99,24 @@ static void take_part(void *context, const struct text_span *span)
 	}
 }
 
-bool pou_delete(LadderDocument *document, int pou)
+const char *pou_delete(LadderDocument *document, int pou)
 {
 	struct part_of_pou part = { ladder_document_project(document), pou,
 				    { 0 }, false };
 	gsize len;
 	char *text;
-	bool good = false;
+	bool good;
 
 	if (!part.project || part.project->pou_count < 2)
-		return false;
+		return _("It cannot be deleted: a project has at least one program");
 	text = ladder_document_outline(document, &len, take_part, &part);
-	ladder_document_begin(document, _("Delete program or block"), NULL);
-	if (part.found)
-		good = ladder_document_replace(document, part.span.at, part.span.len, "",
-					       NULL);
-	ladder_document_end(document);
 	g_free(text);
-	return good;
+	if (!part.found)
+		return _("It is declared in another file");
+	ladder_document_begin(document, _("Delete program or block"), NULL);
+	good = ladder_document_replace(document, part.span.at, part.span.len, "", NULL);
+	ladder_document_end(document);
+	return good ? NULL : _("It cannot be deleted while a text of the project cannot be read");
 }
 
 /* ---- renaming ---- */

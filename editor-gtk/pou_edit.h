@@ -16,7 +16,8 @@
 void pou_add(GtkWidget *widget, LadderDocument *document, const char *what);
 /** pou_ask_name - asks for another name, which it gets wherever it is named. */
 void pou_ask_name(GtkWidget *widget, LadderDocument *document, int pou);
-/** pou_delete - with all that is in it; the last one stays. */
-bool pou_delete(LadderDocument *document, int pou);
+/** pou_delete - with all that is in it; the last one stays, and one of another file.
+ * Returns NULL; else why it stays, translated, static. */
+const char *pou_delete(LadderDocument *document, int pou);
 
 #endif

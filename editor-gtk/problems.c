@@ -182,6 +182,24 @@ bool ladder_problems_next(LadderProblems *problems, bool back)
 	return true;
 }
 
+bool ladder_problems_show_error(LadderProblems *problems)
+{
+	GtkSingleSelection *selection = problems->list.selection;
+
+	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(selection)); i++) {
+		LadderPanelRow *row = g_list_model_get_item(G_LIST_MODEL(selection), i);
+		const bool error = row->tone == PANEL_ERROR;
+
+		g_object_unref(row);
+		if (!error)
+			continue;
+		gtk_single_selection_set_selected(selection, i);
+		panel_go_to(GTK_WIDGET(problems), panel_list_row(&problems->list));
+		return true;
+	}
+	return false;
+}
+
 const char *ladder_problems_title(LadderProblems *problems)
 {
 	return problems->title;

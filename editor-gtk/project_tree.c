@@ -25,15 +25,17 @@ struct tree {
 	GtkSingleSelection *selection;
 	GtkWidget *list, *panel;   /* the panel holds all of it                */
 	char *shape;       /* what is shown, to see whether it changed         */
+	bool stale;        /* it may have, by what is not in the shape         */
 	guint timer;       /* soon looks whether it did                        */
 	LadderTreeRow *going; /* what was activated, ...                       */
 	guint going_soon;  /* ... goes there soon                              */
 };
 
-/* Programs and blocks show what they are made of when they are asked. */
-static void expand_headings(struct tree *tree)
+/* Headings show what stands below them when they come. */
+static void expand_headings(struct tree *tree, guint at, guint gone, guint come)
 {
-	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(tree->root)); i++) {
+	(void)gone;
+	for (guint i = at; i < at + come; i++) {
 		GtkTreeListRow *row = gtk_tree_list_model_get_child_row(tree->model, i);
 
 		gtk_tree_list_row_set_expanded(row, TRUE);
@@ -41,18 +43,7 @@ static void expand_headings(struct tree *tree)
 	}
 }
 
-static void fill(struct tree *tree)
-{
-	if (!tree->model)
-		return;
-	g_list_store_remove_all(tree->root);
-	if (!ladder_document_project(tree->document))
-		return;
-	tree_rows_fill(tree->root, tree->document);
-	expand_headings(tree);
-}
-
-/* Rows go and others come: who had the keys there keeps them, at the row of that place. */
+/* Who had the keys at a row that goes keeps them, at the row of that place. */
 static void refill(struct tree *tree)
 {
 	GtkRoot *root = gtk_widget_get_root(tree->list);
@@ -60,11 +51,12 @@ static void refill(struct tree *tree)
 	const bool here = focus && gtk_widget_is_ancestor(focus, tree->list);
 	guint at = gtk_single_selection_get_selected(tree->selection), count;
 
-	fill(tree);
+	tree_rows_update(tree->root, tree->document);
 	count = g_list_model_get_n_items(G_LIST_MODEL(tree->selection));
 	if (!here)
 		return;
-	if (at != GTK_INVALID_LIST_POSITION && count)
+	if (at != GTK_INVALID_LIST_POSITION && count &&
+	    !gtk_single_selection_get_selected_item(tree->selection))
 		gtk_single_selection_set_selected(tree->selection, MIN(at, count - 1));
 	gtk_widget_grab_focus(tree->list);
 	focus_mend(tree->list);
@@ -89,8 +81,9 @@ static char *shape_of(LadderDocument *document)
 static void follow(struct tree *tree)
 {
 	char *shape = shape_of(tree->document);
-	const bool same = g_strcmp0(shape, tree->shape) == 0;
+	const bool same = !tree->stale && g_strcmp0(shape, tree->shape) == 0;
 
+	tree->stale = false;
 	g_free(tree->shape);
 	tree->shape = shape;
 	if (!same)
@@ -111,6 +104,18 @@ static void follow_later(struct tree *tree)
 {
 	if (!tree->timer)
 		tree->timer = g_timeout_add(100, follow_now, tree);
+}
+
+static void project_changed(struct tree *tree)
+{
+	tree->stale = true;
+	follow(tree);
+}
+
+static void variable_changed(struct tree *tree)
+{
+	tree->stale = true;
+	follow_later(tree);
 }
 
 /* ---- acting ---- */
@@ -186,15 +191,18 @@ static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
 {
 	struct tree *tree = data;
 	const int pou = selected_pou(tree);
-	const char *name = g_action_get_name(G_ACTION(action));
+	const bool renames = strcmp(g_action_get_name(G_ACTION(action)), "rename") == 0;
+	const char *why = NULL;
 
 	(void)unused;
 	if (pou < 0)
-		return;
-	if (strcmp(name, "rename") == 0)
+		why = _("There is no program or block in this row");
+	else if (renames)
 		pou_ask_name(tree->list, tree->document, pou);
 	else
-		pou_delete(tree->document, pou);
+		why = pou_delete(tree->document, pou);
+	if (why)
+		gtk_widget_activate_action(tree->list, "win.tell", "s", why);
 }
 
 static GMenu *menu_model(void)
@@ -314,27 +322,50 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_widget_set_hexpand(text, TRUE);
 	gtk_widget_add_css_class(note, "dim-label");
 	gtk_widget_add_css_class(note, "caption");
+	gtk_label_set_ellipsize(GTK_LABEL(note), PANGO_ELLIPSIZE_END);
 	gtk_box_append(GTK_BOX(box), text);
 	gtk_box_append(GTK_BOX(box), note);
 	gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), box);
 	gtk_list_item_set_child(item, expander);
 }
 
+static void show_note(LadderTreeRow *row, GtkLabel *note)
+{
+	gtk_label_set_text(note, row->note ? row->note : "");
+}
+
+static GtkWidget *text_of(GtkListItem *item)
+{
+	GtkWidget *expander = gtk_list_item_get_child(item);
+
+	return gtk_widget_get_first_child(gtk_tree_expander_get_child(
+		GTK_TREE_EXPANDER(expander)));
+}
+
 static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 {
 	GtkTreeListRow *list_row = gtk_list_item_get_item(item);
 	LadderTreeRow *row = gtk_tree_list_row_get_item(list_row);
-	GtkWidget *expander = gtk_list_item_get_child(item);
-	GtkWidget *box = gtk_tree_expander_get_child(GTK_TREE_EXPANDER(expander));
-	GtkWidget *text = gtk_widget_get_first_child(box);
-	GtkWidget *note = gtk_widget_get_next_sibling(text);
+	GtkWidget *text = text_of(item), *note = gtk_widget_get_next_sibling(text);
 
 	(void)factory;
-	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(expander), list_row);
+	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(gtk_list_item_get_child(item)),
+				       list_row);
 	gtk_label_set_text(GTK_LABEL(text), row->text);
 	tip_set(text, row->text);
-	gtk_label_set_text(GTK_LABEL(note), row->note ? row->note : "");
-	gtk_label_set_ellipsize(GTK_LABEL(note), PANGO_ELLIPSIZE_END);
+	show_note(row, GTK_LABEL(note));
+	g_signal_connect_object(row, "changed", G_CALLBACK(show_note), note, 0);
+	g_object_set_data_full(G_OBJECT(note), "row", row, g_object_unref);
+}
+
+/* The row of the list may be none any more, and know no row of ours. */
+static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	GtkWidget *note = gtk_widget_get_next_sibling(text_of(item));
+	LadderTreeRow *row = g_object_steal_data(G_OBJECT(note), "row");
+
+	(void)factory;
+	g_signal_handlers_disconnect_by_func(row, show_note, note);
 	g_object_unref(row);
 }
 
@@ -378,11 +409,14 @@ static void make_list(struct tree *tree)
 	tree->root = g_list_store_new(LADDER_TYPE_TREE_ROW);
 	tree->model = gtk_tree_list_model_new(G_LIST_MODEL(tree->root), FALSE, FALSE,
 					      children, tree, NULL);
+	g_signal_connect_swapped(tree->root, "items-changed", G_CALLBACK(expand_headings),
+				 tree); /* behind the model's own */
 	tree->selection = gtk_single_selection_new(G_LIST_MODEL(tree->model));
 	gtk_single_selection_set_autoselect(tree->selection, FALSE);
 	gtk_single_selection_set_can_unselect(tree->selection, TRUE);
 	g_signal_connect(factory, "setup", G_CALLBACK(setup), NULL);
 	g_signal_connect(factory, "bind", G_CALLBACK(bind), NULL);
+	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), NULL);
 	tree->list = gtk_list_view_new(GTK_SELECTION_MODEL(tree->selection), factory);
 	gtk_widget_add_css_class(tree->list, "navigation-sidebar");
 	gtk_widget_add_css_class(tree->list, "project");
@@ -393,7 +427,7 @@ static void make_list(struct tree *tree)
 
 void ladder_project_tree_look(GtkWidget *box)
 {
-	fill(g_object_get_data(G_OBJECT(box), "tree"));
+	refill(g_object_get_data(G_OBJECT(box), "tree"));
 }
 
 GtkWidget *ladder_project_tree_new(LadderDocument *document)
@@ -414,9 +448,11 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 	gtk_box_append(GTK_BOX(box), heading_new());
 	gtk_box_append(GTK_BOX(box), scroller);
 	g_object_set_data_full(G_OBJECT(box), "tree", tree, tree_free);
-	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(follow), tree);
+	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(project_changed),
+				 tree);
 	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(follow_later), tree);
-	g_signal_connect_swapped(document, "variable-changed", G_CALLBACK(follow_later), tree);
+	g_signal_connect_swapped(document, "variable-changed", G_CALLBACK(variable_changed),
+				 tree);
 	g_signal_connect_swapped(document, "bookmarks-changed", G_CALLBACK(follow), tree);
 	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(follow_later), tree);
 	follow(tree);

@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/rung_text.h"
 
+#include "editor-gtk/comment_text.h"
+
 #include <glib.h>
 #include <string.h>
 
@@ -53,7 +55,7 @@ struct lettered rung_element_comment(const struct drafting *drafting,
 					  project_text(drafting->project,
 						       cell->operand)).comment;
 	if (*comment) {
-		char *plain = rung_comment_text(comment);
+		char *plain = comment_text(comment);
 
 		fits = fit(drafting, LETTER_PIN, plain, room);
 		g_free(plain);
@@ -123,36 +125,6 @@ struct rung_framed rung_framed(const struct drafting *drafting, const struct cel
 	return framed;
 }
 
-static bool is_blank(char c)
-{
-	return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
-
-/* Several comments stand one after another, each with its delimiters. */
-char *rung_comment_text(const char *comment)
-{
-	GString *out = g_string_new(NULL);
-
-	while (*comment) {
-		if (comment[0] == '(' && comment[1] == '*') {
-			comment += 2;
-		} else if (comment[0] == '*' && comment[1] == ')') {
-			comment += 2;
-			if (out->len && out->str[out->len - 1] != ' ')
-				g_string_append_c(out, ' ');
-		} else if (is_blank(*comment)) {
-			if (out->len && out->str[out->len - 1] != ' ')
-				g_string_append_c(out, ' ');
-			comment++;
-		} else {
-			g_string_append_c(out, *comment++);
-		}
-	}
-	while (out->len && out->str[out->len - 1] == ' ')
-		g_string_truncate(out, out->len - 1);
-	return g_string_free(out, FALSE);
-}
-
 struct rung_heading rung_heading(const struct drafting *drafting, const struct rung *rung)
 {
 	const struct project *project = drafting->project;
@@ -170,7 +142,7 @@ struct rung_heading rung_heading(const struct drafting *drafting, const struct r
 				    project_text(project, rung->title), 0);
 		heading.width += heading.title.width + TITLE_AIR;
 	}
-	heading.comment = rung_comment_text(project_text(project, rung->comment));
+	heading.comment = comment_text(project_text(project, rung->comment));
 	heading.comment_width = fit(drafting, LETTER_COMMENT, heading.comment, 0).width;
 	return heading;
 }

@@ -51,7 +51,5 @@ int rung_comment_lines(const struct drafting *drafting, const char *comment, flo
 		       int most, void (*take)(void *context, int line,
 					      struct lettered text),
 		       void *context);
-/** rung_comment_text - a comment without delimiters, on one line. Owns: g_free. */
-char *rung_comment_text(const char *comment);
 
 #endif

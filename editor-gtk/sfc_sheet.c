@@ -3,7 +3,7 @@
  * sfc_sheet - widths of lanes, texts, and what is hit; see sfc_sheet.h.
  */
 #include "editor-gtk/sfc_sheet.h"
-#include "editor-gtk/rung_text.h"
+#include "editor-gtk/comment_text.h"
 #include "engine/view/sfc_words.h"
 
 #include <glib.h>
@@ -56,7 +56,7 @@ static void make_texts(struct sfc_sheet *sheet)
 	for (int i = 0; i < sheet->layout->shape_count; i++) {
 		sfc_words_shape(sheet->project, sheet->pou, sheet->layout, i, &sink);
 		sheet->name[i] = take(&memory);
-		sheet->comment[i] = rung_comment_text(project_text(sheet->project,
+		sheet->comment[i] = comment_text(project_text(sheet->project,
 						      comment_of(sfc, i)));
 	}
 	for (int i = 0; i < sfc->step_count; i++) {
@@ -68,7 +68,7 @@ static void make_texts(struct sfc_sheet *sheet)
 		sheet->what[i] = take(&memory);
 		sheet->does[i] = g_strdup(project_text(sheet->project,
 						       sfc->use[i].operand));
-		sheet->use_comment[i] = rung_comment_text(project_text(sheet->project,
+		sheet->use_comment[i] = comment_text(project_text(sheet->project,
 						sfc->use[i].comment));
 	}
 }

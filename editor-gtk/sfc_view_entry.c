@@ -5,9 +5,9 @@
  */
 #include "editor-gtk/sfc_view_inside.h"
 
+#include "editor-gtk/comment_text.h"
 #include "editor-gtk/entry.h"
 #include "editor-gtk/entry_popup.h"
-#include "editor-gtk/rung_text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -321,7 +321,7 @@ static char *comment_now(const struct asked *asked)
 	LadderSfcView *view = asked->view;
 	const struct sfc *sfc = chart_pou(view)->sfc;
 
-	return rung_comment_text(project_text(view->sheet->project, asked->use >= 0 ?
+	return comment_text(project_text(view->sheet->project, asked->use >= 0 ?
 		sfc->use[asked->use].comment : view->cursor.shape < sfc->step_count ?
 		sfc->step[asked->index].comment : sfc->transition[asked->index].comment));
 }

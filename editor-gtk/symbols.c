@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/symbols.h"
 
+#include "editor-gtk/comment_text.h"
 #include "editor-gtk/i18n.h"
 #include "engine/base/literal.h"
 #include "engine/view/address_map.h"
@@ -50,19 +51,6 @@ static char *initial_text(const struct project *project, const struct var *var)
 		return g_strdup(project_text(project, var->init_text));
 	literal_print(var->type, var->init, text, sizeof(text));
 	return g_strdup(text);
-}
-
-/* Without (* and *), or //. */
-static char *comment_text(const char *comment)
-{
-	gsize len = strlen(comment);
-	char *text;
-
-	if (g_str_has_prefix(comment, "(*") && len >= 4)
-		text = g_strndup(comment + 2, len - 4);
-	else
-		text = g_strdup(g_str_has_prefix(comment, "//") ? comment + 2 : comment);
-	return g_strstrip(text);
 }
 
 static char *scope_name(const struct project *project, int table)

@@ -40,7 +40,8 @@ static void commit(GtkWidget *cell, GtkListItem *item)
 		return;
 	}
 	g_object_ref(row);
-	good = strcmp(text, panel_row_text(row, cells->field)) == 0 ||
+	/* What is as it was is told, too, if that was refused before: it is no more. */
+	good = (!refused && strcmp(text, panel_row_text(row, cells->field)) == 0) ||
 	       cells->set(cells->owner, row, cells->field, text, &why);
 	if (good)
 		cells_refuse(cell, NULL);
@@ -80,7 +81,7 @@ static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 	    strcmp(text, gtk_editable_get_text(GTK_EDITABLE(cell))) == 0)
 		return FALSE;
 	gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	cells_refuse(cell, NULL);
+	commit(cell, item);
 	return TRUE;
 }
 

@@ -24,6 +24,7 @@ struct _LadderSymbolsView {
 	struct panel_watch *watch;
 	GtkFileChooserNative *chooser;
 	int table;              /* that is shown; -1: all                      */
+	guint64 told_of;        /* version of the document that the message is of */
 	bool busy;              /* the drop-down is being filled               */
 };
 
@@ -34,6 +35,9 @@ G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
 /* @text: taken over; NULL: nothing to tell. */
 static void tell(LadderSymbolsView *view, char *text)
 {
+	LadderDocument *document = panel_watch_document(view->watch);
+
+	view->told_of = document ? ladder_document_version(document) : 0;
 	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
 	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
 	g_free(text);
@@ -129,6 +133,9 @@ static void refresh(GtkWidget *widget)
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
 	LadderDocument *document = panel_watch_document(view->watch);
 
+	/* What was said is of a document that is another now. */
+	if (document && ladder_document_version(document) != view->told_of)
+		tell(view, NULL);
 	fill_scopes(view, document ? ladder_document_project(document) : NULL);
 	fill_rows(view);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * tree_rows - a project's programs, blocks, types, symbols and files as rows, anew each time.
+ * tree_rows - a project's programs, blocks, types, symbols and files as rows. They are made anew
+ * and compared: what stays as it was is not touched.
  */
 #include "editor-gtk/tree_rows.h"
 
@@ -11,6 +12,8 @@
 /* ---- rows ---- */
 
 G_DEFINE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, G_TYPE_OBJECT)
+
+static guint changed; /* signal */
 
 static void ladder_tree_row_finalize(GObject *object)
 {
@@ -26,6 +29,8 @@ static void ladder_tree_row_finalize(GObject *object)
 static void ladder_tree_row_class_init(LadderTreeRowClass *class)
 {
 	G_OBJECT_CLASS(class)->finalize = ladder_tree_row_finalize;
+	changed = g_signal_new("changed", LADDER_TYPE_TREE_ROW, G_SIGNAL_RUN_LAST, 0, NULL,
+			       NULL, NULL, G_TYPE_NONE, 0);
 }
 
 static void ladder_tree_row_init(LadderTreeRow *row)
@@ -42,6 +47,7 @@ static LadderTreeRow *add(GListStore *into, enum row_kind kind, const char *text
 	row->text = g_strdup(text);
 	row->note = note;
 	row->rows = rows;
+	row->parent = rows != NULL;
 	g_list_store_append(into, row);
 	g_object_unref(row);
 	return row;
@@ -81,6 +87,7 @@ static void add_pous(GListStore *root, const struct project *project, const char
 		row = add_row(heading->rows, ROW_POU, project_text(project, pou->name),
 			      note);
 		row->pou = i;
+		row->parent = listing_count(&pou->vars) > 0;
 	}
 }
 
@@ -113,6 +120,7 @@ static void add_structures(GListStore *root, const struct project *project)
 		row = add_row(heading->rows, ROW_STRUCTURE,
 			      project_text(project, project->structure[i].name), NULL);
 		row->pou = i;
+		row->parent = true;
 	}
 }
 
@@ -134,14 +142,16 @@ static void add_texts(GListStore *root, LadderDocument *document, const char *ti
 }
 
 /* What a POU or a structure is made of. */
-static GListModel *variables(const struct project *project, const struct var_table *vars)
+static GListStore *variables(const struct project *project, const LadderTreeRow *row)
 {
+	const struct var_table *vars = row->kind == ROW_POU ? &project->pou[row->pou].vars :
+		&project->structure[row->pou].vars;
 	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
 
 	for (int i = listing_first(vars); i < vars_declared(vars); i++)
 		add_row(rows, ROW_VARIABLE, project_text(project, vars->var[i].name),
 			listing_type(project, &vars->var[i]));
-	return G_LIST_MODEL(rows);
+	return rows;
 }
 
 static void add_bookmarks(GListStore *root, LadderDocument *document)
@@ -170,16 +180,16 @@ static void add_bookmarks(GListStore *root, LadderDocument *document)
 		}
 }
 
-void tree_rows_fill(GListStore *root, LadderDocument *document)
+static void add_all(GListStore *root, LadderDocument *document)
 {
 	const struct project *project = ladder_document_project(document);
-	LadderTreeRow *row;
 
+	if (!project)
+		return;
 	add_pous(root, project, _("Programs"), true);
 	add_pous(root, project, _("Functions and blocks"), false);
-	row = add_row(root, ROW_SYMBOLS, _("Symbols"),
-		      g_strdup_printf("%d", listing_symbol_count(project)));
-	row->pou = -1;
+	add_row(root, ROW_SYMBOLS, _("Symbols"),
+		g_strdup_printf("%d", listing_symbol_count(project)));
 	add_structures(root, project);
 	add_bookmarks(root, document);
 	add_texts(root, document, _("Scenarios"), ".scn", true);
@@ -188,14 +198,78 @@ void tree_rows_fill(GListStore *root, LadderDocument *document)
 	add_files(root, project);
 }
 
+/* ---- what became of them ---- */
+
+static bool is_same(const LadderTreeRow *a, const LadderTreeRow *b)
+{
+	return a->kind == b->kind && a->parent == b->parent &&
+	       g_strcmp0(a->text, b->text) == 0 && g_strcmp0(a->path, b->path) == 0;
+}
+
+static LadderTreeRow *row_at(GListStore *rows, guint at)
+{
+	LadderTreeRow *row = g_list_model_get_item(G_LIST_MODEL(rows), at);
+
+	g_object_unref(row); /* the list holds it */
+	return row;
+}
+
+static void update(GListStore *old, GListStore *fresh, const struct project *project);
+
+/* A row stays. It may be another's by number: what is below it is compared, too. */
+static void become(LadderTreeRow *old, LadderTreeRow *fresh, const struct project *project)
+{
+	GListStore *rows;
+
+	old->pou = fresh->pou;
+	old->rung = fresh->rung;
+	if (g_strcmp0(old->note, fresh->note) != 0) {
+		g_free(old->note);
+		old->note = g_steal_pointer(&fresh->note);
+		g_signal_emit(old, changed, 0);
+	}
+	if (!old->rows)
+		return;
+	rows = fresh->rows ? g_object_ref(fresh->rows) : variables(project, fresh);
+	update(old->rows, rows, project);
+	g_object_unref(rows);
+}
+
+static void update(GListStore *old, GListStore *fresh, const struct project *project)
+{
+	const guint was = g_list_model_get_n_items(G_LIST_MODEL(old));
+	const guint is = g_list_model_get_n_items(G_LIST_MODEL(fresh)), least = MIN(was, is);
+	GPtrArray *others = g_ptr_array_new();
+	guint first = 0, last = 0;
+
+	for (; first < least && is_same(row_at(old, first), row_at(fresh, first)); first++)
+		become(row_at(old, first), row_at(fresh, first), project);
+	for (; last < least - first && is_same(row_at(old, was - 1 - last),
+					       row_at(fresh, is - 1 - last)); last++)
+		become(row_at(old, was - 1 - last), row_at(fresh, is - 1 - last), project);
+	for (guint i = first; i < is - last; i++)
+		g_ptr_array_add(others, row_at(fresh, i));
+	if (first < was - last || others->len)
+		g_list_store_splice(old, first, was - last - first, others->pdata, others->len);
+	g_ptr_array_unref(others);
+}
+
+void tree_rows_update(GListStore *root, LadderDocument *document)
+{
+	GListStore *fresh = g_list_store_new(LADDER_TYPE_TREE_ROW);
+
+	add_all(fresh, document);
+	update(root, fresh, ladder_document_project(document));
+	g_object_unref(fresh);
+}
+
 GListModel *tree_row_children(LadderTreeRow *row, LadderDocument *document)
 {
 	const struct project *project = ladder_document_project(document);
 
-	if (project && row->kind == ROW_POU && row->pou < project->pou_count &&
-	    listing_count(&project->pou[row->pou].vars))
-		return variables(project, &project->pou[row->pou].vars);
-	if (project && row->kind == ROW_STRUCTURE && row->pou < project->structure_count)
-		return variables(project, &project->structure[row->pou].vars);
-	return row->rows ? G_LIST_MODEL(g_object_ref(row->rows)) : NULL;
+	if (!row->parent)
+		return NULL;
+	if (!row->rows)
+		row->rows = variables(project, row);
+	return G_LIST_MODEL(g_object_ref(row->rows));
 }

@@ -16,15 +16,21 @@ enum row_kind { ROW_HEADING, ROW_BOOKMARK, ROW_POU, ROW_SYMBOLS, ROW_FILE,
 		ROW_STRUCTURE, ROW_VARIABLE, ROW_TEXT };
 
 struct _LadderTreeRow {
-	GObject parent;
+	GObject parent_instance;
 	enum row_kind kind;
 	int pou, rung;      /* pou of a STRUCTURE: its number                  */
 	char *text, *note, *path;
-	GListStore *rows;   /* below it; NULL: none                            */
+	bool parent;        /* something stands below it                       */
+	GListStore *rows;   /* that, once somebody asked for it                */
 };
 
-/** tree_rows_fill - adds the rows of a project, which must be there, to @root. */
-void tree_rows_fill(GListStore *root, LadderDocument *document);
+/**
+ * tree_rows_update - @root becomes the rows of the project as it is; without one: none
+ *
+ * A row that stays is the same one, with what is open below it; its number may be another,
+ * and "changed" tells that its note is.
+ */
+void tree_rows_update(GListStore *root, LadderDocument *document);
 /** tree_row_children - what stands below a row: variables are asked of the project.
  * Owns: the caller.   Fails: NULL: nothing does. */
 GListModel *tree_row_children(LadderTreeRow *row, LadderDocument *document);

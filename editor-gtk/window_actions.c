@@ -92,40 +92,96 @@ static void do_sheet_by(LadderWindow *window, bool next)
 	go_on(window);
 }
 
-static void go_rung(AdwMessageDialog *dialog, const char *response, GtkEntry *number)
+/* The rungs of a sheet by the numbers that are shown. */
+static int first_rung(LadderGridView *sheet, int *last)
+{
+	const struct project *project = ladder_document_project(
+		ladder_grid_view_document(sheet));
+	const int first = ladder_grid_view_range(sheet, last);
+
+	*last = *last < 0 ? project->pou[ladder_grid_view_pou(sheet)].rung_count :
+		first + *last;
+	return first + 1;
+}
+
+/* False: it is none of them. */
+static bool is_rung(LadderGridView *sheet, const char *text, int *rung)
+{
+	int last;
+	const int first = first_rung(sheet, &last);
+	guint64 number;
+
+	if (!g_ascii_string_to_unsigned(text, 10, (guint64)first, (guint64)last, &number,
+					NULL))
+		return false;
+	*rung = (int)number - first;
+	return true;
+}
+
+static void go_rung(AdwMessageDialog *dialog, const char *response, GtkEditable *number)
 {
 	LadderWindow *window = LADDER_WINDOW(gtk_window_get_transient_for(
 		GTK_WINDOW(dialog)));
 	LadderGridView *sheet = tabs_seen_sheet(window);
+	int rung;
 
-	if (sheet && g_strcmp0(response, "go") == 0)
-		ladder_grid_view_go(sheet, (int)g_ascii_strtoll(gtk_editable_get_text(
-			GTK_EDITABLE(number)), NULL, 10) - 1, -1, -1);
+	if (sheet && g_strcmp0(response, "go") == 0 &&
+	    is_rung(sheet, gtk_editable_get_text(number), &rung))
+		ladder_grid_view_go(sheet, rung, -1, -1);
+}
+
+/* Enter goes nowhere with a number that is none. */
+static void rung_typed(GtkEditable *number, AdwMessageDialog *dialog)
+{
+	LadderWindow *window = LADDER_WINDOW(gtk_window_get_transient_for(
+		GTK_WINDOW(dialog)));
+	LadderGridView *sheet = tabs_seen_sheet(window);
+	const char *text = gtk_editable_get_text(number);
+	int rung;
+	const bool good = sheet && is_rung(sheet, text, &rung);
+
+	adw_message_dialog_set_response_enabled(dialog, "go", good);
+	if (good || !*text)
+		gtk_widget_remove_css_class(GTK_WIDGET(number), "error");
+	else
+		gtk_widget_add_css_class(GTK_WIDGET(number), "error");
+	gtk_accessible_update_state(GTK_ACCESSIBLE(number), GTK_ACCESSIBLE_STATE_INVALID,
+		good || !*text ? GTK_ACCESSIBLE_INVALID_FALSE : GTK_ACCESSIBLE_INVALID_TRUE,
+		-1);
+}
+
+static GtkWidget *number_new(GtkWidget *dialog)
+{
+	GtkWidget *number = gtk_entry_new();
+
+	gtk_entry_set_input_purpose(GTK_ENTRY(number), GTK_INPUT_PURPOSE_DIGITS);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(number),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Rung"), -1);
+	gtk_entry_set_activates_default(GTK_ENTRY(number), TRUE);
+	g_signal_connect_object(number, "changed", G_CALLBACK(rung_typed), dialog, 0);
+	return number;
 }
 
 static void ask_rung(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_seen_sheet(window);
-	const struct project *project;
 	GtkWidget *dialog, *number;
-	char *text;
+	int first, last;
 
 	if (!sheet)
 		return;
-	project = ladder_document_project(ladder_grid_view_document(sheet));
+	first = first_rung(sheet, &last);
+	if (first > last) {
+		ladder_window_tell(window, _("no rung"));
+		return;
+	}
 	dialog = adw_message_dialog_new(GTK_WINDOW(window), _("Go to rung"), NULL);
-	number = gtk_entry_new();
-	gtk_entry_set_input_purpose(GTK_ENTRY(number), GTK_INPUT_PURPOSE_DIGITS);
-	text = g_strdup_printf(_("1 to %d"),
-		project->pou[ladder_grid_view_pou(sheet)].rung_count);
-	gtk_entry_set_placeholder_text(GTK_ENTRY(number), text);
-	g_free(text);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(number),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Rung"), -1);
-	gtk_entry_set_activates_default(GTK_ENTRY(number), TRUE);
+	adw_message_dialog_format_body(ADW_MESSAGE_DIALOG(dialog), _("%d to %d"), first, last);
+	number = number_new(dialog);
 	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), number);
 	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog), "cancel", _("Cancel"),
 					 "go", _("Go"), NULL);
+	adw_message_dialog_set_response_enabled(ADW_MESSAGE_DIALOG(dialog), "go", FALSE);
 	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "go");
 	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
 	g_signal_connect(dialog, "response", G_CALLBACK(go_rung), number);
@@ -367,6 +423,12 @@ static void place_word(GtkWidget *widget, const char *name, GVariant *word)
 		ladder_window_tell(window, _("Elements go into rungs: open a sheet first."));
 }
 
+static void tell(GtkWidget *widget, const char *name, GVariant *text)
+{
+	(void)name;
+	ladder_window_tell(LADDER_WINDOW(widget), g_variant_get_string(text, NULL));
+}
+
 static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)
 {
 	(void)name;
@@ -390,6 +452,7 @@ void window_install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
+	gtk_widget_class_install_action(class, "win.tell", "s", tell);
 }
 
 GMenu *window_menu(void)

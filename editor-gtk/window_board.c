@@ -221,7 +221,7 @@ static bool is_sound(LadderWindow *window)
 	if (ladder_document_project(window->document) &&
 	    !ladder_document_diags(window->document)->errors)
 		return true;
-	ladder_problems_next(LADDER_PROBLEMS(below_show(window, "problems")), false);
+	ladder_problems_show_error(LADDER_PROBLEMS(below_show(window, "problems")));
 	ladder_window_tell(window, _("A program with errors cannot be run"));
 	return false;
 }

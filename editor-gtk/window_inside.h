@@ -99,6 +99,10 @@ void tabs_show(LadderWindow *window, int pou);
 GtkWidget *tabs_show_widget(LadderWindow *window, const char *name);
 /** tabs_show_file - a text file beside the project. */
 void tabs_show_file(LadderWindow *window, const char *path);
+/** tabs_content - what a page shows, inside of scrolling. */
+GtkWidget *tabs_content(AdwTabPage *page);
+/** tabs_init_closing - a page that is closed asks for what is not saved in it. */
+void tabs_init_closing(LadderWindow *window);
 /** tabs_close - the page in front; what is not saved in it is asked for first. */
 void tabs_close(LadderWindow *window);
 /** tabs_put_file - the same, with a view that was made for it: a draft. */

@@ -44,7 +44,7 @@ static bool has_pages(LadderWindow *window)
 		return true;
 	window_toast(window, _("There is nothing to print: the file cannot be read as a "
 			       "program."));
-	ladder_problems_next(LADDER_PROBLEMS(below_show(window, "problems")), false);
+	ladder_problems_show_error(LADDER_PROBLEMS(below_show(window, "problems")));
 	return false;
 }
 

@@ -180,7 +180,7 @@ static void told(LadderSim *sim, const char *text, gboolean bad, LadderWindow *w
 /* The program has errors, and the list of them is another one now. */
 static void show_problems(LadderWindow *window)
 {
-	ladder_problems_next(LADDER_PROBLEMS(below_show(window, "problems")), false);
+	ladder_problems_show_error(LADDER_PROBLEMS(below_show(window, "problems")));
 }
 
 /* What is wrong with the plant stands in no list: it is told where it stays. */

@@ -28,7 +28,7 @@ static GtkWidget *inside(GtkWidget *child)
 	       gtk_scrolled_window_get_child(GTK_SCROLLED_WINDOW(child)) : child;
 }
 
-static GtkWidget *content(AdwTabPage *page)
+GtkWidget *tabs_content(AdwTabPage *page)
 {
 	return inside(adw_tab_page_get_child(page));
 }
@@ -69,7 +69,7 @@ static GtkWidget *seen(LadderWindow *window)
 	GtkWidget *older = window_older_page(window);
 	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
 
-	return older ? inside(older) : page ? content(page) : NULL;
+	return older ? inside(older) : page ? tabs_content(page) : NULL;
 }
 
 LadderGridView *tabs_seen_sheet(LadderWindow *window)
@@ -108,7 +108,7 @@ LadderSfcView *tabs_chart(LadderWindow *window)
 LadderFileView *tabs_file(LadderWindow *window)
 {
 	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
-	GtkWidget *widget = page ? content(page) : NULL;
+	GtkWidget *widget = page ? tabs_content(page) : NULL;
 
 	return widget && LADDER_IS_FILE_VIEW(widget) ? LADDER_FILE_VIEW(widget) : NULL;
 }
@@ -118,7 +118,7 @@ GPtrArray *tabs_unsaved(LadderWindow *window)
 	GPtrArray *files = g_ptr_array_new();
 
 	for (int i = 0; i < adw_tab_view_get_n_pages(window->tabs); i++) {
-		GtkWidget *widget = content(adw_tab_view_get_nth_page(window->tabs, i));
+		GtkWidget *widget = tabs_content(adw_tab_view_get_nth_page(window->tabs, i));
 
 		if (LADDER_IS_FILE_VIEW(widget) &&
 		    !ladder_file_view_is_saved(LADDER_FILE_VIEW(widget)))
@@ -130,67 +130,11 @@ GPtrArray *tabs_unsaved(LadderWindow *window)
 void tabs_each_file(LadderWindow *window, void (*act)(gpointer file))
 {
 	for (int i = 0; i < adw_tab_view_get_n_pages(window->tabs); i++) {
-		GtkWidget *widget = content(adw_tab_view_get_nth_page(window->tabs, i));
+		GtkWidget *widget = tabs_content(adw_tab_view_get_nth_page(window->tabs, i));
 
 		if (LADDER_IS_FILE_VIEW(widget))
 			act(widget);
 	}
-}
-
-/* ---- closing one ---- */
-
-struct closing {
-	LadderWindow *window;
-	AdwTabPage *page;
-};
-
-static void close_answered(AdwMessageDialog *dialog, const char *answer,
-			   struct closing *closing)
-{
-	const bool save = strcmp(answer, "save") == 0;
-	const bool close = strcmp(answer, "discard") == 0 ||
-		(save && window_save_file(closing->window,
-					  LADDER_FILE_VIEW(content(closing->page))));
-
-	(void)dialog;
-	if (close)
-		draft_remove(content(closing->page));
-	adw_tab_view_close_page_finish(closing->window->tabs, closing->page, close);
-}
-
-static void closing_free(gpointer closing, GClosure *closure)
-{
-	(void)closure;
-	g_object_unref(((struct closing *)closing)->page);
-	g_free(closing);
-}
-
-/* A file that is not saved goes only if the person says so. */
-static gboolean close_page(LadderWindow *window, AdwTabPage *page)
-{
-	GtkWidget *widget = content(page), *dialog;
-	struct closing *closing;
-	char *name;
-
-	if (!LADDER_IS_FILE_VIEW(widget) ||
-	    ladder_file_view_is_saved(LADDER_FILE_VIEW(widget)))
-		return GDK_EVENT_PROPAGATE;
-	closing = g_new0(struct closing, 1);
-	*closing = (struct closing){ window, g_object_ref(page) };
-	name = ladder_file_view_name(LADDER_FILE_VIEW(widget));
-	dialog = window_ask_save(window, name);
-	g_signal_connect_data(dialog, "response", G_CALLBACK(close_answered), closing,
-			      closing_free, 0);
-	g_free(name);
-	return GDK_EVENT_STOP;
-}
-
-void tabs_close(LadderWindow *window)
-{
-	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
-
-	if (page)
-		adw_tab_view_close_page(window->tabs, page);
 }
 
 /* ---- status ---- */
@@ -388,7 +332,7 @@ LadderFileView *tabs_find_file(LadderWindow *window, const char *path)
 	AdwTabPage *page = find_page(window, key);
 
 	g_free(key);
-	return page ? LADDER_FILE_VIEW(content(page)) : NULL;
+	return page ? LADDER_FILE_VIEW(tabs_content(page)) : NULL;
 }
 
 /* Nothing is undone out of sight. */
@@ -442,7 +386,7 @@ GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)
 	if (!page)
 		return NULL;
 	select_page(window, page);
-	return content(page);
+	return tabs_content(page);
 }
 
 /* A place in a rung, or a line of the POU's text. */
@@ -475,12 +419,12 @@ void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 	tabs_show(window, pou);
 	page = adw_tab_view_get_selected_page(window->tabs);
 	sheet = tabs_sheet(window);
-	if (page && LADDER_IS_CHART_PAGE(content(page)))
-		go_in_chart(LADDER_CHART_PAGE(content(page)), rung, row, col);
+	if (page && LADDER_IS_CHART_PAGE(tabs_content(page)))
+		go_in_chart(LADDER_CHART_PAGE(tabs_content(page)), rung, row, col);
 	else if (sheet && ladder_grid_view_pou(sheet) == pou)
 		ladder_grid_view_go(sheet, rung, row, col);
-	else if (page && LADDER_IS_TEXT_VIEW(content(page)))
-		ladder_text_view_go_here(LADDER_TEXT_VIEW(content(page)), row + 1, col + 1);
+	else if (page && LADDER_IS_TEXT_VIEW(tabs_content(page)))
+		ladder_text_view_go_here(LADDER_TEXT_VIEW(tabs_content(page)), row + 1, col + 1);
 }
 
 /* ---- when the project is another ---- */
@@ -497,7 +441,7 @@ static bool fits(GtkWidget *widget, const struct project *project, int pou)
 /* A page whose POU has another number, or is gone. @renamed: it may have another name. */
 static bool update_page(AdwTabPage *page, const struct project *project, bool renamed)
 {
-	GtkWidget *widget = content(page);
+	GtkWidget *widget = tabs_content(page);
 	const char *name = name_of(page);
 	int pou;
 
@@ -540,10 +484,12 @@ static bool has_pou_page(LadderWindow *window)
 	return false;
 }
 
-void tabs_update(LadderWindow *window)
+/* Those that are none any more go. Who works beside them, in the tree, goes on there. */
+static void update_pages(LadderWindow *window, const struct project *project)
 {
-	const struct project *project = ladder_document_project(window->document);
 	const bool renamed = project && project->pou_count == window->pou_count;
+	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
+	const bool beside = focus && !gtk_widget_is_ancestor(focus, GTK_WIDGET(window->tabs));
 
 	window->pou_count = project ? project->pou_count : 0;
 	for (int i = adw_tab_view_get_n_pages(window->tabs) - 1; i >= 0; i--) {
@@ -552,6 +498,15 @@ void tabs_update(LadderWindow *window)
 		if (!update_page(page, project, renamed))
 			adw_tab_view_close_page(window->tabs, page);
 	}
+	if (beside && adw_tab_view_get_n_pages(window->tabs))
+		gtk_widget_grab_focus(focus);
+}
+
+void tabs_update(LadderWindow *window)
+{
+	const struct project *project = ladder_document_project(window->document);
+
+	update_pages(window, project);
 	if (!project) {
 		tabs_show_widget(window, "text");
 		return;
@@ -572,7 +527,7 @@ void ladder_window_opened(LadderWindow *window)
 	for (int i = adw_tab_view_get_n_pages(window->tabs) - 1; i >= 0; i--) {
 		AdwTabPage *page = adw_tab_view_get_nth_page(window->tabs, i);
 
-		if (!LADDER_IS_FILE_VIEW(content(page)))
+		if (!LADDER_IS_FILE_VIEW(tabs_content(page)))
 			adw_tab_view_close_page(window->tabs, page);
 	}
 	tabs_update(window);
@@ -592,7 +547,6 @@ void tabs_init(LadderWindow *window)
 				G_CALLBACK(tabs_update), window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(window->tabs, "notify::selected-page",
 				G_CALLBACK(page_selected), window, G_CONNECT_SWAPPED);
-	g_signal_connect_object(window->tabs, "close-page", G_CALLBACK(close_page), window,
-				G_CONNECT_SWAPPED);
+	tabs_init_closing(window);
 	tabs_update(window);
 }

@@ -2,6 +2,7 @@
  *
  * test_layout - where things stand, what is hit at a point, and what a change costs.
  */
+#include "editor-gtk/comment_text.h"
 #include "editor-gtk/rung_box.h"
 #include "tests/editor/drawn.h"
 #include "tests/tap.h"
@@ -214,8 +215,28 @@ static void check_clipping(void)
 	}
 }
 
+static void check_comments(void)
+{
+	static const struct { const char *comment, *text; } cases[] = {
+		{ "", "" }, { "(**)", "" }, { "// one", "one" }, { "(* one *)", "one" },
+		{ "(* one\r\n\t two *)", "one two" }, { "(* one *)\n(* two *)", "one two" },
+		{ "// one (* still one\n// two", "one (* still one two" },
+		{ "(* see http://x *)\n// two", "see http://x two" },
+		{ "(* \xe7\x94\xb5\xe6\x9c\xba *)", "\xe7\x94\xb5\xe6\x9c\xba" },
+		{ "(* not closed", "not closed" },
+	};
+
+	for (gsize i = 0; i < G_N_ELEMENTS(cases); i++) {
+		char *text = comment_text(cases[i].comment);
+
+		CHECK_TEXT(text, cases[i].text);
+		g_free(text);
+	}
+}
+
 int main(void)
 {
+	check_comments();
 	lettering = lettering_new(NULL, NULL);
 	struct ladder *ladder = drawn_load("tests/editor/drawing/shapes.rung", NULL);
 	if (!CHECK(ladder))

@@ -10,6 +10,7 @@
 #include "editor-gtk/pou_edit.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/symbols_view.h"
+#include "editor-gtk/tree_rows.h"
 #include "editor-gtk/uses_view.h"
 #include "tests/editor/keys.h"
 #include "tests/editor/screen.h"
@@ -224,9 +225,11 @@ static void test_problems(void)
 	is_row(list, count - 1, "unknown name: Lost|List, line 3|LD301|Error|");
 	CHECK(ladder_problems_next(problems, false));
 	CHECK(ladder_problems_next(problems, true));
+	CHECK(ladder_problems_show_error(problems));
+	CHECK_TEXT(gone_to, "-1 -1 0 4"); /* the one before it is a warning */
 	reopen("RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO I0 | COIL Q0 |\nEND_PROGRAM\n");
 	CHECK_SOON(g_list_model_get_n_items(list) == 0);
-	CHECK(!ladder_problems_next(problems, false));
+	CHECK(!ladder_problems_next(problems, false) && !ladder_problems_show_error(problems));
 	CHECK_TEXT(ladder_problems_title(problems), "Problems");
 	reopen("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO\n");
 	CHECK_AS(ladder_problems_count(problems, true) > 0, "of a text, too");
@@ -502,6 +505,47 @@ static bool has_focus(GtkWidget *widget)
 	return focus && gtk_widget_is_ancestor(focus, widget);
 }
 
+static GtkTreeListRow *tree_row(GtkWidget *list, guint at)
+{
+	GtkTreeListRow *row = g_list_model_get_item(G_LIST_MODEL(
+		gtk_list_view_get_model(GTK_LIST_VIEW(list))), at);
+
+	g_object_unref(row); /* the list holds it */
+	return row;
+}
+
+static const char *note_of(GtkWidget *list, guint at)
+{
+	LadderTreeRow *row = gtk_tree_list_row_get_item(tree_row(list, at));
+
+	g_object_unref(row); /* the list holds it */
+	return row->note;
+}
+
+/* What a person opened or closed stays so when something in it changes. */
+static void test_tree_stays(GtkWidget *list)
+{
+	const guint rows = rows_of(list);
+	GtkTreeListRow *main = tree_row(list, 1);
+
+	CHECK_TEXT(note_of(list, 1), "3 rungs");
+	gtk_tree_list_row_set_expanded(main, TRUE);
+	CHECK(rows_of(list) == rows + 1);
+	CHECK(ladder_document_splice(document, 0, 0, 1, NULL, 0, NULL));
+	CHECK_SOON(strcmp(note_of(list, 1), "2 rungs") == 0);
+	CHECK(tree_row(list, 1) == main && gtk_tree_list_row_get_expanded(main));
+	CHECK(ladder_document_declare(document, 0, "Later", "TON", "", NULL));
+	CHECK_SOON(rows_of(list) == rows + 2);
+	CHECK(tree_row(list, 1) == main);
+	gtk_tree_list_row_set_expanded(tree_row(list, 0), FALSE);
+	WAIT(rows_of(list) == rows - 2);
+	CHECK(ladder_document_undo(document) && ladder_document_undo(document));
+	CHECK(rows_of(list) == rows - 2);
+	gtk_tree_list_row_set_expanded(tree_row(list, 0), TRUE);
+	CHECK(rows_of(list) == rows);
+	CHECK_SOON(strcmp(note_of(list, 1), "3 rungs") == 0);
+}
+
 /* The rows of all programs are others when one of them goes. */
 static void test_tree(void)
 {
@@ -512,8 +556,9 @@ static void test_tree(void)
 	put(tree);
 	list = nth_widget(tree, GTK_TYPE_LIST_VIEW, 0);
 	rows = rows_of(list);
+	test_tree_stays(list);
 	CHECK(rows > 3 && gtk_widget_grab_focus(list) && keys_arrive(window));
-	CHECK(pou_delete(document, 1));
+	CHECK(!pou_delete(document, 1));
 	WAIT(rows_of(list) != rows);
 	CHECK_AS(keys_arrive(window), "a key that comes at once is not lost");
 	CHECK(rows_of(list) == rows - 1);

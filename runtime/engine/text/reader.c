@@ -261,12 +261,17 @@ static void comment_keep(struct reader *r)
 
 /* ---- stepping ---- */
 
+/* A comment that is not closed goes on to the end of the file: its first line is named. */
 static void fail_bad(struct reader *r)
 {
-	char first = r->lex.token.text[0];
+	const struct token *token = &r->lex.token;
+	const char first = token->text[0];
+	size_t len = 0;
 
+	while (len < token->len && token->text[len] != '\n' && token->text[len] != '\r')
+		len++;
 	if (first == '"' || first == '(')
-		reader_fail_token(r, DIAG_OPEN_STRING);
+		reader_fail(r, DIAG_OPEN_STRING, token->text, len);
 	else
 		reader_fail_word(r, DIAG_BAD_BYTE, "");
 }

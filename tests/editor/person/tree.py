@@ -100,6 +100,25 @@ def of_others(screen):
     check(path)
 
 
+def in_front(screen):
+    """Delete of the program in front leaves the keys in the tree; the only one stays, and it is told why"""
+    path = new_file(screen, TEXT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.click([n for n in editor.all('Main', 'label') if n.name == 'Main' and n.box()[0] < 200][0])
+    until(lambda: not [n for n in editor.all('Sheet') if n.has(12)], 'the focus in the tree')
+    editor.keys('Delete')
+    until(lambda: not [n for n in editor.all('Main', 'label') if n.name == 'Main'], 'the program to be gone')
+    editor.keys('Delete')
+    editor.says('It cannot be deleted: a project has at least one program')
+    editor.shot('tree-only')
+    assert editor.save(path) == TEXT[:TEXT.index('PROGRAM Main')] + TEXT[TEXT.index('PROGRAM Other'):]
+    check(path)
+    assert lines(path, OTHER) == ['%QX0.2=1', '%QX0.2=0']
+    editor.keys('ctrl+z')
+    assert editor.save(path) == TEXT
+
+
 def sheet_of(editor):
     """Waits until the sheet that is seen has the keys."""
     until(lambda: [n for n in editor.all('Sheet') if n.box()[2] > 0 and n.has(12)], 'the focus on its sheet')
@@ -178,4 +197,4 @@ def beside(screen):
     assert open(path).read() == TEXT
 
 
-main([bookmarks, rows, of_others, keys, menus, beside])
+main([bookmarks, rows, of_others, in_front, keys, menus, beside])

@@ -163,4 +163,60 @@ def again(screen):
     assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
 
 
-main([a_list, in_parallel, pointed_at, other_keys, window_keys, again])
+def comments(screen):
+    """a comment of two lines becomes one; what a file could not hold is told at the line, and stays there"""
+    path = file_with(screen, LIST.replace('Main IL', 'Main LD').replace(
+        '  LD    Start\n  ST    Motor\n', '// what was\n// said before\nRUNG\n  | NO Start | COIL Motor |\n'))
+    before = open(path).read()
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+semicolon')
+    until(lambda: editor.asked() and editor.asked()[0].text() == 'what was said before', 'what stands above the rung')
+    editor.keys('Return')
+    editor.gone()
+    editor.keys('semicolon')
+    editor.opened()
+    editor.put_clipboard('one\r\n  two\n')
+    editor.keys('ctrl+v', 'Return')
+    editor.gone()
+    assert editor.save(path) == before.replace('NO Start', 'NO Start (* one two *)')
+    for key, text, why in (('semicolon', 'a *) b', 'a comment holds no (* and no *)'), ('ctrl+l', 'a b', 'this is no name')):
+        editor.keys(key)
+        editor.opened()
+        editor.keys('ctrl+a')
+        editor.type(text)
+        editor.says(why)
+        editor.keys('Return')
+        assert editor.asked()[0].text() == text
+        editor.shot('words-' + key)
+        editor.keys('Escape')
+        editor.gone()
+    editor.keys('ctrl+z')
+    assert editor.save(path) == before
+    check(path)
+    assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
+
+
+def to_rung(screen):
+    """Ctrl+G goes to a rung there is; to another it cannot be sent"""
+    path = file_with(screen, LIST.replace('Main IL', 'Main LD').replace(
+        '  LD    Start\n  ST    Motor\n', 'RUNG\n  | NO Start | COIL Motor |\nRUNG\n  | NC Start | COIL Lamp |\n'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+g')
+    editor.says('1 to 2')
+    for text in '3', 'x', '-1', '2x':
+        editor.keys('ctrl+a')
+        editor.type(text)
+        editor.keys('Return')
+        assert not editor.find('Go', 'push button').has(24), text  # sensitive
+    editor.shot('words-rung')
+    editor.keys('ctrl+a')
+    editor.type('2')
+    until(lambda: editor.find('Go', 'push button').has(24), 'the way to be open')
+    editor.keys('Return')
+    until(lambda: editor.all('Rung 2 ', 'label'), 'the second rung')
+    editor.to_sheet()
+
+
+main([a_list, in_parallel, pointed_at, other_keys, window_keys, again, comments, to_rung])
