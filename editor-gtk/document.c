@@ -261,6 +261,8 @@ static void apply(LadderDocument *document, const struct change *change, bool ba
 	const GPtrArray *from = back ? change->after : change->before;
 	const GPtrArray *to = back ? change->before : change->after;
 
+	if (change->kind != CHANGE_LIST)
+		document_forget_place(document);
 	switch (change->kind) {
 	case CHANGE_RUNGS:
 		apply_rungs(document, change, from, to);

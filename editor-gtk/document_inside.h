@@ -51,6 +51,8 @@ void document_take_ladder(LadderDocument *document, struct ladder *ladder);
 void document_record(LadderDocument *document, struct change *change);
 /** document_apply_list - POU @pou gets the text, in the project or beside it. */
 void document_apply_list(LadderDocument *document, int pou, const char *text);
+/** document_forget_place - what is known of the place of a list is not so any more. */
+void document_forget_place(LadderDocument *document);
 /** document_check_lists - tells of lists that stand beside the project though all can be
  * read: one has more than its POU, or no POU. @read: what came of the whole text. */
 void document_check_lists(LadderDocument *document, const struct project *read,

@@ -6,6 +6,8 @@
  */
 #include "editor-gtk/document_inside.h"
 
+#include "engine/base/lex.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -84,16 +86,105 @@ static char *outline(struct ladder *ladder, struct pou_spans *spans)
 	return text;
 }
 
+/* ---- where somebody types ---- */
+
+/* What stands before and behind a list, as of a version of the document: a key does not
+ * write thousands of rungs again. */
+struct list_place {
+	int pou;
+	guint64 version;
+	char *head, *tail;
+	char *typed; /* the list as it was typed last; NULL: not yet           */
+};
+
+static void place_free(gpointer pointer)
+{
+	struct list_place *place = pointer;
+
+	g_free(place->head);
+	g_free(place->tail);
+	g_free(place->typed);
+	g_free(place);
+}
+
+static struct list_place *place_kept(LadderDocument *document, int pou)
+{
+	struct list_place *place = g_object_get_data(G_OBJECT(document), "list-place");
+
+	return place && place->pou == pou && place->version == document->version ? place :
+	       NULL;
+}
+
+void document_forget_place(LadderDocument *document)
+{
+	g_object_set_data(G_OBJECT(document), "list-place", NULL);
+}
+
+/* Borrowed until the document changes. */
+static struct list_place *place_of(LadderDocument *document, int pou)
+{
+	struct list_place *place = place_kept(document, pou);
+	struct pou_spans spans;
+	char *plain;
+
+	if (place)
+		return place;
+	plain = outline(document->ladder, &spans);
+	place = g_new0(struct list_place, 1);
+	place->pou = pou;
+	place->version = document->version;
+	place->head = g_strndup(plain, spans.span[pou].at);
+	place->tail = g_strdup(plain + spans.span[pou].at + spans.span[pou].len);
+	g_object_set_data_full(G_OBJECT(document), "list-place", place, place_free);
+	free(plain);
+	g_free(spans.span);
+	return place;
+}
+
+/* ---- one POU, and nothing beside it ---- */
+
+/* @ends: of the word with END_ before it. */
+static bool is_pou_word(const struct token *token, bool ends)
+{
+	const size_t skip = ends ? strlen("END_") : 0;
+
+	if (token->kind != TOKEN_NAME || token->len <= skip ||
+	    (ends && g_ascii_strncasecmp(token->text, "END_", skip) != 0))
+		return false;
+	for (int i = 0; i <= POU_SUBROUTINE; i++) {
+		const char *word = pou_word((enum pou_kind)i);
+
+		if (strlen(word) == token->len - skip &&
+		    g_ascii_strncasecmp(word, token->text + skip, token->len - skip) == 0)
+			return true;
+	}
+	return false;
+}
+
+/* A text that begins with the word of a POU and ends with the only word that ends one. */
+static bool is_plainly_one(const char *text)
+{
+	struct lex lex;
+	bool begins, ended = false;
+
+	lex_init(&lex, text, strlen(text));
+	lex.comments = true;
+	lex_next(&lex);
+	begins = is_pou_word(&lex.token, false);
+	while (begins && !ended && lex_next(&lex) != TOKEN_END)
+		ended = is_pou_word(&lex.token, true);
+	return ended && lex_next(&lex) == TOKEN_END;
+}
+
 /* All but POU @pou is as it was: there is no POU more in its text, nor none. */
-static bool same_beside(struct ladder *ladder, int pou, const char *was,
-			const struct text_span *at)
+static bool same_beside(struct ladder *ladder, const struct list_place *place)
 {
 	struct pou_spans spans;
 	char *is = outline(ladder, &spans);
-	const struct text_span *now = &spans.span[pou];
-	const bool same = spans.count > pou && now->at == at->at &&
-		memcmp(is, was, at->at) == 0 &&
-		strcmp(is + now->at + now->len, was + at->at + at->len) == 0;
+	const struct text_span *now = &spans.span[place->pou];
+	const bool same = spans.count > place->pou && now->at == strlen(place->head) &&
+		memcmp(is, place->head, now->at) == 0 &&
+		strcmp(is + now->at + now->len, place->tail) == 0;
 
 	free(is);
 	g_free(spans.span);
@@ -103,13 +194,17 @@ static bool same_beside(struct ladder *ladder, int pou, const char *was,
 /* A list that can be read goes into the project, another one stands beside it. */
 void document_apply_list(LadderDocument *document, int pou, const char *text)
 {
-	struct pou_spans spans;
-	char *plain = outline(document->ladder, &spans);
-	char *whole = with_list(plain, &spans.span[pou], text);
+	struct list_place *place = place_of(document, pou);
+	char *whole = g_strconcat(place->head, text, place->tail, NULL);
 	struct ladder *ladder = document_read(document, whole, strlen(whole), NULL);
 
-	if (ladder && ladder_project(ladder)->pou_count == spans.count &&
-	    same_beside(ladder, pou, plain, &spans.span[pou])) {
+	g_free(whole);
+	place->version = document->version + 1; /* document_changed() follows */
+	g_free(place->typed);
+	place->typed = g_strdup(text);
+	if (ladder && ladder_project(ladder)->pou_count ==
+			      ladder_document_project(document)->pou_count &&
+	    (is_plainly_one(text) || same_beside(ladder, place))) {
 		document_take_ladder(document, ladder);
 		g_hash_table_remove(document->list, GINT_TO_POINTER(pou));
 		document_tell_whole(document);
@@ -119,9 +214,6 @@ void document_apply_list(LadderDocument *document, int pou, const char *text)
 				    g_strdup(text));
 		document_tell_list(document, pou);
 	}
-	free(plain);
-	g_free(spans.span);
-	g_free(whole);
 }
 
 /* The one of the first POU that has one. */
@@ -196,9 +288,18 @@ bool ladder_document_is_whole(LadderDocument *document)
 	return g_hash_table_size(document->list) == 0;
 }
 
+/* Not as the file would say it, but as it was typed, if that is known: it is the same. */
+static char *list_before(LadderDocument *document, int pou)
+{
+	const struct list_place *place = place_kept(document, pou);
+
+	return place && place->typed ? g_strdup(place->typed) :
+	       ladder_document_list(document, pou);
+}
+
 bool ladder_document_put_list(LadderDocument *document, int pou, const char *text)
 {
-	char *before = ladder_document_list(document, pou);
+	char *before = list_before(document, pou);
 	char *name = document_pou_name(document, pou);
 	bool same = before && strcmp(before, text) == 0;
 

@@ -16,6 +16,7 @@
 
 #include <string.h>
 
+#define SEEN_MS 25   /* more than it takes until a letter is seen               */
 #define REST 2000000 /* us without a key: what follows is another step            */
 
 /* Where a line is wrong, in the text that is shown. */
@@ -38,6 +39,7 @@ struct _LadderTextView {
 	int typed_line;          /* of the last step of typing, when, which     */
 	gint64 typed_at;
 	guint typed_step;
+	guint taking;            /* soon what was typed goes into the document  */
 };
 
 G_DEFINE_FINAL_TYPE(LadderTextView, ladder_text_view, GTK_TYPE_BOX)
@@ -129,6 +131,8 @@ static int cursor_line(LadderTextView *view)
 	return gtk_text_iter_get_line(&at);
 }
 
+/* ---- what is typed ---- */
+
 /* What is typed in one line without a rest is one step. */
 static char *step_key(LadderTextView *view)
 {
@@ -142,32 +146,58 @@ static char *step_key(LadderTextView *view)
 	return g_strdup_printf("text %p %u", (void *)view, view->typed_step);
 }
 
-static void typed(LadderTextView *view)
+/* A file that can be read again has no page of its text any more: the view may go. */
+static void put(LadderTextView *view, LadderDocument *document)
 {
-	char *text, *before, *key;
+	char *text = text_of_buffer(view), *before, *key = step_key(view);
 
-	if (view->ours || ladder_document_is_fixed(view->document))
-		return;
-	text = text_of_buffer(view);
-	key = step_key(view);
 	view->ours = true;
-	ladder_document_begin(view->document, _("Type text"), key);
+	ladder_document_begin(document, _("Type text"), key);
 	if (view->pou >= 0) {
-		ladder_document_put_list(view->document, view->pou, text);
+		ladder_document_put_list(document, view->pou, text);
 	} else {
-		before = ladder_document_text(view->document, NULL);
-		ladder_document_replace(view->document, 0, strlen(before), text, NULL);
+		before = ladder_document_text(document, NULL);
+		ladder_document_replace(document, 0, strlen(before), text, NULL);
 		g_free(before);
 	}
-	ladder_document_end(view->document);
+	ladder_document_end(document);
 	view->ours = false;
 	g_free(key);
 	g_free(text);
 }
 
+void ladder_text_view_take(LadderTextView *view)
+{
+	LadderDocument *document;
+
+	if (!view->taking)
+		return;
+	g_clear_handle_id(&view->taking, g_source_remove);
+	g_object_ref(view);
+	document = g_object_ref(view->document);
+	put(view, document);
+	g_object_unref(document);
+	g_object_unref(view);
+}
+
+static gboolean take_now(gpointer view)
+{
+	ladder_text_view_take(view);
+	return G_SOURCE_REMOVE;
+}
+
+/* The letter is seen first: with thousands of rungs beside it, to read the list again takes
+ * longer than a frame may. */
+static void typed(LadderTextView *view)
+{
+	if (!view->ours && !view->taking && !ladder_document_is_fixed(view->document))
+		view->taking = g_timeout_add(SEEN_MS, take_now, view);
+}
+
+/* What was typed meanwhile is not written over. */
 static void document_changed(LadderTextView *view)
 {
-	if (!view->ours)
+	if (!view->ours && !view->taking)
 		show_text(view);
 }
 
@@ -441,6 +471,7 @@ static void ladder_text_view_dispose(GObject *object)
 {
 	LadderTextView *view = LADDER_TEXT_VIEW(object);
 
+	g_clear_handle_id(&view->taking, g_source_remove);
 	if (view->document)
 		g_signal_handlers_disconnect_by_data(view->document, view);
 	g_clear_object(&view->document);
@@ -493,6 +524,7 @@ static void ladder_text_view_init(LadderTextView *view)
 static void build(LadderTextView *view)
 {
 	GtkWidget *scroller = gtk_scrolled_window_new();
+	GtkEventController *leaves;
 
 	make_buffer(view);
 	view->view = GTK_SOURCE_VIEW(gtk_source_view_new_with_buffer(view->buffer));
@@ -513,6 +545,9 @@ static void build(LadderTextView *view)
 	gtk_widget_add_css_class(GTK_WIDGET(view->told), "error");
 	gtk_box_append(GTK_BOX(view), scroller);
 	gtk_box_append(GTK_BOX(view), GTK_WIDGET(view->told));
+	leaves = gtk_event_controller_focus_new();
+	g_signal_connect_swapped(leaves, "leave", G_CALLBACK(ladder_text_view_take), view);
+	gtk_widget_add_controller(GTK_WIDGET(view->view), leaves);
 	text_complete_attach(view->view, view->document, &view->pou);
 	gtk_widget_set_has_tooltip(GTK_WIDGET(view->view), TRUE);
 	g_signal_connect(view->view, "query-tooltip", G_CALLBACK(tell_pointed), view);

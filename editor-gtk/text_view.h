@@ -28,6 +28,9 @@ char *ladder_text_view_tip(LadderTextView *view, int line);
 /** ladder_text_view_reasons - what is wrong with line @line, 1-based, of the text that is
  * shown; NULL: nothing. Caller frees. */
 char *ladder_text_view_reasons(LadderTextView *view, int line);
+/** ladder_text_view_take - what was just typed is in the document now; else it will be as
+ * soon as it is seen. */
+void ladder_text_view_take(LadderTextView *view);
 /** ladder_text_view_buffer - what is shown. Borrowed. */
 GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view);
 /** ladder_text_view_go - @line: 1-based, of the file; the cursor goes there. */

@@ -267,6 +267,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 
 	const enum verb_where where = verb_row(verb)->where;
 
+	tabs_take_typed(window);
 	if (where != VERB_WINDOW) {
 		if (sheet && where != VERB_CHART)
 			ladder_grid_view_do(sheet, verb);

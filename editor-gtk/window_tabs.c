@@ -113,6 +113,15 @@ LadderFileView *tabs_file(LadderWindow *window)
 	return widget && LADDER_IS_FILE_VIEW(widget) ? LADDER_FILE_VIEW(widget) : NULL;
 }
 
+void tabs_take_typed(LadderWindow *window)
+{
+	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
+	GtkWidget *text = focus ? gtk_widget_get_ancestor(focus, LADDER_TYPE_TEXT_VIEW) : NULL;
+
+	if (text)
+		ladder_text_view_take(LADDER_TEXT_VIEW(text));
+}
+
 GPtrArray *tabs_unsaved(LadderWindow *window)
 {
 	GPtrArray *files = g_ptr_array_new();

@@ -14,7 +14,9 @@
 #include "editor-gtk/app.h"
 #include "editor-gtk/grid_view_live.h"
 #include "editor-gtk/memory.h"
+#include "editor-gtk/pou_edit.h"
 #include "editor-gtk/sfc_view.h"
+#include "editor-gtk/text_view.h"
 #include "tests/bench/editor_ground.h"
 #include "tests/bench/editor_start.h"
 
@@ -445,9 +447,9 @@ static void past(GtkWidget *window, LadderSim *sim)
 	gtk_widget_activate_action(window, verb_row(VERB_sim_mode)->action, NULL);
 }
 
-/* ---- a chart ---- */
+/* ---- a chart, a list ---- */
 
-#define CHART_ROUNDS 40
+#define SOME_ROUNDS 40
 
 static void scroll_chart(GtkWidget *chart, int round)
 {
@@ -463,23 +465,55 @@ static void edit_chart(GtkWidget *chart, int round)
 	ladder_sfc_view_do(LADDER_SFC_VIEW(chart), VERB_step_below);
 }
 
-static void measure_chart(GtkWidget *chart, const char *name,
-			  void (*act)(GtkWidget *chart, int round))
+static void measure_one(GtkWidget *widget, const char *name,
+			void (*act)(GtkWidget *widget, int round))
 {
-	gint64 thread[CHART_ROUNDS];
+	gint64 thread[SOME_ROUNDS];
 
-	for (int i = 0; i < CHART_ROUNDS; i++) {
+	for (int i = 0; i < SOME_ROUNDS; i++) {
 		const gint64 begun = worked();
 
-		act(chart, i);
+		act(widget, i);
 		next_frame();
 		thread[i] = worked() - begun;
 		settle(100);
 	}
-	const double middle = median(thread, CHART_ROUNDS); /* sorts them */
+	const double middle = median(thread, SOME_ROUNDS); /* sorts them */
 
 	printf("%s: %.2f ms of the thread until its picture, worst %.2f.\n", name, middle,
-	       (double)thread[CHART_ROUNDS - 1] / 1000);
+	       (double)thread[SOME_ROUNDS - 1] / 1000);
+}
+
+static void type_in_list(GtkWidget *text, int round)
+{
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(text));
+
+	gtk_text_buffer_insert_interactive_at_cursor(buffer, round % 8 ? "1" : "\n  LD %MX1.", -1,
+						     TRUE);
+}
+
+/* A list behind all those rungs. Half of the letters leave it so that it can be read. */
+static void measure_list(GtkWidget *window, LadderDocument *document)
+{
+	const int pou = ladder_document_project(document)->pou_count;
+	GtkTextBuffer *buffer;
+	GtkTextIter at;
+	GtkWidget *text;
+
+	pou_add(window, document, "PROGRAM IL");
+	settle(1000);
+	text = find(find(window, LADDER_TYPE_TEXT_VIEW), GTK_TYPE_TEXT_VIEW);
+	buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(text));
+	gtk_text_buffer_get_iter_at_line(buffer, &at, 1);
+	gtk_text_iter_forward_to_line_end(&at);
+	gtk_text_buffer_place_cursor(buffer, &at);
+	gtk_widget_grab_focus(text);
+	settle(1000);
+	measure_one(text, "A letter in a list", type_in_list);
+	while (ladder_document_project(document)->pou_count > pou &&
+	       ladder_document_undo(document))
+		;
+	settle(1000);
 }
 
 static void run(AdwApplication *application, const char *path, const char *word)
@@ -503,8 +537,8 @@ static void run(AdwApplication *application, const char *path, const char *word)
 	       (double)(worked() - begun) / 1000, chart ? 300 : 500);
 	settle(4000);
 	if (chart) {
-		measure_chart(chart, "Scrolling", scroll_chart);
-		measure_chart(chart, "A step more", edit_chart);
+		measure_one(chart, "Scrolling", scroll_chart);
+		measure_one(chart, "A step more", edit_chart);
 		g_object_unref(document);
 		return;
 	}
@@ -527,6 +561,7 @@ static void run(AdwApplication *application, const char *path, const char *word)
 		late(GTK_WIDGET(window));
 		past(GTK_WIDGET(window), ladder_window_sim(window));
 	}
+	measure_list(GTK_WIDGET(window), document);
 	g_object_unref(document);
 }
 

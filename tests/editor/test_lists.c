@@ -63,6 +63,8 @@ int main(void)
 	test_put(document, "PROGRAM Other IL\n  LD Start\nEND_PROGRAM\n"
 		 "TYPE\n  Pair : STRUCT\n    A : INT;\n  END_STRUCT;\nEND_TYPE\n",
 		 DIAG_MISPLACED, "", 12);
+	test_put(document, "PROGRAM Other IL\n  LD Start\nEND_PROGRAM\n(* of what follows *)\n",
+		 DIAG_MISPLACED, "", 12);
 	/* One more and one less: as many as before, and others. */
 	CHECK(ladder_document_put_list(document, 1, "") &&
 	      ladder_document_put_list(document, 0, "PROGRAM Main IL\nEND_PROGRAM\n"

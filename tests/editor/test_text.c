@@ -7,6 +7,7 @@
 #include "editor-gtk/text_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
+#include "tests/editor/soon.h"
 #include "tests/tap.h"
 
 #include <adwaita.h>
@@ -43,6 +44,7 @@ static void type(const char *text)
 {
 	for (; *text; text++)
 		gtk_text_buffer_insert_at_cursor(buffer, text, 1);
+	ladder_text_view_take(view);
 }
 
 static bool has_class(int line, int column, const char *name)
@@ -214,6 +216,30 @@ static void test_typing(void)
 	g_free(before);
 }
 
+static bool has(const char *part)
+{
+	char *text = ladder_document_text(document, NULL);
+	const bool found = strstr(text, part);
+
+	g_free(text);
+	return found;
+}
+
+/* A letter goes into the document when it was seen, or somebody asks for it: once. */
+static void test_soon(void)
+{
+	put_cursor(4, 13);
+	gtk_text_buffer_insert_at_cursor(buffer, "8", 1);
+	CHECK(!has("Start8") && !ladder_document_undo_name(document));
+	CHECK_SOON(has("Start8"));
+	gtk_text_buffer_insert_at_cursor(buffer, "9", 1);
+	ladder_text_view_take(view);
+	CHECK(has("Start89"));
+	CHECK(ladder_document_undo(document) && !ladder_document_undo_name(document));
+	ladder_text_view_take(view);
+	CHECK_AS(!has("Start8"), "what was undone does not come again");
+}
+
 int main(void)
 {
 	GtkWidget *window;
@@ -237,6 +263,7 @@ int main(void)
 	test_words();
 	test_errors();
 	test_typing();
+	test_soon();
 	gtk_window_destroy(GTK_WINDOW(window));
 	turn(0);
 	g_object_unref(document);
