@@ -427,7 +427,7 @@ GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const ch
 		use_again(popup);
 	} else {
 		popup = g_object_new(LADDER_TYPE_ENTRY_POPUP, NULL);
-		gtk_widget_set_parent(GTK_WIDGET(popup), owner);
+		popover_put(GTK_WIDGET(popup), owner);
 	}
 	popup->calls = *calls;
 	gtk_entry_set_placeholder_text(GTK_ENTRY(popup->line), prompt);

@@ -327,7 +327,7 @@ static void show_choices(GtkWidget *cell, GtkListItem *item)
 	popover = choice_popover(choices, panel_row_text(row, (int)column->field));
 	g_object_set_data(G_OBJECT(popover), "column", (gpointer)column);
 	g_object_set_data_full(G_OBJECT(popover), "row", g_object_ref(row), g_object_unref);
-	gtk_widget_set_parent(popover, scroller);
+	popover_put(popover, scroller);
 	if (gtk_widget_compute_bounds(cell, scroller, &bounds))
 		gtk_popover_set_pointing_to(GTK_POPOVER(popover), &(GdkRectangle){
 			(int)bounds.origin.x, (int)bounds.origin.y,

@@ -13,6 +13,14 @@ void popover_drop(GtkWidget *popover)
 		gtk_widget_unparent(popover);
 }
 
+/* Most widgets take only what they know of from themselves when they go. */
+void popover_put(GtkWidget *popover, GtkWidget *parent)
+{
+	gtk_widget_set_parent(popover, parent);
+	g_signal_connect_object(parent, "destroy", G_CALLBACK(popover_drop), popover,
+				G_CONNECT_SWAPPED);
+}
+
 static gboolean drop(gpointer popover)
 {
 	popover_drop(popover);
@@ -29,7 +37,7 @@ void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWid
 {
 	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
 
-	gtk_widget_set_parent(popover, parent);
+	popover_put(popover, parent);
 	gtk_popover_set_pointing_to(GTK_POPOVER(popover), at);
 	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
 	gtk_widget_set_halign(popover, GTK_ALIGN_START);

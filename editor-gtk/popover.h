@@ -8,6 +8,9 @@
 
 #include <gtk/gtk.h>
 
+/** popover_put - gives it a parent, with which it goes: a key may close the page below a menu
+ * that is open. */
+void popover_put(GtkWidget *popover, GtkWidget *parent);
 /** popover_drop - takes it from its parent, now; never in one of its own signals. A pointer
  * that was in it is not any more: GTK 4.8 asks what is below it for its surface in the next
  * layout, and one that is gone has none. */

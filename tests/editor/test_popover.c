@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_popover - a page goes while its menu, or a line to type in, is open there. The
+ * toolkit's complaint of a child that is left would end the test.
+ */
+#include "editor-gtk/app.h"
+#include "editor-gtk/entry_popup.h"
+#include "editor-gtk/grid_view.h"
+#include "editor-gtk/popover.h"
+#include "editor-gtk/sfc_view.h"
+#include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+#include <gtksourceview/gtksource.h>
+#include <string.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n\n"
+	"PROGRAM Way SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n";
+
+static GtkWidget *window;
+
+static bool is_open(GtkWidget *page)
+{
+	GtkWidget *child = gtk_widget_get_first_child(page);
+
+	while (child && !(GTK_IS_POPOVER(child) && gtk_widget_get_mapped(child)))
+		child = gtk_widget_get_next_sibling(child);
+	return child;
+}
+
+static void goes(GtkWidget *page, const char *what)
+{
+	gpointer gone = page;
+
+	g_object_add_weak_pointer(G_OBJECT(page), &gone);
+	CHECK_SOON(is_open(page));
+	gtk_window_set_child(GTK_WINDOW(window), NULL);
+	WAIT(!gone);
+	CHECK_AS(!gone, what);
+}
+
+static void put(GtkWidget *page)
+{
+	gtk_window_set_child(GTK_WINDOW(window), page);
+	WAIT(gtk_widget_get_width(page) > 0 && gtk_widget_grab_focus(page));
+}
+
+static void test_pages(LadderDocument *document)
+{
+	static const enum verb chart[] = { VERB_context_menu, VERB_chart_comment };
+	static const enum verb sheet[] = { VERB_context_menu, VERB_comment };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(chart); i++) {
+		GtkWidget *page = ladder_sfc_view_new(document, 1);
+
+		put(page);
+		ladder_sfc_view_do(LADDER_SFC_VIEW(page), chart[i]);
+		goes(page, "a chart goes");
+	}
+	for (gsize i = 0; i < G_N_ELEMENTS(sheet); i++) {
+		GtkWidget *page = ladder_grid_view_new(document, 0);
+
+		put(page);
+		ladder_grid_view_do(LADDER_GRID_VIEW(page), sheet[i]);
+		goes(page, "a sheet goes");
+	}
+}
+
+/* A widget that knows of no popover. */
+static void test_any(void)
+{
+	GtkWidget *page = gtk_drawing_area_new();
+	GMenu *menu = g_menu_new();
+
+	gtk_widget_set_focusable(page, TRUE);
+	put(page);
+	g_menu_append(menu, "Undo", "win.undo");
+	popover_menu(page, menu, &(GdkRectangle){ 5, 5, 1, 1 }, page);
+	goes(page, "any widget goes");
+}
+
+int main(void)
+{
+	LadderDocument *document;
+
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	adw_init();
+	gtk_source_init();
+	app_style();
+	document = ladder_document_new();
+	ladder_document_open_text(document, NULL, sample, strlen(sample), true);
+	window = gtk_window_new();
+	gtk_window_set_default_size(GTK_WINDOW(window), 900, 600);
+	gtk_window_set_child(GTK_WINDOW(window), gtk_box_new(GTK_ORIENTATION_VERTICAL, 0));
+	screen_show(window);
+	test_pages(document);
+	test_any();
+	gtk_window_destroy(GTK_WINDOW(window));
+	turn(0);
+	g_object_unref(document);
+	return tap_done();
+}
