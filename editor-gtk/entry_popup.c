@@ -460,7 +460,7 @@ void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell)
 	const bool selected = gtk_editable_get_selection_bounds(
 		GTK_EDITABLE(popup->line), &from, &to);
 
-	gtk_popover_set_pointing_to(GTK_POPOVER(popup), cell);
+	popover_point(GTK_WIDGET(popup), cell);
 	gtk_popover_popup(GTK_POPOVER(popup));
 	gtk_widget_grab_focus(popup->line); /* selects all of it */
 	if (selected)

@@ -21,6 +21,23 @@ void popover_put(GtkWidget *popover, GtkWidget *parent)
 				G_CONNECT_SWAPPED);
 }
 
+static int within(int at, int size)
+{
+	return CLAMP(at, 0, MAX(size - 1, 0));
+}
+
+/* GTK 4.8 looks for the monitor where that is, and stumbles over there being none. */
+void popover_point(GtkWidget *popover, const GdkRectangle *at)
+{
+	GtkWidget *parent = gtk_widget_get_parent(popover);
+	const int width = gtk_widget_get_width(parent), height = gtk_widget_get_height(parent);
+	const int x = within(at->x, width), y = within(at->y, height);
+	const GdkRectangle seen = { x, y, MAX(within(at->x + at->width, width) - x, 1),
+				    MAX(within(at->y + at->height, height) - y, 1) };
+
+	gtk_popover_set_pointing_to(GTK_POPOVER(popover), &seen);
+}
+
 static gboolean drop(gpointer popover)
 {
 	popover_drop(popover);
@@ -38,7 +55,7 @@ void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWid
 	GtkWidget *popover = gtk_popover_menu_new_from_model(G_MENU_MODEL(menu));
 
 	popover_put(popover, parent);
-	gtk_popover_set_pointing_to(GTK_POPOVER(popover), at);
+	popover_point(popover, at);
 	gtk_popover_set_has_arrow(GTK_POPOVER(popover), FALSE);
 	gtk_widget_set_halign(popover, GTK_ALIGN_START);
 	g_signal_connect(popover, "closed", G_CALLBACK(popover_drop_later), NULL);

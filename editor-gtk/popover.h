@@ -11,6 +11,8 @@
 /** popover_put - gives it a parent, with which it goes: a key may close the page below a menu
  * that is open. */
 void popover_put(GtkWidget *popover, GtkWidget *parent);
+/** popover_point - to @at of its parent, or where that comes nearest: it may be scrolled away. */
+void popover_point(GtkWidget *popover, const GdkRectangle *at);
 /** popover_drop - takes it from its parent, now; never in one of its own signals. A pointer
  * that was in it is not any more: GTK 4.8 asks what is below it for its surface in the next
  * layout, and one that is gone has none. */
