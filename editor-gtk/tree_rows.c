@@ -267,7 +267,9 @@ GListModel *tree_row_children(LadderTreeRow *row, LadderDocument *document)
 {
 	const struct project *project = ladder_document_project(document);
 
-	if (!row->parent)
+	/* Between a change and its news numbers are those of before. */
+	if (!row->parent || (!row->rows && (!project || row->pou >= (row->kind == ROW_POU ?
+			project->pou_count : project->structure_count))))
 		return NULL;
 	if (!row->rows)
 		row->rows = variables(project, row);
