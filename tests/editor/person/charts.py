@@ -345,4 +345,27 @@ def forced(screen):
     shape(editor, 'Step Apart, active')
 
 
-main([by_keyboard, by_pointer, bodies, simulated, forced])
+def long_texts(screen):
+    """a comment longer than the window is wide leaves the window as it is; the next line opens, too"""
+    path = new_file(screen, EMPTY)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    wide = editor.place(editor.all(role='frame')[0])[2]
+    editor.keys('Home')
+    asked(editor, 'semicolon', 'why ' * 120 + 'not')
+    on_chart(editor)
+    editor.shot('charts-long')
+    until(lambda: editor.all('why why', 'label'), 'the place in the status bar')
+    assert editor.place(editor.all(role='frame')[0])[2] == wide
+    editor.keys('ctrl+shift+t')
+    editor.opened()
+    editor.keys('Escape')
+    on_chart(editor)
+    text = editor.save(path)
+    assert 'why not *)' in text, text
+    check(path)
+    editor.keys('ctrl+z')
+    assert editor.save(path) == EMPTY
+
+
+main([by_keyboard, by_pointer, bodies, simulated, forced, long_texts])
