@@ -50,6 +50,29 @@ static void test_put(LadderDocument *document, const char *list, enum diag_id id
 	g_free(seen);
 }
 
+static bool has(LadderDocument *document, const char *part)
+{
+	char *text = ladder_document_text(document, NULL);
+	const bool found = strstr(text, part);
+
+	g_free(text);
+	return found;
+}
+
+/* What is known of the text round a list is not that of before an undo. */
+static void test_round_it(LadderDocument *document)
+{
+	ladder_document_begin(document, "both", NULL);
+	CHECK(ladder_document_splice(document, 2, 0, 1, NULL, 0, NULL));
+	CHECK(ladder_document_put_list(document, 1, "PROGRAM Other IL\n  LD Start\nEND_PROGRAM\n"));
+	ladder_document_end(document);
+	CHECK(!has(document, "COIL %QX0.1"));
+	CHECK(ladder_document_undo(document) && has(document, "COIL %QX0.1"));
+	CHECK(ladder_document_put_list(document, 1, "PROGRAM Other IL\n  LDN Start\nEND_PROGRAM\n"));
+	CHECK(has(document, "LDN   Start") && has(document, "COIL %QX0.1"));
+	CHECK(ladder_document_undo(document) && has(document, SAMPLE));
+}
+
 int main(void)
 {
 	LadderDocument *document = ladder_document_new();
@@ -65,6 +88,9 @@ int main(void)
 		 DIAG_MISPLACED, "", 12);
 	test_put(document, "PROGRAM Other IL\n  LD Start\nEND_PROGRAM\n(* of what follows *)\n",
 		 DIAG_MISPLACED, "", 12);
+	while (ladder_document_undo(document))
+		;
+	test_round_it(document);
 	/* One more and one less: as many as before, and others. */
 	CHECK(ladder_document_put_list(document, 1, "") &&
 	      ladder_document_put_list(document, 0, "PROGRAM Main IL\nEND_PROGRAM\n"
