@@ -55,22 +55,35 @@ static bool skip_newline(struct reader *reader)
 	return true;
 }
 
+/* The line of the place is where the field begins. */
+static bool fail_at(struct reader *reader, int line, const char *why)
+{
+	reader->line = line;
+	return fail(reader, why);
+}
+
 /* The opening quote is behind us. */
 static bool read_quoted(struct reader *reader, GString *out)
 {
+	const int first = reader->line;
+
 	for (;;) {
-		if (reader->at == reader->end)
-			return fail(reader, N_("a quoted field does not end"));
-		if (*reader->at == '"') {
+		const char *at = reader->at;
+
+		if (at == reader->end)
+			return fail_at(reader, first, N_("a quoted field does not end"));
+		if (*at == '"') {
 			reader->at++;
 			if (reader->at == reader->end || *reader->at != '"')
 				return true;
-		} else if (*reader->at == '\n') {
-			reader->line++;
+			at++;
 		}
-		g_string_append_c(out, *reader->at++);
+		reader->line += *at == '\n' ||
+				(*at == '\r' && (at + 1 == reader->end || at[1] != '\n'));
+		g_string_append_c(out, *at);
+		reader->at = at + 1;
 		if (out->len > CSV_FIELD_MOST)
-			return fail(reader, N_("a field is too long"));
+			return fail_at(reader, first, N_("a field is too long"));
 	}
 }
 
@@ -188,15 +201,18 @@ static void write_row(GString *out, const struct symbol_row *symbol)
 	g_string_append(out, "\r\n");
 }
 
-char *csv_export(LadderDocument *document)
+char *csv_export(LadderDocument *document, int *count)
 {
 	struct symbols *symbols = symbols_new(document);
 	GString *out = g_string_new("Scope,Block,Name,Type,Address,Initial value,Retain,"
 				    "Constant,Comment\r\n");
 
+	*count = 0;
 	for (int i = 0; i < symbols->count; i++)
-		if (!symbols->symbol[i].included)
+		if (!symbols->symbol[i].included) {
 			write_row(out, &symbols->symbol[i]);
+			++*count;
+		}
 	symbols_free(symbols);
 	return g_string_free(out, FALSE);
 }

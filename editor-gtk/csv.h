@@ -2,8 +2,8 @@
  *
  * csv - tables of symbols as text: RFC 4180, UTF-8, with a header row.
  *
- * An import is first a plan, which tells line by line what it would do or why not; to
- * carry it out is one step of the history. It reads and writes no files.
+ * An import is first a plan, which tells line by line what it would do or why not, and what
+ * would be wrong after it; to carry it out is one step of the history. It reads and writes no files.
  */
 #ifndef EDITOR_CSV_H
 #define EDITOR_CSV_H
@@ -30,8 +30,8 @@ void csv_write_field(GString *out, const char *text);
 
 /** csv_export - all symbols of this file; those of included files are left out.
  * Columns: Scope, Block, Name, Type, Address, Initial value, Retain, Constant, Comment;
- * never translated. Lines end with CR LF. Owns: the caller, g_free(). */
-char *csv_export(LadderDocument *document);
+ * never translated. Lines end with CR LF. @count: gets how many. Owns: the caller, g_free(). */
+char *csv_export(LadderDocument *document, int *count);
 
 enum csv_action { CSV_ADD, CSV_CHANGE, CSV_SAME, CSV_REFUSE };
 
@@ -40,11 +40,14 @@ struct csv_entry {
 	int line;            /* in the table, 1-based                         */
 	char *name;          /* with its scope: Main.Delay                    */
 	char *text;          /* what changes, or why it cannot; translated    */
+	char *fault;         /* what is wrong with the program then; NULL: nothing */
+	bool warning;        /* a fault, and the program runs nevertheless    */
 };
 
 struct csv_plan {
 	GPtrArray *entry;    /* of struct csv_entry *                         */
 	int counts[CSV_REFUSE + 1];
+	int faults;          /* entries with one                              */
 	struct symbol_batch *batch;
 	LadderDocument *document;
 	guint64 version;     /* of the document it was made for               */
@@ -56,6 +59,9 @@ struct csv_plan {
  * The document is not changed. Owns: the caller, csv_plan_free().
  */
 struct csv_plan *csv_plan_new(LadderDocument *document, const char *text, gsize len);
+/** csv_plan_check - marks the entries after which the program would have a fault; if no
+ * program would come of it, it refuses all. For csv_plan_new() alone. */
+void csv_plan_check(struct csv_plan *plan);
 void csv_plan_free(struct csv_plan *plan);
 /** csv_plan_apply - all that is not refused, as one step; once. Fails: false, and @why
  * (the caller frees it): the document is another by now, or it cannot be read. */

@@ -5,7 +5,7 @@
 #include "editor-gtk/csv.h"
 
 #include "editor-gtk/i18n.h"
-#include "engine/view/xref.h"
+#include "editor-gtk/symbols_text.h"
 
 #include <string.h>
 
@@ -45,6 +45,7 @@ static void clear_entry(gpointer pointer)
 
 	g_free(entry->name);
 	g_free(entry->text);
+	g_free(entry->fault);
 	g_free(entry);
 }
 
@@ -126,13 +127,16 @@ static int table_of(struct project *project, const char *scope)
 	return -1;
 }
 
-/* The word of a VAR block as its flags; -1: it is none. */
-static int flags_of(const char *block)
+#define KIND_FLAGS (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP)
+
+/* The word of a VAR block as its flags; -1: it is none, or none of this table. */
+static int flags_of(const char *block, bool member)
 {
 	static const uint8_t kinds[] = { 0, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP };
 
-	if (!block || !*block || g_ascii_strcasecmp(block, "STRUCT") == 0 ||
-	    g_ascii_strcasecmp(block, "VAR_GLOBAL") == 0)
+	if (member || !*block)
+		return !*block || g_ascii_strcasecmp(block, "STRUCT") == 0 ? 0 : -1;
+	if (g_ascii_strcasecmp(block, "VAR_GLOBAL") == 0)
 		return 0;
 	for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++)
 		if (g_ascii_strcasecmp(block, vars_head(kinds[i])) == 0)
@@ -140,22 +144,31 @@ static int flags_of(const char *block)
 	return -1;
 }
 
-/* "Address: %IX0.0 → %IX0.1; Comment: …" */
-static char *changes(const struct symbol_row *old, const char *const text[SYMBOL_FIELDS])
+static void add_change(GString *out, const char *name, const char *old, const char *new)
+{
+	g_string_append_printf(out, "%s%s: ", out->len ? "; " : "", name);
+	if (old)
+		g_string_append_printf(out, "%s → ", *old ? old : "–");
+	g_string_append(out, *new ? new : "–");
+}
+
+/* "Address: %IX0.0 → %IX0.1; Comment: …"; of a new one what it has. */
+static char *changes(const struct symbol_row *old, int flags,
+		     const char *const text[SYMBOL_FIELDS])
 {
 	GString *out = g_string_new("");
 
-	for (int i = 0; i < SYMBOL_FIELDS; i++) {
-		if (i == FIELD_NAME || strcmp(old->text[i], text[i]) == 0)
+	if (old && (old->flags & KIND_FLAGS) != flags)
+		add_change(out, _("Block"), vars_head(old->flags), vars_head((uint16_t)flags));
+	for (int i = FIELD_NAME + 1; i < SYMBOL_FIELDS; i++) {
+		if (strcmp(old ? old->text[i] : "", text[i]) == 0)
 			continue;
-		g_string_append(out, out->len ? "; " : "");
 		if (i == FIELD_RETAIN || i == FIELD_CONSTANT)
-			g_string_append_printf(out, "%s: %s", symbol_field_name(i),
-					       *text[i] ? _("yes") : _("no"));
+			add_change(out, symbol_field_name(i), NULL,
+				   *text[i] ? _("yes") : _("no"));
 		else
-			g_string_append_printf(out, "%s: %s → %s", symbol_field_name(i),
-				*old->text[i] ? old->text[i] : "–",
-				*text[i] ? text[i] : "–");
+			add_change(out, symbol_field_name(i), old ? old->text[i] : NULL,
+				   text[i]);
 	}
 	return g_string_free(out, FALSE);
 }
@@ -163,7 +176,7 @@ static char *changes(const struct symbol_row *old, const char *const text[SYMBOL
 static void put(struct import *import, int line, char *name, int table, int flags,
 		const struct symbol_row *old, const char *const text[SYMBOL_FIELDS])
 {
-	char *what = old ? changes(old, text) : g_strdup(text[FIELD_TYPE]), *why = NULL;
+	char *what = changes(old, flags, text), *why = NULL;
 
 	if (old && !*what)
 		tell(import->plan, CSV_SAME, line, name, what);
@@ -189,27 +202,10 @@ static bool is_seen(struct import *import, const char *key, int line, const char
 	return true;
 }
 
-static void import_record(struct import *import, int line, char *const *field, int count)
+/* What the symbol is to be. @text: caller frees the comment. */
+static void read_fields(const struct import *import, const struct symbol_row *old,
+			char *const *field, int count, const char *text[SYMBOL_FIELDS])
 {
-	struct project *project = ladder_document_project(import->plan->document);
-	const char *scope = cell(import, COLUMN_SCOPE, field, count);
-	const char *text[SYMBOL_FIELDS], *name = cell(import, FIELD_NAME, field, count);
-	const struct symbol_row *old;
-	const int flags = flags_of(cell(import, COLUMN_BLOCK, field, count));
-	const int table = table_of(project, scope ? scope : "");
-	char *full, *key;
-
-	scope = scope ? scope : "";
-	full = *scope ? g_strconcat(scope, ".", name, NULL) : g_strdup(name);
-	if (table < 0 || flags < 0) {
-		tell(import->plan, CSV_REFUSE, line, full, g_strdup_printf(table < 0 ?
-			_("There is no program or structure “%s”") :
-			_("“%s” is no kind of block"), table < 0 ? scope :
-			cell(import, COLUMN_BLOCK, field, count)));
-		return;
-	}
-	key = key_of(scope, name);
-	old = g_hash_table_lookup(import->row, key);
 	for (int i = 0; i < SYMBOL_FIELDS; i++) {
 		text[i] = cell(import, i, field, count);
 		if (!text[i])
@@ -219,13 +215,54 @@ static void import_record(struct import *import, int line, char *const *field, i
 	}
 	if (old)
 		text[FIELD_NAME] = old->text[FIELD_NAME];
-	if (is_seen(import, key, line, full))
+	text[FIELD_COMMENT] = symbol_text_comment(text[FIELD_COMMENT]);
+}
+
+static void import_symbol(struct import *import, int line, char *full, int table, int flags,
+			  const struct symbol_row *old, char *const *field, int count)
+{
+	const char *text[SYMBOL_FIELDS];
+
+	read_fields(import, old, field, count, text);
+	put(import, line, full, table, flags, old, text);
+	g_free((gpointer)text[FIELD_COMMENT]);
+}
+
+/* "" for what is not there. */
+static const char *cell_or_none(const struct import *import, int column,
+				char *const *field, int count)
+{
+	const char *text = cell(import, column, field, count);
+
+	return text ? text : "";
+}
+
+static void import_record(struct import *import, int line, char *const *field, int count)
+{
+	struct project *project = ladder_document_project(import->plan->document);
+	const char *scope = cell_or_none(import, COLUMN_SCOPE, field, count);
+	const char *block = cell_or_none(import, COLUMN_BLOCK, field, count);
+	const char *name = cell(import, FIELD_NAME, field, count);
+	const int table = table_of(project, scope);
+	const int flags = flags_of(block, table > project->pou_count);
+	char *full = *scope ? g_strconcat(scope, ".", name, NULL) : g_strdup(name);
+	char *key = key_of(scope, name);
+	const struct symbol_row *old = g_hash_table_lookup(import->row, key);
+
+	if (table < 0)
+		tell(import->plan, CSV_REFUSE, line, full, g_strdup_printf(
+			_("There is no program or structure “%s”"), scope));
+	else if (flags < 0)
+		tell(import->plan, CSV_REFUSE, line, full, g_strdup_printf("%s: %s",
+			_(diag_text(DIAG_MISPLACED)), block));
+	else if (is_seen(import, key, line, full))
 		g_free(full);
 	else if (old && old->included)
 		tell(import->plan, CSV_REFUSE, line, full,
 		     g_strdup(_("It is declared in another file")));
 	else
-		put(import, line, full, table, flags, old, text);
+		import_symbol(import, line, full, table, *block || !old ? flags :
+			      old->flags & KIND_FLAGS, old, field, count);
 	g_free(key);
 }
 
@@ -273,12 +310,15 @@ struct csv_plan *csv_plan_new(LadderDocument *document, const char *text, gsize 
 	find_rows(&import);
 	line = csv_read(text, len, take_record, &import, &why);
 	if (line)
-		tell(plan, CSV_REFUSE, line, g_strdup(""), g_strdup(why));
+		tell(plan, CSV_REFUSE, line, g_strdup(""), g_strdup_printf(
+			_("%s; nothing from here on was read"), why));
 	else if (!import.has_header)
 		tell(plan, CSV_REFUSE, 1, g_strdup(""), g_strdup(_("The table is empty")));
 	g_hash_table_unref(import.row);
 	g_hash_table_unref(import.seen);
 	symbols_free(import.symbols);
+	if (plan->counts[CSV_ADD] || plan->counts[CSV_CHANGE])
+		csv_plan_check(plan);
 	return plan;
 }
 

@@ -28,6 +28,13 @@ static const char *action_text(enum csv_action action)
 	return _(text[action]);
 }
 
+static enum panel_tone tone_of(const struct csv_entry *entry)
+{
+	if (entry->fault)
+		return entry->warning ? PANEL_WARNING : PANEL_ERROR;
+	return entry->action == CSV_REFUSE ? PANEL_ERROR : PANEL_PLAIN;
+}
+
 static LadderPanelRow *row_of(const struct csv_entry *entry)
 {
 	LadderPanelRow *row = ladder_panel_row_new();
@@ -35,12 +42,13 @@ static LadderPanelRow *row_of(const struct csv_entry *entry)
 	row->text[IMPORT_LINE] = g_strdup_printf("%d", entry->line);
 	row->text[IMPORT_NAME] = g_strdup(entry->name);
 	row->text[IMPORT_ACTION] = g_strdup(action_text(entry->action));
-	row->text[IMPORT_TEXT] = g_strdup(entry->text);
+	row->text[IMPORT_TEXT] = entry->fault ?
+		g_strdup_printf("%s – %s", entry->fault, entry->text) : g_strdup(entry->text);
 	row->number = entry->line;
-	row->tone = entry->action == CSV_REFUSE ? PANEL_ERROR : PANEL_PLAIN;
-	row->note = entry->action == CSV_REFUSE ? g_strdup(entry->text) : NULL;
+	row->tone = tone_of(entry);
+	row->note = row->tone == PANEL_PLAIN ? NULL : g_strdup(row->text[IMPORT_TEXT]);
 	row->spoken = g_strdup_printf(_("line %d, %s, %s, %s"), entry->line, entry->name,
-				      action_text(entry->action), entry->text);
+				      action_text(entry->action), row->text[IMPORT_TEXT]);
 	return row;
 }
 
@@ -66,6 +74,25 @@ static void cancel(GtkWidget *widget, const char *action, GVariant *unused)
 	(void)action;
 	(void)unused;
 	gtk_window_close(GTK_WINDOW(widget));
+}
+
+/* Caller frees. */
+static char *summary_of(const struct csv_plan *plan)
+{
+	char *counts = g_strdup_printf(_("%d new, %d changed, %d unchanged, %d refused"),
+		plan->counts[CSV_ADD], plan->counts[CSV_CHANGE], plan->counts[CSV_SAME],
+		plan->counts[CSV_REFUSE]);
+	char *faults, *both;
+
+	if (!plan->faults)
+		return counts;
+	faults = g_strdup_printf(ngettext("after %d of these lines the program has a fault",
+		"after %d of these lines the program has faults", (gulong)plan->faults),
+		plan->faults);
+	both = g_strdup_printf("%s; %s", counts, faults);
+	g_free(faults);
+	g_free(counts);
+	return both;
 }
 
 static void dispose(GObject *object)
@@ -109,9 +136,7 @@ GtkWidget *ladder_import_dialog_new(struct csv_plan *plan, const char *from)
 	LadderImportDialog *dialog = g_object_new(LADDER_TYPE_IMPORT_DIALOG, NULL);
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	char *title = g_strdup_printf(_("Import symbols from %s"), from);
-	char *summary = g_strdup_printf(_("%d new, %d changed, %d unchanged, %d refused"),
-		plan->counts[CSV_ADD], plan->counts[CSV_CHANGE], plan->counts[CSV_SAME],
-		plan->counts[CSV_REFUSE]);
+	char *summary = summary_of(plan);
 
 	dialog->plan = plan;
 	for (guint i = 0; i < plan->entry->len; i++)

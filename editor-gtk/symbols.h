@@ -80,11 +80,14 @@ struct symbol_batch *symbol_batch_new(LadderDocument *document);
 void symbol_batch_free(struct symbol_batch *batch);
 /** symbol_batch_put - declaration @index of a table becomes @text; -1: a new one. The
  * name is not followed to where it is used.
- * @flags: as in symbol_add, of a new one. Fails: false, and why. */
+ * @flags: of its block, as in symbol_add; another kind moves it. Fails: false, and why. */
 bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		      const char *const text[SYMBOL_FIELDS], char **why);
 /** symbol_batch_delete - declaration @index goes. */
 bool symbol_batch_delete(struct symbol_batch *batch, int table, int index, char **why);
+/** symbol_batch_try - the program as it would be, checked, in memory; the document stays
+ * as it is. Owns: the caller, ladder_free(). Fails: NULL, and why: it cannot be read. */
+struct ladder *symbol_batch_try(struct symbol_batch *batch, char **why);
 /** symbol_batch_apply - all of it as one step. Fails: false, and why; nothing changed. */
 bool symbol_batch_apply(struct symbol_batch *batch, const char *step, char **why);
 

@@ -6,9 +6,8 @@
  * exactly and nothing else can come in with it. All changes of a batch are made in the
  * one canonical text, and that becomes the document's in one step.
  */
-#include "editor-gtk/symbols.h"
+#include "editor-gtk/symbols_text.h"
 
-#include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
 #include "engine/view/xref.h"
 
@@ -106,102 +105,7 @@ static const struct text_span *find_span(const struct symbol_batch *batch,
 	return NULL;
 }
 
-/* ---- a declaration as text ---- */
-
-static bool is_set(const char *text)
-{
-	return text && *text;
-}
-
-/* So that it ends where it should, on one line. */
-static char *comment_of(const char *text)
-{
-	GString *out = g_string_new("(* ");
-
-	for (const char *at = text; *at; at++) {
-		if ((at[0] == '*' && at[1] == ')') || (at[0] == '(' && at[1] == '*')) {
-			g_string_append_c(out, *at);
-			g_string_append_c(out, ' ');
-		} else if (*at == '\n' || *at == '\r' || *at == '\t') {
-			g_string_append_c(out, ' ');
-		} else {
-			g_string_append_c(out, *at);
-		}
-	}
-	g_string_append(out, " *)");
-	return g_string_free(out, FALSE);
-}
-
-static char *declaration(const char *const text[SYMBOL_FIELDS])
-{
-	GString *out = g_string_new("  ");
-
-	g_string_append(out, text[FIELD_NAME]);
-	if (is_set(text[FIELD_ADDRESS]))
-		g_string_append_printf(out, " AT %s", text[FIELD_ADDRESS]);
-	g_string_append_printf(out, " : %s", text[FIELD_TYPE]);
-	if (is_set(text[FIELD_INITIAL]))
-		g_string_append_printf(out, " := %s", text[FIELD_INITIAL]);
-	g_string_append(out, ";");
-	if (is_set(text[FIELD_COMMENT])) {
-		char *comment = comment_of(text[FIELD_COMMENT]);
-
-		g_string_append_printf(out, " %s", comment);
-		g_free(comment);
-	}
-	g_string_append(out, "\n");
-	return g_string_free(out, FALSE);
-}
-
-static char *diag_reason(const struct diag_list *diags)
-{
-	for (int i = 0; i < diags->count; i++) {
-		const struct diag *diag = &diags->diag[i];
-
-		if (diag_severity(diag->id) == SEVERITY_ERROR)
-			return diag_said_whole(diag);
-	}
-	return g_strdup(_("It cannot be read"));
-}
-
-/* Stand-ins for the words of the project, so that a type is known. */
-static void add_words(GString *out, const struct project *project)
-{
-	for (int i = 0; i < project->structure_count; i++)
-		g_string_append_printf(out, "TYPE\n  %s : STRUCT\n    X : INT;\n"
-			"  END_STRUCT;\nEND_TYPE\n",
-			project_text(project, project->structure[i].name));
-	for (int i = 0; i < project->pou_count; i++)
-		if (project->pou[i].kind == POU_BLOCK)
-			g_string_append_printf(out, "FUNCTION_BLOCK %s LD\n"
-				"END_FUNCTION_BLOCK\n",
-				project_text(project, project->pou[i].name));
-}
-
-/* Is it one declaration, of this name, and nothing else? */
-static bool reads_alone(struct symbol_batch *batch, const char *line, const char *name,
-			char **why)
-{
-	GString *text = g_string_new("RUNGBOARD 1\n");
-	struct ladder *ladder = ladder_new();
-	const struct project *project;
-	bool good;
-
-	if (!ladder)
-		g_error("out of memory");
-	add_words(text, batch->project);
-	g_string_append_printf(text, "VAR\n%sEND_VAR\n", line);
-	good = ladder_load_text(ladder, "", text->str, text->len);
-	project = ladder_project(ladder);
-	if (!good || !project)
-		refuse(why, diag_reason(ladder_diags(ladder)));
-	else if (project->globals.count != 1 || project->globals.block_count != 1 ||
-		 strcmp(project_text(project, project->globals.var[0].name), name) != 0)
-		good = refuse(why, g_strdup(_("It cannot be read")));
-	ladder_free(ladder);
-	g_string_free(text, TRUE);
-	return good;
-}
+/* ---- names ---- */
 
 static char *name_reason(enum diag_id fault, const char *name)
 {
@@ -260,18 +164,11 @@ static bool name_is_free(struct symbol_batch *batch, int table, int index,
 static uint16_t wanted_flags(uint16_t flags, const char *const text[SYMBOL_FIELDS])
 {
 	flags &= (uint8_t)~(VAR_RETAIN | VAR_CONSTANT);
-	if (is_set(text[FIELD_RETAIN]))
+	if (*text[FIELD_RETAIN])
 		flags |= VAR_RETAIN;
-	if (is_set(text[FIELD_CONSTANT]))
+	if (*text[FIELD_CONSTANT])
 		flags |= VAR_CONSTANT;
 	return flags;
-}
-
-static char *block_head(uint16_t flags)
-{
-	return g_strdup_printf("%s%s%s\n", vars_head(flags),
-			       flags & VAR_RETAIN ? " RETAIN" : "",
-			       flags & VAR_CONSTANT ? " CONSTANT" : "");
 }
 
 /* Of the last block with these flags, that stands in this file; NULL: none. */
@@ -312,7 +209,7 @@ static void insert_block(struct symbol_batch *batch, int table, uint16_t flags,
 {
 	const struct var_table *vars = xref_table(batch->project, table);
 	const struct text_span *last = NULL, *body;
-	char *head = block_head(flags);
+	char *head = symbol_text_block(flags);
 	gsize at;
 
 	for (int i = 0; i < vars->block_count; i++) {
@@ -378,7 +275,7 @@ static bool move(struct symbol_batch *batch, int table, int index, uint16_t flag
 
 	if (block && vars->block[number].count == 1) {
 		g_hash_table_add(batch->turned, GINT_TO_POINTER(block->at));
-		add_piece(batch, block->at, span->at - block->at, block_head(flags));
+		add_piece(batch, block->at, span->at - block->at, symbol_text_block(flags));
 		add_piece(batch, span->at, span->len, g_strdup(line));
 		return true;
 	}
@@ -386,21 +283,18 @@ static bool move(struct symbol_batch *batch, int table, int index, uint16_t flag
 	return insert(batch, table, flags, line, why);
 }
 
-static bool put_line(struct symbol_batch *batch, int table, int index, uint16_t flags,
-		     const char *const text[SYMBOL_FIELDS], const char *line, char **why)
+static bool put_line(struct symbol_batch *batch, int table, const struct symbol_row *old,
+		     uint16_t flags, const char *line, char **why)
 {
-	const struct symbol_row *old = index < 0 ? NULL :
-		symbols_at(batch->symbols, table, index);
 	const struct text_span *span = old ?
-		find_span(batch, TEXT_VAR, table, index) : NULL;
-	uint16_t wanted = wanted_flags(old ? old->flags : flags, text);
+		find_span(batch, TEXT_VAR, table, old->index) : NULL;
 
-	if (index < 0)
-		return insert(batch, table, wanted, line, why);
+	if (!old)
+		return insert(batch, table, flags, line, why);
 	if (!span)
 		return refuse(why, g_strdup(_("It is declared in another file")));
-	if (!old->member && wanted != old->flags)
-		return move(batch, table, index, wanted, span, line, why);
+	if (!old->member && flags != old->flags)
+		return move(batch, table, old->index, flags, span, line, why);
 	add_piece(batch, span->at, span->len, g_strdup(line));
 	return true;
 }
@@ -408,23 +302,25 @@ static bool put_line(struct symbol_batch *batch, int table, int index, uint16_t 
 bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		      const char *const text[SYMBOL_FIELDS], char **why)
 {
-	const struct symbol_row *old;
+	const struct symbol_row *old = index < 0 ? NULL :
+		symbols_at(batch->symbols, table, index);
+	const uint16_t wanted = wanted_flags(flags, text);
 	char *line;
 	bool good;
 
 	if (!batch->text || !xref_table(batch->project, table))
 		return refuse(why, g_strdup(_("The file cannot be read as a program")));
-	old = index < 0 ? NULL : symbols_at(batch->symbols, table, index);
 	if ((!old || strcmp(old->text[FIELD_NAME], text[FIELD_NAME]) != 0) &&
 	    !name_is_free(batch, table, index, text[FIELD_NAME], why))
 		return false;
-	if (table > batch->project->pou_count && is_set(text[FIELD_ADDRESS]))
+	if (table > batch->project->pou_count && *text[FIELD_ADDRESS])
 		return refuse(why, g_strdup(_("A member of a structure has no address")));
-	if (!is_set(text[FIELD_TYPE]))
+	if (!*text[FIELD_TYPE])
 		return refuse(why, g_strdup(_("A type is needed")));
-	line = declaration(text);
-	good = reads_alone(batch, line, text[FIELD_NAME], why) &&
-	       put_line(batch, table, index, flags, text, line, why);
+	line = symbol_text_line(text);
+	good = symbol_text_reads(batch->project, table, wanted, line, text[FIELD_NAME],
+				 why) &&
+	       put_line(batch, table, old, wanted, line, why);
 	g_free(line);
 	return good;
 }
@@ -449,37 +345,64 @@ bool symbol_batch_delete(struct symbol_batch *batch, int table, int index, char 
 	return true;
 }
 
-/* From the end to the beginning; at one place first what goes, then the last one that
- * comes. */
-static int from_end(gconstpointer left, gconstpointer right)
+/* At one place first what comes, in its order, then what goes. */
+static int by_place(gconstpointer left, gconstpointer right)
 {
 	const struct piece *a = left, *b = right;
 
 	if (a->at != b->at)
-		return a->at > b->at ? -1 : 1;
+		return a->at < b->at ? -1 : 1;
 	if (!a->removed != !b->removed)
-		return a->removed ? -1 : 1;
-	return b->order - a->order;
+		return a->removed ? 1 : -1;
+	return a->order - b->order;
+}
+
+/* The text with all its pieces. Caller frees. */
+static GString *pieced(struct symbol_batch *batch)
+{
+	GString *text = g_string_sized_new(batch->len);
+	gsize done = 0;
+
+	g_array_sort(batch->piece, by_place);
+	for (guint i = 0; i < batch->piece->len; i++) {
+		const struct piece *piece = &g_array_index(batch->piece, struct piece, i);
+
+		g_string_append_len(text, batch->text + done, (gssize)(piece->at - done));
+		g_string_append(text, piece->with);
+		done = piece->at + piece->removed;
+	}
+	return g_string_append_len(text, batch->text + done, (gssize)(batch->len - done));
+}
+
+struct ladder *symbol_batch_try(struct symbol_batch *batch, char **why)
+{
+	const char *path = ladder_document_path(batch->document);
+	struct ladder *ladder = ladder_new();
+	GString *text = pieced(batch);
+
+	if (!ladder)
+		g_error("out of memory");
+	if (!ladder_load_text(ladder, path ? path : "", text->str, text->len)) {
+		refuse(why, symbol_text_reason(ladder_diags(ladder)));
+		g_clear_pointer(&ladder, ladder_free);
+	}
+	if (ladder)
+		ladder_build(ladder);
+	g_string_free(text, TRUE);
+	return ladder;
 }
 
 bool symbol_batch_apply(struct symbol_batch *batch, const char *step, char **why)
 {
-	GString *text = g_string_new_len(batch->text, (gssize)batch->len);
+	GString *text = pieced(batch);
 	struct diag_list *diags = g_new0(struct diag_list, 1);
 	bool good;
 
-	g_array_sort(batch->piece, from_end);
-	for (guint i = 0; i < batch->piece->len; i++) {
-		const struct piece *piece = &g_array_index(batch->piece, struct piece, i);
-
-		g_string_erase(text, (gssize)piece->at, (gssize)piece->removed);
-		g_string_insert(text, (gssize)piece->at, piece->with);
-	}
 	ladder_document_begin(batch->document, step, NULL);
 	good = ladder_document_replace(batch->document, 0, batch->len, text->str, diags);
 	ladder_document_end(batch->document);
 	if (!good)
-		refuse(why, diag_reason(diags));
+		refuse(why, symbol_text_reason(diags));
 	g_free(diags);
 	g_string_free(text, TRUE);
 	return good;
@@ -507,7 +430,7 @@ static bool rename_everywhere(LadderDocument *document, int table, int index,
 	good = ladder_document_replace(document, 0, old_len, text, diags);
 	ladder_document_end(document);
 	if (!good)
-		refuse(why, diag_reason(diags));
+		refuse(why, symbol_text_reason(diags));
 	g_free(diags);
 	free(text);
 	return good;
@@ -535,7 +458,8 @@ static bool set_field(struct symbol_batch *batch, const struct symbol_row *symbo
 	for (int i = 0; i < SYMBOL_FIELDS; i++)
 		fields[i] = symbol->text[i];
 	fields[field] = text;
-	return symbol_batch_put(batch, symbol->table, symbol->index, 0, fields, why) &&
+	return symbol_batch_put(batch, symbol->table, symbol->index, symbol->flags,
+				fields, why) &&
 	       symbol_batch_apply(batch, step_name(field), why);
 }
 

@@ -289,45 +289,32 @@ static void import_file(LadderSymbolsView *view, const char *path)
 	g_free(name);
 }
 
-static void export_file(LadderSymbolsView *view, const char *path)
-{
-	char *table = csv_export(panel_watch_document(view->watch));
-	GError *error = NULL;
-
-	if (!disk_save(path, table, strlen(table), &error))
-		tell(view, g_strdup(error->message));
-	else
-		tell(view, NULL);
-	g_clear_error(&error);
-	g_free(table);
-}
-
 static void chosen(GtkNativeDialog *dialog, int response, LadderSymbolsView *view)
 {
-	GtkFileChooser *chooser = GTK_FILE_CHOOSER(dialog);
 	GFile *file = response == GTK_RESPONSE_ACCEPT ?
-		gtk_file_chooser_get_file(chooser) : NULL;
+		gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog)) : NULL;
 	char *path = file ? g_file_get_path(file) : NULL;
 
-	if (path && gtk_file_chooser_get_action(chooser) == GTK_FILE_CHOOSER_ACTION_OPEN)
+	if (path)
 		import_file(view, path);
-	else if (path)
-		export_file(view, path);
 	g_free(path);
 	g_clear_object(&file);
 	g_clear_object(&view->chooser);
 }
 
-static void choose(LadderSymbolsView *view, GtkFileChooserAction action,
-		   const char *title, const char *accept)
+static void import(GtkWidget *widget, const char *action, GVariant *unused)
 {
-	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	GtkRoot *root = gtk_widget_get_root(widget);
 	GtkFileFilter *filter;
 
+	(void)action;
+	(void)unused;
 	if (view->chooser || !panel_watch_document(view->watch))
 		return;
-	view->chooser = gtk_file_chooser_native_new(title,
-		GTK_IS_WINDOW(root) ? GTK_WINDOW(root) : NULL, action, accept, NULL);
+	view->chooser = gtk_file_chooser_native_new(_("Import symbols"),
+		GTK_IS_WINDOW(root) ? GTK_WINDOW(root) : NULL, GTK_FILE_CHOOSER_ACTION_OPEN,
+		_("_Open"), NULL);
 	filter = gtk_file_filter_new();
 	gtk_file_filter_set_name(filter, _("Tables (CSV)"));
 	gtk_file_filter_add_suffix(filter, "csv");
@@ -335,27 +322,8 @@ static void choose(LadderSymbolsView *view, GtkFileChooserAction action,
 	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(view->chooser), filter);
 	g_object_unref(filter);
 	chooser_beside(view->chooser, panel_watch_document(view->watch));
-	if (action == GTK_FILE_CHOOSER_ACTION_SAVE)
-		gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(view->chooser),
-						  _("symbols.csv"));
 	g_signal_connect(view->chooser, "response", G_CALLBACK(chosen), view);
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(view->chooser));
-}
-
-static void import(GtkWidget *widget, const char *action, GVariant *unused)
-{
-	(void)action;
-	(void)unused;
-	choose(LADDER_SYMBOLS_VIEW(widget), GTK_FILE_CHOOSER_ACTION_OPEN,
-	       _("Import symbols"), _("_Open"));
-}
-
-static void export(GtkWidget *widget, const char *action, GVariant *unused)
-{
-	(void)action;
-	(void)unused;
-	choose(LADDER_SYMBOLS_VIEW(widget), GTK_FILE_CHOOSER_ACTION_SAVE,
-	       _("Export symbols"), _("_Save"));
 }
 
 /* ---- the widget ---- */
@@ -418,7 +386,6 @@ static void ladder_symbols_view_class_init(LadderSymbolsViewClass *class)
 	gtk_widget_class_install_action(widget, "symbols.add", NULL, add);
 	gtk_widget_class_install_action(widget, "symbols.delete", NULL, delete);
 	gtk_widget_class_install_action(widget, "symbols.import", NULL, import);
-	gtk_widget_class_install_action(widget, "symbols.export", NULL, export);
 	gtk_widget_class_install_action(widget, "symbols.uses", NULL, show_uses);
 	bind_children(widget);
 }

@@ -3,8 +3,8 @@
  * symbols_view - the table of all symbols: sort, filter, edit in place, tables of other
  * programs in and out.
  *
- * Actions: symbols.add, symbols.delete, symbols.import, symbols.export, symbols.uses (goes
- * to win.show-uses with the name, if the window has it). What a field refuses is told in the row and below the table.
+ * Actions: symbols.add, symbols.delete, symbols.import, symbols.uses (goes to win.show-uses
+ * with the name, if the window has it); the window's win.export_symbols writes one. What a field refuses is told in the row and below the table.
  */
 #ifndef EDITOR_SYMBOLS_VIEW_H
 #define EDITOR_SYMBOLS_VIEW_H

@@ -289,6 +289,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_new_iomap: window_new_iomap(window); break;
 	case VERB_save_as: window_save_as(window); break;
 	case VERB_export_classic: window_export_classic(window); break;
+	case VERB_export_symbols: window_export_symbols(window); break;
 	case VERB_print: window_print(window); break;
 	case VERB_export_pdf: window_export_pdf(window); break;
 	case VERB_preferences: preferences_show(window); break;

@@ -213,49 +213,15 @@ void window_classic_filter(GtkFileChooser *chooser, bool numbers)
 	g_object_unref(filter);
 }
 
-char *window_name_with(LadderWindow *window, const char *ending)
-{
-	const char *path = ladder_document_path(window->document);
-	char *name, *dot;
-
-	if (!path && window->classic)
-		path = ladder_origin_path(window->classic);
-	name = path ? g_path_get_basename(path) : g_strdup("program");
-	dot = strrchr(name, '.');
-	if (dot && dot != name)
-		*dot = '\0';
-	dot = g_strconcat(name, ending, NULL);
-	g_free(name);
-	return dot;
-}
-
 static void export_chosen(LadderWindow *window, const char *path)
 {
 	window_export_to(window, path);
 }
 
-static void export_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
-{
-	char *path = response == GTK_RESPONSE_ACCEPT ? window_chosen_path(dialog) : NULL;
-
-	if (path)
-		window_save_named(window, path, ".clprj", export_chosen);
-	g_free(path);
-	g_object_unref(dialog);
-}
-
 void window_export_classic(LadderWindow *window)
 {
-	GtkFileChooserNative *chooser = gtk_file_chooser_native_new(
-		_("Export as ClassicLadder"), GTK_WINDOW(window),
-		GTK_FILE_CHOOSER_ACTION_SAVE, _("Export"), _("Cancel"));
-	char *name = window_name_with(window, ".clprj");
+	GtkFileChooser *chooser = window_ask_where(window, _("Export as ClassicLadder"),
+						   ".clprj|.*", export_chosen);
 
-	window_classic_filter(GTK_FILE_CHOOSER(chooser), true);
-	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
-	chooser_beside(chooser, window->document);
-	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), name);
-	g_free(name);
-	g_signal_connect(chooser, "response", G_CALLBACK(export_response), window);
-	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+	window_classic_filter(chooser, true);
 }

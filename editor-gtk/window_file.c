@@ -114,69 +114,6 @@ static void save_over(LadderWindow *window)
 	save_to(window, NULL);
 }
 
-/* ---- a name that gets its ending here ---- */
-
-struct named {
-	LadderWindow *window;
-	char *path;
-	void (*save)(LadderWindow *window, const char *path);
-};
-
-static void named_free(gpointer data, GClosure *closure)
-{
-	struct named *named = data;
-
-	(void)closure;
-	g_free(named->path);
-	g_free(named);
-}
-
-static void replace_response(AdwMessageDialog *dialog, const char *response,
-			     struct named *named)
-{
-	(void)dialog;
-	if (g_strcmp0(response, "replace") == 0)
-		named->save(named->window, named->path);
-	else
-		named->window->closing = false;
-}
-
-static void ask_replace(struct named *named)
-{
-	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(named->window),
-						   _("Replace the file?"), NULL);
-	AdwMessageDialog *message = ADW_MESSAGE_DIALOG(dialog);
-	char *name = g_path_get_basename(named->path);
-
-	adw_message_dialog_format_body(message, _("“%s” is there already."), name);
-	adw_message_dialog_add_responses(message, "cancel", _("Cancel"), "replace",
-					 _("Replace"), NULL);
-	adw_message_dialog_set_response_appearance(message, "replace",
-						   ADW_RESPONSE_DESTRUCTIVE);
-	adw_message_dialog_set_default_response(message, "cancel");
-	adw_message_dialog_set_close_response(message, "cancel");
-	g_signal_connect_data(dialog, "response", G_CALLBACK(replace_response), named,
-			      named_free, 0);
-	gtk_window_present(GTK_WINDOW(dialog));
-	g_free(name);
-}
-
-void window_save_named(LadderWindow *window, const char *path, const char *ending,
-		       void (*save)(LadderWindow *window, const char *path))
-{
-	const char *slash = strrchr(path, '/');
-	const bool bare = !strchr(slash ? slash : path, '.');
-	struct named *named = g_new(struct named, 1);
-
-	*named = (struct named){ window, g_strconcat(path, bare ? ending : NULL, NULL), save };
-	if (bare && g_file_test(named->path, G_FILE_TEST_EXISTS)) {
-		ask_replace(named);
-		return;
-	}
-	save(window, named->path);
-	named_free(named, NULL);
-}
-
 /* For ClassicLadder it is written and not saved: the window stays. */
 static void save_chosen(LadderWindow *window, const char *path)
 {
@@ -198,7 +135,7 @@ static void save_response(GtkNativeDialog *dialog, int response, LadderWindow *w
 
 	if (path)
 		window_save_named(window, path, kind && g_str_has_prefix(kind, "Classic") ?
-				  ".clprj" : ".rung", save_chosen);
+				  ".clprj|.*" : ".rung|.*", save_chosen);
 	else
 		window->closing = false;
 	g_free(path);

@@ -185,10 +185,22 @@ bool window_may_close(LadderWindow *window);
 /** window_watch_disk - tells if somebody else changes the file. */
 void window_watch_disk(LadderWindow *window);
 
-/** window_save_named - @save(@window, @path), which gets @ending if it has none; the person
- * is asked if a file of that name is there, of which the dialog did not know. */
-void window_save_named(LadderWindow *window, const char *path, const char *ending,
-		       void (*save)(LadderWindow *window, const char *path));
+/* ---- window_write.c ---- */
+typedef void window_write(LadderWindow *window, const char *path);
+/** window_save_named - @save(@window, @path), which gets the first of @endings (".csv|.txt";
+ * ".*" is any) if it has none of them; the person is asked if a file of that name is there,
+ * of which the dialog did not know. */
+void window_save_named(LadderWindow *window, const char *path, const char *endings,
+		       window_write *save);
+/** window_ask_where - asks for a file beside the program, named as it, and writes it.
+ * @endings: as for window_save_named; lives for ever. Returns the dialog; it owns itself. */
+GtkFileChooser *window_ask_where(LadderWindow *window, const char *title,
+				 const char *endings, window_write *save);
+/** window_name_with - of the document or what it was taken from, with another ending.
+ * Caller frees. */
+char *window_name_with(LadderWindow *window, const char *ending);
+/** window_export_symbols - asks for a file: all symbols as a table. */
+void window_export_symbols(LadderWindow *window);
 
 /* ---- window_classic.c ---- */
 /** window_report_new - the panel; it is offered when there is a report. */
@@ -205,9 +217,6 @@ void window_export_classic(LadderWindow *window);
 bool window_export_to(LadderWindow *window, const char *path);
 /** window_classic_filter - one more; @numbers: bare rung files, too, and it is the first. */
 void window_classic_filter(GtkFileChooser *chooser, bool numbers);
-/** window_name_with - of the document or what it was taken from, with another ending.
- * Caller frees. */
-char *window_name_with(LadderWindow *window, const char *ending);
 
 /* ---- window_drop.c ---- */
 void window_drop_init(LadderWindow *window);

@@ -117,30 +117,8 @@ static void export_to(LadderWindow *window, const char *path)
 	g_bytes_unref(pdf);
 }
 
-static void export_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
-{
-	char *path = response == GTK_RESPONSE_ACCEPT ? window_chosen_path(dialog) : NULL;
-
-	if (path && has_pages(window))
-		export_to(window, path);
-	g_free(path);
-	g_object_unref(dialog);
-}
-
 void window_export_pdf(LadderWindow *window)
 {
-	GtkFileChooserNative *chooser;
-	char *file;
-
-	if (!has_pages(window))
-		return;
-	chooser = gtk_file_chooser_native_new(_("Export as PDF"), GTK_WINDOW(window),
-		GTK_FILE_CHOOSER_ACTION_SAVE, _("Export"), _("Cancel"));
-	file = window_name_with(window, ".pdf");
-	chooser_beside(chooser, window->document);
-	gtk_file_chooser_set_current_name(GTK_FILE_CHOOSER(chooser), file);
-	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
-	g_signal_connect(chooser, "response", G_CALLBACK(export_response), window);
-	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
-	g_free(file);
+	if (has_pages(window))
+		window_ask_where(window, _("Export as PDF"), ".pdf", export_to);
 }

@@ -302,6 +302,8 @@ static void test_csv(void)
 	reads("a\tb\rc\t\"d\"", "1[a][b]2[c][d]");
 	reads("", "");
 	reads("a,\"b", "line 1: a quoted field does not end");
+	reads("a\n\"b\n1\n2\n", "1[a]line 2: a quoted field does not end");
+	reads("a\n\"b\r1\r\n2\",c\nd\n", "1[a]2[b\r1\r\n2][c]5[d]");
 	reads("a\n\"b\"c\n", "1[a]line 2: text behind a quoted field");
 	reads("a\n\xff", "line 2: this is not UTF-8 text");
 	reads(big, "line 1: a field is too long");
@@ -317,7 +319,8 @@ static void test_csv(void)
 static void test_export(void)
 {
 	LadderDocument *document = opened(sample);
-	char *table = csv_export(document), *again;
+	int count;
+	char *table = csv_export(document, &count), *again;
 	struct csv_plan *plan = csv_plan_new(document, table, strlen(table));
 
 	CHECK(g_str_has_prefix(table, "Scope,Block,Name,Type,Address,Initial value,Retain,"
@@ -326,11 +329,12 @@ static void test_export(void)
 	CHECK(strstr(table, ",VAR,Table,ARRAY[1..3] OF INT,,\"[1, 2]\",,,\r\n"));
 	CHECK(strstr(table, "Seal,VAR_INPUT,On,BOOL,,,,,\r\n"));
 	CHECK(strstr(table, "Recipe,STRUCT,Speed,INT,,5,,,rpm\r\n"));
+	CHECK(count == 10);
 	CHECK_AS(plan->counts[CSV_SAME] == 10 && plan->entry->len == 10,
 		 "what was exported changes nothing");
 	CHECK(csv_plan_apply(plan, NULL) && !ladder_document_undo_name(document));
 	csv_plan_free(plan);
-	again = csv_export(document);
+	again = csv_export(document, &count);
 	CHECK_TEXT(again, table);
 	g_free(again);
 	g_free(table);
@@ -391,6 +395,107 @@ static void test_import(void)
 	g_object_unref(document);
 }
 
+struct wanted { enum csv_action action; const char *text, *fault; };
+
+/* @want: of each line behind the header; texts are parts of what is told, NULL: nothing. */
+static struct csv_plan *planned(LadderDocument *document, const char *table,
+				const struct wanted *want, guint count)
+{
+	struct csv_plan *plan = csv_plan_new(document, table, strlen(table));
+
+	CHECK(plan->entry->len == count);
+	for (guint i = 0; i < MIN(count, plan->entry->len); i++) {
+		const struct csv_entry *entry = plan->entry->pdata[i];
+
+		printf("# %d %s: %s, %s\n", entry->line, entry->name, entry->text,
+		       entry->fault ? entry->fault : "-");
+		CHECK(entry->action == want[i].action && entry->line == (int)i + 2);
+		CHECK(strstr(entry->text, want[i].text));
+		CHECK(want[i].fault ? entry->fault && strstr(entry->fault, want[i].fault) :
+		      !entry->fault);
+	}
+	return plan;
+}
+
+/* What a line may not declare where it is to stand is told at it, and the rest comes. */
+static void test_places(void)
+{
+	static const char table[] =
+		"Scope,Block,Name,Type,Address,Retain,Comment\n"
+		",VAR_TEMP,A,BOOL,,,\n" ",VAR_INPUT,B,BOOL,,,\n" "Main,VAR_INPUT,C,BOOL,,,\n"
+		"Main,VAR_TEMP,D,BOOL,,,\n" "Seal,VAR_OUTPUT,E,BOOL,,,\n"
+		"Seal,VAR_IN_OUT,F,BOOL,,1,\n" "Recipe,VAR_INPUT,G,INT,,,\n"
+		"Recipe,STRUCT,H,TON,,,\n" "Recipe,,Weight,INT,,,\n" "Seal,VAR_INPUT,I,TON,,,\n"
+		",,Text,STRING,%MW4,,\n" "Seal,VAR,On,BOOL,,,\n"
+		"Main,,Delay,TON,,,\n" ",,Noted,INT,,,\"a (* b *) c\r\nd\"\n";
+	static const struct wanted want[] = {
+		{ CSV_REFUSE, "VAR_TEMP", NULL }, { CSV_REFUSE, "VAR_INPUT", NULL },
+		{ CSV_REFUSE, "VAR_INPUT", NULL }, { CSV_ADD, "Type: BOOL", NULL },
+		{ CSV_ADD, "BOOL", NULL }, { CSV_REFUSE, "RETAIN", NULL },
+		{ CSV_REFUSE, "VAR_INPUT", NULL }, { CSV_REFUSE, "", NULL },
+		{ CSV_ADD, "INT", NULL }, { CSV_REFUSE, "", NULL }, { CSV_REFUSE, "AT", NULL },
+		{ CSV_CHANGE, "Block: VAR_INPUT \xe2\x86\x92 VAR", NULL }, { CSV_SAME, "", NULL },
+		{ CSV_ADD, "Comment: a ( * b * ) c d", NULL },
+	};
+	LadderDocument *document = opened(sample);
+	struct csv_plan *plan = planned(document, table, want, G_N_ELEMENTS(want));
+	int count;
+	char *again;
+
+	CHECK(csv_plan_apply(plan, NULL));
+	csv_plan_free(plan);
+	CHECK(has(document, "VAR_TEMP\n  D : BOOL;\nEND_VAR\n"));
+	CHECK(has(document, "VAR\n  On : BOOL;\nEND_VAR\n"));
+	CHECK(has(document, "VAR_OUTPUT\n  E : BOOL;\nEND_VAR\n"));
+	CHECK(has(document, "    Weight : INT;\n"));
+	again = csv_export(document, &count);
+	CHECK_AS(strstr(again, ",VAR,Noted,INT,,,,,a ( * b * ) c d\r\n"),
+		 "the comment is what the plan told");
+	g_free(again);
+	g_object_unref(document);
+}
+
+/* What the program has against it, it tells before it happens. */
+static void test_faults(void)
+{
+	static const char table[] = "Scope,Name,Type,Address\n"
+		",Count,INT,%QX0.5\n" ",Stop,BOOL,%IX0.0\n" ",Hours,UDINT,%MD8\n"
+		"Main,Wide,WORD,%QW0\n" ",Free,BOOL,%IX0.1\n";
+	static const struct wanted want[] = {
+		{ CSV_CHANGE, "%QX0.5", "type does not fit the width of the address" },
+		{ CSV_ADD, "%IX0.0", "also used as Start" }, { CSV_CHANGE, "%MD8", NULL },
+		{ CSV_ADD, "%QW0", "also used as" }, { CSV_ADD, "%IX0.1", NULL },
+	};
+	LadderDocument *document = opened(sample);
+	struct csv_plan *plan = planned(document, table, want, G_N_ELEMENTS(want));
+
+	CHECK(plan->faults == 3);
+	CHECK(!((struct csv_entry *)plan->entry->pdata[0])->warning);
+	CHECK(((struct csv_entry *)plan->entry->pdata[1])->warning);
+	CHECK_AS(csv_plan_apply(plan, NULL) && has(document, "Stop  AT %IX0.0 : BOOL"),
+		 "it may be wanted nevertheless");
+	csv_plan_free(plan);
+	g_object_unref(document);
+}
+
+/* More than a project may have: no line is to blame, so none comes. */
+static void test_too_many(void)
+{
+	LadderDocument *document = opened(sample);
+	GString *table = g_string_new("Name,Type\n");
+	struct csv_plan *plan;
+
+	for (int i = 0; i < LIMIT_VARS; i++)
+		g_string_append_printf(table, "New%d,BOOL\n", i);
+	plan = csv_plan_new(document, table->str, table->len);
+	CHECK(plan->counts[CSV_REFUSE] == LIMIT_VARS && plan->counts[CSV_ADD] == 0);
+	printf("# %s\n", ((struct csv_entry *)plan->entry->pdata[0])->text);
+	CHECK(strstr(((struct csv_entry *)plan->entry->pdata[0])->text, "too many"));
+	csv_plan_free(plan);
+	g_string_free(table, TRUE);
+	g_object_unref(document);
+}
+
 /* Any bytes give a plan, and its execution a program that can be read. */
 static void test_storm(void)
 {
@@ -424,6 +529,9 @@ int main(void)
 	test_csv();
 	test_export();
 	test_import();
+	test_places();
+	test_faults();
+	test_too_many();
 	test_storm();
 	test_rows();
 	test_function();

@@ -172,28 +172,45 @@ def folded(screen):
         editor.says(what)
 
 
+def read(path):
+    with open(path, newline='') as file:
+        return file.read()
+
+
 def tables(screen):
-    """symbols go into a table and come back from it, changed"""
+    """symbols go into a table and come back from it, changed; what a line would do, or spoil, is told before"""
     path = new_file(screen, PROGRAM)
     table = os.path.join(screen.home, 'names.csv')
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
-    editor.press(editor.find('Export', 'push button'))
-    name_file(editor, table)
-    until(lambda: os.path.exists(table), 'the table')
-    with open(table, newline='') as file:
-        text = file.read()
-    assert 'Start,BOOL,%IX0.0' in text and 'the green one' in text, text
+    for answer in None, 'Cancel', 'Replace':
+        editor.press(editor.find('Export', 'push button'))
+        name_file(editor, table[:-4])
+        if answer:
+            editor.find('Replace the file?')
+            assert read(table) == 'precious'
+            editor.answer(answer)
+        if answer != 'Cancel':
+            editor.find('2 symbols are in %s now' % table)
+            text = read(table)
+            assert 'Start,BOOL,%IX0.0' in text and 'the green one' in text, text
+        with open(table, 'w') as file:
+            file.write('precious')
     with open(table, 'w', newline='') as file:
-        file.write(text.replace('the green one', 'on the door') + ',,Horn,BOOL,%QX0.1,,,,\r\n')
+        file.write(text.replace('the green one', 'on the door') + ',,Horn,BOOL,%QX0.1,,,,\r\n' +
+                   ',VAR_TEMP,Away,BOOL,,,,,\r\n,VAR,Twice,BOOL,%IX0.0,,,,\r\n,VAR,Open,INT,,,,,"no end\r\n')
     editor.press(editor.find('Import', 'push button'))
     name_file(editor, table)
     editor.shot('begin-table')
-    editor.says('1 new, 1 changed, 1 unchanged, 0 refused')
+    editor.says('2 new, 1 changed, 1 unchanged, 2 refused; after 2 of these lines the program has faults')
+    for line in ('line 5, Away, refused, does not belong here: VAR_TEMP', 'line 6, Twice, new, also used as Start',
+                 'line 7, , refused, a quoted field does not end; nothing from here on was read'):
+        editor.find(line)
     editor.press(next(node for node in editor.all('Import', 'push button') if node.name in ('Import', 'Import Import')))
     until(lambda: len(editor.windows()) == 1, 'the end of the plan')
     saved = editor.save(path)
     assert 'on the door' in saved and 'Horn AT %QX0.1 : BOOL' in ' '.join(saved.split()), saved
+    assert 'Away' not in saved and 'Open' not in saved
     check(path)
     editor.keys('ctrl+z')
     assert editor.save(path) == PROGRAM

@@ -151,7 +151,7 @@ def writers(screen):
     editor.to_sheet()
     before = kept(editor)
     for title, offered in (('Export as PDF', 'new.pdf'), ('New I/O map', 'new.io'),
-                           ('Export as ClassicLadder', 'new.clprj')):
+                           ('Export as ClassicLadder', 'new.clprj'), ('Export symbols', 'new.csv')):
         command(editor, title)
         titled(editor, title)
         until(lambda: editor.focused() and editor.focused().text() == offered, 'the name ' + offered)
