@@ -48,6 +48,27 @@ static struct hits same_text(struct hits hits)
 	return hits;
 }
 
+/* ---- why not ---- */
+
+/* What the first error says of a place. @place: taken over. */
+static char *reason_at(char *place, const struct diag_list *diags)
+{
+	char *what = diags->count ? diag_said_whole(&diags->diag[0]) :
+		     g_strdup(_("It could not be read again"));
+	char *reason = g_strdup_printf("%s: %s", place, what);
+
+	g_free(what);
+	g_free(place);
+	return reason;
+}
+
+static char *pou_name(const struct hits *hits)
+{
+	const struct project *project = ladder_document_project(hits->document);
+
+	return g_strdup(project_text(project, project->pou[hits->hit[0]->pou].name));
+}
+
 /* ---- rungs ---- */
 
 static uint32_t *id_of(struct rung *rung, const struct find_hit *hit)
@@ -71,7 +92,7 @@ static uint32_t *id_of(struct rung *rung, const struct find_hit *hit)
 	return NULL;
 }
 
-static bool replace_in_rung(const struct hits *hits, struct diag_list *why)
+static char *replace_in_rung(const struct hits *hits, struct diag_list *why)
 {
 	struct project *project = ladder_document_project(hits->document);
 	const struct find_hit *first = hits->hit[0];
@@ -88,7 +109,10 @@ static bool replace_in_rung(const struct hits *hits, struct diag_list *why)
 		rest.hit += same.count;
 		rest.count -= same.count;
 	}
-	return ladder_document_put_rung(hits->document, first->pou, first->rung, rung, why);
+	if (ladder_document_put_rung(hits->document, first->pou, first->rung, rung, why))
+		return NULL;
+	return reason_at(g_strdup_printf(_("%s, rung %d"), project_text(project,
+		project->pou[first->pou].name), first->rung + 1), why);
 }
 
 /* ---- lists ---- */
@@ -114,7 +138,7 @@ static char *replaced_lines(const struct hits *hits, const char *text)
 	return whole;
 }
 
-static bool replace_in_list(const struct hits *hits)
+static char *replace_in_list(const struct hits *hits, struct diag_list *why)
 {
 	const int pou = hits->hit[0]->pou;
 	char *text = ladder_document_list(hits->document, pou);
@@ -123,7 +147,7 @@ static bool replace_in_list(const struct hits *hits)
 
 	g_free(whole);
 	g_free(text);
-	return good;
+	return good ? NULL : reason_at(pou_name(hits), why);
 }
 
 struct pou_place { int pou; struct text_span span; };
@@ -137,7 +161,7 @@ static void take_pou(void *context, const struct text_span *span)
 }
 
 /* Unlike a list it is refused if it cannot be read. */
-static bool replace_in_chart(const struct hits *hits, struct diag_list *why)
+static char *replace_in_chart(const struct hits *hits, struct diag_list *why)
 {
 	struct pou_place place = { .pou = hits->hit[0]->pou };
 	gsize len;
@@ -150,7 +174,7 @@ static bool replace_in_chart(const struct hits *hits, struct diag_list *why)
 	g_free(whole);
 	g_free(old);
 	g_free(text);
-	return good;
+	return good ? NULL : reason_at(pou_name(hits), why);
 }
 
 /* ---- declarations ---- */
@@ -198,39 +222,92 @@ static int first_of_last(const struct find_hit *const *hit, int count)
 	return at;
 }
 
-/* One declaration after the other in the one text, from the last one on. */
-static bool replace_declarations(const struct hits *hits, struct diag_list *why)
+/* One declaration after the other in the one text, from the last one on; NULL: one is not
+ * there. Caller frees. */
+static GString *declarations_replaced(const struct hits *hits, char *whole, GArray *spans)
 {
 	const struct project *project = ladder_document_project(hits->document);
-	GArray *spans = g_array_new(FALSE, FALSE, sizeof(struct text_span));
-	gsize len;
-	char *whole = ladder_document_outline(hits->document, &len, take_var, spans);
 	GString *text = g_string_new(whole);
-	const int before = declared(hits->document);
-	bool good = true;
 
-	for (int count = hits->count, at; good && count > 0; count = at) {
+	for (int count = hits->count, at; count > 0; count = at) {
 		at = first_of_last((const struct find_hit *const *)hits->hit, count);
 		struct hits same = *hits;
 		const struct text_span *span = span_of(spans, project, hits->hit[at]);
 		char *line;
 
+		if (!span) {
+			g_string_free(text, TRUE);
+			return NULL;
+		}
 		same.hit += at;
 		same.count = count - at;
 		line = replaced(&same, same.hit[0]->text);
-		good = span;
-		if (span)
-			g_string_erase(text, (gssize)span->at, (gssize)span->len - 1);
-		if (span)
-			g_string_insert(text, (gssize)span->at, line);
+		g_string_erase(text, (gssize)span->at, (gssize)span->len - 1);
+		g_string_insert(text, (gssize)span->at, line);
 		g_free(line);
 	}
-	good = good && ladder_document_replace(hits->document, 0, len, text->str, why) &&
-	       declared(hits->document) == before;
-	g_string_free(text, TRUE);
+	return text;
+}
+
+/* A name that two declarations of a table have now, one of which was replaced; NULL: none. */
+static const char *declared_twice(const struct hits *hits)
+{
+	struct project *project = ladder_document_project(hits->document);
+
+	for (int i = 0; i < hits->count; i++) {
+		const struct find_hit *hit = hits->hit[i];
+		const struct var_table *vars = xref_table(project, hit->table);
+
+		for (int k = 0; k < vars->count; k++)
+			if (k != hit->index &&
+			    vars->var[k].fold == vars->var[hit->index].fold)
+				return project_text(project, vars->var[k].name);
+	}
+	return NULL;
+}
+
+/* The declaration that it says something of. */
+static char *declaration_reason(const char *text, const struct diag_list *diags)
+{
+	char **line = g_strsplit(text, "\n", -1), *place;
+	const int number = diags->count ? diags->diag[0].line : 0;
+
+	if (number > 0 && number <= (int)g_strv_length(line))
+		place = g_strdup_printf("“%s”", g_strstrip(line[number - 1]));
+	else
+		place = g_strdup(_("Declarations"));
+	g_strfreev(line);
+	return reason_at(place, diags);
+}
+
+static char *put_declarations(const struct hits *hits, const char *text, gsize len,
+			      struct diag_list *why)
+{
+	const int before = declared(hits->document);
+	const bool was = declared_twice(hits);
+	const char *twice;
+
+	if (!ladder_document_replace(hits->document, 0, len, text, why) ||
+	    declared(hits->document) != before)
+		return declaration_reason(text, why);
+	twice = was ? NULL : declared_twice(hits);
+	return twice ? g_strdup_printf(_("“%s” is declared already"), twice) : NULL;
+}
+
+static char *replace_declarations(const struct hits *hits, struct diag_list *why)
+{
+	GArray *spans = g_array_new(FALSE, FALSE, sizeof(struct text_span));
+	gsize len;
+	char *whole = ladder_document_outline(hits->document, &len, take_var, spans);
+	GString *text = declarations_replaced(hits, whole, spans);
+	char *reason = text ? put_declarations(hits, text->str, len, why) :
+		       declaration_reason("", why);
+
+	if (text)
+		g_string_free(text, TRUE);
 	g_free(whole);
 	g_array_unref(spans);
-	return good;
+	return reason;
 }
 
 /* ---- any ---- */
@@ -258,42 +335,42 @@ static bool is_chart(const struct hits *hits)
 	return project->pou[hits->hit[0]->pou].sfc != NULL;
 }
 
-static bool replace_go(const struct hits *hits, struct diag_list *why)
+/* Returns why not, which the caller frees. */
+static char *replace_go(const struct hits *hits, struct diag_list *why)
 {
+	diag_init(why);
 	if (hits->hit[0]->where == FIND_DECLARATIONS)
 		return replace_declarations(hits, why);
 	if (hits->hit[0]->where == FIND_LISTS)
-		return is_chart(hits) ? replace_in_chart(hits, why) : replace_in_list(hits);
+		return is_chart(hits) ? replace_in_chart(hits, why) :
+		       replace_in_list(hits, why);
 	return replace_in_rung(hits, why);
-}
-
-static char *reason(const struct diag_list *diags)
-{
-	if (diags->count == 0)
-		return g_strdup(_("It could not be read again"));
-	return diag_said_whole(&diags->diag[0]);
 }
 
 static bool replace(struct hits hits, const char *step, char **why)
 {
-	struct diag_list *diags = g_new0(struct diag_list, 1);
-	bool good = true;
+	struct diag_list *diags = g_new(struct diag_list, 1);
+	char *reason = NULL;
+	bool good;
 
 	ladder_document_begin(hits.document, step, NULL);
-	while (good && hits.count > 0) {
+	while (!reason && hits.count > 0) {
 		const struct hits go = one_go(hits);
 
-		good = replace_go(&go, diags);
+		reason = replace_go(&go, diags);
 		hits.hit += go.count;
 		hits.count -= go.count;
 	}
+	good = !reason;
 	if (good)
 		ladder_document_end(hits.document);
 	else
 		ladder_document_cancel(hits.document);
-	if (!good && why)
-		*why = reason(diags);
 	g_free(diags);
+	if (why)
+		*why = reason;
+	else
+		g_free(reason);
 	return good;
 }
 

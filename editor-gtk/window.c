@@ -21,6 +21,7 @@ G_DEFINE_FINAL_TYPE(LadderWindow, ladder_window, ADW_TYPE_APPLICATION_WINDOW)
 /* ---- messages ---- */
 
 #define TOLD 1500000 /* us a message stays at least, if the cursor moves on    */
+#define TOLD_BY_STEP 300000 /* us from what a step says to the end of its check */
 
 void window_toast(LadderWindow *window, const char *text)
 {
@@ -30,6 +31,7 @@ void window_toast(LadderWindow *window, const char *text)
 void ladder_window_tell(LadderWindow *window, const char *text)
 {
 	window->told_at = text[0] ? g_get_monotonic_time() : 0;
+	window->told_of = ladder_document_version(window->document);
 	if (!text[0] && window->keys_text)
 		text = window->keys_text;
 	gtk_label_set_text(window->message_label, text);
@@ -42,6 +44,22 @@ void window_show_keys(LadderWindow *window, char *text)
 	window->keys_text = text;
 	if (g_get_monotonic_time() - window->told_at > TOLD)
 		ladder_window_tell(window, "");
+}
+
+/* What was said of a program that is another now is over, but for what a step said while it
+ * was made. */
+static void forget_told(LadderWindow *window)
+{
+	if (window->told_of == ladder_document_version(window->document))
+		return;
+	if (g_get_monotonic_time() - window->told_at > TOLD_BY_STEP)
+		ladder_window_tell(window, "");
+	window->told_of = ladder_document_version(window->document);
+}
+
+static void forget_bookmarks(LadderWindow *window)
+{
+	ladder_window_tell(window, "");
 }
 
 void window_log(LadderWindow *window, const char *kind, const char *text)
@@ -155,6 +173,7 @@ static void show_checked(LadderWindow *window)
 	const int warnings = diags->count + diags->dropped - diags->errors;
 	char *text;
 
+	forget_told(window);
 	if (diags->errors)
 		text = g_strdup_printf(ngettext("%d error", "%d errors",
 			(unsigned long)diags->errors), diags->errors);
@@ -316,6 +335,8 @@ LadderWindow *ladder_window_new(AdwApplication *application, LadderDocument *doc
 				window, G_CONNECT_SWAPPED);
 	g_signal_connect_object(document, "checked", G_CALLBACK(show_checked), window,
 				G_CONNECT_SWAPPED);
+	g_signal_connect_object(document, "bookmarks-changed", G_CALLBACK(forget_bookmarks),
+				window, G_CONNECT_SWAPPED);
 	load_settings(window);
 	add_panels(window);
 	tabs_init(window);

@@ -56,6 +56,7 @@ struct _LadderWindow {
 	GtkBox *find_place, *below;
 	GtkStack *below_stack;
 	gint64 told_at;       /* us; when the message in the status bar came    */
+	guint64 told_of;      /* version of the document then                   */
 	char *keys_text;      /* what stands there otherwise                   */
 	GtkLabel *pill, *place_label, *message_label, *checked_label, *zoom_label;
 };

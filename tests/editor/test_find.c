@@ -154,6 +154,34 @@ static void test_replace(void)
 	g_object_unref(document);
 }
 
+/* Why not is told with the place, and nothing changes. */
+static void refuses(const char *wanted, const char *with, unsigned int where,
+		    const char *want)
+{
+	LadderDocument *document = opened();
+	struct find *find = find_new(document, wanted,
+				     (struct find_options){ where, true, true });
+	char *why = NULL, *before = ladder_document_text(document, NULL);
+
+	CHECK(find_replace_all(document, find, with, &why) == -1);
+	CHECK_TEXT(why, want);
+	CHECK(!ladder_document_undo_name(document) && has(document, before));
+	g_free(before);
+	g_free(why);
+	find_free(find);
+	g_object_unref(document);
+}
+
+static void test_reasons(void)
+{
+	refuses("Motor", "Start", FIND_EVERYWHERE, "\xe2\x80\x9cStart\xe2\x80\x9d is declared already");
+	refuses("Motor", "motor2", FIND_DECLARATIONS,
+		"\xe2\x80\x9cMotor2\xe2\x80\x9d is declared already");
+	refuses("Motor", "", FIND_DECLARATIONS,
+		"\xe2\x80\x9c: INT;\xe2\x80\x9d: expected: name of a variable");
+	refuses("Start", "x | y", FIND_OPERANDS, "Main, rung 1: unknown word: y");
+}
+
 /* ---- charts ---- */
 
 static const char chart[] =
@@ -206,6 +234,7 @@ int main(void)
 	test_hits();
 	test_order();
 	test_replace();
+	test_reasons();
 	test_chart();
 	return tap_done();
 }

@@ -30,11 +30,14 @@ OTHER = '@print %QX0.2\n%IX0.2=1\n%IX0.2=0\n'
 
 
 def bookmarks(screen):
-    """a bookmark is set, saved, listed, gone to, undone"""
+    """a bookmark is set, saved, listed, gone to, undone; what was said of the time before is over"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
-    editor.keys('Down', 'ctrl+b')
+    editor.keys('Down', 'ctrl+shift+b')
+    until(lambda: editor.all('no bookmarks', 'label'), 'the message')
+    editor.keys('ctrl+b')
     until(lambda: editor.all('Main, rung 2', 'label'), 'the bookmark in the tree')
+    until(lambda: not editor.all('no bookmarks', 'label'), 'the end of the message')
     assert editor.save(path) == TEXT + '\nVIEW\n  bookmark Main 2\nEND_VIEW\n'
     check(path)
     assert lines(path, MARKED) == ['%QX0.1=1', '%QX0.1=0']
@@ -43,7 +46,10 @@ def bookmarks(screen):
     editor.keys('ctrl+shift+b')
     until(lambda: editor.all('Rung 2 ', 'label'), 'the rung with the bookmark')
     editor.shot('bookmarks')
+    editor.keys('ctrl+s')
+    until(lambda: editor.all('Saved', 'label'), 'the message')
     editor.keys('ctrl+z')
+    until(lambda: not editor.all('Saved', 'label'), 'the end of the message')
     assert editor.save(path) == TEXT
     check(path)
     assert lines(path, MARKED) == ['%QX0.1=1', '%QX0.1=0']
