@@ -89,10 +89,9 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 
 static bool has_open(LadderWindow *window, const char *path)
 {
-	LadderDocument *document = ladder_window_document(window);
+	const char *open = ladder_document_path(ladder_window_document(window));
 
-	return g_strcmp0(path, ladder_document_path(document)) == 0 ||
-	       ladder_window_has_file(window, path);
+	return (open && disk_same(path, open)) || ladder_window_has_file(window, path);
 }
 
 /* The window that has this project, or this file of one, open; NULL: none. */

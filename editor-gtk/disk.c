@@ -11,6 +11,8 @@
 
 #include <glib/gstdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
 
 char *disk_told_size(const char *path, const struct diag *diag, gsize limit)
 {
@@ -67,4 +69,12 @@ bool disk_save(const char *path, const char *bytes, gsize len, GError **error)
 	if (!good)
 		tell(error, path, &diags, len);
 	return good;
+}
+
+bool disk_same(const char *a, const char *b)
+{
+	struct stat one, other;
+
+	return strcmp(a, b) == 0 || (stat(a, &one) == 0 && stat(b, &other) == 0 &&
+		one.st_dev == other.st_dev && one.st_ino == other.st_ino);
 }

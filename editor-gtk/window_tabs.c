@@ -7,6 +7,7 @@
 #include "editor-gtk/window_inside.h"
 
 #include "editor-gtk/chart_page.h"
+#include "editor-gtk/disk.h"
 #include "editor-gtk/panels.h"
 #include "editor-gtk/slow_bar.h"
 #include "editor-gtk/spoken.h"
@@ -191,15 +192,22 @@ static void page_selected(LadderWindow *window)
 
 /* ---- making pages ---- */
 
-static AdwTabPage *add_page(LadderWindow *window, GtkWidget *child, const char *name,
-			    const char *title)
+static AdwTabPage *insert_page(LadderWindow *window, int at, GtkWidget *child,
+			       const char *name, const char *title)
 {
-	AdwTabPage *page = adw_tab_view_append(window->tabs, child);
+	AdwTabPage *page = adw_tab_view_insert(window->tabs, child, at);
 
 	set_name(page, name, title);
 	spoken_parts(child);
 	spoken_parts(GTK_WIDGET(window->tab_bar));
 	return page;
+}
+
+static AdwTabPage *add_page(LadderWindow *window, GtkWidget *child, const char *name,
+			    const char *title)
+{
+	return insert_page(window, adw_tab_view_get_n_pages(window->tabs), child, name,
+			   title);
 }
 
 /* What a sheet or a chart tells. */
@@ -250,12 +258,29 @@ GtkWidget *tabs_page_new(LadderWindow *window, LadderDocument *document, int pou
 	return text;
 }
 
+/* Behind those that come before it in the file, where it was before it was closed. */
+static int place_of(LadderWindow *window, const struct project *project, int pou)
+{
+	int at = adw_tab_view_get_n_pages(window->tabs);
+
+	while (at > 0) {
+		const char *name = name_of(adw_tab_view_get_nth_page(window->tabs, at - 1));
+		const int number = name[0] == ' ' ? -1 : pou_number(project, name);
+
+		if (number >= 0 && number < pou)
+			break;
+		at--;
+	}
+	return at;
+}
+
 static AdwTabPage *open_pou(LadderWindow *window, int pou)
 {
 	const struct project *project = ladder_document_project(window->document);
 	const char *name = project_text(project, project->pou[pou].name);
 
-	return add_page(window, tabs_page_new(window, window->document, pou), name, name);
+	return insert_page(window, place_of(window, project, pou),
+			   tabs_page_new(window, window->document, pou), name, name);
 }
 
 /* What is opened is of the program that runs. */
@@ -335,12 +360,23 @@ static void show_file_state(AdwTabPage *page, LadderFileView *file)
 	g_free(name);
 }
 
+static AdwTabPage *find_file_page(LadderWindow *window, const char *path)
+{
+	for (int i = 0; i < adw_tab_view_get_n_pages(window->tabs); i++) {
+		AdwTabPage *page = adw_tab_view_get_nth_page(window->tabs, i);
+		GtkWidget *widget = tabs_content(page);
+
+		if (LADDER_IS_FILE_VIEW(widget) &&
+		    disk_same(path, ladder_file_view_path(LADDER_FILE_VIEW(widget))))
+			return page;
+	}
+	return NULL;
+}
+
 LadderFileView *tabs_find_file(LadderWindow *window, const char *path)
 {
-	char *key = g_strdup_printf(" file %s", path);
-	AdwTabPage *page = find_page(window, key);
+	AdwTabPage *page = find_file_page(window, path);
 
-	g_free(key);
 	return page ? LADDER_FILE_VIEW(tabs_content(page)) : NULL;
 }
 
@@ -353,9 +389,9 @@ static void show_undone(LadderFileView *file, LadderWindow *window)
 /* @view: made for it; NULL: it may be there already, else @error says why there is none. */
 static void show_file(LadderWindow *window, const char *path, GtkWidget *view, GError *error)
 {
-	char *key = g_strdup_printf(" file %s", path), *title = g_path_get_basename(path);
-	AdwTabPage *page = view ? add_page(window, view, key, title) :
-				  find_page(window, key);
+	char *title = g_path_get_basename(path);
+	AdwTabPage *page = view ? add_page(window, view, " file", title) :
+				  find_file_page(window, path);
 
 	if (view) {
 		g_signal_connect_object(view, "state-changed", G_CALLBACK(show_file_state),
@@ -369,7 +405,6 @@ static void show_file(LadderWindow *window, const char *path, GtkWidget *view, G
 		select_page(window, page);
 	else
 		ladder_window_warn(window, error->message);
-	g_free(key);
 	g_free(title);
 }
 

@@ -123,15 +123,20 @@ def beside(screen):
 
 
 def stays_a_link(screen):
-    """a link stays a link when what it leads to is saved, and that keeps who may read it"""
+    """a link stays a link when what it leads to is saved, and that keeps who may read it; by any name it opens once"""
     os.mkdir(os.path.join(screen.home, 'there'))
     path = new_file(screen, ONE_RUNG, 'there/real.rung')
     link = os.path.join(screen.home, 'link.rung')
     os.symlink('there/real.rung', link)
     os.chmod(path, 0o640)
+    os.link(path, os.path.join(screen.home, 'hard.rung'))
     editor = Editor(screen, link)
     editor.to_sheet()
     editor.keys('slash')
+    for name in 'there/real.rung', 'hard.rung', 'link.rung':
+        open_file(editor, os.path.join(screen.home, name))
+        editor.to_sheet()
+        assert len(editor.windows()) == 1, name
     assert 'NC Start' in editor.save(path)
     assert os.readlink(link) == 'there/real.rung' and os.listdir(os.path.dirname(path)) == ['real.rung']
     assert stat.S_IMODE(os.stat(path).st_mode) == 0o640

@@ -84,7 +84,7 @@ def rows(screen):
 
 
 def of_others(screen):
-    """a program that is not the last is deleted: its tab goes, and is not one of its neighbour's"""
+    """a program that is not the last is deleted: its tab goes, and is not one of its neighbour's; opened again it is where it was"""
     third = '\nPROGRAM Third LD\nRUNG\n  | NO %IX0.3 | COIL %QX0.3 |\nEND_PROGRAM\n'
     path = new_file(screen, TEXT + third)
     editor = Editor(screen, path)
@@ -92,7 +92,8 @@ def of_others(screen):
 
     def tabs():
         labels = [node for node in editor.all(role='label') if node.name in ('Main', 'Other', 'Third')]
-        return sorted(node.name for node in labels if node.box()[2] > 0 and bottom - 50 < node.box()[1] < bottom)
+        seen = [node for node in labels if node.box()[2] > 0 and bottom - 50 < node.box()[1] < bottom]
+        return [node.name for node in sorted(seen, key=lambda node: node.box()[0])]
     until(lambda: tabs() == ['Main', 'Other', 'Third'], 'the three tabs')
     editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other' and n.box()[0] < 200][0])
     editor.keys('Delete')
@@ -103,6 +104,9 @@ def of_others(screen):
     until(lambda: [n for n in editor.all('Other', 'label') if n.name == 'Other'], 'the program again')
     assert tabs() == ['Main', 'Third'], tabs()
     assert editor.save(path) == TEXT + third
+    editor.click([n for n in editor.all('Other', 'label') if n.name == 'Other' and n.box()[0] < 200][0])
+    editor.keys('Return')
+    until(lambda: tabs() == ['Main', 'Other', 'Third'], 'its tab between the others')
     check(path)
 
 
