@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, main, new_file, until  # noqa: E402
+from desk import Editor, check, main, new_file, trace, until  # noqa: E402
 from projects import TWO_RUNGS  # noqa: E402
 
 ROW = 36  # px from the top of a rung with a title to that of its first row
@@ -18,6 +18,7 @@ THEMES = {'light': ({}, (0x1a, 0x5f, 0xb4)),
           'contrast-dark': ({'ADW_DEBUG_HIGH_CONTRAST': '1', 'ADW_DEBUG_COLOR_SCHEME': 'prefer-dark'},
                             (0x99, 0xc9, 0xff))}
 COLUMNS = range(6)
+RUN = '@print Motor Lamp\nStart=1\nStop=1\nStart=0\n'
 
 
 def pixels(x, y, width, height):
@@ -47,14 +48,23 @@ def inked(editor, x, y, width, height):
     return sum(abs(luminance(color) - ground) > 0.4 for color in pixels(x, y, width, height))
 
 
-def sheets(screen, *names):
-    """One editor after the other, which know nothing of each other: its name, itself, its colour of marks."""
+def states(path):
+    """Motor and lamp after Start, then Stop, then Start let go."""
+    return [''.join(word[-1] for word in line.split()[-2:]) for line in trace(path, RUN).splitlines()]
+
+
+def sheets(screen, wanted, *names):
+    """One editor after the other, which know nothing of each other: its name, itself, its colour of marks. What is saved
+    at last is good, and has these states."""
     for name in names:
         env, accent = THEMES[name]
         path = new_file(screen, TWO_RUNGS)
         editor = Editor(screen, path, XDG_STATE_HOME=os.path.join(screen.home, name), **env)
         until(lambda editor=editor: len(editor.cells()) == 5, 'the sheet')
         yield name, editor, accent
+        editor.save(path)
+        check(path)
+        assert states(path) == wanted, states(path)
         editor.finish()
 
 
@@ -66,7 +76,7 @@ def below(editor):
 
 def ghosts(screen):
     """a dragged element is seen where there is nothing else, of the sheet and of the palette"""
-    for name, editor, _ in sheets(screen, *THEMES):
+    for name, editor, _ in sheets(screen, ['11', '00', '00'], *THEMES):
         x, y = below(editor)
         for kind, start in (('sheet', editor.grid(ROW + 46, 1)), ('palette', editor.tile('closed while FALSE'))):
             editor.drag(start, (x, y), look='ghost-%s-%s' % (kind, name),
@@ -76,7 +86,7 @@ def ghosts(screen):
 
 def cells(screen):
     """the cells that take it are marked, and the one that is meant is another"""
-    for name, editor, accent in sheets(screen, 'light', 'dark'):
+    for name, editor, accent in sheets(screen, ['11', '10', '00'], 'light', 'dark'):
         to = editor.grid(RUNG + ROW + 46, 3)
         editor.drag(editor.grid(ROW + 46, 1), to, look='takes-contact-' + name, ready=lambda: (
             marked(editor, 0, accent) == [0, 1, 2, 3, 4] and marked(editor, RUNG, accent) == [0, 1, 2, 4]))
@@ -86,9 +96,9 @@ def cells(screen):
             marked(editor, 0, accent) == [5] and marked(editor, RUNG, accent) == [5]))
 
 
-def lines(screen):
+def places(screen):
     """a dragged rung is seen, and a line where it would come: of two ends the nearer"""
-    for name, editor, accent in sheets(screen, 'dark'):
+    for name, editor, accent in sheets(screen, ['10', '01', '00'], 'dark'):
         x, y, width, _ = editor.place(editor.sheet())
         for at, line in ((RUNG + 30, RUNG), (RUNG + 90, 2 * RUNG), (below(editor)[1] - y, 2 * RUNG), (40, 1)):
             assert 'Lamp' in editor.cells()[-1], editor.cells()
@@ -98,4 +108,4 @@ def lines(screen):
         until(lambda: 'Motor' in editor.cells()[-1], 'the other order')
 
 
-main([ghosts, cells, lines])
+main([ghosts, cells, places])
