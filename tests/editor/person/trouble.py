@@ -142,11 +142,11 @@ def command(editor, name):
     editor.keys('Return')
 
 
-def export(editor, path):
-    """As a PDF, to a path that is typed into the chooser of files."""
-    command(editor, 'Export as PDF')
+def export(editor, what, path):
+    """To a path that is typed into the chooser of files."""
+    command(editor, what)
     chooser = until(lambda: [window for window in editor.windows() if window != editor.window and
-                             'PDF' in sh('xdotool', 'getwindowname', window)], 'the dialog')[0]
+                             what in sh('xdotool', 'getwindowname', window)], 'the dialog')[0]
     editor.keys('ctrl+a')
     editor.type(path)
     editor.keys('Return')
@@ -154,52 +154,58 @@ def export(editor, path):
 
 
 def toasts(editor, path):
-    """Its whole text is the path of what was written."""
-    return [node for node in editor.all(path, 'label') if node.name == path]
+    """It says the path of what was written, and no reason."""
+    return [node for node in editor.all(path, 'label') if not node.name.startswith(path + ':')]
 
 
-def refused_pdf(editor, path, why):
+def refused(editor, what, path, why):
     """A banner with path and reason, no toast, and nothing in the folder but what was there."""
     files = os.listdir(os.path.dirname(path))
-    export(editor, path)
-    banner = editor.find(why, 'label').name
-    assert banner.startswith(path + ': '), banner
+    export(editor, what, path)
+    banner = editor.find(path + ': ', 'label').name
+    assert banner.startswith(path + ': ') and why in banner, banner
     assert not toasts(editor, path) and os.listdir(os.path.dirname(path)) == files
 
 
-def written_pdf(editor, path):
+def written(editor, what, path):
     """Whole, a toast, and the banner of before is gone."""
-    export(editor, path)
+    export(editor, what, path)
     until(lambda: toasts(editor, path), 'the toast')
     until(lambda: not editor.all('cannot write this file'), 'the banner to be gone')
     with open(path, 'rb') as file:
-        pdf = file.read()
-    assert pdf.startswith(b'%PDF') and pdf.endswith(b'%%EOF\n'), pdf[-40:]
+        text = file.read()
+    begin, end = (b'%PDF', b'%%EOF\n') if path.endswith('.pdf') else (b'Scope,Block', b'BOOL,%QX0.0,,,,\r\n')
+    assert text.startswith(begin) and text.endswith(end), text[-40:]
 
 
-def pdf_locked(screen):
-    """a PDF into a folder that cannot be written: a banner with path and reason, no toast; elsewhere it is written"""
+EXPORTS = ('Export as PDF', 'a.pdf'), ('Export symbols', 'a.csv')
+
+
+def export_locked(screen):
+    """what is exported into a folder that cannot be written: a banner with path and reason, no toast; elsewhere it is written"""
     folder = os.path.join(screen.home, 'locked')
     os.mkdir(folder)
     os.chmod(folder, 0o555)
     editor = Editor(screen, new_file(screen, PROJECT), before=mere_mortal)
-    editor.to_sheet()
-    refused_pdf(editor, os.path.join(folder, 'a.pdf'), 'Permission denied')
-    editor.shot('trouble-pdf-locked')
-    written_pdf(editor, os.path.join(screen.home, 'a.pdf'))
-    editor.shot('trouble-pdf-written')
+    for what, name in EXPORTS:
+        editor.to_sheet()
+        refused(editor, what, os.path.join(folder, name), 'Permission denied')
+        editor.shot('trouble-locked-' + name)
+        written(editor, what, os.path.join(screen.home, name))
+        editor.shot('trouble-written-' + name)
 
 
-def pdf_full(screen):
-    """a PDF on a disk that is full: a banner with path and reason, no toast, nothing half written"""
+def export_full(screen):
+    """what is exported to a disk that is full: a banner with path and reason, no toast, nothing half written"""
     folder = os.path.join(screen.home, 'full')
     os.mkdir(folder)
     editor = Editor(screen, new_file(screen, PROJECT))
-    editor.to_sheet()
-    sh('prlimit', '--pid', str(editor.process.pid), '--fsize=500:')
-    refused_pdf(editor, os.path.join(folder, 'a.pdf'), 'File too large')
-    sh('prlimit', '--pid', str(editor.process.pid), '--fsize=unlimited:')
-    written_pdf(editor, os.path.join(folder, 'a.pdf'))
+    for what, name in EXPORTS:
+        editor.to_sheet()
+        sh('prlimit', '--pid', str(editor.process.pid), '--fsize=100:')
+        refused(editor, what, os.path.join(folder, name), 'File too large')
+        sh('prlimit', '--pid', str(editor.process.pid), '--fsize=unlimited:')
+        written(editor, what, os.path.join(folder, name))
 
 
 def no_pages(screen):
@@ -232,5 +238,5 @@ def rendered_locked(screen):
     assert not os.listdir(folder)
 
 
-main([read_only, full_disk, vanished, gone, somebody_else, pdf_locked, pdf_full, no_pages,
+main([read_only, full_disk, vanished, gone, somebody_else, export_locked, export_full, no_pages,
       rendered_locked])
