@@ -122,4 +122,16 @@ def one_more(screen):
     back_and_forth(editor, path, view, 'does not belong here: Extra')
 
 
-main([typed, damaged, emptied, one_more])
+def closed(screen):
+    """the window is closed right behind the last letter: it asks, and what it saves has that letter"""
+    editor, path, _ = in_the_text(screen, IL)
+    editor.keys('ctrl+Home', 'Down', 'End', 'Return')
+    editor.type('ST Motor')
+    editor.keys('ctrl+w')
+    editor.reply('Save')
+    until(lambda: editor.process.poll() is not None, 'the window to close')
+    check(path)
+    assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
+
+
+main([typed, damaged, emptied, one_more, closed])
