@@ -33,3 +33,30 @@ void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller
 	gtk_widget_add_controller(cell, controller);
 	g_object_set_data(G_OBJECT(cell), name, controller);
 }
+
+/* ---- an edit that is to end where it stands ---- */
+
+struct take {
+	bool (*take)(GtkWidget *cell, GtkListItem *item);
+	GtkListItem *item;   /* borrowed: the cell is bound as long           */
+};
+
+void cells_on_take(GtkWidget *cell, bool (*take)(GtkWidget *cell, GtkListItem *item),
+		   GtkListItem *item)
+{
+	const struct take how = { take, item };
+
+	g_object_set_data_full(G_OBJECT(cell), "take",
+			       take ? g_memdup2(&how, sizeof(how)) : NULL, g_free);
+}
+
+bool cells_take(GtkWidget *focus)
+{
+	for (; focus; focus = gtk_widget_get_parent(focus)) {
+		const struct take *how = g_object_get_data(G_OBJECT(focus), "take");
+
+		if (how)
+			return how->take(focus, how->item);
+	}
+	return true;
+}

@@ -8,11 +8,20 @@
 
 #include <gtk/gtk.h>
 
+#include <stdbool.h>
+
 /** cells_refuse - marks a cell as refused, and says @why; NULL: it is not. Takes @why. */
 void cells_refuse(GtkWidget *cell, char *why);
 /** cells_refused - the same of an edit that did not succeed; @why may be NULL. Takes it. */
 void cells_refused(GtkWidget *cell, char *why);
 /** cells_add - a controller of @cell, to be found as its data @name. */
 void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller);
+
+/** cells_on_take - what ends an edit in @cell where it stands, as before saving. @take:
+ * false: refused, and it told why in the cell; NULL: the cell is no one's any more. */
+void cells_on_take(GtkWidget *cell, bool (*take)(GtkWidget *cell, GtkListItem *item),
+		   GtkListItem *item);
+/** cells_take - ends the edit that has the focus, if one has; false: it was refused. */
+bool cells_take(GtkWidget *focus);
 
 #endif

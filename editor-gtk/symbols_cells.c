@@ -24,7 +24,7 @@ static bool is_check(enum field field)
 /* ---- what a person did ---- */
 
 /* What stands in the cell is what is meant, unless it was refused already. */
-static void commit(GtkWidget *cell, GtkListItem *item)
+static bool commit(GtkWidget *cell, GtkListItem *item)
 {
 	const struct cells *cells = g_object_get_data(G_OBJECT(cell), "cells");
 	const char *refused = g_object_get_data(G_OBJECT(cell), "refused");
@@ -33,13 +33,14 @@ static void commit(GtkWidget *cell, GtkListItem *item)
 	bool good;
 
 	if (!row)
-		return;
+		return true;
 	text = g_strdup(gtk_editable_get_text(GTK_EDITABLE(cell)));
 	if (refused && strcmp(refused, text) == 0) {
 		g_free(text);
-		return;
+		return true;
 	}
 	g_object_ref(row);
+	g_object_ref(cell);
 	/* What is as it was is told, too, if that was refused before: it is no more. */
 	good = (!refused && strcmp(text, panel_row_text(row, cells->field)) == 0) ||
 	       cells->set(cells->owner, row, cells->field, text, &why);
@@ -50,7 +51,9 @@ static void commit(GtkWidget *cell, GtkListItem *item)
 	g_object_set_data_full(G_OBJECT(cell), "refused", good ? NULL : text, g_free);
 	if (good)
 		g_free(text);
+	g_object_unref(cell);
 	g_object_unref(row);
+	return good;
 }
 
 static void activated(GtkEntry *cell, GtkListItem *item)
@@ -61,7 +64,11 @@ static void activated(GtkEntry *cell, GtkListItem *item)
 static void left(GtkEventControllerFocus *focus, GtkListItem *item)
 {
 	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
+	GtkRoot *root = gtk_widget_get_root(cell);
 
+	/* A window that goes took what was typed before (cells_take). */
+	if (!root || gtk_widget_in_destruction(GTK_WIDGET(root)))
+		return;
 	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
 	commit(cell, item);
 }
@@ -131,6 +138,7 @@ static void connect_text(GtkWidget *cell, GtkListItem *item)
 			 G_CALLBACK(left), item);
 	g_signal_connect(g_object_get_data(G_OBJECT(cell), "keys"), "key-pressed",
 			 G_CALLBACK(pressed), item);
+	cells_on_take(cell, commit, item);
 }
 
 static bool is_fixed(const struct cells *cells, const LadderPanelRow *row)
@@ -177,6 +185,7 @@ static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointe
 	g_signal_handlers_disconnect_by_data(cell, item);
 	if (!GTK_IS_ENTRY(cell))
 		return;
+	cells_on_take(cell, NULL, NULL);
 	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "focus"), item);
 	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "keys"), item);
 }

@@ -6,6 +6,7 @@
  * that changes goes to its label and to nothing else.
  */
 #include "editor-gtk/watch_inside.h"
+#include "editor-gtk/cells.h"
 #include "editor-gtk/tip.h"
 
 #include <string.h>
@@ -93,13 +94,14 @@ static void typed_through(GtkEntry *entry, GtkListItem *item)
 		watch_write(view_of(GTK_WIDGET(entry)), row);
 }
 
-static void comment_left(GtkWidget *entry, GtkListItem *item)
+static bool comment_left(GtkWidget *entry, GtkListItem *item)
 {
 	LadderWatchRow *row = gtk_list_item_get_item(item);
 	LadderWatchView *view = view_of(entry);
 
 	if (row && view)
 		watch_set_comment(view, row, gtk_editable_get_text(GTK_EDITABLE(entry)));
+	return true;
 }
 
 static void comment_activated(GtkEntry *entry, GtkListItem *item)
@@ -261,6 +263,7 @@ static void bind_comment(GtkWidget *cell, LadderWatchRow *row, GtkListItem *item
 	g_signal_connect(focus, "leave", G_CALLBACK(comment_unfocused), item);
 	gtk_widget_add_controller(cell, focus);
 	g_object_set_data(G_OBJECT(cell), "focus", focus);
+	cells_on_take(cell, comment_left, item);
 }
 
 static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer column)
@@ -301,6 +304,7 @@ static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointe
 	case FRESH: row->fresh = NULL; break;
 	case FORCE: row->force = NULL; break;
 	case COMMENT:
+		cells_on_take(cell, NULL, NULL);
 		gtk_widget_remove_controller(cell, g_object_get_data(G_OBJECT(cell),
 								     "focus"));
 		break;

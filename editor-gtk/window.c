@@ -253,7 +253,8 @@ static gboolean ladder_window_close_request(GtkWindow *gtk_window)
 {
 	LadderWindow *window = LADDER_WINDOW(gtk_window);
 
-	tabs_take_typed(window);
+	if (!tabs_take_typed(window))
+		return TRUE;
 	ladder_sim_stop(window->sim);
 	if (!window_board_may_close(window))
 		return TRUE;

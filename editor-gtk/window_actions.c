@@ -267,7 +267,8 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 
 	const enum verb_where where = verb_row(verb)->where;
 
-	tabs_take_typed(window);
+	if (!tabs_take_typed(window) && (verb == VERB_close || verb == VERB_close_tab))
+		return;
 	if (where != VERB_WINDOW) {
 		if (sheet && where != VERB_CHART)
 			ladder_grid_view_do(sheet, verb);

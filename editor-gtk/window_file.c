@@ -230,6 +230,7 @@ bool ladder_window_has_file(LadderWindow *window, const char *path)
 
 void ladder_window_keep_drafts(LadderWindow *window)
 {
+	tabs_take_typed(window);
 	tabs_each_file(window, ladder_file_view_commit);
 	ladder_document_disk(window->document); /* it may be gone since           */
 	draft_write(window->document);

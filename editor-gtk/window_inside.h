@@ -100,8 +100,9 @@ void tabs_show(LadderWindow *window, int pou);
 GtkWidget *tabs_show_widget(LadderWindow *window, const char *name);
 /** tabs_show_file - a text file beside the project. */
 void tabs_show_file(LadderWindow *window, const char *path);
-/** tabs_take_typed - what was just typed into a text is in the document now. */
-void tabs_take_typed(LadderWindow *window);
+/** tabs_take_typed - what was just typed into a text or a cell is in the document now; false:
+ * it was refused, which is told where it stands, and once. */
+bool tabs_take_typed(LadderWindow *window);
 /** tabs_content - what a page shows, inside of scrolling. */
 GtkWidget *tabs_content(AdwTabPage *page);
 /** tabs_init_closing - a page that is closed asks for what is not saved in it. */

@@ -6,6 +6,7 @@
  */
 #include "editor-gtk/window_inside.h"
 
+#include "editor-gtk/cells.h"
 #include "editor-gtk/chart_page.h"
 #include "editor-gtk/disk.h"
 #include "editor-gtk/panels.h"
@@ -114,13 +115,14 @@ LadderFileView *tabs_file(LadderWindow *window)
 	return widget && LADDER_IS_FILE_VIEW(widget) ? LADDER_FILE_VIEW(widget) : NULL;
 }
 
-void tabs_take_typed(LadderWindow *window)
+bool tabs_take_typed(LadderWindow *window)
 {
 	GtkWidget *focus = gtk_window_get_focus(GTK_WINDOW(window));
 	GtkWidget *text = focus ? gtk_widget_get_ancestor(focus, LADDER_TYPE_TEXT_VIEW) : NULL;
 
 	if (text)
 		ladder_text_view_take(LADDER_TEXT_VIEW(text));
+	return cells_take(focus);
 }
 
 GPtrArray *tabs_unsaved(LadderWindow *window)

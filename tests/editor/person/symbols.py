@@ -159,4 +159,33 @@ def scopes(screen):
     assert 'Siren AT %QX0.1' in editor.save(path)
 
 
-main([finds, renames, uses, tables, scopes])
+def last_letter(screen):
+    """saved, and closed, right behind the last letter in a cell: it is in the file; what is refused keeps the window, once"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    editor.into('Horn, Comment')
+    editor.type('loud')
+    assert 'Horn  AT %QX0.1 : BOOL; (* loud *)' in editor.save(path)
+    editor.into('Horn, Comment')
+    editor.keys('End')
+    editor.type('er')
+    editor.keys('ctrl+w')
+    editor.reply('Save')
+    until(lambda: editor.process.poll() is not None, 'the window to close')
+    assert '(* louder *)' in open(path).read()
+    check(path)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    editor.into('Horn, Address')
+    editor.keys('ctrl+a')
+    editor.type('%QX')
+    editor.keys('ctrl+w')
+    label(editor, 'Horn, Address: ')
+    editor.shot('symbols-refused-closing')
+    editor.keys('ctrl+w')
+    until(lambda: editor.process.poll() is not None, 'the window to close')
+    assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
+
+
+main([finds, renames, uses, tables, scopes, last_letter])
