@@ -141,4 +141,21 @@ def chinese(screen):
 
 
 chinese.size = '1024x700x24'
-main([values, dragged, forces, chinese])
+def last_letter(screen):
+    """closed right behind the last letter of a comment: it is in the file; a new value that was not written is none"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    chart(editor)
+    add(editor, 'Level')
+    saved = editor.save(path)
+    editor.into('Level, New value')
+    editor.type('7')
+    editor.into('Level, Comment')
+    editor.type('of the tank')
+    editor.keys('ctrl+w')
+    editor.reply('Save')
+    until(lambda: editor.process.poll() is not None, 'the window to close')
+    assert open(path).read() == saved.replace('watch auto Level\n', 'watch auto Level of the tank\n'), open(path).read()
+
+
+main([values, dragged, forces, chinese, last_letter])
