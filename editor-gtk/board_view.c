@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/board_view.h"
 
+#include "editor-gtk/drop.h"
 #include "editor-gtk/file_view.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/tip.h"
@@ -167,7 +168,7 @@ static guint index_of(const GPtrArray *paths, const char *path)
 static void fill(LadderBoardView *view)
 {
 	const char *path = ladder_document_path(view->document);
-	GtkStringList *names = gtk_string_list_new(NULL);
+	GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
 
 	g_ptr_array_unref(view->paths);
 	/* Those of the program before others. */
@@ -176,18 +177,14 @@ static void fill(LadderBoardView *view)
 	if (view->map && g_file_test(view->map, G_FILE_TEST_EXISTS) &&
 	    index_of(view->paths, view->map) == GTK_INVALID_LIST_POSITION)
 		g_ptr_array_add(view->paths, g_strdup(view->map));
-	for (guint i = 0; i < view->paths->len; i++) {
-		char *name = g_path_get_basename(view->paths->pdata[i]);
-
-		gtk_string_list_append(names, name);
-		g_free(name);
-	}
+	for (guint i = 0; i < view->paths->len; i++)
+		g_ptr_array_add(names, g_path_get_basename(view->paths->pdata[i]));
 	if (!view->paths->len)
-		gtk_string_list_append(names, _("no I/O map"));
+		g_ptr_array_add(names, g_strdup(_("no I/O map")));
 	view->busy = true;
-	gtk_drop_down_set_model(view->maps, G_LIST_MODEL(names));
+	drop_fill(view->maps, names);
 	view->busy = false;
-	g_object_unref(names);
+	g_ptr_array_unref(names);
 }
 
 static void select_map(LadderBoardView *view)

@@ -8,6 +8,7 @@
 #include "editor-gtk/chooser.h"
 #include "editor-gtk/csv.h"
 #include "editor-gtk/disk.h"
+#include "editor-gtk/drop.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/import_dialog.h"
 #include "editor-gtk/symbols_cells.h"
@@ -92,7 +93,6 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 static void fill_scopes(LadderSymbolsView *view, struct project *project)
 {
 	GPtrArray *name = g_ptr_array_new();
-	GtkStringList *list;
 
 	g_ptr_array_add(name, (gpointer)_("All symbols"));
 	g_ptr_array_add(name, (gpointer)_("Global"));
@@ -104,13 +104,10 @@ static void fill_scopes(LadderSymbolsView *view, struct project *project)
 							project->structure[i].name));
 	if (view->table + 2 > (int)name->len)
 		view->table = -1;
-	g_ptr_array_add(name, NULL);
-	list = gtk_string_list_new((const char *const *)name->pdata);
 	view->busy = true;
-	gtk_drop_down_set_model(GTK_DROP_DOWN(view->scopes), G_LIST_MODEL(list));
+	drop_fill(GTK_DROP_DOWN(view->scopes), name);
 	gtk_drop_down_set_selected(GTK_DROP_DOWN(view->scopes), (guint)(view->table + 1));
 	view->busy = false;
-	g_object_unref(list);
 	g_ptr_array_unref(name);
 }
 

@@ -7,6 +7,7 @@
  */
 #include "editor-gtk/watch_inside.h"
 
+#include "editor-gtk/drop.h"
 #include "editor-gtk/focus.h"
 
 #include <string.h>
@@ -81,17 +82,6 @@ static const char *shown_name(const struct watch_chart *chart)
 	return *chart->name ? chart->name : _("Status chart");
 }
 
-static bool same_names(GtkDropDown *drop, GPtrArray *charts)
-{
-	GListModel *model = gtk_drop_down_get_model(drop);
-	bool same = model && g_list_model_get_n_items(model) == charts->len;
-
-	for (guint i = 0; same && i < charts->len; i++)
-		same = strcmp(gtk_string_list_get_string(GTK_STRING_LIST(model), i),
-			      shown_name(charts->pdata[i])) == 0;
-	return same;
-}
-
 /* The one that was shown is found again by its name, else by its place. */
 static void find_chart(LadderWatchView *view, GPtrArray *charts)
 {
@@ -114,20 +104,17 @@ static void find_chart(LadderWatchView *view, GPtrArray *charts)
 static void fill_charts(LadderWatchView *view, GPtrArray *charts)
 {
 	GtkDropDown *drop = GTK_DROP_DOWN(view->charts);
-	GtkStringList *list;
+	GPtrArray *names = g_ptr_array_new();
 
+	for (guint i = 0; i < charts->len; i++)
+		g_ptr_array_add(names, (gpointer)shown_name(charts->pdata[i]));
 	view->busy = true;
-	if (!same_names(drop, charts)) {
-		list = gtk_string_list_new(NULL);
-		for (guint i = 0; i < charts->len; i++)
-			gtk_string_list_append(list, shown_name(charts->pdata[i]));
-		gtk_drop_down_set_model(drop, G_LIST_MODEL(list));
-		g_object_unref(list);
-	}
+	drop_fill(drop, names);
 	if (charts->len)
 		gtk_drop_down_set_selected(drop, view->chart);
 	gtk_widget_set_visible(view->charts, charts->len > 0);
 	view->busy = false;
+	g_ptr_array_unref(names);
 }
 
 static void show_actions(LadderWatchView *view)

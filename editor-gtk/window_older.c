@@ -7,6 +7,8 @@
  */
 #include "editor-gtk/window_inside.h"
 
+#include "editor-gtk/drop.h"
+
 #include <string.h>
 
 struct window_older {
@@ -80,17 +82,17 @@ static void fill_pous(LadderWindow *window)
 {
 	struct window_older *older = window->older;
 	const struct project *project = ladder_document_project(older->document);
-	GtkStringList *names = gtk_string_list_new(NULL);
+	GPtrArray *names = g_ptr_array_new();
 	const int pou = pou_before(window, project);
 
 	for (int i = 0; i < project->pou_count; i++)
-		gtk_string_list_append(names, project_text(project, project->pou[i].name));
+		g_ptr_array_add(names, (gpointer)project_text(project, project->pou[i].name));
 	older->filling = true;
-	gtk_drop_down_set_model(older->pous, G_LIST_MODEL(names));
+	drop_fill(older->pous, names);
 	gtk_drop_down_set_selected(older->pous, (guint)pou);
 	older->filling = false;
 	gtk_widget_set_visible(GTK_WIDGET(older->pous), project->pou_count > 1);
-	g_object_unref(names);
+	g_ptr_array_unref(names);
 	show_pou(window, pou);
 }
 

@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
 
 PROGRAM = '''RUNGBOARD 1
 
@@ -152,11 +152,16 @@ def scopes(screen):
     editor.keys('Return')
     until(lambda: editor.all('Siren, Name'), 'the new name among the global ones')
     assert not editor.all('Own, Name')
-    editor.click(editor.find('Scope', 'combo box'))
-    editor.click(until(lambda: [node for node in editor.all('All symbols', 'label') if node.box()[2]],
-                       'the list of scopes')[0])
-    until(lambda: editor.all('Own, Name') and editor.all('Siren, Name'), 'all of them')
-    assert 'Siren AT %QX0.1' in editor.save(path)
+    editor.keys('ctrl+a')
+    editor.type('Bell')
+    # The check of what was typed comes while the button is down.
+    x, y = editor.centre(editor.find('Scope', 'combo box'))
+    sh('xdotool', 'key', 'Return', 'mousemove', str(x), str(y), 'mousedown', '1', 'sleep', '0.8', 'mouseup', '1')
+    until(lambda: editor.all('Bell, Name'), 'the name again')
+    editor.focus_on(role='list item')
+    editor.click(editor.find('All symbols', 'label'))
+    until(lambda: editor.all('Own, Name') and editor.all('Bell, Name'), 'all of them')
+    assert 'Bell  AT %QX0.1' in editor.save(path)
 
 
 def last_letter(screen):
