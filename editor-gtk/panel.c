@@ -30,29 +30,51 @@ void panel_speak(GtkWidget *cell, const LadderPanelRow *row)
 			GTK_ACCESSIBLE_PROPERTY_LABEL, row->spoken, -1);
 }
 
+/* A cell shows its row when it gets it, and when that changes. */
+static void follow(GtkListItem *item, void (*show)(LadderPanelRow *row, GtkListItem *item))
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+
+	show(row, item);
+	g_signal_connect(row, "changed", G_CALLBACK(show), item);
+}
+
+static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer unused)
+{
+	(void)factory;
+	(void)unused;
+	g_signal_handlers_disconnect_by_data(gtk_list_item_get_item(item), item);
+}
+
 static void setup_label(GtkSignalListItemFactory *factory, GtkListItem *item,
 			gpointer column)
 {
 	GtkWidget *label = gtk_label_new(NULL);
 
 	(void)factory;
-	(void)column;
+	g_object_set_data(G_OBJECT(label), "column", column);
 	gtk_label_set_xalign(GTK_LABEL(label), 0);
 	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
 	gtk_list_item_set_child(item, label);
 }
 
-static void bind_label(GtkSignalListItemFactory *factory, GtkListItem *item,
-		       gpointer column)
+static void show_label(LadderPanelRow *row, GtkListItem *item)
 {
-	LadderPanelRow *row = gtk_list_item_get_item(item);
 	GtkWidget *label = gtk_list_item_get_child(item);
-	const char *text = panel_row_text(row, GPOINTER_TO_INT(column));
+	const char *text = panel_row_text(row, GPOINTER_TO_INT(
+		g_object_get_data(G_OBJECT(label), "column")));
 
-	(void)factory;
 	gtk_label_set_text(GTK_LABEL(label), text);
 	tip_set(label, text);
 	panel_speak(label, row);
+}
+
+static void bind_label(GtkSignalListItemFactory *factory, GtkListItem *item,
+		       gpointer column)
+{
+	(void)factory;
+	(void)column;
+	follow(item, show_label);
 }
 
 static void setup_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
@@ -63,24 +85,30 @@ static void setup_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
 	gtk_list_item_set_child(item, gtk_image_new());
 }
 
-static void bind_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
-		      gpointer unused)
+static void show_icon(LadderPanelRow *row, GtkListItem *item)
 {
-	LadderPanelRow *row = gtk_list_item_get_item(item);
 	GtkWidget *image = gtk_list_item_get_child(item);
 
-	(void)factory;
-	(void)unused;
 	gtk_image_set_from_icon_name(GTK_IMAGE(image), tone_icon(row->tone));
 	gtk_widget_remove_css_class(image, row->tone == PANEL_ERROR ? "warning" : "error");
 	if (row->tone != PANEL_PLAIN)
 		gtk_widget_add_css_class(image, row->tone == PANEL_ERROR ? "error" :
 					 "warning");
+	else
+		gtk_widget_remove_css_class(image, "warning");
 	tip_set(image, row->note);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(image), GTK_ACCESSIBLE_PROPERTY_LABEL,
 		row->note ? row->note : row->tone == PANEL_ERROR ? _("Error") :
 		row->tone == PANEL_WARNING ? _("Warning") : "", -1);
 	panel_speak(image, row);
+}
+
+static void bind_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
+		      gpointer unused)
+{
+	(void)factory;
+	(void)unused;
+	follow(item, show_icon);
 }
 
 /* ---- order ---- */
@@ -161,9 +189,9 @@ GtkColumnViewColumn *panel_list_column(struct panel_list *list, const char *name
 	const bool icon = flags & PANEL_ICON;
 
 	g_signal_connect(factory, "setup", G_CALLBACK(icon ? setup_icon : setup_label),
-			 NULL);
-	g_signal_connect(factory, "bind", G_CALLBACK(icon ? bind_icon : bind_label),
 			 GINT_TO_POINTER(text));
+	g_signal_connect(factory, "bind", G_CALLBACK(icon ? bind_icon : bind_label), NULL);
+	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), NULL);
 	return panel_list_add(list, name, text, flags, width, factory);
 }
 

@@ -19,9 +19,13 @@ static void ladder_panel_row_finalize(GObject *object)
 	G_OBJECT_CLASS(ladder_panel_row_parent_class)->finalize(object);
 }
 
+static guint changed;
+
 static void ladder_panel_row_class_init(LadderPanelRowClass *class)
 {
 	G_OBJECT_CLASS(class)->finalize = ladder_panel_row_finalize;
+	changed = g_signal_new("changed", LADDER_TYPE_PANEL_ROW, G_SIGNAL_RUN_LAST, 0, NULL,
+			       NULL, NULL, G_TYPE_NONE, 0);
 }
 
 static void ladder_panel_row_init(LadderPanelRow *row)
@@ -75,6 +79,46 @@ static bool is_same(GListModel *model, guint at, gpointer row)
 	return same;
 }
 
+/* Are they the same declarations in the same order, of which one may be renamed? */
+static bool are_same(GListModel *model, guint first, guint count, GPtrArray *rows)
+{
+	int renamed = 0;
+
+	for (guint i = first; i < first + count && renamed < 2; i++) {
+		const LadderPanelRow *row = rows->pdata[i];
+		LadderPanelRow *old = g_list_model_get_item(model, i);
+
+		renamed += strcmp(panel_row_text(old, 0), panel_row_text(row, 0)) != 0;
+		if (row->table < 0 || old->table != row->table || old->index != row->index)
+			renamed = 2;
+		g_object_unref(old);
+	}
+	return renamed < 2;
+}
+
+/* What each was is the other's now. */
+static void exchange(LadderPanelRow *a, LadderPanelRow *b)
+{
+	LadderPanelRow kept = *a;
+	const gsize head = G_STRUCT_OFFSET(LadderPanelRow, text);
+
+	memcpy((char *)a + head, (char *)b + head, sizeof(*a) - head);
+	memcpy((char *)b + head, (char *)&kept + head, sizeof(*a) - head);
+}
+
+static void change(GListModel *model, guint first, guint count, GPtrArray *rows)
+{
+	for (guint i = first; i < first + count; i++) {
+		LadderPanelRow *old = g_list_model_get_item(model, i);
+
+		if (!panel_row_equal(old, rows->pdata[i])) {
+			exchange(old, rows->pdata[i]);
+			g_signal_emit(old, changed, 0);
+		}
+		g_object_unref(old);
+	}
+}
+
 void panel_rows_update(GListStore *store, GPtrArray *rows)
 {
 	GListModel *model = G_LIST_MODEL(store);
@@ -86,7 +130,9 @@ void panel_rows_update(GListStore *store, GPtrArray *rows)
 	while (last < MIN(old, rows->len) - first &&
 	       is_same(model, old - 1 - last, rows->pdata[rows->len - 1 - last]))
 		last++;
-	if (old - first - last || rows->len - first - last)
+	if (old == rows->len && are_same(model, first, old - first - last, rows))
+		change(model, first, old - first - last, rows);
+	else if (old - first - last || rows->len - first - last)
 		g_list_store_splice(store, first, old - first - last, rows->pdata + first,
 				    rows->len - first - last);
 }

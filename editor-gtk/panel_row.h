@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
  * panel_row - a row of a panel's list: texts, and the place they speak of. It is what the
- * lists of problems, uses and symbols hold; it changes never once it is made.
+ * lists of problems, uses and symbols hold. Signal: changed (): it tells something else of
+ * the same declaration.
  */
 #ifndef EDITOR_PANEL_ROW_H
 #define EDITOR_PANEL_ROW_H
@@ -37,7 +38,8 @@ bool panel_row_equal(const LadderPanelRow *a, const LadderPanelRow *b);
 /** panel_row_matches - has one of its texts what is wanted in it? In any case. */
 bool panel_row_matches(const LadderPanelRow *row, const char *wanted);
 /** panel_rows_update - a list becomes @rows; what is the same at both ends stays, so that
- * selection and scrolling do. */
+ * selection and scrolling do. Declarations that only say something else are not replaced but
+ * changed: who types into one goes on, and sorting waits. @rows: their content may go. */
 void panel_rows_update(GListStore *store, GPtrArray *rows);
 
 #endif

@@ -11,7 +11,7 @@
 
 struct cells {
 	enum field field;
-	bool (*set)(gpointer owner, const LadderPanelRow *row, enum field field,
+	bool (*set)(gpointer owner, LadderPanelRow *row, enum field field,
 		    const char *text, char **why);
 	gpointer owner;
 };
@@ -22,6 +22,14 @@ static bool is_check(enum field field)
 }
 
 /* ---- what a person did ---- */
+
+/* The row has it now, and shows what became of it. @text: taken over. */
+static void taken(GtkWidget *cell, char *text)
+{
+	cells_refuse(cell, NULL);
+	tip_set(cell, text);
+	g_object_set_data_full(G_OBJECT(cell), "shown", text, g_free);
+}
 
 /* What stands in the cell is what is meant, unless it was refused already. */
 static bool commit(GtkWidget *cell, GtkListItem *item)
@@ -45,12 +53,10 @@ static bool commit(GtkWidget *cell, GtkListItem *item)
 	good = (!refused && strcmp(text, panel_row_text(row, cells->field)) == 0) ||
 	       cells->set(cells->owner, row, cells->field, text, &why);
 	if (good)
-		cells_refuse(cell, NULL);
+		taken(cell, text);
 	else
 		cells_refused(cell, why);
 	g_object_set_data_full(G_OBJECT(cell), "refused", good ? NULL : text, g_free);
-	if (good)
-		g_free(text);
 	g_object_unref(cell);
 	g_object_unref(row);
 	return good;
@@ -126,6 +132,8 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer
 		cells_add(cell, "focus", gtk_event_controller_focus_new());
 		cells_add(cell, "keys", gtk_event_controller_key_new());
 		gtk_entry_set_has_frame(GTK_ENTRY(cell), FALSE);
+		/* Undo is the document's, of what was typed before that, too. */
+		gtk_editable_set_enable_undo(GTK_EDITABLE(cell), FALSE);
 		gtk_widget_add_css_class(cell, "field");
 	}
 	gtk_list_item_set_child(item, cell);
@@ -149,31 +157,55 @@ static bool is_fixed(const struct cells *cells, const LadderPanelRow *row)
 					       cells->field == FIELD_ADDRESS);
 }
 
+/* What somebody types there stays. */
+static void show_text(GtkWidget *cell, const char *text)
+{
+	const char *shown = g_object_get_data(G_OBJECT(cell), "shown");
+	const char *now = gtk_editable_get_text(GTK_EDITABLE(cell));
+
+	if (shown && strcmp(shown, now) != 0)
+		return;
+	if (strcmp(now, text) != 0)
+		gtk_editable_set_text(GTK_EDITABLE(cell), text);
+	g_object_set_data_full(G_OBJECT(cell), "shown", g_strdup(text), g_free);
+	tip_set(cell, text);
+}
+
+static void show(LadderPanelRow *row, GtkListItem *item)
+{
+	GtkWidget *cell = gtk_list_item_get_child(item);
+	const struct cells *cells = g_object_get_data(G_OBJECT(cell), "cells");
+	const char *text = panel_row_text(row, cells->field);
+	char *name = g_strdup_printf("%s, %s", panel_row_text(row, FIELD_NAME),
+				     symbol_field_name(cells->field));
+
+	gtk_widget_set_sensitive(cell, !is_fixed(cells, row));
+	if (is_check(cells->field))
+		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
+	else
+		show_text(cell, text);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(cell),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	panel_speak(cell, row);
+	g_free(name);
+}
+
 static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
 {
 	const struct cells *cells = data;
 	LadderPanelRow *row = gtk_list_item_get_item(item);
 	GtkWidget *cell = gtk_list_item_get_child(item);
-	const char *text = panel_row_text(row, cells->field);
-	char *name = g_strdup_printf("%s, %s", panel_row_text(row, FIELD_NAME),
-				     symbol_field_name(cells->field));
 
 	(void)factory;
 	cells_refuse(cell, NULL);
-	gtk_widget_set_sensitive(cell, !is_fixed(cells, row));
-	if (is_check(cells->field)) {
-		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
+	g_object_set_data(G_OBJECT(cell), "refused", NULL);
+	g_object_set_data(G_OBJECT(cell), "shown", NULL);
+	show(row, item);
+	g_signal_connect(row, "changed", G_CALLBACK(show), item);
+	if (is_check(cells->field))
 		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);
-	} else {
-		gtk_editable_set_text(GTK_EDITABLE(cell), text);
-		tip_set(cell, text);
-		g_object_set_data(G_OBJECT(cell), "refused", NULL);
+	else
 		connect_text(cell, item);
-	}
-	gtk_accessible_update_property(GTK_ACCESSIBLE(cell),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
-	panel_speak(cell, row);
-	g_free(name);
 }
 
 static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
@@ -182,6 +214,7 @@ static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointe
 
 	(void)factory;
 	(void)data;
+	g_signal_handlers_disconnect_by_data(gtk_list_item_get_item(item), item);
 	g_signal_handlers_disconnect_by_data(cell, item);
 	if (!GTK_IS_ENTRY(cell))
 		return;
@@ -197,7 +230,7 @@ static void free_cells(gpointer cells, GClosure *closure)
 }
 
 GtkListItemFactory *symbols_cells(enum field field,
-				  bool (*set)(gpointer owner, const LadderPanelRow *row,
+				  bool (*set)(gpointer owner, LadderPanelRow *row,
 					      enum field field, const char *text,
 					      char **why),
 				  gpointer owner)

@@ -19,7 +19,7 @@ enum { SYMBOLS_FIXED = 1, SYMBOLS_MEMBER = 2 };
  * @set: is told what a person made of it; false: refused, and @why, which the cell shows
  */
 GtkListItemFactory *symbols_cells(enum field field,
-				  bool (*set)(gpointer owner, const LadderPanelRow *row,
+				  bool (*set)(gpointer owner, LadderPanelRow *row,
 					      enum field field, const char *text,
 					      char **why),
 				  gpointer owner);

@@ -12,6 +12,7 @@
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/import_dialog.h"
 #include "editor-gtk/symbols_cells.h"
+#include "engine/view/xref.h"
 
 #include <string.h>
 
@@ -170,16 +171,38 @@ bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index)
 
 /* ---- edits ---- */
 
-static bool set_field(gpointer owner, const LadderPanelRow *row, enum field field,
+/* Where it is by now: a row is a tenth of a second behind, and RETAIN moves. -1: nowhere. */
+static int index_of(LadderDocument *document, const LadderPanelRow *row)
+{
+	struct project *project = ladder_document_project(document);
+	const struct var_table *vars = project ? xref_table(project, row->table) : NULL;
+	const char *name = panel_row_text(row, FIELD_NAME);
+	int index = vars && row->index < vars->count ? row->index : -1;
+
+	if (index >= 0 && strcmp(project_text(project, vars->var[index].name), name) == 0)
+		return index;
+	for (index = vars ? vars->count - 1 : -1; index >= 0; index--)
+		if (strcmp(project_text(project, vars->var[index].name), name) == 0)
+			break;
+	return index;
+}
+
+static bool set_field(gpointer owner, LadderPanelRow *row, enum field field,
 		      const char *text, char **why)
 {
 	LadderSymbolsView *view = owner;
-	const bool good = symbol_set(panel_watch_document(view->watch), row->table,
-				     row->index, field, text, why);
+	LadderDocument *document = panel_watch_document(view->watch);
+	const bool good = symbol_set(document, row->table, index_of(document, row), field,
+				     text, why);
 
 	tell(view, good ? NULL : g_strdup_printf("%s, %s: %s",
 		panel_row_text(row, FIELD_NAME), symbol_field_name(field),
 		why && *why ? *why : ""));
+	if (good) { /* it is looked for by its name, and shown anew if that is undone */
+		g_free(row->text[field]);
+		row->text[field] = g_strstrip(g_strdup(text));
+		panel_watch_later(view->watch);
+	}
 	return good;
 }
 
@@ -224,6 +247,7 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	LadderDocument *document = panel_watch_document(view->watch);
 	LadderPanelRow *row = panel_list_row(&view->list);
 	char *why = NULL;
 
@@ -231,7 +255,7 @@ static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 	(void)unused;
 	if (!row)
 		return;
-	if (symbol_delete(panel_watch_document(view->watch), row->table, row->index, &why))
+	if (symbol_delete(document, row->table, index_of(document, row), &why))
 		refresh(widget);
 	tell(view, why);
 }

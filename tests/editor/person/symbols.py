@@ -164,6 +164,24 @@ def scopes(screen):
     assert 'Bell  AT %QX0.1' in editor.save(path)
 
 
+def through(screen):
+    """cells of a row are filled one after the other by Tab, while the table is read again behind each"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    for name, delay in ('Start', 15), ('Lamp', 40), ('Horn', 80):
+        editor.into(name + ', Initial value')
+        editor.keys('ctrl+a')
+        sh('xdotool', 'type', '--delay', str(delay), 'TRUE\t\t\tcomment of it')
+        editor.keys('Return')
+    text = editor.save(path)
+    for name, address in ('Start', 'IX0.0'), ('Lamp ', 'QX0.0'), ('Horn ', 'QX0.1'):
+        assert '%s AT %%%s : BOOL := TRUE; (* comment of it *)' % (name, address) in text, text
+    check(path)
+    editor.keys(*['ctrl+z'] * 6)
+    assert editor.save(path) == PROGRAM
+
+
 def last_letter(screen):
     """saved, and closed, right behind the last letter in a cell: it is in the file; what is refused keeps the window, once"""
     path = new_file(screen, PROGRAM)
@@ -193,4 +211,4 @@ def last_letter(screen):
     assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
 
 
-main([finds, renames, uses, tables, scopes, last_letter])
+main([finds, renames, uses, tables, scopes, through, last_letter])
