@@ -23,15 +23,6 @@ END_PROGRAM
 '''
 
 
-def name_file(editor, path):
-    """Types a path into the chooser of files that comes."""
-    chooser = until(lambda: [window for window in editor.windows() if window != editor.window], 'the dialog')[0]
-    editor.keys('ctrl+a')
-    editor.type(path)
-    editor.keys('Return')
-    until(lambda: chooser not in editor.windows(), 'the end of the dialog')
-
-
 def sample(screen):
     """a sample opens as a copy that has no file; once saved it is the first of those used lately"""
     editor = Editor(screen)
@@ -40,8 +31,7 @@ def sample(screen):
     first = editor.element('Rung 1, ').name
     assert editor.all('not saved yet'), [node.name for node in editor.all(role='label')]
     path = os.path.join(screen.home, 'mine.rung')
-    editor.keys('ctrl+s')
-    name_file(editor, path)
+    editor.give_path(path, 'ctrl+s')
     until(lambda: os.path.exists(path), 'the file')
     check(path)
     editor.says('mine')
@@ -184,8 +174,7 @@ def tables(screen):
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
     for answer in None, 'Cancel', 'Replace':
-        editor.press(editor.find('Export', 'push button'))
-        name_file(editor, table[:-4])
+        editor.give_path(table[:-4], editor.find('Export', 'push button').press)
         if answer:
             editor.find('Replace the file?')
             assert read(table) == 'precious'
@@ -199,14 +188,13 @@ def tables(screen):
     with open(table, 'w', newline='') as file:
         file.write(text.replace('the green one', 'on the door') + ',,Horn,BOOL,%QX0.1,,,,\r\n' +
                    ',VAR_TEMP,Away,BOOL,,,,,\r\n,VAR,Twice,BOOL,%IX0.0,,,,\r\n,VAR,Open,INT,,,,,"no end\r\n')
-    editor.press(editor.find('Import', 'push button'))
-    name_file(editor, table)
+    editor.give_path(table, editor.find('Import', 'push button').press)
     editor.shot('begin-table')
     editor.says('2 new, 1 changed, 1 unchanged, 2 refused; after 2 of these lines the program has faults')
     for line in ('line 5, Away, refused, does not belong here: VAR_TEMP', 'line 6, Twice, new, also used as Start',
                  'line 7, , refused, a quoted field does not end; nothing from here on was read'):
         editor.find(line)
-    editor.press(next(node for node in editor.all('Import', 'push button') if node.name in ('Import', 'Import Import')))
+    next(node for node in editor.all('Import', 'push button') if node.name in ('Import', 'Import Import')).press()
     until(lambda: len(editor.windows()) == 1, 'the end of the plan')
     saved = editor.save(path)
     assert 'on the door' in saved and 'Horn AT %QX0.1 : BOOL' in ' '.join(saved.split()), saved

@@ -95,7 +95,7 @@ def chosen(screen):
     for line, word, lines in (1, 'Move up', ('Motor', 'Start', 'Horn')), (0, 'Remove', ('Start', 'Horn')):
         x, y, _, _ = editor.place(area)
         editor.click((x + 60, y + 20 + 22 * line), button=3)
-        editor.press(editor.find(word, 'menu item'))
+        editor.find(word, 'menu item').press()
         until(lambda: not editor.all(word, 'menu item') and area.has(12), 'the keys in the chart')
         text = editor.save(path)
         assert 'VIEW\n' + ''.join('  timing %s\n' % name for name in lines) + 'END_VIEW\n' in text, text

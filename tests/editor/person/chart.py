@@ -150,7 +150,7 @@ def over_an_edit(screen):
     assert not [node for node in editor.all('NO', 'table cell') if 'Start' in node.name]
     editor.keys(*['alt+Left'] * 2)
     editor.says('Before the edit of ')
-    editor.press(editor.find('Show the newest scan', 'push button'))
+    editor.find('Show the newest scan', 'push button').press()
     editor.says('SIMULATION · PAUSE')
     editor.keys('ctrl+z')
     editor.element('NO', 'Start')

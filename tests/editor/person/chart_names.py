@@ -109,7 +109,7 @@ def upon(editor, node):
 def menu(editor, node, verb):
     editor.click(upon(editor, node), button=3)
     item = until(lambda: editor.all(verb, 'menu item'), 'the menu')[0]
-    editor.press(item)
+    item.press()
 
 
 def renamed(screen):
@@ -187,7 +187,7 @@ def found(screen):
     editor.click(line)
     until(lambda: line.has(12), 'the focus in the second line')
     editor.type('Number')
-    editor.press(until(lambda: editor.all('Replace all', 'push button'), 'the button')[0])
+    until(lambda: editor.all('Replace all', 'push button'), 'the button')[0].press()
     shape(editor, 'does: P1 Numbering')
     text = editor.save(path)
     assert 'Count' not in text and 'ACTION Numbering:' in text and 'IN1:=Number' in text, text

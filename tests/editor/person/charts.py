@@ -149,7 +149,7 @@ def upon(editor, node):
 def menu(editor, node, verb):
     editor.click(upon(editor, node), button=3)
     item = until(lambda: editor.all(verb, 'menu item'), 'the menu')[0]
-    editor.press(item)
+    item.press()
 
 
 def chosen(editor, node, verb, text=None):

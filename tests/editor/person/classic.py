@@ -125,16 +125,6 @@ def copied(screen):
           sh('xclip', '-o', '-selection', 'clipboard') + '\n', 'the text')
 
 
-def save_as(editor, name):
-    before = len(editor.windows())
-    editor.keys('ctrl+shift+s')
-    until(lambda: len(editor.windows()) > before, 'the dialog')
-    editor.keys('ctrl+a')
-    editor.type(name)
-    editor.keys('Return')
-    until(lambda: len(editor.windows()) == before, 'the end of the dialog')
-
-
 def trace(path):
     script = os.path.join(os.path.dirname(path), 'script')
     with open(script, 'w') as file:
@@ -150,7 +140,7 @@ def written(screen):
     until(lambda: editor.all('• new'), 'the change')
     for name in 'a.clprj', 'a.clprjz', 'a.clp':
         path = os.path.join(screen.home, name)
-        save_as(editor, path)
+        editor.give_path(path, 'ctrl+shift+s')
         until(lambda: os.path.exists(path), name)
         editor.says(name + ' was written for ClassicLadder')
         assert '%Q0=1' in trace(path), trace(path)
@@ -165,14 +155,14 @@ def saved(screen):
     before = read(os.path.join(screen.home, 'members.clprj'), 'rb')
     path = os.path.join(screen.home, 'members.rung')
     editor.to_sheet()
-    save_as(editor, path)
+    editor.give_path(path, 'ctrl+shift+s')
     until(lambda: os.path.exists(path[:-4] + 'io'), 'the map')
     editor.says('the I/O map beside it: members.io')
     check(path)
     sh(LADDER, 'import', os.path.join(screen.home, 'members.clprj'), '-o', os.path.join(screen.home, 'same.rung'))
     assert read(os.path.join(screen.home, 'same.io')) == read(path[:-4] + 'io')
     assert read(os.path.join(screen.home, 'members.clprj'), 'rb') == before
-    save_as(editor, os.path.join(screen.home, 'back.clprj'))
+    editor.give_path(os.path.join(screen.home, 'back.clprj'), 'ctrl+shift+s')
     editor.says('back.clprj was written for ClassicLadder; 1 thing')
 
 
@@ -201,7 +191,7 @@ def refused(screen):
     editor = Editor(screen, new_file(screen, REAL))
     editor.to_sheet()
     path = os.path.join(screen.home, 'c.clprj')
-    save_as(editor, path)
+    editor.give_path(path, 'ctrl+shift+s')
     editor.says('ClassicLadder cannot hold this project')
     editor.focus_on('Refused: ', 'table row')
     editor.shot('classic-refused')

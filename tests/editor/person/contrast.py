@@ -111,7 +111,7 @@ def look(screen, theme, name, kind=Editor):
     editor.find('passed')
     told += faint(editor, 'Scenarios', known)
     for tab in 'Cross reference', 'Status chart', 'Timing chart', 'Scenarios', 'Instruction list', 'Log', 'Board':
-        editor.press(editor.find(tab, 'page tab'))
+        editor.find(tab, 'page tab').press()
         until(lambda: editor.find(tab, 'page tab').states >> SELECTED & 1, 'the tab ' + tab)
         told += faint(editor, tab, known)
         editor.shot('contrast-%s-%s' % (name, tab.split()[0]))

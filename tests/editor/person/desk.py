@@ -379,10 +379,6 @@ class Editor:
         """Clicks on the tab of exactly that name, below the sheets or in a panel."""
         self.click(until(lambda: [node for node in self.all(name, 'page tab') if node.name == name], 'the tab ' + name)[0])
 
-    def press(self, node):
-        """What assistive technology does in the place of a click: for other windows."""
-        node.ask('Action', 'DoAction', 'i', 0)
-
     def drag(self, start, end, steps=10, key=None, look=None, ready=None):
         """@key: held down meanwhile; @look: name of a picture of the moment before it is let go;
         @ready: what is waited for before, if it is not this window's own that is dragged"""
@@ -462,6 +458,20 @@ class Editor:
             return next((log for log in (node.text() for node in self.all('Log', 'text')) if line.search(log)), None)
         return until(look, 'the line "%s" of %s in the log' % (text, kind))
 
+    def give_path(self, path, ask, title=''):
+        """Types a path into the chooser of files that a key, or what is called, brings; waits until it has gone."""
+        before = self.windows()
+        ask() if callable(ask) else self.keys(ask)
+        chooser = until(lambda: [window for window in self.windows() if window not in before and
+                                 title in sh('xdotool', 'getwindowname', window)], 'the chooser')[0]
+        # It is seen before it has the keys, and has them before they are a path.
+        until(lambda: sh('xdotool', 'getactivewindow') == chooser and self.focused(), 'the keys in the chooser')
+        self.keys('ctrl+a')
+        self.type(path)
+        until(lambda: any(node.text() == path for node in self.all(role='text')), 'the path in the chooser')
+        self.keys('Return')
+        until(lambda: chooser not in self.windows(), 'the end of the chooser')
+
     def front(self):
         """Brings its window before the others."""
         sh('xdotool', 'windowactivate', '--sync', self.window)
@@ -469,7 +479,7 @@ class Editor:
     def reply(self, button):
         """Presses a button of the dialog that is there, or comes."""
         path = self.find(role='dialog').path
-        self.press(until(lambda: self.all(button, 'push button', path), 'the button "%s"' % button)[0])
+        until(lambda: self.all(button, 'push button', path), 'the button "%s"' % button)[0].press()
 
     def answer(self, button):
         """The same, and waits until the dialog is gone."""

@@ -71,17 +71,6 @@ def no_program(screen):
     assert read(empty) == '' and os.path.getsize(binary) == 1024
 
 
-def open_file(editor, path):
-    """Ctrl+O, and the path."""
-    before = editor.windows()
-    editor.keys('ctrl+o')
-    chooser = until(lambda: [window for window in editor.windows() if window not in before], 'the dialog')[0]
-    editor.keys('ctrl+a')
-    editor.type(path)
-    editor.keys('Return')
-    until(lambda: chooser not in editor.windows(), 'the end of the dialog')
-
-
 def beside(screen):
     """a scenario opens in the only project of its folder, a map in that of its name, others in an empty one"""
     for name in 'pump.rung', 'pump.plant.rung', 'boards/pump.io', 'morning.scn', 'far/lone.scn', 'far/lone.io':
@@ -92,21 +81,21 @@ def beside(screen):
     editor = Editor(screen, scenario)
     editor.find('morning.scn', 'text')
     editor.says(os.path.join('~', 'pump.rung'))
-    open_file(editor, os.path.join(screen.home, 'boards', 'pump.io'))
+    editor.give_path(os.path.join(screen.home, 'boards', 'pump.io'), 'ctrl+o')
     editor.find('%IX0.0, Driver')
     assert len(editor.windows()) == 1
-    open_file(editor, os.path.join(screen.home, 'far', 'lone.scn'))
+    editor.give_path(os.path.join(screen.home, 'far', 'lone.scn'), 'ctrl+o')
     editor.find('lone.scn', 'text')
     editor.find('New project', 'label')
     editor.shot('files-beside')
     assert len(editor.windows()) == 2
     # That one is untouched yet: a second one has room there.
-    open_file(editor, os.path.join(screen.home, 'far', 'lone.io'))
+    editor.give_path(os.path.join(screen.home, 'far', 'lone.io'), 'ctrl+o')
     editor.find('lone.io')
     assert len(editor.windows()) == 2 and not editor.all('Text of the file')
     # What is open is shown where it is.
-    open_file(editor, scenario)
-    open_file(editor, os.path.join(screen.home, 'far', 'lone.scn'))
+    editor.give_path(scenario, 'ctrl+o')
+    editor.give_path(os.path.join(screen.home, 'far', 'lone.scn'), 'ctrl+o')
     assert len(editor.windows()) == 2
     editor.finish()
     # A map of a folder with several programs is of the one that lists it.
@@ -114,7 +103,7 @@ def beside(screen):
     panel = os.path.join(screen.home, 'boards', 'panel.io')
     os.rename(os.path.join(screen.home, 'far', 'lone.io'), panel)
     editor = Editor(screen, os.path.join(screen.home, 'pump.rung'))
-    open_file(editor, panel)
+    editor.give_path(panel, 'ctrl+o')
     editor.find('%IX0.0, Driver')
     assert len(editor.windows()) == 1
     editor.finish()
@@ -134,7 +123,7 @@ def stays_a_link(screen):
     editor.to_sheet()
     editor.keys('slash')
     for name in 'there/real.rung', 'hard.rung', 'link.rung':
-        open_file(editor, os.path.join(screen.home, name))
+        editor.give_path(os.path.join(screen.home, name), 'ctrl+o')
         editor.to_sheet()
         assert len(editor.windows()) == 1, name
     assert 'NC Start' in editor.save(path)

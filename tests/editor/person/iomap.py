@@ -154,7 +154,7 @@ def as_text(screen):
     editor.click(editor.find('Table', 'page tab'))
     cell(editor, '%QX0.1, Driver')
     editor.keys('ctrl+q', 'ctrl+w')
-    editor.press(editor.find('Save', 'push button'))
+    editor.find('Save', 'push button').press()
     saved(io, MAP + '%QX0.1 sim')
 
 
@@ -239,7 +239,7 @@ def run_board(screen):
     editor.click(editor.find('Run on this machine', 'push button'))
     editor.find('Run on this machine?')
     editor.shot('board-ask')
-    editor.press(editor.find('Save and run', 'push button'))
+    editor.find('Save and run', 'push button').press()
     saved(io, SIM.replace('%IX0.0  sim', '%IX0.0  sim   # first'))
     editor.says('RUN')
 
@@ -260,11 +260,11 @@ def close_board(screen):
     pid = child(editor)
     editor.keys('ctrl+w')
     editor.find('Stop what runs on this machine?')
-    editor.press(editor.find('Cancel', 'push button'))
+    editor.find('Cancel', 'push button').press()
     until(lambda: not editor.all('Stop and close'), 'the question to be gone')
     assert not is_gone(pid)
     editor.keys('ctrl+w')
-    editor.press(editor.find('Stop and close', 'push button'))
+    editor.find('Stop and close', 'push button').press()
     until(lambda: editor.process.poll() is not None, 'the editor to end')
     assert editor.process.returncode == 0 and is_gone(pid)
 
@@ -335,7 +335,7 @@ def lines_here(screen):
     saved(io, LINES.replace('line=NOWHERE', 'line=IN1'))
     editor.click(editor.find('Run on this machine', 'push button'))
     editor.find('It reads 4 pins and drives 1.')
-    editor.press(editor.find('Run', 'push button'))
+    editor.find('Run', 'push button').press()
     editor.says('ladderd, which runs programs on pins, was not found')
     editor.logs('communication', 'ladderd, which runs programs on pins, was not found')
 

@@ -36,6 +36,10 @@ class Node:
         """x, y, width, height in its window."""
         return self.ask(*EXTENTS)[0]
 
+    def press(self):
+        """What assistive technology does in the place of a click: for other windows."""
+        self.ask('Action', 'DoAction', 'i', 0)
+
     def text(self):
         return str(self.ask('Text', 'GetText', 'ii', 0, 1 << 20)[0])
 

@@ -77,7 +77,7 @@ def pointer(screen):
     editor.click(switch(editor, 'Stop, %IX0.1'))
     line(editor, 'Output 电机, %QX0.0, off')
     editor.click(line(editor, 'Output 电机'), button=3)
-    editor.press(editor.find('Force On', 'menu item'))
+    editor.find('Force On', 'menu item').press()
     line(editor, 'Output 电机, %QX0.0, on, forced')
     editor.says('1 force')
     editor.shot('simpanel-forced')

@@ -144,13 +144,7 @@ def command(editor, name):
 
 def export(editor, what, path):
     """To a path that is typed into the chooser of files."""
-    command(editor, what)
-    chooser = until(lambda: [window for window in editor.windows() if window != editor.window and
-                             what in sh('xdotool', 'getwindowname', window)], 'the dialog')[0]
-    editor.keys('ctrl+a')
-    editor.type(path)
-    editor.keys('Return')
-    until(lambda: chooser not in editor.windows(), 'the end of the dialog')
+    editor.give_path(path, lambda: command(editor, what), what)
 
 
 def toasts(editor, path):

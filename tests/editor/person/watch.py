@@ -73,7 +73,7 @@ def values(screen):
     editor.keys('Return')
     shows(editor, '12')
     editor.click(editor.find('Level, Shown as'))
-    editor.press(editor.find('Hexadecimal', 'menu item'))
+    editor.find('Hexadecimal', 'menu item').press()
     shows(editor, '16#000C')
     text = editor.save(path)
     assert '  status-chart Chart 1\n    watch auto Start\n    watch hex Level\n' in text, text
