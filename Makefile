@@ -252,7 +252,7 @@ no-editor: ; @$(if $(CROSS)$(filter 1,$(SMALL)),,echo "make: ladder-editor is le
 .PHONY: no-editor
 endif
 # A person's work, with pointer and keys on a screen of its own: PICTURES=folder keeps what was seen.
-EDITOR_PERSON := $(if $(EDITOR),$(filter-out %/desk.py %/node.py %/outcome.py %/projects.py,$(wildcard tests/editor/person/*.py)))
+EDITOR_PERSON := $(if $(EDITOR),$(filter-out %/desk.py %/node.py %/screen.py %/outcome.py %/projects.py,$(wildcard tests/editor/person/*.py)))
 # Its languages: editor-gtk/po/. In the build they lie beside the program, in build/locale/.
 MSGFMT   := $(if $(EDITOR),$(shell command -v msgfmt))
 MO       := $(if $(MSGFMT),$(patsubst %,$(BUILD)/locale/%/LC_MESSAGES/rungboard.mo,$(shell cat editor-gtk/po/LINGUAS)))

@@ -2,8 +2,8 @@
 """desk - a person at a desk: a screen, a keyboard, a pointer, and ladder-editor.
 
 What the person sees is found by its accessible name, what the person does is done with a
-real pointer and real keys. A test is a function; report() runs it and speaks TAP. It needs
-Xvfb, openbox, xdotool, xclip, AT-SPI, python3-dbus; without them all is skipped.
+real pointer and real keys. A test is a function; report() runs it and speaks TAP. What it
+needs is in screen.py; without that all is skipped.
 
 The accessibility bus gives all that the toolkit knows in one answer (org.a11y.atspi.Cache):
 one node after the other would take most of a test's time. The palette, which is most of the
@@ -16,114 +16,26 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import traceback
 import warnings
 
 from node import A11Y, EXTENTS, ROLES, WHOLE, Gone, Node
 from outcome import BUILD, LADDER, ROOT, check, lines, new_file, trace  # noqa: F401
+from screen import PATIENCE, Screen, dbus, lacking, sh, until
 
 warnings.simplefilter('ignore')
 EDITOR = os.environ.get('LADDER_EDITOR') or os.path.join(BUILD, 'ladder-editor')
 WRAPPER = os.environ.get('WRAPPER', '').split()  # valgrind and the like
-PATIENCE = int(os.environ.get('PATIENCE', '60'))  # seconds until what must come did not; no test waits for it in vain
 SLOWLY = max(1, PATIENCE / 60)  # a hand knows a slow machine
 
-dbus = None
 editors = []  # those that were begun
 DOUBLE_CLICK = 0.4  # s, of the toolkit
-BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
 
 
 def missing():
     """What is not here, as one text; '' if all is."""
-    global dbus
-    lacks = [tool for tool in ('Xvfb', 'openbox', 'xdotool', 'xwininfo', 'xprop', 'xclip', 'import',
-                               'dbus-daemon', 'dbus-monitor') if not shutil.which(tool)]
-    if not os.path.exists(EDITOR):
-        lacks.append(EDITOR)
-    if not any(os.path.exists(path) for path in BUS_LAUNCHERS):
-        lacks.append('at-spi2-core')
-    try:
-        import dbus.bus
-        import dbus.lowlevel  # noqa: F401
-    except ImportError:
-        lacks.append('python3-dbus')
-    return ', '.join(lacks)
-
-
-def sh(*args, **more):
-    return subprocess.run(args, capture_output=True, text=True, timeout=60, **more).stdout.strip()
-
-
-def until(look, what, seconds=PATIENCE):
-    """Waits until look() gives something, and gives that. What goes away meanwhile gives nothing."""
-    end = time.monotonic() + seconds
-    while True:
-        try:
-            value = look()
-        except Gone:
-            value = None
-        if value:
-            return value
-        if time.monotonic() > end:
-            raise AssertionError('it did not come: ' + what)
-        time.sleep(0.06)
-
-
-class Screen:
-    """A private X screen with a window manager, a session bus, a home folder."""
-
-    def __init__(self, size='1440x900x24'):
-        self.home = tempfile.mkdtemp(prefix='rungboard-desk-')
-        self.running = []
-        os.environ.update(HOME=self.home, XDG_RUNTIME_DIR=self.home, LC_ALL='C.UTF-8', LANGUAGE='',
-                          GDK_BACKEND='x11', GSK_RENDERER='cairo', GTK_A11Y='atspi',
-                          GSETTINGS_BACKEND='memory', ADW_DISABLE_PORTAL='1', GTK_USE_PORTAL='0',
-                          XDG_STATE_HOME=os.path.join(self.home, 'state'), NO_AT_BRIDGE='0')
-        os.environ.pop('XDG_DATA_HOME', None)
-        self.start_bus()
-        read, write = os.pipe()
-        # -r: no key repeats itself while a busy machine is late to let go of it.
-        self.start('Xvfb', '-displayfd', str(write), '-screen', '0', size, '-nolisten', 'tcp', '-noreset', '-r',
-                   pass_fds=[write])
-        os.close(write)
-        number = b''
-        while not number.endswith(b'\n'):
-            number += os.read(read, 16)
-        os.environ['DISPLAY'] = ':' + number.decode().strip()
-        self.start('openbox', '--sm-disable')
-        if shutil.which('xcompmgr'):  # without it popovers have a black frame
-            self.start('xcompmgr')
-        until(lambda: 'window id' in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'), 'the window manager')
-
-    @staticmethod
-    def accessibility_address():
-        session = dbus.bus.BusConnection(os.environ['DBUS_SESSION_BUS_ADDRESS'])
-        return session.call_blocking('org.a11y.Bus', '/org/a11y/bus', 'org.a11y.Bus', 'GetAddress', '', ())
-
-    def accessibility(self):
-        """A connection of its own to the accessibility bus."""
-        return dbus.bus.BusConnection(self.accessibility_address())
-
-    def start_bus(self):
-        bus = subprocess.Popen(['dbus-daemon', '--session', '--nofork', '--print-address=1'],
-                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        self.running.append(bus)
-        os.environ['DBUS_SESSION_BUS_ADDRESS'] = bus.stdout.readline().strip()
-
-    def start(self, *args, **more):
-        """Programs of others. What makes memory strict is for the editor: openbox lets nothing be dragged with it."""
-        env = {name: value for name, value in os.environ.items() if name != 'G_SLICE'}
-        self.running.append(subprocess.Popen(args, env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **more))
-
-    def close(self):
-        while self.running:
-            process = self.running.pop()
-            process.kill()
-            process.wait()
-        shutil.rmtree(self.home, ignore_errors=True)
+    return ', '.join(lacking() + ([] if os.path.exists(EDITOR) else [EDITOR]))
 
 
 class Editor:

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: MIT
+"""screen - a desk without a program: a private X screen, a window manager, a session bus, a home folder.
+
+What is on it desk.py finds and uses.
+"""
+import os
+import shutil
+import subprocess
+import tempfile
+import time
+
+from node import Gone
+
+try:
+    import dbus.bus
+    import dbus.exceptions
+    import dbus.lowlevel
+except ImportError:
+    dbus = None
+PATIENCE = int(os.environ.get('PATIENCE', '60'))  # seconds until what must come did not; no test waits for it in vain
+TOOLS = ('Xvfb', 'openbox', 'xdotool', 'xwininfo', 'xprop', 'xclip', 'import', 'dbus-daemon', 'dbus-monitor')
+BUS_LAUNCHERS = ('/usr/libexec/at-spi-bus-launcher', '/usr/lib/at-spi2-core/at-spi-bus-launcher')
+
+
+def lacking():
+    """What is not here, a name each."""
+    lacks = [tool for tool in TOOLS if not shutil.which(tool)]
+    if not any(os.path.exists(path) for path in BUS_LAUNCHERS):
+        lacks.append('at-spi2-core')
+    return lacks + ([] if dbus else ['python3-dbus'])
+
+
+def sh(*args, **more):
+    return subprocess.run(args, capture_output=True, text=True, timeout=60, **more).stdout.strip()
+
+
+def until(look, what, seconds=PATIENCE):
+    """Waits until look() gives something, and gives that. What goes away meanwhile gives nothing."""
+    end = time.monotonic() + seconds
+    while True:
+        try:
+            value = look()
+        except Gone:
+            value = None
+        if value:
+            return value
+        if time.monotonic() > end:
+            raise AssertionError('it did not come: ' + what)
+        time.sleep(0.06)
+
+
+class Screen:
+    """A private X screen with a window manager, a session bus, a home folder."""
+
+    def __init__(self, size='1440x900x24'):
+        self.home = tempfile.mkdtemp(prefix='rungboard-desk-')
+        self.running = []
+        os.environ.update(HOME=self.home, XDG_RUNTIME_DIR=self.home, LC_ALL='C.UTF-8', LANGUAGE='',
+                          GDK_BACKEND='x11', GSK_RENDERER='cairo', GTK_A11Y='atspi',
+                          GSETTINGS_BACKEND='memory', ADW_DISABLE_PORTAL='1', GTK_USE_PORTAL='0',
+                          XDG_STATE_HOME=os.path.join(self.home, 'state'), NO_AT_BRIDGE='0')
+        os.environ.pop('XDG_DATA_HOME', None)
+        self.start_bus()
+        read, write = os.pipe()
+        # -r: no key repeats itself while a busy machine is late to let go of it.
+        self.start('Xvfb', '-displayfd', str(write), '-screen', '0', size, '-nolisten', 'tcp', '-noreset', '-r',
+                   pass_fds=[write])
+        os.close(write)
+        number = b''
+        while not number.endswith(b'\n'):
+            number += os.read(read, 16)
+        os.environ['DISPLAY'] = ':' + number.decode().strip()
+        self.start('openbox', '--sm-disable')
+        if shutil.which('xcompmgr'):  # without it popovers have a black frame
+            self.start('xcompmgr')
+        until(lambda: 'window id' in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'), 'the window manager')
+
+    @staticmethod
+    def accessibility_address():
+        session = dbus.bus.BusConnection(os.environ['DBUS_SESSION_BUS_ADDRESS'])
+        return session.call_blocking('org.a11y.Bus', '/org/a11y/bus', 'org.a11y.Bus', 'GetAddress', '', ())
+
+    def accessibility(self):
+        """A connection of its own to the accessibility bus."""
+        return dbus.bus.BusConnection(self.accessibility_address())
+
+    def start_bus(self):
+        bus = subprocess.Popen(['dbus-daemon', '--session', '--nofork', '--print-address=1'],
+                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.running.append(bus)
+        os.environ['DBUS_SESSION_BUS_ADDRESS'] = bus.stdout.readline().strip()
+
+    def start(self, *args, **more):
+        """Programs of others. What makes memory strict is for the editor: openbox lets nothing be dragged with it."""
+        env = {name: value for name, value in os.environ.items() if name != 'G_SLICE'}
+        self.running.append(subprocess.Popen(args, env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **more))
+
+    def close(self):
+        while self.running:
+            process = self.running.pop()
+            process.kill()
+            process.wait()
+        shutil.rmtree(self.home, ignore_errors=True)
