@@ -349,6 +349,43 @@ static guint row_named(GListModel *list, const char *name)
 	return GTK_INVALID_LIST_POSITION;
 }
 
+static void rename_stale(GtkWidget *cell, const char *name)
+{
+	gtk_editable_set_text(GTK_EDITABLE(cell), name);
+	g_signal_emit_by_name(cell, "activate");
+}
+
+/* The table is read a moment later than the document changes. */
+static void test_stale_rows(void)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
+	GtkWidget *widget = GTK_WIDGET(view), *cell;
+	char *before = ladder_document_text(document, NULL), *after, *why = NULL;
+
+	ladder_symbols_view_set_document(view, document);
+	put(widget);
+	WAIT((cell = cell_of(widget, GTK_TYPE_ENTRY, "Spare")) != NULL);
+	CHECK(symbol_set(document, 0, 0, FIELD_RETAIN, "1", &why));
+	rename_stale(cell, "Stock");
+	CHECK_AS(has("  Stock ") && !has("  Spare "), "its declaration, wherever that is by now");
+	rename_stale(cell, "Spare");
+	CHECK_AS(has("  Spare ") && !has("  Stock "), "and by its new name");
+	while (ladder_document_undo(document))
+		;
+	ladder_symbols_view_refresh(view);
+	CHECK(symbol_delete(document, 0, 2, &why) && !has("  Spare "));
+	rename_stale(cell, "Stock");
+	CHECK_AS(!has("  Stock ") && gtk_widget_has_css_class(cell, "error"), "gone: none other");
+	CHECK_TEXT(ladder_symbols_view_message(view), "Spare, Name: There is no such symbol");
+	while (ladder_document_undo(document))
+		;
+	after = ladder_document_text(document, NULL);
+	CHECK_TEXT(after, before);
+	g_free(before);
+	g_free(after);
+	put(NULL);
+}
+
 static void test_symbols(void)
 {
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
@@ -587,6 +624,7 @@ int main(void)
 	test_problems();
 	test_uses();
 	test_symbols();
+	test_stale_rows();
 	test_import();
 	test_find();
 	test_tree();
