@@ -281,13 +281,15 @@ static void variable_changed(LadderGridView *view, int pou, const char *name,
 
 static void project_changed(LadderGridView *view)
 {
-	strips_stale(view, 0, (int)view->strips->len);
-	forget_edit(view);
-	forget_before(view);
+	/* Nothing of the old project may be left when a popup closes: that gives the keys
+	 * back, and who has them asks where the cursor is. */
+	g_clear_pointer(&view->preview, rung_free);
 	live_forget_all(view);
-	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	strips_reset(view);
 	cursor_fit(view);
+	forget_edit(view);
+	forget_before(view);
+	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	gtk_widget_queue_resize(GTK_WIDGET(view));
 	sheet_moved(view);
 }

@@ -45,10 +45,11 @@ class Editor:
         """@before: done in the process before the editor begins"""
         self.screen = screen
         self.log = os.path.join(screen.home, 'editor-%d.log' % time.monotonic_ns())
-        # Critical messages of the toolkit are faults of ours.
+        # Critical messages of the toolkit are faults of ours; what reads memory that was freed reads rubbish.
         with open(self.log, 'w') as log:
             self.process = subprocess.Popen([*WRAPPER, EDITOR, *files], stdout=log, stderr=subprocess.STDOUT,
-                                            preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals', **env})
+                                            preexec_fn=before, env={**os.environ, 'G_DEBUG': 'fatal-criticals',
+                                                                     'MALLOC_PERTURB_': '165', **env})
         self.clicked = 0.0  # when the last click began
         self.scale = int(env.get('GDK_SCALE', 1))  # pixels of the screen for one of a widget
         editors.append(self)

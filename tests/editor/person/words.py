@@ -21,6 +21,15 @@ END_PROGRAM
 '''
 
 
+UNKNOWN = '''RUNGBOARD 1
+
+PROGRAM Main LD
+RUNG "Delay"
+  | NO Motor | TON D1 PT:=T#5s | COIL Lamp |
+END_PROGRAM
+'''
+
+
 def file_with(screen, text):
     path = new_file(screen)
     with open(path, 'w') as out:
@@ -197,6 +206,33 @@ def comments(screen):
     assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
 
 
+def as_it_is(screen):
+    """Return and Return again, or a double click and Return, on names that nothing has: they are declared"""
+    path = file_with(screen, UNKNOWN)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('Return')
+    editor.opened()
+    editor.keys('Return')
+    editor.gone()
+    editor.element('Motor', '%IX0.0')
+    editor.click(editor.middle(editor.element('Lamp')), count=2)
+    editor.opened()
+    editor.keys('Return')
+    editor.gone()
+    editor.to_sheet()
+    editor.keys('Home', 'Right', 'Return')
+    editor.opened()
+    editor.keys('Return')
+    editor.gone()
+    text = editor.save(path)
+    check(path)
+    assert '| NO Motor | TON D1 PT:=T#5s | COIL Lamp |' in text, text
+    assert lines(path, '@print Lamp\nMotor=1\n+5000\n') == ['Lamp=0', 'Lamp=1']
+    editor.keys(*['ctrl+z'] * 3)
+    assert editor.save(path) == UNKNOWN
+
+
 def to_rung(screen):
     """Ctrl+G goes to a rung there is; to another it cannot be sent"""
     path = file_with(screen, LIST.replace('Main IL', 'Main LD').replace(
@@ -219,4 +255,4 @@ def to_rung(screen):
     editor.to_sheet()
 
 
-main([a_list, in_parallel, pointed_at, other_keys, window_keys, again, comments, to_rung])
+main([a_list, in_parallel, pointed_at, other_keys, window_keys, again, comments, as_it_is, to_rung])
