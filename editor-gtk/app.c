@@ -54,19 +54,6 @@ void app_new_window(LadderWindow *window)
 	new_window(the_application(window));
 }
 
-static void tell_repaired(LadderWindow *window, int line)
-{
-	char *text;
-
-	if (line <= 0)
-		return;
-	text = g_strdup_printf(_("From line %d on the file holds bytes that are no text; "
-				 "they are shown as �. The file itself is untouched."),
-			       line);
-	ladder_window_tell(window, text);
-	g_free(text);
-}
-
 static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 			     const char *path, GError **error)
 {
@@ -82,7 +69,7 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 	else
 		ladder_window_opened(window);
 	recent_add(path);
-	tell_repaired(window, ladder_document_repaired(document));
+	ladder_window_tell_bytes(window);
 	g_object_unref(document);
 	return window;
 }

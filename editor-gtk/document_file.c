@@ -49,7 +49,6 @@ static void open_bytes(LadderDocument *document, const char *path, const char *t
 	const char *bad = text;
 	char *valid;
 
-	document->repaired = 0;
 	if (g_utf8_validate_len(text, len, &bad)) {
 		ladder_document_open_text(document, path, text, len, true);
 		return;
@@ -84,6 +83,7 @@ bool ladder_document_open(LadderDocument *document, const char *path, GError **e
 void ladder_document_open_text(LadderDocument *document, const char *path,
 			       const char *text, gsize len, bool saved)
 {
+	document->repaired = 0;
 	set_path(document, path);
 	set_sum(document, saved ? sum_of(text, len) : NULL);
 	document_take(document, text, len);
@@ -106,6 +106,7 @@ bool ladder_document_save(LadderDocument *document, const char *path, GError **e
 	if (good) {
 		set_path(document, path);
 		set_sum(document, sum_of(text, len));
+		document->repaired = 0;
 		history_mark_saved(document->history);
 		document_tell_state(document);
 	}

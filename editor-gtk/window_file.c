@@ -170,11 +170,34 @@ bool window_save_file(LadderWindow *window, LadderFileView *file)
 	return good;
 }
 
-/* Where it lies already; not over what somebody else wrote there meanwhile. */
+static void tell_bytes(LadderWindow *window, const char *button, void (*act)(LadderWindow *))
+{
+	char *text = g_strdup_printf(_("From line %d on the file holds bytes that are no text "
+		"(UTF-8); they are shown as �. Saving would write over them."),
+		ladder_document_repaired(window->document));
+
+	window_banner(window, text, button, act);
+	g_free(text);
+}
+
+void ladder_window_tell_bytes(LadderWindow *window)
+{
+	if (ladder_document_repaired(window->document) > 0)
+		tell_bytes(window, _("Save as…"), window_save_as);
+}
+
+/* Where it lies already; not over what somebody else wrote there meanwhile, nor over what
+ * cannot be shown. */
 static bool save_here(LadderWindow *window)
 {
-	if (ladder_document_disk(window->document) != DISK_OTHER)
+	const bool other = ladder_document_disk(window->document) == DISK_OTHER;
+
+	if (!other && ladder_document_repaired(window->document) == 0)
 		return save_to(window, NULL);
+	if (!other) {
+		tell_bytes(window, _("Save all the same"), save_over);
+		return false;
+	}
 	window_banner(window, _("Somebody else changed the file since it was opened. "
 				"Saving would write over that."), _("Save all the same"),
 		      save_over);
@@ -349,10 +372,12 @@ static void reload(LadderWindow *window)
 	GError *error = NULL;
 	char *path = g_strdup(ladder_document_path(window->document));
 
-	if (!ladder_document_open(window->document, path, &error))
-		window_banner(window, error->message, NULL, NULL);
-	else
+	if (ladder_document_open(window->document, path, &error)) {
 		window->disk_told = DISK_AS_READ;
+		ladder_window_tell_bytes(window);
+	} else {
+		window_banner(window, error->message, NULL, NULL);
+	}
 	g_clear_error(&error);
 	g_free(path);
 }

@@ -71,6 +71,39 @@ def no_program(screen):
     assert read(empty) == '' and os.path.getsize(binary) == 1024
 
 
+def no_text(screen):
+    """bytes that are no UTF-8 are told in a banner; saving asks once more, saving as another file keeps them"""
+    path = os.path.join(screen.home, 'old.rung')
+    old = ONE_RUNG.replace('PROGRAM Main', '(* Gr\xfc\xdfe *)\nPROGRAM Main').encode('latin-1')
+    with open(path, 'wb') as file:
+        file.write(old)
+    editor = Editor(screen, path)
+    editor.says('bytes that are no text (UTF-8)')
+    editor.find('Save as…', 'push button')
+    editor.to_sheet()
+    editor.keys('slash', 'ctrl+s')
+    editor.find('Save all the same', 'push button')
+    editor.shot('files-no-text')
+    with open(path, 'rb') as file:
+        assert file.read() == old
+    other = os.path.join(screen.home, 'new.rung')
+    editor.give_path(other, 'ctrl+shift+s')
+    until(lambda: os.path.exists(other) and 'NC Start' in read(other), 'the other file')
+    with open(path, 'rb') as file:
+        assert file.read() == old
+    until(lambda: not editor.all('Save all the same'), 'the banner to be gone')
+    editor.to_sheet()
+    editor.keys('slash')
+    assert 'NO Start' in editor.save(other)
+    editor.finish()
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('slash', 'ctrl+s')
+    editor.click(editor.find('Save all the same', 'push button'))
+    until(lambda: b'NC Start' in open(path, 'rb').read(), 'the file to be saved')
+    check(path)
+
+
 def beside(screen):
     """a scenario opens in the only project of its folder, a map in that of its name, others in an empty one"""
     for name in 'pump.rung', 'pump.plant.rung', 'boards/pump.io', 'morning.scn', 'far/lone.scn', 'far/lone.io':
@@ -243,4 +276,4 @@ def closing(screen):
     assert lines(path, '@print Motor\nStart=0\nStart=1\n') == ['Motor=1', 'Motor=0']
 
 
-main([refused, classic, no_program, beside, stays_a_link, tab, window, one_history, written_over, closing])
+main([refused, classic, no_program, no_text, beside, stays_a_link, tab, window, one_history, written_over, closing])
