@@ -143,6 +143,11 @@ char *ladder_document_list(LadderDocument *document, int pou);
  * read is kept beside the project until it can, and ladder_document_diags() tell why. */
 bool ladder_document_put_list(LadderDocument *document, int pou, const char *text);
 
+/** ladder_document_lines_before - lines of the whole text before that of POU @pou; -1: 0. */
+int ladder_document_lines_before(LadderDocument *document, int pou);
+/** ladder_document_list_at - the POU whose text stands beside the project and has line
+ * @line, from 1, of the whole; @row: its line in that, from 0. -1: none has it. */
+int ladder_document_list_at(LadderDocument *document, int line, int *row);
 /** ladder_document_is_whole - all of its text is in the project: no list stands beside it. */
 bool ladder_document_is_whole(LadderDocument *document);
 

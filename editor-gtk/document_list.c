@@ -5,6 +5,7 @@
  * One that cannot be read stands beside the project until it can, and is saved with it.
  */
 #include "editor-gtk/document_inside.h"
+#include "editor-gtk/text_lines.h"
 
 #include "engine/base/lex.h"
 
@@ -281,6 +282,41 @@ char *ladder_document_list(LadderDocument *document, int pou)
 	free(text);
 	g_free(spans.span);
 	return out;
+}
+
+/* Lists beside the project may have other lengths than what they stand for. */
+int ladder_document_lines_before(LadderDocument *document, int pou)
+{
+	char *text, *list, *found;
+	gsize len;
+	int lines;
+
+	if (pou < 0)
+		return 0;
+	text = ladder_document_text(document, &len);
+	list = ladder_document_list(document, pou);
+	found = list ? strstr(text, list) : NULL;
+	if (found)
+		*found = '\0';
+	lines = found ? text_lines_count(text) : first_line(document, pou) - 1;
+	g_free(list);
+	g_free(text);
+	return lines;
+}
+
+int ladder_document_list_at(LadderDocument *document, int line, int *row)
+{
+	GHashTableIter iter;
+	gpointer pou, text;
+
+	g_hash_table_iter_init(&iter, document->list);
+	while (g_hash_table_iter_next(&iter, &pou, &text)) {
+		*row = line - 1 - ladder_document_lines_before(document,
+							       GPOINTER_TO_INT(pou));
+		if (*row >= 0 && *row < text_lines_count(text) + !g_str_has_suffix(text, "\n"))
+			return GPOINTER_TO_INT(pou);
+	}
+	return -1;
 }
 
 bool ladder_document_is_whole(LadderDocument *document)

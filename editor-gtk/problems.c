@@ -36,16 +36,16 @@ static int pou_of(const struct project *project, const char *name)
 	return -1;
 }
 
-/* @row: of the text of a list, 0-based; -1: it is none. */
-static char *place_text(const struct diag *diag, int row)
+/* @list: the name of a POU, of whose text @row is a line, 0-based; -1: of none. */
+static char *place_text(const struct diag *diag, const char *list, int row)
 {
 	if (diag->rung && diag->row)
 		return g_strdup_printf(_("%s, rung %d, row %d, column %d"), diag->pou,
 				       diag->rung, diag->row, diag->col);
 	if (diag->rung)
 		return g_strdup_printf(_("%s, rung %d"), diag->pou, diag->rung);
-	if (diag->pou && row >= 0)
-		return g_strdup_printf(_("%s, line %d"), diag->pou, row + 1);
+	if (list && row >= 0)
+		return g_strdup_printf(_("%s, line %d"), list, row + 1);
 	if (diag->pou)
 		return g_strdup(diag->pou);
 	return diag->line ? g_strdup_printf(_("line %d"), diag->line) : g_strdup("");
@@ -92,14 +92,25 @@ static void set_place(LadderDocument *document, const struct diag *diag,
 		row->rung = diag->line - 1;
 		return;
 	}
-	row->pou = pou_of(project, diag->pou);
 	row->rung = diag->rung - 1;
+	if (!diag->rung && diag->line) /* what is read then may lack its POU, or have more */
+		row->pou = ladder_document_list_at(document, diag->line, &row->row);
+	if (row->pou >= 0)
+		return;
+	row->pou = pou_of(project, diag->pou);
 	row->row = diag->rung ? diag->row - 1 : list_row(was, was ? pou_of(was, diag->pou) : -1,
 							 diag->line);
 	if (row->row < 0 && !diag->rung && diag->line && is_list(project, row->pou))
 		row->row = 0; /* its text has no such POU */
 	if (row->row < 0 && !diag->rung)
 		find_declaration(project, diag, row);
+}
+
+static const char *pou_name(LadderDocument *document, int pou)
+{
+	const struct project *project = ladder_document_project(document);
+
+	return project && pou >= 0 ? project_text(project, project->pou[pou].name) : NULL;
 }
 
 static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag)
@@ -112,7 +123,8 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag)
 	/* Either may be -1. */
 	row->number = ((gint64)row->pou * (1 << 20) + row->rung) * (1 << 20) + diag->line;
 	row->text[COLUMN_TEXT] = diag_said_whole(diag);
-	row->text[COLUMN_PLACE] = place_text(diag, diag->rung ? -1 : row->row);
+	row->text[COLUMN_PLACE] = place_text(diag, pou_name(document, row->pou),
+					     diag->rung ? -1 : row->row);
 	row->text[COLUMN_CODE] = g_strdup(diag_code(diag->id));
 	row->text[COLUMN_SEVERITY] = g_strdup(error ? _("Error") : _("Warning"));
 	row->note = g_strdup(row->text[COLUMN_SEVERITY]);

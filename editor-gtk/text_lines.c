@@ -103,3 +103,12 @@ void text_lines_place(const char *shown, const char *canonical, int *line, int *
 	if (column && *column >= indent(wanted))
 		*column += indent(best_at) - indent(wanted);
 }
+
+int text_lines_count(const char *text)
+{
+	int count = 0;
+
+	for (; *text; text++)
+		count += *text == '\n';
+	return count;
+}

@@ -17,4 +17,7 @@
  */
 void text_lines_place(const char *shown, const char *canonical, int *line, int *column);
 
+/** text_lines_count - lines of @text that end. */
+int text_lines_count(const char *text);
+
 #endif

@@ -209,44 +209,6 @@ static void variable_changed(LadderTextView *view, int pou)
 
 /* ---- errors ---- */
 
-struct first_line {
-	int pou, line;
-	gsize at;
-};
-
-static void take_pou(void *context, const struct text_span *span)
-{
-	struct first_line *first = context;
-
-	if (span->part == TEXT_POU && span->number == first->pou)
-		first->at = span->at;
-}
-
-/* Lines of the file before the text that is shown. Lists beside the project may have
- * other lengths than what they stand for. */
-static int lines_before(LadderTextView *view)
-{
-	struct first_line first = { .pou = view->pou };
-	gsize len;
-	char *text, *found, *list;
-
-	if (view->pou < 0)
-		return 0;
-	text = ladder_document_text(view->document, &len);
-	list = ladder_document_list(view->document, view->pou);
-	found = strstr(text, list);
-	if (!found) {
-		g_free(text);
-		text = ladder_document_outline(view->document, &len, take_pou, &first);
-		found = text + first.at;
-	}
-	for (const char *at = text; at < found; at++)
-		first.line += *at == '\n';
-	g_free(list);
-	g_free(text);
-	return first.line;
-}
-
 /* A name or value is marked to its end, else the rest of the line. */
 static void end_of_word(const struct diag *diag, GtkTextIter *end)
 {
@@ -387,22 +349,13 @@ static void add_fault(LadderTextView *view, const struct diag *diag, int before,
 	mark(view, diag, &fault);
 }
 
-static int line_count(const char *text)
-{
-	int count = 0;
-
-	for (; *text; text++)
-		count += *text == '\n';
-	return count;
-}
-
 static void show_errors(LadderTextView *view)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
 	const struct diag_list *diags = ladder_document_diags(view->document);
-	const int before = lines_before(view);
+	const int before = ladder_document_lines_before(view->document, view->pou);
 	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
-	const int lines = canonical ? line_count(canonical) : 0;
+	const int lines = canonical ? text_lines_count(canonical) : 0;
 	GtkTextIter start, end;
 
 	gtk_text_buffer_get_bounds(buffer, &start, &end);
@@ -462,7 +415,8 @@ void ladder_text_view_go_here(LadderTextView *view, int line, int column)
 
 void ladder_text_view_go(LadderTextView *view, int line, int column)
 {
-	ladder_text_view_go_here(view, line - lines_before(view), column);
+	ladder_text_view_go_here(view, line - ladder_document_lines_before(view->document,
+									 view->pou), column);
 }
 
 /* ---- life ---- */

@@ -61,6 +61,28 @@ def a_list(screen):
     until(lambda: editor.all('Nobody', 'label'), 'what is wrong')
 
 
+def wrong_lines(screen):
+    """a line of a list that is none: the problem has its line, Ctrl+. goes there; so it is behind END_PROGRAM"""
+    path = file_with(screen, LIST)
+    editor = Editor(screen, path)
+    editor.click(until(lambda: editor.all('Text of the program', 'text'), 'the list')[0])
+    editor.keys('ctrl+End', 'Up', 'Up', 'End', 'Return')
+    editor.type('FOO')
+    editor.find('unknown word: FOO. Main, line 4', 'table row')
+    editor.keys('ctrl+Home', 'ctrl+period')
+    editor.type('X')
+    editor.find('unknown word: XFOO. Main, line 4', 'table row')
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
+    until(lambda: not editor.all(', line 4'), 'no problem')
+    editor.keys('ctrl+End', 'Return')
+    editor.type('what is this')
+    editor.find('what. Main, line 6', 'table row')
+    editor.keys('ctrl+Home', 'ctrl+period')
+    editor.type('X')
+    editor.find('Xwhat. Main, line 6', 'table row')
+    editor.shot('list-wrong-lines')
+
+
 def in_parallel(screen):
     """OR X goes below what the cursor is on; the status bar says what comes next"""
     path = new_file(screen)
@@ -255,4 +277,4 @@ def to_rung(screen):
     editor.to_sheet()
 
 
-main([a_list, in_parallel, pointed_at, other_keys, window_keys, again, comments, as_it_is, to_rung])
+main([a_list, wrong_lines, in_parallel, pointed_at, other_keys, window_keys, again, comments, as_it_is, to_rung])
