@@ -308,7 +308,8 @@ static void ladder_window_class_init(LadderWindowClass *class)
 	CHILD(record_button);
 	CHILD(tab_bar); CHILD(tabs); CHILD(banner); CHILD(banner_label);
 	CHILD(banner_button); CHILD(banner_close); CHILD(find_place); CHILD(below);
-	CHILD(below_stack); CHILD(pill); CHILD(place_label); CHILD(message_label);
+	CHILD(below_stack); CHILD(below_switcher);
+	CHILD(below_tabs); CHILD(below_more); CHILD(pill); CHILD(place_label); CHILD(message_label);
 	CHILD(checked_label); CHILD(zoom_label);
 #undef CHILD
 	window_install_actions(widget);

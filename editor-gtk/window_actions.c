@@ -384,6 +384,12 @@ static void watch_value(GtkWidget *widget, const char *action, GVariant *name)
 	names_watch_this(LADDER_WINDOW(widget), g_variant_get_string(name, NULL));
 }
 
+static void show_panel(GtkWidget *widget, const char *action, GVariant *name)
+{
+	(void)action;
+	below_show(LADDER_WINDOW(widget), g_variant_get_string(name, NULL));
+}
+
 static void open_path(GtkWidget *widget, const char *action, GVariant *path)
 {
 	(void)action;
@@ -456,6 +462,7 @@ void window_install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
 	gtk_widget_class_install_action(class, "win.tell", "s", tell);
+	gtk_widget_class_install_action(class, "win.show-panel", "s", show_panel);
 }
 
 GMenu *window_menu(void)

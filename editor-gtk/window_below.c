@@ -128,6 +128,73 @@ void below_offer(LadderWindow *window, const char *name, bool offered)
 		GTK_WIDGET(place_of(window, name))), offered);
 }
 
+/* ---- tabs that have no room ---- */
+
+static void fill_more(GtkMenuButton *button, gpointer data)
+{
+	LadderWindow *window = data;
+	GMenu *menu = g_menu_new();
+
+	for (gsize i = 0; i < G_N_ELEMENTS(panels); i++) {
+		GtkStackPage *page = gtk_stack_get_page(window->below_stack,
+			GTK_WIDGET(place_of(window, panels[i].name)));
+		GMenuItem *row = g_menu_item_new(gtk_stack_page_get_title(page), NULL);
+
+		g_menu_item_set_action_and_target(row, "win.show-panel", "s", panels[i].name);
+		if (gtk_stack_page_get_visible(page))
+			g_menu_append_item(menu, row);
+		g_object_unref(row);
+	}
+	gtk_menu_button_set_menu_model(button, G_MENU_MODEL(menu));
+	g_object_unref(menu);
+}
+
+/* The tab of the panel that is shown is seen. */
+static void reveal_tab(LadderWindow *window)
+{
+	GtkWidget *tab = gtk_widget_get_first_child(window->below_switcher);
+	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(window->below_tabs);
+	graphene_rect_t bounds;
+
+	while (tab && !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(tab)))
+		tab = gtk_widget_get_next_sibling(tab);
+	if (tab && gtk_widget_compute_bounds(tab, window->below_switcher, &bounds))
+		gtk_adjustment_clamp_page(along, bounds.origin.x,
+					  bounds.origin.x + bounds.size.width);
+}
+
+static gboolean look_at_room(gpointer data)
+{
+	LadderWindow *window = data;
+	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(window->below_tabs);
+	const bool more = gtk_widget_get_visible(GTK_WIDGET(window->below_more));
+	const int button = more ? gtk_widget_get_width(GTK_WIDGET(window->below_more)) : 0;
+	const double room = gtk_adjustment_get_page_size(along) + button;
+
+	gtk_widget_set_visible(GTK_WIDGET(window->below_more), along &&
+			       gtk_adjustment_get_upper(along) > room + 1);
+	reveal_tab(window);
+	g_object_unref(window);
+	return G_SOURCE_REMOVE;
+}
+
+/* Nothing may be shown or hidden while the window gives out its room. */
+static void room_changed(LadderWindow *window)
+{
+	g_idle_add(look_at_room, g_object_ref(window));
+}
+
+static void init_more(LadderWindow *window)
+{
+	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(window->below_tabs);
+
+	gtk_menu_button_set_create_popup_func(window->below_more, fill_more, window, NULL);
+	g_signal_connect_object(along, "changed", G_CALLBACK(room_changed), window,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(window->below_stack, "notify::visible-child",
+				G_CALLBACK(room_changed), window, G_CONNECT_SWAPPED);
+}
+
 static void seen(GtkWidget *place, const struct panel *panel)
 {
 	below_panel(LADDER_WINDOW(gtk_widget_get_root(place)), panel->name);
@@ -145,4 +212,5 @@ void below_init(LadderWindow *window)
 			below_panel(window, panels[i].name);
 	}
 	below_offer(window, "report", false);
+	init_more(window);
 }

@@ -55,6 +55,9 @@ struct _LadderWindow {
 	GtkButton *banner_button, *banner_close;
 	GtkBox *find_place, *below;
 	GtkStack *below_stack;
+	GtkWidget *below_switcher;
+	GtkScrolledWindow *below_tabs;
+	GtkMenuButton *below_more;   /* seen when the tabs are not all            */
 	gint64 told_at;       /* us; when the message in the status bar came    */
 	guint64 told_of;      /* version of the document then                   */
 	char *keys_text;      /* what stands there otherwise                   */

@@ -5,7 +5,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, main, new_file, until  # noqa: E402
+from desk import ROOT, Editor, main, new_file, until  # noqa: E402
 
 SELECTED = 23  # as AtspiStateType counts
 PROJECT = '''RUNGBOARD 1
@@ -101,4 +101,21 @@ def chosen(screen):
         assert 'VIEW\n' + ''.join('  timing %s\n' % name for name in lines) + 'END_VIEW\n' in text, text
 
 
-main([edits, simulates, chosen])
+def all_panels(screen):
+    """a small window while it simulates: panels whose tab has no room are in a menu, and the tab of the one shown is seen"""
+    editor = Editor(screen, os.path.join(ROOT, 'ladders', 'conveyor.rung'))
+    editor.to_sheet()
+    assert not editor.all('All panels')
+    editor.keys('ctrl+m')
+    more = editor.find('All panels')
+    editor.click(more)
+    editor.find('Board', 'menu item').press()
+    board = editor.find('Board', 'page tab')
+    until(lambda: editor.place(board)[0] + editor.place(board)[2] <= editor.place(more)[0], 'the tab to be seen')
+    editor.find('Run…', 'push button')
+    editor.keys('ctrl+m')
+    until(lambda: not editor.all('All panels'), 'room for all')
+
+
+all_panels.size = '1024x700x24'
+main([edits, simulates, chosen, all_panels])
