@@ -7,8 +7,22 @@
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/tip.h"
 
+/* Not by its colour alone: what was refused may be an empty text. */
+static void show_icon(GtkEntry *cell, const char *why)
+{
+	const char *shown = gtk_entry_get_icon_name(cell, GTK_ENTRY_ICON_PRIMARY);
+	const char *name = why ? "dialog-error-symbolic" : NULL;
+
+	if (g_strcmp0(shown, name) != 0)
+		gtk_entry_set_icon_from_icon_name(cell, GTK_ENTRY_ICON_PRIMARY, name);
+	if (why)
+		gtk_entry_set_icon_tooltip_text(cell, GTK_ENTRY_ICON_PRIMARY, why);
+}
+
 void cells_refuse(GtkWidget *cell, char *why)
 {
+	if (GTK_IS_ENTRY(cell))
+		show_icon(GTK_ENTRY(cell), why);
 	if (why) {
 		gtk_widget_add_css_class(cell, "error");
 		tip_set(cell, why);
