@@ -76,6 +76,13 @@ bool grid_takes(const struct rung *rung, int columns, int rows, enum word word, 
 	return open;
 }
 
+static enum grid_refusal why_not(const struct canvas *c, int row, int col, enum word word)
+{
+	if (word_row(word)->place == PLACE_LAST)
+		return GRID_OUTPUT_LAST;
+	return canvas_word(c, row, col) == ELEM_PIN ? GRID_PIN_CELL : GRID_LAST_COLUMN;
+}
+
 static bool drop(struct canvas *c, int row, int col, struct cell cell)
 {
 	const enum grid_drop how = judge(c, row, col, (enum word)cell.word);
@@ -84,8 +91,7 @@ static bool drop(struct canvas *c, int row, int col, struct cell cell)
 		return false;
 	switch (how) {
 	case GRID_DROP_NOT:
-		return canvas_fail(c, canvas_word(c, row, col) == ELEM_PIN ?
-				   GRID_PIN_CELL : GRID_LAST_COLUMN);
+		return canvas_fail(c, why_not(c, row, col, (enum word)cell.word));
 	case GRID_DROP_BELOW:
 		return canvas_parallel(c, element_above(c, row, col), col, col, cell);
 	case GRID_DROP_THERE:

@@ -25,6 +25,15 @@ void drop_word(LadderGridView *view, enum word word)
 	strips_redraw(view, -1);
 }
 
+static const char *why_not(LadderGridView *view, int rung, int row, int col)
+{
+	struct grid_at at = { .columns = view->columns, .row = row, .col = col };
+
+	rung_free(grid_drop(sheet_rung(view, rung), &at,
+			    (struct cell){ .word = (uint16_t)view->drop_word }));
+	return _(grid_refusal_text(at.refusal));
+}
+
 void drop_at_cell(LadderGridView *view, int rung, int row, int col, bool legal)
 {
 	const int before = view->drop.rung;
@@ -34,6 +43,8 @@ void drop_at_cell(LadderGridView *view, int rung, int row, int col, bool legal)
 		return;
 	view->drop = (struct grid_cursor){ rung, row, col };
 	view->drop_legal = legal;
+	if (rung >= 0) /* it stays when it is let go there */
+		sheet_tell(view, legal ? "" : why_not(view, rung, row, col));
 	if (before >= 0)
 		strips_dirty(view, before);
 	if (rung >= 0)

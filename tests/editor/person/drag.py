@@ -219,4 +219,16 @@ def far(screen):
     assert lines(path, '@print %s\nStart=1\nStop=1\n' % coil) == [coil + '=1', coil + '=0']
 
 
-main([elements, rungs, branch, wires, quick, refused, by_menu, far])
+def not_there(screen):
+    """a coil that is dragged onto a contact is refused with the reason while it is held, and nothing is changed"""
+    path = new_file(screen, TWO_RUNGS)
+    editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 5, 'the sheet')
+    told = 'an output can only be put into the last column'
+    editor.drag(editor.tile('TRUE while powered'), editor.grid(80, 0), ready=lambda: editor.all(told, 'label'))
+    until(lambda: editor.all(told, 'label'), 'the reason, still')
+    assert len(editor.cells()) == 5 and not editor.all('\u2022 new')
+    as_before(path)
+
+
+main([elements, rungs, branch, wires, quick, refused, by_menu, far, not_there])
