@@ -181,17 +181,22 @@ def labels(screen):
     assert editor.save(path) == text
 
 
+def on_sheet(editor):
+    """Waits until the sheet that is seen has the keys."""
+    until(lambda: [node for node in editor.all('Sheet') if node.has(12)], 'the focus on its sheet')
+
+
 def calls(screen):
     """F12 on a call goes to what it calls, F2 renames that"""
     path = new_file(screen, JUMPS)
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('Down', 'Home', 'Right', 'F12')
-    until(lambda: [node for node in editor.cells() if '%IX0.2' in node], 'the sheet of Sub')
-    editor.to_sheet()
+    editor.element('%IX0.2')
+    on_sheet(editor)
     editor.keys('ctrl+Page_Up')
-    until(lambda: [node for node in editor.cells() if '%IX0.1' in node], 'the sheet of Main')
-    editor.to_sheet()
+    editor.element('%IX0.1')
+    on_sheet(editor)
     question(editor)
     name_it(editor, 'Part')
     editor.keys('Return')
