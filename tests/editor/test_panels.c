@@ -7,7 +7,6 @@
 #include "editor-gtk/import_dialog.h"
 #include "editor-gtk/panel_row.h"
 #include "editor-gtk/panels.h"
-#include "editor-gtk/place.h"
 #include "editor-gtk/pou_edit.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/symbols_view.h"
@@ -241,26 +240,6 @@ static void test_problems(void)
 	put(NULL);
 }
 
-/* ---- places ---- */
-
-static void test_places(void)
-{
-	const struct project *project = ladder_document_project(document);
-	struct place_sheet sheet = { 0 };
-	char out[PLACE_LETTERS];
-
-	CHECK_TEXT(place_column(0, out), "A");
-	CHECK_TEXT(place_column(25, out), "Z");
-	CHECK_TEXT(place_column(26, out), "AA");
-	CHECK_TEXT(place_column(LIMIT_COLS - 1, out), "BL");
-	CHECK_AS(place_shown(&sheet, project, 0, 0, 0, 1) == 5, "a coil is seen last");
-	CHECK_AS(place_shown(&sheet, project, 0, 1, 0, 1) == 1, "a box where it stands");
-	CHECK_AS(place_shown(&sheet, project, 0, 9, 0, 1) == 1 &&
-		 place_shown(&sheet, project, 9, 0, 0, 1) == 1 &&
-		 place_shown(&sheet, project, 0, 0, 0, 9) == 9 &&
-		 place_shown(&sheet, NULL, 0, 0, -1, -1) == -1, "what is not there");
-}
-
 /* ---- uses ---- */
 
 static void test_uses(void)
@@ -286,7 +265,7 @@ static void test_uses(void)
 	CHECK_TEXT(gone_to, "-1 -1 0 0");
 	ladder_uses_view_set_symbol(view, 0, "%QX0.4");
 	ladder_uses_view_refresh(view);
-	is_row(list, 0, "%QX0.4|%QX0.4|coil|Main, rung 3, row 1, column F|%QX0.4|");
+	is_row(list, 1, "%QX0.4|%QX0.4|coil|Main, rung 3, row 1, column F|%QX0.4|");
 	ladder_uses_view_set_symbol(view, 0, "Delay.Q");
 	ladder_uses_view_refresh(view);
 	CHECK(g_list_model_get_n_items(list) == 2);
@@ -646,7 +625,6 @@ int main(void)
 	make_window();
 	document = ladder_document_new();
 	reopen(sample);
-	test_places();
 	test_problems();
 	test_uses();
 	test_symbols();
