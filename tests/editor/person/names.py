@@ -279,4 +279,27 @@ def find(screen):
     editor.says('Rung 1')
 
 
-main([rename, find, refused, jumps, labels, calls, operands])
+def address(screen):
+    """of an address also what shows it is found; only texts are replaced"""
+    path = new_file(screen, JUMPS)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+h')
+    editor.type('%QX0.0')
+    editor.says('2 hits')
+    editor.keys('Return')
+    editor.says('of 2')
+    editor.into('Replace with')
+    editor.type('%QX0.7')
+    editor.find('Replace all', 'push button').press()
+    editor.says('1 replaced')
+    text = editor.save(path)
+    assert text == JUMPS.replace('%QX0.0', '%QX0.7'), text
+    check(path)
+    assert lines(path, COMPARED.replace('%QX0.0', '%QX0.7')) == ['%QX0.7=1', '%QX0.7=0']
+    editor.keys('Escape')
+    editor.to_sheet()
+    editor.keys('ctrl+z')
+    assert editor.save(path) == JUMPS
+
+
+main([rename, find, address, refused, jumps, labels, calls, operands])
