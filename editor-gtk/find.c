@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/find_inside.h"
 
+#include "editor-gtk/grid_names.h"
 #include "engine/view/xref.h"
 
 #include <string.h>
@@ -14,6 +15,8 @@ struct search {
 	struct project *project;
 	char *folded;          /* what is wanted, in one case                  */
 	struct find_hit place; /* where we are                                 */
+	struct iec_addr address; /* that is wanted; AREA_NONE: another text    */
+	struct grid_names *names; /* of the POU, if an address is wanted       */
 };
 
 /* ---- one text ---- */
@@ -81,6 +84,50 @@ static void search_id(struct search *search, enum find_where where, int field, u
 	search_text(search, project_text(search->project, id));
 }
 
+/* ---- addresses ---- */
+
+/* A short form, as Q5, may as well be a part of a name. */
+static struct iec_addr address_of(const char *text)
+{
+	struct iec_addr address = { .area = AREA_NONE };
+
+	if (*text != '%' || iec_addr_parse(text, strlen(text), &address) != ADDR_OK)
+		address.area = AREA_NONE;
+	return address;
+}
+
+static bool is_wanted(const struct search *search, const char *address)
+{
+	const struct iec_addr at = address_of(address), want = search->address;
+
+	return at.area != AREA_NONE && at.area == want.area && at.bits == want.bits &&
+	       at.byte == want.byte && at.bit == want.bit;
+}
+
+/* An element that shows the address above its symbol. */
+static void search_symbol(struct search *search, const struct cell *cell)
+{
+	const char *name = project_text(search->project, cell->operand);
+	struct find_hit *hit;
+
+	if (!search->names || *name == '%' || !(search->find->options.where & FIND_OPERANDS) ||
+	    search->find->hit->len >= FIND_HITS_MOST ||
+	    !is_wanted(search, grid_names_find(search->names, name).address))
+		return;
+	search->place.where = FIND_OPERANDS;
+	search->place.field = HIT_OPERAND;
+	add_hit(search, name, name, name + strlen(name));
+	hit = search->find->hit->pdata[search->find->hit->len - 1];
+	hit->by_symbol = true;
+}
+
+static void names_start(struct search *search, const struct pou *pou)
+{
+	g_clear_pointer(&search->names, grid_names_free);
+	if (search->address.area != AREA_NONE)
+		search->names = grid_names_new(search->project, pou);
+}
+
 /* ---- the parts ---- */
 
 static void search_rung(struct search *search, const struct rung *rung)
@@ -97,6 +144,8 @@ static void search_rung(struct search *search, const struct rung *rung)
 		search->place.col = i % rung->cols;
 		search_id(search, jump ? FIND_LABELS : FIND_OPERANDS, HIT_OPERAND,
 			  cell->operand);
+		if (!jump)
+			search_symbol(search, cell);
 		search_id(search, FIND_OPERANDS, HIT_ARGS, cell->args);
 		search_id(search, FIND_COMMENTS, HIT_COMMENT, cell->comment);
 	}
@@ -287,6 +336,7 @@ static void search_project(struct search *search, LadderDocument *document)
 		if (pou->included)
 			continue;
 		search_declarations(search, whole, span, i);
+		names_start(search, pou);
 		search->place = (struct find_hit){ .pou = i, .rung = -1, .row = -1,
 						   .col = -1, .table = -1, .index = -1 };
 		if (pou->sfc) {
@@ -302,6 +352,7 @@ static void search_project(struct search *search, LadderDocument *document)
 			search_rung(search, pou->rung[k]);
 		}
 	}
+	g_clear_pointer(&search->names, grid_names_free);
 	g_free(whole);
 	g_array_unref(span);
 }
@@ -317,6 +368,7 @@ struct find *find_new(LadderDocument *document, const char *wanted,
 	find->options = options;
 	search.project = ladder_document_project(document);
 	search.folded = fold(find->wanted, options.match_case);
+	search.address = address_of(find->wanted);
 	if (search.project && *search.folded)
 		search_project(&search, document);
 	g_free(search.folded);

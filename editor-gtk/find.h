@@ -32,6 +32,8 @@ struct find_hit {
 				  of its text, col the byte in it              */
 	int table, index;      /* of a declaration, as in xref                 */
 	int field;             /* private: which text of the cell              */
+	bool by_symbol;        /* its symbol lies at the address that is wanted: there
+				  is nothing to be replaced here               */
 	gsize at, len;         /* bytes in the text                            */
 	char *text;            /* all of that text, or its line                */
 };
@@ -44,7 +46,8 @@ struct find {
 
 #define FIND_HITS_MOST 100000
 
-/** find_new - all hits in the document as it is. Owns: the caller. */
+/** find_new - all hits in the document as it is; of a whole address (%QX0.0) also the
+ * elements whose symbol lies at it. Owns: the caller. */
 struct find *find_new(LadderDocument *document, const char *wanted,
 		      struct find_options options);
 void find_free(struct find *find);
@@ -59,7 +62,8 @@ int find_next(const struct find *find, int pou, int rung, int row, int col, bool
  */
 bool find_replace(LadderDocument *document, const struct find *find, int number,
 		  const char *with, char **why);
-/** find_replace_all - all of them as one step. Returns how many; -1: as above. */
+/** find_replace_all - all of them that are not by_symbol as one step. Returns how many;
+ * -1: as above. */
 int find_replace_all(LadderDocument *document, const struct find *find, const char *with,
 		     char **why);
 

@@ -170,6 +170,15 @@ static void next(GtkWidget *widget, const char *action, GVariant *unused)
 	ladder_find_bar_next(LADDER_FIND_BAR(widget), strcmp(action, "find.previous") == 0);
 }
 
+/* Is there a text to be replaced where we stand? */
+static bool is_on_text(LadderFindBar *bar)
+{
+	const struct find_hit *hit = bar->current < 0 ? NULL :
+		bar->find->hit->pdata[bar->current];
+
+	return hit && !hit->by_symbol;
+}
+
 /* The hit we stand on; else the next one is only shown. */
 static void replace(GtkWidget *widget, const char *action, GVariant *unused)
 {
@@ -180,7 +189,7 @@ static void replace(GtkWidget *widget, const char *action, GVariant *unused)
 	(void)action;
 	(void)unused;
 	panel_watch_now(bar->watch);
-	if (bar->current < 0 || bar->current != number) {
+	if (bar->current != number || !is_on_text(bar)) {
 		ladder_find_bar_next(bar, false);
 		return;
 	}

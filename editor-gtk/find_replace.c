@@ -379,17 +379,29 @@ bool find_replace(LadderDocument *document, const struct find *find, int number,
 {
 	struct hits hits = { document, NULL, 1, with };
 
+	if (why)
+		*why = NULL;
 	if (number < 0 || number >= (int)find->hit->len)
 		return false;
 	hits.hit = (struct find_hit *const *)find->hit->pdata + number;
+	if (hits.hit[0]->by_symbol)
+		return false;
 	return replace(hits, _("Replace"), why);
 }
 
 int find_replace_all(LadderDocument *document, const struct find *find, const char *with,
 		     char **why)
 {
-	struct hits hits = { document, (struct find_hit *const *)find->hit->pdata,
-			     (int)find->hit->len, with };
+	GPtrArray *hit = g_ptr_array_new();
+	struct hits hits = { document, NULL, 0, with };
+	bool good;
 
-	return replace(hits, _("Replace all"), why) ? hits.count : -1;
+	for (guint i = 0; i < find->hit->len; i++)
+		if (!((const struct find_hit *)find->hit->pdata[i])->by_symbol)
+			g_ptr_array_add(hit, find->hit->pdata[i]);
+	hits.hit = (struct find_hit *const *)hit->pdata;
+	hits.count = (int)hit->len;
+	good = replace(hits, _("Replace all"), why);
+	g_ptr_array_unref(hit);
+	return good ? hits.count : -1;
 }

@@ -7,6 +7,7 @@
 #include "editor-gtk/grid_view_inside.h"
 
 #include "editor-gtk/entry_popup.h"
+#include "editor-gtk/place.h"
 #include "editor-gtk/settings.h"
 
 #include <string.h>
@@ -401,14 +402,14 @@ bool ladder_grid_view_cell(LadderGridView *view, int *row, int *col)
 
 static char *place_of(LadderGridView *view)
 {
+	const int rung = view->first + view->cursor.rung + 1, row = view->cursor.row + 1;
+	char column[PLACE_LETTERS];
+
 	if (sheet_rungs(view) == 0)
 		return g_strdup(_("no rung"));
-	if (view->cursor.row > 0)
-		return g_strdup_printf(_("Rung %d · row %d · column %c"),
-				       view->first + view->cursor.rung + 1, view->cursor.row + 1,
-				       'A' + MIN(view->cursor.col, 25));
-	return g_strdup_printf(_("Rung %d · column %c"), view->first + view->cursor.rung + 1,
-			       'A' + MIN(view->cursor.col, 25));
+	place_column(view->cursor.col, column);
+	return row > 1 ? g_strdup_printf(_("Rung %d · row %d · column %s"), rung, row, column) :
+	       g_strdup_printf(_("Rung %d · column %s"), rung, column);
 }
 
 /* Of a block also the instance whose body it is. */

@@ -12,8 +12,9 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include "editor-gtk/place.h"
+
 #define FOLLOW_MS 60
-#define LETTERS   ('Z' - 'A' + 1) /* that name columns                         */
 
 #define LADDER_TYPE_CELL (ladder_cell_get_type())
 G_DECLARE_FINAL_TYPE(LadderCell, ladder_cell, LADDER, CELL, GtkWidget)
@@ -114,7 +115,7 @@ static char *name_at_cursor(LadderGridView *view, bool values)
 {
 	const struct grid_cursor *at = &view->cursor;
 	GString *text = g_string_new(NULL);
-	char column[] = { (char)('A' + at->col % LETTERS), '\0', '\0' };
+	char column[PLACE_LETTERS];
 	const struct cell *cell;
 	int row, col;
 
@@ -130,12 +131,9 @@ static char *name_at_cursor(LadderGridView *view, bool values)
 				is_wire(view, at) ? _("wire") : _("empty cell"));
 	if (cell && values)
 		act_said(view, at->rung, row, col, text);
-	if (at->col >= LETTERS) {
-		column[1] = column[0];
-		column[0] = (char)('A' + at->col / LETTERS - 1);
-	}
 	g_string_append(text, ", ");
-	g_string_append_printf(text, _("row %d, column %s"), at->row + 1, column);
+	g_string_append_printf(text, _("row %d, column %s"), at->row + 1,
+			       place_column(at->col, column));
 	return g_string_free(text, FALSE);
 }
 

@@ -276,16 +276,27 @@ static char *text_now(LadderGridView *view, enum verb verb)
 	}
 }
 
-/* Why a file could not hold it; NULL: it could. */
-static const char *refusal(enum verb verb, const char *line)
+/* Why a file could not hold it, or its jumps not follow; NULL: it could. Caller frees. */
+static char *refusal(const struct asked *asked, const char *line)
 {
+	const enum verb verb = asked->verb;
 	const bool comment = verb == VERB_rung_comment || verb == VERB_comment;
 
 	if (comment && (strstr(line, "(*") || strstr(line, "*)")))
-		return _("a comment holds no (* and no *)");
-	if (verb == VERB_rung_label && line[0] && !entry_is_name(line, strlen(line)))
-		return _("this is no name");
-	return NULL;
+		return g_strdup(_("a comment holds no (* and no *)"));
+	if (verb != VERB_rung_label || !line[0])
+		return NULL;
+	return entry_is_name(line, strlen(line)) ? label_refusal(asked->view, line) :
+	       g_strdup(_("this is no name"));
+}
+
+static bool is_refused(const struct asked *asked, const char *line)
+{
+	char *why = refusal(asked, line);
+	const bool is = why != NULL;
+
+	g_free(why);
+	return is;
 }
 
 static bool is_as_before(const struct asked *asked, const char *line)
@@ -310,8 +321,10 @@ static bool text_taken(void *context, const char *line)
 		return add_pin(view, line);
 	if (is_as_before(asked, line))
 		return true;
-	if (refusal(asked->verb, line))
+	if (is_refused(asked, line))
 		return false;
+	if (asked->verb == VERB_rung_label && label_set(view, line))
+		return true;
 	copy = rung_copy(rung);
 	if (!set_text(view, asked->verb, line, copy,
 		      cursor_cell(view, &row, &col) ? rung_cell(copy, row, col) : NULL)) {
@@ -351,11 +364,11 @@ static char *pin_changed(void *context, const char *line, int cursor, bool *good
 static char *text_changed(void *context, const char *line, int cursor, bool *good)
 {
 	const struct asked *asked = context;
-	const char *why = refusal(asked->verb, line);
+	char *why = refusal(asked, line);
 
 	(void)cursor;
 	*good = !why;
-	return g_strdup(why);
+	return why;
 }
 
 /* ---- opening ---- */

@@ -230,6 +230,14 @@ void entry_close(LadderGridView *view);
 void entry_forget_uses(LadderGridView *view);
 void entry_allocate(LadderGridView *view);
 
+/* ---- grid_view_label.c ---- */
+/** label_refusal - why the jumps that lead to the label of the cursor's rung could not follow
+ * it to @name; NULL: they could, or there are none. Caller frees. */
+char *label_refusal(LadderGridView *view, const char *name);
+/** label_set - it is called @name, with the jumps that lead to it, as one step; that is told.
+ * False: there are none, nothing changed. */
+bool label_set(LadderGridView *view, const char *name);
+
 /* ---- grid_view_outcome.c ---- */
 struct entry;
 /** entry_outcome - what is told of a @line that was read: what is wrong, what would be

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * pou_edit - programs and blocks come, go and get names.
+ * pou_edit - programs and blocks come and go.
  */
 #include "editor-gtk/pou_edit.h"
 
 #include "editor-gtk/i18n.h"
 
-#include <adwaita.h>
 #include <string.h>
 
 /* ---- adding ---- */
@@ -117,57 +116,4 @@ const char *pou_delete(LadderDocument *document, int pou)
 	good = ladder_document_replace(document, part.span.at, part.span.len, "", NULL);
 	ladder_document_end(document);
 	return good ? NULL : _("It cannot be deleted while a text of the project cannot be read");
-}
-
-/* ---- renaming ---- */
-
-struct naming {
-	GtkWidget *widget, *line;
-	LadderDocument *document;
-	int pou;
-};
-
-static void naming_free(gpointer data, GClosure *closure)
-{
-	struct naming *naming = data;
-
-	(void)closure;
-	g_object_unref(naming->document);
-	g_free(naming);
-}
-
-static void named(AdwMessageDialog *dialog, const char *response, struct naming *naming)
-{
-	const char *name = gtk_editable_get_text(GTK_EDITABLE(naming->line));
-
-	(void)dialog;
-	if (strcmp(response, "rename") == 0)
-		gtk_widget_activate_action(naming->widget, "win.rename-pou", "(is)",
-					   naming->pou, name);
-}
-
-void pou_ask_name(GtkWidget *widget, LadderDocument *document, int pou)
-{
-	const struct project *project = ladder_document_project(document);
-	GtkWidget *dialog = adw_message_dialog_new(
-		GTK_WINDOW(gtk_widget_get_root(widget)), _("Rename"), NULL);
-	struct naming *naming = g_new0(struct naming, 1);
-
-	naming->widget = widget;
-	naming->document = g_object_ref(document);
-	naming->pou = pou;
-	naming->line = gtk_entry_new();
-	gtk_editable_set_text(GTK_EDITABLE(naming->line),
-			      project_text(project, project->pou[pou].name));
-	gtk_entry_set_activates_default(GTK_ENTRY(naming->line), TRUE);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(naming->line),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Name"), -1);
-	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), naming->line);
-	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog),
-		"cancel", _("Cancel"), "rename", _("Rename"), NULL);
-	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "rename");
-	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
-	g_signal_connect_data(dialog, "response", G_CALLBACK(named), naming, naming_free,
-			      0);
-	gtk_window_present(GTK_WINDOW(dialog));
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * pou_edit - programs and blocks come, go and get names.
+ * pou_edit - programs and blocks come and go.
  *
  * Each is one step of the history, made as a change of the text.
  */
@@ -14,8 +14,6 @@
 /** pou_add - @what: "PROGRAM LD", "FUNCTION_BLOCK LD"; named anew, and shown from
  * @widget by "win.go-to". */
 void pou_add(GtkWidget *widget, LadderDocument *document, const char *what);
-/** pou_ask_name - asks for another name, which it gets wherever it is named. */
-void pou_ask_name(GtkWidget *widget, LadderDocument *document, int pou);
 /** pou_delete - with all that is in it; the last one stays, and one of another file.
  * Returns NULL; else why it stays, translated, static. */
 const char *pou_delete(LadderDocument *document, int pou);

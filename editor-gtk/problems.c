@@ -7,6 +7,7 @@
 #include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/panel.h"
+#include "editor-gtk/place.h"
 #include "engine/view/xref.h"
 
 #include <string.h>
@@ -36,12 +37,15 @@ static int pou_of(const struct project *project, const char *name)
 	return -1;
 }
 
-/* @list: the name of a POU, of whose text @row is a line, 0-based; -1: of none. */
-static char *place_text(const struct diag *diag, const char *list, int row)
+/* @list: the name of a POU, of whose text @row is a line, 0-based; -1: of none. @col: that
+ * is seen, 0-based. */
+static char *place_text(const struct diag *diag, const char *list, int row, int col)
 {
+	char column[PLACE_LETTERS];
+
 	if (diag->rung && diag->row)
-		return g_strdup_printf(_("%s, rung %d, row %d, column %d"), diag->pou,
-				       diag->rung, diag->row, diag->col);
+		return g_strdup_printf(_("%s, rung %d, row %d, column %s"), diag->pou,
+				       diag->rung, diag->row, place_column(col, column));
 	if (diag->rung)
 		return g_strdup_printf(_("%s, rung %d"), diag->pou, diag->rung);
 	if (list && row >= 0)
@@ -113,18 +117,22 @@ static const char *pou_name(LadderDocument *document, int pou)
 	return project && pou >= 0 ? project_text(project, project->pou[pou].name) : NULL;
 }
 
-static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag)
+static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag,
+			      struct place_sheet *sheet)
 {
 	LadderPanelRow *row = ladder_panel_row_new();
 	const bool error = diag_severity(diag->id) == SEVERITY_ERROR;
+	int seen;
 
 	set_place(document, diag, row);
+	seen = place_shown(sheet, ladder_document_project(document), row->pou, row->rung,
+			   row->row, row->col);
 	row->tone = error ? PANEL_ERROR : PANEL_WARNING;
 	/* Either may be -1. */
 	row->number = ((gint64)row->pou * (1 << 20) + row->rung) * (1 << 20) + diag->line;
 	row->text[COLUMN_TEXT] = diag_said_whole(diag);
 	row->text[COLUMN_PLACE] = place_text(diag, pou_name(document, row->pou),
-					     diag->rung ? -1 : row->row);
+					     diag->rung ? -1 : row->row, MAX(seen, 0));
 	row->text[COLUMN_CODE] = g_strdup(diag_code(diag->id));
 	row->text[COLUMN_SEVERITY] = g_strdup(error ? _("Error") : _("Warning"));
 	row->note = g_strdup(row->text[COLUMN_SEVERITY]);
@@ -153,9 +161,10 @@ static void refresh(LadderProblems *problems)
 	LadderDocument *document = problems->document;
 	const struct diag_list *diags = document ? ladder_document_diags(document) : NULL;
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+	struct place_sheet sheet = { 0 };
 
 	for (int i = 0; diags && i < diags->count; i++)
-		g_ptr_array_add(rows, row_of(document, &diags->diag[i]));
+		g_ptr_array_add(rows, row_of(document, &diags->diag[i], &sheet));
 	panel_list_update(&problems->list, rows);
 	problems->count = diags ? diags->count + diags->dropped : 0;
 	problems->errors = diags ? diags->errors : 0;

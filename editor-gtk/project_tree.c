@@ -198,7 +198,7 @@ static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
 	if (pou < 0)
 		why = _("There is no program or block in this row");
 	else if (renames)
-		pou_ask_name(tree->list, tree->document, pou);
+		gtk_widget_activate_action(tree->list, "win.rename-pou", "i", pou);
 	else
 		why = pou_delete(tree->document, pou);
 	if (why)

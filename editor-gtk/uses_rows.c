@@ -5,6 +5,7 @@
 #include "editor-gtk/uses_rows.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/place.h"
 #include "engine/base/ascii.h"
 #include "engine/view/address_map.h"
 
@@ -14,6 +15,7 @@
 struct maker {
 	struct xref xref;
 	GPtrArray *rows;
+	struct place_sheet sheet;
 };
 
 static const char *kind_text(const struct xref_use *use)
@@ -33,15 +35,25 @@ static const char *kind_text(const struct xref_use *use)
 
 /* ---- one row ---- */
 
-static char *place_text(const struct project *project, const struct xref_use *use)
+static char *cell_text(struct maker *maker, const char *pou, const struct xref_use *use)
 {
+	const int seen = place_shown(&maker->sheet, maker->xref.project, use->pou,
+				     use->rung - 1, use->row - 1, use->col - 1);
+	char column[PLACE_LETTERS];
+
+	return g_strdup_printf(use->off ? _("%s, rung %d, row %d, column %s, off") :
+			       _("%s, rung %d, row %d, column %s"), pou, use->rung, use->row,
+			       place_column(seen, column));
+}
+
+static char *place_text(struct maker *maker, const struct xref_use *use)
+{
+	const struct project *project = maker->xref.project;
 	const char *pou = use->pou < 0 ? "" :
 		project_text(project, project->pou[use->pou].name);
 
 	if (use->rung && use->row)
-		return g_strdup_printf(use->off ? _("%s, rung %d (%d, %d), off") :
-				       _("%s, rung %d (%d, %d)"), pou, use->rung,
-				       use->row, use->col);
+		return cell_text(maker, pou, use);
 	if (use->rung)
 		return g_strdup_printf(_("%s, rung %d"), pou, use->rung);
 	if (use->row)
@@ -72,7 +84,7 @@ static LadderPanelRow *add_row(struct maker *maker, const struct xref_use *use)
 	row->text[USES_NAME] = g_utf8_make_valid(name, -1);
 	row->text[USES_ADDRESS] = address_text(project, &use->target);
 	row->text[USES_KIND] = g_strdup(kind_text(use));
-	row->text[USES_PLACE] = place_text(project, use);
+	row->text[USES_PLACE] = place_text(maker, use);
 	row->text[USES_TEXT] = g_strdup(use->kind == XREF_DECLARED ? "" :
 					xref_text(&maker->xref, use));
 	row->pou = use->pou;

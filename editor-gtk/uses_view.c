@@ -176,7 +176,7 @@ static void ladder_uses_view_init(LadderUsesView *view)
 	panel_list_column(&view->list, _("Symbol"), USES_NAME, 0, 180);
 	panel_list_column(&view->list, _("Address"), USES_ADDRESS, 0, 90);
 	panel_list_column(&view->list, _("Use"), USES_KIND, 0, 110);
-	panel_list_column(&view->list, _("Place"), USES_PLACE, PANEL_NUMBER, 220);
+	panel_list_column(&view->list, _("Place"), USES_PLACE, PANEL_NUMBER, 260);
 	panel_list_column(&view->list, _("In"), USES_TEXT, PANEL_EXPAND, 0);
 	view->watch = panel_watch_new(widget, false, refresh);
 	show_empty(view);

@@ -356,14 +356,10 @@ static void go_to(GtkWidget *widget, const char *name, GVariant *place)
 	tabs_go(LADDER_WINDOW(widget), pou, rung, row, col);
 }
 
-static void rename_pou(GtkWidget *widget, const char *name, GVariant *what)
+static void rename_pou(GtkWidget *widget, const char *name, GVariant *pou)
 {
-	const char *to;
-	int pou;
-
 	(void)name;
-	g_variant_get(what, "(i&s)", &pou, &to);
-	names_rename_pou(LADDER_WINDOW(widget), pou, to);
+	names_rename_pou(LADDER_WINDOW(widget), g_variant_get_int32(pou));
 }
 
 static void show_uses(GtkWidget *widget, const char *action, GVariant *name)
@@ -451,7 +447,7 @@ void window_install_actions(GtkWidgetClass *class)
 		gtk_widget_class_install_action(class, verb_row((enum verb)i)->action,
 						NULL, act);
 	gtk_widget_class_install_action(class, "win.go-to", "(iiii)", go_to);
-	gtk_widget_class_install_action(class, "win.rename-pou", "(is)", rename_pou);
+	gtk_widget_class_install_action(class, "win.rename-pou", "i", rename_pou);
 	gtk_widget_class_install_action(class, "win.show-uses", "s", show_uses);
 	gtk_widget_class_install_action(class, "win.expect-value", "s", expect_value);
 	gtk_widget_class_install_action(class, "win.watch-value", "s", watch_value);

@@ -167,8 +167,17 @@ void names_follow(LadderWindow *window);
  * cursor, if there is one. */
 void names_uses_seen(GtkWidget *uses, LadderWindow *window);
 void names_show_uses_of(LadderWindow *window, const char *name);
+/** names_begin - @xref is made, @here the first use at the cursor; false: there is none,
+ * which is told. The caller frees @xref, which was zero, either way. */
+bool names_begin(LadderWindow *window, struct xref *xref, int *here);
+/** names_is_here - is that use at the cursor, as @here is? */
+bool names_is_here(LadderWindow *window, const struct xref *xref, int here, int use);
+
+/* ---- window_rename.c: another name ---- */
+/** names_rename - of what is at the cursor; the person is asked. */
 void names_rename(LadderWindow *window);
-void names_rename_pou(LadderWindow *window, int pou, const char *name);
+/** names_rename_pou - the same of a program or block. */
+void names_rename_pou(LadderWindow *window, int pou);
 
 /* ---- window_file.c ---- */
 /** window_chooser - a file chooser for rung files over @window; shown by the caller. Owns:

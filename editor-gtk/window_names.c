@@ -1,30 +1,40 @@
 /* SPDX-License-Identifier: MIT
  *
  * window_names - what is done with the name at the cursor: where it is driven, where it is
- * used, another name for it.
+ * used. Another name for it is window_rename.c's.
  *
  * What a name means is told by the engine's cross reference.
  */
 #include "editor-gtk/window_inside.h"
 
-#include "editor-gtk/symbols.h"
 #include "editor-gtk/uses_view.h"
 #include "editor-gtk/watch_view.h"
 
 #include "engine/view/xref.h"
 
-#include <stdlib.h>
-#include <string.h>
+static const char no_name[] = N_("There is no name at the cursor.");
 
 /* ---- what the cursor is on ---- */
 
+static bool is_in_rung(const struct xref_use *use, LadderGridView *sheet)
+{
+	return use->pou == ladder_grid_view_pou(sheet) &&
+	       use->rung == ladder_grid_view_first(sheet) +
+			    ladder_grid_view_cursor(sheet).rung + 1;
+}
+
 static bool is_here(const struct xref_use *use, LadderGridView *sheet, int row, int col)
 {
-	const struct grid_cursor cursor = ladder_grid_view_cursor(sheet);
+	return is_in_rung(use, sheet) && use->row == row + 1 && use->col == col + 1;
+}
 
-	return use->pou == ladder_grid_view_pou(sheet) &&
-	       use->rung == ladder_grid_view_first(sheet) + cursor.rung + 1 &&
-	       use->row == row + 1 && use->col == col + 1;
+bool names_is_here(LadderWindow *window, const struct xref *xref, int here, int use)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+	int row, col;
+
+	return use == here || (sheet && ladder_grid_view_cell(sheet, &row, &col) &&
+			       is_here(&xref->use[use], sheet, row, col));
 }
 
 /* The first use in the cursor's cell; -1: there is none. */
@@ -58,13 +68,12 @@ static bool find_here(LadderWindow *window, struct xref *xref, int *here)
 	return *here >= 0;
 }
 
-/* The same, and if there is none that is told. */
-static bool begin(LadderWindow *window, struct xref *xref, int *here)
+bool names_begin(LadderWindow *window, struct xref *xref, int *here)
 {
 	const bool found = find_here(window, xref, here);
 
 	if (!found && ladder_document_project(window->document))
-		ladder_window_tell(window, _("There is no name at the cursor."));
+		ladder_window_tell(window, _(no_name));
 	return found;
 }
 
@@ -85,161 +94,47 @@ static bool drives(enum xref_kind kind)
 	       kind == XREF_ENTERED;
 }
 
+/* A jump leads to its label, a call to what it calls; else what drives it is meant. */
+static bool is_named_place(const struct xref_use *use)
+{
+	return use->kind == XREF_JUMPED ||
+	       (use->target.what == XREF_POU && !use->unnamed);
+}
+
+static bool leads(const struct xref_use *from, const struct xref_use *to)
+{
+	if (to->pou < 0 || to->included || !xref_touches(&to->target, &from->target))
+		return false;
+	return is_named_place(from) ? to->kind == XREF_DECLARED : drives(to->kind);
+}
+
+static const char *lost(const struct xref *xref, int here)
+{
+	const struct xref_use *use = &xref->use[here];
+
+	if (use->kind == XREF_JUMPED)
+		return _("No rung has this label.");
+	return is_named_place(use) ? _("It is declared in another file") :
+	       _("Nothing in the program drives it.");
+}
+
 /* The next one that drives it, round and round. */
 void names_go_driver(LadderWindow *window)
 {
 	struct xref xref = { 0 };
 	int here;
 
-	if (begin(window, &xref, &here)) {
+	if (names_begin(window, &xref, &here)) {
 		for (int step = 1; step <= xref.count; step++) {
 			const struct xref_use *use = &xref.use[(here + step) % xref.count];
 
-			if (use->pou >= 0 && !use->included && drives(use->kind) &&
-			    xref_touches(&use->target, &xref.use[here].target)) {
+			if (leads(&xref.use[here], use)) {
 				go_to_use(window, use);
 				xref_free(&xref);
 				return;
 			}
 		}
-		ladder_window_tell(window, _("Nothing in the program drives it."));
-	}
-	xref_free(&xref);
-}
-
-/* ---- another name ---- */
-
-struct renaming {
-	LadderWindow *window;
-	GtkWidget *line, *dialog;
-	struct xref_target target;
-	char *old;
-};
-
-/* @old: what it is called until now; valid until the document changes. */
-static void rename_target(LadderWindow *window, const struct xref_target *target,
-			  const char *old, const char *name)
-{
-	LadderDocument *document = window->document;
-	struct ladder_rename how;
-	size_t len, old_len;
-	char *text = ladder_rename(ladder_document_ladder(document), target, name, &len,
-				   &how);
-	char *step = g_strdup_printf(_("Rename %s to %s"), old, name);
-	char *before = ladder_document_outline(document, &old_len, NULL, NULL);
-	char *old_pou = target->what == XREF_POU ? g_strdup(old) : NULL;
-	char *told;
-
-	if (text) {
-		ladder_document_begin(document, step, NULL);
-		ladder_document_replace(document, 0, old_len, text, NULL);
-		if (old_pou)
-			ladder_document_rename_bookmarks(document, old_pou, name);
-		ladder_document_end(document);
-		told = g_strdup_printf(ngettext("%d place changed", "%d places changed",
-			(unsigned long)how.places), how.places);
-	} else {
-		told = rename_reason(document, &how, name);
-	}
-	ladder_window_tell(window, told);
-	g_free(told);
-	g_free(old_pou);
-	g_free(before);
-	g_free(step);
-	free(text);
-}
-
-void names_rename_pou(LadderWindow *window, int pou, const char *name)
-{
-	const struct project *project = ladder_document_project(window->document);
-	const struct xref_target target = { .what = XREF_POU, .index = pou };
-
-	if (project)
-		rename_target(window, &target, project_text(project, project->pou[pou].name),
-			      name);
-}
-
-static void rename_now(AdwMessageDialog *dialog, const char *response,
-		       struct renaming *renaming)
-{
-	const char *name = gtk_editable_get_text(GTK_EDITABLE(renaming->line));
-
-	(void)dialog;
-	if (strcmp(response, "rename") == 0)
-		rename_target(renaming->window, &renaming->target, renaming->old, name);
-}
-
-static void renaming_free(gpointer data, GClosure *closure)
-{
-	struct renaming *renaming = data;
-
-	(void)closure;
-	g_free(renaming->old);
-	g_free(renaming);
-}
-
-static void ask_name(LadderWindow *window, const struct xref_target *target,
-		     const char *name, int uses)
-{
-	struct renaming *renaming = g_new0(struct renaming, 1);
-	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(window),
-						   _("Rename everywhere"), NULL);
-
-	*renaming = (struct renaming){ window, gtk_entry_new(), dialog, *target,
-					g_strdup(name) };
-	adw_message_dialog_format_body(ADW_MESSAGE_DIALOG(dialog),
-		ngettext("%s stands in %d place.", "%s stands in %d places.",
-			 (unsigned long)uses), name, uses);
-	gtk_editable_set_text(GTK_EDITABLE(renaming->line), name);
-	gtk_entry_set_activates_default(GTK_ENTRY(renaming->line), TRUE);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(renaming->line),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("New name"), -1);
-	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), renaming->line);
-	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog),
-		"cancel", _("Cancel"), "rename", _("Rename"), NULL);
-	adw_message_dialog_set_response_appearance(ADW_MESSAGE_DIALOG(dialog), "rename",
-						   ADW_RESPONSE_SUGGESTED);
-	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "rename");
-	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
-	g_signal_connect_data(dialog, "response", G_CALLBACK(rename_now), renaming,
-			      renaming_free, 0);
-	gtk_window_present(GTK_WINDOW(dialog));
-	gtk_widget_grab_focus(renaming->line);
-}
-
-/* What it is declared as; NULL: it is not, or is a POU, which the tree renames. */
-static const char *declared_name(const struct xref *xref, const struct xref_target *target)
-{
-	if (target->what != XREF_VARIABLE && target->what != XREF_STEP &&
-	    target->what != XREF_TRANSITION && target->what != XREF_ACTION)
-		return NULL;
-	for (int i = 0; i < xref->count; i++) {
-		const struct xref_use *use = &xref->use[i];
-
-		if (use->kind == XREF_DECLARED && use->slot &&
-		    xref_same(&use->target, target))
-			return project_text(xref->project, *use->slot);
-	}
-	return NULL;
-}
-
-void names_rename(LadderWindow *window)
-{
-	struct xref xref = { 0 };
-	const char *name;
-	int here, uses = 0;
-
-	if (begin(window, &xref, &here)) {
-		const struct xref_target *target = &xref.use[here].target;
-
-		for (int i = 0; i < xref.count; i++)
-			uses += xref_same(&xref.use[i].target, target);
-		name = declared_name(&xref, target);
-		if (name)
-			ask_name(window, target, name, uses);
-		else
-			ladder_window_tell(window, _("Only a declared name can be "
-				"changed; this one has no declaration."));
+		ladder_window_tell(window, lost(&xref, here));
 	}
 	xref_free(&xref);
 }
@@ -251,7 +146,7 @@ static char *name_by(LadderWindow *window,
 {
 	struct xref xref = { 0 };
 	char name[400] = "";
-	int here;
+	int here = -1;
 
 	if (find(window, &xref, &here))
 		xref_name(ladder_document_project(window->document), &xref.use[here].target,
@@ -262,7 +157,7 @@ static char *name_by(LadderWindow *window,
 
 char *names_at_cursor(LadderWindow *window)
 {
-	return name_by(window, begin);
+	return name_by(window, names_begin);
 }
 
 void names_uses_seen(GtkWidget *uses, LadderWindow *window)
@@ -283,15 +178,34 @@ void names_follow(LadderWindow *window)
 		names_uses_seen(uses, window);
 }
 
+/* Where there is no name in a rung that has a label: the label. */
+static bool find_label(LadderWindow *window, struct xref *xref, int *here)
+{
+	LadderGridView *sheet = tabs_sheet(window);
+
+	if (find_here(window, xref, here) || !sheet || !xref->project)
+		return *here >= 0;
+	for (int i = 0; i < xref->count && *here < 0; i++) {
+		const struct xref_use *use = &xref->use[i];
+
+		if (use->target.what == XREF_LABEL && use->kind == XREF_DECLARED &&
+		    is_in_rung(use, sheet))
+			*here = i;
+	}
+	return *here >= 0;
+}
+
 void names_show_uses(LadderWindow *window)
 {
-	char *name = names_at_cursor(window);
+	char *name = name_by(window, find_label);
 
-	if (name)
+	if (name) {
 		names_show_uses_of(window, name);
-	else
+	} else {
+		ladder_window_tell(window, _(no_name));
 		ladder_uses_view_set_mode(LADDER_USES_VIEW(below_show(window, "uses")),
 					  USES_ALL);
+	}
 	g_free(name);
 }
 
@@ -305,7 +219,7 @@ static bool at_step(LadderWindow *window)
 	struct xref xref = { 0 };
 	int here;
 	const bool is = !tabs_sheet(window) && tabs_chart(window) &&
-			begin(window, &xref, &here) &&
+			names_begin(window, &xref, &here) &&
 			xref.use[here].target.what == XREF_STEP;
 
 	xref_free(&xref);

@@ -65,6 +65,37 @@ static void test_hits(void)
 	g_object_unref(document);
 }
 
+/* Motor lies at %QX0.0: two elements show that address, and its declaration says it. */
+static void test_address(void)
+{
+	LadderDocument *document = opened();
+	const struct find_options everywhere = { FIND_EVERYWHERE, true, true };
+	struct find *find = find_new(document, "%qx0.0",
+				     (struct find_options){ FIND_EVERYWHERE, false, false });
+	const struct find_hit *hit = find->hit->pdata[1];
+	char *text;
+
+	CHECK(find->hit->len == 3);
+	CHECK(hit->by_symbol && hit->pou == 0 && hit->rung == 0 && hit->col == 1);
+	CHECK_TEXT(hit->text, "Motor");
+	CHECK(!find_replace(document, find, 1, "%QX0.5", NULL));
+	CHECK(!ladder_document_undo_name(document));
+	CHECK_AS(find_replace_all(document, find, "%QX0.5", NULL) == 1, "the declaration");
+	find_free(find);
+	text = ladder_document_text(document, NULL);
+	CHECK(strstr(text, "%QX0.5") && strstr(text, "COIL Motor"));
+	g_free(text);
+	CHECK_AS(count(document, "%QX0.0", FIND_EVERYWHERE, false, false) == 0, "not there");
+	CHECK_AS(count(document, "%QX0.5", FIND_OPERANDS, true, true) == 2, "there");
+	CHECK_AS(count(document, "%QX0.", FIND_OPERANDS, false, false) == 0, "no address");
+	CHECK_AS(count(document, "QX0.5", FIND_EVERYWHERE, false, false) == 1, "a part");
+	find = find_new(document, "%QB0", everywhere);
+	CHECK_AS(find->hit->len == 0, "another size");
+	CHECK(find_replace_all(document, find, "x", NULL) == 0);
+	find_free(find);
+	g_object_unref(document);
+}
+
 static void test_order(void)
 {
 	LadderDocument *document = opened();
@@ -232,6 +263,7 @@ static void test_chart(void)
 int main(void)
 {
 	test_hits();
+	test_address();
 	test_order();
 	test_replace();
 	test_reasons();

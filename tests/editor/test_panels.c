@@ -209,6 +209,7 @@ static void test_problems(void)
 			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
 					      i);
 			CHECK_TEXT(gone_to, "0 2 0 0");
+			CHECK_TEXT(row->text[1], "Main, rung 3, row 1, column A");
 		}
 		if (strstr(row->text[0], "Hours")) {
 			g_signal_emit_by_name(column_view(GTK_WIDGET(problems)), "activate",
@@ -254,7 +255,7 @@ static void test_uses(void)
 	ladder_uses_view_refresh(view);
 	CHECK(g_list_model_get_n_items(list) == 3);
 	is_row(list, 0, "Start|%IX0.0|declared|declarations||");
-	is_row(list, 1, "Start|%IX0.0|read|Main, rung 1 (1, 1)|Start|");
+	is_row(list, 1, "Start|%IX0.0|read|Main, rung 1, row 1, column A|Start|");
 	is_row(list, 2, "Start|%IX0.0|read|List, line 2|Start|");
 	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 1);
 	CHECK_TEXT(gone_to, "0 0 0 0");
@@ -262,6 +263,9 @@ static void test_uses(void)
 	CHECK_TEXT(gone_to, "1 -1 1 8");
 	g_signal_emit_by_name(column_view(GTK_WIDGET(view)), "activate", 0);
 	CHECK_TEXT(gone_to, "-1 -1 0 0");
+	ladder_uses_view_set_symbol(view, 0, "%QX0.4");
+	ladder_uses_view_refresh(view);
+	is_row(list, 1, "%QX0.4|%QX0.4|coil|Main, rung 3, row 1, column F|%QX0.4|");
 	ladder_uses_view_set_symbol(view, 0, "Delay.Q");
 	ladder_uses_view_refresh(view);
 	CHECK(g_list_model_get_n_items(list) == 2);

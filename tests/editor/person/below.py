@@ -41,12 +41,12 @@ def edits(screen):
     editor = Editor(screen, new_file(screen, PROJECT))
     editor.to_sheet()
     editor.tab('Cross reference')
-    editor.says('Main, rung 1 (1, 1)')
-    assert not editor.all('Main, rung 2 (1, 1)'), 'another name is listed'
+    editor.says('Main, rung 1, row 1, column A')
+    assert not editor.all('Main, rung 2, row 1, column A'), 'another name is listed'
     editor.tab('Log')
     editor.click(editor.beside(editor.element('Rung 2, NO', 'Motor')))
     editor.tab('Cross reference')
-    editor.says('Main, rung 2 (1, 1)')
+    editor.says('Main, rung 2, row 1, column A')
     editor.keys('Insert')
     editor.says('Rung 3')
     editor.tab('Log')
@@ -54,7 +54,7 @@ def edits(screen):
     editor.keys('shift+F12')  # of no name: all that is used
     editor.find('There is no name at the cursor')
     until(lambda: editor.find('Cross reference', 'page tab').states >> SELECTED & 1, 'the cross reference')
-    editor.says('Other, rung 1 (1, 1)')
+    editor.says('Other, rung 1, row 1, column A')
     editor.keys('ctrl+z', 'ctrl+Page_Down')
     editor.element('NO', 'Horn')
     listed(editor, 'PROGRAM Other IL')

@@ -111,8 +111,8 @@ def listed(editor, said, name):
     path = os.path.join(editor.screen.home, '水泵站.rung')
     editor.to_sheet()
     editor.keys('End', 'shift+F12')
-    for use, row, column in ('coil', 1, 3), ('read', 2, 1):
-        place = said('%s, rung %d (%d, %d)') % ('主程序', 1, row, column)
+    for use, row, column in ('coil', 1, 'F'), ('read', 2, 'A'):
+        place = said('%s, rung %d, row %d, column %s') % ('主程序', 1, row, column)
         editor.find('电机 %%QX0.0 %s, %s. 电机' % (said(use), place), 'table row')
         until(lambda place=place: [node for node in editor.all(place, 'label') if node.name == place], place)
     editor.shot('chinese-uses-' + name)
@@ -154,7 +154,7 @@ def wrong(editor, said, name):
     editor.to_sheet()
     for problem, place in ((said('name is declared twice') + ': 启动', said('line %d') % 6),
                            (said('unknown name') + ': 未声明',
-                            said('%s, rung %d, row %d, column %d') % ('主程序', 1, 1, 2))):
+                            said('%s, rung %d, row %d, column %s') % ('主程序', 1, 1, 'B'))):
         _, y, _, _ = editor.place(editor.find(problem, 'label'))
         _, beside, _, _ = editor.place(editor.find(place, 'label'))
         assert beside == y, (problem, place)

@@ -24,6 +24,220 @@ END_PROGRAM
 '''
 
 
+JUMPS = '''RUNGBOARD 1
+
+VAR
+  N    AT %IW0   : INT;
+  M    AT %IW2   : INT;
+  Lamp AT %QX0.0 : BOOL;
+  Stop AT %IX0.7 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO %IX0.0 | JMP Here |
+RUNG
+  | NO %IX0.1 | CALL Sub |
+RUNG
+  | NO Stop | JMP Here |
+RUNG
+  | NO Stop | COIL %QX0.1 |
+RUNG Here
+  | [ N > M ] | COIL Lamp |
+END_PROGRAM
+
+SUBROUTINE Sub LD
+RUNG
+  | NO %IX0.2 | COIL %QX0.3 |
+END_SUBROUTINE
+'''
+JUMPED = '@print %QX0.1\n%IX0.7=1\n%IX0.0=1\n%IX0.7=0\n'
+NOT_JUMPED = ['%QX0.1=0', '%QX0.1=0', '%QX0.1=0']
+COMPARED = '@print %QX0.0\n%IW0=2\n%IW2=5\n'
+
+
+def question(editor, *keys):
+    """F2, and the line of what it asks."""
+    editor.keys(*keys, 'F2')
+    line = until(editor.asked, 'the new name')[0]
+    until(lambda: line.has(12), 'the focus in the line')
+    return line
+
+
+def name_it(editor, text):
+    """Types another name over the one that is there."""
+    editor.keys('ctrl+a')
+    editor.type(text)
+
+
+def stays(editor, line, text, reason):
+    """Return with a name that is refused: what was typed and why stand there."""
+    name_it(editor, text)
+    until(lambda: [node for node in editor.all(reason, 'label') if node.name == reason], 'the reason ' + reason)
+    editor.keys('Return')
+    editor.says('Rename everywhere')
+    assert line.text() == text and line.has(12) and editor.all(reason, 'label')
+
+
+def refused(screen):
+    """a name that cannot be: the question says why while it is typed, and stays; Esc leaves"""
+    path = new_file(screen, JUMPS)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    line = question(editor, 'Down', 'Down', 'Home')
+    stays(editor, line, '2x', '\u201c2x\u201d is not a name')
+    stays(editor, line, 'a b', '\u201ca b\u201d is not a name')
+    stays(editor, line, 'LD', '\u201cLD\u201d is a word of the language')
+    stays(editor, line, 'lamp', '\u201clamp\u201d is declared already (the globals)')
+    editor.shot('names-refused')
+    editor.keys('ctrl+a', 'BackSpace')
+    editor.says('A name is needed')
+    editor.keys('Escape')
+    editor.to_sheet()
+    line = question(editor)
+    stays(editor, line, 'sub', '\u201csub\u201d is declared already (Sub)')
+    name_it(editor, 'Halt')
+    until(lambda: not editor.all('declared already', 'label'), 'no reason any more')
+    editor.keys('Return')
+    editor.says('3 places changed')
+    editor.to_sheet()
+    text = editor.save(path)
+    assert 'Stop' not in text and text.count('Halt') == 3, text
+    check(path)
+    assert lines(path, JUMPED) == NOT_JUMPED
+    editor.keys('ctrl+z')
+    assert editor.save(path) == JUMPS
+
+
+def jumps(screen):
+    """F12 on a jump goes to its label, F2 renames both, Ctrl+L takes the jumps along"""
+    path = new_file(screen, JUMPS)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('End', 'F12')
+    editor.says('Rung 5')
+    editor.to_sheet()
+    editor.keys('shift+F12')
+    editor.find('N %IW0 read', 'table row')
+    editor.keys('Right', 'shift+F12')
+    editor.find('jumped to, Main, rung 3', 'table row')
+    editor.to_sheet()
+    editor.keys('Up', 'Up', 'End')
+    editor.says('Rung 3')
+    question(editor)
+    name_it(editor, 'There')
+    editor.keys('Return')
+    editor.says('3 places changed')
+    editor.to_sheet()
+    text = editor.save(path)
+    assert text == JUMPS.replace('Here', 'There'), text
+    check(path)
+    assert lines(path, JUMPED) == NOT_JUMPED
+    editor.keys('ctrl+z')
+    assert editor.save(path) == JUMPS
+    editor.keys('F12')
+    editor.says('Rung 5')
+    editor.keys('ctrl+l')
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.entry('Done')
+    editor.says('2 jumps follow')
+    text = editor.save(path)
+    assert text == JUMPS.replace('Here', 'Done'), text
+    check(path)
+    assert lines(path, JUMPED) == NOT_JUMPED
+    editor.keys('ctrl+z')
+    assert editor.save(path) == JUMPS
+
+
+def labels(screen):
+    """a label of another rung is refused where jumps would follow; without jumps it is a text"""
+    path = new_file(screen, JUMPS.replace('RUNG\n  | NO Stop | COIL', 'RUNG Other\n  | NO Stop | COIL'))
+    text = open(path).read()
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('End', 'F12')
+    editor.says('Rung 5')
+    editor.keys('ctrl+l')
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.type('other')
+    editor.says('\u201cother\u201d is declared already (Main, rung 4)')
+    editor.keys('Return')
+    assert editor.asked()
+    editor.keys('ctrl+a')
+    editor.type('LD')
+    editor.says('this is no name')
+    editor.keys('Escape')
+    editor.gone()
+    editor.keys('Up', 'ctrl+l')
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.entry('Others')
+    assert editor.save(path) == text.replace('Other', 'Others')
+    check(path)
+    assert lines(path, JUMPED) == NOT_JUMPED
+    editor.keys('ctrl+z')
+    assert editor.save(path) == text
+
+
+def on_sheet(editor):
+    """Waits until the sheet that is seen has the keys."""
+    until(lambda: [node for node in editor.all('Sheet') if node.has(12)], 'the focus on its sheet')
+
+
+def calls(screen):
+    """F12 on a call goes to what it calls, F2 renames that"""
+    path = new_file(screen, JUMPS)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('Down', 'Home', 'Right', 'F12')
+    editor.element('%IX0.2')
+    on_sheet(editor)
+    editor.keys('ctrl+Page_Up')
+    editor.element('%IX0.1')
+    on_sheet(editor)
+    question(editor)
+    name_it(editor, 'Part')
+    editor.keys('Return')
+    editor.says('2 places changed')
+    editor.to_sheet()
+    text = editor.save(path)
+    assert text == JUMPS.replace('CALL Sub', 'CALL Part').replace('SUBROUTINE Sub', 'SUBROUTINE Part'), text
+    check(path)
+    assert lines(path, '@print %QX0.3\n%IX0.1=1 %IX0.2=1\n') == ['%QX0.3=1']
+    editor.keys('ctrl+z')
+    assert editor.save(path) == JUMPS
+
+
+def operands(screen):
+    """of several names in one element one is chosen"""
+    path = new_file(screen, JUMPS)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    line = question(editor, 'End', 'F12', 'Home')
+    assert line.text() == 'N'
+    editor.shot('names-choice')
+    editor.keys('shift+Tab')
+    editor.focus_on('Which name')
+    editor.keys('space')
+    editor.choose('M')
+    until(lambda: line.text() == 'M', 'the name that was chosen')
+    editor.says('M stands in 2 places.')
+    editor.keys('Tab')
+    until(lambda: line.has(12), 'the focus in the line')
+    name_it(editor, 'Most')
+    editor.keys('Return')
+    editor.says('2 places changed')
+    editor.to_sheet()
+    text = editor.save(path)
+    assert '[ N > Most ]' in text and 'N    AT' in text, text
+    check(path)
+    assert lines(path, COMPARED) == ['%QX0.0=1', '%QX0.0=0']
+    editor.keys('ctrl+z')
+    assert editor.save(path) == JUMPS
+
+
 def rename(screen):
     """rename a symbol everywhere, undo it, redo it"""
     path = new_file(screen, PROJECT)
@@ -65,4 +279,27 @@ def find(screen):
     editor.says('Rung 1')
 
 
-main([rename, find])
+def address(screen):
+    """of an address also what shows it is found; only texts are replaced"""
+    path = new_file(screen, JUMPS)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+h')
+    editor.type('%QX0.0')
+    editor.says('2 hits')
+    editor.keys('Return')
+    editor.says('of 2')
+    editor.into('Replace with')
+    editor.type('%QX0.7')
+    editor.find('Replace all', 'push button').press()
+    editor.says('1 replaced')
+    text = editor.save(path)
+    assert text == JUMPS.replace('%QX0.0', '%QX0.7'), text
+    check(path)
+    assert lines(path, COMPARED.replace('%QX0.0', '%QX0.7')) == ['%QX0.7=1', '%QX0.7=0']
+    editor.keys('Escape')
+    editor.to_sheet()
+    editor.keys('ctrl+z')
+    assert editor.save(path) == JUMPS
+
+
+main([rename, find, address, refused, jumps, labels, calls, operands])

@@ -79,7 +79,7 @@ def uses(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     editor.keys('Home', 'shift+F12')
-    row = '%MX1.0 %MX1.0 read, Main, rung 1 (1, 1)'
+    row = '%MX1.0 %MX1.0 read, Main, rung 1, row 1, column A'
     editor.find(row, 'table row')
     editor.keys('End')
     assert editor.all(row, 'table row')

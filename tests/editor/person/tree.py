@@ -64,7 +64,7 @@ def rows(screen):
     until(lambda: editor.all('Delay', 'label'), 'its variables')
     editor.shot('structure')
     editor.keys('F2')
-    editor.find('Name', 'text')
+    editor.find('New name', 'text')
     editor.keys('ctrl+a')
     editor.type('Pump')
     editor.keys('Return')

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_place - which column a person is told for a cell: on sheets, in charts, for what is
+ * not there.
+ */
+#include "editor-gtk/place.h"
+
+#include "engine/ladder.h"
+#include "tests/tap.h"
+
+static const char sample[] =
+	"RUNGBOARD 1\n\n"
+	"PROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n"
+	"RUNG\n  | NO %IX0.0 | NO %IX0.1 | NO %IX0.2 | NO %IX0.3 | NO %IX0.4 |"
+	" NO %IX0.5 | NO %IX0.6 | COIL %QX0.1 |\n"
+	"RUNG\n  | NO %IX0.0 | [ %MW0 := 1 ] |\nEND_PROGRAM\n\n"
+	"PROGRAM Chart SFC\n  INITIAL_STEP A:\n    Act(N);\n  END_STEP\n"
+	"  STEP B:\n  END_STEP\n  TRANSITION FROM A TO B := %IX0.0; END_TRANSITION\n"
+	"  TRANSITION FROM B TO A := %IX0.1; END_TRANSITION\n"
+	"  ACTION Act:\n  RUNG\n    | NO %IX0.2 | COIL %QX0.2 |\n  END_ACTION\n"
+	"END_PROGRAM\n";
+
+static void test_letters(void)
+{
+	char out[PLACE_LETTERS];
+
+	CHECK_TEXT(place_column(0, out), "A");
+	CHECK_TEXT(place_column(25, out), "Z");
+	CHECK_TEXT(place_column(26, out), "AA");
+	CHECK_TEXT(place_column(LIMIT_COLS - 1, out), "BL");
+}
+
+static void test_shown(const struct project *project)
+{
+	struct place_sheet sheet = { 0 };
+	const int last = project->pou[1].rung_count - 1;
+
+	CHECK_AS(place_shown(&sheet, project, 0, 0, 0, 1) == 7, "a coil is seen last");
+	CHECK_AS(place_shown(&sheet, project, 0, 0, 0, 0) == 0, "a contact where it stands");
+	CHECK(place_shown(&sheet, project, 0, 1, 0, 7) == 7);
+	CHECK_AS(place_shown(&sheet, project, 1, last, 0, 1) == 5,
+		 "a body of a chart has its own columns");
+	CHECK(place_shown(&sheet, project, 0, 0, 0, 1) == 7);
+}
+
+static void test_nowhere(const struct project *project)
+{
+	struct place_sheet sheet = { 0 };
+
+	CHECK(place_shown(&sheet, project, 0, 9, 0, 1) == 1);
+	CHECK(place_shown(&sheet, project, 9, 0, 0, 1) == 1);
+	CHECK(place_shown(&sheet, project, -1, -1, -1, 8) == 8);
+	CHECK(place_shown(&sheet, project, 0, 0, 0, 99) == 99);
+	CHECK(place_shown(&sheet, project, 0, 0, 5, 1) == 1);
+	CHECK(place_shown(&sheet, NULL, 0, 0, -1, -1) == -1);
+}
+
+int main(void)
+{
+	struct ladder *ladder = ladder_new();
+	const struct project *project;
+
+	CHECK(ladder && ladder_load_text(ladder, "test", sample, sizeof(sample) - 1));
+	project = ladder_project(ladder);
+	test_letters();
+	if (project && project->pou_count == 2) {
+		test_shown(project);
+		test_nowhere(project);
+	}
+	CHECK(project && project->pou_count == 2);
+	ladder_free(ladder);
+	return tap_done();
+}
