@@ -130,34 +130,79 @@ static void paste_text(LadderGridView *view, const char *text, gsize len, bool p
 	g_free(why);
 }
 
+/* ---- what the clipboard holds: bytes, until they were looked at ---- */
+
 struct paste {
 	LadderGridView *view;
 	bool parallel;
+	GInputStream *stream;
+	GByteArray *bytes;
 };
 
-static void pasted(GObject *clipboard, GAsyncResult *result, gpointer data)
-{
-	struct paste *paste = data;
-	char *text = gdk_clipboard_read_text_finish(GDK_CLIPBOARD(clipboard), result,
-						    NULL);
+/* Whoever gives more than a file may have is not heard to the end. */
+#define READ_MOST (LIMIT_TEXT + 1)
+#define READ_AT_ONCE 65536
 
-	if (!text)
-		sheet_tell(paste->view, _("The clipboard holds no text."));
-	else
-		paste_text(paste->view, text, strlen(text), paste->parallel);
-	g_free(text);
+static void paste_end(struct paste *paste)
+{
+	g_clear_object(&paste->stream);
+	g_byte_array_unref(paste->bytes);
 	g_object_unref(paste->view);
 	g_free(paste);
 }
 
+static void take_bytes(GObject *stream, GAsyncResult *result, gpointer data)
+{
+	struct paste *paste = data;
+	GBytes *bytes = g_input_stream_read_bytes_finish(G_INPUT_STREAM(stream), result,
+							 NULL);
+	const gsize len = bytes ? g_bytes_get_size(bytes) : 0;
+	const gsize room = READ_MOST - paste->bytes->len;
+
+	if (len > 0)
+		g_byte_array_append(paste->bytes, g_bytes_get_data(bytes, NULL),
+				    (guint)MIN(len, room));
+	if (len > 0 && len < room) {
+		g_input_stream_read_bytes_async(paste->stream, READ_AT_ONCE,
+						G_PRIORITY_DEFAULT, NULL, take_bytes, paste);
+	} else {
+		if (!bytes)
+			sheet_tell(paste->view, _("The clipboard holds no text."));
+		else
+			paste_text(paste->view, paste->bytes->len ?
+				   (const char *)paste->bytes->data : "",
+				   paste->bytes->len, paste->parallel);
+		paste_end(paste);
+	}
+	if (bytes)
+		g_bytes_unref(bytes);
+}
+
+static void take_stream(GObject *clipboard, GAsyncResult *result, gpointer data)
+{
+	struct paste *paste = data;
+
+	paste->stream = gdk_clipboard_read_finish(GDK_CLIPBOARD(clipboard), result, NULL,
+						  NULL);
+	if (paste->stream) {
+		g_input_stream_read_bytes_async(paste->stream, READ_AT_ONCE,
+						G_PRIORITY_DEFAULT, NULL, take_bytes, paste);
+		return;
+	}
+	sheet_tell(paste->view, _("The clipboard holds no text."));
+	paste_end(paste);
+}
+
 static void do_paste(LadderGridView *view, bool parallel)
 {
+	static const char *types[] = { "text/plain;charset=utf-8", "text/plain", NULL };
 	struct paste *paste = g_new0(struct paste, 1);
 
 	paste->view = g_object_ref(view);
 	paste->parallel = parallel;
-	gdk_clipboard_read_text_async(gtk_widget_get_clipboard(GTK_WIDGET(view)), NULL,
-				      pasted, paste);
+	paste->bytes = g_byte_array_new();
+	gdk_clipboard_read_async(gtk_widget_get_clipboard(GTK_WIDGET(view)), types,
+				 G_PRIORITY_DEFAULT, NULL, take_stream, paste);
 }
 
 void clipboard_do(LadderGridView *view, enum verb verb)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """windows - rungs go from window to window, and from any text editor, as text."""
 import os
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -110,8 +111,8 @@ def declared(screen):
     two.keys('ctrl+y')
     until(lambda: len(two.cells()) == 5, 'the elements again')
     assert two.save(path) == text
-    # All is known now: a rung more, and nothing else.
-    two.keys('ctrl+v')
+    # All is known now: a rung more, and nothing else, though it is copied here.
+    two.keys('ctrl+End', 'ctrl+a', 'ctrl+c', 'ctrl+v')
     until(lambda: len(two.cells()) == 8, 'the elements twice')
     again = two.save(path)
     rung = text[text.index('  | NO Motor'):text.index('END_PROGRAM')]
@@ -148,6 +149,25 @@ def from_text(screen):
     check(path)
     assert text.startswith(saved[:saved.index('  Motor')]) and '  D1 : TON;\n' in text, text
     assert lines(path, '@print Motor\nStart=0\n%IX0.0=1\n')[-1] == 'Motor=1', text
+
+
+def hostile(screen):
+    """bytes that are no text are refused, and nothing changes"""
+    path = new_file(screen, TARGET)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    rung = b'RUNG\n  | NO Start | COIL Motor |\n'
+    for text, why in (rung + b'\0' + rung, 'not valid UTF-8 text'), (b'this', 'The clipboard holds no rungs.'), \
+            (rung.replace(b'Start', b'St\xffrt'), 'not valid UTF-8 text'), (b'this', 'The clipboard holds no rungs.'), \
+            (b' ' * (65 << 20), 'file is too large'):
+        subprocess.run(['xclip', '-selection', 'clipboard', '-t', 'text/plain;charset=utf-8'], input=text, check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        editor.keys('ctrl+v')
+        editor.says(why)
+        assert editor.cells() == [], 'what is no text was pasted'
+    editor.put_clipboard(rung.decode())
+    editor.keys('ctrl+v')
+    until(lambda: len(editor.cells()) == 2, 'the elements')
 
 
 def many(screen):
@@ -225,4 +245,4 @@ def a_tab(screen):
     assert lines(paths[1], '@print %QX0.1\nStop=0\nStop=1\n') == ['%QX0.1=0', '%QX0.1=1']
 
 
-main([other_window, declared, from_text, many, a_tab])
+main([other_window, declared, from_text, hostile, many, a_tab])
