@@ -119,7 +119,7 @@ static void paste_text(LadderGridView *view, const char *text, gsize len, bool p
 
 	if (!sheet_pou(view))
 		return;
-	clip = rung_clip_read(view->document, text, len, &why);
+	clip = rung_clip_read(view->document, view->pou, text, len, &why);
 	if (!clip)
 		sheet_tell(view, why);
 	else if (clip->count > 1 || (has_output(clip->rung[0]) && !parallel))

@@ -13,7 +13,7 @@
  *     | NO Start | TON Delay PT:=T#1s | COIL %QX0.0 |
  *
  * VAR_GLOBAL are those of the project, VAR those of the program. A whole file is read too,
- * and a rung without its word. It puts no rung anywhere, and never changes a declaration
+ * a rung without its word, and a line of mnemonics. It puts no rung anywhere, and never changes a declaration
  * that is there.
  */
 #ifndef EDITOR_RUNG_CLIP_H
@@ -34,14 +34,14 @@ struct rung_clip {
 char *rung_clip_text(LadderDocument *document, int pou, const struct rung *rung);
 
 /**
- * rung_clip_read - the rungs of a text, to be put into @document
+ * rung_clip_read - the rungs of a text, to be put into POU @pou of @document
  * @text: any @len bytes
  * @why:  gets a translated reason, which the caller frees
  *
  * Owns: the caller, rung_clip_free().   Fails: NULL; nothing but strings was added.
  */
-struct rung_clip *rung_clip_read(LadderDocument *document, const char *text, gsize len,
-				 char **why);
+struct rung_clip *rung_clip_read(LadderDocument *document, int pou, const char *text,
+				 gsize len, char **why);
 /** rung_clip_take - the rungs are the caller's from now on. Owns: the caller, g_free(). */
 struct rung **rung_clip_take(struct rung_clip *clip);
 void rung_clip_free(struct rung_clip *clip);

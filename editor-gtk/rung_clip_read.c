@@ -11,6 +11,7 @@
 
 #include "editor-gtk/diag_said.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/rung_clip_line.h"
 #include "engine/base/lex.h"
 
 #include <stdlib.h>
@@ -30,6 +31,7 @@ struct span {
 
 struct reading {
 	LadderDocument *document;
+	int pou;
 	const char *text;
 	GArray *block, *rung; /* of struct span                               */
 	bool whole;           /* a file, or parts of one                      */
@@ -404,10 +406,34 @@ static bool is_text(struct reading *r, const char *text, gsize len)
 	return true;
 }
 
-struct rung_clip *rung_clip_read(LadderDocument *document, const char *text, gsize len,
-				 char **why)
+/* No row and no word of a rung file. */
+static bool take_line(struct reading *r)
 {
-	struct reading r = { .document = document, .clip = g_new0(struct rung_clip, 1) };
+	char *text = rung_clip_line(r->document, r->pou, r->text);
+	bool good = text;
+
+	r->clip->rung = g_new0(struct rung *, 1);
+	if (good)
+		good = take_rung(r, text, strlen(text), 0);
+	else
+		refuse(r, g_strdup(_("The clipboard holds no rungs.")));
+	g_free(text);
+	return good;
+}
+
+static bool take(struct reading *r)
+{
+	if (r->whole)
+		return take_whole(r);
+	if (r->rung->len == 0)
+		return take_line(r);
+	return (r->block->len == 0 || take_blocks(r)) && take_rungs(r);
+}
+
+struct rung_clip *rung_clip_read(LadderDocument *document, int pou, const char *text,
+				 gsize len, char **why)
+{
+	struct reading r = { .document = document, .pou = pou, .clip = g_new0(struct rung_clip, 1) };
 	char *copy = NULL;
 	bool good = is_text(&r, text, len);
 
@@ -416,9 +442,7 @@ struct rung_clip *rung_clip_read(LadderDocument *document, const char *text, gsi
 	if (good) {
 		r.text = copy = g_strndup(text, len);
 		cut_text(&r, len);
-		good = r.whole ? take_whole(&r) :
-		       (r.rung->len == 0 || r.block->len == 0 || take_blocks(&r)) &&
-			take_rungs(&r);
+		good = take(&r);
 	}
 	if (good && r.clip->count == 0)
 		good = refuse(&r, g_strdup(_("The clipboard holds no rungs.")));

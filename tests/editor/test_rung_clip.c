@@ -41,7 +41,7 @@ static char *copied(int rung)
 static char *pasted(LadderDocument *document, const char *text, gsize len)
 {
 	char *told = NULL;
-	struct rung_clip *clip = rung_clip_read(document, text, len, &told);
+	struct rung_clip *clip = rung_clip_read(document, 0, text, len, &told);
 	struct rung **rungs;
 
 	if (!clip)
@@ -71,7 +71,7 @@ static void becomes(const char *into, const char *text, const char *told, const 
 	CHECK_TEXT(after, want);
 	g_free(after);
 	if (strcmp(before, want) != 0) {
-		CHECK_TEXT(ladder_document_undo_name(document), "Paste");
+		CHECK(g_strcmp0(ladder_document_undo_name(document), "Paste") == 0);
 		CHECK(ladder_document_undo(document));
 	}
 	CHECK(!ladder_document_undo_name(document));
@@ -171,6 +171,20 @@ static void test_typed(void)
 		"END_PROGRAM\n");
 }
 
+static void test_line(void)
+{
+	becomes(target, "  XIC Start\tXIO Stop  OTE Motor2\n", "",
+		"RUNGBOARD 1\n\nPROGRAM Main LD\n"
+		"RUNG\n  | NO Start | NC Stop | COIL Motor2 |\nEND_PROGRAM\n");
+	becomes(target, "LD %I0.0 TON T1 T#5s OUT %Q0.1", "",
+		"RUNGBOARD 1\n\nPROGRAM Main LD\n"
+		"RUNG\n  | NO %IX0.0 | TON T1 PT:=T#5s | COIL %QX0.1 |\nEND_PROGRAM\n");
+	refused("XIC", "The clipboard holds no rungs.");
+	refused("XIC Start OTE", "The clipboard holds no rungs.");
+	refused("XIC A\nOTE B\n", "The clipboard holds no rungs.");
+	refused("Start XIC Stop", "The clipboard holds no rungs.");
+}
+
 /* All rungs of its ladder programs, and of its declarations those that they use. */
 static void test_file(void)
 {
@@ -239,6 +253,7 @@ int main(void)
 	test_declared();
 	test_known();
 	test_typed();
+	test_line();
 	test_file();
 	test_refused();
 	return tap_done();
