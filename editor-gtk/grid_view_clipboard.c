@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_clipboard - cells, branches and rungs as text of a rung file.
+ * grid_view_clipboard - cells, branches and rungs as text of a rung file (rung_clip.h).
  *
  * So they can be pasted into a text editor and from one, and from window to window. A
  * rung with outputs is pasted as a rung of its own, what has none into the circuit.
@@ -8,11 +8,10 @@
 #include "editor-gtk/grid_view_inside.h"
 
 #include "editor-gtk/diag_said.h"
+#include "editor-gtk/rung_clip.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-#define PASTE_MOST (LIMIT_RUNGS + 1) /* one is too much for any POU: it is told */
 
 /* ---- copying ---- */
 
@@ -36,13 +35,12 @@ static void do_copy(LadderGridView *view)
 	cursor_area(view, &area);
 	part = is_whole(view, &area) ? rung_copy(rung) :
 	       grid_copy(rung, view->columns, &area);
-	text = part ? ladder_write_rung(ladder_document_ladder(view->document), part) :
-	       NULL;
+	text = part ? rung_clip_text(view->document, view->pou, part) : NULL;
 	if (text)
 		gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(view)), text);
 	else
 		sheet_tell(view, _("nothing stands here"));
-	free(text);
+	g_free(text);
 	rung_free(part);
 }
 
@@ -64,35 +62,6 @@ static bool is_blank(const struct rung *rung)
 	return !rung->title && !rung->label && !rung->comment;
 }
 
-/* Where the next rung begins: its RUNG at the beginning of a line. */
-static const char *next_rung(const char *text)
-{
-	for (const char *at = strchr(text, '\n'); at; at = strchr(at + 1, '\n'))
-		if (g_ascii_strncasecmp(at + 1, "RUNG", 4) == 0 &&
-		    !g_ascii_isalnum(at[5]))
-			return at + 1;
-	return text + strlen(text);
-}
-
-/* The rungs of the text, up to the first that is none; why that is not. */
-static int read_rungs(LadderGridView *view, const char *text, struct rung **rungs,
-		      struct diag_list *why)
-{
-	struct ladder *ladder = ladder_document_ladder(view->document);
-	int count = 0;
-
-	diag_init(why);
-	/* A comment above the first one belongs to it. */
-	for (const char *end = text; *text && count < PASTE_MOST; text = end) {
-		end = next_rung(text);
-		rungs[count] = ladder_read_rung(ladder, text, (size_t)(end - text), why);
-		if (!rungs[count])
-			break;
-		count++;
-	}
-	return count;
-}
-
 static void tell_too_many(LadderGridView *view)
 {
 	const struct diag diag = { .id = DIAG_TOO_MANY };
@@ -100,81 +69,140 @@ static void tell_too_many(LadderGridView *view)
 	sheet_tell(view, diag_said(&diag));
 }
 
-static void paste_whole(LadderGridView *view, struct rung **rungs, int count)
+/* What they use and nobody knows here comes along: @at is of the sheet. */
+static void declare(LadderGridView *view, const struct rung_clip *clip, int at, int count)
+{
+	char *told = rung_clip_declare(clip, view->document, view->pou, view->first + at,
+				       count);
+
+	if (told)
+		sheet_tell(view, told);
+	g_free(told);
+}
+
+static void paste_whole(LadderGridView *view, struct rung_clip *clip)
 {
 	const struct rung *here = sheet_rung(view, view->cursor.rung);
-	const int removed = here && is_blank(here);
+	const int removed = here && is_blank(here), count = clip->count;
 	const int at = view->cursor.rung + (here && !removed);
+	struct rung **rungs = rung_clip_take(clip);
 
 	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
-	if (sheet_splice(view, at, removed, rungs, count, NULL))
+	if (sheet_splice(view, at, removed, rungs, count, NULL)) {
 		cursor_set(view, (struct grid_cursor){ at + count - 1, 0, 0 }, false);
-	else if (sheet_pou(view)->rung_count - removed + count > LIMIT_RUNGS)
+		declare(view, clip, at, count);
+	} else if (sheet_pou(view)->rung_count - removed + count > LIMIT_RUNGS) {
 		tell_too_many(view);
+	}
+	ladder_document_end(view->document);
+	g_free(rungs);
+}
+
+static void paste_part(LadderGridView *view, const struct rung_clip *clip, bool parallel)
+{
+	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	const char *name = _(verb_row(VERB_paste)->label);
+	struct grid_at at = sheet_at(view);
+
+	if (!rung)
+		return;
+	ladder_document_begin(view->document, name, NULL);
+	if (sheet_put(view, grid_paste(rung, &at, clip->rung[0], parallel), &at, name))
+		declare(view, clip, view->cursor.rung, 1);
 	ladder_document_end(view->document);
 }
 
-static void paste_part(LadderGridView *view, const struct rung *part, bool parallel)
+static void paste_text(LadderGridView *view, const char *text, gsize len, bool parallel)
 {
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	struct grid_at at = sheet_at(view);
+	struct rung_clip *clip;
+	char *why;
 
-	if (rung)
-		sheet_put(view, grid_paste(rung, &at, part, parallel), &at,
-			  _(verb_row(VERB_paste)->label));
-}
-
-static void paste_text(LadderGridView *view, const char *text, bool parallel)
-{
-	struct rung **rungs;
-	struct diag_list why;
-	int count;
-
-	if (!sheet_pou(view) || !text)
+	if (!sheet_pou(view))
 		return;
-	rungs = g_new0(struct rung *, PASTE_MOST);
-	count = read_rungs(view, text, rungs, &why);
-	if (why.errors || count == 0) {
-		sheet_tell(view, _("The clipboard holds no rungs."));
-		for (int i = 0; i < count; i++)
-			rung_free(rungs[i]);
-	} else if (count > 1 || (has_output(rungs[0]) && !parallel)) {
-		paste_whole(view, rungs, count);
-	} else {
-		paste_part(view, rungs[0], parallel);
-		rung_free(rungs[0]);
-	}
-	g_free(rungs);
+	clip = rung_clip_read(view->document, view->pou, text, len, &why);
+	if (!clip)
+		sheet_tell(view, why);
+	else if (clip->count > 1 || (has_output(clip->rung[0]) && !parallel))
+		paste_whole(view, clip);
+	else
+		paste_part(view, clip, parallel);
+	rung_clip_free(clip);
+	g_free(why);
 }
+
+/* ---- what the clipboard holds: bytes, until they were looked at ---- */
 
 struct paste {
 	LadderGridView *view;
 	bool parallel;
+	GInputStream *stream;
+	GByteArray *bytes;
 };
 
-static void pasted(GObject *clipboard, GAsyncResult *result, gpointer data)
-{
-	struct paste *paste = data;
-	char *text = gdk_clipboard_read_text_finish(GDK_CLIPBOARD(clipboard), result,
-						    NULL);
+/* Whoever gives more than a file may have is not heard to the end. */
+#define READ_MOST (LIMIT_TEXT + 1)
+#define READ_AT_ONCE 65536
 
-	if (!text)
-		sheet_tell(paste->view, _("The clipboard holds no text."));
-	else
-		paste_text(paste->view, text, paste->parallel);
-	g_free(text);
+static void paste_end(struct paste *paste)
+{
+	g_clear_object(&paste->stream);
+	g_byte_array_unref(paste->bytes);
 	g_object_unref(paste->view);
 	g_free(paste);
 }
 
+static void take_bytes(GObject *stream, GAsyncResult *result, gpointer data)
+{
+	struct paste *paste = data;
+	GBytes *bytes = g_input_stream_read_bytes_finish(G_INPUT_STREAM(stream), result,
+							 NULL);
+	const gsize len = bytes ? g_bytes_get_size(bytes) : 0;
+	const gsize room = READ_MOST - paste->bytes->len;
+
+	if (len > 0)
+		g_byte_array_append(paste->bytes, g_bytes_get_data(bytes, NULL),
+				    (guint)MIN(len, room));
+	if (len > 0 && len < room) {
+		g_input_stream_read_bytes_async(paste->stream, READ_AT_ONCE,
+						G_PRIORITY_DEFAULT, NULL, take_bytes, paste);
+	} else {
+		if (!bytes)
+			sheet_tell(paste->view, _("The clipboard holds no text."));
+		else
+			paste_text(paste->view, paste->bytes->len ?
+				   (const char *)paste->bytes->data : "",
+				   paste->bytes->len, paste->parallel);
+		paste_end(paste);
+	}
+	if (bytes)
+		g_bytes_unref(bytes);
+}
+
+static void take_stream(GObject *clipboard, GAsyncResult *result, gpointer data)
+{
+	struct paste *paste = data;
+
+	paste->stream = gdk_clipboard_read_finish(GDK_CLIPBOARD(clipboard), result, NULL,
+						  NULL);
+	if (paste->stream) {
+		g_input_stream_read_bytes_async(paste->stream, READ_AT_ONCE,
+						G_PRIORITY_DEFAULT, NULL, take_bytes, paste);
+		return;
+	}
+	sheet_tell(paste->view, _("The clipboard holds no text."));
+	paste_end(paste);
+}
+
 static void do_paste(LadderGridView *view, bool parallel)
 {
+	static const char *types[] = { "text/plain;charset=utf-8", "text/plain", NULL };
 	struct paste *paste = g_new0(struct paste, 1);
 
 	paste->view = g_object_ref(view);
 	paste->parallel = parallel;
-	gdk_clipboard_read_text_async(gtk_widget_get_clipboard(GTK_WIDGET(view)), NULL,
-				      pasted, paste);
+	paste->bytes = g_byte_array_new();
+	gdk_clipboard_read_async(gtk_widget_get_clipboard(GTK_WIDGET(view)), types,
+				 G_PRIORITY_DEFAULT, NULL, take_stream, paste);
 }
 
 void clipboard_do(LadderGridView *view, enum verb verb)

@@ -82,6 +82,28 @@ static void fill(struct symbol_row *symbol, const struct project *project,
 	symbol->text[FIELD_COMMENT] = comment_text(project_text(project, var->comment));
 }
 
+struct symbol_row *symbol_row_new(const struct project *project,
+				  const struct var_table *vars, int table, int index)
+{
+	struct symbol_row *symbol = g_new0(struct symbol_row, 1);
+
+	fill(symbol, project, vars, table, index);
+	return symbol;
+}
+
+static void clear(struct symbol_row *symbol)
+{
+	g_free(symbol->scope);
+	for (int k = 0; k < SYMBOL_FIELDS; k++)
+		g_free(symbol->text[k]);
+}
+
+void symbol_row_free(struct symbol_row *symbol)
+{
+	clear(symbol);
+	g_free(symbol);
+}
+
 /* ---- the rows ---- */
 
 /* Of each table the number of its first row; results of functions have none. */
@@ -154,11 +176,8 @@ void symbols_free(struct symbols *symbols)
 {
 	if (!symbols)
 		return;
-	for (int i = 0; i < symbols->count; i++) {
-		g_free(symbols->symbol[i].scope);
-		for (int k = 0; k < SYMBOL_FIELDS; k++)
-			g_free(symbols->symbol[i].text[k]);
-	}
+	for (int i = 0; i < symbols->count; i++)
+		clear(&symbols->symbol[i]);
 	g_free(symbols->symbol);
 	g_free(symbols);
 }

@@ -41,6 +41,12 @@ const struct symbol_row *symbols_find(const struct symbols *symbols, const char 
 /** symbols_at - by table and index; NULL: none. */
 const struct symbol_row *symbols_at(const struct symbols *symbols, int table, int index);
 
+/** symbol_row_new - of variable @index of a table alone, its uses not counted. Owns: the
+ * caller. */
+struct symbol_row *symbol_row_new(const struct project *project,
+				  const struct var_table *vars, int table, int index);
+void symbol_row_free(struct symbol_row *symbol);
+
 /** symbol_field_name - "Address", translated. Lives for ever. */
 const char *symbol_field_name(enum field field);
 

@@ -16,8 +16,12 @@
 /* A piece of the text that becomes another. */
 struct piece {
 	gsize at, removed;
-	char *with;
+	GString *with;
+	const char *tail;    /* behind that: of a block that comes its end, so that
+				more declarations can come in                  */
 	int order;           /* of those at one place                         */
+	int table;           /* of such a block; -1: it is none                */
+	uint16_t flags;      /* likewise                                       */
 };
 
 struct symbol_batch {
@@ -49,7 +53,7 @@ static void take_span(void *context, const struct text_span *span)
 
 static void clear_piece(gpointer piece)
 {
-	g_free(((struct piece *)piece)->with);
+	g_string_free(((struct piece *)piece)->with, TRUE);
 }
 
 struct symbol_batch *symbol_batch_new(LadderDocument *document)
@@ -81,8 +85,10 @@ void symbol_batch_free(struct symbol_batch *batch)
 
 static void add_piece(struct symbol_batch *batch, gsize at, gsize removed, char *with)
 {
-	struct piece piece = { at, removed, with, (int)batch->piece->len };
+	struct piece piece = { at, removed, g_string_new(with), "",
+			       (int)batch->piece->len, -1, 0 };
 
+	g_free(with);
 	g_array_append_val(batch->piece, piece);
 }
 
@@ -204,9 +210,25 @@ static gsize place_of_globals(const struct symbol_batch *batch)
 	return batch->len;
 }
 
+/* Into a block that comes with this batch; false: none does. */
+static bool insert_fresh(struct symbol_batch *batch, int table, uint16_t flags,
+			 const char *line)
+{
+	for (guint i = 0; i < batch->piece->len; i++) {
+		struct piece *piece = &g_array_index(batch->piece, struct piece, i);
+
+		if (piece->table != table || piece->flags != flags)
+			continue;
+		g_string_append(piece->with, line);
+		return true;
+	}
+	return false;
+}
+
 static void insert_block(struct symbol_batch *batch, int table, uint16_t flags,
 			 const char *line)
 {
+	struct piece *piece;
 	const struct var_table *vars = xref_table(batch->project, table);
 	const struct text_span *last = NULL, *body;
 	char *head = symbol_text_block(flags);
@@ -219,8 +241,11 @@ static void insert_block(struct symbol_batch *batch, int table, uint16_t flags,
 	}
 	body = table ? find_span(batch, TEXT_BODY, table, table - 1) : NULL;
 	at = last ? last->at + last->len : body ? body->at : place_of_globals(batch);
-	add_piece(batch, at, 0, g_strdup_printf("%s%s%sEND_VAR\n%s",
-		table ? "" : "\n", head, line, table ? "" : "\n"));
+	add_piece(batch, at, 0, g_strdup_printf("%s%s%s", table ? "" : "\n", head, line));
+	piece = &g_array_index(batch->piece, struct piece, batch->piece->len - 1);
+	piece->tail = table ? "END_VAR\n" : "END_VAR\n\n";
+	piece->table = table;
+	piece->flags = flags;
 	g_free(head);
 }
 
@@ -248,7 +273,7 @@ static bool insert(struct symbol_batch *batch, int table, uint16_t flags, const 
 	if (block)
 		add_piece(batch, block->at + block->len - strlen("END_VAR\n"), 0,
 			  g_strdup(line));
-	else
+	else if (!insert_fresh(batch, table, flags, line))
 		insert_block(batch, table, flags, line);
 	return true;
 }
@@ -368,7 +393,8 @@ static GString *pieced(struct symbol_batch *batch)
 		const struct piece *piece = &g_array_index(batch->piece, struct piece, i);
 
 		g_string_append_len(text, batch->text + done, (gssize)(piece->at - done));
-		g_string_append(text, piece->with);
+		g_string_append_len(text, piece->with->str, (gssize)piece->with->len);
+		g_string_append(text, piece->tail);
 		done = piece->at + piece->removed;
 	}
 	return g_string_append_len(text, batch->text + done, (gssize)(batch->len - done));

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """windows - rungs go from window to window, and from any text editor, as text."""
 import os
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -22,6 +23,37 @@ RUNG "Self-holding"
 END_PROGRAM
 '''
 TARGET = SOURCE[:SOURCE.index('RUNG "')] + 'RUNG\nEND_PROGRAM\n'
+
+
+USES = '''RUNGBOARD 1
+
+VAR
+  Motor AT %QX0.0 : BOOL;
+  Lamp AT %QX0.1 : BOOL; (* it runs long *)
+END_VAR
+
+PROGRAM Main LD
+VAR
+  D1 : TON;
+END_VAR
+RUNG
+  | NO Motor | TON D1 PT:=T#5s | COIL Lamp |
+RUNG
+  | NO %IX0.0 | COIL Motor |
+END_PROGRAM
+'''
+OTHER = '''RUNGBOARD 1
+
+VAR
+  Fan AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Second LD
+RUNG
+  | NO %IX0.0 | COIL %QX0.0 |
+RUNG
+END_PROGRAM
+'''
 
 
 PANEL = 230  # px, of the tree
@@ -54,6 +86,39 @@ def other_window(screen):
     assert open(from_path).read() == SOURCE
 
 
+def declared(screen):
+    """a rung brings the declarations of what it uses to a project that does not know them; one undo takes back both"""
+    path = new_file(screen, OTHER, 'second.rung')
+    one = Editor(screen, new_file(screen, USES, 'first.rung'))
+    one.to_sheet()
+    one.keys('ctrl+a', 'ctrl+c')
+    until(lambda: 'D1 : TON;' in clipboard(), 'declarations on the clipboard')
+    two = Editor(screen, path)
+    two.front()
+    two.to_sheet()
+    two.keys('ctrl+End', 'ctrl+v')
+    until(lambda: len(two.cells()) == 5, 'the elements')
+    # %QX0.1 is Fan here.
+    two.says('3 names were declared; Lamp has no address: %QX0.1 is Fan here')
+    two.shot('windows-declared')
+    text = two.save(path)
+    check(path)
+    assert '  Lamp  : BOOL; (* it runs long *)\n' in text, text
+    assert lines(path, '@print Lamp\n%IX0.0=1\n+4000\n+2000\n') == ['Lamp=0', 'Lamp=0', 'Lamp=1'], text
+    two.keys('ctrl+z')
+    until(lambda: len(two.cells()) == 2, 'the rung to be gone')
+    assert two.save(path) == OTHER
+    two.keys('ctrl+y')
+    until(lambda: len(two.cells()) == 5, 'the elements again')
+    assert two.save(path) == text
+    # All is known now: a rung more, and nothing else, though it is copied here.
+    two.keys('ctrl+End', 'ctrl+a', 'ctrl+c', 'ctrl+v')
+    until(lambda: len(two.cells()) == 8, 'the elements twice')
+    again = two.save(path)
+    rung = text[text.index('  | NO Motor'):text.index('END_PROGRAM')]
+    assert again == text.replace('END_PROGRAM', 'RUNG\n' + rung + 'END_PROGRAM'), again
+
+
 def from_text(screen):
     """a rung typed in any text editor is pasted"""
     path = new_file(screen, TARGET)
@@ -65,9 +130,44 @@ def from_text(screen):
     editor.save(path)
     check(path)
     assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
-    editor.put_clipboard('this is no rung')
+    saved = open(path).read()
+    for text, why in ('this is no rung', 'The clipboard holds no rungs.'), \
+            ('RUNG\n  | NO Start | COIL Motor |\nRUNG\n  | BADWORD Start |\n', 'line 4: unknown word: BADWORD'), \
+            ('RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO Start\nEND_PROGRAM\n', 'The clipboard, line 4: '):
+        editor.put_clipboard(text)
+        editor.keys('ctrl+v')
+        editor.says(why)
+        assert len(editor.cells()) == 2, 'what is no rung was pasted'
+    editor.put_clipboard('| NO Stop | COIL %QX0.1 |\n')
     editor.keys('ctrl+v')
-    assert len(editor.cells()) == 2, 'what is no rung was pasted'
+    until(lambda: len(editor.cells()) == 4, 'the rung without its word')
+    editor.put_clipboard(USES)
+    editor.keys('ctrl+v')
+    until(lambda: len(editor.cells()) == 9, 'the rungs of the file')
+    editor.says('2 names were declared')
+    text = editor.save(path)
+    check(path)
+    assert text.startswith(saved[:saved.index('  Motor')]) and '  D1 : TON;\n' in text, text
+    assert lines(path, '@print Motor\nStart=0\n%IX0.0=1\n')[-1] == 'Motor=1', text
+
+
+def hostile(screen):
+    """bytes that are no text are refused, and nothing changes"""
+    path = new_file(screen, TARGET)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    rung = b'RUNG\n  | NO Start | COIL Motor |\n'
+    for text, why in (rung + b'\0' + rung, 'not valid UTF-8 text'), (b'this', 'The clipboard holds no rungs.'), \
+            (rung.replace(b'Start', b'St\xffrt'), 'not valid UTF-8 text'), (b'this', 'The clipboard holds no rungs.'), \
+            (b' ' * (65 << 20), 'file is too large'):
+        subprocess.run(['xclip', '-selection', 'clipboard', '-t', 'text/plain;charset=utf-8'], input=text, check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        editor.keys('ctrl+v')
+        editor.says(why)
+        assert editor.cells() == [], 'what is no text was pasted'
+    editor.put_clipboard(rung.decode())
+    editor.keys('ctrl+v')
+    until(lambda: len(editor.cells()) == 2, 'the elements')
 
 
 def many(screen):
@@ -145,4 +245,4 @@ def a_tab(screen):
     assert lines(paths[1], '@print %QX0.1\nStop=0\nStop=1\n') == ['%QX0.1=0', '%QX0.1=1']
 
 
-main([other_window, from_text, many, a_tab])
+main([other_window, declared, from_text, hostile, many, a_tab])
