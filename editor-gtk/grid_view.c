@@ -282,8 +282,7 @@ static void variable_changed(LadderGridView *view, int pou, const char *name,
 
 static void project_changed(LadderGridView *view)
 {
-	/* Nothing of the old project may be left when a popup closes: that gives the keys
-	 * back, and who has them asks where the cursor is. */
+	/* Before a popup closes, which gives the keys back: they ask where the cursor is. */
 	g_clear_pointer(&view->preview, rung_free);
 	live_forget_all(view);
 	strips_reset(view);

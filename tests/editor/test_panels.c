@@ -353,43 +353,6 @@ static guint row_named(GListModel *list, const char *name)
 	return GTK_INVALID_LIST_POSITION;
 }
 
-static void rename_stale(GtkWidget *cell, const char *name)
-{
-	gtk_editable_set_text(GTK_EDITABLE(cell), name);
-	g_signal_emit_by_name(cell, "activate");
-}
-
-/* The table is read a moment later than the document changes. */
-static void test_stale_rows(void)
-{
-	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
-	GtkWidget *widget = GTK_WIDGET(view), *cell;
-	char *before = ladder_document_text(document, NULL), *after, *why = NULL;
-
-	ladder_symbols_view_set_document(view, document);
-	put(widget);
-	WAIT((cell = cell_of(widget, GTK_TYPE_ENTRY, "Spare")) != NULL);
-	CHECK(symbol_set(document, 0, 0, FIELD_RETAIN, "1", &why));
-	rename_stale(cell, "Stock");
-	CHECK_AS(has("  Stock ") && !has("  Spare "), "its declaration, wherever that is by now");
-	rename_stale(cell, "Spare");
-	CHECK_AS(has("  Spare ") && !has("  Stock "), "and by its new name");
-	while (ladder_document_undo(document))
-		;
-	ladder_symbols_view_refresh(view);
-	CHECK(symbol_delete(document, 0, 2, &why) && !has("  Spare "));
-	rename_stale(cell, "Stock");
-	CHECK_AS(!has("  Stock ") && gtk_widget_has_css_class(cell, "error"), "gone: none other");
-	CHECK_TEXT(ladder_symbols_view_message(view), "Spare, Name: There is no such symbol");
-	while (ladder_document_undo(document))
-		;
-	after = ladder_document_text(document, NULL);
-	CHECK_TEXT(after, before);
-	g_free(before);
-	g_free(after);
-	put(NULL);
-}
-
 static void test_symbols(void)
 {
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
@@ -418,27 +381,23 @@ static void test_symbols(void)
 	CHECK_AS(gtk_widget_has_css_class(cell, "error") &&
 		 strstr(ladder_symbols_view_message(view), "Hours"), "a refusal is told");
 	picture(widget, "symbols-refused");
-	CHECK_AS(gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_PRIMARY),
-		 "not by its colour alone");
+	CHECK(gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_PRIMARY));
 	type_into(view, cell, "Stock");
 	CHECK(!gtk_widget_has_css_class(cell, "error") &&
 	      !gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_PRIMARY));
 	cell = nth_widget(widget, GTK_TYPE_CHECK_BUTTON, 0);
 	gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), TRUE);
-	CHECK(has("VAR RETAIN\n  Hours           : UDINT;\n  \xe5\x90\xaf\xe5\x8a\xa8  AT %IX0.0 : BOOL;") ||
-	      has("VAR RETAIN\n  Hours : UDINT;\n  \xe5\x90\xaf\xe5\x8a\xa8  AT %IX0.0 : BOOL;"));
+	CHECK(has("VAR RETAIN\n  Hours : UDINT;\n  \xe5\x90\xaf\xe5\x8a\xa8  AT %IX0.0 : BOOL;"));
 	while (ladder_document_undo(document))
 		;
 	CHECK(ladder_symbols_view_show(view, 0, 2));
 	gtk_widget_activate_action(widget, "symbols.add", NULL);
-	CHECK(has("  Spare2          : INT;") || has("  Spare2 : INT;") ||
-	      has("  Spare2       : INT;"));
+	CHECK(has("  Spare2 : INT;"));
 	CHECK_TEXT(ladder_document_undo_name(document), "Add symbol");
 	gtk_widget_activate_action(widget, "symbols.delete", NULL);
 	CHECK(!has("Spare2"));
 	CHECK(!ladder_symbols_view_show(view, 0, 99));
-	gtk_editable_set_text(GTK_EDITABLE(search_of(widget)),
-			      "qx0");
+	gtk_editable_set_text(GTK_EDITABLE(search_of(widget)), "qx0");
 	WAIT(g_list_model_get_n_items(list) == 1);
 	CHECK_AS(g_list_model_get_n_items(list) == 1, "filtered");
 	gtk_editable_set_text(GTK_EDITABLE(search_of(widget)), "");
@@ -631,7 +590,6 @@ int main(void)
 	test_problems();
 	test_uses();
 	test_symbols();
-	test_stale_rows();
 	test_import();
 	test_find();
 	test_tree();

@@ -78,7 +78,9 @@ def faint(editor, where, known):
     texts = [node for node in nodes.values() if node.role in (ROLES['label'], ROLES['text']) and
              node.path in boxes and node.name.strip() and node.states >> SENSITIVE & 1]
     typed = editor.ask([(node.path, 'Text', 'GetText', 'ii', 0, -1) for node in texts])
-    texts = [node for node, text in zip(texts, typed) if node.role != ROLES['text'] or text and text[0].strip()]
+    # An empty label has a name, and nothing of its own to be seen: what lies there may be on its way.
+    texts = [node for node, text in zip(texts, typed) if text and text[0].strip() or
+             text is None and node.role == ROLES['label']]
     picture, told = Picture(), []
     for node in texts:
         box = boxes[node.path]

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_stale_rows - the table of symbols is read a moment later than the document changes:
+ * what is typed into a row goes to the declaration it shows, or is refused.
+ */
+#include "editor-gtk/symbols.h"
+#include "editor-gtk/symbols_view.h"
+#include "tests/editor/screen.h"
+#include "tests/editor/soon.h"
+#include "tests/tap.h"
+
+#include <adwaita.h>
+
+static const char sample[] =
+	"RUNGBOARD 1\n\n"
+	"VAR\n  Start AT %IX0.0 : BOOL;\n  Spare : INT;\nEND_VAR\n\n"
+	"VAR RETAIN\n  Hours : UDINT;\nEND_VAR\n\n"
+	"PROGRAM Main LD\nRUNG\n  | NO Start | COIL %QX0.4 |\nEND_PROGRAM\n";
+
+static LadderDocument *document;
+
+static bool has(const char *part)
+{
+	char *text = ladder_document_text(document, NULL);
+	const bool found = strstr(text, part);
+
+	g_free(text);
+	return found;
+}
+
+static GtkWidget *cell_with(GtkWidget *from, const char *text)
+{
+	GtkWidget *cell = NULL;
+
+	if (GTK_IS_ENTRY(from) && !strcmp(gtk_editable_get_text(GTK_EDITABLE(from)), text))
+		return from;
+	for (GtkWidget *child = gtk_widget_get_first_child(from); child && !cell;
+	     child = gtk_widget_get_next_sibling(child))
+		cell = cell_with(child, text);
+	return cell;
+}
+
+static void type_into(GtkWidget *cell, const char *name)
+{
+	gtk_editable_set_text(GTK_EDITABLE(cell), name);
+	g_signal_emit_by_name(cell, "activate");
+}
+
+static void undo_all(LadderSymbolsView *view)
+{
+	while (ladder_document_undo(document))
+		;
+	ladder_symbols_view_refresh(view);
+}
+
+static void test_moved(LadderSymbolsView *view, GtkWidget *cell)
+{
+	char *why = NULL;
+
+	CHECK(symbol_set(document, 0, 0, FIELD_RETAIN, "1", &why));
+	type_into(cell, "Stock");
+	CHECK_AS(has("Stock : INT;") && !has("Spare"), "its declaration, wherever that is by now");
+	type_into(cell, "Spare");
+	CHECK_AS(has("Spare : INT;") && !has("Stock"), "and by its new name");
+	undo_all(view);
+}
+
+static void test_gone(LadderSymbolsView *view, GtkWidget *cell)
+{
+	char *why = NULL;
+
+	CHECK(symbol_delete(document, 0, 1, &why) && !has("Spare"));
+	type_into(cell, "Stock");
+	CHECK_AS(!has("Stock") && gtk_widget_has_css_class(cell, "error"), "none other");
+	CHECK_TEXT(ladder_symbols_view_message(view), "Spare, Name: There is no such symbol");
+	undo_all(view);
+}
+
+int main(void)
+{
+	LadderSymbolsView *view;
+	GtkWidget *window, *cell;
+	char *text;
+
+	if (!screen_start() || !gtk_init_check()) {
+		printf("1..0 # SKIP needs Xvfb\n");
+		return 0;
+	}
+	adw_init();
+	document = ladder_document_new();
+	ladder_document_open_text(document, "/tmp/x/test.rung", sample, strlen(sample), true);
+	text = ladder_document_text(document, NULL);
+	window = gtk_window_new();
+	view = LADDER_SYMBOLS_VIEW(ladder_symbols_view_new());
+	ladder_symbols_view_set_document(view, document);
+	gtk_window_set_child(GTK_WINDOW(window), GTK_WIDGET(view));
+	screen_show(window);
+	WAIT((cell = cell_with(GTK_WIDGET(view), "Spare")) != NULL);
+	CHECK(cell);
+	if (cell) {
+		test_moved(view, cell);
+		test_gone(view, cell);
+	}
+	CHECK_AS(has(text), "undone, it is as it was");
+	g_free(text);
+	gtk_window_destroy(GTK_WINDOW(window));
+	return tap_done();
+}
