@@ -77,7 +77,7 @@ def faint(editor, where, known):
     frame = next(boxes[node.path] for node in nodes.values() if node.role == ROLES['frame'])
     texts = [node for node in nodes.values() if node.role in (ROLES['label'], ROLES['text']) and
              node.path in boxes and node.name.strip() and node.states >> SENSITIVE & 1]
-    typed = editor.ask([(node.path, 'Text', 'GetText', 'ii', 0, -1) for node in texts])
+    typed = editor.ask([(node.path, 'Text', 'GetText', 'ii', 0, 1 << 20) for node in texts])
     # An empty label has a name, and nothing of its own to be seen: what lies there may be on its way.
     texts = [node for node, text in zip(texts, typed) if text and text[0].strip() or
              text is None and node.role == ROLES['label']]
