@@ -163,17 +163,23 @@ static void reveal_tab(LadderWindow *window)
 					  bounds.origin.x + bounds.size.width);
 }
 
+static void show_more(LadderWindow *window)
+{
+	GtkWidget *more = GTK_WIDGET(window->below_more);
+	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(window->below_tabs);
+	const int button = gtk_widget_get_visible(more) ? gtk_widget_get_width(more) : 0;
+
+	gtk_widget_set_visible(more, gtk_adjustment_get_upper(along) >
+			       gtk_adjustment_get_page_size(along) + button + 1);
+	reveal_tab(window);
+}
+
 static gboolean look_at_room(gpointer data)
 {
 	LadderWindow *window = data;
-	GtkAdjustment *along = gtk_scrolled_window_get_hadjustment(window->below_tabs);
-	const bool more = gtk_widget_get_visible(GTK_WIDGET(window->below_more));
-	const int button = more ? gtk_widget_get_width(GTK_WIDGET(window->below_more)) : 0;
-	const double room = gtk_adjustment_get_page_size(along) + button;
 
-	gtk_widget_set_visible(GTK_WIDGET(window->below_more), along &&
-			       gtk_adjustment_get_upper(along) > room + 1);
-	reveal_tab(window);
+	if (window->below_tabs) /* else it was closed meanwhile                  */
+		show_more(window);
 	g_object_unref(window);
 	return G_SOURCE_REMOVE;
 }
