@@ -60,38 +60,20 @@ static bool keep_instance(const struct entry_place *place, struct entry_target *
 static bool take_bool(const struct entry_place *place, const char *text, size_t len,
 		      bool write, struct entry *entry)
 {
-	const size_t name = entry_declared_len(text, len, ENTRY_WORD_GIVEN);
+	const struct entry_fit fit = entry_fit_bool(write);
 	struct entry_target target;
-	char address[ENTRY_ADDRESS_TEXT];
 
-	if (name > 0) {
-		if (!entry_declaration(place, text, len, name, write, address,
-				       sizeof(address), entry))
-			return false;
-		len = name;
-	}
-	entry_target_find(place, text, len, &target);
-	switch (target.means) {
-	case MEANS_NOTHING:
-	case MEANS_WRONG:
-		return entry_wrong(entry, target.why ? target.why :
-				   N_("this is no operand"), text, len);
-	case MEANS_INSTANCE:
-		return keep_instance(place, &target, text, len, write, entry);
-	case MEANS_NEW:
-		if (name == 0)
-			entry_proposals(place, entry, write);
-		return entry_declare(place, entry, text, len, "BOOL",
-				     name ? address : entry->choice[0]) &&
-		       keep_operand(entry, text, len);
-	case MEANS_VALUE:
-		break;
-	}
-	if (target.type != IEC_BOOL || target.array)
+	if (!entry_operand(place, text, len, &fit, &target, entry))
+		return false;
+	if (target.means == MEANS_INSTANCE)
+		return keep_instance(place, &target, target.text, strlen(target.text),
+				     write, entry);
+	if (target.means == MEANS_VALUE && (target.type != IEC_BOOL || target.array))
 		return entry_wrong(entry, N_("this is no BOOL: compare it, as in Level > 5"),
-				   text, len);
-	if (write && !target.write)
-		return entry_wrong(entry, N_("this cannot be written"), text, len);
+				   target.text, strlen(target.text));
+	if (target.means == MEANS_VALUE && write && !target.write)
+		return entry_wrong(entry, N_("this cannot be written"), target.text,
+				   strlen(target.text));
 	return keep_operand(entry, target.text, strlen(target.text));
 }
 
@@ -109,14 +91,19 @@ static bool is_operator(const struct lex *lex)
 }
 
 /* Does an operator stand behind the first operand of the line, as in X := Y + 1? A word
- * with parameters has := further on. */
+ * with parameters has := further on; behind a type it would be an initial value. */
 static bool is_expression(const char *text, size_t len)
 {
 	struct lex lex;
 	int depth = 0;
 
-	lex_init(&lex, text, len);
+	const size_t said = entry_said_len(text, len);
+
+	lex_init(&lex, text + said, len - said);
 	lex_next(&lex);
+	if (said > 0)
+		return lex.token.kind != TOKEN_END && is_operator(&lex) &&
+		       !(lex_is(&lex, ":=") && memchr(text, ':', said));
 	if (lex_is(&lex, "(") || lex_is(&lex, "NOT"))
 		return lex_is(&lex, "(");
 	do {
@@ -355,7 +342,11 @@ static bool read_line(const struct entry_place *place, const char *text, size_t 
 	return take_symbol(place, text, len, out);
 }
 
-bool entry_read(const struct entry_place *place, const char *line, struct entry *out)
+typedef bool reading(const struct entry_place *place, const char *text, size_t len,
+		     struct entry *out);
+
+static bool read_with(reading *read, const struct entry_place *place, const char *line,
+		      struct entry *out)
 {
 	char copy[ENTRY_TEXT];
 	const char *text = line;
@@ -372,10 +363,28 @@ bool entry_read(const struct entry_place *place, const char *line, struct entry 
 	copy[len] = '\0';
 	if (!utf8_valid(copy, len, NULL))
 		return entry_wrong(out, N_("this is not UTF-8"), "", 0);
-	if (read_line(place, copy, len, out))
+	if (read(place, copy, len, out))
 		return true;
-	out->declares = out->choices = 0;
+	out->declares = 0;
 	return false;
+}
+
+bool entry_read(const struct entry_place *place, const char *line, struct entry *out)
+{
+	return read_with(read_line, place, line, out);
+}
+
+static bool read_condition(const struct entry_place *place, const char *text, size_t len,
+			   struct entry *out)
+{
+	return entry_expression(place, text, len, out) &&
+	       (out->word == ELEM_COMPARE ||
+		entry_wrong(out, N_("this is no expression"), text, len));
+}
+
+bool entry_condition(const struct entry_place *place, const char *line, struct entry *out)
+{
+	return read_with(read_condition, place, line, out);
 }
 
 static bool intern(struct project *project, const char *text, uint32_t *id)

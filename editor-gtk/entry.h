@@ -33,6 +33,9 @@ struct entry_new {
 	char type[ENTRY_NAME];    /* "BOOL", "TON"                             */
 	char address[ENTRY_ADDRESS_TEXT]; /* "%IX0.3"; "": none                */
 	char shares[ENTRY_NAME];  /* a variable that lies there already        */
+	char choice[ENTRY_CHOICES][ENTRY_ADDRESS_TEXT]; /* as it is proposed, then
+				     instead; "": none                         */
+	int choices;              /* 0: the line or the place says it          */
 };
 
 enum entry_sense {
@@ -50,9 +53,6 @@ struct entry {
 	char args[ENTRY_TEXT];    /* "PT:=T#1s"; "": none                      */
 	struct entry_new declare[ENTRY_NEW_MOST];
 	int declares;             /* 0: everything named is there already      */
-	char choice[ENTRY_CHOICES][ENTRY_ADDRESS_TEXT]; /* of the last one, as it
-				     is proposed, then instead; "": none       */
-	int choices;              /* 0: the line or the place says it          */
 	const char *why;          /* N_() text; NULL: nothing is wrong         */
 	char what[ENTRY_NAME];    /* that @why speaks of                       */
 	const struct var *known;  /* whose declaration it speaks of, borrowed
@@ -66,9 +66,19 @@ struct entry {
  * Owns: nothing.   Scan-safe: no.   Fails: false unless @out->sense is ENTRY_ELEMENT.
  */
 bool entry_read(const struct entry_place *place, const char *line, struct entry *out);
+/** entry_condition - the same of a line that can only be an expression of a BOOL: what a
+ * chart waits for. @out->operand has it without what the line says of its names. */
+bool entry_condition(const struct entry_place *place, const char *line,
+		     struct entry *out);
 /** entry_cell - the element as a cell, its texts as strings of the project. Fails: false
  * if it is none, or memory is out. */
 bool entry_cell(struct project *project, const struct entry *entry, struct cell *cell);
+
+/* What a name with `%` behind it could be, too: a word with its operand. */
+enum entry_doubt { ENTRY_WORD_POSSIBLE, ENTRY_WORD_GIVEN };
+/** entry_declared_len - bytes of the name that a declaration begins with, `Open AT` or
+ * `Open :`, or `Open %` if no word is in doubt; 0: it is no declaration. */
+size_t entry_declared_len(const char *text, size_t len, enum entry_doubt doubt);
 
 enum entry_kind {
 	ENTRY_VARIABLE, ENTRY_INSTANCE, ENTRY_PIN, ENTRY_ADDRESS, ENTRY_LABEL,

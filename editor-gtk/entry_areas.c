@@ -65,15 +65,15 @@ static bool is_declared(const struct entry *entry, struct iec_addr addr)
 	return false;
 }
 
-static bool next_bit(const struct address_map *map, enum iec_area area,
-		     const struct entry *entry, struct iec_addr *out)
+static bool next_free(const struct address_map *map, enum iec_area area, int bits,
+		      const struct entry *entry, struct iec_addr *out)
 {
-	bool found = address_map_next(map, area, 1, 1, NULL, out);
+	bool found = address_map_next(map, area, bits, 1, NULL, out);
 
 	while (found && is_declared(entry, *out)) {
 		const struct iec_addr before = *out;
 
-		found = address_map_next(map, area, 1, 1, &before, out);
+		found = address_map_next(map, area, bits, 1, &before, out);
 	}
 	return found;
 }
@@ -87,33 +87,46 @@ static enum iec_area habit(const struct xref *xref, bool output)
 	return is_used(xref, AREA_M) && !is_used(xref, AREA_Q) ? AREA_M : AREA_Q;
 }
 
-static void add_choice(struct entry *entry, struct iec_addr addr)
+static void add_free(const struct address_map *map, enum iec_area area, int bits,
+		     const struct entry *entry, struct entry_new *made)
 {
-	iec_addr_print(addr, entry->choice[entry->choices++], ENTRY_ADDRESS_TEXT);
+	struct iec_addr addr;
+
+	if (next_free(map, area, bits, entry, &addr))
+		iec_addr_print(addr, made->choice[made->choices++], ENTRY_ADDRESS_TEXT);
 }
 
-void entry_proposals(const struct entry_place *place, struct entry *entry, bool output)
+static void add_all(const struct xref *xref, const struct address_map *map, int bits,
+		    bool write, const struct entry *entry, struct entry_new *made)
 {
+	const enum iec_area first = habit(xref, write);
+
+	if (bits > 1)
+		made->choice[made->choices++][0] = '\0';
+	add_free(map, first, bits, entry, made);
+	add_free(map, first == AREA_M ? AREA_Q : AREA_M, bits, entry, made);
+	if (bits == 1)
+		made->choice[made->choices++][0] = '\0';
+}
+
+void entry_proposals(const struct entry_place *place, struct entry *entry,
+		     enum iec_type type, bool write)
+{
+	struct entry_new *made = &entry->declare[entry->declares - 1];
 	const struct pou *pou = entry_pou(place);
+	const int bits = entry_type_bits(type);
 	struct address_map map;
-	struct iec_addr addr;
 	struct arena arena;
 	struct uses uses;
 
-	entry->choices = 0;
-	if (!pou || pou_has_frame(pou))
+	made->choices = 0;
+	if (!pou || pou_has_frame(pou) || bits == 0)
 		return;
 	arena_init(&arena);
-	if (open_uses(place, &uses) && address_map_make(&map, uses.xref, &arena)) {
-		const enum iec_area first = habit(uses.xref, output);
-		const enum iec_area second = first == AREA_M ? AREA_Q : AREA_M;
-
-		if (next_bit(&map, first, entry, &addr))
-			add_choice(entry, addr);
-		if (next_bit(&map, second, entry, &addr))
-			add_choice(entry, addr);
-	}
-	entry->choice[entry->choices++][0] = '\0';
+	if (open_uses(place, &uses) && address_map_make(&map, uses.xref, &arena))
+		add_all(uses.xref, &map, bits, write, entry, made);
+	if (made->choices > 0)
+		memcpy(made->address, made->choice[0], sizeof(made->address));
 	close_uses(&uses);
 	arena_free(&arena);
 }
@@ -124,30 +137,31 @@ static uint64_t bits_from(struct iec_addr addr)
 	return (uint64_t)addr.byte * 8 + addr.bit;
 }
 
-static bool lies_on(const struct var *var, struct iec_addr bit)
+static bool lies_on(const struct var *var, struct iec_addr addr)
 {
 	const uint32_t count = var->array.count ? var->array.count : 1;
 	const struct iec_addr last = vars_shift(var->at, count - 1);
 
-	return var->at.area == bit.area && bits_from(bit) >= bits_from(var->at) &&
-	       bits_from(bit) < bits_from(last) + last.bits;
+	return var->at.area == addr.area &&
+	       bits_from(addr) + addr.bits > bits_from(var->at) &&
+	       bits_from(addr) < bits_from(last) + last.bits;
 }
 
-static const struct var *find_on(const struct var_table *table, struct iec_addr bit)
+static const struct var *find_on(const struct var_table *table, struct iec_addr addr)
 {
 	for (int i = 0; i < table->count; i++)
-		if (table->var[i].at.area != AREA_NONE && lies_on(&table->var[i], bit))
+		if (table->var[i].at.area != AREA_NONE && lies_on(&table->var[i], addr))
 			return &table->var[i];
 	return NULL;
 }
 
-void entry_shares(const struct entry_place *place, struct iec_addr bit, char *out,
+void entry_shares(const struct entry_place *place, struct iec_addr addr, char *out,
 		  size_t size)
 {
 	const struct project *project = place->project;
-	const struct var *var = find_on(&project->globals, bit);
+	const struct var *var = find_on(&project->globals, addr);
 
 	for (int i = 0; !var && i < project->pou_count; i++)
-		var = find_on(&project->pou[i].vars, bit);
+		var = find_on(&project->pou[i].vars, addr);
 	snprintf(out, size, "%s", var ? project_text(project, var->name) : "");
 }

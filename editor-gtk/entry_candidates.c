@@ -78,7 +78,7 @@ static int whole_part(const char *text, int most)
 /* Kept for a new name: for one with each of its addresses, if that is not most of all. */
 static int kept(const struct search *s)
 {
-	if (!(s->want & WANT_NEW))
+	if (!(s->want & (WANT_NEW | WANT_INSTANCE | WANT_ANY)))
 		return 0;
 	return s->most > 2 * ENTRY_CHOICES ? ENTRY_CHOICES : 1;
 }
@@ -283,16 +283,6 @@ static void add_words(struct search *s)
 	}
 }
 
-/* What a function's value may be: its own type, or that of what goes in. */
-static uint16_t classes_of(const struct word_row *row)
-{
-	if (row->result == (int)RESULT_OPEN)
-		return row->result_classes;
-	if (row->result != RESULT_SAME && row->result < IEC_TYPE_COUNT)
-		return iec_type_row(row->result)->class;
-	return row->pin_count > 0 ? row->pin[0].classes : 0;
-}
-
 static void add_function(void *context, const struct ladder_word *word,
 			 const struct word_row *row)
 {
@@ -302,7 +292,7 @@ static void add_function(void *context, const struct ladder_word *word,
 
 	if (fits > 1)
 		return; /* there are many */
-	if (row && s->classes && !(classes_of(row) & s->classes))
+	if (row && s->classes && !(entry_fit_result(row, IEC_NONE).classes & s->classes))
 		return;
 	snprintf(text, sizeof(text), "%s(", word->text);
 	add(s, ENTRY_WORD, fits, text, "",

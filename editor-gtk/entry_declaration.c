@@ -14,6 +14,26 @@
 #include <stdio.h>
 #include <string.h>
 
+bool entry_declare(const struct entry_place *place, struct entry *entry, const char *name,
+		   size_t len, const char *type, const char *address)
+{
+	struct entry_new *made;
+	struct iec_addr addr;
+
+	for (int i = 0; i < entry->declares; i++)
+		if (ascii_is(entry->declare[i].name, name, len))
+			return true;
+	if (entry->declares == ENTRY_NEW_MOST)
+		return entry_wrong(entry, N_("too many new names in one line"), name, len);
+	made = &entry->declare[entry->declares++];
+	snprintf(made->name, sizeof(made->name), "%.*s", (int)len, name);
+	snprintf(made->type, sizeof(made->type), "%s", type);
+	snprintf(made->address, sizeof(made->address), "%s", address);
+	if (iec_addr_parse(address, strlen(address), &addr) == ADDR_OK)
+		entry_shares(place, addr, made->shares, sizeof(made->shares));
+	return true;
+}
+
 /* ---- its parts ---- */
 
 struct piece {
@@ -25,10 +45,11 @@ struct pieces {
 	struct piece name, address, type;
 };
 
-/* A colon with a digit behind it belongs to an address: I:1/3. */
+/* A colon with a digit behind it belongs to an address: I:1/3; := is another sign. */
 static bool is_colon(const char *text, size_t len)
 {
-	return len > 0 && *text == ':' && (len == 1 || !ascii_digit(text[1]));
+	return len > 0 && *text == ':' &&
+	       (len == 1 || (!ascii_digit(text[1]) && text[1] != '='));
 }
 
 size_t entry_declared_len(const char *text, size_t len, enum entry_doubt doubt)
@@ -67,16 +88,46 @@ static struct piece cut(struct piece *rest, size_t len)
 	return head;
 }
 
-static bool take_address(struct piece *rest, struct pieces *out, struct entry *entry)
+/* Up to what cannot be a part of one: in an expression signs go on. */
+static size_t address_len(const struct piece *rest)
 {
-	const bool at = *rest->text != '%';
 	size_t len = 0;
 
-	if (at)
-		cut(rest, strlen("AT"));
-	while (len < rest->len && !strchr(" \t\r\n", rest->text[len]) &&
+	while (len < rest->len && !strchr(" \t\r\n,;()<>=+-*&", rest->text[len]) &&
 	       !is_colon(rest->text + len, rest->len - len))
 		len++;
+	return len;
+}
+
+size_t entry_said_len(const char *text, size_t len)
+{
+	struct piece rest = { text, len }, part;
+	struct lex lex;
+
+	part = cut(&rest, entry_declared_len(text, len, ENTRY_WORD_POSSIBLE));
+	if (part.len == 0)
+		return 0;
+	if (!is_colon(rest.text, rest.len)) {
+		part = cut(&rest, strlen("AT"));
+		if (address_len(&rest) > 0)
+			part = cut(&rest, address_len(&rest));
+	}
+	if (is_colon(rest.text, rest.len)) {
+		part = cut(&rest, strlen(":"));
+		lex_init(&lex, rest.text, rest.len);
+		if (lex_next(&lex) == TOKEN_NAME)
+			part = cut(&rest, lex.token.len);
+	}
+	return (size_t)(part.text + part.len - text);
+}
+
+static bool take_address(struct piece *rest, struct pieces *out, struct entry *entry)
+{
+	size_t len;
+
+	if (*rest->text != '%')
+		cut(rest, strlen("AT"));
+	len = address_len(rest);
 	if (len == 0)
 		return entry_wrong(entry, N_("an address is missing behind AT"),
 				   out->name.text, out->name.len);
@@ -189,8 +240,52 @@ static bool is_other(const struct entry_place *place, const struct var *var,
 
 /* ---- of a new name ---- */
 
+/* Is it what the place takes, IEC_BOOL where only that will do? */
+static bool fits_type(const struct entry_fit *fit, const struct pieces *pieces,
+		      const struct type *type, struct entry *entry)
+{
+	const bool value = type->type != IEC_NONE;
+
+	if (value ? !(type->type == fit->type ||
+		      iec_type_row(type->type)->class & fit->classes) :
+		    fit->type != IEC_NONE || type->word != fit->word)
+		return entry_wrong(entry, fit->type == IEC_BOOL ? N_("this is no BOOL") :
+				   N_("this type does not fit here"), pieces->type.text,
+				   pieces->type.len);
+	return type->more.len == 0 ||
+	       entry_wrong(entry, N_("only an address and a type stand behind a name"),
+			   type->more.text, type->more.len);
+}
+
+/* What is told of an address that is too wide or too narrow: how it should begin. */
+static bool has_width(enum iec_type type, const struct piece *address,
+		      struct iec_addr addr, struct entry *entry)
+{
+	static const char letters[] = "XBWDL";
+	const int bits = entry_type_bits(type);
+	char text[ENTRY_NAME];
+	int letter = 0;
+
+	if (addr.bits == bits)
+		return true;
+	if (type == IEC_BOOL)
+		return entry_wrong(entry, N_("this is no address of a BOOL"),
+				   address->text, address->len);
+	if (bits == 0)
+		return entry_wrong(entry, N_("what is of such a type has no address"),
+				   address->text, address->len);
+	for (int wide = 4; wide < bits; wide *= 2)
+		letter++;
+	snprintf(text, sizeof(text), "%.*s, %s: %%%s%c", (int)(address->len < 40 ?
+		 address->len : 40), address->text, iec_type_row(type)->word,
+		 iec_area_row(addr.area)->letters, letters[letter]);
+	return entry_wrong(entry, N_("this address is not as wide as its type"), text,
+			   strlen(text));
+}
+
 static bool is_good(const struct entry_place *place, const struct pieces *pieces,
-		    struct iec_addr addr, const struct type *type, bool write,
+		    struct iec_addr addr, const struct type *type,
+		    const struct entry_fit *fit, struct entry_said *out,
 		    struct entry *entry)
 {
 	const struct piece *name = &pieces->name, *address = &pieces->address;
@@ -200,22 +295,23 @@ static bool is_good(const struct entry_place *place, const struct pieces *pieces
 	if (target.means != MEANS_NEW)
 		return entry_wrong(entry, N_("no variable can be called so"), name->text,
 				   name->len);
-	if (address->len > 0 && addr.bits != 1)
-		return entry_wrong(entry, N_("this is no address of a BOOL"),
-				   address->text, address->len);
-	if (address->len > 0 && write && iec_area_row(addr.area)->access == ACCESS_READ)
-		return entry_wrong(entry, N_("this cannot be written"), address->text,
-				   address->len);
-	if (pieces->type.len > 0 && type->type != IEC_BOOL)
-		return entry_wrong(entry, N_("this is no BOOL"), pieces->type.text,
-				   pieces->type.len);
-	return type->more.len == 0 ||
-	       entry_wrong(entry, N_("only an address and a type stand behind a name"),
-			   type->more.text, type->more.len);
+	if (pieces->type.len > 0 && !fits_type(fit, pieces, type, entry))
+		return false;
+	if (pieces->type.len > 0)
+		out->type = type->type;
+	if (address->len == 0)
+		return true;
+	if (pieces->type.len == 0 && entry_fit_address(fit, addr) != IEC_NONE)
+		out->type = entry_fit_address(fit, addr);
+	if (!has_width(out->type, address, addr, entry))
+		return false;
+	return !fit->write || iec_area_row(addr.area)->access != ACCESS_READ ||
+	       entry_wrong(entry, N_("this cannot be written"), address->text,
+			   address->len);
 }
 
 bool entry_declaration(const struct entry_place *place, const char *text, size_t len,
-		       size_t name, bool write, char *address, size_t size,
+		       size_t name, const struct entry_fit *fit, struct entry_said *out,
 		       struct entry *entry)
 {
 	struct pieces pieces;
@@ -223,15 +319,15 @@ bool entry_declaration(const struct entry_place *place, const char *text, size_t
 	struct type type;
 	const struct var *var;
 
-	address[0] = '\0';
+	*out = (struct entry_said){ .type = fit->type };
 	if (!split(text, len, name, &pieces, entry) ||
 	    !read_address(place, &pieces.address, &addr, entry) ||
 	    !read_type(place, &pieces.type, &type, entry))
 		return false;
 	if (addr.area != AREA_NONE)
-		iec_addr_print(addr, address, size);
+		iec_addr_print(addr, out->address, sizeof(out->address));
 	var = entry_var_find(place, pieces.name.text, pieces.name.len, NULL);
 	if (var)
 		return is_same(var, &pieces, addr, &type) || is_other(place, var, entry);
-	return is_good(place, &pieces, addr, &type, write, entry);
+	return is_good(place, &pieces, addr, &type, fit, out, entry);
 }

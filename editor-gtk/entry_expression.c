@@ -7,24 +7,65 @@
 #include "editor-gtk/entry_inside.h"
 #include "editor-gtk/i18n.h"
 
+#include "engine/base/ascii.h"
 #include "engine/base/lex.h"
-#include "engine/base/literal.h"
 #include "engine/model/expr.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* A name with what the line says of it, `Level AT %IW0 : INT`. */
+struct said {
+	const char *text;
+	size_t len, name;    /* bytes, and of the name in them                 */
+	enum iec_type type;  /* IEC_NONE: it does not say it                   */
+};
 
 /* What does not fit a small stack. */
 struct work {
 	struct expr expr;
 	struct diag_list diags;
 	struct entry_target target;
+	struct entry_types types;
+	struct said said[ENTRY_NEW_MOST];
+	int said_count;
 };
 
-/* With one blank round := and comparisons, one where there were some, else none. */
-static bool print(const char *text, size_t len, char *out, size_t size)
+/* Only what a person would call a type; an error is found when the name is declared. */
+static enum iec_type type_said(const struct said *said)
+{
+	const char *colon = memchr(said->text, ':', said->len), *end = said->text + said->len;
+
+	while (colon && colon < end && (*colon == ':' || *colon == ' '))
+		colon++;
+	return colon ? iec_type_find(colon, (size_t)(end - colon)) : IEC_NONE;
+}
+
+static bool keep_said(struct lex *lex, struct work *w, struct entry *entry)
+{
+	const char *text = lex->token.text;
+	const size_t len = entry_said_len(text, (size_t)(lex->end - text));
+	struct said *said = &w->said[w->said_count];
+
+	if (len == 0)
+		return true;
+	if (w->said_count == ENTRY_NEW_MOST)
+		return entry_wrong(entry, N_("too many new names in one line"), text,
+				   lex->token.len);
+	*said = (struct said){ text, len, lex->token.len, IEC_NONE };
+	said->type = type_said(said);
+	w->said_count++;
+	lex->at = text + len;
+	return true;
+}
+
+/* With one blank round := and comparisons, one where there were some, else none; and
+ * without what is said of names. */
+static bool print(const char *text, size_t len, struct work *w, struct entry *entry)
 {
 	static const char *const wide[] = { ":=", "<", ">", "<=", ">=", "=", "<>" };
+	char *out = entry->operand;
+	const size_t size = sizeof(entry->operand);
 	struct lex lex;
 	bool before = false, first = true, good = true;
 
@@ -39,52 +80,39 @@ static bool print(const char *text, size_t len, char *out, size_t size)
 		good = good && entry_append(out, size, lex.token.text, lex.token.len);
 		before = sign;
 		first = false;
+		if (!keep_said(&lex, w, entry))
+			return false;
 	}
-	return good;
+	return good || entry_wrong(entry, N_("this line is too long"), "", 0);
 }
 
-/* What the names that are not declared yet will be: as the others are, or the
- * constants. */
-static const char *common_type(const struct entry_place *place, const struct expr *expr,
-			       struct entry_target *target)
+static const struct said *said_of(const struct work *w, const char *name, size_t len)
 {
-	const char *type = "INT";
+	for (int i = 0; i < w->said_count; i++)
+		if (w->said[i].name == len && ascii_same(w->said[i].text, name, len))
+			return &w->said[i];
+	return NULL;
+}
 
-	for (int i = 0; i < expr->count; i++) {
-		const struct expr_node *node = &expr->node[i];
-		struct literal literal;
+static enum iec_type type_of(void *context, const char *name, size_t len)
+{
+	const struct said *said = said_of(context, name, len);
 
-		if (node->op == EXPR_NAME) {
-			entry_target_find(place, node->text, node->len, target);
-			if (target->means == MEANS_VALUE)
-				return iec_type_row(target->type)->word;
-		} else if (node->op == EXPR_LITERAL &&
-			   literal_parse(node->text, node->len, &literal) == LITERAL_OK) {
-			if (literal.type != IEC_NONE)
-				type = iec_type_row(literal.type)->word;
-			else if (literal.real)
-				type = "REAL";
-		}
-	}
-	return type;
+	return said ? said->type : IEC_NONE;
 }
 
 static bool look_up(const struct entry_place *place, const char *text, size_t len,
-		    const char *type, bool write, struct work *w, struct entry *entry)
+		    enum iec_type type, bool write, struct work *w, struct entry *entry)
 {
-	entry_target_find(place, text, len, &w->target);
-	switch (w->target.means) {
-	case MEANS_NOTHING:
-	case MEANS_WRONG:
-		return entry_wrong(entry, w->target.why ? w->target.why :
-				   N_("this is no value"), text, len);
-	case MEANS_NEW:
-		return entry_declare(place, entry, text, len, type, "");
-	case MEANS_VALUE:
-	case MEANS_INSTANCE:
-		break;
-	}
-	return !write || w->target.write ||
+	const struct said *said = said_of(w, text, len);
+	struct entry_fit fit = entry_fit_type(type, write);
+
+	if (said && said->type == type)
+		fit.classes = iec_type_row(type)->class;
+	if (!entry_operand(place, said ? said->text : text, said ? said->len : len, &fit,
+			   &w->target, entry))
+		return false;
+	return !write || w->target.means == MEANS_NEW || w->target.write ||
 	       entry_wrong(entry, N_("this cannot be written"), text, len);
 }
 
@@ -92,15 +120,16 @@ static bool look_up_all(const struct entry_place *place, struct work *w,
 			struct entry *entry)
 {
 	const struct expr *expr = &w->expr;
-	const char *type = common_type(place, expr, &w->target);
 
+	entry_infer(place, expr, type_of, w, &w->types);
 	if (expr->target && expr->target_index < 0 &&
-	    !look_up(place, expr->target, expr->target_len, type, true, w, entry))
+	    !look_up(place, expr->target, expr->target_len,
+		     (enum iec_type)w->types.target, true, w, entry))
 		return false;
 	for (int i = 0; i < expr->count; i++)
 		if (expr->node[i].op == EXPR_NAME &&
-		    !look_up(place, expr->node[i].text, expr->node[i].len, type, false,
-			     w, entry))
+		    !look_up(place, expr->node[i].text, expr->node[i].len,
+			     (enum iec_type)w->types.wanted[i], false, w, entry))
 			return false;
 	return true;
 }
@@ -130,12 +159,10 @@ bool entry_expression(const struct entry_place *place, const char *text, size_t 
 	struct work *w;
 	bool good;
 
-	if (!print(text, len, entry->operand, sizeof(entry->operand)))
-		return entry_wrong(entry, N_("this line is too long"), "", 0);
 	w = calloc(1, sizeof(*w));
 	if (!w)
 		return entry_wrong(entry, N_("out of memory"), "", 0);
-	good = read_expression(place, w, entry);
+	good = print(text, len, w, entry) && read_expression(place, w, entry);
 	free(w);
 	return good;
 }

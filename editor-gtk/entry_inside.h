@@ -31,6 +31,15 @@ struct entry_target {
 	char text[ENTRY_TEXT];   /* canonical                                  */
 };
 
+/* What a place of a line takes, and what a new name there becomes. */
+struct entry_fit {
+	enum iec_type type;      /* if the line does not say it; IEC_NONE: see word */
+	enum word word;          /* an instance or structure of it; WORD_COUNT: no
+				    new name can stand here                    */
+	uint16_t classes;        /* that its type may be of, enum iec_class    */
+	bool write;
+};
+
 static inline struct pou *entry_pou(const struct entry_place *place)
 {
 	return place->pou >= 0 && place->pou < place->project->pou_count ?
@@ -59,12 +68,35 @@ void entry_fresh_name(const struct entry_place *place, const struct entry *entry
 /** entry_family_base - what instances of a word are called: "Delay". */
 const char *entry_family_base(const struct word_row *row);
 
+/* entry_operand.c */
+/** entry_operand - a name, a path, an address; or a new name, which is declared with what
+ * the line says of it, else with what is proposed. Fails: false, the entry says why. */
+bool entry_operand(const struct entry_place *place, const char *text, size_t len,
+		   const struct entry_fit *fit, struct entry_target *out,
+		   struct entry *entry);
+/** entry_fit_bool - of a contact or a coil. */
+struct entry_fit entry_fit_bool(bool write);
+/** entry_fit_type - of a value that goes with those of a type. */
+struct entry_fit entry_fit_type(enum iec_type type, bool write);
+/** entry_fit_pin - of a pin. @shared: type of the other values of a function, IEC_NONE:
+ * nobody knows. */
+struct entry_fit entry_fit_pin(const struct word_row *row, const struct word_pin *pin,
+			       enum iec_type shared, bool write);
+/** entry_fit_result - of what a function gives. */
+struct entry_fit entry_fit_result(const struct word_row *row, enum iec_type shared);
+/** entry_fit_address - the type of a new name at an address; IEC_NONE: none fits. */
+enum iec_type entry_fit_address(const struct entry_fit *fit, struct iec_addr addr);
+/** entry_type_bits - how wide an address of the type is; 0: it can have none. */
+int entry_type_bits(enum iec_type type);
+
 /* entry_areas.c */
-/** entry_proposals - the choice of @entry: free bits for a new Boolean, the one it gets
- * first, and at the end none. No choice for what is called: that has its own memory. */
-void entry_proposals(const struct entry_place *place, struct entry *entry, bool output);
-/** entry_shares - name of a variable that has the bit too, "": none. */
-void entry_shares(const struct entry_place *place, struct iec_addr bit, char *out,
+/** entry_proposals - the choice of what is declared last: free addresses as wide as
+ * @type, and none; the first is what it gets: a BOOL a bit, all others none. No choice
+ * for what is called: that has its own memory. */
+void entry_proposals(const struct entry_place *place, struct entry *entry,
+		     enum iec_type type, bool write);
+/** entry_shares - name of a variable that lies there too, "": none. */
+void entry_shares(const struct entry_place *place, struct iec_addr addr, char *out,
 		  size_t size);
 /** entry_each_address - hands over every address that is used by itself. */
 void entry_each_address(const struct entry_place *place,
@@ -93,29 +125,50 @@ size_t entry_glyph(const char *line, enum word *word);
  * without any get values to begin with. Fails: false, the entry says why. */
 bool entry_args(const struct entry_place *place, const struct word_row *row,
 		const char *text, struct entry *entry);
-/** entry_declare - a variable more. Fails: false and WRONG if there are too many. */
-bool entry_declare(const struct entry_place *place, struct entry *entry, const char *name,
-		   size_t len, const char *type, const char *address);
 /** entry_wrong - returns false. */
 bool entry_wrong(struct entry *entry, const char *why, const char *what, size_t len);
 /** entry_append - to a text of @size; false if it does not fit. */
 bool entry_append(char *out, size_t size, const char *text, size_t len);
 
 /* entry_declaration.c */
-/* What a name with `%` behind it could be, too: a word with its operand. */
-enum entry_doubt { ENTRY_WORD_POSSIBLE, ENTRY_WORD_GIVEN };
-/** entry_declared_len - bytes of the name that a declaration begins with, `Open AT` or
- * `Open :`, or `Open %` if no word is in doubt; 0: it is no declaration. */
-size_t entry_declared_len(const char *text, size_t len, enum entry_doubt doubt);
-/** entry_declaration - what is said behind the @name bytes of a name. @address gets it,
- * canonical, "": none. Fails: false, the entry says why: it is no BOOL, or another than
- * the name has. */
+/** entry_declare - a variable more. Fails: false and WRONG if there are too many. */
+bool entry_declare(const struct entry_place *place, struct entry *entry, const char *name,
+		   size_t len, const char *type, const char *address);
+/** entry_said_len - bytes of the declaration that a text begins with, its name, address
+ * and type; 0: it is none. */
+size_t entry_said_len(const char *text, size_t len);
+struct entry_said {
+	enum iec_type type;  /* said, or that of the place; IEC_NONE: no value */
+	char address[ENTRY_ADDRESS_TEXT]; /* canonical, "": none               */
+};
+/** entry_declaration - what is said behind the @name bytes of a name. Fails: false, the
+ * entry says why: it does not fit the place, or is another than the name has. */
 bool entry_declaration(const struct entry_place *place, const char *text, size_t len,
-		       size_t name, bool write, char *address, size_t size,
+		       size_t name, const struct entry_fit *fit, struct entry_said *out,
 		       struct entry *entry);
 
 /* entry_expression.c */
 /** entry_expression - a comparison or an assignment. */
 bool entry_expression(const struct entry_place *place, const char *text, size_t len,
 		      struct entry *entry);
+
+/* entry_infer.c */
+struct expr;
+/* Of each node of an expression. */
+struct entry_types {
+	uint8_t given[LIMIT_EXPR_NODES];  /* by what is declared, typed constants */
+	uint8_t guessed[LIMIT_EXPR_NODES]; /* else by constants and operators  */
+	uint8_t wanted[LIMIT_EXPR_NODES]; /* what a new name there becomes     */
+	uint8_t target;                   /* of what is written                */
+};
+/**
+ * entry_infer - which types new names get in an expression
+ * @said: the type that the line says of a name, IEC_NONE: it says none
+ *
+ * As what they are compared and calculated with; where all is new, INT, or REAL beside
+ * a constant with a point. It judges nothing: types are checked by the engine.
+ */
+void entry_infer(const struct entry_place *place, const struct expr *expr,
+		 enum iec_type (*said)(void *context, const char *name, size_t len),
+		 void *context, struct entry_types *out);
 #endif

@@ -27,43 +27,45 @@ static void add_row(struct search *s, const struct entry_new *declared,
 		 more[0] ? ", " : "", more);
 }
 
-/* Of one address the line says it, so that it can be changed at once. @begin: with the
- * name, without what is said of it. */
-static void add_choices(struct search *s, const struct entry *entry, const char *begin,
-			size_t begin_len, const char *typed, size_t typed_len)
+/* Of one address the line says it, so that it can be changed at once. @name_end: of the
+ * name in the line; from there to the cursor goes what is said of it. */
+static void add_choices(struct search *s, const struct entry_new *declared,
+			size_t name_end, const char *typed, size_t typed_len)
 {
-	const struct entry_new *declared = &entry->declare[entry->declares - 1];
-
-	for (int i = 0; i < entry->choices && s->count < s->most; i++) {
-		const char *address = entry->choice[i];
+	for (int i = 0; i < declared->choices && s->count < s->most; i++) {
+		const char *address = declared->choice[i];
 		char *line = s->out[s->count].line;
 
 		if (typed_len > strlen(address) || !ascii_same(address, typed, typed_len))
 			continue;
 		add_row(s, declared, address, address[0] ? "" : _("no address"));
-		snprintf(line, ENTRY_TEXT, "%.*s%s%s", (int)begin_len, begin,
-			 address[0] ? " AT " : " : ", address[0] ? address : declared->type);
+		snprintf(line, ENTRY_TEXT, "%.*s%s%s%s", (int)name_end, s->line,
+			 address[0] ? " AT " : " : ", address[0] ? address : declared->type,
+			 s->line + s->cursor);
 	}
 }
 
-static const struct entry_new *last_declared(const struct entry *entry)
+static const struct entry_new *declared_as(const struct entry *entry, const char *name,
+					   size_t len)
 {
-	return entry->declares > 0 ? &entry->declare[entry->declares - 1] : NULL;
+	for (int i = 0; i < entry->declares; i++)
+		if (ascii_is(entry->declare[i].name, name, len))
+			return &entry->declare[i];
+	return NULL;
 }
 
 /* If the line with the word before the cursor would declare that. */
 static void add_name(struct search *s, struct entry *entry)
 {
-	const size_t len = s->cursor - s->from;
 	const struct entry_new *declared;
 
 	if (!entry_read(s->place, s->line, entry))
 		return;
-	declared = last_declared(entry);
-	if (!declared || !ascii_is(declared->name, s->line + s->from, len))
+	declared = declared_as(entry, s->line + s->from, s->cursor - s->from);
+	if (!declared)
 		return;
-	if (entry->choices > 0) {
-		add_choices(s, entry, s->line, s->cursor, "", 0);
+	if (declared->choices > 0) {
+		add_choices(s, declared, s->cursor, "", 0);
 		return;
 	}
 	snprintf(s->out[s->count].line, ENTRY_TEXT, "%s", s->line);
@@ -102,40 +104,119 @@ static size_t operand_at(const struct search *s)
 	return at;
 }
 
-/* Behind AT or in its place the addresses that begin so, behind a colon BOOL. */
-static void add_said(struct search *s, size_t name_end, struct entry *entry)
-{
-	char line[ENTRY_TEXT];
-	const char *typed = s->line + s->from;
-	size_t len = s->cursor - s->from;
-	const bool type = memchr(s->line + name_end, ':', s->from - name_end) != NULL;
+/* What the cursor's word says of a name. */
+struct saying {
+	size_t name, name_end; /* in the line; name_end 0: it says nothing     */
+	bool type;             /* else its address                             */
+};
 
-	snprintf(line, sizeof(line), "%.*s%s", (int)(type ? s->from : name_end), s->line,
-		 type ? "BOOL" : "");
-	if (!entry_read(s->place, line, entry) || !last_declared(entry))
-		return;
-	if (type && ascii_same("BOOL", typed, len < 4 ? len : 4) && len <= 4) {
-		snprintf(s->out[s->count].line, ENTRY_TEXT, "%s", line);
-		add_row(s, last_declared(entry), last_declared(entry)->address, "");
-	} else if (!type) {
-		if (ascii_is("AT", typed, len))
-			len = 0;
-		add_choices(s, entry, line, name_end, typed, len);
+static size_t back_blanks(const char *line, size_t at)
+{
+	while (at > 0 && (line[at - 1] == ' ' || line[at - 1] == '\t'))
+		at--;
+	return at;
+}
+
+/* Without the sign before it; the colon in I:0/3 belongs to it. */
+static size_t back_word(const char *line, size_t end)
+{
+	size_t at = end;
+
+	while (at > 0 && (!strchr(" \t:=<>+-*&,;()[]", line[at - 1]) ||
+			  (at < end && line[at - 1] == ':' && ascii_digit(line[at]))))
+		at--;
+	while (at < end && (line[at] == '/' || line[at] == '!'))
+		at++;
+	return at;
+}
+
+/* By what stands before that word: `Level AT`, `Level AT %IW0 :`, `Level :`; or it is
+ * AT itself; or, of a contact or coil, an address. */
+static struct saying find_saying(const struct search *s)
+{
+	const char *line = s->line;
+	size_t end = back_blanks(line, s->from), word;
+	struct saying out = { .type = end > 0 && line[end - 1] == ':' };
+
+	if (out.type)
+		end = back_blanks(line, end - 1);
+	word = back_word(line, end);
+	if (ascii_is("AT", line + word, end - word)) {
+		end = back_blanks(line, word);
+	} else if (out.type && back_blanks(line, word) > 0) {
+		const size_t at = back_word(line, back_blanks(line, word));
+
+		if (ascii_is("AT", line + at, back_blanks(line, word) - at))
+			end = back_blanks(line, at);
+		else if (line[word] == '%' && at == operand_at(s))
+			end = back_blanks(line, word);
+	} else if (!out.type && !ascii_is("AT", line + s->from, s->cursor - s->from) &&
+		   (line[s->from] != '%' || word != operand_at(s))) {
+		return out;
 	}
+	word = back_word(line, end);
+	if (entry_is_name(line + word, end - word)) {
+		out.name = word;
+		out.name_end = end;
+	}
+	return out;
+}
+
+/* All types that will do there. */
+static void add_types(struct search *s, const struct saying *saying, struct entry *entry)
+{
+	const size_t len = s->cursor - s->from;
+
+	for (int i = IEC_NONE + 1; i < IEC_TYPE_COUNT && s->count < s->most; i++) {
+		const char *word = iec_type_row((enum iec_type)i)->word;
+		char *line = s->out[s->count].line;
+		const struct entry_new *declared;
+
+		if (len > strlen(word) || !ascii_same(word, s->line + s->from, len))
+			continue;
+		snprintf(line, ENTRY_TEXT, "%.*s%s%s", (int)s->from, s->line, word,
+			 s->line + s->cursor);
+		if (!entry_read(s->place, line, entry))
+			continue;
+		declared = declared_as(entry, s->line + saying->name,
+				       saying->name_end - saying->name);
+		if (declared)
+			add_row(s, declared, declared->address, "");
+	}
+}
+
+/* Behind AT or in its place the addresses that begin so. */
+static void add_addresses(struct search *s, const struct saying *saying,
+			  struct entry *entry)
+{
+	const char *typed = s->line + s->from;
+	const size_t len = s->cursor - s->from;
+	const struct entry_new *declared;
+	char line[ENTRY_TEXT];
+
+	snprintf(line, sizeof(line), "%.*s%s", (int)saying->name_end, s->line,
+		 s->line + s->cursor);
+	if (!entry_read(s->place, line, entry))
+		return;
+	declared = declared_as(entry, s->line + saying->name,
+			       saying->name_end - saying->name);
+	if (declared)
+		add_choices(s, declared, saying->name_end, typed,
+			    ascii_is("AT", typed, len) ? 0 : len);
 }
 
 bool entry_is_said(struct search *s)
 {
-	const size_t at = operand_at(s);
-	const size_t name = at < s->cursor ?
-		entry_declared_len(s->line + at, s->cursor - at, ENTRY_WORD_GIVEN) : 0;
+	const struct saying saying = find_saying(s);
 	struct entry *entry;
 
-	if (name == 0 || s->from < at + name)
+	if (saying.name_end == 0)
 		return false;
 	entry = malloc(sizeof(*entry));
-	if (entry)
-		add_said(s, at + name, entry);
+	if (entry && saying.type)
+		add_types(s, &saying, entry);
+	else if (entry)
+		add_addresses(s, &saying, entry);
 	free(entry);
 	return true;
 }

@@ -49,12 +49,6 @@ static void want_operand(struct search *s)
 	}
 }
 
-/* Values that go with one: numbers with numbers. */
-static uint16_t classes_with(uint16_t classes)
-{
-	return classes & ANY_NUM ? classes | ANY_NUM : classes;
-}
-
 /* Behind `PT:=`: what fits that pin. */
 static void want_value(struct search *s, const char *rest, size_t len)
 {
@@ -69,8 +63,9 @@ static void want_value(struct search *s, const char *rest, size_t len)
 	s->want = WANT_ANY;
 	if (pin < 0)
 		return;
-	s->classes = s->row->kind == WORD_FN ? word_input(s->row, (uint32_t)pin)->classes :
-			classes_with(iec_type_row(s->row->pin[pin].type)->class);
+	s->classes = entry_fit_pin(s->row, s->row->kind == WORD_FN ?
+				   word_input(s->row, (uint32_t)pin) : &s->row->pin[pin],
+				   IEC_NONE, false).classes;
 }
 
 /* Behind a word: its operand, its instance, its parameters. */
@@ -109,7 +104,7 @@ static void want_operand_like(struct search *s, const char *text)
 	s->write = false;
 	entry_target_find(s->place, text, len, &target);
 	if (target.means == MEANS_VALUE)
-		s->classes = classes_with(iec_type_row(target.type)->class);
+		s->classes = entry_fit_type(target.type, false).classes;
 }
 
 void entry_find_want(struct search *s)

@@ -9,8 +9,8 @@
 #include "editor-gtk/grid_view_inside.h"
 
 #include "editor-gtk/comment_text.h"
-#include "editor-gtk/entry.h"
 #include "editor-gtk/entry_inside.h"
+#include "editor-gtk/entry_outcome.h"
 #include "editor-gtk/entry_popup.h"
 
 #include "engine/base/explain.h"
@@ -113,7 +113,7 @@ static char *element_changed(void *context, const char *line, int cursor, bool *
 	whole = whole_line(asked, line, &skipped);
 	at = skipped + (size_t)(g_utf8_offset_to_pointer(line, cursor) - line);
 	entry_read(&place, whole, entry);
-	told = entry_outcome(asked->view, entry, line, good);
+	told = entry_outcome_tell(asked->view->document, place.pou, entry, line, good);
 	count = entry_candidates(&place, whole, at, found, CANDIDATES);
 	for (int i = 0; i < count; i++)
 		add_candidate(asked, &found[i], skipped);
@@ -151,21 +151,6 @@ static struct rung *put_element(const struct asked *asked, struct cell cell,
 	return edited ? edited : grid_place(rung, at, cell, GRID_REPLACE);
 }
 
-/* An instance belongs to its POU, a bit of the plant to all. */
-static bool declare(LadderGridView *view, const struct entry *entry)
-{
-	bool good = true;
-
-	for (int i = 0; i < entry->declares; i++) {
-		const struct entry_new *declare = &entry->declare[i];
-
-		good = ladder_document_declare(view->document,
-			declare->address[0] ? -1 : view->pou, declare->name,
-			declare->type, declare->address, NULL) && good;
-	}
-	return good;
-}
-
 static void advance(LadderGridView *view, const struct grid_at *at)
 {
 	struct grid_cursor to = { view->cursor.rung, at->row, at->col };
@@ -194,7 +179,8 @@ static bool element_taken(void *context, const char *line)
 		view->cursor = asked->cursor;
 		ladder_document_begin(view->document,
 			asked->edit ? _("Change element") : _("Add element"), NULL);
-		good = sheet_put(view, edited, &at, "") && declare(view, entry);
+		good = sheet_put(view, edited, &at, "") &&
+		       entry_outcome_declare(view->document, view->pou, entry);
 		ladder_document_end(view->document);
 		if (good && !asked->edit)
 			advance(view, &at);

@@ -238,13 +238,6 @@ char *label_refusal(LadderGridView *view, const char *name);
  * False: there are none, nothing changed. */
 bool label_set(LadderGridView *view, const char *name);
 
-/* ---- grid_view_outcome.c ---- */
-struct entry;
-/** entry_outcome - what is told of a @line that was read: what is wrong, what would be
- * declared. @good: is nothing wrong? Caller frees with g_free(). */
-char *entry_outcome(LadderGridView *view, const struct entry *entry, const char *line,
-		    bool *good);
-
 /* ---- grid_view_tell.c ---- */
 void tell_init(LadderGridView *view);
 

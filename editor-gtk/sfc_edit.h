@@ -86,11 +86,14 @@ struct sfc_doing {
 	enum qualifier qualifier;
 	char time[64];           /* "": none                                   */
 	char name[LIMIT_NAME + 1];
+	const char *operand;     /* in the line: from the name on, with what the
+				    line says of it, `Horn AT %QX0.5`          */
+	bool says;               /* it does say something of it                */
 	bool action;             /* it began with ACTION: one is to be made    */
 	const char *why;         /* N_(): what is missing; NULL: nothing       */
 };
-/** sfc_doing_read - "Valve", "N Valve", "L T#3s Horn", "SET Lamp", "ACTION Count". False:
- * @out->why says what is missing. */
+/** sfc_doing_read - "Valve", "N Valve", "L T#3s Horn", "SET Lamp", "ACTION Count",
+ * "N Horn AT %QX0.5 : BOOL". False: @out->why says what is missing. */
 bool sfc_doing_read(const char *line, struct sfc_doing *out);
 /** sfc_doing_print - the line again. */
 void sfc_doing_print(const struct project *project, const struct sfc *sfc, int use,

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/sfc_edit.h"
 
+#include "editor-gtk/entry.h"
 #include "editor-gtk/i18n.h"
 #include "engine/base/ascii.h"
 #include "engine/base/lex.h"
@@ -351,54 +352,89 @@ bool sfc_edit_as_rung(struct sfc_edit *edit, int transition)
 
 /* ---- what a step does ---- */
 
+static const char *skip(const char *at)
+{
+	return at + strspn(at, " \t,");
+}
+
 /* The next word of a line; false: there is none. */
 static bool next_word(const char **at, char *out, size_t size)
 {
 	size_t len;
 
-	while (**at == ' ' || **at == '\t' || **at == ',')
-		(*at)++;
+	*at = skip(*at);
 	len = strcspn(*at, " \t,");
 	snprintf(out, size, "%.*s", (int)(len < size ? len : size - 1), *at);
 	*at += len;
 	return len > 0 && len < size;
 }
 
+/* `L T#3s`, `SET`, `N`, if it is not the name itself; false: something is missing. */
+static bool take_qualifier(const char **at, struct sfc_doing *out)
+{
+	const char *behind = *at;
+	char word[LIMIT_NAME + 1];
+	enum qualifier found;
+
+	if (!next_word(&behind, word, sizeof(word)) || !*skip(behind))
+		return true;
+	found = qualifier_find(word, strlen(word));
+	if (strcasecmp(word, "SET") == 0)
+		out->kind = USE_SET;
+	else if (strcasecmp(word, "RESET") == 0)
+		out->kind = USE_RESET;
+	else if (found != QUALIFIER_COUNT)
+		out->qualifier = found;
+	else
+		return true;
+	*at = behind;
+	if (out->kind != USE_ACTION || !qualifier_has_time(found))
+		return true;
+	out->why = N_("a time and a name belong to this qualifier");
+	return next_word(at, out->time, sizeof(out->time)) && *skip(*at);
+}
+
+/* Its name, with what the line says of it. */
+static bool take_operand(const char *at, bool qualified, struct sfc_doing *out)
+{
+	char word[LIMIT_NAME + 1];
+	size_t len;
+
+	out->operand = skip(at);
+	len = entry_declared_len(out->operand, strlen(out->operand), ENTRY_WORD_GIVEN);
+	if (len > 0 && len <= LIMIT_NAME) {
+		snprintf(out->name, sizeof(out->name), "%.*s", (int)len, out->operand);
+		out->says = true;
+		return true;
+	}
+	if (!next_word(&at, word, sizeof(word)))
+		return false;
+	if (!is_word(word) || *skip(at)) {
+		out->why = qualified ? N_("too many words") :
+				       N_("there is no such qualifier");
+		return false;
+	}
+	snprintf(out->name, sizeof(out->name), "%s", word);
+	return true;
+}
+
 bool sfc_doing_read(const char *line, struct sfc_doing *out)
 {
-	const char *at = line;
+	const char *begin = skip(line), *at = begin, *behind;
 	char word[LIMIT_NAME + 1];
 
 	memset(out, 0, sizeof(*out));
 	out->why = N_("the name of an action or a bit is missing");
-	if (!next_word(&at, word, sizeof(word)))
+	if (!entry_declared_len(at, strlen(at), ENTRY_WORD_POSSIBLE) &&
+	    !take_qualifier(&at, out))
 		return false;
-	const enum qualifier found = qualifier_find(word, strlen(word));
-	const bool alone = at[strspn(at, " \t,")] == '\0';
-	if (!alone && (strcasecmp(word, "SET") == 0 || strcasecmp(word, "RESET") == 0)) {
-		out->kind = strcasecmp(word, "SET") == 0 ? USE_SET : USE_RESET;
-		next_word(&at, word, sizeof(word));
-	} else if (found != QUALIFIER_COUNT && !alone) {
-		out->qualifier = found;
-		if (qualifier_has_time(found) &&
-		    !next_word(&at, out->time, sizeof(out->time)))
-			return false;
-		if (!next_word(&at, word, sizeof(word))) {
-			out->why = qualifier_has_time(found) ?
-				N_("a time and a name belong to this qualifier") : out->why;
-			return false;
-		}
-	}
-	if (strcasecmp(word, "ACTION") == 0) {
+	behind = at;
+	if (next_word(&behind, word, sizeof(word)) && strcasecmp(word, "ACTION") == 0) {
 		out->action = true;
-		if (!next_word(&at, word, sizeof(word)))
-			return false;
+		at = behind;
 	}
-	if (!is_word(word) || at[strspn(at, " \t,")] != '\0') {
-		out->why = N_("too many words");
+	if (!take_operand(at, at != begin, out))
 		return false;
-	}
-	snprintf(out->name, sizeof(out->name), "%s", word);
 	out->why = NULL;
 	return true;
 }

@@ -6,7 +6,7 @@
 #include "editor-gtk/sfc_view_inside.h"
 
 #include "editor-gtk/comment_text.h"
-#include "editor-gtk/entry.h"
+#include "editor-gtk/entry_outcome.h"
 #include "editor-gtk/entry_popup.h"
 
 #include <stdlib.h>
@@ -21,53 +21,6 @@ struct asked {
 
 /* ---- while it is typed ---- */
 
-static char *why_not(const struct asked *asked, const char *line)
-{
-	struct sfc_doing doing;
-
-	if (!line[0])
-		return NULL;
-	if (asked->what == ASK_DOES || asked->what == ASK_ANOTHER)
-		return sfc_doing_read(line, &doing) ? NULL : g_strdup(_(doing.why));
-	return asked->what == ASK_CONDITION && !sfc_is_expression(line) ?
-	       g_strdup(_("this is no expression")) : NULL;
-}
-
-static char *line_changed(void *context, const char *line, int cursor, bool *good)
-{
-	struct asked *asked = context;
-	LadderSfcView *view = asked->view;
-	const gsize at = (gsize)(g_utf8_offset_to_pointer(line, cursor) - line);
-	char *why;
-
-	*good = true;
-	if (!view->entry || !view->sheet)
-		return NULL; /* the popup is being made: it asks again */
-	chart_offer(view, asked->what, line, at);
-	why = why_not(asked, line);
-	*good = !why;
-	return why ? why : g_strdup("");
-}
-
-/* ---- when it is taken ---- */
-
-/* A lone name that nothing has yet becomes a bit, as on the sheet of rungs. */
-static void declare(LadderSfcView *view, const char *name, bool output)
-{
-	const struct entry_place place = chart_entry_place(view, output);
-	struct entry *entry = g_new0(struct entry, 1);
-	char *line = output ? g_strdup_printf("OUT %s", name) : g_strdup(name);
-
-	if (!strpbrk(name, " .:()<>=+-*/[]") && entry_read(&place, line, entry))
-		for (int i = 0; i < entry->declares; i++)
-			ladder_document_declare(view->document,
-				entry->declare[i].address[0] ? -1 : view->pou,
-				entry->declare[i].name, entry->declare[i].type,
-				entry->declare[i].address, NULL);
-	g_free(line);
-	g_free(entry);
-}
-
 static bool is_action(LadderSfcView *view, const char *name)
 {
 	const struct sfc *sfc = chart_pou(view)->sfc;
@@ -79,11 +32,94 @@ static bool is_action(LadderSfcView *view, const char *name)
 	return false;
 }
 
+/* The bit of a line of a step, as on the sheet of rungs. @doing: it was read. */
+static void read_bit(LadderSfcView *view, const struct sfc_doing *doing,
+		     struct entry *entry)
+{
+	const struct entry_place place = chart_entry_place(view, true);
+	char *line = g_strdup_printf("OUT %s", doing->operand);
+
+	memset(entry, 0, sizeof(*entry));
+	if (!doing->action && !is_action(view, doing->name))
+		entry_read(&place, line, entry);
+	g_free(line);
+}
+
+/* What becomes of the line. A name that cannot be found is no reason to refuse it: the
+ * step it belongs to may come later; but what the line says of one must be right. */
+static char *outcome(const struct asked *asked, const char *line, struct entry *entry,
+		     bool *good)
+{
+	LadderSfcView *view = asked->view;
+	const struct entry_place place = chart_entry_place(view, false);
+	struct sfc_doing doing;
+	char *told;
+	bool lenient;
+
+	*good = true;
+	memset(entry, 0, sizeof(*entry));
+	if (!line[0])
+		return g_strdup("");
+	if (asked->what == ASK_DOES || asked->what == ASK_ANOTHER) {
+		if (!sfc_doing_read(line, &doing)) {
+			*good = false;
+			return g_strdup(_(doing.why));
+		}
+		read_bit(view, &doing, entry);
+		lenient = !doing.says;
+	} else if (asked->what == ASK_CONDITION) {
+		entry_condition(&place, line, entry);
+		lenient = sfc_is_expression(line);
+	} else {
+		return g_strdup("");
+	}
+	told = entry_outcome_tell(view->document, view->pou, entry, line, good);
+	*good = *good || lenient;
+	return told;
+}
+
+static char *line_changed(void *context, const char *line, int cursor, bool *good)
+{
+	struct asked *asked = context;
+	LadderSfcView *view = asked->view;
+	const gsize at = (gsize)(g_utf8_offset_to_pointer(line, cursor) - line);
+	struct entry *entry;
+	char *told;
+
+	*good = true;
+	if (!view->entry || !view->sheet)
+		return NULL; /* the popup is being made: it asks again */
+	chart_offer(view, asked->what, line, at);
+	entry = g_new(struct entry, 1);
+	told = outcome(asked, line, entry, good);
+	g_free(entry);
+	return told;
+}
+
+/* ---- when it is taken ---- */
+
+static bool put_doing(struct asked *asked, const struct sfc_doing *doing,
+		      const struct entry *entry)
+{
+	LadderSfcView *view = asked->view;
+	struct sfc_edit *edit;
+	bool good;
+
+	ladder_document_begin(view->document, _("Change what a step does"), NULL);
+	edit = chart_edit(view);
+	good = chart_put(view, edit, sfc_edit_set_use(edit, asked->index, asked->use, doing),
+			 "", PIECE_STEP, asked->index) &&
+	       entry_outcome_declare(view->document, view->pou, entry);
+	ladder_document_end(view->document);
+	return good;
+}
+
 static bool take_doing(struct asked *asked, const char *line)
 {
 	LadderSfcView *view = asked->view;
 	struct sfc_edit *edit;
 	struct sfc_doing doing;
+	struct entry *entry;
 	bool good;
 
 	if (!line[0] && asked->use >= 0) {
@@ -91,36 +127,38 @@ static bool take_doing(struct asked *asked, const char *line)
 		return chart_put(view, edit, sfc_edit_delete_use(edit, asked->use),
 				 _("Change what a step does"), PIECE_STEP, asked->index);
 	}
-	if (!sfc_doing_read(line, &doing))
-		return false;
-	ladder_document_begin(view->document, _("Change what a step does"), NULL);
+	entry = g_new(struct entry, 1);
+	g_free(outcome(asked, line, entry, &good));
+	good = good && sfc_doing_read(line, &doing) && put_doing(asked, &doing, entry);
+	g_free(entry);
+	return good;
+}
+
+/* As it is kept: without what the line says of its names. */
+static bool put_condition(struct asked *asked, const char *line, const struct entry *entry)
+{
+	LadderSfcView *view = asked->view;
+	const char *text = entry->sense == ENTRY_ELEMENT ? entry->operand : line;
+	struct sfc_edit *edit;
+	bool good;
+
+	ladder_document_begin(view->document, _("Change condition"), NULL);
 	edit = chart_edit(view);
-	good = chart_put(view, edit, sfc_edit_set_use(edit, asked->index, asked->use,
-						      &doing), "", PIECE_STEP,
-			 asked->index);
-	if (good && !doing.action && !is_action(view, doing.name))
-		declare(view, doing.name, true);
+	good = chart_put(view, edit, sfc_edit_set_condition(edit, asked->index, text), "",
+			 PIECE_TRANSITION, asked->index) &&
+	       entry_outcome_declare(view->document, view->pou, entry);
 	ladder_document_end(view->document);
 	return good;
 }
 
 static bool take_condition(struct asked *asked, const char *line)
 {
-	LadderSfcView *view = asked->view;
-	struct sfc_edit *edit;
-	char *why = why_not(asked, line);
+	struct entry *entry = g_new(struct entry, 1);
 	bool good;
 
-	g_free(why);
-	if (why)
-		return false;
-	ladder_document_begin(view->document, _("Change condition"), NULL);
-	edit = chart_edit(view);
-	good = chart_put(view, edit, sfc_edit_set_condition(edit, asked->index, line), "",
-			 PIECE_TRANSITION, asked->index);
-	if (good && line[0])
-		declare(view, line, false);
-	ladder_document_end(view->document);
+	g_free(outcome(asked, line, entry, &good));
+	good = good && put_condition(asked, line, entry);
+	g_free(entry);
 	return good;
 }
 

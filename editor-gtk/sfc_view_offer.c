@@ -41,11 +41,12 @@ static gsize word_start(const char *line, gsize cursor)
 	return cursor;
 }
 
+/* @put: it takes the place of what stands from @start to @cursor. */
 static void add_row(LadderSfcView *view, const char *line, gsize start, gsize cursor,
-		    const char *text, const char *address, const char *note,
-		    const char *kind)
+		    const char *put, const char *text, const char *address,
+		    const char *note, const char *kind)
 {
-	char *whole = g_strdup_printf("%.*s%s%s", (int)start, line, text, line + cursor);
+	char *whole = g_strdup_printf("%.*s%s%s", (int)start, line, put, line + cursor);
 	struct entry_popup_row row = { .text = (char *)text, .address = (char *)address,
 				       .note = (char *)note, .kind = (char *)kind,
 				       .line = whole };
@@ -59,20 +60,27 @@ static bool begins(const char *text, const char *line, gsize start, gsize cursor
 	return g_ascii_strncasecmp(text, line + start, cursor - start) == 0;
 }
 
-/* Variables and addresses of the program, no words that are elements. */
-static void offer_names(LadderSfcView *view, const char *line, gsize start, gsize cursor)
+/* Variables, addresses and new names for the part of the line from @from on, as on the
+ * sheet of rungs behind @head; no words that are elements. */
+static void offer_names(LadderSfcView *view, const char *head, const char *line,
+			gsize from, gsize cursor)
 {
-	const struct entry_place place = chart_entry_place(view, false);
+	const struct entry_place place = chart_entry_place(view, g_str_equal(head, "OUT "));
 	struct entry_candidate *found = g_new(struct entry_candidate, CANDIDATES);
-	char *word = g_strndup(line + start, cursor - start);
-	const int count = entry_candidates(&place, word, strlen(word), found, CANDIDATES);
+	char *part = g_strdup_printf("%s%s", head, line + from);
+	const gsize skip = strlen(head);
+	const int count = entry_candidates(&place, part, skip + cursor - from, found,
+					   CANDIDATES);
 
-	for (int i = 0; i < count; i++)
-		if (found[i].kind == ENTRY_VARIABLE || found[i].kind == ENTRY_ADDRESS ||
-		    found[i].kind == ENTRY_INSTANCE || found[i].kind == ENTRY_PIN)
-			add_row(view, line, start, cursor, found[i].text, found[i].address,
-				found[i].note, _(entry_kind_text(found[i].kind)));
-	g_free(word);
+	for (int i = 0; i < count; i++) {
+		const struct entry_candidate *one = &found[i];
+
+		if (one->kind != ENTRY_WORD && one->kind != ENTRY_ROUTINE &&
+		    one->kind != ENTRY_LABEL && strlen(one->line) >= skip)
+			add_row(view, line, from, strlen(line), one->line + skip, one->text,
+				one->address, one->note, _(entry_kind_text(one->kind)));
+	}
+	g_free(part);
 	g_free(found);
 }
 
@@ -80,8 +88,8 @@ static void offer_steps(LadderSfcView *view, const char *line, gsize start, gsiz
 {
 	for (int i = 0; i < view->sheet->layout->sfc->step_count; i++)
 		if (begins(view->sheet->name[i], line, start, cursor))
-			add_row(view, line, start, cursor, view->sheet->name[i], "", "",
-				_("step"));
+			add_row(view, line, start, cursor, view->sheet->name[i],
+				view->sheet->name[i], "", "", _("step"));
 }
 
 static void offer_members(LadderSfcView *view, const char *line, gsize start, gsize cursor)
@@ -92,7 +100,7 @@ static void offer_members(LadderSfcView *view, const char *line, gsize start, gs
 						     k ? 'T' : 'X');
 
 			if (cursor > start && begins(name, line, start, cursor))
-				add_row(view, line, start, cursor, name, "", k ?
+				add_row(view, line, start, cursor, name, name, "", k ?
 					_("how long it has been active") :
 					_("is it active?"), _("step"));
 			g_free(name);
@@ -102,21 +110,26 @@ static void offer_members(LadderSfcView *view, const char *line, gsize start, gs
 static void offer_doing(LadderSfcView *view, const char *line, gsize start, gsize cursor)
 {
 	const struct sfc *sfc = view->sheet->layout->sfc;
+	struct sfc_doing doing;
 
 	for (int i = 0; start == 0 && i < QUALIFIER_COUNT; i++) {
 		char *word = g_strdup_printf("%s ", qualifier_word((enum qualifier)i));
 
 		if (begins(word, line, start, cursor))
-			add_row(view, line, start, cursor, word, "", "", _("qualifier"));
+			add_row(view, line, start, cursor, word, word, "", "",
+				_("qualifier"));
 		g_free(word);
 	}
 	for (int i = 0; i < sfc->action_count; i++) {
 		const char *name = project_text(view->sheet->project, sfc->action[i].name);
 
 		if (begins(name, line, start, cursor))
-			add_row(view, line, start, cursor, name, "", "", _("action"));
+			add_row(view, line, start, cursor, name, name, "", "",
+				_("action"));
 	}
-	offer_names(view, line, start, cursor);
+	sfc_doing_read(line, &doing);
+	offer_names(view, "OUT ", line, doing.operand && cursor >= (gsize)(doing.operand - line) ?
+		    (gsize)(doing.operand - line) : start, cursor);
 }
 
 /* Which ones, by what is asked for. */
@@ -127,7 +140,7 @@ void chart_offer(LadderSfcView *view, enum chart_asked what, const char *line, g
 	switch (what) {
 	case ASK_CONDITION:
 		offer_members(view, line, start, at);
-		offer_names(view, line, start, at);
+		offer_names(view, "[", line, 0, at);
 		break;
 	case ASK_DOES:
 	case ASK_ANOTHER:

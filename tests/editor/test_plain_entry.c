@@ -170,6 +170,49 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "PROGRAM : BOOL", "! no variable can be called so (PROGRAM)" },
 	{ "SYS_FIRST_SCAN : BOOL", "! no variable can be called so (SYS_FIRST_SCAN)" },
 	{ "P1.On %IX0.5", "! no variable can be called so (P1.On)" },
+	/* a new name anywhere else: its type is that of what it goes with */
+	{ "TON D1 Later AT %ML4 : TIME", "TON D1 PT:=Later + D1 TON + Later TIME %ML4" },
+	{ "TON D1 PT:=Later AT %ML4", "TON D1 PT:=Later + D1 TON + Later TIME %ML4" },
+	{ "TON D1 PT:=Later : TIME ET=>Now", "TON D1 PT:=Later ET=>Now + D1 TON + Later TIME + Now TIME" },
+	{ "TON D1 Q=>Done", "TON D1 Q=>Done + D1 TON + Done BOOL %QX0.3" },
+	{ "TON D1 Later AT %MD4", "! this address is not as wide as its type (%MD4, TIME: %ML)" },
+	{ "TON D1 Later : INT", "! this type does not fit here (INT)" },
+	{ "CTU Parts PV:=Most AT %MW8 CV=>Now AT %QW4",
+	  "CTU Parts PV:=Most CV=>Now + Parts CTU + Most INT %MW8 + Now INT %QW4" },
+	{ "CTU Parts R:=Zero CV=>Now AT %IW4", "! this cannot be written (%IW4)" },
+	{ "CTU Parts R:=Zero", "CTU Parts R:=Zero + Parts CTU + Zero BOOL %IX0.2" },
+	{ "ADD Heat 2.5 Sum", "ADD IN1:=Heat IN2:=2.5 OUT=>Sum + Sum REAL" },
+	{ "ADD 1 2.5 Sum AT %MD8", "ADD IN1:=1 IN2:=2.5 OUT=>Sum + Sum REAL %MD8" },
+	{ "MOVE T#5s Kept", "MOVE IN:=T#5s OUT=>Kept + Kept TIME" },
+	{ "MOVE 5 Kept : DINT", "MOVE IN:=5 OUT=>Kept + Kept DINT" },
+	{ "SEL G:=Start IN0:=Heat IN1:=Hot OUT=>Sum",
+	  "SEL G:=Start IN0:=Heat IN1:=Hot OUT=>Sum + Hot REAL + Sum REAL" },
+	{ "INT_TO_REAL Level Sum", "INT_TO_REAL IN:=Level OUT=>Sum + Sum REAL" },
+	{ "Temp AT %IW0 : INT > 80", "[ Temp > 80 ] + Temp INT %IW0 beside Start" },
+	{ "Temp AT %IW0 > 80", "[ Temp > 80 ] + Temp INT %IW0 beside Start" },
+	{ "Temp AT %ID4>80", "[ Temp > 80 ] + Temp DINT %ID4" },
+	{ "Temp : LREAL > 80", "[ Temp > 80 ] + Temp LREAL" },
+	{ "Temp > Limit AT %MD4 : REAL", "[ Temp > Limit ] + Temp REAL + Limit REAL %MD4" },
+	{ "[ Temp AT %IW0 + 1 > 80 ]", "[ Temp + 1 > 80 ] + Temp INT %IW0 beside Start" },
+	{ "NO Temp AT %IW0 > 80", "[ Temp > 80 ] + Temp INT %IW0 beside Start" },
+	{ "Level > 5 AND Open", "[ Level > 5 AND Open ] + Open BOOL %IX0.2" },
+	{ "Level > 5 AND Open AT %IX0.5", "[ Level > 5 AND Open ] + Open BOOL %IX0.5" },
+	{ "Level > 5 AND (Open OR NOT Shut : BOOL)",
+	  "[ Level > 5 AND (Open OR NOT Shut) ] + Open BOOL %IX0.2 + Shut BOOL" },
+	{ "Temp > 5 AND Temp < 2.5 * Heat", "[ Temp > 5 AND Temp < 2.5 * Heat ] + Temp INT" },
+	{ "Wait * Times > T#5s", "[ Wait * Times > T#5s ] + Times INT" },
+	{ ">Sum := Heat + More", "[ Sum := Heat + More ] + Sum REAL + More REAL" },
+	{ ">Sum AT %MD8 := Level + 1", "[ Sum := Level + 1 ] + Sum DINT %MD8" },
+	{ ">Sum := Level > Most", "[ Sum := Level > Most ] + Sum BOOL %QX0.3 + Most INT" },
+	{ ">Level := LIMIT(0, More, Most)", "[ Level := LIMIT(0, More, Most) ] + More INT + Most INT" },
+	{ ">Heat := SQRT(More)", "[ Heat := SQRT(More) ] + More REAL" },
+	{ "Lamps[Which] AND Start", "[ Lamps[Which] AND Start ]" },
+	{ "Mask : WORD AND 16#FF = 5", "[ Mask AND 16#FF = 5 ] + Mask WORD" },
+	{ "Temp AT %IX0.5 > 80", "! this address is not as wide as its type (%IX0.5, INT: %IW)" },
+	{ "Level AT %IW0 > 80", "! it is declared as (Level : INT)" },
+	{ "Temp : FROB > 80", "! there is no such type (FROB)" },
+	{ "Level > 5 AND Open : INT", "! this is no BOOL (INT)" },
+	{ "Temp AT > 80", "! an address is missing behind AT (Temp)" },
 	/* wrong */
 	{ "Level", "! this is no BOOL: compare it, as in Level > 5 (Level)" },
 	{ ">Start", "! this cannot be written (Start)" },
@@ -239,18 +282,18 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "NO FanDelay.q_", "FanDelay.Q" },
 	{ "TON _", "FanDelay Q=> PT:= ET=>" },
 	{ "TON Fa_", "FanDelay new:Fa@" },
-	{ "TON FanDelay P_", "PT:= P1 Lamps Stop new:P@" },
-	{ "TON FanDelay PT:=W_", "Wait new:W@" },
+	{ "TON FanDelay P_", "PT:= P1 Lamps Stop new:P@ new:P@%IL8 new:P@%ML8" },
+	{ "TON FanDelay PT:=W_", "Wait new:W@ new:W@%IL8 new:W@%ML8" },
 	{ "JMP _", "Top" }, { "CALL A_", "Alarm" },
 	{ "NO I0.0_", "Start" }, { "NO %IX0.0_", "Start" }, { "NO %IX0_", "Start Stop %IX0.7" },
-	{ "Level > L_", "Level LEN( LIMIT( LN( LOG( Full new:L@" },
-	{ "Heat > SQ_", "SQRT( new:SQ@" },
-	{ "[ SQ_ ]", "SQRT( new:SQ@" },
-	{ "[ Level + AB_", "ABS( new:AB@" },
-	{ "Level := INT_TO_RE_", "INT_TO_REAL( new:INT_TO_RE@" },
-	{ "Level > LE_", "Level LEN( new:LE@" },
+	{ "Level > L_", "Level LEN( LIMIT( LN( LOG( Full new:L@ new:L@%IW2 new:L@%MW2" },
+	{ "Heat > SQ_", "SQRT( new:SQ@ new:SQ@%ID4 new:SQ@%MD4" },
+	{ "[ SQ_ ]", "SQRT( new:SQ@%IX0.2 new:SQ@%MX0.1 new:SQ@" },
+	{ "[ Level + AB_", "ABS( new:AB@ new:AB@%IW2 new:AB@%MW2" },
+	{ "Level := INT_TO_RE_", "INT_TO_REAL( new:INT_TO_RE@ new:INT_TO_RE@%IW2 new:INT_TO_RE@%MW2" },
+	{ "Level > LE_", "Level LEN( new:LE@ new:LE@%IW2 new:LE@%MW2" },
 	{ "NO SQ_", "new:SQ@%IX0.2 new:SQ@%MX0.1 new:SQ@" },
-	{ "Level := Fu_", "Full new:Fu@" },
+	{ "Level := Fu_", "Full new:Fu@ new:Fu@%IW2 new:Fu@%MW2" },
 	{ "tonr_", "TONR" }, { "xic_", "XIC" },
 	{ "NO Start_", "Start" },
 	/* said of a new name */
@@ -261,20 +304,31 @@ static const struct { const char *line, *offers; } offered[] = {
 	{ "XIC Open AT %m_", "new:Open@%MX0.1" }, { ">/Lamp %q_", "new:Lamp@%QX0.3" },
 	{ "Open AT %IX0.5_", "" }, { "Open AT %IX0.5 : _", "new:Open@%IX0.5" },
 	{ "Open :_", "new:Open@" }, { "-(S)- Lamp : bo_", "new:Lamp@" }, { "Open : I_", "" },
-	{ "Gate_ %IX0.5", "new:Gate@%IX0.5" }, { "Start %_", "" }, { "Motor : _", "" },
+	{ "Gate_ %IX0.5", "new:Gate@%IX0.5" },
+	{ "TON T1 Later AT _", "new:Later@ new:Later@%IL8 new:Later@%ML8" },
+	{ "TON T1 PT:=Later AT %m_", "new:Later@%ML8" },
+	{ "TON T1 Later : _", "new:Later@" }, { "TON T1 Later : I_", "" },
+	{ "Temp_ > 5", "new:Temp@ new:Temp@%IW2 new:Temp@%MW2" },
+	{ "Temp AT %i_ > 5", "new:Temp@%IW2" },
+	{ "Temp AT %IW6 : D_ > 5", "" }, { "Temp AT %IW6 : I_ > 5", "new:Temp@%IW6" },
+	{ "Temp : L_ > 5", "new:Temp@ new:Temp@ new:Temp@" },
+	{ "Level > 5 AND Op_", "new:Op@%IX0.2 new:Op@%MX0.1 new:Op@" },
+	{ "Open AT I:0/5 : b_", "new:Open@%IX0.5" }, { "Start %_", "" }, { "Motor : _", "" },
 };
 
 /* What a row of a new name shows is what its line declares. */
 static void check_row(const struct entry_place *place, const struct entry_candidate *row)
 {
 	struct entry entry;
-	const struct entry_new *made = &entry.declare[0];
+	bool told = false;
 
 	if (!entry_read(place, row->line, &entry)) /* an expression that is not whole */
 		return;
-	if (!CHECK_AS(entry.declares == 1 && !strcmp(made->name, row->text) &&
-		      !strcmp(made->address, row->address), row->line))
-		printf("# declares %s AT %s\n", made->name, made->address);
+	for (int i = 0; i < entry.declares; i++)
+		told |= !strcmp(entry.declare[i].name, row->text) &&
+			!strcmp(entry.declare[i].address, row->address);
+	if (!CHECK_AS(told, row->line))
+		printf("# does not declare %s AT %s\n", row->text, row->address);
 }
 
 static void list(const struct entry_place *place, const char *line, char *out,

@@ -185,6 +185,42 @@ static void check_texts(void)
 	CHECK(!strstr(body(), "SET"));
 }
 
+/* A line of a step, and what it says: qualifier, time, name, what is said of that; or why
+ * not. */
+static void check_doings(void)
+{
+	static const struct { const char *line, *says; } doings[] = {
+		{ "Horn", "N  Horn|Horn" }, { "L T#3s, Horn", "L T#3s Horn|Horn" },
+		{ "N Horn AT %QX0.5", "N  Horn|Horn AT %QX0.5" },
+		{ "Horn AT %QX0.5 : BOOL", "N  Horn|Horn AT %QX0.5 : BOOL" },
+		{ "SET Horn : BOOL", "SET  Horn|Horn : BOOL" },
+		{ "D T#1s Horn %QX0.5", "D T#1s Horn|Horn %QX0.5" },
+		{ "N AT %QX0.5", "N  N|N AT %QX0.5" }, { "S : BOOL", "N  S|S : BOOL" },
+		{ "ACTION Count", "N  Count|Count" }, { "S ACTION Count", "S  Count|Count" },
+		{ "Z Horn", "! there is no such qualifier" },
+		{ "Horn now", "! there is no such qualifier" },
+		{ "N a b", "! too many words" }, { "ACTION a b", "! too many words" },
+		{ "L T#3s", "! a time and a name belong to this qualifier" },
+		{ "L Horn", "! a time and a name belong to this qualifier" },
+		{ "ACTION", "! the name of an action or a bit is missing" },
+		{ "  ", "! the name of an action or a bit is missing" },
+	};
+
+	for (size_t i = 0; i < sizeof(doings) / sizeof(*doings); i++) {
+		struct sfc_doing doing;
+		char got[400];
+
+		if (sfc_doing_read(doings[i].line, &doing))
+			snprintf(got, sizeof(got), "%s %s %s|%s", doing.kind == USE_SET ?
+				 "SET" : qualifier_word(doing.qualifier), doing.time,
+				 doing.name, doing.operand);
+		else
+			snprintf(got, sizeof(got), "! %s", doing.why);
+		if (!CHECK_AS(strcmp(got, doings[i].says) == 0, doings[i].line))
+			printf("# got: %s\n", got);
+	}
+}
+
 /* A refusal says why, and the text stays. */
 #define REFUSED(call) do { \
 	struct sfc_edit *edit = edit_new(); \
@@ -465,6 +501,7 @@ int main(void)
 	check_steps();
 	check_ways();
 	check_texts();
+	check_doings();
 	check_refusals();
 	check_macros();
 	check_comments();

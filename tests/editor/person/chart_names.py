@@ -345,4 +345,55 @@ def numbered(screen):
     editor.shot('chart-numbers')
 
 
-main([renamed, found, folded, far, numbered])
+def declared(screen):
+    """new names in conditions and behind qualifiers are declared, with what is said of them or chosen for them"""
+    path, editor = opened(screen)
+    enter(editor, 'from Heat to Idle')
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.type('Level AT %IW2 : INT > 80 AND Ready')
+    editor.says('new: Level AT %IW2 : INT; new: Ready AT %IX0.3 : BOOL')
+    editor.candidate('Ready, new %MX0.0 BOOL')
+    editor.shot('chart-declares')
+    editor.keys('Return')
+    editor.gone()
+    shape(editor, 'from Heat to Idle, condition Level > 80 AND Ready')
+    go(editor, 'Heat')
+    editor.keys('F9')
+    editor.opened()
+    editor.type('Z Horn')
+    editor.says('there is no such qualifier')
+    editor.keys('ctrl+a')
+    editor.type('N Horn AT %IX0.5')
+    editor.says('this cannot be written: %IX0.5')
+    editor.keys('Return')
+    assert editor.asked()[0].text() == 'N Horn AT %IX0.5'
+    editor.keys('ctrl+a')
+    editor.type('L T#3s Horn AT %q')
+    editor.candidate('Horn, new %QX0.1 BOOL')
+    editor.shot('chart-declares-output')
+    editor.keys('Down', 'Tab')
+    until(lambda: editor.asked()[0].text() == 'L T#3s Horn AT %QX0.1', 'the address in the line')
+    editor.keys('Return')
+    editor.gone()
+    shape(editor, 'Heat does: L T#3s Horn')
+    text = editor.save(path)
+    for wanted in 'Level AT %IW2   : INT;', 'Ready AT %IX0.3 : BOOL;', 'Horn  AT %QX0.1 : BOOL;':
+        assert '  %s\n' % wanted in text, (wanted, text)
+    assert 'FROM Heat TO Idle := Level > 80 AND Ready;' in text, text
+    check(path)
+    # Where the name of a step is wrong, that is told; it may come later.
+    enter(editor, 'from Heat to Idle')
+    editor.opened()
+    editor.keys('ctrl+a')
+    editor.type('Later.X')
+    editor.says('there is no such variable: Later.X')
+    editor.keys('Escape')
+    editor.gone()
+    on_chart(editor)
+    editor.keys('ctrl+z', 'ctrl+z')
+    shape(editor, 'from Heat to Idle, condition Hot AND Fill.T > T#1s')
+    assert editor.save(path) == TANK
+
+
+main([declared, renamed, found, folded, far, numbered])

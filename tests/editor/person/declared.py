@@ -115,4 +115,40 @@ def chosen(screen):
     assert lines(path, '@print %QX0.6\n%MX0.0=1\nGate=1\nOpen=0\n') == ['%QX0.6=0', '%QX0.6=1', '%QX0.6=0']
 
 
-main([typed, refused, chosen])
+def anywhere(screen):
+    """at a pin and in a comparison, too: of the type that fits there, with addresses as wide as that"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.entry('Level AT %IW2 : INT > 80')
+    editor.type('Heat > Most')
+    editor.says('new: Heat : INT; new: Most : INT')
+    editor.candidate('Most, new %MW0 INT')
+    editor.candidate('Most, new  INT, no address')
+    editor.keys('Down', 'Down', 'Tab')
+    until(lambda: editor.asked()[0].text() == 'Heat > Most AT %IW0', 'the address in the line')
+    editor.shot('declared-compared')
+    editor.keys('Return')
+    editor.gone()
+    editor.type('TON D1 Wait AT %MD4')
+    editor.says('this address is not as wide as its type: %MD4, TIME: %ML')
+    for _ in range(3):
+        editor.keys('BackSpace')
+    editor.candidate('Wait, new %ML0 TIME')
+    editor.shot('declared-pin')
+    editor.type('ML8 : TIME')
+    editor.keys('Return')
+    editor.gone()
+    editor.entry('OUT Lamp %QX0.1')
+    text = editor.save(path)
+    for wanted in ('Level AT %IW2 : INT;', 'Most AT %IW0 : INT;', 'Heat : INT;', 'Wait AT %ML8 : TIME;', 'D1 : TON;'):
+        assert '  %s\n' % wanted in text, (wanted, text)
+    assert '[ Level > 80 ] | [ Heat > Most ] | TON D1 PT:=Wait | COIL Lamp |' in text, text
+    check(path)
+    assert lines(path, '@print %QX0.1\n%IW2=81 Heat=1\n%IW2=80\n') == ['%QX0.1=1', '%QX0.1=0']
+    for _ in range(4):
+        editor.keys('ctrl+z')
+    assert 'Level' not in editor.save(path)
+
+
+main([typed, refused, chosen, anywhere])

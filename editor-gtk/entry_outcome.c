@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_outcome - what is told below a line while it is typed: what is wrong with it,
- * or what it would declare.
- *
- * It tells what entry.c found, and looks up only where in the file a declaration stands.
+ * entry_outcome - see entry_outcome.h. It looks up only where in the file a declaration
+ * stands that the line contradicts.
  */
-#include "editor-gtk/grid_view_inside.h"
-
-#include "editor-gtk/entry.h"
+#include "editor-gtk/entry_outcome.h"
+#include "editor-gtk/i18n.h"
 
 #include <string.h>
 
@@ -39,19 +36,19 @@ static bool stands_in(const struct var_table *table, const struct var *var, int 
 }
 
 /* As the file will be saved; 0: it stands in another one. */
-static int line_of(LadderGridView *view, const struct var *var)
+static int line_of(LadderDocument *document, int pou, const struct var *var)
 {
-	const struct project *project = ladder_document_project(view->document);
+	const struct project *project = ladder_document_project(document);
 	struct declared of = { .pou = -1, .number = -1 };
 	int line = 1;
 	char *text;
 	gsize len;
 
 	if (!stands_in(&project->globals, var, &of.number)) {
-		of.pou = view->pou;
-		stands_in(&project->pou[view->pou].vars, var, &of.number);
+		of.pou = pou;
+		stands_in(&project->pou[pou].vars, var, &of.number);
 	}
-	text = ladder_document_outline(view->document, &len, look, &of);
+	text = ladder_document_outline(document, &len, look, &of);
 	for (gsize i = 0; i < of.at; i++)
 		line += text[i] == '\n';
 	g_free(text);
@@ -60,9 +57,10 @@ static int line_of(LadderGridView *view, const struct var *var)
 
 /* ---- what is told ---- */
 
-static void tell_wrong(GString *out, LadderGridView *view, const struct entry *entry)
+static void tell_wrong(GString *out, LadderDocument *document, int pou,
+		       const struct entry *entry)
 {
-	const int line = entry->known ? line_of(view, entry->known) : 0;
+	const int line = entry->known ? line_of(document, pou, entry->known) : 0;
 
 	g_string_append(out, _(entry->why));
 	if (!entry->what[0])
@@ -83,17 +81,31 @@ static void tell_new(GString *out, const struct entry_new *declare)
 		g_string_append_printf(out, _(" (%s lies there, too)"), declare->shares);
 }
 
-char *entry_outcome(LadderGridView *view, const struct entry *entry, const char *line,
-		    bool *good)
+char *entry_outcome_tell(LadderDocument *document, int pou, const struct entry *entry,
+			 const char *line, bool *good)
 {
 	GString *text = g_string_new(NULL);
 
 	*good = entry->sense != ENTRY_WRONG;
 	if (entry->sense == ENTRY_WRONG && entry->why)
-		tell_wrong(text, view, entry);
+		tell_wrong(text, document, pou, entry);
 	else if (entry->sense == ENTRY_PART && line[0])
 		g_string_append(text, _("the operand is still missing"));
 	for (int i = 0; i < entry->declares; i++)
 		tell_new(text, &entry->declare[i]);
 	return g_string_free(text, FALSE);
+}
+
+bool entry_outcome_declare(LadderDocument *document, int pou, const struct entry *entry)
+{
+	bool good = true;
+
+	for (int i = 0; i < entry->declares; i++) {
+		const struct entry_new *declare = &entry->declare[i];
+
+		good = ladder_document_declare(document, declare->address[0] ? -1 : pou,
+					       declare->name, declare->type,
+					       declare->address, NULL) && good;
+	}
+	return good;
 }
