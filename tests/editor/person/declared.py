@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """declared - a new name at the cursor: its address and type are typed with it, or taken from the list."""
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -141,8 +142,9 @@ def anywhere(screen):
     editor.gone()
     editor.entry('OUT Lamp %QX0.1')
     text = editor.save(path)
+    text = re.sub(' +', ' ', text)
     for wanted in ('Level AT %IW2 : INT;', 'Most AT %IW0 : INT;', 'Heat : INT;', 'Wait AT %ML8 : TIME;', 'D1 : TON;'):
-        assert '  %s\n' % wanted in text, (wanted, text)
+        assert ' %s\n' % wanted in text, (wanted, text)
     assert '[ Level > 80 ] | [ Heat > Most ] | TON D1 PT:=Wait | COIL Lamp |' in text, text
     check(path)
     assert lines(path, '@print %QX0.1\n%IW2=81 Heat=1\n%IW2=80\n') == ['%QX0.1=1', '%QX0.1=0']
