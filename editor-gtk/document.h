@@ -172,6 +172,22 @@ bool ladder_document_redo(LadderDocument *document);
 const char *ladder_document_undo_name(LadderDocument *document);
 const char *ladder_document_redo_name(LadderDocument *document);
 
+/* ---- places in the history (document_back.c) ---- */
+
+/** ladder_document_place - where it is now: behind the last step that is done. */
+guint64 ladder_document_place(LadderDocument *document);
+/** ladder_document_knows_place - false: it was undone, or is too long ago. */
+bool ladder_document_knows_place(LadderDocument *document, guint64 place);
+enum back {
+	BACK_NOTHING, /* that rung is as it was, or nobody knows how that was   */
+	BACK_DONE,
+	BACK_OTHER,   /* no: since then other things were changed, too           */
+};
+/** ladder_document_give_back - rung @rung as it was at @place, without the variables that
+ * its edits declared; one step, called @name. */
+enum back ladder_document_give_back(LadderDocument *document, int pou, int rung,
+				    guint64 place, const char *name);
+
 /* ---- bookmarks: rungs to come back to; they follow their rungs ---- */
 
 /** ladder_document_toggle_bookmark - sets or clears one, as a step. */

@@ -237,12 +237,6 @@ static void forget_edit(LadderGridView *view)
 	g_clear_pointer(&view->preview, rung_free);
 }
 
-static void forget_before(LadderGridView *view)
-{
-	g_clear_pointer(&view->before, rung_free);
-	view->before_rung = -1;
-}
-
 static void rungs_changed(LadderGridView *view, int pou, int at, int removed, int inserted)
 {
 	entry_forget_uses(view);
@@ -262,7 +256,7 @@ static void rungs_changed(LadderGridView *view, int pou, int at, int removed, in
 	forget_edit(view);
 	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	if (removed != inserted) {
-		forget_before(view);
+		view->came_rung = -1;
 		cells_tell_again(view);
 	}
 	strips_splice(view, at, removed, inserted);
@@ -288,7 +282,6 @@ static void project_changed(LadderGridView *view)
 	strips_reset(view);
 	cursor_fit(view);
 	forget_edit(view);
-	forget_before(view);
 	ladder_grid_view_set_blockers(view, -1, NULL, 0);
 	gtk_widget_queue_resize(GTK_WIDGET(view));
 	sheet_moved(view);
@@ -531,7 +524,6 @@ static void ladder_grid_view_finalize(GObject *object)
 	g_free(view->wire.legal);
 	g_free(view->composed);
 	rung_free(view->preview);
-	rung_free(view->before);
 	g_array_unref(view->strips);
 	g_array_unref(view->marks);
 	g_array_unref(view->cells);
@@ -574,7 +566,7 @@ static void ladder_grid_view_init(LadderGridView *view)
 	view->marks = g_array_new(FALSE, TRUE, sizeof(struct sheet_mark));
 	view->cells = g_array_new(FALSE, TRUE, sizeof(struct cell_widget));
 	view->count = -1;
-	view->found.rung = view->drop.rung = view->before_rung = view->drop_line = -1;
+	view->found.rung = view->drop.rung = view->came_rung = view->drop_line = -1;
 	set_adjustment(view, 0, NULL);
 	set_adjustment(view, 1, NULL);
 	gtk_widget_set_focusable(GTK_WIDGET(view), TRUE);

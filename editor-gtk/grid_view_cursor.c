@@ -25,17 +25,14 @@ void cursor_fit(LadderGridView *view)
 	view->selecting = false;
 }
 
-/* What Esc gives back: the rung as the cursor found it. */
+/* What Esc gives back: the rung as the cursor found it, or as Undo left it. */
 void cursor_remember(LadderGridView *view)
 {
-	const struct pou *pou = sheet_pou(view);
-
-	if (view->before_rung == view->cursor.rung && view->before)
+	if (view->came_rung == view->cursor.rung &&
+	    ladder_document_knows_place(view->document, view->came))
 		return;
-	g_clear_pointer(&view->before, rung_free);
-	view->before_rung = view->cursor.rung;
-	if (pou && view->cursor.rung < sheet_rungs(view))
-		view->before = rung_copy(pou->rung[view->first + view->cursor.rung]);
+	view->came_rung = view->cursor.rung;
+	view->came = ladder_document_place(view->document);
 }
 
 void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend)

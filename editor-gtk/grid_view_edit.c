@@ -201,23 +201,28 @@ static void do_rung_off(LadderGridView *view)
 	sheet_put(view, copy, &at, _(verb_row(VERB_rung_off)->label));
 }
 
+static void give_back(LadderGridView *view)
+{
+	if (view->came_rung != view->cursor.rung)
+		return;
+	if (ladder_document_give_back(view->document, view->pou,
+				      view->first + view->cursor.rung, view->came,
+				      _(verb_row(VERB_cancel)->label)) == BACK_OTHER)
+		sheet_tell(view, _("other things were changed since, too: Undo takes them "
+				   "back, one by one"));
+}
+
 /* Esc: a stroke or the entry goes first, then what was done to this rung since the cursor came. */
 static void do_cancel(LadderGridView *view)
 {
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	struct grid_at at = { .columns = view->columns };
-
-	if (view->wire.drawing) {
+	if (view->wire.drawing)
 		wire_forget(view);
-	} else if (view->entry || view->preview) {
+	else if (view->entry || view->preview)
 		entry_close(view);
-	} else if (view->selecting) {
+	else if (view->selecting)
 		cursor_set(view, view->cursor, false);
-	} else if (rung && view->before && view->before_rung == view->cursor.rung &&
-		   !rung_equal(rung, view->before)) {
-		sheet_put(view, rung_copy(view->before), &at,
-			  _(verb_row(VERB_cancel)->label));
-	}
+	else
+		give_back(view);
 }
 
 /* ---- elements ---- */

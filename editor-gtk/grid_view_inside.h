@@ -102,8 +102,8 @@ struct _LadderGridView {
 	struct grid_cursor anchor;  /* other corner of the selection           */
 	bool selecting;             /* from anchor to cursor, in one rung      */
 	struct rung *preview;       /* of the cursor's rung, until its entry is done */
-	struct rung *before;        /* of the cursor's rung when the cursor came */
-	int before_rung;
+	guint64 came;               /* place in the history when the cursor came */
+	int came_rung;              /* to this rung; -1: nobody knows           */
 	GArray *marks;              /* of struct sheet_mark: what checks say   */
 	struct grid_cursor found;   /* rung -1: nothing                        */
 	struct grid_cursor drop;    /* rung -1: no element is dragged over it   */

@@ -16,6 +16,8 @@ struct history {
 	struct step *open;
 	int depth;
 	gsize bytes;
+	guint64 serial;    /* of the last step that was made                    */
+	guint64 base;      /* of the last one that is forgotten, from the oldest on */
 };
 
 /* ---- changes and steps ---- */
@@ -175,6 +177,8 @@ static void forget_step(struct history *history, int index)
 	const bool aside = step_is_aside(step);
 
 	history->bytes -= step_bytes(step);
+	if (index == 0)
+		history->base = step->serial;
 	if (history->now > index)
 		history->now--;
 	if (history->saved > index || (history->saved == index && !aside && index == 0))
@@ -228,6 +232,7 @@ static bool join_step(struct history *history, struct step *step)
 			g_ptr_array_add(last->change, change);
 	}
 	history->bytes += step_bytes(last);
+	last->serial = step->serial;
 	step_free(step);
 	return true;
 }
@@ -240,6 +245,7 @@ void history_restart(struct history *history)
 		if (!step_is_aside(history->step->pdata[i]))
 			forget_step(history, i);
 	history->saved = history->now;
+	history->base = ++history->serial;
 }
 
 bool history_end(struct history *history)
@@ -255,6 +261,7 @@ bool history_end(struct history *history)
 		return false;
 	}
 	forget_undone(history);
+	step->serial = ++history->serial;
 	if (join_step(history, step))
 		return true;
 	g_ptr_array_add(history->step, step);
@@ -279,6 +286,35 @@ void history_cancel(struct history *history)
 	step_free(history->open);
 	history->open = NULL;
 	history->depth = 0;
+}
+
+/* ---- places ---- */
+
+guint64 history_place(const struct history *history)
+{
+	return history->now > 0 ? history_done(history, 0)->serial : history->base;
+}
+
+int history_since(const struct history *history, guint64 place)
+{
+	int count = 0;
+
+	while (count < history->now && history_done(history, count)->serial > place)
+		count++;
+	if (count < history->now)
+		return history_done(history, count)->serial == place ? count : -1;
+	return history->base == place ? count : -1;
+}
+
+const struct step *history_done(const struct history *history, int index)
+{
+	return history->step->pdata[history->now - 1 - index];
+}
+
+void history_goes_back(struct history *history, guint64 place)
+{
+	history->open->is_back = true;
+	history->open->back_to = place;
 }
 
 /* ---- undoing ---- */

@@ -33,6 +33,9 @@ struct step {
 	char *name;       /* "Delete rung": shown behind Undo                  */
 	char *key;        /* steps with the same one in a row join; NULL: never */
 	GPtrArray *change; /* of struct change *                               */
+	guint64 serial;   /* grows from step to step                           */
+	bool is_back;     /* it took back what came behind place @back_to      */
+	guint64 back_to;
 };
 
 struct history;
@@ -71,6 +74,18 @@ const char *history_redo_name(const struct history *history);
 const struct step *history_open_step(const struct history *history);
 /** history_cancel - forgets the step that is open. */
 void history_cancel(struct history *history);
+
+/* ---- places ---- */
+
+/** history_place - behind the last step that is done. */
+guint64 history_place(const struct history *history);
+/** history_since - how many steps are done behind a place; -1: it is not there any more:
+ * undone, forgotten, or the step before it grew. */
+int history_since(const struct history *history, guint64 place);
+/** history_done - 0: the last step that is done, 1: the one before. Borrowed. */
+const struct step *history_done(const struct history *history, int index);
+/** history_goes_back - the open step takes back what came behind that place. */
+void history_goes_back(struct history *history, guint64 place);
 
 /** history_forget_file - what was done to file @file is not to be undone any more. */
 void history_forget_file(struct history *history, int file);

@@ -153,4 +153,43 @@ def anywhere(screen):
     assert 'Level' not in editor.save(path)
 
 
-main([typed, refused, chosen, anywhere])
+def given_back(screen):
+    """Esc gives the rung back as it was when the cursor came, without what was declared for it; Ctrl+Z all of it"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    before = open(path).read()
+    editor.to_sheet()
+    editor.entry('Open')  # the first declaration of the file: it is read anew
+    editor.entry('TON D1 Wait')
+    editor.entry('OUT Lamp')
+    edited = editor.save(path)
+    check(path)
+    editor.keys('Escape')
+    until(lambda: not editor.all('Lamp'), 'the empty rung')
+    editor.shot('declared-given-back')
+    assert editor.save(path) == before
+    editor.keys('Escape')  # it is as it was
+    editor.keys('ctrl+z')
+    editor.element('Lamp')
+    assert editor.save(path) == edited
+    # What was done elsewhere meanwhile is not touched.
+    editor.keys('Home', 'F2')
+    until(lambda: editor.all('Rename everywhere'), 'the question for a name')
+    editor.keys('ctrl+a')
+    editor.type('Opened')
+    editor.keys('Return')
+    editor.element('Opened')
+    editor.to_sheet()
+    edited = editor.save(path)
+    editor.keys('Escape')
+    editor.says('other things were changed since')
+    editor.shot('declared-not-given-back')
+    editor.keys('Insert')  # the rung below; the cursor left
+    editor.entry('OUT More')
+    editor.keys('Escape')
+    until(lambda: not editor.all('More'), 'the empty rung below')
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
+    until(lambda: len(editor.elements()) == 3, 'one rung')
+
+
+main([typed, refused, chosen, anywhere, given_back])
