@@ -27,6 +27,8 @@ struct _LadderEntryPopup {
 	bool filling;       /* the line is changed by us                       */
 	guint asking;       /* soon asks what could be meant                   */
 	bool spare;         /* closed, and kept for what is asked next          */
+	bool done;          /* taken or given up: not left by a click elsewhere */
+	char *first;        /* what the line was before anything was typed      */
 };
 
 G_DEFINE_FINAL_TYPE(LadderEntryPopup, ladder_entry_popup, GTK_TYPE_POPOVER)
@@ -214,7 +216,7 @@ static bool take(LadderEntryPopup *popup)
 	g_object_ref(popup);
 	good = popup->calls.taken(popup->calls.context, line);
 	if (good)
-		gtk_popover_popdown(GTK_POPOVER(popup));
+		ladder_entry_popup_close(popup);
 	else
 		set_line(popup, line);
 	g_object_unref(popup);
@@ -232,7 +234,7 @@ static bool window_key(LadderEntryPopup *popup, GdkEvent *key)
 		return false;
 	g_object_ref(popup);
 	if (take(popup) || !*line_of(popup)) { /* of an empty one nothing was begun */
-		gtk_popover_popdown(GTK_POPOVER(popup));
+		ladder_entry_popup_close(popup);
 		gtk_widget_activate_action(owner, verb_row(verb)->action, NULL);
 	}
 	g_object_unref(popup);
@@ -284,7 +286,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 		set_line(popup, row_line(popup, MAX(chosen(popup), 0)));
 		return TRUE;
 	case GDK_KEY_Escape:
-		gtk_popover_popdown(GTK_POPOVER(popup));
+		ladder_entry_popup_close(popup);
 		return TRUE;
 	default:
 		return window_key(popup, gtk_event_controller_get_current_event(
@@ -325,9 +327,26 @@ static void comes(GtkEditable *line, const char *text, int len, int *at)
 
 /* ---- the widget ---- */
 
+/* By a click elsewhere: nothing that was typed is lost for that. */
+static void leave(LadderEntryPopup *popup)
+{
+	const struct entry_popup_calls calls = popup->calls;
+	char *line = g_strdup(line_of(popup));
+
+	popup->done = true;
+	if (calls.left && strcmp(line, popup->first) != 0 &&
+	    !calls.taken(calls.context, line))
+		calls.left(calls.context, line);
+	g_free(line);
+}
+
 static void closed(LadderEntryPopup *popup)
 {
-	void (*gone)(void *) = popup->calls.gone;
+	void (*gone)(void *);
+
+	if (!popup->done && !popup->spare)
+		leave(popup);
+	gone = popup->calls.gone;
 
 	popup->calls.gone = NULL;
 	g_clear_handle_id(&popup->asking, g_source_remove);
@@ -343,6 +362,7 @@ static void ladder_entry_popup_finalize(GObject *object)
 	g_clear_handle_id(&popup->asking, g_source_remove);
 	g_clear_handle_id(&popup->making, g_source_remove);
 	g_ptr_array_unref(popup->rows);
+	g_free(popup->first);
 	G_OBJECT_CLASS(ladder_entry_popup_parent_class)->finalize(object);
 }
 
@@ -430,6 +450,9 @@ GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const ch
 		popover_put(GTK_WIDGET(popup), owner);
 	}
 	popup->calls = *calls;
+	popup->done = false;
+	g_free(popup->first);
+	popup->first = g_strdup(typed || calls->proposes ? "" : text);
 	gtk_entry_set_placeholder_text(GTK_ENTRY(popup->line), prompt);
 	gtk_accessible_update_property(GTK_ACCESSIBLE(popup->line),
 				       GTK_ACCESSIBLE_PROPERTY_LABEL, prompt, -1);
@@ -442,6 +465,12 @@ GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const ch
 void ladder_entry_popup_keep(LadderEntryPopup *popup)
 {
 	popup->spare = true;
+	gtk_popover_popdown(GTK_POPOVER(popup));
+}
+
+void ladder_entry_popup_close(LadderEntryPopup *popup)
+{
+	popup->done = true;
 	gtk_popover_popdown(GTK_POPOVER(popup));
 }
 

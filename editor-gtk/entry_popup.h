@@ -29,6 +29,11 @@ struct entry_popup_calls {
 	/** It is gone, taken or not. */
 	void (*gone)(void *context);
 	void *context;
+	/** After a click elsewhere: what was typed was taken as by Enter, or, if this is
+	 * called, could not be, which it tells. NULL: what was typed is dropped. */
+	void (*left)(void *context, const char *line);
+	bool proposes; /* what stands there at first is a proposal, not what there is:
+			  a click elsewhere takes it, too                      */
 };
 
 /** ladder_entry_popup_new - @prompt: what is asked for; @text: there at first, and
@@ -44,6 +49,8 @@ void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell);
 /** ladder_entry_popup_keep - closes it, and keeps it for what its owner asks next: to make
  * one takes as long as all that a key does else. It may be what is calling. */
 void ladder_entry_popup_keep(LadderEntryPopup *popup);
+/** ladder_entry_popup_close - without taking anything. */
+void ladder_entry_popup_close(LadderEntryPopup *popup);
 /** ladder_entry_popup_drop - takes what was kept from @owner, who is going. */
 void ladder_entry_popup_drop(GtkWidget *owner);
 

@@ -251,7 +251,8 @@ static void set_gone(void *context)
 
 static void ask(LadderGridView *view, const char *name, struct location at)
 {
-	struct entry_popup_calls calls = { set_changed, set_taken, set_gone, NULL };
+	struct entry_popup_calls calls = { .changed = set_changed, .taken = set_taken,
+					   .gone = set_gone };
 	struct asked *asked = g_new0(struct asked, 1);
 	graphene_rect_t rect = cursor_rect(view);
 	GdkRectangle place = { (int)rect.origin.x, (int)rect.origin.y,

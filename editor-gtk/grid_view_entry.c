@@ -190,6 +190,15 @@ static bool element_taken(void *context, const char *line)
 	return good;
 }
 
+static void line_left(void *context, const char *line)
+{
+	const struct asked *asked = context;
+	char *told = g_strdup_printf(_("not taken: %s"), line);
+
+	sheet_tell(asked->view, told);
+	g_free(told);
+}
+
 static void element_gone(void *context)
 {
 	struct asked *asked = context;
@@ -388,8 +397,10 @@ static struct asked *ask(LadderGridView *view)
 static void open_element(struct asked *asked, const char *prompt, const char *text,
 			 bool typed)
 {
-	const struct entry_popup_calls calls = { element_changed, element_taken,
-						 element_gone, asked };
+	const struct entry_popup_calls calls = {
+		element_changed, element_taken, element_gone, asked, line_left,
+		.proposes = !asked->edit && asked->word != ELEM_EMPTY,
+	};
 
 	open_popup(asked, prompt, text, typed, &calls);
 }
@@ -520,7 +531,8 @@ void entry_begin_edit(LadderGridView *view)
 
 void entry_begin_text(LadderGridView *view, enum verb verb)
 {
-	struct entry_popup_calls calls = { text_changed, text_taken, element_gone, NULL };
+	struct entry_popup_calls calls = { .changed = text_changed, .taken = text_taken,
+					   .gone = element_gone, .left = line_left };
 	struct asked *asked;
 	char *text;
 

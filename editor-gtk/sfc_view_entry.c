@@ -332,6 +332,15 @@ static void line_gone(void *context)
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 }
 
+static void line_left(void *context, const char *line)
+{
+	const struct asked *asked = context;
+	char *told = g_strdup_printf(_("not taken: %s"), line);
+
+	chart_tell(asked->view, told);
+	g_free(told);
+}
+
 /* ---- asking ---- */
 
 static char *times_now(const struct project *project, const struct sfc_step *step)
@@ -443,7 +452,9 @@ static enum sfc_part part_of(enum chart_asked what)
 
 void chart_ask(LadderSfcView *view, enum chart_asked what, const char *typed)
 {
-	struct entry_popup_calls calls = { line_changed, line_taken, line_gone, NULL };
+	struct entry_popup_calls calls = { .changed = line_changed, .taken = line_taken,
+					   .gone = line_gone,
+					   .left = what != ASK_GO ? line_left : NULL };
 	struct asked *asked;
 	graphene_rect_t box;
 	GdkRectangle cell;
@@ -534,7 +545,7 @@ void chart_entry_close(LadderSfcView *view)
 	view->entry = NULL;
 	if (!entry)
 		return;
-	gtk_popover_popdown(GTK_POPOVER(entry));
+	ladder_entry_popup_close(LADDER_ENTRY_POPUP(entry));
 	/* It may be what is calling. */
 	g_idle_add(drop_popup, g_object_ref(entry));
 }

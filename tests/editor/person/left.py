@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""left - a click elsewhere while a line is typed: what was typed is taken, or it is told that it could not be."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+
+def away(editor):
+    """Far below all rungs."""
+    editor.click(editor.grid(400, 3))
+    editor.gone()
+
+
+def elements(screen):
+    """an element, its operand, a title and a comment are taken; Esc still drops them"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.type('Open')
+    editor.opened()
+    away(editor)
+    editor.element('Open')
+    editor.keys('Home', 'Return', 'ctrl+a')
+    editor.type('Shut')
+    away(editor)
+    editor.element('Shut')
+    editor.keys('Home', 'semicolon')
+    editor.opened()
+    editor.type('the gate')
+    away(editor)
+    editor.keys('ctrl+shift+t')
+    editor.opened()
+    editor.type('Gate')
+    away(editor)
+    editor.keys('End')
+    editor.entry('OUT Lamp')
+    text = editor.save(path)
+    assert 'RUNG "Gate"' in text and '| NO Shut (* the gate *) | COIL Lamp |' in text, text
+    check(path)
+    editor.keys('Home', 'Right')
+    editor.type('Never')
+    editor.opened()
+    editor.keys('Escape')
+    editor.gone()
+    assert not editor.all('Never')
+    # An operand that is as it was is no change.
+    editor.keys('Home', 'Return')
+    editor.opened()
+    away(editor)
+    assert not [node for node in editor.all('\u2022 new.rung', 'label')]
+
+
+def wrong(screen):
+    """what cannot be taken is told, with the line"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    before = open(path).read()
+    editor.to_sheet()
+    editor.type('FROB it')
+    editor.says('there is no such word: FROB')
+    away(editor)
+    editor.says('not taken: FROB it')
+    editor.shot('left-wrong')
+    editor.type('OUT')
+    editor.opened()
+    away(editor)
+    editor.says('not taken: OUT')
+    editor.entry('OUT Lamp')
+    editor.keys('ctrl+z', 'ctrl+z')
+    until(lambda: not editor.elements(), 'an empty rung')
+    assert open(path).read() == before
+
+
+def dropped(screen):
+    """what a box got as a proposal is taken, too; of a contact without an operand nothing comes"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.drag(editor.tile('TON'), editor.grid(50, 0))
+    editor.opened()
+    away(editor)
+    editor.element('TON', 'Delay1')
+    editor.drag(editor.tile('NC'), editor.grid(50, 3))
+    editor.opened()
+    away(editor)
+    until(lambda: len(editor.elements()) == 1, 'the timer alone')
+    editor.keys('End')
+    editor.entry('OUT Lamp')
+    assert '| TON Delay1 PT:=T#1s | COIL Lamp |' in editor.save(path)
+
+
+CHART = 'RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP Start:\n  END_STEP\nEND_PROGRAM\n'
+
+
+def charts(screen):
+    """on a chart, too"""
+    path = new_file(screen, CHART)
+    editor = Editor(screen, path)
+    step = editor.find('Step Start, initial', 'table cell')
+    until(lambda: editor.find('Chart').has(12), 'the focus on the chart')
+    editor.keys('F9')
+    editor.opened()
+    editor.type('N Horn AT %QX0.5')
+    x, y, width, height = editor.place(step)
+    editor.click((x + width + 300, y + height + 200))
+    editor.gone()
+    editor.find('Start does: N Horn', 'table cell')
+    assert 'Horn AT %QX0.5' in editor.save(path)
+
+
+main([elements, wrong, dropped, charts])
