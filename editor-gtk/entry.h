@@ -51,6 +51,7 @@ struct entry {
 	bool below;               /* in parallel to what is at the cursor: OR X */
 	char operand[ENTRY_TEXT]; /* "": none                                  */
 	char args[ENTRY_TEXT];    /* "PT:=T#1s"; "": none                      */
+	bool proposed;            /* the line does not say those of a block    */
 	struct entry_new declare[ENTRY_NEW_MOST];
 	int declares;             /* 0: everything named is there already      */
 	const char *why;          /* N_() text; NULL: nothing is wrong         */

@@ -374,9 +374,9 @@ static bool add_all(const struct entry_place *place, const struct word_row *row,
 			value[count++] = value[i];
 		else if (!add_named(place, row, &value[i], shared, entry))
 			return false;
+	entry->proposed = row->kind == WORD_FB && values->count == 0;
 	if (count == 0)
-		return entry->args[0] || row->kind != WORD_FB ||
-		       add_first_values(row, entry);
+		return !entry->proposed || add_first_values(row, entry);
 	return row->kind == WORD_FN ?
 		add_inputs(place, row, value, count, shared, entry) :
 		add_block_inputs(place, row, value, count, entry);

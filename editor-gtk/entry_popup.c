@@ -468,6 +468,15 @@ void ladder_entry_popup_keep(LadderEntryPopup *popup)
 	gtk_popover_popdown(GTK_POPOVER(popup));
 }
 
+void ladder_entry_popup_select(LadderEntryPopup *popup, gsize from, gsize to)
+{
+	const char *line = line_of(popup);
+
+	gtk_editable_select_region(GTK_EDITABLE(popup->line),
+				   (int)g_utf8_pointer_to_offset(line, line + from),
+				   (int)g_utf8_pointer_to_offset(line, line + to));
+}
+
 void ladder_entry_popup_close(LadderEntryPopup *popup)
 {
 	popup->done = true;

@@ -44,6 +44,8 @@ GtkWidget *ladder_entry_popup_new(GtkWidget *owner, const char *prompt, const ch
 void ladder_entry_popup_add(LadderEntryPopup *popup, const struct entry_popup_row *row);
 /** ladder_entry_popup_ask - asks its owner again what there is. */
 void ladder_entry_popup_ask(LadderEntryPopup *popup);
+/** ladder_entry_popup_select - of its line, in bytes. */
+void ladder_entry_popup_select(LadderEntryPopup *popup, gsize from, gsize to);
 /** ladder_entry_popup_show - at @cell of its owner. */
 void ladder_entry_popup_show(LadderEntryPopup *popup, const GdkRectangle *cell);
 /** ladder_entry_popup_keep - closes it, and keeps it for what its owner asks next: to make

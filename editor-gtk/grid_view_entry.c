@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_entry - what is asked for at a cell of a sheet: an element, its operand, a title.
+ * grid_view_entry - what is asked for at a cell of a sheet: an element, its operand.
  *
  * The line is read by entry.c. While a word still lacks its operand, the sheet shows a
  * preview of the rung; the document learns of it when the line is taken, in one step with
@@ -8,28 +8,16 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
-#include "editor-gtk/comment_text.h"
 #include "editor-gtk/entry_inside.h"
 #include "editor-gtk/entry_outcome.h"
 #include "editor-gtk/entry_popup.h"
 
-#include "engine/base/explain.h"
+#include "engine/model/args.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define CANDIDATES 40
-
-/* What the popup that is open is for. It lives until that is asked for something else. */
-struct asked {
-	LadderGridView *view;
-	enum word word;       /* fixed; ELEM_EMPTY: the line begins with it     */
-	bool edit;            /* of what stands there; its comment is kept      */
-	bool parallel;
-	enum verb verb;       /* of a text: title, label, comment, pin          */
-	struct grid_at at;    /* of the element in the preview                 */
-	struct grid_cursor cursor; /* when it began                            */
-};
 
 /* Of the project as it is: made once, until that changes. A key must not wait for it. */
 static struct xref *uses_of(LadderGridView *view)
@@ -51,7 +39,7 @@ void entry_forget_uses(LadderGridView *view)
 	g_clear_pointer(&view->xref, g_free);
 }
 
-static struct entry_place place_of(const struct asked *asked)
+static struct entry_place place_of(const struct sheet_asked *asked)
 {
 	LadderGridView *view = asked->view;
 
@@ -64,7 +52,7 @@ static struct entry_place place_of(const struct asked *asked)
 }
 
 /* A line that begins with the word that was chosen before. */
-static char *whole_line(const struct asked *asked, const char *line, size_t *skipped)
+static char *whole_line(const struct sheet_asked *asked, const char *line, size_t *skipped)
 {
 	const struct project *project = ladder_document_project(asked->view->document);
 	const struct word_row *row;
@@ -83,7 +71,7 @@ static char *whole_line(const struct asked *asked, const char *line, size_t *ski
 
 /* ---- while it is typed ---- */
 
-static void add_candidate(const struct asked *asked, const struct entry_candidate *one,
+static void add_candidate(const struct sheet_asked *asked, const struct entry_candidate *one,
 			  size_t skipped)
 {
 	struct entry_popup_row row = {
@@ -97,7 +85,7 @@ static void add_candidate(const struct asked *asked, const struct entry_candidat
 
 static char *element_changed(void *context, const char *line, int cursor, bool *good)
 {
-	struct asked *asked = context;
+	struct sheet_asked *asked = context;
 	struct entry_place place;
 	struct entry_candidate *found;
 	struct entry *entry;
@@ -125,7 +113,7 @@ static char *element_changed(void *context, const char *line, int cursor, bool *
 
 /* ---- when it is taken ---- */
 
-static struct rung *put_element(const struct asked *asked, struct cell cell,
+static struct rung *put_element(const struct sheet_asked *asked, struct cell cell,
 				bool below, struct grid_at *at)
 {
 	LadderGridView *view = asked->view;
@@ -160,9 +148,18 @@ static void advance(LadderGridView *view, const struct grid_at *at)
 	cursor_set(view, to, false);
 }
 
+/* Of another instance of a block, of which nothing else is said. */
+static void keep_args(const struct sheet_asked *asked, struct cell *cell)
+{
+	const struct cell *old = cursor_cell(asked->view, NULL, NULL);
+
+	if (old && old->word == cell->word)
+		cell->args = old->args;
+}
+
 static bool element_taken(void *context, const char *line)
 {
-	struct asked *asked = context;
+	struct sheet_asked *asked = context;
 	LadderGridView *view = asked->view;
 	const struct entry_place place = place_of(asked);
 	struct entry *entry = g_new0(struct entry, 1);
@@ -173,6 +170,8 @@ static bool element_taken(void *context, const char *line)
 	bool good = entry_read(&place, whole, entry) &&
 		entry_cell(place.project, entry, &cell);
 
+	if (good && entry->proposed && asked->edit)
+		keep_args(asked, &cell);
 	if (good) {
 		struct rung *edited = put_element(asked, cell, entry->below, &at);
 
@@ -190,185 +189,26 @@ static bool element_taken(void *context, const char *line)
 	return good;
 }
 
-static void line_left(void *context, const char *line)
+void entry_line_left(void *context, const char *line)
 {
-	const struct asked *asked = context;
+	const struct sheet_asked *asked = context;
 	char *told = g_strdup_printf(_("not taken: %s"), line);
 
 	sheet_tell(asked->view, told);
 	g_free(told);
 }
 
-static void element_gone(void *context)
+void entry_line_gone(void *context)
 {
-	struct asked *asked = context;
+	struct sheet_asked *asked = context;
 
 	entry_close(asked->view);
 	gtk_widget_grab_focus(GTK_WIDGET(asked->view));
 }
 
-/* ---- texts ---- */
-
-static uint32_t intern_comment(struct project *project, const char *text)
-{
-	char *whole = g_strdup_printf("(* %s *)", text);
-	uint32_t id = text[0] ? names_intern(&project->names, whole, strlen(whole)) : 0;
-
-	g_free(whole);
-	return id;
-}
-
-static bool set_text(LadderGridView *view, enum verb verb, const char *text,
-		     struct rung *rung, struct cell *cell)
-{
-	struct project *project = ladder_document_project(view->document);
-	const uint32_t id = names_intern(&project->names, text, strlen(text));
-
-	switch ((int)verb) {
-	case VERB_rung_title:
-		rung->title = id;
-		return true;
-	case VERB_rung_label:
-		rung->label = id;
-		return true;
-	case VERB_rung_comment:
-		rung->comment = intern_comment(project, text);
-		return true;
-	default:
-		if (cell)
-			cell->comment = intern_comment(project, text);
-		return cell != NULL;
-	}
-}
-
-static bool add_pin(LadderGridView *view, const char *name)
-{
-	struct project *project = ladder_document_project(view->document);
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	struct grid_at at = sheet_at(view);
-	const uint32_t pin = names_intern(&project->names, name, strlen(name));
-
-	return sheet_put(view, grid_add_pin(rung, &at, project, pin, NULL), &at,
-			 _(verb_row(VERB_add_pin)->label));
-}
-
-/* As it stands in the file now. */
-static char *text_now(LadderGridView *view, enum verb verb)
-{
-	const struct project *project = ladder_document_project(view->document);
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	const struct cell *cell = cursor_cell(view, NULL, NULL);
-
-	switch ((int)verb) {
-	case VERB_rung_title:
-		return g_strdup(project_text(project, rung->title));
-	case VERB_rung_label:
-		return g_strdup(project_text(project, rung->label));
-	case VERB_rung_comment:
-		return comment_text(project_text(project, rung->comment));
-	default:
-		return comment_text(cell ? project_text(project, cell->comment) : "");
-	}
-}
-
-/* Why a file could not hold it, or its jumps not follow; NULL: it could. Caller frees. */
-static char *refusal(const struct asked *asked, const char *line)
-{
-	const enum verb verb = asked->verb;
-	const bool comment = verb == VERB_rung_comment || verb == VERB_comment;
-
-	if (comment && (strstr(line, "(*") || strstr(line, "*)")))
-		return g_strdup(_("a comment holds no (* and no *)"));
-	if (verb != VERB_rung_label || !line[0])
-		return NULL;
-	return entry_is_name(line, strlen(line)) ? label_refusal(asked->view, line) :
-	       g_strdup(_("this is no name"));
-}
-
-static bool is_refused(const struct asked *asked, const char *line)
-{
-	char *why = refusal(asked, line);
-	const bool is = why != NULL;
-
-	g_free(why);
-	return is;
-}
-
-static bool is_as_before(const struct asked *asked, const char *line)
-{
-	char *before = text_now(asked->view, asked->verb);
-	const bool same = strcmp(before, line) == 0;
-
-	g_free(before);
-	return same;
-}
-
-static bool text_taken(void *context, const char *line)
-{
-	struct asked *asked = context;
-	LadderGridView *view = asked->view;
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	struct grid_at at = sheet_at(view);
-	struct rung *copy;
-	int row, col;
-
-	if (asked->verb == VERB_add_pin)
-		return add_pin(view, line);
-	if (is_as_before(asked, line))
-		return true;
-	if (is_refused(asked, line))
-		return false;
-	if (asked->verb == VERB_rung_label && label_set(view, line))
-		return true;
-	copy = rung_copy(rung);
-	if (!set_text(view, asked->verb, line, copy,
-		      cursor_cell(view, &row, &col) ? rung_cell(copy, row, col) : NULL)) {
-		rung_free(copy);
-		return true;
-	}
-	return sheet_put(view, copy, &at, _(verb_row(asked->verb)->label));
-}
-
-/* Boolean inputs of the box that nothing feeds yet. */
-static char *pin_changed(void *context, const char *line, int cursor, bool *good)
-{
-	struct asked *asked = context;
-	const struct project *project = ladder_document_project(asked->view->document);
-	const struct cell *cell = cursor_cell(asked->view, NULL, NULL);
-	const struct word_row *row = cell ?
-		words_row(&project->words, (enum word)cell->word) : NULL;
-
-	(void)cursor;
-	*good = true;
-	for (int i = 0; asked->view->entry && row && row->kind == WORD_FB &&
-	     i < row->pin_count; i++) {
-		const struct word_pin *pin = &row->pin[i];
-		struct entry_popup_row one = { (char *)pin->name, "",
-			(char *)said(explain_pin(row, i)), _("input"),
-			(char *)pin->name };
-
-		if (pin->dir == PIN_IN && pin->type == IEC_BOOL &&
-		    i != word_first_bool(row, PIN_IN) &&
-		    g_ascii_strncasecmp(pin->name, line, strlen(line)) == 0)
-			ladder_entry_popup_add(LADDER_ENTRY_POPUP(asked->view->entry),
-					       &one);
-	}
-	return NULL;
-}
-
-static char *text_changed(void *context, const char *line, int cursor, bool *good)
-{
-	const struct asked *asked = context;
-	char *why = refusal(asked, line);
-
-	(void)cursor;
-	*good = !why;
-	return why;
-}
-
 /* ---- opening ---- */
 
-static void open_popup(struct asked *asked, const char *prompt, const char *text,
+void entry_open(struct sheet_asked *asked, const char *prompt, const char *text,
 		       bool typed, const struct entry_popup_calls *calls)
 {
 	LadderGridView *view = asked->view;
@@ -384,9 +224,9 @@ static void open_popup(struct asked *asked, const char *prompt, const char *text
 	ladder_entry_popup_show(LADDER_ENTRY_POPUP(view->entry), &cell);
 }
 
-static struct asked *ask(LadderGridView *view)
+struct sheet_asked *entry_ask(LadderGridView *view)
 {
-	struct asked *asked = g_new0(struct asked, 1);
+	struct sheet_asked *asked = g_new0(struct sheet_asked, 1);
 
 	entry_close(view);
 	asked->view = view;
@@ -394,25 +234,25 @@ static struct asked *ask(LadderGridView *view)
 	return asked;
 }
 
-static void open_element(struct asked *asked, const char *prompt, const char *text,
+static void open_element(struct sheet_asked *asked, const char *prompt, const char *text,
 			 bool typed)
 {
 	const struct entry_popup_calls calls = {
-		element_changed, element_taken, element_gone, asked, line_left,
+		element_changed, element_taken, entry_line_gone, asked, entry_line_left,
 		.proposes = !asked->edit && asked->word != ELEM_EMPTY,
 	};
 
-	open_popup(asked, prompt, text, typed, &calls);
+	entry_open(asked, prompt, text, typed, &calls);
 }
 
 void entry_begin(LadderGridView *view, const char *text)
 {
 	if (sheet_pou(view) && sheet_rungs(view) > 0 && !sheet_is_fixed(view))
-		open_element(ask(view), _("element and operand"), text, true);
+		open_element(entry_ask(view), _("element and operand"), text, true);
 }
 
 /* Shows the element where it will be; false: it cannot stand there. */
-static bool show_preview(struct asked *asked, struct rung *preview)
+static bool show_preview(struct sheet_asked *asked, struct rung *preview)
 {
 	LadderGridView *view = asked->view;
 
@@ -430,7 +270,7 @@ static bool show_preview(struct asked *asked, struct rung *preview)
 }
 
 /* What it gets if nothing else is said: an instance, parameters; else nothing. */
-static char *proposal(const struct asked *asked, bool *whole)
+static char *proposal(const struct sheet_asked *asked, bool *whole)
 {
 	const struct entry_place place = place_of(asked);
 	struct entry *entry = g_new0(struct entry, 1);
@@ -447,7 +287,7 @@ static char *proposal(const struct asked *asked, bool *whole)
 	return text ? text : g_strdup("");
 }
 
-static void begin_word(struct asked *asked, struct rung *preview)
+static void begin_word(struct sheet_asked *asked, struct rung *preview)
 {
 	LadderGridView *view = asked->view;
 	const struct project *project = ladder_document_project(view->document);
@@ -474,13 +314,13 @@ void entry_begin_word(LadderGridView *view, enum word word, bool parallel)
 {
 	const struct cell cell = { .word = (uint16_t)word };
 	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	struct asked *asked;
+	struct sheet_asked *asked;
 	struct grid_area area;
 	bool chosen;
 
 	if (!rung || sheet_is_fixed(view))
 		return;
-	asked = ask(view);
+	asked = entry_ask(view);
 	rung = sheet_rung(view, view->cursor.rung); /* the preview is gone */
 	asked->word = word;
 	asked->parallel = parallel;
@@ -494,62 +334,78 @@ void entry_begin_word(LadderGridView *view, enum word word, bool parallel)
 void entry_begin_drop(LadderGridView *view, enum word word, int row, int col)
 {
 	const struct cell cell = { .word = (uint16_t)word };
-	struct asked *asked;
+	struct sheet_asked *asked;
 
 	if (sheet_is_fixed(view))
 		return;
-	asked = ask(view);
+	asked = entry_ask(view);
 	asked->word = word;
 	asked->at = (struct grid_at){ .columns = view->columns, .row = row, .col = col };
 	begin_word(asked, grid_drop(sheet_rung(view, view->cursor.rung), &asked->at,
 				    cell));
 }
 
-void entry_begin_edit(LadderGridView *view)
+/* As it stands in the cell at the cursor. */
+static char *line_now(LadderGridView *view)
 {
 	const struct project *project = ladder_document_project(view->document);
 	const struct cell *cell = cursor_cell(view, NULL, NULL);
-	struct asked *asked;
+
+	return g_strdup_printf("%s%s%s", project_text(project, cell->operand),
+			       cell->operand && cell->args ? " " : "",
+			       project_text(project, cell->args));
+}
+
+static void begin_edit(LadderGridView *view, const char *text)
+{
+	struct sheet_asked *asked = entry_ask(view);
+
+	asked->word = (enum word)cursor_cell(view, NULL, NULL)->word;
+	asked->edit = true;
+	open_element(asked, _("operand"), text, false);
+}
+
+void entry_begin_edit(LadderGridView *view)
+{
 	char *text;
 
 	if (!sheet_pou(view) || sheet_rungs(view) == 0 || sheet_is_fixed(view))
 		return;
-	if (!cell) {
+	if (!cursor_cell(view, NULL, NULL)) {
 		entry_begin(view, "");
 		return;
 	}
-	text = g_strdup_printf("%s%s%s", project_text(project, cell->operand),
-			       cell->operand && cell->args ? " " : "",
-			       project_text(project, cell->args));
-	asked = ask(view);
-	cell = cursor_cell(view, NULL, NULL);
-	asked->word = (enum word)cell->word;
-	asked->edit = true;
-	open_element(asked, _("operand"), text, false);
+	text = line_now(view);
+	begin_edit(view, text);
 	g_free(text);
 }
 
-void entry_begin_text(LadderGridView *view, enum verb verb)
+void entry_begin_pin(LadderGridView *view, const char *pin, gsize len, bool output)
 {
-	struct entry_popup_calls calls = { .changed = text_changed, .taken = text_taken,
-					   .gone = element_gone, .left = line_left };
-	struct asked *asked;
-	char *text;
+	struct arg arg;
+	char *text, *line;
+	const char *args;
 
-	if (!sheet_rung(view, view->cursor.rung))
+	if (sheet_is_fixed(view) || !cursor_cell(view, NULL, NULL))
 		return;
-	if ((verb == VERB_comment || verb == VERB_add_pin) &&
-	    !cursor_cell(view, NULL, NULL)) {
-		sheet_tell(view, _("there is no element here"));
-		return;
+	text = line_now(view);
+	args = project_text(ladder_document_project(view->document),
+			    cursor_cell(view, NULL, NULL)->args);
+	if (args_find(args, pin, len, &arg)) {
+		const gsize from = strlen(text) - strlen(args) + (gsize)(arg.value - args) -
+				   arg.inverse;
+
+		begin_edit(view, text);
+		ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->entry), from,
+					  from + arg.value_len + arg.inverse);
+	} else {
+		line = g_strdup_printf("%s%s%.*s%s", text, *text ? " " : "", (int)len, pin,
+				       output ? "=>" : ":=");
+		begin_edit(view, line);
+		ladder_entry_popup_select(LADDER_ENTRY_POPUP(view->entry), strlen(line),
+					  strlen(line));
+		g_free(line);
 	}
-	asked = ask(view);
-	asked->verb = verb;
-	calls.context = asked;
-	text = verb == VERB_add_pin ? g_strdup("") : text_now(view, verb);
-	if (verb == VERB_add_pin)
-		calls.changed = pin_changed;
-	open_popup(asked, _(verb_row(verb)->label), text, false, &calls);
 	g_free(text);
 }
 

@@ -224,11 +224,35 @@ void entry_begin_word(LadderGridView *view, enum word word, bool parallel);
 void entry_begin_drop(LadderGridView *view, enum word word, int row, int col);
 /** entry_begin_edit - for what stands at the cursor. */
 void entry_begin_edit(LadderGridView *view);
-void entry_begin_text(LadderGridView *view, enum verb verb);
+/** entry_begin_pin - the same; of the box there the value at a pin is chosen, or is what
+ * is typed next. */
+void entry_begin_pin(LadderGridView *view, const char *pin, gsize len, bool output);
 void entry_close(LadderGridView *view);
 /** entry_forget_uses - the project changed: where its names are used is found anew. */
 void entry_forget_uses(LadderGridView *view);
 void entry_allocate(LadderGridView *view);
+/* What the popup that is open is for. It lives until that is asked for something else. */
+struct sheet_asked {
+	LadderGridView *view;
+	enum word word;       /* fixed; ELEM_EMPTY: the line begins with it     */
+	bool edit;            /* of what stands there; its comment is kept      */
+	bool parallel;
+	enum verb verb;       /* of a text: title, label, comment, pin          */
+	struct grid_at at;    /* of the element in the preview                 */
+	struct grid_cursor cursor; /* when it began                            */
+};
+/** entry_ask - for what is asked at the cursor; what was open is closed. */
+struct sheet_asked *entry_ask(LadderGridView *view);
+struct entry_popup_calls;
+/** entry_open - the popup at the cursor. @asked: taken over. */
+void entry_open(struct sheet_asked *asked, const char *prompt, const char *text,
+		bool typed, const struct entry_popup_calls *calls);
+/* Its calls when it is gone, and when a click elsewhere left it. */
+void entry_line_gone(void *asked);
+void entry_line_left(void *asked, const char *line);
+
+/* ---- grid_view_text.c ---- */
+void entry_begin_text(LadderGridView *view, enum verb verb);
 
 /* ---- grid_view_label.c ---- */
 /** label_refusal - why the jumps that lead to the label of the cursor's rung could not follow

@@ -62,6 +62,15 @@ static bool is_cell(const struct rung_hit *hit)
 	       hit->part == RUNG_PART_LINK || hit->part == RUNG_PART_PIN;
 }
 
+/* What was clicked twice: of a box the value at a pin. */
+static void begin_there(LadderGridView *view, const struct rung_hit *hit)
+{
+	if (hit->part == RUNG_PART_PIN)
+		entry_begin_pin(view, hit->name, hit->name_len, hit->output);
+	else
+		ladder_grid_view_do(view, VERB_enter);
+}
+
 static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 		    LadderGridView *view)
 {
@@ -88,7 +97,7 @@ static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 		view->toggles = view->takes &&
 			act_is_click(view, (float)at_x, (float)at_y);
 		if (count == 2 && !view->toggles)
-			ladder_grid_view_do(view, VERB_enter);
+			begin_there(view, &hit);
 		return;
 	}
 	cursor_set(view, (struct grid_cursor){ rung, 0, 0 }, false);

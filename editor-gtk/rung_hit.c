@@ -79,7 +79,8 @@ static bool hits_pin(const struct drafting *drafting, const struct rung_layout *
 		if (!side->pin[i].power && fabsf(layout->row[top].wire + side->pin[i].y -
 						 y) <= BOX_LINE / 2.0f) {
 			*hit = (struct rung_hit){ RUNG_PART_PIN, top, hit->column, i,
-						  output };
+						  output, side->pin[i].name,
+						  side->pin[i].name_len };
 			return true;
 		}
 	return false;
@@ -108,7 +109,7 @@ static bool hits_link(const struct rung_layout *layout, struct rung_hit *hit, fl
 struct rung_hit rung_layout_hit(const struct drafting *drafting,
 				const struct rung_layout *layout, float x, float y)
 {
-	struct rung_hit hit = { RUNG_PART_NONE, 0, 0, -1, false };
+	struct rung_hit hit = { .part = RUNG_PART_NONE, .pin = -1 };
 
 	if (x < 0 || y < 0 || y >= layout->height)
 		return hit;

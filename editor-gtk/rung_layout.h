@@ -117,6 +117,8 @@ struct rung_hit {
 	int row, column;   /* 0-based                                           */
 	int pin;           /* index in struct rung_box; -1: none                */
 	bool output;
+	const char *name;  /* of the pin, borrowed, not NUL-ended              */
+	size_t name_len;
 };
 /** rung_layout_hit - what stands at a point. */
 struct rung_hit rung_layout_hit(const struct drafting *drafting,

@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""boxes - a box that stands there: another instance, a value at a pin by the pointer."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+PROJECT = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Lamp  AT %QX0.0 : BOOL;
+  Wait  : TIME := T#5s;
+  D1    : TON;
+  D2    : TON;
+  Parts : CTU;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | TON D1 PT:=Wait | COIL Lamp |
+RUNG
+  | NO Start | CTU Parts PV:=7 | COIL %QX0.1 |
+END_PROGRAM
+'''
+
+
+def instance(screen):
+    """another instance keeps the parameters of which the line says nothing"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('Home', 'Right', 'Return', 'ctrl+a')
+    editor.opened()
+    editor.entry('D2')
+    assert '| TON D2 PT:=Wait |' in editor.save(path)
+    editor.keys('Home', 'Right', 'Return', 'ctrl+a')
+    editor.opened()
+    editor.entry('D1 T#3s')
+    text = editor.save(path)
+    assert '| TON D1 PT:=T#3s |' in text, text
+    check(path)
+
+
+def twice(editor, at):
+    editor.click(at, count=2)
+    return until(editor.asked, 'an entry')[0]
+
+
+def values(screen):
+    """a double click on the value at a pin chooses that; on a pin without one it begins it"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    x, y, width, height = editor.place(editor.element('TON'))
+    # PT stands one line of pins below the wire.
+    line = twice(editor, (x + 20, y + 46 + 16))
+    editor.shot('boxes-value')
+    editor.type('T#9s')
+    assert line.text() == 'D1 PT:=T#9s', line.text()
+    editor.keys('Return')
+    editor.gone()
+    x, y, width, height = editor.place(editor.element('CTU'))
+    line = twice(editor, (x + width - 20, y + 46 + 16))
+    assert line.text() == 'Parts PV:=7 CV=>', line.text()
+    editor.type('Count')
+    editor.says('new: Count : INT')
+    editor.shot('boxes-output')
+    editor.keys('Return')
+    editor.gone()
+    # Its name, above the box, still chooses all.
+    x, y, width, height = editor.place(editor.element('TON'))
+    line = twice(editor, (x + width // 2, y + 8))
+    editor.type('D2')
+    assert line.text() == 'D2', line.text()
+    editor.keys('Return')
+    editor.gone()
+    text = editor.save(path)
+    assert '| TON D2 PT:=T#9s |' in text and '| CTU Parts PV:=7 CV=>Count |' in text and '  Count : INT;\n' in text, text
+    check(path)
+
+
+main([instance, values])
