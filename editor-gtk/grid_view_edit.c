@@ -7,8 +7,9 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
-#include "editor-gtk/print.h"
 #include "editor-gtk/diag_said.h"
+#include "editor-gtk/entry_duplicate.h"
+#include "editor-gtk/print.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -148,18 +149,60 @@ static void do_rung_delete(LadderGridView *view)
 		cursor_set(view, (struct grid_cursor){ at, 0, 0 }, false);
 }
 
+/* "Delay2 : TON" of each, copied: ids and rows end when the project is read anew. */
+static char **declarations(struct project *project, const struct entry_instance *made,
+			   int count)
+{
+	char **out = g_new0(char *, count + 1);
+
+	for (int i = 0; i < count; i++)
+		out[i] = g_strdup_printf("%s : %s", project_text(project, made[i].to),
+					 words_row(&project->words, made[i].word)->word);
+	return out;
+}
+
+static void declare_all(LadderGridView *view, char **declarations)
+{
+	for (int i = 0; declarations[i]; i++) {
+		char **part = g_strsplit(declarations[i], " : ", 2);
+
+		ladder_document_declare(view->document, view->pou, part[0], part[1], "",
+					NULL);
+		g_strfreev(part);
+	}
+}
+
+/* Two rungs with one timer would disturb each other: each has its own. */
 static void do_rung_duplicate(LadderGridView *view)
 {
+	const struct entry_place place = {
+		.project = ladder_document_project(view->document), .pou = view->pou,
+	};
 	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	struct rung *copy = rung ? rung_copy(rung) : NULL;
-	const int at = view->cursor.rung + 1;
+	const struct grid_cursor to = { view->cursor.rung + 1, view->cursor.row,
+					view->cursor.col };
+	struct entry_instance *made;
+	struct rung *copy;
+	char **new, *told;
+	int count;
 
+	copy = rung ? entry_duplicate(&place, rung, &made, &count) : NULL;
 	if (!copy)
 		return;
 	copy->label = 0; /* it could not stand twice */
-	if (splice(view, at, 0, copy, VERB_rung_duplicate))
-		cursor_set(view, (struct grid_cursor){ at, view->cursor.row,
-						       view->cursor.col }, false);
+	new = declarations(place.project, made, count);
+	free(made);
+	ladder_document_begin(view->document, _(verb_row(VERB_rung_duplicate)->label), NULL);
+	if (sheet_splice(view, to.rung, 0, &copy, 1, NULL)) {
+		declare_all(view, new);
+		cursor_set(view, to, false);
+	}
+	ladder_document_end(view->document);
+	told = g_strjoinv("; ", new);
+	if (count > 0)
+		sheet_tell(view, told);
+	g_free(told);
+	g_strfreev(new);
 }
 
 /* Two rungs below each other change places. */

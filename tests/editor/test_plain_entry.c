@@ -6,6 +6,7 @@
  * `+`, and `below` before it if it goes in parallel; or `!` and why not. A line of the
  * last column begins with `>`.
  */
+#include "editor-gtk/entry_duplicate.h"
 #include "editor-gtk/entry_inside.h"
 #include "engine/base/diag.h"
 #include "engine/ladder.h"
@@ -488,6 +489,49 @@ static void check_any(struct entry_place *place)
 	place->output = false;
 }
 
+/* A rung and what it becomes once more, with what is to be declared. */
+static const struct { const char *rung, *twice; } rungs[] = {
+	{ "| NO Start | TON FanDelay PT:=T#5s | COIL Motor |",
+	  "| NO Start | TON FanDelay1 PT:=T#5s | COIL Motor | + FanDelay1 TON" },
+	{ "| NO FanDelay.Q | [ FanDelay.ET > T#1s ] | TON fandelay PT:=FanDelay.ET | COIL Fan |",
+	  "| NO FanDelay1.Q | [ FanDelay1.ET > T#1s ] | TON FanDelay1 PT:=FanDelay1.ET | "
+	  "COIL Fan | + FanDelay1 TON" },
+	{ "| NO FanDelay.Q | COIL Motor |", "| NO FanDelay.Q | COIL Motor |" },
+	{ "| NO Start | COIL FanDelays |", "| NO Start | COIL FanDelays |" },
+};
+
+static void check_duplicates(const struct entry_place *place)
+{
+	struct project *project = place->project;
+
+	for (size_t i = 0; i < sizeof(rungs) / sizeof(*rungs); i++) {
+		struct entry_instance *made = NULL;
+		struct diag_list diags;
+		struct rung *rung, *copy;
+		char text[400], got[800] = "";
+		int count = 0;
+
+		diag_init(&diags);
+		snprintf(text, sizeof(text), "RUNG\n%s\n", rungs[i].rung);
+		rung = text_read_rung(project, text, strlen(text), &diags);
+		copy = rung ? entry_duplicate(place, rung, &made, &count) : NULL;
+		for (int k = 0; copy && k < copy->cols; k++) {
+			text_write_cell(project, &copy->cell[k], text, sizeof(text));
+			snprintf(got + strlen(got), sizeof(got) - strlen(got), "| %s ", text);
+		}
+		snprintf(got + strlen(got), sizeof(got) - strlen(got), "|");
+		for (int k = 0; k < count; k++)
+			snprintf(got + strlen(got), sizeof(got) - strlen(got), " + %s %s",
+				 project_text(project, made[k].to),
+				 words_row(&project->words, made[k].word)->word);
+		if (!CHECK_AS(!strcmp(got, rungs[i].twice), rungs[i].rung))
+			printf("# got: %s\n", got);
+		rung_free(rung);
+		rung_free(copy);
+		free(made);
+	}
+}
+
 int main(int argc, char **argv)
 {
 	struct ladder *ladder = ladder_new();
@@ -504,6 +548,7 @@ int main(int argc, char **argv)
 			place.pou = i;
 	check_lines(&place);
 	check_offers(&place);
+	check_duplicates(&place);
 	check_any(&place);
 	check_page();
 	ladder_free(ladder);

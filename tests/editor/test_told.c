@@ -58,7 +58,7 @@ static bool is_whole(GtkWidget *popup)
 
 static void test_lengths(GtkWidget *owner, const char *const *word, int words)
 {
-	const struct entry_popup_calls calls = { changed, taken, NULL, NULL };
+	const struct entry_popup_calls calls = { .changed = changed, .taken = taken };
 	GtkWidget *popup = ladder_entry_popup_new(owner, "Name", "", false, &calls);
 
 	g_string_truncate(telling, 0);

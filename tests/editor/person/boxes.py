@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """boxes - a box that stands there: another instance, a value at a pin by the pointer."""
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -82,4 +83,20 @@ def values(screen):
     check(path)
 
 
-main([instance, values])
+def twice_there(screen):
+    """a rung that is duplicated has a timer of its own; one step of the history"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+d')
+    editor.says('D3 : TON')
+    editor.element('Rung 2', 'D3')
+    editor.shot('boxes-twice')
+    text = editor.save(path)
+    assert text.count('TON D1 PT:=Wait') == 1 and '| NO Start | TON D3 PT:=Wait | COIL Lamp |' in text, text
+    assert re.search('  D3 +: TON;\n', text), text
+    editor.keys('ctrl+z')
+    assert editor.save(path) == PROJECT
+
+
+main([instance, values, twice_there])

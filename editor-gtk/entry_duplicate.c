@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry_duplicate - a rung once more, with blocks that count and time for themselves.
+ *
+ * An instance of the rung becomes a new one wherever the rung names it: in the box, in a
+ * contact of its output, in parameters and expressions. It declares nothing.
+ */
+#include "editor-gtk/entry_duplicate.h"
+#include "editor-gtk/entry_inside.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/lex.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A name without the number at its end. */
+static void base_of(const char *name, char *out, size_t size)
+{
+	size_t len = strlen(name);
+
+	while (len > 1 && ascii_digit(name[len - 1]))
+		len--;
+	snprintf(out, size, "%.*s", (int)len, name);
+}
+
+static bool is_new(const struct project *project, const struct entry_instance *made,
+		   int count, const char *name)
+{
+	for (int i = 0; i < count; i++)
+		if (ascii_is(project_text(project, made[i].to), name, strlen(name)))
+			return false;
+	return true;
+}
+
+/* False: no memory. */
+static bool add(const struct entry_place *place, uint32_t from, enum word word,
+		struct entry_instance *made, int *count)
+{
+	struct names *names = &place->project->names;
+	char base[LIMIT_NAME + 1], name[ENTRY_NAME];
+	int number = 1;
+
+	base_of(project_text(place->project, from), base, sizeof(base));
+	do
+		snprintf(name, sizeof(name), "%.*s%d", LIMIT_NAME - 12, base, number++);
+	while (number < LIMIT_VARS && (entry_name_taken(place, NULL, name) ||
+				       !is_new(place->project, made, *count, name)));
+	made[*count] = (struct entry_instance){
+		from, names_intern(names, name, strlen(name)), word,
+	};
+	return made[(*count)++].to != 0;
+}
+
+/* Of a box, if it is a variable by itself, and one that may be another; else NULL. */
+static const struct var *instance_of(const struct entry_place *place,
+				     const struct cell *cell)
+{
+	const struct word_row *row = words_row(&place->project->words,
+					       (enum word)cell->word);
+	const char *name = project_text(place->project, cell->operand);
+	const struct var *var;
+	uint16_t flags = 0;
+
+	if (row->kind != WORD_FB || !entry_is_name(name, strlen(name)))
+		return NULL;
+	var = entry_var_find(place, name, strlen(name), &flags);
+	return var && var->type == IEC_NONE && var->array.count == 0 &&
+	       !(flags & (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT)) ? var : NULL;
+}
+
+static const struct entry_instance *find(const struct project *project,
+					 const struct entry_instance *made, int count,
+					 const char *name, size_t len)
+{
+	for (int i = 0; i < count; i++)
+		if (ascii_is(project_text(project, made[i].from), name, len))
+			return &made[i];
+	return NULL;
+}
+
+/* Bytes of the name before its first dot; 0: the token is none. */
+static size_t head_of(const struct token *token)
+{
+	const char *dot = memchr(token->text, '.', token->len);
+
+	if (token->kind != TOKEN_NAME)
+		return 0;
+	return dot ? (size_t)(dot - token->text) : token->len;
+}
+
+/* To the next name of an instance, past what stands in quotes; NULL: none follows. */
+static const struct entry_instance *next(const struct project *project, struct lex *lex,
+					 const struct entry_instance *made, int count)
+{
+	bool quoted = false;
+
+	while (lex_next(lex) != TOKEN_END) {
+		const size_t head = head_of(&lex->token);
+		const struct entry_instance *one = head > 0 && !quoted ?
+			find(project, made, count, lex->token.text, head) : NULL;
+
+		quoted ^= *lex->token.text == '\'';
+		if (one)
+			return one;
+	}
+	return NULL;
+}
+
+/* False: no memory. */
+static bool rename_text(struct project *project, uint32_t *id,
+			const struct entry_instance *made, int count)
+{
+	const char *from = project_text(project, *id), *done = from;
+	const struct entry_instance *one;
+	size_t size = strlen(from) + 1;
+	struct lex lex;
+	char *out;
+
+	lex_init(&lex, from, strlen(from));
+	while (next(project, &lex, made, count))
+		size += LIMIT_NAME;
+	if (size == strlen(from) + 1)
+		return true;
+	out = calloc(1, size);
+	if (!out)
+		return false;
+	lex_init(&lex, from, strlen(from));
+	while ((one = next(project, &lex, made, count)) != NULL) {
+		const char *to = project_text(project, one->to);
+
+		entry_append(out, size, done, (size_t)(lex.token.text - done));
+		entry_append(out, size, to, strlen(to));
+		done = lex.token.text + head_of(&lex.token);
+	}
+	entry_append(out, size, done, strlen(done));
+	*id = names_intern(&project->names, out, strlen(out));
+	free(out);
+	return *id != 0;
+}
+
+static bool make_all(const struct entry_place *place, struct rung *rung,
+		     struct entry_instance *made, int *count)
+{
+	bool good = true;
+
+	for (int i = 0; good && i < rung->rows * rung->cols; i++) {
+		const struct cell *cell = &rung->cell[i];
+		const struct var *var = instance_of(place, cell);
+		const char *name = var ? project_text(place->project, var->name) : "";
+
+		if (var && !find(place->project, made, *count, name, strlen(name)))
+			good = add(place, var->name, (enum word)cell->word, made, count);
+	}
+	for (int i = 0; good && i < rung->rows * rung->cols; i++)
+		good = rename_text(place->project, &rung->cell[i].operand, made, *count) &&
+		       rename_text(place->project, &rung->cell[i].args, made, *count);
+	return good;
+}
+
+struct rung *entry_duplicate(const struct entry_place *place, const struct rung *rung,
+			     struct entry_instance **made, int *count)
+{
+	struct rung *copy = rung_copy(rung);
+
+	*count = 0;
+	*made = calloc((size_t)(rung->rows * rung->cols), sizeof(**made));
+	if (copy && *made && make_all(place, copy, *made, count))
+		return copy;
+	rung_free(copy);
+	free(*made);
+	*made = NULL;
+	return NULL;
+}
