@@ -131,26 +131,10 @@ void entry_proposals(const struct entry_place *place, struct entry *entry,
 	arena_free(&arena);
 }
 
-/* Bits from the begin of the area. */
-static uint64_t bits_from(struct iec_addr addr)
-{
-	return (uint64_t)addr.byte * 8 + addr.bit;
-}
-
-static bool lies_on(const struct var *var, struct iec_addr addr)
-{
-	const uint32_t count = var->array.count ? var->array.count : 1;
-	const struct iec_addr last = vars_shift(var->at, count - 1);
-
-	return var->at.area == addr.area &&
-	       bits_from(addr) + addr.bits > bits_from(var->at) &&
-	       bits_from(addr) < bits_from(last) + last.bits;
-}
-
 static const struct var *find_on(const struct var_table *table, struct iec_addr addr)
 {
 	for (int i = 0; i < table->count; i++)
-		if (table->var[i].at.area != AREA_NONE && lies_on(&table->var[i], addr))
+		if (var_lies_on(&table->var[i], addr))
 			return &table->var[i];
 	return NULL;
 }

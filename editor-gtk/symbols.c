@@ -257,6 +257,29 @@ char *symbol_free_address(LadderDocument *document, enum iec_area area, const ch
 	return g_strdup(text);
 }
 
+static const char *on_address(const struct project *project, const struct var_table *vars,
+			      const struct var *of)
+{
+	for (int i = 0; i < vars->count; i++)
+		if (&vars->var[i] != of && (var_lies_on(&vars->var[i], of->at) ||
+					    var_lies_on(of, vars->var[i].at)))
+			return project_text(project, vars->var[i].name);
+	return NULL;
+}
+
+const char *symbol_beside(LadderDocument *document, int table, int index)
+{
+	struct project *project = ladder_document_project(document);
+	const struct var_table *vars = project ? xref_table(project, table) : NULL;
+	const char *name = NULL;
+
+	if (!vars || index < 0 || index >= vars->count)
+		return NULL;
+	for (int i = 0; !name && i <= project->pou_count; i++)
+		name = on_address(project, xref_table(project, i), &vars->var[index]);
+	return name;
+}
+
 /* ---- what is wrong ---- */
 
 static bool speaks_of(const struct diag *diag, const struct symbol_row *symbol)

@@ -72,6 +72,9 @@ char *symbol_free_name(LadderDocument *document, int table, const char *like);
 /** symbol_free_address - the first one that is free of this area and type word ("BOOL");
  * "" if there is none. Owns: the caller. */
 char *symbol_free_address(LadderDocument *document, enum iec_area area, const char *type);
+/** symbol_beside - the first other variable that lies at its address, too; NULL: none.
+ * Borrowed until the document changes. */
+const char *symbol_beside(LadderDocument *document, int table, int index);
 /** symbol_error - what the last check found wrong with a declaration; NULL: nothing.
  * @warning: gets whether it is only that. Owns: the caller. */
 char *symbol_error(LadderDocument *document, const struct symbol_row *symbol,

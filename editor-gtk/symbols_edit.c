@@ -503,6 +503,8 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 		good = refuse(why, g_strdup(_("It is declared in another file")));
 	else if (strcmp(symbol->text[field], clean) == 0)
 		good = true;
+	else if (field == FIELD_COMMENT && (strstr(clean, "(*") || strstr(clean, "*)")))
+		good = refuse(why, g_strdup(_("a comment holds no (* and no *)")));
 	else if (field == FIELD_NAME && symbol->uses > 0)
 		good = rename_everywhere(document, table, index, clean, why);
 	else

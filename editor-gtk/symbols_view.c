@@ -187,6 +187,16 @@ static int index_of(LadderDocument *document, const LadderPanelRow *row)
 	return index;
 }
 
+/* Who lies at the same address may be meant, and may be not. */
+static char *told_of(LadderDocument *document, const LadderPanelRow *row, enum field field)
+{
+	const char *other = field == FIELD_ADDRESS ?
+		symbol_beside(document, row->table, index_of(document, row)) : NULL;
+
+	return other ? g_strdup_printf(_("%s, %s: %s lies there, too"),
+		panel_row_text(row, FIELD_NAME), symbol_field_name(field), other) : NULL;
+}
+
 static bool set_field(gpointer owner, LadderPanelRow *row, enum field field,
 		      const char *text, char **why)
 {
@@ -195,7 +205,7 @@ static bool set_field(gpointer owner, LadderPanelRow *row, enum field field,
 	const bool good = symbol_set(document, row->table, index_of(document, row), field,
 				     text, why);
 
-	tell(view, good ? NULL : g_strdup_printf("%s, %s: %s",
+	tell(view, good ? told_of(document, row, field) : g_strdup_printf("%s, %s: %s",
 		panel_row_text(row, FIELD_NAME), symbol_field_name(field),
 		why && *why ? *why : ""));
 	if (good) { /* it is looked for by its name, and shown anew if that is undone */

@@ -105,6 +105,28 @@ static bool set(LadderDocument *document, const char *scope, const char *name,
 	return good;
 }
 
+/* Single bits, words over them, arrays, in programs too. */
+static void test_beside(void)
+{
+	LadderDocument *document = opened("RUNGBOARD 1\n\nVAR\n"
+		"  A AT %MX4.3 : BOOL;\n  B AT %MX5.0 : BOOL;\n"
+		"  T AT %MW8 : ARRAY[0..3] OF INT;\n  N : INT;\nEND_VAR\n\n"
+		"PROGRAM Main LD\nVAR\n  W AT %MW4 : INT;\n  L AT %MB15 : BYTE;\n"
+		"  M AT %MB16 : BYTE;\n  Q AT %QB15 : BYTE;\nEND_VAR\n"
+		"RUNG\n  | NO A | COIL B |\nEND_PROGRAM\n");
+
+	CHECK_TEXT(symbol_beside(document, 0, 0), "W");
+	CHECK_TEXT(symbol_beside(document, 0, 1), "W");
+	CHECK_TEXT(symbol_beside(document, 0, 2), "L");
+	CHECK_TEXT(symbol_beside(document, 1, 0), "A");
+	CHECK_TEXT(symbol_beside(document, 1, 1), "T");
+	CHECK_AS(!symbol_beside(document, 1, 2), "just behind the array");
+	CHECK_AS(!symbol_beside(document, 1, 3), "of another area");
+	CHECK_AS(!symbol_beside(document, 0, 3), "without an address");
+	CHECK(!symbol_beside(document, 0, 9) && !symbol_beside(document, 9, 0));
+	g_object_unref(document);
+}
+
 static void test_fields(void)
 {
 	LadderDocument *document = opened(sample);
@@ -116,8 +138,11 @@ static void test_fields(void)
 	CHECK(set(document, "", "Count", FIELD_INITIAL, ""));
 	CHECK(set(document, "", "Count", FIELD_ADDRESS, "%MD4"));
 	CHECK(has(document, "  Count AT %MD4   : DINT;"));
-	CHECK(set(document, "", "Start", FIELD_COMMENT, "a *) b (* c\nd"));
-	CHECK(has(document, "(* a * ) b ( * c d *)\n"));
+	CHECK_AS(!set(document, "", "Start", FIELD_COMMENT, "a *) b") &&
+		 !set(document, "", "Start", FIELD_COMMENT, "a (* b"),
+		 "a comment is not changed unsaid");
+	CHECK(set(document, "", "Start", FIELD_COMMENT, "a\nd"));
+	CHECK(has(document, "(* a d *)\n"));
 	CHECK(set(document, "", "Count", FIELD_RETAIN, "1"));
 	CHECK(has(document, "VAR RETAIN\n  Hours : UDINT;\n  Count AT %MD4 : DINT;"));
 	CHECK(set(document, "", "Count", FIELD_RETAIN, ""));
@@ -535,6 +560,7 @@ int main(void)
 	test_storm();
 	test_rows();
 	test_function();
+	test_beside();
 	test_fields();
 	test_names();
 	test_hostile();

@@ -48,6 +48,22 @@ struct iec_addr vars_shift(struct iec_addr at, uint32_t element)
 	return at;
 }
 
+/* Bits from the begin of the area. */
+static uint64_t bits_from(struct iec_addr addr)
+{
+	return (uint64_t)addr.byte * 8 + addr.bit;
+}
+
+bool var_lies_on(const struct var *var, struct iec_addr addr)
+{
+	const uint32_t count = var->array.count ? var->array.count : 1;
+	const struct iec_addr last = vars_shift(var->at, count - 1);
+
+	return addr.area != AREA_NONE && var->at.area == addr.area &&
+	       bits_from(addr) + addr.bits > bits_from(var->at) &&
+	       bits_from(addr) < bits_from(last) + last.bits;
+}
+
 int64_t var_element(struct var_array array, int64_t index)
 {
 	int64_t last = (int64_t)array.low + array.count - 1;

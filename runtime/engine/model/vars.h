@@ -83,6 +83,8 @@ uint32_t var_unit(const struct var *var);
 uint32_t var_bytes(const struct var *var);
 /** vars_shift - the address of element @element, 0-based, behind @at. */
 struct iec_addr vars_shift(struct iec_addr at, uint32_t element);
+/** var_lies_on - has it, or one of its elements, a bit of the address? */
+bool var_lies_on(const struct var *var, struct iec_addr addr);
 /** var_element - index @index as the number of an element, 0-based; -1: there is
  * none. */
 int64_t var_element(struct var_array array, int64_t index);
