@@ -195,6 +195,7 @@ static void replace(GtkWidget *widget, const char *action, GVariant *unused)
 	}
 	if (!find_replace(panel_watch_document(bar->watch), bar->find, number,
 			  gtk_editable_get_text(GTK_EDITABLE(bar->with)), &why)) {
+		panel_watch_now(bar->watch); /* it was tried: the hits are told before why */
 		set_message(bar, why ? why : _("Refused"), true);
 		g_free(why);
 		return;
@@ -217,8 +218,7 @@ static void replace_all(GtkWidget *widget, const char *action, GVariant *unused)
 		return;
 	count = find_replace_all(panel_watch_document(bar->watch), bar->find,
 				 gtk_editable_get_text(GTK_EDITABLE(bar->with)), &why);
-	if (count >= 0)
-		panel_watch_now(bar->watch);
+	panel_watch_now(bar->watch); /* refused or not: it was tried */
 	text = count < 0 ? g_strdup(why ? why : _("Refused")) :
 	       g_strdup_printf(ngettext("%d replaced", "%d replaced", (gulong)count), count);
 	set_message(bar, text, count < 0);

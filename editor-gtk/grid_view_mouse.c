@@ -410,13 +410,17 @@ static void drop_leave(GtkDropTarget *target, LadderGridView *view)
 	drop_forget(view);
 }
 
-/* The rung goes between those where the line is, which count without it. */
+/* The rung goes between those where the line is, which count without it; the cursor goes
+ * with it. */
 static bool move_rung(LadderGridView *view, const struct ladder_drag *drag, int before)
 {
 	const int from = drag->from.rung, to = before > from ? before - 1 : before;
 
-	return takes_rung(view, drag) && to != from &&
-	       ladder_document_move_rung(view->document, view->pou, from, to);
+	if (!takes_rung(view, drag) || to == from ||
+	    !ladder_document_move_rung(view->document, view->pou, from, to))
+		return false;
+	cursor_set(view, (struct grid_cursor){ to, drag->from.row, drag->from.col }, false);
+	return true;
 }
 
 /* From one rung to another is one step. */

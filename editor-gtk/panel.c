@@ -261,6 +261,12 @@ static void scroll_to(struct panel_list *list, guint at)
 			return;
 }
 
+void panel_list_go(struct panel_list *list, guint at)
+{
+	gtk_single_selection_set_selected(list->selection, at);
+	scroll_to(list, at);
+}
+
 bool panel_list_select(struct panel_list *list,
 		       bool (*is)(const LadderPanelRow *row, gconstpointer what),
 		       gconstpointer what)
@@ -274,8 +280,7 @@ bool panel_list_select(struct panel_list *list,
 		g_object_unref(row);
 		if (!found)
 			continue;
-		gtk_single_selection_set_selected(list->selection, i);
-		scroll_to(list, i);
+		panel_list_go(list, i);
 		return true;
 	}
 	return false;

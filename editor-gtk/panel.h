@@ -46,6 +46,8 @@ void panel_list_want(struct panel_list *list, const char *wanted);
 void panel_list_update(struct panel_list *list, GPtrArray *rows);
 /** panel_list_row - the selected one; NULL: none. Borrowed. */
 LadderPanelRow *panel_list_row(struct panel_list *list);
+/** panel_list_go - selects row @at of those that are shown, and scrolls to it. */
+void panel_list_go(struct panel_list *list, guint at);
 /** panel_list_select - the first row for which @is holds, scrolled to. */
 bool panel_list_select(struct panel_list *list,
 		       bool (*is)(const LadderPanelRow *row, gconstpointer what),

@@ -198,9 +198,16 @@ bool ladder_problems_next(LadderProblems *problems, bool back)
 		at = back ? count - 1 : 0;
 	else
 		at = (at + (back ? count - 1 : 1)) % count;
-	gtk_single_selection_set_selected(selection, at);
+	panel_list_go(&problems->list, at);
 	panel_go_to(GTK_WIDGET(problems), panel_list_row(&problems->list));
 	return true;
+}
+
+const char *ladder_problems_current(LadderProblems *problems)
+{
+	const LadderPanelRow *row = panel_list_row(&problems->list);
+
+	return row ? row->spoken : "";
 }
 
 bool ladder_problems_show_error(LadderProblems *problems)
@@ -214,7 +221,7 @@ bool ladder_problems_show_error(LadderProblems *problems)
 		g_object_unref(row);
 		if (!error)
 			continue;
-		gtk_single_selection_set_selected(selection, i);
+		panel_list_go(&problems->list, i);
 		panel_go_to(GTK_WIDGET(problems), panel_list_row(&problems->list));
 		return true;
 	}

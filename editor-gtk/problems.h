@@ -24,6 +24,9 @@ int ladder_problems_count(LadderProblems *problems, bool errors);
 /** ladder_problems_next - selects the next one, around the end, and goes there. False:
  * there is none. */
 bool ladder_problems_next(LadderProblems *problems, bool back);
+/** ladder_problems_current - "Error: … Main, rung 3" of the selected one; "": none is.
+ * Borrowed until the next `checked`. */
+const char *ladder_problems_current(LadderProblems *problems);
 /** ladder_problems_show_error - selects the first one that nothing can be run with, and goes
  * there. False: there is none. */
 bool ladder_problems_show_error(LadderProblems *problems);

@@ -64,10 +64,10 @@ static void do_rename(LadderWindow *window)
 
 static void do_next_problem(LadderWindow *window)
 {
-	GtkWidget *problems = below_panel(window, "problems");
+	LadderProblems *problems = LADDER_PROBLEMS(below_panel(window, "problems"));
 
-	if (!ladder_problems_next(LADDER_PROBLEMS(problems), false))
-		ladder_window_tell(window, _("no problems"));
+	ladder_window_tell(window, ladder_problems_next(problems, false) ?
+			   ladder_problems_current(problems) : _("no problems"));
 }
 
 static void do_next_bookmark(LadderWindow *window)

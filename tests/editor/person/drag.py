@@ -54,6 +54,11 @@ def rungs(screen):
     editor.save(path)
     assert rung_lines(path)[0] == 'RUNG "two"', rung_lines(path)
     check(path)
+    # The cursor went with it: what a key does next, it does to that rung.
+    editor.keys('ctrl+Delete')
+    until(lambda: not any('Lamp' in name for name in editor.cells()), 'the rung that was dragged to be gone')
+    editor.keys('ctrl+z')
+    editor.element('Rung 1', 'Lamp')
     # Lamp is now before Motor, which it follows: a scan late.
     assert lines(path, '@print Lamp\nStart=1\n.\nStop=1\n.\n') == ['Lamp=0', 'Lamp=1', 'Lamp=1', 'Lamp=0']
 

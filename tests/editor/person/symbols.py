@@ -3,6 +3,7 @@
 """symbols - a person finds and replaces, renames everywhere, and works in the symbol table."""
 import os
 import sys
+import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
@@ -50,6 +51,23 @@ def finds(screen):
     assert lines(path, '@print Horn\nStart=1\nStart=0\n') == ['Horn=1', 'Horn=0']
     editor.keys('ctrl+z')
     assert editor.save(path) == PROGRAM
+
+
+def declared_already(screen):
+    """replace all by a name that another has: nothing changes, and it is told"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+h')
+    editor.type('Lamp')
+    label(editor, '4 hits')
+    editor.into('Replace with')
+    editor.type('Horn')
+    editor.keys('alt+a')
+    label(editor, 'is declared already')
+    time.sleep(0.5)  # longer than a panel is behind
+    label(editor, 'is declared already')
+    editor.shot('names-declared-already')
+    assert open(path).read() == PROGRAM and not editor.all('\u2022 new.rung', 'label')
 
 
 def renames(screen):
@@ -232,4 +250,4 @@ def last_letter(screen):
     assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
 
 
-main([finds, renames, uses, tables, scopes, through, last_letter])
+main([finds, declared_already, renames, uses, tables, scopes, through, last_letter])

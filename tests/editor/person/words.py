@@ -83,6 +83,22 @@ def wrong_lines(screen):
     editor.shot('list-wrong-lines')
 
 
+MANY = 'RUNGBOARD 1\n\nPROGRAM Main LD\n%sEND_PROGRAM\n' % ''.join(
+    'RUNG\n  | NO Lost%d | COIL %%QX%d.0 |\n' % (i, i) for i in range(30))
+
+
+def next_problem(screen):
+    """Ctrl+. tells the problem that it goes to; its row is seen and chosen"""
+    editor = Editor(screen, new_file(screen, MANY))
+    editor.to_sheet()
+    editor.find('Error: unknown name: Lost7. Main, rung 8', 'table row')
+    for _ in range(24):
+        editor.keys('ctrl+period')
+    editor.says('Error: unknown name: Lost2')
+    until(lambda: [node for node in editor.all('Error: unknown name', 'table row') if node.has(23)], 'a row that is chosen')
+    editor.shot('problems-next')
+
+
 def in_parallel(screen):
     """OR X goes below what the cursor is on; the status bar says what comes next"""
     path = new_file(screen)
@@ -277,4 +293,4 @@ def to_rung(screen):
     editor.to_sheet()
 
 
-main([a_list, wrong_lines, in_parallel, pointed_at, other_keys, window_keys, again, comments, as_it_is, to_rung])
+main([next_problem, a_list, wrong_lines, in_parallel, pointed_at, other_keys, window_keys, again, comments, as_it_is, to_rung])
