@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_duplicate - a rung once more, with blocks that count and time for themselves.
+ * entry_duplicate - rungs once more, with blocks that count and time for themselves.
  *
- * An instance of the rung becomes a new one wherever the rung names it: in the box, in a
+ * An instance of theirs becomes a new one wherever they name it: in the box, in a
  * contact of its output, in parameters and expressions. It declares nothing.
  */
 #include "editor-gtk/entry_duplicate.h"
@@ -140,7 +140,7 @@ static bool rename_text(struct project *project, uint32_t *id,
 	return *id != 0;
 }
 
-static bool make_all(const struct entry_place *place, struct rung *rung,
+static bool find_all(const struct entry_place *place, const struct rung *rung,
 		     struct entry_instance *made, int *count)
 {
 	bool good = true;
@@ -153,23 +153,58 @@ static bool make_all(const struct entry_place *place, struct rung *rung,
 		if (var && !find(place->project, made, *count, name, strlen(name)))
 			good = add(place, var->name, (enum word)cell->word, made, count);
 	}
-	for (int i = 0; good && i < rung->rows * rung->cols; i++)
-		good = rename_text(place->project, &rung->cell[i].operand, made, *count) &&
-		       rename_text(place->project, &rung->cell[i].args, made, *count);
 	return good;
 }
 
-struct rung *entry_duplicate(const struct entry_place *place, const struct rung *rung,
-			     struct entry_instance **made, int *count)
+/* NULL: no memory. */
+static struct rung *copy_of(struct project *project, const struct rung *rung,
+			    const struct entry_instance *made, int count)
 {
 	struct rung *copy = rung_copy(rung);
+	bool good = copy != NULL;
 
-	*count = 0;
-	*made = calloc((size_t)(rung->rows * rung->cols), sizeof(**made));
-	if (copy && *made && make_all(place, copy, *made, count))
+	for (int i = 0; good && i < copy->rows * copy->cols; i++)
+		good = rename_text(project, &copy->cell[i].operand, made, count) &&
+		       rename_text(project, &copy->cell[i].args, made, count);
+	if (good)
 		return copy;
 	rung_free(copy);
+	return NULL;
+}
+
+static size_t cells_of(struct rung *const *rungs, int count)
+{
+	size_t cells = 1;
+
+	for (int i = 0; i < count; i++)
+		cells += (size_t)(rungs[i]->rows * rungs[i]->cols);
+	return cells;
+}
+
+bool entry_duplicate(const struct entry_place *place, struct rung **rungs, int count,
+		     struct entry_instance **made, int *made_count)
+{
+	struct rung **copy = calloc((size_t)count, sizeof(struct rung *));
+	bool good;
+
+	*made_count = 0;
+	*made = calloc(cells_of(rungs, count), sizeof(**made));
+	good = copy && *made;
+	for (int i = 0; good && i < count; i++)
+		good = find_all(place, rungs[i], *made, made_count);
+	for (int i = 0; good && i < count; i++)
+		good = (copy[i] = copy_of(place->project, rungs[i], *made,
+					  *made_count)) != NULL;
+	for (int i = 0; copy && i < count; i++) {
+		if (good)
+			rungs[i] = copy[i];
+		else
+			rung_free(copy[i]);
+	}
+	free(copy);
+	if (good)
+		return true;
 	free(*made);
 	*made = NULL;
-	return NULL;
+	return false;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * entry_duplicate - a rung once more, with blocks that count and time for themselves.
+ * entry_duplicate - rungs once more, with blocks that count and time for themselves.
  */
 #ifndef EDITOR_ENTRY_DUPLICATE_H
 #define EDITOR_ENTRY_DUPLICATE_H
@@ -13,12 +13,13 @@ struct entry_instance {
 };
 
 /**
- * entry_duplicate - a copy of a rung of the POU of @place, whose instances have new names
- * @made:  gets them, @count of them, each to be declared; the caller's, free()
+ * entry_duplicate - copies of rungs of the POU of @place, whose instances have new names
+ * @rungs: become the copies, each the caller's, rung_free()
+ * @made:  gets them, @made_count of them, each to be declared; the caller's, free()
  *
- * Elements of arrays and parameters of the POU stay what they are. Owns: the caller,
- * rung_free().   Scan-safe: no.   Fails: NULL, memory is out.
+ * Elements of arrays and parameters of the POU stay what they are.   Scan-safe: no.
+ * Fails: false, memory is out; @rungs are what they were.
  */
-struct rung *entry_duplicate(const struct entry_place *place, const struct rung *rung,
-			     struct entry_instance **made, int *count);
+bool entry_duplicate(const struct entry_place *place, struct rung **rungs, int count,
+		     struct entry_instance **made, int *made_count);
 #endif

@@ -23,25 +23,44 @@ static bool is_whole(LadderGridView *view, const struct grid_area *area)
 	       area->last_col == view->columns - 1;
 }
 
-static void do_copy(LadderGridView *view)
+/* Copies of what is selected; none: nothing stands there. */
+static GPtrArray *chosen(LadderGridView *view)
 {
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
+	GPtrArray *rungs = g_ptr_array_new_with_free_func((GDestroyNotify)rung_free);
 	struct grid_area area;
 	struct rung *part;
+	int first, last;
+
+	if (cursor_rungs(view, &first, &last)) {
+		for (int i = first; i <= last; i++)
+			g_ptr_array_add(rungs, rung_copy(sheet_rung(view, i)));
+		return rungs;
+	}
+	cursor_area(view, &area);
+	part = is_whole(view, &area) ? rung_copy(sheet_rung(view, first)) :
+	       grid_copy(sheet_rung(view, first), view->columns, &area);
+	if (part)
+		g_ptr_array_add(rungs, part);
+	return rungs;
+}
+
+static void do_copy(LadderGridView *view)
+{
+	GPtrArray *rungs;
 	char *text;
 
-	if (!rung)
+	if (!sheet_rung(view, view->cursor.rung))
 		return;
-	cursor_area(view, &area);
-	part = is_whole(view, &area) ? rung_copy(rung) :
-	       grid_copy(rung, view->columns, &area);
-	text = part ? rung_clip_text(view->document, view->pou, part) : NULL;
+	rungs = chosen(view);
+	text = rungs->len ? rung_clip_text(view->document, view->pou,
+					   (struct rung *const *)rungs->pdata,
+					   (int)rungs->len) : NULL;
 	if (text)
 		gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(view)), text);
 	else
 		sheet_tell(view, _("nothing stands here"));
 	g_free(text);
-	rung_free(part);
+	g_ptr_array_unref(rungs);
 }
 
 /* ---- pasting ---- */

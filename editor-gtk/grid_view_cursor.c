@@ -35,26 +35,54 @@ void cursor_remember(LadderGridView *view)
 	view->came = ladder_document_place(view->document);
 }
 
+/* Several rungs are drawn anew when they are selected, and when they are no more. */
+static void redraw_moved(LadderGridView *view, int from, bool several)
+{
+	int first, last;
+
+	if (several || cursor_rungs(view, &first, &last)) {
+		strips_redraw(view, -1);
+		return;
+	}
+	if (from != view->cursor.rung)
+		strips_redraw(view, from);
+	strips_redraw(view, view->cursor.rung);
+}
+
+static void tell_selected(LadderGridView *view, bool before)
+{
+	int first, last;
+	char *text;
+
+	if (cursor_rungs(view, &first, &last)) {
+		text = g_strdup_printf(_("Rungs %d to %d are selected"),
+				       view->first + first + 1, view->first + last + 1);
+		sheet_tell(view, text);
+		g_free(text);
+	} else if (before) {
+		sheet_tell(view, "");
+	}
+}
+
 void cursor_set(LadderGridView *view, struct grid_cursor to, bool extend)
 {
 	const int from = view->cursor.rung;
+	int first, last;
+	const bool several = cursor_rungs(view, &first, &last);
 
 	if (extend && !view->selecting)
 		view->anchor = view->cursor;
 	to.rung = CLAMP(to.rung, 0, MAX(sheet_rungs(view) - 1, 0));
-	if (extend && to.rung != from)
-		return;
 	view->cursor = to;
 	cursor_fit(view);
 	view->selecting = extend;
-	if (from != view->cursor.rung) {
+	if (from != view->cursor.rung)
 		entry_close(view);
-		strips_redraw(view, from);
-	}
-	strips_redraw(view, view->cursor.rung);
+	redraw_moved(view, from, several);
 	cursor_remember(view);
 	cursor_reveal(view);
 	sheet_moved(view);
+	tell_selected(view, several);
 }
 
 bool cursor_area(LadderGridView *view, struct grid_area *area)
@@ -69,6 +97,15 @@ bool cursor_area(LadderGridView *view, struct grid_area *area)
 	area->col = MIN(a->col, b->col);
 	area->last_col = MAX(a->col, b->col);
 	return true;
+}
+
+bool cursor_rungs(LadderGridView *view, int *first, int *last)
+{
+	const int other = view->selecting ? view->anchor.rung : view->cursor.rung;
+
+	*first = MIN(view->cursor.rung, other);
+	*last = MAX(view->cursor.rung, other);
+	return *first != *last;
 }
 
 const struct cell *cursor_cell(LadderGridView *view, int *row, int *col)
@@ -220,6 +257,19 @@ static bool step(LadderGridView *view, guint key, struct grid_cursor *to)
 	}
 }
 
+/* Of several rungs one more, or one less, whatever rows they have. */
+static bool step_rungs(LadderGridView *view, guint key, struct grid_cursor *to)
+{
+	int first, last;
+
+	if (!cursor_rungs(view, &first, &last) || !step(view, key, to))
+		return false;
+	if (to->rung == view->cursor.rung && to->row != view->cursor.row)
+		to->rung += to->row > view->cursor.row ? 1 : -1;
+	to->row = 0;
+	return true;
+}
+
 bool cursor_key(LadderGridView *view, guint key, GdkModifierType state)
 {
 	const bool control = state & GDK_CONTROL_MASK;
@@ -230,7 +280,8 @@ bool cursor_key(LadderGridView *view, guint key, GdkModifierType state)
 	if (control && (key == GDK_KEY_Home || key == GDK_KEY_End))
 		to = (struct grid_cursor){ key == GDK_KEY_Home ? 0 :
 					   sheet_rungs(view) - 1, 0, 0 };
-	else if (control || !step(view, key, &to))
+	else if (control || !((state & GDK_SHIFT_MASK && step_rungs(view, key, &to)) ||
+			      step(view, key, &to)))
 		return false;
 	cursor_set(view, to, state & GDK_SHIFT_MASK);
 	return true;

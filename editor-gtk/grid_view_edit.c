@@ -8,7 +8,6 @@
 #include "editor-gtk/grid_view_inside.h"
 
 #include "editor-gtk/diag_said.h"
-#include "editor-gtk/entry_duplicate.h"
 #include "editor-gtk/print.h"
 
 #include <stdlib.h>
@@ -110,139 +109,20 @@ static void do_delete(LadderGridView *view)
 	struct grid_at at = sheet_at(view);
 	struct grid_area area;
 	struct rung *edited;
+	int first, last;
 
 	if (!rung)
 		return;
+	if (cursor_rungs(view, &first, &last)) {
+		rungs_do(view, VERB_rung_delete);
+		return;
+	}
 	edited = cursor_area(view, &area) ? grid_delete_area(rung, &at, &area) :
 		 grid_delete(rung, &at);
 	sheet_put(view, edited, &at, _(verb_row(VERB_delete)->label));
 }
 
-/* ---- whole rungs ---- */
-
-static bool splice(LadderGridView *view, int at, int removed, struct rung *rung,
-		   enum verb verb)
-{
-	bool good;
-
-	ladder_document_begin(view->document, _(verb_row(verb)->label), NULL);
-	good = sheet_splice(view, at, removed, &rung, rung ? 1 : 0, NULL);
-	ladder_document_end(view->document);
-	return good;
-}
-
-static void do_rung_new(LadderGridView *view, int offset, enum verb verb)
-{
-	const int at = MIN(view->cursor.rung + offset, sheet_rungs(view));
-
-	if (sheet_pou(view) && splice(view, at, 0, rung_new(1, 1), verb))
-		cursor_set(view, (struct grid_cursor){ at, 0, 0 }, false);
-}
-
-/* A program without rungs is one a person cannot go on with: an empty one stays. */
-static void do_rung_delete(LadderGridView *view)
-{
-	const int at = view->cursor.rung;
-	struct rung *left = sheet_rungs(view) == 1 ? rung_new(1, 1) : NULL;
-
-	if (sheet_rungs(view) > 0 && splice(view, at, 1, left, VERB_rung_delete))
-		cursor_set(view, (struct grid_cursor){ at, 0, 0 }, false);
-}
-
-/* "Delay2 : TON" of each, copied: ids and rows end when the project is read anew. */
-static char **declarations(struct project *project, const struct entry_instance *made,
-			   int count)
-{
-	char **out = g_new0(char *, count + 1);
-
-	for (int i = 0; i < count; i++)
-		out[i] = g_strdup_printf("%s : %s", project_text(project, made[i].to),
-					 words_row(&project->words, made[i].word)->word);
-	return out;
-}
-
-static void declare_all(LadderGridView *view, char **declarations)
-{
-	for (int i = 0; declarations[i]; i++) {
-		char **part = g_strsplit(declarations[i], " : ", 2);
-
-		ladder_document_declare(view->document, view->pou, part[0], part[1], "",
-					NULL);
-		g_strfreev(part);
-	}
-}
-
-/* Two rungs with one timer would disturb each other: each has its own. */
-static void do_rung_duplicate(LadderGridView *view)
-{
-	const struct entry_place place = {
-		.project = ladder_document_project(view->document), .pou = view->pou,
-	};
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	const struct grid_cursor to = { view->cursor.rung + 1, view->cursor.row,
-					view->cursor.col };
-	struct entry_instance *made;
-	struct rung *copy;
-	char **new, *told;
-	int count;
-
-	copy = rung ? entry_duplicate(&place, rung, &made, &count) : NULL;
-	if (!copy)
-		return;
-	copy->label = 0; /* it could not stand twice */
-	new = declarations(place.project, made, count);
-	free(made);
-	ladder_document_begin(view->document, _(verb_row(VERB_rung_duplicate)->label), NULL);
-	if (sheet_splice(view, to.rung, 0, &copy, 1, NULL)) {
-		declare_all(view, new);
-		cursor_set(view, to, false);
-	}
-	ladder_document_end(view->document);
-	told = g_strjoinv("; ", new);
-	if (count > 0)
-		sheet_tell(view, told);
-	g_free(told);
-	g_strfreev(new);
-}
-
-/* Two rungs below each other change places. */
-static bool move_in_body(LadderGridView *view, int upper)
-{
-	struct rung *rungs[2];
-	bool good;
-
-	if (upper < 0 || upper + 1 >= sheet_rungs(view))
-		return false;
-	rungs[0] = rung_copy(sheet_rung(view, upper + 1));
-	rungs[1] = rung_copy(sheet_rung(view, upper));
-	ladder_document_begin(view->document, _("Move rung"), NULL);
-	good = sheet_splice(view, upper, 2, rungs, 2, NULL);
-	ladder_document_end(view->document);
-	return good;
-}
-
-static void do_rung_move(LadderGridView *view, int by)
-{
-	struct grid_cursor to = view->cursor;
-
-	to.rung += by;
-	if (view->count >= 0 ? move_in_body(view, MIN(view->cursor.rung, to.rung)) :
-	    ladder_document_move_rung(view->document, view->pou, view->cursor.rung,
-				      to.rung))
-		cursor_set(view, to, false);
-}
-
-static void do_rung_off(LadderGridView *view)
-{
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-	struct rung *copy = rung ? rung_copy(rung) : NULL;
-	struct grid_at at = sheet_at(view);
-
-	if (!copy)
-		return;
-	copy->off = !copy->off;
-	sheet_put(view, copy, &at, _(verb_row(VERB_rung_off)->label));
-}
+/* ---- giving up ---- */
 
 static void give_back(LadderGridView *view)
 {
@@ -292,17 +172,6 @@ void ladder_grid_view_put(LadderGridView *view, enum word word)
 	entry_begin_word(view, word, false);
 }
 
-static void do_select_all(LadderGridView *view)
-{
-	const struct rung *rung = sheet_rung(view, view->cursor.rung);
-
-	if (!rung)
-		return;
-	cursor_set(view, (struct grid_cursor){ view->cursor.rung, 0, 0 }, false);
-	cursor_set(view, (struct grid_cursor){ view->cursor.rung, rung->rows - 1,
-					       view->columns - 1 }, true);
-}
-
 /* ---- pictures ---- */
 
 static void do_copy_picture(LadderGridView *view)
@@ -349,7 +218,6 @@ void ladder_grid_view_do(LadderGridView *view, enum verb verb)
 		break;
 	case VERB_copy_picture: do_copy_picture(view); break;
 	case VERB_delete: do_delete(view); break;
-	case VERB_select_all: do_select_all(view); break;
 	case VERB_context_menu: mouse_menu(view); break;
 	case VERB_enter: case VERB_edit_operand: entry_begin_edit(view); break;
 	case VERB_contact: entry_begin_word(view, ELEM_CONTACT_NO, false); break;
@@ -374,13 +242,11 @@ void ladder_grid_view_do(LadderGridView *view, enum verb verb)
 	case VERB_rung_label: case VERB_rung_comment:
 		entry_begin_text(view, verb);
 		break;
-	case VERB_rung_below: do_rung_new(view, 1, verb); break;
-	case VERB_rung_above: do_rung_new(view, 0, verb); break;
-	case VERB_rung_delete: do_rung_delete(view); break;
-	case VERB_rung_duplicate: do_rung_duplicate(view); break;
-	case VERB_rung_up: do_rung_move(view, -1); break;
-	case VERB_rung_down: do_rung_move(view, 1); break;
-	case VERB_rung_off: do_rung_off(view); break;
+	case VERB_rung_below: case VERB_rung_above: case VERB_rung_delete:
+	case VERB_rung_duplicate: case VERB_rung_up: case VERB_rung_down:
+	case VERB_rung_off: case VERB_select_all:
+		rungs_do(view, verb);
+		break;
 	case VERB_bookmark:
 		ladder_document_toggle_bookmark(view->document, view->pou,
 						view->first + view->cursor.rung);

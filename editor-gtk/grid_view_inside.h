@@ -100,7 +100,7 @@ struct _LadderGridView {
 
 	struct grid_cursor cursor;
 	struct grid_cursor anchor;  /* other corner of the selection           */
-	bool selecting;             /* from anchor to cursor, in one rung      */
+	bool selecting;             /* from anchor to cursor; of several rungs all */
 	struct rung *preview;       /* of the cursor's rung, until its entry is done */
 	guint64 came;               /* place in the history when the cursor came */
 	int came_rung;              /* to this rung; -1: nobody knows           */
@@ -199,8 +199,12 @@ void cursor_remember(LadderGridView *view);
 void cursor_reveal(LadderGridView *view);
 /** cursor_rect - its cell in px of the widget. */
 graphene_rect_t cursor_rect(LadderGridView *view);
-/** cursor_area - the selection, or its own cell. False: nothing is selected. */
+/** cursor_area - the selection, or its own cell. False: nothing is selected, or several
+ * rungs are. */
 bool cursor_area(LadderGridView *view, struct grid_area *area);
+/** cursor_rungs - from the first to the last rung that is selected, or that of the cursor.
+ * True: several are. */
+bool cursor_rungs(LadderGridView *view, int *first, int *last);
 /** cursor_cell - the element below it; row and col of the rung too (or NULL). NULL: none. */
 const struct cell *cursor_cell(LadderGridView *view, int *row, int *col);
 bool cursor_key(LadderGridView *view, guint key, GdkModifierType state);
@@ -250,6 +254,16 @@ void entry_open(struct sheet_asked *asked, const char *prompt, const char *text,
 /* Its calls when it is gone, and when a click elsewhere left it. */
 void entry_line_gone(void *asked);
 void entry_line_left(void *asked, const char *line);
+
+/* ---- grid_view_marks.c ---- */
+/** marks_push - of struct grid_mark: of a rung that is drawn. */
+void marks_push(LadderGridView *view, int rung, GArray *marks);
+/** marks_state - enum rung_state: is it the cursor's, is it selected? */
+unsigned int marks_state(LadderGridView *view, int rung);
+
+/* ---- grid_view_rungs.c ---- */
+/** rungs_do - a verb that is of whole rungs. */
+void rungs_do(LadderGridView *view, enum verb verb);
 
 /* ---- grid_view_text.c ---- */
 void entry_begin_text(LadderGridView *view, enum verb verb);

@@ -100,8 +100,8 @@ static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 			begin_there(view, &hit);
 		return;
 	}
-	cursor_set(view, (struct grid_cursor){ rung, 0, 0 }, false);
-	if (hit.part == RUNG_PART_NUMBER)
+	cursor_set(view, (struct grid_cursor){ rung, 0, 0 }, state & GDK_SHIFT_MASK);
+	if (hit.part == RUNG_PART_NUMBER && !(state & GDK_SHIFT_MASK))
 		ladder_grid_view_do(view, VERB_select_all);
 	else if (hit.part == RUNG_PART_TITLE && count == 2)
 		ladder_grid_view_do(view, VERB_rung_title);
@@ -199,7 +199,7 @@ static bool drag_to(LadderGridView *view, double x, double y, GdkModifierType st
 		return true;
 	}
 	rung = sheet_point(view, x, y, &hit);
-	if (rung != view->cursor.rung || !is_cell(&hit))
+	if (rung < 0 || !is_cell(&hit))
 		return false;
 	cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column }, true);
 	return true;

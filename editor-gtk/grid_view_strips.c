@@ -393,45 +393,6 @@ float strips_height(LadderGridView *view)
 
 /* ---- drawing ---- */
 
-static void push_mark(GArray *marks, int row, int column, unsigned int mark)
-{
-	const struct grid_mark one = { row, column, mark };
-
-	g_array_append_val(marks, one);
-}
-
-static void mark_selection(LadderGridView *view, int rung, GArray *marks)
-{
-	struct grid_area area;
-
-	if (rung != view->cursor.rung)
-		return;
-	if (cursor_area(view, &area))
-		for (int row = area.row; row <= area.last_row; row++)
-			for (int col = area.col; col <= area.last_col; col++)
-				push_mark(marks, row, col, MARK_SELECTED);
-	if (gtk_widget_has_focus(GTK_WIDGET(view)) || view->entry)
-		push_mark(marks, view->cursor.row, view->cursor.col, MARK_CURSOR);
-	else
-		push_mark(marks, view->cursor.row, view->cursor.col, MARK_SELECTED);
-}
-
-static void mark_checks(LadderGridView *view, int rung, GArray *marks)
-{
-	const struct rung *shown = sheet_rung(view, rung);
-
-	for (guint i = 0; i < view->marks->len; i++) {
-		const struct sheet_mark *mark =
-			&g_array_index(view->marks, struct sheet_mark, i);
-
-		if (mark->rung == rung && mark->row >= 0 && mark->row < shown->rows &&
-		    mark->col >= 0 && mark->col < shown->cols)
-			push_mark(marks, mark->row,
-				  grid_display_column(shown, view->columns, mark->row,
-						      mark->col), mark->marks);
-	}
-}
-
 /* Of a rung that is being edited nothing is known. */
 static struct grid_live live_of(LadderGridView *view, int rung, const struct strip *strip,
 				uint8_t **unknown)
@@ -452,7 +413,7 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 	struct grid_scene scene = {
 		.drafting = &view->drafting, .layout = strip->layout,
 		.theme = strips_theme(view), .note = live_note, .context = &place,
-		.state = RUNG_ON_GUTTER | (rung == view->cursor.rung ? RUNG_CURRENT : 0),
+		.state = marks_state(view, rung),
 		.scale = (float)(view->zoom * gtk_widget_get_scale_factor(GTK_WIDGET(view))),
 	};
 	struct grid_live live;
@@ -465,11 +426,8 @@ static void draw_strip(LadderGridView *view, int rung, struct strip *strip)
 		scene.live = &live;
 		scene.state |= view->live.still ? RUNG_STILL : 0;
 	}
-	mark_selection(view, rung, marks);
-	mark_checks(view, rung, marks);
+	marks_push(view, rung, marks);
 	live_marks(view, rung, marks);
-	if (rung == view->found.rung)
-		push_mark(marks, view->found.row, view->found.col, MARK_FOUND);
 	drop_mark(view, rung, marks);
 	scene.takes = takes;
 	if (ladder_document_is_bookmarked(view->document, view->pou,

@@ -73,24 +73,42 @@ static void add_blocks(GString *out, const struct project *project, int table,
 	}
 }
 
-char *rung_clip_text(LadderDocument *document, int pou, const struct rung *rung)
+/* NULL: one of them cannot be written. */
+static GString *written(LadderDocument *document, struct rung *const *rungs, int count)
+{
+	GString *out = g_string_new(NULL);
+
+	for (int i = 0; i < count; i++) {
+		char *text = ladder_write_rung(ladder_document_ladder(document), rungs[i]);
+
+		if (!text) {
+			g_string_free(out, TRUE);
+			return NULL;
+		}
+		g_string_append(out, text);
+		free(text);
+	}
+	return out;
+}
+
+char *rung_clip_text(LadderDocument *document, int pou, struct rung *const *rungs,
+		     int count)
 {
 	const struct project *project = ladder_document_project(document);
-	char *text = ladder_write_rung(ladder_document_ladder(document), rung);
-	GString *globals, *locals;
+	GString *text = written(document, rungs, count), *globals, *locals;
 	GHashTable *names;
 
 	if (!text)
 		return NULL;
 	globals = g_string_new(NULL);
 	locals = g_string_new(NULL);
-	names = names_in(project, text);
+	names = names_in(project, text->str);
 	add_blocks(locals, project, pou + 1, 0, names);
 	add_blocks(globals, project, 0, VAR_GLOBAL_WORD, names);
-	g_string_append_printf(globals, "%s%s", locals->str, text);
+	g_string_append_printf(globals, "%s%s", locals->str, text->str);
 	g_hash_table_unref(names);
 	g_string_free(locals, TRUE);
-	free(text);
+	g_string_free(text, TRUE);
 	return g_string_free(globals, FALSE);
 }
 

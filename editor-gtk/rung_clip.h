@@ -29,9 +29,10 @@ struct rung_clip {
 	LadderDocument *source; /* that has the declarations                   */
 };
 
-/** rung_clip_text - a rung of POU @pou, or a part of one, for the clipboard.
- * Owns: the caller, g_free(). NULL: no memory. */
-char *rung_clip_text(LadderDocument *document, int pou, const struct rung *rung);
+/** rung_clip_text - rungs of POU @pou, or a part of one, for the clipboard, with the
+ * declarations of what they name. Caller frees; NULL: one cannot be written. */
+char *rung_clip_text(LadderDocument *document, int pou, struct rung *const *rungs,
+		     int count);
 
 /**
  * rung_clip_read - the rungs of a text, to be put into POU @pou of @document

@@ -514,7 +514,9 @@ static void check_duplicates(const struct entry_place *place)
 		diag_init(&diags);
 		snprintf(text, sizeof(text), "RUNG\n%s\n", rungs[i].rung);
 		rung = text_read_rung(project, text, strlen(text), &diags);
-		copy = rung ? entry_duplicate(place, rung, &made, &count) : NULL;
+		copy = rung;
+		if (!CHECK(rung && entry_duplicate(place, &copy, 1, &made, &count)))
+			continue;
 		for (int k = 0; copy && k < copy->cols; k++) {
 			text_write_cell(project, &copy->cell[k], text, sizeof(text));
 			snprintf(got + strlen(got), sizeof(got) - strlen(got), "| %s ", text);

@@ -31,7 +31,8 @@ static char *copied(int rung)
 {
 	LadderDocument *document = opened(source);
 	char *text = rung_clip_text(document, 0,
-				    ladder_document_project(document)->pou[0].rung[rung]);
+				    &ladder_document_project(document)->pou[0].rung[rung],
+				    1);
 
 	g_object_unref(document);
 	return text;

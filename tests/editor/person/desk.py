@@ -277,12 +277,13 @@ class Editor:
 
     # ---- doing ----
 
-    def click(self, at, button=1, count=1):
+    def click(self, at, button=1, count=1, shift=False):
         x, y = at if isinstance(at, tuple) else self.centre(at)
         if count > 1:  # a click just before would be one of them
             time.sleep(max(0.0, self.clicked + 2 * DOUBLE_CLICK - time.monotonic()))
         self.clicked = time.monotonic()
-        sh('xdotool', 'mousemove', str(x), str(y), 'click', '--repeat', str(count), '--delay', '60', str(button))
+        held = [['keydown', 'Shift_L'], ['keyup', 'Shift_L']] if shift else [[], []]
+        sh('xdotool', 'mousemove', str(x), str(y), *held[0], 'click', '--repeat', str(count), '--delay', '60', str(button), *held[1])
 
     def into(self, name):
         """Clicks into a line or a text until it has the keys: what lies round it may still move."""

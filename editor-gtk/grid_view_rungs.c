@@ -1,0 +1,252 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_view_rungs - what the verbs of a sheet do to whole rungs: to that of the cursor, or
+ * to all of them if several are selected.
+ *
+ * Whatever they do is one step; what was selected stays so where it goes.
+ */
+#include "editor-gtk/grid_view_inside.h"
+
+#include "editor-gtk/entry_duplicate.h"
+
+#include <stdlib.h>
+
+/* Selects them, with the cursor in the one that it is in, or at the end of them. */
+static void select_rungs(LadderGridView *view, int first, int last)
+{
+	const bool down = view->cursor.rung >= view->anchor.rung;
+	struct grid_cursor from = { down ? first : last, 0, 0 };
+	struct grid_cursor to = { down ? last : first, view->cursor.row, view->cursor.col };
+
+	if (first == last) {
+		cursor_set(view, to, false);
+		return;
+	}
+	cursor_set(view, from, false);
+	cursor_set(view, to, true);
+}
+
+static bool splice(LadderGridView *view, int at, int removed, struct rung **rungs,
+		   int inserted, enum verb verb)
+{
+	bool good;
+
+	ladder_document_begin(view->document, _(verb_row(verb)->label), NULL);
+	good = sheet_splice(view, at, removed, rungs, inserted, NULL);
+	ladder_document_end(view->document);
+	return good;
+}
+
+static void do_new(LadderGridView *view, enum verb verb)
+{
+	int first, last, at;
+	struct rung *rung;
+
+	cursor_rungs(view, &first, &last);
+	at = MIN(verb == VERB_rung_below ? last + 1 : first, sheet_rungs(view));
+	if (!sheet_pou(view))
+		return;
+	rung = rung_new(1, 1);
+	if (splice(view, at, 0, &rung, 1, verb))
+		cursor_set(view, (struct grid_cursor){ at, 0, 0 }, false);
+}
+
+/* A program without rungs is one a person cannot go on with: an empty one stays. */
+static void do_delete(LadderGridView *view)
+{
+	struct rung *left = NULL;
+	int first, last;
+
+	cursor_rungs(view, &first, &last);
+	if (last >= sheet_rungs(view))
+		return;
+	if (last - first + 1 == sheet_rungs(view))
+		left = rung_new(1, 1);
+	if (splice(view, first, last - first + 1, &left, left ? 1 : 0,
+		   VERB_rung_delete))
+		cursor_set(view, (struct grid_cursor){ first, 0, 0 }, false);
+}
+
+/* ---- once more ---- */
+
+/* "Delay2 : TON" of each, copied: ids and rows end when the project is read anew. */
+static char **declarations(struct project *project, const struct entry_instance *made,
+			   int count)
+{
+	char **out = g_new0(char *, count + 1);
+
+	for (int i = 0; i < count; i++)
+		out[i] = g_strdup_printf("%s : %s", project_text(project, made[i].to),
+					 words_row(&project->words, made[i].word)->word);
+	return out;
+}
+
+static void declare_all(LadderGridView *view, char **declarations)
+{
+	for (int i = 0; declarations[i]; i++) {
+		char **part = g_strsplit(declarations[i], " : ", 2);
+
+		ladder_document_declare(view->document, view->pou, part[0], part[1], "",
+					NULL);
+		g_strfreev(part);
+	}
+}
+
+/* @rungs: taken over. */
+static void put_twice(LadderGridView *view, int at, struct rung **rungs, int count,
+		      char **new)
+{
+	char *told = g_strjoinv("; ", new);
+
+	ladder_document_begin(view->document, _(verb_row(VERB_rung_duplicate)->label), NULL);
+	if (sheet_splice(view, at, 0, rungs, count, NULL)) {
+		declare_all(view, new);
+		select_rungs(view, at, at + count - 1);
+		if (*told)
+			sheet_tell(view, told);
+	}
+	ladder_document_end(view->document);
+	g_free(told);
+}
+
+/* Two rungs with one timer would disturb each other: each has its own. */
+static void do_duplicate(LadderGridView *view)
+{
+	const struct entry_place place = {
+		.project = ladder_document_project(view->document), .pou = view->pou,
+	};
+	struct entry_instance *made;
+	struct rung **copies;
+	int first, last, count;
+	char **new;
+
+	cursor_rungs(view, &first, &last);
+	if (last >= sheet_rungs(view))
+		return;
+	copies = g_new(struct rung *, last - first + 1);
+	for (int i = first; i <= last; i++)
+		copies[i - first] = sheet_rung(view, i);
+	if (entry_duplicate(&place, copies, last - first + 1, &made, &count)) {
+		for (int i = 0; i <= last - first; i++)
+			copies[i]->label = 0; /* it could not stand twice */
+		new = declarations(place.project, made, count);
+		put_twice(view, last + 1, copies, last - first + 1, new);
+		g_strfreev(new);
+		free(made);
+	}
+	g_free(copies);
+}
+
+/* ---- elsewhere ---- */
+
+/* In the body of a chart rungs change places by becoming each other. */
+static bool move_in_body(LadderGridView *view, int from, int to)
+{
+	const int least = MIN(from, to), count = MAX(from, to) - least + 1;
+	struct rung **rungs = g_new(struct rung *, count);
+	bool good;
+
+	for (int i = 0, at = least; i < count; i++) {
+		if (least + i == to) {
+			rungs[i] = rung_copy(sheet_rung(view, from));
+			continue;
+		}
+		at += at == from;
+		rungs[i] = rung_copy(sheet_rung(view, at++));
+	}
+	ladder_document_begin(view->document, _("Move rung"), NULL);
+	good = sheet_splice(view, least, count, rungs, count, NULL);
+	ladder_document_end(view->document);
+	g_free(rungs);
+	return good;
+}
+
+/* The rung above or below them goes to their other side. */
+static void do_move(LadderGridView *view, int by)
+{
+	const struct grid_cursor cursor = view->cursor;
+	int first, last, from, to;
+	bool several, good;
+
+	several = cursor_rungs(view, &first, &last);
+	from = by < 0 ? first - 1 : last + 1;
+	to = by < 0 ? last : first;
+	if (from < 0 || from >= sheet_rungs(view))
+		return;
+	good = view->count >= 0 ? move_in_body(view, from, to) :
+	       ladder_document_move_rung(view->document, view->pou, from, to);
+	if (good && several)
+		select_rungs(view, first + by, last + by);
+	else if (good)
+		cursor_set(view, (struct grid_cursor){ cursor.rung + by, cursor.row,
+						       cursor.col }, false);
+}
+
+/* All of them, if the first one is not. */
+static void do_off(LadderGridView *view)
+{
+	const struct grid_cursor cursor = view->cursor, anchor = view->anchor;
+	struct rung **rungs;
+	int first, last;
+	bool several, off;
+
+	several = cursor_rungs(view, &first, &last);
+	if (last >= sheet_rungs(view))
+		return;
+	rungs = g_new(struct rung *, last - first + 1);
+	off = !sheet_rung(view, first)->off;
+	for (int i = first; i <= last; i++) {
+		rungs[i - first] = rung_copy(sheet_rung(view, i));
+		rungs[i - first]->off = off;
+	}
+	if (splice(view, first, last - first + 1, rungs, last - first + 1, VERB_rung_off)) {
+		if (several)
+			cursor_set(view, anchor, false);
+		cursor_set(view, cursor, several);
+	}
+	g_free(rungs);
+}
+
+/* ---- selecting ---- */
+
+static bool is_all(LadderGridView *view)
+{
+	struct grid_area area;
+	int first, last;
+
+	if (cursor_rungs(view, &first, &last))
+		return true;
+	return cursor_area(view, &area) && area.row == 0 && area.col == 0 &&
+	       area.last_row == sheet_rung(view, first)->rows - 1 &&
+	       area.last_col == view->columns - 1;
+}
+
+/* The whole rung; of one that is selected already, all there are. */
+static void do_select_all(LadderGridView *view)
+{
+	const bool all = sheet_rung(view, view->cursor.rung) && is_all(view);
+	const int first = all ? 0 : view->cursor.rung;
+	const int last = all ? sheet_rungs(view) - 1 : first;
+	const struct rung *rung = sheet_rung(view, last);
+
+	if (!rung)
+		return;
+	cursor_set(view, (struct grid_cursor){ first, 0, 0 }, false);
+	cursor_set(view, (struct grid_cursor){ last, rung->rows - 1, view->columns - 1 },
+		   true);
+}
+
+void rungs_do(LadderGridView *view, enum verb verb)
+{
+	switch ((int)verb) {
+	case VERB_rung_below:
+	case VERB_rung_above: do_new(view, verb); break;
+	case VERB_rung_delete: do_delete(view); break;
+	case VERB_rung_duplicate: do_duplicate(view); break;
+	case VERB_rung_up: do_move(view, -1); break;
+	case VERB_rung_down: do_move(view, 1); break;
+	case VERB_rung_off: do_off(view); break;
+	case VERB_select_all: do_select_all(view); break;
+	default: break;
+	}
+}

@@ -1,0 +1,107 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""several - more than one rung is selected: copied, moved, duplicated, switched off, deleted; by keys and by pointer."""
+import os
+import re
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, main, new_file, until  # noqa: E402
+
+PROJECT = '''RUNGBOARD 1
+
+PROGRAM Main LD
+VAR
+  D1 : TON;
+END_VAR
+RUNG "a"
+  | NO %IX0.0 | COIL %QX0.0 |
+RUNG "b"
+  | NO %IX0.1  | TON D1 PT:=T#1s | COIL %QX0.1 |
+  | NO %IX0.2 ^|
+RUNG "c"
+  | NO D1.Q | COIL %QX0.2 |
+RUNG "d"
+  | NO %IX0.3 | COIL %QX0.3 |
+END_PROGRAM
+'''
+
+
+def order(text):
+    return ''.join(re.findall(r'"(\w)"', text))
+
+
+def opened(screen):
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.element('Rung 4')
+    return path, editor
+
+
+def by_keys(screen):
+    """Shift+Down past the end of a rung selects whole rungs; what a verb does, it does to all of them"""
+    path, editor = opened(screen)
+    editor.keys('Down', 'shift+Down', 'shift+Down')
+    editor.says('Rungs 2 to 3 are selected')
+    editor.shot('several-keys')
+    editor.keys('alt+Down')
+    editor.says('Rungs 3 to 4 are selected')
+    assert order(editor.save(path)) == 'adbc'
+    editor.keys('alt+Up', 'alt+Up')
+    editor.says('Rungs 1 to 2 are selected')
+    assert order(editor.save(path)) == 'bcad'
+    editor.keys('alt+Up')  # there is nothing above
+    # Copied behind the last rung; the instance is named, so it stays.
+    editor.keys('ctrl+c', 'ctrl+End', 'ctrl+v')
+    editor.element('Rung 6')
+    assert order(editor.save(path)) == 'bcadbc'
+    editor.keys('ctrl+z')
+    # Once more, with a timer for both of them.
+    editor.keys('ctrl+Home', 'shift+Down', 'shift+Down', 'ctrl+d')
+    editor.says('D2 : TON')
+    text = editor.save(path)
+    assert order(text) == 'bcbcad' and text.count('TON D2 PT:=T#1s') == 1 and text.count('NO D2.Q') == 1, text
+    check(path)
+    editor.keys('Delete')
+    until(lambda: len([n for n in editor.cells() if 'Rung 5' in n]) == 0, 'four rungs')
+    assert order(editor.save(path)) == 'bcad'
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z', 'ctrl+z', 'ctrl+z')
+    assert editor.save(path) == PROJECT
+
+
+def by_pointer(screen):
+    """a click on a number selects that rung, one with Shift up to there; cut and paste"""
+    path, editor = opened(screen)
+    x, y = editor.grid(60, 0)
+    editor.click((x - 85, y))
+    editor.click((editor.place(editor.element('Rung 3', 'D1.Q'))[0] - 40, editor.middle(editor.element('Rung 3', 'D1.Q'))[1]),
+                 shift=True)
+    editor.says('Rungs 1 to 3 are selected')
+    editor.shot('several-pointer')
+    editor.keys('ctrl+x')
+    until(lambda: len(editor.elements()) == 2, 'one rung')
+    assert order(editor.save(path)) == 'd'
+    editor.keys('ctrl+v')
+    editor.element('Rung 4')
+    assert order(editor.save(path)) == 'dabc'
+    editor.keys('ctrl+z', 'ctrl+z')
+    assert editor.save(path) == PROJECT
+
+
+def all_of_them(screen):
+    """Ctrl+A selects the rung, again all rungs; Esc none; all can go"""
+    path, editor = opened(screen)
+    editor.keys('ctrl+a', 'ctrl+a')
+    editor.says('Rungs 1 to 4 are selected')
+    editor.keys('Escape')
+    until(lambda: not editor.all('are selected'), 'nothing selected')
+    editor.keys('ctrl+a', 'ctrl+a', 'ctrl+Delete')
+    until(lambda: not editor.elements(), 'an empty rung')
+    text = editor.save(path)
+    assert text.count('RUNG\n') == 1 and order(text) == '', text
+    editor.keys('ctrl+z')
+    assert editor.save(path) == PROJECT
+
+
+main([by_keys, by_pointer, all_of_them])
