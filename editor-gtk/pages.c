@@ -12,6 +12,7 @@
 
 #define TEXT_LINE 16     /* px of a line of IL or of a table                    */
 #define LEAST_SCALE 0.6f /* a rung taller than a page is made no smaller          */
+#define CHART_SCALE 0.6f /* a chart wider than a page is made no smaller: 5.4 pt    */
 #define AIR 14
 
 bool paper_find(const char *name, struct paper *out)
@@ -74,7 +75,8 @@ static struct picture *new_picture(struct pages *pages)
 static void put_piece(struct pages *pages, const struct picture *picture, float scale,
 		      float from, float to)
 {
-	struct piece piece = { picture, pages->y, scale, from, to };
+	struct piece piece = { picture, pages->y, scale, from, to, pages->left,
+			       pages->right };
 
 	g_array_append_val(page_now(pages)->piece, piece);
 	pages->y += (to - from) * scale;
@@ -233,25 +235,53 @@ static void put_list(struct pages *pages, const char *heading, char **lines)
 
 /* ---- charts ---- */
 
+/* Is there something to be read? */
+static bool is_blank(const struct pages *pages, const struct picture *picture, float from,
+		     float to)
+{
+	const float right = pages->right > 0 ? pages->right : INFINITY;
+
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *stroke = &picture->stroke[i];
+
+		if (stroke->kind == STROKE_TEXT && stroke->y > from && stroke->y < to &&
+		    stroke->x >= pages->left && stroke->x < right)
+			return false;
+	}
+	return true;
+}
+
+/* On a page of its own, unless it is the first; returns how much of the next one's room is
+ * used: none. Nothing is put where nothing is. */
+static float put_slice(struct pages *pages, const struct picture *picture, float scale,
+		       float from, float to, float room_used)
+{
+	if (is_blank(pages, picture, from, to))
+		return room_used;
+	if (pages->y > room_used)
+		next_page(pages);
+	put_span(pages, picture, scale, from, to);
+	return 0;
+}
+
 /* Rows of a chart, as many as fit on each page; it ends between boxes if it can. */
 static void put_chart_slices(struct pages *pages, const struct sfc_sheet *chart,
 			     const struct picture *picture, float scale)
 {
-	float from = 0, end = 0;
+	float from = 0, end = 0, room_used = pages->y;
 
 	for (int row = 0; row < chart->layout->rows; row++) {
 		float to = sfc_sheet_y(row) + SFC_ROW / 2.0f;
 
 		if (!sfc_sheet_can_part(chart, row))
 			continue;
-		if (end > from && (to - from) * scale > pages->room_height - pages->y) {
-			put_span(pages, picture, scale, from, end);
-			next_page(pages);
+		if (end > from && (to - from) * scale > pages->room_height - room_used) {
+			room_used = put_slice(pages, picture, scale, from, end, room_used);
 			from = end;
 		}
 		end = to;
 	}
-	put_span(pages, picture, scale, from, chart->height);
+	put_slice(pages, picture, scale, from, chart->height, room_used);
 }
 
 static void put_bodies(struct pages *pages, const struct pou *pou)
@@ -275,20 +305,127 @@ static void put_bodies(struct pages *pages, const struct pou *pou)
 	sheet_free(sheet);
 }
 
+/* May a page end at @x? Lines go on, what can be read does not. */
+static bool can_cut(const struct picture *picture, float x, float room)
+{
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *stroke = &picture->stroke[i];
+		const bool solid = stroke->kind == STROKE_TEXT ||
+			((stroke->kind == STROKE_FILL || stroke->kind == STROKE_FRAME) &&
+			 stroke->w < room / 2);
+
+		if (solid && stroke->x < x && stroke->x + stroke->w > x)
+			return false;
+	}
+	return true;
+}
+
+/* As much of a chart as fits beside each other, from @left on. */
+static float cut_at(const struct picture *picture, float left, float room, float width)
+{
+	float x = left + room;
+
+	if (x >= width)
+		return width;
+	while (x > left + room / 2 && !can_cut(picture, x, room))
+		x -= 4;
+	return x > left + room / 2 ? x : left + room;
+}
+
+static void put_columns(struct pages *pages, const struct sfc_sheet *chart,
+			const struct picture *picture, const char *heading, float scale)
+{
+	const float room = pages->room_width / scale;
+	int number = 0;
+
+	for (float left = 0, right; left < chart->width; left = right) {
+		char *text = left > 0 || chart->width > room ?
+			g_strdup_printf(_("%s, part %d"), heading, ++number) :
+			g_strdup(heading);
+
+		right = cut_at(picture, left, room, chart->width);
+		if (left > 0)
+			next_page(pages);
+		put_heading(pages, text, 5 * TEXT_LINE);
+		pages->left = left;
+		pages->right = right;
+		if (chart->height * scale <= pages->room_height - pages->y)
+			put_whole(pages, picture, chart->height, scale, 0);
+		else
+			put_chart_slices(pages, chart, picture, scale);
+		pages->left = pages->right = 0;
+		g_free(text);
+	}
+}
+
+/* A comment for which there was too little room at @x beside its box. */
+static void put_comment(struct pages *pages, const struct sfc_sheet *chart, int shape,
+			const char *comment, float x, bool *any)
+{
+	const float room = sfc_sheet_room(chart, chart->layout->shape[shape].lane, x);
+	char *line;
+
+	if (!*comment || lettering_fit(pages->lettering, LETTER_COMMENT, comment, -1,
+				       0).width <= room)
+		return;
+	if (!*any)
+		put_heading(pages, _("Comments"), 3 * TEXT_LINE);
+	*any = true;
+	line = g_strdup_printf("%s: %s", chart->name[shape], comment);
+	put_line(pages, line);
+	g_free(line);
+}
+
+static void put_comments(struct pages *pages, const struct sfc_sheet *chart)
+{
+	const struct sfc *sfc = chart->layout->sfc;
+	bool any = false;
+
+	for (int i = 0; i < chart->layout->shape_count; i++)
+		put_comment(pages, chart, i, chart->comment[i],
+			    sfc_sheet_comment(chart, i).x, &any);
+	for (int i = 0; i < sfc->use_count; i++) {
+		const graphene_rect_t use = sfc_sheet_use(chart, i);
+
+		put_comment(pages, chart, sfc->use[i].step, chart->use_comment[i],
+			    use.origin.x + use.size.width + SFC_APART, &any);
+	}
+	pages->y += any ? AIR : 0;
+}
+
+/* A page more is not begun for comments alone: they get what is left of the last one. */
+static void narrow(struct sfc_sheet *chart, const struct picture *picture, float room)
+{
+	float width = 0, left = 0;
+
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *stroke = &picture->stroke[i];
+
+		if (stroke->kind == STROKE_FRAME || (stroke->kind == STROKE_TEXT &&
+						     stroke->letter != LETTER_COMMENT))
+			width = fmaxf(width, stroke->x + stroke->w + SFC_EDGE);
+	}
+	while (cut_at(picture, left, room, width) < width)
+		left = cut_at(picture, left, room, width);
+	chart->width = fminf(chart->width, left + room);
+}
+
 static void put_chart(struct pages *pages, const char *heading)
 {
 	const struct pou *pou = &pages->project->pou[pages->pou];
 	struct sfc_sheet *chart = sfc_sheet_new(pages->project, pou, pages->lettering);
 	const struct sfc_scene scene = { .sheet = chart, .theme = pages->theme };
-	float scale = fminf(1, pages->room_width / chart->width);
+	const float scale = fmaxf(fminf(1, pages->room_width / chart->width), CHART_SCALE);
 	struct picture *picture = new_picture(pages);
 
 	sfc_draw(&scene, picture);
-	put_heading(pages, heading, 5 * TEXT_LINE);
-	if (chart->height * scale <= pages->room_height - pages->y)
-		put_whole(pages, picture, chart->height, scale, 0);
-	else
-		put_chart_slices(pages, chart, picture, scale);
+	if (chart->width * scale > pages->room_width) {
+		narrow(chart, picture, pages->room_width / scale);
+		picture = new_picture(pages);
+		sfc_draw(&scene, picture);
+	}
+	put_columns(pages, chart, picture, heading, scale);
+	put_comments(pages, chart);
 	sfc_sheet_free(chart);
 	put_bodies(pages, pou);
 }

@@ -18,6 +18,7 @@ struct piece {
 	float y;         /* below the upper margin                               */
 	float scale;
 	float from, to;  /* px of the picture: what of it is shown                */
+	float left, right; /* the same across; both 0: all of it                 */
 };
 struct page {
 	GArray *piece;
@@ -36,6 +37,7 @@ struct pages {
 	struct listing_reads *reads;
 	/* While they are made: */
 	float y;                       /* what is free on the last page begins here */
+	float left, right;             /* of what is put there: struct piece     */
 	const char *subject;
 	int pou;
 	const struct rung *rung;

@@ -10,10 +10,14 @@ static void paint_piece(const struct pages *pages, const struct piece *piece, ca
 	cairo_save(cr);
 	cairo_translate(cr, PAGE_MARGIN, (double)(PAGE_MARGIN + piece->y));
 	cairo_scale(cr, (double)piece->scale, (double)piece->scale);
-	cairo_rectangle(cr, -PAGE_MARGIN, 0, (double)(pages->width / piece->scale),
-			(double)(piece->to - piece->from));
+	if (piece->right > 0)
+		cairo_rectangle(cr, 0, 0, (double)(piece->right - piece->left),
+				(double)(piece->to - piece->from));
+	else
+		cairo_rectangle(cr, -PAGE_MARGIN, 0, (double)(pages->width / piece->scale),
+				(double)(piece->to - piece->from));
 	cairo_clip(cr);
-	cairo_translate(cr, 0, (double)-piece->from);
+	cairo_translate(cr, (double)-piece->left, (double)-piece->from);
 	picture_cairo(piece->picture, pages->theme, pages->lettering, cr);
 	cairo_restore(cr);
 }
@@ -22,16 +26,18 @@ static void paint_piece(const struct pages *pages, const struct piece *piece, ca
 static void field(const struct pages *pages, struct picture *picture, float x, float end,
 		  const char *what, const char *text)
 {
-	float room = end - x - 16;
+	const float room = end - x - 16;
+	const bool wide = lettering_fit(pages->lettering, LETTER_SYMBOL, text, -1, 0).width >
+			  room;
+	const enum letter letter = wide ? LETTER_BADGE : LETTER_SYMBOL;
 
 	if (end < pages->room_width)
 		picture_line(picture, TOKEN_INK, STROKE_SOLID, 0.75f, end, 0, end, 36);
 	picture_text(picture, TOKEN_COMMENT, LETTER_BADGE,
 		     lettering_fit(pages->lettering, LETTER_BADGE, what, -1, room), x + 8,
 		     12);
-	picture_text(picture, TOKEN_INK, LETTER_SYMBOL,
-		     lettering_fit(pages->lettering, LETTER_SYMBOL, text, -1, room), x + 8,
-		     29);
+	picture_text(picture, TOKEN_INK, letter,
+		     lettering_fit(pages->lettering, letter, text, -1, room), x + 8, 29);
 }
 
 static void title_block(const struct pages *pages, int page, struct picture *picture)

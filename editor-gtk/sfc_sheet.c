@@ -274,7 +274,7 @@ float sfc_sheet_room(const struct sfc_sheet *sheet, int lane, float x)
 {
 	const struct sfc_lane *next = &sheet->lane[lane + 1];
 
-	return lane == sheet->layout->lanes - 1 ? SFC_BOUND :
+	return lane == sheet->layout->lanes - 1 ? MAX(MIN(SFC_BOUND, sheet->width - x), 0) :
 	       MAX(next->x - MAX(next->half, SFC_BAR) - 10 - x, 0);
 }
 

@@ -130,6 +130,25 @@ static bool has_glyphs(const char *text)
 	return unknown == 0;
 }
 
+/* pt from the top to the bottom of the lowest line of type in a listing of boxes. */
+static double smallest_type(const char *name)
+{
+	char *path = in_folder(name), *text = NULL;
+	double smallest = 1000;
+
+	g_file_get_contents(path, &text, NULL, NULL);
+	for (char *at = text; at && (at = strstr(at, "yMin=\"")) != NULL; at++) {
+		const char *end = strstr(at, "yMax=\"");
+
+		if (end)
+			smallest = MIN(smallest, g_ascii_strtod(end + 6, NULL) -
+						 g_ascii_strtod(at + 6, NULL));
+	}
+	g_free(text);
+	g_free(path);
+	return smallest;
+}
+
 static void check_pdf(void)
 {
 	CHECK(render(SHAPES " -o OUT/a.pdf") == 0);
@@ -156,6 +175,28 @@ static void check_pdf(void)
 	CHECK(has("a.txt", "Global symbols") && has("a.txt", "Symbols of Main"));
 	CHECK(has("a.txt", "1 of ") && has("a.txt", "shapes.rung"));
 	CHECK(!has("a.txt", "Date") && has("c.txt", "2026-03-01"));
+}
+
+/* A chart that is wider than a page is not made smaller than can be read: it goes on, on
+ * pages beside each other, and what was cut off stands below. */
+static void check_wide_chart(void)
+{
+	char *tool = g_find_program_in_path("pdftotext"), *line;
+
+	CHECK(render("ladders/washing-machine.rung -o OUT/wide.pdf") == 0);
+	if (!tool)
+		return;
+	line = g_strdup_printf("pdftotext -layout %s/wide.pdf %s/wide.txt && pdftotext "
+			       "-bbox %s/wide.pdf %s/wide.html", folder, folder, folder,
+			       folder);
+	CHECK(system(line) == 0);
+	CHECK(has("wide.txt", "PROGRAM Washing, part 1") &&
+	      has("wide.txt", "PROGRAM Washing, part 2") && !has("wide.txt", "part 3"));
+	CHECK(has("wide.txt", "A bolt that does not go in: give up, and free the door."));
+	CHECK(has("wide.txt", "washing-machine.rung") && has("wide.txt", "5 of 5"));
+	CHECK_AS(smallest_type("wide.html") >= 5.0, "no type is smaller than 5 pt");
+	g_free(line);
+	g_free(tool);
 }
 
 static void check_diff(void)
@@ -413,6 +454,7 @@ int main(void)
 	check_svg();
 	check_png();
 	check_pdf();
+	check_wide_chart();
 	check_diff();
 	check_moved();
 	check_wrong();
