@@ -51,20 +51,30 @@ static enum relation relation_of(const struct step *step, int pou, int rung)
 	return edits ? STEP_EDIT : declares ? STEP_OTHER : STEP_ASIDE;
 }
 
+/* Steps since the rung was as it was at the place: then, or when it was given back last. */
+static int steps_since(LadderDocument *document, guint64 place)
+{
+	const int count = history_since(document->history, place);
+
+	for (int i = 0; i < count; i++) {
+		const struct step *step = history_done(document->history, i);
+
+		if (step->is_back && step->back_to == place)
+			return i;
+	}
+	return count;
+}
+
 /* What the last @count steps are: edits of the rung, and nothing that stands on them? */
-static enum back judge(LadderDocument *document, int pou, int rung, guint64 place,
-		       int count)
+static enum back judge(LadderDocument *document, int pou, int rung, int count)
 {
 	enum back back = BACK_NOTHING;
 	bool other = false;
 
 	for (int i = 0; i < count; i++) {
-		const struct step *step = history_done(document->history, i);
-		const enum relation relation = relation_of(step, pou, rung);
+		const enum relation relation = relation_of(history_done(document->history, i),
+							   pou, rung);
 
-		if (relation == STEP_EDIT && step->back_to == place && step->is_back &&
-		    back == BACK_NOTHING && !other)
-			return BACK_NOTHING;
 		if (relation == STEP_EDIT)
 			back = BACK_DONE;
 		other = other || relation == STEP_OTHER;
@@ -86,8 +96,8 @@ static void take_back(LadderDocument *document, const struct step *step)
 enum back ladder_document_give_back(LadderDocument *document, int pou, int rung,
 				    guint64 place, const char *name)
 {
-	const int count = history_since(document->history, place);
-	const enum back back = judge(document, pou, rung, place, count);
+	const int count = steps_since(document, place);
+	const enum back back = judge(document, pou, rung, count);
 
 	if (back != BACK_DONE)
 		return back;

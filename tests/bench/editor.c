@@ -197,10 +197,12 @@ static GtkWidget *line_of(LadderGridView *sheet)
 	return find(GTK_WIDGET(sheet), GTK_TYPE_ENTRY);
 }
 
+/* Without a line that is open; on the sheet itself Esc would give the rung back. */
 static void free_cell(LadderGridView *sheet, int round)
 {
 	(void)round;
-	ladder_grid_view_do(sheet, VERB_cancel);
+	if (line_of(sheet) && gtk_widget_get_mapped(line_of(sheet)))
+		ladder_grid_view_do(sheet, VERB_cancel);
 	ladder_grid_view_go(sheet, 2500, 0, 0);
 }
 
