@@ -14,7 +14,21 @@
 
 #include <string.h>
 
+static LadderBoardView *board_view(LadderWindow *window)
+{
+	return LADDER_BOARD_VIEW(below_panel(window, "board"));
+}
+
 /* ---- a new map ---- */
+
+/* It may have been made here, or come otherwise; whoever closed the banner knows. */
+void window_board_look(LadderWindow *window)
+{
+	if (window->banner_do == window_new_iomap &&
+	    gtk_revealer_get_reveal_child(window->banner) &&
+	    ladder_board_view_map(board_view(window)))
+		window_banner_close(window);
+}
 
 static void make_map(LadderWindow *window, const char *path)
 {
@@ -24,6 +38,7 @@ static void make_map(LadderWindow *window, const char *path)
 	if (disk_save(path, text, strlen(text), &error)) {
 		ladder_project_tree_look(window->tree);
 		tabs_show_file(window, path);
+		window_board_look(window);
 	} else {
 		ladder_window_warn(window, error->message);
 	}
@@ -40,11 +55,6 @@ void window_new_iomap(LadderWindow *window)
 /* ---- running ---- */
 
 #define MAP_MOST (4 << 20) /* bytes of a map, as ladderd has it                */
-
-static LadderBoardView *board_view(LadderWindow *window)
-{
-	return LADDER_BOARD_VIEW(below_panel(window, "board"));
-}
 
 const char *window_board_pill(LadderWindow *window, const char **class)
 {

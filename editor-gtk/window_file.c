@@ -403,6 +403,7 @@ static gboolean look(gpointer data)
 	const enum disk_state state = ladder_document_disk(window->document);
 
 	tabs_each_file(window, ladder_file_view_look);
+	window_board_look(window);
 	if (state == window->disk_told || (state != DISK_AS_READ &&
 	    gtk_revealer_get_reveal_child(window->banner) && window->disk_told == DISK_AS_READ))
 		return G_SOURCE_CONTINUE;

@@ -269,6 +269,8 @@ GtkWidget *window_board_new(LadderWindow *window);
  * driven or files are written. */
 void window_run_board(LadderWindow *window);
 void window_stop_board(LadderWindow *window);
+/** window_board_look - a banner that no map lies beside the program goes when one does. */
+void window_board_look(LadderWindow *window);
 /** window_board_may_close - false: something runs; the person is asked, and the window
  * closes itself when outputs are safe. */
 bool window_board_may_close(LadderWindow *window);

@@ -294,6 +294,37 @@ def not_its_own(screen):
     until(lambda: 'Started with garage-door.io' in editor.find('What ladderd says', 'text').text(), 'that it runs with it')
 
 
+def no_longer(screen):
+    """the bar that no map lies beside the program goes when one is made, here or elsewhere"""
+    path, io = garage(screen)
+    os.unlink(io)
+    editor = Editor(screen, path)
+    for make in lambda: command(editor, 'New I/O map'), None:
+        editor.to_sheet()
+        command(editor, 'Run on this machine')
+        editor.says('There is no I/O map beside the program')
+        if make:
+            before = editor.windows()
+            make()
+            until(lambda: [window for window in editor.windows() if window not in before and
+                           'New I/O map' in sh('xdotool', 'getwindowname', window)], 'the dialog')
+            editor.keys('Return')
+            cell(editor, '%IX0.0, Driver')
+        else:
+            with open(io, 'w') as file:
+                file.write(SIM)
+        until(lambda: not editor.all('There is no I/O map beside the program', 'label'), 'the bar to be gone')
+        if make:
+            editor.keys('ctrl+shift+w')
+            until(lambda: not editor.all('%IX0.0, Driver'), 'the page to be gone')
+            os.unlink(io)
+            editor.click(editor.find('Door', 'label'), count=2)
+    editor.to_sheet()
+    command(editor, 'Run on this machine')
+    editor.says('RUN')
+    assert not editor.all('There is no I/O map beside the program', 'label')
+
+
 def close_board(screen):
     """closing the window asks, stops it first; a map that is wrong is refused with the reason"""
     editor, io = running(screen, SIM + '%QX0.9  sim\n')
@@ -307,6 +338,7 @@ def close_board(screen):
         file.write(SIM)
     editor.click(editor.find('Run…', 'push button'))
     until(lambda: editor.all('RUN', 'label'), 'that it runs')
+    until(lambda: not editor.all('It was not run'), 'the bar to be gone')
     pid = child(editor)
     editor.keys('ctrl+w')
     editor.find('Stop what runs on this machine?')
@@ -406,4 +438,4 @@ def in_chinese(screen):
 
 
 in_chinese.size = '1024x700x24'
-main([table, undone, choices, as_text, new_map, run_board, not_its_own, close_board, lost, killed, lines_here, in_chinese])
+main([table, undone, choices, as_text, new_map, run_board, not_its_own, no_longer, close_board, lost, killed, lines_here, in_chinese])
