@@ -126,23 +126,13 @@ static void count_pins(const char *map, int *inputs, int *outputs)
 static bool save_all(LadderWindow *window)
 {
 	GPtrArray *files = tabs_unsaved(window);
-	GError *error = NULL;
 	bool good = true;
 
 	for (guint i = 0; good && i < files->len; i++)
 		good = window_save_file(window, files->pdata[i]);
 	g_ptr_array_unref(files);
-	if (!good || ladder_document_is_saved(window->document))
-		return good;
-	if (ladder_document_disk(window->document) == DISK_OTHER) {
-		window_save(window); /* it asks */
-		return false;
-	}
-	good = ladder_document_save(window->document, NULL, &error);
-	if (!good)
-		ladder_window_warn(window, error->message);
-	g_clear_error(&error);
-	return good;
+	return good && (ladder_document_is_saved(window->document) ||
+			window_save_here(window));
 }
 
 static void run_answered(AdwMessageDialog *dialog, const char *answer, LadderWindow *window)

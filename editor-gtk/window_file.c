@@ -10,6 +10,7 @@
 #include "editor-gtk/app.h"
 #include "editor-gtk/chooser.h"
 #include "editor-gtk/classic_save.h"
+#include "editor-gtk/disk.h"
 #include "editor-gtk/draft.h"
 #include "editor-gtk/recent.h"
 
@@ -96,6 +97,7 @@ static bool save_to(LadderWindow *window, const char *path)
 	GError *error = NULL;
 
 	if (ladder_document_save(window->document, path, &error)) {
+		window->over_locked = window->over_locked && !path;
 		draft_remove(window->document);
 		recent_add(ladder_document_path(window->document));
 		ladder_window_tell(window, _("Saved"));
@@ -109,9 +111,33 @@ static bool save_to(LadderWindow *window, const char *path)
 	return false;
 }
 
+/* The file is read-only, and nobody said yet that it is written over all the same. */
+static bool is_locked(LadderWindow *window)
+{
+	const char *path = ladder_document_path(window->document);
+
+	return path && !window->over_locked && disk_is_locked(path);
+}
+
+static void save_locked(LadderWindow *window)
+{
+	window->over_locked = true;
+	save_to(window, NULL);
+}
+
+static void ask_locked(LadderWindow *window)
+{
+	window_banner(window, _("The file is read-only. Saving would write over it; saved as "
+				"another file it stays as it is."), _("Save all the same"),
+		      save_locked);
+}
+
 static void save_over(LadderWindow *window)
 {
-	save_to(window, NULL);
+	if (is_locked(window))
+		ask_locked(window);
+	else
+		save_to(window, NULL);
 }
 
 /* For ClassicLadder it is written and not saved: the window stays. */
@@ -180,27 +206,30 @@ static void tell_bytes(LadderWindow *window, const char *button, void (*act)(Lad
 	g_free(text);
 }
 
-void ladder_window_tell_bytes(LadderWindow *window)
+void ladder_window_tell_file(LadderWindow *window)
 {
+	window->over_locked = false;
 	if (ladder_document_repaired(window->document) > 0)
 		tell_bytes(window, _("Save as…"), window_save_as);
+	else if (is_locked(window))
+		window_banner(window, _("The file is read-only: saving asks before it writes "
+					"over it."), _("Save as…"), window_save_as);
 }
 
-/* Where it lies already; not over what somebody else wrote there meanwhile, nor over what
- * cannot be shown. */
-static bool save_here(LadderWindow *window)
+/* Not over what somebody else wrote there meanwhile, nor over what cannot be shown or is
+ * locked. */
+bool window_save_here(LadderWindow *window)
 {
-	const bool other = ladder_document_disk(window->document) == DISK_OTHER;
-
-	if (!other && ladder_document_repaired(window->document) == 0)
-		return save_to(window, NULL);
-	if (!other) {
+	if (ladder_document_disk(window->document) == DISK_OTHER)
+		window_banner(window, _("Somebody else changed the file since it was opened. "
+					"Saving would write over that."),
+			      _("Save all the same"), save_over);
+	else if (ladder_document_repaired(window->document) > 0)
 		tell_bytes(window, _("Save all the same"), save_over);
-		return false;
-	}
-	window_banner(window, _("Somebody else changed the file since it was opened. "
-				"Saving would write over that."), _("Save all the same"),
-		      save_over);
+	else if (is_locked(window))
+		ask_locked(window);
+	else
+		return save_to(window, NULL);
 	return false;
 }
 
@@ -212,7 +241,7 @@ void window_save(LadderWindow *window)
 	else if (!ladder_document_path(window->document))
 		window_save_as(window);
 	else
-		save_here(window);
+		window_save_here(window);
 }
 
 /* ---- closing ---- */
@@ -288,7 +317,7 @@ static void save_and_close(LadderWindow *window)
 		close_now(window);
 	else if (!ladder_document_path(window->document))
 		window_save_as(window);
-	else if (save_here(window))
+	else if (window_save_here(window))
 		close_now(window);
 	else
 		window->closing = false;
@@ -374,7 +403,7 @@ static void reload(LadderWindow *window)
 
 	if (ladder_document_open(window->document, path, &error)) {
 		window->disk_told = DISK_AS_READ;
-		ladder_window_tell_bytes(window);
+		ladder_window_tell_file(window);
 	} else {
 		window_banner(window, error->message, NULL, NULL);
 	}

@@ -34,6 +34,7 @@ struct _LadderWindow {
 	bool closing;             /* the person has been asked                 */
 	guint disk_timer;         /* until the file is looked at again         */
 	enum disk_state disk_told; /* what was told of it                      */
+	bool over_locked;         /* its file is read-only, and written over all the same */
 	guint when_timer;         /* until the title tells the simulated time  */
 	void (*banner_do)(LadderWindow *window);
 	/* Template widgets */
@@ -189,6 +190,9 @@ char *window_chosen_path(GtkNativeDialog *dialog);
 void window_open(LadderWindow *window);
 void window_save(LadderWindow *window);
 void window_save_as(LadderWindow *window);
+/** window_save_here - where its file lies; false: it is asked first, or cannot be, which is
+ * told. */
+bool window_save_here(LadderWindow *window);
 /** window_ask_save - shall @name be saved? The answer is the response "save", "discard" or
  * "cancel" of the dialog that it returns; borrowed. */
 GtkWidget *window_ask_save(LadderWindow *window, const char *name);
