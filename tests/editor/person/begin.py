@@ -94,6 +94,28 @@ def lately(screen):
     until(newest, 'it to be the newest')
 
 
+def only_projects(screen):
+    """tables, maps and pages that were chosen in a dialog push no project out of those used lately"""
+    path = new_file(screen, PROGRAM)
+    tables = [new_file(screen, 'Scope,Name,Type,Address\n', 'names_%d.csv' % number) for number in range(3)]
+    kept = os.path.join(screen.home, '.local', 'share', 'recently-used.xbel')
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    for table in tables:
+        before = editor.windows()
+        editor.give_path(table, editor.find('Import', 'push button').press)
+        until(lambda: len(editor.windows()) > len(before), 'what the table would do')
+        editor.keys('Escape')
+        until(lambda: len(editor.windows()) == len(before), 'the end of the plan')
+    editor.give_path(os.path.join(screen.home, 'out.csv'), editor.find('Export', 'push button').press)
+    until(lambda: 'names_2.csv' in read(kept), 'the tables to be kept by the toolkit')
+    editor.finish()
+    editor = Editor(screen)
+    until(lambda: listed(editor), 'the files of before')
+    editor.shot('begin-only-projects')
+    assert listed(editor) == [os.path.basename(path)], listed(editor)
+
+
 def empty(screen):
     """New project leads from the welcome page to a sheet that says what to do; a name is a contact"""
     editor = Editor(screen)
@@ -204,4 +226,4 @@ def tables(screen):
     assert editor.save(path) == PROGRAM
 
 
-main([sample, lately, empty, searched, folded, tables])
+main([sample, lately, only_projects, empty, searched, folded, tables])
