@@ -94,6 +94,7 @@ void window_open(LadderWindow *window)
 
 static bool save_to(LadderWindow *window, const char *path)
 {
+	const char *sample = window_sample(window);
 	GError *error = NULL;
 
 	if (ladder_document_save(window->document, path, &error)) {
@@ -104,6 +105,8 @@ static bool save_to(LadderWindow *window, const char *path)
 		window_banner_close(window);
 		window->disk_told = DISK_AS_READ;
 		window_classic_saved(window);
+		if (sample)
+			window_sample_saved(window, sample);
 		return true;
 	}
 	window_banner(window, error->message, _("Save as…"), window_save_as);
@@ -173,7 +176,8 @@ void window_save_as(LadderWindow *window)
 	GtkFileChooserNative *chooser = window_chooser(window, _("Save as"),
 		GTK_FILE_CHOOSER_ACTION_SAVE, _("Save"));
 	const char *path = ladder_document_path(window->document);
-	char *name = path ? g_path_get_basename(path) : window->classic ?
+	char *name = path ? g_path_get_basename(path) :
+		window->classic || window_sample(window) ?
 		window_name_with(window, ".rung") : g_strdup(_("program.rung"));
 
 	window_classic_filter(GTK_FILE_CHOOSER(chooser), false);

@@ -289,6 +289,16 @@ bool window_plant_ready(LadderWindow *window, GError **error);
 void window_plant_choose(LadderWindow *window);
 void window_plant_none(LadderWindow *window);
 
+/** window_plant_of - "tank.plant.rung" of "tank.rung", if it is there. Caller frees. */
+char *window_plant_of(const char *path);
+
+/* ---- window_sample.c ---- */
+/** window_sample - the file that an unsaved project is a copy of; NULL: it is none. Borrowed. */
+const char *window_sample(LadderWindow *window);
+/** window_sample_saved - the copy of @sample has a file now: what belongs to that comes to
+ * stand beside it, where nothing stands there. That is told. */
+void window_sample_saved(LadderWindow *window, const char *sample);
+
 /* ---- window_why.c ---- */
 void window_why_init(LadderWindow *window);
 void window_why_free(LadderWindow *window);
