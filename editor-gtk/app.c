@@ -69,7 +69,7 @@ static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
 	else
 		ladder_window_opened(window);
 	recent_add(path);
-	ladder_window_tell_bytes(window);
+	ladder_window_tell_file(window);
 	g_object_unref(document);
 	return window;
 }

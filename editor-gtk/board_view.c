@@ -24,7 +24,8 @@ struct _LadderBoardView {
 	GtkWidget *run_button, *reset_button, *stop_button, *state, *about, *grid, *log;
 	GtkWidget *value[ROWS];
 	GPtrArray *paths;   /* of the maps in the list                         */
-	char *map;          /* the one that is chosen; NULL: none              */
+	char *map;          /* the one that is used; NULL: none                */
+	bool chosen;        /* by a person: it stays, whatever comes beside it */
 	guint64 version;    /* of the document when it was started             */
 	bool busy;          /* the list is being filled                        */
 };
@@ -187,9 +188,12 @@ static void fill(LadderBoardView *view)
 	g_ptr_array_unref(names);
 }
 
+/* Unless a person chose, one of the program's own takes the place of another's as soon as it
+ * is there. */
 static void select_map(LadderBoardView *view)
 {
-	const guint at = index_of(view->paths, view->map);
+	const guint at = view->chosen ? index_of(view->paths, view->map) :
+		GTK_INVALID_LIST_POSITION;
 	const guint first = at == GTK_INVALID_LIST_POSITION ? 0 : at;
 	const char *path = view->paths->len ? view->paths->pdata[first] : NULL;
 
@@ -217,6 +221,7 @@ static void map_selected(GtkDropDown *maps, GParamSpec *spec, LadderBoardView *v
 		return;
 	g_free(view->map);
 	view->map = g_strdup(view->paths->pdata[at]);
+	view->chosen = true;
 }
 
 const char *ladder_board_view_map(LadderBoardView *view)
@@ -229,6 +234,7 @@ void ladder_board_view_set_map(LadderBoardView *view, const char *path)
 {
 	g_free(view->map);
 	view->map = g_strdup(path);
+	view->chosen = true;
 	look(view);
 }
 

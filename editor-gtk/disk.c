@@ -13,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 char *disk_told_size(const char *path, const struct diag *diag, gsize limit)
 {
@@ -69,6 +70,15 @@ bool disk_save(const char *path, const char *bytes, gsize len, GError **error)
 	if (!good)
 		tell(error, path, &diags, len);
 	return good;
+}
+
+/* Whom the system lets write anywhere is asked by the mode all the same. */
+bool disk_is_locked(const char *path)
+{
+	struct stat about;
+
+	return stat(path, &about) == 0 &&
+	       (!(about.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) || access(path, W_OK) != 0);
 }
 
 bool disk_same(const char *a, const char *b)

@@ -22,6 +22,9 @@ char *disk_told_size(const char *path, const struct diag *diag, gsize limit);
 /** disk_save - in the place of what was there. Fails: false, and @error says why; the old
  * file is as it was. */
 bool disk_save(const char *path, const char *bytes, gsize len, GError **error);
+/** disk_is_locked - is it there, and nobody, or not this user, may write it? A save, which
+ * puts another file in its place, would not know. */
+bool disk_is_locked(const char *path);
 /** disk_same - do both paths lead to one file, through links too? */
 bool disk_same(const char *a, const char *b);
 

@@ -26,6 +26,7 @@ struct _LadderFileView {
 	struct file_marks *marks;
 	GtkWidget *map;     /* the table of an I/O map; NULL: it is none       */
 	bool gone;          /* the file was, when it was looked for            */
+	bool told_locked;   /* it is read-only: saved again, it is written over */
 	struct file_history *history;
 };
 
@@ -99,6 +100,18 @@ static bool is_as_read(LadderFileView *view, GError **error)
 	return false;
 }
 
+/* So is what is read-only. */
+static bool is_free(LadderFileView *view, GError **error)
+{
+	if (view->told_locked || !disk_is_locked(view->path))
+		return true;
+	view->told_locked = true;
+	g_set_error(error, G_FILE_ERROR, G_FILE_ERROR_ACCES,
+		    _("%s: the file is read-only; saved again, it is written over"),
+		    view->path);
+	return false;
+}
+
 bool ladder_file_view_save(LadderFileView *view, GError **error)
 {
 	char *text;
@@ -107,7 +120,7 @@ bool ladder_file_view_save(LadderFileView *view, GError **error)
 	if (ladder_file_view_is_saved(view))
 		return true;
 	text = ladder_file_view_text(view);
-	good = is_as_read(view, error) &&
+	good = is_as_read(view, error) && is_free(view, error) &&
 	       disk_save(view->path, text, strlen(text), error);
 	if (good) {
 		view->gone = false;

@@ -30,8 +30,8 @@ char *ladder_file_view_sum(LadderFileView *view);
 GtkTextBuffer *ladder_file_view_buffer(LadderFileView *view);
 /** ladder_file_view_path - Borrowed. */
 const char *ladder_file_view_path(LadderFileView *view);
-/** ladder_file_view_save - false: it cannot be written, or somebody else changed it, and
- * @error says so; the text stays. Saved again, it is written over the other's. */
+/** ladder_file_view_save - false: it cannot be written, somebody else changed it, or it is
+ * read-only, and @error says so; the text stays. Saved again, it is written over that. */
 bool ladder_file_view_save(LadderFileView *view, GError **error);
 /** ladder_file_view_commit - what a person is typing in a cell counts now. @file: a
  * LadderFileView */

@@ -28,6 +28,15 @@ char *iomap_beside(const char *path)
 	return best;
 }
 
+bool iomap_is_own(const char *path, const char *map)
+{
+	GPtrArray *files = files_beside(path, ".io", true);
+	const bool own = g_ptr_array_find_with_equal_func(files, map, g_str_equal, NULL);
+
+	g_ptr_array_unref(files);
+	return own;
+}
+
 static guint8 *safe_of(const struct iomap *map, const struct areas *areas)
 {
 	guint8 *safe = NULL;

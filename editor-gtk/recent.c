@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/recent.h"
 
+#include "editor-gtk/classic_open.h"
 #include "editor-gtk/i18n.h"
 
 #include <stdbool.h>
@@ -47,13 +48,20 @@ static int newer_first(gconstpointer a, gconstpointer b)
 	return g_date_time_compare(had_at((GtkRecentInfo *)b), had_at((GtkRecentInfo *)a));
 }
 
+/* The dialogs of the toolkit put there, in this editor's name, whatever file was chosen in
+ * them: tables, maps, pages. */
+static bool is_project(const char *path)
+{
+	return g_file_test(path, G_FILE_TEST_EXISTS) &&
+	       (g_str_has_suffix(path, ".rung") || classic_is_project(path));
+}
+
 /* NULL: it is not to be listed. Actions take no name that is no text. */
 static char *path_of(GtkRecentInfo *info)
 {
 	char *path = g_filename_from_uri(gtk_recent_info_get_uri(info), NULL, NULL);
 
-	if (path && g_utf8_validate(path, -1, NULL) &&
-	    g_file_test(path, G_FILE_TEST_EXISTS))
+	if (path && g_utf8_validate(path, -1, NULL) && is_project(path))
 		return path;
 	g_free(path);
 	return NULL;

@@ -136,11 +136,10 @@ static void stop(LadderScenarioView *view)
 	g_clear_object(&view->running);
 }
 
-void ladder_scenario_view_run(LadderScenarioView *view,
+void ladder_scenario_view_run(LadderScenarioView *view, const char *path,
 			      char *(*text_of)(gpointer data, const char *path),
 			      gpointer data)
 {
-	const char *path = ladder_document_path(view->document);
 	GPtrArray *files = scenario_files(path);
 	GPtrArray *texts = g_ptr_array_new_with_free_func(g_free);
 	gsize len;

@@ -19,9 +19,10 @@ G_DECLARE_FINAL_TYPE(LadderScenarioView, ladder_scenario_view, LADDER, SCENARIO_
 /** ladder_scenario_view_new - @recorder: whose state its buttons show. */
 GtkWidget *ladder_scenario_view_new(LadderDocument *document, LadderRecorder *recorder);
 /** ladder_scenario_view_run - all of them; what runs already ends first.
+ * @path: of the project whose they are; NULL: it has no file, and none
  * @text_of: what somebody types in a file and has not saved; NULL: as on the disk; the
  * caller of it frees. */
-void ladder_scenario_view_run(LadderScenarioView *view,
+void ladder_scenario_view_run(LadderScenarioView *view, const char *path,
 			      char *(*text_of)(gpointer data, const char *path),
 			      gpointer data);
 /** ladder_scenario_view_results - of struct scenario_result *; NULL: none yet, or they run

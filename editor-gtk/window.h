@@ -45,9 +45,9 @@ void ladder_window_show_file(LadderWindow *window, const char *path);
 /** ladder_window_set_origin - the file that an unsaved project is a copy of: a plant may
  * stand beside it. */
 void ladder_window_set_origin(LadderWindow *window, const char *path);
-/** ladder_window_tell_bytes - a banner, if its file holds what is no text: saving would write
- * over that, and asks once more. */
-void ladder_window_tell_bytes(LadderWindow *window);
+/** ladder_window_tell_file - a banner, if its file holds what is no text, or is read-only:
+ * saving would write over that, and asks once more. */
+void ladder_window_tell_file(LadderWindow *window);
 /** ladder_window_opened - its untouched document became a file: the sheets of that open. */
 void ladder_window_opened(LadderWindow *window);
 /** ladder_window_set_classic - what its document was taken from; that is told. */

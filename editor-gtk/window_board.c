@@ -6,6 +6,7 @@
 
 #include "editor-gtk/board_view.h"
 #include "editor-gtk/disk.h"
+#include "editor-gtk/iomap_beside.h"
 #include "editor-gtk/iomap_check.h"
 #include "editor-gtk/iomap_rows.h"
 #include "editor-gtk/panels.h"
@@ -13,7 +14,21 @@
 
 #include <string.h>
 
+static LadderBoardView *board_view(LadderWindow *window)
+{
+	return LADDER_BOARD_VIEW(below_panel(window, "board"));
+}
+
 /* ---- a new map ---- */
+
+/* It may have been made here, or come otherwise; whoever closed the banner knows. */
+void window_board_look(LadderWindow *window)
+{
+	if (window->banner_do == window_new_iomap &&
+	    gtk_revealer_get_reveal_child(window->banner) &&
+	    ladder_board_view_map(board_view(window)))
+		window_banner_close(window);
+}
 
 static void make_map(LadderWindow *window, const char *path)
 {
@@ -23,6 +38,7 @@ static void make_map(LadderWindow *window, const char *path)
 	if (disk_save(path, text, strlen(text), &error)) {
 		ladder_project_tree_look(window->tree);
 		tabs_show_file(window, path);
+		window_board_look(window);
 	} else {
 		ladder_window_warn(window, error->message);
 	}
@@ -39,11 +55,6 @@ void window_new_iomap(LadderWindow *window)
 /* ---- running ---- */
 
 #define MAP_MOST (4 << 20) /* bytes of a map, as ladderd has it                */
-
-static LadderBoardView *board_view(LadderWindow *window)
-{
-	return LADDER_BOARD_VIEW(below_panel(window, "board"));
-}
 
 const char *window_board_pill(LadderWindow *window, const char **class)
 {
@@ -115,29 +126,21 @@ static void count_pins(const char *map, int *inputs, int *outputs)
 static bool save_all(LadderWindow *window)
 {
 	GPtrArray *files = tabs_unsaved(window);
-	GError *error = NULL;
 	bool good = true;
 
 	for (guint i = 0; good && i < files->len; i++)
 		good = window_save_file(window, files->pdata[i]);
 	g_ptr_array_unref(files);
-	if (!good || ladder_document_is_saved(window->document))
-		return good;
-	if (ladder_document_disk(window->document) == DISK_OTHER) {
-		window_save(window); /* it asks */
-		return false;
-	}
-	good = ladder_document_save(window->document, NULL, &error);
-	if (!good)
-		ladder_window_warn(window, error->message);
-	g_clear_error(&error);
-	return good;
+	return good && (ladder_document_is_saved(window->document) ||
+			window_save_here(window));
 }
 
 static void run_answered(AdwMessageDialog *dialog, const char *answer, LadderWindow *window)
 {
 	(void)dialog;
-	if (strcmp(answer, "run") == 0 && save_all(window))
+	if (strcmp(answer, "map") == 0)
+		window_new_iomap(window);
+	else if (strcmp(answer, "run") == 0 && save_all(window))
 		start(window);
 }
 
@@ -150,34 +153,90 @@ static bool is_all_saved(LadderWindow *window)
 	return saved;
 }
 
-/* Pins are driven, or files written, only if the person says so. */
-static void ask(LadderWindow *window, const char *map, int inputs, int outputs)
+/* What is asked before a run. */
+struct question {
+	const char *map;
+	char *usual;         /* the project's own map; NULL: it has none       */
+	bool own;            /* the map is one of its own, by its name         */
+	bool saved;
+	int inputs, outputs; /* pins of the map                                */
+};
+
+static char *pins(int count)
 {
-	const bool saved = is_all_saved(window);
+	return g_strdup_printf(ngettext("%d pin", "%d pins", (gulong)count), count);
+}
+
+static void add_pins(GString *body, const struct question *question)
+{
+	char *reads = pins(question->inputs), *drives = pins(question->outputs);
+
+	if (question->inputs + question->outputs)
+		g_string_append_printf(body, _(" It reads %s and drives %s."), reads, drives);
+	g_free(reads);
+	g_free(drives);
+}
+
+/* Caller: g_free. */
+static char *question_text(LadderWindow *window, const struct question *question)
+{
 	char *name = ladder_document_name(window->document);
-	char *board = g_path_get_basename(map);
+	char *board = g_path_get_basename(question->map);
+	char *usual = question->usual ? g_path_get_basename(question->usual) :
+		window_name_with(window, ".io");
 	GString *body = g_string_new(NULL);
-	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(window),
-						   _("Run on this machine?"), NULL);
-	AdwMessageDialog *message = ADW_MESSAGE_DIALOG(dialog);
 
 	g_string_append_printf(body, _("“%s” with %s."), name, board);
-	if (inputs + outputs)
-		g_string_append_printf(body, _(" It reads %d pins and drives %d."), inputs,
-				       outputs);
-	if (!saved)
+	if (!question->own)
+		g_string_append_printf(body, _(" %s is not this project's own I/O map, "
+			"which has the name %s: its pins may be wired to something else."),
+			board, usual);
+	add_pins(body, question);
+	if (!question->saved)
 		g_string_append(body, _(" What is not saved is saved first."));
-	adw_message_dialog_set_body(message, body->str);
-	adw_message_dialog_add_responses(message, "cancel", _("Cancel"), "run",
-					 saved ? _("Run") : _("Save and run"), NULL);
-	adw_message_dialog_set_response_appearance(message, "run", ADW_RESPONSE_SUGGESTED);
-	adw_message_dialog_set_default_response(message, "run");
+	g_free(usual);
+	g_free(board);
+	g_free(name);
+	return g_string_free(body, FALSE);
+}
+
+/* Pins are driven, or files written, only if the person says so: plainly, if the map is
+ * another's. */
+static void ask(LadderWindow *window, const struct question *question)
+{
+	char *body = question_text(window, question);
+	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(window),
+						   _("Run on this machine?"), body);
+	AdwMessageDialog *message = ADW_MESSAGE_DIALOG(dialog);
+
+	adw_message_dialog_add_response(message, "cancel", _("Cancel"));
+	if (!question->usual)
+		adw_message_dialog_add_response(message, "map", _("New I/O map…"));
+	adw_message_dialog_add_response(message, "run", question->saved ? _("Run") :
+					_("Save and run"));
+	adw_message_dialog_set_response_appearance(message, "run", question->own ?
+		ADW_RESPONSE_SUGGESTED : ADW_RESPONSE_DESTRUCTIVE);
+	adw_message_dialog_set_default_response(message, question->own ? "run" : "cancel");
 	adw_message_dialog_set_close_response(message, "cancel");
 	g_signal_connect_object(dialog, "response", G_CALLBACK(run_answered), window, 0);
 	gtk_window_present(GTK_WINDOW(dialog));
-	g_string_free(body, TRUE);
-	g_free(board);
-	g_free(name);
+	g_free(body);
+}
+
+static void run_with(LadderWindow *window, const char *map)
+{
+	const char *path = ladder_document_path(window->document);
+	struct question question = {
+		.map = map, .usual = iomap_beside(path), .own = iomap_is_own(path, map),
+		.saved = is_all_saved(window),
+	};
+
+	count_pins(map, &question.inputs, &question.outputs);
+	if (question.inputs + question.outputs || !question.saved || !question.own)
+		ask(window, &question);
+	else
+		start(window);
+	g_free(question.usual);
 }
 
 /* The problems come to the front if there are errors. */
@@ -196,7 +255,6 @@ void window_run_board(LadderWindow *window)
 {
 	LadderFileView *file = tabs_file(window);
 	const char *map;
-	int inputs, outputs;
 
 	if (ladder_board_run_state(window->board) != BOARD_OFF) {
 		below_show(window, "board");
@@ -218,11 +276,7 @@ void window_run_board(LadderWindow *window)
 			"each input and output is."), _("New I/O map…"), window_new_iomap);
 		return;
 	}
-	count_pins(map, &inputs, &outputs);
-	if (inputs + outputs || !is_all_saved(window))
-		ask(window, map, inputs, outputs);
-	else
-		start(window);
+	run_with(window, map);
 }
 
 void window_stop_board(LadderWindow *window)

@@ -10,6 +10,7 @@
 #include "editor-gtk/app.h"
 #include "editor-gtk/chooser.h"
 #include "editor-gtk/classic_save.h"
+#include "editor-gtk/disk.h"
 #include "editor-gtk/draft.h"
 #include "editor-gtk/recent.h"
 
@@ -93,15 +94,19 @@ void window_open(LadderWindow *window)
 
 static bool save_to(LadderWindow *window, const char *path)
 {
+	const char *sample = window_sample(window);
 	GError *error = NULL;
 
 	if (ladder_document_save(window->document, path, &error)) {
+		window->over_locked = window->over_locked && !path;
 		draft_remove(window->document);
 		recent_add(ladder_document_path(window->document));
 		ladder_window_tell(window, _("Saved"));
 		window_banner_close(window);
 		window->disk_told = DISK_AS_READ;
 		window_classic_saved(window);
+		if (sample)
+			window_sample_saved(window, sample);
 		return true;
 	}
 	window_banner(window, error->message, _("Save as…"), window_save_as);
@@ -109,9 +114,33 @@ static bool save_to(LadderWindow *window, const char *path)
 	return false;
 }
 
+/* The file is read-only, and nobody said yet that it is written over all the same. */
+static bool is_locked(LadderWindow *window)
+{
+	const char *path = ladder_document_path(window->document);
+
+	return path && !window->over_locked && disk_is_locked(path);
+}
+
+static void save_locked(LadderWindow *window)
+{
+	window->over_locked = true;
+	save_to(window, NULL);
+}
+
+static void ask_locked(LadderWindow *window)
+{
+	window_banner(window, _("The file is read-only. Saving would write over it; saved as "
+				"another file it stays as it is."), _("Save all the same"),
+		      save_locked);
+}
+
 static void save_over(LadderWindow *window)
 {
-	save_to(window, NULL);
+	if (is_locked(window))
+		ask_locked(window);
+	else
+		save_to(window, NULL);
 }
 
 /* For ClassicLadder it is written and not saved: the window stays. */
@@ -147,7 +176,8 @@ void window_save_as(LadderWindow *window)
 	GtkFileChooserNative *chooser = window_chooser(window, _("Save as"),
 		GTK_FILE_CHOOSER_ACTION_SAVE, _("Save"));
 	const char *path = ladder_document_path(window->document);
-	char *name = path ? g_path_get_basename(path) : window->classic ?
+	char *name = path ? g_path_get_basename(path) :
+		window->classic || window_sample(window) ?
 		window_name_with(window, ".rung") : g_strdup(_("program.rung"));
 
 	window_classic_filter(GTK_FILE_CHOOSER(chooser), false);
@@ -180,27 +210,30 @@ static void tell_bytes(LadderWindow *window, const char *button, void (*act)(Lad
 	g_free(text);
 }
 
-void ladder_window_tell_bytes(LadderWindow *window)
+void ladder_window_tell_file(LadderWindow *window)
 {
+	window->over_locked = false;
 	if (ladder_document_repaired(window->document) > 0)
 		tell_bytes(window, _("Save as…"), window_save_as);
+	else if (is_locked(window))
+		window_banner(window, _("The file is read-only: saving asks before it writes "
+					"over it."), _("Save as…"), window_save_as);
 }
 
-/* Where it lies already; not over what somebody else wrote there meanwhile, nor over what
- * cannot be shown. */
-static bool save_here(LadderWindow *window)
+/* Not over what somebody else wrote there meanwhile, nor over what cannot be shown or is
+ * locked. */
+bool window_save_here(LadderWindow *window)
 {
-	const bool other = ladder_document_disk(window->document) == DISK_OTHER;
-
-	if (!other && ladder_document_repaired(window->document) == 0)
-		return save_to(window, NULL);
-	if (!other) {
+	if (ladder_document_disk(window->document) == DISK_OTHER)
+		window_banner(window, _("Somebody else changed the file since it was opened. "
+					"Saving would write over that."),
+			      _("Save all the same"), save_over);
+	else if (ladder_document_repaired(window->document) > 0)
 		tell_bytes(window, _("Save all the same"), save_over);
-		return false;
-	}
-	window_banner(window, _("Somebody else changed the file since it was opened. "
-				"Saving would write over that."), _("Save all the same"),
-		      save_over);
+	else if (is_locked(window))
+		ask_locked(window);
+	else
+		return save_to(window, NULL);
 	return false;
 }
 
@@ -212,7 +245,7 @@ void window_save(LadderWindow *window)
 	else if (!ladder_document_path(window->document))
 		window_save_as(window);
 	else
-		save_here(window);
+		window_save_here(window);
 }
 
 /* ---- closing ---- */
@@ -288,7 +321,7 @@ static void save_and_close(LadderWindow *window)
 		close_now(window);
 	else if (!ladder_document_path(window->document))
 		window_save_as(window);
-	else if (save_here(window))
+	else if (window_save_here(window))
 		close_now(window);
 	else
 		window->closing = false;
@@ -374,7 +407,7 @@ static void reload(LadderWindow *window)
 
 	if (ladder_document_open(window->document, path, &error)) {
 		window->disk_told = DISK_AS_READ;
-		ladder_window_tell_bytes(window);
+		ladder_window_tell_file(window);
 	} else {
 		window_banner(window, error->message, NULL, NULL);
 	}
@@ -403,6 +436,7 @@ static gboolean look(gpointer data)
 	const enum disk_state state = ladder_document_disk(window->document);
 
 	tabs_each_file(window, ladder_file_view_look);
+	window_board_look(window);
 	if (state == window->disk_told || (state != DISK_AS_READ &&
 	    gtk_revealer_get_reveal_child(window->banner) && window->disk_told == DISK_AS_READ))
 		return G_SOURCE_CONTINUE;

@@ -34,6 +34,7 @@ struct _LadderWindow {
 	bool closing;             /* the person has been asked                 */
 	guint disk_timer;         /* until the file is looked at again         */
 	enum disk_state disk_told; /* what was told of it                      */
+	bool over_locked;         /* its file is read-only, and written over all the same */
 	guint when_timer;         /* until the title tells the simulated time  */
 	void (*banner_do)(LadderWindow *window);
 	/* Template widgets */
@@ -189,6 +190,9 @@ char *window_chosen_path(GtkNativeDialog *dialog);
 void window_open(LadderWindow *window);
 void window_save(LadderWindow *window);
 void window_save_as(LadderWindow *window);
+/** window_save_here - where its file lies; false: it is asked first, or cannot be, which is
+ * told. */
+bool window_save_here(LadderWindow *window);
 /** window_ask_save - shall @name be saved? The answer is the response "save", "discard" or
  * "cancel" of the dialog that it returns; borrowed. */
 GtkWidget *window_ask_save(LadderWindow *window, const char *name);
@@ -269,6 +273,8 @@ GtkWidget *window_board_new(LadderWindow *window);
  * driven or files are written. */
 void window_run_board(LadderWindow *window);
 void window_stop_board(LadderWindow *window);
+/** window_board_look - a banner that no map lies beside the program goes when one does. */
+void window_board_look(LadderWindow *window);
 /** window_board_may_close - false: something runs; the person is asked, and the window
  * closes itself when outputs are safe. */
 bool window_board_may_close(LadderWindow *window);
@@ -282,6 +288,16 @@ const char *window_board_pill(LadderWindow *window, const char **class);
 bool window_plant_ready(LadderWindow *window, GError **error);
 void window_plant_choose(LadderWindow *window);
 void window_plant_none(LadderWindow *window);
+
+/** window_plant_of - "tank.plant.rung" of "tank.rung", if it is there. Caller frees. */
+char *window_plant_of(const char *path);
+
+/* ---- window_sample.c ---- */
+/** window_sample - the file that an unsaved project is a copy of; NULL: it is none. Borrowed. */
+const char *window_sample(LadderWindow *window);
+/** window_sample_saved - the copy of @sample has a file now: what belongs to that comes to
+ * stand beside it, where nothing stands there. That is told. */
+void window_sample_saved(LadderWindow *window, const char *sample);
 
 /* ---- window_why.c ---- */
 void window_why_init(LadderWindow *window);

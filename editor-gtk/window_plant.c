@@ -8,8 +8,7 @@
 
 #include <string.h>
 
-/* "tank.plant.rung" of "tank.rung", if it is there. Caller frees. */
-static char *plant_of(const char *path)
+char *window_plant_of(const char *path)
 {
 	const gsize len = path ? strlen(path) : 0;
 	char *plant;
@@ -32,7 +31,7 @@ void ladder_window_set_origin(LadderWindow *window, const char *path)
 bool window_plant_ready(LadderWindow *window, GError **error)
 {
 	const char *path = ladder_document_path(window->document);
-	char *found = plant_of(path ? path : window->origin);
+	char *found = window_plant_of(path ? path : window->origin);
 	const char *plant = window->plant_chosen ? window->plant : found;
 	const bool good = (!plant && !ladder_sim_plant(window->sim)) ||
 			  ladder_sim_set_plant(window->sim, plant, error);

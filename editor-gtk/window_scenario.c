@@ -29,10 +29,13 @@ static char *typed_text(gpointer window, const char *path)
 	return file && !ladder_file_view_is_saved(file) ? ladder_file_view_text(file) : NULL;
 }
 
+/* A copy of a sample has the sample's until it is saved. */
 static void run_all(LadderWindow *window)
 {
+	const char *path = ladder_document_path(window->document);
+
 	ladder_scenario_view_run(LADDER_SCENARIO_VIEW(below_show(window, "scenarios")),
-				 typed_text, window);
+				 path ? path : window_sample(window), typed_text, window);
 }
 
 /* All that is wrong with that file, each at its line. */
@@ -91,6 +94,8 @@ static void opened(LadderScenarioView *view, struct scenario_result *result,
 		play(window, result);
 	if (!g_str_has_suffix(result->path, ".scn"))
 		return; /* of the program: its problems stand in their own list */
+	if (!ladder_document_path(window->document))
+		return; /* of a sample: nobody shall write into that             */
 	tabs_show_file(window, result->path);
 	file = tabs_find_file(window, result->path);
 	if (!file)

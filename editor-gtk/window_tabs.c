@@ -576,6 +576,7 @@ void ladder_window_opened(LadderWindow *window)
 		if (!LADDER_IS_FILE_VIEW(tabs_content(page)))
 			adw_tab_view_close_page(window->tabs, page);
 	}
+	g_clear_pointer(&window->origin, g_free);
 	tabs_update(window);
 }
 

@@ -106,6 +106,8 @@ char *window_name_with(LadderWindow *window, const char *ending)
 
 	if (!path && window->classic)
 		path = ladder_origin_path(window->classic);
+	if (!path)
+		path = window_sample(window);
 	name = path ? g_path_get_basename(path) : g_strdup("program");
 	dot = strrchr(name, '.');
 	if (dot && dot != name)

@@ -56,6 +56,25 @@ static bool map_is(const char *program, const char *wanted)
 	return same;
 }
 
+static bool is_own(const char *program, const char *name)
+{
+	char *path = g_build_filename(folder, program, NULL);
+	char *map = g_build_filename(folder, name, NULL);
+	const bool own = iomap_is_own(path, map);
+
+	g_free(map);
+	g_free(path);
+	return own;
+}
+
+static void test_own(void)
+{
+	CHECK(is_own("pump.rung", "pump.io") && is_own("pump.rung", "pump-lab.io"));
+	CHECK(!is_own("pump.rung", "pump-two.io") && !is_own("pump.rung", "other.io"));
+	CHECK(!is_own("pump.rung", "boards/pi.io") && !is_own("new.rung", "other.io"));
+	CHECK(!iomap_is_own(NULL, "pump.io"));
+}
+
 /* The first two bytes of safe outputs under pump.io with this text; -1: NULL. */
 static int safe_of(const char *text)
 {
@@ -110,6 +129,7 @@ int main(void)
 	none = files_beside(NULL, ".io", true);
 	CHECK(none->len == 0);
 	g_ptr_array_unref(none);
+	test_own();
 	test_safe();
 	for (gsize i = G_N_ELEMENTS(names); i-- > 0;) {
 		char *path = g_build_filename(folder, names[i], NULL);

@@ -6,7 +6,7 @@ import shutil
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import ROOT, Editor, check, main, new_file, until  # noqa: E402
+from desk import LADDER, ROOT, Editor, check, main, new_file, sh, until  # noqa: E402
 
 CLASSIC = os.path.join(ROOT, 'tests', 'classic', 'projects', 'linuxcnc.clp')
 PROGRAM = '''RUNGBOARD 1
@@ -40,6 +40,55 @@ def sample(screen):
     again.click(again.find(path, 'label'))
     again.says('mine')
     again.element(first)
+
+
+def belongings(screen):
+    """what belongs to a sample comes along when its copy is saved: plant and scenarios, by the copy's name, over nothing"""
+    names = 'mine.rung', 'mine.plant.rung', 'mine.scn'
+    for there in False, True:
+        path, plant, scenarios = [os.path.join(screen.home, 'copy-%d' % there, name) for name in names]
+        os.mkdir(os.path.dirname(path))
+        editor = Editor(screen)
+        editor.click(editor.find('conveyor.rung', 'label'))
+        editor.element('Rung 1, ')
+        if there:
+            with open(scenarios, 'w') as file:
+                file.write('# precious\n')
+        else:
+            # Its scenarios can be run before.
+            editor.keys('ctrl+F5')
+            editor.find('conveyor.scn', 'label')
+            editor.find(' passed', 'label')
+            editor.shot('begin-belongings')
+        before = editor.windows()
+        editor.keys('ctrl+s')
+        until(lambda: len(editor.windows()) > len(before), 'the dialog')
+        until(lambda: editor.focused() and editor.focused().text() == 'conveyor.rung', 'the name of the sample')
+        editor.keys('Escape')
+        until(lambda: editor.windows() == before, 'the end of the dialog')
+        editor.give_path(path, 'ctrl+s')
+        told = 'Saved, and what belongs to the sample beside it: '
+        editor.find(told + ('mine.plant.rung' if there else 'mine.plant.rung, mine.scn'), 'label')
+        assert sorted(os.listdir(os.path.dirname(path))) == sorted(names)
+        assert read(plant) == read(os.path.join(ROOT, 'ladders', 'conveyor.plant.rung'))
+        if there:
+            editor.find('because files of that name were there already: mine.scn', 'label')
+            assert read(scenarios) == '# precious\n'
+        else:
+            assert 'plant "mine.plant.rung"' in read(scenarios)
+            sh(LADDER, 'test', path, check=True)
+            editor.find('mine.scn', 'label')  # in the tree, too
+            editor.keys('ctrl+F5')
+            until(lambda: len(editor.all('mine.scn', 'label')) > 2, 'the scenarios of the copy')
+            editor.find(' passed', 'label')
+            # Another name afterwards is no copy of the sample any more.
+            other = os.path.join(screen.home, 'other.rung')
+            editor.give_path(other, 'ctrl+shift+s')
+            until(lambda: os.path.exists(other), 'the other file')
+            assert not os.path.exists(other.replace('.rung', '.scn'))
+        editor.logs('system', told)
+        editor.shot('begin-belongings-%d' % there)
+        editor.finish()
 
 
 def listed(editor):
@@ -92,6 +141,28 @@ def lately(screen):
         editor.keys('Escape')
         return rows[0].endswith('f_7.rung')
     until(newest, 'it to be the newest')
+
+
+def only_projects(screen):
+    """tables, maps and pages that were chosen in a dialog push no project out of those used lately"""
+    path = new_file(screen, PROGRAM)
+    tables = [new_file(screen, 'Scope,Name,Type,Address\n', 'names_%d.csv' % number) for number in range(3)]
+    kept = os.path.join(screen.home, '.local', 'share', 'recently-used.xbel')
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    for table in tables:
+        before = editor.windows()
+        editor.give_path(table, editor.find('Import', 'push button').press)
+        until(lambda: len(editor.windows()) > len(before), 'what the table would do')
+        editor.keys('Escape')
+        until(lambda: len(editor.windows()) == len(before), 'the end of the plan')
+    editor.give_path(os.path.join(screen.home, 'out.csv'), editor.find('Export', 'push button').press)
+    until(lambda: 'names_2.csv' in read(kept), 'the tables to be kept by the toolkit')
+    editor.finish()
+    editor = Editor(screen)
+    until(lambda: listed(editor), 'the files of before')
+    editor.shot('begin-only-projects')
+    assert listed(editor) == [os.path.basename(path)], listed(editor)
 
 
 def empty(screen):
@@ -204,4 +275,4 @@ def tables(screen):
     assert editor.save(path) == PROGRAM
 
 
-main([sample, lately, empty, searched, folded, tables])
+main([sample, belongings, lately, only_projects, empty, searched, folded, tables])

@@ -9,7 +9,8 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import desk  # noqa: E402
-from desk import BUILD, ROOT, Chinese, Editor, main, until  # noqa: E402
+from desk import BUILD, ROOT, Chinese, Editor, main, sh, until  # noqa: E402
+from node import ROLES  # noqa: E402
 
 MAP = '''BOARD "Garage"
 # Inputs: a contact to ground.
@@ -23,14 +24,14 @@ MAP = '''BOARD "Garage"
 def garage(screen, text=MAP):
     """The garage door in a folder of its own, with a map; the paths of both."""
     path = os.path.join(screen.home, 'garage-door.rung')
-    io = os.path.join(screen.home, 'garage.io')
+    io = os.path.join(screen.home, 'garage-door.io')
     shutil.copy(os.path.join(ROOT, 'ladders', 'garage-door.rung'), path)
     with open(io, 'w') as file:
         file.write(text)
     return path, io
 
 
-def open_map(editor, name='garage.io'):
+def open_map(editor, name='garage-door.io'):
     """From the tree, which is on the left."""
     editor.find(name, 'label')
     editor.click(min(editor.all(name, 'label'), key=lambda node: node.box()[0]), count=2)
@@ -147,7 +148,7 @@ def as_text(screen):
     open_map(editor)
     editor.click(editor.find('Text', 'page tab'))
     editor.says('Line 5: ')
-    editor.into('garage.io')
+    editor.into('garage-door.io')
     editor.keys('ctrl+End')
     editor.type('%QX0.1 sim')
     editor.shot('iomap-text')
@@ -215,7 +216,7 @@ def run_board(screen):
     editor.says('RUN')
     until(lambda: editor.all('ON THIS MACHINE', 'label'), 'the state of the window')
     until(lambda: editor.all(' us, at worst ', 'label'), 'the times of scans')
-    assert 'Started with garage.io' in editor.find('What ladderd says', 'text').text()
+    assert 'Started with garage-door.io' in editor.find('What ladderd says', 'text').text()
     editor.shot('board-run')
     pid = child(editor)
     assert pid
@@ -225,7 +226,7 @@ def run_board(screen):
     until(lambda: 'Ended; outputs have their safe values' in
           editor.find('What ladderd says', 'text').text(), 'its end in the log')
     editor.find('OFF', 'label')
-    for line in 'Started with garage.io', 'RUN', 'STOPPING', 'Ended; outputs have their safe values':
+    for line in 'Started with garage-door.io', 'RUN', 'STOPPING', 'Ended; outputs have their safe values':
         log = editor.logs('communication', line)
     assert log.count('RUN') == 1, log
     editor.shot('board-log')
@@ -244,6 +245,86 @@ def run_board(screen):
     editor.says('RUN')
 
 
+def described(editor):
+    """What the question says, and the button that Enter would press."""
+    dialog = editor.find(role='dialog')
+    until(lambda: editor.focused() and editor.focused().role == ROLES['push button'], 'the focus in the question')
+    return ' '.join(node.name for node in editor.all(role='label', below=dialog.path)), editor.focused().name
+
+
+def not_its_own(screen):
+    """a map of another program is never used unasked: both are named, Enter is Cancel; one of its own takes its place"""
+    path, io = garage(screen, SIM)
+    other = io.replace('garage-door', 'press')
+    os.rename(io, other)
+    editor = Editor(screen, path)
+    for text, pins in (SIM, None), (SIM.replace('%IX0.0  sim', '%IX0.0  gpio  line=NOWHERE'), 'It reads 1 pin and drives 0 pins.'):
+        with open(other, 'w') as file:
+            file.write(text)
+        editor.to_sheet()
+        command(editor, 'Run on this machine')
+        said, button = described(editor)
+        assert 'press.io is not this project\'s own I/O map, which has the name garage-door.io' in said, said
+        assert pins in said if pins else 'It reads' not in said, said
+        assert button.startswith('Cancel'), button
+        editor.shot('board-not-its-own')
+        editor.keys('Return')
+        until(lambda: not editor.all(role='dialog'), 'the question to be gone')
+        assert not child(editor) and not editor.all('Started with')
+    with open(other, 'w') as file:
+        file.write(SIM)
+    command(editor, 'Run on this machine')
+    editor.answer('Run')
+    editor.says('RUN')
+    assert 'Started with press.io' in editor.find('What ladderd says', 'text').text()
+    editor.click(editor.find('Stop', 'push button'))
+    editor.find('OFF', 'label')
+    # What it lacks is made from there, and is what runs then, unasked.
+    editor.click(editor.find('Run…', 'push button'))
+    before = editor.windows()
+    editor.reply('New I/O map…')
+    until(lambda: any('New I/O map' in sh('xdotool', 'getwindowname', window) for window in editor.windows()
+                      if window not in before), 'the dialog')
+    editor.keys('Return')
+    until(lambda: os.path.exists(io), 'the map')
+    cell(editor, '%IX0.0, Driver')
+    editor.click(editor.find('Door', 'label'), count=2)
+    editor.to_sheet()
+    command(editor, 'Run on this machine')
+    until(lambda: 'Started with garage-door.io' in editor.find('What ladderd says', 'text').text(), 'that it runs with it')
+
+
+def no_longer(screen):
+    """the bar that no map lies beside the program goes when one is made, here or elsewhere"""
+    path, io = garage(screen)
+    os.unlink(io)
+    editor = Editor(screen, path)
+    for make in lambda: command(editor, 'New I/O map'), None:
+        editor.to_sheet()
+        command(editor, 'Run on this machine')
+        editor.says('There is no I/O map beside the program')
+        if make:
+            before = editor.windows()
+            make()
+            until(lambda: [window for window in editor.windows() if window not in before and
+                           'New I/O map' in sh('xdotool', 'getwindowname', window)], 'the dialog')
+            editor.keys('Return')
+            cell(editor, '%IX0.0, Driver')
+        else:
+            with open(io, 'w') as file:
+                file.write(SIM)
+        until(lambda: not editor.all('There is no I/O map beside the program', 'label'), 'the bar to be gone')
+        if make:
+            editor.keys('ctrl+shift+w')
+            until(lambda: not editor.all('%IX0.0, Driver'), 'the page to be gone')
+            os.unlink(io)
+            editor.click(editor.find('Door', 'label'), count=2)
+    editor.to_sheet()
+    command(editor, 'Run on this machine')
+    editor.says('RUN')
+    assert not editor.all('There is no I/O map beside the program', 'label')
+
+
 def close_board(screen):
     """closing the window asks, stops it first; a map that is wrong is refused with the reason"""
     editor, io = running(screen, SIM + '%QX0.9  sim\n')
@@ -257,6 +338,7 @@ def close_board(screen):
         file.write(SIM)
     editor.click(editor.find('Run…', 'push button'))
     until(lambda: editor.all('RUN', 'label'), 'that it runs')
+    until(lambda: not editor.all('It was not run'), 'the bar to be gone')
     pid = child(editor)
     editor.keys('ctrl+w')
     editor.find('Stop what runs on this machine?')
@@ -334,7 +416,7 @@ def lines_here(screen):
     editor.keys('ctrl+s')
     saved(io, LINES.replace('line=NOWHERE', 'line=IN1'))
     editor.click(editor.find('Run on this machine', 'push button'))
-    editor.find('It reads 4 pins and drives 1.')
+    editor.find('It reads 4 pins and drives 1 pin.')
     editor.find('Run', 'push button').press()
     editor.says('ladderd, which runs programs on pins, was not found')
     editor.logs('communication', 'ladderd, which runs programs on pins, was not found')
@@ -356,4 +438,4 @@ def in_chinese(screen):
 
 
 in_chinese.size = '1024x700x24'
-main([table, undone, choices, as_text, new_map, run_board, close_board, lost, killed, lines_here, in_chinese])
+main([table, undone, choices, as_text, new_map, run_board, not_its_own, no_longer, close_board, lost, killed, lines_here, in_chinese])

@@ -4,6 +4,7 @@
 import ctypes
 import os
 import shutil
+import stat
 import subprocess
 import sys
 
@@ -60,6 +61,53 @@ def read_only(screen):
     os.chmod(folder, 0o755)
     editor.save(path)
     saved_well(path)
+
+
+def locked(screen):
+    """a file that is read-only is told; saving asks once more, saving as another file leaves it, and a scenario is asked for, too"""
+    path = new_file(screen, PROJECT, 'a.rung')
+    scenario = new_file(screen, 'scenario One\n', 'a.scn')
+    other = os.path.join(screen.home, 'other.rung')
+    os.chmod(path, 0o444)
+    os.chmod(scenario, 0o444)
+    for before in mere_mortal, None:
+        editor = Editor(screen, path, before=before)
+        editor.says('The file is read-only')
+        editor.find('Save as…', 'push button')
+        editor.shot('trouble-locked')
+        draw(editor)
+        editor.keys('ctrl+s')
+        editor.find('Save all the same', 'push button')
+        editor.shot('trouble-locked-save')
+        assert open(path).read() == PROJECT
+        editor.give_path(other, 'ctrl+shift+s')
+        until(lambda: os.path.exists(other) and 'COIL Motor' in open(other).read(), 'the other file')
+        until(lambda: not editor.all('Save all the same'), 'the banner to be gone')
+        assert open(path).read() == PROJECT
+        editor.finish()
+        os.unlink(other)
+    editor = Editor(screen, path)
+    draw(editor)
+    editor.keys('ctrl+w')
+    editor.answer('Save')
+    editor.click(editor.find('Save all the same', 'push button'))
+    until(lambda: 'COIL Motor' in open(path).read(), 'the file to be saved')
+    saved_well(path)
+    assert stat.S_IMODE(os.stat(path).st_mode) == 0o444
+    # It was said once.
+    editor.click(editor.middle(editor.element('Rung 1, NO', 'Start')))
+    editor.to_sheet()
+    editor.keys('slash')
+    assert 'NC Start' in editor.save(path)
+    editor.click(editor.find('a.scn', 'label'), count=2)
+    editor.into('a.scn')
+    editor.keys('ctrl+End')
+    editor.type('# mine')
+    until(lambda: '# mine' in editor.find('a.scn', 'text').text(), 'what is typed')
+    editor.keys('ctrl+s')
+    editor.says('the file is read-only; saved again, it is written over')
+    assert '# mine' not in open(scenario).read()
+    assert '# mine' in editor.save(scenario)
 
 
 def full_disk(screen):
@@ -232,5 +280,5 @@ def rendered_locked(screen):
     assert not os.listdir(folder)
 
 
-main([read_only, full_disk, vanished, gone, somebody_else, export_locked, export_full, no_pages,
+main([read_only, locked, full_disk, vanished, gone, somebody_else, export_locked, export_full, no_pages,
       rendered_locked])
