@@ -99,9 +99,28 @@ static void look(GtkWidget *widget)
 	search(bar, ladder_find_bar_is_open(bar));
 }
 
+/* What has the keys in the bar; NULL: they are elsewhere. */
+static GtkWidget *keys_inside(LadderFindBar *bar)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(bar));
+	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+
+	return focus && gtk_widget_is_ancestor(focus, GTK_WIDGET(bar)) ? focus : NULL;
+}
+
+/* Another Return is the next hit, not a key of the sheet: nothing is overwritten there. */
+static void keep_keys(GtkWidget *inside)
+{
+	if (GTK_IS_TEXT(inside))
+		gtk_text_grab_focus_without_selecting(GTK_TEXT(inside));
+	else if (inside)
+		gtk_widget_grab_focus(inside);
+}
+
 static void go(LadderFindBar *bar, int number)
 {
 	const struct find_hit *hit = bar->find->hit->pdata[number];
+	GtkWidget *inside = keys_inside(bar);
 
 	bar->current = number;
 	show_count(bar);
@@ -112,6 +131,7 @@ static void go(LadderFindBar *bar, int number)
 	else
 		gtk_widget_activate_action(GTK_WIDGET(bar), "win.go-to", "(iiii)", hit->pou,
 					   hit->rung, hit->row, hit->col);
+	keep_keys(inside);
 	g_signal_emit(bar, signals[HITS_CHANGED], 0); /* another is marked */
 }
 
@@ -147,6 +167,11 @@ int ladder_find_bar_current(LadderFindBar *bar)
 const char *ladder_find_bar_message(LadderFindBar *bar)
 {
 	return gtk_label_get_text(GTK_LABEL(bar->message));
+}
+
+const int *ladder_find_bar_place(LadderFindBar *bar)
+{
+	return bar->place;
 }
 
 void ladder_find_bar_set_place(LadderFindBar *bar, int pou, int rung, int row, int col)
@@ -228,6 +253,11 @@ static void replace_all(GtkWidget *widget, const char *action, GVariant *unused)
 
 /* ---- open and closed ---- */
 
+bool ladder_find_bar_has_keys(LadderFindBar *bar)
+{
+	return keys_inside(bar) != NULL;
+}
+
 bool ladder_find_bar_is_open(LadderFindBar *bar)
 {
 	return gtk_revealer_get_reveal_child(GTK_REVEALER(bar->revealer));
@@ -249,8 +279,8 @@ void ladder_find_bar_close(LadderFindBar *bar)
 	if (!ladder_find_bar_is_open(bar))
 		return;
 	gtk_revealer_set_reveal_child(GTK_REVEALER(bar->revealer), FALSE);
-	look(GTK_WIDGET(bar));
 	g_signal_emit(bar, signals[CLOSED], 0);
+	look(GTK_WIDGET(bar));
 }
 
 static void close_bar(GtkWidget *widget, const char *action, GVariant *unused)
@@ -348,6 +378,10 @@ static void ladder_find_bar_class_init(LadderFindBarClass *class)
 	gtk_widget_class_add_binding_action(widget, GDK_KEY_Escape, 0, "find.close", NULL);
 	gtk_widget_class_add_binding_action(widget, GDK_KEY_F3, 0, "find.next", NULL);
 	gtk_widget_class_add_binding_action(widget, GDK_KEY_F3, GDK_SHIFT_MASK,
+					    "find.previous", NULL);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_Return, GDK_SHIFT_MASK,
+					    "find.previous", NULL);
+	gtk_widget_class_add_binding_action(widget, GDK_KEY_KP_Enter, GDK_SHIFT_MASK,
 					    "find.previous", NULL);
 	bind_children(widget);
 }

@@ -4,9 +4,10 @@
  *
  * Signals: hits-changed (): ladder_find_bar_find() is another, or the hit it stands on, for
  * marks on the sheet;
- * closed (): it was, the focus may go back.
+ * closed (): it was, the focus may go back to the hit, which is known still.
  * Actions: find.next, find.previous, find.replace, find.replace-all, find.close. It goes
- * to a hit by the action win.go-to (iiii), as panel_go_to() tells.
+ * to a hit by the action win.go-to (iiii), as panel_go_to() tells. If it had the keys it
+ * keeps them.
  */
 #ifndef EDITOR_FIND_BAR_H
 #define EDITOR_FIND_BAR_H
@@ -25,9 +26,14 @@ void ladder_find_bar_set_document(LadderFindBar *bar, LadderDocument *document);
 void ladder_find_bar_open(LadderFindBar *bar, bool replace, const char *text);
 void ladder_find_bar_close(LadderFindBar *bar);
 bool ladder_find_bar_is_open(LadderFindBar *bar);
+/** ladder_find_bar_has_keys - the focus is inside of it. */
+bool ladder_find_bar_has_keys(LadderFindBar *bar);
 /** ladder_find_bar_set_place - where the cursor is, from which the next hit is looked for.
  * 0-based, -1: the whole. */
 void ladder_find_bar_set_place(LadderFindBar *bar, int pou, int rung, int row, int col);
+/** ladder_find_bar_place - the same four numbers: of the last hit, also when it is closed,
+ * or as they were set. Borrowed. */
+const int *ladder_find_bar_place(LadderFindBar *bar);
 /** ladder_find_bar_next - goes to the next hit, or the one before, of what was looked for
  * last also while the bar is closed. False: none. */
 bool ladder_find_bar_next(LadderFindBar *bar, bool back);

@@ -73,6 +73,17 @@ static void go(LadderSfcView *view, int dx, int dy, bool extend)
 		chart_go(view, best, extend);
 }
 
+/* False: nothing was selected, and the key is for somebody else. */
+static bool unselect(LadderSfcView *view)
+{
+	bool any = false;
+
+	for (int i = 0; i < view->sheet->layout->shape_count; i++)
+		any = any || view->selected[i];
+	chart_go(view, view->cursor, false);
+	return any;
+}
+
 static bool cursor_key(LadderSfcView *view, guint key, GdkModifierType state)
 {
 	const bool extend = state & GDK_SHIFT_MASK;
@@ -90,7 +101,7 @@ static bool cursor_key(LadderSfcView *view, guint key, GdkModifierType state)
 		chart_go(view, (struct sfc_at){ view->sheet->layout->sfc->step_count > 0 ?
 			view->sheet->layout->sfc->step_count - 1 : last, -1, false }, false);
 		return true;
-	case GDK_KEY_Escape: chart_go(view, view->cursor, false); return true;
+	case GDK_KEY_Escape: return unselect(view);
 	default: return false;
 	}
 }

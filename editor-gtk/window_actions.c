@@ -261,6 +261,16 @@ static void do_about(LadderWindow *window)
 
 /* ---- the table ---- */
 
+/* Esc closes the bar that finds when the sheet has nothing to give back. */
+static void do_on_sheet(LadderWindow *window, LadderGridView *sheet, enum verb verb)
+{
+	const guint64 version = ladder_document_version(window->document);
+
+	ladder_grid_view_do(sheet, verb);
+	if (verb == VERB_cancel && ladder_document_version(window->document) == version)
+		window_find_close(window);
+}
+
 void ladder_window_do(LadderWindow *window, enum verb verb)
 {
 	LadderGridView *sheet = tabs_seen_sheet(window);
@@ -271,7 +281,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 		return;
 	if (where != VERB_WINDOW) {
 		if (sheet && where != VERB_CHART)
-			ladder_grid_view_do(sheet, verb);
+			do_on_sheet(window, sheet, verb);
 		else if (!sheet && tabs_seen_chart(window) && where != VERB_SHEET)
 			ladder_sfc_view_do(tabs_seen_chart(window), verb);
 		else if (verb == VERB_copy_picture)

@@ -245,6 +245,8 @@ void window_drop_files(LadderWindow *window, const GSList *files);
 void window_find_init(LadderWindow *window);
 /** window_find - find, replace, next, previous. */
 void window_find(LadderWindow *window, enum verb verb);
+/** window_find_close - false: it is not open. */
+bool window_find_close(LadderWindow *window);
 
 /* ---- window_sim.c ---- */
 void window_sim_init(LadderWindow *window);

@@ -166,20 +166,32 @@ def found(screen):
     editor.keys('Return')
     at(editor, 'from Fill to Heat')
     editor.shot('chart-found')
-    on_chart(editor)
-    editor.keys('F3')
+    editor.focus_on('Find', 'text')
+    editor.keys('Return')
     at(editor, 'Step Heat')
+    editor.keys('Escape')
+    on_chart(editor)
     editor.keys('F3')
     at(editor, 'from Heat to Idle')
     editor.keys('shift+F3')
     at(editor, 'Step Heat')
-    # A rung of an action opens below the chart.
-    editor.keys('Escape', 'ctrl+f')
+    # Esc on the chart closes the bar, once nothing is selected.
+    editor.keys('ctrl+f')
+    editor.focus_on('Find', 'text')
+    editor.click(upon(editor, shape(editor, 'Step Heat')))
+    on_chart(editor)
+    editor.keys('Escape')
+    until(lambda: not [node for node in editor.all('Find', 'text') if node.name == 'Find'], 'the bar to be closed')
+    # A rung of an action opens below the chart, and gets the keys from the bar.
+    editor.keys('ctrl+f')
     editor.type('MX1')
     editor.keys('Return')
     until(lambda: editor.all('Action Counting', 'label'), 'the heading of the action')
     editor.element('MX1.0')
     editor.shot('chart-found-rung')
+    editor.focus_on('Find', 'text')
+    editor.keys('Escape')
+    until(lambda: editor.sheet().has(12), 'the focus on the rung')
     # Replace all: in rungs, lines and declarations, one step of the history.
     editor.keys('ctrl+h', 'ctrl+a')
     editor.type('Count')
@@ -268,10 +280,10 @@ def far(screen):
     editor.type('DrumRight')
     editor.keys('Return')
     editor.says('4 of 4')
-    on_chart(editor)
     until(lambda: [node for node in editor.all('DrumRight', 'table cell') if node.has(23)], 'what is found')
     editor.shot('chart-far')
     editor.keys('Escape')
+    on_chart(editor)
 
 
 TWO = '''RUNGBOARD 1

@@ -279,6 +279,57 @@ def find(screen):
     editor.says('Rung 1')
 
 
+def is_open(editor):
+    return [node for node in editor.all('Find', 'text') if node.name == 'Find']
+
+
+def hits(screen):
+    """Return goes from hit to hit and keeps the keys; Esc gives them to the sheet there, and on the sheet closes the bar"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    before = editor.cells()
+    editor.keys('ctrl+f')
+    editor.type('Motor')
+    editor.says('3 hits')
+    for keys, place in ('Return', '2 of 3'), ('Return', '3 of 3'), ('Return', '1 of 3'), ('shift+Return', '3 of 3'), (
+            'shift+Return', '2 of 3'), ('F3', '3 of 3'), ('shift+F3', '2 of 3'):
+        editor.keys(keys)
+        editor.says(place)
+        editor.focus_on('Find', 'text')
+    editor.keys('Escape')
+    editor.to_sheet()
+    editor.says('Rung 1')
+    until(lambda: not is_open(editor), 'the bar to be closed')
+    editor.keys('F3')
+    editor.to_sheet()
+    # The sheet gives back what was drawn first.
+    editor.keys('ctrl+f')
+    editor.focus_on('Find', 'text')
+    editor.click(editor.middle(editor.element('Rung 2, NO', 'Motor')))
+    editor.to_sheet()
+    editor.keys('slash')
+    editor.element('Rung 2, NC', 'Motor')
+    editor.keys('Escape')
+    editor.element('Rung 2, NO', 'Motor')
+    assert is_open(editor)
+    editor.keys('Escape')
+    until(lambda: not is_open(editor), 'the bar to be closed')
+    editor.to_sheet()
+    # In the symbols, too, nothing is written but what is looked for.
+    editor.keys('ctrl+f')
+    editor.type('Start')
+    editor.says('2 hits')
+    editor.keys('Return', 'Return')
+    editor.says('of 2')
+    editor.focus_on('Find', 'text')
+    editor.keys('Escape')
+    until(lambda: not is_open(editor), 'the bar to be closed')
+    editor.keys('ctrl+Page_Up')
+    editor.to_sheet()
+    assert editor.cells() == before, editor.cells()
+
+
 def address(screen):
     """of an address also what shows it is found; only texts are replaced"""
     path = new_file(screen, JUMPS)
@@ -302,4 +353,4 @@ def address(screen):
     assert editor.save(path) == JUMPS
 
 
-main([rename, find, address, refused, jumps, labels, calls, operands])
+if __name__ == "__main__": main([rename, find, hits, address, refused, jumps, labels, calls, operands])
