@@ -352,6 +352,8 @@ static bool read_values(const char *text, struct values *out, struct entry *entr
 	while (lex.token.kind != TOKEN_END) {
 		struct value *value = &out->value[out->count];
 
+		if (out->count == ENTRY_TEXT / 2)
+			return entry_wrong(entry, N_("this line is too long"), "", 0);
 		if (!next_value(&lex, value))
 			return entry_wrong(entry, N_("a value is missing"), value->name,
 					   value->name_len);

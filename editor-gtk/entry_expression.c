@@ -34,11 +34,13 @@ struct work {
 /* Only what a person would call a type; an error is found when the name is declared. */
 static enum iec_type type_said(const struct said *said)
 {
-	const char *colon = memchr(said->text, ':', said->len), *end = said->text + said->len;
+	const char *end = said->text + said->len, *at = end;
 
-	while (colon && colon < end && (*colon == ':' || *colon == ' '))
-		colon++;
-	return colon ? iec_type_find(colon, (size_t)(end - colon)) : IEC_NONE;
+	while (at > said->text && at[-1] != ':') /* the last one: I:0/3 has one, too */
+		at--;
+	while (at < end && (*at == ' ' || *at == '\t'))
+		at++;
+	return iec_type_find(at, (size_t)(end - at));
 }
 
 static bool keep_said(struct lex *lex, struct work *w, struct entry *entry)

@@ -62,10 +62,10 @@ static bool is_cell(const struct rung_hit *hit)
 	       hit->part == RUNG_PART_LINK || hit->part == RUNG_PART_PIN;
 }
 
-/* What was clicked twice: of a box the value at a pin. */
+/* What was clicked twice: of a box the value at a pin; while it runs as Enter does. */
 static void begin_there(LadderGridView *view, const struct rung_hit *hit)
 {
-	if (hit->part == RUNG_PART_PIN)
+	if (hit->part == RUNG_PART_PIN && !live_is_on(view))
 		entry_begin_pin(view, hit->name, hit->name_len, hit->output);
 	else
 		ladder_grid_view_do(view, VERB_enter);

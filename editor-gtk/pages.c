@@ -325,7 +325,7 @@ static float cut_at(const struct picture *picture, float left, float room, float
 {
 	float x = left + room;
 
-	if (x >= width)
+	if (x + 1 >= width) /* what fits is no two pages for a rounding */
 		return width;
 	while (x > left + room / 2 && !can_cut(picture, x, room))
 		x -= 4;
@@ -339,7 +339,7 @@ static void put_columns(struct pages *pages, const struct sfc_sheet *chart,
 	int number = 0;
 
 	for (float left = 0, right; left < chart->width; left = right) {
-		char *text = left > 0 || chart->width > room ?
+		char *text = left > 0 || chart->width > room + 1 ?
 			g_strdup_printf(_("%s, part %d"), heading, ++number) :
 			g_strdup(heading);
 
