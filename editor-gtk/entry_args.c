@@ -93,7 +93,7 @@ static bool next_value(struct lex *lex, struct value *out)
 	const struct token name = lex->token;
 	struct lex ahead = *lex;
 
-	memset(out, 0, sizeof(*out));
+	*out = (struct value){ .name = "" };
 	lex_next(&ahead);
 	if (lex_is(&ahead, ":=") || lex_is(&ahead, "=>")) {
 		out->output = lex_is(&ahead, "=>");

@@ -102,6 +102,7 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "AND IN1:=Start IN2:=Stop", "AND IN1:=Start IN2:=Stop" },
 	{ "INT_TO_REAL IN:=Level OUT=>Heat", "INT_TO_REAL IN:=Level OUT=>Heat" },
 	{ "ADD IN1:=1 IN1:=2", "! this pin is given twice (IN1)" },
+	{ "ADD IN1:=", "! a value is missing (IN1)" }, { "ADD 1 /", "! a value is missing ()" },
 	{ "ADD IN1:=1 OUT=>5", "! this cannot be written (5)" },
 	{ "MOVE Level Full", "! this cannot be written (Full)" },
 	/* expressions */
