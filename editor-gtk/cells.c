@@ -5,6 +5,7 @@
 #include "editor-gtk/cells.h"
 
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/panel.h"
 #include "editor-gtk/tip.h"
 
 /* Not by its colour alone: what was refused may be an empty text. */
@@ -46,6 +47,67 @@ void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller
 {
 	gtk_widget_add_controller(cell, controller);
 	g_object_set_data(G_OBJECT(cell), name, controller);
+}
+
+/* ---- a cell that is to have the focus ---- */
+
+#define FRAMES_SEEN 3  /* until a new row has a place that can be scrolled to   */
+#define FRAMES_MOST 60 /* that a table may need to make it                      */
+
+struct wanted {
+	int table, index, field;
+	int frames;
+	bool entered;
+};
+
+void cells_stand(GtkWidget *cell, GtkListItem *item, int field)
+{
+	g_object_set_data(G_OBJECT(cell), "item", item);
+	g_object_set_data(G_OBJECT(cell), "field", GINT_TO_POINTER(field));
+}
+
+static bool is_wanted(GtkWidget *cell, GtkListItem *item, const struct wanted *wanted)
+{
+	const LadderPanelRow *row = gtk_list_item_get_item(item);
+
+	return row && row->table == wanted->table && row->index == wanted->index &&
+	       gtk_widget_get_mapped(cell) && wanted->field ==
+	       GPOINTER_TO_INT(g_object_get_data(G_OBJECT(cell), "field"));
+}
+
+static bool enter(GtkWidget *within, const struct wanted *wanted)
+{
+	GtkListItem *item = g_object_get_data(G_OBJECT(within), "item");
+
+	if (item)
+		return is_wanted(within, item, wanted) && gtk_widget_grab_focus(within);
+	for (GtkWidget *child = gtk_widget_get_first_child(within); child;
+	     child = gtk_widget_get_next_sibling(child))
+		if (enter(child, wanted))
+			return true;
+	return false;
+}
+
+static gboolean enter_later(GtkWidget *table, GdkFrameClock *clock, gpointer data)
+{
+	struct wanted *wanted = data;
+
+	(void)clock;
+	if (!wanted->entered)
+		wanted->entered = enter(table, wanted);
+	panel_show_selected(GTK_COLUMN_VIEW(table));
+	wanted->frames++;
+	return wanted->frames < (wanted->entered ? FRAMES_SEEN : FRAMES_MOST) ?
+	       G_SOURCE_CONTINUE : G_SOURCE_REMOVE;
+}
+
+void cells_enter(GtkColumnView *table, const LadderPanelRow *row, int field)
+{
+	struct wanted *wanted = g_new(struct wanted, 1);
+
+	*wanted = (struct wanted){ row->table, row->index, field, 0, false };
+	wanted->entered = enter(GTK_WIDGET(table), wanted);
+	gtk_widget_add_tick_callback(GTK_WIDGET(table), enter_later, wanted, g_free);
 }
 
 /* ---- an edit that is to end where it stands ---- */

@@ -8,6 +8,8 @@
 
 #include <gtk/gtk.h>
 
+#include "editor-gtk/panel_row.h"
+
 #include <stdbool.h>
 
 /** cells_refuse - marks a cell as refused, and says @why; NULL: it is not. Takes @why. */
@@ -16,6 +18,12 @@ void cells_refuse(GtkWidget *cell, char *why);
 void cells_refused(GtkWidget *cell, char *why);
 /** cells_add - a controller of @cell, to be found as its data @name. */
 void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller);
+
+/** cells_stand - where @cell stands: the item of its row (NULL: nowhere), its column. */
+void cells_stand(GtkWidget *cell, GtkListItem *item, int field);
+/** cells_enter - the cell of @table in its selected row @row gets the focus, its text
+ * selected, and is scrolled to; if the table has yet to make it, then. */
+void cells_enter(GtkColumnView *table, const LadderPanelRow *row, int field);
 
 /** cells_on_take - what ends an edit in @cell where it stands, as before saving. @take:
  * false: refused, and it told why in the cell; NULL: the cell is no one's any more. */

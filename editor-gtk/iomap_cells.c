@@ -425,7 +425,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 
 	(void)factory;
 	cells_refuse(cell, NULL);
-	g_object_set_data(G_OBJECT(cell), "item", item);
+	cells_stand(cell, item, (int)column->field);
 	if (column->field == IO_ACTIVE_LOW) {
 		gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), *text);
 		g_signal_connect(cell, "toggled", G_CALLBACK(toggled), item);
@@ -445,7 +445,7 @@ static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointe
 	(void)factory;
 	(void)data;
 	g_signal_handlers_disconnect_by_data(cell, item);
-	g_object_set_data(G_OBJECT(cell), "item", NULL);
+	cells_stand(cell, NULL, 0);
 	if (!GTK_IS_ENTRY(cell))
 		return;
 	g_signal_handlers_disconnect_by_data(g_object_get_data(G_OBJECT(cell), "focus"), item);

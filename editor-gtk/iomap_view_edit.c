@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/iomap_view_inside.h"
 
+#include "editor-gtk/cells.h"
 #include "editor-gtk/i18n.h"
 
 #include <stdlib.h>
@@ -249,7 +250,8 @@ void iomap_view_add(GtkWidget *widget, const char *action, GVariant *unused)
 	add_point(view, addr, "", row ? row->index : -1);
 	iomap_view_told(view, NULL);
 	iec_addr_print(addr, text, sizeof(text));
-	panel_list_select(&view->list, is_row, text);
+	if (panel_list_select(&view->list, is_row, text))
+		cells_enter(view->list.view, panel_list_row(&view->list), IO_ADDRESS);
 }
 
 void iomap_view_add_lacking(GtkWidget *widget, const char *action, GVariant *unused)

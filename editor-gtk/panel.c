@@ -252,11 +252,15 @@ LadderPanelRow *panel_list_row(struct panel_list *list)
 }
 
 /* The list inside a column view knows how to scroll; 4.8 has no other way. */
-static void scroll_to(struct panel_list *list, guint at)
+void panel_show_selected(GtkColumnView *view)
 {
-	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(list->view));
+	GtkSingleSelection *selection = GTK_SINGLE_SELECTION(
+		gtk_column_view_get_model(view));
+	const guint at = gtk_single_selection_get_selected(selection);
+	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(view));
 
-	for (; child; child = gtk_widget_get_next_sibling(child))
+	for (; at != GTK_INVALID_LIST_POSITION && child;
+	     child = gtk_widget_get_next_sibling(child))
 		if (gtk_widget_activate_action(child, "list.scroll-to-item", "u", at))
 			return;
 }
@@ -264,7 +268,7 @@ static void scroll_to(struct panel_list *list, guint at)
 void panel_list_go(struct panel_list *list, guint at)
 {
 	gtk_single_selection_set_selected(list->selection, at);
-	scroll_to(list, at);
+	panel_show_selected(list->view);
 }
 
 bool panel_list_select(struct panel_list *list,

@@ -198,6 +198,7 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer 
 
 	(void)factory;
 	cells_refuse(cell, NULL);
+	cells_stand(cell, item, (int)cells->field);
 	g_object_set_data(G_OBJECT(cell), "refused", NULL);
 	g_object_set_data(G_OBJECT(cell), "shown", NULL);
 	show(row, item);
@@ -216,6 +217,7 @@ static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointe
 	(void)data;
 	g_signal_handlers_disconnect_by_data(gtk_list_item_get_item(item), item);
 	g_signal_handlers_disconnect_by_data(cell, item);
+	cells_stand(cell, NULL, 0);
 	if (!GTK_IS_ENTRY(cell))
 		return;
 	cells_on_take(cell, NULL, NULL);

@@ -5,6 +5,7 @@
  */
 #include "editor-gtk/symbols_view.h"
 
+#include "editor-gtk/cells.h"
 #include "editor-gtk/chooser.h"
 #include "editor-gtk/csv.h"
 #include "editor-gtk/disk.h"
@@ -248,8 +249,9 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 	text[FIELD_NAME] = name;
 	if (row)
 		text[FIELD_TYPE] = panel_row_text(row, FIELD_TYPE);
-	if (symbol_add(document, table, 0, text, &why))
-		ladder_symbols_view_show(view, table, last_index(document, table, name));
+	if (symbol_add(document, table, 0, text, &why) &&
+	    ladder_symbols_view_show(view, table, last_index(document, table, name)))
+		cells_enter(view->list.view, panel_list_row(&view->list), FIELD_NAME);
 	tell(view, why);
 	g_free(name);
 }

@@ -6,6 +6,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import desk  # noqa: E402
@@ -139,6 +140,25 @@ def choices(screen):
     editor.keys('ctrl+s')
     until(lambda: '%QX0.1  sim  safe=0   # MotorDown' in open(io).read(), 'the map')
     assert '%QX0.0' not in open(io).read() and '%IX0.5  sim   # BeamOk\n' in open(io).read()
+
+
+def added(screen):
+    """+: the address of the new point has the keys, its text selected"""
+    path, io = garage(screen, 'BOARD "Desk"\n%QX0.0  sim  safe=0\n')
+    editor = Editor(screen, path)
+    open_map(editor)
+    editor.click(cell(editor, '%QX0.0, Comment'))
+    point = None
+    for address in '%QX7.0', '%QX7.1':
+        editor.click(editor.find('Add a point', 'push button'))
+        point = editor.focus_on(', Address', 'text', but=point)
+        editor.type(address)  # what stood there was selected
+        time.sleep(0.3)  # the table is read again meanwhile
+        editor.keys('Return')
+        shows(editor, address + ', Address', address)
+    editor.shot('iomap-added-point')
+    editor.keys('ctrl+s')
+    until(lambda: '%QX7.0  sim' in open(io).read() and '%QX7.1  sim' in open(io).read(), 'the map')
 
 
 def as_text(screen):
@@ -438,4 +458,4 @@ def in_chinese(screen):
 
 
 in_chinese.size = '1024x700x24'
-main([table, undone, choices, as_text, new_map, run_board, not_its_own, no_longer, close_board, lost, killed, lines_here, in_chinese])
+main([table, undone, choices, added, as_text, new_map, run_board, not_its_own, no_longer, close_board, lost, killed, lines_here, in_chinese])

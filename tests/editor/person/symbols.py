@@ -168,6 +168,29 @@ def tables(screen):
     assert lines(path, '@print %QX0.1\nStart=1\n') == ['%QX0.1=1']
 
 
+def added(screen):
+    """+: the name of the new symbol has the keys, its text selected, wherever its row comes to be"""
+    many = ''.join('  V%02d : INT;\n' % number for number in range(60))
+    path = new_file(screen, PROGRAM.replace('END_VAR', many + 'END_VAR', 1))
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    cell = None
+    for name in 'Pump', 'Valve':
+        editor.click(editor.find('Add a symbol', 'push button'))
+        cell = editor.focus_on(', Name', 'text', but=cell)
+        editor.type(name)  # what stood there was selected
+        until(lambda: cell.text() == name, 'the name that is typed')
+        time.sleep(0.3)  # the table is read again meanwhile
+        editor.type('1')
+        editor.keys('Return')
+        editor.focus_on(name + '1, Name', 'text')
+        assert editor.place(cell)[1] < editor.place(editor.find('Problems', 'page tab'))[1], 'it is out of sight'
+        editor.shot('symbols-added-' + name)
+    text = editor.save(path)
+    assert 'Pump1' in text and 'Valve1' in text, text
+    check(path)
+
+
 def scopes(screen):
     """the table of one program, of none, of all: chosen by keys and by mouse; names that come later"""
     path = new_file(screen, PROGRAM.replace('PROGRAM Main LD\n', 'PROGRAM Main LD\nVAR\n  Own : INT;\nEND_VAR\n'))
@@ -250,4 +273,4 @@ def last_letter(screen):
     assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
 
 
-main([finds, declared_already, renames, uses, tables, scopes, through, last_letter])
+main([finds, declared_already, renames, uses, tables, added, scopes, through, last_letter])
