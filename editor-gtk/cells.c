@@ -8,16 +8,59 @@
 #include "editor-gtk/panel.h"
 #include "editor-gtk/tip.h"
 
-/* Not by its colour alone: what was refused may be an empty text. */
+#define PLACE GTK_ENTRY_ICON_SECONDARY
+
+/* An icon that is none would keep its room. */
+static void hide_empty(GtkEntry *cell)
+{
+	for (GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(cell)); child;
+	     child = gtk_widget_get_next_sibling(child))
+		if (GTK_IS_IMAGE(child))
+			gtk_widget_set_visible(child,
+				gtk_image_get_storage_type(GTK_IMAGE(child)) !=
+				GTK_IMAGE_EMPTY);
+}
+
+/* What stands at the end of a cell. */
+struct sign {
+	char *icon, *tip;
+};
+
+static void sign_free(gpointer data)
+{
+	struct sign *sign = data;
+
+	g_free(sign->icon);
+	g_free(sign->tip);
+	g_free(sign);
+}
+
+static void put_icon(GtkEntry *cell, const char *icon, const char *tip)
+{
+	gtk_entry_set_icon_from_icon_name(cell, PLACE, icon);
+	if (icon)
+		gtk_entry_set_icon_tooltip_text(cell, PLACE, tip);
+	hide_empty(cell);
+}
+
+/* Not by its colour alone: what was refused may be an empty text. The sign takes the place
+ * of the one that is there, if one is, as long as it is refused: no text moves. */
 static void show_icon(GtkEntry *cell, const char *why)
 {
-	const char *shown = gtk_entry_get_icon_name(cell, GTK_ENTRY_ICON_PRIMARY);
-	const char *name = why ? "dialog-error-symbolic" : NULL;
+	struct sign *was = g_object_get_data(G_OBJECT(cell), "sign");
 
-	if (g_strcmp0(shown, name) != 0)
-		gtk_entry_set_icon_from_icon_name(cell, GTK_ENTRY_ICON_PRIMARY, name);
-	if (why)
-		gtk_entry_set_icon_tooltip_text(cell, GTK_ENTRY_ICON_PRIMARY, why);
+	if (why && !was) {
+		was = g_new(struct sign, 1);
+		was->icon = g_strdup(gtk_entry_get_icon_name(cell, PLACE));
+		was->tip = was->icon ? gtk_entry_get_icon_tooltip_text(cell, PLACE) : NULL;
+		g_object_set_data_full(G_OBJECT(cell), "sign", was, sign_free);
+	}
+	if (why) {
+		put_icon(cell, "dialog-error-symbolic", why);
+	} else if (was) {
+		put_icon(cell, was->icon, was->tip);
+		g_object_set_data(G_OBJECT(cell), "sign", NULL);
+	}
 }
 
 void cells_refuse(GtkWidget *cell, char *why)

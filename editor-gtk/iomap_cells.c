@@ -41,7 +41,6 @@ static const struct column *column_of(GtkWidget *cell)
 
 /* ---- what a person did ---- */
 
-/* @why: taken over; NULL: nothing is wrong. */
 /* What stands in a cell; NULL: it was refused already, or nothing is to be done. Caller:
  * g_free. */
 static char *meant(GtkWidget *cell, const LadderPanelRow *row)
@@ -56,6 +55,16 @@ static char *meant(GtkWidget *cell, const LadderPanelRow *row)
 	return NULL;
 }
 
+/* @refused: taken over; NULL: nothing is. */
+static void mark(GtkWidget *cell, char *refused, char *why)
+{
+	if (refused)
+		cells_refused(cell, why);
+	else
+		cells_refuse(cell, NULL);
+	g_object_set_data_full(G_OBJECT(cell), "refused", refused, g_free);
+}
+
 static void commit(GtkWidget *cell, GtkListItem *item)
 {
 	const struct column *column = column_of(cell);
@@ -68,12 +77,7 @@ static void commit(GtkWidget *cell, GtkListItem *item)
 	g_object_ref(row);
 	g_object_ref(cell);
 	good = column->cells->set(column->cells->owner, row, column->field, text, &why);
-	if (good)
-		cells_refuse(cell, NULL);
-	else
-		cells_refused(cell, why);
-	g_object_set_data_full(G_OBJECT(cell), "refused", good ? NULL : g_strdup(text),
-			       g_free);
+	mark(cell, good ? NULL : g_strdup(text), why);
 	g_free(text);
 	g_object_unref(cell);
 	g_object_unref(row);
@@ -87,6 +91,7 @@ static void activated(GtkEntry *cell, GtkListItem *item)
 /* An edit that waits until the focus is where it goes: the rows are made anew by it. */
 struct later {
 	const struct column *column;
+	GtkWidget *cell;
 	LadderPanelRow *row;
 	char *text;
 };
@@ -96,9 +101,14 @@ static gboolean do_later(gpointer data)
 	struct later *later = data;
 	const struct iomap_cells *cells = later->column->cells;
 	char *why = NULL;
+	const bool good = cells->set(cells->owner, later->row, later->column->field,
+				     later->text, &why);
+	GtkListItem *item = g_object_get_data(G_OBJECT(later->cell), "item");
 
-	cells->set(cells->owner, later->row, later->column->field, later->text, &why);
-	g_free(why);
+	if (!good && item && gtk_list_item_get_item(item) == later->row)
+		mark(later->cell, g_strdup(later->text), why);
+	else
+		g_free(why);
 	return G_SOURCE_REMOVE;
 }
 
@@ -107,9 +117,20 @@ static void later_free(gpointer data)
 	struct later *later = data;
 
 	g_object_unref(later->column->cells->owner);
+	g_object_unref(later->cell);
 	g_object_unref(later->row);
 	g_free(later->text);
 	g_free(later);
+}
+
+/* It is as it was, and what was told of it is over. */
+static void give_up(GtkWidget *cell)
+{
+	const struct iomap_cells *cells = column_of(cell)->cells;
+
+	mark(cell, NULL, NULL);
+	tip_set(cell, gtk_editable_get_text(GTK_EDITABLE(cell)));
+	cells->given_up(cells->owner);
 }
 
 static void left(GtkEventControllerFocus *focus, GtkListItem *item)
@@ -120,10 +141,15 @@ static void left(GtkEventControllerFocus *focus, GtkListItem *item)
 	struct later *later;
 
 	gtk_editable_select_region(GTK_EDITABLE(cell), 0, 0);
+	if (!text && row && g_object_get_data(G_OBJECT(cell), "refused") &&
+	    strcmp(gtk_editable_get_text(GTK_EDITABLE(cell)),
+		   panel_row_text(row, (int)column_of(cell)->field)) == 0)
+		give_up(cell);
 	if (!text)
 		return;
 	later = g_new(struct later, 1);
-	*later = (struct later){ column_of(cell), g_object_ref(row), text };
+	*later = (struct later){ column_of(cell), g_object_ref(cell),
+				 g_object_ref(row), text };
 	g_object_ref(later->column->cells->owner);
 	g_idle_add_full(G_PRIORITY_HIGH_IDLE, do_later, later, later_free);
 }
@@ -339,7 +365,8 @@ static void show_choices(GtkWidget *cell, GtkListItem *item)
 static void icon_pressed(GtkEntry *cell, GtkEntryIconPosition position, GtkListItem *item)
 {
 	(void)position;
-	show_choices(GTK_WIDGET(cell), item);
+	if (has_choices(column_of(GTK_WIDGET(cell))->field))
+		show_choices(GTK_WIDGET(cell), item);
 }
 
 /* Escape: as it was. Alt+Down: what there is. */
@@ -360,7 +387,7 @@ static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 	    strcmp(text, gtk_editable_get_text(GTK_EDITABLE(cell))) == 0)
 		return FALSE;
 	gtk_editable_set_text(GTK_EDITABLE(cell), text);
-	cells_refuse(cell, NULL);
+	give_up(cell);
 	return TRUE;
 }
 

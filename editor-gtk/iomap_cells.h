@@ -18,6 +18,8 @@ struct iomap_cells {
 	/* A person made this of a cell; false: refused, and @why. */
 	bool (*set)(gpointer owner, const LadderPanelRow *row, enum io_field field,
 		    const char *text, char **why);
+	/* What was refused in a cell is given up: it is as it was. */
+	void (*given_up)(gpointer owner);
 	/* A cell of this row has the focus now. */
 	void (*entered)(gpointer owner, const LadderPanelRow *row);
 	/* What could stand there: pairs of a text and what is said of it (or ""). Caller:

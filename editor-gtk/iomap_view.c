@@ -148,6 +148,11 @@ static void entered(gpointer owner, const LadderPanelRow *row)
 		select_row(owner, row->index);
 }
 
+static void given_up(gpointer owner)
+{
+	iomap_view_told(owner, NULL);
+}
+
 static void refresh(GtkWidget *widget)
 {
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
@@ -263,9 +268,9 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 static void add_columns(LadderIomapView *view)
 {
 	static const struct { enum io_field field; int width; } column[] = {
-		{ IO_DRIVER, 76 }, { IO_LINE, 150 }, { IO_PULL, 118 }, { IO_ACTIVE_LOW, 70 },
-		{ IO_DEBOUNCE, 76 }, { IO_SAFE, 60 }, { IO_DRIVE, 110 },
-		{ IO_COMMENT, 130 },
+		{ IO_DRIVER, 76 }, { IO_LINE, 120 }, { IO_PULL, 118 }, { IO_ACTIVE_LOW, 70 },
+		{ IO_DEBOUNCE, 76 }, { IO_SAFE, 76 }, { IO_DRIVE, 110 },
+		{ IO_COMMENT, 110 },
 	};
 
 	panel_list_column(&view->list, "", 0, PANEL_ICON, 0);
@@ -282,7 +287,8 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 {
 	GtkWidget *widget = GTK_WIDGET(view);
 
-	view->cells = (struct iomap_cells){ view, iomap_view_set_field, entered, choices_of };
+	view->cells = (struct iomap_cells){ view, iomap_view_set_field, given_up, entered,
+					    choices_of };
 	arena_init(&view->uses.arena);
 	io_machine_look(&view->machine, NULL);
 	gtk_widget_init_template(widget);

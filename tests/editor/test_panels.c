@@ -381,10 +381,10 @@ static void test_symbols(void)
 	CHECK_AS(gtk_widget_has_css_class(cell, "error") &&
 		 strstr(ladder_symbols_view_message(view), "Hours"), "a refusal is told");
 	picture(widget, "symbols-refused");
-	CHECK(gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_PRIMARY));
+	CHECK(gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY));
 	type_into(view, cell, "Stock");
 	CHECK(!gtk_widget_has_css_class(cell, "error") &&
-	      !gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_PRIMARY));
+	      !gtk_entry_get_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY));
 	cell = nth_widget(widget, GTK_TYPE_CHECK_BUTTON, 0);
 	gtk_check_button_set_active(GTK_CHECK_BUTTON(cell), TRUE);
 	CHECK(has("VAR RETAIN\n  Hours : UDINT;\n  \xe5\x90\xaf\xe5\x8a\xa8  AT %IX0.0 : BOOL;"));

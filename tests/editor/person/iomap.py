@@ -142,6 +142,40 @@ def choices(screen):
     assert '%QX0.0' not in open(io).read() and '%IX0.5  sim   # BeamOk\n' in open(io).read()
 
 
+def given_up(screen):
+    """a value that is refused, by Return and by going on: what is told goes when it is given up; texts stay where they were"""
+    path, io = garage(screen, 'BOARD "Desk"\n%QX0.0  sim  safe=0\n%QX0.1  sim  safe=0\n')
+    editor = Editor(screen, path)
+    open_map(editor)
+    node = cell(editor, '%QX0.0, Safe')
+    before = node.box()
+    for way in 'Return', 'Tab':
+        editor.click(cell(editor, '%QX0.0, Safe'))
+        editor.keys('ctrl+a')
+        editor.type('7')
+        editor.keys(way)
+        editor.says('%QX0.0, Safe: There is no such word')
+        editor.shot('iomap-refused-' + way)
+        editor.click(cell(editor, '%QX0.0, Safe'))
+        editor.keys('Escape')
+        until(lambda: not editor.all('There is no such word'), 'nothing to be told')
+        shows(editor, '%QX0.0, Safe', '0')
+    assert cell(editor, '%QX0.0, Safe').box() == before
+    # What there is is shown by the sign, which is in its place again and whole.
+    x, y, width, height = editor.place(cell(editor, '%QX0.0, Safe'))
+    editor.click((x + width - 12, y + height // 2))
+    editor.shot('iomap-given-up')
+    editor.find('1 on while nothing runs', 'list item')
+    editor.keys('Escape')
+    editor.click(cell(editor, '%QX0.0, Debounce'))
+    editor.type('2 s')
+    editor.keys('Return')
+    editor.says('It must be one word')
+    editor.keys('ctrl+a', 'BackSpace', 'Tab')
+    until(lambda: not editor.all('It must be one word'), 'nothing to be told')
+    assert not editor.all('•')
+
+
 def added(screen):
     """+: the address of the new point has the keys, its text selected"""
     path, io = garage(screen, 'BOARD "Desk"\n%QX0.0  sim  safe=0\n')
@@ -458,4 +492,4 @@ def in_chinese(screen):
 
 
 in_chinese.size = '1024x700x24'
-main([table, undone, choices, added, as_text, new_map, run_board, not_its_own, no_longer, close_board, lost, killed, lines_here, in_chinese])
+main([table, undone, choices, given_up, added, as_text, new_map, run_board, not_its_own, no_longer, close_board, lost, killed, lines_here, in_chinese])
