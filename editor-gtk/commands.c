@@ -14,7 +14,7 @@
 
 struct commands {
 	LadderWindow *window;
-	GtkWidget *dialog, *search, *list;
+	GtkWidget *dialog, *search, *list, *none;
 };
 
 static bool fits(enum verb verb, const char *want)
@@ -57,16 +57,17 @@ static GtkWidget *row_new(enum verb verb)
 static void fill(struct commands *commands)
 {
 	const char *want = gtk_editable_get_text(GTK_EDITABLE(commands->search));
-	GtkWidget *row;
+	GtkListBoxRow *row;
 
-	while ((row = gtk_widget_get_first_child(commands->list)))
-		gtk_list_box_remove(GTK_LIST_BOX(commands->list), row);
+	while ((row = gtk_list_box_get_row_at_index(GTK_LIST_BOX(commands->list), 0)))
+		gtk_list_box_remove(GTK_LIST_BOX(commands->list), GTK_WIDGET(row));
 	for (int i = 0; i < VERB_COUNT; i++)
 		if (i != VERB_palette && fits((enum verb)i, want))
 			gtk_list_box_append(GTK_LIST_BOX(commands->list),
 					    row_new((enum verb)i));
-	gtk_list_box_select_row(GTK_LIST_BOX(commands->list),
-		gtk_list_box_get_row_at_index(GTK_LIST_BOX(commands->list), 0));
+	row = gtk_list_box_get_row_at_index(GTK_LIST_BOX(commands->list), 0);
+	gtk_widget_set_visible(commands->none, !row); /* a reader sees hidden ones, too */
+	gtk_list_box_select_row(GTK_LIST_BOX(commands->list), row);
 }
 
 static void do_row(struct commands *commands, GtkListBoxRow *row)
@@ -78,6 +79,15 @@ static void do_row(struct commands *commands, GtkListBoxRow *row)
 	gtk_window_destroy(GTK_WINDOW(commands->dialog)); /* frees commands */
 	if (verb != VERB_COUNT)
 		ladder_window_do(window, verb);
+}
+
+static GtkWidget *nothing_new(void)
+{
+	GtkWidget *label = gtk_label_new(_("Nothing found"));
+
+	gtk_widget_add_css_class(label, "dim-label");
+	gtk_widget_set_margin_top(label, 24);
+	return label;
 }
 
 static void do_selected(struct commands *commands)
@@ -133,7 +143,9 @@ void commands_show(LadderWindow *window)
 	commands->dialog = gtk_window_new();
 	commands->search = gtk_search_entry_new();
 	commands->list = gtk_list_box_new();
+	commands->none = nothing_new();
 	gtk_widget_add_css_class(commands->list, "commands");
+	gtk_list_box_set_placeholder(GTK_LIST_BOX(commands->list), commands->none);
 	gtk_header_bar_set_title_widget(GTK_HEADER_BAR(bar), commands->search);
 	gtk_widget_set_hexpand(commands->search, TRUE);
 	gtk_window_set_titlebar(GTK_WINDOW(commands->dialog), bar);

@@ -113,13 +113,20 @@ static void bind_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
 
 /* ---- order ---- */
 
+/* As people sort, whatever the locale: no case, numbers by what they are. Caller: g_free. */
+static char *order_key(const LadderPanelRow *row, int column)
+{
+	char *folded = g_utf8_casefold(panel_row_text(row, column), -1);
+	char *key = g_utf8_collate_key_for_filename(folded, -1);
+
+	g_free(folded);
+	return key;
+}
+
 static int by_text(gconstpointer left, gconstpointer right, gpointer column)
 {
-	const LadderPanelRow *a = left, *b = right;
-	char *x = g_utf8_collate_key_for_filename(panel_row_text(a,
-						GPOINTER_TO_INT(column)), -1);
-	char *y = g_utf8_collate_key_for_filename(panel_row_text(b,
-						GPOINTER_TO_INT(column)), -1);
+	char *x = order_key(left, GPOINTER_TO_INT(column));
+	char *y = order_key(right, GPOINTER_TO_INT(column));
 	const int order = g_strcmp0(x, y);
 
 	g_free(x);

@@ -54,19 +54,26 @@ static char *text_of(const char *what, const char *name)
 	return text;
 }
 
-void pou_add(GtkWidget *widget, LadderDocument *document, const char *what)
+static const char *why_none(void)
+{
+	return _("Nothing can be added while a text of the project cannot be read");
+}
+
+const char *pou_add(GtkWidget *widget, LadderDocument *document, const char *what)
 {
 	const struct project *project = ladder_document_project(document);
 	char *name, *text, *all;
+	bool good;
 	gsize len;
 
 	if (!project)
-		return;
+		return why_none();
 	name = free_name(project, what);
 	text = text_of(what, name);
 	all = ladder_document_outline(document, &len, NULL, NULL);
 	ladder_document_begin(document, _("New program or block"), NULL);
-	if (all && ladder_document_replace(document, len, 0, text, NULL)) {
+	good = all && ladder_document_replace(document, len, 0, text, NULL);
+	if (good) {
 		project = ladder_document_project(document);
 		gtk_widget_activate_action(widget, "win.go-to", "(iiii)",
 					   project->pou_count - 1, 0, -1, -1);
@@ -75,6 +82,7 @@ void pou_add(GtkWidget *widget, LadderDocument *document, const char *what)
 	g_free(all);
 	g_free(text);
 	g_free(name);
+	return good ? NULL : why_none();
 }
 
 /* ---- deleting ---- */

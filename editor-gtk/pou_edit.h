@@ -12,8 +12,8 @@
 #include <gtk/gtk.h>
 
 /** pou_add - @what: "PROGRAM LD", "FUNCTION_BLOCK LD"; named anew, and shown from
- * @widget by "win.go-to". */
-void pou_add(GtkWidget *widget, LadderDocument *document, const char *what);
+ * @widget by "win.go-to". Returns NULL; else why none comes, translated, static. */
+const char *pou_add(GtkWidget *widget, LadderDocument *document, const char *what);
 /** pou_delete - with all that is in it; the last one stays, and one of another file.
  * Returns NULL; else why it stays, translated, static. */
 const char *pou_delete(LadderDocument *document, int pou);

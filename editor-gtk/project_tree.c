@@ -12,9 +12,9 @@
 #include "editor-gtk/listing.h"
 #include "editor-gtk/popover.h"
 #include "editor-gtk/pou_edit.h"
-#include "editor-gtk/pou_import.h"
 #include "editor-gtk/tip.h"
 #include "editor-gtk/tree_rows.h"
+#include "editor-gtk/verbs.h"
 
 #include <string.h>
 
@@ -170,23 +170,6 @@ static int selected_pou(struct tree *tree)
 	return row && row->kind == ROW_POU ? row->pou : -1;
 }
 
-static void act_add(GSimpleAction *action, GVariant *what, gpointer data)
-{
-	struct tree *tree = data;
-
-	(void)action;
-	pou_add(tree->list, tree->document, g_variant_get_string(what, NULL));
-}
-
-static void act_import(GSimpleAction *action, GVariant *unused, gpointer data)
-{
-	struct tree *tree = data;
-
-	(void)action;
-	(void)unused;
-	pou_import_ask(tree->list, tree->document);
-}
-
 static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
 {
 	struct tree *tree = data;
@@ -207,22 +190,16 @@ static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
 
 static GMenu *menu_model(void)
 {
-	static const struct { const char *label, *action; } rows[] = {
-		{ N_("New program (LD)"), "tree.add::PROGRAM LD" },
-		{ N_("New program (IL)"), "tree.add::PROGRAM IL" },
-		{ N_("New program (SFC)"), "tree.add::PROGRAM SFC" },
-		{ N_("New function block"), "tree.add::FUNCTION_BLOCK LD" },
-		{ N_("New function"), "tree.add::FUNCTION LD" },
-		{ N_("New subroutine"), "tree.add::SUBROUTINE LD" },
-		{ N_("Import from another project…"), "tree.import" },
-		{ N_("New I/O map…"), "win.new_iomap" },
-		{ N_("Rename…"), "tree.rename" },
-		{ N_("Delete"), "tree.delete" },
+	static const enum verb verbs[] = {
+		VERB_new_program, VERB_new_list, VERB_new_chart, VERB_new_block,
+		VERB_new_function, VERB_new_subroutine, VERB_import, VERB_new_iomap,
 	};
 	GMenu *menu = g_menu_new();
 
-	for (gsize i = 0; i < G_N_ELEMENTS(rows); i++)
-		g_menu_append(menu, _(rows[i].label), rows[i].action);
+	for (gsize i = 0; i < G_N_ELEMENTS(verbs); i++)
+		g_menu_append(menu, _(verb_row(verbs[i])->label), verb_row(verbs[i])->action);
+	g_menu_append(menu, _("Rename…"), "tree.rename");
+	g_menu_append(menu, _("Delete"), "tree.delete");
 	return menu;
 }
 
@@ -230,8 +207,6 @@ static GMenu *menu_model(void)
 static void add_actions(struct tree *tree, GtkWidget *panel)
 {
 	const GActionEntry entries[] = {
-		{ .name = "add", .activate = act_add, .parameter_type = "s" },
-		{ .name = "import", .activate = act_import },
 		{ .name = "rename", .activate = act_on_pou },
 		{ .name = "delete", .activate = act_on_pou },
 	};
@@ -329,9 +304,12 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_list_item_set_child(item, expander);
 }
 
+#define TEXT_WIDE 20 /* characters that a note does not take from the text before it */
+
 static void show_note(LadderTreeRow *row, GtkLabel *note)
 {
 	gtk_label_set_text(note, row->note ? row->note : "");
+	tip_set(GTK_WIDGET(note), gtk_label_get_text(note));
 }
 
 static GtkWidget *text_of(GtkListItem *item)
@@ -352,6 +330,8 @@ static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
 	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(gtk_list_item_get_child(item)),
 				       list_row);
 	gtk_label_set_text(GTK_LABEL(text), row->text);
+	gtk_label_set_width_chars(GTK_LABEL(text), MIN((int)g_utf8_strlen(row->text, -1),
+						       TEXT_WIDE));
 	tip_set(text, row->text);
 	show_note(row, GTK_LABEL(note));
 	g_signal_connect_object(row, "changed", G_CALLBACK(show_note), note, 0);

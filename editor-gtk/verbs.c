@@ -36,7 +36,8 @@ enum verb verb_find(const char *action)
 const char *verb_group_label(enum verb_group group)
 {
 	static const char *const labels[VERBS_GROUPS] = {
-		[VERBS_FILE] = N_("File"), [VERBS_EDIT] = N_("Edit"),
+		[VERBS_FILE] = N_("File"), [VERBS_PROJECT] = N_("Project"),
+		[VERBS_EDIT] = N_("Edit"),
 		[VERBS_DRAW] = N_("Draw"), [VERBS_RUNG] = N_("Rungs"),
 		[VERBS_CHART] = N_("Charts"),
 		[VERBS_GO] = N_("Go"), [VERBS_RUN] = N_("Simulation"),

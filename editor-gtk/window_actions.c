@@ -9,6 +9,8 @@
 #include "editor-gtk/app.h"
 #include "editor-gtk/commands.h"
 #include "editor-gtk/palette.h"
+#include "editor-gtk/pou_edit.h"
+#include "editor-gtk/pou_import.h"
 #include "editor-gtk/preferences.h"
 #include "editor-gtk/problems.h"
 #include "editor-gtk/recent.h"
@@ -259,6 +261,35 @@ static void do_about(LadderWindow *window)
 		"comments", _("Ladder logic for Linux ARM boards"), NULL);
 }
 
+/* ---- what the project is made of ---- */
+
+static void add_pou(LadderWindow *window, const char *what)
+{
+	const char *why = pou_add(GTK_WIDGET(window), window->document, what);
+
+	if (why)
+		ladder_window_tell(window, why);
+}
+
+static bool do_project(LadderWindow *window, enum verb verb)
+{
+	switch ((int)verb) {
+	case VERB_new_program: add_pou(window, "PROGRAM LD"); return true;
+	case VERB_new_list: add_pou(window, "PROGRAM IL"); return true;
+	case VERB_new_chart: add_pou(window, "PROGRAM SFC"); return true;
+	case VERB_new_block: add_pou(window, "FUNCTION_BLOCK LD"); return true;
+	case VERB_new_function: add_pou(window, "FUNCTION LD"); return true;
+	case VERB_new_subroutine: add_pou(window, "SUBROUTINE LD"); return true;
+	case VERB_import:
+		pou_import_ask(GTK_WIDGET(window), window->document);
+		return true;
+	case VERB_new_iomap: window_new_iomap(window); return true;
+	case VERB_symbols: tabs_show_widget(window, "symbols"); return true;
+	case VERB_export_symbols: window_export_symbols(window); return true;
+	default: return false;
+	}
+}
+
 /* ---- the table ---- */
 
 /* Esc closes the bar that finds when the sheet has nothing to give back. */
@@ -289,7 +320,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 						     "sheet first."));
 		return;
 	}
-	if (window_sim(window, verb) || window_scenario(window, verb))
+	if (do_project(window, verb) || window_sim(window, verb) || window_scenario(window, verb))
 		return;
 	switch ((int)verb) {
 	case VERB_new_project: app_new_window(window); break;
@@ -297,10 +328,8 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_save: window_save(window); break;
 	case VERB_run_board: window_run_board(window); break;
 	case VERB_stop_board: window_stop_board(window); break;
-	case VERB_new_iomap: window_new_iomap(window); break;
 	case VERB_save_as: window_save_as(window); break;
 	case VERB_export_classic: window_export_classic(window); break;
-	case VERB_export_symbols: window_export_symbols(window); break;
 	case VERB_print: window_print(window); break;
 	case VERB_export_pdf: window_export_pdf(window); break;
 	case VERB_preferences: preferences_show(window); break;
@@ -318,7 +347,6 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 		break;
 	case VERB_watch_add: names_watch(window); break;
 	case VERB_show_uses: names_show_uses(window); break;
-	case VERB_symbols: tabs_show_widget(window, "symbols"); break;
 	case VERB_rename: do_rename(window); break;
 	case VERB_go_coil: names_go_driver(window); break;
 	case VERB_go_rung:

@@ -191,6 +191,29 @@ def added(screen):
     check(path)
 
 
+def ordered(screen):
+    """a click on the title of a column sorts by it, the next one the other way; numbers by what they are, no case"""
+    names = 'Step10', 'b', 'Txt', 'Step2', 'n'
+    text = 'RUNGBOARD 1\n\nVAR\n' + ''.join('  %s : INT;\n' % name for name in names) + \
+        'END_VAR\n\nPROGRAM Main LD\nRUNG\n  | COIL %QX0.0 |\nEND_PROGRAM\n'
+    path = new_file(screen, text)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+
+    def rows():
+        return [name for _, name in sorted((editor.place(editor.find(name + ', Name', 'text'))[1], name)
+                                           for name in names)]
+    until(lambda: rows() == list(names), 'the order of the file')
+    title = editor.find('Name', 'label')
+    editor.click(title)
+    until(lambda: rows() == ['b', 'n', 'Step2', 'Step10', 'Txt'], 'the order of names')
+    editor.shot('symbols-ordered')
+    editor.click(title)
+    until(lambda: rows() == ['Txt', 'Step10', 'Step2', 'n', 'b'], 'the other way')
+    assert open(path).read() == text
+    assert not editor.all('\u2022')
+
+
 def scopes(screen):
     """the table of one program, of none, of all: chosen by keys and by mouse; names that come later"""
     path = new_file(screen, PROGRAM.replace('PROGRAM Main LD\n', 'PROGRAM Main LD\nVAR\n  Own : INT;\nEND_VAR\n'))
@@ -273,4 +296,4 @@ def last_letter(screen):
     assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
 
 
-main([finds, declared_already, renames, uses, tables, added, scopes, through, last_letter])
+main([finds, declared_already, renames, uses, tables, added, ordered, scopes, through, last_letter])

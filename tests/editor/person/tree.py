@@ -55,6 +55,49 @@ def bookmarks(screen):
     assert lines(path, MARKED) == ['%QX0.1=1', '%QX0.1=0']
 
 
+def by_name(screen):
+    """what the tree's menu does is found by its name, too; what is not there is said; a bookmark shows rung and title"""
+    path = new_file(screen, TEXT.replace('RUNG\n  | NO %IX0.1', 'RUNG "Washing is over, all of it is dry"\n  | NO %IX0.1'))
+    editor = Editor(screen, path)
+    editor.keys('Down', 'ctrl+b')
+    rung = editor.find('Main, rung 2', 'label')
+    title = editor.find('Washing is over, all of it is dry', 'label')
+    until(lambda: editor.place(rung)[2] > 70 and
+          editor.place(rung)[0] + editor.place(rung)[2] <= editor.place(title)[0], 'both beside each other')
+    editor.shot('bookmark-title')
+    editor.keys('ctrl+k')
+    until(lambda: editor.all('About Rungboard'), 'all commands')
+    editor.type('function fun')
+    until(lambda: editor.all('Nothing found', 'label') and not editor.all('New function', 'list item'), 'no command')
+    editor.shot('commands-none')
+    editor.keys('Return')
+    until(lambda: not editor.all('Nothing found', 'label'), 'the end of the list')
+    editor.keys('ctrl+k')
+    until(lambda: editor.all('About Rungboard'), 'all commands')
+    editor.type('new program (il')
+    until(lambda: not editor.all('About Rungboard'), 'that command alone')
+    editor.keys('Return')
+    until(lambda: editor.all('Program1', 'label'), 'the program in the tree')
+    text = editor.save(path)
+    assert 'PROGRAM Program1 IL\n' in text, text
+    check(path)
+    assert lines(path, MARKED) == ['%QX0.1=1', '%QX0.1=0']
+
+
+def nothing_added(screen):
+    """no program comes to a file that cannot be read, and that is said"""
+    path = new_file(screen, TEXT.replace('PROGRAM Other LD', 'PROGRAM Other XX'))
+    editor = Editor(screen, path)
+    editor.keys('ctrl+k')
+    until(lambda: editor.all('About Rungboard'), 'all commands')
+    editor.type('new function block')
+    until(lambda: not editor.all('About Rungboard'), 'that command alone')
+    editor.keys('Return')
+    editor.says('Nothing can be added while a text of the project cannot be read')
+    editor.shot('nothing-added')
+    assert open(path).read() == TEXT.replace('PROGRAM Other LD', 'PROGRAM Other XX')
+
+
 def rows(screen):
     """a program shows its variables, F2 renames it, Delete deletes it, Ctrl+Z brings it back"""
     path = new_file(screen, TEXT)
@@ -207,4 +250,4 @@ def beside(screen):
     assert open(path).read() == TEXT
 
 
-main([bookmarks, rows, of_others, in_front, keys, menus, beside])
+main([bookmarks, by_name, nothing_added, rows, of_others, in_front, keys, menus, beside])
