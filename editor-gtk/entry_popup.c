@@ -10,6 +10,7 @@
  */
 #include "editor-gtk/entry_popup.h"
 
+#include "editor-gtk/cells.h"
 #include "editor-gtk/entry_row.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/popover.h"
@@ -327,17 +328,36 @@ static void comes(GtkEditable *line, const char *text, int len, int *at)
 
 /* ---- the widget ---- */
 
-/* By a click elsewhere: nothing that was typed is lost for that. */
-static void leave(LadderEntryPopup *popup)
+/* By a click elsewhere: nothing that was typed is lost for that. False: it was not taken,
+ * and that was told. */
+static bool leave(LadderEntryPopup *popup)
 {
 	const struct entry_popup_calls calls = popup->calls;
 	char *line = g_strdup(line_of(popup));
+	const bool good = !calls.left || strcmp(line, popup->first) == 0 ||
+			  calls.taken(calls.context, line);
 
 	popup->done = true;
-	if (calls.left && strcmp(line, popup->first) != 0 &&
-	    !calls.taken(calls.context, line))
+	if (!good)
 		calls.left(calls.context, line);
 	g_free(line);
+	return good;
+}
+
+/* A window that is closed while a line is typed in it: as by a click elsewhere. */
+static bool leave_now(GtkWidget *widget, GtkListItem *unused)
+{
+	LadderEntryPopup *popup = LADDER_ENTRY_POPUP(widget);
+	bool good;
+
+	(void)unused;
+	if (popup->done || popup->spare)
+		return true;
+	g_object_ref(popup);
+	good = leave(popup);
+	ladder_entry_popup_close(popup);
+	g_object_unref(popup);
+	return good;
 }
 
 static void closed(LadderEntryPopup *popup)
@@ -414,6 +434,7 @@ static void ladder_entry_popup_init(LadderEntryPopup *popup)
 	g_signal_connect_swapped(popup->list, "row-activated", G_CALLBACK(row_activated),
 				 popup);
 	g_signal_connect(popup, "closed", G_CALLBACK(closed), NULL);
+	cells_on_take(GTK_WIDGET(popup), leave_now, NULL);
 }
 
 static LadderEntryPopup *spare_of(GtkWidget *owner)

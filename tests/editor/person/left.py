@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: MIT
 """left - a click elsewhere while a line is typed: what was typed is taken, or it is told that it could not be."""
 import os
+import signal
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, main, new_file, until  # noqa: E402
+from screen import close_window  # noqa: E402
 
 
 def away(editor):
@@ -111,4 +113,42 @@ def charts(screen):
     assert 'Horn AT %QX0.5' in editor.save(path)
 
 
-main([elements, wrong, dropped, charts])
+def closed(screen):
+    """the window is closed from outside, by a task bar: what was typed is in what it asks for; what is wrong keeps it once"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.type('FROB it')
+    editor.opened()
+    close_window(int(editor.window))
+    editor.says('not taken: FROB it')
+    assert editor.windows() and not editor.all(role='dialog')
+    editor.keys('Home')
+    editor.entry('Open')
+    editor.keys('ctrl+s')
+    editor.says('Saved')
+    editor.type('OUT Lamp')
+    editor.opened()
+    close_window(int(editor.window))
+    editor.reply('Save')
+    until(lambda: editor.process.poll() is not None, 'the end')
+    assert '| NO Open | COIL Lamp |' in open(path).read()
+    check(path)
+
+
+def ended(screen):
+    """the machine is shut down while a line is typed: it is in the draft"""
+    path = new_file(screen)
+    before = open(path).read()
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.type('Open')
+    editor.opened()
+    os.kill(editor.pid, signal.SIGTERM)
+    until(lambda: editor.process.poll() is not None, 'the end')
+    assert open(path).read() == before
+    editor = Editor(screen, path)
+    editor.element('Open')
+
+
+main([elements, wrong, dropped, charts, closed, ended])

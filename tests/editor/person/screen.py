@@ -3,6 +3,7 @@
 
 What is on it desk.py finds and uses.
 """
+import ctypes
 import os
 import shutil
 import subprocess
@@ -47,6 +48,27 @@ def until(look, what, seconds=PATIENCE):
         if time.monotonic() > end:
             raise AssertionError('it did not come: ' + what)
         time.sleep(0.06)
+
+
+class ClientMessage(ctypes.Structure):
+    """XClientMessageEvent, as wide as an XEvent."""
+    _fields_ = [('type', ctypes.c_int), ('serial', ctypes.c_ulong), ('sent', ctypes.c_int),
+                ('display', ctypes.c_void_p), ('window', ctypes.c_ulong), ('message', ctypes.c_ulong),
+                ('format', ctypes.c_int), ('data', ctypes.c_long * 5), ('rest', ctypes.c_long * 12)]
+
+
+def close_window(window):
+    """As a task bar does it: the window manager is asked to (_NET_CLOSE_WINDOW of the EWMH)."""
+    x = ctypes.CDLL('libX11.so.6')
+    x.XOpenDisplay.restype = ctypes.c_void_p
+    x.XDefaultRootWindow.restype = x.XInternAtom.restype = ctypes.c_ulong
+    display = ctypes.c_void_p(x.XOpenDisplay(None))
+    message = x.XInternAtom(display, b'_NET_CLOSE_WINDOW', 0)
+    event = ClientMessage(type=33, window=window, message=message, format=32)  # ClientMessage
+    event.data[1] = 2  # by a person, not by a program
+    redirect = 1 << 19 | 1 << 20  # SubstructureNotifyMask, SubstructureRedirectMask
+    x.XSendEvent(display, ctypes.c_ulong(x.XDefaultRootWindow(display)), 0, redirect, ctypes.byref(event))
+    x.XCloseDisplay(display)
 
 
 class Screen:
