@@ -34,28 +34,27 @@ static bool is_new(const struct project *project, const struct entry_instance *m
 	return true;
 }
 
-/* False: no memory. */
-static bool add(const struct entry_place *place, uint32_t from, enum word word,
+/* False: no memory. @made: gets one more, a name for what is there called @one.from. */
+static bool add(const struct entry_place *place, struct entry_instance one,
 		struct entry_instance *made, int *count)
 {
 	struct names *names = &place->project->names;
 	char base[LIMIT_NAME + 1], name[ENTRY_NAME];
 	int number = 1;
 
-	base_of(project_text(place->project, from), base, sizeof(base));
+	base_of(project_text(place->project, one.from), base, sizeof(base));
 	do
 		snprintf(name, sizeof(name), "%.*s%d", LIMIT_NAME - 12, base, number++);
 	while (number < LIMIT_VARS && (entry_name_taken(place, NULL, name) ||
 				       !is_new(place->project, made, *count, name)));
-	made[*count] = (struct entry_instance){
-		from, names_intern(names, name, strlen(name)), word,
-	};
-	return made[(*count)++].to != 0;
+	one.to = names_intern(names, name, strlen(name));
+	made[(*count)++] = one;
+	return one.to != 0;
 }
 
 /* Of a box, if it is a variable by itself, and one that may be another; else NULL. */
 static const struct var *instance_of(const struct entry_place *place,
-				     const struct cell *cell)
+				     const struct cell *cell, bool *retain)
 {
 	const struct word_row *row = words_row(&place->project->words,
 					       (enum word)cell->word);
@@ -66,6 +65,7 @@ static const struct var *instance_of(const struct entry_place *place,
 	if (row->kind != WORD_FB || !entry_is_name(name, strlen(name)))
 		return NULL;
 	var = entry_var_find(place, name, strlen(name), &flags);
+	*retain = flags & VAR_RETAIN;
 	return var && var->type == IEC_NONE && var->array.count == 0 &&
 	       !(flags & (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT)) ? var : NULL;
 }
@@ -147,11 +147,14 @@ static bool find_all(const struct entry_place *place, const struct rung *rung,
 
 	for (int i = 0; good && i < rung->rows * rung->cols; i++) {
 		const struct cell *cell = &rung->cell[i];
-		const struct var *var = instance_of(place, cell);
+		bool retain = false;
+		const struct var *var = instance_of(place, cell, &retain);
 		const char *name = var ? project_text(place->project, var->name) : "";
 
 		if (var && !find(place->project, made, *count, name, strlen(name)))
-			good = add(place, var->name, (enum word)cell->word, made, count);
+			good = add(place, (struct entry_instance){ .from = var->name,
+				   .word = (enum word)cell->word, .retain = retain },
+				   made, count);
 	}
 	return good;
 }

@@ -10,6 +10,7 @@
 struct entry_instance {
 	uint32_t from, to;   /* string ids of names                            */
 	enum word word;      /* the block that it is one of                    */
+	bool retain;         /* it is kept while the power is off: so is this  */
 };
 
 /**

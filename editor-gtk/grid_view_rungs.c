@@ -8,6 +8,7 @@
 #include "editor-gtk/grid_view_inside.h"
 
 #include "editor-gtk/entry_duplicate.h"
+#include "editor-gtk/symbols.h"
 
 #include <stdlib.h>
 
@@ -69,40 +70,72 @@ static void do_delete(LadderGridView *view)
 
 /* ---- once more ---- */
 
-/* "Delay2 : TON" of each, copied: ids and rows end when the project is read anew. */
-static char **declarations(struct project *project, const struct entry_instance *made,
-			   int count)
+/* Copied: ids and rows end when the project is read anew. */
+struct instance {
+	char *name, *type;
+	bool retain;
+};
+
+static struct instance *instances_new(struct project *project,
+				      const struct entry_instance *made, int count)
 {
-	char **out = g_new0(char *, count + 1);
+	struct instance *instances = g_new0(struct instance, count + 1);
 
 	for (int i = 0; i < count; i++)
-		out[i] = g_strdup_printf("%s : %s", project_text(project, made[i].to),
-					 words_row(&project->words, made[i].word)->word);
-	return out;
+		instances[i] = (struct instance){
+			g_strdup(project_text(project, made[i].to)),
+			g_strdup(words_row(&project->words, made[i].word)->word),
+			made[i].retain,
+		};
+	return instances;
 }
 
-static void declare_all(LadderGridView *view, char **declarations)
+static void instances_free(struct instance *instances)
 {
-	for (int i = 0; declarations[i]; i++) {
-		char **part = g_strsplit(declarations[i], " : ", 2);
-
-		ladder_document_declare(view->document, view->pou, part[0], part[1], "",
-					NULL);
-		g_strfreev(part);
+	for (int i = 0; instances[i].name; i++) {
+		g_free(instances[i].name);
+		g_free(instances[i].type);
 	}
+	g_free(instances);
+}
+
+static void declare(LadderGridView *view, const struct instance *one)
+{
+	const char *const text[SYMBOL_FIELDS] = {
+		one->name, one->type, "", "", "1", "", "",
+	};
+
+	if (one->retain)
+		symbol_add(view->document, view->pou + 1, 0, text, NULL);
+	else
+		ladder_document_declare(view->document, view->pou, one->name, one->type, "",
+					NULL);
+}
+
+/* What was declared, to be told. Caller: g_free. */
+static char *declare_all(LadderGridView *view, const struct instance *instances)
+{
+	GString *told = g_string_new(NULL);
+
+	for (const struct instance *one = instances; one->name; one++) {
+		declare(view, one);
+		g_string_append_printf(told, "%s%s : %s%s", told->len ? "; " : "", one->name,
+				       one->type, one->retain ? " RETAIN" : "");
+	}
+	return g_string_free(told, FALSE);
 }
 
 /* @rungs: taken over. */
 static void put_twice(LadderGridView *view, int at, struct rung **rungs, int count,
-		      char **new)
+		      const struct instance *instances)
 {
-	char *told = g_strjoinv("; ", new);
+	char *told = NULL;
 
 	ladder_document_begin(view->document, _(verb_row(VERB_rung_duplicate)->label), NULL);
 	if (sheet_splice(view, at, 0, rungs, count, NULL)) {
-		declare_all(view, new);
+		told = declare_all(view, instances);
 		select_rungs(view, at, at + count - 1);
-		if (*told)
+		if (told && *told)
 			sheet_tell(view, told);
 	}
 	ladder_document_end(view->document);
@@ -118,7 +151,7 @@ static void do_duplicate(LadderGridView *view)
 	struct entry_instance *made;
 	struct rung **copies;
 	int first, last, count;
-	char **new;
+	struct instance *instances;
 
 	cursor_rungs(view, &first, &last);
 	if (last >= sheet_rungs(view))
@@ -129,9 +162,9 @@ static void do_duplicate(LadderGridView *view)
 	if (entry_duplicate(&place, copies, last - first + 1, &made, &count)) {
 		for (int i = 0; i <= last - first; i++)
 			copies[i]->label = 0; /* it could not stand twice */
-		new = declarations(place.project, made, count);
-		put_twice(view, last + 1, copies, last - first + 1, new);
-		g_strfreev(new);
+		instances = instances_new(place.project, made, count);
+		put_twice(view, last + 1, copies, last - first + 1, instances);
+		instances_free(instances);
 		free(made);
 	}
 	g_free(copies);

@@ -97,6 +97,18 @@ def twice_there(screen):
     assert re.search('  D3 +: TON;\n', text), text
     editor.keys('ctrl+z')
     assert editor.save(path) == PROJECT
+    # A counter that is kept while the power is off has a twin that is, too.
+    kept = PROJECT.replace('  Parts : CTU;\nEND_VAR', 'END_VAR\n\nVAR RETAIN\n  Parts : CTU;\nEND_VAR')
+    path = new_file(screen, kept, 'kept.rung')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('Down', 'ctrl+d')
+    editor.says('Parts1 : CTU RETAIN')
+    text = editor.save(path)
+    assert 'VAR RETAIN\n  Parts1 : CTU;\nEND_VAR\nRUNG' in text and '| CTU Parts1 PV:=7 |' in text, text
+    check(path)
+    editor.keys('ctrl+z')
+    assert editor.save(path) == kept
 
 
 main([instance, values, twice_there])
