@@ -64,6 +64,8 @@ char *ladder_grid_view_tip(LadderGridView *view, int rung, int row, int col);
 
 /** ladder_grid_view_do - a SHEET verb. */
 void ladder_grid_view_do(LadderGridView *view, enum verb verb);
+/** ladder_grid_view_has_begun - a line, a wire or a selection, that Esc ends. */
+bool ladder_grid_view_has_begun(LadderGridView *view);
 /** ladder_grid_view_put - an element of the palette at the cursor. */
 void ladder_grid_view_put(LadderGridView *view, enum word word);
 

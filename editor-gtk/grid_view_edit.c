@@ -136,6 +136,11 @@ static void give_back(LadderGridView *view)
 }
 
 /* Esc: a stroke or the entry goes first, then what was done to this rung since the cursor came. */
+bool ladder_grid_view_has_begun(LadderGridView *view)
+{
+	return view->wire.drawing || view->entry || view->preview || view->selecting;
+}
+
 static void do_cancel(LadderGridView *view)
 {
 	if (view->wire.drawing)

@@ -170,6 +170,14 @@ bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index)
 	return panel_list_select(&view->list, is_symbol, place);
 }
 
+void ladder_symbols_view_enter(LadderSymbolsView *view)
+{
+	LadderPanelRow *row = panel_list_row(&view->list);
+
+	if (row)
+		cells_enter(view->list.view, row, FIELD_NAME);
+}
+
 /* ---- edits ---- */
 
 /* Where it is by now: a row is a tenth of a second behind, and RETAIN moves. -1: nowhere. */
@@ -251,7 +259,7 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 		text[FIELD_TYPE] = panel_row_text(row, FIELD_TYPE);
 	if (symbol_add(document, table, 0, text, &why) &&
 	    ladder_symbols_view_show(view, table, last_index(document, table, name)))
-		cells_enter(view->list.view, panel_list_row(&view->list), FIELD_NAME);
+		ladder_symbols_view_enter(view);
 	tell(view, why);
 	g_free(name);
 }

@@ -20,6 +20,8 @@ GtkWidget *ladder_symbols_view_new(void);
 void ladder_symbols_view_set_document(LadderSymbolsView *view, LadderDocument *document);
 /** ladder_symbols_view_show - selects a symbol, by table and index of view/xref.h. */
 bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index);
+/** ladder_symbols_view_enter - the name of the row that is selected has the keys. */
+void ladder_symbols_view_enter(LadderSymbolsView *view);
 /** ladder_symbols_view_list - the rows shown (LadderPanelRow). Borrowed. */
 GListModel *ladder_symbols_view_list(LadderSymbolsView *view);
 /** ladder_symbols_view_refresh - now, seen or not. */

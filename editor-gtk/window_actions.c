@@ -296,9 +296,10 @@ static bool do_project(LadderWindow *window, enum verb verb)
 static void do_on_sheet(LadderWindow *window, LadderGridView *sheet, enum verb verb)
 {
 	const guint64 version = ladder_document_version(window->document);
+	const bool begun = ladder_grid_view_has_begun(sheet);
 
 	ladder_grid_view_do(sheet, verb);
-	if (verb == VERB_cancel && ladder_document_version(window->document) == version)
+	if (verb == VERB_cancel && !begun && ladder_document_version(window->document) == version)
 		window_find_close(window);
 }
 

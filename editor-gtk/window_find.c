@@ -7,6 +7,7 @@
 #include "editor-gtk/chart_page.h"
 #include "editor-gtk/find.h"
 #include "editor-gtk/find_bar.h"
+#include "editor-gtk/symbols_view.h"
 
 static LadderFindBar *bar_of(LadderWindow *window)
 {
@@ -53,6 +54,15 @@ static void mark_hit(LadderWindow *window)
 		ladder_grid_view_set_found(sheet, -1, 0, 0);
 }
 
+/* NULL: there is no table of symbols in front. */
+static LadderSymbolsView *symbols_of(AdwTabPage *page)
+{
+	GtkWidget *place = page ? tabs_content(page) : NULL;
+	GtkWidget *symbols = ADW_IS_BIN(place) ? adw_bin_get_child(ADW_BIN(place)) : NULL;
+
+	return LADDER_IS_SYMBOLS_VIEW(symbols) ? LADDER_SYMBOLS_VIEW(symbols) : NULL;
+}
+
 /* To where the hit is; else to what is in front. */
 static void give_keys(LadderWindow *window)
 {
@@ -65,6 +75,8 @@ static void give_keys(LadderWindow *window)
 		gtk_widget_grab_focus(sheet ? GTK_WIDGET(sheet) : GTK_WIDGET(chart));
 	else if (page)
 		gtk_widget_child_focus(tabs_content(page), GTK_DIR_TAB_FORWARD);
+	if (symbols_of(page))
+		ladder_symbols_view_enter(symbols_of(page));
 }
 
 static void closed(LadderWindow *window)
