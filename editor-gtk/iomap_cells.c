@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/iomap_cells.h"
 
+#include "editor-gtk/cell_entry.h"
 #include "editor-gtk/cells.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/popover.h"
@@ -395,15 +396,11 @@ static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 
 static GtkWidget *entry_new(enum io_field field)
 {
-	GtkWidget *cell = gtk_entry_new();
+	GtkWidget *cell = cell_entry_new();
 
 	cells_add(cell, "focus", gtk_event_controller_focus_new());
 	cells_add(cell, "keys", gtk_event_controller_key_new());
-	gtk_entry_set_has_frame(GTK_ENTRY(cell), FALSE);
-	gtk_widget_add_css_class(cell, "field");
 	gtk_editable_set_width_chars(GTK_EDITABLE(cell), 4);
-	/* Undo is that of the whole map. */
-	gtk_editable_set_enable_undo(GTK_EDITABLE(cell), FALSE);
 	if (has_choices(field)) {
 		gtk_entry_set_icon_from_icon_name(GTK_ENTRY(cell), GTK_ENTRY_ICON_SECONDARY,
 						  "pan-down-symbolic");

@@ -4,6 +4,7 @@
  */
 #include "editor-gtk/symbols_cells.h"
 
+#include "editor-gtk/cell_entry.h"
 #include "editor-gtk/cells.h"
 #include "editor-gtk/tip.h"
 
@@ -122,7 +123,7 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer data)
 {
 	const struct cells *cells = data;
-	GtkWidget *cell = is_check(cells->field) ? gtk_check_button_new() : gtk_entry_new();
+	GtkWidget *cell = is_check(cells->field) ? gtk_check_button_new() : cell_entry_new();
 
 	(void)factory;
 	g_object_set_data(G_OBJECT(cell), "cells", data);
@@ -131,10 +132,6 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer
 	} else {
 		cells_add(cell, "focus", gtk_event_controller_focus_new());
 		cells_add(cell, "keys", gtk_event_controller_key_new());
-		gtk_entry_set_has_frame(GTK_ENTRY(cell), FALSE);
-		/* Undo is the document's, of what was typed before that, too. */
-		gtk_editable_set_enable_undo(GTK_EDITABLE(cell), FALSE);
-		gtk_widget_add_css_class(cell, "field");
 	}
 	gtk_list_item_set_child(item, cell);
 }
