@@ -1,19 +1,15 @@
 /* SPDX-License-Identifier: MIT
  *
- * pages - breaking a project into pages; see pages.h. Painting is pages_paint.c.
+ * pages - breaking a project into pages; see pages.h. Charts are pages_chart.c, painting is
+ * pages_paint.c.
  */
 #include "editor-gtk/pages_inside.h"
 #include "editor-gtk/grid_draw.h"
 #include "editor-gtk/i18n.h"
-#include "editor-gtk/sfc_bodies.h"
-#include "editor-gtk/sfc_draw.h"
 
 #include <math.h>
 
-#define TEXT_LINE 16     /* px of a line of IL or of a table                    */
 #define LEAST_SCALE 0.6f /* a rung taller than a page is made no smaller          */
-#define CHART_SCALE 0.6f /* a chart wider than a page is made no smaller: 5.4 pt    */
-#define AIR 14
 
 bool paper_find(const char *name, struct paper *out)
 {
@@ -47,7 +43,7 @@ static void page_free(gpointer pointer)
 	g_free(page);
 }
 
-static void next_page(struct pages *pages)
+void pages_next(struct pages *pages)
 {
 	struct page *page = g_new0(struct page, 1);
 
@@ -63,7 +59,7 @@ static void picture_free(gpointer pointer)
 	g_free(pointer);
 }
 
-static struct picture *new_picture(struct pages *pages)
+struct picture *pages_picture(struct pages *pages)
 {
 	struct picture *picture = g_new(struct picture, 1);
 
@@ -82,27 +78,24 @@ static void put_piece(struct pages *pages, const struct picture *picture, float 
 	pages->y += (to - from) * scale;
 }
 
-/* A picture that fits on a page; on the next one if it does not fit on this. @more: px
- * that must follow it on the same page. */
-static void put_whole(struct pages *pages, const struct picture *picture, float height,
-		      float scale, float more)
+void pages_put_whole(struct pages *pages, const struct picture *picture, float height,
+		     float scale, float more)
 {
 	if (pages->y > 0 && pages->y + height * scale + more > pages->room_height)
-		next_page(pages);
+		pages_next(pages);
 	put_piece(pages, picture, scale, 0, height);
 }
 
 /* ---- what is put on them ---- */
 
-static float put_heading(struct pages *pages, const char *text, float more)
+void pages_put_heading(struct pages *pages, const char *text, float more)
 {
-	struct picture *picture = new_picture(pages);
+	struct picture *picture = pages_picture(pages);
 
 	picture_text(picture, TOKEN_INK, LETTER_HEADING,
 		     lettering_fit(pages->lettering, LETTER_HEADING, text, -1,
 				   pages->room_width), 0, 20);
-	put_whole(pages, picture, 32, 1, more);
-	return 32;
+	pages_put_whole(pages, picture, 32, 1, more);
 }
 
 static char *reference_of(void *context, int row, int col)
@@ -116,9 +109,8 @@ static char *reference_of(void *context, int row, int col)
 				project_text(pages->project, cell->operand));
 }
 
-/* Part of a picture; a single row may be taller than a page. */
-static void put_span(struct pages *pages, const struct picture *picture, float scale,
-		     float from, float end)
+void pages_put_span(struct pages *pages, const struct picture *picture, float scale,
+		    float from, float end)
 {
 	while (from < end) {
 		float to = fminf(end, from + (pages->room_height - pages->y) / scale);
@@ -126,7 +118,7 @@ static void put_span(struct pages *pages, const struct picture *picture, float s
 		put_piece(pages, picture, scale, from, to);
 		from = to;
 		if (from < end)
-			next_page(pages);
+			pages_next(pages);
 	}
 }
 
@@ -140,13 +132,13 @@ static void put_slices(struct pages *pages, const struct rung_layout *layout,
 		float to = layout->row[row].y + layout->row[row].height;
 
 		if ((to - from) * scale > pages->room_height - pages->y) {
-			put_span(pages, picture, scale, from, end);
-			next_page(pages);
+			pages_put_span(pages, picture, scale, from, end);
+			pages_next(pages);
 			from = end;
 		}
 		end = to;
 	}
-	put_span(pages, picture, scale, from, layout->height);
+	pages_put_span(pages, picture, scale, from, layout->height);
 }
 
 /* The first one stands below the heading of its POU, whatever it takes. */
@@ -154,7 +146,7 @@ static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
 		     float scale, bool first)
 {
 	const struct rung_layout *layout = sheet->rung[index];
-	struct picture *picture = new_picture(pages);
+	struct picture *picture = pages_picture(pages);
 	struct grid_scene scene = {
 		.drafting = &sheet->drafting, .layout = layout, .theme = pages->theme,
 		.state = RUNG_NO_GUTTER, .reference = reference_of, .context = pages,
@@ -165,14 +157,14 @@ static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
 	pages->rung = layout->rung;
 	grid_draw(&scene, picture);
 	if (layout->height * scale <= room)
-		put_whole(pages, picture, layout->height, scale, 0);
+		pages_put_whole(pages, picture, layout->height, scale, 0);
 	else if (shrunk >= scale * LEAST_SCALE)
-		put_whole(pages, picture, layout->height, shrunk, 0);
+		pages_put_whole(pages, picture, layout->height, shrunk, 0);
 	else
 		put_slices(pages, layout, picture, scale);
 }
 
-static struct sheet *new_sheet(struct pages *pages)
+struct sheet *pages_sheet(struct pages *pages)
 {
 	struct sheet *sheet = sheet_new(pages->project,
 					&pages->project->pou[pages->pou],
@@ -184,250 +176,51 @@ static struct sheet *new_sheet(struct pages *pages)
 	return sheet;
 }
 
-static void put_rungs(struct pages *pages, const struct sheet *sheet, const char *heading,
-		      float scale, int first, int end)
+void pages_put_rungs(struct pages *pages, const struct sheet *sheet, const char *heading,
+		     float scale, int first, int end)
 {
 	float more = first < end ? sheet->rung[first]->height * scale : 0;
 
-	put_heading(pages, heading, fminf(more, pages->room_height - 40));
+	pages_put_heading(pages, heading, fminf(more, pages->room_height - 40));
 	for (int i = first; i < end; i++)
 		put_rung(pages, sheet, i, scale, i == first);
 }
 
 static void put_ladder(struct pages *pages, const char *heading, int only)
 {
-	struct sheet *sheet = new_sheet(pages);
+	struct sheet *sheet = pages_sheet(pages);
 	float scale = fminf(1, pages->room_width / sheet->width);
 
-	put_rungs(pages, sheet, heading, scale, only ? only - 1 : 0,
-		  only ? only : sheet->count);
+	pages_put_rungs(pages, sheet, heading, scale, only ? only - 1 : 0,
+			only ? only : sheet->count);
 	sheet_free(sheet);
 }
 
-/* A line of a list, broken where the page ends. */
-static void put_line(struct pages *pages, const char *line)
+void pages_put_line(struct pages *pages, const char *line)
 {
 	GString *text = g_string_new(line);
 	float room = pages->room_width - 8;
 
 	g_string_replace(text, "\t", "        ", 0);
 	for (const char *at = text->str; at == text->str || *at;) {
-		struct picture *picture = new_picture(pages);
+		struct picture *picture = pages_picture(pages);
 		size_t len = lettering_wrap(pages->lettering, LETTER_OPERAND, at, room);
 
 		picture_text(picture, TOKEN_INK, LETTER_OPERAND,
 			     lettering_fit(pages->lettering, LETTER_OPERAND, at,
 					   (ptrdiff_t)len, 0), 8, 12);
-		put_whole(pages, picture, TEXT_LINE, 1, 0);
+		pages_put_whole(pages, picture, TEXT_LINE, 1, 0);
 		at += len;
 	}
 	g_string_free(text, TRUE);
 }
 
-/* Takes over the lines. */
-static void put_list(struct pages *pages, const char *heading, char **lines)
+void pages_put_list(struct pages *pages, const char *heading, char **lines)
 {
-	put_heading(pages, heading, 3 * TEXT_LINE);
+	pages_put_heading(pages, heading, 3 * TEXT_LINE);
 	for (int i = 0; lines && lines[i]; i++)
-		put_line(pages, lines[i]);
+		pages_put_line(pages, lines[i]);
 	g_strfreev(lines);
-}
-
-/* ---- charts ---- */
-
-/* Is there something to be read? */
-static bool is_blank(const struct pages *pages, const struct picture *picture, float from,
-		     float to)
-{
-	const float right = pages->right > 0 ? pages->right : INFINITY;
-
-	for (int i = 0; i < picture->count; i++) {
-		const struct stroke *stroke = &picture->stroke[i];
-
-		if (stroke->kind == STROKE_TEXT && stroke->y > from && stroke->y < to &&
-		    stroke->x >= pages->left && stroke->x < right)
-			return false;
-	}
-	return true;
-}
-
-/* On a page of its own, unless it is the first; returns how much of the next one's room is
- * used: none. Nothing is put where nothing is. */
-static float put_slice(struct pages *pages, const struct picture *picture, float scale,
-		       float from, float to, float room_used)
-{
-	if (is_blank(pages, picture, from, to))
-		return room_used;
-	if (pages->y > room_used)
-		next_page(pages);
-	put_span(pages, picture, scale, from, to);
-	return 0;
-}
-
-/* Rows of a chart, as many as fit on each page; it ends between boxes if it can. */
-static void put_chart_slices(struct pages *pages, const struct sfc_sheet *chart,
-			     const struct picture *picture, float scale)
-{
-	float from = 0, end = 0, room_used = pages->y;
-
-	for (int row = 0; row < chart->layout->rows; row++) {
-		float to = sfc_sheet_y(row) + SFC_ROW / 2.0f;
-
-		if (!sfc_sheet_can_part(chart, row))
-			continue;
-		if (end > from && (to - from) * scale > pages->room_height - room_used) {
-			room_used = put_slice(pages, picture, scale, from, end, room_used);
-			from = end;
-		}
-		end = to;
-	}
-	put_slice(pages, picture, scale, from, chart->height, room_used);
-}
-
-static void put_bodies(struct pages *pages, const struct pou *pou)
-{
-	struct sheet *sheet = new_sheet(pages);
-	float scale = fminf(1, pages->room_width / sheet->width);
-	int count;
-	struct sfc_part_body *bodies = sfc_bodies_new(pages->project, pou, &count);
-
-	for (int i = 0; i < count; i++) {
-		const struct sfc_body *body = bodies[i].body;
-
-		if (body->kind == BODY_LIST)
-			put_list(pages, bodies[i].heading,
-				 sfc_body_lines(pages->project, pou, body));
-		else
-			put_rungs(pages, sheet, bodies[i].heading, scale, body->first,
-				  body->first + body->count);
-	}
-	sfc_bodies_free(bodies, count);
-	sheet_free(sheet);
-}
-
-/* May a page end at @x? Lines go on, what can be read does not. */
-static bool can_cut(const struct picture *picture, float x, float room)
-{
-	for (int i = 0; i < picture->count; i++) {
-		const struct stroke *stroke = &picture->stroke[i];
-		const bool solid = stroke->kind == STROKE_TEXT ||
-			((stroke->kind == STROKE_FILL || stroke->kind == STROKE_FRAME) &&
-			 stroke->w < room / 2);
-
-		if (solid && stroke->x < x && stroke->x + stroke->w > x)
-			return false;
-	}
-	return true;
-}
-
-/* As much of a chart as fits beside each other, from @left on. */
-static float cut_at(const struct picture *picture, float left, float room, float width)
-{
-	float x = left + room;
-
-	if (x + 1 >= width) /* what fits is no two pages for a rounding */
-		return width;
-	while (x > left + room / 2 && !can_cut(picture, x, room))
-		x -= 4;
-	return x > left + room / 2 ? x : left + room;
-}
-
-static void put_columns(struct pages *pages, const struct sfc_sheet *chart,
-			const struct picture *picture, const char *heading, float scale)
-{
-	const float room = pages->room_width / scale;
-	int number = 0;
-
-	for (float left = 0, right; left < chart->width; left = right) {
-		char *text = left > 0 || chart->width > room + 1 ?
-			g_strdup_printf(_("%s, part %d"), heading, ++number) :
-			g_strdup(heading);
-
-		right = cut_at(picture, left, room, chart->width);
-		if (left > 0)
-			next_page(pages);
-		put_heading(pages, text, 5 * TEXT_LINE);
-		pages->left = left;
-		pages->right = right;
-		if (chart->height * scale <= pages->room_height - pages->y)
-			put_whole(pages, picture, chart->height, scale, 0);
-		else
-			put_chart_slices(pages, chart, picture, scale);
-		pages->left = pages->right = 0;
-		g_free(text);
-	}
-}
-
-/* A comment for which there was too little room at @x beside its box. */
-static void put_comment(struct pages *pages, const struct sfc_sheet *chart, int shape,
-			const char *comment, float x, bool *any)
-{
-	const float room = sfc_sheet_room(chart, chart->layout->shape[shape].lane, x);
-	char *line;
-
-	if (!*comment || lettering_fit(pages->lettering, LETTER_COMMENT, comment, -1,
-				       0).width <= room)
-		return;
-	if (!*any)
-		put_heading(pages, _("Comments"), 3 * TEXT_LINE);
-	*any = true;
-	line = g_strdup_printf("%s: %s", chart->name[shape], comment);
-	put_line(pages, line);
-	g_free(line);
-}
-
-static void put_comments(struct pages *pages, const struct sfc_sheet *chart)
-{
-	const struct sfc *sfc = chart->layout->sfc;
-	bool any = false;
-
-	for (int i = 0; i < chart->layout->shape_count; i++)
-		put_comment(pages, chart, i, chart->comment[i],
-			    sfc_sheet_comment(chart, i).x, &any);
-	for (int i = 0; i < sfc->use_count; i++) {
-		const graphene_rect_t use = sfc_sheet_use(chart, i);
-
-		put_comment(pages, chart, sfc->use[i].step, chart->use_comment[i],
-			    use.origin.x + use.size.width + SFC_APART, &any);
-	}
-	pages->y += any ? AIR : 0;
-}
-
-/* A page more is not begun for comments alone: they get what is left of the last one. */
-static void narrow(struct sfc_sheet *chart, const struct picture *picture, float room)
-{
-	float width = 0, left = 0;
-
-	for (int i = 0; i < picture->count; i++) {
-		const struct stroke *stroke = &picture->stroke[i];
-
-		if (stroke->kind == STROKE_FRAME || (stroke->kind == STROKE_TEXT &&
-						     stroke->letter != LETTER_COMMENT))
-			width = fmaxf(width, stroke->x + stroke->w + SFC_EDGE);
-	}
-	while (cut_at(picture, left, room, width) < width)
-		left = cut_at(picture, left, room, width);
-	chart->width = fminf(chart->width, left + room);
-}
-
-static void put_chart(struct pages *pages, const char *heading)
-{
-	const struct pou *pou = &pages->project->pou[pages->pou];
-	struct sfc_sheet *chart = sfc_sheet_new(pages->project, pou, pages->lettering);
-	const struct sfc_scene scene = { .sheet = chart, .theme = pages->theme };
-	const float scale = fmaxf(fminf(1, pages->room_width / chart->width), CHART_SCALE);
-	struct picture *picture = new_picture(pages);
-
-	sfc_draw(&scene, picture);
-	if (chart->width * scale > pages->room_width) {
-		narrow(chart, picture, pages->room_width / scale);
-		picture = new_picture(pages);
-		sfc_draw(&scene, picture);
-	}
-	put_columns(pages, chart, picture, heading, scale);
-	put_comments(pages, chart);
-	sfc_sheet_free(chart);
-	put_bodies(pages, pou);
 }
 
 /* ---- symbols ---- */
@@ -481,25 +274,25 @@ static void put_table(struct pages *pages, const struct var_table *table,
 
 	if (first == count)
 		return;
-	put_heading(pages, heading, 5 * TEXT_LINE);
-	struct picture *top = new_picture(pages);
+	pages_put_heading(pages, heading, 5 * TEXT_LINE);
+	struct picture *top = pages_picture(pages);
 	float top_height = draw_cells(pages, top, head, true);
-	put_whole(pages, top, top_height, 1, 2 * TEXT_LINE);
+	pages_put_whole(pages, top, top_height, 1, 2 * TEXT_LINE);
 	for (int i = first; i < count; i++) {
-		struct picture *picture = new_picture(pages);
+		struct picture *picture = pages_picture(pages);
 		char *cell[LISTING_COLUMNS];
 
 		listing_symbol(pages->project, table, i, cell);
 		float height = draw_cells(pages, picture, cell, false);
 		if (pages->y + height > pages->room_height) {
-			next_page(pages);
+			pages_next(pages);
 			put_piece(pages, top, 1, 0, top_height);
 		}
 		put_piece(pages, picture, 1, 0, height);
 		for (int c = 0; c < LISTING_COLUMNS; c++)
 			g_free(cell[c]);
 	}
-	pages->y += AIR;
+	pages->y += PAGE_AIR;
 }
 
 static void put_symbols(struct pages *pages)
@@ -512,7 +305,7 @@ static void put_symbols(struct pages *pages)
 	if (!any)
 		return;
 	pages->subject = _("Symbols");
-	next_page(pages);
+	pages_next(pages);
 	put_table(pages, &project->globals, _("Global symbols"));
 	for (int i = 0; i < project->pou_count; i++) {
 		char *heading = g_strdup_printf(_("Symbols of %s"),
@@ -531,11 +324,11 @@ static void put_pou(struct pages *pages, int index, int rung)
 
 	pages->pou = index;
 	pages->subject = name;
-	next_page(pages);
+	pages_next(pages);
 	if (pou->language == LANGUAGE_IL)
-		put_list(pages, heading, listing_il(pages->project, pou));
+		pages_put_list(pages, heading, listing_il(pages->project, pou));
 	else if (pou->sfc && !rung)
-		put_chart(pages, heading);
+		pages_put_chart(pages, heading);
 	else
 		put_ladder(pages, heading, rung);
 	g_free(heading);
@@ -568,7 +361,7 @@ struct pages *pages_new(const struct project *project, const char *file, int pou
 	if (pou < 0)
 		put_symbols(pages);
 	if (pages->page->len == 0)
-		next_page(pages);
+		pages_next(pages);
 	return pages;
 }
 

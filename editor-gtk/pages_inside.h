@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * pages_inside - what pages.c and pages_paint.c share; used by them only.
+ * pages_inside - what pages.c, pages_chart.c and pages_paint.c share; used by them only.
  */
 #ifndef EDITOR_PAGES_INSIDE_H
 #define EDITOR_PAGES_INSIDE_H
 
 #include "editor-gtk/listing.h"
 #include "editor-gtk/pages.h"
+#include "editor-gtk/sheet.h"
 
 #define PAGE_PX     (96 / 25.4f) /* px a mm                                     */
 #define PAGE_MARGIN 45           /* px: 12 mm                                   */
 #define PAGE_TITLE  52           /* px of the title block and the air above it   */
+#define TEXT_LINE   16           /* px of a line of IL or of a table             */
+#define PAGE_AIR    14           /* px between what stands below each other      */
 
 /* Part of a picture on a page. */
 struct piece {
@@ -42,5 +45,33 @@ struct pages {
 	int pou;
 	const struct rung *rung;
 };
+
+/* ---- the flow: what is put stands where @y is, which goes on ---- */
+
+/** pages_next - the last page ends here. */
+void pages_next(struct pages *pages);
+/** pages_picture - to be drawn on and put. Borrowed: it goes with the pages. */
+struct picture *pages_picture(struct pages *pages);
+/** pages_put_whole - a picture that fits on a page; on the next one if it does not fit on
+ * this. @more: px that must follow it on the same page. */
+void pages_put_whole(struct pages *pages, const struct picture *picture, float height,
+		     float scale, float more);
+/** pages_put_span - part of a picture; a single row may be taller than a page. */
+void pages_put_span(struct pages *pages, const struct picture *picture, float scale,
+		    float from, float end);
+/** pages_put_heading - with @more px below it on its page. */
+void pages_put_heading(struct pages *pages, const char *text, float more);
+/** pages_put_line - of a list, broken where the page ends. */
+void pages_put_line(struct pages *pages, const char *line);
+/** pages_put_list - lines below a heading. Takes them over; NULL: none. */
+void pages_put_list(struct pages *pages, const char *heading, char **lines);
+/** pages_sheet - the rungs of the POU, laid out. Owns: the caller, sheet_free(). */
+struct sheet *pages_sheet(struct pages *pages);
+/** pages_put_rungs - those from @first to before @end, below a heading. */
+void pages_put_rungs(struct pages *pages, const struct sheet *sheet, const char *heading,
+		     float scale, int first, int end);
+
+/** pages_put_chart - pages_chart.c: the POU, which is a chart, and all its bodies. */
+void pages_put_chart(struct pages *pages, const char *heading);
 
 #endif

@@ -3,7 +3,6 @@
  * test_panels - the panels with lists, in a window: what they show, where they go, what
  * an edit in them does. PANEL_PICTURES=FOLDER saves pictures of them, for a human eye.
  */
-#include "editor-gtk/cell_entry.h"
 #include "editor-gtk/find_bar.h"
 #include "editor-gtk/import_dialog.h"
 #include "editor-gtk/panel_row.h"
@@ -341,22 +340,6 @@ static void type_into(LadderSymbolsView *view, GtkWidget *cell, const char *text
 	CHECK_SOON(gtk_root_get_focus(GTK_ROOT(window))); /* in the table again */
 }
 
-/* A text without room ends with an ellipsis, but not under the hands of who types it. */
-static void check_cut(GtkWidget *table)
-{
-	GtkWidget *cell = cell_of(table, GTK_TYPE_ENTRY, "Start");
-
-	if (!CHECK(LADDER_IS_CELL_ENTRY(cell)))
-		return;
-	CHECK(!cell_entry_is_cut(LADDER_CELL_ENTRY(cell)));
-	gtk_editable_set_text(GTK_EDITABLE(cell), "StartOfAMachineWithAVeryLongName");
-	CHECK(cell_entry_is_cut(LADDER_CELL_ENTRY(cell)));
-	picture(table, "symbols-cut");
-	gtk_widget_grab_focus(cell);
-	CHECK(!cell_entry_is_cut(LADDER_CELL_ENTRY(cell)));
-	gtk_editable_set_text(GTK_EDITABLE(cell), "Start");
-}
-
 static guint row_named(GListModel *list, const char *name)
 {
 	for (guint i = 0; i < g_list_model_get_n_items(list); i++) {
@@ -386,7 +369,6 @@ static void test_symbols(void)
 	CHECK_AS(row->note && row->tone == PANEL_ERROR, "what is wrong with a field is told");
 	g_object_unref(row);
 	picture(widget, "symbols");
-	check_cut(widget);
 	type_into(view, cell_of(widget, GTK_TYPE_ENTRY, "Spare"), "Stock");
 	CHECK(has("  Stock           : INT;") || has("  Stock : INT;") || has("  Stock   : INT;"));
 	CHECK_TEXT(ladder_symbols_view_message(view), "");
