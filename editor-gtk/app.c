@@ -203,6 +203,7 @@ void app_open_sample(LadderWindow *window, const char *path)
 		else
 			ladder_window_opened(window);
 		ladder_window_set_origin(window, path);
+		draft_of_sample(document, path);
 		g_free(text);
 	} else {
 		ladder_window_warn(window, error->message);
@@ -224,6 +225,10 @@ static bool restore_document(AdwApplication *application, const struct draft *dr
 	ladder_document_restore(document, twice ? NULL : draft->path,
 				twice ? NULL : draft->sum, draft->text, draft->len);
 	window = show_document(application, document);
+	if (draft->sample && !draft->path) {
+		ladder_window_set_origin(window, draft->sample);
+		draft_of_sample(document, draft->sample);
+	}
 	kept = draft_is_kept(document);
 	if (kept)
 		ladder_window_offer_restored(window);

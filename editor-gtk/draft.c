@@ -19,11 +19,13 @@
 #define DRAFT_HEAD    "RUNGBOARD-DRAFT 1 "
 
 #define DRAFT_BESIDE  "beside:"
+#define DRAFT_SAMPLE  "sample:"
 
 struct keeper {
 	char *file;
 	guint timer;
 	LadderDocument *beside; /* whose file it is; NULL: it is a document    */
+	char *sample;           /* that the document is a copy of; NULL: of none */
 	bool told;              /* that it cannot be kept                      */
 };
 
@@ -67,11 +69,15 @@ static char *uri_of(const char *path)
 
 static char *document_draft(LadderDocument *document)
 {
+	const char *sample = keeper_of(document)->sample;
 	const char *sum = ladder_document_disk_sum(document);
 	char *uri = uri_of(ladder_document_path(document));
 	char *text = ladder_document_text(document, NULL);
-	char *whole = g_strdup_printf(DRAFT_HEAD "%s %s\n%s", uri, sum ? sum : "", text);
+	char *from = uri_of(sample);
+	char *whole = g_strdup_printf(DRAFT_HEAD "%s %s%s%s\n%s", uri, sum ? sum : "",
+				      sample ? " " DRAFT_SAMPLE : "", from, text);
 
+	g_free(from);
 	g_free(text);
 	g_free(uri);
 	return whole;
@@ -150,6 +156,7 @@ static void keeper_free(gpointer pointer)
 	if (keeper->timer)
 		g_source_remove(keeper->timer);
 	g_clear_object(&keeper->beside);
+	g_free(keeper->sample);
 	g_free(keeper->file);
 	g_free(keeper);
 }
@@ -173,6 +180,17 @@ static void keep(gpointer object, LadderDocument *beside)
 void draft_keep(LadderDocument *document)
 {
 	keep(document, NULL);
+}
+
+void draft_of_sample(LadderDocument *document, const char *path)
+{
+	struct keeper *keeper = keeper_of(document);
+
+	if (!keeper)
+		return;
+	g_free(keeper->sample);
+	keeper->sample = g_strdup(path);
+	draft_write(document);
 }
 
 static void text_changed(LadderFileView *view)
@@ -229,6 +247,7 @@ static void draft_free(gpointer pointer)
 	g_free(draft->path);
 	g_free(draft->sum);
 	g_free(draft->beside);
+	g_free(draft->sample);
 	g_free(draft->text);
 	g_free(draft);
 }
@@ -255,7 +274,7 @@ static char *path_of(const char *uri)
 	return *uri ? g_filename_from_uri(uri, NULL, NULL) : NULL;
 }
 
-/* "URI SUM beside:URI": any may lack. A URI has no blanks. */
+/* "URI SUM beside:URI", "URI SUM sample:URI": any may lack. A URI has no blanks. */
 static void read_head(struct draft *draft, const char *head)
 {
 	char **words = g_strsplit(head, " ", 3);
@@ -267,6 +286,8 @@ static void read_head(struct draft *draft, const char *head)
 			 g_str_has_prefix(words[2], DRAFT_BESIDE);
 	if (draft->is_file)
 		draft->beside = path_of(words[2] + strlen(DRAFT_BESIDE));
+	else if (count > 2 && g_str_has_prefix(words[2], DRAFT_SAMPLE))
+		draft->sample = path_of(words[2] + strlen(DRAFT_SAMPLE));
 	g_strfreev(words);
 }
 

@@ -14,6 +14,8 @@
 
 /** draft_keep - from now on drafts of @document are kept. */
 void draft_keep(LadderDocument *document);
+/** draft_of_sample - @document, of which drafts are kept, is a copy of a sample. */
+void draft_of_sample(LadderDocument *document, const char *path);
 /** draft_keep_file - of a text file beside @document, too. */
 void draft_keep_file(LadderFileView *view, LadderDocument *document);
 /** draft_remove - of a document or file view: it is saved, or not wanted. */
@@ -34,6 +36,7 @@ struct draft {
 	char *sum;    /* of what stood there; NULL: unknown                    */
 	bool is_file; /* a text file beside a project, that had a path         */
 	char *beside; /* of the project then; NULL: it had none                */
+	char *sample; /* that a document is a copy of; NULL: of none           */
 	char *text;
 	gsize len;
 };

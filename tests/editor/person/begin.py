@@ -7,6 +7,7 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import LADDER, ROOT, Editor, check, main, new_file, sh, until  # noqa: E402
+from outcome import drafts  # noqa: E402
 
 CLASSIC = os.path.join(ROOT, 'tests', 'classic', 'projects', 'linuxcnc.clp')
 PROGRAM = '''RUNGBOARD 1
@@ -89,6 +90,33 @@ def belongings(screen):
         editor.logs('system', told)
         editor.shot('begin-belongings-%d' % there)
         editor.finish()
+
+
+def killed(screen):
+    """a sample that was drawn on, and kill -9: the copy is there again, and what belongs to it comes along"""
+    path = os.path.join(screen.home, 'mine.rung')
+    editor = Editor(screen)
+    editor.click(editor.find('conveyor.rung', 'label'))
+    editor.element('Rung 1, ')
+    editor.to_sheet()
+    editor.keys('Insert')
+    editor.entry('OUT %QX7.7')
+    editor.element('%QX7.7')
+    until(lambda: any('%QX7.7' in read(draft) for draft in drafts(screen)), 'the draft')
+    editor.kill()
+    editor = Editor(screen)
+    editor.element('%QX7.7')
+    editor.keys('ctrl+F5')
+    editor.find(' passed', 'label')
+    before = editor.windows()
+    editor.keys('ctrl+s')
+    until(lambda: len(editor.windows()) > len(before), 'the dialog')
+    until(lambda: editor.focused() and editor.focused().text() == 'conveyor.rung', 'the name of the sample')
+    editor.keys('Escape')
+    until(lambda: editor.windows() == before, 'the end of the dialog')
+    editor.give_path(path, 'ctrl+s')
+    editor.find('Saved, and what belongs to the sample beside it: mine.plant.rung, mine.scn', 'label')
+    assert '%QX7.7' in open(path).read()
 
 
 def listed(editor):
@@ -275,4 +303,4 @@ def tables(screen):
     assert editor.save(path) == PROGRAM
 
 
-main([sample, belongings, lately, only_projects, empty, searched, folded, tables])
+main([sample, belongings, killed, lately, only_projects, empty, searched, folded, tables])

@@ -8,15 +8,10 @@ import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, lines, main, new_file, sh, until  # noqa: E402
+from outcome import drafts  # noqa: E402
 from projects import ONE_RUNG  # noqa: E402
 
 SCENARIO = 'scenario One\n'
-
-
-def drafts(screen):
-    folder = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
-    names = os.listdir(folder) if os.path.isdir(folder) else []
-    return [os.path.join(folder, name) for name in names if name.endswith('.draft')]  # wholly written
 
 
 def after_a_kill(screen):

@@ -36,3 +36,10 @@ def new_file(screen, text='RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\nEND_PROGRAM\n',
     with open(path, 'w') as file:
         file.write(text)
     return path
+
+
+def drafts(screen):
+    """Paths of what is kept for after a crash."""
+    folder = os.path.join(screen.home, 'state', 'rungboard', 'drafts')
+    names = os.listdir(folder) if os.path.isdir(folder) else []
+    return [os.path.join(folder, name) for name in names if name.endswith('.draft')]  # wholly written
