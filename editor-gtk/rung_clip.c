@@ -91,22 +91,28 @@ static GString *written(LadderDocument *document, struct rung *const *rungs, int
 	return out;
 }
 
+void rung_clip_blocks(LadderDocument *document, int pou, const char *text, GString *globals,
+		      GString *locals)
+{
+	const struct project *project = ladder_document_project(document);
+	GHashTable *names = names_in(project, text);
+
+	add_blocks(locals, project, pou + 1, 0, names);
+	add_blocks(globals, project, 0, VAR_GLOBAL_WORD, names);
+	g_hash_table_unref(names);
+}
+
 char *rung_clip_text(LadderDocument *document, int pou, struct rung *const *rungs,
 		     int count)
 {
-	const struct project *project = ladder_document_project(document);
 	GString *text = written(document, rungs, count), *globals, *locals;
-	GHashTable *names;
 
 	if (!text)
 		return NULL;
 	globals = g_string_new(NULL);
 	locals = g_string_new(NULL);
-	names = names_in(project, text->str);
-	add_blocks(locals, project, pou + 1, 0, names);
-	add_blocks(globals, project, 0, VAR_GLOBAL_WORD, names);
+	rung_clip_blocks(document, pou, text->str, globals, locals);
 	g_string_append_printf(globals, "%s%s", locals->str, text->str);
-	g_hash_table_unref(names);
 	g_string_free(locals, TRUE);
 	g_string_free(text, TRUE);
 	return g_string_free(globals, FALSE);

@@ -33,6 +33,19 @@ struct rung_clip {
  * declarations of what they name. Caller frees; NULL: one cannot be written. */
 char *rung_clip_text(LadderDocument *document, int pou, struct rung *const *rungs,
 		     int count);
+/** rung_clip_blocks - the declarations of what a text of POU @pou names, as blocks behind
+ * what stands in @globals and @locals. */
+void rung_clip_blocks(LadderDocument *document, int pou, const char *text, GString *globals,
+		      GString *locals);
+/**
+ * rung_clip_source - a project that nobody sees and no check is made of
+ * @body:  of its file, behind the first line. Types that nobody declares there become
+ *         structures, so that what is of them can be read
+ * @diags: gets why it cannot be read, lines counted from two before the body
+ *
+ * Owns: the caller, g_object_unref().   Fails: NULL.
+ */
+LadderDocument *rung_clip_source(const char *body, struct diag_list *diags);
 
 /**
  * rung_clip_read - the rungs of a text, to be put into POU @pou of @document

@@ -278,11 +278,11 @@ static int line_in(const struct reading *r, int line)
 	return 1;
 }
 
-static char *blocks_as_file(const struct reading *r, const char *types)
+/* A file, behind its first two lines. */
+static char *blocks_as_file(const struct reading *r)
 {
-	GString *text = g_string_new("RUNGBOARD 1\n");
+	GString *text = g_string_new(NULL);
 
-	g_string_append_printf(text, "%s\n", types);
 	for (int local = 0; local < 2; local++) {
 		g_string_append(text, local ? "PROGRAM Clipboard LD\n" : "");
 		for (guint i = 0; i < r->block->len; i++) {
@@ -296,27 +296,29 @@ static char *blocks_as_file(const struct reading *r, const char *types)
 	return g_string_free(text, FALSE);
 }
 
-/* A project that nobody sees and no check is made of. */
-static void take_source(struct reading *r, const char *text)
+static LadderDocument *source_new(const char *text)
 {
-	r->clip->source = ladder_document_new();
-	ladder_document_open_text(r->clip->source, NULL, text, strlen(text), true);
-	ladder_document_fix(r->clip->source);
+	LadderDocument *source = ladder_document_new();
+
+	ladder_document_open_text(source, NULL, text, strlen(text), true);
+	ladder_document_fix(source);
+	return source;
 }
 
 /* False: again, with more types. */
-static bool try_blocks(struct reading *r, GString *types, bool last)
+static bool try_source(const char *body, GString *types, bool last, LadderDocument **source,
+		       struct diag_list *diags)
 {
 	struct ladder *ladder = ladder_new();
-	char *text = blocks_as_file(r, types->str);
+	char *text = g_strdup_printf("RUNGBOARD 1\n%s\n%s", types->str, body);
 	bool again = false;
 
 	if (!ladder)
 		g_error("out of memory");
 	if (ladder_load_text(ladder, "", text, strlen(text)))
-		take_source(r, text);
+		*source = source_new(text);
 	else if (last || !add_types(types, ladder_diags(ladder)))
-		refuse_at(r, ladder_diags(ladder), line_in(r, line_of(ladder_diags(ladder))));
+		*diags = *ladder_diags(ladder);
 	else
 		again = true;
 	g_free(text);
@@ -324,13 +326,28 @@ static bool try_blocks(struct reading *r, GString *types, bool last)
 	return !again;
 }
 
-static bool take_blocks(struct reading *r)
+LadderDocument *rung_clip_source(const char *body, struct diag_list *diags)
 {
 	GString *types = g_string_new(NULL);
+	LadderDocument *source = NULL;
 
-	for (int round = 0; !try_blocks(r, types, round == TYPES_ROUNDS); round++)
+	for (int round = 0; !try_source(body, types, round == TYPES_ROUNDS, &source, diags);
+	     round++)
 		;
 	g_string_free(types, TRUE);
+	return source;
+}
+
+static bool take_blocks(struct reading *r)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	char *text = blocks_as_file(r);
+
+	r->clip->source = rung_clip_source(text, diags);
+	if (!r->clip->source)
+		refuse_at(r, diags, line_in(r, line_of(diags)));
+	g_free(text);
+	g_free(diags);
 	return r->clip->source;
 }
 
@@ -384,7 +401,7 @@ static bool take_whole(struct reading *r)
 		g_error("out of memory");
 	good = ladder_load_text(ladder, "", text, strlen(text));
 	if (good)
-		take_source(r, text);
+		r->clip->source = source_new(text);
 	else
 		refuse_at(r, ladder_diags(ladder),
 			  MAX(line_of(ladder_diags(ladder)) - !r->headed, 1));

@@ -6,6 +6,8 @@
 #include "editor-gtk/sfc_view_clipboard.h"
 #include "editor-gtk/sfc_view_inside.h"
 
+#include "editor-gtk/rung_clip.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,11 +54,25 @@ static bool is_kept(LadderSfcView *view, const struct sfc *sfc, const struct sfc
 	}
 }
 
+/* The chart, with the declarations of what it names: globals before it, its own in it.
+ * Caller: g_free. */
+static char *with_declarations(LadderSfcView *view, const char *chart)
+{
+	GString *globals = g_string_new(NULL), *locals = g_string_new(NULL);
+	const char *body = strchr(chart, '\n');
+
+	rung_clip_blocks(view->document, view->pou, chart, globals, locals);
+	g_string_append_len(globals, chart, body + 1 - chart);
+	g_string_append_printf(globals, "%s%s", locals->str, body + 1);
+	g_string_free(locals, TRUE);
+	return g_string_free(globals, FALSE);
+}
+
 void chart_copy(LadderSfcView *view)
 {
 	struct sfc_edit *edit = chart_edit(view);
 	int kept = 0, inside = -1;
-	char *text;
+	char *text, *whole;
 
 	if (!edit)
 		return;
@@ -78,10 +94,12 @@ void chart_copy(LadderSfcView *view)
 	edit->sfc.piece_count = kept;
 	edit->pou.vars.block_count = 0;
 	text = kept ? sfc_edit_text(edit) : NULL;
-	if (text)
-		gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(view)), text);
+	whole = text ? with_declarations(view, text) : NULL;
+	if (whole)
+		gdk_clipboard_set_text(gtk_widget_get_clipboard(GTK_WIDGET(view)), whole);
 	else
 		chart_tell(view, _("nothing stands here"));
+	g_free(whole);
 	free(text);
 	sfc_edit_free(edit);
 }
@@ -143,7 +161,18 @@ static void take_end(void *context, const struct text_span *span)
 		end->span = *span;
 }
 
-static bool put_pieces(LadderSfcView *view, const char *pieces)
+/* What its names are and nobody knows here comes along. */
+static void declare(LadderSfcView *view, LadderDocument *source)
+{
+	const struct rung_clip clip = { .source = source };
+	char *told = rung_clip_declare(&clip, view->document, view->pou, -1, LIMIT_RUNGS + 1);
+
+	if (told)
+		chart_tell(view, told);
+	g_free(told);
+}
+
+static bool put_pieces(LadderSfcView *view, const char *pieces, LadderDocument *source)
 {
 	struct end_of_pou end = { .pou = view->pou };
 	gsize len;
@@ -154,58 +183,71 @@ static bool put_pieces(LadderSfcView *view, const char *pieces)
 	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
 	good = whole && ladder_document_replace(view->document, end.span.at + end.span.len,
 						0, with, NULL);
+	if (good)
+		declare(view, source);
 	ladder_document_end(view->document);
 	g_free(with);
 	g_free(whole);
 	return good;
 }
 
-/* A whole chart, or pieces alone: then a chart is made of them. */
-static struct ladder *read_chart(const char *text)
+static bool holds_chart(LadderDocument *source)
 {
-	for (int try = 0; try < 2; try++) {
-		struct ladder *ladder = ladder_new();
-		char *whole = try ? g_strdup_printf("RUNGBOARD 1\nPROGRAM Copy SFC\n%s\n"
-						    "END_PROGRAM\n", text) :
-				    g_strdup_printf("RUNGBOARD 1\n%s", text);
-		const bool good = ladder &&
-			ladder_load_text(ladder, "", whole, strlen(whole)) &&
-			ladder_project(ladder) && ladder_project(ladder)->pou_count == 1 &&
-			ladder_project(ladder)->pou[0].sfc &&
-			ladder_project(ladder)->pou[0].sfc->step_count > 0;
+	const struct project *project = ladder_document_project(source);
 
-		g_free(whole);
-		if (good)
-			return ladder;
-		ladder_free(ladder);
+	return project && project->pou_count == 1 && project->pou[0].sfc &&
+	       project->pou[0].sfc->step_count > 0;
+}
+
+/* A whole chart, or pieces alone: then a chart is made of them. */
+static LadderDocument *read_chart(const char *text)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	LadderDocument *source = NULL;
+
+	for (int try = 0; try < 2 && !source; try++) {
+		char *body = try ? g_strdup_printf("PROGRAM Copy SFC\n%s\nEND_PROGRAM\n", text) :
+				   g_strdup(text);
+
+		source = rung_clip_source(body, diags);
+		if (source && !holds_chart(source))
+			g_clear_object(&source);
+		g_free(body);
 	}
-	return NULL;
+	g_free(diags);
+	return source;
+}
+
+/* Its pieces, by names that no step has here; NULL: it is none. Caller: g_free. */
+static char *pieces_for(struct sfc_edit *here, LadderDocument *source)
+{
+	struct project *project = ladder_document_project(source);
+	struct sfc_edit *other = sfc_edit_new(project, &project->pou[0]);
+	char *pieces;
+
+	if (!other)
+		return NULL;
+	other->pou.vars.block_count = 0;
+	rename_steps(here, other);
+	pieces = pieces_of(other);
+	sfc_edit_free(other);
+	return pieces;
 }
 
 static void paste_text(LadderSfcView *view, const char *text)
 {
-	struct ladder *ladder = text ? read_chart(text) : NULL;
-	struct sfc_edit *here = ladder ? chart_edit(view) : NULL, *other = NULL;
+	LadderDocument *source = text ? read_chart(text) : NULL;
+	struct sfc_edit *here = source ? chart_edit(view) : NULL;
 	const int count = here ? here->sfc.step_count : 0;
-	char *pieces = NULL;
+	char *pieces = here ? pieces_for(here, source) : NULL;
 
-	if (here) {
-		struct project *project = ladder_project(ladder);
-
-		other = sfc_edit_new(project, &project->pou[0]);
-	}
-	if (other) {
-		rename_steps(here, other);
-		pieces = pieces_of(other);
-	}
-	if (!pieces || !put_pieces(view, pieces))
+	if (!pieces || !put_pieces(view, pieces, source))
 		chart_tell(view, _("The clipboard holds no steps."));
 	else if (view->sheet && view->sheet->layout->sfc->step_count > count)
 		chart_go(view, (struct sfc_at){ count, -1, false }, false);
 	g_free(pieces);
-	sfc_edit_free(other);
 	sfc_edit_free(here);
-	ladder_free(ladder);
+	g_clear_object(&source);
 }
 
 static void pasted(GObject *clipboard, GAsyncResult *result, gpointer data)

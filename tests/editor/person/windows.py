@@ -119,6 +119,68 @@ def declared(screen):
     assert again == text.replace('END_PROGRAM', 'RUNG\n' + rung + 'END_PROGRAM'), again
 
 
+CHART = '''RUNGBOARD 1
+
+TYPE
+  Batch : STRUCT
+    Size : INT;
+  END_STRUCT;
+END_TYPE
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Pump  AT %QX0.1 : BOOL; (* it runs long *)
+  This  : Batch;
+END_VAR
+
+PROGRAM Main SFC
+VAR
+  Level : INT := 7;
+END_VAR
+  INITIAL_STEP Idle:
+  END_STEP
+  STEP Fill:
+    Pump(N);
+  END_STEP
+  TRANSITION FROM Idle TO Fill := Start AND Level > 5 AND This.Size > 0; END_TRANSITION
+  TRANSITION FROM Fill TO Idle := NOT Start; END_TRANSITION
+END_PROGRAM
+'''
+EMPTY = '''RUNGBOARD 1
+
+VAR
+  Fan AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Second SFC
+  INITIAL_STEP Wait:
+  END_STEP
+END_PROGRAM
+'''
+
+
+def charts(screen):
+    """so does a chart; what has a type that nobody knows here stays unknown; one undo"""
+    path = new_file(screen, EMPTY, 'second.rung')
+    one = Editor(screen, new_file(screen, CHART, 'first.rung'))
+    one.find('Step Idle, initial', 'table cell')
+    one.keys('ctrl+a', 'ctrl+c')
+    until(lambda: 'Level : INT := 7;' in clipboard(), 'declarations on the clipboard')
+    two = Editor(screen, path)
+    two.front()
+    two.find('Step Wait, initial', 'table cell')
+    two.keys('ctrl+v')
+    two.find('Step Fill', 'table cell')
+    two.says('3 names were declared; Pump has no address: %QX0.1 is Fan here')
+    two.shot('windows-chart')
+    text = two.save(path)
+    assert 'Pump' in text and '(* it runs long *)' in text and 'Level : INT := 7;' in text, text
+    assert 'Start AT %IX0.0 : BOOL;' in text and 'This' not in text[:text.index('STEP')], text
+    two.keys('ctrl+z')
+    until(lambda: not two.all('Step Fill', 'table cell'), 'the steps to be gone')
+    assert two.save(path) == EMPTY
+
+
 def from_text(screen):
     """a rung typed in any text editor is pasted"""
     path = new_file(screen, TARGET)
@@ -245,4 +307,4 @@ def a_tab(screen):
     assert lines(paths[1], '@print %QX0.1\nStop=0\nStop=1\n') == ['%QX0.1=0', '%QX0.1=1']
 
 
-main([other_window, declared, from_text, hostile, many, a_tab])
+main([other_window, declared, charts, from_text, hostile, many, a_tab])
