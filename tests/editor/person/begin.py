@@ -43,6 +43,16 @@ def sample(screen):
     again.element(first)
 
 
+def proposes(editor):
+    """Ctrl+S asks for a name, which is that of the sample at first."""
+    before = editor.windows()
+    editor.keys('ctrl+s')
+    until(lambda: len(editor.windows()) > len(before), 'the dialog')
+    until(lambda: editor.focused() and editor.focused().text() == 'conveyor.rung', 'the name of the sample')
+    editor.keys('Escape')
+    until(lambda: editor.windows() == before, 'the end of the dialog')
+
+
 def belongings(screen):
     """what belongs to a sample comes along when its copy is saved: plant and scenarios, by the copy's name, over nothing"""
     names = 'mine.rung', 'mine.plant.rung', 'mine.scn'
@@ -61,12 +71,7 @@ def belongings(screen):
             editor.find('conveyor.scn', 'label')
             editor.find(' passed', 'label')
             editor.shot('begin-belongings')
-        before = editor.windows()
-        editor.keys('ctrl+s')
-        until(lambda: len(editor.windows()) > len(before), 'the dialog')
-        until(lambda: editor.focused() and editor.focused().text() == 'conveyor.rung', 'the name of the sample')
-        editor.keys('Escape')
-        until(lambda: editor.windows() == before, 'the end of the dialog')
+        proposes(editor)
         editor.give_path(path, 'ctrl+s')
         told = 'Saved, and what belongs to the sample beside it: '
         editor.find(told + ('mine.plant.rung' if there else 'mine.plant.rung, mine.scn'), 'label')
@@ -108,12 +113,7 @@ def killed(screen):
     editor.element('%QX7.7')
     editor.keys('ctrl+F5')
     editor.find(' passed', 'label')
-    before = editor.windows()
-    editor.keys('ctrl+s')
-    until(lambda: len(editor.windows()) > len(before), 'the dialog')
-    until(lambda: editor.focused() and editor.focused().text() == 'conveyor.rung', 'the name of the sample')
-    editor.keys('Escape')
-    until(lambda: editor.windows() == before, 'the end of the dialog')
+    proposes(editor)
     editor.give_path(path, 'ctrl+s')
     editor.find('Saved, and what belongs to the sample beside it: mine.plant.rung, mine.scn', 'label')
     assert '%QX7.7' in open(path).read()
