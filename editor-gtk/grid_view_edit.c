@@ -92,13 +92,16 @@ static void do_wire(LadderGridView *view, enum grid_way way, enum verb verb)
 		sheet_put(view, grid_wire(rung, &at, way), &at, _(verb_row(verb)->label));
 }
 
+/* Where nothing is, its key begins what shall be: `/Stop`. */
 static void do_negate(LadderGridView *view)
 {
 	struct project *project = ladder_document_project(view->document);
 	const struct rung *rung = sheet_rung(view, view->cursor.rung);
 	struct grid_at at = sheet_at(view);
 
-	if (rung)
+	if (rung && !cursor_cell(view, NULL, NULL))
+		entry_begin(view, "/");
+	else if (rung)
 		sheet_put(view, grid_negate(rung, &at, project, sheet_pou(view)), &at,
 			  _(verb_row(VERB_negate)->label));
 }

@@ -9,6 +9,8 @@
  */
 #include "editor-gtk/grid_view_inside.h"
 
+#include <string.h>
+
 #define PAD 4 /* px round what is composed                                     */
 
 /* ---- input methods ---- */
@@ -120,6 +122,12 @@ static void key_released(GtkEventControllerKey *controller, guint key, guint cod
 		GTK_EVENT_CONTROLLER(controller)));
 }
 
+/* Names, addresses, expressions; `= Motor`, `!Stop`, `-(S)- Lamp`. A slash is a verb's. */
+static bool begins_entry(gunichar c)
+{
+	return g_unichar_isalpha(c) || (c > 0 && c < 128 && strchr("%[_=!(-|", (int)c));
+}
+
 static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint code,
 			    GdkModifierType state, LadderGridView *view)
 {
@@ -130,7 +138,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 	(void)code;
 	if (cursor_key(view, key, state) || is_composed(view, controller, c))
 		return TRUE;
-	if (state & others || !(g_unichar_isalpha(c) || c == '%' || c == '[' || c == '_'))
+	if (state & others || !begins_entry(c))
 		return FALSE;
 	text[g_unichar_to_utf8(c, text)] = '\0';
 	entry_begin(view, text);

@@ -318,7 +318,7 @@ class Editor:
         """Types a text; what no key of the keyboard gives is pasted, as an input method would,
         into a line or a text: when it stands there."""
         if text.isascii():
-            sh('xdotool', 'type', '--delay', '15', text)
+            sh('xdotool', 'type', '--delay', '15', '--', text)
             return
         self.put_clipboard(text)
         self.keys('ctrl+v')

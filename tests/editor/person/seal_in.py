@@ -45,6 +45,29 @@ def by_keyboard(screen):
     assert editor.save(path) == text
 
 
+def by_signs(screen):
+    """the same by signs, as some write them; on an element a slash still negates that"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.entry('Start')
+    editor.entry('/Stop')
+    editor.entry('= Motor')
+    editor.keys('Home', 'shift+F5')
+    editor.opened()
+    editor.entry('Motor')
+    assert '| NO Start  | NC Stop | COIL Motor |' in editor.save(path), open(path).read()
+    behaves(path)
+    editor.keys('ctrl+Home', 'slash')
+    editor.element('NC', 'Start')
+    editor.keys('slash')
+    editor.element('NO', 'Start')
+    editor.keys('Insert')
+    for line in '-|/|- Stop', '|P| Start', '!Motor', '-(S)- Lamp':
+        editor.entry(line)
+    assert '| NC Stop | P Start | NC Motor | S Lamp |' in editor.save(path), open(path).read()
+    check(path)
+
+
 SYMBOLS = '''RUNGBOARD 1
 
 VAR_GLOBAL
@@ -88,4 +111,4 @@ def by_pointer(screen):
     behaves(path)
 
 
-main([by_keyboard, by_pointer])
+main([by_keyboard, by_signs, by_pointer])
