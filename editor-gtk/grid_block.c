@@ -302,3 +302,10 @@ struct rung *grid_paste(const struct rung *rung, struct grid_at *at,
 		canvas_paste(&c, at->row, at->col, part, parallel);
 	return canvas_close(&c, at);
 }
+
+bool grid_is_outputs(const struct rung *rung)
+{
+	const struct piece piece = look_at(rung);
+
+	return piece.outputs > 0 && piece.outputs == piece.elements && piece.pins == 0;
+}

@@ -185,10 +185,13 @@ struct rung *grid_copy(const struct rung *rung, int columns,
  * @parallel: as a branch below the element at the cursor; else in series: on a wire or
  *            an empty cell there, before an element
  *
- * What has outputs comes as rows of its own.
+ * What has outputs and more comes as rows of its own, outputs alone into the row.
  */
 struct rung *grid_paste(const struct rung *rung, struct grid_at *at,
 			const struct rung *part, bool parallel);
+
+/** grid_is_outputs - nothing but outputs: without a condition they would be on always. */
+bool grid_is_outputs(const struct rung *rung);
 
 /* What dropping something at a cell would do. */
 enum grid_drop {

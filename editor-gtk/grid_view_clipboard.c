@@ -3,7 +3,8 @@
  * grid_view_clipboard - cells, branches and rungs as text of a rung file (rung_clip.h).
  *
  * So they can be pasted into a text editor and from one, and from window to window. A
- * rung with outputs is pasted as a rung of its own, what has none into the circuit.
+ * rung with outputs is pasted as a rung of its own, what has none, and outputs alone, into
+ * the circuit.
  */
 #include "editor-gtk/grid_view_inside.h"
 
@@ -65,12 +66,15 @@ static void do_copy(LadderGridView *view)
 
 /* ---- pasting ---- */
 
-static bool has_output(const struct rung *rung)
+/* With what leads there, or a title: a rung, not a part of one. */
+static bool is_rung(const struct rung *rung)
 {
+	if (rung->title || rung->label || rung->comment)
+		return true;
 	for (int row = 0; row < rung->rows; row++)
 		if (grid_display_output(rung, row) >= 0)
-			return true;
-	return rung->title || rung->label || rung->comment;
+			return !grid_is_outputs(rung);
+	return false;
 }
 
 static bool is_blank(const struct rung *rung)
@@ -141,7 +145,7 @@ static void paste_text(LadderGridView *view, const char *text, gsize len, bool p
 	clip = rung_clip_read(view->document, view->pou, text, len, &why);
 	if (!clip)
 		sheet_tell(view, why);
-	else if (clip->count > 1 || (has_output(clip->rung[0]) && !parallel))
+	else if (clip->count > 1 || (is_rung(clip->rung[0]) && !parallel))
 		paste_whole(view, clip);
 	else
 		paste_part(view, clip, parallel);

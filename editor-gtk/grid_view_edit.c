@@ -125,6 +125,14 @@ static void do_delete(LadderGridView *view)
 	sheet_put(view, edited, &at, _(verb_row(VERB_delete)->label));
 }
 
+static void do_cut(LadderGridView *view)
+{
+	clipboard_do(view, VERB_copy);
+	ladder_document_begin(view->document, _(verb_row(VERB_cut)->label), NULL);
+	do_delete(view);
+	ladder_document_end(view->document);
+}
+
 /* ---- giving up ---- */
 
 static void give_back(LadderGridView *view)
@@ -218,8 +226,7 @@ void ladder_grid_view_do(LadderGridView *view, enum verb verb)
 		return;
 	switch ((int)verb) {
 	case VERB_cut:
-		ladder_grid_view_do(view, VERB_copy);
-		do_delete(view);
+		do_cut(view);
 		break;
 	case VERB_copy: case VERB_paste: case VERB_paste_parallel:
 		clipboard_do(view, verb);

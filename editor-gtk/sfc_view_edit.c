@@ -468,7 +468,9 @@ void ladder_sfc_view_do(LadderSfcView *view, enum verb verb)
 	case VERB_delete: delete(view); break;
 	case VERB_cut:
 		chart_copy(view);
+		ladder_document_begin(view->document, _(verb_row(VERB_cut)->label), NULL);
 		delete(view);
+		ladder_document_end(view->document);
 		break;
 	case VERB_copy: chart_copy(view); break;
 	case VERB_paste: chart_paste(view); break;

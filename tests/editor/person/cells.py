@@ -1,0 +1,87 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""cells - elements and branches are cut, copied and pasted within a sheet."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, check, lines, main, new_file, until  # noqa: E402
+
+PROJECT = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Stop  AT %IX0.1 : BOOL;
+  Over  AT %IX0.2 : BOOL;
+  Motor AT %QX0.0 : BOOL;
+  Lamp  AT %QX0.1 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+RUNG "one"
+  | NO Start  | NC Stop | COIL Motor |
+  | NO Motor ^|
+RUNG "two"
+  | NO Over | S Lamp |
+END_PROGRAM
+'''
+
+
+def coil(screen):
+    """a coil is cut and comes back, is copied to an empty rung and beside another: never to a rung where it is always on"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+Home', 'End', 'ctrl+x')
+    until(lambda: not editor.all('Rung 1, COIL', 'table cell'), 'the coil to be gone')
+    editor.keys('ctrl+z')
+    editor.says('Undone: Cut')
+    editor.element('Rung 1, COIL', 'Motor')
+    editor.keys('End', 'ctrl+x')
+    assert 'COIL' not in editor.save(path)
+    editor.keys('ctrl+v')
+    editor.element('Rung 1, COIL', 'Motor')
+    assert editor.save(path) == PROJECT
+    # Anywhere in the row.
+    editor.keys('End', 'ctrl+x')
+    assert 'COIL' not in editor.save(path)
+    editor.keys('Home', 'ctrl+v')
+    editor.element('Rung 1, COIL', 'Motor')
+    assert editor.save(path) == PROJECT
+    # To an empty rung, with its condition behind it.
+    editor.keys('End', 'ctrl+c', 'Insert')
+    until(lambda: editor.all('Rung 3, S', 'table cell'), 'the new rung')
+    editor.keys('ctrl+v')
+    editor.element('Rung 2, COIL', 'Motor')
+    editor.keys('Home')
+    editor.entry('Over')
+    assert 'RUNG\n  | NO Over | COIL Motor |\nRUNG "two"' in editor.save(path)
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z')
+    assert editor.save(path) == PROJECT
+    # To an output that is there: beside it.
+    editor.keys('ctrl+Home', 'End', 'ctrl+c', 'ctrl+End', 'ctrl+v')
+    editor.element('Rung 2, COIL', 'Motor')
+    editor.shot('cells-coil')
+    text = editor.save(path)
+    assert text.count('RUNG "') == 2, text
+    check(path)
+    assert lines(path, '@print Motor\n%IX0.2=1\n') == ['Motor=1'], text
+
+
+def branch(screen):
+    """contacts and a branch are cut and pasted into another rung; one undo each, by name"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+Home', 'shift+Down', 'ctrl+c', 'ctrl+End', 'Home', 'ctrl+v')
+    until(lambda: len(editor.all('Rung 2, ', 'table cell')) >= 4, 'the branch')
+    editor.shot('cells-branch')
+    text = editor.save(path)
+    check(path)
+    assert lines(path, '@print Lamp\n%IX0.2=1\n%IX0.0=1\n') == ['Lamp=0', 'Lamp=1'], text
+    editor.keys('ctrl+z')
+    editor.says('Undone: Paste')
+    assert editor.save(path) == PROJECT
+
+
+main([coil, branch])
