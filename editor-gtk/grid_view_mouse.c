@@ -324,27 +324,31 @@ static bool is_below(LadderGridView *view, int rung, const struct rung_hit *hit,
 	const struct rung_row *row = &strip->layout->row[hit->row];
 	const double at = (y + gtk_adjustment_get_value(view->adjustment[1])) / view->zoom;
 
-	return at > strip->y + row->y + row->wire + DROP_BELOW;
+	return at > strip->y + row->wire + DROP_BELOW;
 }
 
-/* Which cell is meant; below the last row there is room for another. */
+/* Which cell is meant: below an element the free one that would be a branch; below the last
+ * row there is room for another. */
 static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hit,
 		   enum word word)
 {
 	const double shift = RUNG_CELL_HEIGHT * view->zoom;
 	int rung = sheet_point(view, x, y, hit);
-	bool below = rung >= 0 && is_cell(hit) && is_below(view, rung, hit, y);
+	const bool inside = rung >= 0 && is_cell(hit);
+	enum grid_drop how;
 
-	if (rung < 0 || !is_cell(hit)) {
+	if (inside && !is_below(view, rung, hit, y))
+		return rung;
+	if (!inside) {
 		const int above = sheet_point(view, x, y - shift, hit);
 
 		if (above < 0 || !is_cell(hit) || (rung >= 0 && rung != above))
 			return -1;
 		rung = above;
-		below = true;
 	}
-	if (below && grid_can_drop(sheet_rung(view, rung), view->columns, hit->row + 1,
-				   hit->column, word) != GRID_DROP_NOT)
+	how = grid_can_drop(sheet_rung(view, rung), view->columns, hit->row + 1,
+			    hit->column, word);
+	if (how == GRID_DROP_BELOW || (!inside && how != GRID_DROP_NOT))
 		hit->row++;
 	return rung;
 }

@@ -86,11 +86,23 @@ static bool hits_pin(const struct drafting *drafting, const struct rung_layout *
 	return false;
 }
 
-/* A link is drawn at the bar on the right of its cell. */
+/* Is there something at the cell, or wire? */
+static bool goes_on(const struct rung_layout *layout, int row, int column)
+{
+	const int col = rung_layout_col(layout, row, column);
+
+	return rung_layout_wired(layout, row, column) ||
+	       (col >= 0 && word_row(rung_at(layout->rung, row, col)->word)->place !=
+			    PLACE_NONE);
+}
+
+/* A link is drawn at the bar on the right of its cell. Where it meets the wire of a row that
+ * is meant, behind the link. */
 static bool hits_link(const struct rung_layout *layout, struct rung_hit *hit, float x,
 		      float y)
 {
 	const struct rung *rung = layout->rung;
+	const bool meets = fabsf(y - layout->row[hit->row].wire) <= REACH;
 	int below = y < layout->row[hit->row].wire ? hit->row : hit->row + 1;
 
 	if (below < 1 || below >= rung->rows)
@@ -98,9 +110,15 @@ static bool hits_link(const struct rung_layout *layout, struct rung_hit *hit, fl
 	for (int col = 0; col < rung->cols; col++)
 		if (rung_at(rung, below, col)->link &&
 		    fabsf(rung_layout_bar(layout, below, col + 1) - x) <= REACH) {
+			const int column = rung_layout_column(layout, below, col);
+
+			if (meets && goes_on(layout, hit->row, column + 1))
+				hit->column = column + 1;
+			if (meets)
+				return false;
 			hit->part = RUNG_PART_LINK;
 			hit->row = below;
-			hit->column = rung_layout_column(layout, below, col);
+			hit->column = column;
 			return true;
 		}
 	return false;

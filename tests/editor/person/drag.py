@@ -113,6 +113,35 @@ def wires(screen):
     as_before(path)
 
 
+SEAL_IN = TWO_RUNGS.replace('| NO Start | NC Stop | COIL Motor |\n', '| NO Start  | NC Stop | COIL Motor |\n  | NO Motor ^|\n')
+
+
+def at_node(screen):
+    """where a branch leaves the wire, a drop on that wire goes into it; under an element, beside it"""
+    path = new_file(screen, SEAL_IN.replace('NO Motor | COIL Lamp', 'NO Motor | NC Lamp | COIL Lamp'))
+    before = rung_lines(path)
+    editor = Editor(screen, path)
+    until(lambda: len(editor.cells()) == 7, 'the sheet')
+    wire = 36 + 46
+    taken = editor.middle(editor.element('Rung 2, NC', 'Lamp'))
+    for by in -4, 0, 4:
+        editor.drag(taken, editor.wire_end(wire, 1, by), look='drag-node')
+        saved(editor, path, lambda rows: rows[1:3] == ['| NO Start  | NC Lamp | NC Stop | COIL Motor |', '| NO Motor ^|'])
+        editor.keys('ctrl+z')
+        saved(editor, path, lambda rows: rows == before)
+    # Under Stop there is room: a branch.
+    x, y = editor.wire_end(wire, 2, -49)
+    editor.drag(taken, (x, y + 28), look='drag-under')
+    saved(editor, path, lambda rows: rows[1:3] == ['| NO Start  | NC Stop  | COIL Motor |', '| NO Motor ^| NC Lamp ^|'])
+    editor.keys('ctrl+z')
+    saved(editor, path, lambda rows: rows == before)
+    # Under Start there is none: it goes before Start, not to what stands below.
+    x, y = editor.wire_end(wire, 1, -49)
+    editor.drag(taken, (x, y + 28))
+    saved(editor, path, lambda rows: plain(rows[1]) == '|NCLamp|NOStart|NCStop|COILMotor|')
+    check(path)
+
+
 def quick(screen):
     """a hand so quick that the pointer is seen where the stroke begins and where it ends, no more"""
     path = new_file(screen, TWO_RUNGS)
@@ -236,4 +265,4 @@ def not_there(screen):
     as_before(path)
 
 
-main([elements, rungs, branch, wires, quick, refused, by_menu, far, not_there])
+main([elements, rungs, branch, wires, at_node, quick, refused, by_menu, far, not_there])
