@@ -108,6 +108,17 @@ bool cursor_rungs(LadderGridView *view, int *first, int *last)
 	return *first != *last;
 }
 
+bool cursor_selects(LadderGridView *view, int rung, int row, int col)
+{
+	struct grid_area area;
+	int first, last;
+
+	if (cursor_rungs(view, &first, &last))
+		return rung >= first && rung <= last;
+	return cursor_area(view, &area) && rung == view->cursor.rung && row >= area.row &&
+	       row <= area.last_row && col >= area.col && col <= area.last_col;
+}
+
 const struct cell *cursor_cell(LadderGridView *view, int *row, int *col)
 {
 	const struct rung *shown = sheet_rung(view, view->cursor.rung);

@@ -127,6 +127,7 @@ struct _LadderGridView {
 	bool takes;                 /* the pointer went down on what can be dragged */
 	double press_x, press_y;    /* where that was, px of the widget         */
 	bool toggles;               /* and on what is toggled when it goes up   */
+	bool keeps;                 /* and on what is selected, which it stays till then */
 	struct sheet_live live;
 	GtkIMContext *input;
 	gunichar key;               /* that input methods look at              */
@@ -205,6 +206,8 @@ bool cursor_area(LadderGridView *view, struct grid_area *area);
 /** cursor_rungs - from the first to the last rung that is selected, or that of the cursor.
  * True: several are. */
 bool cursor_rungs(LadderGridView *view, int *first, int *last);
+/** cursor_selects - is (rung, row, col) part of what is selected? Of several rungs all is. */
+bool cursor_selects(LadderGridView *view, int rung, int row, int col);
 /** cursor_cell - the element below it; row and col of the rung too (or NULL). NULL: none. */
 const struct cell *cursor_cell(LadderGridView *view, int *row, int *col);
 bool cursor_key(LadderGridView *view, guint key, GdkModifierType state);
@@ -262,6 +265,9 @@ void marks_push(LadderGridView *view, int rung, GArray *marks);
 unsigned int marks_state(LadderGridView *view, int rung);
 
 /* ---- grid_view_rungs.c ---- */
+/** rungs_move - from @first to @last they come to stand before @before, as it is now; the
+ * cursor goes with them. False: they stand there. */
+bool rungs_move(LadderGridView *view, int first, int last, int before);
 /** rungs_do - a verb that is of whole rungs. */
 void rungs_do(LadderGridView *view, enum verb verb);
 
@@ -331,8 +337,13 @@ void clipboard_do(LadderGridView *view, enum verb verb);
 
 /* ---- grid_view_mouse.c ---- */
 void mouse_init(LadderGridView *view);
+/** mouse_is_cell - a cell, or something of it, was hit. */
+bool mouse_is_cell(const struct rung_hit *hit);
 /** mouse_menu - what the right button shows, at the cursor. */
 void mouse_menu(LadderGridView *view);
+
+/* ---- grid_view_drag.c: what is taken and dropped ---- */
+void drag_init(LadderGridView *view);
 
 /* ---- grid_view_drop.c: what is seen of it while something is dragged ---- */
 /** drop_word - what is dragged over the sheet; ELEM_EMPTY: no element. */

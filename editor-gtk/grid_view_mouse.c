@@ -1,62 +1,17 @@
 /* SPDX-License-Identifier: MIT
  *
- * grid_view_mouse - a sheet under the pointer: click, select, drag, drop, zoom, menu.
+ * grid_view_mouse - a sheet under the pointer: click, select, draw wires, zoom, menu.
  *
  * Whatever the keyboard can do, the pointer can do too: by dragging, or from the menu of
  * the right button, which is made from the verbs.
  */
 #include "editor-gtk/grid_view_inside.h"
 
-#include "editor-gtk/ghost.h"
 #include "editor-gtk/popover.h"
-
-/* ---- what is dragged ---- */
-
-#define LADDER_TYPE_DRAG (ladder_drag_get_type())
-
-/* An element of the palette, or one of a sheet. */
-struct ladder_drag {
-	enum word word;
-	LadderGridView *view;      /* it comes from; NULL: the palette         */
-	struct grid_cursor from;
-};
-
-static struct ladder_drag *ladder_drag_copy(struct ladder_drag *drag)
-{
-	struct ladder_drag *copy = g_memdup2(drag, sizeof(*drag));
-
-	if (copy->view)
-		g_object_ref(copy->view);
-	return copy;
-}
-
-static void ladder_drag_free(struct ladder_drag *drag)
-{
-	g_clear_object(&drag->view);
-	g_free(drag);
-}
-
-static GType ladder_drag_get_type(void)
-{
-	static GType type;
-
-	if (g_once_init_enter(&type))
-		g_once_init_leave(&type, g_boxed_type_register_static("LadderDrag",
-			(GBoxedCopyFunc)ladder_drag_copy,
-			(GBoxedFreeFunc)ladder_drag_free));
-	return type;
-}
-
-GdkContentProvider *ladder_grid_view_drag(enum word word)
-{
-	struct ladder_drag drag = { .word = word };
-
-	return gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag);
-}
 
 /* ---- clicks ---- */
 
-static bool is_cell(const struct rung_hit *hit)
+bool mouse_is_cell(const struct rung_hit *hit)
 {
 	return hit->part == RUNG_PART_CELL || hit->part == RUNG_PART_WIRE ||
 	       hit->part == RUNG_PART_LINK || hit->part == RUNG_PART_PIN;
@@ -71,53 +26,88 @@ static void begin_there(LadderGridView *view, const struct rung_hit *hit)
 		ladder_grid_view_do(view, VERB_enter);
 }
 
+/* The cursor goes there, and what was selected is not any more. */
+static void press(LadderGridView *view, int rung, const struct rung_hit *hit, int count,
+		  GdkModifierType state)
+{
+	/* Of the sheet, since that may scroll to the cursor. */
+	const double at_x = (view->press_x + gtk_adjustment_get_value(view->adjustment[0])) /
+			    view->zoom;
+	const double at_y = (view->press_y + gtk_adjustment_get_value(view->adjustment[1])) /
+			    view->zoom;
+
+	if (mouse_is_cell(hit)) {
+		cursor_set(view, (struct grid_cursor){ rung, hit->row, hit->column },
+			   state & GDK_SHIFT_MASK);
+		view->takes = !(state & GDK_SHIFT_MASK) &&
+			      !wire_press(view, view->press_x, view->press_y) &&
+			      cursor_cell(view, NULL, NULL);
+		view->toggles = view->takes &&
+			act_is_click(view, (float)at_x, (float)at_y);
+		if (count == 2 && !view->toggles)
+			begin_there(view, hit);
+		return;
+	}
+	cursor_set(view, (struct grid_cursor){ rung, 0, 0 }, state & GDK_SHIFT_MASK);
+	if (hit->part == RUNG_PART_NUMBER && !(state & GDK_SHIFT_MASK))
+		ladder_grid_view_do(view, VERB_select_all);
+	else if (hit->part == RUNG_PART_TITLE && count == 2)
+		ladder_grid_view_do(view, VERB_rung_title);
+}
+
+/* What is selected may be dragged, or asked for its menu: it stays until that is known. */
+static bool is_kept(LadderGridView *view, int rung, const struct rung_hit *hit, int count,
+		    GdkModifierType state)
+{
+	int first, last;
+
+	if (count > 1 || state & GDK_SHIFT_MASK)
+		return false;
+	if (hit->part == RUNG_PART_NUMBER || hit->part == RUNG_PART_TITLE)
+		return cursor_rungs(view, &first, &last) &&
+		       cursor_selects(view, rung, 0, 0);
+	return mouse_is_cell(hit) && cursor_selects(view, rung, hit->row, hit->column);
+}
+
 static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 		    LadderGridView *view)
 {
 	const GdkModifierType state = gtk_event_controller_get_current_event_state(
 		GTK_EVENT_CONTROLLER(gesture));
-	/* Of the sheet, since that may scroll to the cursor. */
-	const double at_x = (x + gtk_adjustment_get_value(view->adjustment[0])) / view->zoom;
-	const double at_y = (y + gtk_adjustment_get_value(view->adjustment[1])) / view->zoom;
 	struct rung_hit hit;
 	const int rung = sheet_point(view, x, y, &hit);
 
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 	view->press_x = x;
 	view->press_y = y;
-	view->takes = view->toggles = false;
+	view->takes = view->toggles = view->keeps = false;
 	wire_forget(view);
 	if (rung < 0)
 		return;
-	if (is_cell(&hit)) {
-		cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column },
-			   state & GDK_SHIFT_MASK);
-		view->takes = !(state & GDK_SHIFT_MASK) && !wire_press(view, x, y) &&
-			      cursor_cell(view, NULL, NULL);
-		view->toggles = view->takes &&
-			act_is_click(view, (float)at_x, (float)at_y);
-		if (count == 2 && !view->toggles)
-			begin_there(view, &hit);
-		return;
-	}
-	cursor_set(view, (struct grid_cursor){ rung, 0, 0 }, state & GDK_SHIFT_MASK);
-	if (hit.part == RUNG_PART_NUMBER && !(state & GDK_SHIFT_MASK))
-		ladder_grid_view_do(view, VERB_select_all);
-	else if (hit.part == RUNG_PART_TITLE && count == 2)
-		ladder_grid_view_do(view, VERB_rung_title);
+	view->keeps = view->takes = is_kept(view, rung, &hit, count, state);
+	if (!view->keeps)
+		press(view, rung, &hit, count, state);
 }
 
 /* Not when it is pressed: it may be dragged. */
 static void released(GtkGestureClick *gesture, int count, double x, double y,
 		     LadderGridView *view)
 {
+	const bool moved = gtk_drag_check_threshold(GTK_WIDGET(view), (int)view->press_x,
+						    (int)view->press_y, (int)x, (int)y);
+	struct rung_hit hit;
+	int rung;
+
 	(void)gesture;
-	(void)count;
-	if (view->toggles &&
-	    !gtk_drag_check_threshold(GTK_WIDGET(view), (int)view->press_x,
-				      (int)view->press_y, (int)x, (int)y))
+	if (view->keeps && !moved) {
+		rung = sheet_point(view, view->press_x, view->press_y, &hit);
+		if (rung >= 0)
+			press(view, rung, &hit, count, 0);
+		wire_forget(view);
+	}
+	if (view->toggles && !moved)
 		act_click(view);
-	view->toggles = false;
+	view->toggles = view->keeps = false;
 }
 
 /* Sections; with a name, they open at the side. */
@@ -199,7 +189,7 @@ static bool drag_to(LadderGridView *view, double x, double y, GdkModifierType st
 		return true;
 	}
 	rung = sheet_point(view, x, y, &hit);
-	if (rung < 0 || !is_cell(&hit))
+	if (rung < 0 || !mouse_is_cell(&hit))
 		return false;
 	cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column }, true);
 	return true;
@@ -246,237 +236,6 @@ static void drag_cancel(GtkGesture *gesture, GdkEventSequence *sequence,
 	(void)sequence;
 	edge_forget(view);
 	wire_forget(view);
-}
-
-/* ---- dragging an element or a rung ---- */
-
-/* A chart takes an element as its variables. @element: taken over. */
-static GdkContentProvider *with_names(LadderGridView *view, const struct cell *cell,
-				      GdkContentProvider *element)
-{
-	char *names = sheet_variables(view, cell);
-	GdkContentProvider *both[] = { element, NULL };
-
-	if (*names)
-		both[1] = gdk_content_provider_new_typed(G_TYPE_STRING, names);
-	g_free(names);
-	return both[1] ? gdk_content_provider_new_union(both, 2) : element;
-}
-
-static GdkContentProvider *drag_prepare(GtkDragSource *source, double x, double y,
-					LadderGridView *view)
-{
-	struct ladder_drag drag = { .view = view };
-	struct rung_hit hit;
-	const int rung = sheet_point(view, x, y, &hit);
-	const struct cell *cell;
-
-	(void)source;
-	if (rung < 0 || view->entry || rung != view->cursor.rung)
-		return NULL;
-	drag.from = (struct grid_cursor){ rung, -1, -1 };
-	if (hit.part == RUNG_PART_NUMBER)
-		return gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag);
-	cell = cursor_cell(view, NULL, NULL);
-	if (!is_cell(&hit) || !cell || !view->takes)
-		return NULL;
-	drag.word = (enum word)cell->word;
-	drag.from = view->cursor;
-	return with_names(view, cell,
-			  gdk_content_provider_new_typed(LADDER_TYPE_DRAG, &drag));
-}
-
-static void drag_begin(GtkDragSource *source, GdkDrag *begun, LadderGridView *view)
-{
-	const struct project *project = ladder_document_project(view->document);
-	const struct ladder_drag *drag;
-	GValue value = G_VALUE_INIT;
-
-	g_value_init(&value, LADDER_TYPE_DRAG);
-	if (!gdk_content_provider_get_value(gdk_drag_get_content(begun), &value, NULL))
-		goto unset;
-	drag = g_value_get_boxed(&value);
-	if (drag->from.row < 0)
-		drop_rung_ghost(view, source, drag->from.rung);
-	else if (project)
-		ghost_element(source, words_row(&project->words, drag->word),
-			      strips_theme(view), view->lettering);
-unset:
-	g_value_unset(&value);
-}
-
-/* ---- dropping ---- */
-
-#define DROP_BELOW 18 /* px under the wire, from where on it is meant          */
-
-static const struct ladder_drag *dragged(GtkDropTarget *target)
-{
-	const GValue *value = gtk_drop_target_get_value(target);
-
-	return value && G_VALUE_HOLDS(value, LADDER_TYPE_DRAG) ?
-	       g_value_get_boxed(value) : NULL;
-}
-
-/* The lower part of an element's cell means: below it. */
-static bool is_below(LadderGridView *view, int rung, const struct rung_hit *hit, double y)
-{
-	const struct strip *strip = strips_get(view, rung);
-	const struct rung_row *row = &strip->layout->row[hit->row];
-	const double at = (y + gtk_adjustment_get_value(view->adjustment[1])) / view->zoom;
-
-	return at > strip->y + row->wire + DROP_BELOW;
-}
-
-/* Which cell is meant: below an element the free one that would be a branch; below the last
- * row there is room for another. */
-static int drop_at(LadderGridView *view, double x, double y, struct rung_hit *hit,
-		   enum word word)
-{
-	const double shift = RUNG_CELL_HEIGHT * view->zoom;
-	int rung = sheet_point(view, x, y, hit);
-	const bool inside = rung >= 0 && is_cell(hit);
-	enum grid_drop how;
-
-	if (inside && !is_below(view, rung, hit, y))
-		return rung;
-	if (!inside) {
-		const int above = sheet_point(view, x, y - shift, hit);
-
-		if (above < 0 || !is_cell(hit) || (rung >= 0 && rung != above))
-			return -1;
-		rung = above;
-	}
-	how = grid_can_drop(sheet_rung(view, rung), view->columns, hit->row + 1,
-			    hit->column, word);
-	if (how == GRID_DROP_BELOW || (!inside && how != GRID_DROP_NOT))
-		hit->row++;
-	return rung;
-}
-
-static bool is_rung(const struct ladder_drag *drag)
-{
-	return drag && drag->view && drag->from.row < 0;
-}
-
-/* Rungs change places within a program. */
-static bool takes_rung(LadderGridView *view, const struct ladder_drag *drag)
-{
-	return drag->view == view && view->count < 0;
-}
-
-/* Marks where it would be dropped; 0: it may not. */
-static GdkDragAction show_drop(LadderGridView *view, double x, double y)
-{
-	const struct ladder_drag *drag = dragged(view->target);
-	const enum word word = drag ? drag->word : ELEM_EMPTY;
-	struct rung_hit hit;
-	bool legal;
-	int rung;
-
-	if (is_rung(drag)) {
-		drop_line(view, takes_rung(view, drag) ? drop_boundary(view, y) : -1);
-		return takes_rung(view, drag) ? GDK_ACTION_MOVE : 0;
-	}
-	drop_word(view, word);
-	rung = drop_at(view, x, y, &hit, word);
-	if (rung < 0) {
-		drop_at_cell(view, -1, 0, 0, false);
-		return 0;
-	}
-	legal = drag && grid_can_drop(sheet_rung(view, rung), view->columns, hit.row,
-				      hit.column, drag->word) != GRID_DROP_NOT;
-	drop_at_cell(view, rung, hit.row, hit.column, legal);
-	return !legal ? 0 : drag->view ? GDK_ACTION_MOVE : GDK_ACTION_COPY;
-}
-
-static void drop_again(LadderGridView *view, double x, double y, GdkModifierType state)
-{
-	GdkDrop *drop = gtk_drop_target_get_current_drop(view->target);
-	const GdkDragAction action = show_drop(view, x, y);
-
-	(void)state;
-	if (drop)
-		gdk_drop_status(drop, action, action);
-}
-
-static GdkDragAction drop_motion(GtkDropTarget *target, double x, double y,
-				 LadderGridView *view)
-{
-	(void)target;
-	edge_at(view, x, y, 0, drop_again);
-	return show_drop(view, x, y);
-}
-
-static void drop_leave(GtkDropTarget *target, LadderGridView *view)
-{
-	(void)target;
-	edge_forget(view);
-	drop_forget(view);
-}
-
-/* The rung goes between those where the line is, which count without it; the cursor goes
- * with it. */
-static bool move_rung(LadderGridView *view, const struct ladder_drag *drag, int before)
-{
-	const int from = drag->from.rung, to = before > from ? before - 1 : before;
-
-	if (!takes_rung(view, drag) || to == from ||
-	    !ladder_document_move_rung(view->document, view->pou, from, to))
-		return false;
-	cursor_set(view, (struct grid_cursor){ to, drag->from.row, drag->from.col }, false);
-	return true;
-}
-
-/* From one rung to another is one step. */
-static void move_between(LadderGridView *view, const struct ladder_drag *drag,
-			 struct grid_cursor to)
-{
-	struct rung *from_rung = sheet_rung(drag->view, drag->from.rung);
-	struct rung *to_rung = sheet_rung(view, to.rung), *source = NULL, *moved;
-	struct grid_at from = { drag->view->columns, drag->from.row, drag->from.col, 0 };
-	struct grid_at at = { view->columns, to.row, to.col, 0 };
-	const bool same = from_rung == to_rung;
-
-	if (!from_rung || !to_rung || drag->view->document != view->document)
-		return;
-	moved = grid_move(from_rung, &from, to_rung, &at, &source);
-	if (!moved) {
-		sheet_tell(view, _(grid_refusal_text(at.refusal ? at.refusal :
-						     from.refusal)));
-		return;
-	}
-	ladder_document_begin(view->document, _("Move element"), NULL);
-	if (!same && source)
-		sheet_splice(drag->view, drag->from.rung, 1, &source, 1, NULL);
-	sheet_splice(view, to.rung, 1, &moved, 1, NULL);
-	ladder_document_end(view->document);
-	cursor_set(view, (struct grid_cursor){ to.rung, at.row, at.col }, false);
-}
-
-static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
-			LadderGridView *view)
-{
-	const struct ladder_drag *drag = g_value_get_boxed(value);
-	struct rung_hit hit;
-	int rung;
-
-	(void)target;
-	edge_forget(view);
-	drop_forget(view);
-	if (sheet_is_fixed(view))
-		return FALSE;
-	if (is_rung(drag))
-		return move_rung(view, drag, drop_boundary(view, y));
-	rung = drop_at(view, x, y, &hit, drag->word);
-	if (rung < 0)
-		return FALSE;
-	if (drag->view) {
-		move_between(view, drag, (struct grid_cursor){ rung, hit.row, hit.column });
-		return TRUE;
-	}
-	cursor_set(view, (struct grid_cursor){ rung, hit.row, hit.column }, false);
-	entry_begin_drop(view, drag->word, hit.row, hit.column);
-	return TRUE;
 }
 
 /* ---- zoom about the pointer ---- */
@@ -526,24 +285,12 @@ static void add_clicks(LadderGridView *view)
 
 void mouse_init(LadderGridView *view)
 {
-	GtkDragSource *source = gtk_drag_source_new();
-	GtkDropTarget *target = gtk_drop_target_new(LADDER_TYPE_DRAG,
-						    GDK_ACTION_COPY | GDK_ACTION_MOVE);
 	GtkEventController *scroll = gtk_event_controller_scroll_new(
 		GTK_EVENT_CONTROLLER_SCROLL_VERTICAL);
 	GtkGesture *pinch = gtk_gesture_zoom_new();
 
-	gtk_drag_source_set_actions(source, GDK_ACTION_COPY | GDK_ACTION_MOVE);
-	g_signal_connect(source, "prepare", G_CALLBACK(drag_prepare), view);
-	g_signal_connect(source, "drag-begin", G_CALLBACK(drag_begin), view);
-	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(source));
+	drag_init(view);
 	add_clicks(view);
-	view->target = target;
-	gtk_drop_target_set_preload(target, TRUE);
-	g_signal_connect(target, "motion", G_CALLBACK(drop_motion), view);
-	g_signal_connect(target, "leave", G_CALLBACK(drop_leave), view);
-	g_signal_connect(target, "drop", G_CALLBACK(dropped), view);
-	gtk_widget_add_controller(GTK_WIDGET(view), GTK_EVENT_CONTROLLER(target));
 	g_signal_connect(scroll, "scroll", G_CALLBACK(wheel), view);
 	gtk_event_controller_set_propagation_phase(scroll, GTK_PHASE_CAPTURE);
 	gtk_widget_add_controller(GTK_WIDGET(view), scroll);

@@ -194,6 +194,29 @@ static bool move_in_body(LadderGridView *view, int from, int to)
 	return good;
 }
 
+bool rungs_move(LadderGridView *view, int first, int last, int before)
+{
+	const int count = last - first + 1, down = before > last;
+	bool good = before < first || before > last + 1;
+
+	if (!good)
+		return false;
+	ladder_document_begin(view->document, _("Move rung"), NULL);
+	for (int i = 0; good && i < count; i++)
+		good = down ? ladder_document_move_rung(view->document, view->pou, first,
+							before - 1) :
+			      ladder_document_move_rung(view->document, view->pou, last,
+							before);
+	ladder_document_end(view->document);
+	first = down ? before - count : before;
+	if (count > 1)
+		select_rungs(view, first, first + count - 1);
+	else
+		cursor_set(view, (struct grid_cursor){ first, view->cursor.row,
+						       view->cursor.col }, false);
+	return good;
+}
+
 /* The rung above or below them goes to their other side. */
 static void do_move(LadderGridView *view, int by)
 {

@@ -84,4 +84,41 @@ def branch(screen):
     assert editor.save(path) == PROJECT
 
 
-main([coil, branch])
+def dragged(screen):
+    """what is selected is dragged as a whole, and has a menu; a click in it selects no more"""
+    path = new_file(screen, PROJECT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+Home', 'shift+Down')
+    start, over = [editor.middle(editor.element(*parts)) for parts in (('NO', 'Start'), ('NO', 'Over'))]
+    editor.drag(start, over, look='cells-dragged')
+    until(lambda: len(editor.all('Rung 2, ', 'table cell')) >= 4, 'the branch in rung 2')
+    text = editor.save(path)
+    assert 'RUNG "one"\n  | --- | NC Stop | COIL Motor |' in text, text
+    assert '| NO Start  | NO Over | S Lamp |\n  | NO Motor ^|' in text, text
+    check(path)
+    editor.keys('ctrl+z')
+    editor.says('Undone: Move elements')
+    assert editor.save(path) == PROJECT
+    # Onto itself: nothing.
+    editor.keys('ctrl+Home', 'shift+Down')
+    editor.drag(start, (start[0] + 20, start[1] + 4))
+    editor.keys('ctrl+y')
+    until(lambda: len(editor.all('Rung 2, ', 'table cell')) >= 4, 'the branch in rung 2')
+    editor.keys('ctrl+z')
+    editor.element('Rung 1, NO', 'Start')
+    # The menu is that of all that is selected; a click selects a cell.
+    editor.keys('ctrl+Home', 'shift+Down')
+    editor.click(start, 3)
+    until(lambda: [node for node in editor.all('Copy', 'menu item') if node.name == 'Copy'], 'the menu')[0].press()
+    editor.click(over)
+    editor.keys('ctrl+v')
+    until(lambda: len(editor.all('Rung 2, ', 'table cell')) >= 4, 'the branch in rung 2')
+    editor.keys('ctrl+z', 'ctrl+Home', 'shift+Down')
+    editor.click(start)
+    editor.keys('Delete')
+    until(lambda: not editor.all('Rung 1, NO, Start', 'table cell'), 'Start to be gone')
+    assert 'NO Motor' in editor.save(path)
+
+
+main([coil, branch, dragged])

@@ -89,6 +89,33 @@ def by_pointer(screen):
     assert editor.save(path) == PROJECT
 
 
+def dragged(screen):
+    """rungs that are selected are dragged as one, by the number of any of them; one step"""
+    path, editor = opened(screen)
+    left = editor.grid(60, 0)[0] - 85
+    numbers = [(left, editor.middle(editor.element('Rung %d' % n))[1]) for n in (1, 2, 3)]
+    editor.click(numbers[0])
+    editor.click(numbers[1], shift=True)
+    editor.says('Rungs 1 to 2 are selected')
+    editor.drag(numbers[0], (left, numbers[2][1] + 30), look='several-dragged')
+    editor.says('Rungs 2 to 3 are selected')
+    assert order(editor.save(path)) == 'cabd'
+    editor.keys('ctrl+z')
+    editor.says('Undone: Move rung')
+    assert editor.save(path) == PROJECT
+    # Upwards, by the second one.
+    editor.keys('ctrl+Home')
+    editor.click(numbers[1])
+    editor.click(numbers[2], shift=True)
+    editor.says('Rungs 2 to 3 are selected')
+    editor.drag(numbers[2], (left, numbers[0][1] - 30))
+    editor.says('Rungs 1 to 2 are selected')
+    assert order(editor.save(path)) == 'bcad'
+    # A click on one of them selects that alone.
+    editor.click(numbers[1])
+    until(lambda: not editor.all('are selected'), 'one rung')
+
+
 def all_of_them(screen):
     """Ctrl+A selects the rung, again all rungs; Esc none; all can go"""
     path, editor = opened(screen)
@@ -104,4 +131,4 @@ def all_of_them(screen):
     assert editor.save(path) == PROJECT
 
 
-main([by_keys, by_pointer, all_of_them])
+main([by_keys, by_pointer, dragged, all_of_them])
