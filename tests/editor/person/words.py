@@ -224,7 +224,9 @@ def comments(screen):
     editor.keys('semicolon')
     editor.opened()
     editor.put_clipboard('one\r\n  two\n')
-    editor.keys('ctrl+v', 'Return')
+    editor.keys('ctrl+v')
+    until(lambda: editor.asked() and editor.asked()[0].text() == 'one two', 'what is pasted, as one line')
+    editor.keys('Return')
     editor.gone()
     assert editor.save(path) == before.replace('NO Start', 'NO Start (* one two *)')
     for key, text, why in (('semicolon', 'a *) b', 'a comment holds no (* and no *)'), ('ctrl+l', 'a b', 'this is no name')):
