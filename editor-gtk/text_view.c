@@ -393,6 +393,59 @@ GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view)
 	return view->buffer;
 }
 
+static gboolean ends_name(gunichar c, gpointer address)
+{
+	return !(g_unichar_isalnum(c) || c == '_' || (address && (c == '%' || c == '.')));
+}
+
+/* From @at back to where what it is in begins, and on to where it ends. */
+static char *word_at(const GtkTextIter *at, gpointer address)
+{
+	GtkTextIter from = *at, to = *at;
+
+	while (gtk_text_iter_backward_char(&from))
+		if (ends_name(gtk_text_iter_get_char(&from), address)) {
+			gtk_text_iter_forward_char(&from);
+			break;
+		}
+	if (!ends_name(gtk_text_iter_get_char(&to), address))
+		gtk_text_iter_forward_find_char(&to, ends_name, address, NULL);
+	return gtk_text_iter_get_slice(&from, &to);
+}
+
+char *ladder_text_view_name(LadderTextView *view)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	GtkTextIter at;
+	char *word;
+
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	word = word_at(&at, buffer); /* an address, if it begins as one */
+	if (*word != '%') {
+		g_free(word);
+		word = word_at(&at, NULL);
+	}
+	if (*word)
+		return word;
+	g_free(word);
+	return NULL;
+}
+
+bool ladder_text_view_is_at(LadderTextView *view, int line)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
+	GtkTextIter at;
+
+	line--;
+	if (canonical)
+		text_lines_place(shown, canonical, &line, NULL);
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	g_free(canonical);
+	g_free(shown);
+	return gtk_text_iter_get_line(&at) == line;
+}
+
 void ladder_text_view_go_here(LadderTextView *view, int line, int column)
 {
 	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);

@@ -33,6 +33,12 @@ char *ladder_text_view_reasons(LadderTextView *view, int line);
 void ladder_text_view_take(LadderTextView *view);
 /** ladder_text_view_buffer - what is shown. Borrowed. */
 GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view);
+/** ladder_text_view_name - the name or address that the cursor is on; NULL: none. Owns: the
+ * caller, g_free(). */
+char *ladder_text_view_name(LadderTextView *view);
+/** ladder_text_view_is_at - whether line @line, 1-based, of the list as a file holds it, is
+ * the one of the cursor. */
+bool ladder_text_view_is_at(LadderTextView *view, int line);
 /** ladder_text_view_go - @line: 1-based, of the file; the cursor goes there. */
 void ladder_text_view_go(LadderTextView *view, int line, int column);
 /** ladder_text_view_go_here - @line: 1-based, of the list as a file

@@ -7,10 +7,13 @@
  */
 #include "editor-gtk/window_inside.h"
 
+#include "editor-gtk/text_view.h"
 #include "editor-gtk/uses_view.h"
 #include "editor-gtk/watch_view.h"
 
 #include "engine/view/xref.h"
+
+#include <string.h>
 
 static const char no_name[] = N_("There is no name at the cursor.");
 
@@ -37,6 +40,36 @@ bool names_is_here(LadderWindow *window, const struct xref *xref, int here, int 
 			       is_here(&xref->use[use], sheet, row, col));
 }
 
+/* NULL: there is no list in front. */
+static LadderTextView *list_of(LadderWindow *window)
+{
+	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
+	GtkWidget *content = page ? tabs_content(page) : NULL;
+
+	return LADDER_IS_TEXT_VIEW(content) && ladder_text_view_pou(LADDER_TEXT_VIEW(content)) >= 0 ?
+	       LADDER_TEXT_VIEW(content) : NULL;
+}
+
+/* What the name at the cursor of a list is: the use in that line, or elsewhere in it. */
+static int use_in_list(LadderTextView *list, const struct xref *xref)
+{
+	char *name = ladder_text_view_name(list);
+	int found = -1;
+
+	for (int i = 0; name && i < xref->count; i++) {
+		const struct xref_use *use = &xref->use[i];
+
+		if (use->pou != ladder_text_view_pou(list) || use->rung > 0 || !use->slot ||
+		    strlen(name) != use->len ||
+		    g_ascii_strncasecmp(name, xref_text(xref, use) + use->at, use->len) != 0)
+			continue;
+		if (found < 0 || ladder_text_view_is_at(list, use->row))
+			found = i;
+	}
+	g_free(name);
+	return found;
+}
+
 /* The first use in the cursor's cell; -1: there is none. */
 static int use_here(LadderWindow *window, const struct xref *xref)
 {
@@ -48,6 +81,8 @@ static int use_here(LadderWindow *window, const struct xref *xref)
 
 		return use ? (int)(use - xref->use) : -1;
 	}
+	if (list_of(window))
+		return use_in_list(list_of(window), xref);
 	if (!sheet || !ladder_grid_view_cell(sheet, &row, &col))
 		return -1;
 	for (int i = 0; i < xref->count; i++)

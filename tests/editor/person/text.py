@@ -18,6 +18,12 @@ PROGRAM Main IL
   LD Start
 END_PROGRAM
 '''
+NAMES = IL.replace('LD Start', 'LD    Start\n  ST    Motor') + '''
+PROGRAM Second IL
+  LD    Motor
+  ST    %QX0.1
+END_PROGRAM
+'''
 DAMAGED = '''RUNGBOARD 1
 
 VAR
@@ -134,4 +140,35 @@ def closed(screen):
     assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
 
 
-main([typed, damaged, emptied, one_more, closed])
+def names(screen):
+    """in a list, too: F12 goes to where the name at the cursor is driven, F2 changes it everywhere, Shift+F12 lists its uses"""
+    editor, path, view = in_the_text(screen, NAMES)
+    editor.keys('ctrl+Page_Down')
+    second = until(lambda: [node for node in editor.all('Text of the program') if 'QX0.1' in node.text()], 'the second list')[0]
+    editor.click(second)
+    until(lambda: second.has(12), 'the focus in the second list')
+    editor.keys('ctrl+Home', 'Down', 'End', 'F12')
+    until(lambda: [node for node in editor.all('Text of the program') if 'ST    Motor' in node.text() and node.has(12)],
+          'the list that drives it')
+    editor.keys('shift+F12')
+    editor.find('Second, line', 'label')
+    editor.click(view)
+    editor.keys('ctrl+Home', 'Down', 'Down', 'End', 'F2')
+    editor.says('Rename')
+    editor.shot('text-rename')
+    editor.keys('ctrl+a')
+    editor.type('Pump')
+    editor.keys('Return')
+    until(lambda: 'ST    Pump' in view.text() or [n for n in editor.all('Text of the program') if 'Pump' in n.text()], 'the new name')
+    text = editor.save(path)
+    assert text == NAMES.replace('Motor AT', 'Pump  AT').replace('Motor', 'Pump'), text
+    check(path)
+    # An address, and nothing.
+    editor.keys('ctrl+Page_Down')
+    second = until(lambda: [node for node in editor.all('Text of the program') if 'QX0.1' in node.text()], 'the second list')[0]
+    editor.click(second)
+    editor.keys('ctrl+Home', 'Down', 'Down', 'End', 'F2')
+    editor.says('Only a declared name can be changed')
+
+
+main([names, typed, damaged, emptied, one_more, closed])
