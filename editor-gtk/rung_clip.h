@@ -13,8 +13,8 @@
  *     | NO Start | TON Delay PT:=T#1s | COIL %QX0.0 |
  *
  * VAR_GLOBAL are those of the project, VAR those of the program. A whole file is read too,
- * a rung without its word, and a line of mnemonics. It puts no rung anywhere, and never changes a declaration
- * that is there.
+ * a rung without its word, and lines of mnemonics. It puts no rung anywhere, and never changes
+ * a declaration that is there.
  */
 #ifndef EDITOR_RUNG_CLIP_H
 #define EDITOR_RUNG_CLIP_H

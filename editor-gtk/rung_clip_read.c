@@ -424,17 +424,21 @@ static bool is_text(struct reading *r, const char *text, gsize len)
 }
 
 /* No row and no word of a rung file. */
-static bool take_line(struct reading *r)
+static bool take_lines(struct reading *r)
 {
-	char *text = rung_clip_line(r->document, r->pou, r->text);
+	char *why = NULL;
+	int line = 1;
+	char **text = rung_clip_lines(r->document, r->pou, r->text, &why, &line);
+	const guint count = text ? g_strv_length(text) : 0;
 	bool good = text;
 
-	r->clip->rung = g_new0(struct rung *, 1);
-	if (good)
-		good = take_rung(r, text, strlen(text), 0);
-	else
-		refuse(r, g_strdup(_("The clipboard holds no rungs.")));
-	g_free(text);
+	if (why)
+		refuse(r, g_strdup_printf(_("The clipboard, line %d: %s"), line, why));
+	r->clip->rung = g_new0(struct rung *, count + 1);
+	for (guint i = 0; good && i < count; i++)
+		good = take_rung(r, text[i], strlen(text[i]), 0);
+	g_strfreev(text);
+	g_free(why);
 	return good;
 }
 
@@ -442,8 +446,8 @@ static bool take(struct reading *r)
 {
 	if (r->whole)
 		return take_whole(r);
-	if (r->rung->len == 0)
-		return take_line(r);
+	if (r->rung->len == 0 && r->block->len == 0)
+		return take_lines(r);
 	return (r->block->len == 0 || take_blocks(r)) && take_rungs(r);
 }
 

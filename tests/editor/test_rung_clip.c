@@ -180,10 +180,23 @@ static void test_line(void)
 	becomes(target, "LD %I0.0 TON T1 T#5s OUT %Q0.1", "",
 		"RUNGBOARD 1\n\nPROGRAM Main LD\n"
 		"RUNG\n  | NO %IX0.0 | TON T1 PT:=T#5s | COIL %QX0.1 |\nEND_PROGRAM\n");
-	refused("XIC", "The clipboard holds no rungs.");
-	refused("XIC Start OTE", "The clipboard holds no rungs.");
-	refused("XIC A\nOTE B\n", "The clipboard holds no rungs.");
-	refused("Start XIC Stop", "The clipboard holds no rungs.");
+	/* A list: behind an output a rung begins. */
+	becomes(target, "LD Start\nANDN Stop\r\nST Motor2\n\nLD %I0.5\nOUT %Q0.1\n", "",
+		"RUNGBOARD 1\n\nPROGRAM Main LD\n"
+		"RUNG\n  | NO Start | NC Stop | COIL Motor2 |\n"
+		"RUNG\n  | NO %IX0.5 | COIL %QX0.1 |\nEND_PROGRAM\n");
+	refused("XIC", "The clipboard, line 1: the operand is still missing");
+	refused("XIC Start OTE", "The clipboard, line 1: the operand is still missing");
+	refused("LD Start\nFROB Stop\nST Motor\n",
+		"The clipboard, line 2: there is no such word: FROB");
+	refused("XIC Start BST XIO Stop NXB XIC Over BND OTE Motor",
+		"The clipboard, line 1: there is no such word: BST");
+	refused("LD Start\nOR Stop\nST Motor\n", "The clipboard, line 2: this can only be "
+		"pasted as a row of a rung file: OR Stop");
+	refused("LD Start\nST Motor\nST Lamp\n", "The clipboard, line 3: this can only be "
+		"pasted as a row of a rung file: ST Lamp");
+	refused("Start XIC Stop", "The clipboard, line 1: there is no such word: Start");
+	refused("LD > 5", "The clipboard, line 1: no variable can be called so: LD");
 }
 
 /* All rungs of its ladder programs, and of its declarations those that they use. */
@@ -216,7 +229,7 @@ static void test_refused(void)
 	char *why, *large = g_malloc0(LIMIT_TEXT + 2), *after;
 
 	refused("", "The clipboard holds no rungs.");
-	refused("this is no rung", "The clipboard holds no rungs.");
+	refused("\nthis is no rung", "The clipboard, line 2: there is no such word: this");
 	refused("VAR\n  A : BOOL;\nEND_VAR\n", "The clipboard holds no rungs.");
 	refused("RUNGBOARD 1\nPROGRAM A IL\n  LD TRUE\nEND_PROGRAM\n",
 		"The clipboard holds no rungs.");
