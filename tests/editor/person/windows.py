@@ -193,7 +193,7 @@ def from_text(screen):
     check(path)
     assert lines(path, '@print Motor\nStart=1\nStart=0\n') == ['Motor=1', 'Motor=0']
     saved = open(path).read()
-    for text, why in ('this is no rung', 'The clipboard holds no rungs.'), \
+    for text, why in ('this is no rung', 'The clipboard, line 1: there is no such word: this'), \
             ('RUNG\n  | NO Start | COIL Motor |\nRUNG\n  | BADWORD Start |\n', 'line 4: unknown word: BADWORD'), \
             ('RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n  | NO Start\nEND_PROGRAM\n', 'The clipboard, line 4: '):
         editor.put_clipboard(text)
@@ -219,8 +219,8 @@ def hostile(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     rung = b'RUNG\n  | NO Start | COIL Motor |\n'
-    for text, why in (rung + b'\0' + rung, 'not valid UTF-8 text'), (b'this', 'The clipboard holds no rungs.'), \
-            (rung.replace(b'Start', b'St\xffrt'), 'not valid UTF-8 text'), (b'this', 'The clipboard holds no rungs.'), \
+    for text, why in (rung + b'\0' + rung, 'not valid UTF-8 text'), (b'this', 'The clipboard, line 1: there is no such word: this'), \
+            (rung.replace(b'Start', b'St\xffrt'), 'not valid UTF-8 text'), (b'this', 'The clipboard, line 1: there is no such word: this'), \
             (b' ' * (65 << 20), 'file is too large'):
         subprocess.run(['xclip', '-selection', 'clipboard', '-t', 'text/plain;charset=utf-8'], input=text, check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
