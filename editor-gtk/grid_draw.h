@@ -76,6 +76,7 @@ struct grid_scene {
 	/** What stands below a coil on paper ("read in Main 3, 5"); NULL: nothing.
 	 * Owns: the caller of it, g_free. */
 	char *(*reference)(void *context, int row, int col);
+	float reference_from;          /* x: it begins nowhere before it           */
 	/** What a MARK_BLOCKS says of (row, column); NULL: nothing. NULL instead of it:
 	 * none says anything. Owns: the callee. */
 	const char *(*note)(void *context, int row, int column);

@@ -40,7 +40,7 @@ static void draw_label(const struct pen *pen, int row, int col, float x)
 static void draw_reference(const struct pen *pen, int row, int col, float x)
 {
 	const struct rung_layout *layout = pen->layout;
-	float from = rung_layout_bar(layout, row, col) + 6;
+	float from = MAX(rung_layout_bar(layout, row, col), pen->scene->reference_from) + 6;
 	float room = layout->right - 6 - from, baseline = layout->row[row].wire + BELOW_BASELINE;
 	struct lettered fits = rung_element_comment(pen->drafting,
 						    rung_at(pen->rung, row, col), room);

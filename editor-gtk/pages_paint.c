@@ -11,13 +11,13 @@ static void paint_piece(const struct pages *pages, const struct piece *piece, ca
 	cairo_translate(cr, PAGE_MARGIN, (double)(PAGE_MARGIN + piece->y));
 	cairo_scale(cr, (double)piece->scale, (double)piece->scale);
 	if (piece->right > 0)
-		cairo_rectangle(cr, 0, 0, (double)(piece->right - piece->left),
+		cairo_rectangle(cr, (double)piece->x, 0, (double)(piece->right - piece->left),
 				(double)(piece->to - piece->from));
 	else
 		cairo_rectangle(cr, -PAGE_MARGIN, 0, (double)(pages->width / piece->scale),
 				(double)(piece->to - piece->from));
 	cairo_clip(cr);
-	cairo_translate(cr, (double)-piece->left, (double)-piece->from);
+	cairo_translate(cr, (double)(piece->x - piece->left), (double)-piece->from);
 	picture_cairo(piece->picture, pages->theme, pages->lettering, cr);
 	cairo_restore(cr);
 }

@@ -199,6 +199,87 @@ static void check_wide_chart(void)
 	g_free(tool);
 }
 
+static void write_rung(const char *name, const char *rows)
+{
+	char *path = in_folder(name), *text = g_strdup_printf("RUNGBOARD 1\n\n"
+		"PROGRAM Main LD\nRUNG\n%sEND_PROGRAM\n", rows);
+
+	CHECK(g_file_set_contents(path, text, -1, NULL));
+	g_free(text);
+	g_free(path);
+}
+
+/* pt from the top to the bottom of a word in a listing of boxes; 0: it is not there. */
+static double type_of(const char *name, const char *word)
+{
+	char *all = content(name, NULL), *end = g_strdup_printf(">%s</word>", word);
+	char *at = strstr(all, end), *top, *bottom;
+	double size = 0;
+
+	if (at) {
+		*at = '\0';
+		top = g_strrstr(all, "yMin=\"");
+		bottom = g_strrstr(all, "yMax=\"");
+		size = g_ascii_strtod(bottom + 6, NULL) - g_ascii_strtod(top + 6, NULL);
+	}
+	g_free(end);
+	g_free(all);
+	return size;
+}
+
+static bool list_boxes(const char *name)
+{
+	char *tool = g_find_program_in_path("pdftotext"), *line;
+	bool can = tool != NULL;
+
+	line = g_strdup_printf("pdftotext -bbox %s/%s.pdf %s/%s.html", folder, name, folder,
+			       name);
+	if (can)
+		CHECK(system(line) == 0);
+	g_free(line);
+	g_free(tool);
+	return can;
+}
+
+/* A rung of 30 contacts goes on below itself: the others stay as large as they are without
+ * it, and every contact is there, once. */
+static void check_wide_rung(void)
+{
+	static const char narrow[] = "  | NO %IX0.0 | COIL %QX0.0 |\n";
+	GString *rows = g_string_new(narrow);
+	int missing = 0;
+
+	g_string_append(rows, "RUNG \"Long\"\n  ");
+	for (int i = 0; i < 30; i++)
+		g_string_append_printf(rows, "| NO %%MX%d.0 ", i + 100);
+	g_string_append_printf(rows, "| COIL %%QX9.0 |\n  | NO %%IX7.7 ^ |\nRUNG\n%s",
+			       narrow);
+	write_rung("long.rung", rows->str);
+	write_rung("short.rung", narrow);
+	CHECK(render("OUT/long.rung -o OUT/long.pdf") == 0);
+	CHECK(render("OUT/short.rung -o OUT/short.pdf") == 0);
+	if (list_boxes("long") && list_boxes("short")) {
+		CHECK_AS(smallest_type("long.html") >= 5.0, "no type is smaller than 5 pt");
+		CHECK(type_of("short.html", "%IX0.0") > 5);
+		CHECK(type_of("long.html", "%IX0.0") == type_of("short.html", "%IX0.0"));
+		for (int i = 0; i < 30; i++) {
+			char *word = g_strdup_printf("%%MX%d.0", i + 100);
+			char *all = content("long.html", NULL);
+			char **parts = g_strsplit(all, word, -1);
+
+			missing += g_strv_length(parts) != 2;
+			g_strfreev(parts);
+			g_free(all);
+			g_free(word);
+		}
+		CHECK_AS(missing == 0, "each contact is there once");
+		CHECK(has("long.html", ">%QX9.0<") && has("long.html", ">Long<"));
+		CHECK(has("long.html", ">2/6<") && has("long.html", ">6/6<") &&
+		      !has("long.html", ">7/6<"));
+	}
+	g_string_free(rows, TRUE);
+}
+
 static void check_diff(void)
 {
 	char *path = in_folder("new.rung"), *text = NULL, **parts, *changed;
@@ -219,16 +300,6 @@ static void check_diff(void)
 	      has("far.svg", "differs"));
 	g_strfreev(parts);
 	g_free(changed);
-	g_free(text);
-	g_free(path);
-}
-
-static void write_rung(const char *name, const char *rows)
-{
-	char *path = in_folder(name), *text = g_strdup_printf("RUNGBOARD 1\n\n"
-		"PROGRAM Main LD\nRUNG\n%sEND_PROGRAM\n", rows);
-
-	CHECK(g_file_set_contents(path, text, -1, NULL));
 	g_free(text);
 	g_free(path);
 }
@@ -455,6 +526,7 @@ int main(void)
 	check_png();
 	check_pdf();
 	check_wide_chart();
+	check_wide_rung();
 	check_diff();
 	check_moved();
 	check_wrong();
