@@ -251,6 +251,7 @@ static void put_ladder(struct pages *pages, const char *heading, int only)
 
 	pages_put_rungs(pages, sheet, heading, only ? only - 1 : 0,
 			only ? only : sheet->count);
+	pages_put_references(pages);
 	sheet_free(sheet);
 }
 
@@ -293,6 +294,7 @@ struct pages *pages_new(const struct project *project, const char *file, int pou
 	pages->page = g_ptr_array_new_with_free_func(page_free);
 	pages->picture = g_ptr_array_new_with_free_func(picture_free);
 	pages->reads = listing_reads_new(project);
+	pages->reference = g_ptr_array_new_with_free_func(g_free);
 	for (int i = 0; i < project->pou_count; i++)
 		if (pou < 0 || pou == i)
 			put_pou(pages, i, rung);
@@ -308,6 +310,7 @@ void pages_free(struct pages *pages)
 	if (!pages)
 		return;
 	listing_reads_free(pages->reads);
+	g_ptr_array_unref(pages->reference);
 	g_ptr_array_unref(pages->page);
 	g_ptr_array_unref(pages->picture);
 	g_free(pages->file);

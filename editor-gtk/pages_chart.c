@@ -75,6 +75,7 @@ static void put_bodies(struct pages *pages, const struct pou *pou)
 			pages_put_rungs(pages, sheet, bodies[i].heading, body->first,
 				  body->first + body->count);
 	}
+	pages_put_references(pages);
 	sfc_bodies_free(bodies, count);
 	sheet_free(sheet);
 }

@@ -240,7 +240,7 @@ static void draw(struct fold *fold, struct grid_scene scene, struct rung_layout 
 		 float rails)
 {
 	struct picture plain;
-	char *(*reference)(void *, int, int) = scene.reference;
+	char *(*reference)(void *, int, int, float) = scene.reference;
 
 	picture_init(&plain);
 	scene.reference = NULL;

@@ -48,6 +48,8 @@ struct pages {
 	const char *subject;
 	int pou;
 	const struct rung *rung;
+	const struct drafting *drafting;
+	GPtrArray *reference;          /* lines: what had no room below its coil   */
 };
 
 /* ---- the flow: what is put stands where @y is, which goes on ---- */
@@ -79,6 +81,8 @@ struct sheet *pages_sheet(struct pages *pages);
 /** pages_put_rungs - those from @first to before @end, below a heading. */
 void pages_put_rungs(struct pages *pages, const struct sheet *sheet, const char *heading,
 		     int first, int end);
+/** pages_put_references - where coils are read, if there was no room below them. */
+void pages_put_references(struct pages *pages);
 /** pages_fold - pages_fold.c: a rung that is too wide, in strips below each other.
  * @first: it stands below the heading of its POU */
 void pages_fold(struct pages *pages, const struct sheet *sheet, int index, float scale,

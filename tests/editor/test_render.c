@@ -280,6 +280,32 @@ static void check_wide_rung(void)
 	g_string_free(rows, TRUE);
 }
 
+/* Of places that have no room below a coil all stand behind the rungs, once. */
+static void check_references(void)
+{
+	GString *rows = g_string_new("  | NO %IX0.0 | S %QX0.0 |\n");
+
+	for (int i = 0; i < 40; i++)
+		g_string_append_printf(rows, "RUNG\n  | NO %%QX0.0 | COIL %%QX1.%d |\n",
+				       i % 8);
+	g_string_append(rows, "RUNG\n  | NO %IX0.1 | R %QX0.0 |\n");
+	write_rung("reads.rung", rows->str);
+	CHECK(render("OUT/reads.rung -o OUT/reads.pdf") == 0);
+	if (list_boxes("reads")) {
+		char *all = content("reads.html", NULL);
+		char **parts = g_strsplit(all, ">41</word>", -1);
+
+		CHECK(has("reads.html", ">reference</word>"));
+		/* The 41st place, and the number of that rung. */
+		CHECK(g_strv_length(parts) == 3);
+		g_strfreev(parts);
+		g_free(all);
+	}
+	CHECK(render(SHAPES " -o OUT/few.pdf") == 0);
+	CHECK(!list_boxes("few") || !has("few.html", ">reference</word>"));
+	g_string_free(rows, TRUE);
+}
+
 static void check_diff(void)
 {
 	char *path = in_folder("new.rung"), *text = NULL, **parts, *changed;
@@ -527,6 +553,7 @@ int main(void)
 	check_pdf();
 	check_wide_chart();
 	check_wide_rung();
+	check_references();
 	check_diff();
 	check_moved();
 	check_wrong();
