@@ -213,6 +213,33 @@ static void check_tall(void)
 	g_string_free(text, TRUE);
 }
 
+/* Nothing is cut in the title block: a long name gets two lines, what needs more room than
+ * its share gets it. */
+static void check_title_block(void)
+{
+	CHECK(render("ladders/packing.rung --date Wednesday,25_November_2026,14:38:05 "
+		     "-o OUT/title.pdf") == 0);
+	if (list_boxes("title")) {
+		CHECK(has("title.html", ">Packing</word>") &&
+		      has("title.html", ">address</word>"));
+		CHECK(has("title.html", ">Wednesday,25_November_2026,14:38:05</word>"));
+		CHECK(has("title.html", ">unit</word>") && has("title.html", ">packing.rung<"));
+		CHECK(!has("title.html", "\xe2\x80\xa6"));
+	}
+	write_text("unit.rung", "PROGRAM The_unit_that_fills_the_hopper_of_this_line LD\n"
+		   "RUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n");
+	CHECK(render("OUT/unit.rung --date 2026-03-01 -o OUT/unit.pdf") == 0);
+	if (list_boxes("unit")) {
+		char *all = content("unit.html", NULL);
+		char **parts = g_strsplit(all, ">The_unit_that_fills_the_hopper_of_this_line<",
+					  -1);
+
+		CHECK_AS(g_strv_length(parts) == 3, "as heading and in the title block");
+		g_strfreev(parts);
+		g_free(all);
+	}
+}
+
 int main(void)
 {
 	folder = g_dir_make_tmp("pages-XXXXXX", NULL);
@@ -223,6 +250,7 @@ int main(void)
 	check_wide_rung();
 	check_references();
 	check_tall();
+	check_title_block();
 	clear_folder();
 	g_free(folder);
 	g_free(said);
