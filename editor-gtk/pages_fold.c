@@ -207,8 +207,11 @@ static void put_strip(struct fold *fold, int strip, float room)
 	struct pages *pages = fold->pages;
 	const struct rung_layout *layout = fold->layout;
 	const float x = strip ? RUNG_LEFT : 0, bottom = strip_bottom(fold, strip);
-	const float height = (bottom - (strip ? layout->top : 0)) * fold->scale;
+	const float top = strip ? 0 : layout->top;
+	float height = (bottom - layout->top + top) * fold->scale;
 
+	if (height > room) /* its title stands with its first row */
+		height = (layout->row[0].height + top) * fold->scale;
 	if (pages->y + height > pages->room_height && height <= room)
 		pages_next(pages);
 	if (strip == 0) /* title and comment are as wide as the page */

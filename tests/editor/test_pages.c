@@ -162,6 +162,50 @@ static void check_wide_rung(void)
 	g_string_free(rows, TRUE);
 }
 
+/* On which page a word stands, from 1; 0: on none. */
+static int page_of(const char *name, const char *word)
+{
+	char *all = content(name, NULL), *end = g_strdup_printf(">%s</word>", word);
+	char **page = g_strsplit(all, "<page ", -1);
+	int at = 1;
+
+	while (page[at] && !strstr(page[at], end))
+		at++;
+	if (!page[at])
+		at = 0;
+	g_strfreev(page);
+	g_free(end);
+	g_free(all);
+	return at;
+}
+
+/* A rung that is taller than a page and too wide for it has its title above its first row,
+ * wherever on a page it begins. */
+static void check_tall_and_wide(void)
+{
+	for (int before = 1; before < 9; before++) {
+		GString *rows = g_string_new(NULL);
+
+		for (int i = 0; i < before; i++)
+			g_string_append(rows, "  | NO %IX0.0 | COIL %QX0.0 |\nRUNG\n");
+		g_string_truncate(rows, rows->len - 1);
+		g_string_append(rows, " \"Tall\"\n");
+		for (int row = 0; row < 20; row++) {
+			g_string_append_printf(rows, "  | NO %%MX20%d.0 ", row);
+			for (int i = 0; i < 15; i++)
+				g_string_append(rows, "| NO %IX0.1 ");
+			g_string_append_printf(rows, "| COIL %%QX%d.1 |\n", row + 1);
+		}
+		write_rung("tall.rung", rows->str);
+		CHECK(render("OUT/tall.rung -o OUT/tall.pdf") == 0);
+		if (list_boxes("tall"))
+			CHECK(page_of("tall.html", "Tall") > 0 &&
+			      page_of("tall.html", "Tall") == page_of("tall.html",
+								      "%MX200.0"));
+		g_string_free(rows, TRUE);
+	}
+}
+
 /* Of places that have no room below a coil all stand behind the rungs, once. */
 static void check_references(void)
 {
@@ -248,6 +292,7 @@ int main(void)
 	check_pdf();
 	check_wide_chart();
 	check_wide_rung();
+	check_tall_and_wide();
 	check_references();
 	check_tall();
 	check_title_block();
