@@ -160,6 +160,7 @@ static void draw_number(const struct pen *pen)
 	enum token token = state & RUNG_CURRENT ? TOKEN_ACCENT : TOKEN_COMMENT;
 	const char *sign = state & RUNG_ADDED ? "+" : state & RUNG_REMOVED ?
 		"\xe2\x88\x92" : state & RUNG_CHANGED ? "\xe2\x89\xa0" : NULL;
+	enum letter small = state & RUNG_NO_GUTTER ? LETTER_PIN : LETTER_BADGE;
 	float y = pen->layout->title_y, x = RUNG_GUTTER / 2.0f;
 	struct lettering *lettering = pen->drafting->lettering;
 	char number[16];
@@ -167,9 +168,9 @@ static void draw_number(const struct pen *pen)
 	g_snprintf(number, sizeof(number), "%d", pen->layout->number);
 	pen_text(pen, token, LETTER_NUMBER,
 		 lettering_fit(lettering, LETTER_NUMBER, number, -1, 0), x, y);
-	if (pen->rung->off)
-		pen_text(pen, TOKEN_COMMENT, LETTER_BADGE,
-			 lettering_fit(lettering, LETTER_BADGE, "OFF", -1, 0), x, y + 15);
+	if (pen->rung->off) /* paper may be made smaller */
+		pen_text(pen, TOKEN_COMMENT, small,
+			 lettering_fit(lettering, small, "OFF", -1, 0), x, y + 15);
 	if (sign)
 		pen_text(pen, state & RUNG_ADDED ? TOKEN_POWER : state & RUNG_REMOVED ?
 			 TOKEN_ERROR : TOKEN_FORCE, LETTER_HEADING,

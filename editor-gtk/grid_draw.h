@@ -73,9 +73,10 @@ struct grid_scene {
 					* dragged; NULL: nothing is              */
 	unsigned int state;            /* enum rung_state, or'ed                  */
 	float scale;                   /* device px of a px; 0: any               */
-	/** What stands below a coil on paper ("read in Main 3, 5"); NULL: nothing.
-	 * Owns: the caller of it, g_free. */
-	char *(*reference)(void *context, int row, int col);
+	/** What stands below a coil on paper ("read in Main 3, 5"), @room px wide in
+	 * LETTER_PIN; NULL: nothing. Owns: the caller of it, g_free. */
+	char *(*reference)(void *context, int row, int col, float room);
+	float reference_from;          /* x: it begins nowhere before it           */
 	/** What a MARK_BLOCKS says of (row, column); NULL: nothing. NULL instead of it:
 	 * none says anything. Owns: the callee. */
 	const char *(*note)(void *context, int row, int column);

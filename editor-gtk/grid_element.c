@@ -40,17 +40,20 @@ static void draw_label(const struct pen *pen, int row, int col, float x)
 static void draw_reference(const struct pen *pen, int row, int col, float x)
 {
 	const struct rung_layout *layout = pen->layout;
-	float from = rung_layout_bar(layout, row, col) + 6;
+	float from = MAX(rung_layout_bar(layout, row, col), pen->scene->reference_from) + 6;
 	float room = layout->right - 6 - from, baseline = layout->row[row].wire + BELOW_BASELINE;
 	struct lettered fits = rung_element_comment(pen->drafting,
 						    rung_at(pen->rung, row, col), room);
-	char *read = pen->scene->reference(pen->scene->context, row, col);
-	char *text = g_strdup_printf("%s%s%s", fits.text, *fits.text && read ?
-				     " \xc2\xb7 " : "", read ? read : "");
+	char *before = g_strdup_printf("%s%s", fits.text, *fits.text ? " \xc2\xb7 " : "");
+	float taken = lettering_fit(pen->drafting->lettering, LETTER_PIN, before, -1,
+				    0).width;
+	char *read = pen->scene->reference(pen->scene->context, row, col, room - taken);
+	char *text = g_strdup_printf("%s%s", read ? before : fits.text, read ? read : "");
 
 	fits = lettering_fit(pen->drafting->lettering, LETTER_PIN, text, -1, room);
 	g_free(read);
 	g_free(text);
+	g_free(before);
 	float left = MIN(x - fits.width / 2, layout->right - 6 - fits.width);
 	picture_text(pen->picture, TOKEN_COMMENT, LETTER_PIN, fits, left, baseline);
 }

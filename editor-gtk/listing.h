@@ -32,10 +32,12 @@ int listing_symbol_count(const struct project *project);
 void listing_symbol(const struct project *project, const struct var_table *table,
 		    int index, char *cell[LISTING_COLUMNS]);
 /** listing_reads - "read in Main 3, 5" for the operand of a cell of POU @pou; NULL: it
- * is read nowhere. Owns: the caller, g_free. */
+ * is read nowhere. Of more places than @most an ellipsis tells; 0: all. Owns: the caller,
+ * g_free. */
 struct listing_reads;
 struct listing_reads *listing_reads_new(const struct project *project);
 void listing_reads_free(struct listing_reads *reads);
-char *listing_reads_of(const struct listing_reads *reads, int pou, const char *operand);
+char *listing_reads_of(const struct listing_reads *reads, int pou, const char *operand,
+		       int most);
 
 #endif

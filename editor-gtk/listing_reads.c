@@ -12,8 +12,6 @@
 
 #include <string.h>
 
-#define MOST_PLACES 12 /* said below one coil; then an ellipsis                  */
-
 struct listing_reads {
 	const struct project *project;
 	struct grid_names **names;   /* of each POU                             */
@@ -163,7 +161,8 @@ void listing_reads_free(struct listing_reads *reads)
 	g_free(reads);
 }
 
-char *listing_reads_of(const struct listing_reads *reads, int pou, const char *operand)
+char *listing_reads_of(const struct listing_reads *reads, int pou, const char *operand,
+		       int most)
 {
 	char *key = key_of(reads, pou, operand, strlen(operand));
 	const GArray *places = g_hash_table_lookup(reads->places, key);
@@ -174,7 +173,7 @@ char *listing_reads_of(const struct listing_reads *reads, int pou, const char *o
 	for (guint i = 0; places && i < places->len; i++) {
 		struct reader at = g_array_index(places, struct reader, i);
 
-		if (i == MOST_PLACES) {
+		if (most && i == (guint)most) {
 			g_string_append(out, ", \xe2\x80\xa6");
 			break;
 		}

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * pages - breaking a project into pages; see pages.h. Charts are pages_chart.c, painting is
- * pages_paint.c.
+ * pages - breaking a project into pages; see pages.h. Rungs are pages_rung.c and
+ * pages_fold.c, charts pages_chart.c, painting is pages_paint.c.
  */
 #include "editor-gtk/pages_inside.h"
-#include "editor-gtk/grid_draw.h"
 #include "editor-gtk/i18n.h"
 
 #include <math.h>
-
-#define LEAST_SCALE 0.6f /* a rung taller than a page is made no smaller          */
 
 bool paper_find(const char *name, struct paper *out)
 {
@@ -72,9 +69,12 @@ static void put_piece(struct pages *pages, const struct picture *picture, float 
 		      float from, float to)
 {
 	struct piece piece = { picture, pages->y, scale, from, to, pages->left,
-			       pages->right };
+			       pages->right, pages->x };
+	struct piece beside = { pages->beside, pages->y, scale, from, to, 0, 0, 0 };
 
 	g_array_append_val(page_now(pages)->piece, piece);
+	if (pages->beside)
+		g_array_append_val(page_now(pages)->piece, beside);
 	pages->y += (to - from) * scale;
 }
 
@@ -98,17 +98,6 @@ void pages_put_heading(struct pages *pages, const char *text, float more)
 	pages_put_whole(pages, picture, 32, 1, more);
 }
 
-static char *reference_of(void *context, int row, int col)
-{
-	const struct pages *pages = context;
-	const struct cell *cell = rung_at(pages->rung, row, col);
-
-	if (word_row(cell->word)->operand != OPND_BOOL_W)
-		return NULL;
-	return listing_reads_of(pages->reads, pages->pou,
-				project_text(pages->project, cell->operand));
-}
-
 void pages_put_span(struct pages *pages, const struct picture *picture, float scale,
 		    float from, float end)
 {
@@ -122,78 +111,18 @@ void pages_put_span(struct pages *pages, const struct picture *picture, float sc
 	}
 }
 
-/* Rows of a rung that is too tall for a page, as many as fit on each. */
-static void put_slices(struct pages *pages, const struct rung_layout *layout,
-		       const struct picture *picture, float scale)
+bool pages_can_cut(const struct picture *picture, float x, float top, float room)
 {
-	float from = 0, end = 0;
+	for (int i = 0; i < picture->count; i++) {
+		const struct stroke *stroke = &picture->stroke[i];
+		const bool solid = stroke->kind == STROKE_TEXT ||
+			((stroke->kind == STROKE_FILL || stroke->kind == STROKE_FRAME) &&
+			 stroke->w < room / 2);
 
-	for (int row = 0; row < layout->rows; row++) {
-		float to = layout->row[row].y + layout->row[row].height;
-
-		if ((to - from) * scale > pages->room_height - pages->y) {
-			pages_put_span(pages, picture, scale, from, end);
-			pages_next(pages);
-			from = end;
-		}
-		end = to;
+		if (solid && stroke->y > top && stroke->x < x && stroke->x + stroke->w > x)
+			return false;
 	}
-	pages_put_span(pages, picture, scale, from, layout->height);
-}
-
-/* The first one stands below the heading of its POU, whatever it takes. */
-static void put_rung(struct pages *pages, const struct sheet *sheet, int index,
-		     float scale, bool first)
-{
-	const struct rung_layout *layout = sheet->rung[index];
-	struct picture *picture = pages_picture(pages);
-	struct grid_scene scene = {
-		.drafting = &sheet->drafting, .layout = layout, .theme = pages->theme,
-		.state = RUNG_NO_GUTTER, .reference = reference_of, .context = pages,
-	};
-	float room = pages->room_height - (first ? pages->y : 0);
-	float shrunk = room / layout->height * 0.999f;
-
-	pages->rung = layout->rung;
-	grid_draw(&scene, picture);
-	if (layout->height * scale <= room)
-		pages_put_whole(pages, picture, layout->height, scale, 0);
-	else if (shrunk >= scale * LEAST_SCALE)
-		pages_put_whole(pages, picture, layout->height, shrunk, 0);
-	else
-		put_slices(pages, layout, picture, scale);
-}
-
-struct sheet *pages_sheet(struct pages *pages)
-{
-	struct sheet *sheet = sheet_new(pages->project,
-					&pages->project->pou[pages->pou],
-					pages->lettering);
-
-	sheet->drafting.show = pages->show;
-	sheet->drafting.all_comments = true;
-	sheet_layout(sheet);
-	return sheet;
-}
-
-void pages_put_rungs(struct pages *pages, const struct sheet *sheet, const char *heading,
-		     float scale, int first, int end)
-{
-	float more = first < end ? sheet->rung[first]->height * scale : 0;
-
-	pages_put_heading(pages, heading, fminf(more, pages->room_height - 40));
-	for (int i = first; i < end; i++)
-		put_rung(pages, sheet, i, scale, i == first);
-}
-
-static void put_ladder(struct pages *pages, const char *heading, int only)
-{
-	struct sheet *sheet = pages_sheet(pages);
-	float scale = fminf(1, pages->room_width / sheet->width);
-
-	pages_put_rungs(pages, sheet, heading, scale, only ? only - 1 : 0,
-			only ? only : sheet->count);
-	sheet_free(sheet);
+	return true;
 }
 
 void pages_put_line(struct pages *pages, const char *line)
@@ -316,6 +245,16 @@ static void put_symbols(struct pages *pages)
 	}
 }
 
+static void put_ladder(struct pages *pages, const char *heading, int only)
+{
+	struct sheet *sheet = pages_sheet(pages);
+
+	pages_put_rungs(pages, sheet, heading, only ? only - 1 : 0,
+			only ? only : sheet->count);
+	pages_put_references(pages);
+	sheet_free(sheet);
+}
+
 static void put_pou(struct pages *pages, int index, int rung)
 {
 	const struct pou *pou = &pages->project->pou[index];
@@ -355,6 +294,7 @@ struct pages *pages_new(const struct project *project, const char *file, int pou
 	pages->page = g_ptr_array_new_with_free_func(page_free);
 	pages->picture = g_ptr_array_new_with_free_func(picture_free);
 	pages->reads = listing_reads_new(project);
+	pages->reference = g_ptr_array_new_with_free_func(g_free);
 	for (int i = 0; i < project->pou_count; i++)
 		if (pou < 0 || pou == i)
 			put_pou(pages, i, rung);
@@ -370,6 +310,7 @@ void pages_free(struct pages *pages)
 	if (!pages)
 		return;
 	listing_reads_free(pages->reads);
+	g_ptr_array_unref(pages->reference);
 	g_ptr_array_unref(pages->page);
 	g_ptr_array_unref(pages->picture);
 	g_free(pages->file);

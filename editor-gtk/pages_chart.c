@@ -10,8 +10,6 @@
 
 #include <math.h>
 
-#define CHART_SCALE 0.6f /* a chart wider than a page is made no smaller: 5.4 pt    */
-
 /* Is there something to be read? */
 static bool is_blank(const struct pages *pages, const struct picture *picture, float from,
 		     float to)
@@ -64,7 +62,6 @@ static void put_chart_slices(struct pages *pages, const struct sfc_sheet *chart,
 static void put_bodies(struct pages *pages, const struct pou *pou)
 {
 	struct sheet *sheet = pages_sheet(pages);
-	float scale = fminf(1, pages->room_width / sheet->width);
 	int count;
 	struct sfc_part_body *bodies = sfc_bodies_new(pages->project, pou, &count);
 
@@ -75,26 +72,12 @@ static void put_bodies(struct pages *pages, const struct pou *pou)
 			pages_put_list(pages, bodies[i].heading,
 				 sfc_body_lines(pages->project, pou, body));
 		else
-			pages_put_rungs(pages, sheet, bodies[i].heading, scale, body->first,
+			pages_put_rungs(pages, sheet, bodies[i].heading, body->first,
 				  body->first + body->count);
 	}
+	pages_put_references(pages);
 	sfc_bodies_free(bodies, count);
 	sheet_free(sheet);
-}
-
-/* May a page end at @x? Lines go on, what can be read does not. */
-static bool can_cut(const struct picture *picture, float x, float room)
-{
-	for (int i = 0; i < picture->count; i++) {
-		const struct stroke *stroke = &picture->stroke[i];
-		const bool solid = stroke->kind == STROKE_TEXT ||
-			((stroke->kind == STROKE_FILL || stroke->kind == STROKE_FRAME) &&
-			 stroke->w < room / 2);
-
-		if (solid && stroke->x < x && stroke->x + stroke->w > x)
-			return false;
-	}
-	return true;
 }
 
 /* As much of a chart as fits beside each other, from @left on. */
@@ -104,7 +87,7 @@ static float cut_at(const struct picture *picture, float left, float room, float
 
 	if (x + 1 >= width) /* what fits is no two pages for a rounding */
 		return width;
-	while (x > left + room / 2 && !can_cut(picture, x, room))
+	while (x > left + room / 2 && !pages_can_cut(picture, x, -1, room))
 		x -= 4;
 	return x > left + room / 2 ? x : left + room;
 }
@@ -192,7 +175,7 @@ void pages_put_chart(struct pages *pages, const char *heading)
 	const struct pou *pou = &pages->project->pou[pages->pou];
 	struct sfc_sheet *chart = sfc_sheet_new(pages->project, pou, pages->lettering);
 	const struct sfc_scene scene = { .sheet = chart, .theme = pages->theme };
-	const float scale = fmaxf(fminf(1, pages->room_width / chart->width), CHART_SCALE);
+	const float scale = fmaxf(fminf(1, pages->room_width / chart->width), PAGE_LEAST);
 	struct picture *picture = pages_picture(pages);
 
 	sfc_draw(&scene, picture);

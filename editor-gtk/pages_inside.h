@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * pages_inside - what pages.c, pages_chart.c and pages_paint.c share; used by them only.
+ * pages_inside - what pages.c and pages_*.c share; used by them only.
  */
 #ifndef EDITOR_PAGES_INSIDE_H
 #define EDITOR_PAGES_INSIDE_H
 
+#include "editor-gtk/grid_draw.h"
 #include "editor-gtk/listing.h"
 #include "editor-gtk/pages.h"
 #include "editor-gtk/sheet.h"
@@ -14,6 +15,7 @@
 #define PAGE_TITLE  52           /* px of the title block and the air above it   */
 #define TEXT_LINE   16           /* px of a line of IL or of a table             */
 #define PAGE_AIR    14           /* px between what stands below each other      */
+#define PAGE_LEAST  0.6f         /* no rung, no chart is made smaller: 5.1 pt        */
 
 /* Part of a picture on a page. */
 struct piece {
@@ -22,6 +24,7 @@ struct piece {
 	float scale;
 	float from, to;  /* px of the picture: what of it is shown                */
 	float left, right; /* the same across; both 0: all of it                 */
+	float x;         /* of the page: where @left stands, px of the picture    */
 };
 struct page {
 	GArray *piece;
@@ -40,10 +43,13 @@ struct pages {
 	struct listing_reads *reads;
 	/* While they are made: */
 	float y;                       /* what is free on the last page begins here */
-	float left, right;             /* of what is put there: struct piece     */
+	float left, right, x;          /* of what is put there: struct piece     */
+	const struct picture *beside;  /* put with it, all its width; NULL: nothing */
 	const char *subject;
 	int pou;
 	const struct rung *rung;
+	const struct drafting *drafting;
+	GPtrArray *reference;          /* lines: what had no room below its coil   */
 };
 
 /* ---- the flow: what is put stands where @y is, which goes on ---- */
@@ -65,11 +71,29 @@ void pages_put_heading(struct pages *pages, const char *text, float more);
 void pages_put_line(struct pages *pages, const char *line);
 /** pages_put_list - lines below a heading. Takes them over; NULL: none. */
 void pages_put_list(struct pages *pages, const char *heading, char **lines);
-/** pages_sheet - the rungs of the POU, laid out. Owns: the caller, sheet_free(). */
+/** pages_can_cut - may a page end at @x? Lines go on, what can be read does not.
+ * @top: what stands above it is not cut. @room: px; a frame half as wide may be cut */
+bool pages_can_cut(const struct picture *picture, float x, float top, float room);
+
+/** pages_sheet - pages_rung.c: the rungs of the POU, laid out. Owns: the caller,
+ * sheet_free(). */
 struct sheet *pages_sheet(struct pages *pages);
 /** pages_put_rungs - those from @first to before @end, below a heading. */
 void pages_put_rungs(struct pages *pages, const struct sheet *sheet, const char *heading,
-		     float scale, int first, int end);
+		     int first, int end);
+/** pages_put_references - where coils are read, if there was no room below them. */
+void pages_put_references(struct pages *pages);
+/** pages_fold - pages_fold.c: a rung that is too wide, in strips below each other.
+ * @first: it stands below the heading of its POU */
+void pages_fold(struct pages *pages, const struct sheet *sheet, int index, float scale,
+		bool first);
+/** pages_scene - how a rung is drawn on paper. */
+struct grid_scene pages_scene(struct pages *pages, const struct sheet *sheet,
+			      const struct rung_layout *layout);
+/** pages_put_rows - rows of a rung down to @bottom, as many as fit on each page.
+ * @from: px of its picture, above the first row or at it */
+void pages_put_rows(struct pages *pages, const struct rung_layout *layout,
+		    const struct picture *picture, float scale, float from, float bottom);
 
 /** pages_put_chart - pages_chart.c: the POU, which is a chart, and all its bodies. */
 void pages_put_chart(struct pages *pages, const char *heading);

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT
  *
  * render_diff - the rungs that differ, in one picture; see render_diff.h. Which of them
- * belong together is the engine's to say (view_diff_rungs).
+ * belong together is the engine's to say (view_diff_rungs). What is no rung is
+ * render_diff_lines.c.
  */
 #include "editor-gtk/render_diff.h"
 #include "editor-gtk/grid_draw.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/render_diff_lines.h"
 #include "editor-gtk/render_sheet.h"
 #include "editor-gtk/sheet.h"
 #include "engine/view/view.h"
@@ -190,6 +192,54 @@ static void put_moved(struct comparison *of, struct view_pair pair)
 	g_free(said);
 }
 
+/* All of a POU that is there alone, or in another language than before. */
+static void put_all(struct comparison *of, bool added)
+{
+	const struct project *project = added ? of->b : of->a;
+	const int index = added ? of->pou_b : of->pou_a;
+	const struct pou *pou = pou_of(project, index);
+
+	if (!pou)
+		return;
+	for (int i = 0; pou->language == LANGUAGE_LD && i < pou->rung_count; i++)
+		put_rung(of, added ? of->after : of->before, i,
+			 added ? RUNG_ADDED : RUNG_REMOVED, NULL, 0);
+	if (pou->language == LANGUAGE_LD)
+		return;
+	if (pou->sfc)
+		of->y = render_diff_chart(project, index, added, of->options, of->lettering,
+					  of->y, of->picture);
+	of->y = render_diff_lines(of->a, added ? -1 : index, of->b, added ? index : -1,
+				  of->lettering, of->y, of->picture);
+}
+
+/* Lists and charts, and what has changed from one language to another. */
+static void put_other(struct comparison *of)
+{
+	const struct pou *a = pou_of(of->a, of->pou_a), *b = pou_of(of->b, of->pou_b);
+
+	if (!a || !b || a->language != b->language) {
+		char *said = a && b ? g_strdup_printf("%s \xe2\x86\x92 %s",
+			pou_language_word(a->language), pou_language_word(b->language)) :
+			g_strdup("");
+
+		name_pou(of, said);
+		put_all(of, false);
+		put_all(of, true);
+		g_free(said);
+		return;
+	}
+	name_pou(of, a->sfc ? _("the chart differs") : _("the instruction list differs"));
+	if (a->sfc && b->sfc) {
+		of->y = render_diff_chart(of->a, of->pou_a, false, of->options,
+					  of->lettering, of->y, of->picture);
+		of->y = render_diff_chart(of->b, of->pou_b, true, of->options,
+					  of->lettering, of->y, of->picture);
+	}
+	of->y = render_diff_lines(of->a, of->pou_a, of->b, of->pou_b, of->lettering, of->y,
+				  of->picture);
+}
+
 static void take_pair(void *context, struct view_pair pair)
 {
 	struct comparison *of = context;
@@ -203,7 +253,7 @@ static void take_pair(void *context, struct view_pair pair)
 		start_pou(of, pair);
 	if (pair.rung_a < 0 && pair.rung_b < 0) {
 		if (pair.changed)
-			name_pou(of, _("the instruction list differs"));
+			put_other(of);
 		return;
 	}
 	if (pair.moved)
@@ -228,6 +278,7 @@ void render_diff(const struct project *a, const struct project *b,
 	view_diff_rungs(a, b, take_pair, &of);
 	if (of.y <= 0)
 		of.y += render_heading(lettering, _("No rung differs"), 0, picture);
+	of.y = render_diff_besides(a, b, options, lettering, of.y, picture);
 	render_grow(picture, 1, of.y);
 	sheet_free(of.before);
 	sheet_free(of.after);

@@ -210,6 +210,8 @@ static void measure_title(const struct drafting *drafting, struct rung_layout *l
 	struct rung_heading heading;
 	float room = MAX(layout->natural, drafting->width);
 
+	if (drafting->most > 0)
+		room = MIN(room, drafting->most);
 	layout->comment_room = room;
 	layout->title_y = TITLE_LINE;
 	layout->top = rung->label || rung->title || rung->comment ? TITLE_HEIGHT :

@@ -41,6 +41,7 @@ struct drafting {
 	bool all_comments; /* of rungs, however long, and long names: for paper   */
 	int columns;       /* of the sheet: rung_layout_columns() of its rungs   */
 	float width;       /* px from rail to rail at least; 0: as natural      */
+	float most;        /* px of a line of a comment; 0: from rail to rail    */
 };
 
 struct rung_row {

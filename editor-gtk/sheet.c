@@ -43,6 +43,7 @@ static void use_width(struct sheet *sheet, int index)
 	struct drafting wide = sheet->drafting;
 
 	wide.width = sheet->rails;
+	wide.columns = layout->columns;
 	if (!layout->comment_lines || layout->comment_room >= sheet->rails)
 		return;
 	sheet->rung[index] = rung_layout_new(&wide, layout->rung, layout->number,
@@ -50,14 +51,28 @@ static void use_width(struct sheet *sheet, int index)
 	rung_layout_free(layout);
 }
 
+bool sheet_is_wide(const struct sheet *sheet, int index)
+{
+	return sheet->most > 0 && sheet->rung[index]->natural > sheet->most;
+}
+
+/* What the widest rung that is not too wide needs. */
+static float rails_of(const struct sheet *sheet)
+{
+	float most = sheet->drafting.width;
+
+	for (int i = 0; i < sheet->count; i++)
+		if (!sheet_is_wide(sheet, i))
+			most = MAX(most, sheet->rung[i]->natural);
+	return most;
+}
+
 /* The right rail of all of them, and where each begins. */
 static void align(struct sheet *sheet)
 {
 	float y = 0;
 
-	sheet->rails = sheet->drafting.width;
-	for (int i = 0; i < sheet->count; i++)
-		sheet->rails = MAX(sheet->rails, sheet->rung[i]->natural);
+	sheet->rails = rails_of(sheet);
 	for (int i = 0; i < sheet->count; i++) {
 		use_width(sheet, i);
 		rung_layout_stretch(sheet->rung[i], sheet->rails);
@@ -69,13 +84,40 @@ static void align(struct sheet *sheet)
 	sheet->width = RUNG_LEFT + sheet->rails + RUNG_AFTER;
 }
 
-static int columns_of(const struct pou *pou)
+/* Those of all rungs that are not too wide by themselves. */
+static int columns_of(const struct sheet *sheet)
 {
+	const struct pou *pou = sheet->pou;
 	int most = RUNG_LEAST_COLUMNS;
 
-	for (int i = 0; i < pou->rung_count; i++)
-		most = MAX(most, rung_layout_columns(pou->rung[i]));
+	for (int i = 0; i < sheet->count; i++)
+		if (!sheet_is_wide(sheet, i))
+			most = MAX(most, rung_layout_columns(pou->rung[i]));
 	return most;
+}
+
+static void lay_out(struct sheet *sheet, int index, int columns)
+{
+	sheet->drafting.columns = columns;
+	rung_layout_free(sheet->rung[index]);
+	sheet->rung[index] = rung_layout_new(&sheet->drafting, sheet->pou->rung[index],
+					     index + 1, 0);
+}
+
+/* All rungs have the same columns, unless that alone would make the sheet wider. */
+static void share_columns(struct sheet *sheet)
+{
+	const int columns = columns_of(sheet);
+	const float rails = sheet->most > 0 ? rails_of(sheet) : 0;
+
+	for (int i = 0; i < sheet->count; i++) {
+		if (sheet_is_wide(sheet, i))
+			continue;
+		lay_out(sheet, i, columns);
+		if (rails > 0 && sheet->rung[i]->natural > rails)
+			lay_out(sheet, i, 0);
+	}
+	sheet->drafting.columns = columns;
 }
 
 void sheet_layout(struct sheet *sheet)
@@ -85,11 +127,12 @@ void sheet_layout(struct sheet *sheet)
 	forget(sheet);
 	grid_names_free((struct grid_names *)sheet->drafting.names);
 	sheet->drafting.names = grid_names_new(sheet->drafting.project, pou);
-	sheet->drafting.columns = columns_of(pou);
 	sheet->count = pou->rung_count;
-	sheet->rung = g_new(struct rung_layout *, sheet->count + 1);
+	sheet->rung = g_new0(struct rung_layout *, sheet->count + 1);
 	sheet->y = g_new(float, sheet->count + 1);
-	for (int i = 0; i < sheet->count; i++)
-		sheet->rung[i] = rung_layout_new(&sheet->drafting, pou->rung[i], i + 1, 0);
+	if (sheet->most > 0)
+		for (int i = 0; i < sheet->count; i++)
+			lay_out(sheet, i, 0);
+	share_columns(sheet);
 	align(sheet);
 }

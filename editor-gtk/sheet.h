@@ -16,6 +16,8 @@ struct sheet {
 	struct rung_layout **rung;
 	float *y;                     /* count + 1: where each begins, the end    */
 	int count;
+	float most;                   /* px from rail to rail; 0: any. A rung that needs
+					 more has a width and columns of its own */
 	float rails;                  /* px from rail to rail                    */
 	float width, height;          /* px at 100 %                             */
 };
@@ -30,7 +32,9 @@ struct sheet *sheet_new(const struct project *project, const struct pou *pou,
 			struct lettering *lettering);
 void sheet_free(struct sheet *sheet);
 /** sheet_layout - lays out all rungs: after sheet_new(), or when something of
- * sheet->drafting was set. The width of drafting is a least one. */
+ * sheet->drafting or sheet->most was set. The width of drafting is a least one. */
 void sheet_layout(struct sheet *sheet);
+/** sheet_is_wide - does a rung need more than the most there is for all? */
+bool sheet_is_wide(const struct sheet *sheet, int index);
 
 #endif

@@ -2,89 +2,17 @@
  *
  * test_render - `ladder-editor --render`, in this process and without a display.
  *
- * Text in a PDF is looked for with pdftotext where that is installed.
+ * What stands on paper is test_pages.c.
  */
-#include "editor-gtk/pages.h"
-#include "editor-gtk/render.h"
 #include "tests/editor/drawn.h"
-#include "tests/tap.h"
+#include "tests/editor/rendered.h"
 
-#include <glib.h>
-#include <glib/gstdio.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
-#define SHAPES "tests/editor/drawing/shapes.rung"
 #define FULL_BYTES 500          /* more than a message, less than a picture     */
 #define OLD "what was there"
 #define HUGE_BYTES ((off_t)1 << 40)
-
-static char *folder;
-static char *said; /* what the last call said on stderr                         */
-
-static char *in_folder(const char *name)
-{
-	return g_build_filename(folder, name, NULL);
-}
-
-static char *content(const char *name, size_t *len)
-{
-	char *path = in_folder(name), *text = NULL;
-
-	if (!g_file_get_contents(path, &text, len, NULL))
-		text = g_strdup("");
-	g_free(path);
-	return text;
-}
-
-/* @words, blanks between them; OUT/ is the scratch folder. */
-static int render(const char *words)
-{
-	char *place = g_strdup_printf("%s/", folder), *log = in_folder("said");
-	char **parts = g_strsplit(words, "OUT/", -1), *all = g_strjoinv(place, parts);
-	char *line = g_strdup_printf("ladder-editor --render %s", all);
-	char **argv = g_strsplit(line, " ", -1);
-	int keep = dup(2), status;
-
-	fflush(stderr);
-	if (!freopen(log, "w", stderr))
-		return -1;
-	status = render_main((int)g_strv_length(argv), argv);
-	fflush(stderr);
-	dup2(keep, 2);
-	close(keep);
-	g_free(said);
-	said = content("said", NULL);
-	g_strfreev(argv);
-	g_strfreev(parts);
-	g_free(line);
-	g_free(all);
-	g_free(log);
-	g_free(place);
-	return status;
-}
-
-static bool has(const char *file, const char *text)
-{
-	char *all = content(file, NULL);
-	bool found = strstr(all, text) != NULL;
-
-	g_free(all);
-	return found;
-}
-
-static bool same(const char *a, const char *b)
-{
-	size_t a_len = 0, b_len = 0;
-	char *x = content(a, &a_len), *y = content(b, &b_len);
-	bool equal = a_len > 0 && a_len == b_len && memcmp(x, y, a_len) == 0;
-
-	g_free(x);
-	g_free(y);
-	return equal;
-}
 
 static void check_svg(void)
 {
@@ -118,87 +46,6 @@ static void check_png(void)
 	g_free(path);
 }
 
-static bool has_glyphs(const char *text)
-{
-	PangoContext *context = lettering_context();
-	PangoLayout *layout = pango_layout_new(context);
-
-	pango_layout_set_text(layout, text, -1);
-	int unknown = pango_layout_get_unknown_glyphs_count(layout);
-	g_object_unref(layout);
-	g_object_unref(context);
-	return unknown == 0;
-}
-
-/* pt from the top to the bottom of the lowest line of type in a listing of boxes. */
-static double smallest_type(const char *name)
-{
-	char *path = in_folder(name), *text = NULL;
-	double smallest = 1000;
-
-	g_file_get_contents(path, &text, NULL, NULL);
-	for (char *at = text; at && (at = strstr(at, "yMin=\"")) != NULL; at++) {
-		const char *end = strstr(at, "yMax=\"");
-
-		if (end)
-			smallest = MIN(smallest, g_ascii_strtod(end + 6, NULL) -
-						 g_ascii_strtod(at + 6, NULL));
-	}
-	g_free(text);
-	g_free(path);
-	return smallest;
-}
-
-static void check_pdf(void)
-{
-	CHECK(render(SHAPES " -o OUT/a.pdf") == 0);
-	CHECK(render(SHAPES " -o OUT/b.pdf") == 0 && same("a.pdf", "b.pdf"));
-	CHECK(render(SHAPES " --paper letter --landscape --date 2026-03-01 -o OUT/c.pdf") ==
-	      0);
-	char *tool = g_find_program_in_path("pdftotext");
-	if (!tool) {
-		printf("# no pdftotext here\n");
-		return;
-	}
-	g_free(tool);
-	char *line = g_strdup_printf("pdftotext -layout %s/a.pdf %s/a.txt && "
-				     "pdftotext -layout %s/c.pdf %s/c.txt", folder, folder,
-				     folder, folder);
-	CHECK(system(line) == 0);
-	g_free(line);
-	CHECK(has("a.txt", "PROGRAM Main"));
-	if (has_glyphs("启动按钮，常开"))
-		CHECK(has("a.txt", "启动按钮，常开"));
-	else
-		printf("# no font with Chinese here\n");
-	CHECK(has("a.txt", "read in Main 1"));
-	CHECK(has("a.txt", "Global symbols") && has("a.txt", "Symbols of Main"));
-	CHECK(has("a.txt", "1 of ") && has("a.txt", "shapes.rung"));
-	CHECK(!has("a.txt", "Date") && has("c.txt", "2026-03-01"));
-}
-
-/* A chart that is wider than a page is not made smaller than can be read: it goes on, on
- * pages beside each other, and what was cut off stands below. */
-static void check_wide_chart(void)
-{
-	char *tool = g_find_program_in_path("pdftotext"), *line;
-
-	CHECK(render("ladders/washing-machine.rung -o OUT/wide.pdf") == 0);
-	if (!tool)
-		return;
-	line = g_strdup_printf("pdftotext -layout %s/wide.pdf %s/wide.txt && pdftotext "
-			       "-bbox %s/wide.pdf %s/wide.html", folder, folder, folder,
-			       folder);
-	CHECK(system(line) == 0);
-	CHECK(has("wide.txt", "PROGRAM Washing, part 1") &&
-	      has("wide.txt", "PROGRAM Washing, part 2") && !has("wide.txt", "part 3"));
-	CHECK(has("wide.txt", "A bolt that does not go in: give up, and free the door."));
-	CHECK(has("wide.txt", "washing-machine.rung") && has("wide.txt", "5 of 5"));
-	CHECK_AS(smallest_type("wide.html") >= 5.0, "no type is smaller than 5 pt");
-	g_free(line);
-	g_free(tool);
-}
-
 static void check_diff(void)
 {
 	char *path = in_folder("new.rung"), *text = NULL, **parts, *changed;
@@ -223,14 +70,40 @@ static void check_diff(void)
 	g_free(path);
 }
 
-static void write_rung(const char *name, const char *rows)
+/* What is no rung is told in words, lists line by line, a chart as it was and is. */
+static void check_diff_besides(void)
 {
-	char *path = in_folder(name), *text = g_strdup_printf("RUNGBOARD 1\n\n"
-		"PROGRAM Main LD\nRUNG\n%sEND_PROGRAM\n", rows);
-
-	CHECK(g_file_set_contents(path, text, -1, NULL));
+	write_text("a.rung", "VAR\n  Stop AT %IX0.1 : BOOL;\nEND_VAR\nPROGRAM Main LD\n"
+		   "VAR\n  Own : INT;\nEND_VAR\nRUNG\n  | NO Stop | COIL %QX0.0 |\n"
+		   "END_PROGRAM\nPROGRAM List IL\n  LD Stop\n  ST %QX0.1\nEND_PROGRAM\n"
+		   "PROGRAM Chart SFC\n  INITIAL_STEP S0:\n  END_STEP\n"
+		   "  STEP S1:\n  END_STEP\n"
+		   "  TRANSITION FROM S0 TO S1 := I0.1; END_TRANSITION\n"
+		   "  TRANSITION FROM S1 TO S0 := I0.2; END_TRANSITION\nEND_PROGRAM\n");
+	char *text = content("a.rung", NULL);
+	GString *other = g_string_new(strchr(text, '\n') + 1);
+	g_string_replace(other, "AT %IX0.1", "AT %IX0.7", 0);
+	g_string_replace(other, "INT", "INT := 3", 1);
+	write_text("b.rung", other->str);
+	CHECK(render("--diff OUT/a.rung OUT/b.rung -o OUT/words.svg") == 0);
+	CHECK(has("words.svg", "variable Stop: address %IX0.1 -&gt; %IX0.7") &&
+	      has("words.svg", "Main variable Own: initial value nothing -&gt; 3"));
+	CHECK(has("words.svg", "No rung differs") && has("words.svg", "Outside the rungs"));
+	CHECK(render("--diff OUT/a.rung OUT/b.rung --pou main -o OUT/one.svg") == 0 &&
+	      !has("one.svg", "variable Stop") && has("one.svg", "variable Own"));
+	g_string_replace(other, "LD Stop", "LDN Stop", 1);
+	g_string_replace(other, ":= I0.2", ":= I0.3", 1);
+	write_text("b.rung", other->str);
+	CHECK(render("--diff OUT/a.rung OUT/b.rung -o OUT/lines.svg") == 0);
+	CHECK(has("lines.svg", ">LD Stop</text>") && has("lines.svg", ">LDN Stop</text>") &&
+	      has("lines.svg", "PROGRAM List: the instruction list differs"));
+	CHECK(has("lines.svg", "PROGRAM Chart: the chart differs") &&
+	      has("lines.svg", ">I0.2</text>") && has("lines.svg", ">I0.3</text>") &&
+	      has("lines.svg", ">TRANSITION FROM S1 TO S0 := I0.3; END_TRANSITION</text>"));
+	CHECK(has("lines.svg", ">+</text>") && has("lines.svg", ">\xe2\x88\x92</text>"));
+	CHECK(!has("lines.svg", "No rung differs"));
+	g_string_free(other, TRUE);
 	g_free(text);
-	g_free(path);
 }
 
 /* A contact more moves the output on, which is the same all the same. */
@@ -337,31 +210,6 @@ static void check_large(void)
 	g_free(path);
 }
 
-/* A rung of 256 rows takes several pages, and none of it is lost. */
-static void check_tall(void)
-{
-	GString *text = g_string_new("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n");
-	struct lettering *rule = lettering_new(NULL, NULL);
-	struct paper paper = { .date = NULL };
-
-	for (int row = 0; row < 256; row++)
-		g_string_append_printf(text, "  | NO %%MX%d.%d %s|%s\n", row / 8, row % 8,
-				       row ? "^" : "", row ? "" : " COIL %QX0.0 |");
-	g_string_append(text, "END_PROGRAM\n");
-	struct ladder *ladder = drawn_load("tall.rung", text->str);
-	CHECK(ladder && paper_find("A4", &paper) && !paper_find("a44", &paper));
-	if (ladder) {
-		struct pages *pages = pages_new(ladder_project(ladder), "tall.rung", -1, 0,
-						SHOW_BOTH, &paper, rule);
-
-		CHECK(pages_count(pages) > 8 && pages_count(pages) < 30);
-		pages_free(pages);
-		ladder_free(ladder);
-	}
-	lettering_free(rule);
-	g_string_free(text, TRUE);
-}
-
 static void check_marks(void)
 {
 	char *path = in_folder("wrong.rung");
@@ -430,21 +278,6 @@ static void check_original(void)
 #undef CLASSIC
 }
 
-static void clear_folder(void)
-{
-	GDir *dir = g_dir_open(folder, 0, NULL);
-
-	for (const char *name; dir && (name = g_dir_read_name(dir));) {
-		char *path = in_folder(name);
-
-		g_unlink(path);
-		g_free(path);
-	}
-	if (dir)
-		g_dir_close(dir);
-	g_rmdir(folder);
-}
-
 int main(void)
 {
 	folder = g_dir_make_tmp("render-XXXXXX", NULL);
@@ -453,16 +286,14 @@ int main(void)
 	signal(SIGXFSZ, SIG_IGN); /* as the program does: a file's limit is a full disk */
 	check_svg();
 	check_png();
-	check_pdf();
-	check_wide_chart();
 	check_diff();
+	check_diff_besides();
 	check_moved();
 	check_wrong();
 	check_full("full.svg");
 	check_full("full.png");
 	check_full("full.pdf");
 	check_large();
-	check_tall();
 	check_marks();
 	check_original();
 	check_document();

@@ -213,10 +213,11 @@ static void draw_blockers(struct sheet *sheet)
 	draw(sheet, 3, scene, "blocks-box");
 }
 
-static char *reference_of(void *context, int row, int col)
+static char *reference_of(void *context, int row, int col, float room)
 {
 	(void)context;
 	(void)col;
+	(void)room;
 	return row == 1 ? NULL : g_strdup("read in Main 3, 5");
 }
 

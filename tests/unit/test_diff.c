@@ -312,6 +312,75 @@ static void test_pairs(void)
 		   "0.-1>0.-1 changed ");
 }
 
+static void take_line(void *context, struct view_line line)
+{
+	const struct sink *sink = context;
+
+	sink_printf(sink, "%d>%d [%d] %s\n", line.line_a, line.line_b, line.indent,
+		    line.text);
+}
+
+static const char *lines(const char *a, const char *b)
+{
+	struct project *x = read_text(a), *y = read_text(b);
+	struct sink sink = sink_to_memory(&memory);
+
+	sink_memory_free(&memory);
+	CHECK(view_diff_lines(x, x->pou_count - 1, y, y->pou_count - 1, take_line, &sink));
+	project_free(x);
+	project_free(y);
+	return sink_memory_text(&memory);
+}
+
+/* Each line once, what was before what is. */
+static void test_lines(void)
+{
+	static const char one[] = "PROGRAM P IL\nLD X\nST Y\nLD Z\nST W\nEND_PROGRAM\n";
+
+	CHECK_TEXT(lines(one, "PROGRAM P IL\nLD X\nST Y\nLDN Z\nST W\nST V\n"
+			 "END_PROGRAM\n"),
+		   "1>1 [2] LD X\n2>2 [2] ST Y\n3>0 [2] LD Z\n0>3 [2] LDN Z\n"
+		   "4>4 [2] ST W\n0>5 [2] ST V\n");
+	CHECK_TEXT(lines("PROGRAM P IL\nLD X\nEND_PROGRAM\n", ""), "1>0 [2] LD X\n");
+	CHECK_TEXT(lines("", "PROGRAM P IL\nLD X\nEND_PROGRAM\n"), "0>1 [2] LD X\n");
+}
+
+static const char *besides(const char *a, const char *b, const char *pou)
+{
+	struct project *x = read_text(a), *y = read_text(b);
+	struct sink sink = sink_to_memory(&memory);
+
+	sink_memory_free(&memory);
+	count = view_diff_besides(x, y, pou, &sink);
+	project_free(x);
+	project_free(y);
+	return sink_memory_text(&memory);
+}
+
+static void test_besides(void)
+{
+#define BODY "RUNG\n| NO A | COIL B |\nEND_PROGRAM\nPROGRAM L IL\nLD A\nEND_PROGRAM\n"
+	static const char one[] = "VAR\n A AT %IX0.1 : BOOL;\nEND_VAR\nPROGRAM Main LD\n"
+		"VAR\n B : BOOL;\nEND_VAR\n" BODY;
+	static const char other[] = "VAR\n A AT %IX0.7 : BOOL;\nEND_VAR\n"
+		"PROGRAM Main LD\nVAR\n B : BOOL := TRUE;\nEND_VAR\n"
+		"RUNG\n| NC A | COIL B |\nEND_PROGRAM\n"
+		"PROGRAM L IL\nLDN A\nEND_PROGRAM\n";
+
+	CHECK_TEXT(besides(one, other, NULL),
+		   "variable A: address %IX0.1 -> %IX0.7\n"
+		   "Main variable B: initial value nothing -> TRUE\n");
+	CHECK(count == 2);
+	CHECK_TEXT(besides(one, other, "main"),
+		   "Main variable B: initial value nothing -> TRUE\n");
+	CHECK_TEXT(besides(one, other, "L"), "");
+	CHECK_TEXT(besides(one, one, NULL), "");
+	CHECK(count == 0);
+	CHECK_TEXT(besides("PROGRAM Main LD\n" BODY, "PROGRAM Main LD\n" BODY
+			   "PROGRAM New LD\nEND_PROGRAM\n", NULL), "program New: added\n");
+#undef BODY
+}
+
 int main(void)
 {
 	test_cells();
@@ -323,6 +392,8 @@ int main(void)
 	test_large();
 	test_match();
 	test_pairs();
+	test_lines();
+	test_besides();
 	sink_memory_free(&memory);
 	return tap_done();
 }

@@ -352,27 +352,59 @@ static void compare(struct diff *diff)
 		compare_texts(diff);
 }
 
-int view_diff(const struct project *a, const struct project *b, bool json,
-	      const struct sink *sink)
+struct diff *diff_open(const struct project *a, const struct project *b,
+		       const struct sink *sink)
 {
 	struct diff *diff = calloc(1, sizeof(*diff));
 
 	if (!diff)
-		return -1;
+		return NULL;
 	diff->a = a;
 	diff->b = b;
-	diff->json = json;
 	diff->sink = sink;
 	arena_init(&diff->arena);
 	names_init(&diff->names, &diff->arena);
 	sink_memory_init(&diff->bytes);
+	return diff;
+}
+
+bool diff_close(struct diff *diff)
+{
+	bool good = !diff->failed && !diff->arena.failed;
+
+	sink_memory_free(&diff->bytes);
+	arena_free(&diff->arena);
+	free(diff);
+	return good;
+}
+
+int view_diff(const struct project *a, const struct project *b, bool json,
+	      const struct sink *sink)
+{
+	struct diff *diff = diff_open(a, b, sink);
+
+	if (!diff)
+		return -1;
+	diff->json = json;
 	sink_text(sink, json ? "[" : "");
 	compare(diff);
 	sink_text(sink, json ? (diff->count ? "\n]\n" : "]\n") : "");
 
-	int count = diff->failed || diff->arena.failed ? -1 : diff->count;
-	sink_memory_free(&diff->bytes);
-	arena_free(&diff->arena);
-	free(diff);
-	return count;
+	int count = diff->count;
+	return diff_close(diff) ? count : -1;
+}
+
+int view_diff_besides(const struct project *a, const struct project *b, const char *pou,
+		      const struct sink *sink)
+{
+	struct diff *diff = diff_open(a, b, sink);
+
+	if (!diff)
+		return -1;
+	diff->besides = true;
+	diff->pou = pou;
+	compare(diff);
+
+	int said = diff->said;
+	return diff_close(diff) ? said : -1;
 }

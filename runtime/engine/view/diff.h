@@ -22,7 +22,10 @@ struct diff {
 	const struct sink *sink;
 	bool json;
 	bool failed;               /* memory is out                           */
+	bool besides;              /* rungs and lines are counted and not said */
+	const char *pou;           /* and what is not in this; NULL: all is said */
 	int count;                 /* differences so far                      */
+	int said;                  /* and of them                             */
 	struct arena arena;        /* scratch                                 */
 	struct names names;        /* strings of both projects, by one id     */
 	struct sink_memory bytes;  /* scratch: a rung or line made comparable */
@@ -30,6 +33,7 @@ struct diff {
 	char subject[2 * LIMIT_NAME], pin[LIMIT_NAME + 1]; /* scratch: names  */
 	/* Takes the rungs instead of words; NULL: words. */
 	void (*take)(void *context, struct view_pair pair);
+	void (*take_line)(void *context, struct view_line line); /* likewise     */
 	void *context;
 	struct view_pair pair;     /* for take: its POUs                       */
 };
@@ -72,7 +76,14 @@ uint32_t diff_name(struct diff *diff, const char *name);
 /** diff_pou - index of the POU of a name, any case; -1: none. */
 int diff_pou(const struct project *project, const char *name);
 
+/** diff_open - ready to compare. Owns: the caller, diff_close(). NULL: no memory. */
+struct diff *diff_open(const struct project *a, const struct project *b,
+		       const struct sink *sink);
+/** diff_close - false: memory was out, and something is missing. */
+bool diff_close(struct diff *diff);
+
 void diff_rungs(struct diff *diff, const struct pou *a, const struct pou *b);
+/** diff_il - lists and charts; with take_line one may be NULL. */
 void diff_il(struct diff *diff, const struct pou *a, const struct pou *b);
 
 #endif

@@ -13,6 +13,7 @@
 struct lines {
 	char *text;        /* cut into lines, NUL-ended                       */
 	char **line;
+	int *indent;       /* blanks that stood before it                     */
 	uint32_t *id;
 	int count;
 };
@@ -72,6 +73,8 @@ static bool make_lines(struct diff *diff, const struct project *project,
 {
 	const struct sink sink = sink_to_memory(&diff->bytes);
 
+	if (!pou)
+		return true;
 	diff->bytes.len = 0;
 	if (!write_body(project, pou, &sink) || diff->bytes.failed)
 		return false;
@@ -81,13 +84,18 @@ static bool make_lines(struct diff *diff, const struct project *project,
 		return false;
 	lines->id = arena_alloc(&diff->arena, (size_t)(lines->count + 1) *
 					      sizeof(*lines->id));
-	for (int i = 0; lines->id && i < lines->count; i++) {
+	lines->indent = arena_alloc(&diff->arena, (size_t)(lines->count + 1) *
+						  sizeof(*lines->indent));
+	if (!lines->id || !lines->indent)
+		return false;
+	for (int i = 0; i < lines->count; i++) {
 		char *line = one_blank(lines->line[i]);
 
+		lines->indent[i] = (int)(line - lines->line[i]);
 		lines->line[i] = line;
 		lines->id[i] = diff_id(diff, line, strlen(line));
 	}
-	return lines->id && !diff->failed;
+	return !diff->failed;
 }
 
 /* The lines from (i, j) up to (i_end, j_end) have no partner: in pairs they
@@ -114,9 +122,29 @@ static void tell_gap(struct diff *diff, struct difference what,
 	}
 }
 
+/* Line @i of @a, line @j of @b; -1: there is none. */
+static void give_line(struct diff *diff, const struct lines *a, int i,
+		      const struct lines *b, int j)
+{
+	const struct lines *in = i < 0 ? b : a;
+	const int at = i < 0 ? j : i;
+
+	diff->take_line(diff->context, (struct view_line){ i + 1, j + 1, in->indent[at],
+							   in->line[at] });
+}
+
+static void give_gap(struct diff *diff, const struct lines *a, int i, int i_end,
+		     const struct lines *b, int j, int j_end)
+{
+	for (; i < i_end; i++)
+		give_line(diff, a, i, b, -1);
+	for (; j < j_end; j++)
+		give_line(diff, a, -1, b, j);
+}
+
 void diff_il(struct diff *diff, const struct pou *a, const struct pou *b)
 {
-	struct difference what = { .pou = project_text(diff->a, a->name) };
+	struct difference what = { .pou = a ? project_text(diff->a, a->name) : NULL };
 	struct lines x = { 0 }, y = { 0 };
 	int i = 0, j = 0, *match = NULL;
 
@@ -129,11 +157,18 @@ void diff_il(struct diff *diff, const struct pou *a, const struct pou *b)
 		diff->failed = true;
 		return;
 	}
-	for (int at = 0; at < x.count; at++)
-		if (match[at] >= 0) {
-			tell_gap(diff, what, &x, i, at, &y, j, match[at]);
-			i = at + 1;
-			j = match[at] + 1;
-		}
-	tell_gap(diff, what, &x, i, x.count, &y, j, y.count);
+	for (int at = 0; at <= x.count; at++) {
+		const int to = at < x.count ? match[at] : y.count;
+
+		if (to < 0)
+			continue;
+		if (diff->take_line)
+			give_gap(diff, &x, i, at, &y, j, to);
+		else
+			tell_gap(diff, what, &x, i, at, &y, j, to);
+		if (diff->take_line && at < x.count)
+			give_line(diff, &x, at, &y, to);
+		i = at + 1;
+		j = to + 1;
+	}
 }

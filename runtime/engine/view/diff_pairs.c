@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * diff_pairs - the rungs of two projects side by side, without words: for drawings.
+ * diff_pairs - the rungs and lines of two projects side by side, without words: for
+ * drawings.
  */
 #include "engine/view/diff.h"
-
-#include <stdlib.h>
 
 /* All rungs of a POU that the other project does not have. */
 static void give_all(struct diff *diff, const struct pou *pou, bool added)
@@ -57,18 +56,12 @@ bool view_diff_rungs(const struct project *a, const struct project *b,
 		     void *context)
 {
 	const struct sink silent = { .write = say_nothing };
-	struct diff *diff = calloc(1, sizeof(*diff));
+	struct diff *diff = diff_open(a, b, &silent);
 
 	if (!diff)
 		return false;
-	diff->a = a;
-	diff->b = b;
-	diff->sink = &silent;
 	diff->take = take;
 	diff->context = context;
-	arena_init(&diff->arena);
-	names_init(&diff->names, &diff->arena);
-	sink_memory_init(&diff->bytes);
 	for (int i = 0; i < a->pou_count && !diff->failed; i++)
 		give_pou(diff, i);
 	for (int j = 0; j < b->pou_count && !diff->failed; j++) {
@@ -76,9 +69,20 @@ bool view_diff_rungs(const struct project *a, const struct project *b,
 		if (diff_pou(a, project_text(b, b->pou[j].name)) < 0)
 			give_all(diff, &b->pou[j], true);
 	}
-	bool good = !diff->failed && !diff->arena.failed;
-	sink_memory_free(&diff->bytes);
-	arena_free(&diff->arena);
-	free(diff);
-	return good;
+	return diff_close(diff);
+}
+
+bool view_diff_lines(const struct project *a, int pou_a, const struct project *b,
+		     int pou_b,
+		     void (*take)(void *context, struct view_line line), void *context)
+{
+	const struct sink silent = { .write = say_nothing };
+	struct diff *diff = diff_open(a, b, &silent);
+
+	if (!diff)
+		return false;
+	diff->take_line = take;
+	diff->context = context;
+	diff_il(diff, pou_a < 0 ? NULL : &a->pou[pou_a], pou_b < 0 ? NULL : &b->pou[pou_b]);
+	return diff_close(diff);
 }

@@ -8,6 +8,7 @@
 #include "engine/view/plain.h"
 
 #include <string.h>
+#include <strings.h>
 
 #define SAY_CLIP 72 /* columns of one side of a change */
 
@@ -124,8 +125,22 @@ static void say_json(const struct sink *sink, const struct difference *what)
 	sink_text(sink, "}");
 }
 
+/* Not what others draw, and nothing of another POU if one is wanted. */
+static bool is_wanted(const struct diff *diff, const struct difference *what)
+{
+	const char *pou = what->pou ? what->pou : what->subject ? what->subject : "";
+
+	return !diff->besides || (!what->rung && !what->line &&
+				  (!diff->pou || strcasecmp(diff->pou, pou) == 0));
+}
+
 void diff_say(struct diff *diff, struct difference what)
 {
+	if (!is_wanted(diff, &what)) {
+		diff->count++;
+		return;
+	}
+	diff->said++;
 	if (diff->json) {
 		sink_text(diff->sink, diff->count ? ",\n " : "\n ");
 		say_json(diff->sink, &what);

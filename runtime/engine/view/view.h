@@ -51,6 +51,15 @@ int view_show(const struct project *project, int pou, int rung,
 int view_diff(const struct project *a, const struct project *b, bool json,
 	      const struct sink *sink);
 
+/**
+ * view_diff_besides - the same without what is in rungs, lists and charts, in words
+ * @pou: what is declared in this one alone, any case; NULL: everything
+ *
+ * For those who draw the rest. Returns the lines; -1: memory is out.   Scan-safe: no.
+ */
+int view_diff_besides(const struct project *a, const struct project *b, const char *pou,
+		      const struct sink *sink);
+
 /* A rung of project a and what it became in project b. 0-based; -1: there is none. */
 struct view_pair {
 	int pou_a, pou_b;
@@ -69,6 +78,25 @@ struct view_pair {
 bool view_diff_rungs(const struct project *a, const struct project *b,
 		     void (*take)(void *context, struct view_pair pair),
 		     void *context);
+
+/* A line of a list or a chart, without the blanks before it. */
+struct view_line {
+	int line_a, line_b; /* 1-based, counted from behind the declarations; 0: only the
+			     * other project has it                          */
+	int indent;         /* those blanks                                   */
+	const char *text;   /* until @take returns                            */
+};
+
+/**
+ * view_diff_lines - two lists or two charts line by line, matched as view_diff does
+ * @pou_a, @pou_b: their indices; -1: the project has none
+ * @take: is handed each line of either, as one would read them below each other
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false when memory is out.
+ */
+bool view_diff_lines(const struct project *a, int pou_a, const struct project *b,
+		     int pou_b,
+		     void (*take)(void *context, struct view_line line), void *context);
 
 /**
  * view_print_il - a whole POU as `PROGRAM Name IL … END_PROGRAM`

@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * test_pages - projects on paper, as `--render` puts them into a PDF.
+ *
+ * Text in a PDF is looked for with pdftotext where that is installed.
+ */
+#include "editor-gtk/pages.h"
+#include "tests/editor/drawn.h"
+#include "tests/editor/rendered.h"
+
+#include <stdlib.h>
+
+static bool has_glyphs(const char *text)
+{
+	PangoContext *context = lettering_context();
+	PangoLayout *layout = pango_layout_new(context);
+
+	pango_layout_set_text(layout, text, -1);
+	int unknown = pango_layout_get_unknown_glyphs_count(layout);
+	g_object_unref(layout);
+	g_object_unref(context);
+	return unknown == 0;
+}
+
+/* pt from the top to the bottom of the lowest line of type in a listing of boxes. */
+static double smallest_type(const char *name)
+{
+	char *path = in_folder(name), *text = NULL;
+	double smallest = 1000;
+
+	g_file_get_contents(path, &text, NULL, NULL);
+	for (char *at = text; at && (at = strstr(at, "yMin=\"")) != NULL; at++) {
+		const char *end = strstr(at, "yMax=\"");
+
+		if (end)
+			smallest = MIN(smallest, g_ascii_strtod(end + 6, NULL) -
+						 g_ascii_strtod(at + 6, NULL));
+	}
+	g_free(text);
+	g_free(path);
+	return smallest;
+}
+
+static void check_pdf(void)
+{
+	CHECK(render(SHAPES " -o OUT/a.pdf") == 0);
+	CHECK(render(SHAPES " -o OUT/b.pdf") == 0 && same("a.pdf", "b.pdf"));
+	CHECK(render(SHAPES " --paper letter --landscape --date 2026-03-01 -o OUT/c.pdf") ==
+	      0);
+	char *tool = g_find_program_in_path("pdftotext");
+	if (!tool) {
+		printf("# no pdftotext here\n");
+		return;
+	}
+	g_free(tool);
+	char *line = g_strdup_printf("pdftotext -layout %s/a.pdf %s/a.txt && "
+				     "pdftotext -layout %s/c.pdf %s/c.txt", folder, folder,
+				     folder, folder);
+	CHECK(system(line) == 0);
+	g_free(line);
+	CHECK(has("a.txt", "PROGRAM Main"));
+	if (has_glyphs("启动按钮，常开"))
+		CHECK(has("a.txt", "启动按钮，常开"));
+	else
+		printf("# no font with Chinese here\n");
+	CHECK(has("a.txt", "read in Main 1"));
+	CHECK(has("a.txt", "Global symbols") && has("a.txt", "Symbols of Main"));
+	CHECK(has("a.txt", "1 of ") && has("a.txt", "shapes.rung"));
+	CHECK(!has("a.txt", "Date") && has("c.txt", "2026-03-01"));
+}
+
+/* A chart that is wider than a page is not made smaller than can be read: it goes on, on
+ * pages beside each other, and what was cut off stands below. */
+static void check_wide_chart(void)
+{
+	char *tool = g_find_program_in_path("pdftotext"), *line;
+
+	CHECK(render("ladders/washing-machine.rung -o OUT/wide.pdf") == 0);
+	if (!tool)
+		return;
+	line = g_strdup_printf("pdftotext -layout %s/wide.pdf %s/wide.txt && pdftotext "
+			       "-bbox %s/wide.pdf %s/wide.html", folder, folder, folder,
+			       folder);
+	CHECK(system(line) == 0);
+	CHECK(has("wide.txt", "PROGRAM Washing, part 1") &&
+	      has("wide.txt", "PROGRAM Washing, part 2") && !has("wide.txt", "part 3"));
+	CHECK(has("wide.txt", "A bolt that does not go in: give up, and free the door."));
+	CHECK(has("wide.txt", "washing-machine.rung") && has("wide.txt", "5 of 5"));
+	CHECK_AS(smallest_type("wide.html") >= 5.0, "no type is smaller than 5 pt");
+	g_free(line);
+	g_free(tool);
+}
+
+/* pt from the top to the bottom of a word in a listing of boxes; 0: it is not there. */
+static double type_of(const char *name, const char *word)
+{
+	char *all = content(name, NULL), *end = g_strdup_printf(">%s</word>", word);
+	char *at = strstr(all, end), *top, *bottom;
+	double size = 0;
+
+	if (at) {
+		*at = '\0';
+		top = g_strrstr(all, "yMin=\"");
+		bottom = g_strrstr(all, "yMax=\"");
+		size = g_ascii_strtod(bottom + 6, NULL) - g_ascii_strtod(top + 6, NULL);
+	}
+	g_free(end);
+	g_free(all);
+	return size;
+}
+
+static bool list_boxes(const char *name)
+{
+	char *tool = g_find_program_in_path("pdftotext"), *line;
+	bool can = tool != NULL;
+
+	line = g_strdup_printf("pdftotext -bbox %s/%s.pdf %s/%s.html", folder, name, folder,
+			       name);
+	if (can)
+		CHECK(system(line) == 0);
+	g_free(line);
+	g_free(tool);
+	return can;
+}
+
+/* A rung of 30 contacts goes on below itself: the others stay as large as they are without
+ * it, and every contact is there, once. */
+static void check_wide_rung(void)
+{
+	static const char narrow[] = "  | NO %IX0.0 | COIL %QX0.0 |\n";
+	GString *rows = g_string_new(narrow);
+	int missing = 0;
+
+	g_string_append(rows, "RUNG \"Long\"\n  ");
+	for (int i = 0; i < 30; i++)
+		g_string_append_printf(rows, "| NO %%MX%d.0 ", i + 100);
+	g_string_append_printf(rows, "| COIL %%QX9.0 |\n  | NO %%IX7.7 ^ |\nRUNG\n%s",
+			       narrow);
+	write_rung("long.rung", rows->str);
+	write_rung("short.rung", narrow);
+	CHECK(render("OUT/long.rung -o OUT/long.pdf") == 0);
+	CHECK(render("OUT/short.rung -o OUT/short.pdf") == 0);
+	if (list_boxes("long") && list_boxes("short")) {
+		CHECK_AS(smallest_type("long.html") >= 5.0, "no type is smaller than 5 pt");
+		CHECK(type_of("short.html", "%IX0.0") > 5);
+		CHECK(type_of("long.html", "%IX0.0") == type_of("short.html", "%IX0.0"));
+		for (int i = 0; i < 30; i++) {
+			char *word = g_strdup_printf("%%MX%d.0", i + 100);
+			char *all = content("long.html", NULL);
+			char **parts = g_strsplit(all, word, -1);
+
+			missing += g_strv_length(parts) != 2;
+			g_strfreev(parts);
+			g_free(all);
+			g_free(word);
+		}
+		CHECK_AS(missing == 0, "each contact is there once");
+		CHECK(has("long.html", ">%QX9.0<") && has("long.html", ">Long<"));
+		CHECK(has("long.html", ">2/6<") && has("long.html", ">6/6<") &&
+		      !has("long.html", ">7/6<"));
+	}
+	g_string_free(rows, TRUE);
+}
+
+/* On which page a word stands, from 1; 0: on none. */
+static int page_of(const char *name, const char *word)
+{
+	char *all = content(name, NULL), *end = g_strdup_printf(">%s</word>", word);
+	char **page = g_strsplit(all, "<page ", -1);
+	int at = 1;
+
+	while (page[at] && !strstr(page[at], end))
+		at++;
+	if (!page[at])
+		at = 0;
+	g_strfreev(page);
+	g_free(end);
+	g_free(all);
+	return at;
+}
+
+/* A rung that is taller than a page and too wide for it has its title above its first row,
+ * wherever on a page it begins. */
+static void check_tall_and_wide(void)
+{
+	for (int before = 1; before < 9; before++) {
+		GString *rows = g_string_new(NULL);
+
+		for (int i = 0; i < before; i++)
+			g_string_append(rows, "  | NO %IX0.0 | COIL %QX0.0 |\nRUNG\n");
+		g_string_truncate(rows, rows->len - 1);
+		g_string_append(rows, " \"Tall\"\n");
+		for (int row = 0; row < 20; row++) {
+			g_string_append_printf(rows, "  | NO %%MX20%d.0 ", row);
+			for (int i = 0; i < 15; i++)
+				g_string_append(rows, "| NO %IX0.1 ");
+			g_string_append_printf(rows, "| COIL %%QX%d.1 |\n", row + 1);
+		}
+		write_rung("tall.rung", rows->str);
+		CHECK(render("OUT/tall.rung -o OUT/tall.pdf") == 0);
+		if (list_boxes("tall"))
+			CHECK(page_of("tall.html", "Tall") > 0 &&
+			      page_of("tall.html", "Tall") == page_of("tall.html",
+								      "%MX200.0"));
+		g_string_free(rows, TRUE);
+	}
+}
+
+/* Of places that have no room below a coil all stand behind the rungs, once. */
+static void check_references(void)
+{
+	GString *rows = g_string_new("  | NO %IX0.0 | S %QX0.0 |\n");
+
+	for (int i = 0; i < 40; i++)
+		g_string_append_printf(rows, "RUNG\n  | NO %%QX0.0 | COIL %%QX1.%d |\n",
+				       i % 8);
+	g_string_append(rows, "RUNG\n  | NO %IX0.1 | R %QX0.0 |\n");
+	write_rung("reads.rung", rows->str);
+	CHECK(render("OUT/reads.rung -o OUT/reads.pdf") == 0);
+	if (list_boxes("reads")) {
+		char *all = content("reads.html", NULL);
+		char **parts = g_strsplit(all, ">41</word>", -1);
+
+		CHECK(has("reads.html", ">reference</word>"));
+		/* The 41st place, and the number of that rung. */
+		CHECK(g_strv_length(parts) == 3);
+		g_strfreev(parts);
+		g_free(all);
+	}
+	CHECK(render(SHAPES " -o OUT/few.pdf") == 0);
+	CHECK(!list_boxes("few") || !has("few.html", ">reference</word>"));
+	g_string_free(rows, TRUE);
+}
+
+/* A rung of 256 rows takes several pages, and none of it is lost. */
+static void check_tall(void)
+{
+	GString *text = g_string_new("RUNGBOARD 1\nPROGRAM Main LD\nRUNG\n");
+	struct lettering *rule = lettering_new(NULL, NULL);
+	struct paper paper = { .date = NULL };
+
+	for (int row = 0; row < 256; row++)
+		g_string_append_printf(text, "  | NO %%MX%d.%d %s|%s\n", row / 8, row % 8,
+				       row ? "^" : "", row ? "" : " COIL %QX0.0 |");
+	g_string_append(text, "END_PROGRAM\n");
+	struct ladder *ladder = drawn_load("tall.rung", text->str);
+	CHECK(ladder && paper_find("A4", &paper) && !paper_find("a44", &paper));
+	if (ladder) {
+		struct pages *pages = pages_new(ladder_project(ladder), "tall.rung", -1, 0,
+						SHOW_BOTH, &paper, rule);
+
+		CHECK(pages_count(pages) > 8 && pages_count(pages) < 30);
+		pages_free(pages);
+		ladder_free(ladder);
+	}
+	lettering_free(rule);
+	g_string_free(text, TRUE);
+}
+
+/* Nothing is cut in the title block: a long name gets two lines, what needs more room than
+ * its share gets it. */
+static void check_title_block(void)
+{
+	CHECK(render("ladders/packing.rung --date Wednesday,25_November_2026,14:38:05 "
+		     "-o OUT/title.pdf") == 0);
+	if (list_boxes("title")) {
+		CHECK(has("title.html", ">Packing</word>") &&
+		      has("title.html", ">address</word>"));
+		CHECK(has("title.html", ">Wednesday,25_November_2026,14:38:05</word>"));
+		CHECK(has("title.html", ">unit</word>") && has("title.html", ">packing.rung<"));
+		CHECK(!has("title.html", "\xe2\x80\xa6"));
+	}
+	write_text("unit.rung", "PROGRAM The_unit_that_fills_the_hopper_of_this_line LD\n"
+		   "RUNG\n  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n");
+	CHECK(render("OUT/unit.rung --date 2026-03-01 -o OUT/unit.pdf") == 0);
+	if (list_boxes("unit")) {
+		char *all = content("unit.html", NULL);
+		char **parts = g_strsplit(all, ">The_unit_that_fills_the_hopper_of_this_line<",
+					  -1);
+
+		CHECK_AS(g_strv_length(parts) == 3, "as heading and in the title block");
+		g_strfreev(parts);
+		g_free(all);
+	}
+}
+
+int main(void)
+{
+	folder = g_dir_make_tmp("pages-XXXXXX", NULL);
+	if (!CHECK(folder))
+		return tap_done();
+	check_pdf();
+	check_wide_chart();
+	check_wide_rung();
+	check_tall_and_wide();
+	check_references();
+	check_tall();
+	check_title_block();
+	clear_folder();
+	g_free(folder);
+	g_free(said);
+	return tap_done();
+}
