@@ -191,6 +191,35 @@ def added(screen):
     check(path)
 
 
+def ticked(screen):
+    """Space, and a click, on Retain: the declaration moves to another block, and the keys with it"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+
+    def box(name):
+        return until(lambda: [node for node in editor.all(name, 'check box') if node.box()[2] > 0], name)[0]
+    editor.into('Start, Initial value')
+    editor.keys('Tab')
+    editor.focus_on('Start, Retain', 'check box')
+    top = box('Start, Retain').box()[1]
+    editor.keys('space')
+    until(lambda: box('Start, Retain').box()[1] > top, 'the row at its new place')
+    editor.focus_on('Start, Retain', 'check box')
+    editor.shot('symbols-ticked')
+    assert 'VAR RETAIN\n  Start' in editor.save(path)
+    editor.keys('space', 'Tab')
+    time.sleep(0.5)  # the table is read again meanwhile
+    editor.focus_on('Start, Constant', 'check box')
+    assert 'RETAIN' not in editor.save(path)
+    for wanted in True, False:
+        editor.click(box('Lamp, Constant'))
+        time.sleep(0.5)
+        editor.focus_on('Lamp, Constant', 'check box')
+        assert ('CONSTANT' in editor.save(path)) is wanted
+    check(path)
+
+
 def ordered(screen):
     """a click on the title of a column sorts by it, the next one the other way; numbers by what they are, no case"""
     names = 'Step10', 'b', 'Txt', 'Step2', 'n'
@@ -296,4 +325,4 @@ def last_letter(screen):
     assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
 
 
-main([finds, declared_already, renames, uses, tables, added, ordered, scopes, through, last_letter])
+main([finds, declared_already, renames, uses, tables, added, ticked, ordered, scopes, through, last_letter])
