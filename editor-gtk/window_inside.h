@@ -205,9 +205,9 @@ void window_watch_disk(LadderWindow *window);
 
 /* ---- window_write.c ---- */
 typedef void window_write(LadderWindow *window, const char *path);
-/** window_save_named - @save(@window, @path), which gets the first of @endings (".csv|.txt";
- * ".*" is any) if it has none of them; the person is asked if a file of that name is there,
- * of which the dialog did not know. */
+/** window_save_named - @save(@window, @path), which gets the first of @endings (".csv|.txt")
+ * if it has none of them; the person is asked if a file of that name is there, of which the
+ * dialog did not know. */
 void window_save_named(LadderWindow *window, const char *path, const char *endings,
 		       window_write *save);
 /** window_ask_where - asks for a file beside the program, named as it, and writes it.
