@@ -205,9 +205,24 @@ def menu_item(editor, name):
 
 
 def menus(screen):
-    """the menu of a row, and that of the sheet, by keyboard alone; Esc gives the keys back"""
+    """the menu of a row, that of the sheet and that of the window, by keyboard alone; Esc gives the keys back"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
+    editor.to_sheet()
+    for _ in range(2):
+        editor.keys('F10')
+        until(lambda: menu_item(editor, 'File'), 'the menu of the window')
+        editor.keys('Escape')
+        editor.to_sheet()
+    editor.keys('ctrl+f')
+    editor.type('%IX')
+    editor.keys('F10')
+    until(lambda: menu_item(editor, 'File'), 'the menu of the window')
+    editor.keys('Escape')
+    editor.focus_on('Find', 'text')
+    editor.type('0.1')
+    until(lambda: editor.find('Find', 'text').text() == '%IX0.1', 'the rest behind what was typed')
+    editor.keys('Escape')
     editor.to_sheet()
     for key in 'Menu', 'shift+F10':
         editor.keys(key)
