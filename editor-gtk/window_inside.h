@@ -137,6 +137,11 @@ LadderSfcView *tabs_seen_chart(LadderWindow *window);
 LadderGridView *tabs_sheet(LadderWindow *window);
 /** tabs_chart - of the page in front; NULL: it is none. */
 LadderSfcView *tabs_chart(LadderWindow *window);
+/** tabs_enter_program - the sheet, the chart or the text that is seen has the keys; false: none
+ * is in front. */
+bool tabs_enter_program(LadderWindow *window);
+/** tabs_enter - the same of any page, unless something in it has them. */
+void tabs_enter(LadderWindow *window);
 /** tabs_go - the place of a diagnostic or a use; -1: the whole. */
 void tabs_go(LadderWindow *window, int pou, int rung, int row, int col);
 
