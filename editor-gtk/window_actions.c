@@ -261,6 +261,21 @@ static void add_pou(LadderWindow *window, const char *what)
 		ladder_window_tell(window, why);
 }
 
+/* On their page, which is made when it is seen. */
+static void import_symbols(LadderWindow *window)
+{
+	GtkWidget *place, *symbols;
+
+	if (!ladder_document_project(window->document)) {
+		window_toast(window, _("The file cannot be read as a program"));
+		return;
+	}
+	place = tabs_show_widget(window, "symbols");
+	symbols = place ? adw_bin_get_child(ADW_BIN(place)) : NULL;
+	if (symbols)
+		gtk_widget_activate_action(symbols, "symbols.import", NULL);
+}
+
 static bool do_project(LadderWindow *window, enum verb verb)
 {
 	switch ((int)verb) {
@@ -278,6 +293,7 @@ static bool do_project(LadderWindow *window, enum verb verb)
 		tabs_show_widget(window, "symbols");
 		tabs_enter(window);
 		return true;
+	case VERB_import_symbols: import_symbols(window); return true;
 	case VERB_export_symbols: window_export_symbols(window); return true;
 	default: return false;
 	}

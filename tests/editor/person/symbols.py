@@ -220,6 +220,31 @@ def ticked(screen):
     check(path)
 
 
+def imported(screen):
+    """a table is imported by a command: what would change, and after which line the program has an error; then it has"""
+    path = new_file(screen, PROGRAM)
+    table = new_file(screen, 'Name,Type,Address\nLamp,INT,\nBell,BOOL,%QX0.7\n', 'symbols.csv')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+
+    def ask():
+        editor.keys('ctrl+k')
+        until(lambda: editor.all('About Rungboard'), 'all commands')
+        editor.type('Import symbols')
+        until(lambda: not editor.all('About Rungboard'), 'that command alone')
+        editor.keys('Return')
+    editor.give_path(table, ask, 'Import symbols')
+    editor.find('1 new, 1 changed, 0 unchanged, 0 refused; after 1 of these lines the program has a fault', 'label')
+    editor.find('must be BOOL: Lamp', 'table row')
+    editor.shot('symbols-import')
+    assert [node for node in editor.all(', Name') if node.box()[2] > 0], 'the page of the symbols is not in front'
+    editor.find('Import', 'push button').press()
+    editor.find('Bell, Name', 'text')
+    editor.find('must be BOOL')
+    text = editor.save(path)
+    assert '  Lamp  : INT;' in text and '  Bell  AT %QX0.7 : BOOL;' in text, text
+
+
 def ordered(screen):
     """a click on the title of a column sorts by it, the next one the other way; numbers by what they are, no case"""
     names = 'Step10', 'b', 'Txt', 'Step2', 'n'
@@ -325,4 +350,4 @@ def last_letter(screen):
     assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
 
 
-main([finds, declared_already, renames, uses, tables, added, ticked, ordered, scopes, through, last_letter])
+main([finds, declared_already, renames, uses, tables, added, ticked, imported, ordered, scopes, through, last_letter])
