@@ -153,6 +153,21 @@ void cells_enter(GtkColumnView *table, const LadderPanelRow *row, int field)
 	gtk_widget_add_tick_callback(GTK_WIDGET(table), enter_later, wanted, g_free);
 }
 
+LadderPanelRow *cells_focused(GtkColumnView *table, int *field)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(table));
+	GtkWidget *cell = root ? gtk_root_get_focus(root) : NULL;
+
+	if (!cell || !gtk_widget_is_ancestor(cell, GTK_WIDGET(table)))
+		return NULL;
+	while (cell != GTK_WIDGET(table) && !g_object_get_data(G_OBJECT(cell), "item"))
+		cell = gtk_widget_get_parent(cell);
+	if (cell == GTK_WIDGET(table))
+		return NULL;
+	*field = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(cell), "field"));
+	return gtk_list_item_get_item(g_object_get_data(G_OBJECT(cell), "item"));
+}
+
 /* ---- an edit that is to end where it stands ---- */
 
 struct take {

@@ -24,6 +24,9 @@ void cells_stand(GtkWidget *cell, GtkListItem *item, int field);
 /** cells_enter - the cell of @table in its selected row @row gets the focus, its text
  * selected, and is scrolled to; if the table has yet to make it, then. */
 void cells_enter(GtkColumnView *table, const LadderPanelRow *row, int field);
+/** cells_focused - the row of the cell that has the keys, and its @field; NULL: none has.
+ * Borrowed. */
+LadderPanelRow *cells_focused(GtkColumnView *table, int *field);
 
 /** cells_on_take - what ends an edit in @cell where it stands, as before saving. @take:
  * false: refused, and it told why in the cell; NULL: the cell is no one's any more. */

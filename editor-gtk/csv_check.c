@@ -11,6 +11,8 @@
 #include "engine/ladder.h"
 #include "engine/view/address_map.h"
 
+#include <string.h>
+
 #define CLASHES_MOST 5000
 
 /* The entries that would change something. */
@@ -107,6 +109,95 @@ static void mark_clashes(struct checked *checked)
 	g_free(clash);
 }
 
+/* ---- where they are used ---- */
+
+static bool is_same(const struct diag *a, const struct diag *b)
+{
+	return a->id == b->id && a->rung == b->rung && a->row == b->row && a->col == b->col &&
+	       g_strcmp0(a->pou, b->pou) == 0 && strcmp(a->arg, b->arg) == 0;
+}
+
+/* Of the first @count. */
+static int count_same(const struct diag_list *diags, int count, const struct diag *diag)
+{
+	int same = 0;
+
+	for (int i = 0; i < count; i++)
+		same += is_same(&diags->diag[i], diag);
+	return same;
+}
+
+/* Does the text of an error begin with the name that stands there? */
+static bool speaks_of(const struct checked *checked, const struct diag *diag,
+		      const struct xref_use *use)
+{
+	const char *name = xref_text(&checked->xref, use) + use->at;
+	const char end = use->len < sizeof(diag->arg) ? diag->arg[use->len] : '\0';
+
+	return use->len && g_ascii_strncasecmp(diag->arg, name, use->len) == 0 &&
+	       !g_ascii_isalnum(end) && end != '_';
+}
+
+enum near { ELSEWHERE, SAME_LINE, SAME_CELL, SAME_NAME };
+
+static enum near nearness(const struct checked *checked, const struct diag *diag,
+			  const struct xref_use *use)
+{
+	const struct project *project = checked->xref.project;
+	const char *pou = use->pou < 0 ? NULL :
+		project_text(project, project->pou[use->pou].name);
+
+	if (use->kind == XREF_DECLARED || g_strcmp0(pou, diag->pou) != 0)
+		return ELSEWHERE;
+	if (diag->rung ? use->rung != diag->rung : use->line != diag->line)
+		return ELSEWHERE;
+	if (speaks_of(checked, diag, use))
+		return SAME_NAME;
+	return diag->row && use->row == diag->row && use->col == diag->col ? SAME_CELL :
+	       SAME_LINE;
+}
+
+/* At the symbol it speaks of, else at those of its cell, else at those of its rung or line. */
+static void mark_uses(struct checked *checked, const struct diag *diag)
+{
+	const struct xref *xref = &checked->xref;
+	enum near nearest = ELSEWHERE;
+
+	for (int i = 0; i < xref->count; i++) {
+		const enum near near = nearness(checked, diag, &xref->use[i]);
+
+		if (near > nearest && entry_of(checked, &xref->use[i]))
+			nearest = near;
+	}
+	for (int i = 0; nearest && i < xref->count; i++) {
+		struct csv_entry *entry = nearness(checked, diag, &xref->use[i]) == nearest ?
+			entry_of(checked, &xref->use[i]) : NULL;
+
+		if (entry)
+			mark(checked, entry, false, diag_said_whole(diag));
+	}
+}
+
+/* Errors that the program has not yet, where it uses what would be another. */
+static void mark_used(struct checked *checked, const struct diag_list *diags)
+{
+	struct symbol_batch *nothing = symbol_batch_new(checked->plan->document);
+	struct ladder *before = symbol_batch_try(nothing, NULL);
+	const struct diag_list *old = before ? ladder_diags(before) : NULL;
+
+	for (int i = 0; old && i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+
+		if (diag_severity(diag->id) == SEVERITY_ERROR &&
+		    count_same(diags, i, diag) >= count_same(old, old->count, diag))
+			mark_uses(checked, diag);
+	}
+	ladder_free(before);
+	symbol_batch_free(nothing);
+}
+
+/* ---- the check ---- */
+
 /* No program would come of it, and no line is known that is to blame. */
 static void refuse_all(struct csv_plan *plan, const char *why)
 {
@@ -140,6 +231,8 @@ void csv_plan_check(struct csv_plan *plan)
 	checked.line = g_hash_table_new(NULL, NULL);
 	find_entries(&checked);
 	mark_errors(&checked, ladder_diags(ladder));
+	if (ladder_diags(ladder)->errors)
+		mark_used(&checked, ladder_diags(ladder));
 	mark_clashes(&checked);
 	g_hash_table_unref(checked.name);
 	g_hash_table_unref(checked.line);

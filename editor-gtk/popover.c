@@ -4,6 +4,8 @@
  */
 #include "editor-gtk/popover.h"
 
+#include <stdbool.h>
+
 void popover_drop(GtkWidget *popover)
 {
 	/* An event on its way may have brought the pointer back since it was hidden; what
@@ -65,14 +67,44 @@ void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWid
 	g_object_unref(menu);
 }
 
+/* ---- the menu of a button ---- */
+
+static GtkWidget *focus_of(gpointer button)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(button));
+
+	return root ? gtk_root_get_focus(root) : NULL;
+}
+
+static bool is_beside(GtkWidget *focus, gpointer button)
+{
+	return focus && !gtk_widget_is_ancestor(focus, GTK_WIDGET(button));
+}
+
+/* What a command gave the keys to keeps them. A text would be selected if it grabbed them. */
+static void give_back(GtkMenuButton *button)
+{
+	GtkWidget *then = g_object_get_data(G_OBJECT(button), "then");
+
+	if (then && gtk_widget_get_root(then) && !is_beside(focus_of(button), button))
+		gtk_root_set_focus(gtk_widget_get_root(then), then);
+	g_object_set_data(G_OBJECT(button), "then", NULL);
+}
+
+/* Before each time it opens. F10 opens one without having been in its button. */
 static void make_menu(GtkMenuButton *button, gpointer make)
 {
+	GtkWidget *focus = focus_of(button);
 	GMenu *menu;
 
+	g_object_set_data_full(G_OBJECT(button), "then", is_beside(focus, button) ?
+			       g_object_ref(focus) : NULL, g_object_unref);
 	if (gtk_menu_button_get_menu_model(button))
 		return;
 	menu = ((GMenu *(*)(void))make)();
 	gtk_menu_button_set_menu_model(button, G_MENU_MODEL(menu));
+	g_signal_connect_object(gtk_menu_button_get_popover(button), "closed",
+				G_CALLBACK(give_back), button, G_CONNECT_SWAPPED);
 	g_object_unref(menu);
 }
 

@@ -24,7 +24,7 @@ void popover_drop_later(GtkWidget *popover);
  * and the keys go to @then: GTK gives them back only to what had them when the menu was drawn. */
 void popover_menu(GtkWidget *parent, GMenu *menu, const GdkRectangle *at, GtkWidget *then);
 /** popover_menu_of - what @button opens is made by @make, which gives it away, the first time:
- * most menus are never seen. */
+ * most menus are never seen. When it closes, the keys are where they were before. */
 void popover_menu_of(GtkMenuButton *button, GMenu *(*make)(void));
 /** popover_tell - a text that is seen whole, of a label that wraps; once it has the parent
  * whose style it takes. An empty one hides the label. */

@@ -16,6 +16,7 @@
 #include "editor-gtk/tree_rows.h"
 #include "editor-gtk/verbs.h"
 
+#include <adwaita.h>
 #include <string.h>
 
 struct tree {
@@ -283,6 +284,44 @@ static void add_controllers(struct tree *tree)
 	gtk_widget_add_controller(tree->list, keys);
 }
 
+/* ---- the list as one stop of Tab ---- */
+
+/* A list of GTK 4.8 has one at each of its rows; arrows go from one to the other here. */
+struct _LadderTreeStop {
+	AdwBin parent_instance;
+};
+
+#define LADDER_TYPE_TREE_STOP (ladder_tree_stop_get_type())
+G_DECLARE_FINAL_TYPE(LadderTreeStop, ladder_tree_stop, LADDER, TREE_STOP, AdwBin)
+G_DEFINE_FINAL_TYPE(LadderTreeStop, ladder_tree_stop, ADW_TYPE_BIN)
+
+static gboolean stop_focus(GtkWidget *stop, GtkDirectionType direction)
+{
+	if ((direction == GTK_DIR_TAB_FORWARD || direction == GTK_DIR_TAB_BACKWARD) &&
+	    gtk_widget_get_focus_child(stop))
+		return FALSE;
+	return GTK_WIDGET_CLASS(ladder_tree_stop_parent_class)->focus(stop, direction);
+}
+
+static void ladder_tree_stop_class_init(LadderTreeStopClass *class)
+{
+	GTK_WIDGET_CLASS(class)->focus = stop_focus;
+}
+
+static void ladder_tree_stop_init(LadderTreeStop *stop)
+{
+	(void)stop;
+}
+
+static GtkWidget *stop_new(GtkWidget *child)
+{
+	GtkWidget *stop = g_object_new(LADDER_TYPE_TREE_STOP, NULL);
+
+	adw_bin_set_child(ADW_BIN(stop), child);
+	gtk_widget_set_vexpand(stop, TRUE);
+	return stop;
+}
+
 /* ---- the widget ---- */
 
 static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
@@ -306,10 +345,29 @@ static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
 
 #define TEXT_WIDE 20 /* characters that a note does not take from the text before it */
 
+/* As it reads: of the row, and of what has the keys in it. */
+static void speak(LadderTreeRow *row, GtkWidget *expander)
+{
+	GtkWidget *of_row = gtk_widget_get_parent(expander);
+	char *name = row->note ? g_strdup_printf("%s, %s", row->text, row->note) :
+		     g_strdup(row->text);
+
+	gtk_accessible_update_property(GTK_ACCESSIBLE(expander),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	if (of_row)
+		gtk_accessible_update_property(GTK_ACCESSIBLE(of_row),
+					       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	g_free(name);
+}
+
 static void show_note(LadderTreeRow *row, GtkLabel *note)
 {
+	GtkWidget *widget = GTK_WIDGET(note);
+
 	gtk_label_set_text(note, row->note ? row->note : "");
-	tip_set(GTK_WIDGET(note), gtk_label_get_text(note));
+	gtk_widget_set_visible(widget, row->note != NULL);
+	tip_set(widget, gtk_label_get_text(note));
+	speak(row, gtk_widget_get_ancestor(widget, GTK_TYPE_TREE_EXPANDER));
 }
 
 static GtkWidget *text_of(GtkListItem *item)
@@ -424,9 +482,8 @@ GtkWidget *ladder_project_tree_new(LadderDocument *document)
 	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), tree->list);
 	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
 				       GTK_POLICY_AUTOMATIC);
-	gtk_widget_set_vexpand(scroller, TRUE);
 	gtk_box_append(GTK_BOX(box), heading_new());
-	gtk_box_append(GTK_BOX(box), scroller);
+	gtk_box_append(GTK_BOX(box), stop_new(scroller));
 	g_object_set_data_full(G_OBJECT(box), "tree", tree, tree_free);
 	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(project_changed),
 				 tree);

@@ -108,6 +108,8 @@ static void toggled(GtkCheckButton *check, GtkListItem *item)
 
 	if (!row || gtk_check_button_get_active(check) == is)
 		return;
+	/* The list gave the keys to the first cell of the row that was clicked. */
+	gtk_widget_grab_focus(GTK_WIDGET(check));
 	g_object_ref(row);
 	if (cells->set(cells->owner, row, cells->field, is ? "" : "1", &why))
 		cells_refuse(GTK_WIDGET(check), NULL);

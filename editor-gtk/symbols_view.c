@@ -113,6 +113,30 @@ static void fill_scopes(LadderSymbolsView *view, struct project *project)
 	g_ptr_array_unref(name);
 }
 
+static bool is_declaration(const LadderPanelRow *row, gconstpointer what)
+{
+	const LadderPanelRow *other = what;
+
+	return row->table == other->table && strcmp(panel_row_text(row, FIELD_NAME),
+		panel_row_text(other, FIELD_NAME)) == 0;
+}
+
+/* The list becomes @rows. RETAIN moves a declaration to another block: the keys go there with
+ * it, and not to what comes to stand in its place. */
+static void update(LadderSymbolsView *view, GPtrArray *rows)
+{
+	int field, now;
+	LadderPanelRow *row = cells_focused(view->list.view, &field);
+
+	if (row)
+		g_object_ref(row);
+	panel_list_update(&view->list, rows);
+	if (row && cells_focused(view->list.view, &now) != row &&
+	    panel_list_select(&view->list, is_declaration, row))
+		cells_enter(view->list.view, panel_list_row(&view->list), field);
+	g_clear_object(&row);
+}
+
 static void fill_rows(LadderSymbolsView *view)
 {
 	LadderDocument *document = panel_watch_document(view->watch);
@@ -122,7 +146,7 @@ static void fill_rows(LadderSymbolsView *view)
 	for (int i = 0; symbols && i < symbols->count; i++)
 		if (view->table < 0 || symbols->symbol[i].table == view->table)
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
-	panel_list_update(&view->list, rows);
+	update(view, rows);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
 }

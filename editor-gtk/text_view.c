@@ -492,8 +492,15 @@ static void ladder_text_view_finalize(GObject *object)
 	G_OBJECT_CLASS(ladder_text_view_parent_class)->finalize(object);
 }
 
+/* A box has no use for the keys. */
+static gboolean ladder_text_view_grab_focus(GtkWidget *widget)
+{
+	return gtk_widget_grab_focus(GTK_WIDGET(LADDER_TEXT_VIEW(widget)->view));
+}
+
 static void ladder_text_view_class_init(LadderTextViewClass *class)
 {
+	GTK_WIDGET_CLASS(class)->grab_focus = ladder_text_view_grab_focus;
 	G_OBJECT_CLASS(class)->dispose = ladder_text_view_dispose;
 	G_OBJECT_CLASS(class)->finalize = ladder_text_view_finalize;
 }

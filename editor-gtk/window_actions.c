@@ -20,16 +20,6 @@
 
 /* ---- editing ---- */
 
-static void go_on(LadderWindow *window)
-{
-	LadderGridView *sheet = tabs_seen_sheet(window);
-
-	if (sheet)
-		gtk_widget_grab_focus(GTK_WIDGET(sheet));
-	else if (tabs_seen_chart(window))
-		gtk_widget_grab_focus(GTK_WIDGET(tabs_seen_chart(window)));
-}
-
 static void do_undo(LadderWindow *window)
 {
 	char *name;
@@ -43,14 +33,14 @@ static void do_undo(LadderWindow *window)
 		g_free(text);
 	}
 	g_free(name);
-	go_on(window);
+	tabs_enter_program(window);
 }
 
 static void do_redo(LadderWindow *window)
 {
 	tabs_each_file(window, ladder_file_view_commit);
 	ladder_document_redo(window->document);
-	go_on(window);
+	tabs_enter_program(window);
 }
 
 /* Of the tree, if one is there; else of the name at the cursor. */
@@ -91,7 +81,7 @@ static void do_sheet_by(LadderWindow *window, bool next)
 	if (next ? !adw_tab_view_select_next_page(window->tabs) :
 		   !adw_tab_view_select_previous_page(window->tabs))
 		return;
-	go_on(window);
+	tabs_enter(window);
 }
 
 /* The rungs of a sheet by the numbers that are shown. */
@@ -271,6 +261,21 @@ static void add_pou(LadderWindow *window, const char *what)
 		ladder_window_tell(window, why);
 }
 
+/* On their page, which is made when it is seen. */
+static void import_symbols(LadderWindow *window)
+{
+	GtkWidget *place, *symbols;
+
+	if (!ladder_document_project(window->document)) {
+		window_toast(window, _("The file cannot be read as a program"));
+		return;
+	}
+	place = tabs_show_widget(window, "symbols");
+	symbols = place ? adw_bin_get_child(ADW_BIN(place)) : NULL;
+	if (symbols)
+		gtk_widget_activate_action(symbols, "symbols.import", NULL);
+}
+
 static bool do_project(LadderWindow *window, enum verb verb)
 {
 	switch ((int)verb) {
@@ -284,7 +289,11 @@ static bool do_project(LadderWindow *window, enum verb verb)
 		pou_import_ask(GTK_WIDGET(window), window->document);
 		return true;
 	case VERB_new_iomap: window_new_iomap(window); return true;
-	case VERB_symbols: tabs_show_widget(window, "symbols"); return true;
+	case VERB_symbols:
+		tabs_show_widget(window, "symbols");
+		tabs_enter(window);
+		return true;
+	case VERB_import_symbols: import_symbols(window); return true;
 	case VERB_export_symbols: window_export_symbols(window); return true;
 	default: return false;
 	}
@@ -477,7 +486,7 @@ static void to_sheet(GtkWidget *widget, const char *name, GVariant *unused)
 {
 	(void)name;
 	(void)unused;
-	go_on(LADDER_WINDOW(widget));
+	tabs_enter(LADDER_WINDOW(widget));
 }
 
 void window_install_actions(GtkWidgetClass *class)
@@ -496,6 +505,8 @@ void window_install_actions(GtkWidgetClass *class)
 	gtk_widget_class_install_action(class, "win.begin", NULL, begin);
 	gtk_widget_class_install_action(class, "win.place", "i", place_word);
 	gtk_widget_class_install_action(class, "win.to-sheet", NULL, to_sheet);
+	/* Between the panes GTK goes by it; what is above them is in none. */
+	gtk_widget_class_add_binding_action(class, GDK_KEY_F6, 0, "win.to-sheet", NULL);
 	gtk_widget_class_install_action(class, "win.tell", "s", tell);
 	gtk_widget_class_install_action(class, "win.show-panel", "s", show_panel);
 }

@@ -156,17 +156,33 @@ static void save_chosen(LadderWindow *window, const char *path)
 	}
 }
 
+/* Endings of programs, and the one it has: any other is that of a scenario, a map, a table
+ * beside it, and what is read as that would be a program. Caller frees. */
+static char *program_endings(LadderWindow *window, bool classic)
+{
+	const char *path = ladder_document_path(window->document);
+	char *name = g_path_get_basename(path ? path : ""), *lower = g_utf8_strdown(name, -1);
+	const char *own = strrchr(lower, '.');
+	char *endings = g_strconcat(classic ? ".clprj|.clprjz|.clp|.rung" :
+				    ".rung|.clprj|.clprjz|.clp", own ? "|" : NULL, own, NULL);
+
+	g_free(lower);
+	g_free(name);
+	return endings;
+}
+
 static void save_response(GtkNativeDialog *dialog, int response, LadderWindow *window)
 {
 	GtkFileFilter *filter = gtk_file_chooser_get_filter(GTK_FILE_CHOOSER(dialog));
 	const char *kind = filter ? gtk_file_filter_get_name(filter) : NULL;
 	char *path = response == GTK_RESPONSE_ACCEPT ? window_chosen_path(dialog) : NULL;
+	char *endings = program_endings(window, kind && g_str_has_prefix(kind, "Classic"));
 
 	if (path)
-		window_save_named(window, path, kind && g_str_has_prefix(kind, "Classic") ?
-				  ".clprj|.*" : ".rung|.*", save_chosen);
+		window_save_named(window, path, endings, save_chosen);
 	else
 		window->closing = false;
+	g_free(endings);
 	g_free(path);
 	g_object_unref(dialog);
 }

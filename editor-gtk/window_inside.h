@@ -137,6 +137,11 @@ LadderSfcView *tabs_seen_chart(LadderWindow *window);
 LadderGridView *tabs_sheet(LadderWindow *window);
 /** tabs_chart - of the page in front; NULL: it is none. */
 LadderSfcView *tabs_chart(LadderWindow *window);
+/** tabs_enter_program - the sheet, the chart or the text that is seen has the keys; false: none
+ * is in front. */
+bool tabs_enter_program(LadderWindow *window);
+/** tabs_enter - the same of any page, unless something in it has them. */
+void tabs_enter(LadderWindow *window);
 /** tabs_go - the place of a diagnostic or a use; -1: the whole. */
 void tabs_go(LadderWindow *window, int pou, int rung, int row, int col);
 
@@ -205,9 +210,9 @@ void window_watch_disk(LadderWindow *window);
 
 /* ---- window_write.c ---- */
 typedef void window_write(LadderWindow *window, const char *path);
-/** window_save_named - @save(@window, @path), which gets the first of @endings (".csv|.txt";
- * ".*" is any) if it has none of them; the person is asked if a file of that name is there,
- * of which the dialog did not know. */
+/** window_save_named - @save(@window, @path), which gets the first of @endings (".csv|.txt")
+ * if it has none of them; the person is asked if a file of that name is there, of which the
+ * dialog did not know. */
 void window_save_named(LadderWindow *window, const char *path, const char *endings,
 		       window_write *save);
 /** window_ask_where - asks for a file beside the program, named as it, and writes it.

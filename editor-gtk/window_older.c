@@ -112,15 +112,6 @@ static void see(LadderWindow *window, bool older)
 	gtk_widget_set_visible(GTK_WIDGET(window->tab_bar), !older);
 }
 
-static void take_focus(LadderWindow *window)
-{
-	LadderGridView *sheet = tabs_seen_sheet(window);
-	LadderSfcView *chart = tabs_seen_chart(window);
-
-	if (sheet || chart)
-		gtk_widget_grab_focus(sheet ? GTK_WIDGET(sheet) : GTK_WIDGET(chart));
-}
-
 static void say_which(struct window_older *older, const struct sim_edited *edit)
 {
 	GDateTime *when = g_date_time_new_from_unix_local(edit->us / G_USEC_PER_SEC);
@@ -143,7 +134,7 @@ static void leave(LadderWindow *window)
 	g_clear_object(&window->older->document);
 	see(window, false);
 	if (focus)
-		take_focus(window);
+		tabs_enter_program(window);
 	tabs_show_place(window);
 }
 
@@ -158,7 +149,7 @@ static void enter(LadderWindow *window, LadderDocument *document,
 	fill_pous(window);
 	see(window, true);
 	if (focus)
-		take_focus(window);
+		tabs_enter_program(window);
 }
 
 static void program_changed(LadderWindow *window)

@@ -177,19 +177,14 @@ static void told(LadderWindow *window, const char *text)
 static void page_selected(LadderWindow *window)
 {
 	LadderGridView *sheet = tabs_sheet(window);
-	GtkWidget *list;
+	GtkWidget *list = sheet ? below_made(window, "list") : NULL;
 
 	tabs_show_place(window);
 	window_show_state(window);
 	ladder_window_tell(window, "");
-	if (!sheet && tabs_chart(window))
-		gtk_widget_grab_focus(GTK_WIDGET(tabs_chart(window)));
-	if (!sheet)
-		return;
-	list = below_made(window, "list");
 	if (list)
 		ladder_code_view_set_pou(list, ladder_grid_view_pou(sheet));
-	gtk_widget_grab_focus(GTK_WIDGET(sheet));
+	tabs_enter_program(window);
 }
 
 /* ---- making pages ---- */

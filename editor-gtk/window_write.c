@@ -58,7 +58,7 @@ static void ask_replace(struct named *named)
 	g_free(name);
 }
 
-/* Has it one of them, parted by `|`? ".*" is any. */
+/* Has it one of them, parted by `|`? */
 static bool has_ending(const char *path, const char *endings)
 {
 	char *name = g_path_get_basename(path), *lower = g_utf8_strdown(name, -1);
@@ -66,8 +66,7 @@ static bool has_ending(const char *path, const char *endings)
 	bool found = false;
 
 	for (int i = 0; ending[i] && !found; i++)
-		found = strcmp(ending[i], ".*") == 0 ? strchr(name, '.') != NULL :
-			g_str_has_suffix(lower, ending[i]);
+		found = g_str_has_suffix(lower, ending[i]);
 	g_strfreev(ending);
 	g_free(lower);
 	g_free(name);

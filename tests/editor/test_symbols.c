@@ -503,6 +503,35 @@ static void test_faults(void)
 	g_object_unref(document);
 }
 
+/* What is declared well, and is used as what it would be no more, is told at its line; what
+ * was wrong before at none. */
+static void test_uses(void)
+{
+	static const char program[] = "RUNGBOARD 1\n\n"
+		"TYPE\n  Recipe : STRUCT\n    Full : BOOL;\n  END_STRUCT;\nEND_TYPE\n\n"
+		"VAR\n  Lamp AT %QX0.0 : BOOL;\n  Horn : BOOL;\n  R : Recipe;\n  N : INT;\n"
+		"  Old : INT;\n  Bell : BOOL;\nEND_VAR\n\n"
+		"PROGRAM Main LD\nRUNG\n  | NO Bell | COIL Old |\nRUNG\n  | NO R.Full | COIL Lamp |\n"
+		"RUNG\n  | [ N := N + 1 ] |\nEND_PROGRAM\n\n"
+		"PROGRAM List IL\n  LD Bell\n  ST Old\n  LD R.Full\n  ST Horn\nEND_PROGRAM\n";
+	static const char table[] = "Scope,Name,Type,Address\n"
+		",Lamp,INT,\n" ",Horn,TIME,\n" "Recipe,Full,INT,\n" ",N,BOOL,\n"
+		",Bell,BOOL,%QX1.0\n" "Main,Bell,INT,\n" ",New,INT,\n";
+	static const struct wanted want[] = {
+		{ CSV_CHANGE, "%QX0.0", "must be BOOL: Lamp" },
+		{ CSV_CHANGE, "TIME", "" },
+		{ CSV_CHANGE, "INT", "must be BOOL" }, { CSV_CHANGE, "BOOL", "" },
+		{ CSV_CHANGE, "%QX1.0", NULL }, { CSV_ADD, "INT", "must be BOOL: Bell" },
+		{ CSV_ADD, "INT", NULL },
+	};
+	LadderDocument *document = opened(program);
+	struct csv_plan *plan = planned(document, table, want, G_N_ELEMENTS(want));
+
+	CHECK(!((struct csv_entry *)plan->entry->pdata[0])->warning);
+	csv_plan_free(plan);
+	g_object_unref(document);
+}
+
 /* More than a project may have: no line is to blame, so none comes. */
 static void test_too_many(void)
 {
@@ -556,6 +585,7 @@ int main(void)
 	test_import();
 	test_places();
 	test_faults();
+	test_uses();
 	test_too_many();
 	test_storm();
 	test_rows();

@@ -104,6 +104,27 @@ def no_text(screen):
     check(path)
 
 
+def foreign(screen):
+    """saved as what would be a scenario, a map, a table: .rung comes behind it, and the title says so; an ending that the file has stays"""
+    editor = Editor(screen, new_file(screen, ONE_RUNG))
+    editor.to_sheet()
+    for name in 'pump.scn', 'pump.io', 'pump.txt', 'pump', 'pump.v2':
+        path = os.path.join(screen.home, name)
+        editor.give_path(path, 'ctrl+shift+s')
+        until(lambda: os.path.exists(path + '.rung'), 'the file with its ending')
+        editor.find(name + '.rung', 'label')
+        assert read(path + '.rung') == ONE_RUNG and not os.path.exists(path)
+    editor.shot('files-foreign')
+    check(path + '.rung')
+    old, new = os.path.join(screen.home, 'old.TXT'), os.path.join(screen.home, 'new.txt')
+    write(old, ONE_RUNG)
+    editor = Editor(screen, old)
+    editor.to_sheet()
+    editor.give_path(new, 'ctrl+shift+s')
+    until(lambda: os.path.exists(new) and read(new) == ONE_RUNG, 'the other file')
+    assert not os.path.exists(new + '.rung')
+
+
 def beside(screen):
     """a scenario opens in the only project of its folder, a map in that of its name, others in an empty one"""
     for name in 'pump.rung', 'pump.plant.rung', 'boards/pump.io', 'morning.scn', 'far/lone.scn', 'far/lone.io':
@@ -276,4 +297,4 @@ def closing(screen):
     assert lines(path, '@print Motor\nStart=0\nStart=1\n') == ['Motor=1', 'Motor=0']
 
 
-main([refused, classic, no_program, no_text, beside, stays_a_link, tab, window, one_history, written_over, closing])
+main([refused, classic, no_program, no_text, foreign, beside, stays_a_link, tab, window, one_history, written_over, closing])

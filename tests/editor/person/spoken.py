@@ -53,12 +53,13 @@ HEARD = re.compile(r'path=(\S+);[^;]*; member=PropertyChange\n +string "accessib
                    r' +variant +string "(.+)"')
 USED = [ROLES[role] for role in ('check box', 'combo box', 'menu item', 'spin button', 'page tab',
                                  'push button', 'table', 'table cell', 'text', 'toggle button', 'entry')]
+ROWS = ROLES['list item'], ROLES['panel']  # the row, or what is in it
 
 
 def nameless(editor):
-    """What can be used and is seen, and has no name or that of a class. Cells of lists have what is in them."""
-    found = [node for node in editor.all() if node.role in USED]
-    found += [node for node in editor.walk(editor.palette) if node.role in USED]
+    """What can be used, or is a row that can have the keys, and is seen, and has no name or that of a class. Cells of lists have what is in them."""
+    found = [node for top in (None, editor.palette) for node in editor.walk(top)
+             if node.role in USED or node.role in ROWS and node.states >> 11 & 1]
     names = [node for node in found if not node.name or node.name.startswith(('Gtk', 'Adw', '_'))]
     return sorted({'%d %s' % (node.role, node.name) for node in names
                    if node.name != 'GtkColumnViewCell' and node.box()[2] > 0})

@@ -191,6 +191,60 @@ def added(screen):
     check(path)
 
 
+def ticked(screen):
+    """Space, and a click, on Retain: the declaration moves to another block, and the keys with it"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+
+    def box(name):
+        return until(lambda: [node for node in editor.all(name, 'check box') if node.box()[2] > 0], name)[0]
+    editor.into('Start, Initial value')
+    editor.keys('Tab')
+    editor.focus_on('Start, Retain', 'check box')
+    top = box('Start, Retain').box()[1]
+    editor.keys('space')
+    until(lambda: box('Start, Retain').box()[1] > top, 'the row at its new place')
+    editor.focus_on('Start, Retain', 'check box')
+    editor.shot('symbols-ticked')
+    assert 'VAR RETAIN\n  Start' in editor.save(path)
+    editor.keys('space', 'Tab')
+    time.sleep(0.5)  # the table is read again meanwhile
+    editor.focus_on('Start, Constant', 'check box')
+    assert 'RETAIN' not in editor.save(path)
+    for wanted in True, False:
+        editor.click(box('Lamp, Constant'))
+        time.sleep(0.5)
+        editor.focus_on('Lamp, Constant', 'check box')
+        assert ('CONSTANT' in editor.save(path)) is wanted
+    check(path)
+
+
+def imported(screen):
+    """a table is imported by a command: what would change, and after which line the program has an error; then it has"""
+    path = new_file(screen, PROGRAM)
+    table = new_file(screen, 'Name,Type,Address\nLamp,INT,\nBell,BOOL,%QX0.7\n', 'symbols.csv')
+    editor = Editor(screen, path)
+    editor.to_sheet()
+
+    def ask():
+        editor.keys('ctrl+k')
+        until(lambda: editor.all('About Rungboard'), 'all commands')
+        editor.type('Import symbols')
+        until(lambda: not editor.all('About Rungboard'), 'that command alone')
+        editor.keys('Return')
+    editor.give_path(table, ask, 'Import symbols')
+    editor.find('1 new, 1 changed, 0 unchanged, 0 refused; after 1 of these lines the program has a fault', 'label')
+    editor.find('must be BOOL: Lamp', 'table row')
+    editor.shot('symbols-import')
+    assert [node for node in editor.all(', Name') if node.box()[2] > 0], 'the page of the symbols is not in front'
+    editor.find('Import', 'push button').press()
+    editor.find('Bell, Name', 'text')
+    editor.find('must be BOOL')
+    text = editor.save(path)
+    assert '  Lamp  : INT;' in text and '  Bell  AT %QX0.7 : BOOL;' in text, text
+
+
 def ordered(screen):
     """a click on the title of a column sorts by it, the next one the other way; numbers by what they are, no case"""
     names = 'Step10', 'b', 'Txt', 'Step2', 'n'
@@ -296,4 +350,4 @@ def last_letter(screen):
     assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
 
 
-main([finds, declared_already, renames, uses, tables, added, ordered, scopes, through, last_letter])
+main([finds, declared_already, renames, uses, tables, added, ticked, imported, ordered, scopes, through, last_letter])

@@ -171,4 +171,35 @@ def names(screen):
     editor.says('Only a declared name can be changed')
 
 
-main([names, typed, damaged, emptied, one_more, closed])
+def at_once(screen):
+    """a project whose first program is a list opens with the keys in the text; F6, and what leads to a page, gives them from the header, too"""
+    path = new_file(screen, TWO.replace('PROGRAM Second IL\n  LD    Start\n  ST    %QX0.1', 'PROGRAM Second LD\nRUNG\n  | NO Start | COIL %QX0.1 |'))
+    editor = Editor(screen, path)
+    editor.focus_on('Text of the program', 'text')
+    editor.shot('text-at-once')
+    editor.keys('ctrl+Home', 'Down', 'End', 'Return')
+    editor.type('ANDN Motor')
+    assert 'ANDN  Motor' in editor.save(path)
+
+    def header():
+        editor.click(editor.find('Save', 'push button'))  # a button takes the keys when it is clicked
+        editor.focus_on('Save', 'push button')
+    header()
+    editor.keys('F6')
+    editor.focus_on('Text of the program', 'text')
+    header()
+    editor.keys('ctrl+Page_Down')
+    editor.to_sheet()
+    header()
+    editor.keys('F6')
+    editor.to_sheet()
+    assert editor.all('Second, 1 rung') and len(editor.cells()) == 2, editor.cells()
+    header()
+    editor.keys('ctrl+alt+s')
+    editor.focus_on('Scope')
+    header()
+    editor.keys('F6')
+    editor.focus_on('Scope')
+
+
+main([names, typed, damaged, emptied, one_more, closed, at_once])

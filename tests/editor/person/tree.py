@@ -205,9 +205,24 @@ def menu_item(editor, name):
 
 
 def menus(screen):
-    """the menu of a row, and that of the sheet, by keyboard alone; Esc gives the keys back"""
+    """the menu of a row, that of the sheet and that of the window, by keyboard alone; Esc gives the keys back"""
     path = new_file(screen, TEXT)
     editor = Editor(screen, path)
+    editor.to_sheet()
+    for _ in range(2):
+        editor.keys('F10')
+        until(lambda: menu_item(editor, 'File'), 'the menu of the window')
+        editor.keys('Escape')
+        editor.to_sheet()
+    editor.keys('ctrl+f')
+    editor.type('%IX')
+    editor.keys('F10')
+    until(lambda: menu_item(editor, 'File'), 'the menu of the window')
+    editor.keys('Escape')
+    editor.focus_on('Find', 'text')
+    editor.type('0.1')
+    until(lambda: editor.find('Find', 'text').text() == '%IX0.1', 'the rest behind what was typed')
+    editor.keys('Escape')
     editor.to_sheet()
     for key in 'Menu', 'shift+F10':
         editor.keys(key)
@@ -233,6 +248,33 @@ def menus(screen):
     assert lines(path, OTHER) == ['%QX0.2=1', '%QX0.2=0']
 
 
+def stop(screen):
+    """Tab comes to the tree once, arrows go on in it; the row that has the keys is named as it reads, and is seen"""
+    path = new_file(screen, TEXT)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.click(editor.find('Add, rename or delete', 'push button'))
+    until(lambda: menu_item(editor, 'New program (LD)') or editor.focused(), 'the menu')
+    editor.keys('Escape', 'Tab')
+    editor.focus_on('Programs')
+    editor.keys('Down', 'Down')
+    node = editor.focus_on('Other, 1 rung')
+    assert editor.known()[node.parent].name == node.name
+    editor.shot('tree-stop')
+    editor.keys('Up')
+    editor.focus_on('Main, 2 rungs')
+    editor.keys('Tab')
+    editor.focus_on('Find an element')
+    editor.keys('shift+Tab')
+    editor.focus_on('Main, 2 rungs')
+    editor.keys('shift+Tab')
+    editor.focus_on('Add, rename or delete')
+    editor.keys('Tab', 'Return')
+    sheet_of(editor)
+    editor.keys('Down', 'ctrl+Delete')
+    until(lambda: editor.all('Main, 1 rung', 'list item'), 'another name of the row')
+
+
 def beside(screen):
     """a scenario beside the file is opened from the tree, edited and saved"""
     path = new_file(screen, TEXT)
@@ -250,4 +292,4 @@ def beside(screen):
     assert open(path).read() == TEXT
 
 
-main([bookmarks, by_name, nothing_added, rows, of_others, in_front, keys, menus, beside])
+main([bookmarks, by_name, nothing_added, rows, of_others, in_front, keys, menus, stop, beside])
