@@ -198,16 +198,9 @@ char *ladder_grid_view_keys(LadderGridView *view)
 	live = act_keys(view, text);
 	if (!cell)
 		g_string_append(text, _("type a name or a word"));
-	for (int i = 0; i < VERBS_TOLD; i++) {
-		char *keys = verb_keys_label(verb[i]);
-
+	for (int i = 0; i < VERBS_TOLD; i++)
 		/* Those mean something else now. */
-		if (live && (verb[i] == VERB_cycle || verb[i] == VERB_enter))
-			keys[0] = '\0';
-		if (keys[0])
-			g_string_append_printf(text, "%s%s: %s", text->len ? " · " : "",
-					       keys, _(verb_row(verb[i])->label));
-		g_free(keys);
-	}
+		if (!live || (verb[i] != VERB_cycle && verb[i] != VERB_enter))
+			verb_tell(text, verb[i]);
 	return g_string_free(text, FALSE);
 }

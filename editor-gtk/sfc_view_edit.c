@@ -499,13 +499,7 @@ char *ladder_sfc_view_keys(LadderSfcView *view)
 
 	chart_fresh(view);
 	part = chart_part(view, &index);
-	for (int i = 0; i < 4 && verbs[part][i] != VERB_COUNT; i++) {
-		char *keys = verb_keys_label(verbs[part][i]);
-
-		if (keys[0])
-			g_string_append_printf(text, "%s%s: %s", text->len ? " · " : "",
-					       keys, _(verb_row(verbs[part][i])->label));
-		g_free(keys);
-	}
+	for (int i = 0; i < 4 && verbs[part][i] != VERB_COUNT; i++)
+		verb_tell(text, verbs[part][i]);
 	return g_string_free(text, FALSE);
 }

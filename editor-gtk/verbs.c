@@ -152,6 +152,16 @@ char *verb_keys_label(enum verb verb)
 	return keys_label(verb_keys(verb));
 }
 
+void verb_tell(GString *line, enum verb verb)
+{
+	char *keys = verb_keys_label(verb);
+
+	if (keys[0])
+		g_string_append_printf(line, "%s%s: %s", line->len ? " · " : "", keys,
+				       _(verb_row(verb)->label));
+	g_free(keys);
+}
+
 bool key_scheme_put(enum key_scheme scheme, int index, const char **word,
 		    const char **keys)
 {

@@ -44,6 +44,9 @@ char *keys_label(const char *keys);
 /** verb_keys_label - "Ctrl+S" as people read it; "" if it has none. Caller frees. */
 char *verb_keys_label(enum verb verb);
 
+/** verb_tell - adds "F5: Contact" to a line of such, if it has a key. */
+void verb_tell(GString *line, enum verb verb);
+
 /* Maps of keys, key_schemes.def. */
 enum key_scheme {
 #define SCHEME(id, name) SCHEME_##id,

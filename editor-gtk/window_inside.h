@@ -13,6 +13,7 @@
 #include "editor-gtk/scenario_record.h"
 #include "editor-gtk/sfc_view.h"
 #include "editor-gtk/sim.h"
+#include "editor-gtk/text_view.h"
 #include "editor-gtk/window.h"
 
 struct _LadderWindow {
@@ -94,6 +95,14 @@ GtkWidget *below_show(LadderWindow *window, const char *name);
 /** below_offer - whether it has a tab to be seen by. */
 void below_offer(LadderWindow *window, const char *name, bool offered);
 
+/* ---- window_place.c: the status bar ---- */
+/** tabs_show_place - in the status bar: of the cursor that is seen. */
+void tabs_show_place(LadderWindow *window);
+/** place_follow - what is told of the text of a page goes with its cursor. */
+void place_follow(LadderWindow *window, AdwTabPage *page);
+/** tabs_list - the text of a program in front; NULL: there is none. */
+LadderTextView *tabs_list(LadderWindow *window);
+
 /* ---- window_tabs.c ---- */
 void tabs_init(LadderWindow *window);
 /** tabs_update - those there should be: POUs may have come and gone. */
@@ -127,8 +136,6 @@ GPtrArray *tabs_unsaved(LadderWindow *window);
 /** tabs_page_new - a sheet, a chart or a list: POU @pou of @document, that tells the
  * window. It scrolls. */
 GtkWidget *tabs_page_new(LadderWindow *window, LadderDocument *document, int pou);
-/** tabs_show_place - in the status bar: of the cursor that is seen. */
-void tabs_show_place(LadderWindow *window);
 /** tabs_seen_sheet, tabs_seen_chart - as tabs_sheet(), tabs_chart(), but also of a program
  * before an edit, whose document is not the window's. */
 LadderGridView *tabs_seen_sheet(LadderWindow *window);

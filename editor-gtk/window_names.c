@@ -7,7 +7,6 @@
  */
 #include "editor-gtk/window_inside.h"
 
-#include "editor-gtk/text_view.h"
 #include "editor-gtk/uses_view.h"
 #include "editor-gtk/watch_view.h"
 
@@ -38,16 +37,6 @@ bool names_is_here(LadderWindow *window, const struct xref *xref, int here, int 
 
 	return use == here || (sheet && ladder_grid_view_cell(sheet, &row, &col) &&
 			       is_here(&xref->use[use], sheet, row, col));
-}
-
-/* NULL: there is no list in front. */
-static LadderTextView *list_of(LadderWindow *window)
-{
-	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
-	GtkWidget *content = page ? tabs_content(page) : NULL;
-
-	return LADDER_IS_TEXT_VIEW(content) && ladder_text_view_pou(LADDER_TEXT_VIEW(content)) >= 0 ?
-	       LADDER_TEXT_VIEW(content) : NULL;
 }
 
 /* What the name at the cursor of a list is: the use in that line, or elsewhere in it. */
@@ -81,8 +70,8 @@ static int use_here(LadderWindow *window, const struct xref *xref)
 
 		return use ? (int)(use - xref->use) : -1;
 	}
-	if (list_of(window))
-		return use_in_list(list_of(window), xref);
+	if (tabs_list(window))
+		return use_in_list(tabs_list(window), xref);
 	if (!sheet || !ladder_grid_view_cell(sheet, &row, &col))
 		return -1;
 	for (int i = 0; i < xref->count; i++)

@@ -151,24 +151,6 @@ void tabs_each_file(LadderWindow *window, void (*act)(gpointer file))
 
 /* ---- status ---- */
 
-void tabs_show_place(LadderWindow *window)
-{
-	LadderGridView *sheet = tabs_seen_sheet(window);
-	LadderSfcView *chart = sheet ? NULL : tabs_seen_chart(window);
-	char *place = sheet ? ladder_grid_view_place(sheet) :
-		      chart ? ladder_sfc_view_place(chart) : g_strdup("");
-	char *zoom = sheet || chart ? g_strdup_printf("%d %%",
-		(int)((sheet ? ladder_grid_view_zoom(sheet) :
-		       ladder_sfc_view_zoom(chart)) * 100 + 0.5)) : g_strdup("");
-
-	window_show_keys(window, sheet ? ladder_grid_view_keys(sheet) :
-			 chart ? ladder_sfc_view_keys(chart) : g_strdup(""));
-	gtk_label_set_text(window->place_label, place);
-	gtk_label_set_text(window->zoom_label, zoom);
-	g_free(place);
-	g_free(zoom);
-}
-
 static void told(LadderWindow *window, const char *text)
 {
 	ladder_window_tell(window, text);
@@ -195,6 +177,7 @@ static AdwTabPage *insert_page(LadderWindow *window, int at, GtkWidget *child,
 	AdwTabPage *page = adw_tab_view_insert(window->tabs, child, at);
 
 	set_name(page, name, title);
+	place_follow(window, page);
 	spoken_parts(child);
 	spoken_parts(GTK_WIDGET(window->tab_bar));
 	return page;

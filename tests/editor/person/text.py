@@ -147,7 +147,11 @@ def names(screen):
     second = until(lambda: [node for node in editor.all('Text of the program') if 'QX0.1' in node.text()], 'the second list')[0]
     editor.click(second)
     until(lambda: second.has(12), 'the focus in the second list')
-    editor.keys('ctrl+Home', 'Down', 'End', 'F12')
+    editor.keys('ctrl+Home', 'Down', 'End')
+    editor.says('Line 2 · column 14')
+    editor.says('F12: Go to the coil that drives it')
+    editor.shot('text-place')
+    editor.keys('F12')
     until(lambda: [node for node in editor.all('Text of the program') if 'ST    Motor' in node.text() and node.has(12)],
           'the list that drives it')
     editor.keys('shift+F12')
