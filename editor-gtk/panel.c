@@ -58,6 +58,14 @@ static void setup_label(GtkSignalListItemFactory *factory, GtkListItem *item,
 	gtk_list_item_set_child(item, label);
 }
 
+static void setup_middle(GtkSignalListItemFactory *factory, GtkListItem *item,
+			 gpointer column)
+{
+	setup_label(factory, item, column);
+	gtk_label_set_ellipsize(GTK_LABEL(gtk_list_item_get_child(item)),
+				PANGO_ELLIPSIZE_MIDDLE);
+}
+
 static void show_label(LadderPanelRow *row, GtkListItem *item)
 {
 	GtkWidget *label = gtk_list_item_get_child(item);
@@ -155,18 +163,17 @@ static int by_tone(gconstpointer left, gconstpointer right, gpointer unused)
 
 #define HEADING_ROOM 24 /* padding of a heading, and the arrow of sorting */
 
-/* The width of a column, or more if its heading needs more in some language. */
-static int wide_enough(GtkWidget *view, const char *name, int width)
+int panel_heading_width(GtkWidget *view, const char *name)
 {
 	PangoLayout *layout = gtk_widget_create_pango_layout(view, NULL);
 	char *bold = g_markup_printf_escaped("<b>%s</b>", name);
-	int heading;
+	int width;
 
 	pango_layout_set_markup(layout, bold, -1);
-	pango_layout_get_pixel_size(layout, &heading, NULL);
+	pango_layout_get_pixel_size(layout, &width, NULL);
 	g_free(bold);
 	g_object_unref(layout);
-	return MAX(width, heading + HEADING_ROOM);
+	return width;
 }
 
 GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, int text,
@@ -181,8 +188,8 @@ GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, i
 	gtk_column_view_column_set_expand(column, flags & PANEL_EXPAND);
 	gtk_column_view_column_set_resizable(column, !(flags & PANEL_ICON));
 	if (width)
-		gtk_column_view_column_set_fixed_width(column,
-			wide_enough(GTK_WIDGET(list->view), name, width));
+		gtk_column_view_column_set_fixed_width(column, MAX(width,
+			panel_heading_width(GTK_WIDGET(list->view), name) + HEADING_ROOM));
 	gtk_column_view_append_column(list->view, column);
 	g_object_unref(sorter);
 	g_object_unref(column);
@@ -195,7 +202,8 @@ GtkColumnViewColumn *panel_list_column(struct panel_list *list, const char *name
 	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
 	const bool icon = flags & PANEL_ICON;
 
-	g_signal_connect(factory, "setup", G_CALLBACK(icon ? setup_icon : setup_label),
+	g_signal_connect(factory, "setup", G_CALLBACK(icon ? setup_icon :
+			 flags & PANEL_MIDDLE ? setup_middle : setup_label),
 			 GINT_TO_POINTER(text));
 	g_signal_connect(factory, "bind", G_CALLBACK(icon ? bind_icon : bind_label), NULL);
 	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), NULL);

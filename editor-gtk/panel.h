@@ -26,6 +26,7 @@ enum panel_column_flag {
 	PANEL_EXPAND = 1, PANEL_NUMBER = 2, /* sorts by row->number            */
 	PANEL_ICON = 4,                     /* of the row's tone, no text      */
 	PANEL_DIM = 8,
+	PANEL_MIDDLE = 16,                  /* too long, it keeps its end, too */
 };
 
 /** panel_list_init - an empty list in @view; its rows can be filtered and sorted.
@@ -40,6 +41,9 @@ GtkColumnViewColumn *panel_list_column(struct panel_list *list, const char *name
 GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, int text,
 				    unsigned int flags, int width,
 				    GtkListItemFactory *factory);
+/** panel_heading_width - of the heading of a column of @view, in px, with nothing round it: a
+ * column that has a width must have that of its heading in any language. */
+int panel_heading_width(GtkWidget *view, const char *name);
 /** panel_list_want - shows only rows that have this text in them. */
 void panel_list_want(struct panel_list *list, const char *wanted);
 /** panel_list_update - the list becomes @rows, as panel_rows_update(); keys are not lost. */

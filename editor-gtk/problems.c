@@ -290,7 +290,9 @@ static void ladder_problems_init(LadderProblems *problems)
 	panel_list_init(&problems->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
 		widget, LADDER_TYPE_PROBLEMS, "view")));
 	panel_list_column(&problems->list, "", COLUMN_SEVERITY, PANEL_ICON, 0);
-	panel_list_column(&problems->list, _("Problem"), COLUMN_TEXT, PANEL_EXPAND, 0);
+	/* What it speaks of stands at the end. */
+	panel_list_column(&problems->list, _("Problem"), COLUMN_TEXT,
+			  PANEL_EXPAND | PANEL_MIDDLE, 0);
 	panel_list_column(&problems->list, _("Place"), COLUMN_PLACE, PANEL_NUMBER, 260);
 	panel_list_column(&problems->list, _("Code"), COLUMN_CODE, 0, 80);
 	set_title(problems);

@@ -56,3 +56,14 @@ void spoken_parts(GtkWidget *root)
 			keep_hidden(GTK_REVEALER(widget));
 	}
 }
+
+static void hide_empty(GtkLabel *label)
+{
+	gtk_widget_set_visible(GTK_WIDGET(label), *gtk_label_get_text(label));
+}
+
+void spoken_text(GtkLabel *label)
+{
+	g_signal_connect(label, "notify::label", G_CALLBACK(hide_empty), NULL);
+	hide_empty(label);
+}

@@ -13,5 +13,7 @@
 
 /** spoken_parts - mends what is found below @root now. */
 void spoken_parts(GtkWidget *root);
+/** spoken_text - @label is there while it has a text: an empty one is called "GtkLabel". */
+void spoken_text(GtkLabel *label);
 
 #endif

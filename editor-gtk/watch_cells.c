@@ -7,9 +7,12 @@
  */
 #include "editor-gtk/watch_inside.h"
 #include "editor-gtk/cells.h"
+#include "editor-gtk/panel.h"
 #include "editor-gtk/tip.h"
 
 #include <string.h>
+
+#define HEADING_ROOM 14 /* padding of a heading                                */
 
 enum column { NAME, TYPE, FORMAT, VALUE, FRESH, FORCE, COMMENT, COLUMNS };
 
@@ -328,7 +331,9 @@ void watch_columns(LadderWatchView *view)
 		gtk_column_view_column_set_resizable(column, TRUE);
 		gtk_column_view_column_set_expand(column, i == COMMENT);
 		if (columns[i].width)
-			gtk_column_view_column_set_fixed_width(column, columns[i].width);
+			gtk_column_view_column_set_fixed_width(column, MAX(columns[i].width,
+				panel_heading_width(view->list, _(columns[i].title)) +
+				HEADING_ROOM));
 		gtk_column_view_append_column(GTK_COLUMN_VIEW(view->list), column);
 		g_object_unref(column);
 	}

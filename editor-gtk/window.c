@@ -319,6 +319,10 @@ static void ladder_window_init(LadderWindow *window)
 {
 	gtk_widget_init_template(GTK_WIDGET(window));
 	popover_menu_of(window->menu_button, window_menu);
+	spoken_text(window->place_label);
+	spoken_text(window->message_label);
+	spoken_text(window->checked_label);
+	spoken_text(window->zoom_label);
 	g_signal_connect_swapped(window->banner_button, "clicked",
 				 G_CALLBACK(banner_clicked), window);
 	g_signal_connect_swapped(window->banner_close, "clicked",

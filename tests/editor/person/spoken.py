@@ -55,12 +55,15 @@ USED = [ROLES[role] for role in ('check box', 'combo box', 'menu item', 'spin bu
                                  'push button', 'table', 'table cell', 'text', 'toggle button', 'entry')]
 ROWS = ROLES['list item'], ROLES['panel']  # the row, or what is in it
 
+TWICE = re.compile(r'(.+) \1$')
+
 
 def nameless(editor):
-    """What can be used, or is a row that can have the keys, and is seen, and has no name or that of a class. Cells of lists have what is in them."""
+    """What can be used, or is a row that can have the keys, and is seen, and has no name, that of a class or one that is said twice. Cells of lists have what is in them."""
     found = [node for top in (None, editor.palette) for node in editor.walk(top)
              if node.role in USED or node.role in ROWS and node.states >> 11 & 1]
-    names = [node for node in found if not node.name or node.name.startswith(('Gtk', 'Adw', '_'))]
+    names = [node for node in found if not node.name or node.name.startswith(('Gtk', 'Adw', '_')) or
+             TWICE.match(node.name)]
     return sorted({'%d %s' % (node.role, node.name) for node in names
                    if node.name != 'GtkColumnViewCell' and node.box()[2] > 0})
 
@@ -99,6 +102,32 @@ def window(screen):
     until(lambda: any(node.name == 'Replace' and node.box()[2] > 0 for node in editor.all(role='push button')),
           'find and replace')
     assert not nameless(editor), nameless(editor)
+
+
+def empty_texts(editor):
+    """Labels of the status bar that say nothing, and are told of."""
+    bottom = editor.find('EDIT', 'label').box()[1]
+    labels = [node for node in editor.all(role='label') if node.box()[2] >= 0 and node.box()[1] == bottom]
+    return [node.name for node in labels if not node.text()]
+
+
+def imported(screen):
+    """the dialog of an import; of the status bar what says something"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    until(lambda: not empty_texts(editor), 'texts alone in the status bar')
+    editor.keys('ctrl+alt+s')
+    until(lambda: editor.all('Add a symbol', 'push button')[0].box()[2] > 0, 'the symbols')
+    assert not empty_texts(editor), empty_texts(editor)
+    editor.give_path(new_file(screen, 'Name,Type\nBell,BOOL\n', 'symbols.csv'),
+                     lambda: editor.click(editor.find('Import a table (CSV)', 'push button')), 'Import symbols')
+    editor.find('1 new, ', 'label')
+    assert not nameless(editor), nameless(editor)
+    buttons = [node.name for node in editor.all(role='push button') if node.name in ('Cancel', 'Import')]
+    assert sorted(buttons) == ['Cancel', 'Import'], buttons
+    editor.shot('spoken-import')
+    editor.keys('alt+i')
+    editor.find('Bell, Name', 'text')
 
 
 def simulated(screen):
@@ -247,4 +276,4 @@ def chart(screen):
     reader.says('Step Idle, initial', lambda: editor.click(shape(editor, 'Step Idle, initial')))
 
 
-main([window, simulated, tips, cursor, edited, boxes, chart])
+main([window, imported, simulated, tips, cursor, edited, boxes, chart])
