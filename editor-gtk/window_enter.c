@@ -4,8 +4,6 @@
  */
 #include "editor-gtk/window_inside.h"
 
-#include "editor-gtk/text_view.h"
-
 /* NULL: there is none. */
 static GtkWidget *in_front(LadderWindow *window)
 {
