@@ -84,103 +84,6 @@ static void do_sheet_by(LadderWindow *window, bool next)
 	tabs_enter(window);
 }
 
-/* The rungs of a sheet by the numbers that are shown. */
-static int first_rung(LadderGridView *sheet, int *last)
-{
-	const struct project *project = ladder_document_project(
-		ladder_grid_view_document(sheet));
-	const int first = ladder_grid_view_range(sheet, last);
-
-	*last = *last < 0 ? project->pou[ladder_grid_view_pou(sheet)].rung_count :
-		first + *last;
-	return first + 1;
-}
-
-/* False: it is none of them. */
-static bool is_rung(LadderGridView *sheet, const char *text, int *rung)
-{
-	int last;
-	const int first = first_rung(sheet, &last);
-	guint64 number;
-
-	if (!g_ascii_string_to_unsigned(text, 10, (guint64)first, (guint64)last, &number,
-					NULL))
-		return false;
-	*rung = (int)number - first;
-	return true;
-}
-
-static void go_rung(AdwMessageDialog *dialog, const char *response, GtkEditable *number)
-{
-	LadderWindow *window = LADDER_WINDOW(gtk_window_get_transient_for(
-		GTK_WINDOW(dialog)));
-	LadderGridView *sheet = tabs_seen_sheet(window);
-	int rung;
-
-	if (sheet && g_strcmp0(response, "go") == 0 &&
-	    is_rung(sheet, gtk_editable_get_text(number), &rung))
-		ladder_grid_view_go(sheet, rung, -1, -1);
-}
-
-/* Enter goes nowhere with a number that is none. */
-static void rung_typed(GtkEditable *number, AdwMessageDialog *dialog)
-{
-	LadderWindow *window = LADDER_WINDOW(gtk_window_get_transient_for(
-		GTK_WINDOW(dialog)));
-	LadderGridView *sheet = tabs_seen_sheet(window);
-	const char *text = gtk_editable_get_text(number);
-	int rung;
-	const bool good = sheet && is_rung(sheet, text, &rung);
-
-	adw_message_dialog_set_response_enabled(dialog, "go", good);
-	if (good || !*text)
-		gtk_widget_remove_css_class(GTK_WIDGET(number), "error");
-	else
-		gtk_widget_add_css_class(GTK_WIDGET(number), "error");
-	gtk_accessible_update_state(GTK_ACCESSIBLE(number), GTK_ACCESSIBLE_STATE_INVALID,
-		good || !*text ? GTK_ACCESSIBLE_INVALID_FALSE : GTK_ACCESSIBLE_INVALID_TRUE,
-		-1);
-}
-
-static GtkWidget *number_new(GtkWidget *dialog)
-{
-	GtkWidget *number = gtk_entry_new();
-
-	gtk_entry_set_input_purpose(GTK_ENTRY(number), GTK_INPUT_PURPOSE_DIGITS);
-	gtk_accessible_update_property(GTK_ACCESSIBLE(number),
-				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Rung"), -1);
-	gtk_entry_set_activates_default(GTK_ENTRY(number), TRUE);
-	g_signal_connect_object(number, "changed", G_CALLBACK(rung_typed), dialog, 0);
-	return number;
-}
-
-static void ask_rung(LadderWindow *window)
-{
-	LadderGridView *sheet = tabs_seen_sheet(window);
-	GtkWidget *dialog, *number;
-	int first, last;
-
-	if (!sheet)
-		return;
-	first = first_rung(sheet, &last);
-	if (first > last) {
-		ladder_window_tell(window, _("no rung"));
-		return;
-	}
-	dialog = adw_message_dialog_new(GTK_WINDOW(window), _("Go to rung"), NULL);
-	adw_message_dialog_format_body(ADW_MESSAGE_DIALOG(dialog), _("%d to %d"), first, last);
-	number = number_new(dialog);
-	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), number);
-	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog), "cancel", _("Cancel"),
-					 "go", _("Go"), NULL);
-	adw_message_dialog_set_response_enabled(ADW_MESSAGE_DIALOG(dialog), "go", FALSE);
-	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "go");
-	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
-	g_signal_connect(dialog, "response", G_CALLBACK(go_rung), number);
-	gtk_window_present(GTK_WINDOW(dialog));
-	gtk_widget_grab_focus(number);
-}
-
 /* ---- viewing ---- */
 
 static void zoom(LadderWindow *window, double factor)
@@ -363,7 +266,7 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 		if (!sheet && tabs_seen_chart(window))
 			ladder_sfc_view_do(tabs_seen_chart(window), verb); /* a step */
 		else
-			ask_rung(window);
+			window_ask_number(window);
 		break;
 	case VERB_next_bookmark: do_next_bookmark(window); break;
 	case VERB_next_problem: do_next_problem(window); break;

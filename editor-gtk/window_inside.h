@@ -103,6 +103,16 @@ void place_follow(LadderWindow *window, AdwTabPage *page);
 /** tabs_list - the text of a program in front; NULL: there is none. */
 LadderTextView *tabs_list(LadderWindow *window);
 
+/** tabs_text - what the text in front holds, of a program, of the file, of one beside the
+ * project; NULL: there is none. Borrowed. */
+GtkTextBuffer *tabs_text(LadderWindow *window);
+/** tabs_reveal_cursor - that of the text in front is seen, and the text has the keys. */
+void tabs_reveal_cursor(LadderWindow *window);
+
+/* ---- window_number.c ---- */
+/** window_ask_number - of a rung or a line of what is in front, and goes there. */
+void window_ask_number(LadderWindow *window);
+
 /* ---- window_tabs.c ---- */
 void tabs_init(LadderWindow *window);
 /** tabs_update - those there should be: POUs may have come and gone. */

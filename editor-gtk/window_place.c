@@ -28,6 +28,34 @@ static GtkTextBuffer *buffer_of(AdwTabPage *page)
 		GTK_TEXT_BUFFER(ladder_file_view_buffer(LADDER_FILE_VIEW(content))) : NULL;
 }
 
+GtkTextBuffer *tabs_text(LadderWindow *window)
+{
+	return buffer_of(adw_tab_view_get_selected_page(window->tabs));
+}
+
+/* NULL: there is none in it. */
+static GtkTextView *view_in(GtkWidget *within)
+{
+	GtkTextView *found = GTK_IS_TEXT_VIEW(within) ? GTK_TEXT_VIEW(within) : NULL;
+
+	for (GtkWidget *child = gtk_widget_get_first_child(within); child && !found;
+	     child = gtk_widget_get_next_sibling(child))
+		found = view_in(child);
+	return found;
+}
+
+void tabs_reveal_cursor(LadderWindow *window)
+{
+	AdwTabPage *page = adw_tab_view_get_selected_page(window->tabs);
+	GtkTextView *view = page ? view_in(tabs_content(page)) : NULL;
+
+	if (!view)
+		return;
+	gtk_text_view_scroll_to_mark(view, gtk_text_buffer_get_insert(
+		gtk_text_view_get_buffer(view)), 0.1, FALSE, 0, 0);
+	gtk_widget_grab_focus(GTK_WIDGET(view));
+}
+
 static char *place_in(GtkTextBuffer *text)
 {
 	GtkTextIter at;
@@ -53,7 +81,7 @@ static char *keys_in_list(void)
 /* Of what is no sheet and no chart. */
 static void show_text(LadderWindow *window)
 {
-	GtkTextBuffer *buffer = buffer_of(adw_tab_view_get_selected_page(window->tabs));
+	GtkTextBuffer *buffer = tabs_text(window);
 	char *place = buffer ? place_in(buffer) : g_strdup("");
 
 	window_show_keys(window, tabs_list(window) ? keys_in_list() : g_strdup(""));

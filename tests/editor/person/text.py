@@ -167,6 +167,15 @@ def names(screen):
     text = editor.save(path)
     assert text == NAMES.replace('Motor AT', 'Pump  AT').replace('Motor', 'Pump'), text
     check(path)
+    # To a line; not beyond the last one.
+    editor.keys('ctrl+g')
+    editor.says('Go to line')
+    editor.type('99')
+    until(lambda: not editor.find('Go', 'push button').has(8), 'no way to go there')  # enabled
+    editor.keys('ctrl+a')
+    editor.type('1')
+    editor.keys('Return')
+    editor.says('Line 1 \u00b7 column 1')
     # An address, and nothing.
     editor.keys('ctrl+Page_Down')
     second = until(lambda: [node for node in editor.all('Text of the program') if 'QX0.1' in node.text()], 'the second list')[0]
