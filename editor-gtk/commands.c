@@ -15,6 +15,7 @@
 struct commands {
 	LadderWindow *window;
 	GtkWidget *dialog, *search, *list, *none;
+	char *filled;   /* for which text the list is what it is               */
 };
 
 static bool fits(enum verb verb, const char *want)
@@ -68,6 +69,22 @@ static void fill(struct commands *commands)
 	row = gtk_list_box_get_row_at_index(GTK_LIST_BOX(commands->list), 0);
 	gtk_widget_set_visible(commands->none, !row); /* a reader sees hidden ones, too */
 	gtk_list_box_select_row(GTK_LIST_BOX(commands->list), row);
+	g_free(commands->filled);
+	commands->filled = g_strdup(want);
+}
+
+/* The line tells what was typed a moment later: Enter may be quicker. */
+static void fill_if_due(struct commands *commands)
+{
+	if (g_strcmp0(commands->filled, gtk_editable_get_text(
+			      GTK_EDITABLE(commands->search))) != 0)
+		fill(commands);
+}
+
+static void commands_free(gpointer pointer)
+{
+	g_free(((struct commands *)pointer)->filled);
+	g_free(pointer);
 }
 
 static void do_row(struct commands *commands, GtkListBoxRow *row)
@@ -92,6 +109,7 @@ static GtkWidget *nothing_new(void)
 
 static void do_selected(struct commands *commands)
 {
+	fill_if_due(commands);
 	do_row(commands, gtk_list_box_get_selected_row(GTK_LIST_BOX(commands->list)));
 }
 
@@ -111,7 +129,7 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 			    GdkModifierType state, struct commands *commands)
 {
 	GtkListBox *list = GTK_LIST_BOX(commands->list);
-	GtkListBoxRow *row = gtk_list_box_get_selected_row(list);
+	GtkListBoxRow *row;
 	const int by = key == GDK_KEY_Down ? 1 : key == GDK_KEY_Up ? -1 : 0;
 
 	(void)controller;
@@ -123,6 +141,8 @@ static gboolean key_pressed(GtkEventControllerKey *controller, guint key, guint 
 	}
 	if (by == 0)
 		return FALSE;
+	fill_if_due(commands);
+	row = gtk_list_box_get_selected_row(list);
 	row = gtk_list_box_get_row_at_index(list, (row ?
 		gtk_list_box_row_get_index(row) : -1) + by);
 	if (row) {
@@ -160,13 +180,13 @@ void commands_show(LadderWindow *window)
 	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
 	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), commands);
 	gtk_widget_add_controller(commands->dialog, keys);
-	g_signal_connect_swapped(commands->search, "search-changed", G_CALLBACK(fill),
+	g_signal_connect_swapped(commands->search, "search-changed", G_CALLBACK(fill_if_due),
 				 commands);
 	g_signal_connect_swapped(commands->search, "activate", G_CALLBACK(do_selected),
 				 commands);
 	g_signal_connect_swapped(commands->list, "row-activated", G_CALLBACK(do_row),
 				 commands);
-	g_object_set_data_full(G_OBJECT(commands->dialog), "commands", commands, g_free);
+	g_object_set_data_full(G_OBJECT(commands->dialog), "commands", commands, commands_free);
 	fill(commands);
 	gtk_window_present(GTK_WINDOW(commands->dialog));
 	gtk_widget_grab_focus(commands->search);

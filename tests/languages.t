@@ -42,6 +42,17 @@ whole() {
 		test -z "$(msgattrib --only-fuzzy "editor-gtk/po/$1.po")"
 }
 
+# once LANGUAGE - no text has many more lines than its original: it would stand there twice
+once() {
+	msgcat --no-wrap "editor-gtk/po/$1.po" | perl -00 -ne '
+		next unless /^msgid ((?:".*"\n)+)msgstr ((?:".*"\n?)+)/m;
+		my ($of, $said) = ($1, $2);
+		next if $of eq "\"\"\n";
+		my ($most, $lines) = map { scalar(() = /\\n/g) } $of, $said;
+		if ($lines > $most + 2) { print "$lines lines, not $most: $of"; $bad = 1 }
+		END { exit($bad ? 1 : 0) }'
+}
+
 # noticed LANGUAGE - test the test: one text less is noticed
 noticed() {
 	sed '0,/^msgstr "[^"]/s/^msgstr "[^"].*/msgstr ""/' "editor-gtk/po/$1.po" >"$work/less.po"
@@ -57,6 +68,7 @@ told "it has the texts of all sources" sh -c "
 	done"
 for language in $(cat editor-gtk/po/LINGUAS); do
 	told "$language: every text is translated" whole "$language"
+	told "$language: no text stands there twice" once "$language"
 	told "$language: formats, plurals, access keys agree" msgfmt -c \
 		--check-accelerators=_ -o /dev/null "editor-gtk/po/$language.po"
 	told "$language: is of these sources" current "$language"
