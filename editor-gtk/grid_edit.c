@@ -102,15 +102,11 @@ static int behind_last(const struct canvas *c, int row)
 	return col;
 }
 
-/* A box in the last column goes behind the row's last element. */
-static bool place_box_last(struct canvas *c, int row, struct cell cell,
-			   enum grid_how how)
+/* In the last column it goes behind the row's last element; an output there stays. */
+static bool place_last(struct canvas *c, int row, struct cell cell)
 {
-	int col;
+	int col = behind_last(c, row);
 
-	if (how == GRID_REPLACE && canvas_is_output(c, row, canvas_last(c)))
-		canvas_clear(c, row, canvas_last(c));
-	col = behind_last(c, row);
 	if (col == canvas_last(c) && !canvas_insert_column(c, col))
 		return false;
 	if (canvas_is_output(c, row, canvas_last(c)))
@@ -206,9 +202,12 @@ bool canvas_place(struct canvas *c, int row, int col, struct cell cell,
 		return place_output(c, row, col, cell, how);
 	case PLACE_BOX:
 		if (col >= canvas_last(c))
-			return place_box_last(c, row, cell, how);
+			return place_last(c, row, cell);
 		return place_series(c, row, col, cell, how);
 	case PLACE_SERIES:
+		if (col >= canvas_last(c) && how == GRID_INSERT &&
+		    canvas_is_output(c, row, canvas_last(c)))
+			return place_last(c, row, cell);
 		if (col >= canvas_last(c))
 			return canvas_fail(c, GRID_LAST_COLUMN);
 		return place_series(c, row, col, cell, how);

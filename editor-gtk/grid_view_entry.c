@@ -46,7 +46,7 @@ static struct entry_place place_of(const struct sheet_asked *asked)
 	return (struct entry_place){
 		.project = ladder_document_project(view->document),
 		.pou = view->pou,
-		.output = asked->cursor.col == view->columns - 1,
+		.output = asked->cursor.col == view->columns - 1 && !asked->before,
 		.xref = uses_of(view),
 	};
 }
@@ -324,11 +324,15 @@ void entry_begin_word(LadderGridView *view, enum word word, bool parallel)
 	rung = sheet_rung(view, view->cursor.rung); /* the preview is gone */
 	asked->word = word;
 	asked->parallel = parallel;
+	/* An output at the cursor is not lost for something else. */
+	asked->before = view->cursor.col >= view->columns - 1 &&
+			word_row(word)->place != PLACE_LAST;
 	asked->at = sheet_at(view);
 	chosen = cursor_area(view, &area);
 	begin_word(asked, parallel ?
 		   grid_parallel(rung, &asked->at, chosen ? &area : NULL, cell) :
-		   grid_place(rung, &asked->at, cell, GRID_REPLACE));
+		   grid_place(rung, &asked->at, cell, asked->before ? GRID_INSERT :
+			      GRID_REPLACE));
 }
 
 void entry_begin_drop(LadderGridView *view, enum word word, int row, int col)

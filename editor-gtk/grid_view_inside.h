@@ -244,6 +244,7 @@ struct sheet_asked {
 	enum word word;       /* fixed; ELEM_EMPTY: the line begins with it     */
 	bool edit;            /* of what stands there; its comment is kept      */
 	bool parallel;
+	bool before;          /* it comes before the output at the cursor       */
 	enum verb verb;       /* of a text: title, label, comment, pin          */
 	struct grid_at at;    /* of the element in the preview                 */
 	struct grid_cursor cursor; /* when it began                            */

@@ -68,6 +68,34 @@ def coil(screen):
     assert lines(path, '@print Motor\n%IX0.2=1\n') == ['Motor=1'], text
 
 
+def on_a_coil(screen):
+    """what is no output comes before the coil that the cursor is on, which stays: boxes that are typed or clicked, F5, F6"""
+    path = new_file(screen)
+    editor = Editor(screen, path)
+    editor.entry('Start')
+    editor.entry('OUT Lamp')
+    editor.entry('TON T1 5s')
+    assert '| NO Start | TON T1 PT:=T#5s | COIL Lamp |' in editor.save(path), open(path).read()
+    editor.keys('End', 'F6')
+    editor.opened()
+    editor.entry('Sens')
+    assert '| NO Start | TON T1 PT:=T#5s | NC Sens | COIL Lamp |' in editor.save(path), open(path).read()
+    editor.keys('End')
+    editor.click(editor.tile('TP'))
+    editor.opened()
+    editor.keys('Return')
+    editor.gone()
+    editor.shot('cells-on-a-coil')
+    text = editor.save(path)
+    assert '| NC Sens | TP ' in text and '| COIL Lamp |' in text, text
+    # In an empty last column, too, a contact is refused, and said.
+    editor.keys('Insert', 'End', 'F5')
+    editor.says('only an output can stand in the last column')
+    editor.keys('ctrl+z', 'ctrl+z', 'ctrl+z', 'ctrl+z')
+    assert '| NO Start | COIL Lamp |' in editor.save(path)
+    check(path)
+
+
 def branch(screen):
     """contacts and a branch are cut and pasted into another rung; one undo each, by name"""
     path = new_file(screen, PROJECT)
@@ -121,4 +149,4 @@ def dragged(screen):
     assert 'NO Motor' in editor.save(path)
 
 
-main([coil, branch, dragged])
+main([coil, on_a_coil, branch, dragged])
