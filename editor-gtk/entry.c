@@ -296,6 +296,17 @@ static size_t head_len(const char *text, size_t len)
 	return head;
 }
 
+/* `Stop` is a push button before it is what ends the program for good: a word alone that
+ * has no operand is meant if it is written as it is listed, STOP. */
+static bool is_name_rather(const struct entry_place *place, enum word word, const char *text,
+			   size_t len)
+{
+	const struct word_row *row = words_row(&place->project->words, word);
+
+	return row->place == PLACE_LAST && row->operand == OPND_NONE &&
+	       ascii_is(row->word, text, len) && strncmp(row->word, text, len) != 0;
+}
+
 static bool read_line(const struct entry_place *place, const char *text, size_t len,
 		      struct entry *out)
 {
@@ -319,6 +330,11 @@ static bool read_line(const struct entry_place *place, const char *text, size_t 
 	if (rest_len == 0 && is_there(place, text, len))
 		return take_symbol(place, text, len, out);
 	word = entry_word_find(place, text, head, &out->below);
+	if (word != WORD_COUNT && rest_len == 0 && is_name_rather(place, word, text, len)) {
+		if (take_symbol(place, text, len, out))
+			return true;
+		*out = (struct entry){ .below = out->below }; /* it can be no name */
+	}
 	/* AND IN1:=A is the function, AND A the contact. */
 	if (out->below || word < ELEM_PIN) {
 		struct lex lex;

@@ -60,6 +60,8 @@ static const struct { const char *line, *means; } lines[] = {
 	{ "SET Motor", "S Motor" }, { "S Motor", "S Motor" }, { "RST Motor", "R Motor" },
 	{ "OTU Motor", "R Motor" }, { "R Motor", "R Motor" }, { "PLS Motor", "COILP Motor" },
 	{ "INV", "NOT" }, { "NOT", "NOT" }, { "RET", "RET" }, { "TND", "END" },
+	{ "END", "END" }, { "End", "NO End + End BOOL %IX0.2" },
+	{ "ret", "RET" },
 	{ "JMP Top", "JMP Top" }, { "CALL Alarm", "CALL Alarm" }, { "JSR Alarm", "CALL Alarm" },
 	/* names alone */
 	{ "Start", "NO Start" }, { "start", "NO Start" }, { "/Stop", "NC Stop" },

@@ -50,7 +50,10 @@ def by_signs(screen):
     path = new_file(screen)
     editor = Editor(screen, path)
     editor.entry('Start')
-    editor.entry('/Stop')
+    editor.entry('Stop')  # a name, not the word STOP
+    editor.keys('Left', 'slash')
+    editor.element('NC', 'Stop')
+    editor.keys('Right')
     editor.entry('= Motor')
     editor.keys('Home', 'shift+F5')
     editor.opened()
