@@ -20,29 +20,6 @@
 
 /* ---- editing ---- */
 
-static void do_undo(LadderWindow *window)
-{
-	char *name;
-
-	tabs_each_file(window, ladder_file_view_commit);
-	name = g_strdup(ladder_document_undo_name(window->document));
-	if (ladder_document_undo(window->document)) {
-		char *text = g_strdup_printf(_("Undone: %s"), name);
-
-		ladder_window_tell(window, text);
-		g_free(text);
-	}
-	g_free(name);
-	tabs_enter_program(window);
-}
-
-static void do_redo(LadderWindow *window)
-{
-	tabs_each_file(window, ladder_file_view_commit);
-	ladder_document_redo(window->document);
-	tabs_enter_program(window);
-}
-
 /* Of the tree, if one is there; else of the name at the cursor. */
 static void do_rename(LadderWindow *window)
 {
@@ -248,8 +225,8 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 	case VERB_preferences: preferences_show(window); break;
 	case VERB_close_tab: tabs_close(window); break;
 	case VERB_close: gtk_window_close(GTK_WINDOW(window)); break;
-	case VERB_undo: do_undo(window); break;
-	case VERB_redo: do_redo(window); break;
+	case VERB_undo: window_step(window, false); break;
+	case VERB_redo: window_step(window, true); break;
 	case VERB_find: case VERB_replace: case VERB_find_next:
 	case VERB_find_previous:
 		window_find(window, verb);

@@ -109,6 +109,10 @@ GtkTextBuffer *tabs_text(LadderWindow *window);
 /** tabs_reveal_cursor - that of the text in front is seen, and the text has the keys. */
 void tabs_reveal_cursor(LadderWindow *window);
 
+/* ---- window_step.c ---- */
+/** window_step - of the history: undoes one, or does it again, and shows what it changed. */
+void window_step(LadderWindow *window, bool redo);
+
 /* ---- window_number.c ---- */
 /** window_ask_number - of a rung or a line of what is in front, and goes there. */
 void window_ask_number(LadderWindow *window);

@@ -98,6 +98,38 @@ def nothing_added(screen):
     assert open(path).read() == TEXT.replace('PROGRAM Other LD', 'PROGRAM Other XX')
 
 
+def steps(screen):
+    """undo and redo show what they change: the program comes to the front, the cursor goes there, and the step is told"""
+    many = ''.join('RUNG\n  | NO %%IX1.%d | COIL %%MX1.%d |\n' % (bit, bit) for bit in range(8)) * 3
+    path = new_file(screen, TEXT.replace('END_PROGRAM\n\nPROGRAM Other', many + 'END_PROGRAM\n\nPROGRAM Other'))
+    before = open(path).read()
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('ctrl+Home', 'slash')
+    editor.element('Rung 1, NC', '%IX0.0')
+    editor.keys('ctrl+End')
+    editor.says('Rung 26')
+    editor.keys('ctrl+z')
+    editor.says('Undone: Negate')
+    editor.says('Rung 1 ')
+    editor.element('Rung 1, NO', '%IX0.0')
+    editor.keys('ctrl+End', 'ctrl+y')
+    editor.says('Done again: Negate')
+    editor.element('Rung 1, NC', '%IX0.0')
+    editor.keys('ctrl+Page_Down')
+    editor.element('Rung 1, NO', '%IX0.2')
+    editor.keys('slash')
+    editor.element('Rung 1, NC', '%IX0.2')
+    editor.keys('ctrl+Page_Up')
+    editor.element('Rung 1, NC', '%IX0.0')
+    editor.keys('ctrl+z')
+    editor.element('Rung 1, NO', '%IX0.2')
+    editor.shot('steps')
+    editor.keys('ctrl+z')
+    editor.element('Rung 1, NO', '%IX0.0')
+    assert not editor.all('\u2022 new.rung', 'label') and open(path).read() == before
+
+
 def rows(screen):
     """a program shows its variables, F2 renames it, Delete deletes it, Ctrl+Z brings it back"""
     path = new_file(screen, TEXT)
@@ -292,4 +324,4 @@ def beside(screen):
     assert open(path).read() == TEXT
 
 
-main([bookmarks, by_name, nothing_added, rows, of_others, in_front, keys, menus, stop, beside])
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, in_front, keys, menus, stop, beside])
