@@ -149,4 +149,19 @@ def inputs(screen):
     check(path)
 
 
-main([instance, values, twice_there, inputs])
+def below(screen):
+    """Return in a row of pins, where the cursor is on the box, changes that"""
+    path = new_file(screen, COUNTER.replace(' |\nEND_PROGRAM', ' |\n  | NO Back | .CD |\nEND_PROGRAM'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('Home', 'Down', 'Right')
+    editor.says('Rung 1 · row 2 · column B')
+    editor.keys('Return', 'ctrl+a')
+    editor.opened()
+    editor.entry('Parts PV:=9 R:=Zero')
+    text = editor.save(path)
+    assert '| CTUD Parts PV:=9 R:=Zero |' in text and re.search(r'NO Back +\| \.CD', text), text
+    check(path)
+
+
+main([instance, values, twice_there, inputs, below])
