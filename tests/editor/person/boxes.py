@@ -142,6 +142,12 @@ def inputs(screen):
     editor.keys('Home', 'Right')
     feed(editor, 'CD', 'Back')
     editor.says('Rung 1 · row 2 · column B')
+    editor.keys('ctrl+i')
+    editor.opened()
+    editor.candidate('R, input')
+    assert not editor.all('CD, input', 'list item'), 'CD is fed'
+    editor.keys('Escape')
+    editor.gone()
     feed(editor, 'R', 'Zero')
     editor.shot('boxes-inputs')
     text = editor.save(path)
