@@ -91,7 +91,8 @@ static bool is_operator(const struct lex *lex)
 }
 
 /* Does an operator stand behind the first operand of the line, as in X := Y + 1? A word
- * with parameters has := further on; behind a type it would be an initial value. */
+ * with parameters has := further on. Behind a type, too, := is one: a line of quick entry
+ * gives no initial values. */
 static bool is_expression(const char *text, size_t len)
 {
 	struct lex lex;
@@ -102,8 +103,7 @@ static bool is_expression(const char *text, size_t len)
 	lex_init(&lex, text + said, len - said);
 	lex_next(&lex);
 	if (said > 0)
-		return lex.token.kind != TOKEN_END && is_operator(&lex) &&
-		       !(lex_is(&lex, ":=") && memchr(text, ':', said));
+		return lex.token.kind != TOKEN_END && is_operator(&lex);
 	if (lex_is(&lex, "(") || lex_is(&lex, "NOT"))
 		return lex_is(&lex, "(");
 	do {

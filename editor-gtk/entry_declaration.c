@@ -88,13 +88,19 @@ static struct piece cut(struct piece *rest, size_t len)
 	return head;
 }
 
+static bool is_assign(const char *text, size_t len)
+{
+	return len > 1 && text[0] == ':' && text[1] == '=';
+}
+
 /* Up to what cannot be a part of one: in an expression signs go on. */
 static size_t address_len(const struct piece *rest)
 {
 	size_t len = 0;
 
 	while (len < rest->len && !strchr(" \t\r\n,;()<>=+-*&", rest->text[len]) &&
-	       !is_colon(rest->text + len, rest->len - len))
+	       !is_colon(rest->text + len, rest->len - len) &&
+	       !is_assign(rest->text + len, rest->len - len))
 		len++;
 	return len;
 }

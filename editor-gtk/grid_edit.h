@@ -161,7 +161,8 @@ struct rung *grid_close_gaps(const struct rung *rung, struct grid_at *at);
 /* ---- pins of boxes ---- */
 
 /**
- * grid_add_pin - a row for a further Boolean input below the box at the cursor
+ * grid_add_pin - a row for a further Boolean input below the box at the cursor, which may
+ * be at another row of its pins
  * @pin:  string id of its name
  * @feed: what feeds it, to its left; NULL: nothing yet
  *

@@ -96,12 +96,22 @@ static void add_row(struct canvas *c, struct grid_at *at, uint32_t pin,
 	canvas_mark(c, row, col - 1);
 }
 
+/* A row of pins is a part of the box above it. */
+static void climb_to_box(const struct rung *rung, struct grid_at *at)
+{
+	if (at->col < 0 || at->col >= rung->cols || at->row >= rung->rows)
+		return;
+	while (at->row > 0 && rung_at(rung, at->row, at->col)->word == ELEM_PIN)
+		at->row--;
+}
+
 struct rung *grid_add_pin(const struct rung *rung, struct grid_at *at,
 			  const struct project *project, uint32_t pin,
 			  const struct cell *feed)
 {
 	struct canvas c;
 
+	climb_to_box(rung, at);
 	if (canvas_at_element(&c, rung, at) &&
 	    may_add(&c, project, at->row, at->col, pin))
 		add_row(&c, at, pin, feed);

@@ -120,6 +120,7 @@ static struct rung *put_element(const struct sheet_asked *asked, struct cell cel
 	const struct rung *rung = sheet_pou(view)->rung[view->first + asked->cursor.rung];
 	const struct cell *old;
 	struct rung *edited = NULL;
+	int row;
 
 	*at = asked->at;
 	if (view->preview) {
@@ -129,8 +130,9 @@ static struct rung *put_element(const struct sheet_asked *asked, struct cell cel
 	}
 	*at = (struct grid_at){ .columns = view->columns, .row = asked->cursor.row,
 				.col = asked->cursor.col };
-	old = asked->edit ? cursor_cell(view, NULL, NULL) : NULL;
+	old = asked->edit ? cursor_cell(view, &row, NULL) : NULL;
 	if (old) {
+		at->row = row; /* of a box the first, also from one of its pins */
 		cell.comment = old->comment;
 		edited = grid_set(rung, at, cell);
 	}

@@ -135,6 +135,19 @@ static bool text_taken(void *context, const char *line)
 	return sheet_put(view, copy, &at, _(verb_row(asked->verb)->label));
 }
 
+/* May the input have a row of its own? It has none, and is no parameter. */
+static bool can_add(LadderGridView *view, const char *name)
+{
+	struct project *project = ladder_document_project(view->document);
+	struct grid_at at = sheet_at(view);
+	const uint32_t pin = names_intern(&project->names, name, strlen(name));
+	struct rung *made = grid_add_pin(sheet_rung(view, view->cursor.rung), &at, project,
+					 pin, NULL);
+
+	rung_free(made);
+	return at.refusal != GRID_PIN_TAKEN;
+}
+
 /* Boolean inputs of the box that nothing feeds yet. */
 static char *pin_changed(void *context, const char *line, int cursor, bool *good)
 {
@@ -155,7 +168,8 @@ static char *pin_changed(void *context, const char *line, int cursor, bool *good
 
 		if (pin->dir == PIN_IN && pin->type == IEC_BOOL &&
 		    i != word_first_bool(row, PIN_IN) &&
-		    g_ascii_strncasecmp(pin->name, line, strlen(line)) == 0)
+		    g_ascii_strncasecmp(pin->name, line, strlen(line)) == 0 &&
+		    can_add(asked->view, pin->name))
 			ladder_entry_popup_add(LADDER_ENTRY_POPUP(asked->view->entry),
 					       &one);
 	}

@@ -37,6 +37,13 @@ static int pou_of(const struct project *project, const char *name)
 	return -1;
 }
 
+/* A row of the symbol table. */
+static char *declaration_text(const struct diag *diag)
+{
+	return diag->pou ? g_strdup_printf(_("%s, symbols"), diag->pou) :
+			   g_strdup(_("Symbols"));
+}
+
 /* @list: the name of a POU, of whose text @row is a line, 0-based; -1: of none. @col: that
  * is seen, 0-based. */
 static char *place_text(const struct diag *diag, const char *list, int row, int col)
@@ -66,6 +73,11 @@ static int list_row(const struct project *project, int pou, int line)
 	if (!is_list(project, pou) || !line)
 		return -1;
 	return MAX(line - project->pou[pou].line, 0);
+}
+
+static bool is_of_pou(const struct diag *diag)
+{
+	return diag->id == DIAG_NEVER_CALLED || diag->id == DIAG_NOT_RUN;
 }
 
 /* A declaration that the message speaks of. */
@@ -106,7 +118,7 @@ static void set_place(LadderDocument *document, const struct diag *diag,
 							 diag->line);
 	if (row->row < 0 && !diag->rung && diag->line && is_list(project, row->pou))
 		row->row = 0; /* its text has no such POU */
-	if (row->row < 0 && !diag->rung)
+	if (row->row < 0 && !diag->rung && !is_of_pou(diag))
 		find_declaration(project, diag, row);
 }
 
@@ -131,8 +143,9 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag,
 	/* Either may be -1. */
 	row->number = ((gint64)row->pou * (1 << 20) + row->rung) * (1 << 20) + diag->line;
 	row->text[COLUMN_TEXT] = diag_said_whole(diag);
-	row->text[COLUMN_PLACE] = place_text(diag, pou_name(document, row->pou),
-					     diag->rung ? -1 : row->row, MAX(seen, 0));
+	row->text[COLUMN_PLACE] = row->table >= 0 ? declaration_text(diag) :
+		place_text(diag, pou_name(document, row->pou), diag->rung ? -1 : row->row,
+			   MAX(seen, 0));
 	row->text[COLUMN_CODE] = g_strdup(diag_code(diag->id));
 	row->text[COLUMN_SEVERITY] = g_strdup(error ? _("Error") : _("Warning"));
 	row->note = g_strdup(row->text[COLUMN_SEVERITY]);

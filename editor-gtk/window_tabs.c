@@ -422,6 +422,17 @@ static void go_in_chart(LadderChartPage *page, int rung, int row, int col)
 		ladder_sfc_view_go_row(ladder_chart_page_chart(page), row);
 }
 
+/* A declaration, with the keys there. */
+static void go_in_symbols(LadderWindow *window, int table, int index)
+{
+	GtkWidget *place = tabs_show_widget(window, "symbols");
+	LadderSymbolsView *symbols =
+		LADDER_SYMBOLS_VIEW(symbols_in(ADW_BIN(place), window));
+
+	if (ladder_symbols_view_show(symbols, table, index))
+		ladder_symbols_view_enter(symbols);
+}
+
 void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 {
 	LadderGridView *sheet;
@@ -434,10 +445,7 @@ void tabs_go(LadderWindow *window, int pou, int rung, int row, int col)
 		return;
 	}
 	if (pou < 0) {
-		GtkWidget *place = tabs_show_widget(window, "symbols");
-
-		ladder_symbols_view_show(LADDER_SYMBOLS_VIEW(
-			symbols_in(ADW_BIN(place), window)), row, col);
+		go_in_symbols(window, row, col);
 		return;
 	}
 	tabs_show(window, pou);

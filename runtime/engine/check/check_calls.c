@@ -129,7 +129,7 @@ static void warn_of_uncalled(struct calls *c, int count)
 	for (int i = 0; i < count; i++) {
 		const struct pou *pou = c->list[i].pou;
 		struct diag place = { .id = DIAG_NEVER_CALLED, .file = pou->file,
-				      .line = pou->line };
+				      .line = pou->line, .pou = name_of(c, i) };
 
 		if (pou->kind == POU_SUBROUTINE && !c->called[i])
 			diag_add(c->diags, place, "%s", name_of(c, i));

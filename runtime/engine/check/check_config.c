@@ -129,7 +129,8 @@ static void check_left_out(struct config_check *c)
 	for (int i = 0; any && i < c->project->pou_count; i++) {
 		const struct pou *pou = &c->project->pou[i];
 		struct diag place = { .id = DIAG_NOT_RUN, .file = pou->file,
-				      .line = pou->line };
+				      .line = pou->line,
+				      .pou = scope_text(c->scope, pou->name) };
 		bool runs = pou->kind != POU_PROGRAM; /* where it is called */
 
 		for (int k = 0; k < c->config->count && !runs; k++)

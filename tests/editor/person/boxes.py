@@ -111,4 +111,63 @@ def twice_there(screen):
     assert editor.save(path) == kept
 
 
-main([instance, values, twice_there])
+COUNTER = '''RUNGBOARD 1
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Back  AT %IX0.1 : BOOL;
+  Zero  AT %IX0.2 : BOOL;
+  Parts : CTUD;
+END_VAR
+
+PROGRAM Main LD
+RUNG
+  | NO Start | CTUD Parts PV:=7 | COIL %QX0.1 |
+END_PROGRAM
+'''
+
+
+def feed(editor, pin, contact):
+    editor.keys('ctrl+i')
+    editor.opened()
+    editor.entry(pin)
+    editor.entry(contact)
+
+
+def inputs(screen):
+    """one input of a box is fed, and then, where the cursor went, another: it is that box's"""
+    path = new_file(screen, COUNTER)
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('Home', 'Right')
+    feed(editor, 'CD', 'Back')
+    editor.says('Rung 1 · row 2 · column B')
+    editor.keys('ctrl+i')
+    editor.opened()
+    editor.candidate('R, input')
+    assert not editor.all('CD, input', 'list item'), 'CD is fed'
+    editor.keys('Escape')
+    editor.gone()
+    feed(editor, 'R', 'Zero')
+    editor.shot('boxes-inputs')
+    text = editor.save(path)
+    assert '  | NO Back  | .CD' in text and '  | NO Zero  | .R ' in text, text
+    check(path)
+
+
+def below(screen):
+    """Return in a row of pins, where the cursor is on the box, changes that"""
+    path = new_file(screen, COUNTER.replace(' |\nEND_PROGRAM', ' |\n  | NO Back | .CD |\nEND_PROGRAM'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('Home', 'Down', 'Right')
+    editor.says('Rung 1 · row 2 · column B')
+    editor.keys('Return', 'ctrl+a')
+    editor.opened()
+    editor.entry('Parts PV:=9 R:=Zero')
+    text = editor.save(path)
+    assert '| CTUD Parts PV:=9 R:=Zero |' in text and re.search(r'NO Back +\| \.CD', text), text
+    check(path)
+
+
+main([instance, values, twice_there, inputs, below])

@@ -99,6 +99,63 @@ def next_problem(screen):
     editor.shot('problems-next')
 
 
+UNUSED = '''RUNGBOARD 1
+
+CONFIGURATION Plant
+  PROGRAM A : Main;
+END_CONFIGURATION
+
+VAR
+  Start AT %IX0.0 : BOOL;
+  Tab   : INT;
+  Motor AT %QX0.0 : BOOL;
+END_VAR
+
+PROGRAM Main LD
+VAR
+  Own : INT;
+END_VAR
+RUNG
+  | NO Start | COIL Motor |
+END_PROGRAM
+
+SUBROUTINE Sub LD
+RUNG
+  | NO Start | COIL %QX0.1 |
+END_SUBROUTINE
+
+PROGRAM Spare LD
+RUNG
+  | NO Start | COIL %QX0.2 |
+END_PROGRAM
+'''
+
+
+def next_place(screen):
+    """a problem of a subroutine or a program opens it, one of a symbol its row of the table: Ctrl+., a double click"""
+    editor = Editor(screen, new_file(screen, UNUSED))
+    editor.to_sheet()
+    rows = ['is declared but not used: Tab. Symbols', 'is declared but not used: Own. Main, symbols',
+            'subroutine is never called: Sub. Sub', 'it does not run: Spare. Spare']
+    for row in rows:
+        editor.find(row, 'table row')
+
+    def there(row):
+        if 'Tab' not in row and 'Own' not in row:
+            editor.focus_on('Sheet')
+            editor.element('%QX0.1' if 'Sub' in row else '%QX0.2')
+        else:
+            editor.focus_on('Tab, Name' if 'Tab' in row else 'Own, Name', 'text')
+    for row in rows:
+        editor.click(editor.find(row, 'table row'), count=2)
+        there(row)
+    for row in rows + rows:
+        editor.keys('ctrl+period')
+        editor.says(row)
+        there(row)
+    editor.shot('problems-next-place')
+
+
 def in_parallel(screen):
     """OR X goes below what the cursor is on; the status bar says what comes next"""
     path = new_file(screen)
@@ -295,4 +352,4 @@ def to_rung(screen):
     editor.to_sheet()
 
 
-main([next_problem, a_list, wrong_lines, in_parallel, pointed_at, other_keys, window_keys, again, comments, as_it_is, to_rung])
+main([next_problem, next_place, a_list, wrong_lines, in_parallel, pointed_at, other_keys, window_keys, again, comments, as_it_is, to_rung])
