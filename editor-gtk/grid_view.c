@@ -124,6 +124,7 @@ static void ladder_grid_view_size_allocate(GtkWidget *widget, int width, int hei
 	strips_lay_out(view, height);
 	configure(view->adjustment[0], strips_width(view) * view->zoom, width);
 	configure(view->adjustment[1], (strips_height(view) + BELOW) * view->zoom, height);
+	cursor_reveal_late(view, height);
 	if (height != view->cells_height)
 		cells_later(view);
 	view->cells_height = height;

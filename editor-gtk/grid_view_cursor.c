@@ -186,12 +186,25 @@ void cursor_reveal(LadderGridView *view)
 	GtkAdjustment *down = view->adjustment[1];
 	const double end = (rect.origin.y + rect.size.height) * zoom;
 
+	/* Of no page at all it would come to stand above the edge. */
+	view->reveal = gtk_adjustment_get_page_size(down) <= 0;
+	if (view->reveal)
+		return;
 	/* Before the next allocation it may still be too small for a new rung. */
 	if (gtk_adjustment_get_upper(down) < end + 60)
 		gtk_adjustment_set_upper(down, end + 60);
 	reveal(view->adjustment[0], rect.origin.x * zoom,
 	       (rect.origin.x + rect.size.width) * zoom, 24);
 	reveal(down, rect.origin.y * zoom, end, 40);
+}
+
+void cursor_reveal_late(LadderGridView *view, double page)
+{
+	if (!view->reveal)
+		return;
+	cursor_reveal(view);
+	strips_lay_out(view, page);
+	cursor_reveal(view); /* rungs before it may have grown                */
 }
 
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit)

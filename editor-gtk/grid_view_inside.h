@@ -100,6 +100,7 @@ struct _LadderGridView {
 
 	struct grid_cursor cursor;
 	struct grid_cursor anchor;  /* other corner of the selection           */
+	bool reveal;                /* it is to be seen, as soon as there is a size */
 	bool selecting;             /* from anchor to cursor; of several rungs all */
 	struct rung *preview;       /* of the cursor's rung, until its entry is done */
 	guint64 came;               /* place in the history when the cursor came */
@@ -198,6 +199,9 @@ void cursor_fit(LadderGridView *view);
 void cursor_remember(LadderGridView *view);
 /** cursor_reveal - scrolls so far that it is seen. */
 void cursor_reveal(LadderGridView *view);
+/** cursor_reveal_late - the same, if it was to be seen before there was a page: now it has
+ * @page px. */
+void cursor_reveal_late(LadderGridView *view, double page);
 /** cursor_rect - its cell in px of the widget. */
 graphene_rect_t cursor_rect(LadderGridView *view);
 /** cursor_area - the selection, or its own cell. False: nothing is selected, or several
