@@ -424,7 +424,7 @@ double ladder_grid_view_zoom(LadderGridView *view)
 }
 
 /* What is in the middle stays there. */
-void ladder_grid_view_set_zoom(LadderGridView *view, double zoom)
+void sheet_zoom(LadderGridView *view, double zoom)
 {
 	GtkAdjustment *down = view->adjustment[1];
 	const double middle = gtk_adjustment_get_page_size(down) / 2;

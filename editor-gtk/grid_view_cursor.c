@@ -183,18 +183,21 @@ void cursor_reveal(LadderGridView *view)
 {
 	const double zoom = view->zoom;
 	graphene_rect_t rect = rect_at_100(view);
-	GtkAdjustment *down = view->adjustment[1];
+	GtkAdjustment *across = view->adjustment[0], *down = view->adjustment[1];
+	const double right = (rect.origin.x + rect.size.width) * zoom;
 	const double end = (rect.origin.y + rect.size.height) * zoom;
 
 	/* Of no page at all it would come to stand above the edge. */
 	view->reveal = gtk_adjustment_get_page_size(down) <= 0;
 	if (view->reveal)
 		return;
-	/* Before the next allocation it may still be too small for a new rung. */
+	/* Before the next allocation they may still be too small for a new rung, or for a
+	 * sheet that grew. */
+	if (gtk_adjustment_get_upper(across) < right + 24)
+		gtk_adjustment_set_upper(across, right + 24);
 	if (gtk_adjustment_get_upper(down) < end + 60)
 		gtk_adjustment_set_upper(down, end + 60);
-	reveal(view->adjustment[0], rect.origin.x * zoom,
-	       (rect.origin.x + rect.size.width) * zoom, 24);
+	reveal(across, rect.origin.x * zoom, right, 24);
 	reveal(down, rect.origin.y * zoom, end, 40);
 }
 
@@ -205,6 +208,26 @@ void cursor_reveal_late(LadderGridView *view, double page)
 	cursor_reveal(view);
 	strips_lay_out(view, page);
 	cursor_reveal(view); /* rungs before it may have grown                */
+}
+
+/* Is something of its cell? */
+static bool is_seen(LadderGridView *view)
+{
+	const graphene_rect_t cell = cursor_rect(view);
+	const graphene_rect_t page = GRAPHENE_RECT_INIT(0, 0,
+		(float)gtk_adjustment_get_page_size(view->adjustment[0]),
+		(float)gtk_adjustment_get_page_size(view->adjustment[1]));
+
+	return graphene_rect_intersection(&cell, &page, NULL);
+}
+
+void ladder_grid_view_set_zoom(LadderGridView *view, double zoom)
+{
+	const bool seen = is_seen(view);
+
+	sheet_zoom(view, zoom);
+	if (seen)
+		cursor_reveal(view);
 }
 
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit)

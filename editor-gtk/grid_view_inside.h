@@ -153,6 +153,8 @@ bool sheet_splice(LadderGridView *view, int at, int removed, struct rung **rungs
 		  int inserted, struct diag_list *why);
 /** sheet_is_fixed - is it a program that nobody can change? That is told. */
 bool sheet_is_fixed(LadderGridView *view);
+/** sheet_zoom - wherever the cursor is then. */
+void sheet_zoom(LadderGridView *view, double zoom);
 /** sheet_tell - why something was not done. */
 void sheet_tell(LadderGridView *view, const char *text);
 void sheet_moved(LadderGridView *view);

@@ -42,4 +42,39 @@ def again(screen):
     until(lambda: above(editor, 'Rung 1, NO', '%IX0.0') == first, 'rung 1 where it was')
 
 
-main([again])
+def beside(editor, *parts):
+    """Is an element between the left and the right edge of the sheet?"""
+    left, _, wide, _ = editor.place(editor.sheet())
+    found = [node for node in editor.elements() if all(part in node.name for part in parts)]
+    x, _, width, _ = editor.place(found[0]) if found else (0, 0, 0, 0)
+    return bool(found) and left <= x and x + width <= left + wide
+
+
+def zoomed(screen):
+    """by keys a sheet becomes larger and smaller round its cursor, which stays in sight; what was out of sight stays that"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    for place, name in (('ctrl+Home',), ('Rung 1, NO', '%IX0.0')), (('End',), ('Rung 1, COIL', '%QX0.0')), \
+            (('ctrl+End', 'End'), ('Rung 4, COIL', '%QX0.3')):
+        editor.keys(*place, *['ctrl+plus'] * 7)
+        editor.says('300 %')
+        until(lambda: above(editor, *name) is not None and beside(editor, *name), '%s to be seen' % name[1])
+        editor.shot('scroll-zoomed-' + place[-1].replace('+', '-'))
+        editor.keys(*['ctrl+minus'] * 10)
+        editor.says('50 %')
+        until(lambda: above(editor, *name) is not None and beside(editor, *name), '%s to be seen' % name[1])
+        editor.keys('ctrl+0')
+        editor.says('100 %')
+    # The pointer went elsewhere.
+    editor.keys('ctrl+Home')
+    until(lambda: above(editor, 'Rung 1, NO'), 'rung 1')
+    x, y, width, height = editor.place(editor.sheet())
+    editor.click((x + width // 2, y + height // 2), 5, 30)
+    until(lambda: above(editor, 'Rung 4, NO'), 'rung 4')
+    editor.keys('ctrl+plus')
+    editor.says('125 %')
+    editor.shot('scroll-zoomed-elsewhere')
+    until(lambda: not editor.all('Rung 1, NO') and editor.all('Rung 4, NO'), 'rung 4 to stay')
+
+
+main([again, zoomed])
