@@ -385,6 +385,7 @@ void ladder_grid_view_go(LadderGridView *view, int rung, int row, int col)
 	if (shown && col >= 0 && to.row < shown->rows && to.col < shown->cols)
 		to.col = grid_display_column(shown, view->columns, to.row, to.col);
 	cursor_set(view, to, false);
+	cursor_reveal_head(view);
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 }
 

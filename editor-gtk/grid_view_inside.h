@@ -201,7 +201,10 @@ void cursor_fit(LadderGridView *view);
 void cursor_remember(LadderGridView *view);
 /** cursor_reveal - scrolls so far that it is seen. */
 void cursor_reveal(LadderGridView *view);
-/** cursor_reveal_late - the same, if it was to be seen before there was a page: now it has
+/** cursor_reveal_head - the same; in the first row with the title and the comment of its
+ * rung. Not below a pointer, where the sheet stays. */
+void cursor_reveal_head(LadderGridView *view);
+/** cursor_reveal_late - that, if it was to be seen before there was a page: now it has
  * @page px. */
 void cursor_reveal_late(LadderGridView *view, double page);
 /** cursor_rect - its cell in px of the widget. */

@@ -9,7 +9,7 @@ from desk import Editor, main, new_file, until  # noqa: E402
 
 RUNG = '''RUNG "Pump %d"
 (* It runs while its input is on, and from then on by itself.
-   Nothing but the switch of the whole plant stops it. *)
+   Nothing but the switch of the whole plant stops it, which is beside the door. *)
   | NO %%IX0.%d     | COIL %%QX0.%d |
   | NO %%QX0.%d   ^ |
 '''
@@ -68,13 +68,44 @@ def zoomed(screen):
     # The pointer went elsewhere.
     editor.keys('ctrl+Home')
     until(lambda: above(editor, 'Rung 1, NO'), 'rung 1')
-    x, y, width, height = editor.place(editor.sheet())
-    editor.click((x + width // 2, y + height // 2), 5, 30)
-    until(lambda: above(editor, 'Rung 4, NO'), 'rung 4')
+    until(lambda: editor.click(editor.sheet(), 5, 20) or above(editor, 'Rung 4, NO'), 'rung 4')
     editor.keys('ctrl+plus')
     editor.says('125 %')
     editor.shot('scroll-zoomed-elsewhere')
     until(lambda: not editor.all('Rung 1, NO') and editor.all('Rung 4, NO'), 'rung 4 to stay')
 
 
-main([again, zoomed])
+def head(screen):
+    """who comes to the first row of a rung by keys sees its title and its comment; a click scrolls to none"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    editor.keys('ctrl+Home')
+    first = until(lambda: above(editor, 'Rung 1, NO', '%IX0.0'), 'rung 1')
+    for back in ['ctrl+Home'], ['Up'] * 7, ['Page_Up']:
+        editor.keys('ctrl+End', 'Down')
+        editor.says('Rung 4 · row 2 · column A')
+        until(lambda: above(editor, 'Rung 4, NO', '%QX0.3'), 'rung 4')
+        editor.keys(*back)
+        editor.says('Rung 1 · column A')
+        until(lambda: above(editor, 'Rung 1, NO', '%IX0.0') == first, 'the top of the sheet')
+    editor.shot('scroll-head')
+    editor.keys('ctrl+End', *['Up'] * 4)
+    editor.says('Rung 2 · column A')
+    editor.shot('scroll-head-2')
+    until(lambda: (above(editor, 'Rung 2, NO', '%IX0.1') or 0) >= first, 'all of rung 2')
+    # What is clicked stays below the pointer.
+    editor.keys('ctrl+Home', 'ctrl+plus', 'ctrl+plus', 'ctrl+plus')
+    first = until(lambda: above(editor, 'Rung 1, NO', '%IX0.0'), 'rung 1')
+    editor.keys('ctrl+End')
+    editor.says('Rung 4 · column A')
+    until(lambda: editor.click(editor.sheet(), 4, 20) or above(editor, 'Rung 1, NO', '%IX0.0') == first, 'the top of the sheet')
+    editor.click(editor.sheet(), 5)
+    now = until(lambda: (above(editor, 'Rung 1, NO', '%IX0.0') or first) < first and
+                above(editor, 'Rung 1, NO', '%IX0.0'), 'the title above the edge')
+    editor.click(editor.element('Rung 1, COIL', '%QX0.0'))
+    editor.says('Rung 1 · column F')
+    editor.shot('scroll-head-clicked')
+    assert above(editor, 'Rung 1, NO', '%IX0.0') == now > 40, now
+
+
+main([again, zoomed, head])
