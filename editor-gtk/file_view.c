@@ -32,7 +32,7 @@ struct _LadderFileView {
 
 G_DEFINE_FINAL_TYPE(LadderFileView, ladder_file_view, GTK_TYPE_BOX)
 
-static guint state_changed, was_undone; /* signals */
+static guint state_changed, was_undone, turned; /* signals */
 
 static void tell_state(LadderFileView *view)
 {
@@ -74,6 +74,11 @@ void ladder_file_view_look(gpointer file)
 GtkTextBuffer *ladder_file_view_buffer(LadderFileView *view)
 {
 	return view->buffer;
+}
+
+bool ladder_file_view_is_text(LadderFileView *view)
+{
+	return !view->map || ladder_iomap_view_is_text(LADDER_IOMAP_VIEW(view->map));
 }
 
 char *ladder_file_view_sum(LadderFileView *view)
@@ -213,6 +218,8 @@ static void ladder_file_view_class_init(LadderFileViewClass *class)
 		G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL, G_TYPE_NONE, 0);
 	was_undone = g_signal_new("undone", LADDER_TYPE_FILE_VIEW, G_SIGNAL_RUN_LAST, 0,
 		NULL, NULL, NULL, G_TYPE_NONE, 0);
+	turned = g_signal_new("turned", LADDER_TYPE_FILE_VIEW, G_SIGNAL_RUN_LAST, 0, NULL,
+		NULL, NULL, G_TYPE_NONE, 0);
 }
 
 static void ladder_file_view_init(LadderFileView *view)
@@ -270,6 +277,20 @@ static void set_text(GtkTextBuffer *buffer, const char *text)
 	gtk_text_buffer_set_modified(buffer, FALSE);
 }
 
+static void tell_turned(LadderFileView *view)
+{
+	g_signal_emit(view, turned, 0);
+}
+
+static GtkWidget *map_of(LadderFileView *view, GtkWidget *text, LadderDocument *document)
+{
+	GtkWidget *map = ladder_iomap_view_new(view->buffer, text, document);
+
+	g_signal_connect_object(map, "turned", G_CALLBACK(tell_turned), view,
+				G_CONNECT_SWAPPED);
+	return map;
+}
+
 /* @text: what stands in the file; taken over. */
 static LadderFileView *view_of(const char *path, char *text, LadderDocument *document)
 {
@@ -283,7 +304,7 @@ static LadderFileView *view_of(const char *path, char *text, LadderDocument *doc
 				      text_widget(view, name));
 	set_text(view->buffer, text);
 	if (g_str_has_suffix(name, ".io"))
-		view->map = ladder_iomap_view_new(view->buffer, scroller, document);
+		view->map = map_of(view, scroller, document);
 	gtk_box_append(GTK_BOX(view), view->map ? view->map : scroller);
 	gtk_box_append(GTK_BOX(view), told);
 	view->marks = file_marks_new(view->buffer, GTK_LABEL(told));

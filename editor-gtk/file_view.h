@@ -28,6 +28,9 @@ GtkWidget *ladder_file_view_restore(const char *path, const char *sum, const cha
 char *ladder_file_view_sum(LadderFileView *view);
 /** ladder_file_view_buffer - what is typed into. Borrowed. */
 GtkTextBuffer *ladder_file_view_buffer(LadderFileView *view);
+/** ladder_file_view_is_text - is that shown, and no table of it? Signal "turned" when it is
+ * the other. */
+bool ladder_file_view_is_text(LadderFileView *view);
 /** ladder_file_view_path - Borrowed. */
 const char *ladder_file_view_path(LadderFileView *view);
 /** ladder_file_view_save - false: it cannot be written, somebody else changed it, or it is

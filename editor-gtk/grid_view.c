@@ -124,6 +124,7 @@ static void ladder_grid_view_size_allocate(GtkWidget *widget, int width, int hei
 	strips_lay_out(view, height);
 	configure(view->adjustment[0], strips_width(view) * view->zoom, width);
 	configure(view->adjustment[1], (strips_height(view) + BELOW) * view->zoom, height);
+	cursor_reveal_late(view, height);
 	if (height != view->cells_height)
 		cells_later(view);
 	view->cells_height = height;
@@ -384,6 +385,7 @@ void ladder_grid_view_go(LadderGridView *view, int rung, int row, int col)
 	if (shown && col >= 0 && to.row < shown->rows && to.col < shown->cols)
 		to.col = grid_display_column(shown, view->columns, to.row, to.col);
 	cursor_set(view, to, false);
+	cursor_reveal_head(view);
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 }
 
@@ -423,7 +425,7 @@ double ladder_grid_view_zoom(LadderGridView *view)
 }
 
 /* What is in the middle stays there. */
-void ladder_grid_view_set_zoom(LadderGridView *view, double zoom)
+void sheet_zoom(LadderGridView *view, double zoom)
 {
 	GtkAdjustment *down = view->adjustment[1];
 	const double middle = gtk_adjustment_get_page_size(down) / 2;

@@ -70,7 +70,7 @@ bool ladder_grid_view_has_begun(LadderGridView *view);
 void ladder_grid_view_put(LadderGridView *view, enum word word);
 
 double ladder_grid_view_zoom(LadderGridView *view);
-/** ladder_grid_view_set_zoom - 0.5 to 3. */
+/** ladder_grid_view_set_zoom - 0.5 to 3; a cursor that is in sight stays there. */
 void ladder_grid_view_set_zoom(LadderGridView *view, double zoom);
 void ladder_grid_view_set_show(LadderGridView *view, enum drafting_show show);
 enum drafting_show ladder_grid_view_show(LadderGridView *view);

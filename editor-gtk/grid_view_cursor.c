@@ -7,6 +7,7 @@
 #include "editor-gtk/grid_view_inside.h"
 
 #define PAGE_RUNGS 5 /* that Page Down goes on                                 */
+#define MARGIN    40 /* px above and below the cursor that are seen, too        */
 
 static int rows_of(LadderGridView *view, int rung)
 {
@@ -168,6 +169,20 @@ graphene_rect_t cursor_rect(LadderGridView *view)
 	return rect;
 }
 
+/* Where what is shown with the cursor's cell begins: of the first row that is the title and
+ * the comment of the rung, as far as there is room. */
+static double head_of(LadderGridView *view, const graphene_rect_t *cell)
+{
+	const double page = gtk_adjustment_get_page_size(view->adjustment[1]);
+	const double end = (cell->origin.y + cell->size.height) * view->zoom;
+	const double from = cell->origin.y * view->zoom;
+
+	if (view->cursor.row > 0 || view->cursor.rung >= (int)view->strips->len)
+		return from;
+	return MIN(from, MAX(strips_get(view, view->cursor.rung)->y * view->zoom,
+			     end + 2 * MARGIN - page));
+}
+
 static void reveal(GtkAdjustment *adjustment, double from, double to, double margin)
 {
 	const double page = gtk_adjustment_get_page_size(adjustment);
@@ -183,15 +198,63 @@ void cursor_reveal(LadderGridView *view)
 {
 	const double zoom = view->zoom;
 	graphene_rect_t rect = rect_at_100(view);
-	GtkAdjustment *down = view->adjustment[1];
+	GtkAdjustment *across = view->adjustment[0], *down = view->adjustment[1];
+	const double right = (rect.origin.x + rect.size.width) * zoom;
 	const double end = (rect.origin.y + rect.size.height) * zoom;
 
-	/* Before the next allocation it may still be too small for a new rung. */
+	/* Of no page at all it would come to stand above the edge. */
+	view->reveal = gtk_adjustment_get_page_size(down) <= 0;
+	if (view->reveal)
+		return;
+	/* Before the next allocation they may still be too small for a new rung, or for a
+	 * sheet that grew. */
+	if (gtk_adjustment_get_upper(across) < right + 24)
+		gtk_adjustment_set_upper(across, right + 24);
 	if (gtk_adjustment_get_upper(down) < end + 60)
 		gtk_adjustment_set_upper(down, end + 60);
-	reveal(view->adjustment[0], rect.origin.x * zoom,
-	       (rect.origin.x + rect.size.width) * zoom, 24);
-	reveal(down, rect.origin.y * zoom, end, 40);
+	reveal(across, rect.origin.x * zoom, right, 24);
+	reveal(down, rect.origin.y * zoom, end, MARGIN);
+}
+
+void cursor_reveal_head(LadderGridView *view)
+{
+	GtkAdjustment *down = view->adjustment[1];
+	graphene_rect_t cell;
+
+	cursor_reveal(view);
+	cell = rect_at_100(view);
+	if (!view->reveal)
+		reveal(down, head_of(view, &cell),
+		       (cell.origin.y + cell.size.height) * view->zoom, MARGIN);
+}
+
+void cursor_reveal_late(LadderGridView *view, double page)
+{
+	if (!view->reveal)
+		return;
+	cursor_reveal_head(view);
+	strips_lay_out(view, page);
+	cursor_reveal_head(view); /* rungs before it may have grown                */
+}
+
+/* Is something of its cell? */
+static bool is_seen(LadderGridView *view)
+{
+	const graphene_rect_t cell = cursor_rect(view);
+	const graphene_rect_t page = GRAPHENE_RECT_INIT(0, 0,
+		(float)gtk_adjustment_get_page_size(view->adjustment[0]),
+		(float)gtk_adjustment_get_page_size(view->adjustment[1]));
+
+	return graphene_rect_intersection(&cell, &page, NULL);
+}
+
+void ladder_grid_view_set_zoom(LadderGridView *view, double zoom)
+{
+	const bool seen = is_seen(view);
+
+	sheet_zoom(view, zoom);
+	if (seen)
+		cursor_reveal_head(view);
 }
 
 int sheet_point(LadderGridView *view, double x, double y, struct rung_hit *hit)
@@ -295,5 +358,6 @@ bool cursor_key(LadderGridView *view, guint key, GdkModifierType state)
 			      step(view, key, &to)))
 		return false;
 	cursor_set(view, to, state & GDK_SHIFT_MASK);
+	cursor_reveal_head(view);
 	return true;
 }

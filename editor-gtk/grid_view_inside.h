@@ -100,6 +100,7 @@ struct _LadderGridView {
 
 	struct grid_cursor cursor;
 	struct grid_cursor anchor;  /* other corner of the selection           */
+	bool reveal;                /* it is to be seen, as soon as there is a size */
 	bool selecting;             /* from anchor to cursor; of several rungs all */
 	struct rung *preview;       /* of the cursor's rung, until its entry is done */
 	guint64 came;               /* place in the history when the cursor came */
@@ -152,6 +153,8 @@ bool sheet_splice(LadderGridView *view, int at, int removed, struct rung **rungs
 		  int inserted, struct diag_list *why);
 /** sheet_is_fixed - is it a program that nobody can change? That is told. */
 bool sheet_is_fixed(LadderGridView *view);
+/** sheet_zoom - wherever the cursor is then. */
+void sheet_zoom(LadderGridView *view, double zoom);
 /** sheet_tell - why something was not done. */
 void sheet_tell(LadderGridView *view, const char *text);
 void sheet_moved(LadderGridView *view);
@@ -198,6 +201,12 @@ void cursor_fit(LadderGridView *view);
 void cursor_remember(LadderGridView *view);
 /** cursor_reveal - scrolls so far that it is seen. */
 void cursor_reveal(LadderGridView *view);
+/** cursor_reveal_head - the same; in the first row with the title and the comment of its
+ * rung. Not below a pointer, where the sheet stays. */
+void cursor_reveal_head(LadderGridView *view);
+/** cursor_reveal_late - that, if it was to be seen before there was a page: now it has
+ * @page px. */
+void cursor_reveal_late(LadderGridView *view, double page);
 /** cursor_rect - its cell in px of the widget. */
 graphene_rect_t cursor_rect(LadderGridView *view);
 /** cursor_area - the selection, or its own cell. False: nothing is selected, or several

@@ -249,7 +249,7 @@ static gboolean wheel(GtkEventControllerScroll *controller, double dx, double dy
 	(void)dx;
 	if (!(state & GDK_CONTROL_MASK))
 		return FALSE;
-	ladder_grid_view_set_zoom(view, view->zoom * (dy < 0 ? 1.1 : 1 / 1.1));
+	sheet_zoom(view, view->zoom * (dy < 0 ? 1.1 : 1 / 1.1));
 	return TRUE;
 }
 
@@ -260,7 +260,7 @@ static void pinched(GtkGestureZoom *gesture, double scale, LadderGridView *view)
 
 	(void)gesture;
 	if (to > view->zoom * (1 + step) || to < view->zoom * (1 - step))
-		ladder_grid_view_set_zoom(view, to);
+		sheet_zoom(view, to);
 }
 
 /* ---- all of it ---- */

@@ -12,6 +12,8 @@
 
 G_DEFINE_FINAL_TYPE(LadderIomapView, ladder_iomap_view, GTK_TYPE_BOX)
 
+static guint turned; /* signal */
+
 /* ---- messages ---- */
 
 static void show_lacks(LadderIomapView *view, const struct io_text *io)
@@ -249,6 +251,8 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 
 	G_OBJECT_CLASS(class)->dispose = ladder_iomap_view_dispose;
 	G_OBJECT_CLASS(class)->finalize = ladder_iomap_view_finalize;
+	turned = g_signal_new("turned", LADDER_TYPE_IOMAP_VIEW, G_SIGNAL_RUN_LAST, 0, NULL,
+			      NULL, NULL, G_TYPE_NONE, 0);
 	gtk_widget_class_install_action(widget, "iomap.add", NULL, iomap_view_add);
 	gtk_widget_class_install_action(widget, "iomap.delete", NULL, iomap_view_delete);
 	gtk_widget_class_install_action(widget, "iomap.look", NULL, iomap_view_look);
@@ -308,6 +312,12 @@ static void shown_page(LadderIomapView *view)
 				  "text") == 0;
 	gtk_widget_set_sensitive(view->tools, !view->as_text);
 	iomap_view_told(view, NULL);
+	g_signal_emit(view, turned, 0);
+}
+
+bool ladder_iomap_view_is_text(LadderIomapView *view)
+{
+	return view->as_text;
 }
 
 GtkWidget *ladder_iomap_view_new(GtkTextBuffer *buffer, GtkWidget *text,

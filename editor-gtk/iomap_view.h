@@ -23,6 +23,9 @@ G_DECLARE_FINAL_TYPE(LadderIomapView, ladder_iomap_view, LADDER, IOMAP_VIEW, Gtk
  */
 GtkWidget *ladder_iomap_view_new(GtkTextBuffer *buffer, GtkWidget *text,
 				 LadderDocument *document);
+/** ladder_iomap_view_is_text - is that shown, and not the table? Signal "turned" when it is
+ * the other. */
+bool ladder_iomap_view_is_text(LadderIomapView *view);
 /** ladder_iomap_view_list - the rows shown (LadderPanelRow). Borrowed. */
 GListModel *ladder_iomap_view_list(LadderIomapView *view);
 /** ladder_iomap_view_refresh - now, seen or not. */

@@ -30,7 +30,11 @@ static GtkTextBuffer *buffer_of(AdwTabPage *page)
 
 GtkTextBuffer *tabs_text(LadderWindow *window)
 {
-	return buffer_of(adw_tab_view_get_selected_page(window->tabs));
+	LadderFileView *file = tabs_file(window);
+
+	/* Behind a table there is one that nobody sees. */
+	return file && !ladder_file_view_is_text(file) ? NULL :
+	       buffer_of(adw_tab_view_get_selected_page(window->tabs));
 }
 
 /* NULL: there is none in it. */
@@ -114,7 +118,11 @@ void tabs_show_place(LadderWindow *window)
 void place_follow(LadderWindow *window, AdwTabPage *page)
 {
 	GtkTextBuffer *buffer = buffer_of(page);
+	GtkWidget *content = tabs_content(page);
 
+	if (LADDER_IS_FILE_VIEW(content))
+		g_signal_connect_object(content, "turned", G_CALLBACK(tabs_show_place),
+					window, G_CONNECT_SWAPPED);
 	if (buffer)
 		g_signal_connect_object(buffer, "notify::cursor-position",
 					G_CALLBACK(tabs_show_place), window,

@@ -196,18 +196,25 @@ def added(screen):
 
 
 def as_text(screen):
-    """the text of the map, its wrong line told; closing asks before anything is lost"""
+    """the text of the map, its wrong line and its place told, which a table has none of; closing asks before anything is lost"""
     path, io = garage(screen)
     editor = Editor(screen, path)
     open_map(editor)
+    until(lambda: not editor.all(' · column', 'label'), 'no place in a table')
+    editor.keys('ctrl+g')
+    editor.says('Neither rungs nor lines stand here.')
     editor.click(editor.find('Text', 'page tab'))
     editor.says('Line 5: ')
+    place = editor.find(' · column', 'label').name
+    assert place.startswith('Line '), place
     editor.into('garage-door.io')
     editor.keys('ctrl+End')
     editor.type('%QX0.1 sim')
     editor.shot('iomap-text')
     editor.click(editor.find('Table', 'page tab'))
     cell(editor, '%QX0.1, Driver')
+    until(lambda: not editor.all(' · column', 'label'), 'the place to be gone')
+    editor.shot('iomap-no-place')
     editor.keys('ctrl+q', 'ctrl+w')
     editor.find('Save', 'push button').press()
     saved(io, MAP + '%QX0.1 sim')

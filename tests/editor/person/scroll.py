@@ -1,0 +1,111 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""scroll - what is seen of a sheet that is higher than its window is where the cursor is."""
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from desk import Editor, main, new_file, until  # noqa: E402
+
+RUNG = '''RUNG "Pump %d"
+(* It runs while its input is on, and from then on by itself.
+   Nothing but the switch of the whole plant stops it, which is beside the door. *)
+  | NO %%IX0.%d     | COIL %%QX0.%d |
+  | NO %%QX0.%d   ^ |
+'''
+PROJECT = 'RUNGBOARD 1\n\nPROGRAM Main LD\n' + ''.join(RUNG % (i, i, i, i) for i in range(4)) + 'END_PROGRAM\n'
+
+
+def above(editor, *parts):
+    """How far below the sheet's upper edge an element begins; None: it is not seen."""
+    found = [node for node in editor.elements() if all(part in node.name for part in parts)]
+    if not found:
+        return None
+    _, top, _, high = editor.place(editor.sheet())
+    _, y, _, element = editor.place(found[0])
+    return y - top if 0 <= y - top <= high - element else None
+
+
+def again(screen):
+    """a sheet that is closed and opened again begins where its cursor is"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    editor.keys('ctrl+Home')
+    first = until(lambda: above(editor, 'Rung 1, NO', '%IX0.0'), 'rung 1')
+    editor.keys('ctrl+shift+w')
+    until(lambda: not editor.all('Sheet'), 'the sheet to be gone')
+    row = min([node for node in editor.all('Main', 'label') if node.name == 'Main'], key=lambda node: node.box()[0])
+    editor.click(row, count=2)
+    editor.to_sheet()
+    editor.says('Rung 1 · column A')
+    editor.shot('scroll-again')
+    until(lambda: above(editor, 'Rung 1, NO', '%IX0.0') == first, 'rung 1 where it was')
+
+
+def beside(editor, *parts):
+    """Is an element between the left and the right edge of the sheet?"""
+    left, _, wide, _ = editor.place(editor.sheet())
+    found = [node for node in editor.elements() if all(part in node.name for part in parts)]
+    x, _, width, _ = editor.place(found[0]) if found else (0, 0, 0, 0)
+    return bool(found) and left <= x and x + width <= left + wide
+
+
+def zoomed(screen):
+    """by keys a sheet becomes larger and smaller round its cursor, which stays in sight; what was out of sight stays that"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    for place, name in (('ctrl+Home',), ('Rung 1, NO', '%IX0.0')), (('End',), ('Rung 1, COIL', '%QX0.0')), \
+            (('ctrl+End', 'End'), ('Rung 4, COIL', '%QX0.3')):
+        editor.keys(*place, *['ctrl+plus'] * 7)
+        editor.says('300 %')
+        until(lambda: above(editor, *name) is not None and beside(editor, *name), '%s to be seen' % name[1])
+        editor.shot('scroll-zoomed-' + place[-1].replace('+', '-'))
+        editor.keys(*['ctrl+minus'] * 10)
+        editor.says('50 %')
+        until(lambda: above(editor, *name) is not None and beside(editor, *name), '%s to be seen' % name[1])
+        editor.keys('ctrl+0')
+        editor.says('100 %')
+    # The pointer went elsewhere.
+    editor.keys('ctrl+Home')
+    until(lambda: above(editor, 'Rung 1, NO'), 'rung 1')
+    until(lambda: editor.click(editor.sheet(), 5, 20) or above(editor, 'Rung 4, NO'), 'rung 4')
+    editor.keys('ctrl+plus')
+    editor.says('125 %')
+    editor.shot('scroll-zoomed-elsewhere')
+    until(lambda: not editor.all('Rung 1, NO') and editor.all('Rung 4, NO'), 'rung 4 to stay')
+
+
+def head(screen):
+    """who comes to the first row of a rung by keys sees its title and its comment; a click scrolls to none"""
+    editor = Editor(screen, new_file(screen, PROJECT))
+    editor.to_sheet()
+    editor.keys('ctrl+Home')
+    first = until(lambda: above(editor, 'Rung 1, NO', '%IX0.0'), 'rung 1')
+    for back in ['ctrl+Home'], ['Up'] * 7, ['Page_Up']:
+        editor.keys('ctrl+End', 'Down')
+        editor.says('Rung 4 · row 2 · column A')
+        until(lambda: above(editor, 'Rung 4, NO', '%QX0.3'), 'rung 4')
+        editor.keys(*back)
+        editor.says('Rung 1 · column A')
+        until(lambda: above(editor, 'Rung 1, NO', '%IX0.0') == first, 'the top of the sheet')
+    editor.shot('scroll-head')
+    editor.keys('ctrl+End', *['Up'] * 4)
+    editor.says('Rung 2 · column A')
+    editor.shot('scroll-head-2')
+    until(lambda: (above(editor, 'Rung 2, NO', '%IX0.1') or 0) >= first, 'all of rung 2')
+    # What is clicked stays below the pointer.
+    editor.keys('ctrl+Home', 'ctrl+plus', 'ctrl+plus', 'ctrl+plus')
+    first = until(lambda: above(editor, 'Rung 1, NO', '%IX0.0'), 'rung 1')
+    editor.keys('ctrl+End')
+    editor.says('Rung 4 · column A')
+    until(lambda: editor.click(editor.sheet(), 4, 20) or above(editor, 'Rung 1, NO', '%IX0.0') == first, 'the top of the sheet')
+    editor.click(editor.sheet(), 5)
+    now = until(lambda: (above(editor, 'Rung 1, NO', '%IX0.0') or first) < first and
+                above(editor, 'Rung 1, NO', '%IX0.0'), 'the title above the edge')
+    editor.click(editor.element('Rung 1, COIL', '%QX0.0'))
+    editor.says('Rung 1 · column F')
+    editor.shot('scroll-head-clicked')
+    assert above(editor, 'Rung 1, NO', '%IX0.0') == now > 40, now
+
+
+main([again, zoomed, head])
