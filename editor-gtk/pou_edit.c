@@ -37,19 +37,23 @@ static char *free_name(const struct project *project, const char *what)
 	return name;
 }
 
+/* What can be called has an input and gives what that is, until it is drawn otherwise. */
 static char *text_of(const char *what, const char *name)
 {
 	char **words = g_strsplit(what, " ", 2);
 	const bool list = strcmp(words[1], "IL") == 0;
 	const bool function = strcmp(words[0], "FUNCTION") == 0;
+	const bool block = strcmp(words[0], "FUNCTION_BLOCK") == 0;
 	const bool chart = strcmp(words[1], "SFC") == 0;
-	char *text = g_strdup_printf("\n%s %s%s %s\n%s%sEND_%s\n", words[0], name,
+	char *called = g_strdup_printf("RUNG\n  | NO In | COIL %s |\n", function ? name : "Out");
+	char *text = g_strdup_printf("\n%s %s%s %s\n%s%s%sEND_%s\n", words[0], name,
 		function ? " : BOOL" : "", words[1],
-		function || strcmp(words[0], "FUNCTION_BLOCK") == 0 ?
-			"VAR_INPUT\n  In : BOOL;\nEND_VAR\n" : "",
+		function || block ? "VAR_INPUT\n  In : BOOL;\nEND_VAR\n" : "",
+		block ? "VAR_OUTPUT\n  Out : BOOL;\nEND_VAR\n" : "",
 		list ? "  LD FALSE\n" : chart ? "  INITIAL_STEP Start:\n  END_STEP\n" :
-			"RUNG\n", words[0]);
+			function || block ? called : "RUNG\n", words[0]);
 
+	g_free(called);
 	g_strfreev(words);
 	return text;
 }

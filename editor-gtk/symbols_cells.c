@@ -80,6 +80,18 @@ static void left(GtkEventControllerFocus *focus, GtkListItem *item)
 	commit(cell, item);
 }
 
+/* Its row is the one that what is done next is done with. */
+static void entered(GtkEventControllerFocus *focus, GtkListItem *item)
+{
+	GtkWidget *cell = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus));
+	GtkWidget *table = gtk_widget_get_ancestor(cell, GTK_TYPE_COLUMN_VIEW);
+
+	if (table)
+		gtk_single_selection_set_selected(GTK_SINGLE_SELECTION(
+			gtk_column_view_get_model(GTK_COLUMN_VIEW(table))),
+			gtk_list_item_get_position(item));
+}
+
 /* Escape: as it was. */
 static gboolean pressed(GtkEventControllerKey *keys, guint key, guint code,
 			GdkModifierType state, GtkListItem *item)
@@ -143,6 +155,8 @@ static void connect_text(GtkWidget *cell, GtkListItem *item)
 	g_signal_connect(cell, "activate", G_CALLBACK(activated), item);
 	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "leave",
 			 G_CALLBACK(left), item);
+	g_signal_connect(g_object_get_data(G_OBJECT(cell), "focus"), "enter",
+			 G_CALLBACK(entered), item);
 	g_signal_connect(g_object_get_data(G_OBJECT(cell), "keys"), "key-pressed",
 			 G_CALLBACK(pressed), item);
 	cells_on_take(cell, commit, item);

@@ -72,6 +72,17 @@ static char *spoken(const struct symbol_row *symbol, const char *error)
 	return g_string_free(text, FALSE);
 }
 
+/* Where it counts, and as what of a block: "Motor VAR_OUTPUT". */
+static char *scope_of(const struct symbol_row *symbol)
+{
+	const uint16_t kind = symbol->flags & (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP);
+
+	if (!*symbol->scope)
+		return g_strdup(_("global"));
+	return kind ? g_strdup_printf("%s %s", symbol->scope, vars_head(kind)) :
+		      g_strdup(symbol->scope);
+}
+
 static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row *symbol)
 {
 	LadderPanelRow *row = ladder_panel_row_new();
@@ -79,7 +90,7 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 
 	for (int i = 0; i < SYMBOL_FIELDS; i++)
 		row->text[i] = g_strdup(symbol->text[i]);
-	row->text[SYMBOLS_SCOPE] = g_strdup(*symbol->scope ? symbol->scope : _("global"));
+	row->text[SYMBOLS_SCOPE] = scope_of(symbol);
 	row->text[SYMBOLS_USES] = g_strdup_printf("%d", symbol->uses);
 	row->number = symbol->uses;
 	row->table = symbol->table;
@@ -263,6 +274,17 @@ static int last_index(LadderDocument *document, int table, const char *name)
 }
 
 /* Like the one that is selected, else a bit. */
+/* Of its block: an input beside an input. */
+static uint16_t flags_of(LadderDocument *document, const LadderPanelRow *row)
+{
+	struct project *project = ladder_document_project(document);
+	const struct var_table *vars = xref_table(project, row->table);
+	const int index = index_of(document, row);
+
+	return vars && index >= 0 ? vars_flags(vars, index) &
+				    (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP) : 0;
+}
+
 static void add(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
@@ -281,7 +303,7 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 	text[FIELD_NAME] = name;
 	if (row)
 		text[FIELD_TYPE] = panel_row_text(row, FIELD_TYPE);
-	if (symbol_add(document, table, 0, text, &why) &&
+	if (symbol_add(document, table, row ? flags_of(document, row) : 0, text, &why) &&
 	    ladder_symbols_view_show(view, table, last_index(document, table, name)))
 		ladder_symbols_view_enter(view);
 	tell(view, why);
@@ -307,13 +329,15 @@ static void delete(GtkWidget *widget, const char *action, GVariant *unused)
 static void show_uses(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderPanelRow *row = panel_list_row(&LADDER_SYMBOLS_VIEW(widget)->list);
+	const char *scope;
 	char *name;
 
 	(void)action;
 	(void)unused;
 	if (!row)
 		return;
-	name = row->table ? g_strdup_printf("%s.%s", panel_row_text(row, SYMBOLS_SCOPE),
+	scope = panel_row_text(row, SYMBOLS_SCOPE);
+	name = row->table ? g_strdup_printf("%.*s.%s", (int)strcspn(scope, " "), scope,
 					    panel_row_text(row, FIELD_NAME)) :
 	       g_strdup(panel_row_text(row, FIELD_NAME));
 	gtk_widget_activate_action(widget, "win.show-uses", "s", name);
@@ -470,7 +494,7 @@ static void add_columns(LadderSymbolsView *view)
 			       column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
 			       column[i].width,
 			       symbols_cells(column[i].field, set_field, view));
-	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 100);
+	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
 }
 

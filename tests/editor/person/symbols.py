@@ -245,6 +245,33 @@ def imported(screen):
     assert '  Lamp  : INT;' in text and '  Bell  AT %QX0.7 : BOOL;' in text, text
 
 
+def block(screen):
+    """a new block has an input and an output; + beside one of them makes another; it is used as it is called"""
+    path = new_file(screen, PROGRAM)
+    editor = Editor(screen, path)
+    editor.keys('ctrl+k')
+    until(lambda: editor.all('About Rungboard'), 'all commands')
+    editor.type('new function block')
+    editor.keys('Return')
+    editor.element('Rung 1, COIL', 'Out')
+    check_text = editor.save(path)
+    check(path)
+    assert 'VAR_INPUT\n  In : BOOL;\nEND_VAR\nVAR_OUTPUT\n  Out : BOOL;\nEND_VAR\n' in check_text, check_text
+    editor.keys('ctrl+alt+s')
+    editor.find('Block1 VAR_OUTPUT', 'label')
+    editor.into('Out, Name')
+    editor.click(editor.find('Add a symbol', 'push button'))
+    editor.focus_on('Out2, Name', 'text')
+    editor.type('Ready')
+    editor.keys('Return')
+    editor.shot('symbols-block')
+    text = editor.save(path)
+    assert 'VAR_OUTPUT\n  Out   : BOOL;\n  Ready : BOOL;\nEND_VAR\n' in text, text
+    editor.find('Where it is used', 'push button').press()
+    editor.find('Block1', 'label')
+    check(path)
+
+
 def ordered(screen):
     """a click on the title of a column sorts by it, the next one the other way; numbers by what they are, no case"""
     names = 'Step10', 'b', 'Txt', 'Step2', 'n'
