@@ -306,7 +306,8 @@ static void ladder_window_class_init(LadderWindowClass *class)
 	CHILD(right_paned); CHILD(right); CHILD(edit_mode); CHILD(simulate_mode);
 	CHILD(sim_buttons); CHILD(run_button); CHILD(forces_button); CHILD(pace_button);
 	CHILD(record_button);
-	CHILD(tab_bar); CHILD(tabs); CHILD(banner); CHILD(banner_label);
+	CHILD(tab_bar); CHILD(front); CHILD(tabs); CHILD(nothing_label);
+	CHILD(banner); CHILD(banner_label);
 	CHILD(banner_button); CHILD(banner_close); CHILD(find_place); CHILD(below);
 	CHILD(below_stack); CHILD(below_switcher);
 	CHILD(below_tabs); CHILD(below_more); CHILD(pill); CHILD(place_label); CHILD(message_label);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
- * window_close_page - a tab goes: a file beside the project that is not saved is asked for.
+ * window_close_page - a tab goes: a file beside the project that is not saved is asked for;
+ * with the last one, that nothing is open is said.
  */
 #include "editor-gtk/window_inside.h"
 
@@ -60,8 +61,16 @@ void tabs_close(LadderWindow *window)
 		adw_tab_view_close_page(window->tabs, page);
 }
 
+static void show_nothing(LadderWindow *window)
+{
+	gtk_widget_set_visible(window->nothing_label,
+			       adw_tab_view_get_n_pages(window->tabs) == 0);
+}
+
 void tabs_init_closing(LadderWindow *window)
 {
 	g_signal_connect_object(window->tabs, "close-page", G_CALLBACK(close_page), window,
 				G_CONNECT_SWAPPED);
+	g_signal_connect_object(window->tabs, "notify::n-pages", G_CALLBACK(show_nothing),
+				window, G_CONNECT_SWAPPED);
 }

@@ -51,7 +51,9 @@ struct _LadderWindow {
 	GtkMenuButton *pace_button;
 	GtkWidget *tree, *palette;
 	AdwTabBar *tab_bar;
+	GtkWidget *front;            /* the tabs, and what is said without any   */
 	AdwTabView *tabs;
+	GtkWidget *nothing_label;
 	GtkRevealer *banner;
 	GtkLabel *banner_label;
 	GtkButton *banner_button, *banner_close;

@@ -108,7 +108,7 @@ static bool has_focus(LadderWindow *window, GtkWidget *widget)
 static void see(LadderWindow *window, bool older)
 {
 	gtk_widget_set_visible(window->older->box, older);
-	gtk_widget_set_visible(GTK_WIDGET(window->tabs), !older);
+	gtk_widget_set_visible(window->front, !older);
 	gtk_widget_set_visible(GTK_WIDGET(window->tab_bar), !older);
 }
 
@@ -193,7 +193,7 @@ static GtkWidget *new_bar(struct window_older *older)
 void window_older_init(LadderWindow *window)
 {
 	struct window_older *older = g_new0(struct window_older, 1);
-	GtkWidget *place = gtk_widget_get_parent(GTK_WIDGET(window->tabs));
+	GtkWidget *place = gtk_widget_get_parent(window->front);
 
 	window->older = older;
 	older->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);

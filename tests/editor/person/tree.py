@@ -324,4 +324,31 @@ def beside(screen):
     assert open(path).read() == TEXT
 
 
-main([bookmarks, by_name, nothing_added, steps, rows, of_others, in_front, keys, menus, stop, beside])
+def nothing_open(screen):
+    """without a tab the window says how to open one, as long as there is none"""
+    editor = Editor(screen, new_file(screen, TEXT))
+    editor.to_sheet()
+
+    def tabs():
+        """Their titles stand right of the tree, above what they hold."""
+        return len([node for node in editor.all(role='label') if node.name in ('Main', 'Other', 'Symbols') and
+                    node.box()[0] > 230 and node.box()[1] < 100])
+    said = 'Nothing is open. A double click in the tree opens a program.'
+    for left in 2, 1, 0:  # Main, Other, Symbols
+        assert not editor.all(said, 'label'), '%d more are open' % (left + 1)
+        editor.keys('ctrl+shift+w')
+        until(lambda: tabs() == left, '%d tabs' % left)
+    x, y, width, height = editor.place(editor.find(said, 'label'))
+    editor.shot('tree-nothing-open')
+    main_row = [node for node in editor.all('Main', 'label') if node.name == 'Main'][0]
+    editor.click(main_row, count=2)
+    editor.to_sheet()
+    assert not editor.all(said, 'label'), 'it is said over the sheet'
+    left, top, wide, high = editor.place(editor.sheet())
+    assert left <= x and x + width <= left + wide and top <= y and y + height <= top + high, 'it stood elsewhere'
+    editor.click((x + width // 2, y + height // 2))  # nothing lies over the sheet
+    editor.keys('ctrl+shift+w')
+    editor.says(said)
+
+
+main([bookmarks, by_name, nothing_added, steps, rows, of_others, in_front, nothing_open, keys, menus, stop, beside])
