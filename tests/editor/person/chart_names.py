@@ -352,8 +352,12 @@ def numbered(screen):
     editor.element('Rung 3', 'QX0.1')
     for _ in range(3):
         editor.keys('ctrl+z')
+    # That is shown where it is undone.
+    until(lambda: editor.all('Action One', 'label'), 'the heading of the action')
+    until(lambda: not editor.all('Rung 2', 'table cell'), 'the rung to be gone')
+    enter(editor, 'Idle does: N Two')
+    until(lambda: editor.all('Action Two', 'label'), 'the heading of the other action')
     editor.element('Rung 2', 'QX0.1')
-    editor.find('Action Two')
     editor.shot('chart-numbers')
 
 
