@@ -328,7 +328,8 @@ class Editor:
         """Of another program: that it took it is no sign yet that the screen knows."""
         subprocess.run(['xclip', '-selection', 'clipboard'], input=text, text=True, check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        until(lambda: sh('timeout', '10', 'xclip', '-selection', 'clipboard', '-o') == text.strip(), 'the text in the clipboard')
+        until(lambda: sh('timeout', '10', 'xclip', '-selection', 'clipboard', '-o') == text.strip().replace('\r\n', '\n'),
+              'the text in the clipboard')
 
     def entry(self, text, enter=True):
         """Types into the line that opens at the cursor, and waits until it is gone."""
