@@ -135,45 +135,96 @@ static bool text_taken(void *context, const char *line)
 	return sheet_put(view, copy, &at, _(verb_row(asked->verb)->label));
 }
 
-/* May the input have a row of its own? It has none, and is no parameter. */
-static bool can_add(LadderGridView *view, const char *name)
+/* Is it a Boolean input that nothing feeds? That there is no room is told when it is taken. */
+static bool may_feed(LadderGridView *view, const char *name)
 {
 	struct project *project = ladder_document_project(view->document);
 	struct grid_at at = sheet_at(view);
 	const uint32_t pin = names_intern(&project->names, name, strlen(name));
-	struct rung *made = grid_add_pin(sheet_rung(view, view->cursor.rung), &at, project,
-					 pin, NULL);
 
-	rung_free(made);
-	return at.refusal != GRID_PIN_TAKEN;
+	rung_free(grid_add_pin(sheet_rung(view, view->cursor.rung), &at, project, pin, NULL));
+	return at.refusal != GRID_NO_BOX && at.refusal != GRID_BAD_PIN &&
+	       at.refusal != GRID_PIN_TAKEN && at.refusal != GRID_FIRST_PIN;
 }
 
-/* Boolean inputs of the box that nothing feeds yet. */
+/* The word at the cursor; a row of pins is a part of the box above it. */
+static const struct word_row *word_here(LadderGridView *view)
+{
+	const struct project *project = ladder_document_project(view->document);
+	int row, col;
+	const struct cell *cell = cursor_cell(view, &row, &col);
+
+	while (cell->word == ELEM_PIN && row > 0)
+		cell = rung_at(sheet_rung(view, view->cursor.rung), --row, col);
+	return words_row(&project->words, (enum word)cell->word);
+}
+
+static void offer(GtkWidget *popup, const struct word_row *row, int index, const char *name)
+{
+	struct entry_popup_row one = { (char *)name, "", (char *)said(explain_pin(row, index)),
+				       _("input"), (char *)name };
+
+	ladder_entry_popup_add(LADDER_ENTRY_POPUP(popup), &one);
+}
+
+/* The next input of a function that takes as many as one likes; NULL: of none. */
+static const char *further_input(LadderGridView *view, const struct word_row *row, char *name,
+				 size_t size)
+{
+	if (row->kind != WORD_FN)
+		return NULL;
+	for (int i = word_last_number(row) + 1; ; i++) {
+		snprintf(name, size, "IN%d", i);
+		if (word_pin_find(row, name, strlen(name)) < 0)
+			return NULL;
+		if (may_feed(view, name))
+			return name;
+	}
+}
+
+/* How many inputs can be fed; @popup, if not NULL, offers those that begin as @line. */
+static int offer_inputs(LadderGridView *view, GtkWidget *popup, const char *line)
+{
+	const struct word_row *row = word_here(view);
+	char further[LIMIT_NAME + 1];
+	int count = 0;
+
+	for (int i = 0; i <= row->pin_count; i++) {
+		const char *name = i < row->pin_count ? row->pin[i].name :
+				   further_input(view, row, further, sizeof(further));
+
+		if (!name || !may_feed(view, name))
+			continue;
+		count++;
+		if (popup && g_ascii_strncasecmp(name, line, strlen(line)) == 0)
+			offer(popup, row, MIN(i, row->pin_count - 1), name);
+	}
+	return count;
+}
+
 static char *pin_changed(void *context, const char *line, int cursor, bool *good)
 {
 	struct sheet_asked *asked = context;
-	const struct project *project = ladder_document_project(asked->view->document);
-	const struct cell *cell = cursor_cell(asked->view, NULL, NULL);
-	const struct word_row *row = cell ?
-		words_row(&project->words, (enum word)cell->word) : NULL;
 
 	(void)cursor;
 	*good = true;
-	for (int i = 0; asked->view->entry && row && row->kind == WORD_FB &&
-	     i < row->pin_count; i++) {
-		const struct word_pin *pin = &row->pin[i];
-		struct entry_popup_row one = { (char *)pin->name, "",
-			(char *)said(explain_pin(row, i)), _("input"),
-			(char *)pin->name };
-
-		if (pin->dir == PIN_IN && pin->type == IEC_BOOL &&
-		    i != word_first_bool(row, PIN_IN) &&
-		    g_ascii_strncasecmp(pin->name, line, strlen(line)) == 0 &&
-		    can_add(asked->view, pin->name))
-			ladder_entry_popup_add(LADDER_ENTRY_POPUP(asked->view->entry),
-					       &one);
-	}
+	if (cursor_cell(asked->view, NULL, NULL))
+		offer_inputs(asked->view, asked->view->entry, line);
 	return NULL;
+}
+
+/* Why nothing is asked for at the cursor; NULL: it can be. */
+static const char *nothing_to_ask(LadderGridView *view, enum verb verb)
+{
+	if (verb != VERB_comment && verb != VERB_add_pin)
+		return NULL;
+	if (!cursor_cell(view, NULL, NULL))
+		return _("there is no element here");
+	if (verb == VERB_comment || offer_inputs(view, NULL, "") > 0)
+		return NULL;
+	return word_here(view)->place == PLACE_BOX ?
+		_("nothing is left to be fed: the box has no further Boolean input") :
+		_(grid_refusal_text(GRID_NO_BOX));
 }
 
 static char *text_changed(void *context, const char *line, int cursor, bool *good)
@@ -191,13 +242,14 @@ void entry_begin_text(LadderGridView *view, enum verb verb)
 	struct entry_popup_calls calls = { .changed = text_changed, .taken = text_taken,
 					   .gone = entry_line_gone, .left = entry_line_left };
 	struct sheet_asked *asked;
+	const char *why;
 	char *text;
 
 	if (!sheet_rung(view, view->cursor.rung))
 		return;
-	if ((verb == VERB_comment || verb == VERB_add_pin) &&
-	    !cursor_cell(view, NULL, NULL)) {
-		sheet_tell(view, _("there is no element here"));
+	why = nothing_to_ask(view, verb);
+	if (why) {
+		sheet_tell(view, why);
 		return;
 	}
 	asked = entry_ask(view);

@@ -155,6 +155,32 @@ def inputs(screen):
     check(path)
 
 
+def nothing_left(screen):
+    """Ctrl+I tells what has no further input, and asks for nothing; a row of pins is the box's"""
+    path = new_file(screen, COUNTER.replace('| COIL %QX0.1 |', '| TON Long PT:=T#5s | COIL %QX0.1 |')
+                    .replace('END_VAR', '  Long : TON;\nEND_VAR'))
+    editor = Editor(screen, path)
+    editor.to_sheet()
+    editor.keys('Home', 'ctrl+i')
+    editor.says('there is no box here')
+    editor.keys('Right', 'Right', 'ctrl+i')
+    editor.says('nothing is left to be fed: the box has no further Boolean input')
+    assert not editor.asked()
+    editor.keys('Left')
+    feed(editor, 'CD', 'Back')
+    editor.keys('ctrl+i')
+    editor.candidate('R, input')
+    editor.keys('Escape')
+    editor.gone()
+    feed(editor, 'R', 'Zero')
+    feed(editor, 'LD', 'Back')
+    editor.keys('ctrl+i')
+    editor.says('nothing is left to be fed')
+    text = editor.save(path)
+    assert all(re.search(r'NO %s +\| \.%s ' % pair, text) for pair in (('Back', 'CD'), ('Zero', 'R'), ('Back', 'LD'))), text
+    check(path)
+
+
 def below(screen):
     """Return in a row of pins, where the cursor is on the box, changes that"""
     path = new_file(screen, COUNTER.replace(' |\nEND_PROGRAM', ' |\n  | NO Back | .CD |\nEND_PROGRAM'))
@@ -170,4 +196,4 @@ def below(screen):
     check(path)
 
 
-main([instance, values, twice_there, inputs, below])
+main([instance, values, twice_there, inputs, nothing_left, below])
