@@ -63,7 +63,10 @@ void tabs_close(LadderWindow *window)
 
 static void show_nothing(LadderWindow *window)
 {
-	gtk_widget_set_visible(window->nothing_label,
+	gtk_label_set_text(window->nothing_label, ladder_document_project(window->document) ?
+		_("Nothing is open. A double click in the tree opens a program.") :
+		_("Nothing is open. A double click on a problem below opens the file as text."));
+	gtk_widget_set_visible(GTK_WIDGET(window->nothing_label),
 			       adw_tab_view_get_n_pages(window->tabs) == 0);
 }
 

@@ -53,7 +53,7 @@ struct _LadderWindow {
 	AdwTabBar *tab_bar;
 	GtkWidget *front;            /* the tabs, and what is said without any   */
 	AdwTabView *tabs;
-	GtkWidget *nothing_label;
+	GtkLabel *nothing_label;
 	GtkRevealer *banner;
 	GtkLabel *banner_label;
 	GtkButton *banner_button, *banner_close;

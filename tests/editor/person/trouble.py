@@ -266,6 +266,18 @@ def no_pages(screen):
     editor.says('open a sheet first')
 
 
+def text_closed(screen):
+    """the text of a damaged file is closed: what is said there opens it again"""
+    editor = Editor(screen, new_file(screen, PROJECT.replace('| NO Start |', '| NOO Start |')))
+    editor.find('Text of the program')
+    editor.keys('ctrl+shift+w')
+    editor.find('Nothing is open. A double click on a problem below opens the file as text.', 'label')
+    editor.shot('trouble-text-closed')
+    editor.click([row for row in editor.all('NOO', 'label')][0], count=2)
+    editor.find('Text of the program')
+    assert not editor.all('Nothing is open', 'label')
+
+
 def rendered_locked(screen):
     """--render into a folder that cannot be written: path and reason are told, nothing is left"""
     folder = os.path.join(screen.home, 'locked')
@@ -281,4 +293,4 @@ def rendered_locked(screen):
 
 
 main([read_only, locked, full_disk, vanished, gone, somebody_else, export_locked, export_full, no_pages,
-      rendered_locked])
+      text_closed, rendered_locked])
