@@ -154,6 +154,8 @@ bool ladder_grid_view_has_begun(LadderGridView *view)
 
 static void do_cancel(LadderGridView *view)
 {
+	view->given_up = true;
+	edge_forget(view);
 	if (view->wire.drawing)
 		wire_forget(view);
 	else if (view->entry || view->preview)

@@ -126,6 +126,7 @@ struct _LadderGridView {
 	bool entry_sets;            /* it asks for a value of what runs         */
 	struct xref *xref;          /* of the project as it is; NULL: not asked yet */
 	bool takes;                 /* the pointer went down on what can be dragged */
+	bool given_up;              /* Esc since then: it draws and selects no more */
 	double press_x, press_y;    /* where that was, px of the widget         */
 	bool toggles;               /* and on what is toggled when it goes up   */
 	bool keeps;                 /* and on what is selected, which it stays till then */

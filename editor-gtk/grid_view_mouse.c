@@ -80,7 +80,7 @@ static void pressed(GtkGestureClick *gesture, int count, double x, double y,
 	gtk_widget_grab_focus(GTK_WIDGET(view));
 	view->press_x = x;
 	view->press_y = y;
-	view->takes = view->toggles = view->keeps = false;
+	view->takes = view->toggles = view->keeps = view->given_up = false;
 	wire_forget(view);
 	if (rung < 0)
 		return;
@@ -207,7 +207,8 @@ static void drag_update(GtkGestureDrag *gesture, double by_x, double by_y,
 		GTK_EVENT_CONTROLLER(gesture));
 	double x, y;
 
-	if (view->takes || !gtk_gesture_drag_get_start_point(gesture, &x, &y) ||
+	if (view->takes || view->given_up ||
+	    !gtk_gesture_drag_get_start_point(gesture, &x, &y) ||
 	    (!view->wire.drawing &&
 	     !gtk_drag_check_threshold(GTK_WIDGET(view), (int)x, (int)y, (int)(x + by_x),
 				       (int)(y + by_y))))

@@ -168,7 +168,9 @@ def refused(screen):
     editor.says('this wire is there already')
     (x0, y0), (x1, y1) = editor.wire_end(wire, 1), editor.wire_end(wire + 84, 3)
     sh('xdotool', 'mousemove', str(x0), str(y0), 'mousedown', '1', 'mousemove', str(x0), str(y0 + 30),
-       'sleep', '0.1', 'mousemove', str(x1), str(y1), 'sleep', '0.2', 'key', 'Escape', 'mouseup', '1')
+       'sleep', '0.1', 'mousemove', str(x1), str(y1), 'sleep', '0.2', 'key', 'Escape',
+       'sleep', '0.1', 'mousemove', str(x1 + 9), str(y1 + 9), 'sleep', '0.1', 'mouseup', '1')
+    editor.says('Rung 1 · column')  # what comes after Esc selects no rungs
     # A selection is still made from a free place.
     editor.drag(editor.grid(wire + 25, 2), editor.grid(wire + 25, 3))
     editor.keys('Insert')
