@@ -139,6 +139,7 @@ def dragged(screen):
     editor.keys('ctrl+Home', 'shift+Down')
     editor.click(start, 3)
     until(lambda: [node for node in editor.all('Copy', 'menu item') if node.name == 'Copy'], 'the menu')[0].press()
+    until(lambda: not editor.all('Copy', 'menu item'), 'the menu to be gone: it would take the click')
     editor.click(over)
     editor.keys('ctrl+v')
     until(lambda: len(editor.all('Rung 2, ', 'table cell')) >= 4, 'the branch in rung 2')
