@@ -60,6 +60,13 @@ const char *symbol_field_name(enum field field);
  */
 bool symbol_set(LadderDocument *document, int table, int index, enum field field,
 		const char *text, char **why);
+/** SYMBOL_KINDS - the flags that say as what of its block a symbol is declared; none: as
+ * its own. */
+#define SYMBOL_KINDS (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP)
+/** symbol_set_kind - it moves to the block with this one of SYMBOL_KINDS, or 0, and stays
+ * RETAIN or CONSTANT if it is. One step of the history. Fails: false, nothing changed. */
+bool symbol_set_kind(LadderDocument *document, int table, int index, uint16_t kind,
+		     char **why);
 /** symbol_add - another declaration, behind those of its kind.
  * @flags: of its block, apart from RETAIN and CONSTANT, which @text says: 0: VAR */
 bool symbol_add(LadderDocument *document, int table, uint16_t flags,

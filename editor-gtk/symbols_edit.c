@@ -489,6 +489,15 @@ static bool set_field(struct symbol_batch *batch, const struct symbol_row *symbo
 	       symbol_batch_apply(batch, step_name(field), why);
 }
 
+/* Is it there, and of this file? */
+static bool may_change(const struct symbol_row *symbol, char **why)
+{
+	if (!symbol)
+		return refuse(why, g_strdup(_("There is no such symbol")));
+	return !symbol->included ||
+	       refuse(why, g_strdup(_("It is declared in another file")));
+}
+
 bool symbol_set(LadderDocument *document, int table, int index, enum field field,
 		const char *text, char **why)
 {
@@ -497,10 +506,8 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 	char *clean = g_strstrip(g_strdup(text));
 	bool good;
 
-	if (!symbol)
-		good = refuse(why, g_strdup(_("There is no such symbol")));
-	else if (symbol->included)
-		good = refuse(why, g_strdup(_("It is declared in another file")));
+	if (!may_change(symbol, why))
+		good = false;
 	else if (strcmp(symbol->text[field], clean) == 0)
 		good = true;
 	else if (field == FIELD_COMMENT && (strstr(clean, "(*") || strstr(clean, "*)")))
@@ -510,6 +517,22 @@ bool symbol_set(LadderDocument *document, int table, int index, enum field field
 	else
 		good = set_field(batch, symbol, field, clean, why);
 	g_free(clean);
+	symbol_batch_free(batch);
+	return good;
+}
+
+bool symbol_set_kind(LadderDocument *document, int table, int index, uint16_t kind,
+		     char **why)
+{
+	struct symbol_batch *batch = symbol_batch_new(document);
+	const struct symbol_row *symbol = symbols_at(batch->symbols, table, index);
+	bool good = may_change(symbol, why);
+
+	if (good && (symbol->flags & SYMBOL_KINDS) != kind)
+		good = symbol_batch_put(batch, table, index,
+				(uint16_t)((symbol->flags & ~SYMBOL_KINDS) | kind),
+				(const char *const *)symbol->text, why) &&
+		       symbol_batch_apply(batch, _("Change kind"), why);
 	symbol_batch_free(batch);
 	return good;
 }

@@ -19,16 +19,15 @@
 
 #define FILE_MOST (64 << 20) /* bytes of a table that is read                  */
 
-
 struct _LadderSymbolsView {
 	GtkWidget parent_instance;
-	GtkWidget *box, *scopes, *search, *bar, *message;
+	GtkWidget *box, *scopes, *kind, *search, *bar, *message;
 	struct panel_list list;
 	struct panel_watch *watch;
 	GtkFileChooserNative *chooser;
 	int table;              /* that is shown; -1: all                      */
 	guint64 told_of;        /* version of the document that the message is of */
-	bool busy;              /* the drop-down is being filled               */
+	bool busy;              /* a drop-down is being filled                 */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
@@ -75,7 +74,7 @@ static char *spoken(const struct symbol_row *symbol, const char *error)
 /* Where it counts, and as what of a block: "Motor VAR_OUTPUT". */
 static char *scope_of(const struct symbol_row *symbol)
 {
-	const uint16_t kind = symbol->flags & (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP);
+	const uint16_t kind = symbol->flags & SYMBOL_KINDS;
 
 	if (!*symbol->scope)
 		return g_strdup(_("global"));
@@ -96,7 +95,8 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row 
 	row->table = symbol->table;
 	row->index = symbol->index;
 	row->flags = (symbol->included ? SYMBOLS_FIXED : 0u) |
-		     (symbol->member ? SYMBOLS_MEMBER : 0u);
+		     (symbol->member ? SYMBOLS_MEMBER : 0u) |
+		     (symbol->flags & SYMBOL_KINDS);
 	row->note = symbol_error(document, symbol, &warning);
 	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
 	row->spoken = spoken(symbol, row->note);
@@ -148,6 +148,24 @@ static void update(LadderSymbolsView *view, GPtrArray *rows)
 	g_clear_object(&row);
 }
 
+/* As the drop-down offers them. */
+static const uint16_t kinds[] = { 0, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP };
+
+/* That of the selected symbol. Globals and members of structures have none. */
+static void show_kind(LadderSymbolsView *view)
+{
+	const LadderPanelRow *row = panel_list_row(&view->list);
+	guint at = 0;
+
+	for (guint i = 1; row && i < G_N_ELEMENTS(kinds); i++)
+		at = row->flags & kinds[i] ? i : at;
+	view->busy = true;
+	gtk_drop_down_set_selected(GTK_DROP_DOWN(view->kind), at);
+	view->busy = false;
+	gtk_widget_set_sensitive(view->kind, row && row->table > 0 &&
+				 !(row->flags & (SYMBOLS_FIXED | SYMBOLS_MEMBER)));
+}
+
 static void fill_rows(LadderSymbolsView *view)
 {
 	LadderDocument *document = panel_watch_document(view->watch);
@@ -158,6 +176,7 @@ static void fill_rows(LadderSymbolsView *view)
 		if (view->table < 0 || symbols->symbol[i].table == view->table)
 			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
 	update(view, rows);
+	show_kind(view);
 	symbols_free(symbols);
 	g_ptr_array_unref(rows);
 }
@@ -273,18 +292,7 @@ static int last_index(LadderDocument *document, int table, const char *name)
 	return index;
 }
 
-/* Like the one that is selected, else a bit. */
-/* Of its block: an input beside an input. */
-static uint16_t flags_of(LadderDocument *document, const LadderPanelRow *row)
-{
-	struct project *project = ladder_document_project(document);
-	const struct var_table *vars = xref_table(project, row->table);
-	const int index = index_of(document, row);
-
-	return vars && index >= 0 ? vars_flags(vars, index) &
-				    (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP) : 0;
-}
-
+/* Like the one that is selected, an input beside an input; else a bit. */
 static void add(GtkWidget *widget, const char *action, GVariant *unused)
 {
 	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
@@ -303,11 +311,34 @@ static void add(GtkWidget *widget, const char *action, GVariant *unused)
 	text[FIELD_NAME] = name;
 	if (row)
 		text[FIELD_TYPE] = panel_row_text(row, FIELD_TYPE);
-	if (symbol_add(document, table, row ? flags_of(document, row) : 0, text, &why) &&
+	if (symbol_add(document, table, row ? row->flags & SYMBOL_KINDS : 0, text, &why) &&
 	    ladder_symbols_view_show(view, table, last_index(document, table, name)))
 		ladder_symbols_view_enter(view);
 	tell(view, why);
 	g_free(name);
+}
+
+static void kind_changed(GtkDropDown *drop, GParamSpec *spec, LadderSymbolsView *view)
+{
+	const guint at = gtk_drop_down_get_selected(drop);
+	LadderPanelRow *row = view->watch ? panel_list_row(&view->list) : NULL;
+	LadderDocument *document;
+	char *name, *why = NULL;
+	int table;
+
+	(void)spec;
+	if (view->busy || !row || at >= G_N_ELEMENTS(kinds) ||
+	    (row->flags & SYMBOL_KINDS) == kinds[at])
+		return;
+	document = panel_watch_document(view->watch);
+	table = row->table;
+	name = g_strdup(panel_row_text(row, FIELD_NAME));
+	if (symbol_set_kind(document, table, index_of(document, row), kinds[at], &why))
+		ladder_symbols_view_show(view, table, last_index(document, table, name));
+	show_kind(view);
+	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL);
+	g_free(name);
+	g_free(why);
 }
 
 static void delete(GtkWidget *widget, const char *action, GVariant *unused)
@@ -459,11 +490,13 @@ static void bind_children(GtkWidgetClass *class)
 		"/org/rungboard/Editor/ui/symbols_view.ui");
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, box);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, scopes);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, kind);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, search);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, bar);
 	gtk_widget_class_bind_template_child(class, LadderSymbolsView, message);
 	gtk_widget_class_bind_template_child_full(class, "view", FALSE, 0);
 	gtk_widget_class_bind_template_callback(class, scope_changed);
+	gtk_widget_class_bind_template_callback(class, kind_changed);
 	gtk_widget_class_bind_template_callback(class, search_changed);
 }
 
@@ -498,6 +531,19 @@ static void add_columns(LadderSymbolsView *view)
 	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
 }
 
+/* With words of the language. */
+static void fill_kinds(LadderSymbolsView *view)
+{
+	GPtrArray *name = g_ptr_array_new();
+
+	for (guint i = 0; i < G_N_ELEMENTS(kinds); i++)
+		g_ptr_array_add(name, (gpointer)vars_head(kinds[i]));
+	view->busy = true;
+	drop_fill(GTK_DROP_DOWN(view->kind), name);
+	view->busy = false;
+	g_ptr_array_unref(name);
+}
+
 static void ladder_symbols_view_init(LadderSymbolsView *view)
 {
 	GtkWidget *widget = GTK_WIDGET(view);
@@ -507,6 +553,10 @@ static void ladder_symbols_view_init(LadderSymbolsView *view)
 	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
 		widget, LADDER_TYPE_SYMBOLS_VIEW, "view")));
 	add_columns(view);
+	fill_kinds(view);
+	g_signal_connect_object(view->list.selection, "notify::selected-item",
+				G_CALLBACK(show_kind), view, G_CONNECT_SWAPPED);
+	show_kind(view);
 	view->watch = panel_watch_new(widget, true, refresh);
 }
 

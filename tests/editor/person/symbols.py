@@ -25,6 +25,23 @@ END_PROGRAM
 '''
 
 
+BLOCK = '''FUNCTION_BLOCK Valve LD
+VAR_INPUT
+  Open  : BOOL;
+  Speed : INT := 3; (* of the shaft *)
+END_VAR
+VAR_OUTPUT
+  Ready : BOOL;
+END_VAR
+RUNG
+  | NO Open | COIL Ready |
+END_FUNCTION_BLOCK
+
+'''
+
+SENSITIVE = 24  # as AtspiStateType counts
+
+
 def label(editor, text):
     until(lambda: editor.all(text, 'label'), 'the text "%s"' % text)
 
@@ -330,6 +347,42 @@ def scopes(screen):
     assert 'Bell  AT %QX0.1' in editor.save(path)
 
 
+def kinds(screen):
+    """what is an input becomes an output and what is passed by reference; globals are none of these"""
+    path = new_file(screen, PROGRAM.replace('PROGRAM Main LD\n', BLOCK + 'PROGRAM Main LD\n'))
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    kind = editor.find('As what the symbol is declared', 'combo box')
+    editor.into('Horn, Name')
+    until(lambda: not kind.has(SENSITIVE), 'no choice for a global symbol')
+    editor.into('Speed, Name')
+    until(lambda: kind.has(SENSITIVE), 'a choice')
+
+    def choose(text):
+        editor.click(kind)
+        editor.focus_on(role='list item')
+        editor.keys('Home')
+        editor.choose(text)
+    choose('VAR_OUTPUT')
+    text = editor.save(path)
+    assert '  Ready : BOOL;\n  Speed : INT := 3; (* of the shaft *)\nEND_VAR' in text, text
+    editor.shot('symbols-kinds')
+    editor.click(editor.find('Speed, Retain', 'check box'))
+    text = editor.save(path)
+    choose('VAR_TEMP')
+    editor.find('Speed: does not belong here: RETAIN', 'label')
+    editor.shot('symbols-kinds-refused')
+    until(lambda: not editor.all('VAR_TEMP', 'label'), 'the kind as it is')
+    editor.into('Open, Name')
+    choose('VAR_IN_OUT')
+    text = editor.save(path)
+    assert 'VAR_IN_OUT\n  Open : BOOL;\nEND_VAR' in text and 'VAR_INPUT' not in text and 'TEMP' not in text, text
+    editor.keys('ctrl+z')
+    text = editor.save(path)
+    assert 'VAR_INPUT\n  Open' in text, text
+    check(path)
+
+
 def through(screen):
     """cells of a row are filled one after the other by Tab, while the table is read again behind each"""
     path = new_file(screen, PROGRAM)
@@ -377,4 +430,4 @@ def last_letter(screen):
     assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
 
 
-main([finds, declared_already, renames, uses, tables, added, ticked, imported, ordered, scopes, through, last_letter])
+main([finds, declared_already, renames, uses, tables, added, ticked, imported, ordered, scopes, kinds, through, last_letter])
