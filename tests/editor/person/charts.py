@@ -429,6 +429,48 @@ def clipped(screen):
     check(path)
 
 
+def lies_in(inner, outer):
+    return (outer[0] <= inner[0] and inner[0] + inner[2] <= outer[0] + outer[2] and
+            outer[1] <= inner[1] and inner[1] + inner[3] <= outer[1] + outer[3])
+
+
+def zoomed(screen):
+    """what the cursor is on stays in sight when the chart grows and shrinks, by keys, and by a step more"""
+    steps = ''.join('  STEP S%d:\n    Q0.0(N);\n  END_STEP\n\n  TRANSITION FROM S%d TO S%d := I0.0; END_TRANSITION\n\n' %
+                    (i, i, i + 1) for i in range(1, 19))
+    editor = Editor(screen, new_file(screen, 'RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP S0:\n  END_STEP\n\n'
+                                     '  TRANSITION FROM S0 TO S1 := I0.0; END_TRANSITION\n\n' + steps +
+                                     '  STEP S19:\n  END_STEP\nEND_PROGRAM\n'))
+    on_chart(editor)
+    nodes = editor.known()
+    scroller = nodes[nodes[chart(editor).parent].parent]
+
+    def seen(text, what):
+        until(lambda: lies_in(editor.place(shape(editor, text)), editor.place(scroller)), what)
+    for _ in range(10):
+        editor.keys('Down', 'Down')
+    at(editor, 'Step S10')
+    for percent in (125, 156, 195, 244):
+        editor.keys('ctrl+plus')
+        editor.says('%d %%' % percent)
+        seen('Step S10', 'S10 in sight at %d %%' % percent)
+    editor.shot('chart-zoomed')
+    for _ in range(6):
+        editor.keys('ctrl+minus')
+    seen('Step S10', 'S10 in sight when all is small')
+    editor.keys('ctrl+0')
+    editor.says('100 %')
+    seen('Step S10', 'S10 in sight at 100 %')
+    # From the last step on one more, which had no room before.
+    editor.keys('End')
+    at(editor, 'Step S19')
+    editor.keys('Insert')
+    at(editor, 'Step Step1')
+    seen('Step Step1', 'the new step')
+    editor.keys('ctrl+plus')
+    seen('Step Step1', 'the new step, larger')
+
+
 def long_texts(screen):
     """a comment longer than the window is wide leaves the window as it is; the next line opens, too"""
     path = new_file(screen, EMPTY)
@@ -452,4 +494,4 @@ def long_texts(screen):
     assert editor.save(path) == EMPTY
 
 
-main([by_keyboard, by_pointer, bodies, clipped, simulated, forced, long_texts])
+main([by_keyboard, by_pointer, bodies, clipped, zoomed, simulated, forced, long_texts])
