@@ -206,7 +206,7 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 # files need none of them; nor do the tests of those, tests/editor/test_plain_*.c.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
-EDITOR_PLAIN := $(filter $(addprefix editor-gtk/,grid_edit.c grid_display.c grid_canvas.c grid_normalise.c grid_wire.c grid_line.c grid_branch.c grid_delete.c grid_pins.c grid_kind.c grid_block.c grid_drag.c entry.c entry_args.c entry_areas.c entry_candidates.c entry_declaration.c entry_duplicate.c entry_new.c entry_want.c entry_expression.c entry_names.c entry_operand.c entry_infer.c entry_words.c text_lines.c iomap_text.c iomap_edit.c iomap_uses.c iomap_check.c sfc_edit.c sfc_edit_text.c sfc_edit_macro.c),$(wildcard editor-gtk/*.c))
+EDITOR_PLAIN := $(filter $(addprefix editor-gtk/,grid_edit.c grid_display.c grid_canvas.c grid_normalise.c grid_wire.c grid_line.c grid_branch.c grid_delete.c grid_pins.c grid_kind.c grid_block.c grid_drag.c entry.c entry_args.c entry_areas.c entry_candidates.c entry_declaration.c entry_duplicate.c entry_new.c entry_want.c entry_expression.c entry_names.c entry_operand.c entry_infer.c entry_words.c text_lines.c iomap_text.c iomap_edit.c iomap_uses.c iomap_check.c sfc_edit.c sfc_edit_text.c sfc_edit_macro.c sfc_edit_insert.c),$(wildcard editor-gtk/*.c))
 EDITOR_C := $(wildcard editor-gtk/*.c)
 EDITOR_TESTS_PLAIN := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/test_plain_*.c))
 EDITOR_TESTS := $(EDITOR_TESTS_PLAIN)

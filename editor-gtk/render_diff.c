@@ -207,8 +207,9 @@ static void put_all(struct comparison *of, bool added)
 	if (pou->language == LANGUAGE_LD)
 		return;
 	if (pou->sfc)
-		of->y = render_diff_chart(project, index, added, of->options, of->lettering,
-					  of->y, of->picture);
+		of->y = render_diff_charts(of->a, added ? -1 : index, of->b,
+					   added ? index : -1, of->options, of->lettering,
+					   of->y, of->picture);
 	of->y = render_diff_lines(of->a, added ? -1 : index, of->b, added ? index : -1,
 				  of->lettering, of->y, of->picture);
 }
@@ -230,12 +231,9 @@ static void put_other(struct comparison *of)
 		return;
 	}
 	name_pou(of, a->sfc ? _("the chart differs") : _("the instruction list differs"));
-	if (a->sfc && b->sfc) {
-		of->y = render_diff_chart(of->a, of->pou_a, false, of->options,
-					  of->lettering, of->y, of->picture);
-		of->y = render_diff_chart(of->b, of->pou_b, true, of->options,
-					  of->lettering, of->y, of->picture);
-	}
+	if (a->sfc && b->sfc)
+		of->y = render_diff_charts(of->a, of->pou_a, of->b, of->pou_b, of->options,
+					   of->lettering, of->y, of->picture);
 	of->y = render_diff_lines(of->a, of->pou_a, of->b, of->pou_b, of->lettering, of->y,
 				  of->picture);
 }

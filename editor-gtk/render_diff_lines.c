@@ -5,9 +5,9 @@
  */
 #include "editor-gtk/render_diff_lines.h"
 #include "editor-gtk/i18n.h"
+#include "editor-gtk/render_diff_chart.h"
 #include "editor-gtk/render_sheet.h"
 #include "editor-gtk/rung_layout.h"
-#include "editor-gtk/sfc_draw.h"
 #include "engine/view/view.h"
 
 #define TEXT_LINE  17
@@ -116,13 +116,15 @@ float render_diff_lines(const struct project *a, int pou_a, const struct project
 	return y + TEXT_LINE;
 }
 
-float render_diff_chart(const struct project *project, int pou, bool added,
-			const struct render_options *options, struct lettering *lettering,
-			float y, struct picture *picture)
+/* As it was (not @added) or is. */
+static float put_chart(const struct sfc_sheet *chart, const GArray *marks, bool added,
+		       const struct render_options *options, struct lettering *lettering,
+		       float y, struct picture *picture)
 {
-	struct sfc_sheet *chart = sfc_sheet_new(project, &project->pou[pou], lettering);
 	const struct sfc_scene scene = { .sheet = chart,
-					 .theme = theme_get(options->theme, THEME_GREEN) };
+					 .theme = theme_get(options->theme, THEME_GREEN),
+					 .mark = (const struct sfc_mark *)marks->data,
+					 .mark_count = (int)marks->len };
 	const enum token token = added ? TOKEN_POWER : TOKEN_ERROR;
 
 	picture_fill(picture, token, TINT, 0, y, RUNG_GUTTER + chart->width, chart->height);
@@ -134,7 +136,32 @@ float render_diff_chart(const struct project *project, int pou, bool added,
 	picture_move(picture, 0, 0);
 	y += chart->height + TEXT_LINE;
 	render_grow(picture, RUNG_GUTTER + chart->width, y);
-	sfc_sheet_free(chart);
+	return y;
+}
+
+float render_diff_charts(const struct project *a, int pou_a, const struct project *b,
+			 int pou_b, const struct render_options *options,
+			 struct lettering *lettering, float y, struct picture *picture)
+{
+	struct sfc_sheet *before = pou_a < 0 ? NULL :
+		sfc_sheet_new(a, &a->pou[pou_a], lettering);
+	struct sfc_sheet *after = pou_b < 0 ? NULL :
+		sfc_sheet_new(b, &b->pou[pou_b], lettering);
+	GArray *removed = g_array_new(FALSE, FALSE, sizeof(struct sfc_mark));
+	GArray *added = g_array_new(FALSE, FALSE, sizeof(struct sfc_mark));
+
+	if (before && after)
+		render_diff_marks(before, after, removed, added);
+	if (before)
+		y = put_chart(before, removed, false, options, lettering, y, picture);
+	if (after)
+		y = put_chart(after, added, true, options, lettering, y, picture);
+	g_array_unref(removed);
+	g_array_unref(added);
+	if (before)
+		sfc_sheet_free(before);
+	if (after)
+		sfc_sheet_free(after);
 	return y;
 }
 

@@ -17,10 +17,11 @@
 float render_diff_lines(const struct project *a, int pou_a, const struct project *b,
 			int pou_b, struct lettering *lettering, float y,
 			struct picture *picture);
-/** render_diff_chart - a chart as it was (not @added) or is. */
-float render_diff_chart(const struct project *project, int pou, bool added,
-			const struct render_options *options, struct lettering *lettering,
-			float y, struct picture *picture);
+/** render_diff_charts - a chart as it was and as it is (-1: there is none), with marks at
+ * what differs in them. */
+float render_diff_charts(const struct project *a, int pou_a, const struct project *b,
+			 int pou_b, const struct render_options *options,
+			 struct lettering *lettering, float y, struct picture *picture);
 /** render_diff_besides - declarations and all else, as `ladder diff` says it; of one POU
  * if the options want one. Nothing: @y. */
 float render_diff_besides(const struct project *a, const struct project *b,

@@ -13,6 +13,9 @@
 #define ARROW      6
 #define BASE       4     /* from the middle of a row to the baseline of its text   */
 #define TOKEN_DOT  4.5f
+#define SIGN_APART 2     /* from a frame to the sign of a comparison               */
+#define SIGN_BASE  5
+#define SIGN_ROOM  10    /* what comments leave to it                             */
 
 struct nib {
 	const struct sfc_scene *scene;
@@ -20,6 +23,7 @@ struct nib {
 	const struct sfc_layout *layout;
 	const struct theme *theme;
 	struct picture *picture;
+	bool compared;           /* there are signs of a comparison            */
 };
 
 static void line(const struct nib *nib, enum token token, float width, float x1, float y1,
@@ -72,6 +76,26 @@ static void draw_grounds(const struct nib *nib)
 	}
 }
 
+/* In a comparison, as cells of rungs: a dotted frame, and a sign for who sees no colours, before
+ * a step or transition, behind a line of a step. */
+static void draw_difference(const struct nib *nib, const struct sfc_mark *mark)
+{
+	const bool added = mark->signs & SFC_ADDED, removed = mark->signs & SFC_REMOVED;
+	const bool step = nib->layout->shape[mark->shape].part == SFC_STEP;
+	const enum token token = added ? TOKEN_POWER : removed ? TOKEN_ERROR : TOKEN_FORCE;
+	const struct lettered sign = fit(nib, LETTER_HEADING, added ? "+" : removed ?
+					 "\xe2\x88\x92" : "\xe2\x89\xa0");
+	graphene_rect_t box = mark_box(nib, mark);
+
+	graphene_rect_inset(&box, -3, mark->use < 0 && step ? -3 : 0);
+	picture_frame(nib->picture, token, STROKE_DOTTED, 1.5f, box.origin.x, box.origin.y,
+		      box.size.width, box.size.height);
+	picture_text(nib->picture, token, LETTER_HEADING, sign, mark->use >= 0 ?
+		     box.origin.x + box.size.width + SIGN_APART :
+		     box.origin.x - sign.width - SIGN_APART,
+		     box.origin.y + box.size.height / 2 + SIGN_BASE);
+}
+
 static void draw_marks(const struct nib *nib)
 {
 	for (int i = 0; i < nib->scene->mark_count; i++) {
@@ -84,6 +108,8 @@ static void draw_marks(const struct nib *nib)
 				     TOKEN_FORCE, box.origin.x + 3, bottom - 3,
 				     box.size.width - 6);
 		graphene_rect_inset(&box, -4, mark->use >= 0 ? 0 : -4);
+		if (mark->signs & (SFC_CHANGED | SFC_ADDED | SFC_REMOVED))
+			draw_difference(nib, mark);
 		if (mark->signs & (SFC_CURSOR | SFC_DROP))
 			picture_frame(nib->picture, TOKEN_ACCENT, mark->signs & SFC_DROP ?
 				      STROKE_DASHED : STROKE_SOLID, 2, box.origin.x,
@@ -179,7 +205,8 @@ static void draw_texts(const struct nib *nib, int step, const graphene_rect_t *b
 /* As much of a comment as there is room for. */
 static void draw_aside(const struct nib *nib, int shape, const char *text, float x, float y)
 {
-	const float room = sfc_sheet_room(nib->sheet, nib->layout->shape[shape].lane, x);
+	const float room = sfc_sheet_room(nib->sheet, nib->layout->shape[shape].lane, x) -
+			   (nib->compared ? SIGN_ROOM : 0);
 
 	if (*text && room > SFC_APART)
 		picture_text(nib->picture, TOKEN_COMMENT, LETTER_COMMENT,
@@ -224,7 +251,8 @@ static void draw_table(const struct nib *nib, int step)
 			     fit(nib, LETTER_SYMBOL, nib->sheet->does[use]),
 			     table->x + table->what + SFC_CELL, at + BASE);
 		draw_aside(nib, step, nib->sheet->use_comment[use],
-			   table->x + w + SFC_APART, at);
+			   table->x + w + SFC_APART + (nib->compared ? SIGN_ROOM : 0),
+			   at);
 	}
 }
 
@@ -301,8 +329,11 @@ static void draw_titles(const struct nib *nib)
 
 void sfc_draw(const struct sfc_scene *scene, struct picture *picture)
 {
-	const struct nib nib = { scene, scene->sheet, scene->sheet->layout, scene->theme,
-				 picture };
+	struct nib nib = { scene, scene->sheet, scene->sheet->layout, scene->theme, picture,
+			   false };
+
+	for (int i = 0; i < scene->mark_count; i++)
+		nib.compared |= scene->mark[i].signs & (SFC_CHANGED | SFC_ADDED | SFC_REMOVED);
 
 	draw_grounds(&nib);
 	draw_titles(&nib);

@@ -30,6 +30,7 @@ enum sfc_sign {
 	SFC_CURSOR = 1, SFC_SELECTED = 2, SFC_ERROR = 4, SFC_WARNING = 8,
 	SFC_DROP = 16,     /* what is dragged would go here                     */
 	SFC_FOUND = 32,
+	SFC_CHANGED = 64, SFC_ADDED = 128, SFC_REMOVED = 256, /* in a comparison  */
 };
 struct sfc_mark { int shape, use; unsigned int signs; }; /* use -1: the shape    */
 

@@ -233,7 +233,7 @@ static bool replace_ref(struct sfc_edit *edit, int transition, int ref, int like
 
 /* ---- new ones ---- */
 
-static int new_step(struct sfc_edit *edit, int macro, int behind)
+int sfc_edit_new_step(struct sfc_edit *edit, int macro, int behind)
 {
 	struct sfc *sfc = &edit->sfc;
 	const uint32_t name = sfc_edit_id(edit, sfc_edit_free_name(edit, "Step"));
@@ -251,7 +251,7 @@ static int new_step(struct sfc_edit *edit, int macro, int behind)
 }
 
 /* From @from (-1: none) to @to, behind a piece. */
-static int new_transition(struct sfc_edit *edit, int macro, int from, int to, int behind)
+int sfc_edit_new_transition(struct sfc_edit *edit, int macro, int from, int to, int behind)
 {
 	struct sfc *sfc = &edit->sfc;
 	struct sfc_transition *t;
@@ -290,7 +290,7 @@ int sfc_edit_step_below(struct sfc_edit *edit, int step)
 {
 	const int count = edit->sfc.transition_count;
 	const int macro = edit->sfc.step[step].macro;
-	const int made = new_step(edit, macro, sfc_edit_step_end(edit, step));
+	const int made = sfc_edit_new_step(edit, macro, sfc_edit_step_end(edit, step));
 
 	if (made < 0)
 		return -1;
@@ -309,15 +309,14 @@ int sfc_edit_step_below(struct sfc_edit *edit, int step)
 					.name = edit->sfc.step[made].name };
 		}
 	}
-	return new_transition(edit, macro, step, made,
-			      sfc_edit_step_end(edit, step)) < 0 ? -1 :
-	       made;
+	return sfc_edit_new_transition(edit, macro, step, made,
+				       sfc_edit_step_end(edit, step)) < 0 ? -1 : made;
 }
 
 int sfc_edit_step_after(struct sfc_edit *edit, int transition)
 {
 	const struct sfc_transition old = edit->sfc.transition[transition];
-	const int made = new_step(edit, old.macro,
+	const int made = sfc_edit_new_step(edit, old.macro,
 				  sfc_edit_find_piece(edit, PIECE_TRANSITION, transition));
 	struct sfc_transition *t;
 	int next;
@@ -325,7 +324,8 @@ int sfc_edit_step_after(struct sfc_edit *edit, int transition)
 	if (made < 0)
 		return -1;
 	if (old.to_count) {
-		next = new_transition(edit, old.macro, made, -1, sfc_edit_step_end(edit, made));
+		next = sfc_edit_new_transition(edit, old.macro, made, -1,
+					       sfc_edit_step_end(edit, made));
 		if (next < 0)
 			return -1;
 		edit->sfc.transition[next].first_to = old.first_to;
@@ -340,12 +340,12 @@ int sfc_edit_step_after(struct sfc_edit *edit, int transition)
 int sfc_edit_branch(struct sfc_edit *edit, int step)
 {
 	const int macro = edit->sfc.step[step].macro;
-	const int way = new_transition(edit, macro, step, -1, behind_ways(edit, step));
+	const int way = sfc_edit_new_transition(edit, macro, step, -1, behind_ways(edit, step));
 	int made;
 
 	if (way < 0)
 		return -1;
-	made = new_step(edit, macro, sfc_edit_find_piece(edit, PIECE_TRANSITION, way));
+	made = sfc_edit_new_step(edit, macro, sfc_edit_find_piece(edit, PIECE_TRANSITION, way));
 	return made >= 0 && add_step(edit, way, true, made) ? made : -1;
 }
 
@@ -356,7 +356,7 @@ int sfc_edit_parallel(struct sfc_edit *edit, int transition)
 			 -1;
 	const int behind = last >= 0 ? sfc_edit_step_end(edit, last) :
 			   sfc_edit_find_piece(edit, PIECE_TRANSITION, transition);
-	const int made = new_step(edit, t->macro, behind);
+	const int made = sfc_edit_new_step(edit, t->macro, behind);
 
 	return made >= 0 && add_step(edit, transition, true, made) ? made : -1;
 }
@@ -373,7 +373,7 @@ int sfc_edit_first(struct sfc_edit *edit, int macro)
 	/* Before the actions. */
 	while (macro < 0 && at >= 0 && edit->sfc.piece[at].kind == PIECE_ACTION)
 		at--;
-	made = new_step(edit, macro, at);
+	made = sfc_edit_new_step(edit, macro, at);
 	if (made >= 0 && !any)
 		edit->sfc.step[made].kind = STEP_INITIAL;
 	return made;
@@ -384,7 +384,7 @@ int sfc_edit_lead(struct sfc_edit *edit, int from, int to)
 	if (edit->sfc.step[from].macro != edit->sfc.step[to].macro)
 		return sfc_edit_refuse(edit, N_("no way leads past the border of a "
 						"macro-step")) - 1;
-	return new_transition(edit, edit->sfc.step[from].macro, from, to,
+	return sfc_edit_new_transition(edit, edit->sfc.step[from].macro, from, to,
 			      behind_ways(edit, from));
 }
 

@@ -118,7 +118,26 @@ bool sfc_edit_set_comment(struct sfc_edit *edit, enum piece_kind kind, int index
 /** sfc_edit_set_use_comment - of a line of what a step does. */
 bool sfc_edit_set_use_comment(struct sfc_edit *edit, int use, const char *text);
 
-/* ---- shared by the three files ---- */
+/* ---- sfc_edit_insert.c: a part comes into the sequence ---- */
+
+/**
+ * sfc_edit_insert - what stands behind the chart comes into its sequence
+ * @step, @way:       the first step and transition of it, which are the last ones of all;
+ *                    ways that lead out of it name others, or none there is
+ * @at_step, @at_way: behind which of them, the other -1; both -1: it stays where it is
+ *
+ * A step and what follows it in a sequence come between the transition there and what that
+ * led to; where steps or transitions would meet, an empty one is made between them. What has
+ * not one beginning and one end stays where it is, and @why says so.
+ * Returns a step to go to, maybe none of those there are. Fails: -1.
+ */
+int sfc_edit_insert(struct sfc_edit *edit, int step, int way, int at_step, int at_way);
+
+/* ---- shared by the files ---- */
+/** sfc_edit_new_step - in a macro-step or -1, behind piece @behind. */
+int sfc_edit_new_step(struct sfc_edit *edit, int macro, int behind);
+/** sfc_edit_new_transition - from @from to @to (-1: none yet). */
+int sfc_edit_new_transition(struct sfc_edit *edit, int macro, int from, int to, int behind);
 /** sfc_edit_find_piece - -1: it is not written any more. */
 int sfc_edit_find_piece(const struct sfc_edit *edit, enum piece_kind kind, int index);
 /** sfc_edit_step_end - its last piece: of a macro-step that of its END_STEP. */

@@ -78,6 +78,16 @@ double chart_px(LadderSfcView *view, double px)
 
 /* ---- the cursor ---- */
 
+static int size_along(LadderSfcView *view, GtkOrientation orientation)
+{
+	double size = 200;
+
+	if (view->sheet)
+		size = (double)(orientation == GTK_ORIENTATION_HORIZONTAL ?
+				view->sheet->width : view->sheet->height + 60) * view->zoom;
+	return MAX((int)size, 100);
+}
+
 static void reveal_along(GtkAdjustment *adjustment, double from, double to)
 {
 	const double value = gtk_adjustment_get_value(adjustment);
@@ -89,20 +99,59 @@ static void reveal_along(GtkAdjustment *adjustment, double from, double to)
 		gtk_adjustment_set_value(adjustment, MIN(to - page, from));
 }
 
-static void reveal(LadderSfcView *view)
+/* What scrolls the chart that way, knowing already how large the chart is: it may have
+ * grown, and is only given its place when it is drawn. NULL: nothing. */
+static GtkAdjustment *along(LadderSfcView *view, GtkOrientation orientation)
 {
 	GtkWidget *scroller = gtk_widget_get_ancestor(GTK_WIDGET(view),
 						      GTK_TYPE_SCROLLED_WINDOW);
+	GtkAdjustment *adjustment;
+
+	if (!scroller)
+		return NULL;
+	adjustment = orientation == GTK_ORIENTATION_HORIZONTAL ?
+		gtk_scrolled_window_get_hadjustment(GTK_SCROLLED_WINDOW(scroller)) :
+		gtk_scrolled_window_get_vadjustment(GTK_SCROLLED_WINDOW(scroller));
+	gtk_adjustment_set_upper(adjustment, MAX(size_along(view, orientation),
+						 gtk_adjustment_get_page_size(adjustment)));
+	return adjustment;
+}
+
+/* Of the cursor, with some room around it: px of the widget. */
+static graphene_rect_t cursor_box(LadderSfcView *view, float around)
+{
 	graphene_rect_t box = chart_box(view, view->cursor);
 
-	if (!scroller || view->cursor.shape < 0)
-		return;
-	graphene_rect_inset(&box, -30, -30);
+	graphene_rect_inset(&box, -around, -around);
 	graphene_rect_scale(&box, (float)view->zoom, (float)view->zoom, &box);
-	reveal_along(gtk_scrolled_window_get_hadjustment(GTK_SCROLLED_WINDOW(scroller)),
-		     (double)box.origin.x, (double)(box.origin.x + box.size.width));
-	reveal_along(gtk_scrolled_window_get_vadjustment(GTK_SCROLLED_WINDOW(scroller)),
-		     (double)box.origin.y, (double)(box.origin.y + box.size.height));
+	return box;
+}
+
+static void reveal(LadderSfcView *view)
+{
+	GtkAdjustment *x = along(view, GTK_ORIENTATION_HORIZONTAL);
+	GtkAdjustment *y = along(view, GTK_ORIENTATION_VERTICAL);
+	const graphene_rect_t box = cursor_box(view, 30);
+
+	if (!x || view->cursor.shape < 0)
+		return;
+	reveal_along(x, (double)box.origin.x, (double)(box.origin.x + box.size.width));
+	reveal_along(y, (double)box.origin.y, (double)(box.origin.y + box.size.height));
+}
+
+/* Is something of the cursor? */
+static bool is_seen(LadderSfcView *view)
+{
+	GtkAdjustment *x = along(view, GTK_ORIENTATION_HORIZONTAL);
+	GtkAdjustment *y = along(view, GTK_ORIENTATION_VERTICAL);
+	const graphene_rect_t box = cursor_box(view, 0);
+
+	if (!x || view->cursor.shape < 0)
+		return false;
+	return graphene_rect_intersection(&box, &GRAPHENE_RECT_INIT(
+		(float)gtk_adjustment_get_value(x), (float)gtk_adjustment_get_value(y),
+		(float)gtk_adjustment_get_page_size(x),
+		(float)gtk_adjustment_get_page_size(y)), NULL);
 }
 
 void chart_moved(LadderSfcView *view)
@@ -242,14 +291,8 @@ static void ladder_sfc_view_measure(GtkWidget *widget, GtkOrientation orientatio
 				    int for_size, int *least, int *natural, int *least_base,
 				    int *natural_base)
 {
-	LadderSfcView *view = LADDER_SFC_VIEW(widget);
-	double size = 200;
-
 	(void)for_size;
-	if (view->sheet)
-		size = (double)(orientation == GTK_ORIENTATION_HORIZONTAL ?
-				view->sheet->width : view->sheet->height + 60) * view->zoom;
-	*least = *natural = MAX((int)size, 100);
+	*least = *natural = size_along(LADDER_SFC_VIEW(widget), orientation);
 	*least_base = *natural_base = -1;
 }
 
@@ -452,11 +495,15 @@ double ladder_sfc_view_zoom(LadderSfcView *view)
 
 void ladder_sfc_view_set_zoom(LadderSfcView *view, double zoom)
 {
+	const bool seen = is_seen(view);
+
 	zoom = CLAMP(zoom, ZOOM_LEAST, ZOOM_MOST);
 	if (zoom == view->zoom)
 		return;
 	view->zoom = zoom;
 	gtk_widget_queue_resize(GTK_WIDGET(view));
+	if (seen)
+		reveal(view);
 	gtk_widget_queue_draw(GTK_WIDGET(view));
 	g_signal_emit(view, signals[ZOOM_CHANGED], 0);
 }

@@ -22,21 +22,18 @@ static bool is_chosen(LadderSfcView *view, int shape)
 	return any ? view->selected[shape] : shape == view->cursor.shape;
 }
 
-/* All its steps are there. */
-static bool is_between(LadderSfcView *view, const struct sfc *sfc, int transition)
+/* A transition goes with the steps that it leaves: its condition is theirs, and where it
+ * led is found again where it comes to. */
+static bool is_left(LadderSfcView *view, const struct sfc *sfc, int transition)
 {
 	const struct sfc_transition *t = &sfc->transition[transition];
 
 	if (is_chosen(view, sfc->step_count + transition))
 		return true;
-	for (int i = 0; i < t->from_count + t->to_count; i++) {
-		const int ref = i < t->from_count ? t->first_from + i :
-				t->first_to + i - t->from_count;
-
-		if (sfc->ref[ref].step < 0 || !is_chosen(view, sfc->ref[ref].step))
+	for (int i = t->first_from; i < t->first_from + t->from_count; i++)
+		if (sfc->ref[i].step < 0 || !is_chosen(view, sfc->ref[i].step))
 			return false;
-	}
-	return t->from_count > 0 && t->to_count > 0;
+	return t->from_count > 0;
 }
 
 static bool is_kept(LadderSfcView *view, const struct sfc *sfc, const struct sfc_piece *piece)
@@ -46,7 +43,7 @@ static bool is_kept(LadderSfcView *view, const struct sfc *sfc, const struct sfc
 	case PIECE_MACRO_END:
 		return is_chosen(view, piece->index);
 	case PIECE_TRANSITION:
-		return is_between(view, sfc, piece->index);
+		return is_left(view, sfc, piece->index);
 	case PIECE_ACTION:
 	case PIECE_CONTROL:
 	default:
@@ -115,6 +112,15 @@ static bool is_taken(const struct sfc_edit *here, const char *name)
 	return false;
 }
 
+/* Has it a step to begin with? One that was cut is it again when it comes back. */
+static bool begins(const struct sfc_edit *edit)
+{
+	for (int i = 0; i < edit->sfc.step_count; i++)
+		if (edit->sfc.step[i].kind == STEP_INITIAL && edit->sfc.step[i].macro < 0)
+			return true;
+	return false;
+}
+
 /* Names that neither chart has. */
 static void rename_steps(struct sfc_edit *here, struct sfc_edit *other)
 {
@@ -135,7 +141,7 @@ static void rename_steps(struct sfc_edit *here, struct sfc_edit *other)
 		sfc_edit_name_transition(other, i, "");
 	for (int i = 0; i < other->sfc.step_count; i++)
 		if (other->sfc.step[i].kind == STEP_INITIAL &&
-		    other->sfc.step[i].macro < 0 && here->sfc.step_count > 0)
+		    other->sfc.step[i].macro < 0 && begins(here))
 			other->sfc.step[i].kind = STEP_PLAIN;
 }
 
@@ -180,12 +186,10 @@ static bool put_pieces(LadderSfcView *view, const char *pieces, LadderDocument *
 	bool good;
 
 	with = g_strdup_printf("\n%s", pieces);
-	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
 	good = whole && ladder_document_replace(view->document, end.span.at + end.span.len,
 						0, with, NULL);
 	if (good)
 		declare(view, source);
-	ladder_document_end(view->document);
 	g_free(with);
 	g_free(whole);
 	return good;
@@ -196,7 +200,7 @@ static bool holds_chart(LadderDocument *source)
 	const struct project *project = ladder_document_project(source);
 
 	return project && project->pou_count == 1 && project->pou[0].sfc &&
-	       project->pou[0].sfc->step_count > 0;
+	       project->pou[0].sfc->step_count + project->pou[0].sfc->transition_count > 0;
 }
 
 /* A whole chart, or pieces alone: then a chart is made of them. */
@@ -234,17 +238,40 @@ static char *pieces_for(struct sfc_edit *here, LadderDocument *source)
 	return pieces;
 }
 
+/* They stand behind the chart; now they come to what was at the cursor. */
+static void insert(LadderSfcView *view, const struct sfc_edit *before, enum sfc_part part,
+		   int index)
+{
+	struct sfc_edit *edit;
+	int made;
+
+	chart_fresh(view);
+	edit = chart_edit(view);
+	if (!edit)
+		return;
+	made = sfc_edit_insert(edit, before->sfc.step_count, before->sfc.transition_count,
+			       part == SFC_STEP ? index : -1,
+			       part == SFC_TRANSITION ? index : -1);
+	if (made >= 0 && edit->why)
+		chart_tell(view, _(edit->why));
+	chart_put(view, edit, made >= 0, _(verb_row(VERB_paste)->label), PIECE_STEP, made);
+}
+
 static void paste_text(LadderSfcView *view, const char *text)
 {
 	LadderDocument *source = text ? read_chart(text) : NULL;
 	struct sfc_edit *here = source ? chart_edit(view) : NULL;
-	const int count = here ? here->sfc.step_count : 0;
 	char *pieces = here ? pieces_for(here, source) : NULL;
+	enum sfc_part part;
+	int index;
 
+	part = here ? chart_part_here(view, &index) : SFC_NOTHING;
+	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
 	if (!pieces || !put_pieces(view, pieces, source))
 		chart_tell(view, _("The clipboard holds no steps."));
-	else if (view->sheet && view->sheet->layout->sfc->step_count > count)
-		chart_go(view, (struct sfc_at){ count, -1, false }, false);
+	else
+		insert(view, here, part, index);
+	ladder_document_end(view->document);
 	g_free(pieces);
 	sfc_edit_free(here);
 	g_clear_object(&source);

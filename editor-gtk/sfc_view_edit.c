@@ -114,7 +114,7 @@ static void put_step(LadderSfcView *view, struct sfc_edit *edit, int step, enum 
 }
 
 /* The transition of a jump, or the step whose jump it is: where one would go on. */
-static enum sfc_part part_here(LadderSfcView *view, int *index)
+enum sfc_part chart_part_here(LadderSfcView *view, int *index)
 {
 	enum sfc_part part = chart_part(view, index);
 	const struct sfc_jump *jump;
@@ -133,7 +133,7 @@ static void step_below(LadderSfcView *view)
 
 	if (!edit)
 		return;
-	switch (part_here(view, &index)) {
+	switch (chart_part_here(view, &index)) {
 	case SFC_STEP:
 		made = sfc_edit_step_below(edit, index);
 		break;
@@ -158,7 +158,7 @@ static void branch(LadderSfcView *view)
 
 	if (!edit)
 		return;
-	part = part_here(view, &index);
+	part = chart_part_here(view, &index);
 	/* Beside a transition: another way out of its step. */
 	if (part == SFC_TRANSITION && pou->sfc->transition[index].from_count > 0)
 		index = pou->sfc->ref[pou->sfc->transition[index].first_from].step;
@@ -190,7 +190,7 @@ static void parallel(LadderSfcView *view)
 
 	if (!edit)
 		return;
-	part = part_here(view, &index);
+	part = chart_part_here(view, &index);
 	if (part == SFC_STEP)
 		index = way_to(pou->sfc, index);
 	if (index >= 0)
@@ -209,7 +209,7 @@ static void move(LadderSfcView *view, bool right)
 
 	if (!edit)
 		return;
-	part = part_here(view, &index);
+	part = chart_part_here(view, &index);
 	if (part == SFC_NOTHING) {
 		sfc_edit_free(edit);
 		return;
@@ -249,14 +249,24 @@ void chart_lead(LadderSfcView *view, struct sfc_at from, struct sfc_at to)
 
 /* ---- deleting ---- */
 
-/* Where the cursor goes when a step is gone: to the one before it. */
-static int step_before(const struct sfc *sfc, int step)
+/* The step before a transition; -1: none. */
+static int step_of(const struct sfc *sfc, int transition)
 {
-	const int way = way_to(sfc, step);
-	int before = way >= 0 && sfc->transition[way].from_count > 0 ?
-		     sfc->ref[sfc->transition[way].first_from].step : -1;
+	return transition >= 0 && sfc->transition[transition].from_count > 0 ?
+	       sfc->ref[sfc->transition[transition].first_from].step : -1;
+}
 
-	return before == step ? -1 : before;
+/* Where the cursor goes when what stands there is gone: to the step before it that stays. */
+static int step_before(LadderSfcView *view, const struct sfc *sfc, enum sfc_part part,
+		       int index)
+{
+	const int first = part == SFC_STEP ? index : -1;
+	int step = part == SFC_STEP ? step_of(sfc, way_to(sfc, index)) :
+		   part == SFC_TRANSITION ? step_of(sfc, index) : -1;
+
+	for (int i = 0; i < sfc->step_count && step >= 0 && view->selected[step]; i++)
+		step = step_of(sfc, way_to(sfc, step));
+	return step == first || (step >= 0 && view->selected[step]) ? -1 : step;
 }
 
 static bool delete_jump(LadderSfcView *view, struct sfc_edit *edit, int index)
@@ -303,7 +313,7 @@ static void delete(LadderSfcView *view)
 {
 	const struct pou *pou = chart_pou(view);
 	struct sfc_edit *edit;
-	int index, next = -1;
+	int index, next;
 	enum sfc_part part;
 	bool good, any;
 
@@ -311,8 +321,7 @@ static void delete(LadderSfcView *view)
 		return;
 	edit = chart_edit(view);
 	part = chart_part(view, &index);
-	if (part == SFC_STEP)
-		next = step_before(pou->sfc, index);
+	next = step_before(view, pou->sfc, part, index);
 	good = delete_selected(view, edit, &any);
 	if (!any && view->cursor.use >= 0) {
 		next = index;
@@ -363,7 +372,7 @@ int chart_macro_here(LadderSfcView *view)
 {
 	const struct sfc *sfc = chart_pou(view)->sfc;
 	int index;
-	const enum sfc_part part = part_here(view, &index);
+	const enum sfc_part part = chart_part_here(view, &index);
 
 	if (part == SFC_STEP)
 		return sfc->step[index].kind == STEP_MACRO ? index : sfc->step[index].macro;
@@ -391,7 +400,7 @@ static void as_rung(LadderSfcView *view)
 	struct sfc_edit *edit;
 	int index;
 
-	switch (part_here(view, &index)) {
+	switch (chart_part_here(view, &index)) {
 	case SFC_TRANSITION:
 		edit = chart_edit(view);
 		if (chart_put(view, edit, sfc_edit_as_rung(edit, index),

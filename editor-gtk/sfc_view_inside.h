@@ -85,6 +85,9 @@ void chart_body_wanted(LadderSfcView *view, const struct sfc_body *body);
 bool chart_put(LadderSfcView *view, struct sfc_edit *edit, bool good, const char *name,
 	       enum piece_kind kind, int index);
 struct sfc_edit *chart_edit(LadderSfcView *view);
+/** chart_part_here - as chart_part(), but of a jump its transition, or the step whose jump it
+ * is: where one would go on. */
+enum sfc_part chart_part_here(LadderSfcView *view, int *index);
 /** chart_macro_here - the macro-step at the cursor, else the one it stands in; -1: none. */
 int chart_macro_here(LadderSfcView *view);
 /** chart_lead - a way from what stands at @from to what stands at @to. */

@@ -70,6 +70,61 @@ static void check_diff(void)
 	g_free(path);
 }
 
+static int count_of(const char *name, const char *text)
+{
+	char *all = content(name, NULL);
+	int count = 0;
+
+	for (const char *at = all; (at = strstr(at, text)) != NULL; at++)
+		count++;
+	g_free(all);
+	return count;
+}
+
+#define EQUALS_NOT ">\xe2\x89\xa0</text>"
+#define MINUS ">\xe2\x88\x92</text>"
+
+/* Steps, their lines and transitions that differ are marked in the drawing, by signs. */
+static void check_diff_chart(void)
+{
+	static const char chart[] = "PROGRAM Chart SFC\n  INITIAL_STEP S0:\n    Fill(N);\n"
+		"    %QX0.1(N);\n  END_STEP\n  STEP S1:\n  END_STEP\n"
+		"  TRANSITION FROM S0 TO S1 := I0.1; END_TRANSITION\n"
+		"  TRANSITION FROM S1 TO S0:\n    RUNG\n      | NO I0.2 | COIL TRANSITION |\n"
+		"  END_TRANSITION\n  ACTION Fill:\n    RUNG\n"
+		"      | NO I0.3 | COIL Q0.3 |\n  END_ACTION\nEND_PROGRAM\n";
+	static const struct { const char *from, *to; int changed, removed, added; } edit[] = {
+		{ "I0.1", "I0.7", 2, 0, 0 },               /* an expression      */
+		{ "NO I0.2", "NC I0.2", 2, 0, 0 },         /* a rung             */
+		{ "NO I0.3", "NC I0.3", 2, 0, 0 },         /* what a line calls  */
+		{ "%QX0.1(N)", "%QX0.1(P1)", 2, 0, 0 },
+		{ "STEP S1:", "STEP S1 (MIN := T#1s):", 2, 0, 0 },
+		{ "S1", "S7", 4, 1, 1 },                   /* a step, its ways   */
+		{ "END_PROGRAM", "STEP S2:\nEND_STEP\nTRANSITION FROM S2 TO S1 := I0.4; "
+		  "END_TRANSITION\nEND_PROGRAM", 0, 0, 2 },
+	};
+
+	write_text("a.rung", chart);
+	for (int i = 0; i < (int)G_N_ELEMENTS(edit); i++) {
+		GString *other = g_string_new(chart);
+		/* One at the chart, and one at each line below that came or went. */
+		int added = 1, removed = 1;
+
+		g_string_replace(other, edit[i].from, edit[i].to, 0);
+		write_text("b.rung", other->str);
+		CHECK(render("--diff OUT/a.rung OUT/b.rung -o OUT/c.svg") == 0);
+		CHECK(count_of("c.svg", EQUALS_NOT) == edit[i].changed);
+		added += edit[i].added;
+		removed += edit[i].removed;
+		CHECK(count_of("c.svg", ">+</text>") >= added &&
+		      count_of("c.svg", MINUS) >= removed);
+		g_string_free(other, TRUE);
+	}
+	write_text("b.rung", "PROGRAM Other SFC\n  INITIAL_STEP S0:\n  END_STEP\nEND_PROGRAM\n");
+	CHECK(render("--diff OUT/a.rung OUT/b.rung -o OUT/c.svg") == 0 &&
+	      count_of("c.svg", EQUALS_NOT) == 0);
+}
+
 /* What is no rung is told in words, lists line by line, a chart as it was and is. */
 static void check_diff_besides(void)
 {
@@ -288,6 +343,7 @@ int main(void)
 	check_png();
 	check_diff();
 	check_diff_besides();
+	check_diff_chart();
 	check_moved();
 	check_wrong();
 	check_full("full.svg");

@@ -154,6 +154,49 @@ static void check_live(void)
 	ladder_free(ladder);
 }
 
+/* ---- what differs ---- */
+
+static struct sfc_sheet *sheet_of(struct ladder *ladder)
+{
+	return sfc_sheet_new(ladder_project(ladder), &ladder_project(ladder)->pou[0],
+			     lettering);
+}
+
+/* All is marked: signs and frames stand beside what there is. */
+static void check_marked(const char *path)
+{
+	struct ladder *ladder = load(path);
+	struct sfc_scene scene = { .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
+	struct sfc_sheet *sheet;
+	struct sfc_mark *mark;
+	struct picture picture;
+	int count = 0;
+
+	if (!CHECK_AS(ladder != NULL, path))
+		return;
+	sheet = sheet_of(ladder);
+	mark = g_new0(struct sfc_mark, sheet->layout->shape_count +
+		      sheet->layout->sfc->use_count + 1);
+	for (int i = 0; i < sheet->layout->shape_count; i++)
+		if (sheet->layout->shape[i].part != SFC_JUMP)
+			mark[count++] = (struct sfc_mark){ i, -1, SFC_CHANGED };
+	for (int i = 0; i < sheet->layout->sfc->use_count; i++)
+		mark[count++] = (struct sfc_mark){ sheet->layout->sfc->use[i].step, i,
+						   SFC_CHANGED };
+	scene.sheet = sheet;
+	scene.mark = mark;
+	scene.mark_count = count;
+	picture_init(&picture);
+	sfc_draw(&scene, &picture);
+	CHECK_AS(count_faults(&picture, sheet) == 0, "no sign of a difference hides anything");
+	CHECK(count_strokes(&picture, STROKE_FRAME, TOKEN_FORCE) == count &&
+	      count_strokes(&picture, STROKE_TEXT, TOKEN_FORCE) == count);
+	picture_clear(&picture);
+	g_free(mark);
+	sfc_sheet_free(sheet);
+	ladder_free(ladder);
+}
+
 /* ---- rungs of bodies ---- */
 
 static const char chart[] =
@@ -230,6 +273,10 @@ int main(void)
 	check_chart("tests/golden/show-sfc-ways/main.rung");
 	check_chart("ladders/sequence-s0-s8.rung");
 	check_live();
+	check_marked("tests/golden/show-sfc-sequence/main.rung");
+	check_marked("tests/golden/show-sfc-ways/main.rung");
+	check_marked("ladders/sequence-s0-s8.rung");
+	check_marked("ladders/washing-machine.rung");
 	check_bodies();
 	lettering_free(lettering);
 	return tap_done();

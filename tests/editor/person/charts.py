@@ -345,6 +345,132 @@ def forced(screen):
     shape(editor, 'Step Apart, active')
 
 
+SEQUENCE = '''RUNGBOARD 1
+
+PROGRAM Main SFC
+  INITIAL_STEP Start:
+  END_STEP
+
+  TRANSITION FROM Start TO Fill := I0.0; END_TRANSITION
+
+  STEP Fill:
+    Q0.0(N);
+  END_STEP
+
+  TRANSITION FROM Fill TO Drain := Fill.T > T#2s; END_TRANSITION
+
+  STEP Drain:
+  END_STEP
+
+  TRANSITION FROM Drain TO Start := I0.2; END_TRANSITION
+END_PROGRAM
+'''
+
+
+def clipped(screen):
+    """a step is cut with the condition behind it, and pasted into the sequence; a copy, a transition, too"""
+    path = new_file(screen, SEQUENCE)
+    editor = Editor(screen, path)
+    on_chart(editor)
+    editor.click(upon(editor, shape(editor, 'Step Fill')))
+    at(editor, 'Step Fill')
+    on_chart(editor)
+    editor.keys('ctrl+x')
+    shape(editor, 'from Start to Drain, condition I0.0')
+    at(editor, 'Step Start')
+    cut = editor.save(path)
+    assert 'Fill' not in cut, cut
+    # Where it was, all is as it was; elsewhere it is led to from there.
+    editor.keys('ctrl+v')
+    at(editor, 'Step Fill')
+    assert editor.save(path) == SEQUENCE
+    editor.keys('ctrl+z')
+    until(lambda: not [name for name in shapes(editor) if 'Fill' in name], 'one step back')
+    assert editor.save(path) == cut
+    editor.click(upon(editor, shape(editor, 'from Drain to Start')))
+    at(editor, 'from Drain to Start')
+    on_chart(editor)
+    editor.keys('ctrl+v')
+    at(editor, 'Step Fill')
+    shape(editor, 'from Fill to Start, condition Fill.T > T#2s')
+    shape(editor, 'from Drain to Fill, condition I0.2')
+    editor.shot('chart-pasted')
+    check(path)
+    # Again: a name of its own, in its condition, too.
+    editor.keys('ctrl+c', 'ctrl+v')
+    at(editor, 'Step Fill_2')
+    shape(editor, 'from Fill to Fill_2, condition Fill.T > T#2s')
+    shape(editor, 'from Fill_2 to Start, condition Fill_2.T > T#2s')
+    text = editor.save(path)
+    check(path)
+    # Two steps with what is between them and behind them.
+    editor.keys('shift+Up', 'shift+Up', 'ctrl+x')
+    at(editor, 'Step Drain')
+    assert editor.save(path) == cut
+    editor.keys('ctrl+v')
+    at(editor, 'Step Fill')
+    assert editor.save(path) == text
+    # A transition that is cut closes the gap again; at another place it brings a step.
+    editor.keys('Down', 'ctrl+x')
+    at(editor, 'Step Fill')
+    until(lambda: not [name for name in shapes(editor) if 'from Fill to Fill_2' in name], 'the transition to be gone')
+    editor.save(path)
+    editor.keys('ctrl+v')
+    shape(editor, 'from Fill to Fill_2, condition Fill.T > T#2s')
+    assert editor.save(path) == text
+    editor.keys('Home')
+    at(editor, 'Step Start')
+    editor.keys('ctrl+v')
+    at(editor, 'Step Step1')
+    shape(editor, 'from Start to Step1, condition Fill.T > T#2s')
+    shape(editor, 'from Step1 to Drain, condition I0.0')
+    editor.shot('chart-pasted-way')
+    editor.save(path)
+    check(path)
+
+
+def lies_in(inner, outer):
+    return (outer[0] <= inner[0] and inner[0] + inner[2] <= outer[0] + outer[2] and
+            outer[1] <= inner[1] and inner[1] + inner[3] <= outer[1] + outer[3])
+
+
+def zoomed(screen):
+    """what the cursor is on stays in sight when the chart grows and shrinks, by keys, and by a step more"""
+    steps = ''.join('  STEP S%d:\n    Q0.0(N);\n  END_STEP\n\n  TRANSITION FROM S%d TO S%d := I0.0; END_TRANSITION\n\n' %
+                    (i, i, i + 1) for i in range(1, 19))
+    editor = Editor(screen, new_file(screen, 'RUNGBOARD 1\n\nPROGRAM Main SFC\n  INITIAL_STEP S0:\n  END_STEP\n\n'
+                                     '  TRANSITION FROM S0 TO S1 := I0.0; END_TRANSITION\n\n' + steps +
+                                     '  STEP S19:\n  END_STEP\nEND_PROGRAM\n'))
+    on_chart(editor)
+    nodes = editor.known()
+    scroller = nodes[nodes[chart(editor).parent].parent]
+
+    def seen(text, what):
+        until(lambda: lies_in(editor.place(shape(editor, text)), editor.place(scroller)), what)
+    for _ in range(10):
+        editor.keys('Down', 'Down')
+    at(editor, 'Step S10')
+    for percent in (125, 156, 195, 244):
+        editor.keys('ctrl+plus')
+        editor.says('%d %%' % percent)
+        seen('Step S10', 'S10 in sight at %d %%' % percent)
+    editor.shot('chart-zoomed')
+    for _ in range(6):
+        editor.keys('ctrl+minus')
+    seen('Step S10', 'S10 in sight when all is small')
+    editor.keys('ctrl+0')
+    editor.says('100 %')
+    seen('Step S10', 'S10 in sight at 100 %')
+    # From the last step on one more, which had no room before.
+    editor.keys('End')
+    at(editor, 'Step S19')
+    editor.keys('Insert')
+    at(editor, 'Step Step1')
+    seen('Step Step1', 'the new step')
+    editor.keys('ctrl+plus')
+    seen('Step Step1', 'the new step, larger')
+
+
 def long_texts(screen):
     """a comment longer than the window is wide leaves the window as it is; the next line opens, too"""
     path = new_file(screen, EMPTY)
@@ -368,4 +494,4 @@ def long_texts(screen):
     assert editor.save(path) == EMPTY
 
 
-main([by_keyboard, by_pointer, bodies, simulated, forced, long_texts])
+main([by_keyboard, by_pointer, bodies, clipped, zoomed, simulated, forced, long_texts])
