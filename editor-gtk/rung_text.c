@@ -77,18 +77,12 @@ static void break_lines(const struct drafting *drafting, const char *text,
 	struct lettering *lettering = drafting->lettering;
 
 	while (*text && framed->lines < FRAMED_LINES) {
-		size_t len = lettering_wrap(lettering, LETTER_OPERAND, text, FRAMED_BOUND);
 		bool last = framed->lines == FRAMED_LINES - 1;
-		size_t shown = len;
+		struct lettered line = lettering_line(lettering, LETTER_OPERAND, &text,
+						      FRAMED_BOUND, last);
 
-		while (shown > 1 && text[shown - 1] == ' ')
-			shown--;
-		struct lettered line = lettering_fit(lettering, LETTER_OPERAND, text,
-						     last ? -1 : (ptrdiff_t)shown,
-						     FRAMED_BOUND);
 		framed->line[framed->lines++] = line;
 		framed->width = MAX(framed->width, line.width);
-		text += len;
 	}
 }
 
@@ -155,15 +149,11 @@ int rung_comment_lines(const struct drafting *drafting, const char *comment, flo
 	int lines = 0;
 
 	while (*comment && lines < most) {
-		size_t len = lettering_wrap(drafting->lettering, LETTER_COMMENT, comment,
-					    width);
-		bool last = lines == most - 1;
+		struct lettered line = lettering_line(drafting->lettering, LETTER_COMMENT,
+						      &comment, width, lines == most - 1);
 
 		if (take)
-			take(context, lines, lettering_fit(drafting->lettering,
-				LETTER_COMMENT, comment,
-				last ? -1 : (ptrdiff_t)len, width));
-		comment += len;
+			take(context, lines, line);
 		lines++;
 	}
 	return lines;
