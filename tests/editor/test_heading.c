@@ -48,7 +48,7 @@ static bool is_whole(const char *text, float width)
 	char *want = without_blanks(text), *got;
 	bool whole;
 
-	rung_comment_lines(&drafting, text, width, 1000, take, &read);
+	rung_lines(&drafting, LETTER_COMMENT, text, width, 1000, take, &read);
 	got = without_blanks(read.all->str);
 	whole = strcmp(got, want) == 0 && read.widest <= width + 0.1f;
 	if (!whole)
@@ -68,6 +68,97 @@ static void check_comment(const char *text, const char *what)
 	CHECK_AS(cut == 0, what);
 }
 
+/* ---- title, label and comment on a sheet ---- */
+
+/* What the strokes of a rung say in a style, without blanks. */
+static char *said_in(const struct picture *picture, enum letter letter)
+{
+	GString *all = g_string_new(NULL);
+
+	for (int i = 0; i < picture->count; i++)
+		if (picture->stroke[i].kind == STROKE_TEXT &&
+		    picture->stroke[i].letter == letter)
+			g_string_append(all, picture->stroke[i].text);
+	g_string_replace(all, " ", "", 0);
+	return g_string_free(all, FALSE);
+}
+
+/* Of the only rung of @sheet: nothing over anything, nothing behind the right rail. */
+static int heading_faults(const struct sheet *sheet, const char *title, const char *comment)
+{
+	const struct rung_layout *layout = sheet->rung[0];
+	const struct grid_scene scene = { .drafting = &sheet->drafting, .layout = layout,
+					  .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
+	char *plain = without_blanks(title), *rest = without_blanks(comment);
+	struct picture picture;
+
+	picture_init(&picture);
+	grid_draw(&scene, &picture);
+	int faults = drawn_faults(&picture, layout->right + 0.6f, layout->height, title);
+	char *said = said_in(&picture, LETTER_TITLE), *told = said_in(&picture,
+								      LETTER_COMMENT);
+	if (sheet->drafting.all_comments)
+		faults += strcmp(said, plain) != 0;
+	faults += strcmp(told, rest) != 0;
+	if (faults)
+		printf("# %s: %s | %s\n", title, said, told);
+	picture_clear(&picture);
+	g_free(said);
+	g_free(told);
+	g_free(plain);
+	g_free(rest);
+	return faults;
+}
+
+/* @len: bytes of @text that are its title. @paper: all of it is told */
+static int title_faults(const char *label, const char *text, size_t len, const char *comment,
+			bool paper)
+{
+	char *title = g_strndup(text, len);
+	char *all = g_strdup_printf("RUNGBOARD 1\n\nPROGRAM Main LD\n%s%s%s\nRUNG %s \"%s\"\n"
+				    "  | NO %%IX0.0 | COIL %%QX0.0 |\nEND_PROGRAM\n",
+				    *comment ? "(* " : "", comment, *comment ? " *)" : "",
+				    label, title);
+	struct ladder *ladder = drawn_load("title.rung", all);
+	int faults = 1;
+
+	if (ladder) {
+		const struct project *project = ladder_project(ladder);
+		struct sheet *sheet = sheet_new(project, &project->pou[0], lettering);
+
+		sheet->drafting.all_comments = paper;
+		sheet_layout(sheet);
+		faults = heading_faults(sheet, title, comment);
+		sheet_free(sheet);
+		ladder_free(ladder);
+	}
+	g_free(title);
+	g_free(all);
+	return faults;
+}
+
+static void check_titles(void)
+{
+	static const char *const labels[] = { "", "Start",
+		"The_label_of_a_rung_that_has_a_name_which_nobody_reads_to_its_end" };
+	int paper = 0, screen = 0;
+
+	for (int i = 0; i < 3; i++)
+		for (const char *end = CHINESE LATIN; *end; end = g_utf8_next_char(end)) {
+			const char *all = CHINESE LATIN;
+			const char *comment = (end - all) % 3 ? "" : "What it is for.";
+
+			paper += title_faults(labels[i], all, (size_t)(end - all), comment,
+					      true);
+			screen += title_faults(labels[i], all, (size_t)(end - all), comment,
+					       false);
+		}
+	CHECK_AS(paper == 0, "a title goes on in another line on paper");
+	CHECK_AS(screen == 0, "and does not run over the right rail on the screen");
+	/* Lines that were broken for a narrow rung are not, if the sheet is wide. */
+	CHECK(title_faults("", LATIN LATIN LATIN LATIN, strlen(LATIN) * 4, LATIN, true) == 0);
+}
+
 int main(void)
 {
 	PangoContext *context = lettering_context();
@@ -75,6 +166,7 @@ int main(void)
 	lettering = lettering_new(context, NULL);
 	check_comment(LATIN, "no line of a comment loses its end");
 	check_comment(CHINESE, "nor in Chinese");
+	check_titles();
 	lettering_free(lettering);
 	lettering = lettering_new(NULL, NULL);
 	check_comment(LATIN, "nor without fonts");
