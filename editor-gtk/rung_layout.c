@@ -103,7 +103,7 @@ static float element_width(const struct drafting *drafting, const struct rung *r
 
 	if (word->kind != WORD_ELEM) {
 		rung_box_make(drafting, rung, row, col, &box);
-		return box.width;
+		return box.left + box.right;
 	}
 	if (word->place == PLACE_NONE || word->place == PLACE_WIRE ||
 	    word->place == PLACE_PIN)
