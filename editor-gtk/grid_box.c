@@ -28,7 +28,8 @@ static void draw_pin(const struct pen *pen, const struct rung_box *box,
 		     output ? side - PADDING - name.width : side + PADDING, y + MIDDLE);
 	if (!pin->value)
 		return;
-	struct lettered value = fit(pen, LETTER_OPERAND, pin->value, pin->value_len, 180);
+	struct lettered value = fit(pen, LETTER_OPERAND, pin->value, pin->value_len,
+				    box->value_most);
 	float from = side + (pin->inverse ? way * 2 * CIRCLE : 0);
 	pen_line(pen, idle, from, y, side + way * BOX_STUB, y);
 	if (pin->inverse)
@@ -98,7 +99,7 @@ static void draw_frame(const struct pen *pen, const struct rung_box *box)
 	if (*instance)
 		pen_text(pen, wrong ? TOKEN_ERROR : pen->ink, LETTER_SYMBOL,
 			 lettering_fit(pen->drafting->lettering, LETTER_SYMBOL, instance,
-				       -1, 280), middle, y - BOX_ABOVE - 5);
+				       -1, box->name_most), middle, y - BOX_ABOVE - 5);
 	draw_value(pen, box, y + box->bottom);
 	if (box->in.cut || box->out.cut)
 		pen_text(pen, pen->ink, LETTER_PIN,

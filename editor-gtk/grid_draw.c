@@ -4,11 +4,11 @@
  */
 #include "editor-gtk/grid_draw.h"
 #include "editor-gtk/grid_pen.h"
+#include "editor-gtk/rung_text.h"
 
 #include <glib.h>
 
 #define COMMENT_LINE 17
-#define TITLE_AIR    10
 
 struct wire pen_wire(const struct pen *pen, unsigned int live)
 {
@@ -97,32 +97,54 @@ static void draw_rails(const struct pen *pen)
 
 /* ---- what stands round the grid ---- */
 
-struct comment_place { const struct pen *pen; float y; };
+struct line_place {
+	struct picture *picture;
+	enum token token;
+	enum letter letter;
+	float x, y, step;
+};
 
 static void take_line(void *context, int line, struct lettered text)
 {
-	const struct comment_place *place = context;
+	const struct line_place *place = context;
 
-	picture_text(place->pen->picture, TOKEN_COMMENT, LETTER_COMMENT, text, RUNG_LEFT,
-		     place->y + (float)(line * COMMENT_LINE));
+	picture_text(place->picture, place->token, place->letter, text, place->x,
+		     place->y + (float)line * place->step);
+}
+
+static void draw_title(const struct pen *pen, const struct rung_heading *heading)
+{
+	const struct rung_layout *layout = pen->layout;
+	struct line_place place = { pen->picture, pen->ink, LETTER_TITLE,
+				    RUNG_LEFT + heading->indent, layout->title_y,
+				    TITLE_STEP };
+
+	if (layout->title_lines)
+		rung_lines(pen->drafting, LETTER_TITLE,
+			   project_text(pen->drafting->project, pen->rung->title),
+			   layout->heading_room - heading->indent, layout->title_lines,
+			   take_line, &place);
+	else
+		take_line(&place, 0, heading->title);
 }
 
 static void draw_heading(const struct pen *pen)
 {
 	const struct rung_layout *layout = pen->layout;
 	struct rung_heading heading = rung_heading(pen->drafting, pen->rung);
-	float x = RUNG_LEFT, y = layout->title_y;
+	float y = layout->title_y;
 
-	picture_text(pen->picture, TOKEN_ACCENT, LETTER_OPERAND, heading.label, x, y);
-	x += heading.label.width > 0 ? heading.label.width + TITLE_AIR : 0;
-	picture_text(pen->picture, pen->ink, LETTER_TITLE, heading.title, x, y);
+	picture_text(pen->picture, TOKEN_ACCENT, LETTER_OPERAND, heading.label, RUNG_LEFT, y);
+	draw_title(pen, &heading);
+	y += layout->title_lines ? (float)((layout->title_lines - 1) * TITLE_STEP) : 0;
 	if (layout->comment_lines) {
-		struct comment_place place = { pen, y + (heading.width > 0 ? COMMENT_LINE :
-									     0) };
+		struct line_place place = { pen->picture, TOKEN_COMMENT, LETTER_COMMENT,
+					    RUNG_LEFT, y + (heading.width > 0 ?
+							    COMMENT_LINE : 0),
+					    COMMENT_LINE };
 
-		rung_comment_lines(pen->drafting, heading.comment,
-				   layout->comment_room, layout->comment_lines,
-				   take_line, &place);
+		rung_lines(pen->drafting, LETTER_COMMENT, heading.comment,
+			   layout->heading_room, layout->comment_lines, take_line, &place);
 	} else if (*heading.comment) {
 		picture_text(pen->picture, TOKEN_COMMENT, LETTER_COMMENT,
 			     lettering_fit(pen->drafting->lettering, LETTER_COMMENT,

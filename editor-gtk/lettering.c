@@ -31,7 +31,7 @@ static const struct letter_style style[LETTERS] = {
 
 struct known {
 	enum letter letter;
-	int bound;           /* px, rounded                                    */
+	int bound;           /* 1/64 px: of two that differ by less one may fit  */
 	float width;
 	char *fit;           /* what is drawn                                  */
 	size_t len;
@@ -250,7 +250,7 @@ struct lettered lettering_fit(struct lettering *lettering, enum letter letter,
 
 	memset(key, 0, sizeof(*key));
 	key->letter = letter;
-	key->bound = (int)bound;
+	key->bound = (int)(bound * 64);
 	key->len = size;
 	memcpy(key->text, text, size);
 	key->text[size] = 0;
@@ -262,17 +262,24 @@ struct lettered lettering_fit(struct lettering *lettering, enum letter letter,
 	return (struct lettered){ known->fit, known->width };
 }
 
+static size_t wrap_by_rule(enum letter letter, const char *text, float width)
+{
+	const char *end = text;
+
+	while (*end && (end == text ||
+			by_rule(letter, text, (size_t)(g_utf8_next_char(end) - text)) <=
+			width))
+		end = g_utf8_next_char(end);
+	return (size_t)(end - text);
+}
+
 size_t lettering_wrap(struct lettering *lettering, enum letter letter, const char *text,
 		      float width)
 {
 	PangoLayout *layout = lettering->layout[letter];
 
-	if (!layout) {
-		size_t most = (size_t)(width / (0.6f * style[letter].size));
-
-		return g_utf8_strlen(text, -1) <= (glong)most ? strlen(text) :
-			(size_t)(g_utf8_offset_to_pointer(text, (glong)most) - text);
-	}
+	if (!layout)
+		return wrap_by_rule(letter, text, width);
 	pango_layout_set_text(layout, text, -1);
 	pango_layout_set_width(layout, (int)(width * PANGO_SCALE));
 	pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);
@@ -281,6 +288,22 @@ size_t lettering_wrap(struct lettering *lettering, enum letter letter, const cha
 	size_t fits = line ? (size_t)line->start_index : strlen(text);
 	pango_layout_set_width(layout, -1);
 	return fits;
+}
+
+struct lettered lettering_line(struct lettering *lettering, enum letter letter,
+			       const char **text, float width, bool last)
+{
+	const char *line = *text;
+	size_t len = lettering_wrap(lettering, letter, line, width);
+
+	if (last && line[len]) {
+		*text += strlen(line);
+		return lettering_fit(lettering, letter, line, -1, width);
+	}
+	*text += len;
+	while (len > 1 && line[len - 1] == ' ')
+		len--;
+	return lettering_fit(lettering, letter, line, (ptrdiff_t)len, 0);
 }
 
 PangoLayout *lettering_layout(struct lettering *lettering, enum letter letter,

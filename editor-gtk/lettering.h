@@ -66,6 +66,11 @@ struct lettered lettering_fit(struct lettering *lettering, enum letter letter,
 size_t lettering_wrap(struct lettering *lettering, enum letter letter, const char *text,
 		      float width);
 
+/** lettering_line - the next line of a text, without the blanks at its end: those need no
+ * room. @text: goes on behind it. @last: all that is left, with an ellipsis if it is more */
+struct lettered lettering_line(struct lettering *lettering, enum letter letter,
+			       const char **text, float width, bool last);
+
 /** lettering_layout - @text laid out, its top at 0, its baseline at @baseline px.
  * Borrowed until lettering_trim(); not to be changed. */
 PangoLayout *lettering_layout(struct lettering *lettering, enum letter letter,

@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+#define HEADING_LINE 24 /* px from a line of a heading to the next              */
+
 bool paper_find(const char *name, struct paper *out)
 {
 	static const struct { const char *name; float width, height; } known[] = {
@@ -91,11 +93,16 @@ void pages_put_whole(struct pages *pages, const struct picture *picture, float h
 void pages_put_heading(struct pages *pages, const char *text, float more)
 {
 	struct picture *picture = pages_picture(pages);
+	int lines = 0;
 
-	picture_text(picture, TOKEN_INK, LETTER_HEADING,
-		     lettering_fit(pages->lettering, LETTER_HEADING, text, -1,
-				   pages->room_width), 0, 20);
-	pages_put_whole(pages, picture, 32, 1, more);
+	while (*text || !lines) {
+		const struct lettered line = lettering_line(pages->lettering, LETTER_HEADING,
+							    &text, pages->room_width, false);
+
+		picture_text(picture, TOKEN_INK, LETTER_HEADING, line, 0,
+			     20 + (float)(lines++ * HEADING_LINE));
+	}
+	pages_put_whole(pages, picture, 32 + (float)((lines - 1) * HEADING_LINE), 1, more);
 }
 
 void pages_put_span(struct pages *pages, const struct picture *picture, float scale,
@@ -295,6 +302,7 @@ struct pages *pages_new(const struct project *project, const char *file, int pou
 	pages->picture = g_ptr_array_new_with_free_func(picture_free);
 	pages->reads = listing_reads_new(project);
 	pages->reference = g_ptr_array_new_with_free_func(g_free);
+	pages->remark = g_ptr_array_new_with_free_func(g_free);
 	for (int i = 0; i < project->pou_count; i++)
 		if (pou < 0 || pou == i)
 			put_pou(pages, i, rung);
@@ -311,6 +319,7 @@ void pages_free(struct pages *pages)
 		return;
 	listing_reads_free(pages->reads);
 	g_ptr_array_unref(pages->reference);
+	g_ptr_array_unref(pages->remark);
 	g_ptr_array_unref(pages->page);
 	g_ptr_array_unref(pages->picture);
 	g_free(pages->file);

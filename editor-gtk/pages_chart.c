@@ -122,7 +122,8 @@ static void put_columns(struct pages *pages, const struct sfc_sheet *chart,
 static void put_comment(struct pages *pages, const struct sfc_sheet *chart, int shape,
 			const char *comment, float x, bool *any)
 {
-	const float room = sfc_sheet_room(chart, chart->layout->shape[shape].lane, x);
+	const float room = fminf(SFC_BOUND,
+			sfc_sheet_room(chart, chart->layout->shape[shape].lane, x));
 	char *line;
 
 	if (!*comment || lettering_fit(pages->lettering, LETTER_COMMENT, comment, -1,

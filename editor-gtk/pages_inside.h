@@ -50,6 +50,7 @@ struct pages {
 	const struct rung *rung;
 	const struct drafting *drafting;
 	GPtrArray *reference;          /* lines: what had no room below its coil   */
+	GPtrArray *remark;             /* and comments that had none at their element */
 };
 
 /* ---- the flow: what is put stands where @y is, which goes on ---- */
@@ -81,7 +82,7 @@ struct sheet *pages_sheet(struct pages *pages);
 /** pages_put_rungs - those from @first to before @end, below a heading. */
 void pages_put_rungs(struct pages *pages, const struct sheet *sheet, const char *heading,
 		     int first, int end);
-/** pages_put_references - where coils are read, if there was no room below them. */
+/** pages_put_references - comments, and where coils are read, if there was no room. */
 void pages_put_references(struct pages *pages);
 /** pages_fold - pages_fold.c: a rung that is too wide, in strips below each other.
  * @first: it stands below the heading of its POU */

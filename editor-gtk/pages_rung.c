@@ -51,14 +51,47 @@ static char *reference_of(void *context, int row, int col, float room)
 	return text;
 }
 
+static void put_told(struct pages *pages, GPtrArray *lines, const char *heading)
+{
+	if (lines->len)
+		pages_put_heading(pages, heading, 3 * TEXT_LINE);
+	for (guint i = 0; i < lines->len; i++)
+		pages_put_line(pages, g_ptr_array_index(lines, i));
+	pages->y += lines->len ? PAGE_AIR : 0;
+	g_ptr_array_set_size(lines, 0);
+}
+
 void pages_put_references(struct pages *pages)
 {
-	if (pages->reference->len)
-		pages_put_heading(pages, _("Cross reference"), 3 * TEXT_LINE);
-	for (guint i = 0; i < pages->reference->len; i++)
-		pages_put_line(pages, g_ptr_array_index(pages->reference, i));
-	pages->y += pages->reference->len ? PAGE_AIR : 0;
-	g_ptr_array_set_size(pages->reference, 0);
+	put_told(pages, pages->remark, _("Comments"));
+	put_told(pages, pages->reference, _("Cross reference"));
+}
+
+/* A comment that is longer than its column gets room for is told behind the rungs. */
+static void note_remark(struct pages *pages, const struct drafting *drafting,
+			const struct rung *rung, const struct cell *cell, int number)
+{
+	const struct word_row *word = words_row(&pages->project->words, cell->word);
+	const struct lettered whole = rung_element_comment(drafting, cell, 0);
+	const struct rung_label label = rung_label(drafting, cell);
+
+	if (word->kind != WORD_ELEM || word->place == PLACE_NONE ||
+	    word->place == PLACE_WIRE || word->place == PLACE_PIN ||
+	    whole.width <= LABEL_BOUND)
+		return;
+	const int at = (int)(cell - rung->cell);
+	g_ptr_array_add(pages->remark, g_strdup_printf("%d (%d,%d) %s%s%s: %s", number,
+		at / rung->cols + 1, at % rung->cols + 1, label.symbol.text,
+		*label.symbol.text && *label.address.text ? " " : "",
+		label.address.text, whole.text));
+}
+
+static void note_remarks(struct pages *pages, const struct sheet *sheet, int index)
+{
+	const struct rung *rung = sheet->rung[index]->rung;
+
+	for (int i = 0; i < rung->rows * rung->cols; i++)
+		note_remark(pages, &sheet->drafting, rung, &rung->cell[i], index + 1);
 }
 
 struct grid_scene pages_scene(struct pages *pages, const struct sheet *sheet,
@@ -129,9 +162,11 @@ void pages_put_rungs(struct pages *pages, const struct sheet *sheet, const char 
 	float more = first < end ? sheet->rung[first]->height * scale : 0;
 
 	pages_put_heading(pages, heading, fminf(more, pages->room_height - 40));
-	for (int i = first; i < end; i++)
+	for (int i = first; i < end; i++) {
 		if (sheet_is_wide(sheet, i))
 			pages_fold(pages, sheet, i, scale, i == first);
 		else
 			put_rung(pages, sheet, i, scale, i == first);
+		note_remarks(pages, sheet, i);
+	}
 }

@@ -43,6 +43,7 @@ static struct sheet *sheet_of(const struct comparison *of, const struct project 
 	struct sheet *sheet = sheet_new(project, pou, of->lettering);
 	sheet->drafting.show = of->options->show;
 	sheet->drafting.width = of->options->width;
+	sheet->drafting.all_comments = true;
 	sheet_layout(sheet);
 	return sheet;
 }

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <strings.h>
 
-#define VALUE_BOUND 180   /* px of what is written at a pin                     */
-#define NAME_BOUND  140
+#define VALUE_BOUND 180   /* px of what is written at a pin; on paper more   */
+#define NAME_BOUND  140   /* px of a pin; of a box twice, on paper four times     */
 #define PADDING     6     /* between a side and what stands inside              */
 #define LEAST_INNER 70
 #define VALUE_INNER 86 /* "12.5/20.0 s" has room                          */
@@ -41,6 +41,11 @@ static bool side_has(const struct rung_side *side, const char *name, size_t len)
 	return false;
 }
 
+static float value_most(const struct drafting *drafting)
+{
+	return drafting->all_comments ? 2.5f * VALUE_BOUND : VALUE_BOUND;
+}
+
 static void side_add(const struct drafting *drafting, struct rung_side *side,
 		     struct rung_pin pin)
 {
@@ -58,7 +63,8 @@ static void side_add(const struct drafting *drafting, struct rung_side *side,
 	if (pin.value)
 		side->value_width = MAX(side->value_width,
 			lettering_fit(lettering, LETTER_OPERAND, pin.value,
-				      (ptrdiff_t)pin.value_len, VALUE_BOUND).width);
+				      (ptrdiff_t)pin.value_len,
+				      value_most(drafting)).width);
 }
 
 static void add_power(const struct drafting *drafting, struct rung_side *side,
@@ -152,9 +158,10 @@ static void measure(const struct drafting *drafting, struct rung_box *box)
 			 box->value ? VALUE_INNER : LEAST_INNER);
 	box->lead = value > 0 ? value + BOX_STUB + 10 : LEAD;
 	box->tail = result > 0 ? result + BOX_STUB + 10 : LEAD;
-	float body = box->lead + box->inner + box->tail;
-	box->width = MAX(body, width_of(drafting, LETTER_SYMBOL, instance,
-					2 * NAME_BOUND) + 8);
+	/* Its name stands above the middle, whatever is connected on either side. */
+	float name = width_of(drafting, LETTER_SYMBOL, instance, box->name_most) / 2 + 4;
+	box->left = MAX(box->lead + box->inner / 2, name);
+	box->right = MAX(box->inner / 2 + box->tail, name);
 }
 
 void rung_box_make(const struct drafting *drafting, const struct rung *rung, int row,
@@ -166,6 +173,8 @@ void rung_box_make(const struct drafting *drafting, const struct rung *rung, int
 	box->top = row;
 	box->last = row + rung_height(rung, row, col) - 1;
 	box->col = col;
+	box->name_most = (drafting->all_comments ? 4 : 2) * NAME_BOUND;
+	box->value_most = value_most(drafting);
 	add_power(drafting, &box->in, power_pin(box->row, PIN_IN));
 	add_power(drafting, &box->out, power_pin(box->row, PIN_OUT));
 	for (int r = row + 1; r <= box->last; r++)
@@ -189,6 +198,6 @@ void rung_box_place(struct rung_box *box, const struct rung_row *row, float colu
 	float left = last + (float)box->in.others * BOX_LINE;
 	float right = (float)(box->out.count - 1) * BOX_LINE;
 	box->bottom = MAX(left, right) + BOX_BELOW + (box->value ? BOX_VALUE : 0);
-	float body = box->lead + box->inner + box->tail;
-	box->x = column_x + box->lead + (column_width - body) / 2;
+	box->x = column_x + box->left - box->inner / 2 +
+		 (column_width - box->left - box->right) / 2;
 }

@@ -37,7 +37,8 @@ struct rung_box {
 	int top, last, col;      /* of the rung                                */
 	struct rung_side in, out;
 	float lead, inner, tail; /* px: before, between and behind its sides    */
-	float width;             /* of all of it                               */
+	float left, right;       /* px from its middle to the ends of all of it */
+	float name_most, value_most; /* px of its name, of what is at a pin     */
 	bool value;              /* has room for a live value                  */
 	float bottom;            /* below the first wire                       */
 	float x;                 /* of its left side; after rung_box_place()    */

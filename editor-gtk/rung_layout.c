@@ -9,12 +9,13 @@
 #include "editor-gtk/rung_text.h"
 
 #include <glib.h>
+#include <string.h>
 
 #define TITLE_HEIGHT 36   /* above the rows                                     */
 #define BARE_HEIGHT  14   /* of a rung without title and comment                */
 #define TITLE_LINE   24   /* baseline of the title                              */
 #define COMMENT_LINE 17
-#define SHORT_LINES  3    /* of a comment on the screen                         */
+#define SHORT_LINES  3    /* of a title, of a comment, on the screen             */
 #define BELOW        9
 #define BESIDE       16   /* px of air round a name                             */
 #define BOX_AIR      18   /* below a box: its marks stand there                 */
@@ -102,7 +103,7 @@ static float element_width(const struct drafting *drafting, const struct rung *r
 
 	if (word->kind != WORD_ELEM) {
 		rung_box_make(drafting, rung, row, col, &box);
-		return box.width;
+		return box.left + box.right;
 	}
 	if (word->place == PLACE_NONE || word->place == PLACE_WIRE ||
 	    word->place == PLACE_PIN)
@@ -204,6 +205,39 @@ static void find_ends(struct rung_layout *layout)
 	}
 }
 
+/* A short title alone need not be measured: no letter is wider than high by a third. */
+static bool has_short_heading(const struct drafting *drafting, const struct rung *rung,
+			      float room)
+{
+	const char *title = project_text(drafting->project, rung->title);
+	const float size = letter_style(LETTER_TITLE)->size;
+
+	return !rung->comment &&
+	       (!rung->title || (!rung->label && (float)strlen(title) * size * 4 / 3 < room));
+}
+
+static void break_heading(const struct drafting *drafting, struct rung_layout *layout,
+			  const struct rung_heading *heading)
+{
+	const char *title = project_text(drafting->project, layout->rung->title);
+	const float room = layout->heading_room;
+	const int most = drafting->all_comments ? 1000 : SHORT_LINES;
+
+	if (layout->rung->title && heading->indent + heading->title.width > room) {
+		layout->title_lines = rung_lines(drafting, LETTER_TITLE, title,
+						 room - heading->indent, most, NULL, NULL);
+		layout->top += (float)((layout->title_lines - 1) * TITLE_STEP);
+	}
+	if (*heading->comment &&
+	    (layout->title_lines || heading->comment_width + heading->width > room)) {
+		layout->comment_lines = rung_lines(drafting, LETTER_COMMENT,
+						   heading->comment, room, most, NULL, NULL);
+		/* Without a title the first line stands where that would. */
+		int more = layout->comment_lines - (heading->width > 0 ? 0 : 1);
+		layout->top += (float)(more * COMMENT_LINE);
+	}
+}
+
 static void measure_title(const struct drafting *drafting, struct rung_layout *layout)
 {
 	const struct rung *rung = layout->rung;
@@ -212,22 +246,14 @@ static void measure_title(const struct drafting *drafting, struct rung_layout *l
 
 	if (drafting->most > 0)
 		room = MIN(room, drafting->most);
-	layout->comment_room = room;
+	layout->heading_room = room;
 	layout->title_y = TITLE_LINE;
 	layout->top = rung->label || rung->title || rung->comment ? TITLE_HEIGHT :
 								    BARE_HEIGHT;
-	if (!rung->comment) /* a title alone need not be measured */
+	if (has_short_heading(drafting, rung, room))
 		return;
 	heading = rung_heading(drafting, rung);
-	if (*heading.comment && heading.comment_width + heading.width > room) {
-		int most = drafting->all_comments ? 1000 : SHORT_LINES;
-
-		layout->comment_lines = rung_comment_lines(drafting, heading.comment,
-							   room, most, NULL, NULL);
-		/* Without a title the first line stands where that would. */
-		int more = layout->comment_lines - (heading.width > 0 ? 0 : 1);
-		layout->top += (float)(more * COMMENT_LINE);
-	}
+	break_heading(drafting, layout, &heading);
 	g_free(heading.comment);
 }
 

@@ -41,7 +41,7 @@ struct drafting {
 	bool all_comments; /* of rungs, however long, and long names: for paper   */
 	int columns;       /* of the sheet: rung_layout_columns() of its rungs   */
 	float width;       /* px from rail to rail at least; 0: as natural      */
-	float most;        /* px of a line of a comment; 0: from rail to rail    */
+	float most;        /* px of a line above a rung; 0: from rail to rail    */
 };
 
 struct rung_row {
@@ -60,8 +60,9 @@ struct rung_layout {
 	float top;               /* y of the first row                          */
 	float height;            /* of the whole strip                          */
 	float title_y;           /* baseline of title and number                */
+	int title_lines;         /* 0: one, or no title                         */
 	int comment_lines;       /* below the title; 0: it stands beside it      */
-	float comment_room;      /* px of such a line                           */
+	float heading_room;      /* px from the rail on of such lines           */
 	float *column_x, *column_width; /* of the columns                       */
 	struct rung_row *row;
 };

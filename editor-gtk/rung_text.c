@@ -9,8 +9,6 @@
 #include <glib.h>
 #include <string.h>
 
-#define TITLE_AIR 10
-
 static const struct lettered nothing = { "", 0 };
 
 static struct lettered fit(const struct drafting *drafting, enum letter letter,
@@ -26,12 +24,18 @@ static bool has_names(const struct word_row *word)
 	       word->operand == OPND_ANY_R || word->operand == OPND_ANY_W;
 }
 
+/* On paper nobody points at a name to read the rest of it. */
+static float name_bound(const struct drafting *drafting)
+{
+	return drafting->all_comments ? 2 * LABEL_BOUND : LABEL_BOUND;
+}
+
 struct rung_label rung_label(const struct drafting *drafting, const struct cell *cell)
 {
 	const struct word_row *word = word_row(cell->word);
 	const char *operand = project_text(drafting->project, cell->operand);
 	struct rung_label label = { nothing, nothing };
-	float bound = drafting->all_comments ? 2 * LABEL_BOUND : LABEL_BOUND;
+	float bound = name_bound(drafting);
 	struct grid_name name;
 
 	if (!cell->operand || (word->kind == WORD_ELEM && !has_names(word)))
@@ -77,18 +81,12 @@ static void break_lines(const struct drafting *drafting, const char *text,
 	struct lettering *lettering = drafting->lettering;
 
 	while (*text && framed->lines < FRAMED_LINES) {
-		size_t len = lettering_wrap(lettering, LETTER_OPERAND, text, FRAMED_BOUND);
 		bool last = framed->lines == FRAMED_LINES - 1;
-		size_t shown = len;
+		struct lettered line = lettering_line(lettering, LETTER_OPERAND, &text,
+						      FRAMED_BOUND, last);
 
-		while (shown > 1 && text[shown - 1] == ' ')
-			shown--;
-		struct lettered line = lettering_fit(lettering, LETTER_OPERAND, text,
-						     last ? -1 : (ptrdiff_t)shown,
-						     FRAMED_BOUND);
 		framed->line[framed->lines++] = line;
 		framed->width = MAX(framed->width, line.width);
-		text += len;
 	}
 }
 
@@ -128,14 +126,16 @@ struct rung_framed rung_framed(const struct drafting *drafting, const struct cel
 struct rung_heading rung_heading(const struct drafting *drafting, const struct rung *rung)
 {
 	const struct project *project = drafting->project;
-	struct rung_heading heading = { nothing, nothing, 0, NULL, 0 };
+	struct rung_heading heading = { nothing, nothing, 0, 0, NULL, 0 };
 
 	if (rung->label) {
 		char *label = g_strdup_printf("%s:", project_text(project, rung->label));
 
-		heading.label = fit(drafting, LETTER_OPERAND, label, LABEL_BOUND);
+		heading.label = fit(drafting, LETTER_OPERAND, label,
+				    name_bound(drafting));
 		g_free(label);
-		heading.width += heading.label.width + TITLE_AIR;
+		heading.indent = heading.label.width + TITLE_AIR;
+		heading.width = heading.indent;
 	}
 	if (rung->title) {
 		heading.title = fit(drafting, LETTER_TITLE,
@@ -147,23 +147,19 @@ struct rung_heading rung_heading(const struct drafting *drafting, const struct r
 	return heading;
 }
 
-int rung_comment_lines(const struct drafting *drafting, const char *comment, float width,
-		       int most, void (*take)(void *context, int line,
-					      struct lettered text),
-		       void *context)
+int rung_lines(const struct drafting *drafting, enum letter letter, const char *text,
+	       float width, int most,
+	       void (*take)(void *context, int line, struct lettered text),
+	       void *context)
 {
 	int lines = 0;
 
-	while (*comment && lines < most) {
-		size_t len = lettering_wrap(drafting->lettering, LETTER_COMMENT, comment,
-					    width);
-		bool last = lines == most - 1;
+	while (*text && lines < most) {
+		struct lettered line = lettering_line(drafting->lettering, letter, &text,
+						      width, lines == most - 1);
 
 		if (take)
-			take(context, lines, lettering_fit(drafting->lettering,
-				LETTER_COMMENT, comment,
-				last ? -1 : (ptrdiff_t)len, width));
-		comment += len;
+			take(context, lines, line);
 		lines++;
 	}
 	return lines;

@@ -14,6 +14,8 @@
 #define FRAMED_BOUND 420   /* px of a line of an expression                     */
 #define FRAMED_LINES 4     /* they fit into a row of common height, with a mark  */
 #define FRAMED_LINE  15    /* px from one to the next                           */
+#define TITLE_AIR    10    /* px behind a label or a title                      */
+#define TITLE_STEP   18    /* px from a line of a title to the next             */
 #define FRAMED_SIDE  12    /* px between its text and the outside of a bracket    */
 
 /* What stands above a contact, coil or box. "" and 0 for nothing. */
@@ -37,19 +39,20 @@ struct rung_framed rung_framed(const struct drafting *drafting, const struct cel
 /* What stands above a rung. */
 struct rung_heading {
 	struct lettered label, title;
-	float width;         /* of both, with air; 0: neither                   */
+	float indent;        /* px from the rail to the title: behind the label   */
+	float width;         /* of both in one line, with air; 0: neither         */
 	char *comment;       /* one line, without delimiters; owned: g_free      */
 	float comment_width;
 };
 struct rung_heading rung_heading(const struct drafting *drafting, const struct rung *rung);
 /**
- * rung_comment_lines - breaks a comment into lines of @width px
+ * rung_lines - breaks a comment or a title into lines of @width px
  * @take: is handed each of them; NULL: they are only counted
  * Returns how many; of more than @most the last one ends in an ellipsis.
  */
-int rung_comment_lines(const struct drafting *drafting, const char *comment, float width,
-		       int most, void (*take)(void *context, int line,
-					      struct lettered text),
-		       void *context);
+int rung_lines(const struct drafting *drafting, enum letter letter, const char *text,
+	       float width, int most,
+	       void (*take)(void *context, int line, struct lettered text),
+	       void *context);
 
 #endif

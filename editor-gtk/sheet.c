@@ -36,7 +36,7 @@ void sheet_free(struct sheet *sheet)
 	g_free(sheet);
 }
 
-/* A long comment was broken into lines before it was known how wide the sheet is. */
+/* A long heading was broken into lines before it was known how wide the sheet is. */
 static void use_width(struct sheet *sheet, int index)
 {
 	struct rung_layout *layout = sheet->rung[index];
@@ -44,7 +44,8 @@ static void use_width(struct sheet *sheet, int index)
 
 	wide.width = sheet->rails;
 	wide.columns = layout->columns;
-	if (!layout->comment_lines || layout->comment_room >= sheet->rails)
+	if ((!layout->comment_lines && !layout->title_lines) ||
+	    layout->heading_room >= sheet->rails)
 		return;
 	sheet->rung[index] = rung_layout_new(&wide, layout->rung, layout->number,
 					     layout->rows);

@@ -245,6 +245,13 @@ void ladder_window_do(LadderWindow *window, enum verb verb)
 		else
 			window_ask_number(window);
 		break;
+	case VERB_bookmark:
+		if (sheet)
+			do_on_sheet(window, sheet, verb);
+		else
+			ladder_window_tell(window, _("Only rungs have bookmarks: open a sheet "
+						     "first."));
+		break;
 	case VERB_next_bookmark: do_next_bookmark(window); break;
 	case VERB_next_problem: do_next_problem(window); break;
 	case VERB_next_sheet: do_sheet_by(window, true); break;

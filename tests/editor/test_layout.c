@@ -215,6 +215,63 @@ static void check_clipping(void)
 	}
 }
 
+/* ---- names of boxes ---- */
+
+#define LONG_BOX "Delay_of_the_northern_pump"
+#define LONG_PIN "Preset_of_the_delay_between_first_and_second"
+
+/* The text of the only rung that begins with @begin; NULL: none. */
+static const struct stroke *stroke_of(const struct picture *picture, const char *begin)
+{
+	for (int i = 0; i < picture->count; i++)
+		if (picture->stroke[i].kind == STROKE_TEXT &&
+		    g_str_has_prefix(picture->stroke[i].text, begin))
+			return &picture->stroke[i];
+	return NULL;
+}
+
+/* What stands above a box is in its column, so that a rung can be folded beside it,
+ * whatever is connected on one side of it. */
+static void check_box_name(struct sheet *sheet, bool paper)
+{
+	sheet->drafting.all_comments = paper;
+	sheet_layout(sheet);
+	const struct rung_layout *layout = sheet->rung[0];
+	const struct grid_scene scene = { .drafting = &sheet->drafting, .layout = layout,
+					  .theme = theme_get(THEME_LIGHT, THEME_GREEN) };
+	const float left = layout->column_x[0], right = left + layout->column_width[0];
+	struct picture picture;
+
+	picture_init(&picture);
+	grid_draw(&scene, &picture);
+	CHECK(drawn_faults(&picture, rung_layout_width(layout), layout->height, "box") == 0);
+	const struct stroke *name = stroke_of(&picture, "Delay");
+	const struct stroke *pin = stroke_of(&picture, "Preset");
+	if (CHECK(name && pin)) {
+		CHECK(name->x >= left && name->x + name->w <= right);
+		CHECK(pin->x >= left && pin->x + pin->w <= right);
+		CHECK(!paper || strcmp(name->text, LONG_BOX) == 0);
+		CHECK((strcmp(pin->text, LONG_PIN) == 0) == paper);
+	}
+	picture_clear(&picture);
+}
+
+static void check_box_names(void)
+{
+	struct ladder *ladder = drawn_load("box.rung", "RUNGBOARD 1\n\nPROGRAM Main LD\nVAR\n"
+		"  " LONG_BOX " : TON;\n  " LONG_PIN " : TIME;\nEND_VAR\nRUNG\n"
+		"  | TON " LONG_BOX " PT:=" LONG_PIN " | NO %IX0.0 | COIL %QX0.0 |\n"
+		"END_PROGRAM\n");
+
+	if (!CHECK(ladder))
+		return;
+	struct sheet *sheet = sheet_of_file(ladder, 0);
+	check_box_name(sheet, false);
+	check_box_name(sheet, true);
+	sheet_free(sheet);
+	ladder_free(ladder);
+}
+
 static void check_comments(void)
 {
 	static const struct { const char *comment, *text; } cases[] = {
@@ -238,6 +295,7 @@ int main(void)
 {
 	check_comments();
 	lettering = lettering_new(NULL, NULL);
+	check_box_names();
 	struct ladder *ladder = drawn_load("tests/editor/drawing/shapes.rung", NULL);
 	if (!CHECK(ladder))
 		return tap_done();

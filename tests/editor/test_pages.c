@@ -284,6 +284,28 @@ static void check_title_block(void)
 	}
 }
 
+/* What has no room where it belongs is told behind the rungs; a heading has two lines. */
+static void check_told_below(void)
+{
+#define UNIT "The_unit_that_fills_the_hopper_of_this_line_and_that_of_the_next_one_" \
+	     "and_empties_both_of_them_in_the_evening"
+	write_text("below.rung", "PROGRAM Main LD\nRUNG\n  | NO %IX0.0 (* closed while the "
+		   "drive of the northern pump has no fault and its key is turned to auto *) "
+		   "| NC %IX0.1 (* short *) | COIL %QX0.0 |\nEND_PROGRAM\n");
+	CHECK(render("OUT/below.rung -o OUT/below.pdf") == 0);
+	if (list_boxes("below")) {
+		CHECK(has("below.html", ">Comments</word>"));
+		CHECK(has("below.html", ">turned</word>") && has("below.html", ">auto</word>"));
+		CHECK(has("below.html", ">short</word>"));
+	}
+	write_text("head.rung", "PROGRAM " UNIT " LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n"
+		   "END_PROGRAM\n");
+	CHECK(render("OUT/head.rung -o OUT/head.pdf") == 0);
+	if (list_boxes("head"))
+		CHECK_AS(!has("head.html", "\xe2\x80\xa6"), "a heading has its end");
+#undef UNIT
+}
+
 int main(void)
 {
 	folder = g_dir_make_tmp("pages-XXXXXX", NULL);
@@ -296,6 +318,7 @@ int main(void)
 	check_references();
 	check_tall();
 	check_title_block();
+	check_told_below();
 	clear_folder();
 	g_free(folder);
 	g_free(said);

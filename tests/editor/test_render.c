@@ -125,6 +125,19 @@ static void check_diff_chart(void)
 	      count_of("c.svg", EQUALS_NOT) == 0);
 }
 
+/* Nobody can point at a picture to read the rest of a name. */
+static void check_diff_names(void)
+{
+#define NAME "Pump_of_the_northern_well_is_ready_to_run"
+	write_text("a.rung", "VAR\n  " NAME " : BOOL;\nEND_VAR\n\nPROGRAM Main LD\nRUNG\n"
+		   "  | NO " NAME " | COIL %QX0.0 |\nEND_PROGRAM\n");
+	write_text("b.rung", "VAR\n  " NAME " : BOOL;\nEND_VAR\n\nPROGRAM Main LD\nRUNG\n"
+		   "  | NC " NAME " | COIL %QX0.0 |\nEND_PROGRAM\n");
+	CHECK(render("--diff OUT/a.rung OUT/b.rung --dark -o OUT/names.svg") == 0);
+	CHECK(has("names.svg", ">" NAME "<") && !has("names.svg", "\xe2\x80\xa6"));
+#undef NAME
+}
+
 /* What is no rung is told in words, lists line by line, a chart as it was and is. */
 static void check_diff_besides(void)
 {
@@ -344,6 +357,7 @@ int main(void)
 	check_diff();
 	check_diff_besides();
 	check_diff_chart();
+	check_diff_names();
 	check_moved();
 	check_wrong();
 	check_full("full.svg");

@@ -215,4 +215,15 @@ def at_once(screen):
     editor.focus_on('Scope')
 
 
-main([names, typed, damaged, emptied, one_more, closed, at_once])
+def no_bookmark(screen):
+    """Ctrl+B in a text says why nothing is marked, and leaves the text as it is"""
+    editor, path, view = in_the_text(screen, TWO)
+    before = view.text()
+    editor.keys('ctrl+b')
+    until(lambda: editor.all('Only rungs have bookmarks: open a sheet first.', 'label'),
+          'why not')
+    editor.shot('text-no-bookmark')
+    assert view.text() == before and 'VIEW' not in open(path).read()
+
+
+main([no_bookmark, names, typed, damaged, emptied, one_more, closed, at_once])
