@@ -167,19 +167,12 @@ static void take_end(void *context, const struct text_span *span)
 		end->span = *span;
 }
 
-/* What its names are and nobody knows here comes along. */
-static void declare(LadderSfcView *view, LadderDocument *source)
+/* What its names are and nobody knows here comes along. @told: gets what came; NULL: nothing
+ * did. Caller: g_free. */
+static bool put_pieces(LadderSfcView *view, const char *pieces, LadderDocument *source,
+		       char **told)
 {
 	const struct rung_clip clip = { .source = source };
-	char *told = rung_clip_declare(&clip, view->document, view->pou, -1, LIMIT_RUNGS + 1);
-
-	if (told)
-		chart_tell(view, told);
-	g_free(told);
-}
-
-static bool put_pieces(LadderSfcView *view, const char *pieces, LadderDocument *source)
-{
 	struct end_of_pou end = { .pou = view->pou };
 	gsize len;
 	char *whole = ladder_document_outline(view->document, &len, take_end, &end), *with;
@@ -188,8 +181,8 @@ static bool put_pieces(LadderSfcView *view, const char *pieces, LadderDocument *
 	with = g_strdup_printf("\n%s", pieces);
 	good = whole && ladder_document_replace(view->document, end.span.at + end.span.len,
 						0, with, NULL);
-	if (good)
-		declare(view, source);
+	*told = good ? rung_clip_declare(&clip, view->document, view->pou, -1,
+					 LIMIT_RUNGS + 1) : NULL;
 	g_free(with);
 	g_free(whole);
 	return good;
@@ -238,11 +231,13 @@ static char *pieces_for(struct sfc_edit *here, LadderDocument *source)
 	return pieces;
 }
 
-/* They stand behind the chart; now they come to what was at the cursor. */
+/* They stand behind the chart; now they come to what was at the cursor. @told: of them. */
 static void insert(LadderSfcView *view, const struct sfc_edit *before, enum sfc_part part,
-		   int index)
+		   int index, const char *told)
 {
 	struct sfc_edit *edit;
+	const char *why;
+	char *all;
 	int made;
 
 	chart_fresh(view);
@@ -252,8 +247,11 @@ static void insert(LadderSfcView *view, const struct sfc_edit *before, enum sfc_
 	made = sfc_edit_insert(edit, before->sfc.step_count, before->sfc.transition_count,
 			       part == SFC_STEP ? index : -1,
 			       part == SFC_TRANSITION ? index : -1);
-	if (made >= 0 && edit->why)
-		chart_tell(view, _(edit->why));
+	why = made >= 0 && edit->why ? _(edit->why) : "";
+	all = g_strdup_printf("%s%s%s", told ? told : "", told && *why ? " · " : "", why);
+	if (*all)
+		chart_tell(view, all);
+	g_free(all);
 	chart_put(view, edit, made >= 0, _(verb_row(VERB_paste)->label), PIECE_STEP, made);
 }
 
@@ -261,17 +259,18 @@ static void paste_text(LadderSfcView *view, const char *text)
 {
 	LadderDocument *source = text ? read_chart(text) : NULL;
 	struct sfc_edit *here = source ? chart_edit(view) : NULL;
-	char *pieces = here ? pieces_for(here, source) : NULL;
+	char *pieces = here ? pieces_for(here, source) : NULL, *told = NULL;
 	enum sfc_part part;
 	int index;
 
 	part = here ? chart_part_here(view, &index) : SFC_NOTHING;
 	ladder_document_begin(view->document, _(verb_row(VERB_paste)->label), NULL);
-	if (!pieces || !put_pieces(view, pieces, source))
+	if (!pieces || !put_pieces(view, pieces, source, &told))
 		chart_tell(view, _("The clipboard holds no steps."));
 	else
-		insert(view, here, part, index);
+		insert(view, here, part, index, told);
 	ladder_document_end(view->document);
+	g_free(told);
 	g_free(pieces);
 	sfc_edit_free(here);
 	g_clear_object(&source);

@@ -28,6 +28,7 @@ struct _LadderSymbolsView {
 	int table;              /* that is shown; -1: all                      */
 	guint64 told_of;        /* version of the document that the message is of */
 	bool busy;              /* a drop-down is being filled                 */
+	bool turning;           /* the symbol becomes another kind             */
 };
 
 G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
@@ -157,13 +158,15 @@ static void show_kind(LadderSymbolsView *view)
 	const LadderPanelRow *row = panel_list_row(&view->list);
 	guint at = 0;
 
+	if (view->turning) /* it has the keys: hidden between, it would lose them */
+		return;
 	for (guint i = 1; row && i < G_N_ELEMENTS(kinds); i++)
 		at = row->flags & kinds[i] ? i : at;
 	view->busy = true;
 	gtk_drop_down_set_selected(GTK_DROP_DOWN(view->kind), at);
 	view->busy = false;
-	gtk_widget_set_sensitive(view->kind, row && row->table > 0 &&
-				 !(row->flags & (SYMBOLS_FIXED | SYMBOLS_MEMBER)));
+	gtk_widget_set_visible(view->kind, row && row->table > 0 &&
+			       !(row->flags & (SYMBOLS_FIXED | SYMBOLS_MEMBER)));
 }
 
 static void fill_rows(LadderSymbolsView *view)
@@ -333,8 +336,10 @@ static void kind_changed(GtkDropDown *drop, GParamSpec *spec, LadderSymbolsView 
 	document = panel_watch_document(view->watch);
 	table = row->table;
 	name = g_strdup(panel_row_text(row, FIELD_NAME));
+	view->turning = true;
 	if (symbol_set_kind(document, table, index_of(document, row), kinds[at], &why))
 		ladder_symbols_view_show(view, table, last_index(document, table, name));
+	view->turning = false;
 	show_kind(view);
 	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL);
 	g_free(name);
