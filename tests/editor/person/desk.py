@@ -497,6 +497,7 @@ def run(number, test):
         print('# ' + ''.join(traceback.format_exception(error)[-3:]).replace('\n', '\n# '))
         if os.environ.get('PICTURES'):
             sh('import', '-window', 'root', os.path.join(os.environ['PICTURES'], 'failed-%d.png' % number))
+        print('# ' + '\n# '.join(screen.told()))
     for editor in editors[:]:
         print('# ' + editor.logged().replace('\n', '\n# '))
         editor.kill()

@@ -117,6 +117,14 @@ class Screen:
         env = {name: value for name, value in os.environ.items() if name != 'G_SLICE'}
         self.running.append(subprocess.Popen(args, env=env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, **more))
 
+    def told(self):
+        """What is there: for who reads why a window did not come."""
+        ended = ['%s ended with %d' % (process.args[0], process.returncode)
+                 for process in self.running if process.poll() is not None]
+        tree = sh('xwininfo', '-root', '-tree').splitlines()
+        return ended + [sh('xprop', '-root', '_NET_CLIENT_LIST'),
+                        *(line for line in tree if '+' in line and ' 1x1+' not in line)]
+
     def close(self):
         while self.running:
             process = self.running.pop()
