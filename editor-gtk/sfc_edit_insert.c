@@ -29,15 +29,24 @@ static uint32_t name_of(const struct passage *part, int step)
 
 /* ---- what it is ---- */
 
-static bool has_name(const struct passage *part, int transition, bool to, int step)
+/* The names on one side of a transition. */
+static const struct sfc_ref *side_of(const struct passage *part, int transition, bool to,
+				     int *count)
 {
 	const struct sfc *sfc = &part->edit->sfc;
 	const struct sfc_transition *t = &sfc->transition[transition];
-	const int first = to ? t->first_to : t->first_from;
-	const int count = to ? t->to_count : t->from_count;
 
-	for (int i = first; i < first + count; i++)
-		if (sfc->ref[i].step == step)
+	*count = to ? t->to_count : t->from_count;
+	return sfc->ref + (to ? t->first_to : t->first_from);
+}
+
+static bool has_name(const struct passage *part, int transition, bool to, int step)
+{
+	int count;
+	const struct sfc_ref *ref = side_of(part, transition, to, &count);
+
+	for (int i = 0; i < count; i++)
+		if (ref[i].step == step)
 			return true;
 	return false;
 }
@@ -54,13 +63,11 @@ static bool is_led(const struct passage *part, bool to, int step)
 /* Are all steps of that side outside, and is there one? */
 static bool is_open(const struct passage *part, int transition, bool to)
 {
-	const struct sfc *sfc = &part->edit->sfc;
-	const struct sfc_transition *t = &sfc->transition[transition];
-	const int first = to ? t->first_to : t->first_from;
-	const int count = to ? t->to_count : t->from_count;
+	int count;
+	const struct sfc_ref *ref = side_of(part, transition, to, &count);
 
-	for (int i = first; i < first + count; i++)
-		if (sfc->ref[i].step >= part->step)
+	for (int i = 0; i < count; i++)
+		if (ref[i].step >= part->step)
 			return false;
 	return count > 0;
 }
@@ -159,14 +166,12 @@ static int step_at(struct passage *part, bool end)
 /* Do all names outside mean a step there is where the part stands? Its own do. */
 static bool is_known(const struct passage *part, int transition, bool to)
 {
-	const struct sfc *sfc = &part->edit->sfc;
-	const struct sfc_transition *t = &sfc->transition[transition];
-	const int first = to ? t->first_to : t->first_from;
-	const int count = to ? t->to_count : t->from_count;
+	int count;
+	const struct sfc_ref *ref = side_of(part, transition, to, &count);
 
-	for (int i = first; i < first + count; i++)
-		if (sfc->ref[i].step < 0 ||
-		    sfc->step[sfc->ref[i].step].macro != part->macro)
+	for (int i = 0; i < count; i++)
+		if (ref[i].step < 0 ||
+		    part->edit->sfc.step[ref[i].step].macro != part->macro)
 			return false;
 	return true;
 }
