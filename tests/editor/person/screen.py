@@ -95,7 +95,16 @@ class Screen:
         self.start('openbox', '--sm-disable')
         if shutil.which('xcompmgr'):  # without it popovers have a black frame
             self.start('xcompmgr')
-        until(lambda: 'window id' in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'), 'the window manager')
+        until(self.is_managed, 'the window manager')
+
+    @staticmethod
+    def is_managed():
+        """The window manager does what it is asked to. Openbox 3.6 says that it is there while it still begins.
+        What it reads by then it looks at when more arrives: a window would wait for ever, a question is more."""
+        if 'window id' not in sh('xprop', '-root', '_NET_SUPPORTING_WM_CHECK'):
+            return False
+        sh('xdotool', 'set_num_desktops', '1')
+        return sh('xdotool', 'get_num_desktops') == '1'
 
     @staticmethod
     def accessibility_address():
