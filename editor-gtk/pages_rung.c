@@ -67,33 +67,6 @@ void pages_put_references(struct pages *pages)
 	put_told(pages, pages->reference, _("Cross reference"));
 }
 
-/* A comment that is longer than its column gets room for is told behind the rungs. */
-static void note_remark(struct pages *pages, const struct drafting *drafting,
-			const struct rung *rung, const struct cell *cell, int number)
-{
-	const struct word_row *word = words_row(&pages->project->words, cell->word);
-	const struct lettered whole = rung_element_comment(drafting, cell, 0);
-	const struct rung_label label = rung_label(drafting, cell);
-
-	if (word->kind != WORD_ELEM || word->place == PLACE_NONE ||
-	    word->place == PLACE_WIRE || word->place == PLACE_PIN ||
-	    whole.width <= LABEL_BOUND)
-		return;
-	const int at = (int)(cell - rung->cell);
-	g_ptr_array_add(pages->remark, g_strdup_printf("%d (%d,%d) %s%s%s: %s", number,
-		at / rung->cols + 1, at % rung->cols + 1, label.symbol.text,
-		*label.symbol.text && *label.address.text ? " " : "",
-		label.address.text, whole.text));
-}
-
-static void note_remarks(struct pages *pages, const struct sheet *sheet, int index)
-{
-	const struct rung *rung = sheet->rung[index]->rung;
-
-	for (int i = 0; i < rung->rows * rung->cols; i++)
-		note_remark(pages, &sheet->drafting, rung, &rung->cell[i], index + 1);
-}
-
 struct grid_scene pages_scene(struct pages *pages, const struct sheet *sheet,
 			      const struct rung_layout *layout)
 {
@@ -167,6 +140,6 @@ void pages_put_rungs(struct pages *pages, const struct sheet *sheet, const char 
 			pages_fold(pages, sheet, i, scale, i == first);
 		else
 			put_rung(pages, sheet, i, scale, i == first);
-		note_remarks(pages, sheet, i);
+		sheet_remarks(sheet, i, pages->remark);
 	}
 }

@@ -9,7 +9,6 @@
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/render_diff_lines.h"
 #include "editor-gtk/render_sheet.h"
-#include "editor-gtk/sheet.h"
 #include "engine/view/view.h"
 
 #include <string.h>
@@ -165,6 +164,7 @@ static void put_rung(struct comparison *of, const struct sheet *sheet, int index
 	picture_move(of->picture, 0, 0);
 	of->y += sheet->rung[index]->height;
 	render_grow(of->picture, rung_layout_width(sheet->rung[index]), of->y);
+	of->y = render_remarks(sheet, index, index + 1, NULL, of->y, of->picture);
 }
 
 static void put_changed(struct comparison *of, struct view_pair pair)

@@ -4,13 +4,14 @@
  */
 #include "editor-gtk/render_sheet.h"
 #include "editor-gtk/grid_draw.h"
+#include "editor-gtk/i18n.h"
 #include "editor-gtk/listing.h"
 #include "editor-gtk/sfc_bodies.h"
 #include "editor-gtk/sfc_draw.h"
-#include "editor-gtk/sheet.h"
 
 #define HEADING   40
 #define TEXT_LINE 17
+#define SIDE      16 /* px beside a text                                        */
 
 void render_grow(struct picture *picture, float x, float y)
 {
@@ -24,10 +25,17 @@ float render_heading(struct lettering *lettering, const char *text, float y,
 	struct lettered fits = lettering_fit(lettering, LETTER_HEADING, text, -1, 0);
 
 	picture_move(picture, 0, y);
-	picture_text(picture, TOKEN_INK, LETTER_HEADING, fits, 16, 27);
+	picture_text(picture, TOKEN_INK, LETTER_HEADING, fits, SIDE, 27);
 	picture_move(picture, 0, 0);
-	render_grow(picture, fits.width + 32, y + HEADING);
+	render_grow(picture, fits.width + 2 * SIDE, y + HEADING);
 	return HEADING;
+}
+
+static float put_line(struct lettered text, float y, struct picture *picture)
+{
+	picture_text(picture, TOKEN_INK, LETTER_OPERAND, text, SIDE, y + 13);
+	render_grow(picture, text.width + 2 * SIDE, y + TEXT_LINE);
+	return y + TEXT_LINE;
 }
 
 static float put_lines(char **lines, struct lettering *lettering, float y,
@@ -37,12 +45,9 @@ static float put_lines(char **lines, struct lettering *lettering, float y,
 		GString *text = g_string_new(lines[i]);
 
 		g_string_replace(text, "\t", "        ", 0);
-		struct lettered fits = lettering_fit(lettering, LETTER_OPERAND, text->str,
-						     -1, 0);
+		y = put_line(lettering_fit(lettering, LETTER_OPERAND, text->str, -1, 0), y,
+			     picture);
 		g_string_free(text, TRUE);
-		picture_text(picture, TOKEN_INK, LETTER_OPERAND, fits, 16, y + 13);
-		y += TEXT_LINE;
-		render_grow(picture, fits.width + 32, y);
 	}
 	g_strfreev(lines);
 	return y + TEXT_LINE;
@@ -84,6 +89,26 @@ static struct sheet *new_sheet(const struct project *project, const struct pou *
 	return sheet;
 }
 
+float render_remarks(const struct sheet *sheet, int first, int end, const char *heading,
+		     float y, struct picture *picture)
+{
+	struct lettering *lettering = sheet->drafting.lettering;
+	GPtrArray *lines = g_ptr_array_new_with_free_func(g_free);
+
+	for (int i = first; i < end; i++)
+		sheet_remarks(sheet, i, lines);
+	if (lines->len && heading)
+		y += render_heading(lettering, heading, y, picture);
+	for (guint i = 0; i < lines->len; i++)
+		for (const char *text = g_ptr_array_index(lines, i); *text;)
+			y = put_line(lettering_line(lettering, LETTER_OPERAND, &text,
+						    sheet->width - 2 * SIDE, false), y,
+				     picture);
+	y += lines->len ? TEXT_LINE : 0;
+	g_ptr_array_unref(lines);
+	return y;
+}
+
 /* Rungs first … end - 1. */
 static float put_rungs(const struct sheet *sheet, const struct render_options *options,
 		       int first, int end, float y, struct picture *picture)
@@ -105,7 +130,7 @@ static float put_rungs(const struct sheet *sheet, const struct render_options *o
 		render_grow(picture, sheet->width, y);
 	}
 	picture_move(picture, 0, 0);
-	return y;
+	return render_remarks(sheet, first, end, _("Comments"), y, picture);
 }
 
 static float put_ladder(const struct project *project, const struct pou *pou,

@@ -7,6 +7,7 @@
 
 #include "editor-gtk/picture.h"
 #include "editor-gtk/render_options.h"
+#include "editor-gtk/sheet.h"
 
 /** render_sheets - POU @pou of a project, or all (-1); its size too is set. */
 void render_sheets(const struct project *project, int pou,
@@ -15,6 +16,10 @@ void render_sheets(const struct project *project, int pou,
 /** render_heading - a line above what follows; returns its height. */
 float render_heading(struct lettering *lettering, const char *text, float y,
 		     struct picture *picture);
+/** render_remarks - what rungs @first … @end - 1 have no room for, in lines; nothing if there
+ * is none. @heading: above them; NULL: none. Returns the y below. */
+float render_remarks(const struct sheet *sheet, int first, int end, const char *heading,
+		     float y, struct picture *picture);
 /** render_grow - the picture reaches at least to (@x, @y). */
 void render_grow(struct picture *picture, float x, float y);
 

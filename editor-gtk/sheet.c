@@ -3,8 +3,7 @@
  * sheet - layouts of all rungs of a POU; see sheet.h.
  */
 #include "editor-gtk/sheet.h"
-
-#include <glib.h>
+#include "editor-gtk/rung_text.h"
 
 struct sheet *sheet_new(const struct project *project, const struct pou *pou,
 			struct lettering *lettering)
@@ -136,4 +135,30 @@ void sheet_layout(struct sheet *sheet)
 			lay_out(sheet, i, 0);
 	share_columns(sheet);
 	align(sheet);
+}
+
+static void add_remark(const struct sheet *sheet, int index, int at, GPtrArray *lines)
+{
+	const struct rung *rung = sheet->rung[index]->rung;
+	const struct cell *cell = &rung->cell[at];
+	const struct word_row *word = words_row(&sheet->drafting.project->words, cell->word);
+	const struct lettered whole = rung_element_comment(&sheet->drafting, cell, 0);
+	const struct rung_label label = rung_label(&sheet->drafting, cell);
+
+	if (word->kind != WORD_ELEM || word->place == PLACE_NONE ||
+	    word->place == PLACE_WIRE || word->place == PLACE_PIN ||
+	    whole.width <= LABEL_BOUND)
+		return;
+	g_ptr_array_add(lines, g_strdup_printf("%d (%d,%d) %s%s%s: %s",
+		sheet->rung[index]->number, at / rung->cols + 1, at % rung->cols + 1,
+		label.symbol.text, *label.symbol.text && *label.address.text ? " " : "",
+		label.address.text, whole.text));
+}
+
+void sheet_remarks(const struct sheet *sheet, int index, GPtrArray *lines)
+{
+	const struct rung *rung = sheet->rung[index]->rung;
+
+	for (int i = 0; i < rung->rows * rung->cols; i++)
+		add_remark(sheet, index, i, lines);
 }

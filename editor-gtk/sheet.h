@@ -10,6 +10,8 @@
 
 #include "editor-gtk/rung_layout.h"
 
+#include <glib.h>
+
 struct sheet {
 	struct drafting drafting;     /* change it only before sheet_layout()    */
 	const struct pou *pou;        /* borrowed                                */
@@ -36,5 +38,8 @@ void sheet_free(struct sheet *sheet);
 void sheet_layout(struct sheet *sheet);
 /** sheet_is_wide - does a rung need more than the most there is for all? */
 bool sheet_is_wide(const struct sheet *sheet, int index);
+/** sheet_remarks - what no element of a rung has the room for: comments that end in an
+ * ellipsis there, whole, a line each, with their place. @lines: char *, g_free */
+void sheet_remarks(const struct sheet *sheet, int index, GPtrArray *lines);
 
 #endif

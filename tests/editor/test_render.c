@@ -327,6 +327,24 @@ static void check_document(void)
 	g_free(text);
 }
 
+/* A comment that is longer than its element has room for stands below the rungs, and below
+ * each of those that are compared. */
+static void check_remarks(void)
+{
+#define REMARK(end) "PROGRAM Main LD\nRUNG\n  | NO %IX0.0 (* closed while the drive of the " \
+		    "northern pump has no fault and its key is " end " *) " \
+		    "| NC %IX0.1 (* short *) | COIL %QX0.0 |\nEND_PROGRAM\n"
+	write_text("auto.rung", REMARK("in auto"));
+	write_text("manual.rung", REMARK("in manual"));
+	CHECK(render("OUT/auto.rung -o OUT/remark.svg") == 0);
+	CHECK(has("remark.svg", ">Comments</text>") && has("remark.svg", ">1 (1,1) %IX0.0: "));
+	CHECK(has("remark.svg", "in auto</text>") && !has("remark.svg", "%IX0.1: short"));
+	CHECK(render("--diff OUT/auto.rung OUT/manual.rung -o OUT/remarks.svg") == 0);
+	CHECK(has("remarks.svg", "in auto</text>") && has("remarks.svg", "in manual</text>"));
+	CHECK(render(SHAPES " -o OUT/none.svg") == 0 && !has("none.svg", ">Comments</text>"));
+#undef REMARK
+}
+
 /* Of a project of ClassicLadder: as it becomes, as it was, both; of no other. */
 static void check_original(void)
 {
@@ -365,6 +383,7 @@ int main(void)
 	check_full("full.pdf");
 	check_large();
 	check_marks();
+	check_remarks();
 	check_original();
 	check_document();
 	clear_folder();
