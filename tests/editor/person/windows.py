@@ -213,6 +213,18 @@ def from_text(screen):
     assert lines(path, '@print Motor\nStart=0\n%IX0.0=1\n')[-1] == 'Motor=1', text
 
 
+def put_bytes(data):
+    """On the clipboard, from another program, which says that it is text; waits until it is there."""
+    kind = ['-selection', 'clipboard', '-t', 'text/plain;charset=utf-8']
+    subprocess.run(['xclip', *kind], input=data, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def begins():
+        with subprocess.Popen(['timeout', '10', 'xclip', *kind, '-o'], stdout=subprocess.PIPE,
+                              stderr=subprocess.DEVNULL) as given:
+            return given.stdout.read(40)
+    until(lambda: begins() == data[:40], 'the bytes on the clipboard')
+
+
 def hostile(screen):
     """bytes that are no text are refused, and nothing changes"""
     path = new_file(screen, TARGET)
@@ -222,8 +234,7 @@ def hostile(screen):
     for text, why in (rung + b'\0' + rung, 'not valid UTF-8 text'), (b'this', 'The clipboard, line 1: there is no such word: this'), \
             (rung.replace(b'Start', b'St\xffrt'), 'not valid UTF-8 text'), (b'this', 'The clipboard, line 1: there is no such word: this'), \
             (b' ' * (65 << 20), 'file is too large'):
-        subprocess.run(['xclip', '-selection', 'clipboard', '-t', 'text/plain;charset=utf-8'], input=text, check=True,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        put_bytes(text)
         editor.keys('ctrl+v')
         editor.says(why)
         assert editor.cells() == [], 'what is no text was pasted'
