@@ -416,7 +416,7 @@ class Editor:
         return until(look, 'the focus on %s "%s"' % (role or 'widget', name))
 
     def drop_down(self, press):
-        """Presses what opens a list, and waits until that has the keys. One of some 300 presses GTK 4.8
+        """Presses what opens a list, and waits until that has the keys. One press of many hundred GTK 4.8
         gives to the list that was open there before, on X11: then a person presses again."""
         def has_keys():
             node = self.focused()
