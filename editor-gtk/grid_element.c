@@ -119,7 +119,7 @@ static void draw_shape(const struct pen *pen, int row, int col)
 			     2 * glyph.half + 8, 2 * glyph.up + 4);
 	glyph_draw(pen, &glyph);
 	draw_label(pen, row, col, glyph.x);
-	draw_below(pen, row, col, glyph.x, width - 8, glyph.up);
+	draw_below(pen, row, col, glyph.x, width - 8 - 2 * pen->drafting->beside, glyph.up);
 }
 
 void grid_draw_element(const struct pen *pen, int row, int col)

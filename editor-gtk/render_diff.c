@@ -15,6 +15,7 @@
 #include <strings.h>
 
 #define MOST_MARKS 512
+#define MARK_ROOM  16 /* px that the mark of a changed cell takes of its lower edge */
 
 struct comparison {
 	const struct project *a, *b;
@@ -43,6 +44,7 @@ static struct sheet *sheet_of(const struct comparison *of, const struct project 
 	sheet->drafting.show = of->options->show;
 	sheet->drafting.width = of->options->width;
 	sheet->drafting.all_comments = true;
+	sheet->drafting.beside = MARK_ROOM;
 	sheet_layout(sheet);
 	return sheet;
 }

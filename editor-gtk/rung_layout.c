@@ -99,6 +99,7 @@ static float element_width(const struct drafting *drafting, const struct rung *r
 			   int row, int col)
 {
 	const struct word_row *word = word_at(drafting, rung, row, col);
+	const struct cell *cell = rung_at(rung, row, col);
 	struct rung_box box;
 
 	if (word->kind != WORD_ELEM) {
@@ -108,13 +109,12 @@ static float element_width(const struct drafting *drafting, const struct rung *r
 	if (word->place == PLACE_NONE || word->place == PLACE_WIRE ||
 	    word->place == PLACE_PIN)
 		return 0;
-	if (rung_is_framed(word))
-		return rung_framed(drafting, rung_at(rung, row, col)).width +
-		       2 * FRAMED_SIDE + 2 * BESIDE;
-	float need = names_width(drafting, rung_at(rung, row, col));
+	float need = rung_is_framed(word) ?
+		rung_framed(drafting, cell).width + 2 * FRAMED_SIDE + BESIDE :
+		names_width(drafting, cell);
 	if (drafting->all_comments)
-		need = MAX(need, rung_element_comment(drafting, rung_at(rung, row, col),
-						      LABEL_BOUND).width);
+		need = MAX(need, rung_element_comment(drafting, cell, LABEL_BOUND).width +
+				 2 * drafting->beside);
 	return need + BESIDE;
 }
 

@@ -39,6 +39,7 @@ struct drafting {
 	enum drafting_show show;
 	bool comments;     /* also comments of declarations, below elements     */
 	bool all_comments; /* of rungs, however long, and long names: for paper   */
+	float beside;      /* px that comments leave free at both sides: for marks */
 	int columns;       /* of the sheet: rung_layout_columns() of its rungs   */
 	float width;       /* px from rail to rail at least; 0: as natural      */
 	float most;        /* px of a line above a rung; 0: from rail to rail    */

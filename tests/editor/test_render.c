@@ -345,6 +345,37 @@ static void check_remarks(void)
 #undef REMARK
 }
 
+/* px from the left where a text of a picture begins; -1: it is not there. */
+static double left_of(const char *name, const char *text)
+{
+	char *svg = content(name, NULL), *whole = g_strdup_printf(">%s</text>", text);
+	const char *at = strstr(svg, whole), *x = NULL;
+
+	for (const char *next = svg; at && (next = strstr(next, " x=\"")) && next < at; next++)
+		x = next;
+	const double left = x ? g_ascii_strtod(x + 4, NULL) : -1;
+	g_free(whole);
+	g_free(svg);
+	return left;
+}
+
+/* A comment has its room, below a comparison of values too, and beside the mark that it differs. */
+static void check_room(void)
+{
+#define ROOM(end) "PROGRAM Main LD\nRUNG\n  | NO %IX0.0 (* closed while the drive of the pump" end \
+		  " *) | [ %MW0 > 1 ] (* the level in the second tank is high *) " \
+		  "| COIL %QX0.0 |\nEND_PROGRAM\n"
+	write_text("room.rung", ROOM(""));
+	write_text("rooms.rung", ROOM("s"));
+	CHECK(render("OUT/room.rung -o OUT/room.svg") == 0);
+	CHECK(has("room.svg", ">the level in the second tank is high</text>"));
+	CHECK(render("--diff OUT/room.rung OUT/rooms.rung -o OUT/rooms.svg") == 0);
+	CHECK(left_of("rooms.svg", "\xe2\x89\xa0") > 0);
+	CHECK(left_of("rooms.svg", "closed while the drive of the pump") >
+	      left_of("rooms.svg", "\xe2\x89\xa0") + 10);
+#undef ROOM
+}
+
 /* Of a project of ClassicLadder: as it becomes, as it was, both; of no other. */
 static void check_original(void)
 {
@@ -384,6 +415,7 @@ int main(void)
 	check_large();
 	check_marks();
 	check_remarks();
+	check_room();
 	check_original();
 	check_document();
 	clear_folder();
