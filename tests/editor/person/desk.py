@@ -415,19 +415,6 @@ class Editor:
                 role is None or node.role == ROLES[role]) and (but is None or node.path != but.path) and node
         return until(look, 'the focus on %s "%s"' % (role or 'widget', name))
 
-    def drop_down(self, press):
-        """Presses what opens a list, and waits until that has the keys. One press of many hundred GTK 4.8
-        gives to the list that was open there before, on X11: then a person presses again."""
-        def has_keys():
-            node = self.focused()
-            return node and node.role == ROLES['list item']
-        press()
-        try:
-            until(has_keys, 'the list', PATIENCE / 4)
-        except AssertionError:
-            press()
-            until(has_keys, 'the list, pressed twice')
-
     def choose(self, text):
         """Goes down to a text in the list that just opened, and takes it."""
         row = self.focus_on(role='list item')
