@@ -46,8 +46,7 @@ def sample(screen):
 def proposes(editor):
     """Ctrl+S asks for a name, which is that of the sample at first."""
     before = editor.windows()
-    editor.keys('ctrl+s')
-    until(lambda: len(editor.windows()) > len(before), 'the dialog')
+    editor.brought('ctrl+s')
     until(lambda: editor.focused() and editor.focused().text() == 'conveyor.rung', 'the name of the sample')
     editor.keys('Escape')
     until(lambda: editor.windows() == before, 'the end of the dialog')
@@ -180,8 +179,7 @@ def only_projects(screen):
     editor.keys('ctrl+alt+s')
     for table in tables:
         before = editor.windows()
-        editor.give_path(table, editor.find('Import', 'push button').press)
-        until(lambda: len(editor.windows()) > len(before), 'what the table would do')
+        editor.brought(lambda: editor.give_path(table, editor.find('Import', 'push button').press))
         editor.keys('Escape')
         until(lambda: len(editor.windows()) == len(before), 'the end of the plan')
     editor.give_path(os.path.join(screen.home, 'out.csv'), editor.find('Export', 'push button').press)

@@ -50,14 +50,6 @@ def rows(editor):
     return [node.name for node in editor.all(': ') if node.name.startswith(('Left out', 'Changed', 'Refused'))]
 
 
-def command(editor, name):
-    editor.keys('ctrl+k')
-    until(lambda: editor.all('About Rungboard'), 'all commands')
-    editor.type(name)
-    until(lambda: not editor.all('About Rungboard'), 'that command alone')
-    editor.keys('Return')
-
-
 def mouse(screen):
     """a message of one line, a button that shows the report; a line leads to its rung, and its original is shown"""
     editor = opened(screen)
@@ -88,7 +80,7 @@ def keyboard(screen):
     editor.find('Nothing of ClassicLadder became this rung')
     editor.keys('Escape', 'ctrl+z', 'ctrl+Home')
     editor.find('Original of the rung: Estop chain')
-    command(editor, 'report of import')
+    editor.command('report of import')
     editor.focus_on('Left out: element 103', 'table row')
     editor.keys('Return')
     editor.to_sheet()
@@ -173,10 +165,8 @@ def exported(screen):
     new_file(screen, 'precious', 'b.clprj')
     editor.to_sheet()
     for answer in 'Cancel', 'Replace':
-        command(editor, 'export as classic')
-        until(lambda: len(editor.windows()) == 2, 'the dialog')
-        editor.keys('ctrl+a')
-        editor.type(path[:-6])
+        editor.brought(lambda: editor.command('export as classic'), 'Export as ClassicLadder')
+        editor.type_path(path[:-6])
         editor.keys('Return')
         editor.find('Replace the file?')
         assert read(path) == 'precious'

@@ -377,17 +377,39 @@ class Editor:
 
     def give_path(self, path, ask, title=''):
         """Types a path into the chooser of files that a key, or what is called, brings; waits until it has gone."""
+        chooser = self.brought(ask, title)
+        self.type_path(path)
+        self.keys('Return')
+        until(lambda: chooser not in self.windows(), 'the end of the chooser')
+
+    def brought(self, ask, title=''):
+        """The window of a title that a key, or what is called, brings: when it has the keys, which is after it is seen."""
         before = self.windows()
         ask() if callable(ask) else self.keys(ask)
-        chooser = until(lambda: [window for window in self.windows() if window not in before and
-                                 title in sh('xdotool', 'getwindowname', window)], 'the chooser')[0]
-        # It is seen before it has the keys, and has them before they are a path.
-        until(lambda: sh('xdotool', 'getactivewindow') == chooser and self.focused(), 'the keys in the chooser')
+        window = until(lambda: [each for each in self.windows() if each not in before and
+                                title in sh('xdotool', 'getwindowname', each)], 'the window "%s"' % title)[0]
+        until(lambda: sh('xdotool', 'getactivewindow') == window and self.focused(), 'the keys in it')
+        return window
+
+    def list_commands(self):
+        """Opens the list of all commands."""
+        window = self.brought('ctrl+k')
+        until(lambda: self.all('About Rungboard'), 'all commands')
+        return window
+
+    def command(self, name):
+        """Does a command that is found by its name in the list of all."""
+        window = self.list_commands()
+        self.type(name)
+        until(lambda: not self.all('About Rungboard'), 'that command alone')
+        self.keys('Return')
+        until(lambda: window not in self.windows(), 'the end of the list')
+
+    def type_path(self, path):
+        """Over what stands in the chooser of files that has the keys; it has them before they are a path."""
         self.keys('ctrl+a')
         self.type(path)
         until(lambda: any(node.text() == path for node in self.all(role='text')), 'the path in the chooser')
-        self.keys('Return')
-        until(lambda: chooser not in self.windows(), 'the end of the chooser')
 
     def front(self):
         """Brings its window before the others."""

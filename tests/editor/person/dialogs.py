@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from desk import Editor, check, main, new_file, sh, until  # noqa: E402
+from desk import Editor, check, main, new_file, until  # noqa: E402
 from projects import ONE_RUNG  # noqa: E402
 
 MAP = 'BOARD "Desk"\n%IX0.0  gpio  line=NOWHERE\n%QX0.0  sim  safe=0\n'
@@ -26,11 +26,9 @@ def dialogs(screen):
     editor = Editor(screen, path)
     editor.to_sheet()
     for key, _ in DIALOGS:
-        before = len(editor.windows())
-        editor.keys(key)
-        until(lambda: len(editor.windows()) > before, 'the dialog of ' + key)
+        editor.brought(key)
         editor.keys('Escape')
-        until(lambda: len(editor.windows()) == before, 'the end of the dialog of ' + key)
+        until(lambda: len(editor.windows()) == 1, 'the end of the dialog of ' + key)
         editor.to_sheet()
     editor.says('no problems')
     assert open(path).read() == ONE_RUNG
@@ -79,8 +77,7 @@ def close(screen):
     editor.to_sheet()
     editor.keys('slash')
     editor.find('•')
-    editor.keys('ctrl+w')
-    until(lambda: len(editor.windows()) == 2, 'the question')
+    editor.brought('ctrl+w')
     editor.shot('dialogs-close')
     editor.keys('Escape')
     until(lambda: len(editor.windows()) == 1, 'the window to stay')
@@ -97,8 +94,7 @@ def commands(screen):
     """in the list of all commands the one that Enter does is seen, however far down it is"""
     editor = Editor(screen, new_file(screen, ONE_RUNG))
     editor.to_sheet()
-    editor.keys('ctrl+k')
-    until(lambda: len(editor.windows()) == 2, 'all commands')
+    editor.list_commands()
     editor.keys(*['Down'] * 130)
 
     def seen():
@@ -123,23 +119,10 @@ def kept(editor):
     return editor.all(role='frame')[0].name, len(editor.all('•')), files
 
 
-def command(editor, name):
-    editor.keys('ctrl+k')
-    until(lambda: editor.all('About Rungboard'), 'all commands')
-    editor.type(name)
-    until(lambda: not editor.all('About Rungboard'), 'that command alone')
-    editor.keys('Return')
-
-
-def titled(editor, title):
-    """Waits for a window of that title."""
-    until(lambda: [window for window in editor.windows() if sh('xdotool', 'getwindowname', window) == title],
-          'the window "%s"' % title)
-
-
 def escape(editor, before, picture):
     """Esc, and nothing is another than before."""
     editor.shot('dialogs-' + picture)
+    until(editor.focused, 'the keys')
     editor.keys('Escape')
     until(lambda: len(editor.windows()) == 1, 'the end of the dialog')
     assert kept(editor) == before, '%s: %s, not %s' % (picture, kept(editor), before)
@@ -152,8 +135,7 @@ def writers(screen):
     before = kept(editor)
     for title, offered in (('Export as PDF', 'new.pdf'), ('New I/O map', 'new.io'),
                            ('Export as ClassicLadder', 'new.clprj'), ('Export symbols', 'new.csv')):
-        command(editor, title)
-        titled(editor, title)
+        editor.brought(lambda: editor.command(title), title)
         until(lambda: editor.focused() and editor.focused().text() == offered, 'the name ' + offered)
         escape(editor, before, offered)
         editor.to_sheet()
@@ -167,11 +149,9 @@ def replaced(screen):
     before = kept(editor)
     # The chooser of files asks for itself, and is there again; the editor asks where it gives the ending.
     for name, question, windows in (other, 'Do you want to replace it?', 3), (other[:-5], 'Replace the file?', 2):
-        editor.keys('ctrl+shift+s')
-        titled(editor, 'Save as')
-        editor.keys('ctrl+a')
-        editor.type(name)
-        editor.keys('Return')
+        editor.brought('ctrl+shift+s', 'Save as')
+        editor.type_path(name)
+        editor.brought('Return')
         editor.find(question)
         until(lambda: len(editor.windows()) == windows, 'the question alone')
         if windows > 2:
@@ -204,11 +184,9 @@ def imported(screen):
         editor.keys('Menu')
         editor.find('Import from another project', 'menu item')
         until(lambda: item() or editor.keys('Down'), 'the item')
-        editor.keys('Return')
-        titled(editor, 'Import from another project')
+        editor.brought('Return', 'Import from another project')
         if chosen:
-            editor.keys('ctrl+a')
-            editor.type(other)
+            editor.type_path(other)
             editor.keys('Return')
             editor.find('Other', 'check box')
         escape(editor, before, 'import-%d' % chosen)
@@ -224,7 +202,7 @@ def board(screen):
         editor.keys(*change)
         until(lambda: bool(editor.all('•')) == bool(change), 'the mark of a change')
         before = kept(editor)
-        command(editor, 'Run on this machine')
+        editor.brought(lambda: editor.command('Run on this machine'))
         editor.find('Run on this machine?')
         escape(editor, before, 'board-%d' % len(change))
         editor.to_sheet()

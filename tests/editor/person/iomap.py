@@ -220,21 +220,12 @@ def as_text(screen):
     saved(io, MAP + '%QX0.1 sim')
 
 
-def command(editor, name):
-    editor.keys('ctrl+k')
-    until(lambda: editor.all('About Rungboard'), 'all commands')
-    editor.type(name)
-    until(lambda: not editor.all('About Rungboard'), 'that command alone')
-    editor.keys('Return')
-
-
 def new_map(screen):
     """a new map has a point for all that the program uses"""
     path, io = garage(screen)
     os.unlink(io)
     editor = Editor(screen, path)
-    command(editor, 'New I/O map')
-    until(lambda: len(editor.windows()) > 1, 'the dialog')
+    editor.brought(lambda: editor.command('New I/O map'), 'New I/O map')
     editor.keys('Return')
     io = os.path.join(screen.home, 'garage-door.io')
     until(lambda: os.path.exists(io), 'the file')
@@ -267,7 +258,7 @@ SIM = 'BOARD "Desk"\n' + ''.join('%%IX0.%d  sim\n' % i for i in range(7)) + ''.j
 def running(screen, text=SIM):
     path, io = garage(screen, text)
     editor = Editor(screen, path)
-    command(editor, 'Run on this machine')
+    editor.command('Run on this machine')
     return editor, io
 
 
@@ -323,7 +314,7 @@ def not_its_own(screen):
         with open(other, 'w') as file:
             file.write(text)
         editor.to_sheet()
-        command(editor, 'Run on this machine')
+        editor.command('Run on this machine')
         said, button = described(editor)
         assert 'press.io is not this project\'s own I/O map, which has the name garage-door.io' in said, said
         assert pins in said if pins else 'It reads' not in said, said
@@ -334,7 +325,7 @@ def not_its_own(screen):
         assert not child(editor) and not editor.all('Started with')
     with open(other, 'w') as file:
         file.write(SIM)
-    command(editor, 'Run on this machine')
+    editor.command('Run on this machine')
     editor.answer('Run')
     editor.says('RUN')
     assert 'Started with press.io' in editor.find('What ladderd says', 'text').text()
@@ -342,16 +333,13 @@ def not_its_own(screen):
     editor.find('OFF', 'label')
     # What it lacks is made from there, and is what runs then, unasked.
     editor.click(editor.find('Run…', 'push button'))
-    before = editor.windows()
-    editor.reply('New I/O map…')
-    until(lambda: any('New I/O map' in sh('xdotool', 'getwindowname', window) for window in editor.windows()
-                      if window not in before), 'the dialog')
+    editor.brought(lambda: editor.reply('New I/O map…'), 'New I/O map')
     editor.keys('Return')
     until(lambda: os.path.exists(io), 'the map')
     cell(editor, '%IX0.0, Driver')
     editor.click(editor.find('Door', 'label'), count=2)
     editor.to_sheet()
-    command(editor, 'Run on this machine')
+    editor.command('Run on this machine')
     until(lambda: 'Started with garage-door.io' in editor.find('What ladderd says', 'text').text(), 'that it runs with it')
 
 
@@ -360,15 +348,12 @@ def no_longer(screen):
     path, io = garage(screen)
     os.unlink(io)
     editor = Editor(screen, path)
-    for make in lambda: command(editor, 'New I/O map'), None:
+    for make in lambda: editor.command('New I/O map'), None:
         editor.to_sheet()
-        command(editor, 'Run on this machine')
+        editor.command('Run on this machine')
         editor.says('There is no I/O map beside the program')
         if make:
-            before = editor.windows()
-            make()
-            until(lambda: [window for window in editor.windows() if window not in before and
-                           'New I/O map' in sh('xdotool', 'getwindowname', window)], 'the dialog')
+            editor.brought(make, 'New I/O map')
             editor.keys('Return')
             cell(editor, '%IX0.0, Driver')
         else:
@@ -381,7 +366,7 @@ def no_longer(screen):
             os.unlink(io)
             editor.click(editor.find('Door', 'label'), count=2)
     editor.to_sheet()
-    command(editor, 'Run on this machine')
+    editor.command('Run on this machine')
     editor.says('RUN')
     assert not editor.all('There is no I/O map beside the program', 'label')
 
@@ -419,7 +404,7 @@ def lost(screen):
         file.write('RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\n  | NC %IX0.0 | STOP |\nRUNG\n'
                    '  | NO %IX0.0 | COIL %QX0.0 |\nEND_PROGRAM\n')
     editor = Editor(screen, path)
-    command(editor, 'Run on this machine')
+    editor.command('Run on this machine')
     editor.logs('communication', 'STOP: ')
     os.kill(child(editor), signal.SIGKILL)
     editor.logs('communication', 'ladderd was ended by a signal')

@@ -77,8 +77,7 @@ def session(screen, language):
     until(lambda: editor.all('Initial value'), 'the symbols')
     names |= editor.names()
     editor.shot('language-%s-symbols' % language)
-    editor.keys('ctrl+k')
-    until(lambda: editor.all('About Rungboard'), 'all commands')
+    editor.list_commands()
     names |= editor.names()
     editor.keys('Escape')
     keys_fit(editor, language)
@@ -123,8 +122,7 @@ def headings_fit(editor, language):
 def keys_fit(editor, language):
     """The window of all keys is no larger than the screen."""
     until(lambda: len(editor.windows()) == 1, 'one window')
-    editor.keys('F1')
-    until(lambda: len(editor.windows()) == 2, 'the window of keys')
+    editor.brought('F1')
     editor.shot('language-%s-keys' % language)
     for window in editor.windows():
         size = dict(line.split('=') for line in sh('xdotool', 'getwindowgeometry', '--shell', window).split())

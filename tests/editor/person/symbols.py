@@ -241,14 +241,7 @@ def imported(screen):
     table = new_file(screen, 'Name,Type,Address\nLamp,INT,\nBell,BOOL,%QX0.7\n', 'symbols.csv')
     editor = Editor(screen, path)
     editor.to_sheet()
-
-    def ask():
-        editor.keys('ctrl+k')
-        until(lambda: editor.all('About Rungboard'), 'all commands')
-        editor.type('Import symbols')
-        until(lambda: not editor.all('About Rungboard'), 'that command alone')
-        editor.keys('Return')
-    editor.give_path(table, ask, 'Import symbols')
+    editor.give_path(table, lambda: editor.command('Import symbols'), 'Import symbols')
     editor.find('1 new, 1 changed, 0 unchanged, 0 refused; after 1 of these lines the program has a fault', 'label')
     editor.find('must be BOOL: Lamp', 'table row')
     editor.shot('symbols-import')
@@ -264,10 +257,7 @@ def block(screen):
     """a new block has an input and an output; + beside one of them makes another; it is used as it is called"""
     path = new_file(screen, PROGRAM)
     editor = Editor(screen, path)
-    editor.keys('ctrl+k')
-    until(lambda: editor.all('About Rungboard'), 'all commands')
-    editor.type('new function block')
-    editor.keys('Return')
+    editor.command('new function block')
     editor.element('Rung 1, COIL', 'Out')
     check_text = editor.save(path)
     check(path)

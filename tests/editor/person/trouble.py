@@ -182,17 +182,9 @@ def somebody_else(screen):
     saved_well(path)
 
 
-def command(editor, name):
-    editor.keys('ctrl+k')
-    until(lambda: editor.all('About Rungboard'), 'all commands')
-    editor.type(name)
-    until(lambda: not editor.all('About Rungboard'), 'that command alone')
-    editor.keys('Return')
-
-
 def export(editor, what, path):
     """To a path that is typed into the chooser of files."""
-    editor.give_path(path, lambda: command(editor, what), what)
+    editor.give_path(path, lambda: editor.command(what), what)
 
 
 def toasts(editor, path):
@@ -259,10 +251,10 @@ def no_pages(screen):
     editor.find(why, 'label')
     editor.shot('trouble-no-pages')
     until(lambda: not editor.all(why), 'the toast to be gone')
-    command(editor, 'Export as PDF')
+    editor.command('Export as PDF')
     editor.says(why)
     assert len(editor.windows()) == 1
-    command(editor, 'Copy rung as a picture')
+    editor.command('Copy rung as a picture')
     editor.says('open a sheet first')
 
 

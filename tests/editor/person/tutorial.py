@@ -40,14 +40,14 @@ def press(editor, step):
     listed = False
     for span in step:
         key = key_of(span)
-        if key:
+        if key == 'ctrl+k':
+            listed = editor.list_commands()
+        elif key:
             editor.keys(key)
         else:
             editor.type(span)
         if key in ('shift+F5', 'F5', 'F6', 'F7'):
             editor.opened()
-        elif key == 'ctrl+k':
-            listed = until(lambda: editor.all('About Rungboard'), 'all commands')
         elif listed and not key:
             until(lambda: not editor.all('About Rungboard'), 'that command alone')
 
