@@ -13,6 +13,7 @@
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/installed.h"
 #include "editor-gtk/memory.h"
+#include "editor-gtk/popovers.h"
 #include "editor-gtk/preferences.h"
 #include "editor-gtk/recent.h"
 #include "editor-gtk/render.h"
@@ -376,6 +377,7 @@ static void startup(GtkApplication *application)
 	forget_gl();
 	gtk_source_init();
 	app_style();
+	popovers_let_go();
 	preferences_follow(ADW_APPLICATION(application));
 	gtk_window_set_default_icon_name(APP_ID);
 	draft_on_failure(tell_draft_failed);

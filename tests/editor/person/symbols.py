@@ -421,4 +421,18 @@ def last_letter(screen):
     assert lines(path, '@print Horn\nStart=1\n') == ['Horn=1']
 
 
-main([finds, declared_already, renames, uses, tables, added, ticked, imported, ordered, scopes, kinds, through, last_letter])
+def again(screen):
+    """a list that Esc closed opens at the next click, also where the pointer has not moved"""
+    path = new_file(screen, PROGRAM.replace('PROGRAM Main LD\n', 'PROGRAM Main LD\nVAR\n  Own : INT;\nEND_VAR\n'))
+    editor = Editor(screen, path)
+    editor.keys('ctrl+alt+s')
+    editor.click(editor.find('Scope', 'combo box'))
+    for _ in range(4):
+        row = editor.focus_on(role='list item')
+        editor.keys('Escape')
+        until(lambda: editor.focused() and editor.focused().role != row.role, 'the end of the list')
+        sh('xdotool', 'click', '1')
+    editor.focus_on(role='list item')
+
+
+main([finds, declared_already, renames, uses, tables, added, ticked, imported, ordered, scopes, kinds, through, last_letter, again])
