@@ -273,21 +273,45 @@ static size_t wrap_by_rule(enum letter letter, const char *text, float width)
 	return (size_t)(end - text);
 }
 
-size_t lettering_wrap(struct lettering *lettering, enum letter letter, const char *text,
-		      float width)
+static PangoLayout *wrapped(struct lettering *lettering, enum letter letter, const char *text,
+			    float width)
 {
 	PangoLayout *layout = lettering->layout[letter];
 
-	if (!layout)
-		return wrap_by_rule(letter, text, width);
 	pango_layout_set_text(layout, text, -1);
 	pango_layout_set_width(layout, (int)(width * PANGO_SCALE));
 	pango_layout_set_wrap(layout, PANGO_WRAP_WORD_CHAR);
+	return layout;
+}
+
+size_t lettering_wrap(struct lettering *lettering, enum letter letter, const char *text,
+		      float width)
+{
+	if (!lettering->layout[letter])
+		return wrap_by_rule(letter, text, width);
+	PangoLayout *layout = wrapped(lettering, letter, text, width);
 	PangoLayoutLine *line = pango_layout_get_line_count(layout) > 1 ?
 		pango_layout_get_line_readonly(layout, 1) : NULL;
 	size_t fits = line ? (size_t)line->start_index : strlen(text);
 	pango_layout_set_width(layout, -1);
 	return fits;
+}
+
+int lettering_lines(struct lettering *lettering, enum letter letter, const char *text,
+		    float width)
+{
+	int lines = 0;
+
+	if (lettering->layout[letter]) {
+		lines = pango_layout_get_line_count(wrapped(lettering, letter, text, width));
+		pango_layout_set_width(lettering->layout[letter], -1);
+		return lines;
+	}
+	do {
+		text += wrap_by_rule(letter, text, width);
+		lines++;
+	} while (*text);
+	return lines;
 }
 
 struct lettered lettering_line(struct lettering *lettering, enum letter letter,

@@ -66,6 +66,10 @@ struct lettered lettering_fit(struct lettering *lettering, enum letter letter,
 size_t lettering_wrap(struct lettering *lettering, enum letter letter, const char *text,
 		      float width);
 
+/** lettering_lines - how many lines @text takes when it is broken so; at least one. */
+int lettering_lines(struct lettering *lettering, enum letter letter, const char *text,
+		    float width);
+
 /** lettering_line - the next line of a text, without the blanks at its end: those need no
  * room. @text: goes on behind it. @last: all that is left, with an ellipsis if it is more */
 struct lettered lettering_line(struct lettering *lettering, enum letter letter,

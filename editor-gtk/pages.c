@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
  * pages - breaking a project into pages; see pages.h. Rungs are pages_rung.c and
- * pages_fold.c, charts pages_chart.c, painting is pages_paint.c.
+ * pages_fold.c, charts pages_chart.c, painting is pages_paint.c and pages_title.c.
  */
 #include "editor-gtk/pages_inside.h"
 #include "editor-gtk/i18n.h"
 
 #include <math.h>
 
+#define TITLE_AIR   16 /* px above the title block                             */
 #define HEADING_LINE 24 /* px from a line of a heading to the next              */
 
 bool paper_find(const char *name, struct paper *out)
@@ -280,6 +281,37 @@ static void put_pou(struct pages *pages, int index, int rung)
 	g_free(heading);
 }
 
+/* Of a project whose name has no room in the title block. */
+static void put_name(struct pages *pages)
+{
+	char **line;
+
+	if (!pages_title_is_cut(pages))
+		return;
+	line = g_new0(char *, 2);
+	line[0] = g_strdup(project_text(pages->project, pages->project->title));
+	pages->subject = _("Project");
+	pages_next(pages);
+	pages_put_list(pages, _("Project"), line);
+}
+
+/* Above a title block as high as it was measured; what was put before that goes. */
+static void put_all(struct pages *pages, int pou, int rung)
+{
+	g_ptr_array_set_size(pages->page, 0);
+	g_ptr_array_set_size(pages->picture, 0);
+	pages->room_height = pages->height - 2 * PAGE_MARGIN - TITLE_AIR -
+			     pages_title_height(pages);
+	for (int i = 0; i < pages->project->pou_count; i++)
+		if (pou < 0 || pou == i)
+			put_pou(pages, i, rung);
+	if (pou < 0)
+		put_symbols(pages);
+	put_name(pages);
+	if (pages->page->len == 0)
+		pages_next(pages);
+}
+
 struct pages *pages_new(const struct project *project, const char *file, int pou, int rung,
 			enum drafting_show show, const struct paper *paper,
 			struct lettering *lettering)
@@ -297,19 +329,14 @@ struct pages *pages_new(const struct project *project, const char *file, int pou
 	pages->width = width * PAGE_PX;
 	pages->height = height * PAGE_PX;
 	pages->room_width = pages->width - 2 * PAGE_MARGIN;
-	pages->room_height = pages->height - 2 * PAGE_MARGIN - PAGE_TITLE;
 	pages->page = g_ptr_array_new_with_free_func(page_free);
 	pages->picture = g_ptr_array_new_with_free_func(picture_free);
 	pages->reads = listing_reads_new(project);
 	pages->reference = g_ptr_array_new_with_free_func(g_free);
 	pages->remark = g_ptr_array_new_with_free_func(g_free);
-	for (int i = 0; i < project->pou_count; i++)
-		if (pou < 0 || pou == i)
-			put_pou(pages, i, rung);
-	if (pou < 0)
-		put_symbols(pages);
-	if (pages->page->len == 0)
-		pages_next(pages);
+	do
+		put_all(pages, pou, rung);
+	while (pages_measure_title(pages));
 	return pages;
 }
 

@@ -12,7 +12,7 @@
 
 #define PAGE_PX     (96 / 25.4f) /* px a mm                                     */
 #define PAGE_MARGIN 45           /* px: 12 mm                                   */
-#define PAGE_TITLE  52           /* px of the title block and the air above it   */
+#define PAGE_FIELDS  5           /* of the title block                           */
 #define TEXT_LINE   16           /* px of a line of IL or of a table             */
 #define PAGE_AIR    14           /* px between what stands below each other      */
 #define PAGE_LEAST  0.6f         /* no rung, no chart is made smaller: 5.1 pt        */
@@ -39,6 +39,8 @@ struct pages {
 	char *file, *date;
 	float width, height;           /* px of a page                          */
 	float room_width, room_height; /* px inside the margins, above the title block */
+	float field[PAGE_FIELDS];      /* px: how wide those of the title block are */
+	int title_lines;               /* of small type in them                 */
 	GPtrArray *page, *picture;
 	struct listing_reads *reads;
 	/* While they are made: */
@@ -52,6 +54,18 @@ struct pages {
 	GPtrArray *reference;          /* lines: what had no room below its coil   */
 	GPtrArray *remark;             /* and comments that had none at their element */
 };
+
+/* ---- the title block ---- */
+
+/** pages_title_height - px of its frame. */
+float pages_title_height(const struct pages *pages);
+/** pages_measure_title - shares its width among its fields, so that all that they say on
+ * these pages has room. true: it is higher now, the pages must be made again. */
+bool pages_measure_title(struct pages *pages);
+/** pages_title_is_cut - has the name of the project even so no room? */
+bool pages_title_is_cut(const struct pages *pages);
+/** pages_draw_title - that of page @page. */
+void pages_draw_title(const struct pages *pages, int page, struct picture *picture);
 
 /* ---- the flow: what is put stands where @y is, which goes on ---- */
 

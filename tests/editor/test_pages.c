@@ -284,6 +284,62 @@ static void check_title_block(void)
 	}
 }
 
+#define LONG "Sorter_of_the_second_hall_with_both_lifts_and_the_gate_to_the_yard_behind_it"
+
+/* Where a word lies on a page, pt: the highest of its places, or the lowest. */
+static double place_of(const char *name, int page, const char *what, bool lowest)
+{
+	char *all = content(name, NULL);
+	char **pages = g_strsplit(all, "<page ", -1);
+	char *mark = g_strdup_printf("\">%s</word>", what), *at = pages[page];
+	double place = 0;
+
+	while ((at = strstr(at, mark)) && at++) {
+		const char *line = g_strrstr_len(pages[page], at - pages[page], "yMin=\"");
+		const double y = g_ascii_strtod(line + 6, NULL);
+
+		place = place == 0 || (lowest ? y > place : y < place) ? y : place;
+	}
+	g_free(mark);
+	g_strfreev(pages);
+	g_free(all);
+	return place;
+}
+
+/* The title block is as high as the longest names need, and no rung lies in it. */
+static void check_high_title_block(void)
+{
+	GString *text = g_string_new("PROJECT \"" LONG ", 改装后的第二车间输送机\"\nPROGRAM " LONG
+				     " LD\n");
+
+	for (int i = 0; i < 40; i++)
+		g_string_append(text, "RUNG \"Again\"\n  | NO %IX0.0 | COIL %QX0.0 |\n");
+	g_string_append(text, "END_PROGRAM\n");
+	write_text(LONG ".rung", text->str);
+	CHECK(render("OUT/" LONG ".rung --paper a5 --date 2026-11-26 -o OUT/high.pdf") == 0);
+	if (list_boxes("high")) {
+		const double block = place_of("high.html", 2, "Project", true);
+
+		CHECK(!has("high.html", "\xe2\x80\xa6"));
+		CHECK(has("high.html", ">behind_it</word>") || has("high.html", "_it</word>"));
+		CHECK_AS(block > 0 && block < 595 - 34 - 27 - 10, "more lines than two");
+		CHECK(place_of("high.html", 2, "Again", true) < block);
+		CHECK(place_of("high.html", 2, "%QX0.0", true) < block - 20);
+	}
+	g_string_assign(text, "PROJECT \"");
+	for (int i = 0; i < 700; i++)
+		g_string_append_printf(text, "word%d ", i);
+	g_string_append(text, "\"\nPROGRAM Main LD\nRUNG\n  | NO %IX0.0 | COIL %QX0.0 |\n"
+			      "END_PROGRAM\n");
+	write_text("words.rung", text->str);
+	CHECK(render("OUT/words.rung -o OUT/words.pdf") == 0);
+	if (list_boxes("words")) {
+		CHECK_AS(page_of("words.html", "word699") == 3, "told whole behind the rest");
+		CHECK(place_of("words.html", 1, "%QX0.0", true) > 0);
+	}
+	g_string_free(text, TRUE);
+}
+
 /* What has no room where it belongs is told behind the rungs; a heading has two lines. */
 static void check_told_below(void)
 {
@@ -318,6 +374,7 @@ int main(void)
 	check_references();
 	check_tall();
 	check_title_block();
+	check_high_title_block();
 	check_told_below();
 	clear_folder();
 	g_free(folder);
