@@ -5,6 +5,7 @@
 #include "editor-gtk/place.h"
 
 #include "editor-gtk/grid_display.h"
+#include "editor-gtk/i18n.h"
 #include "editor-gtk/rung_layout.h"
 
 #define ALPHABET ('Z' - 'A' + 1)
@@ -66,4 +67,55 @@ int place_shown(struct place_sheet *sheet, const struct project *project, int po
 		return col;
 	look(sheet, project, pou, rung);
 	return grid_display_column(shown, sheet->columns, row, col);
+}
+
+/* ---- lines ---- */
+
+/* The last of a kind that begins up to @line; -1: none. The nearest of all kinds is it. */
+struct chart_part {
+	int line, begins;
+	int step, transition, action;
+};
+
+static bool is_nearer(struct chart_part *part, int begins)
+{
+	if (begins > part->line || begins <= part->begins)
+		return false;
+	*part = (struct chart_part){ part->line, begins, -1, -1, -1 };
+	return true;
+}
+
+static struct chart_part part_at(const struct sfc *sfc, int line)
+{
+	struct chart_part part = { line, 0, -1, -1, -1 };
+
+	for (int i = 0; i < sfc->step_count; i++)
+		if (is_nearer(&part, sfc->step[i].line))
+			part.step = i;
+	for (int i = 0; i < sfc->transition_count; i++)
+		if (is_nearer(&part, sfc->transition[i].line))
+			part.transition = i;
+	for (int i = 0; i < sfc->action_count; i++)
+		if (is_nearer(&part, sfc->action[i].line))
+			part.action = i;
+	return part;
+}
+
+char *place_line(const struct project *project, int pou, int row)
+{
+	const struct pou *of = &project->pou[pou];
+	const char *name = project_text(project, of->name);
+	const struct sfc *sfc = of->sfc;
+	const struct chart_part part = sfc ? part_at(sfc, of->line + row) :
+				 (struct chart_part){ 0, 0, -1, -1, -1 };
+
+	if (part.step >= 0)
+		return g_strdup_printf(_("%s, step %s"), name,
+				       project_text(project, sfc->step[part.step].name));
+	if (part.transition >= 0)
+		return g_strdup_printf(_("%s, transition %d"), name, part.transition + 1);
+	if (part.action >= 0)
+		return g_strdup_printf(_("%s, action %s"), name,
+				       project_text(project, sfc->action[part.action].name));
+	return g_strdup_printf(_("%s, line %d"), name, row + 1);
 }

@@ -2,7 +2,8 @@
  *
  * place - how a person is told where a cell is: by the letter of the column that the sheet
  * shows it in. A file and the engine's messages have the number of the cell, which is another
- * where wire is stretched up to an output.
+ * where wire is stretched up to an output. Of a chart by the step, not by the line of a text
+ * that nobody sees.
  */
 #ifndef EDITOR_PLACE_H
 #define EDITOR_PLACE_H
@@ -28,5 +29,12 @@ const char *place_column(int column, char out[PLACE_LETTERS]);
  */
 int place_shown(struct place_sheet *sheet, const struct project *project, int pou, int rung,
 		int row, int col);
+/**
+ * place_line - of what a line of a POU's text is: "Main, line 3"; of a chart "Main, step Fill"
+ * @row: lines below the heading of the POU
+ *
+ * In the language of the session. Owns: the caller, g_free().
+ */
+char *place_line(const struct project *project, int pou, int row);
 
 #endif

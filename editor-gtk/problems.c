@@ -46,7 +46,8 @@ static char *declaration_text(const struct diag *diag)
 
 /* @list: the name of a POU, of whose text @row is a line, 0-based; -1: of none. @col: that
  * is seen, 0-based. */
-static char *place_text(const struct diag *diag, const char *list, int row, int col)
+static char *place_text(const struct diag *diag, const struct project *project, int pou, int row,
+			int col)
 {
 	char column[PLACE_LETTERS];
 
@@ -55,8 +56,8 @@ static char *place_text(const struct diag *diag, const char *list, int row, int 
 				       diag->rung, diag->row, place_column(col, column));
 	if (diag->rung)
 		return g_strdup_printf(_("%s, rung %d"), diag->pou, diag->rung);
-	if (list && row >= 0)
-		return g_strdup_printf(_("%s, line %d"), list, row + 1);
+	if (project && pou >= 0 && row >= 0)
+		return place_line(project, pou, row);
 	if (diag->pou)
 		return g_strdup(diag->pou);
 	return diag->line ? g_strdup_printf(_("line %d"), diag->line) : g_strdup("");
@@ -122,13 +123,6 @@ static void set_place(LadderDocument *document, const struct diag *diag,
 		find_declaration(project, diag, row);
 }
 
-static const char *pou_name(LadderDocument *document, int pou)
-{
-	const struct project *project = ladder_document_project(document);
-
-	return project && pou >= 0 ? project_text(project, project->pou[pou].name) : NULL;
-}
-
 static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag,
 			      struct place_sheet *sheet)
 {
@@ -144,8 +138,8 @@ static LadderPanelRow *row_of(LadderDocument *document, const struct diag *diag,
 	row->number = ((gint64)row->pou * (1 << 20) + row->rung) * (1 << 20) + diag->line;
 	row->text[COLUMN_TEXT] = diag_said_whole(diag);
 	row->text[COLUMN_PLACE] = row->table >= 0 ? declaration_text(diag) :
-		place_text(diag, pou_name(document, row->pou), diag->rung ? -1 : row->row,
-			   MAX(seen, 0));
+		place_text(diag, ladder_document_project(document), row->pou,
+			   diag->rung ? -1 : row->row, MAX(seen, 0));
 	row->text[COLUMN_CODE] = g_strdup(diag_code(diag->id));
 	row->text[COLUMN_SEVERITY] = g_strdup(error ? _("Error") : _("Warning"));
 	row->note = g_strdup(row->text[COLUMN_SEVERITY]);

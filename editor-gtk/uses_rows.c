@@ -57,7 +57,7 @@ static char *place_text(struct maker *maker, const struct xref_use *use)
 	if (use->rung)
 		return g_strdup_printf(_("%s, rung %d"), pou, use->rung);
 	if (use->row)
-		return g_strdup_printf(_("%s, line %d"), pou, use->row);
+		return place_line(project, use->pou, use->row - 1);
 	return g_strdup(*pou ? pou : use->kind == XREF_RUN || use->kind == XREF_READ ?
 			_("configuration") : _("declarations"));
 }

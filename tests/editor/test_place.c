@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: MIT
  *
  * test_place - which column a person is told for a cell: on sheets, in charts, for what is
- * not there.
+ * not there; and which part of a chart.
  */
 #include "editor-gtk/place.h"
 
 #include "engine/ladder.h"
 #include "tests/tap.h"
+
+#include <glib.h>
 
 static const char sample[] =
 	"RUNGBOARD 1\n\n"
@@ -43,6 +45,27 @@ static void test_shown(const struct project *project)
 	CHECK(place_shown(&sheet, project, 0, 0, 0, 1) == 7);
 }
 
+static void check_line(const struct project *project, int pou, int row, const char *told)
+{
+	char *place = place_line(project, pou, row);
+
+	CHECK_TEXT(place, told);
+	g_free(place);
+}
+
+/* Nobody sees lines of a chart. */
+static void test_lines(const struct project *project)
+{
+	check_line(project, 0, 2, "Main, line 3");
+	check_line(project, 1, 0, "Chart, line 1");
+	check_line(project, 1, 1, "Chart, step A");
+	check_line(project, 1, 2, "Chart, step A");
+	check_line(project, 1, 4, "Chart, step B");
+	check_line(project, 1, 6, "Chart, transition 1");
+	check_line(project, 1, 7, "Chart, transition 2");
+	check_line(project, 1, 9, "Chart, action Act");
+}
+
 static void test_nowhere(const struct project *project)
 {
 	struct place_sheet sheet = { 0 };
@@ -65,6 +88,7 @@ int main(void)
 	test_letters();
 	if (project && project->pou_count == 2) {
 		test_shown(project);
+		test_lines(project);
 		test_nowhere(project);
 	}
 	CHECK(project && project->pou_count == 2);
