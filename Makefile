@@ -527,9 +527,11 @@ VALGRIND := valgrind -q --leak-check=full --show-leak-kinds=definite --errors-fo
 valgrind-editor: all ## editor tests as a person under valgrind: lost memory, what was never written; PERSON=… as above
 	BUILD=$(BUILD) GSETTINGS_SCHEMA_DIR=$(BUILD)/schemas G_SLICE=always-malloc PATIENCE=600 WRAPPER='$(VALGRIND)' \
 	  prove -e '' $(if $(PERSON),$(PERSON),$(EDITOR_PERSON))
-check: tests asan arm small cases ## build, then every test
+check: tests asan arm small cases ## build, then every test; what failed at a desk is told once more at the end
+	rm -rf $(BUILD)/failed
 	BUILD=$(BUILD) LADDER=$(BUILD)/ladder CROSS=$(CROSS) CC='$(CC)' \
-	  prove -j$$(nproc) -e '' tests/arm.sh tests/small.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN)
+	  prove -j$$(nproc) -e '' tests/arm.sh tests/small.sh $(sort $(TESTS_T) $(filter-out tests/%.t,$(TESTS_SH))) $(BUILT) $(ASAN_RUN) || \
+	  { head -vn 9 $(BUILD)/failed/* 2>/dev/null; exit 1; }
 $(BUILD)/tests/bench/record: $(BUILD)/tests/bench/record.o $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
 bench: $(BUILD)/ladder $(BUILD)/ladderd $(BUILD)/tests/bench/record ## speed, load time and size, as a table

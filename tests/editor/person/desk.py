@@ -503,6 +503,16 @@ def keep_log(editor, number):
         shutil.copy(editor.log, os.path.join(os.environ['PICTURES'], 'log-%d.txt' % number))
 
 
+def keep_failure(number, test, error):
+    """A few lines for who sees only the end of a long log: where in the script, and what did not come."""
+    folder, script = os.path.join(BUILD, 'failed'), os.path.basename(sys.argv[0])
+    ways = ['%s:%d %s' % (os.path.basename(step.filename), step.lineno, step.line)
+            for step in traceback.extract_tb(error.__traceback__)]
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, '%s-%d' % (script, number)), 'w') as file:
+        file.write('\n'.join([test.__doc__, *ways[1:5], repr(error)[:600], '']))
+
+
 def run(number, test):
     begin = time.monotonic()
     screen = Screen(getattr(test, 'size', '1440x900x24'))
@@ -516,6 +526,7 @@ def run(number, test):
         failed = 0
     except Exception as error:
         print('not ok %d - %s' % (number, test.__doc__))
+        keep_failure(number, test, error)
         print('# ' + ''.join(traceback.format_exception(error)[-3:]).replace('\n', '\n# '))
         if os.environ.get('PICTURES'):
             sh('import', '-window', 'root', os.path.join(os.environ['PICTURES'], 'failed-%d.png' % number))
