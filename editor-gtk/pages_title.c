@@ -128,12 +128,13 @@ static void share_width(struct field *field, float width)
 		field[i].width -= less;
 		over -= less;
 	}
-	/* And what even so has no room ends in an ellipsis. */
-	spare = 0;
-	for (int i = PROJECT; i <= UNIT; i++)
-		spare += field[i].width - field[i].label;
-	for (int i = PROJECT; i <= UNIT && over > 0 && spare > 0; i++)
-		field[i].width -= MIN(1, over / spare) * (field[i].width - field[i].label);
+	/* And what even so has no room ends in an ellipsis: that name, which is told elsewhere. */
+	for (int i = PROJECT; i <= UNIT && over > 0; i++) {
+		const float less = MIN(over, field[i].width - field[i].label);
+
+		field[i].width -= less;
+		over -= less;
+	}
 }
 
 float pages_title_height(const struct pages *pages)
