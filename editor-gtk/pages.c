@@ -286,7 +286,7 @@ static void put_name(struct pages *pages)
 {
 	char **line;
 
-	if (!pages_title_is_cut(pages))
+	if (!pages->title_cut)
 		return;
 	line = g_new0(char *, 2);
 	line[0] = g_strdup(project_text(pages->project, pages->project->title));
@@ -300,8 +300,8 @@ static void put_all(struct pages *pages, int pou, int rung)
 {
 	g_ptr_array_set_size(pages->page, 0);
 	g_ptr_array_set_size(pages->picture, 0);
-	pages->room_height = pages->height - 2 * PAGE_MARGIN - TITLE_AIR -
-			     pages_title_height(pages);
+	pages->room_height = fmaxf(TEXT_LINE, pages->height - 2 * PAGE_MARGIN - TITLE_AIR -
+				   pages_title_height(pages));
 	for (int i = 0; i < pages->project->pou_count; i++)
 		if (pou < 0 || pou == i)
 			put_pou(pages, i, rung);

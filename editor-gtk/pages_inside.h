@@ -40,7 +40,8 @@ struct pages {
 	float width, height;           /* px of a page                          */
 	float room_width, room_height; /* px inside the margins, above the title block */
 	float field[PAGE_FIELDS];      /* px: how wide those of the title block are */
-	int title_lines;               /* of small type in them                 */
+	int title_lines;               /* of small type in them; 0: not measured */
+	bool title_cut;                /* the name of the project has no room   */
 	GPtrArray *page, *picture;
 	struct listing_reads *reads;
 	/* While they are made: */
@@ -57,13 +58,12 @@ struct pages {
 
 /* ---- the title block ---- */
 
-/** pages_title_height - px of its frame. */
+/** pages_title_height - px of its frame; 0: the paper is too low for one. */
 float pages_title_height(const struct pages *pages);
 /** pages_measure_title - shares its width among its fields, so that all that they say on
- * these pages has room. true: it is higher now, the pages must be made again. */
+ * these pages has room. true: it is higher now, or it cuts the name of the project now: the
+ * pages must be made again. */
 bool pages_measure_title(struct pages *pages);
-/** pages_title_is_cut - has the name of the project even so no room? */
-bool pages_title_is_cut(const struct pages *pages);
 /** pages_draw_title - that of page @page. */
 void pages_draw_title(const struct pages *pages, int page, struct picture *picture);
 

@@ -31,7 +31,8 @@ void pages_paint(const struct pages *pages, int page, cairo_t *cr)
 	for (guint i = 0; i < this->piece->len; i++)
 		paint_piece(pages, &g_array_index(this->piece, struct piece, i), cr);
 	picture_init(&picture);
-	pages_draw_title(pages, page, &picture);
+	if (pages_title_height(pages) > 0)
+		pages_draw_title(pages, page, &picture);
 	picture_cairo(&picture, pages->theme, pages->lettering, cr);
 	picture_clear(&picture);
 	cairo_restore(cr);

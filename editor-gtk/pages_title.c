@@ -13,7 +13,8 @@
 #define LINE_STEP  10 /* px from a line of small type to the next                 */
 #define LINES_LEAST 2 /* there is always room for these                           */
 #define SHORT_TEXT 80 /* px: what is not longer is not broken                     */
-#define PART_MOST  4  /* of a page is the most that the block takes, as a divisor */
+#define PART_MOST  4  /* of a page are the most lines, as a divisor               */
+#define PAPER_LEAST 240 /* px: on less there is no title block                      */
 
 /* In the order in which they stand. A page gives it some of what it says. */
 enum { PROJECT, NAME, UNIT, DATE, PAGE, FIELDS };
@@ -70,11 +71,23 @@ static void measure_least(const struct pages *pages, struct field *field, const 
 	field->least = MAX(field->least, MAX(field->label, MIN(field->need, broken + FIELD_AIR + 1)));
 }
 
+/* As it is drawn: a tab is a blank, and nothing begins a line of its own. Borrowed until
+ * lettering_trim(). */
+static const char *drawn(const struct pages *pages, const char *text)
+{
+	return lettering_fit(pages->lettering, LETTER_BADGE, text, -1, 0).text;
+}
+
+static const char *file_name(const struct pages *pages)
+{
+	return drawn(pages, pages->file);
+}
+
 static const char *project_title(const struct pages *pages)
 {
 	const char *title = project_text(pages->project, pages->project->title);
 
-	return *title ? title : pages->file;
+	return *title ? drawn(pages, title) : file_name(pages);
 }
 
 /* As wide on all pages: what differs from one to the next is measured on each. */
@@ -85,12 +98,12 @@ static void measure_fields(const struct pages *pages, struct field *field,
 	const int count = pages_count(pages);
 
 	measured(pages, &field[PROJECT], project_title(pages));
-	measured(pages, &field[NAME], pages->file);
+	measured(pages, &field[NAME], file_name(pages));
 	for (int i = 0; i < count; i++)
 		if (i == 0 || strcmp(pages_subject(pages, i), pages_subject(pages, i - 1)) != 0)
 			measured(pages, &field[UNIT], pages_subject(pages, i));
 	if (pages->date)
-		measured(pages, &field[DATE], pages->date);
+		measured(pages, &field[DATE], drawn(pages, pages->date));
 }
 
 /* What all fields need in so many lines, px. */
@@ -128,7 +141,7 @@ static void share_width(struct field *field, float width)
 		field[i].width -= less;
 		over -= less;
 	}
-	/* And what even so has no room ends in an ellipsis: that name, which is told elsewhere. */
+	/* And what even so has no room ends in an ellipsis: that name first, which is told elsewhere. */
 	for (int i = PROJECT; i <= UNIT && over > 0; i++) {
 		const float less = MIN(over, field[i].width - field[i].label);
 
@@ -141,7 +154,17 @@ float pages_title_height(const struct pages *pages)
 {
 	const int lines = MAX(pages->title_lines, LINES_LEAST); /* not measured: 0 */
 
-	return (float)(16 + LINE_STEP * lines);
+	return pages->height < PAPER_LEAST ? 0 : (float)(16 + LINE_STEP * lines);
+}
+
+/* The name of the project has no room, and had before. */
+static bool is_cut_now(struct pages *pages)
+{
+	const bool before = pages->title_cut;
+
+	pages->title_cut |= !fits(pages, project_title(pages),
+				  pages->field[PROJECT] - FIELD_AIR, pages->title_lines);
+	return pages->title_cut && !before;
 }
 
 bool pages_measure_title(struct pages *pages)
@@ -173,14 +196,7 @@ bool pages_measure_title(struct pages *pages)
 	for (int i = 0; i < FIELDS; i++)
 		pages->field[i] = field[i].width;
 	g_free(last);
-	return pages->title_lines > before;
-}
-
-bool pages_title_is_cut(const struct pages *pages)
-{
-	return pages->title_lines > 0 && !fits(pages, project_title(pages),
-					       pages->field[PROJECT] - FIELD_AIR,
-					       pages->title_lines);
+	return pages->title_lines > before || is_cut_now(pages);
 }
 
 static void draw_field(const struct pages *pages, struct picture *picture, const char *what,
@@ -209,8 +225,9 @@ void pages_draw_title(const struct pages *pages, int page, struct picture *pictu
 	char *count = g_strdup_printf(_("%d of %d"), page + 1, pages_count(pages));
 	const char *what[FIELDS] = { _("Project"), _("File"), _("Program unit"), _("Date"),
 				     _("Page") };
-	const char *text[FIELDS] = { project_title(pages), pages->file,
-				     pages_subject(pages, page), pages->date, count };
+	const char *date = pages->date ? drawn(pages, pages->date) : NULL;
+	const char *text[FIELDS] = { project_title(pages), file_name(pages),
+				     pages_subject(pages, page), date, count };
 	float x = 0;
 
 	picture_move(picture, PAGE_MARGIN, pages->height - PAGE_MARGIN - height);

@@ -7,6 +7,10 @@
 #include "editor-gtk/grid_display.h"
 #include "editor-gtk/i18n.h"
 #include "editor-gtk/rung_layout.h"
+#include "editor-gtk/sfc_lines.h"
+#include "engine/view/sfc_words.h"
+
+#include <glib.h>
 
 #define ALPHABET ('Z' - 'A' + 1)
 
@@ -71,51 +75,59 @@ int place_shown(struct place_sheet *sheet, const struct project *project, int po
 
 /* ---- lines ---- */
 
-/* The last of a kind that begins up to @line; -1: none. The nearest of all kinds is it. */
-struct chart_part {
-	int line, begins;
-	int step, transition, action;
-};
-
-static bool is_nearer(struct chart_part *part, int begins)
+/* By its name, else by the steps between which it is: it has no number that is seen. */
+static char *transition_text(const struct project *project, const struct sfc *sfc, int index)
 {
-	if (begins > part->line || begins <= part->begins)
-		return false;
-	*part = (struct chart_part){ part->line, begins, -1, -1, -1 };
-	return true;
+	const char *name = project_text(project, sfc->transition[index].name);
+	struct sink_memory memory;
+	struct sink sink;
+	char *text;
+
+	if (*name)
+		return g_strdup(name);
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	sfc_words_ways(project, sfc, index, &sink);
+	text = g_strdup(sink_memory_text(&memory));
+	sink_memory_free(&memory);
+	return text;
 }
 
-static struct chart_part part_at(const struct sfc *sfc, int line)
+static char *chart_text(const struct project *project, const struct sfc *sfc, const char *pou,
+			int line)
 {
-	struct chart_part part = { line, 0, -1, -1, -1 };
+	const struct sfc_spot spot = sfc_spot_at(project, sfc, line);
+	char *transition, *text;
+	int step = spot.index;
 
-	for (int i = 0; i < sfc->step_count; i++)
-		if (is_nearer(&part, sfc->step[i].line))
-			part.step = i;
-	for (int i = 0; i < sfc->transition_count; i++)
-		if (is_nearer(&part, sfc->transition[i].line))
-			part.transition = i;
-	for (int i = 0; i < sfc->action_count; i++)
-		if (is_nearer(&part, sfc->action[i].line))
-			part.action = i;
-	return part;
+	switch (spot.kind) {
+	case SPOT_USE:
+		step = sfc->use[spot.index].step;
+		/* fall through */
+	case SPOT_STEP:
+		return g_strdup_printf(_("%s, step %s"), pou,
+				       project_text(project, sfc->step[step].name));
+	case SPOT_TRANSITION:
+		transition = transition_text(project, sfc, spot.index);
+		text = g_strdup_printf(_("%s, transition %s"), pou, transition);
+		g_free(transition);
+		return text;
+	case SPOT_ACTION:
+		return g_strdup_printf(_("%s, action %s"), pou,
+				       project_text(project, sfc->action[spot.index].name));
+	case SPOT_CONTROL:
+		return g_strdup_printf("%s, CONTROL", pou);
+	case SPOT_NONE:
+		break;
+	}
+	return g_strdup(pou);
 }
 
 char *place_line(const struct project *project, int pou, int row)
 {
 	const struct pou *of = &project->pou[pou];
 	const char *name = project_text(project, of->name);
-	const struct sfc *sfc = of->sfc;
-	const struct chart_part part = sfc ? part_at(sfc, of->line + row) :
-				 (struct chart_part){ 0, 0, -1, -1, -1 };
 
-	if (part.step >= 0)
-		return g_strdup_printf(_("%s, step %s"), name,
-				       project_text(project, sfc->step[part.step].name));
-	if (part.transition >= 0)
-		return g_strdup_printf(_("%s, transition %d"), name, part.transition + 1);
-	if (part.action >= 0)
-		return g_strdup_printf(_("%s, action %s"), name,
-				       project_text(project, sfc->action[part.action].name));
-	return g_strdup_printf(_("%s, line %d"), name, row + 1);
+	return of->sfc ? chart_text(project, of->sfc, name, of->line + row) :
+			 g_strdup_printf(_("%s, line %d"), name, row + 1);
 }

@@ -31,7 +31,7 @@ int place_shown(struct place_sheet *sheet, const struct project *project, int po
 		int row, int col);
 /**
  * place_line - of what a line of a POU's text is: "Main, line 3"; of a chart "Main, step Fill"
- * @row: lines below the heading of the POU
+ * @pou: of @project; @row: lines below its heading
  *
  * In the language of the session. Owns: the caller, g_free().
  */

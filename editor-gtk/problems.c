@@ -44,8 +44,7 @@ static char *declaration_text(const struct diag *diag)
 			   g_strdup(_("Symbols"));
 }
 
-/* @list: the name of a POU, of whose text @row is a line, 0-based; -1: of none. @col: that
- * is seen, 0-based. */
+/* @row: a line of the text of POU @pou, 0-based; -1: of none. @col: that is seen, 0-based. */
 static char *place_text(const struct diag *diag, const struct project *project, int pou, int row,
 			int col)
 {

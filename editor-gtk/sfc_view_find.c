@@ -3,76 +3,55 @@
  * sfc_view_find - lines of a file and places of a chart; what find has come to; the name at
  * the cursor. It looks for nothing: find.c and the engine's cross reference do.
  */
+#include "editor-gtk/sfc_lines.h"
 #include "editor-gtk/sfc_view_inside.h"
 
 #include <string.h>
 
 /* ---- lines ---- */
 
-static int lines_above(LadderSfcView *view, uint32_t comment)
-{
-	const char *text = project_text(view->sheet->project, comment);
-	int lines = *text != '\0';
-
-	for (; *text; text++)
-		lines += *text == '\n';
-	return lines;
-}
-
 int chart_line_of(LadderSfcView *view, struct sfc_at at)
 {
-	const struct sfc *sfc = view->sheet->layout->sfc;
 	const struct sfc_shape *shape = &view->sheet->layout->shape[at.shape];
+	struct sfc_spot spot = { SPOT_NONE, shape->index };
 
 	if (at.use >= 0)
-		return sfc->use[at.use].line - lines_above(view, sfc->use[at.use].comment);
-	if (shape->part == SFC_STEP)
-		return sfc->step[shape->index].line -
-		       lines_above(view, sfc->step[shape->index].comment);
-	if (shape->part == SFC_TRANSITION)
-		return sfc->transition[shape->index].line -
-		       lines_above(view, sfc->transition[shape->index].comment);
-	return 0;
+		spot = (struct sfc_spot){ SPOT_USE, at.use };
+	else if (shape->part == SFC_STEP)
+		spot.kind = SPOT_STEP;
+	else if (shape->part == SFC_TRANSITION)
+		spot.kind = SPOT_TRANSITION;
+	return sfc_line_of(view->sheet->project, view->sheet->layout->sfc, spot);
 }
 
-/* A place that begins at @begins, if it is the nearest one up to @line. */
-static void try_line(int begins, int line, struct sfc_at at, int *best, struct sfc_at *found)
+/* What is in an action is shown where it is called first. */
+static struct sfc_at called_first(const struct sfc *sfc, int action)
 {
-	if (begins > line || begins < *best || begins == 0)
-		return;
-	*best = begins;
-	*found = at;
+	for (int i = 0; i < sfc->use_count; i++)
+		if (sfc->use[i].action == action)
+			return (struct sfc_at){ sfc->use[i].step, i, false };
+	return (struct sfc_at){ -1, -1, false };
 }
 
 static struct sfc_at at_line(LadderSfcView *view, int line)
 {
 	const struct sfc *sfc = view->sheet->layout->sfc;
-	struct sfc_at found = { -1, -1, false };
-	int best = 1;
+	const struct sfc_spot spot = sfc_spot_at(view->sheet->project, sfc, line);
 
-	for (int i = 0; i < sfc->step_count + sfc->transition_count; i++) {
-		const struct sfc_at at = { i, -1, false };
-
-		try_line(chart_line_of(view, at), line, at, &best, &found);
+	switch (spot.kind) {
+	case SPOT_STEP:
+		return (struct sfc_at){ spot.index, -1, false };
+	case SPOT_TRANSITION:
+		return (struct sfc_at){ sfc->step_count + spot.index, -1, false };
+	case SPOT_USE:
+		return (struct sfc_at){ sfc->use[spot.index].step, spot.index, false };
+	case SPOT_ACTION:
+		return called_first(sfc, spot.index);
+	case SPOT_CONTROL:
+	case SPOT_NONE:
+		break;
 	}
-	for (int i = 0; i < sfc->use_count; i++) {
-		const struct sfc_at at = { sfc->use[i].step, i, false };
-
-		/* Several stand in one line: the first of them. */
-		if (i == 0 || sfc->use[i].line != sfc->use[i - 1].line)
-			try_line(chart_line_of(view, at), line, at, &best, &found);
-	}
-	/* What is in an action is shown where it is called first. */
-	for (int a = 0; a < sfc->action_count; a++) {
-		struct sfc_at at = { -1, -1, false };
-
-		for (int i = sfc->use_count - 1; i >= 0; i--)
-			if (sfc->use[i].action == a)
-				at = (struct sfc_at){ sfc->use[i].step, i, false };
-		try_line(sfc->action[a].line - lines_above(view, sfc->action[a].comment),
-			 line, at, &best, &found);
-	}
-	return found;
+	return (struct sfc_at){ -1, -1, false };
 }
 
 void ladder_sfc_view_go_row(LadderSfcView *view, int row)

@@ -293,13 +293,16 @@ void uses_cache_clear(struct uses_cache *cache)
 static void fill_cache(struct uses_cache *cache, LadderDocument *document)
 {
 	const guint64 version = ladder_document_version(document);
+	const struct ladder *checked = ladder_document_checked(document);
 
-	if (cache->document == document && cache->version == version)
+	if (cache->document == document && cache->version == version &&
+	    cache->checked == checked)
 		return;
 	uses_cache_clear(cache);
 	if (!xref_make(&cache->xref, ladder_document_project(document)))
 		g_error("out of memory");
 	cache->document = document;
+	cache->checked = checked;
 	cache->version = version;
 }
 

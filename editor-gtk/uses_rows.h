@@ -16,6 +16,7 @@ enum { USES_NAME, USES_ADDRESS, USES_KIND, USES_PLACE, USES_TEXT };
 struct uses_cache {
 	struct xref xref;
 	LadderDocument *document; /* it is of; compared only                   */
+	const struct ladder *checked; /* where its lines are known from; so, too */
 	guint64 version;
 };
 

@@ -18,7 +18,8 @@ static const char sample[] =
 	"RUNG\n  | NO %IX0.0 | [ %MW0 := 1 ] |\nEND_PROGRAM\n\n"
 	"PROGRAM Chart SFC\n  INITIAL_STEP A:\n    Act(N);\n  END_STEP\n"
 	"  STEP B:\n  END_STEP\n  TRANSITION FROM A TO B := %IX0.0; END_TRANSITION\n"
-	"  TRANSITION FROM B TO A := %IX0.1; END_TRANSITION\n"
+	"  TRANSITION Back FROM B TO A := %IX0.1; END_TRANSITION\n"
+	"  CONTROL(RESET := %IX0.7);\n"
 	"  ACTION Act:\n  RUNG\n    | NO %IX0.2 | COIL %QX0.2 |\n  END_ACTION\n"
 	"END_PROGRAM\n";
 
@@ -57,13 +58,14 @@ static void check_line(const struct project *project, int pou, int row, const ch
 static void test_lines(const struct project *project)
 {
 	check_line(project, 0, 2, "Main, line 3");
-	check_line(project, 1, 0, "Chart, line 1");
+	check_line(project, 1, 0, "Chart");
 	check_line(project, 1, 1, "Chart, step A");
 	check_line(project, 1, 2, "Chart, step A");
 	check_line(project, 1, 4, "Chart, step B");
-	check_line(project, 1, 6, "Chart, transition 1");
-	check_line(project, 1, 7, "Chart, transition 2");
-	check_line(project, 1, 9, "Chart, action Act");
+	check_line(project, 1, 6, "Chart, transition A \xe2\x86\x92 B");
+	check_line(project, 1, 7, "Chart, transition Back");
+	check_line(project, 1, 8, "Chart, CONTROL");
+	check_line(project, 1, 10, "Chart, action Act");
 }
 
 static void test_nowhere(const struct project *project)
