@@ -71,7 +71,7 @@ def keyboard(screen):
     editor.keys('ctrl+alt+o')
     editor.find('Original of the rung: Estop chain')
     editor.to_sheet()
-    editor.keys('ctrl+g')
+    editor.brought('ctrl+g')
     editor.focus_on(role='text')
     editor.type('3')
     editor.keys('Return')

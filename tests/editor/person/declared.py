@@ -173,8 +173,8 @@ def given_back(screen):
     editor.element('Lamp')
     assert editor.save(path) == edited
     # What was done elsewhere meanwhile is not touched.
-    editor.keys('Home', 'F2')
-    until(lambda: editor.all('Rename everywhere'), 'the question for a name')
+    editor.keys('Home')
+    editor.brought('F2')
     editor.keys('ctrl+a')
     editor.type('Opened')
     editor.keys('Return')

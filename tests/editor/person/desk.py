@@ -421,9 +421,9 @@ class Editor:
         until(lambda: self.all(button, 'push button', path), 'the button "%s"' % button)[0].press()
 
     def answer(self, button):
-        """The same, and waits until the dialog is gone."""
+        """The same, and waits until the dialog is gone and what was below it has the keys again."""
         self.reply(button)
-        until(lambda: not self.all(role='dialog'), 'the dialog to be gone')
+        until(lambda: not self.all(role='dialog') and self.focused(), 'the dialog to be gone')
 
     def focused(self):
         """The widget that has the focus of the keyboard; None: none is known."""

@@ -157,7 +157,8 @@ def names(screen):
     editor.keys('shift+F12')
     editor.find('Second, line', 'label')
     editor.click(view)
-    editor.keys('ctrl+Home', 'Down', 'Down', 'End', 'F2')
+    editor.keys('ctrl+Home', 'Down', 'Down', 'End')
+    editor.brought('F2')
     editor.says('Rename')
     editor.shot('text-rename')
     editor.keys('ctrl+a')
@@ -168,7 +169,7 @@ def names(screen):
     assert text == NAMES.replace('Motor AT', 'Pump  AT').replace('Motor', 'Pump'), text
     check(path)
     # To a line; not beyond the last one.
-    editor.keys('ctrl+g')
+    editor.brought('ctrl+g')
     editor.says('Go to line')
     editor.type('99')
     until(lambda: not editor.find('Go', 'push button').has(8), 'no way to go there')  # enabled

@@ -132,7 +132,7 @@ def rows(screen):
     editor.keys('shift+Right')
     until(lambda: editor.all('Delay', 'label'), 'its variables')
     editor.shot('structure')
-    editor.keys('F2')
+    editor.brought('F2')
     editor.find('New name', 'text')
     editor.keys('ctrl+a')
     editor.type('Pump')

@@ -336,7 +336,7 @@ def to_rung(screen):
         '  LD    Start\n  ST    Motor\n', 'RUNG\n  | NO Start | COIL Motor |\nRUNG\n  | NC Start | COIL Lamp |\n'))
     editor = Editor(screen, path)
     editor.to_sheet()
-    editor.keys('ctrl+g')
+    editor.brought('ctrl+g')
     editor.says('1 to 2')
     for text in '3', 'x', '-1', '2x':
         editor.keys('ctrl+a')
