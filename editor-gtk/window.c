@@ -28,8 +28,16 @@ void window_toast(LadderWindow *window, const char *text)
 	adw_toast_overlay_add_toast(window->toasts, adw_toast_new(text));
 }
 
+/* Sheets speak until they have gone, which is after their window let go of its document. */
+static bool goes(LadderWindow *window)
+{
+	return !window->document;
+}
+
 void ladder_window_tell(LadderWindow *window, const char *text)
 {
+	if (goes(window))
+		return;
 	window->told_at = text[0] ? g_get_monotonic_time() : 0;
 	window->told_of = ladder_document_version(window->document);
 	if (!text[0] && window->keys_text)
@@ -42,6 +50,8 @@ void window_show_keys(LadderWindow *window, char *text)
 {
 	g_free(window->keys_text);
 	window->keys_text = text;
+	if (goes(window)) /* the last one */
+		g_clear_pointer(&window->keys_text, g_free);
 	if (g_get_monotonic_time() - window->told_at > TOLD)
 		ladder_window_tell(window, "");
 }

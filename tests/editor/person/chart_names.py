@@ -3,6 +3,7 @@
 """Names, comments, priorities and macro-steps on the sheet of a chart, by keys and by pointer."""
 import os
 import sys
+import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from desk import Editor, check, main, new_file, until  # noqa: E402
@@ -359,6 +360,7 @@ def numbered(screen):
     until(lambda: editor.all('Action Two', 'label'), 'the heading of the other action')
     editor.element('Rung 2', 'QX0.1')
     editor.shot('chart-numbers')
+    time.sleep(1.8)  # longer than a message stays: what closes now has nothing to say
 
 
 def declared(screen):
