@@ -425,6 +425,7 @@ def again(screen):
     path = new_file(screen, PROGRAM.replace('PROGRAM Main LD\n', 'PROGRAM Main LD\nVAR\n  Own : INT;\nEND_VAR\n'))
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
+    until(lambda: editor.all('Own, Name'), 'the table')
     editor.click(editor.find('Scope', 'combo box'))
     for _ in range(4):
         row = editor.focus_on(role='list item')
