@@ -426,13 +426,20 @@ def again(screen):
     editor = Editor(screen, path)
     editor.keys('ctrl+alt+s')
     until(lambda: editor.all('Own, Name'), 'the table')
+
+    def seen():
+        """All windows on the screen, that of a list, too: who clicks sees it gone."""
+        return sh('xdotool', 'search', '--onlyvisible', '--class', 'ladder-editor').split()
+    alone = seen()
     editor.click(editor.find('Scope', 'combo box'))
     for _ in range(4):
-        row = editor.focus_on(role='list item')
+        editor.focus_on(role='list item')
+        until(lambda: seen() != alone, 'the list on the screen')
         editor.keys('Escape')
-        until(lambda: editor.focused() and editor.focused().role != row.role, 'the end of the list')
+        until(lambda: seen() == alone, 'the end of the list')
         sh('xdotool', 'click', '1')
     editor.focus_on(role='list item')
+
 
 
 main([finds, declared_already, renames, uses, tables, added, ticked, imported, ordered, scopes, kinds, through, last_letter, again])
