@@ -32,12 +32,12 @@ LEAN_LD  := -Wl,--gc-sections -Wl,-z,noseparate-code
 LEAN_LD  += $(if $(STATIC),,$(if $(shell $(CC) -Wl,--help 2>/dev/null | grep -- '-z pack-relative-relocs'),-Wl$(comma)-z$(comma)pack-relative-relocs))
 
 obj  = $(patsubst %.c,$(BUILD)/%.o,$(1))
-ENGINE   := $(filter-out %/catalog_small.c,$(wildcard runtime/engine/*.c runtime/engine/*/*.c))
+ENGINE   := $(filter-out %/catalog_small.c,$(wildcard runtime/engine/*.c runtime/engine/*/*.c runtime/engine/exchange/*/*.c))
 # What is left of the engine on a small board: nothing that reads or translates, or that
 # finds, prints or stores something by its name.
 CORE     := $(wildcard runtime/engine/base/*.c runtime/engine/scan/*.c)
 CORE     := $(filter-out $(if $(filter 1,$(SMALL)),$(addprefix runtime/engine/base/,catalog.c explain.c iec_print.c literal.c \
-            literal_part.c names.c nearest.c sink.c) $(addprefix runtime/engine/scan/,carry.c code_print.c code_strip.c retain.c \
+            literal_part.c names.c nearest.c plain.c sink.c) $(addprefix runtime/engine/scan/,carry.c code_print.c code_strip.c retain.c \
             retain_plan.c retain_slot.c symbols.c symbol_index.c),%/catalog_small.c),$(CORE))
 # SMALL=1 WORDS=core: without the rows MORE_FB and MORE_FN of catalog.def.
 ifeq ($(WORDS),core)
@@ -74,10 +74,11 @@ $(BUILD)/%.o: %.c Makefile
 UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_*.c))
 $(BUILD)/unit/%: $(BUILD)/tests/unit/%.o $(BUILD)/libladder.a
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ -lm
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
+$(BUILD)/unit/test_words: $(call obj,$(wildcard runtime/ladder/words*.c))
 words: $(BUILD)/unit/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md
 
@@ -206,8 +207,9 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 # files need none of them; nor do the tests of those, tests/editor/test_plain_*.c.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
-EDITOR_PLAIN := $(filter $(addprefix editor-gtk/,grid_edit.c grid_display.c grid_canvas.c grid_normalise.c grid_wire.c grid_line.c grid_branch.c grid_delete.c grid_pins.c grid_kind.c grid_block.c grid_drag.c entry.c entry_args.c entry_areas.c entry_candidates.c entry_declaration.c entry_duplicate.c entry_new.c entry_want.c entry_expression.c entry_names.c entry_operand.c entry_infer.c entry_words.c text_lines.c iomap_text.c iomap_edit.c iomap_uses.c iomap_check.c sfc_edit.c sfc_edit_text.c sfc_edit_macro.c sfc_edit_insert.c),$(wildcard editor-gtk/*.c))
-EDITOR_C := $(wildcard editor-gtk/*.c)
+EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim ladder sfc text iomap live panels render window)
+EDITOR_PLAIN := $(wildcard editor-gtk/edit/*.c) $(addprefix editor-gtk/document/,text_lines.c iomap_text.c iomap_edit.c iomap_uses.c iomap_check.c)
+EDITOR_C := $(wildcard $(EDITOR_ROOMS:%=%/*.c))
 EDITOR_TESTS_PLAIN := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/test_plain_*.c))
 EDITOR_TESTS := $(EDITOR_TESTS_PLAIN)
 $(BUILD)/libeditor-plain.a: $(call obj,$(EDITOR_PLAIN))
@@ -221,7 +223,7 @@ EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags gtk4 liba
 EDITOR_LIB := $(shell $(PKG_CONFIG) --libs gtk4 libadwaita-1 gtksourceview-5) $(GPIO_LIB)
 EDITOR_TESTS += $(patsubst %.c,$(BUILD)/%,$(filter-out tests/editor/test_plain_%,$(wildcard tests/editor/test_*.c)))
 EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
-EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
+EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/window/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
 $(filter-out $(call obj,$(EDITOR_PLAIN)),$(call obj,$(EDITOR_C)) $(BUILD)/editor-gtk/resources.o) \
   $(EDITOR_TESTS:%=%.o) $(EDITOR_BENCH).o: CPPFLAGS += $(EDITOR_CPP) -DGETTEXT_PACKAGE='"rungboard"'
@@ -242,7 +244,7 @@ all: $(BUILD)/ladder-editor $(BUILD)/ladders
 # Samples lie beside the program, wherever BUILD is.
 $(BUILD)/ladders:
 	ln -sfn '$(CURDIR)/ladders' $@
-$(BUILD)/ladder-editor: $(BUILD)/editor-gtk/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
+$(BUILD)/ladder-editor: $(BUILD)/editor-gtk/window/main.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--gc-sections -o $@ $< -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(DRIVERS) $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 $(filter-out $(EDITOR_TESTS_PLAIN),$(EDITOR_TESTS)) $(EDITOR_BENCH): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libeditor.a $(DRIVERS) $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
@@ -311,7 +313,7 @@ screenshots: pictures $(BUILD)/schemas/gschemas.compiled ## the same, docs/edito
 .PHONY: pictures screenshots
 # The editor over the fake chips of the HAL's tests, for what it finds on a machine.
 EDITOR_FAKE := $(HAL_TEST)/editor_v2
-$(EDITOR_FAKE): $(BUILD)/editor-gtk/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_FAKE,v2,gpiod_v2) $(BUILD)/libeditor.a $(BUILD)/libladder.a
+$(EDITOR_FAKE): $(BUILD)/editor-gtk/window/main.o $(HAL_TEST)/v2/io_fake.o $(call HAL_FAKE,v2,gpiod_v2) $(BUILD)/libeditor.a $(BUILD)/libladder.a
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=opendir,--wrap=fopen,--wrap=fopen64 -o $@ $(filter %.o,$^) \
 	  -Wl,--whole-archive $(BUILD)/libeditor.a -Wl,--no-whole-archive $(BUILD)/libladder.a $(EDITOR_LIB) -lm
 editor-tests: $(EDITOR_TESTS) $(EDITOR_FAKE) $(BUILD)/ladder all ## the editor's tests: without a display, and as a person

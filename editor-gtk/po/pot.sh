@@ -15,7 +15,7 @@ export LC_ALL=C.UTF-8
 take="xgettext --from-code=UTF-8 --add-location=file --sort-by-file --package-name=Rungboard"
 
 $take -L C -k -k_ -kN_ -kngettext:1,2 -o "$work/editor.pot" \
-	editor-gtk/*.c editor-gtk/*.h editor-gtk/*.def
+	$(find editor-gtk -name "*.c" -o -name "*.h" -o -name "*.def" | sort)
 $take -L Glade -o "$work/ui.pot" editor-gtk/ui/*.ui 2>/dev/null
 $take -L C -k -kDIAG:4 -o "$work/diag.pot" runtime/engine/diag.def
 

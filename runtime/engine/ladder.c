@@ -14,7 +14,7 @@
 #include "engine/scan/symbol_index.h"
 #include "engine/text/text.h"
 #include "engine/translate/translate.h"
-#include "engine/view/sfc_ladder.h"
+#include "engine/exchange/classic/sfc_ladder.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 #include "engine/base/diag.h"
 #include "engine/base/version.h"
 #include "engine/model/outline.h"
-#include "engine/import/classic.h"
+#include "engine/exchange/classic/classic.h"
 #include "engine/model/project.h"
 #include "engine/scan/resource.h"
 
@@ -26,7 +26,7 @@ struct ladder *ladder_new(void);
 struct ladder *ladder_new_terse(void);
 void ladder_free(struct ladder *ladder);
 
-/* What an import took, changed and left out: engine/import/report.h. */
+/* What an import took, changed and left out: engine/exchange/report.h. */
 struct classic_report;
 struct classic_lines;
 /**

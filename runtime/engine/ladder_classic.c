@@ -6,7 +6,7 @@
  */
 #include "engine/ladder_inside.h"
 
-#include "engine/import/classic_rung.h"
+#include "engine/exchange/classic/classic_rung.h"
 
 #include <stdint.h>
 #include <stdio.h>

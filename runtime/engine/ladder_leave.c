@@ -6,8 +6,8 @@
  */
 #include "engine/ladder_inside.h"
 
-#include "engine/import/classic_write.h"
-#include "engine/view/to_classic.h"
+#include "engine/exchange/classic/classic_write.h"
+#include "engine/exchange/classic/to_classic.h"
 
 bool ladder_charts_fit_classic(struct ladder *ladder)
 {

@@ -10,7 +10,7 @@
 
 #include "engine/check/reserved.h"
 #include "engine/text/text.h"
-#include "engine/view/xref.h"
+#include "engine/xref/xref.h"
 
 #include <stdlib.h>
 #include <string.h>

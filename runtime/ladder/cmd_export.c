@@ -8,7 +8,7 @@
 #include "ladder/paths.h"
 
 #include "engine/base/file.h"
-#include "engine/import/report.h"
+#include "engine/exchange/report.h"
 
 #include <stdio.h>
 #include <stdlib.h>

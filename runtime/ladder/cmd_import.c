@@ -6,7 +6,7 @@
 #include "ladder/report.h"
 
 #include "engine/base/file.h"
-#include "engine/import/report.h"
+#include "engine/exchange/report.h"
 
 #include <stdlib.h>
 #include <string.h>

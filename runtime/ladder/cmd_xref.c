@@ -5,7 +5,7 @@
  */
 #include "ladder/report.h"
 
-#include "engine/view/xref.h"
+#include "engine/xref/xref.h"
 
 static enum status no_image(const char *path)
 {

@@ -9,7 +9,7 @@
 
 #include "ladder/report.h"
 
-#include "engine/view/to_classic.h"
+#include "engine/exchange/classic/to_classic.h"
 
 /**
  * export_lines - the lines of a map

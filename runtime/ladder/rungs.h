@@ -7,7 +7,7 @@
 
 #include "ladder/report.h"
 
-#include "engine/view/view.h"
+#include "engine/show/view.h"
 
 /**
  * rungs_show - draws rungs by their name

@@ -11,12 +11,12 @@
  * the processor, which a busy machine changes little: of a start that of the process, of
  * keys that of the thread that draws.
  */
-#include "editor-gtk/app.h"
-#include "editor-gtk/grid_view_live.h"
-#include "editor-gtk/memory.h"
-#include "editor-gtk/pou_edit.h"
-#include "editor-gtk/sfc_view.h"
-#include "editor-gtk/text_view.h"
+#include "editor-gtk/window/app.h"
+#include "editor-gtk/ladder/grid_view_live.h"
+#include "editor-gtk/kit/gtk48/memory.h"
+#include "editor-gtk/document/pou_edit.h"
+#include "editor-gtk/sfc/sfc_view.h"
+#include "editor-gtk/text/text_view.h"
 #include "tests/bench/editor_ground.h"
 #include "tests/bench/editor_start.h"
 

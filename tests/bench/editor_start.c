@@ -5,7 +5,7 @@
  */
 #include "tests/bench/editor_start.h"
 
-#include "editor-gtk/app.h"
+#include "editor-gtk/window/app.h"
 
 #include <stdio.h>
 #include <stdlib.h>

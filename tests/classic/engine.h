@@ -9,7 +9,7 @@
 #ifndef CLASSIC_ENGINE_H
 #define CLASSIC_ENGINE_H
 
-#include "engine/import/classic.h"
+#include "engine/exchange/classic/classic.h"
 
 #include <stdint.h>
 

@@ -5,7 +5,7 @@
 #ifndef CLASSIC_RUN_H
 #define CLASSIC_RUN_H
 
-#include "engine/import/classic.h"
+#include "engine/exchange/classic/classic.h"
 
 #include <stdio.h>
 

@@ -3,7 +3,7 @@
  * bench_drawing - what it costs to lay out and draw a sheet of 5,000 rungs, in time of
  * the processor. It prints and judges nothing.
  */
-#include "editor-gtk/pages.h"
+#include "editor-gtk/draw/pages.h"
 #include "tests/editor/drawn.h"
 
 #include <malloc.h>

@@ -5,7 +5,7 @@
 #ifndef TEST_CHART_EDIT_H
 #define TEST_CHART_EDIT_H
 
-#include "editor-gtk/sfc_edit.h"
+#include "editor-gtk/edit/sfc_edit.h"
 #include "engine/ladder.h"
 #include "tests/tap.h"
 

@@ -6,8 +6,8 @@
 #ifndef TESTS_EDITOR_DRAWN_H
 #define TESTS_EDITOR_DRAWN_H
 
-#include "editor-gtk/grid_draw.h"
-#include "editor-gtk/sheet.h"
+#include "editor-gtk/draw/grid_draw.h"
+#include "editor-gtk/draw/sheet.h"
 #include "engine/ladder.h"
 
 #include <math.h>

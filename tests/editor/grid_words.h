@@ -8,7 +8,7 @@
 #ifndef TESTS_EDITOR_GRID_WORDS_H
 #define TESTS_EDITOR_GRID_WORDS_H
 
-#include "editor-gtk/grid_edit.h"
+#include "editor-gtk/edit/grid_edit.h"
 #include "engine/base/diag.h"
 #include "engine/ladder.h"
 #include "engine/text/text.h"
@@ -263,7 +263,7 @@ static inline struct rung *grid_play(struct grid_bench *bench, const struct rung
 
 static const char *const grid_refusal_ids[] = {
 #define REFUSAL(id, text) #id,
-#include "editor-gtk/grid_refusal.def"
+#include "editor-gtk/edit/grid_refusal.def"
 };
 
 /* Plays lines `verb row col rest`; gives the rows afterwards, or what went wrong. */

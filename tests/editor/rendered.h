@@ -6,7 +6,7 @@
 #ifndef TESTS_EDITOR_RENDERED_H
 #define TESTS_EDITOR_RENDERED_H
 
-#include "editor-gtk/render.h"
+#include "editor-gtk/render/render.h"
 #include "tests/tap.h"
 
 #include <glib.h>

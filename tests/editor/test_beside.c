@@ -3,8 +3,8 @@
  * test_beside - which scenarios and I/O maps of a folder belong to a program, and which
  * outputs its map has at 1 while nothing runs.
  */
-#include "editor-gtk/file_view.h"
-#include "editor-gtk/iomap_beside.h"
+#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/document/iomap_beside.h"
 #include "tests/tap.h"
 
 #include <glib/gstdio.h>

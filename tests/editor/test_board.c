@@ -3,11 +3,11 @@
  * test_board - what surrounds an I/O map and a ladderd that runs with it: the uses of a
  * program, the checks of a text, the status of a child, and children that misbehave.
  */
-#include "editor-gtk/board_run.h"
-#include "editor-gtk/document.h"
-#include "editor-gtk/iomap_check.h"
-#include "editor-gtk/iomap_rows.h"
-#include "editor-gtk/iomap_uses.h"
+#include "editor-gtk/sim/board_run.h"
+#include "editor-gtk/document/document.h"
+#include "editor-gtk/document/iomap_check.h"
+#include "editor-gtk/iomap/iomap_rows.h"
+#include "editor-gtk/document/iomap_uses.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 

@@ -2,7 +2,7 @@
  *
  * test_bookmarks - they are kept in the file, follow their rungs, and are undone.
  */
-#include "editor-gtk/document.h"
+#include "editor-gtk/document/document.h"
 #include "tests/tap.h"
 
 #include <string.h>

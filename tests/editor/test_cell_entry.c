@@ -3,7 +3,7 @@
  * test_cell_entry - a text without room in a cell ends with an ellipsis, but not under the
  * hands of who types it.
  */
-#include "editor-gtk/cell_entry.h"
+#include "editor-gtk/kit/cell_entry.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"

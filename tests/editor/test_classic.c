@@ -5,11 +5,11 @@
  *
  * Drawings are compared with tests/editor/drawing/classic-*.strokes; --bless writes them.
  */
-#include "editor-gtk/classic_open.h"
-#include "editor-gtk/classic_origin.h"
-#include "editor-gtk/classic_save.h"
-#include "editor-gtk/grid_classic.h"
-#include "editor-gtk/report_lines.h"
+#include "editor-gtk/document/classic_open.h"
+#include "editor-gtk/document/classic_origin.h"
+#include "editor-gtk/document/classic_save.h"
+#include "editor-gtk/draw/grid_classic.h"
+#include "editor-gtk/document/report_lines.h"
 #include "tests/tap.h"
 
 #include <glib/gstdio.h>

@@ -3,8 +3,8 @@
  * test_disk - files are read and saved whole or not at all, links and modes stay, and what
  * somebody else does to a document's file is noticed. No display.
  */
-#include "editor-gtk/disk.h"
-#include "editor-gtk/document.h"
+#include "editor-gtk/document/disk.h"
+#include "editor-gtk/document/document.h"
 
 #include "tests/tap.h"
 

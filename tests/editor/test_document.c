@@ -4,7 +4,7 @@
  *
  * Random edits of every kind, then all undone and redone: the same bytes. No display.
  */
-#include "editor-gtk/document.h"
+#include "editor-gtk/document/document.h"
 
 #include "tests/tap.h"
 

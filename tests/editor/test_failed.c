@@ -3,8 +3,8 @@
  * test_failed - an operation that fails in a scan is marked there, as long as it does; power
  * that goes not on for another reason is no failure.
  */
-#include "editor-gtk/live_map.h"
-#include "editor-gtk/sim.h"
+#include "editor-gtk/sim/live_map.h"
+#include "editor-gtk/sim/sim.h"
 #include "tests/tap.h"
 
 #include <string.h>

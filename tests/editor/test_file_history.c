@@ -3,7 +3,7 @@
  * test_file_history - one Undo for the document and the text files beside it; each is saved by
  * itself.
  */
-#include "editor-gtk/file_history.h"
+#include "editor-gtk/document/file_history.h"
 #include "tests/tap.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
  *
  * test_find - hits by place and kind, and replacing one or all of them.
  */
-#include "editor-gtk/find.h"
+#include "editor-gtk/document/find.h"
 #include "tests/tap.h"
 
 static const char sample[] =

@@ -3,7 +3,7 @@
  * test_give_back - Esc: a rung as it was at a place in the history, without what its edits
  * declared. No display.
  */
-#include "editor-gtk/document.h"
+#include "editor-gtk/document/document.h"
 
 #include "tests/tap.h"
 

@@ -3,7 +3,7 @@
  * test_heading - what stands above a rung is not cut, however much room there is: with the
  * fonts of this machine, because it is they that make a line just fit or not.
  */
-#include "editor-gtk/rung_text.h"
+#include "editor-gtk/draw/rung_text.h"
 #include "tests/editor/drawn.h"
 #include "tests/tap.h"
 

@@ -3,7 +3,7 @@
  * test_import - programs and blocks of another project, with what they need, and names
  * that are taken.
  */
-#include "editor-gtk/pou_import.h"
+#include "editor-gtk/document/pou_import.h"
 #include "tests/tap.h"
 
 #include <string.h>

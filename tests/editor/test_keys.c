@@ -3,7 +3,7 @@
  * test_keys - the maps of keys: every key is one, none does two things, every word that is
  * put exists. What they do is told by the tests of a person's work.
  */
-#include "editor-gtk/verbs.h"
+#include "editor-gtk/kit/verbs.h"
 #include "engine/base/catalog.h"
 #include "tests/tap.h"
 

@@ -2,8 +2,8 @@
  *
  * test_layout - where things stand, what is hit at a point, and what a change costs.
  */
-#include "editor-gtk/comment_text.h"
-#include "editor-gtk/rung_box.h"
+#include "editor-gtk/kit/comment_text.h"
+#include "editor-gtk/draw/rung_box.h"
 #include "tests/editor/drawn.h"
 #include "tests/tap.h"
 

@@ -3,7 +3,7 @@
  * test_lists - the text of a POU that can be read, and is more or less than that POU. No
  * display.
  */
-#include "editor-gtk/sim.h"
+#include "editor-gtk/sim/sim.h"
 
 #include "tests/tap.h"
 

@@ -3,9 +3,9 @@
  * test_live - a sheet while it simulates: what it shows is what the program computed, only
  * what changed is drawn, and what a person does reaches the program.
  */
-#include "editor-gtk/grid_view_live.h"
-#include "editor-gtk/live_map.h"
-#include "editor-gtk/text_view.h"
+#include "editor-gtk/ladder/grid_view_live.h"
+#include "editor-gtk/sim/live_map.h"
+#include "editor-gtk/text/text_view.h"
 #include "tests/editor/nodes.h"
 #include "tests/editor/screen.h"
 #include "tests/tap.h"

@@ -3,7 +3,7 @@
  * test_long_problem - a problem that is longer than its column shows what it speaks of,
  * which stands at its end.
  */
-#include "editor-gtk/problems.h"
+#include "editor-gtk/panels/problems.h"
 #include "tests/editor/screen.h"
 #include "tests/tap.h"
 

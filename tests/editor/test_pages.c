@@ -4,7 +4,7 @@
  *
  * Text in a PDF is looked for with pdftotext where that is installed.
  */
-#include "editor-gtk/pages.h"
+#include "editor-gtk/draw/pages.h"
 #include "tests/editor/drawn.h"
 #include "tests/editor/rendered.h"
 

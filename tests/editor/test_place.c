@@ -3,7 +3,7 @@
  * test_place - which column a person is told for a cell: on sheets, in charts, for what is
  * not there; and which part of a chart.
  */
-#include "editor-gtk/place.h"
+#include "editor-gtk/draw/place.h"
 
 #include "engine/ladder.h"
 #include "tests/tap.h"

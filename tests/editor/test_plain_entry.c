@@ -6,8 +6,8 @@
  * `+`, and `below` before it if it goes in parallel; or `!` and why not. A line of the
  * last column begins with `>`.
  */
-#include "editor-gtk/entry_duplicate.h"
-#include "editor-gtk/entry_inside.h"
+#include "editor-gtk/edit/entry_duplicate.h"
+#include "editor-gtk/edit/entry_inside.h"
 #include "engine/base/diag.h"
 #include "engine/ladder.h"
 #include "engine/text/text.h"

@@ -2,7 +2,7 @@
  *
  * test_plain_iomap - edits of the text of an I/O map: what changes, and what must not.
  */
-#include "editor-gtk/iomap_text.h"
+#include "editor-gtk/document/iomap_text.h"
 
 #include "tests/tap.h"
 

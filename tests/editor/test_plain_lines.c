@@ -2,7 +2,7 @@
  *
  * test_plain_lines - places of the canonical text in a text as it was typed.
  */
-#include "editor-gtk/text_lines.h"
+#include "editor-gtk/document/text_lines.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  * Every rung of the samples and of the golden cases that build is put into normal form;
  * the program that is translated from it must be the same, instruction by instruction.
  */
-#include "editor-gtk/grid_edit.h"
+#include "editor-gtk/edit/grid_edit.h"
 #include "engine/ladder.h"
 #include "tests/tap.h"
 

@@ -4,7 +4,7 @@
  * by what must hold of each: the text reads, is canonical, and the steps and ways are
  * those that there should be.
  */
-#include "engine/view/sfc_layout.h"
+#include "engine/show/sfc_layout.h"
 #include "tests/editor/chart_edit.h"
 
 #define EDITS 4000

@@ -4,7 +4,7 @@
  * text, random ones by what must hold: the text reads, is canonical, and no way leads to a
  * step that there is not.
  */
-#include "engine/view/sfc_layout.h"
+#include "engine/show/sfc_layout.h"
 #include "tests/editor/chart_edit.h"
 
 #define INSERTS 3000

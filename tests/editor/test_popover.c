@@ -3,11 +3,11 @@
  * test_popover - a page goes while its menu, or a line to type in, is open there. The
  * toolkit's complaint of a child that is left would end the test.
  */
-#include "editor-gtk/app.h"
-#include "editor-gtk/entry_popup.h"
-#include "editor-gtk/grid_view.h"
-#include "editor-gtk/popover.h"
-#include "editor-gtk/sfc_view.h"
+#include "editor-gtk/window/app.h"
+#include "editor-gtk/kit/entry_popup.h"
+#include "editor-gtk/ladder/grid_view.h"
+#include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/sfc/sfc_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"

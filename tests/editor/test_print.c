@@ -2,7 +2,7 @@
  *
  * test_print - printing into a file, and a rung as a picture; no printer, no display.
  */
-#include "editor-gtk/print.h"
+#include "editor-gtk/draw/print.h"
 #include "tests/editor/drawn.h"
 #include "tests/tap.h"
 

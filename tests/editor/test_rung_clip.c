@@ -2,7 +2,7 @@
  *
  * test_rung_clip - rungs as text, and back into another project with what they need.
  */
-#include "editor-gtk/rung_clip.h"
+#include "editor-gtk/document/rung_clip.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>

@@ -4,7 +4,7 @@
  * user, and those names as they are. Every golden message is read: one whose argument is a
  * sentence that nobody translated is found there.
  */
-#include "editor-gtk/diag_said.h"
+#include "editor-gtk/kit/diag_said.h"
 #include "tests/tap.h"
 
 #include <glib.h>

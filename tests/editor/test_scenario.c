@@ -3,8 +3,8 @@
  * test_scenario - recording in the editor, running what was recorded, going to the scan
  * that failed: with a simulation that runs in its thread.
  */
-#include "editor-gtk/scenario_record.h"
-#include "editor-gtk/scenario_run.h"
+#include "editor-gtk/sim/scenario_record.h"
+#include "editor-gtk/sim/scenario_run.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 

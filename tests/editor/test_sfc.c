@@ -3,8 +3,8 @@
  * test_sfc - charts in the editor: nothing is drawn over anything, every place is hit, what
  * is active is seen without colour, and rungs of bodies are edited and taken back.
  */
-#include "editor-gtk/document.h"
-#include "editor-gtk/sfc_draw.h"
+#include "editor-gtk/document/document.h"
+#include "editor-gtk/draw/sfc_draw.h"
 #include "tests/editor/drawn.h"
 #include "tests/tap.h"
 

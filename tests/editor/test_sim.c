@@ -3,8 +3,8 @@
  * test_sim - a simulation beside the window: it runs, stands, is stepped, acted upon, shows
  * any scan that was; errors keep it off, faults stop it. A chart of it has every scan.
  */
-#include "editor-gtk/chart.h"
-#include "editor-gtk/sim_inside.h"
+#include "editor-gtk/live/timing.h"
+#include "editor-gtk/sim/sim_inside.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 
@@ -136,37 +136,37 @@ static void test_past(void)
 
 static void test_chart(void)
 {
-	struct chart *chart = chart_new(sim);
+	struct timing *timing = timing_new(sim);
 	bool good = true;
 
-	CHECK(chart_add(chart, "Count") && chart_add(chart, "lamp"));
-	CHECK_AS(!chart_add(chart, "COUNT"), "one line a variable");
-	CHECK(chart_add(chart, "Nobody"));
-	while (chart_feed(chart, 1000000))
+	CHECK(timing_add(timing, "Count") && timing_add(timing, "lamp"));
+	CHECK_AS(!timing_add(timing, "COUNT"), "one line a variable");
+	CHECK(timing_add(timing, "Nobody"));
+	while (timing_feed(timing, 1000000))
 		;
-	CHECK(chart_first(chart) == ladder_sim_first(sim));
-	CHECK(chart_end(chart) == ladder_sim_last(sim) + 1);
-	CHECK(chart_at(chart, 2).type == IEC_NONE);
-	for (guint64 scan = chart_first(chart); scan < chart_end(chart); scan++) {
+	CHECK(timing_first(timing) == ladder_sim_first(sim));
+	CHECK(timing_end(timing) == ladder_sim_last(sim) + 1);
+	CHECK(timing_at(timing, 2).type == IEC_NONE);
+	for (guint64 scan = timing_first(timing); scan < timing_end(timing); scan++) {
 		ladder_sim_show(sim, scan);
-		good = good && chart_value(chart, 0, scan) == (double)value("Count") &&
-		       chart_value(chart, 1, scan) == (double)value("Lamp") &&
-		       chart_time(chart, scan) == ladder_sim_twin(sim)->now_ns &&
-		       chart_scan_at(chart, chart_time(chart, scan)) == scan;
+		good = good && timing_value(timing, 0, scan) == (double)value("Count") &&
+		       timing_value(timing, 1, scan) == (double)value("Lamp") &&
+		       timing_time(timing, scan) == ladder_sim_twin(sim)->now_ns &&
+		       timing_scan_at(timing, timing_time(timing, scan)) == scan;
 	}
 	CHECK_AS(good, "every scan of the chart is what the scan was");
 	ladder_sim_show_now(sim);
 	ladder_sim_scan(sim, 30000);
 	CHECK_SOON(ladder_sim_twin(sim)->scan > 30000);
-	while (chart_feed(chart, 1000000))
+	while (timing_feed(timing, 1000000))
 		;
-	CHECK(chart_end(chart) - chart_first(chart) == CHART_SCANS);
-	CHECK(chart_value(chart, 0, chart_end(chart) - 1) == (double)value("Count"));
-	chart_remove(chart, 0);
-	CHECK_TEXT(chart_name(chart, 0), "lamp");
-	chart_move(chart, 0, 1);
-	CHECK_TEXT(chart_name(chart, 1), "lamp");
-	chart_free(chart);
+	CHECK(timing_end(timing) - timing_first(timing) == TIMING_SCANS);
+	CHECK(timing_value(timing, 0, timing_end(timing) - 1) == (double)value("Count"));
+	timing_remove(timing, 0);
+	CHECK_TEXT(timing_name(timing, 0), "lamp");
+	timing_move(timing, 0, 1);
+	CHECK_TEXT(timing_name(timing, 1), "lamp");
+	timing_free(timing);
 }
 
 static void test_fault(void)

@@ -5,8 +5,8 @@
  *
  *   test_sim_older [COUNT [SEED]]    so many random programs with a random edit
  */
-#include "editor-gtk/chart.h"
-#include "editor-gtk/sim_inside.h"
+#include "editor-gtk/live/timing.h"
+#include "editor-gtk/sim/sim_inside.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 #include "tests/walker/random.h"
@@ -125,25 +125,25 @@ static void edit(const char *text)
 
 /* ---- what is shown of it ---- */
 
-static bool chart_is(const struct chart *chart, guint64 scan)
+static bool chart_is(const struct timing *timing, guint64 scan)
 {
 	const struct image *image = &ladder_sim_twin(sim)->resource.image;
 
-	for (int i = 0; i < chart_lines(chart); i++) {
-		const struct location at = image_find(image, chart_name(chart, i),
-						      strlen(chart_name(chart, i)));
+	for (int i = 0; i < timing_lines(timing); i++) {
+		const struct location at = image_find(image, timing_name(timing, i),
+						      strlen(timing_name(timing, i)));
 		const double is = at.type == IEC_NONE ? 0 : (double)image_get(image, at).i;
 
-		if (chart_value(chart, i, scan) != is)
+		if (timing_value(timing, i, scan) != is)
 			return false;
 	}
-	return chart_time(chart, scan) == ladder_sim_twin(sim)->now_ns;
+	return timing_time(timing, scan) == ladder_sim_twin(sim)->now_ns;
 }
 
 /* Of both programs, so that some are in one of them alone. */
-static struct chart *chart_of(const struct twin *const twins[], int count)
+static struct timing *chart_of(const struct twin *const twins[], int count)
 {
-	struct chart *chart = chart_new(sim);
+	struct timing *timing = timing_new(sim);
 
 	for (int i = 0; i < count; i++) {
 		struct symbol_cursor cursor = { 0 };
@@ -153,14 +153,14 @@ static struct chart *chart_of(const struct twin *const twins[], int count)
 		while (lines < LINES &&
 		       image_next_symbol(&twins[i]->resource.image, &cursor, &symbol))
 			if (symbol.at.type == IEC_BOOL || symbol.at.type == IEC_INT)
-				lines += chart_add(chart, symbol.name);
+				lines += timing_add(timing, symbol.name);
 	}
-	while (chart_feed(chart, 100000))
+	while (timing_feed(timing, 100000))
 		;
-	return chart;
+	return timing;
 }
 
-static bool show_is(guint64 scan, guint64 edited, const struct chart *chart,
+static bool show_is(guint64 scan, guint64 edited, const struct timing *timing,
 		    const char *text)
 {
 	struct sim_edited ended = { 0 };
@@ -169,7 +169,7 @@ static bool show_is(guint64 scan, guint64 edited, const struct chart *chart,
 	char *was;
 	bool good = ladder_sim_show(sim, scan) && ladder_sim_twin(sim)->scan == scan &&
 		    state_of(ladder_sim_twin(sim)) ==
-		    g_array_index(states, guint64, scan - 1) && chart_is(chart, scan);
+		    g_array_index(states, guint64, scan - 1) && chart_is(timing, scan);
 
 	older = ladder_sim_older(sim, &ended);
 	compared++;
@@ -187,13 +187,13 @@ static bool show_is(guint64 scan, guint64 edited, const struct chart *chart,
 
 /* Scans here and there, back and forth over the edit. */
 static bool look_back(struct random_source *random, guint64 edited, guint64 last,
-		      const struct chart *chart, const char *text)
+		      const struct timing *timing, const char *text)
 {
-	bool good = show_is(edited, edited, chart, text) && show_is(1, edited, chart, text) &&
-		    (last == edited || show_is(edited + 1, edited, chart, text));
+	bool good = show_is(edited, edited, timing, text) && show_is(1, edited, timing, text) &&
+		    (last == edited || show_is(edited + 1, edited, timing, text));
 
 	for (int i = 0; good && i < 12; i++)
-		good = show_is(1 + random_below(random, (uint32_t)last), edited, chart, text);
+		good = show_is(1 + random_below(random, (uint32_t)last), edited, timing, text);
 	ladder_sim_show_now(sim);
 	return good && !ladder_sim_older(sim, NULL) &&
 	       ladder_sim_rung(sim, document, 0, 0) == 0;
@@ -231,7 +231,7 @@ static int play(const char *before, const char *after, guint64 seed)
 {
 	struct random_source random;
 	struct run run = { .program = NULL };
-	struct chart *chart;
+	struct timing *timing;
 	struct sim_replay *first = sim_replay_new();
 	guint64 edited;
 	gsize len;
@@ -262,12 +262,12 @@ static int play(const char *before, const char *after, guint64 seed)
 		text = ladder_document_text(ladder_sim_older(sim, NULL), &len);
 	}
 	CHECK(ladder_sim_replay(sim, first, 1));
-	chart = chart_of((const struct twin *const[]){ sim_replay_twin(first), &run.twin },
+	timing = chart_of((const struct twin *const[]){ sim_replay_twin(first), &run.twin },
 			 2);
 	good = ladder_sim_first(sim) == 0 && ladder_sim_last(sim) == run.twin.scan &&
-	       chart_first(chart) == 0 && chart_end(chart) == run.twin.scan + 1 &&
-	       look_back(&random, edited, run.twin.scan, chart, text);
-	chart_free(chart);
+	       timing_first(timing) == 0 && timing_end(timing) == run.twin.scan + 1 &&
+	       look_back(&random, edited, run.twin.scan, timing, text);
+	timing_free(timing);
 	sim_replay_free(first);
 	twin_free(&run.twin);
 	sim_program_unref(run.program);

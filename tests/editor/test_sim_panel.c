@@ -3,9 +3,9 @@
  * test_sim_panel - the panel of a simulation, in a window: which lines it has, what they show,
  * what a click, a key, the menu does. SIM_PICTURES=FOLDER saves pictures, for a human eye.
  */
-#include "editor-gtk/app.h"
-#include "editor-gtk/sim_panel.h"
-#include "editor-gtk/sim_panel_view.h"
+#include "editor-gtk/window/app.h"
+#include "editor-gtk/live/sim_panel.h"
+#include "editor-gtk/live/sim_panel_view.h"
 #include "tests/editor/keys.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"

@@ -8,7 +8,7 @@
  * A click is one on a switch of the panel, or a value typed; what is compared is the text of
  * the widgets. The trace is run by itself, from a script of the same clicks.
  */
-#include "editor-gtk/sim_panel.h"
+#include "editor-gtk/live/sim_panel.h"
 #include "tests/editor/screen.h"
 #include "tests/tap.h"
 #include "tests/walker/random.h"

@@ -3,7 +3,7 @@
  * test_slow_bar - the slider of a bar comes after what is scrolled, but not for part of a
  * pixel.
  */
-#include "editor-gtk/slow_bar.h"
+#include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"

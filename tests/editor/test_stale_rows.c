@@ -3,8 +3,8 @@
  * test_stale_rows - the table of symbols is read a moment later than the document changes:
  * what is typed into a row goes to the declaration it shows, or is refused.
  */
-#include "editor-gtk/symbols.h"
-#include "editor-gtk/symbols_view.h"
+#include "editor-gtk/document/symbols.h"
+#include "editor-gtk/panels/symbols_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"

@@ -2,7 +2,7 @@
  *
  * test_still - a widget at rest is an image, and one that changes is shown at once.
  */
-#include "editor-gtk/still.h"
+#include "editor-gtk/kit/gtk48/still.h"
 #include "tests/editor/nodes.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"

@@ -3,8 +3,8 @@
  * test_symbols - declarations as rows, each field edited, hostile input, and tables that
  * come and go as CSV.
  */
-#include "editor-gtk/csv.h"
-#include "editor-gtk/listing.h"
+#include "editor-gtk/document/csv.h"
+#include "editor-gtk/draw/listing.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>

@@ -3,8 +3,8 @@
  * test_text - a list in its view: colours, words that could follow, errors in their
  * lines, typing and undoing in the one history.
  */
-#include "editor-gtk/text_complete.h"
-#include "editor-gtk/text_view.h"
+#include "editor-gtk/text/text_complete.h"
+#include "editor-gtk/text/text_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/editor/soon.h"

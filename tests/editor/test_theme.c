@@ -4,7 +4,7 @@
  *
  * WCAG 2.1: text 4.5 : 1 (1.4.3), graphics 3 : 1 (1.4.11).
  */
-#include "editor-gtk/theme.h"
+#include "editor-gtk/kit/theme.h"
 #include "tests/tap.h"
 
 static const enum token texts[] = { TOKEN_INK, TOKEN_ERROR, TOKEN_ACCENT, TOKEN_COMMENT };

@@ -2,7 +2,7 @@
  *
  * test_tip - tooltips: as many characters as columns, lines that are not too long.
  */
-#include "editor-gtk/tip.h"
+#include "editor-gtk/kit/gtk48/tip.h"
 #include "tests/tap.h"
 
 #include <string.h>

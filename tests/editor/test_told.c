@@ -2,7 +2,7 @@
  *
  * test_told - what an entry tells below its line is seen whole, however long it is.
  */
-#include "editor-gtk/entry_popup.h"
+#include "editor-gtk/kit/entry_popup.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"

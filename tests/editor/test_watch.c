@@ -3,10 +3,10 @@
  * test_watch - status charts: how values are shown and read, what a file keeps of a chart,
  * the table over a simulation that runs. WATCH_PICTURES=FOLDER saves pictures of it.
  */
-#include "editor-gtk/app.h"
-#include "editor-gtk/watch_names.h"
-#include "editor-gtk/watch_row.h"
-#include "editor-gtk/watch_view.h"
+#include "editor-gtk/window/app.h"
+#include "editor-gtk/live/watch_names.h"
+#include "editor-gtk/live/watch_row.h"
+#include "editor-gtk/live/watch_view.h"
 #include "tests/editor/keys.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"
@@ -149,8 +149,8 @@ static void check_round(void)
 
 static bool writes(const char *before, const char *expected)
 {
-	GPtrArray *charts = watch_charts_read(before);
-	char *after = watch_charts_write(before, charts);
+	GPtrArray *charts = watch_list_read(before);
+	char *after = watch_list_write(before, charts);
 	const bool same = strcmp(after, expected) == 0;
 
 	if (!same)
@@ -166,8 +166,8 @@ static void check_file(void)
 		"VIEW\n  bookmark Main 1\n  status-chart Two words\n"
 		"    watch auto Start the green one\n    watch hex %QW0\n  status-chart\n"
 		"  bookmark Main 2\nEND_VIEW";
-	GPtrArray *charts = watch_charts_read(full);
-	const struct watch_chart *chart = charts->pdata[0];
+	GPtrArray *charts = watch_list_read(full);
+	const struct watch *chart = charts->pdata[0];
 	const struct watch_line *line = chart->lines->pdata[0];
 
 	CHECK(charts->len == 2 && chart->lines->len == 2);
@@ -180,11 +180,11 @@ static void check_file(void)
 	CHECK(writes("VIEW\nwatch bin  A   b \nEND_VIEW",
 		     "VIEW\n  status-chart\n    watch bin A b\nEND_VIEW"));
 	g_ptr_array_unref(charts);
-	charts = watch_charts_read("VIEW\nEND_VIEW");
-	g_ptr_array_add(charts, watch_chart_new("a\nEND_VIEW"));
-	g_ptr_array_add(((struct watch_chart *)charts->pdata[0])->lines,
+	charts = watch_list_read("VIEW\nEND_VIEW");
+	g_ptr_array_add(charts, watch_new("a\nEND_VIEW"));
+	g_ptr_array_add(((struct watch *)charts->pdata[0])->lines,
 			watch_line_new(WATCH_AUTO, " Table[ 2 ]\n", "x\ny"));
-	char *text = watch_charts_write("", charts);
+	char *text = watch_list_write("", charts);
 
 	CHECK(strcmp(text, "VIEW\n  status-chart a END_VIEW\n    watch auto Table[2] x y\n"
 		     "END_VIEW") == 0);

@@ -5,8 +5,8 @@
  * Seeds that are packed are unpacked before they are changed, or the checksum would
  * refuse them all; one that stays packed goes to the unpacker itself.
  */
-#include "engine/import/classic.h"
-#include "engine/import/inflate.h"
+#include "engine/exchange/classic/classic.h"
+#include "engine/exchange/classic/inflate.h"
 #include "engine/ladder.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -5,8 +5,8 @@
  * Every form of every member, each message with its member and line. What a project
  * does is tested in tests/classic/.
  */
-#include "engine/import/classic.h"
-#include "engine/import/inflate.h"
+#include "engine/exchange/classic/classic.h"
+#include "engine/exchange/classic/inflate.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>

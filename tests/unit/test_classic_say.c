@@ -2,7 +2,7 @@
  *
  * test_classic_say - variables, blocks, expressions and symbols as ClassicLadder says them.
  */
-#include "engine/import/classic_say.h"
+#include "engine/exchange/classic/classic_say.h"
 #include "tests/tap.h"
 
 #include <stdio.h>

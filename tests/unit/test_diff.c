@@ -4,8 +4,8 @@
  */
 #include "engine/model/project.h"
 #include "engine/text/text.h"
-#include "engine/view/diff.h"
-#include "engine/view/view.h"
+#include "engine/compare/diff.h"
+#include "engine/show/view.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>

@@ -4,7 +4,7 @@
  */
 #include "engine/model/project.h"
 #include "engine/text/text.h"
-#include "engine/view/view.h"
+#include "engine/show/view.h"
 #include "tests/tap.h"
 
 static struct diag_list diags;

@@ -4,7 +4,7 @@
  * be the same, and with the old name back the same bytes. And what must be refused.
  */
 #include "engine/ladder.h"
-#include "engine/view/xref.h"
+#include "engine/xref/xref.h"
 #include "tests/tap.h"
 
 #include <glob.h>

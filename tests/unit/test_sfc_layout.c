@@ -3,7 +3,7 @@
  * test_sfc_layout - charts, thousands of random ones and ones of garbage: nothing crosses,
  * nothing overlaps, and the lines of the drawing lead where the chart leads.
  */
-#include "engine/view/sfc_layout.h"
+#include "engine/show/sfc_layout.h"
 #include "tests/tap.h"
 
 #include <stdio.h>

@@ -8,7 +8,7 @@
 #include "engine/check/scope.h"
 #include "engine/ladder.h"
 #include "engine/text/text.h"
-#include "engine/view/xref.h"
+#include "engine/xref/xref.h"
 
 #include "tests/tap.h"
 

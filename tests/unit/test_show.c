@@ -5,7 +5,7 @@
 #include "engine/base/lex.h"
 #include "engine/model/project.h"
 #include "engine/text/text.h"
-#include "engine/view/view.h"
+#include "engine/show/view.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>

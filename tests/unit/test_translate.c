@@ -4,7 +4,7 @@
  * the language document says; the printed list is the same program.
  */
 #include "engine/text/text.h"
-#include "engine/view/view.h"
+#include "engine/show/view.h"
 #include "tests/unit/rig.h"
 #include "tests/usual.h"
 

@@ -10,8 +10,8 @@
  */
 #include "engine/base/catalog.h"
 #include "engine/base/explain.h"
-#include "engine/view/view.h"
-#include "engine/view/words.h"
+#include "engine/show/view.h"
+#include "ladder/words.h"
 #include "tests/tap.h"
 #include "tests/unit/rig.h"
 

@@ -3,7 +3,7 @@
  * test_xref - uses of names and addresses: what, how, where; free and doubled addresses.
  */
 #include "engine/ladder.h"
-#include "engine/view/address_map.h"
+#include "engine/xref/address_map.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>

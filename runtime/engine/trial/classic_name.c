@@ -21,7 +21,7 @@ struct pin_row { const char *prefix, *attribute, *instance, *pin; bool is_bool; 
 static const struct memory_row memory_rows[] = {
 #define CLASSIC_MEMORY(type, prefix, area, first, size, name) \
 	{ prefix, area, first, size },
-#include "engine/import/classic.def"
+#include "engine/classic.def"
 };
 
 static const struct pin_row pin_rows[] = {
@@ -29,7 +29,7 @@ static const struct pin_row pin_rows[] = {
 	{ prefix, attribute, kind, pin, is_bool },
 #define CLASSIC_STEP(type, attribute, name, pin) \
 	{ "X", attribute, name, pin, sizeof(pin) == 1 },
-#include "engine/import/classic.def"
+#include "engine/classic.def"
 };
 
 /* "TM", 0, "V" of %TM0.V; the attribute may be "". */

@@ -25,7 +25,7 @@ WORDS = ['Start', 'OUT Motor', 'TON T9 2s', 'XIO %IX0.3', 'CTU', '= Lamp', 'OR S
 def keys_of_window():
     """All of the one table, and those of hands and texts."""
     keys = ['Up', 'Down', 'Left', 'Right', 'Home', 'End', 'Tab', 'shift+Tab', 'Return', 'shift+Down', 'shift+Right', *['Escape'] * 8]
-    with open(os.path.join(ROOT, 'editor-gtk', 'verbs.def')) as table:
+    with open(os.path.join(ROOT, 'editor-gtk', 'kit', 'verbs.def')) as table:
         for verb, accels in re.findall(r'^VERB\((\w+),\s*\w+,\s*"([^"]*)"', table.read(), re.MULTILINE):
             for accel in filter(None, accels.split('|') if verb not in LEFT_OUT else []):
                 held = [NAMES[name] for name in re.findall('<(.*?)>', accel)]

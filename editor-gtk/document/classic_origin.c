@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_origin - follows what came of each rung; see classic_origin.h.
+ */
+#include "editor-gtk/document/classic_origin.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct came {
+	const struct classic_rung *from; /* NULL: of nothing there             */
+	guint text;                      /* its hash                           */
+	bool known;                      /* while two lists are matched        */
+};
+
+struct origin_pou {
+	char *name;
+	GArray *rung;                    /* of struct came, as the document has them */
+};
+
+struct _LadderOrigin {
+	GObject parent_instance;
+	LadderDocument *document;
+	char *path;
+	struct ladder *ladder;
+	GPtrArray *pous;                 /* of struct origin_pou               */
+	GArray *lost;                    /* of struct came: they may come back */
+};
+
+G_DEFINE_FINAL_TYPE(LadderOrigin, ladder_origin, G_TYPE_OBJECT)
+
+static void pou_free(gpointer data)
+{
+	struct origin_pou *pou = data;
+
+	g_free(pou->name);
+	g_array_unref(pou->rung);
+	g_free(pou);
+}
+
+static struct came *came_at(GArray *list, guint index)
+{
+	return &g_array_index(list, struct came, index);
+}
+
+static struct came came_now(LadderOrigin *origin, int pou, int rung)
+{
+	const struct project *project = ladder_document_project(origin->document);
+	char *text = ladder_write_rung(ladder_document_ladder(origin->document),
+				       project->pou[pou].rung[rung]);
+	struct came came = { .text = text ? g_str_hash(text) : 0 };
+
+	free(text);
+	return came;
+}
+
+/* ---- what was and what is ---- */
+
+static void take(struct came *now, struct came *was)
+{
+	now->from = was->from;
+	now->known = was->known = true;
+}
+
+static void take_same(struct came *now, GArray *was)
+{
+	for (guint i = 0; i < was->len && !now->known; i++)
+		if (!came_at(was, i)->known && came_at(was, i)->text == now->text)
+			take(now, came_at(was, i));
+}
+
+static void take_lost(LadderOrigin *origin, struct came *now)
+{
+	for (guint i = origin->lost->len; i > 0 && !now->known; i--)
+		if (came_at(origin->lost, i - 1)->text == now->text) {
+			take(now, came_at(origin->lost, i - 1));
+			g_array_remove_index_fast(origin->lost, i - 1);
+		}
+}
+
+static void lose(LadderOrigin *origin, GArray *was)
+{
+	for (guint i = 0; i < was->len; i++)
+		if (!came_at(was, i)->known && came_at(was, i)->from)
+			g_array_append_vals(origin->lost, came_at(was, i), 1);
+}
+
+/* Rungs that read the same are the same; as many as before are those that were edited. */
+static void match(LadderOrigin *origin, GArray *was, GArray *now)
+{
+	for (guint i = 0; i < now->len; i++)
+		take_same(came_at(now, i), was);
+	for (guint i = 0; i < now->len && was->len == now->len; i++)
+		if (!came_at(now, i)->known && !came_at(was, i)->known)
+			take(came_at(now, i), came_at(was, i));
+	for (guint i = 0; i < now->len; i++)
+		take_lost(origin, came_at(now, i));
+	lose(origin, was);
+	for (guint i = 0; i < now->len; i++)
+		came_at(now, i)->known = false;
+}
+
+static GArray *rungs_now(LadderOrigin *origin, int pou, int at, int count)
+{
+	GArray *now = g_array_new(FALSE, FALSE, sizeof(struct came));
+
+	for (int i = at; i < at + count; i++) {
+		const struct came came = came_now(origin, pou, i);
+
+		g_array_append_val(now, came);
+	}
+	return now;
+}
+
+static void rungs_changed(LadderOrigin *origin, int pou, int at, int removed, int inserted)
+{
+	struct origin_pou *of = pou < (int)origin->pous->len ? origin->pous->pdata[pou] :
+				NULL;
+	GArray *was, *now;
+
+	if (!of || (guint)(at + removed) > of->rung->len)
+		return;
+	was = g_array_new(FALSE, FALSE, sizeof(struct came));
+	g_array_append_vals(was, of->rung->data + (gsize)at * sizeof(struct came),
+			    (guint)removed);
+	now = rungs_now(origin, pou, at, inserted);
+	match(origin, was, now);
+	g_array_remove_range(of->rung, (guint)at, (guint)removed);
+	if (now->len)
+		g_array_insert_vals(of->rung, (guint)at, now->data, now->len);
+	g_array_unref(was);
+	g_array_unref(now);
+}
+
+/* ---- when anything may be another ---- */
+
+static const char *name_now(LadderOrigin *origin, int pou)
+{
+	const struct project *project = ladder_document_project(origin->document);
+
+	return project_text(project, project->pou[pou].name);
+}
+
+static bool is_there(const LadderOrigin *origin, const char *name)
+{
+	const struct project *project = ladder_document_project(origin->document);
+
+	for (int i = 0; i < project->pou_count; i++)
+		if (!g_ascii_strcasecmp(project_text(project, project->pou[i].name), name))
+			return true;
+	return false;
+}
+
+/* By its name, or in its place under another one. */
+static struct origin_pou *was_called(LadderOrigin *origin, int pou)
+{
+	const char *name = name_now(origin, pou);
+	struct origin_pou *of;
+
+	for (guint i = 0; i < origin->pous->len; i++) {
+		of = origin->pous->pdata[i];
+		if (!g_ascii_strcasecmp(of->name, name))
+			return of;
+	}
+	of = pou < (int)origin->pous->len ? origin->pous->pdata[pou] : NULL;
+	return of && !is_there(origin, of->name) ? of : NULL;
+}
+
+/* A name that changed is in the text of every rung that has it. */
+static void match_whole(LadderOrigin *origin, GArray *was, GArray *now)
+{
+	for (guint i = 0; i < now->len && was->len == now->len; i++)
+		take(came_at(now, i), came_at(was, i));
+	match(origin, was, now);
+}
+
+static void project_changed(LadderOrigin *origin)
+{
+	const struct project *project = ladder_document_project(origin->document);
+	GPtrArray *pous;
+
+	if (!project)
+		return; /* text that cannot be read: until it can */
+	pous = g_ptr_array_new_with_free_func(pou_free);
+	for (int i = 0; i < project->pou_count; i++) {
+		struct origin_pou *was = was_called(origin, i);
+		struct origin_pou *of = g_new0(struct origin_pou, 1);
+
+		of->name = g_strdup(name_now(origin, i));
+		of->rung = rungs_now(origin, i, 0, project->pou[i].rung_count);
+		if (was) {
+			match_whole(origin, was->rung, of->rung);
+			g_array_set_size(was->rung, 0);
+		}
+		g_ptr_array_add(pous, of);
+	}
+	for (guint i = 0; i < origin->pous->len; i++)
+		lose(origin, ((struct origin_pou *)origin->pous->pdata[i])->rung);
+	for (guint i = 0; i < pous->len; i++) {
+		GArray *rungs = ((struct origin_pou *)pous->pdata[i])->rung;
+
+		for (guint n = 0; n < rungs->len; n++)
+			if (!came_at(rungs, n)->from)
+				take_lost(origin, came_at(rungs, n));
+		for (guint n = 0; n < rungs->len; n++)
+			came_at(rungs, n)->known = false;
+	}
+	g_ptr_array_unref(origin->pous);
+	origin->pous = pous;
+}
+
+/* ---- what is asked ---- */
+
+const char *ladder_origin_path(LadderOrigin *origin)
+{
+	return origin->path;
+}
+
+const struct classic_project *ladder_origin_project(LadderOrigin *origin)
+{
+	return ladder_import_project(origin->ladder);
+}
+
+const struct classic_report *ladder_origin_report(LadderOrigin *origin)
+{
+	return ladder_import_report(origin->ladder);
+}
+
+const char *ladder_origin_io(LadderOrigin *origin)
+{
+	return ladder_import_io(origin->ladder);
+}
+
+const struct classic_rung *ladder_origin_of(LadderOrigin *origin, int pou, int rung)
+{
+	const struct origin_pou *of = pou >= 0 && pou < (int)origin->pous->len ?
+				      origin->pous->pdata[pou] : NULL;
+
+	return of && rung >= 0 && rung < (int)of->rung->len ?
+	       came_at(of->rung, (guint)rung)->from : NULL;
+}
+
+GArray *ladder_origin_became(LadderOrigin *origin, const struct classic_rung *from,
+			     int *pou)
+{
+	GArray *all = g_array_new(FALSE, FALSE, sizeof(int));
+
+	*pou = -1;
+	for (guint i = 0; i < origin->pous->len && *pou < 0; i++) {
+		GArray *rungs = ((struct origin_pou *)origin->pous->pdata[i])->rung;
+
+		for (int n = 0; n < (int)rungs->len; n++)
+			if (from && came_at(rungs, (guint)n)->from == from)
+				g_array_append_val(all, n);
+		if (all->len)
+			*pou = (int)i;
+	}
+	return all;
+}
+
+static int last_line(const struct classic_rung *rung)
+{
+	int last = rung->place.line;
+
+	for (int y = 0; y < CLASSIC_ROWS; y++)
+		last = MAX(last, rung->row_line[y]);
+	return last;
+}
+
+const struct classic_rung *ladder_origin_at(LadderOrigin *origin, const char *member,
+					    int line)
+{
+	const struct classic_project *project = ladder_origin_project(origin);
+
+	for (int i = 0; project && line > 0 && i < project->rungs; i++) {
+		const struct classic_rung *rung = project->rung[i];
+
+		if (strcmp(rung->place.member, member) == 0 && line >= rung->place.line &&
+		    line <= last_line(rung))
+			return rung;
+	}
+	return NULL;
+}
+
+/* ---- life ---- */
+
+static void dispose(GObject *object)
+{
+	LadderOrigin *origin = LADDER_ORIGIN(object);
+
+	g_clear_object(&origin->document);
+	G_OBJECT_CLASS(ladder_origin_parent_class)->dispose(object);
+}
+
+static void finalize(GObject *object)
+{
+	LadderOrigin *origin = LADDER_ORIGIN(object);
+
+	g_ptr_array_unref(origin->pous);
+	g_array_unref(origin->lost);
+	ladder_free(origin->ladder);
+	g_free(origin->path);
+	G_OBJECT_CLASS(ladder_origin_parent_class)->finalize(object);
+}
+
+static void ladder_origin_class_init(LadderOriginClass *class)
+{
+	G_OBJECT_CLASS(class)->dispose = dispose;
+	G_OBJECT_CLASS(class)->finalize = finalize;
+}
+
+static void ladder_origin_init(LadderOrigin *origin)
+{
+	origin->pous = g_ptr_array_new_with_free_func(pou_free);
+	origin->lost = g_array_new(FALSE, FALSE, sizeof(struct came));
+}
+
+/* At first POUs and rungs stand where the engine has them. */
+static void begin(LadderOrigin *origin)
+{
+	project_changed(origin);
+	for (guint i = 0; i < origin->pous->len; i++) {
+		GArray *rungs = ((struct origin_pou *)origin->pous->pdata[i])->rung;
+
+		for (guint n = 0; n < rungs->len; n++)
+			came_at(rungs, n)->from =
+				ladder_import_rung(origin->ladder, (int)i, (int)n);
+	}
+}
+
+LadderOrigin *ladder_origin_new(LadderDocument *document, char *path,
+				struct ladder *ladder)
+{
+	LadderOrigin *origin = g_object_new(LADDER_TYPE_ORIGIN, NULL);
+
+	origin->document = g_object_ref(document);
+	origin->path = path;
+	origin->ladder = ladder;
+	begin(origin);
+	g_signal_connect_object(document, "rungs-changed", G_CALLBACK(rungs_changed),
+				origin, G_CONNECT_SWAPPED);
+	g_signal_connect_object(document, "project-changed", G_CALLBACK(project_changed),
+				origin, G_CONNECT_SWAPPED);
+	return origin;
+}

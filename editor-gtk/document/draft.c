@@ -1,0 +1,355 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * draft - what was not saved, kept where a crash does not reach it.
+ *
+ * A draft is a file "PID-RANDOM-NUMBER.draft": a line with the path as a URI, the sum of what
+ * stood there and, of a file beside a project, the URI of that, as far as they are known; and
+ * the text. A draft whose process is alive belongs to that.
+ */
+#include "editor-gtk/document/draft.h"
+
+#include <glib/gstdio.h>
+#include <errno.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define DRAFT_SECONDS 2 /* after the last change                               */
+#define DRAFT_HEAD    "RUNGBOARD-DRAFT 1 "
+
+#define DRAFT_BESIDE  "beside:"
+#define DRAFT_SAMPLE  "sample:"
+
+struct keeper {
+	char *file;
+	guint timer;
+	LadderDocument *beside; /* whose file it is; NULL: it is a document    */
+	char *sample;           /* that the document is a copy of; NULL: of none */
+	bool told;              /* that it cannot be kept                      */
+};
+
+static void (*failed)(gpointer object, const char *why);
+
+static char *folder(void)
+{
+	return g_build_filename(g_get_user_state_dir(), "rungboard", "drafts", NULL);
+}
+
+/* How the names of its drafts begin. After a restart, and in containers at every start, an
+ * editor has the number of one that died: it must not take its drafts for its own. */
+static const char *own_begin(void)
+{
+	static char begin[32];
+
+	if (!*begin)
+		g_snprintf(begin, sizeof(begin), "%ld-%08x-", (long)getpid(), g_random_int());
+	return begin;
+}
+
+static struct keeper *keeper_of(gpointer object)
+{
+	return g_object_get_data(G_OBJECT(object), "draft");
+}
+
+/* ---- keeping ---- */
+
+static bool is_saved(gpointer object)
+{
+	return keeper_of(object)->beside ? !ladder_file_view_differs(object) :
+		ladder_document_is_saved(object);
+}
+
+static char *uri_of(const char *path)
+{
+	char *uri = path ? g_filename_to_uri(path, NULL, NULL) : NULL;
+
+	return uri ? uri : g_strdup("");
+}
+
+static char *document_draft(LadderDocument *document)
+{
+	const char *sample = keeper_of(document)->sample;
+	const char *sum = ladder_document_disk_sum(document);
+	char *uri = uri_of(ladder_document_path(document));
+	char *text = ladder_document_text(document, NULL);
+	char *from = uri_of(sample);
+	char *whole = g_strdup_printf(DRAFT_HEAD "%s %s%s%s\n%s", uri, sum ? sum : "",
+				      sample ? " " DRAFT_SAMPLE : "", from, text);
+
+	g_free(from);
+	g_free(text);
+	g_free(uri);
+	return whole;
+}
+
+static char *file_draft(LadderFileView *view, LadderDocument *beside)
+{
+	char *uri = uri_of(ladder_file_view_path(view));
+	char *project = uri_of(ladder_document_path(beside));
+	char *sum = ladder_file_view_sum(view), *text = ladder_file_view_text(view);
+	char *whole = g_strdup_printf(DRAFT_HEAD "%s %s " DRAFT_BESIDE "%s\n%s", uri, sum,
+				      project, text);
+
+	g_free(text);
+	g_free(sum);
+	g_free(project);
+	g_free(uri);
+	return whole;
+}
+
+/* Told once, until it can be kept again. */
+static void tell_failed(gpointer object, struct keeper *keeper, const char *why)
+{
+	if (failed && !keeper->told)
+		failed(object, why);
+	keeper->told = true;
+}
+
+static void write_draft(gpointer object)
+{
+	struct keeper *keeper = keeper_of(object);
+	char *whole = keeper->beside ? file_draft(object, keeper->beside) :
+				       document_draft(object);
+	char *dir = g_path_get_dirname(keeper->file);
+	GError *error = NULL;
+
+	g_mkdir_with_parents(dir, 0700);
+	if (g_file_set_contents_full(keeper->file, whole, (gssize)strlen(whole),
+		    G_FILE_SET_CONTENTS_CONSISTENT | G_FILE_SET_CONTENTS_DURABLE, 0600,
+		    &error))
+		keeper->told = false;
+	else
+		tell_failed(object, keeper, error->message);
+	g_clear_error(&error);
+	g_free(dir);
+	g_free(whole);
+}
+
+void draft_write(gpointer object)
+{
+	if (keeper_of(object) && !is_saved(object))
+		write_draft(object);
+}
+
+static gboolean write_now(gpointer object)
+{
+	keeper_of(object)->timer = 0;
+	draft_write(object);
+	return G_SOURCE_REMOVE;
+}
+
+static void state_changed(gpointer object, struct keeper *keeper)
+{
+	if (is_saved(object)) {
+		g_unlink(keeper->file);
+		return;
+	}
+	if (!keeper->timer)
+		keeper->timer = g_timeout_add_seconds(DRAFT_SECONDS, write_now, object);
+}
+
+static void keeper_free(gpointer pointer)
+{
+	struct keeper *keeper = pointer;
+
+	if (keeper->timer)
+		g_source_remove(keeper->timer);
+	g_clear_object(&keeper->beside);
+	g_free(keeper->sample);
+	g_free(keeper->file);
+	g_free(keeper);
+}
+
+static void keep(gpointer object, LadderDocument *beside)
+{
+	static int number;
+	struct keeper *keeper = g_new0(struct keeper, 1);
+	char *dir = folder();
+	char *name = g_strdup_printf("%s%d.draft", own_begin(), ++number);
+
+	keeper->beside = beside ? g_object_ref(beside) : NULL;
+	keeper->file = g_build_filename(dir, name, NULL);
+	g_object_set_data_full(G_OBJECT(object), "draft", keeper, keeper_free);
+	g_signal_connect(object, "state-changed", G_CALLBACK(state_changed), keeper);
+	draft_write(object);
+	g_free(name);
+	g_free(dir);
+}
+
+void draft_keep(LadderDocument *document)
+{
+	keep(document, NULL);
+}
+
+void draft_of_sample(LadderDocument *document, const char *path)
+{
+	struct keeper *keeper = keeper_of(document);
+
+	if (!keeper)
+		return;
+	g_free(keeper->sample);
+	keeper->sample = g_strdup(path);
+	draft_write(document);
+}
+
+static void text_changed(LadderFileView *view)
+{
+	state_changed(view, keeper_of(view));
+}
+
+void draft_keep_file(LadderFileView *view, LadderDocument *document)
+{
+	keep(view, document);
+	g_signal_connect_object(ladder_file_view_buffer(view), "changed",
+				G_CALLBACK(text_changed), view, G_CONNECT_SWAPPED);
+}
+
+void draft_remove(gpointer object)
+{
+	struct keeper *keeper = keeper_of(object);
+
+	if (!keeper)
+		return;
+	if (keeper->timer)
+		g_source_remove(keeper->timer);
+	keeper->timer = 0;
+	g_unlink(keeper->file);
+}
+
+bool draft_is_kept(gpointer object)
+{
+	return keeper_of(object) && !keeper_of(object)->told;
+}
+
+void draft_stop(gpointer object)
+{
+	struct keeper *keeper = keeper_of(object);
+
+	if (!keeper)
+		return;
+	g_signal_handlers_disconnect_by_data(object, keeper);
+	g_object_set_data(G_OBJECT(object), "draft", NULL);
+}
+
+void draft_on_failure(void (*tell)(gpointer object, const char *why))
+{
+	failed = tell;
+}
+
+/* ---- finding ---- */
+
+static void draft_free(gpointer pointer)
+{
+	struct draft *draft = pointer;
+
+	g_free(draft->file);
+	g_free(draft->path);
+	g_free(draft->sum);
+	g_free(draft->beside);
+	g_free(draft->sample);
+	g_free(draft->text);
+	g_free(draft);
+}
+
+/* Numbers of processes come again: only an editor counts as the draft's owner. Where
+ * /proc does not tell names, any process does. */
+static bool is_alive(const char *name)
+{
+	const long pid = strtol(name, NULL, 10);
+	char *path = g_strdup_printf("/proc/%ld/comm", pid), *comm = NULL, *own = NULL;
+	bool alive = pid > 0 && (kill((pid_t)pid, 0) == 0 || errno == EPERM);
+
+	if (alive && g_file_get_contents("/proc/self/comm", &own, NULL, NULL) &&
+	    g_file_get_contents(path, &comm, NULL, NULL))
+		alive = strcmp(own, comm) == 0;
+	g_free(own);
+	g_free(comm);
+	g_free(path);
+	return alive && (pid != getpid() || g_str_has_prefix(name, own_begin()));
+}
+
+static char *path_of(const char *uri)
+{
+	return *uri ? g_filename_from_uri(uri, NULL, NULL) : NULL;
+}
+
+/* "URI SUM beside:URI", "URI SUM sample:URI": any may lack. A URI has no blanks. */
+static void read_head(struct draft *draft, const char *head)
+{
+	char **words = g_strsplit(head, " ", 3);
+	const int count = (int)g_strv_length(words);
+
+	draft->path = count > 0 ? path_of(words[0]) : NULL;
+	draft->sum = count > 1 && *words[1] ? g_strdup(words[1]) : NULL;
+	draft->is_file = draft->path && count > 2 &&
+			 g_str_has_prefix(words[2], DRAFT_BESIDE);
+	if (draft->is_file)
+		draft->beside = path_of(words[2] + strlen(DRAFT_BESIDE));
+	else if (count > 2 && g_str_has_prefix(words[2], DRAFT_SAMPLE))
+		draft->sample = path_of(words[2] + strlen(DRAFT_SAMPLE));
+	g_strfreev(words);
+}
+
+/* What has no head, of another version or damaged, is text all of it: nothing is lost. */
+static struct draft *read_draft(const char *file)
+{
+	struct draft *draft;
+	char *all = NULL, *text, *line;
+	gsize len;
+
+	if (!g_file_get_contents(file, &all, &len, NULL) || len == 0) {
+		g_free(all);
+		return NULL;
+	}
+	draft = g_new0(struct draft, 1);
+	draft->file = g_strdup(file);
+	text = all;
+	line = strchr(all, '\n');
+	if (line && g_str_has_prefix(all, DRAFT_HEAD)) {
+		*line = '\0';
+		read_head(draft, all + strlen(DRAFT_HEAD));
+		text = line + 1;
+	}
+	draft->text = g_utf8_make_valid(text, (gssize)(len - (gsize)(text - all)));
+	draft->len = strlen(draft->text);
+	g_free(all);
+	return draft;
+}
+
+static int documents_first(gconstpointer a, gconstpointer b)
+{
+	const struct draft *const *one = a, *const *other = b;
+
+	return (int)(*one)->is_file - (int)(*other)->is_file;
+}
+
+GPtrArray *draft_find(void)
+{
+	GPtrArray *found = g_ptr_array_new_with_free_func(draft_free);
+	char *dir = folder();
+	GDir *names = g_dir_open(dir, 0, NULL);
+	const char *name;
+
+	while (names && (name = g_dir_read_name(names))) {
+		char *file = g_build_filename(dir, name, NULL);
+		struct draft *draft = g_str_has_suffix(name, ".draft") && !is_alive(name) ?
+			read_draft(file) : NULL;
+
+		if (draft)
+			g_ptr_array_add(found, draft);
+		else if (strstr(name, ".draft.") && !is_alive(name))
+			g_unlink(file); /* it died while it wrote that one */
+		g_free(file);
+	}
+	if (names)
+		g_dir_close(names);
+	g_free(dir);
+	g_ptr_array_sort(found, documents_first);
+	return found;
+}
+
+void draft_forget(const struct draft *draft)
+{
+	g_unlink(draft->file);
+}

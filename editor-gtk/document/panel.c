@@ -1,0 +1,318 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * panel - lists of rows in columns. What makes them look again is panel_watch.c's.
+ */
+#include "editor-gtk/document/panel.h"
+
+#include "editor-gtk/kit/gtk48/focus.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+
+/* ---- cells ---- */
+
+static const char *tone_icon(enum panel_tone tone)
+{
+	static const char *const icon[] = {
+		[PANEL_PLAIN] = NULL, [PANEL_WARNING] = "dialog-warning-symbolic",
+		[PANEL_ERROR] = "dialog-error-symbolic",
+	};
+
+	return icon[tone];
+}
+
+void panel_speak(GtkWidget *cell, const LadderPanelRow *row)
+{
+	GtkWidget *of_cell = gtk_widget_get_parent(cell);
+	GtkWidget *of_row = of_cell ? gtk_widget_get_parent(of_cell) : NULL;
+
+	if (of_row && row->spoken)
+		gtk_accessible_update_property(GTK_ACCESSIBLE(of_row),
+			GTK_ACCESSIBLE_PROPERTY_LABEL, row->spoken, -1);
+}
+
+/* A cell shows its row when it gets it, and when that changes. */
+static void follow(GtkListItem *item, void (*show)(LadderPanelRow *row, GtkListItem *item))
+{
+	LadderPanelRow *row = gtk_list_item_get_item(item);
+
+	show(row, item);
+	g_signal_connect(row, "changed", G_CALLBACK(show), item);
+}
+
+static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer unused)
+{
+	(void)factory;
+	(void)unused;
+	g_signal_handlers_disconnect_by_data(gtk_list_item_get_item(item), item);
+}
+
+static void setup_label(GtkSignalListItemFactory *factory, GtkListItem *item,
+			gpointer column)
+{
+	GtkWidget *label = gtk_label_new(NULL);
+
+	(void)factory;
+	g_object_set_data(G_OBJECT(label), "column", column);
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+	gtk_list_item_set_child(item, label);
+}
+
+static void setup_middle(GtkSignalListItemFactory *factory, GtkListItem *item,
+			 gpointer column)
+{
+	setup_label(factory, item, column);
+	gtk_label_set_ellipsize(GTK_LABEL(gtk_list_item_get_child(item)),
+				PANGO_ELLIPSIZE_MIDDLE);
+}
+
+static void show_label(LadderPanelRow *row, GtkListItem *item)
+{
+	GtkWidget *label = gtk_list_item_get_child(item);
+	const char *text = panel_row_text(row, GPOINTER_TO_INT(
+		g_object_get_data(G_OBJECT(label), "column")));
+
+	gtk_label_set_text(GTK_LABEL(label), text);
+	tip_set(label, text);
+	panel_speak(label, row);
+}
+
+static void bind_label(GtkSignalListItemFactory *factory, GtkListItem *item,
+		       gpointer column)
+{
+	(void)factory;
+	(void)column;
+	follow(item, show_label);
+}
+
+static void setup_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
+		       gpointer unused)
+{
+	(void)factory;
+	(void)unused;
+	gtk_list_item_set_child(item, gtk_image_new());
+}
+
+static void show_icon(LadderPanelRow *row, GtkListItem *item)
+{
+	GtkWidget *image = gtk_list_item_get_child(item);
+
+	gtk_image_set_from_icon_name(GTK_IMAGE(image), tone_icon(row->tone));
+	gtk_widget_remove_css_class(image, row->tone == PANEL_ERROR ? "warning" : "error");
+	if (row->tone != PANEL_PLAIN)
+		gtk_widget_add_css_class(image, row->tone == PANEL_ERROR ? "error" :
+					 "warning");
+	else
+		gtk_widget_remove_css_class(image, "warning");
+	tip_set(image, row->note);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(image), GTK_ACCESSIBLE_PROPERTY_LABEL,
+		row->note ? row->note : row->tone == PANEL_ERROR ? _("Error") :
+		row->tone == PANEL_WARNING ? _("Warning") : "", -1);
+	panel_speak(image, row);
+}
+
+static void bind_icon(GtkSignalListItemFactory *factory, GtkListItem *item,
+		      gpointer unused)
+{
+	(void)factory;
+	(void)unused;
+	follow(item, show_icon);
+}
+
+/* ---- order ---- */
+
+/* As people sort, whatever the locale: no case, numbers by what they are. Caller: g_free. */
+static char *order_key(const LadderPanelRow *row, int column)
+{
+	char *folded = g_utf8_casefold(panel_row_text(row, column), -1);
+	char *key = g_utf8_collate_key_for_filename(folded, -1);
+
+	g_free(folded);
+	return key;
+}
+
+static int by_text(gconstpointer left, gconstpointer right, gpointer column)
+{
+	char *x = order_key(left, GPOINTER_TO_INT(column));
+	char *y = order_key(right, GPOINTER_TO_INT(column));
+	const int order = g_strcmp0(x, y);
+
+	g_free(x);
+	g_free(y);
+	return order < 0 ? GTK_ORDERING_SMALLER : order > 0 ? GTK_ORDERING_LARGER :
+	       GTK_ORDERING_EQUAL;
+}
+
+static int by_number(gconstpointer left, gconstpointer right, gpointer unused)
+{
+	const LadderPanelRow *a = left, *b = right;
+
+	(void)unused;
+	return a->number < b->number ? GTK_ORDERING_SMALLER :
+	       a->number > b->number ? GTK_ORDERING_LARGER : GTK_ORDERING_EQUAL;
+}
+
+static int by_tone(gconstpointer left, gconstpointer right, gpointer unused)
+{
+	const LadderPanelRow *a = left, *b = right;
+
+	(void)unused;
+	return a->tone > b->tone ? GTK_ORDERING_SMALLER :
+	       a->tone < b->tone ? GTK_ORDERING_LARGER : GTK_ORDERING_EQUAL;
+}
+
+#define HEADING_ROOM 24 /* padding of a heading, and the arrow of sorting */
+
+int panel_heading_width(GtkWidget *view, const char *name)
+{
+	PangoLayout *layout = gtk_widget_create_pango_layout(view, NULL);
+	char *bold = g_markup_printf_escaped("<b>%s</b>", name);
+	int width;
+
+	pango_layout_set_markup(layout, bold, -1);
+	pango_layout_get_pixel_size(layout, &width, NULL);
+	g_free(bold);
+	g_object_unref(layout);
+	return width;
+}
+
+GtkColumnViewColumn *panel_list_add(struct panel_list *list, const char *name, int text,
+				    unsigned int flags, int width,
+				    GtkListItemFactory *factory)
+{
+	GtkColumnViewColumn *column = gtk_column_view_column_new(name, factory);
+	GtkCustomSorter *sorter = gtk_custom_sorter_new(flags & PANEL_ICON ? by_tone :
+		flags & PANEL_NUMBER ? by_number : by_text, GINT_TO_POINTER(text), NULL);
+
+	gtk_column_view_column_set_sorter(column, GTK_SORTER(sorter));
+	gtk_column_view_column_set_expand(column, flags & PANEL_EXPAND);
+	gtk_column_view_column_set_resizable(column, !(flags & PANEL_ICON));
+	if (width)
+		gtk_column_view_column_set_fixed_width(column, MAX(width,
+			panel_heading_width(GTK_WIDGET(list->view), name) + HEADING_ROOM));
+	gtk_column_view_append_column(list->view, column);
+	g_object_unref(sorter);
+	g_object_unref(column);
+	return column;
+}
+
+GtkColumnViewColumn *panel_list_column(struct panel_list *list, const char *name,
+				       int text, unsigned int flags, int width)
+{
+	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+	const bool icon = flags & PANEL_ICON;
+
+	g_signal_connect(factory, "setup", G_CALLBACK(icon ? setup_icon :
+			 flags & PANEL_MIDDLE ? setup_middle : setup_label),
+			 GINT_TO_POINTER(text));
+	g_signal_connect(factory, "bind", G_CALLBACK(icon ? bind_icon : bind_label), NULL);
+	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), NULL);
+	return panel_list_add(list, name, text, flags, width, factory);
+}
+
+/* ---- the list ---- */
+
+static gboolean is_wanted(gpointer item, gpointer data)
+{
+	const struct panel_list *list = data;
+
+	return panel_row_matches(item, list->wanted);
+}
+
+void panel_list_init(struct panel_list *list, GtkColumnView *view)
+{
+	GtkSortListModel *sorted;
+
+	list->view = view;
+	list->wanted = g_strdup("");
+	list->store = g_list_store_new(LADDER_TYPE_PANEL_ROW);
+	list->filter = gtk_custom_filter_new(is_wanted, list, NULL);
+	list->filtered = gtk_filter_list_model_new(g_object_ref(G_LIST_MODEL(list->store)),
+						   g_object_ref(GTK_FILTER(list->filter)));
+	sorted = gtk_sort_list_model_new(g_object_ref(G_LIST_MODEL(list->filtered)),
+					 g_object_ref(gtk_column_view_get_sorter(view)));
+	list->selection = gtk_single_selection_new(G_LIST_MODEL(sorted));
+	gtk_single_selection_set_autoselect(list->selection, FALSE);
+	gtk_single_selection_set_can_unselect(list->selection, TRUE);
+	gtk_column_view_set_model(view, GTK_SELECTION_MODEL(list->selection));
+}
+
+void panel_list_clear(struct panel_list *list)
+{
+	g_clear_object(&list->selection);
+	g_clear_object(&list->filtered);
+	g_clear_object(&list->filter);
+	g_clear_object(&list->store);
+	g_clear_pointer(&list->wanted, g_free);
+}
+
+void panel_list_want(struct panel_list *list, const char *wanted)
+{
+	if (g_strcmp0(list->wanted, wanted) == 0)
+		return;
+	g_free(list->wanted);
+	list->wanted = g_strdup(wanted);
+	gtk_filter_changed(GTK_FILTER(list->filter), GTK_FILTER_CHANGE_DIFFERENT);
+}
+
+void panel_list_update(struct panel_list *list, GPtrArray *rows)
+{
+	panel_rows_update(list->store, rows);
+	focus_mend(GTK_WIDGET(list->view));
+}
+
+LadderPanelRow *panel_list_row(struct panel_list *list)
+{
+	return gtk_single_selection_get_selected_item(list->selection);
+}
+
+/* The list inside a column view knows how to scroll; 4.8 has no other way. */
+void panel_show_selected(GtkColumnView *view)
+{
+	GtkSingleSelection *selection = GTK_SINGLE_SELECTION(
+		gtk_column_view_get_model(view));
+	const guint at = gtk_single_selection_get_selected(selection);
+	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(view));
+
+	for (; at != GTK_INVALID_LIST_POSITION && child;
+	     child = gtk_widget_get_next_sibling(child))
+		if (gtk_widget_activate_action(child, "list.scroll-to-item", "u", at))
+			return;
+}
+
+void panel_list_go(struct panel_list *list, guint at)
+{
+	gtk_single_selection_set_selected(list->selection, at);
+	panel_show_selected(list->view);
+}
+
+bool panel_list_select(struct panel_list *list,
+		       bool (*is)(const LadderPanelRow *row, gconstpointer what),
+		       gconstpointer what)
+{
+	GListModel *model = G_LIST_MODEL(list->selection);
+
+	for (guint i = 0; i < g_list_model_get_n_items(model); i++) {
+		LadderPanelRow *row = g_list_model_get_item(model, i);
+		const bool found = is(row, what);
+
+		g_object_unref(row);
+		if (!found)
+			continue;
+		panel_list_go(list, i);
+		return true;
+	}
+	return false;
+}
+
+void panel_go_to(GtkWidget *from, const LadderPanelRow *row)
+{
+	if (!row)
+		return;
+	if (row->table >= 0)
+		gtk_widget_activate_action(from, "win.go-to", "(iiii)", -1, -1, row->table,
+					   row->index);
+	else
+		gtk_widget_activate_action(from, "win.go-to", "(iiii)", row->pou, row->rung,
+					   row->row, row->col);
+}

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_draw - a rung as strokes: wires, elements, marks, live power.
+ *
+ * The strokes of an element are the three characters of its row in catalog.def. It takes
+ * a rung and its layout and knows no widget and no display, so that screen, print,
+ * pictures, palette and tests have one drawing. It evaluates nothing: power is what it
+ * is told.
+ */
+#ifndef EDITOR_GRID_DRAW_H
+#define EDITOR_GRID_DRAW_H
+
+#include "editor-gtk/kit/picture.h"
+#include "editor-gtk/draw/rung_layout.h"
+
+/* What is known of a cell while a program runs. */
+enum live_bit {
+	LIVE_KNOWN = 1,  /* else: not scanned; dotted                           */
+	LIVE_IN = 2,     /* power at its left end                               */
+	LIVE_OUT = 4,    /* and what it lets through                            */
+	LIVE_CLOSED = 8, /* a contact that conducts, a coil whose bit is TRUE     */
+	LIVE_FRESH = 16, /* its value changed within the last second             */
+};
+struct live_value {
+	char text[48];
+	float part;      /* 0 … 1 of its goal, as a bar in a box; below 0: none   */
+};
+/* NULL instead of it: a rung that is edited, all in the ink of idle wire. */
+struct grid_live {
+	const uint8_t *cell; /* enum live_bit, rows * cols of the rung, by row     */
+	/** The value to be shown below an element or inside a box; false: none. NULL: no
+	 * cell has any. */
+	bool (*value)(void *context, int row, int col, struct live_value *out);
+	void *context;
+};
+
+/* Marks of a cell, by row and column as shown. */
+enum mark {
+	MARK_CURSOR = 1,
+	MARK_SELECTED = 2,
+	MARK_DROP = 4,       /* what is dragged may be put here                 */
+	MARK_ILLEGAL = 8,    /* it may not                                      */
+	MARK_ERROR = 16,
+	MARK_WARNING = 32,
+	MARK_FORCED = 64,
+	MARK_FOUND = 128,    /* by a search                                     */
+	MARK_TWICE = 256,    /* written elsewhere too: the last one wins          */
+	MARK_CHANGED = 512,  /* differs, in a comparison                        */
+	MARK_FAILED = 2048,  /* what it does failed in the scan that is shown     */
+	MARK_BLOCKS = 1024,  /* keeps power away; scene.note says why            */
+};
+struct grid_mark { int row, column; unsigned int marks; };
+
+enum rung_state {
+	RUNG_CURRENT = 1,    /* bar at the left                                 */
+	RUNG_SELECTED = 2,
+	RUNG_EDITED = 4,     /* not confirmed yet                               */
+	RUNG_ADDED = 8, RUNG_REMOVED = 16, RUNG_CHANGED = 32, /* in a comparison  */
+	RUNG_MARKED = 128,   /* a bookmark                                      */
+	RUNG_NO_GUTTER = 64, /* paper                                           */
+	RUNG_STILL = 256,    /* nothing is scanned: live, but no power anywhere  */
+	RUNG_ON_GUTTER = 512, /* a sheet, which has drawn the gutter of all       */
+};
+
+struct grid_scene {
+	const struct drafting *drafting;
+	const struct rung_layout *layout;
+	const struct theme *theme;     /* weights; colours come when it is painted */
+	const struct grid_live *live;  /* NULL: not running                       */
+	const struct grid_mark *mark;
+	int mark_count;
+	const bool *takes;             /* cells as shown, by row, that take what is
+					* dragged; NULL: nothing is              */
+	unsigned int state;            /* enum rung_state, or'ed                  */
+	float scale;                   /* device px of a px; 0: any               */
+	/** What stands below a coil on paper ("read in Main 3, 5"), @room px wide in
+	 * LETTER_PIN; NULL: nothing. Owns: the caller of it, g_free. */
+	char *(*reference)(void *context, int row, int col, float room);
+	float reference_from;          /* x: it begins nowhere before it           */
+	/** What a MARK_BLOCKS says of (row, column); NULL: nothing. NULL instead of it:
+	 * none says anything. Owns: the callee. */
+	const char *(*note)(void *context, int row, int column);
+	void *context;
+};
+
+/** grid_draw - the strokes of a rung, added to @picture at its place. */
+void grid_draw(const struct grid_scene *scene, struct picture *picture);
+/** grid_draw_node - the rung as one render node. Owns: the caller,
+ * gsk_render_node_unref. */
+GskRenderNode *grid_draw_node(const struct grid_scene *scene);
+
+/**
+ * grid_draw_icon - an element for the palette, in the middle of @width x @height px
+ * @word: of the catalogue or of a project
+ */
+void grid_draw_icon(const struct word_row *word, const struct theme *theme,
+		    struct lettering *lettering, float width, float height,
+		    struct picture *picture);
+
+#endif

@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_glyph - the three characters of an element as strokes.
+ *
+ * It knows characters and no elements: `|` is a bar, `(` and `)` are arcs, `[` `]`
+ * brackets, `<` `>` arrows; in the middle `/` slants through and a letter is a letter.
+ */
+#include "editor-gtk/draw/grid_pen.h"
+
+#include <glib.h>
+#include <string.h>
+
+#define BAR_HALF    8     /* px from the middle of a contact to its bars         */
+#define COIL_HALF   13
+#define COIL_RADIUS 18
+#define TIP         7     /* of a bracket, an arrow                             */
+
+static void shape_line(const struct pen *pen, const struct glyph *glyph, float x1,
+		       float y1, float x2, float y2)
+{
+	picture_line(pen->picture, glyph->wire.token, STROKE_SOLID, glyph->wire.width,
+		     glyph->x + x1, glyph->y + y1, glyph->x + x2, glyph->y + y2);
+}
+
+/* One stroke at the left (@side -1) or at the right (1). */
+static void side_stroke(const struct pen *pen, const struct glyph *glyph, char stroke,
+			float side)
+{
+	float x = side * glyph->half, up = glyph->up;
+	float opening = side < 0 ? (float)G_PI : 0;
+
+	switch (stroke) {
+	case '|':
+		shape_line(pen, glyph, x, -up, x, up);
+		return;
+	case '(':
+	case ')':
+		picture_arc(pen->picture, glyph->wire.token, glyph->wire.width,
+			    glyph->x + x - side * COIL_RADIUS, glyph->y, COIL_RADIUS,
+			    opening - 0.73f, opening + 0.73f);
+		return;
+	case '<':
+	case '>':
+		up = RUNG_HALF - 2;
+		if ((stroke == '<') == (side < 0)) { /* its point is outside    */
+			shape_line(pen, glyph, x, 0, x - side * TIP, -up);
+			shape_line(pen, glyph, x, 0, x - side * TIP, up);
+		} else {
+			shape_line(pen, glyph, x - side * TIP, 0, x, -up);
+			shape_line(pen, glyph, x - side * TIP, 0, x, up);
+		}
+		return;
+	default: /* brackets, and words such as FOR */
+		shape_line(pen, glyph, x, -up, x, up);
+		shape_line(pen, glyph, x, -up, x - side * TIP, -up);
+		shape_line(pen, glyph, x, up, x - side * TIP, up);
+		return;
+	}
+}
+
+static void fill(const struct pen *pen, const struct glyph *glyph)
+{
+	float alpha = pen->theme->fill;
+
+	if (glyph->strokes[0] == '(')
+		picture_disc(pen->picture, TOKEN_POWER, alpha, glyph->x, glyph->y,
+			     glyph->half);
+	else
+		picture_fill(pen->picture, TOKEN_POWER, alpha, glyph->x - glyph->half,
+			     glyph->y - RUNG_HALF, 2 * glyph->half, 2 * RUNG_HALF);
+}
+
+static void lines_inside(const struct pen *pen, const struct glyph *glyph)
+{
+	float y = glyph->y + 4.5f - (float)(glyph->framed->lines - 1) * FRAMED_LINE / 2;
+
+	for (int i = 0; i < glyph->framed->lines; i++)
+		pen_text(pen, pen->ink, LETTER_OPERAND, glyph->framed->line[i], glyph->x,
+			 y + (float)(i * FRAMED_LINE));
+}
+
+static void middle(const struct pen *pen, const struct glyph *glyph)
+{
+	char letter[2] = { glyph->strokes[1], 0 };
+	const char *text = glyph->inside ? glyph->inside : letter;
+	enum letter kind = glyph->inside ? glyph->letter : LETTER_TYPE;
+
+	if (!glyph->inside && letter[0] == ' ')
+		return;
+	if (!glyph->inside && letter[0] == '/') {
+		float x = glyph->strokes[0] == '(' ? 5 : glyph->half + 1;
+
+		shape_line(pen, glyph, -x, RUNG_HALF - 3, x, 3 - RUNG_HALF);
+		return;
+	}
+	struct lettered fits = lettering_fit(pen->drafting->lettering, kind, text, -1, 0);
+	pen_text(pen, glyph->inside ? pen->ink : glyph->wire.token, kind, fits, glyph->x,
+		 glyph->y + 4.5f);
+}
+
+void glyph_outline(const struct pen *pen, const struct glyph *glyph)
+{
+	side_stroke(pen, glyph, glyph->strokes[0], -1);
+	side_stroke(pen, glyph, glyph->strokes[2], 1);
+}
+
+void glyph_draw(const struct pen *pen, const struct glyph *glyph)
+{
+	if (glyph->lit)
+		fill(pen, glyph);
+	glyph_outline(pen, glyph);
+	if (glyph->framed)
+		lines_inside(pen, glyph);
+	else
+		middle(pen, glyph);
+}
+
+float glyph_half(const struct word_row *word)
+{
+	if (word->glyph[0] == '(')
+		return COIL_HALF;
+	return word->operand == OPND_NONE && word->place == PLACE_SERIES ? 20 : BAR_HALF;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * pages - a project on paper: pages with a title block, rungs, lists, symbols.
+ *
+ * PDF and print have the same pages: both paint them with pages_paint(). It knows no
+ * printer and writes no file.
+ */
+#ifndef EDITOR_PAGES_H
+#define EDITOR_PAGES_H
+
+#include "editor-gtk/kit/picture.h"
+#include "editor-gtk/draw/sheet.h"
+
+struct paper {
+	float width, height;  /* mm                                              */
+	const char *date;     /* as it shall stand there; NULL: none. Nothing here
+				 reads a clock: the same file gives the same pages */
+	bool landscape;
+};
+/** paper_find - "a4", "a3", "a5", "letter", "legal", any case; false: unknown. */
+bool paper_find(const char *name, struct paper *out);
+
+struct pages;
+/**
+ * pages_new - breaks a project into pages
+ * @pou, @rung: index and 1-based number of what alone is wanted; -1 and 0: all
+ * @file:       its name in the title block
+ *
+ * Owns: the caller, pages_free(). @project and @lettering must live as long.
+ */
+struct pages *pages_new(const struct project *project, const char *file, int pou, int rung,
+			enum drafting_show show, const struct paper *paper,
+			struct lettering *lettering);
+void pages_free(struct pages *pages);
+int pages_count(const struct pages *pages);
+/** pages_subject - what a page is of: a POU, the symbols. Borrowed from @pages. */
+const char *pages_subject(const struct pages *pages, int page);
+/** pages_paint - page @page (0-based) upon a surface whose unit is 1/72 inch. */
+void pages_paint(const struct pages *pages, int page, cairo_t *cr);
+
+#endif

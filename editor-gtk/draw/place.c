@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * place - where a cell is, for a person; see place.h.
+ */
+#include "editor-gtk/draw/place.h"
+
+#include "editor-gtk/edit/grid_display.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/draw/rung_layout.h"
+#include "editor-gtk/edit/sfc_lines.h"
+#include "engine/show/sfc_words.h"
+
+#include <glib.h>
+
+#define ALPHABET ('Z' - 'A' + 1)
+
+const char *place_column(int column, char out[PLACE_LETTERS])
+{
+	char *at = out;
+
+	if (column >= ALPHABET)
+		*at++ = (char)('A' + column / ALPHABET - 1);
+	*at++ = (char)('A' + column % ALPHABET);
+	*at = '\0';
+	return out;
+}
+
+static bool holds(const struct sfc_body *body, int rung)
+{
+	return body->kind == BODY_RUNGS && rung >= body->first &&
+	       rung < body->first + body->count;
+}
+
+/* The body of a chart that the rung is in; NULL: none. */
+static const struct sfc_body *body_of(const struct sfc *sfc, int rung)
+{
+	for (int i = 0; i < sfc->transition_count; i++)
+		if (holds(&sfc->transition[i].condition, rung))
+			return &sfc->transition[i].condition;
+	for (int i = 0; i < sfc->action_count; i++)
+		if (holds(&sfc->action[i].body, rung))
+			return &sfc->action[i].body;
+	return NULL;
+}
+
+static void look(struct place_sheet *sheet, const struct project *project, int number,
+		 int rung)
+{
+	const struct pou *pou = &project->pou[number];
+	const struct sfc_body *body = pou->sfc ? body_of(pou->sfc, rung) : NULL;
+
+	if (sheet->project == project && sheet->pou == number && rung >= sheet->first &&
+	    rung < sheet->first + sheet->count)
+		return;
+	*sheet = (struct place_sheet){ project, number, body ? body->first : 0,
+		body ? body->count : pou->rung_count, RUNG_LEAST_COLUMNS };
+	for (int i = sheet->first; i < sheet->first + sheet->count; i++)
+		sheet->columns = grid_display_columns(pou->rung[i], sheet->columns);
+}
+
+int place_shown(struct place_sheet *sheet, const struct project *project, int pou, int rung,
+		int row, int col)
+{
+	const struct rung *shown;
+
+	if (!project || pou < 0 || pou >= project->pou_count || rung < 0 ||
+	    rung >= project->pou[pou].rung_count)
+		return col;
+	shown = project->pou[pou].rung[rung];
+	if (row < 0 || row >= shown->rows || col < 0 || col >= shown->cols)
+		return col;
+	look(sheet, project, pou, rung);
+	return grid_display_column(shown, sheet->columns, row, col);
+}
+
+/* ---- lines ---- */
+
+/* By its name, else by the steps between which it is: it has no number that is seen. */
+static char *transition_text(const struct project *project, const struct sfc *sfc, int index)
+{
+	const char *name = project_text(project, sfc->transition[index].name);
+	struct sink_memory memory;
+	struct sink sink;
+	char *text;
+
+	if (*name)
+		return g_strdup(name);
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	sfc_words_ways(project, sfc, index, &sink);
+	text = g_strdup(sink_memory_text(&memory));
+	sink_memory_free(&memory);
+	return text;
+}
+
+static char *chart_text(const struct project *project, const struct sfc *sfc, const char *pou,
+			int line)
+{
+	const struct sfc_spot spot = sfc_spot_at(project, sfc, line);
+	char *transition, *text;
+	int step = spot.index;
+
+	switch (spot.kind) {
+	case SPOT_USE:
+		step = sfc->use[spot.index].step;
+		/* fall through */
+	case SPOT_STEP:
+		return g_strdup_printf(_("%s, step %s"), pou,
+				       project_text(project, sfc->step[step].name));
+	case SPOT_TRANSITION:
+		transition = transition_text(project, sfc, spot.index);
+		text = g_strdup_printf(_("%s, transition %s"), pou, transition);
+		g_free(transition);
+		return text;
+	case SPOT_ACTION:
+		return g_strdup_printf(_("%s, action %s"), pou,
+				       project_text(project, sfc->action[spot.index].name));
+	case SPOT_CONTROL:
+		return g_strdup_printf("%s, CONTROL", pou);
+	case SPOT_NONE:
+		break;
+	}
+	return g_strdup(pou);
+}
+
+char *place_line(const struct project *project, int pou, int row)
+{
+	const struct pou *of = &project->pou[pou];
+	const char *name = project_text(project, of->name);
+
+	return of->sfc ? chart_text(project, of->sfc, name, of->line + row) :
+			 g_strdup_printf(_("%s, line %d"), name, row + 1);
+}

@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * print - the pages of a project to a printer, and a rung as a picture to the clipboard.
+ *
+ * The pages are those of the PDF (pages.h). It asks nothing by itself: whoever runs the
+ * operation says whether there is a dialog.
+ */
+#ifndef EDITOR_PRINT_H
+#define EDITOR_PRINT_H
+
+#include "editor-gtk/draw/pages.h"
+
+#include <gtk/gtk.h>
+
+/**
+ * print_operation_new - pages for gtk_print_operation_run()
+ * @file: its name in the title block
+ * @pou:  index of what alone is printed; -1: all
+ * @date: in the title block; NULL: none
+ *
+ * @project must live, and not change, until the operation is done. Paper is what the
+ * page setup says. Owns: the caller, g_object_unref.
+ */
+GtkPrintOperation *print_operation_new(const struct project *project, const char *file,
+				       int pou, enum drafting_show show, const char *date);
+
+/**
+ * print_pdf - all pages as a PDF in memory, on the paper that is usual here
+ * @file: its name in the title block
+ * @date: in the title block; NULL: none
+ *
+ * Owns: the caller, g_bytes_unref.   Fails: NULL, there is no memory for it.
+ */
+GBytes *print_pdf(const struct project *project, const char *file,
+		  enum drafting_show show, const char *date);
+
+/**
+ * print_rung_picture - a rung as SVG and PNG, for the clipboard or a drag
+ * @index: of the sheet
+ * @scale: of the PNG
+ *
+ * Owns: the caller, g_object_unref; NULL when there is no such rung.
+ */
+GdkContentProvider *print_rung_picture(const struct sheet *sheet, int index,
+				       const struct theme *theme, float scale);
+/** print_rung_svg, print_rung_png - the bytes of those. Owns: the caller, g_bytes_unref;
+ * a PNG is NULL when there is no memory for one so large. */
+GBytes *print_rung_svg(const struct sheet *sheet, int index, const struct theme *theme);
+GBytes *print_rung_png(const struct sheet *sheet, int index, const struct theme *theme,
+		       float scale);
+
+#endif

@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rung_box - pins and sizes of boxes; see rung_box.h. The order of pins is that of
+ * view/show_box.c.
+ */
+#include "editor-gtk/draw/rung_box.h"
+#include "engine/model/args.h"
+
+#include <glib.h>
+#include <string.h>
+#include <strings.h>
+
+#define VALUE_BOUND 180   /* px of what is written at a pin; on paper more   */
+#define NAME_BOUND  140   /* px of a pin; of a box twice, on paper four times     */
+#define PADDING     6     /* between a side and what stands inside              */
+#define LEAST_INNER 70
+#define VALUE_INNER 86 /* "12.5/20.0 s" has room                          */
+#define LEAD        14    /* of a side with nothing connected                   */
+
+int rung_box_top(const struct project *project, const struct rung *rung, int row, int col)
+{
+	const struct word_table *words = &project->words;
+
+	while (row > 0 &&
+	       words_row(words, rung_at(rung, row, col)->word)->place == PLACE_PIN)
+		row--;
+	return words_row(words, rung_at(rung, row, col)->word)->kind == WORD_ELEM ? -1 :
+										  row;
+}
+
+static bool same_name(const char *a, size_t a_len, const char *b, size_t b_len)
+{
+	return a_len == b_len && strncasecmp(a, b, a_len) == 0;
+}
+
+static bool side_has(const struct rung_side *side, const char *name, size_t len)
+{
+	for (int i = 0; i < side->count; i++)
+		if (same_name(side->pin[i].name, side->pin[i].name_len, name, len))
+			return true;
+	return false;
+}
+
+static float value_most(const struct drafting *drafting)
+{
+	return drafting->all_comments ? 2.5f * VALUE_BOUND : VALUE_BOUND;
+}
+
+static void side_add(const struct drafting *drafting, struct rung_side *side,
+		     struct rung_pin pin)
+{
+	struct lettering *lettering = drafting->lettering;
+
+	if (side->count == BOX_PIN_MOST) {
+		side->cut = true;
+		return;
+	}
+	side->pin[side->count++] = pin;
+	side->others += !pin.power;
+	side->name_width = MAX(side->name_width,
+			       lettering_fit(lettering, LETTER_PIN, pin.name,
+					     (ptrdiff_t)pin.name_len, NAME_BOUND).width);
+	if (pin.value)
+		side->value_width = MAX(side->value_width,
+			lettering_fit(lettering, LETTER_OPERAND, pin.value,
+				      (ptrdiff_t)pin.value_len,
+				      value_most(drafting)).width);
+}
+
+static void add_power(const struct drafting *drafting, struct rung_side *side,
+		      const char *name)
+{
+	side_add(drafting, side, (struct rung_pin){ .name = name, .power = true,
+						    .name_len = strlen(name) });
+}
+
+/* A pin of the row, with the value written for it if there is one. */
+static void add_named(const struct drafting *drafting, struct rung_box *box, bool output,
+		      const char *name)
+{
+	struct rung_pin pin = { .name = name, .name_len = strlen(name) };
+	const char *at = project_text(drafting->project, box->cell->args);
+	struct arg arg;
+
+	while (args_next(&at, &arg))
+		if (arg.output == output &&
+		    same_name(arg.pin, arg.pin_len, name, pin.name_len)) {
+			pin.value = arg.value;
+			pin.value_len = arg.value_len;
+			pin.inverse = arg.inverse;
+			break;
+		}
+	side_add(drafting, output ? &box->out : &box->in, pin);
+}
+
+/* What was written at pins that the row does not list: IN3, mistakes, and a parameter
+ * at a pin that carries power. */
+static void add_others(const struct drafting *drafting, struct rung_box *box)
+{
+	const char *at = project_text(drafting->project, box->cell->args);
+	struct arg arg;
+
+	while (args_next(&at, &arg)) {
+		struct rung_side *side = arg.output ? &box->out : &box->in;
+		bool shown = false;
+
+		for (int i = 0; i < side->count; i++)
+			shown |= side->pin[i].value == arg.value;
+		if (!shown)
+			side_add(drafting, side, (struct rung_pin){
+				.name = arg.pin, .name_len = arg.pin_len,
+				.value = arg.value, .value_len = arg.value_len,
+				.inverse = arg.inverse });
+	}
+}
+
+static const char *power_pin(const struct word_row *row, enum pin_dir dir)
+{
+	if (row->kind == WORD_FN)
+		return dir == PIN_IN ? "EN" : "ENO";
+	int pin = word_first_bool(row, dir);
+	return pin < 0 ? dir == PIN_IN ? "EN" : "ENO" : row->pin[pin].name;
+}
+
+static void add_pins(const struct drafting *drafting, struct rung_box *box)
+{
+	const struct word_row *row = box->row;
+
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+		bool output = pin->dir == PIN_OUT;
+		struct rung_side *side = output ? &box->out : &box->in;
+
+		if (pin->dir != PIN_VAR && pin->dir != PIN_NONE &&
+		    !side_has(side, pin->name, strlen(pin->name)))
+			add_named(drafting, box, output, pin->name);
+		box->value |= row->kind == WORD_FB && output && pin->type != IEC_BOOL;
+	}
+	if (row->kind == WORD_FN && !word_is_test(row))
+		add_named(drafting, box, true, "OUT");
+	add_others(drafting, box);
+}
+
+static float width_of(const struct drafting *drafting, enum letter letter,
+		      const char *text, float bound)
+{
+	return lettering_fit(drafting->lettering, letter, text, -1, bound).width;
+}
+
+static void measure(const struct drafting *drafting, struct rung_box *box)
+{
+	const char *instance = project_text(drafting->project, box->cell->operand);
+	float names = box->in.name_width + 14 + box->out.name_width;
+	float type = width_of(drafting, LETTER_TYPE, box->row->word, 2 * NAME_BOUND);
+	float value = box->in.value_width, result = box->out.value_width;
+
+	box->inner = MAX(MAX(names, type) + 2 * PADDING,
+			 box->value ? VALUE_INNER : LEAST_INNER);
+	box->lead = value > 0 ? value + BOX_STUB + 10 : LEAD;
+	box->tail = result > 0 ? result + BOX_STUB + 10 : LEAD;
+	/* Its name stands above the middle, whatever is connected on either side. */
+	float name = width_of(drafting, LETTER_SYMBOL, instance, box->name_most) / 2 + 4;
+	box->left = MAX(box->lead + box->inner / 2, name);
+	box->right = MAX(box->inner / 2 + box->tail, name);
+}
+
+void rung_box_make(const struct drafting *drafting, const struct rung *rung, int row,
+		   int col, struct rung_box *box)
+{
+	memset(box, 0, sizeof(*box));
+	box->cell = rung_at(rung, row, col);
+	box->row = words_row(&drafting->project->words, box->cell->word);
+	box->top = row;
+	box->last = row + rung_height(rung, row, col) - 1;
+	box->col = col;
+	box->name_most = (drafting->all_comments ? 4 : 2) * NAME_BOUND;
+	box->value_most = value_most(drafting);
+	add_power(drafting, &box->in, power_pin(box->row, PIN_IN));
+	add_power(drafting, &box->out, power_pin(box->row, PIN_OUT));
+	for (int r = row + 1; r <= box->last; r++)
+		add_power(drafting, &box->in,
+			  project_text(drafting->project, rung_at(rung, r, col)->operand));
+	add_pins(drafting, box);
+	measure(drafting, box);
+}
+
+void rung_box_place(struct rung_box *box, const struct rung_row *row, float column_x,
+		    float column_width)
+{
+	float first = row[box->top].wire, last = row[box->last].wire - first;
+	int powered = box->in.count - box->in.others;
+
+	for (int i = 0; i < box->in.count; i++)
+		box->in.pin[i].y = i < powered ? row[box->top + i].wire - first :
+				   last + (float)(i - powered + 1) * BOX_LINE;
+	for (int i = 0; i < box->out.count; i++)
+		box->out.pin[i].y = (float)i * BOX_LINE;
+	float left = last + (float)box->in.others * BOX_LINE;
+	float right = (float)(box->out.count - 1) * BOX_LINE;
+	box->bottom = MAX(left, right) + BOX_BELOW + (box->value ? BOX_VALUE : 0);
+	box->x = column_x + box->left - box->inner / 2 +
+		 (column_width - box->left - box->right) / 2;
+}

@@ -1,0 +1,347 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rung_layout - measuring a rung and placing its rows and columns; see rung_layout.h.
+ * What stands at a point is rung_hit.c.
+ */
+#include "editor-gtk/draw/rung_layout.h"
+#include "editor-gtk/edit/grid_display.h"
+#include "editor-gtk/draw/rung_box.h"
+#include "editor-gtk/draw/rung_text.h"
+
+#include <glib.h>
+#include <string.h>
+
+#define TITLE_HEIGHT 36   /* above the rows                                     */
+#define BARE_HEIGHT  14   /* of a rung without title and comment                */
+#define TITLE_LINE   24   /* baseline of the title                              */
+#define COMMENT_LINE 17
+#define SHORT_LINES  3    /* of a title, of a comment, on the screen             */
+#define BELOW        9
+#define BESIDE       16   /* px of air round a name                             */
+#define BOX_AIR      18   /* below a box: its marks stand there                 */
+
+static const struct word_row *word_at(const struct drafting *drafting,
+				      const struct rung *rung, int row, int col)
+{
+	return words_row(&drafting->project->words, rung_at(rung, row, col)->word);
+}
+
+static enum place place_at(const struct rung *rung, int row, int col)
+{
+	return word_row(rung_at(rung, row, col)->word)->place;
+}
+
+static bool linked_behind(const struct rung *rung, int row, int bar)
+{
+	for (; bar <= rung->cols; bar++)
+		if (rung_at(rung, row, bar - 1)->link ||
+		    (row + 1 < rung->rows && rung_at(rung, row + 1, bar - 1)->link))
+			return true;
+	return false;
+}
+
+/* The last element of a row if it stands free, so that nothing is joined behind it; -1:
+ * there is none. */
+static int free_end(const struct rung *rung, int row)
+{
+	int col = rung->cols - 1;
+
+	while (col >= 0 && place_at(rung, row, col) == PLACE_NONE)
+		col--;
+	return col < 0 || linked_behind(rung, row, col + 1) ? -1 : col;
+}
+
+int rung_layout_columns(const struct rung *rung)
+{
+	return grid_display_columns(rung, RUNG_LEAST_COLUMNS);
+}
+
+int rung_layout_column(const struct rung_layout *layout, int row, int col)
+{
+	return row < layout->rung->rows && col == layout->row[row].output ?
+	       layout->columns - 1 : col;
+}
+
+int rung_layout_col(const struct rung_layout *layout, int row, int column)
+{
+	if (row >= layout->rung->rows)
+		return -1;
+	int output = layout->row[row].output;
+	if (output >= 0 && column == layout->columns - 1)
+		return output;
+	if (output >= 0 && column >= output)
+		return -1;
+	return column < layout->rung->cols ? column : -1;
+}
+
+bool rung_layout_wired(const struct rung_layout *layout, int row, int column)
+{
+	if (row >= layout->rung->rows)
+		return false;
+	const struct rung_row *r = &layout->row[row];
+	int col = rung_layout_col(layout, row, column);
+	if (col >= 0 && place_at(layout->rung, row, col) == PLACE_WIRE)
+		return true;
+	return (r->output >= 0 && column >= r->output && column < layout->columns - 1) ||
+	       (r->trail >= 0 && column > r->trail);
+}
+
+/* ---- widths ---- */
+
+static float names_width(const struct drafting *drafting, const struct cell *cell)
+{
+	struct rung_label label = rung_label(drafting, cell);
+
+	return MAX(label.symbol.width, label.address.width);
+}
+
+static float element_width(const struct drafting *drafting, const struct rung *rung,
+			   int row, int col)
+{
+	const struct word_row *word = word_at(drafting, rung, row, col);
+	const struct cell *cell = rung_at(rung, row, col);
+	struct rung_box box;
+
+	if (word->kind != WORD_ELEM) {
+		rung_box_make(drafting, rung, row, col, &box);
+		return box.left + box.right;
+	}
+	if (word->place == PLACE_NONE || word->place == PLACE_WIRE ||
+	    word->place == PLACE_PIN)
+		return 0;
+	float need = rung_is_framed(word) ?
+		rung_framed(drafting, cell).width + 2 * FRAMED_SIDE + BESIDE :
+		names_width(drafting, cell);
+	if (drafting->all_comments)
+		need = MAX(need, rung_element_comment(drafting, cell, LABEL_BOUND).width +
+				 2 * drafting->beside);
+	return need + BESIDE;
+}
+
+static void measure_columns(const struct drafting *drafting, struct rung_layout *layout)
+{
+	const struct rung *rung = layout->rung;
+
+	for (int d = 0; d < layout->columns; d++)
+		layout->column_width[d] = RUNG_CELL_WIDTH;
+	for (int row = 0; row < rung->rows; row++)
+		for (int col = 0; col < rung->cols; col++) {
+			int d = rung_layout_column(layout, row, col);
+			float need;
+
+			if (rung_at(rung, row, col)->word == ELEM_EMPTY ||
+			    d >= layout->columns)
+				continue;
+			need = element_width(drafting, rung, row, col);
+			if (need > layout->column_width[d])
+				layout->column_width[d] = need;
+		}
+	layout->natural = 0;
+	for (int d = 0; d < layout->columns; d++)
+		layout->natural += layout->column_width[d];
+}
+
+/* ---- heights ---- */
+
+/* How far below the wire of @row boxes reach that end there. */
+static float box_reach(const struct drafting *drafting, const struct rung_layout *layout,
+		       int row)
+{
+	const struct rung *rung = layout->rung;
+	float most = 0;
+
+	for (int col = 0; col < rung->cols; col++) {
+		struct rung_box box;
+		int top;
+
+		if (word_row(rung_at(rung, row, col)->word)->kind == WORD_ELEM &&
+		    place_at(rung, row, col) != PLACE_PIN)
+			continue;
+		top = rung_box_top(drafting->project, rung, row, col);
+		if (top < 0 || top + rung_height(rung, top, col) - 1 != row)
+			continue;
+		rung_box_make(drafting, rung, top, col, &box);
+		rung_box_place(&box, layout->row, 0, 0);
+		float reach = box.bottom - (layout->row[row].wire - layout->row[top].wire);
+		most = MAX(most, reach);
+	}
+	return most;
+}
+
+static void measure_row(const struct drafting *drafting, struct rung_layout *layout,
+			int row, float y)
+{
+	struct rung_row *r = &layout->row[row];
+	float below = RUNG_CELL_HEIGHT - RUNG_WIRE;
+
+	r->y = y;
+	r->wire = y + RUNG_WIRE;
+	if (row < layout->rung->rows) {
+		float reach = box_reach(drafting, layout, row);
+
+		if (reach > 0)
+			below = MAX(below, reach + BOX_AIR);
+		for (int col = 0; col < layout->rung->cols; col++)
+			r->addressed |= *rung_label(drafting, rung_at(layout->rung, row,
+								      col)).address.text;
+	}
+	r->height = RUNG_WIRE + below;
+}
+
+static void find_ends(struct rung_layout *layout)
+{
+	const struct rung *rung = layout->rung;
+
+	for (int row = 0; row < layout->rows; row++) {
+		struct rung_row *r = &layout->row[row];
+
+		r->output = r->trail = -1;
+		if (row >= rung->rows)
+			continue;
+		r->output = grid_display_output(rung, row);
+		int end = free_end(rung, row);
+		if (r->output < 0 && end >= 0 && place_at(rung, row, end) == PLACE_BOX)
+			r->trail = end;
+	}
+}
+
+/* A short title alone need not be measured: no letter is wider than high by a third. */
+static bool has_short_heading(const struct drafting *drafting, const struct rung *rung,
+			      float room)
+{
+	const char *title = project_text(drafting->project, rung->title);
+	const float size = letter_style(LETTER_TITLE)->size;
+
+	return !rung->comment &&
+	       (!rung->title || (!rung->label && (float)strlen(title) * size * 4 / 3 < room));
+}
+
+static void break_heading(const struct drafting *drafting, struct rung_layout *layout,
+			  const struct rung_heading *heading)
+{
+	const char *title = project_text(drafting->project, layout->rung->title);
+	const float room = layout->heading_room;
+	const int most = drafting->all_comments ? 1000 : SHORT_LINES;
+
+	if (layout->rung->title && heading->indent + heading->title.width > room) {
+		layout->title_lines = rung_lines(drafting, LETTER_TITLE, title,
+						 room - heading->indent, most, NULL, NULL);
+		layout->top += (float)((layout->title_lines - 1) * TITLE_STEP);
+	}
+	if (*heading->comment &&
+	    (layout->title_lines || heading->comment_width + heading->width > room)) {
+		layout->comment_lines = rung_lines(drafting, LETTER_COMMENT,
+						   heading->comment, room, most, NULL, NULL);
+		/* Without a title the first line stands where that would. */
+		int more = layout->comment_lines - (heading->width > 0 ? 0 : 1);
+		layout->top += (float)(more * COMMENT_LINE);
+	}
+}
+
+static void measure_title(const struct drafting *drafting, struct rung_layout *layout)
+{
+	const struct rung *rung = layout->rung;
+	struct rung_heading heading;
+	float room = MAX(layout->natural, drafting->width);
+
+	if (drafting->most > 0)
+		room = MIN(room, drafting->most);
+	layout->heading_room = room;
+	layout->title_y = TITLE_LINE;
+	layout->top = rung->label || rung->title || rung->comment ? TITLE_HEIGHT :
+								    BARE_HEIGHT;
+	if (has_short_heading(drafting, rung, room))
+		return;
+	heading = rung_heading(drafting, rung);
+	break_heading(drafting, layout, &heading);
+	g_free(heading.comment);
+}
+
+static void place_columns(struct rung_layout *layout)
+{
+	int last = layout->columns - 1;
+	float x = RUNG_LEFT;
+
+	for (int d = 0; d < last; d++) {
+		layout->column_x[d] = x;
+		x += layout->column_width[d];
+	}
+	layout->column_x[last] = layout->right - layout->column_width[last];
+}
+
+struct rung_layout *rung_layout_new(const struct drafting *drafting,
+				    const struct rung *rung, int number, int rows)
+{
+	int shown = MAX(rows, rung->rows), columns = MAX(drafting->columns,
+							 RUNG_LEAST_COLUMNS);
+	struct rung_layout *layout;
+
+	columns = MAX(columns, rung_layout_columns(rung));
+	layout = g_malloc0(sizeof(*layout) + (size_t)shown * sizeof(struct rung_row) +
+			   (size_t)columns * 2 * sizeof(float));
+	layout->row = (struct rung_row *)(layout + 1);
+	layout->column_x = (float *)(layout->row + shown);
+	layout->column_width = layout->column_x + columns;
+	layout->rung = rung;
+	layout->number = number;
+	layout->rows = shown;
+	layout->columns = columns;
+	find_ends(layout);
+	measure_columns(drafting, layout);
+	measure_title(drafting, layout);
+	float y = layout->top;
+	for (int row = 0; row < shown; row++) {
+		measure_row(drafting, layout, row, y);
+		y += layout->row[row].height;
+	}
+	layout->height = y + BELOW;
+	rung_layout_stretch(layout, drafting->width);
+	return layout;
+}
+
+void rung_layout_free(struct rung_layout *layout)
+{
+	g_free(layout);
+}
+
+void rung_layout_stretch(struct rung_layout *layout, float width)
+{
+	layout->right = RUNG_LEFT + MAX(width, layout->natural);
+	place_columns(layout);
+}
+
+float rung_layout_width(const struct rung_layout *layout)
+{
+	return layout->right + RUNG_AFTER;
+}
+
+float rung_layout_bar(const struct rung_layout *layout, int row, int bar)
+{
+	int last = layout->columns - 1;
+
+	if (bar == 0)
+		return RUNG_LEFT;
+	if (row < layout->rung->rows && bar == layout->row[row].output + 1 &&
+	    layout->row[row].output >= 0)
+		return layout->right;
+	if (bar > last)
+		return layout->right;
+	return layout->column_x[bar - 1] + layout->column_width[bar - 1];
+}
+
+graphene_rect_t rung_layout_title(const struct rung_layout *layout)
+{
+	return GRAPHENE_RECT_INIT(RUNG_GUTTER, 0, layout->right - RUNG_GUTTER, layout->top);
+}
+
+graphene_rect_t rung_layout_number(const struct rung_layout *layout)
+{
+	return GRAPHENE_RECT_INIT(0, 0, RUNG_GUTTER, layout->height);
+}
+
+float rung_layout_label(const struct drafting *drafting, const struct cell *cell)
+{
+	const struct rung_label label = rung_label(drafting, cell);
+
+	return MAX(label.symbol.width, label.address.width);
+}

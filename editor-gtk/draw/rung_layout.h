@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rung_layout - where everything of a rung stands, and what stands at a point.
+ *
+ * A rung is laid out by itself; rungs of one sheet then get the same right rail
+ * (rung_layout_stretch). Places are px at 100 %, from the upper left corner of the
+ * rung's strip; zoom is the business of whoever draws. It draws nothing and changes
+ * nothing.
+ *
+ * Columns are those that people see (grid_display.h): `columns` of them, and of a row
+ * whose last element is an output that element stands in the last one, with wire
+ * stretched up to it. Rows are those of the rung, and empty ones below.
+ */
+#ifndef EDITOR_RUNG_LAYOUT_H
+#define EDITOR_RUNG_LAYOUT_H
+
+#include "editor-gtk/draw/grid_names.h"
+#include "editor-gtk/kit/lettering.h"
+
+#include <graphene.h>
+
+/* px at 100 % */
+#define RUNG_GUTTER      46     /* below the number                             */
+#define RUNG_LEFT        61     /* x of the left rail                           */
+#define RUNG_AFTER       24     /* behind the right rail                        */
+#define RUNG_CELL_WIDTH  98
+#define RUNG_CELL_HEIGHT 84
+#define RUNG_WIRE        46     /* of a row: from its top to its wire           */
+#define RUNG_HALF        12     /* half the height of a contact                 */
+#define RUNG_LEAST_COLUMNS 6
+
+enum drafting_show { SHOW_BOTH, SHOW_SYMBOLS, SHOW_ADDRESSES };
+
+/* What layouts and drawings of one sheet share. All of it is borrowed. */
+struct drafting {
+	const struct project *project;
+	const struct grid_names *names; /* of the POU                          */
+	struct lettering *lettering;
+	enum drafting_show show;
+	bool comments;     /* also comments of declarations, below elements     */
+	bool all_comments; /* of rungs, however long, and long names: for paper   */
+	float beside;      /* px that comments leave free at both sides: for marks */
+	int columns;       /* of the sheet: rung_layout_columns() of its rungs   */
+	float width;       /* px from rail to rail at least; 0: as natural      */
+	float most;        /* px of a line above a rung; 0: from rail to rail    */
+};
+
+struct rung_row {
+	float y, height, wire;
+	int output;        /* col whose element stands in the last column; -1    */
+	int trail;         /* col from which power runs on to the right rail; -1 */
+	bool addressed;    /* an element of it has an address to show           */
+};
+
+struct rung_layout {
+	const struct rung *rung; /* borrowed                                    */
+	int number;              /* 1-based                                     */
+	int rows, columns;       /* as shown                                    */
+	float right;             /* x of the right rail                         */
+	float natural;           /* least distance of the rails                 */
+	float top;               /* y of the first row                          */
+	float height;            /* of the whole strip                          */
+	float title_y;           /* baseline of title and number                */
+	int title_lines;         /* 0: one, or no title                         */
+	int comment_lines;       /* below the title; 0: it stands beside it      */
+	float heading_room;      /* px from the rail on of such lines           */
+	float *column_x, *column_width; /* of the columns                       */
+	struct rung_row *row;
+};
+
+/** rung_layout_columns - columns a rung needs on a sheet, at least RUNG_LEAST_COLUMNS. */
+int rung_layout_columns(const struct rung *rung);
+
+/**
+ * rung_layout_new - lays a rung out
+ * @number: as it is shown, from 1
+ * @rows:   rows to show at least; empty ones follow those of the rung. 0: as it has
+ *
+ * Owns: the caller, rung_layout_free(); @rung must live as long. Units: px.
+ */
+struct rung_layout *rung_layout_new(const struct drafting *drafting,
+				    const struct rung *rung, int number, int rows);
+void rung_layout_free(struct rung_layout *layout);
+/** rung_layout_stretch - right rail @width from the left one; not less than natural. */
+void rung_layout_stretch(struct rung_layout *layout, float width);
+/** rung_layout_width - of the whole strip, with gutter and margin. */
+float rung_layout_width(const struct rung_layout *layout);
+
+/** rung_layout_column - the column in which cell (row, col) of the rung stands. */
+int rung_layout_column(const struct rung_layout *layout, int row, int col);
+/** rung_layout_col - the rung's col that stands in @column; -1: wire that was stretched,
+ * or nothing. */
+int rung_layout_col(const struct rung_layout *layout, int row, int column);
+/** rung_layout_wired - is (row, column) on wire that leads on to an output or the rail? */
+bool rung_layout_wired(const struct rung_layout *layout, int row, int column);
+/** rung_layout_bar - x of bar @bar (0 … cols) of the rung. */
+float rung_layout_bar(const struct rung_layout *layout, int row, int bar);
+
+/** rung_layout_cell - the rectangle of (row, column); of a box with its pin rows, all of
+ * it: for the cursor, for accessibility, for what pops up there. */
+graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int column);
+/** rung_layout_title, rung_layout_number - theirs. */
+graphene_rect_t rung_layout_title(const struct rung_layout *layout);
+graphene_rect_t rung_layout_number(const struct rung_layout *layout);
+
+/** rung_layout_label - how wide what stands above an element is. */
+float rung_layout_label(const struct drafting *drafting, const struct cell *cell);
+
+enum rung_part {
+	RUNG_PART_NONE,
+	RUNG_PART_NUMBER,  /* the gutter                                        */
+	RUNG_PART_TITLE,
+	RUNG_PART_CELL,    /* row, column                                       */
+	RUNG_PART_WIRE,    /* the same, within reach of its wire                 */
+	RUNG_PART_LINK,    /* the wire between row and row - 1 at the right end of column */
+	RUNG_PART_PIN,     /* the same, and pin, output                          */
+};
+struct rung_hit {
+	enum rung_part part;
+	int row, column;   /* 0-based                                           */
+	int pin;           /* index in struct rung_box; -1: none                */
+	bool output;
+	const char *name;  /* of the pin, borrowed, not NUL-ended              */
+	size_t name_len;
+};
+/** rung_layout_hit - what stands at a point. */
+struct rung_hit rung_layout_hit(const struct drafting *drafting,
+				const struct rung_layout *layout, float x, float y);
+
+/* Ends of cells: bar b is the left end of column b, 0 … columns - 1. */
+/** rung_layout_end_x - x of such a bar. */
+float rung_layout_end_x(const struct rung_layout *layout, int bar);
+/** rung_layout_nearest - the end nearest to a point; below all rows: the next row. */
+void rung_layout_nearest(const struct rung_layout *layout, float x, float y, int *row,
+			 int *bar);
+/** rung_layout_end - the end at which a pointer there would begin a wire: beside an
+ * element, on wire, at the end of an empty cell. False: it would not. */
+bool rung_layout_end(const struct drafting *drafting, const struct rung_layout *layout,
+		     float x, float y, int *row, int *bar);
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * rung_text - which texts stand at an element and above a rung.
+ *
+ * Measured and cut to their bounds, so that layout and drawing say the same. It knows no
+ * places.
+ */
+#ifndef EDITOR_RUNG_TEXT_H
+#define EDITOR_RUNG_TEXT_H
+
+#include "editor-gtk/draw/rung_layout.h"
+
+#define LABEL_BOUND  230   /* px of a name                                      */
+#define FRAMED_BOUND 420   /* px of a line of an expression                     */
+#define FRAMED_LINES 4     /* they fit into a row of common height, with a mark  */
+#define FRAMED_LINE  15    /* px from one to the next                           */
+#define TITLE_AIR    10    /* px behind a label or a title                      */
+#define TITLE_STEP   18    /* px from a line of a title to the next             */
+#define FRAMED_SIDE  12    /* px between its text and the outside of a bracket    */
+
+/* What stands above a contact, coil or box. "" and 0 for nothing. */
+struct rung_label { struct lettered symbol, address; };
+struct rung_label rung_label(const struct drafting *drafting, const struct cell *cell);
+/** rung_element_comment - what stands below it; "" for nothing. @room: px. */
+struct lettered rung_element_comment(const struct drafting *drafting,
+				     const struct cell *cell, float room);
+
+/** rung_is_framed - is it drawn as text between strokes: [ a > b ], >> Label? */
+bool rung_is_framed(const struct word_row *word);
+/** rung_framed - that text, in lines; what is longer ends in an ellipsis. */
+struct rung_framed {
+	struct lettered line[FRAMED_LINES];
+	int lines;
+	float width;         /* of the widest                                   */
+	float up;            /* from the wire to the upper end of its strokes    */
+};
+struct rung_framed rung_framed(const struct drafting *drafting, const struct cell *cell);
+
+/* What stands above a rung. */
+struct rung_heading {
+	struct lettered label, title;
+	float indent;        /* px from the rail to the title: behind the label   */
+	float width;         /* of both in one line, with air; 0: neither         */
+	char *comment;       /* one line, without delimiters; owned: g_free      */
+	float comment_width;
+};
+struct rung_heading rung_heading(const struct drafting *drafting, const struct rung *rung);
+/**
+ * rung_lines - breaks a comment or a title into lines of @width px
+ * @take: is handed each of them; NULL: they are only counted
+ * Returns how many; of more than @most the last one ends in an ellipsis.
+ */
+int rung_lines(const struct drafting *drafting, enum letter letter, const char *text,
+	       float width, int most,
+	       void (*take)(void *context, int line, struct lettered text),
+	       void *context);
+
+#endif

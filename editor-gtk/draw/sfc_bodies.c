@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_bodies - what stands below a chart; see sfc_bodies.h.
+ */
+#include "editor-gtk/draw/sfc_bodies.h"
+#include "editor-gtk/kit/i18n.h"
+#include "engine/show/sfc_words.h"
+
+#include <glib.h>
+
+static char *transition_heading(const struct project *project, const struct sfc *sfc,
+				int transition)
+{
+	const char *name = project_text(project, sfc->transition[transition].name);
+	struct sink_memory memory;
+	struct sink sink;
+	char *heading;
+
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	sfc_words_ways(project, sfc, transition, &sink);
+	heading = *name ? g_strdup_printf(_("Condition %s: %s"), name,
+					  sink_memory_text(&memory)) :
+			  g_strdup_printf(_("Condition: %s"), sink_memory_text(&memory));
+	sink_memory_free(&memory);
+	return heading;
+}
+
+struct sfc_part_body *sfc_bodies_new(const struct project *project, const struct pou *pou,
+				     int *count)
+{
+	const struct sfc *sfc = pou->sfc;
+	struct sfc_part_body *bodies = g_new0(struct sfc_part_body,
+					      sfc->transition_count + sfc->action_count +
+					      1);
+
+	*count = 0;
+	for (int i = 0; i < sfc->transition_count; i++) {
+		const struct sfc_body *body = &sfc->transition[i].condition;
+
+		if (body->kind == BODY_RUNGS || body->kind == BODY_LIST)
+			bodies[(*count)++] = (struct sfc_part_body){
+				body, i, -1, transition_heading(project, sfc, i) };
+	}
+	for (int i = 0; i < sfc->action_count; i++)
+		bodies[(*count)++] = (struct sfc_part_body){
+			&sfc->action[i].body, -1, i,
+			g_strdup_printf(_("Action %s"),
+					project_text(project, sfc->action[i].name)) };
+	return bodies;
+}
+
+void sfc_bodies_free(struct sfc_part_body *bodies, int count)
+{
+	for (int i = 0; i < count; i++)
+		g_free(bodies[i].heading);
+	g_free(bodies);
+}
+
+char *sfc_body_heading(const struct project *project, const struct pou *pou, int first,
+		       int *count)
+{
+	const struct sfc *sfc = pou->sfc;
+
+	*count = 0;
+	for (int i = 0; sfc && i < sfc_bodies(sfc); i++) {
+		const struct sfc_body *body = sfc_body(sfc, i);
+
+		if (body->kind == BODY_LIST || body->count == 0 || body->first != first)
+			continue;
+		*count = body->count;
+		return i < sfc->transition_count ? transition_heading(project, sfc, i) :
+		       g_strdup_printf(_("Action %s"), project_text(project,
+				sfc->action[i - sfc->transition_count].name));
+	}
+	return NULL;
+}
+
+char **sfc_body_lines(const struct project *project, const struct pou *pou,
+		      const struct sfc_body *body)
+{
+	struct sink_memory memory;
+	struct sink sink;
+	char **lines, *text;
+
+	sink_memory_init(&memory);
+	sink = sink_to_memory(&memory);
+	sfc_words_list(project, pou, body, &sink);
+	text = g_strchomp(g_strdup(sink_memory_text(&memory)));
+	lines = g_strsplit(text, "\n", -1);
+	g_free(text);
+	sink_memory_free(&memory);
+	return lines;
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sheet - the rungs of one POU laid out below one another, with one right rail.
+ *
+ * For pictures and paper, where nothing changes. The view has strips of its own that are
+ * laid out as they are seen. It draws nothing.
+ */
+#ifndef EDITOR_SHEET_H
+#define EDITOR_SHEET_H
+
+#include "editor-gtk/draw/rung_layout.h"
+
+#include <glib.h>
+
+struct sheet {
+	struct drafting drafting;     /* change it only before sheet_layout()    */
+	const struct pou *pou;        /* borrowed                                */
+	struct rung_layout **rung;
+	float *y;                     /* count + 1: where each begins, the end    */
+	int count;
+	float most;                   /* px from rail to rail; 0: any. A rung that needs
+					 more has a width and columns of its own */
+	float rails;                  /* px from rail to rail                    */
+	float width, height;          /* px at 100 %                             */
+};
+
+/**
+ * sheet_new - of a POU in LD
+ * @lettering: borrowed
+ *
+ * Owns: the caller, sheet_free(). Nothing is laid out before sheet_layout().
+ */
+struct sheet *sheet_new(const struct project *project, const struct pou *pou,
+			struct lettering *lettering);
+void sheet_free(struct sheet *sheet);
+/** sheet_layout - lays out all rungs: after sheet_new(), or when something of
+ * sheet->drafting or sheet->most was set. The width of drafting is a least one. */
+void sheet_layout(struct sheet *sheet);
+/** sheet_is_wide - does a rung need more than the most there is for all? */
+bool sheet_is_wide(const struct sheet *sheet, int index);
+/** sheet_remarks - what no element of a rung has the room for: comments that end in an
+ * ellipsis there, whole, a line each, with their place. @lines: char *, g_free */
+void sheet_remarks(const struct sheet *sheet, int index, GPtrArray *lines);
+
+#endif

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry - quick entry: what a line typed at the cursor means, and what could be meant.
+ *
+ * Mnemonics of all dialects, a plain name, an address in any spelling, an expression.
+ * It says what would happen and does nothing: cells are put by grid_edit, variables
+ * declared by the document, only from what struct entry names. It prints nothing.
+ */
+#ifndef EDITOR_ENTRY_H
+#define EDITOR_ENTRY_H
+
+#include "engine/xref/xref.h"
+
+#define ENTRY_TEXT 1024  /* bytes of an operand or of parameters, with NUL      */
+#define ENTRY_NAME 320   /* of a name, an address, a note                       */
+#define ENTRY_NEW_MOST 4 /* variables that one line may declare                 */
+#define ENTRY_CHOICES 3  /* addresses that a new one may get                    */
+#define ENTRY_ADDRESS_TEXT 32 /* bytes of one, with NUL                         */
+
+/* Where the line is typed. */
+struct entry_place {
+	struct project *project; /* strings and rows of its words may be added,
+				    nothing else changes                      */
+	int pou;                 /* index in it                                */
+	bool output;             /* the cursor is in the last column           */
+	struct xref *xref;       /* of the project as it is, borrowed; NULL: it is
+				    made when it is needed, which takes longer */
+};
+
+/* A variable that does not exist yet and would be declared. */
+struct entry_new {
+	char name[ENTRY_NAME];
+	char type[ENTRY_NAME];    /* "BOOL", "TON"                             */
+	char address[ENTRY_ADDRESS_TEXT]; /* "%IX0.3"; "": none                */
+	char shares[ENTRY_NAME];  /* a variable that lies there already        */
+	char choice[ENTRY_CHOICES][ENTRY_ADDRESS_TEXT]; /* as it is proposed, then
+				     instead; "": none                         */
+	int choices;              /* 0: the line or the place says it          */
+};
+
+enum entry_sense {
+	ENTRY_EMPTY,   /* nothing typed                                        */
+	ENTRY_ELEMENT, /* it means an element: it can be put                   */
+	ENTRY_PART,    /* a word whose operand is still missing                */
+	ENTRY_WRONG,   /* why stands in @why                                   */
+};
+
+struct entry {
+	enum entry_sense sense;
+	enum word word;
+	bool below;               /* in parallel to what is at the cursor: OR X */
+	char operand[ENTRY_TEXT]; /* "": none                                  */
+	char args[ENTRY_TEXT];    /* "PT:=T#1s"; "": none                      */
+	bool proposed;            /* the line does not say those of a block    */
+	struct entry_new declare[ENTRY_NEW_MOST];
+	int declares;             /* 0: everything named is there already      */
+	const char *why;          /* N_() text; NULL: nothing is wrong         */
+	char what[ENTRY_NAME];    /* that @why speaks of                       */
+	const struct var *known;  /* whose declaration it speaks of, borrowed
+				     of the project; NULL: of none             */
+};
+
+/**
+ * entry_read - what a line means
+ * @line: as typed, UTF-8
+ *
+ * Owns: nothing.   Scan-safe: no.   Fails: false unless @out->sense is ENTRY_ELEMENT.
+ */
+bool entry_read(const struct entry_place *place, const char *line, struct entry *out);
+/** entry_condition - the same of a line that can only be an expression of a BOOL: what a
+ * chart waits for. @out->operand has it without what the line says of its names. */
+bool entry_condition(const struct entry_place *place, const char *line,
+		     struct entry *out);
+/** entry_cell - the element as a cell, its texts as strings of the project. Fails: false
+ * if it is none, or memory is out. */
+bool entry_cell(struct project *project, const struct entry *entry, struct cell *cell);
+
+/* What a name with `%` behind it could be, too: a word with its operand. */
+enum entry_doubt { ENTRY_WORD_POSSIBLE, ENTRY_WORD_GIVEN };
+/** entry_declared_len - bytes of the name that a declaration begins with, `Open AT` or
+ * `Open :`, or `Open %` if no word is in doubt; 0: it is no declaration. */
+size_t entry_declared_len(const char *text, size_t len, enum entry_doubt doubt);
+
+enum entry_kind {
+	ENTRY_VARIABLE, ENTRY_INSTANCE, ENTRY_PIN, ENTRY_ADDRESS, ENTRY_LABEL,
+	ENTRY_ROUTINE, ENTRY_WORD, ENTRY_NEW,
+};
+
+struct entry_candidate {
+	enum entry_kind kind;
+	char text[ENTRY_NAME];    /* the word or name                          */
+	char address[32];         /* "": none                                  */
+	char note[ENTRY_NAME];    /* its type and comment, or what it does     */
+	char line[ENTRY_TEXT];    /* the line with it taken                    */
+};
+
+/**
+ * entry_candidates - what the word before the cursor could become, best first
+ * @cursor: bytes of @line before it
+ * @out:    caller's, room for @most
+ *
+ * What is typed exactly, then what begins with it, then what has it inside; in each
+ * of these variables of the fitting type, addresses in use, pins, words. The last ones
+ * are a new name, where one may stand, with each address that it may get: nothing is ever
+ * declared that is not chosen so or told by entry_read(). Returns how many.
+ * Owns: nothing.   Scan-safe: no.
+ */
+int entry_candidates(const struct entry_place *place, const char *line, size_t cursor,
+		     struct entry_candidate *out, int most);
+/** entry_kind_text - "variable", for a screen reader; N_() text. Lives for ever. */
+const char *entry_kind_text(enum entry_kind kind);
+#endif

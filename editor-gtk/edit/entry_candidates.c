@@ -1,0 +1,445 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry_candidates - what the word before the cursor could become, best first.
+ *
+ * What is offered exists, but for a new name at the end, which says so: taking the first
+ * of the list makes nothing new if anything is there. It shows nothing.
+ */
+#include "editor-gtk/edit/entry_search.h"
+#include "editor-gtk/kit/i18n.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/explain.h"
+#include "engine/base/lex.h"
+#include "engine/ladder.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- ranking ---- */
+
+/* 0 typed just so, 1 begins with it, 2 has it inside; -1: has it not. */
+static int fit(const char *text, const char *typed, size_t len)
+{
+	const size_t size = strlen(text);
+
+	if (len <= size && ascii_same(text, typed, len))
+		return size == len ? 0 : 1;
+	for (size_t i = 1; i + len <= size; i++)
+		if (ascii_same(text + i, typed, len))
+			return 2;
+	return -1;
+}
+
+/* Which of two that fit alike comes first. */
+static int kind_rank(const struct search *s, enum entry_kind kind)
+{
+	static const uint8_t ranks[] = {
+		[ENTRY_VARIABLE] = 2, [ENTRY_INSTANCE] = 3, [ENTRY_PIN] = 3,
+		[ENTRY_ADDRESS] = 4, [ENTRY_LABEL] = 2, [ENTRY_ROUTINE] = 2,
+		[ENTRY_WORD] = 5, [ENTRY_NEW] = 9,
+	};
+
+	if (kind == ENTRY_INSTANCE && s->want & WANT_INSTANCE)
+		return 0;
+	return kind == ENTRY_PIN && s->want & WANT_PIN_NAME ? 1 : ranks[kind];
+}
+
+/* Pins stay in their order. */
+static int compare(const struct search *s, enum entry_kind kind, int rank,
+		   const char *text, int index)
+{
+	const struct entry_candidate *other = &s->out[index];
+
+	if (rank != s->rank[index])
+		return rank - s->rank[index];
+	return kind == ENTRY_PIN ? 1 : strcmp(text, other->text);
+}
+
+static void make_line(const struct search *s, const char *text, char *out, size_t size)
+{
+	snprintf(out, size, "%.*s%s%s", (int)s->from, s->line, text,
+		 s->line + s->cursor);
+}
+
+/* Bytes of the text, @most at most, that end with a whole character. */
+static int whole_part(const char *text, int most)
+{
+	int len = (int)strlen(text);
+
+	if (len <= most)
+		return len;
+	while (most > 0 && ((unsigned char)text[most] & 0xc0) == 0x80)
+		most--;
+	return most;
+}
+
+/* Kept for a new name: for one with each of its addresses, if that is not most of all. */
+static int kept(const struct search *s)
+{
+	if (!(s->want & (WANT_NEW | WANT_INSTANCE | WANT_ANY)))
+		return 0;
+	return s->most > 2 * ENTRY_CHOICES ? ENTRY_CHOICES : 1;
+}
+
+/* Keeps the list sorted; the last one falls off when it is full. */
+static void add(struct search *s, enum entry_kind kind, int fits, const char *text,
+		const char *address, const char *note, const char *comment)
+{
+	const int room = s->most - kept(s);
+	const int rank = fits * 10 + kind_rank(s, kind);
+	int at = s->count;
+	struct entry_candidate *c;
+
+	while (at > 0 && compare(s, kind, rank, text, at - 1) < 0)
+		at--;
+	if (fits < 0 || at >= room ||
+	    (at > 0 && s->rank[at - 1] == rank && !strcmp(s->out[at - 1].text, text)))
+		return;
+	if (s->count == room)
+		s->count--;
+	memmove(&s->out[at + 1], &s->out[at],
+		(size_t)(s->count - at) * sizeof(*s->out));
+	memmove(&s->rank[at + 1], &s->rank[at],
+		(size_t)(s->count - at) * sizeof(*s->rank));
+	s->count++;
+	s->rank[at] = rank;
+	c = &s->out[at];
+	memset(c, 0, sizeof(*c));
+	c->kind = kind;
+	snprintf(c->text, sizeof(c->text), "%s", text);
+	snprintf(c->address, sizeof(c->address), "%s", address);
+	snprintf(c->note, sizeof(c->note), "%s%s%.*s", note, comment[0] ? " " : "",
+		 whole_part(comment, 200), comment);
+	make_line(s, text, c->line, sizeof(c->line));
+}
+
+/* ---- what there is ---- */
+
+static const char *typed(const struct search *s)
+{
+	return s->line + s->from;
+}
+
+static size_t typed_len(const struct search *s)
+{
+	return s->cursor - s->from;
+}
+
+/* An address as it is typed shortest: I0.3 for %IX0.3. */
+static void shorten(const char *text, size_t len, char *out, size_t size)
+{
+	size_t n = 0;
+
+	for (size_t i = 0; i < len && n + 1 < size; i++)
+		if (text[i] != '%' &&
+		    (ascii_upper(text[i]) != 'X' || i == 0 || ascii_digit(text[i - 1])))
+			out[n++] = text[i];
+	out[n] = '\0';
+}
+
+static int fit_address(const struct search *s, const char *address)
+{
+	char mine[40], theirs[40];
+
+	shorten(typed(s), typed_len(s), mine, sizeof(mine));
+	shorten(address, strlen(address), theirs, sizeof(theirs));
+	if (!mine[0])
+		return typed_len(s) ? 2 : -1;
+	return fit(theirs, mine, strlen(mine));
+}
+
+static const char *type_word(const struct search *s, const struct var *var)
+{
+	return var->type != IEC_NONE ? iec_type_row(var->type)->word :
+		words_row(&s->place->project->words, var->fb)->word;
+}
+
+static bool is_wanted(const struct search *s, const struct var *var, uint16_t flags)
+{
+	const struct word_row *row = words_row(&s->place->project->words, var->fb);
+
+	if (s->write && ((flags & (VAR_CONSTANT | VAR_INPUT)) ||
+			 (var->at.area != AREA_NONE &&
+			  iec_area_row(var->at.area)->access == ACCESS_READ)))
+		return false;
+	if (s->want & WANT_INSTANCE && var->type == IEC_NONE && var->fb == s->word)
+		return true;
+	if (s->want & WANT_ANY)
+		return !s->classes || (var->type != IEC_NONE && var->array.count == 0 &&
+				       iec_type_row(var->type)->class & s->classes);
+	if (!(s->want & WANT_BOOL))
+		return false;
+	return var->type == IEC_BOOL ||
+	       (var->type == IEC_NONE && !s->write && row->kind == WORD_FB);
+}
+
+static void add_table(struct search *s, const struct var_table *table)
+{
+	const struct project *project = s->place->project;
+
+	for (int i = 0; i < table->count; i++) {
+		const struct var *var = &table->var[i];
+		const char *name = project_text(project, var->name);
+		char address[40] = "";
+		int fits = fit(name, typed(s), typed_len(s));
+
+		if (var->at.area != AREA_NONE) {
+			iec_addr_print(var->at, address, sizeof(address));
+			if (fits < 0)
+				fits = fit_address(s, address);
+		}
+		if (fits >= 0 && is_wanted(s, var, vars_flags(table, i)))
+			add(s, var->type == IEC_NONE ? ENTRY_INSTANCE : ENTRY_VARIABLE,
+			    fits, name, address, type_word(s, var),
+			    project_text(project, var->comment));
+	}
+}
+
+/* Pins and members of what stands before the last dot. */
+static void add_pins(struct search *s)
+{
+	struct entry_target target;
+	const struct word_row *row;
+	char text[ENTRY_NAME];
+
+	entry_target_find(s->place, typed(s), s->head, &target);
+	if (target.means != MEANS_INSTANCE || target.array)
+		return;
+	row = words_row(&s->place->project->words, target.word);
+	for (int i = 0; i < row->pin_count; i++) {
+		const struct word_pin *pin = &row->pin[i];
+		const size_t skip = s->head + 1;
+
+		if (pin->dir == PIN_VAR || !pin->name ||
+		    (s->want & WANT_BOOL && pin->type != IEC_BOOL) ||
+		    (s->write && row->kind == WORD_FB && pin->dir != PIN_IN))
+			continue;
+		snprintf(text, sizeof(text), "%.*s.%s", (int)s->head, typed(s), pin->name);
+		add(s, ENTRY_PIN, fit(pin->name, typed(s) + skip, typed_len(s) - skip),
+		    text, "", pin->type != IEC_NONE ? iec_type_row(pin->type)->word : "",
+		    said(explain_pin(row, i)));
+	}
+}
+
+static void add_address(void *context, struct iec_addr addr)
+{
+	struct search *s = context;
+	char text[40];
+	int fits;
+
+	if ((s->want & WANT_BOOL && addr.bits != 1) ||
+	    (s->classes &&
+	     !(iec_type_row(iec_addr_type(addr))->class & s->classes)) ||
+	    (s->write && iec_area_row(addr.area)->access == ACCESS_READ))
+		return;
+	iec_addr_print(addr, text, sizeof(text));
+	fits = fit_address(s, text);
+	if (fits >= 0)
+		add(s, ENTRY_ADDRESS, fits, text, text,
+		    iec_type_row(iec_addr_type(addr))->word, "");
+}
+
+static void add_system(struct search *s)
+{
+	for (int i = 0; i < SYS_COUNT && !s->write && typed_len(s) > 0; i++) {
+		const struct sys_row *row = sys_row((enum sys_id)i);
+		const int fits = fit(row->name, typed(s), typed_len(s));
+
+		if (fits == 2 && typed_len(s) < 3)
+			continue;
+		if (s->want & WANT_BOOL ? row->type == IEC_BOOL :
+		    !s->classes || iec_type_row(row->type)->class & s->classes)
+			add(s, ENTRY_ADDRESS, fits, row->name, row->address, iec_type_row(row->type)->word,
+			    said(explain_sys((enum sys_id)i)));
+	}
+}
+
+static bool may_stand(const struct search *s, const struct word_row *row)
+{
+	return row->place == PLACE_LAST || row->place == PLACE_BOX ||
+	       (row->place == PLACE_SERIES && !s->place->output);
+}
+
+static void add_words(struct search *s)
+{
+	const struct word_table *words = &s->place->project->words;
+	const struct entry_mnemonic *m;
+
+	for (int i = 0; (m = entry_mnemonic(i)) != NULL; i++)
+		if (may_stand(s, word_row(m->word)) && typed_len(s) > 0)
+			add(s, ENTRY_WORD, fit(m->text, typed(s), typed_len(s)), m->text,
+			    "", word_row(m->word)->word,
+			    said(explain_word(word_row(m->word))));
+	for (int i = 0; i < WORD_KNOWN + words->count; i++) {
+		const enum word word = (enum word)(i < WORD_KNOWN ? i :
+						   WORD_FIRST_OWN + i - WORD_KNOWN);
+		const struct word_row *row = words_row(words, word);
+
+		if (may_stand(s, row) && row->kind != WORD_STRUCT)
+			add(s, ENTRY_WORD, fit(row->word, typed(s), typed_len(s)),
+			    row->word, "", said(row->family), said(words_explain(row)));
+	}
+}
+
+static void add_function(void *context, const struct ladder_word *word,
+			 const struct word_row *row)
+{
+	struct search *s = context;
+	const int fits = fit(word->text, typed(s), typed_len(s));
+	char text[ENTRY_NAME];
+
+	if (fits > 1)
+		return; /* there are many */
+	if (row && s->classes && !(entry_fit_result(row, IEC_NONE).classes & s->classes))
+		return;
+	snprintf(text, sizeof(text), "%s(", word->text);
+	add(s, ENTRY_WORD, fits, text, "",
+	    row ? said(row->family) : "", said(word->note));
+}
+
+static void add_labels(struct search *s)
+{
+	const struct pou *pou = entry_pou(s->place);
+
+	for (int i = 0; pou && i < pou->rung_count; i++) {
+		const struct rung *rung = pou->rung[i];
+		const char *name = project_text(s->place->project, rung->label);
+
+		if (rung->label)
+			add(s, ENTRY_LABEL, fit(name, typed(s), typed_len(s)), name, "",
+			    project_text(s->place->project, rung->title), "");
+	}
+}
+
+static void add_routines(struct search *s)
+{
+	const struct project *project = s->place->project;
+
+	for (int i = 0; i < project->pou_count; i++) {
+		const char *name = project_text(project, project->pou[i].name);
+
+		if (project->pou[i].kind == POU_SUBROUTINE)
+			add(s, ENTRY_ROUTINE, fit(name, typed(s), typed_len(s)), name, "",
+			    pou_word(POU_SUBROUTINE), "");
+	}
+}
+
+/* Names of parameters, as `PT:=`. */
+static void add_pin_names(struct search *s)
+{
+	const int first = s->row->kind == WORD_FB ? word_first_bool(s->row, PIN_IN) : -1;
+	char text[LIMIT_NAME + 3];
+
+	for (int i = 0; i < s->row->pin_count; i++) {
+		const struct word_pin *pin = &s->row->pin[i];
+
+		if (i == first || (pin->dir != PIN_IN && pin->dir != PIN_OUT &&
+				   pin->dir != PIN_IN_OUT))
+			continue;
+		snprintf(text, sizeof(text), "%s%s", pin->name,
+			 pin->dir == PIN_OUT ? "=>" : ":=");
+		add(s, ENTRY_PIN, fit(pin->name, typed(s), typed_len(s)), text, "",
+		    pin->type != IEC_NONE ? iec_type_row(pin->type)->word : "",
+		    said(explain_pin(s->row, i)));
+	}
+}
+
+/* ---- all of them ---- */
+
+static void find_all(struct search *s)
+{
+	const struct pou *pou = entry_pou(s->place);
+
+	if (s->want & WANT_LABEL)
+		add_labels(s);
+	if (s->want & WANT_ROUTINE)
+		add_routines(s);
+	if (s->want & WANT_PIN_NAME)
+		add_pin_names(s);
+	if (s->head) {
+		add_pins(s);
+	} else if (s->want & (WANT_BOOL | WANT_ANY | WANT_INSTANCE)) {
+		if (pou)
+			add_table(s, &pou->vars);
+		add_table(s, &s->place->project->globals);
+	}
+	if (s->want & (WANT_BOOL | WANT_ANY)) {
+		add_system(s);
+		if (typed_len(s) > 0)
+			entry_each_address(s->place, add_address, s);
+	}
+	if (s->want & WANT_WORD)
+		add_words(s);
+	if (s->want & WANT_FUNCTION && typed_len(s) > 0)
+		ladder_functions(s->place->project, typed(s), typed_len(s), add_function,
+				 s);
+	if (s->want & (WANT_NEW | WANT_INSTANCE | WANT_ANY))
+		entry_add_new(s);
+}
+
+/* Bytes up to the last dot of the word, if an instance or structure stands there. */
+static size_t find_head(const struct search *s)
+{
+	struct entry_target target;
+	size_t len = typed_len(s);
+
+	while (len > 0 && typed(s)[len - 1] != '.')
+		len--;
+	if (len < 2)
+		return 0;
+	entry_target_find(s->place, typed(s), len - 1, &target);
+	return target.means == MEANS_INSTANCE ? len - 1 : 0;
+}
+
+static int search(const struct entry_place *place, const char *line, size_t cursor,
+		  struct entry_candidate *out, int most)
+{
+	struct search s = { .place = place, .line = line, .out = out, .most = most };
+
+	s.rank = calloc((size_t)most + 1, sizeof(*s.rank));
+	if (!s.rank)
+		return 0;
+	s.cursor = cursor <= strlen(line) ? cursor : strlen(line);
+	s.from = s.cursor;
+	while (s.from > 0 && entry_is_part(line[s.from - 1]))
+		s.from--;
+	s.head = find_head(&s);
+	if (!entry_is_said(&s)) {
+		entry_find_want(&s);
+		find_all(&s);
+	}
+	free(s.rank);
+	return s.count;
+}
+
+int entry_candidates(const struct entry_place *place, const char *line, size_t cursor,
+		     struct entry_candidate *out, int most)
+{
+	struct entry_place known = *place;
+	struct xref own;
+	int count;
+
+	if (most <= 0 || strlen(line) >= ENTRY_TEXT || !utf8_valid(line, strlen(line), NULL))
+		return 0;
+	if (place->xref)
+		return search(place, line, cursor, out, most);
+	known.xref = &own;
+	count = xref_addresses(&own, place->project) ?
+		search(&known, line, cursor, out, most) : 0;
+	xref_free(&own);
+	return count;
+}
+
+const char *entry_kind_text(enum entry_kind kind)
+{
+	static const char *const texts[] = {
+		[ENTRY_VARIABLE] = N_("variable"), [ENTRY_INSTANCE] = N_("instance"),
+		[ENTRY_PIN] = N_("pin"), [ENTRY_ADDRESS] = N_("address"),
+		[ENTRY_LABEL] = N_("label"), [ENTRY_ROUTINE] = N_("subroutine"),
+		[ENTRY_WORD] = N_("word"), [ENTRY_NEW] = N_("new"),
+	};
+
+	return texts[kind];
+}

@@ -1,0 +1,393 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry_names - what a name, a path or an address in any spelling stands for, and names
+ * for what is new.
+ *
+ * It looks variables up as they are declared; types of expressions are the engine's.
+ */
+#include "editor-gtk/edit/entry_inside.h"
+#include "editor-gtk/kit/i18n.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/lex.h"
+#include "engine/ladder.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct var *find_in(const struct project *project,
+				 const struct var_table *table, const char *text,
+				 size_t len, uint16_t *flags)
+{
+	for (int i = 0; i < table->count; i++) {
+		if (!ascii_is(project_text(project, table->var[i].name), text, len))
+			continue;
+		if (flags)
+			*flags = vars_flags(table, i);
+		return &table->var[i];
+	}
+	return NULL;
+}
+
+const struct var *entry_var_find(const struct entry_place *place, const char *text,
+				 size_t len, uint16_t *flags)
+{
+	const struct pou *pou = entry_pou(place);
+	const struct var *var = pou ? find_in(place->project, &pou->vars, text, len,
+					      flags) : NULL;
+
+	return var ? var : find_in(place->project, &place->project->globals, text, len,
+				   flags);
+}
+
+bool entry_is_name(const char *text, size_t len)
+{
+	char name[LIMIT_NAME + 1];
+
+	if (len > LIMIT_NAME)
+		return false;
+	memcpy(name, text, len);
+	name[len] = '\0';
+	return ladder_name_fault(name) == DIAG_COUNT;
+}
+
+/* ---- addresses of other dialects ---- */
+
+/* Digits of base @base; -1: none, or too many. */
+static int number(const char **at, const char *end, int base)
+{
+	int value = 0, count = 0;
+
+	for (; *at < end && **at >= '0' && **at < '0' + base && count < 6; ++*at, count++)
+		value = value * base + (**at - '0');
+	return count > 0 && (*at == end || !ascii_digit(**at)) ? value : -1;
+}
+
+static bool bit_of(enum iec_area area, int bit, struct iec_addr *out)
+{
+	*out = (struct iec_addr){ area, 1, (uint8_t)(bit % 8), (uint32_t)(bit / 8) };
+	return out->byte < iec_area_row(area)->most;
+}
+
+/* Mitsubishi: X0 … X7 are the same in octal and hexadecimal; beyond they are not. */
+static bool parse_octal(const char *text, size_t len, struct iec_addr *out,
+			const char **why)
+{
+	const char letter = ascii_upper(text[0]);
+	const char *at = text + 1;
+	int bit;
+
+	if ((letter != 'X' && letter != 'Y') || len < 2 || !ascii_digit(text[1]))
+		return false;
+	bit = number(&at, text + len, 10);
+	if (bit < 0 || at != text + len)
+		return false;
+	if (bit > 7)
+		*why = N_("some controllers count this in octal, others in hexadecimal: "
+			  "write %IX1.0");
+	return bit > 7 || bit_of(letter == 'X' ? AREA_I : AREA_Q, bit, out);
+}
+
+/* Logix and SLC: I:1/3 is bit 3 of the second word of inputs. */
+static bool parse_slash(const char *text, size_t len, struct iec_addr *out)
+{
+	static const struct { const char *head; enum iec_area area; } heads[] = {
+		{ "I:", AREA_I }, { "O:", AREA_Q }, { "B3:", AREA_M },
+	};
+	const char *end = text + len;
+
+	for (size_t i = 0; i < sizeof(heads) / sizeof(*heads); i++) {
+		size_t n = ascii_prefix(heads[i].head, text, len);
+		const char *at = text + n;
+		int word, bit;
+
+		if (n == 0)
+			continue;
+		word = number(&at, end, 10);
+		if (word < 0 || at >= end || (*at != '/' && *at != '.'))
+			return false;
+		at++;
+		bit = number(&at, end, 10);
+		return bit >= 0 && bit < 16 && at == end &&
+		       bit_of(heads[i].area, word * 16 + bit, out);
+	}
+	return false;
+}
+
+/* E0.0 and A4.0 of the German STEP 7, %B3 of ClassicLadder. */
+static bool parse_letter(const char *text, size_t len, struct iec_addr *out)
+{
+	char other[32];
+	const bool classic = len > 2 && text[0] == '%' && ascii_upper(text[1]) == 'B' &&
+			     ascii_digit(text[2]) && !memchr(text, '.', len);
+	const char letter = len > 0 ? ascii_upper(text[0]) : '\0';
+
+	if (len >= sizeof(other))
+		return false;
+	memcpy(other, text, len);
+	other[len] = '\0';
+	if (classic) {
+		other[1] = 'M';
+	} else if ((letter == 'E' || letter == 'A') && len > 3 && ascii_digit(text[1]) &&
+		   memchr(text, '.', len)) {
+		other[0] = letter == 'E' ? 'I' : 'Q';
+	} else {
+		return false;
+	}
+	return iec_addr_parse(other, len, out) == ADDR_OK;
+}
+
+bool entry_address_parse(const char *text, size_t len, struct iec_addr *out,
+			 const char **why)
+{
+	switch (iec_addr_parse(text, len, out)) {
+	case ADDR_OK:
+		return true;
+	case ADDR_RANGE:
+		*why = N_("there is no such address");
+		return true;
+	case ADDR_NONE:
+		break;
+	}
+	if (parse_octal(text, len, out, why) || parse_slash(text, len, out) ||
+	    parse_letter(text, len, out))
+		return true;
+	if (len > 0 && text[0] == '%')
+		*why = N_("this is no address");
+	return *why != NULL;
+}
+
+/* ---- paths ---- */
+
+static void fail(struct entry_target *out, const char *why)
+{
+	out->means = MEANS_WRONG;
+	out->why = why;
+}
+
+/* `[3]`, `[-3]`, `[i]` at @at; returns what is behind it, NULL: it is none. */
+static const char *index_end(const char *at, const char *end)
+{
+	struct lex lex;
+	bool minus;
+
+	lex_init(&lex, at + 1, (size_t)(end - at - 1));
+	lex_next(&lex);
+	minus = lex_accept(&lex, "-");
+	if (lex.token.kind != TOKEN_NUMBER &&
+	    (minus || (lex.token.kind != TOKEN_NAME && lex.token.kind != TOKEN_ADDRESS)))
+		return NULL;
+	lex_next(&lex);
+	return lex_is(&lex, "]") ? lex.token.text + 1 : NULL;
+}
+
+/* One step, `[3]` or `.Q`, at @at; returns what is behind it, NULL: wrong. */
+static const char *step(const struct entry_place *place, const char *at, const char *end,
+			struct entry_target *out)
+{
+	const struct word_row *row;
+	const char *stop = at + 1;
+	int pin;
+
+	if (*at == '[') {
+		if (!out->array)
+			return NULL;
+		out->array = false;
+		return index_end(at, end);
+	}
+	while (stop < end && *stop != '.' && *stop != '[')
+		stop++;
+	if (*at != '.' || out->type != IEC_NONE || out->array || stop == at + 1)
+		return NULL;
+	row = words_row(&place->project->words, out->word);
+	pin = word_pin_find(row, at + 1, (size_t)(stop - at - 1));
+	if (pin < 0 || pin >= row->pin_count)
+		return NULL;
+	out->type = row->pin[pin].type;
+	out->word = out->type == IEC_NONE ? row->pin[pin].word : WORD_COUNT;
+	out->array = row->pin[pin].elements > 0;
+	out->write &= row->kind == WORD_STRUCT || row->pin[pin].dir == PIN_IN;
+	return stop;
+}
+
+static void walk(const struct entry_place *place, const char *at, const char *end,
+		 struct entry_target *out)
+{
+	while (at && at < end)
+		at = step(place, at, end, out);
+	if (!at)
+		fail(out, out->type == IEC_NONE && !out->array ?
+		     N_("it has no such pin or member") :
+		     N_("it is neither an array nor does it have members"));
+	else
+		out->means = out->type == IEC_NONE ? MEANS_INSTANCE : MEANS_VALUE;
+}
+
+static bool may_write(const struct var *var, uint16_t flags)
+{
+	return !(flags & (VAR_CONSTANT | VAR_INPUT)) &&
+	       (var->at.area == AREA_NONE ||
+		iec_area_row(var->at.area)->access == ACCESS_WRITE);
+}
+
+static bool find_system(const char *text, size_t len, struct entry_target *out)
+{
+	for (int i = 0; i < SYS_COUNT; i++) {
+		const struct sys_row *row = sys_row((enum sys_id)i);
+
+		if (!ascii_is(row->name, text, len))
+			continue;
+		out->means = MEANS_VALUE;
+		out->type = row->type;
+		snprintf(out->text, sizeof(out->text), "%s", row->name);
+		return true;
+	}
+	return false;
+}
+
+/* The one variable of a plain type that lies on just this address; NULL: none. */
+static const struct var *var_on(const struct var_table *table, struct iec_addr addr)
+{
+	for (int i = 0; i < table->count; i++) {
+		const struct var *var = &table->var[i];
+
+		if (var->at.area == addr.area && var->at.bits == addr.bits &&
+		    var->at.byte == addr.byte && var->at.bit == addr.bit &&
+		    var->array.count == 0)
+			return var;
+	}
+	return NULL;
+}
+
+static void take_address(const struct entry_place *place, const char *text, size_t len,
+			 size_t head, struct entry_target *out)
+{
+	const struct pou *pou = entry_pou(place);
+	const struct var *var = NULL;
+	char address[40];
+
+	if (head < len && index_end(text + head, text + len) != text + len) {
+		fail(out, N_("this is no index"));
+		return;
+	}
+	if (!project_has(place->project, out->addr)) {
+		fail(out, N_("there is no such address"));
+		return;
+	}
+	if (head == len && pou)
+		var = var_on(&pou->vars, out->addr);
+	if (head == len && !var)
+		var = var_on(&place->project->globals, out->addr);
+	iec_addr_print(out->addr, address, sizeof(address));
+	out->means = MEANS_VALUE;
+	out->var = var;
+	out->type = var ? var->type : iec_addr_type(out->addr);
+	out->write = iec_area_row(out->addr.area)->access == ACCESS_WRITE;
+	snprintf(out->text, sizeof(out->text), "%s%.*s",
+		 var ? project_text(place->project, var->name) : address,
+		 (int)(len - head), text + head);
+}
+
+/* Without the blanks in brackets, as cells are kept. Returns the length. */
+static size_t tighten(const char *text, size_t len, char *out)
+{
+	size_t n = 0;
+	int depth = 0;
+
+	for (size_t i = 0; i < len; i++) {
+		depth += (text[i] == '[') - (text[i] == ']');
+		if (depth <= 0 || (text[i] != ' ' && text[i] != '\t'))
+			out[n++] = text[i];
+	}
+	out[n] = '\0';
+	return n;
+}
+
+void entry_target_find(const struct entry_place *place, const char *typed, size_t len,
+		       struct entry_target *out)
+{
+	char text[ENTRY_TEXT];
+	uint16_t flags = 0;
+	size_t head = 0, whole = 0;
+
+	memset(out, 0, sizeof(*out));
+	if (len == 0 || len >= sizeof(out->text))
+		return;
+	len = tighten(typed, len, text);
+	memcpy(out->text, text, len);
+	while (head < len && text[head] != '.' && text[head] != '[')
+		head++;
+	while (whole < len && text[whole] != '[')
+		whole++;
+	out->var = entry_var_find(place, text, head, &flags);
+	if (out->var) {
+		out->type = out->var->type;
+		out->word = out->var->fb;
+		out->array = out->var->array.count > 0;
+		out->write = may_write(out->var, flags);
+		snprintf(out->text, sizeof(out->text), "%s%.*s",
+			 project_text(place->project, out->var->name),
+			 (int)(len - head), text + head);
+		walk(place, text + head, text + len, out);
+	} else if (find_system(text, len, out)) {
+		return;
+	} else if (entry_address_parse(text, whole, &out->addr, &out->why)) {
+		if (out->why)
+			out->means = MEANS_WRONG;
+		else
+			take_address(place, text, len, whole, out);
+	} else if (entry_is_name(text, len)) {
+		out->means = MEANS_NEW;
+	} else if (entry_is_name(text, head)) {
+		fail(out, N_("there is no such variable"));
+	} else {
+		fail(out, N_("no variable can be called so"));
+	}
+}
+
+/* ---- new names ---- */
+
+bool entry_name_taken(const struct entry_place *place, const struct entry *entry,
+		      const char *name)
+{
+	const struct project *project = place->project;
+	const struct pou *pou = entry_pou(place);
+	const size_t len = strlen(name);
+
+	if (entry_var_find(place, name, len, NULL) || !entry_is_name(name, len))
+		return true;
+	for (int i = 0; i < project->pou_count; i++)
+		if (ascii_is(project_text(project, project->pou[i].name), name, len))
+			return true;
+	for (int i = 0; pou && i < pou->rung_count; i++)
+		if (ascii_is(project_text(project, pou->rung[i]->label), name, len))
+			return true;
+	for (int i = 0; entry && i < entry->declares; i++)
+		if (ascii_is(entry->declare[i].name, name, len))
+			return true;
+	return false;
+}
+
+void entry_fresh_name(const struct entry_place *place, const struct entry *entry,
+		      const char *base, char *out, size_t size)
+{
+	int i = 1;
+
+	do
+		snprintf(out, size, "%.*s%d", LIMIT_NAME - 12, base, i++);
+	while (entry_name_taken(place, entry, out) && i < LIMIT_VARS);
+}
+
+const char *entry_family_base(const struct word_row *row)
+{
+	static const struct { const char *family, *base; } bases[] = {
+		{ "Timers", "Delay" }, { "Counters", "Counter" },
+		{ "Bistables", "Latch" }, { "Edges", "Edge" }, { "Stores", "Store" },
+	};
+
+	for (size_t i = 0; i < sizeof(bases) / sizeof(*bases); i++)
+		if (!strcmp(bases[i].family, row->family))
+			return bases[i].base;
+	return row->word;
+}

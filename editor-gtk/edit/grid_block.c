@@ -1,0 +1,311 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_block - pieces of rungs: copied, put in elsewhere, dragged about.
+ *
+ * A piece is a rung of its own whose rail is the piece's left edge. Where it lies on a
+ * clipboard, or under a pointer, others know.
+ */
+#include "editor-gtk/edit/grid_canvas.h"
+
+/* ---- copy ---- */
+
+static bool has_box_above(const struct canvas *c, int row, int col, int top)
+{
+	while (row >= top && canvas_word(c, row, col) == ELEM_PIN)
+		row--;
+	return row >= top;
+}
+
+static void copy_cells(const struct canvas *c, const struct grid_area *area,
+		       struct rung *made)
+{
+	for (int row = 0; row < made->rows; row++)
+		for (int col = 0; col < made->cols; col++) {
+			const int from = area->row + row, at = area->col + col;
+			struct cell *cell = rung_cell(made, row, col);
+
+			*cell = *rung_at(c->rung, from, at);
+			cell->spare = 0;
+			if (row == 0)
+				cell->link = 0;
+			if (cell->word == ELEM_PIN &&
+			    !has_box_above(c, from, at, area->row))
+				*cell = (struct cell){ .link = cell->link };
+		}
+}
+
+static bool is_bare(const struct rung *rung)
+{
+	for (int i = 0; i < rung->rows * rung->cols; i++)
+		if (rung->cell[i].word != ELEM_EMPTY || rung->cell[i].comment)
+			return false;
+	return true;
+}
+
+struct rung *grid_copy(const struct rung *rung, int columns,
+		       const struct grid_area *area)
+{
+	struct grid_at at = { columns, area->row, area->col, GRID_DONE };
+	struct rung *piece = NULL, *made = NULL;
+	struct grid_area a = *area;
+	struct canvas c;
+
+	if (canvas_open(&c, rung, columns, 1)) {
+		a.last_row = a.last_row < c.rung->rows ? a.last_row : c.rung->rows - 1;
+		a.last_col = a.last_col < c.rung->cols ? a.last_col : c.rung->cols - 1;
+		if (a.row >= 0 && a.col >= 0)
+			piece = rung_new(a.last_row - a.row + 1, a.last_col - a.col + 1);
+		if (piece) {
+			copy_cells(&c, &a, piece);
+			made = is_bare(piece) ? NULL : grid_normalise(piece);
+		}
+	}
+	rung_free(piece);
+	rung_free(canvas_close(&c, &at));
+	return made;
+}
+
+/* ---- paste ---- */
+
+static bool is_last(enum word word)
+{
+	return word_row(word)->place == PLACE_LAST;
+}
+
+static bool is_plain(const struct cell *cell)
+{
+	return cell->word == ELEM_EMPTY || cell->word == ELEM_WIRE;
+}
+
+/* What a piece is: how it goes in depends on it. */
+struct piece {
+	const struct rung *rung;
+	int elements, outputs, pins;
+	struct cell only;  /* the last element found                          */
+};
+
+static struct piece look_at(const struct rung *rung)
+{
+	struct piece piece = { .rung = rung };
+
+	for (int i = 0; i < rung->rows * rung->cols; i++) {
+		const struct cell *cell = &rung->cell[i];
+
+		piece.pins += cell->word == ELEM_PIN;
+		if (is_plain(cell) || cell->word == ELEM_PIN)
+			continue;
+		piece.elements++;
+		piece.outputs += is_last((enum word)cell->word);
+		piece.only = *cell;
+		piece.only.spare = 0;
+	}
+	return piece;
+}
+
+/* The cells of the piece to (@row, @col); its rows that begin at its rail are joined
+ * with the bar there. */
+static void put_piece(struct canvas *c, int row, int col, const struct rung *part)
+{
+	for (int i = 0; i < part->rows; i++) {
+		for (int k = 0; k < part->cols; k++) {
+			struct cell cell = *rung_at(part, i, k);
+
+			cell.spare = 0;
+			canvas_put(c, row + i, col + k, cell);
+			if (i > 0 && cell.link)
+				canvas_cell(c, row + i, col + k)->link = 1;
+		}
+		if (i > 0 && canvas_right(c, row + i, col))
+			canvas_join_up(c, row, row + i, col);
+	}
+}
+
+static bool insert_columns(struct canvas *c, int at, int count)
+{
+	while (count-- > 0)
+		if (!canvas_insert_column(c, at))
+			return false;
+	return true;
+}
+
+static bool insert_rows(struct canvas *c, int at, int count)
+{
+	while (count-- > 0)
+		if (!canvas_insert_row(c, at))
+			return false;
+	return true;
+}
+
+/* Cells from @col on that are free or wire, with no link between them. */
+static int free_run(const struct canvas *c, int row, int col, int most)
+{
+	int count = 0;
+
+	while (count < most && col + count < canvas_last(c) &&
+	       is_plain(rung_at(c->rung, row, col + count)) &&
+	       (count == 0 || !canvas_linked(c, row, col + count)))
+		count++;
+	return count;
+}
+
+static bool paste_series(struct canvas *c, int row, int col, const struct rung *part)
+{
+	const int width = part->cols;
+	int run;
+
+	if (col >= canvas_last(c))
+		return canvas_fail(c, GRID_LAST_COLUMN);
+	if (canvas_word(c, row, col) == ELEM_PIN)
+		return canvas_fail(c, GRID_PIN_CELL);
+	run = free_run(c, row, col, width);
+	if (!insert_columns(c, col, width - run) ||
+	    !insert_rows(c, row + 1, part->rows - 1))
+		return false;
+	put_piece(c, row, col, part);
+	canvas_close_left(c, row, col);
+	if (!canvas_is_empty(c, row, col + width - 1))
+		canvas_close_right(c, row, col + width - 1);
+	canvas_mark(c, row, col);
+	return true;
+}
+
+static bool paste_parallel(struct canvas *c, int row, int col, const struct rung *part)
+{
+	const int width = part->cols;
+	int below;
+
+	if (!canvas_is_element(c, row, col))
+		return canvas_fail(c, GRID_NOTHING_BELOW);
+	if (canvas_is_output(c, row, col))
+		return canvas_fail(c, GRID_ONLY_OUTPUT);
+	if (!insert_columns(c, col + 1, width - 1))
+		return false;
+	below = canvas_branch_row(c, &row, col, col + width - 1);
+	if (below < 0)
+		return false;
+	if (below < row && part->rows > 1)
+		return canvas_fail(c, GRID_CROSSING);
+	if (!insert_rows(c, below + 1, part->rows - 1))
+		return false;
+	put_piece(c, below, col, part);
+	canvas_join_branch(c, row, below, col);
+	canvas_join_branch(c, row, below, col + width);
+	for (int i = col + width - 1; i > col && canvas_is_empty(c, below, i) &&
+				      !canvas_linked(c, below, i); i--)
+		canvas_cell(c, below, i)->word = ELEM_WIRE;
+	if (canvas_is_empty(c, below, col + width - 1))
+		canvas_cell(c, below, col + width - 1)->word = ELEM_WIRE;
+	canvas_mark(c, below, col);
+	return true;
+}
+
+/* Whole rows of their own must not come between rows that are joined. */
+static int row_apart(const struct canvas *c, int row)
+{
+	bool joined = true;
+
+	for (; row < c->rung->rows && joined; row++) {
+		joined = false;
+		for (int col = 0; col < c->rung->cols; col++)
+			joined |= rung_at(c->rung, row, col)->link ||
+				  canvas_word(c, row, col) == ELEM_PIN;
+		if (!joined)
+			break;
+	}
+	return row;
+}
+
+static bool is_bare_row(const struct canvas *c, int row)
+{
+	for (int col = 0; col < c->rung->cols; col++)
+		if (!canvas_is_empty(c, row, col) || canvas_linked(c, row, col + 1))
+			return false;
+	return true;
+}
+
+static bool paste_rows(struct canvas *c, int row, const struct rung *part)
+{
+	const int rows = part->rows, columns = grid_display_columns(part, 1);
+	struct rung *spread;
+
+	if (!insert_columns(c, canvas_last(c), columns - c->rung->cols))
+		return false;
+	if (is_bare_row(c, row)) {
+		if (!insert_rows(c, row + 1, rows - 1))
+			return false;
+	} else {
+		row = row_apart(c, row + 1);
+		if (!insert_rows(c, row, rows))
+			return false;
+	}
+	spread = grid_spread(part, c->rung->cols);
+	if (!spread)
+		return canvas_fail(c, GRID_NO_MEMORY);
+	put_piece(c, row, 0, spread);
+	rung_free(spread);
+	canvas_mark(c, row, 0);
+	return true;
+}
+
+/* Nothing but outputs: all of them to the row at the cursor. */
+static void paste_outputs(struct canvas *c, int row, const struct rung *part)
+{
+	for (int i = 0; i < part->rows * part->cols; i++)
+		if (!is_plain(&part->cell[i]) &&
+		    !canvas_place(c, row, canvas_last(c), part->cell[i], GRID_INSERT))
+			return;
+}
+
+static bool paste(struct canvas *c, int row, int col, const struct piece *piece,
+		  bool parallel)
+{
+	if (row < 0 || col < 0 || col >= c->rung->cols)
+		return canvas_fail(c, GRID_OUTSIDE);
+	if (piece->elements == 0)
+		return canvas_fail(c, GRID_NO_ELEMENT);
+	if (!canvas_rows(c, row + 1))
+		return false;
+	if (piece->elements == 1 && piece->pins == 0)
+		return parallel ? canvas_parallel(c, row, col, col, piece->only) :
+				  canvas_place(c, row, col, piece->only, GRID_INSERT);
+	if (piece->outputs == piece->elements)
+		paste_outputs(c, row, piece->rung);
+	else if (piece->outputs > 0)
+		return paste_rows(c, row, piece->rung);
+	else
+		return parallel ? paste_parallel(c, row, col, piece->rung) :
+				  paste_series(c, row, col, piece->rung);
+	return c->refusal == GRID_DONE;
+}
+
+bool canvas_paste(struct canvas *c, int row, int col, const struct rung *part,
+		  bool parallel)
+{
+	struct rung *normal = grid_normalise(part);
+	struct piece piece;
+	bool good;
+
+	if (!normal)
+		return canvas_fail(c, GRID_NO_MEMORY);
+	piece = look_at(normal);
+	good = paste(c, row, col, &piece, parallel);
+	rung_free(normal);
+	return good;
+}
+
+struct rung *grid_paste(const struct rung *rung, struct grid_at *at,
+			const struct rung *part, bool parallel)
+{
+	struct canvas c;
+
+	if (canvas_open(&c, rung, at->columns, 1))
+		canvas_paste(&c, at->row, at->col, part, parallel);
+	return canvas_close(&c, at);
+}
+
+bool grid_is_outputs(const struct rung *rung)
+{
+	const struct piece piece = look_at(rung);
+
+	return piece.outputs > 0 && piece.outputs == piece.elements && piece.pins == 0;
+}

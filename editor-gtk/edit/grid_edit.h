@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_edit - what a person does to a rung: each edit makes a new rung of an old one.
+ *
+ * No toolkit, no document, no undo: a rung comes in and is never changed, a new one in
+ * normal form goes out. Places are display cells (grid_display.h), 0-based, on a sheet
+ * of so many columns. Only the last column holds outputs, and nothing else stands in it.
+ *
+ * Boxes: what is said of an element holds for a box with its rows of pins.
+ * Owns: every rung that is returned is the caller's, rung_free(). None is scan-safe.
+ * Fails: NULL, and why stands in grid_at.refusal; nothing else changed.
+ */
+#ifndef EDITOR_GRID_EDIT_H
+#define EDITOR_GRID_EDIT_H
+
+#include "editor-gtk/edit/grid_display.h"
+#include "engine/model/project.h"
+
+/* Why an edit was not done; texts for the status bar in grid_refusal.def. */
+enum grid_refusal {
+#define REFUSAL(id, text) GRID_##id,
+#include "editor-gtk/edit/grid_refusal.def"
+	GRID_REFUSAL_COUNT
+};
+/** grid_refusal_text - "only an output can stand in the last column"; not translated:
+ * hand it to _(). Lives for ever. */
+const char *grid_refusal_text(enum grid_refusal refusal);
+
+/* Where an edit takes place, and afterwards where the cursor belongs. */
+struct grid_at {
+	int columns;               /* of the sheet, grid_display_columns()     */
+	int row, col;              /* display cell; out: of the new element    */
+	enum grid_refusal refusal; /* out: GRID_DONE or why not                */
+};
+
+/* Display cells from a corner to the other, both within it, first <= last. */
+struct grid_area { int row, col, last_row, last_col; };
+
+enum grid_way { GRID_LEFT, GRID_RIGHT, GRID_UP, GRID_DOWN };
+
+/* ---- elements ---- */
+
+/* What happens to an element that stands where another is put. */
+enum grid_how {
+	GRID_REPLACE, /* it goes                                              */
+	GRID_INSERT,  /* it moves to the right, the new one before it         */
+};
+
+/**
+ * grid_place - puts an element at a cell
+ * @cell: its link and spare count for nothing
+ *
+ * On an empty cell or a wire it goes there; wires close by themselves: leftwards up to
+ * an element, a linked bar or the rail, rightwards to what waits for power. An output
+ * lands in the last column, whatever column was meant: in that row, or in a row of
+ * its own below where an output stands already, unless that very one is replaced. A
+ * box put into the last column lands behind the last element of its row. Columns and
+ * rows appear when needed.
+ */
+struct rung *grid_place(const struct rung *rung, struct grid_at *at, struct cell cell,
+			enum grid_how how);
+/**
+ * grid_parallel - puts an element below the one at the cursor, joined at both ends
+ * @area: what the branch goes round, cells of one row; NULL: the element at @at
+ *
+ * Below an output an output; an output below anything else gets a branch behind it.
+ * Where wires bar the way down, as those that feed the pins of a box, the branch goes
+ * above.
+ */
+struct rung *grid_parallel(const struct rung *rung, struct grid_at *at,
+			   const struct grid_area *area, struct cell cell);
+/** grid_set - the element at the cursor gets this word, operand, parameters and
+ * comment, and stays where it is with its pin rows. The word must be of the same
+ * place (grid_place() for others). */
+struct rung *grid_set(const struct rung *rung, struct grid_at *at, struct cell cell);
+
+/**
+ * grid_negate - NO to NC, COIL to COILNOT, P to N, and back
+ * @project: a comparison gets the opposite operator, or NOT ( ) where that would not
+ *           be the same (REAL); its text is kept there
+ * @pou:     whose variables it names
+ */
+struct rung *grid_negate(const struct rung *rung, struct grid_at *at,
+			 struct project *project, const struct pou *pou);
+/** grid_cycle - the next kind of its family: NO NC P N, COIL COILNOT S R COILP COILN. */
+struct rung *grid_cycle(const struct rung *rung, struct grid_at *at);
+/** grid_word_after - the word grid_cycle() turns @word into; itself: there is none. */
+enum word grid_word_after(enum word word);
+/** grid_word_negated - what grid_negate() turns @word into; itself: there is none. */
+enum word grid_word_negated(enum word word);
+
+/* ---- taking away ---- */
+
+/** grid_delete - the element or wire at the cursor. A wire stays where power must pass;
+ * a branch that nothing is left in goes away with its row. */
+struct rung *grid_delete(const struct rung *rung, struct grid_at *at);
+/** grid_delete_area - all elements in it; where there is none, its wires and links. */
+struct rung *grid_delete_area(const struct rung *rung, struct grid_at *at,
+			      const struct grid_area *area);
+/* Whole rows and columns at the cursor; the new ones come before it. The last column
+ * stays. */
+struct rung *grid_delete_row(const struct rung *rung, struct grid_at *at);
+struct rung *grid_delete_column(const struct rung *rung, struct grid_at *at);
+struct rung *grid_insert_row(const struct rung *rung, struct grid_at *at);
+struct rung *grid_insert_column(const struct rung *rung, struct grid_at *at);
+
+/* ---- wires ---- */
+
+/**
+ * grid_wire - draws a wire that way from the cursor, or erases the one that is there
+ *
+ * Left and right: in the cursor's own cell if that holds no element, else in the next
+ * one. Up and down: the right end of the cell joined with the row above or below. The
+ * cursor goes where the wire leads.
+ */
+struct rung *grid_wire(const struct rung *rung, struct grid_at *at, enum grid_way way);
+
+/* Where wire begins and ends: bar b of a row is the left end of its display cell b. */
+struct grid_end { int row, bar; };
+
+/**
+ * grid_draw_wire - draws a wire from one end of cells to another
+ * @from, @to: in the last column their bar is that left of the output; the row below
+ *             the last one is made
+ * @along:     at the corner, first up or down and then across, if both ways are free
+ *
+ * In one row it goes round elements that stand between: as a branch in a row of its own.
+ * It never goes through an element; what it touches on its way is joined. The cursor
+ * goes behind its end, or to the first cell of the branch.
+ */
+struct rung *grid_draw_wire(const struct rung *rung, struct grid_at *at,
+			    struct grid_end from, struct grid_end to, bool along);
+/** grid_erase_wire - takes the wires and links away that such a stroke goes over;
+ * elements stay. */
+struct rung *grid_erase_wire(const struct rung *rung, struct grid_at *at,
+			     struct grid_end from, struct grid_end to, bool along);
+
+enum grid_course {
+	GRID_NO_COURSE, /* elements are in the way                             */
+	GRID_ACROSS,    /* first to the left or right                          */
+	GRID_ALONG,     /* first up or down                                    */
+	GRID_ROUND,     /* round what stands between, below it                 */
+	GRID_OVER,      /* or above it                                         */
+};
+/** grid_wire_course - which way grid_draw_wire() would go. */
+enum grid_course grid_wire_course(const struct rung *rung, int columns,
+				  struct grid_end from, struct grid_end to, bool along);
+/** grid_wire_ends - where a wire from @from can end: @legal has @rows * @columns, for
+ * each row the bars 0 … @columns - 1. */
+void grid_wire_ends(const struct rung *rung, int columns, struct grid_end from,
+		    int rows, bool *legal);
+/** grid_open_branch - a link from the left end of the cursor's cell down to a row with
+ * room, where the cursor goes. */
+struct rung *grid_open_branch(const struct rung *rung, struct grid_at *at);
+/** grid_close_branch - joins the right end of the row's last element before or at the
+ * cursor with the first circuit above it. */
+struct rung *grid_close_branch(const struct rung *rung, struct grid_at *at);
+/** grid_close_gaps - every element that hangs in the air gets a wire leftwards. */
+struct rung *grid_close_gaps(const struct rung *rung, struct grid_at *at);
+
+/* ---- pins of boxes ---- */
+
+/**
+ * grid_add_pin - a row for a further Boolean input below the box at the cursor, which may
+ * be at another row of its pins
+ * @pin:  string id of its name
+ * @feed: what feeds it, to its left; NULL: nothing yet
+ *
+ * The cursor goes to the feeding element, or to where one belongs.
+ */
+struct rung *grid_add_pin(const struct rung *rung, struct grid_at *at,
+			  const struct project *project, uint32_t pin,
+			  const struct cell *feed);
+/** grid_remove_pin - the pin row at the cursor, with the branch that only feeds it. */
+struct rung *grid_remove_pin(const struct rung *rung, struct grid_at *at);
+
+/* ---- blocks ---- */
+
+/** grid_copy - an area as a rung of its own, for the clipboard (ladder_write_rung); its
+ * left edge becomes the rail. NULL: nothing stands there, or memory is out. */
+struct rung *grid_copy(const struct rung *rung, int columns,
+		       const struct grid_area *area);
+/**
+ * grid_paste - puts the cells of another rung in at the cursor
+ * @part:     its string ids are of the same project; label, title, comment are not taken
+ * @parallel: as a branch below the element at the cursor; else in series: on a wire or
+ *            an empty cell there, before an element
+ *
+ * What has outputs and more comes as rows of its own, outputs alone into the row.
+ */
+struct rung *grid_paste(const struct rung *rung, struct grid_at *at,
+			const struct rung *part, bool parallel);
+
+/** grid_is_outputs - nothing but outputs: without a condition they would be on always. */
+bool grid_is_outputs(const struct rung *rung);
+
+/* What dropping something at a cell would do. */
+enum grid_drop {
+	GRID_DROP_NOT,      /* nothing: no legal place                         */
+	GRID_DROP_THERE,    /* goes into the empty cell                        */
+	GRID_DROP_WIRE,     /* into the wire                                   */
+	GRID_DROP_BEFORE,   /* before the element there                        */
+	GRID_DROP_BELOW,    /* in parallel to the element above                */
+	GRID_DROP_OUTPUT,   /* into the last column, perhaps in a row below    */
+};
+/** grid_can_drop - for the marks while dragging: may an element of @word go to display
+ * cell (@row, @col), and how? */
+enum grid_drop grid_can_drop(const struct rung *rung, int columns, int row, int col,
+			     enum word word);
+/** grid_takes - which of all display cells grid_can_drop() lets have it.
+ * @takes: @rows * @columns, by row; a row below the rung counts
+ * Fails: false, and none takes it, if there is no memory. */
+bool grid_takes(const struct rung *rung, int columns, int rows, enum word word, bool *takes);
+/** grid_drop - does what grid_can_drop() says. */
+struct rung *grid_drop(const struct rung *rung, struct grid_at *at, struct cell cell);
+/**
+ * grid_move - drags the element at @from to @to
+ * @source: gets the rung it came from without it, unless both are the same rung
+ * @target: the rung it goes to; @rung itself: within the rung
+ *
+ * Returns the new target. Pin rows are left behind with what feeds them.
+ */
+struct rung *grid_move(const struct rung *rung, struct grid_at *from,
+		       const struct rung *target, struct grid_at *to,
+		       struct rung **source);
+/**
+ * grid_move_area - the same with all that stands in an area
+ * @to: where its upper left corner goes, as grid_paste() with @parallel
+ */
+struct rung *grid_move_area(const struct rung *rung, struct grid_at *from,
+			    const struct grid_area *area, const struct rung *target,
+			    struct grid_at *to, bool parallel, struct rung **source);
+
+/* ---- normal form ---- */
+
+/**
+ * grid_normalise - the same circuit as the editor leaves it
+ *
+ * Outputs all in one column behind everything else, with wire up to them; no columns
+ * of nothing but wire right before it; no empty rows and columns at the end. Gaps stay
+ * gaps: never another meaning.
+ */
+struct rung *grid_normalise(const struct rung *rung);
+/** grid_same - do both hold the same elements in the same order, joined the same way?
+ * False also when memory is out. */
+bool grid_same(const struct rung *a, const struct rung *b);
+#endif

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * cells - what cells that can be edited share; see cells.h.
+ */
+#include "editor-gtk/kit/cells.h"
+
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/document/panel.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+
+#define PLACE GTK_ENTRY_ICON_SECONDARY
+
+/* An icon that is none would keep its room. */
+static void hide_empty(GtkEntry *cell)
+{
+	for (GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(cell)); child;
+	     child = gtk_widget_get_next_sibling(child))
+		if (GTK_IS_IMAGE(child))
+			gtk_widget_set_visible(child,
+				gtk_image_get_storage_type(GTK_IMAGE(child)) !=
+				GTK_IMAGE_EMPTY);
+}
+
+/* What stands at the end of a cell. */
+struct sign {
+	char *icon, *tip;
+};
+
+static void sign_free(gpointer data)
+{
+	struct sign *sign = data;
+
+	g_free(sign->icon);
+	g_free(sign->tip);
+	g_free(sign);
+}
+
+static void put_icon(GtkEntry *cell, const char *icon, const char *tip)
+{
+	gtk_entry_set_icon_from_icon_name(cell, PLACE, icon);
+	if (icon)
+		gtk_entry_set_icon_tooltip_text(cell, PLACE, tip);
+	hide_empty(cell);
+}
+
+/* Not by its colour alone: what was refused may be an empty text. The sign takes the place
+ * of the one that is there, if one is, as long as it is refused: no text moves. */
+static void show_icon(GtkEntry *cell, const char *why)
+{
+	struct sign *was = g_object_get_data(G_OBJECT(cell), "sign");
+
+	if (why && !was) {
+		was = g_new(struct sign, 1);
+		was->icon = g_strdup(gtk_entry_get_icon_name(cell, PLACE));
+		was->tip = was->icon ? gtk_entry_get_icon_tooltip_text(cell, PLACE) : NULL;
+		g_object_set_data_full(G_OBJECT(cell), "sign", was, sign_free);
+	}
+	if (why) {
+		put_icon(cell, "dialog-error-symbolic", why);
+	} else if (was) {
+		put_icon(cell, was->icon, was->tip);
+		g_object_set_data(G_OBJECT(cell), "sign", NULL);
+	}
+}
+
+void cells_refuse(GtkWidget *cell, char *why)
+{
+	if (GTK_IS_ENTRY(cell))
+		show_icon(GTK_ENTRY(cell), why);
+	if (why) {
+		gtk_widget_add_css_class(cell, "error");
+		tip_set(cell, why);
+		gtk_accessible_update_state(GTK_ACCESSIBLE(cell),
+			GTK_ACCESSIBLE_STATE_INVALID, GTK_ACCESSIBLE_INVALID_TRUE, -1);
+	} else {
+		gtk_widget_remove_css_class(cell, "error");
+		tip_set(cell, NULL);
+		gtk_accessible_reset_state(GTK_ACCESSIBLE(cell),
+					   GTK_ACCESSIBLE_STATE_INVALID);
+	}
+	g_free(why);
+}
+
+void cells_refused(GtkWidget *cell, char *why)
+{
+	cells_refuse(cell, why ? why : g_strdup(_("Refused")));
+}
+
+void cells_add(GtkWidget *cell, const char *name, GtkEventController *controller)
+{
+	gtk_widget_add_controller(cell, controller);
+	g_object_set_data(G_OBJECT(cell), name, controller);
+}
+
+/* ---- a cell that is to have the focus ---- */
+
+#define FRAMES_SEEN 3  /* until a new row has a place that can be scrolled to   */
+#define FRAMES_MOST 60 /* that a table may need to make it                      */
+
+struct wanted {
+	int table, index, field;
+	int frames;
+	bool entered;
+};
+
+void cells_stand(GtkWidget *cell, GtkListItem *item, int field)
+{
+	g_object_set_data(G_OBJECT(cell), "item", item);
+	g_object_set_data(G_OBJECT(cell), "field", GINT_TO_POINTER(field));
+}
+
+static bool is_wanted(GtkWidget *cell, GtkListItem *item, const struct wanted *wanted)
+{
+	const LadderPanelRow *row = gtk_list_item_get_item(item);
+
+	return row && row->table == wanted->table && row->index == wanted->index &&
+	       gtk_widget_get_mapped(cell) && wanted->field ==
+	       GPOINTER_TO_INT(g_object_get_data(G_OBJECT(cell), "field"));
+}
+
+static bool enter(GtkWidget *within, const struct wanted *wanted)
+{
+	GtkListItem *item = g_object_get_data(G_OBJECT(within), "item");
+
+	if (item)
+		return is_wanted(within, item, wanted) && gtk_widget_grab_focus(within);
+	for (GtkWidget *child = gtk_widget_get_first_child(within); child;
+	     child = gtk_widget_get_next_sibling(child))
+		if (enter(child, wanted))
+			return true;
+	return false;
+}
+
+static gboolean enter_later(GtkWidget *table, GdkFrameClock *clock, gpointer data)
+{
+	struct wanted *wanted = data;
+
+	(void)clock;
+	if (!wanted->entered)
+		wanted->entered = enter(table, wanted);
+	panel_show_selected(GTK_COLUMN_VIEW(table));
+	wanted->frames++;
+	return wanted->frames < (wanted->entered ? FRAMES_SEEN : FRAMES_MOST) ?
+	       G_SOURCE_CONTINUE : G_SOURCE_REMOVE;
+}
+
+void cells_enter(GtkColumnView *table, const LadderPanelRow *row, int field)
+{
+	struct wanted *wanted = g_new(struct wanted, 1);
+
+	*wanted = (struct wanted){ row->table, row->index, field, 0, false };
+	wanted->entered = enter(GTK_WIDGET(table), wanted);
+	gtk_widget_add_tick_callback(GTK_WIDGET(table), enter_later, wanted, g_free);
+}
+
+LadderPanelRow *cells_focused(GtkColumnView *table, int *field)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(table));
+	GtkWidget *cell = root ? gtk_root_get_focus(root) : NULL;
+
+	if (!cell || !gtk_widget_is_ancestor(cell, GTK_WIDGET(table)))
+		return NULL;
+	while (cell != GTK_WIDGET(table) && !g_object_get_data(G_OBJECT(cell), "item"))
+		cell = gtk_widget_get_parent(cell);
+	if (cell == GTK_WIDGET(table))
+		return NULL;
+	*field = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(cell), "field"));
+	return gtk_list_item_get_item(g_object_get_data(G_OBJECT(cell), "item"));
+}
+
+/* ---- an edit that is to end where it stands ---- */
+
+struct take {
+	bool (*take)(GtkWidget *cell, GtkListItem *item);
+	GtkListItem *item;   /* borrowed: the cell is bound as long           */
+};
+
+void cells_on_take(GtkWidget *cell, bool (*take)(GtkWidget *cell, GtkListItem *item),
+		   GtkListItem *item)
+{
+	const struct take how = { take, item };
+
+	g_object_set_data_full(G_OBJECT(cell), "take",
+			       take ? g_memdup2(&how, sizeof(how)) : NULL, g_free);
+}
+
+bool cells_take(GtkWidget *focus)
+{
+	for (; focus; focus = gtk_widget_get_parent(focus)) {
+		const struct take *how = g_object_get_data(G_OBJECT(focus), "take");
+
+		if (how)
+			return how->take(focus, how->item);
+	}
+	return true;
+}

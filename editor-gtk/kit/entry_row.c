@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * entry_row - a candidate in one widget; see entry_row.h. It knows nothing of lists.
+ */
+#include "editor-gtk/kit/entry_row.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+enum { TEXT, ADDRESS, NOTE, COLUMNS };
+
+#define GAP    12   /* px between columns                                       */
+#define QUIET  0.75 /* of the colour of what is less important                  */
+
+/* In characters: a column is never narrower, and wants to be no wider. */
+static const int least[COLUMNS] = { 14, 8, 18 }, most[COLUMNS] = { 22, 12, 44 };
+
+struct _LadderEntryRow {
+	GtkWidget parent;
+	PangoLayout *layout[COLUMNS]; /* NULL: not measured yet                */
+	char *text[COLUMNS];
+	int width[COLUMNS];           /* px that they want                     */
+	int letter, height;           /* px of a character, of the row         */
+};
+
+G_DEFINE_FINAL_TYPE(LadderEntryRow, ladder_entry_row, GTK_TYPE_WIDGET)
+
+static void forget_layouts(LadderEntryRow *row)
+{
+	for (int i = 0; i < COLUMNS; i++)
+		g_clear_object(&row->layout[i]);
+}
+
+static PangoLayout *layout_of(LadderEntryRow *row, int column)
+{
+	PangoLayout *layout = gtk_widget_create_pango_layout(GTK_WIDGET(row),
+							     row->text[column]);
+	PangoAttrList *style = pango_attr_list_new();
+
+	if (column == TEXT)
+		pango_attr_list_insert(style, pango_attr_weight_new(PANGO_WEIGHT_BOLD));
+	if (column == ADDRESS)
+		pango_attr_list_insert(style, pango_attr_family_new("monospace"));
+	pango_layout_set_attributes(layout, style);
+	pango_layout_set_ellipsize(layout, PANGO_ELLIPSIZE_END);
+	pango_layout_set_single_paragraph_mode(layout, TRUE);
+	pango_attr_list_unref(style);
+	return layout;
+}
+
+/* A digit is as wide as most letters. */
+static int letter_width(LadderEntryRow *row)
+{
+	PangoLayout *digits = gtk_widget_create_pango_layout(GTK_WIDGET(row), "0000000000");
+	int width;
+
+	pango_layout_get_pixel_size(digits, &width, NULL);
+	g_object_unref(digits);
+	return MAX((width + 5) / 10, 1);
+}
+
+static void lay_out(LadderEntryRow *row)
+{
+	if (row->layout[TEXT])
+		return;
+	if (!row->letter)
+		row->letter = letter_width(row);
+	row->height = 0;
+	for (int i = 0; i < COLUMNS; i++) {
+		int width, height;
+
+		row->layout[i] = layout_of(row, i);
+		pango_layout_get_pixel_size(row->layout[i], &width, &height);
+		row->width[i] = CLAMP(width, least[i] * row->letter, most[i] * row->letter);
+		row->height = MAX(row->height, height);
+	}
+}
+
+static void ladder_entry_row_measure(GtkWidget *widget, GtkOrientation orientation,
+				     int for_size, int *minimum, int *natural,
+				     int *minimum_baseline, int *natural_baseline)
+{
+	LadderEntryRow *row = LADDER_ENTRY_ROW(widget);
+
+	(void)for_size;
+	lay_out(row);
+	*minimum_baseline = *natural_baseline = -1;
+	*minimum = *natural = row->height;
+	if (orientation == GTK_ORIENTATION_VERTICAL)
+		return;
+	*minimum = *natural = (COLUMNS - 1) * GAP;
+	for (int i = 0; i < COLUMNS; i++) {
+		*minimum += least[i] * row->letter;
+		*natural += row->width[i];
+	}
+}
+
+/* The note gets what is left, as much as the row has of it. */
+static void ladder_entry_row_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
+{
+	LadderEntryRow *row = LADDER_ENTRY_ROW(widget);
+	int left = gtk_widget_get_width(widget);
+	GdkRGBA ink;
+
+	lay_out(row);
+	gtk_style_context_get_color(gtk_widget_get_style_context(widget), &ink);
+	for (int i = 0; i < COLUMNS; i++) {
+		const int width = i == NOTE ? MAX(left, 0) : row->width[i];
+		int height;
+
+		pango_layout_set_width(row->layout[i], width * PANGO_SCALE);
+		pango_layout_get_pixel_size(row->layout[i], NULL, &height);
+		if (i == NOTE)
+			ink.alpha *= (float)QUIET;
+		gtk_snapshot_save(snapshot);
+		gtk_snapshot_translate(snapshot, &GRAPHENE_POINT_INIT(
+			(float)(gtk_widget_get_width(widget) - left),
+			(float)((gtk_widget_get_height(widget) - height) / 2)));
+		gtk_snapshot_append_layout(snapshot, row->layout[i], &ink);
+		gtk_snapshot_restore(snapshot);
+		left -= width + GAP;
+	}
+}
+
+static gboolean ladder_entry_row_query_tooltip(GtkWidget *widget, int x, int y,
+					       gboolean keyboard, GtkTooltip *tooltip)
+{
+	LadderEntryRow *row = LADDER_ENTRY_ROW(widget);
+	char *text = g_strdup_printf("%s: %s", row->text[TEXT], row->text[NOTE]);
+
+	(void)x;
+	(void)y;
+	(void)keyboard;
+	tip_show(tooltip, text);
+	g_free(text);
+	return TRUE;
+}
+
+static void ladder_entry_row_css_changed(GtkWidget *widget, GtkCssStyleChange *change)
+{
+	LadderEntryRow *row = LADDER_ENTRY_ROW(widget);
+
+	GTK_WIDGET_CLASS(ladder_entry_row_parent_class)->css_changed(widget, change);
+	forget_layouts(row);
+	row->letter = 0;
+}
+
+static void ladder_entry_row_finalize(GObject *object)
+{
+	LadderEntryRow *row = LADDER_ENTRY_ROW(object);
+
+	forget_layouts(row);
+	for (int i = 0; i < COLUMNS; i++)
+		g_free(row->text[i]);
+	G_OBJECT_CLASS(ladder_entry_row_parent_class)->finalize(object);
+}
+
+static void ladder_entry_row_class_init(LadderEntryRowClass *class)
+{
+	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+
+	G_OBJECT_CLASS(class)->finalize = ladder_entry_row_finalize;
+	widget->measure = ladder_entry_row_measure;
+	widget->snapshot = ladder_entry_row_snapshot;
+	widget->query_tooltip = ladder_entry_row_query_tooltip;
+	widget->css_changed = ladder_entry_row_css_changed;
+	gtk_widget_class_set_accessible_role(widget, GTK_ACCESSIBLE_ROLE_PRESENTATION);
+}
+
+static void ladder_entry_row_init(LadderEntryRow *row)
+{
+	for (int i = 0; i < COLUMNS; i++)
+		row->text[i] = g_strdup("");
+	gtk_widget_set_has_tooltip(GTK_WIDGET(row), TRUE);
+}
+
+GtkWidget *ladder_entry_row_new(void)
+{
+	return g_object_new(LADDER_TYPE_ENTRY_ROW, NULL);
+}
+
+void ladder_entry_row_say(LadderEntryRow *row, const char *text, const char *address,
+			  const char *note)
+{
+	const char *const said[COLUMNS] = { text, address, note };
+	bool same = true;
+
+	for (int i = 0; i < COLUMNS; i++) {
+		same = same && strcmp(row->text[i], said[i]) == 0;
+		g_free(row->text[i]);
+		row->text[i] = g_strdup(said[i]);
+	}
+	if (same)
+		return;
+	forget_layouts(row);
+	gtk_widget_queue_resize(GTK_WIDGET(row));
+}

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * slow_bar - scroll bars that follow later; see slow_bar.h.
+ *
+ * The handler of the bar is blocked at the adjustment's "value-changed". Where GTK has
+ * none that is known by its data, nothing is blocked and the bar follows at once.
+ */
+#include "editor-gtk/kit/gtk48/slow_bar.h"
+
+#include <math.h>
+
+#define FOLLOW_MS 100
+
+struct slow_bar {
+	GtkAdjustment *adjustment; /* a reference                             */
+	GtkWidget *scrollbar;      /* which has this                          */
+	gboolean level;
+	double value;              /* that the slider shows                   */
+	guint timer;
+};
+
+/* Does the slider stand a pixel from where it should? In a long sheet a wheel's step is
+ * less. */
+static gboolean is_behind(const struct slow_bar *bar)
+{
+	GtkAdjustment *of = bar->adjustment;
+	const double way = gtk_adjustment_get_upper(of) - gtk_adjustment_get_lower(of);
+	const int length = bar->level ? gtk_widget_get_width(bar->scrollbar) :
+					gtk_widget_get_height(bar->scrollbar);
+
+	return fabs(gtk_adjustment_get_value(of) - bar->value) * length >= way;
+}
+
+static gboolean follow(gpointer data)
+{
+	struct slow_bar *bar = data;
+
+	bar->timer = 0;
+	g_signal_emit_by_name(bar->adjustment, "changed");
+	return G_SOURCE_REMOVE;
+}
+
+/* GTK lays the slider out: by follow(), or because what is scrolled has another size. */
+static void followed(struct slow_bar *bar)
+{
+	bar->value = gtk_adjustment_get_value(bar->adjustment);
+}
+
+static void moved(struct slow_bar *bar)
+{
+	if (!bar->timer && is_behind(bar))
+		bar->timer = g_timeout_add(FOLLOW_MS, follow, bar);
+}
+
+/* A person drags the slider, or presses beside it. */
+static gboolean by_hand(struct slow_bar *bar)
+{
+	g_clear_handle_id(&bar->timer, g_source_remove);
+	bar->timer = g_idle_add_full(G_PRIORITY_HIGH_IDLE, follow, bar, NULL);
+	return GDK_EVENT_PROPAGATE;
+}
+
+static void bar_free(gpointer data)
+{
+	struct slow_bar *bar = data;
+
+	g_clear_handle_id(&bar->timer, g_source_remove);
+	g_signal_handlers_disconnect_by_data(bar->adjustment, bar);
+	g_object_unref(bar->adjustment);
+	g_free(bar);
+}
+
+static void make(GtkScrollbar *scrollbar)
+{
+	GtkWidget *range = gtk_widget_get_first_child(GTK_WIDGET(scrollbar));
+	struct slow_bar *bar = g_new0(struct slow_bar, 1);
+
+	bar->adjustment = g_object_ref(gtk_scrollbar_get_adjustment(scrollbar));
+	bar->scrollbar = GTK_WIDGET(scrollbar);
+	bar->level = gtk_orientable_get_orientation(GTK_ORIENTABLE(scrollbar)) ==
+		     GTK_ORIENTATION_HORIZONTAL;
+	followed(bar);
+	g_signal_handlers_block_matched(bar->adjustment,
+		G_SIGNAL_MATCH_ID | G_SIGNAL_MATCH_DATA,
+		g_signal_lookup("value-changed", GTK_TYPE_ADJUSTMENT), 0, NULL, NULL, range);
+	g_object_set_data_full(G_OBJECT(scrollbar), "slow-bar", bar, bar_free);
+	g_signal_connect_data(bar->adjustment, "value-changed", G_CALLBACK(moved), bar,
+			      NULL, G_CONNECT_SWAPPED);
+	g_signal_connect_data(bar->adjustment, "changed", G_CALLBACK(followed), bar, NULL,
+			      G_CONNECT_SWAPPED);
+	g_signal_connect_swapped(range, "change-value", G_CALLBACK(by_hand), bar);
+}
+
+void slow_bar_make(GtkScrolledWindow *scroller)
+{
+	gtk_scrolled_window_set_overlay_scrolling(scroller, FALSE);
+	make(GTK_SCROLLBAR(gtk_scrolled_window_get_hscrollbar(scroller)));
+	make(GTK_SCROLLBAR(gtk_scrolled_window_get_vscrollbar(scroller)));
+}

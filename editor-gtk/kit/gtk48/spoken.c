@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * spoken - what the toolkit's widgets leave out, or tell too much of; see spoken.h.
+ */
+#include "editor-gtk/kit/gtk48/spoken.h"
+
+#include <string.h>
+
+/* In the order in which a reader would come to them. */
+static GtkWidget *next(GtkWidget *widget, GtkWidget *root)
+{
+	GtkWidget *found = gtk_widget_get_first_child(widget);
+
+	while (!found && widget != root) {
+		found = gtk_widget_get_next_sibling(widget);
+		widget = gtk_widget_get_parent(widget);
+	}
+	return found;
+}
+
+static void name_part(GtkWidget *widget)
+{
+	GtkWidget *parent = gtk_widget_get_parent(widget);
+	const char *tip = gtk_widget_get_tooltip_text(widget);
+
+	if (GTK_IS_TOGGLE_BUTTON(widget) && GTK_IS_DROP_DOWN(parent))
+		gtk_accessible_update_relation(GTK_ACCESSIBLE(widget),
+			GTK_ACCESSIBLE_RELATION_LABELLED_BY, parent, NULL, -1);
+	else if (GTK_IS_BUTTON(widget) && tip &&
+		 strcmp(G_OBJECT_TYPE_NAME(parent), "AdwTab") == 0)
+		gtk_accessible_update_property(GTK_ACCESSIBLE(widget),
+			GTK_ACCESSIBLE_PROPERTY_LABEL, tip, -1);
+}
+
+/* A reader finds what is in a revealer, revealed or not. It moves in and out as before. */
+static void hide_closed(GtkRevealer *revealer)
+{
+	gtk_widget_set_visible(GTK_WIDGET(revealer),
+			       gtk_revealer_get_reveal_child(revealer) ||
+			       gtk_revealer_get_child_revealed(revealer));
+}
+
+static void keep_hidden(GtkRevealer *revealer)
+{
+	g_signal_handlers_disconnect_by_func(revealer, hide_closed, NULL);
+	g_signal_connect(revealer, "notify::reveal-child", G_CALLBACK(hide_closed), NULL);
+	g_signal_connect(revealer, "notify::child-revealed", G_CALLBACK(hide_closed), NULL);
+	hide_closed(revealer);
+}
+
+void spoken_parts(GtkWidget *root)
+{
+	for (GtkWidget *widget = next(root, root); widget; widget = next(widget, root)) {
+		name_part(widget);
+		if (GTK_IS_REVEALER(widget))
+			keep_hidden(GTK_REVEALER(widget));
+	}
+}
+
+static void hide_empty(GtkLabel *label)
+{
+	gtk_widget_set_visible(GTK_WIDGET(label), *gtk_label_get_text(label));
+}
+
+void spoken_text(GtkLabel *label)
+{
+	g_signal_connect(label, "notify::label", G_CALLBACK(hide_empty), NULL);
+	hide_empty(label);
+}

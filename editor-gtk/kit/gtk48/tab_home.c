@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * tab_home - a tab stays in its window; see tab_home.h.
+ *
+ * libadwaita takes a tab out of its view while it is dragged out of the bar. What bar and
+ * view accept is asked of us first, at their drop targets. Where a libadwaita has none that
+ * takes tabs, nothing is asked.
+ */
+#include "editor-gtk/kit/gtk48/tab_home.h"
+
+#include <stdbool.h>
+
+struct home {
+	AdwTabView *view; /* not held: it is only compared                        */
+	AdwTabPage *out;  /* the last that was taken out; a weak pointer          */
+	int place;        /* where it was                                         */
+	bool begged;      /* for a window of its own: it comes back               */
+};
+
+static void forget(gpointer home)
+{
+	g_clear_weak_pointer(&((struct home *)home)->out);
+}
+
+static void let_go(gpointer home, GClosure *closure)
+{
+	(void)closure;
+	g_rc_box_release_full(home, forget);
+}
+
+/* Each that is listened to holds it. */
+static void listen(gpointer to, const char *signal, GCallback act, struct home *home)
+{
+	g_signal_connect_data(to, signal, act, g_rc_box_acquire(home), let_go, 0);
+}
+
+/* ---- what is taken ---- */
+
+/* The tab that is dragged; NULL: something else is, or it is of another program. */
+static AdwTabPage *dragged(GdkDrop *drop)
+{
+	GdkDrag *drag = gdk_drop_get_drag(drop);
+	GValue value = G_VALUE_INIT;
+	AdwTabPage *page = NULL;
+
+	if (!drag)
+		return NULL;
+	g_value_init(&value, ADW_TYPE_TAB_PAGE);
+	if (gdk_content_provider_get_value(gdk_drag_get_content(drag), &value, NULL))
+		page = g_value_get_object(&value); /* the drag has it */
+	g_value_unset(&value);
+	return page;
+}
+
+/* The bar takes those of its view, the view none. */
+static gboolean accept(GtkDropTarget *target, GdkDrop *drop, struct home *home)
+{
+	GtkWidget *widget = gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(target));
+
+	return gdk_content_formats_match(gdk_drop_get_formats(drop),
+					 gtk_drop_target_get_formats(target)) &&
+	       widget != GTK_WIDGET(home->view) && dragged(drop) == home->out;
+}
+
+static void ask_first(GtkWidget *widget, struct home *home)
+{
+	GListModel *controllers = gtk_widget_observe_controllers(widget);
+
+	for (guint i = 0; i < g_list_model_get_n_items(controllers); i++) {
+		GObject *each = g_list_model_get_item(controllers, i);
+
+		if (GTK_IS_DROP_TARGET(each) && gdk_content_formats_contain_gtype(
+			    gtk_drop_target_get_formats(GTK_DROP_TARGET(each)),
+			    ADW_TYPE_TAB_PAGE))
+			listen(each, "accept", G_CALLBACK(accept), home);
+		g_object_unref(each);
+	}
+	g_object_unref(controllers);
+}
+
+static void ask_first_inside(GtkWidget *widget, struct home *home)
+{
+	ask_first(widget, home);
+	for (GtkWidget *child = gtk_widget_get_first_child(widget); child;
+	     child = gtk_widget_get_next_sibling(child))
+		ask_first_inside(child, home);
+}
+
+/* ---- let go where none is taken ---- */
+
+static void taken_out(AdwTabView *view, AdwTabPage *page, int place, struct home *home)
+{
+	(void)view;
+	g_set_weak_pointer(&home->out, page);
+	home->place = place;
+}
+
+/* It is asked for a window that takes the tab, as the first. */
+static AdwTabView *back(AdwTabView *view, struct home *home)
+{
+	home->begged = true;
+	return view;
+}
+
+static void came(AdwTabView *view, AdwTabPage *page, int place, struct home *home)
+{
+	(void)place;
+	if (home->begged)
+		adw_tab_view_reorder_page(view, page, home->place);
+	home->begged = false;
+}
+
+void tab_home_make(AdwTabBar *bar)
+{
+	struct home *home = g_rc_box_new0(struct home);
+
+	home->view = adw_tab_bar_get_view(bar);
+	ask_first_inside(GTK_WIDGET(bar), home);
+	ask_first(GTK_WIDGET(home->view), home);
+	listen(home->view, "page-detached", G_CALLBACK(taken_out), home);
+	listen(home->view, "create-window", G_CALLBACK(back), home);
+	listen(home->view, "page-attached", G_CALLBACK(came), home);
+	let_go(home, NULL);
+}

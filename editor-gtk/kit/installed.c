@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * installed - what belongs to this program, wherever it was built, installed or moved to.
+ */
+#include "editor-gtk/kit/installed.h"
+
+/* @path is taken; NULL if it is not what is wanted. */
+static char *if_is(char *path, GFileTest wanted)
+{
+	if (g_file_test(path, wanted))
+		return path;
+	g_free(path);
+	return NULL;
+}
+
+/* Of this program. */
+static char *bin_folder(void)
+{
+	char *program = g_file_read_link("/proc/self/exe", NULL);
+	char *folder = program ? g_path_get_dirname(program) : NULL;
+
+	g_free(program);
+	return folder;
+}
+
+char *installed_folder(const char *built, const char *installed)
+{
+	char *bin = bin_folder(), *found;
+
+	if (!bin)
+		return NULL;
+	found = if_is(g_build_filename(bin, built, NULL), G_FILE_TEST_IS_DIR);
+	if (!found)
+		found = if_is(g_build_filename(bin, "..", "share", installed, NULL),
+			      G_FILE_TEST_IS_DIR);
+	g_free(bin);
+	return found;
+}
+
+char *installed_program(const char *name)
+{
+	char *bin = bin_folder();
+	char *found = bin ? if_is(g_build_filename(bin, name, NULL),
+				  G_FILE_TEST_IS_EXECUTABLE) : NULL;
+
+	g_free(bin);
+	return found ? found : g_find_program_in_path(name);
+}

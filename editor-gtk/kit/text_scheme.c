@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * text_scheme - see text_scheme.h. It knows nothing of what the text says.
+ */
+#include "editor-gtk/kit/text_scheme.h"
+
+#include <adwaita.h>
+
+static void follow(GtkSourceBuffer *buffer)
+{
+	AdwStyleManager *style = adw_style_manager_get_default();
+	GtkSourceStyleScheme *scheme = gtk_source_style_scheme_manager_get_scheme(
+		gtk_source_style_scheme_manager_get_default(),
+		adw_style_manager_get_dark(style) ? "Adwaita-dark" : "Adwaita");
+
+	if (scheme)
+		gtk_source_buffer_set_style_scheme(buffer, scheme);
+}
+
+void text_scheme_follow(GtkSourceBuffer *buffer)
+{
+	g_signal_connect_object(adw_style_manager_get_default(), "notify::dark",
+				G_CALLBACK(follow), buffer, G_CONNECT_SWAPPED);
+	follow(buffer);
+}

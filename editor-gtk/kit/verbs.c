@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * verbs - the rows of verbs.def as a table.
+ */
+#include "editor-gtk/kit/verbs.h"
+
+#include "editor-gtk/kit/i18n.h"
+
+#include "engine/base/catalog.h"
+
+#include <string.h>
+
+static const char *const ids[] = {
+#define VERB(id, where, keys, label, group) "win." #id,
+#include "editor-gtk/kit/verbs.def"
+};
+static const struct verb_row rows[] = {
+#define VERB(id, where, keys, label, group) \
+	{ "win." #id, VERB_##where, keys, label, VERBS_##group },
+#include "editor-gtk/kit/verbs.def"
+};
+
+const struct verb_row *verb_row(enum verb verb)
+{
+	return &rows[verb];
+}
+
+enum verb verb_find(const char *action)
+{
+	for (int i = 0; i < VERB_COUNT; i++)
+		if (strcmp(ids[i], action) == 0)
+			return (enum verb)i;
+	return VERB_COUNT;
+}
+
+const char *verb_group_label(enum verb_group group)
+{
+	static const char *const labels[VERBS_GROUPS] = {
+		[VERBS_FILE] = N_("File"), [VERBS_PROJECT] = N_("Project"),
+		[VERBS_EDIT] = N_("Edit"),
+		[VERBS_DRAW] = N_("Draw"), [VERBS_RUNG] = N_("Rungs"),
+		[VERBS_CHART] = N_("Charts"),
+		[VERBS_GO] = N_("Go"), [VERBS_RUN] = N_("Simulation"),
+		[VERBS_VIEW] = N_("View"),
+		[VERBS_HELP] = N_("Help"),
+	};
+
+	return labels[group];
+}
+
+/* ---- schemes ---- */
+
+struct key_row {
+	enum key_scheme scheme;
+	enum verb verb;    /* VERB_COUNT: a word                               */
+	const char *word;
+	const char *keys;
+};
+
+static const char *const schemes[] = {
+#define SCHEME(id, name) name,
+#include "editor-gtk/kit/key_schemes.def"
+};
+static const struct key_row key_rows[] = {
+#define KEYS(scheme, verb, keys) { SCHEME_##scheme, VERB_##verb, NULL, keys },
+#define PUT(scheme, word, keys) { SCHEME_##scheme, VERB_COUNT, word, keys },
+#include "editor-gtk/kit/key_schemes.def"
+};
+
+/* The keys that hold; only verbs_use_scheme() changes them. */
+static char *keys_now[VERB_COUNT];
+static enum key_scheme scheme_now;
+static GListStore *shortcuts[VERB_BOTH]; /* by verb_where: of sheets and charts */
+
+const char *key_scheme_name(enum key_scheme scheme)
+{
+	return schemes[scheme];
+}
+
+static bool same_key(const char *a, const char *b)
+{
+	guint key_a, key_b;
+	GdkModifierType state_a, state_b;
+
+	return gtk_accelerator_parse(a, &key_a, &state_a) &&
+	       gtk_accelerator_parse(b, &key_b, &state_b) && key_a == key_b &&
+	       state_a == state_b;
+}
+
+/* Keys of sheets and of charts are not in each other's way. */
+static bool is_apart(const struct key_row *row, enum verb verb)
+{
+	const enum verb_where where = row->word ? VERB_SHEET : rows[row->verb].where;
+
+	return (where == VERB_SHEET && rows[verb].where == VERB_CHART) ||
+	       (where == VERB_CHART && rows[verb].where == VERB_SHEET);
+}
+
+static bool is_given_away(enum key_scheme scheme, const char *key, enum verb verb)
+{
+	bool found = false;
+
+	for (gsize i = 0; !found && i < G_N_ELEMENTS(key_rows); i++) {
+		char **keys;
+
+		if (key_rows[i].scheme != scheme || is_apart(&key_rows[i], verb))
+			continue;
+		keys = g_strsplit(key_rows[i].keys, "|", -1);
+		for (char **one = keys; *one; one++)
+			found = found || same_key(*one, key);
+		g_strfreev(keys);
+	}
+	return found;
+}
+
+char *verb_keys_of(enum verb verb, enum key_scheme scheme)
+{
+	GString *left = g_string_new(NULL);
+	char **keys;
+
+	for (gsize i = 0; i < G_N_ELEMENTS(key_rows); i++)
+		if (key_rows[i].scheme == scheme && key_rows[i].verb == verb)
+			return g_string_free(g_string_assign(left, key_rows[i].keys), FALSE);
+	keys = g_strsplit(rows[verb].keys, "|", -1);
+	for (char **key = keys; *key; key++)
+		if (**key && !is_given_away(scheme, *key, verb))
+			g_string_append_printf(left, "%s%s", left->len ? "|" : "", *key);
+	g_strfreev(keys);
+	return g_string_free(left, FALSE);
+}
+
+const char *verb_keys(enum verb verb)
+{
+	return keys_now[verb] ? keys_now[verb] : rows[verb].keys;
+}
+
+char *keys_label(const char *text)
+{
+	char **keys = g_strsplit(text, "|", -1);
+	guint key = 0;
+	GdkModifierType modifiers = 0;
+	char *label = NULL;
+
+	if (keys[0] && keys[0][0] && gtk_accelerator_parse(keys[0], &key, &modifiers))
+		label = gtk_accelerator_get_label(key, modifiers);
+	g_strfreev(keys);
+	return label ? label : g_strdup("");
+}
+
+char *verb_keys_label(enum verb verb)
+{
+	return keys_label(verb_keys(verb));
+}
+
+void verb_tell(GString *line, enum verb verb)
+{
+	char *keys = verb_keys_label(verb);
+
+	if (keys[0])
+		g_string_append_printf(line, "%s%s: %s", line->len ? " · " : "", keys,
+				       _(verb_row(verb)->label));
+	g_free(keys);
+}
+
+bool key_scheme_put(enum key_scheme scheme, int index, const char **word,
+		    const char **keys)
+{
+	for (gsize i = 0; i < G_N_ELEMENTS(key_rows); i++) {
+		if (key_rows[i].scheme != scheme || !key_rows[i].word || index-- > 0)
+			continue;
+		*word = key_rows[i].word;
+		*keys = key_rows[i].keys;
+		return true;
+	}
+	return false;
+}
+
+/* ---- whom they are given ---- */
+
+static void add_shortcut(GListStore *to, const char *keys, const char *action,
+			 GVariant *argument)
+{
+	GtkShortcutTrigger *trigger = gtk_shortcut_trigger_parse_string(keys);
+	GtkShortcut *shortcut;
+
+	g_assert(trigger);
+	shortcut = gtk_shortcut_new(trigger, gtk_named_action_new(action));
+	if (argument)
+		gtk_shortcut_set_arguments(shortcut, argument);
+	g_list_store_append(to, shortcut);
+	g_object_unref(shortcut);
+}
+
+static void fill_shortcuts(enum verb_where where)
+{
+	const char *word, *keys;
+
+	g_list_store_remove_all(shortcuts[where]);
+	for (int i = 0; i < VERB_COUNT; i++)
+		if ((rows[i].where == where || rows[i].where == VERB_BOTH) &&
+		    verb_keys((enum verb)i)[0])
+			add_shortcut(shortcuts[where], verb_keys((enum verb)i),
+				     rows[i].action, NULL);
+	for (int i = 0; where == VERB_SHEET &&
+	     key_scheme_put(scheme_now, i, &word, &keys); i++)
+		add_shortcut(shortcuts[where], keys, "win.place",
+			     g_variant_new_int32((int)word_find(word, strlen(word))));
+}
+
+GtkEventController *verbs_controller(enum verb_where where)
+{
+	if (!shortcuts[where]) {
+		shortcuts[where] = g_list_store_new(GTK_TYPE_SHORTCUT);
+		fill_shortcuts(where);
+	}
+	return gtk_shortcut_controller_new_for_model(G_LIST_MODEL(shortcuts[where]));
+}
+
+static bool is_pressed(const char *keys, GdkEvent *key)
+{
+	GtkShortcutTrigger *trigger = keys[0] ? gtk_shortcut_trigger_parse_string(keys) :
+		NULL;
+	const bool same = trigger &&
+		gtk_shortcut_trigger_trigger(trigger, key, FALSE) == GDK_KEY_MATCH_EXACT;
+
+	g_clear_object(&trigger);
+	return same;
+}
+
+enum verb verb_of_key(GdkEvent *key)
+{
+	int i = 0;
+
+	while (i < VERB_COUNT && (rows[i].where != VERB_WINDOW ||
+				  !is_pressed(verb_keys((enum verb)i), key)))
+		i++;
+	return (enum verb)i;
+}
+
+static void give_keys(GtkApplication *application)
+{
+	for (int i = 0; i < VERB_COUNT; i++) {
+		char **keys;
+
+		if (rows[i].where != VERB_WINDOW)
+			continue;
+		keys = g_strsplit(verb_keys((enum verb)i), "|", -1);
+		gtk_application_set_accels_for_action(application, rows[i].action,
+						      (const char *const *)keys);
+		g_strfreev(keys);
+	}
+}
+
+void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme)
+{
+	scheme_now = scheme;
+	for (int i = 0; i < VERB_COUNT; i++) {
+		g_free(keys_now[i]);
+		keys_now[i] = verb_keys_of((enum verb)i, scheme);
+	}
+	for (int where = VERB_SHEET; where < VERB_BOTH; where++)
+		if (shortcuts[where])
+			fill_shortcuts((enum verb_where)where);
+	if (application)
+		give_keys(application);
+}

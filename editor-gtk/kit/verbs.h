@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * verbs - the rows of verbs.def as a table.
+ *
+ * What a verb does is told by the window and the sheet; here is only what it is called,
+ * which keys it has and where they count.
+ */
+#ifndef EDITOR_VERBS_H
+#define EDITOR_VERBS_H
+
+#include <gtk/gtk.h>
+#include <stdbool.h>
+
+enum verb {
+#define VERB(id, where, keys, label, group) VERB_##id,
+#include "editor-gtk/kit/verbs.def"
+	VERB_COUNT
+};
+enum verb_where { VERB_WINDOW, VERB_SHEET, VERB_CHART, VERB_BOTH };
+enum verb_group {
+	VERBS_FILE, VERBS_PROJECT, VERBS_EDIT, VERBS_DRAW, VERBS_RUNG, VERBS_CHART, VERBS_GO,
+	VERBS_RUN, VERBS_VIEW, VERBS_HELP,
+	VERBS_GROUPS
+};
+
+struct verb_row {
+	const char *action;    /* "win.rung-below"                             */
+	enum verb_where where;
+	const char *keys;      /* parted by |; "" for none                     */
+	const char *label;     /* not translated: _() it                       */
+	enum verb_group group;
+};
+
+/** verb_row - lives for ever. */
+const struct verb_row *verb_row(enum verb verb);
+/** verb_find - of an action's name, "win.save"; VERB_COUNT: none. */
+enum verb verb_find(const char *action);
+/** verb_group_label - not translated. */
+const char *verb_group_label(enum verb_group group);
+/** verb_keys - that hold now, parted by |; "" for none. Borrowed until another scheme. */
+const char *verb_keys(enum verb verb);
+/** keys_label - the first one as people read it; "" of none. Caller frees. */
+char *keys_label(const char *keys);
+/** verb_keys_label - "Ctrl+S" as people read it; "" if it has none. Caller frees. */
+char *verb_keys_label(enum verb verb);
+
+/** verb_tell - adds "F5: Contact" to a line of such, if it has a key. */
+void verb_tell(GString *line, enum verb verb);
+
+/* Maps of keys, key_schemes.def. */
+enum key_scheme {
+#define SCHEME(id, name) SCHEME_##id,
+#include "editor-gtk/kit/key_schemes.def"
+	KEY_SCHEMES
+};
+/** key_scheme_name - of the editor it is like; never translated. */
+const char *key_scheme_name(enum key_scheme scheme);
+/** verb_keys_of - in a scheme. Caller frees. */
+char *verb_keys_of(enum verb verb, enum key_scheme scheme);
+/** key_scheme_put - the word number @index that a scheme has keys for; false: none. */
+bool key_scheme_put(enum key_scheme scheme, int index, const char **word,
+		    const char **keys);
+/** verbs_use_scheme - from now on these keys hold, in all windows and sheets; @application
+ * NULL: there is none. */
+void verbs_use_scheme(GtkApplication *application, enum key_scheme scheme);
+/** verb_of_key - the WINDOW verb whose key it is, by the keys that hold now; VERB_COUNT:
+ * none. For what keeps its keys from the window. */
+enum verb verb_of_key(GdkEvent *key);
+/** verbs_controller - the keys of all SHEET or CHART verbs, and of those of BOTH; follows
+ * the scheme. Owns: the widget it is added to. */
+GtkEventController *verbs_controller(enum verb_where where);
+
+#endif

@@ -1,0 +1,417 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * grid_view_live - what a sheet shows of the program that runs; see grid_view_live.h.
+ *
+ * When values are others, the rungs on the screen are looked at, and those are drawn anew
+ * of which something is. What is not on the screen is looked at when it comes there.
+ */
+#include "editor-gtk/ladder/grid_view_inside.h"
+
+#define SAY_MS 300 /* names of cells follow so late: reading them takes longer   */
+#define VALUES_MS 1000 /* and so late if there are other numbers in them alone    */
+
+static struct strip *strip_of(LadderGridView *view, int rung)
+{
+	return &g_array_index(view->strips, struct strip, rung);
+}
+
+static bool flashes(LadderGridView *view)
+{
+	gboolean animations = TRUE;
+
+	g_object_get(gtk_widget_get_settings(GTK_WIDGET(view)), "gtk-enable-animations",
+		     &animations, NULL);
+	return animations && !ladder_sim_is_past(view->live.sim);
+}
+
+bool live_is_on(LadderGridView *view)
+{
+	return view->live.sim && ladder_sim_is_on(view->live.sim);
+}
+
+/* ---- forgetting ---- */
+
+void live_forget(struct strip *strip)
+{
+	g_clear_pointer(&strip->live, live_rung_free);
+	strip->looked = 0;
+}
+
+void live_forget_all(LadderGridView *view)
+{
+	for (guint i = 0; i < view->strips->len; i++)
+		live_forget(strip_of(view, (int)i));
+	g_clear_pointer(&view->live.map, live_map_free);
+}
+
+/* ---- finding ---- */
+
+static struct live_map *map_of(LadderGridView *view)
+{
+	const struct pou *pou = sheet_pou(view);
+
+	if (!view->live.map && pou)
+		view->live.map = live_map_new(
+			&ladder_sim_twin(view->live.sim)->resource,
+			project_text(ladder_document_project(view->document), pou->name),
+			view->live.instance);
+	return view->live.map;
+}
+
+static bool same_text(const struct project *a, uint32_t x, const struct project *b,
+		      uint32_t y)
+{
+	return g_str_equal(project_text(a, x), project_text(b, y));
+}
+
+/* Of the program that runs, if it is the very rung: a rung that a program to come has
+ * must not show the power of another. */
+static int number_of(LadderGridView *view, const struct rung *shown, int rung)
+{
+	const struct project *mine = ladder_document_project(view->document);
+	const struct project *running = ladder_project(ladder_sim_ladder(view->live.sim));
+	const int number = ladder_sim_rung(view->live.sim, view->document,
+						  view->pou, view->first + rung);
+	const struct rung *other;
+
+	if (number < 0 || view->pou >= running->pou_count ||
+	    number >= running->pou[view->pou].rung_count)
+		return -1;
+	other = running->pou[view->pou].rung[number];
+	if (other->rows != shown->rows || other->cols != shown->cols)
+		return -1;
+	for (int i = 0; i < shown->rows * shown->cols; i++)
+		if (shown->cell[i].link != other->cell[i].link ||
+		    !same_text(mine, shown->cell[i].operand, running,
+			       other->cell[i].operand) ||
+		    !same_text(mine, shown->cell[i].args, running, other->cell[i].args))
+			return -1;
+	return number;
+}
+
+/* ---- looking ---- */
+
+static void say_later(LadderGridView *view);
+static void say_values_later(LadderGridView *view);
+
+bool live_look(LadderGridView *view, int rung)
+{
+	struct strip *strip = strip_of(view, rung);
+	const struct rung *shown = sheet_rung(view, rung);
+	unsigned int changed;
+
+	if (!live_is_on(view) || shown == view->preview || strip->looked == view->live.stamp)
+		return false;
+	if (strip->live && strip->live->shown != shown)
+		live_forget(strip);
+	if (!strip->live && map_of(view))
+		strip->live = live_rung_new(map_of(view), view->drafting.project, shown,
+					    number_of(view, shown, rung));
+	strip->looked = view->live.stamp;
+	if (!strip->live)
+		return false;
+	changed = live_rung_look(strip->live, &ladder_sim_twin(view->live.sim)->resource,
+				 g_get_monotonic_time(), flashes(view));
+	if (changed & LIVE_OTHER_STATE)
+		say_later(view);
+	else if (changed & LIVE_OTHER_TEXT)
+		say_values_later(view);
+	return changed != LIVE_SAME;
+}
+
+const struct live_rung *live_rung_of(LadderGridView *view, int rung)
+{
+	const struct rung *shown = sheet_rung(view, rung);
+
+	if (!live_is_on(view) || !shown || shown == view->preview)
+		return NULL;
+	if (live_look(view, rung))
+		strips_redraw(view, rung);
+	return strip_of(view, rung)->live;
+}
+
+static gboolean look_again(gpointer view);
+
+/* What is new now is not in a while, even if nothing else happens. */
+static void look_later(LadderGridView *view, gint64 until)
+{
+	const gint64 now = g_get_monotonic_time();
+
+	if (until && !view->live.timer)
+		view->live.timer = g_timeout_add((guint)(MAX(until - now, 0) / 1000 + 1),
+						 look_again, view);
+}
+
+/* The rungs on the screen. */
+static void look_at_seen(LadderGridView *view)
+{
+	const double top = gtk_adjustment_get_value(view->adjustment[1]);
+	const double end = top + gtk_widget_get_height(GTK_WIDGET(view));
+	gint64 until = 0;
+	bool changed = false;
+
+	if (!gtk_widget_get_mapped(GTK_WIDGET(view)))
+		return;
+	for (int i = strips_at(view, (float)(top / view->zoom));
+	     i >= 0 && i < (int)view->strips->len; i++) {
+		struct strip *strip = strip_of(view, i);
+
+		if (strip->y * view->zoom > end)
+			break;
+		if (!strip->layout)
+			continue;
+		if (live_look(view, i)) {
+			g_clear_pointer(&strip->node, gsk_render_node_unref);
+			changed = true;
+		}
+		if (strip->live && strip->live->until)
+			until = until ? MIN(until, strip->live->until) :
+				strip->live->until;
+	}
+	look_later(view, until);
+	if (changed)
+		gtk_widget_queue_draw(GTK_WIDGET(view));
+}
+
+static gboolean look_again(gpointer data)
+{
+	LadderGridView *view = data;
+
+	view->live.timer = 0;
+	view->live.stamp++;
+	look_at_seen(view);
+	return G_SOURCE_REMOVE;
+}
+
+/* ---- what is heard of the simulation ---- */
+
+/* Power is there while something is scanned, or was. */
+static void notice_state(LadderGridView *view)
+{
+	const enum sim_state state = ladder_sim_state(view->live.sim);
+	const bool still = state == SIM_STOP;
+
+	if (still == view->live.still)
+		return;
+	view->live.still = still;
+	strips_redraw(view, -1);
+}
+
+static void shown(LadderGridView *view)
+{
+	view->live.stamp++;
+	if (!live_is_on(view))
+		return;
+	notice_state(view);
+	look_at_seen(view);
+}
+
+static void program_changed(LadderGridView *view)
+{
+	view->live.stamp++;
+	act_forget(view);
+	live_forget_all(view);
+	ladder_grid_view_set_blockers(view, -1, NULL, 0);
+	strips_redraw(view, -1);
+	cells_later(view);
+	sheet_moved(view);
+}
+
+static void state_changed(LadderGridView *view)
+{
+	if (live_is_on(view))
+		notice_state(view);
+	else
+		program_changed(view);
+}
+
+static gboolean say_now(gpointer data)
+{
+	LadderGridView *view = data;
+
+	view->live.say = 0;
+	cells_later(view);
+	return G_SOURCE_REMOVE;
+}
+
+static void say_later(LadderGridView *view)
+{
+	if (!view->live.say)
+		view->live.say = g_timeout_add(SAY_MS, say_now, view);
+}
+
+static gboolean say_values_now(gpointer data)
+{
+	LadderGridView *view = data;
+
+	view->live.say_values = 0;
+	cells_rename(view);
+	return G_SOURCE_REMOVE;
+}
+
+static void say_values_later(LadderGridView *view)
+{
+	if (!view->live.say_values)
+		view->live.say_values = g_timeout_add(VALUES_MS, say_values_now, view);
+}
+
+void ladder_grid_view_set_sim(LadderGridView *view, LadderSim *sim)
+{
+	struct sheet_live *live = &view->live;
+
+	if (live->sim) {
+		for (gsize i = 0; i < G_N_ELEMENTS(live->handler); i++)
+			g_signal_handler_disconnect(live->sim, live->handler[i]);
+		live_forget_all(view);
+		g_clear_object(&live->sim);
+	}
+	if (!sim)
+		return;
+	live->sim = g_object_ref(sim);
+	live->handler[0] = g_signal_connect_swapped(sim, "shown", G_CALLBACK(shown), view);
+	live->handler[1] = g_signal_connect_swapped(sim, "program-changed",
+		G_CALLBACK(program_changed), view);
+	live->handler[2] = g_signal_connect_swapped(sim, "state-changed",
+		G_CALLBACK(state_changed), view);
+	if (live_is_on(view))
+		program_changed(view);
+}
+
+/* ---- instances ---- */
+
+void ladder_grid_view_set_instance(LadderGridView *view, const char *instance)
+{
+	g_free(view->live.instance);
+	view->live.instance = g_strdup(instance);
+	if (live_is_on(view))
+		program_changed(view);
+}
+
+const char *ladder_grid_view_instance(LadderGridView *view)
+{
+	return live_is_on(view) && map_of(view) ? live_map_instance(map_of(view)) : NULL;
+}
+
+/* ---- marks ---- */
+
+static void blocker_clear(gpointer blocker)
+{
+	g_free((char *)((struct grid_blocker *)blocker)->note);
+}
+
+void ladder_grid_view_set_blockers(LadderGridView *view, int rung,
+				   const struct grid_blocker *cells, int count)
+{
+	const int before = view->live.blocked;
+
+	g_array_set_size(view->live.blockers, 0);
+	view->live.blocked = count > 0 ? rung : -1;
+	for (int i = 0; i < count; i++) {
+		struct grid_blocker copy = cells[i];
+
+		copy.note = g_strdup(copy.note);
+		g_array_append_val(view->live.blockers, copy);
+	}
+	if (before >= 0)
+		strips_redraw(view, before);
+	if (view->live.blocked >= 0)
+		strips_redraw(view, rung);
+}
+
+static unsigned int marks_of(uint8_t bits)
+{
+	return (bits & LIVE_FORCED ? MARK_FORCED : 0) |
+	       (bits & LIVE_FAILED ? MARK_FAILED : 0);
+}
+
+static void push(GArray *marks, int row, int column, unsigned int mark)
+{
+	const struct grid_mark one = { row, column, mark };
+
+	g_array_append_val(marks, one);
+}
+
+void live_marks(LadderGridView *view, int rung, GArray *marks)
+{
+	const struct live_rung *live = strip_of(view, rung)->live;
+	const struct rung *shown = sheet_rung(view, rung);
+
+	if (shown == view->preview)
+		return;
+	for (int i = 0; live && i < live->rows * live->cols; i++)
+		if (marks_of(live->bits[i]))
+			push(marks, i / live->cols,
+			     grid_display_column(shown, view->columns, i / live->cols,
+						 i % live->cols),
+			     marks_of(live->bits[i]));
+	for (guint i = 0; rung == view->live.blocked && i < view->live.blockers->len; i++) {
+		const struct grid_blocker *one =
+			&g_array_index(view->live.blockers, struct grid_blocker, i);
+
+		if (one->row >= 0 && one->row < shown->rows && one->col >= 0 &&
+		    one->col < shown->cols)
+			push(marks, one->row,
+			     grid_display_column(shown, view->columns, one->row, one->col),
+			     MARK_BLOCKS);
+	}
+}
+
+const char *live_note(void *context, int row, int column)
+{
+	const struct live_place *place = context;
+	LadderGridView *view = place->view;
+	const struct rung *shown = sheet_rung(view, place->rung);
+
+	for (guint i = 0; place->rung == view->live.blocked && shown != view->preview &&
+	     i < view->live.blockers->len; i++) {
+		const struct grid_blocker *one =
+			&g_array_index(view->live.blockers, struct grid_blocker, i);
+
+		if (one->row == row && one->row < shown->rows && one->col < shown->cols &&
+		    grid_display_column(shown, view->columns, row, one->col) == column)
+			return one->note;
+	}
+	return NULL;
+}
+
+/* ---- for tests and measurements ---- */
+
+guint ladder_grid_view_drawn(LadderGridView *view)
+{
+	return view->live.drawn;
+}
+
+bool ladder_grid_view_live(LadderGridView *view, int rung, int row, int col,
+			   unsigned int *bits, char *text)
+{
+	const struct live_rung *live = live_rung_of(view, rung);
+	struct live_value value = { .text = "" };
+
+	if (!live || row < 0 || row >= live->rows || col < 0 || col >= live->cols)
+		return false;
+	*bits = live->bits[row * live->cols + col];
+	live_rung_value((void *)live, row, col, &value);
+	g_strlcpy(text, value.text, sizeof(value.text));
+	return true;
+}
+
+/* ---- life ---- */
+
+void live_init(LadderGridView *view)
+{
+	view->live.blocked = -1;
+	view->live.stamp = 1;
+	view->live.blockers = g_array_new(FALSE, FALSE, sizeof(struct grid_blocker));
+	g_array_set_clear_func(view->live.blockers, blocker_clear);
+	act_init(view);
+	g_signal_connect(view, "map", G_CALLBACK(gtk_widget_queue_draw), NULL);
+}
+
+void live_clear(LadderGridView *view)
+{
+	ladder_grid_view_set_sim(view, NULL);
+	g_clear_handle_id(&view->live.timer, g_source_remove);
+	g_clear_handle_id(&view->live.say, g_source_remove);
+	g_clear_handle_id(&view->live.say_values, g_source_remove);
+	g_clear_pointer(&view->live.instance, g_free);
+}

@@ -1,0 +1,450 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim_panel_rows - which lines the panel has for a program: what it declares, and the
+ * addresses that it uses without a name; of its plant what is no wire between both.
+ *
+ * In the order of groups, of the places that the I/O map names, and there by address; what
+ * has none as it is declared.
+ */
+#include "editor-gtk/live/sim_panel_map.h"
+
+#include "engine/model/args.h"
+#include "engine/xref/xref.h"
+
+#include <string.h>
+
+struct maker {
+	const struct twin *twin;
+	const struct image *image;  /* of the program or its plant             */
+	struct project *project;
+	bool plant;
+	GPtrArray *rows;
+	GHashTable *comments;       /* of folded names                         */
+	GHashTable *starts;         /* of a timer's ET: where it keeps its start */
+	GHashTable *taken;          /* places that have a line                 */
+	LadderSimRow *last;         /* a timer or counter, pin by pin          */
+	gsize last_len;             /* of its name                             */
+};
+
+/* ---- comments ---- */
+
+static char *plain_comment(const char *comment)
+{
+	const gsize len = strlen(comment);
+
+	if (g_str_has_prefix(comment, "(*") && len >= 4)
+		return g_strstrip(g_strndup(comment + 2, len - 4));
+	return g_strstrip(g_strdup(g_str_has_prefix(comment, "//") ? comment + 2 : comment));
+}
+
+static void add_comment(struct maker *maker, const char *pou, const struct var *var)
+{
+	const char *name = project_text(maker->project, var->name);
+	const char *comment = project_text(maker->project, var->comment);
+	char *whole;
+
+	if (!*comment)
+		return;
+	whole = g_strconcat(pou, *pou ? "." : "", name, NULL);
+	g_hash_table_insert(maker->comments, g_ascii_strdown(whole, -1),
+			    plain_comment(comment));
+	g_free(whole);
+	if (*pou)
+		g_hash_table_insert(maker->comments, g_ascii_strdown(name, -1),
+				    plain_comment(comment));
+}
+
+/* Locals first: what has the name of a global shows that without its POU. */
+static void find_comments(struct maker *maker)
+{
+	const struct project *project = maker->project;
+
+	for (int p = 0; p < project->pou_count; p++)
+		for (int i = 0; i < project->pou[p].vars.count; i++)
+			add_comment(maker, project_text(project, project->pou[p].name),
+				    &project->pou[p].vars.var[i]);
+	for (int i = 0; i < project->globals.count; i++)
+		add_comment(maker, "", &project->globals.var[i]);
+}
+
+/* Of Table[3] that of Table, of Main.Recipe.Speed that of Main.Recipe. */
+static char *comment_of(struct maker *maker, const char *name)
+{
+	char *key = g_ascii_strdown(name, -1);
+	const char *found = g_hash_table_lookup(maker->comments, key);
+
+	for (gsize len = strlen(key); !found && len--;) {
+		if (key[len] != '.' && key[len] != '[')
+			continue;
+		key[len] = '\0';
+		found = g_hash_table_lookup(maker->comments, key);
+	}
+	g_free(key);
+	return g_strdup(found);
+}
+
+/* ---- places ---- */
+
+static gint64 place_key(struct location at)
+{
+	return (gint64)at.area << 40 | (gint64)(at.area ? 0 : at.type) << 34 | at.where;
+}
+
+static gpointer key_copy(gint64 key)
+{
+	return g_memdup2(&key, sizeof(key));
+}
+
+/* Where a timer keeps when it began, of each. */
+static void find_starts(struct maker *maker)
+{
+	struct symbol_cursor cursor = { .whole = true };
+	struct location at[2] = { { .type = IEC_NONE } }; /* ET, start        */
+	struct symbol symbol;
+
+	while (image_next_symbol(maker->image, &cursor, &symbol)) {
+		const char *pin = symbol.block ? strrchr(symbol.name, '.') : NULL;
+
+		if (!pin || strcmp(pin, ".IN") == 0)
+			memset(at, 0, sizeof(at));
+		else if (strcmp(pin, ".ET") == 0)
+			at[0] = symbol.at;
+		else if (strcmp(pin, ".start") == 0)
+			at[1] = symbol.at;
+		if (pin && at[0].type != IEC_NONE && at[1].type != IEC_NONE)
+			g_hash_table_insert(maker->starts, key_copy(place_key(at[0])),
+					    g_memdup2(&at[1], sizeof(at[1])));
+	}
+}
+
+static struct iec_addr address_of(const struct maker *maker, struct location at)
+{
+	const struct areas *areas = &maker->image->program->areas;
+	struct iec_addr addr = { .area = at.area };
+
+	if (at.area != AREA_NONE) {
+		addr.bits = 1;
+		addr.byte = at.where / 8;
+		addr.bit = at.where % 8;
+		return addr;
+	}
+	addr.area = at.type == IEC_STRING ? AREA_NONE : areas_find(areas, at.where);
+	if (addr.area != AREA_NONE) {
+		addr.bits = (uint8_t)(8 * iec_type_row(at.type)->size);
+		addr.byte = at.where - areas->at[addr.area];
+	}
+	return addr;
+}
+
+static bool comes_in(enum iec_area area)
+{
+	return area == AREA_I || area == AREA_AI || area == AREA_XI || area == AREA_XAI;
+}
+
+static bool goes_out(enum iec_area area)
+{
+	return area == AREA_Q || area == AREA_AQ || area == AREA_XQ || area == AREA_XAQ;
+}
+
+static bool is_driven(const struct maker *maker, struct iec_addr addr)
+{
+	const guint32 at = maker->image->program->areas.at[addr.area] + addr.byte;
+
+	if (maker->plant || !maker->twin->plant.image.program || !comes_in(addr.area))
+		return false;
+	return addr.bits == 1 ? maker->twin->plant_drives[at] >> addr.bit & 1 :
+				maker->twin->plant_drives[at] != 0;
+}
+
+/* ---- one line ---- */
+
+static void place_bit(LadderSimRow *row, enum iec_area area)
+{
+	row->group = comes_in(area) ? SIM_INPUTS : goes_out(area) ? SIM_OUTPUTS : SIM_MEMORY;
+	row->kind = goes_out(area) || area == AREA_SM || row->at.constant ? SIM_LAMP :
+									   SIM_SWITCH;
+}
+
+static void place_value(LadderSimRow *row, enum iec_area area)
+{
+	const bool number = iec_type_row(row->at.type)->class & (ANY_NUM | CLASS_BITS);
+
+	row->group = SIM_VALUES;
+	row->kind = SIM_VALUE;
+	if (!number || (!comes_in(area) && !goes_out(area)))
+		return;
+	row->group = SIM_ANALOGUE;
+	row->kind = comes_in(area) ? SIM_SLIDER : SIM_LEVEL;
+	sim_row_set_range(row, false, 0, 0);
+}
+
+static LadderSimRow *new_row(struct maker *maker, const char *name, gsize len,
+			     struct location at)
+{
+	LadderSimRow *row = g_object_new(LADDER_TYPE_SIM_ROW, NULL);
+
+	g_free(row->name);
+	row->name = g_strndup(name, len);
+	row->at = at;
+	row->plant = maker->plant;
+	row->comment = comment_of(maker, row->name);
+	g_ptr_array_add(maker->rows, row);
+	return row;
+}
+
+static void add_value(struct maker *maker, const char *name, struct location at)
+{
+	const struct iec_addr addr = address_of(maker, at);
+	char text[32];
+	LadderSimRow *row;
+
+	if (maker->plant && (comes_in(addr.area) || goes_out(addr.area)))
+		return; /* it is the program's, crosswise */
+	row = new_row(maker, name, strlen(name), at);
+	if (at.type == IEC_BOOL)
+		place_bit(row, addr.area);
+	else
+		place_value(row, addr.area);
+	if (maker->plant)
+		row->group = SIM_PLANT;
+	if (addr.area == AREA_NONE)
+		return;
+	iec_addr_print(addr, text, sizeof(text));
+	if (g_ascii_strcasecmp(text, name) != 0)
+		row->address = g_strdup(text);
+	row->driven = is_driven(maker, addr);
+	g_hash_table_add(maker->taken, key_copy(place_key(at)));
+}
+
+/* ---- timers and counters ---- */
+
+static bool is_name(const struct maker *maker, uint32_t id, const char *name, gsize len)
+{
+	const char *text = project_text(maker->project, id);
+
+	return strlen(text) == len && g_ascii_strncasecmp(text, name, len) == 0;
+}
+
+/* What stands at a pin where the instance is called; false: nothing does. */
+static bool find_arg(const struct maker *maker, int pou, const char *name,
+		     const char *pin, struct arg *out)
+{
+	const struct pou *in = &maker->project->pou[pou];
+	const gsize len = strlen(name);
+
+	for (int r = 0; r < in->rung_count; r++) {
+		const struct rung *rung = in->rung[r];
+
+		for (int c = 0; c < rung->rows * rung->cols; c++)
+			if (rung->cell[c].args &&
+			    is_name(maker, rung->cell[c].operand, name, len) &&
+			    args_find(project_text(maker->project, rung->cell[c].args), pin,
+				      strlen(pin), out))
+				return true;
+	}
+	return false;
+}
+
+/* Where the preset of an instance can be set: the variable that it is given, or its own
+ * place if nothing is. */
+static struct location given_of(const struct maker *maker, const LadderSimRow *row,
+				const char *pin)
+{
+	const struct location nowhere = { .type = IEC_NONE };
+	const char *dot = strrchr(row->name, '.'), *own = dot ? dot + 1 : row->name;
+	struct location at;
+	struct arg arg;
+
+	for (int p = 0; p < maker->project->pou_count; p++) {
+		const char *pou = project_text(maker->project, maker->project->pou[p].name);
+		char *name;
+
+		if (dot && ((gsize)(dot - row->name) != strlen(pou) ||
+			    g_ascii_strncasecmp(row->name, pou, strlen(pou)) != 0))
+			continue;
+		if (!find_arg(maker, p, own, pin, &arg))
+			continue;
+		name = g_strdup_printf("%s.%.*s", pou, (int)arg.value_len, arg.value);
+		at = image_find(maker->image, name, strlen(name));
+		g_free(name);
+		if (at.type == IEC_NONE)
+			at = image_find(maker->image, arg.value, arg.value_len);
+		return at.type == row->preset.type && !at.constant ? at : nowhere;
+	}
+	return row->preset;
+}
+
+static void end_block(struct maker *maker)
+{
+	LadderSimRow *row = maker->last;
+
+	if (row && row->preset.type != IEC_NONE)
+		row->given = given_of(maker, row, row->group == SIM_COUNTERS ? "PV" : "PT");
+	if (row && maker->plant)
+		row->group = SIM_PLANT;
+	maker->last = NULL;
+}
+
+static bool is_counted(const char *block, bool *timer)
+{
+	static const char *const timers[] = { "TON", "TOF", "TP", "TONR" };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(timers); i++)
+		if (strcmp(block, timers[i]) == 0) {
+			*timer = true;
+			return true;
+		}
+	*timer = false;
+	return g_str_has_prefix(block, "CTU") || g_str_has_prefix(block, "CTD");
+}
+
+static void begin_block(struct maker *maker, const struct symbol *symbol, gsize len,
+			bool timer)
+{
+	LadderSimRow *row = new_row(maker, symbol->name, len,
+				    (struct location){ .type = IEC_NONE });
+
+	end_block(maker);
+	row->group = timer ? SIM_TIMERS : SIM_COUNTERS;
+	row->kind = SIM_PRESET;
+	row->block = g_strdup(symbol->block);
+	maker->last = row;
+	maker->last_len = len;
+}
+
+static void add_pin(struct maker *maker, const struct symbol *symbol, const char *pin)
+{
+	LadderSimRow *row = maker->last;
+	const gint64 key = place_key(symbol->at);
+	const struct location *start;
+
+	if (strcmp(pin, "PT") == 0 || strcmp(pin, "PV") == 0) {
+		row->preset = symbol->at;
+	} else if (strcmp(pin, "ET") == 0 || strcmp(pin, "CV") == 0) {
+		row->at = symbol->at;
+		start = g_hash_table_lookup(maker->starts, &key);
+		if (start)
+			row->start = *start;
+	} else if (strcmp(pin, "Q") == 0 || strcmp(pin, "QU") == 0) {
+		row->done = symbol->at;
+	}
+}
+
+/* ---- all ---- */
+
+static void add_symbol(struct maker *maker, const struct symbol *symbol)
+{
+	const char *dot = symbol->block ? strrchr(symbol->name, '.') : NULL;
+	const gsize len = dot ? (gsize)(dot - symbol->name) : 0;
+	bool timer;
+
+	if (!dot || !is_counted(symbol->block, &timer)) {
+		end_block(maker);
+		add_value(maker, symbol->name, symbol->at);
+		return;
+	}
+	if (!maker->last || maker->last_len != len ||
+	    strncmp(maker->last->name, symbol->name, len) != 0)
+		begin_block(maker, symbol, len, timer);
+	add_pin(maker, symbol, dot + 1);
+}
+
+static void add_symbols(struct maker *maker)
+{
+	struct symbol_cursor cursor = { 0 };
+	struct symbol symbol;
+
+	while (image_next_symbol(maker->image, &cursor, &symbol))
+		if (!(symbol.flags & SYMBOL_HIDDEN))
+			add_symbol(maker, &symbol);
+	end_block(maker);
+}
+
+static void add_addresses(struct maker *maker)
+{
+	struct xref xref;
+	char text[32];
+
+	if (!xref_make(&xref, maker->project))
+		g_error("out of memory");
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+		const struct location at = use->target.what != XREF_ADDRESS ?
+			(struct location){ .type = IEC_NONE } :
+			image_locate(maker->image, use->target.addr);
+		const gint64 key = place_key(at);
+
+		if (at.type == IEC_NONE || g_hash_table_contains(maker->taken, &key))
+			continue;
+		iec_addr_print(use->target.addr, text, sizeof(text));
+		add_value(maker, text, at);
+	}
+	xref_free(&xref);
+}
+
+static void add_program(struct maker *maker)
+{
+	if (!maker->image->program || !maker->project)
+		return;
+	maker->comments = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
+	maker->starts = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, g_free);
+	maker->taken = g_hash_table_new_full(g_int64_hash, g_int64_equal, g_free, NULL);
+	find_comments(maker);
+	find_starts(maker);
+	add_symbols(maker);
+	add_addresses(maker);
+	g_hash_table_unref(maker->comments);
+	g_hash_table_unref(maker->starts);
+	g_hash_table_unref(maker->taken);
+}
+
+/* By address where there is one; else they stay as they are declared. */
+static const char *order_key(const LadderSimRow *row)
+{
+	return row->address ? row->address : row->name[0] == '%' ? row->name : NULL;
+}
+
+static int by_group(gconstpointer left, gconstpointer right)
+{
+	const LadderSimRow *a = *(LadderSimRow *const *)left;
+	const LadderSimRow *b = *(LadderSimRow *const *)right;
+	const char *x = order_key(a), *y = order_key(b);
+	struct iec_addr at[2];
+
+	if (a->group != b->group)
+		return (int)a->group - (int)b->group;
+	if (a->place_number != b->place_number)
+		return a->place_number < b->place_number ? -1 : 1;
+	if (!x || !y)
+		return !x - !y;
+	iec_addr_parse(x, strlen(x), &at[0]);
+	iec_addr_parse(y, strlen(y), &at[1]);
+	if (at[0].area != at[1].area)
+		return (int)at[0].area - (int)at[1].area;
+	if (at[0].byte != at[1].byte)
+		return at[0].byte < at[1].byte ? -1 : 1;
+	return (int)at[0].bit - (int)at[1].bit;
+}
+
+GPtrArray *sim_rows_new(LadderSim *sim)
+{
+	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+	const struct twin *twin = ladder_sim_twin(sim);
+	struct maker maker = { .twin = twin, .rows = rows };
+
+	if (!twin)
+		return rows;
+	maker.image = &twin->resource.image;
+	maker.project = ladder_project(ladder_sim_ladder(sim));
+	add_program(&maker);
+	if (ladder_sim_plant_ladder(sim)) {
+		maker.plant = true;
+		maker.image = &twin->plant.image;
+		maker.project = ladder_project(ladder_sim_plant_ladder(sim));
+		add_program(&maker);
+	}
+	sim_map_take(ladder_document_path(ladder_sim_document(sim)), rows);
+	/* g_ptr_array_sort() of GLib keeps the order of equals. */
+	g_ptr_array_sort(rows, by_group);
+	return rows;
+}

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * chart - what variables were, scan by scan: the numbers behind a timing chart.
+ *
+ * It follows the record of a simulation with a replay of its own, a little at a time and
+ * over edits, so that a variable that is asked for late has its past, too. It draws nothing.
+ */
+#ifndef EDITOR_TIMING_H
+#define EDITOR_TIMING_H
+
+#include "editor-gtk/sim/sim.h"
+
+#define TIMING_SCANS 20000u /* kept of each variable                             */
+#define TIMING_LINES 64
+
+struct timing;
+
+/** timing_new - empty. @sim: borrowed as long as it is used. Owns: timing_free(). */
+struct timing *timing_new(LadderSim *sim);
+void timing_free(struct timing *timing);
+
+/** timing_add - a variable or address, behind the others. Fails: false: there is one of
+ * this name already, or too many. A name that means nothing now may mean something later. */
+bool timing_add(struct timing *timing, const char *name);
+void timing_remove(struct timing *timing, int line);
+/** timing_move - @to: its place afterwards. */
+void timing_move(struct timing *timing, int line, int to);
+int timing_lines(const struct timing *timing);
+/** timing_name - borrowed until the line goes. */
+const char *timing_name(const struct timing *timing, int line);
+/** timing_at - where it is in the program whose scan is shown; type IEC_NONE: nowhere. */
+struct location timing_at(const struct timing *timing, int line);
+
+/** timing_program_changed - another program runs, or is shown, or none: what is in the chart
+ * stays, unless the simulation began anew. */
+void timing_program_changed(struct timing *timing);
+/** timing_feed - takes scans from the record for at most @us; true: there are more. */
+bool timing_feed(struct timing *timing, gint64 us);
+
+/* Scans that it has: first … end - 1; none if they are equal. */
+guint64 timing_first(const struct timing *timing);
+guint64 timing_end(const struct timing *timing);
+/** timing_time - ns, of a scan that it has. */
+gint64 timing_time(const struct timing *timing, guint64 scan);
+/** timing_scan_at - the last scan at or before that time, inside what it has. */
+guint64 timing_scan_at(const struct timing *timing, gint64 ns);
+/** timing_value - as a number: BOOL 0 and 1, TIME in ms; of a STRING its length. */
+double timing_value(const struct timing *timing, int line, guint64 scan);
+/** timing_range - the smallest and the largest from @from to @to, both included, that it
+ * has. False: it has none of them. */
+bool timing_range(const struct timing *timing, int line, guint64 from, guint64 to,
+		 double *low, double *high);
+
+#endif

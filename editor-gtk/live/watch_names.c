@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * watch_names - names for a status chart.
+ *
+ * What the quick entry knows comes first; then all that the program has, so that locals of
+ * every program can be had.
+ */
+#include "editor-gtk/live/watch_names.h"
+
+#include "editor-gtk/edit/entry.h"
+#include "editor-gtk/kit/i18n.h"
+
+#include "engine/scan/code.h"
+#include "engine/trial/trace.h"
+#include "engine/trial/value.h"
+
+#include <string.h>
+
+#define OFFERED 40
+
+/* ---- which variables a line means ---- */
+
+static bool is_pin_of(const char *name, const char *instance, gsize len)
+{
+	return g_ascii_strncasecmp(name, instance, len) == 0 && name[len] == '.';
+}
+
+/* "Delay": Delay.IN, Delay.PT, … */
+static bool add_pins(GPtrArray *names, const struct image *image, const char *name)
+{
+	struct symbol_cursor cursor = { 0 };
+	const guint before = names->len;
+	struct symbol symbol;
+
+	while (names->len < WATCH_NAMES_MOST && image_next_symbol(image, &cursor, &symbol))
+		if (!(symbol.flags & SYMBOL_HIDDEN) &&
+		    is_pin_of(symbol.name, name, strlen(name)))
+			g_ptr_array_add(names, g_strdup(symbol.name));
+	return names->len > before;
+}
+
+/* A script's range, over an image as a cold start has it. */
+static bool add_range(GPtrArray *names, const struct image *program, const char *word)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	struct image *image = g_new0(struct image, 1);
+	gpointer memory = g_malloc0(image_memory_size(program->program));
+	struct trace trace;
+	bool good;
+
+	diag_init(diags);
+	image_init(image, program->program, memory);
+	trace_init(&trace, image, NULL, TRACE_LINES, false);
+	good = trace_show(&trace, word, strlen(word), diags, (struct diag){ 0 });
+	for (int i = 0; good && i < trace.count && names->len < WATCH_NAMES_MOST; i++)
+		g_ptr_array_add(names, g_strdup(trace.column[i].name));
+	trace_free(&trace);
+	g_free(memory);
+	g_free(image);
+	g_free(diags);
+	return good;
+}
+
+static void add_word(GPtrArray *names, const struct image *image, const char *word)
+{
+	enum diag_id why;
+
+	if (image && value_find(image, word, strlen(word), &why).type == IEC_NONE &&
+	    ((strstr(word, "..") && add_range(names, image, word)) ||
+	     add_pins(names, image, word)))
+		return;
+	g_ptr_array_add(names, g_strdup(word));
+}
+
+GPtrArray *watch_names_expand(const struct image *image, const char *line)
+{
+	GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
+	char **words = g_strsplit_set(line, " \t\r\n,;", -1);
+
+	for (char **word = words; *word && names->len < WATCH_NAMES_MOST; word++)
+		if (**word)
+			add_word(names, image, *word);
+	g_strfreev(words);
+	return names;
+}
+
+/* ---- what could be meant ---- */
+
+struct offer {
+	LadderEntryPopup *popup;
+	const char *line;
+	gsize from, cursor;   /* of the word before the cursor                 */
+	GHashTable *seen;     /* names that are offered, folded                */
+};
+
+static void put(struct offer *offer, const char *text, const char *address,
+		const char *note, const char *kind)
+{
+	char *line = g_strdup_printf("%.*s%s%s", (int)offer->from, offer->line, text,
+				     offer->line + offer->cursor);
+	struct entry_popup_row row = {
+		(char *)text, (char *)address, (char *)note, (char *)kind, line,
+	};
+
+	if (g_hash_table_size(offer->seen) < OFFERED &&
+	    g_hash_table_add(offer->seen, g_ascii_strdown(text, -1)))
+		ladder_entry_popup_add(offer->popup, &row);
+	g_free(line);
+}
+
+/* As an operand of an expression: of any type. */
+static void offer_entries(struct offer *offer, struct project *project)
+{
+	const struct entry_place place = { .project = project };
+	struct entry_candidate *found = g_new(struct entry_candidate, OFFERED);
+	char *line = g_strdup_printf("[%.*s", (int)(offer->cursor - offer->from),
+				     offer->line + offer->from);
+	const int count = entry_candidates(&place, line, strlen(line), found, OFFERED);
+
+	for (int i = 0; i < count; i++)
+		if (found[i].kind == ENTRY_VARIABLE || found[i].kind == ENTRY_INSTANCE ||
+		    found[i].kind == ENTRY_PIN || found[i].kind == ENTRY_ADDRESS)
+			put(offer, found[i].text, found[i].address, found[i].note,
+			    _(entry_kind_text(found[i].kind)));
+	g_free(line);
+	g_free(found);
+}
+
+static void offer_symbols(struct offer *offer, const struct image *image, bool inside)
+{
+	char *typed = g_strndup(offer->line + offer->from, offer->cursor - offer->from);
+	char *folded = g_utf8_casefold(typed, -1);
+	struct symbol_cursor cursor = { 0 };
+	struct symbol symbol;
+
+	while (g_hash_table_size(offer->seen) < OFFERED &&
+	       image_next_symbol(image, &cursor, &symbol)) {
+		char *name = g_utf8_casefold(symbol.name, -1);
+
+		if (!(symbol.flags & SYMBOL_HIDDEN) && (inside ? strstr(name, folded) != NULL :
+							g_str_has_prefix(name, folded)))
+			put(offer, symbol.name, "", iec_type_row(symbol.at.type)->word,
+			    _(entry_kind_text(ENTRY_VARIABLE)));
+		g_free(name);
+	}
+	g_free(typed);
+	g_free(folded);
+}
+
+void watch_names_offer(LadderDocument *document, const struct image *image,
+		       const char *line, gsize cursor, LadderEntryPopup *popup)
+{
+	struct project *project = ladder_document_project(document);
+	struct offer offer = { .popup = popup, .line = line, .cursor = cursor };
+
+	offer.from = cursor;
+	while (offer.from > 0 && !strchr(" \t,;", line[offer.from - 1]))
+		offer.from--;
+	offer.seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+	if (project && project->pou_count > 0)
+		offer_entries(&offer, project);
+	if (image) {
+		offer_symbols(&offer, image, false);
+		offer_symbols(&offer, image, true);
+	}
+	g_hash_table_unref(offer.seen);
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * watch_row - a row of a status chart: looks up its variable, and what that holds.
+ */
+#include "editor-gtk/live/watch_row.h"
+
+#include "editor-gtk/kit/diag_said.h"
+#include "editor-gtk/kit/i18n.h"
+
+#include "engine/trial/value.h"
+
+#include <string.h>
+
+G_DEFINE_FINAL_TYPE(LadderWatchRow, ladder_watch_row, G_TYPE_OBJECT)
+
+static void ladder_watch_row_finalize(GObject *object)
+{
+	LadderWatchRow *row = LADDER_WATCH_ROW(object);
+
+	watch_line_free(row->line);
+	g_free(row->typed);
+	G_OBJECT_CLASS(ladder_watch_row_parent_class)->finalize(object);
+}
+
+static void ladder_watch_row_class_init(LadderWatchRowClass *class)
+{
+	G_OBJECT_CLASS(class)->finalize = ladder_watch_row_finalize;
+}
+
+static void ladder_watch_row_init(LadderWatchRow *row)
+{
+	row->typed = g_strdup("");
+}
+
+LadderWatchRow *ladder_watch_row_new(const struct watch_line *line,
+				     const struct image *image)
+{
+	LadderWatchRow *row = g_object_new(LADDER_TYPE_WATCH_ROW, NULL);
+	enum diag_id why;
+
+	row->line = watch_line_new(line->format, line->name, line->comment);
+	row->asked = image != NULL;
+	if (image)
+		row->at = value_find(image, line->name, strlen(line->name), &why);
+	return row;
+}
+
+static bool is_same_place(struct location a, struct location b)
+{
+	return a.type == b.type && a.area == b.area && a.where == b.where &&
+	       a.constant == b.constant;
+}
+
+bool watch_row_equal(const LadderWatchRow *a, const LadderWatchRow *b)
+{
+	return a->asked == b->asked && is_same_place(a->at, b->at) &&
+	       a->line->format == b->line->format &&
+	       strcmp(a->line->name, b->line->name) == 0 &&
+	       strcmp(a->line->comment, b->line->comment) == 0;
+}
+
+bool watch_row_is_unknown(const LadderWatchRow *row)
+{
+	return row->asked && row->at.type == IEC_NONE;
+}
+
+/* ---- values ---- */
+
+static bool is_new_text(LadderWatchRow *row, const struct iec_string *now)
+{
+	const struct iec_string *last = row->last.s;
+	struct iec_string *copy;
+
+	if (row->live && last->length == now->length &&
+	    memcmp(last->text, now->text, now->length) == 0)
+		return false;
+	copy = iec_text_init(&row->text, now->length);
+	memcpy(copy->text, now->text, now->length);
+	row->last.s = copy;
+	return true;
+}
+
+static bool is_new(LadderWatchRow *row, union iec_value now)
+{
+	if (row->at.type == IEC_STRING)
+		return is_new_text(row, now.s);
+	if (row->live && memcmp(&row->last, &now, sizeof(now)) == 0)
+		return false;
+	row->last = now;
+	return true;
+}
+
+bool watch_row_look(LadderWatchRow *row, LadderSim *sim)
+{
+	const struct twin *twin = sim ? ladder_sim_twin(sim) : NULL;
+	const bool was = row->live, held = row->forced;
+	bool changed;
+
+	if (!twin || row->at.type == IEC_NONE) {
+		row->live = row->forced = false;
+		return was || held;
+	}
+	changed = is_new(row, image_get(&twin->resource.image, row->at));
+	row->live = true;
+	row->forced = ladder_sim_is_forced(sim, row->at);
+	return changed || held != row->forced;
+}
+
+char *watch_row_value(const LadderWatchRow *row)
+{
+	char text[IEC_VALUE_TEXT];
+
+	if (!row->live)
+		return g_strdup("");
+	watch_print(row->line->format, row->at.type, row->last, text, sizeof(text));
+	return g_strdup(text);
+}
+
+bool watch_row_take(const LadderWatchRow *row, const struct image *image,
+		    struct iec_text *room, union iec_value *out, char **why)
+{
+	struct diag diag = { .id = DIAG_COUNT };
+
+	if (row->at.type == IEC_NONE)
+		diag.id = DIAG_UNKNOWN_NAME;
+	else if (row->at.constant)
+		diag.id = DIAG_WRITE_CONSTANT;
+	else if (watch_parse(row->line->format, row->at.type, row->typed, room, out,
+			     &diag.id))
+		diag.id = value_has_room(image, row->at, *out) ? DIAG_COUNT :
+			  DIAG_LITERAL_RANGE;
+	if (diag.id == DIAG_COUNT)
+		return true;
+	*why = g_strdup_printf("%s: %s", diag_said(&diag), diag.id == DIAG_UNKNOWN_NAME ||
+			       diag.id == DIAG_WRITE_CONSTANT ? row->line->name :
+			       row->typed);
+	return false;
+}
+
+/* ---- where names are found ---- */
+
+const struct image *watch_image(LadderDocument *document, LadderSim *sim,
+				struct image *room)
+{
+	const struct twin *twin = sim ? ladder_sim_twin(sim) : NULL;
+	struct ladder *checked = ladder_document_checked(document);
+
+	if (twin)
+		return &twin->resource.image;
+	memset(room, 0, sizeof(*room));
+	room->program = checked ? ladder_program(checked) : NULL;
+	return room->program ? room : NULL;
+}

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * code_view - the instruction list that the sheet in front becomes. To be read only.
+ *
+ * It is made when somebody looks at it: that of a large program takes long, and a text
+ * widget holds it in many times its size.
+ */
+#include "editor-gtk/panels/panels.h"
+
+#include "editor-gtk/kit/i18n.h"
+
+#include "engine/show/view.h"
+
+#include <string.h>
+
+struct code_view {
+	LadderDocument *document;
+	GtkTextBuffer *buffer;
+	GtkWidget *text;
+	int pou;
+	bool stale;         /* there is another list than what is shown        */
+};
+
+static void code_view_free(gpointer pointer)
+{
+	struct code_view *code = pointer;
+
+	g_signal_handlers_disconnect_by_data(code->document, code);
+	g_object_unref(code->document);
+	g_free(code);
+}
+
+static void show_now(struct code_view *code)
+{
+	LadderDocument *document = code->document;
+	struct ladder *ladder = ladder_document_checked(document);
+	const struct project *project = ladder ? ladder_project(ladder) : NULL;
+	const struct il *il = project && code->pou < project->pou_count ?
+		ladder_il(ladder, code->pou) : NULL;
+	struct sink_memory memory;
+	struct var *const *temps;
+	int count;
+
+	code->stale = false;
+	if (!il) {
+		gtk_text_buffer_set_text(code->buffer,
+			_("There is an instruction list when the program has no errors."),
+			-1);
+		return;
+	}
+	sink_memory_init(&memory);
+	const struct sink sink = sink_to_memory(&memory);
+
+	temps = ladder_temporaries(ladder, code->pou, &count);
+	view_print_il(project, &project->pou[code->pou], &project->pou[code->pou].vars,
+		      temps, count, il, &sink);
+	gtk_text_buffer_set_text(code->buffer, sink_memory_text(&memory), -1);
+	sink_memory_free(&memory);
+}
+
+static void show(struct code_view *code)
+{
+	code->stale = true;
+	if (gtk_widget_get_mapped(code->text))
+		show_now(code);
+}
+
+static void seen(struct code_view *code)
+{
+	if (code->stale)
+		show_now(code);
+}
+
+GtkWidget *ladder_code_view_new(LadderDocument *document)
+{
+	GtkWidget *scroller = gtk_scrolled_window_new(), *text = gtk_text_view_new();
+	struct code_view *code = g_new0(struct code_view, 1);
+
+	code->document = g_object_ref(document);
+	code->text = text;
+	code->stale = true;
+	code->buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(text));
+	gtk_text_view_set_editable(GTK_TEXT_VIEW(text), FALSE);
+	gtk_text_view_set_monospace(GTK_TEXT_VIEW(text), TRUE);
+	gtk_text_view_set_left_margin(GTK_TEXT_VIEW(text), 14);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(text),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       _("Instruction list"), -1);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), text);
+	g_object_set_data_full(G_OBJECT(scroller), "code", code, code_view_free);
+	g_signal_connect_swapped(document, "checked", G_CALLBACK(show), code);
+	g_signal_connect_data(text, "map", G_CALLBACK(seen), code, NULL,
+			      G_CONNECT_SWAPPED | G_CONNECT_AFTER);
+	return scroller;
+}
+
+void ladder_code_view_set_pou(GtkWidget *view, int pou)
+{
+	struct code_view *code = g_object_get_data(G_OBJECT(view), "code");
+
+	if (code->pou == pou)
+		return;
+	code->pou = pou;
+	show(code);
+}

@@ -1,0 +1,497 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * project_tree - what a project is made of: programs, blocks, types, symbols, files.
+ *
+ * Its rows are made by tree_rows.h. One goes where it is double clicked or entered;
+ * programs and blocks are added, renamed and deleted from its menu.
+ */
+#include "editor-gtk/panels/panels.h"
+
+#include "editor-gtk/kit/gtk48/focus.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/draw/listing.h"
+#include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/document/pou_edit.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/panels/tree_rows.h"
+#include "editor-gtk/kit/verbs.h"
+
+#include <adwaita.h>
+#include <string.h>
+
+struct tree {
+	LadderDocument *document;
+	GListStore *root;
+	GtkTreeListModel *model;   /* the selection holds it                   */
+	GtkSingleSelection *selection;
+	GtkWidget *list, *panel;   /* the panel holds all of it                */
+	char *shape;       /* what is shown, to see whether it changed         */
+	bool stale;        /* it may have, by what is not in the shape         */
+	guint timer;       /* soon looks whether it did                        */
+	LadderTreeRow *going; /* what was activated, ...                       */
+	guint going_soon;  /* ... goes there soon                              */
+};
+
+/* Headings show what stands below them when they come. */
+static void expand_headings(struct tree *tree, guint at, guint gone, guint come)
+{
+	(void)gone;
+	for (guint i = at; i < at + come; i++) {
+		GtkTreeListRow *row = gtk_tree_list_model_get_child_row(tree->model, i);
+
+		gtk_tree_list_row_set_expanded(row, TRUE);
+		g_object_unref(row);
+	}
+}
+
+/* Who had the keys at a row that goes keeps them, at the row of that place. */
+static void refill(struct tree *tree)
+{
+	GtkRoot *root = gtk_widget_get_root(tree->list);
+	GtkWidget *focus = root ? gtk_root_get_focus(root) : NULL;
+	const bool here = focus && gtk_widget_is_ancestor(focus, tree->list);
+	guint at = gtk_single_selection_get_selected(tree->selection), count;
+
+	tree_rows_update(tree->root, tree->document);
+	count = g_list_model_get_n_items(G_LIST_MODEL(tree->selection));
+	if (!here)
+		return;
+	if (at != GTK_INVALID_LIST_POSITION && count &&
+	    !gtk_single_selection_get_selected_item(tree->selection))
+		gtk_single_selection_set_selected(tree->selection, MIN(at, count - 1));
+	gtk_widget_grab_focus(tree->list);
+	focus_mend(tree->list);
+}
+
+static char *shape_of(LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+	const char *path = ladder_document_path(document);
+	GString *shape = g_string_new(path);
+
+	for (int i = 0; project && i < project->pou_count; i++)
+		g_string_append_printf(shape, "%s %d %d\n",
+			project_text(project, project->pou[i].name),
+			(int)project->pou[i].kind, project->pou[i].rung_count);
+	if (project)
+		g_string_append_printf(shape, "%d %d %s", listing_symbol_count(project),
+				       project->part_count, project_view(project));
+	return g_string_free(shape, FALSE);
+}
+
+static void follow(struct tree *tree)
+{
+	char *shape = shape_of(tree->document);
+	const bool same = !tree->stale && g_strcmp0(shape, tree->shape) == 0;
+
+	tree->stale = false;
+	g_free(tree->shape);
+	tree->shape = shape;
+	if (!same)
+		refill(tree);
+}
+
+static gboolean follow_now(gpointer data)
+{
+	struct tree *tree = data;
+
+	tree->timer = 0;
+	follow(tree);
+	return G_SOURCE_REMOVE;
+}
+
+/* A count may be another: no key waits for that. */
+static void follow_later(struct tree *tree)
+{
+	if (!tree->timer)
+		tree->timer = g_timeout_add(100, follow_now, tree);
+}
+
+static void project_changed(struct tree *tree)
+{
+	tree->stale = true;
+	follow(tree);
+}
+
+static void variable_changed(struct tree *tree)
+{
+	tree->stale = true;
+	follow_later(tree);
+}
+
+/* ---- acting ---- */
+
+static LadderTreeRow *row_at(struct tree *tree, guint position)
+{
+	GtkTreeListRow *item = g_list_model_get_item(G_LIST_MODEL(tree->selection),
+						     position);
+	LadderTreeRow *row = item ? gtk_tree_list_row_get_item(item) : NULL;
+
+	g_clear_object(&item);
+	if (row)
+		g_object_unref(row); /* the model holds it */
+	return row;
+}
+
+static gboolean go(gpointer data)
+{
+	struct tree *tree = data;
+	LadderTreeRow *row = tree->going;
+
+	tree->going_soon = 0;
+	if (row->kind == ROW_POU || row->kind == ROW_BOOKMARK)
+		gtk_widget_activate_action(tree->list, "win.go-to", "(iiii)", row->pou,
+					   row->rung, -1, -1);
+	else if (row->kind == ROW_TEXT)
+		gtk_widget_activate_action(tree->list, "win.open-text", "s", row->path);
+	else if (row->kind == ROW_SYMBOLS)
+		gtk_widget_activate_action(tree->list, "win.symbols", NULL);
+	g_clear_object(&tree->going);
+	return G_SOURCE_REMOVE;
+}
+
+/* Not at once: the row that was clicked takes the focus after this, and who went to a
+ * rung would still have the keys in the tree. */
+static void activated(struct tree *tree, guint position)
+{
+	LadderTreeRow *row = row_at(tree, position);
+
+	if (!row)
+		return;
+	g_set_object(&tree->going, row);
+	if (!tree->going_soon)
+		tree->going_soon = g_idle_add(go, tree);
+}
+
+static int selected_pou(struct tree *tree)
+{
+	LadderTreeRow *row = row_at(tree,
+		gtk_single_selection_get_selected(tree->selection));
+
+	return row && row->kind == ROW_POU ? row->pou : -1;
+}
+
+static void act_on_pou(GSimpleAction *action, GVariant *unused, gpointer data)
+{
+	struct tree *tree = data;
+	const int pou = selected_pou(tree);
+	const bool renames = strcmp(g_action_get_name(G_ACTION(action)), "rename") == 0;
+	const char *why = NULL;
+
+	(void)unused;
+	if (pou < 0)
+		why = _("There is no program or block in this row");
+	else if (renames)
+		gtk_widget_activate_action(tree->list, "win.rename-pou", "i", pou);
+	else
+		why = pou_delete(tree->document, pou);
+	if (why)
+		gtk_widget_activate_action(tree->list, "win.tell", "s", why);
+}
+
+static GMenu *menu_model(void)
+{
+	static const enum verb verbs[] = {
+		VERB_new_program, VERB_new_list, VERB_new_chart, VERB_new_block,
+		VERB_new_function, VERB_new_subroutine, VERB_import, VERB_new_iomap,
+	};
+	GMenu *menu = g_menu_new();
+
+	for (gsize i = 0; i < G_N_ELEMENTS(verbs); i++)
+		g_menu_append(menu, _(verb_row(verbs[i])->label), verb_row(verbs[i])->action);
+	g_menu_append(menu, _("Rename…"), "tree.rename");
+	g_menu_append(menu, _("Delete"), "tree.delete");
+	return menu;
+}
+
+/* Actions of the whole panel: its keys, its menus, and F2 of the window. */
+static void add_actions(struct tree *tree, GtkWidget *panel)
+{
+	const GActionEntry entries[] = {
+		{ .name = "rename", .activate = act_on_pou },
+		{ .name = "delete", .activate = act_on_pou },
+	};
+	GSimpleActionGroup *group = g_simple_action_group_new();
+
+	g_action_map_add_action_entries(G_ACTION_MAP(group), entries,
+					G_N_ELEMENTS(entries), tree);
+	gtk_widget_insert_action_group(panel, "tree", G_ACTION_GROUP(group));
+	g_object_unref(group);
+}
+
+static GtkWidget *menu_new(void)
+{
+	GtkWidget *button = gtk_menu_button_new();
+
+	popover_menu_of(GTK_MENU_BUTTON(button), menu_model);
+	gtk_menu_button_set_icon_name(GTK_MENU_BUTTON(button), "list-add-symbolic");
+	tip_set(button, _("Add, rename or delete"));
+	gtk_accessible_update_property(GTK_ACCESSIBLE(button),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       _("Add, rename or delete"), -1);
+	gtk_widget_add_css_class(button, "flat");
+	return button;
+}
+
+/* ---- the menu of a row ---- */
+
+static void show_menu(struct tree *tree, double x, double y)
+{
+	/* Not to the scroller, which takes the arrows to itself. */
+	gtk_widget_translate_coordinates(tree->list, tree->panel, x, y, &x, &y);
+	popover_menu(tree->panel, menu_model(), &(GdkRectangle){ (int)x, (int)y, 1, 1 },
+		     tree->list);
+}
+
+/* The row below the pointer is the one that is meant. */
+static void right_pressed(struct tree *tree, int count, double x, double y)
+{
+	GtkWidget *picked = gtk_widget_pick(tree->list, x, y, GTK_PICK_DEFAULT);
+	GtkWidget *expander = picked ?
+		gtk_widget_get_ancestor(picked, GTK_TYPE_TREE_EXPANDER) : NULL;
+
+	(void)count;
+	if (picked && !expander)
+		expander = gtk_widget_get_first_child(picked);
+	if (expander && GTK_IS_TREE_EXPANDER(expander))
+		gtk_single_selection_set_selected(tree->selection,
+			gtk_tree_list_row_get_position(gtk_tree_expander_get_list_row(
+				GTK_TREE_EXPANDER(expander))));
+	show_menu(tree, x, y);
+}
+
+static gboolean key_pressed(struct tree *tree, guint key, guint code, GdkModifierType state)
+{
+	(void)code;
+	if (key == GDK_KEY_Menu || (key == GDK_KEY_F10 && state & GDK_SHIFT_MASK))
+		show_menu(tree, 20, 20);
+	else if (key == GDK_KEY_Delete && !(state & gtk_accelerator_get_default_mod_mask()))
+		gtk_widget_activate_action(tree->list, "tree.delete", NULL);
+	else
+		return FALSE;
+	return TRUE;
+}
+
+static void add_controllers(struct tree *tree)
+{
+	GtkGesture *click = gtk_gesture_click_new();
+	GtkEventController *keys = gtk_event_controller_key_new();
+
+	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(click), GDK_BUTTON_SECONDARY);
+	g_signal_connect_swapped(click, "pressed", G_CALLBACK(right_pressed), tree);
+	g_signal_connect_swapped(keys, "key-pressed", G_CALLBACK(key_pressed), tree);
+	gtk_widget_add_controller(tree->list, GTK_EVENT_CONTROLLER(click));
+	gtk_widget_add_controller(tree->list, keys);
+}
+
+/* ---- the list as one stop of Tab ---- */
+
+/* A list of GTK 4.8 has one at each of its rows; arrows go from one to the other here. */
+struct _LadderTreeStop {
+	AdwBin parent_instance;
+};
+
+#define LADDER_TYPE_TREE_STOP (ladder_tree_stop_get_type())
+G_DECLARE_FINAL_TYPE(LadderTreeStop, ladder_tree_stop, LADDER, TREE_STOP, AdwBin)
+G_DEFINE_FINAL_TYPE(LadderTreeStop, ladder_tree_stop, ADW_TYPE_BIN)
+
+static gboolean stop_focus(GtkWidget *stop, GtkDirectionType direction)
+{
+	if ((direction == GTK_DIR_TAB_FORWARD || direction == GTK_DIR_TAB_BACKWARD) &&
+	    gtk_widget_get_focus_child(stop))
+		return FALSE;
+	return GTK_WIDGET_CLASS(ladder_tree_stop_parent_class)->focus(stop, direction);
+}
+
+static void ladder_tree_stop_class_init(LadderTreeStopClass *class)
+{
+	GTK_WIDGET_CLASS(class)->focus = stop_focus;
+}
+
+static void ladder_tree_stop_init(LadderTreeStop *stop)
+{
+	(void)stop;
+}
+
+static GtkWidget *stop_new(GtkWidget *child)
+{
+	GtkWidget *stop = g_object_new(LADDER_TYPE_TREE_STOP, NULL);
+
+	adw_bin_set_child(ADW_BIN(stop), child);
+	gtk_widget_set_vexpand(stop, TRUE);
+	return stop;
+}
+
+/* ---- the widget ---- */
+
+static void setup(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	GtkWidget *expander = gtk_tree_expander_new();
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
+	GtkWidget *text = gtk_label_new(NULL), *note = gtk_label_new(NULL);
+
+	(void)factory;
+	gtk_label_set_xalign(GTK_LABEL(text), 0);
+	gtk_label_set_ellipsize(GTK_LABEL(text), PANGO_ELLIPSIZE_END);
+	gtk_widget_set_hexpand(text, TRUE);
+	gtk_widget_add_css_class(note, "dim-label");
+	gtk_widget_add_css_class(note, "caption");
+	gtk_label_set_ellipsize(GTK_LABEL(note), PANGO_ELLIPSIZE_END);
+	gtk_box_append(GTK_BOX(box), text);
+	gtk_box_append(GTK_BOX(box), note);
+	gtk_tree_expander_set_child(GTK_TREE_EXPANDER(expander), box);
+	gtk_list_item_set_child(item, expander);
+}
+
+#define TEXT_WIDE 20 /* characters that a note does not take from the text before it */
+
+/* As it reads: of the row, and of what has the keys in it. */
+static void speak(LadderTreeRow *row, GtkWidget *expander)
+{
+	GtkWidget *of_row = gtk_widget_get_parent(expander);
+	char *name = row->note ? g_strdup_printf("%s, %s", row->text, row->note) :
+		     g_strdup(row->text);
+
+	gtk_accessible_update_property(GTK_ACCESSIBLE(expander),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	if (of_row)
+		gtk_accessible_update_property(GTK_ACCESSIBLE(of_row),
+					       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	g_free(name);
+}
+
+static void show_note(LadderTreeRow *row, GtkLabel *note)
+{
+	GtkWidget *widget = GTK_WIDGET(note);
+
+	gtk_label_set_text(note, row->note ? row->note : "");
+	gtk_widget_set_visible(widget, row->note != NULL);
+	tip_set(widget, gtk_label_get_text(note));
+	speak(row, gtk_widget_get_ancestor(widget, GTK_TYPE_TREE_EXPANDER));
+}
+
+static GtkWidget *text_of(GtkListItem *item)
+{
+	GtkWidget *expander = gtk_list_item_get_child(item);
+
+	return gtk_widget_get_first_child(gtk_tree_expander_get_child(
+		GTK_TREE_EXPANDER(expander)));
+}
+
+static void bind(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	GtkTreeListRow *list_row = gtk_list_item_get_item(item);
+	LadderTreeRow *row = gtk_tree_list_row_get_item(list_row);
+	GtkWidget *text = text_of(item), *note = gtk_widget_get_next_sibling(text);
+
+	(void)factory;
+	gtk_tree_expander_set_list_row(GTK_TREE_EXPANDER(gtk_list_item_get_child(item)),
+				       list_row);
+	gtk_label_set_text(GTK_LABEL(text), row->text);
+	gtk_label_set_width_chars(GTK_LABEL(text), MIN((int)g_utf8_strlen(row->text, -1),
+						       TEXT_WIDE));
+	tip_set(text, row->text);
+	show_note(row, GTK_LABEL(note));
+	g_signal_connect_object(row, "changed", G_CALLBACK(show_note), note, 0);
+	g_object_set_data_full(G_OBJECT(note), "row", row, g_object_unref);
+}
+
+/* The row of the list may be none any more, and know no row of ours. */
+static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item)
+{
+	GtkWidget *note = gtk_widget_get_next_sibling(text_of(item));
+	LadderTreeRow *row = g_object_steal_data(G_OBJECT(note), "row");
+
+	(void)factory;
+	g_signal_handlers_disconnect_by_func(row, show_note, note);
+	g_object_unref(row);
+}
+
+static GListModel *children(gpointer item, gpointer data)
+{
+	const struct tree *tree = data;
+
+	return tree_row_children(LADDER_TREE_ROW(item), tree->document);
+}
+
+static void tree_free(gpointer pointer)
+{
+	struct tree *tree = pointer;
+
+	g_clear_handle_id(&tree->timer, g_source_remove);
+	g_clear_handle_id(&tree->going_soon, g_source_remove);
+	g_clear_object(&tree->going);
+	g_signal_handlers_disconnect_by_data(tree->document, tree);
+	g_object_unref(tree->document);
+	g_free(tree->shape);
+	g_free(tree);
+}
+
+static GtkWidget *heading_new(void)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 0);
+	GtkWidget *label = gtk_label_new(_("PROJECT"));
+
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_widget_set_hexpand(label, TRUE);
+	gtk_widget_add_css_class(label, "panel-heading");
+	gtk_box_append(GTK_BOX(box), label);
+	gtk_box_append(GTK_BOX(box), menu_new());
+	return box;
+}
+
+static void make_list(struct tree *tree)
+{
+	GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+
+	tree->root = g_list_store_new(LADDER_TYPE_TREE_ROW);
+	tree->model = gtk_tree_list_model_new(G_LIST_MODEL(tree->root), FALSE, FALSE,
+					      children, tree, NULL);
+	g_signal_connect_swapped(tree->root, "items-changed", G_CALLBACK(expand_headings),
+				 tree); /* behind the model's own */
+	tree->selection = gtk_single_selection_new(G_LIST_MODEL(tree->model));
+	gtk_single_selection_set_autoselect(tree->selection, FALSE);
+	gtk_single_selection_set_can_unselect(tree->selection, TRUE);
+	g_signal_connect(factory, "setup", G_CALLBACK(setup), NULL);
+	g_signal_connect(factory, "bind", G_CALLBACK(bind), NULL);
+	g_signal_connect(factory, "unbind", G_CALLBACK(unbind), NULL);
+	tree->list = gtk_list_view_new(GTK_SELECTION_MODEL(tree->selection), factory);
+	gtk_widget_add_css_class(tree->list, "navigation-sidebar");
+	gtk_widget_add_css_class(tree->list, "project");
+	gtk_accessible_update_property(GTK_ACCESSIBLE(tree->list),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Project"), -1);
+	g_signal_connect_swapped(tree->list, "activate", G_CALLBACK(activated), tree);
+}
+
+void ladder_project_tree_look(GtkWidget *box)
+{
+	refill(g_object_get_data(G_OBJECT(box), "tree"));
+}
+
+GtkWidget *ladder_project_tree_new(LadderDocument *document)
+{
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	GtkWidget *scroller = gtk_scrolled_window_new();
+	struct tree *tree = g_new0(struct tree, 1);
+
+	tree->document = g_object_ref(document);
+	tree->panel = box;
+	make_list(tree);
+	add_controllers(tree);
+	add_actions(tree, box);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), tree->list);
+	gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_NEVER,
+				       GTK_POLICY_AUTOMATIC);
+	gtk_box_append(GTK_BOX(box), heading_new());
+	gtk_box_append(GTK_BOX(box), stop_new(scroller));
+	g_object_set_data_full(G_OBJECT(box), "tree", tree, tree_free);
+	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(project_changed),
+				 tree);
+	g_signal_connect_swapped(document, "rungs-changed", G_CALLBACK(follow_later), tree);
+	g_signal_connect_swapped(document, "variable-changed", G_CALLBACK(variable_changed),
+				 tree);
+	g_signal_connect_swapped(document, "bookmarks-changed", G_CALLBACK(follow), tree);
+	g_signal_connect_swapped(document, "state-changed", G_CALLBACK(follow_later), tree);
+	follow(tree);
+	return box;
+}

@@ -1,0 +1,571 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * symbols_view - the table of all symbols. What an edit does to the document is
+ * symbols_edit.c's, what a table would do csv_plan.c's.
+ */
+#include "editor-gtk/panels/symbols_view.h"
+
+#include "editor-gtk/kit/cells.h"
+#include "editor-gtk/document/chooser.h"
+#include "editor-gtk/document/csv.h"
+#include "editor-gtk/document/disk.h"
+#include "editor-gtk/kit/drop.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/panels/import_dialog.h"
+#include "editor-gtk/panels/symbols_cells.h"
+#include "engine/xref/xref.h"
+
+#include <string.h>
+
+#define FILE_MOST (64 << 20) /* bytes of a table that is read                  */
+
+struct _LadderSymbolsView {
+	GtkWidget parent_instance;
+	GtkWidget *box, *scopes, *kind, *search, *bar, *message;
+	struct panel_list list;
+	struct panel_watch *watch;
+	GtkFileChooserNative *chooser;
+	int table;              /* that is shown; -1: all                      */
+	guint64 told_of;        /* version of the document that the message is of */
+	bool busy;              /* a drop-down is being filled                 */
+	bool turning;           /* the symbol becomes another kind             */
+};
+
+G_DEFINE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, GTK_TYPE_WIDGET)
+
+/* ---- messages ---- */
+
+/* @text: taken over; NULL: nothing to tell. */
+static void tell(LadderSymbolsView *view, char *text)
+{
+	LadderDocument *document = panel_watch_document(view->watch);
+
+	view->told_of = document ? ladder_document_version(document) : 0;
+	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
+	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
+	g_free(text);
+}
+
+const char *ladder_symbols_view_message(LadderSymbolsView *view)
+{
+	return gtk_label_get_text(GTK_LABEL(view->message));
+}
+
+/* ---- rows ---- */
+
+static char *spoken(const struct symbol_row *symbol, const char *error)
+{
+	GString *text = g_string_new(symbol->text[FIELD_NAME]);
+
+	for (int i = FIELD_TYPE; i < SYMBOL_FIELDS; i++) {
+		if (!*symbol->text[i])
+			continue;
+		g_string_append_printf(text, ", %s", i == FIELD_RETAIN ||
+			i == FIELD_CONSTANT ? symbol_field_name(i) : symbol->text[i]);
+	}
+	g_string_append_printf(text, ", %s, ", *symbol->scope ? symbol->scope :
+			       _("global"));
+	g_string_append_printf(text, ngettext("%d use", "%d uses", (gulong)symbol->uses),
+			       symbol->uses);
+	if (error)
+		g_string_append_printf(text, ". %s", error);
+	return g_string_free(text, FALSE);
+}
+
+/* Where it counts, and as what of a block: "Motor VAR_OUTPUT". */
+static char *scope_of(const struct symbol_row *symbol)
+{
+	const uint16_t kind = symbol->flags & SYMBOL_KINDS;
+
+	if (!*symbol->scope)
+		return g_strdup(_("global"));
+	return kind ? g_strdup_printf("%s %s", symbol->scope, vars_head(kind)) :
+		      g_strdup(symbol->scope);
+}
+
+static LadderPanelRow *row_of(LadderDocument *document, const struct symbol_row *symbol)
+{
+	LadderPanelRow *row = ladder_panel_row_new();
+	bool warning = false;
+
+	for (int i = 0; i < SYMBOL_FIELDS; i++)
+		row->text[i] = g_strdup(symbol->text[i]);
+	row->text[SYMBOLS_SCOPE] = scope_of(symbol);
+	row->text[SYMBOLS_USES] = g_strdup_printf("%d", symbol->uses);
+	row->number = symbol->uses;
+	row->table = symbol->table;
+	row->index = symbol->index;
+	row->flags = (symbol->included ? SYMBOLS_FIXED : 0u) |
+		     (symbol->member ? SYMBOLS_MEMBER : 0u) |
+		     (symbol->flags & SYMBOL_KINDS);
+	row->note = symbol_error(document, symbol, &warning);
+	row->tone = !row->note ? PANEL_PLAIN : warning ? PANEL_WARNING : PANEL_ERROR;
+	row->spoken = spoken(symbol, row->note);
+	return row;
+}
+
+static void fill_scopes(LadderSymbolsView *view, struct project *project)
+{
+	GPtrArray *name = g_ptr_array_new();
+
+	g_ptr_array_add(name, (gpointer)_("All symbols"));
+	g_ptr_array_add(name, (gpointer)_("Global"));
+	for (int i = 0; project && i < project->pou_count; i++)
+		g_ptr_array_add(name, (gpointer)project_text(project,
+							     project->pou[i].name));
+	for (int i = 0; project && i < project->structure_count; i++)
+		g_ptr_array_add(name, (gpointer)project_text(project,
+							project->structure[i].name));
+	if (view->table + 2 > (int)name->len)
+		view->table = -1;
+	view->busy = true;
+	drop_fill(GTK_DROP_DOWN(view->scopes), name);
+	gtk_drop_down_set_selected(GTK_DROP_DOWN(view->scopes), (guint)(view->table + 1));
+	view->busy = false;
+	g_ptr_array_unref(name);
+}
+
+static bool is_declaration(const LadderPanelRow *row, gconstpointer what)
+{
+	const LadderPanelRow *other = what;
+
+	return row->table == other->table && strcmp(panel_row_text(row, FIELD_NAME),
+		panel_row_text(other, FIELD_NAME)) == 0;
+}
+
+/* The list becomes @rows. RETAIN moves a declaration to another block: the keys go there with
+ * it, and not to what comes to stand in its place. */
+static void update(LadderSymbolsView *view, GPtrArray *rows)
+{
+	int field, now;
+	LadderPanelRow *row = cells_focused(view->list.view, &field);
+
+	if (row)
+		g_object_ref(row);
+	panel_list_update(&view->list, rows);
+	if (row && cells_focused(view->list.view, &now) != row &&
+	    panel_list_select(&view->list, is_declaration, row))
+		cells_enter(view->list.view, panel_list_row(&view->list), field);
+	g_clear_object(&row);
+}
+
+/* As the drop-down offers them. */
+static const uint16_t kinds[] = { 0, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP };
+
+/* That of the selected symbol. Globals and members of structures have none. */
+static void show_kind(LadderSymbolsView *view)
+{
+	const LadderPanelRow *row = panel_list_row(&view->list);
+	guint at = 0;
+
+	if (view->turning) /* it has the keys: hidden between, it would lose them */
+		return;
+	for (guint i = 1; row && i < G_N_ELEMENTS(kinds); i++)
+		at = row->flags & kinds[i] ? i : at;
+	view->busy = true;
+	gtk_drop_down_set_selected(GTK_DROP_DOWN(view->kind), at);
+	view->busy = false;
+	gtk_widget_set_visible(view->kind, row && row->table > 0 &&
+			       !(row->flags & (SYMBOLS_FIXED | SYMBOLS_MEMBER)));
+}
+
+static void fill_rows(LadderSymbolsView *view)
+{
+	LadderDocument *document = panel_watch_document(view->watch);
+	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
+	struct symbols *symbols = document ? symbols_new(document) : NULL;
+
+	for (int i = 0; symbols && i < symbols->count; i++)
+		if (view->table < 0 || symbols->symbol[i].table == view->table)
+			g_ptr_array_add(rows, row_of(document, &symbols->symbol[i]));
+	update(view, rows);
+	show_kind(view);
+	symbols_free(symbols);
+	g_ptr_array_unref(rows);
+}
+
+static void refresh(GtkWidget *widget)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	LadderDocument *document = panel_watch_document(view->watch);
+
+	/* What was said is of a document that is another now. */
+	if (document && ladder_document_version(document) != view->told_of)
+		tell(view, NULL);
+	fill_scopes(view, document ? ladder_document_project(document) : NULL);
+	fill_rows(view);
+}
+
+void ladder_symbols_view_refresh(LadderSymbolsView *view)
+{
+	refresh(GTK_WIDGET(view));
+}
+
+GListModel *ladder_symbols_view_list(LadderSymbolsView *view)
+{
+	return G_LIST_MODEL(view->list.selection);
+}
+
+static bool is_symbol(const LadderPanelRow *row, gconstpointer what)
+{
+	const int *place = what;
+
+	return row->table == place[0] && row->index == place[1];
+}
+
+bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index)
+{
+	const int place[] = { table, index };
+
+	if (view->table >= 0 && view->table != table)
+		view->table = -1;
+	refresh(GTK_WIDGET(view));
+	if (panel_list_select(&view->list, is_symbol, place))
+		return true;
+	gtk_editable_set_text(GTK_EDITABLE(view->search), "");
+	panel_list_want(&view->list, "");
+	return panel_list_select(&view->list, is_symbol, place);
+}
+
+void ladder_symbols_view_enter(LadderSymbolsView *view)
+{
+	LadderPanelRow *row = panel_list_row(&view->list);
+
+	if (row)
+		cells_enter(view->list.view, row, FIELD_NAME);
+}
+
+/* ---- edits ---- */
+
+/* Where it is by now: a row is a tenth of a second behind, and RETAIN moves. -1: nowhere. */
+static int index_of(LadderDocument *document, const LadderPanelRow *row)
+{
+	struct project *project = ladder_document_project(document);
+	const struct var_table *vars = project ? xref_table(project, row->table) : NULL;
+	const char *name = panel_row_text(row, FIELD_NAME);
+	int index = vars && row->index < vars->count ? row->index : -1;
+
+	if (index >= 0 && strcmp(project_text(project, vars->var[index].name), name) == 0)
+		return index;
+	for (index = vars ? vars->count - 1 : -1; index >= 0; index--)
+		if (strcmp(project_text(project, vars->var[index].name), name) == 0)
+			break;
+	return index;
+}
+
+/* Who lies at the same address may be meant, and may be not. */
+static char *told_of(LadderDocument *document, const LadderPanelRow *row, enum field field)
+{
+	const char *other = field == FIELD_ADDRESS ?
+		symbol_beside(document, row->table, index_of(document, row)) : NULL;
+
+	return other ? g_strdup_printf(_("%s, %s: %s lies there, too"),
+		panel_row_text(row, FIELD_NAME), symbol_field_name(field), other) : NULL;
+}
+
+static bool set_field(gpointer owner, LadderPanelRow *row, enum field field,
+		      const char *text, char **why)
+{
+	LadderSymbolsView *view = owner;
+	LadderDocument *document = panel_watch_document(view->watch);
+	const bool good = symbol_set(document, row->table, index_of(document, row), field,
+				     text, why);
+
+	tell(view, good ? told_of(document, row, field) : g_strdup_printf("%s, %s: %s",
+		panel_row_text(row, FIELD_NAME), symbol_field_name(field),
+		why && *why ? *why : ""));
+	if (good) { /* it is looked for by its name, and shown anew if that is undone */
+		g_free(row->text[field]);
+		row->text[field] = g_strstrip(g_strdup(text));
+		panel_watch_later(view->watch);
+	}
+	return good;
+}
+
+static int last_index(LadderDocument *document, int table, const char *name)
+{
+	struct symbols *symbols = symbols_new(document);
+	int index = -1;
+
+	for (int i = 0; i < symbols->count; i++)
+		if (symbols->symbol[i].table == table &&
+		    g_ascii_strcasecmp(symbols->symbol[i].text[FIELD_NAME], name) == 0)
+			index = symbols->symbol[i].index;
+	symbols_free(symbols);
+	return index;
+}
+
+/* Like the one that is selected, an input beside an input; else a bit. */
+static void add(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	LadderDocument *document = panel_watch_document(view->watch);
+	LadderPanelRow *row = panel_list_row(&view->list);
+	const int table = row ? row->table : MAX(view->table, 0);
+	const char *text[SYMBOL_FIELDS] = { "", "BOOL", "", "", "", "", "" };
+	char *name, *why = NULL;
+
+	(void)action;
+	(void)unused;
+	if (!document || !ladder_document_project(document))
+		return;
+	name = symbol_free_name(document, table, row ? panel_row_text(row, FIELD_NAME) :
+				_("Symbol"));
+	text[FIELD_NAME] = name;
+	if (row)
+		text[FIELD_TYPE] = panel_row_text(row, FIELD_TYPE);
+	if (symbol_add(document, table, row ? row->flags & SYMBOL_KINDS : 0, text, &why) &&
+	    ladder_symbols_view_show(view, table, last_index(document, table, name)))
+		ladder_symbols_view_enter(view);
+	tell(view, why);
+	g_free(name);
+}
+
+static void kind_changed(GtkDropDown *drop, GParamSpec *spec, LadderSymbolsView *view)
+{
+	const guint at = gtk_drop_down_get_selected(drop);
+	LadderPanelRow *row = view->watch ? panel_list_row(&view->list) : NULL;
+	LadderDocument *document;
+	char *name, *why = NULL;
+	int table;
+
+	(void)spec;
+	if (view->busy || !row || at >= G_N_ELEMENTS(kinds) ||
+	    (row->flags & SYMBOL_KINDS) == kinds[at])
+		return;
+	document = panel_watch_document(view->watch);
+	table = row->table;
+	name = g_strdup(panel_row_text(row, FIELD_NAME));
+	view->turning = true;
+	if (symbol_set_kind(document, table, index_of(document, row), kinds[at], &why))
+		ladder_symbols_view_show(view, table, last_index(document, table, name));
+	view->turning = false;
+	show_kind(view);
+	tell(view, why ? g_strdup_printf("%s: %s", name, why) : NULL);
+	g_free(name);
+	g_free(why);
+}
+
+static void delete(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	LadderDocument *document = panel_watch_document(view->watch);
+	LadderPanelRow *row = panel_list_row(&view->list);
+	char *why = NULL;
+
+	(void)action;
+	(void)unused;
+	if (!row)
+		return;
+	if (symbol_delete(document, row->table, index_of(document, row), &why))
+		refresh(widget);
+	tell(view, why);
+}
+
+static void show_uses(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderPanelRow *row = panel_list_row(&LADDER_SYMBOLS_VIEW(widget)->list);
+	const char *scope;
+	char *name;
+
+	(void)action;
+	(void)unused;
+	if (!row)
+		return;
+	scope = panel_row_text(row, SYMBOLS_SCOPE);
+	name = row->table ? g_strdup_printf("%.*s.%s", (int)strcspn(scope, " "), scope,
+					    panel_row_text(row, FIELD_NAME)) :
+	       g_strdup(panel_row_text(row, FIELD_NAME));
+	gtk_widget_activate_action(widget, "win.show-uses", "s", name);
+	g_free(name);
+}
+
+/* ---- tables ---- */
+
+GtkWidget *ladder_symbols_view_import(LadderSymbolsView *view, const char *from,
+				      const char *text, gsize len)
+{
+	LadderDocument *document = panel_watch_document(view->watch);
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(view));
+	GtkWidget *dialog;
+
+	if (!document)
+		return NULL;
+	dialog = ladder_import_dialog_new(csv_plan_new(document, text, len), from);
+	if (GTK_IS_WINDOW(root))
+		gtk_window_set_transient_for(GTK_WINDOW(dialog), GTK_WINDOW(root));
+	gtk_window_present(GTK_WINDOW(dialog));
+	return dialog;
+}
+
+static void import_file(LadderSymbolsView *view, const char *path)
+{
+	GError *error = NULL;
+	gsize len;
+	char *text = disk_read(path, FILE_MOST, &len, &error);
+	char *name = g_path_get_basename(path);
+
+	if (text)
+		ladder_symbols_view_import(view, name, text, len);
+	else
+		tell(view, g_strdup(error->message));
+	g_clear_error(&error);
+	g_free(text);
+	g_free(name);
+}
+
+static void chosen(GtkNativeDialog *dialog, int response, LadderSymbolsView *view)
+{
+	GFile *file = response == GTK_RESPONSE_ACCEPT ?
+		gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog)) : NULL;
+	char *path = file ? g_file_get_path(file) : NULL;
+
+	if (path)
+		import_file(view, path);
+	g_free(path);
+	g_clear_object(&file);
+	g_clear_object(&view->chooser);
+}
+
+static void import(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(widget);
+	GtkRoot *root = gtk_widget_get_root(widget);
+	GtkFileFilter *filter;
+
+	(void)action;
+	(void)unused;
+	if (view->chooser || !panel_watch_document(view->watch))
+		return;
+	view->chooser = gtk_file_chooser_native_new(_("Import symbols"),
+		GTK_IS_WINDOW(root) ? GTK_WINDOW(root) : NULL, GTK_FILE_CHOOSER_ACTION_OPEN,
+		_("_Open"), NULL);
+	filter = gtk_file_filter_new();
+	gtk_file_filter_set_name(filter, _("Tables (CSV)"));
+	gtk_file_filter_add_suffix(filter, "csv");
+	gtk_file_filter_add_suffix(filter, "txt");
+	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(view->chooser), filter);
+	g_object_unref(filter);
+	chooser_beside(view->chooser, panel_watch_document(view->watch));
+	g_signal_connect(view->chooser, "response", G_CALLBACK(chosen), view);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(view->chooser));
+}
+
+/* ---- the widget ---- */
+
+static void scope_changed(GtkDropDown *scopes, GParamSpec *spec, LadderSymbolsView *view)
+{
+	(void)spec;
+	if (view->busy || !view->watch)
+		return;
+	view->table = (int)gtk_drop_down_get_selected(scopes) - 1;
+	fill_rows(view); /* another list of scopes, within this signal, would never end it */
+}
+
+static void search_changed(GtkSearchEntry *entry, LadderSymbolsView *view)
+{
+	panel_list_want(&view->list, gtk_editable_get_text(GTK_EDITABLE(entry)));
+}
+
+void ladder_symbols_view_set_document(LadderSymbolsView *view, LadderDocument *document)
+{
+	if (!panel_watch_set(view->watch, document))
+		return;
+	view->table = -1;
+	refresh(GTK_WIDGET(view));
+}
+
+static void dispose(GObject *object)
+{
+	LadderSymbolsView *view = LADDER_SYMBOLS_VIEW(object);
+
+	g_clear_pointer(&view->watch, panel_watch_free);
+	if (view->chooser)
+		gtk_native_dialog_destroy(GTK_NATIVE_DIALOG(view->chooser));
+	g_clear_object(&view->chooser);
+	g_clear_pointer(&view->box, gtk_widget_unparent);
+	panel_list_clear(&view->list);
+	G_OBJECT_CLASS(ladder_symbols_view_parent_class)->dispose(object);
+}
+
+static void bind_children(GtkWidgetClass *class)
+{
+	gtk_widget_class_set_layout_manager_type(class, GTK_TYPE_BIN_LAYOUT);
+	gtk_widget_class_set_template_from_resource(class,
+		"/org/rungboard/Editor/ui/symbols_view.ui");
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, box);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, scopes);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, kind);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, search);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, bar);
+	gtk_widget_class_bind_template_child(class, LadderSymbolsView, message);
+	gtk_widget_class_bind_template_child_full(class, "view", FALSE, 0);
+	gtk_widget_class_bind_template_callback(class, scope_changed);
+	gtk_widget_class_bind_template_callback(class, kind_changed);
+	gtk_widget_class_bind_template_callback(class, search_changed);
+}
+
+static void ladder_symbols_view_class_init(LadderSymbolsViewClass *class)
+{
+	GtkWidgetClass *widget = GTK_WIDGET_CLASS(class);
+
+	G_OBJECT_CLASS(class)->dispose = dispose;
+	gtk_widget_class_install_action(widget, "symbols.add", NULL, add);
+	gtk_widget_class_install_action(widget, "symbols.delete", NULL, delete);
+	gtk_widget_class_install_action(widget, "symbols.import", NULL, import);
+	gtk_widget_class_install_action(widget, "symbols.uses", NULL, show_uses);
+	bind_children(widget);
+}
+
+static void add_columns(LadderSymbolsView *view)
+{
+	static const struct { enum field field; int width; } column[] = {
+		{ FIELD_NAME, 150 }, { FIELD_TYPE, 110 }, { FIELD_ADDRESS, 90 },
+		{ FIELD_INITIAL, 100 }, { FIELD_RETAIN, 0 }, { FIELD_CONSTANT, 0 },
+		{ FIELD_COMMENT, 180 },
+	};
+
+	panel_list_column(&view->list, "", SYMBOLS_USES, PANEL_ICON, 0);
+	for (gsize i = 0; i < G_N_ELEMENTS(column); i++)
+		panel_list_add(&view->list, symbol_field_name(column[i].field),
+			       column[i].field,
+			       column[i].field == FIELD_COMMENT ? PANEL_EXPAND : 0,
+			       column[i].width,
+			       symbols_cells(column[i].field, set_field, view));
+	panel_list_column(&view->list, _("Scope"), SYMBOLS_SCOPE, 0, 150);
+	panel_list_column(&view->list, _("Uses"), SYMBOLS_USES, PANEL_NUMBER, 60);
+}
+
+/* With words of the language. */
+static void fill_kinds(LadderSymbolsView *view)
+{
+	GPtrArray *name = g_ptr_array_new();
+
+	for (guint i = 0; i < G_N_ELEMENTS(kinds); i++)
+		g_ptr_array_add(name, (gpointer)vars_head(kinds[i]));
+	view->busy = true;
+	drop_fill(GTK_DROP_DOWN(view->kind), name);
+	view->busy = false;
+	g_ptr_array_unref(name);
+}
+
+static void ladder_symbols_view_init(LadderSymbolsView *view)
+{
+	GtkWidget *widget = GTK_WIDGET(view);
+
+	view->table = -1;
+	gtk_widget_init_template(widget);
+	panel_list_init(&view->list, GTK_COLUMN_VIEW(gtk_widget_get_template_child(
+		widget, LADDER_TYPE_SYMBOLS_VIEW, "view")));
+	add_columns(view);
+	fill_kinds(view);
+	g_signal_connect_object(view->list.selection, "notify::selected-item",
+				G_CALLBACK(show_kind), view, G_CONNECT_SWAPPED);
+	show_kind(view);
+	view->watch = panel_watch_new(widget, true, refresh);
+}
+
+GtkWidget *ladder_symbols_view_new(void)
+{
+	return g_object_new(LADDER_TYPE_SYMBOLS_VIEW, NULL);
+}

@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * tree_rows - a project's programs, blocks, types, symbols and files as rows. They are made anew
+ * and compared: what stays as it was is not touched.
+ */
+#include "editor-gtk/panels/tree_rows.h"
+
+#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/draw/listing.h"
+
+/* ---- rows ---- */
+
+G_DEFINE_FINAL_TYPE(LadderTreeRow, ladder_tree_row, G_TYPE_OBJECT)
+
+static guint changed; /* signal */
+
+static void ladder_tree_row_finalize(GObject *object)
+{
+	LadderTreeRow *row = LADDER_TREE_ROW(object);
+
+	g_clear_object(&row->rows);
+	g_free(row->text);
+	g_free(row->note);
+	g_free(row->path);
+	G_OBJECT_CLASS(ladder_tree_row_parent_class)->finalize(object);
+}
+
+static void ladder_tree_row_class_init(LadderTreeRowClass *class)
+{
+	G_OBJECT_CLASS(class)->finalize = ladder_tree_row_finalize;
+	changed = g_signal_new("changed", LADDER_TYPE_TREE_ROW, G_SIGNAL_RUN_LAST, 0, NULL,
+			       NULL, NULL, G_TYPE_NONE, 0);
+}
+
+static void ladder_tree_row_init(LadderTreeRow *row)
+{
+	row->pou = -1;
+}
+
+static LadderTreeRow *add(GListStore *into, enum row_kind kind, const char *text,
+			  char *note, GListStore *rows)
+{
+	LadderTreeRow *row = g_object_new(LADDER_TYPE_TREE_ROW, NULL);
+
+	row->kind = kind;
+	row->text = g_strdup(text);
+	row->note = note;
+	row->rows = rows;
+	row->parent = rows != NULL;
+	g_list_store_append(into, row);
+	g_object_unref(row);
+	return row;
+}
+
+static LadderTreeRow *add_row(GListStore *into, enum row_kind kind, const char *text,
+			      char *note)
+{
+	return add(into, kind, text, note, NULL);
+}
+
+static LadderTreeRow *add_heading(GListStore *into, const char *text)
+{
+	return add(into, ROW_HEADING, text, NULL, g_list_store_new(LADDER_TYPE_TREE_ROW));
+}
+
+/* ---- filling ---- */
+
+static void add_pous(GListStore *root, const struct project *project, const char *title,
+		     bool programs)
+{
+	LadderTreeRow *heading = add_heading(root, title);
+
+	for (int i = 0; i < project->pou_count; i++) {
+		const struct pou *pou = &project->pou[i];
+		char *note;
+		LadderTreeRow *row;
+
+		if ((pou->kind == POU_PROGRAM) != programs)
+			continue;
+		note = pou->sfc ? g_strdup_printf(ngettext("%d step", "%d steps",
+			(unsigned long)pou->sfc->step_count), pou->sfc->step_count) :
+			pou->language == LANGUAGE_LD ?
+			g_strdup_printf(ngettext("%d rung", "%d rungs",
+				(unsigned long)pou->rung_count), pou->rung_count) :
+			g_strdup(pou_language_word(pou->language));
+		row = add_row(heading->rows, ROW_POU, project_text(project, pou->name),
+			      note);
+		row->pou = i;
+		row->parent = listing_count(&pou->vars) > 0;
+	}
+}
+
+static void add_files(GListStore *root, const struct project *project)
+{
+	LadderTreeRow *heading = NULL;
+
+	for (int i = 0; i < project->part_count; i++) {
+		const struct part *part = &project->part[i];
+
+		if ((part->kind != PART_INCLUDE && part->kind != PART_USES) ||
+		    part->included)
+			continue;
+		if (!heading)
+			heading = add_heading(root, _("Files"));
+		add_row(heading->rows, ROW_FILE, project_text(project, part->text),
+			g_strdup(part->kind == PART_USES ? "USES" : "INCLUDE"));
+	}
+}
+
+static void add_structures(GListStore *root, const struct project *project)
+{
+	LadderTreeRow *heading = NULL;
+
+	for (int i = 0; i < project->structure_count; i++) {
+		LadderTreeRow *row;
+
+		if (!heading)
+			heading = add_heading(root, _("Structures"));
+		row = add_row(heading->rows, ROW_STRUCTURE,
+			      project_text(project, project->structure[i].name), NULL);
+		row->pou = i;
+		row->parent = true;
+	}
+}
+
+/* Text files beside the project. */
+static void add_texts(GListStore *root, LadderDocument *document, const char *title,
+		      const char *ending, bool own)
+{
+	GPtrArray *files = files_beside(ladder_document_path(document), ending, own);
+	LadderTreeRow *heading = files->len ? add_heading(root, title) : NULL;
+
+	for (guint i = 0; i < files->len; i++) {
+		char *name = g_path_get_basename(files->pdata[i]);
+		LadderTreeRow *row = add_row(heading->rows, ROW_TEXT, name, NULL);
+
+		row->path = g_strdup(files->pdata[i]);
+		g_free(name);
+	}
+	g_ptr_array_unref(files);
+}
+
+/* What a POU or a structure is made of. */
+static GListStore *variables(const struct project *project, const LadderTreeRow *row)
+{
+	const struct var_table *vars = row->kind == ROW_POU ? &project->pou[row->pou].vars :
+		&project->structure[row->pou].vars;
+	GListStore *rows = g_list_store_new(LADDER_TYPE_TREE_ROW);
+
+	for (int i = listing_first(vars); i < vars_declared(vars); i++)
+		add_row(rows, ROW_VARIABLE, project_text(project, vars->var[i].name),
+			listing_type(project, &vars->var[i]));
+	return rows;
+}
+
+static void add_bookmarks(GListStore *root, LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+	LadderTreeRow *heading = NULL;
+
+	if (!project_view(project)[0])
+		return;
+	for (int pou = 0; pou < project->pou_count; pou++)
+		for (int i = 0; i < project->pou[pou].rung_count; i++) {
+			LadderTreeRow *row;
+			char *text;
+
+			if (!ladder_document_is_bookmarked(document, pou, i))
+				continue;
+			if (!heading)
+				heading = add_heading(root, _("Bookmarks"));
+			text = g_strdup_printf(_("%s, rung %d"), project_text(project,
+				project->pou[pou].name), i + 1);
+			row = add_row(heading->rows, ROW_BOOKMARK, text, g_strdup(
+				project_text(project, project->pou[pou].rung[i]->title)));
+			row->pou = pou;
+			row->rung = i;
+			g_free(text);
+		}
+}
+
+static void add_all(GListStore *root, LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+
+	if (!project)
+		return;
+	add_pous(root, project, _("Programs"), true);
+	add_pous(root, project, _("Functions and blocks"), false);
+	add_row(root, ROW_SYMBOLS, _("Symbols"),
+		g_strdup_printf("%d", listing_symbol_count(project)));
+	add_structures(root, project);
+	add_bookmarks(root, document);
+	add_texts(root, document, _("Scenarios"), ".scn", true);
+	add_texts(root, document, _("I/O maps"), ".io", true);
+	add_texts(root, document, _("Other I/O maps"), ".io", false);
+	add_files(root, project);
+}
+
+/* ---- what became of them ---- */
+
+static bool is_same(const LadderTreeRow *a, const LadderTreeRow *b)
+{
+	return a->kind == b->kind && a->parent == b->parent &&
+	       g_strcmp0(a->text, b->text) == 0 && g_strcmp0(a->path, b->path) == 0;
+}
+
+static LadderTreeRow *row_at(GListStore *rows, guint at)
+{
+	LadderTreeRow *row = g_list_model_get_item(G_LIST_MODEL(rows), at);
+
+	g_object_unref(row); /* the list holds it */
+	return row;
+}
+
+static void update(GListStore *old, GListStore *fresh, const struct project *project);
+
+/* A row stays. It may be another's by number: what is below it is compared, too. */
+static void become(LadderTreeRow *old, LadderTreeRow *fresh, const struct project *project)
+{
+	GListStore *rows;
+
+	old->pou = fresh->pou;
+	old->rung = fresh->rung;
+	if (g_strcmp0(old->note, fresh->note) != 0) {
+		g_free(old->note);
+		old->note = g_steal_pointer(&fresh->note);
+		g_signal_emit(old, changed, 0);
+	}
+	if (!old->rows)
+		return;
+	rows = fresh->rows ? g_object_ref(fresh->rows) : variables(project, fresh);
+	update(old->rows, rows, project);
+	g_object_unref(rows);
+}
+
+static void update(GListStore *old, GListStore *fresh, const struct project *project)
+{
+	const guint was = g_list_model_get_n_items(G_LIST_MODEL(old));
+	const guint is = g_list_model_get_n_items(G_LIST_MODEL(fresh)), least = MIN(was, is);
+	GPtrArray *others = g_ptr_array_new();
+	guint first = 0, last = 0;
+
+	for (; first < least && is_same(row_at(old, first), row_at(fresh, first)); first++)
+		become(row_at(old, first), row_at(fresh, first), project);
+	for (; last < least - first && is_same(row_at(old, was - 1 - last),
+					       row_at(fresh, is - 1 - last)); last++)
+		become(row_at(old, was - 1 - last), row_at(fresh, is - 1 - last), project);
+	for (guint i = first; i < is - last; i++)
+		g_ptr_array_add(others, row_at(fresh, i));
+	if (first < was - last || others->len)
+		g_list_store_splice(old, first, was - last - first, others->pdata, others->len);
+	g_ptr_array_unref(others);
+}
+
+void tree_rows_update(GListStore *root, LadderDocument *document)
+{
+	GListStore *fresh = g_list_store_new(LADDER_TYPE_TREE_ROW);
+
+	add_all(fresh, document);
+	update(root, fresh, ladder_document_project(document));
+	g_object_unref(fresh);
+}
+
+GListModel *tree_row_children(LadderTreeRow *row, LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+
+	/* Between a change and its news numbers are those of before. */
+	if (!row->parent || (!row->rows && (!project || row->pou >= (row->kind == ROW_POU ?
+			project->pou_count : project->structure_count))))
+		return NULL;
+	if (!row->rows)
+		row->rows = variables(project, row);
+	return G_LIST_MODEL(g_object_ref(row->rows));
+}

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * render_sheet - POUs below one another in one picture; see render_sheet.h.
+ */
+#include "editor-gtk/render/render_sheet.h"
+#include "editor-gtk/draw/grid_draw.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/draw/listing.h"
+#include "editor-gtk/draw/sfc_bodies.h"
+#include "editor-gtk/draw/sfc_draw.h"
+
+#define HEADING   40
+#define TEXT_LINE 17
+#define SIDE      16 /* px beside a text                                        */
+
+void render_grow(struct picture *picture, float x, float y)
+{
+	picture->width = MAX(picture->width, x);
+	picture->height = MAX(picture->height, y);
+}
+
+float render_heading(struct lettering *lettering, const char *text, float y,
+		     struct picture *picture)
+{
+	struct lettered fits = lettering_fit(lettering, LETTER_HEADING, text, -1, 0);
+
+	picture_move(picture, 0, y);
+	picture_text(picture, TOKEN_INK, LETTER_HEADING, fits, SIDE, 27);
+	picture_move(picture, 0, 0);
+	render_grow(picture, fits.width + 2 * SIDE, y + HEADING);
+	return HEADING;
+}
+
+static float put_line(struct lettered text, float y, struct picture *picture)
+{
+	picture_text(picture, TOKEN_INK, LETTER_OPERAND, text, SIDE, y + 13);
+	render_grow(picture, text.width + 2 * SIDE, y + TEXT_LINE);
+	return y + TEXT_LINE;
+}
+
+static float put_lines(char **lines, struct lettering *lettering, float y,
+		       struct picture *picture)
+{
+	for (int i = 0; lines && lines[i]; i++) {
+		GString *text = g_string_new(lines[i]);
+
+		g_string_replace(text, "\t", "        ", 0);
+		y = put_line(lettering_fit(lettering, LETTER_OPERAND, text->str, -1, 0), y,
+			     picture);
+		g_string_free(text, TRUE);
+	}
+	g_strfreev(lines);
+	return y + TEXT_LINE;
+}
+
+/* What the check says of cells of this rung. */
+static int mark_wrong(const struct diag_list *diags, const struct rung_layout *layout,
+		      const char *pou, struct grid_mark *mark)
+{
+	const struct rung *rung = layout->rung;
+	int count = 0;
+
+	for (int i = 0; diags && i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+		int row = diag->row - 1, col = diag->col - 1;
+
+		if (!diag->pou || g_ascii_strcasecmp(diag->pou, pou) != 0 ||
+		    diag->rung != layout->number || row < 0 || row >= rung->rows ||
+		    col < 0 || col >= rung->cols)
+			continue;
+		mark[count++] = (struct grid_mark){
+			row, rung_layout_column(layout, row, col),
+			diag_severity(diag->id) == SEVERITY_ERROR ? MARK_ERROR :
+								    MARK_WARNING };
+	}
+	return count;
+}
+
+static struct sheet *new_sheet(const struct project *project, const struct pou *pou,
+			       const struct render_options *options,
+			       struct lettering *lettering)
+{
+	struct sheet *sheet = sheet_new(project, pou, lettering);
+
+	sheet->drafting.show = options->show;
+	sheet->drafting.width = options->width;
+	sheet->drafting.all_comments = true;
+	sheet_layout(sheet);
+	return sheet;
+}
+
+float render_remarks(const struct sheet *sheet, int first, int end, const char *heading,
+		     float y, struct picture *picture)
+{
+	struct lettering *lettering = sheet->drafting.lettering;
+	GPtrArray *lines = g_ptr_array_new_with_free_func(g_free);
+
+	for (int i = first; i < end; i++)
+		sheet_remarks(sheet, i, lines);
+	if (lines->len && heading)
+		y += render_heading(lettering, heading, y, picture);
+	for (guint i = 0; i < lines->len; i++)
+		for (const char *text = g_ptr_array_index(lines, i); *text;)
+			y = put_line(lettering_line(lettering, LETTER_OPERAND, &text,
+						    sheet->width - 2 * SIDE, false), y,
+				     picture);
+	y += lines->len ? TEXT_LINE : 0;
+	g_ptr_array_unref(lines);
+	return y;
+}
+
+/* Rungs first … end - 1. */
+static float put_rungs(const struct sheet *sheet, const struct render_options *options,
+		       int first, int end, float y, struct picture *picture)
+{
+	const struct theme *theme = theme_get(options->theme, THEME_GREEN);
+	const struct project *project = sheet->drafting.project;
+
+	for (int i = first; i < end; i++) {
+		struct grid_mark mark[LIMIT_DIAGS];
+		int marks = mark_wrong(options->diags, sheet->rung[i],
+				       project_text(project, sheet->pou->name), mark);
+		struct grid_scene scene = { .drafting = &sheet->drafting,
+					    .layout = sheet->rung[i], .theme = theme,
+					    .mark = mark, .mark_count = marks };
+
+		picture_move(picture, 0, y);
+		grid_draw(&scene, picture);
+		y += sheet->rung[i]->height;
+		render_grow(picture, sheet->width, y);
+	}
+	picture_move(picture, 0, 0);
+	return render_remarks(sheet, first, end, _("Comments"), y, picture);
+}
+
+static float put_ladder(const struct project *project, const struct pou *pou,
+			const struct render_options *options,
+			struct lettering *lettering, float y, struct picture *picture)
+{
+	struct sheet *sheet = new_sheet(project, pou, options, lettering);
+
+	y = put_rungs(sheet, options, options->rung ? options->rung - 1 : 0,
+		      options->rung ? options->rung : pou->rung_count, y, picture);
+	sheet_free(sheet);
+	return y;
+}
+
+/* What the check says of lines of the file in which steps and transitions begin. */
+static int mark_chart(const struct diag_list *diags, const struct sfc_sheet *sheet,
+		      struct sfc_mark *mark)
+{
+	int count = 0;
+
+	for (int i = 0; diags && i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+		const char *name = project_text(sheet->project, sheet->pou->name);
+		struct sfc_mark at;
+
+		if (!diag->pou || g_ascii_strcasecmp(diag->pou, name) != 0 ||
+		    !sfc_sheet_of_diag(sheet, NULL, diag, &at.shape, &at.use))
+			continue;
+		at.signs = diag_severity(diag->id) == SEVERITY_ERROR ? SFC_ERROR :
+								       SFC_WARNING;
+		mark[count++] = at;
+	}
+	return count;
+}
+
+/* A chart, and below it what stands in it as rungs and lists. */
+static float put_chart(const struct project *project, const struct pou *pou,
+		       const struct render_options *options,
+		       struct lettering *lettering, float y, struct picture *picture)
+{
+	struct sfc_sheet *chart = sfc_sheet_new(project, pou, lettering);
+	struct sheet *sheet = NULL;
+	struct sfc_mark mark[LIMIT_DIAGS];
+	const struct sfc_scene scene = {
+		.sheet = chart, .theme = theme_get(options->theme, THEME_GREEN),
+		.mark = mark, .mark_count = mark_chart(options->diags, chart, mark) };
+	struct sfc_part_body *bodies;
+	int count;
+
+	picture_move(picture, 0, y);
+	sfc_draw(&scene, picture);
+	picture_move(picture, 0, 0);
+	y += chart->height;
+	render_grow(picture, chart->width, y);
+	bodies = sfc_bodies_new(project, pou, &count);
+	if (count)
+		sheet = new_sheet(project, pou, options, lettering);
+	for (int i = 0; i < count; i++) {
+		const struct sfc_body *body = bodies[i].body;
+
+		y += render_heading(lettering, bodies[i].heading, y, picture);
+		if (body->kind == BODY_LIST)
+			y = put_lines(sfc_body_lines(project, pou, body), lettering, y,
+				      picture);
+		else
+			y = put_rungs(sheet, options, body->first,
+				      body->first + body->count, y, picture);
+	}
+	sfc_bodies_free(bodies, count);
+	sheet_free(sheet);
+	sfc_sheet_free(chart);
+	return y;
+}
+
+void render_sheets(const struct project *project, int pou,
+		   const struct render_options *options, struct lettering *lettering,
+		   struct picture *picture)
+{
+	bool several = pou < 0 && project->pou_count > 1;
+	float y = 0;
+
+	render_grow(picture, 1, 1);
+	for (int i = 0; i < project->pou_count; i++) {
+		const struct pou *one = &project->pou[i];
+		char *heading;
+
+		if (pou >= 0 && pou != i)
+			continue;
+		heading = g_strdup_printf("%s %s", pou_word(one->kind),
+					  project_text(project, one->name));
+		if (several)
+			y += render_heading(lettering, heading, y, picture);
+		g_free(heading);
+		if (one->language == LANGUAGE_IL)
+			y = put_lines(listing_il(project, one), lettering, y + 8,
+				      picture);
+		else if (one->sfc && !options->rung)
+			y = put_chart(project, one, options, lettering, y, picture);
+		else
+			y = put_ladder(project, one, options, lettering, y, picture);
+	}
+	render_grow(picture, 1, y);
+}

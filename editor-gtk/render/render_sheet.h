@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * render_sheet - a project, a POU or a rung as one long picture.
+ */
+#ifndef EDITOR_RENDER_SHEET_H
+#define EDITOR_RENDER_SHEET_H
+
+#include "editor-gtk/kit/picture.h"
+#include "editor-gtk/render/render_options.h"
+#include "editor-gtk/draw/sheet.h"
+
+/** render_sheets - POU @pou of a project, or all (-1); its size too is set. */
+void render_sheets(const struct project *project, int pou,
+		   const struct render_options *options, struct lettering *lettering,
+		   struct picture *picture);
+/** render_heading - a line above what follows; returns its height. */
+float render_heading(struct lettering *lettering, const char *text, float y,
+		     struct picture *picture);
+/** render_remarks - what rungs @first … @end - 1 have no room for, in lines; nothing if there
+ * is none. @heading: above them; NULL: none. Returns the y below. */
+float render_remarks(const struct sheet *sheet, int first, int end, const char *heading,
+		     float y, struct picture *picture);
+/** render_grow - the picture reaches at least to (@x, @y). */
+void render_grow(struct picture *picture, float x, float y);
+
+#endif

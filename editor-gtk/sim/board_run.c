@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * board_run - ladderd as a child of the editor: started, watched, stopped.
+ */
+#include "editor-gtk/sim/board_run.h"
+
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/installed.h"
+
+#include <signal.h>
+#include <string.h>
+
+#define ASK_MS 300 /* so often it is asked for its status                      */
+
+struct _LadderBoardRun {
+	GObject parent;
+	enum board_state state;
+	struct board_status status;
+	GSubprocess *child;
+	GCancellable *cancel;
+	guint timer;
+	int open;          /* streams that have not ended, and the child itself */
+	int exit;
+};
+
+G_DEFINE_FINAL_TYPE(LadderBoardRun, ladder_board_run, G_TYPE_OBJECT)
+
+enum { CHANGED, TOLD, ENDED, SIGNALS };
+static guint signals[SIGNALS];
+
+/* ---- its end ---- */
+
+/* One of its streams, or itself. */
+static void close_one(LadderBoardRun *run)
+{
+	const int status = run->exit;
+
+	if (--run->open > 0)
+		return;
+	g_clear_handle_id(&run->timer, g_source_remove);
+	g_clear_object(&run->child);
+	g_clear_object(&run->cancel);
+	run->state = BOARD_OFF;
+	memset(&run->status, 0, sizeof(run->status));
+	g_signal_emit(run, signals[CHANGED], 0);
+	g_signal_emit(run, signals[ENDED], 0, status);
+}
+
+static void waited(GObject *child, GAsyncResult *result, gpointer data)
+{
+	GError *error = NULL;
+	LadderBoardRun *run;
+
+	g_subprocess_wait_finish(G_SUBPROCESS(child), result, &error);
+	if (g_error_matches(error, G_IO_ERROR, G_IO_ERROR_CANCELLED)) {
+		g_error_free(error);
+		return; /* it goes */
+	}
+	g_clear_error(&error);
+	run = LADDER_BOARD_RUN(data);
+	run->exit = g_subprocess_get_if_exited(G_SUBPROCESS(child)) ?
+		g_subprocess_get_exit_status(G_SUBPROCESS(child)) : -1;
+	close_one(run);
+}
+
+char *board_ended_text(int status)
+{
+	return status == 0 ? g_strdup(_("Ended; outputs have their safe values")) :
+		status < 0 ? g_strdup(_("ladderd was ended by a signal")) :
+		g_strdup_printf(_("ladderd ended with status %d"), status);
+}
+
+/* ---- what it says ---- */
+
+static void read_on(LadderBoardRun *run, GDataInputStream *stream);
+
+static void take_line(LadderBoardRun *run, const char *line, bool status)
+{
+	if (!status) {
+		g_signal_emit(run, signals[TOLD], 0, line);
+		return;
+	}
+	if (!board_status_line(&run->status, line))
+		return;
+	if (run->state == BOARD_STARTING)
+		run->state = BOARD_RUNNING;
+	g_signal_emit(run, signals[CHANGED], 0);
+}
+
+static void read_line(GObject *stream, GAsyncResult *result, gpointer data)
+{
+	GError *error = NULL;
+	char *line = g_data_input_stream_read_line_finish(G_DATA_INPUT_STREAM(stream),
+							  result, NULL, &error);
+	LadderBoardRun *run;
+	char *text;
+
+	if (g_error_matches(error, G_IO_ERROR, G_IO_ERROR_CANCELLED)) {
+		g_error_free(error);
+		return; /* it goes */
+	}
+	g_clear_error(&error);
+	run = LADDER_BOARD_RUN(data);
+	if (!line) {
+		close_one(run);
+		return;
+	}
+	text = g_utf8_make_valid(line, -1);
+	g_free(line);
+	g_object_ref(run);
+	take_line(run, text, g_object_get_data(stream, "status") != NULL);
+	if (run->cancel)
+		read_on(run, G_DATA_INPUT_STREAM(stream));
+	g_object_unref(run);
+	g_free(text);
+}
+
+static void read_on(LadderBoardRun *run, GDataInputStream *stream)
+{
+	g_data_input_stream_read_line_async(stream, G_PRIORITY_DEFAULT, run->cancel,
+					    read_line, run);
+}
+
+static void listen_to(LadderBoardRun *run, GInputStream *pipe, bool status)
+{
+	GDataInputStream *stream = g_data_input_stream_new(pipe);
+
+	if (status)
+		g_object_set_data(G_OBJECT(stream), "status", run);
+	read_on(run, stream);
+	g_object_unref(stream);
+}
+
+static gboolean ask(gpointer data)
+{
+	LadderBoardRun *run = data;
+
+	g_subprocess_send_signal(run->child, SIGUSR1);
+	return G_SOURCE_CONTINUE;
+}
+
+/* ---- its begin ---- */
+
+char *board_find_ladderd(void)
+{
+	return installed_program("ladderd");
+}
+
+/* Before it listens to it, this signal would end it. */
+static void in_child(gpointer unused)
+{
+	(void)unused;
+	signal(SIGUSR1, SIG_IGN);
+}
+
+static GSubprocess *spawn(const char *program, const char *file, const char *map,
+			  GError **error)
+{
+	GSubprocessLauncher *launcher = g_subprocess_launcher_new(
+		G_SUBPROCESS_FLAGS_STDIN_PIPE | G_SUBPROCESS_FLAGS_STDOUT_PIPE |
+		G_SUBPROCESS_FLAGS_STDERR_PIPE);
+	GSubprocess *child;
+
+	g_subprocess_launcher_set_child_setup(launcher, in_child, NULL, NULL);
+	/* It is no service of the one that began the editor. */
+	g_subprocess_launcher_unsetenv(launcher, "NOTIFY_SOCKET");
+	g_subprocess_launcher_unsetenv(launcher, "WATCHDOG_USEC");
+	child = g_subprocess_launcher_spawn(launcher, error, program, "--attended", "--io",
+					    map, "--", file, NULL);
+	g_object_unref(launcher);
+	return child;
+}
+
+bool ladder_board_run_start(LadderBoardRun *run, const char *file, const char *map,
+			    GError **error)
+{
+	char *program = board_find_ladderd();
+
+	if (!program) {
+		g_set_error(error, G_IO_ERROR, G_IO_ERROR_NOT_FOUND,
+			    _("ladderd, which runs programs on pins, was not found: neither "
+			      "beside this editor nor in PATH"));
+		return false;
+	}
+	run->child = spawn(program, file, map, error);
+	g_free(program);
+	if (!run->child)
+		return false;
+	run->cancel = g_cancellable_new();
+	run->state = BOARD_STARTING;
+	run->exit = -1;
+	run->open = 3;
+	memset(&run->status, 0, sizeof(run->status));
+	listen_to(run, g_subprocess_get_stdout_pipe(run->child), true);
+	listen_to(run, g_subprocess_get_stderr_pipe(run->child), false);
+	g_subprocess_wait_async(run->child, run->cancel, waited, run);
+	run->timer = g_timeout_add(ASK_MS, ask, run);
+	g_signal_emit(run, signals[CHANGED], 0);
+	return true;
+}
+
+void ladder_board_run_stop(LadderBoardRun *run)
+{
+	if (!run->child)
+		return;
+	g_subprocess_send_signal(run->child, SIGTERM);
+	run->state = BOARD_STOPPING;
+	g_signal_emit(run, signals[CHANGED], 0);
+}
+
+void ladder_board_run_reset(LadderBoardRun *run)
+{
+	if (run->child)
+		g_subprocess_send_signal(run->child, SIGHUP);
+}
+
+enum board_state ladder_board_run_state(LadderBoardRun *run)
+{
+	return run->state;
+}
+
+const struct board_status *ladder_board_run_status(LadderBoardRun *run)
+{
+	return &run->status;
+}
+
+/* ---- life ---- */
+
+static void ladder_board_run_dispose(GObject *object)
+{
+	LadderBoardRun *run = LADDER_BOARD_RUN(object);
+
+	g_clear_handle_id(&run->timer, g_source_remove);
+	if (run->cancel)
+		g_cancellable_cancel(run->cancel);
+	g_clear_object(&run->cancel);
+	if (run->child) { /* nobody would look after it */
+		g_subprocess_send_signal(run->child, SIGTERM);
+		g_output_stream_close(g_subprocess_get_stdin_pipe(run->child), NULL, NULL);
+	}
+	g_clear_object(&run->child);
+	G_OBJECT_CLASS(ladder_board_run_parent_class)->dispose(object);
+}
+
+static void ladder_board_run_class_init(LadderBoardRunClass *class)
+{
+	const GType type = G_TYPE_FROM_CLASS(class);
+
+	G_OBJECT_CLASS(class)->dispose = ladder_board_run_dispose;
+	signals[CHANGED] = g_signal_new("changed", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL,
+					NULL, G_TYPE_NONE, 0);
+	signals[TOLD] = g_signal_new("told", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+				     G_TYPE_NONE, 1, G_TYPE_STRING);
+	signals[ENDED] = g_signal_new("ended", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+				      G_TYPE_NONE, 1, G_TYPE_INT);
+}
+
+static void ladder_board_run_init(LadderBoardRun *run)
+{
+	run->state = BOARD_OFF;
+}
+
+LadderBoardRun *ladder_board_run_new(void)
+{
+	return g_object_new(LADDER_TYPE_BOARD_RUN, NULL);
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * board_run - ladderd as a child of the editor: started, watched, stopped.
+ *
+ * It runs on the pins of this machine. Its standard input is a pipe from here: when that
+ * closes, because the editor ended in whatever way, ladderd stops by itself and leaves safe
+ * outputs (`ladderd --attended`). It is never killed: SIGTERM is what makes outputs safe.
+ *
+ * Signals: changed () state or status; told (char *line) a line of its log; ended (int exit)
+ * with its exit status, or -1 after a signal.
+ */
+#ifndef EDITOR_BOARD_RUN_H
+#define EDITOR_BOARD_RUN_H
+
+#include "editor-gtk/sim/board_status.h"
+
+#include <gio/gio.h>
+
+#define LADDER_TYPE_BOARD_RUN (ladder_board_run_get_type())
+G_DECLARE_FINAL_TYPE(LadderBoardRun, ladder_board_run, LADDER, BOARD_RUN, GObject)
+
+enum board_state { BOARD_OFF, BOARD_STARTING, BOARD_RUNNING, BOARD_STOPPING };
+
+LadderBoardRun *ladder_board_run_new(void);
+/** ladder_board_run_start - @file with @map, both paths; the state must be BOARD_OFF.
+ * Fails: false, and @error says why: no ladderd. What ladderd itself refuses is told. */
+bool ladder_board_run_start(LadderBoardRun *run, const char *file, const char *map,
+			    GError **error);
+/** ladder_board_run_stop - asks it to end; `ended` comes when outputs are safe. */
+void ladder_board_run_stop(LadderBoardRun *run);
+/** ladder_board_run_reset - out of a FAULT. */
+void ladder_board_run_reset(LadderBoardRun *run);
+enum board_state ladder_board_run_state(LadderBoardRun *run);
+/** ladder_board_run_status - as it was told last. Borrowed. */
+const struct board_status *ladder_board_run_status(LadderBoardRun *run);
+/** board_ended_text - what `ended` with that status means. Caller: g_free. */
+char *board_ended_text(int status);
+/** board_find_ladderd - beside this program, else in PATH; NULL: there is none. Caller:
+ * g_free. */
+char *board_find_ladderd(void);
+
+#endif

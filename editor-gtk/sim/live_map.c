@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * live_map - names and cells of the program that runs; see live_map.h. What is shown of
+ * them is live_rung.c.
+ */
+#include "editor-gtk/sim/live_map.h"
+
+#include "editor-gtk/sim/live_inside.h"
+
+#include "engine/base/ascii.h"
+
+#include <string.h>
+
+struct live_map {
+	struct image image;          /* of names and places: it has no memory     */
+	const struct program *program;
+	int unit;                    /* of CODE_PROGRAMS; -1: none              */
+	char *pou;
+	const struct code_watched *watched; /* the instance that is shown        */
+	GHashTable *names;           /* lower case, with POU -> struct location *  */
+};
+
+/* ---- names ---- */
+
+static char *key_of(const char *pou, const char *name, size_t len)
+{
+	char *text = g_strdup_printf("%s%s%.*s", pou, *pou ? "." : "", (int)len, name);
+
+	for (char *at = text; *at; at++)
+		*at = g_ascii_tolower(*at);
+	return text;
+}
+
+/* Single values and instances; whatever is asked for seldom is found by image_find(). */
+static void take_names(struct live_map *map)
+{
+	struct declared_cursor cursor = { 0 };
+	struct declared_name name;
+
+	while (image_next_declared(map->program, &cursor, &name)) {
+		char *key;
+
+		if (name.array.count || name.flags & SYMBOL_HIDDEN)
+			continue;
+		key = key_of(name.pou, name.name, strlen(name.name));
+		if (g_hash_table_contains(map->names, key))
+			g_free(key);
+		else
+			g_hash_table_insert(map->names, key,
+					    g_memdup2(&name.at, sizeof(name.at)));
+	}
+}
+
+static struct location find_pin(const struct live_map *map, struct location whole,
+				const char *pin, size_t len)
+{
+	const struct word_row *row = word_row(code_instance(map->program, whole.where));
+	const int index = word_pin_find(row, pin, len);
+	struct location at = { .type = IEC_NONE };
+
+	if (index >= 0) {
+		at.type = row->pin[index].type;
+		at.where = whole.where + row->pin[index].offset;
+	}
+	return at;
+}
+
+/* @key: owned here. */
+static struct location look_up(const struct live_map *map, char *key)
+{
+	const struct location *at = g_hash_table_lookup(map->names, key);
+	struct location found = { .type = IEC_NONE };
+	char *dot = strrchr(key, '.');
+
+	if (at)
+		found = *at;
+	else if (dot && strchr(key, '[') == NULL) {
+		*dot = '\0';
+		at = g_hash_table_lookup(map->names, key);
+		if (at && at->type == IEC_NONE)
+			found = find_pin(map, *at, dot + 1, strlen(dot + 1));
+		*dot = '.';
+	}
+	if (found.type == IEC_NONE && strpbrk(key, ".[%"))
+		found = image_find(&map->image, key, strlen(key));
+	g_free(key);
+	return found;
+}
+
+struct location live_map_find(const struct live_map *map, const char *name, size_t len)
+{
+	const char *instance = live_map_instance(map);
+	struct location at = { .type = IEC_NONE };
+
+	if (len == 0 || len > LIMIT_NAME * 2)
+		return at;
+	if (name[0] != '%') {
+		at = look_up(map, key_of(instance ? instance : map->pou, name, len));
+		if (at.type == IEC_NONE && instance)
+			at = look_up(map, key_of(map->pou, name, len));
+	}
+	if (at.type == IEC_NONE)
+		at = look_up(map, key_of("", name, len));
+	if (at.type == IEC_NONE)
+		at = image_find(&map->image, name, len);
+	return at;
+}
+
+/* ---- power ---- */
+
+static int compare(const struct code_power *power, int pou, uint32_t rung)
+{
+	if (power->pou != (uint32_t)pou)
+		return power->pou < (uint32_t)pou ? -1 : 1;
+	return power->rung < rung ? -1 : power->rung > rung;
+}
+
+static uint32_t place_of(const struct live_map *map, uint32_t offset)
+{
+	const struct code_watched *watched = map->watched;
+
+	return watched && offset - watched->from < watched->size ?
+	       watched->to + (offset - watched->from) : offset;
+}
+
+void live_map_power(const struct live_map *map, struct live_rung *rung)
+{
+	const struct program *program = map->program;
+	const uint32_t number = (uint32_t)rung->number + 1;
+	uint32_t low = 0, high = program->power_count;
+
+	while (low < high && map->unit >= 0) {
+		const uint32_t middle = low + (high - low) / 2;
+
+		if (compare(&program->power[middle], map->unit, number) < 0)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	for (; map->unit >= 0 && low < program->power_count &&
+	       compare(&program->power[low], map->unit, number) == 0; low++) {
+		const struct code_power *power = &program->power[low];
+		struct live_cell *cell;
+
+		if (power->row > rung->rows || power->col > rung->cols)
+			continue;
+		cell = &rung->cell[(power->row - 1) * rung->cols + power->col - 1];
+		cell->in = place_of(map, power->in);
+		cell->out = place_of(map, power->out);
+	}
+}
+
+/* ---- instances ---- */
+
+GPtrArray *live_map_instances(const struct live_map *map)
+{
+	GPtrArray *names = g_ptr_array_new();
+
+	for (uint32_t i = 0; i < map->program->watched_count; i++)
+		if ((int)map->program->watched[i].pou == map->unit)
+			g_ptr_array_add(names, (gpointer)(map->program->string +
+							  map->program->watched[i].name));
+	return names;
+}
+
+const char *live_map_instance(const struct live_map *map)
+{
+	return map->watched ? map->program->string + map->watched->name : NULL;
+}
+
+static const struct code_watched *choose(const struct live_map *map, const char *instance)
+{
+	const struct code_watched *first = NULL;
+
+	for (uint32_t i = 0; i < map->program->watched_count; i++) {
+		const struct code_watched *watched = &map->program->watched[i];
+
+		if ((int)watched->pou != map->unit)
+			continue;
+		if (!first)
+			first = watched;
+		if (instance && g_ascii_strcasecmp(map->program->string + watched->name,
+						   instance) == 0)
+			return watched;
+	}
+	return first;
+}
+
+/* ---- life ---- */
+
+static int find_unit(const struct program *program, const char *pou)
+{
+	for (uint32_t i = 0; i < program->entry_count; i++)
+		if (g_ascii_strcasecmp(program->string + program->entry[i].name, pou) == 0)
+			return (int)i;
+	return -1;
+}
+
+struct live_map *live_map_new(const struct resource *resource, const char *pou,
+			      const char *instance)
+{
+	struct live_map *map = g_new0(struct live_map, 1);
+
+	map->image.program = map->program = resource->image.program;
+	map->pou = g_strdup(pou);
+	map->unit = find_unit(map->program, pou);
+	map->watched = choose(map, instance);
+	map->names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
+	take_names(map);
+	return map;
+}
+
+void live_map_free(struct live_map *map)
+{
+	if (!map)
+		return;
+	g_hash_table_unref(map->names);
+	g_free(map->pou);
+	g_free(map);
+}

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * live_map - where the program that runs keeps what a rung shows.
+ *
+ * Names and cells are looked up once a program; what is asked in each frame are bytes at
+ * known places. It draws nothing, changes nothing and knows no widget.
+ */
+#ifndef EDITOR_LIVE_MAP_H
+#define EDITOR_LIVE_MAP_H
+
+#include "editor-gtk/draw/grid_draw.h"
+
+#include "engine/scan/resource.h"
+
+/* Names of a program that runs, as one POU of it sees them. */
+struct live_map;
+
+/**
+ * live_map_new - of POU @pou
+ * @resource: of the program, which must live as long
+ * @instance: "Line.Belt1", whose body is shown; NULL: the first one, if the POU is a block
+ *
+ * Owns: the caller, live_map_free().
+ */
+struct live_map *live_map_new(const struct resource *resource, const char *pou,
+			      const char *instance);
+void live_map_free(struct live_map *map);
+/** live_map_instances - names of those of the POU, of const char *, of the program.
+ * Caller: g_ptr_array_unref. */
+GPtrArray *live_map_instances(const struct live_map *map);
+/** live_map_instance - the one that is shown; NULL: the POU is no block, or has none. */
+const char *live_map_instance(const struct live_map *map);
+/** live_map_find - where an operand's value is: "Start", "T1.Q", "Table[3]", "%IX0.0";
+ * type IEC_NONE: it has no place that is always the same, or there is none. */
+struct location live_map_find(const struct live_map *map, const char *name, size_t len);
+
+/* A piece of a text: a variable, or what stands between them. */
+struct live_part {
+	struct location at;    /* type IEC_NONE: no variable that has a place     */
+	char *text;            /* as it is written                              */
+};
+/** live_parts - of struct live_part; NULL: no variable with a place is in @text. Caller:
+ * g_array_unref. */
+GArray *live_parts(const struct live_map *map, const char *text);
+/** live_parts_print - the text with values in the place of their names. Caller frees. */
+char *live_parts_print(GArray *parts, const struct image *image);
+
+/* A cell of a rung that is shown. */
+struct live_cell {
+	uint32_t in, out;      /* where its power is; LIVE_NOWHERE: not known     */
+	enum { LIVE_NOTHING, LIVE_CONTACT, LIVE_COIL, LIVE_TEXT, LIVE_BOX } kind;
+	bool inverse;          /* closed while FALSE                            */
+	bool edge;             /* closed as its power says                      */
+	bool fails;            /* no power behind it means that it failed        */
+	struct location at;    /* of its operand, of the first variable of an
+				  expression, of what counts in a box           */
+	const char *name;      /* of that variable; else ""                     */
+	struct location goal;  /* up to which it counts                         */
+	GArray *parts;         /* of LIVE_TEXT: of struct live_part; NULL: none    */
+	union iec_value value, aim; /* that were seen last                      */
+	union iec_value scanned; /* of a contact: after the scan that is shown    */
+	guint64 sum;           /* of all values of `parts`                       */
+	gint64 changed, flash; /* us: when `at` changed last, when that was new  */
+	float part;            /* as drawn                                      */
+	char text[48];         /* likewise; "": no value is shown               */
+};
+#define LIVE_NOWHERE UINT32_MAX
+/* In live_rung.bits beside enum live_bit; they are marks when they are drawn. */
+#define LIVE_FORCED 128
+#define LIVE_FAILED 64 /* its operation failed: power came, and ENO is FALSE     */
+
+struct live_rung {
+	int rows, cols;
+	int number;            /* of the program that runs; -1: changed since      */
+	bool fresh;            /* nothing was looked at yet                     */
+	gint64 until;          /* us: when something stops to be new; 0: nothing is */
+	guint64 scans;         /* since the start at start_ns: the scan that was
+				  looked at last                                */
+	gint64 start_ns;
+	uint8_t *bits;         /* by row; enum live_bit, LIVE_FORCED, LIVE_FAILED */
+	struct live_cell *cell; /* by row                                       */
+	const struct live_map *map;
+	const struct project *project;
+	const struct rung *shown;
+};
+
+/**
+ * live_rung_new - finds the places of a rung
+ * @project, @shown: the document's; borrowed
+ * @number: of the program that runs; -1, and rungs that differ: power is not known
+ *
+ * Owns: the caller, live_rung_free(). @map must live as long.
+ */
+struct live_rung *live_rung_new(const struct live_map *map, const struct project *project,
+				const struct rung *shown, int number);
+void live_rung_free(struct live_rung *rung);
+/**
+ * live_rung_look - looks at all of it again
+ * @resource: of the same program, in whatever state
+ * @now:      us; @flash: what has just changed is marked as new for a second
+ *
+ * Returns what of it is other than it was: nothing of that is drawn otherwise, if not.
+ */
+enum live_change {
+	LIVE_SAME, LIVE_OTHER_VALUE = 1, LIVE_OTHER_STATE = 2,
+	LIVE_OTHER_TEXT = 4      /* always with LIVE_OTHER_VALUE                  */
+};
+unsigned int live_rung_look(struct live_rung *rung, const struct resource *resource,
+			    gint64 now, bool flash);
+/** live_rung_value - for struct grid_live; @context: the rung. */
+bool live_rung_value(void *context, int row, int col, struct live_value *out);
+/** live_value_print - "3.2 s", "1250", "TRUE", 'text': as people read it. */
+void live_value_print(enum iec_type type, union iec_value value, char *out, size_t size);
+
+#endif

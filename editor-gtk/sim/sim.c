@@ -1,0 +1,540 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim - the window's side of a simulation: orders to the thread, copies from it.
+ *
+ * What it shows is the newest copy, or, when a scan that was is asked for, a replay of the
+ * record. The thread is there from begin to end.
+ */
+#include "editor-gtk/sim/sim_object.h"
+
+#include "editor-gtk/document/disk.h"
+#include "editor-gtk/kit/i18n.h"
+
+#include "engine/base/limits.h"
+
+enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, SIGNAL_COUNT };
+static guint signals[SIGNAL_COUNT];
+
+G_DEFINE_FINAL_TYPE(LadderSim, ladder_sim, G_TYPE_OBJECT)
+
+static void tell_state(LadderSim *sim)
+{
+	sim->told = ladder_sim_state(sim);
+	sim->told_period = ladder_sim_period(sim);
+	g_signal_emit(sim, signals[STATE_CHANGED], 0);
+}
+
+static void tell(LadderSim *sim, const char *text, bool bad)
+{
+	g_signal_emit(sim, signals[TOLD], 0, text, bad);
+}
+
+/* ---- what comes from the thread ---- */
+
+/* Of a start that was ended and is not yet begun anew. */
+static void tell_end(LadderSim *sim)
+{
+	const struct resource *resource = &sim->view.twin.resource;
+	char *text;
+
+	if (sim->known.ends == sim->view.events.ends ||
+	    (resource->state != STATE_FAULT && !resource->halted))
+		return;
+	text = resource->state == STATE_FAULT ?
+		sim_fault_words(resource) : sim_halt_words(resource);
+	tell(sim, text, true);
+	g_free(text);
+}
+
+/* On a board that is no fault: ENO is FALSE, and it is counted. But a person who tries a
+ * program out shall see it. */
+static void tell_failure(LadderSim *sim)
+{
+	const struct resource *resource = &sim->view.twin.resource;
+	const bool faulted = sim->view.events.faulted;
+	char *text;
+
+	if (sim->known.failures == sim->view.events.failures || !resource->vm.errors ||
+	    resource->state == STATE_FAULT)
+		return;
+	text = sim_failed_words(resource, faulted);
+	tell(sim, text, faulted);
+	g_free(text);
+}
+
+static void tell_refusal(LadderSim *sim)
+{
+	const struct sim_refusal *refusal = &sim->view.refusal;
+
+	if (sim->refused == refusal->count)
+		return;
+	sim->refused = refusal->count;
+	tell(sim, refusal->why == SIM_REFUSED_STALE ?
+	     _("Not done: the program was changed just now") :
+	     _("Not done: this cannot be set or forced, or too much is forced already"),
+	     false);
+}
+
+/* Scans before can be shown; a program that has run none is not worth a word. */
+static void tell_edit(LadderSim *sim)
+{
+	const struct record *record = ladder_sim_lock_record(sim);
+	const guint64 scan = record_first(record);
+	char *text;
+
+	ladder_sim_unlock_record(sim);
+	if (scan == 0)
+		return;
+	text = g_strdup_printf(_("The program was changed after scan %llu; it goes on with "
+				 "its values"), (unsigned long long)scan);
+	tell(sim, text, false);
+	g_free(text);
+}
+
+static bool take(LadderSim *sim)
+{
+	bool other;
+
+	if (!sim_thread_take(sim->thread, &sim->view, &other))
+		g_error("out of memory");
+	if (other) {
+		sim_forget_replay(sim);
+		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+		tell_edit(sim);
+	}
+	return other;
+}
+
+static gboolean notified(gpointer data)
+{
+	LadderSim *sim = data;
+
+	take(sim);
+	tell_end(sim);
+	tell_failure(sim);
+	sim->known = sim->view.events;
+	tell_refusal(sim);
+	if (sim->told != ladder_sim_state(sim) ||
+	    sim->told_period != ladder_sim_period(sim))
+		tell_state(sim);
+	if (!sim->past)
+		g_signal_emit(sim, signals[SHOWN], 0);
+	return G_SOURCE_REMOVE;
+}
+
+/* ---- on and off ---- */
+
+static struct sim_program *build(LadderSim *sim, GError **error)
+{
+	gsize len;
+	char *text = ladder_document_text(sim->document, &len);
+	const char *path = ladder_document_path(sim->document);
+	struct sim_program *program = sim_program_new(
+		g_intern_string(path ? path : "-"), text, len, error);
+
+	/* It would not be what is shown: a list has more or less than its POU. */
+	if (program && !ladder_document_is_whole(sim->document)) {
+		ladder_document_check_now(sim->document);
+		sim_program_say_why(ladder_document_diags(sim->document), error);
+		g_clear_pointer(&program, sim_program_unref);
+	}
+	g_free(text);
+	return program;
+}
+
+static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 period_ns,
+			 GError **error)
+{
+	struct sim_thread *thread = sim_thread_new(program, sim->plant, period_ns, notified,
+						   sim);
+
+	if (!thread) {
+		g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_FAILED,
+				    _("Out of memory"));
+		return false;
+	}
+	/* What ran before is of another program, even if that is the same. */
+	g_clear_pointer(&sim->thread, sim_thread_free);
+	sim_view_clear(&sim->view);
+	sim->refused = 0;
+	sim->known = (struct sim_events){ .ends = 0 };
+	sim->thread = thread;
+	sim->life++;
+	sim_program_unref(sim->newest);
+	sim->newest = sim_program_ref(program);
+	if (sim->speed > 0)
+		sim_thread_speed(sim->thread, sim->speed);
+	sim_thread_heed(sim->thread, sim->heeds);
+	sim->version = ladder_document_version(sim->document);
+	sim_rungs_same(sim->rungs);
+	take(sim);
+	return true;
+}
+
+/* @period_ns: 0: as the person or the tasks want it. */
+static bool start(LadderSim *sim, gint64 period_ns, GError **error)
+{
+	struct sim_program *program = build(sim, error);
+	bool good;
+
+	if (!program) {
+		ladder_document_check_now(sim->document);
+		return false;
+	}
+	if (!period_ns)
+		period_ns = sim->period_ns ? sim->period_ns :
+			    tasks_tick(program->program, 0, SIM_PERIOD);
+	good = start_thread(sim, program, period_ns, error);
+	sim_program_unref(program);
+	if (!good)
+		return false;
+	tell_state(sim);
+	g_signal_emit(sim, signals[SHOWN], 0);
+	return true;
+}
+
+bool ladder_sim_begin(LadderSim *sim, GError **error)
+{
+	return sim->thread || start(sim, 0, error);
+}
+
+bool ladder_sim_restart(LadderSim *sim, GError **error)
+{
+	return start(sim, 0, error);
+}
+
+bool ladder_sim_play(LadderSim *sim, gint64 period_ns, GArray *acts, guint64 scans,
+		     GError **error)
+{
+	if (!start(sim, period_ns, error))
+		return false;
+	sim_thread_play(sim->thread, acts, scans);
+	return true;
+}
+
+void ladder_sim_end(LadderSim *sim)
+{
+	if (!sim->thread)
+		return;
+	g_clear_pointer(&sim->thread, sim_thread_free);
+	sim_forget_replay(sim);
+	sim_view_clear(&sim->view);
+	sim->life++;
+	g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+	tell_state(sim);
+	g_signal_emit(sim, signals[SHOWN], 0);
+}
+
+bool ladder_sim_is_on(LadderSim *sim)
+{
+	return sim->thread != NULL;
+}
+
+static struct sim_program *read_plant(const char *path, GError **error)
+{
+	gsize len;
+	char *text = disk_read(path, LIMIT_TEXT, &len, error);
+	struct sim_program *plant;
+
+	if (!text)
+		return NULL;
+	plant = sim_program_new(g_intern_string(path), text, len, error);
+	if (!plant)
+		g_prefix_error(error, "%s: ", path);
+	g_free(text);
+	return plant;
+}
+
+bool ladder_sim_set_plant(LadderSim *sim, const char *path, GError **error)
+{
+	struct sim_program *plant = path ? read_plant(path, error) : NULL;
+	const bool on = ladder_sim_is_on(sim);
+
+	if (path && !plant)
+		return false;
+	ladder_sim_end(sim);
+	g_clear_pointer(&sim->plant, sim_program_unref);
+	sim->plant = plant;
+	g_free(sim->plant_path);
+	sim->plant_path = g_strdup(path);
+	if (!on)
+		tell_state(sim);
+	return !on || ladder_sim_begin(sim, error);
+}
+
+const char *ladder_sim_plant(LadderSim *sim)
+{
+	return sim->plant_path;
+}
+
+/* ---- another program, while it runs ---- */
+
+struct rebuild {
+	char *text;
+	gsize len;
+	const char *file;
+	guint64 version;
+};
+
+static void rebuild_free(gpointer rebuild)
+{
+	g_free(((struct rebuild *)rebuild)->text);
+	g_free(rebuild);
+}
+
+static void rebuild_run(GTask *task, gpointer source, gpointer data,
+			GCancellable *cancellable)
+{
+	struct rebuild *rebuild = data;
+	struct sim_program *program = sim_program_new(rebuild->file, rebuild->text,
+						      rebuild->len, NULL);
+
+	(void)source;
+	(void)cancellable;
+	g_task_return_pointer(task, program, (GDestroyNotify)sim_program_unref);
+}
+
+static void checked(LadderSim *sim);
+
+/* A bookmark, or a variable of a chart, makes no other program. */
+static void exchange(LadderSim *sim, struct sim_program *program)
+{
+	if (sim_program_is_same(sim->newest, program))
+		return;
+	sim_thread_change(sim->thread, program);
+	sim_program_unref(sim->newest);
+	sim->newest = sim_program_ref(program);
+}
+
+static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
+{
+	LadderSim *sim = LADDER_SIM(object);
+	struct rebuild *rebuild = g_task_get_task_data(G_TASK(result));
+	struct sim_program *program = g_task_propagate_pointer(G_TASK(result), NULL);
+
+	(void)unused;
+	sim->building = false;
+	if (program && sim->thread) {
+		exchange(sim, program);
+		sim->version = rebuild->version;
+	}
+	if (program && rebuild->version == ladder_document_version(sim->document))
+		sim_rungs_same(sim->rungs);
+	else
+		checked(sim);
+	sim_program_unref(program);
+}
+
+/* The document's checks say whether it is worth to build it. */
+static void checked(LadderSim *sim)
+{
+	const struct diag_list *diags = ladder_document_diags(sim->document);
+	struct rebuild *rebuild;
+	GTask *task;
+
+	if (!sim->thread || sim->building || diags->errors ||
+	    !ladder_document_is_whole(sim->document) ||
+	    sim->version == ladder_document_version(sim->document))
+		return;
+	rebuild = g_new0(struct rebuild, 1);
+	rebuild->text = ladder_document_text(sim->document, &rebuild->len);
+	rebuild->file = g_intern_string(ladder_document_path(sim->document) ?
+					ladder_document_path(sim->document) : "-");
+	rebuild->version = ladder_document_version(sim->document);
+	sim->building = true;
+	task = g_task_new(sim, NULL, rebuilt, NULL);
+	g_task_set_task_data(task, rebuild, rebuild_free);
+	g_task_run_in_thread(task, rebuild_run);
+	g_object_unref(task);
+}
+
+/* ---- running ---- */
+
+enum sim_state ladder_sim_state(LadderSim *sim)
+{
+	if (!sim->thread)
+		return SIM_OFF;
+	switch (sim->view.twin.resource.state) {
+	case STATE_STOP: return SIM_STOP;
+	case STATE_FAULT: return SIM_FAULT;
+	case STATE_RUN: break;
+	}
+	return sim->view.running ? SIM_RUN : sim->view.fault ? SIM_FAULT : SIM_PAUSE;
+}
+
+static void order(LadderSim *sim, enum act_kind kind, gint64 value)
+{
+	const struct act act = { .kind = kind, .value.i = value };
+
+	if (sim->thread)
+		sim_thread_act(sim->thread, NULL, &act);
+}
+
+static void start_if_stopped(LadderSim *sim)
+{
+	if (sim->view.twin.resource.state != STATE_RUN)
+		order(sim, ACT_START, 0);
+}
+
+void ladder_sim_run(LadderSim *sim)
+{
+	if (!sim->thread)
+		return;
+	ladder_sim_show_now(sim);
+	start_if_stopped(sim);
+	sim_thread_run(sim->thread, true);
+}
+
+void ladder_sim_pause(LadderSim *sim)
+{
+	if (sim->thread)
+		sim_thread_run(sim->thread, false);
+}
+
+void ladder_sim_stop(LadderSim *sim)
+{
+	if (!sim->thread)
+		return;
+	ladder_sim_show_now(sim);
+	sim_thread_run(sim->thread, false);
+	order(sim, ACT_STOP, 0);
+}
+
+void ladder_sim_scan(LadderSim *sim, int scans)
+{
+	if (!sim->thread)
+		return;
+	ladder_sim_show_now(sim);
+	start_if_stopped(sim);
+	sim_thread_scan(sim->thread, scans);
+}
+
+void ladder_sim_reset(LadderSim *sim, bool warm)
+{
+	ladder_sim_show_now(sim);
+	order(sim, warm ? ACT_WARM : ACT_START, 0);
+}
+
+gint64 ladder_sim_period(LadderSim *sim)
+{
+	return sim->thread ? sim->view.twin.period_ns :
+	       sim->period_ns ? sim->period_ns : SIM_PERIOD;
+}
+
+void ladder_sim_set_period(LadderSim *sim, gint64 ns)
+{
+	sim->period_ns = CLAMP(ns, 100000, 60000000000);
+	order(sim, ACT_PERIOD, sim->period_ns);
+	if (!sim->thread) /* else when it holds: until then it is what it was */
+		tell_state(sim);
+}
+
+double ladder_sim_speed(LadderSim *sim)
+{
+	return sim->speed;
+}
+
+void ladder_sim_set_speed(LadderSim *sim, double scans)
+{
+	sim->speed = scans > 0 ? scans : 0;
+	if (sim->thread)
+		sim_thread_speed(sim->thread, sim->speed);
+	tell_state(sim);
+}
+
+bool ladder_sim_heeds(LadderSim *sim)
+{
+	return sim->heeds;
+}
+
+void ladder_sim_set_heeds(LadderSim *sim, bool heeds)
+{
+	sim->heeds = heeds;
+	if (sim->thread)
+		sim_thread_heed(sim->thread, heeds);
+	tell_state(sim);
+}
+
+void ladder_sim_act(LadderSim *sim, const struct act *act)
+{
+	if (!sim->thread)
+		return;
+	if (ladder_sim_older(sim, NULL)) {
+		tell(sim, _("Not done: this is the program as it was before an edit. Show the "
+			    "newest scan first"), false);
+		return;
+	}
+	ladder_sim_show_now(sim);
+	sim_thread_act(sim->thread, act->plant ? sim->view.plant : sim->view.program, act);
+}
+
+void ladder_sim_release_all(LadderSim *sim)
+{
+	struct act act = { .kind = ACT_RELEASE_ALL };
+
+	ladder_sim_act(sim, &act);
+	act.plant = true;
+	if (sim->plant)
+		ladder_sim_act(sim, &act);
+}
+
+/* ---- the object ---- */
+
+static void ladder_sim_dispose(GObject *object)
+{
+	LadderSim *sim = LADDER_SIM(object);
+
+	g_clear_pointer(&sim->thread, sim_thread_free);
+	sim_forget_replay(sim);
+	sim_view_clear(&sim->view);
+	g_clear_pointer(&sim->plant, sim_program_unref);
+	g_clear_pointer(&sim->newest, sim_program_unref);
+	g_clear_pointer(&sim->rungs, sim_rungs_free);
+	if (sim->document)
+		g_signal_handlers_disconnect_by_data(sim->document, sim);
+	g_clear_object(&sim->document);
+	G_OBJECT_CLASS(ladder_sim_parent_class)->dispose(object);
+}
+
+static void ladder_sim_finalize(GObject *object)
+{
+	g_free(LADDER_SIM(object)->plant_path);
+	G_OBJECT_CLASS(ladder_sim_parent_class)->finalize(object);
+}
+
+static void ladder_sim_class_init(LadderSimClass *class)
+{
+	const GType type = G_TYPE_FROM_CLASS(class);
+
+	G_OBJECT_CLASS(class)->dispose = ladder_sim_dispose;
+	G_OBJECT_CLASS(class)->finalize = ladder_sim_finalize;
+	signals[STATE_CHANGED] = g_signal_new("state-changed", type, G_SIGNAL_RUN_LAST, 0,
+		NULL, NULL, NULL, G_TYPE_NONE, 0);
+	signals[PROGRAM_CHANGED] = g_signal_new("program-changed", type, G_SIGNAL_RUN_LAST,
+		0, NULL, NULL, NULL, G_TYPE_NONE, 0);
+	signals[SHOWN] = g_signal_new("shown", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL,
+		NULL, G_TYPE_NONE, 0);
+	signals[TOLD] = g_signal_new("told", type, G_SIGNAL_RUN_LAST, 0, NULL, NULL, NULL,
+		G_TYPE_NONE, 2, G_TYPE_STRING, G_TYPE_BOOLEAN);
+}
+
+static void ladder_sim_init(LadderSim *sim)
+{
+	sim->told = SIM_OFF;
+	sim->heeds = true;
+}
+
+LadderDocument *ladder_sim_document(LadderSim *sim)
+{
+	return sim->document;
+}
+
+LadderSim *ladder_sim_new(LadderDocument *document)
+{
+	LadderSim *sim = g_object_new(LADDER_TYPE_SIM, NULL);
+
+	sim->document = g_object_ref(document);
+	sim->rungs = sim_rungs_new(document);
+	g_signal_connect_swapped(document, "checked", G_CALLBACK(checked), sim);
+	return sim;
+}

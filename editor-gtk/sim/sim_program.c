@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim_program - a project that was built to be watched, counted.
+ */
+#include "editor-gtk/sim/sim_inside.h"
+
+#include "editor-gtk/kit/diag_said.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/document/iomap_beside.h"
+
+#include <string.h>
+
+static const struct diag *first_error(const struct diag_list *diags)
+{
+	for (int i = 0; i < diags->count; i++)
+		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR)
+			return &diags->diag[i];
+	return NULL;
+}
+
+/* "undeclared name: Nobody: Main, rung 2 (1,3)". Caller frees. */
+static char *words_of(const struct diag *diag)
+{
+	const struct fault_place at = { .pou = diag->pou, .rung = (uint32_t)diag->rung,
+		.row = (uint32_t)diag->row, .col = (uint32_t)diag->col };
+	char *what = diag_said_whole(diag);
+	char *place = diag->pou && diag->rung ? sim_place_words(&at) :
+		      diag->line ? g_strdup_printf(_("line %d"), diag->line) : NULL;
+	char *text = place ? g_strdup_printf("%s: %s", what, place) : g_strdup(what);
+
+	g_free(what);
+	g_free(place);
+	return text;
+}
+
+void sim_program_say_why(const struct diag_list *diags, GError **error)
+{
+	const struct diag *diag = first_error(diags);
+	char *text = diag ? words_of(diag) : NULL;
+
+	g_set_error_literal(error, G_IO_ERROR, G_IO_ERROR_INVALID_DATA,
+			    text ? text : _("Out of memory"));
+	g_free(text);
+}
+
+struct sim_program *sim_program_new(const char *file, const char *text, gsize len,
+				    GError **error)
+{
+	struct sim_program *program = g_new0(struct sim_program, 1);
+
+	g_atomic_ref_count_init(&program->count);
+	program->text = g_strndup(text, len);
+	program->ladder = ladder_new();
+	if (!program->ladder)
+		g_error("out of memory");
+	ladder_watch(program->ladder, true);
+	if (!ladder_load_text(program->ladder, file, program->text, len) ||
+	    !ladder_build(program->ladder)) {
+		sim_program_say_why(ladder_diags(program->ladder), error);
+		sim_program_unref(program);
+		return NULL;
+	}
+	program->program = ladder_program(program->ladder);
+	program->safe = iomap_safe_beside(g_str_equal(file, "-") ? NULL : file,
+					  &program->program->areas);
+	return program;
+}
+
+/* The text without its VIEW part. Caller frees. */
+static char *plain_text(const struct sim_program *program)
+{
+	const struct project *project = ladder_project(program->ladder);
+	const char *view = project ? project_view(project) : "";
+	const char *at = *view ? strstr(program->text, view) : NULL;
+
+	return at ? g_strdup_printf("%.*s%s", (int)(at - program->text), program->text,
+				    at + strlen(view)) : g_strdup(program->text);
+}
+
+/* Of two programs with the same areas. */
+static bool is_safe_same(const struct sim_program *a, const struct sim_program *b)
+{
+	return a->safe && b->safe ?
+	       memcmp(a->safe, b->safe, a->program->areas.bytes[AREA_Q]) == 0 :
+	       a->safe == b->safe;
+}
+
+bool sim_program_is_same(const struct sim_program *a, const struct sim_program *b)
+{
+	const struct code_header *x = a->program->header, *y = b->program->header;
+	char *left, *right;
+	bool same;
+
+	if (x->size != y->size || memcmp(a->program->base, b->program->base, x->size) != 0 ||
+	    !is_safe_same(a, b))
+		return false;
+	left = g_strchomp(plain_text(a));
+	right = g_strchomp(plain_text(b));
+	same = strcmp(left, right) == 0;
+	g_free(left);
+	g_free(right);
+	return same;
+}
+
+struct sim_program *sim_program_ref(struct sim_program *program)
+{
+	if (program)
+		g_atomic_ref_count_inc(&program->count);
+	return program;
+}
+
+void sim_program_unref(struct sim_program *program)
+{
+	if (!program || !g_atomic_ref_count_dec(&program->count))
+		return;
+	ladder_free(program->ladder);
+	g_free(program->text);
+	g_free(program->safe);
+	g_free(program);
+}

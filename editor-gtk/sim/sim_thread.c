@@ -1,0 +1,502 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sim_thread - scans at their times, does what it is told between them, records.
+ *
+ * What it is told comes through a queue; what it has comes out as a copy, at most once a
+ * frame, which it leaves out rather than wait for whoever reads the one before. It sleeps
+ * in the queue: standing still costs nothing.
+ */
+#include "editor-gtk/sim/sim_inside.h"
+
+#define FRAME_US G_GINT64_CONSTANT(16000)
+#define LATE_STEPS 320 /* of a table of how late scans were: up to hours     */
+#define BEHIND_US G_GINT64_CONSTANT(250000) /* more than that is not made up for   */
+
+enum order_kind { ORDER_RUN, ORDER_SCAN, ORDER_SPEED, ORDER_HEED, ORDER_ACT, ORDER_CHANGE,
+		  ORDER_PLAY, ORDER_END };
+struct order {
+	enum order_kind kind;
+	int scans;               /* ORDER_RUN, ORDER_HEED: 0, 1                */
+	double speed;
+	struct act act;
+	char *text;              /* of the act's STRING                        */
+	struct sim_program *program;
+	GArray *acts;            /* of struct sim_played                       */
+	guint64 until;           /* scan                                       */
+};
+
+struct sim_thread {
+	GThread *thread;
+	GAsyncQueue *orders;
+	GSourceFunc notify;
+	gpointer data;
+	/* Of the thread alone: */
+	struct twin twin;
+	bool run;
+	bool heed;               /* FAULT when an operation fails              */
+	bool fault;              /* it is: for that                            */
+	double speed;
+	double due_us;           /* of the next scan                           */
+	gint64 told_us;          /* when the last copy went out                */
+	struct sim_refusal refusal;
+	struct sim_events events;
+	bool changed;            /* since then                                 */
+	/* Under `record_lock`: */
+	GMutex record_lock;
+	struct sim_eras *eras;
+	/* Under `out_lock`: */
+	GMutex out_lock;
+	struct twin out;
+	struct sim_program *program, *plant;
+	bool out_run, out_fault;
+	struct sim_refusal out_refusal;
+	struct sim_events out_events;
+	/* Between both, atomic: */
+	int notified;
+	guint late[LATE_STEPS];  /* scans that were so late, by step           */
+};
+
+/* ---- out ---- */
+
+static void publish(struct sim_thread *thread, bool must)
+{
+	if (must)
+		g_mutex_lock(&thread->out_lock);
+	else if (!g_mutex_trylock(&thread->out_lock))
+		return;
+	twin_copy(&thread->out, &thread->twin);
+	/* A record, and with it a scenario, has the outputs of the scan. */
+	if (thread->fault || thread->twin.resource.halted)
+		twin_outputs_safe(&thread->out);
+	thread->out_run = thread->run;
+	thread->out_fault = thread->fault;
+	thread->out_refusal = thread->refusal;
+	thread->out_events = thread->events;
+	g_mutex_unlock(&thread->out_lock);
+	thread->changed = false;
+	thread->told_us = g_get_monotonic_time();
+	if (g_atomic_int_compare_and_exchange(&thread->notified, 0, 1))
+		g_idle_add_full(G_PRIORITY_DEFAULT, thread->notify, thread->data, NULL);
+}
+
+/* ---- scans ---- */
+
+static void scan(struct sim_thread *thread)
+{
+	const struct vm *vm = &thread->twin.resource.vm;
+	const uint64_t before = thread->twin.scan;
+	const bool failed = vm->errors != 0, goes_on = twin_scan(&thread->twin);
+
+	if (!goes_on)
+		thread->run = false; /* FAULT, or the program asked for STOP */
+	if (thread->twin.scan == before)
+		return;
+	thread->fault = false;
+	thread->events.ends += !goes_on;
+	if (!failed && vm->errors) {
+		thread->events.failures++;
+		thread->events.faulted = false;
+	}
+	g_mutex_lock(&thread->record_lock);
+	sim_eras_scan(thread->eras, &thread->twin);
+	g_mutex_unlock(&thread->record_lock);
+	thread->changed = true;
+}
+
+static double wall_period_us(const struct sim_thread *thread)
+{
+	return thread->speed > 0 ? 1e6 / thread->speed :
+				   (double)thread->twin.period_ns / 1e3;
+}
+
+/* us until the next scan is due; 0: now. */
+static guint64 wait_us(struct sim_thread *thread)
+{
+	const double wait = thread->due_us - (double)g_get_monotonic_time();
+
+	if (wait >= 0)
+		return (guint64)wait;
+	if (wait < -(double)BEHIND_US)
+		thread->due_us = (double)g_get_monotonic_time();
+	return 0;
+}
+
+/* Steps of 1/16 of the power of two below: 6 % from step to step. */
+static guint late_step(double us)
+{
+	const guint64 late = us > 0 ? (guint64)us : 0;
+	const guint power = late < 16 ? 0 : g_bit_storage(late) - 5;
+
+	return MIN(power * 16 + (guint)(late >> power), LATE_STEPS - 1);
+}
+
+static double late_us(guint step)
+{
+	return step < 32 ? step : (double)((guint64)(step % 16 + 16) << (step / 16 - 1));
+}
+
+/* FAULT after the first scan of a start in which an operation failed: time stands still, and
+ * a person sees where it was. Whoever looks finds outputs safe; what the board would give is
+ * kept here, and goes on from there. */
+static void scan_heeding(struct sim_thread *thread)
+{
+	const guint failures = thread->events.failures;
+
+	scan(thread);
+	if (!thread->heed || thread->events.failures == failures)
+		return;
+	thread->run = false;
+	thread->fault = thread->events.faulted = true;
+}
+
+static void scan_in_time(struct sim_thread *thread)
+{
+	g_atomic_int_inc((gint *)&thread->late[late_step(
+		(double)g_get_monotonic_time() - thread->due_us)]);
+	scan_heeding(thread);
+	thread->due_us += wall_period_us(thread);
+	if (g_get_monotonic_time() - thread->told_us >= FRAME_US)
+		publish(thread, false);
+}
+
+/* ---- orders ---- */
+
+static void start_clock(struct sim_thread *thread)
+{
+	thread->due_us = (double)g_get_monotonic_time() + wall_period_us(thread);
+}
+
+static void refuse(struct sim_thread *thread, enum sim_refused why)
+{
+	thread->refusal.why = why;
+	thread->refusal.count++;
+}
+
+static void act(struct sim_thread *thread, const struct act *act)
+{
+	if (!twin_act(&thread->twin, act)) {
+		refuse(thread, SIM_REFUSED_PLACE);
+		return;
+	}
+	if (act->kind == ACT_START || act->kind == ACT_WARM || act->kind == ACT_STOP)
+		thread->fault = false;
+	g_mutex_lock(&thread->record_lock);
+	sim_eras_act(thread->eras, &thread->twin, act);
+	g_mutex_unlock(&thread->record_lock);
+}
+
+/* A place of another program is somebody else's memory here. */
+static void act_of(struct sim_thread *thread, const struct order *order)
+{
+	if (!order->program || order->program == thread->program ||
+	    order->program == thread->plant)
+		act(thread, &order->act);
+	else
+		refuse(thread, SIM_REFUSED_STALE);
+}
+
+/* @next takes the place of the twin; what is of the one before is let go. */
+static void take_place(struct sim_thread *thread, const struct twin *next,
+		       struct sim_program *program)
+{
+	g_mutex_lock(&thread->record_lock);
+	g_mutex_lock(&thread->out_lock);
+	twin_free(&thread->out);
+	twin_free(&thread->twin);
+	thread->twin = *next;
+	if (!twin_clone(&thread->out, next) ||
+	    !sim_eras_change(thread->eras, next, program))
+		g_error("out of memory");
+	sim_program_unref(thread->program);
+	thread->program = program;
+	g_mutex_unlock(&thread->out_lock);
+	g_mutex_unlock(&thread->record_lock);
+}
+
+static void change(struct sim_thread *thread, struct sim_program *program)
+{
+	struct twin next;
+
+	if (twin_init(&next, program->program, thread->plant ?
+		      thread->plant->program : NULL, thread->twin.period_ns) &&
+	    twin_change(&next, &thread->twin)) {
+		twin_set_safe(&next, program->safe);
+		take_place(thread, &next, program);
+		return;
+	}
+	twin_free(&next);
+	sim_program_unref(program);
+}
+
+static void scan_some(struct sim_thread *thread, int scans)
+{
+	thread->run = false;
+	while (scans-- > 0)
+		scan(thread);
+}
+
+/* Somebody who wants something else does not wait for the end of it. */
+static void play(struct sim_thread *thread, GArray *acts, guint64 until)
+{
+	const struct act start = { .kind = ACT_START };
+	guint next = 0;
+
+	thread->run = false;
+	act(thread, &start);
+	while (thread->twin.scan < until && g_async_queue_length(thread->orders) <= 0 &&
+	       thread->twin.resource.state == STATE_RUN) {
+		for (; next < acts->len; next++) {
+			struct sim_played *played = &g_array_index(acts, struct sim_played,
+								   next);
+			struct act again = played->act;
+
+			if (played->after > thread->twin.scan)
+				break;
+			if (again.at.type == IEC_STRING)
+				again.value.s = (const struct iec_string *)&played->text;
+			act(thread, &again);
+		}
+		scan(thread);
+	}
+}
+
+/* False: it is to end. */
+static bool obey(struct sim_thread *thread, struct order *order)
+{
+	switch (order->kind) {
+	case ORDER_RUN:
+		thread->run = order->scans != 0;
+		start_clock(thread);
+		break;
+	case ORDER_SCAN: scan_some(thread, order->scans); break;
+	case ORDER_SPEED:
+		thread->speed = order->speed;
+		start_clock(thread);
+		break;
+	case ORDER_HEED: thread->heed = order->scans != 0; break;
+	case ORDER_ACT: act_of(thread, order); break;
+	case ORDER_CHANGE: change(thread, g_steal_pointer(&order->program)); break;
+	case ORDER_PLAY: play(thread, order->acts, order->until); break;
+	case ORDER_END: return false;
+	}
+	thread->changed = true;
+	return true;
+}
+
+static struct order *next_order(struct sim_thread *thread)
+{
+	guint64 wait;
+
+	if (!thread->run)
+		return g_async_queue_pop(thread->orders);
+	wait = wait_us(thread);
+	return wait ? g_async_queue_timeout_pop(thread->orders, wait) :
+		      g_async_queue_try_pop(thread->orders);
+}
+
+static void order_free(struct order *order)
+{
+	g_clear_pointer(&order->acts, g_array_unref);
+	g_clear_pointer(&order->program, sim_program_unref);
+	g_free(order->text);
+	g_free(order);
+}
+
+static gpointer main_of(gpointer data)
+{
+	struct sim_thread *thread = data;
+	bool go_on = true;
+
+	while (go_on) {
+		struct order *order = next_order(thread);
+
+		if (order)
+			go_on = obey(thread, order);
+		else if (thread->run)
+			scan_in_time(thread);
+		/* What scans changed is shown with a later one, if there is one. */
+		if (thread->changed && (order || !thread->run) &&
+		    g_async_queue_length(thread->orders) <= 0)
+			publish(thread, true);
+		if (order)
+			order_free(order);
+	}
+	return NULL;
+}
+
+/* ---- of the window ---- */
+
+static bool start_twin(struct twin *twin, const struct sim_program *program,
+		       const struct sim_program *plant, int64_t period_ns)
+{
+	if (!twin_init(twin, program->program, plant ? plant->program : NULL, period_ns))
+		return false;
+	twin_set_safe(twin, program->safe);
+	return true;
+}
+
+struct sim_thread *sim_thread_new(struct sim_program *program, struct sim_program *plant,
+				  gint64 period_ns, GSourceFunc notify, gpointer data)
+{
+	struct sim_thread *thread = g_new0(struct sim_thread, 1);
+
+	if (!start_twin(&thread->twin, program, plant, period_ns) ||
+	    !twin_clone(&thread->out, &thread->twin)) {
+		twin_free(&thread->twin);
+		g_free(thread);
+		return NULL;
+	}
+	thread->notify = notify;
+	thread->data = data;
+	thread->program = sim_program_ref(program);
+	thread->plant = sim_program_ref(plant);
+	thread->eras = sim_eras_new(&thread->twin, program, plant);
+	if (!thread->eras)
+		g_error("out of memory");
+	g_mutex_init(&thread->record_lock);
+	g_mutex_init(&thread->out_lock);
+	thread->orders = g_async_queue_new_full((GDestroyNotify)order_free);
+	thread->thread = g_thread_new("scan", main_of, thread);
+	return thread;
+}
+
+static void tell(struct sim_thread *thread, const struct order *order)
+{
+	g_async_queue_push(thread->orders, g_memdup2(order, sizeof(*order)));
+}
+
+void sim_thread_free(struct sim_thread *thread)
+{
+	if (!thread)
+		return;
+	tell(thread, &(struct order){ .kind = ORDER_END });
+	g_thread_join(thread->thread);
+	while (g_idle_remove_by_data(thread->data))
+		;
+	g_async_queue_unref(thread->orders);
+	sim_eras_free(thread->eras);
+	twin_free(&thread->twin);
+	twin_free(&thread->out);
+	sim_program_unref(thread->program);
+	sim_program_unref(thread->plant);
+	g_mutex_clear(&thread->record_lock);
+	g_mutex_clear(&thread->out_lock);
+	g_free(thread);
+}
+
+void sim_thread_run(struct sim_thread *thread, bool run)
+{
+	tell(thread, &(struct order){ .kind = ORDER_RUN, .scans = run });
+}
+
+void sim_thread_scan(struct sim_thread *thread, int scans)
+{
+	tell(thread, &(struct order){ .kind = ORDER_SCAN, .scans = scans });
+}
+
+void sim_thread_speed(struct sim_thread *thread, double scans)
+{
+	tell(thread, &(struct order){ .kind = ORDER_SPEED, .speed = scans });
+}
+
+void sim_thread_heed(struct sim_thread *thread, bool heed)
+{
+	tell(thread, &(struct order){ .kind = ORDER_HEED, .scans = heed });
+}
+
+void sim_thread_act(struct sim_thread *thread, struct sim_program *of, const struct act *act)
+{
+	struct order order = { .kind = ORDER_ACT, .act = *act,
+			       .program = sim_program_ref(of) };
+
+	if (act->kind == ACT_SET && act->at.type == IEC_STRING) {
+		order.text = g_memdup2(act->value.s,
+				       sizeof(*act->value.s) + act->value.s->length);
+		order.act.value.s = (const struct iec_string *)(gpointer)order.text;
+	}
+	tell(thread, &order);
+}
+
+void sim_thread_play(struct sim_thread *thread, GArray *acts, guint64 scans)
+{
+	tell(thread, &(struct order){ .kind = ORDER_PLAY, .acts = g_array_ref(acts),
+				      .until = scans });
+}
+
+void sim_thread_change(struct sim_thread *thread, struct sim_program *program)
+{
+	tell(thread, &(struct order){ .kind = ORDER_CHANGE,
+				      .program = sim_program_ref(program) });
+}
+
+/* ---- copies ---- */
+
+void sim_view_clear(struct sim_view *view)
+{
+	twin_free(&view->twin);
+	g_clear_pointer(&view->program, sim_program_unref);
+	g_clear_pointer(&view->plant, sim_program_unref);
+}
+
+bool sim_thread_take(struct sim_thread *thread, struct sim_view *view, bool *other)
+{
+	bool good = true;
+
+	g_atomic_int_set(&thread->notified, 0);
+	g_mutex_lock(&thread->out_lock);
+	*other = view->program != thread->program;
+	if (*other) {
+		sim_view_clear(view);
+		view->program = sim_program_ref(thread->program);
+		view->plant = sim_program_ref(thread->plant);
+		good = twin_clone(&view->twin, &thread->out);
+	} else {
+		twin_copy(&view->twin, &thread->out);
+	}
+	view->running = thread->out_run;
+	view->fault = thread->out_fault;
+	view->refusal = thread->out_refusal;
+	view->events = thread->out_events;
+	g_mutex_unlock(&thread->out_lock);
+	return good;
+}
+
+/* The lateness that a part of all scans does not reach beyond. */
+static double late_of(const guint *late, guint64 scans, double part)
+{
+	const double wanted = part * (double)scans;
+	guint64 seen = 0;
+
+	for (guint i = 0; i < LATE_STEPS; i++) {
+		seen += late[i];
+		if (late[i] && (double)seen >= wanted)
+			return late_us(i);
+	}
+	return 0;
+}
+
+bool sim_thread_lateness(struct sim_thread *thread, struct sim_lateness *out)
+{
+	guint late[LATE_STEPS];
+
+	*out = (struct sim_lateness){ .scans = 0 };
+	for (guint i = 0; i < LATE_STEPS; i++) {
+		late[i] = g_atomic_int_and(&thread->late[i], 0);
+		out->scans += late[i];
+	}
+	out->median_us = late_of(late, out->scans, 0.5);
+	out->p99_us = late_of(late, out->scans, 0.99);
+	out->worst_us = late_of(late, out->scans, 1);
+	return out->scans > 0;
+}
+
+const struct sim_eras *sim_thread_lock(struct sim_thread *thread)
+{
+	g_mutex_lock(&thread->record_lock);
+	return thread->eras;
+}
+
+void sim_thread_unlock(struct sim_thread *thread)
+{
+	g_mutex_unlock(&thread->record_lock);
+}

@@ -1,0 +1,340 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * text_complete - colours of IL and rung files, and what could stand at the cursor.
+ */
+#include "editor-gtk/text/text_complete.h"
+
+#include "editor-gtk/kit/i18n.h"
+
+#include <string.h>
+
+GtkSourceLanguage *text_language(void)
+{
+	GtkSourceLanguageManager *manager = gtk_source_language_manager_get_default();
+	static gsize added;
+
+	if (g_once_init_enter(&added)) {
+		gtk_source_language_manager_append_search_path(manager,
+			"resource:///org/rungboard/Editor/language-specs");
+		g_once_init_leave(&added, 1);
+	}
+	return gtk_source_language_manager_get_language(manager, "rung");
+}
+
+/* ---- a word that is offered ---- */
+
+#define LADDER_TYPE_PROPOSAL (ladder_proposal_get_type())
+G_DECLARE_FINAL_TYPE(LadderProposal, ladder_proposal, LADDER, PROPOSAL, GObject)
+
+struct _LadderProposal {
+	GObject parent;
+	char *text, *kind, *note;
+};
+
+static char *typed_text(GtkSourceCompletionProposal *proposal)
+{
+	return g_strdup(LADDER_PROPOSAL(proposal)->text);
+}
+
+static void proposal_interface(GtkSourceCompletionProposalInterface *interface)
+{
+	interface->get_typed_text = typed_text;
+}
+
+G_DEFINE_FINAL_TYPE_WITH_CODE(LadderProposal, ladder_proposal, G_TYPE_OBJECT,
+	G_IMPLEMENT_INTERFACE(GTK_SOURCE_TYPE_COMPLETION_PROPOSAL, proposal_interface))
+
+static void ladder_proposal_finalize(GObject *object)
+{
+	LadderProposal *proposal = LADDER_PROPOSAL(object);
+
+	g_free(proposal->text);
+	g_free(proposal->kind);
+	g_free(proposal->note);
+	G_OBJECT_CLASS(ladder_proposal_parent_class)->finalize(object);
+}
+
+static void ladder_proposal_class_init(LadderProposalClass *class)
+{
+	G_OBJECT_CLASS(class)->finalize = ladder_proposal_finalize;
+}
+
+static void ladder_proposal_init(LadderProposal *proposal)
+{
+	(void)proposal;
+}
+
+const char *text_complete_text(gpointer proposal)
+{
+	return LADDER_PROPOSAL(proposal)->text;
+}
+
+/* ---- what could stand there ---- */
+
+static void take_word(void *context, const struct ladder_word *word)
+{
+	LadderProposal *proposal = g_object_new(LADDER_TYPE_PROPOSAL, NULL);
+
+	proposal->text = g_strdup(word->text);
+	proposal->kind = g_strdup(_(word->kind));
+	proposal->note = g_strdup(word->note[0] ? _(word->note) : "");
+	g_list_store_append(context, proposal);
+	g_object_unref(proposal);
+}
+
+static int by_text(gconstpointer a, gconstpointer b, gpointer unused)
+{
+	const LadderProposal *one = a, *other = b;
+
+	(void)unused;
+	return g_ascii_strcasecmp(one->text, other->text);
+}
+
+struct pou_span {
+	int pou;
+	struct text_span span;
+};
+
+static void take_pou(void *context, const struct text_span *span)
+{
+	struct pou_span *found = context;
+
+	if (span->part == TEXT_POU && span->number == found->pou)
+		found->span = *span;
+}
+
+/* The file as it would be with @text in it; @line becomes one of the file. */
+static char *whole_text(LadderDocument *document, int pou, const char *text, int *line)
+{
+	struct pou_span found = { .pou = pou };
+	char *outline, *whole;
+	gsize len;
+
+	if (pou < 0)
+		return g_strdup(text);
+	outline = ladder_document_outline(document, &len, take_pou, &found);
+	if (!outline)
+		return g_strdup(text);
+	for (gsize i = 0; i < found.span.at; i++)
+		*line += outline[i] == '\n';
+	whole = g_strdup_printf("%.*s%s%s", (int)found.span.at, outline, text,
+				outline + found.span.at + found.span.len);
+	g_free(outline);
+	return whole;
+}
+
+GListStore *text_complete_words(LadderDocument *document, int pou, const char *text,
+				int line, int column, gsize *prefix_len)
+{
+	GListStore *words = g_list_store_new(LADDER_TYPE_PROPOSAL);
+	struct ladder *checked = ladder_document_checked(document);
+	struct ladder_place place = { 0 };
+	char *whole = whole_text(document, pou, text, &line);
+
+	if (!checked || !ladder_complete(checked, whole, strlen(whole), line + 1,
+					 column + 1, take_word, words, &place))
+		g_list_store_remove_all(words);
+	g_list_store_sort(words, by_text, NULL);
+	*prefix_len = place.prefix_len;
+	g_free(whole);
+	return words;
+}
+
+/* ---- the provider ---- */
+
+#define LADDER_TYPE_WORDS (ladder_words_get_type())
+G_DECLARE_FINAL_TYPE(LadderWords, ladder_words, LADDER, WORDS, GObject)
+
+struct _LadderWords {
+	GObject parent;
+	LadderDocument *document;
+	const int *pou;
+	GtkSourceView *view; /* holds the completion, which holds this          */
+};
+
+static char *text_before(GtkTextBuffer *buffer, int *line, int *column)
+{
+	GtkTextIter start, end, at;
+
+	gtk_text_buffer_get_bounds(buffer, &start, &end);
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	*line = gtk_text_iter_get_line(&at);
+	*column = gtk_text_iter_get_line_index(&at);
+	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
+}
+
+/* A word that stands there whole is left alone: Enter then ends the line. */
+static bool is_whole(GListStore *found, const char *prefix, gsize len)
+{
+	for (guint i = 0; i < g_list_model_get_n_items(G_LIST_MODEL(found)); i++) {
+		LadderProposal *word = g_list_model_get_item(G_LIST_MODEL(found), i);
+
+		g_object_unref(word); /* the list holds it */
+		if (strlen(word->text) == len &&
+		    g_ascii_strncasecmp(word->text, prefix, len) == 0)
+			return true;
+	}
+	return false;
+}
+
+static const char *line_of(const char *text, int line)
+{
+	while (line-- > 0)
+		text = strchr(text, '\n') + 1;
+	return text;
+}
+
+static GListStore *words_here(LadderWords *words, gsize *prefix_len)
+{
+	int line, column;
+	char *text = text_before(gtk_text_view_get_buffer(GTK_TEXT_VIEW(words->view)),
+				 &line, &column);
+	GListStore *found = text_complete_words(words->document, *words->pou, text, line,
+						column, prefix_len);
+
+	if (*prefix_len && is_whole(found, line_of(text, line) + column - *prefix_len,
+				    *prefix_len))
+		g_list_store_remove_all(found);
+	g_free(text);
+	return found;
+}
+
+static char *get_title(GtkSourceCompletionProvider *provider)
+{
+	(void)provider;
+	return g_strdup("Rungboard");
+}
+
+static void populate_async(GtkSourceCompletionProvider *provider,
+			   GtkSourceCompletionContext *context, GCancellable *cancellable,
+			   GAsyncReadyCallback callback, gpointer data)
+{
+	GTask *task = g_task_new(provider, cancellable, callback, data);
+	gsize prefix_len;
+
+	(void)context;
+	g_task_return_pointer(task, words_here(LADDER_WORDS(provider), &prefix_len),
+			      g_object_unref);
+	g_object_unref(task);
+}
+
+static GListModel *populate_finish(GtkSourceCompletionProvider *provider,
+				   GAsyncResult *result, GError **error)
+{
+	(void)provider;
+	return g_task_propagate_pointer(G_TASK(result), error);
+}
+
+/* One letter more: what could stand there is asked anew. */
+static void refilter(GtkSourceCompletionProvider *provider,
+		     GtkSourceCompletionContext *context, GListModel *model)
+{
+	gsize prefix_len;
+	GListStore *now = words_here(LADDER_WORDS(provider), &prefix_len);
+
+	(void)model;
+	gtk_source_completion_context_set_proposals_for_provider(context, provider,
+								 G_LIST_MODEL(now));
+	g_object_unref(now);
+}
+
+static void display(GtkSourceCompletionProvider *provider,
+		    GtkSourceCompletionContext *context,
+		    GtkSourceCompletionProposal *proposal, GtkSourceCompletionCell *cell)
+{
+	const LadderProposal *word = LADDER_PROPOSAL(proposal);
+
+	(void)provider;
+	(void)context;
+	switch (gtk_source_completion_cell_get_column(cell)) {
+	case GTK_SOURCE_COMPLETION_COLUMN_TYPED_TEXT:
+		gtk_source_completion_cell_set_text(cell, word->text);
+		break;
+	case GTK_SOURCE_COMPLETION_COLUMN_AFTER:
+		gtk_source_completion_cell_set_text(cell,
+			word->note[0] ? word->note : word->kind);
+		break;
+	case GTK_SOURCE_COMPLETION_COLUMN_ICON:
+	case GTK_SOURCE_COMPLETION_COLUMN_BEFORE:
+	case GTK_SOURCE_COMPLETION_COLUMN_COMMENT:
+	case GTK_SOURCE_COMPLETION_COLUMN_DETAILS:
+	default:
+		break;
+	}
+}
+
+/* The word takes the place of what is typed of it. */
+static void activate(GtkSourceCompletionProvider *provider,
+		     GtkSourceCompletionContext *context,
+		     GtkSourceCompletionProposal *proposal)
+{
+	LadderWords *words = LADDER_WORDS(provider);
+	GtkTextBuffer *buffer = gtk_text_view_get_buffer(GTK_TEXT_VIEW(words->view));
+	const char *text = LADDER_PROPOSAL(proposal)->text;
+	GtkTextIter start, end;
+	gsize prefix_len;
+
+	(void)context;
+	g_object_ref(proposal);
+	g_object_unref(words_here(words, &prefix_len));
+	gtk_text_buffer_get_iter_at_mark(buffer, &end, gtk_text_buffer_get_insert(buffer));
+	start = end;
+	gtk_text_iter_set_line_index(&start, gtk_text_iter_get_line_index(&end) -
+				     (int)prefix_len);
+	gtk_text_buffer_begin_user_action(buffer);
+	gtk_text_buffer_delete(buffer, &start, &end);
+	gtk_text_buffer_insert(buffer, &start, text, -1);
+	gtk_text_buffer_end_user_action(buffer);
+	g_object_unref(proposal);
+}
+
+static gboolean is_trigger(GtkSourceCompletionProvider *provider, const GtkTextIter *at,
+			   gunichar c)
+{
+	(void)provider;
+	(void)at;
+	return c == '.' || c == '%';
+}
+
+static void provider_interface(GtkSourceCompletionProviderInterface *interface)
+{
+	interface->get_title = get_title;
+	interface->populate_async = populate_async;
+	interface->populate_finish = populate_finish;
+	interface->refilter = refilter;
+	interface->display = display;
+	interface->activate = activate;
+	interface->is_trigger = is_trigger;
+}
+
+G_DEFINE_FINAL_TYPE_WITH_CODE(LadderWords, ladder_words, G_TYPE_OBJECT,
+	G_IMPLEMENT_INTERFACE(GTK_SOURCE_TYPE_COMPLETION_PROVIDER, provider_interface))
+
+static void ladder_words_finalize(GObject *object)
+{
+	g_object_unref(LADDER_WORDS(object)->document);
+	G_OBJECT_CLASS(ladder_words_parent_class)->finalize(object);
+}
+
+static void ladder_words_class_init(LadderWordsClass *class)
+{
+	G_OBJECT_CLASS(class)->finalize = ladder_words_finalize;
+}
+
+static void ladder_words_init(LadderWords *words)
+{
+	(void)words;
+}
+
+void text_complete_attach(GtkSourceView *view, LadderDocument *document, const int *pou)
+{
+	LadderWords *words = g_object_new(LADDER_TYPE_WORDS, NULL);
+
+	words->document = g_object_ref(document);
+	words->pou = pou;
+	words->view = view;
+	g_object_set(gtk_source_view_get_completion(view), "select-on-show", TRUE, NULL);
+	gtk_source_completion_add_provider(gtk_source_view_get_completion(view),
+					   GTK_SOURCE_COMPLETION_PROVIDER(words));
+	g_object_unref(words);
+}

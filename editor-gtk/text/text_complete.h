@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * text_complete - colours of IL and rung files, and what could stand at the cursor.
+ *
+ * The words are the catalogue's (packaging/rung_language.c), what could follow is what
+ * the engine says.
+ */
+#ifndef EDITOR_TEXT_COMPLETE_H
+#define EDITOR_TEXT_COMPLETE_H
+
+#include "editor-gtk/document/document.h"
+
+#include <gtksourceview/gtksource.h>
+
+/** text_language - of rung files; NULL: there is none on this machine. Borrowed. */
+GtkSourceLanguage *text_language(void);
+/** text_complete_attach - offers words while one types in @view
+ * @pou: whose number of a POU of @document the text is, -1: all of it; read each time,
+ * for as long as @view lives */
+void text_complete_attach(GtkSourceView *view, LadderDocument *document, const int *pou);
+
+/** text_complete_words - what could stand there, as GtkSourceCompletionProposals
+ * @text: what is shown; @line: 0-based; @column: bytes before the cursor
+ * @prefix_len: gets how many of these are of the word. Owns: the caller. */
+GListStore *text_complete_words(LadderDocument *document, int pou, const char *text,
+				int line, int column, gsize *prefix_len);
+/** text_complete_text - of one of them. Borrowed. */
+const char *text_complete_text(gpointer proposal);
+
+#endif

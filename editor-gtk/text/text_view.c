@@ -1,0 +1,590 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * text_view - a program in IL, or a file that cannot be read, as text.
+ */
+#include "editor-gtk/text/text_view.h"
+
+#include "editor-gtk/kit/diag_said.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/text/text_complete.h"
+#include "editor-gtk/document/text_lines.h"
+#include "editor-gtk/kit/text_scheme.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+
+#include <gtksourceview/gtksource.h>
+#include "editor-gtk/text/text_live.h"
+
+#include <string.h>
+
+#define SEEN_MS 25   /* more than it takes until a letter is seen               */
+#define REST 2000000 /* us without a key: what follows is another step            */
+
+/* Where a line is wrong, in the text that is shown. */
+struct flaw {
+	int line, column; /* 0-based; column -1: none                          */
+	char *text;
+};
+
+struct _LadderTextView {
+	GtkBox parent;
+	LadderDocument *document;
+	LadderSim *sim;          /* NULL: none                                 */
+	int pou;
+	GtkSourceView *view;
+	GtkSourceBuffer *buffer;
+	GtkTextTag *error, *warning;
+	GtkLabel *told;          /* why the line of the cursor is wrong         */
+	GArray *faults;          /* of struct flaw, as of the last check       */
+	bool ours;               /* the change that is heard is our own         */
+	int typed_line;          /* of the last step of typing, when, which     */
+	gint64 typed_at;
+	guint typed_step;
+	guint taking;            /* soon what was typed goes into the document  */
+};
+
+G_DEFINE_FINAL_TYPE(LadderTextView, ladder_text_view, GTK_TYPE_BOX)
+
+/* ---- the text ---- */
+
+static char *text_of_document(LadderTextView *view)
+{
+	return view->pou < 0 ? ladder_document_text(view->document, NULL) :
+	       ladder_document_list(view->document, view->pou);
+}
+
+static char *text_of_buffer(LadderTextView *view)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	GtkTextIter start, end;
+
+	gtk_text_buffer_get_bounds(buffer, &start, &end);
+	return gtk_text_buffer_get_text(buffer, &start, &end, TRUE);
+}
+
+/* Bytes that both have at their beginning, whole characters. */
+static gsize common_start(const char *a, const char *b)
+{
+	gsize len = 0;
+
+	while (a[len] && a[len] == b[len])
+		len++;
+	while (len > 0 && ((guchar)a[len] & 0xc0) == 0x80)
+		len--;
+	return len;
+}
+
+/* Bytes that both have at their end, behind the first @start ones. */
+static gsize common_end(const char *a, const char *b, gsize start)
+{
+	const gsize len_a = strlen(a), len_b = strlen(b);
+	gsize len = 0;
+
+	while (len < len_a - start && len < len_b - start &&
+	       a[len_a - 1 - len] == b[len_b - 1 - len])
+		len++;
+	while (len > 0 && ((guchar)a[len_a - len] & 0xc0) == 0x80)
+		len--;
+	return len;
+}
+
+/* Only what differs is exchanged: the cursor, the selection and the page stay where they
+ * are, or go there. */
+static void exchange(LadderTextView *view, const char *now, const char *text)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	const gsize start = common_start(now, text), end = common_end(now, text, start);
+	const int from = (int)g_utf8_strlen(now, (gssize)start);
+	const int gone = (int)g_utf8_strlen(now + start, (gssize)(strlen(now) - start - end));
+	GtkTextIter at, to;
+
+	gtk_text_buffer_get_iter_at_offset(buffer, &at, from);
+	gtk_text_buffer_get_iter_at_offset(buffer, &to, from + gone);
+	gtk_text_buffer_delete(buffer, &at, &to);
+	gtk_text_buffer_insert(buffer, &at, text + start,
+			       (int)(strlen(text) - start - end));
+	if (!gtk_widget_has_focus(GTK_WIDGET(view->view)))
+		return;
+	gtk_text_buffer_place_cursor(buffer, &at);
+	gtk_text_view_scroll_mark_onscreen(GTK_TEXT_VIEW(view->view),
+					   gtk_text_buffer_get_insert(buffer));
+}
+
+static void show_text(LadderTextView *view)
+{
+	char *text = text_of_document(view), *now = text_of_buffer(view);
+
+	if (text && strcmp(text, now) != 0) {
+		view->ours = true;
+		exchange(view, now, text);
+		view->ours = false;
+	}
+	g_free(text);
+	g_free(now);
+}
+
+static int cursor_line(LadderTextView *view)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	GtkTextIter at;
+
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	return gtk_text_iter_get_line(&at);
+}
+
+/* ---- what is typed ---- */
+
+/* What is typed in one line without a rest is one step. */
+static char *step_key(LadderTextView *view)
+{
+	const gint64 now = g_get_monotonic_time();
+	const int line = cursor_line(view);
+
+	if (line != view->typed_line || now - view->typed_at > REST)
+		view->typed_step++;
+	view->typed_line = line;
+	view->typed_at = now;
+	return g_strdup_printf("text %p %u", (void *)view, view->typed_step);
+}
+
+/* A file that can be read again has no page of its text any more: the view may go. */
+static void put(LadderTextView *view, LadderDocument *document)
+{
+	char *text = text_of_buffer(view), *before, *key = step_key(view);
+
+	view->ours = true;
+	ladder_document_begin(document, _("Type text"), key);
+	if (view->pou >= 0) {
+		ladder_document_put_list(document, view->pou, text);
+	} else {
+		before = ladder_document_text(document, NULL);
+		ladder_document_replace(document, 0, strlen(before), text, NULL);
+		g_free(before);
+	}
+	ladder_document_end(document);
+	view->ours = false;
+	g_free(key);
+	g_free(text);
+}
+
+void ladder_text_view_take(LadderTextView *view)
+{
+	LadderDocument *document;
+
+	if (!view->taking)
+		return;
+	g_clear_handle_id(&view->taking, g_source_remove);
+	g_object_ref(view);
+	document = g_object_ref(view->document);
+	put(view, document);
+	g_object_unref(document);
+	g_object_unref(view);
+}
+
+static gboolean take_now(gpointer view)
+{
+	ladder_text_view_take(view);
+	return G_SOURCE_REMOVE;
+}
+
+/* The letter is seen first: with thousands of rungs beside it, to read the list again takes
+ * longer than a frame may. */
+static void typed(LadderTextView *view)
+{
+	if (!view->ours && !view->taking && !ladder_document_is_fixed(view->document))
+		view->taking = g_timeout_add(SEEN_MS, take_now, view);
+}
+
+/* What was typed meanwhile is not written over. */
+static void document_changed(LadderTextView *view)
+{
+	if (!view->ours && !view->taking)
+		show_text(view);
+}
+
+static void variable_changed(LadderTextView *view, int pou)
+{
+	if (pou == view->pou)
+		document_changed(view);
+}
+
+/* ---- errors ---- */
+
+/* A name or value is marked to its end, else the rest of the line. */
+static void end_of_word(const struct diag *diag, GtkTextIter *end)
+{
+	const int len = diag->column > 0 && diag->arg[0] ? (int)strlen(diag->arg) : 0;
+	GtkTextIter to = *end, from = *end;
+	char *text;
+
+	gtk_text_iter_forward_to_line_end(&to);
+	text = gtk_text_iter_get_slice(&from, &to);
+	if (len > 0 && g_ascii_strncasecmp(text, diag->arg, (gsize)len) == 0)
+		gtk_text_iter_forward_chars(end, (int)g_utf8_strlen(diag->arg, -1));
+	else if (!gtk_text_iter_ends_line(end))
+		*end = to;
+	g_free(text);
+}
+
+static void mark(LadderTextView *view, const struct diag *diag, const struct flaw *fault)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	GtkTextIter start, end;
+
+	gtk_text_buffer_get_iter_at_line(buffer, &start, fault->line);
+	if (fault->column > 0 && fault->column < gtk_text_iter_get_bytes_in_line(&start))
+		gtk_text_iter_set_line_index(&start, fault->column);
+	else
+		while (gtk_text_iter_get_char(&start) == ' ' &&
+		       gtk_text_iter_forward_char(&start))
+			;
+	end = start;
+	end_of_word(diag, &end);
+	gtk_text_buffer_apply_tag(buffer, diag_severity(diag->id) == SEVERITY_ERROR ?
+				  view->error : view->warning, &start, &end);
+}
+
+static char *reason(const struct diag *diag)
+{
+	char *said = diag_said_whole(diag);
+	char *text = g_strdup_printf("%s %s", diag_code(diag->id), said);
+
+	g_free(said);
+	return text;
+}
+
+/* Reasons of a line, one below the other; NULL: it is well. Caller frees. */
+static char *reasons_of(LadderTextView *view, int line)
+{
+	GString *text = NULL;
+
+	for (guint i = 0; i < view->faults->len; i++) {
+		const struct flaw *fault = &g_array_index(view->faults, struct flaw, i);
+
+		if (fault->line != line)
+			continue;
+		if (!text)
+			text = g_string_new(fault->text);
+		else
+			g_string_append_printf(text, "\n%s", fault->text);
+	}
+	return text ? g_string_free(text, FALSE) : NULL;
+}
+
+static void tell_line(LadderTextView *view)
+{
+	char *text = reasons_of(view, cursor_line(view));
+
+	gtk_label_set_text(view->told, text ? text : "");
+	g_free(text);
+}
+
+static char *values_of(LadderTextView *view, int line)
+{
+	const struct project *project = ladder_document_project(view->document);
+	GtkTextIter start, end;
+	char *text, *values;
+
+	if (!view->sim || !project || view->pou < 0 || view->pou >= project->pou_count)
+		return NULL;
+	gtk_text_buffer_get_iter_at_line(GTK_TEXT_BUFFER(view->buffer), &start, line);
+	end = start;
+	gtk_text_iter_forward_to_line_end(&end);
+	text = gtk_text_iter_get_text(&start, &end);
+	values = text_live_line(view->sim, project_text(project,
+		project->pou[view->pou].name), text);
+	g_free(text);
+	return values;
+}
+
+char *ladder_text_view_tip(LadderTextView *view, int line)
+{
+	char *reasons = reasons_of(view, line - 1), *values = values_of(view, line - 1);
+	char *both;
+
+	if (!reasons || !values)
+		return reasons ? reasons : values;
+	both = g_strdup_printf("%s\n%s", reasons, values);
+	g_free(reasons);
+	g_free(values);
+	return both;
+}
+
+void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim)
+{
+	g_set_object(&view->sim, sim);
+}
+
+static gboolean tell_pointed(GtkWidget *widget, int x, int y, gboolean by_keys,
+			     GtkTooltip *tooltip, LadderTextView *view)
+{
+	GtkTextIter at;
+	gboolean told;
+	char *text;
+	int line = cursor_line(view);
+
+	if (!by_keys) {
+		gtk_text_view_window_to_buffer_coords(GTK_TEXT_VIEW(widget),
+			GTK_TEXT_WINDOW_WIDGET, x, y, &x, &y);
+		gtk_text_view_get_line_at_y(GTK_TEXT_VIEW(widget), &at, y, NULL);
+		line = gtk_text_iter_get_line(&at);
+	}
+	text = ladder_text_view_tip(view, line + 1);
+	told = tip_show(tooltip, text);
+	g_free(text);
+	return told;
+}
+
+static void add_fault(LadderTextView *view, const struct diag *diag, int before,
+		      const char *shown, const char *canonical)
+{
+	struct flaw fault = { diag->line - 1 - before, diag->column - 1, NULL };
+
+	if (fault.line < 0)
+		return;
+	text_lines_place(shown, canonical, &fault.line, &fault.column);
+	if (fault.line >= gtk_text_buffer_get_line_count(GTK_TEXT_BUFFER(view->buffer)))
+		return;
+	fault.text = reason(diag);
+	g_array_append_val(view->faults, fault);
+	mark(view, diag, &fault);
+}
+
+static void show_errors(LadderTextView *view)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	const struct diag_list *diags = ladder_document_diags(view->document);
+	const int before = ladder_document_lines_before(view->document, view->pou);
+	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
+	const int lines = canonical ? text_lines_count(canonical) : 0;
+	GtkTextIter start, end;
+
+	gtk_text_buffer_get_bounds(buffer, &start, &end);
+	gtk_text_buffer_remove_tag(buffer, view->error, &start, &end);
+	gtk_text_buffer_remove_tag(buffer, view->warning, &start, &end);
+	g_array_set_size(view->faults, 0);
+	for (int i = 0; canonical && i < diags->count; i++)
+		if (diags->diag[i].line - 1 - before <= lines)
+			add_fault(view, &diags->diag[i], before, shown, canonical);
+	g_free(shown);
+	g_free(canonical);
+	tell_line(view);
+}
+
+/* ---- from outside ---- */
+
+int ladder_text_view_pou(LadderTextView *view)
+{
+	return view->pou;
+}
+
+void ladder_text_view_set_pou(LadderTextView *view, int pou)
+{
+	view->pou = pou;
+	show_text(view);
+}
+
+char *ladder_text_view_reasons(LadderTextView *view, int line)
+{
+	return reasons_of(view, line - 1);
+}
+
+GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view)
+{
+	return view->buffer;
+}
+
+static gboolean ends_name(gunichar c, gpointer address)
+{
+	return !(g_unichar_isalnum(c) || c == '_' || (address && (c == '%' || c == '.')));
+}
+
+/* From @at back to where what it is in begins, and on to where it ends. */
+static char *word_at(const GtkTextIter *at, gpointer address)
+{
+	GtkTextIter from = *at, to = *at;
+
+	while (gtk_text_iter_backward_char(&from))
+		if (ends_name(gtk_text_iter_get_char(&from), address)) {
+			gtk_text_iter_forward_char(&from);
+			break;
+		}
+	if (!ends_name(gtk_text_iter_get_char(&to), address))
+		gtk_text_iter_forward_find_char(&to, ends_name, address, NULL);
+	return gtk_text_iter_get_slice(&from, &to);
+}
+
+char *ladder_text_view_name(LadderTextView *view)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	GtkTextIter at;
+	char *word;
+
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	word = word_at(&at, buffer); /* an address, if it begins as one */
+	if (*word != '%') {
+		g_free(word);
+		word = word_at(&at, NULL);
+	}
+	if (*word)
+		return word;
+	g_free(word);
+	return NULL;
+}
+
+bool ladder_text_view_is_at(LadderTextView *view, int line)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
+	GtkTextIter at;
+
+	line--;
+	if (canonical)
+		text_lines_place(shown, canonical, &line, NULL);
+	gtk_text_buffer_get_iter_at_mark(buffer, &at, gtk_text_buffer_get_insert(buffer));
+	g_free(canonical);
+	g_free(shown);
+	return gtk_text_iter_get_line(&at) == line;
+}
+
+void ladder_text_view_go_here(LadderTextView *view, int line, int column)
+{
+	GtkTextBuffer *buffer = GTK_TEXT_BUFFER(view->buffer);
+	char *shown = text_of_buffer(view), *canonical = text_of_document(view);
+	GtkTextIter at;
+
+	line = MAX(line - 1, 0);
+	column--;
+	if (canonical)
+		text_lines_place(shown, canonical, &line, &column);
+	gtk_text_buffer_get_iter_at_line(buffer, &at, line);
+	if (column > 0 && column < gtk_text_iter_get_bytes_in_line(&at))
+		gtk_text_iter_set_line_index(&at, column);
+	gtk_text_buffer_place_cursor(buffer, &at);
+	gtk_text_view_scroll_to_iter(GTK_TEXT_VIEW(view->view), &at, 0.1, FALSE, 0, 0);
+	gtk_widget_grab_focus(GTK_WIDGET(view->view));
+	g_free(shown);
+	g_free(canonical);
+}
+
+void ladder_text_view_go(LadderTextView *view, int line, int column)
+{
+	ladder_text_view_go_here(view, line - ladder_document_lines_before(view->document,
+									 view->pou), column);
+}
+
+/* ---- life ---- */
+
+static void ladder_text_view_dispose(GObject *object)
+{
+	LadderTextView *view = LADDER_TEXT_VIEW(object);
+
+	g_clear_handle_id(&view->taking, g_source_remove);
+	if (view->document)
+		g_signal_handlers_disconnect_by_data(view->document, view);
+	g_clear_object(&view->document);
+	g_clear_object(&view->sim);
+	G_OBJECT_CLASS(ladder_text_view_parent_class)->dispose(object);
+}
+
+static void ladder_text_view_finalize(GObject *object)
+{
+	g_array_unref(LADDER_TEXT_VIEW(object)->faults);
+	G_OBJECT_CLASS(ladder_text_view_parent_class)->finalize(object);
+}
+
+/* A box has no use for the keys. */
+static gboolean ladder_text_view_grab_focus(GtkWidget *widget)
+{
+	return gtk_widget_grab_focus(GTK_WIDGET(LADDER_TEXT_VIEW(widget)->view));
+}
+
+static void ladder_text_view_class_init(LadderTextViewClass *class)
+{
+	GTK_WIDGET_CLASS(class)->grab_focus = ladder_text_view_grab_focus;
+	G_OBJECT_CLASS(class)->dispose = ladder_text_view_dispose;
+	G_OBJECT_CLASS(class)->finalize = ladder_text_view_finalize;
+}
+
+static void make_buffer(LadderTextView *view)
+{
+	GtkTextBuffer *buffer;
+
+	view->buffer = gtk_source_buffer_new(NULL);
+	buffer = GTK_TEXT_BUFFER(view->buffer);
+	gtk_source_buffer_set_language(view->buffer, text_language());
+	/* There is one history, the document's. */
+	gtk_text_buffer_set_enable_undo(buffer, FALSE);
+	view->error = gtk_text_buffer_create_tag(buffer, NULL, "underline",
+						 PANGO_UNDERLINE_ERROR, NULL);
+	view->warning = gtk_text_buffer_create_tag(buffer, NULL, "underline",
+						   PANGO_UNDERLINE_SINGLE, NULL);
+	g_signal_connect_swapped(buffer, "changed", G_CALLBACK(typed), view);
+	g_signal_connect_swapped(buffer, "notify::cursor-position",
+				 G_CALLBACK(tell_line), view);
+}
+
+static void clear_fault(gpointer fault)
+{
+	g_free(((struct flaw *)fault)->text);
+}
+
+static void ladder_text_view_init(LadderTextView *view)
+{
+	view->faults = g_array_new(FALSE, FALSE, sizeof(struct flaw));
+	g_array_set_clear_func(view->faults, clear_fault);
+	gtk_orientable_set_orientation(GTK_ORIENTABLE(view), GTK_ORIENTATION_VERTICAL);
+}
+
+static void build(LadderTextView *view)
+{
+	GtkWidget *scroller = gtk_scrolled_window_new();
+	GtkEventController *leaves;
+
+	make_buffer(view);
+	view->view = GTK_SOURCE_VIEW(gtk_source_view_new_with_buffer(view->buffer));
+	view->told = GTK_LABEL(gtk_label_new(""));
+	gtk_text_view_set_monospace(GTK_TEXT_VIEW(view->view), TRUE);
+	gtk_source_view_set_show_line_numbers(view->view, TRUE);
+	gtk_source_view_set_highlight_current_line(view->view, TRUE);
+	gtk_source_view_set_auto_indent(view->view, TRUE);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(view->view),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       _("Text of the program"), -1);
+	gtk_widget_set_vexpand(scroller, TRUE);
+	gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(scroller), FALSE);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller),
+				      GTK_WIDGET(view->view));
+	gtk_label_set_xalign(view->told, 0);
+	gtk_widget_set_margin_start(GTK_WIDGET(view->told), 14);
+	gtk_widget_add_css_class(GTK_WIDGET(view->told), "error");
+	gtk_box_append(GTK_BOX(view), scroller);
+	gtk_box_append(GTK_BOX(view), GTK_WIDGET(view->told));
+	leaves = gtk_event_controller_focus_new();
+	g_signal_connect_swapped(leaves, "leave", G_CALLBACK(ladder_text_view_take), view);
+	gtk_widget_add_controller(GTK_WIDGET(view->view), leaves);
+	text_complete_attach(view->view, view->document, &view->pou);
+	gtk_widget_set_has_tooltip(GTK_WIDGET(view->view), TRUE);
+	g_signal_connect(view->view, "query-tooltip", G_CALLBACK(tell_pointed), view);
+	g_object_unref(view->buffer);
+}
+
+GtkWidget *ladder_text_view_new(LadderDocument *document, int pou)
+{
+	LadderTextView *view = g_object_new(LADDER_TYPE_TEXT_VIEW, NULL);
+
+	view->document = g_object_ref(document);
+	view->pou = pou;
+	build(view);
+	gtk_text_view_set_editable(GTK_TEXT_VIEW(view->view),
+				   !ladder_document_is_fixed(document));
+	g_signal_connect_swapped(document, "project-changed", G_CALLBACK(document_changed),
+				 view);
+	g_signal_connect_swapped(document, "variable-changed",
+				 G_CALLBACK(variable_changed), view);
+	g_signal_connect_swapped(document, "list-changed", G_CALLBACK(document_changed),
+				 view);
+	g_signal_connect_swapped(document, "checked", G_CALLBACK(show_errors), view);
+	text_scheme_follow(view->buffer);
+	show_text(view);
+	return GTK_WIDGET(view);
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * text_view - a program in IL, or a file that cannot be read, as text.
+ *
+ * With colours, completion from the engine, and errors as one types. Every change goes
+ * into the document and its history.
+ */
+#ifndef EDITOR_TEXT_VIEW_H
+#define EDITOR_TEXT_VIEW_H
+
+#include "editor-gtk/sim/sim.h"
+
+#include <gtksourceview/gtksource.h>
+
+#define LADDER_TYPE_TEXT_VIEW (ladder_text_view_get_type())
+G_DECLARE_FINAL_TYPE(LadderTextView, ladder_text_view, LADDER, TEXT_VIEW, GtkBox)
+
+/** ladder_text_view_new - of POU @pou; -1: of the whole file. */
+GtkWidget *ladder_text_view_new(LadderDocument *document, int pou);
+int ladder_text_view_pou(LadderTextView *view);
+void ladder_text_view_set_pou(LadderTextView *view, int pou);
+/** ladder_text_view_set_sim - whose values the tooltip of a line tells; a reference is
+ * kept. NULL: none. */
+void ladder_text_view_set_sim(LadderTextView *view, LadderSim *sim);
+/** ladder_text_view_tip - what the tooltip of line @line, 1-based, of the text that is shown
+ * says: why it is wrong, and values; NULL: nothing. Caller frees. */
+char *ladder_text_view_tip(LadderTextView *view, int line);
+/** ladder_text_view_reasons - what is wrong with line @line, 1-based, of the text that is
+ * shown; NULL: nothing. Caller frees. */
+char *ladder_text_view_reasons(LadderTextView *view, int line);
+/** ladder_text_view_take - what was just typed is in the document now; else it will be as
+ * soon as it is seen. */
+void ladder_text_view_take(LadderTextView *view);
+/** ladder_text_view_buffer - what is shown. Borrowed. */
+GtkSourceBuffer *ladder_text_view_buffer(LadderTextView *view);
+/** ladder_text_view_name - the name or address that the cursor is on; NULL: none. Owns: the
+ * caller, g_free(). */
+char *ladder_text_view_name(LadderTextView *view);
+/** ladder_text_view_is_at - whether line @line, 1-based, of the list as a file holds it, is
+ * the one of the cursor. */
+bool ladder_text_view_is_at(LadderTextView *view, int line);
+/** ladder_text_view_go - @line: 1-based, of the file; the cursor goes there. */
+void ladder_text_view_go(LadderTextView *view, int line, int column);
+/** ladder_text_view_go_here - @line: 1-based, of the list as a file
+ * holds it. */
+void ladder_text_view_go_here(LadderTextView *view, int line, int column);
+
+#endif

@@ -1,0 +1,442 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * app - the life of the editor: its command line, its windows, its end.
+ *
+ * Pictures (--render) are made before anything asks for a display.
+ */
+#include "editor-gtk/window/app.h"
+
+#include "editor-gtk/document/classic_open.h"
+#include "editor-gtk/document/disk.h"
+#include "editor-gtk/document/draft.h"
+#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/installed.h"
+#include "editor-gtk/kit/gtk48/memory.h"
+#include "editor-gtk/kit/gtk48/popovers.h"
+#include "editor-gtk/window/preferences.h"
+#include "editor-gtk/window/recent.h"
+#include "editor-gtk/render/render.h"
+#include "editor-gtk/window/usage.h"
+
+#include <glib-unix.h>
+#include <gtksourceview/gtksource.h>
+#include <locale.h>
+#include <signal.h>
+#include <string.h>
+
+/* ---- windows ---- */
+
+static AdwApplication *the_application(LadderWindow *window)
+{
+	return ADW_APPLICATION(gtk_window_get_application(GTK_WINDOW(window)));
+}
+
+static LadderWindow *show_document(AdwApplication *application, LadderDocument *document)
+{
+	LadderWindow *window = ladder_window_new(application, document);
+
+	draft_keep(document);
+	gtk_window_present(GTK_WINDOW(window));
+	return window;
+}
+
+static LadderWindow *new_window(AdwApplication *application)
+{
+	LadderDocument *document = ladder_document_new();
+	LadderWindow *window = show_document(application, document);
+
+	g_object_unref(document);
+	return window;
+}
+
+void app_new_window(LadderWindow *window)
+{
+	new_window(the_application(window));
+}
+
+static LadderWindow *open_in(AdwApplication *application, LadderWindow *window,
+			     const char *path, GError **error)
+{
+	LadderDocument *document = window && ladder_window_is_untouched(window) ?
+		g_object_ref(ladder_window_document(window)) : ladder_document_new();
+
+	if (!ladder_document_open(document, path, error)) {
+		g_object_unref(document);
+		return NULL;
+	}
+	if (!window || ladder_window_document(window) != document)
+		window = show_document(application, document);
+	else
+		ladder_window_opened(window);
+	recent_add(path);
+	ladder_window_tell_file(window);
+	g_object_unref(document);
+	return window;
+}
+
+static bool has_open(LadderWindow *window, const char *path)
+{
+	const char *open = ladder_document_path(ladder_window_document(window));
+
+	return (open && disk_same(path, open)) || ladder_window_has_file(window, path);
+}
+
+/* The window that has this project, or this file of one, open; NULL: none. */
+static LadderWindow *window_of(AdwApplication *application, const char *path)
+{
+	GList *at = gtk_application_get_windows(GTK_APPLICATION(application));
+	char *whole = g_canonicalize_filename(path, NULL);
+	LadderWindow *found = NULL;
+
+	for (; at && !found; at = at->next)
+		if (LADDER_IS_WINDOW(at->data) && has_open(at->data, whole))
+			found = at->data;
+	g_free(whole);
+	return found;
+}
+
+/* Never saved: it becomes a file of ours where the person says. */
+static LadderWindow *open_classic(AdwApplication *application, LadderWindow *window,
+				  const char *path, GError **error)
+{
+	char *place = g_strdup(path), *text;
+	LadderDocument *document;
+	struct ladder *ladder;
+	LadderOrigin *origin;
+	gsize len = 0;
+
+	text = classic_import(place, &len, &ladder, error);
+	if (!text) {
+		g_free(place);
+		return NULL;
+	}
+	document = window && ladder_window_is_untouched(window) ?
+		g_object_ref(ladder_window_document(window)) : ladder_document_new();
+	ladder_document_open_text(document, NULL, text, len, false);
+	if (!window || ladder_window_document(window) != document)
+		window = show_document(application, document);
+	else
+		ladder_window_opened(window);
+	ladder_window_set_origin(window, path);
+	recent_add(path);
+	origin = ladder_origin_new(document, place, ladder);
+	ladder_window_set_classic(window, origin);
+	g_object_unref(origin);
+	g_object_unref(document);
+	g_free(text);
+	return window;
+}
+
+/* A map of no project in particular, that the tree of this window lists. */
+static bool is_listed(LadderWindow *window, const char *path)
+{
+	GPtrArray *maps = files_beside(ladder_document_path(ladder_window_document(window)),
+				       ".io", false);
+	const bool found = g_ptr_array_find_with_equal_func(maps, path, g_str_equal, NULL);
+
+	g_ptr_array_unref(maps);
+	return found;
+}
+
+/* A scenario or an I/O map: in its project, if that is to be found. */
+static LadderWindow *open_beside(AdwApplication *application, LadderWindow *window,
+				 const char *path, GError **error)
+{
+	char *project = file_project(path);
+	LadderWindow *shown = project ? window_of(application, project) : NULL;
+
+	if (project && !shown)
+		shown = open_in(application, window, project, error);
+	else if (!project)
+		shown = window && (ladder_window_is_untouched(window) ||
+				   is_listed(window, path)) ? window :
+			new_window(application);
+	if (shown) {
+		ladder_window_show_file(shown, path);
+		gtk_window_present(GTK_WINDOW(shown));
+	}
+	g_free(project);
+	return shown;
+}
+
+static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
+			      const char *path, GError **error)
+{
+	LadderWindow *there = window_of(application, path);
+
+	if (there) { /* twice, each would write over the other's */
+		if (file_is_beside(path))
+			ladder_window_show_file(there, path);
+		else
+			recent_add(path);
+		gtk_window_present(GTK_WINDOW(there));
+		return there;
+	}
+	if (file_is_beside(path))
+		return open_beside(application, window, path, error);
+	return classic_is_project(path) ? open_classic(application, window, path, error) :
+					  open_in(application, window, path, error);
+}
+
+void app_open_path(LadderWindow *window, const char *path)
+{
+	GError *error = NULL;
+
+	if (!open_any(the_application(window), window, path, &error))
+		ladder_window_warn(window, error->message);
+	g_clear_error(&error);
+}
+
+void app_open_sample(LadderWindow *window, const char *path)
+{
+	LadderDocument *document = ladder_window_is_untouched(window) ?
+		g_object_ref(ladder_window_document(window)) : ladder_document_new();
+	GError *error = NULL;
+	char *text;
+	gsize len;
+
+	text = disk_read(path, LIMIT_TEXT, &len, &error);
+	if (text) {
+		ladder_document_open_text(document, NULL, text, len, true);
+		if (ladder_window_document(window) != document)
+			window = show_document(the_application(window), document);
+		else
+			ladder_window_opened(window);
+		ladder_window_set_origin(window, path);
+		draft_of_sample(document, path);
+		g_free(text);
+	} else {
+		ladder_window_warn(window, error->message);
+	}
+	g_clear_error(&error);
+	g_object_unref(document);
+}
+
+/* ---- after a crash ---- */
+
+/* Of two drafts of one file the second is a program that has no file yet. */
+static bool restore_document(AdwApplication *application, const struct draft *draft)
+{
+	const bool twice = draft->path && window_of(application, draft->path);
+	LadderDocument *document = ladder_document_new();
+	LadderWindow *window;
+	bool kept;
+
+	ladder_document_restore(document, twice ? NULL : draft->path,
+				twice ? NULL : draft->sum, draft->text, draft->len);
+	window = show_document(application, document);
+	if (draft->sample && !draft->path) {
+		ladder_window_set_origin(window, draft->sample);
+		draft_of_sample(document, draft->sample);
+	}
+	kept = draft_is_kept(document);
+	if (kept)
+		ladder_window_offer_restored(window);
+	g_object_unref(document);
+	return kept;
+}
+
+/* With its project, if that is still there. */
+static bool restore_file(AdwApplication *application, const struct draft *draft)
+{
+	LadderWindow *window = draft->beside ?
+		open_any(application, NULL, draft->beside, NULL) : NULL;
+	bool kept;
+
+	if (!window)
+		window = new_window(application);
+	kept = ladder_window_restore_file(window, draft);
+	if (kept)
+		ladder_window_offer_restored(window);
+	return kept;
+}
+
+/* A draft goes when what it holds has one of this editor's again. */
+static int restore_drafts(AdwApplication *application)
+{
+	GPtrArray *drafts = draft_find();
+	const int count = (int)drafts->len;
+
+	for (int i = 0; i < count; i++) {
+		const struct draft *draft = drafts->pdata[i];
+
+		if (draft->is_file ? restore_file(application, draft) :
+				     restore_document(application, draft))
+			draft_forget(draft);
+	}
+	g_ptr_array_unref(drafts);
+	return count;
+}
+
+static LadderWindow *window_with(LadderDocument *document)
+{
+	GList *at = gtk_application_get_windows(GTK_APPLICATION(g_application_get_default()));
+
+	for (; at; at = at->next)
+		if (LADDER_IS_WINDOW(at->data) &&
+		    ladder_window_document(LADDER_WINDOW(at->data)) == document)
+			return LADDER_WINDOW(at->data);
+	return NULL;
+}
+
+static void tell_draft_failed(gpointer object, const char *why)
+{
+	LadderWindow *window = LADDER_IS_DOCUMENT(object) ? window_with(object) :
+		LADDER_WINDOW(gtk_widget_get_root(GTK_WIDGET(object)));
+	char *text = g_strdup_printf(_("What is not saved would be lost in a crash, no draft "
+				       "of it can be kept: %s"), why);
+
+	if (window)
+		ladder_window_warn(window, text);
+	g_free(text);
+}
+
+/* ---- told to end ---- */
+
+/* As at the end of a session: what is not saved is there again at the next start. */
+static gboolean end_now(gpointer application)
+{
+	GList *windows = g_list_copy(gtk_application_get_windows(application));
+
+	for (GList *at = windows; at; at = at->next)
+		if (LADDER_IS_WINDOW(at->data))
+			ladder_window_keep_drafts(LADDER_WINDOW(at->data));
+	g_list_free(windows);
+	while ((windows = gtk_application_get_windows(application)))
+		gtk_window_destroy(GTK_WINDOW(windows->data));
+	g_application_quit(G_APPLICATION(application));
+	return G_SOURCE_CONTINUE;
+}
+
+static void follow_signals(gpointer application)
+{
+	static const int numbers[] = { SIGTERM, SIGINT, SIGHUP };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(numbers); i++)
+		g_unix_signal_add(numbers[i], end_now, application);
+}
+
+/* ---- the application ---- */
+
+static void activate(AdwApplication *application)
+{
+	if (restore_drafts(application) == 0)
+		ladder_window_welcome(new_window(application));
+}
+
+static void open_files(AdwApplication *application, GFile **files, int count,
+		       const char *hint)
+{
+	(void)hint;
+	restore_drafts(application);
+	for (int i = 0; i < count; i++) {
+		char *path = g_file_get_path(files[i]);
+		GError *error = NULL;
+		LadderWindow *window = path ? open_any(application, NULL, path, &error) :
+			NULL;
+
+		if (!window) {
+			window = new_window(application);
+			ladder_window_warn(window, error ? error->message :
+					   _("Only files of this machine can be opened."));
+		}
+		g_clear_error(&error);
+		g_free(path);
+	}
+}
+
+void app_style(void)
+{
+	GtkCssProvider *css = gtk_css_provider_new();
+
+	gtk_css_provider_load_from_resource(css, "/org/rungboard/Editor/ui/style.css");
+	gtk_style_context_add_provider_for_display(gdk_display_get_default(),
+		GTK_STYLE_PROVIDER(css), GTK_STYLE_PROVIDER_PRIORITY_APPLICATION);
+	g_object_unref(css);
+}
+
+/* What cairo draws needs no GL, which GTK 4.8 gets ready all the same: 30 ms of a start. Any
+ * other program that is begun from here has its own mind. */
+#define NO_GL "gl-disable"
+
+static void spare_gl(void)
+{
+	if (g_strcmp0(g_getenv("GSK_RENDERER"), "cairo") == 0)
+		g_setenv("GDK_DEBUG", NO_GL, FALSE);
+}
+
+static void forget_gl(void)
+{
+	if (g_strcmp0(g_getenv("GDK_DEBUG"), NO_GL) == 0)
+		g_unsetenv("GDK_DEBUG");
+}
+
+static void startup(GtkApplication *application)
+{
+	forget_gl();
+	gtk_source_init();
+	app_style();
+	popovers_let_go();
+	preferences_follow(ADW_APPLICATION(application));
+	gtk_window_set_default_icon_name(APP_ID);
+	draft_on_failure(tell_draft_failed);
+}
+
+/* Where the languages lie; NULL: there are none. */
+static char *languages_folder(void)
+{
+	const char *told = g_getenv("RUNGBOARD_LOCALE");
+
+	return told ? g_strdup(told) : installed_folder("locale", "locale");
+}
+
+/* Numbers stay as programs and pictures have them, with a point: files are written here. */
+static void set_language(void)
+{
+	char *folder = languages_folder();
+
+	setlocale(LC_ALL, "");
+	setlocale(LC_NUMERIC, "C");
+	gtk_disable_setlocale();
+	if (folder)
+		bindtextdomain(GETTEXT_PACKAGE, folder);
+	g_free(folder);
+	bind_textdomain_codeset(GETTEXT_PACKAGE, "UTF-8");
+	textdomain(GETTEXT_PACKAGE);
+}
+
+static bool is_render(int argc, char **argv)
+{
+	for (int i = 1; i < argc; i++)
+		if (strcmp(argv[i], "--render") == 0)
+			return true;
+	return false;
+}
+
+int app_run(int argc, char **argv)
+{
+	AdwApplication *application;
+	int status;
+
+	set_language();
+	memory_keep_frames();
+	/* A limit on the size of files is told like a full disk. */
+	signal(SIGXFSZ, SIG_IGN);
+	if (is_render(argc, argv))
+		return render_main(argc, argv);
+	if (usage_main(argc, argv, &status))
+		return status;
+	spare_gl();
+	application = adw_application_new(APP_ID,
+		G_APPLICATION_HANDLES_OPEN | G_APPLICATION_NON_UNIQUE);
+	g_application_set_option_context_parameter_string(G_APPLICATION(application),
+							  _("[FILE…]"));
+	g_signal_connect_after(application, "startup", G_CALLBACK(startup), NULL);
+	g_signal_connect(application, "activate", G_CALLBACK(activate), NULL);
+	g_signal_connect(application, "open", G_CALLBACK(open_files), NULL);
+	follow_signals(application);
+	status = g_application_run(G_APPLICATION(application), argc, argv);
+	g_object_unref(application);
+	return status;
+}

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * pou_import_dialog - asks which programs and blocks of which project come.
+ */
+#include "editor-gtk/document/pou_import.h"
+
+#include "editor-gtk/document/chooser.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/window/window.h"
+
+#include <adwaita.h>
+
+struct asking {
+	GtkWidget *widget;       /* of the tree                                */
+	LadderDocument *document;
+	struct ladder *from;
+	GPtrArray *checks;       /* of GtkCheckButton, one a POU               */
+};
+
+static void asking_free(gpointer data, GClosure *closure)
+{
+	struct asking *asking = data;
+
+	(void)closure;
+	ladder_free(asking->from);
+	g_ptr_array_unref(asking->checks);
+	g_object_unref(asking->document);
+	g_object_unref(asking->widget);
+	g_free(asking);
+}
+
+static LadderWindow *window_of(GtkWidget *widget)
+{
+	return LADDER_WINDOW(gtk_widget_get_root(widget));
+}
+
+/* ---- which POUs ---- */
+
+static void chosen(AdwMessageDialog *dialog, const char *response, struct asking *asking)
+{
+	const guint count = asking->checks->len;
+	bool *wanted = g_new0(bool, count + 1), any = false;
+	GString *told = g_string_new(NULL);
+
+	(void)dialog;
+	for (guint i = 0; i < count; i++) {
+		wanted[i] = gtk_check_button_get_active(asking->checks->pdata[i]);
+		any = any || wanted[i];
+	}
+	if (any && g_strcmp0(response, "import") == 0) {
+		if (pou_import(asking->document, asking->from, wanted, told))
+			ladder_window_tell(window_of(asking->widget), told->str);
+		else
+			ladder_window_warn(window_of(asking->widget), told->str);
+	}
+	g_string_free(told, TRUE);
+	g_free(wanted);
+}
+
+/* Nothing is imported by somebody who chose nothing. */
+static void toggled(GtkWidget *check, AdwMessageDialog *dialog)
+{
+	const struct asking *asking = g_object_get_data(G_OBJECT(dialog), "asking");
+	gboolean any = FALSE;
+
+	(void)check;
+	for (guint i = 0; i < asking->checks->len; i++)
+		any = any || gtk_check_button_get_active(asking->checks->pdata[i]);
+	adw_message_dialog_set_response_enabled(dialog, "import", any);
+}
+
+/* One that is the only one need not be chosen. */
+static void choose_first(GtkWidget *dialog, struct asking *asking)
+{
+	GtkWidget *first = asking->checks->len == 1 ? asking->checks->pdata[0] : NULL;
+
+	g_object_set_data(G_OBJECT(dialog), "asking", asking);
+	for (guint i = 0; i < asking->checks->len; i++)
+		g_signal_connect(asking->checks->pdata[i], "toggled", G_CALLBACK(toggled),
+				 dialog);
+	if (first && gtk_widget_get_sensitive(first))
+		gtk_check_button_set_active(GTK_CHECK_BUTTON(first), TRUE);
+	toggled(NULL, ADW_MESSAGE_DIALOG(dialog));
+}
+
+static GtkWidget *checks_new(struct asking *asking)
+{
+	const struct project *project = ladder_project(asking->from);
+	GtkWidget *box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
+	GtkWidget *scroller = gtk_scrolled_window_new();
+
+	for (int i = 0; i < project->pou_count; i++) {
+		GtkWidget *check = gtk_check_button_new_with_label(
+			project_text(project, project->pou[i].name));
+
+		gtk_widget_set_sensitive(check, !project->pou[i].included);
+		g_ptr_array_add(asking->checks, check);
+		gtk_box_append(GTK_BOX(box), check);
+	}
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), box);
+	gtk_scrolled_window_set_propagate_natural_height(GTK_SCROLLED_WINDOW(scroller), TRUE);
+	gtk_scrolled_window_set_max_content_height(GTK_SCROLLED_WINDOW(scroller), 320);
+	return scroller;
+}
+
+static void ask_which(GtkWidget *widget, LadderDocument *document, struct ladder *from)
+{
+	GtkWidget *dialog = adw_message_dialog_new(GTK_WINDOW(gtk_widget_get_root(widget)),
+		_("Import"), _("What they use comes along: symbols, structures, blocks."));
+	struct asking *asking = g_new0(struct asking, 1);
+
+	asking->widget = g_object_ref(widget);
+	asking->document = g_object_ref(document);
+	asking->from = from;
+	asking->checks = g_ptr_array_new();
+	adw_message_dialog_set_extra_child(ADW_MESSAGE_DIALOG(dialog), checks_new(asking));
+	adw_message_dialog_add_responses(ADW_MESSAGE_DIALOG(dialog),
+		"cancel", _("Cancel"), "import", _("Import"), NULL);
+	choose_first(dialog, asking);
+	adw_message_dialog_set_default_response(ADW_MESSAGE_DIALOG(dialog), "import");
+	adw_message_dialog_set_close_response(ADW_MESSAGE_DIALOG(dialog), "cancel");
+	g_signal_connect_data(dialog, "response", G_CALLBACK(chosen), asking, asking_free, 0);
+	gtk_window_present(GTK_WINDOW(dialog));
+}
+
+/* ---- which project ---- */
+
+static void ask_of(GtkWidget *widget, LadderDocument *document, const char *path)
+{
+	struct ladder *from = ladder_new();
+
+	if (from && ladder_load(from, g_intern_string(path)) && ladder_project(from)) {
+		ask_which(widget, document, from);
+		return;
+	}
+	ladder_free(from);
+	ladder_window_warn(window_of(widget),
+			   _("That file cannot be read as a project: open it to see why."));
+}
+
+static void file_chosen(GtkNativeDialog *dialog, int response, LadderDocument *document)
+{
+	GtkWidget *widget = g_object_get_data(G_OBJECT(dialog), "widget");
+	GFile *file = response == GTK_RESPONSE_ACCEPT ?
+		gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog)) : NULL;
+	char *path = file ? g_file_get_path(file) : NULL;
+
+	if (path)
+		ask_of(widget, document, path);
+	g_free(path);
+	g_clear_object(&file);
+	g_object_unref(dialog);
+}
+
+void pou_import_ask(GtkWidget *widget, LadderDocument *document)
+{
+	GtkFileChooserNative *chooser = gtk_file_chooser_native_new(
+		_("Import from another project"), GTK_WINDOW(gtk_widget_get_root(widget)),
+		GTK_FILE_CHOOSER_ACTION_OPEN, _("Open"), _("Cancel"));
+	GtkFileFilter *rungs = gtk_file_filter_new();
+
+	gtk_file_filter_set_name(rungs, _("Rung files"));
+	gtk_file_filter_add_pattern(rungs, "*.rung");
+	gtk_file_chooser_add_filter(GTK_FILE_CHOOSER(chooser), rungs);
+	g_object_unref(rungs);
+	gtk_native_dialog_set_modal(GTK_NATIVE_DIALOG(chooser), TRUE);
+	chooser_beside(chooser, document);
+	g_object_set_data_full(G_OBJECT(chooser), "widget", g_object_ref(widget),
+			       g_object_unref);
+	g_signal_connect_data(chooser, "response", G_CALLBACK(file_chosen),
+			      g_object_ref(document), (GClosureNotify)(void (*)(void))
+			      g_object_unref, 0);
+	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
+}

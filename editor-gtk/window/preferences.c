@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * preferences - what a person chooses once: light or dark, colour of power, names, keys.
+ */
+#include "editor-gtk/window/preferences.h"
+
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/settings.h"
+#include "editor-gtk/kit/verbs.h"
+
+/* ---- what holds ---- */
+
+static void use_appearance(void)
+{
+	static const AdwColorScheme schemes[] = {
+		ADW_COLOR_SCHEME_DEFAULT, ADW_COLOR_SCHEME_FORCE_LIGHT,
+		ADW_COLOR_SCHEME_FORCE_DARK,
+	};
+
+	adw_style_manager_set_color_scheme(adw_style_manager_get_default(),
+		schemes[CLAMP(settings_enum("appearance", 0), 0, 2)]);
+}
+
+static void use_keys(GtkApplication *application)
+{
+	verbs_use_scheme(application, (enum key_scheme)CLAMP(
+		settings_enum("keys", SCHEME_RUNGBOARD), 0, KEY_SCHEMES - 1));
+}
+
+void preferences_follow(AdwApplication *application)
+{
+	use_appearance();
+	use_keys(GTK_APPLICATION(application));
+	if (!settings_get())
+		return;
+	g_signal_connect_swapped(settings_get(), "changed::appearance",
+				 G_CALLBACK(use_appearance), NULL);
+	g_signal_connect_object(settings_get(), "changed::keys", G_CALLBACK(use_keys),
+				application, G_CONNECT_SWAPPED);
+}
+
+/* ---- asking ---- */
+
+static void chosen(AdwComboRow *row, GParamSpec *spec, const char *key)
+{
+	(void)spec;
+	g_settings_set_enum(settings_get(), key, (int)adw_combo_row_get_selected(row));
+}
+
+static void add_choice(AdwPreferencesGroup *group, const char *key, const char *title,
+		       const char *subtitle, const char *const *names)
+{
+	GtkWidget *row = adw_combo_row_new();
+	GtkStringList *list = gtk_string_list_new(names);
+
+	adw_preferences_row_set_title(ADW_PREFERENCES_ROW(row), title);
+	adw_action_row_set_subtitle(ADW_ACTION_ROW(row), subtitle);
+	adw_combo_row_set_model(ADW_COMBO_ROW(row), G_LIST_MODEL(list));
+	adw_combo_row_set_selected(ADW_COMBO_ROW(row), (guint)settings_enum(key, 0));
+	gtk_widget_set_sensitive(row, settings_get() != NULL);
+	g_signal_connect(row, "notify::selected", G_CALLBACK(chosen), (gpointer)key);
+	adw_preferences_group_add(group, row);
+	g_object_unref(list);
+}
+
+static AdwPreferencesGroup *add_group(AdwPreferencesPage *page, const char *title)
+{
+	GtkWidget *group = adw_preferences_group_new();
+
+	adw_preferences_group_set_title(ADW_PREFERENCES_GROUP(group), title);
+	adw_preferences_page_add(page, ADW_PREFERENCES_GROUP(group));
+	return ADW_PREFERENCES_GROUP(group);
+}
+
+static void add_looks(AdwPreferencesPage *page)
+{
+	const char *appearance[] = { _("as the desktop"), _("light"), _("dark"), NULL };
+	const char *power[] = { _("green"), _("blue"), NULL };
+	const char *show[] = { _("symbol and address"), _("symbols"), _("addresses"),
+			       NULL };
+	AdwPreferencesGroup *group = add_group(page, _("Drawing"));
+
+	add_choice(group, "appearance", _("Light or dark"), NULL, appearance);
+	add_choice(group, "power", _("Colour of power"),
+		   _("It is drawn thicker, too: colour alone tells nothing"), power);
+	add_choice(group, "show", _("Above an element"), NULL, show);
+}
+
+static void add_keys(AdwPreferencesPage *page)
+{
+	const char *names[KEY_SCHEMES + 1] = { NULL };
+
+	for (int i = 0; i < KEY_SCHEMES; i++)
+		names[i] = key_scheme_name((enum key_scheme)i);
+	add_choice(add_group(page, _("Keys")), "keys", _("Keys as in"),
+		   _("For people who come from another editor"), names);
+}
+
+void preferences_show(LadderWindow *window)
+{
+	GtkWidget *dialog = adw_preferences_window_new();
+	GtkWidget *page = adw_preferences_page_new();
+
+	add_looks(ADW_PREFERENCES_PAGE(page));
+	add_keys(ADW_PREFERENCES_PAGE(page));
+	adw_preferences_window_add(ADW_PREFERENCES_WINDOW(dialog),
+				   ADW_PREFERENCES_PAGE(page));
+	adw_preferences_window_set_search_enabled(ADW_PREFERENCES_WINDOW(dialog), FALSE);
+	gtk_window_set_default_size(GTK_WINDOW(dialog), 560, 460);
+	gtk_window_set_transient_for(GTK_WINDOW(dialog), GTK_WINDOW(window));
+	gtk_window_present(GTK_WINDOW(dialog));
+}

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sfc_page - a chart above, a body of it below; see sfc_page.h.
+ */
+#include "editor-gtk/window/sfc_page.h"
+
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/draw/sfc_bodies.h"
+#include "editor-gtk/text/text_view.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+
+struct _LadderSfcPage {
+	GtkBox parent;
+	LadderDocument *document;
+	LadderSim *sim;
+	int pou;
+	gulong handler;
+	GtkWidget *paned, *chart, *below, *place; /* place: of what stands below  */
+	GtkLabel *heading;
+	char *shown;                 /* heading of the body whose rungs stand below */
+	GtkWidget *rungs, *text;     /* one of them, or none                   */
+};
+
+G_DEFINE_FINAL_TYPE(LadderSfcPage, ladder_sfc_page, GTK_TYPE_BOX)
+
+LadderSfcView *ladder_sfc_page_chart(LadderSfcPage *page)
+{
+	return LADDER_SFC_VIEW(page->chart);
+}
+
+LadderGridView *ladder_sfc_page_rungs(LadderSfcPage *page)
+{
+	return page->rungs ? LADDER_GRID_VIEW(page->rungs) : NULL;
+}
+
+/* ---- what stands below ---- */
+
+static void close_below(LadderSfcPage *page)
+{
+	GtkWidget *child = gtk_widget_get_first_child(page->place);
+
+	page->rungs = page->text = NULL;
+	g_clear_pointer(&page->shown, g_free);
+	gtk_widget_set_visible(page->below, FALSE);
+	if (child)
+		gtk_box_remove(GTK_BOX(page->place), child);
+}
+
+static void close_clicked(LadderSfcPage *page)
+{
+	close_below(page);
+	gtk_widget_grab_focus(page->chart);
+}
+
+/* The heading of a body that begins with this rung; NULL: there is none. Caller frees. */
+static char *heading_of(LadderSfcPage *page, int first, int *count)
+{
+	const struct project *project = ladder_document_project(page->document);
+	const struct pou *pou = project && page->pou < project->pou_count ?
+		&project->pou[page->pou] : NULL;
+
+	*count = 0;
+	return pou ? sfc_body_heading(project, pou, first, count) : NULL;
+}
+
+static void told(LadderSfcPage *page, const char *text)
+{
+	g_signal_emit_by_name(page->chart, "told", text);
+}
+
+static void moved(LadderSfcPage *page)
+{
+	g_signal_emit_by_name(page->chart, "cursor-moved");
+}
+
+static void put_below(LadderSfcPage *page, GtkWidget *widget, const char *heading,
+		      bool scrolls)
+{
+	GtkWidget *child = widget;
+
+	if (scrolls) {
+		child = gtk_scrolled_window_new();
+		gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(child), FALSE);
+		gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(child), widget);
+	}
+	gtk_widget_set_vexpand(child, TRUE);
+	gtk_box_append(GTK_BOX(page->place), child);
+	gtk_label_set_text(page->heading, heading);
+	gtk_widget_set_visible(page->below, TRUE);
+}
+
+static void show_rungs(LadderSfcPage *page, int first)
+{
+	int count;
+	char *heading = heading_of(page, first, &count);
+
+	close_below(page);
+	if (!heading)
+		return;
+	page->rungs = ladder_grid_view_new(page->document, page->pou);
+	ladder_grid_view_set_range(LADDER_GRID_VIEW(page->rungs), first, count);
+	ladder_grid_view_set_sim(LADDER_GRID_VIEW(page->rungs), page->sim);
+	g_signal_connect_swapped(page->rungs, "told", G_CALLBACK(told), page);
+	g_signal_connect_swapped(page->rungs, "cursor-moved", G_CALLBACK(moved), page);
+	g_signal_connect_swapped(page->rungs, "notify::has-focus", G_CALLBACK(moved), page);
+	put_below(page, page->rungs, heading, true);
+	gtk_widget_grab_focus(page->rungs);
+	page->shown = heading;
+}
+
+static void show_text(LadderSfcPage *page)
+{
+	close_below(page);
+	page->text = ladder_text_view_new(page->document, page->pou);
+	ladder_text_view_set_sim(LADDER_TEXT_VIEW(page->text), page->sim);
+	put_below(page, page->text, _("Text of the program"), false);
+	gtk_widget_child_focus(page->text, GTK_DIR_TAB_FORWARD);
+}
+
+static void body_wanted(LadderSfcPage *page, int first, int count)
+{
+	if (count > 0)
+		show_rungs(page, first);
+	else
+		show_text(page);
+}
+
+/* The first rung of the body that was shown, wherever it is now: the nearest one of its
+ * name, else what begins where it began (it may have another name). -1: it is gone. */
+static int find_shown(LadderSfcPage *page, int first)
+{
+	const struct project *project = ladder_document_project(page->document);
+	const struct sfc *sfc = project && page->pou < project->pou_count ?
+		project->pou[page->pou].sfc : NULL;
+	int best = -1, count;
+
+	for (int i = 0; sfc && i < sfc_bodies(sfc); i++) {
+		const int at = sfc_body(sfc, i)->first;
+		char *heading = sfc_body(sfc, i)->kind == BODY_LIST ? NULL :
+				heading_of(page, at, &count);
+
+		if (g_strcmp0(heading, page->shown) == 0 &&
+		    (best < 0 || ABS(at - first) < ABS(best - first)))
+			best = at;
+		g_free(heading);
+	}
+	return best < 0 ? first : best;
+}
+
+/* Its rungs may have other numbers now, or be gone. */
+static void project_changed(LadderSfcPage *page)
+{
+	int first, count, now, was;
+	char *heading;
+
+	if (!page->rungs)
+		return;
+	was = ladder_grid_view_range(LADDER_GRID_VIEW(page->rungs), &count);
+	first = find_shown(page, was);
+	heading = heading_of(page, first, &now);
+	if (!heading) {
+		close_below(page);
+		return;
+	}
+	if (now != count || first != was)
+		ladder_grid_view_set_range(LADDER_GRID_VIEW(page->rungs), first, now);
+	gtk_label_set_text(page->heading, heading);
+	g_free(page->shown);
+	page->shown = heading;
+}
+
+void ladder_sfc_page_show_rung(LadderSfcPage *page, int rung, int row, int col)
+{
+	const struct project *project = ladder_document_project(page->document);
+	const struct sfc *sfc = project && page->pou < project->pou_count ?
+		project->pou[page->pou].sfc : NULL;
+
+	ladder_sfc_view_go(LADDER_SFC_VIEW(page->chart), rung);
+	for (int i = 0; sfc && i < sfc_bodies(sfc); i++) {
+		const struct sfc_body *body = sfc_body(sfc, i);
+
+		if (body->kind != BODY_RUNGS || rung < body->first ||
+		    rung >= body->first + body->count)
+			continue;
+		show_rungs(page, body->first);
+		if (page->rungs)
+			ladder_grid_view_go(LADDER_GRID_VIEW(page->rungs),
+					    rung - body->first, row, col);
+		return;
+	}
+}
+
+void ladder_sfc_page_set_pou(LadderSfcPage *page, int pou)
+{
+	if (pou == page->pou)
+		return;
+	page->pou = pou;
+	close_below(page);
+	ladder_sfc_view_set_pou(LADDER_SFC_VIEW(page->chart), pou);
+}
+
+/* ---- life ---- */
+
+static void ladder_sfc_page_dispose(GObject *object)
+{
+	LadderSfcPage *page = LADDER_SFC_PAGE(object);
+
+	if (page->document)
+		g_signal_handler_disconnect(page->document, page->handler);
+	g_clear_object(&page->document);
+	g_clear_object(&page->sim);
+	g_clear_pointer(&page->shown, g_free);
+	G_OBJECT_CLASS(ladder_sfc_page_parent_class)->dispose(object);
+}
+
+static void ladder_sfc_page_class_init(LadderSfcPageClass *class)
+{
+	G_OBJECT_CLASS(class)->dispose = ladder_sfc_page_dispose;
+}
+
+static void ladder_sfc_page_init(LadderSfcPage *page)
+{
+	GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6), *close;
+
+	page->paned = gtk_paned_new(GTK_ORIENTATION_VERTICAL);
+	page->below = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	page->place = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
+	page->heading = GTK_LABEL(gtk_label_new(""));
+	close = gtk_button_new_from_icon_name("window-close-symbolic");
+	tip_set(close, _("Close"));
+	gtk_accessible_update_property(GTK_ACCESSIBLE(close),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, _("Close"), -1);
+	gtk_widget_add_css_class(close, "flat");
+	gtk_label_set_xalign(page->heading, 0);
+	gtk_label_set_ellipsize(page->heading, PANGO_ELLIPSIZE_END);
+	gtk_widget_add_css_class(GTK_WIDGET(page->heading), "heading");
+	gtk_widget_set_hexpand(GTK_WIDGET(page->heading), TRUE);
+	gtk_widget_set_margin_start(bar, 12);
+	gtk_box_append(GTK_BOX(bar), GTK_WIDGET(page->heading));
+	gtk_box_append(GTK_BOX(bar), close);
+	gtk_box_append(GTK_BOX(page->below), bar);
+	gtk_box_append(GTK_BOX(page->below), page->place);
+	gtk_widget_set_vexpand(page->place, TRUE);
+	gtk_widget_set_size_request(page->below, -1, 180);
+	gtk_widget_set_visible(page->below, FALSE);
+	gtk_paned_set_end_child(GTK_PANED(page->paned), page->below);
+	gtk_paned_set_resize_end_child(GTK_PANED(page->paned), FALSE);
+	gtk_paned_set_shrink_end_child(GTK_PANED(page->paned), FALSE);
+	gtk_widget_set_hexpand(page->paned, TRUE);
+	gtk_widget_set_vexpand(page->paned, TRUE);
+	gtk_box_append(GTK_BOX(page), page->paned);
+	g_signal_connect_swapped(close, "clicked", G_CALLBACK(close_clicked), page);
+}
+
+GtkWidget *ladder_sfc_page_new(LadderDocument *document, int pou, LadderSim *sim)
+{
+	LadderSfcPage *page = g_object_new(LADDER_TYPE_SFC_PAGE, NULL);
+	GtkWidget *scroller = gtk_scrolled_window_new();
+
+	page->document = g_object_ref(document);
+	page->sim = sim ? g_object_ref(sim) : NULL;
+	page->pou = pou;
+	page->chart = ladder_sfc_view_new(document, pou);
+	ladder_sfc_view_set_sim(LADDER_SFC_VIEW(page->chart), sim);
+	gtk_scrolled_window_set_child(GTK_SCROLLED_WINDOW(scroller), page->chart);
+	gtk_scrolled_window_set_overlay_scrolling(GTK_SCROLLED_WINDOW(scroller), FALSE);
+	/* The chart shows its cursor; all of it cannot be shown when it gets the focus. */
+	gtk_viewport_set_scroll_to_focus(GTK_VIEWPORT(gtk_scrolled_window_get_child(
+		GTK_SCROLLED_WINDOW(scroller))), FALSE);
+	gtk_paned_set_start_child(GTK_PANED(page->paned), scroller);
+	g_signal_connect_swapped(page->chart, "body-wanted", G_CALLBACK(body_wanted), page);
+	page->handler = g_signal_connect_swapped(document, "project-changed",
+						 G_CALLBACK(project_changed), page);
+	return GTK_WIDGET(page);
+}

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic - a ClassicLadder project as its files tell it, nothing more.
+ *
+ * Numbers are those of the files: codes of elements and variables stand in classic.def.
+ * What they mean here is told by classic_rung.h and what it calls; what they do there,
+ * in docs/from-classicladder.md. Everything lives in one arena.
+ */
+#ifndef IMPORT_CLASSIC_H
+#define IMPORT_CLASSIC_H
+
+#include "engine/base/arena.h"
+#include "engine/base/diag.h"
+#include "engine/exchange/report.h"
+
+enum {
+	CLASSIC_ROWS = 8,
+	CLASSIC_COLUMNS = 12,
+	CLASSIC_LINKS = 10,      /* steps of one side of a transition          */
+	CLASSIC_LIMIT = 10000,   /* numbers of rungs, variables, blocks, lines */
+	CLASSIC_BYTES = 16 << 20 /* of a project, unpacked                     */
+};
+
+/* Which program wrote it: rungs of 12 x 8 or 10 x 6, and a few codes that differ. */
+enum classic_dialect { CLASSIC_UPSTREAM, CLASSIC_LINUXCNC, CLASSIC_NUMERIC };
+
+struct classic_variable {
+	int type, number;
+	int index_type, index_number; /* %W0[%W4]; index_type -1: no index     */
+};
+
+struct classic_cell {
+	int element;             /* its code; 0: free                          */
+	bool top;                /* its left end is joined with that above     */
+	struct classic_variable variable; /* of blocks: number alone           */
+};
+
+/* Where a thing stands: for messages and the report. */
+struct classic_place {
+	const char *member;      /* "rung_3.csv"                               */
+	int line;                /* 1-based, of the whole unpacked text; of a
+				    directory: of that file                    */
+};
+
+struct classic_rung {
+	int number;              /* what jumps and links call it               */
+	struct classic_place place;
+	const char *label, *comment; /* UTF-8; "": none                        */
+	int previous, next;      /* -1: none                                   */
+	int rows, columns;       /* as the file had them                       */
+	int row_line[CLASSIC_ROWS];
+	/* Rows of 10 columns are widened to 12 as ClassicLadder itself does. */
+	struct classic_cell cell[CLASSIC_ROWS][CLASSIC_COLUMNS];
+};
+
+/* One timer, monostable, counter or register. What a kind does not have is 0. */
+struct classic_block {
+	int number;
+	struct classic_place place;
+	int base;                /* 0 minutes, 1 seconds, 2 tenths of a second */
+	int preset;              /* in units of its base                       */
+	int mode;                /* IEC timer: 0 TON 1 TOF 2 TP; register: 1 FIFO 2 LIFO */
+};
+
+struct classic_blocks {
+	struct classic_block *block; /* by ascending number                    */
+	int count;
+};
+
+struct classic_expression {
+	int number;
+	struct classic_place place;
+	const char *text;        /* as it stands, "@200/0@+1"                  */
+};
+
+struct classic_section {
+	int number;              /* sections run in this order                 */
+	struct classic_place place;
+	const char *name;
+	bool sequential;
+	int subroutine;          /* -1: runs in each scan                      */
+	int first, last;         /* rungs                                      */
+	int page;
+};
+
+struct classic_step {
+	int index;               /* what transitions call it                   */
+	struct classic_place place;
+	bool initial;
+	int number;              /* what %X calls it                           */
+	int page, x, y;
+};
+
+struct classic_transition {
+	int index;
+	struct classic_place place;
+	int activate[CLASSIC_LINKS], activates;     /* indices of steps        */
+	int deactivate[CLASSIC_LINKS], deactivates;
+	int page, x, y;
+	struct classic_variable condition;          /* type -1: none           */
+};
+
+struct classic_note {                /* a comment on a sequential page         */
+	struct classic_place place;
+	int page, x, y;
+	const char *text;
+};
+
+struct classic_symbol {
+	struct classic_place place;
+	const char *variable;    /* "%I0"                                      */
+	const char *name, *comment;
+};
+
+struct classic_io {
+	struct classic_place place;
+	bool output;
+	int first;               /* %I or %Q                                   */
+	int device;              /* -1 none, 0 and 1 ports of a PC, 2 Raspberry Pi, 3 AT91, 100… Comedi */
+	int sub_device, channel, count;
+	bool inverted;
+	int setup;
+};
+
+/* KEY=VALUE of general.txt, project_infos.txt, com_params.txt. */
+struct classic_setting {
+	struct classic_place place;
+	const char *key, *value;
+};
+
+struct classic_member {          /* every file of it, whole: nothing is lost   */
+	const char *name;
+	const char *text;        /* as it was, in bytes                        */
+	size_t len;
+	int line;                /* of its first line                          */
+};
+
+struct classic_project {
+	enum classic_dialect dialect;
+	const char *file;
+	int period;              /* PERIODIC_REFRESH, ms; 50 when it is not said */
+	struct classic_rung **rung;      int rungs;      /* by ascending number */
+	struct classic_blocks timer, monostable, counter, iec_timer, reg;
+	struct classic_expression *expression; int expressions; /* by number    */
+	struct classic_section *section; int sections;   /* by number           */
+	struct classic_step *step;       int steps;      /* by index            */
+	struct classic_transition *transition; int transitions; /* by index     */
+	struct classic_note *note;       int notes;
+	struct classic_symbol *symbol;   int symbols;
+	struct classic_io *io;           int ios;
+	struct classic_setting *setting; int settings;
+	struct classic_member *member;   int members;
+	int register_list;       /* SIZE_REGISTER_LIST; 500 when it is not said */
+};
+
+/** classic_is - could these be the first bytes of a project or a bare rung file (packed
+ * or not)? Scan-safe: yes. */
+bool classic_is(const void *bytes, size_t len);
+
+/**
+ * classic_read - a project from its bytes
+ * @file:   names it in messages; must stay valid
+ * @bytes:  the text, or that text packed by gzip
+ * @report: gets what was not understood but does no harm
+ *
+ * Owns: @arena owns everything.   Scan-safe: no.
+ * Fails: NULL and at least one diagnostic; nothing is half read.
+ */
+struct classic_project *classic_read(struct arena *arena, const char *file,
+				     const void *bytes, size_t len,
+				     struct classic_report *report,
+				     struct diag_list *diags);
+/** classic_read_folder - the same of a folder with those files (before 2008). */
+struct classic_project *classic_read_folder(struct arena *arena, const char *folder,
+					    struct classic_report *report,
+					    struct diag_list *diags);
+
+/** classic_rung_index - the place among all rungs of the one with a number; -1: none is. */
+int classic_rung_index(const struct classic_project *project, int number);
+/** classic_rung - by its number; NULL: none. Likewise the others. */
+const struct classic_rung *classic_rung(const struct classic_project *project, int number);
+const struct classic_block *classic_block(const struct classic_blocks *blocks, int number);
+const char *classic_expression(const struct classic_project *project, int number);
+const char *classic_setting(const struct classic_project *project, const char *key);
+#endif

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_grid - one rung of ClassicLadder as elements between nodes. Private to
+ * classic_grid.c, classic_piece.c and classic_unfold.c.
+ *
+ * Node x of row y is the left end of cell (x, y); node 0 is the rail. Linked rows are one
+ * node, a run. There, cells work column by column; an element works where its last column
+ * stands.
+ */
+#ifndef IMPORT_CLASSIC_GRID_H
+#define IMPORT_CLASSIC_GRID_H
+
+#include "engine/exchange/classic/classic_convert.h"
+
+enum part_kind {
+	PART_WIRE, PART_CONTACT, PART_BOX,
+	PART_COIL,   /* writes with and without power                          */
+	PART_ACT     /* does something with power alone                        */
+};
+
+struct part_box {            /* what a block looks like                        */
+	const char *input[4], *output[4];
+	int rows, columns;
+};
+
+struct grid_part {
+	enum part_kind kind;
+	int x, y;            /* its first cell                                 */
+	int columns, rows;
+	const char *text;    /* "NO I0", "[ Word0 > 5 ]", "CL_TON TM0 …"       */
+	const char *instance; /* of a box                                      */
+	const struct part_box *box;
+	bool gives[4];       /* of a box: the rows that have an output         */
+	struct classic_variable reads; /* of a contact                         */
+	int expression;      /* that it reads; -1: none                        */
+	bool fed;            /* power can reach it (a box: its first row)      */
+	bool needed;         /* something behind it acts                       */
+	bool shared;         /* of a box: the block stands elsewhere, too       */
+	bool odd;            /* not all its cells are its own: drawn by nobody */
+};
+
+enum { GRID_PARTS = CLASSIC_ROWS * CLASSIC_COLUMNS };
+
+struct grid {
+	struct conversion *c;
+	const struct classic_rung *rung;
+	struct grid_part part[GRID_PARTS];
+	int parts;
+	bool fed[CLASSIC_ROWS][CLASSIC_COLUMNS + 1]; /* can this node have power? */
+	bool begun;          /* its label and comment are written              */
+};
+
+/** grid_link - is node @x of row @y joined with that of the row above? */
+static inline bool grid_link(const struct grid *grid, int y, int x)
+{
+	return x > 0 && x < CLASSIC_COLUMNS && y > 0 && y < CLASSIC_ROWS &&
+	       grid->rung->cell[y][x].top;
+}
+
+/** grid_run - the first row of the node, and behind its last one. */
+static inline void grid_run(const struct grid *grid, int y, int x, int *from, int *to)
+{
+	for (*from = y; grid_link(grid, *from, x); (*from)--)
+		;
+	for (*to = y + 1; grid_link(grid, *to, x); (*to)++)
+		;
+}
+
+/** part_end - the node at its right end. */
+static inline int part_end(const struct grid_part *part)
+{
+	return part->x + part->columns;
+}
+
+/** part_gives - can it have power at its right end in row @y? */
+static inline bool part_gives(const struct grid_part *part, int y)
+{
+	if (part->kind == PART_BOX)
+		return y - part->y < part->rows && part->gives[y - part->y];
+	return part->kind <= PART_CONTACT && y == part->y;
+}
+
+/** grid_box_text - of a box, with FALSE at the inputs that nothing feeds but another place
+ * may have fed. */
+const char *grid_box_text(const struct grid *grid, const struct grid_part *part);
+/** grid_head - the line with RUNG, once with its label and comment. */
+void grid_head(struct grid *grid);
+/** grid_called_again - is the block of this part called once more in the rung, after it? Then
+ * what it says here is not what it says at the end. */
+bool grid_called_again(const struct grid *grid, const struct grid_part *part);
+/** grid_temporary - a BOOL between the parts of this rung. */
+const char *grid_temporary(struct grid *grid);
+/** grid_write_pieces - as it looks there, cut where order matters; false: it cannot be,
+ * and nothing was written. */
+bool grid_write_pieces(struct grid *grid);
+/** grid_unfold - a rung for each node, in the order of columns: always right. */
+void grid_unfold(struct grid *grid);
+#endif

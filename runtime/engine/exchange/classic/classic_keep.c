@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_keep - what a project has that means nothing to a program here, but to
+ * ClassicLadder: Modbus requests, events, who wrote it, texts on pages. An import keeps it
+ * in VIEW … END_VIEW, line by line, and an export finds it there again.
+ *
+ * Not kept are a modem's numbers and passwords for mail: they do not belong into a program.
+ */
+#include "engine/exchange/classic/classic_convert.h"
+
+#include "engine/base/lex.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const struct classic_member *member_named(const struct conversion *c, const char *name)
+{
+	for (int i = 0; i < c->project->members; i++)
+		if (!strcmp(c->project->member[i].name, name))
+			return &c->project->member[i];
+	return NULL;
+}
+
+/* The next line of a member; false: there is none. */
+static bool next_line(const char **at, const char *end, const char **line, size_t *len)
+{
+	const char *stop;
+
+	if (*at >= end)
+		return false;
+	stop = memchr(*at, '\n', (size_t)(end - *at));
+	*line = *at;
+	*len = (size_t)((stop ? stop : end) - *at);
+	*at = stop ? stop + 1 : end;
+	while (*len && ((*line)[*len - 1] == '\r' || (*line)[*len - 1] == ' '))
+		--*len;
+	return true;
+}
+
+static bool says_something(const char *line, size_t len)
+{
+	return len && *line != '#' && *line != ';';
+}
+
+/* PARAM_AUTHOR=MLD, but no name: that is the title. */
+static bool says_who(const char *line, size_t len)
+{
+	const char *equals = memchr(line, '=', len);
+
+	return says_something(line, len) && equals && equals + 1 < line + len &&
+	       strncmp(line, "PROJECT_NAME=", 13) != 0;
+}
+
+static bool is_serial(const char *line, size_t len)
+{
+	return len > 21 && !strncmp(line, "MODBUS_MASTER_SERIAL_", 21);
+}
+
+static bool is_note(const char *line, size_t len)
+{
+	return len > 2 && (*line == 'N' || *line == 'P') && line[1] >= '0' && line[1] <= '9';
+}
+
+/* As UTF-8, without what is no text. */
+static void put_kept(struct conversion *c, const char *member, const char *line, size_t len)
+{
+	const bool utf8 = utf8_valid(line, len, NULL);
+	char *text = arena_alloc(c->arena, 2 * len + 1), *to = text;
+
+	for (size_t i = 0; text && i < len; i++) {
+		const unsigned char byte = (unsigned char)line[i];
+
+		if (byte < ' ' || byte == 0x7F) {
+			*to++ = ' ';
+		} else if (byte < 0x80 || utf8) {
+			*to++ = (char)byte;
+		} else {
+			*to++ = (char)(0xC0 | byte >> 6);
+			*to++ = (char)(0x80 | (byte & 0x3F));
+		}
+	}
+	if (text)
+		put(c, "  %s %s %s\n", c->project->dialect == CLASSIC_LINUXCNC ? "linuxcnc" :
+		    "classicladder", member, text);
+}
+
+static void keep(struct conversion *c, const char *name, bool *any,
+		 bool (*wanted)(const char *line, size_t len))
+{
+	const struct classic_member *member = member_named(c, name);
+	const char *at = member ? member->text : NULL, *line;
+	const char *end = member ? member->text + member->len : NULL;
+	size_t len;
+
+	while (member && next_line(&at, end, &line, &len)) {
+		if (!len || *line == ';' || (wanted && !wanted(line, len)))
+			continue;
+		if (!*any)
+			put(c, "\nVIEW\n");
+		*any = true;
+		put_kept(c, name, line, len);
+	}
+}
+
+static bool has_lines(const struct conversion *c, const char *name)
+{
+	const struct classic_member *member = member_named(c, name);
+	const char *at = member ? member->text : NULL, *line;
+	size_t len;
+
+	while (member && next_line(&at, member->text + member->len, &line, &len))
+		if (says_something(line, len))
+			return true;
+	return false;
+}
+
+void write_kept(struct conversion *c)
+{
+	bool any = false;
+
+	if (c->project->dialect == CLASSIC_NUMERIC)
+		return;
+	keep(c, "project_infos.txt", &any, says_who);
+	keep(c, "sequential.csv", &any, is_note);
+	if (has_lines(c, "modbusioconf.csv")) {
+		keep(c, "general.txt", &any, is_serial);
+		keep(c, "com_params.txt", &any, NULL);
+		keep(c, "modbusioconf.csv", &any, NULL);
+	}
+	if (has_lines(c, "config_events.csv"))
+		keep(c, "config_events.csv", &any, NULL);
+	if (any)
+		put(c, "END_VIEW\n");
+}

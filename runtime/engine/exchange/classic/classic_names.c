@@ -1,0 +1,373 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_names - what the variables, blocks and steps of a project are called here.
+ *
+ * A symbol becomes the name where it can; else the number is part of it, so that %B3 is
+ * Bit3. Blocks and steps begin with what they were called (TM0, X3), because the original
+ * names of their pins are found by that. Inputs and outputs without a symbol stay
+ * addresses.
+ */
+#include "engine/exchange/classic/classic_convert.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/limits.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct step_row { int type; const char *name, *pin; };
+
+static const struct classic_memory_row memory_rows[] = {
+#define CLASSIC_MEMORY(type, prefix, area, first, size, name) \
+	{ type, prefix, area, first, size, name },
+#include "engine/classic.def"
+};
+static const struct classic_pin_row pin_rows[] = {
+#define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
+	{ type, prefix, kind, pin, is_bool },
+#include "engine/classic.def"
+};
+static const struct step_row step_rows[] = {
+#define CLASSIC_STEP(type, attribute, name, pin) { type, name, pin },
+#include "engine/classic.def"
+};
+
+enum {
+	MEMORY_ROWS = sizeof(memory_rows) / sizeof(*memory_rows),
+	PIN_ROWS = sizeof(pin_rows) / sizeof(*pin_rows),
+	STEP_ROWS = sizeof(step_rows) / sizeof(*step_rows),
+};
+_Static_assert((int)MEMORY_ROWS == (int)MEMORY_KINDS, "a row for each kind of memory");
+
+/* The names of blocks; a monostable is not %M0 here, which is an address. */
+static const char *const instance_prefix[CLASSIC_KINDS] = {
+	[CLASSIC_TIMER] = "T", [CLASSIC_MONOSTABLE] = "Mono",
+	[CLASSIC_IEC_TIMER] = "TM", [CLASSIC_COUNTER] = "C", [CLASSIC_REGISTER] = "Reg",
+};
+
+const struct classic_memory_row *memory_of(int type)
+{
+	for (int i = 0; i < MEMORY_ROWS; i++)
+		if (memory_rows[i].type == type)
+			return &memory_rows[i];
+	return NULL;
+}
+
+int memory_place(const struct classic_memory_row *row)
+{
+	return (int)(row - memory_rows);
+}
+
+/* The system area has its usual size, and holds three kinds; what is beyond is nothing. */
+int memory_numbers(const struct classic_memory_row *row)
+{
+	switch (row->type) {
+	case 70:
+	case 75:
+		return 256;
+	case 290:
+		return 16;
+	}
+	return row->size == 1 || row->type == 200 ? CLASSIC_LIMIT : LIMIT_AREA * 8 / row->size;
+}
+
+bool is_word(int type)
+{
+	const struct classic_memory_row *row = memory_of(type);
+
+	return row && row->size > 1;
+}
+
+const struct classic_pin_row *pin_of(int type)
+{
+	for (int i = 0; i < PIN_ROWS; i++)
+		if (pin_rows[i].type == type)
+			return &pin_rows[i];
+	return NULL;
+}
+
+enum classic_kind kind_of(int type)
+{
+	const struct classic_pin_row *row = pin_of(type);
+
+	return row ? row->kind : CLASSIC_KINDS;
+}
+
+int block_type(enum classic_kind kind)
+{
+	for (int i = 0; i < PIN_ROWS; i++)
+		if (pin_rows[i].kind == kind)
+			return pin_rows[i].type;
+	return -1;
+}
+
+/* ---- symbols ---- */
+
+/* "%TM0" and "%TM0.Q": type and number; false: it is none. */
+static bool parse_symbol(const char *text, int *type, int *number)
+{
+	size_t len = 0;
+	char *end;
+
+	if (*text == '%')
+		text++;
+	while (text[len] >= 'A' && text[len] <= 'Z')
+		len++;
+	*number = (int)strtol(text + len, &end, 10);
+	if (end == text + len || *number < 0 || *number > CLASSIC_LIMIT)
+		return false;
+	for (int i = 0; i < MEMORY_ROWS; i++)
+		if (strlen(memory_rows[i].prefix) == len &&
+		    !strncmp(memory_rows[i].prefix, text, len)) {
+			*type = memory_rows[i].type;
+			return *end == '\0';
+		}
+	for (int i = 0; i < PIN_ROWS; i++)
+		if (strlen(pin_rows[i].prefix) == len &&
+		    !strncmp(pin_rows[i].prefix, text, len)) {
+			*type = block_type(pin_rows[i].kind);
+			return *end == '\0';
+		}
+	*type = STEP_TYPE;
+	return len == 1 && *text == 'X' && (!*end || !strcmp(end, ".A"));
+}
+
+/* A symbol with what it names, so that it is found by that. */
+struct known_symbol { int type, number, index; };
+
+static int by_what(const void *a, const void *b)
+{
+	const struct known_symbol *x = a, *y = b;
+
+	return x->type != y->type ? (x->type < y->type ? -1 : 1) :
+	       x->number != y->number ? (x->number < y->number ? -1 : 1) :
+	       x->index < y->index ? -1 : x->index > y->index;
+}
+
+/* Of several for one thing the first counts. */
+static void find_symbols(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+	struct known_symbol *list = NULL, *added, what;
+	int count = 0;
+
+	for (int i = 0; i < project->symbols; i++) {
+		what.index = i;
+		if (!parse_symbol(project->symbol[i].variable, &what.type, &what.number))
+			continue;
+		added = arena_push(c->arena, &list, &count, sizeof(what));
+		if (added)
+			*added = what;
+	}
+	if (count)
+		qsort(list, (size_t)count, sizeof(*list), by_what);
+	for (int i = count - 1; i >= 0; i--) {
+		struct classic_name *name = used_name(c, list[i].type, list[i].number);
+
+		if (name)
+			name->symbol = &project->symbol[list[i].index];
+	}
+}
+
+static void tell_symbol(struct conversion *c, const struct classic_symbol *symbol,
+			const char *name)
+{
+	c->at = symbol->place;
+	if (strcmp(name, symbol->name))
+		tell(c, REPORT_CHANGED, "symbol \"%s\" of %s is %s here", symbol->name,
+		     symbol->variable, name);
+}
+
+/* LinuxCNC gives every variable a symbol, %B4 is _B4_: nobody chose it. */
+static bool says_nothing(const struct classic_symbol *symbol)
+{
+	const char *name = symbol->name, *variable = symbol->variable;
+
+	if (!*name)
+		return true;
+	if (*name++ != '_' || *variable++ != '%')
+		return false;
+	while (*variable && *name == *variable)
+		name++, variable++;
+	return !*variable && (!*name || !strcmp(name, "_"));
+}
+
+/* Blocks and steps are found by what they were called, and nothing else looks like it. */
+static bool looks_like_step(const char *name)
+{
+	return ascii_upper(name[0]) == 'X' && ascii_digit(name[1]);
+}
+
+static void give_name(struct conversion *c, struct classic_name *name)
+{
+	const struct classic_symbol *symbol = name->symbol;
+	const struct classic_memory_row *memory = memory_of(name->type);
+	const struct classic_pin_row *pin = pin_of(name->type);
+	const char *own = pin ? instance_prefix[pin->kind] :
+			  memory ? memory->name : "X";
+	const char *wish;
+
+	if (symbol && says_nothing(symbol))
+		symbol = NULL;
+	if (symbol)
+		name->comment = symbol->comment;
+	if (!memory && !pin && name->type != STEP_TYPE)
+		return; /* the time of a step has an instance of its own */
+	if (name->number == CLASSIC_ALL)
+		wish = text_of(c, "%ss", own);
+	else if (memory && symbol)
+		wish = looks_like_step(symbol->name) ? text_of(c, "N%s", symbol->name) :
+						       symbol->name;
+	else if (memory && !own)
+		return; /* %IX0.3 */
+	else if (symbol)
+		wish = text_of(c, "%s%d_%s", own, name->number, symbol->name);
+	else
+		wish = text_of(c, "%s%d", own, name->number);
+	name->name = name_new(c, wish);
+	if (symbol)
+		tell_symbol(c, symbol, name->name);
+}
+
+/* What the text calls a step, its actions, and the block that has its seconds. */
+static void reserve_steps(struct conversion *c)
+{
+	static const char *const prefix[] = { "Step", "Seconds", "XTime", "Tell", "Anew" };
+
+	for (int i = 0; i < c->project->steps; i++)
+		for (size_t k = 0; k < sizeof(prefix) / sizeof(*prefix); k++)
+			name_reserve(c, text_of(c, "%s%d", prefix[k],
+						c->project->step[i].number));
+}
+
+void find_names(struct conversion *c)
+{
+	names_init(&c->taken, c->arena);
+	reserve_steps(c);
+	find_symbols(c);
+	/* Those first whose names are looked for by their form. */
+	for (int i = 0; i < c->names.count; i++)
+		if (!memory_of(c->names.list[i].type))
+			give_name(c, &c->names.list[i]);
+	for (int i = 0; i < c->names.count; i++)
+		if (memory_of(c->names.list[i].type))
+			give_name(c, &c->names.list[i]);
+}
+
+/* ---- operands ---- */
+
+const char *name_of(const struct conversion *c, int type, int number)
+{
+	const struct classic_name *name = used_name(c, type, number);
+
+	return name ? name->name : NULL;
+}
+
+const char *instance_of(struct conversion *c, enum classic_kind kind, int number)
+{
+	return name_of(c, block_type(kind), number);
+}
+
+const char *step_of(struct conversion *c, int number)
+{
+	return name_of(c, STEP_TYPE, number);
+}
+
+/* "%IX0.3", "%VD4" */
+const char *address_of(struct conversion *c, const struct classic_memory_row *row,
+			      int number)
+{
+	long bit = row->first + (long)number * row->size;
+
+	if (row->size == 1)
+		return text_of(c, "%%%sX%ld.%ld", row->area, bit / 8, bit % 8);
+	return text_of(c, "%%%sD%ld", row->area, bit / 8);
+}
+
+static const char *plain_operand(struct conversion *c, int type, int number,
+				 bool *is_bool)
+{
+	const struct classic_memory_row *memory = memory_of(type);
+	const struct classic_pin_row *pin = pin_of(type);
+	const char *name;
+
+	*is_bool = memory ? memory->size == 1 : pin ? pin->is_bool : type == STEP_TYPE;
+	if (number < 0)
+		return NULL;
+	if (type == STEP_TIME && !has_step(c, number))
+		return "0";
+	if (pin) {
+		name = instance_of(c, pin->kind, number);
+		return name ? text_of(c, "%s.%s", name, pin->pin) : NULL;
+	}
+	for (int i = 0; i < STEP_ROWS; i++)
+		if (step_rows[i].type == type) {
+			name = type == STEP_TYPE ? step_of(c, number) :
+				text_of(c, "%s%d", step_rows[i].name, number);
+			return !name || !*step_rows[i].pin ? name :
+			       text_of(c, "%s.%s", name, step_rows[i].pin);
+		}
+	if (!memory || number >= memory_numbers(memory))
+		return NULL;
+	name = name_of(c, type, number);
+	return name ? name : address_of(c, memory, number);
+}
+
+static const char *indexed(struct conversion *c, const struct classic_memory_row *memory,
+			   int number, const char *index)
+{
+	if (number >= memory_numbers(memory))
+		return NULL;
+	if (memory->size == 1)
+		return text_of(c, "%s[%s]", address_of(c, memory, number), index);
+	if (!number)
+		return text_of(c, "%s[%s]", name_of(c, memory->type, CLASSIC_ALL), index);
+	return text_of(c, "%s[%s + %d]", name_of(c, memory->type, CLASSIC_ALL), index, number);
+}
+
+const char *operand_of(struct conversion *c, struct classic_variable variable,
+		       bool *is_bool)
+{
+	int type = known_type(c, variable.type);
+	const struct classic_memory_row *memory = memory_of(type);
+	const char *text, *index;
+	bool index_bool;
+
+	*is_bool = true;
+	if (variable.index_type < 0) {
+		text = plain_operand(c, type, variable.number, is_bool);
+	} else {
+		index = plain_operand(c, known_type(c, variable.index_type),
+				      variable.index_number, &index_bool);
+		*is_bool = memory && memory->size == 1;
+		text = memory && index && !index_bool ?
+		       indexed(c, memory, variable.number, index) : NULL;
+	}
+	if (!text)
+		tell(c, REPORT_LOST, "variable of type %d, number %d%s, has no meaning here",
+		     variable.type, variable.number,
+		     variable.index_type < 0 ? "" : ", with an index");
+	return text;
+}
+
+/* What a program may write there; the rest is an input, or what a block or a chart says. */
+static bool is_writable(int type)
+{
+	static const int row[] = { 0, 60, 65, 70, 75, 200, 230, 231, 240, 250, 251, 260,
+				   280, 290, 300, 310 };
+
+	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++)
+		if (row[i] == type)
+			return true;
+	return false;
+}
+
+const char *target_of(struct conversion *c, struct classic_variable variable, bool *is_bool)
+{
+	const char *text = operand_of(c, variable, is_bool);
+
+	if (!text || is_writable(known_type(c, variable.type)))
+		return text;
+	tell(c, REPORT_LOST, "%s is written, which a program cannot: it was left out", text);
+	return NULL;
+}

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_read - what the parts of the reader of ClassicLadder projects share.
+ *
+ * A member is read line by line through one cursor; numbers, names and messages with
+ * their place come from here. Nobody but classic_read*.c includes it.
+ */
+#ifndef IMPORT_CLASSIC_READ_H
+#define IMPORT_CLASSIC_READ_H
+
+#include "engine/exchange/classic/classic.h"
+
+#include <stdint.h>
+#include <string.h>
+
+enum {
+	CLASSIC_LINE = 2000,     /* bytes of a line; ClassicLadder has 298     */
+	CLASSIC_PRESET = 32767,  /* of a block                                 */
+	CLASSIC_PERIOD = 3600000 /* ms: longest time between scans             */
+};
+
+struct classic_reader {
+	struct arena *arena;
+	struct classic_project *project;
+	struct classic_report *report;
+	struct diag_list *diags;
+	bool folder;             /* each member is a file of its own           */
+
+	const struct classic_member *member; /* the one that is read           */
+	const char *at, *end;    /* what is left of it                         */
+	int line_number;
+	const char *line;        /* the line under the cursor, blanks cut      */
+	size_t len;
+	bool good;               /* no error in it yet                         */
+};
+
+/* ---- classic_read_line.c ---- */
+/** classic_member_begin - before the first line of @member. */
+void classic_member_begin(struct classic_reader *reader,
+			  const struct classic_member *member);
+/** classic_line_next - the next line, without its end and the blanks around it; too long
+ * ones are told and left out. false: there is none. */
+bool classic_line_next(struct classic_reader *reader);
+/** classic_line_told - the same, but comments (;) and empty lines are left out. */
+bool classic_line_told(struct classic_reader *reader);
+/** classic_line_after - the text behind @key, which begins the line; NULL: it does not. */
+const char *classic_line_after(const struct classic_reader *reader, const char *key);
+/** classic_here - the place of the line under the cursor. */
+struct classic_place classic_here(const struct classic_reader *reader);
+/** classic_fail - a message about this line, "MEMBER: TEXT"; false for an error. */
+bool classic_fail(struct classic_reader *reader, enum diag_id id, const char *text,
+		  size_t len);
+/** classic_fail_at - the same of another place. */
+bool classic_fail_at(struct classic_reader *reader, enum diag_id id,
+		     struct classic_place place, const char *text, size_t len);
+/** classic_lost - a line of the report about this line. */
+void classic_lost(struct classic_reader *reader, const char *text);
+/** classic_text - @len bytes as UTF-8 that is shown: Latin-1 if it was not, `?` for
+ * control characters. "" when memory is out. */
+const char *classic_text(struct classic_reader *reader, const char *from, size_t len);
+/** classic_name - the same of a name: longer than ClassicLadder's @usual bytes is told. */
+const char *classic_name(struct classic_reader *reader, const char *from, size_t len,
+			 size_t usual);
+/** classic_number - one whole number at *@at, blanks before it; steps over it. Numbers
+ * beyond 32 bits become the largest. false: there is none. */
+bool classic_number(const char **at, const char *end, int *out);
+/** classic_numbers - numbers of the line from @at, with commas between them, @max at
+ * most. What is missing is 0; at least @least must be there. false: told. */
+bool classic_numbers(struct classic_reader *reader, const char *at, int *out, int least,
+		     int max);
+/** classic_in_range - else it is told, with the number. */
+bool classic_in_range(struct classic_reader *reader, int number, int low, int high);
+/** classic_version - is this `#VER=` with at most @known? Other directives are true, too. */
+bool classic_version(struct classic_reader *reader, int known);
+/** classic_twice - tells that @what stands twice. */
+void classic_twice(struct classic_reader *reader, struct classic_place place,
+		   const char *what, int number);
+
+/* ---- classic_read_members.c ---- */
+/** classic_members - parts a container's text into its members. false: told. */
+bool classic_members(struct classic_reader *reader, const char *text, size_t len);
+
+/* ---- classic_read_rung.c ---- */
+/** classic_read_rung - one member rung_N.csv. */
+void classic_read_rung(struct classic_reader *reader, const struct classic_member *member,
+		       int number);
+/** classic_read_numeric - a bare rung file. */
+void classic_read_numeric(struct classic_reader *reader,
+			  const struct classic_member *member);
+/** classic_is_numeric - could this text be a bare rung file? */
+bool classic_is_numeric(const char *text, size_t len);
+
+/* ---- classic_read_table.c ---- */
+void classic_read_blocks(struct classic_reader *reader, const struct classic_member *member,
+			 struct classic_blocks *blocks, const char *letters, int values);
+void classic_read_expressions(struct classic_reader *reader,
+			      const struct classic_member *member);
+void classic_read_sections(struct classic_reader *reader,
+			   const struct classic_member *member);
+void classic_read_symbols(struct classic_reader *reader,
+			  const struct classic_member *member);
+void classic_read_io(struct classic_reader *reader, const struct classic_member *member);
+void classic_read_settings(struct classic_reader *reader,
+			   const struct classic_member *member);
+/** classic_add_block - one line of a block, "base,preset" and the like. */
+void classic_add_block(struct classic_reader *reader, struct classic_blocks *blocks,
+		       int number, const char *at, int values);
+
+/* ---- classic_read_chart.c ---- */
+void classic_read_chart(struct classic_reader *reader, const struct classic_member *member);
+/** classic_read_variable - TYPE/NUMBER; @slash: what parts them, besides '/'. NULL: it is
+ * none; else what is behind it. */
+const char *classic_read_variable(const char *at, const char *end, char slash,
+				  struct classic_variable *variable);
+
+/* ---- classic_read_whole.c ---- */
+/** classic_whole - brings everything into its order and looks whether it fits together:
+ * chains of rungs, steps, dialect. */
+void classic_whole(struct classic_reader *reader);
+
+/* ---- classic_read_calls.c ---- */
+/** classic_calls - tells where subroutines call one another in a circle, or deeper than a
+ * program can here. Chains of rungs must be good, sections in order. */
+void classic_calls(struct classic_reader *reader);
+#endif

@@ -1,0 +1,468 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_rung - the order of the text: declarations, functions, then the sections as
+ * they run. It also holds what all parts write with.
+ */
+#include "engine/exchange/classic/classic_convert.h"
+
+#include "engine/base/limits.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* ---- text ---- */
+
+static bool room_for(struct conversion *c, size_t more)
+{
+	struct classic_text *out = c->out;
+	size_t cap = c->cap ? c->cap : 4096;
+	char *text;
+
+	while (cap - out->len <= more)
+		cap *= 2;
+	if (cap == c->cap)
+		return true;
+	text = arena_grow(c->arena, out->text, out->len, cap);
+	if (!text)
+		return false;
+	out->text = text;
+	c->cap = cap;
+	return true;
+}
+
+/* What was written since @from ends lines that come from where we are. */
+static void count_lines(struct conversion *c, size_t from)
+{
+	struct classic_text *out = c->out;
+
+	for (size_t i = from; i < out->len; i++) {
+		struct classic_place *place;
+
+		if (out->text[i] != '\n')
+			continue;
+		place = arena_push(c->arena, &out->place, &out->lines, sizeof(*place));
+		if (place)
+			*place = c->at;
+	}
+}
+
+void put(struct conversion *c, const char *format, ...)
+{
+	struct classic_text *out = c->out;
+	size_t from = out->len;
+	va_list args;
+	int need;
+
+	va_start(args, format);
+	need = vsnprintf(NULL, 0, format, args);
+	va_end(args);
+	if (need < 0 || !room_for(c, (size_t)need + 1))
+		return;
+	va_start(args, format);
+	vsnprintf(out->text + out->len, (size_t)need + 1, format, args);
+	va_end(args);
+	out->len += (size_t)need;
+	count_lines(c, from);
+}
+
+/* Takes the last line back. */
+static void unput(struct conversion *c)
+{
+	struct classic_text *out = c->out;
+
+	if (out->len)
+		out->len--;
+	while (out->len && out->text[out->len - 1] != '\n')
+		out->len--;
+	if (out->text)
+		out->text[out->len] = '\0';
+	if (out->lines)
+		out->lines--;
+}
+
+static char *format_in(struct arena *arena, const char *format, va_list args)
+{
+	va_list again;
+	char *text;
+	int need;
+
+	va_copy(again, args);
+	need = vsnprintf(NULL, 0, format, again);
+	va_end(again);
+	text = need < 0 ? NULL : arena_alloc(arena, (size_t)need + 1);
+	if (text)
+		vsnprintf(text, (size_t)need + 1, format, args);
+	return text;
+}
+
+const char *text_of(struct conversion *c, const char *format, ...)
+{
+	va_list args;
+	char *text;
+
+	va_start(args, format);
+	text = format_in(c->arena, format, args);
+	va_end(args);
+	return text ? text : "";
+}
+
+void tell(struct conversion *c, enum report_kind kind, const char *format, ...)
+{
+	struct report_line line = {
+		.kind = kind, .member = c->at.member, .line = c->at.line,
+		.pou = c->section_pou, .rung = c->section_pou ? c->rung : 0,
+	};
+	va_list args;
+	char *text;
+
+	va_start(args, format);
+	text = format_in(c->arena, format, args);
+	va_end(args);
+	if (text)
+		report_add(c->report, line, "%s", text);
+}
+
+/* ---- the names of sections and rungs ---- */
+
+/* Only what is jumped to needs a label; what has one keeps it. */
+static void name_labels(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	for (int i = 0; i < project->rungs; i++) {
+		const struct classic_rung *rung = project->rung[i];
+
+		if (rung->label[0] || is_jumped_to(c, rung->number))
+			c->label[i] = name_new(c, rung->label[0] ? rung->label :
+					       text_of(c, "Rung%d", rung->number));
+	}
+}
+
+static bool name_pous(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	c->pou = arena_alloc(c->arena, ((size_t)project->sections + 1) * sizeof(*c->pou));
+	c->label = arena_alloc(c->arena, ((size_t)project->rungs + 1) * sizeof(*c->label));
+	c->section_of = arena_alloc(c->arena, ((size_t)project->rungs + 1) *
+				    sizeof(*c->section_of));
+	if (!c->pou || !c->label || !c->section_of)
+		return false;
+	for (int i = 0; i < project->sections; i++) {
+		const struct classic_section *section = &project->section[i];
+
+		c->pou[i] = name_new(c, section->name[0] ? section->name :
+				     text_of(c, "Section%d", section->number));
+	}
+	name_labels(c);
+	return true;
+}
+
+/* ---- sections ---- */
+
+const char *label_of(const struct conversion *c, int number)
+{
+	int index = classic_rung_index(c->project, number);
+
+	return index >= 0 && c->section_of[index] == c->section + 1 ? c->label[index] : NULL;
+}
+
+static void mark_rungs(struct conversion *c, const struct classic_section *section)
+{
+	int index = classic_rung_index(c->project, section->first);
+
+	while (index >= 0 && c->section_of[index] != c->section + 1) {
+		const struct classic_rung *rung = c->project->rung[index];
+
+		c->section_of[index] = c->section + 1;
+		if (rung->number == section->last)
+			return;
+		index = classic_rung_index(c->project, rung->next);
+	}
+}
+
+/* In the order of their chain, each at most once. */
+static void write_rungs(struct conversion *c, const struct classic_section *section)
+{
+	const struct classic_rung *rung = classic_rung(c->project, section->first);
+
+	mark_rungs(c, section);
+	for (int i = 0; rung && i < c->project->rungs; i++) {
+		c->at = rung->place;
+		convert_rung(c, rung);
+		if (rung->number == section->last || rung->next < 0)
+			return;
+		rung = classic_rung(c->project, rung->next);
+	}
+}
+
+static void put_temporaries(struct conversion *c)
+{
+	for (int i = 0; i < c->temps.count; i++)
+		put(c, "%s  %s : BOOL;\n", i ? "" : "VAR (* between the parts of a rung *)\n",
+		    c->temps.name[i]);
+	put(c, "%s", c->temps.count ? "END_VAR\n\n" : "");
+}
+
+static bool shown_before(const struct conversion *c, int index)
+{
+	const struct classic_section *section = c->project->section;
+
+	for (int i = 0; i < index; i++)
+		if (section[i].sequential && section[i].page == section[index].page)
+			return true;
+	return false;
+}
+
+static void write_section(struct conversion *c, int index)
+{
+	const struct classic_section *section = &c->project->section[index];
+	bool called = section->subroutine >= 0;
+
+	c->at = section->place;
+	c->section = index;
+	c->section_pou = c->pou[index];
+	c->rungs_written = c->rung = 0;
+	if (section->sequential && shown_before(c, index)) {
+		tell(c, REPORT_CHANGED, "section \"%s\" shows page %d once more: a page runs "
+		     "once a scan", section->name, section->page);
+	} else if (section->sequential) {
+		convert_chart(c, section);
+	} else {
+		if (!called)
+			add_program(c, c->pou[index]);
+		put(c, "%s %s LD\n", called ? "SUBROUTINE" : "PROGRAM", c->pou[index]);
+		write_rungs(c, section);
+		c->at = section->place;
+		put(c, "%s\n\n", called ? "END_SUBROUTINE" : "END_PROGRAM");
+	}
+	c->section_pou = NULL;
+}
+
+/* ---- head ---- */
+
+void put_quoted(struct conversion *c, const char *text)
+{
+	put(c, "\"");
+	for (; *text; text++) {
+		if ((unsigned char)*text < ' ')
+			put(c, " ");
+		else
+			put(c, "%s%c", *text == '"' || *text == '$' ? "$" : "", *text);
+	}
+	put(c, "\"");
+}
+
+static const char *title_of(struct conversion *c)
+{
+	const char *name = classic_setting(c->project, "PROJECT_NAME");
+	const char *slash = strrchr(c->project->file, '/');
+
+	return name && *name ? name : slash ? slash + 1 : c->project->file;
+}
+
+static bool has_array(const struct conversion *c, int type)
+{
+	return used_name(c, type, CLASSIC_ALL) != NULL;
+}
+
+/* What an area must have beyond its usual size, in bytes; 0: nothing. A few more are there
+ * for what stands behind the last that is named. */
+static long beyond(struct conversion *c, const struct classic_memory_row *row, long usual)
+{
+	long numbers = has_array(c, row->type) ? words_of(c, row) : used_numbers(c, row);
+	long most = (long)memory_numbers(row) * row->size / 8;
+	long bytes = numbers * row->size / 8 + 16;
+
+	bytes = bytes / 8 * 8;
+	if (bytes > most)
+		bytes = (most + 7) / 8 * 8;
+	return bytes > usual ? bytes : 0;
+}
+
+static void write_areas(struct conversion *c)
+{
+	static const struct { int type; long usual; } row[] = {
+		{ 0, 8192 }, { 50, 512 }, { 60, 512 }, { 65, 512 }, { 200, 8192 },
+		{ 270, 256 }, { 280, 256 }, { 310, 512 }, { LINUXCNC_INPUT, 512 },
+	};
+
+	for (size_t i = 0; i < sizeof(row) / sizeof(*row); i++) {
+		const struct classic_memory_row *memory = memory_of(row[i].type);
+		long bytes = beyond(c, memory, row[i].usual);
+
+		if (bytes)
+			put(c, "  AREA %s %ld;\n", memory->area, bytes);
+	}
+}
+
+void add_program(struct conversion *c, const char *name)
+{
+	const char **slot = arena_push(c->arena, &c->programs.name, &c->programs.count,
+				       sizeof(*slot));
+
+	if (slot)
+		*slot = name;
+}
+
+/* Nothing is said that is so anyway. */
+static void write_configuration(struct conversion *c)
+{
+	size_t before;
+
+	put(c, "CONFIGURATION %s\n", name_new(c, "Controller"));
+	before = c->out->len;
+	write_areas(c);
+	if (c->options.task && c->programs.count) {
+		const char *task = name_new(c, "Scan");
+
+		put(c, "  TASK %s (INTERVAL := T#%dms);\n", task, c->project->period);
+		for (int i = 0; i < c->programs.count; i++)
+			put(c, "  PROGRAM %s WITH %s : %s;\n",
+			    name_new(c, text_of(c, "%s_1", c->programs.name[i])), task,
+			    c->programs.name[i]);
+	}
+	if (c->out->len > before)
+		put(c, "END_CONFIGURATION\n\n");
+	else
+		unput(c);
+}
+
+static void write_head(struct conversion *c)
+{
+	put(c, "RUNGBOARD 1\nPROJECT ");
+	put_quoted(c, title_of(c));
+	put(c, "\n\n");
+}
+
+/* ---- the report ---- */
+
+static void tell_counts(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+	static const char *const dialect[] = { "ClassicLadder", "ClassicLadder of LinuxCNC",
+					       "a bare rung file" };
+	struct { int count; const char *what; } part[] = {
+		{ project->rungs, "rung" }, { 0, "program" }, { 0, "subroutine" },
+		{ project->steps, "step" }, { project->transitions, "transition" },
+		{ project->expressions, "expression" }, { project->symbols, "symbol" },
+	};
+	const char *text = dialect[project->dialect], *comma = ": ";
+
+	for (int i = 0; i < project->sections; i++)
+		part[project->section[i].subroutine < 0 ? 1 : 2].count++;
+	for (size_t i = 0; i < sizeof(part) / sizeof(*part); i++) {
+		if (!part[i].count)
+			continue;
+		text = text_of(c, "%s%s%d %s%s", text, comma, part[i].count, part[i].what,
+			       part[i].count > 1 ? "s" : "");
+		comma = ", ";
+	}
+	c->at = (struct classic_place){ "", 0 };
+	tell(c, REPORT_TAKEN, "%s", text);
+	tell(c, REPORT_TAKEN, "the scan's period, %d ms", project->period);
+}
+
+static void tell_faults(struct conversion *c)
+{
+	const struct classic_project *project = c->project;
+
+	if (c->options.faithful) {
+		tell(c, REPORT_TAKEN, "faults of the original are repeated");
+		return;
+	}
+	if (project->iec_timer.count)
+		tell(c, REPORT_CHANGED, "timers (%%TM): what was left of a unit when a time "
+		     "was cut short does not shorten the next one, and a scan longer than a "
+		     "unit counts whole");
+	if (project->monostable.count)
+		tell(c, REPORT_CHANGED, "monostables (%%M): one whose time is no multiple of "
+		     "the period can be started again");
+	if (project->reg.count)
+		tell(c, REPORT_CHANGED, "registers (%%R): the place behind the last one is "
+		     "not written to");
+}
+
+/* Members that mean nothing to a program, or not yet. */
+static void tell_members(struct conversion *c)
+{
+	static const struct { const char *name, *text; } row[] = {
+		{ "modbusioconf.csv", "no Modbus requests are made: they are kept for an "
+				      "export, and for a driver of Modbus" },
+		{ "config_events.csv", "no events are logged: their list is kept for an "
+				       "export" },
+		{ "spy_vars.csv", "the list of watched variables" },
+	};
+
+	for (int i = 0; i < c->project->members; i++) {
+		const struct classic_member *member = &c->project->member[i];
+		const char *line = memchr(member->text, '\n', member->len);
+		bool empty = !line || (size_t)(line - member->text) + 1 >= member->len;
+
+		c->at = (struct classic_place){ member->name, member->line };
+		for (size_t k = 0; k < sizeof(row) / sizeof(*row); k++)
+			if (!strcmp(member->name, row[k].name) && !empty)
+				tell(c, REPORT_LOST, "%s", row[k].text);
+	}
+}
+
+/* ---- all of it ---- */
+
+static void write_all(struct conversion *c)
+{
+	struct classic_text sections = { 0 }, *whole = c->out;
+
+	/* What the sections need is known when they are written. */
+	c->out = &sections;
+	c->cap = 0;
+	for (int i = 0; i < c->project->sections; i++)
+		write_section(c, i);
+	if (!c->out->len)
+		put(c, "PROGRAM %s LD\nEND_PROGRAM\n\n", name_new(c, "Nothing"));
+	c->out = whole;
+	c->cap = 0;
+	c->at = (struct classic_place){ "", 0 };
+	write_head(c);
+	name_system(c);
+	write_configuration(c);
+	write_declarations(c);
+	put_temporaries(c);
+	write_system(c);
+	for (int i = 0, from = 0; i < sections.lines; i++) {
+		const char *end = memchr(sections.text + from, '\n',
+					 sections.len - (size_t)from);
+
+		c->at = sections.place[i];
+		put(c, "%.*s\n", (int)(end - sections.text) - from, sections.text + from);
+		from = (int)(end - sections.text) + 1;
+	}
+	c->at = (struct classic_place){ "", 0 };
+	write_functions(c);
+	write_kept(c);
+}
+
+bool classic_to_rung(const struct classic_project *project,
+		     struct classic_options options, struct arena *arena,
+		     struct classic_text *out, struct classic_report *report)
+{
+	struct conversion c = {
+		.project = project, .options = options, .arena = arena, .out = out,
+		.report = report, .at = { "", 0 },
+	};
+	bool good;
+
+	memset(out, 0, sizeof(*out));
+	if (!find_uses(&c))
+		return false;
+	find_names(&c);
+	if (!name_pous(&c))
+		return false;
+	arena_init(&c.scratch);
+	tell_counts(&c);
+	tell_faults(&c);
+	write_all(&c);
+	tell_members(&c);
+	good = !arena->failed && !c.scratch.failed && !report->arena.failed && out->text;
+	arena_free(&c.scratch);
+	return good;
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * classic_write - a struct classic_project as the text that ClassicLadder, LinuxCNC or an
+ * old soft PLC reads.
+ *
+ * The mirror of classic_read(). It knows what their readers stumble over: a member without
+ * a line, lines and names that are too long, a comma in a name. What a text is too long
+ * for is cut at a whole character; that names stay different is for who made them.
+ */
+#ifndef IMPORT_CLASSIC_WRITE_H
+#define IMPORT_CLASSIC_WRITE_H
+
+#include "engine/base/sink.h"
+#include "engine/exchange/classic/classic.h"
+
+enum classic_length { /* bytes at most, as their programs keep them */
+	CLASSIC_LABEL = 9, CLASSIC_SYMBOL = 9, CLASSIC_COMMENT = 29,
+	CLASSIC_COMMENT_LONG = 99, CLASSIC_SECTION_NAME = 19, CLASSIC_EXPRESSION = 49,
+	CLASSIC_NOTE = 50, CLASSIC_SYMBOL_COMMENT = 49,
+};
+
+/** classic_columns, classic_rows - of a rung of a dialect. Scan-safe: yes. */
+int classic_columns(enum classic_dialect dialect);
+int classic_rows(enum classic_dialect dialect);
+/** classic_cut - how many of @len bytes @most hold, in whole characters. Scan-safe: yes. */
+int classic_cut(const char *text, int most);
+/**
+ * classic_write - the text of @project, in its dialect
+ *
+ * Of CLASSIC_NUMERIC: rungs and old timers, nothing else.
+ * Owns: nothing.   Scan-safe: no.   Fails: never; the sink tells.
+ */
+void classic_write(const struct classic_project *project, const struct sink *sink);
+#endif

@@ -1,0 +1,573 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * to_classic - sections, settings and the order of a project that goes to ClassicLadder.
+ */
+#include "engine/exchange/classic/to_classic_parts.h"
+
+#include "engine/base/ascii.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* ---- telling ---- */
+
+const char *out_text(struct leaving *e, const char *format, ...)
+{
+	va_list args;
+	char *text;
+	int len;
+
+	va_start(args, format);
+	len = vsnprintf(NULL, 0, format, args);
+	va_end(args);
+	text = len < 0 ? NULL : arena_alloc(e->arena, (size_t)len + 1);
+	if (!text) {
+		e->good = false;
+		return "";
+	}
+	va_start(args, format);
+	vsnprintf(text, (size_t)len + 1, format, args);
+	va_end(args);
+	return text;
+}
+
+static struct diag place_of(const struct leaving *e, enum diag_id id)
+{
+	struct diag place = { .id = id, .file = e->project->file };
+	const struct rung *rung;
+
+	if (!e->pou)
+		return place;
+	place.file = e->pou->file ? e->pou->file : e->project->file;
+	place.pou = project_text(e->project, e->pou->name);
+	place.line = e->pou->line;
+	if (e->rung_index >= 0 && e->rung_index < e->pou->rung_count) {
+		rung = e->pou->rung[e->rung_index];
+		place.line = rung_line(rung, e->row);
+		place.rung = e->pou->sfc ? 0 : e->rung_index + 1;
+		place.row = e->row;
+		place.col = e->col;
+	}
+	return place;
+}
+
+bool out_refuse(struct leaving *e, enum diag_id id, const char *format, ...)
+{
+	char text[LIMIT_ARG];
+	va_list args;
+
+	va_start(args, format);
+	vsnprintf(text, sizeof(text), format, args);
+	va_end(args);
+	if (e->good)
+		diag_add(e->diags, place_of(e, id), "%s", text);
+	e->good = false;
+	return false;
+}
+
+static __attribute__((format(printf, 3, 0)))
+void tell_at(struct leaving *e, struct diag place, const char *format, va_list args)
+{
+	struct report_line line = { .kind = REPORT_CHANGED, .member = "",
+		.line = place.line, .pou = place.pou, .rung = place.rung };
+	char text[400];
+
+	vsnprintf(text, sizeof(text), format, args);
+	for (int i = 0; i < e->report->count; i++)
+		if (!strcmp(e->report->line[i].text, text))
+			return;
+	report_add(e->report, line, "%s", text);
+}
+
+void tell_change(struct leaving *e, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	tell_at(e, place_of(e, DIAG_NO_MEMORY), format, args);
+	va_end(args);
+}
+
+void tell_line(struct leaving *e, int line, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	tell_at(e, (struct diag){ .line = line }, format, args);
+	va_end(args);
+}
+
+/* ---- rungs ---- */
+
+/* Of "the text $"so$"": without its quotes. */
+const char *plain_title(struct leaving *e, const char *text)
+{
+	char *copy = arena_copy(e->arena, text, strlen(text)), *to = copy;
+	bool quoted = text[0] == '"';
+
+	for (const char *at = text + quoted; copy && *at; at++) {
+		if (quoted && *at == '"' && !at[1])
+			break;
+		if (*at == '$' && at[1])
+			at++;
+		*to++ = *at;
+	}
+	if (copy)
+		*to = '\0';
+	return copy ? copy : "";
+}
+
+static void check_head(struct leaving *e, const struct classic_rung *rung)
+{
+	const int most = e->dialect == CLASSIC_UPSTREAM ? CLASSIC_COMMENT_LONG :
+							  CLASSIC_COMMENT;
+
+	if (strlen(rung->label) > CLASSIC_LABEL)
+		tell_change(e, "label %s is cut to %d bytes", rung->label, CLASSIC_LABEL);
+	if (strlen(rung->comment) > (size_t)most)
+		tell_change(e, "a title is cut to %d bytes: %s", most, rung->comment);
+}
+
+struct classic_rung *rung_begin(struct leaving *e)
+{
+	struct classic_rung *rung = arena_alloc(e->arena, sizeof(*rung)), **slot;
+	int number = e->out->rungs;
+
+	if (!e->good || !rung || !e->section)
+		return NULL;
+	if (number >= 1900) {
+		out_refuse(e, DIAG_EXPORT_MANY, "%d", number);
+		return NULL;
+	}
+	slot = arena_push(e->arena, &e->out->rung, &e->out->rungs, sizeof(*slot));
+	if (!slot)
+		return NULL;
+	*slot = rung;
+	for (int i = 0; i < CLASSIC_ROWS * CLASSIC_COLUMNS; i++)
+		rung->cell[i / CLASSIC_COLUMNS][i % CLASSIC_COLUMNS].variable =
+			variable_of(0, 0);
+	rung->number = number;
+	rung->label = e->rung_label ? project_text(e->project, e->rung_label) : "";
+	rung->comment = e->comment ? plain_title(e, e->comment) : "";
+	check_head(e, rung);
+	e->rung_label = 0;
+	e->comment = NULL;
+	rung->previous = e->section->first < 0 ? -1 : number - 1;
+	rung->next = -1;
+	if (e->section->first < 0)
+		e->section->first = number;
+	else
+		e->out->rung[number - 1]->next = number;
+	e->section->last = number;
+	return rung;
+}
+
+int add_expression(struct leaving *e, const char *text)
+{
+	struct classic_expression *one;
+
+	for (int i = 0; i < e->out->expressions; i++)
+		if (!strcmp(e->out->expression[i].text, text))
+			return i;
+	if (e->out->expressions >= CLASSIC_LIMIT - 1) {
+		out_refuse(e, DIAG_EXPORT_MANY, "%s", text);
+		return 0;
+	}
+	one = arena_push(e->arena, &e->out->expression, &e->out->expressions, sizeof(*one));
+	if (!one)
+		return 0;
+	one->number = e->out->expressions - 1;
+	one->text = text;
+	return one->number;
+}
+
+void note_jump(struct leaving *e, struct classic_cell *cell, const struct out_part *item)
+{
+	struct out_jump *jump = arena_push(e->arena, &e->jump, &e->jumps, sizeof(*jump));
+
+	if (jump)
+		*jump = (struct out_jump){ cell, item->label, item->leaves };
+}
+
+int routine_number(struct leaving *e, uint32_t name)
+{
+	const struct pou *pou = scope_pou(e->scope, e->pou, name);
+
+	for (int i = 0; pou && i < e->routines; i++)
+		if (e->routine[i] == pou)
+			return i;
+	return -1;
+}
+
+/* ---- sections ---- */
+
+static bool name_taken(const struct leaving *e, const char *name)
+{
+	for (int i = 0; i + 1 < e->out->sections; i++)
+		if (!strcmp(e->out->section[i].name, name))
+			return true;
+	return false;
+}
+
+void section_begin(struct leaving *e, const char *name, int subroutine, bool sequential)
+{
+	struct classic_section *section = arena_push(e->arena, &e->out->section,
+		&e->out->sections, sizeof(*section));
+
+	e->labels = e->jumps = 0;
+	e->label = NULL;
+	e->jump = NULL;
+	e->section = section;
+	if (!section)
+		return;
+	*section = (struct classic_section){ .number = e->out->sections - 1,
+		.sequential = sequential, .subroutine = subroutine, .first = -1,
+		.last = -1 };
+	section->name = out_text(e, "%.*s", classic_cut(name, CLASSIC_SECTION_NAME), name);
+	for (int i = 2; name_taken(e, section->name) && i < 1000; i++)
+		section->name = out_text(e, "%.*s_%d",
+			classic_cut(name, CLASSIC_SECTION_NAME - 4), name, i);
+	if (strcmp(name, section->name) != 0)
+		tell_change(e, "section %s is called %s there", name, section->name);
+}
+
+static void patch_jumps(struct leaving *e)
+{
+	int end = -1;
+
+	for (int i = 0; i < e->jumps; i++) {
+		const struct out_jump *jump = &e->jump[i];
+		int to = -1;
+
+		if (jump->leaves) {
+			if (end < 0) {
+				e->rung_label = 0;
+				e->comment = NULL;
+				end = rung_begin(e) ? e->out->rungs - 1 : 0;
+			}
+			to = end;
+		}
+		for (int k = 0; k < e->labels && to < 0; k++)
+			if (e->label[k].label == jump->label)
+				to = e->label[k].number;
+		jump->cell->variable = variable_of(0, to < 0 ? 0 : to);
+	}
+}
+
+/* @drop: not if it has no rung. */
+void section_end(struct leaving *e, bool drop)
+{
+	if (!e->section)
+		return;
+	patch_jumps(e);
+	if (drop && e->section->first < 0) {
+		e->out->sections--;
+	} else if (e->section->first < 0 && !e->section->sequential) {
+		rung_begin(e);
+	} else if (e->section->sequential) {
+		e->section->first = e->section->last = 0;
+	}
+	e->section = NULL;
+}
+
+/* ---- programs that ClassicLadder needs not ---- */
+
+static bool writes_only(struct leaving *e, const struct pou *pou,
+			bool (*may)(struct leaving *e, const struct pou *pou,
+				    const struct cell *cell))
+{
+	if (pou->kind != POU_PROGRAM || pou->sfc || !pou->rung_count)
+		return false;
+	for (int i = 0; i < pou->rung_count; i++)
+		for (int k = 0; k < pou->rung[i]->rows * pou->rung[i]->cols; k++) {
+			const struct cell *cell = &pou->rung[i]->cell[k];
+			const struct word_row *row = scope_row(e->scope,
+							       (enum word)cell->word);
+
+			if (cell->word == ELEM_EMPTY || row->place == PLACE_WIRE ||
+			    row->place == PLACE_SERIES)
+				continue;
+			if (!may(e, pou, cell))
+				return false;
+		}
+	return true;
+}
+
+static const struct out_slot *target_slot(struct leaving *e, const struct pou *pou,
+					  const char *text, size_t len)
+{
+	uint32_t id = names_intern(&e->project->names, text, len);
+	enum diag_id why;
+	const struct meaning *m = scope_find(e->scope, pou, id, &why);
+
+	return m && m->kind == MEANING_VARIABLE ? slot_find(e, m->var) : NULL;
+}
+
+/* %S0 and its like, which are there anyway. */
+static bool writes_system(struct leaving *e, const struct pou *pou,
+			  const struct cell *cell)
+{
+	const char *text = project_text(e->project, cell->operand);
+	const struct out_slot *slot = target_slot(e, pou, text, strcspn(text, " :"));
+
+	return slot && (slot->type == CL_SYSTEM_BIT || slot->type == CL_INPUT_SYSTEM_WORD ||
+			slot->pou == pou);
+}
+
+static bool is_step(struct leaving *e, const struct pou *pou, const struct cell *cell)
+{
+	const char *text = project_text(e->project, cell->operand);
+	const struct out_slot *slot = target_slot(e, pou, text, strlen(text));
+
+	return slot && slot->type == CL_STEP_BIT;
+}
+
+/* Bits of steps of other pages, and their times. */
+static bool writes_steps(struct leaving *e, const struct pou *pou, const struct cell *cell)
+{
+	return cell->word == FB_CL_STEP ||
+	       (cell->word == ELEM_COIL_SET && is_step(e, pou, cell));
+}
+
+/* Steps of a page that sections before it do not see yet. */
+static bool hides_steps(struct leaving *e, const struct pou *pou, const struct cell *cell)
+{
+	return cell->word == ELEM_COIL_RESET && is_step(e, pou, cell);
+}
+
+/* Nothing but the first scan and steps is asked. */
+static bool asks_steps(struct leaving *e, const struct pou *pou)
+{
+	for (int i = 0; i < pou->rung_count; i++)
+		for (int k = 0; k < pou->rung[i]->rows * pou->rung[i]->cols; k++) {
+			const struct cell *cell = &pou->rung[i]->cell[k];
+
+			if (scope_row(e->scope, (enum word)cell->word)->place !=
+				    PLACE_SERIES || is_step(e, pou, cell))
+				continue;
+			if (cell->word != ELEM_CONTACT_NO ||
+			    strcmp(project_text(e->project, cell->operand),
+				   "SYS_FIRST_SCAN") != 0)
+				return false;
+		}
+	return true;
+}
+
+static bool is_needless(struct leaving *e, const struct pou *pou)
+{
+	const char *name = project_text(e->project, pou->name);
+
+	return (!strncmp(name, "SystemBits", 10) && writes_only(e, pou, writes_system)) ||
+	       (strstr(name, "_Others") && asks_steps(e, pou) &&
+		writes_only(e, pou, writes_steps)) ||
+	       (strstr(name, "_Begin") && asks_steps(e, pou) &&
+		writes_only(e, pou, hides_steps));
+}
+
+/* ---- programs in the order in which they run ---- */
+
+static const struct config_entry *task_of(const struct config *config, uint32_t name)
+{
+	for (int i = 0; i < config->count; i++)
+		if (config->entry[i].kind == CONFIG_TASK && config->entry[i].name == name)
+			return &config->entry[i];
+	return NULL;
+}
+
+static const struct pou *program_named(const struct project *project, uint32_t name)
+{
+	const char *text = project_text(project, name);
+
+	for (int i = 0; i < project->pou_count; i++)
+		if (ascii_is(project_text(project, project->pou[i].name), text,
+			     strlen(text)))
+			return &project->pou[i];
+	return NULL;
+}
+
+/* All in one task; false after telling. */
+static bool find_order(struct leaving *e, const struct pou **list, int *count)
+{
+	const struct config *config = e->project->config;
+	uint32_t task = 0;
+	bool first = true;
+
+	for (int i = 0; config && i < config->count; i++) {
+		const struct config_entry *entry = &config->entry[i];
+		const struct config_entry *its;
+		const struct diag place = { .id = DIAG_EXPORT_TASK, .file = config->file,
+					    .line = entry->line };
+
+		if (entry->kind != CONFIG_PROGRAM)
+			continue;
+		its = task_of(config, entry->task);
+		if ((!first && entry->task != task) || (its && its->single)) {
+			e->good = false;
+			return diag_add(e->diags, place, "%s",
+					project_text(e->project, entry->name));
+		}
+		if (its && its->interval_ns) {
+			e->out->period = (int)((its->interval_ns + 500000) / 1000000);
+			e->out->period += !e->out->period;
+			e->has_period = true;
+		}
+		task = entry->task;
+		first = false;
+		list[(*count)++] = program_named(e->project, entry->pou);
+	}
+	return true;
+}
+
+/* As they stand in the file, programs in the order in which they run. */
+static int all_pous(struct leaving *e, const struct pou **out)
+{
+	const struct project *project = e->project;
+	const struct pou **order = arena_alloc(e->arena, sizeof(*order) *
+		(size_t)(project->pou_count + (project->config ? project->config->count :
+					       0) + 1));
+	int ordered = 0, next = 0, count = 0;
+
+	if (!order || !find_order(e, order, &ordered))
+		return 0;
+	for (int i = 0; i < project->pou_count; i++) {
+		const struct pou *pou = &project->pou[i];
+
+		if (pou_has_frame(pou))
+			continue;
+		if (pou->kind != POU_PROGRAM || !ordered)
+			out[count++] = pou;
+		else if (next < ordered)
+			out[count++] = order[next++];
+	}
+	return count;
+}
+
+/* ---- one of them ---- */
+
+static void leave_ladder(struct leaving *e, const struct pou *pou)
+{
+	int routine = -1;
+
+	for (int i = 0; i < e->routines; i++)
+		if (e->routine[i] == pou)
+			routine = i;
+	if (pou->kind == POU_PROGRAM && is_needless(e, pou)) {
+		tell_change(e, "ClassicLadder does what this program does itself");
+		return;
+	}
+	section_begin(e, project_text(e->project, pou->name), routine, false);
+	leave_temporaries(e, pou);
+	for (int i = 0; i < pou->rung_count && e->good; i++) {
+		e->rung_index = i;
+		e->row = e->col = 0;
+		leave_rung(e, pou->rung[i]);
+	}
+	section_end(e, false);
+}
+
+static void leave_pou(struct leaving *e, const struct pou *pou, int *page)
+{
+	e->pou = pou;
+	e->rung_index = -1;
+	e->row = e->col = 0;
+	e->spares = e->helpers_used = 0;
+	e->spare = NULL;
+	if (pou->sfc && e->dialect == CLASSIC_NUMERIC)
+		out_refuse(e, DIAG_EXPORT_CHART, "%s", project_text(e->project, pou->name));
+	else if (pou->sfc)
+		leave_chart(e, pou, (*page)++);
+	else if (pou->language == LANGUAGE_IL)
+		out_refuse(e, DIAG_EXPORT_POU, "%s", project_text(e->project, pou->name));
+	else
+		leave_ladder(e, pou);
+}
+
+static void leave_all(struct leaving *e)
+{
+	const struct pou **pou = arena_alloc(e->arena, sizeof(*pou) *
+		((size_t)e->project->pou_count + 1));
+	int count, page = 0;
+
+	e->routine = arena_alloc(e->arena, sizeof(*e->routine) *
+				 ((size_t)e->project->pou_count + 1));
+	if (!pou || !e->routine)
+		return;
+	count = all_pous(e, pou);
+	for (int i = 0; i < count; i++)
+		if (pou[i]->kind == POU_SUBROUTINE)
+			e->routine[e->routines++] = pou[i];
+	for (int i = 0; i < count && e->good; i++)
+		if (pou[i]->sfc)
+			chart_prepare(e, pou[i], page++);
+	if (page > 5)
+		out_refuse(e, DIAG_EXPORT_MANY, "%d", page);
+	if (!e->good || !names_prepare(e))
+		return;
+	blocks_prepare(e);
+	leave_initial(e);
+	page = 0;
+	for (int i = 0; i < count && e->good; i++)
+		leave_pou(e, pou[i], &page);
+	e->pou = NULL;
+	leave_started(e);
+}
+
+/* ---- all of it ---- */
+
+/* A bare rung file holds rungs of one section and old timers. */
+static void check_numeric(struct leaving *e)
+{
+	const struct classic_project *out = e->out;
+
+	e->pou = NULL;
+	if (out->sections > 1)
+		out_refuse(e, DIAG_EXPORT_NUMERIC, "%s", out->section[1].name);
+	for (int i = 0; i < out->rungs * CLASSIC_ROWS * CLASSIC_COLUMNS && e->good; i++) {
+		int at = i % (CLASSIC_ROWS * CLASSIC_COLUMNS);
+		const struct classic_cell *cell = &out->rung[i / (CLASSIC_ROWS *
+			CLASSIC_COLUMNS)]->cell[at / CLASSIC_COLUMNS][at % CLASSIC_COLUMNS];
+
+		if (cell->element > CL_OLD_TIMER && cell->element != CL_PART &&
+		    (cell->element < CL_COIL || cell->element > CL_JUMP))
+			out_refuse(e, DIAG_EXPORT_NUMERIC, "rung %d",
+			       i / (CLASSIC_ROWS * CLASSIC_COLUMNS));
+	}
+}
+
+struct classic_project *to_classic(struct project *project, enum classic_dialect dialect,
+				   const struct classic_lines *lines, struct arena *arena,
+				   struct classic_report *report, struct diag_list *diags)
+{
+	struct leaving *e = arena_alloc(arena, sizeof(*e));
+	int before = diags->errors;
+
+	if (!e)
+		return NULL;
+	*e = (struct leaving){ .project = project, .dialect = dialect, .arena = arena,
+		.columns = classic_columns(dialect), .rows = classic_rows(dialect),
+		.lines = lines, .report = report, .diags = diags, .started = -1, .never = -1,
+		.rung_index = -1, .good = true,
+		.scope = scope_new(project, arena),
+		.out = arena_alloc(arena, sizeof(struct classic_project)),
+		.expr = arena_alloc(arena, sizeof(struct expr)) };
+	if (e->scope && e->out && e->expr) {
+		e->out->dialect = dialect;
+		e->out->period = 50;
+		e->out->register_list = 500;
+		leave_all(e);
+		if (e->good) {
+			names_symbols(e);
+			leave_told(e);
+			leave_kept(e);
+			leave_settings(e);
+		}
+		if (dialect == CLASSIC_NUMERIC && e->good)
+			check_numeric(e);
+	}
+	if (!arena->failed && e->good && e->scope && e->expr)
+		return e->out;
+	if (diags->errors == before)
+		diag_add(diags, (struct diag){ .id = DIAG_NO_MEMORY,
+					       .file = project->file }, "%s", "");
+	return NULL;
+}

@@ -1,0 +1,583 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * to_classic_names - the numbers that variables and blocks have in ClassicLadder.
+ *
+ * What has the address or the name that an import gives goes back to where it came from;
+ * anything else gets a number behind all that are used. Names become symbols.
+ */
+#include "engine/exchange/classic/to_classic_parts.h"
+
+#include "engine/base/ascii.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CLASSIC_TIMER = BLOCK_TIMER, CLASSIC_MONOSTABLE = BLOCK_MONO,
+       CLASSIC_IEC_TIMER = BLOCK_IEC, CLASSIC_COUNTER = BLOCK_COUNTER,
+       CLASSIC_REGISTER = BLOCK_REGISTER };
+
+struct pin_row { int type, kind; const char *pin; bool is_bool; };
+struct memory_row { int type; const char *prefix, *name; int size; };
+
+static const struct pin_row pin_rows[] = {
+#define CLASSIC_PIN(type, prefix, attribute, kind, pin, is_bool) \
+	{ type, kind, pin, is_bool },
+#include "engine/classic.def"
+};
+static const struct memory_row memory_rows[] = {
+#define CLASSIC_MEMORY(type, prefix, area, first, size, name) { type, prefix, name, size },
+#include "engine/classic.def"
+};
+enum { PIN_ROWS = sizeof(pin_rows) / sizeof(*pin_rows),
+       MEMORY_ROWS = sizeof(memory_rows) / sizeof(*memory_rows) };
+
+/* What an import calls blocks, and what they are called there. */
+static const char *const block_here[BLOCK_KINDS] = { "T", "Mono", "TM", "C", "Reg" };
+static const char *const block_there[BLOCK_KINDS] = { "T", "M", "TM", "C", "R" };
+
+struct classic_variable variable_of(int type, int number)
+{
+	return (struct classic_variable){ type, number, -1, 0 };
+}
+
+/* 1300 is what the table calls LinuxCNC's 300. */
+static int written_type(const struct leaving *e, int type)
+{
+	return e->dialect == CLASSIC_LINUXCNC && type == 1300 ? 300 : type;
+}
+
+void size_note(struct leaving *e, int type, int number)
+{
+	if (type >= 0 && type < 400 && number >= e->sizes[type])
+		e->sizes[type] = number + 1;
+	if (number >= CLASSIC_LIMIT)
+		out_refuse(e, DIAG_EXPORT_MANY, "%d", number);
+}
+
+int new_bit(struct leaving *e)
+{
+	size_note(e, CL_BIT, e->next_bit);
+	return e->next_bit++;
+}
+
+int new_word(struct leaving *e)
+{
+	size_note(e, CL_WORD, e->next_word);
+	return e->next_word++;
+}
+
+int spare_bit(struct leaving *e)
+{
+	if (e->helpers_used == e->spares) {
+		int *slot = arena_push(e->arena, &e->spare, &e->spares, sizeof(*slot));
+
+		if (!slot)
+			return 0;
+		*slot = new_bit(e);
+	}
+	return e->spare[e->helpers_used++];
+}
+
+int never_bit(struct leaving *e)
+{
+	if (e->never < 0)
+		e->never = new_bit(e);
+	return e->never;
+}
+
+int extra_bit(struct leaving *e, struct out_slot *slot, int index)
+{
+	if (slot->extra[index] < 0)
+		slot->extra[index] = new_bit(e);
+	return slot->extra[index];
+}
+
+int pin_kind(int type)
+{
+	for (int i = 0; i < PIN_ROWS; i++)
+		if (pin_rows[i].type == type)
+			return pin_rows[i].kind;
+	return -1;
+}
+
+/* ---- addresses ---- */
+
+static bool bit_of(struct leaving *e, struct iec_addr addr, struct classic_variable *out)
+{
+	int bit = (int)addr.byte * 8 + addr.bit;
+
+	switch ((int)addr.area) {
+	case AREA_I: *out = variable_of(50, bit); return true;
+	case AREA_Q: *out = variable_of(60, bit); return true;
+	case AREA_M: *out = variable_of(CL_BIT, bit); return true;
+	case AREA_XQ: *out = variable_of(65, bit); return e->dialect == CLASSIC_UPSTREAM;
+	case AREA_S:
+		*out = bit < 256 ? variable_of(CL_SYSTEM_BIT, bit) :
+				   variable_of(75, bit - 256);
+		return bit < 512;
+	case AREA_SM:
+		break;
+	default:
+		return false;
+	}
+	/* SYS_FIRST_SCAN, SYS_CLOCK_1MIN, SYS_CLOCK_1S */
+	e->clocks |= bit == 4 || bit == 5;
+	*out = variable_of(CL_SYSTEM_BIT, bit == 1 ? 4 : bit == 4 ? 2 : 0);
+	return e->dialect == CLASSIC_UPSTREAM && (bit == 1 || bit == 4 || bit == 5);
+}
+
+static bool word_of(struct leaving *e, struct iec_addr addr, struct classic_variable *out)
+{
+	int number = (int)addr.byte / 4;
+	bool lc = e->dialect == CLASSIC_LINUXCNC;
+	bool analog = addr.area == AREA_AI || addr.area == AREA_AQ;
+
+	if (analog && addr.bits == 16)
+		number = (int)addr.byte / 2;
+	else if (addr.bits != 32)
+		return false;
+	if (addr.byte % (addr.bits / 8u))
+		return false;
+	if (analog) {
+		uint8_t *wide = &e->wide[addr.area == AREA_AQ];
+
+		*wide |= addr.bits == 16 ? 1 : 2;
+		if (*wide == 3) /* %AIW2 and %AID4 would both be %IW1 */
+			return false;
+	}
+	switch ((int)addr.area) {
+	case AREA_V: *out = variable_of(CL_WORD, number); return true;
+	case AREA_AI: *out = variable_of(270, number); return true;
+	case AREA_AQ: *out = variable_of(280, number); return true;
+	case AREA_S:
+		*out = variable_of(CL_INPUT_SYSTEM_WORD, number - 16);
+		return number >= 16;
+	case AREA_XAI: *out = variable_of(written_type(e, 1300), number); return lc;
+	case AREA_XAQ: *out = variable_of(310, number); return lc;
+	default:
+		return false;
+	}
+}
+
+static bool address_variable(struct leaving *e, struct iec_addr addr,
+			     struct out_operand *out)
+{
+	bool known;
+
+	out->is_bool = addr.bits == 1;
+	known = out->is_bool ? bit_of(e, addr, &out->variable) :
+			       word_of(e, addr, &out->variable);
+	if (known) {
+		size_note(e, out->variable.type, out->variable.number);
+		return true;
+	}
+	return false;
+}
+
+/* ---- what is used ---- */
+
+static void note_address(struct leaving *e, const char *text, size_t len, bool index)
+{
+	struct iec_addr addr;
+
+	if (iec_addr_parse(text, len, &addr) != ADDR_OK)
+		return;
+	e->asks_first |= addr.area == AREA_SM;
+	if (addr.area == AREA_M && addr.bits == 1) {
+		int bit = (int)addr.byte * 8 + addr.bit;
+
+		e->bit_index |= index;
+		if (bit >= e->next_bit)
+			e->next_bit = bit + 1;
+	} else if (addr.area == AREA_V) {
+		int word = (int)addr.byte / 4;
+
+		e->word_index |= index;
+		if (word >= e->next_word)
+			e->next_word = word + 1;
+	}
+}
+
+/* Every text of the project that may hold addresses: operands are interned. */
+static void note_text(struct leaving *e, const char *text)
+{
+	while (*text) {
+		size_t len = 0;
+
+		while (ascii_digit(text[len]) || text[len] == '%' || text[len] == '.' ||
+		       (ascii_upper(text[len]) >= 'A' && ascii_upper(text[len]) <= 'Z'))
+			len++;
+		if (len)
+			note_address(e, text, len, text[len] == '[');
+		text += len ? len : 1;
+	}
+}
+
+static void note_array(struct leaving *e, const struct var *var)
+{
+	int last;
+
+	if (!var->array.count || var->at.area == AREA_NONE)
+		return;
+	if (var->at.area == AREA_V && var->at.bits == 32) {
+		last = (int)(var->at.byte / 4 + var->array.count);
+		if (last > e->next_word)
+			e->next_word = last;
+		size_note(e, CL_WORD, last - 1);
+	} else if (var->at.area == AREA_M && var->at.bits == 1) {
+		last = (int)(var->at.byte * 8 + var->at.bit + var->array.count);
+		if (last > e->next_bit)
+			e->next_bit = last;
+	}
+}
+
+static bool names_first(const char *text)
+{
+	static const char word[] = "SYS_FIRST_SCAN";
+
+	for (; *text; text++)
+		if (ascii_is(word, text, strnlen(text, sizeof(word) - 1)))
+			return true;
+	return false;
+}
+
+static void note_all(struct leaving *e)
+{
+	const struct names *names = &e->project->names;
+
+	for (uint32_t id = 1; id < (uint32_t)names->count; id++) {
+		const char *text = names_text(names, id);
+
+		if (strncmp(text, "(*", 2) != 0)
+			note_text(e, text);
+		e->asks_first |= names_first(text);
+	}
+	/* Others may look at low numbers that the program does not use: Modbus, spies. */
+	if (e->dialect == CLASSIC_UPSTREAM && e->next_bit < 300)
+		e->next_bit = 300;
+	if (e->dialect == CLASSIC_UPSTREAM && e->next_word < 100)
+		e->next_word = 100;
+	if (e->bit_index && e->next_bit < 500)
+		e->next_bit = 500;
+	if (e->word_index && e->next_word < 200)
+		e->next_word = 200;
+	e->first = e->asks_first && e->dialect != CLASSIC_UPSTREAM ? new_bit(e) : -1;
+}
+
+/* ---- slots ---- */
+
+struct out_slot *slot_find(struct leaving *e, const struct var *var)
+{
+	for (int i = 0; i < e->slots; i++)
+		if (e->slot[i].var == var)
+			return &e->slot[i];
+	return NULL;
+}
+
+static int block_of(enum word fb)
+{
+	switch ((int)fb) {
+	case FB_CL_TIMER: return BLOCK_TIMER;
+	case FB_CL_MONO: return BLOCK_MONO;
+	case FB_CL_TON: case FB_CL_TOF: case FB_CL_TP:
+	case FB_TON: case FB_TOF: case FB_TP: return BLOCK_IEC;
+	case FB_CL_COUNTER: case FB_CTU: case FB_CTD: case FB_CTUD: return BLOCK_COUNTER;
+	case FB_CL_REGISTER: return BLOCK_REGISTER;
+	}
+	return -1;
+}
+
+static bool block_taken(const struct leaving *e, int kind, int number)
+{
+	for (int i = 0; i < e->slots; i++)
+		if (e->slot[i].block == kind && e->slot[i].number == number)
+			return true;
+	return false;
+}
+
+/* TM3_Delay is %TM3; -1: the name says nothing. */
+static int number_in(const struct leaving *e, const char *name, int kind)
+{
+	size_t len = strlen(block_here[kind]);
+	char *end;
+	long number;
+
+	if (strncmp(name, block_here[kind], len) != 0 || !ascii_digit(name[len]))
+		return -1;
+	number = strtol(name + len, &end, 10);
+	if ((*end && *end != '_') || number >= CLASSIC_LIMIT ||
+	    block_taken(e, kind, (int)number))
+		return -1;
+	return (int)number;
+}
+
+static bool whole_number(enum iec_type type)
+{
+	return type == IEC_SINT || type == IEC_INT || type == IEC_DINT ||
+	       type == IEC_USINT || type == IEC_UINT || type == IEC_BYTE ||
+	       type == IEC_WORD;
+}
+
+static void memory_slot(struct leaving *e, struct out_slot *slot)
+{
+	const struct var *var = slot->var;
+	int count = var->array.count ? (int)var->array.count : 1;
+	struct out_operand operand;
+
+	slot->type = -1; /* it has no number: who asks for it is told */
+	if (count > CLASSIC_LIMIT || (var->type != IEC_BOOL && !whole_number(var->type)))
+		return;
+	slot->count = count;
+	if (var->at.area != AREA_NONE) {
+		if (address_variable(e, var->at, &operand)) {
+			slot->type = operand.variable.type;
+			slot->number = operand.variable.number;
+			return;
+		}
+		if ((var->at.area != AREA_V && var->at.area != AREA_M) ||
+		    is_shared(e, var))
+			return;
+	}
+	slot->type = var->type == IEC_BOOL ? CL_BIT : CL_WORD;
+	slot->number = slot->type == CL_BIT ? new_bit(e) : new_word(e);
+	for (int i = 1; i < count && e->good; i++)
+		slot->type == CL_BIT ? new_bit(e) : new_word(e);
+}
+
+static void add_slot(struct leaving *e, const struct pou *pou, const struct var *var,
+		     bool blocks)
+{
+	struct out_slot *slot;
+	int kind = block_of(var->fb);
+
+	if (slot_find(e, var) || blocks != (var->type == IEC_NONE))
+		return;
+	slot = arena_push(e->arena, &e->slot, &e->slots, sizeof(*slot));
+	if (!slot)
+		return;
+	*slot = (struct out_slot){ .var = var, .pou = pou, .block = -1, .number = -1,
+		.type = -1, .name = project_text(e->project, var->name),
+		.comment = project_text(e->project, var->comment),
+		.extra = { -1, -1, -1, -1 } };
+	if (!blocks) {
+		memory_slot(e, slot);
+		return;
+	}
+	if (kind >= 0 && !var->array.count) {
+		slot->number = number_in(e, slot->name, kind);
+		slot->block = kind;
+	}
+}
+
+/* Blocks whose names say no number get what is left. */
+static void number_blocks(struct leaving *e)
+{
+	for (int i = 0; i < e->slots; i++) {
+		struct out_slot *slot = &e->slot[i];
+		int *next;
+
+		if (slot->block < 0)
+			continue;
+		next = &e->next_block[slot->block];
+		while (slot->number < 0 && block_taken(e, slot->block, *next))
+			(*next)++;
+		if (slot->number < 0)
+			slot->number = *next;
+		if (slot->number >= CLASSIC_LIMIT)
+			out_refuse(e, DIAG_EXPORT_MANY, "%s", slot->name);
+	}
+}
+
+static void add_table(struct leaving *e, const struct pou *pou,
+		      const struct var_table *table, bool blocks)
+{
+	for (int i = 0; i < table->count; i++)
+		if (!(vars_flags(table, i) & VAR_SFC))
+			add_slot(e, pou, &table->var[i], blocks);
+}
+
+bool names_prepare(struct leaving *e)
+{
+	note_all(e);
+	for (int i = 0; i < e->project->globals.count; i++)
+		note_array(e, &e->project->globals.var[i]);
+	for (int pass = 0; pass < 2; pass++) {
+		add_table(e, NULL, &e->project->globals, pass);
+		for (int i = 0; i < e->project->pou_count; i++)
+			if (!pou_has_frame(&e->project->pou[i]))
+				add_table(e, &e->project->pou[i], &e->project->pou[i].vars,
+					  pass);
+	}
+	number_blocks(e);
+	return e->good;
+}
+
+/* ---- operands ---- */
+
+static bool meaning_operand(struct leaving *e, const struct meaning *m,
+			    const char *text, struct out_operand *out);
+
+static bool no_number(struct leaving *e, const char *text)
+{
+	return out_refuse(e, DIAG_EXPORT_TYPE, "%s", text);
+}
+
+static bool pin_operand(struct leaving *e, const struct meaning *m, const char *text,
+			struct out_operand *out)
+{
+	struct out_slot *slot = slot_find(e, m->var);
+	const struct word_row *row = scope_row(e->scope, m->var->fb);
+	const char *pin = word_pins(row)[m->pin].name;
+
+	if (!slot)
+		return no_number(e, text);
+	if (slot->type == CL_STEP_TIME && !strcmp(pin, "V")) {
+		out->variable = variable_of(CL_STEP_TIME, slot->number);
+		return true;
+	}
+	out->is_bool = true;
+	switch ((int)m->var->fb) {
+	case FB_SR: case FB_RS: case FB_R_TRIG: case FB_F_TRIG:
+	case FB_CTU: case FB_CTD: case FB_CTUD:
+		if (pin[0] != 'Q')
+			break;
+		out->variable = variable_of(CL_BIT, extra_bit(e, slot,
+							      !strcmp(pin, "QD")));
+		return true;
+	}
+	if (slot->block == BLOCK_COUNTER && !strcmp(pin, "CV"))
+		pin = "V";
+	for (int i = 0; i < PIN_ROWS; i++)
+		if (pin_rows[i].kind == slot->block && !strcmp(pin_rows[i].pin, pin)) {
+			out->variable = variable_of(pin_rows[i].type, slot->number);
+			out->is_bool = pin_rows[i].is_bool;
+			return true;
+		}
+	return no_number(e, text);
+}
+
+static bool slot_operand(struct leaving *e, const struct meaning *m, const char *text,
+			 struct out_operand *out)
+{
+	const struct out_slot *slot = slot_find(e, m->var);
+
+	if (!slot || slot->type < 0 || slot->block >= 0)
+		return no_number(e, text);
+	out->variable = variable_of(slot->type, slot->number);
+	out->is_bool = slot->type == CL_STEP_BIT || m->var->type == IEC_BOOL;
+	if (m->kind == MEANING_ELEMENT)
+		out->variable.number += (int)(m->offset / var_unit(m->var));
+	return true;
+}
+
+static bool element_operand(struct leaving *e, const struct meaning *m, const char *text,
+			    struct out_operand *out)
+{
+	struct out_operand index;
+	int low = 0;
+
+	if (m->var && m->var->at.area == AREA_NONE) {
+		if (!slot_operand(e, m, text, out))
+			return false;
+	} else if (!address_variable(e, m->addr, out)) {
+		return no_number(e, text);
+	}
+	if (!meaning_is_indexed(m))
+		return true;
+	if (m->opens > 1 || !m->index_of ||
+	    !meaning_operand(e, m->index_of, text, &index) || index.is_bool ||
+	    index.variable.index_type >= 0)
+		return no_number(e, text);
+	low = m->open[0].array.low;
+	if (out->variable.number < low)
+		return no_number(e, text);
+	out->variable.number -= low;
+	e->indexes = true;
+	out->variable.index_type = index.variable.type;
+	out->variable.index_number = index.variable.number;
+	return true;
+}
+
+static bool literal_operand(struct leaving *e, const struct literal *literal,
+			    const char *text, struct out_operand *out)
+{
+	union iec_value value;
+
+	out->is_constant = true;
+	out->is_bool = literal->type == IEC_BOOL;
+	if (!out->is_bool && !literal_fit(literal, IEC_DINT, &value) &&
+	    !whole_number(literal->type))
+		return no_number(e, text);
+	out->value = (int32_t)literal->value.i;
+	return true;
+}
+
+static bool meaning_operand(struct leaving *e, const struct meaning *m,
+			    const char *text, struct out_operand *out)
+{
+	*out = (struct out_operand){ .variable = variable_of(-1, 0) };
+	switch ((int)m->kind) {
+	case MEANING_VARIABLE:
+		return slot_operand(e, m, text, out);
+	case MEANING_PIN:
+		return pin_operand(e, m, text, out);
+	case MEANING_ELEMENT:
+		return element_operand(e, m, text, out);
+	case MEANING_ADDRESS:
+		if (m->addr.area == AREA_SM && m->addr.bits == 1 && !m->addr.byte &&
+		    !m->addr.bit) {
+			*out = (struct out_operand){ .is_bool = true,
+				.is_constant = true, .value = 1 };
+			return true;
+		}
+		if (m->addr.area == AREA_SM && e->dialect != CLASSIC_UPSTREAM &&
+		    m->addr.bits == 1 && !m->addr.byte && m->addr.bit == 1) {
+			*out = (struct out_operand){ .is_bool = true,
+				.variable = variable_of(CL_BIT, e->first) };
+			return true;
+		}
+		return address_variable(e, m->addr, out) || no_number(e, text);
+	case MEANING_LITERAL:
+		return literal_operand(e, &m->literal, text, out);
+	default:
+		return no_number(e, text);
+	}
+}
+
+bool there_find(struct leaving *e, uint32_t text, struct out_operand *out)
+{
+	enum diag_id why;
+	const struct meaning *m = scope_find(e->scope, e->pou, text, &why);
+
+	*out = (struct out_operand){ .variable = variable_of(-1, 0) };
+	if (!m)
+		return no_number(e, project_text(e->project, text));
+	return meaning_operand(e, m, project_text(e->project, text), out);
+}
+
+bool there_text(struct leaving *e, const char *text, size_t len, struct out_operand *out)
+{
+	return there_find(e, names_intern(&e->project->names, text, len), out);
+}
+
+/* ---- symbols ---- */
+
+void names_symbols(struct leaving *e)
+{
+	for (int i = 0; i < e->slots; i++) {
+		const struct out_slot *slot = &e->slot[i];
+
+		if (slot->block >= 0) {
+			out_symbol(e, slot, block_there[slot->block],
+				   block_here[slot->block]);
+			continue;
+		}
+		for (int k = 0; k < MEMORY_ROWS; k++)
+			if (slot->type >= 0 &&
+			    written_type(e, memory_rows[k].type) == slot->type &&
+			    slot->count == 1)
+				out_symbol(e, slot, memory_rows[k].prefix,
+					   memory_rows[k].name ? memory_rows[k].name : "");
+	}
+}

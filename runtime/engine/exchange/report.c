@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * report - what an import took, what means something else now, what it could not take.
+ *
+ * A list, nothing more: who prints it decides how. The texts are its own.
+ */
+#include "engine/exchange/report.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+void report_init(struct classic_report *report)
+{
+	*report = (struct classic_report){ 0 };
+	arena_init(&report->arena);
+}
+
+void report_free(struct classic_report *report)
+{
+	arena_free(&report->arena);
+	report_init(report);
+}
+
+void report_add(struct classic_report *report, struct report_line line,
+		const char *text, ...)
+{
+	struct report_line *added;
+	char whole[512];
+	va_list args;
+	int len;
+
+	va_start(args, text);
+	len = vsnprintf(whole, sizeof(whole), text, args);
+	va_end(args);
+	if (len < 0)
+		len = 0;
+	if ((size_t)len >= sizeof(whole))
+		len = sizeof(whole) - 1;
+	line.text = arena_copy(&report->arena, whole, (size_t)len);
+	added = line.text ? arena_push(&report->arena, &report->line, &report->count,
+				       sizeof(line)) : NULL;
+	if (added)
+		*added = line;
+}

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * print_il - a POU as a text that reads again: as it is, or in IL, whatever it was
+ * written in.
+ *
+ * It has no syntax of its own: it makes a project of that one POU and lets
+ * text/ write it. Globals are not part of it.
+ */
+#include "engine/show/view.h"
+
+#include "engine/text/text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Marks the ids that stand as operands in the list. */
+static void mark_used(const struct il *il, uint8_t *used, int count)
+{
+	for (int i = 0; i < il->count; i++)
+		if (il->line[i].operand < (uint32_t)count)
+			used[il->line[i].operand] = 1;
+}
+
+/* @vars and, in a block of their own, the temporaries in use. */
+static bool join_vars(const struct names *names, const struct var_table *vars,
+		      struct var *const *temps, int temp_count,
+		      const struct il *il, struct var_table *out)
+{
+	uint8_t *used = calloc((size_t)names->count + 1, 1);
+	size_t most = (size_t)vars->count + (size_t)temp_count;
+
+	out->var = calloc(most + 1, sizeof(*out->var));
+	out->block = calloc((size_t)vars->block_count + 1, sizeof(*out->block));
+	if (!used || !out->var || !out->block) {
+		free(used);
+		return false;
+	}
+	if (vars->count > 0)
+		memcpy(out->var, vars->var,
+		       (size_t)vars->count * sizeof(*out->var));
+	if (vars->block_count > 0)
+		memcpy(out->block, vars->block,
+		       (size_t)vars->block_count * sizeof(*out->block));
+	out->count = vars->count;
+	mark_used(il, used, names->count);
+	for (int i = 0; i < temp_count; i++)
+		if (temps[i]->name < (uint32_t)names->count &&
+		    used[temps[i]->name])
+			out->var[out->count++] = *temps[i];
+	out->block_count = vars->block_count;
+	if (out->count > vars->count)
+		out->block[out->block_count++] = (struct var_block){
+			.first = vars->count, .count = out->count - vars->count,
+		};
+	free(used);
+	return true;
+}
+
+bool view_print_il(const struct project *project, const struct pou *pou,
+		   const struct var_table *vars, struct var *const *temps,
+		   int temp_count, const struct il *il, const struct sink *sink)
+{
+	struct pou only = { .name = pou->name, .kind = pou->kind,
+			    .language = LANGUAGE_IL, .il = *il };
+	struct part part = { .kind = PART_POU };
+	struct project one = { .names = project->names, .words = project->words,
+			       .pou = &only, .pou_count = 1,
+			       .part = &part, .part_count = 1 };
+	char *text = NULL;
+	size_t len;
+
+	if (join_vars(&project->names, vars, temps, temp_count, il, &only.vars))
+		text = text_write(&one, &len);
+	/* What stands before it is the head of the file. */
+	const char *begin = text ? strstr(text, pou_word(pou->kind)) : NULL;
+	if (begin)
+		sink_text(sink, begin);
+	free(text);
+	free(only.vars.var);
+	free(only.vars.block);
+	return begin != NULL;
+}
+
+char *view_print_pou(const struct project *project, const struct pou *pou)
+{
+	struct pou only = *pou;
+	struct part part = { .kind = PART_POU };
+	struct project one = { .names = project->names, .words = project->words,
+			       .pou = &only, .pou_count = 1,
+			       .part = &part, .part_count = 1 };
+	size_t len;
+	char *text, *begin;
+
+	only.comment = 0;
+	only.included = 0;
+	text = text_write(&one, &len);
+	/* What stands before it is the head of the file. */
+	begin = text ? strstr(text, pou_word(pou->kind)) : NULL;
+	if (begin)
+		memmove(text, begin, strlen(begin) + 1);
+	return text;
+}
