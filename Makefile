@@ -71,15 +71,16 @@ $(BUILD)/%.o: %.c Makefile
 	$(CC) $(STD) $(CPPFLAGS) $(WARN) $(LEAN) $(CFLAGS) $(COLD) -MMD -MP -c -o $@ $<
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
 
-UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/test_*.c))
+# Tests stand in folders like those of what they test: tests/unit/scan/test_fb.c. A new one is found by its name.
+UNIT := $(patsubst tests/unit/%.c,$(BUILD)/unit/%,$(wildcard tests/unit/*/test_*.c tests/unit/*/*/test_*.c))
 $(BUILD)/unit/%: $(BUILD)/tests/unit/%.o $(BUILD)/libladder.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^) $(filter %.a,$^) -lm
 unit: $(UNIT) ## build and run the unit tests
 	prove -e '' $(UNIT)
 
-$(BUILD)/unit/test_words: $(call obj,$(wildcard runtime/ladder/words*.c))
-words: $(BUILD)/unit/test_words ## write docs/words.md anew from the catalogue
+$(BUILD)/unit/ladder/test_words: $(call obj,$(wildcard runtime/ladder/words*.c))
+words: $(BUILD)/unit/ladder/test_words ## write docs/words.md anew from the catalogue
 	$< --print > docs/words.md
 
 # ---- HAL and runtime ----
@@ -204,13 +205,13 @@ cli-tests: $(BUILD)/ladder ## the command line from outside
 
 # ---- the editor: GTK 4, libadwaita, GtkSourceView ----
 # Without those libraries, and in a build for another machine, it is left out. Its plain
-# files need none of them; nor do the tests of those, tests/editor/test_plain_*.c.
+# files need none of them; nor do the tests of those, tests/editor/edit/ and test_plain_*.c.
 EDITOR_NEEDS := gtk4 >= 4.8 libadwaita-1 >= 1.2 gtksourceview-5 >= 5.6
 EDITOR   := $(if $(CROSS)$(filter 1,$(SMALL)),,$(shell $(PKG_CONFIG) --exists '$(EDITOR_NEEDS)' 2>/dev/null && echo yes))
 EDITOR_ROOMS := $(addprefix editor-gtk/,kit/gtk48 kit edit draw document sim ladder sfc text iomap live panels render window)
 EDITOR_PLAIN := $(wildcard editor-gtk/edit/*.c) $(addprefix editor-gtk/document/,text_lines.c iomap_text.c iomap_edit.c iomap_uses.c iomap_check.c)
 EDITOR_C := $(wildcard $(EDITOR_ROOMS:%=%/*.c))
-EDITOR_TESTS_PLAIN := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/test_plain_*.c))
+EDITOR_TESTS_PLAIN := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/edit/test_*.c tests/editor/*/test_plain_*.c))
 EDITOR_TESTS := $(EDITOR_TESTS_PLAIN)
 $(BUILD)/libeditor-plain.a: $(call obj,$(EDITOR_PLAIN))
 	@rm -f $@
@@ -221,7 +222,7 @@ ifneq ($(EDITOR),)
 # Their headers are not ours to warn about.
 EDITOR_CPP := $(patsubst -I%,-isystem %,$(shell $(PKG_CONFIG) --cflags gtk4 libadwaita-1 gtksourceview-5)) -I$(BUILD)
 EDITOR_LIB := $(shell $(PKG_CONFIG) --libs gtk4 libadwaita-1 gtksourceview-5) $(GPIO_LIB)
-EDITOR_TESTS += $(patsubst %.c,$(BUILD)/%,$(filter-out tests/editor/test_plain_%,$(wildcard tests/editor/test_*.c)))
+EDITOR_TESTS += $(filter-out $(EDITOR_TESTS_PLAIN),$(patsubst %.c,$(BUILD)/%,$(wildcard tests/editor/*/test_*.c tests/editor/*/*/test_*.c)))
 EDITOR_BENCH := $(BUILD)/tests/editor/bench_drawing
 EDITOR_OBJ := $(call obj,$(filter-out editor-gtk/window/main.c,$(EDITOR_C))) $(BUILD)/editor-gtk/resources.o
 EDITOR_RES := $(wildcard editor-gtk/*.gresource.xml)
@@ -351,13 +352,13 @@ TESTS_BIN := $(addprefix $(BIN)/,differential classic_differential sfc_different
 TESTS_SH  := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl tests/pathological.t
 HOUSE     := tests/floors.sh tests/headers.sh tests/quiet.sh tests/banned.pl
 
-$(BUILD)/unit/test_record $(BUILD)/unit/test_carry $(BUILD)/unit/test_why: $(RANDOM_O)
+$(addprefix $(BUILD)/unit/,trial/test_record scan/test_carry trial/test_why): $(RANDOM_O)
 $(BIN)/differential: $(BUILD)/tests/differential.o $(WALKER)
 $(BIN)/sfc_differential: $(BUILD)/tests/sfc_differential.o $(WALKER)
 $(BIN)/sfc_trace: $(BUILD)/tests/sfc_trace.o $(WALKER)
 $(BIN)/sfc_ladder: $(BUILD)/tests/sfc_ladder.o $(RANDOM_O)
 $(BIN)/members: $(BUILD)/tests/members.o $(RANDOM_O)
-$(BUILD)/tests/editor/test_sim_trace $(BUILD)/tests/editor/test_sim_older: $(RANDOM_O)
+$(BUILD)/tests/editor/live/test_sim_trace $(BUILD)/tests/editor/sim/test_sim_older: $(RANDOM_O)
 $(BIN)/iec_cases: $(BUILD)/tests/iec_cases.o
 $(BIN)/exhaustion: $(BUILD)/tests/exhaustion.o
 $(BIN)/exhaustion: WRAP := -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=free,--wrap=mmap64,--wrap=munmap

@@ -29,10 +29,10 @@ run_arch() {
 		echo "arm.sh: $1 was skipped: apt-get install qemu-user $4" >&2
 		return
 	fi
-	for program in "$build/$1"/unit/test_* "$build/$1"/tests/bin/iec_cases; do
+	for program in "$build/$1"/unit/*/test_* "$build/$1"/unit/*/*/test_* "$build/$1"/tests/bin/iec_cases; do
 		case $program in *.d | *.o) continue;; esac
 		"$2" "$program" >"$tmp/out" 2>&1
-		say $? "$1: ${program##*/}"
+		say $? "$1: ${program#"$build/$1"/}"
 	done
 	"$2" "$build/$1/tests/bin/differential" --count "$count" >"$tmp/out" 2>&1
 	say $? "$1: the second evaluator, $count random programs"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * theme - the token table; see theme.h. Ratios are computed by tests/editor/test_theme.c.
+ * theme - the token table; see theme.h. Ratios are computed by tests/editor/kit/test_theme.c.
  */
 #include "editor-gtk/kit/theme.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_plain_normal - the normal form of rungs means what they meant.
+ * test_normal - the normal form of rungs means what they meant.
  *
  * Every rung of the samples and of the golden cases that build is put into normal form;
  * the program that is translated from it must be the same, instruction by instruction.

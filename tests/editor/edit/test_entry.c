@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_plain_entry - quick entry: what lines mean, and what is offered for them.
+ * test_entry - quick entry: what lines mean, and what is offered for them.
  *
  * A case is the line as typed and the cell it makes, with what would be declared behind
  * `+`, and `below` before it if it goes in parallel; or `!` and why not. A line of the

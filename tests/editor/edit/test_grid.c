@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_plain_grid - edits of rungs, each as rung before, what is done, rung after.
+ * test_grid - edits of rungs, each as rung before, what is done, rung after.
  *
  * Rows and columns are 1-based here, the sheet has six columns. A line of edits is
  * `verb row column [cell]`; what is refused is `! REFUSAL`. Blanks count for nothing.

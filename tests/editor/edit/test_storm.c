@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_plain_storm - thousands of random edits of rungs, by hand and by rule.
+ * test_storm - thousands of random edits of rungs, by hand and by rule.
  *
  * Wild: anything anywhere; each result must read, be in normal form and say what it is.
  * Tame: edits that close by themselves; the rung must stay one that the checks accept,

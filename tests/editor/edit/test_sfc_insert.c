@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_plain_sfc_insert - a part of a chart comes into its sequence: known places by their
+ * test_sfc_insert - a part of a chart comes into its sequence: known places by their
  * text, random ones by what must hold: the text reads, is canonical, and no way leads to a
  * step that there is not.
  */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_plain_sfc_edit - edits of charts: known ones by their text, thousands of random ones
+ * test_sfc_edit - edits of charts: known ones by their text, thousands of random ones
  * by what must hold of each: the text reads, is canonical, and the steps and ways are
  * those that there should be.
  */
