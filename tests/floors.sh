@@ -8,7 +8,7 @@ set -u
 cd "${FLOORS_ROOT:-$(dirname "$0")/..}" || exit 1
 
 # Doors of the engine that the editor and the two programs use. Paths as they are included.
-doors='engine/ladder.h engine/base engine/model engine/scan engine/show engine/compare engine/xref engine/trial'
+doors='engine/ladder.h engine/base engine/model engine/scan engine/show engine/compare engine/xref engine/trial engine/text/pou_print.h'
 # Each line: a room, then what it may include besides itself: rooms (folders) and single headers.
 rooms="
 runtime/engine/base       engine/catalog.def engine/diag.def

@@ -64,7 +64,7 @@ void panel_show_selected(GtkColumnView *view);
  * row, column, 0-based, -1: the whole
  *
  * Of a list: its POU, -1, line of its text, byte in it. Of a file that cannot be read: -1,
- * line, -1, byte. Of a declaration (row->table): -1, -1, table, index of view/xref.h.
+ * line, -1, byte. Of a declaration (row->table): -1, -1, table, index of xref/xref.h.
  */
 void panel_go_to(GtkWidget *from, const LadderPanelRow *row);
 /** panel_speak - names the row that a cell of the list stands in, for a screen reader. */

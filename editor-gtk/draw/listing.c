@@ -5,7 +5,7 @@
  */
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/kit/comment_text.h"
-#include "engine/show/view.h"
+#include "engine/text/pou_print.h"
 
 char **listing_il(const struct project *project, const struct pou *pou)
 {
@@ -14,7 +14,7 @@ char **listing_il(const struct project *project, const struct pou *pou)
 
 	sink_memory_init(&memory);
 	struct sink sink = sink_to_memory(&memory);
-	if (view_print_il(project, pou, &pou->vars, NULL, 0, &pou->il, &sink)) {
+	if (pou_print_il(project, pou, &pou->vars, NULL, 0, &pou->il, &sink)) {
 		GString *text = g_string_new(sink_memory_text(&memory));
 
 		while (text->len && text->str[text->len - 1] == '\n')

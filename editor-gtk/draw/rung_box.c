@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * rung_box - pins and sizes of boxes; see rung_box.h. The order of pins is that of
- * view/show_box.c.
+ * show/show_box.c.
  */
 #include "editor-gtk/draw/rung_box.h"
 #include "engine/model/args.h"

@@ -3,7 +3,7 @@
  * sfc_sheet - a chart in pixels: where its boxes, texts and lines stand, and what stands
  * at a point.
  *
- * Lanes and rows are those of the engine's layout (view/sfc_layout.h); here they get
+ * Lanes and rows are those of the engine's layout (show/sfc_layout.h); here they get
  * their widths. Places are px at 100 %. It draws nothing and changes nothing.
  */
 #ifndef EDITOR_SFC_SHEET_H

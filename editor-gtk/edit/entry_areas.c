@@ -2,7 +2,7 @@
  *
  * entry_areas - addresses in use, and those that a new name may get.
  *
- * What is used and what is free the engine knows (view/address_map.h); which area a new
+ * What is used and what is free the engine knows (xref/address_map.h); which area a new
  * one belongs to is the habit of the project.
  */
 #include "editor-gtk/edit/entry_inside.h"

@@ -5,7 +5,7 @@
 #include "editor-gtk/edit/sfc_edit.h"
 
 #include "editor-gtk/kit/i18n.h"
-#include "engine/show/view.h"
+#include "engine/text/pou_print.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -90,7 +90,7 @@ void sfc_edit_free(struct sfc_edit *edit)
 
 char *sfc_edit_text(const struct sfc_edit *edit)
 {
-	return edit->arena.failed ? NULL : view_print_pou(edit->project, &edit->pou);
+	return edit->arena.failed ? NULL : pou_print(edit->project, &edit->pou);
 }
 
 uint32_t sfc_edit_id(struct sfc_edit *edit, const char *text)

@@ -9,7 +9,7 @@
 
 #include "editor-gtk/kit/i18n.h"
 
-#include "engine/show/view.h"
+#include "engine/text/pou_print.h"
 
 #include <string.h>
 
@@ -52,7 +52,7 @@ static void show_now(struct code_view *code)
 	const struct sink sink = sink_to_memory(&memory);
 
 	temps = ladder_temporaries(ladder, code->pou, &count);
-	view_print_il(project, &project->pou[code->pou], &project->pou[code->pou].vars,
+	pou_print_il(project, &project->pou[code->pou], &project->pou[code->pou].vars,
 		      temps, count, il, &sink);
 	gtk_text_buffer_set_text(code->buffer, sink_memory_text(&memory), -1);
 	sink_memory_free(&memory);

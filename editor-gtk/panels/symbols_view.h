@@ -18,7 +18,7 @@ G_DECLARE_FINAL_TYPE(LadderSymbolsView, ladder_symbols_view, LADDER, SYMBOLS_VIE
 
 GtkWidget *ladder_symbols_view_new(void);
 void ladder_symbols_view_set_document(LadderSymbolsView *view, LadderDocument *document);
-/** ladder_symbols_view_show - selects a symbol, by table and index of view/xref.h. */
+/** ladder_symbols_view_show - selects a symbol, by table and index of xref/xref.h. */
 bool ladder_symbols_view_show(LadderSymbolsView *view, int table, int index);
 /** ladder_symbols_view_enter - the name of the row that is selected has the keys. */
 void ladder_symbols_view_enter(LadderSymbolsView *view);

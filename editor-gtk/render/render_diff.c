@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  *
  * render_diff - the rungs that differ, in one picture; see render_diff.h. Which of them
- * belong together is the engine's to say (view_diff_rungs). What is no rung is
+ * belong together is the engine's to say (compare_rungs). What is no rung is
  * render_diff_lines.c.
  */
 #include "editor-gtk/render/render_diff.h"
@@ -9,7 +9,7 @@
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/render/render_diff_lines.h"
 #include "editor-gtk/render/render_sheet.h"
-#include "engine/show/view.h"
+#include "engine/compare/compare.h"
 
 #include <string.h>
 #include <strings.h>
@@ -50,7 +50,7 @@ static struct sheet *sheet_of(const struct comparison *of, const struct project 
 }
 
 /* The same width for what was and what is. */
-static void start_pou(struct comparison *of, struct view_pair pair)
+static void start_pou(struct comparison *of, struct compare_pair pair)
 {
 	sheet_free(of->before);
 	sheet_free(of->after);
@@ -169,7 +169,7 @@ static void put_rung(struct comparison *of, const struct sheet *sheet, int index
 	of->y = render_remarks(sheet, index, index + 1, NULL, of->y, of->picture);
 }
 
-static void put_changed(struct comparison *of, struct view_pair pair)
+static void put_changed(struct comparison *of, struct compare_pair pair)
 {
 	const struct rung_layout *before = of->before->rung[pair.rung_a];
 	const struct rung_layout *after = of->after->rung[pair.rung_b];
@@ -182,7 +182,7 @@ static void put_changed(struct comparison *of, struct view_pair pair)
 	g_free(mark);
 }
 
-static void put_moved(struct comparison *of, struct view_pair pair)
+static void put_moved(struct comparison *of, struct compare_pair pair)
 {
 	char *said = g_strdup_printf(_("Rung %d moved to %d"), pair.rung_a + 1,
 				     pair.rung_b + 1);
@@ -241,7 +241,7 @@ static void put_other(struct comparison *of)
 				  of->picture);
 }
 
-static void take_pair(void *context, struct view_pair pair)
+static void take_pair(void *context, struct compare_pair pair)
 {
 	struct comparison *of = context;
 	const char *wanted = of->options->pou;
@@ -276,7 +276,7 @@ void render_diff(const struct project *a, const struct project *b,
 	struct comparison of = { .a = a, .b = b, .options = options, .pou_a = -2,
 				 .pou_b = -2, .lettering = lettering, .picture = picture };
 
-	view_diff_rungs(a, b, take_pair, &of);
+	compare_rungs(a, b, take_pair, &of);
 	if (of.y <= 0)
 		of.y += render_heading(lettering, _("No rung differs"), 0, picture);
 	of.y = render_diff_besides(a, b, options, lettering, of.y, picture);

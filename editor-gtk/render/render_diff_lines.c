@@ -8,7 +8,7 @@
 #include "editor-gtk/render/render_diff_sfc.h"
 #include "editor-gtk/render/render_sheet.h"
 #include "editor-gtk/draw/rung_layout.h"
-#include "engine/show/view.h"
+#include "engine/compare/compare.h"
 
 #define TEXT_LINE  17
 #define SIGN_X     16   /* where + and - stand                                    */
@@ -23,11 +23,11 @@
 #define DOTS  "\xe2\x80\xa6"
 
 struct listed {
-	GArray *line;           /* struct view_line; their texts are owned       */
+	GArray *line;           /* struct compare_line; their texts are owned       */
 	GStringChunk *texts;
 };
 
-static void take_line(void *context, struct view_line line)
+static void take_line(void *context, struct compare_line line)
 {
 	struct listed *listed = context;
 
@@ -35,7 +35,7 @@ static void take_line(void *context, struct view_line line)
 	g_array_append_val(listed->line, line);
 }
 
-static bool is_same(const struct view_line *line)
+static bool is_same(const struct compare_line *line)
 {
 	return line->line_a && line->line_b;
 }
@@ -47,7 +47,7 @@ static bool is_shown(const GArray *lines, int index)
 							  index + AROUND);
 
 	for (int i = from; i <= to; i++)
-		if (!is_same(&g_array_index(lines, struct view_line, i)))
+		if (!is_same(&g_array_index(lines, struct compare_line, i)))
 			return true;
 	return false;
 }
@@ -73,7 +73,7 @@ static void put_number(struct lettering *lettering, int number, float y,
 		     y + 13);
 }
 
-static void put_line(struct lettering *lettering, const struct view_line *line, float y,
+static void put_line(struct lettering *lettering, const struct compare_line *line, float y,
 		     struct picture *picture)
 {
 	const bool added = !line->line_a;
@@ -93,11 +93,11 @@ float render_diff_lines(const struct project *a, int pou_a, const struct project
 			int pou_b, struct lettering *lettering, float y,
 			struct picture *picture)
 {
-	struct listed listed = { g_array_new(FALSE, FALSE, sizeof(struct view_line)),
+	struct listed listed = { g_array_new(FALSE, FALSE, sizeof(struct compare_line)),
 				 g_string_chunk_new(4096) };
 	bool left_out = false;
 
-	view_diff_lines(a, pou_a, b, pou_b, take_line, &listed);
+	compare_lines(a, pou_a, b, pou_b, take_line, &listed);
 	for (int i = 0; i < (int)listed.line->len; i++) {
 		if (!is_shown(listed.line, i)) {
 			if (!left_out)
@@ -107,7 +107,7 @@ float render_diff_lines(const struct project *a, int pou_a, const struct project
 			continue;
 		}
 		left_out = false;
-		put_line(lettering, &g_array_index(listed.line, struct view_line, i), y,
+		put_line(lettering, &g_array_index(listed.line, struct compare_line, i), y,
 			 picture);
 		y += TEXT_LINE;
 	}
@@ -174,7 +174,7 @@ float render_diff_besides(const struct project *a, const struct project *b,
 
 	sink_memory_init(&memory);
 	sink = sink_to_memory(&memory);
-	if (view_diff_besides(a, b, options->pou, &sink) > 0) {
+	if (compare_besides(a, b, options->pou, &sink) > 0) {
 		char **lines = g_strsplit(sink_memory_text(&memory), "\n", -1);
 
 		y += render_heading(lettering, _("Outside the rungs"), y, picture);

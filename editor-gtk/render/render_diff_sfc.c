@@ -5,7 +5,7 @@
  */
 #include "editor-gtk/render/render_diff_sfc.h"
 
-#include "engine/show/view.h"
+#include "engine/text/pou_print.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -50,7 +50,7 @@ static char *print(struct plain *plain, struct sfc_piece first, int count)
 	plain->piece[1] = (struct sfc_piece){ PIECE_MACRO_END, first.index };
 	plain->one.piece = plain->piece;
 	plain->one.piece_count = count;
-	return view_print_pou(plain->sheet->project, &plain->pou);
+	return pou_print(plain->sheet->project, &plain->pou);
 }
 
 /* From behind the first line on, with the name of what it stands in. */

@@ -3,7 +3,7 @@
  * ladder - the facade of libladder.a: from a file to something that runs.
  *
  * Programs include this, model/, scan/ and base/ headers and nothing else of the
- * engine but view/ and trial/. It prints nothing and exits never.
+ * engine but show/, compare/, xref/ and trial/. It prints nothing and exits never.
  */
 #ifndef ENGINE_LADDER_H
 #define ENGINE_LADDER_H
@@ -160,9 +160,9 @@ char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list 
  * ladder_export_ladder() comes first. Scan-safe: no. */
 bool ladder_charts_fit_classic(struct ladder *ladder);
 /**
- * ladder_export_classic - the project as one of ClassicLadder's (view/to_classic.h)
+ * ladder_export_classic - the project as one of ClassicLadder's (exchange/classic/to_classic.h)
  * @dialect: of ClassicLadder, of LinuxCNC, or a bare rung file
- * @lines:   of its I/O map (view/to_classic.h); NULL: none
+ * @lines:   of its I/O map (exchange/classic/to_classic.h); NULL: none
  * @report:  gets what means something else there
  * @diags:   gets LD730 to LD739 for what cannot be said there
  *
@@ -225,7 +225,7 @@ struct ladder_rename {
 /**
  * ladder_rename - a variable, member, label, POU or structure gets another name,
  * wherever it is written
- * @target: of view/xref.h, of this project as it is
+ * @target: of xref/xref.h, of this project as it is
  * @how:    gets how many places change, or why none does, and where
  *
  * Nothing captures and nothing is captured: in what comes of it each name means what it

@@ -183,7 +183,7 @@ static enum status watch_rungs(struct call *call, struct machine *machine,
 			       const char *rungs)
 {
 	const struct sink nowhere = { .write = swallow };
-	const struct view_show_options options = { .width = 0 };
+	const struct show_options options = { .width = 0 };
 	const struct project *project = ladder_project(machine->ladder);
 
 	machine->resource.watch = true;

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT
  *
- * cmd_view - `ladder show`, `diff` and `words`: what view/ prints, with the
- * exit status of the command line around it.
+ * cmd_view - `ladder show`, `diff` and `words`: what show.h, compare.h and words.h
+ * print, with the exit status of the command line around it.
  */
 #include "ladder/rungs.h"
+#include "ladder/words.h"
 
+#include "engine/compare/compare.h"
 #include "engine/scan/code.h"
 #include "engine/trial/script.h"
 #include "engine/trial/value.h"
@@ -14,7 +16,7 @@
 
 static enum status show(struct call *call, const struct project *project,
 			const struct resource *resource,
-			const struct view_show_options *options)
+			const struct show_options *options)
 {
 	const char *name = call->arg_count < 2 ? NULL : call->arg[1];
 	int shown = rungs_show(project, name, resource, *options, &call->out);
@@ -45,7 +47,7 @@ static void swallow(void *context, const char *text, size_t len)
 /* The rungs as they are behind the last scan of a script. A program that stops with a
  * fault or at a STOP is shown as it stopped. */
 static enum status show_after(struct call *call, const char *script,
-			      const struct view_show_options *options)
+			      const struct show_options *options)
 {
 	const struct sink nowhere = { .write = swallow };
 	struct diag_list *diags = calloc(1, sizeof(*diags));
@@ -85,7 +87,7 @@ static enum status show_after(struct call *call, const char *script,
 
 enum status cmd_show(struct call *call)
 {
-	struct view_show_options options = {
+	struct show_options options = {
 		.ascii = call_flag(call, "--ascii"),
 	};
 	const char *script = call_option(call, "--after");
@@ -142,7 +144,7 @@ static enum status diff(struct call *call, struct ladder *a, struct ladder *b)
 
 	if (!first || !second)
 		return compare(call, a, b);
-	int count = view_diff(first, second, json, &call->out);
+	int count = compare_projects(first, second, json, &call->out);
 
 	if (count < 0)
 		return report_no_memory(call->arg[0]);
@@ -175,10 +177,10 @@ enum status cmd_words(struct call *call)
 	const char *word = call->arg_count ? call->arg[0] : NULL;
 
 	if (call_flag(call, "--markdown")) {
-		view_words_markdown(&call->out);
+		words_markdown(&call->out);
 		return STATUS_GOOD;
 	}
-	if (view_words(word, call_flag(call, "--json"), &call->out))
+	if (words_list(word, call_flag(call, "--json"), &call->out))
 		return STATUS_GOOD;
 	report_diag((struct diag){ .id = DIAG_UNKNOWN_WORD, .file = "ladder" },
 		    "%.40s", word ? word : "");

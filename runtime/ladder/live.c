@@ -232,7 +232,7 @@ static void put_rungs(struct live *live)
 {
 	struct screen *screen = &live->screen;
 	struct sink out = sink_to_memory(&live->drawing);
-	struct view_show_options options = { .ascii = !live->utf8 };
+	struct show_options options = { .ascii = !live->utf8 };
 	char *at, *end;
 
 	live->drawing.len = 0;

@@ -46,7 +46,7 @@ static int find_rung(const struct project *project, const struct pou *pou,
 }
 
 static int show_named(const struct project *project, const char *name,
-		      const struct view_show_options *options,
+		      const struct show_options *options,
 		      const struct sink *out)
 {
 	const char *colon = strchr(name, ':');
@@ -56,7 +56,7 @@ static int show_named(const struct project *project, const char *name,
 	if (colon && only < 0)
 		return 0;
 	if (!colon && only >= 0)
-		return view_show(project, only, 0, options, out);
+		return show_rungs(project, only, 0, options, out);
 	for (int i = 0; i < project->pou_count; i++) {
 		int rung = 0;
 
@@ -64,7 +64,7 @@ static int show_named(const struct project *project, const char *name,
 			rung = find_rung(project, &project->pou[i],
 					 colon ? colon + 1 : name);
 		if (rung)
-			shown += view_show(project, i, rung, options, out);
+			shown += show_rungs(project, i, rung, options, out);
 	}
 	return shown;
 }
@@ -142,7 +142,7 @@ static const char *behind_program(const struct project *project, const char *nam
 }
 
 static int show_instance(const struct project *project, const char *full,
-			 struct view_show_options *options, const struct sink *out)
+			 struct show_options *options, const struct sink *out)
 {
 	const char *name = behind_program(project, full);
 	struct powered *powered = options->context;
@@ -158,11 +158,11 @@ static int show_instance(const struct project *project, const char *full,
 	if (colon && !rung)
 		return 0;
 	options->instance = powered->instance = program->string + found->name;
-	return view_show(project, (int)found->pou, rung, options, out);
+	return show_rungs(project, (int)found->pou, rung, options, out);
 }
 
 int rungs_show(const struct project *project, const char *name,
-	       const struct resource *resource, struct view_show_options options,
+	       const struct resource *resource, struct show_options options,
 	       const struct sink *out)
 {
 	struct powered powered = { .project = project, .resource = resource };
@@ -174,7 +174,7 @@ int rungs_show(const struct project *project, const char *name,
 		options.context = &powered;
 	}
 	if (!name)
-		return view_show(project, -1, 0, &options, out);
+		return show_rungs(project, -1, 0, &options, out);
 	shown = show_named(project, name, &options, out);
 	return shown || !resource ? shown :
 				    show_instance(project, name, &options, out);

@@ -7,7 +7,7 @@
 
 #include "ladder/report.h"
 
-#include "engine/show/view.h"
+#include "engine/show/show.h"
 
 /**
  * rungs_show - draws rungs by their name
@@ -16,9 +16,9 @@
  * @resource: of a watched program: wires with power are thick; NULL: no power
  * @options:  its power is taken from @resource
  *
- * Returns as view_show().
+ * Returns as show_rungs().
  */
 int rungs_show(const struct project *project, const char *name,
-	       const struct resource *resource, struct view_show_options options,
+	       const struct resource *resource, struct show_options options,
 	       const struct sink *out);
 #endif

@@ -9,7 +9,6 @@
 #include "engine/base/explain.h"
 #include "engine/model/convert.h"
 #include "engine/model/words.h"
-#include "engine/show/view.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -497,7 +496,7 @@ static void show_entry(const struct words_entry *entry, bool one, bool json,
 	}
 }
 
-int view_words(const char *word, bool json, const struct sink *sink)
+int words_list(const char *word, bool json, const struct sink *sink)
 {
 	enum words_kind kind = WORDS_KIND_COUNT;
 	struct words_entry entry;

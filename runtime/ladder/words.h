@@ -2,14 +2,24 @@
  *
  * words - one row of the catalogue, of whatever kind, as the word list sees it.
  *
- * Used inside view/ only: words.c lists them as text and JSON, words_page.c as
- * the page docs/words.md. It holds no words itself.
+ * words.c lists them as text and JSON, words_page.c as the page docs/words.md.
  */
-#ifndef VIEW_WORDS_H
-#define VIEW_WORDS_H
+#ifndef LADDER_WORDS_H
+#define LADDER_WORDS_H
 
 #include "engine/base/catalog.h"
 #include "engine/base/sink.h"
+
+/**
+ * words_list - elements, boxes, instructions, types, areas and system names
+ * @word: one of them, any case, with its details; NULL: all, a line each
+ * @json: an array of objects; each has kind, word and doc, most have more
+ *
+ * Returns how many were listed; 0: there is no such word.   Scan-safe: no.
+ */
+int words_list(const char *word, bool json, const struct sink *sink);
+/** words_markdown - the whole of docs/words.md. */
+void words_markdown(const struct sink *sink);
 
 enum words_kind {
 	WORDS_ELEMENT, WORDS_BLOCK, WORDS_FUNCTION, WORDS_OPERATOR, WORDS_TYPE,

@@ -10,7 +10,7 @@
  */
 #include "engine/model/project.h"
 #include "engine/text/text.h"
-#include "engine/show/view.h"
+#include "engine/show/show.h"
 #include "ladder/words.h"
 
 #include <stdlib.h>
@@ -385,7 +385,7 @@ static bool put_project(const struct project *project, enum words_form form,
 	size_t len;
 
 	if (form == WORDS_AS_PICTURE)
-		return view_show(project, 0, 0, NULL, sink) > 0;
+		return show_rungs(project, 0, 0, NULL, sink) > 0;
 	text = text_write(project, &len);
 	if (text)
 		sink_write(sink, text, len);

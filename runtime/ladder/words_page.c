@@ -5,7 +5,6 @@
  * say.
  */
 #include "engine/base/explain.h"
-#include "engine/show/view.h"
 #include "ladder/words.h"
 
 #include <string.h>
@@ -188,7 +187,7 @@ static void table_line(const struct words_entry *entry, const struct sink *sink)
 	sink_text(sink, " |\n");
 }
 
-void view_words_markdown(const struct sink *sink)
+void words_markdown(const struct sink *sink)
 {
 	enum words_kind kind = WORDS_KIND_COUNT;
 	struct words_entry entry;

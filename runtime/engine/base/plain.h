@@ -2,11 +2,11 @@
  *
  * plain - a user's text made fit for a terminal: measured, clipped, harmless.
  *
- * Used inside view/ only. Control characters and broken bytes are shown as `?`,
+ * Control characters and broken bytes are shown as `?`,
  * so that no comment can move a cursor. It wraps nothing.
  */
-#ifndef VIEW_PLAIN_H
-#define VIEW_PLAIN_H
+#ifndef BASE_PLAIN_H
+#define BASE_PLAIN_H
 
 #include "engine/base/sink.h"
 

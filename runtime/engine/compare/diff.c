@@ -8,7 +8,6 @@
  */
 #include "engine/compare/diff.h"
 #include "engine/text/text.h"
-#include "engine/show/view.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -378,7 +377,7 @@ bool diff_close(struct diff *diff)
 	return good;
 }
 
-int view_diff(const struct project *a, const struct project *b, bool json,
+int compare_projects(const struct project *a, const struct project *b, bool json,
 	      const struct sink *sink)
 {
 	struct diff *diff = diff_open(a, b, sink);
@@ -394,7 +393,7 @@ int view_diff(const struct project *a, const struct project *b, bool json,
 	return diff_close(diff) ? count : -1;
 }
 
-int view_diff_besides(const struct project *a, const struct project *b, const char *pou,
+int compare_besides(const struct project *a, const struct project *b, const char *pou,
 		      const struct sink *sink)
 {
 	struct diff *diff = diff_open(a, b, sink);

@@ -2,17 +2,17 @@
  *
  * diff - what the parts of the comparison of two projects share.
  *
- * Used inside view/ only: diff.c compares projects, POUs and variables,
+ * Private to compare/: diff.c compares projects, POUs and variables,
  * diff_rung.c rungs, diff_match.c finds what belongs together, diff_say.c puts
  * it into words, diff_pairs.c hands out rungs without words.
  */
-#ifndef VIEW_DIFF_H
-#define VIEW_DIFF_H
+#ifndef COMPARE_DIFF_H
+#define COMPARE_DIFF_H
 
 #include "engine/base/limits.h"
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
-#include "engine/show/view.h"
+#include "engine/compare/compare.h"
 
 #define DIFF_LIMIT 1500      /* insertions and deletions looked for at most   */
 #define DIFF_CANDIDATES 64   /* rungs of a gap looked at for likeness         */
@@ -32,10 +32,10 @@ struct diff {
 	char from[1024], to[1024]; /* scratch: texts of two cells or lines    */
 	char subject[2 * LIMIT_NAME], pin[LIMIT_NAME + 1]; /* scratch: names  */
 	/* Takes the rungs instead of words; NULL: words. */
-	void (*take)(void *context, struct view_pair pair);
-	void (*take_line)(void *context, struct view_line line); /* likewise     */
+	void (*take)(void *context, struct compare_pair pair);
+	void (*take_line)(void *context, struct compare_line line); /* likewise     */
 	void *context;
-	struct view_pair pair;     /* for take: its POUs                       */
+	struct compare_pair pair;     /* for take: its POUs                       */
 };
 
 /* One difference; what is NULL or 0 is not said. */

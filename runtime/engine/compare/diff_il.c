@@ -5,8 +5,8 @@
  * Lines are counted from the one behind the declarations.
  */
 #include "engine/compare/diff.h"
+#include "engine/text/pou_print.h"
 #include "engine/text/text.h"
-#include "engine/show/view.h"
 
 #include <string.h>
 
@@ -61,7 +61,7 @@ static bool write_body(const struct project *project, const struct pou *pou,
 	const struct var_table none = { 0 };
 
 	if (pou->language != LANGUAGE_SFC)
-		return view_print_il(project, pou, &none, NULL, 0, &pou->il, sink);
+		return pou_print_il(project, pou, &none, NULL, 0, &pou->il, sink);
 	sink_text(sink, "PROGRAM\n");
 	text_write_chart(project, pou, sink);
 	sink_text(sink, "END_PROGRAM\n");
@@ -129,7 +129,7 @@ static void give_line(struct diff *diff, const struct lines *a, int i,
 	const struct lines *in = i < 0 ? b : a;
 	const int at = i < 0 ? j : i;
 
-	diff->take_line(diff->context, (struct view_line){ i + 1, j + 1, in->indent[at],
+	diff->take_line(diff->context, (struct compare_line){ i + 1, j + 1, in->indent[at],
 							   in->line[at] });
 }
 

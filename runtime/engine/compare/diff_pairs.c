@@ -8,7 +8,7 @@
 /* All rungs of a POU that the other project does not have. */
 static void give_all(struct diff *diff, const struct pou *pou, bool added)
 {
-	struct view_pair pair = diff->pair;
+	struct compare_pair pair = diff->pair;
 	bool list = pou->language != LANGUAGE_LD;
 
 	pair.changed = true;
@@ -26,12 +26,12 @@ static void give_pou(struct diff *diff, int index)
 	int other = diff_pou(diff->b, project_text(diff->a, a->name));
 	const struct pou *b = other < 0 ? NULL : &diff->b->pou[other];
 
-	diff->pair = (struct view_pair){ index, other, -1, -1, false, true };
+	diff->pair = (struct compare_pair){ index, other, -1, -1, false, true };
 	if (b && a->language == LANGUAGE_LD && b->language == LANGUAGE_LD) {
 		diff_rungs(diff, a, b);
 	} else if (b && a->language == b->language) {
 		diff->count = 0;
-		void (*take)(void *, struct view_pair) = diff->take;
+		void (*take)(void *, struct compare_pair) = diff->take;
 		diff->take = NULL;
 		diff_il(diff, a, b);
 		diff->take = take;
@@ -51,8 +51,8 @@ static void say_nothing(void *context, const char *text, size_t len)
 	(void)len;
 }
 
-bool view_diff_rungs(const struct project *a, const struct project *b,
-		     void (*take)(void *context, struct view_pair pair),
+bool compare_rungs(const struct project *a, const struct project *b,
+		     void (*take)(void *context, struct compare_pair pair),
 		     void *context)
 {
 	const struct sink silent = { .write = say_nothing };
@@ -65,16 +65,16 @@ bool view_diff_rungs(const struct project *a, const struct project *b,
 	for (int i = 0; i < a->pou_count && !diff->failed; i++)
 		give_pou(diff, i);
 	for (int j = 0; j < b->pou_count && !diff->failed; j++) {
-		diff->pair = (struct view_pair){ -1, j, -1, -1, false, true };
+		diff->pair = (struct compare_pair){ -1, j, -1, -1, false, true };
 		if (diff_pou(a, project_text(b, b->pou[j].name)) < 0)
 			give_all(diff, &b->pou[j], true);
 	}
 	return diff_close(diff);
 }
 
-bool view_diff_lines(const struct project *a, int pou_a, const struct project *b,
+bool compare_lines(const struct project *a, int pou_a, const struct project *b,
 		     int pou_b,
-		     void (*take)(void *context, struct view_line line), void *context)
+		     void (*take)(void *context, struct compare_line line), void *context)
 {
 	const struct sink silent = { .write = say_nothing };
 	struct diff *diff = diff_open(a, b, &silent);

@@ -330,7 +330,7 @@ static void compare_cells(struct diff *diff, struct difference what,
 	}
 }
 
-static void compare_rungs(struct diff *diff, struct difference what,
+static void say_changes(struct diff *diff, struct difference what,
 			  const struct rung *a, const struct rung *b)
 {
 	int rows = a->rows > b->rows ? a->rows : b->rows;
@@ -367,7 +367,7 @@ static struct difference of_rung(const struct project *project,
 
 static void give(struct diff *diff, int rung_a, int rung_b, bool moved, bool changed)
 {
-	struct view_pair pair = diff->pair;
+	struct compare_pair pair = diff->pair;
 
 	pair.rung_a = rung_a;
 	pair.rung_b = rung_b;
@@ -412,7 +412,7 @@ static void tell(const struct pairing *pairs, int i)
 		diff_say(diff, what);
 	}
 	if (j >= 0 && changed)
-		compare_rungs(diff, what, pairs->a->rung[i], pairs->b->rung[j]);
+		say_changes(diff, what, pairs->a->rung[i], pairs->b->rung[j]);
 }
 
 void diff_rungs(struct diff *diff, const struct pou *a, const struct pou *b)

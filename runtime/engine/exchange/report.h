@@ -5,8 +5,8 @@
  * A list of lines with places in the file they speak of, for text, JSON and the editor.
  * What makes an import impossible is a diagnostic instead.
  */
-#ifndef IMPORT_REPORT_H
-#define IMPORT_REPORT_H
+#ifndef EXCHANGE_REPORT_H
+#define EXCHANGE_REPORT_H
 
 #include "engine/base/arena.h"
 

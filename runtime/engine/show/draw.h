@@ -3,17 +3,17 @@
  * draw - what one rung's drawing needs to know; shared by show.c, show_box.c and
  * show_sfc.c.
  *
- * Used inside view/ only. Every text line is put out from left to right;
+ * Private to show/. Every text line is put out from left to right;
  * nothing is painted over, so the drawing needs no canvas and wide characters
  * keep their place.
  */
-#ifndef VIEW_DRAW_H
-#define VIEW_DRAW_H
+#ifndef SHOW_DRAW_H
+#define SHOW_DRAW_H
 
 #include "engine/base/limits.h"
 #include "engine/base/sink.h"
 #include "engine/model/project.h"
-#include "engine/show/view.h"
+#include "engine/show/show.h"
 
 enum { JOIN_UP = 1, JOIN_DOWN = 2, JOIN_LEFT = 4, JOIN_RIGHT = 8 };
 
@@ -54,7 +54,7 @@ struct draw {
 	const struct rung *rung;
 	const struct sink *sink;
 	const struct strokes *strokes;
-	const struct view_show_options *options; /* or NULL                   */
+	const struct show_options *options; /* or NULL                   */
 	int pou;                    /* index in the project                   */
 	int number;                 /* of the rung                            */
 	bool in, out;               /* power of the cell that is drawn        */

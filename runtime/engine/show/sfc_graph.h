@@ -7,8 +7,8 @@
  * `far`: it is not drawn as a line. What remains has no loops, and each point has one
  * dominator: the last point through which every way to it leads. It judges nothing.
  */
-#ifndef VIEW_SFC_GRAPH_H
-#define VIEW_SFC_GRAPH_H
+#ifndef SHOW_SFC_GRAPH_H
+#define SHOW_SFC_GRAPH_H
 
 #include "engine/base/arena.h"
 #include "engine/model/sfc.h"

@@ -11,8 +11,8 @@
  * is a jump: an arrow with the name it leads to. The same chart always gives the same
  * layout; any chart has one, right or wrong.
  */
-#ifndef VIEW_SFC_LAYOUT_H
-#define VIEW_SFC_LAYOUT_H
+#ifndef SHOW_SFC_LAYOUT_H
+#define SHOW_SFC_LAYOUT_H
 
 #include "engine/base/arena.h"
 #include "engine/model/sfc.h"

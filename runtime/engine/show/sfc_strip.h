@@ -7,8 +7,8 @@
  * stand beside each other), and lines that lead on below it are its exits. Used by
  * sfc_layout.c and sfc_strip.c only. It knows nothing of steps and transitions.
  */
-#ifndef VIEW_SFC_STRIP_H
-#define VIEW_SFC_STRIP_H
+#ifndef SHOW_SFC_STRIP_H
+#define SHOW_SFC_STRIP_H
 
 #include "engine/show/sfc_graph.h"
 #include "engine/show/sfc_layout.h"

@@ -5,8 +5,8 @@
  * The same for the terminal and for the editor's sheet. Everything is put out as it
  * stands in the file: who draws it takes care of control characters and of its width.
  */
-#ifndef VIEW_SFC_WORDS_H
-#define VIEW_SFC_WORDS_H
+#ifndef SHOW_SFC_WORDS_H
+#define SHOW_SFC_WORDS_H
 
 #include "engine/base/sink.h"
 #include "engine/model/project.h"

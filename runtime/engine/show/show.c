@@ -7,7 +7,8 @@
  */
 #include "engine/show/draw.h"
 #include "engine/base/plain.h"
-#include "engine/show/view.h"
+#include "engine/show/show.h"
+#include "engine/text/pou_print.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -529,7 +530,7 @@ static int show_pou(struct draw *draw, const struct pou *pou, int rung)
 	if (pou->language == LANGUAGE_IL) {
 		if (rung != 0)
 			return 0;
-		return view_print_il(draw->project, pou, &pou->vars, NULL, 0,
+		return pou_print_il(draw->project, pou, &pou->vars, NULL, 0,
 				     &pou->il, draw->sink) ? 1 : -1;
 	}
 	if (rung == 0) {
@@ -545,8 +546,8 @@ static int show_pou(struct draw *draw, const struct pou *pou, int rung)
 	return show_ld(draw, pou, rung);
 }
 
-int view_show(const struct project *project, int pou, int rung,
-	      const struct view_show_options *options, const struct sink *sink)
+int show_rungs(const struct project *project, int pou, int rung,
+	      const struct show_options *options, const struct sink *sink)
 {
 	struct draw *draw = calloc(1, sizeof(*draw));
 	int first = pou < 0 ? 0 : pou;

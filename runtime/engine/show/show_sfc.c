@@ -109,7 +109,7 @@ static struct words keep(struct sketch *sketch, struct sink_memory *memory)
 static void put_name(struct sketch *sketch, int shape, const struct sink *sink)
 {
 	const struct sfc_shape *s = &sketch->layout->shape[shape];
-	const struct view_show_options *options = sketch->draw->options;
+	const struct show_options *options = sketch->draw->options;
 	char time[48] = "";
 
 	if (s->part == SFC_STEP && options && options->step)

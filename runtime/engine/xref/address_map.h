@@ -3,8 +3,8 @@
  * address_map - which addresses a project uses, which one is free, which are used under
  * two names. It knows the program only: not what is wired to a board.
  */
-#ifndef VIEW_ADDRESS_MAP_H
-#define VIEW_ADDRESS_MAP_H
+#ifndef XREF_ADDRESS_MAP_H
+#define XREF_ADDRESS_MAP_H
 
 #include "engine/xref/xref.h"
 

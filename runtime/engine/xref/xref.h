@@ -5,8 +5,8 @@
  * It reads names as check/scope.h does, of projects with errors too: what has no
  * meaning is XREF_UNKNOWN. It judges nothing and changes nothing.
  */
-#ifndef VIEW_XREF_H
-#define VIEW_XREF_H
+#ifndef XREF_H
+#define XREF_H
 
 #include "engine/base/sink.h"
 #include "engine/model/project.h"

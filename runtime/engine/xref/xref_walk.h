@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * xref_walk - what the two halves of the cross reference share. Private to view/.
+ * xref_walk - what the two halves of the cross reference share. Private to xref/.
  */
-#ifndef VIEW_XREF_WALK_H
-#define VIEW_XREF_WALK_H
+#ifndef XREF_WALK_H
+#define XREF_WALK_H
 
 #include "engine/check/scope.h"
 #include "engine/xref/xref.h"

@@ -5,7 +5,7 @@
 #include "engine/model/project.h"
 #include "engine/text/text.h"
 #include "engine/compare/diff.h"
-#include "engine/show/view.h"
+#include "engine/compare/compare.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>
@@ -34,7 +34,7 @@ static const char *compare(const char *a, const char *b, bool json)
 	struct sink sink = sink_to_memory(&memory);
 
 	sink_memory_free(&memory);
-	count = view_diff(x, y, json, &sink);
+	count = compare_projects(x, y, json, &sink);
 	project_free(x);
 	project_free(y);
 	return sink_memory_text(&memory);
@@ -267,7 +267,7 @@ static void test_config(void)
 		"instance A: removed\n");
 }
 
-static void take_pair(void *context, struct view_pair pair)
+static void take_pair(void *context, struct compare_pair pair)
 {
 	const struct sink *sink = context;
 
@@ -282,7 +282,7 @@ static const char *pairs(const char *a, const char *b)
 	struct sink sink = sink_to_memory(&memory);
 
 	sink_memory_free(&memory);
-	CHECK(view_diff_rungs(x, y, take_pair, &sink));
+	CHECK(compare_rungs(x, y, take_pair, &sink));
 	project_free(x);
 	project_free(y);
 	return sink_memory_text(&memory);
@@ -312,7 +312,7 @@ static void test_pairs(void)
 		   "0.-1>0.-1 changed ");
 }
 
-static void take_line(void *context, struct view_line line)
+static void take_line(void *context, struct compare_line line)
 {
 	const struct sink *sink = context;
 
@@ -326,7 +326,7 @@ static const char *lines(const char *a, const char *b)
 	struct sink sink = sink_to_memory(&memory);
 
 	sink_memory_free(&memory);
-	CHECK(view_diff_lines(x, x->pou_count - 1, y, y->pou_count - 1, take_line, &sink));
+	CHECK(compare_lines(x, x->pou_count - 1, y, y->pou_count - 1, take_line, &sink));
 	project_free(x);
 	project_free(y);
 	return sink_memory_text(&memory);
@@ -351,7 +351,7 @@ static const char *besides(const char *a, const char *b, const char *pou)
 	struct sink sink = sink_to_memory(&memory);
 
 	sink_memory_free(&memory);
-	count = view_diff_besides(x, y, pou, &sink);
+	count = compare_besides(x, y, pou, &sink);
 	project_free(x);
 	project_free(y);
 	return sink_memory_text(&memory);

@@ -10,7 +10,7 @@
  */
 #include "engine/base/catalog.h"
 #include "engine/base/explain.h"
-#include "engine/show/view.h"
+#include "ladder/words.h"
 #include "ladder/words.h"
 #include "tests/tap.h"
 #include "tests/unit/rig.h"
@@ -26,7 +26,7 @@ static const char *words(const char *word, bool json, int *count)
 	struct sink sink = sink_to_memory(&memory);
 
 	sink_memory_free(&memory);
-	*count = view_words(word, json, &sink);
+	*count = words_list(word, json, &sink);
 	return sink_memory_text(&memory);
 }
 
@@ -251,7 +251,7 @@ static void test_page(const char *path)
 	size_t len = 0;
 
 	sink_memory_free(&memory);
-	view_words_markdown(&sink);
+	words_markdown(&sink);
 	if (file) {
 		len = fread(page, 1, sizeof(page) - 1, file);
 		fclose(file);
@@ -268,7 +268,7 @@ static void to_stdout(void *context, const char *text, size_t len)
 int main(int argc, char **argv)
 {
 	if (argc > 1 && strcmp(argv[1], "--print") == 0) {
-		view_words_markdown(&(struct sink){ .write = to_stdout, .context = stdout });
+		words_markdown(&(struct sink){ .write = to_stdout, .context = stdout });
 		return ferror(stdout) != 0;
 	}
 	test_all();

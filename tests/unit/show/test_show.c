@@ -5,7 +5,7 @@
 #include "engine/base/lex.h"
 #include "engine/model/project.h"
 #include "engine/text/text.h"
-#include "engine/show/view.h"
+#include "engine/show/show.h"
 #include "tests/tap.h"
 
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static const char *show(const char *pous, int pou, int rung, bool ascii,
 			int width)
 {
 	static char text[100000];
-	struct view_show_options options = { .ascii = ascii, .width = width };
+	struct show_options options = { .ascii = ascii, .width = width };
 	struct project *project = project_new("test.rung");
 	struct sink sink = sink_to_memory(&memory);
 
@@ -27,7 +27,7 @@ static const char *show(const char *pous, int pou, int rung, bool ascii,
 	CHECK_AS(text_read(project, "test.rung", text, strlen(text), NULL,
 			   &diags), "the program can be read");
 	sink_memory_free(&memory);
-	drawn = view_show(project, pou, rung, &options, &sink);
+	drawn = show_rungs(project, pou, rung, &options, &sink);
 	project_free(project);
 	return sink_memory_text(&memory);
 }

@@ -4,7 +4,7 @@
  * the language document says; the printed list is the same program.
  */
 #include "engine/text/text.h"
-#include "engine/show/view.h"
+#include "engine/text/pou_print.h"
 #include "tests/unit/rig.h"
 #include "tests/usual.h"
 
@@ -421,7 +421,7 @@ static bool print_all(struct ladder *ladder, const struct sink *sink)
 		int count;
 		struct var *const *temps = ladder_temporaries(ladder, i, &count);
 
-		if (!view_print_il(project, &project->pou[i],
+		if (!pou_print_il(project, &project->pou[i],
 				   &project->pou[i].vars, temps, count,
 				   ladder_il(ladder, i), sink))
 			return false;

@@ -6,8 +6,8 @@
  * What they mean here is told by classic_rung.h and what it calls; what they do there,
  * in docs/from-classicladder.md. Everything lives in one arena.
  */
-#ifndef IMPORT_CLASSIC_H
-#define IMPORT_CLASSIC_H
+#ifndef CLASSIC_H
+#define CLASSIC_H
 
 #include "engine/base/arena.h"
 #include "engine/base/diag.h"

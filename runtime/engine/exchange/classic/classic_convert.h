@@ -2,8 +2,8 @@
  *
  * classic_convert - what the parts of the conversion share. Private to classic_*.c.
  */
-#ifndef IMPORT_CLASSIC_CONVERT_H
-#define IMPORT_CLASSIC_CONVERT_H
+#ifndef CLASSIC_CONVERT_H
+#define CLASSIC_CONVERT_H
 
 #include "engine/base/names.h"
 #include "engine/exchange/classic/classic_rung.h"

@@ -7,8 +7,8 @@
  * node, a run. There, cells work column by column; an element works where its last column
  * stands.
  */
-#ifndef IMPORT_CLASSIC_GRID_H
-#define IMPORT_CLASSIC_GRID_H
+#ifndef CLASSIC_GRID_H
+#define CLASSIC_GRID_H
 
 #include "engine/exchange/classic/classic_convert.h"
 

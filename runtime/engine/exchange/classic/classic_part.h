@@ -3,8 +3,8 @@
  * classic_part - a part of an expression of ClassicLadder, as it is written here, and
  * between which numbers it lies. Private to import/.
  */
-#ifndef IMPORT_CLASSIC_PART_H
-#define IMPORT_CLASSIC_PART_H
+#ifndef CLASSIC_PART_H
+#define CLASSIC_PART_H
 
 #include "engine/exchange/classic/classic_convert.h"
 

@@ -3,8 +3,8 @@
  * classic_piece - a part of a rung as it will be written. Private to classic_piece.c and
  * classic_power.c.
  */
-#ifndef IMPORT_CLASSIC_PIECE_H
-#define IMPORT_CLASSIC_PIECE_H
+#ifndef CLASSIC_PIECE_H
+#define CLASSIC_PIECE_H
 
 #include "engine/exchange/classic/classic_grid.h"
 

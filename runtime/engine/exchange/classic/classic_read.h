@@ -5,8 +5,8 @@
  * A member is read line by line through one cursor; numbers, names and messages with
  * their place come from here. Nobody but classic_read*.c includes it.
  */
-#ifndef IMPORT_CLASSIC_READ_H
-#define IMPORT_CLASSIC_READ_H
+#ifndef CLASSIC_READ_H
+#define CLASSIC_READ_H
 
 #include "engine/exchange/classic/classic.h"
 

@@ -7,8 +7,8 @@
  * (trial/classic_name.h). It reads no files and checks nothing: that is for the reader of
  * rung files, which reads this text like any other.
  */
-#ifndef IMPORT_CLASSIC_RUNG_H
-#define IMPORT_CLASSIC_RUNG_H
+#ifndef CLASSIC_RUNG_H
+#define CLASSIC_RUNG_H
 
 #include "engine/exchange/classic/classic.h"
 

@@ -3,8 +3,8 @@
  * classic_say - variables and expressions of a ClassicLadder project as people read them
  * there: %B3, %W0[%W4], "%W0 := %W1+1". For drawings; it knows nothing of rung files.
  */
-#ifndef IMPORT_CLASSIC_SAY_H
-#define IMPORT_CLASSIC_SAY_H
+#ifndef CLASSIC_SAY_H
+#define CLASSIC_SAY_H
 
 #include "engine/exchange/classic/classic.h"
 

@@ -7,8 +7,8 @@
  * a line, lines and names that are too long, a comma in a name. What a text is too long
  * for is cut at a whole character; that names stay different is for who made them.
  */
-#ifndef IMPORT_CLASSIC_WRITE_H
-#define IMPORT_CLASSIC_WRITE_H
+#ifndef CLASSIC_WRITE_H
+#define CLASSIC_WRITE_H
 
 #include "engine/base/sink.h"
 #include "engine/exchange/classic/classic.h"

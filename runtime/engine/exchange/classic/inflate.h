@@ -5,8 +5,8 @@
  * Its own code because the engine needs nothing but libc. It packs nothing, and what it
  * unpacks has a bound that the caller sets.
  */
-#ifndef IMPORT_INFLATE_H
-#define IMPORT_INFLATE_H
+#ifndef CLASSIC_INFLATE_H
+#define CLASSIC_INFLATE_H
 
 #include "engine/base/arena.h"
 #include "engine/base/diag.h"

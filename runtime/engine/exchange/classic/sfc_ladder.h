@@ -6,8 +6,8 @@
  * ask for, over a bit for each step; bodies of lists and rungs become subroutines. It
  * does in each scan what the chart does, as docs/sfc.md has it.
  */
-#ifndef VIEW_SFC_LADDER_H
-#define VIEW_SFC_LADDER_H
+#ifndef CLASSIC_SFC_LADDER_H
+#define CLASSIC_SFC_LADDER_H
 
 #include "engine/base/diag.h"
 #include "engine/base/sink.h"

@@ -2,13 +2,13 @@
  *
  * sfc_ladder_parts - what the parts of the export of charts share: one chart in work.
  *
- * Private to view/. sfc_ladder writes the project, sfc_ladder_names gives names,
+ * Private to classic/. sfc_ladder writes the project, sfc_ladder_names gives names,
  * sfc_ladder_rung writes one rung, sfc_ladder_steps the program of the steps,
  * sfc_ladder_outputs that of actions.
  * A chart is written several times: only then is it known which bits it needs.
  */
-#ifndef VIEW_SFC_LADDER_PARTS_H
-#define VIEW_SFC_LADDER_PARTS_H
+#ifndef CLASSIC_SFC_LADDER_PARTS_H
+#define CLASSIC_SFC_LADDER_PARTS_H
 
 #include "engine/model/sfc_net.h"
 #include "engine/exchange/classic/sfc_ladder.h"

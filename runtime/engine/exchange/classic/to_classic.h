@@ -7,8 +7,8 @@
  * there, is cut into several with bits between them. What cannot be said there is a
  * diagnostic with its place (LD730 to LD738): nothing is written then.
  */
-#ifndef VIEW_TO_CLASSIC_H
-#define VIEW_TO_CLASSIC_H
+#ifndef CLASSIC_TO_CLASSIC_H
+#define CLASSIC_TO_CLASSIC_H
 
 #include "engine/base/diag.h"
 #include "engine/exchange/classic/classic.h"

@@ -2,12 +2,12 @@
  *
  * to_classic_parts - what the parts of the way back to ClassicLadder share.
  *
- * Private to view/to_classic*.c: to_classic sections and programs, to_classic_names
+ * Private to to_classic*.c: to_classic sections and programs, to_classic_names
  * numbers and symbols, to_classic_expression arithmetic, to_classic_rung one rung as it is
  * drawn, to_classic_split one that must be cut, to_classic_chart pages.
  */
-#ifndef VIEW_TO_CLASSIC_PARTS_H
-#define VIEW_TO_CLASSIC_PARTS_H
+#ifndef CLASSIC_TO_CLASSIC_PARTS_H
+#define CLASSIC_TO_CLASSIC_PARTS_H
 
 #include "engine/check/scope.h"
 #include "engine/exchange/classic/classic_write.h"

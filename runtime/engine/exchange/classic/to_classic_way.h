@@ -3,8 +3,8 @@
  * to_classic_way - contacts in series, and rungs drawn from several side by side. Private to
  * to_classic_split.c and to_classic_way.c.
  */
-#ifndef VIEW_TO_CLASSIC_WAY_H
-#define VIEW_TO_CLASSIC_WAY_H
+#ifndef CLASSIC_TO_CLASSIC_WAY_H
+#define CLASSIC_TO_CLASSIC_WAY_H
 
 #include "engine/exchange/classic/to_classic_parts.h"
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  *
- * test_print_il - a printed list reads again and is the same list.
+ * test_pou_print - a printed list reads again and is the same list.
  */
 #include "engine/model/project.h"
 #include "engine/text/text.h"
-#include "engine/show/view.h"
+#include "engine/text/pou_print.h"
 #include "tests/tap.h"
 
 static struct diag_list diags;
@@ -59,7 +59,7 @@ int main(void)
 	used.name = names_intern(&a->names, "_T1", 3);
 	unused.name = names_intern(&a->names, "_T2", 3);
 	sink_text(&sink, "RUNGBOARD 1\n\n");
-	CHECK(view_print_il(a, &a->pou[0], &a->pou[0].vars, temps, 2,
+	CHECK(pou_print_il(a, &a->pou[0], &a->pou[0].vars, temps, 2,
 			     &a->pou[0].il, &sink));
 	CHECK(strstr(sink_memory_text(&memory), "\nPROGRAM Main IL\n"));
 	CHECK(!strstr(sink_memory_text(&memory), "_T2"));

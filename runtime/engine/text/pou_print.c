@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: MIT
  *
- * print_il - a POU as a text that reads again: as it is, or in IL, whatever it was
- * written in.
+ * pou_print - a POU as a text that reads again: as it is, or in IL.
  *
  * It has no syntax of its own: it makes a project of that one POU and lets
  * text/ write it. Globals are not part of it.
  */
-#include "engine/show/view.h"
+#include "engine/text/pou_print.h"
 
 #include "engine/text/text.h"
 
@@ -56,7 +55,7 @@ static bool join_vars(const struct names *names, const struct var_table *vars,
 	return true;
 }
 
-bool view_print_il(const struct project *project, const struct pou *pou,
+bool pou_print_il(const struct project *project, const struct pou *pou,
 		   const struct var_table *vars, struct var *const *temps,
 		   int temp_count, const struct il *il, const struct sink *sink)
 {
@@ -81,7 +80,7 @@ bool view_print_il(const struct project *project, const struct pou *pou,
 	return begin != NULL;
 }
 
-char *view_print_pou(const struct project *project, const struct pou *pou)
+char *pou_print(const struct project *project, const struct pou *pou)
 {
 	struct pou only = *pou;
 	struct part part = { .kind = PART_POU };

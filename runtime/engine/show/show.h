@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * show - rungs and charts drawn as text in a terminal.
+ *
+ * Everything goes to a sink and nothing is changed or checked: a wrong rung is
+ * drawn as it stands. Control characters in a user's text are not printed, except
+ * newlines.
+ */
+#ifndef SHOW_H
+#define SHOW_H
+
+#include "engine/base/sink.h"
+#include "engine/model/project.h"
+
+struct show_options {
+	bool ascii;   /* - | + instead of box characters                      */
+	int width;    /* narrower rungs are stretched to it, in columns; 0: no */
+	/* Power at the ends of a cell, 1-based as in resource_power(). Where there is
+	 * none, or where it returns false, wires are drawn thin. NULL: not known. */
+	bool (*power)(void *context, int pou, int rung, int row, int col, bool *in,
+		      bool *out);
+	/* Is a step of a chart active, and for how long ("": not known)? NULL: not
+	 * known. */
+	bool (*step)(void *context, int pou, int step, char *time, size_t size);
+	void *context;
+	const char *instance; /* of a block whose rungs are drawn; or NULL    */
+};
+
+/**
+ * show_rungs - draws rungs with box characters
+ * @pou:     index in the project; -1: all POUs
+ * @rung:    1-based number in its POU; 0: all
+ * @options: NULL: Unicode, not stretched
+ *
+ * A POU in IL is printed as its list. Rungs wider than a terminal run wide.
+ * Returns the rungs drawn (a POU in IL counts as one); 0: there is no such
+ * rung; -1: no memory.   Scan-safe: no.
+ */
+int show_rungs(const struct project *project, int pou, int rung,
+	       const struct show_options *options, const struct sink *sink);
+
+#endif
