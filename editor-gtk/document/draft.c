@@ -56,7 +56,7 @@ static struct keeper *keeper_of(gpointer object)
 
 static bool is_saved(gpointer object)
 {
-	return keeper_of(object)->beside ? !ladder_file_view_differs(object) :
+	return keeper_of(object)->beside ? !ladder_side_file_differs(object) :
 		ladder_document_is_saved(object);
 }
 
@@ -83,11 +83,11 @@ static char *document_draft(LadderDocument *document)
 	return whole;
 }
 
-static char *file_draft(LadderFileView *view, LadderDocument *beside)
+static char *file_draft(LadderSideFile *file, LadderDocument *beside)
 {
-	char *uri = uri_of(ladder_file_view_path(view));
+	char *uri = uri_of(ladder_side_file_path(file));
 	char *project = uri_of(ladder_document_path(beside));
-	char *sum = ladder_file_view_sum(view), *text = ladder_file_view_text(view);
+	char *sum = ladder_side_file_sum(file), *text = ladder_side_file_text(file);
 	char *whole = g_strdup_printf(DRAFT_HEAD "%s %s " DRAFT_BESIDE "%s\n%s", uri, sum,
 				      project, text);
 
@@ -193,16 +193,16 @@ void draft_of_sample(LadderDocument *document, const char *path)
 	draft_write(document);
 }
 
-static void text_changed(LadderFileView *view)
+static void text_changed(LadderSideFile *file)
 {
-	state_changed(view, keeper_of(view));
+	state_changed(file, keeper_of(file));
 }
 
-void draft_keep_file(LadderFileView *view, LadderDocument *document)
+void draft_keep_file(LadderSideFile *file, LadderDocument *document)
 {
-	keep(view, document);
-	g_signal_connect_object(ladder_file_view_buffer(view), "changed",
-				G_CALLBACK(text_changed), view, G_CONNECT_SWAPPED);
+	keep(file, document);
+	g_signal_connect_object(ladder_side_file_buffer(file), "changed",
+				G_CALLBACK(text_changed), file, G_CONNECT_SWAPPED);
 }
 
 void draft_remove(gpointer object)

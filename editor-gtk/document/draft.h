@@ -9,20 +9,19 @@
 #ifndef EDITOR_DRAFT_H
 #define EDITOR_DRAFT_H
 
-#include "editor-gtk/document/document.h"
-#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/document/side_file.h"
 
 /** draft_keep - from now on drafts of @document are kept. */
 void draft_keep(LadderDocument *document);
 /** draft_of_sample - @document, of which drafts are kept, is a copy of a sample. */
 void draft_of_sample(LadderDocument *document, const char *path);
 /** draft_keep_file - of a text file beside @document, too. */
-void draft_keep_file(LadderFileView *view, LadderDocument *document);
-/** draft_remove - of a document or file view: it is saved, or not wanted. */
+void draft_keep_file(LadderSideFile *file, LadderDocument *document);
+/** draft_remove - of a document or side file: it is saved, or not wanted. */
 void draft_remove(gpointer object);
-/** draft_write - of a document or file view that is not saved, at once. */
+/** draft_write - of a document or side file that is not saved, at once. */
 void draft_write(gpointer object);
-/** draft_is_kept - of a document or file view: a crash would lose nothing but seconds. */
+/** draft_is_kept - of a document or side file: a crash would lose nothing but seconds. */
 bool draft_is_kept(gpointer object);
 /** draft_stop - no more are kept of it; what there is stays. */
 void draft_stop(gpointer object);

@@ -5,7 +5,7 @@
 #include "editor-gtk/document/iomap_beside.h"
 
 #include "editor-gtk/document/disk.h"
-#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/document/side_file.h"
 
 #include "hal/iomap.h"
 
@@ -22,7 +22,7 @@ char *iomap_beside(const char *path)
 	if (best && g_file_test(best, G_FILE_TEST_EXISTS))
 		return best;
 	g_free(best);
-	files = files_beside(path, ".io", true);
+	files = side_file_list(path, ".io", true);
 	best = files->len ? g_strdup(files->pdata[0]) : NULL;
 	g_ptr_array_unref(files);
 	return best;
@@ -30,7 +30,7 @@ char *iomap_beside(const char *path)
 
 bool iomap_is_own(const char *path, const char *map)
 {
-	GPtrArray *files = files_beside(path, ".io", true);
+	GPtrArray *files = side_file_list(path, ".io", true);
 	const bool own = g_ptr_array_find_with_equal_func(files, map, g_str_equal, NULL);
 
 	g_ptr_array_unref(files);

@@ -10,10 +10,10 @@
 #include <glib.h>
 #include <stdbool.h>
 
-/** iomap_beside - NAME.io of NAME.rung, else the first of its own (file_view.h). @path: of
+/** iomap_beside - NAME.io of NAME.rung, else the first of its own (side_file.h). @path: of
  * the project. Caller: g_free(). Any thread. NULL: there is none. */
 char *iomap_beside(const char *path);
-/** iomap_is_own - is the map @map one of the project @path, by its name (files_beside())? Any
+/** iomap_is_own - is the map @map one of the project @path, by its name (side_file_list())? Any
  * other may be of what is wired otherwise. Any thread. */
 bool iomap_is_own(const char *path, const char *map);
 /**

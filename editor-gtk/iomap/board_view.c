@@ -5,7 +5,7 @@
 #include "editor-gtk/iomap/board_view.h"
 
 #include "editor-gtk/kit/drop.h"
-#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/document/side_file.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
@@ -173,8 +173,8 @@ static void fill(LadderBoardView *view)
 
 	g_ptr_array_unref(view->paths);
 	/* Those of the program before others. */
-	view->paths = files_beside(path, ".io", true);
-	g_ptr_array_extend_and_steal(view->paths, files_beside(path, ".io", false));
+	view->paths = side_file_list(path, ".io", true);
+	g_ptr_array_extend_and_steal(view->paths, side_file_list(path, ".io", false));
 	if (view->map && g_file_test(view->map, G_FILE_TEST_EXISTS) &&
 	    index_of(view->paths, view->map) == GTK_INVALID_LIST_POSITION)
 		g_ptr_array_add(view->paths, g_strdup(view->map));

@@ -2,17 +2,326 @@
  *
  * iomap_view - an I/O map as a table, or as its text.
  */
-#include "editor-gtk/iomap/iomap_view_inside.h"
+#include "editor-gtk/iomap/iomap_view.h"
 
+#include "editor-gtk/iomap/iomap_cells.h"
+#include "editor-gtk/iomap/iomap_rows.h"
+#include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+struct _LadderIomapView {
+	GtkBox parent;
+	GtkTextBuffer *buffer;
+	GtkWidget *stack, *tools, *board, *lacks, *lacks_label, *message;
+	struct panel_list list;
+	struct panel_watch *watch;
+	struct iomap_cells cells;
+	struct io_machine machine;
+	struct io_uses uses;
+	guint64 version;        /* of the document the uses are of, + 1; 0: none */
+	char *refused;          /* what was refused last; NULL: nothing        */
+	char *said;             /* of the whole map; NULL: nothing             */
+	char *board_shown;      /* as the text had it last                     */
+	bool said_wrong, as_text;
+};
 
 G_DEFINE_FINAL_TYPE(LadderIomapView, ladder_iomap_view, GTK_TYPE_BOX)
 
 static guint turned; /* signal */
+
+/* ---- the text ---- */
+
+static char *map_text(LadderIomapView *view)
+{
+	GtkTextIter start, end;
+
+	gtk_text_buffer_get_bounds(view->buffer, &start, &end);
+	return gtk_text_buffer_get_text(view->buffer, &start, &end, TRUE);
+}
+
+static void iter_at(GtkTextBuffer *buffer, const char *text, size_t at, GtkTextIter *iter)
+{
+	gtk_text_buffer_get_iter_at_offset(buffer, iter,
+					   (int)g_utf8_strlen(text, (gssize)at));
+}
+
+/* One step of the undo. @edit: its text is freed. */
+static void apply(LadderIomapView *view, const char *text, struct io_edit *edit)
+{
+	GtkTextIter from, to;
+
+	if (edit->removed || *edit->with) {
+		gtk_text_buffer_begin_user_action(view->buffer);
+		iter_at(view->buffer, text, edit->at, &from);
+		iter_at(view->buffer, text, edit->at + edit->removed, &to);
+		gtk_text_buffer_delete(view->buffer, &from, &to);
+		gtk_text_buffer_insert(view->buffer, &from, edit->with, -1);
+		gtk_text_buffer_end_user_action(view->buffer);
+	}
+	free(edit->with);
+	edit->with = NULL;
+}
+
+static const char *refusal(enum io_refusal why)
+{
+	static const char *const text[] = {
+		[IO_GOOD] = "", [IO_MANY_WORDS] = N_("It must be one word, without blanks"),
+		[IO_NO_WORD] = N_("There is no such word"),
+		[IO_BAD_OFFSET] = N_("The number of a line is too large"),
+		[IO_BAD_NAME] = N_("No map can hold that name"),
+		[IO_MEMORY] = N_("Out of memory"),
+	};
+
+	return _(text[why]);
+}
+
+/* What cannot be done is told below, until something can. */
+static void tell(LadderIomapView *view, const char *text)
+{
+	g_free(view->refused);
+	view->refused = text ? g_strdup(text) : NULL;
+	panel_watch_later(view->watch);
+	panel_watch_now(view->watch);
+}
+
+static bool done(LadderIomapView *view, const char *text, enum io_refusal why,
+		 struct io_edit *edit)
+{
+	if (why == IO_GOOD)
+		apply(view, text, edit);
+	tell(view, why == IO_GOOD ? NULL : refusal(why));
+	return why == IO_GOOD;
+}
+
+/* ---- edits ---- */
+
+/* The rows were made of an older text, perhaps. */
+static bool is_same_row(const struct io_text *io, const LadderPanelRow *row)
+{
+	bool same = row->index < io->count;
+
+	for (int i = 0; same && i < IO_FIELDS; i++) {
+		char *text = iomap_field(io, row->index, (enum io_field)i);
+
+		same = strcmp(text, panel_row_text(row, i)) == 0;
+		g_free(text);
+	}
+	return same;
+}
+
+static bool set_field(gpointer owner, const LadderPanelRow *row, enum io_field field,
+		      const char *value, char **why)
+{
+	LadderIomapView *view = owner;
+	enum io_refusal said = IO_NO_WORD;
+	struct io_edit edit = { 0, 0, NULL };
+	struct io_text io;
+	bool good = false;
+	char *text;
+
+	if (!view->watch)
+		return false; /* the view is disposed */
+	text = map_text(view);
+	if (io_text_read(&io, text, strlen(text)) && is_same_row(&io, row)) {
+		said = io_text_set(&io, row->index, field, value, &edit);
+		good = said == IO_GOOD;
+		*why = good ? NULL : g_strdup(refusal(said));
+		if (good)
+			apply(view, text, &edit);
+	}
+	io_text_free(&io);
+	g_free(text);
+	if (good || !*why)
+		tell(view, NULL);
+	else {
+		char *whole = g_strdup_printf("%s, %s: %s", panel_row_text(row, IO_ADDRESS),
+					      io_field_name(field), *why);
+
+		tell(view, whole);
+		g_free(whole);
+	}
+	return good;
+}
+
+static void set_board(LadderIomapView *view)
+{
+	const char *name = gtk_editable_get_text(GTK_EDITABLE(view->board));
+	char *text = map_text(view), *board;
+	struct io_edit edit = { 0, 0, NULL };
+	struct io_text io;
+
+	io_text_read(&io, text, strlen(text));
+	board = io_text_board(&io);
+	/* Nothing was shown yet, or it is as it was. */
+	if (view->board_shown && g_strcmp0(view->board_shown, name) != 0 &&
+	    g_strcmp0(board, name) != 0)
+		done(view, text, io_text_set_board(&io, name, &edit), &edit);
+	free(board);
+	io_text_free(&io);
+	g_free(text);
+}
+
+static void board_activated(GtkEntry *entry, LadderIomapView *view)
+{
+	(void)entry;
+	set_board(view);
+}
+
+static void board_left(GtkEventControllerFocus *focus, LadderIomapView *view)
+{
+	(void)focus;
+	set_board(view);
+}
+
+static void commit(LadderIomapView *view)
+{
+	iomap_cells_commit(GTK_WIDGET(view->list.view));
+	set_board(view);
+}
+
+/* ---- points come and go ---- */
+
+/* The last row of the same area; -1: none. */
+static int last_of(const struct io_text *io, enum iec_area area)
+{
+	int last = -1;
+
+	for (int i = 0; i < io->count; i++) {
+		const struct io_span *word = &io->row[i].word[IO_WORD_ADDRESS];
+		struct iec_addr at;
+
+		if (iec_addr_parse(io->text + word->at, word->len, &at) == ADDR_OK &&
+		    at.area == area)
+			last = i;
+	}
+	return last;
+}
+
+/* That of the others: a map is for a board or for a desk. */
+static const char *driver_for(const LadderIomapView *view, const struct io_text *io)
+{
+	for (int i = 0; i < io->count; i++) {
+		const struct io_span *word = &io->row[i].word[IO_WORD_DRIVER];
+		const enum driver_id id = driver_find(io->text + word->at, word->len);
+
+		if (id < DRIVER_COUNT)
+			return driver_row(id)->word;
+	}
+	return view->machine.count ? "gpio" : "sim";
+}
+
+/* @behind: a row; -1: the last one of its area. */
+static void add_point(LadderIomapView *view, struct iec_addr addr, const char *comment,
+		      int behind)
+{
+	char *text = map_text(view), address[24];
+	struct io_edit edit = { 0, 0, NULL };
+	struct io_text io;
+
+	iec_addr_print(addr, address, sizeof(address));
+	io_text_read(&io, text, strlen(text));
+	if (behind < 0 || behind >= io.count)
+		behind = last_of(&io, addr.area);
+	if (io_text_add(&io, behind, address, driver_for(view, &io), comment, &edit) ==
+	    IO_GOOD)
+		apply(view, text, &edit);
+	io_text_free(&io);
+	g_free(text);
+}
+
+static bool is_row(const LadderPanelRow *row, gconstpointer address)
+{
+	return strcmp(panel_row_text(row, IO_ADDRESS), address) == 0;
+}
+
+/* The first bit that is not in the map, of inputs or of outputs. */
+static bool next_address(LadderIomapView *view, enum iec_area area, struct iec_addr *out)
+{
+	char *text = map_text(view);
+	struct io_text io;
+	bool found = false;
+
+	io_text_read(&io, text, strlen(text));
+	for (uint32_t bit = 0; !found && bit < iec_area_row(area)->usual * 8; bit++) {
+		*out = (struct iec_addr){ area, 1, (uint8_t)(bit % 8), bit / 8 };
+		found = !iomap_has(&io, *out);
+	}
+	io_text_free(&io);
+	g_free(text);
+	return found;
+}
+
+static void add(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
+	LadderPanelRow *row = panel_list_row(&view->list);
+	const bool output = row && g_ascii_strncasecmp(panel_row_text(row, IO_ADDRESS),
+						       "%Q", 2) == 0;
+	struct iec_addr addr;
+	char text[24];
+
+	(void)action;
+	(void)unused;
+	if (!next_address(view, output ? AREA_Q : AREA_I, &addr))
+		return;
+	add_point(view, addr, "", row ? row->index : -1);
+	tell(view, NULL);
+	iec_addr_print(addr, text, sizeof(text));
+	if (panel_list_select(&view->list, is_row, text))
+		cells_enter(view->list.view, panel_list_row(&view->list), IO_ADDRESS);
+}
+
+static void add_lacking(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
+	char *text = map_text(view);
+	struct io_text io;
+
+	(void)action;
+	(void)unused;
+	io_text_read(&io, text, strlen(text));
+	gtk_text_buffer_begin_user_action(view->buffer);
+	for (int i = 0; i < view->uses.count; i++)
+		if (!iomap_has(&io, view->uses.use[i].addr))
+			add_point(view, view->uses.use[i].addr, view->uses.use[i].name, -1);
+	gtk_text_buffer_end_user_action(view->buffer);
+	io_text_free(&io);
+	g_free(text);
+	tell(view, NULL);
+}
+
+static void delete_point(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
+	LadderPanelRow *row = panel_list_row(&view->list);
+	char *text = map_text(view);
+	struct io_edit edit = { 0, 0, NULL };
+	struct io_text io;
+
+	(void)action;
+	(void)unused;
+	io_text_read(&io, text, strlen(text));
+	if (row && is_same_row(&io, row))
+		done(view, text, io_text_delete(&io, row->index, &edit), &edit);
+	io_text_free(&io);
+	g_free(text);
+}
+
+static void look_again(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
+
+	(void)action;
+	(void)unused;
+	io_machine_free(&view->machine);
+	io_machine_look(&view->machine, NULL);
+	tell(view, NULL);
+}
 
 /* ---- messages ---- */
 
@@ -152,7 +461,7 @@ static void entered(gpointer owner, const LadderPanelRow *row)
 
 static void given_up(gpointer owner)
 {
-	iomap_view_told(owner, NULL);
+	tell(owner, NULL);
 }
 
 static void refresh(GtkWidget *widget)
@@ -160,7 +469,7 @@ static void refresh(GtkWidget *widget)
 	LadderIomapView *view = LADDER_IOMAP_VIEW(widget);
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
 	GtkWidget *list = GTK_WIDGET(view->list.view);
-	char *text = iomap_view_text(view);
+	char *text = map_text(view);
 	struct io_check *check;
 	struct io_text io;
 	enum io_field field, now_field;
@@ -189,25 +498,10 @@ static void refresh(GtkWidget *widget)
 	g_ptr_array_unref(rows);
 }
 
-void ladder_iomap_view_refresh(LadderIomapView *view)
-{
-	refresh(GTK_WIDGET(view));
-}
-
-GListModel *ladder_iomap_view_list(LadderIomapView *view)
-{
-	return G_LIST_MODEL(view->list.selection);
-}
-
-const char *ladder_iomap_view_message(LadderIomapView *view)
-{
-	return gtk_label_get_text(GTK_LABEL(view->message));
-}
-
 static GPtrArray *choices_of(gpointer owner, const LadderPanelRow *row, enum io_field field)
 {
 	LadderIomapView *view = owner;
-	char *text = iomap_view_text(view);
+	char *text = map_text(view);
 	GPtrArray *choices;
 	struct io_text io;
 
@@ -253,11 +547,11 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 	G_OBJECT_CLASS(class)->finalize = ladder_iomap_view_finalize;
 	turned = g_signal_new("turned", LADDER_TYPE_IOMAP_VIEW, G_SIGNAL_RUN_LAST, 0, NULL,
 			      NULL, NULL, G_TYPE_NONE, 0);
-	gtk_widget_class_install_action(widget, "iomap.add", NULL, iomap_view_add);
-	gtk_widget_class_install_action(widget, "iomap.delete", NULL, iomap_view_delete);
-	gtk_widget_class_install_action(widget, "iomap.look", NULL, iomap_view_look);
+	gtk_widget_class_install_action(widget, "iomap.add", NULL, add);
+	gtk_widget_class_install_action(widget, "iomap.delete", NULL, delete_point);
+	gtk_widget_class_install_action(widget, "iomap.look", NULL, look_again);
 	gtk_widget_class_install_action(widget, "iomap.add-lacking", NULL,
-					iomap_view_add_lacking);
+					add_lacking);
 	gtk_widget_class_set_template_from_resource(widget,
 		"/org/rungboard/Editor/ui/iomap_view.ui");
 #define CHILD(name) gtk_widget_class_bind_template_child(widget, LadderIomapView, name)
@@ -265,8 +559,8 @@ static void ladder_iomap_view_class_init(LadderIomapViewClass *class)
 	CHILD(message);
 #undef CHILD
 	gtk_widget_class_bind_template_child_full(widget, "view", FALSE, 0);
-	gtk_widget_class_bind_template_callback(widget, iomap_view_board_activated);
-	gtk_widget_class_bind_template_callback(widget, iomap_view_board_left);
+	gtk_widget_class_bind_template_callback(widget, board_activated);
+	gtk_widget_class_bind_template_callback(widget, board_left);
 }
 
 static void add_columns(LadderIomapView *view)
@@ -291,7 +585,7 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 {
 	GtkWidget *widget = GTK_WIDGET(view);
 
-	view->cells = (struct iomap_cells){ view, iomap_view_set_field, given_up, entered,
+	view->cells = (struct iomap_cells){ view, set_field, given_up, entered,
 					    choices_of };
 	arena_init(&view->uses.arena);
 	io_machine_look(&view->machine, NULL);
@@ -307,11 +601,11 @@ static void ladder_iomap_view_init(LadderIomapView *view)
 static void shown_page(LadderIomapView *view)
 {
 	if (!view->watch)
-		return; /* it goes */
+		return; /* the view is disposed */
 	view->as_text = g_strcmp0(gtk_stack_get_visible_child_name(GTK_STACK(view->stack)),
 				  "text") == 0;
 	gtk_widget_set_sensitive(view->tools, !view->as_text);
-	iomap_view_told(view, NULL);
+	tell(view, NULL);
 	g_signal_emit(view, turned, 0);
 }
 
@@ -320,10 +614,10 @@ bool ladder_iomap_view_is_text(LadderIomapView *view)
 	return view->as_text;
 }
 
-GtkWidget *ladder_iomap_view_new(GtkTextBuffer *buffer, GtkWidget *text,
-				 LadderDocument *document)
+GtkWidget *ladder_iomap_view_new(LadderSideFile *file, GtkWidget *text)
 {
 	LadderIomapView *view = g_object_new(LADDER_TYPE_IOMAP_VIEW, NULL);
+	GtkTextBuffer *buffer = ladder_side_file_buffer(file);
 
 	view->buffer = g_object_ref(buffer);
 	gtk_text_buffer_create_tag(buffer, "wrong", "underline", PANGO_UNDERLINE_ERROR, NULL);
@@ -332,7 +626,8 @@ GtkWidget *ladder_iomap_view_new(GtkTextBuffer *buffer, GtkWidget *text,
 				 view->watch);
 	g_signal_connect_swapped(view->stack, "notify::visible-child", G_CALLBACK(shown_page),
 				 view);
-	panel_watch_set(view->watch, document);
+	g_signal_connect_object(file, "commit", G_CALLBACK(commit), view, G_CONNECT_SWAPPED);
+	panel_watch_set(view->watch, ladder_side_file_document(file));
 	panel_watch_later(view->watch);
 	return GTK_WIDGET(view);
 }

@@ -9,30 +9,16 @@
 #ifndef EDITOR_IOMAP_VIEW_H
 #define EDITOR_IOMAP_VIEW_H
 
-#include <gtk/gtk.h>
-
-#include "editor-gtk/document/document.h"
+#include "editor-gtk/document/side_file.h"
 
 #define LADDER_TYPE_IOMAP_VIEW (ladder_iomap_view_get_type())
 G_DECLARE_FINAL_TYPE(LadderIomapView, ladder_iomap_view, LADDER, IOMAP_VIEW, GtkBox)
 
-/**
- * ladder_iomap_view_new - a view of @buffer
- * @text: the widget that shows the buffer as text; its switch is here
- * @document: whose inputs and outputs are meant; NULL: none
- */
-GtkWidget *ladder_iomap_view_new(GtkTextBuffer *buffer, GtkWidget *text,
-				 LadderDocument *document);
-/** ladder_iomap_view_is_text - is that shown, and not the table? Signal "turned" when it is
- * the other. */
+/** ladder_iomap_view_new - a table of @file. @text: the widget that shows it as text, on the
+ * other page of the table. */
+GtkWidget *ladder_iomap_view_new(LadderSideFile *file, GtkWidget *text);
+/** ladder_iomap_view_is_text - does it show the text, not the table? Signal "turned" when
+ * that changes. */
 bool ladder_iomap_view_is_text(LadderIomapView *view);
-/** ladder_iomap_view_list - the rows shown (LadderPanelRow). Borrowed. */
-GListModel *ladder_iomap_view_list(LadderIomapView *view);
-/** ladder_iomap_view_refresh - now, seen or not. */
-void ladder_iomap_view_refresh(LadderIomapView *view);
-/** ladder_iomap_view_commit - what a person is typing in a cell counts now. */
-void ladder_iomap_view_commit(LadderIomapView *view);
-/** ladder_iomap_view_message - what stands below the table; "": nothing. Borrowed. */
-const char *ladder_iomap_view_message(LadderIomapView *view);
 
 #endif

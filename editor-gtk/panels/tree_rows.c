@@ -5,7 +5,7 @@
  */
 #include "editor-gtk/panels/tree_rows.h"
 
-#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/document/side_file.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/listing.h"
 
@@ -128,7 +128,7 @@ static void add_structures(GListStore *root, const struct project *project)
 static void add_texts(GListStore *root, LadderDocument *document, const char *title,
 		      const char *ending, bool own)
 {
-	GPtrArray *files = files_beside(ladder_document_path(document), ending, own);
+	GPtrArray *files = side_file_list(ladder_document_path(document), ending, own);
 	LadderTreeRow *heading = files->len ? add_heading(root, title) : NULL;
 
 	for (guint i = 0; i < files->len; i++) {

@@ -6,7 +6,7 @@
 
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/document/disk.h"
-#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/document/side_file.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/sim/sim_inside.h"
 
@@ -31,7 +31,7 @@ void scenario_result_free(struct scenario_result *result)
 
 GPtrArray *scenario_files(const char *path)
 {
-	return files_beside(path, ".scn", true);
+	return side_file_list(path, ".scn", true);
 }
 
 /* ---- running ---- */

@@ -9,7 +9,7 @@
 #include "editor-gtk/document/classic_open.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/draft.h"
-#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/document/side_file.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/installed.h"
 #include "editor-gtk/kit/gtk48/memory.h"
@@ -131,7 +131,7 @@ static LadderWindow *open_classic(AdwApplication *application, LadderWindow *win
 /* A map of no project in particular, that the tree of this window lists. */
 static bool is_listed(LadderWindow *window, const char *path)
 {
-	GPtrArray *maps = files_beside(ladder_document_path(ladder_window_document(window)),
+	GPtrArray *maps = side_file_list(ladder_document_path(ladder_window_document(window)),
 				       ".io", false);
 	const bool found = g_ptr_array_find_with_equal_func(maps, path, g_str_equal, NULL);
 
@@ -143,7 +143,7 @@ static bool is_listed(LadderWindow *window, const char *path)
 static LadderWindow *open_beside(AdwApplication *application, LadderWindow *window,
 				 const char *path, GError **error)
 {
-	char *project = file_project(path);
+	char *project = side_file_project(path);
 	LadderWindow *shown = project ? window_of(application, project) : NULL;
 
 	if (project && !shown)
@@ -166,14 +166,14 @@ static LadderWindow *open_any(AdwApplication *application, LadderWindow *window,
 	LadderWindow *there = window_of(application, path);
 
 	if (there) { /* twice, each would write over the other's */
-		if (file_is_beside(path))
+		if (side_file_is(path))
 			ladder_window_show_file(there, path);
 		else
 			recent_add(path);
 		gtk_window_present(GTK_WINDOW(there));
 		return there;
 	}
-	if (file_is_beside(path))
+	if (side_file_is(path))
 		return open_beside(application, window, path, error);
 	return classic_is_project(path) ? open_classic(application, window, path, error) :
 					  open_in(application, window, path, error);
@@ -282,8 +282,8 @@ static LadderWindow *window_with(LadderDocument *document)
 
 static void tell_draft_failed(gpointer object, const char *why)
 {
-	LadderWindow *window = LADDER_IS_DOCUMENT(object) ? window_with(object) :
-		LADDER_WINDOW(gtk_widget_get_root(GTK_WIDGET(object)));
+	LadderWindow *window = window_with(LADDER_IS_DOCUMENT(object) ? object :
+					   ladder_side_file_document(object));
 	char *text = g_strdup_printf(_("What is not saved would be lost in a crash, no draft "
 				       "of it can be kept: %s"), why);
 

@@ -253,7 +253,8 @@ static bool is_sound(LadderWindow *window)
 
 void window_run_board(LadderWindow *window)
 {
-	LadderFileView *file = tabs_file(window);
+	LadderSideFile *file = tabs_file(window) ?
+		ladder_file_view_file(tabs_file(window)) : NULL;
 	const char *map;
 
 	if (ladder_board_run_state(window->board) != BOARD_OFF) {
@@ -268,8 +269,8 @@ void window_run_board(LadderWindow *window)
 		window_save_as(window);
 		return;
 	}
-	if (file && g_str_has_suffix(ladder_file_view_path(file), ".io"))
-		ladder_board_view_set_map(board_view(window), ladder_file_view_path(file));
+	if (file && g_str_has_suffix(ladder_side_file_path(file), ".io"))
+		ladder_board_view_set_map(board_view(window), ladder_side_file_path(file));
 	map = ladder_board_view_map(board_view(window));
 	if (!map) {
 		window_banner(window, _("There is no I/O map beside the program: which pin "

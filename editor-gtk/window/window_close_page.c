@@ -15,14 +15,15 @@ struct closing {
 static void close_answered(AdwMessageDialog *dialog, const char *answer,
 			   struct closing *closing)
 {
+	LadderSideFile *file = ladder_file_view_file(
+		LADDER_FILE_VIEW(tabs_content(closing->page)));
 	const bool save = strcmp(answer, "save") == 0;
 	const bool close = strcmp(answer, "discard") == 0 ||
-		(save && window_save_file(closing->window,
-					  LADDER_FILE_VIEW(tabs_content(closing->page))));
+		(save && window_save_file(closing->window, file));
 
 	(void)dialog;
 	if (close)
-		draft_remove(tabs_content(closing->page));
+		draft_remove(file);
 	adw_tab_view_close_page_finish(closing->window->tabs, closing->page, close);
 }
 
@@ -41,11 +42,11 @@ static gboolean close_page(LadderWindow *window, AdwTabPage *page)
 	char *name;
 
 	if (!LADDER_IS_FILE_VIEW(widget) ||
-	    ladder_file_view_is_saved(LADDER_FILE_VIEW(widget)))
+	    ladder_side_file_is_saved(ladder_file_view_file(LADDER_FILE_VIEW(widget))))
 		return GDK_EVENT_PROPAGATE;
 	closing = g_new0(struct closing, 1);
 	*closing = (struct closing){ window, g_object_ref(page) };
-	name = ladder_file_view_name(LADDER_FILE_VIEW(widget));
+	name = ladder_side_file_name(ladder_file_view_file(LADDER_FILE_VIEW(widget)));
 	dialog = window_ask_save(window, name);
 	g_signal_connect_data(dialog, "response", G_CALLBACK(close_answered), closing,
 			      closing_free, 0);

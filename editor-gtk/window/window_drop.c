@@ -14,7 +14,7 @@ static bool can_open(const char *path)
 {
 	const char *dot = strrchr(path, '.');
 
-	return (dot && g_ascii_strcasecmp(dot, ".rung") == 0) || file_is_beside(path) ||
+	return (dot && g_ascii_strcasecmp(dot, ".rung") == 0) || side_file_is(path) ||
 	       classic_is_project(path);
 }
 

@@ -203,10 +203,10 @@ void window_save_as(LadderWindow *window)
 	gtk_native_dialog_show(GTK_NATIVE_DIALOG(chooser));
 }
 
-bool window_save_file(LadderWindow *window, LadderFileView *file)
+bool window_save_file(LadderWindow *window, LadderSideFile *file)
 {
 	GError *error = NULL;
-	const bool good = ladder_file_view_save(file, &error);
+	const bool good = ladder_side_file_save(file, &error);
 
 	if (good)
 		ladder_window_tell(window, _("Saved"));
@@ -257,7 +257,7 @@ void window_save(LadderWindow *window)
 {
 	/* The file in front: a scenario, an I/O map. */
 	if (tabs_file(window))
-		window_save_file(window, tabs_file(window));
+		window_save_file(window, ladder_file_view_file(tabs_file(window)));
 	else if (!ladder_document_path(window->document))
 		window_save_as(window);
 	else
@@ -284,15 +284,19 @@ static void drop_drafts(LadderWindow *window)
 bool ladder_window_restore_file(LadderWindow *window, const struct draft *draft)
 {
 	LadderFileView *there = tabs_find_file(window, draft->path);
+	LadderSideFile *file = there ? g_object_ref(ladder_file_view_file(there)) :
+		ladder_side_file_restore(draft->path, draft->sum, draft->text,
+					 window->document);
+	bool kept;
 
 	if (there)
-		ladder_file_view_put(there, draft->text, draft->sum);
+		ladder_side_file_put(file, draft->text, draft->sum);
 	else
-		tabs_put_file(window, draft->path, ladder_file_view_restore(draft->path,
-			      draft->sum, draft->text, window->document));
-	there = tabs_find_file(window, draft->path);
-	draft_write(there);
-	return draft_is_kept(there);
+		tabs_put_file(window, file);
+	draft_write(file);
+	kept = draft_is_kept(file);
+	g_object_unref(file);
+	return kept;
 }
 
 bool ladder_window_has_file(LadderWindow *window, const char *path)
@@ -303,7 +307,7 @@ bool ladder_window_has_file(LadderWindow *window, const char *path)
 void ladder_window_keep_drafts(LadderWindow *window)
 {
 	tabs_take_typed(window);
-	tabs_each_file(window, ladder_file_view_commit);
+	tabs_each_file(window, ladder_side_file_commit);
 	ladder_document_disk(window->document); /* it may be gone since           */
 	draft_write(window->document);
 	tabs_each_file(window, draft_write);
@@ -385,7 +389,7 @@ static char *unsaved_names(LadderWindow *window, const GPtrArray *files)
 		g_free(name);
 	}
 	for (guint i = 0; i < files->len; i++) {
-		char *name = ladder_file_view_name(files->pdata[i]);
+		char *name = ladder_side_file_name(files->pdata[i]);
 
 		g_string_append_printf(names, "%s%s", names->len ? ", " : "", name);
 		g_free(name);
@@ -451,7 +455,7 @@ static gboolean look(gpointer data)
 	LadderWindow *window = data;
 	const enum disk_state state = ladder_document_disk(window->document);
 
-	tabs_each_file(window, ladder_file_view_look);
+	tabs_each_file(window, ladder_side_file_look);
 	window_board_look(window);
 	if (state == window->disk_told || (state != DISK_AS_READ &&
 	    gtk_revealer_get_reveal_child(window->banner) && window->disk_told == DISK_AS_READ))

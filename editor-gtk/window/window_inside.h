@@ -138,15 +138,15 @@ GtkWidget *tabs_content(AdwTabPage *page);
 void tabs_init_closing(LadderWindow *window);
 /** tabs_close - the page in front; what is not saved in it is asked for first. */
 void tabs_close(LadderWindow *window);
-/** tabs_put_file - the same, with a view that was made for it: a draft. */
-void tabs_put_file(LadderWindow *window, const char *path, GtkWidget *view);
+/** tabs_put_file - opens a page for a side file that is not open yet: a draft. */
+void tabs_put_file(LadderWindow *window, LadderSideFile *file);
 /** tabs_find_file - of that path; NULL: it is not open. */
 LadderFileView *tabs_find_file(LadderWindow *window, const char *path);
 /** tabs_file - of the page in front; NULL: it is none. */
 LadderFileView *tabs_file(LadderWindow *window);
-/** tabs_each_file - all that are open. */
+/** tabs_each_file - calls @act with each open LadderSideFile. */
 void tabs_each_file(LadderWindow *window, void (*act)(gpointer file));
-/** tabs_unsaved - the files beside the project that are not saved, of LadderFileView *.
+/** tabs_unsaved - the files beside the project that are not saved, of LadderSideFile *.
  * Caller: g_ptr_array_unref. */
 GPtrArray *tabs_unsaved(LadderWindow *window);
 /** tabs_page_new - a sheet, a chart or a list: POU @pou of @document, that tells the
@@ -225,7 +225,7 @@ bool window_save_here(LadderWindow *window);
  * "cancel" of the dialog that it returns; borrowed. */
 GtkWidget *window_ask_save(LadderWindow *window, const char *name);
 /** window_save_file - of a tab; false: it could not be, and that is told. */
-bool window_save_file(LadderWindow *window, LadderFileView *file);
+bool window_save_file(LadderWindow *window, LadderSideFile *file);
 /** window_may_close - false: the person is asked first, and the window closes itself. */
 bool window_may_close(LadderWindow *window);
 /** window_watch_disk - tells if somebody else changes the file. */

@@ -5,6 +5,8 @@
  */
 #include "editor-gtk/window/window_inside.h"
 
+#include "editor-gtk/iomap/iomap_view.h"
+
 /* ---- texts ---- */
 
 LadderTextView *tabs_list(LadderWindow *window)
@@ -25,15 +27,16 @@ static GtkTextBuffer *buffer_of(AdwTabPage *page)
 	if (LADDER_IS_TEXT_VIEW(content))
 		return GTK_TEXT_BUFFER(ladder_text_view_buffer(LADDER_TEXT_VIEW(content)));
 	return LADDER_IS_FILE_VIEW(content) ?
-		GTK_TEXT_BUFFER(ladder_file_view_buffer(LADDER_FILE_VIEW(content))) : NULL;
+		ladder_side_file_buffer(ladder_file_view_file(LADDER_FILE_VIEW(content))) : NULL;
 }
 
 GtkTextBuffer *tabs_text(LadderWindow *window)
 {
 	LadderFileView *file = tabs_file(window);
+	GtkWidget *table = file ? ladder_file_view_table(file) : NULL;
 
-	/* Behind a table there is one that nobody sees. */
-	return file && !ladder_file_view_is_text(file) ? NULL :
+	/* A table hides the text. */
+	return table && !ladder_iomap_view_is_text(LADDER_IOMAP_VIEW(table)) ? NULL :
 	       buffer_of(adw_tab_view_get_selected_page(window->tabs));
 }
 
@@ -120,8 +123,9 @@ void place_follow(LadderWindow *window, AdwTabPage *page)
 	GtkTextBuffer *buffer = buffer_of(page);
 	GtkWidget *content = tabs_content(page);
 
-	if (LADDER_IS_FILE_VIEW(content))
-		g_signal_connect_object(content, "turned", G_CALLBACK(tabs_show_place),
+	if (LADDER_IS_FILE_VIEW(content) && ladder_file_view_table(LADDER_FILE_VIEW(content)))
+		g_signal_connect_object(ladder_file_view_table(LADDER_FILE_VIEW(content)),
+					"turned", G_CALLBACK(tabs_show_place),
 					window, G_CONNECT_SWAPPED);
 	if (buffer)
 		g_signal_connect_object(buffer, "notify::cursor-position",

@@ -3,7 +3,7 @@
  * window_sample - what belongs to a sample that is a copy here: its plant and its scenarios
  * lie beside the sample, and come along when the copy is saved.
  *
- * They get the name of the copy, by which they are found (file_view.h); so does the plant in
+ * They get the name of the copy, by which they are found (side_file.h); so does the plant in
  * the scenarios that name it. Nothing is written over.
  */
 #include "editor-gtk/window/window_inside.h"
@@ -89,7 +89,7 @@ static void take(struct taking *taking, const char *from)
 static void take_all(struct taking *taking, const char *sample)
 {
 	char *plant = window_plant_of(sample);
-	GPtrArray *scenarios = files_beside(sample, ".scn", true);
+	GPtrArray *scenarios = side_file_list(sample, ".scn", true);
 
 	if (plant)
 		take(taking, plant);

@@ -6,7 +6,6 @@
 #include "editor-gtk/window/window_inside.h"
 
 #include "editor-gtk/document/disk.h"
-#include "editor-gtk/text/file_marks.h"
 #include "editor-gtk/panels/panels.h"
 #include "editor-gtk/panels/scenario_view.h"
 #include "editor-gtk/kit/gtk48/tip.h"
@@ -24,9 +23,10 @@ static LadderScenarioView *view_of(LadderWindow *window)
 
 static char *typed_text(gpointer window, const char *path)
 {
-	LadderFileView *file = tabs_find_file(window, path);
+	LadderFileView *view = tabs_find_file(window, path);
+	LadderSideFile *file = view ? ladder_file_view_file(view) : NULL;
 
-	return file && !ladder_file_view_is_saved(file) ? ladder_file_view_text(file) : NULL;
+	return file && !ladder_side_file_is_saved(file) ? ladder_side_file_text(file) : NULL;
 }
 
 /* A copy of a sample has the sample's until it is saved. */
@@ -39,16 +39,17 @@ static void run_all(LadderWindow *window)
 }
 
 /* All that is wrong with that file, each at its line. */
-static void mark_file(LadderWindow *window, LadderFileView *file)
+static void mark_file(LadderWindow *window, LadderFileView *view)
 {
 	GPtrArray *results = ladder_scenario_view_results(view_of(window));
-	struct file_marks *marks = ladder_file_view_marks(file);
+	const char *path = ladder_side_file_path(ladder_file_view_file(view));
+	struct file_marks *marks = ladder_file_view_marks(view);
 
 	file_marks_clear(marks);
 	for (guint i = 0; results && i < results->len; i++) {
 		const struct scenario_result *result = results->pdata[i];
 
-		if (result->line && strcmp(result->path, ladder_file_view_path(file)) == 0)
+		if (result->line && strcmp(result->path, path) == 0)
 			file_marks_add(marks, result->line, result->column, result->why);
 	}
 }
@@ -158,14 +159,16 @@ static bool append_to_disk(const char *path, const char *scenario, GError **erro
 /* A file that is open is added to where it is typed in. */
 static bool append(LadderWindow *window, const char *path, const char *scenario)
 {
-	LadderFileView *file = tabs_find_file(window, path);
+	LadderFileView *view = tabs_find_file(window, path);
+	LadderSideFile *file;
 	GError *error = NULL;
 	char *before, *added;
 
-	if (file) {
-		before = ladder_file_view_text(file);
+	if (view) {
+		file = ladder_file_view_file(view);
+		before = ladder_side_file_text(file);
 		added = to_append(before, scenario);
-		ladder_file_view_append(file, added);
+		ladder_side_file_append(file, added);
 		g_free(added);
 		g_free(before);
 		return window_save_file(window, file);

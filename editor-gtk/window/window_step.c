@@ -58,7 +58,7 @@ void window_step(LadderWindow *window, bool redo)
 	char *name, *text;
 	bool done;
 
-	tabs_each_file(window, ladder_file_view_commit);
+	tabs_each_file(window, ladder_side_file_commit);
 	name = g_strdup(redo ? ladder_document_redo_name(document) :
 			ladder_document_undo_name(document));
 	rungs = g_signal_connect(document, "rungs-changed", G_CALLBACK(rungs_changed),

@@ -9,6 +9,7 @@
 #include "editor-gtk/kit/cells.h"
 #include "editor-gtk/window/sfc_page.h"
 #include "editor-gtk/document/disk.h"
+#include "editor-gtk/iomap/iomap_view.h"
 #include "editor-gtk/panels/panels.h"
 #include "editor-gtk/kit/gtk48/slow_bar.h"
 #include "editor-gtk/kit/gtk48/spoken.h"
@@ -132,9 +133,10 @@ GPtrArray *tabs_unsaved(LadderWindow *window)
 	for (int i = 0; i < adw_tab_view_get_n_pages(window->tabs); i++) {
 		GtkWidget *widget = tabs_content(adw_tab_view_get_nth_page(window->tabs, i));
 
-		if (LADDER_IS_FILE_VIEW(widget) &&
-		    !ladder_file_view_is_saved(LADDER_FILE_VIEW(widget)))
-			g_ptr_array_add(files, widget);
+		if (LADDER_IS_FILE_VIEW(widget) && !ladder_side_file_is_saved(
+			    ladder_file_view_file(LADDER_FILE_VIEW(widget))))
+			g_ptr_array_add(files, ladder_file_view_file(
+				LADDER_FILE_VIEW(widget)));
 	}
 	return files;
 }
@@ -145,7 +147,7 @@ void tabs_each_file(LadderWindow *window, void (*act)(gpointer file))
 		GtkWidget *widget = tabs_content(adw_tab_view_get_nth_page(window->tabs, i));
 
 		if (LADDER_IS_FILE_VIEW(widget))
-			act(widget);
+			act(ladder_file_view_file(LADDER_FILE_VIEW(widget)));
 	}
 }
 
@@ -329,11 +331,11 @@ static AdwTabPage *open_widget(LadderWindow *window, const char *name)
 	return page;
 }
 
-static void show_file_state(AdwTabPage *page, LadderFileView *file)
+static void show_file_state(AdwTabPage *page, LadderSideFile *file)
 {
-	char *name = ladder_file_view_name(file);
+	char *name = ladder_side_file_name(file);
 	char *title = g_strdup_printf("%s%s",
-				      ladder_file_view_differs(file) ? "• " : "", name);
+				      ladder_side_file_differs(file) ? "• " : "", name);
 
 	adw_tab_page_set_title(page, title);
 	g_free(title);
@@ -347,7 +349,8 @@ static AdwTabPage *find_file_page(LadderWindow *window, const char *path)
 		GtkWidget *widget = tabs_content(page);
 
 		if (LADDER_IS_FILE_VIEW(widget) &&
-		    disk_same(path, ladder_file_view_path(LADDER_FILE_VIEW(widget))))
+		    disk_same(path, ladder_side_file_path(
+			    ladder_file_view_file(LADDER_FILE_VIEW(widget)))))
 			return page;
 	}
 	return NULL;
@@ -361,46 +364,43 @@ LadderFileView *tabs_find_file(LadderWindow *window, const char *path)
 }
 
 /* Nothing is undone out of sight. */
-static void show_undone(LadderFileView *file, LadderWindow *window)
+static void show_undone(LadderSideFile *file, LadderWindow *window)
 {
-	tabs_show_file(window, ladder_file_view_path(file));
+	tabs_show_file(window, ladder_side_file_path(file));
 }
 
-/* @view: made for it; NULL: it may be there already, else @error says why there is none. */
-static void show_file(LadderWindow *window, const char *path, GtkWidget *view, GError *error)
+void tabs_put_file(LadderWindow *window, LadderSideFile *file)
 {
-	char *title = g_path_get_basename(path);
-	AdwTabPage *page = view ? add_page(window, view, " file", title) :
-				  find_file_page(window, path);
+	char *name = ladder_side_file_name(file);
+	AdwTabPage *page = add_page(window, ladder_file_view_new(file,
+		g_str_has_suffix(name, ".io") ? ladder_iomap_view_new : NULL), " file", name);
 
-	if (view) {
-		g_signal_connect_object(view, "state-changed", G_CALLBACK(show_file_state),
-					page, G_CONNECT_SWAPPED);
-		g_signal_connect_object(view, "undone", G_CALLBACK(show_undone), window,
-					0);
-		show_file_state(page, LADDER_FILE_VIEW(view));
-		draft_keep_file(LADDER_FILE_VIEW(view), window->document);
-	}
-	if (page)
-		select_page(window, page);
-	else
-		ladder_window_warn(window, error->message);
-	g_free(title);
+	g_signal_connect_object(file, "state-changed", G_CALLBACK(show_file_state), page,
+				G_CONNECT_SWAPPED);
+	g_signal_connect_object(file, "undone", G_CALLBACK(show_undone), window, 0);
+	show_file_state(page, file);
+	draft_keep_file(file, window->document);
+	select_page(window, page);
+	g_free(name);
 }
 
 void tabs_show_file(LadderWindow *window, const char *path)
 {
+	AdwTabPage *page = find_file_page(window, path);
 	GError *error = NULL;
-	GtkWidget *view = tabs_find_file(window, path) ? NULL :
-		ladder_file_view_new(path, window->document, &error);
+	LadderSideFile *file;
 
-	show_file(window, path, view, error);
+	if (page) {
+		select_page(window, page);
+		return;
+	}
+	file = ladder_side_file_open(path, window->document, &error);
+	if (file)
+		tabs_put_file(window, file);
+	else
+		ladder_window_warn(window, error->message);
+	g_clear_object(&file);
 	g_clear_error(&error);
-}
-
-void tabs_put_file(LadderWindow *window, const char *path, GtkWidget *view)
-{
-	show_file(window, path, view, NULL);
 }
 
 GtkWidget *tabs_show_widget(LadderWindow *window, const char *name)

@@ -3,7 +3,7 @@
  * test_beside - which scenarios and I/O maps of a folder belong to a program, and which
  * outputs its map has at 1 while nothing runs.
  */
-#include "editor-gtk/text/file_view.h"
+#include "editor-gtk/document/side_file.h"
 #include "editor-gtk/document/iomap_beside.h"
 #include "tests/tap.h"
 
@@ -27,7 +27,7 @@ static void make(const char *name)
 static bool are(const char *program, const char *ending, bool own, const char *wanted)
 {
 	char *path = g_build_filename(folder, program, NULL);
-	GPtrArray *files = files_beside(path, ending, own);
+	GPtrArray *files = side_file_list(path, ending, own);
 	GString *got = g_string_new(NULL);
 	bool same;
 
@@ -126,7 +126,7 @@ int main(void)
 	CHECK(are("pump.rung", ".scn", true, "pump.scn"));
 	CHECK(are("pump-two.rung", ".scn", true, "pump-two.scn"));
 	CHECK(are("new.rung", ".io", true, ""));
-	none = files_beside(NULL, ".io", true);
+	none = side_file_list(NULL, ".io", true);
 	CHECK(none->len == 0);
 	g_ptr_array_unref(none);
 	test_own();
