@@ -145,10 +145,7 @@ static bool is_there(const LadderOrigin *origin, const char *name)
 {
 	const struct project *project = ladder_document_project(origin->document);
 
-	for (int i = 0; i < project->pou_count; i++)
-		if (!g_ascii_strcasecmp(project_text(project, project->pou[i].name), name))
-			return true;
-	return false;
+	return project_find_pou(project, name, strlen(name)) >= 0;
 }
 
 /* By its name, or in its place under another one. */

@@ -114,12 +114,12 @@ static const char *yes_or_no(const char *text)
 /* Table number of a scope; -1: there is none. */
 static int table_of(struct project *project, const char *scope)
 {
+	const int pou = project_find_pou(project, scope, strlen(scope));
+
 	if (!*scope)
 		return 0;
-	for (int i = 0; i < project->pou_count; i++)
-		if (g_ascii_strcasecmp(scope, project_text(project,
-				project->pou[i].name)) == 0)
-			return i + 1;
+	if (pou >= 0)
+		return pou + 1;
 	for (int i = 0; i < project->structure_count; i++)
 		if (g_ascii_strcasecmp(scope, project_text(project,
 				project->structure[i].name)) == 0)

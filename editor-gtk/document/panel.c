@@ -4,7 +4,7 @@
  */
 #include "editor-gtk/document/panel.h"
 
-#include "editor-gtk/kit/gtk48/focus.h"
+#include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
@@ -258,7 +258,7 @@ void panel_list_want(struct panel_list *list, const char *wanted)
 void panel_list_update(struct panel_list *list, GPtrArray *rows)
 {
 	panel_rows_update(list->store, rows);
-	focus_mend(GTK_WIDGET(list->view));
+	list_mend_focus(GTK_WIDGET(list->view));
 }
 
 LadderPanelRow *panel_list_row(struct panel_list *list)
@@ -266,24 +266,11 @@ LadderPanelRow *panel_list_row(struct panel_list *list)
 	return gtk_single_selection_get_selected_item(list->selection);
 }
 
-/* The list inside a column view knows how to scroll; 4.8 has no other way. */
-void panel_show_selected(GtkColumnView *view)
-{
-	GtkSingleSelection *selection = GTK_SINGLE_SELECTION(
-		gtk_column_view_get_model(view));
-	const guint at = gtk_single_selection_get_selected(selection);
-	GtkWidget *child = gtk_widget_get_first_child(GTK_WIDGET(view));
-
-	for (; at != GTK_INVALID_LIST_POSITION && child;
-	     child = gtk_widget_get_next_sibling(child))
-		if (gtk_widget_activate_action(child, "list.scroll-to-item", "u", at))
-			return;
-}
-
 void panel_list_go(struct panel_list *list, guint at)
 {
 	gtk_single_selection_set_selected(list->selection, at);
-	panel_show_selected(list->view);
+	if (at != GTK_INVALID_LIST_POSITION)
+		list_scroll_to(GTK_WIDGET(list->view), at);
 }
 
 bool panel_list_select(struct panel_list *list,

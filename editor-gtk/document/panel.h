@@ -56,9 +56,6 @@ void panel_list_go(struct panel_list *list, guint at);
 bool panel_list_select(struct panel_list *list,
 		       bool (*is)(const LadderPanelRow *row, gconstpointer what),
 		       gconstpointer what);
-/** panel_show_selected - scrolls the view of a list to its selected row. One that was just
- * made has a place from the next frame on. */
-void panel_show_selected(GtkColumnView *view);
 /**
  * panel_go_to - the window's action for the place of a row, win.go-to (iiii): POU, rung,
  * row, column, 0-based, -1: the whole

@@ -12,10 +12,8 @@
 
 static bool is_taken(const struct project *project, const char *name)
 {
-	for (int i = 0; i < project->pou_count; i++)
-		if (g_ascii_strcasecmp(project_text(project, project->pou[i].name),
-				       name) == 0)
-			return true;
+	if (project_find_pou(project, name, strlen(name)) >= 0)
+		return true;
 	for (int i = 0; i < project->globals.count; i++)
 		if (g_ascii_strcasecmp(project_text(project, project->globals.var[i].name),
 				       name) == 0)

@@ -104,11 +104,9 @@ static int find_global(const struct project *project, const char *name)
 
 static bool is_taken(const struct project *project, const char *name)
 {
-	bool taken = find_global(project, name) >= 0;
+	bool taken = find_global(project, name) >= 0 ||
+		     project_find_pou(project, name, strlen(name)) >= 0;
 
-	for (int i = 0; i < project->pou_count; i++)
-		taken = taken || g_ascii_strcasecmp(project_text(project,
-			project->pou[i].name), name) == 0;
 	for (int i = 0; i < project->structure_count; i++)
 		taken = taken || g_ascii_strcasecmp(project_text(project,
 			project->structure[i].name), name) == 0;

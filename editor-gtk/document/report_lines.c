@@ -19,10 +19,7 @@ void left_line_free(gpointer data)
 
 static int pou_of(const struct project *project, const char *name)
 {
-	for (int i = 0; project && name && i < project->pou_count; i++)
-		if (strcmp(project_text(project, project->pou[i].name), name) == 0)
-			return i;
-	return -1;
+	return project && name ? project_find_pou(project, name, strlen(name)) : -1;
 }
 
 static char *place_text(LadderDocument *document, const LadderPanelRow *row)

@@ -212,10 +212,8 @@ static bool has_name(struct project *project, int table, const char *name)
 	for (int i = 0; vars && i < vars->count; i++)
 		if (g_ascii_strcasecmp(project_text(project, vars->var[i].name), name) == 0)
 			return true;
-	for (int i = 0; table == 0 && i < project->pou_count; i++)
-		if (g_ascii_strcasecmp(project_text(project, project->pou[i].name),
-				       name) == 0)
-			return true;
+	if (table == 0 && project_find_pou(project, name, strlen(name)) >= 0)
+		return true;
 	return ladder_name_fault(name) != DIAG_COUNT;
 }
 

@@ -157,11 +157,9 @@ static bool name_is_free(struct symbol_batch *batch, int table, int index,
 				project_text(project, vars->var[i].name)) == 0)
 			return refuse(why, g_strdup_printf(
 				_("“%s” is declared already"), name));
-	for (int i = 0; table == 0 && i < project->pou_count; i++)
-		if (g_ascii_strcasecmp(name, project_text(project,
-				project->pou[i].name)) == 0)
-			return refuse(why, g_strdup_printf(
-				_("“%s” is the name of a program or block"), name));
+	if (table == 0 && project_find_pou(project, name, strlen(name)) >= 0)
+		return refuse(why, g_strdup_printf(
+			_("“%s” is the name of a program or block"), name));
 	return true;
 }
 

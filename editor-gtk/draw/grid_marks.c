@@ -251,8 +251,7 @@ void grid_draw_marks(const struct pen *pen)
 			continue;
 		graphene_rect_t r = place_of(pen, mark);
 		int col = rung_layout_col(pen->layout, mark->row, mark->column);
-		int top = col < 0 ? -1 : rung_box_top(pen->drafting->project, pen->rung,
-						      mark->row, col);
+		int top = col < 0 ? -1 : rung_box_top(pen->rung, mark->row, col);
 		draw_frames(pen, mark, &r);
 		if (top >= 0)
 			mark_box(pen, mark->marks, top, col);

@@ -17,17 +17,6 @@
 #define VALUE_INNER 86 /* "12.5/20.0 s" has room                          */
 #define LEAD        14    /* of a side with nothing connected                   */
 
-int rung_box_top(const struct project *project, const struct rung *rung, int row, int col)
-{
-	const struct word_table *words = &project->words;
-
-	while (row > 0 &&
-	       words_row(words, rung_at(rung, row, col)->word)->place == PLACE_PIN)
-		row--;
-	return words_row(words, rung_at(rung, row, col)->word)->kind == WORD_ELEM ? -1 :
-										  row;
-}
-
 static bool same_name(const char *a, size_t a_len, const char *b, size_t b_len)
 {
 	return a_len == b_len && strncasecmp(a, b, a_len) == 0;
@@ -79,17 +68,14 @@ static void add_named(const struct drafting *drafting, struct rung_box *box, boo
 		      const char *name)
 {
 	struct rung_pin pin = { .name = name, .name_len = strlen(name) };
-	const char *at = project_text(drafting->project, box->cell->args);
 	struct arg arg;
 
-	while (args_next(&at, &arg))
-		if (arg.output == output &&
-		    same_name(arg.pin, arg.pin_len, name, pin.name_len)) {
-			pin.value = arg.value;
-			pin.value_len = arg.value_len;
-			pin.inverse = arg.inverse;
-			break;
-		}
+	if (args_find_side(project_text(drafting->project, box->cell->args), output, name,
+			   pin.name_len, &arg)) {
+		pin.value = arg.value;
+		pin.value_len = arg.value_len;
+		pin.inverse = arg.inverse;
+	}
 	side_add(drafting, output ? &box->out : &box->in, pin);
 }
 

@@ -44,8 +44,6 @@ struct rung_box {
 	float x;                 /* of its left side; after rung_box_place()    */
 };
 
-/** rung_box_top - first row of the box that covers the cell; -1: none does. */
-int rung_box_top(const struct project *project, const struct rung *rung, int row, int col);
 /** rung_box_make - what is known without a place; its pins have no y yet.
  * @row, @col: its first cell */
 void rung_box_make(const struct drafting *drafting, const struct rung *rung, int row,

@@ -38,12 +38,7 @@ static int box_row(const struct rung_layout *layout, int row, int column, int *c
 	*col = rung_layout_col(layout, row, column);
 	if (*col < 0)
 		return -1;
-	int top = row;
-	while (top > 0 &&
-	       word_row(rung_at(layout->rung, top, *col)->word)->place == PLACE_PIN)
-		top--;
-	return word_row(rung_at(layout->rung, top, *col)->word)->kind == WORD_ELEM ? -1 :
-										     top;
+	return rung_box_top(layout->rung, row, *col);
 }
 
 graphene_rect_t rung_layout_cell(const struct rung_layout *layout, int row, int column)

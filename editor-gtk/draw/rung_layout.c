@@ -157,7 +157,7 @@ static float box_reach(const struct drafting *drafting, const struct rung_layout
 		if (word_row(rung_at(rung, row, col)->word)->kind == WORD_ELEM &&
 		    place_at(rung, row, col) != PLACE_PIN)
 			continue;
-		top = rung_box_top(drafting->project, rung, row, col);
+		top = rung_box_top(rung, row, col);
 		if (top < 0 || top + rung_height(rung, top, col) - 1 != row)
 			continue;
 		rung_box_make(drafting, rung, top, col, &box);

@@ -357,9 +357,8 @@ bool entry_name_taken(const struct entry_place *place, const struct entry *entry
 
 	if (entry_var_find(place, name, len, NULL) || !entry_is_name(name, len))
 		return true;
-	for (int i = 0; i < project->pou_count; i++)
-		if (ascii_is(project_text(project, project->pou[i].name), name, len))
-			return true;
+	if (project_find_pou(project, name, len) >= 0)
+		return true;
 	for (int i = 0; pou && i < pou->rung_count; i++)
 		if (ascii_is(project_text(project, pou->rung[i]->label), name, len))
 			return true;

@@ -5,7 +5,7 @@
 #include "editor-gtk/kit/cells.h"
 
 #include "editor-gtk/kit/i18n.h"
-#include "editor-gtk/document/panel.h"
+#include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
 #define PLACE GTK_ENTRY_ICON_SECONDARY
@@ -131,6 +131,15 @@ static bool enter(GtkWidget *within, const struct wanted *wanted)
 	return false;
 }
 
+static void scroll_to_selected(GtkWidget *table)
+{
+	const guint at = gtk_single_selection_get_selected(GTK_SINGLE_SELECTION(
+		gtk_column_view_get_model(GTK_COLUMN_VIEW(table))));
+
+	if (at != GTK_INVALID_LIST_POSITION)
+		list_scroll_to(table, at);
+}
+
 static gboolean enter_later(GtkWidget *table, GdkFrameClock *clock, gpointer data)
 {
 	struct wanted *wanted = data;
@@ -138,7 +147,7 @@ static gboolean enter_later(GtkWidget *table, GdkFrameClock *clock, gpointer dat
 	(void)clock;
 	if (!wanted->entered)
 		wanted->entered = enter(table, wanted);
-	panel_show_selected(GTK_COLUMN_VIEW(table));
+	scroll_to_selected(table);
 	wanted->frames++;
 	return wanted->frames < (wanted->entered ? FRAMES_SEEN : FRAMES_MOST) ?
 	       G_SOURCE_CONTINUE : G_SOURCE_REMOVE;

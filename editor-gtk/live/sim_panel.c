@@ -5,7 +5,7 @@
  */
 #include "editor-gtk/live/sim_panel_inside.h"
 
-#include "editor-gtk/kit/gtk48/focus.h"
+#include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/sim_panel_kept.h"
 
@@ -91,7 +91,7 @@ static void show_lines(LadderSimPanel *panel)
 	}
 	g_list_store_splice(panel->store, 0, g_list_model_get_n_items(
 			    G_LIST_MODEL(panel->store)), out->pdata, out->len);
-	focus_mend(GTK_WIDGET(panel));
+	list_mend_focus(GTK_WIDGET(panel));
 	at = find_line(panel, selected);
 	gtk_single_selection_set_selected(panel->selection, at < 0 ?
 					  GTK_INVALID_LIST_POSITION : (guint)at);
@@ -266,7 +266,7 @@ bool ladder_sim_panel_select(LadderSimPanel *panel, const char *name)
 		if (!is)
 			continue;
 		gtk_single_selection_set_selected(panel->selection, i);
-		gtk_widget_activate_action(panel->list, "list.scroll-to-item", "u", i);
+		list_scroll_to(panel->list, i);
 		return true;
 	}
 	return false;

@@ -8,7 +8,7 @@
 #include "editor-gtk/live/watch_inside.h"
 
 #include "editor-gtk/kit/drop.h"
-#include "editor-gtk/kit/gtk48/focus.h"
+#include "editor-gtk/kit/gtk48/list.h"
 
 #include <string.h>
 
@@ -35,16 +35,6 @@ int watch_selected(LadderWatchView *view)
 	return at == GTK_INVALID_LIST_POSITION ? -1 : (int)at;
 }
 
-/* The list inside a column view knows how to scroll; 4.8 has no other way. */
-static void scroll_to(LadderWatchView *view, guint at)
-{
-	GtkWidget *child = gtk_widget_get_first_child(view->list);
-
-	for (; child; child = gtk_widget_get_next_sibling(child))
-		if (gtk_widget_activate_action(child, "list.scroll-to-item", "u", at))
-			return;
-}
-
 void watch_select(LadderWatchView *view, int at)
 {
 	const int count = (int)g_list_model_get_n_items(G_LIST_MODEL(view->store));
@@ -53,7 +43,7 @@ void watch_select(LadderWatchView *view, int at)
 	gtk_single_selection_set_selected(view->selection, at < 0 ?
 					  GTK_INVALID_LIST_POSITION : (guint)at);
 	if (at >= 0)
-		scroll_to(view, (guint)at);
+		list_scroll_to(view->list, (guint)at);
 }
 
 GListModel *ladder_watch_view_list(LadderWatchView *view)
@@ -185,7 +175,7 @@ static void exchange(LadderWatchView *view, GPtrArray *rows)
 	if (old - first - last || rows->len - first - last)
 		g_list_store_splice(view->store, first, old - first - last,
 				    rows->pdata + first, rows->len - first - last);
-	focus_mend(view->list);
+	list_mend_focus(view->list);
 }
 
 static void look(LadderWatchView *view)

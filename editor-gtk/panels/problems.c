@@ -31,10 +31,7 @@ static guint title_changed; /* signal */
 
 static int pou_of(const struct project *project, const char *name)
 {
-	for (int i = 0; project && name && i < project->pou_count; i++)
-		if (strcmp(project_text(project, project->pou[i].name), name) == 0)
-			return i;
-	return -1;
+	return project && name ? project_find_pou(project, name, strlen(name)) : -1;
 }
 
 /* A row of the symbol table. */

@@ -7,7 +7,7 @@
  */
 #include "editor-gtk/panels/panels.h"
 
-#include "editor-gtk/kit/gtk48/focus.h"
+#include "editor-gtk/kit/gtk48/list.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/draw/listing.h"
 #include "editor-gtk/kit/gtk48/popover.h"
@@ -60,7 +60,7 @@ static void refill(struct tree *tree)
 	    !gtk_single_selection_get_selected_item(tree->selection))
 		gtk_single_selection_set_selected(tree->selection, MIN(at, count - 1));
 	gtk_widget_grab_focus(tree->list);
-	focus_mend(tree->list);
+	list_mend_focus(tree->list);
 }
 
 static char *shape_of(LadderDocument *document)

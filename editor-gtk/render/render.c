@@ -61,14 +61,6 @@ static struct ladder *load(const char *path, enum render_status *status)
 	return NULL;
 }
 
-static int find_pou(const struct project *project, const char *name)
-{
-	for (int i = 0; i < project->pou_count; i++)
-		if (!strcasecmp(project_text(project, project->pou[i].name), name))
-			return i;
-	return -1;
-}
-
 static enum render_status failed(const char *path, const char *why)
 {
 	fprintf(stderr, _("ladder-editor: cannot write %s: %s\n"), path, why);
@@ -178,7 +170,7 @@ static enum render_status draw(struct ladder *ladder, const struct render_option
 			       struct lettering *lettering)
 {
 	const struct project *project = ladder_project(ladder);
-	int pou = options->pou ? find_pou(project, options->pou) : -1;
+	int pou = options->pou ? project_find_pou(project, options->pou, strlen(options->pou)) : -1;
 	enum render_status status;
 	struct picture picture;
 

@@ -72,10 +72,7 @@ static int pou_before(LadderWindow *window, const struct project *project)
 	AdwTabPage *tab = adw_tab_view_get_selected_page(window->tabs);
 	const char *name = tab ? adw_tab_page_get_title(tab) : "";
 
-	for (int i = 0; i < project->pou_count; i++)
-		if (strcmp(project_text(project, project->pou[i].name), name) == 0)
-			return i;
-	return 0;
+	return MAX(project_find_pou(project, name, strlen(name)), 0);
 }
 
 static void fill_pous(LadderWindow *window)

@@ -10,6 +10,8 @@
 #include "editor-gtk/live/sim_panel.h"
 #include "editor-gtk/kit/gtk48/tip.h"
 
+#include <string.h>
+
 #define WHEN_US 200000 /* the title tells the time so often                      */
 
 /* ---- what it says ---- */
@@ -155,12 +157,11 @@ static void go_to_fault(LadderWindow *window)
 	const struct fault_place *at =
 		stopped_at(&ladder_sim_twin(window->sim)->resource);
 	const struct project *project = ladder_document_project(window->document);
+	const int pou = project && at->rung && at->pou ?
+		project_find_pou(project, at->pou, strlen(at->pou)) : -1;
 
-	for (int i = 0; project && i < project->pou_count; i++)
-		if (at->rung && g_strcmp0(project_text(project, project->pou[i].name),
-					  at->pou) == 0)
-			tabs_go(window, i, (int)at->rung - 1, (int)at->row - 1,
-				(int)at->col - 1);
+	if (pou >= 0)
+		tabs_go(window, pou, (int)at->rung - 1, (int)at->row - 1, (int)at->col - 1);
 }
 
 static void told(LadderSim *sim, const char *text, gboolean bad, LadderWindow *window)

@@ -60,10 +60,7 @@ static AdwTabPage *find_page(LadderWindow *window, const char *name)
 
 static int pou_number(const struct project *project, const char *name)
 {
-	for (int i = 0; project && i < project->pou_count; i++)
-		if (strcmp(project_text(project, project->pou[i].name), name) == 0)
-			return i;
-	return -1;
+	return project ? project_find_pou(project, name, strlen(name)) : -1;
 }
 
 /* Of the page that is seen; NULL: there is none. */

@@ -12,22 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Index of the POU named so (any case); -1: none. */
-static int find_pou(const struct project *project, const char *name, size_t len)
-{
-	uint32_t want = names_find(&project->names, name, len);
-
-	for (int i = 0; i < project->pou_count; i++) {
-		const char *text = project_text(project, project->pou[i].name);
-
-		if (project->pou[i].name == want && want)
-			return i;
-		if (strlen(text) == len && !memcmp(text, name, len))
-			return i;
-	}
-	return -1;
-}
-
 /* 1-based number of the rung with this label or number in @pou; 0: none. */
 static int find_rung(const struct project *project, const struct pou *pou,
 		     const char *name)
@@ -51,7 +35,7 @@ static int show_named(const struct project *project, const char *name,
 {
 	const char *colon = strchr(name, ':');
 	size_t len = colon ? (size_t)(colon - name) : strlen(name);
-	int only = find_pou(project, name, len), shown = 0;
+	int only = project_find_pou(project, name, len), shown = 0;
 
 	if (colon && only < 0)
 		return 0;
@@ -136,7 +120,7 @@ static const struct code_watched *find_instance(const struct program *program,
 static const char *behind_program(const struct project *project, const char *name)
 {
 	const char *dot = strchr(name, '.');
-	int pou = dot ? find_pou(project, name, (size_t)(dot - name)) : -1;
+	int pou = dot ? project_find_pou(project, name, (size_t)(dot - name)) : -1;
 
 	return pou >= 0 && project->pou[pou].kind == POU_PROGRAM ? dot + 1 : name;
 }

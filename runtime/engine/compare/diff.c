@@ -158,19 +158,10 @@ static void compare_vars(struct diff *diff, const char *pou,
 
 /* ---- POUs ---- */
 
-int diff_pou(const struct project *project, const char *name)
-{
-	for (int i = 0; i < project->pou_count; i++)
-		if (strcasecmp(project_text(project, project->pou[i].name),
-			       name) == 0)
-			return i;
-	return -1;
-}
-
 static const struct pou *pou_named(const struct project *project,
 				   const char *name)
 {
-	int i = diff_pou(project, name);
+	int i = project_find_pou(project, name, strlen(name));
 
 	return i < 0 ? NULL : &project->pou[i];
 }

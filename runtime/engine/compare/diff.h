@@ -73,8 +73,6 @@ uint32_t diff_id(struct diff *diff, const char *text, size_t len);
 /** diff_name - one id for all spellings of a name in either project. */
 uint32_t diff_name(struct diff *diff, const char *name);
 
-/** diff_pou - index of the POU of a name, any case; -1: none. */
-int diff_pou(const struct project *project, const char *name);
 
 /** diff_open - ready to compare. Owns: the caller, diff_close(). NULL: no memory. */
 struct diff *diff_open(const struct project *a, const struct project *b,

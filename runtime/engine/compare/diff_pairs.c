@@ -5,6 +5,8 @@
  */
 #include "engine/compare/diff.h"
 
+#include <string.h>
+
 /* All rungs of a POU that the other project does not have. */
 static void give_all(struct diff *diff, const struct pou *pou, bool added)
 {
@@ -23,7 +25,8 @@ static void give_all(struct diff *diff, const struct pou *pou, bool added)
 static void give_pou(struct diff *diff, int index)
 {
 	const struct pou *a = &diff->a->pou[index];
-	int other = diff_pou(diff->b, project_text(diff->a, a->name));
+	const char *name = project_text(diff->a, a->name);
+	int other = project_find_pou(diff->b, name, strlen(name));
 	const struct pou *b = other < 0 ? NULL : &diff->b->pou[other];
 
 	diff->pair = (struct compare_pair){ index, other, -1, -1, false, true };
@@ -65,8 +68,10 @@ bool compare_rungs(const struct project *a, const struct project *b,
 	for (int i = 0; i < a->pou_count && !diff->failed; i++)
 		give_pou(diff, i);
 	for (int j = 0; j < b->pou_count && !diff->failed; j++) {
+		const char *name = project_text(b, b->pou[j].name);
+
 		diff->pair = (struct compare_pair){ -1, j, -1, -1, false, true };
-		if (diff_pou(a, project_text(b, b->pou[j].name)) < 0)
+		if (project_find_pou(a, name, strlen(name)) < 0)
 			give_all(diff, &b->pou[j], true);
 	}
 	return diff_close(diff);

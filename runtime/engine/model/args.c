@@ -63,3 +63,13 @@ bool args_find(const char *text, const char *pin, size_t pin_len,
 			return true;
 	return false;
 }
+
+bool args_find_side(const char *text, bool output, const char *pin, size_t pin_len,
+		    struct arg *out)
+{
+	while (args_next(&text, out))
+		if (out->output == output && out->pin_len == pin_len &&
+		    ascii_same(out->pin, pin, pin_len))
+			return true;
+	return false;
+}

@@ -25,6 +25,9 @@ struct arg {
  * Owns: nothing.   Scan-safe: no.   Fails: false at the end.
  */
 bool args_next(const char **at, struct arg *out);
+/** args_find_side - the one for @pin (any case) with => (@output) or with :=. */
+bool args_find_side(const char *text, bool output, const char *pin, size_t pin_len,
+		    struct arg *out);
 /** args_find - the one for @pin (any case). */
 bool args_find(const char *text, const char *pin, size_t pin_len, struct arg *out);
 #endif

@@ -7,6 +7,8 @@
  */
 #include "engine/model/project.h"
 
+#include "engine/base/ascii.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -149,6 +151,14 @@ const char *pou_language_word(enum pou_language language)
 	};
 
 	return words[language];
+}
+
+int project_find_pou(const struct project *project, const char *name, size_t len)
+{
+	for (int i = 0; i < project->pou_count; i++)
+		if (ascii_is(project_text(project, project->pou[i].name), name, len))
+			return i;
+	return -1;
 }
 
 const char *project_text(const struct project *project, uint32_t id)

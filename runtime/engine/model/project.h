@@ -113,6 +113,8 @@ bool project_set_view(struct project *project, const char *text);
 const char *pou_word(enum pou_kind kind);
 /** pou_language_word - LD, IL, SFC. Lives for ever. */
 const char *pou_language_word(enum pou_language language);
+/** project_find_pou - index of the POU with this name, in any case; -1: none. @len: bytes. */
+int project_find_pou(const struct project *project, const char *name, size_t len);
 /** project_text - the string of an id. */
 const char *project_text(const struct project *project, uint32_t id);
 #endif

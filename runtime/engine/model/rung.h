@@ -92,4 +92,6 @@ bool rung_set_link(struct rung *rung, int row, int col, bool link);
 int rung_line(const struct rung *rung, int row);
 /** rung_height - rows of the box at (row, col): 1 + PIN cells below it. */
 int rung_height(const struct rung *rung, int row, int col);
+/** rung_box_top - first row of the box that covers cell (row, col); -1: none does. */
+int rung_box_top(const struct rung *rung, int row, int col);
 #endif

@@ -31,6 +31,14 @@ int rung_height(const struct rung *rung, int row, int col)
 	return height;
 }
 
+int rung_box_top(const struct rung *rung, int row, int col)
+{
+	while (row > 0 && rung_at(rung, row, col)->word == ELEM_PIN)
+		row--;
+	return word_row((enum word)rung_at(rung, row, col)->word)->kind == WORD_ELEM ? -1 :
+										       row;
+}
+
 /* The cell gets another content and keeps its link. */
 static void put(struct cell *cell, struct cell content)
 {

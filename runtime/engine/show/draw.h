@@ -86,8 +86,6 @@ void draw_rung(struct draw *draw);
  * Fails: false: no memory. */
 bool draw_sfc(struct draw *draw, const struct pou *pou);
 
-/** box_top - first row of the box that covers the cell, -1: none does. */
-int box_top(const struct rung *rung, int row, int col);
 /** box_make - fills draw->box for the box whose first cell is (row, col). */
 void box_make(struct draw *draw, int row, int col);
 /** box_bottom - lines from its power line to its lower edge; draw->y must be

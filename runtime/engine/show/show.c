@@ -89,7 +89,7 @@ static enum form form_at(const struct draw *draw, int row, int col)
 {
 	const struct word_row *word = row_at(draw, row, col);
 
-	if (box_top(draw->rung, row, col) >= 0)
+	if (rung_box_top(draw->rung, row, col) >= 0)
 		return FORM_BOX;
 	if (word->place == PLACE_NONE)
 		return col > draw->trail[row] ? FORM_WIRE : FORM_EMPTY;
@@ -345,7 +345,7 @@ static int lines_above(struct draw *draw, int row, int col)
 
 static int lines_below(struct draw *draw, int row, int col)
 {
-	int top = box_top(draw->rung, row, col);
+	int top = rung_box_top(draw->rung, row, col);
 
 	if (top < 0 || top + rung_height(draw->rung, top, col) - 1 != row)
 		return 0;
@@ -411,7 +411,7 @@ static void measure_columns(struct draw *draw, int wanted)
 
 static void draw_cell(struct draw *draw, int row, int col, int line)
 {
-	int top = box_top(draw->rung, row, col);
+	int top = rung_box_top(draw->rung, row, col);
 
 	draw->in = draw->out = false;
 	if (line == 0 && draw->options && draw->options->power)

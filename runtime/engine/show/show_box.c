@@ -13,15 +13,6 @@
 #include <string.h>
 #include <strings.h>
 
-int box_top(const struct rung *rung, int row, int col)
-{
-	while (row > 0 &&
-	       word_row(rung_at(rung, row, col)->word)->place == PLACE_PIN)
-		row--;
-	return word_row(rung_at(rung, row, col)->word)->kind == WORD_ELEM ?
-	       -1 : row;
-}
-
 static bool same_name(const char *a, size_t a_len, const char *b, size_t b_len)
 {
 	return a_len == b_len && strncasecmp(a, b, a_len) == 0;
@@ -56,17 +47,13 @@ static void side_add_named(struct draw *draw, bool output, const char *name)
 {
 	struct box_side *side = output ? &draw->box.out : &draw->box.in;
 	struct box_pin pin = { .name = name, .name_len = strlen(name) };
-	const char *at = draw->box.args;
 	struct arg arg;
 
-	while (args_next(&at, &arg))
-		if (arg.output == output &&
-		    same_name(arg.pin, arg.pin_len, name, pin.name_len)) {
-			pin.value = arg.value;
-			pin.value_len = arg.value_len;
-			pin.inverse = arg.inverse;
-			break;
-		}
+	if (args_find_side(draw->box.args, output, name, pin.name_len, &arg)) {
+		pin.value = arg.value;
+		pin.value_len = arg.value_len;
+		pin.inverse = arg.inverse;
+	}
 	side_add(side, pin);
 }
 

@@ -377,12 +377,9 @@ static const struct config_entry *task_of(const struct config *config, uint32_t 
 static const struct pou *program_named(const struct project *project, uint32_t name)
 {
 	const char *text = project_text(project, name);
+	const int pou = project_find_pou(project, text, strlen(text));
 
-	for (int i = 0; i < project->pou_count; i++)
-		if (ascii_is(project_text(project, project->pou[i].name), text,
-			     strlen(text)))
-			return &project->pou[i];
-	return NULL;
+	return pou >= 0 ? &project->pou[pou] : NULL;
 }
 
 /* All in one task; false after telling. */

@@ -240,12 +240,10 @@ bool pou_is_imported(const struct project *project, const struct pou *pou)
 static const struct known *operator_of(const struct building *b, const char *text, size_t len)
 {
 	const struct project *project = b->e->project;
+	const int pou = project_find_pou(project, text, len);
 
-	for (int i = 0; i < project->pou_count; i++)
-		if (ascii_is(project_text(project, project->pou[i].name), text, len) &&
-		    pou_is_imported(project, &project->pou[i]))
-			return known_function(text, len);
-	return NULL;
+	return pou >= 0 && pou_is_imported(project, &project->pou[pou]) ?
+	       known_function(text, len) : NULL;
 }
 
 enum { ARGUMENTS = 10 };

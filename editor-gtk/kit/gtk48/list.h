@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * list - scrolling a list to one of its rows, and the focus of rows that were replaced.
+ *
+ * Mends in GTK 4.8.3:
+ * - A list can be scrolled to a row only through an action of GtkListBase, which
+ *   GtkColumnView hides in a child. GTK 4.12 has gtk_list_view_scroll_to() and
+ *   gtk_column_view_scroll_to(): use them when the floor rises to 4.12.
+ * - When the row that has the focus is removed, the window keeps that row as its focus until
+ *   the next frame; a key pressed in this time is lost, Ctrl+S too. To see it: remove the
+ *   call of list_mend_focus() in tree_update(), delete a POU in the tree and press Ctrl+Z
+ *   at once. Try without it on each new floor.
+ */
+#ifndef EDITOR_GTK48_LIST_H
+#define EDITOR_GTK48_LIST_H
+
+#include <gtk/gtk.h>
+
+/** list_scroll_to - scrolls @view, a GtkListView or GtkColumnView, to row @at. A new row can
+ * be scrolled to from the next frame on. */
+void list_scroll_to(GtkWidget *view, guint at);
+/** list_mend_focus - after widgets inside @list were replaced: if the focus was in one that
+ * is gone, the window gets the keys. */
+void list_mend_focus(GtkWidget *list);
+
+#endif
