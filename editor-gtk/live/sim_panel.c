@@ -1,15 +1,49 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_panel - which lines stand in the panel, and when they look again. What a line is is
- * sim_panel_rows.c's, how it looks sim_panel_view.c's, keys and menu sim_panel_keys.c's.
+ * sim_panel - the list of the panel: which lines it has and when they are updated; keys, menu,
+ * and what a person chooses for a line. sim_panel_rows.c makes the lines of a program,
+ * sim_panel_view.c is the widget of one.
  */
-#include "editor-gtk/live/sim_panel_inside.h"
+#include "editor-gtk/live/sim_panel.h"
 
 #include "editor-gtk/kit/gtk48/list.h"
+#include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/tip.h"
 #include "editor-gtk/kit/i18n.h"
-#include "editor-gtk/live/sim_panel_kept.h"
+#include "editor-gtk/live/sim_panel_view.h"
+#include "editor-gtk/sim/live_value.h"
 
 #include <string.h>
+
+/* A line that is on as long as a key is down. */
+struct held {
+	guint code;              /* of the keyboard: what is typed may change    */
+	LadderSimRow *row;
+};
+
+struct _LadderSimPanel {
+	GtkWidget parent;
+	LadderSim *sim;
+	GPtrArray *rows;          /* all, of LadderSimRow                       */
+	GListStore *store;        /* those that stand there, and headings       */
+	GtkSingleSelection *selection;
+	GPtrArray *views;         /* widgets that show one; borrowed            */
+	guint behind;             /* so many of them are looked at later         */
+	guint behind_timer;
+	bool again;               /* there was something new meanwhile          */
+	char *wanted;             /* never NULL                                 */
+	GHashTable *folded;       /* sections that are, sim_row_section()        */
+	bool on;
+	LadderSimRow *held;       /* by the space bar                           */
+	GPtrArray *bound;         /* lines that keys of their own hold, struct held */
+	GtkEventController *root_keys; /* of `root`; borrowed                   */
+	GtkRoot *root;            /* it stands in; NULL: none                   */
+	gulong root_active;
+	guint last_code;          /* of the key that is down; 0: none           */
+	GtkWidget *menu;          /* NULL: none yet                             */
+	GtkWidget *asking;        /* for a key or a range; NULL: nothing        */
+	GtkWidget *stack, *found, *search, *list;
+};
 
 G_DEFINE_FINAL_TYPE(LadderSimPanel, ladder_sim_panel, GTK_TYPE_WIDGET)
 
@@ -110,6 +144,756 @@ static bool are_same(GPtrArray *left, GPtrArray *right)
 	return true;
 }
 
+/* ---- the selected line ---- */
+
+static LadderSimRow *selected_row(LadderSimPanel *panel)
+{
+	LadderSimRow *row = gtk_single_selection_get_selected_item(panel->selection);
+
+	return row && row->kind != SIM_HEADING ? row : NULL;
+}
+
+static LadderSimRowView *view_of(LadderSimPanel *panel, const LadderSimRow *row)
+{
+	for (guint i = 0; row && i < panel->views->len; i++)
+		if (ladder_sim_row_view_row(g_ptr_array_index(panel->views, i)) == row)
+			return g_ptr_array_index(panel->views, i);
+	return NULL;
+}
+
+/* ---- keys of their own for inputs, wherever the focus is, except in a text ---- */
+
+static void held_free(gpointer data)
+{
+	struct held *held = data;
+
+	g_object_unref(held->row);
+	g_free(held);
+}
+
+static bool can_bind(guint key)
+{
+	const gunichar letter = gdk_keyval_to_unicode(key);
+
+	return (key >= GDK_KEY_F1 && key <= GDK_KEY_F12) ||
+	       (key >= GDK_KEY_KP_0 && key <= GDK_KEY_KP_9) ||
+	       (letter && g_unichar_isgraph(letter));
+}
+
+static void give(LadderSimPanel *panel, const LadderSimRow *row, gint64 to)
+{
+	live_value_set(panel->sim, row->plant, row->at, (union iec_value){ .i = to });
+}
+
+static void let_go_bound(LadderSimPanel *panel)
+{
+	while (panel->bound && panel->bound->len) {
+		struct held *held = g_ptr_array_index(panel->bound, panel->bound->len - 1);
+
+		give(panel, held->row, 0);
+		g_ptr_array_set_size(panel->bound, (gint)panel->bound->len - 1);
+	}
+}
+
+static void let_go(LadderSimPanel *panel)
+{
+	if (panel->held)
+		sim_row_unpress(panel->held, panel->sim);
+	g_clear_object(&panel->held);
+	let_go_bound(panel);
+}
+
+static bool is_down(const LadderSimPanel *panel, guint code)
+{
+	for (guint i = 0; i < panel->bound->len; i++)
+		if (((struct held *)panel->bound->pdata[i])->code == code)
+			return true;
+	return false;
+}
+
+static void press_bound(LadderSimPanel *panel, LadderSimRow *row, guint code)
+{
+	struct held *held;
+
+	if (row->key_toggles) {
+		give(panel, row, !live_value_get(panel->sim, row->plant, row->at).i);
+		return;
+	}
+	held = g_new(struct held, 1);
+	held->code = code;
+	held->row = g_object_ref(row);
+	g_ptr_array_add(panel->bound, held);
+	give(panel, row, 1);
+}
+
+/* A key that toggles repeats itself, too: it does so once. */
+static bool act_on_key(LadderSimPanel *panel, guint key, guint code, bool repeats)
+{
+	const char *name = gdk_keyval_name(gdk_keyval_to_lower(key));
+	bool any = false;
+
+	for (guint i = 0; i < panel->rows->len; i++) {
+		LadderSimRow *row = g_ptr_array_index(panel->rows, i);
+
+		if (!row->key || g_strcmp0(row->key, name) != 0 || !sim_row_is_bit(row))
+			continue;
+		any = true;
+		if (!repeats)
+			press_bound(panel, row, code);
+	}
+	return any;
+}
+
+static bool is_writing(LadderSimPanel *panel)
+{
+	GtkWidget *focus = gtk_root_get_focus(panel->root);
+
+	return focus && (GTK_IS_EDITABLE(focus) || GTK_IS_TEXT_VIEW(focus));
+}
+
+static gboolean root_key_pressed(GtkEventControllerKey *keys, guint key, guint code,
+			    GdkModifierType state, LadderSimPanel *panel)
+{
+	const bool repeats = panel->last_code == code || is_down(panel, code);
+
+	(void)keys;
+	if (!panel->on || panel->asking || is_writing(panel) ||
+	    state & (GDK_CONTROL_MASK | GDK_ALT_MASK | GDK_SUPER_MASK))
+		return GDK_EVENT_PROPAGATE;
+	if (!act_on_key(panel, key, code, repeats))
+		return GDK_EVENT_PROPAGATE;
+	panel->last_code = code;
+	return GDK_EVENT_STOP;
+}
+
+static void root_key_released(GtkEventControllerKey *keys, guint key, guint code,
+			 GdkModifierType state, LadderSimPanel *panel)
+{
+	(void)keys;
+	(void)key;
+	(void)state;
+	if (panel->last_code == code)
+		panel->last_code = 0;
+	for (guint i = panel->bound->len; i-- > 0;) {
+		struct held *held = g_ptr_array_index(panel->bound, i);
+
+		if (held->code != code)
+			continue;
+		give(panel, held->row, 0);
+		g_ptr_array_remove_index(panel->bound, i);
+	}
+}
+
+/* Nobody tells of a release in another window. */
+static void active_changed(LadderSimPanel *panel)
+{
+	if (!gtk_window_is_active(GTK_WINDOW(panel->root)))
+		let_go(panel);
+}
+
+static void bind_root(LadderSimPanel *panel, GtkRoot *root)
+{
+	if (!GTK_IS_WINDOW(root))
+		return;
+	panel->root = root;
+	panel->bound = g_ptr_array_new_with_free_func(held_free);
+	panel->root_keys = gtk_event_controller_key_new();
+	gtk_event_controller_set_propagation_phase(panel->root_keys, GTK_PHASE_CAPTURE);
+	g_signal_connect(panel->root_keys, "key-pressed", G_CALLBACK(root_key_pressed), panel);
+	g_signal_connect(panel->root_keys, "key-released", G_CALLBACK(root_key_released), panel);
+	gtk_widget_add_controller(GTK_WIDGET(root), panel->root_keys);
+	panel->root_active = g_signal_connect_swapped(root, "notify::is-active",
+						      G_CALLBACK(active_changed), panel);
+}
+
+static void unbind_root(LadderSimPanel *panel)
+{
+	if (!panel->root)
+		return;
+	let_go_bound(panel);
+	g_signal_handler_disconnect(panel->root, panel->root_active);
+	gtk_widget_remove_controller(GTK_WIDGET(panel->root), panel->root_keys);
+	g_clear_pointer(&panel->bound, g_ptr_array_unref);
+	panel->root_keys = NULL;
+	panel->root = NULL;
+}
+
+/* ---- what a person chooses for a line; the project keeps it ---- */
+
+static void keep(LadderSimPanel *panel, const LadderSimRow *row)
+{
+	LadderDocument *document = ladder_sim_document(panel->sim);
+
+	live_lines_keep(document, sim_row_write_choices(ladder_document_view(document), row),
+			_("Change the simulation panel"));
+}
+
+/* A line as it is to become; caller: put. */
+static LadderSimRow *draft_of(const LadderSimRow *row)
+{
+	LadderSimRow *draft = g_object_new(LADDER_TYPE_SIM_ROW, NULL);
+
+	g_free(draft->name);
+	draft->name = g_strdup(row->name);
+	draft->plant = row->plant;
+	draft->push = row->push;
+	draft->key = g_strdup(row->key);
+	draft->key_toggles = row->key_toggles;
+	draft->ranged = row->ranged;
+	draft->low = row->low;
+	draft->high = row->high;
+	return draft;
+}
+
+static void put(LadderSimPanel *panel, LadderSimRow *draft)
+{
+	keep(panel, draft);
+	g_object_unref(draft);
+}
+
+static void toggle_push(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
+	const LadderSimRow *row = selected_row(panel);
+	LadderSimRow *draft;
+
+	(void)name;
+	(void)unused;
+	if (!row || row->kind != SIM_SWITCH)
+		return;
+	draft = draft_of(row);
+	draft->push = !row->push;
+	put(panel, draft);
+}
+
+/* ---- asking ---- */
+
+static void end_asking(LadderSimPanel *panel)
+{
+	g_clear_pointer(&panel->asking, popover_drop);
+}
+
+static gboolean end_later(gpointer data)
+{
+	LadderSimPanel *panel = data;
+
+	end_asking(panel);
+	g_object_unref(panel);
+	return G_SOURCE_REMOVE;
+}
+
+static void closed(LadderSimPanel *panel)
+{
+	g_idle_add(end_later, g_object_ref(panel));
+}
+
+/* A small window of its own at the line, with @child in it. */
+static void ask(LadderSimPanel *panel, GtkWidget *child)
+{
+	GtkWidget *at = GTK_WIDGET(view_of(panel, selected_row(panel)));
+	graphene_rect_t box = GRAPHENE_RECT_INIT(0, 0, 1, 1);
+
+	end_asking(panel);
+	panel->asking = gtk_popover_new();
+	gtk_popover_set_child(GTK_POPOVER(panel->asking), child);
+	gtk_widget_set_parent(panel->asking, GTK_WIDGET(panel));
+	if (at && gtk_widget_compute_bounds(at, GTK_WIDGET(panel), &box))
+		gtk_popover_set_pointing_to(GTK_POPOVER(panel->asking), &(GdkRectangle){
+			(int)box.origin.x, (int)box.origin.y, (int)box.size.width,
+			(int)box.size.height });
+	g_signal_connect_swapped(panel->asking, "closed", G_CALLBACK(closed), panel);
+	gtk_popover_popup(GTK_POPOVER(panel->asking));
+}
+
+/* ---- a key ---- */
+
+static void bind_key(LadderSimPanel *panel, const char *key, bool toggles)
+{
+	const LadderSimRow *row = selected_row(panel);
+	LadderSimRow *draft;
+
+	if (!row)
+		return;
+	draft = draft_of(row);
+	g_free(draft->key);
+	draft->key = g_strdup(key);
+	draft->key_toggles = key && toggles;
+	put(panel, draft);
+}
+
+static gboolean key_given(GtkEventControllerKey *keys, guint key, guint code,
+			  GdkModifierType state, LadderSimPanel *panel)
+{
+	const bool toggles = g_object_get_data(G_OBJECT(keys), "toggles") != NULL;
+
+	(void)code;
+	if (key == GDK_KEY_Escape)
+		return GDK_EVENT_PROPAGATE;
+	if (!can_bind(key) || state & (GDK_CONTROL_MASK | GDK_ALT_MASK))
+		return GDK_EVENT_STOP;
+	bind_key(panel, gdk_keyval_name(gdk_keyval_to_lower(key)), toggles);
+	gtk_popover_popdown(GTK_POPOVER(panel->asking));
+	return GDK_EVENT_STOP;
+}
+
+static void ask_key(LadderSimPanel *panel, bool toggles)
+{
+	const LadderSimRow *row = selected_row(panel);
+	GtkEventController *keys = gtk_event_controller_key_new();
+	GtkWidget *label;
+	char *text;
+
+	if (!row || !sim_row_is_bit(row)) {
+		g_object_unref(keys);
+		return;
+	}
+	text = g_strdup_printf(toggles ? _("Press the key that toggles %s") :
+			       _("Press the key that holds %s on"), row->name);
+	label = gtk_label_new(NULL);
+	gtk_label_set_wrap(GTK_LABEL(label), TRUE);
+	gtk_label_set_max_width_chars(GTK_LABEL(label), 28);
+	gtk_widget_set_focusable(label, TRUE);
+	ask(panel, label);
+	popover_tell(GTK_LABEL(label), text);
+	gtk_widget_grab_focus(label);
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	g_object_set_data(G_OBJECT(keys), "toggles", toggles ? panel : NULL);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_given), panel);
+	gtk_widget_add_controller(panel->asking, keys);
+	g_free(text);
+}
+
+static void hold_key(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	ask_key(LADDER_SIM_PANEL(widget), false);
+}
+
+static void toggle_key(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	ask_key(LADDER_SIM_PANEL(widget), true);
+}
+
+static void no_key(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	bind_key(LADDER_SIM_PANEL(widget), NULL, false);
+}
+
+/* ---- a range ---- */
+
+static double number_in(GtkWidget *entry, bool *good)
+{
+	const char *text = gtk_editable_get_text(GTK_EDITABLE(entry));
+	char *end = NULL;
+	const double number = g_ascii_strtod(text, &end);
+
+	*good = *text && *end == '\0' && number > -1e300 && number < 1e300;
+	return number;
+}
+
+static void range_given(GtkWidget *entry, LadderSimPanel *panel)
+{
+	GtkWidget *box = gtk_widget_get_parent(entry);
+	GtkWidget *low = gtk_widget_get_first_child(box);
+	GtkWidget *high = gtk_widget_get_last_child(box);
+	const LadderSimRow *row = selected_row(panel);
+	LadderSimRow *draft;
+	bool good[2];
+
+	if (!row)
+		return;
+	draft = draft_of(row);
+	draft->ranged = true;
+	draft->low = number_in(low, &good[0]);
+	draft->high = number_in(high, &good[1]);
+	if (!good[0] || !good[1] || draft->low >= draft->high) {
+		gtk_widget_add_css_class(entry, "error");
+		tip_set(entry, _("From a number to a larger one"));
+		g_object_unref(draft);
+		return;
+	}
+	put(panel, draft);
+	gtk_popover_popdown(GTK_POPOVER(panel->asking));
+}
+
+static GtkWidget *number_entry(LadderSimPanel *panel, const char *name, double value)
+{
+	GtkWidget *entry = gtk_entry_new();
+	char text[G_ASCII_DTOSTR_BUF_SIZE];
+
+	gtk_editable_set_text(GTK_EDITABLE(entry), g_ascii_formatd(text, sizeof(text),
+								  "%.15g", value));
+	gtk_editable_set_width_chars(GTK_EDITABLE(entry), 8);
+	gtk_entry_set_placeholder_text(GTK_ENTRY(entry), name);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       name, -1);
+	g_signal_connect(entry, "activate", G_CALLBACK(range_given), panel);
+	return entry;
+}
+
+static void ask_range(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
+	const LadderSimRow *row = selected_row(panel);
+	GtkWidget *box;
+
+	(void)name;
+	(void)unused;
+	if (!row || (row->kind != SIM_SLIDER && row->kind != SIM_LEVEL))
+		return;
+	box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 6);
+	gtk_box_append(GTK_BOX(box), number_entry(panel, _("Lowest value"), row->low));
+	gtk_box_append(GTK_BOX(box), gtk_label_new("–"));
+	gtk_box_append(GTK_BOX(box), number_entry(panel, _("Highest value"), row->high));
+	ask(panel, box);
+	gtk_widget_grab_focus(gtk_widget_get_first_child(box));
+}
+
+static void no_range(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
+	const LadderSimRow *row = selected_row(panel);
+	LadderSimRow *draft;
+
+	(void)name;
+	(void)unused;
+	if (!row)
+		return;
+	draft = draft_of(row);
+	draft->ranged = false;
+	put(panel, draft);
+}
+
+/* ---- the menu ---- */
+
+static GMenuModel *choices_of(const LadderSimRow *row)
+{
+	GMenu *menu = g_menu_new();
+	const bool ranged = row->kind == SIM_SLIDER || row->kind == SIM_LEVEL;
+
+	if (row->kind == SIM_SWITCH)
+		g_menu_append(menu, row->push ? _("Is a Switch") : _("Is a Push Button"),
+			      "sim-panel.push");
+	if (sim_row_is_bit(row)) {
+		g_menu_append(menu, _("Key That Holds It On…"), "sim-panel.hold-key");
+		g_menu_append(menu, _("Key That Toggles It…"), "sim-panel.toggle-key");
+	}
+	if (row->key)
+		g_menu_append(menu, _("No Key"), "sim-panel.no-key");
+	if (ranged)
+		g_menu_append(menu, _("Range…"), "sim-panel.range");
+	if (ranged && row->ranged)
+		g_menu_append(menu, _("Range of Its Type"), "sim-panel.no-range");
+	return G_MENU_MODEL(menu);
+}
+
+static void install_choices(GtkWidgetClass *class)
+{
+	gtk_widget_class_install_action(class, "sim-panel.push", NULL, toggle_push);
+	gtk_widget_class_install_action(class, "sim-panel.hold-key", NULL, hold_key);
+	gtk_widget_class_install_action(class, "sim-panel.toggle-key", NULL, toggle_key);
+	gtk_widget_class_install_action(class, "sim-panel.no-key", NULL, no_key);
+	gtk_widget_class_install_action(class, "sim-panel.range", NULL, ask_range);
+	gtk_widget_class_install_action(class, "sim-panel.no-range", NULL, no_range);
+}
+
+/* ---- keys ---- */
+
+static bool is_typing(LadderSimPanel *panel)
+{
+	GtkRoot *root = gtk_widget_get_root(GTK_WIDGET(panel));
+
+	return root && GTK_IS_EDITABLE(gtk_root_get_focus(root));
+}
+
+/* The line does more than to be activated: space is held. */
+static bool press(LadderSimPanel *panel)
+{
+	LadderSimRow *row = selected_row(panel);
+
+	if (panel->held)
+		return true; /* the key repeats itself */
+	if (!row || !sim_row_is_bit(row))
+		return false;
+	panel->held = g_object_ref(row);
+	sim_row_press(row, panel->sim);
+	return true;
+}
+
+static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
+			    GdkModifierType state, LadderSimPanel *panel)
+{
+	const GdkModifierType held = state & gtk_accelerator_get_default_mod_mask();
+
+	(void)keys;
+	(void)code;
+	if (is_typing(panel))
+		return GDK_EVENT_PROPAGATE;
+	if (key == GDK_KEY_space && !held && press(panel))
+		return GDK_EVENT_STOP;
+	return GDK_EVENT_PROPAGATE;
+}
+
+static void key_released(GtkEventControllerKey *keys, guint key, guint code,
+			 GdkModifierType state, LadderSimPanel *panel)
+{
+	(void)keys;
+	(void)code;
+	(void)state;
+	if (key == GDK_KEY_space)
+		let_go(panel);
+}
+
+static void left(GtkEventControllerFocus *focus, LadderSimPanel *panel)
+{
+	(void)focus;
+	if (panel->held)
+		sim_row_unpress(panel->held, panel->sim);
+	g_clear_object(&panel->held);
+}
+
+/* Return, or a double click. */
+static void activated(GtkListView *list, guint at, LadderSimPanel *panel)
+{
+	LadderSimRow *row = g_list_model_get_item(G_LIST_MODEL(panel->selection), at);
+	LadderSimRowView *view = view_of(panel, row);
+
+	(void)list;
+	if (row && row->kind == SIM_HEADING)
+		ladder_sim_row_view_fold(GTK_WIDGET(panel), row);
+	else if (view)
+		ladder_sim_row_view_edit(view, row->given.type != IEC_NONE ?
+					 SIM_EDIT_PRESET : SIM_EDIT_VALUE);
+	g_clear_object(&row);
+}
+
+/* ---- actions ---- */
+
+static void force_to(LadderSimPanel *panel, gint64 to)
+{
+	LadderSimRow *row = selected_row(panel);
+
+	if (row && sim_row_is_bit(row))
+		live_value_force(panel->sim, row->plant, row->at, (union iec_value){ .i = to });
+}
+
+static void force(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
+	LadderSimRow *row = selected_row(panel);
+
+	(void)name;
+	(void)unused;
+	if (!row)
+		return;
+	if (sim_row_is_forced(row, panel->sim))
+		sim_row_release(row, panel->sim);
+	else
+		live_value_force(panel->sim, row->plant, row->at,
+				 live_value_get(panel->sim, row->plant, row->at));
+}
+
+static void force_on(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	force_to(LADDER_SIM_PANEL(widget), 1);
+}
+
+static void force_off(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	force_to(LADDER_SIM_PANEL(widget), 0);
+}
+
+static void release_all(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	ladder_sim_release_all(LADDER_SIM_PANEL(widget)->sim);
+}
+
+static void edit(LadderSimPanel *panel, enum sim_edit what)
+{
+	LadderSimRowView *view = view_of(panel, selected_row(panel));
+
+	if (view)
+		ladder_sim_row_view_edit(view, what);
+}
+
+static void edit_value(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	edit(LADDER_SIM_PANEL(widget), SIM_EDIT_VALUE);
+}
+
+static void edit_preset(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	(void)name;
+	(void)unused;
+	edit(LADDER_SIM_PANEL(widget), SIM_EDIT_PRESET);
+}
+
+/* ---- the menu ---- */
+
+static void add(GMenu *menu, const char *text, const char *action)
+{
+	g_menu_append(menu, text, action);
+}
+
+/* An action of the window, with the name of the variable. */
+static void add_named(GMenu *menu, const char *text, const char *action, const char *name)
+{
+	GMenuItem *item = g_menu_item_new(text, NULL);
+
+	g_menu_item_set_action_and_target(item, action, "s", name);
+	g_menu_append_item(menu, item);
+	g_object_unref(item);
+}
+
+/* Of a timer or counter what it tells is Q. */
+static void add_window(GMenu *menu, const LadderSimRow *row)
+{
+	char *name = row->kind == SIM_PRESET ? g_strconcat(row->name, ".Q", NULL) :
+		     g_strdup(row->name);
+
+	add_named(menu, _("Expect this value"), "win.expect-value", name);
+	add_named(menu, _("Add to the status chart"), "win.watch-value", row->name);
+	g_free(name);
+}
+
+static GMenuModel *menu_of(LadderSimPanel *panel, const LadderSimRow *row)
+{
+	GMenu *menu = g_menu_new(), *values = g_menu_new(), *forces = g_menu_new();
+	GMenuModel *choices = choices_of(row);
+	GMenu *others = g_menu_new();
+
+	if (row->kind == SIM_PRESET) {
+		if (row->given.type != IEC_NONE)
+			add(values, _("Change Preset…"), "sim-panel.edit-preset");
+		add(values, row->group == SIM_COUNTERS ? _("Change Count…") :
+		    _("Change Elapsed Time…"), "sim-panel.edit-value");
+	} else if (!sim_row_is_bit(row) && !row->at.constant) {
+		add(values, _("Change Value…"), "sim-panel.edit-value");
+	}
+	if (sim_row_is_forced(row, panel->sim))
+		add(forces, _("Release Force"), "sim-panel.force");
+	if (sim_row_is_bit(row)) {
+		add(forces, _("Force On"), "sim-panel.force-on");
+		add(forces, _("Force Off"), "sim-panel.force-off");
+	} else if (row->at.type != IEC_STRING && !sim_row_is_forced(row, panel->sim)) {
+		add(forces, _("Force at This Value"), "sim-panel.force");
+	}
+	if (ladder_sim_forces(panel->sim))
+		add(forces, _("Release All Forces"), "sim-panel.release-all");
+	if (!row->plant)
+		add_window(others, row);
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(values));
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(forces));
+	g_menu_append_section(menu, NULL, choices);
+	g_menu_append_section(menu, NULL, G_MENU_MODEL(others));
+	g_object_unref(others);
+	g_object_unref(values);
+	g_object_unref(forces);
+	g_object_unref(choices);
+	return G_MENU_MODEL(menu);
+}
+
+static void show_menu(LadderSimPanel *panel, const GdkRectangle *at)
+{
+	LadderSimRow *row = selected_row(panel);
+	GMenuModel *model;
+
+	if (!row)
+		return;
+	model = menu_of(panel, row);
+	if (!panel->menu) {
+		panel->menu = gtk_popover_menu_new_from_model(model);
+		gtk_widget_set_parent(panel->menu, GTK_WIDGET(panel));
+		gtk_popover_set_has_arrow(GTK_POPOVER(panel->menu), FALSE);
+		gtk_widget_set_halign(panel->menu, GTK_ALIGN_START);
+	}
+	gtk_popover_menu_set_menu_model(GTK_POPOVER_MENU(panel->menu), model);
+	gtk_popover_set_pointing_to(GTK_POPOVER(panel->menu), at);
+	gtk_popover_popup(GTK_POPOVER(panel->menu));
+	g_object_unref(model);
+}
+
+static void menu_at_line(GtkWidget *widget, const char *name, GVariant *unused)
+{
+	LadderSimPanel *panel = LADDER_SIM_PANEL(widget);
+	LadderSimRowView *view = view_of(panel, selected_row(panel));
+	graphene_rect_t box;
+
+	(void)name;
+	(void)unused;
+	if (view && gtk_widget_compute_bounds(GTK_WIDGET(view), widget, &box))
+		show_menu(panel, &(GdkRectangle){ (int)box.origin.x + 20,
+			(int)box.origin.y, 1, (int)box.size.height });
+}
+
+static void right_clicked(GtkGestureClick *gesture, int times, double x, double y,
+			  LadderSimPanel *panel)
+{
+	GtkWidget *at = gtk_widget_pick(GTK_WIDGET(panel), x, y, GTK_PICK_DEFAULT);
+	LadderSimRow *row = NULL;
+
+	(void)times;
+	at = at && !LADDER_IS_SIM_ROW_VIEW(at) ?
+		gtk_widget_get_ancestor(at, LADDER_TYPE_SIM_ROW_VIEW) : at;
+	if (at)
+		row = ladder_sim_row_view_row(LADDER_SIM_ROW_VIEW(at));
+	if (!row)
+		return;
+	gtk_gesture_set_state(GTK_GESTURE(gesture), GTK_EVENT_SEQUENCE_CLAIMED);
+	ladder_sim_panel_select(panel, row->name);
+	show_menu(panel, &(GdkRectangle){ (int)x, (int)y, 1, 1 });
+}
+
+static void install_keys(GtkWidgetClass *class)
+{
+	gtk_widget_class_install_action(class, "sim-panel.force", NULL, force);
+	gtk_widget_class_install_action(class, "sim-panel.force-on", NULL, force_on);
+	gtk_widget_class_install_action(class, "sim-panel.force-off", NULL, force_off);
+	gtk_widget_class_install_action(class, "sim-panel.release-all", NULL, release_all);
+	gtk_widget_class_install_action(class, "sim-panel.edit-value", NULL, edit_value);
+	gtk_widget_class_install_action(class, "sim-panel.edit-preset", NULL, edit_preset);
+	gtk_widget_class_install_action(class, "sim-panel.menu", NULL, menu_at_line);
+	gtk_widget_class_add_binding_action(class, GDK_KEY_F, GDK_CONTROL_MASK |
+					    GDK_SHIFT_MASK, "sim-panel.force", NULL);
+	gtk_widget_class_add_binding_action(class, GDK_KEY_Menu, 0, "sim-panel.menu", NULL);
+	gtk_widget_class_add_binding_action(class, GDK_KEY_F10, GDK_SHIFT_MASK,
+					    "sim-panel.menu", NULL);
+}
+
+static void begin_keys(LadderSimPanel *panel)
+{
+	GtkEventController *keys = gtk_event_controller_key_new();
+	GtkEventController *focus = gtk_event_controller_focus_new();
+	GtkGesture *click = gtk_gesture_click_new();
+
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), panel);
+	g_signal_connect(keys, "key-released", G_CALLBACK(key_released), panel);
+	g_signal_connect(focus, "leave", G_CALLBACK(left), panel);
+	g_signal_connect(panel->list, "activate", G_CALLBACK(activated), panel);
+	gtk_gesture_single_set_button(GTK_GESTURE_SINGLE(click), GDK_BUTTON_SECONDARY);
+	g_signal_connect(click, "pressed", G_CALLBACK(right_clicked), panel);
+	gtk_widget_add_controller(panel->list, keys);
+	gtk_widget_add_controller(panel->list, focus);
+	gtk_widget_add_controller(GTK_WIDGET(panel), GTK_EVENT_CONTROLLER(click));
+}
+
+
+/* ---- the program and its values ---- */
+
 /* Another program. What has the same lines keeps their widgets. */
 static void look_at_program(LadderSimPanel *panel)
 {
@@ -122,18 +906,18 @@ static void look_at_program(LadderSimPanel *panel)
 		g_ptr_array_unref(rows);
 		return;
 	}
-	sim_panel_let_go(panel);
+	let_go(panel);
 	g_ptr_array_unref(panel->rows);
 	panel->rows = rows;
-	sim_kept_read(ladder_document_view(ladder_sim_document(panel->sim)), rows);
+	sim_row_read_choices(ladder_document_view(ladder_sim_document(panel->sim)), rows);
 	show_lines(panel);
 }
 
-void sim_panel_read_choices(LadderSimPanel *panel)
+static void read_choices(LadderSimPanel *panel)
 {
 	LadderDocument *document = ladder_sim_document(panel->sim);
 
-	if (!sim_kept_read(ladder_document_view(document), panel->rows))
+	if (!sim_row_read_choices(ladder_document_view(document), panel->rows))
 		return;
 	for (guint i = 0; i < panel->views->len; i++) {
 		LadderSimRowView *view = g_ptr_array_index(panel->views, i);
@@ -221,8 +1005,8 @@ static void state_changed(LadderSim *sim, LadderSimPanel *panel)
 	gtk_stack_set_visible_child_name(GTK_STACK(panel->stack), on ? "on" : "off");
 	if (on)
 		return;
-	sim_panel_let_go(panel);
-	sim_panel_end_asking(panel);
+	let_go(panel);
+	end_asking(panel);
 }
 
 static void search_changed(GtkSearchEntry *entry, LadderSimPanel *panel)
@@ -272,24 +1056,9 @@ bool ladder_sim_panel_select(LadderSimPanel *panel, const char *name)
 	return false;
 }
 
-LadderSimRow *sim_panel_selected(LadderSimPanel *panel)
-{
-	LadderSimRow *row = gtk_single_selection_get_selected_item(panel->selection);
-
-	return row && row->kind != SIM_HEADING ? row : NULL;
-}
-
-LadderSimRowView *sim_panel_view_of(LadderSimPanel *panel, const LadderSimRow *row)
-{
-	for (guint i = 0; row && i < panel->views->len; i++)
-		if (ladder_sim_row_view_row(g_ptr_array_index(panel->views, i)) == row)
-			return g_ptr_array_index(panel->views, i);
-	return NULL;
-}
-
 char *ladder_sim_panel_shown(LadderSimPanel *panel, const LadderSimRow *row)
 {
-	LadderSimRowView *view = sim_panel_view_of(panel, row);
+	LadderSimRowView *view = view_of(panel, row);
 
 	if (view)
 		ladder_sim_row_view_update(view); /* as if it came into sight */
@@ -353,14 +1122,14 @@ static void dispose(GObject *object)
 	LadderSimPanel *panel = LADDER_SIM_PANEL(object);
 
 	g_clear_handle_id(&panel->behind_timer, g_source_remove);
-	sim_panel_let_go(panel);
-	sim_panel_end_asking(panel);
+	let_go(panel);
+	end_asking(panel);
 	if (panel->sim) {
 		g_signal_handlers_disconnect_by_data(panel->sim, panel);
 		g_signal_handlers_disconnect_by_data(ladder_sim_document(panel->sim), panel);
 	}
 	g_clear_pointer(&panel->views, g_ptr_array_unref);
-	sim_panel_end_keys(panel);
+	g_clear_pointer(&panel->menu, gtk_widget_unparent);
 	g_clear_pointer(&panel->stack, gtk_widget_unparent);
 	g_clear_object(&panel->selection);
 	g_clear_object(&panel->store);
@@ -374,12 +1143,12 @@ static void dispose(GObject *object)
 static void root(GtkWidget *widget)
 {
 	GTK_WIDGET_CLASS(ladder_sim_panel_parent_class)->root(widget);
-	sim_panel_bind_root(LADDER_SIM_PANEL(widget), gtk_widget_get_root(widget));
+	bind_root(LADDER_SIM_PANEL(widget), gtk_widget_get_root(widget));
 }
 
 static void unroot(GtkWidget *widget)
 {
-	sim_panel_unbind_root(LADDER_SIM_PANEL(widget));
+	unbind_root(LADDER_SIM_PANEL(widget));
 	GTK_WIDGET_CLASS(ladder_sim_panel_parent_class)->unroot(widget);
 }
 
@@ -401,8 +1170,8 @@ static void ladder_sim_panel_class_init(LadderSimPanelClass *class)
 	gtk_widget_class_bind_template_callback(widget, search_changed);
 	gtk_widget_class_install_action(widget, "sim-panel.fold", "s", fold);
 	gtk_widget_class_install_action(widget, "sim-panel.simulate", NULL, simulate);
-	sim_panel_install_keys(widget);
-	sim_panel_install_choices(widget);
+	install_keys(widget);
+	install_choices(widget);
 }
 
 static void ladder_sim_panel_init(LadderSimPanel *panel)
@@ -413,7 +1182,7 @@ static void ladder_sim_panel_init(LadderSimPanel *panel)
 	panel->views = g_ptr_array_new();
 	panel->rows = g_ptr_array_new_with_free_func(g_object_unref);
 	make_list(panel, panel->list);
-	sim_panel_begin_keys(panel);
+	begin_keys(panel);
 	g_signal_connect(panel, "map", G_CALLBACK(look), NULL);
 }
 
@@ -426,7 +1195,7 @@ GtkWidget *ladder_sim_panel_new(LadderSim *sim)
 	g_signal_connect(sim, "program-changed", G_CALLBACK(program_changed), panel);
 	g_signal_connect(sim, "state-changed", G_CALLBACK(state_changed), panel);
 	g_signal_connect_swapped(ladder_sim_document(sim), "bookmarks-changed",
-				 G_CALLBACK(sim_panel_read_choices), panel);
+				 G_CALLBACK(read_choices), panel);
 	state_changed(sim, panel);
 	return GTK_WIDGET(panel);
 }

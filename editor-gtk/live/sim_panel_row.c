@@ -6,10 +6,9 @@
 #include "editor-gtk/live/sim_panel_row.h"
 
 #include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/sim/live_value.h"
 
-#include "engine/base/literal.h"
-#include "engine/trial/value.h"
-
+#include <gdk/gdk.h>
 #include <string.h>
 
 G_DEFINE_FINAL_TYPE(LadderSimRow, ladder_sim_row, G_TYPE_OBJECT)
@@ -125,123 +124,18 @@ bool sim_row_matches(const LadderSimRow *row, const char *wanted)
 	return is;
 }
 
-/* ---- values ---- */
-
-static const struct image *image_of(const LadderSimRow *row, LadderSim *sim)
-{
-	const struct twin *twin = ladder_sim_twin(sim);
-
-	return !twin ? NULL : row->plant ? &twin->plant.image : &twin->resource.image;
-}
-
-union iec_value sim_row_value(const LadderSimRow *row, LadderSim *sim, struct location at)
-{
-	const struct image *image = image_of(row, sim);
-
-	return image && image->program ? image_get(image, at) : (union iec_value){ 0 };
-}
+/* ---- what a person does ---- */
 
 bool sim_row_is_forced(const LadderSimRow *row, LadderSim *sim)
 {
-	const struct image *image = image_of(row, sim);
-
-	return image && image->force_count &&
-	       (image_is_forced(image, row->at) ||
-		(row->preset.type != IEC_NONE && image_is_forced(image, row->preset)));
+	return live_value_is_forced(sim, row->plant, row->at) ||
+	       live_value_is_forced(sim, row->plant, row->preset);
 }
 
-#define SECOND INT64_C(1000000000)
-
-/* Digits behind the point: two as a rule, so that they stand still while it counts. */
-static int digits_of(guint64 ns)
+void sim_row_release(const LadderSimRow *row, LadderSim *sim)
 {
-	static const guint step[] = { 10000000, 1000000, 1000, 1 };
-	static const int digits[] = { 2, 3, 6, 9 };
-	int i = 0;
-
-	while (ns % step[i])
-		i++;
-	return digits[i];
-}
-
-static char *time_text(gint64 ns)
-{
-	const guint64 size = ns < 0 ? -(guint64)ns : (guint64)ns;
-	const char *sign = ns < 0 ? "-" : "";
-	const int digits = digits_of(size);
-	guint64 fraction = size % SECOND;
-	const guint s = (guint)(size / SECOND % 60), m = (guint)(size / SECOND / 60 % 60);
-	const guint64 h = size / SECOND / 3600;
-
-	for (int i = digits; i < 9; i++)
-		fraction /= 10;
-	if (h)
-		return g_strdup_printf("%s%" G_GUINT64_FORMAT "h%02um%02u.%0*"
-				       G_GUINT64_FORMAT "s", sign, h, m, s, digits, fraction);
-	if (m)
-		return g_strdup_printf("%s%um%02u.%0*" G_GUINT64_FORMAT "s", sign, m, s,
-				       digits, fraction);
-	return g_strdup_printf("%s%u.%0*" G_GUINT64_FORMAT "s", sign, s, digits, fraction);
-}
-
-char *sim_value_text(enum iec_type type, union iec_value value)
-{
-	char text[IEC_VALUE_TEXT + 1];
-
-	if (type == IEC_TIME)
-		return time_text(value.i);
-	iec_value_print(type, value, text, sizeof(text));
-	return g_utf8_make_valid(text, -1);
-}
-
-/* 1m30s, -2.5s, 20ms: a literal but for its T#. */
-static bool time_read(const char *text, union iec_value *out)
-{
-	char *whole = strchr(text, '#') ? g_strdup(text) : g_strconcat("T#", text, NULL);
-	struct literal literal;
-	const bool good = literal_parse(whole, strlen(whole), &literal) == LITERAL_OK &&
-			  literal.type == IEC_TIME;
-
-	*out = literal.value;
-	g_free(whole);
-	return good;
-}
-
-bool sim_value_read(enum iec_type type, const char *text, struct iec_text *room,
-		    union iec_value *out)
-{
-	enum diag_id why;
-	char *own = g_strstrip(g_strdup(text)), *quoted = NULL;
-	bool good;
-
-	if (type == IEC_STRING && own[0] != '\'')
-		quoted = g_strdup_printf("'%s'", own);
-	good = (type == IEC_TIME && time_read(own, out)) ||
-	       value_parse(type, quoted ? quoted : own, strlen(quoted ? quoted : own), room,
-			   out, &why);
-	g_free(quoted);
-	g_free(own);
-	return good;
-}
-
-/* ---- acts ---- */
-
-static void act(const LadderSimRow *row, LadderSim *sim, enum act_kind kind,
-		struct location at, union iec_value value)
-{
-	const struct act act = { .kind = kind, .plant = row->plant, .at = at,
-				 .value = value };
-
-	ladder_sim_act(sim, &act);
-}
-
-void sim_row_set(const LadderSimRow *row, LadderSim *sim, struct location at,
-		 union iec_value value)
-{
-	const struct image *image = image_of(row, sim);
-
-	if (image && at.type != IEC_NONE)
-		act(row, sim, image_is_forced(image, at) ? ACT_FORCE : ACT_SET, at, value);
+	live_value_release(sim, row->plant, row->at);
+	live_value_release(sim, row->plant, row->preset);
 }
 
 void sim_row_set_elapsed(const LadderSimRow *row, LadderSim *sim, union iec_value value)
@@ -249,18 +143,14 @@ void sim_row_set_elapsed(const LadderSimRow *row, LadderSim *sim, union iec_valu
 	const struct twin *twin = ladder_sim_twin(sim);
 	const struct resource *resource = !twin ? NULL :
 		row->plant ? &twin->plant : &twin->resource;
-	union iec_value start;
 
-	if (!twin)
-		return;
-	if (row->start.type != IEC_NONE) {
-		start.i = twin->now_ns + resource->timers_ns - value.i;
-		act(row, sim, ACT_SET, row->start, start);
-	}
-	sim_row_set(row, sim, row->at, value);
+	if (twin && row->start.type != IEC_NONE)
+		live_value_set(sim, row->plant, row->start, (union iec_value){
+			.i = twin->now_ns + resource->timers_ns - value.i });
+	live_value_set(sim, row->plant, row->at, value);
 }
 
-/* Of what the plant drives only a force would last. */
+/* An input that the plant drives can only be forced: another value would not last. */
 static bool is_dead(const LadderSimRow *row, LadderSim *sim)
 {
 	return !sim_row_is_bit(row) || row->at.constant ||
@@ -269,30 +159,202 @@ static bool is_dead(const LadderSimRow *row, LadderSim *sim)
 
 void sim_row_press(const LadderSimRow *row, LadderSim *sim)
 {
-	union iec_value value = sim_row_value(row, sim, row->at);
+	const bool on = live_value_get(sim, row->plant, row->at).i;
 
-	value.i = row->push || !value.i;
 	if (!is_dead(row, sim))
-		sim_row_set(row, sim, row->at, value);
+		live_value_set(sim, row->plant, row->at, (union iec_value){
+			.i = row->push || !on });
 }
 
 void sim_row_unpress(const LadderSimRow *row, LadderSim *sim)
 {
 	if (row->push && !is_dead(row, sim))
-		sim_row_set(row, sim, row->at, (union iec_value){ 0 });
+		live_value_set(sim, row->plant, row->at, (union iec_value){ 0 });
 }
 
-void sim_row_force(const LadderSimRow *row, LadderSim *sim, union iec_value value)
+#define OWN "panel"
+#define PLANT "panel-plant"
+
+struct choices {
+	bool plant, push, toggles, ranged;
+	char *name, *key;
+	double low, high;
+};
+
+static void choices_clear(struct choices *choices)
 {
-	act(row, sim, ACT_FORCE, row->at, value);
+	g_free(choices->name);
+	g_free(choices->key);
+	memset(choices, 0, sizeof(*choices));
 }
 
-void sim_row_release(const LadderSimRow *row, LadderSim *sim)
-{
-	const struct image *image = image_of(row, sim);
+/* ---- choices: read from the VIEW part ---- */
 
-	if (image && image_is_forced(image, row->at))
-		act(row, sim, ACT_RELEASE, row->at, (union iec_value){ 0 });
-	if (image && row->preset.type != IEC_NONE && image_is_forced(image, row->preset))
-		act(row, sim, ACT_RELEASE, row->preset, (union iec_value){ 0 });
+/* The next word of a line; NULL: there is none. Caller frees. */
+static char *next_word(const char **at)
+{
+	const char *from = *at + strspn(*at, " \t\r");
+	const gsize len = strcspn(from, " \t\r");
+
+	*at = from + len;
+	return len ? g_strndup(from, len) : NULL;
+}
+
+static bool take_number(const char **at, double *out)
+{
+	char *word = next_word(at), *end = NULL;
+
+	if (word)
+		*out = g_ascii_strtod(word, &end);
+	const bool good = word && *end == '\0' && end != word && *out > -1e300 && *out < 1e300;
+
+	g_free(word);
+	return good;
+}
+
+static void take_key(const char **at, bool toggles, struct choices *out)
+{
+	char *key = next_word(at);
+
+	if (!key || gdk_keyval_from_name(key) == GDK_KEY_VoidSymbol) {
+		g_free(key);
+		return;
+	}
+	g_free(out->key);
+	out->key = key;
+	out->toggles = toggles;
+}
+
+static void take_choice(const char **at, const char *word, struct choices *out)
+{
+	double low = 0, high = 0;
+
+	if (strcmp(word, "push") == 0)
+		out->push = true;
+	else if (strcmp(word, "hold") == 0 || strcmp(word, "toggle") == 0)
+		take_key(at, word[0] == 't', out);
+	else if (strcmp(word, "range") == 0 && take_number(at, &low) &&
+		 take_number(at, &high) && low < high) {
+		out->ranged = true;
+		out->low = low;
+		out->high = high;
+	}
+}
+
+/* False: it is a line of somebody else. @out: choices_clear(). */
+static bool line_read(const char *line, struct choices *out)
+{
+	const char *at = line;
+	char *word = next_word(&at);
+
+	memset(out, 0, sizeof(*out));
+	out->plant = g_strcmp0(word, PLANT) == 0;
+	if (out->plant || g_strcmp0(word, OWN) == 0)
+		out->name = next_word(&at);
+	g_free(word);
+	while (out->name && (word = next_word(&at)) != NULL) {
+		take_choice(&at, word, out);
+		g_free(word);
+	}
+	return out->name != NULL;
+}
+
+static bool is_of(const struct choices *choices, const LadderSimRow *row)
+{
+	return choices->plant == row->plant &&
+	       g_ascii_strcasecmp(choices->name, row->name) == 0;
+}
+
+/* @choices NULL: none. True: it was other. */
+static bool choose(LadderSimRow *row, const struct choices *choices)
+{
+	static const struct choices none;
+	const struct choices *to = choices ? choices : &none;
+	const bool push = to->push && row->kind == SIM_SWITCH;
+	const bool ranged = to->ranged && row->kind != SIM_PRESET;
+	const bool same = row->push == push && g_strcmp0(row->key, to->key) == 0 &&
+			  row->key_toggles == to->toggles && row->ranged == ranged &&
+			  (!ranged || (row->low == to->low && row->high == to->high));
+
+	if (same)
+		return false;
+	row->push = push;
+	g_free(row->key);
+	row->key = g_strdup(to->key);
+	row->key_toggles = to->toggles;
+	sim_row_set_range(row, ranged, to->low, to->high);
+	return true;
+}
+
+bool sim_row_read_choices(const char *view, GPtrArray *rows)
+{
+	char **lines = g_strsplit(view, "\n", -1);
+	GHashTable *said = g_hash_table_new(NULL, NULL);
+	struct choices choices;
+	bool other = false;
+
+	for (char **line = lines; *line; line++) {
+		const bool ours = line_read(*line, &choices);
+
+		for (guint i = 0; ours && i < rows->len; i++)
+			if (is_of(&choices, rows->pdata[i])) {
+				other = choose(rows->pdata[i], &choices) || other;
+				g_hash_table_add(said, rows->pdata[i]);
+			}
+		choices_clear(&choices);
+	}
+	for (guint i = 0; i < rows->len; i++)
+		if (!g_hash_table_contains(said, rows->pdata[i]))
+			other = choose(rows->pdata[i], NULL) || other;
+	g_hash_table_unref(said);
+	g_strfreev(lines);
+	return other;
+}
+
+/* ---- choices: written to the VIEW part ---- */
+
+static void put_number(GString *out, double number)
+{
+	char text[G_ASCII_DTOSTR_BUF_SIZE];
+
+	g_string_append_printf(out, " %s", g_ascii_formatd(text, sizeof(text), "%.15g",
+							   number));
+}
+
+static void put_line(GString *out, const LadderSimRow *row)
+{
+	if (!row->push && !row->key && !row->ranged)
+		return;
+	g_string_append_printf(out, "  %s %s", row->plant ? PLANT : OWN, row->name);
+	if (row->push)
+		g_string_append(out, " push");
+	if (row->key)
+		g_string_append_printf(out, " %s %s", row->key_toggles ? "toggle" : "hold",
+				       row->key);
+	if (row->ranged) {
+		g_string_append(out, " range");
+		put_number(out, row->low);
+		put_number(out, row->high);
+	}
+	g_string_append_c(out, '\n');
+}
+
+static bool is_line_of(void *row, const char *line)
+{
+	struct choices choices;
+	const bool is = line_read(line, &choices) && is_of(&choices, row);
+
+	choices_clear(&choices);
+	return is;
+}
+
+char *sim_row_write_choices(const char *view, const LadderSimRow *row)
+{
+	GString *own = g_string_new(NULL);
+	char *text;
+
+	put_line(own, row);
+	text = live_lines_replace(view, is_line_of, (gpointer)row, own->str);
+	g_string_free(own, TRUE);
+	return text;
 }

@@ -82,32 +82,26 @@ bool sim_row_matches(const LadderSimRow *row, const char *wanted);
 const char *sim_group_name(enum sim_group group);
 /** sim_row_is_bit - a switch or a lamp? */
 bool sim_row_is_bit(const LadderSimRow *row);
-/** sim_row_value - of one of its places, as it is shown. */
-union iec_value sim_row_value(const LadderSimRow *row, LadderSim *sim,
-			      struct location at);
 /** sim_row_is_forced - its value, or that of its preset. */
 bool sim_row_is_forced(const LadderSimRow *row, LadderSim *sim);
-/** sim_value_text - a value for people: times as 1m03.50s, else as traces. Its text is
- * read again by sim_value_read(). Caller frees. */
-char *sim_value_text(enum iec_type type, union iec_value value);
-/** sim_value_read - false: that is no value of this type. @room: as value_parse(). */
-bool sim_value_read(enum iec_type type, const char *text, struct iec_text *room,
-		    union iec_value *out);
-
-/* ---- what a person does: acts ---- */
-
-/** sim_row_set - @at gets a value, at once; one that is forced is forced to it. */
-void sim_row_set(const LadderSimRow *row, LadderSim *sim, struct location at,
-		 union iec_value value);
-/** sim_row_set_elapsed - a timer as if so much had passed, a counter as if so much had
- * been counted. */
+void sim_row_release(const LadderSimRow *row, LadderSim *sim);
+/** sim_row_set_elapsed - a timer continues as if so much time had passed, a counter as if it
+ * had counted so far. */
 void sim_row_set_elapsed(const LadderSimRow *row, LadderSim *sim, union iec_value value);
-/** sim_row_press, sim_row_unpress - a switch or lamp toggles; a push button is on between
- * both. What the plant drives, and what is constant, does nothing. */
+/** sim_row_press, sim_row_unpress - a switch or lamp toggles; a push button is on in between.
+ * Nothing happens if it is constant, or driven by the plant and not forced. */
 void sim_row_press(const LadderSimRow *row, LadderSim *sim);
 void sim_row_unpress(const LadderSimRow *row, LadderSim *sim);
-/** sim_row_force - held at @value. */
-void sim_row_force(const LadderSimRow *row, LadderSim *sim, union iec_value value);
-void sim_row_release(const LadderSimRow *row, LadderSim *sim);
+
+/* ---- what a person chose, kept in the project ----
+ * Lines `panel NAME push`, `panel NAME hold F6`, `panel NAME toggle F6`, `panel NAME range 0
+ * 100` of the VIEW part, or several of these in one; `panel-plant` for a row of the plant. */
+
+/** sim_row_read_choices - sets the choices of @rows (of LadderSimRow) as @view says. True: one
+ * of them changed. */
+bool sim_row_read_choices(const char *view, GPtrArray *rows);
+/** sim_row_write_choices - @view with the choices of @row. Unknown words in the line of @row
+ * are dropped, other lines stay. Caller frees. */
+char *sim_row_write_choices(const char *view, const LadderSimRow *row);
 
 #endif

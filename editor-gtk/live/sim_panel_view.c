@@ -1,16 +1,38 @@
 /* SPDX-License-Identifier: MIT
  *
- * sim_panel_view - a line of the panel: what it shows, and what is clicked in it. The field
- * for values is sim_panel_edit.c's.
+ * sim_panel_view - the widget of a line: what it shows, what a click does, and the entry in
+ * which a person types a value.
  */
-#include "editor-gtk/live/sim_panel_view_inside.h"
+#include "editor-gtk/live/sim_panel_view.h"
 
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/sim/live_value.h"
 
+#include "engine/trial/value.h"
+
+#include <math.h>
 #include <string.h>
 
-#define LOOKS 20 /* a slider waits for its value so long                     */
+#define LOOKS 20 /* updates during which a slider waits for the value it set   */
+
+struct _LadderSimRowView {
+	GtkWidget parent;
+	LadderSim *sim;          /* borrowed                                    */
+	GtkListItem *item;       /* likewise                                    */
+	LadderSimRow *row;       /* NULL: none                                  */
+	LadderSimRow *held;      /* pressed with the pointer                    */
+	/* What is shown now. */
+	struct live_seen value_seen, preset_seen, done_seen;
+	bool telling;            /* a change of a widget is no person's         */
+	double sent;             /* by the slider                               */
+	int waiting;             /* so many looks more until that must be shown */
+	GtkWidget *heading, *arrow, *title, *where;
+	GtkWidget *line, *lamp, *address, *name, *pin, *tag, *badge, *value, *toggle, *push;
+	GtkWidget *entry;        /* NULL: none yet                              */
+	enum sim_edit editing;
+	GtkWidget *bar, *scale;
+};
 
 G_DEFINE_FINAL_TYPE(LadderSimRowView, ladder_sim_row_view, GTK_TYPE_WIDGET)
 
@@ -19,7 +41,12 @@ LadderSimRow *ladder_sim_row_view_row(LadderSimRowView *view)
 	return view->row;
 }
 
-/* ---- what is spoken ---- */
+/* ---- its accessible name ---- */
+
+static bool is_forced(const LadderSimRowView *view)
+{
+	return view->value_seen.forced || view->preset_seen.forced;
+}
 
 static const char *kind_name(const LadderSimRow *row)
 {
@@ -37,13 +64,13 @@ static void speak(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
 	GtkWidget *item = gtk_widget_get_parent(GTK_WIDGET(view));
-	const char *state = !sim_row_is_bit(row) ? "" : view->last[0].i ? _("on") : _("off");
+	const char *state = !sim_row_is_bit(row) ? "" : view->value_seen.value.i ? _("on") : _("off");
 	char *name = g_strdup_printf("%s %s%s%s%s%s", kind_name(row), row->name,
 				     row->address ? ", " : "",
 				     row->address ? row->address : "",
 				     row->pin ? ", " : "", row->pin ? row->pin : "");
 	char *all = g_strdup_printf("%s%s%s%s%s", name, *state ? ", " : "", state,
-				    view->forced ? ", " : "", view->forced ? _("forced") : "");
+				    is_forced(view) ? ", " : "", is_forced(view) ? _("forced") : "");
 
 	gtk_accessible_update_property(GTK_ACCESSIBLE(view), GTK_ACCESSIBLE_PROPERTY_LABEL,
 				       all, -1);
@@ -82,17 +109,11 @@ static void show_bit(LadderSimRowView *view, bool on)
 	speak(view);
 }
 
-static double number_of(enum iec_type type, union iec_value value)
-{
-	return iec_type_row(type)->class == CLASS_REAL ? value.r :
-	       iec_is_wide(type) ? (double)(guint64)value.i : (double)value.i;
-}
-
 static void show_fraction(LadderSimRowView *view, double part, double whole)
 {
 	const double fraction = whole > 0 ? CLAMP(part / whole, 0, 1) : part > 0 ? 1 : 0;
 
-	/* A step that cannot be seen is none. */
+	/* Smaller steps are not visible. */
 	if (fabs(fraction - gtk_progress_bar_get_fraction(GTK_PROGRESS_BAR(view->bar))) >
 	    0.002 || fraction == 0 || fraction == 1)
 		gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(view->bar), fraction);
@@ -101,20 +122,22 @@ static void show_fraction(LadderSimRowView *view, double part, double whole)
 static void show_preset(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
-	char *at = sim_value_text(row->at.type, view->last[0]);
-	char *preset = sim_value_text(row->preset.type, view->last[1]);
-	char *text = g_strdup_printf("%s / %s", at, preset);
+	const union iec_value now = view->value_seen.value, preset = view->preset_seen.value;
+	char *now_text = live_value_text(row->at.type, now);
+	char *preset_text = live_value_text(row->preset.type, preset);
+	char *text = g_strdup_printf("%s / %s", now_text, preset_text);
 
 	gtk_label_set_text(GTK_LABEL(view->value), text);
-	show_fraction(view, number_of(row->at.type, view->last[0]),
-		      number_of(row->preset.type, view->last[1]));
-	show_lamp(view, view->last[2].i);
+	show_fraction(view, live_value_number(row->at.type, now),
+		      live_value_number(row->preset.type, preset));
+	show_lamp(view, view->done_seen.value.i);
 	g_free(text);
-	g_free(preset);
-	g_free(at);
+	g_free(preset_text);
+	g_free(now_text);
 }
 
-/* A slider that is moved is ahead of what is shown: it is not pulled back. */
+/* The simulation shows a value that the slider set some updates later: until then the slider
+ * is not moved back. */
 static void show_slider(LadderSimRowView *view, double number)
 {
 	if (view->waiting && number != view->sent)
@@ -126,9 +149,8 @@ static void show_slider(LadderSimRowView *view, double number)
 static void show_value(LadderSimRowView *view)
 {
 	const LadderSimRow *row = view->row;
-	const double number = row->at.type == IEC_STRING ? 0 :
-		number_of(row->at.type, view->last[0]);
-	char *text = sim_value_text(row->at.type, view->last[0]);
+	const double number = live_value_number(row->at.type, view->value_seen.value);
+	char *text = live_value_text(row->at.type, view->value_seen.value);
 
 	gtk_label_set_text(GTK_LABEL(view->value), text);
 	g_free(text);
@@ -138,64 +160,217 @@ static void show_value(LadderSimRowView *view)
 		show_slider(view, number);
 }
 
-static bool is_other_text(LadderSimRowView *view, const struct iec_string *text)
+static bool look(LadderSimRowView *view, struct live_seen *seen, struct location at)
 {
-	if (view->text && view->text->len == text->length &&
-	    memcmp(view->text->str, text->text, text->length) == 0)
-		return false;
-	if (!view->text)
-		view->text = g_string_new(NULL);
-	g_string_truncate(view->text, 0);
-	g_string_append_len(view->text, text->text, text->length);
-	return true;
-}
-
-static bool take_values(LadderSimRowView *view)
-{
-	const struct location at[] = { view->row->at, view->row->preset, view->row->done };
-	bool other = false;
-
-	for (gsize i = 0; i < G_N_ELEMENTS(at); i++) {
-		union iec_value value;
-
-		if (at[i].type == IEC_NONE)
-			continue;
-		value = sim_row_value(view->row, view->sim, at[i]);
-		if (at[i].type == IEC_STRING ? is_other_text(view, value.s) :
-					       value.i != view->last[i].i)
-			other = true;
-		view->last[i] = value;
-	}
-	return other;
-}
-
-static void show_force(LadderSimRowView *view, bool forced)
-{
-	view->forced = forced;
-	gtk_widget_set_visible(view->badge, forced);
-	speak(view);
+	return live_value_look(seen, view->sim, view->row->plant, at);
 }
 
 void ladder_sim_row_view_update(LadderSimRowView *view)
 {
-	bool other, forced;
+	const bool known = view->value_seen.known, forced = is_forced(view);
+	bool changed;
 
 	if (!view->row || view->row->kind == SIM_HEADING || !ladder_sim_twin(view->sim))
 		return;
-	other = take_values(view) || !view->known ||
-		(view->waiting && --view->waiting == 0);
-	forced = sim_row_is_forced(view->row, view->sim);
+	changed = look(view, &view->value_seen, view->row->at);
+	changed = look(view, &view->preset_seen, view->row->preset) || changed;
+	changed = look(view, &view->done_seen, view->row->done) || changed;
+	changed = (view->waiting && --view->waiting == 0) || changed;
 	view->telling = true;
-	if (forced != view->forced || !view->known)
-		show_force(view, forced);
-	view->known = true;
-	if (other && sim_row_is_bit(view->row))
-		show_bit(view, view->last[0].i);
-	else if (other && view->row->kind == SIM_PRESET)
+	if (!known || forced != is_forced(view)) {
+		gtk_widget_set_visible(view->badge, is_forced(view));
+		speak(view);
+	}
+	if (changed && sim_row_is_bit(view->row))
+		show_bit(view, view->value_seen.value.i);
+	else if (changed && view->row->kind == SIM_PRESET)
 		show_preset(view);
-	else if (other)
+	else if (changed)
 		show_value(view);
 	view->telling = false;
+}
+
+/* ---- the entry for a value ---- */
+
+static struct location place_of(const LadderSimRowView *view)
+{
+	const LadderSimRow *row = view->row;
+
+	return view->editing == SIM_EDIT_PRESET ? row->given : row->at;
+}
+
+static void give_back_focus(LadderSimRowView *view)
+{
+	GtkWidget *item = gtk_widget_get_parent(GTK_WIDGET(view));
+
+	if (item)
+		gtk_widget_grab_focus(item);
+}
+
+static void end_edit(LadderSimRowView *view)
+{
+	if (!view->entry || !gtk_widget_get_visible(view->entry))
+		return;
+	gtk_widget_set_visible(view->entry, FALSE);
+	gtk_widget_set_visible(view->value, view->row && !sim_row_is_bit(view->row));
+}
+
+static void mark_bad(LadderSimRowView *view, bool bad)
+{
+	const char *type = iec_type_row(place_of(view).type)->word;
+	char *why = bad ? g_strdup_printf(_("Not a value of type %s"), type) : NULL;
+
+	if (bad)
+		gtk_widget_add_css_class(view->entry, "error");
+	else
+		gtk_widget_remove_css_class(view->entry, "error");
+	tip_set(view->entry, why);
+	gtk_accessible_update_state(GTK_ACCESSIBLE(view->entry), GTK_ACCESSIBLE_STATE_INVALID,
+				    bad ? GTK_ACCESSIBLE_INVALID_TRUE :
+					  GTK_ACCESSIBLE_INVALID_FALSE, -1);
+	g_free(why);
+}
+
+/* A STRING needs no quotes here. */
+static bool parse(enum iec_type type, const char *text, struct iec_text *room,
+		  union iec_value *out)
+{
+	char *own = g_strstrip(g_strdup(text));
+	char *quoted = type == IEC_STRING && *own != '\'' ? g_strdup_printf("'%s'", own) :
+		       g_strdup(own);
+	enum diag_id why;
+	const bool good = live_value_parse(FORMAT_AUTO, type, quoted, room, out, &why);
+
+	g_free(quoted);
+	g_free(own);
+	return good;
+}
+
+static void entered(GtkEntry *entry, LadderSimRowView *view)
+{
+	const struct location at = place_of(view);
+	struct iec_text room;
+	union iec_value value;
+
+	if (!parse(at.type, gtk_editable_get_text(GTK_EDITABLE(entry)), &room, &value)) {
+		mark_bad(view, true);
+		return;
+	}
+	if (view->row->kind == SIM_PRESET && view->editing == SIM_EDIT_VALUE)
+		sim_row_set_elapsed(view->row, view->sim, value);
+	else
+		live_value_set(view->sim, view->row->plant, at, value);
+	give_back_focus(view);
+	end_edit(view);
+}
+
+static void text_changed(GtkEditable *editable, LadderSimRowView *view)
+{
+	(void)editable;
+	if (gtk_widget_has_css_class(view->entry, "error"))
+		mark_bad(view, false);
+}
+
+static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
+			    GdkModifierType state, LadderSimRowView *view)
+{
+	(void)keys;
+	(void)code;
+	(void)state;
+	if (key != GDK_KEY_Escape)
+		return GDK_EVENT_PROPAGATE;
+	give_back_focus(view);
+	end_edit(view);
+	return GDK_EVENT_STOP;
+}
+
+static void entry_left(GtkEventControllerFocus *focus, LadderSimRowView *view)
+{
+	(void)focus;
+	end_edit(view);
+}
+
+static void add_entry(LadderSimRowView *view)
+{
+	GtkEventController *keys = gtk_event_controller_key_new();
+	GtkEventController *focus = gtk_event_controller_focus_new();
+
+	view->entry = gtk_entry_new();
+	gtk_widget_add_css_class(view->entry, "field");
+	gtk_editable_set_width_chars(GTK_EDITABLE(view->entry), 10);
+	gtk_editable_set_alignment(GTK_EDITABLE(view->entry), 1);
+	gtk_event_controller_set_propagation_phase(keys, GTK_PHASE_CAPTURE);
+	g_signal_connect(keys, "key-pressed", G_CALLBACK(key_pressed), view);
+	g_signal_connect(focus, "leave", G_CALLBACK(entry_left), view);
+	g_signal_connect(view->entry, "activate", G_CALLBACK(entered), view);
+	g_signal_connect(view->entry, "changed", G_CALLBACK(text_changed), view);
+	gtk_widget_add_controller(view->entry, keys);
+	gtk_widget_add_controller(view->entry, focus);
+	gtk_box_insert_child_after(GTK_BOX(view->line), view->entry, view->value);
+}
+
+static char *field_name(const LadderSimRowView *view)
+{
+	return view->row->kind != SIM_PRESET ? g_strdup(view->row->name) :
+	       g_strdup_printf(view->editing == SIM_EDIT_PRESET ? _("%s, preset") :
+			       view->row->group == SIM_COUNTERS ? _("%s, count") :
+			       _("%s, elapsed"), view->row->name);
+}
+
+void ladder_sim_row_view_edit(LadderSimRowView *view, enum sim_edit what)
+{
+	struct location at;
+	char *text, *name;
+
+	if (!view->row || view->row->kind == SIM_HEADING || sim_row_is_bit(view->row))
+		return;
+	view->editing = what;
+	at = place_of(view);
+	if (at.type == IEC_NONE || at.constant)
+		return;
+	if (!view->entry)
+		add_entry(view);
+	text = live_value_text(at.type, live_value_get(view->sim, view->row->plant, at));
+	name = field_name(view);
+	gtk_editable_set_text(GTK_EDITABLE(view->entry), text);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(view->entry),
+				       GTK_ACCESSIBLE_PROPERTY_LABEL, name, -1);
+	mark_bad(view, false);
+	gtk_widget_set_visible(view->value, FALSE);
+	gtk_widget_set_visible(view->entry, TRUE);
+	gtk_widget_grab_focus(view->entry);
+	g_free(name);
+	g_free(text);
+}
+
+/* Later: the item of the list takes the focus when it is clicked. */
+static gboolean edit_later(gpointer data)
+{
+	LadderSimRowView *view = data;
+	const bool preset = view->row && view->row->given.type != IEC_NONE;
+
+	ladder_sim_row_view_edit(view, preset ? SIM_EDIT_PRESET : SIM_EDIT_VALUE);
+	g_object_unref(view);
+	return G_SOURCE_REMOVE;
+}
+
+static void value_released(GtkGestureClick *gesture, int times, double x, double y,
+			   LadderSimRowView *view)
+{
+	(void)gesture;
+	(void)times;
+	(void)x;
+	(void)y;
+	g_idle_add(edit_later, g_object_ref(view));
+}
+
+static void can_edit(LadderSimRowView *view)
+{
+	GtkGesture *click = gtk_gesture_click_new();
+
+	gtk_widget_set_cursor_from_name(view->value, "text");
+	g_signal_connect(click, "released", G_CALLBACK(value_released), view);
+	gtk_widget_add_controller(view->value, GTK_EVENT_CONTROLLER(click));
 }
 
 /* ---- another line ---- */
@@ -291,12 +466,12 @@ void ladder_sim_row_view_bind(LadderSimRowView *view, LadderSimRow *row)
 {
 	const bool heading = row && row->kind == SIM_HEADING;
 
-	sim_view_end_edit(view);
+	end_edit(view);
 	g_set_object(&view->row, row);
-	view->known = view->forced = false;
+	memset(&view->value_seen, 0, sizeof(view->value_seen));
+	memset(&view->preset_seen, 0, sizeof(view->preset_seen));
+	memset(&view->done_seen, 0, sizeof(view->done_seen));
 	view->waiting = 0;
-	if (view->text)
-		g_string_truncate(view->text, 0);
 	gtk_widget_set_visible(view->heading, heading);
 	gtk_widget_set_visible(view->line, row && !heading);
 	gtk_widget_set_visible(view->bar, FALSE);
@@ -427,7 +602,7 @@ static void slid(GtkRange *range, LadderSimRowView *view)
 	view->sent = iec_type_row(view->row->at.type)->class == CLASS_REAL ? number :
 		     round(number);
 	view->waiting = LOOKS;
-	sim_row_set(view->row, view->sim, view->row->at, value);
+	live_value_set(view->sim, view->row->plant, view->row->at, value);
 }
 
 /* ---- the widget ---- */
@@ -441,9 +616,6 @@ static void dispose(GObject *object)
 	while ((child = gtk_widget_get_first_child(GTK_WIDGET(view))) != NULL)
 		gtk_widget_unparent(child);
 	g_clear_object(&view->row);
-	if (view->text)
-		g_string_free(view->text, TRUE);
-	view->text = NULL;
 	G_OBJECT_CLASS(ladder_sim_row_view_parent_class)->dispose(object);
 }
 
@@ -531,7 +703,7 @@ static void add_line(LadderSimRowView *view)
 	view->value = add_label(view->line, "sim-value", false);
 	gtk_label_set_xalign(GTK_LABEL(view->value), 1);
 	gtk_label_set_ellipsize(GTK_LABEL(view->value), PANGO_ELLIPSIZE_END);
-	sim_view_can_edit(view);
+	can_edit(view);
 	add_controls(view);
 	gtk_widget_set_parent(view->line, GTK_WIDGET(view));
 }

@@ -1,18 +1,22 @@
 /* SPDX-License-Identifier: MIT
  *
- * chart - rings of samples, one a variable, filled from the record.
+ * timing - a ring of samples for each variable, filled from the record; and the lines of the
+ * VIEW part that keep the variables.
  */
 #include "editor-gtk/live/timing.h"
 
-#include "engine/trial/value.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/sim/live_value.h"
 
 #include <string.h>
+
+#define LINE "timing"
 
 struct line {
 	char *name;
 	struct location at;   /* in the program whose scan is shown             */
 	struct location here; /* in that of the scan that is taken              */
-	double *sample;       /* CHART_SCANS of them, by scan                   */
+	double *sample;       /* TIMING_SCANS of them, by scan                  */
 };
 struct timing {
 	LadderSim *sim;
@@ -62,14 +66,6 @@ static struct line *line_at(const struct timing *timing, int line)
 
 /* ---- lines ---- */
 
-static struct location locate(const struct line *line, const struct twin *twin)
-{
-	enum diag_id why;
-
-	return twin ? value_find(&twin->resource.image, line->name, strlen(line->name),
-				 &why) : (struct location){ .type = IEC_NONE };
-}
-
 static void begin_anew(struct timing *timing)
 {
 	timing->first = timing->end = 0;
@@ -88,7 +84,7 @@ bool timing_add(struct timing *timing, const char *name)
 	line = g_new0(struct line, 1);
 	line->name = g_strdup(name);
 	line->sample = g_new0(double, TIMING_SCANS);
-	line->at = locate(line, ladder_sim_twin(timing->sim));
+	line->at = live_value_find(live_image(timing->sim, false), name);
 	g_ptr_array_add(timing->lines, line);
 	begin_anew(timing);
 	return true;
@@ -123,7 +119,7 @@ struct location timing_at(const struct timing *timing, int line)
 
 void timing_program_changed(struct timing *timing)
 {
-	const struct twin *twin = ladder_sim_twin(timing->sim);
+	const struct image *image = live_image(timing->sim, false);
 
 	if (timing->life != ladder_sim_life(timing->sim)) {
 		timing->life = ladder_sim_life(timing->sim);
@@ -132,23 +128,13 @@ void timing_program_changed(struct timing *timing)
 		begin_anew(timing);
 	}
 	for (int i = 0; i < timing_lines(timing); i++)
-		line_at(timing, i)->at = locate(line_at(timing, i), twin);
+		line_at(timing, i)->at = live_value_find(image, timing_name(timing, i));
 }
 
 /* ---- samples ---- */
 
-static double number(struct location at, union iec_value value)
-{
-	switch (iec_type_row(at.type)->class) {
-	case CLASS_REAL: return value.r;
-	case CLASS_STRING: return value.s->length;
-	case CLASS_TIME: return (double)value.i / 1e6;
-	default: return (double)value.i;
-	}
-}
-
-/* Behind an edit a name may stand elsewhere. */
-static void find_here(struct timing *timing, const struct twin *twin)
+/* After an edit a variable may be at another place. */
+static void find_here(struct timing *timing, const struct image *image)
 {
 	const guint64 program = sim_replay_program(timing->replay);
 
@@ -156,28 +142,29 @@ static void find_here(struct timing *timing, const struct twin *twin)
 		return;
 	timing->program = program;
 	for (int i = 0; i < timing_lines(timing); i++)
-		line_at(timing, i)->here = locate(line_at(timing, i), twin);
+		line_at(timing, i)->here = live_value_find(image, timing_name(timing, i));
 }
 
 static void take(struct timing *timing, const struct twin *twin)
 {
 	const guint64 slot = twin->scan % TIMING_SCANS;
+	const struct image *image = &twin->resource.image;
 
-	find_here(timing, twin);
+	find_here(timing, image);
 	timing->time[slot] = twin->now_ns;
 	for (int i = 0; i < timing_lines(timing); i++) {
 		struct line *line = line_at(timing, i);
 
 		line->sample[slot] = line->here.type == IEC_NONE ? 0 :
-			number(line->here, image_get(&twin->resource.image, line->here));
+			live_value_number(line->here.type, image_get(image, line->here));
 	}
 	timing->end = twin->scan + 1;
 	if (timing->end - timing->first > TIMING_SCANS)
 		timing->first = timing->end - TIMING_SCANS;
 }
 
-/* Where it goes on: behind what it has, or, if the record or the room does not reach back
- * so far, later. */
+/* The scan to take next: the one after the last, or a later one if the record or the ring does
+ * not reach back so far. */
 static guint64 next_scan(struct timing *timing, guint64 first, guint64 last)
 {
 	const guint64 room = last >= TIMING_SCANS ? last + 1 - TIMING_SCANS : 0;
@@ -188,7 +175,7 @@ static guint64 next_scan(struct timing *timing, guint64 first, guint64 last)
 	return timing->end;
 }
 
-/* One scan, or a step to it; false: there is none. */
+/* Takes one scan, or moves the replay nearer to it. False: there is no scan to take. */
 static bool step(struct timing *timing)
 {
 	const guint64 last = ladder_sim_last(timing->sim);
@@ -268,4 +255,64 @@ bool timing_range(const struct timing *timing, int line, guint64 from, guint64 t
 		*high = MAX(*high, value);
 	}
 	return true;
+}
+
+/* ---- what the project keeps ---- */
+
+/* The name in a line `timing NAME`; NULL: another line. Caller frees. */
+static char *name_in(const char *line)
+{
+	const char *name = live_line_after(line, LINE);
+	const gsize len = name ? strcspn(name, " \t\r") : 0;
+
+	return len ? g_strndup(name, len) : NULL;
+}
+
+char **timing_kept_read(const char *view)
+{
+	GPtrArray *names = g_ptr_array_new();
+	char **lines = g_strsplit(view, "\n", -1);
+
+	for (char **line = lines; *line; line++) {
+		char *name = name_in(*line);
+
+		if (name)
+			g_ptr_array_add(names, name);
+	}
+	g_ptr_array_add(names, NULL);
+	g_strfreev(lines);
+	return (char **)g_ptr_array_free(names, FALSE);
+}
+
+static bool is_own(void *context, const char *line)
+{
+	char *name = name_in(line);
+
+	(void)context;
+	g_free(name);
+	return name != NULL;
+}
+
+char *timing_kept_write(const char *view, const char *const *names)
+{
+	GString *own = g_string_new(NULL);
+	char *text;
+
+	for (int i = 0; names[i]; i++)
+		g_string_append_printf(own, "  " LINE " %s\n", names[i]);
+	text = live_lines_replace(view, is_own, NULL, own->str);
+	g_string_free(own, TRUE);
+	return text;
+}
+
+void timing_kept_put(LadderDocument *document, const char *const *names)
+{
+	const char *view = ladder_document_view(document);
+	char **before = timing_kept_read(view);
+
+	if (ladder_document_project(document) &&
+	    !g_strv_equal((const char *const *)before, names))
+		live_lines_keep(document, timing_kept_write(view, names),
+				_("Variables of the timing chart"));
+	g_strfreev(before);
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  *
- * chart - what variables were, scan by scan: the numbers behind a timing chart.
+ * timing - the values of variables, scan by scan: the numbers of a timing chart.
  *
- * It follows the record of a simulation with a replay of its own, a little at a time and
- * over edits, so that a variable that is asked for late has its past, too. It draws nothing.
+ * It reads the record of the simulation with a replay of its own, a little at a time and
+ * across edits, so that a variable added later has its past too. It draws nothing.
  */
 #ifndef EDITOR_TIMING_H
 #define EDITOR_TIMING_H
@@ -50,5 +50,19 @@ double timing_value(const struct timing *timing, int line, guint64 scan);
  * has. False: it has none of them. */
 bool timing_range(const struct timing *timing, int line, guint64 from, guint64 to,
 		 double *low, double *high);
+
+/* ---- the variables that a project keeps ----
+ * Lines `timing NAME` of the VIEW part, from top to bottom of the chart. The program need not
+ * have the name. */
+
+/** timing_kept_read - the names in a VIEW part, in its order; none: nobody chose any. Caller:
+ * g_strfreev(). */
+char **timing_kept_read(const char *view);
+/** timing_kept_write - @view with these names in the place of those that it had; its other
+ * lines stay. Caller frees. */
+char *timing_kept_write(const char *view, const char *const *names);
+/** timing_kept_put - the same in a document, as a step of its history. Nothing happens if it
+ * has these very names, or is one of text. */
+void timing_kept_put(LadderDocument *document, const char *const *names);
 
 #endif

@@ -1,14 +1,25 @@
 /* SPDX-License-Identifier: MIT
  *
- * timing_area - a timing chart that can be used: cursor, zoom, pan, lines.
+ * timing_area - the widget of a timing chart: cursor, zoom, pan, lines, and its drawing.
+ *
+ * A pixel shows the least and the greatest value of all scans in it, so that a pulse of one
+ * scan is visible however much time the chart shows.
  */
-#include "editor-gtk/live/timing_inside.h"
+#include "editor-gtk/live/timing_area.h"
 
-#include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/kit/lettering.h"
+#include "editor-gtk/kit/theme.h"
+#include "editor-gtk/sim/live_value.h"
 
 #include <adwaita.h>
+#include <math.h>
 
+#define NAMES_PX 210      /* names and values at the left                        */
+#define RULER_PX 22       /* times below                                         */
+#define ROW_PX   34       /* a line                                              */
+#define TICK_APART 90     /* px between two times of the ruler, at least           */
 #define SPAN_LEAST 1e6    /* ns                                                  */
 #define SPAN_MOST  4e12
 #define SPAN_FIRST 1e10
@@ -16,6 +27,23 @@
 
 enum { LINES_CHANGED, TOLD, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
+
+struct _LadderTimingArea {
+	GtkWidget parent;
+	LadderSim *sim;
+	struct timing *timing;
+	struct lettering *lettering;
+	double span_ns;           /* of the time that is seen                   */
+	double right_ns;          /* time at the right edge, unless it follows  */
+	bool follows;             /* the newest scan                            */
+	int selected;             /* line; -1: none                             */
+	guint64 life;             /* of the simulation, that it was seen in last */
+	gint64 mark_ns;           /* second cursor, to measure from; -1: none   */
+	double drag_x;            /* where a drag began                         */
+	double pan_ns;            /* right_ns when a pan began                  */
+	guint idle;               /* fills what is not there yet                */
+	GtkAdjustment *scrolled;  /* up and down; NULL: not at all             */
+};
 
 G_DEFINE_FINAL_TYPE(LadderTimingArea, ladder_timing_area, GTK_TYPE_WIDGET)
 
@@ -29,44 +57,44 @@ static double newest(LadderTimingArea *area)
 	       (double)timing_time(timing, timing_end(timing) - 1) : 0;
 }
 
-double timing_right(LadderTimingArea *area)
+static double right_edge(LadderTimingArea *area)
 {
 	return area->follows ? MAX(newest(area), area->span_ns) : area->right_ns;
 }
 
-double timing_plot_width(LadderTimingArea *area)
+static double plot_width(LadderTimingArea *area)
 {
-	return MAX(gtk_widget_get_width(GTK_WIDGET(area)) - TIMING_NAMES, 0);
+	return MAX(gtk_widget_get_width(GTK_WIDGET(area)) - NAMES_PX, 0);
 }
 
-double timing_x(LadderTimingArea *area, double ns)
+static double x_of(LadderTimingArea *area, double ns)
 {
-	return TIMING_NAMES + timing_plot_width(area) -
-	       (timing_right(area) - ns) / area->span_ns * timing_plot_width(area);
+	return NAMES_PX + plot_width(area) -
+	       (right_edge(area) - ns) / area->span_ns * plot_width(area);
 }
 
-double timing_visible_top(LadderTimingArea *area)
+static double visible_top(LadderTimingArea *area)
 {
 	return area->scrolled ? gtk_adjustment_get_value(area->scrolled) : 0;
 }
 
-double timing_visible_bottom(LadderTimingArea *area)
+static double visible_bottom(LadderTimingArea *area)
 {
 	const double height = gtk_widget_get_height(GTK_WIDGET(area));
 
-	return area->scrolled ? MIN(height, timing_visible_top(area) +
+	return area->scrolled ? MIN(height, visible_top(area) +
 				    gtk_adjustment_get_page_size(area->scrolled)) : height;
 }
 
 static double ns_at(LadderTimingArea *area, double x)
 {
-	return timing_right(area) - (TIMING_NAMES + timing_plot_width(area) - x) *
-	       area->span_ns / MAX(timing_plot_width(area), 1);
+	return right_edge(area) - (NAMES_PX + plot_width(area) - x) *
+	       area->span_ns / MAX(plot_width(area), 1);
 }
 
 double ladder_timing_area_x(LadderTimingArea *area, guint64 scan)
 {
-	return timing_x(area, (double)timing_time(area->timing, scan));
+	return x_of(area, (double)timing_time(area->timing, scan));
 }
 
 static void see(LadderTimingArea *area, double right_ns)
@@ -81,7 +109,7 @@ static void see(LadderTimingArea *area, double right_ns)
 static void zoom_at(LadderTimingArea *area, double factor, double x)
 {
 	const double ns = ns_at(area, x);
-	const double part = (x - TIMING_NAMES) / MAX(timing_plot_width(area), 1);
+	const double part = (x - NAMES_PX) / MAX(plot_width(area), 1);
 
 	area->span_ns = CLAMP(area->span_ns / factor, SPAN_LEAST, SPAN_MOST);
 	if (!area->follows)
@@ -91,7 +119,7 @@ static void zoom_at(LadderTimingArea *area, double factor, double x)
 
 void ladder_timing_area_zoom(LadderTimingArea *area, double factor)
 {
-	zoom_at(area, factor, TIMING_NAMES + timing_plot_width(area) / 2);
+	zoom_at(area, factor, NAMES_PX + plot_width(area) / 2);
 }
 
 void ladder_timing_area_fit(LadderTimingArea *area)
@@ -183,13 +211,13 @@ static void show_scan(LadderTimingArea *area, guint64 scan)
 		return;
 	scan = CLAMP(scan, timing_first(timing), timing_end(timing) - 1);
 	/* What is looked at stands still. */
-	area->right_ns = timing_right(area);
+	area->right_ns = right_edge(area);
 	area->follows = false;
 	if (!ladder_sim_show(area->sim, scan))
 		g_signal_emit(area, signals[TOLD], 0, _("that scan is not kept any more"));
 	const double x = ladder_timing_area_x(area, scan);
 
-	if (x < TIMING_NAMES || x > TIMING_NAMES + timing_plot_width(area))
+	if (x < NAMES_PX || x > NAMES_PX + plot_width(area))
 		see(area, (double)timing_time(timing, scan) + area->span_ns / 2);
 }
 
@@ -211,7 +239,7 @@ static void show_at(LadderTimingArea *area, double x)
 
 static int line_at(LadderTimingArea *area, double y)
 {
-	const int line = (int)(y / TIMING_ROW);
+	const int line = (int)(y / ROW_PX);
 
 	return y >= 0 && line < timing_lines(area->timing) ? line : -1;
 }
@@ -224,9 +252,9 @@ static void drag_begin(GtkGestureDrag *drag, double x, double y, LadderTimingAre
 	gtk_widget_grab_focus(GTK_WIDGET(area));
 	area->drag_x = x;
 	area->selected = line_at(area, y);
-	if (x >= TIMING_NAMES && (state & GDK_SHIFT_MASK))
+	if (x >= NAMES_PX && (state & GDK_SHIFT_MASK))
 		area->mark_ns = (gint64)MAX(ns_at(area, x), 0);
-	else if (x >= TIMING_NAMES)
+	else if (x >= NAMES_PX)
 		show_at(area, x);
 	gtk_widget_queue_draw(GTK_WIDGET(area));
 }
@@ -235,8 +263,8 @@ static void drag_update(GtkGestureDrag *drag, double dx, double dy, LadderTiming
 {
 	(void)drag;
 	(void)dy;
-	if (area->drag_x >= TIMING_NAMES)
-		show_at(area, MAX(area->drag_x + dx, TIMING_NAMES));
+	if (area->drag_x >= NAMES_PX)
+		show_at(area, MAX(area->drag_x + dx, NAMES_PX));
 }
 
 static void pan_begin(GtkGestureDrag *drag, double x, double y, LadderTimingArea *area)
@@ -244,14 +272,14 @@ static void pan_begin(GtkGestureDrag *drag, double x, double y, LadderTimingArea
 	(void)drag;
 	(void)x;
 	(void)y;
-	area->pan_ns = timing_right(area);
+	area->pan_ns = right_edge(area);
 }
 
 static void pan_update(GtkGestureDrag *drag, double dx, double dy, LadderTimingArea *area)
 {
 	(void)drag;
 	(void)dy;
-	see(area, area->pan_ns - dx * area->span_ns / MAX(timing_plot_width(area), 1));
+	see(area, area->pan_ns - dx * area->span_ns / MAX(plot_width(area), 1));
 }
 
 static gboolean scroll(GtkEventControllerScroll *scroll, double dx, double dy,
@@ -263,7 +291,7 @@ static gboolean scroll(GtkEventControllerScroll *scroll, double dx, double dy,
 	if (state & GDK_CONTROL_MASK)
 		ladder_timing_area_zoom(area, dy < 0 ? 1.25 : 0.8);
 	else if (dx != 0 || (state & GDK_SHIFT_MASK))
-		see(area, timing_right(area) + (dx != 0 ? dx : dy) * area->span_ns / 20);
+		see(area, right_edge(area) + (dx != 0 ? dx : dy) * area->span_ns / 20);
 	else
 		return GDK_EVENT_PROPAGATE;
 	return GDK_EVENT_STOP;
@@ -362,21 +390,386 @@ static gboolean key_pressed(GtkEventControllerKey *keys, guint key, guint code,
 	return GDK_EVENT_STOP;
 }
 
+/* ---- drawing ---- */
+
+struct drawing {
+	LadderTimingArea *area;
+	GtkSnapshot *snapshot;
+	const struct theme *theme;
+	double width, bottom;   /* bottom of what is seen of the widget        */
+	double left_ns, ns_per_px;
+};
+
+static void text(struct drawing *drawing, enum letter letter, enum token token,
+		 const char *what, double x, double y, double bound)
+{
+	const struct lettered fit = lettering_fit(drawing->area->lettering, letter, what, -1,
+						  (float)bound);
+	float baseline;
+	PangoLayout *layout = lettering_layout(drawing->area->lettering, letter, fit.text,
+					       &baseline);
+
+	gtk_snapshot_save(drawing->snapshot);
+	gtk_snapshot_translate(drawing->snapshot, &GRAPHENE_POINT_INIT(
+		(float)x, (float)y - baseline));
+	gtk_snapshot_append_layout(drawing->snapshot, layout,
+				   &drawing->theme->color[token]);
+	gtk_snapshot_restore(drawing->snapshot);
+}
+
+static void fill(struct drawing *drawing, enum token token, float alpha, double x, double y,
+		 double width, double height)
+{
+	GdkRGBA color = drawing->theme->color[token];
+
+	color.alpha = alpha;
+	gtk_snapshot_append_color(drawing->snapshot, &color,
+		&GRAPHENE_RECT_INIT((float)x, (float)y, (float)width, (float)height));
+}
+
+/* ---- times ---- */
+
+static void time_text(double ns, double step, char *out, gsize size)
+{
+	if (step < 1e6)
+		g_snprintf(out, size, "%.3f ms", ns / 1e6);
+	else if (step < 1e9 && ns < 1e9)
+		g_snprintf(out, size, "%.0f ms", ns / 1e6);
+	else
+		g_snprintf(out, size, "%.*f s", step < 1e7 ? 3 : step < 1e8 ? 2 :
+			   step < 1e9 ? 1 : 0, ns / 1e9);
+}
+
+static double tick_step(double least)
+{
+	const double power = pow(10, floor(log10(least)));
+
+	for (int i = 1; i < 10; i = i == 1 ? 2 : i == 2 ? 5 : 10)
+		if (i * power >= least)
+			return i * power;
+	return 10 * power;
+}
+
+static void draw_ruler(struct drawing *drawing)
+{
+	const double step = tick_step(TICK_APART * drawing->ns_per_px);
+	const double top = drawing->bottom - RULER_PX;
+	char label[32];
+
+	fill(drawing, TOKEN_SHEET, 1, 0, top, drawing->width, RULER_PX);
+	fill(drawing, TOKEN_LINE, 1, 0, top, drawing->width, 1);
+	for (double ns = ceil(MAX(drawing->left_ns, 0) / step) * step;; ns += step) {
+		const double x = x_of(drawing->area, ns);
+
+		if (x > drawing->width)
+			return;
+		fill(drawing, TOKEN_LINE, 1, x, 0, 1, top + 5);
+		time_text(ns, step, label, sizeof(label));
+		text(drawing, LETTER_ADDRESS, TOKEN_COMMENT, label, x + 4, top + 15, 0);
+	}
+}
+
+/* ---- lines ---- */
+
+/* What a pixel shows of a line. */
+struct span {
+	double low, high, last;
+	bool any;
+};
+
+/* Scans are walked through once from left to right: @scan is the next one. */
+static struct span span_of(struct drawing *drawing, int line, guint64 *scan, double until)
+{
+	const struct timing *timing = drawing->area->timing;
+	const guint64 end = timing_end(timing);
+	struct span span = { 0 };
+
+	while (*scan < end && (double)timing_time(timing, *scan) <= until) {
+		span.last = timing_value(timing, line, *scan);
+		span.low = span.any ? MIN(span.low, span.last) : span.last;
+		span.high = span.any ? MAX(span.high, span.last) : span.last;
+		span.any = true;
+		(*scan)++;
+	}
+	return span;
+}
+
+static guint64 scan_from(struct drawing *drawing)
+{
+	return timing_scan_at(drawing->area->timing, (gint64)MAX(drawing->left_ns, 0));
+}
+
+struct curve {
+	cairo_t *cairo;
+	double y, height, low, range;  /* where its values are                */
+	double value;                  /* at the pen                          */
+	bool begun;
+};
+
+static double y_of(const struct curve *curve, double value)
+{
+	return curve->y + curve->height -
+	       (value - curve->low) / curve->range * curve->height;
+}
+
+static void curve_add(struct curve *curve, double x, const struct span *span)
+{
+	if (!curve->begun) {
+		cairo_move_to(curve->cairo, x, y_of(curve, span->last));
+		curve->begun = true;
+		curve->value = span->last;
+		return;
+	}
+	if (span->low == span->high && span->last == curve->value)
+		return;
+	cairo_line_to(curve->cairo, x, y_of(curve, curve->value));
+	if (span->low < MIN(curve->value, span->last))
+		cairo_line_to(curve->cairo, x, y_of(curve, span->low));
+	if (span->high > MAX(curve->value, span->last))
+		cairo_line_to(curve->cairo, x, y_of(curve, span->high));
+	cairo_line_to(curve->cairo, x, y_of(curve, span->last));
+	curve->value = span->last;
+}
+
+/* BOOL: what is TRUE is filled, so that it is told by more than a colour. */
+static void trace_curve(struct drawing *drawing, int line, struct curve *curve, bool close)
+{
+	guint64 scan = scan_from(drawing);
+	double first = -1, x = NAMES_PX;
+
+	for (; x <= drawing->width; x++) {
+		const struct span span = span_of(drawing, line, &scan, drawing->left_ns +
+			(x - NAMES_PX) * drawing->ns_per_px);
+
+		if (!span.any)
+			continue;
+		if (first < 0)
+			first = x;
+		curve_add(curve, x, &span);
+	}
+	if (first < 0)
+		return;
+	x = MIN(drawing->width, x_of(drawing->area, (double)timing_time(
+		drawing->area->timing, timing_end(drawing->area->timing) - 1)));
+	cairo_line_to(curve->cairo, MAX(x, first), y_of(curve, curve->value));
+	if (!close)
+		return;
+	cairo_line_to(curve->cairo, MAX(x, first), y_of(curve, 0));
+	cairo_line_to(curve->cairo, first, y_of(curve, 0));
+	cairo_close_path(curve->cairo);
+}
+
+static void set_color(cairo_t *cairo, const GdkRGBA *color, float alpha)
+{
+	cairo_set_source_rgba(cairo, (double)color->red, (double)color->green,
+			      (double)color->blue, (double)alpha);
+}
+
+static void range_of(struct drawing *drawing, int line, struct curve *curve)
+{
+	const struct timing *timing = drawing->area->timing;
+	double low = 0, high = 1;
+
+	if (timing_at(timing, line).type != IEC_BOOL)
+		timing_range(timing, line, scan_from(drawing), timing_end(timing), &low, &high);
+	if (high - low < 1e-9)
+		high = low + 1;
+	curve->low = low;
+	curve->range = high - low;
+}
+
+/* What is above the lower line, again, in the colour of power. */
+static void stroke_true(struct drawing *drawing, int line, struct curve *curve, double top)
+{
+	cairo_rectangle(curve->cairo, NAMES_PX, top, drawing->width - NAMES_PX,
+			ROW_PX - 9);
+	cairo_clip(curve->cairo);
+	curve->begun = false;
+	trace_curve(drawing, line, curve, false);
+	set_color(curve->cairo, &drawing->theme->color[TOKEN_POWER], 1);
+	cairo_set_line_width(curve->cairo, 2);
+	cairo_stroke(curve->cairo);
+}
+
+static void draw_curve(struct drawing *drawing, int line, double top)
+{
+	const bool bit = timing_at(drawing->area->timing, line).type == IEC_BOOL;
+	const struct theme *theme = drawing->theme;
+	struct curve curve = { .y = top + 8, .height = ROW_PX - 16 };
+	cairo_t *cairo = gtk_snapshot_append_cairo(drawing->snapshot, &GRAPHENE_RECT_INIT(
+		NAMES_PX, (float)top, (float)(drawing->width - NAMES_PX), ROW_PX));
+
+	range_of(drawing, line, &curve);
+	curve.cairo = cairo;
+	cairo_set_antialias(cairo, bit ? CAIRO_ANTIALIAS_NONE : CAIRO_ANTIALIAS_DEFAULT);
+	if (bit) {
+		trace_curve(drawing, line, &curve, true);
+		set_color(cairo, &theme->color[TOKEN_POWER], theme->fill);
+		cairo_fill(cairo);
+		curve.begun = false;
+	}
+	trace_curve(drawing, line, &curve, false);
+	set_color(cairo, &theme->color[bit ? TOKEN_IDLE : TOKEN_ACCENT], 1);
+	cairo_set_line_width(cairo, 1.5);
+	cairo_stroke(cairo);
+	if (bit)
+		stroke_true(drawing, line, &curve, top);
+	cairo_destroy(cairo);
+}
+
+/* ---- names ---- */
+
+static guint64 scan_shown(struct drawing *drawing)
+{
+	const struct twin *twin = ladder_sim_twin(drawing->area->sim);
+	const struct timing *timing = drawing->area->timing;
+
+	return CLAMP(twin->scan, timing_first(timing), timing_end(timing) - 1);
+}
+
+static void draw_name(struct drawing *drawing, int line, double top)
+{
+	const struct timing *timing = drawing->area->timing;
+	const struct location at = timing_at(timing, line);
+	char value[32] = "";
+
+	if (line == drawing->area->selected)
+		fill(drawing, TOKEN_ACCENT, drawing->theme->wash, 0, top, NAMES_PX,
+		     ROW_PX);
+	if (timing_first(timing) < timing_end(timing))
+		live_number_print(at.type, timing_value(timing, line, scan_shown(drawing)),
+				  value, sizeof(value));
+	text(drawing, LETTER_SYMBOL, TOKEN_INK, timing_name(timing, line), 14, top + 22,
+	     NAMES_PX - 100);
+	text(drawing, LETTER_VALUE, TOKEN_ACCENT, value, NAMES_PX - 78, top + 22, 74);
+}
+
+/* ---- cursors ---- */
+
+static void draw_cursor(struct drawing *drawing, double ns, enum token token,
+			const char *label)
+{
+	const double x = x_of(drawing->area, ns);
+	float width;
+
+	if (x < NAMES_PX || x > drawing->width)
+		return;
+	fill(drawing, token, 1, x, 0, 1.5, drawing->bottom - RULER_PX);
+	width = lettering_fit(drawing->area->lettering, LETTER_VALUE, label, -1, 0).width;
+	fill(drawing, TOKEN_SHEET, 1, MIN(x + 3, drawing->width - (double)width - 6),
+	     drawing->bottom - RULER_PX + 1, (double)width + 4, RULER_PX - 1);
+	text(drawing, LETTER_VALUE, token, label,
+	     MIN(x + 5, drawing->width - (double)width - 4), drawing->bottom - 7, 0);
+}
+
+static void draw_cursors(struct drawing *drawing)
+{
+	const struct twin *twin = ladder_sim_twin(drawing->area->sim);
+	const gint64 mark = drawing->area->mark_ns;
+	char label[64];
+
+	if (mark >= 0)
+		draw_cursor(drawing, (double)mark, TOKEN_ACCENT, "");
+	if (!ladder_sim_is_past(drawing->area->sim))
+		return;
+	g_snprintf(label, sizeof(label), "%.2f s", (double)twin->now_ns / 1e9);
+	if (mark >= 0)
+		g_snprintf(label, sizeof(label), "%.2f s  Δ %g ms",
+			   (double)twin->now_ns / 1e9, (double)(twin->now_ns - mark) / 1e6);
+	draw_cursor(drawing, (double)twin->now_ns, TOKEN_FORCE, label);
+}
+
+static void label_edit(struct drawing *drawing, double x)
+{
+	const double top = drawing->bottom - RULER_PX - 14;
+	const float width = lettering_fit(drawing->area->lettering, LETTER_ADDRESS,
+					  _("edit"), -1, 0).width;
+
+	fill(drawing, TOKEN_SHEET, 1, x + 2, top, (double)width + 4, 14);
+	text(drawing, LETTER_ADDRESS, TOKEN_COMMENT, _("edit"), x + 4, top + 11, 0);
+}
+
+/* Where the program was changed. */
+static void draw_edits(struct drawing *drawing)
+{
+	const struct timing *timing = drawing->area->timing;
+	guint64 scan = timing_first(timing);
+	struct sim_edited edit;
+
+	while (ladder_sim_next_edit(drawing->area->sim, scan, &edit) &&
+	       edit.scan < timing_end(timing)) {
+		const double x = x_of(drawing->area, (double)timing_time(timing, edit.scan));
+
+		scan = edit.scan + 1;
+		if (x < NAMES_PX || x > drawing->width)
+			continue;
+		for (double y = 0; y < drawing->bottom - RULER_PX; y += 6)
+			fill(drawing, TOKEN_COMMENT, 1, x, y, 1, 3);
+		label_edit(drawing, x);
+	}
+}
+
+/* Those that are seen. */
+static void draw_lines(struct drawing *drawing)
+{
+	const struct timing *timing = drawing->area->timing;
+	const int first = (int)(visible_top(drawing->area) / ROW_PX);
+
+	for (int i = first; i < timing_lines(timing) && i * ROW_PX < drawing->bottom; i++) {
+		draw_name(drawing, i, i * ROW_PX);
+		if (timing_first(timing) < timing_end(timing))
+			draw_curve(drawing, i, i * ROW_PX);
+	}
+}
+
+static void draw_hint(struct drawing *drawing, const char *what)
+{
+	text(drawing, LETTER_COMMENT, TOKEN_COMMENT, what, 14, 30, drawing->width - 28);
+}
+
+static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
+{
+	LadderTimingArea *area = LADDER_TIMING_AREA(widget);
+	const bool dark = adw_style_manager_get_dark(adw_style_manager_get_default());
+	struct drawing drawing = {
+		.area = area, .snapshot = snapshot,
+		.theme = theme_get(dark ? THEME_DARK : THEME_LIGHT, THEME_GREEN),
+		.width = gtk_widget_get_width(GTK_WIDGET(area)),
+		.bottom = visible_bottom(area),
+	};
+	const int lines = timing_lines(area->timing);
+
+	fill(&drawing, TOKEN_SHEET, 1, 0, 0, drawing.width,
+	     gtk_widget_get_height(GTK_WIDGET(area)));
+	if (!ladder_sim_is_on(area->sim)) {
+		draw_hint(&drawing, _("What variables were, scan by scan: simulate to see it."));
+		return;
+	}
+	if (!lines) {
+		draw_hint(&drawing, _("Add variables to see when they change."));
+		return;
+	}
+	if (plot_width(area) < 1)
+		return;
+	drawing.left_ns = right_edge(area) - area->span_ns;
+	drawing.ns_per_px = area->span_ns / plot_width(area);
+	draw_lines(&drawing);
+	draw_ruler(&drawing);
+	draw_edits(&drawing);
+	draw_cursors(&drawing);
+	lettering_trim(area->lettering);
+}
+
 /* ---- the widget ---- */
 
 static void area_measure(GtkWidget *widget, GtkOrientation orientation, int for_size,
 			 int *minimum, int *natural, int *baseline, int *natural_baseline)
 {
 	(void)for_size;
-	*minimum = *natural = orientation == GTK_ORIENTATION_HORIZONTAL ? TIMING_NAMES + 100 :
-		TIMING_ROW * MAX(timing_lines(LADDER_TIMING_AREA(widget)->timing), 1) +
-		TIMING_RULER;
+	*minimum = *natural = orientation == GTK_ORIENTATION_HORIZONTAL ? NAMES_PX + 100 :
+		ROW_PX * MAX(timing_lines(LADDER_TIMING_AREA(widget)->timing), 1) +
+		RULER_PX;
 	*baseline = *natural_baseline = -1;
-}
-
-static void area_snapshot(GtkWidget *widget, GtkSnapshot *snapshot)
-{
-	timing_draw(LADDER_TIMING_AREA(widget), snapshot);
 }
 
 /* The ruler stays in sight. */

@@ -4,12 +4,10 @@
  */
 #include "editor-gtk/live/timing_view.h"
 
-#include "editor-gtk/live/timing_kept.h"
-#include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/live/watch_names.h"
-
-#include "engine/trial/value.h"
+#include "editor-gtk/sim/live_value.h"
 
 #include <string.h>
 
@@ -158,20 +156,9 @@ static void read_kept(LadderTimingView *view)
 	g_strfreev(kept);
 }
 
-/* "Table[1,2]" of "Table[1, 2]": a blank ends a name where it is kept. Caller frees. */
-static char *without_blanks(const char *name)
-{
-	GString *out = g_string_new(NULL);
-
-	for (; *name; name++)
-		if ((guchar)*name > ' ' && *name != 127)
-			g_string_append_c(out, *name);
-	return g_string_free(out, FALSE);
-}
-
 bool ladder_timing_view_add(LadderTimingView *view, const char *name)
 {
-	char *plain = without_blanks(name);
+	char *plain = live_name(name);
 	const bool good = *plain && timing_add(ladder_timing_area_timing(view->area), plain);
 
 	g_free(plain);
@@ -216,11 +203,8 @@ static void add_row(GtkListView *list, guint row, LadderTimingView *view)
 static void add_wanted(LadderTimingView *view)
 {
 	const char *text = gtk_editable_get_text(GTK_EDITABLE(view->wanted));
-	const struct twin *twin = ladder_sim_twin(view->sim);
-	enum diag_id why;
 
-	if (twin && *text && value_find(&twin->resource.image, text, strlen(text), &why).type !=
-	    IEC_NONE)
+	if (*text && live_value_find(live_image(view->sim, false), text).type != IEC_NONE)
 		ladder_timing_view_add(view, text);
 	else if (g_list_model_get_n_items(G_LIST_MODEL(view->selection)))
 		add_row(NULL, gtk_single_selection_get_selected(view->selection), view);
@@ -302,8 +286,7 @@ static GtkWidget *new_popover(LadderTimingView *view)
 static gboolean dropped(GtkDropTarget *target, const GValue *value, double x, double y,
 			LadderTimingView *view)
 {
-	const struct twin *twin = ladder_sim_twin(view->sim);
-	GPtrArray *names = watch_names_expand(twin ? &twin->resource.image : NULL,
+	GPtrArray *names = watch_names_expand(live_image(view->sim, false),
 					      g_value_get_string(value));
 	bool any = false;
 

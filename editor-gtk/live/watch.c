@@ -4,14 +4,12 @@
  */
 #include "editor-gtk/live/watch.h"
 
-#include "editor-gtk/kit/i18n.h"
-
 #include <string.h>
 
 #define HEAD "status-chart"
 #define LINE "watch"
 
-struct watch_line *watch_line_new(enum watch_format format, const char *name,
+struct watch_line *watch_line_new(enum live_format format, const char *name,
 				  const char *comment)
 {
 	struct watch_line *line = g_new0(struct watch_line, 1);
@@ -49,29 +47,17 @@ static void chart_free(gpointer data)
 
 /* ---- reading ---- */
 
-/* What stands behind the first word of a line, if it is @word; NULL: it is not. */
-static const char *behind(const char *line, const char *word)
-{
-	const gsize len = strlen(word);
-
-	line += strspn(line, " \t");
-	if (strncmp(line, word, len) != 0 || !strchr(" \t", line[len]))
-		return NULL;
-	line += len;
-	return line + strspn(line, " \t");
-}
-
-/* "hex %QW0 lamps": NULL if it is none. */
+/* Of the text "hex %QW0 lamps"; NULL: no format and name. */
 static struct watch_line *line_of(const char *rest)
 {
 	const gsize word = strcspn(rest, " \t"), gap = strspn(rest + word, " \t");
-	const enum watch_format format = watch_format_find(rest, word);
+	const enum live_format format = live_format_find(rest, word);
 	const char *name = rest + word + gap;
 	const gsize len = strcspn(name, " \t");
 	char *text, *comment;
 	struct watch_line *line;
 
-	if (format == WATCH_FORMATS || len == 0)
+	if (format == FORMAT_COUNT || len == 0)
 		return NULL;
 	text = g_strndup(name, len);
 	comment = g_strstrip(g_strdup(name + len));
@@ -81,10 +67,11 @@ static struct watch_line *line_of(const char *rest)
 	return line;
 }
 
-/* Is the line one of ours? It is put into @charts. */
-static bool take(GPtrArray *charts, const char *text)
+/* Adds the chart or line that @text is to @charts. False: it is neither. */
+static bool take(void *context, const char *text)
 {
-	const char *rest = behind(text, HEAD);
+	GPtrArray *charts = context;
+	const char *rest = live_line_after(text, HEAD);
 	struct watch *chart;
 	struct watch_line *line;
 
@@ -94,7 +81,7 @@ static bool take(GPtrArray *charts, const char *text)
 		g_ptr_array_add(charts, chart);
 		return true;
 	}
-	rest = behind(text, LINE);
+	rest = live_line_after(text, LINE);
 	line = rest ? line_of(rest) : NULL;
 	if (!line)
 		return false;
@@ -118,7 +105,7 @@ GPtrArray *watch_list_read(const char *view)
 
 /* ---- writing ---- */
 
-/* What a line can hold. */
+/* @text without control characters, so that it fits on a line. Caller frees. */
 static char *one_line(const char *text)
 {
 	char *plain = g_strdup(text);
@@ -129,24 +116,13 @@ static char *one_line(const char *text)
 	return g_strstrip(plain);
 }
 
-/* A name with blanks in it would end at the first. */
-static char *one_word(const char *text)
-{
-	GString *word = g_string_new(NULL);
-
-	for (; *text; text++)
-		if ((guchar)*text > ' ' && *text != 127)
-			g_string_append_c(word, *text);
-	return g_string_free(word, FALSE);
-}
-
 static void write_line(GString *out, const struct watch_line *line)
 {
-	char *name = one_word(line->name), *comment = one_line(line->comment);
+	char *name = live_name(line->name), *comment = one_line(line->comment);
 
 	if (*name)
 		g_string_append_printf(out, "    " LINE " %s %s%s%s\n",
-				       watch_format_word(line->format), name,
+				       live_format_word(line->format), name,
 				       *comment ? " " : "", comment);
 	g_free(name);
 	g_free(comment);
@@ -165,33 +141,17 @@ static void write_charts(GString *out, GPtrArray *charts)
 	}
 }
 
-static bool is_end(const char *line)
-{
-	line += strspn(line, " \t");
-	return g_ascii_strncasecmp(line, "END_VIEW", 8) == 0;
-}
-
 char *watch_list_write(const char *view, GPtrArray *charts)
 {
-	char **lines = g_strsplit(*view ? view : "VIEW\nEND_VIEW", "\n", -1);
 	GPtrArray *old = g_ptr_array_new_with_free_func(chart_free);
-	GString *out = g_string_new(NULL);
-	bool written = false;
+	GString *own = g_string_new(NULL);
+	char *text;
 
-	for (char **line = lines; *line; line++) {
-		const bool ours = take(old, *line);
-
-		if (!written && (ours || is_end(*line))) {
-			write_charts(out, charts);
-			written = true;
-		}
-		if (!ours)
-			g_string_append_printf(out, "%s\n", *line);
-	}
-	g_string_truncate(out, out->len - 1);
+	write_charts(own, charts);
+	text = live_lines_replace(view, take, old, own->str);
+	g_string_free(own, TRUE);
 	g_ptr_array_unref(old);
-	g_strfreev(lines);
-	return g_string_free(out, FALSE);
+	return text;
 }
 
 /* ---- of a document ---- */
@@ -203,14 +163,9 @@ GPtrArray *watch_list_of(LadderDocument *document)
 
 bool watch_list_keep(LadderDocument *document, GPtrArray *charts, const char *name)
 {
-	char *view;
-
 	if (!ladder_document_project(document))
 		return false;
-	view = watch_list_write(ladder_document_view(document), charts);
-	ladder_document_begin(document, name, NULL);
-	ladder_document_set_view(document, view);
-	ladder_document_end(document);
-	g_free(view);
+	live_lines_keep(document, watch_list_write(ladder_document_view(document), charts),
+			name);
 	return true;
 }

@@ -15,11 +15,10 @@
 #ifndef EDITOR_WATCH_H
 #define EDITOR_WATCH_H
 
-#include "editor-gtk/document/document.h"
-#include "editor-gtk/live/watch_format.h"
+#include "editor-gtk/sim/live_value.h"
 
 struct watch_line {
-	enum watch_format format;
+	enum live_format format;
 	char *name, *comment;
 };
 struct watch {
@@ -28,7 +27,7 @@ struct watch {
 };
 
 /** watch_line_new - Owns: the caller, or the chart it is added to. */
-struct watch_line *watch_line_new(enum watch_format format, const char *name,
+struct watch_line *watch_line_new(enum live_format format, const char *name,
 				  const char *comment);
 void watch_line_free(struct watch_line *line);
 struct watch *watch_new(const char *name);

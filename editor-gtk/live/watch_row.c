@@ -36,12 +36,10 @@ LadderWatchRow *ladder_watch_row_new(const struct watch_line *line,
 				     const struct image *image)
 {
 	LadderWatchRow *row = g_object_new(LADDER_TYPE_WATCH_ROW, NULL);
-	enum diag_id why;
 
 	row->line = watch_line_new(line->format, line->name, line->comment);
 	row->asked = image != NULL;
-	if (image)
-		row->at = value_find(image, line->name, strlen(line->name), &why);
+	row->at = live_value_find(image, line->name);
 	return row;
 }
 
@@ -66,53 +64,14 @@ bool watch_row_is_unknown(const LadderWatchRow *row)
 
 /* ---- values ---- */
 
-static bool is_new_text(LadderWatchRow *row, const struct iec_string *now)
-{
-	const struct iec_string *last = row->last.s;
-	struct iec_string *copy;
-
-	if (row->live && last->length == now->length &&
-	    memcmp(last->text, now->text, now->length) == 0)
-		return false;
-	copy = iec_text_init(&row->text, now->length);
-	memcpy(copy->text, now->text, now->length);
-	row->last.s = copy;
-	return true;
-}
-
-static bool is_new(LadderWatchRow *row, union iec_value now)
-{
-	if (row->at.type == IEC_STRING)
-		return is_new_text(row, now.s);
-	if (row->live && memcmp(&row->last, &now, sizeof(now)) == 0)
-		return false;
-	row->last = now;
-	return true;
-}
-
-bool watch_row_look(LadderWatchRow *row, LadderSim *sim)
-{
-	const struct twin *twin = sim ? ladder_sim_twin(sim) : NULL;
-	const bool was = row->live, held = row->forced;
-	bool changed;
-
-	if (!twin || row->at.type == IEC_NONE) {
-		row->live = row->forced = false;
-		return was || held;
-	}
-	changed = is_new(row, image_get(&twin->resource.image, row->at));
-	row->live = true;
-	row->forced = ladder_sim_is_forced(sim, row->at);
-	return changed || held != row->forced;
-}
-
 char *watch_row_value(const LadderWatchRow *row)
 {
 	char text[IEC_VALUE_TEXT];
 
-	if (!row->live)
+	if (!row->seen.known)
 		return g_strdup("");
-	watch_print(row->line->format, row->at.type, row->last, text, sizeof(text));
+	live_value_format(row->line->format, row->at.type, row->seen.value, text,
+			  sizeof(text));
 	return g_strdup(text);
 }
 
@@ -125,7 +84,7 @@ bool watch_row_take(const LadderWatchRow *row, const struct image *image,
 		diag.id = DIAG_UNKNOWN_NAME;
 	else if (row->at.constant)
 		diag.id = DIAG_WRITE_CONSTANT;
-	else if (watch_parse(row->line->format, row->at.type, row->typed, room, out,
+	else if (live_value_parse(row->line->format, row->at.type, row->typed, room, out,
 			     &diag.id))
 		diag.id = value_has_room(image, row->at, *out) ? DIAG_COUNT :
 			  DIAG_LITERAL_RANGE;
@@ -142,11 +101,11 @@ bool watch_row_take(const LadderWatchRow *row, const struct image *image,
 const struct image *watch_image(LadderDocument *document, LadderSim *sim,
 				struct image *room)
 {
-	const struct twin *twin = sim ? ladder_sim_twin(sim) : NULL;
+	const struct image *image = live_image(sim, false);
 	struct ladder *checked = ladder_document_checked(document);
 
-	if (twin)
-		return &twin->resource.image;
+	if (image)
+		return image;
 	memset(room, 0, sizeof(*room));
 	room->program = checked ? ladder_program(checked) : NULL;
 	return room->program ? room : NULL;

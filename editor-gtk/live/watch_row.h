@@ -6,7 +6,6 @@
 #ifndef EDITOR_WATCH_ROW_H
 #define EDITOR_WATCH_ROW_H
 
-#include "editor-gtk/sim/sim.h"
 #include "editor-gtk/live/watch.h"
 
 #include <gtk/gtk.h>
@@ -19,10 +18,7 @@ struct _LadderWatchRow {
 	struct watch_line *line;
 	bool asked;             /* there was a program to find it in           */
 	struct location at;     /* type IEC_NONE: not found                    */
-	/* As shown: */
-	bool live, forced;      /* a value is seen; it is held                 */
-	union iec_value last;
-	struct iec_text text;   /* of a STRING: what `last` was                */
+	struct live_seen seen;  /* as it is shown                             */
 	char *typed;            /* the new value; "": none                     */
 	/* Its cells while they are on the screen; borrowed. */
 	GtkWidget *value, *fresh, *force;
@@ -35,12 +31,9 @@ LadderWatchRow *ladder_watch_row_new(const struct watch_line *line,
 bool watch_row_equal(const LadderWatchRow *a, const LadderWatchRow *b);
 /** watch_row_is_unknown - the program has no such name. */
 bool watch_row_is_unknown(const LadderWatchRow *row);
-/** watch_row_look - at the value and the force of it; false: nothing changed.
- * @sim: the program that it was found in. */
-bool watch_row_look(LadderWatchRow *row, LadderSim *sim);
 /** watch_row_value - what is to be shown; "": no value is seen. Caller frees. */
 char *watch_row_value(const LadderWatchRow *row);
-/** watch_row_take - what is typed, as a value. @room: as watch_parse(). Fails: false, and
+/** watch_row_take - what is typed, as a value. @room: as live_value_parse(). Fails: false, and
  * @why says why; caller frees that. */
 bool watch_row_take(const LadderWatchRow *row, const struct image *image,
 		    struct iec_text *room, union iec_value *out, char **why);

@@ -5,37 +5,60 @@
  * A scan that was shown costs a comparison for each row of the chart; only cells whose
  * value is another are touched. Unseen it does nothing.
  */
-#include "editor-gtk/live/watch_inside.h"
+#include "editor-gtk/live/watch_view.h"
 
+#include "editor-gtk/document/panel.h"
+#include "editor-gtk/kit/cells.h"
 #include "editor-gtk/kit/drop.h"
+#include "editor-gtk/kit/entry_popup.h"
 #include "editor-gtk/kit/gtk48/list.h"
+#include "editor-gtk/kit/gtk48/popover.h"
+#include "editor-gtk/kit/gtk48/tip.h"
+#include "editor-gtk/kit/i18n.h"
+#include "editor-gtk/live/watch_names.h"
+#include "editor-gtk/live/watch_row.h"
 
 #include <string.h>
+
+struct _LadderWatchView {
+	GtkWidget parent_instance;
+	/* Of the template: */
+	GtkWidget *box, *charts, *add_button, *stack, *empty, *bar, *message, *list;
+	LadderDocument *document;
+	LadderSim *sim;
+	GListStore *store;          /* of LadderWatchRow                       */
+	GtkSingleSelection *selection;
+	GtkWidget *popup;           /* a line that is typed; NULL: none        */
+	guint chart;                /* that is shown, 0-based                  */
+	char *chart_name;           /* its name, to find it again              */
+	bool dirty;                 /* the rows are older than the charts      */
+	bool busy;                  /* the drop-down is being filled           */
+};
 
 G_DEFINE_FINAL_TYPE(LadderWatchView, ladder_watch_view, GTK_TYPE_WIDGET)
 
 /* ---- rows ---- */
 
-LadderWatchRow *watch_row_at(LadderWatchView *view, guint at)
+static LadderWatchRow *row_at(LadderWatchView *view, guint at)
 {
 	return g_list_model_get_item(G_LIST_MODEL(view->store), at);
 }
 
-int watch_place(LadderWatchView *view, LadderWatchRow *row)
+static int place_of(LadderWatchView *view, LadderWatchRow *row)
 {
 	guint at;
 
 	return g_list_store_find(view->store, row, &at) ? (int)at : -1;
 }
 
-int watch_selected(LadderWatchView *view)
+static int selected_index(LadderWatchView *view)
 {
 	const guint at = gtk_single_selection_get_selected(view->selection);
 
 	return at == GTK_INVALID_LIST_POSITION ? -1 : (int)at;
 }
 
-void watch_select(LadderWatchView *view, int at)
+static void select_row(LadderWatchView *view, int at)
 {
 	const int count = (int)g_list_model_get_n_items(G_LIST_MODEL(view->store));
 
@@ -53,7 +76,7 @@ GListModel *ladder_watch_view_list(LadderWatchView *view)
 
 /* ---- messages ---- */
 
-void watch_tell(LadderWatchView *view, char *text)
+static void tell(LadderWatchView *view, char *text)
 {
 	gtk_label_set_text(GTK_LABEL(view->message), text ? text : "");
 	gtk_revealer_set_reveal_child(GTK_REVEALER(view->bar), text != NULL);
@@ -112,7 +135,7 @@ static void show_actions(LadderWatchView *view)
 	GtkWidget *widget = GTK_WIDGET(view);
 	const bool project = ladder_document_project(view->document) != NULL;
 	const bool on = view->sim && ladder_sim_is_on(view->sim);
-	const bool row = watch_selected(view) >= 0;
+	const bool row = selected_index(view) >= 0;
 
 	gtk_widget_action_set_enabled(widget, "watch.add", project);
 	gtk_widget_action_set_enabled(widget, "watch.new-chart", project);
@@ -133,7 +156,7 @@ static void keep_typed(LadderWatchView *view, GPtrArray *rows)
 	GHashTable *typed = g_hash_table_new(g_str_hash, g_str_equal);
 
 	for (guint i = 0; i < old; i++) {
-		LadderWatchRow *row = watch_row_at(view, i);
+		LadderWatchRow *row = row_at(view, i);
 
 		if (*row->typed)
 			g_hash_table_insert(typed, row->line->name, row->typed);
@@ -153,7 +176,7 @@ static void keep_typed(LadderWatchView *view, GPtrArray *rows)
 
 static bool stays(LadderWatchView *view, guint at, LadderWatchRow *row)
 {
-	LadderWatchRow *old = watch_row_at(view, at);
+	LadderWatchRow *old = row_at(view, at);
 	const bool same = watch_row_equal(old, row);
 
 	g_object_unref(old);
@@ -178,20 +201,82 @@ static void exchange(LadderWatchView *view, GPtrArray *rows)
 	list_mend_focus(view->list);
 }
 
+/* ---- cells ---- */
+
+#define HEADING_ROOM 14 /* padding of a heading                                */
+
+enum column { NAME, TYPE, FORMAT, VALUE, FRESH, FORCE, COMMENT, COLUMNS };
+
+static const struct { const char *title; int width; } columns[COLUMNS] = {
+	[NAME] = { N_("Name"), 170 }, [TYPE] = { N_("Type"), 84 },
+	[FORMAT] = { N_("Shown as"), 125 }, [VALUE] = { N_("Value"), 120 },
+	[FRESH] = { N_("New value"), 110 }, [FORCE] = { N_("Force"), 0 },
+	[COMMENT] = { N_("Comment"), 0 },
+};
+
+static LadderWatchView *view_of(GtkWidget *cell)
+{
+	return LADDER_WATCH_VIEW(gtk_widget_get_ancestor(cell, LADDER_TYPE_WATCH_VIEW));
+}
+
+static void name_cell(GtkWidget *cell, const LadderWatchRow *row, enum column column)
+{
+	char *name = g_strdup_printf("%s, %s", row->line->name, _(columns[column].title));
+
+	gtk_accessible_update_property(GTK_ACCESSIBLE(cell), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       name, -1);
+	g_free(name);
+}
+
+static void set_class(GtkWidget *widget, const char *class, bool is)
+{
+	if (is)
+		gtk_widget_add_css_class(widget, class);
+	else
+		gtk_widget_remove_css_class(widget, class);
+}
+
+static void show_value(LadderWatchRow *row)
+{
+	char *text = watch_row_value(row);
+
+	gtk_label_set_text(GTK_LABEL(row->value), text);
+	tip_set(row->value, text);
+	g_free(text);
+}
+
+static void show_force(LadderWatchRow *row)
+{
+	const bool can = row->seen.known && row->at.type != IEC_STRING && !row->at.constant;
+
+	gtk_widget_set_sensitive(row->force, can);
+	set_class(row->force, "forced", row->seen.forced);
+	if (gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(row->force)) != row->seen.forced)
+		gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(row->force), row->seen.forced);
+}
+
+static void show_cells(LadderWatchRow *row)
+{
+	if (row->value)
+		show_value(row);
+	if (row->force)
+		show_force(row);
+}
+
 static void look(LadderWatchView *view)
 {
 	const guint count = g_list_model_get_n_items(G_LIST_MODEL(view->store));
 
 	for (guint i = 0; i < count; i++) {
-		LadderWatchRow *row = watch_row_at(view, i);
+		LadderWatchRow *row = row_at(view, i);
 
-		if (watch_row_look(row, view->sim))
-			watch_cells_show(row);
+		if (live_value_look(&row->seen, view->sim, false, row->at))
+			show_cells(row);
 		g_object_unref(row);
 	}
 }
 
-void watch_refresh(LadderWatchView *view)
+static void refresh(LadderWatchView *view)
 {
 	GPtrArray *charts = watch_list_of(view->document);
 	GPtrArray *rows = g_ptr_array_new_with_free_func(g_object_unref);
@@ -218,7 +303,7 @@ static void changed(LadderWatchView *view)
 {
 	view->dirty = true;
 	if (gtk_widget_get_mapped(GTK_WIDGET(view)))
-		watch_refresh(view);
+		refresh(view);
 }
 
 /* Of a program that is gone nothing may be looked at, seen or not. */
@@ -233,7 +318,7 @@ static void shown(LadderWatchView *view)
 	if (!gtk_widget_get_mapped(GTK_WIDGET(view)))
 		return;
 	if (view->dirty)
-		watch_refresh(view);
+		refresh(view);
 	else
 		look(view);
 }
@@ -244,6 +329,683 @@ static void mapped(GtkWidget *widget)
 
 	GTK_WIDGET_CLASS(ladder_watch_view_parent_class)->map(widget);
 	shown(view);
+}
+
+/* ---- new values and forces ---- */
+
+static void refuse(LadderWatchView *view, LadderWatchRow *row, char *why)
+{
+	if (row->fresh) {
+		gtk_widget_add_css_class(row->fresh, "error");
+		gtk_accessible_update_state(GTK_ACCESSIBLE(row->fresh),
+			GTK_ACCESSIBLE_STATE_INVALID, GTK_ACCESSIBLE_INVALID_TRUE, -1);
+	}
+	tell(view, why);
+}
+
+/* The value that is typed; false: there is none, or it is refused and that is told. */
+static bool take_typed(LadderWatchView *view, LadderWatchRow *row, struct iec_text *room,
+		 union iec_value *value)
+{
+	const struct image *image = live_image(view->sim, false);
+	char *why = NULL;
+
+	if (!image) {
+		tell(view, g_strdup(_("The simulation is off.")));
+		return false;
+	}
+	if (view->dirty)
+		refresh(view);
+	if (watch_row_take(row, image, room, value, &why))
+		return true;
+	refuse(view, row, why);
+	return false;
+}
+
+static void forget_typed(LadderWatchRow *row)
+{
+	g_free(row->typed);
+	row->typed = g_strdup("");
+	if (row->fresh)
+		gtk_editable_set_text(GTK_EDITABLE(row->fresh), "");
+}
+
+/* The new value of a row becomes its value. False: there is none, or it was refused. */
+static bool write_row(LadderWatchView *view, LadderWatchRow *row)
+{
+	union iec_value value;
+	struct iec_text room;
+
+	if (!*row->typed || !take_typed(view, row, &room, &value))
+		return false;
+	live_value_set(view->sim, false, row->at, value);
+	forget_typed(row);
+	tell(view, NULL);
+	return true;
+}
+
+/* All or, if one is refused, those before it: what is still typed was not written. */
+static void write_all(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
+	const guint count = g_list_model_get_n_items(G_LIST_MODEL(view->store));
+	bool good = true;
+
+	(void)action;
+	(void)unused;
+	for (guint i = 0; i < count && good; i++) {
+		LadderWatchRow *row = row_at(view, i);
+
+		good = !*row->typed || write_row(view, row);
+		g_object_unref(row);
+	}
+}
+
+static void toggle_force(LadderWatchView *view, LadderWatchRow *row)
+{
+	union iec_value value = row->seen.value;
+	struct iec_text room;
+
+	if (!row->seen.known)
+		return;
+	if (row->seen.forced) {
+		live_value_release(view->sim, false, row->at);
+	} else {
+		if (*row->typed && !take_typed(view, row, &room, &value))
+			return;
+		forget_typed(row);
+		live_value_force(view->sim, false, row->at, value);
+	}
+	tell(view, NULL);
+}
+
+/* ---- charts ---- */
+
+static struct watch *edit_chart(LadderWatchView *view, GPtrArray **charts)
+{
+	*charts = watch_list_of(view->document);
+	return view->chart < (*charts)->len ? (*charts)->pdata[view->chart] : NULL;
+}
+
+/* @charts: taken over. */
+static void keep_charts(LadderWatchView *view, GPtrArray *charts, const char *step)
+{
+	watch_list_keep(view->document, charts, step);
+	g_ptr_array_unref(charts);
+	refresh(view);
+}
+
+static bool is_taken(GPtrArray *charts, const char *name)
+{
+	for (guint i = 0; i < charts->len; i++)
+		if (strcmp(((struct watch *)charts->pdata[i])->name, name) == 0)
+			return true;
+	return false;
+}
+
+static struct watch *add_chart(LadderWatchView *view, GPtrArray *charts)
+{
+	struct watch *chart;
+	char *name = NULL;
+
+	for (int number = 1; !name || is_taken(charts, name); number++) {
+		g_free(name);
+		name = g_strdup_printf(_("Chart %d"), number);
+	}
+	chart = watch_new(name);
+	g_ptr_array_add(charts, chart);
+	view->chart = charts->len - 1;
+	g_free(view->chart_name);
+	view->chart_name = name;
+	return chart;
+}
+
+static void new_chart(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
+	GPtrArray *charts = watch_list_of(view->document);
+
+	(void)action;
+	(void)unused;
+	add_chart(view, charts);
+	keep_charts(view, charts, _("New status chart"));
+}
+
+static void delete_chart(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
+	GPtrArray *charts;
+
+	(void)action;
+	(void)unused;
+	if (edit_chart(view, &charts))
+		g_ptr_array_remove_index(charts, view->chart);
+	keep_charts(view, charts, _("Delete status chart"));
+}
+
+/* ---- a line that is typed ---- */
+
+enum asked { ASK_ADD, ASK_NAME, ASK_CHART };
+struct ask {
+	LadderWatchView *view;
+	enum asked what;
+	int row;             /* of ASK_NAME                                    */
+};
+
+static char *line_changed(void *context, const char *line, int cursor, bool *good)
+{
+	struct ask *ask = context;
+	LadderWatchView *view = ask->view;
+	struct image *room;
+
+	(void)good;
+	if (!view->popup || ask->what == ASK_CHART)
+		return NULL; /* while it is made, it cannot be filled */
+	room = g_new0(struct image, 1);
+	watch_names_offer(view->document, watch_image(view->document, view->sim, room),
+			  line, (gsize)(g_utf8_offset_to_pointer(line, cursor) - line),
+			  LADDER_ENTRY_POPUP(view->popup));
+	g_free(room);
+	return NULL;
+}
+
+static void rename_row(LadderWatchView *view, int row, const char *name)
+{
+	GPtrArray *charts;
+	struct watch *chart = edit_chart(view, &charts);
+	struct watch_line *line = chart && row < (int)chart->lines->len ?
+		chart->lines->pdata[row] : NULL;
+
+	if (line) {
+		g_free(line->name);
+		line->name = g_strdup(name);
+		line->format = FORMAT_AUTO;
+	}
+	keep_charts(view, charts, _("Another variable in the status chart"));
+}
+
+static void rename_chart(LadderWatchView *view, const char *name)
+{
+	GPtrArray *charts;
+	struct watch *chart = edit_chart(view, &charts);
+	char *plain = g_strstrip(g_strdup(name));
+
+	if (chart && *plain && !is_taken(charts, plain)) {
+		g_free(chart->name);
+		chart->name = g_strdup(plain);
+		g_free(view->chart_name);
+		view->chart_name = g_strdup(plain);
+	}
+	keep_charts(view, charts, _("Rename status chart"));
+	g_free(plain);
+}
+
+static bool line_taken(void *context, const char *line)
+{
+	struct ask *ask = context;
+
+	switch (ask->what) {
+	case ASK_ADD: ladder_watch_view_add(ask->view, line); break;
+	case ASK_NAME:
+		if (*line)
+			rename_row(ask->view, ask->row, line);
+		break;
+	case ASK_CHART: rename_chart(ask->view, line); break;
+	}
+	return true;
+}
+
+/* Its own signal is still under way. */
+static void line_gone(void *context)
+{
+	struct ask *ask = context;
+
+	if (ask->view->popup)
+		popover_drop_later(ask->view->popup);
+	ask->view->popup = NULL;
+	gtk_widget_grab_focus(ask->view->list);
+	g_free(ask);
+}
+
+static void ask_line(LadderWatchView *view, enum asked what, int row, const char *prompt,
+		     const char *text, GtkWidget *at)
+{
+	struct ask *ask = g_new0(struct ask, 1);
+	const struct entry_popup_calls calls = {
+		.changed = line_changed, .taken = line_taken, .gone = line_gone,
+		.context = ask,
+	};
+	GdkRectangle place = { 0, 0, 1, 1 };
+	double x = 0, y = 0;
+
+	*ask = (struct ask){ .view = view, .what = what, .row = row };
+	if (view->popup) {
+		g_free(ask);
+		return;
+	}
+	if (at && gtk_widget_translate_coordinates(at, GTK_WIDGET(view), 0, 0, &x, &y))
+		place = (GdkRectangle){ (int)x, (int)y, gtk_widget_get_width(at),
+					gtk_widget_get_height(at) };
+	view->popup = ladder_entry_popup_new(GTK_WIDGET(view), prompt, text, false, &calls);
+	ladder_entry_popup_ask(LADDER_ENTRY_POPUP(view->popup));
+	ladder_entry_popup_show(LADDER_ENTRY_POPUP(view->popup), &place);
+}
+
+static void ask_add(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
+
+	(void)action;
+	(void)unused;
+	ask_line(view, ASK_ADD, 0, _("Names and addresses, such as Motor %IW0 %Q0..7"), "",
+		 view->add_button);
+}
+
+static void ask_name(LadderWatchView *view, LadderWatchRow *row)
+{
+	ask_line(view, ASK_NAME, place_of(view, row), _("Name or address"),
+		 row->line->name, row->value ? row->value : view->list);
+}
+
+static void ask_chart(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
+
+	(void)action;
+	(void)unused;
+	ask_line(view, ASK_CHART, 0, _("Name of the chart"),
+		 view->chart_name ? view->chart_name : "", view->charts);
+}
+
+/* ---- rows ---- */
+
+bool ladder_watch_view_add(LadderWatchView *view, const char *line)
+{
+	struct image *room = g_new0(struct image, 1);
+	GPtrArray *names = watch_names_expand(watch_image(view->document, view->sim, room),
+					      line);
+	const int selected = selected_index(view);
+	GPtrArray *charts;
+	struct watch *chart = edit_chart(view, &charts);
+	const bool good = names->len > 0 && ladder_document_project(view->document);
+	int at;
+
+	if (good) {
+		chart = chart ? chart : add_chart(view, charts);
+		at = selected < 0 ? (int)chart->lines->len : selected + 1;
+		for (guint i = 0; i < names->len; i++)
+			g_ptr_array_insert(chart->lines, at + (int)i,
+				watch_line_new(FORMAT_AUTO, names->pdata[i], NULL));
+		watch_list_keep(view->document, charts, _("Add to the status chart"));
+		refresh(view);
+		select_row(view, at + (int)names->len - 1);
+	}
+	g_ptr_array_unref(charts);
+	g_ptr_array_unref(names);
+	g_free(room);
+	return good;
+}
+
+static void remove_row(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
+	const int at = selected_index(view);
+	GPtrArray *charts;
+	struct watch *chart = edit_chart(view, &charts);
+
+	(void)action;
+	(void)unused;
+	if (chart && at >= 0 && at < (int)chart->lines->len)
+		g_ptr_array_remove_index(chart->lines, (guint)at);
+	keep_charts(view, charts, _("Remove from the status chart"));
+	select_row(view, at);
+}
+
+static void move_row(LadderWatchView *view, int by)
+{
+	const int at = selected_index(view), to = at + by;
+	GPtrArray *charts;
+	struct watch *chart = edit_chart(view, &charts);
+
+	if (!chart || at < 0 || to < 0 || to >= (int)chart->lines->len) {
+		g_ptr_array_unref(charts);
+		return;
+	}
+	g_ptr_array_insert(chart->lines, to, g_ptr_array_steal_index(chart->lines,
+								     (guint)at));
+	keep_charts(view, charts, _("Move in the status chart"));
+	select_row(view, to);
+}
+
+static void row_up(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	move_row(LADDER_WATCH_VIEW(widget), -1);
+}
+
+static void row_down(GtkWidget *widget, const char *action, GVariant *unused)
+{
+	(void)action;
+	(void)unused;
+	move_row(LADDER_WATCH_VIEW(widget), 1);
+}
+
+static void set_format(GtkWidget *widget, const char *action, GVariant *to)
+{
+	LadderWatchView *view = LADDER_WATCH_VIEW(widget);
+	GPtrArray *charts;
+	struct watch *chart = edit_chart(view, &charts);
+	int row, format;
+
+	(void)action;
+	g_variant_get(to, "(ii)", &row, &format);
+	if (chart && row >= 0 && row < (int)chart->lines->len && format >= 0 &&
+	    format < FORMAT_COUNT)
+		((struct watch_line *)chart->lines->pdata[row])->format =
+			(enum live_format)format;
+	keep_charts(view, charts, _("Shown in another way"));
+}
+
+static void set_comment(LadderWatchView *view, LadderWatchRow *row, const char *text)
+{
+	const int at = place_of(view, row);
+	GPtrArray *charts;
+	struct watch *chart;
+
+	if (at < 0 || strcmp(text, row->line->comment) == 0)
+		return;
+	chart = edit_chart(view, &charts);
+	if (chart && at < (int)chart->lines->len) {
+		struct watch_line *line = chart->lines->pdata[at];
+
+		g_free(line->comment);
+		line->comment = g_strdup(text);
+	}
+	keep_charts(view, charts, _("Comment in the status chart"));
+}
+
+static void install_actions(GtkWidgetClass *class)
+{
+	gtk_widget_class_install_action(class, "watch.add", NULL, ask_add);
+	gtk_widget_class_install_action(class, "watch.remove", NULL, remove_row);
+	gtk_widget_class_install_action(class, "watch.up", NULL, row_up);
+	gtk_widget_class_install_action(class, "watch.down", NULL, row_down);
+	gtk_widget_class_install_action(class, "watch.format", "(ii)", set_format);
+	gtk_widget_class_install_action(class, "watch.new-chart", NULL, new_chart);
+	gtk_widget_class_install_action(class, "watch.rename-chart", NULL, ask_chart);
+	gtk_widget_class_install_action(class, "watch.delete-chart", NULL, delete_chart);
+	gtk_widget_class_install_action(class, "watch.write-all", NULL, write_all);
+	gtk_widget_class_add_binding_action(class, GDK_KEY_Insert, 0, "watch.add", NULL);
+	gtk_widget_class_add_binding_action(class, GDK_KEY_Delete, 0, "watch.remove", NULL);
+	gtk_widget_class_add_binding_action(class, GDK_KEY_Up, GDK_ALT_MASK, "watch.up",
+					    NULL);
+	gtk_widget_class_add_binding_action(class, GDK_KEY_Down, GDK_ALT_MASK, "watch.down",
+					    NULL);
+}
+
+/* ---- what a person did in a cell ---- */
+
+static void typed(GtkEditable *entry, GtkListItem *item)
+{
+	LadderWatchRow *row = gtk_list_item_get_item(item);
+
+	if (!row)
+		return;
+	g_free(row->typed);
+	row->typed = g_strdup(gtk_editable_get_text(entry));
+	gtk_widget_remove_css_class(GTK_WIDGET(entry), "error");
+	gtk_accessible_reset_state(GTK_ACCESSIBLE(entry), GTK_ACCESSIBLE_STATE_INVALID);
+}
+
+static void typed_through(GtkEntry *entry, GtkListItem *item)
+{
+	LadderWatchRow *row = gtk_list_item_get_item(item);
+
+	if (row)
+		write_row(view_of(GTK_WIDGET(entry)), row);
+}
+
+static bool comment_left(GtkWidget *entry, GtkListItem *item)
+{
+	LadderWatchRow *row = gtk_list_item_get_item(item);
+	LadderWatchView *view = view_of(entry);
+
+	if (row && view)
+		set_comment(view, row, gtk_editable_get_text(GTK_EDITABLE(entry)));
+	return true;
+}
+
+static void comment_activated(GtkEntry *entry, GtkListItem *item)
+{
+	comment_left(GTK_WIDGET(entry), item);
+}
+
+static void comment_unfocused(GtkEventControllerFocus *focus, GtkListItem *item)
+{
+	comment_left(gtk_event_controller_get_widget(GTK_EVENT_CONTROLLER(focus)), item);
+}
+
+static void force_clicked(GtkButton *button, GtkListItem *item)
+{
+	LadderWatchRow *row = gtk_list_item_get_item(item);
+
+	if (!row)
+		return;
+	show_force(row); /* until the simulation says so, it is as it was */
+	toggle_force(view_of(GTK_WIDGET(button)), row);
+}
+
+/* Only formats that its type has. */
+static void make_formats(GtkMenuButton *button, gpointer data)
+{
+	LadderWatchRow *row = gtk_list_item_get_item(data);
+	GMenu *menu = g_menu_new();
+
+	for (int i = 0; row && i < FORMAT_COUNT; i++) {
+		GMenuItem *item;
+
+		if (!live_format_fits((enum live_format)i, row->at.type))
+			continue;
+		item = g_menu_item_new(_(live_format_label((enum live_format)i)), NULL);
+		g_menu_item_set_action_and_target(item, "watch.format", "(ii)",
+			place_of(view_of(GTK_WIDGET(button)), row), i);
+		g_menu_append_item(menu, item);
+		g_object_unref(item);
+	}
+	gtk_menu_button_set_menu_model(button, G_MENU_MODEL(menu));
+	g_object_unref(menu);
+}
+
+/* ---- widgets of cells ---- */
+
+static GtkWidget *label_cell(const char *class)
+{
+	GtkWidget *label = gtk_label_new(NULL);
+
+	gtk_label_set_xalign(GTK_LABEL(label), 0);
+	gtk_label_set_ellipsize(GTK_LABEL(label), PANGO_ELLIPSIZE_END);
+	if (class)
+		gtk_widget_add_css_class(label, class);
+	return label;
+}
+
+static GtkWidget *entry_cell(void)
+{
+	GtkWidget *entry = gtk_entry_new();
+
+	gtk_entry_set_has_frame(GTK_ENTRY(entry), FALSE);
+	gtk_editable_set_width_chars(GTK_EDITABLE(entry), 4);
+	gtk_widget_add_css_class(entry, "field");
+	return entry;
+}
+
+static GtkWidget *format_cell(GtkListItem *item)
+{
+	GtkWidget *button = gtk_menu_button_new();
+
+	gtk_widget_add_css_class(button, "flat");
+	gtk_widget_add_css_class(button, "watch-format");
+	gtk_menu_button_set_create_popup_func(GTK_MENU_BUTTON(button), make_formats, item,
+					      NULL);
+	return button;
+}
+
+static GtkWidget *force_cell(void)
+{
+	GtkWidget *button = gtk_toggle_button_new_with_label("F");
+
+	gtk_widget_add_css_class(button, "watch-force");
+	gtk_widget_set_halign(button, GTK_ALIGN_CENTER);
+	gtk_widget_set_valign(button, GTK_ALIGN_CENTER);
+	return button;
+}
+
+static void setup(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer column)
+{
+	GtkWidget *cell = NULL;
+
+	(void)factory;
+	switch ((enum column)GPOINTER_TO_INT(column)) {
+	case NAME: cell = label_cell(NULL); break;
+	case TYPE: cell = label_cell("dim-label"); break;
+	case FORMAT: cell = format_cell(item); break;
+	case VALUE: cell = label_cell("live-value"); break;
+	case FRESH:
+		cell = entry_cell();
+		gtk_widget_add_css_class(cell, "watch-fresh");
+		break;
+	case COMMENT: cell = entry_cell(); break;
+	case FORCE: cell = force_cell(); break;
+	case COLUMNS: return;
+	}
+	gtk_list_item_set_child(item, cell);
+}
+
+static void bind_name(GtkWidget *cell, LadderWatchRow *row)
+{
+	const bool unknown = watch_row_is_unknown(row);
+	char *tip = unknown ? g_strdup_printf(_("%s: the program has no such name"),
+					      row->line->name) : NULL;
+
+	gtk_label_set_text(GTK_LABEL(cell), row->line->name);
+	set_class(cell, "error", unknown);
+	set_class(cell, "watch-unknown", unknown);
+	tip_set(cell, tip ? tip : row->line->name);
+	gtk_accessible_update_property(GTK_ACCESSIBLE(cell), GTK_ACCESSIBLE_PROPERTY_LABEL,
+				       tip ? tip : row->line->name, -1);
+	g_free(tip);
+}
+
+static void bind_type(GtkWidget *cell, LadderWatchRow *row)
+{
+	gtk_label_set_text(GTK_LABEL(cell), row->at.type != IEC_NONE ?
+			   iec_type_row(row->at.type)->word :
+			   watch_row_is_unknown(row) ? _("unknown") : "");
+}
+
+static void bind_format(GtkWidget *cell, LadderWatchRow *row)
+{
+	gtk_menu_button_set_label(GTK_MENU_BUTTON(cell),
+				  _(live_format_label(row->line->format)));
+	gtk_widget_set_visible(cell, live_format_fits(FORMAT_HEX, row->at.type) ||
+			       row->line->format != FORMAT_AUTO);
+	name_cell(cell, row, FORMAT);
+}
+
+static void bind_fresh(GtkWidget *cell, LadderWatchRow *row, GtkListItem *item)
+{
+	row->fresh = cell;
+	gtk_editable_set_text(GTK_EDITABLE(cell), row->typed);
+	gtk_widget_set_sensitive(cell, !row->at.constant);
+	gtk_widget_remove_css_class(cell, "error");
+	name_cell(cell, row, FRESH);
+	g_signal_connect(cell, "changed", G_CALLBACK(typed), item);
+	g_signal_connect(cell, "activate", G_CALLBACK(typed_through), item);
+}
+
+static void bind_comment(GtkWidget *cell, LadderWatchRow *row, GtkListItem *item)
+{
+	GtkEventController *focus = gtk_event_controller_focus_new();
+
+	gtk_editable_set_text(GTK_EDITABLE(cell), row->line->comment);
+	tip_set(cell, row->line->comment);
+	name_cell(cell, row, COMMENT);
+	g_signal_connect(cell, "activate", G_CALLBACK(comment_activated), item);
+	g_signal_connect(focus, "leave", G_CALLBACK(comment_unfocused), item);
+	gtk_widget_add_controller(cell, focus);
+	g_object_set_data(G_OBJECT(cell), "focus", focus);
+	cells_on_take(cell, comment_left, item);
+}
+
+static void bind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer column)
+{
+	LadderWatchRow *row = gtk_list_item_get_item(item);
+	GtkWidget *cell = gtk_list_item_get_child(item);
+
+	(void)factory;
+	switch ((enum column)GPOINTER_TO_INT(column)) {
+	case NAME: bind_name(cell, row); break;
+	case TYPE: bind_type(cell, row); break;
+	case FORMAT: bind_format(cell, row); break;
+	case VALUE:
+		row->value = cell;
+		show_value(row);
+		break;
+	case FRESH: bind_fresh(cell, row, item); break;
+	case FORCE:
+		row->force = cell;
+		show_force(row);
+		name_cell(cell, row, FORCE);
+		g_signal_connect(cell, "clicked", G_CALLBACK(force_clicked), item);
+		break;
+	case COMMENT: bind_comment(cell, row, item); break;
+	case COLUMNS: break;
+	}
+}
+
+static void unbind(GtkSignalListItemFactory *factory, GtkListItem *item, gpointer column)
+{
+	LadderWatchRow *row = gtk_list_item_get_item(item);
+	GtkWidget *cell = gtk_list_item_get_child(item);
+
+	(void)factory;
+	g_signal_handlers_disconnect_by_data(cell, item);
+	switch ((enum column)GPOINTER_TO_INT(column)) {
+	case VALUE: row->value = NULL; break;
+	case FRESH: row->fresh = NULL; break;
+	case FORCE: row->force = NULL; break;
+	case COMMENT:
+		cells_on_take(cell, NULL, NULL);
+		gtk_widget_remove_controller(cell, g_object_get_data(G_OBJECT(cell),
+								     "focus"));
+		break;
+	case NAME:
+	case TYPE:
+	case FORMAT:
+	case COLUMNS: break;
+	}
+}
+
+static void add_columns(LadderWatchView *view)
+{
+	for (int i = 0; i < COLUMNS; i++) {
+		GtkListItemFactory *factory = gtk_signal_list_item_factory_new();
+		GtkColumnViewColumn *column;
+
+		g_signal_connect(factory, "setup", G_CALLBACK(setup), GINT_TO_POINTER(i));
+		g_signal_connect(factory, "bind", G_CALLBACK(bind), GINT_TO_POINTER(i));
+		g_signal_connect(factory, "unbind", G_CALLBACK(unbind), GINT_TO_POINTER(i));
+		column = gtk_column_view_column_new(_(columns[i].title), factory);
+		gtk_column_view_column_set_resizable(column, TRUE);
+		gtk_column_view_column_set_expand(column, i == COMMENT);
+		if (columns[i].width)
+			gtk_column_view_column_set_fixed_width(column, MAX(columns[i].width,
+				panel_heading_width(view->list, _(columns[i].title)) +
+				HEADING_ROOM));
+		gtk_column_view_append_column(GTK_COLUMN_VIEW(view->list), column);
+		g_object_unref(column);
+	}
 }
 
 /* ---- the widget ---- */
@@ -257,16 +1019,16 @@ static void chart_chosen(GtkDropDown *drop, GParamSpec *spec, LadderWatchView *v
 		return;
 	view->chart = at;
 	g_clear_pointer(&view->chart_name, g_free);
-	watch_refresh(view);
+	refresh(view);
 }
 
 static void activated(GtkColumnView *list, guint at, LadderWatchView *view)
 {
-	LadderWatchRow *row = watch_row_at(view, at);
+	LadderWatchRow *row = row_at(view, at);
 
 	(void)list;
 	if (row)
-		watch_ask_name(view, row);
+		ask_name(view, row);
 	g_clear_object(&row);
 }
 
@@ -312,7 +1074,7 @@ static void ladder_watch_view_class_init(LadderWatchViewClass *class)
 #undef CHILD
 	gtk_widget_class_bind_template_callback(widget, chart_chosen);
 	gtk_widget_class_bind_template_callback(widget, activated);
-	watch_install_actions(widget);
+	install_actions(widget);
 }
 
 static void ladder_watch_view_init(LadderWatchView *view)
@@ -326,7 +1088,7 @@ static void ladder_watch_view_init(LadderWatchView *view)
 	gtk_single_selection_set_can_unselect(view->selection, TRUE);
 	gtk_column_view_set_model(GTK_COLUMN_VIEW(view->list),
 				  GTK_SELECTION_MODEL(view->selection));
-	watch_columns(view);
+	add_columns(view);
 	g_signal_connect(drop, "drop", G_CALLBACK(dropped), view);
 	gtk_widget_add_controller(view->stack, GTK_EVENT_CONTROLLER(drop));
 }
@@ -354,6 +1116,6 @@ GtkWidget *ladder_watch_view_new(LadderDocument *document, LadderSim *sim)
 	g_signal_connect_swapped(sim, "program-changed", G_CALLBACK(program_changed), view);
 	g_signal_connect_swapped(sim, "state-changed", G_CALLBACK(show_actions), view);
 	g_signal_connect_swapped(sim, "shown", G_CALLBACK(shown), view);
-	watch_refresh(view);
+	refresh(view);
 	return GTK_WIDGET(view);
 }

@@ -12,14 +12,26 @@
 #ifndef EDITOR_BOARD_RUN_H
 #define EDITOR_BOARD_RUN_H
 
-#include "editor-gtk/sim/board_status.h"
-
 #include <gio/gio.h>
+#include <stdbool.h>
 
 #define LADDER_TYPE_BOARD_RUN (ladder_board_run_get_type())
 G_DECLARE_FINAL_TYPE(LadderBoardRun, ladder_board_run, LADDER, BOARD_RUN, GObject)
 
 enum board_state { BOARD_OFF, BOARD_STARTING, BOARD_RUNNING, BOARD_STOPPING };
+
+/* What it told of itself last, as texts of runtime/ladderd/control.c. */
+struct board_status {
+	char state[8];          /* "RUN", "STOP", "FAULT"; "": not told yet    */
+	char fault[200];        /* "none", or what and where                   */
+	char scans[24], period[24];
+	char mean[24], worst[24]; /* of scans                                  */
+	char late[24], errors[160], io[160], stop[160];
+};
+
+/** board_status_line - reads one line of its status, without newline; unknown words are
+ * skipped. True: it was the last line of a block. */
+bool board_status_line(struct board_status *status, const char *line);
 
 LadderBoardRun *ladder_board_run_new(void);
 /** ladder_board_run_start - @file with @map, both paths; the state must be BOARD_OFF.

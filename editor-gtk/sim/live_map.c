@@ -5,8 +5,6 @@
  */
 #include "editor-gtk/sim/live_map.h"
 
-#include "editor-gtk/sim/live_inside.h"
-
 #include "engine/base/ascii.h"
 
 #include <string.h>

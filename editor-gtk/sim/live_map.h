@@ -9,6 +9,7 @@
 #define EDITOR_LIVE_MAP_H
 
 #include "editor-gtk/draw/grid_draw.h"
+#include "editor-gtk/sim/live_value.h"
 
 #include "engine/scan/resource.h"
 
@@ -84,6 +85,9 @@ struct live_rung {
 	const struct rung *shown;
 };
 
+/** live_map_power - where the cells of rung->number have their power. */
+void live_map_power(const struct live_map *map, struct live_rung *rung);
+
 /**
  * live_rung_new - finds the places of a rung
  * @project, @shown: the document's; borrowed
@@ -109,7 +113,5 @@ unsigned int live_rung_look(struct live_rung *rung, const struct resource *resou
 			    gint64 now, bool flash);
 /** live_rung_value - for struct grid_live; @context: the rung. */
 bool live_rung_value(void *context, int row, int col, struct live_value *out);
-/** live_value_print - "3.2 s", "1250", "TRUE", 'text': as people read it. */
-void live_value_print(enum iec_type type, union iec_value value, char *out, size_t size);
 
 #endif

@@ -2,7 +2,7 @@
  *
  * live_rung - what of a rung is shown while it runs, and whether it is other than it was.
  */
-#include "editor-gtk/sim/live_inside.h"
+#include "editor-gtk/sim/live_map.h"
 
 #include <string.h>
 

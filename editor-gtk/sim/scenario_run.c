@@ -8,7 +8,7 @@
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/side_file.h"
 #include "editor-gtk/kit/i18n.h"
-#include "editor-gtk/sim/sim_inside.h"
+#include "editor-gtk/sim/sim_program.h"
 
 #include "engine/base/limits.h"
 #include "engine/trial/scenario.h"

@@ -5,17 +5,408 @@
  * What it shows is the newest copy, or, when a scan that was is asked for, a replay of the
  * record. The thread is there from begin to end.
  */
-#include "editor-gtk/sim/sim_object.h"
+#include "editor-gtk/sim/sim_thread.h"
 
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include "engine/base/limits.h"
 
+#include <string.h>
+
+/* ---- which rung of the document is which of the program that runs ---- */
+
+/* A rung that was edited is unknown until a program with it runs; those above and below it keep
+ * their numbers, and so their power. */
+struct sim_rungs {
+	LadderDocument *document;
+	GPtrArray *pou;   /* of GArray of int, in the order of the POUs        */
+	gulong rungs_handler, project_handler;
+};
+
+static GArray *numbers(int count)
+{
+	GArray *rungs = g_array_sized_new(FALSE, FALSE, sizeof(int), (guint)count);
+
+	for (int i = 0; i < count; i++)
+		g_array_append_val(rungs, i);
+	return rungs;
+}
+
+static void rungs_changed(LadderDocument *document, int pou, int at, int removed,
+			  int inserted, struct sim_rungs *rungs)
+{
+	const int unknown = -1;
+	GArray *of;
+
+	(void)document;
+	if (pou < 0 || (guint)pou >= rungs->pou->len)
+		return;
+	of = rungs->pou->pdata[pou];
+	if (at < 0 || (guint)(at + removed) > of->len)
+		return;
+	if (removed)
+		g_array_remove_range(of, (guint)at, (guint)removed);
+	for (int i = 0; i < inserted; i++)
+		g_array_insert_val(of, (guint)(at + i), unknown);
+}
+
+static void rungs_forget(struct sim_rungs *rungs)
+{
+	g_ptr_array_set_size(rungs->pou, 0);
+}
+
+static struct sim_rungs *rungs_new(LadderDocument *document)
+{
+	struct sim_rungs *rungs = g_new0(struct sim_rungs, 1);
+
+	rungs->document = g_object_ref(document);
+	rungs->pou = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
+	rungs->rungs_handler = g_signal_connect(document, "rungs-changed",
+						G_CALLBACK(rungs_changed), rungs);
+	rungs->project_handler = g_signal_connect_swapped(document, "project-changed",
+		G_CALLBACK(rungs_forget), rungs);
+	return rungs;
+}
+
+static void rungs_free(struct sim_rungs *rungs)
+{
+	if (!rungs)
+		return;
+	g_clear_signal_handler(&rungs->rungs_handler, rungs->document);
+	g_clear_signal_handler(&rungs->project_handler, rungs->document);
+	g_object_unref(rungs->document);
+	g_ptr_array_unref(rungs->pou);
+	g_free(rungs);
+}
+
+static void rungs_same(struct sim_rungs *rungs)
+{
+	const struct project *project = ladder_document_project(rungs->document);
+
+	g_ptr_array_set_size(rungs->pou, 0);
+	for (int i = 0; project && i < project->pou_count; i++)
+		g_ptr_array_add(rungs->pou, numbers(project->pou[i].rung_count));
+}
+
+static int rungs_find(const struct sim_rungs *rungs, int pou, int rung)
+{
+	const GArray *of;
+
+	if (pou < 0 || (guint)pou >= rungs->pou->len)
+		return -1;
+	of = rungs->pou->pdata[pou];
+	return rung >= 0 && (guint)rung < of->len ? g_array_index(of, int, rung) : -1;
+}
+/* ---- the object ---- */
+
+struct _LadderSim {
+	GObject parent;
+	LadderDocument *document;
+	struct sim_rungs *rungs;
+	struct sim_thread *thread;  /* NULL: off                               */
+	struct sim_view view;       /* the newest                              */
+	struct sim_replay *replay;  /* the past                                */
+	bool past;
+	LadderDocument *older;      /* of a program before an edit; NULL: none yet */
+	guint64 older_era;          /* whose it is                             */
+	guint64 life;               /* how often it began                      */
+	guint refused;              /* of the view's refusal, that were told of */
+	struct sim_events known;    /* of the view's, that were told of         */
+	enum sim_state told;        /* the last state that signals told of     */
+	gint64 told_period;         /* and period, ns                          */
+	gint64 period_ns;
+	double speed;
+	bool heeds;                 /* FAULT when an operation fails           */
+	char *plant_path;
+	struct sim_program *plant;
+	/* Another program is built: */
+	struct sim_program *newest; /* that the thread was given last          */
+	guint64 version;            /* of the document that the last one was of */
+	bool building;
+};
+
 enum { STATE_CHANGED, PROGRAM_CHANGED, SHOWN, TOLD, SIGNAL_COUNT };
 static guint signals[SIGNAL_COUNT];
 
 G_DEFINE_FINAL_TYPE(LadderSim, ladder_sim, G_TYPE_OBJECT)
+
+/* ---- what is shown ---- */
+
+const struct twin *ladder_sim_twin(LadderSim *sim)
+{
+	if (!sim->thread)
+		return NULL;
+	return sim->past ? sim_replay_twin(sim->replay) : &sim->view.twin;
+}
+
+bool ladder_sim_lateness(LadderSim *sim, struct sim_lateness *out)
+{
+	return sim->thread && sim_thread_lateness(sim->thread, out);
+}
+
+int ladder_sim_rung(LadderSim *sim, LadderDocument *document, int pou, int rung)
+{
+	if (!sim->thread)
+		return -1;
+	if (ladder_sim_older(sim, NULL))
+		return document == sim->older ? rung : -1;
+	return document == sim->document ? rungs_find(sim->rungs, pou, rung) : -1;
+}
+
+bool ladder_sim_is_forced(LadderSim *sim, struct location at)
+{
+	const struct twin *twin = ladder_sim_twin(sim);
+
+	return twin && image_is_forced(&twin->resource.image, at);
+}
+
+int ladder_sim_forces(LadderSim *sim)
+{
+	const struct twin *twin = ladder_sim_twin(sim);
+
+	return twin ? twin->resource.image.force_count + twin->plant.image.force_count : 0;
+}
+
+/* ---- a look of one's own ---- */
+
+struct sim_replay {
+	struct replay replay;
+	struct sim_program *program, *plant; /* whose scan it is; NULL: of none   */
+	guint64 era;
+	gint64 edited_us;        /* as it was when it was looked at            */
+};
+
+struct sim_replay *sim_replay_new(void)
+{
+	return g_new0(struct sim_replay, 1);
+}
+
+static void replay_clear(struct sim_replay *replay)
+{
+	replay_free(&replay->replay);
+	g_clear_pointer(&replay->program, sim_program_unref);
+	g_clear_pointer(&replay->plant, sim_program_unref);
+	memset(replay, 0, sizeof(*replay));
+}
+
+void sim_replay_free(struct sim_replay *replay)
+{
+	if (!replay)
+		return;
+	replay_clear(replay);
+	g_free(replay);
+}
+
+const struct twin *sim_replay_twin(const struct sim_replay *replay)
+{
+	return replay->program ? &replay->replay.twin : NULL;
+}
+
+guint64 sim_replay_program(const struct sim_replay *replay)
+{
+	return replay->era;
+}
+
+static bool take_era(struct sim_replay *replay, const struct sim_era *era)
+{
+	replay_clear(replay);
+	if (!replay_init(&replay->replay, era->record))
+		return false;
+	replay->program = sim_program_ref(era->program);
+	replay->plant = sim_program_ref(era->plant);
+	replay->era = era->id;
+	return true;
+}
+
+static bool replay_step(struct sim_replay *replay, const struct sim_era *era, guint64 scan)
+{
+	if (replay->era != era->id && !take_era(replay, era))
+		return false;
+	replay->edited_us = era->edited_us;
+	return replay_jump(&replay->replay, era->record, scan) &&
+	       (replay->replay.twin.scan >= scan ||
+		replay_next(&replay->replay, era->record));
+}
+
+bool ladder_sim_replay(LadderSim *sim, struct sim_replay *replay, guint64 scan)
+{
+	const struct sim_era *era;
+	bool good;
+
+	if (!sim->thread)
+		return false;
+	era = sim_eras_find(sim_thread_lock(sim->thread), scan);
+	good = era && replay_step(replay, era, scan);
+	sim_thread_unlock(sim->thread);
+	return good;
+}
+
+/* ---- the past ---- */
+
+static struct sim_program *shown_program(LadderSim *sim)
+{
+	return sim->past ? sim->replay->program : sim->view.program;
+}
+
+struct ladder *ladder_sim_ladder(LadderSim *sim)
+{
+	const struct sim_program *program = shown_program(sim);
+
+	return program ? program->ladder : NULL;
+}
+
+struct ladder *ladder_sim_plant_ladder(LadderSim *sim)
+{
+	const struct sim_program *plant = sim->past ? sim->replay->plant : sim->view.plant;
+
+	return plant ? plant->ladder : NULL;
+}
+
+/* After another scan may be shown than was. */
+static void tell_shown(LadderSim *sim, const struct sim_program *before)
+{
+	if (shown_program(sim) != before)
+		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
+	g_signal_emit(sim, signals[SHOWN], 0);
+}
+
+/* A scan at a time, so that the thread need not wait for long. */
+static bool replay_to(LadderSim *sim, guint64 scan)
+{
+	bool good;
+
+	do
+		good = ladder_sim_replay(sim, sim->replay, scan);
+	while (good && sim->replay->replay.twin.scan < scan);
+	return good;
+}
+
+bool ladder_sim_show(LadderSim *sim, guint64 scan)
+{
+	struct sim_program *before = sim_program_ref(shown_program(sim));
+	bool good;
+
+	if (!sim->replay)
+		sim->replay = sim_replay_new();
+	good = replay_to(sim, scan);
+	/* What is half on its way is no scan, and it may be of no program. */
+	sim->past = good || (sim->past && sim->replay->program);
+	if (good || shown_program(sim) != before)
+		tell_shown(sim, before);
+	sim_program_unref(before);
+	return good;
+}
+
+void ladder_sim_show_now(LadderSim *sim)
+{
+	struct sim_program *before;
+
+	if (!sim->past)
+		return;
+	before = sim_program_ref(shown_program(sim));
+	sim->past = false;
+	tell_shown(sim, before);
+	sim_program_unref(before);
+}
+
+bool ladder_sim_is_past(LadderSim *sim)
+{
+	return sim->past;
+}
+
+static void forget_replay(LadderSim *sim)
+{
+	sim->past = false;
+	g_clear_pointer(&sim->replay, sim_replay_free);
+	g_clear_object(&sim->older);
+	sim->older_era = 0;
+}
+
+/* ---- the record ---- */
+
+guint64 ladder_sim_first(LadderSim *sim)
+{
+	guint64 first = 0;
+
+	if (sim->thread) {
+		first = sim_eras_first(sim_thread_lock(sim->thread));
+		sim_thread_unlock(sim->thread);
+	}
+	return first;
+}
+
+guint64 ladder_sim_last(LadderSim *sim)
+{
+	const struct record *record = ladder_sim_lock_record(sim);
+	guint64 last = 0;
+
+	if (record) {
+		last = record_last(record);
+		ladder_sim_unlock_record(sim);
+	}
+	return last;
+}
+
+const struct record *ladder_sim_lock_record(LadderSim *sim)
+{
+	return sim->thread ? sim_eras_newest(sim_thread_lock(sim->thread))->record : NULL;
+}
+
+void ladder_sim_unlock_record(LadderSim *sim)
+{
+	sim_thread_unlock(sim->thread);
+}
+
+/* ---- programs before an edit ---- */
+
+bool ladder_sim_next_edit(LadderSim *sim, guint64 scan, struct sim_edited *out)
+{
+	const struct sim_era *era;
+	bool good;
+
+	if (!sim->thread)
+		return false;
+	era = sim_eras_find(sim_thread_lock(sim->thread), scan);
+	good = era && era->edited_us;
+	if (good)
+		*out = (struct sim_edited){ record_last(era->record), era->edited_us };
+	sim_thread_unlock(sim->thread);
+	return good;
+}
+
+static LadderDocument *older_document(LadderSim *sim, const struct sim_program *program)
+{
+	LadderDocument *document = ladder_document_new();
+
+	ladder_document_open_text(document, ladder_document_path(sim->document),
+				  program->text, strlen(program->text), true);
+	ladder_document_fix(document);
+	return document;
+}
+
+LadderDocument *ladder_sim_older(LadderSim *sim, struct sim_edited *edit)
+{
+	const struct sim_replay *replay = sim->replay;
+
+	if (!sim->past || !replay->edited_us)
+		return NULL;
+	if (sim->older_era != replay->era) {
+		g_clear_object(&sim->older);
+		sim->older = older_document(sim, replay->program);
+		sim->older_era = replay->era;
+	}
+	if (edit && !ladder_sim_next_edit(sim, replay->replay.twin.scan, edit))
+		*edit = (struct sim_edited){ replay->replay.twin.scan, replay->edited_us };
+	return sim->older;
+}
+
+guint64 ladder_sim_life(LadderSim *sim)
+{
+	return sim->life;
+}
+
+/* ---- what the log and the buttons are told ---- */
 
 static void tell_state(LadderSim *sim)
 {
@@ -31,6 +422,28 @@ static void tell(LadderSim *sim, const char *text, bool bad)
 
 /* ---- what comes from the thread ---- */
 
+static char *halt_words(const struct resource *resource)
+{
+	char *place = sim_place_words(&resource->halt_at);
+	char *text = g_strdup_printf(_("STOP, outputs are safe: the program says so: %s"),
+				     place);
+
+	g_free(place);
+	return text;
+}
+
+static char *failed_words(const struct resource *resource, bool faulted)
+{
+	char *place = sim_place_words(&resource->error_at);
+	char *text = g_strdup_printf(faulted ?
+		_("FAULT: an operation failed, such as a division by zero: %s. Outputs are "
+		  "off; Run goes on with ENO FALSE, as the board does") :
+		_("ENO is FALSE: an operation failed, such as a division by zero: %s"), place);
+
+	g_free(place);
+	return text;
+}
+
 /* Of a start that was ended and is not yet begun anew. */
 static void tell_end(LadderSim *sim)
 {
@@ -41,7 +454,7 @@ static void tell_end(LadderSim *sim)
 	    (resource->state != STATE_FAULT && !resource->halted))
 		return;
 	text = resource->state == STATE_FAULT ?
-		sim_fault_words(resource) : sim_halt_words(resource);
+		sim_fault_words(resource) : halt_words(resource);
 	tell(sim, text, true);
 	g_free(text);
 }
@@ -57,7 +470,7 @@ static void tell_failure(LadderSim *sim)
 	if (sim->known.failures == sim->view.events.failures || !resource->vm.errors ||
 	    resource->state == STATE_FAULT)
 		return;
-	text = sim_failed_words(resource, faulted);
+	text = failed_words(resource, faulted);
 	tell(sim, text, faulted);
 	g_free(text);
 }
@@ -98,7 +511,7 @@ static bool take(LadderSim *sim)
 	if (!sim_thread_take(sim->thread, &sim->view, &other))
 		g_error("out of memory");
 	if (other) {
-		sim_forget_replay(sim);
+		forget_replay(sim);
 		g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
 		tell_edit(sim);
 	}
@@ -166,7 +579,7 @@ static bool start_thread(LadderSim *sim, struct sim_program *program, gint64 per
 		sim_thread_speed(sim->thread, sim->speed);
 	sim_thread_heed(sim->thread, sim->heeds);
 	sim->version = ladder_document_version(sim->document);
-	sim_rungs_same(sim->rungs);
+	rungs_same(sim->rungs);
 	take(sim);
 	return true;
 }
@@ -217,7 +630,7 @@ void ladder_sim_end(LadderSim *sim)
 	if (!sim->thread)
 		return;
 	g_clear_pointer(&sim->thread, sim_thread_free);
-	sim_forget_replay(sim);
+	forget_replay(sim);
 	sim_view_clear(&sim->view);
 	sim->life++;
 	g_signal_emit(sim, signals[PROGRAM_CHANGED], 0);
@@ -319,7 +732,7 @@ static void rebuilt(GObject *object, GAsyncResult *result, gpointer unused)
 		sim->version = rebuild->version;
 	}
 	if (program && rebuild->version == ladder_document_version(sim->document))
-		sim_rungs_same(sim->rungs);
+		rungs_same(sim->rungs);
 	else
 		checked(sim);
 	sim_program_unref(program);
@@ -485,11 +898,11 @@ static void ladder_sim_dispose(GObject *object)
 	LadderSim *sim = LADDER_SIM(object);
 
 	g_clear_pointer(&sim->thread, sim_thread_free);
-	sim_forget_replay(sim);
+	forget_replay(sim);
 	sim_view_clear(&sim->view);
 	g_clear_pointer(&sim->plant, sim_program_unref);
 	g_clear_pointer(&sim->newest, sim_program_unref);
-	g_clear_pointer(&sim->rungs, sim_rungs_free);
+	g_clear_pointer(&sim->rungs, rungs_free);
 	if (sim->document)
 		g_signal_handlers_disconnect_by_data(sim->document, sim);
 	g_clear_object(&sim->document);
@@ -534,7 +947,7 @@ LadderSim *ladder_sim_new(LadderDocument *document)
 	LadderSim *sim = g_object_new(LADDER_TYPE_SIM, NULL);
 
 	sim->document = g_object_ref(document);
-	sim->rungs = sim_rungs_new(document);
+	sim->rungs = rungs_new(document);
 	g_signal_connect_swapped(document, "checked", G_CALLBACK(checked), sim);
 	return sim;
 }

@@ -145,8 +145,6 @@ bool ladder_sim_is_past(LadderSim *sim);
  * it is held. NULL: off; then there is nothing to unlock. It is another one after an edit. */
 const struct record *ladder_sim_lock_record(LadderSim *sim);
 void ladder_sim_unlock_record(LadderSim *sim);
-/** ladder_sim_record_bytes - what all records take, with the programs before edits. */
-gsize ladder_sim_record_bytes(LadderSim *sim);
 
 /* ---- programs before an edit ---- */
 

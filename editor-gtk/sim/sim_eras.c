@@ -6,7 +6,7 @@
  * and the one before is kept with its program, so that what it ran can be shown as it was.
  * Scan numbers go on, and between two eras none is missing.
  */
-#include "editor-gtk/sim/sim_inside.h"
+#include "editor-gtk/sim/sim_eras.h"
 
 #include <string.h>
 

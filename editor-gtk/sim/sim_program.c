@@ -2,13 +2,40 @@
  *
  * sim_program - a project that was built to be watched, counted.
  */
-#include "editor-gtk/sim/sim_inside.h"
+#include "editor-gtk/sim/sim_program.h"
 
 #include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
 #include "editor-gtk/document/iomap_beside.h"
 
 #include <string.h>
+
+/* ---- words ---- */
+
+char *sim_place_words(const struct fault_place *at)
+{
+	if (at->rung)
+		return g_strdup_printf(_("%s, rung %u (%u,%u)"), at->pou, at->rung, at->row,
+				       at->col);
+	if (at->line)
+		return g_strdup_printf(_("%s, line %u"), at->pou, at->line);
+	return g_strdup(at->pou);
+}
+
+char *sim_fault_words(const struct resource *resource)
+{
+	char *place = sim_place_words(&resource->fault_at), *text;
+
+	if (resource->fault_at.task)
+		text = g_strdup_printf(_("task %s: %s: %s"), resource->fault_at.task,
+				       said(fault_text(resource->fault)), place);
+	else
+		text = g_strdup_printf("%s: %s", said(fault_text(resource->fault)), place);
+	g_free(place);
+	return text;
+}
+
+/* ---- errors ---- */
 
 static const struct diag *first_error(const struct diag_list *diags)
 {

@@ -6,7 +6,7 @@
  * frame, which it leaves out rather than wait for whoever reads the one before. It sleeps
  * in the queue: standing still costs nothing.
  */
-#include "editor-gtk/sim/sim_inside.h"
+#include "editor-gtk/sim/sim_thread.h"
 
 #define FRAME_US G_GINT64_CONSTANT(16000)
 #define LATE_STEPS 320 /* of a table of how late scans were: up to hours     */

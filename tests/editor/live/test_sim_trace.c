@@ -9,6 +9,7 @@
  * the widgets. The trace is run by itself, from a script of the same clicks.
  */
 #include "editor-gtk/live/sim_panel.h"
+#include "editor-gtk/sim/live_value.h"
 #include "tests/editor/screen.h"
 #include "tests/tap.h"
 #include "tests/walker/random.h"
@@ -60,9 +61,11 @@ static void put(GString *out, const char *name, const char *pin, enum iec_type t
 {
 	struct iec_text room;
 	union iec_value value;
+	enum diag_id why;
 	char plain[IEC_VALUE_TEXT + 1];
 
-	if (type != IEC_TIME || !sim_value_read(type, text, &room, &value)) {
+	if (type != IEC_TIME ||
+	    !live_value_parse(FORMAT_AUTO, type, text, &room, &value, &why)) {
 		g_string_append_printf(out, " %s%s=%s", name, pin, text);
 		return;
 	}
@@ -123,7 +126,7 @@ static bool can_be_set(const LadderSimRow *row)
 /* A number that fits every type, or none. */
 static void click(struct random_source *random, const LadderSimRow *row, GString *script)
 {
-	union iec_value value = sim_row_value(row, sim, row->at);
+	union iec_value value = live_value_get(sim, row->plant, row->at);
 	char text[IEC_VALUE_TEXT + 1];
 
 	if (sim_row_is_bit(row)) {
@@ -138,7 +141,7 @@ static void click(struct random_source *random, const LadderSimRow *row, GString
 		value.i = random_below(random, 100);
 	iec_value_print(row->at.type, value, text, sizeof(text));
 	g_string_append_printf(script, "%s=%s ", row->name, text);
-	sim_row_set(row, sim, row->at, value);
+	live_value_set(sim, row->plant, row->at, value);
 }
 
 static void click_some(struct random_source *random, GString *script)

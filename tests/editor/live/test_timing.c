@@ -3,7 +3,6 @@
  * test_timing - the timing chart over a simulation: which variables it has, what the project
  * keeps of that, what a change of that leaves alone.
  */
-#include "editor-gtk/live/timing_kept.h"
 #include "editor-gtk/live/timing_view.h"
 #include "tests/editor/screen.h"
 #include "tests/editor/soon.h"

@@ -35,12 +35,12 @@ static char *original; /* text of the file */
 
 /* ---- values ---- */
 
-static bool prints(enum watch_format format, enum iec_type type, int64_t value,
+static bool prints(enum live_format format, enum iec_type type, int64_t value,
 		   const char *expected)
 {
 	char text[IEC_VALUE_TEXT];
 
-	watch_print(format, type, (union iec_value){ .i = value }, text, sizeof(text));
+	live_value_format(format, type, (union iec_value){ .i = value }, text, sizeof(text));
 	if (strcmp(text, expected) != 0)
 		printf("# %s, not %s\n", text, expected);
 	return strcmp(text, expected) == 0;
@@ -48,65 +48,65 @@ static bool prints(enum watch_format format, enum iec_type type, int64_t value,
 
 static void check_print(void)
 {
-	CHECK(prints(WATCH_AUTO, IEC_BOOL, 1, "1"));
-	CHECK(prints(WATCH_AUTO, IEC_INT, -5, "-5"));
-	CHECK(prints(WATCH_UNSIGNED, IEC_INT, -1, "65535"));
-	CHECK(prints(WATCH_SIGNED, IEC_WORD, 0xfffe, "-2"));
-	CHECK(prints(WATCH_HEX, IEC_INT, -1, "16#FFFF"));
-	CHECK(prints(WATCH_HEX, IEC_DWORD, 0xbeef, "16#0000BEEF"));
-	CHECK(prints(WATCH_BIN, IEC_BYTE, 0x12, "2#0001_0010"));
-	CHECK(prints(WATCH_FLOAT, IEC_DWORD, 0x3fc00000, "1.5"));
-	CHECK(prints(WATCH_TIME, IEC_UINT, 1500, "T#1s500ms"));
-	CHECK(prints(WATCH_AUTO, IEC_TIME, 2500000000, "T#2s500ms"));
-	CHECK(prints(WATCH_SIGNED, IEC_LWORD, -1, "-1"));
-	CHECK(prints(WATCH_UNSIGNED, IEC_ULINT, -1, "18446744073709551615"));
-	CHECK(prints(WATCH_HEX, IEC_BOOL, 1, "1"));
-	CHECK(prints(WATCH_TIME, IEC_ULINT, -1, "18446744073709551615"));
+	CHECK(prints(FORMAT_AUTO, IEC_BOOL, 1, "1"));
+	CHECK(prints(FORMAT_AUTO, IEC_INT, -5, "-5"));
+	CHECK(prints(FORMAT_UNSIGNED, IEC_INT, -1, "65535"));
+	CHECK(prints(FORMAT_SIGNED, IEC_WORD, 0xfffe, "-2"));
+	CHECK(prints(FORMAT_HEX, IEC_INT, -1, "16#FFFF"));
+	CHECK(prints(FORMAT_HEX, IEC_DWORD, 0xbeef, "16#0000BEEF"));
+	CHECK(prints(FORMAT_BIN, IEC_BYTE, 0x12, "2#0001_0010"));
+	CHECK(prints(FORMAT_FLOAT, IEC_DWORD, 0x3fc00000, "1.5"));
+	CHECK(prints(FORMAT_TIME, IEC_UINT, 1500, "T#1s500ms"));
+	CHECK(prints(FORMAT_AUTO, IEC_TIME, 2500000000, "T#2s500ms"));
+	CHECK(prints(FORMAT_SIGNED, IEC_LWORD, -1, "-1"));
+	CHECK(prints(FORMAT_UNSIGNED, IEC_ULINT, -1, "18446744073709551615"));
+	CHECK(prints(FORMAT_HEX, IEC_BOOL, 1, "1"));
+	CHECK(prints(FORMAT_TIME, IEC_ULINT, -1, "18446744073709551615"));
 }
 
-static bool reads(enum watch_format format, enum iec_type type, const char *text,
+static bool reads(enum live_format format, enum iec_type type, const char *text,
 		  int64_t expected)
 {
 	union iec_value value = { .i = 0 };
 	struct iec_text room;
 	enum diag_id why;
 
-	return watch_parse(format, type, text, &room, &value, &why) && value.i == expected;
+	return live_value_parse(format, type, text, &room, &value, &why) && value.i == expected;
 }
 
-static bool refuses(enum watch_format format, enum iec_type type, const char *text)
+static bool refuses(enum live_format format, enum iec_type type, const char *text)
 {
 	union iec_value value;
 	struct iec_text room;
 	enum diag_id why;
 
-	return !watch_parse(format, type, text, &room, &value, &why) &&
+	return !live_value_parse(format, type, text, &room, &value, &why) &&
 	       (why == DIAG_BAD_LITERAL || why == DIAG_LITERAL_RANGE);
 }
 
 static void check_parse(void)
 {
-	CHECK(reads(WATCH_AUTO, IEC_INT, " -5 ", -5));
-	CHECK(reads(WATCH_HEX, IEC_INT, "ffff", -1));
-	CHECK(reads(WATCH_HEX, IEC_WORD, "16#12", 0x12));
-	CHECK(reads(WATCH_BIN, IEC_WORD, "1010", 10));
-	CHECK(reads(WATCH_UNSIGNED, IEC_INT, "65535", -1));
-	CHECK(reads(WATCH_SIGNED, IEC_WORD, "-2", 0xfffe));
-	CHECK(reads(WATCH_FLOAT, IEC_DWORD, "1.5", 0x3fc00000));
-	CHECK(reads(WATCH_TIME, IEC_UINT, "1s500ms", 1500));
-	CHECK(reads(WATCH_AUTO, IEC_TIME, "2s", 2000000000));
-	CHECK(reads(WATCH_AUTO, IEC_TIME, "T#2s", 2000000000));
-	CHECK(reads(WATCH_AUTO, IEC_TIME, "20", 20000000));
-	CHECK(reads(WATCH_AUTO, IEC_BOOL, "TRUE", 1));
-	CHECK(refuses(WATCH_AUTO, IEC_INT, "40000"));
-	CHECK(refuses(WATCH_HEX, IEC_BYTE, "100"));
-	CHECK(refuses(WATCH_SIGNED, IEC_WORD, "-40000"));
-	CHECK(refuses(WATCH_TIME, IEC_UINT, "500us"));
-	CHECK(refuses(WATCH_TIME, IEC_UINT, "2m"));
-	CHECK(refuses(WATCH_AUTO, IEC_BOOL, "2"));
-	CHECK(refuses(WATCH_BIN, IEC_WORD, "12"));
-	CHECK(refuses(WATCH_AUTO, IEC_INT, ""));
-	CHECK(refuses(WATCH_HEX, IEC_INT, "--"));
+	CHECK(reads(FORMAT_AUTO, IEC_INT, " -5 ", -5));
+	CHECK(reads(FORMAT_HEX, IEC_INT, "ffff", -1));
+	CHECK(reads(FORMAT_HEX, IEC_WORD, "16#12", 0x12));
+	CHECK(reads(FORMAT_BIN, IEC_WORD, "1010", 10));
+	CHECK(reads(FORMAT_UNSIGNED, IEC_INT, "65535", -1));
+	CHECK(reads(FORMAT_SIGNED, IEC_WORD, "-2", 0xfffe));
+	CHECK(reads(FORMAT_FLOAT, IEC_DWORD, "1.5", 0x3fc00000));
+	CHECK(reads(FORMAT_TIME, IEC_UINT, "1s500ms", 1500));
+	CHECK(reads(FORMAT_AUTO, IEC_TIME, "2s", 2000000000));
+	CHECK(reads(FORMAT_AUTO, IEC_TIME, "T#2s", 2000000000));
+	CHECK(reads(FORMAT_AUTO, IEC_TIME, "20", 20000000));
+	CHECK(reads(FORMAT_AUTO, IEC_BOOL, "TRUE", 1));
+	CHECK(refuses(FORMAT_AUTO, IEC_INT, "40000"));
+	CHECK(refuses(FORMAT_HEX, IEC_BYTE, "100"));
+	CHECK(refuses(FORMAT_SIGNED, IEC_WORD, "-40000"));
+	CHECK(refuses(FORMAT_TIME, IEC_UINT, "500us"));
+	CHECK(refuses(FORMAT_TIME, IEC_UINT, "2m"));
+	CHECK(refuses(FORMAT_AUTO, IEC_BOOL, "2"));
+	CHECK(refuses(FORMAT_BIN, IEC_WORD, "12"));
+	CHECK(refuses(FORMAT_AUTO, IEC_INT, ""));
+	CHECK(refuses(FORMAT_HEX, IEC_INT, "--"));
 }
 
 /* Whatever is shown can be typed again, and is the same value. */
@@ -117,7 +117,7 @@ static void check_round(void)
 
 	for (int n = 0; n < 20000; n++) {
 		const enum iec_type type = (enum iec_type)(IEC_BOOL + n % (IEC_LREAL - IEC_BOOL));
-		const enum watch_format format = (enum watch_format)(n / 40 % WATCH_FORMATS);
+		const enum live_format format = (enum live_format)(n / 40 % FORMAT_COUNT);
 		unsigned char memory[8];
 		char text[IEC_VALUE_TEXT];
 		union iec_value value, back = { .i = 0 };
@@ -130,15 +130,15 @@ static void check_round(void)
 		value = iec_load(memory, type);
 		if (iec_type_row(type)->class == CLASS_REAL && value.r != value.r)
 			continue;
-		watch_print(format, type, value, text, sizeof(text));
+		live_value_format(format, type, value, text, sizeof(text));
 		if (strchr("nN", text[0]) || strstr(text, "inf"))
 			continue; /* the bits of no number */
-		if (!watch_parse(format, type, text, &room, &back, &why) ||
+		if (!live_value_parse(format, type, text, &room, &back, &why) ||
 		    back.i != value.i) {
-			if (format == WATCH_TIME && strncmp(text, "T#", 2) != 0)
+			if (format == FORMAT_TIME && strncmp(text, "T#", 2) != 0)
 				continue; /* more ms than a TIME holds */
 			printf("# %s as %s: %s\n", iec_type_row(type)->word,
-			       watch_format_word(format), text);
+			       live_format_word(format), text);
 			bad++;
 		}
 	}
@@ -183,7 +183,7 @@ static void check_file(void)
 	charts = watch_list_read("VIEW\nEND_VIEW");
 	g_ptr_array_add(charts, watch_new("a\nEND_VIEW"));
 	g_ptr_array_add(((struct watch *)charts->pdata[0])->lines,
-			watch_line_new(WATCH_AUTO, " Table[ 2 ]\n", "x\ny"));
+			watch_line_new(FORMAT_AUTO, " Table[ 2 ]\n", "x\ny"));
 	char *text = watch_list_write("", charts);
 
 	CHECK(strcmp(text, "VIEW\n  status-chart a END_VIEW\n    watch auto Table[2] x y\n"
@@ -298,8 +298,8 @@ static void check_making(void)
 	CHECK_SOON(rows() == 3);
 	CHECK(ladder_watch_view_add(view, "%QW0 Count Bits Level Label Most"));
 	CHECK(rows() == 9 && strcmp(shown("Count"), "") == 0);
-	gtk_widget_activate_action(GTK_WIDGET(view), "watch.format", "(ii)", 5, WATCH_HEX);
-	CHECK(row(5)->line->format == WATCH_HEX && file_has("    watch hex Bits\n"));
+	gtk_widget_activate_action(GTK_WIDGET(view), "watch.format", "(ii)", 5, FORMAT_HEX);
+	CHECK(row(5)->line->format == FORMAT_HEX && file_has("    watch hex Bits\n"));
 	do_action("watch.up"); /* of Most, which was added last */
 	CHECK(strcmp(row(7)->line->name, "Most") == 0);
 	do_action("watch.remove");
@@ -349,7 +349,7 @@ static void check_forces(void)
 {
 	type_new("Motor", "0");
 	press(row_of("Motor")->force);
-	CHECK_SOON(row_of("Motor")->forced && strcmp(shown("Motor"), "0") == 0);
+	CHECK_SOON(row_of("Motor")->seen.forced && strcmp(shown("Motor"), "0") == 0);
 	CHECK_SOON(gtk_widget_has_css_class(row_of("Motor")->force, "forced"));
 	CHECK(ladder_sim_forces(sim) == 1);
 	ladder_sim_scan(sim, 1);
@@ -357,7 +357,7 @@ static void check_forces(void)
 	CHECK(strcmp(shown("Motor"), "0") == 0);
 	picture("forced");
 	press(row_of("Motor")->force);
-	CHECK_SOON(!row_of("Motor")->forced && strcmp(shown("Motor"), "1") == 0);
+	CHECK_SOON(!row_of("Motor")->seen.forced && strcmp(shown("Motor"), "1") == 0);
 	CHECK(!gtk_widget_get_sensitive(row_of("Label")->force));
 	CHECK(!gtk_widget_get_sensitive(row_of("Most")->force));
 	CHECK(!gtk_widget_get_sensitive(row_of("Most")->fresh));

@@ -4,7 +4,7 @@
  * any scan that was; errors keep it off, faults stop it. A chart of it has every scan.
  */
 #include "editor-gtk/live/timing.h"
-#include "editor-gtk/sim/sim_inside.h"
+#include "editor-gtk/sim/sim_thread.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 

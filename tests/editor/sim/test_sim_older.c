@@ -6,7 +6,7 @@
  *   test_sim_older [COUNT [SEED]]    so many random programs with a random edit
  */
 #include "editor-gtk/live/timing.h"
-#include "editor-gtk/sim/sim_inside.h"
+#include "editor-gtk/sim/sim_thread.h"
 #include "tests/editor/soon.h"
 #include "tests/tap.h"
 #include "tests/walker/random.h"
