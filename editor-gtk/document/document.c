@@ -2,13 +2,54 @@
  *
  * document - one rung file while a person works on it.
  *
- * Here: what there is, and what changes it. Files are document_file.c's, checks are
- * document_check.c's.
+ * Lists that cannot be read stand beside the project until they can, and are saved with it.
+ * The checks work on a copy, so that they can run in a thread.
  */
-#include "editor-gtk/document/document_inside.h"
+#include "editor-gtk/document/document.h"
 
+#include "editor-gtk/document/bookmarks.h"
+#include "editor-gtk/document/disk.h"
+#include "editor-gtk/document/history.h"
+#include "editor-gtk/document/text_lines.h"
+#include "editor-gtk/kit/gtk48/memory.h"
+#include "editor-gtk/kit/i18n.h"
+
+#include "engine/base/lex.h"
+#include "engine/scan/code.h"
+
+#include <glib/gstdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define CHECK_DELAY_MS 120 /* after the last change                            */
+
+struct beside {
+	file_apply apply; /* NULL: the file is not shown any more              */
+	gpointer file;
+};
+
+struct _LadderDocument {
+	GObject parent;
+	struct ladder *ladder;    /* holds the live project                    */
+	char *text;               /* instead, of a file that cannot be read    */
+	gsize text_len;
+	GHashTable *list;         /* POU number -> text that cannot be read    */
+	struct history *history;
+	GArray *files;            /* of struct beside: their steps are in the history */
+	char *path;
+	char *disk_sum;           /* digest of the file when it was read or saved */
+	GStatBuf disk_seen;       /* of the file when it was looked at last    */
+	enum disk_state disk;     /* and what it was then                      */
+	int repaired;             /* line of the first byte that is no text; 0: none */
+	bool fixed;               /* nothing changes it                        */
+	guint64 version;
+	/* Checks: */
+	struct ladder *checked;
+	struct diag_list diags;
+	guint check_timer;
+	bool checking;            /* a thread is at work                       */
+	guint64 checked_version;  /* that `checked` or the thread is of        */
+};
 
 G_DEFINE_FINAL_TYPE(LadderDocument, ladder_document, G_TYPE_OBJECT)
 
@@ -16,12 +57,15 @@ enum { RUNGS_CHANGED, VARIABLE_CHANGED, PROJECT_CHANGED, LIST_CHANGED, BOOKMARKS
        CHECKED, STATE_CHANGED, SIGNALS };
 static guint signals[SIGNALS];
 
+static void check_later(LadderDocument *document);
+static void stop_checks(LadderDocument *document);
+
 static const char EMPTY_PROJECT[] =
 	"RUNGBOARD 1\n\nPROGRAM Main LD\nRUNG\nEND_PROGRAM\n";
 
 /* ---- what there is ---- */
 
-const char *document_file(const LadderDocument *document)
+static const char *file_name(const LadderDocument *document)
 {
 	return document->path ? document->path : "";
 }
@@ -70,59 +114,220 @@ char *ladder_document_outline(LadderDocument *document, gsize *len,
 	return copy;
 }
 
-/* ---- telling ---- */
-
-void document_changed(LadderDocument *document)
+static const char *pou_name(LadderDocument *document, int pou)
 {
-	document->version++;
-	document_check_later(document);
+	const struct project *project = ladder_document_project(document);
+
+	return project && pou >= 0 && pou < project->pou_count ?
+	       project_text(project, project->pou[pou].name) : NULL;
+}
+
+/* ---- signals ---- */
+
+static void tell_state(LadderDocument *document)
+{
 	g_signal_emit(document, signals[STATE_CHANGED], 0);
 }
 
-void document_tell_state(LadderDocument *document)
-{
-	g_signal_emit(document, signals[STATE_CHANGED], 0);
-}
-
-void document_tell_checked(LadderDocument *document)
-{
-	g_signal_emit(document, signals[CHECKED], 0);
-}
-
-void document_tell_variable(LadderDocument *document, int pou, const char *name,
+static void tell_variable(LadderDocument *document, int pou, const char *name,
 			    const char *address)
 {
 	g_signal_emit(document, signals[VARIABLE_CHANGED], 0, pou, name, address);
 }
 
-void document_tell_list(LadderDocument *document, int pou)
-{
-	g_signal_emit(document, signals[LIST_CHANGED], 0, pou);
-}
-
-void document_tell_bookmarks(LadderDocument *document)
-{
-	g_signal_emit(document, signals[BOOKMARKS_CHANGED], 0);
-}
-
-void document_tell_whole(LadderDocument *document)
+static void tell_whole(LadderDocument *document)
 {
 	g_signal_emit(document, signals[PROJECT_CHANGED], 0);
 }
 
-void document_tell_project(LadderDocument *document)
+static void changed(LadderDocument *document)
 {
-	document_tell_whole(document);
-	document_changed(document);
+	document->version++;
+	check_later(document);
+	g_signal_emit(document, signals[STATE_CHANGED], 0);
+}
+
+/* ---- lists that cannot be read ---- */
+
+/* Spans of the POUs, for the lists that stand beside the project. */
+struct pou_spans {
+	struct text_span *span;
+	int count;
+};
+
+static void take_pou(void *context, const struct text_span *span)
+{
+	struct pou_spans *spans = context;
+
+	if (span->part == TEXT_POU && span->number < spans->count)
+		spans->span[span->number] = *span;
+}
+
+/* The canonical text, and where its POUs are. Caller frees both. */
+static char *outline(struct ladder *ladder, struct pou_spans *spans)
+{
+	gsize len;
+	char *text;
+
+	spans->count = ladder_project(ladder)->pou_count;
+	spans->span = g_new0(struct text_span, spans->count + 1);
+	text = ladder_outline(ladder, &len, take_pou, spans);
+	if (!text)
+		g_error("out of memory");
+	return text;
+}
+
+/* The canonical text with POU @pou replaced by @text. */
+static char *with_list(const char *whole, const struct text_span *span,
+		       const char *text)
+{
+	return g_strdup_printf("%.*s%s%s", (int)span->at, whole, text,
+			       whole + span->at + span->len);
+}
+
+char *ladder_document_text(LadderDocument *document, gsize *len)
+{
+	struct pou_spans spans;
+	char *text, *copy;
+	gsize unused;
+
+	len = len ? len : &unused;
+	if (document->text) {
+		*len = document->text_len;
+		return g_memdup2(document->text, document->text_len + 1);
+	}
+	text = outline(document->ladder, &spans);
+	/* From the last to the first: a replacement moves what is behind it. */
+	for (int i = spans.count - 1; i >= 0; i--) {
+		const char *list = g_hash_table_lookup(document->list,
+						       GINT_TO_POINTER(i));
+
+		if (list) {
+			char *more = with_list(text, &spans.span[i], list);
+
+			free(text);
+			text = strdup(more);
+			g_free(more);
+		}
+	}
+	g_free(spans.span);
+	*len = strlen(text);
+	copy = g_strdup(text);
+	free(text);
+	return copy;
+}
+
+char *ladder_document_list(LadderDocument *document, int pou)
+{
+	const struct project *project = ladder_document_project(document);
+	const char *list = g_hash_table_lookup(document->list, GINT_TO_POINTER(pou));
+	struct pou_spans spans;
+	char *text, *out;
+
+	if (list)
+		return g_strdup(list);
+	if (!project || pou < 0 || pou >= project->pou_count)
+		return NULL;
+	text = outline(document->ladder, &spans);
+	out = g_strndup(text + spans.span[pou].at, spans.span[pou].len);
+	free(text);
+	g_free(spans.span);
+	return out;
+}
+
+/* The one of the first POU that has one. */
+static int first_list(LadderDocument *document)
+{
+	GHashTableIter iter;
+	gpointer pou;
+	int first = -1;
+
+	g_hash_table_iter_init(&iter, document->list);
+	while (g_hash_table_iter_next(&iter, &pou, NULL))
+		if (first < 0 || GPOINTER_TO_INT(pou) < first)
+			first = GPOINTER_TO_INT(pou);
+	return first;
+}
+
+/* The line where the text of POU @pou begins, when no list stands before it. */
+static int first_line(LadderDocument *document, int pou)
+{
+	struct pou_spans spans;
+	char *text = outline(document->ladder, &spans);
+	int line = 1;
+
+	for (gsize i = 0; i < spans.span[pou].at; i++)
+		line += text[i] == '\n';
+	free(text);
+	g_free(spans.span);
+	return line;
+}
+
+static void check_lists(LadderDocument *document, const struct project *read,
+			  struct diag_list *diags)
+{
+	const struct project *project = ladder_document_project(document);
+	const int pou = first_list(document);
+	const bool fewer = project && read->pou_count < project->pou_count;
+	const bool more = project && read->pou_count > project->pou_count;
+	struct diag place = { .file = g_intern_string(file_name(document)) };
+
+	if (pou < 0 || !project)
+		return;
+	place.pou = g_intern_string(project_text(project, project->pou[pou].name));
+	place.id = fewer ? DIAG_EXPECTED : DIAG_MISPLACED;
+	place.line = more ? read->pou[pou + 1].line : first_line(document, pou);
+	diag_add(diags, place, "%s", fewer ? "PROGRAM" : more ?
+		 project_text(read, read->pou[pou + 1].name) : "");
+}
+
+/* Lists beside the project may have other lengths than what they stand for. */
+int ladder_document_lines_before(LadderDocument *document, int pou)
+{
+	char *text, *list, *found;
+	gsize len;
+	int lines;
+
+	if (pou < 0)
+		return 0;
+	text = ladder_document_text(document, &len);
+	list = ladder_document_list(document, pou);
+	found = list ? strstr(text, list) : NULL;
+	if (found)
+		*found = '\0';
+	lines = found ? text_lines_count(text) : first_line(document, pou) - 1;
+	g_free(list);
+	g_free(text);
+	return lines;
+}
+
+int ladder_document_list_at(LadderDocument *document, int line, int *row)
+{
+	GHashTableIter iter;
+	gpointer pou, text;
+
+	g_hash_table_iter_init(&iter, document->list);
+	while (g_hash_table_iter_next(&iter, &pou, &text)) {
+		*row = line - 1 - ladder_document_lines_before(document,
+							       GPOINTER_TO_INT(pou));
+		if (*row >= 0 && *row < text_lines_count(text) + !g_str_has_suffix(text, "\n"))
+			return GPOINTER_TO_INT(pou);
+	}
+	return -1;
+}
+
+bool ladder_document_is_whole(LadderDocument *document)
+{
+	return g_hash_table_size(document->list) == 0;
 }
 
 /* ---- the text becomes the project ---- */
 
-struct ladder *document_read(LadderDocument *document, const char *text, gsize len,
+static struct ladder *read_text(LadderDocument *document, const char *text, gsize len,
 			     struct diag_list *why)
 {
 	struct ladder *ladder = ladder_new();
-	const char *file = g_intern_string(document_file(document));
+	const char *file = g_intern_string(file_name(document));
 
 	if (!ladder)
 		g_error("out of memory");
@@ -134,7 +339,7 @@ struct ladder *document_read(LadderDocument *document, const char *text, gsize l
 	return NULL;
 }
 
-void document_take_ladder(LadderDocument *document, struct ladder *ladder)
+static void take_ladder(LadderDocument *document, struct ladder *ladder)
 {
 	ladder_free(document->ladder);
 	document->ladder = ladder;
@@ -144,10 +349,10 @@ void document_take_ladder(LadderDocument *document, struct ladder *ladder)
 /* Takes over what can be read; else the text itself. */
 static void take_text(LadderDocument *document, const char *text, gsize len)
 {
-	struct ladder *ladder = document_read(document, text, len, NULL);
+	struct ladder *ladder = read_text(document, text, len, NULL);
 
 	if (ladder) {
-		document_take_ladder(document, ladder);
+		take_ladder(document, ladder);
 		return;
 	}
 	g_free(document->text);
@@ -155,18 +360,124 @@ static void take_text(LadderDocument *document, const char *text, gsize len)
 	document->text_len = len;
 }
 
-void document_take(LadderDocument *document, const char *text, gsize len)
+static void take(LadderDocument *document, const char *text, gsize len)
 {
 	g_hash_table_remove_all(document->list);
 	take_text(document, text, len);
 	history_restart(document->history);
-	document_tell_project(document);
+	tell_whole(document);
+	changed(document);
+}
+
+/* ---- where a person types in a list ---- */
+
+/* What stands before and behind a list, as of a version of the document: a key does not
+ * write thousands of rungs again. */
+struct list_place {
+	int pou;
+	guint64 version;
+	char *head, *tail;
+	char *typed; /* the list as it was typed last; NULL: not yet           */
+};
+
+static void place_free(gpointer pointer)
+{
+	struct list_place *place = pointer;
+
+	g_free(place->head);
+	g_free(place->tail);
+	g_free(place->typed);
+	g_free(place);
+}
+
+static struct list_place *place_kept(LadderDocument *document, int pou)
+{
+	struct list_place *place = g_object_get_data(G_OBJECT(document), "list-place");
+
+	return place && place->pou == pou && place->version == document->version ? place :
+	       NULL;
+}
+
+static void forget_place(LadderDocument *document)
+{
+	g_object_set_data(G_OBJECT(document), "list-place", NULL);
+}
+
+/* Borrowed until the document changes. */
+static struct list_place *place_of(LadderDocument *document, int pou)
+{
+	struct list_place *place = place_kept(document, pou);
+	struct pou_spans spans;
+	char *plain;
+
+	if (place)
+		return place;
+	plain = outline(document->ladder, &spans);
+	place = g_new0(struct list_place, 1);
+	place->pou = pou;
+	place->version = document->version;
+	place->head = g_strndup(plain, spans.span[pou].at);
+	place->tail = g_strdup(plain + spans.span[pou].at + spans.span[pou].len);
+	g_object_set_data_full(G_OBJECT(document), "list-place", place, place_free);
+	free(plain);
+	g_free(spans.span);
+	return place;
+}
+
+/* ---- one POU, and nothing beside it ---- */
+
+/* @ends: of the word with END_ before it. */
+static bool is_pou_word(const struct token *token, bool ends)
+{
+	const size_t skip = ends ? strlen("END_") : 0;
+
+	if (token->kind != TOKEN_NAME || token->len <= skip ||
+	    (ends && g_ascii_strncasecmp(token->text, "END_", skip) != 0))
+		return false;
+	for (int i = 0; i <= POU_SUBROUTINE; i++) {
+		const char *word = pou_word((enum pou_kind)i);
+
+		if (strlen(word) == token->len - skip &&
+		    g_ascii_strncasecmp(word, token->text + skip, token->len - skip) == 0)
+			return true;
+	}
+	return false;
+}
+
+/* A text that begins with the word of a POU and ends with the only word that ends one. */
+static bool is_plainly_one(const char *text)
+{
+	struct lex lex;
+	bool begins, ended = false;
+
+	lex_init(&lex, text, strlen(text));
+	lex.comments = true;
+	lex_next(&lex);
+	begins = is_pou_word(&lex.token, false);
+	while (begins && !ended && lex_next(&lex) != TOKEN_END)
+		ended = is_pou_word(&lex.token, true);
+	return ended && lex_next(&lex) == TOKEN_END;
+}
+
+/* All but POU @pou is as it was: there is no POU more in its text, nor none. */
+static bool same_beside(struct ladder *ladder, const struct list_place *place)
+{
+	struct pou_spans spans;
+	char *is = outline(ladder, &spans);
+	const struct text_span *now = &spans.span[place->pou];
+	const bool same = spans.count > place->pou && now->at == strlen(place->head) &&
+		memcmp(is, place->head, now->at) == 0 &&
+		strcmp(is + now->at + now->len, place->tail) == 0;
+
+	free(is);
+	g_free(spans.span);
+	return same;
 }
 
 /* ---- applying a change, forwards or backwards ---- */
 
 /* Better a stop than a wrong program. */
-void document_report_lost(const char *what)
+static void report_lost(const char *what)
 {
 	g_error("the history does not fit the document: %s", what);
 }
@@ -206,10 +517,101 @@ static void apply_rungs(LadderDocument *document, const struct change *change,
 						     strlen(text), &diags);
 
 		if (!rung || !project_add_rung(pou, (int)(change->at + i), rung))
-			document_report_lost(text);
+			report_lost(text);
 	}
 	g_signal_emit(document, signals[RUNGS_CHANGED], 0, change->pou,
 		      (int)change->at, (int)from->len, (int)to->len);
+}
+
+/* A list that can be read goes into the project, another one stands beside it. */
+static void apply_list(LadderDocument *document, int pou, const char *text)
+{
+	struct list_place *place = place_of(document, pou);
+	char *whole = g_strconcat(place->head, text, place->tail, NULL);
+	struct ladder *ladder = read_text(document, whole, strlen(whole), NULL);
+
+	g_free(whole);
+	place->version = document->version + 1; /* changed() follows */
+	g_free(place->typed);
+	place->typed = g_strdup(text);
+	if (ladder && ladder_project(ladder)->pou_count ==
+			      ladder_document_project(document)->pou_count &&
+	    (is_plainly_one(text) || same_beside(ladder, place))) {
+		take_ladder(document, ladder);
+		g_hash_table_remove(document->list, GINT_TO_POINTER(pou));
+		tell_whole(document);
+	} else {
+		ladder_free(ladder);
+		g_hash_table_insert(document->list, GINT_TO_POINTER(pou),
+				    g_strdup(text));
+		g_signal_emit(document, signals[LIST_CHANGED], 0, pou);
+	}
+}
+
+static struct var_table *table_of(struct project *project, int pou)
+{
+	return pou < 0 ? &project->globals : &project->pou[pou].vars;
+}
+
+static void pop(LadderDocument *document, int pou, int block, const char *text)
+{
+	struct project *project = ladder_project(document->ladder);
+	struct var_table *table = table_of(project, pou);
+	const struct var_block *of = &table->block[block];
+	const struct var *var = &table->var[of->first + of->count - 1];
+
+	if (of->count == 0 || !g_str_has_prefix(text, project_text(project, var->name)))
+		report_lost(text);
+
+	const char *name = project_text(project, var->name);
+	const char *address = project_text(project, var->at_text);
+
+	vars_pop(table, block);
+	tell_variable(document, pou, name, address);
+}
+
+static void push(LadderDocument *document, int pou, int block, const char *text)
+{
+	struct project *project = ladder_project(document->ladder);
+	struct diag_list diags;
+	const struct var *var;
+
+	diag_init(&diags);
+	if (!ladder_read_var(document->ladder, pou, block, text, strlen(text), &diags))
+		report_lost(text);
+
+	const struct var_table *table = table_of(project, pou);
+
+	var = &table->var[table->block[block].first + table->block[block].count - 1];
+	tell_variable(document, pou, project_text(project, var->name),
+			       project_text(project, var->at_text));
+}
+
+static void apply_variable(LadderDocument *document, int pou, int block,
+			     const GPtrArray *from, const GPtrArray *to)
+{
+	for (guint i = from->len; i > 0; i--)
+		pop(document, pou, block, from->pdata[i - 1]);
+	for (guint i = 0; i < to->len; i++)
+		push(document, pou, block, to->pdata[i]);
+}
+
+static void apply_view(LadderDocument *document, const char *text)
+{
+	if (!project_set_view(ladder_project(document->ladder), text))
+		g_error("out of memory");
+	g_signal_emit(document, signals[BOOKMARKS_CHANGED], 0);
+}
+
+static void apply_file(LadderDocument *document, const struct change *change,
+			 const char *from, const char *to)
+{
+	const struct beside *beside =
+		&g_array_index(document->files, struct beside, change->pou);
+
+	if (!beside->apply)
+		report_lost(from);
+	beside->apply(beside->file, change->at, from, to);
 }
 
 static char *spliced(const char *text, gsize len, gsize at, gsize removed,
@@ -248,56 +650,56 @@ static void apply_text(LadderDocument *document, const struct change *change,
 
 	if (change->at + strlen(from) > len ||
 	    memcmp(text + change->at, from, strlen(from)) != 0)
-		document_report_lost(from);
+		report_lost(from);
 	out = spliced(text, len, change->at, strlen(from), to, &new_len);
 	take_text(document, out, new_len);
 	g_free(out);
 	g_free(text);
-	document_tell_whole(document);
+	tell_whole(document);
 }
 
-static void apply(LadderDocument *document, const struct change *change, bool back)
+static void apply_change(LadderDocument *document, const struct change *change, bool back)
 {
 	const GPtrArray *from = back ? change->after : change->before;
 	const GPtrArray *to = back ? change->before : change->after;
 
 	if (change->kind != CHANGE_LIST)
-		document_forget_place(document);
+		forget_place(document);
 	switch (change->kind) {
 	case CHANGE_RUNGS:
 		apply_rungs(document, change, from, to);
 		break;
 	case CHANGE_VARIABLE:
-		document_apply_variable(document, change->pou, (int)change->at, from, to);
+		apply_variable(document, change->pou, (int)change->at, from, to);
 		break;
 	case CHANGE_TEXT:
 		apply_text(document, change, from->pdata[0], to->pdata[0]);
 		break;
 	case CHANGE_VIEW:
-		document_apply_view(document, to->pdata[0]);
+		apply_view(document, to->pdata[0]);
 		break;
 	case CHANGE_LIST:
-		document_apply_list(document, change->pou, to->pdata[0]);
+		apply_list(document, change->pou, to->pdata[0]);
 		break;
 	case CHANGE_FILE:
-		document_apply_file(document, change, from->pdata[0], to->pdata[0]);
+		apply_file(document, change, from->pdata[0], to->pdata[0]);
 		break;
 	}
 }
 
-void document_record(LadderDocument *document, struct change *change)
+static void record(LadderDocument *document, struct change *change)
 {
-	apply(document, change, false);
+	apply_change(document, change, false);
 	history_add(document->history, change);
-	document_changed(document);
+	changed(document);
 }
 
-/* ---- changes ---- */
+/* ---- steps ---- */
 
 void ladder_document_fix(LadderDocument *document)
 {
 	document->fixed = true;
-	document_stop_checks(document);
+	stop_checks(document);
 }
 
 bool ladder_document_is_fixed(LadderDocument *document)
@@ -313,7 +715,7 @@ void ladder_document_begin(LadderDocument *document, const char *name, const cha
 void ladder_document_end(LadderDocument *document)
 {
 	if (history_end(document->history))
-		document_tell_state(document);
+		tell_state(document);
 }
 
 static void apply_all(LadderDocument *document, const struct step *step, bool back)
@@ -321,11 +723,11 @@ static void apply_all(LadderDocument *document, const struct step *step, bool ba
 	const int count = (int)step->change->len;
 
 	for (int i = 0; i < count; i++)
-		apply(document, step->change->pdata[back ? count - 1 - i : i], back);
+		apply_change(document, step->change->pdata[back ? count - 1 - i : i], back);
 	if (step_is_aside(step))
-		document_tell_state(document);
+		tell_state(document);
 	else
-		document_changed(document);
+		changed(document);
 }
 
 void ladder_document_cancel(LadderDocument *document)
@@ -364,6 +766,161 @@ const char *ladder_document_redo_name(LadderDocument *document)
 {
 	return history_redo_name(document->history);
 }
+
+static GPtrArray *one_text(const char *text, gsize len)
+{
+	GPtrArray *texts = change_texts();
+
+	g_ptr_array_add(texts, g_strndup(text, len));
+	return texts;
+}
+
+/* ---- the VIEW part and its bookmarks ---- */
+
+static char *view_text(LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+
+	return g_strdup(project ? project_view(project) : "");
+}
+
+/* An empty part that is the last one was ours, and goes. */
+static void put_view(LadderDocument *document, const char *before, const char *after)
+{
+	char *plain = g_strstrip(g_strdup(after));
+
+	if (strcmp(before, after) == 0 || document->fixed ||
+	    !ladder_document_project(document)) {
+		g_free(plain);
+		return;
+	}
+	if (strcmp(plain, "VIEW\nEND_VIEW") == 0 &&
+	    project_view_is_last(ladder_document_project(document)))
+		after = "";
+	record(document, change_new(CHANGE_VIEW, -1, 0,
+					     one_text(before, strlen(before)),
+					     one_text(after, strlen(after))));
+	g_free(plain);
+}
+
+static void shift_view(LadderDocument *document, const struct bookmark_shift *shift)
+{
+	char *before = view_text(document), *after = bookmarks_shift(before, shift);
+
+	put_view(document, before, after);
+	g_free(before);
+	g_free(after);
+}
+
+static void shift_bookmarks(LadderDocument *document, int pou, int at, int removed,
+			      int inserted)
+{
+	const char *name = pou_name(document, pou);
+	const struct bookmark_shift shift = { name, name, at, removed, inserted, -1, false };
+
+	if (removed != inserted)
+		shift_view(document, &shift);
+}
+
+static void move_bookmarks(LadderDocument *document, int pou, int from, int to,
+			     const char *view)
+{
+	const char *name = pou_name(document, pou);
+	const struct bookmark_shift shift = { name, name, to, 0, 0, from, false };
+	char *before = view_text(document), *after = bookmarks_shift(view, &shift);
+
+	put_view(document, before, after);
+	g_free(before);
+	g_free(after);
+}
+
+static bool is_taken(LadderDocument *document, int pou, const char *name)
+{
+	const int pous = ladder_document_project(document)->pou_count;
+
+	for (int i = 0; i < pous; i++)
+		if (i != pou && g_ascii_strcasecmp(pou_name(document, i), name) == 0)
+			return true;
+	return false;
+}
+
+/* While somebody types, a name may be another's for a moment: that one keeps its own. */
+static void follow_name(LadderDocument *document, int pou, const char *before)
+{
+	const char *now = pou_name(document, pou);
+
+	if (before && now && strcmp(before, now) != 0 && !is_taken(document, pou, before) &&
+	    !is_taken(document, pou, now))
+		ladder_document_rename_bookmarks(document, before, now);
+}
+
+void ladder_document_rename_bookmarks(LadderDocument *document, const char *from,
+				      const char *to)
+{
+	const struct bookmark_shift shift = { from, to, 0, 0, 0, -1, false };
+
+	shift_view(document, &shift);
+}
+
+const char *ladder_document_view(LadderDocument *document)
+{
+	const struct project *project = ladder_document_project(document);
+
+	return project ? project_view(project) : "";
+}
+
+void ladder_document_set_view(LadderDocument *document, const char *view)
+{
+	char *before = view_text(document);
+
+	put_view(document, before, view);
+	g_free(before);
+}
+
+bool ladder_document_is_bookmarked(LadderDocument *document, int pou, int rung)
+{
+	const char *name = pou_name(document, pou);
+
+	return name && bookmarks_have(ladder_document_view(document), name, rung);
+}
+
+bool ladder_document_next_bookmark(LadderDocument *document, int *pou, int *rung)
+{
+	const struct project *project = ladder_document_project(document);
+	const int pous = project ? project->pou_count : 0;
+
+	if (pous == 0 || !project_view(project)[0])
+		return false;
+	for (int i = 0, at = MAX(*pou, 0), from = *rung + 1; i <= pous;
+	     i++, at = (at + 1) % pous, from = 0)
+		for (int n = from; n < project->pou[at].rung_count; n++)
+			if (ladder_document_is_bookmarked(document, at, n)) {
+				*pou = at;
+				*rung = n;
+				return true;
+			}
+	return false;
+}
+
+void ladder_document_toggle_bookmark(LadderDocument *document, int pou, int rung)
+{
+	const char *name = pou_name(document, pou);
+	const struct bookmark_shift drop = { name, name, rung, 0, 0, -1, true };
+	const bool is = ladder_document_is_bookmarked(document, pou, rung);
+	char *before, *after;
+
+	if (!name)
+		return;
+	before = view_text(document);
+	after = is ? bookmarks_shift(before, &drop) : bookmarks_add(before, name, rung);
+	ladder_document_begin(document, is ? _("Clear bookmark") : _("Set bookmark"), NULL);
+	put_view(document, before, after);
+	ladder_document_end(document);
+	g_free(before);
+	g_free(after);
+}
+
+/* ---- rungs ---- */
 
 /* Its text, if a file could hold it. */
 static char *rung_text(LadderDocument *document, const struct rung *rung,
@@ -442,8 +999,8 @@ bool ladder_document_splice(LadderDocument *document, int pou, int at, int remov
 		rung_free(rungs[i]);
 	if (good && !same_texts(before, after)) {
 		ladder_document_begin(document, _("Edit rungs"), NULL);
-		document_record(document, change_new(CHANGE_RUNGS, pou, (gsize)at, before, after));
-		document_shift_bookmarks(document, pou, at, removed, inserted);
+		record(document, change_new(CHANGE_RUNGS, pou, (gsize)at, before, after));
+		shift_bookmarks(document, pou, at, removed, inserted);
 		ladder_document_end(document);
 	} else {
 		g_ptr_array_unref(before);
@@ -474,26 +1031,20 @@ bool ladder_document_move_rung(LadderDocument *document, int pou, int from, int 
 	good = ladder_document_splice(document, pou, from, 1, NULL, 0, NULL) &&
 	       ladder_document_splice(document, pou, to, 0, &copy, 1, NULL);
 	if (good)
-		document_move_bookmarks(document, pou, from, to, view);
+		move_bookmarks(document, pou, from, to, view);
 	ladder_document_end(document);
 	g_free(view);
 	return good;
 }
 
-GPtrArray *document_one_text(const char *text, gsize len)
-{
-	GPtrArray *texts = change_texts();
-
-	g_ptr_array_add(texts, g_strndup(text, len));
-	return texts;
-}
+/* ---- text ---- */
 
 /* What @text would be once it is read and written: NULL, and why, if it cannot be read
  * or has another number of POUs while lists stand beside them. */
 static char *canonical(LadderDocument *document, const char *text, gsize len,
 		       struct diag_list *why)
 {
-	struct ladder *ladder = document_read(document, text, len, why);
+	struct ladder *ladder = read_text(document, text, len, why);
 	char *out = NULL;
 	gsize out_len;
 
@@ -518,8 +1069,8 @@ static struct change *text_change(const char *from, const char *to)
 	while (end < shorter - at &&
 	       from[from_len - 1 - end] == to[to_len - 1 - end])
 		end++;
-	return change_new(CHANGE_TEXT, -1, at, document_one_text(from + at, from_len - at - end),
-			  document_one_text(to + at, to_len - at - end));
+	return change_new(CHANGE_TEXT, -1, at, one_text(from + at, from_len - at - end),
+			  one_text(to + at, to_len - at - end));
 }
 
 bool ladder_document_replace(LadderDocument *document, gsize at, gsize removed,
@@ -536,12 +1087,693 @@ bool ladder_document_replace(LadderDocument *document, gsize at, gsize removed,
 		clean = canonical(document, out, new_len, why);
 		good = clean || document->text;
 		if (good && strcmp(text, clean ? clean : out) != 0)
-			document_record(document, text_change(text, clean ? clean : out));
+			record(document, text_change(text, clean ? clean : out));
 		free(clean);
 		g_free(out);
 	}
 	g_free(text);
 	return good;
+}
+
+/* Not as the file would say it, but as it was typed, if that is known: it is the same. */
+static char *list_before(LadderDocument *document, int pou)
+{
+	const struct list_place *place = place_kept(document, pou);
+
+	return place && place->typed ? g_strdup(place->typed) :
+	       ladder_document_list(document, pou);
+}
+
+bool ladder_document_put_list(LadderDocument *document, int pou, const char *text)
+{
+	char *before = list_before(document, pou);
+	char *name = g_strdup(pou_name(document, pou));
+	bool same = before && strcmp(before, text) == 0;
+
+	if (before && !same && !document->fixed) {
+		ladder_document_begin(document, _("Type text"), NULL);
+		record(document, change_new(CHANGE_LIST, pou, 0,
+					    one_text(before, strlen(before)),
+					    one_text(text, strlen(text))));
+		follow_name(document, pou, name);
+		ladder_document_end(document);
+	}
+	g_free(name);
+	g_free(before);
+	return before;
+}
+
+/* ---- a variable, into a block of the live project ---- */
+
+static bool is_plain(const struct var_table *table, int block)
+{
+	return (table->block[block].flags & ~VAR_GLOBAL_WORD) == 0;
+}
+
+static int last_of_config(const struct project *project, int found)
+{
+	for (int i = 0; i < project->config->count; i++) {
+		const struct config_entry *entry = &project->config->entry[i];
+
+		if (entry->kind == CONFIG_VARS && is_plain(&project->globals, entry->block))
+			found = entry->block;
+	}
+	return found;
+}
+
+/* The last plain block in the order of the file; -1: there is none. */
+static int last_global(const struct project *project)
+{
+	int found = -1;
+
+	for (int i = 0; i < project->part_count; i++) {
+		const struct part *part = &project->part[i];
+
+		if (part->included)
+			continue;
+		if (part->kind == PART_VARS && is_plain(&project->globals, part->index))
+			found = part->index;
+		else if (part->kind == PART_CONFIG && project->config)
+			found = last_of_config(project, found);
+	}
+	return found;
+}
+
+static int last_of_pou(const struct pou *pou)
+{
+	int found = -1;
+
+	for (int i = 0; i < pou->vars.block_count; i++)
+		if (is_plain(&pou->vars, i))
+			found = i;
+	return found;
+}
+
+/* What has a frame is a word of the project, with a size. */
+static int live_block(const struct project *project, int pou)
+{
+	const struct pou *of = pou < 0 ? NULL : &project->pou[pou];
+
+	if (!of)
+		return last_global(project);
+	return of->included || pou_has_frame(of) ? -1 : last_of_pou(of);
+}
+
+static bool declare_live(LadderDocument *document, int pou, int block, const char *text,
+			 struct diag_list *why)
+{
+	const gsize len = strlen(text);
+	struct diag_list diags;
+
+	diag_init(&diags);
+	if (!ladder_read_var(document->ladder, pou, block, text, len, &diags)) {
+		if (why)
+			*why = diags;
+		return false;
+	}
+	vars_pop(table_of(ladder_project(document->ladder), pou), block);
+	record(document, change_new(CHANGE_VARIABLE, pou, (gsize)block,
+					     change_texts(), one_text(text, len)));
+	return true;
+}
+
+/* ---- a variable, as a line of the text ---- */
+
+/* Where a line could go: the end of a plain block, or before something. */
+struct opening {
+	const struct project *project;
+	int pou;              /* -1: global                                    */
+	bool found;
+	gsize at;             /* of END_VAR                                    */
+	gsize heading;        /* behind the POU's first line                   */
+	gsize first_pou;      /* the first part that is one; 0: none           */
+};
+
+static uint16_t block_flags(const struct opening *place, const struct text_span *span)
+{
+	const struct var_table *table = span->pou < 0 ? &place->project->globals :
+		&place->project->pou[span->pou].vars;
+
+	return table->block[span->number].flags;
+}
+
+static void look(void *context, const struct text_span *span)
+{
+	static const char end[] = "END_VAR\n";
+	struct opening *place = context;
+
+	if (span->part == TEXT_BLOCK && span->pou == place->pou &&
+	    span->structure < 0 &&
+	    (block_flags(place, span) & ~VAR_GLOBAL_WORD) == 0) {
+		place->found = true;
+		place->at = span->at + span->len - strlen(end);
+	}
+	if (span->part == TEXT_POU && span->number == place->pou)
+		place->heading = span->at;
+	if (span->part == TEXT_PART && !place->first_pou &&
+	    place->project->part[span->number].kind == PART_POU)
+		place->first_pou = span->at;
+}
+
+static bool declare_in_text(LadderDocument *document, int pou, const char *declaration,
+			    struct diag_list *why)
+{
+	struct opening place = { .project = ladder_document_project(document), .pou = pou };
+	gsize len;
+	char *text = ladder_document_outline(document, &len, look, &place), *line;
+	bool good;
+
+	if (place.found) {
+		line = g_strdup_printf("  %s\n", declaration);
+	} else if (pou >= 0) {
+		place.at = (gsize)(strchr(text + place.heading, '\n') + 1 - text);
+		line = g_strdup_printf("VAR\n  %s\nEND_VAR\n", declaration);
+	} else {
+		place.at = place.first_pou ? place.first_pou : len;
+		line = g_strdup_printf("VAR\n  %s\nEND_VAR\n\n", declaration);
+	}
+	good = ladder_document_replace(document, place.at, 0, line, why);
+	g_free(line);
+	g_free(text);
+	return good;
+}
+
+bool ladder_document_declare(LadderDocument *document, int pou, const char *name,
+			     const char *type, const char *address,
+			     struct diag_list *why)
+{
+	struct project *project = ladder_document_project(document);
+	char *declaration;
+	bool good;
+	int block;
+
+	if (!project || pou >= project->pou_count || document->fixed)
+		return false;
+	declaration = g_strdup_printf("%s%s%s : %s;", name,
+				      address && address[0] ? " AT " : "",
+				      address ? address : "", type);
+	block = live_block(project, pou);
+	good = block >= 0 ? declare_live(document, pou, block, declaration, why) :
+	       declare_in_text(document, pou, declaration, why);
+	g_free(declaration);
+	return good;
+}
+
+/* ---- places in the history ---- */
+
+guint64 ladder_document_place(LadderDocument *document)
+{
+	return history_place(document->history);
+}
+
+bool ladder_document_knows_place(LadderDocument *document, guint64 place)
+{
+	return history_since(document->history, place) >= 0;
+}
+
+enum relation {
+	STEP_EDIT,  /* of that rung, and of declarations with it               */
+	STEP_ASIDE, /* of nothing that it could meet                           */
+	STEP_OTHER,
+};
+
+static enum relation relation_of(const struct step *step, int pou, int rung)
+{
+	bool edits = false, declares = false;
+
+	for (guint i = 0; i < step->change->len; i++) {
+		const struct change *change = step->change->pdata[i];
+
+		switch (change->kind) {
+		case CHANGE_RUNGS:
+			if (change->pou != pou || change->at != (gsize)rung ||
+			    change->before->len != 1 || change->after->len != 1)
+				return STEP_OTHER;
+			edits = true;
+			break;
+		case CHANGE_TEXT:
+		case CHANGE_VARIABLE:
+			declares = true;
+			break;
+		case CHANGE_LIST:
+			return STEP_OTHER;
+		case CHANGE_VIEW:
+		case CHANGE_FILE:
+			break;
+		}
+	}
+	return edits ? STEP_EDIT : declares ? STEP_OTHER : STEP_ASIDE;
+}
+
+/* Steps since the rung was as it was at the place: then, or when it was given back last. */
+static int steps_since(LadderDocument *document, guint64 place)
+{
+	const int count = history_since(document->history, place);
+
+	for (int i = 0; i < count; i++) {
+		const struct step *step = history_done(document->history, i);
+
+		if (step->is_back && step->back_to == place)
+			return i;
+	}
+	return count;
+}
+
+/* What the last @count steps are: edits of the rung, and nothing that stands on them? */
+static enum back judge(LadderDocument *document, int pou, int rung, int count)
+{
+	enum back back = BACK_NOTHING;
+	bool other = false;
+
+	for (int i = 0; i < count; i++) {
+		const enum relation relation = relation_of(history_done(document->history, i),
+							   pou, rung);
+
+		if (relation == STEP_EDIT)
+			back = BACK_DONE;
+		other = other || relation == STEP_OTHER;
+	}
+	return back == BACK_DONE && other ? BACK_OTHER : back;
+}
+
+static void take_back(LadderDocument *document, const struct step *step)
+{
+	for (guint i = step->change->len; i-- > 0;) {
+		const struct change *change = step->change->pdata[i];
+
+		record(document, change_new(change->kind, change->pou, change->at,
+						     g_ptr_array_ref(change->after),
+						     g_ptr_array_ref(change->before)));
+	}
+}
+
+enum back ladder_document_give_back(LadderDocument *document, int pou, int rung,
+				    guint64 place, const char *name)
+{
+	const int count = steps_since(document, place);
+	const enum back back = judge(document, pou, rung, count);
+
+	if (back != BACK_DONE)
+		return back;
+	ladder_document_begin(document, name, NULL);
+	history_goes_back(document->history, place);
+	for (int i = 0; i < count; i++) {
+		const struct step *step = history_done(document->history, i);
+
+		if (relation_of(step, pou, rung) == STEP_EDIT)
+			take_back(document, step);
+	}
+	ladder_document_end(document);
+	return back;
+}
+
+/* ---- files beside the document ---- */
+
+int ladder_document_attach(LadderDocument *document, file_apply apply, gpointer file)
+{
+	const struct beside beside = { apply, file };
+
+	if (!document->files)
+		document->files = g_array_new(FALSE, FALSE, sizeof(struct beside));
+	g_array_append_val(document->files, beside);
+	return (int)document->files->len - 1;
+}
+
+void ladder_document_detach(LadderDocument *document, int file)
+{
+	g_array_index(document->files, struct beside, file) = (struct beside){ NULL, NULL };
+	history_forget_file(document->history, file);
+	tell_state(document);
+}
+
+void ladder_document_note(LadderDocument *document, int file, const char *name,
+			  const char *key, gsize at, const char *before, const char *after)
+{
+	ladder_document_begin(document, name, key);
+	history_add(document->history, change_new(CHANGE_FILE, file, at,
+		one_text(before, strlen(before)),
+		one_text(after, strlen(after))));
+	ladder_document_end(document);
+}
+
+/* ---- the file ---- */
+
+static char *sum_of(const char *text, gsize len)
+{
+	return g_compute_checksum_for_data(G_CHECKSUM_SHA256, (const guchar *)text, len);
+}
+
+/* What stands in the file; NULL: nobody knows. */
+static void set_sum(LadderDocument *document, char *sum)
+{
+	g_free(document->disk_sum);
+	document->disk_sum = sum;
+	document->disk = DISK_AS_READ;
+	memset(&document->disk_seen, 0, sizeof(document->disk_seen));
+}
+
+static void set_path(LadderDocument *document, const char *path)
+{
+	char *copy = path ? g_canonicalize_filename(path, NULL) : NULL;
+
+	g_free(document->path);
+	document->path = copy;
+}
+
+static bool fail(GError **error, GFileError code, const char *text, const char *path)
+{
+	g_set_error(error, G_FILE_ERROR, code, "%s: %s", path, text);
+	return false;
+}
+
+/* Bytes that are no text cannot be shown: what stands for them is not what the file
+ * holds, so the document differs from it. */
+static void open_bytes(LadderDocument *document, const char *path, const char *text,
+		       gsize len)
+{
+	const char *bad = text;
+	char *valid;
+
+	if (g_utf8_validate_len(text, len, &bad)) {
+		ladder_document_open_text(document, path, text, len, true);
+		return;
+	}
+	valid = g_utf8_make_valid(text, (gssize)len);
+	ladder_document_open_text(document, path, valid, strlen(valid), false);
+	set_sum(document, sum_of(text, len));
+	document->repaired = 1;
+	for (const char *at = text; at < bad; at++)
+		document->repaired += *at == '\n';
+	g_free(valid);
+}
+
+bool ladder_document_open(LadderDocument *document, const char *path, GError **error)
+{
+	gsize len;
+	char *text = disk_read(path, LIMIT_TEXT, &len, error);
+
+	if (!text)
+		return false;
+	if (len >= strlen(CODE_MAGIC) && !memcmp(text, CODE_MAGIC, strlen(CODE_MAGIC))) {
+		g_free(text);
+		return fail(error, G_FILE_ERROR_INVAL,
+			    _("is a code image; the program it was made of can be "
+			      "opened"), path);
+	}
+	open_bytes(document, path, text, len);
+	g_free(text);
+	return true;
+}
+
+void ladder_document_open_text(LadderDocument *document, const char *path,
+			       const char *text, gsize len, bool saved)
+{
+	document->repaired = 0;
+	set_path(document, path);
+	set_sum(document, saved ? sum_of(text, len) : NULL);
+	take(document, text, len);
+	if (!saved) {
+		history_never_saved(document->history);
+		tell_state(document);
+	}
+}
+
+bool ladder_document_save(LadderDocument *document, const char *path, GError **error)
+{
+	gsize len;
+	char *text;
+	bool good;
+
+	path = path ? path : document->path;
+	g_return_val_if_fail(path != NULL, false);
+	text = ladder_document_text(document, &len);
+	good = disk_save(path, text, len, error);
+	if (good) {
+		set_path(document, path);
+		set_sum(document, sum_of(text, len));
+		document->repaired = 0;
+		history_mark_saved(document->history);
+		tell_state(document);
+	}
+	g_free(text);
+	return good;
+}
+
+/* The file is read only if it looks another than when it was looked at last. */
+static bool looks_the_same(LadderDocument *document, const GStatBuf *about)
+{
+	const GStatBuf *seen = &document->disk_seen;
+	const bool same = about->st_mtim.tv_sec == seen->st_mtim.tv_sec &&
+		about->st_mtim.tv_nsec == seen->st_mtim.tv_nsec &&
+		about->st_ino == seen->st_ino && about->st_size == seen->st_size;
+
+	document->disk_seen = *about;
+	return same;
+}
+
+/* A file that cannot be read is there: nobody knows what it says. */
+static enum disk_state look_at_disk(LadderDocument *document)
+{
+	enum disk_state state = DISK_AS_READ;
+	GStatBuf about = { 0 };
+	char *text, *sum;
+	gsize len;
+
+	if (g_stat(document->path, &about) != 0)
+		return DISK_GONE;
+	if (looks_the_same(document, &about))
+		return document->disk;
+	text = disk_read(document->path, LIMIT_TEXT, &len, NULL);
+	if (text) {
+		sum = sum_of(text, len);
+		state = strcmp(sum, document->disk_sum) ? DISK_OTHER : DISK_AS_READ;
+		g_free(sum);
+	}
+	g_free(text);
+	return state;
+}
+
+enum disk_state ladder_document_disk(LadderDocument *document)
+{
+	const enum disk_state before = document->disk;
+
+	if (!document->path || !document->disk_sum)
+		return DISK_AS_READ;
+	document->disk = look_at_disk(document);
+	if (document->disk == DISK_GONE) /* one that comes is looked at, whatever it is */
+		memset(&document->disk_seen, 0, sizeof(document->disk_seen));
+	if ((document->disk == DISK_GONE) != (before == DISK_GONE))
+		tell_state(document);
+	return document->disk;
+}
+
+const char *ladder_document_disk_sum(LadderDocument *document)
+{
+	return document->disk_sum;
+}
+
+void ladder_document_restore(LadderDocument *document, const char *path, const char *sum,
+			     const char *text, gsize len)
+{
+	ladder_document_open_text(document, path, text, len, false);
+	set_sum(document, g_strdup(sum));
+}
+
+bool ladder_document_is_saved(LadderDocument *document)
+{
+	return history_is_saved(document->history) && document->disk != DISK_GONE;
+}
+
+int ladder_document_repaired(LadderDocument *document)
+{
+	return document->repaired;
+}
+
+/* ---- checks, on a copy in a thread ---- */
+
+struct check {
+	char *text;
+	gsize len;
+	const char *file;  /* interned                                         */
+	guint64 version;
+	struct ladder *ladder;
+	bool read;         /* all of it                                        */
+};
+
+static void check_free(gpointer pointer)
+{
+	struct check *check = pointer;
+
+	ladder_free(check->ladder);
+	g_free(check->text);
+	g_free(check);
+}
+
+static struct check *check_new(LadderDocument *document)
+{
+	struct check *check = g_new0(struct check, 1);
+
+	check->text = ladder_document_text(document, &check->len);
+	check->file = g_intern_string(file_name(document));
+	check->version = document->version;
+	return check;
+}
+
+static void check_run(struct check *check)
+{
+	check->ladder = ladder_new();
+	if (!check->ladder)
+		g_error("out of memory");
+	check->read = ladder_load_text(check->ladder, check->file, check->text, check->len);
+	if (check->read)
+		ladder_build(check->ladder);
+}
+
+static void copy_place(int *line, int *column, int to_line, int to_column)
+{
+	*line = to_line;
+	*column = to_column;
+}
+
+/* @is, just read, is the same chart as @was. */
+static void take_chart_lines(struct sfc *was, const struct sfc *is)
+{
+	for (int i = 0; i < was->step_count; i++)
+		copy_place(&was->step[i].line, &was->step[i].column_at, is->step[i].line,
+			   is->step[i].column_at);
+	for (int i = 0; i < was->use_count; i++)
+		copy_place(&was->use[i].line, &was->use[i].column, is->use[i].line,
+			   is->use[i].column);
+	for (int i = 0; i < was->transition_count; i++)
+		copy_place(&was->transition[i].line, &was->transition[i].column,
+			   is->transition[i].line, is->transition[i].column);
+	for (int i = 0; i < was->action_count; i++)
+		copy_place(&was->action[i].line, &was->action[i].column,
+			   is->action[i].line, is->action[i].column);
+	for (int i = 0; i < was->ref_count; i++)
+		copy_place(&was->ref[i].line, &was->ref[i].column, is->ref[i].line,
+			   is->ref[i].column);
+	was->control_line = is->control_line;
+}
+
+static bool is_same_chart(const struct pou *was, const struct pou *is)
+{
+	return was->sfc && is->sfc && was->sfc->step_count == is->sfc->step_count &&
+	       was->sfc->use_count == is->sfc->use_count &&
+	       was->sfc->transition_count == is->sfc->transition_count &&
+	       was->sfc->action_count == is->sfc->action_count &&
+	       was->sfc->ref_count == is->sfc->ref_count &&
+	       was->il.count == is->il.count;
+}
+
+/* A rung that was edited moves what stands below it, and a file need not be written as it
+ * is read: where things are in the canonical text is known when that was read. */
+static void take_lines(LadderDocument *document)
+{
+	struct project *project = ladder_document_project(document);
+	const struct project *read = ladder_project(document->checked);
+
+	if (!project || !read || document->checked_version != document->version ||
+	    project->pou_count != read->pou_count)
+		return;
+	for (int i = 0; i < project->pou_count; i++) {
+		struct pou *was = &project->pou[i];
+		const struct pou *is = &read->pou[i];
+
+		if (!is_same_chart(was, is))
+			continue;
+		take_chart_lines(was->sfc, is->sfc);
+		for (int k = 0; k < was->il.count; k++)
+			was->il.line[k].line = is->il.line[k].line;
+		was->line = is->line;
+	}
+}
+
+static void check_take(LadderDocument *document, struct check *check)
+{
+	ladder_free(document->checked);
+	document->checked = g_steal_pointer(&check->ladder);
+	document->checked_version = check->version;
+	document->diags = *ladder_diags(document->checked);
+	if (check->read && check->version == document->version)
+		check_lists(document, ladder_project(document->checked),
+				     &document->diags);
+	take_lines(document);
+	g_signal_emit(document, signals[CHECKED], 0);
+	memory_give_back(); /* the copy before it was tens of megabytes of a large one */
+}
+
+static void check_thread(GTask *task, gpointer source, gpointer data,
+			 GCancellable *cancellable)
+{
+	(void)source;
+	(void)cancellable;
+	check_run(data);
+	g_task_return_boolean(task, TRUE);
+}
+
+static void check_done(GObject *object, GAsyncResult *result, gpointer unused)
+{
+	LadderDocument *document = LADDER_DOCUMENT(object);
+	struct check *check = g_task_get_task_data(G_TASK(result));
+
+	(void)unused;
+	document->checking = false;
+	if (check->version >= document->checked_version)
+		check_take(document, check);
+	if (document->version != document->checked_version)
+		check_later(document);
+}
+
+static gboolean check_begin(gpointer data)
+{
+	LadderDocument *document = data;
+	GTask *task;
+
+	document->check_timer = 0;
+	if (document->checking)
+		return G_SOURCE_REMOVE; /* check_done() asks again */
+	document->checking = true;
+	task = g_task_new(document, NULL, check_done, NULL);
+	g_task_set_task_data(task, check_new(document), check_free);
+	g_task_run_in_thread(task, check_thread);
+	g_object_unref(task);
+	return G_SOURCE_REMOVE;
+}
+
+static void check_later(LadderDocument *document)
+{
+	stop_checks(document);
+	if (document->fixed)
+		return;
+	document->check_timer = g_timeout_add(CHECK_DELAY_MS, check_begin, document);
+}
+
+static void stop_checks(LadderDocument *document)
+{
+	if (document->check_timer)
+		g_source_remove(document->check_timer);
+	document->check_timer = 0;
+}
+
+void ladder_document_check_now(LadderDocument *document)
+{
+	struct check *check = check_new(document);
+
+	stop_checks(document);
+	check_run(check);
+	check_take(document, check);
+	check_free(check);
+}
+
+const struct diag_list *ladder_document_diags(LadderDocument *document)
+{
+	return &document->diags;
+}
+
+struct ladder *ladder_document_checked(LadderDocument *document)
+{
+	return document->checked;
 }
 
 /* ---- life ---- */
@@ -550,7 +1782,7 @@ static void ladder_document_finalize(GObject *object)
 {
 	LadderDocument *document = LADDER_DOCUMENT(object);
 
-	document_stop_checks(document);
+	stop_checks(document);
 	ladder_free(document->ladder);
 	ladder_free(document->checked);
 	history_free(document->history);
@@ -591,7 +1823,7 @@ static void ladder_document_init(LadderDocument *document)
 	document->list = g_hash_table_new_full(NULL, NULL, NULL, g_free);
 	diag_init(&document->diags);
 	take_text(document, EMPTY_PROJECT, strlen(EMPTY_PROJECT));
-	document_check_later(document);
+	check_later(document);
 }
 
 LadderDocument *ladder_document_new(void)

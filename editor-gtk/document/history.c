@@ -271,11 +271,6 @@ bool history_end(struct history *history)
 	return true;
 }
 
-bool history_is_open(const struct history *history)
-{
-	return history->depth > 0;
-}
-
 const struct step *history_open_step(const struct history *history)
 {
 	return history->open;

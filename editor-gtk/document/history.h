@@ -60,7 +60,6 @@ void history_begin(struct history *history, const char *name, const char *key);
 void history_add(struct history *history, struct change *change);
 /** history_end - true if the outermost step ended, and changed something. */
 bool history_end(struct history *history);
-bool history_is_open(const struct history *history);
 
 /** history_undo - the step to be taken back, from its last change to its first;
  * NULL: there is none. Borrowed until the next call that is no question. */
