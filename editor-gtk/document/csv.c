@@ -1,11 +1,18 @@
 /* SPDX-License-Identifier: MIT
  *
- * csv - records of fields from text, and the table of all symbols as text. What an
- * import does is csv_plan.c's.
+ * csv - tables of symbols as text: records of fields, the table of all symbols, and what an
+ * import would do.
+ *
+ * An import is tried on a program in memory, which is checked as any other. Its faults are
+ * reported at the lines of the table that bring them.
  */
 #include "editor-gtk/document/csv.h"
 
+#include "editor-gtk/kit/diag_said.h"
 #include "editor-gtk/kit/i18n.h"
+
+#include "engine/ladder.h"
+#include "engine/xref/address_map.h"
 
 #include <string.h>
 
@@ -173,7 +180,7 @@ int csv_read(const char *text, gsize len,
 
 /* ---- writing ---- */
 
-void csv_write_field(GString *out, const char *text)
+static void write_field(GString *out, const char *text)
 {
 	if (!text[strcspn(text, ",;\t\"\r\n")] && *text != ' ') {
 		g_string_append(out, text);
@@ -190,13 +197,13 @@ void csv_write_field(GString *out, const char *text)
 
 static void write_row(GString *out, const struct symbol_row *symbol)
 {
-	csv_write_field(out, symbol->scope);
+	write_field(out, symbol->scope);
 	g_string_append_c(out, ',');
-	csv_write_field(out, symbol->member ? "STRUCT" :
+	write_field(out, symbol->member ? "STRUCT" :
 			vars_head((uint16_t)(symbol->flags & ~VAR_GLOBAL_WORD)));
 	for (int i = 0; i < SYMBOL_FIELDS; i++) {
 		g_string_append_c(out, ',');
-		csv_write_field(out, symbol->text[i]);
+		write_field(out, symbol->text[i]);
 	}
 	g_string_append(out, "\r\n");
 }
@@ -215,4 +222,566 @@ char *csv_export(LadderDocument *document, int *count)
 		}
 	symbols_free(symbols);
 	return g_string_free(out, FALSE);
+}
+
+#define CLASHES_MOST 5000
+
+/* The entries that would change something. */
+struct checked {
+	struct csv_plan *plan;
+	struct xref xref;    /* of the program as it would be                 */
+	GHashTable *name;    /* "Main.Delay", folded: struct csv_entry *      */
+	GHashTable *line;    /* of its declaration: the same                  */
+};
+
+/* @text: taken over; the first one is kept. */
+static void mark(struct checked *checked, struct csv_entry *entry, bool warning, char *text)
+{
+	if (entry->fault) {
+		g_free(text);
+		return;
+	}
+	entry->fault = text;
+	entry->warning = warning;
+	checked->plan->faults++;
+}
+
+static struct csv_entry *entry_of(const struct checked *checked, const struct xref_use *use)
+{
+	char name[2 * LIMIT_NAME + 8], *key;
+	struct csv_entry *entry;
+
+	if (use->target.what != XREF_VARIABLE)
+		return NULL;
+	xref_name(checked->xref.project, &use->target, use, name, sizeof(name));
+	key = g_ascii_strdown(name, -1);
+	entry = g_hash_table_lookup(checked->name, key);
+	g_free(key);
+	return entry;
+}
+
+static void find_entries(struct checked *checked)
+{
+	const struct csv_plan *plan = checked->plan;
+
+	for (guint i = 0; i < plan->entry->len; i++) {
+		struct csv_entry *entry = plan->entry->pdata[i];
+
+		if (entry->action == CSV_ADD || entry->action == CSV_CHANGE)
+			g_hash_table_insert(checked->name, g_ascii_strdown(entry->name, -1),
+					    entry);
+	}
+	for (int i = 0; i < checked->xref.count; i++) {
+		const struct xref_use *use = &checked->xref.use[i];
+		struct csv_entry *entry = use->kind == XREF_DECLARED && !use->included ?
+			entry_of(checked, use) : NULL;
+
+		if (entry)
+			g_hash_table_insert(checked->line, GINT_TO_POINTER(use->line), entry);
+	}
+}
+
+static void mark_errors(struct checked *checked, const struct diag_list *diags)
+{
+	for (int i = 0; i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+		struct csv_entry *entry = diag->rung ? NULL :
+			g_hash_table_lookup(checked->line, GINT_TO_POINTER(diag->line));
+
+		if (entry && diag_severity(diag->id) == SEVERITY_ERROR)
+			mark(checked, entry, false, diag_said_whole(diag));
+	}
+}
+
+static void mark_clash(struct checked *checked, const struct xref_use *use,
+		       const struct xref_use *other)
+{
+	struct csv_entry *entry = entry_of(checked, use);
+	char name[2 * LIMIT_NAME + 8];
+
+	if (!entry)
+		return;
+	xref_name(checked->xref.project, &other->target, other, name, sizeof(name));
+	mark(checked, entry, true, g_strdup_printf(_("also used as %s"), name));
+}
+
+static void mark_clashes(struct checked *checked)
+{
+	struct address_clash *clash = g_new(struct address_clash, CLASHES_MOST);
+	const int count = address_map_clashes(&checked->xref, clash, CLASHES_MOST);
+
+	for (int i = 0; i < MIN(count, CLASHES_MOST); i++) {
+		const struct xref_use *a = &checked->xref.use[clash[i].a];
+		const struct xref_use *b = &checked->xref.use[clash[i].b];
+
+		mark_clash(checked, a, b);
+		mark_clash(checked, b, a);
+	}
+	g_free(clash);
+}
+
+/* ---- where they are used ---- */
+
+static bool is_same(const struct diag *a, const struct diag *b)
+{
+	return a->id == b->id && a->rung == b->rung && a->row == b->row && a->col == b->col &&
+	       g_strcmp0(a->pou, b->pou) == 0 && strcmp(a->arg, b->arg) == 0;
+}
+
+/* Of the first @count. */
+static int count_same(const struct diag_list *diags, int count, const struct diag *diag)
+{
+	int same = 0;
+
+	for (int i = 0; i < count; i++)
+		same += is_same(&diags->diag[i], diag);
+	return same;
+}
+
+/* Does the text of an error begin with the name that stands there? */
+static bool speaks_of(const struct checked *checked, const struct diag *diag,
+		      const struct xref_use *use)
+{
+	const char *name = xref_text(&checked->xref, use) + use->at;
+	const char end = use->len < sizeof(diag->arg) ? diag->arg[use->len] : '\0';
+
+	return use->len && g_ascii_strncasecmp(diag->arg, name, use->len) == 0 &&
+	       !g_ascii_isalnum(end) && end != '_';
+}
+
+enum near { ELSEWHERE, SAME_LINE, SAME_CELL, SAME_NAME };
+
+static enum near nearness(const struct checked *checked, const struct diag *diag,
+			  const struct xref_use *use)
+{
+	const struct project *project = checked->xref.project;
+	const char *pou = use->pou < 0 ? NULL :
+		project_text(project, project->pou[use->pou].name);
+
+	if (use->kind == XREF_DECLARED || g_strcmp0(pou, diag->pou) != 0)
+		return ELSEWHERE;
+	if (diag->rung ? use->rung != diag->rung : use->line != diag->line)
+		return ELSEWHERE;
+	if (speaks_of(checked, diag, use))
+		return SAME_NAME;
+	return diag->row && use->row == diag->row && use->col == diag->col ? SAME_CELL :
+	       SAME_LINE;
+}
+
+/* At the symbol it speaks of, else at those of its cell, else at those of its rung or line. */
+static void mark_uses(struct checked *checked, const struct diag *diag)
+{
+	const struct xref *xref = &checked->xref;
+	enum near nearest = ELSEWHERE;
+
+	for (int i = 0; i < xref->count; i++) {
+		const enum near near = nearness(checked, diag, &xref->use[i]);
+
+		if (near > nearest && entry_of(checked, &xref->use[i]))
+			nearest = near;
+	}
+	for (int i = 0; nearest && i < xref->count; i++) {
+		struct csv_entry *entry = nearness(checked, diag, &xref->use[i]) == nearest ?
+			entry_of(checked, &xref->use[i]) : NULL;
+
+		if (entry)
+			mark(checked, entry, false, diag_said_whole(diag));
+	}
+}
+
+/* Errors that the program has not yet, where it uses what would be another. */
+static void mark_used(struct checked *checked, const struct diag_list *diags)
+{
+	struct symbol_batch *nothing = symbol_batch_new(checked->plan->document);
+	struct ladder *before = symbol_batch_try(nothing, NULL);
+	const struct diag_list *old = before ? ladder_diags(before) : NULL;
+
+	for (int i = 0; old && i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+
+		if (diag_severity(diag->id) == SEVERITY_ERROR &&
+		    count_same(diags, i, diag) >= count_same(old, old->count, diag))
+			mark_uses(checked, diag);
+	}
+	ladder_free(before);
+	symbol_batch_free(nothing);
+}
+
+/* ---- the check ---- */
+
+/* No program would come of it, and no line is known that is to blame. */
+static void refuse_all(struct csv_plan *plan, const char *why)
+{
+	for (guint i = 0; i < plan->entry->len; i++) {
+		struct csv_entry *entry = plan->entry->pdata[i];
+
+		if (entry->action != CSV_ADD && entry->action != CSV_CHANGE)
+			continue;
+		plan->counts[entry->action]--;
+		plan->counts[CSV_REFUSE]++;
+		entry->action = CSV_REFUSE;
+		g_free(entry->text);
+		entry->text = g_strdup(why);
+	}
+}
+
+static void check_plan(struct csv_plan *plan)
+{
+	struct checked checked = { .plan = plan };
+	char *why = NULL;
+	struct ladder *ladder = symbol_batch_try(plan->batch, &why);
+
+	if (!ladder) {
+		refuse_all(plan, why);
+		g_free(why);
+		return;
+	}
+	if (!xref_make(&checked.xref, ladder_project(ladder)))
+		g_error("out of memory");
+	checked.name = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+	checked.line = g_hash_table_new(NULL, NULL);
+	find_entries(&checked);
+	mark_errors(&checked, ladder_diags(ladder));
+	if (ladder_diags(ladder)->errors)
+		mark_used(&checked, ladder_diags(ladder));
+	mark_clashes(&checked);
+	g_hash_table_unref(checked.name);
+	g_hash_table_unref(checked.line);
+	xref_free(&checked.xref);
+	ladder_free(ladder);
+}
+
+/* Columns by name, any case. */
+enum column {
+	COLUMN_SCOPE = SYMBOL_FIELDS, COLUMN_BLOCK, COLUMNS
+};
+
+static const char *const column_names[COLUMNS] = {
+	[FIELD_NAME] = "name", [FIELD_TYPE] = "type", [FIELD_ADDRESS] = "address",
+	[FIELD_INITIAL] = "initial value", [FIELD_RETAIN] = "retain",
+	[FIELD_CONSTANT] = "constant", [FIELD_COMMENT] = "comment",
+	[COLUMN_SCOPE] = "scope", [COLUMN_BLOCK] = "block",
+};
+
+struct import {
+	struct csv_plan *plan;
+	struct symbols *symbols;
+	GHashTable *row;     /* "scope.name", folded: struct symbol_row *     */
+	GHashTable *seen;    /* the same: its line in the table               */
+	int column[COLUMNS]; /* -1: there is none                             */
+	bool has_header;
+};
+
+static char *key_of(const char *scope, const char *name)
+{
+	char *text = g_strconcat(scope, ".", name, NULL), *key;
+
+	key = g_ascii_strdown(text, -1);
+	g_free(text);
+	return key;
+}
+
+static void clear_entry(gpointer pointer)
+{
+	struct csv_entry *entry = pointer;
+
+	g_free(entry->name);
+	g_free(entry->text);
+	g_free(entry->fault);
+	g_free(entry);
+}
+
+/* @name, @text: taken over. */
+static void tell(struct csv_plan *plan, enum csv_action action, int line, char *name,
+		 char *text)
+{
+	struct csv_entry *entry = g_new0(struct csv_entry, 1);
+
+	entry->action = action;
+	entry->line = line;
+	entry->name = name;
+	entry->text = text;
+	plan->counts[action]++;
+	g_ptr_array_add(plan->entry, entry);
+}
+
+/* ---- the header ---- */
+
+static bool read_header(struct import *import, int line, char *const *field, int count)
+{
+	for (int i = 0; i < COLUMNS; i++)
+		import->column[i] = -1;
+	for (int k = 0; k < count; k++) {
+		char *name = g_strstrip(g_strdup(field[k]));
+
+		for (int i = 0; i < COLUMNS; i++)
+			if (g_ascii_strcasecmp(name, column_names[i]) == 0 &&
+			    import->column[i] < 0)
+				import->column[i] = k;
+		g_free(name);
+	}
+	import->has_header = true;
+	if (import->column[FIELD_NAME] >= 0)
+		return true;
+	tell(import->plan, CSV_REFUSE, line, g_strdup(""),
+	     g_strdup(_("The first line must name the columns; “Name” is needed, and “Type” "
+			"for new symbols")));
+	return false;
+}
+
+/* ---- a record ---- */
+
+/* "" where a record is short; NULL: there is no such column. */
+static const char *cell(const struct import *import, int column, char *const *field,
+			int count)
+{
+	const int at = import->column[column];
+
+	if (at < 0)
+		return NULL;
+	return at < count ? g_strstrip(field[at]) : "";
+}
+
+static const char *yes_or_no(const char *text)
+{
+	static const char *const no[] = { "", "0", "no", "false", "-", "n", "nein", "non",
+					  "faux", "falsch", "否" };
+
+	for (gsize i = 0; i < G_N_ELEMENTS(no); i++)
+		if (g_ascii_strcasecmp(text, no[i]) == 0)
+			return "";
+	return "1";
+}
+
+/* Table number of a scope; -1: there is none. */
+static int table_of(struct project *project, const char *scope)
+{
+	const int pou = project_find_pou(project, scope, strlen(scope));
+
+	if (!*scope)
+		return 0;
+	if (pou >= 0)
+		return pou + 1;
+	for (int i = 0; i < project->structure_count; i++)
+		if (g_ascii_strcasecmp(scope, project_text(project,
+				project->structure[i].name)) == 0)
+			return project->pou_count + 1 + i;
+	return -1;
+}
+
+#define KIND_FLAGS (VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP)
+
+/* The word of a VAR block as its flags; -1: it is none, or none of this table. */
+static int flags_of(const char *block, bool member)
+{
+	static const uint8_t kinds[] = { 0, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_TEMP };
+
+	if (member || !*block)
+		return !*block || g_ascii_strcasecmp(block, "STRUCT") == 0 ? 0 : -1;
+	if (g_ascii_strcasecmp(block, "VAR_GLOBAL") == 0)
+		return 0;
+	for (gsize i = 0; i < G_N_ELEMENTS(kinds); i++)
+		if (g_ascii_strcasecmp(block, vars_head(kinds[i])) == 0)
+			return kinds[i];
+	return -1;
+}
+
+static void add_change(GString *out, const char *name, const char *old, const char *new)
+{
+	g_string_append_printf(out, "%s%s: ", out->len ? "; " : "", name);
+	if (old)
+		g_string_append_printf(out, "%s → ", *old ? old : "–");
+	g_string_append(out, *new ? new : "–");
+}
+
+/* "Address: %IX0.0 → %IX0.1; Comment: …"; of a new one what it has. */
+static char *changes(const struct symbol_row *old, int flags,
+		     const char *const text[SYMBOL_FIELDS])
+{
+	GString *out = g_string_new("");
+
+	if (old && (old->flags & KIND_FLAGS) != flags)
+		add_change(out, _("Block"), vars_head(old->flags), vars_head((uint16_t)flags));
+	for (int i = FIELD_NAME + 1; i < SYMBOL_FIELDS; i++) {
+		if (strcmp(old ? old->text[i] : "", text[i]) == 0)
+			continue;
+		if (i == FIELD_RETAIN || i == FIELD_CONSTANT)
+			add_change(out, symbol_field_name(i), NULL,
+				   *text[i] ? _("yes") : _("no"));
+		else
+			add_change(out, symbol_field_name(i), old ? old->text[i] : NULL,
+				   text[i]);
+	}
+	return g_string_free(out, FALSE);
+}
+
+static void put(struct import *import, int line, char *name, int table, int flags,
+		const struct symbol_row *old, const char *const text[SYMBOL_FIELDS])
+{
+	char *what = changes(old, flags, text), *why = NULL;
+
+	if (old && !*what)
+		tell(import->plan, CSV_SAME, line, name, what);
+	else if (symbol_batch_put(import->plan->batch, table, old ? old->index : -1,
+				  (uint16_t)flags, text, &why))
+		tell(import->plan, old ? CSV_CHANGE : CSV_ADD, line, name, what);
+	else {
+		tell(import->plan, CSV_REFUSE, line, name, why);
+		g_free(what);
+	}
+}
+
+static bool is_seen(struct import *import, const char *key, int line, const char *name)
+{
+	const int before = GPOINTER_TO_INT(g_hash_table_lookup(import->seen, key));
+
+	if (!before) {
+		g_hash_table_insert(import->seen, g_strdup(key), GINT_TO_POINTER(line));
+		return false;
+	}
+	tell(import->plan, CSV_REFUSE, line, g_strdup(name),
+	     g_strdup_printf(_("It stands in line %d already"), before));
+	return true;
+}
+
+/* What the symbol is to be. @text: caller frees the comment. */
+static void read_fields(const struct import *import, const struct symbol_row *old,
+			char *const *field, int count, const char *text[SYMBOL_FIELDS])
+{
+	for (int i = 0; i < SYMBOL_FIELDS; i++) {
+		text[i] = cell(import, i, field, count);
+		if (!text[i])
+			text[i] = old ? old->text[i] : "";
+		else if (i == FIELD_RETAIN || i == FIELD_CONSTANT)
+			text[i] = yes_or_no(text[i]);
+	}
+	if (old)
+		text[FIELD_NAME] = old->text[FIELD_NAME];
+	text[FIELD_COMMENT] = symbol_text_comment(text[FIELD_COMMENT]);
+}
+
+static void import_symbol(struct import *import, int line, char *full, int table, int flags,
+			  const struct symbol_row *old, char *const *field, int count)
+{
+	const char *text[SYMBOL_FIELDS];
+
+	read_fields(import, old, field, count, text);
+	put(import, line, full, table, flags, old, text);
+	g_free((gpointer)text[FIELD_COMMENT]);
+}
+
+/* "" for what is not there. */
+static const char *cell_or_none(const struct import *import, int column,
+				char *const *field, int count)
+{
+	const char *text = cell(import, column, field, count);
+
+	return text ? text : "";
+}
+
+static void import_record(struct import *import, int line, char *const *field, int count)
+{
+	struct project *project = ladder_document_project(import->plan->document);
+	const char *scope = cell_or_none(import, COLUMN_SCOPE, field, count);
+	const char *block = cell_or_none(import, COLUMN_BLOCK, field, count);
+	const char *name = cell(import, FIELD_NAME, field, count);
+	const int table = table_of(project, scope);
+	const int flags = flags_of(block, table > project->pou_count);
+	char *full = *scope ? g_strconcat(scope, ".", name, NULL) : g_strdup(name);
+	char *key = key_of(scope, name);
+	const struct symbol_row *old = g_hash_table_lookup(import->row, key);
+
+	if (table < 0)
+		tell(import->plan, CSV_REFUSE, line, full, g_strdup_printf(
+			_("There is no program or structure “%s”"), scope));
+	else if (flags < 0)
+		tell(import->plan, CSV_REFUSE, line, full, g_strdup_printf("%s: %s",
+			_(diag_text(DIAG_MISPLACED)), block));
+	else if (is_seen(import, key, line, full))
+		g_free(full);
+	else if (old && old->included)
+		tell(import->plan, CSV_REFUSE, line, full,
+		     g_strdup(_("It is declared in another file")));
+	else
+		import_symbol(import, line, full, table, *block || !old ? flags :
+			      old->flags & KIND_FLAGS, old, field, count);
+	g_free(key);
+}
+
+static bool take_record(void *context, int line, char *const *field, int count)
+{
+	struct import *import = context;
+
+	if (!import->has_header)
+		return read_header(import, line, field, count);
+	import_record(import, line, field, count);
+	return true;
+}
+
+/* ---- the plan ---- */
+
+static void find_rows(struct import *import)
+{
+	import->row = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+	import->seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+	for (int i = 0; i < import->symbols->count; i++) {
+		struct symbol_row *symbol = &import->symbols->symbol[i];
+
+		g_hash_table_insert(import->row, key_of(symbol->scope,
+					symbol->text[FIELD_NAME]), symbol);
+	}
+}
+
+struct csv_plan *csv_plan_new(LadderDocument *document, const char *text, gsize len)
+{
+	struct csv_plan *plan = g_new0(struct csv_plan, 1);
+	struct import import = { .plan = plan };
+	const char *why = NULL;
+	int line;
+
+	plan->entry = g_ptr_array_new_with_free_func(clear_entry);
+	plan->document = g_object_ref(document);
+	plan->version = ladder_document_version(document);
+	plan->batch = symbol_batch_new(document);
+	if (!ladder_document_project(document)) {
+		tell(plan, CSV_REFUSE, 0, g_strdup(""),
+		     g_strdup(_("The file cannot be read as a program")));
+		return plan;
+	}
+	import.symbols = symbols_new(document);
+	find_rows(&import);
+	line = csv_read(text, len, take_record, &import, &why);
+	if (line)
+		tell(plan, CSV_REFUSE, line, g_strdup(""), g_strdup_printf(
+			_("%s; nothing from here on was read"), why));
+	else if (!import.has_header)
+		tell(plan, CSV_REFUSE, 1, g_strdup(""), g_strdup(_("The table is empty")));
+	g_hash_table_unref(import.row);
+	g_hash_table_unref(import.seen);
+	symbols_free(import.symbols);
+	if (plan->counts[CSV_ADD] || plan->counts[CSV_CHANGE])
+		check_plan(plan);
+	return plan;
+}
+
+void csv_plan_free(struct csv_plan *plan)
+{
+	if (!plan)
+		return;
+	symbol_batch_free(plan->batch);
+	g_ptr_array_unref(plan->entry);
+	g_object_unref(plan->document);
+	g_free(plan);
+}
+
+bool csv_plan_apply(struct csv_plan *plan, char **why)
+{
+	if (plan->version != ladder_document_version(plan->document)) {
+		if (why)
+			*why = g_strdup(_("The program was changed meanwhile"));
+		return false;
+	}
+	if (!plan->counts[CSV_ADD] && !plan->counts[CSV_CHANGE])
+		return true;
+	return symbol_batch_apply(plan->batch, _("Import symbols"), why);
 }

@@ -25,8 +25,6 @@
 int csv_read(const char *text, gsize len,
 	     bool (*take)(void *context, int line, char *const *field, int count),
 	     void *context, const char **why);
-/** csv_write_field - with quotes if it needs them; no comma. */
-void csv_write_field(GString *out, const char *text);
 
 /** csv_export - all symbols of this file; those of included files are left out.
  * Columns: Scope, Block, Name, Type, Address, Initial value, Retain, Constant, Comment;
@@ -59,9 +57,6 @@ struct csv_plan {
  * The document is not changed. Owns: the caller, csv_plan_free().
  */
 struct csv_plan *csv_plan_new(LadderDocument *document, const char *text, gsize len);
-/** csv_plan_check - marks the entries after which the program would have a fault; if no
- * program would come of it, it refuses all. For csv_plan_new() alone. */
-void csv_plan_check(struct csv_plan *plan);
 void csv_plan_free(struct csv_plan *plan);
 /** csv_plan_apply - all that is not refused, as one step; once. Fails: false, and @why
  * (the caller frees it): the document is another by now, or it cannot be read. */

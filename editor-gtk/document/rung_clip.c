@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: MIT
  *
- * rung_clip - what is copied: a rung and the declarations of its names.
+ * rung_clip - rungs as text for the clipboard, and rungs from any text that holds some.
  *
- * The names are those that stand in its text, so that no uses of a large project are
- * looked for. A parameter that is called as a variable brings one declaration too many,
- * which nobody takes.
+ * The declarations of a copy are those of the names in its text, so that no uses of a large
+ * project are looked for. A text that is read is cut where lines begin a part. The engine
+ * reads each part: rungs in the document, so that its words are known, declarations in a
+ * project made for them. A refusal names the line of the text as it came.
  */
 #include "editor-gtk/document/rung_clip.h"
 
-#include "editor-gtk/document/symbols_text.h"
+#include "editor-gtk/document/entry_outcome.h"
+#include "editor-gtk/edit/entry.h"
+#include "editor-gtk/kit/diag_said.h"
+#include "editor-gtk/kit/i18n.h"
+
 #include "engine/base/lex.h"
 #include "engine/xref/xref.h"
 
@@ -136,4 +141,843 @@ void rung_clip_free(struct rung_clip *clip)
 	g_free(clip->rung);
 	g_clear_object(&clip->source);
 	g_free(clip);
+}
+
+#define TEXT_MOST 65536 /* bytes: more is no list of mnemonics                 */
+
+struct typed {
+	char *text;
+	int line;       /* where it stands                                     */
+};
+
+struct line {
+	LadderDocument *document;
+	struct entry_place place;
+	struct entry *entry;
+	GStrvBuilder *rungs;
+	GString *row;   /* of the rung that is being read; NULL: none          */
+	bool ended;     /* by its output                                       */
+	char *why;
+};
+
+/* An element whose operand is missing. */
+static bool is_begun(const struct line *line, const char *text)
+{
+	entry_read(&line->place, text, line->entry);
+	return line->entry->sense == ENTRY_PART;
+}
+
+/* A word whose operand follows; of a block that may be missing, too. */
+static bool is_word(const struct line *line, const char *text)
+{
+	if (words_find(&line->place.project->words, text, strlen(text)) != WORD_COUNT)
+		return true;
+	return is_begun(line, text);
+}
+
+static bool refuse_word(struct line *line, const char *text, const char *why)
+{
+	line->why = g_strdup_printf("%s: %s", why, text);
+	return false;
+}
+
+static void end_rung(struct line *line)
+{
+	if (!line->row)
+		return;
+	g_strv_builder_add(line->rungs, line->row->str);
+	g_string_free(line->row, TRUE);
+	line->row = NULL;
+}
+
+static bool add(struct line *line, const char *text)
+{
+	const struct entry *entry = line->entry;
+	const struct word_row *row;
+	bool good, output;
+
+	if (!entry_read(&line->place, text, line->entry)) {
+		line->why = entry_outcome_tell(line->document, line->place.pou, entry, text,
+					       &good);
+		return false;
+	}
+	row = words_row(&line->place.project->words, entry->word);
+	output = row->place == PLACE_LAST;
+	if (entry->below || row->operand == OPND_EXPR || row->operand == OPND_ASSIGN ||
+	    row->operand == OPND_LOOP || (output && line->ended))
+		return refuse_word(line, text,
+			      _("this can only be pasted as a row of a rung file"));
+	if (line->ended)
+		end_rung(line);
+	if (!line->row)
+		line->row = g_string_new("RUNG\n|");
+	line->ended = output;
+	g_string_append_printf(line->row, " %s%s%s%s%s |", row->word,
+			       entry->operand[0] ? " " : "", entry->operand,
+			       entry->args[0] ? " " : "", entry->args);
+	return true;
+}
+
+/* @count words as one line. Caller: g_free. */
+static char *joined(const struct typed *from, int count)
+{
+	GString *one = g_string_new(from->text);
+
+	for (int i = 1; i < count; i++)
+		g_string_append_printf(one, " %s", from[i].text);
+	return g_string_free(one, FALSE);
+}
+
+/* How many belong to the word at @from: up to the next one, which begins every line; its
+ * operand may be called as one: Stop. */
+static int count_of(const struct line *line, const struct typed *from)
+{
+	GString *one = g_string_new(from->text);
+	int count = 1;
+
+	while (from[count].text && one->len < ENTRY_TEXT &&
+	       (is_begun(line, one->str) || (from[count].line == from->line &&
+					     !is_word(line, from[count].text))))
+		g_string_append_printf(one, " %s", from[count++].text);
+	g_string_free(one, TRUE);
+	return count;
+}
+
+/* What is good without its last words has a word too many that is none. */
+static bool refuse_last(struct line *line, const struct typed *from, int count)
+{
+	while (--count > 0) {
+		char *less = joined(from, count);
+		const bool good = entry_read(&line->place, less, line->entry);
+
+		g_free(less);
+		if (good) {
+			g_free(line->why);
+			return refuse_word(line, from[count].text, _("there is no such word"));
+		}
+	}
+	return false;
+}
+
+static bool add_all(struct line *line, const struct typed *part, int *at)
+{
+	bool good = true;
+
+	while (good && part->text) {
+		const int count = count_of(line, part);
+		char *one = joined(part, count);
+
+		*at = part->line;
+		good = is_word(line, part->text) ? add(line, one) :
+			refuse_word(line, part->text, _("there is no such word"));
+		if (!good && count > 1 && line->entry->sense == ENTRY_WRONG)
+			refuse_last(line, part, count);
+		part += count;
+		g_free(one);
+	}
+	return good;
+}
+
+/* Words with a text of NULL behind them. */
+static GArray *words_of(const char *text)
+{
+	GArray *words = g_array_new(TRUE, TRUE, sizeof(struct typed));
+	int line = 1;
+
+	while (*text) {
+		const size_t len = strcspn(text, " \t\r\n");
+		const struct typed part = { g_strndup(text, len), line };
+
+		if (len > 0)
+			g_array_append_val(words, part);
+		else
+			g_free(part.text);
+		text += len;
+		line += *text == '\n';
+		text += *text != '\0';
+	}
+	return words;
+}
+
+static void part_clear(gpointer part)
+{
+	g_free(((struct typed *)part)->text);
+}
+
+/* `XIC Start OTE Motor` as the text of a rung for POU @pou, not yet read; what follows an
+ * output is another rung. @at: the line of the error. Caller: g_strfreev(). */
+static char **rungs_of_lines(LadderDocument *document, int pou, const char *text, char **why,
+			     int *at)
+{
+	struct line line = { .document = document,
+			     .place = { .project = ladder_document_project(document),
+					.pou = pou } };
+	GArray *words = words_of(strlen(text) > TEXT_MOST ? "" : text);
+	struct xref xref;
+	char **rungs;
+	bool good;
+
+	g_array_set_clear_func(words, part_clear);
+	if (!xref_make(&xref, line.place.project))
+		g_error("out of memory");
+	line.place.xref = &xref;
+	line.entry = g_new0(struct entry, 1);
+	line.rungs = g_strv_builder_new();
+	good = add_all(&line, (const struct typed *)words->data, at);
+	end_rung(&line);
+	rungs = g_strv_builder_end(line.rungs);
+	g_strv_builder_unref(line.rungs);
+	g_free(line.entry);
+	g_array_unref(words);
+	xref_free(&xref);
+	*why = line.why;
+	if (good)
+		return rungs;
+	g_strfreev(rungs);
+	return NULL;
+}
+
+#define TYPES_ROUNDS 4 /* in each, as many types as a list of diagnostics holds */
+
+/* A part of the text: from its comments on to the end of its last line. */
+struct span {
+	gsize at, len;
+	int line;           /* of its first byte                               */
+	gsize head;         /* bytes before its first word                     */
+	gsize head_len;     /* of that                                         */
+	bool global;        /* of a block: VAR_GLOBAL                          */
+	bool bare;          /* of a rung: the word RUNG is missing             */
+};
+
+struct reading {
+	LadderDocument *document;
+	int pou;
+	const char *text;
+	GArray *block, *rung; /* of struct span                               */
+	bool whole;           /* a file, or parts of one                      */
+	bool headed;          /* its first line is RUNGBOARD                  */
+	struct rung_clip *clip;
+	char *why;
+};
+
+/* ---- where the parts are ---- */
+
+static bool is_any(const struct lex *lex, const char *const *words)
+{
+	for (; *words; words++)
+		if (lex_is(lex, *words))
+			return true;
+	return false;
+}
+
+static bool begins_block(const struct lex *lex)
+{
+	static const char *const words[] = { "VAR", "VAR_GLOBAL", "VAR_INPUT", "VAR_OUTPUT",
+					     "VAR_IN_OUT", "VAR_TEMP", NULL };
+
+	return lex->token.kind == TOKEN_NAME && is_any(lex, words);
+}
+
+static bool begins_file(const struct lex *lex)
+{
+	static const char *const words[] = {
+		"RUNGBOARD", "PROJECT", "PROGRAM", "FUNCTION", "FUNCTION_BLOCK",
+		"SUBROUTINE", "CONFIGURATION", "TYPE", "INCLUDE", "USES", NULL };
+
+	return lex->token.kind == TOKEN_NAME && is_any(lex, words);
+}
+
+struct cut {
+	struct lex lex;
+	gsize end;          /* behind the last line that had something         */
+	int end_line;
+	struct span *open;  /* what the line belongs to; NULL: nothing          */
+	bool block;         /* and that is a block                             */
+};
+
+static void begin(struct cut *cut, GArray *spans, const char *text)
+{
+	const struct token *token = &cut->lex.token;
+	struct span span = {
+		.at = cut->end, .line = cut->end_line,
+		.head = (gsize)(token->text - text) - cut->end, .head_len = token->len,
+		.global = lex_is(&cut->lex, "VAR_GLOBAL"), .bare = lex_is(&cut->lex, "|"),
+	};
+
+	g_array_append_val(spans, span);
+	cut->open = &g_array_index(spans, struct span, spans->len - 1);
+}
+
+/* False: it is a file, or there are enough. */
+static bool line_begins(struct reading *r, struct cut *cut)
+{
+	const struct lex *lex = &cut->lex;
+
+	if (cut->block)
+		return true;
+	if (begins_file(lex) && r->rung->len == 0) {
+		r->whole = true;
+		r->headed = lex_is(lex, "RUNGBOARD");
+		return false;
+	}
+	if (begins_block(lex)) {
+		begin(cut, r->block, r->text);
+		cut->block = true;
+	} else if (lex_is(lex, "RUNG") ||
+		   (lex_is(lex, "|") && r->rung->len == 0)) {
+		if (r->rung->len == RUNG_CLIP_MOST)
+			return false;
+		begin(cut, r->rung, r->text);
+	}
+	return true;
+}
+
+static void cut_text(struct reading *r, gsize len)
+{
+	struct cut cut = { .end_line = 1 };
+	bool fresh = true, any = false;
+
+	lex_init(&cut.lex, r->text, len);
+	cut.lex.newlines = true;
+	for (;;) {
+		const enum token_kind kind = lex_next(&cut.lex);
+		const struct token *token = &cut.lex.token;
+
+		if (kind != TOKEN_END && kind != TOKEN_NEWLINE) {
+			if (fresh && !line_begins(r, &cut))
+				return;
+			any = true;
+			fresh = false;
+			if (cut.block && lex_is(&cut.lex, "END_VAR"))
+				cut.block = false;
+			continue;
+		}
+		/* What follows on lines of their own belongs to what comes next. */
+		if (any && (cut.open || kind == TOKEN_END)) {
+			cut.end = kind == TOKEN_END ? len :
+				(gsize)(token->text + token->len - r->text);
+			cut.end_line = token->line + 1;
+			if (cut.open)
+				cut.open->len = cut.end - cut.open->at;
+		}
+		if (kind == TOKEN_END)
+			break;
+		any = false;
+		fresh = true;
+	}
+}
+
+/* ---- what is wrong ---- */
+
+static bool refuse(struct reading *r, char *why)
+{
+	g_free(r->why);
+	r->why = why;
+	return false;
+}
+
+static const struct diag *first_error(const struct diag_list *diags)
+{
+	for (int i = 0; i < diags->count; i++)
+		if (diag_severity(diags->diag[i].id) == SEVERITY_ERROR)
+			return &diags->diag[i];
+	return NULL;
+}
+
+static bool refuse_at(struct reading *r, const struct diag_list *diags, int line)
+{
+	const struct diag *diag = first_error(diags);
+	char *said = diag ? diag_said_whole(diag) : g_strdup(_("It cannot be read"));
+
+	refuse(r, g_strdup_printf(_("The clipboard, line %d: %s"), line, said));
+	g_free(said);
+	return false;
+}
+
+static int line_of(const struct diag_list *diags)
+{
+	const struct diag *diag = first_error(diags);
+
+	return diag && diag->line > 0 ? diag->line : 1;
+}
+
+/* ---- rungs ---- */
+
+static bool take_rung(struct reading *r, const char *text, gsize len, int line)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	struct rung *rung = ladder_read_rung(ladder_document_ladder(r->document), text, len,
+					     diags);
+
+	if (rung)
+		r->clip->rung[r->clip->count++] = rung;
+	else
+		refuse_at(r, diags, line + line_of(diags) - 1);
+	g_free(diags);
+	return rung;
+}
+
+/* RUNG stands where its first row did, so that comments stay above it. */
+static bool take_bare(struct reading *r, const struct span *span)
+{
+	const char *text = r->text + span->at;
+	GString *whole = g_string_new_len(text, (gssize)span->head);
+	int line = span->line;
+	bool good;
+
+	g_string_append(whole, "RUNG\n");
+	g_string_append_len(whole, text + span->head, (gssize)(span->len - span->head));
+	good = take_rung(r, whole->str, whole->len, line - 1);
+	g_string_free(whole, TRUE);
+	return good;
+}
+
+static bool take_rungs(struct reading *r)
+{
+	r->clip->rung = g_new0(struct rung *, r->rung->len + 1);
+	for (guint i = 0; i < r->rung->len; i++) {
+		const struct span *span = &g_array_index(r->rung, struct span, i);
+
+		if (span->bare ? !take_bare(r, span) :
+		    !take_rung(r, r->text + span->at, span->len, span->line))
+			return false;
+	}
+	return true;
+}
+
+/* ---- declarations ---- */
+
+/* Types that nobody knows: each as a structure, so that what is of it can be read. */
+static bool add_types(GString *types, const struct diag_list *diags)
+{
+	const gsize before = types->len;
+
+	for (int i = 0; i < diags->count; i++) {
+		const struct diag *diag = &diags->diag[i];
+		char *type = g_strdup_printf("TYPE %s : STRUCT X : INT; END_STRUCT; END_TYPE ",
+					     diag->arg);
+
+		if (diag->id == DIAG_BAD_TYPE && strlen(diag->arg) < LIMIT_ARG - 1 &&
+		    !strstr(types->str, type))
+			g_string_append(types, type);
+		g_free(type);
+	}
+	return types->len > before;
+}
+
+static void add_block(GString *out, const struct reading *r, const struct span *span)
+{
+	const gsize from = span->head + span->head_len;
+
+	g_string_append_len(out, r->text + span->at, (gssize)span->head);
+	g_string_append(out, span->global ? "VAR_GLOBAL" : "VAR");
+	g_string_append_len(out, r->text + span->at + from, (gssize)(span->len - from));
+	if (out->str[out->len - 1] != '\n')
+		g_string_append_c(out, '\n');
+}
+
+/* The line of the clipboard that line @line of the blocks came from, which stand behind
+ * two lines, the local ones behind one more. */
+static int line_in(const struct reading *r, int line)
+{
+	int at = 3;
+
+	for (int local = 0; local < 2; local++, at++)
+		for (guint i = 0; i < r->block->len; i++) {
+			const struct span *span = &g_array_index(r->block, struct span, i);
+			int lines = 0;
+
+			if (span->global == (bool)local)
+				continue;
+			for (gsize k = 0; k < span->len; k++)
+				lines += r->text[span->at + k] == '\n';
+			if (line < at + lines)
+				return span->line + MAX(line - at, 0);
+			at += lines;
+		}
+	return 1;
+}
+
+/* A file, behind its first two lines. */
+static char *blocks_as_file(const struct reading *r)
+{
+	GString *text = g_string_new(NULL);
+
+	for (int local = 0; local < 2; local++) {
+		g_string_append(text, local ? "PROGRAM Clipboard LD\n" : "");
+		for (guint i = 0; i < r->block->len; i++) {
+			const struct span *span = &g_array_index(r->block, struct span, i);
+
+			if (span->global != (bool)local)
+				add_block(text, r, span);
+		}
+	}
+	g_string_append(text, "RUNG\nEND_PROGRAM\n");
+	return g_string_free(text, FALSE);
+}
+
+static LadderDocument *source_new(const char *text)
+{
+	LadderDocument *source = ladder_document_new();
+
+	ladder_document_open_text(source, NULL, text, strlen(text), true);
+	ladder_document_fix(source);
+	return source;
+}
+
+/* False: again, with more types. */
+static bool try_source(const char *body, GString *types, bool last, LadderDocument **source,
+		       struct diag_list *diags)
+{
+	struct ladder *ladder = ladder_new();
+	char *text = g_strdup_printf("RUNGBOARD 1\n%s\n%s", types->str, body);
+	bool again = false;
+
+	if (!ladder)
+		g_error("out of memory");
+	if (ladder_load_text(ladder, "", text, strlen(text)))
+		*source = source_new(text);
+	else if (last || !add_types(types, ladder_diags(ladder)))
+		*diags = *ladder_diags(ladder);
+	else
+		again = true;
+	g_free(text);
+	ladder_free(ladder);
+	return !again;
+}
+
+LadderDocument *rung_clip_source(const char *body, struct diag_list *diags)
+{
+	GString *types = g_string_new(NULL);
+	LadderDocument *source = NULL;
+
+	for (int round = 0; !try_source(body, types, round == TYPES_ROUNDS, &source, diags);
+	     round++)
+		;
+	g_string_free(types, TRUE);
+	return source;
+}
+
+static bool take_blocks(struct reading *r)
+{
+	struct diag_list *diags = g_new0(struct diag_list, 1);
+	char *text = blocks_as_file(r);
+
+	r->clip->source = rung_clip_source(text, diags);
+	if (!r->clip->source)
+		refuse_at(r, diags, line_in(r, line_of(diags)));
+	g_free(text);
+	g_free(diags);
+	return r->clip->source;
+}
+
+/* ---- a whole file ---- */
+
+static bool is_ladder(const struct pou *pou)
+{
+	return pou->kind == POU_PROGRAM && pou->language == LANGUAGE_LD && !pou->included;
+}
+
+/* What another project's rungs say, said here: its words may be unknown. */
+static bool take_pou(struct reading *r, const struct pou *pou, int most, int before)
+{
+	struct ladder *from = ladder_document_ladder(r->clip->source);
+
+	for (int i = 0; i < pou->rung_count && r->clip->count < most; i++) {
+		char *text = ladder_write_rung(from, pou->rung[i]);
+		const bool good = text && take_rung(r, text, strlen(text),
+						    (int)pou->rung[i]->line - before);
+
+		free(text);
+		if (!good)
+			return false;
+	}
+	return true;
+}
+
+static bool take_programs(struct reading *r)
+{
+	const struct project *project = ladder_document_project(r->clip->source);
+	gsize most = 0;
+	bool good = true;
+
+	for (int i = 0; i < project->pou_count; i++)
+		most += is_ladder(&project->pou[i]) ? (gsize)project->pou[i].rung_count : 0;
+	most = MIN(most, RUNG_CLIP_MOST);
+	r->clip->rung = g_new0(struct rung *, most + 1);
+	for (int i = 0; good && i < project->pou_count; i++)
+		if (is_ladder(&project->pou[i]))
+			good = take_pou(r, &project->pou[i], (int)most, !r->headed);
+	return good;
+}
+
+static bool take_whole(struct reading *r)
+{
+	struct ladder *ladder = ladder_new();
+	char *text = g_strconcat(r->headed ? "" : "RUNGBOARD 1\n", r->text, NULL);
+	bool good;
+
+	if (!ladder)
+		g_error("out of memory");
+	good = ladder_load_text(ladder, "", text, strlen(text));
+	if (good)
+		r->clip->source = source_new(text);
+	else
+		refuse_at(r, ladder_diags(ladder),
+			  MAX(line_of(ladder_diags(ladder)) - !r->headed, 1));
+	g_free(text);
+	ladder_free(ladder);
+	return good && take_programs(r);
+}
+
+/* ---- any text ---- */
+
+static bool is_text(struct reading *r, const char *text, gsize len)
+{
+	const struct diag large = { .id = DIAG_TOO_LARGE }, bytes = { .id = DIAG_BAD_UTF8 };
+
+	if (len > LIMIT_TEXT)
+		return refuse(r, diag_said_whole(&large));
+	if (!utf8_valid(text, len, NULL))
+		return refuse(r, diag_said_whole(&bytes));
+	return true;
+}
+
+/* No row and no word of a rung file. */
+static bool take_lines(struct reading *r)
+{
+	char *why = NULL;
+	int line = 1;
+	char **text = rungs_of_lines(r->document, r->pou, r->text, &why, &line);
+	const guint count = text ? g_strv_length(text) : 0;
+	bool good = text;
+
+	if (why)
+		refuse(r, g_strdup_printf(_("The clipboard, line %d: %s"), line, why));
+	r->clip->rung = g_new0(struct rung *, count + 1);
+	for (guint i = 0; good && i < count; i++)
+		good = take_rung(r, text[i], strlen(text[i]), 0);
+	g_strfreev(text);
+	g_free(why);
+	return good;
+}
+
+static bool take(struct reading *r)
+{
+	if (r->whole)
+		return take_whole(r);
+	if (r->rung->len == 0 && r->block->len == 0)
+		return take_lines(r);
+	return (r->block->len == 0 || take_blocks(r)) && take_rungs(r);
+}
+
+struct rung_clip *rung_clip_read(LadderDocument *document, int pou, const char *text,
+				 gsize len, char **why)
+{
+	struct reading r = { .document = document, .pou = pou, .clip = g_new0(struct rung_clip, 1) };
+	char *copy = NULL;
+	bool good = is_text(&r, text, len);
+
+	r.block = g_array_new(FALSE, FALSE, sizeof(struct span));
+	r.rung = g_array_new(FALSE, FALSE, sizeof(struct span));
+	if (good) {
+		r.text = copy = g_strndup(text, len);
+		cut_text(&r, len);
+		good = take(&r);
+	}
+	if (good && r.clip->count == 0)
+		good = refuse(&r, g_strdup(_("The clipboard holds no rungs.")));
+	g_array_unref(r.block);
+	g_array_unref(r.rung);
+	g_free(copy);
+	if (!good)
+		g_clear_pointer(&r.clip, rung_clip_free);
+	*why = r.why;
+	return r.clip;
+}
+
+struct declare {
+	LadderDocument *document;
+	struct project *project;
+	int pou;
+	struct symbols *symbols;    /* of the source                          */
+	struct project *source;
+	struct symbol_batch *batch;
+	int count;
+	int clashes;
+	char *clash;                /* what is told of the first one           */
+};
+
+/* ---- what is not known ---- */
+
+/* Is there a name in the source that is none here? Most often not: what is pasted was
+ * copied near by. */
+static bool has_news(const struct declare *declare)
+{
+	for (int i = 0; i < declare->symbols->count; i++) {
+		const char *name = declare->symbols->symbol[i].text[FIELD_NAME];
+		const uint32_t fold = names_find_any(&declare->project->names, name,
+						     strlen(name));
+
+		if (vars_find(&declare->project->globals, fold) < 0 &&
+		    vars_find(&declare->project->pou[declare->pou].vars, fold) < 0)
+			return true;
+	}
+	return false;
+}
+
+/* Each name once, as it is first written. */
+static GPtrArray *unknown_names(const struct declare *declare, int at, int count)
+{
+	GHashTable *seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+	GPtrArray *names = g_ptr_array_new_with_free_func(g_free);
+	struct xref xref;
+
+	if (!xref_make(&xref, declare->project))
+		g_error("out of memory");
+	for (int i = 0; i < xref.count; i++) {
+		const struct xref_use *use = &xref.use[i];
+		const char *text = xref_text(&xref, use) + use->at;
+
+		if (use->target.what != XREF_UNKNOWN || use->pou != declare->pou ||
+		    use->rung <= at || use->rung > at + count || !use->slot)
+			continue;
+		if (g_hash_table_add(seen, g_ascii_strdown(text, use->len)))
+			g_ptr_array_add(names, g_strndup(text, use->len));
+	}
+	xref_free(&xref);
+	g_hash_table_unref(seen);
+	return names;
+}
+
+/* A local wins, as in the source; a member of a structure is none. */
+static const struct symbol_row *find(const struct declare *declare, const char *name)
+{
+	const struct symbol_row *global = NULL;
+
+	for (int i = 0; i < declare->symbols->count; i++) {
+		const struct symbol_row *symbol = &declare->symbols->symbol[i];
+
+		if (symbol->member ||
+		    g_ascii_strcasecmp(symbol->text[FIELD_NAME], name) != 0)
+			continue;
+		if (symbol->table > 0)
+			return symbol;
+		global = symbol;
+	}
+	return global;
+}
+
+/* ---- addresses ---- */
+
+static uint64_t bits_of(const struct var *var)
+{
+	return (uint64_t)var->at.bits * (var->array.count ? var->array.count : 1);
+}
+
+static bool overlaps(const struct var *a, const struct var *b)
+{
+	const uint64_t first = (uint64_t)a->at.byte * 8 + a->at.bit;
+	const uint64_t other = (uint64_t)b->at.byte * 8 + b->at.bit;
+
+	return a->at.area != AREA_NONE && a->at.area == b->at.area &&
+	       first < other + bits_of(b) && other < first + bits_of(a);
+}
+
+/* The name that has memory of a variable of the source; NULL: none. */
+static const char *owner_of(const struct declare *declare, const struct var *var)
+{
+	for (int table = 0; table <= declare->project->pou_count; table++) {
+		const struct var_table *vars = xref_table(declare->project, table);
+
+		for (int i = 0; i < vars->count; i++)
+			if (overlaps(var, &vars->var[i]))
+				return project_text(declare->project, vars->var[i].name);
+	}
+	return NULL;
+}
+
+static bool put(struct declare *declare, const struct symbol_row *symbol,
+		const char *address)
+{
+	const char *text[SYMBOL_FIELDS];
+
+	for (int i = 0; i < SYMBOL_FIELDS; i++)
+		text[i] = symbol->text[i];
+	text[FIELD_ADDRESS] = address;
+	if (!symbol_batch_put(declare->batch, symbol->table ? declare->pou + 1 : 0, -1, 0,
+			      text, NULL))
+		return false;
+	declare->count++;
+	return true;
+}
+
+static void declare_one(struct declare *declare, const struct symbol_row *symbol)
+{
+	const struct var_table *vars = xref_table(declare->source, symbol->table);
+	const char *owner = owner_of(declare, &vars->var[symbol->index]);
+
+	if (!put(declare, symbol, owner ? "" : symbol->text[FIELD_ADDRESS]) || !owner)
+		return;
+	if (declare->clashes++ == 0)
+		declare->clash = g_strdup_printf(_("; %s has no address: %s is %s here"),
+			symbol->text[FIELD_NAME], symbol->text[FIELD_ADDRESS], owner);
+}
+
+/* ---- all of them ---- */
+
+static char *done(const struct declare *declare)
+{
+	GString *text = g_string_new(NULL);
+	const int more = declare->clashes - 1;
+
+	g_string_printf(text, ngettext("%d name was declared", "%d names were declared",
+				       (gulong)declare->count), declare->count);
+	if (declare->clash)
+		g_string_append(text, declare->clash);
+	if (more > 0)
+		g_string_append_printf(text, ngettext(" and %d more", " and %d more",
+						      (gulong)more), more);
+	return g_string_free(text, FALSE);
+}
+
+static char *declare_all(struct declare *declare, const GPtrArray *names)
+{
+	char *told = NULL;
+
+	declare->batch = symbol_batch_new(declare->document);
+	for (guint i = 0; i < names->len; i++) {
+		const struct symbol_row *symbol = find(declare, names->pdata[i]);
+
+		if (symbol)
+			declare_one(declare, symbol);
+	}
+	if (declare->count &&
+	    symbol_batch_apply(declare->batch, _("Add symbol"), &told))
+		told = done(declare);
+	symbol_batch_free(declare->batch);
+	g_free(declare->clash);
+	return told;
+}
+
+char *rung_clip_declare(const struct rung_clip *clip, LadderDocument *document, int pou,
+			int at, int count)
+{
+	struct declare declare = { .document = document, .pou = pou,
+				   .project = ladder_document_project(document) };
+	char *told = NULL;
+
+	if (!clip->source)
+		return NULL;
+	declare.source = ladder_document_project(clip->source);
+	declare.symbols = symbols_new(clip->source);
+	if (has_news(&declare)) {
+		GPtrArray *names = unknown_names(&declare, at, count);
+
+		if (names->len)
+			told = declare_all(&declare, names);
+		g_ptr_array_unref(names);
+	}
+	symbols_free(declare.symbols);
+	return told;
 }

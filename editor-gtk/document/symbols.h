@@ -35,9 +35,6 @@ struct symbols {
 /** symbols_new - of the document as it is; of one of text none. Owns: the caller. */
 struct symbols *symbols_new(LadderDocument *document);
 void symbols_free(struct symbols *symbols);
-/** symbols_find - by scope and name (any case), both "": none. NULL: none. */
-const struct symbol_row *symbols_find(const struct symbols *symbols, const char *scope,
-				  const char *name);
 /** symbols_at - by table and index; NULL: none. */
 const struct symbol_row *symbols_at(const struct symbols *symbols, int table, int index);
 
@@ -76,9 +73,6 @@ bool symbol_delete(LadderDocument *document, int table, int index, char **why);
 /** symbol_free_name - a name that @like would become, which no declaration of the table
  * has: Start2. Owns: the caller. */
 char *symbol_free_name(LadderDocument *document, int table, const char *like);
-/** symbol_free_address - the first one that is free of this area and type word ("BOOL");
- * "" if there is none. Owns: the caller. */
-char *symbol_free_address(LadderDocument *document, enum iec_area area, const char *type);
 /** symbol_beside - the first other variable that lies at its address, too; NULL: none.
  * Borrowed until the document changes. */
 const char *symbol_beside(LadderDocument *document, int table, int index);
@@ -86,6 +80,16 @@ const char *symbol_beside(LadderDocument *document, int table, int index);
  * @warning: gets whether it is only that. Owns: the caller. */
 char *symbol_error(LadderDocument *document, const struct symbol_row *symbol,
 		   bool *warning);
+
+/* ---- a declaration as text ---- */
+
+/** symbol_text_comment - as it can stand behind a declaration: one line, single blanks, no
+ * sign in it that begins or ends a comment. Owns: the caller. */
+char *symbol_text_comment(const char *text);
+/** symbol_text_line - "  Name AT %IX0.0 : BOOL := 1; (* … *)\n". Owns: the caller. */
+char *symbol_text_line(const char *const text[SYMBOL_FIELDS]);
+/** symbol_text_block - "VAR RETAIN\n" of enum var_flag. Owns: the caller. */
+char *symbol_text_block(uint16_t flags);
 
 /* ---- several changes as one ---- */
 
@@ -99,8 +103,6 @@ void symbol_batch_free(struct symbol_batch *batch);
  * @flags: of its block, as in symbol_add; another kind moves it. Fails: false, and why. */
 bool symbol_batch_put(struct symbol_batch *batch, int table, int index, uint16_t flags,
 		      const char *const text[SYMBOL_FIELDS], char **why);
-/** symbol_batch_delete - declaration @index goes. */
-bool symbol_batch_delete(struct symbol_batch *batch, int table, int index, char **why);
 /** symbol_batch_try - the program as it would be, checked, in memory; the document stays
  * as it is. Owns: the caller, ladder_free(). Fails: NULL, and why: it cannot be read. */
 struct ladder *symbol_batch_try(struct symbol_batch *batch, char **why);
