@@ -6,7 +6,7 @@
  */
 #include "editor-gtk/window/app.h"
 
-#include "editor-gtk/document/classic_open.h"
+#include "editor-gtk/document/classic.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/draft.h"
 #include "editor-gtk/document/side_file.h"

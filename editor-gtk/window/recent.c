@@ -4,7 +4,7 @@
  */
 #include "editor-gtk/window/recent.h"
 
-#include "editor-gtk/document/classic_open.h"
+#include "editor-gtk/document/classic.h"
 #include "editor-gtk/kit/i18n.h"
 
 #include <stdbool.h>

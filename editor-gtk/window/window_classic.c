@@ -6,7 +6,7 @@
 #include "editor-gtk/window/window_inside.h"
 
 #include "editor-gtk/document/chooser.h"
-#include "editor-gtk/document/classic_save.h"
+#include "editor-gtk/document/classic.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/report_lines.h"
 #include "editor-gtk/panels/report_view.h"

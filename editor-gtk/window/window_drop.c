@@ -6,7 +6,7 @@
 #include "editor-gtk/window/window_inside.h"
 
 #include "editor-gtk/window/app.h"
-#include "editor-gtk/document/classic_open.h"
+#include "editor-gtk/document/classic.h"
 
 #include <string.h>
 

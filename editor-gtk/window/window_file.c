@@ -9,7 +9,7 @@
 
 #include "editor-gtk/window/app.h"
 #include "editor-gtk/document/chooser.h"
-#include "editor-gtk/document/classic_save.h"
+#include "editor-gtk/document/classic.h"
 #include "editor-gtk/document/disk.h"
 #include "editor-gtk/document/draft.h"
 #include "editor-gtk/window/recent.h"

@@ -5,9 +5,8 @@
  *
  * Drawings are compared with tests/editor/drawing/classic-*.strokes; --bless writes them.
  */
-#include "editor-gtk/document/classic_open.h"
+#include "editor-gtk/document/classic.h"
 #include "editor-gtk/document/classic_origin.h"
-#include "editor-gtk/document/classic_save.h"
 #include "editor-gtk/draw/grid_classic.h"
 #include "editor-gtk/document/report_lines.h"
 #include "tests/tap.h"
