@@ -69,21 +69,21 @@ static enum verdict judge_text(const char *text, size_t len, uint64_t seed, bool
 	return duel_judge(text, len, &plan, why, size);
 }
 
-static enum verdict judge(struct random_chart *chart, bool values, char *why, size_t size)
+static enum verdict judge(struct random_sfc *chart, bool values, char *why, size_t size)
 {
 	static char text[TEXT_MAX];
-	size_t len = random_chart_print(chart, text, sizeof(text));
+	size_t len = random_sfc_print(chart, text, sizeof(text));
 
 	return judge_text(text, len, chart->seed, values, why, size);
 }
 
 /* Without one more of its parts, if it still fails then. */
-static bool shrink_once(struct random_chart *chart, bool values)
+static bool shrink_once(struct random_sfc *chart, bool values)
 {
-	static struct random_chart trial;
+	static struct random_sfc trial;
 	char why[256];
 
-	for (int i = 0; i < chart->part_count && chart->dropped_count < CHART_PARTS; i++) {
+	for (int i = 0; i < chart->part_count && chart->dropped_count < SFC_PARTS; i++) {
 		trial = *chart;
 		trial.dropped[trial.dropped_count++] = chart->part[i];
 		if (judge(&trial, values, why, sizeof(why)) == DISAGREE) {
@@ -94,7 +94,7 @@ static bool shrink_once(struct random_chart *chart, bool values)
 	return false;
 }
 
-static void report(struct random_chart *chart, bool values)
+static void report(struct random_sfc *chart, bool values)
 {
 	static char text[TEXT_MAX];
 	char why[256];
@@ -102,7 +102,7 @@ static void report(struct random_chart *chart, bool values)
 	while (shrink_once(chart, values))
 		;
 	judge(chart, values, why, sizeof(why));
-	random_chart_print(chart, text, sizeof(text));
+	random_sfc_print(chart, text, sizeof(text));
 	printf("# --seed %llu --count 1: %s\n", (unsigned long long)chart->seed, why);
 	for (const char *at = text; *at; ) {
 		int n = (int)strcspn(at, "\n");
@@ -146,11 +146,11 @@ static bool read_options(int argc, char **argv, struct options *options)
 
 static int print_chart(uint64_t seed)
 {
-	static struct random_chart chart;
+	static struct random_sfc chart;
 	static char text[TEXT_MAX];
 
 	chart.seed = seed;
-	random_chart_print(&chart, text, sizeof(text));
+	random_sfc_print(&chart, text, sizeof(text));
 	fputs(text, stdout);
 	return 0;
 }
@@ -188,7 +188,7 @@ static int run_files(int argc, char **argv, const struct options *options)
 int main(int argc, char **argv)
 {
 	struct options options = { .seed = 1, .count = DIFFERENTIAL_COUNT };
-	static struct random_chart chart;
+	static struct random_sfc chart;
 	uint64_t got[4] = { 0 }, seed, unsafe = 0;
 	char why[256];
 

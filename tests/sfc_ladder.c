@@ -83,7 +83,7 @@ static bool is_same(struct side *chart, struct side *ladder, const char *name,
 	       image_get(&ladder->resource.image, b).i;
 }
 
-static int charts(const struct project *project)
+static int sfcs(const struct project *project)
 {
 	int count = 0;
 
@@ -134,12 +134,12 @@ static const char *differs(struct side *chart, struct side *ladder)
 			if (dot && is_second(ladder, project, pou, other))
 				snprintf(other + strlen(other), sizeof(other) - strlen(other),
 					 "_2");
-			else if (dot && dot[1] == 'T' && charts(project) > 1)
+			else if (dot && dot[1] == 'T' && sfcs(project) > 1)
 				continue; /* it may be that of the other chart */
-			if (!dot && pou && pou->sfc && charts(project) > 1)
+			if (!dot && pou && pou->sfc && sfcs(project) > 1)
 				snprintf(other, sizeof(other), "%s_%.200s",
 					 project_text(project, pou->name), name);
-			if (pou && charts(project) > 1)
+			if (pou && sfcs(project) > 1)
 				snprintf(name, sizeof(name), "%s.%s",
 					 project_text(project, pou->name),
 					 project_text(project, var->name));
@@ -241,7 +241,7 @@ static enum verdict judge(const char *text, size_t len, uint64_t seed, int scans
 
 static void run_random(uint64_t seed, uint64_t count)
 {
-	static struct random_chart chart;
+	static struct random_sfc chart;
 	static char text[TEXT_MAX];
 	unsigned int tally[NO_LADDER + 1] = { 0 };
 
@@ -251,7 +251,7 @@ static void run_random(uint64_t seed, uint64_t count)
 
 		memset(&chart, 0, sizeof(chart));
 		chart.seed = seed + i;
-		len = random_chart_print(&chart, text, sizeof(text));
+		len = random_sfc_print(&chart, text, sizeof(text));
 		verdict = judge(text, len, chart.seed, SCANS);
 		if (verdict == DIFFERENT && tally[DIFFERENT] < 5)
 			printf("# --seed %llu --count 1\n", (unsigned long long)chart.seed);

@@ -129,7 +129,7 @@ static char *export_copy(LadderDocument *document, enum classic_dialect dialect,
 	if (!ladder_load_text(ladder, path ? path : "", text, text_len) ||
 	    !ladder_build(ladder))
 		add_diags(lines, ladder_diags(ladder));
-	else if (ladder_charts_fit_classic(ladder))
+	else if (ladder_sfc_fits_classic(ladder))
 		out = export_loaded(ladder, dialect, len, lines);
 	else
 		out = export_ladders(ladder, dialect, len, lines);

@@ -156,9 +156,9 @@ char *ladder_write(struct ladder *ladder, size_t *len);
  * Fails: NULL after a diagnostic, or when nothing was loaded.
  */
 char *ladder_export_ladder(struct ladder *ladder, size_t *len, struct diag_list *diags);
-/** ladder_charts_fit_classic - can each chart be a sequential page of ClassicLadder? Else
+/** ladder_sfc_fits_classic - can each chart be a sequential page of ClassicLadder? Else
  * ladder_export_ladder() comes first. Scan-safe: no. */
-bool ladder_charts_fit_classic(struct ladder *ladder);
+bool ladder_sfc_fits_classic(struct ladder *ladder);
 /**
  * ladder_export_classic - the project as one of ClassicLadder's (exchange/classic/to_classic.h)
  * @dialect: of ClassicLadder, of LinuxCNC, or a bare rung file

@@ -9,11 +9,11 @@
 #include "engine/exchange/classic/classic_write.h"
 #include "engine/exchange/classic/to_classic.h"
 
-bool ladder_charts_fit_classic(struct ladder *ladder)
+bool ladder_sfc_fits_classic(struct ladder *ladder)
 {
 	struct project *project = ladder_project(ladder);
 
-	return project && classic_charts_fit(project);
+	return project && classic_sfc_fits(project);
 }
 
 char *ladder_export_classic(struct ladder *ladder, enum classic_dialect dialect,

@@ -194,7 +194,7 @@ static enum status export_any(struct call *call, struct ladder *ladder, const ch
 	arena_init(&to.arena);
 	if (!find_lines(call, ladder, &to))
 		status = STATUS_NO;
-	else if (ladder_charts_fit_classic(ladder))
+	else if (ladder_sfc_fits_classic(ladder))
 		status = export_classic(call, ladder, path, &to);
 	else
 		status = export_as_ladder(call, ladder, path, &to);

@@ -219,7 +219,7 @@ void engine_scan(struct engine *engine, int ms)
 		if (section->subroutine >= 0 || engine->stopped)
 			continue;
 		if (section->sequential)
-			engine_chart(engine, section->page);
+			engine_sfc(engine, section->page);
 		else
 			run_section(engine, section);
 	}

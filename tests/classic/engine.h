@@ -74,8 +74,8 @@ void engine_operate(struct engine *engine, const char *text);
 /** engine_block - a block with its inputs by row; @out gets its outputs. */
 void engine_block(struct engine *engine, int element, int number, const bool in[4],
 		  bool out[4]);
-/** engine_chart - one sequential page. */
-void engine_chart(struct engine *engine, int page);
+/** engine_sfc - one sequential page. */
+void engine_sfc(struct engine *engine, int page);
 /** engine_name - "%TM0.Q" as code and number; length, 0: it is none. */
 int engine_name(const struct engine *engine, const char *text, int *type, int *number);
 /** engine_print - the other way. */

@@ -386,7 +386,7 @@ static void put_page(struct making *making, int page, int first_transition)
 	making->transitions += transitions;
 }
 
-static void put_chart(struct making *making)
+static void put_sfc(struct making *making)
 {
 	making_put(making, "_FILE-sequential.csv\n#VER=1.0\n");
 	for (int page = 0; page < making->pages; page++)
@@ -446,7 +446,7 @@ static void put_project(struct making *making)
 		put_registers(making);
 	put_expressions(making);
 	put_sections(making);
-	put_chart(making);
+	put_sfc(making);
 	making_put(making, "_/FILES_CLASSICLADDER\n");
 }
 

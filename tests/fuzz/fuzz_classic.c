@@ -94,7 +94,7 @@ static void import(const uint8_t *bytes, size_t len)
 		abort();
 	if (!ladder_load_text(ladder, "fuzz.clprj", bytes, len) || !ladder_build(ladder))
 		fuzz_expect(ladder_diags(ladder)->errors > 0, "no program, no error");
-	else if (ladder_charts_fit_classic(ladder))
+	else if (ladder_sfc_fits_classic(ladder))
 		leave(ladder, len % 3 ? CLASSIC_UPSTREAM : len % 2 ? CLASSIC_LINUXCNC :
 						       CLASSIC_NUMERIC);
 	ladder_free(ladder);

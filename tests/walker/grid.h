@@ -46,7 +46,7 @@ struct walked_pou {
 	const struct pou *pou;
 	struct frame *frame;
 	struct walked_rung *rung;
-	struct chart *chart; /* of a chart                                    */
+	struct played_sfc *sfc; /* of a chart                                    */
 };
 
 /** grid_make - the graph of a rung; false: out of memory or cannot walk. */

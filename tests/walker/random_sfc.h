@@ -12,10 +12,10 @@
 
 #include "tests/walker/random.h"
 
-#define CHART_STEPS 160
-#define CHART_ARCS  320
-#define CHART_ENDS  4
-#define CHART_PARTS 2000
+#define SFC_STEPS 160
+#define SFC_ARCS  320
+#define SFC_ENDS  4
+#define SFC_PARTS 2000
 
 struct random_step {
 	uint64_t key;
@@ -26,33 +26,33 @@ struct random_step {
 struct random_arc {
 	uint64_t key;
 	int macro;
-	int from[CHART_ENDS], from_count;
-	int to[CHART_ENDS], to_count;
+	int from[SFC_ENDS], from_count;
+	int to[SFC_ENDS], to_count;
 };
 
-struct random_chart {
+struct random_sfc {
 	uint64_t seed;
-	uint64_t dropped[CHART_PARTS]; /* keys of what is left out             */
+	uint64_t dropped[SFC_PARTS]; /* keys of what is left out             */
 	int dropped_count;
-	uint64_t part[CHART_PARTS];    /* keys of what is in it, by printing    */
+	uint64_t part[SFC_PARTS];    /* keys of what is in it, by printing    */
 	int part_count;
 	/* made by printing */
-	struct random_step step[CHART_STEPS];
+	struct random_step step[SFC_STEPS];
 	int steps;
-	struct random_arc arc[CHART_ARCS];
+	struct random_arc arc[SFC_ARCS];
 	int arcs;
 	bool unsafe;
 };
 
-/** random_chart_print - its text; the parts that may be left out get into @chart. */
-size_t random_chart_print(struct random_chart *chart, char *out, size_t size);
+/** random_sfc_print - its text; the parts that may be left out get into @chart. */
+size_t random_sfc_print(struct random_sfc *sfc, char *out, size_t size);
 
 /* Between the parts of the generator. */
-/** chart_grow - steps and transitions. */
-void chart_grow(struct random_chart *chart);
-/** chart_key - that of part @number of what has key @of. */
-uint64_t chart_key(uint64_t of, uint32_t number);
-/** chart_has - is this part in it? */
-bool chart_has(struct random_chart *chart, uint64_t key);
-struct random_source chart_source(uint64_t key);
+/** sfc_grow - steps and transitions. */
+void sfc_grow(struct random_sfc *sfc);
+/** sfc_key - that of part @number of what has key @of. */
+uint64_t sfc_key(uint64_t of, uint32_t number);
+/** sfc_has - is this part in it? */
+bool sfc_has(struct random_sfc *sfc, uint64_t key);
+struct random_source sfc_source(uint64_t key);
 #endif

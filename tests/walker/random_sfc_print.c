@@ -14,7 +14,7 @@
 #define TIMERS  40
 
 struct page {
-	struct random_chart *chart;
+	struct random_sfc *sfc;
 	char *out;
 	size_t size, used;
 	int timers;      /* used so far                                       */
@@ -39,10 +39,10 @@ static void put(struct page *page, const char *format, ...)
 
 /* ---- operands ---- */
 
-static void step_name(struct random_source *source, const struct random_chart *chart,
+static void step_name(struct random_source *source, const struct random_sfc *sfc,
 		      char *out, size_t size, const char *member)
 {
-	snprintf(out, size, "S%d.%s", (int)random_below(source, (uint32_t)chart->steps),
+	snprintf(out, size, "S%d.%s", (int)random_below(source, (uint32_t)sfc->steps),
 		 member);
 }
 
@@ -55,7 +55,7 @@ static void put_bool(struct page *page, struct random_source *source)
 	switch (random_below(source, 16)) {
 	case 0:
 	case 1:
-		step_name(source, page->chart, name, sizeof(name), "X");
+		step_name(source, page->sfc, name, sizeof(name), "X");
 		put(page, "%s", name);
 		break;
 	case 2:
@@ -94,7 +94,7 @@ static void put_atom(struct page *page, struct random_source *source, int step)
 	if (random_chance(source, 25) && step >= 0) {
 		put(page, "S%d.T >= %s", step, some_time(source));
 	} else if (random_chance(source, 10)) {
-		step_name(source, page->chart, name, sizeof(name), "T");
+		step_name(source, page->sfc, name, sizeof(name), "T");
 		put(page, "%s < %s", name, some_time(source));
 	} else if (random_chance(source, 8)) {
 		put(page, "TRUE");
@@ -188,10 +188,10 @@ static void put_list_condition(struct page *page, struct random_source *source)
 
 static void put_condition(struct page *page, const struct random_arc *arc)
 {
-	struct random_source source = chart_source(chart_key(arc->key, 1));
+	struct random_source source = sfc_source(sfc_key(arc->key, 1));
 	uint32_t kind = random_below(&source, 10);
 
-	if (!chart_has(page->chart, chart_key(arc->key, 2))) {
+	if (!sfc_has(page->sfc, sfc_key(arc->key, 2))) {
 		put(page, " := In0;");
 	} else if (kind < 5) {
 		put(page, " := ");
@@ -220,14 +220,14 @@ static void put_ends(struct page *page, const int *end, int count)
 
 static void put_arc(struct page *page, const struct random_arc *arc, int number)
 {
-	struct random_source source = chart_source(arc->key);
+	struct random_source source = sfc_source(arc->key);
 	int open_end = 0;
 
 	put(page, "  TRANSITION");
 	if (random_chance(&source, 20))
 		put(page, " Go%d", number);
 	if (random_chance(&source, 30) &&
-	    chart_has(page->chart, chart_key(arc->key, 3)))
+	    sfc_has(page->sfc, sfc_key(arc->key, 3)))
 		put(page, " (PRIORITY := %d)", 1 + (int)random_below(&source, 3));
 	/* IN ORDER: out of nothing, into nothing. */
 	if (page->in_order && arc->macro < 0 && random_chance(&source, 8))
@@ -264,7 +264,7 @@ static void put_line(struct page *page, uint64_t key)
 	static const char *const words[] = {
 		"N", "S", "R", "P", "P0", "P1", "L", "D", "SD", "DS", "SL", "R", "N",
 	};
-	struct random_source source = chart_source(key);
+	struct random_source source = sfc_source(key);
 	uint32_t word = random_below(&source, 13);
 
 	put(page, "    ");
@@ -288,7 +288,7 @@ static void put_line(struct page *page, uint64_t key)
 
 static void put_supervision(struct page *page, const struct random_step *step)
 {
-	struct random_source source = chart_source(chart_key(step->key, 50));
+	struct random_source source = sfc_source(sfc_key(step->key, 50));
 	const char *between = " (";
 	bool least = false;
 
@@ -297,7 +297,7 @@ static void put_supervision(struct page *page, const struct random_step *step)
 		const char *time = some_time(&source);
 		uint32_t alarm = random_below(&source, 4);
 
-		if (!has || !chart_has(page->chart, chart_key(step->key, 51u + (uint32_t)i)))
+		if (!has || !sfc_has(page->sfc, sfc_key(step->key, 51u + (uint32_t)i)))
 			continue;
 		if (i == 2)
 			put(page, "%sALARM := Alarm%d", between, (int)alarm);
@@ -314,17 +314,17 @@ static void put_inside(struct page *page, int macro);
 
 static void put_step(struct page *page, int number)
 {
-	const struct random_step *step = &page->chart->step[number];
-	struct random_source source = chart_source(chart_key(step->key, 9));
+	const struct random_step *step = &page->sfc->step[number];
+	struct random_source source = sfc_source(sfc_key(step->key, 9));
 	int lines = (int)random_below(&source, 4);
 
 	put(page, "  %s S%d", step->is_macro ? "MACRO_STEP" :
 	    step->initial ? "INITIAL_STEP" : "STEP", number);
 	put_supervision(page, step);
 	for (int i = 0; i < lines; i++) {
-		uint64_t key = chart_key(step->key, 60u + (uint32_t)i);
+		uint64_t key = sfc_key(step->key, 60u + (uint32_t)i);
 
-		if (chart_has(page->chart, key))
+		if (sfc_has(page->sfc, key))
 			put_line(page, key);
 	}
 	if (step->is_macro)
@@ -336,18 +336,18 @@ static void put_step(struct page *page, int number)
  * macro-steps in one another. */
 static void put_inside(struct page *page, int macro)
 {
-	struct random_chart *chart = page->chart;
-	struct random_source source = chart_source(chart_key(chart->seed,
-						   100u + (uint32_t)macro));
+	struct random_sfc *sfc = page->sfc;
+	struct random_source source = sfc_source(sfc_key(sfc->seed,
+						 100u + (uint32_t)macro));
 	bool mixed = random_chance(&source, 50);
 	bool back = random_chance(&source, 30);
 
 	for (int pass = 0; pass < 2; pass++)
-		for (int i = 0; i < chart->steps + chart->arcs; i++) {
-			int at = back ? chart->steps + chart->arcs - 1 - i : i;
-			int arc = at - chart->steps;
-			uint64_t key = arc < 0 ? chart->step[at].key : chart->arc[arc].key;
-			int in = arc < 0 ? chart->step[at].macro : chart->arc[arc].macro;
+		for (int i = 0; i < sfc->steps + sfc->arcs; i++) {
+			int at = back ? sfc->steps + sfc->arcs - 1 - i : i;
+			int arc = at - sfc->steps;
+			uint64_t key = arc < 0 ? sfc->step[at].key : sfc->arc[arc].key;
+			int in = arc < 0 ? sfc->step[at].macro : sfc->arc[arc].macro;
 			bool late = mixed ? key & 1 : arc >= 0;
 
 			if (in != macro || late != pass)
@@ -355,7 +355,7 @@ static void put_inside(struct page *page, int macro)
 			if (arc < 0)
 				put_step(page, at);
 			else
-				put_arc(page, &chart->arc[arc], arc);
+				put_arc(page, &sfc->arc[arc], arc);
 		}
 }
 
@@ -438,8 +438,8 @@ static void put_list(struct page *page, struct random_source *source, int number
 
 static void put_action(struct page *page, int number)
 {
-	uint64_t key = chart_key(page->chart->seed, 300u + (uint32_t)number);
-	struct random_source source = chart_source(key);
+	uint64_t key = sfc_key(page->sfc->seed, 300u + (uint32_t)number);
+	struct random_source source = sfc_source(key);
 	int rungs = 1 + (int)random_below(&source, 4);
 	char call[16];
 
@@ -454,10 +454,10 @@ static void put_action(struct page *page, int number)
 	}
 	put(page, "    RUNG\n      | [ c%d := c%d + 1 ] |\n", number, number);
 	for (int i = 0; i < rungs; i++) {
-		uint64_t at = chart_key(key, 1u + (uint32_t)i);
-		struct random_source own = chart_source(at);
+		uint64_t at = sfc_key(key, 1u + (uint32_t)i);
+		struct random_source own = sfc_source(at);
 
-		if (i + 1 < rungs && !chart_has(page->chart, at))
+		if (i + 1 < rungs && !sfc_has(page->sfc, at))
 			continue;
 		put(page, i + 1 == rungs ? "    RUNG Last\n" : "    RUNG\n");
 		put_body_rung(page, &own, i + 1 == rungs);
@@ -477,15 +477,15 @@ static void put_control(struct page *page)
 		"RESET := Alarm2", "HOLD := Alarm3", "SEMI := Mark7", "MANUAL := Mark6",
 		"TIP := b3", "FORCE := n5",
 	};
-	uint64_t key = chart_key(page->chart->seed, 400);
-	struct random_source source = chart_source(key);
+	uint64_t key = sfc_key(page->sfc->seed, 400);
+	struct random_source source = sfc_source(key);
 	const char *between = "  CONTROL(";
 
 	if (!random_chance(&source, 30))
 		return;
 	for (uint32_t i = 0; i < 6; i++) {
 		if (!random_chance(&source, 60) ||
-		    !chart_has(page->chart, chart_key(key, i)))
+		    !sfc_has(page->sfc, sfc_key(key, i)))
 			continue;
 		put(page, "%s%s", between,
 		    random_chance(&source, 15) ? inside[i] : controls[i]);
@@ -530,15 +530,15 @@ static void put_head(struct page *page, const char *name, const char *evolution)
 static void put_program(struct page *whole, const char *name)
 {
 	static char body[96 * 1024];
-	struct random_chart *chart = whole->chart;
-	struct page page = { .chart = chart, .out = body, .size = sizeof(body) };
-	struct random_source source = chart_source(chart_key(chart->seed, 500));
+	struct random_sfc *sfc = whole->sfc;
+	struct page page = { .sfc = sfc, .out = body, .size = sizeof(body) };
+	struct random_source source = sfc_source(sfc_key(sfc->seed, 500));
 	uint32_t evolution = random_below(&source, 5);
-	bool stable = evolution == 0 && chart_has(chart, chart_key(chart->seed, 501));
+	bool stable = evolution == 0 && sfc_has(sfc, sfc_key(sfc->seed, 501));
 
 	page.in_order = evolution == 1;
 
-	chart_grow(chart);
+	sfc_grow(sfc);
 	put_control(&page);
 	put_inside(&page, -1);
 	for (int i = 0; i < ACTIONS; i++)
@@ -548,23 +548,23 @@ static void put_program(struct page *whole, const char *name)
 	put(whole, "%sEND_PROGRAM\n", body);
 }
 
-size_t random_chart_print(struct random_chart *chart, char *out, size_t size)
+size_t random_sfc_print(struct random_sfc *sfc, char *out, size_t size)
 {
-	struct page whole = { .chart = chart, .out = out, .size = size };
-	const uint64_t seed = chart->seed, key = chart_key(seed, 600);
-	struct random_source source = chart_source(key);
+	struct page whole = { .sfc = sfc, .out = out, .size = size };
+	const uint64_t seed = sfc->seed, key = sfc_key(seed, 600);
+	struct random_source source = sfc_source(key);
 	bool unsafe;
 
-	chart->part_count = 0;
+	sfc->part_count = 0;
 	put(&whole, "RUNGBOARD 1\n");
 	put_program(&whole, "Chart");
-	if (!random_chance(&source, 10) || !chart_has(chart, key))
+	if (!random_chance(&source, 10) || !sfc_has(sfc, key))
 		return whole.used;
 	/* Another one on the same addresses. */
-	unsafe = chart->unsafe;
-	chart->seed = key;
+	unsafe = sfc->unsafe;
+	sfc->seed = key;
 	put_program(&whole, "Other");
-	chart->seed = seed;
-	chart->unsafe |= unsafe;
+	sfc->seed = seed;
+	sfc->unsafe |= unsafe;
 	return whole.used;
 }

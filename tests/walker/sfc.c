@@ -45,35 +45,35 @@ static int exit_of(const struct sfc *sfc, int macro)
 }
 
 /* Depth of these three: macro-steps in one another, at most 8. */
-static bool can_be_left(const struct chart *chart, int step)
+static bool can_be_left(const struct played_sfc *played, int step)
 {
-	if (!value_is_true(*chart->step[step].x))
+	if (!value_is_true(*played->step[step].x))
 		return false;
-	return chart->sfc->step[step].kind != STEP_MACRO ||
-	       can_be_left(chart, exit_of(chart->sfc, step));
+	return played->sfc->step[step].kind != STEP_MACRO ||
+	       can_be_left(played, exit_of(played->sfc, step));
 }
 
 /* Nobody who came before takes it. */
-static bool is_free(const struct chart *chart, int step)
+static bool is_free(const struct played_sfc *played, int step)
 {
-	if (chart->step[step].leaving)
+	if (played->step[step].leaving)
 		return false;
-	return chart->sfc->step[step].kind != STEP_MACRO ||
-	       is_free(chart, exit_of(chart->sfc, step));
+	return played->sfc->step[step].kind != STEP_MACRO ||
+	       is_free(played, exit_of(played->sfc, step));
 }
 
-static void mark_leaving(struct chart *chart, int step)
+static void mark_leaving(struct played_sfc *played, int step)
 {
-	chart->step[step].leaving = true;
-	if (chart->sfc->step[step].kind == STEP_MACRO)
-		mark_leaving(chart, exit_of(chart->sfc, step));
+	played->step[step].leaving = true;
+	if (played->sfc->step[step].kind == STEP_MACRO)
+		mark_leaving(played, exit_of(played->sfc, step));
 }
 
-static void mark_entering(struct chart *chart, int step)
+static void mark_entering(struct played_sfc *played, int step)
 {
-	chart->step[step].entering = true;
-	if (chart->sfc->step[step].kind == STEP_MACRO)
-		mark_entering(chart, entry_of(chart->sfc, step));
+	played->step[step].entering = true;
+	if (played->sfc->step[step].kind == STEP_MACRO)
+		mark_entering(played, entry_of(played->sfc, step));
 }
 
 /* ---- made once ---- */
@@ -91,15 +91,15 @@ static bool place(struct walker *walker, const struct frame *frame, uint32_t nam
 	return out->kind != PLACED_NOWHERE;
 }
 
-static bool make_steps(struct walker *walker, struct chart *chart)
+static bool make_steps(struct walker *walker, struct played_sfc *played)
 {
-	const struct sfc *sfc = chart->sfc;
-	const struct frame *frame = chart->walked->frame;
+	const struct sfc *sfc = played->sfc;
+	const struct frame *frame = played->walked->frame;
 
 	for (int i = 0; i < sfc->step_count; i++) {
 		const struct sfc_step *from = &sfc->step[i];
-		struct played_step *step = &chart->step[i];
-		const struct var_table *vars = &chart->walked->pou->vars;
+		struct played_step *step = &played->step[i];
+		const struct var_table *vars = &played->walked->pou->vars;
 
 		step->x = frame->variable[sfc_x(sfc, vars, i)].value;
 		step->t = frame->variable[sfc_t(sfc, vars, i)].value;
@@ -118,11 +118,11 @@ static bool make_steps(struct walker *walker, struct chart *chart)
 	return true;
 }
 
-static bool make_controls(struct walker *walker, struct chart *chart)
+static bool make_controls(struct walker *walker, struct played_sfc *played)
 {
 	for (int i = 0; i < CONTROL_COUNT; i++)
-		if (!place(walker, chart->walked->frame, chart->sfc->control[i],
-			   &chart->control[i]))
+		if (!place(walker, played->walked->frame, played->sfc->control[i],
+			   &played->control[i]))
 			return false;
 	return true;
 }
@@ -141,38 +141,38 @@ static bool is_before(const struct sfc *sfc, int a, int b)
 }
 
 /* The place of each: so many come before it. */
-static void make_order(struct chart *chart)
+static void make_order(struct played_sfc *played)
 {
-	const struct sfc *sfc = chart->sfc;
+	const struct sfc *sfc = played->sfc;
 
 	for (int i = 0; i < sfc->transition_count; i++) {
 		int before = 0;
 
 		for (int k = 0; k < sfc->transition_count; k++)
 			before += is_before(sfc, k, i);
-		chart->order[before] = i;
+		played->order[before] = i;
 	}
 }
 
-struct chart *chart_new(struct walker *walker, struct walked_pou *walked)
+struct played_sfc *sfc_new(struct walker *walker, struct walked_pou *walked)
 {
-	struct chart *chart = arena_alloc(&walker->arena, sizeof(*chart));
+	struct played_sfc *played = arena_alloc(&walker->arena, sizeof(*played));
 	const struct sfc *sfc = walked->pou->sfc;
 	size_t transitions = (size_t)sfc->transition_count + 1;
 
-	if (!chart)
+	if (!played)
 		return NULL;
-	chart->sfc = sfc;
-	chart->walked = walked;
-	chart->step = arena_alloc(&walker->arena, ((size_t)sfc->step_count + 1) *
-				  sizeof(*chart->step));
-	chart->order = arena_alloc(&walker->arena, transitions * sizeof(*chart->order));
-	if (!chart->step || !chart->order ||
-	    !make_steps(walker, chart) || !make_controls(walker, chart) ||
-	    !lines_make(walker, chart))
+	played->sfc = sfc;
+	played->walked = walked;
+	played->step = arena_alloc(&walker->arena, ((size_t)sfc->step_count + 1) *
+				   sizeof(*played->step));
+	played->order = arena_alloc(&walker->arena, transitions * sizeof(*played->order));
+	if (!played->step || !played->order ||
+	    !make_steps(walker, played) || !make_controls(walker, played) ||
+	    !lines_make(walker, played))
 		return NULL;
-	make_order(chart);
-	return chart;
+	make_order(played);
+	return played;
 }
 
 const struct sfc_body *rung_body(const struct sfc *sfc, int rung)
@@ -207,28 +207,28 @@ static void write_bool(struct walker *walker, const struct placed *at, bool valu
 		placed_write(&here, value_bool(value));
 }
 
-int64_t chart_time(const struct placed *at)
+int64_t sfc_time(const struct placed *at)
 {
 	return placed_read(at, IEC_TIME).i;
 }
 
-static void activate(struct chart *chart, int step)
+static void activate(struct played_sfc *played, int step)
 {
-	*chart->step[step].x = value_bool(true);
-	chart->step[step].t->i = 0;
-	chart->step[step].entered = true;
-	chart->step[step].begins = true;
+	*played->step[step].x = value_bool(true);
+	played->step[step].t->i = 0;
+	played->step[step].entered = true;
+	played->step[step].begins = true;
 }
 
 /* What it waited for is evaluated no more, and has no power that one may look at. With
  * the last step of a macro-step goes what that waited for. Depth: macro-steps. */
-static void forget_power(struct chart *chart, int step)
+static void forget_power(struct played_sfc *played, int step)
 {
-	const struct sfc *sfc = chart->sfc;
+	const struct sfc *sfc = played->sfc;
 	int macro = sfc->step[step].macro;
 
 	if (macro >= 0 && exit_of(sfc, macro) == step)
-		forget_power(chart, macro);
+		forget_power(played, macro);
 	for (int i = 0; i < sfc->transition_count; i++) {
 		const struct sfc_transition *at = &sfc->transition[i];
 		const struct sfc_body *body = &at->condition;
@@ -236,47 +236,47 @@ static void forget_power(struct chart *chart, int step)
 		for (int k = 0; k < at->from_count; k++)
 			if (sfc->ref[at->first_from + k].step == step &&
 			    body->kind != BODY_LIST && body->kind != BODY_NONE)
-				chart->walked->rung[body->first].scan = 0;
+				played->walked->rung[body->first].scan = 0;
 	}
 }
 
-static void deactivate(struct chart *chart, int step)
+static void deactivate(struct played_sfc *played, int step)
 {
-	*chart->step[step].x = value_bool(false);
-	chart->step[step].left = true;
-	forget_power(chart, step);
+	*played->step[step].x = value_bool(false);
+	played->step[step].left = true;
+	forget_power(played, step);
 }
 
-static void do_list(struct walker *walker, struct chart *chart, int step)
+static void do_list(struct walker *walker, struct played_sfc *played, int step)
 {
-	if (chart->step[step].begins)
-		lines_once(walker, chart, step);
-	chart->step[step].begins = false;
+	if (played->step[step].begins)
+		lines_once(walker, played, step);
+	played->step[step].begins = false;
 }
 
 /* SET and RESET of the steps that became active just now. */
-static void do_lists(struct walker *walker, struct chart *chart)
+static void do_lists(struct walker *walker, struct played_sfc *played)
 {
-	for (int i = 0; i < chart->sfc->step_count; i++)
-		do_list(walker, chart, i);
+	for (int i = 0; i < played->sfc->step_count; i++)
+		do_list(walker, played, i);
 }
 
-static bool evaluate(struct walker *walker, struct chart *chart,
+static bool evaluate(struct walker *walker, struct played_sfc *played,
 		     const struct sfc_body *body, bool *is_true)
 {
-	const struct sfc *sfc = chart->sfc;
-	int transition = sfc_condition(sfc, &chart->walked->pou->vars);
-	struct value *value = chart->walked->frame->variable[transition].value;
+	const struct sfc *sfc = played->sfc;
+	int transition = sfc_condition(sfc, &played->walked->pou->vars);
+	struct value *value = played->walked->frame->variable[transition].value;
 	struct value result = value_bool(false);
 	bool good;
 
 	*value = value_bool(false);
 	if (body->kind == BODY_LIST) {
-		good = walk_list(walker, chart->walked, body, &result);
+		good = walk_list(walker, played->walked, body, &result);
 		*is_true = value_is_true(result);
 		return good;
 	}
-	good = walk_rungs(walker, chart->walked, body->first, body->count);
+	good = walk_rungs(walker, played->walked, body->first, body->count);
 	*is_true = value_is_true(*value);
 	return good;
 }
@@ -288,12 +288,12 @@ struct orders {
 };
 
 /* All it wants is active, and nobody who came before takes it. */
-static bool is_enabled(const struct chart *chart, const struct sfc_transition *transition)
+static bool is_enabled(const struct played_sfc *played, const struct sfc_transition *transition)
 {
 	for (int k = 0; k < transition->from_count; k++) {
-		int step = chart->sfc->ref[transition->first_from + k].step;
+		int step = played->sfc->ref[transition->first_from + k].step;
 
-		if (!can_be_left(chart, step) || !is_free(chart, step))
+		if (!can_be_left(played, step) || !is_free(played, step))
 			return false;
 	}
 	return true;
@@ -307,105 +307,105 @@ static bool may_fire(struct orders orders, bool is_true)
 }
 
 /* The first that may takes its steps. */
-static bool choose(struct walker *walker, struct chart *chart, struct orders orders,
+static bool choose(struct walker *walker, struct played_sfc *played, struct orders orders,
 		   bool *any)
 {
-	const struct sfc *sfc = chart->sfc;
+	const struct sfc *sfc = played->sfc;
 
 	for (int i = 0; i < sfc->step_count; i++)
-		chart->step[i].leaving = chart->step[i].entering = false;
+		played->step[i].leaving = played->step[i].entering = false;
 	for (int i = 0; i < sfc->transition_count; i++) {
-		const struct sfc_transition *at = &sfc->transition[chart->order[i]];
+		const struct sfc_transition *at = &sfc->transition[played->order[i]];
 		bool is_true;
 
-		if (!is_enabled(chart, at))
+		if (!is_enabled(played, at))
 			continue;
-		if (!evaluate(walker, chart, &at->condition, &is_true))
+		if (!evaluate(walker, played, &at->condition, &is_true))
 			return false;
 		if (!may_fire(orders, is_true))
 			continue;
 		for (int k = 0; k < at->from_count; k++)
-			mark_leaving(chart, sfc->ref[at->first_from + k].step);
+			mark_leaving(played, sfc->ref[at->first_from + k].step);
 		for (int k = 0; k < at->to_count; k++)
-			mark_entering(chart, sfc->ref[at->first_to + k].step);
+			mark_entering(played, sfc->ref[at->first_to + k].step);
 		*any = true;
 	}
 	return true;
 }
 
-static void fire(struct walker *walker, struct chart *chart)
+static void fire(struct walker *walker, struct played_sfc *played)
 {
-	for (int i = 0; i < chart->sfc->step_count; i++) {
-		struct played_step *step = &chart->step[i];
+	for (int i = 0; i < played->sfc->step_count; i++) {
+		struct played_step *step = &played->step[i];
 
 		if (!step->leaving || step->entering)
 			continue;
-		if (step->min.kind != PLACED_NOWHERE && step->t->i < chart_time(&step->min))
+		if (step->min.kind != PLACED_NOWHERE && step->t->i < sfc_time(&step->min))
 			write_bool(walker, &step->alarm, true);
-		deactivate(chart, i);
+		deactivate(played, i);
 	}
-	for (int i = 0; i < chart->sfc->step_count; i++)
-		if (chart->step[i].entering && !value_is_true(*chart->step[i].x))
-			activate(chart, i);
-	do_lists(walker, chart);
+	for (int i = 0; i < played->sfc->step_count; i++)
+		if (played->step[i].entering && !value_is_true(*played->step[i].x))
+			activate(played, i);
+	do_lists(walker, played);
 }
 
 /* ---- IN ORDER ---- */
 
-static bool is_each_active(const struct chart *chart, const struct sfc_transition *at)
+static bool is_each_active(const struct played_sfc *played, const struct sfc_transition *at)
 {
 	for (int k = 0; k < at->from_count; k++)
-		if (!can_be_left(chart, chart->sfc->ref[at->first_from + k].step))
+		if (!can_be_left(played, played->sfc->ref[at->first_from + k].step))
 			return false;
 	return true;
 }
 
-static void fire_at_once(struct walker *walker, struct chart *chart,
+static void fire_at_once(struct walker *walker, struct played_sfc *played,
 			 const struct sfc_transition *at)
 {
-	const struct sfc *sfc = chart->sfc;
+	const struct sfc *sfc = played->sfc;
 
 	for (int i = 0; i < sfc->step_count; i++)
-		chart->step[i].leaving = chart->step[i].entering = false;
+		played->step[i].leaving = played->step[i].entering = false;
 	for (int k = 0; k < at->from_count; k++)
-		mark_leaving(chart, sfc->ref[at->first_from + k].step);
+		mark_leaving(played, sfc->ref[at->first_from + k].step);
 	for (int k = 0; k < at->to_count; k++)
-		mark_entering(chart, sfc->ref[at->first_to + k].step);
+		mark_entering(played, sfc->ref[at->first_to + k].step);
 	for (int i = 0; i < sfc->step_count; i++) {
-		struct played_step *step = &chart->step[i];
+		struct played_step *step = &played->step[i];
 
 		if (!step->leaving)
 			continue;
-		if (step->min.kind != PLACED_NOWHERE && step->t->i < chart_time(&step->min))
+		if (step->min.kind != PLACED_NOWHERE && step->t->i < sfc_time(&step->min))
 			write_bool(walker, &step->alarm, true);
-		deactivate(chart, i);
+		deactivate(played, i);
 	}
 	for (int i = 0; i < sfc->step_count; i++) {
-		if (chart->step[i].entering && !value_is_true(*chart->step[i].x))
-			activate(chart, i);
-		do_list(walker, chart, i);
+		if (played->step[i].entering && !value_is_true(*played->step[i].x))
+			activate(played, i);
+		do_list(walker, played, i);
 	}
 }
 
 /* Transition after transition, each at once, until a round brings nothing. */
-static bool evolve_in_order(struct walker *walker, struct chart *chart, struct orders orders)
+static bool evolve_in_order(struct walker *walker, struct played_sfc *played, struct orders orders)
 {
 	bool any = true;
 
 	for (int round = 0; any && round < ROUNDS_MAX; round++) {
 		any = false;
-		for (int i = 0; i < chart->sfc->transition_count; i++) {
+		for (int i = 0; i < played->sfc->transition_count; i++) {
 			const struct sfc_transition *at =
-				&chart->sfc->transition[chart->order[i]];
+				&played->sfc->transition[played->order[i]];
 			bool is_true;
 
-			if (!is_each_active(chart, at))
+			if (!is_each_active(played, at))
 				continue;
-			if (!evaluate(walker, chart, &at->condition, &is_true))
+			if (!evaluate(walker, played, &at->condition, &is_true))
 				return false;
 			if (!may_fire(orders, is_true))
 				continue;
-			fire_at_once(walker, chart, at);
+			fire_at_once(walker, played, at);
 			orders.tip = false;
 			any = true;
 		}
@@ -415,96 +415,96 @@ static bool evolve_in_order(struct walker *walker, struct chart *chart, struct o
 
 /* ---- a scan ---- */
 
-static bool rises(struct chart *chart, enum control which, bool now)
+static bool rises(struct played_sfc *played, enum control which, bool now)
 {
-	return block_rises(now, &chart->was[which]);
+	return block_rises(now, &played->was[which]);
 }
 
-static struct orders read_orders(struct walker *walker, struct chart *chart)
+static struct orders read_orders(struct walker *walker, struct played_sfc *played)
 {
-	const struct placed *from = chart->control;
+	const struct placed *from = played->control;
 	struct orders orders = { .force = -1 };
 	int64_t number = 0;
 
 	orders.held_reset = read_bool(walker, &from[CONTROL_RESET]);
-	orders.reset = rises(chart, CONTROL_RESET, orders.held_reset);
+	orders.reset = rises(played, CONTROL_RESET, orders.held_reset);
 	orders.hold = read_bool(walker, &from[CONTROL_HOLD]);
 	orders.semi = read_bool(walker, &from[CONTROL_SEMI]);
 	orders.manual = read_bool(walker, &from[CONTROL_MANUAL]);
-	orders.tip = rises(chart, CONTROL_TIP, read_bool(walker, &from[CONTROL_TIP]));
+	orders.tip = rises(played, CONTROL_TIP, read_bool(walker, &from[CONTROL_TIP]));
 	if (from[CONTROL_FORCE].kind != PLACED_NOWHERE)
 		number = placed_read(&from[CONTROL_FORCE], IEC_NONE).i;
-	if (number != chart->force && chart->started && !orders.held_reset &&
-	    number >= 1 && number <= chart->sfc->step_count)
+	if (number != played->force && played->started && !orders.held_reset &&
+	    number >= 1 && number <= played->sfc->step_count)
 		orders.force = (int)number - 1;
-	chart->force = number;
+	played->force = number;
 	return orders;
 }
 
 /* All steps are left; what is marked becomes active anew. */
-static void begin_anew(struct walker *walker, struct chart *chart)
+static void begin_anew(struct walker *walker, struct played_sfc *played)
 {
-	for (int i = 0; i < chart->sfc->step_count; i++)
-		if (value_is_true(*chart->step[i].x))
-			deactivate(chart, i);
-	for (int i = 0; i < chart->sfc->step_count; i++)
-		if (chart->step[i].entering)
-			activate(chart, i);
-	do_lists(walker, chart);
+	for (int i = 0; i < played->sfc->step_count; i++)
+		if (value_is_true(*played->step[i].x))
+			deactivate(played, i);
+	for (int i = 0; i < played->sfc->step_count; i++)
+		if (played->step[i].entering)
+			activate(played, i);
+	do_lists(walker, played);
 }
 
-static void begin_initial(struct walker *walker, struct chart *chart)
+static void begin_initial(struct walker *walker, struct played_sfc *played)
 {
-	for (int i = 0; i < chart->sfc->step_count; i++)
-		chart->step[i].entering = chart->sfc->step[i].macro < 0 &&
-			chart->sfc->step[i].kind == STEP_INITIAL;
-	begin_anew(walker, chart);
+	for (int i = 0; i < played->sfc->step_count; i++)
+		played->step[i].entering = played->sfc->step[i].macro < 0 &&
+			played->sfc->step[i].kind == STEP_INITIAL;
+	begin_anew(walker, played);
 }
 
-static void force(struct walker *walker, struct chart *chart, int step)
+static void force(struct walker *walker, struct played_sfc *played, int step)
 {
-	const struct sfc *sfc = chart->sfc;
+	const struct sfc *sfc = played->sfc;
 
 	for (int i = 0; i < sfc->step_count; i++)
-		chart->step[i].entering = false;
-	mark_entering(chart, step);
+		played->step[i].entering = false;
+	mark_entering(played, step);
 	for (int at = sfc->step[step].macro; at >= 0; at = sfc->step[at].macro)
-		chart->step[at].entering = true;
-	begin_anew(walker, chart);
+		played->step[at].entering = true;
+	begin_anew(walker, played);
 }
 
 /* Times and supervision. */
-static void pass_time(struct walker *walker, struct chart *chart, bool hold)
+static void pass_time(struct walker *walker, struct played_sfc *played, bool hold)
 {
-	int64_t passed = hold ? 0 : walker->now_ns - chart->before_ns;
+	int64_t passed = hold ? 0 : walker->now_ns - played->before_ns;
 
-	for (int i = 0; i < chart->sfc->step_count; i++) {
-		struct played_step *step = &chart->step[i];
+	for (int i = 0; i < played->sfc->step_count; i++) {
+		struct played_step *step = &played->step[i];
 
 		if (!value_is_true(*step->x))
 			continue;
 		step->t->i += passed;
-		if (step->max.kind != PLACED_NOWHERE && step->t->i > chart_time(&step->max))
+		if (step->max.kind != PLACED_NOWHERE && step->t->i > sfc_time(&step->max))
 			write_bool(walker, &step->alarm, true);
 	}
-	lines_pass_time(chart, passed);
+	lines_pass_time(played, passed);
 }
 
 /* With UNTIL STABLE the chart is looked at until nothing fires; one TIP is for one
  * evolution. */
-static bool evolve(struct walker *walker, struct chart *chart, struct orders orders)
+static bool evolve(struct walker *walker, struct played_sfc *played, struct orders orders)
 {
 	bool any = true;
 
-	if (chart->sfc->evolution == EVOLVE_IN_ORDER)
-		return evolve_in_order(walker, chart, orders);
+	if (played->sfc->evolution == EVOLVE_IN_ORDER)
+		return evolve_in_order(walker, played, orders);
 	for (int count = 0; any; count++) {
 		any = false;
-		if (count == EVOLUTIONS_MAX || !choose(walker, chart, orders, &any))
+		if (count == EVOLUTIONS_MAX || !choose(walker, played, orders, &any))
 			return false;
 		if (any)
-			fire(walker, chart);
-		if (!sfc_goes_round(chart->sfc))
+			fire(walker, played);
+		if (!sfc_goes_round(played->sfc))
 			return true;
 		orders.tip = false;
 	}
@@ -519,29 +519,29 @@ static bool is_uncontrolled(const struct sfc *sfc)
 	return true;
 }
 
-bool chart_walk(struct walker *walker, struct chart *chart)
+bool sfc_walk(struct walker *walker, struct played_sfc *played)
 {
-	struct orders orders = read_orders(walker, chart);
+	struct orders orders = read_orders(walker, played);
 	bool good = true;
 
-	for (int i = 0; i < chart->sfc->step_count; i++)
-		chart->step[i].entered = chart->step[i].left = false;
-	if (!chart->started) {
-		begin_initial(walker, chart);
-		if (sfc_goes_round(chart->sfc) && is_uncontrolled(chart->sfc))
-			good = evolve(walker, chart, orders);
+	for (int i = 0; i < played->sfc->step_count; i++)
+		played->step[i].entered = played->step[i].left = false;
+	if (!played->started) {
+		begin_initial(walker, played);
+		if (sfc_goes_round(played->sfc) && is_uncontrolled(played->sfc))
+			good = evolve(walker, played, orders);
 	} else {
-		pass_time(walker, chart, orders.hold);
+		pass_time(walker, played, orders.hold);
 		if (orders.reset) {
-			lines_forget(chart);
-			begin_initial(walker, chart);
+			lines_forget(played);
+			begin_initial(walker, played);
 		} else if (orders.force >= 0) {
-			force(walker, chart, orders.force);
+			force(walker, played, orders.force);
 		} else if (!orders.held_reset && !orders.hold) {
-			good = evolve(walker, chart, orders);
+			good = evolve(walker, played, orders);
 		}
 	}
-	chart->started = true;
-	chart->before_ns = walker->now_ns;
-	return good && lines_act(walker, chart);
+	played->started = true;
+	played->before_ns = walker->now_ns;
+	return good && lines_act(walker, played);
 }

@@ -7,13 +7,13 @@
 
 #include "tests/walker/grid.h"
 
-struct chart;
+struct played_sfc;
 
-/** chart_new - the chart of a POU, before its first scan; its rungs are the caller's.
+/** sfc_new - the chart of a POU, before its first scan; its rungs are the caller's.
  * Fails: NULL: no memory, or it cannot be walked. */
-struct chart *chart_new(struct walker *walker, struct walked_pou *walked);
-/** chart_walk - one scan. False: a fault. */
-bool chart_walk(struct walker *walker, struct chart *chart);
+struct played_sfc *sfc_new(struct walker *walker, struct walked_pou *walked);
+/** sfc_walk - one scan. False: a fault. */
+bool sfc_walk(struct walker *walker, struct played_sfc *played);
 /** rung_body - the condition or action that a rung of a chart stands in; NULL: none. */
 const struct sfc_body *rung_body(const struct sfc *sfc, int rung);
 

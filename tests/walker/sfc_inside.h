@@ -40,7 +40,7 @@ struct once {
 	struct placed place;
 };
 
-struct chart {
+struct played_sfc {
 	const struct sfc *sfc;
 	struct walked_pou *walked;
 	struct played_step *step;
@@ -59,16 +59,16 @@ struct chart {
 };
 
 /* sfc.c */
-int64_t chart_time(const struct placed *at);
+int64_t sfc_time(const struct placed *at);
 
 /* sfc_lines.c */
 /** lines_make - lines and what they call; false: cannot. */
-bool lines_make(struct walker *walker, struct chart *chart);
+bool lines_make(struct walker *walker, struct played_sfc *played);
 /** lines_once - SET and RESET of a step. */
-void lines_once(struct walker *walker, struct chart *chart, int step);
-void lines_pass_time(struct chart *chart, int64_t passed);
+void lines_once(struct walker *walker, struct played_sfc *played, int step);
+void lines_pass_time(struct played_sfc *played, int64_t passed);
 /** lines_forget - nothing is stored any more. */
-void lines_forget(struct chart *chart);
+void lines_forget(struct played_sfc *played);
 /** lines_act - what is called for is done. False: a fault. */
-bool lines_act(struct walker *walker, struct chart *chart);
+bool lines_act(struct walker *walker, struct played_sfc *played);
 #endif

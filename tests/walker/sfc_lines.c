@@ -9,9 +9,9 @@
 
 /* ---- made once ---- */
 
-static struct target *new_target(struct chart *chart)
+static struct target *new_target(struct played_sfc *played)
 {
-	return &chart->target[chart->target_count++];
+	return &played->target[played->target_count++];
 }
 
 /* Two texts for the same bit? */
@@ -25,72 +25,72 @@ static bool is_one(const struct placed *a, const struct placed *b)
 }
 
 /* The BOOL of this name, which may have been named before. */
-static int bool_named(struct walker *walker, struct chart *chart, uint32_t name)
+static int bool_named(struct walker *walker, struct played_sfc *played, uint32_t name)
 {
 	const char *text = project_text(walker->project, name);
 	uint32_t fold = names_fold(&walker->project->names, name);
 	struct target *target;
 
-	const struct placed place = walker_place(walker, chart->walked->frame, text,
+	const struct placed place = walker_place(walker, played->walked->frame, text,
 						 strlen(text));
 
-	for (int i = 0; i < chart->target_count; i++)
-		if (!chart->target[i].action && (chart->target[i].fold == fold ||
-						 is_one(&chart->target[i].place, &place)))
+	for (int i = 0; i < played->target_count; i++)
+		if (!played->target[i].action && (played->target[i].fold == fold ||
+						  is_one(&played->target[i].place, &place)))
 			return i;
-	target = new_target(chart);
+	target = new_target(played);
 	target->fold = fold;
 	target->place = place;
 	walker->why = text;
-	return target->place.kind == PLACED_NOWHERE ? -1 : chart->target_count - 1;
+	return target->place.kind == PLACED_NOWHERE ? -1 : played->target_count - 1;
 }
 
-static bool make_line(struct walker *walker, struct chart *chart,
+static bool make_line(struct walker *walker, struct played_sfc *played,
 		      const struct sfc_use *use)
 {
-	struct played_line *line = &chart->line[chart->line_count++];
+	struct played_line *line = &played->line[played->line_count++];
 	const char *time = project_text(walker->project, use->time);
 
 	line->use = use;
 	line->target = use->action >= 0 ? use->action :
-		       bool_named(walker, chart, use->operand);
+		       bool_named(walker, played, use->operand);
 	if (use->time)
-		line->time = walker_place(walker, chart->walked->frame, time,
+		line->time = walker_place(walker, played->walked->frame, time,
 					  strlen(time));
 	return line->target >= 0 && (!use->time || line->time.kind != PLACED_NOWHERE);
 }
 
-static bool make_once(struct walker *walker, struct chart *chart,
+static bool make_once(struct walker *walker, struct played_sfc *played,
 		      const struct sfc_use *use)
 {
-	struct once *once = &chart->once[chart->once_count++];
+	struct once *once = &played->once[played->once_count++];
 	const char *text = project_text(walker->project, use->operand);
 
 	once->use = use;
-	once->place = walker_place(walker, chart->walked->frame, text, strlen(text));
+	once->place = walker_place(walker, played->walked->frame, text, strlen(text));
 	walker->why = text;
 	return once->place.kind != PLACED_NOWHERE;
 }
 
-bool lines_make(struct walker *walker, struct chart *chart)
+bool lines_make(struct walker *walker, struct played_sfc *played)
 {
-	const struct sfc *sfc = chart->sfc;
+	const struct sfc *sfc = played->sfc;
 	size_t lines = (size_t)sfc->use_count + 1;
 	size_t targets = lines + (size_t)sfc->action_count;
 
-	chart->line = arena_alloc(&walker->arena, lines * sizeof(*chart->line));
-	chart->once = arena_alloc(&walker->arena, lines * sizeof(*chart->once));
-	chart->target = arena_alloc(&walker->arena, targets * sizeof(*chart->target));
-	if (!chart->line || !chart->once || !chart->target)
+	played->line = arena_alloc(&walker->arena, lines * sizeof(*played->line));
+	played->once = arena_alloc(&walker->arena, lines * sizeof(*played->once));
+	played->target = arena_alloc(&walker->arena, targets * sizeof(*played->target));
+	if (!played->line || !played->once || !played->target)
 		return false;
 	for (int i = 0; i < sfc->action_count; i++)
-		new_target(chart)->action = &sfc->action[i];
+		new_target(played)->action = &sfc->action[i];
 	for (int i = 0; i < sfc->step_count; i++)
 		for (int k = 0; k < sfc->step[i].use_count; k++) {
 			const struct sfc_use *use = &sfc->use[sfc->step[i].first_use + k];
 
-			if (use->kind == USE_ACTION ? !make_line(walker, chart, use) :
-						      !make_once(walker, chart, use))
+			if (use->kind == USE_ACTION ? !make_line(walker, played, use) :
+						      !make_once(walker, played, use))
 				return false;
 		}
 	return true;
@@ -98,10 +98,10 @@ bool lines_make(struct walker *walker, struct chart *chart)
 
 /* ---- what begins and what ends ---- */
 
-void lines_once(struct walker *walker, struct chart *chart, int step)
+void lines_once(struct walker *walker, struct played_sfc *played, int step)
 {
-	for (int i = 0; i < chart->once_count; i++) {
-		const struct once *once = &chart->once[i];
+	for (int i = 0; i < played->once_count; i++) {
+		const struct once *once = &played->once[i];
 		struct placed here;
 
 		if (once->use->step == step && placed_find(walker, &once->place, &here))
@@ -109,10 +109,10 @@ void lines_once(struct walker *walker, struct chart *chart, int step)
 	}
 }
 
-void lines_pass_time(struct chart *chart, int64_t passed)
+void lines_pass_time(struct played_sfc *played, int64_t passed)
 {
-	for (int i = 0; i < chart->line_count; i++)
-		chart->line[i].elapsed += passed;
+	for (int i = 0; i < played->line_count; i++)
+		played->line[i].elapsed += passed;
 }
 
 static void forget(struct played_line *line)
@@ -121,10 +121,10 @@ static void forget(struct played_line *line)
 	line->stored = false;
 }
 
-void lines_forget(struct chart *chart)
+void lines_forget(struct played_sfc *played)
 {
-	for (int i = 0; i < chart->line_count; i++)
-		forget(&chart->line[i]);
+	for (int i = 0; i < played->line_count; i++)
+		forget(&played->line[i]);
 }
 
 static void begin_line(struct played_line *line, const struct played_step *step)
@@ -140,38 +140,38 @@ static void begin_line(struct played_line *line, const struct played_step *step)
 	}
 	if (qualifier == QUALIFIER_DS) {
 		line->waits = value_is_true(*step->x) && (line->waits || step->entered);
-		if (line->waits && step->t->i >= chart_time(&line->time))
+		if (line->waits && step->t->i >= sfc_time(&line->time))
 			line->stored = true;
 	}
 }
 
 /* Of this target, by an R. */
-static void end_lines(struct chart *chart, int target)
+static void end_lines(struct played_sfc *played, int target)
 {
-	for (int i = 0; i < chart->line_count; i++)
-		if (chart->line[i].target == target)
-			forget(&chart->line[i]);
+	for (int i = 0; i < played->line_count; i++)
+		if (played->line[i].target == target)
+			forget(&played->line[i]);
 }
 
-static void begin_and_end(struct chart *chart)
+static void begin_and_end(struct played_sfc *played)
 {
-	for (int i = 0; i < chart->line_count; i++)
-		begin_line(&chart->line[i], &chart->step[chart->line[i].use->step]);
-	for (int i = 0; i < chart->line_count; i++) {
-		const struct played_line *line = &chart->line[i];
-		const struct played_step *step = &chart->step[line->use->step];
+	for (int i = 0; i < played->line_count; i++)
+		begin_line(&played->line[i], &played->step[played->line[i].use->step]);
+	for (int i = 0; i < played->line_count; i++) {
+		const struct played_line *line = &played->line[i];
+		const struct played_step *step = &played->step[line->use->step];
 
 		if (line->use->qualifier == QUALIFIER_R &&
 		    (value_is_true(*step->x) || step->entered))
-			end_lines(chart, line->target);
+			end_lines(played, line->target);
 	}
 }
 
 /* ---- what is called for ---- */
 
-static bool calls(const struct chart *chart, const struct played_line *line)
+static bool calls(const struct played_sfc *played, const struct played_line *line)
 {
-	const struct played_step *step = &chart->step[line->use->step];
+	const struct played_step *step = &played->step[line->use->step];
 	bool x = value_is_true(*step->x);
 
 	switch (line->use->qualifier) {
@@ -181,18 +181,18 @@ static bool calls(const struct chart *chart, const struct played_line *line)
 	case QUALIFIER_DS:
 		return line->stored;
 	case QUALIFIER_L:
-		return x && step->t->i < chart_time(&line->time);
+		return x && step->t->i < sfc_time(&line->time);
 	case QUALIFIER_D:
-		return x && step->t->i >= chart_time(&line->time);
+		return x && step->t->i >= sfc_time(&line->time);
 	case QUALIFIER_P:
 	case QUALIFIER_P1:
 		return step->entered;
 	case QUALIFIER_P0:
 		return step->left;
 	case QUALIFIER_SD:
-		return line->waits && line->elapsed >= chart_time(&line->time);
+		return line->waits && line->elapsed >= sfc_time(&line->time);
 	case QUALIFIER_SL:
-		return line->waits && line->elapsed < chart_time(&line->time);
+		return line->waits && line->elapsed < sfc_time(&line->time);
 	case QUALIFIER_R:
 	case QUALIFIER_COUNT:
 		break;
@@ -206,21 +206,21 @@ static bool reads_late(const struct played_line *line)
 }
 
 /* Is the target called for; *@in_passing: by P0 and P1 alone? */
-static bool is_called(const struct chart *chart, int target, bool *in_passing)
+static bool is_called(const struct played_sfc *played, int target, bool *in_passing)
 {
 	bool called = false;
 
 	*in_passing = true;
-	for (int i = 0; i < chart->line_count; i++) {
-		const struct played_line *line = &chart->line[i];
-		const struct played_step *step = &chart->step[line->use->step];
+	for (int i = 0; i < played->line_count; i++) {
+		const struct played_line *line = &played->line[i];
+		const struct played_step *step = &played->step[line->use->step];
 		enum qualifier qualifier = line->use->qualifier;
 
 		if (line->target != target)
 			continue;
 		if (qualifier == QUALIFIER_R && value_is_true(*step->x))
 			return false;
-		if (!(reads_late(line) ? calls(chart, line) : line->calls))
+		if (!(reads_late(line) ? calls(played, line) : line->calls))
 			continue;
 		called = true;
 		if (qualifier != QUALIFIER_P0 && qualifier != QUALIFIER_P1)
@@ -229,18 +229,18 @@ static bool is_called(const struct chart *chart, int target, bool *in_passing)
 	return called;
 }
 
-static bool run_body(struct walker *walker, struct chart *chart,
+static bool run_body(struct walker *walker, struct played_sfc *played,
 		     const struct sfc_body *body)
 {
 	struct value result;
 
 	if (body->kind == BODY_LIST)
-		return walk_list(walker, chart->walked, body, &result);
-	return walk_rungs(walker, chart->walked, body->first, body->count);
+		return walk_list(walker, played->walked, body, &result);
+	return walk_rungs(walker, played->walked, body->first, body->count);
 }
 
 /* One target: in the scan in which it is called for no more, once again. */
-static bool act(struct walker *walker, struct chart *chart, struct target *target)
+static bool act(struct walker *walker, struct played_sfc *played, struct target *target)
 {
 	bool last = target->was_called && !target->called, good = true;
 	struct placed here;
@@ -250,7 +250,7 @@ static bool act(struct walker *walker, struct chart *chart, struct target *targe
 		    placed_find(walker, &target->place, &here))
 			placed_write(&here, value_bool(target->called));
 	} else if (target->called || (last && !target->was_in_passing)) {
-		good = run_body(walker, chart, &target->action->body);
+		good = run_body(walker, played, &target->action->body);
 	}
 	target->was_called = target->called;
 	target->was_in_passing = target->in_passing;
@@ -259,17 +259,17 @@ static bool act(struct walker *walker, struct chart *chart, struct target *targe
 
 /* Who calls is settled before anything is done, but for the times of SD and SL, which are
  * read as late as can be. */
-bool lines_act(struct walker *walker, struct chart *chart)
+bool lines_act(struct walker *walker, struct played_sfc *played)
 {
-	begin_and_end(chart);
-	for (int i = 0; i < chart->line_count; i++)
-		if (!reads_late(&chart->line[i]))
-			chart->line[i].calls = calls(chart, &chart->line[i]);
-	for (int i = 0; i < chart->target_count; i++) {
-		struct target *target = &chart->target[i];
+	begin_and_end(played);
+	for (int i = 0; i < played->line_count; i++)
+		if (!reads_late(&played->line[i]))
+			played->line[i].calls = calls(played, &played->line[i]);
+	for (int i = 0; i < played->target_count; i++) {
+		struct target *target = &played->target[i];
 
-		target->called = is_called(chart, i, &target->in_passing);
-		if (!act(walker, chart, target))
+		target->called = is_called(played, i, &target->in_passing);
+		if (!act(walker, played, target))
 			return false;
 	}
 	return true;

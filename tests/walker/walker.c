@@ -33,8 +33,8 @@ static bool make_pou(struct walker *walker, struct frame *frame,
 			return false;
 	}
 	if (pou->sfc)
-		out->chart = chart_new(walker, out);
-	return !pou->sfc || out->chart;
+		out->sfc = sfc_new(walker, out);
+	return !pou->sfc || out->sfc;
 }
 
 static bool make_all(struct walker *walker)
@@ -462,7 +462,7 @@ static bool walk_pou(struct walker *walker, struct walked_pou *walked)
 {
 	if (!pou_has_frame(walked->pou))
 		frame_reset(walker, walked->frame, true);
-	return walked->chart ? chart_walk(walker, walked->chart) :
+	return walked->sfc ? sfc_walk(walker, walked->sfc) :
 	       walk_rungs(walker, walked, 0, walked->pou->rung_count);
 }
 

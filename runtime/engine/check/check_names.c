@@ -419,7 +419,7 @@ static void check_ladder(struct names_check *c, const struct pou *pou, int first
 }
 
 /* Nothing jumps from one condition or action into another. */
-static void check_chart(struct names_check *c, const struct pou *pou, uint8_t *bad)
+static void check_whole_sfc(struct names_check *c, const struct pou *pou, uint8_t *bad)
 {
 	const struct sfc *sfc = pou->sfc;
 	bool good;
@@ -563,7 +563,7 @@ static void check_bodies(struct names_check *c, uint8_t *const *bad)
 		check_table(c, pou, &pou->vars);
 		note_il(c, pou);
 		if (pou->sfc)
-			check_chart(c, pou, bad ? bad[i] : NULL);
+			check_whole_sfc(c, pou, bad ? bad[i] : NULL);
 		else
 			check_ladder(c, pou, 0, pou->rung_count, false,
 				     bad ? bad[i] : NULL);

@@ -273,7 +273,7 @@ static void offer_labels(const struct offer *o)
 			     project_text(o->project, pou->il.line[i].operand), "");
 }
 
-static void offer_chart(const struct offer *o)
+static void offer_sfc(const struct offer *o)
 {
 	const struct sfc *sfc = o->pou ? o->pou->sfc : NULL;
 	unsigned int kinds = o->want->kinds;
@@ -353,7 +353,7 @@ void expect_offer(const struct project *project, const struct pou *pou,
 		offer_routines(&o);
 	if (want->kinds & (EXPECT_STEP | EXPECT_ACTION | EXPECT_QUALIFIER |
 			   EXPECT_STEP_PART))
-		offer_chart(&o);
+		offer_sfc(&o);
 	if (want->kinds & EXPECT_PIN)
 		offer_pins(&o);
 }

@@ -420,7 +420,7 @@ static struct expect_want want_at(struct before *b, const char *text, size_t lin
 		return declaration_want(b);
 	}
 	if (b->pou && b->pou->language == LANGUAGE_SFC)
-		return expect_chart(b, text, line, bar, to);
+		return expect_sfc(b, text, line, bar, to);
 	if (b->pou && b->pou->language == LANGUAGE_LD && bar > line) {
 		expect_tokens(b, text, bar, to);
 		return expect_cell(b);

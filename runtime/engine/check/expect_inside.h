@@ -36,8 +36,8 @@ size_t expect_line(const char *text, size_t at);
 size_t expect_statement(const char *text, size_t line);
 /** expect_tokens - the words in bytes [@from, @to). */
 void expect_tokens(struct before *b, const char *text, size_t from, size_t to);
-/** expect_chart - what is wanted in the line at @line of a chart, before @to; @bar:
+/** expect_sfc - what is wanted in the line at @line of a chart, before @to; @bar:
  * behind its last bar, or @line. */
-struct expect_want expect_chart(struct before *b, const char *text, size_t line,
-				size_t bar, size_t to);
+struct expect_want expect_sfc(struct before *b, const char *text, size_t line,
+			      size_t bar, size_t to);
 #endif

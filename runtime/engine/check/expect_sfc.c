@@ -156,8 +156,8 @@ static bool is_step(const struct token *token)
 	       expect_is(token, "MACRO_STEP");
 }
 
-struct expect_want expect_chart(struct before *b, const char *text, size_t line,
-				size_t bar, size_t to)
+struct expect_want expect_sfc(struct before *b, const char *text, size_t line,
+			      size_t bar, size_t to)
 {
 	enum inside in;
 

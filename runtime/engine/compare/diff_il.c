@@ -63,7 +63,7 @@ static bool write_body(const struct project *project, const struct pou *pou,
 	if (pou->language != LANGUAGE_SFC)
 		return pou_print_il(project, pou, &none, NULL, 0, &pou->il, sink);
 	sink_text(sink, "PROGRAM\n");
-	text_write_chart(project, pou, sink);
+	text_write_sfc(project, pou, sink);
 	sink_text(sink, "END_PROGRAM\n");
 	return true;
 }

@@ -67,7 +67,7 @@ static bool sort_transitions(struct making *making)
 	return true;
 }
 
-static bool in_chart(const struct making *making, int step, int transition)
+static bool in_sfc(const struct making *making, int step, int transition)
 {
 	return step >= 0 && step < making->graph->steps &&
 	       making->group[step] == making->group[making->graph->steps + transition];
@@ -109,7 +109,7 @@ static void put_edges(struct making *making, bool count)
 		for (int i = 0; i < transition->from_count; i++) {
 			int ref = transition->first_from + i, step = sfc->ref[ref].step;
 
-			if (in_chart(making, step, t) &&
+			if (in_sfc(making, step, t) &&
 			    !is_again(making, step, 2 * t))
 				put_edge(making, step, steps + t, ref, count);
 		}
@@ -118,7 +118,7 @@ static void put_edges(struct making *making, bool count)
 
 			if (!is_again(making, step, 2 * t + 1))
 				put_edge(making, steps + t,
-					 in_chart(making, step, t) ? step : -1, ref,
+					 in_sfc(making, step, t) ? step : -1, ref,
 					 count);
 		}
 	}

@@ -13,7 +13,7 @@
 
 #define MOST_BESIDE 4 /* lines that run to one step beside each other          */
 
-static const struct sfc *chart_of(const struct sfc_weave *weave)
+static const struct sfc *sfc_of(const struct sfc_weave *weave)
 {
 	return weave->layout->sfc;
 }
@@ -29,7 +29,7 @@ int sfc_step_rows(const struct sfc *sfc, int step)
 static int rows_of(const struct sfc_weave *weave, int point)
 {
 	if (point < weave->graph.steps)
-		return sfc_step_rows(chart_of(weave), point) + 2;
+		return sfc_step_rows(sfc_of(weave), point) + 2;
 	return point < weave->graph.steps + weave->graph.transitions;
 }
 
@@ -58,7 +58,7 @@ static int hint_of(const struct sewing *sewing, int point)
 	    graph->first[point] < graph->first[point + 1] &&
 	    !graph->edge[graph->first[point]].far)
 		point = graph->edge[graph->first[point]].to;
-	return point < graph->steps ? chart_of(sewing->weave)->step[point].column : 0;
+	return point < graph->steps ? sfc_of(sewing->weave)->step[point].column : 0;
 }
 
 static struct sfc_exit exit_of(int from, const struct sfc_edge *edge)
@@ -230,7 +230,7 @@ static bool sew_all(struct sewing *sewing)
 
 	for (int i = 0; i < graph->points; i++) {
 		const int point = graph->order[i], over = graph->dominator[point];
-		int hint = point < graph->steps ? chart_of(weave)->step[point].column : 0;
+		int hint = point < graph->steps ? sfc_of(weave)->step[point].column : 0;
 
 		sewing->base[point] = hint > 0 ? hint : over < 0 ? 1 : sewing->base[over];
 	}

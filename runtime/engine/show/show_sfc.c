@@ -552,7 +552,7 @@ static bool make_room(struct sketch *sketch)
 	return !arena->failed;
 }
 
-static void put_chart(struct sketch *sketch)
+static void put_sfc(struct sketch *sketch)
 {
 	const struct sfc_layout *layout = sketch->layout;
 
@@ -585,7 +585,7 @@ bool draw_sfc(struct draw *draw, const struct pou *pou)
 	sketch.strokes = draw->options && draw->options->ascii ? &ascii : &unicode;
 	if (make_room(&sketch) && make_texts(&sketch)) {
 		good = true;
-		put_chart(&sketch);
+		put_sfc(&sketch);
 		put_bodies(&sketch, draw);
 	}
 	arena_free(&sketch.arena);

@@ -170,7 +170,7 @@ static void read_evolution(struct reader *r, struct sfc *sfc, const char *word,
 }
 
 /* SFC, and perhaps UNTIL STABLE or IN ORDER; the cursor stands on SFC. */
-static void begin_chart(struct reader *r, struct pou *pou)
+static void begin_sfc(struct reader *r, struct pou *pou)
 {
 	if (pou->kind != POU_PROGRAM)
 		reader_fail_word(r, DIAG_SFC_KIND, pou_word(pou->kind));
@@ -207,7 +207,7 @@ static void read_first_line(struct reader *r, struct pou *pou, int index)
 	if (lex_is(&r->lex, "IL"))
 		pou->language = LANGUAGE_IL;
 	if (lex_is(&r->lex, "SFC"))
-		begin_chart(r, pou);
+		begin_sfc(r, pou);
 	else if (lex_is(&r->lex, "IL") || lex_is(&r->lex, "LD"))
 		reader_next(r);
 	reader_end_line(r);

@@ -263,7 +263,7 @@ bool read_ends_block(const struct reader *r)
 		"USES", "VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP",
 	};
 	bool found = r->pou && r->pou->language == LANGUAGE_SFC &&
-		     reader_is_chart_word(r);
+		     reader_is_sfc_word(r);
 
 	if (r->lex.token.kind != TOKEN_NAME)
 		return false;

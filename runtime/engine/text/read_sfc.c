@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-bool reader_is_chart_word(const struct reader *r)
+bool reader_is_sfc_word(const struct reader *r)
 {
 	static const char *const words[] = {
 		"STEP", "INITIAL_STEP", "MACRO_STEP", "END_STEP", "TRANSITION",
@@ -27,17 +27,17 @@ bool reader_is_chart_word(const struct reader *r)
 
 /* ---- parts of pieces ---- */
 
-bool chart_ends(const struct chart *chart)
+bool is_end(const struct sfc_reader *in)
 {
-	const struct reader *r = chart->r;
+	const struct reader *r = in->r;
 
 	return r->lex.token.kind == TOKEN_END || r->no_memory ||
 	       (read_ends_block(r) && !lex_is(&r->lex, "RUNG") && !reader_is_vars(r));
 }
 
-void chart_skip_odd(struct chart *chart)
+void skip_odd(struct sfc_reader *in)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 
 	reader_skip_odd_line(r);
 	reader_skip_newlines(r);
@@ -47,25 +47,25 @@ void chart_skip_odd(struct chart *chart)
 	}
 }
 
-bool chart_expect(struct chart *chart, const char *symbol)
+bool expect_word(struct sfc_reader *in, const char *symbol)
 {
-	if (!lex_is(&chart->r->lex, symbol))
-		return reader_fail_word(chart->r, DIAG_EXPECTED, symbol);
-	reader_step(chart->r);
+	if (!lex_is(&in->r->lex, symbol))
+		return reader_fail_word(in->r, DIAG_EXPECTED, symbol);
+	reader_step(in->r);
 	return true;
 }
 
-bool chart_settings(struct chart *chart,
-		    bool (*one)(struct chart *chart, void *out), void *out)
+bool read_settings(struct sfc_reader *in,
+		   bool (*one)(struct sfc_reader *in, void *out), void *out)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 	bool good = true, more;
 
 	r->across_lines = true;
 	reader_step(r);
 	more = !reader_is(r, ')');
 	while (good && more) {
-		good = one(chart, out);
+		good = one(in, out);
 		more = good && reader_is(r, ',');
 		if (more)
 			reader_step(r);
@@ -78,10 +78,10 @@ bool chart_settings(struct chart *chart,
 	return good;
 }
 
-bool chart_operand(struct chart *chart, bool constant, const struct token *word,
-		   uint32_t *id)
+bool read_value(struct sfc_reader *in, bool constant, const struct token *word,
+		uint32_t *id)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 
 	buffer_clear(&r->text);
 	if (!reader_value(r, constant, word))
@@ -91,26 +91,26 @@ bool chart_operand(struct chart *chart, bool constant, const struct token *word,
 	return true;
 }
 
-bool chart_setting(struct chart *chart, bool constant, uint32_t *id)
+bool read_setting(struct sfc_reader *in, bool constant, uint32_t *id)
 {
-	const struct token word = chart->r->lex.token;
+	const struct token word = in->r->lex.token;
 
 	if (*id)
-		return reader_fail_token(chart->r, DIAG_DUPLICATE_ARG);
-	reader_step(chart->r);
-	return chart_expect(chart, ":=") && chart_operand(chart, constant, &word, id);
+		return reader_fail_token(in->r, DIAG_DUPLICATE_ARG);
+	reader_step(in->r);
+	return expect_word(in, ":=") && read_value(in, constant, &word, id);
 }
 
-bool chart_number(struct chart *chart, int most, int *out)
+bool read_number(struct sfc_reader *in, int most, int *out)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 	const struct token *token = &r->lex.token;
 	struct literal literal;
 
 	if (*out)
 		return reader_fail_token(r, DIAG_DUPLICATE_ARG);
 	reader_step(r);
-	if (!chart_expect(chart, ":="))
+	if (!expect_word(in, ":="))
 		return false;
 	if (token->kind != TOKEN_NUMBER ||
 	    literal_parse(token->text, token->len, &literal) != LITERAL_OK ||
@@ -124,9 +124,9 @@ bool chart_number(struct chart *chart, int most, int *out)
 }
 
 /* What is left of an piece that could not be read, its END_… too. */
-static void skip_piece(struct chart *chart, const char *end)
+static void skip_piece(struct sfc_reader *in, const char *end)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 
 	for (;;) {
 		reader_skip_newlines(r);
@@ -134,15 +134,15 @@ static void skip_piece(struct chart *chart, const char *end)
 			reader_next(r);
 			return;
 		}
-		if (chart_ends(chart))
+		if (is_end(in))
 			return;
 		reader_skip_line(r);
 	}
 }
 
-void chart_close(struct chart *chart, const char *end, const struct token *head)
+void close_head(struct sfc_reader *in, const char *end, const struct token *head)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 
 	if (lex_is(&r->lex, end)) {
 		reader_next(r);
@@ -150,14 +150,14 @@ void chart_close(struct chart *chart, const char *end, const struct token *head)
 		reader_fail_open(r, head);
 	} else {
 		reader_fail_word(r, DIAG_EXPECTED, end);
-		skip_piece(chart, end);
+		skip_piece(in, end);
 	}
 }
 
-void *chart_push(struct chart *chart, void *vector, int *count, size_t size, int most,
-		 const char *what)
+void *push_room(struct sfc_reader *in, void *vector, int *count, size_t size, int most,
+		const char *what)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 	void *slot;
 
 	if (*count >= most) {
@@ -170,48 +170,48 @@ void *chart_push(struct chart *chart, void *vector, int *count, size_t size, int
 	return slot;
 }
 
-void chart_add_piece(struct chart *chart, enum piece_kind kind, int index)
+void add_piece(struct sfc_reader *in, enum piece_kind kind, int index)
 {
-	struct sfc *sfc = chart->sfc;
-	struct sfc_piece *piece = arena_push(&chart->r->project->arena, &sfc->piece,
+	struct sfc *sfc = in->sfc;
+	struct sfc_piece *piece = arena_push(&in->r->project->arena, &sfc->piece,
 					   &sfc->piece_count, sizeof(*piece));
 
 	if (piece)
 		*piece = (struct sfc_piece){ kind, index };
 	else
-		chart->r->no_memory = true;
+		in->r->no_memory = true;
 }
 
 /* ---- bodies ---- */
 
-static void read_rungs(struct chart *chart, struct sfc_body *body)
+static void read_rungs(struct sfc_reader *in, struct sfc_body *body)
 {
-	struct reader *r = chart->r;
-	struct pou *pou = chart->pou;
+	struct reader *r = in->r;
+	struct pou *pou = in->pou;
 
 	*body = (struct sfc_body){ BODY_RUNGS, pou->rung_count, 0 };
-	while (!chart_ends(chart)) {
+	while (!is_end(in)) {
 		if (lex_is(&r->lex, "RUNG")) {
 			r->place.rung = pou->rung_count + 1;
 			reader_add_rung(r, pou);
 			r->place.rung = 0;
 		} else {
-			chart_skip_odd(chart);
+			skip_odd(in);
 		}
 		reader_skip_newlines(r);
 	}
 	body->count = pou->rung_count - body->first;
 }
 
-void chart_body(struct chart *chart, struct sfc_body *body)
+void read_body(struct sfc_reader *in, struct sfc_body *body)
 {
-	struct reader *r = chart->r;
-	struct pou *pou = chart->pou;
+	struct reader *r = in->r;
+	struct pou *pou = in->pou;
 
 	reader_skip_newlines(r);
 	if (lex_is(&r->lex, "RUNG")) {
-		read_rungs(chart, body);
-	} else if (!chart_ends(chart)) {
+		read_rungs(in, body);
+	} else if (!is_end(in)) {
 		*body = (struct sfc_body){ BODY_LIST, pou->il.count, 0 };
 		read_il(r, pou);
 		body->count = pou->il.count - body->first;
@@ -220,14 +220,14 @@ void chart_body(struct chart *chart, struct sfc_body *body)
 
 /* ---- pieces ---- */
 
-static void read_action(struct chart *chart)
+static void read_action(struct sfc_reader *in)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 	const struct token head = r->lex.token;
 	struct sfc_action action = { 0 }, *slot;
-	struct sfc *sfc = chart->sfc;
+	struct sfc *sfc = in->sfc;
 
-	if (chart->macro >= 0)
+	if (in->macro >= 0)
 		reader_fail_token(r, DIAG_MISPLACED);
 	reader_next(r);
 	action.line = r->lex.token.line;
@@ -236,68 +236,68 @@ static void read_action(struct chart *chart)
 
 	if (good) {
 		reader_next(r);
-		good = chart_expect(chart, ":");
+		good = expect_word(in, ":");
 	}
 	action.comment = buffer_take(r, &r->above);
 	if (!good) {
 		reader_skip_line(r);
 		reader_skip_newlines(r);
 	}
-	chart_body(chart, &action.body);
+	read_body(in, &action.body);
 	action.tail = buffer_take(r, &r->above);
-	chart_close(chart, "END_ACTION", &head);
-	slot = chart_push(chart, &sfc->action, &sfc->action_count, sizeof(*slot),
-			  LIMIT_STEPS, "actions");
+	close_head(in, "END_ACTION", &head);
+	slot = push_room(in, &sfc->action, &sfc->action_count, sizeof(*slot),
+			 LIMIT_STEPS, "actions");
 	if (!slot)
 		return;
 	*slot = action;
-	chart_add_piece(chart, PIECE_ACTION, sfc->action_count - 1);
+	add_piece(in, PIECE_ACTION, sfc->action_count - 1);
 }
 
-static bool read_control_part(struct chart *chart, void *out)
+static bool read_control_part(struct sfc_reader *in, void *out)
 {
-	const struct token *token = &chart->r->lex.token;
+	const struct token *token = &in->r->lex.token;
 	enum control control = control_find(token->text, token->len);
 	uint32_t *operand = out;
 
 	if (control == CONTROL_COUNT)
-		return reader_fail_token(chart->r, DIAG_UNKNOWN_WORD);
-	return chart_setting(chart, false, &operand[control]);
+		return reader_fail_token(in->r, DIAG_UNKNOWN_WORD);
+	return read_setting(in, false, &operand[control]);
 }
 
-static void read_control(struct chart *chart)
+static void read_control(struct sfc_reader *in)
 {
-	struct reader *r = chart->r;
-	struct sfc *sfc = chart->sfc;
+	struct reader *r = in->r;
+	struct sfc *sfc = in->sfc;
 	const int line = r->lex.token.line;
 	uint32_t control[CONTROL_COUNT] = { 0 };
-	bool second = chart->controlled;
+	bool second = in->controlled;
 
 	if (second)
 		reader_fail_word(r, DIAG_SFC_TWICE, "CONTROL");
-	else if (chart->macro >= 0)
+	else if (in->macro >= 0)
 		reader_fail_token(r, DIAG_MISPLACED);
-	chart->controlled = true;
+	in->controlled = true;
 	reader_next(r);
 	bool good = reader_is(r, '(') ?
-		    chart_settings(chart, read_control_part, control) :
+		    read_settings(in, read_control_part, control) :
 		    reader_fail_word(r, DIAG_EXPECTED, "(");
 
-	if (!good || !chart_expect(chart, ";"))
+	if (!good || !expect_word(in, ";"))
 		reader_skip_line(r);
 	if (second)
 		return;
 	memcpy(sfc->control, control, sizeof(control));
 	sfc->control_line = line;
 	sfc->control_comment = buffer_take(r, &r->above);
-	chart_add_piece(chart, PIECE_CONTROL, 0);
+	add_piece(in, PIECE_CONTROL, 0);
 }
 
-static void read_block(struct chart *chart)
+static void read_block(struct sfc_reader *in)
 {
-	if (chart->sfc->piece_count)
-		reader_fail_token(chart->r, DIAG_MISPLACED);
-	read_vars(chart->r, &chart->pou->vars, false);
+	if (in->sfc->piece_count)
+		reader_fail_token(in->r, DIAG_MISPLACED);
+	read_vars(in->r, &in->pou->vars, false);
 }
 
 static bool is_step(const struct reader *r)
@@ -307,17 +307,17 @@ static bool is_step(const struct reader *r)
 }
 
 /* Too much of something: what follows is not read any more, up to the end of the POU. */
-static void skip_chart(struct chart *chart)
+static void skip_sfc(struct sfc_reader *in)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 
-	while (!chart_ends(chart) || reader_is_chart_word(r)) {
+	while (!is_end(in) || reader_is_sfc_word(r)) {
 		if (r->no_memory)
 			return;
 		reader_skip_line(r);
 		reader_skip_newlines(r);
 	}
-	chart->macro = -1;
+	in->macro = -1;
 }
 
 static bool is_full(const struct sfc *sfc)
@@ -327,45 +327,45 @@ static bool is_full(const struct sfc *sfc)
 	       sfc->action_count >= LIMIT_STEPS;
 }
 
-static bool read_piece(struct chart *chart)
+static bool read_piece(struct sfc_reader *in)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 
 	if (is_step(r))
-		read_step(chart);
+		read_step(in);
 	else if (lex_is(&r->lex, "TRANSITION"))
-		read_transition(chart);
+		read_transition(in);
 	else if (lex_is(&r->lex, "ACTION"))
-		read_action(chart);
+		read_action(in);
 	else if (lex_is(&r->lex, "CONTROL"))
-		read_control(chart);
-	else if (lex_is(&r->lex, "END_STEP") && chart->macro >= 0)
-		read_step_end(chart);
+		read_control(in);
+	else if (lex_is(&r->lex, "END_STEP") && in->macro >= 0)
+		read_step_end(in);
 	else if (reader_is_vars(r))
-		read_block(chart);
-	else if (chart_ends(chart) && !reader_is_chart_word(r))
+		read_block(in);
+	else if (is_end(in) && !reader_is_sfc_word(r))
 		return false;
 	else
-		chart_skip_odd(chart);
+		skip_odd(in);
 	return true;
 }
 
-static void close_macros(struct chart *chart)
+static void close_macros(struct sfc_reader *in)
 {
-	const struct sfc_step *step = chart->macro < 0 ? NULL :
-				      &chart->sfc->step[chart->macro];
-	const char *name = step ? project_text(chart->r->project, step->name) : "";
+	const struct sfc_step *step = in->macro < 0 ? NULL :
+				      &in->sfc->step[in->macro];
+	const char *name = step ? project_text(in->r->project, step->name) : "";
 	const struct token head = { .text = name, .len = strlen(name),
 				    .line = step ? step->line : 0,
 				    .column = step ? step->column_at : 0 };
 
 	if (step)
-		reader_fail_open(chart->r, &head);
+		reader_fail_open(in->r, &head);
 }
 
 void read_sfc(struct reader *r, struct pou *pou)
 {
-	struct chart chart = { .r = r, .pou = pou, .sfc = pou->sfc, .macro = -1 };
+	struct sfc_reader in = { .r = r, .pou = pou, .sfc = pou->sfc, .macro = -1 };
 	struct project *project = r->project;
 	struct sfc *sfc = pou->sfc;
 	int errors;
@@ -373,10 +373,10 @@ void read_sfc(struct reader *r, struct pou *pou)
 	do {
 		reader_skip_newlines(r);
 		errors = r->diags->errors;
-	} while (read_piece(&chart) && (errors == r->diags->errors || !is_full(sfc)));
+	} while (read_piece(&in) && (errors == r->diags->errors || !is_full(sfc)));
 	if (is_full(sfc) && errors != r->diags->errors)
-		skip_chart(&chart);
-	close_macros(&chart);
+		skip_sfc(&in);
+	close_macros(&in);
 	if (r->no_memory || !sfc_link(sfc, &project->names) ||
 	    !sfc_declare(sfc, &project->names, &pou->vars, &project->arena))
 		r->no_memory = true;

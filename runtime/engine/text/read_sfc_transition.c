@@ -13,10 +13,10 @@
 
 /* ---- FROM and TO ---- */
 
-static bool read_ref(struct chart *chart, int count)
+static bool read_ref(struct sfc_reader *in, int count)
 {
-	struct reader *r = chart->r;
-	struct sfc *sfc = chart->sfc;
+	struct reader *r = in->r;
+	struct sfc *sfc = in->sfc;
 	struct sfc_ref ref = { .step = -1, .line = r->lex.token.line,
 			       .column = r->lex.token.column }, *slot;
 
@@ -34,13 +34,13 @@ static bool read_ref(struct chart *chart, int count)
 	return true;
 }
 
-static bool read_some(struct chart *chart, int first)
+static bool read_some(struct sfc_reader *in, int first)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 
 	do {
 		reader_step(r);
-		if (!read_ref(chart, chart->sfc->ref_count - first))
+		if (!read_ref(in, in->sfc->ref_count - first))
 			return false;
 	} while (reader_is(r, ','));
 	if (!reader_is(r, ')'))
@@ -49,72 +49,72 @@ static bool read_some(struct chart *chart, int first)
 }
 
 /* One name, or several in parentheses. */
-static bool read_refs(struct chart *chart, int *first, int *count)
+static bool read_refs(struct sfc_reader *in, int *first, int *count)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 	bool good;
 
-	*first = chart->sfc->ref_count;
+	*first = in->sfc->ref_count;
 	if (reader_is(r, '(')) {
 		r->across_lines = true;
-		good = read_some(chart, *first);
+		good = read_some(in, *first);
 		r->across_lines = false;
 		if (good)
 			reader_next(r);
 	} else {
-		good = read_ref(chart, 0);
+		good = read_ref(in, 0);
 	}
-	*count = chart->sfc->ref_count - *first;
+	*count = in->sfc->ref_count - *first;
 	return good;
 }
 
 /* ---- the first line ---- */
 
-static bool read_part(struct chart *chart, void *out)
+static bool read_part(struct sfc_reader *in, void *out)
 {
 	struct sfc_transition *transition = out;
 
-	if (!lex_is(&chart->r->lex, "PRIORITY"))
-		return reader_fail_token(chart->r, DIAG_UNKNOWN_WORD);
-	return chart_number(chart, PRIORITY_MOST, &transition->priority);
+	if (!lex_is(&in->r->lex, "PRIORITY"))
+		return reader_fail_token(in->r, DIAG_UNKNOWN_WORD);
+	return read_number(in, PRIORITY_MOST, &transition->priority);
 }
 
 /* IN ORDER one of FROM and TO may be left out. */
-static bool may_be_open(const struct chart *chart)
+static bool may_be_open(const struct sfc_reader *in)
 {
-	return chart->sfc->evolution == EVOLVE_IN_ORDER;
+	return in->sfc->evolution == EVOLVE_IN_ORDER;
 }
 
-static bool read_ways(struct chart *chart, struct sfc_transition *transition)
+static bool read_ways(struct sfc_reader *in, struct sfc_transition *transition)
 {
-	struct reader *r = chart->r;
-	const bool source = may_be_open(chart) && lex_is(&r->lex, "TO");
+	struct reader *r = in->r;
+	const bool source = may_be_open(in) && lex_is(&r->lex, "TO");
 
-	transition->first_from = transition->first_to = chart->sfc->ref_count;
-	if (!source && (!chart_expect(chart, "FROM") ||
-			!read_refs(chart, &transition->first_from,
+	transition->first_from = transition->first_to = in->sfc->ref_count;
+	if (!source && (!expect_word(in, "FROM") ||
+			!read_refs(in, &transition->first_from,
 				   &transition->from_count)))
 		return false;
-	if (may_be_open(chart) && !source && !lex_is(&r->lex, "TO"))
+	if (may_be_open(in) && !source && !lex_is(&r->lex, "TO"))
 		return true;
-	return chart_expect(chart, "TO") &&
-	       read_refs(chart, &transition->first_to, &transition->to_count);
+	return expect_word(in, "TO") &&
+	       read_refs(in, &transition->first_to, &transition->to_count);
 }
 
 /* Up to the names behind TO. */
-static bool read_head(struct chart *chart, struct sfc_transition *transition)
+static bool read_head(struct sfc_reader *in, struct sfc_transition *transition)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 
 	if (r->lex.token.kind == TOKEN_NAME && !lex_is(&r->lex, "FROM") &&
-	    !(may_be_open(chart) && lex_is(&r->lex, "TO"))) {
+	    !(may_be_open(in) && lex_is(&r->lex, "TO"))) {
 		if (!reader_name(r, "name of the transition", &transition->name))
 			return false;
 		reader_next(r);
 	}
-	if (reader_is(r, '(') && !chart_settings(chart, read_part, transition))
+	if (reader_is(r, '(') && !read_settings(in, read_part, transition))
 		return false;
-	return read_ways(chart, transition);
+	return read_ways(in, transition);
 }
 
 /* ---- := expression; ---- */
@@ -169,11 +169,11 @@ static uint32_t take_expression(struct reader *r)
 }
 
 /* [ expression ] and a coil. */
-static void add_expression(struct chart *chart, struct sfc_body *body, uint32_t text,
+static void add_expression(struct sfc_reader *in, struct sfc_body *body, uint32_t text,
 			   int line)
 {
-	struct reader *r = chart->r;
-	struct pou *pou = chart->pou;
+	struct reader *r = in->r;
+	struct pou *pou = in->pou;
 	struct rung *rung = r->no_memory ? NULL : rung_new(1, 2);
 
 	if (rung && pou->rung_count >= LIMIT_RUNGS) {
@@ -196,38 +196,38 @@ static void add_expression(struct chart *chart, struct sfc_body *body, uint32_t 
 	rung_free(rung);
 }
 
-static bool read_expression(struct chart *chart, struct sfc_body *body)
+static bool read_expression(struct sfc_reader *in, struct sfc_body *body)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 	const int line = r->lex.token.line;
 
-	r->place.rung = chart->pou->rung_count + 1;
+	r->place.rung = in->pou->rung_count + 1;
 	bool good = check_expression(r);
 
 	if (good)
-		add_expression(chart, body, take_expression(r), line);
+		add_expression(in, body, take_expression(r), line);
 	r->place.rung = 0;
 	return good;
 }
 
 /* ---- transitions ---- */
 
-static void push(struct chart *chart, struct sfc_transition transition)
+static void push(struct sfc_reader *in, struct sfc_transition transition)
 {
-	struct sfc *sfc = chart->sfc;
-	struct sfc_transition *slot = chart_push(chart, &sfc->transition,
+	struct sfc *sfc = in->sfc;
+	struct sfc_transition *slot = push_room(in, &sfc->transition,
 		&sfc->transition_count, sizeof(*slot), 2 * LIMIT_STEPS, "transitions");
 
 	if (!slot)
 		return;
 	*slot = transition;
-	chart_add_piece(chart, PIECE_TRANSITION, sfc->transition_count - 1);
+	add_piece(in, PIECE_TRANSITION, sfc->transition_count - 1);
 }
 
 /* What could not be read goes on up to END_TRANSITION, or the next piece. */
-static void skip_rest(struct chart *chart)
+static void skip_rest(struct sfc_reader *in)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 
 	r->across_lines = false;
 	for (;;) {
@@ -238,37 +238,37 @@ static void skip_rest(struct chart *chart)
 			reader_next(r);
 			return;
 		}
-		if (chart_ends(chart))
+		if (is_end(in))
 			return;
 	}
 }
 
-void read_transition(struct chart *chart)
+void read_transition(struct sfc_reader *in)
 {
-	struct reader *r = chart->r;
+	struct reader *r = in->r;
 	const struct token head = r->lex.token;
-	struct sfc_transition transition = { .macro = chart->macro, .line = head.line,
+	struct sfc_transition transition = { .macro = in->macro, .line = head.line,
 					     .column = head.column };
 
 	reader_next(r);
-	bool good = read_head(chart, &transition);
+	bool good = read_head(in, &transition);
 
 	if (good && lex_is(&r->lex, ":=")) {
-		good = read_expression(chart, &transition.condition);
+		good = read_expression(in, &transition.condition);
 		transition.comment = buffer_take(r, &r->above);
 		reader_skip_newlines(r);
 	} else if (good && reader_is(r, ':')) {
 		reader_next(r);
 		transition.comment = buffer_take(r, &r->above);
-		chart_body(chart, &transition.condition);
+		read_body(in, &transition.condition);
 	} else if (good) {
 		good = reader_fail_word(r, DIAG_EXPECTED, ": or :=");
 	}
 	if (good) {
 		transition.tail = buffer_take(r, &r->above);
-		chart_close(chart, "END_TRANSITION", &head);
+		close_head(in, "END_TRANSITION", &head);
 	} else {
-		skip_rest(chart);
+		skip_rest(in);
 	}
-	push(chart, transition);
+	push(in, transition);
 }

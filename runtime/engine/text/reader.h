@@ -177,8 +177,8 @@ void reader_add_rung(struct reader *r, struct pou *pou);
 void read_il(struct reader *r, struct pou *pou);
 /** read_sfc - the items of a chart, up to END_PROGRAM; pou->sfc is there. */
 void read_sfc(struct reader *r, struct pou *pou);
-/** reader_is_chart_word - a word that begins or ends an item of a chart? */
-bool reader_is_chart_word(const struct reader *r);
+/** reader_is_sfc_word - a word that begins or ends an item of a chart? */
+bool reader_is_sfc_word(const struct reader *r);
 void read_config(struct reader *r, struct config *config);
 /** read_ends_block - does a line begin here that never stands inside VAR or an
  * instruction list? A name or label that is spelled so is none. */

@@ -56,9 +56,9 @@ void text_write_vars(const struct project *project, const struct var_table *tabl
 /** text_write_pou - one POU, from its heading to its end. Scan-safe: no. */
 void text_write_pou(const struct project *project, const struct pou *pou,
 		    const struct sink *sink);
-/** text_write_chart - of a chart what stands behind its declarations. Scan-safe: no. */
-void text_write_chart(const struct project *project, const struct pou *pou,
-		      const struct sink *sink);
+/** text_write_sfc - of a chart what stands behind its declarations. Scan-safe: no. */
+void text_write_sfc(const struct project *project, const struct pou *pou,
+		    const struct sink *sink);
 /** text_write_config - the configuration, if there is one. Scan-safe: no. */
 void text_write_config(const struct project *project, const struct sink *sink);
 /** text_write_il - an instruction list; it reads again to the same list, its

@@ -222,7 +222,7 @@ static void write_body(const struct sink *sink, const struct project *project,
 void text_write_pou(const struct project *project, const struct pou *pou,
 		    const struct sink *sink)
 {
-	const bool chart = pou->language == LANGUAGE_SFC;
+	const bool sfc = pou->language == LANGUAGE_SFC;
 
 	sink_text(sink, pou_word(pou->kind));
 	sink_text(sink, " ");
@@ -233,12 +233,12 @@ void text_write_pou(const struct project *project, const struct pou *pou,
 	}
 	sink_text(sink, " ");
 	sink_text(sink, pou_language_word(pou->language));
-	if (chart && sfc_goes_round(pou->sfc)) {
+	if (sfc && sfc_goes_round(pou->sfc)) {
 		sink_text(sink, " ");
 		sink_text(sink, sfc_evolution_words(pou->sfc->evolution));
 	}
 	sink_text(sink, "\n");
-	if (chart)
+	if (sfc)
 		write_sfc(sink, project, pou);
 	else
 		write_body(sink, project, pou);

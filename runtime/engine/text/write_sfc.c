@@ -312,8 +312,8 @@ static void write_pieces(const struct sink *sink, const struct project *project,
 	write_above(&into, project, pou->tail);
 }
 
-void text_write_chart(const struct project *project, const struct pou *pou,
-		      const struct sink *sink)
+void text_write_sfc(const struct project *project, const struct pou *pou,
+		    const struct sink *sink)
 {
 	write_pieces(sink, project, pou, false);
 }

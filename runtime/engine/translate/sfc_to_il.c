@@ -79,14 +79,14 @@ void sfc_jump_unless(struct sfc_il *s, uint32_t label)
 }
 
 /* Whose state a variable is, if it outlives a scan; the others are FALSE between two. */
-enum owner { OWNER_NONE, OWNER_CHART, OWNER_USE, OWNER_CALLED };
+enum owner { OWNER_NONE, OWNER_SFC, OWNER_USE, OWNER_CALLED };
 
 static enum owner owner_of(const char *name)
 {
 	static const struct { const char *name; enum owner owner; } kept[] = {
-		{ "Runs", OWNER_CHART }, { "Last", OWNER_CHART }, { "Fired", OWNER_CHART },
-		{ "ResetWas", OWNER_CHART }, { "TipWas", OWNER_CHART },
-		{ "ForceWas", OWNER_CHART }, { "Kept", OWNER_USE }, { "Wait", OWNER_USE },
+		{ "Runs", OWNER_SFC }, { "Last", OWNER_SFC }, { "Fired", OWNER_SFC },
+		{ "ResetWas", OWNER_SFC }, { "TipWas", OWNER_SFC },
+		{ "ForceWas", OWNER_SFC }, { "Kept", OWNER_USE }, { "Wait", OWNER_USE },
 		{ "Since", OWNER_USE }, { "Was", OWNER_CALLED }, { "Due", OWNER_CALLED },
 	};
 

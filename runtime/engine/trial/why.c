@@ -440,7 +440,7 @@ static uint32_t uncalled_action(const struct why_place *at, const struct pou *po
 	return sfc->action[action].name;
 }
 
-static void ask_chart(const struct why_place *at, const struct pou *pou, struct why *out)
+static void ask_sfc(const struct why_place *at, const struct pou *pou, struct why *out)
 {
 	const uint32_t step = missing_step(at, pou);
 	const uint32_t action = step ? 0 : uncalled_action(at, pou);
@@ -474,7 +474,7 @@ bool why_ask(const struct why_place *at, struct arena *arena, struct why *out)
 	out->whole = whole_rung(at, pou, &out->by_rung);
 	snprintf(out->name, sizeof(out->name), "%d", out->by_rung);
 	if (out->whole == WHY_COUNT && pou->sfc)
-		ask_chart(at, pou, out);
+		ask_sfc(at, pou, out);
 	if (out->whole != WHY_COUNT)
 		return true;
 	if (!network_make(walk->rung, arena, &walk->network))

@@ -174,7 +174,7 @@ static void walk_list(struct walk *walk, const struct il *il)
 	}
 }
 
-static void walk_chart(struct walk *walk, const struct sfc *sfc)
+static void walk_sfc(struct walk *walk, const struct sfc *sfc)
 {
 	for (int i = 0; i < CONTROL_COUNT; i++)
 		scan_whole(walk, sfc->control[i]);
@@ -218,7 +218,7 @@ bool xref_addresses(struct xref *out, struct project *project)
 			walk_rung(&walk, pou->rung[k]);
 		walk_list(&walk, &pou->il);
 		if (pou->sfc)
-			walk_chart(&walk, pou->sfc);
+			walk_sfc(&walk, pou->sfc);
 		mark_table(&walk, &pou->vars, LOCAL, false);
 	}
 	return !out->arena.failed;

@@ -577,7 +577,7 @@ bool xref_make(struct xref *out, struct project *project)
 	for (int i = 0; i < project->pou_count; i++) {
 		walk.pou = &project->pou[i];
 		if (project->pou[i].sfc) {
-			xref_chart(&walk, &project->pou[i]);
+			xref_sfc(&walk, &project->pou[i]);
 			continue;
 		}
 		walk_rungs(&walk, &project->pou[i], 0, project->pou[i].rung_count);

@@ -67,8 +67,8 @@ static int label_name(const struct project *project, const struct xref_target *t
 }
 
 /* Filler.Idle: as a variable of the chart, which cannot have the same name. */
-static int chart_name(const struct project *project, const struct xref_target *target,
-		      const struct xref_use *use, char *out, size_t size)
+static int name_in_sfc(const struct project *project, const struct xref_target *target,
+		       const struct xref_use *use, char *out, size_t size)
 {
 	const struct pou *pou = &project->pou[target->table - 1];
 	const int index = target->index;
@@ -104,7 +104,7 @@ int xref_name(const struct project *project, const struct xref_target *target,
 	case XREF_STEP:
 	case XREF_TRANSITION:
 	case XREF_ACTION:
-		return chart_name(project, target, use, out, size);
+		return name_in_sfc(project, target, use, out, size);
 	case XREF_VARIABLE:
 		break;
 	}

@@ -90,7 +90,7 @@ static void walk_refs(struct xref_walk *walk, struct pou *pou, int first, int co
 	}
 }
 
-void xref_chart(struct xref_walk *walk, struct pou *pou)
+void xref_sfc(struct xref_walk *walk, struct pou *pou)
 {
 	struct sfc *sfc = pou->sfc;
 

@@ -33,8 +33,8 @@ void xref_whole(struct xref_walk *walk, uint32_t *slot, struct xref_target targe
 		enum xref_kind kind);
 /** xref_body - a condition or an action of a chart. */
 void xref_body(struct xref_walk *walk, struct pou *pou, const struct sfc_body *body);
-/** xref_chart - all of a chart but its declarations. */
-void xref_chart(struct xref_walk *walk, struct pou *pou);
+/** xref_sfc - all of a chart but its declarations. */
+void xref_sfc(struct xref_walk *walk, struct pou *pou);
 /** xref_scan - the names in @len bytes of the text of walk->slot from @at on
  * @kind: what happens to the first of them, up to `:=` if there is one */
 void xref_scan(struct xref_walk *walk, size_t at, size_t len, enum xref_kind kind);

@@ -5,9 +5,9 @@
 #include "engine/check/check.h"
 #include "engine/check/expect.h"
 #include "tests/tap.h"
-#include "tests/unit/chart.h"
+#include "tests/unit/sfc.h"
 
-static struct chart chart;
+static struct test_sfc sfc;
 
 /* "LD432:101 X LD438:12 B": code, line, argument. */
 static const char *told(const struct diag_list *diags)
@@ -34,18 +34,18 @@ static const char *check_now(void)
 
 	arena_init(&arena);
 	diag_init(&diags);
-	chart.project->advice = &advice;
-	scope = scope_new(chart.project, &arena);
+	sfc.project->advice = &advice;
+	scope = scope_new(sfc.project, &arena);
 	CHECK(check_names(scope, NULL, &arena, &diags) == (diags.errors == 0));
 	text = told(&diags);
 	arena_free(&arena);
-	chart_close(&chart);
+	sfc_close(&sfc);
 	return text;
 }
 
 static const char *check(const char *text)
 {
-	chart_open(&chart, text);
+	sfc_open(&sfc, text);
 	return check_now();
 }
 
@@ -107,15 +107,15 @@ static void test_lines(void)
 
 static uint32_t id(const char *text)
 {
-	return chart_id(&chart, text, strlen(text));
+	return sfc_id(&sfc, text, strlen(text));
 }
 
 static const char *supervise(const char *min, const char *max, const char *alarm)
 {
-	chart_open(&chart, "I A; T A>A");
-	chart.sfc->step[0].min = id(min);
-	chart.sfc->step[0].max = id(max);
-	chart.sfc->step[0].alarm = id(alarm);
+	sfc_open(&sfc, "I A; T A>A");
+	sfc.sfc->step[0].min = id(min);
+	sfc.sfc->step[0].max = id(max);
+	sfc.sfc->step[0].alarm = id(alarm);
 	return check_now();
 }
 
@@ -132,11 +132,11 @@ static void test_supervision(void)
 
 static const char *operate(enum control control, const char *operand, bool tip)
 {
-	chart_open(&chart, "I A; T A>A");
-	chart.sfc->control[control] = id(operand);
+	sfc_open(&sfc, "I A; T A>A");
+	sfc.sfc->control[control] = id(operand);
 	if (tip)
-		chart.sfc->control[CONTROL_TIP] = id("I9");
-	chart.sfc->control_line = 7;
+		sfc.sfc->control[CONTROL_TIP] = id("I9");
+	sfc.sfc->control_line = 7;
 	return check_now();
 }
 
@@ -149,8 +149,8 @@ static void test_control(void)
 	CHECK_TEXT(operate(CONTROL_MANUAL, "I0", false), "LD447:7 ");
 	CHECK_TEXT(operate(CONTROL_RESET, "Nobody", false), "LD301:7 Nobody");
 	/* a last step waits for RESET */
-	chart_open(&chart, "I A; S B; T A>B");
-	chart.sfc->control[CONTROL_RESET] = id("I0");
+	sfc_open(&sfc, "I A; S B; T A>B");
+	sfc.sfc->control[CONTROL_RESET] = id("I0");
 	CHECK_TEXT(check_now(), "");
 }
 
@@ -167,7 +167,7 @@ static struct rung *push_rung(int rows, enum word word, const char *coil)
 {
 	struct rung *rung = rung_new(rows, 2);
 
-	if (!rung || !project_add_rung(chart.pou, chart.pou->rung_count, rung))
+	if (!rung || !project_add_rung(sfc.pou, sfc.pou->rung_count, rung))
 		abort();
 	rung->line = 50;
 	for (int row = 0; row < rows; row++) {
@@ -179,10 +179,10 @@ static struct rung *push_rung(int rows, enum word word, const char *coil)
 
 static const char *condition(int rows, enum word word, const char *coil, int rungs)
 {
-	chart_open(&chart, "I A; T A>A=");
+	sfc_open(&sfc, "I A; T A>A=");
 	for (int i = 0; i < rungs; i++)
 		push_rung(rows, word, coil);
-	chart.sfc->transition[0].condition = (struct sfc_body){ BODY_RUNGS, 0, rungs };
+	sfc.sfc->transition[0].condition = (struct sfc_body){ BODY_RUNGS, 0, rungs };
 	return check_now();
 }
 
@@ -200,11 +200,11 @@ static void test_conditions(void)
 /* Two actions of one rung each. */
 static void push_actions(enum word word, const char *first, const char *second)
 {
-	chart_open(&chart, "I A; L B N; L C N; A B; A C; T A>A");
+	sfc_open(&sfc, "I A; L B N; L C N; A B; A C; T A>A");
 	push_rung(1, word, first);
 	push_rung(1, word, second);
 	for (int i = 0; i < 2; i++)
-		chart.sfc->action[i].body = (struct sfc_body){ BODY_RUNGS, 1 + i, 1 };
+		sfc.sfc->action[i].body = (struct sfc_body){ BODY_RUNGS, 1 + i, 1 };
 }
 
 static void test_bodies(void)
@@ -214,28 +214,28 @@ static void test_bodies(void)
 	push_actions(ELEM_COIL, "TRANSITION", "Q0");
 	CHECK_TEXT(check_now(), "LD403:51 TRANSITION");
 	push_actions(ELEM_JUMP, "Here", "There");
-	chart.pou->rung[2]->label = id("Here");
+	sfc.pou->rung[2]->label = id("Here");
 	CHECK_TEXT(check_now(), "LD306:51 Here LD306:51 There");
 	push_actions(ELEM_JUMP, "Here", "Here");
-	chart.pou->rung[1]->label = chart.pou->rung[2]->label = id("Here");
+	sfc.pou->rung[1]->label = sfc.pou->rung[2]->label = id("Here");
 	CHECK_TEXT(check_now(), "");
 	push_actions(ELEM_END, "", "");
 	CHECK_TEXT(check_now(), "LD355:51 PROGRAM LD355:51 PROGRAM");
 	push_actions(ELEM_NEXT, "", "");
-	set_cell(chart.pou->rung[1], 0, 1, ELEM_FOR, "MW0 := 1 TO 2");
-	rung_clear_cell(chart.pou->rung[2], 0, 0);
+	set_cell(sfc.pou->rung[1], 0, 1, ELEM_FOR, "MW0 := 1 TO 2");
+	rung_clear_cell(sfc.pou->rung[2], 0, 0);
 	CHECK_TEXT(check_now(), "LD215:51 FOR LD215:51 NEXT");
 }
 
 static void push_line(enum il_kind kind, enum op op, const char *operand, uint32_t line)
 {
-	il_add(&chart.pou->il, (struct il_line){ .kind = (uint8_t)kind, .op = (uint8_t)op,
+	il_add(&sfc.pou->il, (struct il_line){ .kind = (uint8_t)kind, .op = (uint8_t)op,
 		.operand = id(operand), .line = line });
 }
 
 static void test_lists(void)
 {
-	chart_open(&chart, "I A; L B N; L C N; A B; A C; T A>A=");
+	sfc_open(&sfc, "I A; L B N; L C N; A B; A C; T A>A=");
 	push_line(IL_COMMENT, OP_LD, "(* nothing *)", 30);
 	push_line(IL_LABEL, OP_LD, "Top", 31);
 	push_line(IL_OP, OP_JMP, "Top", 32);
@@ -243,9 +243,9 @@ static void test_lists(void)
 	push_line(IL_LABEL, OP_LD, "Below", 34);
 	push_line(IL_LABEL, OP_LD, "BELOW", 35);
 	push_line(IL_OP, OP_S, "TRANSITION", 36);
-	chart.sfc->transition[0].condition = (struct sfc_body){ BODY_LIST, 0, 1 };
-	chart.sfc->action[0].body = (struct sfc_body){ BODY_LIST, 1, 3 };
-	chart.sfc->action[1].body = (struct sfc_body){ BODY_LIST, 4, 3 };
+	sfc.sfc->transition[0].condition = (struct sfc_body){ BODY_LIST, 0, 1 };
+	sfc.sfc->action[0].body = (struct sfc_body){ BODY_LIST, 1, 3 };
+	sfc.sfc->action[1].body = (struct sfc_body){ BODY_LIST, 4, 3 };
 	CHECK_TEXT(check_now(), "LD403:36 TRANSITION LD433:101  LD306:33 Below "
 		   "LD307:35 BELOW");
 }

@@ -8,7 +8,7 @@
 #include "engine/check/check_tokens.h"
 #include "engine/check/tokens.h"
 #include "tests/tap.h"
-#include "tests/unit/chart.h"
+#include "tests/unit/sfc.h"
 
 /* ---- messages ---- */
 
@@ -16,11 +16,11 @@ static const char *check(const char *text)
 {
 	static char out[1024];
 	struct diag_list diags;
-	struct chart chart;
+	struct test_sfc chart;
 	struct arena arena;
 	size_t len = 0;
 
-	chart_open(&chart, text);
+	sfc_open(&chart, text);
 	arena_init(&arena);
 	diag_init(&diags);
 	check_tokens(scope_new(chart.project, &arena), chart.pou, &arena, &diags);
@@ -30,7 +30,7 @@ static const char *check(const char *text)
 			i ? "; " : "", diag_code(diags.diag[i].id),
 			diags.diag[i].line, diags.diag[i].arg);
 	arena_free(&arena);
-	chart_close(&chart);
+	sfc_close(&chart);
 	return out;
 }
 
@@ -377,7 +377,7 @@ static void find_truth(struct truth *t, const struct sfc *sfc, const uint8_t *al
 
 /* ---- both ---- */
 
-static const uint8_t *constants(const struct chart *c, struct arena *arena)
+static const uint8_t *constants(const struct test_sfc *c, struct arena *arena)
 {
 	uint8_t *out = arena_alloc(arena, (size_t)c->sfc->transition_count + 1);
 
@@ -390,7 +390,7 @@ static const uint8_t *constants(const struct chart *c, struct arena *arena)
 	return out;
 }
 
-static bool has_true(const struct chart *c, const uint8_t *always)
+static bool has_true(const struct test_sfc *c, const uint8_t *always)
 {
 	for (int i = 0; i < c->sfc->transition_count; i++)
 		if (always[i] == 1)
@@ -490,13 +490,13 @@ static void test_random(void)
 
 	for (int i = 0; i < 6000; i++) {
 		const uint8_t *always;
-		struct chart chart;
+		struct test_sfc chart;
 		struct arena arena;
 		struct tokens tokens;
 		struct truth truth;
 
 		make_random(&writer, i);
-		chart_open(&chart, writer.text);
+		sfc_open(&chart, writer.text);
 		arena_init(&arena);
 		always = constants(&chart, &arena);
 		if (is_whole(chart.sfc)) {
@@ -508,7 +508,7 @@ static void test_random(void)
 				printf("# %s\n", writer.text);
 		}
 		arena_free(&arena);
-		chart_close(&chart);
+		sfc_close(&chart);
 	}
 	printf("# %d proven, %d walked: %d twice, %d dead, %d left behind\n",
 	       tally.proven, tally.walked, tally.twice, tally.dead, tally.left);

@@ -459,18 +459,18 @@ static void test_random(void)
 	"TRANSITION FROM Empty TO Idle := NOT Go; END_TRANSITION\n" \
 	"ACTION Count:\n  LD Once\n  ADD 1\n  ST Once\nEND_ACTION\n" \
 	"END_PROGRAM\n"
-static const char chart[] = CHART("", "", "");
-static const char chart_in_order[] = CHART(" IN ORDER", "", "");
+static const char sfc[] = CHART("", "", "");
+static const char sfc_in_order[] = CHART(" IN ORDER", "", "");
 /* Steps before and behind, one of them initial; and it is operated from outside. */
 #define MORE(evolution) CHART(evolution, \
 	"CONTROL(HOLD := %MX7.0);\nINITIAL_STEP Other:\n  %MX8.0(N);\nEND_STEP\n", \
 	"STEP Else:\nEND_STEP\n" \
 	"TRANSITION FROM Other TO Else := %IX0.7; END_TRANSITION\n" \
 	"TRANSITION FROM Else TO Other := %IX0.6; END_TRANSITION\n")
-static const char more_chart[] = MORE("");
+static const char more_sfc[] = MORE("");
 static const char more_in_order[] = MORE(" IN ORDER");
 
-static bool same_chart(struct rig *a, struct rig *b)
+static bool same_sfc(struct rig *a, struct rig *b)
 {
 	static const char *const names[] = {
 		"Valve", "Late", "Once", "Main.Idle.X", "Main.Fill.X", "Main.Hold.X",
@@ -484,7 +484,7 @@ static bool same_chart(struct rig *a, struct rig *b)
 }
 
 /* Wherever the chart stands when it is changed, it goes on as it would have. */
-static void test_chart(const char *from, const char *to)
+static void test_sfc(const char *from, const char *to)
 {
 	bool same = true, alone = true;
 
@@ -503,7 +503,7 @@ static void test_chart(const char *from, const char *to)
 			rig_set(&new, "Go", i > 1 && i < 25);
 			rig_scan(&old);
 			rig_scan(&new);
-			same &= same_chart(&old, &new);
+			same &= same_sfc(&old, &new);
 			alone &= !rig_get(&new, "Main.Other.X");
 		}
 		CHECK(rig_get(&old, "Once") == 1 && !rig_get(&old, "Valve"));
@@ -516,10 +516,10 @@ static void test_chart(const char *from, const char *to)
 
 int main(void)
 {
-	test_chart(chart, more_chart);
-	test_chart(chart_in_order, more_in_order);
-	test_chart(chart, more_in_order);
-	test_chart(chart_in_order, more_chart);
+	test_sfc(sfc, more_sfc);
+	test_sfc(sfc_in_order, more_in_order);
+	test_sfc(sfc, more_in_order);
+	test_sfc(sfc_in_order, more_sfc);
 	test_random();
 	test_values();
 	test_forces();

@@ -17,49 +17,49 @@ static struct sfc_step steps[MOST];
 static struct sfc_transition transitions[MOST];
 static struct sfc_ref refs[8 * MOST];
 static struct sfc_use uses[MOST];
-static struct sfc chart = { .step = steps, .transition = transitions, .ref = refs,
+static struct sfc sfc = { .step = steps, .transition = transitions, .ref = refs,
 			    .use = uses };
 
 /* ---- charts ---- */
 
 static void clear(void)
 {
-	chart.step_count = chart.transition_count = chart.ref_count = chart.use_count = 0;
+	sfc.step_count = sfc.transition_count = sfc.ref_count = sfc.use_count = 0;
 }
 
 static int step(enum step_kind kind, int macro)
 {
-	steps[chart.step_count] = (struct sfc_step){ .kind = kind, .macro = macro,
-		.name = (uint32_t)chart.step_count + 1 };
-	return chart.step_count++;
+	steps[sfc.step_count] = (struct sfc_step){ .kind = kind, .macro = macro,
+		.name = (uint32_t)sfc.step_count + 1 };
+	return sfc.step_count++;
 }
 
 static void ref(int to)
 {
-	refs[chart.ref_count++] = (struct sfc_ref){ .name = (uint32_t)to + 1,
+	refs[sfc.ref_count++] = (struct sfc_ref){ .name = (uint32_t)to + 1,
 						    .step = to };
 }
 
 static int way(int macro)
 {
-	transitions[chart.transition_count] = (struct sfc_transition){ .macro = macro,
-		.first_from = chart.ref_count, .first_to = chart.ref_count };
-	return chart.transition_count++;
+	transitions[sfc.transition_count] = (struct sfc_transition){ .macro = macro,
+		.first_from = sfc.ref_count, .first_to = sfc.ref_count };
+	return sfc.transition_count++;
 }
 
 static void from(int to)
 {
-	struct sfc_transition *t = &transitions[chart.transition_count - 1];
+	struct sfc_transition *t = &transitions[sfc.transition_count - 1];
 
 	ref(to);
 	t->from_count++;
-	t->first_to = chart.ref_count;
+	t->first_to = sfc.ref_count;
 }
 
 static void to(int to)
 {
 	ref(to);
-	transitions[chart.transition_count - 1].to_count++;
+	transitions[sfc.transition_count - 1].to_count++;
 }
 
 static void lead(int a, int b)
@@ -244,10 +244,10 @@ static void check_step(const struct sfc_layout *layout, int s)
 	int wanted = 0;
 
 	if (shape->part != SFC_STEP || shape->index != s ||
-	    shape->bottom - shape->top - 1 != sfc_step_rows(&chart, s))
+	    shape->bottom - shape->top - 1 != sfc_step_rows(&sfc, s))
 		wrong = "a step that is another";
 	walk(layout, shape->lane, shape->bottom);
-	for (int t = 0; t < chart.transition_count; t++) {
+	for (int t = 0; t < sfc.transition_count; t++) {
 		const struct sfc_transition *transition = &transitions[t];
 
 		for (int i = 0; i < transition->from_count; i++) {
@@ -267,19 +267,19 @@ static void check_step(const struct sfc_layout *layout, int s)
 
 static bool is_good(void)
 {
-	struct sfc_layout *layout = sfc_layout_new(&chart);
+	struct sfc_layout *layout = sfc_layout_new(&sfc);
 
 	wrong = layout ? NULL : "no memory";
 	if (!layout)
 		return false;
-	if (layout->shape_count != chart.step_count + chart.transition_count +
+	if (layout->shape_count != sfc.step_count + sfc.transition_count +
 				   layout->jump_count)
 		wrong = "other boxes than the chart has";
 	check_boxes(layout);
 	check_wires(layout);
-	for (int i = 0; i < chart.transition_count; i++)
+	for (int i = 0; i < sfc.transition_count; i++)
 		check_transition(layout, i);
-	for (int i = 0; i < chart.step_count; i++)
+	for (int i = 0; i < sfc.step_count; i++)
 		check_step(layout, i);
 	sfc_layout_free(layout);
 	return !wrong;
@@ -308,7 +308,7 @@ static int grow(int at, int depth, int macro)
 			steps[next].column = below(20) == 0 ? 1 + below(6) : 0;
 			lead(at, next);
 			if (below(5) == 0)
-				lead(at, below(chart.step_count));
+				lead(at, below(sfc.step_count));
 			at = next;
 		} else if (kind == 1) {
 			int end[4], ways = 2 + below(3), last;
@@ -323,7 +323,7 @@ static int grow(int at, int depth, int macro)
 				if (below(5))
 					lead(end[k], last);
 				else
-					lead(end[k], below(chart.step_count));
+					lead(end[k], below(sfc.step_count));
 			at = last;
 		} else {
 			int begin[4], end[4], ways = 2 + below(3);
@@ -345,7 +345,7 @@ static int grow(int at, int depth, int macro)
 	return at;
 }
 
-static void random_chart(uint32_t number)
+static void random_sfc(uint32_t number)
 {
 	int first;
 
@@ -354,12 +354,12 @@ static void random_chart(uint32_t number)
 	first = step(STEP_INITIAL, -1);
 	lead(grow(first, 1 + below(3), -1), first);
 	for (int i = below(3); i > 0; i--) {
-		int macro = below(chart.step_count);
+		int macro = below(sfc.step_count);
 
 		steps[macro].kind = STEP_MACRO;
 		grow(step(STEP_INITIAL, macro), 1, macro);
 	}
-	for (int i = 0; i < chart.transition_count; i++)
+	for (int i = 0; i < sfc.transition_count; i++)
 		transitions[i].priority = below(4);
 }
 
@@ -396,8 +396,8 @@ static void check_many(void (*make)(uint32_t number), int count, const char *wha
 		make((uint32_t)i);
 		if (!is_good() && bad++ == 0)
 			printf("# %s %d: %s\n", what, i, wrong);
-		jumps += chart.ref_count > 0;
-		most = chart.step_count > most ? chart.step_count : most;
+		jumps += sfc.ref_count > 0;
+		most = sfc.step_count > most ? sfc.step_count : most;
 	}
 	printf("# %s: %d, of up to %d steps\n", what, count, most);
 	CHECK_AS(bad == 0 && jumps > count / 2, what);
@@ -418,7 +418,7 @@ static void check_sequence(void)
 	lead(2, 0);
 	steps[1].use_count = 3;
 	CHECK(is_good());
-	layout = sfc_layout_new(&chart);
+	layout = sfc_layout_new(&sfc);
 	CHECK(layout && layout->lanes == 1 && layout->jump_count == 1);
 	CHECK(layout && layout->shape[1].top == 4 && layout->shape[1].bottom == 8);
 	CHECK(layout && layout->jump[0].from == 2 && layout->jump[0].target == 0 &&
@@ -454,7 +454,7 @@ static void check_reference(void)
 	to(8);
 	lead(8, 0);
 	CHECK(is_good());
-	layout = sfc_layout_new(&chart);
+	layout = sfc_layout_new(&sfc);
 	CHECK(layout && layout->lanes == 2 && layout->jump_count == 1 &&
 	      layout->frame_count == 1);
 	CHECK(layout && layout->shape[3].lane == 0 && layout->shape[4].lane == 1 &&
@@ -466,7 +466,7 @@ static void check_reference(void)
 	CHECK(twins == 2);
 	sfc_layout_free(layout);
 	steps[4].column = 4;
-	layout = sfc_layout_new(&chart);
+	layout = sfc_layout_new(&sfc);
 	CHECK_AS(layout && layout->shape[4].lane == 3, "a hint is heard");
 	sfc_layout_free(layout);
 	steps[4].column = 0;
@@ -485,7 +485,7 @@ static void check_narrow(bool first)
 		lead(i, first ? (i + 1) % 60 : 0);
 	}
 	CHECK(is_good());
-	layout = sfc_layout_new(&chart);
+	layout = sfc_layout_new(&sfc);
 	CHECK(layout && layout->lanes == 2 && layout->jump_count == 61);
 	sfc_layout_free(layout);
 }
@@ -503,13 +503,13 @@ static void check_macro(void)
 	lead(1, 0);
 	lead(2, 3);
 	CHECK(is_good());
-	layout = sfc_layout_new(&chart);
+	layout = sfc_layout_new(&sfc);
 	CHECK(layout && layout->frame_count == 2 && layout->frame[1].macro == 1 &&
 	      layout->frame[1].title > layout->frame[0].bottom &&
 	      layout->shape[2].top == layout->frame[1].top);
 	sfc_layout_free(layout);
 	clear();
-	layout = sfc_layout_new(&chart);
+	layout = sfc_layout_new(&sfc);
 	CHECK_AS(layout && layout->rows == 0 && layout->frame_count == 0, "no chart");
 	CHECK(layout && sfc_layout_at(layout, 0, 0) == -1);
 	sfc_layout_free(layout);
@@ -523,10 +523,10 @@ static double seconds(void (*make)(void))
 
 	make();
 	clock_gettime(CLOCK_MONOTONIC, &a);
-	struct sfc_layout *layout = sfc_layout_new(&chart);
+	struct sfc_layout *layout = sfc_layout_new(&sfc);
 	clock_gettime(CLOCK_MONOTONIC, &b);
-	printf("# %d steps, %d transitions: %d lanes, %d rows\n", chart.step_count,
-	       chart.transition_count, layout->lanes, layout->rows);
+	printf("# %d steps, %d transitions: %d lanes, %d rows\n", sfc.step_count,
+	       sfc.transition_count, layout->lanes, layout->rows);
 	sfc_layout_free(layout);
 	return (double)(b.tv_sec - a.tv_sec) + (double)(b.tv_nsec - a.tv_nsec) / 1e9;
 }
@@ -536,7 +536,7 @@ static void thousand(void)
 	clear();
 	seed = 7;
 	step(STEP_INITIAL, -1);
-	for (int at = 0; chart.step_count < 1000;)
+	for (int at = 0; sfc.step_count < 1000;)
 		at = grow(at, 2, -1);
 }
 
@@ -576,12 +576,12 @@ int main(void)
 	check_narrow(true);
 	stairs(60);
 	CHECK_AS(is_good(), "many ways to one step");
-	layout = sfc_layout_new(&chart);
+	layout = sfc_layout_new(&sfc);
 	printf("# %d lanes\n", layout ? layout->lanes : 0);
 	CHECK(layout && layout->lanes < 8);
 	sfc_layout_free(layout);
 	check_macro();
-	check_many(random_chart, 2000, "random charts");
+	check_many(random_sfc, 2000, "random charts");
 	check_many(random_garbage, 4000, "charts of garbage");
 	check_time();
 	return tap_done();

@@ -242,7 +242,7 @@ static void test_outline(void)
 	const struct sink sink = sink_to_memory(&memory);
 
 	if (project)
-		text_write_chart(project, &project->pou[0], &sink);
+		text_write_sfc(project, &project->pou[0], &sink);
 	CHECK(!strncmp(sink_memory_text(&memory), "  // how it is operated\n", 24));
 	CHECK(strstr(sink_memory_text(&memory), "  // last\n") != NULL);
 	sink_memory_free(&memory);

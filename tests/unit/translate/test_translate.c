@@ -488,7 +488,7 @@ static bool same_as_list(const char *path)
 }
 
 /* The list of a chart has EACH and TICK, which no list that is read can have. */
-static bool has_chart(const char *path)
+static bool has_sfc(const char *path)
 {
 	struct ladder *ladder = ladder_new();
 	bool found = false;
@@ -513,7 +513,7 @@ static void prints_the_same_program(const char *folder, int least)
 		if (len < 5 || strcmp(entry->d_name + len - 5, ".rung") != 0)
 			continue;
 		snprintf(path, sizeof(path), "%s/%s", folder, entry->d_name);
-		if (has_chart(path))
+		if (has_sfc(path))
 			continue;
 		CHECK_AS(same_as_list(path), path);
 		count++;

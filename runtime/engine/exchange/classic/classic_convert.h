@@ -39,7 +39,7 @@ struct classic_names {
 struct classic_uses;
 
 /* A step as it is here: classic_chart.c. */
-struct chart_step {
+struct sfc_step {
 	const char *name;
 	bool publishes;        /* %X3 is this one's: several may have a number     */
 	bool begins;           /* %X3 is TRUE before its page runs, and is seen    */
@@ -70,7 +70,7 @@ struct conversion {
 	int cap_lines;
 	int temporaries;       /* BOOLs between the parts of a rung                */
 	struct { const char **name; int count; } temps, programs;
-	struct chart_step *step; /* of each step; NULL: not needed yet             */
+	struct sfc_step *step; /* of each step; NULL: not needed yet             */
 	const char *system;    /* the program of system bits; NULL: none is needed */
 	const char *flash;     /* its time                                         */
 };
@@ -198,7 +198,7 @@ void write_functions(struct conversion *c);
 
 /* ---- rungs: classic_grid.c, charts: classic_chart.c ---- */
 void convert_rung(struct conversion *c, const struct classic_rung *rung);
-void convert_chart(struct conversion *c, const struct classic_section *section);
+void convert_sfc(struct conversion *c, const struct classic_section *section);
 /** step_begins - is %X@number TRUE from the very beginning on? */
 bool step_begins(struct conversion *c, int number);
 /** convert_others - what a page does for the steps of other pages, behind its chart. */

@@ -93,7 +93,7 @@ static void read_member(struct classic_reader *reader, const struct classic_memb
 	} else if (strcmp(name, "sections.csv") == 0) {
 		classic_read_sections(reader, member);
 	} else if (strcmp(name, "sequential.csv") == 0) {
-		classic_read_chart(reader, member);
+		classic_read_sfc(reader, member);
 	} else if (strcmp(name, "symbols.csv") == 0) {
 		classic_read_symbols(reader, member);
 	} else if (strcmp(name, "ioconf.csv") == 0) {

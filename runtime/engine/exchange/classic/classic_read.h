@@ -106,8 +106,8 @@ void classic_read_settings(struct classic_reader *reader,
 void classic_add_block(struct classic_reader *reader, struct classic_blocks *blocks,
 		       int number, const char *at, int values);
 
-/* ---- classic_read_chart.c ---- */
-void classic_read_chart(struct classic_reader *reader, const struct classic_member *member);
+/* ---- classic_read_sfc.c ---- */
+void classic_read_sfc(struct classic_reader *reader, const struct classic_member *member);
 /** classic_read_variable - TYPE/NUMBER; @slash: what parts them, besides '/'. NULL: it is
  * none; else what is behind it. */
 const char *classic_read_variable(const char *at, const char *end, char slash,

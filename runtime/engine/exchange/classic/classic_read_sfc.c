@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * classic_read_chart - the sequential pages of a ClassicLadder project.
+ * classic_read_sfc - the sequential pages of a ClassicLadder project.
  *
  * Steps, transitions with their conditions, comments. Lists that are for drawing only
  * are not taken: the two lists of steps say everything.
@@ -179,7 +179,7 @@ static void read_line(struct classic_reader *reader)
 	}
 }
 
-void classic_read_chart(struct classic_reader *reader, const struct classic_member *member)
+void classic_read_sfc(struct classic_reader *reader, const struct classic_member *member)
 {
 	int hint = 0, index;
 

@@ -227,7 +227,7 @@ static void write_section(struct conversion *c, int index)
 		tell(c, REPORT_CHANGED, "section \"%s\" shows page %d once more: a page runs "
 		     "once a scan", section->name, section->page);
 	} else if (section->sequential) {
-		convert_chart(c, section);
+		convert_sfc(c, section);
 	} else {
 		if (!called)
 			add_program(c, c->pou[index]);

@@ -161,18 +161,18 @@ static void find_steps(struct conversion *c)
 	}
 }
 
-static struct chart_step here_of(struct conversion *c, const struct classic_step *step)
+static struct sfc_step here_of(struct conversion *c, const struct classic_step *step)
 {
 	find_steps(c);
 	return c->step ? c->step[step - c->project->step] :
-			 (struct chart_step){ .name = "" };
+			 (struct sfc_step){ .name = "" };
 }
 
 bool step_begins(struct conversion *c, int number)
 {
 	for (int i = 0; i < c->project->steps; i++)
 		if (c->project->step[i].number == number) {
-			const struct chart_step here = here_of(c, &c->project->step[i]);
+			const struct sfc_step here = here_of(c, &c->project->step[i]);
 
 			if (here.begins)
 				return !here.late;
@@ -201,7 +201,7 @@ static bool has_counted(const struct conversion *c, const struct classic_section
 static void write_step(struct conversion *c, const struct classic_section *section,
 		       const struct classic_step *step)
 {
-	const struct chart_step here = here_of(c, step);
+	const struct sfc_step here = here_of(c, step);
 	const int number = step->number;
 	const char *x = step_of(c, number);
 
@@ -226,7 +226,7 @@ static void write_step(struct conversion *c, const struct classic_section *secti
 static void write_actions(struct conversion *c, const struct classic_section *section,
 			  const struct classic_step *step)
 {
-	const struct chart_step here = here_of(c, step);
+	const struct sfc_step here = here_of(c, step);
 	const char *x = step_of(c, step->number);
 
 	c->at = step->place;
@@ -334,7 +334,7 @@ static bool ever_runs(const struct conversion *c, const struct classic_section *
 	return false;
 }
 
-static void write_chart(struct conversion *c, const struct classic_section *section)
+static void write_one_sfc(struct conversion *c, const struct classic_section *section)
 {
 	const struct classic_project *project = c->project;
 
@@ -354,7 +354,7 @@ static void write_chart(struct conversion *c, const struct classic_section *sect
 	put(c, "END_PROGRAM\n\n");
 }
 
-void convert_chart(struct conversion *c, const struct classic_section *section)
+void convert_sfc(struct conversion *c, const struct classic_section *section)
 {
 	if (section_of(c, section->page) != section - c->project->section)
 		tell(c, REPORT_LOST, "a page runs once in a scan: section \"%s\" shows it "
@@ -365,7 +365,7 @@ void convert_chart(struct conversion *c, const struct classic_section *section)
 		tell(c, REPORT_LOST, "section \"%s\" is a page without an initial step: "
 		     "nothing happens on it", section->name);
 	else
-		write_chart(c, section);
+		write_one_sfc(c, section);
 	if (section->subroutine >= 0)
 		tell(c, REPORT_CHANGED, "a page is no subroutine: it runs in each scan");
 	convert_others(c, section);
@@ -390,7 +390,7 @@ void convert_others(struct conversion *c, const struct classic_section *section)
 
 	for (int i = 0; i < c->project->steps; i++) {
 		const struct classic_step *step = &c->project->step[i];
-		const struct chart_step here = here_of(c, step);
+		const struct sfc_step here = here_of(c, step);
 		int number = step->number;
 
 		if (on_page(section, step->page) || !here.publishes)

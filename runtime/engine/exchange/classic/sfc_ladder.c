@@ -158,12 +158,12 @@ static bool find_addresses(struct lad *e)
 	if (!address_map_make(&map, e->xref, e->arena))
 		return false;
 	if (address_map_next(&map, AREA_M, 1, count, &before, &e->at) ||
-	    (!e->charts && address_map_next(&map, AREA_M, 1, count, NULL, &e->at))) {
+	    (!e->sfcs && address_map_next(&map, AREA_M, 1, count, NULL, &e->at))) {
 		const uint32_t last = e->at.byte * 8u + e->at.bit + count - 1;
 
 		e->last = (struct iec_addr){ .area = AREA_M, .bits = 1,
 					     .bit = (uint8_t)(last % 8), .byte = last / 8 };
-		e->charts++;
+		e->sfcs++;
 		return true;
 	}
 	lad_refuse(e, e->pou->line, 0, "M has no room for a bit of each step");
@@ -203,8 +203,8 @@ static void declare_all(struct lad *e, const struct sink *out)
 		e->step[i][LAD_X].used = true;
 		declare(e, out, &e->step[i][LAD_X], at);
 	}
-	for (int i = 0; i < LAD_CHART_VARS; i++)
-		declare(e, out, &e->chart[i], "");
+	for (int i = 0; i < LAD_SFC_VARS; i++)
+		declare(e, out, &e->whole[i], "");
 	for (int i = 0; i < e->sfc->step_count; i++)
 		for (int k = LAD_T; k < LAD_STEP_VARS; k++)
 			declare(e, out, &e->step[i][k], "");
@@ -274,7 +274,7 @@ static void type_number(struct lad *e)
 	if (m && m->type != IEC_NONE) {
 		const struct iec_type_row *row = iec_type_row(m->type);
 
-		e->chart[LAD_NUMBER].type = row->word;
+		e->whole[LAD_NUMBER].type = row->word;
 		e->reach = iec_is_wide(m->type) || row->high > e->sfc->step_count ?
 			   e->sfc->step_count : (int)row->high;
 	} else if (force) {
@@ -355,7 +355,7 @@ static void write_vars(struct lad *e, const struct sink *out)
 	sink_memory_free(&memory);
 }
 
-static void write_chart(struct lad *e, const struct sink *out)
+static void write_one_sfc(struct lad *e, const struct sink *out)
 {
 	struct sink_memory programs, subs;
 
@@ -414,7 +414,7 @@ static bool write_project_text(struct lad *e, const struct sink *sink)
 			e->good = false;
 		sink_write(sink, text + at, span->at - at);
 		if (e->good)
-			write_chart(e, sink);
+			write_one_sfc(e, sink);
 		at = span->at + span->len;
 	}
 	sink_write(sink, text + at, len - at);

@@ -48,30 +48,30 @@ bool lad_has_modes(const struct lad *e)
 static void write_force(struct lad *e, const char *reset)
 {
 	const char *force = lad_words(e, text_of(e, e->sfc->control[CONTROL_FORCE]));
-	const char *number = lad_use(e, &e->chart[LAD_NUMBER]);
+	const char *number = lad_use(e, &e->whole[LAD_NUMBER]);
 	struct lad_rung *r = lad_begin(e);
 
-	lad_head(r, no(e, &e->chart[LAD_RUNS]));
+	lad_head(r, no(e, &e->whole[LAD_RUNS]));
 	if (*reset)
 		lad_head(r, lad_text(e, "NC %s", reset));
 	lad_head(r, lad_text(e, "[ %s <> %s ]", force, number));
-	lad_out(r, coil(e, "COIL", &e->chart[LAD_CHANGED]));
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_CHANGED]));
 	lad_write(e, r, "", "FORCE has changed");
 	r = lad_begin(e);
 	lad_out(r, lad_text(e, "[ %s := %s ]", number, force));
 	lad_write(e, r, "", "What it is now");
 	for (int i = 0; i < e->reach; i++) {
 		r = lad_begin(e);
-		lad_head(r, no(e, &e->chart[LAD_CHANGED]));
+		lad_head(r, no(e, &e->whole[LAD_CHANGED]));
 		lad_head(r, lad_text(e, "[ %s = %d ]", number, i + 1));
 		lad_out(r, coil(e, "COIL", &e->step[i][LAD_FORCED]));
 		lad_write(e, r, "", lad_text(e, "%s is forced", lad_name(e, i)));
 	}
 	r = lad_begin(e);
-	lad_head(r, no(e, &e->chart[LAD_CHANGED]));
+	lad_head(r, no(e, &e->whole[LAD_CHANGED]));
 	lad_head(r, lad_text(e, "[ %s >= 1 ]", number));
 	lad_head(r, lad_text(e, "[ %s <= %d ]", number, e->reach));
-	lad_out(r, coil(e, "COIL", &e->chart[LAD_SET]));
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_SET]));
 	lad_write(e, r, "", "A step is forced");
 }
 
@@ -84,7 +84,7 @@ static void write_modes(struct lad *e)
 	struct lad_rung *r = lad_begin(e);
 
 	lad_head(r, *tip ? lad_text(e, "P %s", tip) : lad_text(e, "NC SYS_ALWAYS_ON"));
-	lad_out(r, coil(e, "COIL", &e->chart[LAD_HAND]));
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_HAND]));
 	lad_write(e, r, "", "TIP rises");
 	r = lad_begin(e);
 	if (*manual)
@@ -92,14 +92,14 @@ static void write_modes(struct lad *e)
 	if (*semi) {
 		lad_cell(r, lad_text(e, "NC %s", semi));
 		lad_way(r);
-		lad_cell(r, no(e, &e->chart[LAD_HAND]));
+		lad_cell(r, no(e, &e->whole[LAD_HAND]));
 	}
-	lad_out(r, coil(e, "COIL", &e->chart[LAD_GO]));
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_GO]));
 	lad_write(e, r, "", "Transitions fire when they are true");
 	if (*semi && sfc_goes_round(e->sfc)) {
 		r = lad_begin(e);
 		lad_head(r, lad_text(e, "NO %s", semi));
-		lad_out(r, coil(e, "COIL", &e->chart[LAD_ONCE]));
+		lad_out(r, coil(e, "COIL", &e->whole[LAD_ONCE]));
 		lad_write(e, r, "", "SEMI, whatever the chart makes of it in this scan");
 	}
 	r = lad_begin(e);
@@ -107,7 +107,7 @@ static void write_modes(struct lad *e)
 		lad_head(r, lad_text(e, "NC %s", manual));
 	else
 		lad_head(r, lad_text(e, "NO SYS_ALWAYS_ON"));
-	lad_out(r, coil(e, "R", &e->chart[LAD_HAND]));
+	lad_out(r, coil(e, "R", &e->whole[LAD_HAND]));
 	lad_write(e, r, "", "Whatever they are, in MANUAL alone");
 }
 
@@ -119,8 +119,8 @@ void lad_control(struct lad *e)
 
 	if (lad_has_reset(e)) {
 		lad_head(r, lad_text(e, "P %s", reset));
-		lad_head(r, no(e, &e->chart[LAD_RUNS]));
-		lad_out(r, coil(e, "COIL", &e->chart[LAD_ANEW]));
+		lad_head(r, no(e, &e->whole[LAD_RUNS]));
+		lad_out(r, coil(e, "COIL", &e->whole[LAD_ANEW]));
 		lad_write(e, r, "", "RESET: all begins anew");
 	}
 	if (lad_has_force(e))
@@ -138,14 +138,14 @@ void lad_control(struct lad *e)
 	}
 	if (lad_has_force(e)) {
 		lad_way(r);
-		lad_cell(r, no(e, &e->chart[LAD_SET]));
+		lad_cell(r, no(e, &e->whole[LAD_SET]));
 	}
 	if (lad_has_gate(e)) {
-		lad_out(r, coil(e, "COIL", &e->chart[LAD_STANDS]));
+		lad_out(r, coil(e, "COIL", &e->whole[LAD_STANDS]));
 		lad_write(e, r, "", "While this is TRUE nothing fires");
 	}
 	r = lad_begin(e);
-	lad_head(r, nc(e, &e->chart[LAD_RUNS]));
-	lad_out(r, coil(e, "COIL", &e->chart[LAD_FIRST]));
+	lad_head(r, nc(e, &e->whole[LAD_RUNS]));
+	lad_out(r, coil(e, "COIL", &e->whole[LAD_FIRST]));
 	lad_write(e, r, "", "The first scan");
 }

@@ -112,9 +112,9 @@ static void name_lines(struct lad *e)
 	}
 }
 
-static void name_chart(struct lad *e)
+static void name_sfc(struct lad *e)
 {
-	static const struct { const char *end, *type; } kind[LAD_CHART_VARS] = {
+	static const struct { const char *end, *type; } kind[LAD_SFC_VARS] = {
 		[LAD_RUNS] = { "Runs", "BOOL" }, [LAD_FIRST] = { "First", "BOOL" },
 		[LAD_CLOCK] = { "Clock", "TON" }, [LAD_PASSED] = { "Passed", "TIME" },
 		[LAD_LAST] = { "Last", "TIME" }, [LAD_ANEW] = { "Anew", "BOOL" },
@@ -126,8 +126,8 @@ static void name_chart(struct lad *e)
 	};
 	const char *name = project_text(e->project, e->pou->name);
 
-	for (int k = 0; k < LAD_CHART_VARS; k++)
-		make_var(e, &e->chart[k], kind[k].type,
+	for (int k = 0; k < LAD_SFC_VARS; k++)
+		make_var(e, &e->whole[k], kind[k].type,
 			 lad_text(e, "%s_%s", name, kind[k].end), NULL);
 	e->steps_name = lad_fresh(e, lad_text(e, "%s_Steps", name));
 	e->outputs_name = lad_fresh(e, lad_text(e, "%s_Outputs", name));
@@ -282,7 +282,7 @@ void lad_names(struct lad *e)
 	name_steps(e);
 	name_arcs(e);
 	name_lines(e);
-	name_chart(e);
+	name_sfc(e);
 	if (find_same(e))
 		find_called(e);
 	else

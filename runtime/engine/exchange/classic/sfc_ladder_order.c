@@ -99,16 +99,16 @@ static void write_fired(struct lad *e, int arc)
 	struct lad_rung *r = lad_begin(e);
 
 	lad_head(r, no(e, &e->arc[arc][LAD_FIRES]));
-	lad_out(r, coil(e, "S", &e->chart[LAD_FIRED]));
+	lad_out(r, coil(e, "S", &e->whole[LAD_FIRED]));
 	if (lad_has_modes(e))
-		lad_out(r, coil(e, "R", &e->chart[LAD_HAND]));
+		lad_out(r, coil(e, "R", &e->whole[LAD_HAND]));
 	lad_write(e, r, "", "Something has fired in this round");
 	r = lad_begin(e);
 	if (!e->sfc->control[CONTROL_SEMI])
 		return;
 	lad_head(r, no(e, &e->arc[arc][LAD_FIRES]));
-	lad_head(r, no(e, &e->chart[LAD_ONCE]));
-	lad_out(r, coil(e, "R", &e->chart[LAD_GO]));
+	lad_head(r, no(e, &e->whole[LAD_ONCE]));
+	lad_out(r, coil(e, "R", &e->whole[LAD_GO]));
 	lad_write(e, r, "", "SEMI: one TIP is one transition");
 }
 
@@ -116,7 +116,7 @@ static void write_fired(struct lad *e, int arc)
 
 void lad_order(struct lad *e)
 {
-	const char *rounds = lad_use(e, &e->chart[LAD_ROUNDS]);
+	const char *rounds = lad_use(e, &e->whole[LAD_ROUNDS]);
 	struct lad_rung *r = lad_begin(e);
 
 	if (!e->net.arc_count)
@@ -126,7 +126,7 @@ void lad_order(struct lad *e)
 	lad_write(e, r, text_of(e, e->again), "No round yet");
 	r = lad_begin(e);
 	lad_head(r, lad_text(e, "[ %s := %s + 1 ]", rounds, rounds));
-	lad_out(r, coil(e, "R", &e->chart[LAD_FIRED]));
+	lad_out(r, coil(e, "R", &e->whole[LAD_FIRED]));
 	lad_write(e, r, text_of(e, e->round), "A round");
 	for (int i = 0; i < e->net.arc_count; i++) {
 		lad_arc(e, i, "");
@@ -135,7 +135,7 @@ void lad_order(struct lad *e)
 		write_fired(e, i);
 	}
 	r = lad_begin(e);
-	lad_head(r, no(e, &e->chart[LAD_FIRED]));
+	lad_head(r, no(e, &e->whole[LAD_FIRED]));
 	lad_head(r, lad_text(e, "[ %s < %d ]", rounds, LIMIT_ROUNDS));
 	lad_out(r, lad_text(e, "JMP %s", text_of(e, e->round)));
 	lad_write(e, r, "", "Until nothing fires");

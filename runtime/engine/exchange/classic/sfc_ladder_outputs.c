@@ -72,7 +72,7 @@ static void write_since(struct lad *e, int line)
 
 	lad_head(r, no(e, &e->line[line][LAD_STORED]));
 	lad_out(r, lad_text(e, "[ %s := %s + %s ]", since, since,
-			    lad_use(e, &e->chart[LAD_PASSED])));
+			    lad_use(e, &e->whole[LAD_PASSED])));
 	lad_write(e, r, "", lad_text(e, "%s: its time", title_of(e, use)));
 	r = lad_begin(e);
 	lad_head(r, no(e, began(e, use->step)));
@@ -102,7 +102,7 @@ static void write_anew(struct lad *e, int line)
 
 	if (!e->sfc->control[CONTROL_RESET])
 		return;
-	lad_head(r, no(e, &e->chart[LAD_ANEW]));
+	lad_head(r, no(e, &e->whole[LAD_ANEW]));
 	lad_out(r, coil(e, "R", &e->line[line][LAD_STORED]));
 	if (e->sfc->use[line].qualifier == QUALIFIER_DS)
 		lad_out(r, coil(e, "R", &e->line[line][LAD_ARMED]));

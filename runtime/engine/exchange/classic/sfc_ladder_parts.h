@@ -35,10 +35,10 @@ enum lad_call { LAD_CALLED, LAD_LEVEL, LAD_WAS, LAD_CALL_VARS };
 /* Of the chart: it runs; this is its first scan; time; RESET rises; nothing fires; FORCE
  * has changed, what it was, a step is forced; transitions fire if they are true, or
  * whatever they are; IN ORDER rounds so far, one has fired in this one. */
-enum lad_chart { LAD_RUNS, LAD_FIRST, LAD_CLOCK, LAD_PASSED, LAD_LAST, LAD_ANEW,
+enum lad_sfc { LAD_RUNS, LAD_FIRST, LAD_CLOCK, LAD_PASSED, LAD_LAST, LAD_ANEW,
 		 LAD_STANDS, LAD_CHANGED, LAD_NUMBER, LAD_SET, LAD_GO, LAD_HAND, LAD_ONCE,
 		 LAD_ROUNDS, LAD_FIRED,
-		 LAD_CHART_VARS };
+		 LAD_SFC_VARS };
 
 /* What steps call: an action, or a BOOL. */
 struct lad_called {
@@ -60,7 +60,7 @@ struct lad {
 	struct lad_var (*step)[LAD_STEP_VARS];
 	struct lad_var (*arc)[LAD_ARC_VARS];
 	struct lad_var (*line)[LAD_LINE_VARS]; /* by sfc.use                   */
-	struct lad_var chart[LAD_CHART_VARS];
+	struct lad_var whole[LAD_SFC_VARS];
 	int reach;               /* so many steps the type of FORCE can name   */
 	struct lad_called *called;
 	int called_count;
@@ -70,7 +70,7 @@ struct lad {
 	uint32_t *renamed;   /* by variable of the POU: its new name; 0: as it was */
 	const char *condition; /* what TRANSITION is in what is written        */
 	struct iec_addr at, last; /* of the first step and the last one        */
-	int charts;          /* that have addresses                            */
+	int sfcs;          /* that have addresses                            */
 	struct sink out;     /* the program in work                            */
 	struct sink subs;    /* its subroutines                                */
 	bool good;

@@ -54,9 +54,9 @@ static void write_clock(struct lad *e)
 
 	if (!has_times(e))
 		return;
-	clock = lad_use(e, &e->chart[LAD_CLOCK]);
-	passed = lad_use(e, &e->chart[LAD_PASSED]);
-	last = lad_use(e, &e->chart[LAD_LAST]);
+	clock = lad_use(e, &e->whole[LAD_CLOCK]);
+	passed = lad_use(e, &e->whole[LAD_PASSED]);
+	last = lad_use(e, &e->whole[LAD_LAST]);
 	lad_head(r, lad_text(e, "NO SYS_ALWAYS_ON"));
 	lad_out(r, lad_text(e, "TON %s PT:=T#100000d", clock));
 	lad_write(e, r, "", "Runs for ever: its time is what the steps count with");
@@ -83,7 +83,7 @@ static void write_times(struct lad *e)
 		t = lad_use(e, &e->step[i][LAD_T]);
 		lad_head(r, no(e, &e->step[i][LAD_X]));
 		lad_out(r, lad_text(e, "[ %s := %s + %s ]", t, t,
-				    lad_use(e, &e->chart[LAD_PASSED])));
+				    lad_use(e, &e->whole[LAD_PASSED])));
 		lad_write(e, r, "", lad_text(e, "Time in %s", lad_name(e, i)));
 	}
 	for (int i = 0; i < e->sfc->step_count; i++) {
@@ -212,9 +212,9 @@ static void put_enabled(struct lad *e, struct lad_rung *r, int number,
 	for (int k = 0; k < arc->from.count; k++)
 		put(r, no(e, &e->step[arc->from.step[k]][LAD_X]));
 	if (!arc->from.count)
-		put(r, nc(e, &e->chart[LAD_FIRST]));
+		put(r, nc(e, &e->whole[LAD_FIRST]));
 	if (lad_has_gate(e))
-		put(r, nc(e, &e->chart[LAD_STANDS]));
+		put(r, nc(e, &e->whole[LAD_STANDS]));
 	for (int k = 0; k < number && !lad_is_in_order(e); k++)
 		if (share(&arc->from, &e->net.arc[k].from))
 			put(r, nc(e, &e->arc[k][LAD_FIRES]));
@@ -226,10 +226,10 @@ static void write_fires(struct lad *e, int arc, const char *title)
 	struct lad_rung *r = lad_begin(e);
 
 	lad_cell(r, no(e, &e->arc[arc][LAD_TRUE]));
-	lad_cell(r, no(e, &e->chart[LAD_GO]));
+	lad_cell(r, no(e, &e->whole[LAD_GO]));
 	if (e->sfc->control[CONTROL_MANUAL]) {
 		lad_way(r);
-		lad_cell(r, no(e, &e->chart[LAD_HAND]));
+		lad_cell(r, no(e, &e->whole[LAD_HAND]));
 		put_enabled(e, r, arc, lad_cell);
 	}
 	lad_out(r, coil(e, "COIL", &e->arc[arc][LAD_FIRES]));
@@ -311,11 +311,11 @@ static void write_start(struct lad *e, int step)
 	}
 	if (is_initial(e, step)) {
 		lad_way(r);
-		lad_cell(r, no(e, &e->chart[LAD_FIRST]));
+		lad_cell(r, no(e, &e->whole[LAD_FIRST]));
 	}
 	if (is_initial(e, step) && lad_has_reset(e)) {
 		lad_way(r);
-		lad_cell(r, no(e, &e->chart[LAD_ANEW]));
+		lad_cell(r, no(e, &e->whole[LAD_ANEW]));
 	}
 	put_forced(e, r, step);
 	if (!r || !r->ways)
@@ -357,12 +357,12 @@ static void write_end(struct lad *e, int step)
 	}
 	if (lad_has_reset(e)) {
 		lad_way(r);
-		lad_cell(r, no(e, &e->chart[LAD_ANEW]));
+		lad_cell(r, no(e, &e->whole[LAD_ANEW]));
 		lad_cell(r, no(e, &e->step[step][LAD_X]));
 	}
 	if (lad_has_force(e)) {
 		lad_way(r);
-		lad_cell(r, no(e, &e->chart[LAD_SET]));
+		lad_cell(r, no(e, &e->whole[LAD_SET]));
 		lad_cell(r, no(e, &e->step[step][LAD_X]));
 	}
 	if (!r || !r->ways)
@@ -434,9 +434,9 @@ static void write_resets(struct lad *e)
 		lad_write(e, r, "", lad_text(e, "Leave %s", lad_steps_text(e, &arc->from)));
 	}
 	if (lad_has_reset(e))
-		write_leaving(e, &e->chart[LAD_ANEW], "RESET leaves all steps");
+		write_leaving(e, &e->whole[LAD_ANEW], "RESET leaves all steps");
 	if (lad_has_force(e))
-		write_leaving(e, &e->chart[LAD_SET], "FORCE leaves all steps");
+		write_leaving(e, &e->whole[LAD_SET], "FORCE leaves all steps");
 }
 
 static void write_sets(struct lad *e)
@@ -453,10 +453,10 @@ static void write_sets(struct lad *e)
 		lad_write(e, r, "", lad_text(e, "Enter %s", lad_steps_text(e, &arc->to)));
 	}
 	r = lad_begin(e);
-	lad_cell(r, no(e, &e->chart[LAD_FIRST]));
+	lad_cell(r, no(e, &e->whole[LAD_FIRST]));
 	if (lad_has_reset(e)) {
 		lad_way(r);
-		lad_cell(r, no(e, &e->chart[LAD_ANEW]));
+		lad_cell(r, no(e, &e->whole[LAD_ANEW]));
 	}
 	for (int i = 0; i < e->net.initial.count; i++)
 		lad_out(r, coil(e, "S", &e->step[e->net.initial.step[i]][LAD_X]));
@@ -516,15 +516,15 @@ static void write_again(struct lad *e)
 	if (!sfc_goes_round(e->sfc) || !e->net.arc_count)
 		return;
 	if (e->sfc->control[CONTROL_SEMI] && !lad_is_in_order(e)) {
-		lad_head(r, no(e, &e->chart[LAD_ONCE]));
-		lad_out(r, coil(e, "R", &e->chart[LAD_GO]));
+		lad_head(r, no(e, &e->whole[LAD_ONCE]));
+		lad_out(r, coil(e, "R", &e->whole[LAD_GO]));
 		lad_write(e, r, "", "SEMI: one TIP is one evolution");
 		r = lad_begin(e);
 	}
 	if (sfc_rests_at_once(e->sfc)) {
-		lad_head(r, no(e, &e->chart[LAD_FIRST]));
-		lad_out(r, coil(e, "R", &e->chart[LAD_FIRST]));
-		lad_out(r, coil(e, "S", &e->chart[LAD_RUNS]));
+		lad_head(r, no(e, &e->whole[LAD_FIRST]));
+		lad_out(r, coil(e, "R", &e->whole[LAD_FIRST]));
+		lad_out(r, coil(e, "S", &e->whole[LAD_RUNS]));
 		lad_out(r, lad_text(e, "JMP %s", text_of(e, e->again)));
 		lad_write(e, r, "", "In the first scan, too");
 		r = lad_begin(e);
@@ -537,7 +537,7 @@ static void write_again(struct lad *e)
 	}
 	/* One TIP is one evolution. */
 	if (lad_has_modes(e))
-		lad_out(r, coil(e, "R", &e->chart[LAD_HAND]));
+		lad_out(r, coil(e, "R", &e->whole[LAD_HAND]));
 	lad_out(r, lad_text(e, "JMP %s", text_of(e, e->again)));
 	lad_write(e, r, "", "Until nothing fires");
 }
@@ -575,7 +575,7 @@ void lad_steps(struct lad *e)
 	write_begins(e);
 	write_again(e);
 	r = lad_begin(e);
-	lad_head(r, no(e, &e->chart[LAD_FIRST]));
-	lad_out(r, coil(e, "S", &e->chart[LAD_RUNS]));
+	lad_head(r, no(e, &e->whole[LAD_FIRST]));
+	lad_out(r, coil(e, "S", &e->whole[LAD_RUNS]));
 	lad_write(e, r, "", "From now on it runs");
 }

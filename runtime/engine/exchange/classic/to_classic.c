@@ -470,9 +470,9 @@ static void leave_pou(struct leaving *e, const struct pou *pou, int *page)
 	e->spares = e->helpers_used = 0;
 	e->spare = NULL;
 	if (pou->sfc && e->dialect == CLASSIC_NUMERIC)
-		out_refuse(e, DIAG_EXPORT_CHART, "%s", project_text(e->project, pou->name));
+		out_refuse(e, DIAG_EXPORT_SFC, "%s", project_text(e->project, pou->name));
 	else if (pou->sfc)
-		leave_chart(e, pou, (*page)++);
+		leave_sfc(e, pou, (*page)++);
 	else if (pou->language == LANGUAGE_IL)
 		out_refuse(e, DIAG_EXPORT_POU, "%s", project_text(e->project, pou->name));
 	else
@@ -495,7 +495,7 @@ static void leave_all(struct leaving *e)
 			e->routine[e->routines++] = pou[i];
 	for (int i = 0; i < count && e->good; i++)
 		if (pou[i]->sfc)
-			chart_prepare(e, pou[i], page++);
+			sfc_prepare(e, pou[i], page++);
 	if (page > 5)
 		out_refuse(e, DIAG_EXPORT_MANY, "%d", page);
 	if (!e->good || !names_prepare(e))

@@ -22,9 +22,9 @@ struct classic_lines {
 	int sample_ms;         /* inputs are looked at so often; 0: as usual    */
 };
 
-/** classic_charts_fit - can each chart be a sequential page? Else they are written as
+/** classic_sfc_fits - can each chart be a sequential page? Else they are written as
  * ladders first (sfc_ladder.h). Scan-safe: no. */
-bool classic_charts_fit(const struct project *project);
+bool classic_sfc_fits(const struct project *project);
 /**
  * to_classic - @project as a ClassicLadder project
  * @project: without errors; its table of names grows

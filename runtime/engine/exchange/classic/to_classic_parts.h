@@ -247,8 +247,8 @@ void out_symbol(struct leaving *e, const struct out_slot *slot, const char *pref
 		const char *own);
 
 /* ---- to_classic_chart.c ---- */
-bool chart_fits(const struct project *project, const struct pou *pou);
-/** chart_prepare - numbers of steps, before anything is named. */
-void chart_prepare(struct leaving *e, const struct pou *pou, int page);
-void leave_chart(struct leaving *e, const struct pou *pou, int page);
+bool sfc_fits(const struct project *project, const struct pou *pou);
+/** sfc_prepare - numbers of steps, before anything is named. */
+void sfc_prepare(struct leaving *e, const struct pou *pou, int page);
+void leave_sfc(struct leaving *e, const struct pou *pou, int page);
 #endif

@@ -107,7 +107,7 @@ static bool line_fits(const struct project *project, const struct pou *pou,
 	return use->qualifier == QUALIFIER_N && (!body || seconds_of(pou, body));
 }
 
-bool chart_fits(const struct project *project, const struct pou *pou)
+bool sfc_fits(const struct project *project, const struct pou *pou)
 {
 	const struct sfc *sfc = pou->sfc;
 
@@ -134,10 +134,10 @@ bool chart_fits(const struct project *project, const struct pou *pou)
 	return true;
 }
 
-bool classic_charts_fit(const struct project *project)
+bool classic_sfc_fits(const struct project *project)
 {
 	for (int i = 0; i < project->pou_count; i++)
-		if (project->pou[i].sfc && !chart_fits(project, &project->pou[i]))
+		if (project->pou[i].sfc && !sfc_fits(project, &project->pou[i]))
 			return false;
 	return true;
 }
@@ -258,7 +258,7 @@ static void use_slots(struct leaving *e, const struct pou *pou, int step, int nu
 	}
 }
 
-void chart_prepare(struct leaving *e, const struct pou *pou, int page)
+void sfc_prepare(struct leaving *e, const struct pou *pou, int page)
 {
 	const struct sfc *sfc = pou->sfc;
 
@@ -405,7 +405,7 @@ static void held(struct leaving *e, int use)
 	rung_free(rung);
 }
 
-void leave_chart(struct leaving *e, const struct pou *pou, int page)
+void leave_sfc(struct leaving *e, const struct pou *pou, int page)
 {
 	const struct sfc *sfc = pou->sfc;
 	const char *name = project_text(e->project, pou->name);

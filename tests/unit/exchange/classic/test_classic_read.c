@@ -196,7 +196,7 @@ static void test_oldest_expressions(void)
 
 #define NONE "-1,-1,-1,-1,-1,-1,-1,-1,-1,"
 #define DRAWN "-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,-1,"
-static void test_chart(void)
+static void test_sfc(void)
 {
 	const struct classic_project *project = read_text(BOX(
 		MEMBER("sections.csv", "000,1,-1,0,0,2\n")
@@ -563,7 +563,7 @@ int main(void)
 	test_blocks();
 	test_tables();
 	test_oldest_expressions();
-	test_chart();
+	test_sfc();
 	test_numeric();
 	test_dialects();
 	test_texts();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  *
- * engine_chart - sequential pages of ClassicLadder.
+ * engine_sfc - sequential pages of ClassicLadder.
  *
  * Transitions in the order of the file, each at once, again and again until none fires
  * or fifty rounds are over. The original lets the times of all steps go on once for each
@@ -66,7 +66,7 @@ static void publish(struct engine *engine, int page)
 	}
 }
 
-void engine_chart(struct engine *engine, int page)
+void engine_sfc(struct engine *engine, int page)
 {
 	const struct classic_project *project = engine->project;
 
