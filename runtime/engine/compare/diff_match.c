@@ -6,7 +6,7 @@
  *
  * It compares numbers only; equal numbers mean equal rungs or lines.
  */
-#include "engine/compare/diff.h"
+#include "engine/compare/diff_match.h"
 
 #include <string.h>
 

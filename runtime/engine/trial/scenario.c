@@ -4,6 +4,7 @@
  * not hold. It decides nothing else: a program that prints TAP is around it.
  */
 #include "engine/trial/scenario.h"
+
 #include "engine/trial/value.h"
 
 #include <string.h>
@@ -28,6 +29,13 @@ static void print_time(const struct sink *out, int64_t ns)
 	iec_value_print(IEC_TIME, (union iec_value){ .i = ns }, text,
 			sizeof(text));
 	sink_text(out, text);
+}
+
+static void scan(struct run *run)
+{
+	if (run->plant)
+		plant_scan(run->plant, &run->resource->image, run->now_ns);
+	resource_scan(run->resource, run->now_ns);
 }
 
 /* One earlier scan, with the variables that @formula speaks of. */
@@ -268,19 +276,6 @@ static void report_fault(struct run *run)
 	sink_text(run->out, "\n");
 }
 
-static void scan(struct run *run)
-{
-	if (run->plant)
-		plant_scan(run->plant, &run->resource->image, run->now_ns);
-	resource_scan(run->resource, run->now_ns);
-}
-
-bool scenario_run(const struct scenario_file *file, int index,
-		  struct resource *resource, const struct sink *out)
-{
-	return scenario_run_with(file, index, resource, NULL, out);
-}
-
 bool scenario_run_with(const struct scenario_file *file, int index,
 		       struct resource *resource, struct plant *plant,
 		       const struct sink *out)
@@ -310,4 +305,103 @@ bool scenario_run_with(const struct scenario_file *file, int index,
 			return false;
 	} while (!is_done(&run));
 	return run.held;
+}
+
+bool scenario_run(const struct scenario_file *file, int index,
+		  struct resource *resource, const struct sink *out)
+{
+	return scenario_run_with(file, index, resource, NULL, out);
+}
+
+/* A setting that cannot be done is left out, as in a run. */
+static void act(const struct scenario_step *step, struct twin *twin,
+		void (*take)(void *context, uint64_t after, const struct act *act),
+		void *context)
+{
+	const struct image *image = &twin->resource.image;
+	const struct image *target = step->plant ? &twin->plant.image : image;
+	struct act act = { .kind = ACT_SET, .plant = step->plant, .at = step->target };
+
+	if (!formula_value(step->formula, image, &act.value) ||
+	    !formula_fit(step->formula, act.value, step->target.type, &act.value) ||
+	    !value_has_room(target, step->target, act.value))
+		return;
+	take(context, twin->scan, &act);
+	twin_act(twin, &act);
+}
+
+bool scenario_each_act(const struct scenario_file *file, int index, struct twin *twin,
+		       uint64_t scans,
+		       void (*take)(void *context, uint64_t after, const struct act *act),
+		       void *context)
+{
+	const struct scenario *scenario = &file->scenario[index];
+	const struct act period = { .kind = ACT_PERIOD, .value.i = scenario->period_ns };
+	const struct act start = { .kind = ACT_START };
+	int next = 0;
+
+	if (!twin_act(twin, &period) || !twin_act(twin, &start))
+		return false;
+	while (twin->scan < scans) {
+		const uint64_t before = twin->scan;
+
+		for (; next < scenario->step_count; next++) {
+			const struct scenario_step *step = &scenario->step[next];
+			const bool always = step->verb == VERB_ALWAYS ||
+					    step->verb == VERB_NEVER;
+
+			if (!always && step->at_ns > twin->now_ns + twin->period_ns)
+				break;
+			if (step->verb == VERB_SET)
+				act(step, twin, take, context);
+		}
+		twin_scan(twin);
+		if (twin->scan == before || (file->stop && *file->stop))
+			return false;
+	}
+	return true;
+}
+
+bool scenario_is_plant(const struct lex *lex)
+{
+	struct lex ahead = *lex;
+
+	if (!lex_is(&ahead, "plant"))
+		return false;
+	lex_next(&ahead);
+	return ahead.token.kind == TOKEN_STRING;
+}
+
+bool scenario_plant_token(const char *text, size_t len, struct token *out)
+{
+	bool first = true; /* of its line */
+	struct lex lex;
+
+	lex_init(&lex, text, len);
+	lex.newlines = true;
+	for (lex_next(&lex); lex.token.kind != TOKEN_END; lex_next(&lex)) {
+		if (first && scenario_is_plant(&lex)) {
+			lex_next(&lex);
+			*out = lex.token;
+			return true;
+		}
+		if (lex.token.kind == TOKEN_SYMBOL && lex_is(&lex, "#"))
+			while (lex.at < lex.end && *lex.at != '\n')
+				lex.at++; /* a comment */
+		first = lex.token.kind == TOKEN_NEWLINE;
+	}
+	return false;
+}
+
+const char *scenario_find_plant(const char *file, const char *text, size_t len,
+				struct arena *arena, struct diag *place)
+{
+	struct token token;
+	size_t bad;
+
+	if (!utf8_valid(text, len, &bad) || !scenario_plant_token(text, len, &token))
+		return NULL;
+	*place = (struct diag){ .file = file, .line = token.line,
+				.column = token.column };
+	return arena_copy(arena, token.text + 1, token.len - 2);
 }

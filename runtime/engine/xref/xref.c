@@ -1,19 +1,35 @@
 /* SPDX-License-Identifier: MIT
  *
- * xref - goes through a project and notes what is used where.
+ * xref - goes through a project and notes where each name is used, and how.
  *
- * Each text that may hold names is handed to xref_scan; here is known what a cell, an
- * instruction or a line of the configuration does with it. Printing is xref_print.c's.
+ * xref_scan() reads each text that may hold names. Printing is in xref_print.c.
  */
-#include "engine/xref/xref_walk.h"
+#include "engine/xref/xref.h"
 
+#include "engine/base/lex.h"
+#include "engine/check/scope.h"
 #include "engine/model/args.h"
+#include "engine/model/loop.h"
 
 #include <string.h>
 
 /* Of a folded name: the body in which it was a label last, and where, 1-based. */
 struct xref_label {
 	int body, at;
+};
+
+/* On the way through a project. */
+struct xref_walk {
+	struct xref *out;
+	struct project *project;
+	struct scope *scope;
+	const struct pou *pou;   /* whose names are seen; NULL: globals       */
+	struct xref_use place;   /* where we are                              */
+	uint32_t *slot;          /* the text that is looked at                */
+	struct xref_label *label; /* by folded name                           */
+	uint32_t labels;
+	int body;                /* of labels: one of each POU, of a chart many */
+	enum word call;          /* of the call in a list whose pins follow   */
 };
 
 /* ---- targets ---- */
@@ -75,8 +91,8 @@ bool xref_touches(const struct xref_target *a, const struct xref_target *b)
 
 /* ---- noting ---- */
 
-struct xref_use *xref_add(struct xref_walk *walk, struct xref_target target,
-			  enum xref_kind kind, uint32_t at, uint32_t len)
+static struct xref_use *xref_add(struct xref_walk *walk, struct xref_target target,
+				 enum xref_kind kind, uint32_t at, uint32_t len)
 {
 	struct xref_use *use = arena_push(&walk->out->arena, &walk->out->use,
 					  &walk->out->count, sizeof(*use));
@@ -92,7 +108,242 @@ struct xref_use *xref_add(struct xref_walk *walk, struct xref_target target,
 	return use;
 }
 
-void xref_all(struct xref_walk *walk, uint32_t *slot, enum xref_kind kind)
+/* A path, and the indices in its brackets one level deeper. */
+struct level {
+	uint16_t word;        /* of what was reached; WORD_COUNT: no parts     */
+	uint8_t kind;         /* what happens to what is named here            */
+	bool used;            /* `use` is the one that ends here               */
+	int use;
+};
+
+#define SCAN_DEPTH (LIMIT_EXPR_DEPTH + 2)
+
+struct scan {
+	struct xref_walk *walk;
+	const char *text;     /* all of the slot's                            */
+	struct lex lex;
+	struct level level[SCAN_DEPTH];
+	int depth;
+	bool dot;             /* behind a dot: a member follows               */
+};
+
+static uint16_t word_of(const struct var *var)
+{
+	return (uint16_t)(var->type == IEC_NONE ? var->fb : WORD_COUNT);
+}
+
+/* Parameter @name of a word: XREF_UNKNOWN if it is not the project's.
+ * @dir: gets its direction; of those that are none PIN_NONE. */
+static struct xref_target xref_pin(struct xref_walk *walk, enum word word, const char *name,
+				   size_t len, enum pin_dir *dir)
+{
+	const struct xref_target none = { .what = XREF_UNKNOWN, .index = -1 };
+	const struct word_row *row = words_row(&walk->project->words, word);
+	int pin = word_pin_find(row, name, len), table, index;
+	struct names *names = &walk->project->names;
+	struct var_table *vars;
+
+	*dir = pin >= 0 && pin < row->pin_count ? row->pin[pin].dir : PIN_NONE;
+	if (pin < 0 || pin >= row->pin_count || !word_is_own(word) || row->owner < 0)
+		return none;
+	table = row->kind == WORD_STRUCT ?
+		walk->project->pou_count + 1 + row->owner : row->owner + 1;
+	vars = xref_table(walk->project, table);
+	index = vars ? vars_find(vars, names_fold(names, names_intern(names, name, len))) :
+		-1;
+	return index < 0 ? none : xref_variable(walk->project, table, index);
+}
+
+/* ---- paths ---- */
+
+static void add(struct scan *scan, struct xref_target target, const char *at, size_t len)
+{
+	struct level *level = &scan->level[scan->depth];
+
+	level->use = scan->walk->out->count;
+	level->used = xref_add(scan->walk, target, (enum xref_kind)level->kind,
+			       (uint32_t)(at - scan->text), (uint32_t)len);
+}
+
+/* The next part up to a dot; false at the end. */
+static bool part(const char **at, const char *end, size_t *len)
+{
+	const char *dot;
+
+	if (*at >= end)
+		return false;
+	dot = memchr(*at, '.', (size_t)(end - *at));
+	*len = (size_t)((dot ? dot : end) - *at);
+	return true;
+}
+
+/* `.Limit.High` behind what was reached. */
+static void scan_members(struct scan *scan, const char *at, const char *end)
+{
+	struct level *level = &scan->level[scan->depth];
+	size_t len;
+
+	for (; part(&at, end, &len); at += len + 1) {
+		enum pin_dir dir;
+		struct xref_target target = xref_pin(scan->walk, (enum word)level->word,
+						     at, len, &dir);
+		const struct var *var = xref_var(scan->walk->project, &target);
+
+		level->word = WORD_COUNT;
+		if (!var)
+			continue;
+		level->word = word_of(var);
+		add(scan, target, at, len);
+	}
+}
+
+static const struct meaning *mean(const struct scan *scan, const char *text, size_t len)
+{
+	struct xref_walk *walk = scan->walk;
+	enum diag_id why;
+
+	return scope_find(walk->scope, walk->pou,
+			  names_intern(&walk->project->names, text, len), &why);
+}
+
+static void add_address(struct scan *scan, const struct token *token,
+			struct iec_addr addr)
+{
+	add(scan, (struct xref_target){ XREF_ADDRESS, 0, 0, addr }, token->text,
+	    token->len);
+}
+
+/* What is no declared name: a constant, a system name, an address, or nothing. */
+static void scan_other(struct scan *scan, const struct token *token, size_t first)
+{
+	const struct meaning *m = mean(scan, token->text, token->len);
+	struct xref_target none = { .what = XREF_UNKNOWN, .index = -1 };
+
+	if (m && m->kind == MEANING_LITERAL)
+		return;
+	if (m && m->addr.area != AREA_NONE)
+		add_address(scan, token, m->addr);
+	else
+		add(scan, none, token->text, first);
+}
+
+/* Fill.X: speaks of the step. TRANSITION is nobody's name. */
+static bool scan_step(struct scan *scan, const struct token *token)
+{
+	const struct pou *pou = scan->walk->pou;
+	const char *dot = memchr(token->text, '.', token->len);
+	const struct meaning *m;
+	int index;
+
+	if (!pou || !pou->sfc || pou->sfc->block < 0)
+		return false;
+	m = mean(scan, token->text, token->len);
+	if (!m || m->pou != pou || m->index < vars_declared(&pou->vars) || !m->var)
+		return false;
+	index = m->index - vars_declared(&pou->vars);
+	scan->level[scan->depth].used = false;
+	if (dot && index < 2 * pou->sfc->step_count)
+		add(scan, (struct xref_target){ XREF_STEP,
+			(int)(pou - scan->walk->project->pou) + 1,
+			index % pou->sfc->step_count, { 0 } },
+		    token->text, (size_t)(dot - token->text));
+	return true;
+}
+
+static void scan_head(struct scan *scan, const struct token *token)
+{
+	struct level *level = &scan->level[scan->depth];
+	const char *end = token->text + token->len;
+	const char *dot = memchr(token->text, '.', token->len);
+	size_t len = dot ? (size_t)(dot - token->text) : token->len;
+	const struct meaning *m;
+	int table;
+
+	level->word = WORD_COUNT;
+	if (scan_step(scan, token))
+		return;
+	m = mean(scan, token->text, len);
+	if (!m || !m->var) {
+		scan_other(scan, token, len);
+		return;
+	}
+	table = m->pou ? (int)(m->pou - scan->walk->project->pou) + 1 : 0;
+	level->word = word_of(m->var);
+	add(scan, xref_variable(scan->walk->project, table, m->index), token->text, len);
+	if (dot)
+		scan_members(scan, dot + 1, end);
+}
+
+/* AND, MOD and the like are no names. */
+static bool is_operator(const struct token *token)
+{
+	return op_find(token->text, token->len) != OP_COUNT ||
+	       word_find(token->text, token->len) == FN_MOD;
+}
+
+static void scan_name(struct scan *scan, const struct token *token)
+{
+	if (scan->dot)
+		scan_members(scan, token->text, token->text + token->len);
+	else if (!is_operator(token))
+		scan_head(scan, token);
+}
+
+static void scan_address(struct scan *scan, const struct token *token)
+{
+	struct iec_addr addr;
+
+	scan->level[scan->depth].word = WORD_COUNT;
+	if (iec_addr_parse(token->text, token->len, &addr) == ADDR_OK)
+		add_address(scan, token, addr);
+}
+
+/* False: too deep for any text that was read. */
+static bool scan_symbol(struct scan *scan)
+{
+	struct level *level = &scan->level[scan->depth];
+
+	if (lex_is(&scan->lex, "[")) {
+		if (level->used)
+			scan->walk->out->use[level->use].open = true;
+		if (++scan->depth == SCAN_DEPTH)
+			return false;
+		scan->level[scan->depth] = (struct level){ .word = WORD_COUNT, .kind = XREF_READ };
+	} else if (lex_is(&scan->lex, "]")) {
+		scan->depth -= scan->depth > 0;
+	} else if (lex_is(&scan->lex, ":=")) {
+		level->kind = XREF_READ;
+	} else if (!lex_is(&scan->lex, ".")) {
+		level->used = false;
+	}
+	return true;
+}
+
+/* The names in @len bytes of the text of walk->slot from @at on
+ * @kind: what happens to the first of them, up to `:=` if there is one */
+static void xref_scan(struct xref_walk *walk, size_t at, size_t len, enum xref_kind kind)
+{
+	struct scan scan = { .walk = walk };
+	bool good = true;
+
+	scan.text = project_text(walk->project, *walk->slot);
+	scan.level[0] = (struct level){ .word = WORD_COUNT, .kind = (uint8_t)kind };
+	lex_init(&scan.lex, scan.text + at, len);
+	while (good && lex_next(&scan.lex) != TOKEN_END) {
+		const struct token *token = &scan.lex.token;
+
+		if (token->kind == TOKEN_NAME)
+			scan_name(&scan, token);
+		else if (token->kind == TOKEN_ADDRESS)
+			scan_address(&scan, token);
+		else if (token->kind == TOKEN_SYMBOL)
+			good = scan_symbol(&scan);
+		scan.dot = token->kind == TOKEN_SYMBOL && lex_is(&scan.lex, ".");
+	}
+}
+
+/* The names in all of a text; xref_whole - all of it names @target. */
+static void xref_all(struct xref_walk *walk, uint32_t *slot, enum xref_kind kind)
 {
 	if (!*slot)
 		return;
@@ -101,7 +352,7 @@ void xref_all(struct xref_walk *walk, uint32_t *slot, enum xref_kind kind)
 }
 
 /* The whole text names @target. */
-void xref_whole(struct xref_walk *walk, uint32_t *slot,
+static void xref_whole(struct xref_walk *walk, uint32_t *slot,
 		      struct xref_target target, enum xref_kind kind)
 {
 	walk->slot = slot;
@@ -355,6 +606,22 @@ static enum xref_kind kind_of_write(enum op op, bool list)
 	return list ? XREF_WRITTEN : XREF_COIL;
 }
 
+/* What stands behind FOR. */
+static void xref_loop(struct xref_walk *walk)
+{
+	const char *text = project_text(walk->project, *walk->slot);
+	struct loop loop;
+
+	if (!loop_parse(text, strlen(text), &loop)) {
+		xref_scan(walk, 0, strlen(text), XREF_CHANGED);
+		return;
+	}
+	xref_scan(walk, (size_t)(loop.variable.text - text), loop.variable.len,
+		  XREF_CHANGED);
+	xref_scan(walk, (size_t)(loop.from.text - text), loop.from.len, XREF_READ);
+	xref_scan(walk, (size_t)(loop.to.text - text), loop.to.len, XREF_READ);
+}
+
 static void walk_operand(struct xref_walk *walk, struct cell *cell,
 			 const struct word_row *row)
 {
@@ -509,7 +776,7 @@ static void walk_line(struct xref_walk *walk, struct il_line *line)
 }
 
 /* A place of a text that is no ladder. */
-void xref_begin(struct xref_walk *walk, const struct pou *pou, int line, int column)
+static void xref_begin(struct xref_walk *walk, const struct pou *pou, int line, int column)
 {
 	begin_place(walk, (int)(pou - walk->project->pou), pou->file, line,
 		    pou->included);
@@ -542,7 +809,8 @@ static void walk_list(struct xref_walk *walk, struct pou *pou, int first, int co
 	}
 }
 
-void xref_body(struct xref_walk *walk, struct pou *pou, const struct sfc_body *body)
+/* A condition or an action of a chart. */
+static void xref_body(struct xref_walk *walk, struct pou *pou, const struct sfc_body *body)
 {
 	if (body->kind == BODY_LIST)
 		walk_list(walk, pou, body->first, body->count);
@@ -561,6 +829,112 @@ static bool make_labels(struct xref_walk *walk)
 	walk->label = arena_alloc(&walk->out->arena,
 				  walk->labels * sizeof(*walk->label));
 	return walk->label;
+}
+
+static struct xref_target target_of(const struct xref_walk *walk, const struct pou *pou,
+				    enum xref_what what, int index)
+{
+	return (struct xref_target){ index < 0 ? XREF_UNKNOWN : what,
+				     (int)(pou - walk->project->pou) + 1, index, { 0 } };
+}
+
+static void declare(struct xref_walk *walk, struct pou *pou)
+{
+	struct sfc *sfc = pou->sfc;
+
+	for (int i = 0; i < sfc->step_count; i++) {
+		xref_begin(walk, pou, sfc->step[i].line, sfc->step[i].column_at);
+		xref_whole(walk, &sfc->step[i].name, target_of(walk, pou, XREF_STEP, i),
+			   XREF_DECLARED);
+	}
+	for (int i = 0; i < sfc->transition_count; i++) {
+		xref_begin(walk, pou, sfc->transition[i].line, sfc->transition[i].column);
+		if (sfc->transition[i].name)
+			xref_whole(walk, &sfc->transition[i].name,
+				   target_of(walk, pou, XREF_TRANSITION, i),
+				   XREF_DECLARED);
+	}
+	for (int i = 0; i < sfc->action_count; i++) {
+		xref_begin(walk, pou, sfc->action[i].line, sfc->action[i].column);
+		xref_whole(walk, &sfc->action[i].name,
+			   target_of(walk, pou, XREF_ACTION, i), XREF_DECLARED);
+	}
+}
+
+/* What a line does with its BOOL. */
+static enum xref_kind kind_of(const struct sfc_use *use)
+{
+	if (use->kind == USE_SET || (use->kind == USE_ACTION &&
+				     (use->qualifier == QUALIFIER_S ||
+				      use->qualifier == QUALIFIER_SD ||
+				      use->qualifier == QUALIFIER_DS ||
+				      use->qualifier == QUALIFIER_SL)))
+		return XREF_SET;
+	if (use->kind == USE_RESET || use->qualifier == QUALIFIER_R)
+		return XREF_RESET;
+	return XREF_WRITTEN;
+}
+
+static void walk_uses(struct xref_walk *walk, struct pou *pou)
+{
+	for (int i = 0; i < pou->sfc->use_count; i++) {
+		struct sfc_use *use = &pou->sfc->use[i];
+
+		xref_begin(walk, pou, use->line, use->column);
+		if (use->action >= 0)
+			xref_whole(walk, &use->operand,
+				   target_of(walk, pou, XREF_ACTION, use->action),
+				   XREF_CALLED);
+		else
+			xref_all(walk, &use->operand, kind_of(use));
+		xref_all(walk, &use->time, XREF_READ);
+	}
+}
+
+static void walk_steps(struct xref_walk *walk, struct pou *pou)
+{
+	for (int i = 0; i < pou->sfc->step_count; i++) {
+		struct sfc_step *step = &pou->sfc->step[i];
+
+		xref_begin(walk, pou, step->line, step->column_at);
+		xref_all(walk, &step->min, XREF_READ);
+		xref_all(walk, &step->max, XREF_READ);
+		xref_all(walk, &step->alarm, XREF_SET);
+	}
+}
+
+static void walk_refs(struct xref_walk *walk, struct pou *pou, int first, int count,
+		      enum xref_kind kind)
+{
+	for (int i = first; i < first + count; i++) {
+		struct sfc_ref *ref = &pou->sfc->ref[i];
+
+		xref_begin(walk, pou, ref->line, ref->column);
+		xref_whole(walk, &ref->name, target_of(walk, pou, XREF_STEP, ref->step),
+			   kind);
+	}
+}
+
+/* All of a chart but its declarations. */
+static void xref_sfc(struct xref_walk *walk, struct pou *pou)
+{
+	struct sfc *sfc = pou->sfc;
+
+	declare(walk, pou);
+	xref_begin(walk, pou, sfc->control_line, 0);
+	for (int i = 0; i < CONTROL_COUNT; i++)
+		xref_all(walk, &sfc->control[i], XREF_READ);
+	walk_steps(walk, pou);
+	walk_uses(walk, pou);
+	for (int i = 0; i < sfc->transition_count; i++) {
+		const struct sfc_transition *t = &sfc->transition[i];
+
+		walk_refs(walk, pou, t->first_from, t->from_count, XREF_LEFT);
+		walk_refs(walk, pou, t->first_to, t->to_count, XREF_ENTERED);
+		xref_body(walk, pou, &t->condition);
+	}
+	for (int i = 0; i < sfc->action_count; i++)
+		xref_body(walk, pou, &sfc->action[i].body);
 }
 
 bool xref_make(struct xref *out, struct project *project)

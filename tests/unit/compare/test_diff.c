@@ -4,7 +4,7 @@
  */
 #include "engine/model/project.h"
 #include "engine/text/text.h"
-#include "engine/compare/diff.h"
+#include "engine/compare/diff_match.h"
 #include "engine/compare/compare.h"
 #include "tests/tap.h"
 

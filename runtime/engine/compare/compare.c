@@ -1,0 +1,1383 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * compare - two projects compared: POUs, variables, rungs, lists, charts, configuration.
+ *
+ * The canonical texts are compared last, so that a difference which no part finds, such
+ * as another order of declarations, is still reported.
+ */
+#include "engine/compare/compare.h"
+
+#include "engine/base/ascii.h"
+#include "engine/base/limits.h"
+#include "engine/base/plain.h"
+#include "engine/base/sink.h"
+#include "engine/compare/diff_match.h"
+#include "engine/model/args.h"
+#include "engine/model/project.h"
+#include "engine/text/pou_print.h"
+#include "engine/text/text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#define DIFF_CANDIDATES 64   /* rungs of a gap looked at for likeness         */
+
+struct diff {
+	const struct project *a, *b;
+	const struct sink *sink;
+	bool json;
+	bool failed;               /* memory is out                           */
+	bool besides;              /* rungs and lines are counted and not said */
+	const char *pou;           /* and what is not in this; NULL: all is said */
+	int count;                 /* differences so far                      */
+	int said;                  /* and of them                             */
+	struct arena arena;        /* scratch                                 */
+	struct names names;        /* strings of both projects, by one id     */
+	struct sink_memory bytes;  /* scratch: a rung or line made comparable */
+	char from[1024], to[1024]; /* scratch: texts of two cells or lines    */
+	char subject[2 * LIMIT_NAME], pin[LIMIT_NAME + 1]; /* scratch: names  */
+	/* Takes the rungs instead of words; NULL: words. */
+	void (*take)(void *context, struct compare_pair pair);
+	void (*take_line)(void *context, struct compare_line line); /* likewise     */
+	void *context;
+	struct compare_pair pair;     /* for take: its POUs                       */
+};
+
+/* One difference; what is NULL or 0 is not said. */
+struct difference {
+	const char *pou, *label;
+	int rung, row, col, line;  /* 1-based                                 */
+	const char *kind;          /* "variable", "view section"              */
+	const char *subject;       /* its name, or the element in a cell      */
+	const char *property;      /* "address"                               */
+	const char *from, *to;     /* either may be "": nothing               */
+	const char *change;        /* "added", when there is no from and to   */
+};
+
+/* One id for the same bytes; 0 and diff->failed: memory is out. */
+static uint32_t diff_id(struct diff *diff, const char *text, size_t len)
+{
+	uint32_t id = len ? names_intern(&diff->names, text, len) : 0;
+
+	if (len > 0 && id == 0)
+		diff->failed = true;
+	if (diff->bytes.failed)
+		diff->failed = true;
+	return id;
+}
+
+/* One id for all spellings of a name in either project. */
+static uint32_t diff_name(struct diff *diff, const char *name)
+{
+	uint32_t id = diff_id(diff, name, strlen(name));
+	uint32_t fold = id ? names_fold(&diff->names, id) : 0;
+
+	if (id && !fold)
+		diff->failed = true;
+	return fold;
+}
+
+/* ---- variables ---- */
+
+#define TYPE_TEXT (LIMIT_NAME + 64)
+
+/* As it is declared: ARRAY[1..3] OF STRING[20]. */
+static const char *type_text(const struct project *project,
+			     const struct var *var, char room[TYPE_TEXT])
+{
+	const char *word = var->type == IEC_NONE ?
+		words_row(&project->words, var->fb)->word :
+		iec_type_row(var->type)->word;
+	char bounds[48] = "", capacity[16] = "";
+
+	if (var->array.count)
+		snprintf(bounds, sizeof(bounds), "ARRAY[%ld..%lld] OF ",
+			 (long)var->array.low,
+			 (long long)var->array.low + var->array.count - 1);
+	if (var->type == IEC_STRING && var->capacity != IEC_STRING_DEFAULT)
+		snprintf(capacity, sizeof(capacity), "[%u]", var->capacity);
+	snprintf(room, TYPE_TEXT, "%s%.255s%s", bounds, word, capacity);
+	return room;
+}
+
+/* "" of a plain VAR; VAR_GLOBAL says the same. */
+static const char *flags_text(uint16_t flags)
+{
+	static const char *const text[] = { "", "RETAIN", "CONSTANT",
+					    "RETAIN CONSTANT" };
+	static const uint8_t kinds = VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP;
+
+	if (flags & kinds && !(flags & VAR_RETAIN))
+		return vars_head(flags & kinds);
+	if (flags & VAR_INPUT)
+		return "VAR_INPUT RETAIN";
+	if (flags & VAR_OUTPUT)
+		return "VAR_OUTPUT RETAIN";
+	return text[flags & (VAR_RETAIN | VAR_CONSTANT)];
+}
+
+static const char *init_text(const struct project *project,
+			     const struct var *var)
+{
+	return var->has_init ? project_text(project, var->init_text) : "";
+}
+
+#define SAY_CLIP 72 /* columns of one side of a change */
+
+static void say_clipped(const struct sink *sink, const char *text)
+{
+	size_t len = strlen(text);
+	int width;
+	size_t fits = plain_clip(text, len, SAY_CLIP, &width);
+
+	plain_write(sink, text, fits);
+	if (fits < len)
+		sink_text(sink, "…");
+}
+
+static void say_side(const struct sink *sink, const char *text)
+{
+	if (*text)
+		say_clipped(sink, text);
+	else
+		sink_text(sink, "nothing");
+}
+
+/* A word of the place, with a blank before all but the first. */
+static void say_word(const struct sink *sink, const char **gap,
+		     const char *word)
+{
+	if (!word || !*word)
+		return;
+	sink_text(sink, *gap);
+	say_clipped(sink, word);
+	*gap = " ";
+}
+
+static void say_place(const struct sink *sink, const struct difference *what)
+{
+	const char *gap = "";
+
+	say_word(sink, &gap, what->pou);
+	if (what->rung) {
+		sink_printf(sink, "%srung %d", gap, what->rung);
+		gap = " ";
+		if (what->label && *what->label) {
+			sink_text(sink, " (");
+			say_clipped(sink, what->label);
+			sink_text(sink, ")");
+		}
+	}
+	if (what->row) {
+		sink_printf(sink, "%scell (%d,%d)", gap, what->row, what->col);
+		gap = " ";
+	}
+	if (what->line) {
+		sink_printf(sink, "%sline %d", gap, what->line);
+		gap = " ";
+	}
+	say_word(sink, &gap, what->kind);
+	say_word(sink, &gap, what->subject);
+}
+
+static void say_words(const struct sink *sink, const struct difference *what)
+{
+	say_place(sink, what);
+	sink_text(sink, ": ");
+	if (what->property)
+		sink_printf(sink, "%s ", what->property);
+	if (what->change) {
+		sink_text(sink, what->change);
+	} else {
+		say_side(sink, what->from);
+		sink_text(sink, " -> ");
+		say_side(sink, what->to);
+	}
+	sink_text(sink, "\n");
+}
+
+static void json_number(const struct sink *sink, const char **gap,
+			const char *name, int number)
+{
+	if (number) {
+		sink_printf(sink, "%s\"%s\": %d", *gap, name, number);
+		*gap = ", ";
+	}
+}
+
+static void json_field(const struct sink *sink, const char **gap,
+		       const char *name, const char *text)
+{
+	if (text) {
+		sink_printf(sink, "%s\"%s\": ", *gap, name);
+		sink_json_text(sink, text);
+		*gap = ", ";
+	}
+}
+
+static void say_json(const struct sink *sink, const struct difference *what)
+{
+	const char *gap = "";
+
+	sink_text(sink, "{");
+	json_field(sink, &gap, "pou", what->pou);
+	json_number(sink, &gap, "rung", what->rung);
+	if (what->label && *what->label)
+		json_field(sink, &gap, "label", what->label);
+	json_number(sink, &gap, "row", what->row);
+	json_number(sink, &gap, "col", what->col);
+	json_number(sink, &gap, "line", what->line);
+	json_field(sink, &gap, "kind", what->kind);
+	json_field(sink, &gap, "subject", what->subject);
+	json_field(sink, &gap, "property", what->property);
+	json_field(sink, &gap, "change",
+		   what->change ? what->change : "changed");
+	json_field(sink, &gap, "from", what->from);
+	json_field(sink, &gap, "to", what->to);
+	sink_text(sink, "}");
+}
+
+/* Not what others draw, and nothing of another POU if one is wanted. */
+static bool is_wanted(const struct diff *diff, const struct difference *what)
+{
+	const char *pou = what->pou ? what->pou : what->subject ? what->subject : "";
+
+	return !diff->besides || (!what->rung && !what->line &&
+				  (!diff->pou || strcasecmp(diff->pou, pou) == 0));
+}
+
+/* Puts it out and counts it. */
+static void diff_say(struct diff *diff, struct difference what)
+{
+	if (!is_wanted(diff, &what)) {
+		diff->count++;
+		return;
+	}
+	diff->said++;
+	if (diff->json) {
+		sink_text(diff->sink, diff->count ? ",\n " : "\n ");
+		say_json(diff->sink, &what);
+	} else {
+		say_words(diff->sink, &what);
+	}
+	diff->count++;
+}
+
+/* Says @what when the texts differ; they become from and to. */
+static void diff_texts(struct diff *diff, struct difference what, const char *property,
+		       const char *from, const char *to)
+{
+	if (strcmp(from, to) == 0)
+		return;
+	what.property = property;
+	what.from = from;
+	what.to = to;
+	diff_say(diff, what);
+}
+
+static void compare_var(struct diff *diff, struct difference what,
+			const struct var_table *a, int i,
+			const struct var_table *b, int j)
+{
+	const struct var *x = &a->var[i], *y = &b->var[j];
+	char old[TYPE_TEXT], new[TYPE_TEXT];
+
+	diff_texts(diff, what, "name", project_text(diff->a, x->name),
+		   project_text(diff->b, y->name));
+	diff_texts(diff, what, "type", type_text(diff->a, x, old),
+		   type_text(diff->b, y, new));
+	diff_texts(diff, what, "address", project_text(diff->a, x->at_text),
+		   project_text(diff->b, y->at_text));
+	diff_texts(diff, what, "initial value", init_text(diff->a, x),
+		   init_text(diff->b, y));
+	diff_texts(diff, what, "block", flags_text(vars_flags(a, i)),
+		   flags_text(vars_flags(b, j)));
+	diff_texts(diff, what, "comment", project_text(diff->a, x->comment),
+		   project_text(diff->b, y->comment));
+}
+
+/* Folded names of a table, and where a name stands in it. */
+static uint32_t *var_names(struct diff *diff, const struct project *project,
+			   const struct var_table *table)
+{
+	const int count = vars_declared(table);
+	uint32_t *name = arena_alloc(&diff->arena, (size_t)(count + 1) * sizeof(*name));
+
+	if (!name)
+		diff->failed = true;
+	for (int i = 0; name && i < count; i++)
+		name[i] = diff_name(diff, project_text(project,
+						       table->var[i].name));
+	return name;
+}
+
+static int *var_index(struct diff *diff, const uint32_t *name, int count)
+{
+	int *index = arena_alloc(&diff->arena, (size_t)(diff->names.count + 1) *
+					       sizeof(int));
+
+	if (!index)
+		diff->failed = true;
+	for (int i = count - 1; index && i >= 0; i--)
+		index[name[i]] = i + 1;
+	return index;
+}
+
+static void compare_vars(struct diff *diff, const char *pou,
+			 const struct var_table *a, const struct var_table *b)
+{
+	struct difference what = { .pou = pou, .kind = "variable" };
+	uint32_t *name_a = var_names(diff, diff->a, a);
+	uint32_t *name_b = var_names(diff, diff->b, b);
+
+	if (diff->failed)
+		return;
+	const int a_count = vars_declared(a), b_count = vars_declared(b);
+	int *in_a = var_index(diff, name_a, a_count);
+	int *in_b = var_index(diff, name_b, b_count);
+	for (int i = 0; !diff->failed && i < a_count; i++) {
+		what.subject = project_text(diff->a, a->var[i].name);
+		what.change = in_b[name_a[i]] ? NULL : "removed";
+		if (what.change)
+			diff_say(diff, what);
+		else
+			compare_var(diff, what, a, i, b, in_b[name_a[i]] - 1);
+	}
+	what.change = "added";
+	for (int j = 0; !diff->failed && j < b_count; j++)
+		if (!in_a[name_b[j]]) {
+			what.subject = project_text(diff->b, b->var[j].name);
+			diff_say(diff, what);
+		}
+}
+
+static const struct pou *pou_named(const struct project *project,
+				   const char *name)
+{
+	int i = project_find_pou(project, name, strlen(name));
+
+	return i < 0 ? NULL : &project->pou[i];
+}
+
+static const char *language(const struct pou *pou)
+{
+	return pou_language_word(pou->language);
+}
+
+static const char *evolution(const struct pou *pou)
+{
+	return sfc_evolution_words(pou->sfc->evolution);
+}
+
+struct pairing {
+	struct diff *diff;
+	const struct pou *a, *b;
+	int *to_b, *to_a;     /* partner of each rung, -1: none               */
+	int *gap_a, *gap_b;   /* last partner in order before it, by b; -1 */
+	uint32_t *id_a, *id_b;
+	bool *moved;          /* of rungs of a                                */
+};
+
+/* ---- what belongs together ---- */
+
+static int *new_numbers(struct diff *diff, int count, int value)
+{
+	int *numbers = arena_alloc(&diff->arena,
+				   (size_t)(count + 1) * sizeof(int));
+
+	if (!numbers)
+		diff->failed = true;
+	for (int i = 0; numbers && i < count; i++)
+		numbers[i] = value;
+	return numbers;
+}
+
+static const struct cell nothing;
+
+static bool is_nothing(const struct cell *cell)
+{
+	return memcmp(cell, &nothing, sizeof(nothing)) == 0;
+}
+
+/* ---- a rung as comparable bytes ---- */
+
+static void put_number(const struct sink *sink, uint32_t number)
+{
+	sink_write(sink, (const char *)&number, sizeof(number));
+}
+
+static void put_text(const struct sink *sink, const struct project *project,
+		     uint32_t id)
+{
+	size_t len = names_len(&project->names, id);
+
+	put_number(sink, (uint32_t)len);
+	sink_write(sink, names_text(&project->names, id), len);
+}
+
+static uint32_t rung_id(struct diff *diff, const struct project *project,
+			const struct rung *rung)
+{
+	struct sink sink = sink_to_memory(&diff->bytes);
+
+	diff->bytes.len = 0;
+	put_text(&sink, project, rung->label);
+	put_text(&sink, project, rung->title);
+	put_text(&sink, project, rung->comment);
+	put_number(&sink, rung->off);
+	for (int row = 0; row < rung->rows; row++)
+		for (int col = 0; col < rung->cols; col++) {
+			const struct cell *cell = rung_at(rung, row, col);
+
+			if (is_nothing(cell))
+				continue;
+			put_number(&sink, (uint32_t)(row << 16 | col));
+			put_number(&sink, (uint32_t)(cell->word << 1 |
+						     (cell->link != 0)));
+			put_text(&sink, project, cell->operand);
+			put_text(&sink, project, cell->args);
+			put_text(&sink, project, cell->comment);
+		}
+	return diff_id(diff, diff->bytes.text, diff->bytes.len);
+}
+
+static uint32_t *ids_of(struct diff *diff, const struct project *project,
+			const struct pou *pou)
+{
+	uint32_t *id = arena_alloc(&diff->arena, (size_t)(pou->rung_count + 1) *
+						 sizeof(*id));
+
+	if (!id)
+		diff->failed = true;
+	for (int i = 0; id && i < pou->rung_count; i++)
+		id[i] = rung_id(diff, project, pou->rung[i]);
+	return id;
+}
+
+static bool pairing_start(struct pairing *pairs)
+{
+	struct diff *diff = pairs->diff;
+	int a_count = pairs->a->rung_count, b_count = pairs->b->rung_count;
+
+	pairs->to_b = new_numbers(diff, a_count, -1);
+	pairs->to_a = new_numbers(diff, b_count, -1);
+	pairs->gap_a = new_numbers(diff, a_count, -1);
+	pairs->gap_b = new_numbers(diff, b_count, -1);
+	pairs->moved = arena_alloc(&diff->arena, (size_t)a_count + 1);
+	pairs->id_a = ids_of(diff, diff->a, pairs->a);
+	pairs->id_b = ids_of(diff, diff->b, pairs->b);
+	if (!pairs->moved)
+		diff->failed = true;
+	return !diff->failed;
+}
+
+static bool pair_in_order(struct pairing *pairs)
+{
+	int gap = -1;
+
+	if (!diff_match(&pairs->diff->arena, pairs->id_a, pairs->a->rung_count,
+			pairs->id_b, pairs->b->rung_count, pairs->to_b))
+		return false;
+	for (int i = 0; i < pairs->a->rung_count; i++) {
+		if (pairs->to_b[i] >= 0) {
+			gap = pairs->to_b[i];
+			pairs->to_a[gap] = i;
+		}
+		pairs->gap_a[i] = gap;
+	}
+	gap = -1;
+	for (int j = 0; j < pairs->b->rung_count; j++) {
+		if (pairs->to_a[j] >= 0)
+			gap = j;
+		pairs->gap_b[j] = gap;
+	}
+	return true;
+}
+
+/* Pairs the rungs left over that have the same key; key 0 pairs with none. */
+static bool pair_by_key(struct pairing *pairs, const uint32_t *key_a,
+			const uint32_t *key_b)
+{
+	int *first = new_numbers(pairs->diff, pairs->diff->names.count + 1, -1);
+	int *next = new_numbers(pairs->diff, pairs->b->rung_count, -1);
+
+	if (!first || !next)
+		return false;
+	for (int j = pairs->b->rung_count - 1; j >= 0; j--)
+		if (pairs->to_a[j] < 0 && key_b[j]) {
+			next[j] = first[key_b[j]];
+			first[key_b[j]] = j;
+		}
+	for (int i = 0; i < pairs->a->rung_count; i++) {
+		int j = pairs->to_b[i] < 0 && key_a[i] ? first[key_a[i]] : -1;
+
+		if (j < 0)
+			continue;
+		first[key_a[i]] = next[j];
+		pairs->to_b[i] = j;
+		pairs->to_a[j] = i;
+		pairs->moved[i] = pairs->gap_a[i] != pairs->gap_b[j];
+	}
+	return true;
+}
+
+static uint32_t *labels_of(struct diff *diff, const struct project *project,
+			   const struct pou *pou)
+{
+	size_t size = (size_t)(pou->rung_count + 1) * sizeof(uint32_t);
+	uint32_t *key = arena_alloc(&diff->arena, size);
+
+	if (!key)
+		diff->failed = true;
+	for (int i = 0; key && i < pou->rung_count; i++)
+		key[i] = diff_name(diff, project_text(project,
+						      pou->rung[i]->label));
+	return key;
+}
+
+static const struct cell *cell_or_nothing(const struct rung *rung, int row,
+					  int col)
+{
+	return row < rung->rows && col < rung->cols ? rung_at(rung, row, col) :
+						      &nothing;
+}
+
+/* Two thirds of a cell's weight is its operand, one third its word. */
+static bool alike(const struct diff *diff, const struct rung *a,
+		  const struct rung *b)
+{
+	int rows = a->rows > b->rows ? a->rows : b->rows;
+	int cols = a->cols > b->cols ? a->cols : b->cols;
+	int same = 0, all = 0;
+
+	for (int row = 0; row < rows; row++)
+		for (int col = 0; col < cols; col++) {
+			const struct cell *x = cell_or_nothing(a, row, col);
+			const struct cell *y = cell_or_nothing(b, row, col);
+
+			if (x->word <= ELEM_WIRE && y->word <= ELEM_WIRE)
+				continue;
+			all += 3;
+			same += x->word == y->word;
+			same += 2 * !strcmp(project_text(diff->a, x->operand),
+					    project_text(diff->b, y->operand));
+		}
+	return all > 0 && 2 * same >= all;
+}
+
+static void pair_by_likeness(struct pairing *pairs)
+{
+	for (int i = 0; i < pairs->a->rung_count; i++) {
+		int begin = pairs->gap_a[i] + 1, looked = 0;
+
+		if (pairs->to_b[i] >= 0)
+			continue;
+		for (int j = begin; j < pairs->b->rung_count &&
+		     pairs->gap_b[j] == begin - 1 &&
+		     looked < DIFF_CANDIDATES; j++) {
+			if (pairs->to_a[j] >= 0)
+				continue;
+			looked++;
+			if (!alike(pairs->diff, pairs->a->rung[i],
+				   pairs->b->rung[j]))
+				continue;
+			pairs->to_b[i] = j;
+			pairs->to_a[j] = i;
+			break;
+		}
+	}
+}
+
+/* Inside a gap, what now stands before a rung it followed was moved. */
+static void find_crossed(struct pairing *pairs)
+{
+	int last = -1;
+
+	for (int i = 0; i < pairs->a->rung_count; i++) {
+		int j = pairs->to_b[i];
+
+		if (j < 0 || pairs->moved[i])
+			continue;
+		if (j < last)
+			pairs->moved[i] = true;
+		else
+			last = j;
+	}
+}
+
+/* ---- telling ---- */
+
+static struct difference of_rung(const struct project *project,
+				 const struct pou *pou, int index)
+{
+	return (struct difference){
+		.pou = project_text(project, pou->name), .rung = index + 1,
+		.label = project_text(project, pou->rung[index]->label),
+	};
+}
+
+static void give(struct diff *diff, int rung_a, int rung_b, bool moved, bool changed)
+{
+	struct compare_pair pair = diff->pair;
+
+	pair.rung_a = rung_a;
+	pair.rung_b = rung_b;
+	pair.moved = moved;
+	pair.changed = changed;
+	diff->take(diff->context, pair);
+}
+
+static int tell_added(const struct pairing *pairs, int from, int end)
+{
+	for (int j = from; j < end; j++)
+		if (pairs->to_a[j] < 0 && pairs->diff->take) {
+			give(pairs->diff, -1, j, false, true);
+		} else if (pairs->to_a[j] < 0) {
+			struct difference what = of_rung(pairs->diff->b,
+							 pairs->b, j);
+			what.change = "added";
+			diff_say(pairs->diff, what);
+		}
+	return end > from ? end : from;
+}
+
+/* ---- cells ---- */
+
+static void write_cell(const struct project *project, const struct cell *cell,
+		       char *out, size_t size)
+{
+	out[0] = '\0';
+	if (cell->word != ELEM_EMPTY)
+		text_write_cell(project, cell, out, size);
+}
+
+/* One parameter; @value NULL: it is not written there. */
+static void value_text(const struct arg *arg, char *out, size_t size)
+{
+	out[0] = '\0';
+	if (arg)
+		snprintf(out, size, "%s%.*s",
+			 arg->output ? "=> " : arg->inverse ? "/" : "",
+			 (int)arg->value_len, arg->value);
+}
+
+static void compare_arg(struct diff *diff, struct difference what,
+			const struct arg *a, const struct arg *b)
+{
+	const struct arg *pin = a ? a : b;
+
+	snprintf(diff->pin, sizeof(diff->pin), "%.*s", (int)pin->pin_len,
+		 pin->pin);
+	value_text(a, diff->from, sizeof(diff->from));
+	value_text(b, diff->to, sizeof(diff->to));
+	diff_texts(diff, what, diff->pin, diff->from, diff->to);
+}
+
+static void compare_args(struct diff *diff, struct difference what,
+			 const struct cell *a, const struct cell *b)
+{
+	const char *in_a = project_text(diff->a, a->args);
+	const char *in_b = project_text(diff->b, b->args);
+	const char *at = in_a;
+	struct arg arg, other;
+	int before = diff->count;
+
+	snprintf(diff->subject, sizeof(diff->subject), "%s %s",
+		 words_row(&diff->a->words, a->word)->word,
+		 project_text(diff->a, a->operand));
+	size_t end = strlen(diff->subject);
+	if (end > 0 && diff->subject[end - 1] == ' ')
+		diff->subject[end - 1] = '\0';
+	what.subject = diff->subject;
+	while (args_next(&at, &arg)) {
+		bool found = args_find(in_b, arg.pin, arg.pin_len, &other);
+		compare_arg(diff, what, &arg, found ? &other : NULL);
+	}
+	for (at = in_b; args_next(&at, &arg);)
+		if (!args_find(in_a, arg.pin, arg.pin_len, &other))
+			compare_arg(diff, what, NULL, &arg);
+	if (diff->count == before && strcmp(in_a, in_b) != 0)
+		diff_texts(diff, what, "parameters", in_a, in_b);
+}
+
+static void compare_cells(struct diff *diff, struct difference what,
+			  const struct cell *a, const struct cell *b)
+{
+	bool same = a->word == b->word &&
+		    strcmp(project_text(diff->a, a->operand),
+			   project_text(diff->b, b->operand)) == 0;
+
+	if (!same) {
+		write_cell(diff->a, a, diff->from, sizeof(diff->from));
+		write_cell(diff->b, b, diff->to, sizeof(diff->to));
+		diff_texts(diff, what, NULL, diff->from, diff->to);
+	} else {
+		compare_args(diff, what, a, b);
+	}
+	diff_texts(diff, what, "comment", project_text(diff->a, a->comment),
+		   project_text(diff->b, b->comment));
+	if (!a->link != !b->link) {
+		what.property = "link";
+		what.change = b->link ? "added" : "removed";
+		diff_say(diff, what);
+	}
+}
+
+static void say_changes(struct diff *diff, struct difference what,
+			  const struct rung *a, const struct rung *b)
+{
+	int rows = a->rows > b->rows ? a->rows : b->rows;
+	int cols = a->cols > b->cols ? a->cols : b->cols;
+
+	diff_texts(diff, what, "label", project_text(diff->a, a->label),
+		   project_text(diff->b, b->label));
+	diff_texts(diff, what, "title", project_text(diff->a, a->title),
+		   project_text(diff->b, b->title));
+	diff_texts(diff, what, "comment", project_text(diff->a, a->comment),
+		   project_text(diff->b, b->comment));
+	if (!a->off != !b->off) {
+		what.change = b->off ? "switched off" : "switched on";
+		diff_say(diff, what);
+		what.change = NULL;
+	}
+	for (what.row = 1; what.row <= rows; what.row++)
+		for (what.col = 1; what.col <= cols; what.col++)
+			compare_cells(diff, what,
+				cell_or_nothing(a, what.row - 1, what.col - 1),
+				cell_or_nothing(b, what.row - 1, what.col - 1));
+}
+
+static void tell(const struct pairing *pairs, int i)
+{
+	struct diff *diff = pairs->diff;
+	struct difference what = of_rung(diff->a, pairs->a, i);
+	int j = pairs->to_b[i];
+	bool changed = j < 0 || pairs->id_a[i] != pairs->id_b[j];
+	char moved[40];
+
+	if (diff->take) {
+		give(diff, i, j, pairs->moved[i], changed);
+		return;
+	}
+	if (j >= 0 && pairs->moved[i]) {
+		snprintf(moved, sizeof(moved), "moved to rung %d", j + 1);
+		what.change = moved;
+		diff_say(diff, what);
+		what.change = NULL;
+	} else if (j < 0) {
+		what.change = "removed";
+		diff_say(diff, what);
+	}
+	if (j >= 0 && changed)
+		say_changes(diff, what, pairs->a->rung[i], pairs->b->rung[j]);
+}
+
+static void diff_rungs(struct diff *diff, const struct pou *a, const struct pou *b)
+{
+	struct pairing pairs = { .diff = diff, .a = a, .b = b };
+	int told = 0;
+
+	if (!pairing_start(&pairs))
+		return;
+	uint32_t *label_a = labels_of(diff, diff->a, a);
+	uint32_t *label_b = labels_of(diff, diff->b, b);
+	if (diff->failed || !pair_in_order(&pairs) ||
+	    !pair_by_key(&pairs, pairs.id_a, pairs.id_b) ||
+	    !pair_by_key(&pairs, label_a, label_b)) {
+		diff->failed = true;
+		return;
+	}
+	pair_by_likeness(&pairs);
+	find_crossed(&pairs);
+	for (int i = 0; i < a->rung_count; i++) {
+		if (pairs.to_b[i] >= 0 && !pairs.moved[i])
+			told = tell_added(&pairs, told, pairs.to_b[i]);
+		tell(&pairs, i);
+	}
+	tell_added(&pairs, told, b->rung_count);
+}
+
+struct lines {
+	char *text;        /* cut into lines, NUL-ended                       */
+	char **line;
+	int *indent;       /* blanks that stood before it                     */
+	uint32_t *id;
+	int count;
+};
+
+/* Operands stand aligned: how far must make no difference. */
+static char *one_blank(char *line)
+{
+	char *begin = line + strspn(line, " "), *to = begin;
+
+	for (const char *from = begin; *from; from++)
+		if (*from != ' ' || from[1] != ' ')
+			*to++ = *from;
+	*to = '\0';
+	return begin;
+}
+
+static bool cut_lines(struct diff *diff, struct lines *lines)
+{
+	char *at = strchr(lines->text, '\n');
+
+	while (at) {
+		*at++ = '\0';
+		char *end = strchr(at, '\n');
+		char **line;
+
+		/* The last line is END_PROGRAM. */
+		if (!end || end[1] == '\0')
+			break;
+		line = arena_push(&diff->arena, &lines->line, &lines->count,
+				  sizeof(*line));
+		if (!line)
+			return false;
+		*line = at;
+		at = end;
+	}
+	if (at)
+		*at = '\0';
+	return true;
+}
+
+static const struct config none;
+
+/* The body, between a line before it and one behind it. */
+static bool write_body(const struct project *project, const struct pou *pou,
+		       const struct sink *sink)
+{
+	const struct var_table no_vars = { 0 };
+
+	if (pou->language != LANGUAGE_SFC)
+		return pou_print_il(project, pou, &no_vars, NULL, 0, &pou->il, sink);
+	sink_text(sink, "PROGRAM\n");
+	text_write_sfc(project, pou, sink);
+	sink_text(sink, "END_PROGRAM\n");
+	return true;
+}
+
+static bool make_lines(struct diff *diff, const struct project *project,
+		       const struct pou *pou, struct lines *lines)
+{
+	const struct sink sink = sink_to_memory(&diff->bytes);
+
+	if (!pou)
+		return true;
+	diff->bytes.len = 0;
+	if (!write_body(project, pou, &sink) || diff->bytes.failed)
+		return false;
+	lines->text = arena_copy(&diff->arena, diff->bytes.text,
+				 diff->bytes.len);
+	if (!lines->text || !cut_lines(diff, lines))
+		return false;
+	lines->id = arena_alloc(&diff->arena, (size_t)(lines->count + 1) *
+					      sizeof(*lines->id));
+	lines->indent = arena_alloc(&diff->arena, (size_t)(lines->count + 1) *
+						  sizeof(*lines->indent));
+	if (!lines->id || !lines->indent)
+		return false;
+	for (int i = 0; i < lines->count; i++) {
+		char *line = one_blank(lines->line[i]);
+
+		lines->indent[i] = (int)(line - lines->line[i]);
+		lines->line[i] = line;
+		lines->id[i] = diff_id(diff, line, strlen(line));
+	}
+	return !diff->failed;
+}
+
+/* The lines from (i, j) up to (i_end, j_end) have no partner: in pairs they
+ * changed, the rest was added or removed. */
+static void tell_gap(struct diff *diff, struct difference what,
+		     const struct lines *a, int i, int i_end,
+		     const struct lines *b, int j, int j_end)
+{
+	for (; i < i_end && j < j_end; i++, j++) {
+		what.line = i + 1;
+		diff_texts(diff, what, NULL, a->line[i], b->line[j]);
+	}
+	for (; i < i_end; i++) {
+		what.line = i + 1;
+		what.change = "removed";
+		what.subject = a->line[i];
+		diff_say(diff, what);
+	}
+	for (; j < j_end; j++) {
+		what.line = j + 1;
+		what.change = "added";
+		what.subject = b->line[j];
+		diff_say(diff, what);
+	}
+}
+
+/* Line @i of @a, line @j of @b; -1: there is none. */
+static void give_line(struct diff *diff, const struct lines *a, int i,
+		      const struct lines *b, int j)
+{
+	const struct lines *in = i < 0 ? b : a;
+	const int at = i < 0 ? j : i;
+
+	diff->take_line(diff->context, (struct compare_line){ i + 1, j + 1, in->indent[at],
+							   in->line[at] });
+}
+
+static void give_gap(struct diff *diff, const struct lines *a, int i, int i_end,
+		     const struct lines *b, int j, int j_end)
+{
+	for (; i < i_end; i++)
+		give_line(diff, a, i, b, -1);
+	for (; j < j_end; j++)
+		give_line(diff, a, -1, b, j);
+}
+
+/* Lists and charts; with take_line one may be NULL. */
+static void diff_il(struct diff *diff, const struct pou *a, const struct pou *b)
+{
+	struct difference what = { .pou = a ? project_text(diff->a, a->name) : NULL };
+	struct lines x = { 0 }, y = { 0 };
+	int i = 0, j = 0, *match = NULL;
+
+	if (make_lines(diff, diff->a, a, &x) &&
+	    make_lines(diff, diff->b, b, &y))
+		match = arena_alloc(&diff->arena, (size_t)(x.count + 1) *
+						  sizeof(int));
+	if (!match || !diff_match(&diff->arena, x.id, x.count, y.id, y.count,
+				  match)) {
+		diff->failed = true;
+		return;
+	}
+	for (int at = 0; at <= x.count; at++) {
+		const int to = at < x.count ? match[at] : y.count;
+
+		if (to < 0)
+			continue;
+		if (diff->take_line)
+			give_gap(diff, &x, i, at, &y, j, to);
+		else
+			tell_gap(diff, what, &x, i, at, &y, j, to);
+		if (diff->take_line && at < x.count)
+			give_line(diff, &x, at, &y, to);
+		i = at + 1;
+		j = to + 1;
+	}
+}
+
+static void compare_pou(struct diff *diff, const struct pou *a,
+			const struct pou *b)
+{
+	const char *name = project_text(diff->a, a->name);
+	struct difference what = { .pou = name };
+
+	diff_texts(diff, what, "name", name, project_text(diff->b, b->name));
+	diff_texts(diff, what, "kind", pou_word(a->kind), pou_word(b->kind));
+	diff_texts(diff, what, "comment", project_text(diff->a, a->comment),
+		   project_text(diff->b, b->comment));
+	diff_texts(diff, what, "closing comment",
+		   project_text(diff->a, a->tail),
+		   project_text(diff->b, b->tail));
+	compare_vars(diff, name, &a->vars, &b->vars);
+	if (a->sfc && b->sfc)
+		diff_texts(diff, what, "evolution", evolution(a), evolution(b));
+	if (a->language != b->language)
+		diff_texts(diff, what, "language", language(a), language(b));
+	else if (a->language == LANGUAGE_LD)
+		diff_rungs(diff, a, b);
+	else
+		diff_il(diff, a, b);
+}
+
+static const char *kind_text(const struct pou *pou)
+{
+	return pou->kind == POU_PROGRAM ? "program" :
+	       pou->kind == POU_FUNCTION ? "function" :
+	       pou->kind == POU_BLOCK ? "function block" : "subroutine";
+}
+
+static void compare_pous(struct diff *diff)
+{
+	struct difference what = { 0 };
+
+	for (int i = 0; i < diff->a->pou_count; i++) {
+		const struct pou *a = &diff->a->pou[i];
+		const struct pou *b;
+
+		what.subject = project_text(diff->a, a->name);
+		what.kind = kind_text(a);
+		what.change = "removed";
+		b = pou_named(diff->b, what.subject);
+		if (b)
+			compare_pou(diff, a, b);
+		else
+			diff_say(diff, what);
+	}
+	for (int j = 0; j < diff->b->pou_count; j++) {
+		what.subject = project_text(diff->b, diff->b->pou[j].name);
+		what.kind = kind_text(&diff->b->pou[j]);
+		what.change = "added";
+		if (!pou_named(diff->a, what.subject))
+			diff_say(diff, what);
+	}
+}
+
+/* ---- structures ---- */
+
+static const struct structure *structure_named(const struct project *project,
+					       const char *name)
+{
+	for (int i = 0; i < project->structure_count; i++)
+		if (strcasecmp(project_text(project, project->structure[i].name),
+			       name) == 0)
+			return &project->structure[i];
+	return NULL;
+}
+
+static void compare_structures(struct diff *diff)
+{
+	struct difference what = { .kind = "type" };
+
+	for (int i = 0; i < diff->a->structure_count; i++) {
+		const struct structure *a = &diff->a->structure[i], *b;
+
+		what.subject = project_text(diff->a, a->name);
+		what.change = "removed";
+		b = structure_named(diff->b, what.subject);
+		if (b)
+			compare_vars(diff, what.subject, &a->vars, &b->vars);
+		else
+			diff_say(diff, what);
+	}
+	for (int j = 0; j < diff->b->structure_count; j++) {
+		what.subject = project_text(diff->b, diff->b->structure[j].name);
+		what.change = "added";
+		if (!structure_named(diff->a, what.subject))
+			diff_say(diff, what);
+	}
+}
+
+/* ---- what the engine only keeps ---- */
+
+/* Text of the section of @kind after part @*at; NULL: there is none. */
+static const char *next_part(const struct project *project, enum part_kind kind,
+			     int *at)
+{
+	while (*at < project->part_count) {
+		const struct part *part = &project->part[(*at)++];
+
+		if (part->kind == kind && !part->included)
+			return project_text(project, part->text);
+	}
+	return NULL;
+}
+
+static void compare_parts(struct diff *diff, enum part_kind kind,
+			  const char *word)
+{
+	struct difference what = { .kind = word };
+	int at_a = 0, at_b = 0;
+
+	for (;;) {
+		const char *a = next_part(diff->a, kind, &at_a);
+		const char *b = next_part(diff->b, kind, &at_b);
+
+		if (!a && !b)
+			return;
+		if (a && b && strcmp(a, b) == 0)
+			continue;
+		what.change = !a ? "added" : !b ? "removed" : "changed";
+		what.subject = kind == PART_VIEW ? NULL : b ? b : a;
+		diff_say(diff, what);
+	}
+}
+
+static void compare_texts(struct diff *diff)
+{
+	size_t a_len, b_len;
+	char *a = text_write(diff->a, &a_len);
+	char *b = text_write(diff->b, &b_len);
+
+	if (!a || !b)
+		diff->failed = true;
+	else if (a_len != b_len || memcmp(a, b, a_len) != 0)
+		diff_say(diff, (struct difference){
+			.kind = "order, layout or comments",
+			.change = "changed",
+		});
+	free(a);
+	free(b);
+}
+
+static const struct config *config_of(const struct project *project)
+{
+	return project->config ? project->config : &none;
+}
+
+static const char *subject_of(const struct project *project,
+			      const struct config_entry *entry)
+{
+	return entry->kind == CONFIG_AREA ? iec_area_row(entry->area)->letters :
+					   project_text(project, entry->name);
+}
+
+/* The line of @project that is about the same; NULL: there is none. */
+static const struct config_entry *same_line(const struct project *project,
+					   const struct config_entry *entry,
+					   const char *subject)
+{
+	const struct config *config = config_of(project);
+
+	for (int i = 0; i < config->count; i++) {
+		const struct config_entry *other = &config->entry[i];
+		const char *text = subject_of(project, other);
+
+		if (other->kind == entry->kind && strlen(text) == strlen(subject) &&
+		    ascii_same(text, subject, strlen(text)))
+			return other;
+	}
+	return NULL;
+}
+
+static void compare_ids(struct diff *diff, struct difference what,
+			const char *property, uint32_t a, uint32_t b)
+{
+	diff_texts(diff, what, property, project_text(diff->a, a),
+		   project_text(diff->b, b));
+}
+
+static void compare_numbers(struct diff *diff, struct difference what,
+			    const char *property, uint32_t a, uint32_t b)
+{
+	char from[16], to[16];
+
+	snprintf(from, sizeof(from), "%u", (unsigned)a);
+	snprintf(to, sizeof(to), "%u", (unsigned)b);
+	diff_texts(diff, what, property, from, to);
+}
+
+static void compare_entry(struct diff *diff, struct difference what,
+			 const struct config_entry *a,
+			 const struct config_entry *b)
+{
+	compare_ids(diff, what, "INTERVAL", a->interval, b->interval);
+	compare_ids(diff, what, "SINGLE", a->single, b->single);
+	compare_numbers(diff, what, "PRIORITY", a->priority, b->priority);
+	compare_ids(diff, what, "WATCHDOG", a->watchdog, b->watchdog);
+	compare_ids(diff, what, "task", a->task, b->task);
+	compare_ids(diff, what, "program", a->pou, b->pou);
+	compare_numbers(diff, what, "bytes", a->bytes, b->bytes);
+	compare_ids(diff, what, "comment", a->comment, b->comment);
+}
+
+static const char *kind_of(const struct config_entry *entry)
+{
+	static const char *const kind[] = {
+		[CONFIG_VARS] = "", [CONFIG_AREA] = "area",
+		[CONFIG_TASK] = "task", [CONFIG_PROGRAM] = "instance",
+	};
+
+	return kind[entry->kind];
+}
+
+/* Tasks, programs and areas of the configurations. */
+static void diff_config(struct diff *diff)
+{
+	const struct config *a = config_of(diff->a), *b = config_of(diff->b);
+	struct difference what = { .kind = "configuration" };
+
+	compare_ids(diff, what, "name", a->name, b->name);
+	compare_ids(diff, what, "comment", a->comment, b->comment);
+	compare_ids(diff, what, "resource", a->resource, b->resource);
+	compare_ids(diff, what, "kind of the resource", a->on, b->on);
+	compare_ids(diff, what, "comment of the resource", a->resource_comment,
+		    b->resource_comment);
+	for (int i = 0; i < a->count; i++) {
+		const struct config_entry *entry = &a->entry[i], *other;
+
+		what.kind = kind_of(entry);
+		what.subject = subject_of(diff->a, entry);
+		if (entry->kind == CONFIG_VARS)
+			continue;
+		other = same_line(diff->b, entry, what.subject);
+		what.change = other ? NULL : "removed";
+		if (other)
+			compare_entry(diff, what, entry, other);
+		else
+			diff_say(diff, what);
+	}
+	what.change = "added";
+	for (int i = 0; i < b->count; i++) {
+		what.kind = kind_of(&b->entry[i]);
+		what.subject = subject_of(diff->b, &b->entry[i]);
+		if (b->entry[i].kind != CONFIG_VARS &&
+		    !same_line(diff->a, &b->entry[i], what.subject))
+			diff_say(diff, what);
+	}
+}
+
+static void compare(struct diff *diff)
+{
+	struct difference what = { .kind = "project" };
+	const struct project *a = diff->a, *b = diff->b;
+
+	diff_texts(diff, what, "title", project_text(a, a->title),
+		   project_text(b, b->title));
+	diff_texts(diff, what, "opening comment", project_text(a, a->head),
+		   project_text(b, b->head));
+	diff_texts(diff, what, "closing comment", project_text(a, a->tail),
+		   project_text(b, b->tail));
+	compare_parts(diff, PART_INCLUDE, "INCLUDE");
+	compare_parts(diff, PART_USES, "USES");
+	diff_config(diff);
+	compare_structures(diff);
+	compare_vars(diff, NULL, &a->globals, &b->globals);
+	compare_pous(diff);
+	compare_parts(diff, PART_VIEW, "VIEW section");
+	if (diff->count == 0 && !diff->failed)
+		compare_texts(diff);
+}
+
+/* Ready to compare. Owns: the caller, diff_close(). NULL: no memory. */
+static struct diff *diff_open(const struct project *a, const struct project *b,
+			      const struct sink *sink)
+{
+	struct diff *diff = calloc(1, sizeof(*diff));
+
+	if (!diff)
+		return NULL;
+	diff->a = a;
+	diff->b = b;
+	diff->sink = sink;
+	arena_init(&diff->arena);
+	names_init(&diff->names, &diff->arena);
+	sink_memory_init(&diff->bytes);
+	return diff;
+}
+
+/* False: memory was out, and something is missing. */
+static bool diff_close(struct diff *diff)
+{
+	bool good = !diff->failed && !diff->arena.failed;
+
+	sink_memory_free(&diff->bytes);
+	arena_free(&diff->arena);
+	free(diff);
+	return good;
+}
+
+int compare_projects(const struct project *a, const struct project *b, bool json,
+	      const struct sink *sink)
+{
+	struct diff *diff = diff_open(a, b, sink);
+
+	if (!diff)
+		return -1;
+	diff->json = json;
+	sink_text(sink, json ? "[" : "");
+	compare(diff);
+	sink_text(sink, json ? (diff->count ? "\n]\n" : "]\n") : "");
+
+	int count = diff->count;
+	return diff_close(diff) ? count : -1;
+}
+
+int compare_besides(const struct project *a, const struct project *b, const char *pou,
+		      const struct sink *sink)
+{
+	struct diff *diff = diff_open(a, b, sink);
+
+	if (!diff)
+		return -1;
+	diff->besides = true;
+	diff->pou = pou;
+	compare(diff);
+
+	int said = diff->said;
+	return diff_close(diff) ? said : -1;
+}
+
+/* All rungs of a POU that the other project does not have. */
+static void give_all(struct diff *diff, const struct pou *pou, bool added)
+{
+	struct compare_pair pair = diff->pair;
+	bool list = pou->language != LANGUAGE_LD;
+
+	pair.changed = true;
+	pair.rung_a = pair.rung_b = -1;
+	for (int i = 0; i < (list ? 1 : pou->rung_count); i++) {
+		if (!list)
+			*(added ? &pair.rung_b : &pair.rung_a) = i;
+		diff->take(diff->context, pair);
+	}
+}
+
+static void give_pou(struct diff *diff, int index)
+{
+	const struct pou *a = &diff->a->pou[index];
+	const char *name = project_text(diff->a, a->name);
+	int other = project_find_pou(diff->b, name, strlen(name));
+	const struct pou *b = other < 0 ? NULL : &diff->b->pou[other];
+
+	diff->pair = (struct compare_pair){ index, other, -1, -1, false, true };
+	if (b && a->language == LANGUAGE_LD && b->language == LANGUAGE_LD) {
+		diff_rungs(diff, a, b);
+	} else if (b && a->language == b->language) {
+		diff->count = 0;
+		void (*take)(void *, struct compare_pair) = diff->take;
+		diff->take = NULL;
+		diff_il(diff, a, b);
+		diff->take = take;
+		diff->pair.changed = diff->count > 0;
+		diff->take(diff->context, diff->pair);
+	} else if (b) {
+		diff->take(diff->context, diff->pair);
+	} else {
+		give_all(diff, a, false);
+	}
+}
+
+static void say_nothing(void *context, const char *text, size_t len)
+{
+	(void)context;
+	(void)text;
+	(void)len;
+}
+
+bool compare_rungs(const struct project *a, const struct project *b,
+		     void (*take)(void *context, struct compare_pair pair),
+		     void *context)
+{
+	const struct sink silent = { .write = say_nothing };
+	struct diff *diff = diff_open(a, b, &silent);
+
+	if (!diff)
+		return false;
+	diff->take = take;
+	diff->context = context;
+	for (int i = 0; i < a->pou_count && !diff->failed; i++)
+		give_pou(diff, i);
+	for (int j = 0; j < b->pou_count && !diff->failed; j++) {
+		const char *name = project_text(b, b->pou[j].name);
+
+		diff->pair = (struct compare_pair){ -1, j, -1, -1, false, true };
+		if (project_find_pou(a, name, strlen(name)) < 0)
+			give_all(diff, &b->pou[j], true);
+	}
+	return diff_close(diff);
+}
+
+bool compare_lines(const struct project *a, int pou_a, const struct project *b,
+		     int pou_b,
+		     void (*take)(void *context, struct compare_line line), void *context)
+{
+	const struct sink silent = { .write = say_nothing };
+	struct diff *diff = diff_open(a, b, &silent);
+
+	if (!diff)
+		return false;
+	diff->take_line = take;
+	diff->context = context;
+	diff_il(diff, pou_a < 0 ? NULL : &a->pou[pou_a], pou_b < 0 ? NULL : &b->pou[pou_b]);
+	return diff_close(diff);
+}
